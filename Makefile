@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# make run: install what is missing, build, play the demo.   make check: install, build, run every test.
+VERSION := 0.1.0
+PREFIX  ?= /usr/local
+B       ?= build
+CC      ?= cc
+OPT     ?= -O2 -g
+WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion $(WERROR)
+CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE $(OPT) $(WARN) -ffp-contract=off -MMD -MP \
+	-Iinclude -Isrc -DFRET_VERSION='"$(VERSION)"' $(CFLAGS)
+LIBS_CORE := -lgsl -lgslcblas -lm
+LIBS      := $(LIBS_CORE) -lreadline
+
+CORE  := $(wildcard src/contact/*.c)
+PROG  := $(wildcard src/calc/*.c src/plot/*.c src/shell/*.c)
+UNIT  := $(wildcard tests/unit/test_*.c)
+OBJ    = $(patsubst %.c,$(B)/%.o,$(1))
+TESTS := $(patsubst tests/unit/%.c,$(B)/tests/%,$(UNIT))
+
+all: $(B)/fret $(B)/libfret.a $(B)/fret.pc
+
+$(B)/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS_ALL) -c $< -o $@
+
+$(B)/libfret.a: $(call OBJ,$(CORE))
+	$(AR) rcs $@ $^
+
+$(B)/fret: $(call OBJ,$(PROG)) $(B)/libfret.a
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+$(B)/fret.pc: Makefile
+	@mkdir -p $(@D)
+	@printf 'prefix=%s\nName: fret\nDescription: partial-slip contact of power-law graded elastic solids\nVersion: %s\nRequires.private: gsl\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lfret\nLibs.private: %s\n' \
+		'$(PREFIX)' '$(VERSION)' '$(LIBS_CORE)' > $@
+
+$(B)/tests/%: tests/unit/%.c $(B)/libfret.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(B)/libfret.a $(LIBS_CORE)
+
+tests: $(TESTS)
+
+deps:
+	@sh scripts/install-deps run
+deps-check:
+	@sh scripts/install-deps check
+
+run: deps
+	@$(MAKE) --no-print-directory -s all
+	@$(B)/fret -c demo
+
+check: deps-check
+	@sh tests/run
+
+# Formats only where clang-format is at hand; the sources in git are formatted.
+format:
+	clang-format -i $(shell git ls-files '*.c' '*.h')
+
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/fret
+	install -m 755 $(B)/fret $(DESTDIR)$(PREFIX)/bin/
+	install -m 644 $(B)/libfret.a $(DESTDIR)$(PREFIX)/lib/
+	install -m 644 $(B)/fret.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig/
+	install -m 644 include/fret/*.h $(DESTDIR)$(PREFIX)/include/fret/
+
+clean:
+	rm -rf build
+
+.PHONY: all tests deps deps-check run check format install clean
+-include $(shell find $(B) -name '*.d' 2>/dev/null)

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef FRET_CYCLE_H
+#define FRET_CYCLE_H
+
+#include "fret/normal.h"
+
+/* Closed forms at constant F_N: first loading, gross slip and the energy dissipated per cycle. */
+
+/* First loading from the tangentially unloaded state. */
+typedef struct fret_loading {
+    fret_real Fx; /* tangential force [N] */
+    fret_real dx; /* tangential displacement [m] */
+    fret_real c;  /* stick radius [m] */
+    fret_real yc; /* depth at the stick radius, g(c) [m] */
+} fret_loading;
+
+/* delta_x,max = mu eta delta_z [m]: displacement at which gross slip begins (18). */
+fret_real fret_gross_slip(const fret_normal *normal, double mu, const fret_press *press);
+
+/* F_x = mu [F_N(a)-F_N(c)], delta_x = mu eta [g(a)-g(c)] (15),(18); power law:
+ *   c/a = (1-F_x/mu F_N)^(1/(n+k+1)), delta_x = mu eta delta_z [1-(c/a)^n].
+ * Odd in its argument. By force: |Fx| <= mu F_N, else FRET_GROSS_SLIP (limit: mu F_N).
+ * By displacement: F_x stays at +-mu F_N beyond delta_x,max.
+ * Other errors: FRET_NOT_POSITIVE (mu), FRET_NOT_FINITE. */
+fret_status fret_loading_force(const fret_normal *normal, double mu, const fret_press *press, double Fx,
+                               fret_loading *out);
+fret_status fret_loading_displacement(const fret_normal *normal, double mu, const fret_press *press,
+                                      double dx, fret_loading *out);
+
+/* Energy [J], >= 0, dissipated in a closed cycle F_x = -FA .. FA at constant F_N:
+ *   8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx; power law: w(t) mu F_N delta_x,max (27),
+ *   t = FA/(mu F_N). Range 0 <= FA <= mu F_N, else FRET_NEGATIVE, FRET_GROSS_SLIP.
+ * Accuracy, power law: 1e-18 + the rounding of t. Positive, where (26),(27) are printed negative. */
+fret_status fret_cycle_loss(const fret_normal *normal, double mu, const fret_press *press, double FA,
+                            fret_real *loss);
+
+/* The same by displacement amplitude dA >= 0 [m]; beyond delta_x,max gross slip adds
+ * 4 mu F_N (dA - delta_x,max). */
+fret_status fret_cycle_loss_displacement(const fret_normal *normal, double mu, const fret_press *press,
+                                         double dA, fret_real *loss);
+
+/* w = loss/(mu F_N delta_x,max) of a power law as a function of t = 1-s; q = n/(n+k+1), r = 1-q.
+ * 0 <= t <= 1; w ~ t^3 for small t, every digit kept. */
+fret_real fret_loss_shape(fret_real q, fret_real r, fret_real t, fret_real s);
+
+#endif

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef FRET_MEMORY_H
+#define FRET_MEMORY_H
+
+#include <stddef.h>
+
+#include "fret/normal.h"
+
+/* The memory diagram: tangential contact under any history of (F_N, F_x) or (delta_z, delta_x).
+ *
+ * With the depth y = g(x) as coordinate the spring at y has normal force ~ delta_z - y, so the
+ * friction bound on its displacement is |u(y)| <= B(y) = mu eta (delta_z - y): grading and shape
+ * appear only as the weight dF_N. Straight steps leave u(y) a polyline, kept as its slopes
+ * sigma = -u'(y)/(mu eta), -1 <= sigma <= 1, on slices from the edge of the contact inwards. Then
+ *   F_x = mu int sigma dF_N,   U = 1/(2 eta) int u^2 dK,   K = dF_N/dy,
+ * and a step wipes slices at the edge and adds one: amortised constant cost, no discretisation.
+ *
+ * Thread-compatible: distinct contacts may be used by distinct threads. */
+typedef struct fret_memory fret_memory;
+
+/* A contact element, open (delta_z = 0, F_x = 0) at the start. Keeps its own copy of normal; a
+ * gap table is borrowed and must outlive it. Errors: FRET_NOT_POSITIVE (mu), FRET_NO_MEMORY. */
+fret_status fret_memory_make(const fret_normal *normal, double mu, fret_memory **out);
+void fret_memory_free(fret_memory *memory);
+
+/* Makes `to` equal to `from`, allocating only where `to` has held fewer slices so far. */
+fret_status fret_memory_copy(fret_memory *to, const fret_memory *from);
+
+/* Back to the open state; keeps its storage. */
+void fret_memory_reset(fret_memory *memory);
+
+typedef enum fret_normal_target { FRET_KEEP_NORMAL, FRET_TO_FORCE, FRET_TO_DEPTH } fret_normal_target;
+typedef enum fret_tangential_target {
+    FRET_KEEP_DX, /* the same as FRET_TO_DX with the present delta_x */
+    FRET_TO_DX,
+    FRET_TO_FX
+} fret_tangential_target;
+
+/* Absolute targets of one step [N] or [m].
+ * With FRET_TO_FX the path is straight in (F_N, F_x), otherwise in (delta_z, delta_x). */
+typedef struct fret_step {
+    fret_normal_target normal_by;
+    fret_tangential_target tangential_by;
+    double normal;     /* F_N >= 0, or delta_z (< 0: out of contact) */
+    double tangential; /* delta_x or F_x */
+} fret_step;
+
+/* One straight step. Errors, the contact as before it: FRET_GROSS_SLIP (|F_x| > mu F_N; limit
+ * mu F_N), FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW, FRET_TABLE_SHORT, FRET_NO_MEMORY. */
+fret_status fret_memory_step(fret_memory *memory, const fret_step *step);
+
+/* The state now. */
+typedef struct fret_state {
+    fret_real FN, dz, a; /* normal force [N], indentation depth [m] (< 0: gap), contact radius [m] */
+    fret_real Fx, dx, c; /* tangential force [N], displacement [m], stick radius [m] */
+    fret_real W;         /* dissipated since the start [J] */
+    fret_real U;         /* stored tangential energy [J] */
+    fret_real kn;        /* dF_N/d delta_z [N/m] */
+    fret_real kt;        /* dF_x/d delta_x going on in the direction of the last step [N/m] */
+    size_t slices;       /* slices held */
+} fret_state;
+
+/* Radii and stiffnesses too; and the cheap part alone: a, c, kn, kt left 0. */
+void fret_memory_state(const fret_memory *memory, fret_state *out);
+void fret_memory_forces(const fret_memory *memory, fret_state *out);
+
+/* Energy dissipated by the last step alone [J]. */
+fret_real fret_memory_last_loss(const fret_memory *memory);
+
+/* The polyline: slice i, 0 at the innermost, covers depths [inner, outer] with slope sigma; u is
+ * the displacement at its inner end [m]. Returns false beyond the last slice. */
+typedef struct fret_segment {
+    fret_real inner, outer, sigma, u;
+} fret_segment;
+int fret_memory_segment(const fret_memory *memory, size_t i, fret_segment *out);
+
+#endif

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef FRET_STATUS_H
+#define FRET_STATUS_H
+
+#include <stddef.h>
+
+/* Results carry guard digits: where long double is wider than double, a result rounded to double
+ * is within one unit in the last place. Arguments are exact as given. */
+typedef long double fret_real;
+
+/* Codes are stable: append, never renumber. */
+typedef enum fret_code {
+    FRET_OK = 0,
+    FRET_NOT_FINITE,     /* an argument is NaN or infinite                                  */
+    FRET_BAD_K,          /* grading exponent outside -1 < k < 1                             */
+    FRET_BAD_NU,         /* Poisson's ratio outside -1 < nu <= 1/2                          */
+    FRET_NOT_POSITIVE,   /* a modulus, length, exponent, friction ... that must be > 0      */
+    FRET_NEGATIVE,       /* a quantity that must be >= 0                                    */
+    FRET_BOTH_RIGID,     /* at least one body must be elastic                               */
+    FRET_GROSS_SLIP,     /* tangential force beyond mu F_N                                  */
+    FRET_OUTSIDE,        /* a point outside the domain of a function                        */
+    FRET_NOT_MONOTONE,   /* g(x) falls: the contact is not a disc; value: radius            */
+    FRET_TABLE_SHORT,    /* the gap table ends before the load is carried; value: largest a */
+    FRET_BAD_TABLE,      /* a gap table that is no function: radii must grow; value: radius */
+    FRET_OVERFLOW,       /* the result does not fit in a double                             */
+    FRET_NO_CONVERGENCE, /* an iteration did not settle                                     */
+    FRET_NO_MEMORY,      /* allocation failed; the object is as before                      */
+    FRET_INTERRUPTED,    /* the caller's stop test asked to stop                            */
+    FRET_CODES
+} fret_code;
+
+typedef enum fret_category {
+    FRET_CAT_NONE,    /* success */
+    FRET_CAT_INPUT,   /* an argument is out of range */
+    FRET_CAT_STATE,   /* the contact cannot do this now */
+    FRET_CAT_NUMERIC, /* overflow or no convergence */
+    FRET_CAT_SYSTEM   /* memory, interrupt */
+} fret_category;
+
+/* What every function of the library that can fail returns. */
+typedef struct fret_status {
+    fret_code code;
+    const char *quantity; /* name of the offending argument (static text), or NULL */
+    double value;         /* the offending value, SI */
+    double limit;         /* the bound that was passed, where there is one, SI */
+} fret_status;
+
+fret_category fret_status_category(fret_code code);
+
+/* The rule that was broken, e.g. "must lie in -1 < k < 1": static text. */
+const char *fret_status_rule(fret_code code);
+
+/* Writes "quantity = value rule" into buf, always terminated; returns the length it needs. */
+int fret_status_text(const fret_status *status, char *buf, size_t size);
+
+#endif

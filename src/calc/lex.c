@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "lex.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Not <ctype.h>: bytes above 127 belong to UTF-8 names (micro), whatever the locale. */
+static bool digit(char c) {
+    return c >= '0' && c <= '9';
+}
+static bool letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (unsigned char)c >= 0x80;
+}
+static bool blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+static bool vfail(calc_error *error, size_t at, size_t len, const char *format, va_list args) {
+    if (!error->raised) {
+        error->raised = true;
+        error->at = at;
+        error->len = len;
+        vsnprintf(error->text, sizeof error->text, format, args);
+    }
+    return false;
+}
+
+bool calc_fail(calc_error *error, size_t at, size_t len, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    vfail(error, at, len, format, args);
+    va_end(args);
+    return false;
+}
+
+bool lex_fail(lexer *lx, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    vfail(lx->error, lx->at, lx->len, format, args);
+    va_end(args);
+    return false;
+}
+
+void lex_start(lexer *lx, const char *text, size_t len, calc_error *error) {
+    *lx = (lexer){.text = text, .end = len, .error = error};
+    lex_seek(lx, 0);
+}
+
+/* The text is not always terminated at `end`, so strtod gets a copy. */
+static void read_number(lexer *lx) {
+    const char *s = lx->text;
+    size_t i = lx->at;
+    while (i < lx->end && digit(s[i]))
+        i++;
+    if (i < lx->end && s[i] == '.' && !(i + 1 < lx->end && s[i + 1] == '.'))
+        for (i++; i < lx->end && digit(s[i]);)
+            i++;
+    if (i < lx->end && (s[i] == 'e' || s[i] == 'E')) {
+        size_t j = i + 1;
+        if (j < lx->end && (s[j] == '+' || s[j] == '-'))
+            j++;
+        if (j < lx->end && digit(s[j])) {
+            while (j < lx->end && digit(s[j]))
+                j++;
+            i = j;
+        }
+    }
+    lx->len = i - lx->at;
+    lx->kind = T_NUMBER;
+    char small[64], *copy = lx->len < sizeof small ? small : malloc(lx->len + 1);
+    if (!copy) {
+        lex_fail(lx, "out of memory");
+        return;
+    }
+    memcpy(copy, s + lx->at, lx->len);
+    copy[lx->len] = 0;
+    lx->number = strtod(copy, NULL);
+    bool zero = true;
+    for (const char *c = copy; *c && *c != 'e' && *c != 'E'; c++)
+        zero = zero && (*c == '0' || *c == '.');
+    if (copy != small)
+        free(copy);
+    if (!isfinite(lx->number) || (lx->number == 0 && !zero))
+        lex_fail(lx, "the number is too %s for double precision", lx->number == 0 ? "small" : "large");
+}
+
+void lex_seek(lexer *lx, size_t at) {
+    const char *s = lx->text;
+    lx->last = lx->at + lx->len;
+    while (at < lx->end && blank(s[at]))
+        at++;
+    lx->at = at;
+    lx->len = 0;
+    lx->kind = T_END;
+    if (at >= lx->end)
+        return;
+    char c = s[at], d = at + 1 < lx->end ? s[at + 1] : 0;
+    lx->len = 1;
+    if (digit(c) || (c == '.' && digit(d))) {
+        read_number(lx);
+    } else if (letter(c)) {
+        while (at < lx->end && (letter(s[at]) || digit(s[at])))
+            at++;
+        lx->len = at - lx->at;
+        lx->kind = T_NAME;
+    } else if (c == '"') {
+        size_t i = at + 1;
+        while (i < lx->end && s[i] != '"')
+            i++;
+        lx->len = (i < lx->end ? i + 1 : i) - at;
+        lx->kind = T_STRING;
+        if (i >= lx->end)
+            lex_fail(lx, "the quotation mark is not closed");
+    } else if (c == '=' && d != '=') {
+        lx->kind = T_ASSIGN;
+    } else if (c == '+' && d == '=') {
+        lx->kind = T_INCREMENT;
+        lx->len = 2;
+    } else if (c == '.' && d == '.') {
+        lx->kind = T_RANGE;
+        lx->len = 2;
+    } else if (c && strchr("+-*/^(),:%", c)) {
+        lx->kind = (token_kind)c;
+    } else if (c == '=' || c == '<' || c == '>' || c == '!') {
+        lex_fail(lx, "there are no comparisons: '%c' is not an operator here", c);
+    } else if ((unsigned char)c < 0x20 || c == 0x7f) {
+        lex_fail(lx, "unexpected byte 0x%02x", (unsigned)(unsigned char)c);
+    } else {
+        lex_fail(lx, "unexpected character '%c'", c);
+    }
+}
+
+void lex_next(lexer *lx) {
+    lex_seek(lx, lx->at + lx->len);
+}
+
+bool lex_is(const lexer *lx, const char *word) {
+    return lx->kind == T_NAME && strlen(word) == lx->len && !memcmp(lx->text + lx->at, word, lx->len);
+}
+
+bool lex_accept(lexer *lx, const char *word) {
+    if (!lex_is(lx, word))
+        return false;
+    lex_next(lx);
+    return true;
+}
+
+token_kind lex_peek(const lexer *lx) {
+    calc_error ignored = {0};
+    lexer copy = *lx;
+    copy.error = &ignored;
+    lex_next(&copy);
+    return ignored.raised ? T_END : copy.kind;
+}
+
+bool lex_filename(lexer *lx, char *buf, size_t size) {
+    size_t at = lx->at, n = 0;
+    bool quoted = at < lx->end && lx->text[at] == '"';
+    if (quoted)
+        at++;
+    while (at < lx->end && (quoted ? lx->text[at] != '"' : !blank(lx->text[at]))) {
+        if (n + 1 < size)
+            buf[n] = lx->text[at];
+        n++;
+        at++;
+    }
+    if (n == 0 || n >= size)
+        return lex_fail(lx, n ? "the file name is too long" : "expected a file name");
+    buf[n] = 0;
+    lx->error->raised = false; /* a name need not be made of tokens */
+    lx->len = at + (quoted && at < lx->end) - lx->at;
+    lex_next(lx);
+    return true;
+}

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scene: inputs, load program, and what follows from them, computed when asked. */
+#ifndef CALC_SCENE_H
+#define CALC_SCENE_H
+
+#include <signal.h>
+
+#include "calc/lex.h"
+#include "calc/unit.h"
+#include "fret/fret.h"
+
+typedef struct value {
+    long double v; /* SI */
+    dim d;
+} value;
+
+typedef enum input {
+    IN_E0,
+    IN_NU,
+    IN_K,
+    IN_C0,
+    IN_E0_2,
+    IN_NU_2,
+    IN_MU,
+    IN_FN,
+    IN_N,
+    IN_A,
+    IN_H,
+    IN_R0,
+    IN_RADIUS,
+    IN_B,
+    IN_SLOPE,
+    INPUTS
+} input;
+
+/* One row a geometry: its name, the gap it makes and the parameters it takes. */
+typedef struct geometry {
+    const char *name;
+    fret_gap_kind kind;
+    double n;          /* exponent where the name fixes it, else 0 */
+    input required[3]; /* ended by INPUTS */
+    const char *usage;
+    const char *meaning;
+} geometry;
+
+const geometry *geometry_find(const char *name, size_t len);
+const geometry *geometry_row(size_t i); /* NULL after the last */
+
+typedef enum second_body { SECOND_SAME, SECOND_RIGID, SECOND_GIVEN } second_body;
+
+typedef enum load_kind { LOAD_PRESS, LOAD_STEP, LOAD_CYCLE } load_kind;
+typedef enum load_by { BY_NONE, BY_FORCE, BY_DISPLACEMENT, BY_RADIUS } load_by;
+
+/* One command of the load program: 24 bytes, since programs of 1e6 steps are kept for re-running. */
+typedef struct load_step {
+    unsigned char kind, normal, tangential, relative; /* relative: bit 0 normal, bit 1 tangential */
+    unsigned points;                                  /* to record on the way; cycle: chords a period */
+    double normal_value;                              /* cycle: amplitude FNA */
+    double tangential_value;                          /* cycle: amplitude FA or dxA */
+} load_step;
+
+/* What only a cycle has; the i-th cycle of the program owns entry i. */
+typedef struct cycle_extra {
+    unsigned times;
+    double phase;
+} cycle_extra;
+
+/* A recorded state of the load program. */
+typedef void load_observer(const fret_state *state, size_t step, void *context);
+
+typedef struct scene {
+    double in[INPUTS];
+    bool set[INPUTS];
+    second_body second;
+    const geometry *geometry;
+    fret_gap sum; /* terms of `geometry sum` */
+
+    load_step *program;
+    size_t steps, room;
+    cycle_extra *cycles;
+    size_t cycle_count, cycle_room;
+    bool borrowed;      /* a clone: the program belongs to another scene */
+    bool normal_varies; /* some step after the press changes F_N */
+
+    /* derived, valid as far as the flags say */
+    bool normal_ready, press_ready, k0_ready;
+    fret_normal normal, k0;
+    fret_press press;
+    fret_memory *memory, *spare;
+    size_t applied, applied_cycles; /* how far the program has been run on memory */
+    fret_state state;
+    bool state_ready;
+    long double cycle_loss; /* of the last period of the last cycle run */
+    const volatile sig_atomic_t *stop;
+} scene;
+
+void scene_free(scene *s);
+/* A scratch copy for sweeps: shares the program, owns its results. Free with scene_free. */
+void scene_clone(scene *to, const scene *from);
+/* Forgets the load program; `all`: the inputs too. */
+void scene_reset(scene *s, bool all);
+
+/* Sets an input and re-runs the load program; on error the scene is as before. */
+bool scene_set(scene *s, input in, double value, calc_error *error);
+/* The same without running anything: for sweeps. */
+void scene_put(scene *s, input in, double value);
+/* The value of an input of the scene, defaults included; false and an error where it has none. */
+bool scene_get(const scene *s, input in, long double *value, calc_error *error);
+/* Replaces a group of inputs at once: edit works on the scene, which is restored on error. */
+bool scene_edit(scene *s, void (*edit)(scene *s, void *context), void *context, calc_error *error);
+
+/* Appends to the load program and runs it; on error nothing has changed. */
+bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error);
+
+/* What follows, made ready on demand. */
+bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
+bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);
+bool scene_friction(const scene *s, double *mu, calc_error *error);
+bool scene_press(scene *s, const fret_press **press, calc_error *error);
+bool scene_state(scene *s, const fret_state **state, calc_error *error);
+bool scene_memory(scene *s, const fret_memory **memory, calc_error *error);
+/* The load program is one press and one tangential step: the closed form is exact. */
+bool scene_is_first_loading(const scene *s);
+bool scene_first_loading(scene *s, fret_loading *out, calc_error *error);
+/* The last cycle of the program, or NULL. */
+const load_step *scene_last_cycle(const scene *s);
+bool scene_cycle_loss(scene *s, long double *loss, calc_error *error);
+
+/* Runs the whole program on a contact of its own, with `points` states a tangential branch where the
+ * step names none (0: only those named). */
+bool scene_trace(scene *s, unsigned points, load_observer *observe, void *context, calc_error *error);
+
+/* Puts a status of the library into words. */
+bool scene_status(const scene *s, calc_error *error, const fret_status *status);
+
+#endif

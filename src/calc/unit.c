@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "unit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The one table of units. */
+static const struct {
+    const char *name;
+    bool prefixes;
+    unit u;
+    const char *meaning;
+} units[] = {
+    {"N", true, {{1, 0}, 0, 1}, "newton, force"},
+    {"lbf", false, {{1, 0}, 0, 4.4482216152605L}, "pound-force"},
+    {"kgf", false, {{1, 0}, 0, 9.80665L}, "kilogram-force"},
+    {"dyn", false, {{1, 0}, -5, 1}, "dyne, force"},
+    {"Pa", true, {{1, -2}, 0, 1}, "pascal, pressure"},
+    {"bar", false, {{1, -2}, 5, 1}, "bar, pressure"},
+    {"psi", false, {{1, -2}, 0, 4.4482216152605L / (0.0254L * 0.0254L)}, "pound-force per square inch"},
+    {"ksi", false, {{1, -2}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
+    {"m", true, {{0, 1}, 0, 1}, "metre, length"},
+    {"inch", false, {{0, 1}, -4, 254}, "inch, length"},
+    {"J", true, {{1, 1}, 0, 1}, "joule, energy"},
+    {"rad", false, {{0, 0}, 0, 1}, "radian, angle"},
+    {"deg", false, {{0, 0}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
+    {"%", false, {{0, 0}, -2, 1}, "per cent"},
+};
+enum { UNITS = sizeof units / sizeof *units };
+
+static const struct {
+    const char *name;
+    int exp10;
+} prefixes[] = {{"n", -9}, {"u", -6}, {"\xc2\xb5", -6}, {"\xce\xbc", -6},
+                {"m", -3}, {"k", 3},  {"M", 6},         {"G", 9}};
+
+const char *unit_name(size_t i) {
+    return i < UNITS ? units[i].name : NULL;
+}
+
+const char *unit_meaning(size_t i) {
+    return units[i].meaning;
+}
+
+bool unit_prefixed(size_t i) {
+    return units[i].prefixes;
+}
+
+bool unit_lookup(const char *word, size_t len, unit *out) {
+    for (size_t i = 0; i < UNITS; i++) {
+        size_t n = strlen(units[i].name);
+        if (n == len && !memcmp(units[i].name, word, n)) {
+            *out = units[i].u;
+            return true;
+        }
+        if (!units[i].prefixes)
+            continue;
+        for (size_t j = 0; j < sizeof prefixes / sizeof *prefixes; j++) {
+            size_t p = strlen(prefixes[j].name);
+            if (p + n == len && !memcmp(prefixes[j].name, word, p) && !memcmp(units[i].name, word + p, n)) {
+                *out = units[i].u;
+                out->exp10 += prefixes[j].exp10;
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static size_t distance(const char *a, const char *b) {
+    size_t n = strlen(b), row[64];
+    if (n >= 63 || strlen(a) >= 63)
+        return 64;
+    for (size_t j = 0; j <= n; j++)
+        row[j] = 2 * j;
+    for (size_t i = 0; a[i]; i++) {
+        size_t diagonal = row[0];
+        row[0] = 2 * (i + 1);
+        for (size_t j = 0; j < n; j++) {
+            bool fold = (a[i] ^ b[j]) == 0x20; /* letters that differ in case only cost half */
+            size_t best = diagonal + (a[i] == b[j] ? 0 : fold ? 1 : 2);
+            diagonal = row[j + 1];
+            if (row[j] + 2 < best)
+                best = row[j] + 2;
+            if (row[j + 1] + 2 < best)
+                best = row[j + 1] + 2;
+            row[j + 1] = best;
+        }
+    }
+    return row[n];
+}
+
+const char *suggest(const char *word, const char *(*name)(size_t i)) {
+    const char *best = NULL;
+    size_t least = strlen(word) <= 2 ? 2 : strlen(word) <= 5 ? 3 : 5;
+    const char *candidate;
+    for (size_t i = 0; (candidate = name(i)); i++) {
+        size_t d = distance(word, candidate);
+        if (d < least) {
+            least = d;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+static const char *prefixed_name(size_t i) {
+    static const char *const common[] = {"N",   "kN",   "mN",  "uN",  "MN",  "lbf", "kgf", "dyn", "Pa",
+                                         "kPa", "MPa",  "GPa", "bar", "psi", "ksi", "m",   "mm",  "um",
+                                         "nm",  "inch", "J",   "mJ",  "uJ",  "nJ",  "kJ",  "rad", "deg"};
+    return i < sizeof common / sizeof *common ? common[i] : NULL;
+}
+
+const char *unit_suggest(const char *word) {
+    return suggest(word, prefixed_name);
+}
+
+long double unit_scale(const unit *u) {
+    static const long double powers[] = {1e-9L, 1e-8L, 1e-7L, 1e-6L, 1e-5L, 1e-4L, 1e-3L, 1e-2L, 1e-1L, 1,
+                                         1e1L,  1e2L,  1e3L,  1e4L,  1e5L,  1e6L,  1e7L,  1e8L,  1e9L};
+    if (u->exp10 >= -9 && u->exp10 <= 9)
+        return powers[u->exp10 + 9] * u->factor;
+    return powl(10, u->exp10) * u->factor;
+}
+
+bool dim_equal(dim a, dim b) {
+    return fabs(a.N - b.N) < 1e-9 && fabs(a.m - b.m) < 1e-9;
+}
+
+static const struct {
+    dim d;
+    const char *unit, *phrase;
+    bool prefixes;
+} named[] = {
+    {{0, 0}, "", "a number", false},   {{1, 0}, "N", "a force", true},
+    {{0, 1}, "m", "a length", true},   {{1, -2}, "Pa", "a pressure", true},
+    {{1, 1}, "J", "an energy", true},  {{1, -1}, "N/m", "a stiffness", true},
+    {{0, 2}, "m^2", "an area", false}, {{0, -1}, "m^-1", "an inverse length", false},
+};
+enum { NAMED = sizeof named / sizeof *named };
+
+void dim_unit(dim d, char *buf, size_t size) {
+    for (size_t i = 0; i < NAMED; i++)
+        if (dim_equal(d, named[i].d)) {
+            snprintf(buf, size, "%s", named[i].unit);
+            return;
+        }
+    char N[40] = "", m[40] = "";
+    if (fabs(d.N) > 1e-9)
+        snprintf(N, sizeof N, fabs(d.N - 1) < 1e-9 ? "N" : "N^%.10g", d.N);
+    double power = d.N != 0 && d.m < 0 ? -d.m : d.m;
+    if (fabs(d.m) > 1e-9)
+        snprintf(m, sizeof m, fabs(power - 1) < 1e-9 ? "m" : "m^%.10g", power);
+    snprintf(buf, size, "%s%s%s", N, *N && *m ? (d.m < 0 ? "/" : "*") : "", m);
+}
+
+void dim_describe(dim d, char *buf, size_t size) {
+    for (size_t i = 0; i < NAMED; i++)
+        if (dim_equal(d, named[i].d)) {
+            snprintf(buf, size, "%s", named[i].phrase);
+            return;
+        }
+    char unit_text[96];
+    dim_unit(d, unit_text, sizeof unit_text);
+    snprintf(buf, size, "a quantity in %s", unit_text);
+}
+
+long double unit_choose(dim d, long double value, int digits, char *buf, size_t size) {
+    static const struct {
+        const char *name;
+        long double scale;
+    } steps[] = {{"G", 1e9L}, {"M", 1e6L}, {"k", 1e3L}, {"", 1}, {"m", 1e-3L}, {"u", 1e-6L}, {"n", 1e-9L}};
+    enum { STEPS = sizeof steps / sizeof *steps };
+    dim_unit(d, buf, size);
+    size_t i = 0;
+    while (i < NAMED && !dim_equal(d, named[i].d))
+        i++;
+    if (i == NAMED || !named[i].prefixes || value == 0 || !isfinite(value))
+        return 1;
+    /* what prints as 1000 belongs to the next prefix */
+    long double edge = 1 - 0.5L * powl(10, 1 - digits) / 10;
+    size_t j = 0;
+    while (j < STEPS && fabsl(value) < steps[j].scale * edge)
+        j++;
+    if (j == STEPS || fabsl(value) >= 1e12L)
+        return 1;
+    char base[96];
+    snprintf(base, sizeof base, "%s", buf);
+    snprintf(buf, size, "%s%s", steps[j].name, base);
+    return steps[j].scale;
+}

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What normal.c and field.c need of a gap beyond the public header. Not installed. */
+#ifndef FRET_GAP_PRIVATE_H
+#define FRET_GAP_PRIVATE_H
+
+#include "fret/gap.h"
+#include "special.h"
+
+/* Profile and its moments at contact radius a: g, g', and I = int_0^a x^k (g(a)-g(x)) dx. */
+typedef struct fret_profile {
+    fret_real g, slope, I;
+} fret_profile;
+
+/* a > gap start. Valid gaps only. */
+fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real a);
+
+/* Radius below which f = 0 (the flat end), and the radius where the gap ends (INFINITY: nowhere). */
+fret_real fret_gap_start(const fret_gap *gap);
+fret_real fret_gap_end(const fret_gap *gap);
+
+#endif

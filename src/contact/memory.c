@@ -1,0 +1,521 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fret/memory.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "special.h"
+
+/* Positions and thicknesses are kept in two measures. A straight step in (delta_z, delta_x) moves
+ * edge and slip front linearly in depth; a straight step in (F_N, F_x) moves them linearly in load,
+ * by the same rule: delta_x/(mu eta) = int sigma dy + const and F_x/mu = int sigma dF_N. */
+typedef enum measure { DEPTH, LOAD } measure;
+
+typedef struct slice {
+    fret_real thick[2]; /* kept apart from the positions: a thin slice at the edge keeps its digits */
+    fret_real inner[2]; /* depth and load of the inner end */
+    fret_real sigma;    /* -u'/(mu eta) */
+    fret_real sum[2];   /* int sigma dy and int sigma dF_N from the centre to the outer end */
+} slice;
+
+struct fret_memory {
+    fret_normal normal;
+    double mu;
+    fret_real mu_eta, loss_scale; /* mu eta; mu^2 eta */
+    fret_real edge[2];            /* delta_z and F_N; 0, 0 when open */
+    fret_real gap;                /* distance of the open bodies, >= 0 */
+    fret_real slid;               /* delta_x - mu eta int sigma dy: what gross slip has carried along */
+    int direction;                /* of the last tangential motion */
+    fret_sum W;
+    fret_real last_loss;
+    size_t count, room;
+    slice *slices; /* innermost first */
+};
+
+fret_status fret_memory_make(const fret_normal *normal, double mu, fret_memory **out) {
+    fret_status st = fret_check_positive("mu", mu);
+    if (st.code)
+        return st;
+    fret_memory *m = calloc(1, sizeof *m);
+    slice *slices = calloc(8, sizeof *slices);
+    if (!m || !slices) {
+        free(m);
+        free(slices);
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    }
+    m->normal = *normal;
+    m->mu = mu;
+    m->mu_eta = mu * normal->foundation.eta;
+    m->loss_scale = mu * m->mu_eta;
+    m->slices = slices;
+    m->room = 8;
+    fret_memory_reset(m);
+    *out = m;
+    return fret_ok();
+}
+
+void fret_memory_free(fret_memory *m) {
+    if (m)
+        free(m->slices);
+    free(m);
+}
+
+void fret_memory_reset(fret_memory *m) {
+    m->edge[DEPTH] = m->edge[LOAD] = m->gap = m->slid = m->last_loss = 0;
+    m->W = (fret_sum){0, 0};
+    m->count = 0;
+    m->direction = 1;
+}
+
+static fret_status reserve(fret_memory *m, size_t count) {
+    if (count <= m->room)
+        return fret_ok();
+    size_t room = count + count / 2;
+    slice *grown = realloc(m->slices, room * sizeof *grown);
+    if (!grown)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    m->slices = grown;
+    m->room = room;
+    return fret_ok();
+}
+
+fret_status fret_memory_copy(fret_memory *to, const fret_memory *from) {
+    if (to == from)
+        return fret_ok();
+    fret_status st = reserve(to, from->count);
+    if (st.code)
+        return st;
+    slice *slices = to->slices;
+    size_t room = to->room;
+    *to = *from;
+    to->slices = slices;
+    to->room = room;
+    memcpy(slices, from->slices, from->count * sizeof *slices);
+    return fret_ok();
+}
+
+static fret_real total(const fret_memory *m, measure by) {
+    return m->count ? m->slices[m->count - 1].sum[by] : 0;
+}
+
+static fret_real displacement(const fret_memory *m) {
+    return m->slid + m->mu_eta * total(m, DEPTH);
+}
+
+static void resum_top(fret_memory *m) {
+    slice *top = &m->slices[m->count - 1];
+    for (measure by = DEPTH; by <= LOAD; by++)
+        top->sum[by] = (m->count > 1 ? top[-1].sum[by] : 0) + top->sigma * top->thick[by];
+}
+
+static void push(fret_memory *m, const fret_real thick[2], const fret_real inner[2], fret_real sigma) {
+    slice *top = m->count ? &m->slices[m->count - 1] : NULL;
+    /* equal slopes merge, else a ramp in many small steps would pile up slices; the mean keeps F_x */
+    if (top && fabsl(top->sigma - sigma) <= 4 * DBL_EPSILON * fabsl(sigma)) {
+        fret_real both = top->thick[LOAD] + thick[LOAD];
+        if (both > 0 && fabsl(sigma) < 1)
+            top->sigma = (top->sigma * top->thick[LOAD] + sigma * thick[LOAD]) / both;
+        top->thick[DEPTH] += thick[DEPTH];
+        top->thick[LOAD] = both;
+    } else {
+        m->slices[m->count++] =
+            (slice){{thick[DEPTH], thick[LOAD]}, {inner[DEPTH], inner[LOAD]}, sigma, {0, 0}};
+    }
+    resum_top(m);
+}
+
+/* int over distances d1..d2 from the edge of [F(y)-F(y-t)-tK(y-t)] dt at constant edge. */
+static fret_real slide_loss(const fret_memory *m, fret_real d1, fret_real d2) {
+    /* Gauss-Legendre, 8 points on 0..1/2 by symmetry, exact where the difference of L's is not */
+    static const fret_real node[4] = {
+        0.1834346424956498049394761423601839807L, 0.5255324099163289858177390491892463490L,
+        0.7966664774136267395915539364758304368L, 0.9602898564975362316835608685694729904L};
+    static const fret_real weight[4] = {
+        0.3626837833783619829651504492771956122L, 0.3137066458778872873379622019866013133L,
+        0.2223810344533744705443559944262408844L, 0.1012285362903762591525313543099621902L};
+    const fret_normal *n = &m->normal;
+    fret_real y = m->edge[DEPTH];
+    if (d1 > 0 && d2 - d1 < 0.05L * d2 && d2 - d1 < 0.05L * (y - d1)) {
+        fret_real mid = (d1 + d2) / 2, half = (d2 - d1) / 2, sum = 0;
+        for (int i = 0; i < 4; i++)
+            sum += weight[i] * (fret_law_slice(n, y, mid - half * node[i]).G +
+                                fret_law_slice(n, y, mid + half * node[i]).G);
+        return sum * half;
+    }
+    return fret_law_slice(n, y, d2).L - (d1 > 0 ? fret_law_slice(n, y, d1).L : 0);
+}
+
+/* Tangential step at constant normal load: the slip zone of sign s eats inwards until its drive is
+ * used up. Drive left at the centre is gross slip. */
+static fret_real slide(fret_memory *m, measure by, fret_real drive) {
+    const measure other = by == DEPTH ? LOAD : DEPTH;
+    const fret_real y = m->edge[DEPTH], snap = 1e-17L * m->edge[by];
+    fret_real s = drive < 0 ? -1 : 1, e = fabsl(drive), loss = 0;
+    fret_real eaten[2] = {0, 0}, front[2] = {y, m->edge[LOAD]};
+    while (m->count && e > 0) {
+        slice *top = &m->slices[m->count - 1];
+        fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by], d = eaten[DEPTH];
+        if (cap <= e + snap) {
+            e = cap < e ? e - cap : 0;
+            for (measure i = DEPTH; i <= LOAD; i++) {
+                eaten[i] += top->thick[i];
+                front[i] = top->inner[i];
+            }
+            m->count--;
+        } else {
+            fret_real part[2];
+            part[by] = e / gain;
+            part[other] = by == DEPTH ? fret_law_load(&m->normal, front[DEPTH], part[DEPTH])
+                                      : fret_law_thickness(&m->normal, front[DEPTH], part[LOAD]);
+            for (measure i = DEPTH; i <= LOAD; i++) {
+                eaten[i] += part[i];
+                front[i] -= part[i];
+                top->thick[i] -= part[i];
+            }
+            resum_top(m);
+            e = 0;
+        }
+        if (gain > 0)
+            loss += gain * slide_loss(m, d, eaten[DEPTH]);
+    }
+    if (!m->count) {
+        front[DEPTH] = front[LOAD] = 0;
+        if (by == DEPTH) {
+            loss += e * m->edge[LOAD];
+            m->slid += s * m->mu_eta * e;
+        }
+    }
+    if (eaten[LOAD] > 0)
+        push(m, eaten, front, s);
+    return loss;
+}
+
+/* One phase of slip during which edge and front both move, linearly in the measure. */
+typedef struct phase {
+    const fret_memory *m;
+    measure by;
+    fret_real edge0, edge1, front0, front1;
+} phase;
+
+static fret_real phase_rate(fret_real t, fret_real rest, void *context) {
+    const phase *p = context;
+    const fret_normal *n = &p->m->normal;
+    fret_real z = p->edge0 * rest + p->edge1 * t, y = p->front0 * rest + p->front1 * t;
+    fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
+    fret_real depth = p->by == DEPTH ? z : fret_law_depth(n, z);
+    if (d <= 0 || depth <= 0)
+        return 0;
+    if (p->by == LOAD)
+        d = fret_law_thickness(n, depth, d);
+    fret_real G = n->p > 0 || d < 1e-3L * depth ? fret_law_slice(n, depth, d).G : 0;
+    fret_real inner = p->by == DEPTH ? y : fret_law_depth(n, y);
+    fret_real K = inner > 0 ? fret_normal_stiffness(n, fret_law_radius(n, inner)) : 0;
+    if (!(n->p > 0) && d >= 1e-3L * depth)
+        G = fret_law_force(n, depth) - fret_law_force(n, inner) - d * K;
+    if (p->by == DEPTH)
+        return G;
+    return K > 0 ? G / K : 0; /* dy = dF/K; the end point itself has no weight */
+}
+
+static fret_real phase_loss(const fret_memory *m, measure by, fret_real gain, fret_real edge0,
+                            fret_real edge1, fret_real front0, fret_real front1) {
+    phase p = {m, by, edge0, edge1, front0, front1};
+    return gain * (front0 - front1) * fret_integrate(phase_rate, &p);
+}
+
+/* Gross slip while the normal load changes: int F_N de. */
+static fret_real gross_rate(fret_real t, fret_real rest, void *context) {
+    const phase *p = context;
+    return fret_law_force(&p->m->normal, p->edge0 * rest + p->edge1 * t);
+}
+
+/* After a phase only the measure of the step is up to date in the two outermost slices. */
+static void convert_top(fret_memory *m, measure by) {
+    const measure other = by == DEPTH ? LOAD : DEPTH;
+    fret_real outer = m->edge[other];
+    size_t first = m->count > 2 ? m->count - 2 : 0;
+    for (size_t i = m->count; i-- > first;) {
+        slice *sl = &m->slices[i];
+        if (i == 0)
+            sl->inner[other] = 0;
+        else if (i == m->count - 1)
+            sl->inner[other] = by == DEPTH ? fret_law_force(&m->normal, sl->inner[by])
+                                           : fret_law_depth(&m->normal, sl->inner[by]);
+        sl->thick[other] = fmaxl(outer - sl->inner[other], 0);
+        outer = sl->inner[other];
+    }
+    size_t count = m->count;
+    for (size_t i = first; i < count; i++) {
+        m->count = i + 1;
+        resum_top(m);
+    }
+}
+
+/* Slip front of sign s moving inwards over `reach` units of drive surplus while the edge grows. */
+static fret_real grow_and_slide(fret_memory *m, measure by, const fret_real edge[2], fret_real drive) {
+    fret_real s = drive < 0 ? -1 : 1, growth = edge[by] - m->edge[by];
+    fret_real e = fabsl(drive) - growth, surplus = e, old = m->edge[by], loss = 0;
+    fret_real front = old, snap = 1e-17L * edge[by];
+    while (m->count && e > 0) {
+        slice *top = &m->slices[m->count - 1];
+        fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by], before = front, e0 = e;
+        if (cap <= e + snap) {
+            e = cap < e ? e - cap : 0;
+            front = m->count > 1 ? top->inner[by] : 0;
+            m->count--;
+        } else {
+            front -= e / gain;
+            top->thick[by] -= e / gain;
+            e = 0;
+        }
+        if (gain > 0)
+            loss += phase_loss(m, by, gain, old + growth * (surplus - e0) / surplus,
+                               old + growth * (surplus - e) / surplus, before, front);
+    }
+    if (e > 0 && by == DEPTH) {
+        phase p = {m, by, old + growth * (surplus - e) / surplus, edge[by], 0, 0};
+        loss += e * fret_integrate(gross_rate, &p);
+        m->slid += s * m->mu_eta * e;
+    }
+    if (!m->count)
+        front = 0;
+    m->edge[DEPTH] = edge[DEPTH];
+    m->edge[LOAD] = edge[LOAD];
+    fret_real thick[2] = {0, 0}, inner[2] = {0, 0};
+    thick[by] = edge[by] - front;
+    inner[by] = front;
+    push(m, thick, inner, s);
+    convert_top(m, by);
+    return loss;
+}
+
+/* Unloading: the edge moves inwards by r while the drive D acts, both linearly. At the edge, a slope
+ * sigma means a surplus D + sigma r per unit: it starts a slip zone of that sign, whose front moves at
+ * (sD+r)/(1-s sigma); a front slower than the edge is overtaken, and the next slope decides anew. */
+static fret_real shrink(fret_memory *m, measure by, const fret_real edge[2], fret_real drive) {
+    fret_real r = m->edge[by] - edge[by], left = r, rate = drive / r, loss = 0, z = m->edge[by];
+    while (left > 0 && m->count) {
+        slice *top = &m->slices[m->count - 1];
+        fret_real surplus = rate + top->sigma, s = surplus < 0 ? -1 : 1;
+        if (fabsl(surplus) <= 4 * LDBL_EPSILON * fabsl(top->sigma) ||
+            (top->thick[by] <= 0 && m->count > 1 && fabsl(top->sigma) < 1)) {
+            fret_real t = fminl(left, top->thick[by]);
+            bool gone = t >= top->thick[by];
+            top->thick[by] -= t;
+            left -= t;
+            z -= t;
+            if (gone)
+                m->count--;
+            continue;
+        }
+        if (s * top->sigma < 1) { /* a new zone, of no thickness yet */
+            slice zone = {{0, 0}, {top->inner[0] + top->thick[0], top->inner[1] + top->thick[1]}, s, {0, 0}};
+            zone.inner[by] = z;
+            m->slices[m->count++] = zone;
+            top = &m->slices[m->count - 1];
+        }
+        if (m->count == 1) { /* the zone is the whole contact */
+            if (by == DEPTH) {
+                phase p = {m, by, z, edge[by], 0, 0};
+                fret_real e = (s * rate + 1) * left;
+                loss += e * fret_integrate(gross_rate, &p);
+                m->slid += s * m->mu_eta * e;
+            }
+            top->thick[by] -= left;
+            z = edge[by];
+            left = 0;
+            break;
+        }
+        slice *next = top - 1;
+        fret_real gain = 1 - s * next->sigma, speed = (s * rate + 1) / gain, t = left;
+        bool reached = false, overtaken = false;
+        if (next->thick[by] <= speed * t) {
+            t = next->thick[by] / speed;
+            reached = true;
+        }
+        if (speed < 1 && top->thick[by] <= (1 - speed) * t) {
+            t = top->thick[by] / (1 - speed);
+            reached = false;
+            overtaken = true;
+        }
+        fret_real front = top->inner[by], step = reached ? next->thick[by] : speed * t;
+        loss += phase_loss(m, by, gain, z, z - t, front, front - step);
+        z -= t;
+        left -= t;
+        if (reached) {
+            top->inner[by] = m->count > 2 ? next->inner[by] : 0;
+            top->thick[by] = z - top->inner[by];
+            next[0] = *top;
+            m->count--;
+            if (m->count > 1 && next[-1].sigma == s) { /* the zone joins one of its own sign */
+                next[-1].thick[by] += next->thick[by];
+                m->count--;
+            }
+        } else {
+            next->thick[by] -= step;
+            if (overtaken) {
+                m->count--;
+            } else {
+                top->inner[by] = front - step;
+                top->thick[by] = z - top->inner[by];
+            }
+        }
+    }
+    m->edge[DEPTH] = edge[DEPTH];
+    m->edge[LOAD] = edge[LOAD];
+    if (m->count)
+        convert_top(m, by);
+    return loss;
+}
+
+/* A straight piece with the contact closed at both ends; drive = change of delta_x/(mu eta) or F_x/mu. */
+static fret_real advance(fret_memory *m, measure by, const fret_real edge[2], fret_real drive) {
+    fret_real growth = edge[by] - m->edge[by];
+    if (growth == 0)
+        return drive == 0 ? 0 : slide(m, by, drive);
+    if (growth < 0)
+        return shrink(m, by, edge, drive);
+    if (fabsl(drive) > growth)
+        return grow_and_slide(m, by, edge, drive);
+    fret_real thick[2] = {edge[DEPTH] - m->edge[DEPTH], edge[LOAD] - m->edge[LOAD]};
+    fret_real inner[2] = {m->edge[DEPTH], m->edge[LOAD]};
+    push(m, thick, inner, drive / growth);
+    m->edge[DEPTH] = edge[DEPTH];
+    m->edge[LOAD] = edge[LOAD];
+    return 0;
+}
+
+static void open_contact(fret_memory *m, fret_real dx) {
+    m->edge[DEPTH] = m->edge[LOAD] = 0;
+    m->count = 0;
+    m->slid = dx;
+}
+
+fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
+    const fret_real old_dx = displacement(m);
+    fret_real edge[2] = {m->edge[DEPTH], m->edge[LOAD]}, gap = m->gap;
+    fret_status st = fret_ok();
+    if (step->normal_by == FRET_TO_FORCE) {
+        fret_press p;
+        st = fret_press_force(&m->normal, step->normal, &p);
+        if (!st.code && p.F != edge[LOAD]) {
+            edge[DEPTH] = p.dz;
+            edge[LOAD] = p.F;
+        }
+        gap = 0;
+    } else if (step->normal_by == FRET_TO_DEPTH) {
+        if (!isfinite(step->normal))
+            return fret_fail(FRET_NOT_FINITE, "dz", step->normal, 0);
+        fret_press p = {0, 0, 0};
+        gap = step->normal < 0 ? -step->normal : 0;
+        if (step->normal > 0)
+            st = fret_press_depth(&m->normal, step->normal, &p);
+        if (!st.code && p.dz != edge[DEPTH]) {
+            edge[DEPTH] = p.dz;
+            edge[LOAD] = p.F;
+        }
+    }
+    if (st.code)
+        return st;
+    const char *name = step->tangential_by == FRET_TO_FX ? "Fx" : "dx";
+    if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
+        return fret_fail(FRET_NOT_FINITE, name, step->tangential, 0);
+    measure by = step->tangential_by == FRET_TO_FX ? LOAD : DEPTH;
+    if (by == LOAD && fabsl(step->tangential) > (fret_real)m->mu * edge[LOAD])
+        return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(m->mu * edge[LOAD]));
+    st = reserve(m, m->count + 4);
+    if (st.code)
+        return st;
+
+    fret_real loss = 0;
+    if (by == LOAD) {
+        fret_real drive = step->tangential / (fret_real)m->mu - total(m, LOAD);
+        if (drive != 0)
+            m->direction = drive < 0 ? -1 : 1;
+        loss = advance(m, LOAD, edge, drive);
+        if (edge[LOAD] <= 0)
+            open_contact(m, displacement(m));
+    } else {
+        fret_real target = step->tangential_by == FRET_TO_DX ? (fret_real)step->tangential : old_dx;
+        fret_real from = m->gap > 0 ? -m->gap : m->edge[DEPTH], to = gap > 0 ? -gap : edge[DEPTH];
+        if (target != old_dx)
+            m->direction = target < old_dx ? -1 : 1;
+        /* while open, the bodies move freely: only the closed part of the path counts */
+        fret_real start = old_dx, stop = target;
+        if (from <= 0 && to > 0) {
+            start = old_dx + (target - old_dx) * (-from / (to - from));
+            open_contact(m, start);
+        } else if (from > 0 && to <= 0) {
+            stop = old_dx + (target - old_dx) * (from / (from - to));
+        }
+        if (from > 0 || to > 0) {
+            loss = advance(m, DEPTH, edge, (stop - start) / m->mu_eta);
+            if (to > 0 && step->tangential_by == FRET_TO_DX && m->count == 1 &&
+                fabsl(m->slices[0].sigma) == 1)
+                m->slid = target - m->mu_eta * total(m, DEPTH);
+        }
+        if (to <= 0)
+            open_contact(m, target);
+    }
+    m->gap = gap;
+    m->last_loss = loss > 0 ? loss * m->loss_scale : 0;
+    fret_sum_add(&m->W, m->last_loss);
+    return fret_ok();
+}
+
+void fret_memory_forces(const fret_memory *m, fret_state *out) {
+    *out = (fret_state){
+        .FN = m->edge[LOAD],
+        .dz = m->gap > 0 ? -m->gap : m->edge[DEPTH],
+        .Fx = m->mu * total(m, LOAD),
+        .dx = displacement(m),
+        .W = fret_sum_value(&m->W),
+        .slices = m->count,
+    };
+}
+
+/* U = mu^2 eta/2 int v^2 dK with v the sum of sigma from the edge: from the centre outwards, a slice of
+ * thickness h adds sigma h T + sigma^2 J to the half integral, T the sum of sigma dF_N inside it. */
+static fret_real stored(const fret_memory *m) {
+    fret_real sum = 0, T = 0;
+    for (size_t i = 0; i < m->count; i++) {
+        const slice *sl = &m->slices[i];
+        fret_real h = sl->thick[DEPTH],
+                  outer = i + 1 < m->count ? m->slices[i + 1].inner[DEPTH] : m->edge[DEPTH];
+        if (sl->sigma != 0 && h > 0)
+            sum += sl->sigma * h * T + sl->sigma * sl->sigma * fret_law_slice(&m->normal, outer, h).J;
+        T = sl->sum[LOAD];
+    }
+    return m->loss_scale * sum;
+}
+
+void fret_memory_state(const fret_memory *m, fret_state *out) {
+    fret_memory_forces(m, out);
+    if (!m->count)
+        return;
+    const slice *top = &m->slices[m->count - 1];
+    out->U = stored(m);
+    out->a = fret_law_radius(&m->normal, m->edge[DEPTH]);
+    out->kn = fret_normal_stiffness(&m->normal, out->a);
+    out->c = out->a;
+    if (fabsl(top->sigma) >= 1)
+        out->c = m->count == 1 ? 0 : fret_law_radius(&m->normal, top->inner[DEPTH]);
+    bool goes_on = top->sigma * m->direction >= 1;
+    fret_real inner = goes_on ? out->c : out->a;
+    out->kt = inner > 0 ? fret_normal_stiffness(&m->normal, inner) / m->normal.foundation.eta : 0;
+}
+
+fret_real fret_memory_last_loss(const fret_memory *m) {
+    return m->last_loss;
+}
+
+int fret_memory_segment(const fret_memory *m, size_t i, fret_segment *out) {
+    if (i >= m->count)
+        return 0;
+    const slice *sl = &m->slices[i];
+    fret_real outer = i + 1 < m->count ? sl[1].inner[DEPTH] : m->edge[DEPTH];
+    fret_real inside = i ? sl[-1].sum[DEPTH] : 0;
+    *out = (fret_segment){sl->inner[DEPTH], outer, sl->sigma, m->mu_eta * (total(m, DEPTH) - inside)};
+    return 1;
+}

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fret/normal.h"
+
+#include <float.h>
+
+#include "gap.h"
+#include "special.h"
+
+fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, fret_normal *out) {
+    fret_normal n = {.gap = *gap};
+    fret_status st = fret_foundation_make(material, &n.foundation);
+    if (!st.code)
+        st = fret_gap_check(gap);
+    if (st.code)
+        return st;
+    n.rule.k = material->k;
+    if (gap->kind == FRET_GAP_POWER) {
+        const fret_power *g = &gap->power[0];
+        fret_real k1 = 1 + (fret_real)material->k;
+        n.s = g->n + k1;
+        n.pm1 = k1 / g->n;
+        n.p = n.s / g->n;
+        n.q = g->n / n.s;
+        n.kappa = fret_kappa(g->n, material->k);
+        n.dref = n.kappa * g->h;
+        n.Fref = 2 * n.foundation.cN0 * n.dref * g->n * g->r0 *
+                 powl((fret_real)g->r0 / material->c0, material->k) / (k1 * n.s);
+    } else {
+        st = fret_rule_make(material->k, &n.rule);
+    }
+    if (!st.code)
+        *out = n;
+    return st;
+}
+
+fret_real fret_normal_stiffness(const fret_normal *n, fret_real a) {
+    const fret_foundation *f = &n->foundation;
+    return 2 * f->cN0 * a * powl(a / f->c0, f->k) / (1 + f->k);
+}
+
+static fret_profile profile(const fret_normal *n, fret_real a) {
+    return fret_gap_profile(&n->gap, &n->rule, a);
+}
+
+/* F_N of a contact of radius a whose profile is known. */
+static fret_real force_of(const fret_normal *n, const fret_profile *p) {
+    return 2 * n->foundation.cN0 * powl(n->foundation.c0, -n->foundation.k) * p->I;
+}
+
+/* Newton in ln(a - start), where depth and force are nearly powers, kept in a bracket. Returns a
+ * radius beyond the end of the gap where the target cannot be reached. */
+static fret_real solve_radius(const fret_normal *n, bool by_force, fret_real target) {
+    fret_real start = fret_gap_start(&n->gap), end = fret_gap_end(&n->gap);
+    if (target <= 0)
+        return start;
+    fret_real lo = 0, hi = INFINITY, e = isfinite(end) ? end / 16 : start > 0 ? start / 16 : 1e-4L;
+    for (int i = 0; i < 400; i++) {
+        fret_real a = start + e;
+        if (a > end)
+            return INFINITY;
+        fret_profile p = profile(n, a);
+        fret_real value = by_force ? force_of(n, &p) : p.g;
+        if (value < target)
+            lo = e;
+        else
+            hi = e;
+        fret_real slope = e * p.slope * (by_force ? fret_normal_stiffness(n, a) : 1) / value;
+        fret_real next = e * expl(logl(target / value) / slope);
+        if (!(next > lo && next < hi)) {
+            if (!isfinite(hi))
+                next = isfinite(end) ? (e + end - start) / 2 : 4 * e;
+            else
+                next = lo > 0 ? sqrtl(lo) * sqrtl(hi) : hi / 16;
+        }
+        if (fabsl(next - e) <= 2 * LDBL_EPSILON * (start + e) || (hi - lo) <= 2 * LDBL_EPSILON * hi)
+            return start + next;
+        e = next;
+    }
+    return start + e;
+}
+
+fret_real fret_law_radius(const fret_normal *n, fret_real y) {
+    if (n->p > 0)
+        return n->gap.power[0].r0 * powl(y / n->dref, 1 / (fret_real)n->gap.power[0].n);
+    return solve_radius(n, false, y);
+}
+
+fret_real fret_law_force(const fret_normal *n, fret_real y) {
+    if (y <= 0)
+        return 0;
+    if (n->p > 0)
+        return n->Fref * powl(y / n->dref, n->p);
+    fret_profile p = profile(n, solve_radius(n, false, y));
+    return force_of(n, &p);
+}
+
+fret_real fret_law_depth(const fret_normal *n, fret_real F) {
+    if (F <= 0)
+        return 0;
+    if (n->p > 0)
+        return n->dref * powl(F / n->Fref, n->q);
+    return profile(n, solve_radius(n, true, F)).g;
+}
+
+/* Shapes without a closed form: t = g(a_out) - g(a) over the annulus, dK = 2 cN0 (a/c0)^k da. */
+typedef struct annulus {
+    const fret_normal *normal;
+    fret_real inner, outer, g;
+    bool second; /* moment: t dK or t^2 dK */
+} annulus;
+
+static fret_real annulus_moment(fret_real t, fret_real rest, void *context) {
+    const annulus *s = context;
+    const fret_foundation *f = &s->normal->foundation;
+    fret_real a = s->inner * rest + s->outer * t;
+    if (a <= fret_gap_start(&s->normal->gap))
+        a = fret_gap_start(&s->normal->gap) + (s->outer - s->inner) * t;
+    fret_real d = s->g - (a > fret_gap_start(&s->normal->gap) ? profile(s->normal, a).g : 0);
+    return (s->second ? d * d : d) * 2 * f->cN0 * powl(a / f->c0, f->k) * (s->outer - s->inner);
+}
+
+fret_slice fret_law_slice(const fret_normal *n, fret_real y, fret_real h) {
+    if (h <= 0)
+        return (fret_slice){0, 0, 0, 0};
+    if (n->p > 0) {
+        fret_moments m = fret_power_moments(n->pm1, h / y);
+        fret_real F = fret_law_force(n, y), Fy = F * y;
+        return (fret_slice){F * m.w, Fy * m.J, F * m.m1, Fy * m.L};
+    }
+    annulus s = {.normal = n, .outer = fret_law_radius(n, y), .g = y};
+    s.inner = h < y ? fret_law_radius(n, y - h) : fret_gap_start(&n->gap);
+    fret_real K = fret_normal_stiffness(n, s.inner), m1 = fret_integrate(annulus_moment, &s);
+    s.second = true;
+    fret_real m2 = fret_integrate(annulus_moment, &s);
+    return (fret_slice){h * K + m1, (h * h * K + m2) / 2, m1, h * m1 - m2};
+}
+
+fret_real fret_law_load(const fret_normal *n, fret_real y, fret_real h) {
+    if (h >= y)
+        return fret_law_force(n, y);
+    if (n->p > 0)
+        return -fret_law_force(n, y) * expm1l(n->p * log1pl(-h / y));
+    if (h > 1e-3L * y)
+        return fret_law_force(n, y) - fret_law_force(n, y - h);
+    return fret_law_slice(n, y, h).w;
+}
+
+fret_real fret_law_thickness(const fret_normal *n, fret_real y, fret_real w) {
+    fret_real F = fret_law_force(n, y);
+    if (w >= F)
+        return y;
+    if (n->p > 0)
+        return -y * expm1l(n->q * log1pl(-w / F));
+    fret_real h = y - fret_law_depth(n, F - w);
+    if (w < 1e-3L * F && h > 0) /* the difference has lost digits: two Newton steps on thin slices */
+        for (int i = 0; i < 2; i++)
+            h += (w - fret_law_slice(n, y, h).w) / fret_normal_stiffness(n, fret_law_radius(n, y - h));
+    return h;
+}
+
+static fret_status finish(const fret_press *p, fret_press *out) {
+    if (!(p->F <= DBL_MAX && p->dz <= DBL_MAX && p->a <= DBL_MAX))
+        return fret_fail(FRET_OVERFLOW, "press", (double)p->F, DBL_MAX);
+    if (!(p->F >= DBL_MIN && p->dz >= DBL_MIN && p->a >= DBL_MIN) && (p->F != 0 || p->dz != 0))
+        return fret_fail(FRET_OVERFLOW, "press", (double)p->F, DBL_MIN);
+    *out = *p;
+    return fret_ok();
+}
+
+static fret_status at_radius(const fret_normal *n, const char *name, double value, fret_press *s,
+                             fret_press *out) {
+    if (!isfinite(s->a))
+        return fret_fail(FRET_TABLE_SHORT, name, value, (double)fret_gap_end(&n->gap));
+    fret_profile p = {0, 0, 0};
+    if (s->a > fret_gap_start(&n->gap))
+        p = profile(n, s->a);
+    if (s->F < 0)
+        s->F = force_of(n, &p);
+    if (s->dz < 0)
+        s->dz = p.g;
+    return finish(s, out);
+}
+
+fret_status fret_press_force(const fret_normal *n, double F, fret_press *out) {
+    fret_status st = fret_check_not_negative("FN", F);
+    if (st.code)
+        return st;
+    fret_press s = {F, -1, 0};
+    if (n->p > 0) {
+        /* from the load itself: the shortest way loses least */
+        s.a = n->gap.power[0].r0 * powl(F / n->Fref, 1 / n->s);
+        s.dz = n->dref * powl(F / n->Fref, n->q);
+        return finish(&s, out);
+    }
+    s.a = solve_radius(n, true, F);
+    return at_radius(n, "FN", F, &s, out);
+}
+
+fret_status fret_press_depth(const fret_normal *n, double dz, fret_press *out) {
+    fret_status st = fret_check_not_negative("dz", dz);
+    if (st.code)
+        return st;
+    fret_press s = {-1, dz, 0};
+    if (n->p > 0) {
+        s.a = fret_law_radius(n, dz);
+        s.F = fret_law_force(n, dz);
+        return finish(&s, out);
+    }
+    s.a = solve_radius(n, false, dz);
+    return at_radius(n, "dz", dz, &s, out);
+}
+
+fret_status fret_press_radius(const fret_normal *n, double a, fret_press *out) {
+    fret_status st = fret_check_not_negative("a", a);
+    if (st.code)
+        return st;
+    fret_press s = {-1, -1, a};
+    if (n->p > 0) {
+        fret_real z = a / (fret_real)n->gap.power[0].r0;
+        s.dz = n->dref * powl(z, n->gap.power[0].n);
+        s.F = n->Fref * powl(z, n->s);
+        return finish(&s, out);
+    }
+    if (a < fret_gap_start(&n->gap))
+        return fret_fail(FRET_OUTSIDE, "a", a, (double)fret_gap_start(&n->gap));
+    if (a > fret_gap_end(&n->gap))
+        return fret_fail(FRET_TABLE_SHORT, "a", a, (double)fret_gap_end(&n->gap));
+    return at_radius(n, "a", a, &s, out);
+}

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "special.h"
+
+#include <gsl/gsl_integration.h>
+
+fret_status fret_check_positive(const char *quantity, double value) {
+    if (!isfinite(value))
+        return fret_fail(FRET_NOT_FINITE, quantity, value, 0);
+    if (value <= 0)
+        return fret_fail(FRET_NOT_POSITIVE, quantity, value, 0);
+    return fret_ok();
+}
+
+fret_status fret_check_not_negative(const char *quantity, double value) {
+    if (!isfinite(value))
+        return fret_fail(FRET_NOT_FINITE, quantity, value, 0);
+    if (value < 0)
+        return fret_fail(FRET_NEGATIVE, quantity, value, 0);
+    return fret_ok();
+}
+
+/* ln Gamma(x) - [(x-1/2) ln x - x + ln(2 pi)/2], x >= 20: below 1e-21 after eight terms. */
+static fret_real stirling_rest(fret_real x) {
+    static const fret_real c[] = {1.0L / 12,   -1.0L / 360,      1.0L / 1260, -1.0L / 1680,
+                                  1.0L / 1188, -691.0L / 360360, 1.0L / 156,  -3617.0L / 122400};
+    fret_real z = 1 / (x * x), sum = 0;
+    for (int i = 7; i >= 0; i--)
+        sum = sum * z + c[i];
+    return sum / x;
+}
+
+fret_real fret_gamma_ratio(fret_real x, fret_real d) {
+    if (x < 20)
+        return x + d < 1000 ? tgammal(x + d) / tgammal(x) : expl(lgammal(x + d) - lgammal(x));
+    return expl((x - 0.5L) * log1pl(d / x) + d * logl(x + d) - d + stirling_rest(x + d) - stirling_rest(x));
+}
+
+/* The closed forms lose digits like ((p x)^-2, (p x)^-3) where p x is small; there the series of
+ * (1-t)^(p-2) under the integral has terms falling at least as fast as x. */
+static fret_moments moments_series(fret_real pm1, fret_real x) {
+    fret_real p = 1 + pm1, term = p * pm1 * x * x, m1 = 0, L = 0, J = 0, jterm = p * x * x, w = 0;
+    for (int i = 0; i < 200; i++) {
+        fret_real old = m1;
+        m1 += term / (i + 2);
+        L += term / ((fret_real)(i + 2) * (i + 3));
+        J += jterm / (i + 2);
+        term *= (i + 1 - pm1) / (i + 1) * x;
+        jterm *= (i - pm1) / (i + 1) * x;
+        if (m1 == old && i > 2)
+            break;
+    }
+    L *= x;
+    w = -expm1l(p * log1pl(-x));
+    return (fret_moments){w, J, m1, L};
+}
+
+fret_moments fret_power_moments(fret_real pm1, fret_real x) {
+    fret_real p = 1 + pm1;
+    if (x >= 1)
+        return (fret_moments){1, 1 / (p + 1), 1, 1 - 2 / (p + 1)};
+    if (x <= 0)
+        return (fret_moments){0, 0, 0, 0};
+    if (p * x < 1.5L && x < 0.5L)
+        return moments_series(pm1, x);
+    fret_real l = log1pl(-x), em = expm1l(pm1 * l), y = 1 + em; /* y = (1-x)^(p-1) */
+    fret_real yp = y * (1 - x);                                 /* (1-x)^p */
+    fret_real m1 = -em * (1 + pm1 * x) - pm1 * x;
+    fret_real J = (1 - yp * (1 - x)) / (p + 1) - x * yp;
+    /* m2 = int t^2 dK = 2J - p x^2 y ;  L = x m1 - m2 */
+    fret_real m2 = 2 * J - p * x * x * y;
+    return (fret_moments){x * (1 + em) - em, J, m1, x * m1 - m2};
+}
+
+/* GSL's nodes are good to 1e-15; Newton on the recurrence gives the guard digits. */
+fret_status fret_rule_make(fret_real k, fret_rule *rule) {
+    enum { N = FRET_RULE };
+    fret_real alpha = (k - 1) / 2, total = 1 / (alpha + 1), others = 0;
+    gsl_integration_fixed_workspace *ws =
+        gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, N, -1, 1, (double)alpha, 0);
+    if (!ws)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    const double *z0 = gsl_integration_fixed_nodes(ws);
+    rule->k = k;
+    for (int i = 0; i < N; i++) {
+        fret_real z = z0[i], slope = 1;
+        for (int pass = 0; pass < 4; pass++) {
+            fret_real p0 = 1, p1 = (alpha + (alpha + 2) * z) / 2;
+            for (int n = 2; n <= N; n++) {
+                fret_real c = 2 * n + alpha;
+                fret_real p2 = ((c - 1) * (c * (c - 2) * z + alpha * alpha) * p1 -
+                                2 * (n + alpha - 1) * (n - 1) * c * p0) /
+                               (2 * n * (n + alpha) * (c - 2));
+                p0 = p1;
+                p1 = p2;
+            }
+            fret_real c = 2 * N + alpha;
+            slope = (N * (alpha - c * z) * p1 + 2 * (N + alpha) * N * p0) / (c * (1 - z * z));
+            z -= p1 / slope;
+        }
+        rule->v[i] = (1 - z) / 2;
+        rule->weight[i] = 1 / ((1 - z * z) * slope * slope);
+    }
+    gsl_integration_fixed_free(ws);
+    /* as alpha -> -1 one node carries nearly all, too near the edge for its own formula */
+    int edge = 0;
+    for (int i = 1; i < N; i++)
+        if (rule->v[i] < rule->v[edge])
+            edge = i;
+    for (int i = 0; i < N; i++)
+        if (i != edge)
+            others += rule->weight[i];
+    rule->weight[edge] = total - others;
+    return fret_ok();
+}
+
+fret_real fret_integrate(fret_integrand *f, void *context) {
+    const fret_real step = 0.125L;
+    fret_sum sum = {0, 0};
+    for (int i = -36; i <= 36; i++) {
+        fret_real u = step * i, e = expl(-PI_L * sinhl(fabsl(u))); /* small/large side */
+        fret_real small = e / (1 + e), large = 1 / (1 + e);
+        fret_real weight = PI_L * coshl(u) * small * large;
+        fret_sum_add(&sum, weight * (i < 0 ? f(small, large, context) : f(large, small, context)));
+    }
+    return step * fret_sum_value(&sum);
+}

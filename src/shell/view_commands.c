@@ -1,0 +1,545 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands that show what follows from the scene and leave it as it is. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "plot/plot.h"
+#include "shell/command.h"
+#include "shell/output.h"
+
+/* ---- output to a file -------------------------------------------------------------------------- */
+
+/* Written beside its target and renamed when whole. */
+typedef struct target {
+    FILE *to;
+    char name[4000], part[4050];
+    bool direct; /* a device or pipe: nothing to rename */
+} target;
+
+static bool target_open(shell *sh, lexer *lx, target *t) {
+    t->to = sh->out;
+    t->name[0] = 0;
+    if (!lex_accept(lx, "to"))
+        return at_end(lx);
+    size_t at = lx->at;
+    if (!lex_filename(lx, t->name, sizeof t->name) || !at_end(lx))
+        return false;
+    struct stat info;
+    t->direct = !stat(t->name, &info) && !S_ISREG(info.st_mode);
+    snprintf(t->part, sizeof t->part, t->direct ? "%s" : "%s.part", t->name);
+    t->to = fopen(t->part, "w");
+    if (!t->to)
+        return calc_fail(lx->error, at, strlen(t->name), "cannot write %s: %s", t->name, strerror(errno));
+    return true;
+}
+
+static bool target_close(lexer *lx, target *t, bool ok) {
+    if (!t->name[0])
+        return ok;
+    int code = 0;
+    if (fflush(t->to) || ferror(t->to))
+        code = errno ? errno : EIO;
+    if (fclose(t->to) && !code)
+        code = errno;
+    if (ok && !code && !t->direct && rename(t->part, t->name))
+        code = errno;
+    if (!t->direct && (!ok || code))
+        unlink(t->part);
+    if (ok && code)
+        return calc_fail(lx->error, 0, 0, "cannot write %s: %s", t->name, strerror(code));
+    return ok;
+}
+
+/* ---- history ----------------------------------------------------------------------------------- */
+
+static const char *const history_names[] = {"FN", "dz", "Fx", "dx", "W"};
+enum { HISTORY = sizeof history_names / sizeof *history_names };
+
+static void history_row(const fret_state *s, size_t step, void *context) {
+    const long double row[HISTORY] = {s->FN, s->dz, s->Fx, s->dx, s->W};
+    (void)step;
+    table_row(context, row);
+}
+
+static void si_column(column *c, const char *name, dim d) {
+    snprintf(c->name, sizeof c->name, "%s", name);
+    dim_unit(d, c->unit, sizeof c->unit);
+    c->scale = 1;
+    c->d = d;
+    c->chosen = false;
+}
+
+bool do_history(shell *sh, lexer *lx) {
+    const fret_memory *memory;
+    target to;
+    if (!scene_memory(&sh->calc.scene, &memory, lx->error) || !target_open(sh, lx, &to))
+        return false;
+    table t = {.sh = sh, .to = to.to, .count = HISTORY};
+    for (size_t i = 0; i < HISTORY; i++) {
+        const quantity *q = quantity_find(history_names[i], strlen(history_names[i]));
+        si_column(&t.columns[i], q->name, q->d);
+    }
+    /* into a file that ends in .csv goes CSV, whatever the screen shows */
+    format old = sh->set.format;
+    size_t n = strlen(to.name);
+    if (n > 4 && !strcmp(to.name + n - 4, ".csv"))
+        sh->set.format = FORMAT_CSV;
+    table_begin(&t);
+    bool ok = scene_trace(&sh->calc.scene, 0, history_row, &t, lx->error);
+    sh->set.format = old;
+    return target_close(lx, &to, ok);
+}
+
+/* ---- sweeps ------------------------------------------------------------------------------------ */
+
+enum { WITH_VALUES = 20 };
+
+/* for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, v2, ...] */
+typedef struct axis {
+    char name[64];
+    const quantity *q; /* an input, or NULL for a free name */
+    dim d;
+} axis;
+
+typedef struct sweep {
+    axis var, with;
+    long double lo, hi, with_values[WITH_VALUES];
+    unsigned steps;
+    bool log;
+    size_t with_count;
+} sweep;
+
+static bool read_axis(shell *sh, lexer *lx, axis *out) {
+    if (lx->kind != T_NAME || lx->len >= sizeof out->name)
+        return lex_fail(lx, "expected a name");
+    snprintf(out->name, sizeof out->name, "%.*s", (int)lx->len, lx->text + lx->at);
+    out->q = quantity_find(out->name, lx->len);
+    if (out->q && out->q->in < 0)
+        return lex_fail(lx, "%s is a result: only inputs and free names can be swept", out->name);
+    const char *taken = out->q ? NULL : name_taken(out->name, lx->len);
+    if (taken)
+        return lex_fail(lx, "'%s' is %s: it cannot be swept", out->name, taken);
+    if (out->q && out->q->in == IN_FN && !sh->calc.scene.steps)
+        out->q = quantity_find("FN", 2);
+    lex_next(lx);
+    if (lx->kind != T_ASSIGN)
+        return lex_fail(lx, "expected = after %s", out->name);
+    lex_next(lx);
+    return true;
+}
+
+static bool read_bound(shell *sh, lexer *lx, const axis *a, bool first, dim *d, long double *out) {
+    value v;
+    size_t at = lx->at;
+    if (!expr_value(&sh->calc, lx, &v))
+        return false;
+    if (first)
+        *d = a->q ? quantity_dim(a->q, &sh->calc.scene) : v.d;
+    if (!first && !a->q && dim_equal(*d, DIM_NONE))
+        *d = v.d; /* 0 .. 3 mm */
+    *out = v.v;
+    return value_dim(lx, a->name, at, lx->last - at, v, *d);
+}
+
+static bool read_sweep(shell *sh, lexer *lx, sweep *s, unsigned steps) {
+    *s = (sweep){.steps = steps};
+    if (!read_axis(sh, lx, &s->var) || !read_bound(sh, lx, &s->var, true, &s->var.d, &s->lo))
+        return false;
+    if (lx->kind != T_RANGE)
+        return lex_fail(lx, "expected .. between the two ends of the sweep");
+    lex_next(lx);
+    if (!read_bound(sh, lx, &s->var, false, &s->var.d, &s->hi))
+        return false;
+    size_t at = lx->at;
+    for (;;) {
+        if (lex_accept(lx, "steps")) {
+            if (!read_count(sh, lx, "steps", 100000000, &s->steps))
+                return false;
+        } else if (lex_accept(lx, "log")) {
+            s->log = true;
+        } else if (lex_accept(lx, "with")) {
+            if (!read_axis(sh, lx, &s->with))
+                return false;
+            do {
+                if (s->with_count == WITH_VALUES)
+                    return lex_fail(lx, "more than %d values", WITH_VALUES);
+                if (s->with_count)
+                    lex_next(lx);
+                if (!read_bound(sh, lx, &s->with, s->with_count == 0, &s->with.d,
+                                &s->with_values[s->with_count]))
+                    return false;
+                s->with_count++;
+            } while (lx->kind == T_COMMA);
+        } else {
+            break;
+        }
+    }
+    if (s->log && !(s->lo > 0 && s->hi > 0))
+        return calc_fail(lx->error, at, 1, "a logarithmic sweep needs positive ends");
+    return true;
+}
+
+static long double sweep_at(const sweep *s, unsigned i) {
+    if (i == s->steps)
+        return s->hi;
+    long double t = (long double)i / s->steps;
+    return s->log ? s->lo * powl(s->hi / s->lo, t) : s->lo + (s->hi - s->lo) * t;
+}
+
+static bool place(shell *sh, scene *s, const axis *a, int slot, long double v, calc_error *error) {
+    sh->calc.sweep_value[slot] = (value){v, a->d};
+    if (!a->q)
+        return true;
+    if (a->q->in == IN_FN && s->steps && s->program[0].normal != BY_FORCE)
+        return calc_fail(error, 0, 0, "FN cannot be swept: the press was not given as FN");
+    scene_put(s, (input)a->q->in, (double)v);
+    return true;
+}
+
+/* The sweep's names must be known before the expressions that come first on the line are parsed. */
+static bool find_sweep_names(lexer *lx, char names[2][64]) {
+    calc_error ignored = {0};
+    lexer scan = *lx;
+    scan.error = &ignored;
+    names[0][0] = names[1][0] = 0;
+    int found = 0;
+    while (scan.kind != T_END && !ignored.raised) {
+        bool is_for = lex_is(&scan, "for"), is_with = lex_is(&scan, "with");
+        lex_next(&scan);
+        if ((is_for || (is_with && found)) && scan.kind == T_NAME && scan.len < 64) {
+            snprintf(names[is_for ? 0 : 1], 64, "%.*s", (int)scan.len, scan.text + scan.at);
+            found = 1;
+        }
+    }
+    return found;
+}
+
+typedef bool sweep_row(void *context, const sweep *s, size_t with, const long double *values);
+
+/* Evaluates `count` expressions of sh->list at every point of the sweep on a scratch scene. */
+static bool run_sweep(shell *sh, const sweep *s, column *columns, size_t count, sweep_row *row, void *context,
+                      calc_error *error) {
+    scene kept = sh->calc.scene;
+    scene_clone(&sh->calc.scene, &kept);
+    bool ok = true;
+    size_t curves = s->with_count ? s->with_count : 1;
+    for (size_t w = 0; w < curves && ok; w++) {
+        if (s->with_count)
+            ok = place(sh, &sh->calc.scene, &s->with, 1, s->with_values[w], error);
+        for (unsigned i = 0; i <= s->steps && ok; i++) {
+            long double values[COLUMNS + 2], *v = values;
+            *v++ = sweep_at(s, i);
+            if (s->with_count)
+                *v++ = s->with_values[w];
+            ok = place(sh, &sh->calc.scene, &s->var, 0, values[0], error);
+            for (size_t j = 0; j < count && ok; j++) {
+                value result;
+                ok = expr_eval(&sh->calc, &sh->list[j], &result, error);
+                if (!ok)
+                    break;
+                if (columns[j].chosen && !dim_equal(columns[j].d, result.d)) {
+                    char is[128];
+                    dim_describe(result.d, is, sizeof is);
+                    ok =
+                        calc_fail(error, sh->list[j].at, sh->list[j].len,
+                                  "%s is %s: it cannot be shown in %s", columns[j].name, is, columns[j].unit);
+                    break;
+                }
+                columns[j].d = result.d;
+                *v++ = result.v;
+            }
+            if (ok && shell_stop) {
+                error->stop = true;
+                ok = calc_fail(error, 0, 0, "interrupted");
+            }
+            ok = ok && row(context, s, w, values);
+        }
+    }
+    if (!ok && error->raised && !error->stop) {
+        char text[160];
+        format_value(sh, (value){sh->calc.sweep_value[0].v, s->var.d}, text, sizeof text);
+        size_t n = strlen(error->text);
+        snprintf(error->text + n, sizeof error->text - n, " (at %s = %s)", s->var.name, text);
+    }
+    scene_free(&sh->calc.scene);
+    sh->calc.scene = kept;
+    return ok;
+}
+
+/* Parses `EXPR, ... for SWEEP` at the cursor. */
+static bool read_swept(shell *sh, lexer *lx, column *columns, size_t limit, size_t *count, sweep *s,
+                       unsigned steps) {
+    static const char usage[] = "for VAR = LO .. HI";
+    char names[2][64];
+    if (!find_sweep_names(lx, names))
+        return lex_fail(lx, "expected EXPR, ... %s", usage);
+    for (int i = 0; i < 2; i++) /* a swept input is looked up as the quantity it is */
+        if (names[i][0] && !quantity_find(names[i], strlen(names[i])))
+            sh->calc.sweep_name[i] = names[i];
+    bool ok = read_expressions(sh, lx, columns, limit, count);
+    sh->calc.sweep_name[0] = sh->calc.sweep_name[1] = NULL;
+    if (!ok)
+        return false;
+    if (!lex_accept(lx, "for"))
+        return lex_fail(lx, "expected %s", usage);
+    return read_sweep(sh, lx, s, steps);
+}
+
+typedef struct table_job {
+    table t;
+    const column *columns; /* of the expressions: their dimensions come with the first row */
+    size_t count;
+    bool begun;
+} table_job;
+
+static bool table_job_row(void *context, const sweep *s, size_t with, const long double *values) {
+    table_job *job = context;
+    (void)with;
+    if (!job->begun) {
+        job->begun = true;
+        size_t first = 1 + (s->with_count > 0);
+        si_column(&job->t.columns[0], s->var.name, s->var.d);
+        if (s->with_count)
+            si_column(&job->t.columns[1], s->with.name, s->with.d);
+        for (size_t i = 0; i < job->count; i++) {
+            column *c = &job->t.columns[first + i];
+            if (job->columns[i].chosen)
+                *c = job->columns[i];
+            else
+                si_column(c, job->columns[i].name, job->columns[i].d);
+        }
+        job->t.count = first + job->count;
+        table_begin(&job->t);
+    }
+    table_row(&job->t, values);
+    return true;
+}
+
+bool do_table(shell *sh, lexer *lx) {
+    column columns[COLUMNS - 2];
+    size_t count;
+    sweep s;
+    target to;
+    if (!read_swept(sh, lx, columns, COLUMNS - 2, &count, &s, 20) || !target_open(sh, lx, &to))
+        return false;
+    format old = sh->set.format;
+    size_t n = strlen(to.name);
+    if (n > 4 && !strcmp(to.name + n - 4, ".csv"))
+        sh->set.format = FORMAT_CSV;
+    table_job job = {.t = {.sh = sh, .to = to.to}, .columns = columns, .count = count};
+    bool ok = run_sweep(sh, &s, columns, count, table_job_row, &job, lx->error);
+    sh->set.format = old;
+    return target_close(lx, &to, ok);
+}
+
+/* ---- plots ------------------------------------------------------------------------------------- */
+
+static void terminal_size(const shell *sh, int *w, int *h) {
+    struct winsize size;
+    *w = 79, *h = 24;
+    if (sh->out == stdout && isatty(STDOUT_FILENO) && !ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) &&
+        size.ws_col >= 20 && size.ws_row >= 8) {
+        *w = size.ws_col - 1;
+        *h = size.ws_row - 2; /* the prompt and the command stay in sight */
+    }
+}
+
+static bool draw(shell *sh, lexer *lx, plot_figure *f, const char *file) {
+    plot_target to = {.file = *file ? file : NULL,
+                      .out = sh->out,
+                      .width = sh->set.plot_width,
+                      .height = sh->set.plot_height,
+                      .timeout = sh->set.plot_timeout,
+                      .stop = &shell_stop};
+    char error[CALC_ERROR_TEXT - 8];
+    if (!to.file && !to.width)
+        terminal_size(sh, &to.width, &to.height);
+    fflush(sh->out);
+    bool ok = plot_draw(f, &to, error, sizeof error);
+    plot_free(f);
+    if (!ok) {
+        lx->error->stop = shell_stop;
+        return calc_fail(lx->error, 0, 0, "%s", error);
+    }
+    return true;
+}
+
+static void scale_axis(plot_figure *f, bool x_axis, dim d, const char *name, char *label) {
+    long double most = 0;
+    for (size_t i = 0; i < f->count; i++)
+        for (size_t j = 0; j < f->series[i].count; j++)
+            most = fmaxl(most, fabsl((long double)(x_axis ? f->series[i].x[j] : f->series[i].y[j])));
+    char unit_text[COLUMN_UNIT];
+    long double scale = unit_choose(d, most, 6, unit_text, sizeof unit_text);
+    for (size_t i = 0; i < f->count; i++)
+        for (size_t j = 0; j < f->series[i].count; j++) {
+            double *v = x_axis ? &f->series[i].x[j] : &f->series[i].y[j];
+            *v = (double)(*v / scale);
+        }
+    snprintf(label, PLOT_LABEL, *unit_text ? "%.100s [%.40s]" : "%.100s", name, unit_text);
+}
+
+static void loop_point(const fret_state *s, size_t step, void *context) {
+    plot_figure *f = context;
+    (void)step;
+    if (f->count && !plot_point(&f->series[0], (double)s->dx, (double)s->Fx))
+        f->count = 0; /* out of memory: said below */
+}
+
+static bool plot_loop(shell *sh, lexer *lx, const char *file) {
+    plot_figure *f = calloc(1, sizeof *f);
+    if (!f)
+        return lex_fail(lx, "out of memory");
+    f->count = 1;
+    bool ok = scene_trace(&sh->calc.scene, 100, loop_point, f, lx->error);
+    if (ok && !f->count)
+        ok = lex_fail(lx, "out of memory");
+    if (ok && f->series[0].count < 2)
+        ok = lex_fail(lx, "there is no loop yet: use step or cycle first");
+    if (ok) {
+        snprintf(f->title, sizeof f->title, "hysteresis loop");
+        scale_axis(f, true, DIM_LENGTH, "dx", f->xlabel);
+        scale_axis(f, false, DIM_FORCE, "Fx", f->ylabel);
+        ok = draw(sh, lx, f, file);
+    }
+    plot_free(f);
+    free(f);
+    return ok;
+}
+
+typedef struct plot_job {
+    plot_figure *f;
+    size_t count; /* expressions */
+    const column *columns;
+    const shell *sh;
+    bool memory;
+} plot_job;
+
+static bool plot_row(void *context, const sweep *s, size_t with, const long double *values) {
+    plot_job *job = context;
+    const long double *v = values + 1 + (s->with_count > 0);
+    for (size_t i = 0; i < job->count; i++) {
+        size_t at = with * job->count + i;
+        const column *c = &job->columns[i];
+        plot_series *series = &job->f->series[at];
+        if (at >= job->f->count) {
+            char title[COLUMN_NAME + 100], value_text[160];
+            job->f->count = at + 1;
+            snprintf(title, sizeof title, "%s", c->name);
+            if (s->with_count) {
+                format_value(job->sh, (value){values[1], s->with.d}, value_text, sizeof value_text);
+                snprintf(title, sizeof title, job->count > 1 ? "%s, %s = %s" : "%.0s%s = %s", c->name,
+                         s->with.name, value_text);
+            }
+            if (!plot_title(series, title))
+                return job->memory = false;
+        }
+        if (!plot_point(series, (double)values[0], (double)(c->chosen ? v[i] / c->scale : v[i])))
+            return job->memory = false;
+    }
+    return true;
+}
+
+static bool read_plot_target(lexer *lx, char *file, size_t size) {
+    file[0] = 0;
+    return (!lex_accept(lx, "to") || lex_filename(lx, file, size)) && at_end(lx);
+}
+
+static bool plot_expressions(shell *sh, lexer *lx) {
+    column columns[8];
+    size_t count;
+    sweep s;
+    char file[4000];
+    if (!read_swept(sh, lx, columns, 8, &count, &s, 200) || !read_plot_target(lx, file, sizeof file))
+        return false;
+    if (count * (s.with_count ? s.with_count : 1) > PLOT_SERIES)
+        return lex_fail(lx, "more than %d curves", PLOT_SERIES);
+    plot_figure *f = calloc(1, sizeof *f);
+    if (!f)
+        return lex_fail(lx, "out of memory");
+    plot_job job = {f, count, columns, sh, true};
+    bool ok = run_sweep(sh, &s, columns, count, plot_row, &job, lx->error);
+    if (!job.memory)
+        ok = lex_fail(lx, "out of memory");
+    for (size_t i = 1; i < count && ok; i++)
+        if (!dim_equal(columns[i].d, columns[0].d))
+            ok = calc_fail(lx->error, sh->list[i].at, sh->list[i].len, "%s and %s cannot share an axis",
+                           columns[0].name, columns[i].name);
+    if (ok) {
+        snprintf(f->title, sizeof f->title, "%.*s", PLOT_LABEL - 1, columns[0].name);
+        scale_axis(f, true, s.var.d, s.var.name, f->xlabel);
+        const char *name = count > 1 ? "" : columns[0].name;
+        if (columns[0].chosen)
+            snprintf(f->ylabel, sizeof f->ylabel, "%.100s [%.40s]", name, columns[0].unit);
+        else
+            scale_axis(f, false, columns[0].d, name, f->ylabel);
+        f->logx = s.log;
+        ok = draw(sh, lx, f, file);
+    }
+    plot_free(f);
+    free(f);
+    return ok;
+}
+
+bool do_plot(shell *sh, lexer *lx) {
+    char file[4000];
+    if (lex_is(lx, "loop")) {
+        lex_next(lx);
+        return read_plot_target(lx, file, sizeof file) && plot_loop(sh, lx, file);
+    }
+    return plot_expressions(sh, lx);
+}
+
+/* ---- explain ----------------------------------------------------------------------------------- */
+
+static void explain_value(shell *sh, const char *name, value v) {
+    char text[160];
+    format_value(sh, v, text, sizeof text);
+    fprintf(sh->out, "    %s = %s\n", name, text);
+}
+
+bool do_explain(shell *sh, lexer *lx) {
+    const quantity *q = lx->kind == T_NAME ? quantity_find(lx->text + lx->at, lx->len) : NULL;
+    if (!q)
+        return lex_fail(lx, "explain which quantity? try: explain dW");
+    scene *s = &sh->calc.scene;
+    size_t at = lx->at, len = lx->len;
+    lex_next(lx);
+    if (!at_end(lx))
+        return false;
+    value v = {0, quantity_dim(q, s)};
+    if (q->get && !q->get(s, &v.v, lx->error)) {
+        lx->error->at = at, lx->error->len = len;
+        return false;
+    }
+    fprintf(sh->out, "%s: %s\n    %s  %s\n", q->name, q->title, q->formula, q->source);
+    static const input put_in[] = {IN_E0, IN_NU, IN_E0_2, IN_NU_2,   IN_K, IN_C0,
+                                   IN_MU, IN_N,  IN_A,    IN_RADIUS, IN_B, IN_SLOPE};
+    for (size_t i = 0; i < sizeof put_in / sizeof *put_in; i++) {
+        const quantity *p = NULL;
+        for (size_t j = 0; (p = quantity_row(j)) && p->in != (int)put_in[i];)
+            j++;
+        if (s->set[put_in[i]] && p != q)
+            explain_value(sh, p->name, (value){s->in[put_in[i]], quantity_dim(p, s)});
+    }
+    if (q->get) {
+        const fret_press *press;
+        calc_error ignored = {0};
+        if (s->steps && q->in < 0 && scene_press(s, &press, &ignored))
+            explain_value(sh, "FN now", (value){press->F, DIM_FORCE});
+        const char *model = "closed form";
+        bool tangential =
+            strchr("FdcWUk", q->name[0]) && strcmp(q->name, "dz") && strcmp(q->name, "kn") && q->in < 0;
+        if (s->normal_varies || (tangential && strcmp(q->name, "dW") && !scene_is_first_loading(s)) ||
+            !strcmp(q->name, "W") || !strcmp(q->name, "U") || !strcmp(q->name, "kt"))
+            model = s->steps ? "memory diagram (exact)" : model;
+        fprintf(sh->out, "    model: %s\n", model);
+        explain_value(sh, q->name, v);
+    }
+    return true;
+}
