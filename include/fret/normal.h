@@ -47,6 +47,11 @@ fret_real fret_law_radius(const fret_normal *normal, fret_real y); /* a(y) [m] *
 fret_real fret_law_force(const fret_normal *normal, fret_real y);  /* F_N(y) [N] */
 fret_real fret_law_depth(const fret_normal *normal, fret_real F);  /* F_N^-1(F) [m] */
 
+/* A place in the contact: its depth y and F_N(y), both known where slices are cut. */
+typedef struct fret_level {
+    fret_real y, F;
+} fret_level;
+
 /* Integrals over the slice of depths [y-h, y], 0 <= h <= y, exact also for thin slices;
  * K = dF_N/dy, t the distance from y:
  *   w = int K dt = F_N(y)-F_N(y-h) [N], J = int t K dt [N m],
@@ -54,10 +59,10 @@ fret_real fret_law_depth(const fret_normal *normal, fret_real F);  /* F_N^-1(F) 
 typedef struct fret_slice {
     fret_real w, J, G, L;
 } fret_slice;
-fret_slice fret_law_slice(const fret_normal *normal, fret_real y, fret_real h);
+fret_slice fret_law_slice(const fret_normal *normal, const fret_level *outer, fret_real h);
 
 /* The load w of a slice from its thickness, and the thickness from its load. */
-fret_real fret_law_load(const fret_normal *normal, fret_real y, fret_real h);
-fret_real fret_law_thickness(const fret_normal *normal, fret_real y, fret_real w);
+fret_real fret_law_load(const fret_normal *normal, const fret_level *outer, fret_real h);
+fret_real fret_law_thickness(const fret_normal *normal, const fret_level *outer, fret_real w);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -437,7 +438,24 @@ typedef struct machine {
     calc *c;
     const expr *e;
     calc_error *error;
+    bool dry; /* dimensions alone: values that cannot be had count as 1 */
 } machine;
+
+/* In a dry run only dimensions can be wrong. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+static bool
+bad_value(machine *m, const expr_node *n, const char *format, ...) {
+    if (m->dry)
+        return true;
+    va_list args;
+    va_start(args, format);
+    char text[256];
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return calc_fail(m->error, n->at, n->len, "%s", text);
+}
 
 /* An error raised without a place gets that of the node. */
 static bool placed(machine *m, const expr_node *n) {
@@ -480,8 +498,8 @@ static bool binary(machine *m, const expr_node *n, value *out) {
         *out = (value){a.v * b.v, {a.d.N + b.d.N, a.d.m + b.d.m}};
         break;
     case '/':
-        if (b.v == 0)
-            return calc_fail(m->error, r->at, r->len, "division by zero");
+        if (b.v == 0 && !bad_value(m, r, "division by zero"))
+            return false;
         *out = (value){a.v / b.v, {a.d.N - b.d.N, a.d.m - b.d.m}};
         break;
     default:
@@ -493,7 +511,7 @@ static bool binary(machine *m, const expr_node *n, value *out) {
         }
         *out = (value){powl(a.v, b.v), {a.d.N * (double)b.v, a.d.m * (double)b.v}};
         if (a.v < 0 && b.v != floorl(b.v))
-            return calc_fail(m->error, n->at, n->len, "a negative number has no real power %Lg", b.v);
+            return bad_value(m, n, "a negative number has no real power %Lg", b.v);
         break;
     }
     return true;
@@ -510,8 +528,8 @@ static bool builtin(machine *m, const expr_node *n, value *out) {
         return true;
     }
     if (!strcmp(name, "abs") || !strcmp(name, "sqrt")) {
-        if (*name == 's' && a.v < 0)
-            return calc_fail(m->error, l->at, l->len, "the square root of a negative number is not real");
+        if (*name == 's' && a.v < 0 && !bad_value(m, l, "the square root of a negative number is not real"))
+            return false;
         double f = *name == 's' ? 0.5 : 1;
         *out = (value){builtins[n->index].f(a.v), {a.d.N * f, a.d.m * f}};
         return true;
@@ -531,12 +549,10 @@ static bool builtin(machine *m, const expr_node *n, value *out) {
     } else {
         gsl_sf_result result;
         if (!(a.v > 0 && b.v > 0) || gsl_sf_beta_e((double)a.v, (double)b.v, &result))
-            return calc_fail(m->error, n->at, n->len, "beta needs two positive arguments in range");
+            return bad_value(m, n, "beta needs two positive arguments in range");
         *out = (value){result.val, DIM_NONE};
     }
-    if (isnan(out->v))
-        return calc_fail(m->error, n->at, n->len, "%s is not defined there", name);
-    return true;
+    return !isnan(out->v) || bad_value(m, n, "%s is not defined there", name);
 }
 
 static bool eval(machine *m, const expr_node *n, value *out) {
@@ -555,6 +571,9 @@ static bool eval(machine *m, const expr_node *n, value *out) {
         return true;
     case N_QUANTITY:
         out->d = quantity_dim(n->q, &m->c->scene);
+        out->v = 1;
+        if (m->dry)
+            return true;
         if (n->q->get ? n->q->get(&m->c->scene, &out->v, m->error)
                       : scene_get(&m->c->scene, (input)n->q->in, &out->v, m->error))
             return true;
@@ -570,7 +589,8 @@ static bool eval(machine *m, const expr_node *n, value *out) {
                              n->q->argument, want, got, (int)(a->len < 60 ? a->len : 60), m->e->text + a->at);
         }
         out->d = n->q->d;
-        return n->q->call(&m->c->scene, arg, &out->v, m->error) || placed(m, n);
+        out->v = 1;
+        return m->dry || n->q->call(&m->c->scene, arg, &out->v, m->error) || placed(m, n);
     }
     case N_BUILTIN:
         if (!builtin(m, n, out))
@@ -581,17 +601,34 @@ static bool eval(machine *m, const expr_node *n, value *out) {
             return false;
         break;
     }
-    if (!isfinite((double)out->v))
-        return calc_fail(m->error, n->at, n->len, "the result is too large for double precision");
-    return true;
+    return isfinite((double)out->v) || bad_value(m, n, "the result is too large for double precision");
+}
+
+/* A mismatch of dimensions is the deeper error: it is reported even where a value is still missing. Not
+ * where an exponent is unknown, on which dimensions depend. */
+static void prefer_mismatch(calc *c, const expr *e, calc_error *error) {
+    calc_error mismatch = {0};
+    machine m = {c, e, &mismatch, true};
+    for (size_t i = 0; i < e->count; i++) {
+        const expr_node *n = &e->nodes[i];
+        if (n->kind == N_BINARY && n->op == '^' && e->nodes[n->right].kind != N_NUMBER)
+            return;
+        if (!eval(&m, n, &e->nodes[i].v)) {
+            *error = mismatch;
+            return;
+        }
+    }
 }
 
 bool expr_eval(calc *c, const expr *e, value *out, calc_error *error) {
-    machine m = {c, e, error};
+    machine m = {c, e, error, false};
     /* children come before their parents: a loop, so that no input can exhaust the stack */
     for (size_t i = 0; i < e->count; i++)
-        if (!eval(&m, &e->nodes[i], &e->nodes[i].v))
+        if (!eval(&m, &e->nodes[i], &e->nodes[i].v)) {
+            if (!error->stop)
+                prefer_mismatch(c, e, error);
             return false;
+        }
     *out = e->nodes[e->count - 1].v;
     return true;
 }

@@ -150,11 +150,15 @@ bool lex_accept(lexer *lx, const char *word) {
 }
 
 token_kind lex_peek(const lexer *lx) {
-    calc_error ignored = {0};
-    lexer copy = *lx;
-    copy.error = &ignored;
-    lex_next(&copy);
-    return ignored.raised ? T_END : copy.kind;
+    size_t i = lx->at + lx->len;
+    while (i < lx->end && blank(lx->text[i]))
+        i++;
+    if (i >= lx->end)
+        return T_END;
+    char c = lx->text[i], d = i + 1 < lx->end ? lx->text[i + 1] : 0;
+    if (c == '=' || (c == '+' && d == '='))
+        return c == '+' ? T_INCREMENT : d == '=' ? T_END : T_ASSIGN;
+    return letter(c) ? T_NAME : digit(c) ? T_NUMBER : (token_kind)(unsigned char)c;
 }
 
 bool lex_filename(lexer *lx, char *buf, size_t size) {

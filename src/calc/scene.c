@@ -164,6 +164,11 @@ static fret_status input_status(input in, double v) {
     return (fret_status){code, names[in], v, 0};
 }
 
+bool scene_check(const scene *s, input in, double v, calc_error *error) {
+    fret_status st = input_status(in, v);
+    return scene_status(s, error, &st);
+}
+
 bool scene_get(const scene *s, input in, long double *out, calc_error *error) {
     bool here = s->set[in];
     switch (in) {

@@ -102,7 +102,9 @@ void scene_reset(scene *s, bool all);
 
 /* Sets an input and re-runs the load program; on error the scene is as before. */
 bool scene_set(scene *s, input in, double value, calc_error *error);
-/* The same without running anything: for sweeps. */
+/* Is the value in the range of the input, whatever the rest of the scene? */
+bool scene_check(const scene *s, input in, double value, calc_error *error);
+/* scene_set without running anything: for sweeps. */
 void scene_put(scene *s, input in, double value);
 /* The value of an input of the scene, defaults included; false and an error where it has none. */
 bool scene_get(const scene *s, input in, long double *value, calc_error *error);

@@ -8,24 +8,25 @@
 /* The one table of units. */
 static const struct {
     const char *name;
+    unsigned char len;
     bool prefixes;
     unit u;
     const char *meaning;
 } units[] = {
-    {"N", true, {{1, 0}, 0, 1}, "newton, force"},
-    {"lbf", false, {{1, 0}, 0, 4.4482216152605L}, "pound-force"},
-    {"kgf", false, {{1, 0}, 0, 9.80665L}, "kilogram-force"},
-    {"dyn", false, {{1, 0}, -5, 1}, "dyne, force"},
-    {"Pa", true, {{1, -2}, 0, 1}, "pascal, pressure"},
-    {"bar", false, {{1, -2}, 5, 1}, "bar, pressure"},
-    {"psi", false, {{1, -2}, 0, 4.4482216152605L / (0.0254L * 0.0254L)}, "pound-force per square inch"},
-    {"ksi", false, {{1, -2}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
-    {"m", true, {{0, 1}, 0, 1}, "metre, length"},
-    {"inch", false, {{0, 1}, -4, 254}, "inch, length"},
-    {"J", true, {{1, 1}, 0, 1}, "joule, energy"},
-    {"rad", false, {{0, 0}, 0, 1}, "radian, angle"},
-    {"deg", false, {{0, 0}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
-    {"%", false, {{0, 0}, -2, 1}, "per cent"},
+    {"N", 1, true, {{1, 0}, 0, 1}, "newton, force"},
+    {"lbf", 3, false, {{1, 0}, 0, 4.4482216152605L}, "pound-force"},
+    {"kgf", 3, false, {{1, 0}, 0, 9.80665L}, "kilogram-force"},
+    {"dyn", 3, false, {{1, 0}, -5, 1}, "dyne, force"},
+    {"Pa", 2, true, {{1, -2}, 0, 1}, "pascal, pressure"},
+    {"bar", 3, false, {{1, -2}, 5, 1}, "bar, pressure"},
+    {"psi", 3, false, {{1, -2}, 0, 4.4482216152605L / (0.0254L * 0.0254L)}, "pound-force per square inch"},
+    {"ksi", 3, false, {{1, -2}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
+    {"m", 1, true, {{0, 1}, 0, 1}, "metre, length"},
+    {"inch", 4, false, {{0, 1}, -4, 254}, "inch, length"},
+    {"J", 1, true, {{1, 1}, 0, 1}, "joule, energy"},
+    {"rad", 3, false, {{0, 0}, 0, 1}, "radian, angle"},
+    {"deg", 3, false, {{0, 0}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
+    {"%", 1, false, {{0, 0}, -2, 1}, "per cent"},
 };
 enum { UNITS = sizeof units / sizeof *units };
 
@@ -49,7 +50,9 @@ bool unit_prefixed(size_t i) {
 
 bool unit_lookup(const char *word, size_t len, unit *out) {
     for (size_t i = 0; i < UNITS; i++) {
-        size_t n = strlen(units[i].name);
+        size_t n = units[i].len;
+        if (n > len || units[i].name[n - 1] != word[len - 1])
+            continue;
         if (n == len && !memcmp(units[i].name, word, n)) {
             *out = units[i].u;
             return true;
@@ -68,27 +71,32 @@ bool unit_lookup(const char *word, size_t len, unit *out) {
     return false;
 }
 
+/* Edits, counted double: a change of case costs 1, another letter, a missing one or a swap 2. */
 static size_t distance(const char *a, const char *b) {
-    size_t n = strlen(b), row[64];
-    if (n >= 63 || strlen(a) >= 63)
-        return 64;
+    enum { LONGEST = 40 };
+    size_t n = strlen(b), rows[3][LONGEST + 1];
+    if (n > LONGEST || strlen(a) > LONGEST)
+        return 2 * LONGEST;
     for (size_t j = 0; j <= n; j++)
-        row[j] = 2 * j;
-    for (size_t i = 0; a[i]; i++) {
-        size_t diagonal = row[0];
+        rows[0][j] = 2 * j;
+    size_t i = 0;
+    for (; a[i]; i++) {
+        const size_t *above = rows[i % 3], *twice = rows[(i + 2) % 3];
+        size_t *row = rows[(i + 1) % 3];
         row[0] = 2 * (i + 1);
         for (size_t j = 0; j < n; j++) {
-            bool fold = (a[i] ^ b[j]) == 0x20; /* letters that differ in case only cost half */
-            size_t best = diagonal + (a[i] == b[j] ? 0 : fold ? 1 : 2);
-            diagonal = row[j + 1];
+            bool fold = (a[i] ^ b[j]) == 0x20;
+            size_t best = above[j] + (a[i] == b[j] ? 0 : fold ? 1 : 2);
+            if (i && j && a[i] == b[j - 1] && a[i - 1] == b[j] && twice[j - 1] + 2 < best)
+                best = twice[j - 1] + 2;
             if (row[j] + 2 < best)
                 best = row[j] + 2;
-            if (row[j + 1] + 2 < best)
-                best = row[j + 1] + 2;
+            if (above[j + 1] + 2 < best)
+                best = above[j + 1] + 2;
             row[j + 1] = best;
         }
     }
-    return row[n];
+    return rows[i % 3][n];
 }
 
 const char *suggest(const char *word, const char *(*name)(size_t i)) {

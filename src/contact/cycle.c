@@ -43,7 +43,7 @@ fret_status fret_loading_force(const fret_normal *normal, double mu, const fret_
         out->yc = f.s > 0 ? press->dz * expl(normal->q * l) : 0;
     } else {
         fret_real w = f.t <= 0.5L ? f.t * press->F : press->F - f.s * press->F;
-        x = f.s > 0 ? fret_law_thickness(normal, press->dz, w) / press->dz : 1;
+        x = f.s > 0 ? fret_law_thickness(normal, &(fret_level){press->dz, press->F}, w) / press->dz : 1;
         out->yc = f.s > 0 ? fret_law_depth(normal, f.s * press->F) : 0;
         out->c = f.s > 0 ? fret_law_radius(normal, out->yc) : 0;
     }
@@ -67,7 +67,7 @@ fret_status fret_loading_displacement(const fret_normal *normal, double mu, cons
         return fret_ok();
     }
     out->yc = press->dz * (1 - x);
-    out->Fx = copysignl(mu * fret_law_load(normal, press->dz, x * press->dz), dx);
+    out->Fx = copysignl(mu * fret_law_load(normal, &(fret_level){press->dz, press->F}, x * press->dz), dx);
     out->c = normal->p > 0 ? press->a * expl(log1pl(-x) / normal->gap.power[0].n)
                            : fret_law_radius(normal, out->yc);
     return fret_ok();
@@ -108,8 +108,9 @@ static fret_real loss_of(const fret_normal *normal, double mu, const fret_press 
     fret_real scale = mu * press->F * fret_gross_slip(normal, mu, press);
     if (normal->p > 0)
         return scale * fret_loss_shape(normal->q, normal->pm1 * normal->q, f.t, f.s);
-    fret_real d = fret_law_thickness(normal, press->dz, fminl(f.t, 1) * press->F);
-    return 4 * mu * (mu * normal->foundation.eta) * fret_law_slice(normal, press->dz, d).L;
+    fret_level edge = {press->dz, press->F};
+    fret_real d = fret_law_thickness(normal, &edge, fminl(f.t, 1) * press->F);
+    return 4 * mu * (mu * normal->foundation.eta) * fret_law_slice(normal, &edge, d).L;
 }
 
 fret_status fret_cycle_loss(const fret_normal *normal, double mu, const fret_press *press, double FA,
@@ -138,7 +139,7 @@ fret_status fret_cycle_loss_displacement(const fret_normal *normal, double mu, c
         *loss = loss_of(normal, mu, press, (fraction){1, 0}) + 4 * mu * press->F * (dA - max);
         return fret_ok();
     }
-    fret_real t = fret_law_load(normal, press->dz, x * press->dz) / press->F;
+    fret_real t = fret_law_load(normal, &(fret_level){press->dz, press->F}, x * press->dz) / press->F;
     fret_real s = normal->p > 0 ? expl(normal->p * log1pl(-x)) : 1 - t;
     *loss = loss_of(normal, mu, press, (fraction){t, s});
     return fret_ok();

@@ -3,7 +3,7 @@
 
 fret_real fret_kappa(fret_real n, fret_real k) {
     fret_real d = (k + 1) / 2;
-    return (n + k + 1) / (k + 1) * tgammal(1 + d) / fret_gamma_ratio(1 + n / 2, d);
+    return (n + (k + 1)) / (k + 1) * tgammal(1 + d) / fret_gamma_ratio(1 + n / 2, d);
 }
 
 /* One row a shape: the gap, its two derivatives for r > start, and which parameters it reads. */
@@ -147,7 +147,7 @@ fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_r
         fret_real n = p->n, g = fret_kappa(n, k) * p->h * powl(a / p->r0, n);
         out.g += g;
         out.slope += n * g / a;
-        out.I += n * g * ak / ((k + 1) * (n + k + 1));
+        out.I += n * g * ak / ((k + 1) * (n + (k + 1)));
     }
     return out;
 }

@@ -17,6 +17,8 @@ typedef struct slice {
     fret_real inner[2]; /* depth and load of the inner end */
     fret_real sigma;    /* -u'/(mu eta) */
     fret_real sum[2];   /* int sigma dy and int sigma dF_N from the centre to the outer end */
+    fret_real L;        /* int_0^d G dt at the inner end, as long as the edge is */
+    unsigned long edge; /* this one */
 } slice;
 
 struct fret_memory {
@@ -25,6 +27,7 @@ struct fret_memory {
     fret_real mu_eta, loss_scale; /* mu eta; mu^2 eta */
     fret_real edge[2];            /* delta_z and F_N; 0, 0 when open */
     fret_real gap;                /* distance of the open bodies, >= 0 */
+    unsigned long edge_id;        /* changes with the edge */
     fret_real slid;               /* delta_x - mu eta int sigma dy: what gross slip has carried along */
     int direction;                /* of the last tangential motion */
     fret_sum W;
@@ -66,6 +69,7 @@ void fret_memory_reset(fret_memory *m) {
     m->W = (fret_sum){0, 0};
     m->count = 0;
     m->direction = 1;
+    m->edge_id = 1; /* 0: never computed */
 }
 
 static fret_status reserve(fret_memory *m, size_t count) {
@@ -109,10 +113,12 @@ static void resum_top(fret_memory *m) {
         top->sum[by] = (m->count > 1 ? top[-1].sum[by] : 0) + top->sigma * top->thick[by];
 }
 
-static void push(fret_memory *m, const fret_real thick[2], const fret_real inner[2], fret_real sigma) {
+/* Slopes that differ by less than `rounding` merge, else a ramp in many small steps would pile up slices;
+ * the mean keeps F_x. */
+static void push(fret_memory *m, const fret_real thick[2], const fret_real inner[2], fret_real sigma,
+                 fret_real rounding) {
     slice *top = m->count ? &m->slices[m->count - 1] : NULL;
-    /* equal slopes merge, else a ramp in many small steps would pile up slices; the mean keeps F_x */
-    if (top && fabsl(top->sigma - sigma) <= 4 * DBL_EPSILON * fabsl(sigma)) {
+    if (top && fabsl(top->sigma - sigma) <= rounding && (fabsl(sigma) < 1) == (fabsl(top->sigma) < 1)) {
         fret_real both = top->thick[LOAD] + thick[LOAD];
         if (both > 0 && fabsl(sigma) < 1)
             top->sigma = (top->sigma * top->thick[LOAD] + sigma * thick[LOAD]) / both;
@@ -120,54 +126,62 @@ static void push(fret_memory *m, const fret_real thick[2], const fret_real inner
         top->thick[LOAD] = both;
     } else {
         m->slices[m->count++] =
-            (slice){{thick[DEPTH], thick[LOAD]}, {inner[DEPTH], inner[LOAD]}, sigma, {0, 0}};
+            (slice){.thick = {thick[DEPTH], thick[LOAD]}, .inner = {inner[DEPTH], inner[LOAD]}, .sigma = sigma};
     }
     resum_top(m);
 }
 
-/* int over distances d1..d2 from the edge of [F(y)-F(y-t)-tK(y-t)] dt at constant edge. */
-static fret_real slide_loss(const fret_memory *m, fret_real d1, fret_real d2) {
-    /* Gauss-Legendre, 8 points on 0..1/2 by symmetry, exact where the difference of L's is not */
-    static const fret_real node[4] = {
-        0.1834346424956498049394761423601839807L, 0.5255324099163289858177390491892463490L,
-        0.7966664774136267395915539364758304368L, 0.9602898564975362316835608685694729904L};
-    static const fret_real weight[4] = {
-        0.3626837833783619829651504492771956122L, 0.3137066458778872873379622019866013133L,
-        0.2223810344533744705443559944262408844L, 0.1012285362903762591525313543099621902L};
-    const fret_normal *n = &m->normal;
-    fret_real y = m->edge[DEPTH];
-    if (d1 > 0 && d2 - d1 < 0.05L * d2 && d2 - d1 < 0.05L * (y - d1)) {
-        fret_real mid = (d1 + d2) / 2, half = (d2 - d1) / 2, sum = 0;
-        for (int i = 0; i < 4; i++)
-            sum += weight[i] * (fret_law_slice(n, y, mid - half * node[i]).G +
-                                fret_law_slice(n, y, mid + half * node[i]).G);
-        return sum * half;
+/* int over distances 0..d from the edge of [F(y)-F(y-t)-tK(y-t)] dt: what a front that has reached d has
+ * dissipated, per mu^2 eta and gain. */
+static fret_slice edge_slice(const fret_memory *m, fret_real d) {
+    const fret_level edge = {m->edge[DEPTH], m->edge[LOAD]};
+    return fret_law_slice(&m->normal, &edge, d);
+}
+
+/* L2-L1, also where the two levels are too close for a difference: two-point Gauss. */
+static fret_real level_rise(const fret_memory *m, fret_real d1, fret_real L1, fret_real d2, fret_real L2) {
+    if (d2 - d1 > 1e-5L * d2)
+        return L2 - L1;
+    fret_real mid = (d1 + d2) / 2, half = (d2 - d1) / 2,
+              offset = half * 0.5773502691896257645091487805019574556L;
+    return half * (edge_slice(m, mid - offset).G + edge_slice(m, mid + offset).G);
+}
+
+static fret_real inner_level(const fret_memory *m, slice *sl, fret_real d) {
+    if (sl->edge != m->edge_id) {
+        sl->L = edge_slice(m, d).L;
+        sl->edge = m->edge_id;
     }
-    return fret_law_slice(n, y, d2).L - (d1 > 0 ? fret_law_slice(n, y, d1).L : 0);
+    return sl->L;
 }
 
 /* Tangential step at constant normal load: the slip zone of sign s eats inwards until its drive is
  * used up. Drive left at the centre is gross slip. */
 static fret_real slide(fret_memory *m, measure by, fret_real drive) {
-    const measure other = by == DEPTH ? LOAD : DEPTH;
-    const fret_real y = m->edge[DEPTH], snap = 1e-17L * m->edge[by];
-    fret_real s = drive < 0 ? -1 : 1, e = fabsl(drive), loss = 0;
-    fret_real eaten[2] = {0, 0}, front[2] = {y, m->edge[LOAD]};
+    const fret_real snap = 1e-17L * m->edge[by]; /* a turning point is reached up to rounding */
+    fret_real s = drive < 0 ? -1 : 1, e = fabsl(drive), loss = 0, level = 0;
+    fret_real eaten[2] = {0, 0}, front[2] = {m->edge[DEPTH], m->edge[LOAD]};
     while (m->count && e > 0) {
         slice *top = &m->slices[m->count - 1];
-        fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by], d = eaten[DEPTH];
-        if (cap <= e + snap) {
+        fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by], d = eaten[DEPTH], next;
+        if (cap - e <= fminl(snap, 1e-6L * cap)) {
             e = cap < e ? e - cap : 0;
             for (measure i = DEPTH; i <= LOAD; i++) {
                 eaten[i] += top->thick[i];
                 front[i] = top->inner[i];
             }
+            next = inner_level(m, top, eaten[DEPTH]);
             m->count--;
         } else {
-            fret_real part[2];
-            part[by] = e / gain;
-            part[other] = by == DEPTH ? fret_law_load(&m->normal, front[DEPTH], part[DEPTH])
-                                      : fret_law_thickness(&m->normal, front[DEPTH], part[LOAD]);
+            const fret_level outer = {front[DEPTH], front[LOAD]};
+            fret_real part[2] = {e / gain, e / gain};
+            fret_slice whole = {0, 0, 0, 0};
+            if (by == LOAD)
+                part[DEPTH] = fret_law_thickness(&m->normal, &outer, part[LOAD]);
+            whole = edge_slice(m, d + part[DEPTH]);
+            if (by == DEPTH)
+                part[LOAD] = d > 0 ? fret_law_load(&m->normal, &outer, part[DEPTH]) : whole.w;
+            next = whole.L;
             for (measure i = DEPTH; i <= LOAD; i++) {
                 eaten[i] += part[i];
                 front[i] -= part[i];
@@ -177,7 +191,8 @@ static fret_real slide(fret_memory *m, measure by, fret_real drive) {
             e = 0;
         }
         if (gain > 0)
-            loss += gain * slide_loss(m, d, eaten[DEPTH]);
+            loss += gain * (d > 0 ? level_rise(m, d, level, eaten[DEPTH], next) : next);
+        level = next;
     }
     if (!m->count) {
         front[DEPTH] = front[LOAD] = 0;
@@ -186,8 +201,14 @@ static fret_real slide(fret_memory *m, measure by, fret_real drive) {
             m->slid += s * m->mu_eta * e;
         }
     }
-    if (eaten[LOAD] > 0)
-        push(m, eaten, front, s);
+    if (eaten[LOAD] > 0) {
+        push(m, eaten, front, s, 0);
+        slice *top = &m->slices[m->count - 1];
+        if (top->inner[by] == front[by]) { /* not merged into the slice below */
+            top->L = level;
+            top->edge = m->edge_id;
+        }
+    }
     return loss;
 }
 
@@ -203,16 +224,19 @@ static fret_real phase_rate(fret_real t, fret_real rest, void *context) {
     const fret_normal *n = &p->m->normal;
     fret_real z = p->edge0 * rest + p->edge1 * t, y = p->front0 * rest + p->front1 * t;
     fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
-    fret_real depth = p->by == DEPTH ? z : fret_law_depth(n, z);
-    if (d <= 0 || depth <= 0)
+    fret_level edge =
+        p->by == DEPTH ? (fret_level){z, fret_law_force(n, z)} : (fret_level){fret_law_depth(n, z), z};
+    if (d <= 0 || edge.y <= 0)
         return 0;
     if (p->by == LOAD)
-        d = fret_law_thickness(n, depth, d);
-    fret_real G = n->p > 0 || d < 1e-3L * depth ? fret_law_slice(n, depth, d).G : 0;
-    fret_real inner = p->by == DEPTH ? y : fret_law_depth(n, y);
-    fret_real K = inner > 0 ? fret_normal_stiffness(n, fret_law_radius(n, inner)) : 0;
-    if (!(n->p > 0) && d >= 1e-3L * depth)
-        G = fret_law_force(n, depth) - fret_law_force(n, inner) - d * K;
+        d = fret_law_thickness(n, &edge, d);
+    fret_real G, K = 0, inner = p->by == DEPTH ? y : fret_law_depth(n, y);
+    if (inner > 0 && (p->by == LOAD || !(n->p > 0)))
+        K = fret_normal_stiffness(n, fret_law_radius(n, inner));
+    if (n->p > 0 || d < 1e-3L * edge.y)
+        G = fret_law_slice(n, &edge, d).G;
+    else
+        G = edge.F - fret_law_force(n, inner) - d * K;
     if (p->by == DEPTH)
         return G;
     return K > 0 ? G / K : 0; /* dy = dF/K; the end point itself has no weight */
@@ -260,7 +284,7 @@ static fret_real grow_and_slide(fret_memory *m, measure by, const fret_real edge
     while (m->count && e > 0) {
         slice *top = &m->slices[m->count - 1];
         fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by], before = front, e0 = e;
-        if (cap <= e + snap) {
+        if (cap - e <= fminl(snap, 1e-6L * cap)) {
             e = cap < e ? e - cap : 0;
             front = m->count > 1 ? top->inner[by] : 0;
             m->count--;
@@ -285,7 +309,7 @@ static fret_real grow_and_slide(fret_memory *m, measure by, const fret_real edge
     fret_real thick[2] = {0, 0}, inner[2] = {0, 0};
     thick[by] = edge[by] - front;
     inner[by] = front;
-    push(m, thick, inner, s);
+    push(m, thick, inner, s, 0);
     convert_top(m, by);
     return loss;
 }
@@ -310,7 +334,8 @@ static fret_real shrink(fret_memory *m, measure by, const fret_real edge[2], fre
             continue;
         }
         if (s * top->sigma < 1) { /* a new zone, of no thickness yet */
-            slice zone = {{0, 0}, {top->inner[0] + top->thick[0], top->inner[1] + top->thick[1]}, s, {0, 0}};
+            slice zone = {.inner = {top->inner[0] + top->thick[0], top->inner[1] + top->thick[1]},
+                          .sigma = s};
             zone.inner[by] = z;
             m->slices[m->count++] = zone;
             top = &m->slices[m->count - 1];
@@ -374,13 +399,15 @@ static fret_real advance(fret_memory *m, measure by, const fret_real edge[2], fr
     fret_real growth = edge[by] - m->edge[by];
     if (growth == 0)
         return drive == 0 ? 0 : slide(m, by, drive);
+    m->edge_id++;
     if (growth < 0)
         return shrink(m, by, edge, drive);
     if (fabsl(drive) > growth)
         return grow_and_slide(m, by, edge, drive);
     fret_real thick[2] = {edge[DEPTH] - m->edge[DEPTH], edge[LOAD] - m->edge[LOAD]};
     fret_real inner[2] = {m->edge[DEPTH], m->edge[LOAD]};
-    push(m, thick, inner, drive / growth);
+    /* targets are rounded to double: so much is uncertain in the slope of a short step */
+    push(m, thick, inner, drive / growth, 2 * DBL_EPSILON * edge[by] / growth);
     m->edge[DEPTH] = edge[DEPTH];
     m->edge[LOAD] = edge[LOAD];
     return 0;
@@ -388,6 +415,7 @@ static fret_real advance(fret_memory *m, measure by, const fret_real edge[2], fr
 
 static void open_contact(fret_memory *m, fret_real dx) {
     m->edge[DEPTH] = m->edge[LOAD] = 0;
+    m->edge_id++;
     m->count = 0;
     m->slid = dx;
 }
@@ -435,7 +463,7 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
             m->direction = drive < 0 ? -1 : 1;
         loss = advance(m, LOAD, edge, drive);
         if (edge[LOAD] <= 0)
-            open_contact(m, displacement(m));
+            open_contact(m, m->slid); /* no spring is left to be displaced */
     } else {
         fret_real target = step->tangential_by == FRET_TO_DX ? (fret_real)step->tangential : old_dx;
         fret_real from = m->gap > 0 ? -m->gap : m->edge[DEPTH], to = gap > 0 ? -gap : edge[DEPTH];
@@ -481,10 +509,10 @@ static fret_real stored(const fret_memory *m) {
     fret_real sum = 0, T = 0;
     for (size_t i = 0; i < m->count; i++) {
         const slice *sl = &m->slices[i];
-        fret_real h = sl->thick[DEPTH],
-                  outer = i + 1 < m->count ? m->slices[i + 1].inner[DEPTH] : m->edge[DEPTH];
+        const fret_real *end = i + 1 < m->count ? sl[1].inner : m->edge, h = sl->thick[DEPTH];
+        const fret_level outer = {end[DEPTH], end[LOAD]};
         if (sl->sigma != 0 && h > 0)
-            sum += sl->sigma * h * T + sl->sigma * sl->sigma * fret_law_slice(&m->normal, outer, h).J;
+            sum += sl->sigma * h * T + sl->sigma * sl->sigma * fret_law_slice(&m->normal, &outer, h).J;
         T = sl->sum[LOAD];
     }
     return m->loss_scale * sum;

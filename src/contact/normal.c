@@ -119,12 +119,13 @@ static fret_real annulus_moment(fret_real t, fret_real rest, void *context) {
     return (s->second ? d * d : d) * 2 * f->cN0 * powl(a / f->c0, f->k) * (s->outer - s->inner);
 }
 
-fret_slice fret_law_slice(const fret_normal *n, fret_real y, fret_real h) {
+fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_real h) {
+    fret_real y = outer->y;
     if (h <= 0)
         return (fret_slice){0, 0, 0, 0};
     if (n->p > 0) {
         fret_moments m = fret_power_moments(n->pm1, h / y);
-        fret_real F = fret_law_force(n, y), Fy = F * y;
+        fret_real F = outer->F, Fy = F * y;
         return (fret_slice){F * m.w, Fy * m.J, F * m.m1, Fy * m.L};
     }
     annulus s = {.normal = n, .outer = fret_law_radius(n, y), .g = y};
@@ -135,26 +136,30 @@ fret_slice fret_law_slice(const fret_normal *n, fret_real y, fret_real h) {
     return (fret_slice){h * K + m1, (h * h * K + m2) / 2, m1, h * m1 - m2};
 }
 
-fret_real fret_law_load(const fret_normal *n, fret_real y, fret_real h) {
+/* Below this part of the whole a difference of two loads has lost too many digits. */
+static const fret_real thin = 1e-3L;
+
+fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real h) {
+    fret_real y = outer->y;
     if (h >= y)
-        return fret_law_force(n, y);
+        return outer->F;
     if (n->p > 0)
-        return -fret_law_force(n, y) * expm1l(n->p * log1pl(-h / y));
-    if (h > 1e-3L * y)
-        return fret_law_force(n, y) - fret_law_force(n, y - h);
-    return fret_law_slice(n, y, h).w;
+        return -outer->F * expm1l(n->p * log1pl(-h / y));
+    if (h > thin * y)
+        return outer->F - fret_law_force(n, y - h);
+    return fret_law_slice(n, outer, h).w;
 }
 
-fret_real fret_law_thickness(const fret_normal *n, fret_real y, fret_real w) {
-    fret_real F = fret_law_force(n, y);
+fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret_real w) {
+    fret_real y = outer->y, F = outer->F;
     if (w >= F)
         return y;
     if (n->p > 0)
         return -y * expm1l(n->q * log1pl(-w / F));
     fret_real h = y - fret_law_depth(n, F - w);
-    if (w < 1e-3L * F && h > 0) /* the difference has lost digits: two Newton steps on thin slices */
+    if (w < thin * F && h > 0) /* two Newton steps restore the digits */
         for (int i = 0; i < 2; i++)
-            h += (w - fret_law_slice(n, y, h).w) / fret_normal_stiffness(n, fret_law_radius(n, y - h));
+            h += (w - fret_law_slice(n, outer, h).w) / fret_normal_stiffness(n, fret_law_radius(n, y - h));
     return h;
 }
 

@@ -35,23 +35,28 @@ fret_real fret_gamma_ratio(fret_real x, fret_real d) {
     return expl((x - 0.5L) * log1pl(d / x) + d * logl(x + d) - d + stirling_rest(x + d) - stirling_rest(x));
 }
 
-/* The closed forms lose digits like ((p x)^-2, (p x)^-3) where p x is small; there the series of
- * (1-t)^(p-2) under the integral has terms falling at least as fast as x. */
+/* The closed forms lose digits like (p x)^-3, within the guard digits down to p x = 0.3; beyond, the
+ * series of (1-t)^(p-2) under the integral has terms falling at least as fast as x. */
 static fret_moments moments_series(fret_real pm1, fret_real x) {
-    fret_real p = 1 + pm1, term = p * pm1 * x * x, m1 = 0, L = 0, J = 0, jterm = p * x * x, w = 0;
-    for (int i = 0; i < 200; i++) {
-        fret_real old = m1;
-        m1 += term / (i + 2);
-        L += term / ((fret_real)(i + 2) * (i + 3));
-        J += jterm / (i + 2);
-        term *= (i + 1 - pm1) / (i + 1) * x;
-        jterm *= (i - pm1) / (i + 1) * x;
-        if (m1 == old && i > 2)
+    static const fret_real inv[] = {
+        1.0L / 1,  1.0L / 2,  1.0L / 3,  1.0L / 4,  1.0L / 5,  1.0L / 6,  1.0L / 7,  1.0L / 8,
+        1.0L / 9,  1.0L / 10, 1.0L / 11, 1.0L / 12, 1.0L / 13, 1.0L / 14, 1.0L / 15, 1.0L / 16,
+        1.0L / 17, 1.0L / 18, 1.0L / 19, 1.0L / 20, 1.0L / 21, 1.0L / 22, 1.0L / 23, 1.0L / 24,
+        1.0L / 25, 1.0L / 26, 1.0L / 27, 1.0L / 28, 1.0L / 29, 1.0L / 30, 1.0L / 31, 1.0L / 32,
+        1.0L / 33, 1.0L / 34, 1.0L / 35, 1.0L / 36, 1.0L / 37, 1.0L / 38, 1.0L / 39, 1.0L / 40};
+    fret_real p = 1 + pm1, a = p * pm1 * x * x, b = p * x; /* terms of (1-t)^(p-2) and (1-t)^(p-1) */
+    fret_real w = 0, J = 0, m1 = 0, L = 0;
+    for (int i = 0; i < 38; i++) {
+        w += b * inv[i];
+        J += b * inv[i + 1];
+        m1 += a * inv[i + 1];
+        L += a * inv[i + 1] * inv[i + 2];
+        if (fabsl(a) <= 1e-20L * fabsl(m1) && fabsl(b) <= 1e-20L * w)
             break;
+        a *= (1 - pm1 * inv[i]) * x;
+        b *= (1 - p * inv[i]) * x;
     }
-    L *= x;
-    w = -expm1l(p * log1pl(-x));
-    return (fret_moments){w, J, m1, L};
+    return (fret_moments){w, J * x, m1, L * x};
 }
 
 fret_moments fret_power_moments(fret_real pm1, fret_real x) {
@@ -60,7 +65,7 @@ fret_moments fret_power_moments(fret_real pm1, fret_real x) {
         return (fret_moments){1, 1 / (p + 1), 1, 1 - 2 / (p + 1)};
     if (x <= 0)
         return (fret_moments){0, 0, 0, 0};
-    if (p * x < 1.5L && x < 0.5L)
+    if (p * x < 0.3L)
         return moments_series(pm1, x);
     fret_real l = log1pl(-x), em = expm1l(pm1 * l), y = 1 + em; /* y = (1-x)^(p-1) */
     fret_real yp = y * (1 - x);                                 /* (1-x)^p */

@@ -108,16 +108,19 @@ static void write_script(FILE *to, const plot_figure *f, const char *terminal, c
         quoted(to, output);
         fputc('\n', to);
     }
+    bool dumb = terminal && !strncmp(terminal, "dumb", 4);
+    char title[3 * PLOT_LABEL];
+    /* dumb terminals have no room for an upright label: it goes into the title */
+    snprintf(title, sizeof title, dumb ? "%s: %s" : "%s", f->title, f->ylabel);
     fprintf(to, "set title ");
-    quoted(to, f->title);
+    quoted(to, dumb && strstr(f->ylabel, f->title) ? f->ylabel : title);
     fprintf(to, " noenhanced\nset xlabel ");
     quoted(to, f->xlabel);
     fprintf(to, " noenhanced\nset ylabel ");
-    quoted(to, f->ylabel);
+    quoted(to, dumb ? "" : f->ylabel);
     fprintf(to, " noenhanced\nset grid\nset xzeroaxis\n%s", f->logx ? "set logscale x\n" : "");
     bool keys = f->count > 1;
     fprintf(to, keys ? "set key top left noenhanced\n" : "set key off\n");
-    bool dumb = terminal && !strncmp(terminal, "dumb", 4);
     if (dumb)
         fprintf(to, "unset grid\n");
     for (size_t i = 0; i < f->count; i++) {

@@ -36,13 +36,31 @@ bool at_argument(const lexer *lx) {
     return next == T_ASSIGN || next == T_INCREMENT;
 }
 
+/* A name right after a number was meant as a unit, unless it is a word of the command. */
+static bool stray_unit(lexer *lx) {
+    static const char *const words[] = {"times", "steps", "to", "for", "in", "log", "with", "from"};
+    if (lx->kind != T_NAME || !lx->last || lx->text[lx->last - 1] < '0' || lx->text[lx->last - 1] > '9')
+        return false;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (lex_is(lx, words[i]))
+            return false;
+    char word[64];
+    snprintf(word, sizeof word, "%.*s", (int)(lx->len < 60 ? lx->len : 60), lx->text + lx->at);
+    if (at_argument(lx) || quantity_find(word, strlen(word)))
+        return false;
+    const char *near = unit_suggest(word);
+    lex_fail(lx, near ? "unknown unit '%s': did you mean %s?" : "unknown unit '%s'; try: help units", word,
+             near);
+    return true;
+}
+
 bool read_argument(shell *sh, lexer *lx, argument *a) {
     *a = (argument){.name = lx->text + lx->at, .len = lx->len, .at = lx->at};
     lex_next(lx);
     a->increment = lx->kind == T_INCREMENT;
     lex_next(lx);
     a->value_at = lx->at;
-    bool ok = expr_value(&sh->calc, lx, &a->v);
+    bool ok = expr_value(&sh->calc, lx, &a->v) && !stray_unit(lx);
     a->value_len = lx->last - a->value_at;
     return ok;
 }
@@ -66,6 +84,8 @@ bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim 
 
 bool argument_dim(lexer *lx, const argument *a, dim d) {
     char name[64];
+    if (dim_equal(a->v.d, d))
+        return true;
     snprintf(name, sizeof name, "%.*s", (int)(a->len < 60 ? a->len : 60), a->name);
     return value_dim(lx, name, a->value_at, a->value_len, a->v, d);
 }
@@ -76,11 +96,11 @@ bool unknown_argument(lexer *lx, const argument *a, const command *c) {
 }
 
 bool at_end(lexer *lx) {
-    if (lx->error->raised)
-        return false;
-    if (lx->kind == T_END)
-        return true;
-    return lex_fail(lx, "unexpected '%.*s'", (int)(lx->len < 60 ? lx->len : 60), lx->text + lx->at);
+    if (lx->error->raised || lx->kind == T_END)
+        return !lx->error->raised;
+    return stray_unit(lx)
+               ? false
+               : lex_fail(lx, "unexpected '%.*s'", (int)(lx->len < 60 ? lx->len : 60), lx->text + lx->at);
 }
 
 bool read_count(shell *sh, lexer *lx, const char *what, unsigned limit, unsigned *out) {
@@ -210,7 +230,8 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
 
 bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error) {
     lexer lx;
-    *error = (calc_error){0};
+    error->raised = error->stop = false; /* its text need not be cleared a million times */
+    error->at = error->len = 0;
     lex_start(&lx, text, len, error);
     if (error->raised)
         return false;

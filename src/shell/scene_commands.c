@@ -36,6 +36,18 @@ static void put(edit *e, input in, long double v) {
     e->v[in] = (double)v;
 }
 
+/* Points the error at the argument's value. */
+static bool at_value(lexer *lx, const argument *a) {
+    lx->error->at = a->value_at;
+    lx->error->len = a->value_len;
+    return false;
+}
+
+static bool put_argument(shell *sh, lexer *lx, edit *e, input in, const argument *a) {
+    put(e, in, a->v.v);
+    return scene_check(&sh->calc.scene, in, e->v[in], lx->error) || at_value(lx, a);
+}
+
 static void apply(scene *s, void *context) {
     const edit *e = context;
     if (e->clear_material)
@@ -69,7 +81,8 @@ static bool read_inputs(shell *sh, lexer *lx, const command *c, const input *all
             return calc_fail(lx->error, a.at, a.len, "%s is given twice", q->name);
         if (!argument_dim(lx, &a, q->d))
             return false;
-        put(e, allowed[i], a.v.v);
+        if (!put_argument(sh, lx, e, allowed[i], &a))
+            return false;
     }
     return at_end(lx);
 }
@@ -146,7 +159,11 @@ bool do_friction(shell *sh, lexer *lx) {
     }
     if (!expr_value(&sh->calc, lx, &v) || !value_dim(lx, "mu", at, lx->last - at, v, DIM_NONE) || !at_end(lx))
         return false;
-    return scene_set(&sh->calc.scene, IN_MU, (double)v.v, lx->error);
+    if (scene_set(&sh->calc.scene, IN_MU, (double)v.v, lx->error))
+        return true;
+    lx->error->at = at;
+    lx->error->len = lx->last - at;
+    return false;
 }
 
 /* ---- geometry ---------------------------------------------------------------------------------- */
@@ -235,7 +252,8 @@ bool do_geometry(shell *sh, lexer *lx) {
         }
         if (!argument_dim(lx, &a, d))
             return false;
-        put(&e, (input)q->in, a.v.v);
+        if (!put_argument(sh, lx, &e, (input)q->in, &a))
+            return false;
     }
     if (!at_end(lx))
         return false;
@@ -310,17 +328,13 @@ bool do_press(shell *sh, lexer *lx) {
     double v = (double)a.v.v;
     if (!(v > 0)) {
         fret_status st = {FRET_NOT_POSITIVE, name, v, 0};
-        lx->error->at = a.value_at, lx->error->len = a.value_len;
         scene_status(&sh->calc.scene, lx->error, &st);
-        lx->error->at = a.value_at, lx->error->len = a.value_len;
-        return false;
+        return at_value(lx, &a);
     }
     step.normal = argument_is(&a, "FN") ? BY_FORCE : argument_is(&a, "dz") ? BY_DISPLACEMENT : BY_RADIUS;
     step.normal_value = v;
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error)) {
-        if (lx->error->len == 0 && lx->error->text[0] == name[0])
-            lx->error->at = a.value_at, lx->error->len = a.value_len;
-        return false;
+        return lx->error->len || strncmp(lx->error->text, name, a.len) ? false : at_value(lx, &a);
     }
     warn_dissimilar(sh);
     static const char *const names[] = {"FN", "a", "dz", NULL};
@@ -404,8 +418,7 @@ bool do_cycle(shell *sh, lexer *lx) {
                 fret_status st = {FRET_NOT_POSITIVE, name, (double)a.v.v, 0};
                 if (!(a.v.v > 0)) {
                     scene_status(&sh->calc.scene, lx->error, &st);
-                    lx->error->at = a.value_at, lx->error->len = a.value_len;
-                    return false;
+                    return at_value(lx, &a);
                 }
             }
             if (FA || dxA) {
