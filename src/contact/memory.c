@@ -179,8 +179,9 @@ static fret_real slide(fret_memory *m, measure by, fret_real drive) {
             if (by == LOAD)
                 part[DEPTH] = fret_law_thickness(&m->normal, &outer, part[LOAD]);
             whole = edge_slice(m, d + part[DEPTH]);
-            if (by == DEPTH)
-                part[LOAD] = d > 0 ? fret_law_load(&m->normal, &outer, part[DEPTH]) : whole.w;
+            if (by == DEPTH) /* a difference of loads from the edge does unless the part is thin */
+                part[LOAD] = part[DEPTH] > 1e-4L * d ? whole.w - eaten[LOAD]
+                                                     : fret_law_load(&m->normal, &outer, part[DEPTH]);
             next = whole.L;
             for (measure i = DEPTH; i <= LOAD; i++) {
                 eaten[i] += part[i];

@@ -35,7 +35,7 @@ fret_real fret_gamma_ratio(fret_real x, fret_real d) {
     return expl((x - 0.5L) * log1pl(d / x) + d * logl(x + d) - d + stirling_rest(x + d) - stirling_rest(x));
 }
 
-/* The closed forms lose digits like (p x)^-3, within the guard digits down to p x = 0.3; beyond, the
+/* The closed forms lose digits like (p x)^-3, within the guard digits down to p x = 0.2; beyond, the
  * series of (1-t)^(p-2) under the integral has terms falling at least as fast as x. */
 static fret_moments moments_series(fret_real pm1, fret_real x) {
     static const fret_real inv[] = {
@@ -45,16 +45,17 @@ static fret_moments moments_series(fret_real pm1, fret_real x) {
         1.0L / 25, 1.0L / 26, 1.0L / 27, 1.0L / 28, 1.0L / 29, 1.0L / 30, 1.0L / 31, 1.0L / 32,
         1.0L / 33, 1.0L / 34, 1.0L / 35, 1.0L / 36, 1.0L / 37, 1.0L / 38, 1.0L / 39, 1.0L / 40};
     fret_real p = 1 + pm1, a = p * pm1 * x * x, b = p * x; /* terms of (1-t)^(p-2) and (1-t)^(p-1) */
-    fret_real w = 0, J = 0, m1 = 0, L = 0;
+    fret_real w = 0, J = 0, m1 = 0, L = 0, small = 1e-20L * a;
     for (int i = 0; i < 38; i++) {
+        fret_real c = a * inv[i + 1];
         w += b * inv[i];
         J += b * inv[i + 1];
-        m1 += a * inv[i + 1];
-        L += a * inv[i + 1] * inv[i + 2];
-        if (fabsl(a) <= 1e-20L * fabsl(m1) && fabsl(b) <= 1e-20L * w)
+        m1 += c;
+        L += c * inv[i + 2];
+        a *= (x - pm1 * x * inv[i]);
+        b *= (x - p * x * inv[i]);
+        if (a < small && a > -small && i > 2)
             break;
-        a *= (1 - pm1 * inv[i]) * x;
-        b *= (1 - p * inv[i]) * x;
     }
     return (fret_moments){w, J * x, m1, L * x};
 }
@@ -65,15 +66,13 @@ fret_moments fret_power_moments(fret_real pm1, fret_real x) {
         return (fret_moments){1, 1 / (p + 1), 1, 1 - 2 / (p + 1)};
     if (x <= 0)
         return (fret_moments){0, 0, 0, 0};
-    if (p * x < 0.3L)
+    if (p * x < 0.2L)
         return moments_series(pm1, x);
-    fret_real l = log1pl(-x), em = expm1l(pm1 * l), y = 1 + em; /* y = (1-x)^(p-1) */
-    fret_real yp = y * (1 - x);                                 /* (1-x)^p */
+    /* arranged so that m1 = int t dK and m2 = int t^2 dK keep their factor p-1 */
+    fret_real em = expm1l(pm1 * log1pl(-x)), y = 1 + em; /* y = (1-x)^(p-1) */
     fret_real m1 = -em * (1 + pm1 * x) - pm1 * x;
-    fret_real J = (1 - yp * (1 - x)) / (p + 1) - x * yp;
-    /* m2 = int t^2 dK = 2J - p x^2 y ;  L = x m1 - m2 */
-    fret_real m2 = 2 * J - p * x * x * y;
-    return (fret_moments){x * (1 + em) - em, J, m1, x * m1 - m2};
+    fret_real m2 = (-2 * em - y * pm1 * x * (2 + p * x)) / (2 + pm1);
+    return (fret_moments){x * y - em, (m2 + p * x * x * y) / 2, m1, x * m1 - m2};
 }
 
 /* GSL's nodes are good to 1e-15; Newton on the recurrence gives the guard digits. */

@@ -266,13 +266,17 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
 
 /* End of the statement that begins at i: a `;`, a comment or the end of the line. */
 static size_t statement_end(const char *text, size_t i, size_t len) {
-    for (bool quoted = false; i < len; i++) {
-        if (text[i] == '"')
+    bool quoted = false;
+    for (; i < len; i++) {
+        char c = text[i];
+        if (c > ';') /* most of them */
+            continue;
+        if (c == '"')
             quoted = !quoted;
-        else if (!quoted && (text[i] == ';' || text[i] == '#'))
-            break;
-        else if (text[i] == '\n')
+        else if (c == '\n')
             quoted = false;
+        else if (!quoted && (c == ';' || c == '#'))
+            break;
     }
     return i;
 }
@@ -280,10 +284,12 @@ static size_t statement_end(const char *text, size_t i, size_t len) {
 bool shell_continues(const char *text, size_t len) {
     while (len && (text[len - 1] == '\n' || text[len - 1] == '\r'))
         len--;
+    if (!len || text[len - 1] != '\\')
+        return false;
     size_t end = statement_end(text, 0, len);
     while (end < len && text[end] == ';')
         end = statement_end(text, end + 1, len);
-    return end == len && len && text[len - 1] == '\\';
+    return end == len; /* not within a comment */
 }
 
 enum { SHOWN = 100 }; /* of a long line, around the place */
