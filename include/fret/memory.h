@@ -60,7 +60,7 @@ typedef struct fret_state {
     size_t slices;       /* slices held */
 } fret_state;
 
-/* Radii and stiffnesses too; and the cheap part alone: a, c, kn, kt left 0. */
+/* All of it; and the cheap part alone: a, c, U, kn, kt are left 0. */
 void fret_memory_state(const fret_memory *memory, fret_state *out);
 void fret_memory_forces(const fret_memory *memory, fret_state *out);
 

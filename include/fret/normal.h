@@ -16,6 +16,8 @@ typedef struct fret_normal {
     fret_real pm1;  /* p-1 = (k+1)/n without cancellation */
     fret_real q;    /* 1/p */
     fret_real s;    /* n+k+1: F_N ~ a^s */
+    fret_real end;  /* largest contact radius that the gap supports [m]; infinite for a power */
+    bool falls;     /* because g(x) begins to fall there */
     fret_real kappa;
     fret_real dref; /* power law: depth at a = r0 [m] */
     fret_real Fref; /* power law: force at a = r0 [N] */

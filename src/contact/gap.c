@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "gap.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 fret_real fret_kappa(fret_real n, fret_real k) {
     fret_real d = (k + 1) / 2;
     return (n + (k + 1)) / (k + 1) * tgammal(1 + d) / fret_gamma_ratio(1 + n / 2, d);
@@ -61,6 +64,155 @@ static const shape shapes[] = {
     [FRET_GAP_EXACT_SPHERE] = {sphere_f, sphere_f1, sphere_f2, .R = true},
 };
 
+/* ---- sampled gaps ------------------------------------------------------------------------------ */
+
+/* Cubic Hermite pieces with Steffen's slopes: monotone data give a monotone gap, f' is continuous, and the
+ * error falls with the third power of the spacing. Per piece f' = d0 + d1 t + d2 t^2, t = r - r_i. */
+struct fret_table {
+    size_t count;
+    double *r, *f, *d0, *d1, *d2;
+};
+
+static fret_real sign_of(fret_real x) {
+    return x > 0 ? 1 : x < 0 ? -1 : 0;
+}
+
+static void table_slopes(struct fret_table *t) {
+    size_t n = t->count;
+    for (size_t i = 0; i < n; i++) {
+        fret_real h1, s1, h2, s2, p;
+        if (i > 0 && i + 1 < n) {
+            h1 = (fret_real)t->r[i] - t->r[i - 1];
+            h2 = (fret_real)t->r[i + 1] - t->r[i];
+            s1 = ((fret_real)t->f[i] - t->f[i - 1]) / h1;
+            s2 = ((fret_real)t->f[i + 1] - t->f[i]) / h2;
+            p = (s1 * h2 + s2 * h1) / (h1 + h2);
+            t->d0[i] = (double)((sign_of(s1) + sign_of(s2)) *
+                                fminl(fminl(fabsl(s1), fabsl(s2)), fabsl(p) / 2));
+            continue;
+        }
+        /* ends: the parabola through the three nearest points, limited to keep the sense of the data */
+        size_t a = i ? n - 2 : 0, b = n > 2 ? (i ? n - 3 : 1) : a;
+        h1 = (fret_real)t->r[a + 1] - t->r[a];
+        h2 = (fret_real)t->r[b + 1] - t->r[b];
+        s1 = ((fret_real)t->f[a + 1] - t->f[a]) / h1;
+        s2 = ((fret_real)t->f[b + 1] - t->f[b]) / h2;
+        p = n > 2 ? s1 + (s1 - s2) * h1 / (h1 + h2) : s1;
+        if (p * s1 <= 0)
+            p = 0;
+        else if (fabsl(p) > 2 * fabsl(s1))
+            p = 2 * s1;
+        t->d0[i] = (double)p;
+    }
+    for (size_t i = 0; i + 1 < n; i++) {
+        fret_real h = (fret_real)t->r[i + 1] - t->r[i], s = ((fret_real)t->f[i + 1] - t->f[i]) / h;
+        t->d1[i] = (double)(2 * (3 * s - 2 * (fret_real)t->d0[i] - t->d0[i + 1]) / h);
+        t->d2[i] = (double)(3 * ((fret_real)t->d0[i] + t->d0[i + 1] - 2 * s) / (h * h));
+    }
+}
+
+fret_status fret_table_make(const double *r, const double *f, size_t count, struct fret_table **out) {
+    for (size_t i = 0; i < count; i++) {
+        if (!isfinite(r[i]) || !isfinite(f[i]))
+            return fret_fail(FRET_NOT_FINITE, isfinite(r[i]) ? "f" : "r", isfinite(r[i]) ? f[i] : r[i], 0);
+        if (i == 0 ? r[0] != 0 || f[0] != 0 : r[i] <= r[i - 1])
+            return fret_fail(FRET_BAD_TABLE, "r", r[i], i ? r[i - 1] : 0);
+    }
+    if (count < 2)
+        return fret_fail(FRET_BAD_TABLE, "r", count ? r[0] : 0, 0);
+    struct fret_table *t = calloc(1, sizeof *t);
+    double *data = t ? malloc(5 * count * sizeof *data) : NULL;
+    if (!data) {
+        free(t);
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    }
+    *t = (struct fret_table){count, data, data + count, data + 2 * count, data + 3 * count, data + 4 * count};
+    memcpy(t->r, r, count * sizeof *r);
+    memcpy(t->f, f, count * sizeof *f);
+    table_slopes(t);
+    *out = t;
+    return fret_ok();
+}
+
+void fret_table_free(struct fret_table *t) {
+    if (t)
+        free(t->r);
+    free(t);
+}
+
+/* The piece that holds r. */
+static size_t table_piece(const struct fret_table *t, fret_real r) {
+    size_t lo = 0, hi = t->count - 1;
+    while (hi - lo > 1) {
+        size_t mid = (lo + hi) / 2;
+        if (t->r[mid] <= r)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+static fret_real table_f(const fret_gap *gap, fret_real r) {
+    const struct fret_table *t = gap->table;
+    size_t i = table_piece(t, r);
+    fret_real x = r - t->r[i];
+    return t->f[i] + x * (t->d0[i] + x * (t->d1[i] / 2 + x * t->d2[i] / 3));
+}
+
+/* int f' K, int f' r^2 K and int r f'' K over a piece, K = (a^2-r^2)^((k-1)/2). */
+typedef struct piece_sums {
+    fret_real g, I, s;
+} piece_sums;
+
+static void piece_add(piece_sums *sum, const struct fret_table *t, size_t i, fret_real r, fret_real weight) {
+    fret_real x = r - t->r[i], f1 = t->d0[i] + x * (t->d1[i] + x * t->d2[i]), f2 = t->d1[i] + 2 * x * t->d2[i];
+    sum->g += weight * f1;
+    sum->I += weight * f1 * r * r;
+    sum->s += weight * r * f2;
+}
+
+/* From r to a with the polynomial of piece i: exact up to the smooth factor (a+r)^alpha. */
+static piece_sums piece_to_edge(const struct fret_table *t, const fret_rule *rule, size_t i, fret_real r, fret_real a) {
+    fret_real alpha = (rule->k - 1) / 2, span = a - r, scale = powl(span, alpha + 1);
+    piece_sums sum = {0, 0, 0};
+    for (int j = 0; j < FRET_RULE; j++) {
+        fret_real x = a - span * rule->v[j];
+        piece_add(&sum, t, i, x, scale * rule->weight[j] * powl(a + x, alpha));
+    }
+    return sum;
+}
+
+static fret_profile profile_of_table(const fret_gap *gap, const fret_rule *rule, fret_real a) {
+    /* Gauss-Legendre, 8 points: the singularity is at least a piece away */
+    static const fret_real node[4] = {0.1834346424956498049394761423601839807L, 0.5255324099163289858177390491892463490L,
+                                      0.7966664774136267395915539364758304368L, 0.9602898564975362316835608685694729904L};
+    static const fret_real weight[4] = {0.3626837833783619829651504492771956122L, 0.3137066458778872873379622019866013133L,
+                                        0.2223810344533744705443559944262408844L, 0.1012285362903762591525313543099621902L};
+    const struct fret_table *t = gap->table;
+    fret_real k = rule->k, alpha = (k - 1) / 2;
+    size_t last = table_piece(t, a);
+    piece_sums all = piece_to_edge(t, rule, last, t->r[last], a);
+    for (size_t i = last; i-- > 0;) {
+        fret_real lo = t->r[i], hi = t->r[i + 1];
+        if (a - hi < 3 * (hi - lo)) { /* too near: the difference of two pieces that end at the edge */
+            piece_sums outer = piece_to_edge(t, rule, i, lo, a), inner = piece_to_edge(t, rule, i, hi, a);
+            all.g += outer.g - inner.g;
+            all.I += outer.I - inner.I;
+            all.s += outer.s - inner.s;
+            continue;
+        }
+        fret_real mid = (lo + hi) / 2, half = (hi - lo) / 2;
+        for (int j = 0; j < 4; j++)
+            for (int sign = -1; sign <= 1; sign += 2) {
+                fret_real r = mid + sign * half * node[j];
+                piece_add(&all, t, i, r, half * weight[j] * powl((a - r) * (a + r), alpha));
+            }
+    }
+    fret_profile out = {powl(a, 1 - k) * all.g, powl(a, -k) * (all.g + all.s), all.I / (k + 1)};
+    return out;
+}
+
 static bool is_powers(const fret_gap *gap) {
     return gap->kind == FRET_GAP_POWER || gap->kind == FRET_GAP_SUM;
 }
@@ -80,6 +232,8 @@ fret_status fret_gap_check(const fret_gap *gap) {
         }
         return st;
     }
+    if (gap->kind == FRET_GAP_TABLE)
+        return st;
     const shape *s = &shapes[gap->kind];
     if (s->b)
         st = fret_check_positive("b", gap->b);
@@ -91,11 +245,20 @@ fret_status fret_gap_check(const fret_gap *gap) {
 }
 
 fret_real fret_gap_start(const fret_gap *gap) {
-    return !is_powers(gap) && shapes[gap->kind].b ? gap->b : 0;
+    if (is_powers(gap))
+        return 0;
+    if (gap->kind != FRET_GAP_TABLE)
+        return shapes[gap->kind].b ? gap->b : 0;
+    size_t i = 0; /* a table may begin flat */
+    while (i + 2 < gap->table->count && gap->table->f[i + 1] <= 0)
+        i++;
+    return gap->table->r[i];
 }
 
 fret_real fret_gap_end(const fret_gap *gap) {
-    return gap->kind == FRET_GAP_EXACT_SPHERE ? (fret_real)gap->R : (fret_real)INFINITY;
+    return gap->kind == FRET_GAP_EXACT_SPHERE ? (fret_real)gap->R
+           : gap->kind == FRET_GAP_TABLE      ? (fret_real)gap->table->r[gap->table->count - 1]
+                                              : (fret_real)INFINITY;
 }
 
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
@@ -108,12 +271,12 @@ fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
         for (int i = 0; i < gap->terms; i++)
             *f += gap->power[i].h * powl(r / gap->power[i].r0, gap->power[i].n);
     } else if (r > fret_gap_start(gap)) {
-        *f = shapes[gap->kind].f(gap, r);
+        *f = gap->kind == FRET_GAP_TABLE ? table_f(gap, r) : shapes[gap->kind].f(gap, r);
     }
     return fret_ok();
 }
 
-/* With r = a s:  g = a int f'(as) (1-s^2)^((k-1)/2) ds,  I = a^(k+3)/(k+1)/a ... int s^2 f'(as) (...) ds.
+/* With r = a s:  g = a int f'(as) (1-s^2)^((k-1)/2) ds,  I = a^(k+2)/(k+1) int s^2 f'(as) (1-s^2)^((k-1)/2) ds.
  * The rule's weight takes the singular factor (1-s)^((k-1)/2); the rest is smooth. */
 static fret_profile profile_by_rule(const fret_gap *gap, const fret_rule *rule, fret_real a) {
     const shape *sh = &shapes[gap->kind];
@@ -138,6 +301,8 @@ static fret_profile profile_by_rule(const fret_gap *gap, const fret_rule *rule, 
 }
 
 fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real a) {
+    if (gap->kind == FRET_GAP_TABLE)
+        return profile_of_table(gap, rule, a);
     if (!is_powers(gap))
         return profile_by_rule(gap, rule, a);
     fret_real k = rule->k, ak = powl(a, k + 1);

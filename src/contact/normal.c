@@ -6,6 +6,47 @@
 #include "gap.h"
 #include "special.h"
 
+static fret_profile profile(const fret_normal *n, fret_real a) {
+    return fret_gap_profile(&n->gap, &n->rule, a);
+}
+
+/* Finds the first radius where g falls: the contact is a disc up to there. Sums with a negative term and
+ * tables can do so; sampled at 400 radii, then bisected. */
+static fret_status find_end(fret_normal *n) {
+    const fret_gap *gap = &n->gap;
+    fret_real start = fret_gap_start(gap), last = fret_gap_end(gap), lo = start, first = 1e-12L;
+    n->end = last;
+    bool negative = gap->kind == FRET_GAP_TABLE;
+    for (int i = 0; i < gap->terms && gap->kind == FRET_GAP_SUM; i++)
+        negative = negative || gap->power[i].h < 0;
+    if (!negative)
+        return fret_ok();
+    bool table = gap->kind == FRET_GAP_TABLE;
+    for (int i = 1; i <= 400; i++) {
+        fret_real x = table ? start + (last - start) * i / 400 : first * powl(1e18L, i / 400.0L);
+        if (profile(n, x).slope >= 0) {
+            lo = x;
+            continue;
+        }
+        if (i == 1)
+            return fret_fail(FRET_NOT_MONOTONE, "r", (double)(table ? x : 0), 0);
+        fret_real hi = x;
+        for (int j = 0; j < 60; j++) {
+            fret_real mid = (lo + hi) / 2;
+            if (profile(n, mid).slope >= 0)
+                lo = mid;
+            else
+                hi = mid;
+        }
+        if (table)
+            return fret_fail(FRET_NOT_MONOTONE, "r", (double)lo, 0);
+        n->end = lo;
+        n->falls = true;
+        break;
+    }
+    return fret_ok();
+}
+
 fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, fret_normal *out) {
     fret_normal n = {.gap = *gap};
     fret_status st = fret_foundation_make(material, &n.foundation);
@@ -14,6 +55,7 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
     if (st.code)
         return st;
     n.rule.k = material->k;
+    n.end = INFINITY;
     if (gap->kind == FRET_GAP_POWER) {
         const fret_power *g = &gap->power[0];
         fret_real k1 = 1 + (fret_real)material->k;
@@ -27,6 +69,8 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
                  powl((fret_real)g->r0 / material->c0, material->k) / (k1 * n.s);
     } else {
         st = fret_rule_make(material->k, &n.rule);
+        if (!st.code)
+            st = find_end(&n);
     }
     if (!st.code)
         *out = n;
@@ -38,10 +82,6 @@ fret_real fret_normal_stiffness(const fret_normal *n, fret_real a) {
     return 2 * f->cN0 * a * powl(a / f->c0, f->k) / (1 + f->k);
 }
 
-static fret_profile profile(const fret_normal *n, fret_real a) {
-    return fret_gap_profile(&n->gap, &n->rule, a);
-}
-
 /* F_N of a contact of radius a whose profile is known. */
 static fret_real force_of(const fret_normal *n, const fret_profile *p) {
     return 2 * n->foundation.cN0 * powl(n->foundation.c0, -n->foundation.k) * p->I;
@@ -50,14 +90,17 @@ static fret_real force_of(const fret_normal *n, const fret_profile *p) {
 /* Newton in ln(a - start), where depth and force are nearly powers, kept in a bracket. Returns a
  * radius beyond the end of the gap where the target cannot be reached. */
 static fret_real solve_radius(const fret_normal *n, bool by_force, fret_real target) {
-    fret_real start = fret_gap_start(&n->gap), end = fret_gap_end(&n->gap);
+    fret_real start = fret_gap_start(&n->gap), end = n->end;
     if (target <= 0)
         return start;
-    fret_real lo = 0, hi = INFINITY, e = isfinite(end) ? end / 16 : start > 0 ? start / 16 : 1e-4L;
+    if (isfinite(end)) {
+        fret_profile p = profile(n, end);
+        if ((by_force ? force_of(n, &p) : p.g) < target)
+            return INFINITY;
+    }
+    fret_real lo = 0, hi = isfinite(end) ? end - start : (fret_real)INFINITY, e = isfinite(end) ? end / 16 : start > 0 ? start / 16 : 1e-4L;
     for (int i = 0; i < 400; i++) {
         fret_real a = start + e;
-        if (a > end)
-            return INFINITY;
         fret_profile p = profile(n, a);
         fret_real value = by_force ? force_of(n, &p) : p.g;
         if (value < target)
@@ -68,11 +111,12 @@ static fret_real solve_radius(const fret_normal *n, bool by_force, fret_real tar
         fret_real next = e * expl(logl(target / value) / slope);
         if (!(next > lo && next < hi)) {
             if (!isfinite(hi))
-                next = isfinite(end) ? (e + end - start) / 2 : 4 * e;
+                next = 4 * e;
             else
                 next = lo > 0 ? sqrtl(lo) * sqrtl(hi) : hi / 16;
         }
-        if (fabsl(next - e) <= 2 * LDBL_EPSILON * (start + e) || (hi - lo) <= 2 * LDBL_EPSILON * hi)
+        if (fabsl(next - e) <= 2 * LDBL_EPSILON * (start + e) ||
+            (isfinite(hi) && hi - lo <= 2 * LDBL_EPSILON * hi))
             return start + next;
         e = next;
     }
@@ -175,7 +219,8 @@ static fret_status finish(const fret_press *p, fret_press *out) {
 static fret_status at_radius(const fret_normal *n, const char *name, double value, fret_press *s,
                              fret_press *out) {
     if (!isfinite(s->a))
-        return fret_fail(FRET_TABLE_SHORT, name, value, (double)fret_gap_end(&n->gap));
+        return fret_fail(n->falls ? FRET_NOT_MONOTONE : FRET_TABLE_SHORT, n->falls ? "r" : name,
+                         n->falls ? (double)n->end : value, (double)n->end);
     fret_profile p = {0, 0, 0};
     if (s->a > fret_gap_start(&n->gap))
         p = profile(n, s->a);
@@ -228,7 +273,7 @@ fret_status fret_press_radius(const fret_normal *n, double a, fret_press *out) {
     }
     if (a < fret_gap_start(&n->gap))
         return fret_fail(FRET_OUTSIDE, "a", a, (double)fret_gap_start(&n->gap));
-    if (a > fret_gap_end(&n->gap))
-        return fret_fail(FRET_TABLE_SHORT, "a", a, (double)fret_gap_end(&n->gap));
+    if (a > n->end)
+        s.a = INFINITY;
     return at_radius(n, "a", a, &s, out);
 }

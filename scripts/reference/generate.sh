@@ -1,0 +1,8 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Makes every table in tests/reference anew; needs Python 3 with mpmath. Same bytes every time.
+set -eu
+cd "$(dirname "$0")"
+for script in material kappa loss slice scene history; do
+    PYTHONDONTWRITEBYTECODE=1 "${PYTHON:-python3}" "$script.py" "$@"
+done

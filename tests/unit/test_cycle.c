@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "unit.h"
+
+static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
+
+typedef struct contact {
+    fret_normal normal;
+    fret_press press;
+    double mu;
+} contact;
+
+static contact make(const unit_scene *s, double FN) {
+    contact c;
+    memset(&c, 0, sizeof c);
+    c.mu = s->mu;
+    CHECK_OK(fret_normal_make(&s->material, &s->gap, &c.normal));
+    CHECK_OK(fret_press_force(&c.normal, FN, &c.press));
+    return c;
+}
+
+static void reference(void) {
+    unit_table t;
+    if (!unit_open(&t, "scene.csv"))
+        return;
+    const fret_real tol = UNIT_TOL(2e-17L, 1e-14L);
+    while (unit_row(&t)) {
+        unit_scene s = unit_read_scene(&t, 0);
+        double FN = unit_input(&t, UNIT_SCENE_COLUMNS), FA = unit_input(&t, UNIT_SCENE_COLUMNS + 1);
+        const int out = UNIT_SCENE_COLUMNS + 2;
+        fret_real c = unit_result(&t, out + 2), dx = unit_result(&t, out + 3), max = unit_result(&t, out + 4);
+        fret_real dW = unit_result(&t, out + 5), U = unit_result(&t, out + 8), W = unit_result(&t, out + 9);
+        contact k = make(&s, FN);
+        fret_loading f, g;
+        CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, FA, &f));
+        CHECK(f.Fx == FA);
+        CHECK_REL(f.c, c, tol);
+        CHECK_REL(f.dx, dx, tol);
+        CHECK_REL(fret_gross_slip(&k.normal, k.mu, &k.press), max, tol);
+        fret_real loss = -1, same = -1;
+        CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, FA, &loss));
+        CHECK_REL(loss, dW, tol);
+        CHECK_REL(4 * W, dW, 1e-30L + UNIT_TOL(1e-18L, 1e-15L)); /* Masing, in the table itself */
+        CHECK(U > 0);
+
+        /* odd in the load */
+        CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, -FA, &g));
+        CHECK(g.Fx == -f.Fx && g.dx == -f.dx && g.c == f.c && g.yc == f.yc);
+        CHECK_REL(fret_law_radius(&k.normal, f.yc), f.c, tol * (1 + 1 / s.gap.power[0].n));
+
+        /* and back by displacement; rounding dx to double moves F_x by k_n(c)/eta times as much */
+        double dx_ = (double)f.dx;
+        CHECK_OK(fret_loading_displacement(&k.normal, k.mu, &k.press, dx_, &g));
+        fret_real kt = fret_normal_stiffness(&k.normal, f.c) / k.normal.foundation.eta;
+        CHECK(g.dx == dx_);
+        CHECK_REL(g.Fx, FA + kt * (dx_ - f.dx), UNIT_TOL(1e-15L, 1e-13L));
+        /* c = 0 at gross slip: its error is that of delta_x,max-delta_x */
+        fret_real left = 1 - f.dx / max;
+        CHECK_REL(g.c, f.c, 1e-15L + (UNIT_TOL(1e-18L, 1e-15L) + 2.3e-16L) / (left * s.gap.power[0].n));
+        CHECK_OK(fret_loading_displacement(&k.normal, k.mu, &k.press, -dx_, &f));
+        CHECK(f.Fx == -g.Fx && f.dx == -g.dx && f.c == g.c && f.yc == g.yc);
+        /* loss by displacement: d ln(loss)/d ln(dx) is 3 at small dx, (p+1)/(p-1) at gross slip */
+        CHECK_OK(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, dx_, &same));
+        CHECK_REL(same, dW, (3 + (k.normal.p + 1) / k.normal.pm1) * 1.2e-16L + tol);
+    }
+}
+
+static void loss_shape(void) {
+    unit_table t;
+    if (!unit_open(&t, "loss.csv"))
+        return;
+    while (unit_row(&t)) {
+        fret_real n = unit_input(&t, 0), k1 = 1 + (fret_real)unit_input(&t, 1), x = unit_input(&t, 2);
+        fret_real q = n / (n + k1), r = k1 / (n + k1);
+        CHECK_REL(fret_loss_shape(q, r, x, 1 - x), unit_result(&t, 3), UNIT_TOL(3e-18L, 3e-15L));
+    }
+    for (int i = 1; i < 40; i++) {
+        fret_real q = i / 40.0L, r = 1 - q, last = 0;
+        CHECK(fret_loss_shape(q, r, 0, 1) == 0);
+        CHECK_REL(fret_loss_shape(q, r, 1, 0), 4 * r / (1 + q), UNIT_TOL(1e-18L, 1e-15L));
+        CHECK_REL(fret_loss_shape(q, r, 1e-9L, 1 - 1e-9L), 4 * q * r * 1e-27L / 6, 1e-8L);
+        for (fret_real x = 1.0L / 64; x <= 1; x += 1.0L / 64) { /* grows, also across the branches */
+            fret_real w = fret_loss_shape(q, r, x, 1 - x);
+            CHECK(w > last);
+            last = w;
+        }
+    }
+}
+
+/* The definition: 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx. */
+typedef struct loop {
+    const contact *k;
+    fret_real c, yc;
+} loop;
+
+static fret_real loop_density(fret_real x, fret_real from, fret_real to, const void *context) {
+    const loop *l = context;
+    const fret_foundation *f = &l->k->normal.foundation;
+    fret_real g = -1;
+    (void)from, (void)to;
+    fret_status st = fret_gap_g(&l->k->normal.gap, f->k, x, &g, NULL);
+    return st.code ? (fret_real)NAN : f->cN0 * powl(x / f->c0, f->k) * (l->k->press.dz - g) * (g - l->yc);
+}
+
+static void definition(void) {
+    static const double ns[] = {0.7, 1, 2, 4}, ks[] = {-0.5, 0, 0.6};
+    for (int i = 0; i < 12; i++) {
+        unit_scene s = unit_make_scene(ns[i % 4], ks[i / 4]);
+        contact k = make(&s, 25);
+        for (double part = 0.2; part < 1; part += 0.25) {
+            double FA = part * s.mu * 25;
+            fret_loading f = {0, 0, 0, 0};
+            fret_real loss = -1;
+            CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, FA, &f));
+            CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, FA, &loss));
+            const loop l = {&k, f.c, f.yc};
+            fret_real mu = k.mu, integral = unit_integrate(loop_density, &l, f.c, k.press.a);
+            CHECK_REL(8 * mu * mu * k.normal.foundation.eta * integral, loss, UNIT_TOL(1e-14L, 1e-11L));
+        }
+    }
+}
+
+/* Two equal spheres, and one on a flat, homogeneous and graded: digits published apart from this code. */
+static void published(void) {
+    unit_scene s = unit_make_scene(2, 0);
+    s.material.body[0] = s.material.body[1] = (fret_body){210e9, 0.3, false};
+    s.mu = 0.3;
+    s.gap.power[0] = (fret_power){2, 100, 1};
+    contact k = make(&s, 100);
+    fret_loading f = {0, 0, 0, 0};
+    fret_real loss = -1;
+    CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 15, &f));
+    CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, 15, &loss));
+    CHECK_REL(f.c / k.press.a, 0.79370L, 1e-5L);
+    CHECK_REL(f.dx, 0.591529e-6L, 1e-6L);
+    CHECK_REL(loss, 1.35112e-6L, 3e-6L);
+    static const fret_real want[2][5] = {
+        {1.8662555784086241e-4L, 3.4829098839413082e-6L, 1.4812480342036853e-4L, 6.2599544191009847e-7L,
+         1.9064562410875217e-6L},
+        {3.0092451732927952e-4L, 6.0370376753239901e-6L, 2.4685902105474113e-4L, 1.6644632276036456e-6L,
+         6.5235001018033792e-6L}};
+    for (int i = 0; i < 2; i++) {
+        s.mu = 0.4;
+        s.material.k = i * 0.5;
+        s.gap.power[0].h = 50;
+        k = make(&s, 100);
+        CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 20, &f));
+        CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, 20, &loss));
+        /* 0.3 and 0.4 there are decimal, here double */
+        CHECK_REL(k.press.a, want[i][0], 1e-15L);
+        CHECK_REL(k.press.dz, want[i][1], 1e-15L);
+        CHECK_REL(f.c, want[i][2], 1e-15L);
+        CHECK_REL(f.dx, want[i][3], 1e-15L);
+        CHECK_REL(loss, want[i][4], 1e-15L);
+    }
+}
+
+static void gross_slip(void) {
+    unit_scene s = unit_make_scene(2, 0.4);
+    s.mu = 0.5; /* mu F_N exact */
+    contact k = make(&s, 64);
+    fret_real max = fret_gross_slip(&k.normal, k.mu, &k.press), loss = -1, more = -1;
+    fret_loading f = {0, 0, 0, 0};
+    CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 32, &f));
+    CHECK(f.c == 0 && f.yc == 0);
+    CHECK_REL(f.dx, max, UNIT_TOL(1e-18L, 1e-15L));
+    CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, -32, &f));
+    CHECK(f.c == 0 && f.dx < 0);
+    fret_status st = fret_loading_force(&k.normal, k.mu, &k.press, nextafter(32, 33), &f);
+    CHECK_ERROR(st, FRET_GROSS_SLIP, "Fx");
+    CHECK(st.limit == 32 && st.value > 32);
+    CHECK_CODE(fret_loading_force(&k.normal, k.mu, &k.press, -32.5, &f), FRET_GROSS_SLIP);
+    CHECK_OK(fret_loading_displacement(&k.normal, k.mu, &k.press, 3 * (double)max, &f));
+    CHECK(f.Fx == 32 && f.c == 0 && f.dx == 3 * (double)max);
+    CHECK_OK(fret_loading_displacement(&k.normal, k.mu, &k.press, -3 * (double)max, &f));
+    CHECK(f.Fx == -32 && f.c == 0);
+
+    CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, 32, &loss));
+    CHECK_REL(loss, 4 * k.normal.pm1 * k.normal.q / (1 + k.normal.q) * 32 * max, UNIT_TOL(2e-18L, 3e-15L));
+    CHECK_CODE(fret_cycle_loss(&k.normal, k.mu, &k.press, 32.5, &more), FRET_GROSS_SLIP);
+    double dA = 2.5 * (double)max;
+    CHECK_OK(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, dA, &more));
+    CHECK_REL(more, loss + 4 * 32 * (dA - max), UNIT_TOL(2e-18L, 3e-15L));
+    /* continuous at the onset */
+    CHECK_OK(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, (double)max * (1 - 1e-9), &more));
+    CHECK_REL(more, loss, 1e-8L);
+    CHECK_OK(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, (double)max * (1 + 1e-9), &more));
+    CHECK_REL(more, loss, 1e-8L);
+    /* a limit that is no double: 0.1 * 0.3 carries a rounding that must not shut out the last force */
+    s.mu = 0.1;
+    k = make(&s, 0.3);
+    fret_real limit = (fret_real)0.1 * 0.3;
+    double inside = (double)limit;
+    while (inside > limit)
+        inside = nextafter(inside, 0);
+    CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, inside, &f));
+    CHECK_CODE(fret_loading_force(&k.normal, k.mu, &k.press, nextafter(inside, 1), &f), FRET_GROSS_SLIP);
+    CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 0, &f));
+    CHECK(f.dx == 0 && f.Fx == 0 && f.c == k.press.a && f.yc == k.press.dz);
+    CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, 0, &loss));
+    CHECK(loss == 0);
+    CHECK_OK(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, 0, &loss));
+    CHECK(loss == 0);
+}
+
+static void errors(void) {
+    unit_scene s = unit_make_scene(2, 0.4);
+    contact k = make(&s, 10);
+    const double wild[] = {nan_, inf_, -inf_};
+    fret_loading f = {7, 7, 7, 7};
+    fret_real loss = 7;
+    for (int i = 0; i < 3; i++) {
+        CHECK_ERROR(fret_loading_force(&k.normal, k.mu, &k.press, wild[i], &f), FRET_NOT_FINITE, "Fx");
+        CHECK_ERROR(fret_loading_displacement(&k.normal, k.mu, &k.press, wild[i], &f), FRET_NOT_FINITE, "dx");
+        CHECK_CODE(fret_cycle_loss(&k.normal, k.mu, &k.press, wild[i], &loss), FRET_NOT_FINITE);
+        CHECK_CODE(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, wild[i], &loss), FRET_NOT_FINITE);
+        CHECK_ERROR(fret_loading_force(&k.normal, wild[i], &k.press, 1, &f), FRET_NOT_FINITE, "mu");
+        CHECK_ERROR(fret_loading_displacement(&k.normal, wild[i], &k.press, 1e-6, &f), FRET_NOT_FINITE, "mu");
+        CHECK_ERROR(fret_cycle_loss(&k.normal, wild[i], &k.press, 1, &loss), FRET_NOT_FINITE, "mu");
+        CHECK_ERROR(fret_cycle_loss_displacement(&k.normal, wild[i], &k.press, 1e-6, &loss), FRET_NOT_FINITE,
+                    "mu");
+    }
+    for (double mu = 0; mu >= -1; mu--) {
+        CHECK_ERROR(fret_loading_force(&k.normal, mu, &k.press, 1, &f), FRET_NOT_POSITIVE, "mu");
+        CHECK_ERROR(fret_loading_displacement(&k.normal, mu, &k.press, 1e-6, &f), FRET_NOT_POSITIVE, "mu");
+        CHECK_ERROR(fret_cycle_loss(&k.normal, mu, &k.press, 1, &loss), FRET_NOT_POSITIVE, "mu");
+        CHECK_ERROR(fret_cycle_loss_displacement(&k.normal, mu, &k.press, 1e-6, &loss), FRET_NOT_POSITIVE,
+                    "mu");
+    }
+    CHECK_CODE(fret_cycle_loss(&k.normal, k.mu, &k.press, -1, &loss), FRET_NEGATIVE);
+    CHECK_CODE(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, -1e-6, &loss), FRET_NEGATIVE);
+    CHECK(f.Fx == 7 && f.dx == 7 && f.c == 7 && f.yc == 7 && loss == 7); /* untouched */
+    /* an open contact carries no tangential load */
+    fret_press open = {0, 0, 0};
+    CHECK(fret_gross_slip(&k.normal, k.mu, &open) == 0);
+    CHECK(fret_loading_force(&k.normal, k.mu, &open, 1, &f).code != FRET_OK);
+}
+
+int main(int argc, char **argv) {
+    unit_start("cycle", argc, argv);
+    reference();
+    loss_shape();
+    definition();
+    published();
+    gross_slip();
+    errors();
+    return unit_finish();
+}
