@@ -5,6 +5,7 @@
 #define FRET_H
 
 #include "fret/cycle.h"
+#include "fret/field.h"
 #include "fret/gap.h"
 #include "fret/material.h"
 #include "fret/memory.h"

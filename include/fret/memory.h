@@ -26,6 +26,10 @@ void fret_memory_free(fret_memory *memory);
 /* Makes `to` equal to `from`, allocating only where `to` has held fewer slices so far. */
 fret_status fret_memory_copy(fret_memory *to, const fret_memory *from);
 
+/* What it was made with. */
+const fret_normal *fret_memory_normal(const fret_memory *memory);
+double fret_memory_friction(const fret_memory *memory);
+
 /* Back to the open state; keeps its storage. */
 void fret_memory_reset(fret_memory *memory);
 

@@ -26,6 +26,7 @@ typedef enum fret_code {
     FRET_NO_CONVERGENCE, /* an iteration did not settle                                     */
     FRET_NO_MEMORY,      /* allocation failed; the object is as before                      */
     FRET_INTERRUPTED,    /* the caller's stop test asked to stop                            */
+    FRET_SINGULAR,       /* the field is infinite there                                     */
     FRET_CODES
 } fret_code;
 

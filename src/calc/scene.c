@@ -625,7 +625,7 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
     s->cycle_loss = r.cycle_loss;
     s->state_ready = false;
     if (step->kind == LOAD_STEP ? step->normal != BY_NONE : step->normal_value != 0)
-        s->normal_varies = true;
+        s->normal_varies = true, s->press_ready = false;
     return true;
 }
 

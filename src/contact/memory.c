@@ -535,6 +535,14 @@ void fret_memory_state(const fret_memory *m, fret_state *out) {
     out->kt = inner > 0 ? fret_normal_stiffness(&m->normal, inner) / m->normal.foundation.eta : 0;
 }
 
+const fret_normal *fret_memory_normal(const fret_memory *m) {
+    return &m->normal;
+}
+
+double fret_memory_friction(const fret_memory *m) {
+    return m->mu;
+}
+
 fret_real fret_memory_last_loss(const fret_memory *m) {
     return m->last_loss;
 }

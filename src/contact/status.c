@@ -22,6 +22,7 @@ static const struct {
     [FRET_OVERFLOW] = {FRET_CAT_NUMERIC, "is beyond the range of floating-point numbers"},
     [FRET_NO_CONVERGENCE] = {FRET_CAT_NUMERIC, "did not settle"},
     [FRET_NO_MEMORY] = {FRET_CAT_SYSTEM, "out of memory"},
+    [FRET_SINGULAR] = {FRET_CAT_INPUT, "is a singular place: the field is infinite there"},
     [FRET_INTERRUPTED] = {FRET_CAT_SYSTEM, "interrupted"},
 };
 

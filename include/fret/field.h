@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef FRET_FIELD_H
+#define FRET_FIELD_H
+
+#include "fret/memory.h"
+
+/* Local fields, by inverse transforms. A state of any history is a superposition of normal contacts: slices
+ * of slope sigma are differences of contacts that end at their two ends. The local slip is not
+ * meaningful in this theory, and there is no function for it.
+ *
+ * Arguments r >= 0 [m] else FRET_NEGATIVE. FRET_SINGULAR where the field is infinite: at the sharp edge of a
+ * flat-ended gap, and at the tip where n + k <= 1. Accuracy 1e-12 relative away from singular places. */
+
+/* p(r) = (cN0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx [Pa]; 0 outside. The contact radius is a [m]. */
+fret_status fret_pressure(const fret_normal *normal, fret_real a, fret_real r, fret_real *p);
+
+/* w(r) = (2 cos(pi k/2)/pi) int_0^a x^k (delta_z-g(x)) (r^2-x^2)^(-(1+k)/2) dx for r > a [m], both bodies
+ * together; delta_z - f(r) inside. */
+fret_status fret_surface(const fret_normal *normal, fret_real a, fret_real r, fret_real *w);
+
+/* q_x(r) [Pa] and u_x(r) [m] in the present state of a history: the same with -u'(x) and c_T, and u(x). */
+fret_status fret_traction(const fret_memory *memory, fret_real r, fret_real *q);
+fret_status fret_surface_x(const fret_memory *memory, fret_real r, fret_real *u);
+
+#endif

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fret/field.h"
+
+#include "gap.h"
+#include "special.h"
+
+/* Both integrals run over one variable t in 0..1 that takes the singular factor of the kernel away. */
+typedef struct kernel {
+    const fret_normal *normal;
+    fret_real a, r, start, dz, power;
+} kernel;
+
+/* r beyond the flat end: x^2 = r^2 + (a^2-r^2) t^(2/(k+1)). */
+static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
+    (void)rest;
+    const kernel *c = context;
+    fret_real v = powl(t, c->power), x = sqrtl(c->r * c->r + (c->a - c->r) * (c->a + c->r) * v);
+    if (x <= c->start)
+        return 0;
+    if (x > c->a)
+        x = c->a;
+    return fret_gap_profile(&c->normal->gap, &c->normal->rule, x).slope / x;
+}
+
+/* r below the flat end: x = b + (a-b) t^(2/(k+1)), where g' may be as singular as the kernel. */
+static fret_real pressure_below(fret_real t, fret_real rest, void *context) {
+    (void)rest;
+    const kernel *c = context;
+    fret_real alpha = (c->normal->rule.k - 1) / 2, e = (c->a - c->start) * powl(t, c->power), x = c->start + e;
+    if (x <= c->start)
+        return 0;
+    fret_real slope = fret_gap_profile(&c->normal->gap, &c->normal->rule, x).slope;
+    return slope * powl((x - c->r) * (x + c->r), alpha) * e / t;
+}
+
+fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
+    fret_status st = fret_check_not_negative("r", (double)r);
+    if (st.code)
+        return st;
+    *p = 0;
+    fret_real start = fret_gap_start(&n->gap), k1 = 1 + n->foundation.k;
+    if (r >= a || a <= start)
+        return fret_ok();
+    /* the leading power of the gap decides what the tip is like */
+    fret_real least = INFINITY;
+    for (int i = 0; i < n->gap.terms; i++)
+        least = fminl(least, n->gap.power[i].n);
+    bool tip = r == 0 && start == 0 && least + n->foundation.k <= 1;
+    bool sharp = start > 0 && r == start && n->gap.kind != FRET_GAP_FLAT_ROUNDED && n->gap.kind != FRET_GAP_TABLE;
+    if (tip || sharp)
+        return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
+    kernel c = {n, a, r, start, 0, 2 / k1};
+    fret_real scale = n->foundation.cN0 * powl(n->foundation.c0, -n->foundation.k) / PI_L;
+    if (r >= start)
+        *p = scale * powl((a - r) * (a + r), k1 / 2) / k1 * fret_integrate(pressure_inside, &c);
+    else
+        *p = scale * 2 / k1 * fret_integrate(pressure_below, &c);
+    return isfinite(*p) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
+}
+
+/* x = a t^(1/(k+1)) takes x^k away; what is left is singular at x = r > a at worst. */
+static fret_real outside_part(fret_real t, fret_real rest, void *context) {
+    const kernel *c = context;
+    fret_real k = c->normal->rule.k, x = c->a * powl(t, c->power), g = 0;
+    /* a - x keeps its digits near the edge */
+    fret_real gap = t > 0.5L ? -c->a * expm1l(c->power * log1pl(-rest)) : c->a - x;
+    if (x > c->start)
+        g = fret_gap_profile(&c->normal->gap, &c->normal->rule, fminl(x, c->a)).g;
+    return (c->dz - g) * powl((c->r - c->a + gap) * (c->r + x), -(1 + k) / 2);
+}
+
+fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_real *w) {
+    fret_status st = fret_check_not_negative("r", (double)r);
+    if (st.code)
+        return st;
+    fret_real dz = 0, f = 0, k = n->foundation.k, start = fret_gap_start(&n->gap);
+    *w = 0;
+    if (a <= start)
+        return fret_ok();
+    dz = fret_gap_profile(&n->gap, &n->rule, a).g;
+    if (r <= a) {
+        st = fret_gap_f(&n->gap, r, &f);
+        *w = dz - f;
+        return st;
+    }
+    kernel c = {n, a, r, start, dz, 1 / (1 + k)};
+    fret_real ck = fabsl(k) <= 0.5L ? cosl(PI_L * k / 2) : sinl(PI_L * (1 - fabsl(k)) / 2);
+    *w = 2 * ck / PI_L * powl(a, 1 + k) / (1 + k) * fret_integrate(outside_part, &c);
+    return fret_ok();
+}
+
+/* Sum over the slices of weight sigma times the difference of the field at their two ends. */
+static fret_status superpose(const fret_memory *m, fret_real r, bool traction, fret_real *out) {
+    const fret_normal *n = fret_memory_normal(m);
+    fret_segment s;
+    fret_real inner = 0, sum = 0;
+    *out = 0;
+    for (size_t i = 0; fret_memory_segment(m, i, &s); i++) {
+        fret_real a = fret_law_radius(n, s.outer), outer;
+        fret_status st = traction ? fret_pressure(n, a, r, &outer) : fret_surface(n, a, r, &outer);
+        if (st.code)
+            return st;
+        sum += s.sigma * (outer - inner);
+        inner = outer;
+    }
+    *out = sum;
+    return fret_ok();
+}
+
+/* A field at r counts only what is below it: slices that end inside r contribute their outside part. */
+fret_status fret_traction(const fret_memory *m, fret_real r, fret_real *q) {
+    fret_status st = superpose(m, r, true, q);
+    *q *= fret_memory_friction(m);
+    return st;
+}
+
+fret_status fret_surface_x(const fret_memory *m, fret_real r, fret_real *u) {
+    fret_status st = superpose(m, r, false, u);
+    *u *= fret_memory_friction(m) * fret_memory_normal(m)->foundation.eta;
+    return st;
+}
