@@ -7,7 +7,7 @@
 /* Both integrals run over one variable t in 0..1 that takes the singular factor of the kernel away. */
 typedef struct kernel {
     const fret_normal *normal;
-    fret_real a, r, start, dz, power;
+    fret_real a, r, start, power;
 } kernel;
 
 /* r beyond the flat end: x^2 = r^2 + (a^2-r^2) t^(2/(k+1)). */
@@ -49,7 +49,7 @@ fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_r
     bool sharp = start > 0 && r == start && n->gap.kind != FRET_GAP_FLAT_ROUNDED && n->gap.kind != FRET_GAP_TABLE;
     if (tip || sharp)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
-    kernel c = {n, a, r, start, 0, 2 / k1};
+    kernel c = {n, a, r, start, 2 / k1};
     fret_real scale = n->foundation.cN0 * powl(n->foundation.c0, -n->foundation.k) / PI_L;
     if (r >= start)
         *p = scale * powl((a - r) * (a + r), k1 / 2) / k1 * fret_integrate(pressure_inside, &c);
@@ -58,15 +58,27 @@ fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_r
     return isfinite(*p) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
 }
 
-/* x = a t^(1/(k+1)) takes x^k away; what is left is singular at x = r > a at worst. */
+/* Linear in x^(k+1), which takes x^k away, from x = lo to hi; g has a kink at the flat end. */
+typedef struct outside {
+    const fret_normal *normal;
+    fret_real r, dz, lo, hi, span; /* span: 1-(lo/hi)^(k+1) */
+    bool flat;
+} outside;
+
 static fret_real outside_part(fret_real t, fret_real rest, void *context) {
-    const kernel *c = context;
-    fret_real k = c->normal->rule.k, x = c->a * powl(t, c->power), g = 0;
-    /* a - x keeps its digits near the edge */
-    fret_real gap = t > 0.5L ? -c->a * expm1l(c->power * log1pl(-rest)) : c->a - x;
-    if (x > c->start)
-        g = fret_gap_profile(&c->normal->gap, &c->normal->rule, fminl(x, c->a)).g;
-    return (c->dz - g) * powl((c->r - c->a + gap) * (c->r + x), -(1 + k) / 2);
+    (void)t;
+    const outside *c = context;
+    fret_real k1 = 1 + c->normal->rule.k, l = log1pl(-c->span * rest) / k1;
+    fret_real below = -c->hi * expm1l(l), x = c->hi - below, g = 0; /* hi-x keeps its digits near the edge */
+    if (!c->flat && x > c->lo)
+        g = fret_gap_profile(&c->normal->gap, &c->normal->rule, x).g;
+    return (c->dz - g) * powl((c->r - c->hi + below) * (c->r + x), -k1 / 2);
+}
+
+static fret_real outside_integral(const fret_normal *n, fret_real r, fret_real dz, fret_real lo, fret_real hi, bool flat) {
+    fret_real k1 = 1 + n->foundation.k, span = lo > 0 ? -expm1l(k1 * logl(lo / hi)) : 1;
+    outside c = {n, r, dz, lo, hi, span, flat};
+    return powl(hi, k1) * span / k1 * fret_integrate(outside_part, &c);
 }
 
 fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_real *w) {
@@ -83,9 +95,11 @@ fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_re
         *w = dz - f;
         return st;
     }
-    kernel c = {n, a, r, start, dz, 1 / (1 + k)};
     fret_real ck = fabsl(k) <= 0.5L ? cosl(PI_L * k / 2) : sinl(PI_L * (1 - fabsl(k)) / 2);
-    *w = 2 * ck / PI_L * powl(a, 1 + k) / (1 + k) * fret_integrate(outside_part, &c);
+    fret_real sum = outside_integral(n, r, dz, start, a, false);
+    if (start > 0)
+        sum += outside_integral(n, r, dz, 0, start, true);
+    *w = 2 * ck / PI_L * sum;
     return fret_ok();
 }
 

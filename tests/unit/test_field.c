@@ -21,10 +21,10 @@ static fret_status traction(const void *what, fret_real r, fret_real *out) {
 /* int 2 pi r f dr over lo..hi, double exponential: the fields are singular in slope at both ends. */
 static fret_real ring(field *f, const void *what, fret_real lo, fret_real hi) {
     fret_real sum = 0;
-    for (int i = -44; i <= 44; i++) {
-        fret_real u = 0.1L * i, e = expl(-3.14159265358979323846L * sinhl(fabsl(u)));
+    for (int i = -40; i <= 40; i++) {
+        fret_real u = 0.12L * i, e = expl(-3.14159265358979323846L * sinhl(fabsl(u)));
         fret_real s = e / (1 + e), r = i < 0 ? lo + (hi - lo) * s : hi - (hi - lo) * s, value = 0;
-        fret_real weight = 0.1L * 3.14159265358979323846L * coshl(u) * s / (1 + e) * (hi - lo);
+        fret_real weight = 0.12L * 3.14159265358979323846L * coshl(u) * s / (1 + e) * (hi - lo);
         if (r <= lo || r >= hi)
             continue;
         CHECK_OK(f(what, r, &value));
