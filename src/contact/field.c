@@ -7,7 +7,7 @@
 /* Both integrals run over one variable t in 0..1 that takes the singular factor of the kernel away. */
 typedef struct kernel {
     const fret_normal *normal;
-    fret_real a, r, start, power;
+    fret_real a, r, start, power; /* start: where x begins, or the flat end */
 } kernel;
 
 /* r beyond the flat end: x^2 = r^2 + (a^2-r^2) t^(2/(k+1)). */
@@ -20,6 +20,15 @@ static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
     if (x > c->a)
         x = c->a;
     return fret_gap_profile(&c->normal->gap, &c->normal->rule, x).slope / x;
+}
+
+/* Away from the singularity, x from c.r to c.a: linear in ln x, since near a tip the field is a power. */
+static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
+    (void)rest;
+    const kernel *c = context;
+    fret_real alpha = (c->normal->rule.k - 1) / 2, span = logl(c->a / c->start);
+    fret_real x = fminl(c->start * expl(span * t), c->a);
+    return span * x * fret_gap_profile(&c->normal->gap, &c->normal->rule, x).slope * powl((x - c->r) * (x + c->r), alpha);
 }
 
 /* r below the flat end: x = b + (a-b) t^(2/(k+1)), where g' may be as singular as the kernel. */
@@ -51,10 +60,16 @@ fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_r
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     kernel c = {n, a, r, start, 2 / k1};
     fret_real scale = n->foundation.cN0 * powl(n->foundation.c0, -n->foundation.k) / PI_L;
-    if (r >= start)
-        *p = scale * powl((a - r) * (a + r), k1 / 2) / k1 * fret_integrate(pressure_inside, &c);
-    else
+    if (r >= start) {
+        if (r > 0 && r < a / 2)
+            c.a = 1.4142135623730950488L * r; /* farther, the kernel's x = -r would come too near */
+        *p = scale * powl((c.a - r) * (c.a + r), k1 / 2) / k1 * fret_integrate(pressure_inside, &c);
+        kernel beyond = {n, a, r, c.a, 0};
+        if (c.a < a)
+            *p += scale * fret_integrate(pressure_beyond, &beyond);
+    } else {
         *p = scale * 2 / k1 * fret_integrate(pressure_below, &c);
+    }
     return isfinite(*p) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
 }
 

@@ -118,9 +118,9 @@ fret_status fret_rule_make(fret_real k, fret_rule *rule) {
 }
 
 fret_real fret_integrate(fret_integrand *f, void *context) {
-    const fret_real step = 0.125L;
+    const fret_real step = 1 / 12.0L; /* 1e-15 with a singularity half a unit off the axis */
     fret_sum sum = {0, 0};
-    for (int i = -36; i <= 36; i++) {
+    for (int i = -54; i <= 54; i++) {
         fret_real u = step * i, e = expl(-PI_L * sinhl(fabsl(u))); /* small/large side */
         fret_real small = e / (1 + e), large = 1 / (1 + e);
         fret_real weight = PI_L * coshl(u) * small * large;
