@@ -96,8 +96,10 @@ void lex_seek(lexer *lx, size_t at) {
     lx->at = at;
     lx->len = 0;
     lx->kind = T_END;
-    if (at >= lx->end)
+    if (at >= lx->end) {
+        lx->at = lx->last; /* what is missing is missing right after the last word */
         return;
+    }
     char c = s[at], d = at + 1 < lx->end ? s[at + 1] : 0;
     lx->len = 1;
     if (digit(c) || (c == '.' && digit(d))) {

@@ -49,6 +49,7 @@ static const geometry geometries[] = {
      {IN_RADIUS, INPUTS, INPUTS},
      "exact-sphere R=10 mm",
      "f = R - sqrt(R^2-r^2)"},
+    {"file", FRET_GAP_TABLE, 0, {INPUTS, INPUTS, INPUTS}, "file gap.csv", "rows of r, f with units in the header"},
 };
 
 const geometry *geometry_row(size_t i) {
@@ -67,6 +68,8 @@ static fret_gap gap_of(const scene *s) {
     const geometry *g = s->geometry;
     if (g->kind == FRET_GAP_SUM)
         return s->sum;
+    if (g->kind == FRET_GAP_TABLE)
+        return (fret_gap){.kind = FRET_GAP_TABLE, .table = s->table->table};
     fret_gap gap = {
         .kind = g->kind, .terms = 1, .b = s->in[IN_B], .R = s->in[IN_RADIUS], .slope = s->in[IN_SLOPE]};
     if (g->n == 1)
@@ -89,8 +92,16 @@ static void forget_results(scene *s) {
     s->memory = NULL;
 }
 
+static void drop_table(shared_table *t) {
+    if (t && --t->users == 0) {
+        fret_table_free(t->table);
+        free(t);
+    }
+}
+
 void scene_free(scene *s) {
     forget_results(s);
+    drop_table(s->table);
     fret_memory_free(s->spare);
     if (!s->borrowed) {
         free(s->program);
@@ -102,6 +113,8 @@ void scene_free(scene *s) {
 void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->borrowed = true;
+    if (to->table)
+        to->table->users++;
     to->memory = to->spare = NULL;
     to->applied = to->applied_cycles = 0;
     to->state_ready = false;
@@ -120,18 +133,29 @@ void scene_reset(scene *s, bool all) {
 
 /* ---- inputs ------------------------------------------------------------------------------------ */
 
+/* Arguments of functions and of cycle are no quantities of the scene, but have a dimension too. */
+static dim argument_dimension(const char *name) {
+    const quantity *q;
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        if (q->argument && !strcmp(q->argument, name))
+            return q->argument_d;
+    return !strcmp(name, "FNA") ? DIM_FORCE : !strcmp(name, "dxA") ? DIM_LENGTH : DIM_NONE;
+}
+
 bool scene_status(const scene *s, calc_error *error, const fret_status *st) {
     if (!st->code)
         return true;
     if (st->code == FRET_INTERRUPTED)
         error->stop = true;
+    dim d = DIM_NONE;
     const quantity *q = st->quantity ? quantity_find(st->quantity, strlen(st->quantity)) : NULL;
+    if (q)
+        d = quantity_dim(q, s);
+    else if (st->quantity)
+        d = argument_dimension(st->quantity);
     char unit_text[128] = "", limit_unit[128] = "";
-    long double scale = 1, limit_scale = 1;
-    if (q) {
-        scale = unit_choose(quantity_dim(q, s), st->value, 6, unit_text, sizeof unit_text);
-        limit_scale = unit_choose(quantity_dim(q, s), st->limit, 6, limit_unit, sizeof limit_unit);
-    }
+    long double scale = unit_choose(d, st->value, 6, unit_text, sizeof unit_text);
+    long double limit_scale = unit_choose(d, st->limit, 6, limit_unit, sizeof limit_unit);
     const char *gap1 = *unit_text ? " " : "", *gap2 = *limit_unit ? " " : "";
     double given = (double)(st->value / scale), limit = (double)(st->limit / limit_scale);
     if (st->code == FRET_GROSS_SLIP)
@@ -139,9 +163,11 @@ bool scene_status(const scene *s, calc_error *error, const fret_status *st) {
             error, 0, 0,
             "%s = %.6g%s%s exceeds mu*FN = %.6g%s%s: gross slip; step by displacement (dx=...) to slide",
             st->quantity, given, gap1, unit_text, limit, gap2, limit_unit);
-    if (st->code == FRET_TABLE_SHORT)
-        return calc_fail(error, 0, 0, "%s = %.6g%s%s cannot be carried: the gap ends at r = %.6g m",
-                         st->quantity, given, gap1, unit_text, st->limit);
+    if (st->code == FRET_TABLE_SHORT) {
+        limit_scale = unit_choose(DIM_LENGTH, st->limit, 6, limit_unit, sizeof limit_unit);
+        return calc_fail(error, 0, 0, "%s = %.6g%s%s cannot be carried: the gap supports contact radii up to %.6g %s",
+                         st->quantity, given, gap1, unit_text, (double)(st->limit / limit_scale), limit_unit);
+    }
     if (!st->quantity)
         return calc_fail(error, 0, 0, "%s", fret_status_rule(st->code));
     return calc_fail(error, 0, 0, "%s = %.6g%s%s %s", st->quantity, given, gap1, unit_text,
@@ -335,6 +361,27 @@ bool scene_edit(scene *s, void (*edit)(scene *, void *), void *context, calc_err
     if (!error->raised)
         *error = mine;
     return false;
+}
+
+static void use_table(scene *s, void *context) {
+    s->table = context;
+    s->geometry = geometry_find("file", 4);
+    for (input in = IN_N; in < INPUTS; in++)
+        s->set[in] = false;
+}
+
+bool scene_set_table(scene *s, struct fret_table *table, const char *name, calc_error *error) {
+    shared_table *shared = malloc(sizeof *shared), *old = s->table;
+    if (!shared) {
+        fret_table_free(table);
+        return calc_fail(error, 0, 0, "out of memory");
+    }
+    *shared = (shared_table){.users = 1, .table = table};
+    size_t n = strlen(name) < sizeof shared->name ? strlen(name) : sizeof shared->name - 1;
+    memcpy(shared->name, name, n);
+    bool ok = scene_edit(s, use_table, shared, error);
+    drop_table(ok ? old : shared);
+    return ok;
 }
 
 typedef struct one_input {
@@ -587,6 +634,42 @@ static bool start_program(scene *s, const load_step *press, calc_error *error) {
     return false;
 }
 
+/* spare holds the state of the contact so far */
+static bool keep_spare(scene *s, double mu, calc_error *error) {
+    fret_status st = {FRET_OK, NULL, 0, 0};
+    if (!s->spare)
+        st = fret_memory_make(&s->normal, mu, &s->spare);
+    if (!st.code)
+        st = fret_memory_copy(s->spare, s->memory);
+    return scene_status(s, error, &st);
+}
+
+static void use_spare(scene *s) {
+    fret_memory *half = s->memory;
+    s->memory = s->spare;
+    s->spare = half;
+    s->state_ready = s->press_ready = false;
+}
+
+bool scene_begin(scene *s, calc_error *error) {
+    double mu;
+    if (!s->steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    if (!scene_friction(s, &mu, error) || !catch_up(s, error) || !keep_spare(s, mu, error))
+        return false;
+    s->mark = s->steps;
+    s->mark_cycles = s->cycle_count;
+    s->mark_varies = s->normal_varies;
+    return true;
+}
+
+void scene_roll_back(scene *s) {
+    use_spare(s);
+    s->steps = s->applied = s->mark;
+    s->cycle_count = s->applied_cycles = s->mark_cycles;
+    s->normal_varies = s->mark_varies;
+}
+
 bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
     if (step->kind == LOAD_PRESS)
         return start_program(s, step, error);
@@ -596,17 +679,10 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
     if (!scene_friction(s, &mu, error) || !catch_up(s, error) || !store(s, step, extra, error))
         return false;
     /* a single step leaves memory as it was when it fails; a cycle works on a copy */
-    if (extra) {
-        fret_status st = {FRET_OK, NULL, 0, 0};
-        if (!s->spare)
-            st = fret_memory_make(&s->normal, mu, &s->spare);
-        if (!st.code)
-            st = fret_memory_copy(s->spare, s->memory);
-        if (st.code) {
-            s->steps--;
-            s->cycle_count--;
-            return scene_status(s, error, &st);
-        }
+    if (extra && !keep_spare(s, mu, error)) {
+        s->steps--;
+        s->cycle_count--;
+        return false;
     }
     runner r = {.s = s, .memory = s->memory, .points = 1, .cycle_loss = s->cycle_loss};
     fret_status st = run_step(&r, step, extra);
@@ -614,9 +690,7 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
         s->steps--;
         if (extra) {
             s->cycle_count--;
-            fret_memory *half = s->memory;
-            s->memory = s->spare;
-            s->spare = half;
+            use_spare(s);
         }
         return scene_status(s, error, &st);
     }

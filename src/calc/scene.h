@@ -73,7 +73,8 @@ typedef struct scene {
     bool set[INPUTS];
     second_body second;
     const geometry *geometry;
-    fret_gap sum; /* terms of `geometry sum` */
+    fret_gap sum;         /* terms of `geometry sum` */
+    struct shared_table *table; /* of `geometry file`; counted, so that an old scene can come back */
 
     load_step *program;
     size_t steps, room;
@@ -87,6 +88,8 @@ typedef struct scene {
     fret_normal normal, k0;
     fret_press press;
     fret_memory *memory, *spare;
+    size_t mark, mark_cycles;       /* scene_begin */
+    bool mark_varies;
     size_t applied, applied_cycles; /* how far the program has been run on memory */
     fret_state state;
     bool state_ready;
@@ -94,7 +97,16 @@ typedef struct scene {
     const volatile sig_atomic_t *stop;
 } scene;
 
+/* A gap table that scenes share. */
+typedef struct shared_table {
+    size_t users;
+    struct fret_table *table;
+    char name[256];
+} shared_table;
+
 void scene_free(scene *s);
+/* Takes over the table, its name for `show`; on error frees it. */
+bool scene_set_table(scene *s, struct fret_table *table, const char *name, calc_error *error);
 /* A scratch copy for sweeps: shares the program, owns its results. Free with scene_free. */
 void scene_clone(scene *to, const scene *from);
 /* Forgets the load program; `all`: the inputs too. */
@@ -113,6 +125,10 @@ bool scene_edit(scene *s, void (*edit)(scene *s, void *context), void *context, 
 
 /* Appends to the load program and runs it; on error nothing has changed. */
 bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error);
+
+/* Marks the place that scene_roll_back returns to: for commands of many steps. */
+bool scene_begin(scene *s, calc_error *error);
+void scene_roll_back(scene *s);
 
 /* What follows, made ready on demand. */
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fret/cycle.h"
 
+#include <float.h>
+
 #include "special.h"
 
 /* t = F/(mu F_N) with s = 1-t to full relative accuracy: near gross slip the rounding of the
@@ -9,9 +11,12 @@ typedef struct fraction {
     fret_real t, s;
 } fraction;
 
+/* 0.3 times 100 N is not 30 N in binary: F equal to mu F_N up to its rounding is gross slip, no more. */
+
 static fraction fraction_of(double mu, fret_real FN, fret_real F) {
     fret_real limit = mu * FN, rest = fmal(mu, FN, -limit);
-    return (fraction){F / limit, ((limit - F) + rest) / limit};
+    fret_real s = ((limit - F) + rest) / limit;
+    return fabsl(s) <= DBL_EPSILON ? (fraction){1, 0} : (fraction){F / limit, s};
 }
 
 fret_real fret_gross_slip(const fret_normal *normal, double mu, const fret_press *press) {

@@ -451,15 +451,19 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
         return fret_fail(FRET_NOT_FINITE, name, step->tangential, 0);
     measure by = step->tangential_by == FRET_TO_FX ? LOAD : DEPTH;
-    if (by == LOAD && fabsl(step->tangential) > (fret_real)m->mu * edge[LOAD])
-        return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(m->mu * edge[LOAD]));
+    fret_real load = by == LOAD ? step->tangential / (fret_real)m->mu : 0; /* F_x/mu */
+    if (fabsl(load) > edge[LOAD] * (1 - (fret_real)DBL_EPSILON)) {
+        if (fabsl(load) > edge[LOAD] * (1 + (fret_real)DBL_EPSILON))
+            return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(m->mu * edge[LOAD]));
+        load = copysignl(edge[LOAD], load); /* mu F_N up to its rounding */
+    }
     st = reserve(m, m->count + 4);
     if (st.code)
         return st;
 
     fret_real loss = 0;
     if (by == LOAD) {
-        fret_real drive = step->tangential / (fret_real)m->mu - total(m, LOAD);
+        fret_real drive = load - total(m, LOAD);
         if (drive != 0)
             m->direction = drive < 0 ? -1 : 1;
         loss = advance(m, LOAD, edge, drive);

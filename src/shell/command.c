@@ -17,7 +17,7 @@ static const command commands[] = {
      "    fret> material E0=210 GPa nu=0.3 k=0.5 c0=1 mm\n"
      "    fret> E(0.25 mm), eta\n"
      "    E(0.25 mm) = 105 GPa\n"
-     "    eta = 1.34019\n",
+     "    eta = 2.10754\n",
      COMPLETE_QUANTITY},
     {"second", do_second, "E0=70 GPa nu=0.33 | rigid | same", "the other body, where it differs",
      "The second body shares k and c0 with the first; by default it is the same. Bodies that are not\n"
@@ -58,7 +58,7 @@ static const command commands[] = {
      "    fret> step Fx=20 N; step Fx+=-10 N\n"
      "    fret> Fx, dx, c/a\n"
      "    Fx = 10 N\n"
-     "    dx = 358.189 nm\n"
+     "    dx = 337.819 nm\n"
      "    c/a = 0.956466\n",
      COMPLETE_QUANTITY},
     {"cycle", do_cycle, "FA=20 N | dxA=0.5 um [times 3] [steps 200] [FNA=30 N phase=90 deg]",
@@ -70,9 +70,13 @@ static const command commands[] = {
      "    fret> press FN=100 N\n"
      "    fret> cycle FA=20 N\n"
      "    fret> dW, dW/(4*FN*dxmax) in %\n"
-     "    dW = 1.51316 uJ\n"
-     "    dW/(4*FN*dxmax) = 0.277935 %\n",
+     "    dW = 1.90646 uJ\n"
+     "    dW/(4*FN*dxmax) = 0.281737 %\n",
      COMPLETE_QUANTITY},
+    {"follow", do_follow, "FILE.csv", "load along a table: columns FN,Fx or dz,dx with units in the header",
+     "Every row is a straight step; a row that cannot be carried leaves the scene as before the command.\n"
+     "The first lines of such a file: `FN [N],Fx [N]`, then `100,0`, `120,15`.\n",
+     COMPLETE_FILE},
     {"reset", do_reset, "[all]", "forget the load program; all: the inputs too",
      "Variables of your own are kept.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; press FN=1 N\n"
@@ -85,21 +89,22 @@ static const command commands[] = {
      "CSV.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
      "    fret> press FN=100 N; step Fx=20 N; step Fx=-20 N\n"
-     "    fret> set format csv; set digits 3\n"
      "    fret> history\n"
-     "    FN [N],dz [m],Fx [N],dx [m],W [J]\n"
-     "    100,3.4829098839413082e-06,0,0,0\n",
+     "           FN [N]         dz [m]         Fx [N]         dx [m]          W [J]\n"
+     "              100    3.48291e-06              0              0              0\n"
+     "              100    3.48291e-06             20    6.25995e-07    4.76614e-07\n"
+     "              100    3.48291e-06            -20   -6.25995e-07    1.42984e-06\n",
      COMPLETE_FILE},
     {"table", do_table, "EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, v2, ...] [to FILE]",
      "a table over a range",
      "VAR is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
      "    fret> table dW(F) in uJ, c(F)/a for F = 10 N .. 40 N steps 3\n"
-     "           F [N]     dW(F) [uJ]         c(F)/a\n"
-     "              10       0.152937        0.90856\n"
-     "              20        1.51316       0.793701\n"
-     "              30        6.64893       0.629961\n"
-     "              40        27.2221              0\n",
+     "            F [N]     dW(F) [uJ]         c(F)/a\n"
+     "               10       0.188365        0.90856\n"
+     "               20        1.90646       0.793701\n"
+     "               30        9.01533       0.629961\n"
+     "               40        54.1344              0\n",
      COMPLETE_QUANTITY},
     {"plot", do_plot,
      "loop | EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, ...] [to FILE.png|svg|pdf|gp]",
@@ -401,6 +406,8 @@ static void show_scene(shell *sh) {
         for (input in = IN_N; in < INPUTS; in++)
             if (s->set[in])
                 show_input(sh, NULL, in, s->in[in]);
+        if (s->geometry->kind == FRET_GAP_TABLE)
+            fprintf(sh->out, " %s", s->table->name);
         for (int i = 0; i < s->sum.terms && s->geometry->kind == FRET_GAP_SUM; i++) {
             char text[160];
             format_value(sh, (value){s->sum.power[i].h, {0, 1 - s->sum.power[i].n}}, text, sizeof text);

@@ -59,6 +59,7 @@ bool do_friction(shell *sh, lexer *lx);
 bool do_press(shell *sh, lexer *lx);
 bool do_step(shell *sh, lexer *lx);
 bool do_cycle(shell *sh, lexer *lx);
+bool do_follow(shell *sh, lexer *lx);
 bool do_reset(shell *sh, lexer *lx);
 
 bool do_history(shell *sh, lexer *lx);

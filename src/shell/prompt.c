@@ -77,6 +77,32 @@ static char *next_match(const char *text, int state) {
     return NULL;
 }
 
+/* Does the statement up to the word end in `source` or `to`, which a file name follows? */
+static bool at_file(int start) {
+    while (start > 0 && rl_line_buffer[start - 1] == ' ')
+        start--;
+    for (const char **w = file_words; *w; w++) {
+        int n = (int)strlen(*w);
+        if (start >= n && !strncmp(rl_line_buffer + start - n, *w, (size_t)n) &&
+            (start == n || rl_line_buffer[start - n - 1] == ' ' || rl_line_buffer[start - n - 1] == ';'))
+            return true;
+    }
+    return false;
+}
+
+/* File names and the names of geometries hold characters that end a word elsewhere. */
+static char *word_breaks(void) {
+    static char plain[] = " \t;,()+-*/^=:\"", loose[] = " \t;,\"";
+    int start = rl_point;
+    while (start > 0 && !strchr(loose, rl_line_buffer[start - 1]))
+        start--;
+    int before = start;
+    while (before > 0 && rl_line_buffer[before - 1] == ' ')
+        before--;
+    bool shape = before >= 8 && !strncmp(rl_line_buffer + before - 8, "geometry", 8);
+    return shape || at_file(start) ? loose : plain;
+}
+
 static char **complete(const char *text, int start, int end) {
     (void)end;
     rl_attempted_completion_over = 1;
@@ -89,15 +115,9 @@ static char **complete(const char *text, int start, int end) {
     size_t len = strcspn(rl_line_buffer + begin, " ");
     const command *c = word_at_start ? NULL : command_find(rl_line_buffer + begin, len);
     word_kind = c ? c->complete : COMPLETE_QUANTITY;
-    int before = start;
-    while (before > 0 && rl_line_buffer[before - 1] == ' ')
-        before--;
-    for (const char **w = file_words; *w; w++) {
-        int n = (int)strlen(*w);
-        if (before >= n && !strncmp(rl_line_buffer + before - n, *w, (size_t)n)) {
-            rl_attempted_completion_over = 0;
-            return NULL;
-        }
+    if (at_file(start)) {
+        rl_attempted_completion_over = 0;
+        return NULL;
     }
     return rl_completion_matches(text, next_match);
 }
@@ -162,7 +182,7 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
     rl_readline_name = "fret";
     rl_getc_function = read_key;
     rl_attempted_completion_function = complete;
-    rl_completer_word_break_characters = " \t;,()+-*/^=:\"";
+    rl_completion_word_break_hook = word_breaks;
     rl_catch_signals = 0;
     using_history();
     bool keep = history_file(path, sizeof path);

@@ -29,13 +29,13 @@ static double last_place(const char *s, const char *end) {
     return pow(10, (e < end ? strtod(e + 1, NULL) : 0) - places);
 }
 
-/* Equal up to numbers that agree within a unit of their last printed digit, or the tolerance. */
+/* Equal, but for numbers that agree to the digits wanted, or within the tolerance. */
 static bool same(const char *want, const char *got, double tolerance) {
     while (*want && *got) {
         if (starts_number(want) && starts_number(got)) {
             char *we, *ge;
             double w = strtod(want, &we), g = strtod(got, &ge);
-            if (fabs(w - g) > fmax(1.000001 * last_place(want, we), tolerance * fabs(w)))
+            if (fabs(w - g) > fmax(0.500001 * last_place(want, we), tolerance * fabs(w)))
                 return false;
             want = we;
             got = ge;

@@ -356,7 +356,8 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
             break;
         size_t end = statement_end(text, i, len);
         calc_error error;
-        double start = sh->set.timing ? seconds() : 0;
+        bool timed = sh->set.timing;
+        double start = timed ? seconds() : 0;
         bool done = shell_statement(sh, text + i, end - i, &error);
         if (!done && !error.raised) /* already reported: a nested source */
             return false;
@@ -366,7 +367,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
             ok = false;
             if (!from->keep_going)
                 return false;
-        } else if (sh->set.timing) {
+        } else if (timed) {
             fflush(sh->out);
             fprintf(sh->err, "time: %.3g ms\n", 1e3 * (seconds() - start));
         }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "calc/csv.h"
 #include "shell/command.h"
 #include "shell/output.h"
 
@@ -198,6 +199,37 @@ static bool read_sum(shell *sh, lexer *lx, edit *e) {
     return at_end(lx);
 }
 
+/* Columns r and f, in either order. */
+static bool read_gap_file(shell *sh, lexer *lx) {
+    char name[4000];
+    size_t at = lx->at;
+    csv data;
+    if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
+        return false;
+    lx->error->at = at;
+    lx->error->len = strlen(name);
+    if (!csv_read(name, &data, lx->error))
+        goto placed;
+    int r = !strcmp(data.name[1], "r");
+    if (strcmp(data.name[r], "r") || strcmp(data.name[1 - r], "f")) {
+        calc_fail(lx->error, 0, 0, "%s: the columns must be named r and f, not %s and %s", name, data.name[0], data.name[1]);
+    } else if (!dim_equal(data.d[0], DIM_LENGTH) || !dim_equal(data.d[1], DIM_LENGTH)) {
+        calc_fail(lx->error, 0, 0, "%s: r and f are lengths and need units in the header, such as r [mm],f [um]", name);
+    } else {
+        struct fret_table *gap;
+        fret_status st = fret_table_make(data.column[r], data.column[1 - r], data.count, &gap);
+        if (scene_status(&sh->calc.scene, lx->error, &st) && scene_set_table(&sh->calc.scene, gap, name, lx->error)) {
+            csv_free(&data);
+            return true;
+        }
+    }
+    csv_free(&data);
+placed:
+    lx->error->at = at;
+    lx->error->len = strlen(name);
+    return false;
+}
+
 bool do_geometry(shell *sh, lexer *lx) {
     /* names with a hyphen are several tokens to the lexer */
     size_t begin = lx->at, len = 0;
@@ -218,6 +250,8 @@ bool do_geometry(shell *sh, lexer *lx) {
     }
     lex_seek(lx, begin + len);
     edit e = {.geometry = g};
+    if (g->kind == FRET_GAP_TABLE)
+        return read_gap_file(sh, lx);
     if (g->kind == FRET_GAP_SUM) {
         if (!read_sum(sh, lx, &e))
             return false;
@@ -232,7 +266,7 @@ bool do_geometry(shell *sh, lexer *lx) {
         if (takes_slope && argument_is(&a, "angle")) {
             if (!value_dim(lx, "angle", a.value_at, a.value_len, a.v, DIM_NONE))
                 return false;
-            if (!(a.v.v > 0 && a.v.v < 1.5707963267948966L))
+            if (!(a.v.v > 0 && a.v.v < 1.5707963267948966 /* 90 deg as a double */))
                 return calc_fail(lx->error, a.value_at, a.value_len, "angle must lie between 0 and 90 deg");
             put(&e, IN_SLOPE, tanl(a.v.v));
             continue;
@@ -252,6 +286,11 @@ bool do_geometry(shell *sh, lexer *lx) {
         }
         if (!argument_dim(lx, &a, d))
             return false;
+        if (q->in == IN_A && !(a.v.v > 0)) { /* said here: the dimension of A is not that of the scene as it stands */
+            char text[160];
+            format_value(sh, (value){a.v.v, d}, text, sizeof text);
+            return calc_fail(lx->error, a.value_at, a.value_len, "A = %s must be positive", text);
+        }
         if (!put_argument(sh, lx, &e, (input)q->in, &a))
             return false;
     }
@@ -453,6 +492,56 @@ bool do_cycle(shell *sh, lexer *lx) {
     }
     static const char *const names[] = {"dW", "Fx", "dx", "c", NULL};
     report_event(sh, "cycle", names);
+    return true;
+}
+
+/* Rows FN,Fx or dz,dx become steps; all of them, or none. */
+bool do_follow(shell *sh, lexer *lx) {
+    static const struct {
+        const char *name[2];
+        unsigned char by;
+        dim d;
+    } kinds[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0}}, {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1}}};
+    char name[4000];
+    size_t at = lx->at;
+    csv data;
+    if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
+        return false;
+    bool ok = csv_read(name, &data, lx->error);
+    if (ok) {
+        int kind = strcmp(data.name[0], "FN") ? 1 : 0;
+        if (strcmp(data.name[0], kinds[kind].name[0]) || strcmp(data.name[1], kinds[kind].name[1]))
+            ok = calc_fail(lx->error, 0, 0, "%s: the columns must be FN,Fx or dz,dx, not %s,%s", name, data.name[0], data.name[1]);
+        else if (!dim_equal(data.d[0], kinds[kind].d) || !dim_equal(data.d[1], kinds[kind].d))
+            ok = calc_fail(lx->error, 0, 0, "%s: the columns need units in the header, such as %s", name,
+                           kind ? "dz [um],dx [um]" : "FN [N],Fx [N]");
+        size_t row = 0;
+        load_step step = {.kind = LOAD_STEP, .normal = kinds[kind].by, .tangential = kinds[kind].by};
+        ok = ok && scene_begin(&sh->calc.scene, lx->error);
+        for (; ok && row < data.count; row++) {
+            step.normal_value = data.column[0][row];
+            step.tangential_value = data.column[1][row];
+            ok = scene_load(&sh->calc.scene, &step, NULL, lx->error);
+            if (ok && shell_stop) {
+                lx->error->stop = true;
+                ok = calc_fail(lx->error, 0, 0, "interrupted");
+            }
+            if (!ok && !lx->error->stop) {
+                size_t n = strlen(lx->error->text);
+                snprintf(lx->error->text + n, sizeof lx->error->text - n, " (row %zu of %.200s)", row + 1, name);
+            }
+        }
+        if (!ok && row)
+            scene_roll_back(&sh->calc.scene);
+        csv_free(&data);
+    }
+    lx->error->at = at;
+    lx->error->len = strlen(name);
+    if (!ok)
+        return false;
+    lx->error->at = lx->error->len = 0;
+    static const char *const names[] = {"FN", "Fx", "dx", "c", NULL};
+    report_event(sh, "follow", names);
     return true;
 }
 

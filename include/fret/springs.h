@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef FRET_SPRINGS_H
+#define FRET_SPRINGS_H
+
+#include <stddef.h>
+
+#include "fret/memory.h"
+
+/* The foundation cut into independent springs: the scheme of Mathematics 2022, 10, 3641, (19)-(22). A
+ * cross-check of the memory diagram and the baseline for its cost; prefer fret_memory for work.
+ *
+ * [0, radius] is cut into `count` cells of width h, spring i of both sides together at x_i = (i+1/2) h:
+ *   g_i = g(x_i),  w_i = int 2 c_N(x) dx over the cell,  B_i = mu eta (delta_z - g_i)+,
+ *   u_i <- clip(u_i + d(delta_x), -B_i, B_i),
+ *   F_N = sum w_i (delta_z - g_i)+,  F_x = sum w_i u_i / eta,  U = sum w_i u_i^2/(2 eta),
+ *   dW = sum w_i |d(delta_x) - du_i| B_i' / eta, B_i' the mean bound during the slip of that spring.
+ * A spring touched during a substep starts unstressed at touch, one that parts does so at its time.
+ *
+ * Accuracy, with N springs inside the contact: order min(2, n+k+1) in 1/N at gaps ~ r^n by FRET_WEIGHT_CELL;
+ * order 1+k at k < 0 by FRET_WEIGHT_MIDPOINT. A path straight in (delta_z, delta_x) adds no step error;
+ * one straight in (F_N, F_x) adds an error of order 2 in 1/substeps, none at constant F_N.
+ *
+ * Thread-compatible: distinct objects may be used by distinct threads. */
+typedef struct fret_springs fret_springs;
+
+typedef enum fret_weight {
+    FRET_WEIGHT_CELL,    /* w = 2 cN0 c0^-k (x+^(k+1)-x-^(k+1))/(k+1), between the ends of the cell */
+    FRET_WEIGHT_MIDPOINT /* w = 2 cN0 (x_i/c0)^k h, as printed: for demonstration */
+} fret_weight;
+
+/* Springs of an open contact (delta_z = 0, F_x = 0). radius [m] > 0: the largest contact radius of the
+ * history. Keeps its own copy of normal; a gap table is borrowed and must outlive it.
+ * Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE (mu, radius), FRET_NOT_POSITIVE (count), FRET_OUTSIDE (rule, or
+ * a radius within the flat end), FRET_TABLE_SHORT, FRET_NOT_MONOTONE (radius beyond the gap),
+ * FRET_OVERFLOW, FRET_NO_MEMORY. */
+fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count, double radius,
+                              fret_weight rule, fret_springs **out);
+void fret_springs_free(fret_springs *springs);
+
+/* Back to the open state; keeps its storage. */
+void fret_springs_reset(fret_springs *springs);
+
+/* Makes `to` equal to `from`; allocates only where the counts differ. Error: FRET_NO_MEMORY. */
+fret_status fret_springs_copy(fret_springs *to, const fret_springs *from);
+
+/* One step with the targets and paths of fret_memory_step, in `substeps` equal parts; F_N means its sum
+ * over cells here. With FRET_TO_FX each part solves for delta_x: the least change that reaches F_x to
+ * 1e-14 mu F_N. No allocation.
+ * Errors, the contact as before it: FRET_GROSS_SLIP (|F_x| > mu F_N; limit mu F_N), FRET_OUTSIDE (F_N or dz
+ * beyond that of `radius`; limit), FRET_NEGATIVE, FRET_NOT_FINITE, FRET_NOT_POSITIVE (substeps). */
+fret_status fret_springs_step(fret_springs *springs, const fret_step *step, unsigned substeps);
+
+/* The state now, SI as in fret_state, in time ~ count; a is that of the continuum, c a cell boundary
+ * (or a), slices the number of springs in contact. */
+void fret_springs_state(const fret_springs *springs, fret_state *out);
+
+#endif
