@@ -14,6 +14,9 @@ typedef struct fret_profile {
 /* a > gap start. Valid gaps only. */
 fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real a);
 
+/* True only if g grows throughout; false is not yet a verdict. */
+bool fret_table_grows(const struct fret_table *table);
+
 /* Radius below which f = 0 (the flat end), and the radius where the gap ends (INFINITY: nowhere). */
 fret_real fret_gap_start(const fret_gap *gap);
 fret_real fret_gap_end(const fret_gap *gap);

@@ -16,7 +16,7 @@ static fret_status find_end(fret_normal *n) {
     const fret_gap *gap = &n->gap;
     fret_real start = fret_gap_start(gap), last = fret_gap_end(gap), lo = start, first = 1e-12L;
     n->end = last;
-    bool negative = gap->kind == FRET_GAP_TABLE;
+    bool negative = gap->kind == FRET_GAP_TABLE && !fret_table_grows(gap->table);
     for (int i = 0; i < gap->terms && gap->kind == FRET_GAP_SUM; i++)
         negative = negative || gap->power[i].h < 0;
     if (!negative)
