@@ -14,7 +14,7 @@ typedef enum fret_gap_kind {
     FRET_GAP_FLAT_CONE,       /* f = slope (r-b), r > b */
     FRET_GAP_FLAT_PARABOLOID, /* f = (r^2-b^2)/(2R), r > b */
     FRET_GAP_FLAT_ROUNDED,    /* f = (r-b)^2/(2R), r > b: the usual fretting pad */
-    FRET_GAP_EXACT_SPHERE,    /* f = R - sqrt(R^2-r^2), r < R */
+    FRET_GAP_EXACT_SPHERE,    /* f = R - sqrt(R^2-r^2), r <= 0.95 R */
     FRET_GAP_TABLE            /* sampled gap, monotone piecewise cubic */
 } fret_gap_kind;
 

@@ -20,14 +20,17 @@ static bool is_break(char ch) {
 }
 
 /* `r [mm]`, `r (mm)`, `r/mm` and plain `k`. */
-static bool read_header(char *line, csv *c, long double scale[2], const char *path, size_t number, calc_error *error) {
+static bool read_header(char *line, csv *c, long double scale[2], const char *path, size_t number,
+                        calc_error *error) {
     char *p = line;
     for (int i = 0; i < 2; i++) {
         p += strspn(p, " \t,;\"");
         size_t n = strcspn(p, " \t,;[(/\r\n\"");
         if (!n || n >= CSV_NAME)
-            return calc_fail(error, 0, 0, "%s:%zu: the header must name two columns with their units, such as r [mm],f [um]",
-                             path, number);
+            return calc_fail(
+                error, 0, 0,
+                "%s:%zu: the header must name two columns with their units, such as r [mm],f [um]", path,
+                number);
         memcpy(c->name[i], p, n);
         c->name[i][n] = 0;
         p += n;
@@ -97,7 +100,8 @@ bool csv_read(const char *path, csv *c, calc_error *error) {
                 p++;
             double v = strtod(p, &end);
             /* strtod knows nan, inf and hexadecimal; a table of lengths and forces does not */
-            ok = end > p && (is_break(*end) || !*end) && isfinite(v) && strcspn(p, "xXnN") >= (size_t)(end - p);
+            ok = end > p && (is_break(*end) || !*end) && isfinite(v) &&
+                 strcspn(p, "xXnN") >= (size_t)(end - p);
             row[i] = (double)(v * scale[i]);
             p = end;
         }

@@ -15,8 +15,8 @@ typedef struct csv {
     dim d[2];
 } csv;
 
-/* Reads `name [unit],name [unit]` and rows of two numbers; `#` begins a comment line. Commas, semicolons, tabs or
- * blanks part the columns. The error names file and line. Free with csv_free. */
+/* Reads `name [unit],name [unit]` and rows of two numbers; `#` begins a comment line. Commas, semicolons,
+ * tabs or blanks part the columns. The error names file and line. Free with csv_free. */
 bool csv_read(const char *path, csv *out, calc_error *error);
 void csv_free(csv *c);
 

@@ -35,7 +35,7 @@ PRESS(a, a)
     static bool get_##name(scene *s, long double *out, calc_error *error) {                                  \
         const fret_state *state;                                                                             \
         fret_loading first;                                                                                  \
-        if (scene_is_first_loading(s)) {                                                                     \
+        if (scene_closed_state(s)) {                                                                         \
             if (!scene_first_loading(s, &first, error))                                                      \
                 return false;                                                                                \
             *out = first.member;                                                                             \
@@ -250,7 +250,8 @@ static bool call_g(scene *s, value x, long double *out, calc_error *error) {
 
 /* ---- local fields, state now ------------------------------------------------------------------- */
 
-static bool normal_field(scene *s, value r, fret_status (*field)(const fret_normal *, fret_real, fret_real, fret_real *),
+static bool normal_field(scene *s, value r,
+                         fret_status (*field)(const fret_normal *, fret_real, fret_real, fret_real *),
                          long double *out, calc_error *error) {
     const fret_normal *normal;
     const fret_press *press;
@@ -268,7 +269,8 @@ static bool call_uz(scene *s, value r, long double *out, calc_error *error) {
     return normal_field(s, r, fret_surface, out, error);
 }
 
-static bool tangential_field(scene *s, value r, fret_status (*field)(const fret_memory *, fret_real, fret_real *),
+static bool tangential_field(scene *s, value r,
+                             fret_status (*field)(const fret_memory *, fret_real, fret_real *),
                              long double *out, calc_error *error) {
     const fret_memory *memory;
     double mu;
@@ -472,10 +474,46 @@ static const quantity quantities[] = {
      call_g,
      "x",
      {0, 1}},
-    {"p", "contact pressure", "p(r) = (c_N0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx", "inverse of (3)", {1, -2}, -1, 0, call_p, "r", {0, 1}},
-    {"qx", "tangential traction", "q_x(r): as p with -u'(x) and c_T0", "inverse of (3)", {1, -2}, -1, 0, call_qx, "r", {0, 1}},
-    {"uz", "normal surface displacement", "(2 cos(pi k/2)/pi) int_0^a x^k (delta_z-g) (r^2-x^2)^(-(1+k)/2) dx", "inverse of (3)", {0, 1}, -1, 0, call_uz, "r", {0, 1}},
-    {"ux", "tangential surface displacement", "u_x(r): as u_z with u(x)", "inverse of (3)", {0, 1}, -1, 0, call_ux, "r", {0, 1}},
+    {"p",
+     "contact pressure",
+     "p(r) = (c_N0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx",
+     "inverse of (3)",
+     {1, -2},
+     -1,
+     0,
+     call_p,
+     "r",
+     {0, 1}},
+    {"qx",
+     "tangential traction",
+     "q_x(r): as p with -u'(x) and c_T0",
+     "inverse of (3)",
+     {1, -2},
+     -1,
+     0,
+     call_qx,
+     "r",
+     {0, 1}},
+    {"uz",
+     "normal surface displacement",
+     "(2 cos(pi k/2)/pi) int_0^a x^k (delta_z-g) (r^2-x^2)^(-(1+k)/2) dx",
+     "inverse of (3)",
+     {0, 1},
+     -1,
+     0,
+     call_uz,
+     "r",
+     {0, 1}},
+    {"ux",
+     "tangential surface displacement",
+     "u_x(r): as u_z with u(x)",
+     "inverse of (3)",
+     {0, 1},
+     -1,
+     0,
+     call_ux,
+     "r",
+     {0, 1}},
 };
 enum { QUANTITIES = sizeof quantities / sizeof *quantities };
 

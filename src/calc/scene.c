@@ -49,7 +49,12 @@ static const geometry geometries[] = {
      {IN_RADIUS, INPUTS, INPUTS},
      "exact-sphere R=10 mm",
      "f = R - sqrt(R^2-r^2)"},
-    {"file", FRET_GAP_TABLE, 0, {INPUTS, INPUTS, INPUTS}, "file gap.csv", "rows of r, f with units in the header"},
+    {"file",
+     FRET_GAP_TABLE,
+     0,
+     {INPUTS, INPUTS, INPUTS},
+     "file gap.csv",
+     "rows of r, f with units in the header"},
 };
 
 const geometry *geometry_row(size_t i) {
@@ -165,7 +170,8 @@ bool scene_status(const scene *s, calc_error *error, const fret_status *st) {
             st->quantity, given, gap1, unit_text, limit, gap2, limit_unit);
     if (st->code == FRET_TABLE_SHORT) {
         limit_scale = unit_choose(DIM_LENGTH, st->limit, 6, limit_unit, sizeof limit_unit);
-        return calc_fail(error, 0, 0, "%s = %.6g%s%s cannot be carried: the gap supports contact radii up to %.6g %s",
+        return calc_fail(error, 0, 0,
+                         "%s = %.6g%s%s cannot be carried: the gap supports contact radii up to %.6g %s",
                          st->quantity, given, gap1, unit_text, (double)(st->limit / limit_scale), limit_unit);
     }
     if (!st->quantity)
@@ -326,7 +332,7 @@ void scene_put(scene *s, input in, double v) {
 /* Everything that the present inputs and program claim must hold. */
 static bool validate(scene *s, calc_error *error) {
     const fret_normal *normal;
-    const fret_state *state;
+    const fret_memory *memory;
     for (input in = 0; in < INPUTS; in++)
         if (s->set[in]) {
             fret_status st = input_status(in, s->in[in]);
@@ -336,7 +342,7 @@ static bool validate(scene *s, calc_error *error) {
     if (s->steps) {
         long double mu;
         if (s->set[IN_MU] || s->steps > 1)
-            return (s->set[IN_MU] || scene_get(s, IN_MU, &mu, error)) && scene_state(s, &state, error);
+            return (s->set[IN_MU] || scene_get(s, IN_MU, &mu, error)) && scene_memory(s, &memory, error);
         const fret_press *press;
         return scene_press(s, &press, error);
     }
@@ -434,6 +440,7 @@ static bool friction_for_program(const scene *s, double *mu, calc_error *error) 
 typedef struct runner {
     const scene *s;
     fret_memory *memory;
+    fret_springs *springs;  /* instead of memory */
     load_observer *observe; /* or NULL */
     void *context;
     unsigned points;
@@ -441,12 +448,26 @@ typedef struct runner {
     long double cycle_loss;
 } runner;
 
+/* A ramp by force that changes F_N is no straight line for the springs: 64 parts, an error of 1e-8. */
+static fret_status run_on(runner *r, const fret_step *step) {
+    bool ramp = step->normal_by != FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_FX;
+    return r->springs ? fret_springs_step(r->springs, step, ramp ? 64 : 1)
+                      : fret_memory_step(r->memory, step);
+}
+
+static void forces_of(const runner *r, fret_state *out) {
+    if (r->springs)
+        fret_springs_state(r->springs, out);
+    else
+        fret_memory_forces(r->memory, out);
+}
+
 static fret_status take(runner *r, const fret_step *step, unsigned points) {
     fret_status st;
     if (!r->observe)
-        return fret_memory_step(r->memory, step);
+        return run_on(r, step);
     fret_state from, now;
-    fret_memory_forces(r->memory, &from);
+    forces_of(r, &from);
     for (unsigned i = 1; i < points; i++) {
         if (r->s->stop && *r->s->stop)
             return (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
@@ -456,13 +477,13 @@ static fret_status take(runner *r, const fret_step *step, unsigned points) {
         long double t0 = step->tangential_by == FRET_TO_FX ? from.Fx : from.dx;
         part.normal = (double)(n0 + (step->normal - n0) * t);
         part.tangential = (double)(t0 + (step->tangential - t0) * t);
-        st = fret_memory_step(r->memory, &part);
+        st = run_on(r, &part);
         if (st.code)
             return st;
         fret_memory_state(r->memory, &now);
         r->observe(&now, r->index, r->context);
     }
-    st = fret_memory_step(r->memory, step);
+    st = run_on(r, step);
     if (!st.code) {
         fret_memory_state(r->memory, &now);
         r->observe(&now, r->index, r->context);
@@ -498,7 +519,7 @@ static fret_status period(runner *r, const load_step *c, const cycle_extra *x, l
 
 static fret_status run_cycle(runner *r, const load_step *c, const cycle_extra *x) {
     fret_state state;
-    fret_memory_forces(r->memory, &state);
+    forces_of(r, &state);
     long double FN = state.FN;
     fret_step first = {FRET_KEEP_NORMAL, c->tangential == BY_FORCE ? FRET_TO_FX : FRET_TO_DX, 0,
                        c->tangential_value};
@@ -508,10 +529,10 @@ static fret_status run_cycle(runner *r, const load_step *c, const cycle_extra *x
     }
     fret_status st = take(r, &first, r->points);
     for (unsigned i = 0; i < x->times && !st.code; i++) {
-        fret_memory_forces(r->memory, &state);
+        forces_of(r, &state);
         long double before = state.W;
         st = period(r, c, x, FN);
-        fret_memory_forces(r->memory, &state);
+        forces_of(r, &state);
         r->cycle_loss = state.W - before;
         if (r->s->stop && *r->s->stop && !st.code)
             st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
@@ -540,7 +561,7 @@ static fret_status run_step(runner *r, const load_step *c, const cycle_extra *x)
     }
     fret_state now = {0};
     if (c->relative)
-        fret_memory_forces(r->memory, &now);
+        forces_of(r, &now);
     if (c->normal) {
         step.normal_by = c->normal == BY_FORCE ? FRET_TO_FORCE : FRET_TO_DEPTH;
         if (c->relative & 1)
@@ -711,10 +732,12 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
         if (!scene_normal(s, &normal, error))
             return false;
         if (s->normal_varies) {
-            const fret_state *state;
-            if (!scene_state(s, &state, error))
+            const fret_memory *memory;
+            fret_state state;
+            if (!scene_memory(s, &memory, error))
                 return false;
-            s->press = (fret_press){state->FN, state->dz, state->a};
+            fret_memory_state(memory, &state);
+            s->press = (fret_press){state.FN, state.dz, state.a};
         } else {
             const load_step *step = &s->program[0];
             double v = step->normal == BY_FORCE ? s->in[IN_FN] : step->normal_value;
@@ -739,22 +762,80 @@ bool scene_memory(scene *s, const fret_memory **memory, calc_error *error) {
     return true;
 }
 
+static void widest(const fret_state *state, size_t step, void *context) {
+    long double *a = context;
+    (void)step;
+    if (state->a > *a)
+        *a = state->a;
+}
+
+/* The whole program on springs, wide enough for the largest contact on the way. */
+static bool run_springs(scene *s, calc_error *error) {
+    const fret_normal *normal;
+    double mu;
+    long double a = 0;
+    if (!scene_normal(s, &normal, error) || !friction_for_program(s, &mu, error) ||
+        !scene_trace(s, 0, widest, &a, error))
+        return false;
+    runner r = {.s = s, .points = 1};
+    fret_status st =
+        fret_springs_make(normal, mu, s->springs, (double)(a * (1 + 1e-12L)), FRET_WEIGHT_CELL, &r.springs);
+    size_t cycle = 0;
+    for (size_t i = 0; i < s->steps && !st.code; i++) {
+        const cycle_extra *x = s->program[i].kind == LOAD_CYCLE ? &s->cycles[cycle++] : NULL;
+        st = run_step(&r, &s->program[i], x);
+        if (!st.code && s->stop && *s->stop)
+            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+    }
+    if (!st.code)
+        fret_springs_state(r.springs, &s->state);
+    s->springs_loss = r.cycle_loss;
+    fret_springs_free(r.springs);
+    return scene_status(s, error, &st);
+}
+
 bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     const fret_memory *memory;
     if (!s->state_ready) {
         if (!scene_memory(s, &memory, error))
             return false;
-        fret_memory_state(memory, &s->state);
+        if (s->model == MODEL_CLOSED)
+            return calc_fail(error, 0, 0, "no closed form for this: set model auto");
+        if (s->model == MODEL_SPRINGS) {
+            if (!run_springs(s, error))
+                return false;
+        } else {
+            fret_memory_state(memory, &s->state);
+        }
         s->state_ready = true;
     }
     *state = &s->state;
     return true;
 }
 
-bool scene_is_first_loading(const scene *s) {
-    if (s->steps == 1)
-        return true;
-    return s->steps == 2 && s->program[1].kind == LOAD_STEP && s->program[1].normal == BY_NONE;
+void scene_set_model(scene *s, scene_model model, unsigned springs) {
+    s->model = model;
+    s->springs = springs;
+    s->state_ready = s->press_ready = false;
+}
+
+bool scene_closed_state(const scene *s) {
+    if (s->model == MODEL_MEMORY || s->model == MODEL_SPRINGS)
+        return false;
+    return s->steps == 1 ||
+           (s->steps == 2 && s->program[1].kind == LOAD_STEP && s->program[1].normal == BY_NONE);
+}
+
+bool scene_closed_loss(const scene *s) {
+    return !s->normal_varies && (s->model == MODEL_AUTO || s->model == MODEL_CLOSED);
+}
+
+const char *scene_model_name(const scene *s, bool closed) {
+    if (closed)
+        return s->geometry && s->geometry->kind == FRET_GAP_POWER
+                   ? "closed form"
+                   : "closed form, with quadrature over the gap";
+    return s->model == MODEL_SPRINGS ? "springs" : "memory diagram (exact)";
 }
 
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
@@ -787,11 +868,11 @@ bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
     const load_step *c = scene_last_cycle(s);
     if (!c)
         return calc_fail(error, 0, 0, "no cycle has been run yet: use cycle FA=... or the function dW(FA)");
-    if (s->normal_varies) {
+    if (!scene_closed_loss(s)) {
         const fret_state *state;
         if (!scene_state(s, &state, error))
             return false;
-        *loss = s->cycle_loss;
+        *loss = s->model == MODEL_SPRINGS ? s->springs_loss : s->cycle_loss;
         return true;
     }
     const fret_normal *normal;

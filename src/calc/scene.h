@@ -65,6 +65,9 @@ typedef struct cycle_extra {
     double phase;
 } cycle_extra;
 
+/* Which model answers: auto takes the closed form where there is one, else the memory diagram. */
+typedef enum scene_model { MODEL_AUTO, MODEL_CLOSED, MODEL_MEMORY, MODEL_SPRINGS } scene_model;
+
 /* A recorded state of the load program. */
 typedef void load_observer(const fret_state *state, size_t step, void *context);
 
@@ -73,7 +76,7 @@ typedef struct scene {
     bool set[INPUTS];
     second_body second;
     const geometry *geometry;
-    fret_gap sum;         /* terms of `geometry sum` */
+    fret_gap sum;               /* terms of `geometry sum` */
     struct shared_table *table; /* of `geometry file`; counted, so that an old scene can come back */
 
     load_step *program;
@@ -88,12 +91,15 @@ typedef struct scene {
     fret_normal normal, k0;
     fret_press press;
     fret_memory *memory, *spare;
-    size_t mark, mark_cycles;       /* scene_begin */
+    size_t mark, mark_cycles; /* scene_begin */
     bool mark_varies;
     size_t applied, applied_cycles; /* how far the program has been run on memory */
     fret_state state;
     bool state_ready;
-    long double cycle_loss; /* of the last period of the last cycle run */
+    long double cycle_loss; /* of the last period of the last cycle run on memory */
+    scene_model model;
+    unsigned springs;         /* how many, for MODEL_SPRINGS */
+    long double springs_loss; /* cycle_loss as the springs have it, with state */
     const volatile sig_atomic_t *stop;
 } scene;
 
@@ -137,8 +143,13 @@ bool scene_friction(const scene *s, double *mu, calc_error *error);
 bool scene_press(scene *s, const fret_press **press, calc_error *error);
 bool scene_state(scene *s, const fret_state **state, calc_error *error);
 bool scene_memory(scene *s, const fret_memory **memory, calc_error *error);
-/* The load program is one press and one tangential step: the closed form is exact. */
-bool scene_is_first_loading(const scene *s);
+void scene_set_model(scene *s, scene_model model, unsigned springs);
+/* May a closed form answer for the tangential state, and for dW? It must be exact for this load program: one
+ * press and one tangential step, or a cycle at constant F_N; and the model must allow it. */
+bool scene_closed_state(const scene *s);
+bool scene_closed_loss(const scene *s);
+/* "closed form", "memory diagram", "springs": what answers for the state. */
+const char *scene_model_name(const scene *s, bool closed);
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error);
 /* The last cycle of the program, or NULL. */
 const load_step *scene_last_cycle(const scene *s);

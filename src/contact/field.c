@@ -19,7 +19,7 @@ static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
         return 0;
     if (x > c->a)
         x = c->a;
-    return fret_gap_profile(&c->normal->gap, &c->normal->rule, x).slope / x;
+    return fret_gap_profile(&c->normal->gap, &c->normal->rule, x - c->start).slope / x;
 }
 
 /* Away from the singularity, x from c.r to c.a: linear in ln x, since near a tip the field is a power. */
@@ -28,17 +28,20 @@ static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
     const kernel *c = context;
     fret_real alpha = (c->normal->rule.k - 1) / 2, span = logl(c->a / c->start);
     fret_real x = fminl(c->start * expl(span * t), c->a);
-    return span * x * fret_gap_profile(&c->normal->gap, &c->normal->rule, x).slope * powl((x - c->r) * (x + c->r), alpha);
+    return span * x *
+           fret_gap_profile(&c->normal->gap, &c->normal->rule, x - fret_gap_start(&c->normal->gap)).slope *
+           powl((x - c->r) * (x + c->r), alpha);
 }
 
 /* r below the flat end: x = b + (a-b) t^(2/(k+1)), where g' may be as singular as the kernel. */
 static fret_real pressure_below(fret_real t, fret_real rest, void *context) {
     (void)rest;
     const kernel *c = context;
-    fret_real alpha = (c->normal->rule.k - 1) / 2, e = (c->a - c->start) * powl(t, c->power), x = c->start + e;
+    fret_real alpha = (c->normal->rule.k - 1) / 2, e = (c->a - c->start) * powl(t, c->power),
+              x = c->start + e;
     if (x <= c->start)
         return 0;
-    fret_real slope = fret_gap_profile(&c->normal->gap, &c->normal->rule, x).slope;
+    fret_real slope = fret_gap_profile(&c->normal->gap, &c->normal->rule, e).slope;
     return slope * powl((x - c->r) * (x + c->r), alpha) * e / t;
 }
 
@@ -55,7 +58,8 @@ fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_r
     for (int i = 0; i < n->gap.terms; i++)
         least = fminl(least, n->gap.power[i].n);
     bool tip = r == 0 && start == 0 && least + n->foundation.k <= 1;
-    bool sharp = start > 0 && r == start && n->gap.kind != FRET_GAP_FLAT_ROUNDED && n->gap.kind != FRET_GAP_TABLE;
+    bool sharp =
+        start > 0 && r == start && n->gap.kind != FRET_GAP_FLAT_ROUNDED && n->gap.kind != FRET_GAP_TABLE;
     if (tip || sharp)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     kernel c = {n, a, r, start, 2 / k1};
@@ -86,11 +90,12 @@ static fret_real outside_part(fret_real t, fret_real rest, void *context) {
     fret_real k1 = 1 + c->normal->rule.k, l = log1pl(-c->span * rest) / k1;
     fret_real below = -c->hi * expm1l(l), x = c->hi - below, g = 0; /* hi-x keeps its digits near the edge */
     if (!c->flat && x > c->lo)
-        g = fret_gap_profile(&c->normal->gap, &c->normal->rule, x).g;
+        g = fret_gap_profile(&c->normal->gap, &c->normal->rule, x - c->lo).g;
     return (c->dz - g) * powl((c->r - c->hi + below) * (c->r + x), -k1 / 2);
 }
 
-static fret_real outside_integral(const fret_normal *n, fret_real r, fret_real dz, fret_real lo, fret_real hi, bool flat) {
+static fret_real outside_integral(const fret_normal *n, fret_real r, fret_real dz, fret_real lo, fret_real hi,
+                                  bool flat) {
     fret_real k1 = 1 + n->foundation.k, span = lo > 0 ? -expm1l(k1 * logl(lo / hi)) : 1;
     outside c = {n, r, dz, lo, hi, span, flat};
     return powl(hi, k1) * span / k1 * fret_integrate(outside_part, &c);
@@ -104,7 +109,7 @@ fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_re
     *w = 0;
     if (a <= start)
         return fret_ok();
-    dz = fret_gap_profile(&n->gap, &n->rule, a).g;
+    dz = fret_gap_profile(&n->gap, &n->rule, a - start).g;
     if (r <= a) {
         st = fret_gap_f(&n->gap, r, &f);
         *w = dz - f;

@@ -87,8 +87,8 @@ static void table_slopes(struct fret_table *t) {
             s1 = ((fret_real)t->f[i] - t->f[i - 1]) / h1;
             s2 = ((fret_real)t->f[i + 1] - t->f[i]) / h2;
             p = (s1 * h2 + s2 * h1) / (h1 + h2);
-            t->d0[i] = (double)((sign_of(s1) + sign_of(s2)) *
-                                fminl(fminl(fabsl(s1), fabsl(s2)), fabsl(p) / 2));
+            t->d0[i] =
+                (double)((sign_of(s1) + sign_of(s2)) * fminl(fminl(fabsl(s1), fabsl(s2)), fabsl(p) / 2));
             continue;
         }
         /* ends: the parabola through the three nearest points, limited to keep the sense of the data */
@@ -166,14 +166,16 @@ typedef struct piece_sums {
 } piece_sums;
 
 static void piece_add(piece_sums *sum, const struct fret_table *t, size_t i, fret_real r, fret_real weight) {
-    fret_real x = r - t->r[i], f1 = t->d0[i] + x * (t->d1[i] + x * t->d2[i]), f2 = t->d1[i] + 2 * x * t->d2[i];
+    fret_real x = r - t->r[i], f1 = t->d0[i] + x * (t->d1[i] + x * t->d2[i]),
+              f2 = t->d1[i] + 2 * x * t->d2[i];
     sum->g += weight * f1;
     sum->I += weight * f1 * r * r;
     sum->s += weight * r * f2;
 }
 
 /* From r to a with the polynomial of piece i: exact up to the smooth factor (a+r)^alpha. */
-static piece_sums piece_to_edge(const struct fret_table *t, const fret_rule *rule, size_t i, fret_real r, fret_real a) {
+static piece_sums piece_to_edge(const struct fret_table *t, const fret_rule *rule, size_t i, fret_real r,
+                                fret_real a) {
     fret_real alpha = (rule->k - 1) / 2, span = a - r, scale = powl(span, alpha + 1);
     piece_sums sum = {0, 0, 0};
     for (int j = 0; j < FRET_RULE; j++) {
@@ -213,10 +215,12 @@ bool fret_table_grows(const struct fret_table *t) {
 
 static fret_profile profile_of_table(const fret_gap *gap, const fret_rule *rule, fret_real a) {
     /* Gauss-Legendre, 8 points: the singularity is at least a piece away */
-    static const fret_real node[4] = {0.1834346424956498049394761423601839807L, 0.5255324099163289858177390491892463490L,
-                                      0.7966664774136267395915539364758304368L, 0.9602898564975362316835608685694729904L};
-    static const fret_real weight[4] = {0.3626837833783619829651504492771956122L, 0.3137066458778872873379622019866013133L,
-                                        0.2223810344533744705443559944262408844L, 0.1012285362903762591525313543099621902L};
+    static const fret_real node[4] = {
+        0.1834346424956498049394761423601839807L, 0.5255324099163289858177390491892463490L,
+        0.7966664774136267395915539364758304368L, 0.9602898564975362316835608685694729904L};
+    static const fret_real weight[4] = {
+        0.3626837833783619829651504492771956122L, 0.3137066458778872873379622019866013133L,
+        0.2223810344533744705443559944262408844L, 0.1012285362903762591525313543099621902L};
     const struct fret_table *t = gap->table;
     fret_real k = rule->k, alpha = (k - 1) / 2;
     size_t last = table_piece(t, a);
@@ -288,7 +292,8 @@ fret_real fret_gap_start(const fret_gap *gap) {
 }
 
 fret_real fret_gap_end(const fret_gap *gap) {
-    return gap->kind == FRET_GAP_EXACT_SPHERE ? (fret_real)gap->R
+    /* near the equator g grows without bound, and the rule no longer resolves it */
+    return gap->kind == FRET_GAP_EXACT_SPHERE ? 0.95L * gap->R
            : gap->kind == FRET_GAP_TABLE      ? (fret_real)gap->table->r[gap->table->count - 1]
                                               : (fret_real)INFINITY;
 }
@@ -308,12 +313,12 @@ fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
     return fret_ok();
 }
 
-/* With r = a s:  g = a int f'(as) (1-s^2)^((k-1)/2) ds,  I = a^(k+2)/(k+1) int s^2 f'(as) (1-s^2)^((k-1)/2) ds.
- * The rule's weight takes the singular factor (1-s)^((k-1)/2); the rest is smooth. */
-static fret_profile profile_by_rule(const fret_gap *gap, const fret_rule *rule, fret_real a) {
+/* With r = a s:  g = a int f'(as) (1-s^2)^((k-1)/2) ds,  I = a^(k+2)/(k+1) int s^2 f'(as) (1-s^2)^((k-1)/2)
+ * ds. The rule's weight takes the singular factor (1-s)^((k-1)/2); the rest is smooth. */
+static fret_profile profile_by_rule(const fret_gap *gap, const fret_rule *rule, fret_real e) {
     const shape *sh = &shapes[gap->kind];
-    fret_real b = fret_gap_start(gap), k = rule->k, alpha = (k - 1) / 2;
-    fret_real span = (a - b) / a, sum_g = 0, sum_I = 0, sum_2 = 0;
+    fret_real b = fret_gap_start(gap), a = b + e, k = rule->k, alpha = (k - 1) / 2;
+    fret_real span = e / a, sum_g = 0, sum_I = 0, sum_2 = 0;
     for (int i = 0; i < FRET_RULE; i++) {
         fret_real v = span * rule->v[i], s = 1 - v;
         fret_real w = rule->weight[i] * powl(2 - v, alpha), r = a * s;
@@ -332,12 +337,12 @@ static fret_profile profile_by_rule(const fret_gap *gap, const fret_rule *rule, 
     return out;
 }
 
-fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real a) {
+fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
     if (gap->kind == FRET_GAP_TABLE)
-        return profile_of_table(gap, rule, a);
+        return profile_of_table(gap, rule, fret_gap_start(gap) + e);
     if (!is_powers(gap))
-        return profile_by_rule(gap, rule, a);
-    fret_real k = rule->k, ak = powl(a, k + 1);
+        return profile_by_rule(gap, rule, e);
+    fret_real k = rule->k, a = e, ak = powl(a, k + 1);
     fret_profile out = {0, 0, 0};
     for (int i = 0; i < gap->terms; i++) {
         const fret_power *p = &gap->power[i];
@@ -361,7 +366,7 @@ fret_status fret_gap_g(const fret_gap *gap, fret_real k, fret_real x, fret_real 
             if (st.code)
                 return st;
         }
-        out = fret_gap_profile(gap, &rule, x);
+        out = fret_gap_profile(gap, &rule, x - fret_gap_start(gap));
     }
     *g = out.g;
     if (slope)

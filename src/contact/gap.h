@@ -11,8 +11,9 @@ typedef struct fret_profile {
     fret_real g, slope, I;
 } fret_profile;
 
-/* a > gap start. Valid gaps only. */
-fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real a);
+/* At contact radius fret_gap_start + e, e > 0: near a flat end g ~ e^((k+1)/2), which a radius that has
+ * swallowed e could not tell. Valid gaps only. */
+fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real e);
 
 /* True only if g grows throughout; false is not yet a verdict. */
 bool fret_table_grows(const struct fret_table *table);

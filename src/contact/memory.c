@@ -125,8 +125,8 @@ static void push(fret_memory *m, const fret_real thick[2], const fret_real inner
         top->thick[DEPTH] += thick[DEPTH];
         top->thick[LOAD] = both;
     } else {
-        m->slices[m->count++] =
-            (slice){.thick = {thick[DEPTH], thick[LOAD]}, .inner = {inner[DEPTH], inner[LOAD]}, .sigma = sigma};
+        m->slices[m->count++] = (slice){
+            .thick = {thick[DEPTH], thick[LOAD]}, .inner = {inner[DEPTH], inner[LOAD]}, .sigma = sigma};
     }
     resum_top(m);
 }

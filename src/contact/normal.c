@@ -6,8 +6,9 @@
 #include "gap.h"
 #include "special.h"
 
-static fret_profile profile(const fret_normal *n, fret_real a) {
-    return fret_gap_profile(&n->gap, &n->rule, a);
+/* Radii are handled as their distance e from the start of the gap. */
+static fret_profile profile(const fret_normal *n, fret_real e) {
+    return fret_gap_profile(&n->gap, &n->rule, e);
 }
 
 /* Finds the first radius where g falls: the contact is a disc up to there. Sums with a negative term and
@@ -24,7 +25,7 @@ static fret_status find_end(fret_normal *n) {
     bool table = gap->kind == FRET_GAP_TABLE;
     for (int i = 1; i <= 400; i++) {
         fret_real x = table ? start + (last - start) * i / 400 : first * powl(1e18L, i / 400.0L);
-        if (profile(n, x).slope >= 0) {
+        if (profile(n, x - start).slope >= 0) {
             lo = x;
             continue;
         }
@@ -33,7 +34,7 @@ static fret_status find_end(fret_normal *n) {
         fret_real hi = x;
         for (int j = 0; j < 60; j++) {
             fret_real mid = (lo + hi) / 2;
-            if (profile(n, mid).slope >= 0)
+            if (profile(n, mid - start).slope >= 0)
                 lo = mid;
             else
                 hi = mid;
@@ -87,27 +88,29 @@ static fret_real force_of(const fret_normal *n, const fret_profile *p) {
     return 2 * n->foundation.cN0 * powl(n->foundation.c0, -n->foundation.k) * p->I;
 }
 
-/* Newton in ln(a - start), where depth and force are nearly powers, kept in a bracket. Returns a
- * radius beyond the end of the gap where the target cannot be reached. */
+/* Newton in ln e, where depth and force are nearly powers, kept in a bracket. Returns e; infinity where the
+ * gap ends before the target is reached. */
 static fret_real solve_radius(const fret_normal *n, bool by_force, fret_real target) {
     fret_real start = fret_gap_start(&n->gap), end = n->end;
     if (target <= 0)
-        return start;
+        return 0;
     if (isfinite(end)) {
-        fret_profile p = profile(n, end);
+        fret_profile p = profile(n, end - start);
         if ((by_force ? force_of(n, &p) : p.g) < target)
             return INFINITY;
     }
-    fret_real lo = 0, hi = isfinite(end) ? end - start : (fret_real)INFINITY, e = isfinite(end) ? end / 16 : start > 0 ? start / 16 : 1e-4L;
+    fret_real lo = 0, hi = isfinite(end) ? end - start : (fret_real)INFINITY,
+              e = isfinite(end) ? end / 16
+                  : start > 0   ? start / 16
+                                : 1e-4L;
     for (int i = 0; i < 400; i++) {
-        fret_real a = start + e;
-        fret_profile p = profile(n, a);
+        fret_profile p = profile(n, e);
         fret_real value = by_force ? force_of(n, &p) : p.g;
         if (value < target)
             lo = e;
         else
             hi = e;
-        fret_real slope = e * p.slope * (by_force ? fret_normal_stiffness(n, a) : 1) / value;
+        fret_real slope = e * p.slope * (by_force ? fret_normal_stiffness(n, start + e) : 1) / value;
         fret_real next = e * expl(logl(target / value) / slope);
         if (!(next > lo && next < hi)) {
             if (!isfinite(hi))
@@ -115,18 +118,17 @@ static fret_real solve_radius(const fret_normal *n, bool by_force, fret_real tar
             else
                 next = lo > 0 ? sqrtl(lo) * sqrtl(hi) : hi / 16;
         }
-        if (fabsl(next - e) <= 2 * LDBL_EPSILON * (start + e) ||
-            (isfinite(hi) && hi - lo <= 2 * LDBL_EPSILON * hi))
-            return start + next;
+        if (fabsl(next - e) <= 2 * LDBL_EPSILON * e || (isfinite(hi) && hi - lo <= 2 * LDBL_EPSILON * hi))
+            return next;
         e = next;
     }
-    return start + e;
+    return e;
 }
 
 fret_real fret_law_radius(const fret_normal *n, fret_real y) {
     if (n->p > 0)
         return n->gap.power[0].r0 * powl(y / n->dref, 1 / (fret_real)n->gap.power[0].n);
-    return solve_radius(n, false, y);
+    return fret_gap_start(&n->gap) + solve_radius(n, false, y);
 }
 
 fret_real fret_law_force(const fret_normal *n, fret_real y) {
@@ -149,18 +151,15 @@ fret_real fret_law_depth(const fret_normal *n, fret_real F) {
 /* Shapes without a closed form: t = g(a_out) - g(a) over the annulus, dK = 2 cN0 (a/c0)^k da. */
 typedef struct annulus {
     const fret_normal *normal;
-    fret_real inner, outer, g;
-    bool second; /* moment: t dK or t^2 dK */
+    fret_real start, inner, outer, g; /* inner, outer: distances from the start */
+    bool second;                      /* moment: t dK or t^2 dK */
 } annulus;
 
 static fret_real annulus_moment(fret_real t, fret_real rest, void *context) {
     const annulus *s = context;
     const fret_foundation *f = &s->normal->foundation;
-    fret_real a = s->inner * rest + s->outer * t;
-    if (a <= fret_gap_start(&s->normal->gap))
-        a = fret_gap_start(&s->normal->gap) + (s->outer - s->inner) * t;
-    fret_real d = s->g - (a > fret_gap_start(&s->normal->gap) ? profile(s->normal, a).g : 0);
-    return (s->second ? d * d : d) * 2 * f->cN0 * powl(a / f->c0, f->k) * (s->outer - s->inner);
+    fret_real e = s->inner * rest + s->outer * t, d = s->g - (e > 0 ? profile(s->normal, e).g : 0);
+    return (s->second ? d * d : d) * 2 * f->cN0 * powl((s->start + e) / f->c0, f->k) * (s->outer - s->inner);
 }
 
 fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_real h) {
@@ -172,9 +171,9 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
         fret_real F = outer->F, Fy = F * y;
         return (fret_slice){F * m.w, Fy * m.J, F * m.m1, Fy * m.L};
     }
-    annulus s = {.normal = n, .outer = fret_law_radius(n, y), .g = y};
-    s.inner = h < y ? fret_law_radius(n, y - h) : fret_gap_start(&n->gap);
-    fret_real K = fret_normal_stiffness(n, s.inner), m1 = fret_integrate(annulus_moment, &s);
+    annulus s = {.normal = n, .start = fret_gap_start(&n->gap), .outer = solve_radius(n, false, y), .g = y};
+    s.inner = h < y ? solve_radius(n, false, y - h) : 0;
+    fret_real K = fret_normal_stiffness(n, s.start + s.inner), m1 = fret_integrate(annulus_moment, &s);
     s.second = true;
     fret_real m2 = fret_integrate(annulus_moment, &s);
     return (fret_slice){h * K + m1, (h * h * K + m2) / 2, m1, h * m1 - m2};
@@ -216,14 +215,16 @@ static fret_status finish(const fret_press *p, fret_press *out) {
     return fret_ok();
 }
 
-static fret_status at_radius(const fret_normal *n, const char *name, double value, fret_press *s,
+/* Completes a state at distance e from the start of the gap. */
+static fret_status at_radius(const fret_normal *n, const char *name, double value, fret_real e, fret_press *s,
                              fret_press *out) {
-    if (!isfinite(s->a))
+    if (!isfinite(e))
         return fret_fail(n->falls ? FRET_NOT_MONOTONE : FRET_TABLE_SHORT, n->falls ? "r" : name,
                          n->falls ? (double)n->end : value, (double)n->end);
     fret_profile p = {0, 0, 0};
-    if (s->a > fret_gap_start(&n->gap))
-        p = profile(n, s->a);
+    if (e > 0)
+        p = profile(n, e);
+    s->a = fret_gap_start(&n->gap) + e;
     if (s->F < 0)
         s->F = force_of(n, &p);
     if (s->dz < 0)
@@ -242,8 +243,7 @@ fret_status fret_press_force(const fret_normal *n, double F, fret_press *out) {
         s.dz = n->dref * powl(F / n->Fref, n->q);
         return finish(&s, out);
     }
-    s.a = solve_radius(n, true, F);
-    return at_radius(n, "FN", F, &s, out);
+    return at_radius(n, "FN", F, solve_radius(n, true, F), &s, out);
 }
 
 fret_status fret_press_depth(const fret_normal *n, double dz, fret_press *out) {
@@ -256,8 +256,7 @@ fret_status fret_press_depth(const fret_normal *n, double dz, fret_press *out) {
         s.F = fret_law_force(n, dz);
         return finish(&s, out);
     }
-    s.a = solve_radius(n, false, dz);
-    return at_radius(n, "dz", dz, &s, out);
+    return at_radius(n, "dz", dz, solve_radius(n, false, dz), &s, out);
 }
 
 fret_status fret_press_radius(const fret_normal *n, double a, fret_press *out) {
@@ -273,7 +272,5 @@ fret_status fret_press_radius(const fret_normal *n, double a, fret_press *out) {
     }
     if (a < fret_gap_start(&n->gap))
         return fret_fail(FRET_OUTSIDE, "a", a, (double)fret_gap_start(&n->gap));
-    if (a > n->end)
-        s.a = INFINITY;
-    return at_radius(n, "a", a, &s, out);
+    return at_radius(n, "a", a, a > n->end ? (fret_real)INFINITY : a - fret_gap_start(&n->gap), &s, out);
 }

@@ -75,7 +75,10 @@ static const command commands[] = {
      COMPLETE_QUANTITY},
     {"follow", do_follow, "FILE.csv", "load along a table: columns FN,Fx or dz,dx with units in the header",
      "Every row is a straight step; a row that cannot be carried leaves the scene as before the command.\n"
-     "The first lines of such a file: `FN [N],Fx [N]`, then `100,0`, `120,15`.\n",
+     "The first lines of such a file: `FN [N],Fx [N]`, then `100,0`, `120,15`.\n\n"
+     "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+     "    fret> follow /nonexistent.csv\n"
+     "    error: cannot read /nonexistent.csv: No such file or directory\n",
      COMPLETE_FILE},
     {"reset", do_reset, "[all]", "forget the load program; all: the inputs too",
      "Variables of your own are kept.\n\n"
@@ -434,11 +437,16 @@ static void show_scene(shell *sh) {
         fputs("# nothing is set yet; try: demo, or help\n", sh->out);
 }
 
-static const char *const formats[] = {"text", "csv", "json"}, *const reports[] = {"auto", "off", "on"};
+static const char *const formats[] = {"text", "csv", "json"}, *const reports[] = {"auto", "off", "on"},
+                         *const models[] = {"auto", "closed", "memory", "springs"};
 
 static void show_settings(shell *sh) {
     fprintf(sh->out, "set format %s\nset digits %d\nset report %s\nset timing %s\n", formats[sh->set.format],
             sh->set.digits, reports[sh->set.report], sh->set.timing ? "on" : "off");
+    fprintf(sh->out, "set model %s", models[sh->calc.scene.model]);
+    if (sh->calc.scene.model == MODEL_SPRINGS)
+        fprintf(sh->out, " %u", sh->calc.scene.springs);
+    fputc('\n', sh->out);
     if (sh->set.plot_width)
         fprintf(sh->out, "set plot %dx%d\n", sh->set.plot_width, sh->set.plot_height);
     else
@@ -483,8 +491,8 @@ static bool one_of(lexer *lx, const char *const *words, int count, int *out) {
 }
 
 bool do_set(shell *sh, lexer *lx) {
-    static const char *const names[] = {"format", "digits", "report", "timing", "plot"}, *const onoff[] = {
-                                                                                             "off", "on"};
+    static const char *const names[] = {"format", "digits", "report", "timing", "plot", "model"},
+                             *const onoff[] = {"off", "on"};
     settings new = sh->set;
     int name, choice = 0;
     unsigned n = 0;
@@ -492,7 +500,7 @@ bool do_set(shell *sh, lexer *lx) {
         show_settings(sh);
         return true;
     }
-    if (!one_of(lx, names, 5, &name))
+    if (!one_of(lx, names, 6, &name))
         return false;
     if (name == 0) {
         if (!one_of(lx, formats, 3, &choice))
@@ -510,6 +518,13 @@ bool do_set(shell *sh, lexer *lx) {
         if (!one_of(lx, onoff, 2, &choice))
             return false;
         new.timing = choice;
+    } else if (name == 5) {
+        if (!one_of(lx, models, 4, &choice) ||
+            (choice == MODEL_SPRINGS && !read_count(sh, lx, "the number of springs", 10000000, &n)) ||
+            !at_end(lx))
+            return false;
+        scene_set_model(&sh->calc.scene, (scene_model)choice, n);
+        return true;
     } else if (lex_accept(lx, "auto")) {
         new.plot_width = new.plot_height = 0;
     } else {

@@ -44,8 +44,9 @@ static const char *candidate(size_t i, bool at_start, completion kind) {
             if (n == i)
                 return geometry_row(n)->name;
     if (kind == COMPLETE_SETTING) {
-        static const char *const words[] = {"format", "digits", "report", "timing", "plot", "text",
-                                            "csv",    "json",   "on",     "off",    "auto"};
+        static const char *const words[] = {"format", "digits", "report", "timing",  "plot",
+                                            "model",  "closed", "memory", "springs", "text",
+                                            "csv",    "json",   "on",     "off",     "auto"};
         if (i < sizeof words / sizeof *words)
             return words[i];
         return NULL;

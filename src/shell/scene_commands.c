@@ -212,13 +212,16 @@ static bool read_gap_file(shell *sh, lexer *lx) {
         goto placed;
     int r = !strcmp(data.name[1], "r");
     if (strcmp(data.name[r], "r") || strcmp(data.name[1 - r], "f")) {
-        calc_fail(lx->error, 0, 0, "%s: the columns must be named r and f, not %s and %s", name, data.name[0], data.name[1]);
+        calc_fail(lx->error, 0, 0, "%s: the columns must be named r and f, not %s and %s", name, data.name[0],
+                  data.name[1]);
     } else if (!dim_equal(data.d[0], DIM_LENGTH) || !dim_equal(data.d[1], DIM_LENGTH)) {
-        calc_fail(lx->error, 0, 0, "%s: r and f are lengths and need units in the header, such as r [mm],f [um]", name);
+        calc_fail(lx->error, 0, 0,
+                  "%s: r and f are lengths and need units in the header, such as r [mm],f [um]", name);
     } else {
         struct fret_table *gap;
         fret_status st = fret_table_make(data.column[r], data.column[1 - r], data.count, &gap);
-        if (scene_status(&sh->calc.scene, lx->error, &st) && scene_set_table(&sh->calc.scene, gap, name, lx->error)) {
+        if (scene_status(&sh->calc.scene, lx->error, &st) &&
+            scene_set_table(&sh->calc.scene, gap, name, lx->error)) {
             csv_free(&data);
             return true;
         }
@@ -286,7 +289,8 @@ bool do_geometry(shell *sh, lexer *lx) {
         }
         if (!argument_dim(lx, &a, d))
             return false;
-        if (q->in == IN_A && !(a.v.v > 0)) { /* said here: the dimension of A is not that of the scene as it stands */
+        if (q->in == IN_A &&
+            !(a.v.v > 0)) { /* said here: the dimension of A is not that of the scene as it stands */
             char text[160];
             format_value(sh, (value){a.v.v, d}, text, sizeof text);
             return calc_fail(lx->error, a.value_at, a.value_len, "A = %s must be positive", text);
@@ -511,7 +515,8 @@ bool do_follow(shell *sh, lexer *lx) {
     if (ok) {
         int kind = strcmp(data.name[0], "FN") ? 1 : 0;
         if (strcmp(data.name[0], kinds[kind].name[0]) || strcmp(data.name[1], kinds[kind].name[1]))
-            ok = calc_fail(lx->error, 0, 0, "%s: the columns must be FN,Fx or dz,dx, not %s,%s", name, data.name[0], data.name[1]);
+            ok = calc_fail(lx->error, 0, 0, "%s: the columns must be FN,Fx or dz,dx, not %s,%s", name,
+                           data.name[0], data.name[1]);
         else if (!dim_equal(data.d[0], kinds[kind].d) || !dim_equal(data.d[1], kinds[kind].d))
             ok = calc_fail(lx->error, 0, 0, "%s: the columns need units in the header, such as %s", name,
                            kind ? "dz [um],dx [um]" : "FN [N],Fx [N]");
@@ -528,7 +533,8 @@ bool do_follow(shell *sh, lexer *lx) {
             }
             if (!ok && !lx->error->stop) {
                 size_t n = strlen(lx->error->text);
-                snprintf(lx->error->text + n, sizeof lx->error->text - n, " (row %zu of %.200s)", row + 1, name);
+                snprintf(lx->error->text + n, sizeof lx->error->text - n, " (row %zu of %.200s)", row + 1,
+                         name);
             }
         }
         if (!ok && row)

@@ -532,13 +532,16 @@ bool do_explain(shell *sh, lexer *lx) {
         calc_error ignored = {0};
         if (s->steps && q->in < 0 && scene_press(s, &press, &ignored))
             explain_value(sh, "FN now", (value){press->F, DIM_FORCE});
-        const char *model = "closed form";
-        bool tangential =
-            strchr("FdcWUk", q->name[0]) && strcmp(q->name, "dz") && strcmp(q->name, "kn") && q->in < 0;
-        if (s->normal_varies || (tangential && strcmp(q->name, "dW") && !scene_is_first_loading(s)) ||
-            !strcmp(q->name, "W") || !strcmp(q->name, "U") || !strcmp(q->name, "kt"))
-            model = s->steps ? "memory diagram (exact)" : model;
-        fprintf(sh->out, "    model: %s\n", model);
+        static const char *const of_state[] = {"W", "U", "kt"}, *const of_first[] = {"Fx", "dx", "c"};
+        bool closed = true;
+        for (size_t i = 0; i < 3; i++)
+            if (!strcmp(q->name, of_state[i]))
+                closed = false;
+            else if (!strcmp(q->name, of_first[i]))
+                closed = scene_closed_state(s);
+        if (!strcmp(q->name, "dW"))
+            closed = scene_closed_loss(s);
+        fprintf(sh->out, "    model: %s\n", scene_model_name(s, closed));
         explain_value(sh, q->name, v);
     }
     return true;

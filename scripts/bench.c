@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Times of the library next to a baseline in the same run: one line "what|figure|baseline|ratio" each. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "fret/fret.h"
+
+/* Of the processor, so that a busy machine does no harm. */
+static double seconds(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void need(fret_status st) {
+    if (!st.code)
+        return;
+    char text[200];
+    fret_status_text(&st, text, sizeof text);
+    fprintf(stderr, "bench: %s\n", text);
+    exit(EXIT_FAILURE);
+}
+
+static const fret_material material = {{{210e9, 0.3, false}, {210e9, 0.3, false}}, 0.3, 1e-3};
+static const fret_gap gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{2, 50, 1}}};
+static const double mu = 0.4, FN = 100;
+static volatile double sink;
+
+/* A load that never repeats: two incommensurate swings. */
+static double drive(long i) {
+    return 0.55 * sin(0.37 * (double)i) + 0.4 * sin(0.0113 * (double)i);
+}
+
+/* The usual discretisation: springs at equal distances, each clipped in every step. */
+enum { SPRINGS = 1000 };
+static double spring_scheme(const fret_normal *n, const fret_press *p, long steps, bool loss) {
+    static double weight[SPRINGS], bound[SPRINGS], u[SPRINGS];
+    double k1 = 1 + (double)n->foundation.k, a = (double)p->a, dx = (double)(mu * n->foundation.eta * p->dz);
+    double cT = 2 * (double)(n->foundation.cT0 * powl(n->foundation.c0, -n->foundation.k));
+    for (int i = 0; i < SPRINGS; i++) {
+        double lo = a * i / SPRINGS, hi = a * (i + 1) / SPRINGS, mid = (lo + hi) / 2;
+        weight[i] = cT * (pow(hi, k1) - pow(lo, k1)) / k1;
+        bound[i] = dx * (1 - mid * mid / (a * a));
+        u[i] = 0;
+    }
+    double old = 0, W = 0, F = 0, t0 = seconds();
+    for (long s = 0; s < steps; s++) {
+        double x = dx * drive(s), d = x - old;
+        old = x;
+        F = 0;
+        for (int i = 0; i < SPRINGS; i++) {
+            double v = u[i] + d, c = v > bound[i] ? bound[i] : v < -bound[i] ? -bound[i] : v;
+            if (loss)
+                W += weight[i] * c * (v - c);
+            F += weight[i] * c;
+            u[i] = c;
+        }
+        sink = F + W;
+    }
+    return (seconds() - t0) / (double)steps;
+}
+
+static double memory_diagram(const fret_normal *n, const fret_press *p, long steps, bool loss) {
+    double dx = (double)(mu * n->foundation.eta * p->dz);
+    fret_memory *m = NULL;
+    need(fret_memory_make(n, mu, &m));
+    fret_step step = {FRET_TO_FORCE, FRET_TO_DX, FN, 0};
+    need(fret_memory_step(m, &step));
+    step.normal_by = FRET_KEEP_NORMAL;
+    double t0 = seconds();
+    for (long s = 0; s < steps; s++) {
+        fret_state st;
+        step.tangential = dx * drive(s);
+        need(fret_memory_step(m, &step));
+        fret_memory_forces(m, &st);
+        sink = (double)(st.Fx + (loss ? fret_memory_last_loss(m) : 0));
+    }
+    double t = (seconds() - t0) / (double)steps;
+    fret_memory_free(m);
+    return t;
+}
+
+static double scene(long count) {
+    double t0 = seconds();
+    for (long i = 0; i < count; i++) {
+        fret_normal n;
+        fret_press p;
+        fret_loading f;
+        fret_real loss;
+        fret_material m = material;
+        m.k = 0.3 + 1e-9 * (double)i;
+        need(fret_normal_make(&m, &gap, &n));
+        need(fret_press_force(&n, FN, &p));
+        need(fret_loading_force(&n, mu, &p, 20, &f));
+        need(fret_cycle_loss(&n, mu, &p, 20, &loss));
+        sink = (double)(f.c + loss);
+    }
+    return (seconds() - t0) / (double)count;
+}
+
+static double cycle_loss(const fret_normal *n, const fret_press *p, long count) {
+    double t0 = seconds();
+    for (long i = 0; i < count; i++) {
+        fret_real loss;
+        need(fret_cycle_loss(n, mu, p, mu * FN * (0.5 + (double)i) / (double)count, &loss));
+        sink = (double)loss;
+    }
+    return (seconds() - t0) / (double)count;
+}
+
+static double powers(long count) {
+    double t0 = seconds();
+    for (long i = 0; i < count; i++)
+        sink = (double)powl((fret_real)(i + 1) / (fret_real)count, 0.37L);
+    return (seconds() - t0) / (double)count;
+}
+
+static void line(const char *what, double value, double base, const char *base_name, double scale,
+                 const char *unit) {
+    printf("%s|%.4g %s|%.4g %s (%s)|%.3g\n", what, value * scale, unit, base * scale, unit, base_name,
+           value / base);
+}
+
+int main(void) {
+    fret_normal n;
+    fret_press p;
+    need(fret_normal_make(&material, &gap, &n));
+    need(fret_press_force(&n, FN, &p));
+    line("memory step, Fx", memory_diagram(&n, &p, 1000000, false), spring_scheme(&n, &p, 20000, false),
+         "1000 springs", 1e9, "ns");
+    line("memory step, Fx and loss", memory_diagram(&n, &p, 1000000, true),
+         spring_scheme(&n, &p, 20000, true), "1000 springs", 1e9, "ns");
+    double power = powers(5000000);
+    line("scene: material to dW", scene(100000), power, "one powl", 1e6, "us");
+    line("fret_cycle_loss, a point", cycle_loss(&n, &p, 5000000), power, "one powl", 1e9, "ns");
+    return EXIT_SUCCESS;
+}

@@ -1,0 +1,453 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every gap but the single power: formulas, engine and tables against each other and the references. */
+#include "unit.h"
+
+static const char *const kinds[] = {"power",        "sum",          "flat-cone", "flat-paraboloid",
+                                    "flat-rounded", "exact-sphere", "table"};
+
+/* The worst error of each shape at each k, for FRET_UNIT_VERBOSE. */
+enum { SHAPES = 7, GRADINGS = 7 };
+static const double gradings[GRADINGS] = {-0.99, -0.7, -0.3, 0, 0.3, 0.7, 0.99};
+static fret_real worst[SHAPES][GRADINGS];
+
+static void note(const unit_scene *s, fret_real value, fret_real expected, fret_real scale) {
+    for (int i = 0; i < GRADINGS; i++)
+        if (gradings[i] == s->material.k)
+            worst[s->gap.kind][i] = fmaxl(worst[s->gap.kind][i], fabsl((value - expected) / scale));
+}
+
+static void show_worst(void) {
+    if (!getenv("FRET_UNIT_VERBOSE"))
+        return;
+    printf("%-16s", "worst, k =");
+    for (int j = 0; j < GRADINGS; j++)
+        printf("%9.2f", gradings[j]);
+    for (int i = 1; i < SHAPES - 1; i++) {
+        printf("\n%-16s", kinds[i]);
+        for (int j = 0; j < GRADINGS; j++)
+            printf("%9.1Le", worst[i][j]);
+    }
+    printf("\n");
+}
+
+#define NEAR(value, expected, scale, tolerance)                                                              \
+    do {                                                                                                     \
+        const fret_real value_ = (value);                                                                    \
+        note(&s, value_, (expected), (scale));                                                               \
+        CHECK_ABS(value_, (expected), (scale), (tolerance));                                                 \
+    } while (0)
+
+static fret_normal make(const unit_scene *s) {
+    fret_normal n;
+    memset(&n, 0, sizeof n);
+    CHECK_OK(fret_normal_make(&s->material, &s->gap, &n));
+    return n;
+}
+
+static unit_scene read_shape(const unit_table *t) {
+    unit_scene s = unit_make_scene(2, unit_input(t, 14));
+    memset(&s.gap, 0, sizeof s.gap);
+    int kind = atoi(t->cell[0]);
+    s.gap.kind = (fret_gap_kind)kind;
+    s.gap.b = unit_input(t, 1);
+    s.gap.R = unit_input(t, 2);
+    s.gap.slope = unit_input(t, 3);
+    for (int i = 0; i < 3 && s.gap.kind == FRET_GAP_SUM; i++)
+        if (unit_input(t, 5 + 2 * i) != 0)
+            s.gap.power[s.gap.terms++] = (fret_power){unit_input(t, 4 + 2 * i), unit_input(t, 5 + 2 * i), 1};
+    s.material.body[0] = (fret_body){unit_input(t, 10), unit_input(t, 11), false};
+    s.material.body[1] = (fret_body){unit_input(t, 12), unit_input(t, 13), false};
+    s.material.c0 = unit_input(t, 15);
+    s.mu = unit_input(t, 16);
+    return s;
+}
+
+static void reference(void) {
+    unit_table t;
+    if (!unit_open(&t, "shape.csv"))
+        return;
+    /* shares of the contact, c to a or dx, end in a difference of depths: g grows like (c-b)^((k+1)/2) at a
+     * flat end, so a unit in the last place of c counts for more the nearer k is to -1 */
+    const fret_real tol = UNIT_TOL(1e-13L, 1e-11L), steep = 1e-11L;
+    while (unit_row(&t)) {
+        unit_scene s = read_shape(&t);
+        double a = unit_input(&t, 17), FA = unit_input(&t, 18);
+        fret_real dz = unit_result(&t, 19), F = unit_result(&t, 20), kn = unit_result(&t, 21);
+        fret_real g1 = unit_result(&t, 22), c = unit_result(&t, 23), dx = unit_result(&t, 24);
+        fret_real dW = unit_result(&t, 25);
+        fret_normal n = make(&s);
+        fret_press p = {0, 0, 0}, q = p;
+        CHECK_OK(fret_press_radius(&n, a, &p));
+        CHECK(p.a == a);
+        NEAR(p.dz, dz, dz, tol);
+        NEAR(p.F, F, F, tol);
+        NEAR(fret_normal_stiffness(&n, a), kn, kn, tol);
+        fret_real g = 0, slope = 0;
+        CHECK_OK(fret_gap_g(&s.gap, s.material.k, a, &g, &slope));
+        NEAR(g, dz, dz, tol);
+        NEAR(slope, g1, g1, tol);
+
+        /* the rounding of the argument is followed to first order */
+        double F_ = (double)F, dz_ = (double)dz;
+        CHECK_OK(fret_press_force(&n, F_, &q));
+        CHECK(q.F == F_);
+        NEAR(q.dz, dz + (F_ - F) / kn, dz, tol);
+        NEAR(q.a, a + (F_ - F) / (kn * g1), a, tol);
+        CHECK_OK(fret_press_depth(&n, dz_, &q));
+        CHECK(q.dz == dz_);
+        NEAR(q.F, F + (dz_ - dz) * kn, F, tol);
+        NEAR(q.a, a + (dz_ - dz) / g1, a, tol);
+        NEAR(fret_law_radius(&n, dz), (fret_real)a, a, tol);
+        NEAR(fret_law_force(&n, dz), F, F, tol);
+        NEAR(fret_law_depth(&n, F), dz, dz, tol);
+
+        fret_loading f = {0, 0, 0, 0};
+        fret_real loss = -1;
+        p = (fret_press){F, dz, a};
+        CHECK_OK(fret_loading_force(&n, s.mu, &p, FA, &f));
+        NEAR(f.c, c, c, tol);
+        NEAR(f.dx, dx, dx, steep);
+        CHECK_OK(fret_cycle_loss(&n, s.mu, &p, FA, &loss));
+        NEAR(loss, dW, dW, steep);
+    }
+}
+
+/* ---- identities -------------------------------------------------------------------------------- */
+
+static unit_scene of_kind(fret_gap_kind kind, double k) {
+    unit_scene s = unit_make_scene(2, k);
+    memset(&s.gap, 0, sizeof s.gap);
+    s.gap.kind = kind;
+    s.gap.b = 1e-3;
+    s.gap.R = 1e-2;
+    s.gap.slope = 0.05;
+    if (kind == FRET_GAP_SUM) {
+        s.gap.terms = 2;
+        s.gap.power[0] = (fret_power){2, 50, 1};
+        s.gap.power[1] = (fret_power){4, -2e6, 1};
+    }
+    return s;
+}
+
+static fret_real lost(fret_memory *m, double tangential) {
+    fret_step step = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, tangential};
+    CHECK_OK(fret_memory_step(m, &step));
+    return fret_memory_last_loss(m);
+}
+
+/* The closed forms and the engine share the slices of the law, but not the way to them. */
+static void engine(void) {
+    static const double parts[] = {1e-3, 0.3, 0.9, 1};
+    for (int kind = FRET_GAP_SUM; kind < FRET_GAP_TABLE; kind++)
+        for (int j = 0; j < GRADINGS; j++) {
+            unit_scene s = of_kind((fret_gap_kind)kind, gradings[j]);
+            fret_normal n = make(&s);
+            fret_press p = {0, 0, 0};
+            CHECK_OK(fret_press_radius(&n, 1.6e-3, &p));
+            double FN = (double)p.F;
+            CHECK_OK(fret_press_force(&n, FN, &p));
+            for (int i = 0; i < 4; i++) {
+                double FA = (double)(parts[i] * (fret_real)s.mu * FN);
+                while (FA > s.mu * (fret_real)FN)
+                    FA = nextafter(FA, 0);
+                fret_memory *m = NULL;
+                CHECK_OK(fret_memory_make(&n, s.mu, &m));
+                if (!m)
+                    continue;
+                fret_step press = {FRET_TO_FORCE, FRET_TO_DX, FN, 0};
+                CHECK_OK(fret_memory_step(m, &press));
+                fret_real loss = -1;
+                fret_loading f = {0, 0, 0, 0};
+                fret_state st;
+                CHECK_OK(fret_cycle_loss(&n, s.mu, &p, FA, &loss));
+                CHECK_OK(fret_loading_force(&n, s.mu, &p, FA, &f));
+                fret_real first = lost(m, FA);
+                fret_memory_state(m, &st);
+                CHECK_REL(4 * first, loss, 1e-11L);
+                CHECK_REL(st.dx, f.dx, UNIT_TOL(1e-13L, 1e-11L));
+                if (i < 3) /* at gross slip c hangs on the last bit of mu F_N */
+                    CHECK_REL(st.c, f.c, UNIT_TOL(1e-12L, 1e-11L));
+                for (int cycle = 0; cycle < 2; cycle++) {
+                    fret_real sum = lost(m, -FA);
+                    sum += lost(m, FA);
+                    CHECK_REL(sum, loss, 1e-11L);
+                }
+                fret_memory_free(m);
+            }
+        }
+}
+
+typedef struct answers {
+    fret_press p;
+    fret_loading f;
+    fret_real loss;
+} answers;
+
+static answers ask(const unit_scene *s, double FN) {
+    answers a = {.loss = -1};
+    fret_normal n = make(s);
+    CHECK_OK(fret_press_force(&n, FN, &a.p));
+    CHECK_OK(fret_loading_force(&n, s->mu, &a.p, 0.6 * s->mu * FN, &a.f));
+    CHECK_OK(fret_cycle_loss(&n, s->mu, &a.p, 0.6 * s->mu * FN, &a.loss));
+    return a;
+}
+
+/* As b -> 0: cone and rounded pad in proportion to b, the paraboloid to b^2. At k -> -1 the flat end
+ * carries nearly all: the constant grows. */
+static void vanishing_flat(void) {
+    for (int j = 1; j < GRADINGS - 1; j++)
+        for (int kind = FRET_GAP_FLAT_CONE; kind <= FRET_GAP_FLAT_ROUNDED; kind++) {
+            unit_scene s = of_kind((fret_gap_kind)kind, gradings[j]), full = s;
+            full.gap.kind = FRET_GAP_POWER;
+            full.gap.terms = 1;
+            full.gap.power[0] =
+                kind == FRET_GAP_FLAT_CONE ? (fret_power){1, s.gap.slope, 1} : (fret_power){2, 50, 1};
+            fret_normal n = make(&full);
+            fret_press at = {0, 0, 0};
+            CHECK_OK(fret_press_radius(&n, 1e-3, &at));
+            answers want = ask(&full, (double)at.F);
+            for (double b = 1e-5; b > 1e-17; b *= 1e-3) {
+                s.gap.b = b;
+                answers got = ask(&s, (double)at.F);
+                fret_real part = b / 1e-3L;
+                fret_real bound =
+                    8 * (kind == FRET_GAP_FLAT_PARABOLOID ? part * part : part) + UNIT_TOL(1e-14L, 1e-12L);
+                CHECK_ABS(got.p.a / want.p.a, 1, 1, bound);
+                CHECK_ABS(got.p.dz / want.p.dz, 1, 1, bound);
+                CHECK_ABS(got.f.dx / want.f.dx, 1, 1, bound);
+                CHECK_ABS(got.f.c / want.f.c, 1, 1, bound);
+                CHECK_ABS(got.loss / want.loss, 1, 1, bound);
+            }
+        }
+}
+
+static void one_term(void) {
+    static const double ns[] = {0.5, 1, 2, 3.7, 20};
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < GRADINGS; j++) {
+            unit_scene s = unit_make_scene(ns[i], gradings[j]), sum = s;
+            sum.gap.kind = FRET_GAP_SUM;
+            answers a = ask(&s, 30), b = ask(&sum, 30);
+            const fret_real tol = UNIT_TOL(1e-14L, 1e-12L);
+            CHECK_REL(b.p.a, a.p.a, tol);
+            CHECK_REL(b.p.dz, a.p.dz, tol);
+            CHECK_REL(b.f.dx, a.f.dx, tol);
+            CHECK_REL(b.f.c, a.f.c, tol);
+            CHECK_REL(b.loss, a.loss, tol);
+        }
+}
+
+/* ---- limits of a shape ------------------------------------------------------------------------- */
+
+static void limits(void) {
+    for (int j = 0; j < GRADINGS; j++) {
+        unit_scene s = of_kind(FRET_GAP_SUM, gradings[j]);
+        fret_normal n = make(&s);
+        fret_real k = s.material.k, r = sqrtl(100 * fret_kappa(2, k) / (8e6L * fret_kappa(4, k)));
+        CHECK(n.falls);
+        CHECK_REL(n.end, r, UNIT_TOL(1e-15L, 1e-13L));
+        fret_press at = {0, 0, 0}, p = {1, 2, 3};
+        double below = (double)r * (1 - 1e-9), above = (double)r * (1 + 1e-9);
+        CHECK_OK(fret_press_radius(&n, below, &at));
+        fret_status st = fret_press_radius(&n, above, &p);
+        CHECK_CODE(st, FRET_NOT_MONOTONE);
+        CHECK_REL((fret_real)st.value, r, UNIT_TOL(3e-16L, 1e-13L));
+        st = fret_press_force(&n, (double)at.F * 1.001, &p);
+        CHECK_CODE(st, FRET_NOT_MONOTONE);
+        CHECK_REL((fret_real)st.value, r, UNIT_TOL(3e-16L, 1e-13L));
+        CHECK_CODE(fret_press_depth(&n, (double)at.dz * 1.001, &p), FRET_NOT_MONOTONE);
+        CHECK(p.F == 1 && p.dz == 2 && p.a == 3); /* untouched on failure */
+
+        /* the engine refuses alike, and stays where it was */
+        fret_memory *m = NULL;
+        CHECK_OK(fret_memory_make(&n, s.mu, &m));
+        fret_step step = {FRET_TO_FORCE, FRET_TO_DX, (double)at.F * 0.5, 0};
+        fret_state old, now;
+        CHECK_OK(fret_memory_step(m, &step));
+        fret_memory_state(m, &old);
+        step.normal = (double)at.F * 1.001;
+        CHECK_CODE(fret_memory_step(m, &step), FRET_NOT_MONOTONE);
+        fret_memory_state(m, &now);
+        CHECK(old.FN == now.FN && old.dz == now.dz && old.a == now.a && old.slices == now.slices);
+        fret_memory_free(m);
+
+        /* falls from the tip on: never a disc */
+        s.gap.power[0].h = -50;
+        CHECK_CODE(fret_normal_make(&s.material, &s.gap, &n), FRET_NOT_MONOTONE);
+
+        s = of_kind(FRET_GAP_FLAT_ROUNDED, gradings[j]);
+        n = make(&s);
+        CHECK_CODE(fret_press_radius(&n, 0.9e-3, &p), FRET_OUTSIDE);
+        s = of_kind(FRET_GAP_EXACT_SPHERE, gradings[j]);
+        n = make(&s);
+        CHECK(fret_press_radius(&n, 1.001e-2, &p).code != FRET_OK);
+    }
+}
+
+/* ---- tables ------------------------------------------------------------------------------------ */
+
+static void bad_tables(void) {
+    struct fret_table *t = NULL;
+    const double r[] = {0, 1e-3, 2e-3}, f[] = {0, 1e-6, 4e-6};
+    const double twice[] = {0, 1e-3, 1e-3}, back[] = {0, 2e-3, 1e-3}, late[] = {1e-4, 1e-3, 2e-3};
+    const double lifted[] = {1e-7, 1e-6, 4e-6}, nans[] = {0, (double)NAN, 1},
+                 inf[] = {0, 1, (double)INFINITY};
+    CHECK_ERROR(fret_table_make(twice, f, 3, &t), FRET_BAD_TABLE, "r");
+    CHECK_ERROR(fret_table_make(back, f, 3, &t), FRET_BAD_TABLE, "r");
+    CHECK_ERROR(fret_table_make(late, f, 3, &t), FRET_BAD_TABLE, "r");
+    CHECK_CODE(fret_table_make(r, lifted, 3, &t), FRET_BAD_TABLE);
+    CHECK_CODE(fret_table_make(r, f, 1, &t), FRET_BAD_TABLE);
+    CHECK_CODE(fret_table_make(r, f, 0, &t), FRET_BAD_TABLE);
+    CHECK_ERROR(fret_table_make(nans, f, 3, &t), FRET_NOT_FINITE, "r");
+    CHECK_ERROR(fret_table_make(r, inf, 3, &t), FRET_NOT_FINITE, "f");
+    CHECK(fret_table_make(back, f, 3, &t).value == 1e-3);
+    CHECK(t == NULL);
+    fret_table_free(NULL);
+
+    /* two points make a cone, up to its end */
+    CHECK_OK(fret_table_make(r, f, 2, &t));
+    unit_scene s = unit_make_scene(1, 0.3), cone = s;
+    s.gap.kind = FRET_GAP_TABLE;
+    s.gap.table = t;
+    cone.gap.power[0] = (fret_power){1, 1e-3, 1};
+    fret_normal n = make(&s), c = make(&cone);
+    fret_press p = {0, 0, 0}, q = p;
+    CHECK_OK(fret_press_radius(&n, 9e-4, &p));
+    CHECK_OK(fret_press_radius(&c, 9e-4, &q));
+    CHECK_REL(p.F, q.F, UNIT_TOL(1e-15L, 1e-13L));
+    CHECK_REL(p.dz, q.dz, UNIT_TOL(1e-15L, 1e-13L));
+    CHECK_OK(fret_press_radius(&c, 1.01e-3, &q));
+    fret_status st = fret_press_radius(&n, 1.01e-3, &p);
+    CHECK_ERROR(st, FRET_TABLE_SHORT, "a");
+    CHECK(st.limit == 1e-3);
+    CHECK_ERROR(fret_press_force(&n, (double)q.F, &p), FRET_TABLE_SHORT, "FN");
+    CHECK_ERROR(fret_press_depth(&n, (double)q.dz, &p), FRET_TABLE_SHORT, "dz");
+    fret_table_free(t);
+
+    /* a gap that turns back in the middle is no disc */
+    const double hill[] = {0, 4e-6, 1e-6};
+    CHECK_OK(fret_table_make(r, hill, 3, &t));
+    s.gap.table = t;
+    fret_normal none;
+    st = fret_normal_make(&s.material, &s.gap, &none);
+    CHECK_CODE(st, FRET_NOT_MONOTONE);
+    CHECK(st.value > 0 && st.value < 2e-3);
+    fret_table_free(t);
+}
+
+/* Samples `gap` at count points to `end`; the last places are drawn at random between the even ones where
+ * `uneven`. */
+static struct fret_table *sample(const fret_gap *gap, int count, double end, bool uneven) {
+    double *r = malloc(2 * (size_t)count * sizeof *r), *f = r + count;
+    struct fret_table *t = NULL;
+    unsigned long long seed = 11;
+    if (!r)
+        return NULL;
+    for (int i = 0; i < count; i++) {
+        double move = uneven && i > 0 && i + 1 < count ? unit_random(&seed, -0.3, 0.3) : 0;
+        fret_real y = 0;
+        r[i] = end * (i + move) / (count - 1);
+        CHECK_OK(fret_gap_f(gap, r[i], &y));
+        f[i] = (double)y;
+    }
+    CHECK_OK(fret_table_make(r, f, (size_t)count, &t));
+    free(r);
+    return t;
+}
+
+/* The interpolation keeps straight lines and parabolas; elsewhere its error falls with a power of the
+ * spacing, measured from 50 to 400 points. A flat end between two samples costs one order. */
+static void table_order(void) {
+    static const struct {
+        fret_gap_kind kind;
+        double n; /* of a power */
+        bool uneven;
+        double order; /* at least; 0: exact */
+    } cases[] = {
+        {FRET_GAP_POWER, 1, true, 0},
+        {FRET_GAP_POWER, 2, true, 0},
+        {FRET_GAP_FLAT_ROUNDED, 0, false, 1.5},
+        {FRET_GAP_POWER, 3, true, 1.5},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int j = 1; j < GRADINGS; j += 2) { /* -0.7, 0, 0.7 */
+            unit_scene s = of_kind(cases[i].kind, gradings[j]);
+            if (cases[i].kind == FRET_GAP_POWER) {
+                s.gap.terms = 1;
+                s.gap.power[0] = (fret_power){cases[i].n, 1e-4, 3e-3};
+            }
+            fret_normal n = make(&s);
+            fret_press at = {0, 0, 0};
+            CHECK_OK(fret_press_radius(&n, 2.3e-3, &at));
+            answers want = ask(&s, (double)at.F);
+            fret_real error[4][3] = {{0}};
+            for (int level = 0; level < (cases[i].order > 0 ? 4 : 2); level++) {
+                unit_scene table = s;
+                table.gap.kind = FRET_GAP_TABLE;
+                struct fret_table *t = sample(&s.gap, 50 << level, 3.1e-3, cases[i].uneven);
+                if (!t)
+                    return;
+                table.gap.table = t;
+                answers got = ask(&table, (double)at.F);
+                fret_table_free(t);
+                error[level][0] = fabsl(got.p.a / want.p.a - 1);
+                error[level][1] = fabsl(got.p.dz / want.p.dz - 1);
+                error[level][2] = fabsl(got.loss / want.loss - 1);
+                if (cases[i].order <= 0) {
+                    CHECK_ABS(error[level][0], 0, 1, 1e-13L);
+                    CHECK_ABS(error[level][1], 0, 1, 1e-13L);
+                    CHECK_ABS(error[level][2], 0, 1, 1e-11L);
+                }
+            }
+            if (getenv("FRET_UNIT_VERBOSE"))
+                for (int q = 0; q < 3; q++)
+                    printf("table of %s n=%g%s k=%g: %s %.1Le %.1Le %.1Le %.1Le order %.2Lf\n",
+                           kinds[cases[i].kind], cases[i].n, cases[i].uneven ? " uneven" : "", gradings[j],
+                           q == 0   ? "a "
+                           : q == 1 ? "dz"
+                                    : "dW",
+                           error[0][q], error[1][q], error[2][q], error[3][q],
+                           log2l(error[0][q] / error[3][q]) / 3);
+            if (cases[i].order > 0) { /* of the worst: where samples fall matters, and errors change sign */
+                fret_real first = 0, last = 0;
+                for (int q = 0; q < 3; q++) {
+                    first = fmaxl(first, error[0][q]);
+                    last = fmaxl(last, error[3][q]);
+                }
+                CHECK(log2l(first / last) / 3 > cases[i].order);
+                CHECK(last < 1e-5L);
+            }
+        }
+}
+
+static void long_table(void) {
+    unit_scene s = of_kind(FRET_GAP_FLAT_ROUNDED, 0.7), table = s;
+    fret_normal n = make(&s);
+    fret_press at = {0, 0, 0};
+    CHECK_OK(fret_press_radius(&n, 1.9e-3, &at));
+    struct fret_table *t = sample(&s.gap, 100001, 3.1e-3, false);
+    if (!t)
+        return;
+    table.gap.kind = FRET_GAP_TABLE;
+    table.gap.table = t;
+    fret_normal long_ = make(&table);
+    fret_press p = {0, 0, 0};
+    CHECK_OK(fret_press_force(&long_, (double)at.F, &p));
+    CHECK_REL(p.a, at.a, 1e-6L);
+    CHECK_REL(p.dz, at.dz, 1e-6L);
+    fret_table_free(t);
+}
+
+int main(int argc, char **argv) {
+    unit_start("shape", argc, argv);
+    reference();
+    show_worst();
+    engine();
+    vanishing_flat();
+    one_term();
+    limits();
+    bad_tables();
+    table_order();
+    long_table();
+    return unit_finish();
+}

@@ -1,0 +1,382 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The springs of the printed scheme against the memory diagram: two ways to the same state. */
+#include "fret/springs.h"
+#include "unit.h"
+
+typedef struct pair {
+    fret_normal normal;
+    double mu, FN, radius, slip; /* slip: delta_x,max at F_N */
+    fret_memory *memory;
+    fret_springs *springs;
+} pair;
+
+static void springs_of(pair *p, size_t count, double radius, fret_weight rule) {
+    fret_springs_free(p->springs);
+    p->springs = NULL;
+    if (!CHECK(fret_springs_make(&p->normal, p->mu, count, radius, rule, &p->springs).code == FRET_OK))
+        exit(unit_finish());
+}
+
+static pair make(double n, double k) {
+    const unit_scene s = unit_make_scene(n, k);
+    pair p = {.mu = s.mu, .FN = 100};
+    fret_press press;
+    CHECK_OK(fret_normal_make(&s.material, &s.gap, &p.normal));
+    CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+    p.radius = (double)press.a;
+    p.slip = (double)fret_gross_slip(&p.normal, p.mu, &press);
+    if (!CHECK(fret_memory_make(&p.normal, p.mu, &p.memory).code == FRET_OK))
+        exit(unit_finish());
+    return p;
+}
+
+static void drop(pair *p) {
+    fret_springs_free(p->springs);
+    fret_memory_free(p->memory);
+}
+
+static fret_step to_depth(double dz, double dx) {
+    return (fret_step){FRET_TO_DEPTH, FRET_TO_DX, dz, dx};
+}
+
+static fret_step to_force(double FN, double Fx) {
+    return (fret_step){FRET_TO_FORCE, FRET_TO_FX, FN, Fx};
+}
+
+static fret_step press_only(double FN) {
+    return (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0};
+}
+
+static fret_step to_dx(double dx) {
+    return (fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, dx};
+}
+
+static fret_step to_fx(double Fx) {
+    return (fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, Fx};
+}
+
+static void go(pair *p, fret_step step, unsigned substeps) {
+    fret_state before, after;
+    fret_springs_state(p->springs, &before);
+    CHECK_OK(fret_memory_step(p->memory, &step));
+    CHECK_OK(fret_springs_step(p->springs, &step, substeps));
+    fret_springs_state(p->springs, &after);
+    CHECK(after.W >= before.W && after.U >= 0);
+    CHECK(fabsl(after.Fx) <= p->mu * after.FN * (1 + 1e-13L));
+}
+
+/* How far the springs are from the diagram; loads to mu F_N, displacements to delta_x,max. */
+static fret_real distance(const pair *p) {
+    fret_state m, s;
+    fret_memory_state(p->memory, &m);
+    fret_springs_state(p->springs, &s);
+    const fret_real force = (m.Fx - s.Fx) / (p->mu * p->FN), shift = (m.dx - s.dx) / p->slip;
+    const fret_real energy = p->mu * p->FN * p->slip, W = (m.W - s.W) / energy, U = (m.U - s.U) / energy;
+    return sqrtl(force * force + shift * shift + W * W + U * U);
+}
+
+static void restart(pair *p) {
+    fret_memory_reset(p->memory);
+    fret_springs_reset(p->springs);
+}
+
+/* Root mean square over cuts that put the edge of the contact anywhere within its cell: for one cut alone
+ * the error depends on where it falls. */
+static fret_real constant_load_error(pair *p, size_t count, fret_weight rule, bool by_force) {
+    static const double turns[] = {0.7, -0.5, 0.35, -0.6, 0.8, 0.1};
+    enum { CUTS = 16 };
+    fret_real sum = 0;
+    for (int cut = 0; cut < CUTS; cut++) {
+        springs_of(p, count, p->radius * (1 + (cut + 0.5) / CUTS / (double)count), rule);
+        fret_memory_reset(p->memory);
+        go(p, press_only(p->FN), 1);
+        for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) {
+            go(p, by_force ? to_fx(turns[i] * p->mu * p->FN) : to_dx(turns[i] * p->slip), 1);
+            fret_real d = distance(p);
+            sum += d * d;
+        }
+    }
+    return sqrtl(sum / CUTS);
+}
+
+static double order_in_count(double n, double k, fret_weight rule, bool by_force) {
+    pair p = make(n, k);
+    const size_t coarse = 128, fine = 2048;
+    fret_real e0 = constant_load_error(&p, coarse, rule, by_force),
+              e1 = constant_load_error(&p, fine, rule, by_force);
+    double order = (double)(logl(e0 / e1) / logl((fret_real)fine / coarse));
+    if (getenv("FRET_UNIT_VERBOSE"))
+        printf("n=%g k=%g %s weights by %s: error %.2Le -> %.2Le from %zu to %zu springs, order %.2f\n", n, k,
+               rule == FRET_WEIGHT_CELL ? "cell" : "midpoint", by_force ? "force" : "displacement", e0, e1,
+               coarse, fine, order);
+    drop(&p);
+    return order;
+}
+
+static void test_order_in_count(void) {
+    static const double ks[] = {-0.9, -0.7, -0.5, -0.2, 0, 0.3, 0.6, 0.9};
+    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
+        for (int by_force = 0; by_force < 2; by_force++) {
+            CHECK_ABS(order_in_count(2, ks[i], FRET_WEIGHT_CELL, by_force), 2, 1, 0.15L);
+            CHECK_ABS(order_in_count(3, ks[i], FRET_WEIGHT_CELL, by_force), 2, 1, 0.15L);
+            /* a cone is not smooth at its tip, where k < 0 puts much of the stiffness */
+            CHECK_ABS(order_in_count(1, ks[i], FRET_WEIGHT_CELL, by_force), fmin(2, 2 + ks[i]), 1, 0.15L);
+            if (ks[i] < 0)
+                CHECK_ABS(order_in_count(2, ks[i], FRET_WEIGHT_MIDPOINT, by_force), 1 + ks[i], 1, 0.15L);
+        }
+}
+
+static fret_real oblique_error(pair *p, unsigned substeps) {
+    unsigned long long seed = 7;
+    fret_real sum = 0;
+    enum { STEPS = 24 };
+    restart(p);
+    go(p, to_force(p->FN / 2, 0), substeps);
+    for (int i = 0; i < STEPS; i++) {
+        double FN = unit_random(&seed, 0.2, 1) * p->FN, Fx = unit_random(&seed, -0.9, 0.9) * p->mu * FN;
+        go(p, to_force(FN, Fx), substeps);
+        fret_real d = distance(p);
+        sum += d * d;
+    }
+    return sqrtl(sum / STEPS);
+}
+
+static void test_order_in_substeps(void) {
+    static const double cases[][2] = {{2, 0}, {1, 0.5}, {3, -0.5}, {2, -0.7}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        pair p = make(cases[i][0], cases[i][1]);
+        springs_of(&p, 8192, p.radius, FRET_WEIGHT_CELL);
+        fret_real e0 = oblique_error(&p, 4), e1 = oblique_error(&p, 32);
+        double order = (double)(logl(e0 / e1) / logl(8));
+        if (getenv("FRET_UNIT_VERBOSE"))
+            printf("n=%g k=%g: error %.2Le -> %.2Le from 4 to 32 substeps, order %.2f\n", cases[i][0],
+                   cases[i][1], e0, e1, order);
+        CHECK_ABS(order, 2, 1, 0.25L);
+        drop(&p);
+    }
+}
+
+/* Straight in (delta_z, delta_x): whole or in parts, touching, parting and open in between, it is the same,
+ * and what the force does is stored or dissipated. */
+static void test_straight_steps(void) {
+    pair p = make(2, 0.3);
+    unsigned long long seed = 11;
+    fret_press press;
+    fret_springs *parts;
+    springs_of(&p, 1000, p.radius, FRET_WEIGHT_CELL);
+    CHECK_OK(fret_springs_make(&p.normal, p.mu, 1000, p.radius, FRET_WEIGHT_CELL, &parts));
+    CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+    for (int i = 0; i < 200; i++) {
+        fret_state a, b;
+        const double dz = unit_random(&seed, -0.3, 1) * (double)press.dz;
+        const fret_step step = to_depth(dz, unit_random(&seed, -1.5, 1.5) * p.slip);
+        go(&p, step, 1);
+        CHECK_OK(fret_springs_step(parts, &step, 7));
+        fret_springs_state(p.springs, &a);
+        fret_springs_state(parts, &b);
+        CHECK(a.FN == b.FN && a.dz == b.dz && a.slices == b.slices);
+        CHECK_ABS(a.Fx, b.Fx, p.mu * p.FN, 1e-13L);
+        CHECK_ABS(a.dx, b.dx, p.slip, 1e-13L);
+        CHECK_REL(a.W, b.W, 1e-12L);
+        CHECK_ABS(a.U, b.U, p.mu * p.FN * p.slip, 1e-13L);
+        CHECK_ABS(distance(&p), 0, 1, 1e-4L * (i + 1));
+    }
+    fret_springs_free(parts);
+    drop(&p);
+}
+
+/* At constant F_N substeps change nothing, and F_x reaches its target. */
+static void test_force_control(void) {
+    pair p = make(2, -0.4);
+    springs_of(&p, 500, p.radius, FRET_WEIGHT_CELL);
+    fret_springs *parts;
+    CHECK_OK(fret_springs_make(&p.normal, p.mu, 500, p.radius, FRET_WEIGHT_CELL, &parts));
+    const double limit = p.mu * p.FN, targets[] = {0.5, -0.3, 0.99, -1, 1, 0.2, 0, 1e-9, -1e-9};
+    const fret_step press = press_only(p.FN);
+    go(&p, press, 1);
+    CHECK_OK(fret_springs_step(parts, &press, 5));
+    for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
+        fret_state a, b;
+        const fret_step step = to_fx(targets[i] * limit);
+        go(&p, step, 1);
+        CHECK_OK(fret_springs_step(parts, &step, 9));
+        fret_springs_state(p.springs, &a);
+        fret_springs_state(parts, &b);
+        CHECK_ABS(a.Fx, step.tangential, limit, 2e-14L);
+        CHECK_ABS(a.dx, b.dx, p.slip, 1e-9L); /* flat near gross slip */
+        CHECK_REL(a.W, b.W, 1e-9L);
+    }
+    fret_springs_free(parts);
+    drop(&p);
+}
+
+/* Weights add up to the stiffness of the continuum; F_N and its inverse agree. */
+static void test_weights(void) {
+    static const double ks[] = {-0.95, -0.5, 0, 0.5, 0.95};
+    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++) {
+        pair p = make(2, ks[i]);
+        fret_press press;
+        CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+        const double FN = p.FN;
+        for (size_t count = 1; count <= 100000; count = 10 * count + 1) {
+            fret_state s, t;
+            springs_of(&p, count, p.radius, FRET_WEIGHT_CELL);
+            const fret_step deep = to_depth((double)press.dz, 0), force = press_only(FN);
+            CHECK_OK(fret_springs_step(p.springs, &deep, 1));
+            fret_springs_state(p.springs, &s);
+            CHECK(s.slices == count);
+            CHECK_REL(s.kn, fret_normal_stiffness(&p.normal, p.radius), 4e-16L);
+            CHECK_REL(s.kt, s.kn / p.normal.foundation.eta, 1e-18L * (fret_real)count + 1e-18L);
+            CHECK_REL(s.a, p.radius, 1e-15L);
+            CHECK(s.c == s.a);
+            CHECK_OK(fret_springs_step(p.springs, &force, 1));
+            fret_springs_state(p.springs, &t);
+            CHECK(t.FN == FN);
+            const fret_step again = to_depth((double)t.dz, 0);
+            fret_springs_reset(p.springs);
+            if (t.dz <= press.dz) {
+                CHECK_OK(fret_springs_step(p.springs, &again, 1));
+                fret_springs_state(p.springs, &t);
+                CHECK_REL(t.FN, FN, 1e-14L);
+            }
+        }
+        drop(&p);
+    }
+}
+
+/* Stick radius and stiffness, to within a cell. */
+static void test_stick(void) {
+    pair p = make(2, 0.2);
+    fret_state m, s;
+    springs_of(&p, 4000, p.radius, FRET_WEIGHT_CELL);
+    go(&p, press_only(p.FN), 1);
+    for (int i = 1; i < 6; i++) {
+        go(&p, to_fx((i % 2 ? 1 : -1) * (0.9 - 0.1 * i) * p.mu * p.FN), 1);
+        fret_memory_state(p.memory, &m);
+        fret_springs_state(p.springs, &s);
+        CHECK_ABS(s.c, m.c, p.radius, 1.5L / 4000);
+        CHECK_REL(s.kt, m.kt, 2e-3L);
+        CHECK_REL(s.U, m.U, 1e-5L);
+    }
+    go(&p, to_dx(2 * p.slip), 1);
+    fret_springs_state(p.springs, &s);
+    CHECK(s.c == 0 && s.kt == 0);
+    CHECK_REL(s.Fx, p.mu * p.FN, 1e-14L);
+    drop(&p);
+}
+
+/* A flat-ended pad, where springs under the flat touch together. */
+static void test_pad(void) {
+    const unit_scene steel = unit_make_scene(2, 0.1);
+    const fret_gap gap = {.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-4, .R = 1e-2};
+    pair p = {.mu = 0.4, .FN = 100};
+    fret_press press;
+    fret_springs *none = NULL;
+    CHECK_OK(fret_normal_make(&steel.material, &gap, &p.normal));
+    CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+    p.slip = (double)fret_gross_slip(&p.normal, p.mu, &press);
+    p.radius = (double)press.a;
+    CHECK_OK(fret_memory_make(&p.normal, p.mu, &p.memory));
+    springs_of(&p, 2000, p.radius * 1.001, FRET_WEIGHT_CELL);
+    go(&p, to_force(p.FN, 0), 1);
+    go(&p, to_fx(0.6 * p.mu * p.FN), 1);
+    CHECK_ABS(distance(&p), 0, 1, 1e-5L);
+    go(&p, to_force(p.FN / 2, -0.3 * p.mu * p.FN), 100);
+    CHECK_ABS(distance(&p), 0, 1, 1e-3L);
+    go(&p, to_force(0, 0), 100);
+    fret_state s;
+    fret_springs_state(p.springs, &s);
+    CHECK(s.FN == 0 && s.Fx == 0 && s.U == 0 && s.slices == 0);
+    CHECK_ERROR(fret_springs_make(&p.normal, p.mu, 10, 5e-5, FRET_WEIGHT_CELL, &none), FRET_OUTSIDE, "a");
+    drop(&p);
+}
+
+static void test_copy(void) {
+    pair p = make(2, 0.5);
+    fret_springs *saved;
+    fret_state a, b;
+    springs_of(&p, 333, p.radius, FRET_WEIGHT_CELL);
+    CHECK_OK(fret_springs_make(&p.normal, p.mu, 10, p.radius, FRET_WEIGHT_MIDPOINT, &saved));
+    go(&p, to_force(60, 10), 3);
+    CHECK_OK(fret_springs_copy(saved, p.springs));
+    CHECK_OK(fret_springs_copy(saved, saved));
+    const fret_step there = to_force(90, -20);
+    CHECK_OK(fret_springs_step(p.springs, &there, 8));
+    CHECK_OK(fret_springs_step(saved, &there, 8));
+    fret_springs_state(p.springs, &a);
+    fret_springs_state(saved, &b);
+    CHECK(a.Fx == b.Fx && a.dx == b.dx && a.W == b.W && a.U == b.U && a.FN == b.FN);
+    fret_springs_reset(p.springs);
+    CHECK_OK(fret_springs_copy(saved, p.springs));
+    fret_springs_state(saved, &b);
+    CHECK(b.FN == 0 && b.dz == 0 && b.Fx == 0 && b.dx == 0 && b.W == 0 && b.U == 0 && b.a == 0);
+    fret_springs_free(saved);
+    fret_springs_free(NULL);
+    drop(&p);
+}
+
+static void refuses(pair *p, fret_step step, unsigned substeps, fret_code code, const char *quantity) {
+    fret_state a, b;
+    fret_springs_state(p->springs, &a);
+    CHECK_ERROR(fret_springs_step(p->springs, &step, substeps), code, quantity);
+    fret_springs_state(p->springs, &b);
+    CHECK(a.FN == b.FN && a.dz == b.dz && a.Fx == b.Fx && a.dx == b.dx && a.W == b.W && a.U == b.U);
+}
+
+static void test_errors(void) {
+    const double nan_ = (double)NAN, inf_ = (double)INFINITY;
+    pair p = make(2, 0);
+    const fret_normal *n = &p.normal;
+    fret_springs *none = NULL;
+    const fret_weight cell = FRET_WEIGHT_CELL;
+    CHECK_ERROR(fret_springs_make(n, 0, 10, 1e-3, cell, &none), FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_springs_make(n, nan_, 10, 1e-3, cell, &none), FRET_NOT_FINITE, "mu");
+    CHECK_ERROR(fret_springs_make(n, 0.3, 0, 1e-3, cell, &none), FRET_NOT_POSITIVE, "count");
+    CHECK_ERROR(fret_springs_make(n, 0.3, 10, 0, cell, &none), FRET_NOT_POSITIVE, "radius");
+    CHECK_ERROR(fret_springs_make(n, 0.3, 10, inf_, cell, &none), FRET_NOT_FINITE, "radius");
+    CHECK_ERROR(fret_springs_make(n, 0.3, 10, 1e-3, (fret_weight)7, &none), FRET_OUTSIDE, "rule");
+    CHECK_CODE(fret_springs_make(n, 0.3, 10, 1e300, cell, &none), FRET_OVERFLOW);
+    CHECK_CODE(fret_springs_make(n, 0.3, (size_t)-1, 1e-3, cell, &none), FRET_NO_MEMORY);
+    CHECK(none == NULL);
+
+    const double r[] = {0, 1e-4, 2e-4}, f[] = {0, 1e-6, 4e-6};
+    const unit_scene steel = unit_make_scene(2, 0);
+    struct fret_table *table;
+    fret_normal tabled;
+    CHECK_OK(fret_table_make(r, f, 3, &table));
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
+    CHECK_OK(fret_normal_make(&steel.material, &gap, &tabled));
+    CHECK_CODE(fret_springs_make(&tabled, 0.3, 10, 3e-4, cell, &none), FRET_TABLE_SHORT);
+    fret_table_free(table);
+
+    springs_of(&p, 100, p.radius, cell);
+    const fret_step start = to_force(80, 10);
+    CHECK_OK(fret_springs_step(p.springs, &start, 4));
+    refuses(&p, start, 0, FRET_NOT_POSITIVE, "substeps");
+    refuses(&p, to_force(-1, 0), 1, FRET_NEGATIVE, "FN");
+    refuses(&p, to_force(nan_, 0), 1, FRET_NOT_FINITE, "FN");
+    refuses(&p, to_force(101, 0), 1, FRET_OUTSIDE, "FN");
+    refuses(&p, to_depth(inf_, 0), 1, FRET_NOT_FINITE, "dz");
+    refuses(&p, to_depth(1, 0), 1, FRET_OUTSIDE, "dz");
+    refuses(&p, to_fx(nan_), 1, FRET_NOT_FINITE, "Fx");
+    refuses(&p, to_dx(inf_), 1, FRET_NOT_FINITE, "dx");
+    refuses(&p, to_fx(p.mu * 81), 1, FRET_GROSS_SLIP, "Fx");
+    refuses(&p, to_force(20, -p.mu * 21), 1, FRET_GROSS_SLIP, "Fx");
+    const fret_step beyond = to_fx(-p.mu * 90);
+    CHECK_REL(fret_springs_step(p.springs, &beyond, 1).limit, p.mu * 80, 1e-15L);
+    drop(&p);
+}
+
+int main(int argc, char **argv) {
+    unit_start("springs", argc, argv);
+    test_order_in_count();
+    test_order_in_substeps();
+    test_straight_steps();
+    test_force_control();
+    test_weights();
+    test_stick();
+    test_pad();
+    test_copy();
+    test_errors();
+    return unit_finish();
+}
