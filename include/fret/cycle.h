@@ -19,7 +19,8 @@ fret_real fret_gross_slip(const fret_normal *normal, double mu, const fret_press
 
 /* F_x = mu [F_N(a)-F_N(c)], delta_x = mu eta [g(a)-g(c)] (15),(18); power law:
  *   c/a = (1-F_x/mu F_N)^(1/(n+k+1)), delta_x = mu eta delta_z [1-(c/a)^n].
- * Odd in its argument. By force: |Fx| <= mu F_N, else FRET_GROSS_SLIP (limit: mu F_N).
+ * Odd in its argument. By force: |Fx| <= mu F_N, else FRET_GROSS_SLIP (limit: mu F_N); a force that equals
+ * mu F_N to 2.2e-16, the rounding of the product, is taken as equal.
  * By displacement: F_x stays at +-mu F_N beyond delta_x,max.
  * Other errors: FRET_NOT_POSITIVE (mu), FRET_NOT_FINITE. */
 fret_status fret_loading_force(const fret_normal *normal, double mu, const fret_press *press, double Fx,

@@ -214,13 +214,6 @@ bool fret_table_grows(const struct fret_table *t) {
 }
 
 static fret_profile profile_of_table(const fret_gap *gap, const fret_rule *rule, fret_real a) {
-    /* Gauss-Legendre, 8 points: the singularity is at least a piece away */
-    static const fret_real node[4] = {
-        0.1834346424956498049394761423601839807L, 0.5255324099163289858177390491892463490L,
-        0.7966664774136267395915539364758304368L, 0.9602898564975362316835608685694729904L};
-    static const fret_real weight[4] = {
-        0.3626837833783619829651504492771956122L, 0.3137066458778872873379622019866013133L,
-        0.2223810344533744705443559944262408844L, 0.1012285362903762591525313543099621902L};
     const struct fret_table *t = gap->table;
     fret_real k = rule->k, alpha = (k - 1) / 2;
     size_t last = table_piece(t, a);
@@ -238,12 +231,10 @@ static fret_profile profile_of_table(const fret_gap *gap, const fret_rule *rule,
             far_add(&all, t, i, (double)a, (double)alpha);
             continue;
         }
-        fret_real mid = (lo + hi) / 2, half = (hi - lo) / 2;
-        for (int j = 0; j < 4; j++)
-            for (int sign = -1; sign <= 1; sign += 2) {
-                fret_real r = mid + sign * half * node[j];
-                piece_add(&all, t, i, r, half * weight[j] * powl((a - r) * (a + r), alpha));
-            }
+        for (int j = 0; j < 8; j++) { /* the singularity is some pieces away */
+            fret_real r = lo + (hi - lo) * fret_gauss_node[j];
+            piece_add(&all, t, i, r, (hi - lo) * fret_gauss_weight[j] * powl((a - r) * (a + r), alpha));
+        }
     }
     fret_profile out = {powl(a, 1 - k) * all.g, powl(a, -k) * (all.g + all.s), all.I / (k + 1)};
     return out;

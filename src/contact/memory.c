@@ -246,7 +246,10 @@ static fret_real phase_rate(fret_real t, fret_real rest, void *context) {
 static fret_real phase_loss(const fret_memory *m, measure by, fret_real gain, fret_real edge0,
                             fret_real edge1, fret_real front0, fret_real front1) {
     phase p = {m, by, edge0, edge1, front0, front1};
-    return gain * (front0 - front1) * fret_integrate(phase_rate, &p);
+    /* small steps, far from the centre: the rate is smooth */
+    bool smooth = front1 > 0.8L * front0 && edge1 > 0.8L * edge0 && edge0 > 0.8L * edge1;
+    return gain * (front0 - front1) *
+           (smooth ? fret_integrate_smooth(phase_rate, &p) : fret_integrate(phase_rate, &p));
 }
 
 /* Gross slip while the normal load changes: int F_N de. */

@@ -165,7 +165,7 @@ static void gross_slip(void) {
     CHECK_REL(f.dx, max, UNIT_TOL(1e-18L, 1e-15L));
     CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, -32, &f));
     CHECK(f.c == 0 && f.dx < 0);
-    fret_status st = fret_loading_force(&k.normal, k.mu, &k.press, nextafter(32, 33), &f);
+    fret_status st = fret_loading_force(&k.normal, k.mu, &k.press, 32 * (1 + 5e-16), &f);
     CHECK_ERROR(st, FRET_GROSS_SLIP, "Fx");
     CHECK(st.limit == 32 && st.value > 32);
     CHECK_CODE(fret_loading_force(&k.normal, k.mu, &k.press, -32.5, &f), FRET_GROSS_SLIP);
@@ -193,7 +193,7 @@ static void gross_slip(void) {
     while (inside > limit)
         inside = nextafter(inside, 0);
     CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, inside, &f));
-    CHECK_CODE(fret_loading_force(&k.normal, k.mu, &k.press, nextafter(inside, 1), &f), FRET_GROSS_SLIP);
+    CHECK_CODE(fret_loading_force(&k.normal, k.mu, &k.press, inside * (1 + 5e-16), &f), FRET_GROSS_SLIP);
     CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 0, &f));
     CHECK(f.dx == 0 && f.Fx == 0 && f.c == k.press.a && f.yc == k.press.dz);
     CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, 0, &loss));
