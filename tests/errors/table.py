@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs errors.txt: each entry as a file, by -c and through a pipe. The caret must stand where the column says."""
+import os
+import re
+
+import harness
+
+SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
+
+
+def entries(text):
+    for block in text.split("\n\n"):
+        lines = [line for line in block.splitlines() if not line.startswith("#")]
+        statements = [line[2:] for line in lines if line.startswith("> ") or line == ">"]
+        if statements:
+            yield ([SCENE if s == "@scene" else s for s in statements],
+                   [line[2:] for line in lines if line.startswith("| ")],
+                   [line for line in lines if line and line[0] not in ">|"])
+
+
+def carets(messages):
+    """Each placed message is followed by its line and a caret below the column (counted in bytes)."""
+    lines = messages.splitlines()
+    for i, line in enumerate(lines):
+        found = re.match(r"\S+:\d+:(\d+): error: ", line)
+        if not found:
+            continue
+        if i + 2 >= len(lines) or "^" not in lines[i + 2]:
+            return False
+        shown, caret = lines[i + 1], lines[i + 2].index("^")
+        if "..." not in shown and len(shown[2:caret].encode()) != int(found.group(1)) - 1 and \
+                len(shown[2:caret]) != int(found.group(1)) - 1:
+            return False
+    return True
+
+
+def check(tests, statements, out, errors):
+    script = "\n".join(statements) + "\n"
+    status = 1 if any("error:" in line for line in errors) else 0
+    with tests.file(script) as path:
+        runs = {path: tests.run(path), "-c": tests.run("-c", script), "stdin": tests.run(input=script)}
+    for name, done in runs.items():
+        messages = [line for line in done.stderr.splitlines() if "error:" in line or line.startswith("warning:")]
+        want = [line if line.startswith("warning:") else name + ":" + line for line in errors]
+        ok = (messages == want and harness.same_text("\n".join(out), done.stdout) and done.returncode == status
+              and carets(done.stderr))
+        way = "file" if name == path else name
+        tests.check("errors, %s: %s" % (way, " \\n ".join(statements)), ok,
+                    harness.diff("\n".join(out + want), done.stdout + done.stderr) + "\nexit %d" % done.returncode)
+
+
+def run(tests):
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "errors.txt")
+    with open(path, encoding="utf-8") as f:
+        tests.each([lambda e=entry: check(tests, *e) for entry in entries(f.read())])

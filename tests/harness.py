@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the rooms of tests share: running the program, comparing, counting."""
+import contextlib
+import difflib
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PROMPT = "fret> "
+NUMBER = re.compile(r"\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?")
+
+
+def last_place(number):
+    """One unit in the last printed place."""
+    mantissa, _, exponent = number.lower().partition("e")
+    places = len(mantissa.partition(".")[2])
+    return 10.0 ** (int(exponent or 0) - places)
+
+
+def same_line(want, got):
+    """Equal up to a unit of the last printed digit of each number; what prints short (1, 0.5) is meant exactly, what
+    prints long (17 digits) to 1e-12."""
+    want, got = want.rstrip(), got.rstrip()
+    if want == got:
+        return True
+    if NUMBER.sub("0", want) != NUMBER.sub("0", got):
+        return False
+    return all(abs(float(w) - float(g)) <= max(min(1.000001 * last_place(w), 1.1e-5 * abs(float(w))),
+                                                1e-12 * abs(float(w)))
+               for w, g in zip(NUMBER.findall(want), NUMBER.findall(got)))
+
+
+def same_text(want, got):
+    want, got = want.rstrip().splitlines(), got.rstrip().splitlines()
+    return len(want) == len(got) and all(map(same_line, want, got))
+
+
+def diff(want, got):
+    lines = difflib.unified_diff(want.splitlines(), got.splitlines(), "expected", "got", lineterm="", n=1)
+    return "\n".join(line[:300] for line in list(lines)[:40])
+
+
+class Tests:
+    """One run of all rooms with one build of the program."""
+
+    def __init__(self, build, label, sanitized):
+        self.fret = os.path.join(ROOT, build, "fret")
+        self.build, self.label, self.sanitized = build, label, sanitized
+        self.passed = self.failed = 0
+        self.lock = threading.Lock()
+        self.dir = tempfile.mkdtemp(prefix="fret-tests-")
+        self.tmp = os.path.join(self.dir, "tmp")  # where the program may keep temporary files
+        os.makedirs(os.path.join(self.dir, "home"))
+        os.mkdir(self.tmp)
+        self.env = {"PATH": os.environ["PATH"], "HOME": os.path.join(self.dir, "home"), "TMPDIR": self.tmp,
+                    "LC_ALL": "C", "TERM": "dumb",
+                    "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1"}
+        for name in ("LD_LIBRARY_PATH", "FRET_REFERENCE"):
+            if name in os.environ:
+                self.env[name] = os.environ[name]
+
+    def close(self):
+        shutil.rmtree(self.dir, ignore_errors=True)
+
+    def run(self, *args, input="", env=None, timeout=120, cwd=None):
+        """Runs the program; bytes in `input` go in as they are. Output is text."""
+        data = input if isinstance(input, bytes) else input.encode()
+        try:
+            done = subprocess.run([self.fret, *args], input=data, capture_output=True,
+                                  env={**self.env, **(env or {})}, timeout=timeout, cwd=cwd or self.dir)
+        except subprocess.TimeoutExpired:
+            return subprocess.CompletedProcess(args, -1, "", "no end within %g s" % timeout)
+        done.stdout = done.stdout.decode("utf-8", "replace")
+        done.stderr = done.stderr.decode("utf-8", "replace")
+        return done
+
+    def check(self, name, ok, detail=""):
+        with self.lock:
+            if ok:
+                self.passed += 1
+            else:
+                self.failed += 1
+                print("FAILED (%s) %s\n%s" % (self.label, name, detail), flush=True)
+        return ok
+
+    def same(self, name, want, got):
+        return self.check(name, same_text(want, got), diff(want, got))
+
+    def report(self, done):
+        return "exit %d\n%s%s" % (done.returncode, done.stdout[-3000:], done.stderr[-3000:])
+
+    def each(self, jobs):
+        """Runs callables side by side."""
+        with ThreadPoolExecutor(max_workers=2 * (os.cpu_count() or 1)) as pool:
+            for future in [pool.submit(job) for job in jobs]:
+                future.result()
+
+    @contextlib.contextmanager
+    def file(self, text, suffix=".fret"):
+        fd, path = tempfile.mkstemp(dir=self.dir, suffix=suffix)
+        with os.fdopen(fd, "wb") as out:
+            out.write(text if isinstance(text, bytes) else text.encode())
+        try:
+            yield path
+        finally:
+            os.unlink(path)
+
+
+def read_transcript(text):
+    """[(statement, expected output)]; what precedes the first prompt is a comment."""
+    steps = []
+    for line in text.splitlines():
+        if line.startswith(PROMPT):
+            steps.append([line[len(PROMPT):], []])
+        elif steps:
+            steps[-1][1].append(line.rstrip())
+    for step in steps:
+        while step[1] and not step[1][-1]:
+            step[1].pop()
+    return steps
+
+
+def draws(statement):
+    """A plot in the terminal: its exact characters are gnuplot's affair."""
+    return re.search(r"(^|;)\s*plot\b", statement) and " to " not in statement and not statement.startswith("set")
+
+
+def replay(tests, name, steps):
+    """The transcript by --replay, plots left out; each statement counts as one check."""
+    text = ""
+    for statement, out in steps:
+        if not (draws(statement) and not any("error:" in line for line in out)):
+            text += PROMPT + statement + "\n" + "".join(line + "\n" for line in out)
+    with tests.file(text, ".txt") as path:
+        done = tests.run("--replay", path, "--tolerance", "1e-12")
+    last = done.stdout.splitlines()[-1] if done.stdout else ""
+    found = re.match(r".*: (\d+) passed, (\d+) failed$", last)
+    if not found or (done.returncode != 0) != (int(found.group(2)) > 0) or done.stderr:
+        tests.check(name + " by replay", False, tests.report(done))
+        return
+    with tests.lock:
+        tests.passed += int(found.group(1))
+        tests.failed += int(found.group(2))
+        if int(found.group(2)):
+            print("FAILED (%s) %s\n%s" % (tests.label, name, done.stdout.replace(path, name)), flush=True)
+
+
+def is_message(line):
+    return line.startswith(("error:", "warning:"))
+
+
+def batch(tests, name, steps):
+    """The same statements as a file, by -c and through a pipe: same answers, messages on standard error."""
+    script = "".join(statement + "\n" for statement, _ in steps)
+    out = [line for _, lines in steps for line in lines]
+    want = "\n".join(line for line in out if not is_message(line))
+    errors = [line for line in out if is_message(line)]
+    fails = any(line.startswith("error:") for line in errors)
+    with tests.file(script) as path:
+        runs = {"file": tests.run("--keep-going", path), "-c": tests.run("--keep-going", "-c", script),
+                "pipe": tests.run("--keep-going", input=script)}
+    for way, done in runs.items():
+        messages = [line[re.search("(error|warning): ", line).start():] for line in done.stderr.splitlines()
+                    if re.match(r"(\S+:\d+:\d+: )?(error|warning): ", line)]
+        ok = (same_text(want, done.stdout) and messages == errors and done.returncode == (1 if fails else 0))
+        tests.check("%s as %s" % (name, way), ok,
+                    diff(want + "\n" + "\n".join(errors), done.stdout + "\n" + "\n".join(messages)) +
+                    "\nexit %d" % done.returncode)

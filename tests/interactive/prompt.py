@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The prompt in a terminal of its own: editing, history, completion, interrupts."""
+import os
+import re
+import stat
+import time
+
+import pexpect
+
+PROMPT = r"fret> "
+SCENE = "material steel; geometry sphere R=10 mm; friction 0.4"
+
+
+class Session:
+    def __init__(self, tests, *args, **env):
+        self.tests = tests
+        self.state = env.get("XDG_STATE_HOME") or os.path.join(tests.dir, "state-%d" % time.monotonic_ns())
+        env = {**tests.env, "TERM": "xterm", "INPUTRC": "/dev/null", "XDG_STATE_HOME": self.state,
+               "XDG_CONFIG_HOME": os.path.join(tests.dir, "no-config"), **env}
+        self.child = pexpect.spawn(tests.fret, list(args), env=env, encoding="utf-8", timeout=40, cwd=tests.dir,
+                                   dimensions=(30, 100), codec_errors="replace")
+        self.child.delaybeforesend = 0.02
+        self.banner = self.prompt()
+
+    def prompt(self):
+        """What came before the next prompt."""
+        self.child.expect(PROMPT)
+        return clean(self.child.before)
+
+    def say(self, line):
+        """The answer to a line."""
+        self.child.sendline(line)
+        return self.prompt().partition("\n")[2].strip()
+
+    def end(self):
+        self.child.expect(pexpect.EOF)
+        self.child.close()
+        return self.child.exitstatus
+
+
+def clean(text):
+    return re.sub(r"\x1b\[[?0-9;]*[a-zA-Z]", "", text).replace("\r", "")
+
+
+def dialogue(tests):
+    s = Session(tests)
+    tests.check("banner", "help" in s.banner and len(s.banner.strip().splitlines()) <= 3, s.banner)
+    tests.check("an answer", s.say("1 + 1") == "1 + 1 = 2")
+    tests.check("an assignment says nothing", s.say("x = 3 mm") == "")
+    tests.check("variables stay", s.say("x") == "x = 3 mm")
+    tests.check("an error has no place", s.say("foo").endswith("error: unknown name 'foo'"))
+    tests.check("and the session goes on", s.say("x") == "x = 3 mm")
+    s.child.sendline("1 + \\")
+    s.child.expect(r"\.\.\.\.> ")
+    tests.check("a continued line", s.say("2").splitlines()[-1].endswith("= 3"))
+    s.say(SCENE)
+    report = s.say("press FN=100 N")
+    tests.check("a press reports", "a = 186.626 um" in report and "dz = 3.48291 um" in report, report)
+    report = s.say("step Fx=20 N")
+    tests.check("a step reports", "dx = 625.995 nm" in report, report)
+    report = s.say("step Fx=50 N")
+    tests.check("gross slip is refused", report.endswith("gross slip; step by displacement (dx=...) to slide"), report)
+    report = s.say("plot loop")
+    lines = report.splitlines()
+    tests.check("a plot in the terminal", "dx [nm]" in report and len(lines) <= 30 and max(map(len, lines)) <= 100, report)
+    tests.check("demo", "fret> plot loop" in s_demo(s), "")
+    tests.check("demo leaves the scene", s.say("Fx") == "Fx = 20 N")
+    tests.check("help", "Commands" in s.say("help"))
+    s.child.sendline("quit")
+    tests.check("quit", s.end() == 0)
+    path = os.path.join(s.state, "fret", "history")
+    mode = stat.S_IMODE(os.stat(path).st_mode) if os.path.exists(path) else 0
+    tests.check("the history file is private", mode == 0o600, oct(mode))
+    with open(path, encoding="utf-8") as f:
+        kept = f.read().splitlines()
+    tests.check("the history file holds the lines", "x = 3 mm" in kept and "quit" in kept and "foo" in kept, str(kept))
+    s = Session(tests, XDG_STATE_HOME=s.state)
+    s.child.send("\x1b[A\x1b[A")
+    s.child.expect("help")
+    s.child.sendline("")
+    tests.check("the arrow up brings back earlier sessions", "Commands" in s.prompt())
+    s.child.sendeof()
+    tests.check("Ctrl-D leaves", s.end() == 0)
+
+
+def s_demo(s):
+    """The demo shows prompts of its own: wait for a line typed after it."""
+    s.child.sendline("demo")
+    s.child.sendline("1234 + 1")
+    s.child.expect(r"1234 \+ 1 = 1235")
+    text = clean(s.child.before)
+    s.prompt()
+    return text
+
+
+def interrupts(tests):
+    s = Session(tests)
+    s.child.send("1 + 1 + 1")
+    time.sleep(0.1)
+    s.child.sendintr()
+    s.prompt()
+    tests.check("Ctrl-C drops the line", s.say("2") == "2 = 2")
+    s.child.send("x = \\\r")
+    s.child.expect(r"\.\.\.\.> ")
+    s.child.sendintr()
+    s.prompt()
+    tests.check("Ctrl-C drops a continued line", "unknown name 'x'" in s.say("x"))
+    s.say(SCENE)
+    s.say("press FN=100 N")
+    s.say("step Fx=20 N")
+    for name, command in (("table", "table dW(FA) for FA = 1 N .. 30 N steps 50000000 to /dev/null"),
+                          ("sweep", "table a for k = 0 .. 0.5 steps 50000000 to /dev/null"),
+                          ("cycle", "cycle FA=20 N FNA=10 N times 1000000"),
+                          ("plain cycle", "cycle FA=20 N times 1000000 steps 10; history to /dev/null")):
+        if name == "sweep":
+            s.say("c0 = 1 mm")
+        s.child.sendline(command)
+        time.sleep(0.5 if not tests.sanitized else 1)
+        start = time.time()
+        s.child.sendintr()
+        try:
+            answer = s.prompt()
+        except pexpect.TIMEOUT:
+            tests.check("Ctrl-C stops a long " + name, False, "no prompt within 40 s")
+            s.child.close(force=True)
+            return
+        tests.check("Ctrl-C stops a long " + name, time.time() - start < 10 and "interrupted" in answer, answer)
+        if name != "plain cycle":
+            got = s.say("Fx, dx, k, FN")
+            tests.check("the scene is as before the " + name,
+                        got.splitlines() == ["Fx = 20 N", "dx = 625.995 nm", "k = 0", "FN = 100 N"], got)
+    s.child.sendintr()
+    s.prompt()
+    tests.check("Ctrl-C at an empty line", s.say("1") == "1 = 1")
+    s.child.sendeof()
+    tests.check("Ctrl-D leaves after interrupts", s.end() == 0)
+
+
+def completion(tests):
+    s = Session(tests)
+
+    def tab(typed, done):
+        s.child.send(typed + "\t")
+        try:
+            s.child.expect_exact(done, timeout=10)
+            ok = True
+        except pexpect.TIMEOUT:
+            ok = False
+        tests.check("Tab after `%s`" % typed, ok, clean(s.child.before or ""))
+        s.child.sendintr()
+        s.prompt()
+
+    s.say("wobble = 3")
+    tab("geom", "geometry ")
+    tab("geometry para", "paraboloid ")
+    tab("geometry flat-r", "flat-rounded")
+    tab("x = dxm", "dxmax")
+    tab("2*kap", "2*kappa")
+    tab("help apr", "apropos")
+    tab("wob", "wobble")
+    tab("set form", "format")
+    tab("1; fric", "friction")
+    with tests.file("7 * 6\n", ".fret") as path:
+        tab("source " + path[:-3], path)
+    s.child.send("c\t\t")
+    s.child.expect("c0")
+    s.prompt()  # drawn again below the list
+    s.child.sendintr()
+    s.prompt()
+    s.child.sendeof()
+    tests.check("completion leaves", s.end() == 0)
+
+
+def starting(tests):
+    s = Session(tests, "--quiet")
+    tests.check("--quiet", s.banner.strip() == "", s.banner)
+    s.child.sendeof()
+    s.end()
+    config = os.path.join(tests.dir, "rc-%d" % time.monotonic_ns())
+    os.makedirs(os.path.join(config, "fret"))
+    with open(os.path.join(config, "fret", "fretrc"), "w", encoding="ascii") as f:
+        f.write("set digits 3\n")
+    s = Session(tests, XDG_CONFIG_HOME=config)
+    tests.check("the start-up file", s.say("pi") == "pi = 3.14")
+    s.child.sendline("exit")
+    tests.check("exit", s.end() == 0)
+    s = Session(tests, "--no-rc", XDG_CONFIG_HOME=config)
+    tests.check("--no-rc", s.say("pi") == "pi = 3.14159")
+    s.child.sendeof()
+    s.end()
+    s = Session(tests, XDG_STATE_HOME="/dev/null")
+    tests.check("no place for a history file", s.say("1") == "1 = 1")
+    s.child.sendeof()
+    tests.check("and it ends well", s.end() == 0)
+    s = Session(tests, "--color=always")
+    s.child.sendline("foo")
+    s.child.expect(PROMPT)
+    tests.check("errors in colour", "\x1b[1;31merror:" in s.child.before, repr(s.child.before))
+    s.child.sendeof()
+    s.end()
+    s = Session(tests, "--format=json")
+    s.say(SCENE)
+    tests.check("JSON at the prompt", s.say("press FN=100 N").startswith('{"event":"press"'))
+    s.child.sendeof()
+    s.end()
+
+
+def run(tests):
+    def one(room):
+        try:
+            room(tests)
+        except (pexpect.TIMEOUT, pexpect.EOF) as error:
+            tests.check("the prompt: " + room.__name__, False, clean(str(error))[:3000])
+    tests.each([lambda room=room: one(room) for room in (dialogue, interrupts, completion, starting)])

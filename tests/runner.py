@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Builds the program plainly and with sanitizers, and runs every room of tests with both."""
+import glob
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.dont_write_bytecode = True
+for room in ("", "sessions", "errors", "interactive"):
+    sys.path.insert(0, os.path.join(HERE, room))
+
+import harness  # noqa: E402
+import numbers_of_the_physics  # noqa: E402
+import prompt  # noqa: E402
+import scripts  # noqa: E402
+import table  # noqa: E402
+import trouble  # noqa: E402
+
+SANITIZE = "-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all"
+
+
+def make(*args):
+    jobs = "-j%d" % (os.cpu_count() or 1)
+    command = ["make", "--no-print-directory", "-s", jobs, "WERROR=-Werror", *args]
+    done = subprocess.run(command, cwd=harness.ROOT, capture_output=True, text=True)
+    if done.returncode:
+        print("FAILED %s\n%s%s" % (" ".join(command), done.stdout, done.stderr), flush=True)
+    return done.returncode == 0
+
+
+def unit(tests):
+    """Each program ends with `NAME: N passed, N failed`."""
+    def one(name):
+        try:
+            done = subprocess.run([os.path.join(tests.build, "tests", name)], cwd=harness.ROOT, capture_output=True,
+                                  text=True, errors="replace", timeout=300, env=tests.env)
+        except (OSError, subprocess.TimeoutExpired) as error:
+            tests.check("unit " + name, False, str(error))
+            return
+        last = (done.stdout.splitlines() or [""])[-1]
+        found = re.match(r".*: (\d+) passed, (\d+) failed$", last)
+        if not found or (done.returncode != 0) != (int(found.group(2)) > 0):
+            tests.check("unit " + name, False, tests.report(done))
+            return
+        with tests.lock:
+            tests.passed += int(found.group(1))
+            tests.failed += int(found.group(2))
+            if int(found.group(2)):
+                print("FAILED (%s) unit %s\n%s" % (tests.label, name, done.stdout[-6000:] + done.stderr[-3000:]))
+
+    paths = sorted(glob.glob(os.path.join(harness.ROOT, "tests/unit/test_*.c")))
+    tests.each([lambda p=path: one(os.path.basename(p)[:-2]) for path in paths])
+
+
+def plots_of(tests, name, steps):
+    """A transcript's plots: the picture must come last and bear its axis labels."""
+    for i, (statement, out) in enumerate(steps):
+        if not harness.draws(statement) or any("error:" in line for line in out):
+            continue
+        script = "\n".join(s for s, _ in steps[:i + 1] if s == statement or not harness.draws(s))
+        done = tests.run("--keep-going", "-c", script)
+        label = "dx [" if statement.startswith("plot loop") else \
+            re.search(r"\bfor (\w+)", statement).group(1)
+        tail = done.stdout.splitlines()[-20:]
+        tests.check("%s: %s" % (name, statement),
+                    any(label in line for line in tail) and any("+----" in line for line in tail), tests.report(done))
+
+
+def sessions(tests):
+    jobs = []
+    for path in sorted(glob.glob(os.path.join(HERE, "sessions", "*.txt"))):
+        name = os.path.relpath(path, harness.ROOT)
+        with open(path, encoding="utf-8") as f:
+            steps = harness.read_transcript(f.read())
+        still = [s for s in steps if not harness.draws(s[0]) or s[1]]
+        jobs.append(lambda n=name, s=steps: harness.replay(tests, n, s))
+        jobs.append(lambda n=name, s=still: harness.batch(tests, n, s))
+        jobs.append(lambda n=name, s=steps: plots_of(tests, n, s))
+    tests.each(jobs)
+    others = subprocess.run(["locale", "-a"], capture_output=True, text=True).stdout.split() \
+        if shutil.which("locale") else []
+    comma = [name for name in others if name.lower().startswith(("de_", "fr_")) and "utf" in name.lower()]
+    if comma:
+        with open(os.path.join(HERE, "sessions", "contract.txt"), encoding="utf-8") as f:
+            steps = [s for s in harness.read_transcript(f.read()) if not harness.draws(s[0])]
+        kept, tests.env = tests.env, {**tests.env, "LC_ALL": comma[0]}
+        harness.batch(tests, "contract.txt in " + comma[0], steps)
+        tests.env = kept
+
+
+def fenced(text):
+    """The fenced blocks of a Markdown text."""
+    return re.findall(r"^```[a-z]*\n(.*?)^```$", text, re.S | re.M)
+
+
+def readme(tests):
+    with open(os.path.join(harness.ROOT, "README.md"), encoding="utf-8") as f:
+        blocks = fenced(f.read())
+    for i, block in enumerate(blocks):
+        name = "README.md, block %d" % (i + 1)
+        if block.startswith(harness.PROMPT):
+            steps = harness.read_transcript(block)
+            harness.replay(tests, name, steps)
+            plots_of(tests, name, steps)
+        elif block.startswith("$ "):
+            path = os.path.dirname(tests.fret) + ":" + tests.env["PATH"]
+            for part in re.split(r"^\$ ", block, flags=re.M)[1:]:
+                command, _, want = part.partition("\n")
+                done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, cwd=tests.dir,
+                                      env={**tests.env, "PATH": path}, timeout=60)
+                tests.same("%s: %s" % (name, command), want, done.stdout + done.stderr)
+    with open(os.path.join(harness.ROOT, "README.md"), encoding="utf-8") as f:
+        listed = set(re.findall(r"`(\w+)`", f.read().partition("## Commands")[2].partition("\n## ")[0]))
+    for command in command_names(tests):
+        tests.check("README.md names " + command, command in listed or command == "exit", str(sorted(listed)))
+
+
+def command_names(tests):
+    done = tests.run("-c", "show commands")
+    return sorted({line.split()[0] for line in done.stdout.splitlines() if line and not line.startswith(" ")})
+
+
+def help_examples(tests):
+    """Each help text ends with an example as a transcript; it must come out so."""
+    def one(topic):
+        done = tests.run("-c", "help " + topic)
+        tests.check("help " + topic, done.returncode == 0 and done.stdout and not done.stderr, tests.report(done))
+        lines = [line[4:] for line in done.stdout.splitlines() if line.startswith("    ")]
+        steps = harness.read_transcript("\n".join(lines))
+        if steps:
+            harness.replay(tests, "help " + topic, steps)
+        elif topic in commands and topic != "demo":
+            tests.check("help %s has an example" % topic, False)
+    commands = command_names(tests)
+    text = tests.run("-c", "help quantities").stdout
+    quantities = re.findall(r"^    (\w+)(?:\(\w+\))?  ", text, re.M)
+    topics = ["quantities", "expressions", "units", "geometry"]
+    tests.each([lambda t=t: one(t) for t in commands + topics + quantities])
+    tests.check("help lists the quantities", len(quantities) > 30, text)
+
+
+ROOMS = {"unit": unit, "sessions": sessions, "numbers": numbers_of_the_physics.run, "scripts": scripts.run,
+         "errors": table.run, "trouble": trouble.run, "interactive": prompt.run, "readme": readme,
+         "help": help_examples}
+
+
+def main():
+    wanted = sys.argv[1:] or list(ROOMS)
+    for name in wanted:
+        if name not in ROOMS:
+            sys.exit("tests/run: no room '%s': %s" % (name, " ".join(ROOMS)))
+    passed = failed = 0
+    variants = [("build", "plain", []), ("build/asan", "sanitized", ["B=build/asan", "OPT=" + SANITIZE])]
+    if shutil.which("clang"):
+        if make("B=build/clang", "CC=clang", "all", "tests"):
+            passed += 1
+        else:
+            failed += 1
+    for build, label, args in variants:
+        if not make(*args, "all", "tests"):
+            failed += 1
+            continue
+        passed += 1
+        tests = harness.Tests(build, label, label == "sanitized")
+        try:
+            for name in wanted:
+                start, before = time.time(), (tests.passed, tests.failed)
+                try:
+                    ROOMS[name](tests)
+                except Exception as error:  # a broken test is a failed test
+                    import traceback
+                    tests.check(name + " stopped", False, traceback.format_exc() + str(error))
+                print("%-10s %-12s %5d passed %3d failed  %5.1f s" %
+                      (label, name, tests.passed - before[0], tests.failed - before[1], time.time() - start),
+                      flush=True)
+            left = os.listdir(tests.tmp)
+            tests.check("no temporary files are left", not left, " ".join(left))
+        finally:
+            tests.close()
+        passed += tests.passed
+        failed += tests.failed
+    print("%d passed, %d failed" % (passed, failed))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

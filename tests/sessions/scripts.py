@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program in scripts: files, options, output files, pictures, the demos."""
+import csv
+import glob
+import json
+import os
+import shutil
+import subprocess
+import xml.etree.ElementTree
+
+import harness
+
+SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+
+
+def says(tests, name, done, out, err="", status=0):
+    tests.check(name, harness.same_text(out, done.stdout) and done.stderr == err and done.returncode == status,
+                harness.diff(out + err, done.stdout + done.stderr) + "\nexit %d" % done.returncode)
+
+
+def jobs(tests):
+    with tests.file("x = 1\n") as a, tests.file("x + 1\n") as b:
+        says(tests, "files share a scene", tests.run(a, b), "x + 1 = 2")
+        says(tests, "-f, -c and - in their order", tests.run("-f", a, "-c", "x = x + 1", "-c", "x", "-", input="x*2"),
+             "x = 2\nx*2 = 4")
+        says(tests, "- is standard input", tests.run("-", input="3"), "3 = 3")
+        says(tests, "source", tests.run("-c", "source %s; x" % a), "x = 1")
+        says(tests, "source with quotation marks", tests.run("-c", 'source "%s" # a comment\nx' % a), "x = 1")
+        says(tests, "quit ends all", tests.run("-c", "1; quit; 2", b), "1 = 1")
+        says(tests, "quit in a script", tests.run("-c", "x = 2\nquit\nfoo", "-c", "bar"), "")
+    says(tests, "--format=csv", tests.run("--format=csv", "-c", "1 mm, pi"), "1 mm [m],pi\n0.001,3.1415926535897931")
+    says(tests, "--format=json", tests.run("--format=json", "-c", "0.5 MPa"),
+         '{"name":"0.5 MPa","value":500000,"unit":"Pa"}')
+    says(tests, "--format=text", tests.run("--format=text", "-c", "1 mm"), "1 mm = 1 mm")
+    done = tests.run("--keep-going", "-c", "1\nfoo\n2; bar; 3\n")
+    tests.check("--keep-going", done.stdout == "1 = 1\n2 = 2\n3 = 3\n" and done.returncode == 1 and
+                done.stderr.count("error:") == 2, tests.report(done))
+    done = tests.run("-c", "1\nfoo\n2\n", "-c", "3")
+    tests.check("the first error ends all", done.stdout == "1 = 1\n" and done.returncode == 1, tests.report(done))
+    done = tests.run("--color=always", "-c", "foo")
+    tests.check("--color=always", "\033[" in done.stderr, tests.report(done))
+    done = tests.run("--color=never", "-c", "foo")
+    tests.check("--color=never", "\033" not in done.stderr and "\033" not in tests.run("-c", "foo").stderr)
+    done = tests.run("-c", "set timing on\npi")
+    times = [float(line.split()[1]) for line in done.stderr.splitlines() if line.startswith("time: ")]
+    tests.check("set timing on", done.stdout.startswith("pi = 3.14159") and times and max(times) < 1e4, tests.report(done))
+    rc = os.path.join(tests.dir, "config", "fret")
+    os.makedirs(rc)
+    with open(os.path.join(rc, "fretrc"), "w", encoding="ascii") as f:
+        f.write("set digits 2\n")
+    says(tests, "a script does not read the start-up file",
+         tests.run("-c", "pi", env={"XDG_CONFIG_HOME": os.path.dirname(rc)}), "pi = 3.14159")
+    tests.check("--version", tests.run("--version").stdout.startswith("fret "))
+    out = tests.run("-c", "demo").stdout
+    tests.check("demo", "a = 300.925 um" in out and "dW = 6.5235 uJ" in out and "dx [um]" in out, out)
+    tests.check("the loop in the terminal names its ordinate", "Fx [N]" in out, out)
+    done = tests.run("-c", "c0 = 3 mm; k = 0.1; demo; k, c0; mu")
+    tests.check("demo has a scene of its own", done.stdout.endswith("k = 0.1\nc0 = 3 mm\n") and
+                "mu is not set" in done.stderr, tests.report(done))
+
+
+def written(tests):
+    where = os.path.join(tests.dir, "written")
+    os.makedirs(where)
+    done = tests.run("-c", SCENE + "step Fx=20 N\nhistory to h.csv\ntable dW(F) in uJ, c(F)/a for F = 10 N .. 30 N "
+                     "steps 2 to t.csv\ntable x for x = 1 .. 3 steps 2 to t.txt\n"
+                     "set format json; table x^2 for x = 1 .. 3 steps 2 to \"t 2.json\"\nhistory to h.json", cwd=where)
+    says(tests, "tables to files", done, "")
+    tests.check("no other files", sorted(os.listdir(where)) == ["h.csv", "h.json", "t 2.json", "t.csv", "t.txt"],
+                str(os.listdir(where)))
+
+    def rows(name):
+        with open(os.path.join(where, name), encoding="ascii", newline="") as f:
+            return list(csv.reader(f))
+
+    def lines(name):
+        with open(os.path.join(where, name), encoding="ascii") as f:
+            return [json.loads(line) for line in f]
+
+    tests.check("h.csv", rows("h.csv")[0] == ["FN [N]", "dz [m]", "Fx [N]", "dx [m]", "W [J]"] and
+                len(rows("h.csv")) == 3 and rows("h.csv")[2][2] == "20", str(rows("h.csv")))
+    tests.check("t.csv", rows("t.csv")[0] == ["F [N]", "dW(F) [uJ]", "c(F)/a"] and
+                [row[0] for row in rows("t.csv")[1:]] == ["10", "20", "30"], str(rows("t.csv")))
+    tests.check("JSON to a file", [row["x^2"] for row in lines("t 2.json")] == [1, 4, 9])
+    tests.check("history as JSON", [row["Fx"] for row in lines("h.json")] == [0, 20], str(lines("h.json")))
+    with open(os.path.join(where, "t.txt"), encoding="ascii") as f:
+        tests.same("t.txt", "            x              x\n            1              1\n            2              2\n"
+                   "            3              3\n", f.read())
+    done = tests.run("--format=json", "-c", 'x = 1\ntable x, x^2 for x = 1 .. 3 steps 2\n"')
+    tests.check("rows are on standard output, errors are not",
+                [json.loads(line)["x"] for line in done.stdout.splitlines()] == [1, 2, 3] and "error:" in done.stderr)
+    quoted = tests.run("--format=csv", "-c", "max(1 mm, 2 mm), 3").stdout.splitlines()
+    tests.check("CSV fields with commas are quoted", next(csv.reader(quoted[:1])) == ["max(1 mm, 2 mm) [m]", "3"],
+                str(quoted))
+
+
+def pictures(tests):
+    where = os.path.join(tests.dir, "pictures")
+    os.makedirs(where)
+    script = SCENE + "cycle FA=20 N FNA=30 N phase=90 deg\n" \
+        "plot loop to a.png\nplot loop to a.svg\nplot loop to a.pdf\nplot loop to a.gp\n" \
+        "plot dW(F) in uJ for F = 1 N .. 39 N log to \"b b.svg\"\n" \
+        "reset; press FN=100 N\nplot a, dz for FN = 1 N .. 100 N with mu = 0.1, 0.2 to 'c.svg\n"
+    done = tests.run("-c", script, cwd=where)
+    says(tests, "plots to files", done, "")
+    heads = {"a.png": b"\x89PNG", "a.svg": b"<?xml", "a.pdf": b"%PDF", "a.gp": b"# made by fret", "b b.svg": b"<?xml",
+             "'c.svg": b"<?xml"}
+    for name, head in heads.items():
+        path = os.path.join(where, name)
+        data = open(path, "rb").read() if os.path.exists(path) else b""
+        tests.check("picture " + name, data.startswith(head) and len(data) > 500, "%d bytes" % len(data))
+        if name.endswith(".svg") and data:
+            text = "".join(xml.etree.ElementTree.fromstring(data).itertext())
+            label = "dx [" if name == "a.svg" else "F [N]" if name == "b b.svg" else "FN [N]"
+            tests.check("%s shows its label" % name, label in text, text[:500])
+    tests.check("nothing else is left", sorted(os.listdir(where)) == sorted(heads), str(os.listdir(where)))
+    if shutil.which("gnuplot"):
+        again = subprocess.run(["gnuplot", "-e", "set terminal dumb", "a.gp"], cwd=where, capture_output=True, text=True)
+        tests.check("a.gp runs", again.returncode == 0 and "dx [" in again.stdout, again.stdout + again.stderr)
+    done = tests.run("-c", "set plot 60x20\n" + SCENE + "plot dW(F) in uJ for F = 1 N .. 39 N")
+    shown = done.stdout.splitlines()
+    tests.check("set plot 60x20", done.returncode == 0 and 15 <= len(shown) <= 20 and
+                40 <= max(map(len, shown)) <= 60 and any("F [N]" in line for line in shown), tests.report(done))
+    tests.check("a plot in the terminal names its ordinate", "dW(F)" in done.stdout and "[uJ]" in done.stdout,
+                tests.report(done))
+    done = tests.run("-c", SCENE + "plot c(F)/a, Fx(dx(F))/F for F = 1 N .. 39 N with mu = 0.4, 0.5")
+    tests.check("curves are named", done.returncode == 0 and "mu = 0.4" in done.stdout and "mu = 0.5" in done.stdout,
+                tests.report(done))
+    done = tests.run("-c", "plot x for x = 1 .. 2 with y = 1, 2")
+    tests.check("a free second variable", done.returncode == 0 and "y = 2" in done.stdout, tests.report(done))
+    done = tests.run("-c", "plot 0*x for x = 1 .. 2")
+    tests.check("a flat curve", done.returncode == 0 and not done.stderr, tests.report(done))
+    many = SCENE + "cycle FA=20 N times 3 steps 100000\nplot loop to many.svg"
+    done = tests.run("-c", many, cwd=where)
+    size = os.path.getsize(os.path.join(where, "many.svg")) if not done.returncode else 0
+    tests.check("300000 points are thinned", 1000 < size < 400000, "%d bytes\n%s" % (size, tests.report(done)))
+
+
+def demos(tests):
+    paths = sorted(glob.glob(os.path.join(harness.ROOT, "scripts", "demos", "*")))
+    tests.check("there are demos", paths)
+    for path in paths:
+        if path.endswith(".txt"):
+            with open(path, encoding="utf-8") as f:
+                steps = harness.read_transcript(f.read())
+            harness.replay(tests, os.path.relpath(path, harness.ROOT), steps)
+        elif path.endswith(".fret"):
+            done = tests.run(path)
+            tests.check(os.path.relpath(path, harness.ROOT), done.returncode == 0 and done.stdout and not done.stderr,
+                        tests.report(done))
+
+
+def run(tests):
+    tests.each([lambda room=room: room(tests) for room in (jobs, written, pictures, demos)])
