@@ -164,16 +164,19 @@ bool scene_status(const scene *s, calc_error *error, const fret_status *st) {
     const char *gap1 = *unit_text ? " " : "", *gap2 = *limit_unit ? " " : "";
     double given = (double)(st->value / scale), limit = (double)(st->limit / limit_scale);
     if (st->code == FRET_GROSS_SLIP)
-        return calc_fail(
-            error, 0, 0,
-            "%s = %.6g%s%s exceeds mu*FN = %.6g%s%s: gross slip; step by displacement (dx=...) to slide",
-            st->quantity, given, gap1, unit_text, limit, gap2, limit_unit);
+        return calc_fail(error, 0, 0, "%s = %.6g%s%s exceeds mu*FN = %.6g%s%s: gross slip; %s to slide",
+                         st->quantity, given, gap1, unit_text, limit, gap2, limit_unit,
+                         strcmp(st->quantity, "FA") ? "step by displacement (dx=...)"
+                                                    : "cycle by displacement (dxA=...)");
     if (st->code == FRET_TABLE_SHORT) {
         limit_scale = unit_choose(DIM_LENGTH, st->limit, 6, limit_unit, sizeof limit_unit);
         return calc_fail(error, 0, 0,
                          "%s = %.6g%s%s cannot be carried: the gap supports contact radii up to %.6g %s",
                          st->quantity, given, gap1, unit_text, (double)(st->limit / limit_scale), limit_unit);
     }
+    if (st->code == FRET_OUTSIDE && st->limit > 0)
+        return calc_fail(error, 0, 0, "%s = %.6g%s%s %s (limit %.6g%s%s)", st->quantity, given, gap1,
+                         unit_text, fret_status_rule(st->code), limit, gap2, limit_unit);
     if (!st->quantity)
         return calc_fail(error, 0, 0, "%s", fret_status_rule(st->code));
     return calc_fail(error, 0, 0, "%s = %.6g%s%s %s", st->quantity, given, gap1, unit_text,
@@ -832,7 +835,7 @@ bool scene_closed_loss(const scene *s) {
 
 const char *scene_model_name(const scene *s, bool closed) {
     if (closed)
-        return s->geometry && s->geometry->kind == FRET_GAP_POWER
+        return !s->geometry || s->geometry->kind == FRET_GAP_POWER
                    ? "closed form"
                    : "closed form, with quadrature over the gap";
     return s->model == MODEL_SPRINGS ? "springs" : "memory diagram (exact)";

@@ -99,12 +99,20 @@ static size_t distance(const char *a, const char *b) {
     return rows[i % 3][n];
 }
 
+static bool equal_but_case(const char *a, const char *b) {
+    while (*a && (*a == *b || ((*a ^ *b) == 0x20 && (*a | 0x20) >= 'a' && (*a | 0x20) <= 'z')))
+        a++, b++;
+    return !*a && !*b;
+}
+
 const char *suggest(const char *word, const char *(*name)(size_t i)) {
     const char *best = NULL;
     size_t least = strlen(word) <= 2 ? 2 : strlen(word) <= 5 ? 3 : 5;
     const char *candidate;
     for (size_t i = 0; (candidate = name(i)); i++) {
         size_t d = distance(word, candidate);
+        if (equal_but_case(word, candidate))
+            d = 1;
         if (d < least) {
             least = d;
             best = candidate;

@@ -208,9 +208,9 @@ fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret
 
 static fret_status finish(const fret_press *p, fret_press *out) {
     if (!(p->F <= DBL_MAX && p->dz <= DBL_MAX && p->a <= DBL_MAX))
-        return fret_fail(FRET_OVERFLOW, "press", (double)p->F, DBL_MAX);
+        return fret_fail(FRET_OVERFLOW, NULL, (double)p->F, DBL_MAX);
     if (!(p->F >= DBL_MIN && p->dz >= DBL_MIN && p->a >= DBL_MIN) && (p->F != 0 || p->dz != 0))
-        return fret_fail(FRET_OVERFLOW, "press", (double)p->F, DBL_MIN);
+        return fret_fail(FRET_OVERFLOW, NULL, (double)p->F, DBL_MIN);
     *out = *p;
     return fret_ok();
 }

@@ -49,7 +49,8 @@ fret_status fret_rule_make(fret_real k, fret_rule *rule);
 typedef fret_real fret_integrand(fret_real t, fret_real rest, void *context);
 fret_real fret_integrate(fret_integrand *f, void *context);
 
-/* The same by eight Gauss-Legendre points: 1e-20 where f is smooth and its argument varies by less than 20 %. */
+/* The same by eight Gauss-Legendre points: 1e-20 where f is smooth and its argument varies by less than 20 %.
+ */
 fret_real fret_integrate_smooth(fret_integrand *f, void *context);
 extern const fret_real fret_gauss_node[8], fret_gauss_weight[8]; /* on 0..1 */
 

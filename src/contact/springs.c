@@ -43,7 +43,8 @@ static double most(double a, double b) {
 static fret_real depth_at(const fret_normal *n, fret_real x) {
     if (n->p > 0)
         return n->dref * powl(x / n->gap.power[0].r0, n->gap.power[0].n);
-    return x > fret_gap_start(&n->gap) ? fret_gap_profile(&n->gap, &n->rule, x - fret_gap_start(&n->gap)).g : 0;
+    return x > fret_gap_start(&n->gap) ? fret_gap_profile(&n->gap, &n->rule, x - fret_gap_start(&n->gap)).g
+                                       : 0;
 }
 
 static bool allocate(fret_springs *s, size_t count) {

@@ -281,7 +281,7 @@ bool do_help(shell *sh, lexer *lx) {
     if (!at_end(lx))
         return false;
     if (c)
-        fprintf(to, "%s %s\n  %s\n", c->name, c->usage, c->summary);
+        fprintf(to, "%s%s%s\n  %s\n", c->name, *c->usage ? " " : "", c->usage, c->summary);
     if (c && c->help)
         fprintf(to, "\n%s", c->help);
     if (topic)

@@ -44,9 +44,10 @@ static int finish(shell *sh, int status) {
     errno = 0;
     bool bad = ferror(sh->out) != 0;
     if (fflush(sh->out) || bad || fclose(sh->out)) {
-        fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno ? errno : EIO));
-        if (status == EXIT_OK)
+        if (status == EXIT_OK) { /* else the write has been reported, or something before it */
+            fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno ? errno : EIO));
             status = EXIT_ERROR;
+        }
     }
     shell_free(sh);
     return status;

@@ -91,8 +91,8 @@ bool argument_dim(lexer *lx, const argument *a, dim d) {
 }
 
 bool unknown_argument(lexer *lx, const argument *a, const command *c) {
-    return calc_fail(lx->error, a->at, a->len, "%s has no argument '%.*s'; usage: %s", c->name,
-                     (int)(a->len < 60 ? a->len : 60), a->name, c->usage);
+    return calc_fail(lx->error, a->at, a->len, "%s has no argument '%.*s'; usage: %s %s", c->name,
+                     (int)(a->len < 60 ? a->len : 60), a->name, c->name, c->usage);
 }
 
 bool at_end(lexer *lx) {
@@ -419,7 +419,9 @@ int shell_stream(shell *sh, FILE *in, const char *name, bool keep_going) {
     size_t room = 0, len, lines, line = 1;
     int status = EXIT_OK;
     while (!sh->quit && read_logical(in, &buf, &room, &len, &lines)) {
-        if (!shell_line(sh, &from, buf, len, line))
+        size_t mark =
+            line == 1 && len >= 3 && !memcmp(buf, "\xef\xbb\xbf", 3) ? 3 : 0; /* editors' byte-order mark */
+        if (!shell_line(sh, &from, buf + mark, len - mark, line))
             status = EXIT_ERROR;
         if (shell_stop || (status && !keep_going) || ferror(sh->out))
             break;

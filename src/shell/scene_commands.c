@@ -423,10 +423,10 @@ bool do_step(shell *sh, lexer *lx) {
             break;
         }
     }
+    if (!step.normal && !step.tangential && !lx->error->raised)
+        return lex_fail(lx, "step to where? usage: step %s", c->usage);
     if (!at_end(lx))
         return false;
-    if (!step.normal && !step.tangential)
-        return lex_fail(lx, "step to where? usage: step %s", c->usage);
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error)) {
         if (lx->error->len == 0)
             lx->error->at = at, lx->error->len = len;
@@ -485,10 +485,10 @@ bool do_cycle(shell *sh, lexer *lx) {
             break;
         }
     }
+    if (!step.tangential && !lx->error->raised)
+        return lex_fail(lx, "cycle by what amplitude? usage: cycle %s", c->usage);
     if (!at_end(lx))
         return false;
-    if (!step.tangential)
-        return lex_fail(lx, "cycle by what amplitude? usage: cycle %s", c->usage);
     if (!scene_load(&sh->calc.scene, &step, &extra, lx->error)) {
         if (lx->error->len == 0)
             lx->error->at = at, lx->error->len = len;

@@ -295,6 +295,7 @@ typedef struct table_job {
     const column *columns; /* of the expressions: their dimensions come with the first row */
     size_t count;
     bool begun;
+    calc_error *error;
 } table_job;
 
 static bool table_job_row(void *context, const sweep *s, size_t with, const long double *values) {
@@ -317,7 +318,10 @@ static bool table_job_row(void *context, const sweep *s, size_t with, const long
         table_begin(&job->t);
     }
     table_row(&job->t, values);
-    return true;
+    /* a reader that has gone, or a full disk: no use in going on */
+    return !ferror(job->t.to) ||
+           calc_fail(job->error, 0, 0, "cannot write to %s: %s",
+                     job->t.to == job->t.sh->out ? "standard output" : "the file", strerror(errno));
 }
 
 bool do_table(shell *sh, lexer *lx) {
@@ -331,7 +335,7 @@ bool do_table(shell *sh, lexer *lx) {
     size_t n = strlen(to.name);
     if (n > 4 && !strcmp(to.name + n - 4, ".csv"))
         sh->set.format = FORMAT_CSV;
-    table_job job = {.t = {.sh = sh, .to = to.to}, .columns = columns, .count = count};
+    table_job job = {.t = {.sh = sh, .to = to.to}, .columns = columns, .count = count, .error = lx->error};
     bool ok = run_sweep(sh, &s, columns, count, table_job_row, &job, lx->error);
     sh->set.format = old;
     return target_close(lx, &to, ok);

@@ -136,6 +136,47 @@ def pictures(tests):
     tests.check("300000 points are thinned", 1000 < size < 400000, "%d bytes\n%s" % (size, tests.report(done)))
 
 
+def read_tables(tests):
+    """A gap and a history from CSV: the same answers as by formula and by hand; what is wrong is named."""
+    gap = "r [mm],f [um]\n" + "".join("%.17g,%.17g\n" % (1e-2 * i, (1e-2 * i) ** 2 * 50) for i in range(101))
+    names = "a, dz, c, dx, dW(20 N), g(0.5 mm)"
+    with tests.file(gap) as path:
+        by_table = tests.run("-c", SCENE + "k = 0; step Fx=20 N\ngeometry file %s\n%s" % (path, names))
+        by_name = tests.run("-c", SCENE + "step Fx=20 N\n" + names)
+        tests.check("geometry file", by_table.stdout == by_name.stdout and by_name.stdout.count("=") == 6 and
+                    not by_table.stderr, tests.report(by_table))
+        done = tests.run("-c", SCENE + "geometry file %s; press FN=1 MN" % path)
+        tests.check("a table too short", "FN = 1 MN cannot be carried: the gap supports contact radii up to 1 mm"
+                    in done.stderr and done.returncode == 1, tests.report(done))
+    for text, message in (("r [mm],f [um]\n0,0\n1,5\n2,1\n3,9\n", "is where g(x) begins to fall"),
+                          ("r [mm],f [um]\n0,0\n2,5\n1,9\n", "r = 1 mm is out of order"),
+                          ("r,f\n0,0\n2,5\n", "r and f are lengths and need units in the header"),
+                          ("r [mm],q [um]\n0,0\n", "the columns must be named r and f, not r and q"),
+                          ("r [mm],f [um]\n0,0\n1,nan\n", ":3: expected two numbers"),
+                          ("r [mm],f [um]\n0,0,7\n", ":2: expected two numbers"),
+                          ("r [mm],f [furlong]\n0,0\n", "unknown unit 'furlong'"),
+                          ("r [mm],f [um],x\n", ":1: more than two columns"),
+                          ("12\n", ":1: the header must name two columns"),
+                          ("r [mm],f [um]\n", "holds no rows of numbers")):
+        with tests.file(text) as path:
+            done = tests.run("-c", SCENE + "geometry file %s" % path)
+            tests.check("geometry file: " + message, message in done.stderr and done.returncode == 1, tests.report(done))
+    with tests.file("FN [N],Fx [N]\n120,15\n80,10\n") as path:
+        says(tests, "follow", tests.run("-c", SCENE + "follow %s; FN, Fx, W-0.5*W" % path),
+             tests.run("-c", SCENE + "step FN=120 N Fx=15 N; step FN=80 N Fx=10 N; FN, Fx, W-0.5*W").stdout)
+    with tests.file("dz [um],dx [um]\n4,0.2\n3,-0.1\n") as path:
+        says(tests, "follow by displacement", tests.run("-c", SCENE + "follow %s; dz, dx" % path), "dz = 3 um\ndx = -100 nm")
+    with tests.file("FN [N],Fx [N]\n120,15\n80,60\n") as path:
+        done = tests.run("--keep-going", "-c", SCENE + "follow %s\nFN, Fx" % path)
+        tests.check("follow all or nothing", done.stdout == "FN = 100 N\nFx = 0 N\n" and "(row 2 of " in done.stderr,
+                    tests.report(done))
+    for text, message in (("a,b\n1,2\n", "the columns must be FN,Fx or dz,dx, not a,b"),
+                          ("FN,Fx\n1,2\n", "the columns need units in the header")):
+        with tests.file(text) as path:
+            done = tests.run("-c", SCENE + "follow %s" % path)
+            tests.check("follow: " + message, message in done.stderr and done.returncode == 1, tests.report(done))
+
+
 def demos(tests):
     paths = sorted(glob.glob(os.path.join(harness.ROOT, "scripts", "demos", "*")))
     tests.check("there are demos", paths)
@@ -151,4 +192,4 @@ def demos(tests):
 
 
 def run(tests):
-    tests.each([lambda room=room: room(tests) for room in (jobs, written, pictures, demos)])
+    tests.each([lambda room=room: room(tests) for room in (jobs, written, read_tables, pictures, demos)])
