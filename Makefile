@@ -52,6 +52,10 @@ run: deps
 check: deps-check
 	@sh tests/run
 
+# Ratios against a baseline in the same run; nothing is asserted.
+bench: all
+	@sh scripts/bench $(B)
+
 # Formats only where clang-format is at hand; the sources in git are formatted.
 format:
 	clang-format -i $(shell git ls-files '*.c' '*.h')
@@ -66,5 +70,5 @@ install: all
 clean:
 	rm -rf build
 
-.PHONY: all tests deps deps-check run check format install clean
+.PHONY: all tests deps deps-check run check bench format install clean
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
