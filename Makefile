@@ -29,7 +29,8 @@ $(B)/libfret.a: $(call OBJ,$(CORE))
 $(B)/fret: $(call OBJ,$(PROG)) $(B)/libfret.a
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-$(B)/fret.pc: Makefile
+# written anew each time: PREFIX may have changed
+$(B)/fret.pc: FORCE
 	@mkdir -p $(@D)
 	@printf 'prefix=%s\nName: fret\nDescription: partial-slip contact of power-law graded elastic solids\nVersion: %s\nRequires.private: gsl\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lfret\nLibs.private: %s\n' \
 		'$(PREFIX)' '$(VERSION)' '$(LIBS_CORE)' > $@
@@ -67,8 +68,10 @@ install: all
 	install -m 644 $(B)/fret.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig/
 	install -m 644 include/fret/*.h $(DESTDIR)$(PREFIX)/include/fret/
 
+FORCE:
+
 clean:
 	rm -rf build
 
-.PHONY: all tests deps deps-check run check bench format install clean
+.PHONY: all tests deps deps-check run check bench format install clean FORCE
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

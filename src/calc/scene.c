@@ -444,6 +444,7 @@ typedef struct runner {
     const scene *s;
     fret_memory *memory;
     fret_springs *springs;  /* instead of memory */
+    bool chords;            /* within a period of a cycle */
     load_observer *observe; /* or NULL */
     void *context;
     unsigned points;
@@ -509,6 +510,7 @@ static fret_status period(runner *r, const load_step *c, const cycle_extra *x, l
     unsigned chords = c->points ? c->points : 200;
     const double pi = 3.14159265358979323846;
     step.normal_by = FRET_TO_FORCE;
+    r->chords = true;
     for (unsigned i = 1; i <= chords && !st.code; i++) {
         double angle = 2 * pi * i / chords; /* from the top of F_x */
         step.tangential = i == chords ? c->tangential_value : c->tangential_value * cos(angle);
@@ -517,6 +519,7 @@ static fret_status period(runner *r, const load_step *c, const cycle_extra *x, l
         if (r->s->stop && *r->s->stop && !st.code)
             st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
     }
+    r->chords = false;
     return st;
 }
 
