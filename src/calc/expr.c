@@ -217,22 +217,11 @@ bool unit_parse(lexer *lx, unit *out) {
     return true;
 }
 
-/* A literal is rounded once: the decimal scale of its unit goes into the exponent of its text. */
-static long double scaled(const lexer *lx, size_t at, size_t len, double number, const unit *u) {
-    char text[80];
-    if (u->exp10 != 0 && len < 60) {
-        size_t e = 0;
-        while (e < len && lx->text[at + e] != 'e' && lx->text[at + e] != 'E')
-            e++;
-        long exponent = e < len ? strtol(lx->text + at + e + 1, NULL, 10) : 0;
-        if (labs(exponent) < 10000) {
-            snprintf(text, sizeof text, "%.*se%ld", (int)e, lx->text + at, exponent + u->exp10);
-            if (u->factor == 1)
-                return strtod(text, NULL);
-            return (double)(strtold(text, NULL) * u->factor);
-        }
-    }
-    return (double)(number * unit_scale(u));
+/* A literal is rounded once: the decimal scale of its unit goes into its exponent. */
+static long double scaled(const lexer *lx, size_t at, size_t len, const unit *u) {
+    if (u->factor == 1)
+        return lex_decimal(lx->text + at, len, u->exp10);
+    return (double)(lex_decimal(lx->text + at, len, 0) * unit_scale(u));
 }
 
 static bool parse_sum(parser *p, size_t *out);
@@ -326,13 +315,12 @@ static bool parse_primary(parser *p, size_t *out) {
     if (lx->kind == T_NUMBER) {
         expr_node node = {.kind = N_NUMBER, .at = lx->at, .v = {lx->number, DIM_NONE}};
         size_t at = lx->at, len = lx->len;
-        double number = lx->number;
         unit u;
         lex_next(lx);
         if (unit_word(lx, &u)) {
             if (!unit_parse(lx, &u))
                 return false;
-            node.v = (value){scaled(lx, at, len, number, &u), u.d};
+            node.v = (value){scaled(lx, at, len, &u), u.d};
             if (!isfinite((double)node.v.v))
                 return calc_fail(lx->error, at, lx->last - at,
                                  "the number is too large for double precision");

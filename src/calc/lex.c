@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "lex.h"
 
-#include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -50,7 +50,48 @@ void lex_start(lexer *lx, const char *text, size_t len, calc_error *error) {
     lex_seek(lx, 0);
 }
 
-/* The text is not always terminated at `end`, so strtod gets a copy. */
+double lex_decimal(const char *text, size_t len, int shift) {
+    unsigned long long digits = 0;
+    size_t i = 0, used = 0;
+    long exponent = shift;
+    for (bool point = false; i < len && text[i] != 'e' && text[i] != 'E'; i++) {
+        if (text[i] == '.') {
+            point = true;
+            continue;
+        }
+        if (digits || text[i] != '0')
+            used++;
+        if (used <= 19)
+            digits = 10 * digits + (unsigned)(text[i] - '0');
+        exponent -= point;
+    }
+    size_t mantissa = i;
+    long written = 0;
+    if (i < len) {
+        bool minus = text[i + 1] == '-';
+        for (i += minus || text[i + 1] == '+' ? 2 : 1; i < len; i++)
+            if (written < 100000)
+                written = 10 * written + (text[i] - '0');
+        written = minus ? -written : written;
+    }
+    exponent += written;
+#if FLT_EVAL_METHOD == 0
+    /* both factors exact: one rounding, and no need of strtod */
+    static const double ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    if (used <= 19 && digits <= 1ULL << 53 && exponent >= -22 && exponent <= 22)
+        return exponent < 0 ? (double)digits / ten[-exponent] : (double)digits * ten[exponent];
+#endif
+    char small[96], *copy = mantissa + 32 < sizeof small ? small : malloc(mantissa + 32);
+    if (!copy)
+        return INFINITY;
+    snprintf(copy, mantissa + 32, "%.*se%ld", (int)mantissa, text, written + shift);
+    double value = strtod(copy, NULL);
+    if (copy != small)
+        free(copy);
+    return value;
+}
+
 static void read_number(lexer *lx) {
     const char *s = lx->text;
     size_t i = lx->at;
@@ -71,19 +112,10 @@ static void read_number(lexer *lx) {
     }
     lx->len = i - lx->at;
     lx->kind = T_NUMBER;
-    char small[64], *copy = lx->len < sizeof small ? small : malloc(lx->len + 1);
-    if (!copy) {
-        lex_fail(lx, "out of memory");
-        return;
-    }
-    memcpy(copy, s + lx->at, lx->len);
-    copy[lx->len] = 0;
-    lx->number = strtod(copy, NULL);
+    lx->number = lex_decimal(s + lx->at, lx->len, 0);
     bool zero = true;
-    for (const char *c = copy; *c && *c != 'e' && *c != 'E'; c++)
-        zero = zero && (*c == '0' || *c == '.');
-    if (copy != small)
-        free(copy);
+    for (i = lx->at; i < lx->at + lx->len && s[i] != 'e' && s[i] != 'E'; i++)
+        zero = zero && (s[i] == '0' || s[i] == '.');
     if (!isfinite(lx->number) || (lx->number == 0 && !zero))
         lex_fail(lx, "the number is too %s for double precision", lx->number == 0 ? "small" : "large");
 }

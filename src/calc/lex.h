@@ -57,6 +57,10 @@ token_kind lex_peek(const lexer *lx);
 /* A file name: a string, or all up to white space. False: none there. */
 bool lex_filename(lexer *lx, char *buf, size_t size);
 
+/* The decimal literal of `len` bytes times 10^shift, rounded once to double: infinite or 0 where it does not
+ * fit. */
+double lex_decimal(const char *text, size_t len, int shift);
+
 /* Records the first error; always returns false. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))

@@ -164,7 +164,7 @@ static fret_real slide(fret_memory *m, measure by, fret_real drive) {
     while (m->count && e > 0) {
         slice *top = &m->slices[m->count - 1];
         fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by], d = eaten[DEPTH], next;
-        if (cap - e <= fminl(snap, 1e-6L * cap)) {
+        if (cap - e <= snap && cap - e <= 1e-6L * cap) {
             e = cap < e ? e - cap : 0;
             for (measure i = DEPTH; i <= LOAD; i++) {
                 eaten[i] += top->thick[i];
@@ -288,7 +288,7 @@ static fret_real grow_and_slide(fret_memory *m, measure by, const fret_real edge
     while (m->count && e > 0) {
         slice *top = &m->slices[m->count - 1];
         fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by], before = front, e0 = e;
-        if (cap - e <= fminl(snap, 1e-6L * cap)) {
+        if (cap - e <= snap && cap - e <= 1e-6L * cap) {
             e = cap < e ? e - cap : 0;
             front = m->count > 1 ? top->inner[by] : 0;
             m->count--;

@@ -120,7 +120,8 @@ static void write_script(FILE *to, const plot_figure *f, const char *terminal, c
     quoted(to, dumb ? "" : f->ylabel);
     fprintf(to, " noenhanced\nset grid\nset xzeroaxis\n%s", f->logx ? "set logscale x\n" : "");
     bool keys = f->count > 1;
-    fprintf(to, keys ? "set key top left noenhanced\n" : "set key off\n");
+    fprintf(to, keys ? dumb ? "set key top left noenhanced\n" : "set key outside right noenhanced\n"
+                     : "set key off\n");
     if (dumb)
         fprintf(to, "unset grid\n");
     for (size_t i = 0; i < f->count; i++) {

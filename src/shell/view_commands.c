@@ -475,7 +475,8 @@ static bool plot_expressions(shell *sh, lexer *lx) {
             ok = calc_fail(lx->error, sh->list[i].at, sh->list[i].len, "%s and %s cannot share an axis",
                            columns[0].name, columns[i].name);
     if (ok) {
-        snprintf(f->title, sizeof f->title, "%.*s", PLOT_LABEL - 1, columns[0].name);
+        if (count == 1) /* several have the key */
+            snprintf(f->title, sizeof f->title, "%.*s", PLOT_LABEL - 1, columns[0].name);
         scale_axis(f, true, s.var.d, s.var.name, f->xlabel);
         const char *name = count > 1 ? "" : columns[0].name;
         if (columns[0].chosen)

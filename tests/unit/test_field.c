@@ -68,7 +68,8 @@ static void forces(void) {
             fret_memory_state(m, &s);
             const pressed now = {&normal, s.a};
             /* sharp edges are singular like (b-r)^((k-1)/2) or its logarithm: hard on this quadrature */
-            const fret_real b = g == 3 || g == 5 ? 1e-4L : 0, tolerance = g == 5 ? (ks[i] < 0 ? 1e-2L : 1e-7L) : 1e-10L;
+            const fret_real b = g == 3 || g == 5 ? 1e-4L : 0,
+                            tolerance = g == 5 ? (ks[i] < 0 ? 1e-2L : 1e-7L) : 1e-10L;
             fret_real lo = 0, Fp = 0, Fq = 0;
             if (b > 0) {
                 Fp += ring(pressure, &now, 0, b);
@@ -90,7 +91,8 @@ static void forces(void) {
             CHECK_OK(fret_gap_f(&gap, 0.9L * s.a, &f));
             CHECK_REL(w, s.dz - f, 1e-15L);
             CHECK_OK(fret_surface(&normal, s.a, s.a, &w));
-            CHECK_OK(fret_surface(&normal, s.a, s.a * (1 + 1e-12L), &out)); /* continuous, as steeply as (r-a)^((1-k)/2) */
+            CHECK_OK(fret_surface(&normal, s.a, s.a * (1 + 1e-12L),
+                                  &out)); /* continuous, as steeply as (r-a)^((1-k)/2) */
             CHECK_ABS(out, w, s.dz, 3 * powl(1e-12L, (1 - ks[i]) / 2));
             CHECK_OK(fret_surface_x(m, 0, &u)); /* the centre sticks and goes with the body */
             CHECK_REL(u, s.dx, 1e-12L);
@@ -124,7 +126,8 @@ static void closed(void) {
         CHECK_REL(q, 0.3 * p0 * (sqrtl(1 - r * r / (p.a * p.a)) - inner), 1e-13L);
         r = p.a * (1.01L + i);
         CHECK_OK(fret_surface(&normal, p.a, r, &out));
-        fret_real hertz = ((2 * p.a * p.a - r * r) * asinl(p.a / r) + p.a * sqrtl(r * r - p.a * p.a)) / (pi * 0.01);
+        fret_real hertz =
+            ((2 * p.a * p.a - r * r) * asinl(p.a / r) + p.a * sqrtl(r * r - p.a * p.a)) / (pi * 0.01);
         CHECK_REL(out, hertz, 1e-11L);
     }
     fret_memory_free(m);
