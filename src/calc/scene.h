@@ -115,6 +115,8 @@ void scene_free(scene *s);
 bool scene_set_table(scene *s, struct fret_table *table, const char *name, calc_error *error);
 /* A scratch copy for sweeps: shares the program, owns its results. Free with scene_free. */
 void scene_clone(scene *to, const scene *from);
+/* Forgets what has been computed. */
+void scene_forget(scene *s);
 /* Forgets the load program; `all`: the inputs too. */
 void scene_reset(scene *s, bool all);
 

@@ -75,6 +75,7 @@ static const command commands[] = {
      COMPLETE_QUANTITY},
     {"follow", do_follow, "FILE.csv", "load along a table: columns FN,Fx or dz,dx with units in the header",
      "Every row is a straight step; a row that cannot be carried leaves the scene as before the command.\n"
+     "Where nothing is pressed yet the first row presses, and must have Fx or dx = 0.\n"
      "The first lines of such a file: `FN [N],Fx [N]`, then `100,0`, `120,15`.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
      "    fret> follow /nonexistent.csv\n"

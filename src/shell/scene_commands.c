@@ -522,11 +522,25 @@ bool do_follow(shell *sh, lexer *lx) {
                            kind ? "dz [um],dx [um]" : "FN [N],Fx [N]");
         size_t row = 0;
         load_step step = {.kind = LOAD_STEP, .normal = kinds[kind].by, .tangential = kinds[kind].by};
-        ok = ok && scene_begin(&sh->calc.scene, lx->error);
+        scene *s = &sh->calc.scene;
+        bool fresh = !s->steps; /* then the first row presses */
+        if (ok && fresh) {
+            load_step press = {
+                .kind = LOAD_PRESS, .normal = kinds[kind].by, .normal_value = data.column[0][0]};
+            if (!(data.column[0][0] > 0) || data.column[1][0] != 0)
+                ok = calc_fail(lx->error, 0, 0,
+                               "%s: there is no load yet: press first, or begin with a row that presses (%s "
+                               "> 0, %s = 0)",
+                               name, data.name[0], data.name[1]);
+            ok = ok && scene_load(s, &press, NULL, lx->error);
+            row = 1;
+        }
+        ok = ok && scene_begin(s, lx->error);
+        bool begun = ok;
         for (; ok && row < data.count; row++) {
             step.normal_value = data.column[0][row];
             step.tangential_value = data.column[1][row];
-            ok = scene_load(&sh->calc.scene, &step, NULL, lx->error);
+            ok = scene_load(s, &step, NULL, lx->error);
             if (ok && shell_stop) {
                 lx->error->stop = true;
                 ok = calc_fail(lx->error, 0, 0, "interrupted");
@@ -537,8 +551,10 @@ bool do_follow(shell *sh, lexer *lx) {
                          name);
             }
         }
-        if (!ok && row)
-            scene_roll_back(&sh->calc.scene);
+        if (!ok && fresh)
+            scene_reset(s, false);
+        else if (!ok && begun)
+            scene_roll_back(s);
         csv_free(&data);
     }
     lx->error->at = at;

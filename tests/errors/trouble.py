@@ -210,7 +210,7 @@ def interrupts(tests):
     scripts = {"table": LONG % "/dev/null", "table to a file": LONG % csv,
                "cycle": SCENE + "cycle FA=20 N FNA=30 N times 1000000\n",
                "step": SCENE + "cycle FA=20 N times 1000000 steps 1000000\nhistory to /dev/null\n",
-               "script": SCENE + "step Fx=1 N; step Fx=2 N\n" * 400000,
+               "script": SCENE + "cycle FA=20 N times 2000\n" * 20000,
                "sweep": SCENE + "cycle FA=20 N FNA=30 N times 20\ntable W for k = 0 .. 0 steps 1000000 to /dev/null\n"}
     for name, script in scripts.items():
         with tests.file(script) as path:

@@ -170,6 +170,17 @@ def read_tables(tests):
         done = tests.run("--keep-going", "-c", SCENE + "follow %s\nFN, Fx" % path)
         tests.check("follow all or nothing", done.stdout == "FN = 100 N\nFx = 0 N\n" and "(row 2 of " in done.stderr,
                     tests.report(done))
+    bare = SCENE.rsplit(";", 1)[0]
+    with tests.file("FN [N],Fx [N]\n100,0\n80,10\n") as path:
+        says(tests, "follow presses", tests.run("-c", bare + "\nfollow %s; FN, Fx" % path), "FN = 80 N\nFx = 10 N")
+    with tests.file("FN [N],Fx [N]\n100,0\n80,60\n") as path:
+        done = tests.run("--keep-going", "-c", bare + "\nfollow %s\na" % path)
+        tests.check("follow from nothing, all or nothing", "there is no load yet" in done.stderr and not done.stdout,
+                    tests.report(done))
+    with tests.file("FN [N],Fx [N]\n100,5\n") as path:
+        done = tests.run("-c", bare + "\nfollow %s" % path)
+        tests.check("follow must begin with a press", "begin with a row that presses (FN > 0, Fx = 0)" in done.stderr,
+                    tests.report(done))
     for text, message in (("a,b\n1,2\n", "the columns must be FN,Fx or dz,dx, not a,b"),
                           ("FN,Fx\n1,2\n", "the columns need units in the header")):
         with tests.file(text) as path:

@@ -1,0 +1,488 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The load program of a scene: storing it, running it on a model, and the answers that follow. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "calc/scene.h"
+
+static bool friction_for_program(const scene *s, double *mu, calc_error *error) {
+    /* a press alone can be shown without friction */
+    if (!s->set[IN_MU] && s->steps <= 1) {
+        *mu = 1;
+        return true;
+    }
+    return scene_friction(s, mu, error);
+}
+
+typedef struct runner {
+    const scene *s;
+    fret_memory *memory;
+    fret_springs *springs;  /* instead of memory */
+    bool chords;            /* within a period of a cycle */
+    load_observer *observe; /* or NULL */
+    void *context;
+    unsigned points;
+    size_t index;
+    long double cycle_loss;
+} runner;
+
+/* A ramp by force that changes F_N is no straight line for the springs: 64 parts, an error of 1e-8. */
+static fret_status run_on(runner *r, const fret_step *step) {
+    bool ramp = step->normal_by != FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_FX;
+    return r->springs ? fret_springs_step(r->springs, step, ramp ? 64 : 1)
+                      : fret_memory_step(r->memory, step);
+}
+
+static void forces_of(const runner *r, fret_state *out) {
+    if (r->springs)
+        fret_springs_state(r->springs, out);
+    else
+        fret_memory_forces(r->memory, out);
+}
+
+static fret_status take(runner *r, const fret_step *step, unsigned points) {
+    fret_status st;
+    if (!r->observe)
+        return run_on(r, step);
+    fret_state from, now;
+    forces_of(r, &from);
+    for (unsigned i = 1; i < points; i++) {
+        if (r->s->stop && *r->s->stop)
+            return (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+        fret_step part = *step;
+        long double t = (long double)i / points;
+        long double n0 = step->normal_by == FRET_TO_FORCE ? from.FN : from.dz;
+        long double t0 = step->tangential_by == FRET_TO_FX ? from.Fx : from.dx;
+        part.normal = (double)(n0 + (step->normal - n0) * t);
+        part.tangential = (double)(t0 + (step->tangential - t0) * t);
+        st = run_on(r, &part);
+        if (st.code)
+            return st;
+        fret_memory_state(r->memory, &now);
+        r->observe(&now, r->index, r->context);
+    }
+    st = run_on(r, step);
+    if (!st.code) {
+        fret_memory_state(r->memory, &now);
+        r->observe(&now, r->index, r->context);
+    }
+    return st;
+}
+
+/* One period from F_x = +FA: at constant F_N its two branches, else chords of the harmonic path. */
+static fret_status period(runner *r, const load_step *c, const cycle_extra *x, long double FN) {
+    fret_step step = {FRET_KEEP_NORMAL, c->tangential == BY_FORCE ? FRET_TO_FX : FRET_TO_DX, 0, 0};
+    fret_status st = {FRET_OK, NULL, 0, 0};
+    if (c->normal_value == 0) {
+        unsigned points = c->points ? (c->points + 1) / 2 : r->points;
+        for (int sign = -1; sign <= 1 && !st.code; sign += 2) {
+            step.tangential = sign * c->tangential_value;
+            st = take(r, &step, points);
+        }
+        return st;
+    }
+    unsigned chords = c->points ? c->points : 200;
+    const double pi = 3.14159265358979323846;
+    step.normal_by = FRET_TO_FORCE;
+    r->chords = true;
+    for (unsigned i = 1; i <= chords && !st.code; i++) {
+        double angle = 2 * pi * i / chords; /* from the top of F_x */
+        step.tangential = i == chords ? c->tangential_value : c->tangential_value * cos(angle);
+        step.normal = (double)(FN + c->normal_value * cos(angle + x->phase));
+        st = take(r, &step, 1);
+        if (r->s->stop && *r->s->stop && !st.code)
+            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+    }
+    r->chords = false;
+    return st;
+}
+
+static fret_status run_cycle(runner *r, const load_step *c, const cycle_extra *x) {
+    fret_state state;
+    forces_of(r, &state);
+    long double FN = state.FN;
+    fret_step first = {FRET_KEEP_NORMAL, c->tangential == BY_FORCE ? FRET_TO_FX : FRET_TO_DX, 0,
+                       c->tangential_value};
+    if (c->normal_value != 0) {
+        first.normal_by = FRET_TO_FORCE;
+        first.normal = (double)(FN + c->normal_value * cos(x->phase));
+    }
+    fret_status st = take(r, &first, r->points);
+    for (unsigned i = 0; i < x->times && !st.code; i++) {
+        forces_of(r, &state);
+        long double before = state.W;
+        st = period(r, c, x, FN);
+        forces_of(r, &state);
+        r->cycle_loss = state.W - before;
+        if (r->s->stop && *r->s->stop && !st.code)
+            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+    }
+    if (st.code == FRET_GROSS_SLIP && c->tangential == BY_FORCE && c->normal_value == 0)
+        st.quantity = "FA";
+    return st;
+}
+
+static fret_status run_step(runner *r, const load_step *c, const cycle_extra *x) {
+    if (c->kind == LOAD_CYCLE)
+        return run_cycle(r, c, x);
+    fret_step step = {FRET_KEEP_NORMAL, FRET_KEEP_DX, c->normal_value, c->tangential_value};
+    if (c->kind == LOAD_PRESS) {
+        step.normal_by = c->normal == BY_FORCE ? FRET_TO_FORCE : FRET_TO_DEPTH;
+        if (c->normal == BY_FORCE)
+            step.normal = r->s->in[IN_FN]; /* FN is an input: it may have been changed since */
+        if (c->normal == BY_RADIUS) {
+            fret_press p;
+            fret_status st = fret_press_radius(&r->s->normal, c->normal_value, &p);
+            if (st.code)
+                return st;
+            step.normal = (double)p.dz;
+        }
+        return take(r, &step, 1);
+    }
+    fret_state now = {0};
+    if (c->relative)
+        forces_of(r, &now);
+    if (c->normal) {
+        step.normal_by = c->normal == BY_FORCE ? FRET_TO_FORCE : FRET_TO_DEPTH;
+        if (c->relative & 1)
+            step.normal = (double)((c->normal == BY_FORCE ? now.FN : now.dz) + step.normal);
+    }
+    if (c->tangential) {
+        step.tangential_by = c->tangential == BY_FORCE ? FRET_TO_FX : FRET_TO_DX;
+        if (c->relative & 2)
+            step.tangential = (double)((c->tangential == BY_FORCE ? now.Fx : now.dx) + step.tangential);
+    }
+    return take(r, &step, c->points ? c->points : c->tangential || c->normal ? r->points : 1);
+}
+
+/* Brings memory up to the end of the program. */
+static bool catch_up(scene *s, calc_error *error) {
+    const fret_normal *normal;
+    double mu;
+    if (!scene_normal(s, &normal, error) || !friction_for_program(s, &mu, error))
+        return false;
+    if (!s->memory) {
+        fret_status st = fret_memory_make(normal, mu, &s->memory);
+        if (st.code)
+            return scene_status(s, error, &st);
+        s->applied = s->applied_cycles = 0;
+    }
+    runner r = {.s = s, .memory = s->memory, .points = 1, .cycle_loss = s->cycle_loss};
+    while (s->applied < s->steps) {
+        const load_step *step = &s->program[s->applied];
+        const cycle_extra *x = step->kind == LOAD_CYCLE ? &s->cycles[s->applied_cycles] : NULL;
+        fret_status st = run_step(&r, step, x);
+        if (!st.code && s->stop && *s->stop)
+            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+        if (st.code) {
+            fret_memory_free(s->memory); /* half-run: not to be used */
+            s->memory = NULL;
+            s->applied = s->applied_cycles = 0;
+            return scene_status(s, error, &st);
+        }
+        s->applied++;
+        s->applied_cycles += x != NULL;
+    }
+    s->cycle_loss = r.cycle_loss;
+    return true;
+}
+
+static bool store(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    if (s->steps == s->room) {
+        size_t room = s->room ? 2 * s->room : 16;
+        load_step *grown = realloc(s->program, room * sizeof *grown);
+        if (!grown)
+            return calc_fail(error, 0, 0, "out of memory: the load program has %zu steps", s->steps);
+        s->program = grown;
+        s->room = room;
+    }
+    if (extra && s->cycle_count == s->cycle_room) {
+        size_t room = s->cycle_room ? 2 * s->cycle_room : 4;
+        cycle_extra *grown = realloc(s->cycles, room * sizeof *grown);
+        if (!grown)
+            return calc_fail(error, 0, 0, "out of memory: the load program has %zu steps", s->steps);
+        s->cycles = grown;
+        s->cycle_room = room;
+    }
+    s->program[s->steps++] = *step;
+    if (extra)
+        s->cycles[s->cycle_count++] = *extra;
+    return true;
+}
+
+/* A press starts a new program; the old one stays until the new one stands. */
+static bool start_program(scene *s, const load_step *press, calc_error *error) {
+    scene old = *s;
+    s->memory = NULL;
+    scene_forget(s);
+    s->program = NULL;
+    s->cycles = NULL;
+    s->steps = s->room = s->cycle_count = s->cycle_room = 0;
+    s->normal_varies = false;
+    s->set[IN_FN] = press->normal == BY_FORCE;
+    s->in[IN_FN] = press->normal_value;
+    const fret_press *p;
+    if (store(s, press, NULL, error) && scene_press(s, &p, error)) {
+        fret_memory_free(old.memory);
+        free(old.program);
+        free(old.cycles);
+        return true;
+    }
+    fret_memory_free(s->memory);
+    free(s->program);
+    free(s->cycles);
+    *s = old;
+    return false;
+}
+
+/* spare holds the state of the contact so far */
+static bool keep_spare(scene *s, double mu, calc_error *error) {
+    fret_status st = {FRET_OK, NULL, 0, 0};
+    if (!s->spare)
+        st = fret_memory_make(&s->normal, mu, &s->spare);
+    if (!st.code)
+        st = fret_memory_copy(s->spare, s->memory);
+    return scene_status(s, error, &st);
+}
+
+static void use_spare(scene *s) {
+    fret_memory *half = s->memory;
+    s->memory = s->spare;
+    s->spare = half;
+    s->state_ready = s->press_ready = false;
+}
+
+bool scene_begin(scene *s, calc_error *error) {
+    double mu;
+    if (!s->steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    if (!scene_friction(s, &mu, error) || !catch_up(s, error) || !keep_spare(s, mu, error))
+        return false;
+    s->mark = s->steps;
+    s->mark_cycles = s->cycle_count;
+    s->mark_varies = s->normal_varies;
+    return true;
+}
+
+void scene_roll_back(scene *s) {
+    use_spare(s);
+    s->steps = s->applied = s->mark;
+    s->cycle_count = s->applied_cycles = s->mark_cycles;
+    s->normal_varies = s->mark_varies;
+}
+
+bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    if (step->kind == LOAD_PRESS)
+        return start_program(s, step, error);
+    if (!s->steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    double mu;
+    if (!scene_friction(s, &mu, error) || !catch_up(s, error) || !store(s, step, extra, error))
+        return false;
+    /* a single step leaves memory as it was when it fails; a cycle works on a copy */
+    if (extra && !keep_spare(s, mu, error)) {
+        s->steps--;
+        s->cycle_count--;
+        return false;
+    }
+    runner r = {.s = s, .memory = s->memory, .points = 1, .cycle_loss = s->cycle_loss};
+    fret_status st = run_step(&r, step, extra);
+    if (st.code) {
+        s->steps--;
+        if (extra) {
+            s->cycle_count--;
+            use_spare(s);
+        }
+        return scene_status(s, error, &st);
+    }
+    s->applied = s->steps;
+    s->applied_cycles = s->cycle_count;
+    s->cycle_loss = r.cycle_loss;
+    s->state_ready = false;
+    if (step->kind == LOAD_STEP ? step->normal != BY_NONE : step->normal_value != 0)
+        s->normal_varies = true, s->press_ready = false;
+    return true;
+}
+
+bool scene_press(scene *s, const fret_press **press, calc_error *error) {
+    if (!s->press_ready) {
+        const fret_normal *normal;
+        if (!s->steps)
+            return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+        if (!scene_normal(s, &normal, error))
+            return false;
+        if (s->normal_varies) {
+            const fret_memory *memory;
+            fret_state state;
+            if (!scene_memory(s, &memory, error))
+                return false;
+            fret_memory_state(memory, &state);
+            s->press = (fret_press){state.FN, state.dz, state.a};
+        } else {
+            const load_step *step = &s->program[0];
+            double v = step->normal == BY_FORCE ? s->in[IN_FN] : step->normal_value;
+            fret_status st = step->normal == BY_FORCE          ? fret_press_force(normal, v, &s->press)
+                             : step->normal == BY_DISPLACEMENT ? fret_press_depth(normal, v, &s->press)
+                                                               : fret_press_radius(normal, v, &s->press);
+            if (st.code)
+                return scene_status(s, error, &st);
+        }
+        s->press_ready = !s->normal_varies; /* else it moves with every step */
+    }
+    *press = &s->press;
+    return true;
+}
+
+bool scene_memory(scene *s, const fret_memory **memory, calc_error *error) {
+    if (!s->steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    if ((!s->memory || s->applied < s->steps) && !catch_up(s, error))
+        return false;
+    *memory = s->memory;
+    return true;
+}
+
+static void widest(const fret_state *state, size_t step, void *context) {
+    long double *a = context;
+    (void)step;
+    if (state->a > *a)
+        *a = state->a;
+}
+
+/* The whole program on springs, wide enough for the largest contact on the way. */
+static bool run_springs(scene *s, calc_error *error) {
+    const fret_normal *normal;
+    double mu;
+    long double a = 0;
+    if (!scene_normal(s, &normal, error) || !friction_for_program(s, &mu, error) ||
+        !scene_trace(s, 0, widest, &a, error))
+        return false;
+    runner r = {.s = s, .points = 1};
+    fret_status st =
+        fret_springs_make(normal, mu, s->springs, (double)(a * (1 + 1e-12L)), FRET_WEIGHT_CELL, &r.springs);
+    size_t cycle = 0;
+    for (size_t i = 0; i < s->steps && !st.code; i++) {
+        const cycle_extra *x = s->program[i].kind == LOAD_CYCLE ? &s->cycles[cycle++] : NULL;
+        st = run_step(&r, &s->program[i], x);
+        if (!st.code && s->stop && *s->stop)
+            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+    }
+    if (!st.code)
+        fret_springs_state(r.springs, &s->state);
+    s->springs_loss = r.cycle_loss;
+    fret_springs_free(r.springs);
+    return scene_status(s, error, &st);
+}
+
+bool scene_state(scene *s, const fret_state **state, calc_error *error) {
+    const fret_memory *memory;
+    if (!s->state_ready) {
+        if (!scene_memory(s, &memory, error))
+            return false;
+        if (s->model == MODEL_CLOSED)
+            return calc_fail(error, 0, 0, "no closed form for this: set model auto");
+        if (s->model == MODEL_SPRINGS) {
+            if (!run_springs(s, error))
+                return false;
+        } else {
+            fret_memory_state(memory, &s->state);
+        }
+        s->state_ready = true;
+    }
+    *state = &s->state;
+    return true;
+}
+
+void scene_set_model(scene *s, scene_model model, unsigned springs) {
+    s->model = model;
+    s->springs = springs;
+    s->state_ready = s->press_ready = false;
+}
+
+bool scene_closed_state(const scene *s) {
+    if (s->model == MODEL_MEMORY || s->model == MODEL_SPRINGS)
+        return false;
+    return s->steps == 1 ||
+           (s->steps == 2 && s->program[1].kind == LOAD_STEP && s->program[1].normal == BY_NONE);
+}
+
+bool scene_closed_loss(const scene *s) {
+    return !s->normal_varies && (s->model == MODEL_AUTO || s->model == MODEL_CLOSED);
+}
+
+const char *scene_model_name(const scene *s, bool closed) {
+    if (closed)
+        return !s->geometry || s->geometry->kind == FRET_GAP_POWER
+                   ? "closed form"
+                   : "closed form, with quadrature over the gap";
+    return s->model == MODEL_SPRINGS ? "springs" : "memory diagram (exact)";
+}
+
+bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
+    const fret_normal *normal;
+    const fret_press *press;
+    if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error))
+        return false;
+    if (s->steps == 1) {
+        *out = (fret_loading){0, 0, press->a, press->dz};
+        return true;
+    }
+    double mu;
+    if (!scene_friction(s, &mu, error))
+        return false;
+    const load_step *step = &s->program[1];
+    fret_status st = step->tangential == BY_FORCE
+                         ? fret_loading_force(normal, mu, press, step->tangential_value, out)
+                         : fret_loading_displacement(normal, mu, press, step->tangential_value, out);
+    return scene_status(s, error, &st);
+}
+
+const load_step *scene_last_cycle(const scene *s) {
+    for (size_t i = s->steps; i-- > 0;)
+        if (s->program[i].kind == LOAD_CYCLE)
+            return &s->program[i];
+    return NULL;
+}
+
+bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
+    const load_step *c = scene_last_cycle(s);
+    if (!c)
+        return calc_fail(error, 0, 0, "no cycle has been run yet: use cycle FA=... or the function dW(FA)");
+    if (!scene_closed_loss(s)) {
+        const fret_state *state;
+        if (!scene_state(s, &state, error))
+            return false;
+        *loss = s->model == MODEL_SPRINGS ? s->springs_loss : s->cycle_loss;
+        return true;
+    }
+    const fret_normal *normal;
+    const fret_press *press;
+    double mu;
+    if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error) || !scene_friction(s, &mu, error))
+        return false;
+    fret_status st = c->tangential == BY_FORCE
+                         ? fret_cycle_loss(normal, mu, press, c->tangential_value, loss)
+                         : fret_cycle_loss_displacement(normal, mu, press, c->tangential_value, loss);
+    return scene_status(s, error, &st);
+}
+
+bool scene_trace(scene *s, unsigned points, load_observer *observe, void *context, calc_error *error) {
+    const fret_memory *unused;
+    const fret_normal *normal;
+    double mu;
+    if (!scene_memory(s, &unused, error) || !scene_normal(s, &normal, error) ||
+        !friction_for_program(s, &mu, error))
+        return false;
+    runner r = {.s = s, .observe = observe, .context = context, .points = points ? points : 1};
+    fret_status st = fret_memory_make(normal, mu, &r.memory);
+    size_t cycle = 0;
+    for (size_t i = 0; i < s->steps && !st.code; i++) {
+        const cycle_extra *x = s->program[i].kind == LOAD_CYCLE ? &s->cycles[cycle++] : NULL;
+        r.index = i;
+        st = run_step(&r, &s->program[i], x);
+        if (!st.code && s->stop && *s->stop)
+            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+    }
+    fret_memory_free(r.memory);
+    return scene_status(s, error, &st);
+}
