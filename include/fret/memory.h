@@ -50,7 +50,8 @@ typedef struct fret_step {
 } fret_step;
 
 /* One straight step. Errors, the contact as before it: FRET_GROSS_SLIP (|F_x| > mu F_N by more
- * than 2.2e-16; limit mu F_N), FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW, FRET_TABLE_SHORT, FRET_NO_MEMORY. */
+ * than 2.2e-16; limit mu F_N), FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW, FRET_TABLE_SHORT,
+ * FRET_NO_MEMORY. */
 fret_status fret_memory_step(fret_memory *memory, const fret_step *step);
 
 /* The state now. */

@@ -49,6 +49,13 @@ fret_real fret_law_radius(const fret_normal *normal, fret_real y); /* a(y) [m] *
 fret_real fret_law_force(const fret_normal *normal, fret_real y);  /* F_N(y) [N] */
 fret_real fret_law_depth(const fret_normal *normal, fret_real F);  /* F_N^-1(F) [m] */
 
+/* All of them at once, from the depth y or from the load F: one search where there is no closed form. */
+typedef struct fret_point {
+    fret_real y, F, a, K; /* depth [m], F_N(y) [N], radius [m], dF_N/dy [N/m] (0 at y = 0) */
+} fret_point;
+fret_point fret_law_at_depth(const fret_normal *normal, fret_real y);
+fret_point fret_law_at_force(const fret_normal *normal, fret_real F);
+
 /* A place in the contact: its depth y and F_N(y), both known where slices are cut. */
 typedef struct fret_level {
     fret_real y, F;

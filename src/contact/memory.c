@@ -225,22 +225,20 @@ static fret_real phase_rate(fret_real t, fret_real rest, void *context) {
     const fret_normal *n = &p->m->normal;
     fret_real z = p->edge0 * rest + p->edge1 * t, y = p->front0 * rest + p->front1 * t;
     fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
-    fret_level edge =
-        p->by == DEPTH ? (fret_level){z, fret_law_force(n, z)} : (fret_level){fret_law_depth(n, z), z};
-    if (d <= 0 || edge.y <= 0)
+    if (d <= 0 || z <= 0)
         return 0;
-    if (p->by == LOAD)
-        d = fret_law_thickness(n, &edge, d);
-    fret_real G, K = 0, inner = p->by == DEPTH ? y : fret_law_depth(n, y);
-    if (inner > 0 && (p->by == LOAD || !(n->p > 0)))
-        K = fret_normal_stiffness(n, fret_law_radius(n, inner));
-    if (n->p > 0 || d < 1e-3L * edge.y)
-        G = fret_law_slice(n, &edge, d).G;
-    else
-        G = edge.F - fret_law_force(n, inner) - d * K;
+    fret_point edge = p->by == DEPTH ? fret_law_at_depth(n, z) : fret_law_at_force(n, z),
+               front = {0, 0, 0, 0};
+    const fret_level outer = {edge.y, edge.F};
+    if (p->by == LOAD || !(n->p > 0))
+        front = p->by == DEPTH ? fret_law_at_depth(n, y) : fret_law_at_force(n, y);
+    if (p->by == LOAD) /* of a thin zone the depths would differ by too few digits */
+        d = d < 1e-3L * z ? fret_law_thickness(n, &outer, d) : edge.y - front.y;
+    fret_real G =
+        n->p > 0 || d < 1e-3L * edge.y ? fret_law_slice(n, &outer, d).G : edge.F - front.F - d * front.K;
     if (p->by == DEPTH)
         return G;
-    return K > 0 ? G / K : 0; /* dy = dF/K; the end point itself has no weight */
+    return front.K > 0 ? G / front.K : 0; /* dy = dF/K; the end point itself has no weight */
 }
 
 static fret_real phase_loss(const fret_memory *m, measure by, fret_real gain, fret_real edge0,

@@ -148,6 +148,34 @@ fret_real fret_law_depth(const fret_normal *n, fret_real F) {
     return profile(n, solve_radius(n, true, F)).g;
 }
 
+static fret_point point_at(const fret_normal *n, bool by_force, fret_real value) {
+    fret_point p = {0, 0, fret_gap_start(&n->gap), 0};
+    if (value <= 0)
+        return p;
+    if (n->p > 0) {
+        p.y = by_force ? fret_law_depth(n, value) : value;
+        p.F = by_force ? value : fret_law_force(n, value);
+        p.K = n->p * p.F / p.y;
+        p.a = fret_law_radius(n, p.y);
+        return p;
+    }
+    fret_real e = solve_radius(n, by_force, value);
+    fret_profile profile_there = profile(n, e);
+    p.y = by_force ? profile_there.g : value;
+    p.F = by_force ? value : force_of(n, &profile_there);
+    p.a += e;
+    p.K = fret_normal_stiffness(n, p.a);
+    return p;
+}
+
+fret_point fret_law_at_depth(const fret_normal *n, fret_real y) {
+    return point_at(n, false, y);
+}
+
+fret_point fret_law_at_force(const fret_normal *n, fret_real F) {
+    return point_at(n, true, F);
+}
+
 /* Shapes without a closed form: t = g(a_out) - g(a) over the annulus, dK = 2 cN0 (a/c0)^k da. */
 typedef struct annulus {
     const fret_normal *normal;
@@ -173,9 +201,12 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
     }
     annulus s = {.normal = n, .start = fret_gap_start(&n->gap), .outer = solve_radius(n, false, y), .g = y};
     s.inner = h < y ? solve_radius(n, false, y - h) : 0;
-    fret_real K = fret_normal_stiffness(n, s.start + s.inner), m1 = fret_integrate(annulus_moment, &s);
+    /* a thin slice away from the centre is smooth */
+    fret_real (*integrate)(fret_integrand *, void *) =
+        s.inner > 0.8L * s.outer ? fret_integrate_smooth : fret_integrate;
+    fret_real K = fret_normal_stiffness(n, s.start + s.inner), m1 = integrate(annulus_moment, &s);
     s.second = true;
-    fret_real m2 = fret_integrate(annulus_moment, &s);
+    fret_real m2 = integrate(annulus_moment, &s);
     return (fret_slice){h * K + m1, (h * h * K + m2) / 2, m1, h * m1 - m2};
 }
 
