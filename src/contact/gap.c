@@ -12,7 +12,7 @@ fret_real fret_kappa(fret_real n, fret_real k) {
 /* One row a shape: the gap, its two derivatives for r > start, and which parameters it reads. */
 typedef struct shape {
     fret_real (*f)(const fret_gap *, fret_real r);
-    fret_real (*f1)(const fret_gap *, fret_real r);
+    fret_real (*f1)(const fret_gap *, fret_real r, fret_real x); /* x = r-b with all its digits */
     fret_real (*f2)(const fret_gap *, fret_real r);
     bool b, R, slope;
 } shape;
@@ -20,8 +20,8 @@ typedef struct shape {
 static fret_real cone_f(const fret_gap *gap, fret_real r) {
     return gap->slope * (r - gap->b);
 }
-static fret_real cone_f1(const fret_gap *gap, fret_real r) {
-    (void)r;
+static fret_real cone_f1(const fret_gap *gap, fret_real r, fret_real x) {
+    (void)r, (void)x;
     return gap->slope;
 }
 static fret_real cone_f2(const fret_gap *gap, fret_real r) {
@@ -31,7 +31,8 @@ static fret_real cone_f2(const fret_gap *gap, fret_real r) {
 static fret_real paraboloid_f(const fret_gap *gap, fret_real r) {
     return (r - gap->b) * (r + gap->b) / (2 * (fret_real)gap->R);
 }
-static fret_real paraboloid_f1(const fret_gap *gap, fret_real r) {
+static fret_real paraboloid_f1(const fret_gap *gap, fret_real r, fret_real x) {
+    (void)x;
     return r / gap->R;
 }
 static fret_real curved_f2(const fret_gap *gap, fret_real r) {
@@ -41,14 +42,16 @@ static fret_real curved_f2(const fret_gap *gap, fret_real r) {
 static fret_real rounded_f(const fret_gap *gap, fret_real r) {
     return (r - gap->b) * (r - gap->b) / (2 * (fret_real)gap->R);
 }
-static fret_real rounded_f1(const fret_gap *gap, fret_real r) {
-    return (r - gap->b) / gap->R;
+static fret_real rounded_f1(const fret_gap *gap, fret_real r, fret_real x) {
+    (void)r;
+    return x / gap->R;
 }
 static fret_real sphere_f(const fret_gap *gap, fret_real r) {
     fret_real R = gap->R;
     return r * r / (R + sqrtl((R - r) * (R + r)));
 }
-static fret_real sphere_f1(const fret_gap *gap, fret_real r) {
+static fret_real sphere_f1(const fret_gap *gap, fret_real r, fret_real x) {
+    (void)x;
     fret_real R = gap->R;
     return r / sqrtl((R - r) * (R + r));
 }
@@ -313,7 +316,7 @@ static fret_profile profile_by_rule(const fret_gap *gap, const fret_rule *rule, 
     for (int i = 0; i < FRET_RULE; i++) {
         fret_real v = span * rule->v[i], s = 1 - v;
         fret_real w = rule->weight[i] * powl(2 - v, alpha), r = a * s;
-        fret_real f1 = w * sh->f1(gap, r);
+        fret_real f1 = w * sh->f1(gap, r, e * (1 - rule->v[i]));
         sum_g += f1;
         sum_I += f1 * s * s;
         sum_2 += w * s * sh->f2(gap, r);
@@ -324,7 +327,7 @@ static fret_profile profile_by_rule(const fret_gap *gap, const fret_rule *rule, 
     out.I = powl(a, k + 2) / (k + 1) * scale * sum_I;
     out.slope = scale * (sum_g + a * sum_2);
     if (b > 0)
-        out.slope += sh->f1(gap, b) * (b / a) * powl(span * (1 + b / a), alpha);
+        out.slope += sh->f1(gap, b, 0) * (b / a) * powl(span * (1 + b / a), alpha);
     return out;
 }
 

@@ -112,13 +112,15 @@ static fret_real solve_radius(const fret_normal *n, bool by_force, fret_real tar
             hi = e;
         fret_real slope = e * p.slope * (by_force ? fret_normal_stiffness(n, start + e) : 1) / value;
         fret_real next = e * expl(logl(target / value) / slope);
+        if (fabsl(next - e) <= 1e-11L * e) /* quadratic: the next step would be 1e-22 */
+            return next;
         if (!(next > lo && next < hi)) {
             if (!isfinite(hi))
                 next = 4 * e;
             else
                 next = lo > 0 ? sqrtl(lo) * sqrtl(hi) : hi / 16;
         }
-        if (fabsl(next - e) <= 2 * LDBL_EPSILON * e || (isfinite(hi) && hi - lo <= 2 * LDBL_EPSILON * hi))
+        if (isfinite(hi) && hi - lo <= 2 * LDBL_EPSILON * hi)
             return next;
         e = next;
     }

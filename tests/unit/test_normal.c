@@ -181,6 +181,31 @@ static void errors(void) {
     CHECK(n.Fref == kept.Fref && n.p == kept.p && n.dref == kept.dref); /* untouched */
 }
 
+/* A place found from its depth and from its load is the same place. */
+static void places(void) {
+    static const double ks[] = {-0.7, 0, 0.6};
+    for (int i = 0; i < 6; i++) {
+        const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.33, false}}, ks[i % 3], 1e-3};
+        fret_gap gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{2, 0.005, 0.01}}};
+        if (i >= 3)
+            gap = (fret_gap){.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-4, .R = 0.01};
+        fret_normal n;
+        CHECK_OK(fret_normal_make(&material, &gap, &n));
+        for (int j = -3; j <= 2; j++) {
+            fret_real F = powl(10, j);
+            fret_point p = fret_law_at_force(&n, F), q = fret_law_at_depth(&n, p.y);
+            CHECK(p.F == F && q.y == p.y);
+            CHECK_REL(q.F, F, 1e-16L);
+            CHECK_REL(q.a, p.a, 1e-16L);
+            CHECK_REL(p.y, fret_law_depth(&n, F), 1e-16L);
+            CHECK_REL(p.a, fret_law_radius(&n, p.y), 1e-16L);
+            CHECK_REL(p.K, fret_normal_stiffness(&n, p.a), 1e-16L);
+        }
+        fret_point open = fret_law_at_depth(&n, 0);
+        CHECK(open.F == 0 && open.y == 0 && open.K == 0);
+    }
+}
+
 int main(int argc, char **argv) {
     unit_start("normal", argc, argv);
     reference();
@@ -188,6 +213,7 @@ int main(int argc, char **argv) {
     slices();
     hertz();
     scales();
+    places();
     errors();
     return unit_finish();
 }
