@@ -8,6 +8,11 @@
  * is within one unit in the last place. Arguments are exact as given. */
 typedef long double fret_real;
 
+/* A number to about 100 bits, hi + lo: where 64 would be spent near a limit, as 1 - F_x/(mu F_N) is. */
+typedef struct fret_pair {
+    double hi, lo;
+} fret_pair;
+
 /* Codes are stable: append, never renumber. */
 typedef enum fret_code {
     FRET_OK = 0,

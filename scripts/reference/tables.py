@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes src/contact/tables.h: constants of the elementary functions and of the quadrature."""
+from mpmath import mp, mpf, exp, log, pi, sinh, cosh, bernoulli, factorial
+
+mp.dps = 60
+
+
+def pair(x):
+    hi = float(x)
+    return "{%s, %s}" % (hi.hex(), float(x - mpf(hi)).hex())
+
+
+def table(name, values):
+    print("static const dd %s[%d] = {" % (name, len(values)))
+    for v in values:
+        print("    %s," % pair(v))
+    print("};")
+
+
+def real(x):
+    return mp.nstr(x, 25, min_fixed=0, max_fixed=0) + "L"
+
+
+print("/* SPDX-License-Identifier: GPL-3.0-or-later */")
+print("/* Made by scripts/reference/tables.py. */")
+print("/* clang-format off */")
+print("/* ln(j/128) for j = 90 .. 181 */")
+table("log_128", [log(mpf(j) / 128) for j in range(90, 182)])
+table("power_of_two", [mpf(2) ** (mpf(j) / 64) for j in range(64)])
+ln2_part = log(mpf(2)) / 64
+print("static const dd ln2_64 = %s;" % pair(ln2_part))
+print("static const double ln2_64_rest = %s;" % float(ln2_part - mpf(float(ln2_part)) - mpf(float(ln2_part - mpf(float(ln2_part))))).hex())
+ln = log(mpf(2))
+short = mp.floor(ln * 2 ** 40) / 2 ** 40
+print("static const fret_real ln2_short = %sL, ln2_left = %s;" % (float(short).hex(), real(ln - short)))
+print("static const fret_real ln2_64_short = %sL, ln2_64_left = %s;" % (float(short / 64).hex(), real((ln - short) / 64)))
+print("static const dd ln2 = %s;" % pair(ln))
+print("static const double ln2_rest = %s;" % float(ln - mpf(float(ln)) - mpf(float(ln - mpf(float(ln))))).hex())
+print("static const dd half_log_2pi = %s;" % pair(log(2 * pi) / 2))
+print("static const dd half_pi = %s;" % pair(pi / 2))
+hp = pi / 2
+print("static const double half_pi_rest = %s;" % float(hp - mpf(float(hp)) - mpf(float(hp - mpf(float(hp))))).hex())
+table("inverse_factorial", [1 / factorial(j) for j in range(0, 26)])
+table("inverse", [mpf(0)] + [1 / mpf(j) for j in range(1, 14)])
+table("stirling", [bernoulli(2 * j) / (2 * j * (2 * j - 1)) for j in range(1, 17)])
+print("/* Double-exponential rule, step 1/12: distance from the nearer end, and weight. */")
+print("static const struct {\n    fret_real small, weight;\n} exponential_rule[55] = {")
+for i in range(55):
+    u = mpf(i) / 12
+    e = exp(-pi * sinh(u))
+    print("    {%s, %s}," % (real(e / (1 + e)), real(pi * cosh(u) * e / (1 + e) ** 2 / 12)))
+print("};")

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Double-double arithmetic: a number as the unevaluated sum hi + lo, about 100 bits. Only the basic IEEE
+ * operations are used, so that every compiler, C library and processor gives the same digits. Not
+ * installed. */
+#ifndef FRET_DD_H
+#define FRET_DD_H
+
+#include <math.h>
+
+#include "fret/status.h"
+
+typedef fret_pair dd; /* |lo| <= ulp(hi)/2 */
+
+static inline dd dd_of(double x) {
+    return (dd){x, 0};
+}
+
+static inline dd dd_quick_sum(double a, double b) { /* |a| >= |b| */
+    double s = a + b;
+    return (dd){s, b - (s - a)};
+}
+
+/* a + b exactly */
+static inline dd dd_sum(double a, double b) {
+    double s = a + b, v = s - a;
+    return (dd){s, (a - (s - v)) + (b - v)};
+}
+
+/* a b exactly, unless it leaves 1e-290 .. 1e290 */
+static inline dd dd_prod(double a, double b) {
+    double p = a * b;
+#ifdef FP_FAST_FMA
+    return (dd){p, fma(a, b, -p)};
+#else
+    double x = 134217729 * a, ah = x - (x - a), al = a - ah;
+    double y = 134217729 * b, bh = y - (y - b), bl = b - bh;
+    return (dd){p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
+#endif
+}
+
+static inline dd dd_add(dd a, dd b) {
+    dd s = dd_sum(a.hi, b.hi), t = dd_sum(a.lo, b.lo);
+    s = dd_quick_sum(s.hi, s.lo + t.hi);
+    return dd_quick_sum(s.hi, s.lo + t.lo);
+}
+
+static inline dd dd_add_d(dd a, double b) {
+    dd s = dd_sum(a.hi, b);
+    return dd_quick_sum(s.hi, s.lo + a.lo);
+}
+
+static inline dd dd_neg(dd a) {
+    return (dd){-a.hi, -a.lo};
+}
+
+static inline dd dd_sub(dd a, dd b) {
+    return dd_add(a, dd_neg(b));
+}
+
+static inline dd dd_mul(dd a, dd b) {
+    dd p = dd_prod(a.hi, b.hi);
+    return dd_quick_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+}
+
+static inline dd dd_mul_d(dd a, double b) {
+    dd p = dd_prod(a.hi, b);
+    return dd_quick_sum(p.hi, p.lo + a.lo * b);
+}
+
+static inline dd dd_div(dd a, dd b) {
+    double q = a.hi / b.hi;
+    dd r = dd_sub(a, dd_mul_d(b, q));
+    return dd_quick_sum(q, r.hi / b.hi);
+}
+
+static inline dd dd_sqrt(dd a) { /* a > 0 */
+    double x = sqrt(a.hi);
+    dd r = dd_sub(a, dd_prod(x, x));
+    return dd_quick_sum(x, r.hi / (2 * x));
+}
+
+/* Exact where long double has no more than 106 bits and x is within the range of double. */
+static inline dd dd_from(fret_real x) {
+    double hi = (double)x;
+    return (dd){hi, (double)(x - hi)};
+}
+
+static inline fret_real dd_value(dd a) {
+    return (fret_real)a.hi + a.lo;
+}
+
+/* To all bits where long double holds fewer. */
+static inline dd dd_from2(fret_real x, double rest) {
+    return dd_add_d(dd_from(x), rest);
+}
+
+/* What the long double of a leaves out. */
+static inline double dd_rest(dd a) {
+    return (double)((a.hi - dd_value(a)) + a.lo);
+}
+
+/* Elementary functions, 2^-98 relative (dd_exp, dd_expm1: plus |x| 2^-105). */
+dd dd_exp(dd x);
+dd dd_expm1(dd x);
+dd dd_log(dd x);   /* x > 0 */
+dd dd_log1p(dd x); /* x > -1 */
+/* sin(pi x/2), 0 <= x <= 1. */
+dd dd_sin_quarter(dd x);
+
+/* Gamma(over[0]) .../(Gamma(under[0]) ...) = factor exp(log), arguments >= 1/2. */
+typedef struct dd_scaled {
+    dd factor, log;
+} dd_scaled;
+dd_scaled dd_gamma_quotient(const dd *over, int m, const dd *under, int n);
+
+/* Natural logarithm of x > 0, and exp, over the whole range of long double. */
+dd dd_log_real(fret_real x);
+fret_real dd_exp_real(dd x);
+
+/* The same for long double, over its whole range: results are within 1 in the last of 64 bits. */
+fret_real fret_exp(fret_real x);
+fret_real fret_expm1(fret_real x);
+fret_real fret_log(fret_real x);
+fret_real fret_log1p(fret_real x);
+fret_real fret_pow(fret_real x, fret_real y);                     /* x >= 0, or y whole */
+fret_real fret_ratio_pow(fret_real x, fret_real x0, fret_real y); /* (x/x0)^y for large y too; x, x0 > 0 */
+fret_real fret_sin(fret_real x);
+fret_real fret_cos(fret_real x);
+fret_real fret_atan2(fret_real y, fret_real x);
+fret_real fret_gamma(fret_real x);
+
+extern const dd dd_pi;
+
+#endif

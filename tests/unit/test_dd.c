@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Double-double functions against 80-digit values; the long double ones against those of the C library. */
+#include "contact/dd.h"
+
+#include "unit.h"
+
+typedef dd dd_function(dd x);
+
+static dd gamma_of(dd x) {
+    dd_scaled q = dd_gamma_quotient(&x, 1, NULL, 0);
+    return dd_mul(q.factor, dd_exp(q.log));
+}
+
+static const struct {
+    const char *name;
+    dd_function *f;
+    fret_real tolerance; /* absolute part of the exponent of exp and gamma: |x| 2^-105 */
+} functions[] = {
+    {"exp", dd_exp, 2e-29L},     {"expm1", dd_expm1, 2e-29L},     {"log", dd_log, 2e-31L},
+    {"log1p", dd_log1p, 2e-30L}, {"sin", dd_sin_quarter, 1e-31L}, {"gamma", gamma_of, 5e-28L},
+};
+
+static void reference(void) {
+    unit_table t;
+    int seen[6] = {0};
+    if (!unit_open(&t, "dd.csv"))
+        return;
+    while (unit_row(&t))
+        for (int i = 0; i < 6; i++) {
+            if (strcmp(t.cell[0], functions[i].name) != 0)
+                continue;
+            dd x = {unit_input(&t, 1), unit_input(&t, 2)}, got = functions[i].f(x);
+            fret_real hi = unit_input(&t, 3), error = (got.hi - hi) + (got.lo - unit_input(&t, 4));
+            error -= unit_input(&t, 5);
+            CHECK_ABS(error / (hi != 0 ? hi : 1), 0, 1, functions[i].tolerance);
+            seen[i]++;
+        }
+    for (int i = 0; i < 6; i++)
+        CHECK(seen[i] > 100);
+}
+
+/* Products and quotients come back; sums keep what one double would lose. */
+static void arithmetic(void) {
+    unsigned long long seed = 1;
+    for (int i = 0; i < 1000; i++) {
+        dd a = {unit_random(&seed, 0.5, 2), unit_random(&seed, -5e-17, 5e-17)};
+        dd b = {unit_random(&seed, 0.5, 2), unit_random(&seed, -5e-17, 5e-17)};
+        dd back = dd_sub(dd_div(dd_mul(a, b), b), a), root = dd_sub(dd_mul(dd_sqrt(a), dd_sqrt(a)), a);
+        CHECK_ABS(back.hi, 0, 1, 1e-30L);
+        CHECK_ABS(root.hi, 0, 1, 1e-30L);
+        dd sum = dd_sub(dd_add(a, dd_of(1e10)), dd_of(1e10));
+        CHECK_ABS(dd_sub(sum, a).hi, 0, 1, 1e-21L);
+        CHECK(dd_add(a, dd_neg(a)).hi == 0);
+        fret_real wide = dd_value(a) / 3;
+        CHECK(dd_value(dd_from(wide)) == wide);
+        dd third = dd_div(a, dd_of(3));
+        CHECK_ABS(dd_sub(dd_from2(dd_value(third), dd_rest(third)), third).hi, 0, 1, 1e-31L);
+    }
+}
+
+/* Two ulps of 64 bits; libm's own may be one off. */
+static void long_double(void) {
+    const fret_real tol = UNIT_TOL(2.5e-19L, 5e-16L);
+    unsigned long long seed = 2;
+    for (int i = 0; i < 20000; i++) {
+        fret_real x = unit_random(&seed, -1, 1) * powl(10, (fret_real)unit_random(&seed, -25, 3));
+        fret_real y = unit_random(&seed, -3, 3), positive = fabsl(x);
+        CHECK_REL(fret_exp(x), expl(x), tol);
+        CHECK_REL(fret_expm1(x), expm1l(x), tol);
+        CHECK_REL(fret_log(positive), logl(positive), tol);
+        CHECK_REL(fret_log1p(positive), log1pl(positive), tol);
+        CHECK_REL(fret_log1p(x / 1001), log1pl(x / 1001), tol);
+        CHECK_REL(fret_pow(positive, y), powl(positive, y), tol);
+        CHECK_REL(fret_pow(positive, 40 * y), powl(positive, 40 * y), tol);
+        CHECK_REL(fret_ratio_pow(positive, 3, y), powl(positive / 3, y), 2 * tol);
+        CHECK_ABS(fret_sin(x), sinl(x), 1, tol);
+        CHECK_ABS(fret_cos(x), cosl(x), 1, tol);
+        CHECK_REL(fret_atan2(x, y), atan2l(x, y), tol);
+        if (positive > 1e-10L && positive < 30)
+            CHECK_REL(fret_gamma(positive), tgammal(positive), 20 * tol);
+    }
+}
+
+static void limits(void) {
+    const fret_real inf = INFINITY;
+    CHECK(fret_exp(-inf) == 0 && fret_exp(inf) == inf && fret_exp(0) == 1 && isnan(fret_exp(NAN)));
+    CHECK(fret_log(0) == -inf && fret_log(inf) == inf && isnan(fret_log(-1)) && fret_log(1) == 0);
+    CHECK(fret_log1p(-1) == -inf && isnan(fret_log1p(-2)) && fret_expm1(-inf) == -1);
+    CHECK(fret_pow(0, 2) == 0 && fret_pow(0, -2) == inf && fret_pow(0, 0) == 1 && fret_pow(5, 0) == 1);
+    CHECK(fret_pow(-2, 3) == -8 && fret_pow(-2, 2) == 4 && isnan(fret_pow(-2, 0.5L)));
+    CHECK(fret_pow(3, 2) == 9 && fret_pow(10, 22) == 1e22L && fret_pow(2, -1000) == ldexpl(1, -1000));
+    CHECK(fret_pow(inf, 2) == inf && fret_pow(inf, -1) == 0 && fret_pow(2, 1e30L) == inf);
+    CHECK(fret_sin(0) == 0 && fret_cos(0) == 1 && isnan(fret_sin(inf)));
+    CHECK(fret_atan2(0, -1) == atan2l(0, -1) && fret_atan2(1, 0) > 1.57L);
+    CHECK(fret_gamma(5) == 24 && isnan(fret_gamma(-3)) && fret_gamma(1e6L) == inf);
+    CHECK_REL(fret_gamma(-2.5L), -8 * sqrtl(3.14159265358979323846264338327950288L) / 15, 1e-18L);
+    CHECK(fret_log(expl(-11000)) < -10999 && fret_exp(-11000) > 0);
+}
+
+int main(int argc, char **argv) {
+    unit_start("dd", argc, argv);
+    reference();
+    arithmetic();
+    long_double();
+    limits();
+    return unit_finish();
+}
