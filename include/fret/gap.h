@@ -39,15 +39,15 @@ typedef struct fret_gap {
 } fret_gap;
 
 /* Gauss-Jacobi rule on 0..1 for the weight v^((k-1)/2), v the distance from the edge: the kernel of
- * (3) has this end-point singularity for every gap. Unused by powers. */
+ * (3) has this end-point singularity for every gap. Powers need kappa(n,k) of each term instead. */
 enum { FRET_RULE = 40 };
 typedef struct fret_rule {
-    fret_real k, v[FRET_RULE], weight[FRET_RULE];
+    fret_real k, v[FRET_RULE], weight[FRET_RULE], kappa[FRET_GAP_TERMS];
 } fret_rule;
 
 /* kappa(n,k) = (n/2) B(n/2,(k+1)/2) (6)-(8): the profile of r^n is kappa x^n.
- * Range n > 0, -1 < k < 1. Accuracy 1e-18 relative for n <= 1e6; no overflow at large n. */
-fret_real fret_kappa(fret_real n, fret_real k);
+ * Range n > 0, -1 < k < 1. Accuracy 1e-19 relative for n <= 1e6; no overflow at large n. */
+fret_real fret_kappa(double n, double k);
 
 /* Checks the parameters of a gap. Errors: FRET_NOT_FINITE, FRET_NOT_POSITIVE naming the parameter. */
 fret_status fret_gap_check(const fret_gap *gap);
@@ -56,7 +56,7 @@ fret_status fret_gap_check(const fret_gap *gap);
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f);
 
 /* g(x) [m] and, where slope is not NULL, g'(x), for |x| [m]. Errors as above. */
-fret_status fret_gap_g(const fret_gap *gap, fret_real k, fret_real x, fret_real *g, fret_real *slope);
+fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g, fret_real *slope);
 
 /* A sampled gap: r[0] = 0 < r[1] < ..., f[0] = 0, lengths in m. Copies the arrays.
  * Errors: FRET_BAD_TABLE, FRET_NOT_FINITE, FRET_NO_MEMORY. Free with fret_table_free. */

@@ -29,7 +29,11 @@ typedef struct fret_foundation {
     fret_real hN[2], hT[2]; /* h_N(k,nu), h_T(k,nu) of each body (A1),(A2); 0 for a rigid one */
     fret_real beta[2];      /* beta(k,nu) (A3); 0 for a rigid one */
     fret_real mismatch;     /* normal-tangential coupling left out; Dundurs' second constant at k = 0 */
-    bool similar;           /* uncoupled: equal bodies, or each nu = 1/(2+k), or mismatch 0 at k = 0 */
+    struct {
+        fret_pair cN0, eta; /* c_N0/2^scale and eta to 100 bits */
+        int scale;
+    } wide;
+    bool similar; /* uncoupled: equal bodies, or each nu = 1/(2+k), or mismatch 0 at k = 0 */
 } fret_foundation;
 
 /* h_N, h_T, beta of one half-space, (A1)-(A3), in forms without cancellation:

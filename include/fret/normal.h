@@ -11,23 +11,25 @@
 typedef struct fret_normal {
     fret_foundation foundation;
     fret_gap gap;
-    fret_rule rule; /* shapes other than a single power */
-    fret_real p;    /* power law: F_N ~ delta_z^p, p = (n+k+1)/n; 0 for other shapes */
-    fret_real pm1;  /* p-1 = (k+1)/n without cancellation */
-    fret_real q;    /* 1/p */
-    fret_real s;    /* n+k+1: F_N ~ a^s */
-    fret_real end;  /* largest contact radius that the gap supports [m]; infinite for a power */
-    bool falls;     /* because g(x) begins to fall there */
-    fret_real kappa;
-    fret_real dref; /* power law: depth at a = r0 [m] */
-    fret_real Fref; /* power law: force at a = r0 [N] */
+    fret_rule rule;
+    fret_real p;   /* power law: F_N ~ delta_z^p, p = (n+k+1)/n; 0 for other shapes */
+    fret_real pm1; /* p-1 = (k+1)/n without cancellation */
+    fret_real q;   /* 1/p */
+    fret_real s;   /* n+k+1: F_N ~ a^s */
+    fret_real end; /* largest contact radius that the gap supports [m]; infinite for a power */
+    bool falls;    /* because g(x) begins to fall there */
+    struct {
+        fret_pair p, q, s;                   /* to 100 bits */
+        fret_pair ln_r0, ln_depth, ln_force; /* logarithms of r0, and of depth and force at a = r0 [m], [N] */
+    } wide;                                  /* power law */
 } fret_normal;
 
 /* One state of the normal contact, each member from the same load. */
 typedef struct fret_press {
-    fret_real F;  /* F_N [N] */
-    fret_real dz; /* delta_z [m] */
-    fret_real a;  /* [m] */
+    fret_real F;            /* F_N [N] */
+    fret_real dz;           /* delta_z [m] */
+    fret_real a;            /* [m] */
+    double F_rest, dz_rest; /* what does not fit in F and dz: near gross slip it shows */
 } fret_press;
 
 /* Errors: those of fret_foundation_make and fret_gap_check; FRET_NOT_MONOTONE. */
@@ -36,7 +38,7 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
 /* delta_z = g(a), F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx (10)-(13); power law:
  *   F_N = 2 cN0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1)).
  * Arguments >= 0. Errors: FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW, FRET_TABLE_SHORT.
- * Accuracy: 1e-17 + eps/(n+k+1) relative for power laws, 1e-13 for other shapes. */
+ * Accuracy: 1e-19 relative for power laws with n 1e-6..1e6, 1e-13 for other shapes. */
 fret_status fret_press_force(const fret_normal *normal, double F, fret_press *out);
 fret_status fret_press_depth(const fret_normal *normal, double dz, fret_press *out);
 fret_status fret_press_radius(const fret_normal *normal, double a, fret_press *out);

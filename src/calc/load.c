@@ -317,7 +317,7 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
             if (!scene_memory(s, &memory, error))
                 return false;
             fret_memory_state(memory, &state);
-            s->press = (fret_press){state.FN, state.dz, state.a};
+            s->press = (fret_press){.F = state.FN, .dz = state.dz, .a = state.a};
         } else {
             const load_step *step = &s->program[0];
             double v = step->normal == BY_FORCE ? s->in[IN_FN] : step->normal_value;

@@ -147,7 +147,7 @@ static bool get_kappa(scene *s, long double *out, calc_error *error) {
     long double n = 0;
     if (!scene_get(s, IN_N, &n, error))
         return false;
-    *out = fret_kappa(n, s->in[IN_K]);
+    *out = fret_kappa((double)n, s->in[IN_K]);
     return true;
 }
 
@@ -244,7 +244,7 @@ static bool call_g(scene *s, value x, long double *out, calc_error *error) {
     const fret_normal *normal;
     if (!scene_normal(s, &normal, error))
         return false;
-    fret_status st = fret_gap_g(&normal->gap, normal->foundation.k, x.v, out, NULL);
+    fret_status st = fret_gap_g(&normal->gap, s->in[IN_K], x.v, out, NULL);
     return scene_status(s, error, &st);
 }
 

@@ -14,7 +14,7 @@ typedef struct kernel {
 static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
     (void)rest;
     const kernel *c = context;
-    fret_real v = powl(t, c->power), x = sqrtl(c->r * c->r + (c->a - c->r) * (c->a + c->r) * v);
+    fret_real v = fret_pow(t, c->power), x = sqrtl(c->r * c->r + (c->a - c->r) * (c->a + c->r) * v);
     if (x <= c->start)
         return 0;
     if (x > c->a)
@@ -26,23 +26,23 @@ static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
 static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
     (void)rest;
     const kernel *c = context;
-    fret_real alpha = (c->normal->rule.k - 1) / 2, span = logl(c->a / c->start);
-    fret_real x = fminl(c->start * expl(span * t), c->a);
+    fret_real alpha = (c->normal->rule.k - 1) / 2, span = fret_log(c->a / c->start);
+    fret_real x = fminl(c->start * fret_exp(span * t), c->a);
     return span * x *
            fret_gap_profile(&c->normal->gap, &c->normal->rule, x - fret_gap_start(&c->normal->gap)).slope *
-           powl((x - c->r) * (x + c->r), alpha);
+           fret_pow((x - c->r) * (x + c->r), alpha);
 }
 
 /* r below the flat end: x = b + (a-b) t^(2/(k+1)), where g' may be as singular as the kernel. */
 static fret_real pressure_below(fret_real t, fret_real rest, void *context) {
     (void)rest;
     const kernel *c = context;
-    fret_real alpha = (c->normal->rule.k - 1) / 2, e = (c->a - c->start) * powl(t, c->power),
+    fret_real alpha = (c->normal->rule.k - 1) / 2, e = (c->a - c->start) * fret_pow(t, c->power),
               x = c->start + e;
     if (x <= c->start)
         return 0;
     fret_real slope = fret_gap_profile(&c->normal->gap, &c->normal->rule, e).slope;
-    return slope * powl((x - c->r) * (x + c->r), alpha) * e / t;
+    return slope * fret_pow((x - c->r) * (x + c->r), alpha) * e / t;
 }
 
 fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
@@ -63,11 +63,11 @@ fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_r
     if (tip || sharp)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     kernel c = {n, a, r, start, 2 / k1};
-    fret_real scale = n->foundation.cN0 * powl(n->foundation.c0, -n->foundation.k) / PI_L;
+    fret_real scale = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / PI_L;
     if (r >= start) {
         if (r > 0 && r < a / 2)
             c.a = 1.4142135623730950488L * r; /* farther, the kernel's x = -r would come too near */
-        *p = scale * powl((c.a - r) * (c.a + r), k1 / 2) / k1 * fret_integrate(pressure_inside, &c);
+        *p = scale * fret_pow((c.a - r) * (c.a + r), k1 / 2) / k1 * fret_integrate(pressure_inside, &c);
         kernel beyond = {n, a, r, c.a, 0};
         if (c.a < a)
             *p += scale * fret_integrate(pressure_beyond, &beyond);
@@ -87,18 +87,19 @@ typedef struct outside {
 static fret_real outside_part(fret_real t, fret_real rest, void *context) {
     (void)t;
     const outside *c = context;
-    fret_real k1 = 1 + c->normal->rule.k, l = log1pl(-c->span * rest) / k1;
-    fret_real below = -c->hi * expm1l(l), x = c->hi - below, g = 0; /* hi-x keeps its digits near the edge */
+    fret_real k1 = 1 + c->normal->rule.k, l = fret_log1p(-c->span * rest) / k1;
+    fret_real below = -c->hi * fret_expm1(l), x = c->hi - below,
+              g = 0; /* hi-x keeps its digits near the edge */
     if (!c->flat && x > c->lo)
         g = fret_gap_profile(&c->normal->gap, &c->normal->rule, x - c->lo).g;
-    return (c->dz - g) * powl((c->r - c->hi + below) * (c->r + x), -k1 / 2);
+    return (c->dz - g) * fret_pow((c->r - c->hi + below) * (c->r + x), -k1 / 2);
 }
 
 static fret_real outside_integral(const fret_normal *n, fret_real r, fret_real dz, fret_real lo, fret_real hi,
                                   bool flat) {
-    fret_real k1 = 1 + n->foundation.k, span = lo > 0 ? -expm1l(k1 * logl(lo / hi)) : 1;
+    fret_real k1 = 1 + n->foundation.k, span = lo > 0 ? -fret_expm1(k1 * fret_log(lo / hi)) : 1;
     outside c = {n, r, dz, lo, hi, span, flat};
-    return powl(hi, k1) * span / k1 * fret_integrate(outside_part, &c);
+    return fret_pow(hi, k1) * span / k1 * fret_integrate(outside_part, &c);
 }
 
 fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_real *w) {
@@ -115,7 +116,7 @@ fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_re
         *w = dz - f;
         return st;
     }
-    fret_real ck = fabsl(k) <= 0.5L ? cosl(PI_L * k / 2) : sinl(PI_L * (1 - fabsl(k)) / 2);
+    fret_real ck = fabsl(k) <= 0.5L ? fret_cos(PI_L * k / 2) : fret_sin(PI_L * (1 - fabsl(k)) / 2);
     fret_real sum = outside_integral(n, r, dz, start, a, false);
     if (start > 0)
         sum += outside_integral(n, r, dz, 0, start, true);

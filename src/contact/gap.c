@@ -4,9 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-fret_real fret_kappa(fret_real n, fret_real k) {
-    fret_real d = (k + 1) / 2;
-    return (n + (k + 1)) / (k + 1) * tgammal(1 + d) / fret_gamma_ratio(1 + n / 2, d);
+dd_scaled fret_kappa_parts(double n, double k) {
+    dd k1 = dd_sum(1, k), d = {k1.hi / 2, k1.lo / 2}, top = dd_add_d(dd_of(n / 2), 1);
+    const dd over[] = {dd_add_d(d, 1), top}, under[] = {dd_add(top, d)};
+    dd_scaled q = dd_gamma_quotient(over, 2, under, 1);
+    q.factor = dd_mul(q.factor, dd_div(dd_add_d(k1, n), k1));
+    return q;
+}
+
+fret_real fret_kappa(double n, double k) {
+    dd_scaled q = fret_kappa_parts(n, k);
+    return dd_value(dd_mul(q.factor, dd_exp(q.log)));
 }
 
 /* One row a shape: the gap, its two derivatives for r > start, and which parameters it reads. */
@@ -179,11 +187,11 @@ static void piece_add(piece_sums *sum, const struct fret_table *t, size_t i, fre
 /* From r to a with the polynomial of piece i: exact up to the smooth factor (a+r)^alpha. */
 static piece_sums piece_to_edge(const struct fret_table *t, const fret_rule *rule, size_t i, fret_real r,
                                 fret_real a) {
-    fret_real alpha = (rule->k - 1) / 2, span = a - r, scale = powl(span, alpha + 1);
+    fret_real alpha = (rule->k - 1) / 2, span = a - r, scale = fret_pow(span, alpha + 1);
     piece_sums sum = {0, 0, 0};
     for (int j = 0; j < FRET_RULE; j++) {
         fret_real x = a - span * rule->v[j];
-        piece_add(&sum, t, i, x, scale * rule->weight[j] * powl(a + x, alpha));
+        piece_add(&sum, t, i, x, scale * rule->weight[j] * fret_pow(a + x, alpha));
     }
     return sum;
 }
@@ -236,10 +244,10 @@ static fret_profile profile_of_table(const fret_gap *gap, const fret_rule *rule,
         }
         for (int j = 0; j < 8; j++) { /* the singularity is some pieces away */
             fret_real r = lo + (hi - lo) * fret_gauss_node[j];
-            piece_add(&all, t, i, r, (hi - lo) * fret_gauss_weight[j] * powl((a - r) * (a + r), alpha));
+            piece_add(&all, t, i, r, (hi - lo) * fret_gauss_weight[j] * fret_pow((a - r) * (a + r), alpha));
         }
     }
-    fret_profile out = {powl(a, 1 - k) * all.g, powl(a, -k) * (all.g + all.s), all.I / (k + 1)};
+    fret_profile out = {fret_pow(a, 1 - k) * all.g, fret_pow(a, -k) * (all.g + all.s), all.I / (k + 1)};
     return out;
 }
 
@@ -300,7 +308,7 @@ fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
     *f = 0;
     if (is_powers(gap)) {
         for (int i = 0; i < gap->terms; i++)
-            *f += gap->power[i].h * powl(r / gap->power[i].r0, gap->power[i].n);
+            *f += r > 0 ? gap->power[i].h * fret_ratio_pow(r, gap->power[i].r0, gap->power[i].n) : 0;
     } else if (r > fret_gap_start(gap)) {
         *f = gap->kind == FRET_GAP_TABLE ? table_f(gap, r) : shapes[gap->kind].f(gap, r);
     }
@@ -315,20 +323,27 @@ static fret_profile profile_by_rule(const fret_gap *gap, const fret_rule *rule, 
     fret_real span = e / a, sum_g = 0, sum_I = 0, sum_2 = 0;
     for (int i = 0; i < FRET_RULE; i++) {
         fret_real v = span * rule->v[i], s = 1 - v;
-        fret_real w = rule->weight[i] * powl(2 - v, alpha), r = a * s;
+        fret_real w = rule->weight[i] * fret_pow(2 - v, alpha), r = a * s;
         fret_real f1 = w * sh->f1(gap, r, e * (1 - rule->v[i]));
         sum_g += f1;
         sum_I += f1 * s * s;
         sum_2 += w * s * sh->f2(gap, r);
     }
-    fret_real scale = powl(span, alpha + 1);
+    fret_real scale = fret_pow(span, alpha + 1);
     fret_profile out;
     out.g = a * scale * sum_g;
-    out.I = powl(a, k + 2) / (k + 1) * scale * sum_I;
+    out.I = fret_pow(a, k + 2) / (k + 1) * scale * sum_I;
     out.slope = scale * (sum_g + a * sum_2);
     if (b > 0)
-        out.slope += sh->f1(gap, b, 0) * (b / a) * powl(span * (1 + b / a), alpha);
+        out.slope += sh->f1(gap, b, 0) * (b / a) * fret_pow(span * (1 + b / a), alpha);
     return out;
+}
+
+fret_status fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule) {
+    rule->k = k;
+    for (int i = 0; is_powers(gap) && i < gap->terms; i++)
+        rule->kappa[i] = fret_kappa(gap->power[i].n, k);
+    return is_powers(gap) ? fret_ok() : fret_rule_make(k, rule);
 }
 
 fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
@@ -336,11 +351,11 @@ fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_r
         return profile_of_table(gap, rule, fret_gap_start(gap) + e);
     if (!is_powers(gap))
         return profile_by_rule(gap, rule, e);
-    fret_real k = rule->k, a = e, ak = powl(a, k + 1);
+    fret_real k = rule->k, a = e, ak = fret_pow(a, k + 1);
     fret_profile out = {0, 0, 0};
     for (int i = 0; i < gap->terms; i++) {
         const fret_power *p = &gap->power[i];
-        fret_real n = p->n, g = fret_kappa(n, k) * p->h * powl(a / p->r0, n);
+        fret_real n = p->n, g = rule->kappa[i] * p->h * fret_ratio_pow(a, p->r0, n);
         out.g += g;
         out.slope += n * g / a;
         out.I += n * g * ak / ((k + 1) * (n + (k + 1)));
@@ -348,18 +363,16 @@ fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_r
     return out;
 }
 
-fret_status fret_gap_g(const fret_gap *gap, fret_real k, fret_real x, fret_real *g, fret_real *slope) {
+fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g, fret_real *slope) {
     x = fabsl(x);
     if (x > fret_gap_end(gap))
         return fret_fail(FRET_OUTSIDE, "x", (double)x, (double)fret_gap_end(gap));
     fret_profile out = {0, 0, 0};
     if (x > fret_gap_start(gap)) {
-        fret_rule rule = {.k = k};
-        if (!is_powers(gap)) {
-            fret_status st = fret_rule_make(k, &rule);
-            if (st.code)
-                return st;
-        }
+        fret_rule rule;
+        fret_status st = fret_gap_rule(gap, k, &rule);
+        if (st.code)
+            return st;
         out = fret_gap_profile(gap, &rule, x - fret_gap_start(gap));
     }
     *g = out.g;

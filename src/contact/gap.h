@@ -3,6 +3,7 @@
 #ifndef FRET_GAP_PRIVATE_H
 #define FRET_GAP_PRIVATE_H
 
+#include "dd.h"
 #include "fret/gap.h"
 #include "special.h"
 
@@ -10,6 +11,12 @@
 typedef struct fret_profile {
     fret_real g, slope, I;
 } fret_profile;
+
+/* ln kappa(n,k) = .log + ln .factor */
+dd_scaled fret_kappa_parts(double n, double k);
+
+/* What fret_gap_profile needs to know of the exponent k. */
+fret_status fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule);
 
 /* At contact radius fret_gap_start + e, e > 0: near a flat end g ~ e^((k+1)/2), which a radius that has
  * swallowed e could not tell. Valid gaps only. */

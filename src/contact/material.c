@@ -1,29 +1,54 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fret/material.h"
 
+#include <float.h>
+
+#include "dd.h"
 #include "special.h"
 
 /* What h_N, h_T and eta are made of; ck is the only factor that vanishes as |k| -> 1. */
 typedef struct parts {
-    fret_real beta, Q, SP, ck;
+    dd beta, Q, SP, ck;
+    dd one_nu; /* 1-nu */
 } parts;
 
-static parts parts_of(double k_, double nu_) {
-    fret_real k = k_, nu = nu_, hk = (1 + k) / 2;
+/* cos(pi k/2), k != +-1 */
+static dd cosine(double k) {
+    return dd_sin_quarter(dd_sum(1, -fabs(k)));
+}
+
+static parts parts_of(double k, double nu) {
     parts r;
-    r.Q = nu <= 0.25L ? 1 - (1 + k) * nu : (1 - 2 * nu) + (1 - k) * nu;
-    r.beta = sqrtl((1 + k) * r.Q / (1 - nu));
-    fret_real S;
-    if (r.beta > 1)
-        S = sinl(PI_L * (2 - r.beta) / 2) / r.beta;
-    else if (r.beta > 1e-10L)
-        S = sinl(PI_L * r.beta / 2) / r.beta;
+    dd k1 = dd_sum(1, k), two = dd_of(2);
+    r.one_nu = dd_sum(1, -nu);
+    if (nu <= 0.25)
+        r.Q = dd_add_d(dd_neg(dd_mul_d(k1, nu)), 1);
     else
-        S = PI_L / 2;
-    fret_real g = tgammal(0.5L + hk); /* Gamma(1 + k/2) */
-    r.SP = S * tgammal(1 + hk + r.beta / 2) * tgammal(1 + hk - r.beta / 2) / (g * g);
-    r.ck = fabsl(k) <= 0.5L ? cosl(PI_L * k / 2) : sinl(PI_L * (1 - fabsl(k)) / 2);
+        r.Q = dd_add(dd_sum(1, -2 * nu), dd_mul_d(dd_sum(1, -k), nu));
+    r.beta = dd_sqrt(dd_div(dd_mul(k1, r.Q), r.one_nu));
+    dd S = dd_sin_quarter(r.beta.hi > 1 ? dd_sub(two, r.beta) : r.beta);
+    dd half_beta = {r.beta.hi / 2, r.beta.lo / 2}, x = dd_add_d((dd){k1.hi / 2, k1.lo / 2}, 1);
+    const dd over[] = {dd_add(x, half_beta), dd_sub(x, half_beta)}, w = dd_add_d(x, -0.5), under[] = {w, w};
+    dd_scaled P = dd_gamma_quotient(over, 2, under, 2);
+    r.SP = dd_mul(dd_div(S, r.beta), dd_mul(P.factor, dd_exp(P.log)));
+    r.ck = cosine(k);
     return r;
+}
+
+/* (1-nu^2)/h_N and 1/h_T without cos(pi k/2), which the sums over bodies have in common. */
+static dd normal_part(const parts *r, double k, double nu) {
+    return dd_div(dd_mul(dd_mul(dd_sum(1, nu), r->Q), r->SP), dd_sum(1, k));
+}
+static dd tangential_part(const parts *r, double nu) {
+    dd t = dd_mul(dd_sum(1, nu), dd_add_d(dd_mul(r->one_nu, r->SP), 1));
+    return (dd){t.hi / 2, t.lo / 2};
+}
+
+static fret_real hN_of(const parts *r, double k) {
+    return dd_value(dd_div(dd_mul(dd_mul(dd_sum(1, k), r->one_nu), r->ck), dd_mul(r->Q, r->SP)));
+}
+static fret_real hT_of(const parts *r, double nu) {
+    return dd_value(dd_div(r->ck, tangential_part(r, nu)));
 }
 
 static fret_status check_k(double k) {
@@ -49,9 +74,9 @@ fret_status fret_half_space(double k, double nu, fret_real *hN, fret_real *hT, f
     if (st.code)
         return st;
     parts r = parts_of(k, nu);
-    *hN = (1 + (fret_real)k) * (1 - (fret_real)nu) * r.ck / (r.Q * r.SP);
-    *hT = 2 * r.ck / ((1 + (fret_real)nu) * (1 + (1 - (fret_real)nu) * r.SP));
-    *beta = r.beta;
+    *hN = hN_of(&r, k);
+    *hT = hT_of(&r, nu);
+    *beta = dd_value(r.beta);
     return fret_ok();
 }
 
@@ -73,31 +98,40 @@ fret_status fret_foundation_make(const fret_material *m, fret_foundation *out) {
         return fret_fail(FRET_BOTH_RIGID, NULL, 0, 0);
 
     fret_foundation f = {.k = m->k, .c0 = m->c0};
-    fret_real normal = 0, tangential = 0, drive = 0, holl = 0;
-    fret_real ck = 1, k = m->k;
+    dd normal = dd_of(0), tangential = dd_of(0), ck = cosine(m->k);
+    fret_real drive = 0, holl = 0;
+    const fret_body *last = NULL;
+    parts r;
+    int scale; /* moduli in units of 2^scale, so that no square of them leaves the range */
+    (void)frexp(m->body[m->body[0].rigid].E0, &scale);
     for (int i = 0; i < 2; i++) {
         const fret_body *b = &m->body[i];
         if (b->rigid)
             continue;
-        parts r = parts_of(m->k, b->nu);
-        fret_real nu = b->nu, per_E = (1 + nu) / b->E0;
-        /* cos(pi k/2), common to both sums, is kept out of eta */
-        normal += per_E * r.Q * r.SP / (1 + k);
-        tangential += per_E * (1 + (1 - nu) * r.SP) / 2;
-        fret_real away = 1 - (2 + k) * nu; /* from Holl's ratio */
-        drive += (i ? -1 : 1) * away * per_E;
+        if (!last || last->nu != b->nu)
+            r = parts_of(m->k, b->nu);
+        last = b;
+        const dd E = dd_of(ldexp(b->E0, -scale));
+        normal = dd_add(normal, dd_div(normal_part(&r, m->k, b->nu), E));
+        tangential = dd_add(tangential, dd_div(tangential_part(&r, b->nu), E));
+        fret_real away = dd_value(dd_sub(dd_of(1), dd_mul_d(dd_sum(2, m->k), b->nu))); /* from Holl's ratio */
+        drive += (i ? -1 : 1) * away * (1 + (fret_real)b->nu) / E.hi;
         holl = fmaxl(holl, fabsl(away));
-        ck = r.ck;
-        f.hN[i] = (1 + k) * (1 - nu) * ck / (r.Q * r.SP);
-        f.hT[i] = 2 * ck / ((1 + nu) * (1 + (1 - nu) * r.SP));
-        f.beta[i] = r.beta;
+        f.hN[i] = hN_of(&r, m->k);
+        f.hT[i] = hT_of(&r, b->nu);
+        f.beta[i] = dd_value(r.beta);
     }
-    f.cN0 = ck / normal;
-    f.cT0 = ck / tangential;
-    f.eta = tangential / normal;
+    f.wide.cN0 = dd_div(ck, normal);
+    f.wide.scale = scale;
+    f.wide.eta = dd_div(tangential, normal);
+    f.cN0 = ldexpl(dd_value(f.wide.cN0), scale);
+    f.cT0 = ldexpl(dd_value(dd_div(ck, tangential)), scale);
+    f.eta = dd_value(f.wide.eta);
+    if (!isfinite(f.cN0) || !isfinite(f.cT0) || !isfinite(f.eta))
+        return fret_fail(FRET_OVERFLOW, E_name[m->body[0].rigid], m->body[m->body[0].rigid].E0, DBL_MAX);
     bool equal = !m->body[0].rigid && !m->body[1].rigid && m->body[0].E0 == m->body[1].E0 &&
                  m->body[0].nu == m->body[1].nu;
-    f.mismatch = fabsl(drive) * f.cN0 / 2;
+    f.mismatch = fabsl(drive) * dd_value(f.wide.cN0) / 2;
     /* 1e-12: nu = 1/(2+k) cannot be typed exactly */
     f.similar = equal || holl < 1e-12L || (m->k == 0 && f.mismatch < 1e-12L);
     *out = f;

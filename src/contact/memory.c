@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dd.h"
 #include "special.h"
 
 /* Positions and thicknesses are kept in two measures. A straight step in (delta_z, delta_x) moves
@@ -437,7 +438,7 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     } else if (step->normal_by == FRET_TO_DEPTH) {
         if (!isfinite(step->normal))
             return fret_fail(FRET_NOT_FINITE, "dz", step->normal, 0);
-        fret_press p = {0, 0, 0};
+        fret_press p = {.F = 0};
         gap = step->normal < 0 ? -step->normal : 0;
         if (step->normal > 0)
             st = fret_press_depth(&m->normal, step->normal, &p);

@@ -24,7 +24,7 @@ static fret_status find_end(fret_normal *n) {
         return fret_ok();
     bool table = gap->kind == FRET_GAP_TABLE;
     for (int i = 1; i <= 400; i++) {
-        fret_real x = table ? start + (last - start) * i / 400 : first * powl(1e18L, i / 400.0L);
+        fret_real x = table ? start + (last - start) * i / 400 : first * fret_pow(1e18L, i / 400.0L);
         if (profile(n, x - start).slope >= 0) {
             lo = x;
             continue;
@@ -48,6 +48,33 @@ static fret_status find_end(fret_normal *n) {
     return fret_ok();
 }
 
+/* Depth and force of the power law at a = r0, in logarithms: any exponent, no overflow. */
+static void make_power(fret_normal *n) {
+    const fret_foundation *f = &n->foundation;
+    const fret_power *g = &n->gap.power[0];
+    const double k = (double)f->k;
+    dd k1 = dd_sum(1, k), s = dd_add_d(k1, g->n);
+    n->wide.s = s;
+    n->wide.p = dd_div(s, dd_of(g->n));
+    n->wide.q = dd_div(dd_of(g->n), s);
+    n->s = dd_value(s);
+    n->p = dd_value(n->wide.p);
+    n->q = dd_value(n->wide.q);
+    n->pm1 = dd_value(dd_div(k1, dd_of(g->n)));
+    dd_scaled kappa = fret_kappa_parts(g->n, k);
+    n->rule.k = f->k;
+    n->rule.kappa[0] = dd_value(dd_mul(kappa.factor, dd_exp(kappa.log)));
+    dd r0 = dd_log(dd_of(g->r0)), h = dd_log(dd_of(g->h));
+    n->wide.ln_r0 = r0;
+    n->wide.ln_depth = dd_add(dd_add(kappa.log, dd_log(kappa.factor)), h);
+    /* 2 cN0 n/((k+1) s) (r0/c0)^k r0 */
+    dd force = dd_div(dd_mul_d(f->wide.cN0, 2 * g->n), dd_mul(k1, s));
+    force = dd_add(dd_log(force), dd_log_real(ldexpl(1, f->wide.scale)));
+    if (k != 0)
+        force = dd_add(force, dd_mul_d(dd_sub(r0, dd_log(dd_of((double)f->c0))), k));
+    n->wide.ln_force = dd_add(dd_add(force, r0), n->wide.ln_depth);
+}
+
 fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, fret_normal *out) {
     fret_normal n = {.gap = *gap};
     fret_status st = fret_foundation_make(material, &n.foundation);
@@ -55,21 +82,11 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
         st = fret_gap_check(gap);
     if (st.code)
         return st;
-    n.rule.k = material->k;
     n.end = INFINITY;
     if (gap->kind == FRET_GAP_POWER) {
-        const fret_power *g = &gap->power[0];
-        fret_real k1 = 1 + (fret_real)material->k;
-        n.s = g->n + k1;
-        n.pm1 = k1 / g->n;
-        n.p = n.s / g->n;
-        n.q = g->n / n.s;
-        n.kappa = fret_kappa(g->n, material->k);
-        n.dref = n.kappa * g->h;
-        n.Fref = 2 * n.foundation.cN0 * n.dref * g->n * g->r0 *
-                 powl((fret_real)g->r0 / material->c0, material->k) / (k1 * n.s);
+        make_power(&n);
     } else {
-        st = fret_rule_make(material->k, &n.rule);
+        st = fret_gap_rule(gap, material->k, &n.rule);
         if (!st.code)
             st = find_end(&n);
     }
@@ -80,12 +97,12 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
 
 fret_real fret_normal_stiffness(const fret_normal *n, fret_real a) {
     const fret_foundation *f = &n->foundation;
-    return 2 * f->cN0 * a * powl(a / f->c0, f->k) / (1 + f->k);
+    return 2 * f->cN0 * a * fret_pow(a / f->c0, f->k) / (1 + f->k);
 }
 
 /* F_N of a contact of radius a whose profile is known. */
 static fret_real force_of(const fret_normal *n, const fret_profile *p) {
-    return 2 * n->foundation.cN0 * powl(n->foundation.c0, -n->foundation.k) * p->I;
+    return 2 * n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) * p->I;
 }
 
 /* Newton in ln e, where depth and force are nearly powers, kept in a bracket. Returns e; infinity where the
@@ -111,7 +128,7 @@ static fret_real solve_radius(const fret_normal *n, bool by_force, fret_real tar
         else
             hi = e;
         fret_real slope = e * p.slope * (by_force ? fret_normal_stiffness(n, start + e) : 1) / value;
-        fret_real next = e * expl(logl(target / value) / slope);
+        fret_real next = e * fret_exp(fret_log(target / value) / slope);
         if (fabsl(next - e) <= 1e-11L * e) /* quadratic: the next step would be 1e-22 */
             return next;
         if (!(next > lo && next < hi)) {
@@ -127,9 +144,20 @@ static fret_real solve_radius(const fret_normal *n, bool by_force, fret_real tar
     return e;
 }
 
+/* The power law in logarithms. */
+static dd force_of_depth(const fret_normal *n, dd y) {
+    return dd_add(n->wide.ln_force, dd_mul(n->wide.p, dd_sub(y, n->wide.ln_depth)));
+}
+static dd depth_of_force(const fret_normal *n, dd F) {
+    return dd_add(n->wide.ln_depth, dd_mul(n->wide.q, dd_sub(F, n->wide.ln_force)));
+}
+static dd radius_of_depth(const fret_normal *n, dd y) {
+    return dd_add(n->wide.ln_r0, dd_div(dd_sub(y, n->wide.ln_depth), dd_of(n->gap.power[0].n)));
+}
+
 fret_real fret_law_radius(const fret_normal *n, fret_real y) {
     if (n->p > 0)
-        return n->gap.power[0].r0 * powl(y / n->dref, 1 / (fret_real)n->gap.power[0].n);
+        return y > 0 ? dd_exp_real(radius_of_depth(n, dd_log_real(y))) : 0;
     return fret_gap_start(&n->gap) + solve_radius(n, false, y);
 }
 
@@ -137,7 +165,7 @@ fret_real fret_law_force(const fret_normal *n, fret_real y) {
     if (y <= 0)
         return 0;
     if (n->p > 0)
-        return n->Fref * powl(y / n->dref, n->p);
+        return dd_exp_real(force_of_depth(n, dd_log_real(y)));
     fret_profile p = profile(n, solve_radius(n, false, y));
     return force_of(n, &p);
 }
@@ -146,7 +174,7 @@ fret_real fret_law_depth(const fret_normal *n, fret_real F) {
     if (F <= 0)
         return 0;
     if (n->p > 0)
-        return n->dref * powl(F / n->Fref, n->q);
+        return dd_exp_real(depth_of_force(n, dd_log_real(F)));
     return profile(n, solve_radius(n, true, F)).g;
 }
 
@@ -189,7 +217,8 @@ static fret_real annulus_moment(fret_real t, fret_real rest, void *context) {
     const annulus *s = context;
     const fret_foundation *f = &s->normal->foundation;
     fret_real e = s->inner * rest + s->outer * t, d = s->g - (e > 0 ? profile(s->normal, e).g : 0);
-    return (s->second ? d * d : d) * 2 * f->cN0 * powl((s->start + e) / f->c0, f->k) * (s->outer - s->inner);
+    return (s->second ? d * d : d) * 2 * f->cN0 * fret_pow((s->start + e) / f->c0, f->k) *
+           (s->outer - s->inner);
 }
 
 fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_real h) {
@@ -220,7 +249,7 @@ fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real
     if (h >= y)
         return outer->F;
     if (n->p > 0)
-        return -outer->F * expm1l(n->p * log1pl(-h / y));
+        return -outer->F * fret_expm1(n->p * fret_log1p(-h / y));
     if (h > thin * y)
         return outer->F - fret_law_force(n, y - h);
     return fret_law_slice(n, outer, h).w;
@@ -231,7 +260,7 @@ fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret
     if (w >= F)
         return y;
     if (n->p > 0)
-        return -y * expm1l(n->q * log1pl(-w / F));
+        return -y * fret_expm1(n->q * fret_log1p(-w / F));
     fret_real h = y - fret_law_depth(n, F - w);
     if (w < thin * F && h > 0) /* two Newton steps restore the digits */
         for (int i = 0; i < 2; i++)
@@ -269,11 +298,13 @@ fret_status fret_press_force(const fret_normal *n, double F, fret_press *out) {
     fret_status st = fret_check_not_negative("FN", F);
     if (st.code)
         return st;
-    fret_press s = {F, -1, 0};
-    if (n->p > 0) {
-        /* from the load itself: the shortest way loses least */
-        s.a = n->gap.power[0].r0 * powl(F / n->Fref, 1 / n->s);
-        s.dz = n->dref * powl(F / n->Fref, n->q);
+    fret_press s = {.F = F, .dz = -1};
+    if (F > 0 && n->p > 0) {
+        dd l = dd_sub(dd_log(dd_of(F)), n->wide.ln_force);
+        dd dz = dd_exp(dd_add(n->wide.ln_depth, dd_mul(n->wide.q, l)));
+        s.a = dd_exp_real(dd_add(n->wide.ln_r0, dd_div(l, n->wide.s)));
+        s.dz = dd_value(dz);
+        s.dz_rest = dd_rest(dz);
         return finish(&s, out);
     }
     return at_radius(n, "FN", F, solve_radius(n, true, F), &s, out);
@@ -283,10 +314,13 @@ fret_status fret_press_depth(const fret_normal *n, double dz, fret_press *out) {
     fret_status st = fret_check_not_negative("dz", dz);
     if (st.code)
         return st;
-    fret_press s = {-1, dz, 0};
-    if (n->p > 0) {
-        s.a = fret_law_radius(n, dz);
-        s.F = fret_law_force(n, dz);
+    fret_press s = {.F = -1, .dz = dz};
+    if (dz > 0 && n->p > 0) {
+        dd l = dd_sub(dd_log(dd_of(dz)), n->wide.ln_depth);
+        dd F = dd_exp(dd_add(n->wide.ln_force, dd_mul(n->wide.p, l)));
+        s.a = dd_exp_real(dd_add(n->wide.ln_r0, dd_div(l, dd_of(n->gap.power[0].n))));
+        s.F = dd_value(F);
+        s.F_rest = dd_rest(F);
         return finish(&s, out);
     }
     return at_radius(n, "dz", dz, solve_radius(n, false, dz), &s, out);
@@ -296,11 +330,12 @@ fret_status fret_press_radius(const fret_normal *n, double a, fret_press *out) {
     fret_status st = fret_check_not_negative("a", a);
     if (st.code)
         return st;
-    fret_press s = {-1, -1, a};
-    if (n->p > 0) {
-        fret_real z = a / (fret_real)n->gap.power[0].r0;
-        s.dz = n->dref * powl(z, n->gap.power[0].n);
-        s.F = n->Fref * powl(z, n->s);
+    fret_press s = {.F = -1, .dz = -1, .a = a};
+    if (a > 0 && n->p > 0) {
+        dd l = dd_sub(dd_log(dd_of(a)), n->wide.ln_r0);
+        dd F = dd_exp(dd_add(n->wide.ln_force, dd_mul(n->wide.s, l)));
+        dd dz = dd_exp(dd_add(n->wide.ln_depth, dd_mul_d(l, n->gap.power[0].n)));
+        s = (fret_press){dd_value(F), dd_value(dz), a, dd_rest(F), dd_rest(dz)};
         return finish(&s, out);
     }
     if (a < fret_gap_start(&n->gap))

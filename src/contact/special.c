@@ -2,6 +2,10 @@
 #include "special.h"
 
 #include <gsl/gsl_integration.h>
+#include <stdlib.h>
+
+#include "dd.h"
+#include "tables.h"
 
 fret_status fret_check_positive(const char *quantity, double value) {
     if (!isfinite(value))
@@ -17,22 +21,6 @@ fret_status fret_check_not_negative(const char *quantity, double value) {
     if (value < 0)
         return fret_fail(FRET_NEGATIVE, quantity, value, 0);
     return fret_ok();
-}
-
-/* ln Gamma(x) - [(x-1/2) ln x - x + ln(2 pi)/2], x >= 20: below 1e-21 after eight terms. */
-static fret_real stirling_rest(fret_real x) {
-    static const fret_real c[] = {1.0L / 12,   -1.0L / 360,      1.0L / 1260, -1.0L / 1680,
-                                  1.0L / 1188, -691.0L / 360360, 1.0L / 156,  -3617.0L / 122400};
-    fret_real z = 1 / (x * x), sum = 0;
-    for (int i = 7; i >= 0; i--)
-        sum = sum * z + c[i];
-    return sum / x;
-}
-
-fret_real fret_gamma_ratio(fret_real x, fret_real d) {
-    if (x < 20)
-        return x + d < 1000 ? tgammal(x + d) / tgammal(x) : expl(lgammal(x + d) - lgammal(x));
-    return expl((x - 0.5L) * log1pl(d / x) + d * logl(x + d) - d + stirling_rest(x + d) - stirling_rest(x));
 }
 
 /* The closed forms lose digits like (p x)^-3, within the guard digits down to p x = 0.2; beyond, the
@@ -69,7 +57,7 @@ fret_moments fret_power_moments(fret_real pm1, fret_real x) {
     if (p * x < 0.2L)
         return moments_series(pm1, x);
     /* arranged so that m1 = int t dK and m2 = int t^2 dK keep their factor p-1 */
-    fret_real em = expm1l(pm1 * log1pl(-x)), y = 1 + em; /* y = (1-x)^(p-1) */
+    fret_real em = fret_expm1(pm1 * fret_log1p(-x)), y = 1 + em; /* y = (1-x)^(p-1) */
     fret_real m1 = -em * (1 + pm1 * x) - pm1 * x;
     fret_real m2 = (-2 * em - y * pm1 * x * (2 + p * x)) / (2 + pm1);
     return (fret_moments){x * y - em, (m2 + p * x * x * y) / 2, m1, x * m1 - m2};
@@ -118,15 +106,12 @@ fret_status fret_rule_make(fret_real k, fret_rule *rule) {
 }
 
 fret_real fret_integrate(fret_integrand *f, void *context) {
-    const fret_real step = 1 / 12.0L; /* 1e-15 with a singularity half a unit off the axis */
     fret_sum sum = {0, 0};
-    for (int i = -54; i <= 54; i++) {
-        fret_real u = step * i, e = expl(-PI_L * sinhl(fabsl(u))); /* small/large side */
-        fret_real small = e / (1 + e), large = 1 / (1 + e);
-        fret_real weight = PI_L * coshl(u) * small * large;
-        fret_sum_add(&sum, weight * (i < 0 ? f(small, large, context) : f(large, small, context)));
+    for (int i = 54; i > -55; i--) { /* step 1/12: 1e-15 with a singularity half a unit off the axis */
+        fret_real small = exponential_rule[abs(i)].small, weight = exponential_rule[abs(i)].weight;
+        fret_sum_add(&sum, weight * (i < 0 ? f(small, 1 - small, context) : f(1 - small, small, context)));
     }
-    return step * fret_sum_value(&sum);
+    return fret_sum_value(&sum);
 }
 
 const fret_real fret_gauss_node[8] = {0.0198550717512318841582195657153L, 0.101666761293186630204223031762L,

@@ -23,9 +23,6 @@ fret_status fret_check_positive(const char *quantity, double value);
 /* NOT_FINITE, NEGATIVE or OK. */
 fret_status fret_check_not_negative(const char *quantity, double value);
 
-/* Gamma(x+d)/Gamma(x) for x > 0, d >= 0: no overflow, no cancellation at large x. */
-fret_real fret_gamma_ratio(fret_real x, fret_real d);
-
 /* Sum with Neumaier's compensation: 1e8 small terms without drift. */
 typedef struct fret_sum {
     fret_real sum, rest;

@@ -42,7 +42,8 @@ static double most(double a, double b) {
 
 static fret_real depth_at(const fret_normal *n, fret_real x) {
     if (n->p > 0)
-        return n->dref * powl(x / n->gap.power[0].r0, n->gap.power[0].n);
+        return n->rule.kappa[0] * n->gap.power[0].h *
+               fret_ratio_pow(x, n->gap.power[0].r0, n->gap.power[0].n);
     return x > fret_gap_start(&n->gap) ? fret_gap_profile(&n->gap, &n->rule, x - fret_gap_start(&n->gap)).g
                                        : 0;
 }
@@ -68,16 +69,16 @@ static bool allocate(fret_springs *s, size_t count) {
 /* int of x^k over cell i of width 1: x+^(k+1)-x-^(k+1) without the cancellation at large i. */
 static fret_real cell_weight(size_t i, fret_real k) {
     fret_real outer = (fret_real)i + 1, k1 = 1 + k;
-    return powl(outer, k1) * -expm1l(k1 * log1pl(-1 / outer)) / k1;
+    return fret_pow(outer, k1) * -fret_expm1(k1 * fret_log1p(-1 / outer)) / k1;
 }
 
 static void fill(fret_springs *s, fret_weight rule) {
     const fret_foundation *f = &s->normal.foundation;
     fret_real h = (fret_real)s->radius / (fret_real)s->count;
-    fret_real scale = 2 * f->cN0 * h * powl(h / f->c0, f->k), stiffness = 0, force = 0, last = 0;
+    fret_real scale = 2 * f->cN0 * h * fret_pow(h / f->c0, f->k), stiffness = 0, force = 0, last = 0;
     for (size_t i = 0; i < s->count; i++) {
         fret_real mid = (fret_real)i + 0.5L;
-        s->w[i] = (double)(scale * (rule == FRET_WEIGHT_CELL ? cell_weight(i, f->k) : powl(mid, f->k)));
+        s->w[i] = (double)(scale * (rule == FRET_WEIGHT_CELL ? cell_weight(i, f->k) : fret_pow(mid, f->k)));
         /* rounding must not undo the order of touch */
         s->g[i] = most((double)depth_at(&s->normal, mid * h), (double)last);
         force += stiffness * (s->g[i] - last);

@@ -97,7 +97,7 @@ static fret_real loop_density(fret_real x, fret_real from, fret_real to, const v
     const fret_foundation *f = &l->k->normal.foundation;
     fret_real g = -1;
     (void)from, (void)to;
-    fret_status st = fret_gap_g(&l->k->normal.gap, f->k, x, &g, NULL);
+    fret_status st = fret_gap_g(&l->k->normal.gap, (double)f->k, x, &g, NULL);
     return st.code ? (fret_real)NAN : f->cN0 * powl(x / f->c0, f->k) * (l->k->press.dz - g) * (g - l->yc);
 }
 
@@ -230,7 +230,7 @@ static void errors(void) {
     CHECK_CODE(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, -1e-6, &loss), FRET_NEGATIVE);
     CHECK(f.Fx == 7 && f.dx == 7 && f.c == 7 && f.yc == 7 && loss == 7); /* untouched */
     /* an open contact carries no tangential load */
-    fret_press open = {0, 0, 0};
+    fret_press open = {.F = 0};
     CHECK(fret_gross_slip(&k.normal, k.mu, &open) == 0);
     CHECK(fret_loading_force(&k.normal, k.mu, &open, 1, &f).code != FRET_OK);
 }

@@ -180,7 +180,7 @@ static void ledger(bool by_force) {
         contact c = make_plain(ns[i % 4], ks[i % 5]);
         fret_memory *probe = NULL;
         CHECK_OK(fret_memory_make(&c.normal, c.mu, &probe));
-        fret_press base = {0, 0, 0};
+        fret_press base = {.F = 0};
         CHECK_OK(fret_press_depth(&c.normal, 1e-6, &base));
         const fret_real dmax = fret_gross_slip(&c.normal, c.mu, &base), scale = c.mu * base.F * dmax;
         fret_real work = 0;
@@ -222,7 +222,7 @@ static void closed_forms(void) {
     for (int i = 0; i < 120; i++) {
         contact c = make_plain(ns[i % 4], ks[i / 4 % 5]);
         const double FN = 20, FA = parts[i / 20] * c.mu * FN;
-        fret_press p = {0, 0, 0};
+        fret_press p = {.F = 0};
         fret_loading f = {0, 0, 0, 0}, twice;
         fret_real loss = 0;
         CHECK_OK(fret_press_force(&c.normal, FN, &p));
@@ -266,7 +266,7 @@ static void closed_forms(void) {
 static void displacement_cycles(void) {
     for (int i = 0; i < 20; i++) {
         contact c = make_plain(1 + i % 4, -0.8 + 0.4 * (i / 4));
-        fret_press p = {0, 0, 0};
+        fret_press p = {.F = 0};
         CHECK_OK(fret_press_force(&c.normal, 20, &p));
         const fret_real max = fret_gross_slip(&c.normal, c.mu, &p);
         go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0});
@@ -312,7 +312,7 @@ static void wiping(void) {
         CHECK(state_of(&looped).slices > slices);
         go(&looped, to_fx(-0.2 * limit)); /* closes the loop */
         fret_real inner = state_of(&looped).W - W0, expected = 0;
-        fret_press p = {0, 0, 0};
+        fret_press p = {.F = 0};
         CHECK_OK(fret_press_force(&plain.normal, FN, &p));
         CHECK_OK(fret_cycle_loss(&plain.normal, plain.mu, &p, 0.3 * limit, &expected));
         CHECK_REL(inner, expected, 1e-14L);
@@ -402,7 +402,7 @@ static void targets(void) {
         unsigned long long seed = 5;
         for (int j = 0; j < 30; j++) {
             double dz = unit_random(&seed, 2e-7, 2e-6);
-            fret_press p = {0, 0, 0}, q = {0, 0, 0};
+            fret_press p = {.F = 0}, q = {.F = 0};
             CHECK_OK(fret_press_depth(&a.normal, dz, &p));
             double FN = (double)p.F;
             CHECK_OK(fret_press_force(&b.normal, FN, &q));
@@ -480,7 +480,7 @@ static void separation(void) {
 static void gross_slip(void) {
     contact c = make_plain(2, -0.4);
     go(&c, to_force(20, 0));
-    fret_press p = {0, 0, 0};
+    fret_press p = {.F = 0};
     CHECK_OK(fret_press_force(&c.normal, 20, &p));
     const double max = (double)fret_gross_slip(&c.normal, c.mu, &p), limit = c.mu * 20;
     go(&c, to_dx(3 * max));
@@ -723,7 +723,7 @@ static void pull(springs *s, double Fx) {
 
 static void spring_model(double n, double k) {
     contact c = make_plain(n, k);
-    fret_press p = {0, 0, 0};
+    fret_press p = {.F = 0};
     CHECK_OK(fret_press_force(&c.normal, 20, &p));
     static springs coarse, fine;
     coarse = cut(&c, &p, SPRINGS / 4);

@@ -76,7 +76,7 @@ static void reference(void) {
         fret_real g1 = unit_result(&t, 22), c = unit_result(&t, 23), dx = unit_result(&t, 24);
         fret_real dW = unit_result(&t, 25);
         fret_normal n = make(&s);
-        fret_press p = {0, 0, 0}, q = p;
+        fret_press p = {.F = 0}, q = p;
         CHECK_OK(fret_press_radius(&n, a, &p));
         CHECK(p.a == a);
         NEAR(p.dz, dz, dz, tol);
@@ -103,7 +103,7 @@ static void reference(void) {
 
         fret_loading f = {0, 0, 0, 0};
         fret_real loss = -1;
-        p = (fret_press){F, dz, a};
+        p = (fret_press){.F = F, .dz = dz, .a = a};
         CHECK_OK(fret_loading_force(&n, s.mu, &p, FA, &f));
         NEAR(f.c, c, c, tol);
         NEAR(f.dx, dx, dx, steep);
@@ -142,7 +142,7 @@ static void engine(void) {
         for (int j = 0; j < GRADINGS; j++) {
             unit_scene s = of_kind((fret_gap_kind)kind, gradings[j]);
             fret_normal n = make(&s);
-            fret_press p = {0, 0, 0};
+            fret_press p = {.F = 0};
             CHECK_OK(fret_press_radius(&n, 1.6e-3, &p));
             double FN = (double)p.F;
             CHECK_OK(fret_press_force(&n, FN, &p));
@@ -203,7 +203,7 @@ static void vanishing_flat(void) {
             full.gap.power[0] =
                 kind == FRET_GAP_FLAT_CONE ? (fret_power){1, s.gap.slope, 1} : (fret_power){2, 50, 1};
             fret_normal n = make(&full);
-            fret_press at = {0, 0, 0};
+            fret_press at = {.F = 0};
             CHECK_OK(fret_press_radius(&n, 1e-3, &at));
             answers want = ask(&full, (double)at.F);
             for (double b = 1e-5; b > 1e-17; b *= 1e-3) {
@@ -243,10 +243,11 @@ static void limits(void) {
     for (int j = 0; j < GRADINGS; j++) {
         unit_scene s = of_kind(FRET_GAP_SUM, gradings[j]);
         fret_normal n = make(&s);
-        fret_real k = s.material.k, r = sqrtl(100 * fret_kappa(2, k) / (8e6L * fret_kappa(4, k)));
+        const double k = s.material.k;
+        const fret_real r = sqrtl(100 * fret_kappa(2, k) / (8e6L * fret_kappa(4, k)));
         CHECK(n.falls);
         CHECK_REL(n.end, r, UNIT_TOL(1e-15L, 1e-13L));
-        fret_press at = {0, 0, 0}, p = {1, 2, 3};
+        fret_press at = {.F = 0}, p = {.F = 1, .dz = 2, .a = 3};
         double below = (double)r * (1 - 1e-9), above = (double)r * (1 + 1e-9);
         CHECK_OK(fret_press_radius(&n, below, &at));
         fret_status st = fret_press_radius(&n, above, &p);
@@ -311,7 +312,7 @@ static void bad_tables(void) {
     s.gap.table = t;
     cone.gap.power[0] = (fret_power){1, 1e-3, 1};
     fret_normal n = make(&s), c = make(&cone);
-    fret_press p = {0, 0, 0}, q = p;
+    fret_press p = {.F = 0}, q = p;
     CHECK_OK(fret_press_radius(&n, 9e-4, &p));
     CHECK_OK(fret_press_radius(&c, 9e-4, &q));
     CHECK_REL(p.F, q.F, UNIT_TOL(1e-15L, 1e-13L));
@@ -377,7 +378,7 @@ static void table_order(void) {
                 s.gap.power[0] = (fret_power){cases[i].n, 1e-4, 3e-3};
             }
             fret_normal n = make(&s);
-            fret_press at = {0, 0, 0};
+            fret_press at = {.F = 0};
             CHECK_OK(fret_press_radius(&n, 2.3e-3, &at));
             answers want = ask(&s, (double)at.F);
             fret_real error[4][3] = {{0}};
@@ -423,7 +424,7 @@ static void table_order(void) {
 static void long_table(void) {
     unit_scene s = of_kind(FRET_GAP_FLAT_ROUNDED, 0.7), table = s;
     fret_normal n = make(&s);
-    fret_press at = {0, 0, 0};
+    fret_press at = {.F = 0};
     CHECK_OK(fret_press_radius(&n, 1.9e-3, &at));
     struct fret_table *t = sample(&s.gap, 100001, 3.1e-3, false);
     if (!t)
@@ -431,7 +432,7 @@ static void long_table(void) {
     table.gap.kind = FRET_GAP_TABLE;
     table.gap.table = t;
     fret_normal long_ = make(&table);
-    fret_press p = {0, 0, 0};
+    fret_press p = {.F = 0};
     CHECK_OK(fret_press_force(&long_, (double)at.F, &p));
     CHECK_REL(p.a, at.a, 1e-6L);
     CHECK_REL(p.dz, at.dz, 1e-6L);
