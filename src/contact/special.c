@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "special.h"
 
-#include <gsl/gsl_integration.h>
 #include <stdlib.h>
 
 #include "dd.h"
@@ -63,36 +62,38 @@ fret_moments fret_power_moments(fret_real pm1, fret_real x) {
     return (fret_moments){x * y - em, (m2 + p * x * x * y) / 2, m1, x * m1 - m2};
 }
 
-/* GSL's nodes are good to 1e-15; Newton on the recurrence gives the guard digits. */
+/* Newton on the recurrence in v = (1-z)/2, so that the node at the edge keeps its digits as it goes to 0 with
+ * alpha+1. It starts from the asymptotic places z = cos(theta), equally spaced in theta; basic arithmetic
+ * turns from one to the next, and gives the same nodes with every mathematical library. */
 fret_status fret_rule_make(fret_real k, fret_rule *rule) {
     enum { N = FRET_RULE };
-    fret_real alpha = (k - 1) / 2, total = 1 / (alpha + 1), others = 0;
-    gsl_integration_fixed_workspace *ws =
-        gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, N, -1, 1, (double)alpha, 0);
-    if (!ws)
-        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    const double *z0 = gsl_integration_fixed_nodes(ws);
+    fret_real alpha = (k - 1) / 2, alpha1 = (k + 1) / 2, total = 1 / alpha1, others = 0;
+    fret_real turn = PI_L / (N + alpha1 / 2), first = (0.25L + alpha1 / 2) * turn;
+    fret_real ct = 1 - turn * turn / 2, st = turn * (1 - turn * turn / 6);
+    fret_real cosine = 1 - first * first / 2, sine = first * (1 - first * first / 6);
     rule->k = k;
     for (int i = 0; i < N; i++) {
-        fret_real z = z0[i], slope = 1;
-        for (int pass = 0; pass < 4; pass++) {
-            fret_real p0 = 1, p1 = (alpha + (alpha + 2) * z) / 2;
+        fret_real v = i == 0 ? alpha1 / (N * (N + alpha1)) : (1 - cosine) / 2, slope = 1;
+        for (int pass = 0; pass < 6; pass++) {
+            fret_real p0 = 1, p1 = alpha1 - (alpha + 2) * v;
             for (int n = 2; n <= N; n++) {
                 fret_real c = 2 * n + alpha;
-                fret_real p2 = ((c - 1) * (c * (c - 2) * z + alpha * alpha) * p1 -
-                                2 * (n + alpha - 1) * (n - 1) * c * p0) /
+                fret_real p2 = ((c - 1) * (c * (c - 2) * (1 - 2 * v) + alpha * alpha) * p1 -
+                                2 * (n - 2 + alpha1) * (n - 1) * c * p0) /
                                (2 * n * (n + alpha) * (c - 2));
                 p0 = p1;
                 p1 = p2;
             }
             fret_real c = 2 * N + alpha;
-            slope = (N * (alpha - c * z) * p1 + 2 * (N + alpha) * N * p0) / (c * (1 - z * z));
-            z -= p1 / slope;
+            slope = (N * (alpha - c * (1 - 2 * v)) * p1 + 2 * (N + alpha) * N * p0) / (4 * c);
+            v += p1 * v * (1 - v) / (2 * slope);
         }
-        rule->v[i] = (1 - z) / 2;
-        rule->weight[i] = 1 / ((1 - z * z) * slope * slope);
+        rule->v[i] = v;
+        rule->weight[i] = v * (1 - v) / (4 * slope * slope);
+        fret_real next = cosine * ct - sine * st;
+        sine = sine * ct + cosine * st;
+        cosine = next;
     }
-    gsl_integration_fixed_free(ws);
     /* as alpha -> -1 one node carries nearly all, too near the edge for its own formula */
     int edge = 0;
     for (int i = 1; i < N; i++)

@@ -439,11 +439,34 @@ static void long_table(void) {
     fret_table_free(t);
 }
 
+/* The Gauss-Jacobi rule at every grading, up to the ends: nodes in order, moments up to the degree 2N-1. */
+static void rule(void) {
+    static const double ends[] = {0x1p-53, 0x1p-40, 1e-9, 1e-4, 0.03};
+    for (int i = 0; i <= 10 + 38; i++) {
+        double k = i < 5 ? ends[i] - 1 : i < 10 ? 1 - ends[i - 5] : (i - 10) / 20.0 - 0.9;
+        unit_scene s = unit_make_scene(2, k);
+        s.gap.kind = FRET_GAP_FLAT_PARABOLOID;
+        s.gap.b = 1e-3;
+        s.gap.R = 1e-2;
+        fret_normal n = make(&s);
+        CHECK(n.rule.v[0] > 0 && n.rule.v[FRET_RULE - 1] < 1);
+        for (int j = 1; j < FRET_RULE; j++)
+            CHECK(n.rule.v[j] > n.rule.v[j - 1]);
+        for (int m = 0; m < 2 * FRET_RULE; m++) {
+            fret_real sum = 0;
+            for (int j = 0; j < FRET_RULE; j++)
+                sum += n.rule.weight[j] * powl(n.rule.v[j], m);
+            CHECK_REL(sum, 1 / ((1 + (fret_real)k) / 2 + m), UNIT_TOL(3e-17L, 1e-13L));
+        }
+    }
+}
+
 int main(int argc, char **argv) {
     unit_start("shape", argc, argv);
     reference();
     show_worst();
     engine();
+    rule();
     vanishing_flat();
     one_term();
     limits();
