@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact/special.h" /* before the types of the language, whose names it uses */
+
 #include "calc/expr.h"
 
-#include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -78,31 +79,47 @@ const char *calc_variable_name(const calc *c, size_t i) {
 
 /* ---- elementary functions ---------------------------------------------------------------------- */
 
+/* Every transcendental function of an expression goes through this table or through real_power. */
+
+static long double real_power(long double x, long double y) {
+    return powl(x, y);
+}
+
 static long double real_gamma(long double x) {
     return tgammal(x);
 }
 
+/* Gamma(x) Gamma(y)/Gamma(x+y) without the cancellation of logarithms; 0 below the range of double, where
+ * Gamma itself would be too large. */
+static long double real_beta(long double x, long double y) {
+    long double small = fminl(x, y), large = fmaxl(x, y);
+    return small > 1000 ? 0 : real_gamma(small) / fret_gamma_ratio(large, small);
+}
+
+typedef long double unary(long double);
+typedef long double two_place(long double, long double);
+
 static const struct {
     const char *name;
-    int args;
-    long double (*f)(long double);
+    unary *f;
+    two_place *f2; /* one of both */
     const char *summary;
 } builtins[] = {
-    {"sqrt", 1, sqrtl, "square root; halves the dimension"},
-    {"exp", 1, expl, "exponential"},
-    {"log", 1, logl, "natural logarithm"},
-    {"log10", 1, log10l, "decimal logarithm"},
-    {"sin", 1, sinl, "sine of an angle"},
-    {"cos", 1, cosl, "cosine of an angle"},
-    {"tan", 1, tanl, "tangent of an angle"},
-    {"asin", 1, asinl, "arc sine"},
-    {"acos", 1, acosl, "arc cosine"},
-    {"atan", 1, atanl, "arc tangent"},
-    {"abs", 1, fabsl, "magnitude; keeps the dimension"},
-    {"gamma", 1, real_gamma, "gamma function"},
-    {"min", 2, NULL, "the smaller of two"},
-    {"max", 2, NULL, "the larger of two"},
-    {"beta", 2, NULL, "beta function B(x,y), x, y > 0"},
+    {"sqrt", sqrtl, NULL, "square root; halves the dimension"},
+    {"exp", expl, NULL, "exponential"},
+    {"log", logl, NULL, "natural logarithm"},
+    {"log10", log10l, NULL, "decimal logarithm"},
+    {"sin", sinl, NULL, "sine of an angle"},
+    {"cos", cosl, NULL, "cosine of an angle"},
+    {"tan", tanl, NULL, "tangent of an angle"},
+    {"asin", asinl, NULL, "arc sine"},
+    {"acos", acosl, NULL, "arc cosine"},
+    {"atan", atanl, NULL, "arc tangent"},
+    {"abs", fabsl, NULL, "magnitude; keeps the dimension"},
+    {"gamma", real_gamma, NULL, "gamma function"},
+    {"min", NULL, fminl, "the smaller of two"},
+    {"max", NULL, fmaxl, "the larger of two"},
+    {"beta", NULL, real_beta, "beta function B(x,y), x, y > 0"},
 };
 enum { BUILTINS = sizeof builtins / sizeof *builtins };
 
@@ -178,12 +195,12 @@ static bool unit_factor(lexer *lx, unit *out) {
     out->d.N *= n;
     out->d.m *= n;
     double exp10 = out->exp10 * n;
-    out->factor = out->factor == 1 ? 1 : powl(out->factor, n);
+    out->factor = out->factor == 1 ? 1 : real_power(out->factor, n);
     if (fabs(exp10) < 300 && exp10 == floor(exp10)) {
         out->exp10 = (int)exp10;
     } else {
         out->exp10 = 0;
-        out->factor *= powl(10, exp10);
+        out->factor *= real_power(10, exp10);
     }
     return true;
 }
@@ -283,13 +300,13 @@ static bool parse_name(parser *p, size_t *out) {
         node.kind = N_BUILTIN;
         node.index = i;
         size_t *argument[2] = {&node.left, &node.right};
-        for (int j = 0; j < builtins[i].args; j++) {
+        int args = builtins[i].f2 ? 2 : 1;
+        for (int j = 0; j < args; j++) {
             lex_next(lx);
             if (!parse_sum(p, argument[j]))
                 return false;
-            if (lx->kind != (j + 1 < builtins[i].args ? T_COMMA : T_CLOSE))
-                return lex_fail(lx, "%s takes %d argument%s", builtins[i].name, builtins[i].args,
-                                builtins[i].args > 1 ? "s" : "");
+            if (lx->kind != (j + 1 < args ? T_COMMA : T_CLOSE))
+                return lex_fail(lx, "%s takes %d argument%s", builtins[i].name, args, args > 1 ? "s" : "");
         }
         lex_next(lx);
         return add(p, node, out);
@@ -497,7 +514,7 @@ static bool binary(machine *m, const expr_node *n, value *out) {
             return calc_fail(m->error, r->at, r->len, "the exponent must be a number, not %s (%.*s)", phrase,
                              (int)(r->len < 60 ? r->len : 60), m->e->text + r->at);
         }
-        *out = (value){powl(a.v, b.v), {a.d.N * (double)b.v, a.d.m * (double)b.v}};
+        *out = (value){real_power(a.v, b.v), {a.d.N * (double)b.v, a.d.m * (double)b.v}};
         if (a.v < 0 && b.v != floorl(b.v))
             return bad_value(m, n, "a negative number has no real power %Lg", b.v);
         break;
@@ -512,7 +529,7 @@ static bool builtin(machine *m, const expr_node *n, value *out) {
     if (!strcmp(name, "min") || !strcmp(name, "max")) {
         if (!dim_equal(a.d, b.d))
             return dims_differ(m, n, "compare", l, a.d, "with", r, b.d);
-        *out = (value){!strcmp(name, "min") ? fminl(a.v, b.v) : fmaxl(a.v, b.v), a.d};
+        *out = (value){builtins[n->index].f2(a.v, b.v), a.d};
         return true;
     }
     if (!strcmp(name, "abs") || !strcmp(name, "sqrt")) {
@@ -522,7 +539,7 @@ static bool builtin(machine *m, const expr_node *n, value *out) {
         *out = (value){builtins[n->index].f(a.v), {a.d.N * f, a.d.m * f}};
         return true;
     }
-    for (int j = 0; j < builtins[n->index].args; j++) {
+    for (int j = 0; j < (builtins[n->index].f2 ? 2 : 1); j++) {
         const expr_node *x = j ? r : l;
         dim d = j ? b.d : a.d;
         if (!dim_equal(d, DIM_NONE)) {
@@ -532,13 +549,13 @@ static bool builtin(machine *m, const expr_node *n, value *out) {
                              (int)(x->len < 60 ? x->len : 60), m->e->text + x->at);
         }
     }
-    if (builtins[n->index].f) {
-        *out = (value){builtins[n->index].f(a.v), DIM_NONE};
-    } else {
-        gsl_sf_result result;
-        if (!(a.v > 0 && b.v > 0) || gsl_sf_beta_e((double)a.v, (double)b.v, &result))
+    if (builtins[n->index].f2) {
+        bool fine = a.v > 0 && b.v > 0;
+        *out = (value){fine ? builtins[n->index].f2(a.v, b.v) : 0, DIM_NONE};
+        if ((double)out->v == 0)
             return bad_value(m, n, "beta needs two positive arguments in range");
-        *out = (value){result.val, DIM_NONE};
+    } else {
+        *out = (value){builtins[n->index].f(a.v), DIM_NONE};
     }
     return !isnan(out->v) || bad_value(m, n, "%s is not defined there", name);
 }
