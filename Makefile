@@ -8,7 +8,7 @@ OPT     ?= -O2 -g
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion $(WERROR)
 CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE $(OPT) $(WARN) -ffp-contract=off -MMD -MP \
 	-Iinclude -Isrc -DFRET_VERSION='"$(VERSION)"' $(CFLAGS)
-LIBS_CORE := -lgsl -lgslcblas -lm
+LIBS_CORE := -lm
 LIBS      := $(LIBS_CORE) -lreadline
 
 CORE  := $(wildcard src/contact/*.c)
@@ -32,7 +32,7 @@ $(B)/fret: $(call OBJ,$(PROG)) $(B)/libfret.a
 # written anew each time: PREFIX may have changed
 $(B)/fret.pc: FORCE
 	@mkdir -p $(@D)
-	@printf 'prefix=%s\nName: fret\nDescription: partial-slip contact of power-law graded elastic solids\nVersion: %s\nRequires.private: gsl\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lfret\nLibs.private: %s\n' \
+	@printf 'prefix=%s\nName: fret\nDescription: partial-slip contact of power-law graded elastic solids\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lfret\nLibs.private: %s\n' \
 		'$(PREFIX)' '$(VERSION)' '$(LIBS_CORE)' > $@
 
 $(B)/tests/%: tests/unit/%.c $(B)/libfret.a

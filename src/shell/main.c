@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <getopt.h>
-#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -102,7 +101,6 @@ int main(int argc, char **argv) {
         fprintf(stderr, "error: out of memory\n");
         return EXIT_ERROR;
     }
-    gsl_set_error_handler_off(); /* GSL would abort */
     shell_init(&sh, stdout, stderr);
     int status = EXIT_OK, opt;
     opterr = 0;
