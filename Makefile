@@ -8,11 +8,14 @@ OPT     ?= -O2 -g
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion $(WERROR)
 CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE $(OPT) $(WARN) -ffp-contract=off -MMD -MP \
 	-Iinclude -Isrc -DFRET_VERSION='"$(VERSION)"' $(CFLAGS)
+# READLINE=no: a prompt without editing and history
+READLINE  ?= yes
 LIBS_CORE := -lm
-LIBS      := $(LIBS_CORE) -lreadline
+LIBS      := $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline)
 
 CORE  := $(wildcard src/contact/*.c)
-PROG  := $(wildcard src/calc/*.c src/plot/*.c src/shell/*.c)
+PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c, \
+	$(wildcard src/calc/*.c src/plot/*.c src/shell/*.c))
 UNIT  := $(wildcard tests/unit/test_*.c)
 OBJ    = $(patsubst %.c,$(B)/%.o,$(1))
 TESTS := $(patsubst tests/unit/%.c,$(B)/tests/%,$(UNIT))

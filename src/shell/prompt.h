@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines typed by a user: prompt_readline.c, or prompt_plain.c where readline is not wanted (READLINE=no). */
+#ifndef SHELL_PROMPT_H
+#define SHELL_PROMPT_H
+
+#include "shell/shell.h"
+
+/* Once, before the first line; sh is what completion looks at. */
+void prompt_begin(const shell *sh);
+/* The next line without its end, to be freed; NULL at the end of input and after Ctrl-C (shell_stop). */
+char *prompt_line(const char *text);
+/* Ctrl-C has dropped the line: clears what the editor holds of it. */
+void prompt_dropped(void);
+/* Remembers a line for the user to recall. */
+void prompt_keep(const char *line);
+
+#endif

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines as the terminal gives them: no editing but its own, no history. */
+#include <stdlib.h>
+
+#include "shell/prompt.h"
+
+void prompt_begin(const shell *sh) {
+    (void)sh;
+}
+
+char *prompt_line(const char *text) {
+    char *line = NULL;
+    size_t room = 0;
+    fputs(text, stdout);
+    fflush(stdout);
+    ssize_t n = getline(&line, &room, stdin);
+    if (n < 0) {
+        clearerr(stdin); /* Ctrl-C is no error of the stream */
+        free(line);
+        return NULL;
+    }
+    if (line[n - 1] == '\n')
+        line[n - 1] = 0;
+    return line;
+}
+
+void prompt_dropped(void) {
+}
+
+void prompt_keep(const char *line) {
+    (void)line;
+}
