@@ -42,6 +42,11 @@ $(B)/tests/%: tests/unit/%.c $(B)/libfret.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(B)/libfret.a $(LIBS_CORE)
 
+# One file that depends on nothing, to copy to another machine: with musl, where it is at hand.
+STATIC_CC = $(if $(filter default,$(origin CC)),$(shell command -v musl-gcc || echo $(CC)),$(CC))
+static:
+	@$(MAKE) --no-print-directory B=$(B)/static CC='$(STATIC_CC)' READLINE=no LDFLAGS='-static -s $(LDFLAGS)' $(B)/static/fret
+
 tests: $(TESTS)
 
 deps:
@@ -76,5 +81,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: all tests deps deps-check run check bench format install clean FORCE
+.PHONY: all static tests deps deps-check run check bench format install clean FORCE
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
