@@ -38,6 +38,20 @@ static int bad_usage(const char *what, const char *word) {
     return EXIT_USAGE;
 }
 
+/* The option getopt stopped at: C libraries differ in where argv stands then. */
+static const char *option_word(const struct option *o, char **argv) {
+    static char word[32];
+    while (o->name && o->val != optopt)
+        o++;
+    if (!optopt)
+        return argv[optind - 1];
+    if (o->name)
+        snprintf(word, sizeof word, "--%s", o->name);
+    else
+        snprintf(word, sizeof word, "-%c", optopt);
+    return word;
+}
+
 /* A lost write is an error. */
 static int finish(shell *sh, int status) {
     errno = 0;
@@ -101,6 +115,9 @@ int main(int argc, char **argv) {
         fprintf(stderr, "error: out of memory\n");
         return EXIT_ERROR;
     }
+    static char buffer[1 << 16];
+    if (!isatty(STDOUT_FILENO)) /* musl writes the first line early: an error is forgotten by the end */
+        setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     shell_init(&sh, stdout, stderr);
     int status = EXIT_OK, opt;
     opterr = 0;
@@ -150,10 +167,10 @@ int main(int argc, char **argv) {
             ran = true;
             break;
         case ':':
-            status = bad_usage("an argument is missing after", argv[optind - 1]);
+            status = bad_usage("an argument is missing after", option_word(options, argv));
             break;
         default:
-            status = bad_usage("unknown option", argv[optind - 1]);
+            status = bad_usage("unknown option", option_word(options, argv));
             break;
         }
         if (ran)
