@@ -21,6 +21,7 @@ typedef struct table {
     FILE *to;
     size_t count;
     column columns[COLUMNS];
+    int width[COLUMNS]; /* of text */
 } table;
 
 void table_begin(table *t);
