@@ -38,36 +38,67 @@ void calc_free(calc *c) {
     for (size_t i = 0; i < c->variable_count; i++)
         free(c->variables[i].name);
     free(c->variables);
+    free(c->slots);
     expr_free(&c->scratch);
     scene_free(&c->scene);
     c->variables = NULL;
-    c->variable_count = 0;
+    c->slots = NULL;
+    c->variable_count = c->variable_room = 0;
 }
 
 static bool is_word(const char *a, const char *word, size_t len) {
     return strlen(a) == len && !memcmp(a, word, len);
 }
 
-static bool find_variable(const calc *c, const char *name, size_t len, size_t *index) {
-    for (*index = 0; *index < c->variable_count; ++*index)
-        if (is_word(c->variables[*index].name, name, len))
-            return true;
-    return false;
+/* The place of a name among the slots: its own, or the free one where it belongs. */
+static size_t *slot_of(const calc *c, const char *name, size_t len) {
+    size_t hash = 0, mask = 2 * c->variable_room - 1; /* a power of two */
+    for (size_t i = 0; i < len; i++)
+        hash = 31 * hash + (unsigned char)name[i];
+    for (hash ^= hash >> 15;; hash++) {
+        size_t *slot = &c->slots[hash & mask];
+        if (!*slot || is_word(c->variables[*slot - 1].name, name, len))
+            return slot;
+    }
+}
+
+bool calc_find_variable(const calc *c, const char *name, size_t len, size_t *index) {
+    size_t slot = c->variable_count ? *slot_of(c, name, len) : 0;
+    *index = slot - 1;
+    return slot > 0;
+}
+
+/* Room for twice as many, at least 16. */
+static bool more_variables(calc *c) {
+    size_t room = c->variable_room ? 2 * c->variable_room : 16;
+    variable *grown = realloc(c->variables, room * sizeof *grown);
+    if (!grown)
+        return false;
+    c->variables = grown;
+    size_t *slots = calloc(2 * room, sizeof *slots);
+    if (!slots)
+        return false;
+    free(c->slots);
+    c->slots = slots;
+    c->variable_room = room;
+    for (size_t i = 0; i < c->variable_count; i++)
+        *slot_of(c, c->variables[i].name, strlen(c->variables[i].name)) = i + 1;
+    return true;
 }
 
 bool calc_set_variable(calc *c, const char *name, size_t len, value v) {
     size_t i;
-    if (!find_variable(c, name, len, &i)) {
-        variable *grown = realloc(c->variables, (c->variable_count + 1) * sizeof *grown);
-        if (!grown)
+    if (!calc_find_variable(c, name, len, &i)) {
+        if (c->variable_count == c->variable_room && !more_variables(c))
             return false;
-        c->variables = grown;
         char *copy = malloc(len + 1);
         if (!copy)
             return false;
         memcpy(copy, name, len);
         copy[len] = 0;
-        c->variables[c->variable_count++].name = copy;
+        i = c->variable_count++;
+        c->variables[i].name = copy;
+        *slot_of(c, name, len) = i + 1;
     }
     c->variables[i].v = v;
     return true;
@@ -127,6 +158,12 @@ const char *builtin_name(size_t i) {
     return i < BUILTINS ? builtins[i].name : i == BUILTINS ? "pi" : NULL;
 }
 
+/* BUILTINS stands for pi. */
+static bool find_builtin(const char *name, size_t len, size_t *i) {
+    static word_index words = {.name = builtin_name};
+    return word_find(&words, name, len, i);
+}
+
 const char *builtin_summary(size_t i) {
     return i < BUILTINS ? builtins[i].summary : "3.14159...";
 }
@@ -137,10 +174,8 @@ const char *name_taken(const char *name, size_t len) {
         return "a quantity";
     if (unit_lookup(name, len, &u))
         return "a unit";
-    for (size_t i = 0; i <= BUILTINS; i++)
-        if (is_word(builtin_name(i), name, len))
-            return i == BUILTINS ? "a constant" : "a function";
-    return NULL;
+    size_t i;
+    return find_builtin(name, len, &i) ? i == BUILTINS ? "a constant" : "a function" : NULL;
 }
 
 /* ---- parser ------------------------------------------------------------------------------------ */
@@ -291,9 +326,9 @@ static bool parse_name(parser *p, size_t *out) {
     }
     if (node.q)
         return lex_fail(lx, "%s is not a function", node.q->name);
-    for (size_t i = 0; i < BUILTINS; i++) {
-        if (!is_word(builtins[i].name, word, len))
-            continue;
+    size_t i;
+    bool own = find_builtin(word, len, &i);
+    if (own && i < BUILTINS) {
         lex_next(lx);
         if (lx->kind != T_OPEN)
             return lex_fail(lx, "expected ( after %s", builtins[i].name);
@@ -311,13 +346,13 @@ static bool parse_name(parser *p, size_t *out) {
         lex_next(lx);
         return add(p, node, out);
     }
-    if (is_word("pi", word, len)) {
+    if (own) {
         node.kind = N_NUMBER;
         node.v = (value){3.14159265358979323846264338327950288L, DIM_NONE};
         lex_next(lx);
         return add(p, node, out);
     }
-    if (find_variable(p->c, word, len, &node.index)) {
+    if (calc_find_variable(p->c, word, len, &node.index)) {
         node.kind = N_VARIABLE;
         lex_next(lx);
         return add(p, node, out);

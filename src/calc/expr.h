@@ -23,7 +23,8 @@ typedef struct expr {
 typedef struct calc {
     scene scene;
     variable *variables;
-    size_t variable_count;
+    size_t variable_count, variable_room;
+    size_t *slots; /* hashed by name: 1 + index, or 0 */
     /* free names of a sweep, seen before everything else */
     const char *sweep_name[2];
     value sweep_value[2];
@@ -32,6 +33,7 @@ typedef struct calc {
 
 void calc_free(calc *c);
 bool calc_set_variable(calc *c, const char *name, size_t len, value v);
+bool calc_find_variable(const calc *c, const char *name, size_t len, size_t *index);
 /* i-th user variable's name, or NULL. */
 const char *calc_variable_name(const calc *c, size_t i);
 

@@ -526,11 +526,9 @@ const char *quantity_name(size_t i) {
 }
 
 const quantity *quantity_find(const char *name, size_t len) {
-    for (size_t i = 0; i < QUANTITIES; i++)
-        if (quantities[i].name[0] == name[0] && strlen(quantities[i].name) == len &&
-            !memcmp(quantities[i].name, name, len))
-            return &quantities[i];
-    return NULL;
+    static word_index words = {.name = quantity_name};
+    size_t row;
+    return word_find(&words, name, len, &row) ? &quantities[row] : NULL;
 }
 
 dim quantity_dim(const quantity *q, const scene *s) {

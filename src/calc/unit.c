@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "unit.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -66,6 +67,31 @@ bool unit_lookup(const char *word, size_t len, unit *out) {
                 out->exp10 += prefixes[j].exp10;
                 return true;
             }
+        }
+    }
+    return false;
+}
+
+static size_t word_slot(const word_index *x, const char *word, size_t len) {
+    return ((unsigned char)word[0] * 5U + (unsigned char)word[len - 1] * 3U + len) % sizeof x->first;
+}
+
+bool word_find(word_index *x, const char *word, size_t len, size_t *row) {
+    const char *name;
+    if (len == 0)
+        return false;
+    for (size_t i = 0; !x->made && (name = x->name(i)); i++) {
+        assert(i < WORDS);
+        unsigned char *first = &x->first[word_slot(x, name, strlen(name))];
+        x->next[i] = *first;
+        *first = (unsigned char)(i + 1);
+    }
+    x->made = true;
+    for (size_t i = x->first[word_slot(x, word, len)]; i; i = x->next[i - 1]) {
+        name = x->name(i - 1);
+        if (!strncmp(name, word, len) && !name[len]) {
+            *row = i - 1;
+            return true;
         }
     }
     return false;
@@ -156,10 +182,17 @@ static const struct {
 };
 enum { NAMED = sizeof named / sizeof *named };
 
+/* snprintf would do, in 40 ns */
+static void put_text(const char *text, char *buf, size_t size) {
+    size_t n = strlen(text) < size ? strlen(text) : size - 1;
+    memcpy(buf, text, n);
+    buf[n] = 0;
+}
+
 void dim_unit(dim d, char *buf, size_t size) {
     for (size_t i = 0; i < NAMED; i++)
         if (dim_equal(d, named[i].d)) {
-            snprintf(buf, size, "%s", named[i].unit);
+            put_text(named[i].unit, buf, size);
             return;
         }
     char N[40] = "", m[40] = "";
@@ -174,7 +207,7 @@ void dim_unit(dim d, char *buf, size_t size) {
 void dim_describe(dim d, char *buf, size_t size) {
     for (size_t i = 0; i < NAMED; i++)
         if (dim_equal(d, named[i].d)) {
-            snprintf(buf, size, "%s", named[i].phrase);
+            put_text(named[i].phrase, buf, size);
             return;
         }
     char unit_text[96];
@@ -195,14 +228,16 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
     if (i == NAMED || !named[i].prefixes || value == 0 || !isfinite(value))
         return 1;
     /* what prints as 1000 belongs to the next prefix */
-    long double edge = 1 - 0.5L * powl(10, 1 - digits) / 10;
+    static const long double half[] = {0.5L,   5e-2L,  5e-3L,  5e-4L,  5e-5L,  5e-6L,
+                                       5e-7L,  5e-8L,  5e-9L,  5e-10L, 5e-11L, 5e-12L,
+                                       5e-13L, 5e-14L, 5e-15L, 5e-16L, 5e-17L, 5e-18L};
+    long double edge = 1 - half[digits];
     size_t j = 0;
     while (j < STEPS && fabsl(value) < steps[j].scale * edge)
         j++;
     if (j == STEPS || fabsl(value) >= 1e12L)
         return 1;
-    char base[96];
-    snprintf(base, sizeof base, "%s", buf);
-    snprintf(buf, size, "%s%s", steps[j].name, base);
+    put_text(steps[j].name, buf, size);
+    put_text(named[i].unit, buf + strlen(buf), size - strlen(buf));
     return steps[j].scale;
 }

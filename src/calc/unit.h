@@ -48,6 +48,16 @@ const char *unit_name(size_t i);
 const char *unit_meaning(size_t i);
 bool unit_prefixed(size_t i);
 
+/* Finds a word in a table of names, name(0), name(1), ... until NULL. The index over them is made at the
+ * first search; start it as {.name = name}. */
+enum { WORDS = 128 }; /* most names of a table */
+typedef struct word_index {
+    const char *(*name)(size_t i);
+    bool made;
+    unsigned char first[64], next[WORDS]; /* chains of rows + 1, ended by 0 */
+} word_index;
+bool word_find(word_index *x, const char *word, size_t len, size_t *row);
+
 /* Nearest of count names to word within a third of its length, or NULL. name(i) lists them. */
 const char *suggest(const char *word, const char *(*name)(size_t i));
 

@@ -174,11 +174,9 @@ const char *command_name(size_t i) {
 }
 
 const command *command_find(const char *name, size_t len) {
-    for (size_t i = 0; i < COMMANDS; i++)
-        if (commands[i].name[0] == name[0] && strlen(commands[i].name) == len &&
-            !memcmp(commands[i].name, name, len))
-            return &commands[i];
-    return NULL;
+    static word_index words = {.name = command_name};
+    size_t row;
+    return word_find(&words, name, len, &row) ? &commands[row] : NULL;
 }
 
 /* ---- help -------------------------------------------------------------------------------------- */

@@ -104,7 +104,9 @@ void print_json_string(FILE *to, const char *text) {
 void format_value(const shell *sh, value v, char *buf, size_t size) {
     char unit_text[COLUMN_UNIT];
     long double scale = unit_choose(v.d, v.v, sh->set.digits, unit_text, sizeof unit_text);
-    snprintf(buf, size, "%.*g%s%s", sh->set.digits, (double)(v.v / scale), *unit_text ? " " : "", unit_text);
+    char number[NUMBER];
+    number_text(number, sh->set.digits, (double)(v.v / scale));
+    snprintf(buf, size, "%s%s%s", number, *unit_text ? " " : "", unit_text);
 }
 
 /* JSON has no infinities; results never are, but a table may hold gaps. */

@@ -244,17 +244,15 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
             return run_command(sh, &lx, c);
         if (at_argument(&lx))
             return assign(sh, &lx);
-        unit u;
+        size_t i;
         /* a misspelt command followed by its arguments */
-        if (!c && !name_taken(lx.text + lx.at, lx.len) && !unit_lookup(lx.text + lx.at, lx.len, &u)) {
+        if (!c && !calc_find_variable(&sh->calc, lx.text + lx.at, lx.len, &i) &&
+            !name_taken(lx.text + lx.at, lx.len)) {
             char word[64];
             snprintf(word, sizeof word, "%.*s", (int)(lx.len < 60 ? lx.len : 60), lx.text + lx.at);
             token_kind after = lex_peek(&lx);
             const char *near = suggest(word, command_name);
-            bool variable_known = false;
-            for (size_t i = 0; calc_variable_name(&sh->calc, i); i++)
-                variable_known = variable_known || !strcmp(calc_variable_name(&sh->calc, i), word);
-            if (!variable_known && (after == T_NAME || after == T_NUMBER || after == T_END) && near &&
+            if ((after == T_NAME || after == T_NUMBER || after == T_END) && near &&
                 !(after == T_END && suggest(word, quantity_name)))
                 return lex_fail(&lx, "unknown command '%s': did you mean %s?", word, near);
         }
