@@ -271,13 +271,26 @@ void scene_roll_back(scene *s) {
     s->normal_varies = s->mark_varies;
 }
 
+/* To slide to a displacement at constant F_N is always possible: such a step waits until a result is asked.
+ */
+static bool can_wait(const scene *s, const load_step *step) {
+    return s->memory && step->kind == LOAD_STEP && !step->normal && step->tangential == BY_DISPLACEMENT &&
+           !step->relative;
+}
+
 bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
     if (step->kind == LOAD_PRESS)
         return start_program(s, step, error);
     if (!s->steps)
         return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
     double mu;
-    if (!scene_friction(s, &mu, error) || !catch_up(s, error) || !store(s, step, extra, error))
+    if (!scene_friction(s, &mu, error))
+        return false;
+    if (can_wait(s, step)) {
+        s->state_ready = false;
+        return store(s, step, extra, error);
+    }
+    if (!catch_up(s, error) || !store(s, step, extra, error))
         return false;
     /* a single step leaves memory as it was when it fails; a cycle works on a copy */
     if (extra && !keep_spare(s, mu, error)) {
