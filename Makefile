@@ -17,6 +17,7 @@ CORE  := $(wildcard src/contact/*.c)
 PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c, \
 	$(wildcard src/calc/*.c src/plot/*.c src/shell/*.c))
 UNIT  := $(wildcard tests/unit/test_*.c)
+HARD  := $(wildcard tests/hard/*.c)
 OBJ    = $(patsubst %.c,$(B)/%.o,$(1))
 TESTS := $(patsubst tests/unit/%.c,$(B)/tests/%,$(UNIT))
 
@@ -47,7 +48,10 @@ STATIC_CC = $(if $(filter default,$(origin CC)),$(shell command -v musl-gcc || e
 static:
 	@$(MAKE) --no-print-directory B=$(B)/static CC='$(STATIC_CC)' READLINE=no LDFLAGS='-static -s $(LDFLAGS)' $(B)/static/fret
 
-tests: $(TESTS)
+$(B)/tests/hard/hard: $(call OBJ,$(HARD)) $(B)/libfret.a
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ -lmpfr -lgmp $(LIBS_CORE)
+
+tests: $(TESTS) $(B)/tests/hard/hard
 
 deps:
 	@sh scripts/install-deps run

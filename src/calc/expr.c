@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "contact/special.h" /* before the types of the language, whose names it uses */
+#include "contact/dd.h"
 
 #include "calc/expr.h"
 
@@ -110,21 +110,22 @@ const char *calc_variable_name(const calc *c, size_t i) {
 
 /* ---- elementary functions ---------------------------------------------------------------------- */
 
-/* Every transcendental function of an expression goes through this table or through real_power. */
+/* Functions with the same digits under every mathematical library. */
 
-static long double real_power(long double x, long double y) {
-    return powl(x, y);
+static long double real_tan(long double x) {
+    return fret_sin(x) / fret_cos(x);
 }
 
-static long double real_gamma(long double x) {
-    return tgammal(x);
+static long double real_atan(long double x) {
+    return fret_atan2(x, 1);
 }
 
-/* Gamma(x) Gamma(y)/Gamma(x+y) without the cancellation of logarithms; 0 below the range of double, where
- * Gamma itself would be too large. */
-static long double real_beta(long double x, long double y) {
-    long double small = fminl(x, y), large = fmaxl(x, y);
-    return small > 1000 ? 0 : real_gamma(small) / fret_gamma_ratio(large, small);
+static long double real_asin(long double x) {
+    return fret_atan2(x, sqrtl((1 - x) * (1 + x)));
+}
+
+static long double real_acos(long double x) {
+    return fret_atan2(sqrtl((1 - x) * (1 + x)), x);
 }
 
 typedef long double unary(long double);
@@ -137,20 +138,20 @@ static const struct {
     const char *summary;
 } builtins[] = {
     {"sqrt", sqrtl, NULL, "square root; halves the dimension"},
-    {"exp", expl, NULL, "exponential"},
-    {"log", logl, NULL, "natural logarithm"},
-    {"log10", log10l, NULL, "decimal logarithm"},
-    {"sin", sinl, NULL, "sine of an angle"},
-    {"cos", cosl, NULL, "cosine of an angle"},
-    {"tan", tanl, NULL, "tangent of an angle"},
-    {"asin", asinl, NULL, "arc sine"},
-    {"acos", acosl, NULL, "arc cosine"},
-    {"atan", atanl, NULL, "arc tangent"},
+    {"exp", fret_exp, NULL, "exponential"},
+    {"log", fret_log, NULL, "natural logarithm"},
+    {"log10", fret_log10, NULL, "decimal logarithm"},
+    {"sin", fret_sin, NULL, "sine of an angle"},
+    {"cos", fret_cos, NULL, "cosine of an angle"},
+    {"tan", real_tan, NULL, "tangent of an angle"},
+    {"asin", real_asin, NULL, "arc sine"},
+    {"acos", real_acos, NULL, "arc cosine"},
+    {"atan", real_atan, NULL, "arc tangent"},
     {"abs", fabsl, NULL, "magnitude; keeps the dimension"},
-    {"gamma", real_gamma, NULL, "gamma function"},
+    {"gamma", fret_gamma, NULL, "gamma function"},
     {"min", NULL, fminl, "the smaller of two"},
     {"max", NULL, fmaxl, "the larger of two"},
-    {"beta", NULL, real_beta, "beta function B(x,y), x, y > 0"},
+    {"beta", NULL, fret_beta, "beta function B(x,y), x, y > 0"},
 };
 enum { BUILTINS = sizeof builtins / sizeof *builtins };
 
@@ -230,12 +231,12 @@ static bool unit_factor(lexer *lx, unit *out) {
     out->d.N *= n;
     out->d.m *= n;
     double exp10 = out->exp10 * n;
-    out->factor = out->factor == 1 ? 1 : real_power(out->factor, n);
+    out->factor = out->factor == 1 ? 1 : fret_pow(out->factor, n);
     if (fabs(exp10) < 300 && exp10 == floor(exp10)) {
         out->exp10 = (int)exp10;
     } else {
         out->exp10 = 0;
-        out->factor *= real_power(10, exp10);
+        out->factor *= fret_pow(10, exp10);
     }
     return true;
 }
@@ -549,7 +550,7 @@ static bool binary(machine *m, const expr_node *n, value *out) {
             return calc_fail(m->error, r->at, r->len, "the exponent must be a number, not %s (%.*s)", phrase,
                              (int)(r->len < 60 ? r->len : 60), m->e->text + r->at);
         }
-        *out = (value){real_power(a.v, b.v), {a.d.N * (double)b.v, a.d.m * (double)b.v}};
+        *out = (value){fret_pow(a.v, b.v), {a.d.N * (double)b.v, a.d.m * (double)b.v}};
         if (a.v < 0 && b.v != floorl(b.v))
             return bad_value(m, n, "a negative number has no real power %Lg", b.v);
         break;

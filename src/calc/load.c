@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "calc/scene.h"
+#include "contact/dd.h"
 
 static bool friction_for_program(const scene *s, double *mu, calc_error *error) {
     /* a press alone can be shown without friction */
@@ -87,8 +88,8 @@ static fret_status period(runner *r, const load_step *c, const cycle_extra *x, l
     r->chords = true;
     for (unsigned i = 1; i <= chords && !st.code; i++) {
         double angle = 2 * pi * i / chords; /* from the top of F_x */
-        step.tangential = i == chords ? c->tangential_value : c->tangential_value * cos(angle);
-        step.normal = (double)(FN + c->normal_value * cos(angle + x->phase));
+        step.tangential = i == chords ? c->tangential_value : c->tangential_value * (double)fret_cos(angle);
+        step.normal = (double)(FN + c->normal_value * fret_cos(angle + x->phase));
         st = take(r, &step, 1);
         if (r->s->stop && *r->s->stop && !st.code)
             st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
@@ -105,7 +106,7 @@ static fret_status run_cycle(runner *r, const load_step *c, const cycle_extra *x
                        c->tangential_value};
     if (c->normal_value != 0) {
         first.normal_by = FRET_TO_FORCE;
-        first.normal = (double)(FN + c->normal_value * cos(x->phase));
+        first.normal = (double)(FN + c->normal_value * fret_cos(x->phase));
     }
     fret_status st = take(r, &first, r->points);
     for (unsigned i = 0; i < x->times && !st.code; i++) {

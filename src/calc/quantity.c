@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "calc/quantity.h"
+#include "contact/dd.h"
 
 #include <math.h>
 #include <string.h>
@@ -228,7 +229,7 @@ static bool call_E(scene *s, value z, long double *out, calc_error *error) {
         return false;
     if (z.v < 0)
         return calc_fail(error, 0, 0, "E(z) is defined for z >= 0");
-    *out = E0 * powl(z.v / c0, k);
+    *out = E0 * fret_pow(z.v / c0, k);
     return true;
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "calc/scene.h"
+#include "contact/dd.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -226,7 +227,7 @@ bool scene_get(const scene *s, input in, long double *out, calc_error *error) {
     case IN_A:
         if (!here && s->geometry && s->geometry->kind == FRET_GAP_POWER) {
             fret_gap gap = gap_of(s);
-            *out = gap.power[0].h * powl(gap.power[0].r0, -(long double)gap.power[0].n);
+            *out = gap.power[0].h * fret_ratio_pow(1, gap.power[0].r0, gap.power[0].n);
             return true;
         }
         break;

@@ -7,7 +7,7 @@
 #include "special.h"
 
 /* t, its complement s = 1-t to full relative accuracy (near gross slip the rounding of the product mu F_N
- * matters), and ln s. */
+ * matters), and ln s, which stays finite where s itself is too small for a double. */
 typedef struct fraction {
     dd t, s, l;
 } fraction;
@@ -31,14 +31,20 @@ static fraction fraction_of(double mu, const fret_press *press, double F) {
     return fraction_from(dd_div(dd_of(F), limit), s);
 }
 
+static bool gross(const fraction *f) {
+    return isinf(f->l.hi);
+}
+
 /* 1-exp(power ln s), and exp(power ln s) */
 static fret_real lost(const fraction *f, dd power) {
-    return f->s.hi <= 0     ? 1
-           : f->t.hi < tiny ? dd_value(power) * dd_value(f->t)
-                            : -dd_value(dd_expm1(dd_mul(power, f->l)));
+    if (gross(f))
+        return 1;
+    if (f->t.hi < tiny)
+        return dd_value(power) * dd_value(f->t);
+    return -dd_value(dd_expm1(dd_mul(power, f->l)));
 }
 static fret_real kept(const fraction *f, dd power) {
-    return f->s.hi <= 0 ? 0 : dd_exp_real(dd_mul(power, f->l));
+    return gross(f) ? 0 : dd_exp_real(dd_mul(power, f->l));
 }
 
 fret_real fret_gross_slip(const fret_normal *normal, double mu, const fret_press *press) {
@@ -117,7 +123,7 @@ static fret_real loss_shape(dd q_wide, dd r_wide, const fraction *f) {
     const fret_real q = dd_value(q_wide), r = dd_value(r_wide), t = dd_value(f->t), s = dd_value(f->s);
     if (t <= 0)
         return 0;
-    if (s <= 0)
+    if (gross(f))
         return 4 * r / (1 + q);
     fret_real l = -dd_value(f->l);
     if (l < 3.5L) {

@@ -231,6 +231,11 @@ fret_real fret_log(fret_real x) {
     return log_of(x, 0);
 }
 
+fret_real fret_log10(fret_real x) {
+    static const dd ln_10 = {0x1.26bb1bbb55516p+1, -0x1.f48ad494ea3e9p-53};
+    return x > 0 && isfinite(x) ? dd_value(dd_div(dd_log_real(x), ln_10)) : fret_log(x);
+}
+
 fret_real fret_log1p(fret_real x) {
     if (fabsl(x) < 0.0078L)
         return log_short(x / (2 + x));
@@ -321,4 +326,12 @@ fret_real fret_gamma(fret_real x) {
     dd one = dd_from(x);
     dd_scaled q = dd_gamma_quotient(&one, 1, NULL, 0);
     return dd_exp_real(q.log) * dd_value(q.factor);
+}
+
+/* Gamma(x) = Gamma(1+x)/x keeps small arguments away from the pole. */
+fret_real fret_beta(fret_real x, fret_real y) {
+    dd a = dd_from(x), b = dd_from(y), c = dd_add(a, b);
+    const dd over[] = {dd_add_d(a, 1), dd_add_d(b, 1)}, under[] = {dd_add_d(c, 1)};
+    dd_scaled q = dd_gamma_quotient(over, 2, under, 1);
+    return dd_exp_real(q.log) * dd_value(q.factor) * (x + y) / x / y;
 }

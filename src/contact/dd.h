@@ -121,6 +121,7 @@ fret_real dd_exp_real(dd x);
 fret_real fret_exp(fret_real x);
 fret_real fret_expm1(fret_real x);
 fret_real fret_log(fret_real x);
+fret_real fret_log10(fret_real x);
 fret_real fret_log1p(fret_real x);
 fret_real fret_pow(fret_real x, fret_real y);                     /* x >= 0, or y whole */
 fret_real fret_ratio_pow(fret_real x, fret_real x0, fret_real y); /* (x/x0)^y for large y too; x, x0 > 0 */
@@ -128,6 +129,7 @@ fret_real fret_sin(fret_real x);
 fret_real fret_cos(fret_real x);
 fret_real fret_atan2(fret_real y, fret_real x);
 fret_real fret_gamma(fret_real x);
+fret_real fret_beta(fret_real x, fret_real y); /* x, y > 0 */
 
 extern const dd dd_pi;
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "calc/csv.h"
+#include "contact/dd.h"
 #include "shell/command.h"
 #include "shell/output.h"
 
@@ -271,7 +272,7 @@ bool do_geometry(shell *sh, lexer *lx) {
                 return false;
             if (!(a.v.v > 0 && a.v.v < 1.5707963267948966 /* 90 deg as a double */))
                 return calc_fail(lx->error, a.value_at, a.value_len, "angle must lie between 0 and 90 deg");
-            put(&e, IN_SLOPE, tanl(a.v.v));
+            put(&e, IN_SLOPE, fret_sin(a.v.v) / fret_cos(a.v.v));
             continue;
         }
         bool takes =

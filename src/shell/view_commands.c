@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "contact/dd.h"
 #include "plot/plot.h"
 #include "shell/command.h"
 #include "shell/output.h"
@@ -188,7 +189,7 @@ static long double sweep_at(const sweep *s, unsigned i) {
     if (i == s->steps)
         return s->hi;
     long double t = (long double)i / s->steps;
-    return s->log ? s->lo * powl(s->hi / s->lo, t) : s->lo + (s->hi - s->lo) * t;
+    return s->log ? s->lo * fret_pow(s->hi / s->lo, t) : s->lo + (s->hi - s->lo) * t;
 }
 
 static bool place(shell *sh, scene *s, const axis *a, int slot, long double v, calc_error *error) {
