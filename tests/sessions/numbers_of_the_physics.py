@@ -4,6 +4,8 @@ afresh (Mathematics 2022, 10, 3641), quadrature of the definitions, and a plain 
 import functools
 import json
 import math
+import os
+from fractions import Fraction
 from math import gamma, pi
 
 # One sphere R = 10 mm, E0 = 210 GPa, nu = 0.3, c0 = 1 mm, mu = 0.4, FN = 100 N, Fx = FA = 20 N.
@@ -90,6 +92,33 @@ def published(tests):
     for phase, want in ((0, 2.7816e-7), (90, 1.3548e-6)):
         got = values(tests, spheres + "cycle FA=12 N FNA=30 N phase=%d deg times 2 steps 80; dW" % phase)
         close(tests, "two spheres, swinging normal force, phase %d: dW" % phase, want, got.get("dW"), 1e-3)
+
+
+def corners(tests):
+    """The corners of the domain, through the language: every scalar within one unit in the last place."""
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../reference/corners.csv")
+    with open(path, encoding="ascii") as f:
+        rows = [line.rstrip("\n").split(",") for line in f if not line.startswith("#")]
+    script = []
+    for row in rows:
+        E1, nu1, _, E2, nu2, rigid2, k, c0, n, h, r0, mu, FN, Fx, dz, a, dx = row[:17]
+        second = "rigid" if rigid2 == "1" else "E0=%s Pa nu=%s" % (E2, nu2)
+        script.append("reset all; material E0=%s Pa nu=%s k=%s c0=%s m; second %s; geometry power n=%s h=%s m r0=%s m"
+                      % (E1, nu1, k, c0, second, n, h, r0))
+        script.append("friction %s; press FN=%s N; hN, hT, beta_k, cN, cT, eta, kappa, a, dz, kn, dxmax" % (mu, FN))
+        script.append("dW(%s N); step Fx=%s N; dx, c" % (Fx, Fx))
+        script.append("press dz=%s m; a, FN; press a=%s m; dz, FN" % (dz, a))
+    done = tests.run("--format=json", input="\n".join(script) + "\n")
+    got = [json.loads(line) for line in done.stdout.splitlines()]
+    got = [line for line in got if "name" in line]
+    per_row, columns = 18, (0, 1, 2, 6, 7, 8, 9, 10, 11, 12, 17, 21, 18, 19, 13, 14, 15, 16)
+    tests.check("corners: all are answered", len(got) == per_row * len(rows), tests.report(done))
+    for i, row in enumerate(rows):
+        for j, column in enumerate(columns):
+            line, want = got[per_row * i + j], row[17 + column]
+            error = abs(Fraction(line["value"]) - Fraction(want)) / Fraction(math.ulp(float(want)))
+            tests.check("corners, row %d: %s" % (i + 3, line["name"]), error <= 1,
+                        "%r, exact %s, %.3g units in the last place" % (line["value"], want, error))
 
 
 def material(tests):
@@ -211,4 +240,4 @@ def histories(tests):
 
 
 def run(tests):
-    tests.each([lambda: published(tests), lambda: material(tests), lambda: shapes(tests), lambda: histories(tests)])
+    tests.each([lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests), lambda: histories(tests)])
