@@ -32,28 +32,37 @@ def make(*args):
     return done.returncode == 0
 
 
-def unit(tests):
-    """Each program ends with `NAME: N passed, N failed`."""
-    def one(name):
-        try:
-            done = subprocess.run([os.path.join(tests.build, "tests", name)], cwd=harness.ROOT, capture_output=True,
-                                  text=True, errors="replace", timeout=300, env=tests.env)
-        except (OSError, subprocess.TimeoutExpired) as error:
-            tests.check("unit " + name, False, str(error))
-            return
-        last = (done.stdout.splitlines() or [""])[-1]
-        found = re.match(r".*: (\d+) passed, (\d+) failed$", last)
-        if not found or (done.returncode != 0) != (int(found.group(2)) > 0):
-            tests.check("unit " + name, False, tests.report(done))
-            return
-        with tests.lock:
-            tests.passed += int(found.group(1))
-            tests.failed += int(found.group(2))
-            if int(found.group(2)):
-                print("FAILED (%s) unit %s\n%s" % (tests.label, name, done.stdout[-6000:] + done.stderr[-3000:]))
+def counted(tests, name, *command):
+    """A program that ends with `NAME: N passed, N failed`."""
+    try:
+        done = subprocess.run(command, cwd=harness.ROOT, capture_output=True, text=True, errors="replace", timeout=300,
+                              env=tests.env)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        tests.check(name, False, str(error))
+        return
+    last = (done.stdout.splitlines() or [""])[-1]
+    found = re.match(r".*: (\d+) passed, (\d+) failed$", last)
+    if not found or (done.returncode != 0) != (int(found.group(2)) > 0):
+        tests.check(name, False, tests.report(done))
+        return
+    with tests.lock:
+        tests.passed += int(found.group(1))
+        tests.failed += int(found.group(2))
+        if int(found.group(2)):
+            print("FAILED (%s) %s\n%s" % (tests.label, name, done.stdout[-24000:] + done.stderr[-3000:]))
 
-    paths = sorted(glob.glob(os.path.join(harness.ROOT, "tests/unit/test_*.c")))
-    tests.each([lambda p=path: one(os.path.basename(p)[:-2]) for path in paths])
+
+def unit(tests):
+    names = [os.path.basename(path)[:-2] for path in
+             sorted(glob.glob(os.path.join(harness.ROOT, "tests/unit/test_*.c")))]
+    tests.each([lambda n=name: counted(tests, "unit " + n, os.path.join(tests.build, "tests", n)) for name in names])
+
+
+def hard(tests):
+    """Scenes from the whole domain against the oracle; `make hard` runs more of them."""
+    scenes, steps = (2000, 20000) if tests.sanitized else (100000, 1000000)
+    counted(tests, "hard", os.path.join(tests.build, "tests/hard/hard"), "--scenes", str(scenes), "--steps", str(steps),
+            "--jobs", str(os.cpu_count() or 1))
 
 
 def plots_of(tests, name, steps):
@@ -143,7 +152,7 @@ def help_examples(tests):
     tests.check("help lists the quantities", len(quantities) > 30, text)
 
 
-ROOMS = {"unit": unit, "sessions": sessions, "numbers": numbers_of_the_physics.run, "scripts": scripts.run,
+ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run, "scripts": scripts.run,
          "errors": table.run, "trouble": trouble.run, "interactive": prompt.run, "readme": readme,
          "help": help_examples}
 

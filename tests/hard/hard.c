@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* hard [--scenes N] [--jobs N] [--tables FILE]: prints the worst errors by region and scalar.
+/* hard [--scenes N] [--steps N] [--jobs N] [--table FILE]: prints the worst errors by region and scalar.
  * hard --scene INDEX: one random scene, inputs, ours and exact. */
 #include "hard.h"
 
@@ -231,8 +231,7 @@ static void ask(const hard_scene *s, fret_real got[ORACLE_COUNT]) {
     hard_contact(&s->contact, &material, &gap);
     for (int i = 0; i < 2; i++) {
         fret_real h[3] = {0, 0, 0};
-        if (!s->contact.rigid[i] &&
-            fret_half_space(s->contact.k, s->contact.nu[i], &h[0], &h[1], &h[2]).code)
+        if (!s->contact.rigid[i] && fret_half_space(s->contact.k, s->contact.nu[i], &h[0], &h[1], &h[2]).code)
             return;
         memcpy(got + (i ? ORACLE_HN_2 : ORACLE_HN_1), h, sizeof h);
     }
@@ -301,6 +300,13 @@ static unsigned fraction_regions(double t) {
     return t > 1 ? bit(HARD_SLIDES) : t < 1e-6 ? bit(HARD_T_LOW) : 1 - t < 1e-6 ? bit(HARD_T_HIGH) : 0;
 }
 
+/* Of equals the first, so that the table does not depend on the number of jobs. */
+static void keep_worse(hard_worst *worst, hard_worst other) {
+    if (other.seen && (!worst->seen || other.ulps > worst->ulps ||
+                       (other.ulps == worst->ulps && other.index < worst->index)))
+        *worst = other;
+}
+
 static void judge(hard_tally *tally, const oracle *o, const hard_scene *s, unsigned long index) {
     fret_real got[ORACLE_COUNT];
     ask(s, got);
@@ -322,11 +328,9 @@ static void judge(hard_tally *tally, const oracle *o, const hard_scene *s, unsig
             tally->passed++;
         else
             tally->failed++;
-        for (hard_region region = 0; region < HARD_REGION_COUNT; region++) {
-            hard_worst *worst = &tally->worst[i][region];
-            if (in & bit(region) && (!worst->seen || ulps > worst->ulps))
-                *worst = (hard_worst){ulps, index, true};
-        }
+        for (hard_region region = 0; region < HARD_REGION_COUNT; region++)
+            if (in & bit(region))
+                keep_worse(&tally->worst[i][region], (hard_worst){ulps, index, true});
     }
 }
 
@@ -336,9 +340,7 @@ static void merge(hard_tally *into, const hard_tally *from) {
     into->seen += from->seen;
     for (int i = 0; i < ORACLE_COUNT; i++)
         for (int region = 0; region < HARD_REGION_COUNT; region++)
-            if (from->worst[i][region].seen && (!into->worst[i][region].seen ||
-                                                from->worst[i][region].ulps > into->worst[i][region].ulps))
-                into->worst[i][region] = from->worst[i][region];
+            keep_worse(&into->worst[i][region], from->worst[i][region]);
 }
 
 static const char *const headings[] = {
@@ -367,7 +369,8 @@ static void report(const hard_tally *tally, const char *what) {
         printf("%-8s", oracle_names[i]);
         for (int region = 0; region < HARD_REGION_COUNT; region++)
             if (tally->worst[i][region].seen)
-                printf(tally->worst[i][region].ulps < 100 ? " %8.3f" : " %8.1e", tally->worst[i][region].ulps);
+                printf(tally->worst[i][region].ulps < 100 ? " %8.3f" : " %8.1e",
+                       tally->worst[i][region].ulps);
             else
                 printf(" %8s", "-");
         printf("\n");
@@ -401,8 +404,9 @@ static void run_scenes(hard_tally *tally, unsigned long count, unsigned long job
 }
 
 /* Each job is a process that leaves its tally in shared memory. */
-static void run_jobs(hard_tally *sum, unsigned long count, unsigned long jobs) {
-    hard_tally *parts = mmap(NULL, jobs * sizeof *parts, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+static hard_tally *start_jobs(unsigned long count, unsigned long jobs) {
+    hard_tally *parts =
+        mmap(NULL, jobs * sizeof *parts, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (parts == MAP_FAILED)
         abort();
     fflush(stdout);
@@ -415,6 +419,11 @@ static void run_jobs(hard_tally *sum, unsigned long count, unsigned long jobs) {
             exit(EXIT_SUCCESS);
         }
     }
+    return parts;
+}
+
+static hard_tally finish_jobs(hard_tally *parts, unsigned long jobs) {
+    hard_tally sum = {0};
     for (unsigned long job = 0; job < jobs; job++) {
         int status;
         if (wait(&status) < 0 || status != 0) {
@@ -423,8 +432,9 @@ static void run_jobs(hard_tally *sum, unsigned long count, unsigned long jobs) {
         }
     }
     for (unsigned long job = 0; job < jobs; job++)
-        merge(sum, &parts[job]);
+        merge(&sum, &parts[job]);
     munmap(parts, jobs * sizeof *parts);
+    return sum;
 }
 
 static bool read_row(char *line, hard_scene *s, char *results[ORACLE_COUNT]) {
@@ -518,8 +528,8 @@ static void show_scene(unsigned long index) {
     ask(&s, got);
     for (int i = 0; i < 2; i++)
         printf("E0 = %.17g, nu = %.17g%s\n", c->E0[i], c->nu[i], c->rigid[i] ? " (rigid)" : "");
-    printf("k = %.17g, c0 = %.17g, n = %.17g, h = %.17g, r0 = %.17g, mu = %.17g\n", c->k, c->c0, c->n, c->h, c->r0,
-           s.mu);
+    printf("k = %.17g, c0 = %.17g, n = %.17g, h = %.17g, r0 = %.17g, mu = %.17g\n", c->k, c->c0, c->n, c->h,
+           c->r0, s.mu);
     printf("FN = %.17g, Fx = %.17g, dz = %.17g, a = %.17g, dx = %.17g\n", s.F, s.Fx, s.dz, s.a, s.dx);
     printf("1-|k| = %.6g, t = %.17g, dx/dxmax = %.17g\n", 1 - fabs(c->k), oracle_t(o), oracle_x(o));
     for (oracle_scalar i = 0; i < ORACLE_COUNT; i++)
@@ -529,7 +539,7 @@ static void show_scene(unsigned long index) {
 }
 
 int main(int argc, char **argv) {
-    unsigned long scenes = 2000, jobs = 1, passed = 0, failed = 0;
+    unsigned long scenes = 2000, steps = 20000, jobs = 1, passed = 0, failed = 0;
     const char *table = "tests/reference/corners.csv";
     for (int i = 1; i + 1 < argc; i += 2) {
         unsigned long number = strtoul(argv[i + 1], NULL, 10);
@@ -539,6 +549,8 @@ int main(int argc, char **argv) {
         }
         if (strcmp(argv[i], "--scenes") == 0)
             scenes = number;
+        else if (strcmp(argv[i], "--steps") == 0)
+            steps = number;
         else if (strcmp(argv[i], "--jobs") == 0 && number > 0)
             jobs = number;
         else if (strcmp(argv[i], "--table") == 0)
@@ -547,15 +559,16 @@ int main(int argc, char **argv) {
             argc = 0;
     }
     if (argc % 2 == 0) {
-        fprintf(stderr, "usage: hard [--scenes N] [--jobs N] [--table FILE] | --scene INDEX\n");
+        fprintf(stderr, "usage: hard [--scenes N] [--steps N] [--jobs N] [--table FILE] | --scene INDEX\n");
         return 2;
     }
     for (int region = 0; region < HARD_REGION_COUNT; region++)
         printf("%-8s %s\n", headings[region], meanings[region]);
     printf("\n");
     run_table(table, &passed, &failed);
-    hard_tally sum = {0};
-    run_jobs(&sum, scenes, jobs);
+    hard_tally *parts = start_jobs(scenes, jobs);
+    hard_histories(steps, &passed, &failed);
+    hard_tally sum = finish_jobs(parts, jobs);
     report(&sum, "random scenes");
     passed += sum.passed;
     failed += sum.failed;

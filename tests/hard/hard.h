@@ -63,8 +63,12 @@ typedef struct hard_random {
 } hard_random;
 
 hard_random hard_seed(uint64_t seed);
-double hard_uniform(hard_random *r);                      /* [0, 1) */
-double hard_scale(hard_random *r, int least, int most);   /* 2^least .. 2^most, all scales alike */
+double hard_uniform(hard_random *r);                    /* [0, 1) */
+double hard_scale(hard_random *r, int least, int most); /* 2^least .. 2^most, all scales alike */
 unsigned hard_choice(hard_random *r, unsigned count);
+
+/* Histories: closed loops must come back to the same state, and W must be the sum of the loops. `steps`:
+ * length of the longest. Prints its own table; counts its results into passed and failed. */
+void hard_histories(unsigned long steps, unsigned long *passed, unsigned long *failed);
 
 #endif

@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-/* Cancellation costs at most: cos(pi k/2), 1-k nu/(1-nu) 53 bits each; powers 1/n and n 20; 1-(1-t)^q above the
- * switch to its series 24 + 20. b(t) ~ q r t^3/12 loses 3*24 bits of t, 20 of q, 70 of r = 1-q. */
+/* Cancellation costs at most: cos(pi k/2), 1-k nu/(1-nu) 53 bits each; powers 1/n and n 20; 1-(1-t)^q above
+ * the switch to its series 24 + 20. b(t) ~ q r t^3/12 loses 3*24 bits of t, 20 of q, 70 of r = 1-q. */
 enum { BITS = 256, LOSS_BITS = 448 };
 #define SERIES_BELOW 0x1p-24
 
@@ -18,14 +18,14 @@ enum { SCRATCH = 8, LOSS_SCRATCH = 7 };
 
 struct oracle {
     oracle_contact now;
-    bool known;          /* `now` holds a contact */
-    double F, mu;        /* pressed with */
-    mpfr_t k1, s, q, p;  /* 1+k, n+k+1, n/s, s/n */
-    mpfr_t gamma_half;   /* Gamma((1+k)/2) */
-    mpfr_t gamma_one;    /* Gamma(1+k/2) */
-    mpfr_t gamma_two;    /* Gamma(2+k) */
-    mpfr_t gA, fA, kA;   /* g = gA x^n, F_N = fA a^s, kn = kA a^(1+k) */
-    mpfr_t t, x;         /* fractions of gross slip */
+    bool known;         /* `now` holds a contact */
+    double F, mu;       /* pressed with */
+    mpfr_t k1, s, q, p; /* 1+k, n+k+1, n/s, s/n */
+    mpfr_t gamma_half;  /* Gamma((1+k)/2) */
+    mpfr_t gamma_one;   /* Gamma(1+k/2) */
+    mpfr_t gamma_two;   /* Gamma(2+k) */
+    mpfr_t gA, fA, kA;  /* g = gA x^n, F_N = fA a^s, kn = kA a^(1+k) */
+    mpfr_t t, x;        /* fractions of gross slip */
     mpfr_t u[SCRATCH];
     mpfr_t v[LOSS_SCRATCH]; /* LOSS_BITS each */
     mpfr_t value[ORACLE_COUNT];
@@ -33,8 +33,8 @@ struct oracle {
 
 /* Every number of the struct that has BITS bits. */
 static void each(oracle *o, void (*f)(mpfr_ptr)) {
-    mpfr_ptr one[] = {o->k1, o->s,  o->q,  o->p, o->gamma_half, o->gamma_one, o->gamma_two,
-                      o->gA, o->fA, o->kA, o->t, o->x};
+    mpfr_ptr one[] = {o->k1,        o->s,  o->q,  o->p,  o->gamma_half, o->gamma_one,
+                      o->gamma_two, o->gA, o->fA, o->kA, o->t,          o->x};
     for (size_t i = 0; i < sizeof one / sizeof *one; i++)
         f(one[i]);
     for (int i = 0; i < SCRATCH; i++)
@@ -301,9 +301,9 @@ static void lost(oracle *o, mpfr_ptr y, mpfr_srcptr t, mpfr_srcptr m) {
     }
 }
 
-/* dW = 8 b/(1+q) mu F_N dxmax (27), b = 1 - (1-t)^(1+q) - (1+q)/2 t (1 + (1-t)^q), where s = 1-t = rest^m: q may be
- * so small that s^q is felt where t = 1 to any number of digits. For tiny t by the series
- * (1+q) sum_(j>2) (-1)^j C(q,j-1) (1/2 - 1/j) t^j, all terms positive. */
+/* dW = 8 b/(1+q) mu F_N dxmax (27), b = 1 - (1-t)^(1+q) - (1+q)/2 t (1 + (1-t)^q), where s = 1-t = rest^m: q
+ * may be so small that s^q is felt where t = 1 to any number of digits. For tiny t by the series (1+q)
+ * sum_(j>2) (-1)^j C(q,j-1) (1/2 - 1/j) t^j, all terms positive. */
 static void loss(oracle *o, mpfr_ptr dW, mpfr_srcptr tiny, mpfr_srcptr rest, mpfr_srcptr m) {
     mpfr_ptr q = o->v[0], q1 = o->v[1], s = o->v[2], sq = o->v[3], b = o->v[4], w = o->v[5], t = o->v[6];
     mpfr_set_d(q, o->now.k, RN);

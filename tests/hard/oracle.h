@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a contact of power-law gap ought to give, in 256 bits by MPFR, from the formulas as printed: (A1)-(A3)
- * with Gamma functions, kappa by the beta function, b(t) term by term. Shares no code with the library. Digits
- * that the printed forms lose to cancellation are had in reserve: at least 150 bits remain in every result. */
+ * with Gamma functions, kappa by the beta function, b(t) term by term. Shares no code with the library.
+ * Digits that the printed forms lose to cancellation are had in reserve: at least 150 bits remain in every
+ * result. */
 #ifndef ORACLE_H
 #define ORACLE_H
 
@@ -20,12 +21,12 @@
     X(CT0, "cT0")                                                                                            \
     X(ETA, "eta")                                                                                            \
     X(KAPPA, "kappa")                                                                                        \
-    X(A_OF_F, "a(F)")     /* by normal force */                                                              \
+    X(A_OF_F, "a(F)") /* by normal force */                                                                  \
     X(DZ_OF_F, "dz(F)")                                                                                      \
     X(KN, "kn(F)")                                                                                           \
-    X(A_OF_DZ, "a(dz)")   /* by depth */                                                                     \
+    X(A_OF_DZ, "a(dz)") /* by depth */                                                                       \
     X(F_OF_DZ, "F(dz)")                                                                                      \
-    X(DZ_OF_A, "dz(a)")   /* by radius */                                                                    \
+    X(DZ_OF_A, "dz(a)") /* by radius */                                                                      \
     X(F_OF_A, "F(a)")                                                                                        \
     X(DX_MAX, "dxmax")    /* at F_N, as all below */                                                         \
     X(DX_OF_FX, "dx(Fx)") /* first loading by force */                                                       \
@@ -58,8 +59,8 @@ typedef struct oracle oracle;
 oracle *oracle_new(void);
 void oracle_free(oracle *o);
 
-/* The contact that the functions below are about; Gamma functions of the last one are kept where k, nu and n are
- * the same. */
+/* The contact that the functions below are about; Gamma functions of the last one are kept where k, nu and n
+ * are the same. */
 void oracle_set_contact(oracle *o, const oracle_contact *contact);
 
 /* Presses: fill A_OF_F, DZ_OF_F, KN; A_OF_DZ, F_OF_DZ; DZ_OF_A, F_OF_A. */
@@ -67,9 +68,9 @@ void oracle_press_force(oracle *o, double F);
 void oracle_press_depth(oracle *o, double dz);
 void oracle_press_radius(oracle *o, double a);
 
-/* Tangential loads > 0 at the force pressed with; mu F_N is the exact product. A force within 2^-52 mu F_N of it is
- * gross slip, as the library promises; by displacement whatever is beyond dxmax. */
-void oracle_friction(oracle *o, double mu);         /* fills DX_MAX */
+/* Tangential loads > 0 at the force pressed with; mu F_N is the exact product. A force within 2^-52 mu F_N of
+ * it is gross slip, as the library promises; by displacement whatever is beyond dxmax. */
+void oracle_friction(oracle *o, double mu);          /* fills DX_MAX */
 void oracle_load_force(oracle *o, double Fx);        /* DX_OF_FX .. DW_OF_FX */
 void oracle_load_displacement(oracle *o, double dx); /* FX_OF_DX .. DW_OF_DX */
 
