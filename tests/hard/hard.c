@@ -313,6 +313,7 @@ static void judge(hard_tally *tally, const oracle *o, const hard_scene *s, unsig
     const oracle_contact *c = &s->contact;
     unsigned contact = contact_regions(c);
     bool two = !c->rigid[0] && !c->rigid[1] && (c->E0[0] != c->E0[1] || c->nu[0] != c->nu[1]);
+    unsigned touched = 0;
     tally->seen++;
     for (oracle_scalar i = 0; i < ORACLE_COUNT; i++) {
         unsigned in = contact;
@@ -321,6 +322,7 @@ static void judge(hard_tally *tally, const oracle *o, const hard_scene *s, unsig
         if (!in)
             in = bit(HARD_INSIDE);
         in |= bit(HARD_ALL) | (two ? bit(HARD_TWO) : 0);
+        touched |= in;
         double ulps = oracle_ulps((double)got[i], oracle_value(o, i));
         if (isnan(ulps))
             ulps = INFINITY;
@@ -332,12 +334,16 @@ static void judge(hard_tally *tally, const oracle *o, const hard_scene *s, unsig
             if (in & bit(region))
                 keep_worse(&tally->worst[i][region], (hard_worst){ulps, index, true});
     }
+    for (hard_region region = 0; region < HARD_REGION_COUNT; region++)
+        tally->scenes[region] += (touched & bit(region)) != 0;
 }
 
 static void merge(hard_tally *into, const hard_tally *from) {
     into->passed += from->passed;
     into->failed += from->failed;
     into->seen += from->seen;
+    for (int region = 0; region < HARD_REGION_COUNT; region++)
+        into->scenes[region] += from->scenes[region];
     for (int i = 0; i < ORACLE_COUNT; i++)
         for (int region = 0; region < HARD_REGION_COUNT; region++)
             keep_worse(&into->worst[i][region], from->worst[i][region]);
@@ -364,6 +370,11 @@ static void head(const char *title) {
 static void report(const hard_tally *tally, const char *what) {
     printf("%lu %s: %lu scalars within %g ulp, %lu not\n\n", tally->seen, what, tally->passed, HARD_ULPS,
            tally->failed);
+    head("");
+    printf("%-8s", "scenes");
+    for (int region = 0; region < HARD_REGION_COUNT; region++)
+        printf(" %8lu", tally->scenes[region]);
+    printf("\n\n");
     head("ulp");
     for (int i = 0; i < ORACLE_COUNT; i++) {
         printf("%-8s", oracle_names[i]);

@@ -45,6 +45,7 @@ typedef struct hard_worst {
 
 typedef struct hard_tally {
     unsigned long passed, failed, seen;
+    unsigned long scenes[HARD_REGION_COUNT];
     hard_worst worst[ORACLE_COUNT][HARD_REGION_COUNT];
 } hard_tally;
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Long and lopsided histories. At constant F_N a contact obeys Masing's rules, so that the state after any number of
- * reversals is a sum over branches, and W a sum over closed loops (rainflow counting), each from the oracle. */
+/* Long and lopsided histories. At constant F_N a contact obeys Masing's rules, so that the state after any
+ * number of reversals is a sum over branches, and W a sum over closed loops (rainflow counting), each from
+ * the oracle. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,7 +77,8 @@ static void masing_go(masing *m, double x) {
         } else if (m->count > 1 && fabs(way) >= fabs(old)) { /* closes a loop */
             add_loss(m, m->closed, fabs(old) / 2, 0);
             m->count -= 2;
-        } else if (m->count == 1 && fabs(x) >= fabs(last)) { /* back to the first loading curve, on the other side */
+        } else if (m->count == 1 &&
+                   fabs(x) >= fabs(last)) { /* back to the first loading curve, on the other side */
             add_loss(m, m->closed, fabs(last), 1);
             m->count = 0;
         } else {
@@ -164,14 +166,14 @@ static const history histories[] = {
     {"dx: random, nested", false, 100, 0.9, 0, true},
 };
 
-typedef struct bench {
+typedef struct specimen {
     const char *name;
     oracle_contact contact;
     double mu, a;
     unsigned shorter;
-} bench;
+} specimen;
 
-static const bench benches[] = {
+static const specimen specimens[] = {
     {"Hertz", {{210e9, 210e9}, {0.3, 0.3}, {false, false}, 0, 1e-3, 2, 5e-7, 1e-4}, 0.3, 1.1e-4, 1},
     {"graded", {{210e9, 7e6}, {0.3, 0.5}, {false, false}, 0.5, 1e-3, 1, 5e-7, 1e-4}, 0.7, 7e-5, 10},
     {"k > -1", {{1e9, 1}, {-0.999, 0}, {false, true}, 1e-9 - 1, 1e-6, 3, 1e-9, 1e-6}, 0.1, 1.3e-6, 10},
@@ -181,14 +183,14 @@ static const bench benches[] = {
 };
 
 typedef struct fixture {
-    const bench *bench;
+    const specimen *specimen;
     oracle *o;
     double F;
     fret_normal normal;
 } fixture;
 
-static fixture fixture_make(const bench *b) {
-    fixture f = {.bench = b, .o = oracle_new()};
+static fixture fixture_make(const specimen *b) {
+    fixture f = {.specimen = b, .o = oracle_new()};
     fret_material material;
     fret_gap gap;
     hard_contact(&b->contact, &material, &gap);
@@ -204,14 +206,15 @@ static fixture fixture_make(const bench *b) {
 
 static fret_memory *pressed(const fixture *f) {
     fret_memory *m;
-    if (fret_memory_make(&f->normal, f->bench->mu, &m).code ||
+    if (fret_memory_make(&f->normal, f->specimen->mu, &m).code ||
         fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, f->F, 0}).code)
         abort();
     return m;
 }
 
 /* Turning point number i: even ones are the outer end, where states are compared. */
-static double place(const history *h, unsigned long i, double outer, double inner, double limit, hard_random *r) {
+static double place(const history *h, unsigned long i, double outer, double inner, double limit,
+                    hard_random *r) {
     enum { SPAN = 64 };
     if (h->random) {
         unsigned long j = i % SPAN;
@@ -224,8 +227,8 @@ static double place(const history *h, unsigned long i, double outer, double inne
 }
 
 static void run_history(const fixture *f, const history *h, unsigned long steps, totals sum) {
-    double limit = h->by_force ? f->bench->mu * f->F
-                               : mpfr_get_d(oracle_value(f->o, ORACLE_DX_MAX), MPFR_RNDN);
+    double limit =
+        h->by_force ? f->specimen->mu * f->F : mpfr_get_d(oracle_value(f->o, ORACLE_DX_MAX), MPFR_RNDN);
     double outer = h->outer == 1 ? limit : on_grid(h->outer * limit, limit);
     double inner = on_grid(h->inner * limit, limit);
     masing *exact = malloc(sizeof *exact);
@@ -245,7 +248,8 @@ static void run_history(const fixture *f, const history *h, unsigned long steps,
         if (compare)
             masing_state(exact, response, old_W, c);
         masing_go(exact, x);
-        if (fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, h->by_force ? FRET_TO_FX : FRET_TO_DX, 0, x}).code)
+        if (fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, h->by_force ? FRET_TO_FX : FRET_TO_DX, 0, x})
+                .code)
             refused = true;
         if (!compare)
             continue;
@@ -264,15 +268,15 @@ static void run_history(const fixture *f, const history *h, unsigned long steps,
     }
     if (refused)
         out.ulps[HELD] = INFINITY;
-    row(f->bench->name, h->name, &out, sum);
+    row(f->specimen->name, h->name, &out, sum);
     fret_memory_free(m);
     masing_free(exact);
     free(exact);
     mpfr_clears(response, W, old_W, c, held, (mpfr_ptr)0);
 }
 
-/* A swinging normal force has no closed form: the loop has settled after its second round, and then every round
- * must bring the same state and add the same loss. */
+/* A swinging normal force has no closed form: the loop has settled after its second round, and then every
+ * round must bring the same state and add the same loss. */
 static void run_swing(const fixture *f, unsigned long steps, totals sum) {
     static const double turn[4][2] = {{1, 0.3}, {0.8, 0}, {0.6, -0.2}, {0.9, 0}}; /* FN/F, Fx/(mu F) */
     enum { SETTLED = 4 };
@@ -287,7 +291,7 @@ static void run_swing(const fixture *f, unsigned long steps, totals sum) {
         fret_real last = 0;
         for (int i = 0; i < 4; i++) {
             if (fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, turn[i][0] * f->F,
-                                                 turn[i][1] * f->bench->mu * f->F})
+                                                 turn[i][1] * f->specimen->mu * f->F})
                     .code)
                 refused = true;
             last += fret_memory_last_loss(m);
@@ -315,7 +319,7 @@ static void run_swing(const fixture *f, unsigned long steps, totals sum) {
     }
     if (refused)
         out.ulps[HELD] = INFINITY;
-    row(f->bench->name, "FN and Fx swing", &out, sum);
+    row(f->specimen->name, "FN and Fx swing", &out, sum);
     mpfr_clears(want, loss, (mpfr_ptr)0);
     fret_memory_free(m);
 }
@@ -323,17 +327,17 @@ static void run_swing(const fixture *f, unsigned long steps, totals sum) {
 void hard_histories(unsigned long steps, unsigned long *passed, unsigned long *failed) {
     enum { LEAST = 200, MOST_RANDOM = 100000 };
     totals sum = {passed, failed};
-    printf("%-10s %-26s %9s %8s %8s %8s %8s %8s %7s\n", "contact", "history, worst ulp of", "steps", "held", "other",
-           "c", "W", "last dW", "slices");
-    for (size_t i = 0; i < sizeof benches / sizeof *benches; i++) {
-        fixture f = fixture_make(&benches[i]);
+    printf("%-10s %-26s %9s %8s %8s %8s %8s %8s %7s\n", "contact", "history, worst ulp of", "steps", "held",
+           "other", "c", "W", "last dW", "slices");
+    for (size_t i = 0; i < sizeof specimens / sizeof *specimens; i++) {
+        fixture f = fixture_make(&specimens[i]);
         for (size_t j = 0; j < sizeof histories / sizeof *histories; j++) {
-            unsigned long count = steps / benches[i].shorter / histories[j].shorter / 64 * 64;
+            unsigned long count = steps / specimens[i].shorter / histories[j].shorter / 64 * 64;
             if (histories[j].random && count > MOST_RANDOM)
                 count = MOST_RANDOM / 64 * 64;
             run_history(&f, &histories[j], count > LEAST ? count : 256, sum);
         }
-        unsigned long count = steps / benches[i].shorter / 100;
+        unsigned long count = steps / specimens[i].shorter / 100;
         run_swing(&f, count > LEAST ? count : LEAST, sum);
         oracle_free(f.o);
     }
