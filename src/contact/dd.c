@@ -18,10 +18,10 @@ static dd expm1_series(dd r) {
     double u = r.hi, tail = c[12].hi + u * c[13].hi;
     for (int n = 11; n >= 6; n--)
         tail = c[n].hi + u * tail;
-    dd p = dd_add_d(c[5], u * tail);
+    dd p = dd_extend(c[5], dd_of(u * tail));
     for (int n = 4; n >= 2; n--)
-        p = dd_add(c[n], dd_mul(r, p));
-    return dd_add(r, dd_mul(dd_mul(r, r), p));
+        p = dd_extend(c[n], dd_mul(r, p));
+    return dd_extend(r, dd_mul(dd_mul(r, r), p));
 }
 
 static const double small_argument = 0.0054;
@@ -34,7 +34,7 @@ static dd exp_core(dd x, int *e) {
     int j = (int)n & 63;
     *e = ((int)n - j) / 64;
     dd two = power_of_two[j];
-    return dd_add(two, dd_mul(two, expm1_series(r)));
+    return dd_extend(two, dd_mul(two, expm1_series(r)));
 }
 
 /* 2 atanh(s), |s| < 0.0040 */
@@ -43,9 +43,9 @@ static dd log_series(dd s) {
     double u = s2.hi, tail = inverse[13].hi;
     for (int n = 11; n >= 7; n -= 2)
         tail = inverse[n].hi + u * tail;
-    dd p = dd_add_d(inverse[5], u * tail);
-    p = dd_add(inverse[3], dd_mul(s2, p));
-    p = dd_add(s, dd_mul(s, dd_mul(s2, p)));
+    dd p = dd_extend(inverse[5], dd_of(u * tail));
+    p = dd_extend(inverse[3], dd_mul(s2, p));
+    p = dd_extend(s, dd_mul(s, dd_mul(s2, p)));
     return (dd){2 * p.hi, 2 * p.lo};
 }
 
@@ -80,11 +80,15 @@ dd dd_expm1(dd x) {
 }
 
 dd dd_log(dd x) {
+    return dd_log_scaled(x, 0);
+}
+
+dd dd_log_scaled(dd x, int scale) {
     int e;
     dd m = {frexp(x.hi, &e), 0};
     m.lo = ldexp(x.lo, -e);
     e = normalise(&m, e);
-    return log_core(m, e);
+    return log_core(m, e + scale);
 }
 
 dd dd_log1p(dd x) {
@@ -98,10 +102,10 @@ static dd sin_core(dd x) {
     double u = y2.hi, tail = c[25].hi;
     for (int n = 23; n >= 15; n -= 2)
         tail = c[n].hi - u * tail;
-    dd p = dd_add_d(c[13], -u * tail);
+    dd p = dd_extend(c[13], dd_of(-u * tail));
     for (int n = 11; n >= 3; n -= 2)
-        p = dd_sub(c[n], dd_mul(y2, p));
-    dd s = dd_sub(y, dd_mul(y, dd_mul(y2, p)));
+        p = dd_extend(c[n], dd_neg(dd_mul(y2, p)));
+    dd s = dd_extend(y, dd_neg(dd_mul(y, dd_mul(y2, p))));
     dd s2 = dd_mul(s, s);
     return dd_mul(s, dd_sub(dd_of(3), (dd){4 * s2.hi, 4 * s2.lo}));
 }
@@ -123,22 +127,24 @@ static dd gamma_part(dd x, dd *rising) {
     double u = z2.hi, tail = stirling[15].hi;
     for (int j = 14; j >= 3; j--)
         tail = stirling[j].hi + u * tail;
-    dd p = dd_add_d(stirling[2], u * tail);
-    p = dd_add(stirling[1], dd_mul(z2, p));
-    p = dd_mul(z, dd_add(stirling[0], dd_mul(z2, p)));
+    dd p = dd_extend(stirling[2], dd_of(u * tail));
+    p = dd_extend(stirling[1], dd_mul(z2, p));
+    p = dd_mul(z, dd_extend(stirling[0], dd_mul(z2, p)));
     dd l = dd_mul(dd_add_d(x, -0.5), dd_log(x));
     return dd_add(dd_add(dd_sub(l, x), half_log_2pi), p);
 }
 
 dd_scaled dd_gamma_quotient(const dd *over, int m, const dd *under, int n) {
     dd_scaled q = {dd_of(1), dd_of(0)};
-    dd top = dd_of(1), bottom = dd_of(1), rising;
+    dd top = dd_of(1), bottom = dd_of(1), rising, log;
     for (int i = 0; i < m; i++) {
         q.log = dd_add(q.log, gamma_part(over[i], &rising));
         bottom = dd_mul(bottom, rising);
     }
     for (int i = 0; i < n; i++) {
-        q.log = dd_sub(q.log, gamma_part(under[i], &rising));
+        if (i == 0 || under[i].hi != under[i - 1].hi || under[i].lo != under[i - 1].lo)
+            log = gamma_part(under[i], &rising);
+        q.log = dd_sub(q.log, log);
         top = dd_mul(top, rising);
     }
     q.factor = dd_div(top, bottom);

@@ -44,6 +44,12 @@ static inline dd dd_add(dd a, dd b) {
     return dd_quick_sum(s.hi, s.lo + t.lo);
 }
 
+/* The same in fewer operations for |a| >= |b|, when their sum is no smaller than half of a. */
+static inline dd dd_extend(dd a, dd b) {
+    dd s = dd_quick_sum(a.hi, b.hi);
+    return dd_quick_sum(s.hi, s.lo + (a.lo + b.lo));
+}
+
 static inline dd dd_add_d(dd a, double b) {
     dd s = dd_sum(a.hi, b);
     return dd_quick_sum(s.hi, s.lo + a.lo);
@@ -102,8 +108,9 @@ static inline double dd_rest(dd a) {
 /* Elementary functions, 2^-98 relative (dd_exp, dd_expm1: plus |x| 2^-105). */
 dd dd_exp(dd x);
 dd dd_expm1(dd x);
-dd dd_log(dd x);   /* x > 0 */
-dd dd_log1p(dd x); /* x > -1 */
+dd dd_log(dd x);                   /* x > 0 */
+dd dd_log_scaled(dd x, int scale); /* of x 2^scale */
+dd dd_log1p(dd x);                 /* x > -1 */
 /* sin(pi x/2), 0 <= x <= 1. */
 dd dd_sin_quarter(dd x);
 

@@ -64,12 +64,14 @@ static void make_power(fret_normal *n) {
     dd_scaled kappa = fret_kappa_parts(g->n, k);
     n->rule.k = f->k;
     n->rule.kappa[0] = dd_value(dd_mul(kappa.factor, dd_exp(kappa.log)));
-    dd r0 = dd_log(dd_of(g->r0)), h = dd_log(dd_of(g->h));
+    int e;
+    double h = frexp(g->h, &e);
+    dd r0 = dd_log(dd_of(g->r0));
     n->wide.ln_r0 = r0;
-    n->wide.ln_depth = dd_add(dd_add(kappa.log, dd_log(kappa.factor)), h);
+    n->wide.ln_depth = dd_add(kappa.log, dd_log_scaled(dd_mul_d(kappa.factor, h), e));
     /* 2 cN0 n/((k+1) s) (r0/c0)^k r0 */
     dd force = dd_div(dd_mul_d(f->wide.cN0, 2 * g->n), dd_mul(k1, s));
-    force = dd_add(dd_log(force), dd_log_real(ldexpl(1, f->wide.scale)));
+    force = dd_log_scaled(force, f->wide.scale);
     if (k != 0)
         force = dd_add(force, dd_mul_d(dd_sub(r0, dd_log(dd_of((double)f->c0))), k));
     n->wide.ln_force = dd_add(dd_add(force, r0), n->wide.ln_depth);
