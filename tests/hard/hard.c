@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* hard [--scenes N] [--steps N] [--jobs N] [--table FILE]: prints the worst errors by region and scalar.
- * hard --scene INDEX: one random scene, inputs, ours and exact. */
+ * hard --scene INDEX | --corner LINE: inputs, ours and exact of one random scene or one row of the table. */
 #include "hard.h"
 
 #include <math.h>
@@ -531,9 +531,9 @@ static void run_table(const char *path, unsigned long *passed, unsigned long *fa
     *failed += tally.failed;
 }
 
-static void show_scene(unsigned long index) {
-    oracle *o = oracle_new();
-    hard_scene s = draw_scene(o, index);
+/* Inputs, ours and exact; the results are in the oracle. */
+static void show(const oracle *o, const hard_scene *scene) {
+    const hard_scene s = *scene;
     fret_real got[ORACLE_COUNT];
     const oracle_contact *c = &s.contact;
     ask(&s, got);
@@ -546,7 +546,34 @@ static void show_scene(unsigned long index) {
     for (oracle_scalar i = 0; i < ORACLE_COUNT; i++)
         mpfr_printf("%-8s ours %.21Lg exact %.30Rg: %.3g ulp\n", oracle_names[i], got[i], oracle_value(o, i),
                     oracle_ulps((double)got[i], oracle_value(o, i)));
+}
+
+static void show_random(unsigned long index) {
+    oracle *o = oracle_new();
+    hard_scene s = draw_scene(o, index);
+    show(o, &s);
     oracle_free(o);
+}
+
+static void show_corner(const char *path, unsigned long number) {
+    FILE *file = fopen(path, "r");
+    char *line = NULL, *results[ORACLE_COUNT];
+    size_t size = 0;
+    hard_scene s;
+    unsigned long i = 0;
+    while (file && i < number && getline(&line, &size, file) > 0)
+        i++;
+    if (i == number && number > 0 && read_row(line, &s, results)) {
+        oracle *o = oracle_new();
+        solve(o, &s);
+        show(o, &s);
+        oracle_free(o);
+    } else {
+        printf("%s:%lu: not a row\n", path, number);
+    }
+    free(line);
+    if (file)
+        fclose(file);
 }
 
 int main(int argc, char **argv) {
@@ -555,7 +582,11 @@ int main(int argc, char **argv) {
     for (int i = 1; i + 1 < argc; i += 2) {
         unsigned long number = strtoul(argv[i + 1], NULL, 10);
         if (strcmp(argv[i], "--scene") == 0) {
-            show_scene(number);
+            show_random(number);
+            return EXIT_SUCCESS;
+        }
+        if (strcmp(argv[i], "--corner") == 0) {
+            show_corner(table, number);
             return EXIT_SUCCESS;
         }
         if (strcmp(argv[i], "--scenes") == 0)
@@ -570,7 +601,8 @@ int main(int argc, char **argv) {
             argc = 0;
     }
     if (argc % 2 == 0) {
-        fprintf(stderr, "usage: hard [--scenes N] [--steps N] [--jobs N] [--table FILE] | --scene INDEX\n");
+        fprintf(stderr, "usage: hard [--scenes N] [--steps N] [--jobs N] [--table FILE] | --scene INDEX | "
+                        "--corner LINE\n");
         return 2;
     }
     for (int region = 0; region < HARD_REGION_COUNT; region++)
