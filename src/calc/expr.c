@@ -28,6 +28,7 @@ struct expr_node {
     size_t at, len; /* place in the statement */
     size_t left, right;
     size_t index; /* of a variable, sweep name or builtin */
+    bool varies;  /* with the first name of a sweep */
     const quantity *q;
     value v;
 };
@@ -128,6 +129,11 @@ static long double real_acos(long double x) {
     return fret_atan2(sqrtl((1 - x) * (1 + x)), x);
 }
 
+static long double real_beta(long double x, long double y) {
+    long double b = x > 0 && y > 0 ? fret_beta(x, y) : 0;
+    return (double)b > 0 ? b : (long double)NAN;
+}
+
 typedef long double unary(long double);
 typedef long double two_place(long double, long double);
 
@@ -151,7 +157,7 @@ static const struct {
     {"gamma", fret_gamma, NULL, "gamma function"},
     {"min", NULL, fminl, "the smaller of two"},
     {"max", NULL, fmaxl, "the larger of two"},
-    {"beta", NULL, fret_beta, "beta function B(x,y), x, y > 0"},
+    {"beta", NULL, real_beta, "beta function B(x,y), x, y > 0"},
 };
 enum { BUILTINS = sizeof builtins / sizeof *builtins };
 
@@ -188,8 +194,25 @@ typedef struct parser {
     int depth;
 } parser;
 
+static size_t operands(const expr_node *n) {
+    switch (n->kind) {
+    case N_BINARY:
+        return 2;
+    case N_BUILTIN:
+        return builtins[n->index].f2 ? 2 : 1;
+    case N_CALL:
+    case N_NEGATE:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
 static bool add(parser *p, expr_node node, size_t *index) {
     expr *e = p->e;
+    size_t takes = operands(&node);
+    node.varies = (node.kind == N_SWEEP && node.index == 0) || (takes && e->nodes[node.left].varies) ||
+                  (takes > 1 && e->nodes[node.right].varies);
     if (e->count == e->room) {
         size_t room = e->room ? 2 * e->room : 16;
         expr_node *grown = realloc(e->nodes, room * sizeof *grown);
@@ -517,9 +540,30 @@ static bool dims_differ(machine *m, const expr_node *n, const char *verb, const 
                      (int)(b->len < 60 ? b->len : 60), m->e->text + b->at);
 }
 
+/* The numbers alone; where they are not defined, they are not finite. */
+static long double real_value(const expr_node *n, long double a, long double b) {
+    if (n->kind == N_NEGATE)
+        return -a;
+    if (n->kind == N_BUILTIN)
+        return builtins[n->index].f2 ? builtins[n->index].f2(a, b) : builtins[n->index].f(a);
+    switch (n->op) {
+    case '+':
+        return a + b;
+    case '-':
+        return a - b;
+    case '*':
+        return a * b;
+    case '/':
+        return a / b;
+    default:
+        return fret_pow(a, b);
+    }
+}
+
 static bool binary(machine *m, const expr_node *n, value *out) {
     const expr_node *l = &m->e->nodes[n->left], *r = &m->e->nodes[n->right];
     value a = l->v, b = r->v;
+    out->v = real_value(n, a.v, b.v);
     switch (n->op) {
     case '+':
     case '-':
@@ -533,15 +577,15 @@ static bool binary(machine *m, const expr_node *n, value *out) {
                 return dims_differ(m, n, n->op == '+' ? "add" : "subtract", r, b.d,
                                    n->op == '+' ? "to" : "from", l, a.d);
         }
-        *out = (value){n->op == '+' ? a.v + b.v : a.v - b.v, a.d};
+        out->d = a.d;
         break;
     case '*':
-        *out = (value){a.v * b.v, {a.d.N + b.d.N, a.d.m + b.d.m}};
+        out->d = (dim){a.d.N + b.d.N, a.d.m + b.d.m};
         break;
     case '/':
         if (b.v == 0 && !bad_value(m, r, "division by zero"))
             return false;
-        *out = (value){a.v / b.v, {a.d.N - b.d.N, a.d.m - b.d.m}};
+        out->d = (dim){a.d.N - b.d.N, a.d.m - b.d.m};
         break;
     default:
         if (!dim_equal(b.d, DIM_NONE)) {
@@ -550,7 +594,7 @@ static bool binary(machine *m, const expr_node *n, value *out) {
             return calc_fail(m->error, r->at, r->len, "the exponent must be a number, not %s (%.*s)", phrase,
                              (int)(r->len < 60 ? r->len : 60), m->e->text + r->at);
         }
-        *out = (value){fret_pow(a.v, b.v), {a.d.N * (double)b.v, a.d.m * (double)b.v}};
+        out->d = (dim){a.d.N * (double)b.v, a.d.m * (double)b.v};
         if (a.v < 0 && b.v != floorl(b.v))
             return bad_value(m, n, "a negative number has no real power %Lg", b.v);
         break;
@@ -562,20 +606,19 @@ static bool builtin(machine *m, const expr_node *n, value *out) {
     const char *name = builtins[n->index].name;
     const expr_node *l = &m->e->nodes[n->left], *r = &m->e->nodes[n->right];
     value a = l->v, b = r->v;
+    bool two = builtins[n->index].f2;
+    *out = (value){real_value(n, a.v, b.v), DIM_NONE};
     if (!strcmp(name, "min") || !strcmp(name, "max")) {
-        if (!dim_equal(a.d, b.d))
-            return dims_differ(m, n, "compare", l, a.d, "with", r, b.d);
-        *out = (value){builtins[n->index].f2(a.v, b.v), a.d};
-        return true;
+        out->d = a.d;
+        return dim_equal(a.d, b.d) || dims_differ(m, n, "compare", l, a.d, "with", r, b.d);
     }
     if (!strcmp(name, "abs") || !strcmp(name, "sqrt")) {
-        if (*name == 's' && a.v < 0 && !bad_value(m, l, "the square root of a negative number is not real"))
-            return false;
         double f = *name == 's' ? 0.5 : 1;
-        *out = (value){builtins[n->index].f(a.v), {a.d.N * f, a.d.m * f}};
-        return true;
+        out->d = (dim){a.d.N * f, a.d.m * f};
+        return !(*name == 's' && a.v < 0) ||
+               bad_value(m, l, "the square root of a negative number is not real");
     }
-    for (int j = 0; j < (builtins[n->index].f2 ? 2 : 1); j++) {
+    for (int j = 0; j < 1 + two; j++) {
         const expr_node *x = j ? r : l;
         dim d = j ? b.d : a.d;
         if (!dim_equal(d, DIM_NONE)) {
@@ -585,15 +628,10 @@ static bool builtin(machine *m, const expr_node *n, value *out) {
                              (int)(x->len < 60 ? x->len : 60), m->e->text + x->at);
         }
     }
-    if (builtins[n->index].f2) {
-        bool fine = a.v > 0 && b.v > 0;
-        *out = (value){fine ? builtins[n->index].f2(a.v, b.v) : 0, DIM_NONE};
-        if ((double)out->v == 0)
-            return bad_value(m, n, "beta needs two positive arguments in range");
-    } else {
-        *out = (value){builtins[n->index].f(a.v), DIM_NONE};
-    }
-    return !isnan(out->v) || bad_value(m, n, "%s is not defined there", name);
+    if (isnan(out->v))
+        return two ? bad_value(m, n, "beta needs two positive arguments in range")
+                   : bad_value(m, n, "%s is not defined there", name);
+    return true;
 }
 
 static bool eval(machine *m, const expr_node *n, value *out) {
@@ -607,8 +645,8 @@ static bool eval(machine *m, const expr_node *n, value *out) {
         *out = m->c->sweep_value[n->index];
         return true;
     case N_NEGATE:
-        *out = m->e->nodes[n->left].v;
-        out->v = -out->v;
+        out->d = m->e->nodes[n->left].v.d;
+        out->v = real_value(n, m->e->nodes[n->left].v.v, 0);
         return true;
     case N_QUANTITY:
         out->d = quantity_dim(n->q, &m->c->scene);
@@ -671,6 +709,83 @@ bool expr_eval(calc *c, const expr *e, value *out, calc_error *error) {
             return false;
         }
     *out = e->nodes[e->count - 1].v;
+    return true;
+}
+
+/* ---- a block of rows ---------------------------------------------------------------------------- */
+
+/* A value at every row, or one for all of them: stride 0. */
+typedef struct operand {
+    const long double *v;
+    size_t stride;
+} operand;
+
+static bool call_block(calc *c, const quantity *q, operand a, dim d, size_t rows, long double *out) {
+    calc_error unused = {0};
+    if (q->block) {
+        double argument[EXPR_BLOCK], result[EXPR_BLOCK];
+        for (size_t i = 0; i < rows; i++)
+            argument[i] = (double)a.v[i];
+        if (!q->block(&c->scene, argument, result, rows, &unused))
+            return false;
+        for (size_t i = 0; i < rows; i++)
+            out[i] = result[i];
+        return true;
+    }
+    for (size_t i = 0; i < rows; i++)
+        if ((c->scene.stop && *c->scene.stop) || !q->call(&c->scene, (value){a.v[i], d}, &out[i], &unused))
+            return false;
+    return true;
+}
+
+/* Children come before their parents, the left before the right: a stack machine. Dimensions, and what does
+ * not vary, are those of the first row. */
+bool expr_eval_block(calc *c, const expr *e, const long double x[], size_t rows, long double out[], dim *d) {
+    enum { DEEPEST = 16 };
+    long double column[DEEPEST][EXPR_BLOCK];
+    operand stack[DEEPEST];
+    size_t depth = 0;
+    value first;
+    calc_error unused = {0};
+    c->sweep_value[0].v = x[0];
+    if (!expr_eval(c, e, &first, &unused))
+        return false;
+    for (size_t j = 0; j < e->count; j++) {
+        const expr_node *n = &e->nodes[j], *l = &e->nodes[n->left];
+        size_t takes = operands(n);
+        bool finite = true;
+        depth -= takes;
+        if (depth == DEEPEST)
+            return false;
+        operand *top = &stack[depth], a = *top, b = takes > 1 ? top[1] : a;
+        long double *to = column[depth++];
+        if (!n->varies) {
+            *top = (operand){&n->v.v, 0};
+            continue;
+        }
+        if (n->kind == N_SWEEP) {
+            *top = (operand){x, 1};
+            continue;
+        }
+        /* the dimension may vary too */
+        if (n->op == '^' && e->nodes[n->right].varies && !dim_equal(l->v.d, DIM_NONE))
+            return false;
+        if (n->kind == N_CALL) {
+            if (!call_block(c, n->q, a, l->v.d, rows, to))
+                return false;
+        } else {
+            for (size_t i = 0; i < rows; i++) {
+                to[i] = real_value(n, a.v[i * a.stride], b.v[i * b.stride]);
+                finite = finite && isfinite((double)to[i]);
+            }
+        }
+        if (!finite)
+            return false;
+        *top = (operand){to, 1};
+    }
+    for (size_t i = 0; i < rows; i++)
+        out[i] = stack[0].v[i * stack[0].stride];
+    *d = first.d;
     return true;
 }
 

@@ -40,6 +40,10 @@ const char *calc_variable_name(const calc *c, size_t i);
 /* Parses at the cursor, as far as an expression goes. Reuses e's storage. */
 bool expr_parse(const calc *c, lexer *lx, expr *e);
 bool expr_eval(calc *c, const expr *e, value *out, calc_error *error);
+/* The same at `rows` values x of the first name of a sweep, 1 to EXPR_BLOCK: one dimension for all. False
+ * where a row fails, or may: expr_eval, row by row, finds out. */
+enum { EXPR_BLOCK = 256 };
+bool expr_eval_block(calc *c, const expr *e, const long double x[], size_t rows, long double out[], dim *d);
 void expr_free(expr *e);
 
 /* Parses a unit expression, such as N/mm^2, at the cursor. */

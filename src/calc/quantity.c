@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "calc/batch.h"
+
 /* ---- results now ------------------------------------------------------------------------------- */
 
 #define STATE(name, member)                                                                                  \
@@ -178,11 +180,17 @@ static bool call_dz(scene *s, value F, long double *out, calc_error *error) {
     return true;
 }
 
+/* What the closed forms of tangential loading start from. */
+static bool loaded(scene *s, const fret_normal **normal, const fret_press **press, double *mu,
+                   calc_error *error) {
+    return scene_normal(s, normal, error) && scene_press(s, press, error) && scene_friction(s, mu, error);
+}
+
 static bool load_first(scene *s, value arg, bool by_force, fret_loading *out, calc_error *error) {
     const fret_normal *normal;
     const fret_press *press;
     double mu;
-    if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error) || !scene_friction(s, &mu, error))
+    if (!loaded(s, &normal, &press, &mu, error))
         return false;
     fret_status st = by_force ? fret_loading_force(normal, mu, press, (double)arg.v, out)
                               : fret_loading_displacement(normal, mu, press, (double)arg.v, out);
@@ -217,7 +225,7 @@ static bool call_dW(scene *s, value FA, long double *out, calc_error *error) {
     const fret_normal *normal;
     const fret_press *press;
     double mu;
-    if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error) || !scene_friction(s, &mu, error))
+    if (!loaded(s, &normal, &press, &mu, error))
         return false;
     fret_status st = fret_cycle_loss(normal, mu, press, (double)FA.v, out);
     return scene_status(s, error, &st);
@@ -289,14 +297,72 @@ static bool call_ux(scene *s, value r, long double *out, calc_error *error) {
     return tangential_field(s, r, fret_surface_x, out, error);
 }
 
+/* ---- functions at many arguments --------------------------------------------------------------- */
+
+static bool block_press(scene *s, const double F[], double a[], double dz[], size_t count,
+                        calc_error *error) {
+    const fret_normal *normal;
+    if (!scene_normal(s, &normal, error))
+        return false;
+    fret_status st = fret_batch_press(normal, F, a, dz, count);
+    return scene_status(s, error, &st);
+}
+
+static bool block_a(scene *s, const double F[], double out[], size_t count, calc_error *error) {
+    return block_press(s, F, out, NULL, count, error);
+}
+
+static bool block_dz(scene *s, const double F[], double out[], size_t count, calc_error *error) {
+    return block_press(s, F, NULL, out, count, error);
+}
+
+static bool block_loading(scene *s, const double F[], double c[], double dx[], size_t count,
+                          calc_error *error) {
+    const fret_normal *normal;
+    const fret_press *press;
+    double mu;
+    if (!loaded(s, &normal, &press, &mu, error))
+        return false;
+    fret_status st = fret_batch_loading(normal, mu, press, F, c, dx, count);
+    return scene_status(s, error, &st);
+}
+
+static bool block_c(scene *s, const double F[], double out[], size_t count, calc_error *error) {
+    return block_loading(s, F, out, NULL, count, error);
+}
+
+static bool block_dx(scene *s, const double F[], double out[], size_t count, calc_error *error) {
+    return block_loading(s, F, NULL, out, count, error);
+}
+
+static bool block_dW(scene *s, const double FA[], double out[], size_t count, calc_error *error) {
+    const fret_normal *normal;
+    const fret_press *press;
+    double mu;
+    if (!loaded(s, &normal, &press, &mu, error))
+        return false;
+    fret_status st = fret_batch_loss(normal, mu, press, FA, out, count);
+    return scene_status(s, error, &st);
+}
+
 /* ---- the table --------------------------------------------------------------------------------- */
 
 static const quantity quantities[] = {
-    {"E0", "characteristic modulus", "E(z) = E0 (z/c0)^k", "(1)", {1, -2}, IN_E0, 0, 0, 0, {0, 0}},
-    {"nu", "Poisson's ratio", "-1 < nu <= 1/2", "(1)", {0, 0}, IN_NU, 0, 0, 0, {0, 0}},
-    {"k", "exponent of grading", "-1 < k < 1", "(1)", {0, 0}, IN_K, 0, 0, 0, {0, 0}},
-    {"c0", "characteristic depth", "E(c0) = E0", "(1)", {0, 1}, IN_C0, 0, 0, 0, {0, 0}},
-    {"E0_2", "modulus of the second body", "as E0; default: same", "(4)", {1, -2}, IN_E0_2, 0, 0, 0, {0, 0}},
+    {"E0", "characteristic modulus", "E(z) = E0 (z/c0)^k", "(1)", {1, -2}, IN_E0, 0, 0, 0, {0, 0}, 0},
+    {"nu", "Poisson's ratio", "-1 < nu <= 1/2", "(1)", {0, 0}, IN_NU, 0, 0, 0, {0, 0}, 0},
+    {"k", "exponent of grading", "-1 < k < 1", "(1)", {0, 0}, IN_K, 0, 0, 0, {0, 0}, 0},
+    {"c0", "characteristic depth", "E(c0) = E0", "(1)", {0, 1}, IN_C0, 0, 0, 0, {0, 0}, 0},
+    {"E0_2",
+     "modulus of the second body",
+     "as E0; default: same",
+     "(4)",
+     {1, -2},
+     IN_E0_2,
+     0,
+     0,
+     0,
+     {0, 0},
+     0},
     {"nu_2",
      "Poisson's ratio of the second body",
      "as nu; default: same",
@@ -306,14 +372,15 @@ static const quantity quantities[] = {
      0,
      0,
      0,
-     {0, 0}},
-    {"mu", "coefficient of friction", "|q_x| <= mu p", "(14)", {0, 0}, IN_MU, 0, 0, 0, {0, 0}},
-    {"n", "exponent of the gap", "f = A r^n", "(6)", {0, 0}, IN_N, 0, 0, 0, {0, 0}},
-    {"A", "coefficient of the gap", "f = A r^n", "(6)", {0, 0}, IN_A, 0, 0, 0, {0, 0}},
-    {"h", "gap at r0", "f = h (r/r0)^n", "(6)", {0, 1}, IN_H, 0, 0, 0, {0, 0}},
-    {"r0", "reference radius of the gap", "f = h (r/r0)^n", "(6)", {0, 1}, IN_R0, 0, 0, 0, {0, 0}},
-    {"R", "radius of curvature", "f = r^2/(2R)", "(6)", {0, 1}, IN_RADIUS, 0, 0, 0, {0, 0}},
-    {"b", "radius of the flat end", "f = 0 for r < b", "(3)", {0, 1}, IN_B, 0, 0, 0, {0, 0}},
+     {0, 0},
+     0},
+    {"mu", "coefficient of friction", "|q_x| <= mu p", "(14)", {0, 0}, IN_MU, 0, 0, 0, {0, 0}, 0},
+    {"n", "exponent of the gap", "f = A r^n", "(6)", {0, 0}, IN_N, 0, 0, 0, {0, 0}, 0},
+    {"A", "coefficient of the gap", "f = A r^n", "(6)", {0, 0}, IN_A, 0, 0, 0, {0, 0}, 0},
+    {"h", "gap at r0", "f = h (r/r0)^n", "(6)", {0, 1}, IN_H, 0, 0, 0, {0, 0}, 0},
+    {"r0", "reference radius of the gap", "f = h (r/r0)^n", "(6)", {0, 1}, IN_R0, 0, 0, 0, {0, 0}, 0},
+    {"R", "radius of curvature", "f = r^2/(2R)", "(6)", {0, 1}, IN_RADIUS, 0, 0, 0, {0, 0}, 0},
+    {"b", "radius of the flat end", "f = 0 for r < b", "(3)", {0, 1}, IN_B, 0, 0, 0, {0, 0}, 0},
     {"slope",
      "slope of the flank",
      "f = slope r, slope = tan(angle)",
@@ -323,7 +390,8 @@ static const quantity quantities[] = {
      0,
      0,
      0,
-     {0, 0}},
+     {0, 0},
+     0},
     {"FN",
      "normal force",
      "F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx",
@@ -333,8 +401,9 @@ static const quantity quantities[] = {
      get_FN,
      0,
      0,
-     {0, 0}},
-    {"dz", "indentation depth", "delta_z = g(a)", "(11)", {0, 1}, -1, get_dz, call_dz, "F", {1, 0}},
+     {0, 0},
+     0},
+    {"dz", "indentation depth", "delta_z = g(a)", "(11)", {0, 1}, -1, get_dz, call_dz, "F", {1, 0}, block_dz},
     {"a",
      "contact radius",
      "g(a) = delta_z; power law: F_N ~ a^(n+k+1)",
@@ -344,7 +413,8 @@ static const quantity quantities[] = {
      get_a,
      call_a,
      "F",
-     {1, 0}},
+     {1, 0},
+     block_a},
     {"Fx",
      "tangential force",
      "F_x = mu [F_N(a)-F_N(c)] on first loading",
@@ -354,7 +424,8 @@ static const quantity quantities[] = {
      get_Fx,
      call_Fx,
      "d",
-     {0, 1}},
+     {0, 1},
+     0},
     {"dx",
      "tangential displacement",
      "delta_x = mu eta [g(a)-g(c)] on first loading",
@@ -364,7 +435,8 @@ static const quantity quantities[] = {
      get_dx,
      call_dx,
      "F",
-     {1, 0}},
+     {1, 0},
+     block_dx},
     {"c",
      "stick radius",
      "c/a = (1-F_x/(mu F_N))^(1/(n+k+1)) on first loading",
@@ -374,9 +446,10 @@ static const quantity quantities[] = {
      get_c,
      call_c,
      "F",
-     {1, 0}},
-    {"W", "energy dissipated so far", "W = sum of friction work", "(22)", {1, 1}, -1, get_W, 0, 0, {0, 0}},
-    {"U", "stored tangential energy", "U = 1/2 int c_T u^2 dx", "(22)", {1, 1}, -1, get_U, 0, 0, {0, 0}},
+     {1, 0},
+     block_c},
+    {"W", "energy dissipated so far", "W = sum of friction work", "(22)", {1, 1}, -1, get_W, 0, 0, {0, 0}, 0},
+    {"U", "stored tangential energy", "U = 1/2 int c_T u^2 dx", "(22)", {1, 1}, -1, get_U, 0, 0, {0, 0}, 0},
     {"dW",
      "energy dissipated per cycle",
      "dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx",
@@ -386,9 +459,10 @@ static const quantity quantities[] = {
      get_dW,
      call_dW,
      "FA",
-     {1, 0}},
-    {"dxmax", "displacement at gross slip", "mu eta delta_z", "(18)", {0, 1}, -1, get_dxmax, 0, 0, {0, 0}},
-    {"a0", "reference radius", "a for k = 0, same F_N and E0", "(23)", {0, 1}, -1, get_a0, 0, 0, {0, 0}},
+     {1, 0},
+     block_dW},
+    {"dxmax", "displacement at gross slip", "mu eta delta_z", "(18)", {0, 1}, -1, get_dxmax, 0, 0, {0, 0}, 0},
+    {"a0", "reference radius", "a for k = 0, same F_N and E0", "(23)", {0, 1}, -1, get_a0, 0, 0, {0, 0}, 0},
     {"dz0",
      "indentation depth for k = 0",
      "delta_z for k = 0, same F_N and E0",
@@ -398,7 +472,8 @@ static const quantity quantities[] = {
      get_dz0,
      0,
      0,
-     {0, 0}},
+     {0, 0},
+     0},
     {"dx0max",
      "displacement at gross slip for k = 0",
      "mu eta delta_z for k = 0",
@@ -408,7 +483,8 @@ static const quantity quantities[] = {
      get_dx0max,
      0,
      0,
-     {0, 0}},
+     {0, 0},
+     0},
     {"kn",
      "normal stiffness",
      "dF_N/d delta_z = 2 c_N0 c0^-k a^(k+1)/(k+1)",
@@ -418,7 +494,8 @@ static const quantity quantities[] = {
      get_kn,
      0,
      0,
-     {0, 0}},
+     {0, 0},
+     0},
     {"kt",
      "tangential stiffness going on",
      "dF_x/d delta_x = F_N'(y_c)/eta",
@@ -428,10 +505,21 @@ static const quantity quantities[] = {
      get_kt,
      0,
      0,
-     {0, 0}},
-    {"eta", "stiffness ratio", "c_N/c_T", "(4),(5)", {0, 0}, -1, get_eta, 0, 0, {0, 0}},
-    {"hN", "normal coefficient of the first body", "h_N(k,nu)", "(A1)", {0, 0}, -1, get_hN, 0, 0, {0, 0}},
-    {"hT", "tangential coefficient of the first body", "h_T(k,nu)", "(A2)", {0, 0}, -1, get_hT, 0, 0, {0, 0}},
+     {0, 0},
+     0},
+    {"eta", "stiffness ratio", "c_N/c_T", "(4),(5)", {0, 0}, -1, get_eta, 0, 0, {0, 0}, 0},
+    {"hN", "normal coefficient of the first body", "h_N(k,nu)", "(A1)", {0, 0}, -1, get_hN, 0, 0, {0, 0}, 0},
+    {"hT",
+     "tangential coefficient of the first body",
+     "h_T(k,nu)",
+     "(A2)",
+     {0, 0},
+     -1,
+     get_hT,
+     0,
+     0,
+     {0, 0},
+     0},
     {"beta_k",
      "beta of the first body",
      "beta^2 = (1+k)(1-k nu/(1-nu))",
@@ -441,8 +529,9 @@ static const quantity quantities[] = {
      get_beta_k,
      0,
      0,
-     {0, 0}},
-    {"kappa", "shape factor", "(n/2) B(n/2,(k+1)/2)", "(8)", {0, 0}, -1, get_kappa, 0, 0, {0, 0}},
+     {0, 0},
+     0},
+    {"kappa", "shape factor", "(n/2) B(n/2,(k+1)/2)", "(8)", {0, 0}, -1, get_kappa, 0, 0, {0, 0}, 0},
     {"cN",
      "normal foundation modulus at c0",
      "1/c_N = sum (1-nu^2)/(h_N E0)",
@@ -452,7 +541,8 @@ static const quantity quantities[] = {
      get_cN,
      0,
      0,
-     {0, 0}},
+     {0, 0},
+     0},
     {"cT",
      "tangential foundation modulus at c0",
      "1/c_T = sum 1/(h_T E0)",
@@ -462,9 +552,10 @@ static const quantity quantities[] = {
      get_cT,
      0,
      0,
-     {0, 0}},
-    {"E", "modulus at depth z", "E(z) = E0 (z/c0)^k", "(1)", {1, -2}, -1, 0, call_E, "z", {0, 1}},
-    {"f", "gap at radius r", "f(r)", "(3)", {0, 1}, -1, 0, call_f, "r", {0, 1}},
+     {0, 0},
+     0},
+    {"E", "modulus at depth z", "E(z) = E0 (z/c0)^k", "(1)", {1, -2}, -1, 0, call_E, "z", {0, 1}, 0},
+    {"f", "gap at radius r", "f(r)", "(3)", {0, 1}, -1, 0, call_f, "r", {0, 1}, 0},
     {"g",
      "equivalent profile",
      "g(x) = x^(1-k) int_0^x f'(r) (x^2-r^2)^((k-1)/2) dr",
@@ -474,7 +565,8 @@ static const quantity quantities[] = {
      0,
      call_g,
      "x",
-     {0, 1}},
+     {0, 1},
+     0},
     {"p",
      "contact pressure",
      "p(r) = (c_N0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx",
@@ -484,7 +576,8 @@ static const quantity quantities[] = {
      0,
      call_p,
      "r",
-     {0, 1}},
+     {0, 1},
+     0},
     {"qx",
      "tangential traction",
      "q_x(r): as p with -u'(x) and c_T0",
@@ -494,7 +587,8 @@ static const quantity quantities[] = {
      0,
      call_qx,
      "r",
-     {0, 1}},
+     {0, 1},
+     0},
     {"uz",
      "normal surface displacement",
      "(2 cos(pi k/2)/pi) int_0^a x^k (delta_z-g) (r^2-x^2)^(-(1+k)/2) dx",
@@ -504,7 +598,8 @@ static const quantity quantities[] = {
      0,
      call_uz,
      "r",
-     {0, 1}},
+     {0, 1},
+     0},
     {"ux",
      "tangential surface displacement",
      "u_x(r): as u_z with u(x)",
@@ -514,7 +609,8 @@ static const quantity quantities[] = {
      0,
      call_ux,
      "r",
-     {0, 1}},
+     {0, 1},
+     0},
 };
 enum { QUANTITIES = sizeof quantities / sizeof *quantities };
 

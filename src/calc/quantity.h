@@ -16,6 +16,8 @@ typedef struct quantity {
     bool (*call)(scene *s, value arg, long double *out, calc_error *error); /* NULL: no function */
     const char *argument; /* name and dimension of the function's argument */
     dim argument_d;
+    /* the function at many arguments, to 2e-15; NULL: call does them one by one */
+    bool (*block)(scene *s, const double arg[], double out[], size_t count, calc_error *error);
 } quantity;
 
 const quantity *quantity_find(const char *name, size_t len);

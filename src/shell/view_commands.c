@@ -222,37 +222,63 @@ static bool find_sweep_names(lexer *lx, char names[2][64]) {
 
 typedef bool sweep_row(void *context, const sweep *s, size_t with, const long double *values);
 
+static bool fits(const expr *e, column *c, dim d, calc_error *error) {
+    if (c->chosen && !dim_equal(c->d, d)) {
+        char is[128];
+        dim_describe(d, is, sizeof is);
+        return calc_fail(error, e->at, e->len, "%s is %s: it cannot be shown in %s", c->name, is, c->unit);
+    }
+    c->d = d;
+    return true;
+}
+
+/* Many rows at once, all expressions or none. An input that is swept makes a new scene of every row. */
+static bool run_block(shell *sh, const sweep *s, column *columns, size_t count, const long double *x,
+                      size_t rows, long double (*out)[EXPR_BLOCK]) {
+    calc_error unused = {0};
+    dim d;
+    sh->calc.sweep_value[0].d = s->var.d;
+    for (size_t j = 0; j < count; j++)
+        if (s->var.q || !expr_eval_block(&sh->calc, &sh->list[j], x, rows, out[j], &d) ||
+            !fits(&sh->list[j], &columns[j], d, &unused))
+            return false;
+    return true;
+}
+
 /* Evaluates `count` expressions of sh->list at every point of the sweep on a scratch scene. */
 static bool run_sweep(shell *sh, const sweep *s, column *columns, size_t count, sweep_row *row, void *context,
                       calc_error *error) {
     scene kept = sh->calc.scene;
     scene_clone(&sh->calc.scene, &kept);
     bool ok = true;
-    size_t curves = s->with_count ? s->with_count : 1;
+    size_t curves = s->with_count ? s->with_count : 1, fixed = 1 + (s->with_count > 0);
     for (size_t w = 0; w < curves && ok; w++) {
+        long double x[EXPR_BLOCK], block[COLUMNS][EXPR_BLOCK];
+        bool whole = false;
         if (s->with_count)
             ok = place(sh, &sh->calc.scene, &s->with, 1, s->with_values[w], error);
         for (unsigned i = 0; i <= s->steps && ok; i++) {
-            long double values[COLUMNS + 2], *v = values;
-            *v++ = sweep_at(s, i);
+            unsigned r = i % EXPR_BLOCK;
+            if (r == 0) {
+                size_t rows = s->steps - i < EXPR_BLOCK ? s->steps - i + 1 : EXPR_BLOCK;
+                for (unsigned j = 0; j < rows; j++)
+                    x[j] = sweep_at(s, i + j);
+                whole = run_block(sh, s, columns, count, x, rows, block);
+            }
+            long double values[COLUMNS + 2];
+            values[0] = x[r];
             if (s->with_count)
-                *v++ = s->with_values[w];
+                values[1] = s->with_values[w];
             ok = place(sh, &sh->calc.scene, &s->var, 0, values[0], error);
             for (size_t j = 0; j < count && ok; j++) {
                 value result;
-                ok = expr_eval(&sh->calc, &sh->list[j], &result, error);
-                if (!ok)
-                    break;
-                if (columns[j].chosen && !dim_equal(columns[j].d, result.d)) {
-                    char is[128];
-                    dim_describe(result.d, is, sizeof is);
-                    ok =
-                        calc_fail(error, sh->list[j].at, sh->list[j].len,
-                                  "%s is %s: it cannot be shown in %s", columns[j].name, is, columns[j].unit);
-                    break;
+                if (whole) {
+                    values[fixed + j] = block[j][r];
+                    continue;
                 }
-                columns[j].d = result.d;
-                *v++ = result.v;
+                ok = expr_eval(&sh->calc, &sh->list[j], &result, error) &&
+                     fits(&sh->list[j], &columns[j], result.d, error);
+                values[fixed + j] = ok ? result.v : 0;
             }
             if (ok && shell_stop) {
                 error->stop = true;
