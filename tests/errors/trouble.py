@@ -201,7 +201,7 @@ def finish(tests, name, job):
         job.kill()
         out, err = job.communicate()
     ok = job.returncode == 130 and time.time() - start < (20 if tests.sanitized else 5) and b"Sanitizer" not in err
-    tests.check(name, ok, "exit %s after %.1f s\n%s%s" % (job.returncode, time.time() - start, out[-500:].decode(),
+    tests.check(name, ok, "exit %s after %.1f s\n%s%s" % (job.returncode, time.time() - start, (out or b"")[-500:].decode(),
                                                          err[-500:].decode()))
 
 
@@ -225,6 +225,18 @@ def interrupts(tests):
                 out, err = job.communicate()
                 tests.check("interrupted: " + name, False, "was over before\n" + (out + err)[-500:].decode())
     tests.check("an interrupted table leaves no file", not os.path.exists(csv) and not os.path.exists(csv + ".part"))
+    out = os.path.join(tests.dir, "long.txt")
+    with open(out, "wb") as f:
+        job = subprocess.Popen([tests.fret, "-c", LONG.replace(" to %s", "")], stdout=f, stderr=subprocess.PIPE,
+                               env=tests.env, start_new_session=True)
+        time.sleep(0.4 if not tests.sanitized else 1)
+        job.send_signal(signal.SIGINT)
+        finish(tests, "interrupted: table on standard output", job)
+    with open(out, encoding="ascii") as f:
+        lines = f.read().splitlines(True)
+    tests.check("an interrupted table ends with a whole row", len(lines) > 2 and "FA [N]" in lines[0] and
+                len(lines[-1]) == len(lines[1]), repr(lines[-1:]))
+    os.unlink(out)
 
 
 def memory(tests):

@@ -188,6 +188,118 @@ def read_tables(tests):
             tests.check("follow: " + message, message in done.stderr and done.returncode == 1, tests.report(done))
 
 
+def table_rows(done):
+    """Heads and rows of a CSV table, as text."""
+    rows = list(csv.reader(done.stdout.splitlines()))
+    return rows[:1], rows[1:]
+
+
+def alike(a, b):
+    return abs(a - b) <= 2e-15 * abs(b)
+
+
+def long_tables(tests):
+    """Tables longer than the 256 rows that are evaluated at once."""
+    power = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry power n=2.5 A=50 m^-1.5; friction 0.4; press FN=100 N\n"
+    for name, scene in (("sphere", SCENE), ("graded", power)):
+        functions = "dW(F), c(F), dx(F), a(F), dz(F), Fx(F*1e-8 m/N), f(F*1 mm/N)"
+        done = tests.run("--format=csv", "-c", scene + "table %s for F = 1 N .. 39 N steps 699" % functions)
+        rows = table_rows(done)[1]
+        singly = tests.run("--format=json", input=scene + "\n".join(
+            ", ".join(f.strip().replace("F*", row[0] + " N*").replace("(F)", "(%s N)" % row[0])
+                      for f in functions.split(", ")) for row in rows))
+        values = [json.loads(line)["value"] for line in singly.stdout.splitlines()]
+        got = [float(cell) for row in rows for cell in row[1:]]
+        worst = [(g, v) for g, v in zip(got, values) if not alike(g, v)]
+        tests.check("700 rows as one by one, " + name, len(rows) == 700 and len(got) == len(values) == 4900 and not worst,
+                    str(worst[:5]) + tests.report(done)[:500])
+    sums = "x^2, -x/3, min(x,300)+max(x,2), sqrt(abs(x-500)), 2^-x*x, FN/x in mN, 7, 1+(2-(3*(x-(4-x)))), pi*dW(20 N)*x"
+    done = tests.run("--format=csv", "-c", SCENE + "table %s for x = 1 .. 1025 steps 1024" % sums)
+    loss = json.loads(tests.run("--format=json", "-c", SCENE + "dW(20 N)").stdout)["value"]
+    rows = [[float(cell) for cell in row] for row in table_rows(done)[1]]
+    wrong = [row for row in rows if not all(map(alike, row[1:], (
+        row[0] ** 2, -row[0] / 3, min(row[0], 300) + max(row[0], 2), abs(row[0] - 500) ** 0.5, 2.0 ** -row[0] * row[0],
+        1e5 / row[0], 7, 15 - 6 * row[0], 3.141592653589793 * loss * row[0])))]
+    tests.check("1025 rows of expressions", len(rows) == 1025 and rows[1024][0] == 1025 and not wrong, str(wrong[:3]))
+    deep = "x+(" * 49 + "x" + ")" * 49
+    done = tests.run("--format=csv", "-c", "table %s, 1 for x = 1 .. 600 steps 599" % deep)
+    tests.check("a deeply nested expression", [float(row[1]) for row in table_rows(done)[1]] ==
+                [50.0 * (i + 1) for i in range(600)], tests.report(done)[:300])
+    done = tests.run("--format=csv", "-c", SCENE + "table x*F/(1 N), a(F)/x for x = 1 .. 600 steps 599 with F = 1 N, 2 N")
+    rows = table_rows(done)[1]
+    tests.check("curves of 600 rows", len(rows) == 1200 and
+                all(float(row[2]) == (1 + i // 600) * (1 + i % 600) and row[1] == str(1 + i // 600) for i, row in
+                    enumerate(rows)) and alike(float(rows[1199][3]), float(rows[600][3]) / 600), tests.report(done)[-300:])
+    done = tests.run("--format=csv", "-c", SCENE + "table a(F) for F = 1 N .. 600 N steps 599 with k = 0, 0.5")
+    tests.check("a curve that fails", len(table_rows(done)[1]) == 600 and "c0 is not set" in done.stderr and
+                "(at F = 1 N)" in done.stderr, tests.report(done)[-500:])
+
+
+def failing_tables(tests):
+    """What fails in the middle of a block: the rows before it are there, and the message names its row."""
+    for expression, sweep, rows, where in (
+            ("dW(F)", "F = 1 N .. 71 N steps 1400", 781, "gross slip"),
+            ("F, c(F)", "F = 0.05 N .. 60.05 N steps 1200", 800, "gross slip"),
+            ("a(100 N-F)", "F = 1 N .. 1001 N steps 1000", 100, "(at F = "),
+            ("1/(x-699)", "x = 0 .. 1000 steps 1000", 699, "division by zero (at x = 699)"),
+            ("x, sqrt(511.5-x)", "x = 0 .. 1000 steps 1000", 512, "square root of a negative number is not real (at x = 512)"),
+            ("(256-x)^0.5", "x = 0 .. 1000 steps 1000", 257, "no real power 0.5 (at x = 257)"),
+            ("exp(x)", "x = 0 .. 1000 steps 1000", 710, "too large for double precision (at x = 710)"),
+            ("log(700-x)", "x = 0 .. 1000 steps 1000", 700, "too large for double precision (at x = 700)"),
+            ("beta(300-x,2)", "x = 0 .. 1000 steps 1000", 300, "beta needs two positive arguments in range (at x = 300)"),
+            ("(2 m)^x in m", "x = 1 .. 2 steps 1000", 1, "cannot be shown in m (at x = 1.001)"),
+            ("x + 1 mm", "x = 0 .. 1 N steps 1000", 0, "cannot add a length (1 mm) to a force (x) (at x = "),
+            ("x in mm", "x = 0 .. 1 N steps 1000", 0, "x is a force: it cannot be shown in mm"),
+            ("c(x)", "x = 0 .. 1 m steps 1000", 0, "c(F) takes a force, not a length (x)")):
+        done = tests.run("--format=csv", "-c", SCENE + "table %s for %s" % (expression, sweep))
+        got = max(len(done.stdout.splitlines()) - 1, 0)
+        tests.check("table %s for %s" % (expression, sweep), got == rows and where in done.stderr and done.returncode == 1,
+                    "%d rows\n%s" % (got, tests.report(done)[-600:]))
+
+
+def digits(tests):
+    """Numbers of tables are written as printf writes them."""
+    sweeps = ("x, -x for x = 1e-30 .. 1e30 steps 3000 log", "x for x = -2 .. 2 steps 1000", "x for x = 0 .. 1e17 steps 997",
+              "x+0.5, x*1e5+0.5 for x = 0 .. 700 steps 700", "10^x, 10^x-10^(x-17) for x = -40 .. 40 steps 80",
+              "x for x = 1e-308 .. 1e-300 steps 300", "x for x = 0.99999949 .. 0.99999951 steps 400")
+    for sweep in sweeps:
+        exact = [row for row in table_rows(tests.run("--format=csv", "-c", "table " + sweep))[1]]
+        wrong = [cell for row in exact for cell in row if cell != "%.17g" % float(cell)]
+        tests.check("17 digits: " + sweep, len(exact) > 80 and not wrong, str(wrong[:5]))
+        for n in (1, 2, 6, 15, 16):
+            shown = tests.run("-c", "set digits %d; table %s" % (n, sweep)).stdout.splitlines()[1:]
+            want = [["%.*g" % (n, float(cell)) for cell in row] for row in exact]
+            wrong = [pair for pair in zip(want, map(str.split, shown)) if pair[0] != pair[1]]
+            tests.check("%d digits: %s" % (n, sweep), len(shown) == len(exact) and not wrong, str(wrong[:5]))
+
+
+def waiting_steps(tests):
+    """Steps that wait for a question give the answers of steps that are asked one by one."""
+    steps = ["step dx=1 um", "step dx=-0.3 um", "step dx=0.4 um", "step Fx=3 N", "step dx=0.2 um", "step dx+=0.1 um",
+             "step FN=80 N", "step dx=-3 um", "k = 0.2; c0 = 1 mm", "c0 = 1 mm; k = 0.2", "step dx=0.5 um",
+             "cycle dxA=0.4 um", "step dx=1 um", "press FN=50 N", "step dx=1 um", "step dx=-1 um", "mu = 0.2",
+             "step dx=0", "mu = -1", "step Fx=1000 N", "step dx=0.1 um steps 3"]
+    ask = "Fx, dx, c, W, U, kt, FN"
+    asked = tests.run("--keep-going", "-c", SCENE + "\n".join(s + "\n" + ask for s in steps) + "\nhistory")
+    waited = tests.run("--keep-going", "-c", SCENE + "\n".join(steps) + "\n" + ask + "\nhistory")
+    n = len(waited.stdout.splitlines())
+    tests.check("steps that wait", n > 10 and asked.stdout.splitlines()[-n:] == waited.stdout.splitlines(),
+                harness.diff("\n".join(asked.stdout.splitlines()[-n:]), waited.stdout))
+    errors = [line for line in waited.stderr.splitlines() if "error:" in line]
+    tests.check("errors come at their lines", [line.split(":")[1] for line in errors] ==
+                ["10", "20", "21"], waited.stderr)
+    done = tests.run("-c", SCENE.replace("friction 0.4; ", "") + "Fx\nstep dx=1 um")
+    tests.check("a step needs friction at once", done.stdout == "Fx = 0 N\n" and done.returncode == 1 and
+                done.stderr.startswith("-c:3:9: error: mu is not set"), tests.report(done))
+
+
+def many_variables(tests):
+    count = 3000
+    script = "".join("v%d = %d\n" % (i, i) for i in range(count)) + "v7 = v7 + 1\n"
+    says(tests, "3000 variables", tests.run("-c", script + "v0, v7, v%d, v1234 - v1233" % (count - 1)),
+         "v0 = 0\nv7 = 8\nv%d = %d\nv1234 - v1233 = 1" % (count - 1, count - 1))
+
+
 def demos(tests):
     paths = sorted(glob.glob(os.path.join(harness.ROOT, "scripts", "demos", "*")))
     tests.check("there are demos", paths)
@@ -203,4 +315,5 @@ def demos(tests):
 
 
 def run(tests):
-    tests.each([lambda room=room: room(tests) for room in (jobs, written, read_tables, pictures, demos)])
+    tests.each([lambda room=room: room(tests) for room in (jobs, written, long_tables, failing_tables, digits, waiting_steps,
+                                                   many_variables, read_tables, pictures, demos)])
