@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fret/reference.h"
+
+#include <float.h>
+
+#include "gap.h"
+#include "special.h"
+
+/* The annulus that slips. Power laws take depths relative to delta_z, where both brackets are distances from
+ * the ends and keep every digit: from yc to 1, of width X = 1-yc. Other shapes take radii, as distances from
+ * the start of the gap: depths there may jump. */
+typedef struct annulus {
+    const fret_normal *normal;
+    fret_real scale; /* of the integral, to J */
+    fret_real yc, X;
+    fret_real start, inner, outer, g_inner, g_outer;
+} annulus;
+
+/* int (1-y) (y-yc) K'(y) dy in units of F_N, K' = p (p-1) y^(p-2) */
+static fret_real by_depth(const annulus *s, fret_real t, fret_real rest) {
+    const fret_normal *n = s->normal;
+    fret_real from_edge = s->X * rest, y = s->yc + s->X * t;
+    fret_real l = from_edge < 0.5L ? log1pl(-from_edge) : logl(y);
+    return n->p * n->pm1 * expl((n->pm1 - 1) * l) * t * rest;
+}
+
+/* int 2 (x/c0)^k (g(a)-g(x)) (g(x)-g(c)) dx */
+static fret_real by_radius(const annulus *s, fret_real t, fret_real rest) {
+    const fret_normal *n = s->normal;
+    fret_real e = s->inner * rest + s->outer * t;
+    if (e <= 0)
+        return 0;
+    fret_real g = fret_gap_profile(&n->gap, &n->rule, e).g;
+    return 2 * powl((s->start + e) / n->foundation.c0, n->foundation.k) * (s->g_outer - g) *
+           (g - s->g_inner) * (s->outer - s->inner);
+}
+
+/* Nodes u = first, first + step, ... within +-END of t = 1/(1 + exp(-pi sinh u)). */
+static const fret_real END = 4; /* t = 1e-37 */
+
+static fret_real nodes_sum(const annulus *s, fret_real first, fret_real step) {
+    fret_real (*f)(const annulus *, fret_real, fret_real) = s->normal->p > 0 ? by_depth : by_radius;
+    fret_sum sum = {0, 0};
+    unsigned count = (unsigned)floorl((END - first) / step + 0.5L);
+    for (unsigned i = 0; i <= count; i++) {
+        fret_real u = first + step * i, e = expl(-PI_L * sinhl(fabsl(u)));
+        fret_real near = e / (1 + e), far = 1 / (1 + e);
+        fret_real weight = PI_L * coshl(u) * near * far; /* dt/du */
+        fret_sum_add(&sum, weight * (u < 0 ? f(s, near, far) : f(s, far, near)));
+    }
+    return fret_sum_value(&sum);
+}
+
+static fret_status annulus_make(const fret_normal *normal, double mu, const fret_press *press,
+                                const fret_loading *peak, annulus *out) {
+    fret_status st = fret_check_positive("mu", mu);
+    if (!st.code)
+        st = fret_check_positive("FN", (double)press->F);
+    if (st.code)
+        return st;
+    fret_real max = fret_gross_slip(normal, mu, press), x = fminl(fabsl(peak->dx) / max, 1);
+    annulus s = {.normal = normal, .yc = peak->yc / press->dz, .X = x};
+    s.scale = 4 * mu * press->F * max * x * x * x;
+    if (normal->p <= 0) {
+        s.scale = 4 * mu * mu * normal->foundation.eta * normal->foundation.cN0;
+        s.start = fret_gap_start(&normal->gap);
+        s.outer = press->a - s.start;
+        s.inner = fmaxl(peak->c - s.start, 0);
+        s.g_outer = fret_gap_profile(&normal->gap, &normal->rule, s.outer).g;
+        s.g_inner = s.inner > 0 ? fret_gap_profile(&normal->gap, &normal->rule, s.inner).g : 0;
+    }
+    *out = s;
+    return st;
+}
+
+/* What gross slip adds. */
+static fret_real sliding(const annulus *s, double mu, const fret_press *press, const fret_loading *peak) {
+    return 4 * mu * press->F * fmaxl(fabsl(peak->dx) - fret_gross_slip(s->normal, mu, press), 0);
+}
+
+fret_status fret_quadrature_loss(const fret_normal *normal, double mu, const fret_press *press,
+                                 const fret_loading *peak, unsigned points, fret_real *loss) {
+    annulus s;
+    fret_status st = annulus_make(normal, mu, press, peak, &s);
+    if (!st.code && (points < 8 || points > 100000))
+        st = fret_fail(FRET_OUTSIDE, "points", points, points < 8 ? 8 : 100000);
+    if (st.code)
+        return st;
+    fret_real step = 2 * END / (points - 1);
+    *loss = s.scale * step * nodes_sum(&s, -END, step) + sliding(&s, mu, press, peak);
+    return fret_ok();
+}
+
+static fret_status refine(const fret_normal *normal, double mu, const fret_press *press,
+                          const fret_loading *peak, fret_real *loss, fret_real *agreement) {
+    const fret_real unit = 4 * LDBL_EPSILON,
+                    finest = normal->gap.kind == FRET_GAP_TABLE ? 1 / 64.0L : 1 / 256.0L;
+    annulus s;
+    fret_status st = annulus_make(normal, mu, press, peak, &s);
+    if (st.code)
+        return st;
+    fret_real step = 0.25L, sum = nodes_sum(&s, -END, step), change;
+    do {
+        fret_real old = step * sum;
+        sum += nodes_sum(&s, -END + step / 2, step);
+        step /= 2;
+        change = fabsl(step * sum - old);
+    } while (change > unit * step * sum && step > finest);
+    *loss = s.scale * step * sum + sliding(&s, mu, press, peak);
+    /* differences of depths, and of radii near a flat end, keep fewer digits */
+    fret_real lost = normal->p > 0 ? 1 : fmaxl(1, s.start / s.outer) / s.X;
+    *agreement = sum > 0 ? fmaxl(change / (step * sum), unit * lost) : 0;
+    return st;
+}
+
+fret_status fret_reference_loss(const fret_normal *normal, double mu, const fret_press *press, double FA,
+                                fret_real *loss, fret_real *agreement) {
+    fret_loading peak;
+    fret_status st = fret_check_not_negative("FA", FA);
+    if (!st.code)
+        st = fret_loading_force(normal, mu, press, FA, &peak);
+    if (st.code == FRET_GROSS_SLIP)
+        st.quantity = "FA";
+    return st.code ? st : refine(normal, mu, press, &peak, loss, agreement);
+}
+
+fret_status fret_reference_loss_displacement(const fret_normal *normal, double mu, const fret_press *press,
+                                             double dA, fret_real *loss, fret_real *agreement) {
+    fret_loading peak;
+    fret_status st = fret_check_not_negative("dxA", dA);
+    if (!st.code)
+        st = fret_loading_displacement(normal, mu, press, dA, &peak);
+    return st.code ? st : refine(normal, mu, press, &peak, loss, agreement);
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The loss by quadrature, against tables of 36 digits and against the closed forms. */
+#include "unit.h"
+
+typedef struct contact {
+    fret_normal normal;
+    fret_press press;
+    double mu;
+} contact;
+
+static contact make(const unit_scene *s, double FN) {
+    contact c;
+    memset(&c, 0, sizeof c);
+    c.mu = s->mu;
+    CHECK_OK(fret_normal_make(&s->material, &s->gap, &c.normal));
+    CHECK_OK(fret_press_force(&c.normal, FN, &c.press));
+    return c;
+}
+
+static void scenes(void) {
+    unit_table t;
+    if (!unit_open(&t, "scene.csv"))
+        return;
+    while (unit_row(&t)) {
+        unit_scene s = unit_read_scene(&t, 0);
+        double FN = unit_input(&t, UNIT_SCENE_COLUMNS), FA = unit_input(&t, UNIT_SCENE_COLUMNS + 1);
+        contact c = make(&s, FN);
+        fret_real loss = -1, agreement = -1;
+        CHECK_OK(fret_reference_loss(&c.normal, c.mu, &c.press, FA, &loss, &agreement));
+        CHECK(agreement >= LDBL_EPSILON && agreement < UNIT_TOL(1e-17L, 1e-14L));
+        CHECK_REL(loss, unit_result(&t, UNIT_SCENE_COLUMNS + 2 + 5), UNIT_TOL(2e-17L, 1e-14L));
+    }
+}
+
+/* Other shapes: the closed form integrates the same by parts, over slices of the load. */
+static void shapes(void) {
+    static const double ks[] = {-0.7, 0, 0.5}, ts[] = {1e-4, 0.1, 0.5, 0.9, 1};
+    static const fret_gap gaps[] = {
+        {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 2e6, 1}}},
+        {.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 0.01},
+        {.kind = FRET_GAP_FLAT_PARABOLOID, .b = 1e-4, .R = 1e-2},
+        {.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-4, .R = 1e-2},
+        {.kind = FRET_GAP_EXACT_SPHERE, .R = 1e-2},
+    };
+    for (size_t i = 0; i < sizeof gaps / sizeof *gaps; i++)
+        for (size_t j = 0; j < sizeof ks / sizeof *ks; j++) {
+            unit_scene s = unit_make_scene(2, ks[j]);
+            s.gap = gaps[i];
+            contact c = make(&s, 100);
+            for (size_t l = 0; l < sizeof ts / sizeof *ts; l++) {
+                fret_real loss, same, agreement;
+                double FA = ts[l] * c.mu * 100;
+                CHECK_OK(fret_cycle_loss(&c.normal, c.mu, &c.press, FA, &same));
+                CHECK_OK(fret_reference_loss(&c.normal, c.mu, &c.press, FA, &loss, &agreement));
+                CHECK_ABS(agreement, 0, 1, UNIT_TOL(1e-12L, 1e-9L));
+                CHECK_REL(loss, same, UNIT_TOL(1e-12L, 1e-9L));
+                fret_loading peak;
+                CHECK_OK(fret_loading_force(&c.normal, c.mu, &c.press, FA, &peak));
+                CHECK_OK(fret_reference_loss_displacement(&c.normal, c.mu, &c.press, (double)peak.dx, &same,
+                                                          &agreement));
+                CHECK_REL(same, loss, 1e-11L);
+            }
+        }
+}
+
+/* By displacement, into gross slip, and with few nodes. */
+static void amplitudes(void) {
+    unit_scene s = unit_make_scene(2, -0.5);
+    contact c = make(&s, 100);
+    fret_real max = fret_gross_slip(&c.normal, c.mu, &c.press), loss, same, agreement;
+    static const double part[] = {1e-6, 0.3, 1, 2.5};
+    for (size_t i = 0; i < sizeof part / sizeof *part; i++) {
+        double dA = (double)(part[i] * max);
+        fret_loading peak;
+        CHECK_OK(fret_cycle_loss_displacement(&c.normal, c.mu, &c.press, dA, &same));
+        CHECK_OK(fret_reference_loss_displacement(&c.normal, c.mu, &c.press, dA, &loss, &agreement));
+        CHECK_REL(loss, same, UNIT_TOL(2e-18L, 1e-14L));
+        CHECK_OK(fret_loading_displacement(&c.normal, c.mu, &c.press, dA, &peak));
+        fret_real error[2];
+        for (unsigned n = 0; n < 2; n++) {
+            CHECK_OK(fret_quadrature_loss(&c.normal, c.mu, &c.press, &peak, 16 << n, &same));
+            error[n] = fabsl(same - loss) / loss;
+        }
+        CHECK(error[1] < error[0] * error[0] * 100); /* twice the nodes, about twice the digits */
+    }
+    CHECK_OK(fret_reference_loss(&c.normal, c.mu, &c.press, 0, &loss, &agreement));
+    CHECK(loss == 0);
+    CHECK_ERROR(fret_reference_loss(&c.normal, c.mu, &c.press, 41, &loss, &agreement), FRET_GROSS_SLIP, "FA");
+    CHECK_ERROR(fret_reference_loss(&c.normal, c.mu, &c.press, -1, &loss, &agreement), FRET_NEGATIVE, "FA");
+    CHECK_ERROR(fret_reference_loss(&c.normal, 0, &c.press, 1, &loss, &agreement), FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_reference_loss_displacement(&c.normal, c.mu, &c.press, -1, &loss, &agreement),
+                FRET_NEGATIVE, "dxA");
+    const fret_loading none = {0, 0, c.press.a, c.press.dz};
+    CHECK_OK(fret_quadrature_loss(&c.normal, c.mu, &c.press, &none, 64, &loss));
+    CHECK(loss == 0);
+    CHECK_ERROR(fret_quadrature_loss(&c.normal, c.mu, &c.press, &none, 7, &loss), FRET_OUTSIDE, "points");
+    CHECK_ERROR(fret_quadrature_loss(&c.normal, c.mu, &c.press, &none, 100001, &loss), FRET_OUTSIDE,
+                "points");
+    CHECK_ERROR(fret_quadrature_loss(&c.normal, -1, &c.press, &none, 64, &loss), FRET_NOT_POSITIVE, "mu");
+}
+
+/* A sampled gap has corners: fewer digits, and the agreement says so. */
+static void sampled(void) {
+    enum { ROWS = 50 };
+    double r[ROWS], f[ROWS];
+    for (int i = 0; i < ROWS; i++) {
+        r[i] = 1e-5 * i;
+        f[i] = 2e-6 * pow(r[i] / 1e-4, 1.6);
+    }
+    unit_scene s = unit_make_scene(2, 0);
+    struct fret_table *table = NULL;
+    CHECK_OK(fret_table_make(r, f, ROWS, &table));
+    s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = table};
+    contact c = make(&s, 20);
+    fret_real loss, finer, agreement;
+    fret_loading peak;
+    CHECK_OK(fret_reference_loss(&c.normal, c.mu, &c.press, 4, &loss, &agreement));
+    CHECK_OK(fret_loading_force(&c.normal, c.mu, &c.press, 4, &peak));
+    CHECK_OK(fret_quadrature_loss(&c.normal, c.mu, &c.press, &peak, 2049, &finer));
+    CHECK(agreement > 1e-12L && agreement < 1e-6L);
+    CHECK_REL(loss, finer, agreement);
+    fret_table_free(table);
+}
+
+int main(int argc, char **argv) {
+    unit_start("reference", argc, argv);
+    scenes();
+    shapes();
+    amplitudes();
+    sampled();
+    return unit_finish();
+}
