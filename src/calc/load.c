@@ -23,6 +23,8 @@ typedef struct runner {
     load_observer *observe; /* or NULL */
     void *context;
     unsigned points;
+    unsigned parts; /* cut each straight step into so many and sum the loop area; 0: neither */
+    long double area, Fx, dx;
     size_t index;
     long double cycle_loss;
 } runner;
@@ -41,12 +43,33 @@ static void forces_of(const runner *r, fret_state *out) {
         fret_memory_forces(r->memory, out);
 }
 
+/* int F_x d(delta_x) by the trapezoidal rule. */
+static void sum_area(runner *r) {
+    fret_state now;
+    forces_of(r, &now);
+    r->area += (now.dx - r->dx) * (now.Fx + r->Fx) / 2;
+    r->Fx = now.Fx;
+    r->dx = now.dx;
+}
+
+static void seen(runner *r) {
+    fret_state now;
+    if (r->parts)
+        sum_area(r);
+    if (r->observe) {
+        fret_memory_state(r->memory, &now);
+        r->observe(&now, r->index, r->context);
+    }
+}
+
 static fret_status take(runner *r, const fret_step *step, unsigned points) {
     fret_status st;
-    if (!r->observe)
+    if (!r->observe && !r->parts)
         return run_on(r, step);
-    fret_state from, now;
+    fret_state from;
     forces_of(r, &from);
+    if (r->parts)
+        points = r->parts;
     for (unsigned i = 1; i < points; i++) {
         if (r->s->stop && *r->s->stop)
             return (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
@@ -59,14 +82,11 @@ static fret_status take(runner *r, const fret_step *step, unsigned points) {
         st = run_on(r, &part);
         if (st.code)
             return st;
-        fret_memory_state(r->memory, &now);
-        r->observe(&now, r->index, r->context);
+        seen(r);
     }
     st = run_on(r, step);
-    if (!st.code) {
-        fret_memory_state(r->memory, &now);
-        r->observe(&now, r->index, r->context);
-    }
+    if (!st.code)
+        seen(r);
     return st;
 }
 
@@ -363,17 +383,23 @@ static void widest(const fret_state *state, size_t step, void *context) {
         *a = state->a;
 }
 
-/* The whole program on springs, wide enough for the largest contact on the way. */
-static bool run_springs(scene *s, calc_error *error) {
+/* Springs wide enough for the largest contact of the program. */
+static bool make_springs(scene *s, unsigned count, fret_springs **out, calc_error *error) {
     const fret_normal *normal;
     double mu;
     long double a = 0;
     if (!scene_normal(s, &normal, error) || !friction_for_program(s, &mu, error) ||
         !scene_trace(s, 0, widest, &a, error))
         return false;
+    fret_status st = fret_springs_make(normal, mu, count, (double)(a * (1 + 1e-12L)), FRET_WEIGHT_CELL, out);
+    return scene_status(s, error, &st);
+}
+
+static bool run_springs(scene *s, calc_error *error) {
     runner r = {.s = s, .points = 1};
-    fret_status st =
-        fret_springs_make(normal, mu, s->springs, (double)(a * (1 + 1e-12L)), FRET_WEIGHT_CELL, &r.springs);
+    if (!make_springs(s, s->springs, &r.springs, error))
+        return false;
+    fret_status st = {FRET_OK, NULL, 0, 0};
     size_t cycle = 0;
     for (size_t i = 0; i < s->steps && !st.code; i++) {
         const cycle_extra *x = s->program[i].kind == LOAD_CYCLE ? &s->cycles[cycle++] : NULL;
@@ -499,4 +525,87 @@ bool scene_trace(scene *s, unsigned points, load_observer *observe, void *contex
     }
     fret_memory_free(r.memory);
     return scene_status(s, error, &st);
+}
+
+struct cycle_run {
+    runner r;
+    const load_step *cycle;
+    const cycle_extra *extra;
+    long double FN; /* about which the normal force swings */
+};
+
+bool cycle_run_open(scene *s, unsigned springs, unsigned parts, cycle_run **out, calc_error *error) {
+    const load_step *last = scene_last_cycle(s);
+    const fret_normal *normal;
+    double mu;
+    if (!last)
+        return calc_fail(error, 0, 0, "no cycle has been run yet: use cycle FA=...");
+    if (!scene_normal(s, &normal, error) || !scene_friction(s, &mu, error))
+        return false;
+    cycle_run *run = calloc(1, sizeof *run);
+    if (!run)
+        return calc_fail(error, 0, 0, "out of memory");
+    run->r = (runner){.s = s, .points = 1, .parts = parts};
+    run->cycle = last;
+    fret_status st = {FRET_OK, NULL, 0, 0};
+    bool ok = true;
+    if (springs)
+        ok = make_springs(s, springs, &run->r.springs, error);
+    else
+        st = fret_memory_make(normal, mu, &run->r.memory);
+    run->extra = s->cycles;
+    for (const load_step *step = s->program; ok && step <= last && !st.code; step++) {
+        if (step->kind != LOAD_CYCLE) {
+            st = run_step(&run->r, step, NULL);
+        } else if (step < last) {
+            st = run_step(&run->r, step, run->extra++);
+        } else {
+            fret_state state;
+            cycle_extra before = *run->extra;
+            before.times--;
+            forces_of(&run->r, &state);
+            run->FN = state.FN;
+            st = run_step(&run->r, step, &before);
+        }
+        if (!st.code && s->stop && *s->stop)
+            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+    }
+    if (ok && scene_status(s, error, &st)) {
+        *out = run;
+        return true;
+    }
+    cycle_run_close(run);
+    return false;
+}
+
+static void energies(const runner *r, fret_state *out) {
+    if (r->springs)
+        fret_springs_state(r->springs, out);
+    else
+        fret_memory_state(r->memory, out);
+}
+
+bool cycle_run_period(cycle_run *run, long double *loss, long double *area, calc_error *error) {
+    runner *r = &run->r;
+    fret_state from, to;
+    if (loss || area)
+        energies(r, &from);
+    r->area = 0;
+    fret_status st = period(r, run->cycle, run->extra, run->FN);
+    if (!st.code && (loss || area)) {
+        energies(r, &to);
+        if (loss)
+            *loss = to.W - from.W;
+        if (area) /* what goes into the contact and is not stored */
+            *area = r->area - (to.U - from.U);
+    }
+    return scene_status(r->s, error, &st);
+}
+
+void cycle_run_close(cycle_run *run) {
+    if (!run)
+        return;
+    fret_springs_free(run->r.springs);
+    fret_memory_free(run->r.memory);
+    free(run);
 }

@@ -131,6 +131,21 @@ static const command commands[] = {
      "        model: closed form\n"
      "        eta = 1.21429\n",
      COMPLETE_QUANTITY},
+    {"accuracy", do_accuracy, "[FA=20 N | dxA=0.5 um]", "error against time of every model, for this scene",
+     "A table of the models that can answer for dW: value, relative error, time of a cycle without setting "
+     "up.\n"
+     "Errors refer to quadrature in extended precision; `<` marks one that is below what it can tell. "
+     "Without\n"
+     "an argument the amplitude is that of the last cycle, else of Fx now, else half of mu*FN. Where FN "
+     "swings or\n"
+     "has changed, the load program is run as it is and errors refer to a refined memory diagram. Springs\n"
+     "with `midpoint` weights x^k h converge with order 1+k where k < 0. The last line says what `set model "
+     "auto`\n"
+     "picks. `plot accuracy` draws the table.\n\n"
+     "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+     "    fret> accuracy FA=50 N\n"
+     "    error: FA = 50 N exceeds mu*FN = 40 N: gross slip; cycle by displacement (dxA=...) to slide\n",
+     COMPLETE_QUANTITY},
     {"show", do_show, "[scene|settings|units|commands]", "what is set",
      "The scene as the commands that make it, the settings, the units, or the commands.\n\n"
      "    fret> material steel; geometry sphere R=10 mm\n"

@@ -66,6 +66,7 @@ bool do_history(shell *sh, lexer *lx);
 bool do_table(shell *sh, lexer *lx);
 bool do_plot(shell *sh, lexer *lx);
 bool do_explain(shell *sh, lexer *lx);
+bool do_accuracy(shell *sh, lexer *lx);
 
 bool do_show(shell *sh, lexer *lx);
 bool do_set(shell *sh, lexer *lx);
