@@ -13,6 +13,7 @@ sys.dont_write_bytecode = True
 for room in ("", "sessions", "errors", "interactive"):
     sys.path.insert(0, os.path.join(HERE, room))
 
+import accuracy_test  # noqa: E402
 import harness  # noqa: E402
 import numbers_of_the_physics  # noqa: E402
 import prompt  # noqa: E402
@@ -152,9 +153,9 @@ def help_examples(tests):
     tests.check("help lists the quantities", len(quantities) > 30, text)
 
 
-ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run, "scripts": scripts.run,
-         "errors": table.run, "trouble": trouble.run, "interactive": prompt.run, "readme": readme,
-         "help": help_examples}
+ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
+         "scripts": scripts.run, "accuracy": accuracy_test.run, "errors": table.run, "trouble": trouble.run,
+         "interactive": prompt.run, "readme": readme, "help": help_examples}
 
 
 def main():

@@ -118,14 +118,19 @@ static void write_script(FILE *to, const plot_figure *f, const char *terminal, c
     quoted(to, f->xlabel);
     fprintf(to, " noenhanced\nset ylabel ");
     quoted(to, dumb ? "" : f->ylabel);
-    fprintf(to, " noenhanced\nset grid\nset xzeroaxis\n%s", f->logx ? "set logscale x\n" : "");
+    fprintf(to, " noenhanced\nset grid\nset xzeroaxis\n%s%s", f->logx ? "set logscale x\n" : "",
+            f->logy ? "set logscale y\nset format '%.0e'\n" : "");
     bool keys = f->count > 1;
-    fprintf(to, keys ? dumb ? "set key top left noenhanced\n" : "set key outside right noenhanced\n"
-                     : "set key off\n");
+    const char *key = !keys     ? "off"
+                      : !dumb   ? "outside right noenhanced"
+                      : f->logy ? "bottom right noenhanced"
+                                : "top left noenhanced";
+    fprintf(to, "set key %s\n", key);
     if (dumb)
         fprintf(to, "unset grid\n");
     for (size_t i = 0; i < f->count; i++) {
-        fprintf(to, "%s $data%zu using 1:2 with lines lw 2 lc rgb '%s' title ", i ? "," : "plot", i,
+        fprintf(to, "%s $data%zu using 1:2 with %s lw 2 lc rgb '%s' title ", i ? "," : "plot", i,
+                f->points ? dumb ? "linespoints" : "linespoints pt 7 ps 1.2" : "lines",
                 colors[i % (sizeof colors / sizeof *colors)]);
         quoted(to, f->series[i].title ? f->series[i].title : "");
         fprintf(to, i + 1 < f->count ? " \\\n" : "\n");

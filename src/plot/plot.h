@@ -18,7 +18,8 @@ enum { PLOT_SERIES = 24, PLOT_LABEL = 160 };
 
 typedef struct plot_figure {
     char title[PLOT_LABEL], xlabel[PLOT_LABEL], ylabel[PLOT_LABEL];
-    bool logx;
+    bool logx, logy;
+    bool points; /* marked on the lines */
     size_t count;
     plot_series series[PLOT_SERIES];
 } plot_figure;

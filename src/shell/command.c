@@ -111,9 +111,12 @@ static const command commands[] = {
      "               40        54.1344              0\n",
      COMPLETE_QUANTITY},
     {"plot", do_plot,
-     "loop | EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, ...] [to FILE.png|svg|pdf|gp]",
+     "loop | accuracy [FA=20 N] | EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, ...] [to "
+     "FILE.png|svg|pdf|gp]",
      "a figure, in the terminal or to a file",
-     "`plot loop` draws the hysteresis loop, F_x against delta_x. FILE.gp is the gnuplot script itself.\n"
+     "`plot loop` draws the hysteresis loop, F_x against delta_x; `plot accuracy` the table of `accuracy`, "
+     "error\n"
+     "against time. FILE.gp is the gnuplot script itself.\n"
      "`set plot 80x24` fixes the size, `set plot auto` follows the terminal.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
      "    fret> plot loop\n"

@@ -10,6 +10,7 @@
 
 #include "contact/dd.h"
 #include "plot/plot.h"
+#include "shell/accuracy.h"
 #include "shell/command.h"
 #include "shell/output.h"
 
@@ -518,8 +519,42 @@ static bool plot_expressions(shell *sh, lexer *lx) {
     return ok;
 }
 
+/* Error against time, one curve a model. */
+static bool plot_accuracy(shell *sh, lexer *lx) {
+    char file[4000];
+    accuracy_load load;
+    accuracy_study study;
+    if (!accuracy_read(sh, lx, &load) || !read_plot_target(lx, file, sizeof file) ||
+        !accuracy_measure(sh, &load, &study, lx->error))
+        return false;
+    plot_figure *f = calloc(1, sizeof *f);
+    bool ok = f != NULL;
+    for (size_t i = 0; i < study.count && ok; i++) {
+        const accuracy_row *row = &study.row[i];
+        if (i == 0 || row->family != row[-1].family)
+            ok = plot_title(&f->series[f->count++], family_names[row->family]);
+        ok = ok && plot_point(&f->series[f->count - 1], row->seconds, (double)row->error);
+    }
+    if (ok) {
+        snprintf(f->title, sizeof f->title, "dW, %.140s", study.load);
+        snprintf(f->xlabel, sizeof f->xlabel, "time of a cycle [s]");
+        snprintf(f->ylabel, sizeof f->ylabel, "relative error");
+        f->logx = f->logy = f->points = true;
+        ok = draw(sh, lx, f, file);
+        plot_free(f);
+    } else {
+        ok = lex_fail(lx, "out of memory");
+    }
+    free(f);
+    return ok;
+}
+
 bool do_plot(shell *sh, lexer *lx) {
     char file[4000];
+    if (lex_is(lx, "accuracy")) {
+        lex_next(lx);
+        return plot_accuracy(sh, lx);
+    }
     if (lex_is(lx, "loop")) {
         lex_next(lx);
         return read_plot_target(lx, file, sizeof file) && plot_loop(sh, lx, file);

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The table of `accuracy`: orders of convergence, what is exact, the advice; never a time."""
+import csv
+import io
+import json
+import math
+import os
+import xml.etree.ElementTree
+
+GRADED = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry %s; friction 0.3; press FN=100 N\n"
+SPHERE, CONE = "sphere R=10 mm", "cone slope=0.01"
+
+
+def measured(tests, script, command="accuracy"):
+    """The rows by model, as {parameter: row}, and the last object."""
+    done = tests.run("-c", script + "\nset format json\n" + command)
+    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    if not tests.check("%s; %s" % (script, command), len(lines) > 1 and not done.stderr and done.returncode == 0,
+                       tests.report(done)):
+        return {}, {}
+    rows = {}
+    for row in lines[:-1]:
+        rows.setdefault(row["model"], {})[row["parameter"]] = row
+    return rows, lines[-1]
+
+
+def order(rows):
+    """Over all sizes: single errors scatter with the place of the slip front within its cell."""
+    sizes = sorted(size for size in rows if rows[size]["error"] > 1e-10)
+    if len(sizes) < 2:
+        return float("nan")
+    return math.log(rows[sizes[0]]["error"] / rows[sizes[-1]]["error"]) / math.log(sizes[-1] / sizes[0])
+
+
+def power_law(tests, k, shape, load, springs, midpoint=None):
+    rows, last = measured(tests, GRADED % (k, shape) + load)
+    if not rows:
+        return
+    name = "accuracy at k = %g, %s, %s: " % (k, shape, load)
+    for model in ("closed form", "memory diagram"):
+        row = rows[model][0]
+        tests.check(name + model, row["error"] <= 2e-16 and row["seconds"] > 0 and row["ratio"] >= 1, str(row))
+    quadrature = rows["quadrature"]
+    tests.check(name + "quadrature", quadrature[16]["error"] > quadrature[32]["error"] and
+                quadrature[128]["error"] <= 2e-16, str(quadrature))
+    tests.check(name + "loop area", abs(order(rows["loop area (21)"]) - 2) < 0.1, str(rows["loop area (21)"]))
+    got = order(rows["springs"])
+    tests.check(name + "springs", abs(got - springs) < 0.35, "order %g, expected %g" % (got, springs))
+    if k == 0:
+        tests.check(name + "the same weights need one row", "springs, midpoint" not in rows)
+    elif midpoint:
+        got = order(rows["springs, midpoint"])
+        tests.check(name + "midpoint", abs(got - midpoint) < 0.1, "order %g, expected %g" % (got, midpoint))
+    fastest = min(row["seconds"] for model in rows.values() for row in model.values())
+    tests.check(name + "ratios", all(abs(row["ratio"] * fastest / row["seconds"] - 1) < 0.02
+                                     for model in rows.values() for row in model.values()))
+    tests.check(name + "advice", last["auto"] == "closed form" and "auto picks: closed form" in last["advice"] and
+                "springs" in last["advice"] and 0 < last["agreement"] < 2e-16, str(last))
+
+
+def orders(tests):
+    power_law(tests, 0, SPHERE, "cycle FA=20 N", 2)
+    power_law(tests, -0.7, SPHERE, "cycle FA=20 N", 2, 0.3)
+    power_law(tests, -0.5, CONE, "cycle FA=20 N", 1.5, 0.5)  # n + k + 1
+    power_law(tests, -0.3, SPHERE, "cycle dxA=1 um", 2)
+
+
+def loads(tests):
+    scene = GRADED % (0.3, SPHERE)
+    for load, says in (("", "FA = 15 N at FN = 100 N, half of mu*FN"), ("step Fx=-12 N", "FA = 12 N"),
+                       ("press FN=40 N; step FN=100 N Fx=11 N", "FA = 11 N at FN = 100 N")):
+        rows, last = measured(tests, scene + load)
+        tests.check("accuracy after %s" % load, rows and last["load"].startswith(says), str(last))
+    # gross slip: by force at the limit, by displacement beyond it
+    for load in ("FA=30 N", "dxA=5 um"):
+        rows, last = measured(tests, GRADED % (-0.3, SPHERE), "accuracy " + load)
+        tests.check("accuracy " + load, rows and rows["closed form"][0]["error"] <= 2e-16 and
+                    rows["memory diagram"][0]["error"] <= 2e-16, str(rows))
+    # the same number as dW, and nothing has moved
+    done = tests.run("-c", scene + "cycle FA=20 N\nset format json\nW\ndW\naccuracy\nW\ndW")
+    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    tests.check("accuracy takes the last cycle", lines[-3]["load"] == "FA = 20 N at FN = 100 N, the last cycle")
+    tests.check("accuracy leaves the scene", lines[:2] == lines[-2:] and len(lines) > 10, tests.report(done))
+    closed = [line for line in lines if line.get("model") == "closed form"]
+    tests.check("accuracy and dW", closed and closed[0]["value"] == lines[1]["value"], str(closed))
+
+
+def other_models(tests):
+    """Where no closed form holds."""
+    rows, last = measured(tests, GRADED % (0.3, SPHERE) + "cycle FA=12 N FNA=20 N phase=90 deg times 2 steps 40")
+    tests.check("accuracy, FN swings", rows and set(rows) == {"memory diagram", "loop area (21)", "springs"} and
+                rows["memory diagram"][0]["error"] <= 1e-11 and last["auto"] == "memory diagram" and
+                "FN swings" in last["advice"], str(last))
+    tests.check("accuracy, FN swings: loop area", rows and abs(order(rows["loop area (21)"]) - 2) < 0.1, str(rows))
+    tests.check("accuracy, FN swings: springs", rows and order(rows["springs"]) > 1.5, str(rows))
+    scene = GRADED % (0.3, SPHERE) + "cycle FA=12 N FNA=20 N phase=90 deg times 2 steps 40\n"
+    dW = json.loads(tests.run("--format=json", "-c", scene + "dW").stdout)["value"]
+    tests.check("accuracy, FN swings: dW", rows and rows["memory diagram"][0]["value"] == dW, str(dW))
+    rows, last = measured(tests, GRADED % (0.3, SPHERE) + "step FN=120 N Fx=10 N; cycle FA=12 N; step FN=90 N")
+    tests.check("accuracy, FN has changed", rows and rows["memory diagram"][0]["error"] <= 1e-14 and
+                abs(order(rows["springs"]) - 2) < 0.4, str(rows))
+    for shape in ("flat-rounded b=0.2 mm R=10 mm", "exact-sphere R=10 mm"):
+        rows, last = measured(tests, GRADED % (0, shape), "accuracy FA=15 N")
+        tests.check("accuracy, " + shape, rows and rows["closed form"][0]["error"] < 1e-14 and
+                    rows["memory diagram"][0]["error"] < 1e-14 and rows["quadrature"][64]["error"] < 1e-14 and
+                    last["auto"].startswith("closed form, with quadrature") and
+                    abs(order(rows["springs"]) - 2) < 0.6, str(rows))
+
+
+def forms(tests):
+    scene = GRADED % (0.3, SPHERE)
+    done = tests.run("-c", scene + "accuracy FA=20 N")
+    lines = done.stdout.splitlines()
+    tests.check("accuracy as text", len(lines) > 10 and lines[0] == "FA = 20 N at FN = 100 N" and
+                lines[1].startswith("reference: quadrature") and
+                lines[2].split() == ["model", "parameter", "dW", "[uJ]", "error", "time", "x", "fastest"] and
+                lines[3].startswith("closed form ") and lines[-1].startswith("auto picks: closed form (power law") and
+                not done.stderr and all(len(line) < 80 for line in lines[2:-1]), tests.report(done))
+    tests.check("below what the reference tells", "<" in lines[3] and " 0 " not in lines[3], tests.report(done))
+    rows = list(csv.reader(io.StringIO(tests.run("--format=csv", "-c", scene + "accuracy FA=20 N").stdout)))
+    tests.check("accuracy as CSV", rows[0][:4] == ["model", "parameter", "value [J]", "error"] and
+                all(len(row) == 7 for row in rows) and rows[1][0] == "closed form" and
+                any(row[0] == "springs, midpoint" for row in rows), str(rows))
+
+
+def pictures(tests):
+    where = os.path.join(tests.dir, "accuracy")
+    os.makedirs(where)
+    done = tests.run("-c", GRADED % (-0.3, SPHERE) + "set plot 79x24\nplot accuracy FA=20 N\n"
+                     "plot accuracy to a.svg", cwd=where)
+    tests.check("plot accuracy", all(text in done.stdout for text in ("time of a cycle [s]", "relative error",
+                "closed form", "springs, midpoint")) and not done.stderr, tests.report(done))
+    tests.check("files of plot accuracy", os.listdir(where) == ["a.svg"], str(os.listdir(where)))
+    text = "".join(xml.etree.ElementTree.parse(os.path.join(where, "a.svg")).getroot().itertext())
+    tests.check("a.svg", "memory diagram" in text and "relative error" in text, text[:500])
+
+
+def run(tests):
+    tests.each([lambda f=f: f(tests) for f in (orders, loads, other_models, forms, pictures)])
