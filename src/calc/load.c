@@ -189,6 +189,8 @@ static bool catch_up(scene *s, calc_error *error) {
         s->applied = s->applied_cycles = 0;
     }
     runner r = {.s = s, .memory = s->memory, .points = 1, .cycle_loss = s->cycle_loss};
+    if (s->applied < s->steps && s->steps > 1)
+        s->used |= USED_MEMORY;
     while (s->applied < s->steps) {
         const load_step *step = &s->program[s->applied];
         const cycle_extra *x = step->kind == LOAD_CYCLE ? &s->cycles[s->applied_cycles] : NULL;
@@ -329,6 +331,7 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
         }
         return scene_status(s, error, &st);
     }
+    s->used |= USED_MEMORY;
     s->applied = s->steps;
     s->applied_cycles = s->cycle_count;
     s->cycle_loss = r.cycle_loss;
@@ -363,6 +366,10 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
         }
         s->press_ready = !s->normal_varies; /* else it moves with every step */
     }
+    if (s->normal_varies)
+        s->used |= USED_MEMORY;
+    else
+        scene_used_closed(s);
     *press = &s->press;
     return true;
 }
@@ -416,6 +423,7 @@ static bool run_springs(scene *s, calc_error *error) {
 
 bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     const fret_memory *memory;
+    unsigned used = s->used; /* what only checks the load program does not answer */
     if (!s->state_ready) {
         if (!scene_memory(s, &memory, error))
             return false;
@@ -429,6 +437,7 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
         }
         s->state_ready = true;
     }
+    s->used = used | (s->model == MODEL_SPRINGS ? USED_SPRINGS : USED_MEMORY);
     *state = &s->state;
     return true;
 }
@@ -437,6 +446,10 @@ void scene_set_model(scene *s, scene_model model, unsigned springs) {
     s->model = model;
     s->springs = springs;
     s->state_ready = s->press_ready = false;
+}
+
+void scene_used_closed(scene *s) {
+    s->used |= !s->geometry || s->geometry->kind == FRET_GAP_POWER ? USED_CLOSED : USED_QUADRATURE;
 }
 
 bool scene_closed_state(const scene *s) {
@@ -514,6 +527,7 @@ bool scene_trace(scene *s, unsigned points, load_observer *observe, void *contex
         !friction_for_program(s, &mu, error))
         return false;
     runner r = {.s = s, .observe = observe, .context = context, .points = points ? points : 1};
+    s->used |= USED_MEMORY;
     fret_status st = fret_memory_make(normal, mu, &r.memory);
     size_t cycle = 0;
     for (size_t i = 0; i < s->steps && !st.code; i++) {

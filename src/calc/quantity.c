@@ -72,6 +72,7 @@ static bool k0_press(scene *s, const fret_normal **normal, fret_press *out, calc
     const fret_press *press;
     if (!scene_press(s, &press, error) || !scene_k0(s, normal, error))
         return false;
+    scene_used_closed(s);
     fret_status st = fret_press_force(*normal, (double)press->F, out);
     return scene_status(s, error, &st);
 }
@@ -126,6 +127,7 @@ static bool foundation_of(scene *s, fret_foundation *out, calc_error *error) {
         probe.in[IN_SLOPE] = 1;
     }
     bool ok = scene_normal(s->geometry ? s : &probe, &normal, error);
+    s->used |= USED_CLOSED;
     if (ok)
         *out = normal->foundation;
     return ok;
@@ -150,6 +152,7 @@ static bool get_kappa(scene *s, long double *out, calc_error *error) {
     long double n = 0;
     if (!scene_get(s, IN_N, &n, error))
         return false;
+    s->used |= USED_CLOSED;
     *out = fret_kappa((double)n, s->in[IN_K]);
     return true;
 }
@@ -160,6 +163,7 @@ static bool pressed_by(scene *s, value F, fret_press *out, calc_error *error) {
     const fret_normal *normal;
     if (!scene_normal(s, &normal, error))
         return false;
+    scene_used_closed(s);
     fret_status st = fret_press_force(normal, (double)F.v, out);
     return scene_status(s, error, &st);
 }
@@ -237,6 +241,7 @@ static bool call_E(scene *s, value z, long double *out, calc_error *error) {
         return false;
     if (z.v < 0)
         return calc_fail(error, 0, 0, "E(z) is defined for z >= 0");
+    s->used |= USED_CLOSED;
     *out = E0 * fret_pow(z.v / c0, k);
     return true;
 }
@@ -245,6 +250,7 @@ static bool call_f(scene *s, value r, long double *out, calc_error *error) {
     const fret_normal *normal;
     if (!scene_normal(s, &normal, error))
         return false;
+    s->used |= USED_CLOSED;
     fret_status st = fret_gap_f(&normal->gap, r.v, out);
     return scene_status(s, error, &st);
 }
@@ -253,6 +259,7 @@ static bool call_g(scene *s, value x, long double *out, calc_error *error) {
     const fret_normal *normal;
     if (!scene_normal(s, &normal, error))
         return false;
+    scene_used_closed(s);
     fret_status st = fret_gap_g(&normal->gap, s->in[IN_K], x.v, out, NULL);
     return scene_status(s, error, &st);
 }
@@ -266,6 +273,7 @@ static bool normal_field(scene *s, value r,
     const fret_press *press;
     if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error))
         return false;
+    s->used |= USED_QUADRATURE;
     fret_status st = field(normal, press->a, r.v, out);
     return scene_status(s, error, &st);
 }
@@ -285,6 +293,7 @@ static bool tangential_field(scene *s, value r,
     double mu;
     if (!scene_friction(s, &mu, error) || !scene_memory(s, &memory, error))
         return false;
+    s->used |= USED_MEMORY | USED_QUADRATURE;
     fret_status st = field(memory, r.v, out);
     return scene_status(s, error, &st);
 }

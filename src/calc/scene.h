@@ -68,6 +68,9 @@ typedef struct cycle_extra {
 /* Which model answers: auto takes the closed form where there is one, else the memory diagram. */
 typedef enum scene_model { MODEL_AUTO, MODEL_CLOSED, MODEL_MEMORY, MODEL_SPRINGS } scene_model;
 
+/* What has computed the answers: bits of scene.used. */
+enum { USED_CLOSED = 1, USED_MEMORY = 2, USED_QUADRATURE = 4, USED_SPRINGS = 8 };
+
 /* A recorded state of the load program. */
 typedef void load_observer(const fret_state *state, size_t step, void *context);
 
@@ -100,6 +103,7 @@ typedef struct scene {
     scene_model model;
     unsigned springs;         /* how many, for MODEL_SPRINGS */
     long double springs_loss; /* cycle_loss as the springs have it, with state */
+    unsigned used;            /* raised by whatever answers, cleared by whoever wants to know */
     const volatile sig_atomic_t *stop;
 } scene;
 
@@ -150,6 +154,8 @@ void scene_set_model(scene *s, scene_model model, unsigned springs);
  * press and one tangential step, or a cycle at constant F_N; and the model must allow it. */
 bool scene_closed_state(const scene *s);
 bool scene_closed_loss(const scene *s);
+/* Notes that a closed form has answered; for gaps other than a power it takes quadrature. */
+void scene_used_closed(scene *s);
 /* "closed form", "memory diagram", "springs": what answers for the state. */
 const char *scene_model_name(const scene *s, bool closed);
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error);

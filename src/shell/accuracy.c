@@ -11,6 +11,8 @@
 
 const char *const family_names[FAMILIES] = {"closed form",    "memory diagram", "quadrature",
                                             "loop area (21)", "springs",        "springs, midpoint"};
+static const unsigned used[FAMILIES] = {USED_CLOSED, USED_MEMORY,  USED_QUADRATURE,
+                                        USED_MEMORY, USED_SPRINGS, USED_SPRINGS};
 static const char *const size_names[FAMILIES] = {"", "", "N", "M", "N", "N"};
 
 static const double enough = 0.02, budget = 4,
@@ -104,6 +106,7 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
     if (row->below)
         row->error = study->agreement;
     study->count++;
+    b->sh->calc.scene.used |= used[family];
     return !stopped(b->error);
 }
 

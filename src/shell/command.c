@@ -158,7 +158,8 @@ static const command commands[] = {
      COMPLETE_TOPIC},
     {"set", do_set, "format text|csv|json, digits 6, report auto|on|off, timing on|off, plot WxH|auto",
      "settings",
-     "One setting a statement.\n\n"
+     "One setting a statement. `set timing on` shows the time of each statement and the models that "
+     "answered.\n\n"
      "    fret> set digits 12; pi\n"
      "    pi = 3.14159265359\n",
      COMPLETE_SETTING},
@@ -622,6 +623,7 @@ bool do_demo(shell *sh, lexer *lx) {
     }
     if (!ok)
         lx->error->at = lx->error->len = 0;
+    kept.scene.used |= sh->calc.scene.used;
     calc_free(&sh->calc);
     sh->calc = kept;
     sh->set.report = old;

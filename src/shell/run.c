@@ -347,6 +347,19 @@ static double seconds(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static void report_time(shell *sh, double t) {
+    static const char *const models[] = {"closed form", "memory diagram", "quadrature", "springs"};
+    fflush(sh->out);
+    fprintf(sh->err, "time: %.3g ms", 1e3 * t);
+    const char *before = " (";
+    for (unsigned i = 0; i < sizeof models / sizeof *models; i++)
+        if (sh->calc.scene.used & 1u << i) {
+            fprintf(sh->err, "%s%s", before, models[i]);
+            before = ", ";
+        }
+    fputs(*before == ',' ? ")\n" : "\n", sh->err);
+}
+
 bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line) {
     bool ok = true;
     for (size_t i = 0; i < len && !sh->quit;) {
@@ -356,6 +369,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         calc_error error;
         bool timed = sh->set.timing;
         double start = timed ? seconds() : 0;
+        sh->calc.scene.used = 0;
         bool done = shell_statement(sh, text + i, end - i, &error);
         if (!done && !error.raised) /* already reported: a nested source */
             return false;
@@ -366,8 +380,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
             if (!from->keep_going)
                 return false;
         } else if (timed) {
-            fflush(sh->out);
-            fprintf(sh->err, "time: %.3g ms\n", 1e3 * (seconds() - start));
+            report_time(sh, seconds() - start);
         }
         i = end < len && text[end] == ';' ? end + 1 : len;
     }

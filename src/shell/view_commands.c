@@ -294,6 +294,7 @@ static bool run_sweep(shell *sh, const sweep *s, column *columns, size_t count, 
         size_t n = strlen(error->text);
         snprintf(error->text + n, sizeof error->text - n, " (at %s = %s)", s->var.name, text);
     }
+    kept.used |= sh->calc.scene.used;
     scene_free(&sh->calc.scene);
     sh->calc.scene = kept;
     return ok;
