@@ -124,7 +124,9 @@ static const command commands[] = {
      COMPLETE_QUANTITY},
     {"explain", do_explain, "QUANTITY", "formula, source, numbers put in, model used",
      "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs it used, and how the\n"
-     "value was computed.\n\n"
+     "value was computed. `conditioning`: by which part of itself the last binary digit of each input and of the\n"
+     "last load moves the value, and the ratio of the two. Large numbers, as close to gross slip, mean that the\n"
+     "value cannot be better than its inputs, whatever the model.\n\n"
      "    fret> material E0=210 GPa nu=0.3\n"
      "    fret> explain eta\n"
      "    eta: stiffness ratio\n"
@@ -132,7 +134,10 @@ static const command commands[] = {
      "        E0 = 210 GPa\n"
      "        nu = 0.3\n"
      "        model: closed form\n"
-     "        eta = 1.21429\n",
+     "        eta = 1.21429\n"
+     "        conditioning          last digit    moves eta by  condition number\n"
+     "        nu = 0.3                 1.9e-16         4.7e-17              0.25\n"
+     "        condition number below 0.01, or hidden by rounding: E0\n",
      COMPLETE_QUANTITY},
     {"accuracy", do_accuracy, "[FA=20 N | dxA=0.5 um]", "error against time of every model, for this scene",
      "A table of the models that can answer for dW: value, relative error, time of a cycle without setting "

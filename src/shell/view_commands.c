@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Commands that show what follows from the scene and leave it as it is. */
 #include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -571,6 +572,147 @@ static void explain_value(shell *sh, const char *name, value v) {
     fprintf(sh->out, "    %s = %s\n", name, text);
 }
 
+/* The row of an input. */
+static const quantity *row_of(input in) {
+    const quantity *q;
+    for (size_t i = 0; (q = quantity_row(i)) && q->in != (int)in;)
+        i++;
+    return q;
+}
+
+/* One number that a result depends on: an input, or a load of the program. */
+typedef struct cause {
+    const char *name;
+    value v;
+    input in;
+    double *load; /* in the probe's own program; NULL: an input */
+} cause;
+
+enum { CAUSES = INPUTS + 2 };
+
+static size_t find_causes(scene *probe, cause *out) {
+    size_t count = 0;
+    for (input in = 0; in < INPUTS; in++)
+        if (probe->set[in] && probe->in[in] != 0 && (in != IN_FN || probe->steps))
+            out[count++] =
+                (cause){row_of(in)->name, {probe->in[in], quantity_dim(row_of(in), probe)}, in, NULL};
+    if (!probe->steps)
+        return count;
+    load_step *first = &probe->program[0], *last = &probe->program[probe->steps - 1];
+    if (first->normal != BY_FORCE)
+        out[count++] = (cause){first->normal == BY_RADIUS ? "a" : "dz",
+                               {first->normal_value, DIM_LENGTH},
+                               INPUTS,
+                               &first->normal_value};
+    if (last->tangential && last->tangential_value != 0) {
+        static const char *const names[2][2] = {{"Fx", "dx"}, {"FA", "dxA"}};
+        bool force = last->tangential == BY_FORCE;
+        out[count++] = (cause){names[last->kind == LOAD_CYCLE][!force],
+                               {last->tangential_value, force ? DIM_FORCE : DIM_LENGTH},
+                               INPUTS,
+                               &last->tangential_value};
+    }
+    return count;
+}
+
+/* The result with the cause moved to x, everything else as it is; false where that is refused. */
+static bool moved_to(const scene *probe, const quantity *q, const cause *c, double x, long double *out,
+                     calc_error *error) {
+    scene s;
+    if (!c->load && !scene_check(probe, c->in, x, error))
+        return false;
+    scene_clone(&s, probe);
+    if (c->load) {
+        *c->load = x;
+        scene_forget(&s);
+    } else {
+        scene_put(&s, c->in, x);
+    }
+    bool ok = q->get(&s, out, error);
+    if (c->load)
+        *c->load = (double)c->v.v;
+    scene_free(&s);
+    return ok;
+}
+
+/* A change in the last place of the cause moves the result by change, both relative. Results have guard
+ * digits, so that the difference between neighbours tells; the second difference shows what is only rounding.
+ */
+typedef struct sensitivity {
+    long double digit, change;
+    bool refused; /* one neighbour is no valid input */
+} sensitivity;
+
+static sensitivity sensitivity_of(const scene *probe, const quantity *q, const cause *c, long double result,
+                                  calc_error *error) {
+    double x = (double)c->v.v, step = nextafter(fabs(x), INFINITY) - fabs(x);
+    const double next[2] = {x - step, x + step}; /* exact: below a power of two the spacing is finer */
+    long double at[2] = {result, result}, noise = 0;
+    int valid = 0;
+    sensitivity s = {step / fabsl(c->v.v), 0, false};
+    for (int i = 0; i < 2 && !error->stop; i++) {
+        long double v;
+        if (moved_to(probe, q, c, next[i], &v, error)) {
+            at[i] = v;
+            valid++;
+        }
+    }
+    s.refused = valid < 2;
+    s.change = valid ? fabsl((at[1] - at[0]) / valid / result) : 0;
+    if (valid == 2)
+        noise = fabsl((at[1] - 2 * result + at[0]) / result);
+    if (s.change < 2 * noise && noise < 4 * DBL_EPSILON)
+        s.change = 0;
+    return s;
+}
+
+static bool explain_conditioning(shell *sh, const quantity *q, long double result, calc_error *error) {
+    const scene *s = &sh->calc.scene;
+    if (result == 0 || !isfinite(result))
+        return true;
+    scene probe;
+    load_step *program = malloc((s->steps ? s->steps : 1) * sizeof *program);
+    if (!program)
+        return calc_fail(error, 0, 0, "out of memory");
+    scene_clone(&probe, s);
+    if (s->steps)
+        memcpy(program, s->program, s->steps * sizeof *program);
+    probe.program = program;
+    cause causes[CAUSES];
+    size_t count = find_causes(&probe, causes);
+    char small[200] = "", head[100], moves[100];
+    snprintf(moves, sizeof moves, "moves %s by", q->name);
+    bool ok = true, headed = false;
+    for (size_t i = 0; i < count && ok; i++) {
+        calc_error refused = {0};
+        sensitivity r = sensitivity_of(&probe, q, &causes[i], result, &refused);
+        ok = !refused.stop && !shell_stop;
+        if (r.change < 0.01L * r.digit && !r.refused) {
+            snprintf(small + strlen(small), sizeof small - strlen(small), "%s%s", *small ? ", " : "",
+                     causes[i].name);
+            continue;
+        }
+        char text[80];
+        format_value(sh, causes[i].v, text, sizeof text);
+        snprintf(head, sizeof head, "%s = %s", causes[i].name, text);
+        if (ok && !headed)
+            fprintf(sh->out, "    %-20s  last digit  %14s  condition number\n", "conditioning", moves);
+        headed = true;
+        if (ok)
+            fprintf(sh->out, "    %-20s  %10.1Le  %14.1Le  %16.2Lg%s\n", head, r.digit, r.change,
+                    r.change / r.digit, r.refused ? "  (at the end of its range)" : "");
+    }
+    if (*small && ok)
+        fprintf(sh->out, "    condition number below 0.01, or hidden by rounding: %s\n", small);
+    scene_free(&probe);
+    free(program);
+    if (!ok) {
+        error->stop = true;
+        return calc_fail(error, 0, 0, "interrupted");
+    }
+    return true;
+}
+
 bool do_explain(shell *sh, lexer *lx) {
     const quantity *q = lx->kind == T_NAME ? quantity_find(lx->text + lx->at, lx->len) : NULL;
     if (!q)
@@ -589,9 +731,7 @@ bool do_explain(shell *sh, lexer *lx) {
     static const input put_in[] = {IN_E0, IN_NU, IN_E0_2, IN_NU_2,   IN_K, IN_C0,
                                    IN_MU, IN_N,  IN_A,    IN_RADIUS, IN_B, IN_SLOPE};
     for (size_t i = 0; i < sizeof put_in / sizeof *put_in; i++) {
-        const quantity *p = NULL;
-        for (size_t j = 0; (p = quantity_row(j)) && p->in != (int)put_in[i];)
-            j++;
+        const quantity *p = row_of(put_in[i]);
         if (s->set[put_in[i]] && p != q)
             explain_value(sh, p->name, (value){s->in[put_in[i]], quantity_dim(p, s)});
     }
@@ -612,5 +752,5 @@ bool do_explain(shell *sh, lexer *lx) {
         fprintf(sh->out, "    model: %s\n", scene_model_name(s, closed));
         explain_value(sh, q->name, v);
     }
-    return true;
+    return !q->get || q->in >= 0 || explain_conditioning(sh, q, v.v, lx->error);
 }

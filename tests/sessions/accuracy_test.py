@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of `accuracy`: orders of convergence, what is exact, the advice; never a time."""
+"""The table of `accuracy`: orders of convergence, what is exact, the advice; never a time. The conditioning that
+`explain` shows, against differences over larger changes."""
 import csv
 import io
 import json
 import math
 import os
+import re
 import xml.etree.ElementTree
 
 GRADED = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry %s; friction 0.3; press FN=100 N\n"
@@ -135,5 +137,57 @@ def pictures(tests):
     tests.check("a.svg", "memory diagram" in text and "relative error" in text, text[:500])
 
 
+def conditioning(tests):
+    """A relative change of 1e-6 of one input at a time; the printed number has two digits."""
+    inputs = {"E0": "%.17g Pa", "nu": "%.17g", "k": "%.17g", "c0": "%.17g m", "mu": "%.17g", "FN": "%.17g N",
+              "R": "%.17g m", "load": "%.17g N"}
+    start = {"E0": 210e9, "nu": 0.3, "k": 0.5, "c0": 1e-3, "mu": 0.3, "FN": 100, "R": 1e-2, "load": 25}
+
+    def script(values, load):
+        text = {name: inputs[name] % values[name] for name in inputs}
+        return ("material E0=%(E0)s nu=%(nu)s k=%(k)s c0=%(c0)s; geometry sphere R=%(R)s; friction %(mu)s; "
+                "press FN=%(FN)s; " + load + "=%(load)s\n") % text
+
+    def value(quantity, values, load):
+        return json.loads(tests.run("--format=json", "-c", script(values, load) + quantity).stdout)["value"]
+
+    for quantity, load, name in (("dW", "cycle FA", "FA"), ("c", "step Fx", "Fx"), ("W", "cycle FA", "FA"),
+                                 ("kt", "step Fx", "Fx"), ("a", "step Fx", "Fx")):
+        done = tests.run("-c", script(start, load) + "explain " + quantity)
+        got = {cause: float(number) for cause, number in
+               re.findall(r"^    (\w+) = [^ ]+(?: \w+)? {2,}\S+ +\S+ +(\S+)$", done.stdout, re.M)}
+        base = value(quantity, start, load)
+        for cause in start:
+            near = [value(quantity, {**start, cause: start[cause] * (1 + part)}, load) for part in (1e-6, -1e-6)]
+            want = abs(near[0] - near[1]) / base / 2e-6
+            shown = got.get(name if cause == "load" else cause, 0)
+            tests.check("explain %s: %s" % (quantity, cause), abs(shown - want) <= 0.012 + 0.06 * want,
+                        "%g, expected %g\n%s" % (shown, want, tests.report(done)))
+    scene = script(start, "cycle FA")
+    done = tests.run("-c", scene + "cycle FA=29.9999999 N; explain dW")
+    tests.check("ill-conditioned close to gross slip", re.search(r"^    FA = 30 N .* [1-9]\S*e\+0[3-9]$", done.stdout, re.M),
+                tests.report(done))
+    done = tests.run("-c", scene + "set model memory; explain c")
+    tests.check("explain with the memory diagram", "model: memory diagram (exact)" in done.stdout and
+                "conditioning" in done.stdout, tests.report(done))
+    done = tests.run("-c", scene + "explain W; W; show; explain FN; explain E0")
+    again = tests.run("-c", scene + "W; show; explain FN; explain E0")
+    tests.check("explain leaves the scene", done.stdout.endswith(again.stdout), tests.report(done))
+
+
+def models(tests):
+    """`set timing on` names what answered."""
+    scene = GRADED % (0.3, SPHERE) + "set timing on\n"
+    for script, names in (("a", " (closed form)"), ("step Fx=10 N; W", " (memory diagram)"), ("1+1", ""),
+                          ("cycle FA=10 N; dW", " (closed form)"), ("p(0 m)", " (closed form, quadrature)"),
+                          ("cycle FA=10 N; set model springs 100; dW", " (springs)"),
+                          ("table dW(F) for F = 1 N .. 2 N steps 1", " (closed form)"),
+                          ("geometry exact-sphere R=10 mm; a", " (quadrature)")):
+        done = tests.run("-c", scene + script)
+        last = (done.stderr.splitlines() or [""])[-1]
+        tests.check("set timing on; %s" % script, re.fullmatch(r"time: \S+ ms" + re.escape(names), last),
+                    tests.report(done))
+
+
 def run(tests):
-    tests.each([lambda f=f: f(tests) for f in (orders, loads, other_models, forms, pictures)])
+    tests.each([lambda f=f: f(tests) for f in (orders, loads, other_models, forms, pictures, conditioning, models)])
