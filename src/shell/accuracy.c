@@ -177,7 +177,7 @@ static bool loop_cycle(void *model, long double *loss, calc_error *error) {
         double part = i == m->size ? -1 : i == 2 * m->size ? 1 : cos(pi * i / m->size);
         fret_step step = step_to(m, part);
         fret_status st = fret_memory_step(m->memory, &step);
-        if (!scene_status(m->s, error, &st))
+        if (!scene_status(m->s, error, &st) || stopped(error))
             return false;
         fret_memory_forces(m->memory, &now);
         area += (now.dx - last.dx) * (now.Fx + last.Fx) / 2;
@@ -185,7 +185,7 @@ static bool loop_cycle(void *model, long double *loss, calc_error *error) {
     }
     if (loss)
         *loss = area;
-    return !stopped(error);
+    return true;
 }
 
 /* mu F_N may be a rounding short of the amplitude. */
@@ -483,9 +483,11 @@ static void advise(const accuracy_study *study, char *buf, size_t size) {
         return;
     format_error(springs, error, sizeof error);
     format_seconds(springs->seconds, springs_t, sizeof springs_t);
-    format_ratio(springs->seconds / row->seconds, ratio, sizeof ratio);
-    snprintf(buf + n, size - (size_t)n, "; %lu springs: error %s in %s, %s times as long", springs->size,
-             error, springs_t, ratio);
+    bool slower = springs->seconds >= row->seconds;
+    format_ratio(slower ? springs->seconds / row->seconds : row->seconds / springs->seconds, ratio,
+                 sizeof ratio);
+    snprintf(buf + n, size - (size_t)n, "; %lu springs: error %s in %s, %s times as %s", springs->size, error,
+             springs_t, ratio, slower ? "long" : "fast");
 }
 
 static void print_text(shell *sh, const accuracy_study *study, const char *advice) {
