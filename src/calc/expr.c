@@ -743,7 +743,7 @@ static bool call_block(calc *c, const quantity *q, operand a, dim d, size_t rows
 bool expr_eval_block(calc *c, const expr *e, const long double x[], size_t rows, long double out[], dim *d) {
     enum { DEEPEST = 16 };
     long double column[DEEPEST][EXPR_BLOCK];
-    operand stack[DEEPEST];
+    operand stack[DEEPEST] = {{NULL, 0}};
     size_t depth = 0;
     value first;
     calc_error unused = {0};
