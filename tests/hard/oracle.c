@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "oracle.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* Cancellation costs at most: cos(pi k/2), 1-k nu/(1-nu) 53 bits each; powers 1/n and n 20; 1-(1-t)^q above
@@ -415,5 +416,5 @@ double oracle_ulps(double got, mpfr_srcptr exact) {
     mpfr_mul_2si(error, error, place > LEAST ? -place : -LEAST, RN);
     double ulps = mpfr_get_d(error, RN);
     mpfr_clear(error);
-    return ulps < 0 ? -ulps : ulps;
+    return fabs(ulps);
 }
