@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Times of the library next to a baseline in the same run: one line "what|figure|baseline|ratio" each. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -82,6 +83,53 @@ static double memory_diagram(const fret_normal *n, const fret_press *p, long ste
     return t;
 }
 
+/* Springs of the library, a spring and step: the least of some runs. */
+static double library_springs(const fret_normal *n, const fret_press *p, size_t count, long steps,
+                              bool by_force) {
+    const double slip = (double)(mu * n->foundation.eta * p->dz);
+    double best = INFINITY, load[256];
+    fret_springs *s = NULL;
+    for (long i = 0; i < 256; i++)
+        load[i] = (by_force ? mu * FN : slip) * drive(i);
+    fret_step step = {FRET_TO_FORCE, FRET_KEEP_DX, FN, 0};
+    need(fret_springs_make(n, mu, count, (double)p->a * (1 + 1e-9), FRET_WEIGHT_CELL, &s));
+    need(fret_springs_step(s, &step, 1));
+    step.normal_by = FRET_KEEP_NORMAL;
+    step.tangential_by = by_force ? FRET_TO_FX : FRET_TO_DX;
+    for (int run = 0; run < 5; run++) {
+        double t0 = seconds();
+        for (long i = 0; i < steps; i++) {
+            step.tangential = load[i % 256];
+            need(fret_springs_step(s, &step, 1));
+        }
+        best = fmin(best, (seconds() - t0) / (double)steps / (double)count);
+    }
+    fret_springs_free(s);
+    return best;
+}
+
+/* What memory allows: three arrays read, one of them written, as a step of springs does. */
+static double triad(size_t count, long passes) {
+    double *a = malloc(3 * count * sizeof *a), best = INFINITY;
+    if (!a)
+        exit(EXIT_FAILURE);
+    for (size_t i = 0; i < 3 * count; i++)
+        a[i] = 1;
+    for (int run = 0; run < 5; run++) {
+        double t0 = seconds();
+        for (long pass = 0; pass < passes; pass++) {
+            const double *restrict b = a + count, *restrict c = b + count;
+            double *restrict out = a;
+            for (size_t i = 0; i < count; i++)
+                out[i] = out[i] * 0.5 + b[i] * c[i];
+            sink = out[count / 2];
+        }
+        best = fmin(best, (seconds() - t0) / (double)passes / (double)count);
+    }
+    free(a);
+    return best;
+}
+
 static double scene(long count) {
     double t0 = seconds();
     for (long i = 0; i < count; i++) {
@@ -135,5 +183,15 @@ int main(void) {
     double power = powers(5000000);
     line("scene: material to dW", scene(100000), power, "one powl", 1e6, "us");
     line("fret_cycle_loss, a point", cycle_loss(&n, &p, 5000000), power, "one powl", 1e9, "ns");
+    double plain = spring_scheme(&n, &p, 20000, true) / SPRINGS;
+    line("springs, 1000, a spring-step", library_springs(&n, &p, SPRINGS, 20000, false), plain,
+         "plain loop in double; limit 0.3 ns", 1e9, "ns");
+    line("the same by force", library_springs(&n, &p, SPRINGS, 5000, true), plain,
+         "plain loop by displacement", 1e9, "ns");
+    const size_t large = 4000000;
+    char probe[80];
+    double bytes = triad(large, 5);
+    snprintf(probe, sizeof probe, "triad, 32 B at %.1f GB/s; limit 1.3", 32e-9 / bytes);
+    line("springs, 4e6, a spring-step", library_springs(&n, &p, large, 10, false), bytes, probe, 1e9, "ns");
     return EXIT_SUCCESS;
 }

@@ -43,6 +43,11 @@ void fret_springs_reset(fret_springs *springs);
 /* Makes `to` equal to `from`; allocates only where the counts differ. Error: FRET_NO_MEMORY. */
 fret_status fret_springs_copy(fret_springs *to, const fret_springs *from);
 
+/* Vector instructions of `width` doubles, 2, 4 or 8, for the loops over springs; at first the widest that the
+ * processor has. Every width gives the same bits. Returns 0, nothing changed, where there is no such width.
+ */
+int fret_springs_use(fret_springs *springs, unsigned width);
+
 /* One step with the targets and paths of fret_memory_step, in `substeps` equal parts; F_N means its sum
  * over cells here. With FRET_TO_FX each part solves for delta_x: the least change that reaches F_x to
  * 1e-14 mu F_N. No allocation.

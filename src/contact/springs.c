@@ -9,32 +9,94 @@
 #include "gap.h"
 #include "special.h"
 
-/* No trap is ever set here; gcc needs to be told before it turns choices into vector code. */
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC optimize("no-trapping-math")
+/* Springs are handled LANES at a time, with LANES sums; those of STRIDE springs go into the total. */
+enum { LANES = 8, STRIDE = 512, ALIGNMENT = 8 * LANES };
+
+typedef struct cells {
+    double *g, *w; /* depth of touch, normal stiffness */
+    double *b, *u; /* bound at the present depth, displacement */
+    double mu_eta;
+} cells;
+
+/* A step straight in (delta_z, delta_x), from the present depth to z1 and by ddx. */
+typedef struct straight {
+    double z1, ddx;
+    double hi, inverse; /* the larger depth, 1/|change of depth| */
+} straight;
+
+/* Sums, each with the rest that rounding has cut off: of w v; and of a step that is kept w times bound times
+ * slip, else w over springs that stick. */
+typedef struct lane_sums {
+    _Alignas(ALIGNMENT) double force[LANES];
+    double force_rest[LANES], other[LANES], other_rest[LANES];
+} lane_sums;
+
+#ifdef __x86_64__
+#include <immintrin.h>
+#define LEAST _mm_min_pd
+#define MOST _mm_max_pd
+#endif
+#define WIDTH 2
+#define NAME(x) x##_2
+#define TARGET
+#include "springs_lanes.h"
+
+#ifdef __x86_64__
+#define LEAST _mm256_min_pd
+#define MOST _mm256_max_pd
+#define WIDTH 4
+#define NAME(x) x##_4
+#define TARGET __attribute__((target("avx2")))
+#include "springs_lanes.h"
+
+#define LEAST _mm512_min_pd
+#define MOST _mm512_max_pd
+#define WIDTH 8
+#define NAME(x) x##_8
+#define TARGET __attribute__((target("avx512f,avx512dq,avx512vl")))
+#include "springs_lanes.h"
 #endif
 
-/* Springs are handled LANES at a time in loops of fixed length, which compilers turn into vector code
- * without licence to reorder sums; double sums of STRIDE springs go into the total. */
-enum { LANES = 8, STRIDE = 256 };
+typedef struct kernels {
+    unsigned width;
+    void (*slide)(const cells *c, size_t end, double ddx, bool keep, lane_sums *out);
+    void (*deform)(const cells *c, size_t end, const straight *path, bool keep, lane_sums *out);
+} kernels;
+
+static const kernels of_width[] = {
+    {2, slide_2, deform_2},
+#ifdef __x86_64__
+    {4, slide_4, deform_4},
+    {8, slide_8, deform_8},
+#endif
+};
+
+static bool runs_here(unsigned width) {
+#ifdef __x86_64__
+    if (width == 4)
+        return __builtin_cpu_supports("avx2");
+    if (width == 8)
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+               __builtin_cpu_supports("avx512vl");
+#endif
+    return width == 2;
+}
 
 struct fret_springs {
     fret_normal normal;
-    double mu, mu_eta;
-    double radius, cell; /* width of a cell [m] */
+    double mu;
+    fret_real compliance; /* 1/eta */
+    double radius, cell;  /* width of a cell [m] */
     fret_real end_dz, end_FN;
     size_t count, padded; /* springs, and up to a multiple of LANES */
-    double *g, *w, *u;    /* depth of touch, normal stiffness, displacement */
-    fret_real *w_sum;     /* [i]: stiffness of springs 0..i-1 */
-    fret_real *touch;     /* [i]: F_N where spring i touches */
+    cells cells;
+    const kernels *run;
+    fret_real *w_sum; /* [i]: stiffness of springs 0..i-1 */
+    fret_real *touch; /* [i]: F_N where spring i touches */
     fret_real dz, FN, dx, Fx;
     int direction; /* of the last tangential motion */
     fret_sum W;
 };
-
-static double least(double a, double b) {
-    return a < b ? a : b;
-}
 
 static double most(double a, double b) {
     return a > b ? a : b;
@@ -53,15 +115,17 @@ static bool allocate(fret_springs *s, size_t count) {
         return false;
     s->count = count;
     s->padded = (count + LANES - 1) / LANES * LANES;
-    s->g = malloc(3 * s->padded * sizeof *s->g);
+    cells *c = &s->cells;
+    c->g = aligned_alloc(ALIGNMENT, 4 * s->padded * sizeof *c->g);
     s->w_sum = malloc((2 * count + 1) * sizeof *s->w_sum);
-    if (!s->g || !s->w_sum) {
-        free(s->g);
+    if (!c->g || !s->w_sum) {
+        free(c->g);
         free(s->w_sum);
         return false;
     }
-    s->w = s->g + s->padded;
-    s->u = s->w + s->padded;
+    c->w = c->g + s->padded;
+    c->b = c->w + s->padded;
+    c->u = c->b + s->padded;
     s->touch = s->w_sum + count + 1;
     return true;
 }
@@ -74,23 +138,24 @@ static fret_real cell_weight(size_t i, fret_real k) {
 
 static void fill(fret_springs *s, fret_weight rule) {
     const fret_foundation *f = &s->normal.foundation;
+    cells *c = &s->cells;
     fret_real h = (fret_real)s->radius / (fret_real)s->count;
     fret_real scale = 2 * f->cN0 * h * fret_pow(h / f->c0, f->k), stiffness = 0, force = 0, last = 0;
     for (size_t i = 0; i < s->count; i++) {
         fret_real mid = (fret_real)i + 0.5L;
-        s->w[i] = (double)(scale * (rule == FRET_WEIGHT_CELL ? cell_weight(i, f->k) : fret_pow(mid, f->k)));
+        c->w[i] = (double)(scale * (rule == FRET_WEIGHT_CELL ? cell_weight(i, f->k) : fret_pow(mid, f->k)));
         /* rounding must not undo the order of touch */
-        s->g[i] = most((double)depth_at(&s->normal, mid * h), (double)last);
-        force += stiffness * (s->g[i] - last);
-        last = s->g[i];
+        c->g[i] = most((double)depth_at(&s->normal, mid * h), (double)last);
+        force += stiffness * (c->g[i] - last);
+        last = c->g[i];
         s->touch[i] = force;
         s->w_sum[i] = stiffness;
-        stiffness += s->w[i];
+        stiffness += c->w[i];
     }
     s->w_sum[s->count] = stiffness;
     for (size_t i = s->count; i < s->padded; i++) { /* never touched */
-        s->w[i] = 0;
-        s->g[i] = DBL_MAX;
+        c->w[i] = 0;
+        c->g[i] = DBL_MAX;
     }
 }
 
@@ -115,7 +180,10 @@ fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count
     }
     s->normal = *normal;
     s->mu = mu;
-    s->mu_eta = (double)(mu * normal->foundation.eta);
+    s->compliance = 1 / normal->foundation.eta;
+    s->cells.mu_eta = (double)(mu * normal->foundation.eta);
+    for (unsigned width = 2; width <= LANES; width *= 2)
+        fret_springs_use(s, width);
     s->radius = radius;
     s->cell = radius / (double)count;
     s->end_dz = end.dz;
@@ -128,15 +196,24 @@ fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count
 
 void fret_springs_free(fret_springs *s) {
     if (s) {
-        free(s->g);
+        free(s->cells.g);
         free(s->w_sum);
     }
     free(s);
 }
 
+int fret_springs_use(fret_springs *s, unsigned width) {
+    for (size_t i = 0; i < sizeof of_width / sizeof *of_width; i++)
+        if (of_width[i].width == width && runs_here(width)) {
+            s->run = &of_width[i];
+            return 1;
+        }
+    return 0;
+}
+
 void fret_springs_reset(fret_springs *s) {
     for (size_t i = 0; i < s->padded; i++)
-        s->u[i] = 0;
+        s->cells.b[i] = s->cells.u[i] = 0;
     s->dz = s->FN = s->dx = s->Fx = 0;
     s->direction = 1;
     s->W = (fret_sum){0, 0};
@@ -147,19 +224,18 @@ fret_status fret_springs_copy(fret_springs *to, const fret_springs *from) {
         return fret_ok();
     fret_springs made = *from;
     if (to->count == from->count) {
-        made.g = to->g;
-        made.w = to->w;
-        made.u = to->u;
+        made.cells = to->cells;
+        made.cells.mu_eta = from->cells.mu_eta;
         made.w_sum = to->w_sum;
         made.touch = to->touch;
     } else {
         if (!allocate(&made, from->count))
             return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-        free(to->g);
+        free(to->cells.g);
         free(to->w_sum);
     }
     *to = made;
-    memcpy(to->g, from->g, 3 * from->padded * sizeof *to->g);
+    memcpy(to->cells.g, from->cells.g, 4 * from->padded * sizeof *to->cells.g);
     memcpy(to->w_sum, from->w_sum, (2 * from->count + 1) * sizeof *to->w_sum);
     return fret_ok();
 }
@@ -179,8 +255,8 @@ static size_t springs_below(const double *g, size_t count, double dz) {
 
 /* The normal law of the cells, piecewise linear, and its inverse: sums of positive terms. */
 static fret_real force_of_depth(const fret_springs *s, fret_real dz) {
-    size_t i = springs_below(s->g, s->count, (double)dz);
-    return i ? s->touch[i - 1] + s->w_sum[i] * (dz - s->g[i - 1]) : 0;
+    size_t i = springs_below(s->cells.g, s->count, (double)dz);
+    return i ? s->touch[i - 1] + s->w_sum[i] * (dz - s->cells.g[i - 1]) : 0;
 }
 
 static fret_real depth_of_force(const fret_springs *s, fret_real FN) {
@@ -194,74 +270,75 @@ static fret_real depth_of_force(const fret_springs *s, fret_real FN) {
         else
             hi = mid;
     }
-    return s->g[lo - 1] + (FN - s->touch[lo - 1]) / s->w_sum[lo];
+    return s->cells.g[lo - 1] + (FN - s->touch[lo - 1]) / s->w_sum[lo];
 }
 
-/* What a straight step does: sums of w u, of w over springs that stick, of w times bound times slip. */
+static fret_real total(const double *sum, const double *rest) {
+    fret_real half[2];
+    for (int l = 0; l < 2; l++) {
+        const double *x = sum + 4 * l, *y = rest + 4 * l;
+        half[l] = ((fret_real)x[0] + x[1]) + ((fret_real)x[2] + x[3]);
+        half[l] += (y[0] + y[1]) + (y[2] + y[3]);
+    }
+    return half[0] + half[1];
+}
+
+/* What a straight step does, over all springs that it touches. */
 typedef struct response {
-    fret_real force, stick, loss;
+    fret_real force; /* sum of w u */
+    fret_real loss;  /* of w times bound times slip, if kept */
+    fret_real stick; /* of w over springs that stick, if not */
 } response;
 
-/* A step straight in (delta_z, delta_x), z0 -> z1 and by ddx, for springs below the larger depth. On a
- * straight path a spring that has begun to slip goes on to the end, so the bound at both ends decides.
- * touched: the part of the step during which a spring is in contact. keep: stores the new u. */
+/* keep: stores the new displacements and bounds. */
 static response deform(fret_springs *s, double z0, double z1, double ddx, bool keep) {
-    const double hi = most(z0, z1), span = hi - least(z0, z1),
-                 inverse = span > 0 ? 1 / span : (double)INFINITY;
-    const double m = s->mu_eta;
-    const size_t end = (springs_below(s->g, s->count, hi) + LANES - 1) / LANES * LANES;
-    response out = {0, 0, 0};
-    for (size_t from = 0; from < end; from += STRIDE) {
-        double force[LANES] = {0}, stick[LANES] = {0}, loss[LANES] = {0};
-        const size_t to = end - from > STRIDE ? from + STRIDE : end;
-        for (size_t i = from; i < to; i += LANES) {
-            const double *restrict g = s->g + i, *restrict w = s->w + i;
-            double *restrict u = s->u + i;
-            double moved[LANES];
-            for (int l = 0; l < LANES; l++) {
-                double b0 = most(m * (z0 - g[l]), 0), b1 = most(m * (z1 - g[l]), 0);
-                double touched = most(least((hi - g[l]) * inverse, 1), 0);
-                double trial = u[l] + touched * ddx;
-                double v = most(least(trial, b1), -b1), excess = trial - v;
-                double yields = w[l] * touched; /* outside the choice: no branch */
-                double slip = fabs(excess), along = excess < 0 ? -ddx : ddx;
-                /* slip at a steady rate since its onset, while the bound went linearly to b1 */
-                double whole = most(most(touched * along + (b0 - b1), slip), DBL_MIN);
-                double bound = b1 + 0.5 * (b0 - b1) * (slip / whole);
-                force[l] += w[l] * v;
-                stick[l] += slip > 0 ? 0 : yields;
-                loss[l] += w[l] * bound * slip;
-                moved[l] = v;
-            }
-            if (keep)
-                memcpy(u, moved, sizeof moved);
-        }
-        for (int l = 0; l < LANES; l++) {
-            out.force += force[l];
-            out.stick += stick[l];
-            out.loss += loss[l];
-        }
+    const double hi = most(z0, z1);
+    const size_t end = (springs_below(s->cells.g, s->count, hi) + LANES - 1) / LANES * LANES;
+    lane_sums sums = {{0}, {0}, {0}, {0}};
+    if (z0 == z1) {
+        s->run->slide(&s->cells, end, ddx, keep, &sums);
+    } else {
+        const straight path = {z1, ddx, hi, 1 / fabs(z1 - z0)};
+        s->run->deform(&s->cells, end, &path, keep, &sums);
     }
-    return out;
+    const fret_real other = total(sums.other, sums.other_rest);
+    return (response){total(sums.force, sums.force_rest), keep ? other : 0, keep ? 0 : other};
 }
 
 static void advance(fret_springs *s, fret_real dz, fret_real dx) {
-    const fret_real eta = s->normal.foundation.eta;
     response r = deform(s, (double)s->dz, (double)dz, (double)(dx - s->dx), true);
-    s->Fx = r.force / eta;
-    fret_sum_add(&s->W, r.loss / eta);
+    s->Fx = r.force * s->compliance;
+    fret_sum_add(&s->W, r.loss * s->compliance);
     s->dz = dz;
     s->dx = dx;
+}
+
+/* At constant depth, from the last F_x on: no history makes u steeper in g than the bound is, so springs
+ * begin to slip one after the other from the edge inwards, and the front is found in one pass over them. */
+static double displacement_of_front(const fret_springs *s, double missing) {
+    const cells *c = &s->cells;
+    const double sign = missing < 0 ? -1 : 1;
+    double slipping = 0, left = 0; /* force of those that slip; what the next can take */
+    for (size_t i = springs_below(c->g, s->count, (double)s->dz); i-- > 0;) {
+        const double sticks = (double)s->w_sum[i + 1];
+        left = c->b[i] - sign * c->u[i];
+        if (slipping + sticks * left >= fabs(missing))
+            return sign * (fabs(missing) - slipping) / sticks;
+        slipping += c->w[i] * left;
+    }
+    return sign * left;
 }
 
 /* The displacement nearest to the present one that makes F_x: Newton on a monotone piecewise linear
  * function, kept in a bracket that is wide enough for every spring to slip either way. */
 static fret_real displacement_for(fret_springs *s, fret_real dz, fret_real Fx, fret_real tolerance) {
-    const fret_real eta = s->normal.foundation.eta, reach = 2.0L * s->mu_eta * fmaxl(s->dz, dz);
+    const fret_real eta = s->normal.foundation.eta, reach = 2.0L * s->cells.mu_eta * fmaxl(s->dz, dz);
     fret_real lo = -reach, hi = reach, x = 0;
+    if (dz == s->dz)
+        x = displacement_of_front(s, (double)((Fx - s->Fx) * eta));
     for (int i = 0; i < 200 && hi - lo > 4 * DBL_EPSILON * fabsl(x); i++) {
         response r = deform(s, (double)s->dz, (double)dz, (double)x, false);
-        fret_real missing = Fx - r.force / eta;
+        fret_real missing = Fx - r.force * s->compliance;
         if (fabsl(missing) <= tolerance)
             break;
         if (missing > 0)
@@ -290,10 +367,11 @@ static void walk_forces(fret_springs *s, fret_real FN, fret_real dz, fret_real F
 
 static void walk_displacements(fret_springs *s, fret_real dz, fret_real dx, unsigned substeps) {
     const fret_real dz0 = s->dz, dx0 = s->dx;
-    for (unsigned j = 1; j <= substeps; j++) {
+    for (unsigned j = 1; j < substeps; j++) {
         fret_real t = (fret_real)j / substeps, rest = (fret_real)(substeps - j) / substeps;
         advance(s, dz == dz0 ? dz : dz0 * rest + dz * t, dx == dx0 ? dx : dx0 * rest + dx * t);
     }
+    advance(s, dz, dx);
 }
 
 fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned substeps) {
@@ -345,16 +423,16 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
 void fret_springs_state(const fret_springs *s, fret_state *out) {
     const fret_real eta = s->normal.foundation.eta;
     const double dz = (double)s->dz;
-    const size_t closed = springs_below(s->g, s->count, dz);
+    const size_t closed = springs_below(s->cells.g, s->count, dz);
     fret_real stored = 0, going = 0;
     size_t slipping = 0; /* outermost run of them */
     bool run = true;
     for (size_t i = closed; i-- > 0;) {
-        double bound = s->mu_eta * (dz - s->g[i]), u = s->u[i];
+        double bound = s->cells.b[i], u = s->cells.u[i], w = s->cells.w[i];
         run = run && fabs(u) >= bound;
         slipping += run;
-        stored += (fret_real)s->w[i] * u * u;
-        going += s->direction * u >= bound ? 0 : s->w[i];
+        stored += (fret_real)w * u * u;
+        going += s->direction * u >= bound ? 0 : w;
     }
     *out = (fret_state){
         .FN = s->FN,

@@ -78,7 +78,7 @@ static void amplitudes(void) {
         CHECK_OK(fret_loading_displacement(&c.normal, c.mu, &c.press, dA, &peak));
         fret_real error[2];
         for (unsigned n = 0; n < 2; n++) {
-            CHECK_OK(fret_quadrature_loss(&c.normal, c.mu, &c.press, &peak, 16 << n, &same));
+            CHECK_OK(fret_quadrature_loss(&c.normal, c.mu, &c.press, &peak, 16u << n, &same));
             error[n] = fabsl(same - loss) / loss;
         }
         CHECK(error[1] < error[0] * error[0] * 100); /* twice the nodes, about twice the digits */

@@ -323,6 +323,99 @@ static void refuses(pair *p, fret_step step, unsigned substeps, fret_code code, 
     CHECK(a.FN == b.FN && a.dz == b.dz && a.Fx == b.Fx && a.dx == b.dx && a.W == b.W && a.U == b.U);
 }
 
+static bool same(const fret_state *a, const fret_state *b) {
+    return a->FN == b->FN && a->dz == b->dz && a->a == b->a && a->Fx == b->Fx && a->dx == b->dx &&
+           a->c == b->c && a->W == b->W && a->U == b->U && a->kn == b->kn && a->kt == b->kt &&
+           a->slices == b->slices;
+}
+
+/* Every width of vector gives the same bits, over steps of every kind, whatever part of a vector is left. */
+static void test_widths(void) {
+    static const size_t counts[] = {1, 7, 8, 511, 513, 1003, 4096};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        pair p = make(2, 0.3);
+        unsigned long long seed = 5 + i;
+        fret_press press;
+        fret_springs *narrow;
+        springs_of(&p, counts[i], p.radius * (1 + 1e-9), FRET_WEIGHT_CELL);
+        CHECK_OK(
+            fret_springs_make(&p.normal, p.mu, counts[i], p.radius * (1 + 1e-9), FRET_WEIGHT_CELL, &narrow));
+        CHECK(fret_springs_use(narrow, 2));
+        CHECK(!fret_springs_use(narrow, 3) && !fret_springs_use(narrow, 0));
+        CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+        for (unsigned width = 4; width <= 8; width += 4) {
+            if (!fret_springs_use(p.springs, width))
+                continue;
+            fret_springs_reset(p.springs);
+            fret_springs_reset(narrow);
+            for (int j = 0; j < 400; j++) {
+                const double kind = unit_random(&seed, 0, 1),
+                             dz = unit_random(&seed, -0.2, 1) * (double)press.dz,
+                             dx = unit_random(&seed, -1.2, 1.2) * p.slip;
+                fret_state a, b;
+                fret_springs_state(narrow, &b);
+                const double Fx = 0.9 * p.mu * (double)b.FN * unit_random(&seed, -1, 1);
+                const fret_step step = kind < 0.3 ? to_depth(dz, dx) : kind < 0.7 ? to_dx(dx) : to_fx(Fx);
+                CHECK_OK(fret_springs_step(p.springs, &step, 1));
+                CHECK_OK(fret_springs_step(narrow, &step, 1));
+                fret_springs_state(p.springs, &a);
+                fret_springs_state(narrow, &b);
+                CHECK(same(&a, &b));
+            }
+        }
+        fret_springs_free(narrow);
+        drop(&p);
+    }
+}
+
+/* At constant depth bounds are constant, which has a loop of its own: the same as a step that changes the
+ * depth by one unit in the last place, and as springs handled one by one. */
+static void test_constant_depth(void) {
+    enum { COUNT = 777 };
+    pair p = make(2, -0.3);
+    unsigned long long seed = 3;
+    fret_press press;
+    fret_state a, b;
+    fret_springs *oblique;
+    springs_of(&p, COUNT, p.radius * (1 + 1e-9), FRET_WEIGHT_CELL);
+    CHECK_OK(fret_springs_make(&p.normal, p.mu, COUNT, p.radius * (1 + 1e-9), FRET_WEIGHT_CELL, &oblique));
+    CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+    const double dz = (double)press.dz, next = nextafter(dz, 0);
+    const fret_step press_down = to_depth(dz, 0);
+    CHECK_OK(fret_springs_step(p.springs, &press_down, 1));
+    const fret_foundation *f = &p.normal.foundation;
+    const double cell = p.radius * (1 + 1e-9) / COUNT, eta = (double)f->eta, k1 = 1 + (double)f->k,
+                 scale = (double)(2 * f->cN0 * powl(f->c0, -f->k)) * pow(cell, k1) / k1;
+    static double u[COUNT];
+    double W = 0, old = 0;
+    for (int i = 0; i < 300; i++) {
+        const fret_step step = to_dx(unit_random(&seed, -1.2, 1.2) * p.slip),
+                        to_next = to_depth(next, step.tangential);
+        CHECK_OK(fret_springs_copy(oblique, p.springs));
+        CHECK_OK(fret_springs_step(p.springs, &step, 1));
+        CHECK_OK(fret_springs_step(oblique, &to_next, 1));
+        fret_springs_state(p.springs, &a);
+        fret_springs_state(oblique, &b);
+        CHECK_ABS(a.Fx, b.Fx, p.mu * p.FN, 1e-14L);
+        CHECK_ABS(a.W, b.W, p.mu * p.FN * p.slip, 1e-14L * (i + 1));
+        CHECK_ABS(a.U, b.U, p.mu * p.FN * p.slip, 1e-14L);
+
+        double force = 0, x = step.tangential, d = x - old;
+        old = x;
+        for (int j = 0; j < COUNT; j++) {
+            const double w = scale * (pow(j + 1, k1) - pow(j, k1)), mid = (j + 0.5) * cell / p.radius,
+                         bound = fmax(p.slip * (1 - mid * mid), 0), trial = u[j] + d;
+            u[j] = trial > bound ? bound : trial < -bound ? -bound : trial;
+            force += w * u[j] / eta;
+            W += w * bound * fabs(trial - u[j]) / eta;
+        }
+        CHECK_ABS(a.Fx, force, p.mu * p.FN, 1e-12L);
+        CHECK_REL(a.W, W, 1e-12L);
+    }
+    fret_springs_free(oblique);
+    drop(&p);
+}
+
 static void test_errors(void) {
     const double nan_ = (double)NAN, inf_ = (double)INFINITY;
     pair p = make(2, 0);
@@ -377,6 +470,8 @@ int main(int argc, char **argv) {
     test_stick();
     test_pad();
     test_copy();
+    test_widths();
+    test_constant_depth();
     test_errors();
     return unit_finish();
 }

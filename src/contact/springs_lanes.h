@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The loops over springs for vectors of WIDTH doubles; included once a width, with NAME(x) to tell the
+ * functions apart and TARGET the instructions they may use. Lane l of every width adds the springs i with
+ * i % LANES == l in their order, so that all widths give the same bits. */
+
+typedef double NAME(vec) __attribute__((vector_size(8 * WIDTH), may_alias));
+typedef long long NAME(mask) __attribute__((vector_size(8 * WIDTH), may_alias));
+
+enum { NAME(PARTS) = LANES / WIDTH };
+
+/* compilers keep the sums in registers only when this loop is gone */
+#define EACH_PART _Pragma("GCC unroll 4") for (int k = 0; k < NAME(PARTS); k++)
+#define AT(array) (*(NAME(vec) *)((array) + i + k * WIDTH))
+
+TARGET static inline NAME(vec) NAME(choose)(NAME(mask) which, NAME(vec) a, NAME(vec) b) {
+    return (NAME(vec))(((NAME(mask))a & which) | ((NAME(mask))b & ~which));
+}
+
+#ifndef LEAST /* instructions that compilers do not find by themselves */
+TARGET static inline NAME(vec) NAME(least)(NAME(vec) a, NAME(vec) b) {
+    return NAME(choose)(a < b, a, b);
+}
+
+TARGET static inline NAME(vec) NAME(most)(NAME(vec) a, NAME(vec) b) {
+    return NAME(choose)(a > b, a, b);
+}
+#define LEAST NAME(least)
+#define MOST NAME(most)
+#endif
+
+/* Adds x to sum + rest without rounding (two-sum). */
+TARGET static inline void NAME(add)(double *sum, double *rest, NAME(vec) x) {
+    NAME(vec) old = *(NAME(vec) *)sum, now = old + x, part = now - old;
+    *(NAME(vec) *)rest += (old - (now - part)) + (x - part);
+    *(NAME(vec) *)sum = now;
+}
+
+/* At constant bounds a spring that slips dissipates w |v| |trial-v|, and |v| is its bound. */
+TARGET static inline __attribute__((always_inline)) void
+NAME(slide_all)(const cells *c, size_t end, double ddx, const bool keep, lane_sums *out) {
+    const NAME(vec) zero = {0};
+    double *restrict const w_ = c->w, *restrict const b_ = c->b, *restrict const u_ = c->u;
+    for (size_t from = 0; from < end; from += STRIDE) {
+        NAME(vec) force[NAME(PARTS)], other[NAME(PARTS)];
+        const size_t to = end - from > STRIDE ? from + STRIDE : end;
+        EACH_PART force[k] = other[k] = zero;
+        for (size_t i = from; i < to; i += LANES) {
+            EACH_PART {
+                NAME(vec) w = AT(w_), b = AT(b_), trial = AT(u_) + ddx;
+                NAME(vec) v = MOST(LEAST(trial, b), -b), pull = w * v, excess = trial - v;
+                force[k] += pull;
+                if (keep) {
+                    other[k] += pull * excess;
+                    AT(u_) = v;
+                } else {
+                    other[k] += NAME(choose)(excess != zero, zero, w);
+                }
+            }
+        }
+        EACH_PART {
+            NAME(add)(out->force + k * WIDTH, out->force_rest + k * WIDTH, force[k]);
+            NAME(add)(out->other + k * WIDTH, out->other_rest + k * WIDTH, other[k]);
+        }
+    }
+}
+
+TARGET static void NAME(slide)(const cells *c, size_t end, double ddx, bool keep, lane_sums *out) {
+    if (keep)
+        NAME(slide_all)(c, end, ddx, true, out);
+    else
+        NAME(slide_all)(c, end, ddx, false, out);
+}
+
+/* On a straight path a spring that has begun to slip goes on to the end, so the bound at both ends decides.
+ * touched: the part of the step during which a spring is in contact. */
+TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, bool keep, lane_sums *out) {
+    const NAME(vec) zero = {0}, one = zero + 1, tiny = zero + DBL_MIN;
+    double *restrict const g_ = c->g, *restrict const w_ = c->w, *restrict const b_ = c->b,
+                           *restrict const u_ = c->u;
+    for (size_t from = 0; from < end; from += STRIDE) {
+        NAME(vec) force[NAME(PARTS)], other[NAME(PARTS)];
+        const size_t to = end - from > STRIDE ? from + STRIDE : end;
+        EACH_PART force[k] = other[k] = zero;
+        for (size_t i = from; i < to; i += LANES) {
+            EACH_PART {
+                NAME(vec) g = AT(g_), w = AT(w_), b0 = AT(b_);
+                NAME(vec) b1 = MOST(c->mu_eta * (p->z1 - g), zero);
+                NAME(vec) touched = MOST(LEAST((p->hi - g) * p->inverse, one), zero);
+                NAME(vec) moved = touched * p->ddx, trial = AT(u_) + moved;
+                NAME(vec) v = MOST(LEAST(trial, b1), -b1), excess = trial - v;
+                NAME(vec)
+                slip = MOST(excess, -excess), along = NAME(choose)(excess < zero, -moved, moved);
+                /* slip at a steady rate since its onset, while the bound went linearly to b1 */
+                NAME(vec) whole = MOST(MOST(along + (b0 - b1), slip), tiny);
+                NAME(vec) bound = b1 + 0.5 * (b0 - b1) * (slip / whole);
+                force[k] += w * v;
+                if (keep) {
+                    other[k] += w * bound * slip;
+                    AT(u_) = v;
+                    AT(b_) = b1;
+                } else {
+                    other[k] += NAME(choose)(excess != zero, zero, w * touched);
+                }
+            }
+        }
+        EACH_PART {
+            NAME(add)(out->force + k * WIDTH, out->force_rest + k * WIDTH, force[k]);
+            NAME(add)(out->other + k * WIDTH, out->other_rest + k * WIDTH, other[k]);
+        }
+    }
+}
+
+#undef EACH_PART
+#undef AT
+#undef LEAST
+#undef MOST
+#undef NAME
+#undef WIDTH
+#undef TARGET
