@@ -130,6 +130,149 @@ static double triad(size_t count, long passes) {
     return best;
 }
 
+/* The memory at constant F_N, a step; `nested` turning points are held all the time. */
+static double masing(const fret_normal *n, const fret_press *p, bool loss, long nested) {
+    enum { LOADS = 4096 };
+    static double load[LOADS];
+    const double slip = (double)fret_gross_slip(n, mu, p);
+    double best = INFINITY, size = 1, Fx;
+    fret_masing *m = NULL;
+    need(fret_masing_make(n, mu, p, &m));
+    for (long i = 0; i < nested; i++, size *= 1 - 2 / (double)nested)
+        need(fret_masing_to_dx(m, (i % 2 ? -0.99 : 0.99) * size * slip, &Fx));
+    for (long i = 0; i < LOADS; i++)
+        load[i] = size * slip * drive(i);
+    for (int run = 0; run < 50; run++) {
+        double t0 = seconds();
+        for (long i = 0; i < LOADS; i++) {
+            need(fret_masing_to_dx(m, load[i], &Fx));
+            sink = Fx + (loss ? fret_masing_loss(m) : 0);
+        }
+        best = fmin(best, (seconds() - t0) / LOADS);
+    }
+    fret_masing_free(m);
+    return best;
+}
+
+/* A cycle of displacement amplitude 0.7 delta_x,max: its loss [J] and the time for one. */
+typedef struct cycle {
+    double loss, time;
+} cycle;
+
+static double amplitude(const fret_normal *n, const fret_press *p) {
+    return 0.7 * (double)fret_gross_slip(n, mu, p);
+}
+
+static cycle masing_cycle(const fret_normal *n, const fret_press *p) {
+    const double dA = amplitude(n, p);
+    const long cycles = 20000;
+    cycle c = {0, INFINITY};
+    double Fx;
+    fret_masing *m = NULL;
+    need(fret_masing_make(n, mu, p, &m));
+    for (int run = 0; run < 10; run++) {
+        double W = fret_masing_loss(m), t0 = seconds();
+        for (long i = 0; i < 2 * cycles; i++) {
+            need(fret_masing_to_dx(m, i % 2 ? -dA : dA, &Fx));
+            sink = fret_masing_loss(m);
+        }
+        c.time = fmin(c.time, (seconds() - t0) / (double)cycles);
+        c.loss = (fret_masing_loss(m) - W) / (double)cycles;
+    }
+    fret_masing_free(m);
+    return c;
+}
+
+static cycle memory_cycle(const fret_normal *n, const fret_press *p) {
+    const double dA = amplitude(n, p);
+    const long cycles = 20000;
+    cycle c = {0, INFINITY};
+    fret_memory *m = NULL;
+    need(fret_memory_make(n, mu, &m));
+    fret_step step = {FRET_TO_FORCE, FRET_KEEP_DX, FN, 0};
+    need(fret_memory_step(m, &step));
+    step = (fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, 0};
+    for (int run = 0; run < 5; run++) {
+        double t0 = seconds();
+        for (long i = 0; i < 2 * cycles; i++) {
+            step.tangential = i % 2 ? -dA : dA;
+            need(fret_memory_step(m, &step));
+            c.loss = 2 * (double)fret_memory_last_loss(m);
+        }
+        c.time = fmin(c.time, (seconds() - t0) / (double)cycles);
+    }
+    fret_memory_free(m);
+    return c;
+}
+
+/* By the friction work of springs, two steps a cycle. */
+static cycle springs_cycle(const fret_normal *n, const fret_press *p, size_t count) {
+    const double dA = amplitude(n, p);
+    const long cycles = count < 100000 ? (long)(1000000 / count) + 2 : 2;
+    cycle c = {0, INFINITY};
+    fret_springs *s = NULL;
+    fret_state before, after;
+    fret_step step = {FRET_TO_FORCE, FRET_KEEP_DX, FN, 0};
+    need(fret_springs_make(n, mu, count, (double)p->a * (1 + 1e-9), FRET_WEIGHT_CELL, &s));
+    need(fret_springs_step(s, &step, 1));
+    for (int run = 0; run < 6; run++) {
+        fret_springs_state(s, &before);
+        double t0 = seconds();
+        for (long i = 0; i < 2 * cycles; i++) {
+            step = (fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, i % 2 ? -dA : dA};
+            need(fret_springs_step(s, &step, 1));
+        }
+        c.time = fmin(c.time, (seconds() - t0) / (double)cycles);
+        fret_springs_state(s, &after);
+        c.loss = (double)((after.W - before.W) / (fret_real)cycles);
+    }
+    fret_springs_free(s);
+    return c;
+}
+
+/* By the area of the loop (21), the trapezoidal rule over `count` steps of the memory at constant F_N. */
+static cycle area_cycle(const fret_normal *n, const fret_press *p, size_t count) {
+    const double dA = amplitude(n, p);
+    double *load = malloc(count * sizeof *load), x = dA, Fx, Fx1;
+    cycle c = {0, INFINITY};
+    fret_masing *m = NULL;
+    if (!load)
+        exit(EXIT_FAILURE);
+    for (size_t i = 0; i < count; i++)
+        load[i] = dA * cos(2 * acos(-1) * (double)(i + 1) / (double)count);
+    need(fret_masing_make(n, mu, p, &m));
+    need(fret_masing_to_dx(m, -dA, &Fx));
+    need(fret_masing_to_dx(m, dA, &Fx));
+    for (int run = 0; run < 5; run++) {
+        double area = 0, t0 = seconds();
+        for (size_t i = 0; i < count; i++) {
+            need(fret_masing_to_dx(m, load[i], &Fx1));
+            area += (Fx + Fx1) / 2 * (load[i] - x);
+            x = load[i];
+            Fx = Fx1;
+        }
+        c.time = fmin(c.time, seconds() - t0);
+        c.loss = area;
+    }
+    fret_masing_free(m);
+    free(load);
+    return c;
+}
+
+/* The least size, by doubling, that gives the loss of a cycle to `error`; 2^23 of them at most. */
+static cycle to_error(cycle (*model)(const fret_normal *, const fret_press *, size_t), const fret_normal *n,
+                      const fret_press *p, double error, size_t *count) {
+    fret_real exact;
+    cycle c = {0, 0};
+    need(fret_cycle_loss_displacement(n, mu, p, amplitude(n, p), &exact));
+    for (*count = 8; *count <= (size_t)1 << 23; *count *= 2) {
+        c = model(n, p, *count);
+        if (fabs((double)(c.loss / exact - 1)) <= error)
+            break;
+    }
+    return c;
+}
+
 static double scene(long count) {
     double t0 = seconds();
     for (long i = 0; i < count; i++) {
@@ -193,5 +336,25 @@ int main(void) {
     double bytes = triad(large, 5);
     snprintf(probe, sizeof probe, "triad, 32 B at %.1f GB/s; limit 1.3", 32e-9 / bytes);
     line("springs, 4e6, a spring-step", library_springs(&n, &p, large, 10, false), bytes, probe, 1e9, "ns");
+    line("masing, Fx", masing(&n, &p, false, 0), plain * SPRINGS, "1000 springs; limit 30 ns", 1e9, "ns");
+    line("masing, Fx and loss", masing(&n, &p, true, 0), plain * SPRINGS, "1000 springs; limit 70 ns", 1e9,
+         "ns");
+    line("masing, 10^4 turns, Fx", masing(&n, &p, false, 10000), plain * SPRINGS, "1000 springs; limit 30 ns",
+         1e9, "ns");
+    line("masing, 10^4 turns, loss", masing(&n, &p, true, 10000), plain * SPRINGS,
+         "1000 springs; limit 70 ns", 1e9, "ns");
+    const cycle exact = masing_cycle(&n, &p);
+    line("memory, dW of a cycle", memory_cycle(&n, &p).time, exact.time, "masing", 1e9, "ns");
+    for (int digits = 3; digits <= 9; digits += 3) {
+        char what[40], base[80];
+        size_t count;
+        snprintf(what, sizeof what, "masing, dW to 1e-%d", digits);
+        cycle c = to_error(springs_cycle, &n, &p, pow(10, -digits), &count);
+        snprintf(base, sizeof base, "%zu springs", count);
+        line(what, exact.time, c.time, base, 1e6, "us");
+        c = to_error(area_cycle, &n, &p, pow(10, -digits), &count);
+        snprintf(base, sizeof base, "loop area, %zu steps", count);
+        line(what, exact.time, c.time, base, 1e6, "us");
+    }
     return EXIT_SUCCESS;
 }

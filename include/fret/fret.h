@@ -7,6 +7,7 @@
 #include "fret/cycle.h"
 #include "fret/field.h"
 #include "fret/gap.h"
+#include "fret/masing.h"
 #include "fret/material.h"
 #include "fret/memory.h"
 #include "fret/normal.h"
