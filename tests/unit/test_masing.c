@@ -333,7 +333,7 @@ static void objects(void) {
 
     const fret_masing_state before = now(&p);
     fret_masing *none = NULL;
-    const fret_press open = {0, 0, 0};
+    const fret_press open = {.F = 0};
     CHECK_ERROR(fret_masing_make(&p.normal, 0, &p.press, &none), FRET_NOT_POSITIVE, "mu");
     CHECK_ERROR(fret_masing_make(&p.normal, nan_, &p.press, &none), FRET_NOT_FINITE, "mu");
     CHECK_ERROR(fret_masing_make(&p.normal, 0.3, &open, &none), FRET_NOT_POSITIVE, "FN");
