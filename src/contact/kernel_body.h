@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The elementary functions of kernel.h, once for each type of lane: included there alone, hence no guard.
+ * Wants V (double or a vector of them), U (as many 64-bit words), BITS and VALUE between the two,
+ * SELECT(mask, yes, no) and NAMED(name). Arguments go by address: vectors wider than the target's registers
+ * have no stable calling convention. */
+
+#define KERNEL_ONE 0x3ff0000000000000u
+#define KERNEL_INTEGER 0x1.8p52 /* added to |x| < 2^51, rounds it and leaves it in the low bits */
+
+/* a b = high + low to 2^-104 by cutting the factors in halves whose products are exact. */
+KERNEL_INLINE void NAMED(product)(const V *a, const V *b, V *high, V *low) {
+    V ah = VALUE(BITS(*a) & 0xfffffffff8000000u), al = *a - ah;
+    V bh = VALUE(BITS(*b) & 0xfffffffff8000000u), bl = *b - bh;
+    V p = *a * *b;
+    *low = (((ah * bh - p) + ah * bl) + al * bh) + al * bl;
+    *high = p;
+}
+
+/* x = m 2^e with m in [sqrt(1/2), sqrt(2)), x > 0 normal; unit = 2^-e. */
+KERNEL_INLINE void NAMED(reduce)(const V *x, V *m, V *e, V *unit) {
+    U shifted = BITS(*x) + (KERNEL_ONE - 0x3fe6a09e667f3bcdu);
+    U exponent = (shifted & 0xfff0000000000000u) - KERNEL_ONE;
+    *m = VALUE(BITS(*x) - exponent);
+    *unit = VALUE(KERNEL_ONE - exponent);
+    *e = VALUE((shifted >> 52) | 0x4330000000000000u) - (0x1p52 + 1023);
+}
+
+#define KERNEL_LN2_HIGH 0x1.62e42fefa3800p-1 /* 42 bits: its product with an exponent is exact */
+#define KERNEL_LN2_LOW 0x1.ef35793c76730p-45
+
+/* e ln 2 + log(1+f+low), sqrt(1/2) <= 1+f <= sqrt(2), |low| <= ulp(f): 0.7 ulp while e = 0, else 1 ulp.
+ * With z = f/(2+f), log(1+f) = 2 atanh z = f - f^2/2 + z (f^2/2 + R), R = 2 z^2/3 + 2 z^4/5 + ... */
+KERNEL_INLINE void NAMED(log_of)(const V *f, const V *low, const V *e, V *out) {
+    V x = *f, z = x / (2.0 + x), half = 0.5 * x * x, w = z * z, w2 = w * w;
+    V r = w * ((0x1.5555555555558p-1 + w * 0x1.9999999995224p-2) +
+               w2 * ((0x1.2492492e03e05p-2 + w * 0x1.c71c62d0402aep-3) +
+                     w2 * ((0x1.7462ba27c8794p-3 + w * 0x1.39fdb949c5e05p-3) + w2 * 0x1.2b5fbed6295a5p-3)));
+    V rest = z * (half + r) + (*e * KERNEL_LN2_LOW + (*low - *low * x));
+    *out = *e * KERNEL_LN2_HIGH - ((half - rest) - x);
+}
+
+/* The same as high + low, to 2^-66. The terms 2z and 2 z^3 (1/3 + z^2 P) are carried in pairs. */
+KERNEL_INLINE void NAMED(log_pair)(const V *f, const V *low, const V *e, V *high, V *rest) {
+    V x = *f, d = 2.0 + x, z = x / d, p, pl;
+    NAMED(product)(&z, &d, &p, &pl);
+    V zl = (((x - p) - pl + *low) - z * ((2.0 - d) + x + *low)) * (0.5 - 0.5 * z); /* 1/(2+f) = (1-z)/2 */
+    V w, wl;
+    NAMED(product)(&z, &z, &w, &wl);
+    wl += 2.0 * z * zl;
+    V w2 = w * w, w4 = w2 * w2;
+    V tail = w * (((0x1.999999999999ap-3 + w * 0x1.2492492492523p-3) +
+                   w2 * (0x1.c71c71c6ea3a7p-4 + w * 0x1.745d177ae7ca4p-4)) +
+                  w4 * ((0x1.3b1395b312af8p-4 + w * 0x1.1118cdef60706p-4) +
+                        w2 * (0x1.df7b9e38d150dp-5 + w * 0x1.e039c40bcc6e0p-5)));
+    const V third = (V){0} + 0x1.5555555555555p-2;
+    V c = third + tail, cl = ((third - c) + tail) + 0x1.5555555555555p-56;
+    V t, tl, v, vl, z2 = 2.0 * z;
+    NAMED(product)(&w, &c, &t, &tl);
+    tl += w * cl + wl * c;
+    NAMED(product)(&t, &z2, &v, &vl);
+    vl += tl * z2 + t * (2.0 * zl);
+    V sum = z2 + v, first = *e * KERNEL_LN2_HIGH; /* |z2| > |v|; |first| > |sum| or e = 0 */
+    V small = ((z2 - sum) + v) + (2.0 * zl + vl) + *e * KERNEL_LN2_LOW;
+    V total = first + sum;
+    small += (first - total) + sum;
+    *high = total + small;
+    *rest = (total - *high) + small;
+}
+
+/* exp(x+low) = 2^k (1+p), |x| < 1e3, |low| <= ulp(x); k is returned as a number. */
+KERNEL_INLINE void NAMED(exp_of)(const V *x, const V *low, V *k, V *p) {
+    V n = (*x * 0x1.71547652b82fep+0 + KERNEL_INTEGER) - KERNEL_INTEGER;
+    V rh = *x - n * KERNEL_LN2_HIGH, rl = *low - n * KERNEL_LN2_LOW, r = rh + rl;
+    V r2 = r * r, r4 = r2 * r2;
+    V q = ((0.5 + r * 0x1.5555555555559p-3) + r2 * (0x1.555555555555ap-5 + r * 0x1.111111110f6afp-7)) +
+          r4 * (((0x1.6c16c16c14470p-10 + r * 0x1.a01a01afe52d1p-13) +
+                 r2 * (0x1.a01a01b0ae7c3p-16 + r * 0x1.71ddf8538c8d5p-19)) +
+                r4 * ((0x1.27e4c5b0f91b8p-22 + r * 0x1.af5ebf270a614p-26) + r2 * 0x1.1f954d1e3e439p-29));
+    *p = r + (((rh - r) + rl) + r2 * q);
+    *k = n;
+}
+
+/* 2^k, -1022 <= k <= 1023. */
+KERNEL_INLINE void NAMED(two_to)(const V *k, V *out) {
+    *out = VALUE((BITS(*k + KERNEL_INTEGER) << 52) + KERNEL_ONE);
+}
+
+/* exp(x+low); 0 and infinity beyond the range, NaN of NaN. */
+KERNEL_INLINE void NAMED(exp_sum)(const V *x, const V *low, V *out) {
+    V h = SELECT(*x < -746.0, (V){0} - 746.0, *x), k, p, f1, f2;
+    h = SELECT(h > 710.0, (V){0} + 710.0, h);
+    V l = SELECT(h == *x, *low, (V){0});
+    NAMED(exp_of)(&h, &l, &k, &p);
+    V k1 = (0.5 * k + KERNEL_INTEGER) - KERNEL_INTEGER, k2 = k - k1; /* 2^k itself may be out of range */
+    NAMED(two_to)(&k1, &f1);
+    NAMED(two_to)(&k2, &f2);
+    *out = ((1.0 + p) * f1) * f2;
+}
+
+/* x^y = exp(y log x), x > 0 finite and normal; high + low of the exponent y. */
+KERNEL_INLINE void NAMED(pow_pair)(const V *x, const V *yh, const V *yl, V *out) {
+    V m, e, unit, zero = (V){0}, lh, ll, h, l;
+    NAMED(reduce)(x, &m, &e, &unit);
+    V f = m - 1.0;
+    NAMED(log_pair)(&f, &zero, &e, &lh, &ll);
+    NAMED(product)(&lh, yh, &h, &l);
+    l += lh * *yl + ll * *yh;
+    NAMED(exp_sum)(&h, &l, out);
+}
+
+/* exp(x)-1, |x| < 700. */
+KERNEL_INLINE void NAMED(expm1)(const V *x, V *out) {
+    V k, p, f, zero = (V){0};
+    NAMED(exp_of)(x, &zero, &k, &p);
+    NAMED(two_to)(&k, &f);
+    *out = f * p + (f - 1.0);
+}
+
+/* log(1-t), t = th+tl <= 1/2 or s = sh+sl = 1-t > 0 normal, whichever has the digits: f and low of log_of. */
+KERNEL_INLINE void NAMED(complement)(const V *th, const V *tl, const V *sh, const V *sl, V *f, V *low, V *e) {
+    V m, unit;
+    NAMED(reduce)(sh, &m, e, &unit);
+    *f = SELECT(*e == 0.0, -*th, m - 1.0);
+    *low = SELECT(*e == 0.0, -*tl, *sl * unit);
+}
+
+#undef KERNEL_ONE
+#undef KERNEL_INTEGER
+#undef KERNEL_LN2_HIGH
+#undef KERNEL_LN2_LOW
