@@ -4,6 +4,7 @@
 #ifndef FRET_H
 #define FRET_H
 
+#include "fret/batch.h"
 #include "fret/cycle.h"
 #include "fret/field.h"
 #include "fret/gap.h"

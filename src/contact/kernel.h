@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elementary functions in double, for one number and for eight lanes, the same bits for both and on every
- * machine: + - * / and whole-word operations alone, no libm, no tables, no fused multiply-add (which
- * -ffp-contract=off forbids). Rounding to nearest is assumed. Not installed. */
+/* Elementary functions in double, for one number and (kernel_lanes.h) for several at once, the same bits for
+ * both and on every machine: + - * / and whole-word operations alone, no libm, no tables, no fused
+ * multiply-add (which -ffp-contract=off forbids). Rounding to nearest is assumed. Not installed. */
 #ifndef FRET_KERNEL_H
 #define FRET_KERNEL_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -24,45 +25,26 @@ KERNEL_INLINE double kernel_value(uint64_t u) {
     return x;
 }
 
-#define V double
-#define U uint64_t
-#define BITS kernel_bits
-#define VALUE kernel_value
-#define SELECT(mask, yes, no) ((mask) ? (yes) : (no))
-#define NAMED(name) one_##name
-#include "kernel_body.h"
-#undef V
-#undef U
-#undef BITS
-#undef VALUE
-#undef SELECT
-#undef NAMED
+/* Whether some word of a mask is not 0. */
+KERNEL_INLINE bool kernel_any(const void *mask, int lanes) {
+    typedef int64_t pair __attribute__((vector_size(16)));
+    pair part[4];
+    memcpy(part, mask, (size_t)lanes * sizeof(int64_t));
+    if (lanes > 4)
+        part[0] |= part[2] | part[3];
+    if (lanes > 2)
+        part[0] |= part[1];
+    return (part[0][0] | part[0][1]) != 0;
+}
 
-/* The compiler makes 1, 2 or 4 registers of them. */
-enum { KERNEL_LANES = 8 };
-typedef double kernel_lanes __attribute__((vector_size(KERNEL_LANES * sizeof(double))));
-typedef uint64_t kernel_words __attribute__((vector_size(KERNEL_LANES * sizeof(uint64_t))));
+#define LANES 1
+#include "kernel_lanes.h"
 
-#define V kernel_lanes
-#define U kernel_words
-#define BITS(x) ((kernel_words)(x))
-#define VALUE(u) ((kernel_lanes)(u))
-#define SELECT(mask, yes, no) VALUE((BITS(yes) & (kernel_words)(mask)) | (BITS(no) & ~(kernel_words)(mask)))
-#define NAMED(name) eight_##name
-#include "kernel_body.h"
-#undef V
-#undef U
-#undef BITS
-#undef VALUE
-#undef SELECT
-#undef NAMED
-
-/* The functions of one number, as in libm; measured worst errors in ulp are those of tests/unit/test_batch.c.
- */
+/* The functions of one number, as in libm. Measured: 0.9 ulp, expm1 1.7 ulp. */
 
 static inline double kernel_exp(double x) {
-    double zero = 0, out;
-    one_exp_sum(&x, &zero, &out);
+    double one = 1, zero = 0, out;
+    lanes1_exp_times(&one, &x, &zero, &out);
     return out;
 }
 
@@ -74,7 +56,7 @@ static inline double kernel_expm1(double x) {
         return -1;
     if (x == 0)
         return x;
-    one_expm1(&x, &out);
+    lanes1_expm1(&x, &out);
     return out;
 }
 
@@ -89,24 +71,24 @@ KERNEL_INLINE double kernel_normal(double *x) {
 static inline double kernel_log(double x) {
     if (!(x > 0 && x < (double)INFINITY))
         return x == 0 ? -(double)INFINITY : x > 0 ? x : (double)NAN;
-    double m, e, unit, zero = 0, out, lift = kernel_normal(&x);
-    one_reduce(&x, &m, &e, &unit);
+    double m, e, factor, zero = 0, out, lift = kernel_normal(&x);
+    lanes1_reduce(&x, &m, &e, &factor);
     e -= lift;
     m -= 1;
-    one_log_of(&m, &zero, &e, &out);
+    lanes1_log_of(&m, &zero, &e, &out);
     return out;
 }
 
 static inline double kernel_log1p(double x) {
     if (!(x > -1 && x < 0x1p60) || x == 0)
         return x == 0 ? x : kernel_log(1 + x);
-    double u = 1 + x, m, e, unit, f = x, low = 0, out;
-    one_reduce(&u, &m, &e, &unit);
+    double u = 1 + x, m, e, factor, f = x, low = 0, out;
+    lanes1_reduce(&u, &m, &e, &factor);
     if (e != 0) {
-        low = (x < 1 ? x - (u - 1) : 1 - (u - x)) * unit;
+        low = (x < 1 ? x - (u - 1) : 1 - (u - x)) * factor;
         f = m - 1;
     }
-    one_log_of(&f, &low, &e, &out);
+    lanes1_log_of(&f, &low, &e, &out);
     return out;
 }
 
@@ -119,19 +101,14 @@ static inline double kernel_pow(double x, double y) {
             return (double)NAN;
         return (x > 1) == (y > 0) ? (double)INFINITY : 0;
     }
-    double m, e, unit, zero = 0, lh, ll, h, l, out, lift = kernel_normal(&x);
-    one_reduce(&x, &m, &e, &unit);
+    double m, e, factor, zero = 0, lh, ll, out, lift = kernel_normal(&x);
+    lanes1_reduce(&x, &m, &e, &factor);
     e -= lift;
     m -= 1;
-    one_log_pair(&m, &zero, &e, &lh, &ll);
-    if (fabs(y) >= 0x1p100) { /* overflows or vanishes; the halves of the product would be infinite */
-        h = lh > 0 ? y : -y;
-        l = 0;
-    } else {
-        one_product(&lh, &y, &h, &l);
-        l += ll * y;
-    }
-    one_exp_sum(&h, &l, &out);
+    lanes1_log_pair(&m, &zero, &e, &lh, &ll);
+    /* beyond 2^100 all overflows or vanishes, and halves of the product would be infinite */
+    const double exponent[2] = {y > 0x1p100 ? 0x1p100 : y < -0x1p100 ? -0x1p100 : y, 0};
+    lanes1_power(&lh, &ll, exponent, 1, &out);
     return out;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The elementary functions of kernel.h, once for each type of lane: included there alone, hence no guard.
- * Wants V (double or a vector of them), U (as many 64-bit words), BITS and VALUE between the two,
- * SELECT(mask, yes, no) and NAMED(name). Arguments go by address: vectors wider than the target's registers
- * have no stable calling convention. */
+/* The elementary functions of kernel.h, once for each width: included by kernel_lanes.h alone.
+ * Wants V (double or a vector of them), U (as many 64-bit words), M (what comparisons give), BITS and VALUE
+ * between V and U, SELECT(mask, yes, no), ANY(mask) and NAMED(name). Arguments go by address: vectors wider
+ * than the target's registers have no stable calling convention. */
 
 #define KERNEL_ONE 0x3ff0000000000000u
 #define KERNEL_INTEGER 0x1.8p52 /* added to |x| < 2^51, rounds it and leaves it in the low bits */
@@ -16,12 +16,12 @@ KERNEL_INLINE void NAMED(product)(const V *a, const V *b, V *high, V *low) {
     *high = p;
 }
 
-/* x = m 2^e with m in [sqrt(1/2), sqrt(2)), x > 0 normal; unit = 2^-e. */
-KERNEL_INLINE void NAMED(reduce)(const V *x, V *m, V *e, V *unit) {
+/* x = m 2^e with m in [sqrt(1/2), sqrt(2)), x > 0 normal; factor = 2^-e. */
+KERNEL_INLINE void NAMED(reduce)(const V *x, V *m, V *e, V *factor) {
     U shifted = BITS(*x) + (KERNEL_ONE - 0x3fe6a09e667f3bcdu);
     U exponent = (shifted & 0xfff0000000000000u) - KERNEL_ONE;
     *m = VALUE(BITS(*x) - exponent);
-    *unit = VALUE(KERNEL_ONE - exponent);
+    *factor = VALUE(KERNEL_ONE - exponent);
     *e = VALUE((shifted >> 52) | 0x4330000000000000u) - (0x1p52 + 1023);
 }
 
@@ -32,10 +32,10 @@ KERNEL_INLINE void NAMED(reduce)(const V *x, V *m, V *e, V *unit) {
  * With z = f/(2+f), log(1+f) = 2 atanh z = f - f^2/2 + z (f^2/2 + R), R = 2 z^2/3 + 2 z^4/5 + ... */
 KERNEL_INLINE void NAMED(log_of)(const V *f, const V *low, const V *e, V *out) {
     V x = *f, z = x / (2.0 + x), half = 0.5 * x * x, w = z * z, w2 = w * w;
-    V r = w * ((0x1.5555555555558p-1 + w * 0x1.9999999995224p-2) +
-               w2 * ((0x1.2492492e03e05p-2 + w * 0x1.c71c62d0402aep-3) +
-                     w2 * ((0x1.7462ba27c8794p-3 + w * 0x1.39fdb949c5e05p-3) + w2 * 0x1.2b5fbed6295a5p-3)));
-    V rest = z * (half + r) + (*e * KERNEL_LN2_LOW + (*low - *low * x));
+    V r = ((0x1.5555555555558p-1 + w * 0x1.9999999995224p-2) +
+           w2 * (0x1.2492492e03e05p-2 + w * 0x1.c71c62d0402aep-3)) +
+          (w2 * w2) * ((0x1.7462ba27c8794p-3 + w * 0x1.39fdb949c5e05p-3) + w2 * 0x1.2b5fbed6295a5p-3);
+    V rest = (z * half + (*e * KERNEL_LN2_LOW + (*low - *low * x))) + (z * w) * r;
     *out = *e * KERNEL_LN2_HIGH - ((half - rest) - x);
 }
 
@@ -67,15 +67,15 @@ KERNEL_INLINE void NAMED(log_pair)(const V *f, const V *low, const V *e, V *high
     *rest = (total - *high) + small;
 }
 
-/* exp(x+low) = 2^k (1+p), |x| < 1e3, |low| <= ulp(x); k is returned as a number. */
+/* exp(x+low) = 2^k (1+p), |x| < 1420, |low| <= ulp(x); k is returned as a number. */
 KERNEL_INLINE void NAMED(exp_of)(const V *x, const V *low, V *k, V *p) {
     V n = (*x * 0x1.71547652b82fep+0 + KERNEL_INTEGER) - KERNEL_INTEGER;
     V rh = *x - n * KERNEL_LN2_HIGH, rl = *low - n * KERNEL_LN2_LOW, r = rh + rl;
     V r2 = r * r, r4 = r2 * r2;
-    V q = ((0.5 + r * 0x1.5555555555559p-3) + r2 * (0x1.555555555555ap-5 + r * 0x1.111111110f6afp-7)) +
-          r4 * (((0x1.6c16c16c14470p-10 + r * 0x1.a01a01afe52d1p-13) +
-                 r2 * (0x1.a01a01b0ae7c3p-16 + r * 0x1.71ddf8538c8d5p-19)) +
-                r4 * ((0x1.27e4c5b0f91b8p-22 + r * 0x1.af5ebf270a614p-26) + r2 * 0x1.1f954d1e3e439p-29));
+    V q = (((0.5 + r * 0x1.5555555555559p-3) + r2 * (0x1.555555555555ap-5 + r * 0x1.111111110f6afp-7)) +
+           r4 * ((0x1.6c16c16c14470p-10 + r * 0x1.a01a01afe52d1p-13) +
+                 r2 * (0x1.a01a01b0ae7c3p-16 + r * 0x1.71ddf8538c8d5p-19))) +
+          (r4 * r4) * ((0x1.27e4c5b0f91b8p-22 + r * 0x1.af5ebf270a614p-26) + r2 * 0x1.1f954d1e3e439p-29);
     *p = r + (((rh - r) + rl) + r2 * q);
     *k = n;
 }
@@ -85,27 +85,24 @@ KERNEL_INLINE void NAMED(two_to)(const V *k, V *out) {
     *out = VALUE((BITS(*k + KERNEL_INTEGER) << 52) + KERNEL_ONE);
 }
 
-/* exp(x+low); 0 and infinity beyond the range, NaN of NaN. */
-KERNEL_INLINE void NAMED(exp_sum)(const V *x, const V *low, V *out) {
-    V h = SELECT(*x < -746.0, (V){0} - 746.0, *x), k, p, f1, f2;
-    h = SELECT(h > 710.0, (V){0} + 710.0, h);
+/* factor exp(x+low), factor > 0; NaN of NaN. Over- or underflows only where the result does. */
+KERNEL_INLINE void NAMED(exp_times)(const V *factor, const V *x, const V *low, V *out) {
+    V h = SELECT(*x < -1416.0, (V){0} - 1416.0, *x), k, p, f1, f2;
+    h = SELECT(h > 1416.0, (V){0} + 1416.0, h);
     V l = SELECT(h == *x, *low, (V){0});
     NAMED(exp_of)(&h, &l, &k, &p);
-    V k1 = (0.5 * k + KERNEL_INTEGER) - KERNEL_INTEGER, k2 = k - k1; /* 2^k itself may be out of range */
+    V k1 = (0.5 * k + KERNEL_INTEGER) - KERNEL_INTEGER, k2 = k - k1;
     NAMED(two_to)(&k1, &f1);
     NAMED(two_to)(&k2, &f2);
-    *out = ((1.0 + p) * f1) * f2;
+    *out = (((1.0 + p) * f1) * *factor) * f2;
 }
 
-/* x^y = exp(y log x), x > 0 finite and normal; high + low of the exponent y. */
-KERNEL_INLINE void NAMED(pow_pair)(const V *x, const V *yh, const V *yl, V *out) {
-    V m, e, unit, zero = (V){0}, lh, ll, h, l;
-    NAMED(reduce)(x, &m, &e, &unit);
-    V f = m - 1.0;
-    NAMED(log_pair)(&f, &zero, &e, &lh, &ll);
-    NAMED(product)(&lh, yh, &h, &l);
-    l += lh * *yl + ll * *yh;
-    NAMED(exp_sum)(&h, &l, out);
+/* factor exp((high+low) (y[0]+y[1])): a power from the logarithm of its base. */
+KERNEL_INLINE void NAMED(power)(const V *high, const V *low, const double y[2], double factor, V *out) {
+    V yh = (V){0} + y[0], size = (V){0} + factor, h, l;
+    NAMED(product)(high, &yh, &h, &l);
+    l += *high * y[1] + *low * yh;
+    NAMED(exp_times)(&size, &h, &l, out);
 }
 
 /* exp(x)-1, |x| < 700. */
@@ -114,14 +111,6 @@ KERNEL_INLINE void NAMED(expm1)(const V *x, V *out) {
     NAMED(exp_of)(x, &zero, &k, &p);
     NAMED(two_to)(&k, &f);
     *out = f * p + (f - 1.0);
-}
-
-/* log(1-t), t = th+tl <= 1/2 or s = sh+sl = 1-t > 0 normal, whichever has the digits: f and low of log_of. */
-KERNEL_INLINE void NAMED(complement)(const V *th, const V *tl, const V *sh, const V *sl, V *f, V *low, V *e) {
-    V m, unit;
-    NAMED(reduce)(sh, &m, e, &unit);
-    *f = SELECT(*e == 0.0, -*th, m - 1.0);
-    *low = SELECT(*e == 0.0, -*tl, *sl * unit);
 }
 
 #undef KERNEL_ONE

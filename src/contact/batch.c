@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "batch.h"
+
+#include <float.h>
+
+#include "fret/cycle.h"
+#include "special.h"
+
+#define KERNEL_ALSO "batch_body.h"
+#include "kernel.h"
+#define LANES 2
+#include "kernel_lanes.h"
+#ifdef __x86_64__
+#define LANES 4
+#include "kernel_lanes.h"
+#define LANES 8
+#include "kernel_lanes.h"
+#endif
+
+/* A number as high + low. */
+typedef struct pair {
+    double h, l;
+} pair;
+
+static pair pair_of(fret_real x) {
+    double h = (double)x;
+    return (pair){h, (double)(x - h)};
+}
+
+static pair pair_times(pair a, pair b) {
+    pair r;
+    lanes1_product(&a.h, &b.h, &r.h, &r.l);
+    r.l += a.h * b.l + a.l * b.h;
+    double h = r.h + r.l;
+    return (pair){h, (r.h - h) + r.l};
+}
+
+/* 1/x into high and low. */
+static void invert(pair x, double out[2]) {
+    double p, l;
+    out[0] = 1 / x.h;
+    lanes1_product(&out[0], &x.h, &p, &l);
+    out[1] = (((1 - p) - l) - out[0] * x.l) * out[0];
+}
+
+static bool tame(double x) {
+    return x > 0x1p-900 && x < 0x1p900;
+}
+
+fret_status fret_sweep_make(const fret_normal *normal, double mu, const fret_press *press, fret_sweep *out) {
+    static const double per_factorial[FRET_SWEEP_TERMS] = {
+        /* 1/(2j+3)! */
+        1 / 6.0,
+        1 / 120.0,
+        1 / 5040.0,
+        1 / 362880.0,
+        1 / 39916800.0,
+        1 / 6227020800.0,
+        1 / 1307674368000.0,
+        1 / 355687428096000.0,
+        1 / 121645100408832000.0,
+        1 / 51090942171709440000.0,
+        1 / 25852016738884976640000.0,
+        1 / 15511210043330985984000000.0,
+        1 / 10888869450418352160768000000.0,
+        1 / 8841761993739701954543616000000.0,
+        1 / 8222838654177922817725562880000000.0,
+    };
+    fret_status st = fret_check_positive("mu", mu);
+    if (!st.code)
+        st = fret_check_positive("FN", (double)press->F);
+    if (st.code)
+        return st;
+    fret_sweep w = {.normal = normal, .press = *press, .mu = mu};
+    pair m = {mu, 0}, limit = pair_times(m, pair_of(press->F));
+    pair slip = pair_times(pair_times(m, pair_of(normal->foundation.eta)), pair_of(press->dz));
+    pair scale = pair_times(limit, slip);
+    w.fast = normal->p > 0 && tame(limit.h) && tame(slip.h) && tame(scale.h);
+    if (w.fast) {
+        pair q = pair_of(normal->q), r = pair_times(pair_of(normal->pm1), q);
+        invert(limit, w.inverse);
+        w.q = q.h;
+        w.alpha = (1 + w.q) / 2;
+        w.sigma = 2 * w.q / (1 + w.q);
+        w.rho = r.h / (1 + w.q);
+        w.shallow = w.q < 1.0 / 3 ? -w.alpha : r.h / 2;
+        w.deep = w.q < 1.0 / 3 ? -w.q : r.h;
+        w.scale = 4 * scale.h;
+        w.gross = w.scale * w.rho;
+        w.cubic = 4 * pair_times(scale, pair_times(q, r)).h;
+        double sum = 0; /* 1 + rho^2 + rho^4 ... */
+        for (int j = 0; j < FRET_SWEEP_TERMS; j++) {
+            sum = 1 + w.rho * w.rho * sum;
+            w.series[j] = sum * per_factorial[j];
+        }
+        w.slip = slip.h;
+        w.a = (double)press->a;
+        invert(pair_of(normal->s), w.radius);
+    }
+    *out = w;
+    return fret_ok();
+}
+
+double fret_sweep_loss(const fret_sweep *w, double FA) {
+    if (!w->fast) {
+        fret_real loss = (fret_real)NAN;
+        fret_status st = fret_cycle_loss(w->normal, w->mu, &w->press, FA, &loss);
+        return st.code ? (double)NAN : (double)loss;
+    }
+    lanes1_part p;
+    double out;
+    lanes1_depth(w, &FA, &p);
+    lanes1_loss(w, &p, &out);
+    return out;
+}
+
+static fret_loading loading(const fret_sweep *w, double Fx) {
+    fret_loading f;
+    fret_status st = fret_loading_force(w->normal, w->mu, &w->press, Fx, &f);
+    return st.code ? (fret_loading){Fx, (fret_real)NAN, (fret_real)NAN, (fret_real)NAN} : f;
+}
+
+double fret_sweep_radius(const fret_sweep *w, double Fx) {
+    if (!w->fast)
+        return (double)loading(w, Fx).c;
+    lanes1_part p;
+    double out;
+    lanes1_depth_pair(w, &Fx, &p);
+    lanes1_radius(w, &p, &out);
+    return out;
+}
+
+double fret_sweep_displacement(const fret_sweep *w, double Fx) {
+    if (!w->fast)
+        return (double)loading(w, Fx).dx;
+    lanes1_part p;
+    double out;
+    lanes1_depth(w, &Fx, &p);
+    lanes1_displacement(w, &p, &out);
+    return out;
+}
+
+void fret_press_law_make(const fret_normal *normal, fret_press_law *out) {
+    pair ref = pair_of(normal->Fref);
+    double m, factor;
+    lanes1_reduce(&ref.h, &m, &out->exponent, &factor);
+    invert((pair){m, ref.l * factor}, out->inverse);
+    invert(pair_of(normal->s), out->radius);
+    pair q = pair_of(normal->q);
+    out->depth[0] = q.h;
+    out->depth[1] = q.l;
+    out->r0 = normal->gap.power[0].r0;
+    out->dref = (double)normal->dref;
+}
+
+/* An array in blocks that stay in the nearest cache; a part of a block goes by way of a copy. */
+enum { BLOCK = 64 };
+#define SWEEP(set, lanes, target, name, law, first, second)                                                  \
+    target static bool set##_##name(const law *w, const double *in, double *out, size_t count) {             \
+        enum { LANES = sizeof(lanes##_numbers) / sizeof(double) };                                           \
+        lanes##_mask nan = {0};                                                                              \
+        for (size_t i = 0; i < count; i += BLOCK) {                                                          \
+            size_t n = count - i < BLOCK ? count - i : BLOCK;                                                \
+            double copy[BLOCK], *to = n < BLOCK ? copy : out + i;                                            \
+            const double *from = in + i;                                                                     \
+            if (n < BLOCK) {                                                                                 \
+                memset(copy, 0, sizeof copy);                                                                \
+                from = memcpy(copy, from, n * sizeof *in);                                                   \
+            }                                                                                                \
+            lanes##_part part[BLOCK / LANES];                                                                \
+            lanes##_numbers x;                                                                               \
+            for (size_t j = 0; j < n; j += LANES) {                                                          \
+                memcpy(&x, from + j, sizeof x);                                                              \
+                lanes##_##first(w, &x, &part[j / LANES]);                                                    \
+            }                                                                                                \
+            for (size_t j = 0; j < n; j += LANES) {                                                          \
+                lanes##_##second(w, &part[j / LANES], &x);                                                   \
+                nan |= x != x;                                                                               \
+                memcpy(to + j, &x, sizeof x);                                                                \
+            }                                                                                                \
+            if (n < BLOCK)                                                                                   \
+                memcpy(out + i, copy, n * sizeof *out);                                                      \
+        }                                                                                                    \
+        return kernel_any(&nan, LANES);                                                                      \
+    }
+
+#define VARIANT(set, lanes, target)                                                                          \
+    SWEEP(set, lanes, target, loss, fret_sweep, depth, loss)                                                 \
+    SWEEP(set, lanes, target, displacement, fret_sweep, depth, displacement)                                 \
+    SWEEP(set, lanes, target, radius, fret_sweep, depth_pair, radius)                                        \
+    SWEEP(set, lanes, target, press_radius, fret_press_law, load, press_radius)                              \
+    SWEEP(set, lanes, target, press_depth, fret_press_law, load, press_depth)
+#define ROW(set)                                                                                             \
+    { #set, set##_runs, set##_loss, set##_displacement, set##_radius, set##_press_radius, set##_press_depth }
+
+#ifdef __x86_64__
+VARIANT(avx512, lanes8, __attribute__((target("avx512f,avx512dq,avx512vl"))))
+static bool avx512_runs(void) {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+}
+VARIANT(avx2, lanes4, __attribute__((target("avx2"))))
+static bool avx2_runs(void) {
+    return __builtin_cpu_supports("avx2");
+}
+#endif
+
+VARIANT(plain, lanes2, )
+static bool plain_runs(void) {
+    return true;
+}
+
+const fret_variant fret_variants[] = {
+#ifdef __x86_64__
+    ROW(avx512),
+    ROW(avx2),
+#endif
+    ROW(plain),
+};
+const size_t fret_variant_count = sizeof fret_variants / sizeof *fret_variants;
+
+static const fret_variant *best(void) {
+    const fret_variant *v = fret_variants;
+    while (!v->runs())
+        v++;
+    return v;
+}
+
+fret_status fret_batch_loss(const fret_normal *normal, double mu, const fret_press *press, const double FA[],
+                            double loss[], size_t count) {
+    fret_sweep w;
+    fret_status st = fret_sweep_make(normal, mu, press, &w);
+    if (st.code || (w.fast && !best()->loss(&w, FA, loss, count)))
+        return st;
+    for (size_t i = 0; i < count; i++)
+        if (!w.fast || isnan(loss[i])) {
+            fret_real exact;
+            st = fret_cycle_loss(normal, mu, press, FA[i], &exact);
+            if (st.code)
+                return st;
+            loss[i] = (double)exact;
+        }
+    return st;
+}
+
+fret_status fret_batch_loading(const fret_normal *normal, double mu, const fret_press *press,
+                               const double Fx[], double c[], double dx[], size_t count) {
+    fret_sweep w;
+    fret_status st = fret_sweep_make(normal, mu, press, &w);
+    if (st.code)
+        return st;
+    bool missing = !w.fast;
+    if (w.fast && c)
+        missing |= best()->radius(&w, Fx, c, count);
+    if (w.fast && dx)
+        missing |= best()->displacement(&w, Fx, dx, count);
+    for (size_t i = 0; missing && i < count; i++)
+        if (!w.fast || (c && isnan(c[i])) || (dx && isnan(dx[i]))) {
+            fret_loading f;
+            st = fret_loading_force(normal, mu, press, Fx[i], &f);
+            if (st.code)
+                return st;
+            if (c)
+                c[i] = (double)f.c;
+            if (dx)
+                dx[i] = (double)f.dx;
+        }
+    return st;
+}
+
+fret_status fret_batch_press(const fret_normal *normal, const double F[], double a[], double dz[],
+                             size_t count) {
+    bool fast = normal->p > 0 && tame((double)normal->Fref) && tame((double)normal->dref), missing = !fast;
+    fret_status st = fret_ok();
+    if (fast) {
+        fret_press_law w;
+        fret_press_law_make(normal, &w);
+        if (a)
+            missing |= best()->press_radius(&w, F, a, count);
+        if (dz)
+            missing |= best()->press_depth(&w, F, dz, count);
+    }
+    for (size_t i = 0; missing && i < count; i++)
+        if (!fast || (a && isnan(a[i])) || (dz && isnan(dz[i]))) {
+            fret_press p;
+            st = fret_press_force(normal, F[i], &p);
+            if (st.code)
+                return st;
+            if (a)
+                a[i] = (double)p.a;
+            if (dz)
+                dz[i] = (double)p.dz;
+        }
+    return st;
+}
