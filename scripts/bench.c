@@ -308,6 +308,42 @@ static double powers(long count) {
     return (seconds() - t0) / (double)count;
 }
 
+/* What a sweep costs a point; the least of several passes over an array that stays in the cache. */
+enum { POINTS = 1000, PASSES = 2000 };
+typedef enum sweep { LOG_EXP, LOSS_EACH, RADIUS_EACH, LOSS_ALL, RADIUS_ALL, LOADING_ALL, PRESS_ALL } sweep;
+static double sweep_point(const fret_normal *n, const fret_press *p, sweep kind) {
+    static double F[POINTS], x[POINTS], y[POINTS];
+    double best = INFINITY;
+    for (int i = 0; i < POINTS; i++)
+        F[i] = mu * FN * (0.5 + i) / POINTS;
+    fret_sweep w;
+    need(fret_sweep_make(n, mu, p, &w));
+    for (int pass = 0; pass < PASSES; pass++) {
+        double t0 = seconds();
+        if (kind == LOG_EXP)
+            for (int i = 0; i < POINTS; i++)
+                x[i] = exp(0.37 * log(F[i]));
+        else if (kind == LOSS_EACH)
+            for (int i = 0; i < POINTS; i++)
+                x[i] = fret_sweep_loss(&w, F[i]);
+        else if (kind == RADIUS_EACH)
+            for (int i = 0; i < POINTS; i++)
+                x[i] = fret_sweep_radius(&w, F[i]);
+        else if (kind == LOSS_ALL)
+            need(fret_batch_loss(n, mu, p, F, x, POINTS));
+        else if (kind == RADIUS_ALL)
+            need(fret_batch_loading(n, mu, p, F, x, NULL, POINTS));
+        else if (kind == LOADING_ALL)
+            need(fret_batch_loading(n, mu, p, F, x, y, POINTS));
+        else
+            need(fret_batch_press(n, F, x, y, POINTS));
+        double t = (seconds() - t0) / POINTS;
+        best = t < best ? t : best;
+        sink = x[pass % POINTS];
+    }
+    return best;
+}
+
 static void line(const char *what, double value, double base, const char *base_name, double scale,
                  const char *unit) {
     printf("%s|%.4g %s|%.4g %s (%s)|%.3g\n", what, value * scale, unit, base * scale, unit, base_name,
@@ -356,5 +392,14 @@ int main(void) {
         snprintf(base, sizeof base, "loop area, %zu steps", count);
         line(what, exact.time, c.time, base, 1e6, "us");
     }
+    double pair = sweep_point(&n, &p, LOG_EXP), closed = cycle_loss(&n, &p, 1000000);
+    const char *libm = "libm log and exp";
+    line("loss, one by one (limit 40 ns)", sweep_point(&n, &p, LOSS_EACH), closed, "fret_cycle_loss", 1e9,
+         "ns");
+    line("loss, a point of a sweep (limit 10 ns)", sweep_point(&n, &p, LOSS_ALL), pair, libm, 1e9, "ns");
+    line("c, one by one", sweep_point(&n, &p, RADIUS_EACH), pair, libm, 1e9, "ns");
+    line("c, a point of a sweep", sweep_point(&n, &p, RADIUS_ALL), pair, libm, 1e9, "ns");
+    line("c and dx, a point of a sweep", sweep_point(&n, &p, LOADING_ALL), pair, libm, 1e9, "ns");
+    line("a and dz, a point of a sweep", sweep_point(&n, &p, PRESS_ALL), pair, libm, 1e9, "ns");
     return EXIT_SUCCESS;
 }
