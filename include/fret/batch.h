@@ -7,11 +7,11 @@
 #include "fret/normal.h"
 
 /* The closed forms in double, for many loads at once or for one after another: ten times as fast as the
- * functions of cycle.h and normal.h, where 15 digits will do. The results have the same bits one by one and in
- * a batch, on every processor and from every compiler.
- * This holds for power laws. For other shapes, and where mu F_N, delta_x,max or their product leaves
- * 1e-270..1e270, the results are those of the functions named, rounded to double.
- * Accuracy is relative, for the arguments as given and results that are not denormal. */
+ * functions of cycle.h and normal.h, where 15 digits will do. The results have the same bits one by one and
+ * in a batch, on every processor and from every compiler. This holds for power laws. For other shapes, and
+ * where mu F_N, delta_x,max or their product leaves 1e-270..1e270, the results are those of the functions
+ * named, rounded to double. Accuracy is relative, for the arguments as given and results that are not
+ * denormal. */
 
 /* All that does not depend on the tangential load. Borrows the contact; not to be read from outside. */
 enum { FRET_SWEEP_TERMS = 15 };

@@ -7,10 +7,13 @@
 #define KERNEL_ONE 0x3ff0000000000000u
 #define KERNEL_INTEGER 0x1.8p52 /* added to |x| < 2^51, rounds it and leaves it in the low bits */
 
-/* a b = high + low to 2^-104 by cutting the factors in halves whose products are exact. */
+/* The leading 26 bits: products of two such numbers are exact. */
+#define KERNEL_HEAD(x) VALUE(BITS(x) & 0xfffffffff8000000u)
+
+/* a b = high + low to 2^-104. */
 KERNEL_INLINE void NAMED(product)(const V *a, const V *b, V *high, V *low) {
-    V ah = VALUE(BITS(*a) & 0xfffffffff8000000u), al = *a - ah;
-    V bh = VALUE(BITS(*b) & 0xfffffffff8000000u), bl = *b - bh;
+    V ah = KERNEL_HEAD(*a), al = *a - ah;
+    V bh = KERNEL_HEAD(*b), bl = *b - bh;
     V p = *a * *b;
     *low = (((ah * bh - p) + ah * bl) + al * bh) + al * bl;
     *high = p;
@@ -39,30 +42,25 @@ KERNEL_INLINE void NAMED(log_of)(const V *f, const V *low, const V *e, V *out) {
     *out = *e * KERNEL_LN2_HIGH - ((half - rest) - x);
 }
 
-/* The same as high + low, to 2^-66. The terms 2z and 2 z^3 (1/3 + z^2 P) are carried in pairs. */
+/* The same as high + rest, to 2^-66: 2z + 2 z^3 (1/3 + z^2 P), each factor cut so that the product of the
+ * leading halves is exact. */
 KERNEL_INLINE void NAMED(log_pair)(const V *f, const V *low, const V *e, V *high, V *rest) {
-    V x = *f, d = 2.0 + x, z = x / d, p, pl;
-    NAMED(product)(&z, &d, &p, &pl);
-    V zl = (((x - p) - pl + *low) - z * ((2.0 - d) + x + *low)) * (0.5 - 0.5 * z); /* 1/(2+f) = (1-z)/2 */
-    V w, wl;
-    NAMED(product)(&z, &z, &w, &wl);
-    wl += 2.0 * z * zl;
-    V w2 = w * w, w4 = w2 * w2;
+    V x = *f, d = 2.0 + x, z = x / d;
+    V zh = KERNEL_HEAD(z), dh = KERNEL_HEAD(d), dl = (x - (dh - 2.0)) + *low;
+    V zl = (((x - zh * dh) - zh * dl) + *low) * (0.5 - 0.5 * z); /* 1/(2+f) = (1-z)/2 */
+    V square = zh * zh, square_low = zl * (zh + z), w = z * z, w2 = w * w;
     V tail = w * (((0x1.999999999999ap-3 + w * 0x1.2492492492523p-3) +
                    w2 * (0x1.c71c71c6ea3a7p-4 + w * 0x1.745d177ae7ca4p-4)) +
-                  w4 * ((0x1.3b1395b312af8p-4 + w * 0x1.1118cdef60706p-4) +
-                        w2 * (0x1.df7b9e38d150dp-5 + w * 0x1.e039c40bcc6e0p-5)));
-    const V third = (V){0} + 0x1.5555555555555p-2;
-    V c = third + tail, cl = ((third - c) + tail) + 0x1.5555555555555p-56;
-    V t, tl, v, vl, z2 = 2.0 * z;
-    NAMED(product)(&w, &c, &t, &tl);
-    tl += w * cl + wl * c;
-    NAMED(product)(&t, &z2, &v, &vl);
-    vl += tl * z2 + t * (2.0 * zl);
-    V sum = z2 + v, first = *e * KERNEL_LN2_HIGH; /* |z2| > |v|; |first| > |sum| or e = 0 */
-    V small = ((z2 - sum) + v) + (2.0 * zl + vl) + *e * KERNEL_LN2_LOW;
-    V total = first + sum;
-    small += (first - total) + sum;
+                  (w2 * w2) * ((0x1.3b1395b312af8p-4 + w * 0x1.1118cdef60706p-4) +
+                               w2 * (0x1.df7b9e38d150dp-5 + w * 0x1.e039c40bcc6e0p-5)));
+    V c = 0x1.5555555555555p-2 + tail, ch = KERNEL_HEAD(c);
+    V cl = ((0x1.5555555555555p-2 - ch) + tail) + 0x1.5555555555555p-56;
+    V sh = KERNEL_HEAD(square), cube = zh * sh, cube_low = zh * ((square - sh) + square_low) + zl * w;
+    V qh = KERNEL_HEAD(cube), ql = (cube - qh) + cube_low;
+    V v = qh * ch, vl = qh * cl + ql * c;
+    V sum = zh + v, small = ((zh - sum) + v) + (zl + vl);
+    V first = *e * KERNEL_LN2_HIGH, total = first + 2.0 * sum; /* |first| > |2 sum| or e = 0 */
+    small = ((first - total) + 2.0 * sum) + (2.0 * small + *e * KERNEL_LN2_LOW);
     *high = total + small;
     *rest = (total - *high) + small;
 }
@@ -114,6 +112,7 @@ KERNEL_INLINE void NAMED(expm1)(const V *x, V *out) {
 }
 
 #undef KERNEL_ONE
+#undef KERNEL_HEAD
 #undef KERNEL_INTEGER
 #undef KERNEL_LN2_HIGH
 #undef KERNEL_LN2_LOW
