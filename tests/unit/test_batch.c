@@ -102,7 +102,7 @@ static void fill(const contact *c, double loads[LOADS]) {
     loads[1] = (double)(limit * (1 - 1e-16L)); /* gross slip but for rounding */
 }
 
-/* Measured: loss 1.1e-15, c 3.6e-16, dx 4.8e-16, a 2.2e-16, dz 2.9e-16. */
+/* Measured over 1e6 loads: loss 1.12e-15, c 3.6e-16, dx 5.2e-16, a 2.2e-16, dz 3.1e-16. */
 static void compare(const contact *c) {
     const fret_real of_loss = UNIT_TOL(2e-15L, 5e-15L), of_rest = UNIT_TOL(1e-15L, 1e-13L);
     double loads[LOADS], loss[LOADS], radius[LOADS], dx[LOADS];
