@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "calc/batch.h"
 
 /* ---- results now ------------------------------------------------------------------------------- */
 

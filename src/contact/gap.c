@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "gap.h"
 
+#include "kernel.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -202,7 +204,7 @@ static void far_add(piece_sums *sum, const struct fret_table *t, size_t i, doubl
     static const double weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     double h = t->r[i + 1] - t->r[i], g = 0, I = 0, s = 0;
     for (int j = 0; j < 3; j++) {
-        double x = h * node[j], r = t->r[i] + x, w = h * weight[j] * pow((a - r) * (a + r), alpha);
+        double x = h * node[j], r = t->r[i] + x, w = h * weight[j] * kernel_pow((a - r) * (a + r), alpha);
         double f1 = t->d0[i] + x * (t->d1[i] + x * t->d2[i]), f2 = t->d1[i] + 2 * x * t->d2[i];
         g += w * f1;
         I += w * f1 * r * r;

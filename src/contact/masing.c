@@ -5,19 +5,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernel.h"
 #include "special.h"
 
 /* The elementary functions of a step, in one place. */
 static inline double log_of_rest(double t) { /* log(1-t) */
-    return log1p(-t);
+    return kernel_log1p(-t);
 }
 
 static inline double log_of(double s) {
-    return log(s);
+    return kernel_log(s);
 }
 
 static inline double exp_drop(double t) { /* 1-exp(-t) */
-    return -expm1(-t);
+    return -kernel_expm1(-t);
 }
 
 typedef struct sum {

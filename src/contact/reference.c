@@ -20,8 +20,8 @@ typedef struct annulus {
 static fret_real by_depth(const annulus *s, fret_real t, fret_real rest) {
     const fret_normal *n = s->normal;
     fret_real from_edge = s->X * rest, y = s->yc + s->X * t;
-    fret_real l = from_edge < 0.5L ? log1pl(-from_edge) : logl(y);
-    return n->p * n->pm1 * expl((n->pm1 - 1) * l) * t * rest;
+    fret_real l = from_edge < 0.5L ? fret_log1p(-from_edge) : fret_log(y);
+    return n->p * n->pm1 * fret_exp((n->pm1 - 1) * l) * t * rest;
 }
 
 /* int 2 (x/c0)^k (g(a)-g(x)) (g(x)-g(c)) dx */
@@ -31,7 +31,7 @@ static fret_real by_radius(const annulus *s, fret_real t, fret_real rest) {
     if (e <= 0)
         return 0;
     fret_real g = fret_gap_profile(&n->gap, &n->rule, e).g;
-    return 2 * powl((s->start + e) / n->foundation.c0, n->foundation.k) * (s->g_outer - g) *
+    return 2 * fret_pow((s->start + e) / n->foundation.c0, n->foundation.k) * (s->g_outer - g) *
            (g - s->g_inner) * (s->outer - s->inner);
 }
 
@@ -43,9 +43,9 @@ static fret_real nodes_sum(const annulus *s, fret_real first, fret_real step) {
     fret_sum sum = {0, 0};
     unsigned count = (unsigned)floorl((END - first) / step + 0.5L);
     for (unsigned i = 0; i <= count; i++) {
-        fret_real u = first + step * i, e = expl(-PI_L * sinhl(fabsl(u)));
-        fret_real near = e / (1 + e), far = 1 / (1 + e);
-        fret_real weight = PI_L * coshl(u) * near * far; /* dt/du */
+        fret_real u = first + step * i, grown = fret_exp(fabsl(u));
+        fret_real e = fret_exp(-PI_L * (grown - 1 / grown) / 2), near = e / (1 + e), far = 1 / (1 + e);
+        fret_real weight = PI_L * (grown + 1 / grown) / 2 * near * far; /* dt/du */
         fret_sum_add(&sum, weight * (u < 0 ? f(s, near, far) : f(s, far, near)));
     }
     return fret_sum_value(&sum);
