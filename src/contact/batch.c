@@ -3,6 +3,7 @@
 
 #include <float.h>
 
+#include "dd.h"
 #include "fret/cycle.h"
 #include "special.h"
 
@@ -17,30 +18,9 @@
 #include "kernel_lanes.h"
 #endif
 
-/* A number as high + low. */
-typedef struct pair {
-    double h, l;
-} pair;
-
-static pair pair_of(fret_real x) {
-    double h = (double)x;
-    return (pair){h, (double)(x - h)};
-}
-
-static pair pair_times(pair a, pair b) {
-    pair r;
-    lanes1_product(&a.h, &b.h, &r.h, &r.l);
-    r.l += a.h * b.l + a.l * b.h;
-    double h = r.h + r.l;
-    return (pair){h, (r.h - h) + r.l};
-}
-
-/* 1/x into high and low. */
-static void invert(pair x, double out[2]) {
-    double p, l;
-    out[0] = 1 / x.h;
-    lanes1_product(&out[0], &x.h, &p, &l);
-    out[1] = (((1 - p) - l) - out[0] * x.l) * out[0];
+static void split(dd x, double out[2]) {
+    out[0] = x.hi;
+    out[1] = x.lo;
 }
 
 static bool tame(double x) {
@@ -72,30 +52,31 @@ fret_status fret_sweep_make(const fret_normal *normal, double mu, const fret_pre
     if (st.code)
         return st;
     fret_sweep w = {.normal = normal, .press = *press, .mu = mu};
-    pair m = {mu, 0}, limit = pair_times(m, pair_of(press->F));
-    pair slip = pair_times(pair_times(m, pair_of(normal->foundation.eta)), pair_of(press->dz));
-    pair scale = pair_times(limit, slip);
-    w.fast = normal->p > 0 && tame(limit.h) && tame(slip.h) && tame(scale.h);
+    const fret_foundation *f = &normal->foundation;
+    dd limit = dd_mul_d(dd_from2(press->F, press->F_rest), mu);
+    dd slip = dd_mul(dd_mul_d(f->wide.eta, mu), dd_from2(press->dz, press->dz_rest));
+    dd scale = dd_mul(limit, slip);
+    w.fast = normal->p > 0 && tame(limit.hi) && tame(slip.hi) && tame(scale.hi);
     if (w.fast) {
-        pair q = pair_of(normal->q), r = pair_times(pair_of(normal->pm1), q);
-        invert(limit, w.inverse);
-        w.q = q.h;
+        dd q = normal->wide.q, r = dd_div(dd_sum(1, (double)f->k), normal->wide.s);
+        split(dd_div(dd_of(1), limit), w.inverse);
+        w.q = q.hi;
         w.alpha = (1 + w.q) / 2;
         w.sigma = 2 * w.q / (1 + w.q);
-        w.rho = r.h / (1 + w.q);
-        w.shallow = w.q < 1.0 / 3 ? -w.alpha : r.h / 2;
-        w.deep = w.q < 1.0 / 3 ? -w.q : r.h;
-        w.scale = 4 * scale.h;
+        w.rho = r.hi / (1 + w.q);
+        w.shallow = w.q < 1.0 / 3 ? -w.alpha : r.hi / 2;
+        w.deep = w.q < 1.0 / 3 ? -w.q : r.hi;
+        w.scale = 4 * scale.hi;
         w.gross = w.scale * w.rho;
-        w.cubic = 4 * pair_times(scale, pair_times(q, r)).h;
+        w.cubic = 4 * dd_mul(scale, dd_mul(q, r)).hi;
         double sum = 0; /* 1 + rho^2 + rho^4 ... */
         for (int j = 0; j < FRET_SWEEP_TERMS; j++) {
             sum = 1 + w.rho * w.rho * sum;
             w.series[j] = sum * per_factorial[j];
         }
-        w.slip = slip.h;
+        w.slip = slip.hi;
         w.a = (double)press->a;
-        invert(pair_of(normal->s), w.radius);
+        split(dd_div(dd_of(1), normal->wide.s), w.radius);
     }
     *out = w;
     return fret_ok();
@@ -140,17 +121,24 @@ double fret_sweep_displacement(const fret_sweep *w, double Fx) {
     return out;
 }
 
+/* Force and depth at a = r0; infinite or 0 where a double does not hold them. */
+static dd law_force(const fret_normal *normal) {
+    return dd_exp(normal->wide.ln_force);
+}
+
+static double law_depth(const fret_normal *normal) {
+    return dd_exp(normal->wide.ln_depth).hi;
+}
+
 void fret_press_law_make(const fret_normal *normal, fret_press_law *out) {
-    pair ref = pair_of(normal->Fref);
+    dd ref = law_force(normal);
     double m, factor;
-    lanes1_reduce(&ref.h, &m, &out->exponent, &factor);
-    invert((pair){m, ref.l * factor}, out->inverse);
-    invert(pair_of(normal->s), out->radius);
-    pair q = pair_of(normal->q);
-    out->depth[0] = q.h;
-    out->depth[1] = q.l;
+    lanes1_reduce(&ref.hi, &m, &out->exponent, &factor);
+    split(dd_div(dd_of(1), (dd){m, ref.lo * factor}), out->inverse);
+    split(dd_div(dd_of(1), normal->wide.s), out->radius);
+    split(normal->wide.q, out->depth);
     out->r0 = normal->gap.power[0].r0;
-    out->dref = (double)normal->dref;
+    out->dref = law_depth(normal);
 }
 
 /* An array in blocks that stay in the nearest cache; a part of a block goes by way of a copy. */
@@ -270,7 +258,7 @@ fret_status fret_batch_loading(const fret_normal *normal, double mu, const fret_
 
 fret_status fret_batch_press(const fret_normal *normal, const double F[], double a[], double dz[],
                              size_t count) {
-    bool fast = normal->p > 0 && tame((double)normal->Fref) && tame((double)normal->dref), missing = !fast;
+    bool fast = normal->p > 0 && tame(law_force(normal).hi) && tame(law_depth(normal)), missing = !fast;
     fret_status st = fret_ok();
     if (fast) {
         fret_press_law w;

@@ -317,7 +317,7 @@ static void errors(void) {
     CHECK(same_bits(y, z, 20));
 
     x[0] = 7;
-    const fret_press open = {0, 0, 0};
+    const fret_press open = {.F = 0};
     CHECK_ERROR(fret_batch_loss(n, 0, &c.press, F, x, 20), FRET_NOT_POSITIVE, "mu");
     CHECK_ERROR(fret_batch_loading(n, nan_, &c.press, F, x, y, 20), FRET_NOT_FINITE, "mu");
     CHECK_ERROR(fret_batch_loss(n, 0.5, &open, F, x, 20), FRET_NOT_POSITIVE, "FN");
