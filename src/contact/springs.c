@@ -89,6 +89,7 @@ struct fret_springs {
     double radius, cell;  /* width of a cell [m] */
     fret_real end_dz, end_FN;
     size_t count, padded; /* springs, and up to a multiple of LANES */
+    size_t closed;        /* springs that the present depth touches */
     cells cells;
     const kernels *run;
     fret_real *w_sum; /* [i]: stiffness of springs 0..i-1 */
@@ -215,6 +216,7 @@ void fret_springs_reset(fret_springs *s) {
     for (size_t i = 0; i < s->padded; i++)
         s->cells.b[i] = s->cells.u[i] = 0;
     s->dz = s->FN = s->dx = s->Fx = 0;
+    s->closed = 0;
     s->direction = 1;
     s->W = (fret_sum){0, 0};
 }
@@ -292,13 +294,13 @@ typedef struct response {
 
 /* keep: stores the new displacements and bounds. */
 static response deform(fret_springs *s, double z0, double z1, double ddx, bool keep) {
-    const double hi = most(z0, z1);
-    const size_t end = (springs_below(s->cells.g, s->count, hi) + LANES - 1) / LANES * LANES;
+    const size_t touched = z1 > z0 ? springs_below(s->cells.g, s->count, z1) : s->closed;
+    const size_t end = (touched + LANES - 1) / LANES * LANES;
     lane_sums sums = {{0}, {0}, {0}, {0}};
     if (z0 == z1) {
         s->run->slide(&s->cells, end, ddx, keep, &sums);
     } else {
-        const straight path = {z1, ddx, hi, 1 / fabs(z1 - z0)};
+        const straight path = {z1, ddx, most(z0, z1), 1 / fabs(z1 - z0)};
         s->run->deform(&s->cells, end, &path, keep, &sums);
     }
     const fret_real other = total(sums.other, sums.other_rest);
@@ -309,6 +311,8 @@ static void advance(fret_springs *s, fret_real dz, fret_real dx) {
     response r = deform(s, (double)s->dz, (double)dz, (double)(dx - s->dx), true);
     s->Fx = r.force * s->compliance;
     fret_sum_add(&s->W, r.loss * s->compliance);
+    if (dz != s->dz)
+        s->closed = springs_below(s->cells.g, s->count, (double)dz);
     s->dz = dz;
     s->dx = dx;
 }
@@ -319,7 +323,7 @@ static double displacement_of_front(const fret_springs *s, double missing) {
     const cells *c = &s->cells;
     const double sign = missing < 0 ? -1 : 1;
     double slipping = 0, left = 0; /* force of those that slip; what the next can take */
-    for (size_t i = springs_below(c->g, s->count, (double)s->dz); i-- > 0;) {
+    for (size_t i = s->closed; i-- > 0;) {
         const double sticks = (double)s->w_sum[i + 1];
         left = c->b[i] - sign * c->u[i];
         if (slipping + sticks * left >= fabs(missing))
@@ -422,8 +426,7 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
 
 void fret_springs_state(const fret_springs *s, fret_state *out) {
     const fret_real eta = s->normal.foundation.eta;
-    const double dz = (double)s->dz;
-    const size_t closed = springs_below(s->cells.g, s->count, dz);
+    const size_t closed = s->closed;
     fret_real stored = 0, going = 0;
     size_t slipping = 0; /* outermost run of them */
     bool run = true;
@@ -437,7 +440,7 @@ void fret_springs_state(const fret_springs *s, fret_state *out) {
     *out = (fret_state){
         .FN = s->FN,
         .dz = s->dz,
-        .a = dz > 0 ? fret_law_radius(&s->normal, s->dz) : 0,
+        .a = s->dz > 0 ? fret_law_radius(&s->normal, s->dz) : 0,
         .Fx = s->Fx,
         .dx = s->dx,
         .W = fret_sum_value(&s->W),
