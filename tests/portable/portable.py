@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The same digits from every build: compilers, optimization, instruction sets and C libraries."""
+import collections
+import glob
+import os
+import re
+import shutil
+import struct
+import subprocess
+
+import harness
+import prompt
+import scenes
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+
+
+def has_fma():
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as f:
+            return {"fma", "avx2", "bmi2"} <= set(f.read().split())
+    except OSError:
+        return False
+
+
+def variants():
+    """{name: arguments of make}, of what this machine can build and run."""
+    found = {}
+    if shutil.which("gcc"):
+        found["gcc-O0"] = ["CC=gcc", "OPT=-O0"]
+        if has_fma():
+            found["gcc-O3-fma"] = ["CC=gcc", "OPT=-O3 -march=x86-64-v3"]
+    if shutil.which("clang"):
+        found["clang-O3"] = ["CC=clang", "OPT=-O3"]
+    if shutil.which("musl-gcc"):
+        found["musl"] = ["CC=musl-gcc", "LDFLAGS=-static"]
+    return found
+
+
+def build(name, args):
+    where = "build/portable/" + name
+    done = subprocess.run(["make", "--no-print-directory", "-s", "-j%d" % (os.cpu_count() or 1), "B=" + where,
+                           "READLINE=no", *args, where + "/fret"],
+                          cwd=harness.ROOT, capture_output=True, text=True)
+    return where, done
+
+
+def sessions():
+    """{name: (format, script)}: the statements of each session, in text and with all digits; and the hard scenes."""
+    found = {}
+    for path in sorted(glob.glob(os.path.join(harness.ROOT, "tests/sessions/*.txt"))):
+        with open(path, encoding="utf-8") as f:
+            steps = [s for s, _ in harness.read_transcript(f.read()) if not harness.draws(s)]
+        name, script = os.path.basename(path), "\n".join(steps) + "\n"
+        found[name] = ("text", script)
+        found[name + ", all digits"] = ("json", re.sub(r"\bset (format|digits) \w+", "set format json", script))
+    found["scenes"] = ("json", scenes.script())
+    return found
+
+
+def ordinal(x):
+    """Doubles in their order, counted from 0: differences are ulps."""
+    bits = struct.unpack("<q", struct.pack("<d", float(x)))[0]
+    return bits if bits >= 0 else -(bits & 0x7fffffffffffffff)
+
+
+def describe(want, got):
+    """How many numbers differ, of which quantities, and by how much at most."""
+    lines, worst, total = [], collections.Counter(), 0
+    want, got = want.splitlines(), got.splitlines()
+    if len(want) != len(got):
+        return "%d lines, expected %d\n%s" % (len(got), len(want), harness.diff("\n".join(want), "\n".join(got)))
+    for number, (w, g) in enumerate(zip(want, got), 1):
+        if w == g:
+            continue
+        if NUMBER.sub("#", w) != NUMBER.sub("#", g):
+            lines.append("%d: %s\n   %s" % (number, w[:200], g[:200]))
+            continue
+        named = re.match(r'\{"name":"(.*?)","value"', w)
+        fields = [named.group(1)] if named else re.findall(r'"([^"]+)":', w)
+        pairs = list(zip(NUMBER.findall(w), NUMBER.findall(g)))
+        for i, (a, b) in enumerate(pairs):
+            if a != b:
+                total += 1
+                name = named.group(1) if named else fields[i] if len(fields) == len(pairs) else "column %d" % (i + 1)
+                worst[name] = max(worst[name], abs(ordinal(a) - ordinal(b)))
+        lines.append("%d: %s\n   %s" % (number, w[:200], g[:200]))
+    names = ", ".join("%s %.3g" % item for item in worst.most_common(40))
+    return "%d numbers differ; the worst of each, in ulps (huge: noise around 0): %s\n%s" % (
+        total, names, "\n".join(lines[:6]))
+
+
+def answers(tests, form, script, env):
+    done = tests.run("--format=" + form, "--keep-going", input=script, env=env, timeout=300)
+    return done.stdout, done.returncode
+
+
+def plain_prompt(tests):
+    """Where readline is left out."""
+    s = prompt.Session(tests)
+    tests.check("plain prompt: an answer", s.say("1 + 1") == "1 + 1 = 2")
+    s.child.sendline("1 + \\")
+    s.child.expect(r"\.\.\.\.> ")
+    tests.check("plain prompt: a continued line", s.say("2").splitlines()[-1].endswith("= 3"))
+    s.child.send("1 + 1")
+    s.child.expect_exact("1 + 1")
+    s.child.sendintr()
+    s.prompt()
+    tests.check("plain prompt: Ctrl-C drops the line", s.say("2") == "2 = 2")
+    s.child.sendeof()
+    tests.check("plain prompt: Ctrl-D leaves", s.end() == 0)
+
+
+def run(tests):
+    """The sanitized program is slow and has the same sources: one pass is enough."""
+    if tests.sanitized:
+        return
+    builds = {}
+    for name, args in variants().items():
+        where, done = build(name, args)
+        if tests.check("build " + name, done.returncode == 0, done.stdout + done.stderr):
+            builds[name] = harness.Tests(where, name, False)
+    tests.check("variants to compare", builds, "gcc, clang and musl-gcc are all missing")
+    programs = {"this build": (tests, {}), **{name: (b, {}) for name, b in builds.items()},
+                # the mathematical library chooses its functions by the processor
+                "this build, no FMA": (tests, {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2"})}
+    try:
+        for program, _ in programs.values():
+            for name, text in (("gap.csv", scenes.gap_table()), ("history.csv", scenes.history_table())):
+                with open(os.path.join(program.dir, name), "w", encoding="ascii") as f:
+                    f.write(text)
+        said, scripts = {}, sessions()
+
+        def ask(variant, script):
+            program, env = programs[variant]
+            said[variant, script] = answers(program, *scripts[script], env)
+        tests.each([lambda v=v, s=s: ask(v, s) for s in reversed(scripts) for v in programs])
+        numbers = 0
+        for script in scripts:
+            want, status = said["this build", script]
+            count = len(NUMBER.findall(want))
+            numbers += count
+            tests.check(script + " answers", count >= 10, want)
+            for variant in list(programs)[1:]:
+                got, code = said[variant, script]
+                tests.check("%s: %s as by this build" % (variant, script), (got, code) == (want, status),
+                            "exit %d, expected %d\n%s" % (code, status, describe(want, got)))
+        print("portable: %d numbers by %s" % (numbers, "; ".join(programs)), flush=True)
+        for variant in builds.values():
+            plain_prompt(variant)
+            tests.passed += variant.passed
+            tests.failed += variant.failed
+    finally:
+        for variant in builds.values():
+            variant.close()
