@@ -164,8 +164,8 @@ const load_step *scene_last_cycle(const scene *s);
 bool scene_cycle_loss(scene *s, long double *loss, calc_error *error);
 
 /* The last cycle of the load program on a contact of its own, period by period, to compare models:
- * `springs` of them, or the memory diagram (0). Opened, the program has run up to the last period. parts: each
- * straight step is cut into so many; 0: none, no loop area. */
+ * `springs` of them, or the memory diagram (0). Opened, the program has run up to the last period. parts:
+ * each straight step is cut into so many; 0: none, no loop area. */
 typedef struct cycle_run cycle_run;
 bool cycle_run_open(scene *s, unsigned springs, unsigned parts, cycle_run **out, calc_error *error);
 /* One more period: what it dissipated, by friction work and by the loop area (21); either may be NULL. */

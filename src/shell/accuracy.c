@@ -15,8 +15,7 @@ static const unsigned used[FAMILIES] = {USED_CLOSED, USED_MEMORY,  USED_QUADRATU
                                         USED_MEMORY, USED_SPRINGS, USED_SPRINGS};
 static const char *const size_names[FAMILIES] = {"", "", "N", "M", "N", "N"};
 
-static const double enough = 0.02, budget = 4,
-                    kept = 1; /* seconds: to time one model, for all, for the last */
+static const double enough = 0.02; /* seconds, to time one model */
 
 /* Of the processor, so that a busy machine does no harm. */
 static double cpu_now(void) {
@@ -46,8 +45,8 @@ typedef struct bench {
     shell *sh;
     calc_error *error;
     accuracy_study *study;
-    bool progress; /* shown on the terminal */
-    double end;    /* of the budget */
+    bool progress;      /* shown on the terminal */
+    double budget, end; /* seconds of the processor; when it is spent */
 } bench;
 
 static bool stopped(calc_error *error) {
@@ -276,9 +275,9 @@ static bool measure_steady(bench *b, steady *m) {
     bool ok = measure(b, FAMILY_CLOSED, 0, closed_cycle, m) && memory_rows(b, m);
     for (m->size = 16; ok && m->size <= 128; m->size *= 2)
         ok = measure(b, FAMILY_QUADRATURE, m->size, quadrature_cycle, m);
-    b->end -= kept;
+    b->end -= b->budget / 4; /* kept for the last */
     ok = ok && springs_rows(b, m, FAMILY_SPRINGS);
-    b->end += kept;
+    b->end += b->budget / 4;
     /* at k = 0 the weights are the same */
     return ok && (m->normal->foundation.k == 0 || springs_rows(b, m, FAMILY_MIDPOINT));
 }
@@ -347,9 +346,8 @@ static bool measure_general(bench *b) {
 
 /* ---- the command ------------------------------------------------------------------------------- */
 
-bool accuracy_read(shell *sh, lexer *lx, accuracy_load *out) {
+static bool read_amplitude(shell *sh, lexer *lx, accuracy_load *out) {
     argument a;
-    *out = (accuracy_load){.by_force = true};
     if (!at_argument(lx))
         return !lx->error->raised;
     if (!read_argument(sh, lx, &a))
@@ -367,6 +365,12 @@ bool accuracy_read(shell *sh, lexer *lx, accuracy_load *out) {
         return true;
     lx->error->at = out->at, lx->error->len = out->len;
     return false;
+}
+
+bool accuracy_read(shell *sh, lexer *lx, accuracy_load *out) {
+    *out = (accuracy_load){.by_force = true, .seconds = 3};
+    return read_amplitude(sh, lx, out) &&
+           (!lex_accept(lx, "within") || read_count(sh, lx, "the seconds", 3600, &out->seconds));
 }
 
 /* The amplitude from the load program where none is given. `program`: that is to be run as it is. */
@@ -426,7 +430,8 @@ bool accuracy_measure(shell *sh, const accuracy_load *load, accuracy_study *out,
                .error = error,
                .study = out,
                .progress = sh->err == stderr && isatty(STDERR_FILENO),
-               .end = cpu_now() + budget};
+               .budget = load->seconds,
+               .end = cpu_now() + load->seconds};
     bool ok = program ? measure_general(&b) : measure_steady(&b, &m);
     end_progress(&b);
     return ok;

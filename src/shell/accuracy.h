@@ -41,12 +41,12 @@ typedef struct accuracy_study {
 typedef struct accuracy_load {
     bool by_force;
     double amplitude;
-    size_t at, len; /* of its value in the statement */
+    size_t at, len;   /* of its value in the statement */
+    unsigned seconds; /* of the processor, that the larger models may take */
 } accuracy_load;
 
-/* Reads [FA=... | dxA=...] at the cursor. */
+/* Reads [FA=... | dxA=...] [within SECONDS] at the cursor. */
 bool accuracy_read(shell *sh, lexer *lx, accuracy_load *out);
-/* Takes up to about five seconds. */
 bool accuracy_measure(shell *sh, const accuracy_load *load, accuracy_study *out, calc_error *error);
 
 #endif

@@ -124,8 +124,10 @@ static const command commands[] = {
      COMPLETE_QUANTITY},
     {"explain", do_explain, "QUANTITY", "formula, source, numbers put in, model used",
      "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs it used, and how the\n"
-     "value was computed. `conditioning`: by which part of itself the last binary digit of each input and of the\n"
-     "last load moves the value, and the ratio of the two. Large numbers, as close to gross slip, mean that the\n"
+     "value was computed. `conditioning`: by which part of itself the last binary digit of each input and of "
+     "the\n"
+     "last load moves the value, and the ratio of the two. Large numbers, as close to gross slip, mean that "
+     "the\n"
      "value cannot be better than its inputs, whatever the model.\n\n"
      "    fret> material E0=210 GPa nu=0.3\n"
      "    fret> explain eta\n"
@@ -139,7 +141,8 @@ static const command commands[] = {
      "        nu = 0.3                 1.9e-16         4.7e-17              0.25\n"
      "        condition number below 0.01, or hidden by rounding: E0\n",
      COMPLETE_QUANTITY},
-    {"accuracy", do_accuracy, "[FA=20 N | dxA=0.5 um]", "error against time of every model, for this scene",
+    {"accuracy", do_accuracy, "[FA=20 N | dxA=0.5 um] [within 3]",
+     "error against time of every model, for this scene",
      "A table of the models that can answer for dW: value, relative error, time of a cycle without setting "
      "up.\n"
      "Errors refer to quadrature in extended precision; `<` marks one that is below what it can tell. "
@@ -149,7 +152,9 @@ static const command commands[] = {
      "has changed, the load program is run as it is and errors refer to a refined memory diagram. Springs\n"
      "with `midpoint` weights x^k h converge with order 1+k where k < 0. The last line says what `set model "
      "auto`\n"
-     "picks. `plot accuracy` draws the table.\n\n"
+     "picks. The larger models are left out where all would take more than 3 seconds; `within 20` allows "
+     "more.\n"
+     "`plot accuracy` draws the table.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
      "    fret> accuracy FA=50 N\n"
      "    error: FA = 50 N exceeds mu*FN = 40 N: gross slip; cycle by displacement (dxA=...) to slide\n",

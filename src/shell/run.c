@@ -38,7 +38,7 @@ bool at_argument(const lexer *lx) {
 
 /* A name right after a number was meant as a unit, unless it is a word of the command. */
 static bool stray_unit(lexer *lx) {
-    static const char *const words[] = {"times", "steps", "to", "for", "in", "log", "with", "from"};
+    static const char *const words[] = {"times", "steps", "to", "for", "in", "log", "with", "from", "within"};
     if (lx->kind != T_NAME || !lx->last || lx->text[lx->last - 1] < '0' || lx->text[lx->last - 1] > '9')
         return false;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)

@@ -110,6 +110,7 @@ def interrupts(tests):
     s.say("step Fx=20 N")
     for name, command in (("table", "table dW(FA) for FA = 1 N .. 30 N steps 50000000 to /dev/null"),
                           ("sweep", "table a for k = 0 .. 0.5 steps 50000000 to /dev/null"),
+                          ("accuracy", "plot accuracy within 60"),
                           ("cycle", "cycle FA=20 N FNA=10 N times 1000000"),
                           ("plain cycle", "cycle FA=20 N times 1000000 steps 10; history to /dev/null")):
         if name == "sweep":
@@ -125,6 +126,7 @@ def interrupts(tests):
             s.child.close(force=True)
             return
         tests.check("Ctrl-C stops a long " + name, time.time() - start < 10 and "interrupted" in answer, answer)
+        tests.check("progress of " + name, ("measuring: " in answer) == (name == "accuracy"), answer)
         if name != "plain cycle":
             got = s.say("Fx, dx, k, FN")
             tests.check("the scene is as before the " + name,
