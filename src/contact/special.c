@@ -32,7 +32,7 @@ static fret_moments moments_series(fret_real pm1, fret_real x) {
         1.0L / 25, 1.0L / 26, 1.0L / 27, 1.0L / 28, 1.0L / 29, 1.0L / 30, 1.0L / 31, 1.0L / 32,
         1.0L / 33, 1.0L / 34, 1.0L / 35, 1.0L / 36, 1.0L / 37, 1.0L / 38, 1.0L / 39, 1.0L / 40};
     fret_real p = 1 + pm1, a = p * pm1 * x * x, b = p * x; /* terms of (1-t)^(p-2) and (1-t)^(p-1) */
-    fret_real w = 0, J = 0, m1 = 0, L = 0, small = 1e-20L * a;
+    fret_real w = 0, J = 0, m1 = 0, L = 0, small_a = 1e-20L * a, small_b = 1e-20L * b;
     for (int i = 0; i < 38; i++) {
         fret_real c = a * inv[i + 1];
         w += b * inv[i];
@@ -41,7 +41,8 @@ static fret_moments moments_series(fret_real pm1, fret_real x) {
         L += c * inv[i + 2];
         a *= (x - pm1 * x * inv[i]);
         b *= (x - p * x * inv[i]);
-        if (a < small && a > -small && i > 2)
+        /* both: at a whole p the one ends a term before the other */
+        if (fabsl(a) <= small_a && fabsl(b) <= small_b && i > 2)
             break;
     }
     return (fret_moments){w, J * x, m1, L * x};

@@ -88,7 +88,7 @@ static double target(unsigned long long *seed, double last, int i) {
 
 enum { STEPS = 2000 };
 
-static const double ns[] = {0.21, 0.5, 1, 2, 4, 40}, ks[] = {-0.95, -0.5, 0, 0.5, 0.95};
+static const double ns[] = {0.2, 0.5, 1, 2, 4, 40}, ks[] = {-0.95, -0.5, 0, 0.5, 0.95};
 
 static void random_displacements(void) {
     for (int i = 0; i < 30; i++) {
