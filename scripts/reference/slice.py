@@ -45,8 +45,8 @@ rows = [(n, k, x) for n, k in ((2.0, 0.0), (1.0, 0.0), (0.5, 0.0), (3.0, -0.9), 
 rows += [(10**rnd.uniform(-0.4, 0.8), rnd.uniform(-0.95, 0.95),
           rnd.choice([10**rnd.uniform(-9, 0), rnd.random(),
                       1 - 10**rnd.uniform(-9, -1)])) for _ in range(180)]
-rows += [(n, 0.0, x) for n in (0.25, 0.2, 0.125) for x in xs + [0.005, 0.02, 0.03]]  # whole p: series that end
 for row in rows[120::9]:
     check(*row)
+rows += [(n, 0.0, x) for n in (0.25, 0.2, 0.125) for x in xs + [0.005, 0.02, 0.03]]  # whole p: series that end
 oracle.write("slice.csv", "slice.py", "integrals over a slice of F = y^p, p = (n+k+1)/n, from y = 1 to 1-x",
              ["n", "k", "x"], ["w", "J", "G", "L"], [(row, moments(*row)) for row in rows])
