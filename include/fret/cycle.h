@@ -22,6 +22,8 @@ fret_real fret_gross_slip(const fret_normal *normal, double mu, const fret_press
  * Odd in its argument. By force: |Fx| <= mu F_N, else FRET_GROSS_SLIP (limit: mu F_N); a force that equals
  * mu F_N to 2.2e-16, the rounding of the product, is taken as equal.
  * By displacement: F_x stays at +-mu F_N beyond delta_x,max.
+ * Accuracy, power law: within 1 unit in the last place of a double; by displacement, where delta_x,max itself
+ * is known to 2^-96, this ends at |1-dx/delta_x,max| = 1e-10.
  * Other errors: FRET_NOT_POSITIVE (mu), FRET_NOT_FINITE. */
 fret_status fret_loading_force(const fret_normal *normal, double mu, const fret_press *press, double Fx,
                                fret_loading *out);
@@ -31,7 +33,8 @@ fret_status fret_loading_displacement(const fret_normal *normal, double mu, cons
 /* Energy [J], >= 0, dissipated in a closed cycle F_x = -FA .. FA at constant F_N:
  *   8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx; power law: w(t) mu F_N delta_x,max (27),
  *   t = FA/(mu F_N). Range 0 <= FA <= mu F_N, else FRET_NEGATIVE, FRET_GROSS_SLIP.
- * Accuracy, power law: 1e-18 + the rounding of t. Positive, where (26),(27) are printed negative. */
+ * Accuracy, power law: within 1 unit in the last place of a double. Positive, where (26),(27) are printed
+ * negative. */
 fret_status fret_cycle_loss(const fret_normal *normal, double mu, const fret_press *press, double FA,
                             fret_real *loss);
 

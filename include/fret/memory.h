@@ -69,7 +69,8 @@ typedef struct fret_state {
 void fret_memory_state(const fret_memory *memory, fret_state *out);
 void fret_memory_forces(const fret_memory *memory, fret_state *out);
 
-/* Energy dissipated by the last step alone [J]. */
+/* Energy dissipated by the last step alone [J]; of a step far smaller than the load the rounding of the load
+ * is felt: W is the better sum. */
 fret_real fret_memory_last_loss(const fret_memory *memory);
 
 /* The polyline: slice i, 0 at the innermost, covers depths [inner, outer] with slope sigma; u is

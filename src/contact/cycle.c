@@ -10,25 +10,31 @@
  * matters), and ln s, which stays finite where s itself is too small for a double. */
 typedef struct fraction {
     dd t, s, l;
+    fret_real t_wide; /* t in the range of long double */
 } fraction;
 
 /* Below this ln(1-t) is -t, and products of such numbers may leave the range of double. */
 static const double tiny = 1e-40;
 
 static fraction fraction_from(dd t, dd s) {
-    fraction f = {t, s, {-INFINITY, 0}};
+    fraction f = {t, s, {-INFINITY, 0}, dd_value(t)};
     if (s.hi > 0)
         f.l = t.hi < tiny ? dd_neg(t) : t.hi <= 0.5 ? dd_log1p(dd_neg(t)) : dd_log(s);
     return f;
 }
 
+/* F of limit */
+static fraction fraction_of(double F, dd limit) {
+    fraction f = fraction_from(dd_div(dd_of(F), limit), dd_div(dd_add_d(limit, -F), limit));
+    if (f.t.hi < tiny)
+        f.t_wide = F / dd_value(limit);
+    return f;
+}
+
 /* 0.3 times 100 N is not 30 N in binary: F equal to mu F_N up to its rounding is gross slip, no more. */
-static fraction fraction_of(double mu, const fret_press *press, double F) {
-    dd limit = dd_mul_d(dd_from2(press->F, press->F_rest), mu);
-    dd s = dd_div(dd_add_d(limit, -F), limit);
-    if (fabs(s.hi) <= DBL_EPSILON)
-        return fraction_from(dd_of(1), dd_of(0));
-    return fraction_from(dd_div(dd_of(F), limit), s);
+static fraction force_fraction(double mu, const fret_press *press, double F) {
+    fraction f = fraction_of(F, dd_mul_d(dd_from2(press->F, press->F_rest), mu));
+    return fabs(f.s.hi) <= DBL_EPSILON ? fraction_from(dd_of(1), dd_of(0)) : f;
 }
 
 static bool gross(const fraction *f) {
@@ -40,7 +46,7 @@ static fret_real lost(const fraction *f, dd power) {
     if (gross(f))
         return 1;
     if (f->t.hi < tiny)
-        return dd_value(power) * dd_value(f->t);
+        return dd_value(power) * f->t_wide;
     return -dd_value(dd_expm1(dd_mul(power, f->l)));
 }
 static fret_real kept(const fraction *f, dd power) {
@@ -65,7 +71,7 @@ fret_status fret_loading_force(const fret_normal *normal, double mu, const fret_
         st = fret_fail(FRET_NOT_FINITE, "Fx", Fx, 0);
     if (st.code)
         return st;
-    fraction f = fraction_of(mu, press, fabs(Fx));
+    fraction f = force_fraction(mu, press, fabs(Fx));
     if (f.s.hi < 0)
         return fret_fail(FRET_GROSS_SLIP, "Fx", Fx, (double)(mu * press->F));
     fret_real x; /* 1 - yc/dz */
@@ -88,7 +94,7 @@ fret_status fret_loading_force(const fret_normal *normal, double mu, const fret_
 /* The same by displacement: t = dx/delta_x,max, s = 1-t. */
 static fraction depth_fraction(const fret_normal *normal, double mu, const fret_press *press, double dx) {
     dd max = dd_mul(dd_mul_d(normal->foundation.wide.eta, mu), dd_from2(press->dz, press->dz_rest));
-    return fraction_from(dd_div(dd_of(dx), max), dd_div(dd_add_d(max, -dx), max));
+    return fraction_of(dx, max);
 }
 
 fret_status fret_loading_displacement(const fret_normal *normal, double mu, const fret_press *press,
@@ -105,7 +111,7 @@ fret_status fret_loading_displacement(const fret_normal *normal, double mu, cons
         out->c = out->yc = 0;
         return fret_ok();
     }
-    const fret_real x = dd_value(f.t);
+    const fret_real x = f.t_wide;
     out->yc = press->dz * dd_value(f.s);
     if (normal->p > 0) {
         out->Fx = copysignl(mu * press->F * lost(&f, normal->wide.p), dx);
@@ -120,12 +126,12 @@ fret_status fret_loading_displacement(const fret_normal *normal, double mu, cons
 
 /* Small L: series without cancellation. Otherwise the closed form, arranged for q <= 1/2 and > 1/2. */
 static fret_real loss_shape(dd q_wide, dd r_wide, const fraction *f) {
-    const fret_real q = dd_value(q_wide), r = dd_value(r_wide), t = dd_value(f->t), s = dd_value(f->s);
+    const fret_real q = dd_value(q_wide), r = dd_value(r_wide), t = f->t_wide, s = dd_value(f->s);
     if (t <= 0)
         return 0;
     if (gross(f))
         return 4 * r / (1 + q);
-    fret_real l = -dd_value(f->l);
+    fret_real l = f->t.hi < tiny ? t : -dd_value(f->l);
     if (l < 3.5L) {
         fret_real alpha = (1 + q) * l / 2, a2 = alpha * alpha, b2 = (r * l / 2) * (r * l / 2);
         fret_real h = 1, power = 1, factorial = 6, sum = h / factorial;
@@ -159,7 +165,7 @@ static fret_real loss_of_power(const fret_normal *normal, const fraction *f) {
     return loss_shape(normal->wide.q, r, f);
 }
 
-/* The general loop by Masing: 8 times the dissipation of first loading counted from the edge,
+/* The general loop by Masing: 4 times the dissipation of first loading, counted from the edge:
  * int_0^d [F(y)-F(y-t)-tK(y-t)] dt = L. */
 static fret_real loss_of(const fret_normal *normal, double mu, const fret_press *press, const fraction *f) {
     fret_real scale = mu * press->F * fret_gross_slip(normal, mu, press);
@@ -177,7 +183,7 @@ fret_status fret_cycle_loss(const fret_normal *normal, double mu, const fret_pre
         st = fret_check_not_negative("FA", FA);
     if (st.code)
         return st;
-    fraction f = fraction_of(mu, press, FA);
+    fraction f = force_fraction(mu, press, FA);
     if (f.s.hi < 0)
         return fret_fail(FRET_GROSS_SLIP, "FA", FA, (double)(mu * press->F));
     *loss = loss_of(normal, mu, press, &f);
@@ -200,9 +206,9 @@ fret_status fret_cycle_loss_displacement(const fret_normal *normal, double mu, c
     }
     if (normal->p > 0) { /* s^p in place of s */
         const fret_real t = lost(&f, normal->wide.p), s = kept(&f, normal->wide.p);
-        f = (fraction){dd_from(t), dd_from(s), dd_mul(normal->wide.p, f.l)};
+        f = (fraction){dd_from(t), dd_from(s), dd_mul(normal->wide.p, f.l), t};
     } else {
-        const fret_real x = dd_value(f.t), F = press->F;
+        const fret_real x = f.t_wide, F = press->F;
         f = (fraction){.t = dd_from(fret_law_load(normal, &(fret_level){press->dz, F}, x * press->dz) / F)};
         f.s = dd_sub(dd_of(1), f.t);
     }

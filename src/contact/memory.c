@@ -27,6 +27,8 @@ struct fret_memory {
     double mu;
     fret_real mu_eta, loss_scale; /* mu eta; mu^2 eta */
     fret_real edge[2];            /* delta_z and F_N; 0, 0 when open */
+    double edge_rest[2];          /* what does not fit in them */
+    fret_real radius;             /* of the edge */
     fret_real gap;                /* distance of the open bodies, >= 0 */
     unsigned long edge_id;        /* changes with the edge */
     fret_real slid;               /* delta_x - mu eta int sigma dy: what gross slip has carried along */
@@ -139,13 +141,30 @@ static fret_slice edge_slice(const fret_memory *m, fret_real d) {
     return fret_law_slice(&m->normal, &edge, d);
 }
 
-/* L2-L1, also where the two levels are too close for a difference: two-point Gauss. */
+typedef struct rise {
+    const fret_memory *m;
+    fret_real d, h;
+} rise;
+
+static fret_real rise_rate(fret_real t, fret_real rest, void *context) {
+    const rise *r = context;
+    (void)rest;
+    return edge_slice(r->m, r->d + r->h * t).G;
+}
+
+/* L2-L1, also where the two levels are too close for a difference: by quadrature of G, which is singular at
+ * the centre and the smoother the farther that is. */
 static fret_real level_rise(const fret_memory *m, fret_real d1, fret_real L1, fret_real d2, fret_real L2) {
-    if (d2 - d1 > 1e-5L * d2)
+    const fret_real h = d2 - d1, inside = m->edge[DEPTH] - d2;
+    if (h > 1e-5L * d2)
         return L2 - L1;
-    fret_real mid = (d1 + d2) / 2, half = (d2 - d1) / 2,
-              offset = half * 0.5773502691896257645091487805019574556L;
-    return half * (edge_slice(m, mid - offset).G + edge_slice(m, mid + offset).G);
+    rise r = {m, d1, h};
+    if (inside < h)
+        return h * fret_integrate(rise_rate, &r);
+    if (inside < 1e4L * h)
+        return h * fret_integrate_smooth(rise_rate, &r);
+    const fret_real mid = (d1 + d2) / 2, offset = h / 2 * 0.5773502691896257645091487805019574556L;
+    return h / 2 * (edge_slice(m, mid - offset).G + edge_slice(m, mid + offset).G);
 }
 
 static fret_real inner_level(const fret_memory *m, slice *sl, fret_real d) {
@@ -156,9 +175,30 @@ static fret_real inner_level(const fret_memory *m, slice *sl, fret_real d) {
     return sl->L;
 }
 
-/* Tangential step at constant normal load: the slip zone of sign s eats inwards until its drive is
- * used up. Drive left at the centre is gross slip. */
-static fret_real slide(fret_memory *m, measure by, fret_real drive) {
+/* Close to gross slip of sense s the part that sticks is far smaller than the contact. Its one measure is the
+ * distance of F_x from mu F_N, or of delta_x from delta_x,max, taken with all digits; the other follows. */
+static void keep_inner(fret_memory *m, measure by, fret_real s, double goal, fret_real eaten[2]) {
+    const fret_level edge = {m->edge[DEPTH], m->edge[LOAD]};
+    slice *only = &m->slices[0];
+    const dd scale = by == LOAD ? dd_of(m->mu) : dd_mul_d(m->normal.foundation.wide.eta, m->mu);
+    const dd bound = dd_mul(scale, dd_from2(m->edge[by], m->edge_rest[by]));
+    const dd at = by == LOAD ? dd_of(goal) : dd_sub(dd_of(goal), dd_from(m->slid));
+    const dd left = dd_div(s < 0 ? dd_add(bound, at) : dd_sub(bound, at), scale);
+    const fret_real inner = fmaxl(dd_value(left) / (1 - s * only->sigma), 0);
+    only->thick[by] = inner;
+    eaten[by] = m->edge[by] - inner;
+    if (by == DEPTH) {
+        only->thick[LOAD] = fret_law_force(&m->normal, inner);
+        eaten[LOAD] = fret_law_load_outside(&m->normal, &edge, inner);
+    } else {
+        only->thick[DEPTH] = fret_law_depth(&m->normal, inner);
+        eaten[DEPTH] = fret_law_thickness_outside(&m->normal, &edge, inner);
+    }
+}
+
+/* Tangential step at constant normal load, to F_x or delta_x = goal: the slip zone of sign s eats inwards
+ * until its drive is used up. Drive left at the centre is gross slip. */
+static fret_real slide(fret_memory *m, measure by, fret_real drive, double goal) {
     const fret_real snap = 1e-17L * m->edge[by]; /* a turning point is reached up to rounding */
     fret_real s = drive < 0 ? -1 : 1, e = fabsl(drive), loss = 0, level = 0;
     fret_real eaten[2] = {0, 0}, front[2] = {m->edge[DEPTH], m->edge[LOAD]};
@@ -173,6 +213,13 @@ static fret_real slide(fret_memory *m, measure by, fret_real drive) {
             }
             next = inner_level(m, top, eaten[DEPTH]);
             m->count--;
+        } else if (m->count == 1 && 8 * (cap - e) < gain * m->edge[by]) {
+            keep_inner(m, by, s, goal, eaten);
+            next = edge_slice(m, eaten[DEPTH]).L;
+            for (measure i = DEPTH; i <= LOAD; i++)
+                front[i] = top->thick[i];
+            resum_top(m);
+            e = 0;
         } else {
             const fret_level outer = {front[DEPTH], front[LOAD]};
             fret_real part[2] = {e / gain, e / gain};
@@ -398,10 +445,10 @@ static fret_real shrink(fret_memory *m, measure by, const fret_real edge[2], fre
 }
 
 /* A straight piece with the contact closed at both ends; drive = change of delta_x/(mu eta) or F_x/mu. */
-static fret_real advance(fret_memory *m, measure by, const fret_real edge[2], fret_real drive) {
+static fret_real advance(fret_memory *m, measure by, const fret_real edge[2], fret_real drive, double goal) {
     fret_real growth = edge[by] - m->edge[by];
     if (growth == 0)
-        return drive == 0 ? 0 : slide(m, by, drive);
+        return drive == 0 ? 0 : slide(m, by, drive, goal);
     m->edge_id++;
     if (growth < 0)
         return shrink(m, by, edge, drive);
@@ -426,29 +473,27 @@ static void open_contact(fret_memory *m, fret_real dx) {
 fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     const fret_real old_dx = displacement(m);
     fret_real edge[2] = {m->edge[DEPTH], m->edge[LOAD]}, gap = m->gap;
+    fret_press p = {
+        .F = edge[LOAD], .dz = edge[DEPTH], .a = m->radius, m->edge_rest[LOAD], m->edge_rest[DEPTH]};
+    const fret_press old = p;
     fret_status st = fret_ok();
     if (step->normal_by == FRET_TO_FORCE) {
-        fret_press p;
         st = fret_press_force(&m->normal, step->normal, &p);
-        if (!st.code && p.F != edge[LOAD]) {
-            edge[DEPTH] = p.dz;
-            edge[LOAD] = p.F;
-        }
+        if (!st.code && p.F == old.F)
+            p = old;
         gap = 0;
     } else if (step->normal_by == FRET_TO_DEPTH) {
         if (!isfinite(step->normal))
             return fret_fail(FRET_NOT_FINITE, "dz", step->normal, 0);
-        fret_press p = {.F = 0};
         gap = step->normal < 0 ? -step->normal : 0;
-        if (step->normal > 0)
-            st = fret_press_depth(&m->normal, step->normal, &p);
-        if (!st.code && p.dz != edge[DEPTH]) {
-            edge[DEPTH] = p.dz;
-            edge[LOAD] = p.F;
-        }
+        st = fret_press_depth(&m->normal, fmax(step->normal, 0), &p);
+        if (!st.code && p.dz == old.dz)
+            p = old;
     }
     if (st.code)
         return st;
+    edge[DEPTH] = p.dz;
+    edge[LOAD] = p.F;
     const char *name = step->tangential_by == FRET_TO_FX ? "Fx" : "dx";
     if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
         return fret_fail(FRET_NOT_FINITE, name, step->tangential, 0);
@@ -468,7 +513,7 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
         fret_real drive = load - total(m, LOAD);
         if (drive != 0)
             m->direction = drive < 0 ? -1 : 1;
-        loss = advance(m, LOAD, edge, drive);
+        loss = advance(m, LOAD, edge, drive, step->tangential);
         if (edge[LOAD] <= 0)
             open_contact(m, m->slid); /* no spring is left to be displaced */
     } else {
@@ -485,7 +530,7 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
             stop = old_dx + (target - old_dx) * (from / (from - to));
         }
         if (from > 0 || to > 0) {
-            loss = advance(m, DEPTH, edge, (stop - start) / m->mu_eta);
+            loss = advance(m, DEPTH, edge, (stop - start) / m->mu_eta, step->tangential);
             if (to > 0 && step->tangential_by == FRET_TO_DX && m->count == 1 &&
                 fabsl(m->slices[0].sigma) == 1)
                 m->slid = target - m->mu_eta * total(m, DEPTH);
@@ -494,6 +539,9 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
             open_contact(m, target);
     }
     m->gap = gap;
+    m->radius = p.a;
+    m->edge_rest[DEPTH] = p.dz_rest;
+    m->edge_rest[LOAD] = p.F_rest;
     m->last_loss = loss > 0 ? loss * m->loss_scale : 0;
     fret_sum_add(&m->W, m->last_loss);
     return fret_ok();
@@ -531,11 +579,13 @@ void fret_memory_state(const fret_memory *m, fret_state *out) {
         return;
     const slice *top = &m->slices[m->count - 1];
     out->U = stored(m);
-    out->a = fret_law_radius(&m->normal, m->edge[DEPTH]);
+    out->a = m->radius;
     out->kn = fret_normal_stiffness(&m->normal, out->a);
     out->c = out->a;
     if (fabsl(top->sigma) >= 1)
-        out->c = m->count == 1 ? 0 : fret_law_radius(&m->normal, top->inner[DEPTH]);
+        out->c = m->count == 1
+                     ? 0
+                     : fret_law_level_radius(&m->normal, &(fret_level){top->inner[DEPTH], top->inner[LOAD]});
     bool goes_on = top->sigma * m->direction >= 1;
     fret_real inner = goes_on ? out->c : out->a;
     out->kt = inner > 0 ? fret_normal_stiffness(&m->normal, inner) / m->normal.foundation.eta : 0;

@@ -279,6 +279,27 @@ static fret_status finish(const fret_press *p, fret_press *out) {
     return fret_ok();
 }
 
+fret_real fret_law_load_outside(const fret_normal *n, const fret_level *outer, fret_real inner_depth) {
+    if (n->p > 0 && inner_depth > 0)
+        return -outer->F * fret_expm1(n->p * fret_log(inner_depth / outer->y));
+    return outer->F - fret_law_force(n, inner_depth);
+}
+
+fret_real fret_law_thickness_outside(const fret_normal *n, const fret_level *outer, fret_real inner_load) {
+    if (n->p > 0 && inner_load > 0)
+        return -outer->y * fret_expm1(n->q * fret_log(inner_load / outer->F));
+    return outer->y - fret_law_depth(n, inner_load);
+}
+
+fret_real fret_law_level_radius(const fret_normal *n, const fret_level *level) {
+    if (!(n->p > 0))
+        return fret_law_radius(n, level->y);
+    if (level->F <= 0)
+        return 0;
+    dd l = dd_sub(dd_log_real(level->F), n->wide.ln_force);
+    return dd_exp_real(dd_add(n->wide.ln_r0, dd_div(l, n->wide.s)));
+}
+
 /* Completes a state at distance e from the start of the gap. */
 static fret_status at_radius(const fret_normal *n, const char *name, double value, fret_real e, fret_press *s,
                              fret_press *out) {

@@ -51,7 +51,7 @@ static fret_moments moments_series(fret_real pm1, fret_real x) {
 fret_moments fret_power_moments(fret_real pm1, fret_real x) {
     fret_real p = 1 + pm1;
     if (x >= 1)
-        return (fret_moments){1, 1 / (p + 1), 1, 1 - 2 / (p + 1)};
+        return (fret_moments){1, 1 / (p + 1), 1, pm1 / (p + 1)};
     if (x <= 0)
         return (fret_moments){0, 0, 0, 0};
     if (p * x < 0.2L)
