@@ -27,13 +27,18 @@ typedef struct runner {
     long double area, Fx, dx;
     size_t index;
     long double cycle_loss;
+    long double spent; /* dissipated on memory, step by step: W may be far larger */
 } runner;
 
 /* A ramp by force that changes F_N is no straight line for the springs: 64 parts, an error of 1e-8. */
 static fret_status run_on(runner *r, const fret_step *step) {
     bool ramp = step->normal_by != FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_FX;
-    return r->springs ? fret_springs_step(r->springs, step, ramp ? 64 : 1)
-                      : fret_memory_step(r->memory, step);
+    if (r->springs)
+        return fret_springs_step(r->springs, step, ramp ? 64 : 1);
+    fret_status st = fret_memory_step(r->memory, step);
+    if (!st.code)
+        r->spent += fret_memory_last_loss(r->memory);
+    return st;
 }
 
 static void forces_of(const runner *r, fret_state *out) {
@@ -132,9 +137,10 @@ static fret_status run_cycle(runner *r, const load_step *c, const cycle_extra *x
     for (unsigned i = 0; i < x->times && !st.code; i++) {
         forces_of(r, &state);
         long double before = state.W;
+        r->spent = 0;
         st = period(r, c, x, FN);
         forces_of(r, &state);
-        r->cycle_loss = state.W - before;
+        r->cycle_loss = r->springs ? state.W - before : r->spent;
         if (r->s->stop && *r->s->stop && !st.code)
             st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
     }
@@ -242,6 +248,7 @@ static bool start_program(scene *s, const load_step *press, calc_error *error) {
     s->cycles = NULL;
     s->steps = s->room = s->cycle_count = s->cycle_room = 0;
     s->normal_varies = false;
+    s->reach = (load_reach){0};
     s->set[IN_FN] = press->normal == BY_FORCE;
     s->in[IN_FN] = press->normal_value;
     const fret_press *p;
@@ -452,15 +459,36 @@ void scene_used_closed(scene *s) {
     s->used |= !s->geometry || s->geometry->kind == FRET_GAP_POWER ? USED_CLOSED : USED_QUADRATURE;
 }
 
-bool scene_closed_state(const scene *s) {
-    if (s->model == MODEL_MEMORY || s->model == MODEL_SPRINGS)
-        return false;
-    return s->steps == 1 ||
-           (s->steps == 2 && s->program[1].kind == LOAD_STEP && s->program[1].normal == BY_NONE);
+static void reach_step(load_reach *r, const load_step *step, const cycle_extra *x) {
+    const double v = step->tangential_value, size = fabs(v);
+    if (!r->by)
+        r->by = (load_by)step->tangential;
+    r->alike = r->alike && step->tangential == r->by && !(step->relative & 2);
+    r->first = r->alike && size >= r->most;
+    r->most = fmax(r->most, size);
+    r->end = v;
+    if (x) /* a second period is closed whatever came before */
+        r->closed = r->first || x->times > 1;
 }
 
-bool scene_closed_loss(const scene *s) {
-    return !s->normal_varies && (s->model == MODEL_AUTO || s->model == MODEL_CLOSED);
+static const load_reach *reach_of(scene *s) {
+    load_reach *r = &s->reach;
+    if (r->seen == 0 || r->seen > s->steps)
+        *r = (load_reach){.seen = 1, .alike = true, .first = true};
+    for (; r->seen < s->steps; r->seen++) {
+        const load_step *step = &s->program[r->seen];
+        reach_step(r, step, step->kind == LOAD_CYCLE ? &s->cycles[r->cycles++] : NULL);
+    }
+    return r;
+}
+
+bool scene_closed_state(scene *s) {
+    return s->steps > 0 && (s->model == MODEL_AUTO || s->model == MODEL_CLOSED) && !s->normal_varies &&
+           reach_of(s)->first;
+}
+
+bool scene_closed_loss(scene *s) {
+    return (s->model == MODEL_AUTO || s->model == MODEL_CLOSED) && !s->normal_varies && reach_of(s)->closed;
 }
 
 const char *scene_model_name(const scene *s, bool closed) {
@@ -476,17 +504,16 @@ bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
     const fret_press *press;
     if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error))
         return false;
-    if (s->steps == 1) {
+    const load_reach *r = reach_of(s);
+    if (!r->by) {
         *out = (fret_loading){0, 0, press->a, press->dz};
         return true;
     }
     double mu;
     if (!scene_friction(s, &mu, error))
         return false;
-    const load_step *step = &s->program[1];
-    fret_status st = step->tangential == BY_FORCE
-                         ? fret_loading_force(normal, mu, press, step->tangential_value, out)
-                         : fret_loading_displacement(normal, mu, press, step->tangential_value, out);
+    fret_status st = r->by == BY_FORCE ? fret_loading_force(normal, mu, press, r->end, out)
+                                       : fret_loading_displacement(normal, mu, press, r->end, out);
     return scene_status(s, error, &st);
 }
 

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-
 /* ---- results now ------------------------------------------------------------------------------- */
 
 #define STATE(name, member)                                                                                  \

@@ -133,6 +133,7 @@ void scene_reset(scene *s, bool all) {
     }
     s->steps = s->cycle_count = 0;
     s->normal_varies = false;
+    s->reach = (load_reach){0};
     s->set[IN_FN] = false;
     scene_forget(s);
 }

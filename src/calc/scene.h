@@ -74,6 +74,17 @@ enum { USED_CLOSED = 1, USED_MEMORY = 2, USED_QUADRATURE = 4, USED_SPRINGS = 8 }
 /* A recorded state of the load program. */
 typedef void load_observer(const fret_state *state, size_t step, void *context);
 
+/* What closed forms need to know of the load program after the press, as far as its first `seen` steps. */
+typedef struct load_reach {
+    size_t seen, cycles;
+    load_by by;  /* how all of them push; BY_NONE before the first */
+    bool alike;  /* they do, and none is relative */
+    double most; /* largest magnitude so far */
+    bool first;  /* the last one ends on the curve of first loading: no larger load is remembered */
+    double end;  /* where it ends */
+    bool closed; /* the last period of the last cycle returned to the state that it began in */
+} load_reach;
+
 typedef struct scene {
     double in[INPUTS];
     bool set[INPUTS];
@@ -88,6 +99,7 @@ typedef struct scene {
     size_t cycle_count, cycle_room;
     bool borrowed;      /* a clone: the program belongs to another scene */
     bool normal_varies; /* some step after the press changes F_N */
+    load_reach reach;
 
     /* derived, valid as far as the flags say */
     bool normal_ready, press_ready, k0_ready;
@@ -152,8 +164,8 @@ bool scene_memory(scene *s, const fret_memory **memory, calc_error *error);
 void scene_set_model(scene *s, scene_model model, unsigned springs);
 /* May a closed form answer for the tangential state, and for dW? It must be exact for this load program: one
  * press and one tangential step, or a cycle at constant F_N; and the model must allow it. */
-bool scene_closed_state(const scene *s);
-bool scene_closed_loss(const scene *s);
+bool scene_closed_state(scene *s);
+bool scene_closed_loss(scene *s);
 /* Notes that a closed form has answered; for gaps other than a power it takes quadrature. */
 void scene_used_closed(scene *s);
 /* "closed form", "memory diagram", "springs": what answers for the state. */
