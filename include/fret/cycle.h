@@ -23,7 +23,7 @@ fret_real fret_gross_slip(const fret_normal *normal, double mu, const fret_press
  * mu F_N to 2.2e-16, the rounding of the product, is taken as equal.
  * By displacement: F_x stays at +-mu F_N beyond delta_x,max.
  * Accuracy, power law: within 1 unit in the last place of a double; by displacement, where delta_x,max itself
- * is known to 2^-96, this ends at |1-dx/delta_x,max| = 1e-10.
+ * is known to 2^-96, this ends at |1-dx/delta_x,max| = 1e-9.
  * Other errors: FRET_NOT_POSITIVE (mu), FRET_NOT_FINITE. */
 fret_status fret_loading_force(const fret_normal *normal, double mu, const fret_press *press, double Fx,
                                fret_loading *out);

@@ -322,16 +322,16 @@ static void judge(hard_tally *tally, const oracle *o, const hard_scene *s, unsig
         if (!in)
             in = bit(HARD_INSIDE);
         in |= bit(HARD_ALL) | (two ? bit(HARD_TWO) : 0);
-        touched |= in;
         double ulps = oracle_ulps((double)got[i], oracle_value(o, i));
         if (isnan(ulps))
             ulps = INFINITY;
-        if (i >= ORACLE_FX_OF_DX && fabs(1 - oracle_x(o)) < 1e-10)
-            in = bit(HARD_BRINK); /* what delta_x,max is known to, 2^-96, is felt in the result */
+        if (i >= ORACLE_FX_OF_DX && fabs(1 - oracle_x(o)) < 1e-9)
+            in = bit(HARD_BRINK); /* the 2^-96 to which delta_x,max is known are felt */
         else if (ulps <= HARD_ULPS)
             tally->passed++;
         else
             tally->failed++;
+        touched |= in;
         for (hard_region region = 0; region < HARD_REGION_COUNT; region++)
             if (in & bit(region))
                 keep_worse(&tally->worst[i][region], (hard_worst){ulps, index, true});

@@ -26,7 +26,7 @@
     X(T_LOW, "t>0", "t < 1e-6 (by displacement: dx/dxmax)")                                                  \
     X(T_HIGH, "t>1", "1-t < 1e-6, not beyond")                                                               \
     X(SLIDES, "slides", "dx > dxmax")                                                                        \
-    X(BRINK, "brink", "abs(1-dx/dxmax) < 1e-10: shown here alone and not judged, beyond the promise")        \
+    X(BRINK, "brink", "abs(1-dx/dxmax) < 1e-9: shown here alone and not judged, beyond the promise")         \
     X(SMALL, "small", "a length below 1e-9 m")                                                               \
     X(LARGE, "large", "a length above 1e3 m")                                                                \
     X(TWO, "two", "two different elastic bodies")
