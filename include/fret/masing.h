@@ -17,8 +17,8 @@
  * A branch that reaches the turning point before its own closes a loop with the loss 4 D and removes both
  * points; beyond gross slip F_x stays at +-mu F_N.
  *
- * A step of a power law by displacement costs one logarithm and one exponential at any depth of the stack, by
- * force one exponential more; other shapes are slow (fret_law_slice). Accuracy for p <= 10, against
+ * A step of a power law costs one logarithm and one exponential at any depth of the stack; other shapes are
+ * slow (fret_law_slice). Accuracy for p <= 10, against
  * fret_memory: F_x to 2e-15 of mu F_N, W to 6e-15 of itself, without drift (1e8 steps: 3e-16), as sums are
  * compensated.
  *

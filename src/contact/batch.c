@@ -27,7 +27,7 @@ static bool tame(double x) {
     return x > 0x1p-900 && x < 0x1p900;
 }
 
-fret_status fret_sweep_make(const fret_normal *normal, double mu, const fret_press *press, fret_sweep *out) {
+void fret_loss_series(double rho, int terms, double out[]) {
     static const double per_factorial[FRET_SWEEP_TERMS] = {
         /* 1/(2j+3)! */
         1 / 6.0,
@@ -46,6 +46,14 @@ fret_status fret_sweep_make(const fret_normal *normal, double mu, const fret_pre
         1 / 8841761993739701954543616000000.0,
         1 / 8222838654177922817725562880000000.0,
     };
+    double sum = 0;
+    for (int j = 0; j < terms; j++) {
+        sum = 1 + rho * rho * sum;
+        out[j] = sum * per_factorial[j];
+    }
+}
+
+fret_status fret_sweep_make(const fret_normal *normal, double mu, const fret_press *press, fret_sweep *out) {
     fret_status st = fret_check_positive("mu", mu);
     if (!st.code)
         st = fret_check_positive("FN", (double)press->F);
@@ -69,11 +77,7 @@ fret_status fret_sweep_make(const fret_normal *normal, double mu, const fret_pre
         w.scale = 4 * scale.hi;
         w.gross = w.scale * w.rho;
         w.cubic = 4 * dd_mul(scale, dd_mul(q, r)).hi;
-        double sum = 0; /* 1 + rho^2 + rho^4 ... */
-        for (int j = 0; j < FRET_SWEEP_TERMS; j++) {
-            sum = 1 + w.rho * w.rho * sum;
-            w.series[j] = sum * per_factorial[j];
-        }
+        fret_loss_series(w.rho, FRET_SWEEP_TERMS, w.series);
         w.slip = slip.hi;
         w.a = (double)press->a;
         split(dd_div(dd_of(1), normal->wide.s), w.radius);

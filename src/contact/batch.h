@@ -15,6 +15,10 @@ typedef struct fret_press_law {
     double r0, dref;            /* [m] */
 } fret_press_law;
 
+/* (1 + rho^2 + ... + rho^2j)/(2j+3)!, the coefficients of (sinh(x)/x - sinh(rho x)/(rho x))/((1-rho^2) x^2)
+ * in x^2. */
+void fret_loss_series(double rho, int terms, double out[]);
+
 /* Each loop returns whether some result is NaN. */
 typedef struct fret_variant {
     const char *name;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch.h"
 #include "kernel.h"
 #include "special.h"
 
@@ -34,9 +35,8 @@ static inline void add(sum *s, double x) {
 /* First loading at the fraction x of delta_x,max. */
 typedef struct point {
     double x;
-    double l;    /* power law: -log(1-x) */
-    double drop; /* power law: 1-(1-x)^(p-1) */
-    double P;    /* F_x/(mu F_N) */
+    double l; /* power law: -log(1-x) */
+    double P; /* F_x/(mu F_N) */
 } point;
 
 /* Where the motion turned back, and the branch that ended there. */
@@ -47,13 +47,16 @@ typedef struct turn {
     sum held;     /* on all branches up to here */
 } turn;
 
+enum { SERIES = 11 };
 struct fret_masing {
     fret_normal normal;
     fret_level edge;
     double mu;
     double p, pm1, q;         /* power law, else p = 0 */
     double limit, limit_rest; /* mu F_N */
-    double slip, energy;      /* delta_x,max; mu F_N delta_x,max */
+    double slip, per_slip;    /* delta_x,max and its inverse */
+    double energy;            /* mu F_N delta_x,max */
+    double series[SERIES];    /* of D in ((p+1) l/2)^2 */
     double dx, Fx, reach;
     int sign; /* of the last motion */
     point at; /* on the branch */
@@ -93,7 +96,9 @@ fret_status fret_masing_make(const fret_normal *normal, double mu, const fret_pr
     m->limit = (double)limit;
     m->limit_rest = (double)(limit - m->limit);
     m->slip = (double)slip;
+    m->per_slip = (double)(1 / slip);
     m->energy = (double)(limit * slip);
+    fret_loss_series(m->pm1 / (m->p + 1), SERIES, m->series);
     m->turns = turns;
     m->room = 16;
     fret_masing_reset(m);
@@ -110,7 +115,7 @@ void fret_masing_free(fret_masing *m) {
 void fret_masing_reset(fret_masing *m) {
     m->dx = m->Fx = m->reach = m->origin = m->start = m->loop = 0;
     m->sign = m->side = 1;
-    m->at = (point){0, 0, 0, 0};
+    m->at = (point){0, 0, 0};
     m->closed = (sum){0, 0};
     m->count = 0;
 }
@@ -144,24 +149,29 @@ fret_status fret_masing_copy(fret_masing *to, const fret_masing *from) {
 
 static point point_at(const fret_masing *m, double x) {
     if (x >= 1)
-        return (point){1, INFINITY, 1, 1};
+        return (point){1, INFINITY, 1};
     if (m->p > 0) {
-        const double l = -log_of_rest(x), drop = exp_drop(m->pm1 * l);
-        return (point){x, l, drop, drop + x * (1 - drop)};
+        const double l = -log_of_rest(x);
+        return (point){x, l, exp_drop(m->p * l)};
     }
-    return (point){x, 0, 0, (double)(fret_law_load(&m->normal, &m->edge, x * m->edge.y) / m->edge.F)};
+    return (point){x, 0, (double)(fret_law_load(&m->normal, &m->edge, x * m->edge.y) / m->edge.F)};
 }
 
 /* From P = F_x/(mu F_N) and 1-P, each with all its digits. */
 static point point_of_force(const fret_masing *m, double P, double rest) {
     if (rest <= 0)
-        return (point){1, INFINITY, 1, 1};
+        return (point){1, INFINITY, 1};
     if (m->p > 0) {
         const double l = -m->q * (P <= 0.5 ? log_of_rest(P) : log_of(rest));
-        return (point){exp_drop(l), l, exp_drop(m->pm1 * l), P};
+        return (point){exp_drop(l), l, P};
     }
     const fret_real F = m->edge.F, w = P <= 0.5 ? P * F : F - rest * F;
-    return (point){(double)(fret_law_thickness(&m->normal, &m->edge, w) / m->edge.y), 0, 0, P};
+    return (point){(double)(fret_law_thickness(&m->normal, &m->edge, w) / m->edge.y), 0, P};
+}
+
+/* Power law: 1-(1-x)^(p-1); a step does without. */
+static double drop(const fret_masing *m, const point *at) {
+    return exp_drop(m->pm1 * at->l);
 }
 
 /* D(x). With L = p l and s = 1-P it is L^3 exp(-(1+q)L/2) times a series of positive terms, see
@@ -169,30 +179,15 @@ static point point_of_force(const fret_masing *m, double P, double rest) {
 static double first_loss(const fret_masing *m, const point *at) {
     if (m->p == 0)
         return (double)(fret_law_slice(&m->normal, &m->edge, at->x * m->edge.y).L / (m->edge.F * m->edge.y));
-    const double x = at->x, q = m->q, y = 1 - at->drop;
-    if (m->p * at->l >= 1.75)
-        return m->p < 2 ? (m->pm1 * q * at->P * (2 - x) - 2 * (1 - x) * at->drop) / (1 + q)
-                        : ((1 + (1 - x) * y) * x - q * at->P * (2 - x)) / (1 + q);
-    static const double factor[] = {1.0 / 6,
-                                    1.0 / 120,
-                                    1.0 / 5040,
-                                    1.0 / 362880,
-                                    1.0 / 39916800,
-                                    1.0 / 6227020800,
-                                    1.0 / 1307674368000,
-                                    1.0 / 355687428096000,
-                                    1.0 / 121645100408832000,
-                                    1.0 / 51090942171709440000.0,
-                                    1.0 / 25852016738884976640000.0};
-    const int terms = m->p * at->l < 0.3 ? 6 : (int)(sizeof factor / sizeof *factor);
-    const double a = (m->p + 1) * at->l / 2, b = m->pm1 * at->l / 2, a2 = a * a, b2 = b * b;
-    double h = 1, power = 1, series = factor[0];
-    for (int j = 1; j < terms; j++) {
-        power *= b2;
-        h = a2 * h + power;
-        series += h * factor[j];
-    }
-    return m->p * m->pm1 * at->l * at->l * at->l * (1 - x) * sqrt(y) * series;
+    const double x = at->x, q = m->q, l = at->l;
+    if (m->p * l >= 1.75)
+        return m->p < 2 ? (m->pm1 * q * at->P * (2 - x) - 2 * (1 - x) * drop(m, at)) / (1 + q)
+                        : ((2 - at->P) * x - q * at->P * (2 - x)) / (1 + q);
+    const double *c = m->series, a = (m->p + 1) * l / 2, u = a * a, u2 = u * u, u4 = u2 * u2;
+    const double series =
+        (((c[0] + u * c[1]) + u2 * (c[2] + u * c[3])) + u4 * ((c[4] + u * c[5]) + u2 * (c[6] + u * c[7]))) +
+        u4 * u4 * ((c[8] + u * c[9]) + u2 * c[10]);
+    return m->p * m->pm1 * l * l * l * sqrt((1 - x) * (1 - at->P)) * series; /* (1-x)^((p+1)/2) */
 }
 
 static double branch_loss(const fret_masing *m) {
@@ -250,7 +245,7 @@ fret_status fret_masing_to_dx(fret_masing *m, double dx, double *Fx) {
                 m->side = m->sign;
             }
         }
-        m->at = point_at(m, m->reach / m->slip);
+        m->at = point_at(m, m->reach >= m->slip ? 1 : m->reach * m->per_slip);
         const double force = from + m->sign * twice * m->limit * m->at.P;
         m->Fx = fabs(force) > m->limit ? copysign(m->limit, force) : force;
         m->dx = dx;
@@ -314,14 +309,11 @@ double fret_masing_loss(const fret_masing *m) {
 }
 
 void fret_masing_now(const fret_masing *m, fret_masing_state *out) {
-    const double fall = 1 - m->at.drop;
-    *out = (fret_masing_state){.Fx = m->Fx,
-                               .dx = m->dx,
-                               .W = fret_masing_loss(m),
-                               .kt = m->p * fall * (m->limit / m->slip),
-                               .loop = m->energy * m->loop,
-                               .turns = m->count};
-    if (m->p == 0 && m->at.x < 1) {
+    *out = (fret_masing_state){
+        .Fx = m->Fx, .dx = m->dx, .W = fret_masing_loss(m), .loop = m->energy * m->loop, .turns = m->count};
+    if (m->p > 0) {
+        out->kt = m->p * (1 - drop(m, &m->at)) * (m->limit / m->slip);
+    } else if (m->at.x < 1) {
         const fret_real a = fret_law_radius(&m->normal, m->edge.y * (1 - (fret_real)m->at.x));
         out->kt = (double)(fret_normal_stiffness(&m->normal, a) / m->normal.foundation.eta);
     }
