@@ -275,7 +275,7 @@ static fret_real depth_of_force(const fret_springs *s, fret_real FN) {
     return s->cells.g[lo - 1] + (FN - s->touch[lo - 1]) / s->w_sum[lo];
 }
 
-static fret_real total(const double *sum, const double *rest) {
+static inline fret_real total(const double *sum, const double *rest) {
     fret_real half[2];
     for (int l = 0; l < 2; l++) {
         const double *x = sum + 4 * l, *y = rest + 4 * l;
@@ -292,11 +292,14 @@ typedef struct response {
     fret_real stick; /* of w over springs that stick, if not */
 } response;
 
+static size_t groups(size_t springs) { /* up to whole LANES */
+    return (springs + LANES - 1) / LANES * LANES;
+}
+
 /* keep: stores the new displacements and bounds. */
 static response deform(fret_springs *s, double z0, double z1, double ddx, bool keep) {
-    const size_t touched = z1 > z0 ? springs_below(s->cells.g, s->count, z1) : s->closed;
-    const size_t end = (touched + LANES - 1) / LANES * LANES;
-    lane_sums sums = {{0}, {0}, {0}, {0}};
+    const size_t end = groups(z1 > z0 ? springs_below(s->cells.g, s->count, z1) : s->closed);
+    lane_sums sums;
     if (z0 == z1) {
         s->run->slide(&s->cells, end, ddx, keep, &sums);
     } else {
@@ -315,6 +318,22 @@ static void advance(fret_springs *s, fret_real dz, fret_real dx) {
         s->closed = springs_below(s->cells.g, s->count, (double)dz);
     s->dz = dz;
     s->dx = dx;
+}
+
+static void turn(fret_springs *s, fret_real before, fret_real after) {
+    if (after != before)
+        s->direction = after < before ? -1 : 1;
+}
+
+/* The same at constant depth: most steps are of this kind, and what goes round the loop over springs would
+ * cost as much as 200 of them. */
+static void slide(fret_springs *s, fret_real dx) {
+    lane_sums sums;
+    s->run->slide(&s->cells, groups(s->closed), (double)(dx - s->dx), true, &sums);
+    turn(s, s->dx, dx);
+    s->dx = dx;
+    s->Fx = total(sums.force, sums.force_rest) * s->compliance;
+    fret_sum_add(&s->W, total(sums.other, sums.other_rest) * s->compliance);
 }
 
 /* At constant depth, from the last F_x on: no history makes u steeper in g than the bound is, so springs
@@ -384,6 +403,11 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
     fret_status st = fret_ok();
     if (substeps == 0)
         return fret_fail(FRET_NOT_POSITIVE, "substeps", 0, 0);
+    if (step->normal_by == FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_DX && substeps == 1 &&
+        isfinite(step->tangential)) {
+        slide(s, step->tangential);
+        return st;
+    }
     if (step->normal_by == FRET_TO_FORCE) {
         st = fret_check_not_negative("FN", step->normal);
         if (!st.code && step->normal > s->end_FN * slack)
@@ -412,13 +436,13 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
     if (step->tangential_by == FRET_TO_DX)
         dx = step->tangential;
 
-    const fret_real before = by_force ? s->Fx : s->dx, after = by_force ? (fret_real)step->tangential : dx;
-    if (after != before)
-        s->direction = after < before ? -1 : 1;
-    if (by_force)
-        walk_forces(s, FN, dz, after, substeps);
-    else
+    if (by_force) {
+        turn(s, s->Fx, step->tangential);
+        walk_forces(s, FN, dz, step->tangential, substeps);
+    } else {
+        turn(s, s->dx, dx);
         walk_displacements(s, dz, dx, substeps);
+    }
     s->dz = dz;
     s->FN = FN;
     return fret_ok();

@@ -35,11 +35,18 @@ TARGET static inline void NAME(add)(double *sum, double *rest, NAME(vec) x) {
     *(NAME(vec) *)sum = now;
 }
 
+TARGET static inline void NAME(clear)(lane_sums *out) {
+    double *const sums[] = {out->force, out->force_rest, out->other, out->other_rest};
+    for (int i = 0; i < 4; i++)
+        EACH_PART *(NAME(vec) *)(sums[i] + k * WIDTH) = (NAME(vec)){0};
+}
+
 /* At constant bounds a spring that slips dissipates w |v| |trial-v|, and |v| is its bound. */
 TARGET static inline __attribute__((always_inline)) void
 NAME(slide_all)(const cells *c, size_t end, double ddx, const bool keep, lane_sums *out) {
     const NAME(vec) zero = {0};
     double *restrict const w_ = c->w, *restrict const b_ = c->b, *restrict const u_ = c->u;
+    NAME(clear)(out);
     for (size_t from = 0; from < end; from += STRIDE) {
         NAME(vec) force[NAME(PARTS)], other[NAME(PARTS)];
         const size_t to = end - from > STRIDE ? from + STRIDE : end;
@@ -77,6 +84,7 @@ TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, b
     const NAME(vec) zero = {0}, one = zero + 1, tiny = zero + DBL_MIN;
     double *restrict const g_ = c->g, *restrict const w_ = c->w, *restrict const b_ = c->b,
                            *restrict const u_ = c->u;
+    NAME(clear)(out);
     for (size_t from = 0; from < end; from += STRIDE) {
         NAME(vec) force[NAME(PARTS)], other[NAME(PARTS)];
         const size_t to = end - from > STRIDE ? from + STRIDE : end;
