@@ -123,23 +123,22 @@ static const command commands[] = {
      "    error: there is no load yet: press first (press FN=100 N)\n",
      COMPLETE_QUANTITY},
     {"explain", do_explain, "QUANTITY", "formula, source, numbers put in, model used",
-     "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs it used, and how the\n"
-     "value was computed. `conditioning`: by which part of itself the last binary digit of each input and of "
-     "the\n"
-     "last load moves the value, and the ratio of the two. Large numbers, as close to gross slip, mean that "
-     "the\n"
-     "value cannot be better than its inputs, whatever the model.\n\n"
+     "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs\n"
+     "that the value depends on, and how it was computed. `conditioning`: by which\n"
+     "part of itself the last binary digit of each input, of the press and of the\n"
+     "last load moves the value, and the ratio of the two. Large numbers, as close\n"
+     "to gross slip, mean that the value cannot be better than its inputs, whatever\n"
+     "the model.\n\n"
      "    fret> material E0=210 GPa nu=0.3\n"
      "    fret> explain eta\n"
      "    eta: stiffness ratio\n"
      "        c_N/c_T  (4),(5)\n"
-     "        E0 = 210 GPa\n"
      "        nu = 0.3\n"
      "        model: closed form\n"
      "        eta = 1.21429\n"
      "        conditioning          last digit    moves eta by  condition number\n"
      "        nu = 0.3                 1.9e-16         4.7e-17              0.25\n"
-     "        condition number below 0.01, or hidden by rounding: E0\n",
+     "        no effect: E0\n",
      COMPLETE_QUANTITY},
     {"accuracy", do_accuracy, "[FA=20 N | dxA=0.5 um] [within 3]",
      "error against time of every model, for this scene",
