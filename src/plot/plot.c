@@ -266,34 +266,66 @@ static bool draw_in(const char *dir, plot_figure *f, const plot_target *target, 
     return partial || copy_out(dir, target, error, size);
 }
 
-bool plot_draw(plot_figure *f, const plot_target *target, char *error, size_t size) {
-    char terminal[128], dir[256], partial[4200];
+/* The terminal of gnuplot that draws to the target; empty for a script. */
+static bool choose_terminal(const plot_target *target, char *terminal, size_t room, char *error,
+                            size_t size) {
     const char *dot = target->file ? strrchr(target->file, '.') : NULL;
     int w = target->width, h = target->height;
-    if (is_flat(f))
-        return fail(error, size, "there is nothing to plot");
+    terminal[0] = 0;
     if (!target->file)
-        snprintf(terminal, sizeof terminal, "dumb size %d,%d noenhanced", w, h);
+        snprintf(terminal, room, "dumb size %d,%d noenhanced", w, h);
     else if (dot && !strcmp(dot, ".png"))
-        snprintf(terminal, sizeof terminal, "pngcairo size %d,%d font 'Sans,11'", w ? w : 900, h ? h : 675);
+        snprintf(terminal, room, "pngcairo size %d,%d font 'Sans,11'", w ? w : 900, h ? h : 675);
     else if (dot && !strcmp(dot, ".svg"))
-        snprintf(terminal, sizeof terminal, "svg size %d,%d font 'Sans,11' background rgb 'white'",
-                 w ? w : 900, h ? h : 675);
+        snprintf(terminal, room, "svg size %d,%d font 'Sans,11' background rgb 'white'", w ? w : 900,
+                 h ? h : 675);
     else if (dot && !strcmp(dot, ".pdf"))
-        snprintf(terminal, sizeof terminal, "pdfcairo size 16cm,12cm font 'Sans,11'");
+        snprintf(terminal, room, "pdfcairo size 16cm,12cm font 'Sans,11'");
     else if (!dot || strcmp(dot, ".gp"))
         return fail(error, size, "cannot tell the kind of picture from '%s': use .png, .svg, .pdf or .gp",
                     target->file);
+    return true;
+}
+
+enum { PARTIAL = 4200 };
+
+/* Written beside its target and renamed: never a half-written file. */
+static FILE *open_partial(const char *file, char partial[PARTIAL], char *error, size_t size) {
+    if (strlen(file) > 4000) {
+        fail(error, size, "the file name is too long");
+        return NULL;
+    }
+    snprintf(partial, PARTIAL, "%s.%ld.part", file, (long)getpid());
+    FILE *to = fopen(partial, "w");
+    if (!to)
+        fail(error, size, "cannot write %s: %s", file, strerror(errno));
+    return to;
+}
+
+bool plot_check(const char *file, char *error, size_t size) {
+    char terminal[128], partial[PARTIAL];
+    if (!choose_terminal(&(plot_target){.file = file}, terminal, sizeof terminal, error, size))
+        return false;
+    FILE *probe = open_partial(file, partial, error, size);
+    if (!probe)
+        return false;
+    fclose(probe);
+    unlink(partial);
+    return true;
+}
+
+bool plot_draw(plot_figure *f, const plot_target *target, char *error, size_t size) {
+    char terminal[128], dir[256], partial[PARTIAL];
+    if (is_flat(f))
+        return fail(error, size, "there is nothing to plot");
+    if (!choose_terminal(target, terminal, sizeof terminal, error, size))
+        return false;
 
     if (target->file) {
-        if (strlen(target->file) > 4000)
-            return fail(error, size, "the file name is too long");
-        /* written beside its target and renamed: never a half-written file */
-        snprintf(partial, sizeof partial, "%s.%ld.part", target->file, (long)getpid());
-        FILE *probe = fopen(partial, "w");
+        FILE *probe = open_partial(target->file, partial, error, size);
         if (!probe)
-            return fail(error, size, "cannot write %s: %s", target->file, strerror(errno));
-        if (!strcmp(dot, ".gp"))
+            return false;
+        if (!*terminal)
             write_script(probe, f, NULL, NULL);
         if (!close_checked(probe)) {
             int code = errno;
@@ -302,7 +334,7 @@ bool plot_draw(plot_figure *f, const plot_target *target, char *error, size_t si
         }
     }
     bool ok = true;
-    if (!target->file || strcmp(dot, ".gp")) {
+    if (*terminal) {
         const char *tmp = getenv("TMPDIR");
         snprintf(dir, sizeof dir, "%.200s/fret-XXXXXX", tmp && *tmp ? tmp : "/tmp");
         if (!mkdtemp(dir)) {

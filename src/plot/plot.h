@@ -38,6 +38,9 @@ bool plot_point(plot_series *series, double x, double y);
 bool plot_title(plot_series *series, const char *title);
 void plot_free(plot_figure *figure);
 
+/* Can a picture go to the file? To be asked before long work. */
+bool plot_check(const char *file, char *error, size_t size);
+
 /* Draws; on failure writes a message and leaves no file behind. */
 bool plot_draw(plot_figure *figure, const plot_target *target, char *error, size_t size);
 

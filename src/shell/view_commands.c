@@ -480,8 +480,14 @@ static bool plot_row(void *context, const sweep *s, size_t with, const long doub
 }
 
 static bool read_plot_target(lexer *lx, char *file, size_t size) {
+    char error[CALC_ERROR_TEXT - 8];
     file[0] = 0;
-    return (!lex_accept(lx, "to") || lex_filename(lx, file, size)) && at_end(lx);
+    if (!lex_accept(lx, "to"))
+        return at_end(lx);
+    size_t at = lx->at;
+    if (!lex_filename(lx, file, size) || !at_end(lx))
+        return false;
+    return plot_check(file, error, sizeof error) || calc_fail(lx->error, at, strlen(file), "%s", error);
 }
 
 static bool plot_expressions(shell *sh, lexer *lx) {
