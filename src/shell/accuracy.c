@@ -15,8 +15,6 @@ static const unsigned used[FAMILIES] = {USED_CLOSED, USED_MEMORY,  USED_QUADRATU
                                         USED_MEMORY, USED_SPRINGS, USED_SPRINGS};
 static const char *const size_names[FAMILIES] = {"", "", "N", "M", "N", "N"};
 
-static const double enough = 0.02; /* seconds, to time one model */
-
 /* Of the processor, so that a busy machine does no harm. */
 static double cpu_now(void) {
     struct timespec t;
@@ -47,6 +45,7 @@ typedef struct bench {
     accuracy_study *study;
     bool progress;      /* shown on the terminal */
     double budget, end; /* seconds of the processor; when it is spent */
+    double enough;      /* seconds, to time one model */
 } bench;
 
 static bool stopped(calc_error *error) {
@@ -67,13 +66,13 @@ static void show_progress(const bench *b, const accuracy_row *row) {
     if (!b->progress)
         return;
     describe_size(row, text, sizeof text);
-    fprintf(b->sh->err, "\rmeasuring: %-18s %-16s", family_names[row->family], text);
+    fprintf(b->sh->err, "\rmeasuring %-17s %-11s", family_names[row->family], text);
     fflush(b->sh->err);
 }
 
 static void end_progress(const bench *b) {
     if (b->progress)
-        fprintf(b->sh->err, "\r%48s\r", "");
+        fprintf(b->sh->err, "\r%39s\r", "");
 }
 
 /* ---- measuring --------------------------------------------------------------------------------- */
@@ -91,9 +90,9 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
     if (!cycle(model, &row->value, b->error))
         return false;
     row->seconds = cpu_now() - start;
-    for (unsigned long count = 1; row->seconds * (double)count < enough;) {
-        count = row->seconds * 4 * (double)count < enough ? 4 * count
-                                                          : (unsigned long)(enough / row->seconds) + 1;
+    for (unsigned long count = 1; row->seconds * (double)count < b->enough;) {
+        count = row->seconds * 4 * (double)count < b->enough ? 4 * count
+                                                             : (unsigned long)(b->enough / row->seconds) + 1;
         start = cpu_now();
         for (unsigned long i = 0; i < count; i++)
             if (stopped(b->error) || !cycle(model, NULL, b->error))
@@ -232,24 +231,36 @@ static bool memory_rows(bench *b, steady *m) {
     return ok;
 }
 
-/* With midpoint weights some stiffness is missing where k < 0: the contact that carries F_N is wider. */
+/* Pressed and taken to the first turning point. */
+static fret_status springs_ready(steady *m, unsigned count, double radius, fret_weight rule) {
+    fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, (double)m->press.F, 0}, up = springs_to(m, 1);
+    fret_status st = fret_springs_make(m->normal, m->mu, count, radius, rule, &m->springs);
+    if (st.code)
+        return st;
+    st = fret_springs_step(m->springs, &press, 1);
+    if (!st.code)
+        st = fret_springs_step(m->springs, &up, 1);
+    if (st.code)
+        fret_springs_free(m->springs);
+    return st;
+}
+
+/* With midpoint weights some stiffness is missing where k < 0: the contact that carries F_N is wider. Where
+ * the gap ends before, or is beyond all numbers, there are no such springs. */
 static bool springs_rows(bench *b, steady *m, model_family family) {
     bool ok = true, midpoint = family == FAMILY_MIDPOINT;
     fret_weight rule = midpoint ? FRET_WEIGHT_MIDPOINT : FRET_WEIGHT_CELL;
-    unsigned wider = midpoint ? 2 : 1;
+    unsigned wider = midpoint && m->normal->foundation.k < 0 ? 2 : 1;
     for (unsigned count = 100; ok && count <= 1000000; count *= 10) {
         double start = cpu_now();
         show_progress(b, &(accuracy_row){.family = family, .size = count});
-        fret_status st =
-            fret_springs_make(m->normal, m->mu, wider * count, wider * (double)m->press.a, rule, &m->springs);
+        fret_status st = springs_ready(m, wider * count, wider * (double)m->press.a, rule);
+        if (st.code && fret_status_category(st.code) != FRET_CAT_SYSTEM)
+            break;
         if (!scene_status(m->s, b->error, &st))
             return false;
-        fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, (double)m->press.F, 0}, up = springs_to(m, 1);
-        st = fret_springs_step(m->springs, &press, 1);
-        if (!st.code)
-            st = fret_springs_step(m->springs, &up, 1);
         double setting_up = cpu_now() - start;
-        ok = scene_status(m->s, b->error, &st) && measure(b, family, count, springs_cycle, m);
+        ok = measure(b, family, count, springs_cycle, m);
         fret_springs_free(m->springs);
         if (ok && !affords(b, setting_up))
             break;
@@ -367,10 +378,19 @@ static bool read_amplitude(shell *sh, lexer *lx, accuracy_load *out) {
     return false;
 }
 
+static bool read_seconds(shell *sh, lexer *lx, double *out) {
+    size_t at = lx->at;
+    value v;
+    if (!expr_value(&sh->calc, lx, &v))
+        return false;
+    *out = (double)v.v;
+    return (dim_equal(v.d, DIM_NONE) && v.v > 0 && v.v <= 3600) ||
+           calc_fail(lx->error, at, lx->last - at, "the seconds must be a positive number up to 3600");
+}
+
 bool accuracy_read(shell *sh, lexer *lx, accuracy_load *out) {
     *out = (accuracy_load){.by_force = true, .seconds = 3};
-    return read_amplitude(sh, lx, out) &&
-           (!lex_accept(lx, "within") || read_count(sh, lx, "the seconds", 3600, &out->seconds));
+    return read_amplitude(sh, lx, out) && (!lex_accept(lx, "within") || read_seconds(sh, lx, &out->seconds));
 }
 
 /* The amplitude from the load program where none is given. `program`: that is to be run as it is. */
@@ -431,7 +451,8 @@ bool accuracy_measure(shell *sh, const accuracy_load *load, accuracy_study *out,
                .study = out,
                .progress = sh->err == stderr && isatty(STDERR_FILENO),
                .budget = load->seconds,
-               .end = cpu_now() + load->seconds};
+               .end = cpu_now() + load->seconds,
+               .enough = fmin(0.02, load->seconds / 150)};
     bool ok = program ? measure_general(&b) : measure_steady(&b, &m);
     end_progress(&b);
     return ok;
@@ -477,7 +498,8 @@ static const accuracy_row *good_springs(const accuracy_study *study) {
     return best;
 }
 
-static void advise(const accuracy_study *study, char *buf, size_t size) {
+/* Two sentences, with a separator between them. */
+static void advise(const accuracy_study *study, const char *separator, char *buf, size_t size) {
     const accuracy_row *row = &study->row[0], *springs = good_springs(study); /* auto's choice comes first */
     char error[40], t[40], springs_t[40], ratio[40];
     format_error(row, error, sizeof error);
@@ -491,8 +513,8 @@ static void advise(const accuracy_study *study, char *buf, size_t size) {
     bool slower = springs->seconds >= row->seconds;
     format_ratio(slower ? springs->seconds / row->seconds : row->seconds / springs->seconds, ratio,
                  sizeof ratio);
-    snprintf(buf + n, size - (size_t)n, "; %lu springs: error %s in %s, %s times as %s", springs->size, error,
-             springs_t, ratio, slower ? "long" : "fast");
+    snprintf(buf + n, size - (size_t)n, "%s%lu springs: error %s in %s, %s times as %s", separator,
+             springs->size, error, springs_t, ratio, slower ? "long" : "fast");
 }
 
 static void print_text(shell *sh, const accuracy_study *study, const char *advice) {
@@ -505,8 +527,8 @@ static void print_text(shell *sh, const accuracy_study *study, const char *advic
     fprintf(sh->out, "%s\nreference: %s, %.*g %s, good to %s\n", study->load, study->reference,
             sh->set.digits, (double)(study->value / scale), unit_text, error + 1);
     snprintf(head, sizeof head, "dW [%s]", unit_text);
-    fprintf(sh->out, "%-18s %12s %*s %9s %10s %10s\n", "model", "parameter", width, head, "error", "time",
-            "x fastest");
+    fprintf(sh->out, "%-18s %12s %*s %9s %10s %10s\n", "model", "parameter", width, head, "error",
+            "time/cycle", "x fastest");
     for (size_t i = 0; i < study->count; i++) {
         const accuracy_row *row = &study->row[i];
         describe_size(row, parameter, sizeof parameter);
@@ -559,7 +581,7 @@ bool do_accuracy(shell *sh, lexer *lx) {
     char advice[ACCURACY_TEXT];
     if (!accuracy_read(sh, lx, &load) || !at_end(lx) || !accuracy_measure(sh, &load, &study, lx->error))
         return false;
-    advise(&study, advice, sizeof advice);
+    advise(&study, sh->set.format == FORMAT_TEXT ? "\n" : "; ", advice, sizeof advice);
     if (sh->set.format == FORMAT_CSV)
         print_csv(sh, &study);
     else if (sh->set.format == FORMAT_JSON)

@@ -41,8 +41,8 @@ typedef struct accuracy_study {
 typedef struct accuracy_load {
     bool by_force;
     double amplitude;
-    size_t at, len;   /* of its value in the statement */
-    unsigned seconds; /* of the processor, that the larger models may take */
+    size_t at, len; /* of its value in the statement */
+    double seconds; /* of the processor, that the larger models may take */
 } accuracy_load;
 
 /* Reads [FA=... | dxA=...] [within SECONDS] at the cursor. */

@@ -142,18 +142,15 @@ static const command commands[] = {
      COMPLETE_QUANTITY},
     {"accuracy", do_accuracy, "[FA=20 N | dxA=0.5 um] [within 3]",
      "error against time of every model, for this scene",
-     "A table of the models that can answer for dW: value, relative error, time of a cycle without setting "
-     "up.\n"
-     "Errors refer to quadrature in extended precision; `<` marks one that is below what it can tell. "
-     "Without\n"
-     "an argument the amplitude is that of the last cycle, else of Fx now, else half of mu*FN. Where FN "
-     "swings or\n"
-     "has changed, the load program is run as it is and errors refer to a refined memory diagram. Springs\n"
-     "with `midpoint` weights x^k h converge with order 1+k where k < 0. The last line says what `set model "
-     "auto`\n"
-     "picks. The larger models are left out where all would take more than 3 seconds; `within 20` allows "
-     "more.\n"
-     "`plot accuracy` draws the table.\n\n"
+     "A table of the models that can answer for dW: value, relative error, time of a\n"
+     "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
+     "marks one that is below what it can tell. Without an argument the amplitude is\n"
+     "that of the last cycle, else of Fx now, else half of mu*FN. Where FN swings or\n"
+     "has changed, the load program is run as it is and errors refer to a refined\n"
+     "memory diagram. Springs with `midpoint` weights x^k h converge with order 1+k\n"
+     "where k < 0. The end says what `set model auto` picks, and which springs come\n"
+     "close. Larger models are left out where all would take more than 3 seconds;\n"
+     "`within 20` allows more, `within 0.3` less. `plot accuracy` draws the table.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
      "    fret> accuracy FA=50 N\n"
      "    error: FA = 50 N exceeds mu*FN = 40 N: gross slip; cycle by displacement (dxA=...) to slide\n",

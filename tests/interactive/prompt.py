@@ -126,7 +126,7 @@ def interrupts(tests):
             s.child.close(force=True)
             return
         tests.check("Ctrl-C stops a long " + name, time.time() - start < 10 and "interrupted" in answer, answer)
-        tests.check("progress of " + name, ("measuring: " in answer) == (name == "accuracy"), answer)
+        tests.check("progress of " + name, ("measuring " in answer) == (name == "accuracy"), answer)
         if name != "plain cycle":
             got = s.say("Fx, dx, k, FN")
             tests.check("the scene is as before the " + name,
