@@ -248,7 +248,6 @@ static bool start_program(scene *s, const load_step *press, calc_error *error) {
     s->cycles = NULL;
     s->steps = s->room = s->cycle_count = s->cycle_room = 0;
     s->normal_varies = false;
-    s->reach = (load_reach){0};
     s->set[IN_FN] = press->normal == BY_FORCE;
     s->in[IN_FN] = press->normal_value;
     const fret_press *p;

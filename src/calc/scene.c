@@ -94,6 +94,7 @@ static fret_gap gap_of(const scene *s) {
 void scene_forget(scene *s) {
     s->normal_ready = s->press_ready = s->k0_ready = s->state_ready = false;
     s->applied = s->applied_cycles = 0;
+    s->reach = (load_reach){0};
     fret_memory_free(s->memory);
     s->memory = NULL;
 }
@@ -133,7 +134,6 @@ void scene_reset(scene *s, bool all) {
     }
     s->steps = s->cycle_count = 0;
     s->normal_varies = false;
-    s->reach = (load_reach){0};
     s->set[IN_FN] = false;
     scene_forget(s);
 }
