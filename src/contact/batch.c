@@ -5,10 +5,10 @@
 
 #include "dd.h"
 #include "fret/cycle.h"
+#include "kernel.h"
 #include "special.h"
 
 #define KERNEL_ALSO "batch_body.h"
-#include "kernel.h"
 #define LANES 2
 #include "kernel_lanes.h"
 #ifdef __x86_64__
@@ -86,17 +86,20 @@ fret_status fret_sweep_make(const fret_normal *normal, double mu, const fret_pre
     return fret_ok();
 }
 
+/* One load goes through two equal lanes: compilers do worse with single numbers, whose words change between
+ * registers of two kinds. */
+
 double fret_sweep_loss(const fret_sweep *w, double FA) {
     if (!w->fast) {
         fret_real loss = (fret_real)NAN;
         fret_status st = fret_cycle_loss(w->normal, w->mu, &w->press, FA, &loss);
         return st.code ? (double)NAN : (double)loss;
     }
-    lanes1_part p;
-    double out;
-    lanes1_depth(w, &FA, &p);
-    lanes1_loss(w, &p, &out);
-    return out;
+    lanes2_numbers x = {FA, FA};
+    lanes2_part p;
+    lanes2_depth(w, &x, &p);
+    lanes2_loss(w, &p, &x);
+    return x[0];
 }
 
 static fret_loading loading(const fret_sweep *w, double Fx) {
@@ -108,21 +111,21 @@ static fret_loading loading(const fret_sweep *w, double Fx) {
 double fret_sweep_radius(const fret_sweep *w, double Fx) {
     if (!w->fast)
         return (double)loading(w, Fx).c;
-    lanes1_part p;
-    double out;
-    lanes1_depth_pair(w, &Fx, &p);
-    lanes1_radius(w, &p, &out);
-    return out;
+    lanes2_numbers x = {Fx, Fx};
+    lanes2_part p;
+    lanes2_depth_pair(w, &x, &p);
+    lanes2_radius(w, &p, &x);
+    return x[0];
 }
 
 double fret_sweep_displacement(const fret_sweep *w, double Fx) {
     if (!w->fast)
         return (double)loading(w, Fx).dx;
-    lanes1_part p;
-    double out;
-    lanes1_depth(w, &Fx, &p);
-    lanes1_displacement(w, &p, &out);
-    return out;
+    lanes2_numbers x = {Fx, Fx};
+    lanes2_part p;
+    lanes2_depth(w, &x, &p);
+    lanes2_displacement(w, &p, &x);
+    return x[0];
 }
 
 /* Force and depth at a = r0; infinite or 0 where a double does not hold them. */

@@ -14,7 +14,7 @@ KERNEL_INLINE void NAMED(fraction)(const fret_sweep *w, const V *F, NAMED(part) 
     NAMED(product)(&size, &ih, &h, &l);
     l += size * w->inverse[1];
     V t = h + l, tl = (h - t) + l;
-    V s = 1.0 - t, rest = ((1.0 - s) - t) - tl;
+    V s = 1.0 - h, rest = ((1.0 - s) - h) - l;
     p->t = t;
     p->s = s + rest;
     V sl = (s - p->s) + rest, m, factor;
