@@ -144,6 +144,8 @@ def help_examples(tests):
     def one(topic):
         done = tests.run("-c", "help " + topic)
         tests.check("help " + topic, done.returncode == 0 and done.stdout and not done.stderr, tests.report(done))
+        wide = [line for line in done.stdout.splitlines()[1:] if len(line) > 80 and not line.startswith("    ")]
+        tests.check("help %s fits a terminal" % topic, not wide, "\n".join(wide))
         lines = [line[4:] for line in done.stdout.splitlines() if line.startswith("    ")]
         steps = harness.read_transcript("\n".join(lines))
         if steps:

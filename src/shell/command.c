@@ -12,17 +12,18 @@
 
 static const command commands[] = {
     {"material", do_material, "E0=210 GPa nu=0.3 [k=0.5 c0=1 mm] | steel", "the elastic bodies",
-     "Sets E(z) = E0 (z/c0)^k and Poisson's ratio of both bodies. Without k the material is homogeneous and\n"
-     "c0 is not needed. Presets: steel, aluminium, titanium, copper, glass, alumina, rubber.\n\n"
+     "Sets E(z) = E0 (z/c0)^k and Poisson's ratio of both bodies. Without k the\n"
+     "material is homogeneous and c0 is not needed. Presets: steel, aluminium,\n"
+     "titanium, copper, glass, alumina, rubber.\n\n"
      "    fret> material E0=210 GPa nu=0.3 k=0.5 c0=1 mm\n"
      "    fret> E(0.25 mm), eta\n"
      "    E(0.25 mm) = 105 GPa\n"
      "    eta = 2.10754\n",
      COMPLETE_QUANTITY},
     {"second", do_second, "E0=70 GPa nu=0.33 | rigid | same", "the other body, where it differs",
-     "The second body shares k and c0 with the first; by default it is the same. Bodies that are not\n"
-     "elastically similar couple normal and tangential contact, which is left out here: a warning says "
-     "so.\n\n"
+     "The second body shares k and c0 with the first; by default it is the same.\n"
+     "Bodies that are not elastically similar couple normal and tangential contact,\n"
+     "which is left out here: a warning says so.\n\n"
      "    fret> material steel; second rigid; friction 0.3\n"
      "    fret> geometry sphere R=10 mm; press FN=100 N\n"
      "    warning: the bodies are elastically dissimilar (mismatch 0.286): normal and tangential contact are "
@@ -40,7 +41,8 @@ static const command commands[] = {
      "    mu = 0.4\n",
      COMPLETE_NONE},
     {"press", do_press, "FN=100 N | dz=1 um | a=0.2 mm", "press the bodies together: starts a load program",
-     "By force, indentation depth or contact radius. What was stepped before is forgotten.\n\n"
+     "By force, indentation depth or contact radius. What was stepped before is\n"
+     "forgotten.\n\n"
      "    fret> material steel; geometry sphere R=10 mm\n"
      "    fret> press a=0.2 mm\n"
      "    fret> FN, dz\n"
@@ -49,10 +51,10 @@ static const command commands[] = {
      COMPLETE_QUANTITY},
     {"step", do_step, "Fx=20 N | dx=0.5 um | FN=120 N | dz=1 um, += for an increment [steps 50]",
      "a straight step of the load",
-     "A tangential target, a normal target, or both for a straight ramp; += adds to what is there now. A "
-     "normal\n"
-     "step alone holds dx. Force cannot go beyond mu*FN; displacement can, and then the contact slides.\n"
-     "`steps` records points on the way for `history`.\n\n"
+     "A tangential target, a normal target, or both for a straight ramp; += adds to\n"
+     "what is there now. A normal step alone holds dx. Force cannot go beyond mu*FN;\n"
+     "displacement can, and then the contact slides. `steps` records points on the\n"
+     "way for `history`.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
      "    fret> press FN=100 N\n"
      "    fret> step Fx=20 N; step Fx+=-10 N\n"
@@ -63,9 +65,9 @@ static const command commands[] = {
      COMPLETE_QUANTITY},
     {"cycle", do_cycle, "FA=20 N | dxA=0.5 um [times 3] [steps 200] [FNA=30 N phase=90 deg]",
      "close tangential cycles",
-     "Goes to +FA, then through whole cycles +FA, -FA, +FA; dW is the energy that the last one dissipated.\n"
-     "With FNA the normal force swings too, FN + FNA sin(w t + phase) against FA sin(w t), in `steps` "
-     "chords.\n\n"
+     "Goes to +FA, then through whole cycles +FA, -FA, +FA; dW is the energy that\n"
+     "the last one dissipated. With FNA the normal force swings too,\n"
+     "FN + FNA sin(w t + phase) against FA sin(w t), in `steps` chords.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
      "    fret> press FN=100 N\n"
      "    fret> cycle FA=20 N\n"
@@ -73,10 +75,11 @@ static const command commands[] = {
      "    dW = 1.90646 uJ\n"
      "    dW/(4*FN*dxmax) = 0.281737 %\n",
      COMPLETE_QUANTITY},
-    {"follow", do_follow, "FILE.csv", "load along a table: columns FN,Fx or dz,dx with units in the header",
-     "Every row is a straight step; a row that cannot be carried leaves the scene as before the command.\n"
-     "Where nothing is pressed yet the first row presses, and must have Fx or dx = 0.\n"
-     "The first lines of such a file: `FN [N],Fx [N]`, then `100,0`, `120,15`.\n\n"
+    {"follow", do_follow, "FILE.csv", "load along a table of FN,Fx or dz,dx",
+     "The header gives the columns and their units. Every row is a straight step; one\n"
+     "that cannot be carried leaves the scene as before the command. Where nothing is\n"
+     "pressed yet the first row presses, and must have Fx or dx = 0. The first lines\n"
+     "of such a file: `FN [N],Fx [N]`, then `100,0`, `120,15`.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
      "    fret> follow /nonexistent.csv\n"
      "    error: cannot read /nonexistent.csv: No such file or directory\n",
@@ -89,8 +92,8 @@ static const command commands[] = {
      "    error: there is no load yet: press first (press FN=100 N)\n",
      COMPLETE_NONE},
     {"history", do_history, "[to FILE]", "the recorded load history as a table",
-     "One row for every press and step, and for the points that `steps` asked for. FILE.csv is written as "
-     "CSV.\n\n"
+     "One row for every press and step, and for the points that `steps` asked for.\n"
+     "FILE.csv is written as CSV.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
      "    fret> press FN=100 N; step Fx=20 N; step Fx=-20 N\n"
      "    fret> history\n"
@@ -114,9 +117,8 @@ static const command commands[] = {
      "loop | accuracy [FA=20 N] | EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, ...] [to "
      "FILE.png|svg|pdf|gp]",
      "a figure, in the terminal or to a file",
-     "`plot loop` draws the hysteresis loop, F_x against delta_x; `plot accuracy` the table of `accuracy`, "
-     "error\n"
-     "against time. FILE.gp is the gnuplot script itself.\n"
+     "`plot loop` draws the hysteresis loop, F_x against delta_x; `plot accuracy` the\n"
+     "table of `accuracy`, error against time. FILE.gp is the gnuplot script itself.\n"
      "`set plot 80x24` fixes the size, `set plot auto` follows the terminal.\n\n"
      "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
      "    fret> plot loop\n"
@@ -156,16 +158,19 @@ static const command commands[] = {
      "    error: FA = 50 N exceeds mu*FN = 40 N: gross slip; cycle by displacement (dxA=...) to slide\n",
      COMPLETE_QUANTITY},
     {"show", do_show, "[scene|settings|units|commands]", "what is set",
-     "The scene as the commands that make it, the settings, the units, or the commands.\n\n"
+     "The scene as the commands that make it; the settings, units or commands.\n\n"
      "    fret> material steel; geometry sphere R=10 mm\n"
      "    fret> show\n"
      "    material E0=210 GPa nu=0.3\n"
      "    geometry sphere R=10 mm\n",
      COMPLETE_TOPIC},
-    {"set", do_set, "format text|csv|json, digits 6, report auto|on|off, timing on|off, plot WxH|auto",
+    {"set", do_set,
+     "format text|csv|json, digits 6, report auto|on|off, timing on|off, plot WxH|auto, model "
+     "auto|closed|memory|springs N",
      "settings",
-     "One setting a statement. `set timing on` shows the time of each statement and the models that "
-     "answered.\n\n"
+     "One setting a statement. `set timing on` shows the time of each statement and\n"
+     "the models that answered. `set model` picks one: auto takes the closed form\n"
+     "where there is one, else the memory diagram; springs are an approximation.\n\n"
      "    fret> set digits 12; pi\n"
      "    pi = 3.14159265359\n",
      COMPLETE_SETTING},
@@ -176,7 +181,7 @@ static const command commands[] = {
      COMPLETE_FILE},
     {"demo", do_demo, "", "play a session: a steel sphere on a graded half-space",
      "Shows each statement and its answer, in a scene of its own.\n", COMPLETE_NONE},
-    {"help", do_help, "[TOPIC]", "this help; TOPIC: a command, a quantity, expressions, units, geometry",
+    {"help", do_help, "[TOPIC]", "this help, or that on a command, a quantity or a topic",
      "    fret> help kappa\n"
      "    kappa: shape factor\n"
      "        (n/2) B(n/2,(k+1)/2)  (8)\n",
@@ -214,7 +219,7 @@ static void help_overview(FILE *to) {
           to);
     for (size_t i = 0; i < COMMANDS; i++)
         fprintf(to, "    %-10s  %s\n", commands[i].name, commands[i].summary);
-    fputs("\nTopics: help quantities, help expressions, help units, help geometry, help QUANTITY.\n"
+    fputs("\nTopics: help quantities, help expressions, help units, help geometry.\n"
           "Begin with `demo`, or:\n"
           "    material steel; geometry sphere R=10 mm; friction 0.4\n"
           "    press FN=100 N; cycle FA=20 N; dW\n",
@@ -265,7 +270,7 @@ static void help_units(FILE *to) {
 static void help_geometry(FILE *to) {
     const geometry *g;
     for (size_t i = 0; (g = geometry_row(i)); i++)
-        fprintf(to, "    geometry %-44s  %s\n", g->usage, g->meaning);
+        fprintf(to, "    geometry %-38s  %s\n", g->usage, g->meaning);
     fputs("\n    fret> geometry cone angle=45 deg\n    fret> slope\n    slope = 1\n", to);
 }
 
@@ -588,28 +593,27 @@ bool do_source(shell *sh, lexer *lx) {
     return status == EXIT_OK;
 }
 
-const char demo_text[] =
-    "# A steel sphere, R = 10 mm, on a half-space that grows stiffer with depth\n"
-    "material E0=210 GPa nu=0.3 k=0.5 c0=1 mm\n"
-    "geometry sphere R=10 mm\n"
-    "friction 0.4\n"
-    "# Pressed with 100 N: contact radius and indentation depth\n"
-    "press FN=100 N\n"
-    "a, dz\n"
-    "# Pushed sideways with half of what friction can hold: the rim slips, the middle sticks\n"
-    "step Fx=20 N\n"
-    "c, c/a, Fx, dx\n"
-    "# A full cycle: the energy lost, in closed form and along the way\n"
-    "cycle FA=20 N\n"
-    "dW, dW(20 N)\n"
-    "# The same with a homogeneous body: everything is computed anew\n"
-    "k = 0\n"
-    "a, c, dW\n"
-    "k = 0.5\n"
-    "# Close to gross slip the loop is widest\n"
-    "cycle FA=39 N\n"
-    "dW\n"
-    "plot loop\n";
+const char demo_text[] = "# A steel sphere, R = 10 mm, on a half-space that grows stiffer with depth\n"
+                         "material E0=210 GPa nu=0.3 k=0.5 c0=1 mm\n"
+                         "geometry sphere R=10 mm\n"
+                         "friction 0.4\n"
+                         "# Pressed with 100 N: contact radius and indentation depth\n"
+                         "press FN=100 N\n"
+                         "a, dz\n"
+                         "# Pushed sideways with half of what friction holds: rim slips, middle sticks\n"
+                         "step Fx=20 N\n"
+                         "c, c/a, Fx, dx\n"
+                         "# A full cycle: the energy lost, in closed form and along the way\n"
+                         "cycle FA=20 N\n"
+                         "dW, dW(20 N)\n"
+                         "# The same with a homogeneous body: everything is computed anew\n"
+                         "k = 0\n"
+                         "a, c, dW\n"
+                         "k = 0.5\n"
+                         "# Close to gross slip the loop is widest\n"
+                         "cycle FA=39 N\n"
+                         "dW\n"
+                         "plot loop\n";
 
 bool do_demo(shell *sh, lexer *lx) {
     if (!at_end(lx))

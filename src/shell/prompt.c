@@ -36,9 +36,7 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
     if (read_rc)
         read_startup(sh);
     if (!quiet && !sh->quit)
-        fprintf(
-            sh->out,
-            "fret: partial-slip contact of graded elastic solids. `help` helps, `demo` plays a session.\n");
+        fputs("fret: partial-slip contact of graded elastic solids; try `demo` or `help`.\n", sh->out);
     while (!sh->quit) {
         fflush(sh->out);
         shell_stop = 0;
