@@ -18,6 +18,7 @@ static size_t number_text(char text[NUMBER], int digits, double v) {
                                       1e10L, 1e11L, 1e12L, 1e13L, 1e14L, 1e15L, 1e16L, 1e17L, 1e18L, 1e19L,
                                       1e20L, 1e21L, 1e22L, 1e23L, 1e24L, 1e25L, 1e26L, 1e27L};
     enum { EXACT = 27, OFFSET = 1100 };
+    v += 0.0; /* -0 is 0 */
     long double x = fabsl((long double)v), y = 0;
     int binary;
     frexp(v, &binary);
@@ -139,11 +140,13 @@ void print_values(shell *sh, const column *columns, const long double *si, size_
     case FORMAT_TEXT:
         for (size_t i = 0; i < count; i++) {
             char text[COLUMN_UNIT + 64];
-            if (columns[i].chosen)
-                snprintf(text, sizeof text, "%.*g %s", sh->set.digits, (double)(si[i] / columns[i].scale),
-                         columns[i].unit);
-            else
+            if (columns[i].chosen) {
+                char number[NUMBER];
+                number_text(number, sh->set.digits, (double)(si[i] / columns[i].scale));
+                snprintf(text, sizeof text, "%s %s", number, columns[i].unit);
+            } else {
                 format_value(sh, (value){si[i], columns[i].d}, text, sizeof text);
+            }
             fprintf(to, "%s = %s\n", columns[i].name, text);
         }
         break;
