@@ -158,7 +158,8 @@ static const command commands[] = {
      "    error: FA = 50 N exceeds mu*FN = 40 N: gross slip; cycle by displacement (dxA=...) to slide\n",
      COMPLETE_QUANTITY},
     {"show", do_show, "[scene|settings|units|commands]", "what is set",
-     "The scene as the commands that make it; the settings, units or commands.\n\n"
+     "The scene as the commands that make it again, to the last digit; the settings,\n"
+     "the units or the commands.\n\n"
      "    fret> material steel; geometry sphere R=10 mm\n"
      "    fret> show\n"
      "    material E0=210 GPa nu=0.3\n"
@@ -368,7 +369,7 @@ static void show_input(shell *sh, const char *name, input in, double v) {
     while ((q = quantity_row(i)) && q->in != (int)in)
         i++;
     char text[160];
-    format_value(sh, (value){v, quantity_dim(q, &sh->calc.scene)}, text, sizeof text);
+    format_exact(sh, (value){v, quantity_dim(q, &sh->calc.scene)}, text, sizeof text);
     fprintf(sh->out, " %s=%s", name ? name : q->name, text);
 }
 
@@ -379,12 +380,11 @@ static void show_step(shell *sh, const load_step *step, const cycle_extra *extra
     fputs(kinds[step->kind], sh->out);
     if (step->kind == LOAD_CYCLE) {
         bool force = step->tangential == BY_FORCE;
-        format_value(sh, (value){step->tangential_value, force ? DIM_FORCE : DIM_LENGTH}, text, sizeof text);
+        format_exact(sh, (value){step->tangential_value, force ? DIM_FORCE : DIM_LENGTH}, text, sizeof text);
         fprintf(sh->out, " %s=%s", force ? "FA" : "dxA", text);
         if (step->normal_value != 0) {
-            format_value(sh, (value){step->normal_value, DIM_FORCE}, text, sizeof text);
-            fprintf(sh->out, " FNA=%s phase=%.*g deg", text, sh->set.digits,
-                    extra->phase * (180 / 3.14159265358979323846));
+            format_exact(sh, (value){step->normal_value, DIM_FORCE}, text, sizeof text);
+            fprintf(sh->out, " FNA=%s phase=%.15g deg", text, extra->phase * (180 / 3.14159265358979323846));
         }
         if (extra->times > 1)
             fprintf(sh->out, " times %u", extra->times);
@@ -392,12 +392,12 @@ static void show_step(shell *sh, const load_step *step, const cycle_extra *extra
         if (step->normal) {
             double v = step->kind == LOAD_PRESS && step->normal == BY_FORCE ? sh->calc.scene.in[IN_FN]
                                                                             : step->normal_value;
-            format_value(sh, (value){v, step->normal == BY_FORCE ? DIM_FORCE : DIM_LENGTH}, text,
+            format_exact(sh, (value){v, step->normal == BY_FORCE ? DIM_FORCE : DIM_LENGTH}, text,
                          sizeof text);
             fprintf(sh->out, " %s%s=%s", normal[step->normal], step->relative & 1 ? "+" : "", text);
         }
         if (step->tangential) {
-            format_value(
+            format_exact(
                 sh, (value){step->tangential_value, step->tangential == BY_FORCE ? DIM_FORCE : DIM_LENGTH},
                 text, sizeof text);
             fprintf(sh->out, " %s%s=%s", tangential[step->tangential], step->relative & 2 ? "+" : "", text);
@@ -441,14 +441,18 @@ static void show_scene(shell *sh) {
         if (s->geometry->kind == FRET_GAP_TABLE)
             fprintf(sh->out, " %s", s->table->name);
         for (int i = 0; i < s->sum.terms && s->geometry->kind == FRET_GAP_SUM; i++) {
-            char text[160];
-            format_value(sh, (value){s->sum.power[i].h, {0, 1 - s->sum.power[i].n}}, text, sizeof text);
-            fprintf(sh->out, "%s %.*g:%s", i ? "," : "", sh->set.digits, s->sum.power[i].n, text);
+            char n[160], text[160];
+            format_exact(sh, (value){s->sum.power[i].n, DIM_NONE}, n, sizeof n);
+            format_exact(sh, (value){s->sum.power[i].h, {0, 1 - s->sum.power[i].n}}, text, sizeof text);
+            fprintf(sh->out, "%s %s:%s", i ? "," : "", n, text);
         }
         fputc('\n', sh->out);
     }
-    if (s->set[IN_MU])
-        fprintf(sh->out, "friction %.*g\n", sh->set.digits, s->in[IN_MU]);
+    if (s->set[IN_MU]) {
+        char text[160];
+        format_exact(sh, (value){s->in[IN_MU], DIM_NONE}, text, sizeof text);
+        fprintf(sh->out, "friction %s\n", text);
+    }
     size_t cycle = 0;
     for (size_t i = 0; i < s->steps; i++) {
         const cycle_extra *extra = s->program[i].kind == LOAD_CYCLE ? &s->cycles[cycle++] : NULL;
@@ -459,7 +463,7 @@ static void show_scene(shell *sh) {
     }
     for (size_t i = 0; i < sh->calc.variable_count; i++) {
         char text[160];
-        format_value(sh, sh->calc.variables[i].v, text, sizeof text);
+        format_exact(sh, sh->calc.variables[i].v, text, sizeof text);
         fprintf(sh->out, "%s = %s\n", sh->calc.variables[i].name, text);
     }
     if (!s->set[IN_E0] && !s->geometry && !s->set[IN_MU] && !sh->calc.variable_count)

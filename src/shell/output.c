@@ -110,6 +110,22 @@ void format_value(const shell *sh, value v, char *buf, size_t size) {
     snprintf(buf, size, "%s%s%s", number, *unit_text ? " " : "", unit_text);
 }
 
+void format_exact(const shell *sh, value v, char *buf, size_t size) {
+    char unit_text[COLUMN_UNIT], number[NUMBER];
+    double want = (double)v.v, read = 0;
+    for (int digits = sh->set.digits; digits <= 17 && read != fabs(want); digits++) {
+        long double scale = unit_choose(v.d, want, digits, unit_text, sizeof unit_text);
+        size_t n = number_text(number, digits, (double)(want / scale));
+        bool minus = number[0] == '-';
+        read = lex_decimal(number + minus, n - minus, (int)lroundl(log10l(scale)));
+    }
+    if (read != fabs(want)) {
+        number_text(number, 17, want);
+        dim_unit(v.d, unit_text, sizeof unit_text);
+    }
+    snprintf(buf, size, "%s%s%s", number, *unit_text ? " " : "", unit_text);
+}
+
 /* JSON has no infinities; results never are, but a table may hold gaps. */
 static void json_number(FILE *to, long double v) {
     if (isfinite((double)v))

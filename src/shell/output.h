@@ -31,6 +31,8 @@ void table_row(table *t, const long double *si);
 void print_values(shell *sh, const column *columns, const long double *si, size_t count);
 /* A value with a unit chosen for it, as text. */
 void format_value(const shell *sh, value v, char *buf, size_t size);
+/* The same with as many more digits as reading it back takes. */
+void format_exact(const shell *sh, value v, char *buf, size_t size);
 /* The text as a JSON string, quotation marks included. */
 void print_json_string(FILE *to, const char *text);
 

@@ -273,6 +273,18 @@ def digits(tests):
             tests.check("%d digits: %s" % (n, sweep), len(shown) == len(exact) and not wrong, str(wrong[:5]))
 
 
+def shown_scenes(tests):
+    """What show prints makes the same scene again, to the last digit."""
+    scene = ("material E0=210.123456789 GPa nu=1/3 k=-0.1 c0=1.1 um; second E0=1e11/3*1 Pa nu=0.3; friction 1/3\n"
+             "geometry sum 2:50.00000001 m^-1, 4.5:2e6/7*1 m^-3.5; press FN=100/3*1 N; x = -1/3*1 m\n"
+             "step Fx+=-1/7*1 N dz+=1 nm; cycle FA=1.23456789 N FNA=1 N phase=33.3 deg times 3\n")
+    ask = "\nset format json\na, dz, W, Fx, x, mu, E0_2\nshow"
+    shown = tests.run("-c", scene + "show").stdout
+    first, second = tests.run("-c", scene + ask), tests.run("-c", shown + ask)
+    tests.check("show keeps every digit", first.stdout and first.stdout == second.stdout and "E0=210.123456789 GPa" in shown,
+                shown + first.stdout + second.stdout)
+
+
 def waiting_steps(tests):
     """Steps that wait for a question give the answers of steps that are asked one by one."""
     steps = ["step dx=1 um", "step dx=-0.3 um", "step dx=0.4 um", "step Fx=3 N", "step dx=0.2 um", "step dx+=0.1 um",
@@ -315,5 +327,6 @@ def demos(tests):
 
 
 def run(tests):
-    tests.each([lambda room=room: room(tests) for room in (jobs, written, long_tables, failing_tables, digits, waiting_steps,
-                                                   many_variables, read_tables, pictures, demos)])
+    tests.each([lambda room=room: room(tests) for room in
+                (jobs, written, long_tables, failing_tables, digits, shown_scenes, waiting_steps, many_variables,
+                 read_tables, pictures, demos)])
