@@ -182,6 +182,21 @@ static fret_status run_step(runner *r, const load_step *c, const cycle_extra *x)
     return take(r, &step, c->points ? c->points : c->tangential || c->normal ? r->points : 1);
 }
 
+/* A step straight to a displacement, the normal force as it is. */
+static bool is_slide(const load_step *step) {
+    return step->kind == LOAD_STEP && !step->normal && step->tangential == BY_DISPLACEMENT && !step->relative;
+}
+
+/* At constant F_N only turning points count: a displacement on the way to the next one need not be taken. */
+static bool on_the_way(const scene *s, size_t i) {
+    const load_step *step = &s->program[i];
+    if (i + 1 >= s->steps || !is_slide(step) || !is_slide(step + 1) || !is_slide(step - 1))
+        return false;
+    const double here = step->tangential_value, last = step[-1].tangential_value,
+                 next = step[1].tangential_value;
+    return (last <= here && here <= next) || (last >= here && here >= next);
+}
+
 /* Brings memory up to the end of the program. */
 static bool catch_up(scene *s, calc_error *error) {
     const fret_normal *normal;
@@ -200,7 +215,9 @@ static bool catch_up(scene *s, calc_error *error) {
     while (s->applied < s->steps) {
         const load_step *step = &s->program[s->applied];
         const cycle_extra *x = step->kind == LOAD_CYCLE ? &s->cycles[s->applied_cycles] : NULL;
-        fret_status st = run_step(&r, step, x);
+        fret_status st = {FRET_OK, NULL, 0, 0};
+        if (!on_the_way(s, s->applied))
+            st = run_step(&r, step, x);
         if (!st.code && s->stop && *s->stop)
             st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
         if (st.code) {
@@ -303,8 +320,7 @@ void scene_roll_back(scene *s) {
 /* To slide to a displacement at constant F_N is always possible: such a step waits until a result is asked.
  */
 static bool can_wait(const scene *s, const load_step *step) {
-    return s->memory && step->kind == LOAD_STEP && !step->normal && step->tangential == BY_DISPLACEMENT &&
-           !step->relative;
+    return s->memory && is_slide(step);
 }
 
 bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
