@@ -167,6 +167,8 @@ static fret_status run_step(runner *r, const load_step *c, const cycle_extra *x)
         return take(r, &step, 1);
     }
     fret_state now = {0};
+    if (!c->normal && (c->relative & 2) && c->tangential_value == 0)
+        return (fret_status){FRET_OK, NULL, 0, 0}; /* rounding must not make it a reversal */
     if (c->relative)
         forces_of(r, &now);
     if (c->normal) {
@@ -194,7 +196,7 @@ static bool on_the_way(const scene *s, size_t i) {
         return false;
     const double here = step->tangential_value, last = step[-1].tangential_value,
                  next = step[1].tangential_value;
-    return (last <= here && here <= next) || (last >= here && here >= next);
+    return here == next || (last < here && here < next) || (last > here && here > next);
 }
 
 /* Brings memory up to the end of the program. */

@@ -33,6 +33,8 @@ struct fret_memory {
     unsigned long edge_id;        /* changes with the edge */
     fret_real slid;               /* delta_x - mu eta int sigma dy: what gross slip has carried along */
     int direction;                /* of the last tangential motion */
+    fret_tangential_target held;  /* where it ended: goal is F_x or delta_x exactly; FRET_KEEP_DX: neither */
+    double goal;
     fret_sum W;
     fret_real last_loss;
     size_t count, room;
@@ -72,6 +74,7 @@ void fret_memory_reset(fret_memory *m) {
     m->W = (fret_sum){0, 0};
     m->count = 0;
     m->direction = 1;
+    m->held = FRET_KEEP_DX;
     m->edge_id = 1; /* 0: never computed */
 }
 
@@ -498,6 +501,8 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
         return fret_fail(FRET_NOT_FINITE, name, step->tangential, 0);
     measure by = step->tangential_by == FRET_TO_FX ? LOAD : DEPTH;
+    /* to where it is already: the rounding of sums must not pass for a reversal */
+    const bool stays = m->held == step->tangential_by && m->goal == step->tangential;
     fret_real load = by == LOAD ? step->tangential / (fret_real)m->mu : 0; /* F_x/mu */
     if (fabsl(load) > edge[LOAD] * (1 - (fret_real)DBL_EPSILON)) {
         if (fabsl(load) > edge[LOAD] * (1 + (fret_real)DBL_EPSILON))
@@ -510,14 +515,14 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
 
     fret_real loss = 0;
     if (by == LOAD) {
-        fret_real drive = load - total(m, LOAD);
+        fret_real drive = stays && edge[LOAD] == m->edge[LOAD] ? 0 : load - total(m, LOAD);
         if (drive != 0)
             m->direction = drive < 0 ? -1 : 1;
         loss = advance(m, LOAD, edge, drive, step->tangential);
         if (edge[LOAD] <= 0)
             open_contact(m, m->slid); /* no spring is left to be displaced */
     } else {
-        fret_real target = step->tangential_by == FRET_TO_DX ? (fret_real)step->tangential : old_dx;
+        fret_real target = step->tangential_by == FRET_TO_DX && !stays ? (fret_real)step->tangential : old_dx;
         fret_real from = m->gap > 0 ? -m->gap : m->edge[DEPTH], to = gap > 0 ? -gap : edge[DEPTH];
         if (target != old_dx)
             m->direction = target < old_dx ? -1 : 1;
@@ -537,6 +542,12 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
         }
         if (to <= 0)
             open_contact(m, target);
+    }
+    if (step->tangential_by != FRET_KEEP_DX) {
+        m->held = step->tangential_by;
+        m->goal = step->tangential;
+    } else if (m->held == FRET_TO_FX && step->normal_by != FRET_KEEP_NORMAL) {
+        m->held = FRET_KEEP_DX;
     }
     m->gap = gap;
     m->radius = p.a;
