@@ -517,6 +517,29 @@ static void gross_slip(void) {
 
 /* A ramp in many small steps is the ramp in one, in slices as well: exactly where corners and steps are
  * dyadic fractions (2048 steps), within the rounding of the targets else (2000 steps). */
+/* To go where one is changes nothing: not the stick zone, not what is dissipated. */
+static void standing(void) {
+    static const double dx[] = {0.4, 0.9, 0.2, -0.3, 0.1, -0.7}, Fx[] = {-25, 20, 3, -11, -10.7};
+    contact c = make_plain(2, 0.3);
+    fret_press p = {.F = 0};
+    CHECK_OK(fret_press_force(&c.normal, 100, &p));
+    const double scale = (double)fret_gross_slip(&c.normal, c.mu, &p);
+    go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0});
+    for (int i = 0; i < 11; i++) {
+        fret_step step = i < 6 ? to_dx(dx[i] * scale) : to_fx(Fx[i - 6]);
+        go(&c, step);
+        fret_state first = state_of(&c);
+        for (int again = 0; again < 3; again++) {
+            go(&c, step);
+            CHECK(fret_memory_last_loss(c.memory) == 0);
+        }
+        fret_state s = state_of(&c);
+        CHECK(s.c == first.c && s.kt == first.kt && s.W == first.W && s.Fx == first.Fx && s.dx == first.dx);
+        CHECK(s.c < s.a);
+    }
+    fret_memory_free(c.memory);
+}
+
 /* The last millionth before gross slip, in one step and in a thousand: the stick zone, the displacement and
  * what is dissipated are those of the closed forms, which know 1-t exactly. Near the centre K is singular. */
 static void brink(double n, double k) {
@@ -812,6 +835,7 @@ int main(int argc, char **argv) {
     targets();
     separation();
     gross_slip();
+    standing();
     brink(2, 0);
     brink(2, -0.95);
     brink(0.1, 0.5);
