@@ -119,8 +119,13 @@ static dd gamma_part(dd x, dd *rising) {
     *rising = dd_of(1);
     if (x.hi < 16) { /* x ... (x+15) in pairs: (x+j)(x+15-j) = x(x+15) + j(15-j) */
         dd w = dd_mul(x, dd_add_d(x, 15));
+        dd part[8];
         for (int j = 0; j < 8; j++)
-            *rising = dd_mul(*rising, dd_add_d(w, j * (15 - j)));
+            part[j] = dd_add_d(w, j * (15 - j));
+        for (int n = 4; n > 0; n /= 2) /* as a tree: products that do not wait for each other */
+            for (int j = 0; j < n; j++)
+                part[j] = dd_mul(part[j], part[j + n]);
+        *rising = part[0];
         x = dd_add_d(x, 16);
     }
     dd z = dd_div(dd_of(1), x), z2 = dd_mul(z, z);

@@ -75,8 +75,9 @@ static inline dd dd_mul_d(dd a, double b) {
 
 static inline dd dd_div(dd a, dd b) {
     double q = a.hi / b.hi;
-    dd r = dd_sub(a, dd_mul_d(b, q));
-    return dd_quick_sum(q, r.hi / b.hi);
+    dd p = dd_prod(b.hi, q);
+    double left = (((a.hi - p.hi) - p.lo) + a.lo) - b.lo * q; /* the first difference is exact */
+    return dd_quick_sum(q, left / b.hi);
 }
 
 static inline dd dd_sqrt(dd a) { /* a > 0 */
