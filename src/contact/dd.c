@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dd.h"
 
-#include "tables.h"
+#include <stdlib.h>
+
+#include "kernel.h"
 
 const dd dd_pi = {2 * 0x1.921fb54442d18p+0, 2 * 0x1.1a62633145c07p-54};
 
@@ -10,6 +12,28 @@ static double whole(double x) {
     const double big = 6755399441055744.0; /* 1.5 2^52 */
     double sum = x + big;
     return sum - big;
+}
+
+/* 2^e and the exponent of x > 0 from the words themselves, where libm takes as long as a product of
+ * double-doubles; |e| <= PLAIN does for all but the ends of the range. */
+enum { PLAIN = 1000 };
+
+static double two_to(int e) {
+    return kernel_value((uint64_t)(1023 + e) << 52);
+}
+
+static int exponent(double x) {
+    return (int)(kernel_bits(x) >> 52) - 1022;
+}
+
+static fret_real scaled(fret_real x, int e) {
+    return abs(e) <= PLAIN ? x * two_to(e) : ldexpl(x, e);
+}
+
+/* x = result 2^e, result in 0.5 .. 1; where x rounds to a power of 2, below 0.5 */
+static fret_real mantissa(fret_real x, int *e) {
+    *e = exponent((double)x);
+    return abs(*e) <= PLAIN ? x * two_to(-*e) : frexpl(x, e);
 }
 
 /* exp(r)-1, |r| <= ln 2/128: r^n/n! for n > 5 is below 2^-47 r and needs no second part. */
@@ -72,7 +96,8 @@ dd dd_exp(dd x) {
     if (x.hi > 745 || x.hi < -745)
         return dd_of(x.hi > 0 ? INFINITY : 0);
     dd m = exp_core(x, &e);
-    return (dd){ldexp(m.hi, e), ldexp(m.lo, e)};
+    double half = two_to(e / 2), other = two_to(e - e / 2); /* 2^e may leave the range */
+    return (dd){m.hi * half * other, m.lo * half * other};
 }
 
 dd dd_expm1(dd x) {
@@ -84,9 +109,14 @@ dd dd_log(dd x) {
 }
 
 dd dd_log_scaled(dd x, int scale) {
-    int e;
-    dd m = {frexp(x.hi, &e), 0};
-    m.lo = ldexp(x.lo, -e);
+    int e = exponent(x.hi);
+    dd m;
+    if (abs(e) <= PLAIN)
+        m = (dd){x.hi * two_to(-e), x.lo * two_to(-e)};
+    else {
+        m.hi = frexp(x.hi, &e);
+        m.lo = ldexp(x.lo, -e);
+    }
     e = normalise(&m, e);
     return log_core(m, e + scale);
 }
@@ -165,12 +195,12 @@ fret_real dd_exp_real(dd x) {
     if (!(fabs(x.hi) < 12000))
         return x.hi > 0 ? (fret_real)INFINITY : x.hi < 0 ? 0 : (fret_real)NAN;
     dd m = exp_core(x, &e);
-    return ldexpl(dd_value(m), e);
+    return scaled(dd_value(m), e);
 }
 
 dd dd_log_real(fret_real x) {
     int e;
-    dd m = dd_from(frexpl(x, &e));
+    dd m = dd_from(mantissa(x, &e));
     e = normalise(&m, e);
     return log_core(m, e);
 }
@@ -199,7 +229,7 @@ fret_real fret_exp(fret_real x) {
     if (!(fabsl(x) < 12000))
         return x > 0 ? (fret_real)INFINITY : x < 0 ? 0 : (fret_real)NAN;
     int e = exp_short(x, &two, &rest);
-    return ldexpl(two + rest, e);
+    return scaled(two + rest, e);
 }
 
 fret_real fret_expm1(fret_real x) {
@@ -210,7 +240,7 @@ fret_real fret_expm1(fret_real x) {
     if (!(fabsl(x) < 700))
         return fret_exp(x) - 1;
     int e = exp_short(x, &two, &rest);
-    fret_real scale = ldexpl(1, e);
+    fret_real scale = scaled(1, e);
     return (two * scale - 1) + rest * scale;
 }
 
@@ -223,7 +253,7 @@ static fret_real log_short(fret_real s) {
 /* ln(x + part), part below the last place of x */
 static fret_real log_of(fret_real x, fret_real part) {
     int e;
-    fret_real m = frexpl(x, &e);
+    fret_real m = mantissa(x, &e);
     if (m < 0.70710678118654752L) {
         m *= 2;
         e--;
