@@ -38,11 +38,11 @@ typedef struct fret_gap {
     const struct fret_table *table; /* TABLE only; borrowed */
 } fret_gap;
 
-/* Gauss-Jacobi rule on 0..1 for the weight v^((k-1)/2), v the distance from the edge: the kernel of
- * (3) has this end-point singularity for every gap. Powers need kappa(n,k) of each term instead. */
-enum { FRET_RULE = 40 };
+/* What (3) needs to know of k: (2-u)^((k-1)/2), the kernel's factor that is smooth at the edge, as a series
+ * in the distance u from the edge; term n is divided by (k+1)/2+4+n. Powers need kappa(n,k) of each term. */
+enum { FRET_SERIES = 64 };
 typedef struct fret_rule {
-    fret_real k, v[FRET_RULE], weight[FRET_RULE], kappa[FRET_GAP_TERMS];
+    fret_real k, series[FRET_SERIES], kappa[FRET_GAP_TERMS];
 } fret_rule;
 
 /* kappa(n,k) = (n/2) B(n/2,(k+1)/2) (6)-(8): the profile of r^n is kappa x^n.
@@ -55,7 +55,9 @@ fret_status fret_gap_check(const fret_gap *gap);
 /* f(r) [m], r >= 0 [m]. Errors: FRET_NEGATIVE, FRET_OUTSIDE (beyond a sphere or a table). */
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f);
 
-/* g(x) [m] and, where slope is not NULL, g'(x), for |x| [m]. Errors as above. */
+/* g(x) [m] and, where slope is not NULL, g'(x), for |x| [m]. Errors as above.
+ * Accuracy 1e-17 relative; tables 2e-16, the rounding of their slopes. A table costs the logarithm of its
+ * rows. */
 fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g, fret_real *slope);
 
 /* A sampled gap: r[0] = 0 < r[1] < ..., f[0] = 0, lengths in m. Copies the arrays.

@@ -38,7 +38,7 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
 /* delta_z = g(a), F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx (10)-(13); power law:
  *   F_N = 2 cN0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1)).
  * Arguments >= 0. Errors: FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW, FRET_TABLE_SHORT.
- * Accuracy: 1e-19 relative for power laws with n 1e-6..1e6, 1e-13 for other shapes. */
+ * Accuracy: 1e-19 relative for power laws with n 1e-6..1e6, 1e-17 for other shapes, 2e-16 for tables. */
 fret_status fret_press_force(const fret_normal *normal, double F, fret_press *out);
 fret_status fret_press_depth(const fret_normal *normal, double dz, fret_press *out);
 fret_status fret_press_radius(const fret_normal *normal, double a, fret_press *out);
@@ -63,7 +63,8 @@ typedef struct fret_level {
     fret_real y, F;
 } fret_level;
 
-/* Integrals over the slice of depths [y-h, y], 0 <= h <= y, exact also for thin slices;
+/* Integrals over the slice of depths [y-h, y], 0 <= h <= y, exact also for thin slices (shapes other than the
+ * power law: 1e-13 relative; where a row of a table lies within a slice thinner than 1e-5 y, 1e-18 y/h);
  * K = dF_N/dy, t the distance from y:
  *   w = int K dt = F_N(y)-F_N(y-h) [N], J = int t K dt [N m],
  *   G = int t dK = w - h K(y-h) [N],    L = int_0^h G dt [N m]. */

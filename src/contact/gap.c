@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "gap.h"
 
-#include "kernel.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,62 +17,116 @@ fret_real fret_kappa(double n, double k) {
     return dd_value(dd_mul(q.factor, dd_exp(q.log)));
 }
 
-/* One row a shape: the gap, its two derivatives for r > start, and which parameters it reads. */
+/* ---- the kernel near its singularity ----------------------------------------------------------- */
+
+/* int_0^v u^j (u (2-u))^alpha du, j = 0..4, and (v (2-v))^(alpha+1), 0 <= v <= 1: u = 1-r/a is the distance
+ * from the edge. */
+enum { EDGE = 5 };
+typedef struct edge {
+    fret_real moment[EDGE], rim;
+} edge;
+
+/* The last moment by its series, the others downwards: every term is positive. */
+static edge edge_moments(const fret_rule *rule, fret_real v) {
+    if (v <= 0)
+        return (edge){{0}, 0};
+    fret_real m = (rule->k + 1) / 2, power = fret_pow(v, m), sum = 0, vn = 1, v3 = v * v * v;
+    edge out = {.rim = power * fret_pow(2 - v, m)};
+    for (int n = 0; n < FRET_SERIES; n++) {
+        fret_real term = rule->series[n] * vn;
+        sum += term;
+        if (term < 1e-21L * sum)
+            break;
+        vn *= v;
+    }
+    out.moment[EDGE - 1] = power * v3 * v * sum;
+    fret_real boundary = out.rim * v3; /* v^(j-1) rim */
+    for (int j = EDGE - 1; j > 0; j--) {
+        out.moment[j - 1] = (boundary + (2 * m + (j - 1)) * out.moment[j]) / (2 * (m + (j - 1)));
+        boundary /= v;
+    }
+    return out;
+}
+
+static void make_series(fret_rule *rule) {
+    fret_real beta = (1 - rule->k) / 2, m = (rule->k + 1) / 2, c = fret_pow(2, -beta);
+    for (int n = 0; n < FRET_SERIES; n++) {
+        rule->series[n] = c / (m + (EDGE - 1) + n);
+        c *= (beta + n) / (2 * (fret_real)(n + 1));
+    }
+}
+
+/* ---- shapes ------------------------------------------------------------------------------------ */
+
+/* One row a shape: the gap and the profile for r > b, and which parameters it reads. In units of the contact
+ * radius, with s = r/a, flat = b/a, K = (1-s^2)^((k-1)/2):
+ *   g = a int f' K ds, I = a^(k+2)/(k+1) int s^2 f' K ds. */
 typedef struct shape {
     fret_real (*f)(const fret_gap *, fret_real r);
-    fret_real (*f1)(const fret_gap *, fret_real r, fret_real x); /* x = r-b with all its digits */
-    fret_real (*f2)(const fret_gap *, fret_real r);
+    fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real a, fret_real e);
     bool b, R, slope;
 } shape;
+
+static fret_profile profile_of(fret_real k, fret_real a, fret_real g, fret_real slope, fret_real I) {
+    return (fret_profile){a * g, slope, fret_pow(a, k + 2) / (k + 1) * I};
+}
 
 static fret_real cone_f(const fret_gap *gap, fret_real r) {
     return gap->slope * (r - gap->b);
 }
-static fret_real cone_f1(const fret_gap *gap, fret_real r, fret_real x) {
-    (void)r, (void)x;
-    return gap->slope;
+static fret_profile cone_profile(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_real e) {
+    fret_real k = rule->k, v = e / a, flat = gap->b / a;
+    edge m = edge_moments(rule, v);
+    fret_real g = gap->slope * m.moment[0], rim = gap->slope * flat * m.rim;
+    return profile_of(k, a, g, g + rim / (v * (2 - v)), (g + rim) / (k + 2));
 }
-static fret_real cone_f2(const fret_gap *gap, fret_real r) {
-    (void)gap, (void)r;
-    return 0;
-}
+
 static fret_real paraboloid_f(const fret_gap *gap, fret_real r) {
     return (r - gap->b) * (r + gap->b) / (2 * (fret_real)gap->R);
 }
-static fret_real paraboloid_f1(const fret_gap *gap, fret_real r, fret_real x) {
-    (void)x;
-    return r / gap->R;
+static fret_profile paraboloid_profile(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_real e) {
+    fret_real k = rule->k, m = (k + 1) / 2, v = e / a, flat = gap->b / a, z = v * (2 - v);
+    fret_real rim = a / gap->R * fret_pow(z, m), g = rim / (2 * m);
+    return profile_of(k, a, g, 2 * g + rim * flat * flat / z, rim * (1 + m * (1 - z)) / (2 * m * (m + 1)));
 }
-static fret_real curved_f2(const fret_gap *gap, fret_real r) {
-    (void)r;
-    return 1 / (fret_real)gap->R;
-}
+
 static fret_real rounded_f(const fret_gap *gap, fret_real r) {
     return (r - gap->b) * (r - gap->b) / (2 * (fret_real)gap->R);
 }
-static fret_real rounded_f1(const fret_gap *gap, fret_real r, fret_real x) {
-    (void)r;
-    return x / gap->R;
+static fret_profile rounded_profile(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_real e) {
+    fret_real k = rule->k, v = e / a, flat = gap->b / a, z = v * (2 - v), steep = a / gap->R;
+    edge m = edge_moments(rule, v);
+    fret_real g = steep * (v * m.moment[0] - m.moment[1]);
+    return profile_of(k, a, g, 2 * g + steep * flat * m.moment[0],
+                      (g + steep * m.rim * z / (k + 3)) / (k + 2));
 }
+
 static fret_real sphere_f(const fret_gap *gap, fret_real r) {
     fret_real R = gap->R;
     return r * r / (R + sqrtl((R - r) * (R + r)));
 }
-static fret_real sphere_f1(const fret_gap *gap, fret_real r, fret_real x) {
-    (void)x;
-    fret_real R = gap->R;
-    return r / sqrtl((R - r) * (R + r));
-}
-static fret_real sphere_f2(const fret_gap *gap, fret_real r) {
-    fret_real R = gap->R, s = (R - r) * (R + r);
-    return R * R / (s * sqrtl(s));
+/* Term by term: f has the powers r^2, r^4, ... with positive factors. */
+static fret_profile sphere_profile(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_real e) {
+    (void)e;
+    fret_real k = rule->k, m1 = (k + 3) / 2, q = a / gap->R * (a / gap->R), term = a / (gap->R * (k + 1));
+    fret_real g = 0, slope = 0, I = 0;
+    for (int n = 0; n < 1000; n++) {
+        fret_real rise = (2 * n + 2) * term;
+        g += term;
+        slope += rise;
+        I += rise / (2 * n + 3 + k);
+        if (rise < 1e-21L * slope)
+            break;
+        term *= q * (n + 0.5L) / (m1 + n);
+    }
+    return profile_of(k, a, g, slope, I);
 }
 
 static const shape shapes[] = {
-    [FRET_GAP_FLAT_CONE] = {cone_f, cone_f1, cone_f2, .b = true, .slope = true},
-    [FRET_GAP_FLAT_PARABOLOID] = {paraboloid_f, paraboloid_f1, curved_f2, .b = true, .R = true},
-    [FRET_GAP_FLAT_ROUNDED] = {rounded_f, rounded_f1, curved_f2, .b = true, .R = true},
-    [FRET_GAP_EXACT_SPHERE] = {sphere_f, sphere_f1, sphere_f2, .R = true},
+    [FRET_GAP_FLAT_CONE] = {cone_f, cone_profile, .b = true, .slope = true},
+    [FRET_GAP_FLAT_PARABOLOID] = {paraboloid_f, paraboloid_profile, .b = true, .R = true},
+    [FRET_GAP_FLAT_ROUNDED] = {rounded_f, rounded_profile, .b = true, .R = true},
+    [FRET_GAP_EXACT_SPHERE] = {sphere_f, sphere_profile, .R = true},
 };
 
 /* ---- sampled gaps ------------------------------------------------------------------------------ */
@@ -82,9 +134,109 @@ static const shape shapes[] = {
 /* Cubic Hermite pieces with Steffen's slopes: monotone data give a monotone gap, f' is continuous, and the
  * error falls with the third power of the spacing. Per piece f' = d0 + d1 t + d2 t^2, t = r - r_i. */
 struct fret_table {
-    size_t count;
+    size_t count, blocks;
     double *r, *f, *d0, *d1, *d2;
+    double start; /* it may begin flat */
+    struct block *block;
 };
+
+/* Pieces far from the edge are summed in blocks, by Taylor's series of the kernel about the middle c of the
+ * block: f' and r f'' count through their moments over x = (r-c)/d. A block precedes its two halves. */
+enum { TAYLOR = 32, LEAF = 8 };
+typedef struct block {
+    size_t first, last, next;                 /* pieces; the first block that is no part of this one */
+    fret_real c, d;                           /* middle and half-width */
+    fret_real slope[TAYLOR + 2], rf2[TAYLOR]; /* int f' x^n dr, int r f'' x^n dr */
+} block;
+
+static fret_real f1_of(const struct fret_table *t, size_t i, fret_real x) {
+    return t->d0[i] + x * (t->d1[i] + x * t->d2[i]);
+}
+static fret_real f2_of(const struct fret_table *t, size_t i, fret_real x) {
+    return t->d1[i] + 2 * x * t->d2[i];
+}
+
+static const fret_real inverse[TAYLOR + 4] = {
+    1.0L / 1,  1.0L / 2,  1.0L / 3,  1.0L / 4,  1.0L / 5,  1.0L / 6,  1.0L / 7,  1.0L / 8,  1.0L / 9,
+    1.0L / 10, 1.0L / 11, 1.0L / 12, 1.0L / 13, 1.0L / 14, 1.0L / 15, 1.0L / 16, 1.0L / 17, 1.0L / 18,
+    1.0L / 19, 1.0L / 20, 1.0L / 21, 1.0L / 22, 1.0L / 23, 1.0L / 24, 1.0L / 25, 1.0L / 26, 1.0L / 27,
+    1.0L / 28, 1.0L / 29, 1.0L / 30, 1.0L / 31, 1.0L / 32, 1.0L / 33, 1.0L / 34, 1.0L / 35, 1.0L / 36};
+
+/* The first moments of one piece about its own middle. */
+static void piece_moments(const struct fret_table *t, size_t i, int count, block *b) {
+    fret_real d = ((fret_real)t->r[i + 1] - t->r[i]) / 2, c = t->r[i] + d;
+    fret_real p[3] = {f1_of(t, i, d), d * f2_of(t, i, d), d * d * t->d2[i]}, q1 = 2 * d * t->d2[i];
+    fret_real q[3] = {c * f2_of(t, i, d), c * q1 + d * f2_of(t, i, d), d * q1};
+    b->c = c;
+    b->d = d;
+    for (int n = 0; n < count + 2; n++) {
+        fret_real even = 2 * d * inverse[n], odd = 2 * d * inverse[n + 1], second = 2 * d * inverse[n + 2];
+        b->slope[n] = n % 2 ? p[1] * odd : p[0] * even + p[2] * second;
+        if (n < count)
+            b->rf2[n] = n % 2 ? q[1] * odd : q[0] * even + q[2] * second;
+    }
+}
+
+/* A part of a block, no wider than half of it, by Gauss's rule: the series of the kernel converges fast. */
+static void add_part(block *b, const struct fret_table *t, size_t i, fret_real lo, fret_real h) {
+    for (int j = 0; j < 8; j++) {
+        fret_real x = lo + h * fret_gauss_node[j], r = t->r[i] + x, z = (r - b->c) / b->d;
+        fret_real w = h * fret_gauss_weight[j], f1 = w * f1_of(t, i, x), rf2 = w * r * f2_of(t, i, x);
+        for (int n = 0; n < TAYLOR + 2; n++) {
+            b->slope[n] += f1;
+            f1 *= z;
+            if (n < TAYLOR)
+                b->rf2[n] += rf2;
+            rf2 *= z;
+        }
+    }
+}
+
+/* Adds the moments of a half, moved to the middle of the whole. */
+static void add_moved(block *whole, const block *part) {
+    fret_real shift = (part->c - whole->c) / whole->d, ratio = part->d / whole->d, power = 1;
+    fret_real slope[TAYLOR + 2], rf2[TAYLOR + 2] = {0};
+    for (int n = 0; n < TAYLOR + 2; n++) {
+        slope[n] = part->slope[n] * power;
+        if (n < TAYLOR)
+            rf2[n] = part->rf2[n] * power;
+        power *= ratio;
+    }
+    for (int pass = 1; pass < TAYLOR + 2; pass++) /* binomials */
+        for (int n = TAYLOR + 1; n >= pass; n--) {
+            slope[n] += shift * slope[n - 1];
+            rf2[n] += shift * rf2[n - 1];
+        }
+    for (int n = 0; n < TAYLOR + 2; n++) {
+        whole->slope[n] += slope[n];
+        if (n < TAYLOR)
+            whole->rf2[n] += rf2[n];
+    }
+}
+
+static size_t block_count(size_t pieces) {
+    return pieces <= LEAF ? 1 : 1 + block_count(pieces / 2) + block_count(pieces - pieces / 2);
+}
+
+static const block *make_block(struct fret_table *t, size_t first, size_t last) {
+    block *b = &t->block[t->blocks++];
+    fret_real lo = t->r[first], hi = t->r[last];
+    *b = (block){.first = first, .last = last, .c = (lo + hi) / 2, .d = (hi - lo) / 2};
+    if (last - first > LEAF) {
+        size_t middle = first + (last - first) / 2;
+        add_moved(b, make_block(t, first, middle));
+        add_moved(b, make_block(t, middle, last));
+    } else {
+        for (size_t i = first; i < last; i++) {
+            fret_real h = (fret_real)t->r[i + 1] - t->r[i];
+            int parts = h > b->d ? 2 : 1;
+            for (int j = 0; j < parts; j++)
+                add_part(b, t, i, h * j / parts, h / parts);
+        }
+    }
+    b->next = t->blocks;
+    return b;
+}
 
 static fret_real sign_of(fret_real x) {
     return x > 0 ? 1 : x < 0 ? -1 : 0;
@@ -135,21 +287,29 @@ fret_status fret_table_make(const double *r, const double *f, size_t count, stru
         return fret_fail(FRET_BAD_TABLE, "r", count ? r[0] : 0, 0);
     struct fret_table *t = calloc(1, sizeof *t);
     double *data = t ? malloc(5 * count * sizeof *data) : NULL;
-    if (!data) {
+    block *blocks = data ? malloc(block_count(count - 1) * sizeof *blocks) : NULL;
+    if (!blocks) {
+        free(data);
         free(t);
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     }
-    *t = (struct fret_table){count, data, data + count, data + 2 * count, data + 3 * count, data + 4 * count};
+    *t = (struct fret_table){
+        count, 0, data, data + count, data + 2 * count, data + 3 * count, data + 4 * count, 0, blocks};
     memcpy(t->r, r, count * sizeof *r);
     memcpy(t->f, f, count * sizeof *f);
     table_slopes(t);
+    make_block(t, 0, count - 1);
+    for (size_t i = 1; i + 1 < count && f[i] <= 0; i++)
+        t->start = r[i];
     *out = t;
     return fret_ok();
 }
 
 void fret_table_free(struct fret_table *t) {
-    if (t)
+    if (t) {
+        free(t->block);
         free(t->r);
+    }
     free(t);
 }
 
@@ -173,46 +333,53 @@ static fret_real table_f(const fret_gap *gap, fret_real r) {
     return t->f[i] + x * (t->d0[i] + x * (t->d1[i] / 2 + x * t->d2[i] / 3));
 }
 
-/* int f' K, int f' r^2 K and int r f'' K over a piece, K = (a^2-r^2)^((k-1)/2). */
-typedef struct piece_sums {
+/* int f' K, int r^2 f' K and int r f'' K over a part of the contact, in units of its radius. */
+typedef struct sums {
     fret_real g, I, s;
-} piece_sums;
+} sums;
 
-static void piece_add(piece_sums *sum, const struct fret_table *t, size_t i, fret_real r, fret_real weight) {
-    fret_real x = r - t->r[i], f1 = t->d0[i] + x * (t->d1[i] + x * t->d2[i]),
-              f2 = t->d1[i] + 2 * x * t->d2[i];
-    sum->g += weight * f1;
-    sum->I += weight * f1 * r * r;
-    sum->s += weight * r * f2;
+/* Terms that a block of half-width d needs whose middle is u away from the edge; 0: it is too near. */
+static int far_terms(fret_real d, fret_real u) {
+    fret_real ratio = d / u;
+    int count = 1;
+    if (!(u > 0 && ratio <= 0.25L))
+        return 0;
+    for (fret_real left = 1e21L * ratio; left > 1 && count < TAYLOR; left *= ratio)
+        count++;
+    return count;
 }
 
-/* From r to a with the polynomial of piece i: exact up to the smooth factor (a+r)^alpha. */
-static piece_sums piece_to_edge(const struct fret_table *t, const fret_rule *rule, size_t i, fret_real r,
-                                fret_real a) {
-    fret_real alpha = (rule->k - 1) / 2, span = a - r, scale = fret_pow(span, alpha + 1);
-    piece_sums sum = {0, 0, 0};
-    for (int j = 0; j < FRET_RULE; j++) {
-        fret_real x = a - span * rule->v[j];
-        piece_add(&sum, t, i, x, scale * rule->weight[j] * fret_pow(a + x, alpha));
+/* u: distance of the middle from the edge. */
+static void add_far(sums *all, const block *b, int count, fret_real alpha, fret_real a, fret_real u) {
+    fret_real D = u * (a + b->c), x1 = 2 * b->c * b->d / D, x2 = b->d * b->d / D;
+    fret_real q = 1, old = 0, slope[3] = {0, 0, 0}, rf2 = 0;
+    for (int n = 0; n < count; n++) {
+        for (int j = 0; j < 3; j++)
+            slope[j] += q * b->slope[n + j];
+        rf2 += q * b->rf2[n];
+        fret_real next = (x1 * (n - alpha) * q + x2 * (n - 1 - 2 * alpha) * old) * inverse[n];
+        old = q;
+        q = next;
     }
-    return sum;
+    fret_real K = fret_pow(D / (a * a), alpha) / a, c = b->c / a, d = b->d / a;
+    all->g += K * slope[0];
+    all->I += K * (c * c * slope[0] + 2 * c * d * slope[1] + d * d * slope[2]);
+    all->s += K * rf2;
 }
 
-/* Far from the edge three points in double do: tables have up to 1e5 pieces, nearly all of them far. */
-static void far_add(piece_sums *sum, const struct fret_table *t, size_t i, double a, double alpha) {
-    static const double node[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
-    static const double weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
-    double h = t->r[i + 1] - t->r[i], g = 0, I = 0, s = 0;
+/* A piece near the edge or at it: the kernel's moments between its ends, lo and hi. */
+static void add_near(sums *all, const struct fret_table *t, size_t i, fret_real a, fret_real v,
+                     const edge *lo, const edge *hi) {
+    fret_real d1 = t->d1[i] * a, d2 = t->d2[i] * a * a, m[EDGE];
+    for (int j = 0; j < EDGE; j++)
+        m[j] = lo->moment[j] - hi->moment[j];
+    /* f' and r f'' in powers of the distance from the edge; v: that of the piece's start */
+    fret_real p[3] = {t->d0[i] + v * (d1 + v * d2), -(d1 + 2 * v * d2), d2};
     for (int j = 0; j < 3; j++) {
-        double x = h * node[j], r = t->r[i] + x, w = h * weight[j] * kernel_pow((a - r) * (a + r), alpha);
-        double f1 = t->d0[i] + x * (t->d1[i] + x * t->d2[i]), f2 = t->d1[i] + 2 * x * t->d2[i];
-        g += w * f1;
-        I += w * f1 * r * r;
-        s += w * r * f2;
+        all->g += p[j] * m[j];
+        all->I += p[j] * (m[j] - 2 * m[j + 1] + m[j + 2]);
     }
-    sum->g += g;
-    sum->I += I;
-    sum->s += s;
+    all->s += -p[1] * (m[0] - m[1]) - 2 * p[2] * (m[1] - m[2]);
 }
 
 /* f' + r f'' >= 0 everywhere makes g grow, and costs nothing to see. */
@@ -226,31 +393,41 @@ bool fret_table_grows(const struct fret_table *t) {
     return true;
 }
 
-static fret_profile profile_of_table(const fret_gap *gap, const fret_rule *rule, fret_real a) {
+static fret_profile profile_of_table(const fret_gap *gap, const fret_rule *rule, fret_real e) {
     const struct fret_table *t = gap->table;
-    fret_real k = rule->k, alpha = (k - 1) / 2;
-    size_t last = table_piece(t, a);
-    piece_sums all = piece_to_edge(t, rule, last, t->r[last], a);
-    for (size_t i = last; i-- > 0;) {
-        fret_real lo = t->r[i], hi = t->r[i + 1];
-        if (a - hi < 3 * (hi - lo)) { /* too near: the difference of two pieces that end at the edge */
-            piece_sums outer = piece_to_edge(t, rule, i, lo, a), inner = piece_to_edge(t, rule, i, hi, a);
-            all.g += outer.g - inner.g;
-            all.I += outer.I - inner.I;
-            all.s += outer.s - inner.s;
+    fret_real k = rule->k, alpha = (k - 1) / 2, start = fret_gap_start(gap), a = start + e;
+    sums all = {0, 0, 0};
+    for (size_t i = 0; i < t->blocks;) {
+        const block *b = &t->block[i];
+        fret_real middle = (start - b->c) + e;
+        bool leaf = b->next == i + 1;
+        int terms = far_terms(b->d, middle);
+        i = leaf || terms || middle <= -b->d ? b->next : i + 1;
+        if (terms)
+            add_far(&all, b, terms, alpha, a, middle);
+        if (terms || !leaf)
             continue;
-        }
-        if (a - hi > 30 * (hi - lo)) {
-            far_add(&all, t, i, (double)a, (double)alpha);
-            continue;
-        }
-        for (int j = 0; j < 8; j++) { /* the singularity is some pieces away */
-            fret_real r = lo + (hi - lo) * fret_gauss_node[j];
-            piece_add(&all, t, i, r, (hi - lo) * fret_gauss_weight[j] * fret_pow((a - r) * (a + r), alpha));
+        edge lo, hi = {{0}, 0};
+        bool known = false; /* hi, at the start of this piece */
+        for (size_t j = b->first; j < b->last && (start - t->r[j]) + e > 0; j++) {
+            block piece;
+            piece.d = ((fret_real)t->r[j + 1] - t->r[j]) / 2;
+            middle = (start - (t->r[j] + piece.d)) + e;
+            terms = far_terms(piece.d, middle);
+            if (terms) {
+                piece_moments(t, j, terms, &piece);
+                add_far(&all, &piece, terms, alpha, a, middle);
+                known = false;
+                continue;
+            }
+            fret_real v = ((start - t->r[j]) + e) / a;
+            lo = known ? hi : edge_moments(rule, v);
+            hi = edge_moments(rule, ((start - t->r[j + 1]) + e) / a);
+            known = true;
+            add_near(&all, t, j, a, v, &lo, &hi);
         }
     }
-    fret_profile out = {fret_pow(a, 1 - k) * all.g, fret_pow(a, -k) * (all.g + all.s), all.I / (k + 1)};
-    return out;
+    return profile_of(k, a, all.g, all.g + all.s, all.I);
 }
 
 static bool is_powers(const fret_gap *gap) {
@@ -287,19 +464,36 @@ fret_status fret_gap_check(const fret_gap *gap) {
 fret_real fret_gap_start(const fret_gap *gap) {
     if (is_powers(gap))
         return 0;
-    if (gap->kind != FRET_GAP_TABLE)
-        return shapes[gap->kind].b ? gap->b : 0;
-    size_t i = 0; /* a table may begin flat */
-    while (i + 2 < gap->table->count && gap->table->f[i + 1] <= 0)
-        i++;
-    return gap->table->r[i];
+    if (gap->kind == FRET_GAP_TABLE)
+        return gap->table->start;
+    return shapes[gap->kind].b ? gap->b : 0;
+}
+
+fret_real fret_gap_tip(const fret_gap *gap) {
+    if (gap->kind == FRET_GAP_TABLE)
+        return gap->table->d0[0] > 0 ? 1 : 2;
+    fret_real least = is_powers(gap) ? (fret_real)INFINITY : 2;
+    for (int i = 0; i < gap->terms && is_powers(gap); i++)
+        least = gap->power[i].h != 0 ? fminl(least, gap->power[i].n) : least;
+    return least;
 }
 
 fret_real fret_gap_end(const fret_gap *gap) {
-    /* near the equator g grows without bound, and the rule no longer resolves it */
+    /* near the equator g grows without bound, and its series no longer converges */
     return gap->kind == FRET_GAP_EXACT_SPHERE ? 0.95L * gap->R
            : gap->kind == FRET_GAP_TABLE      ? (fret_real)gap->table->r[gap->table->count - 1]
                                               : (fret_real)INFINITY;
+}
+
+fret_real fret_gap_kink(const fret_gap *gap, fret_real e) {
+    if (gap->kind != FRET_GAP_TABLE)
+        return 0;
+    const double *r = gap->table->r;
+    fret_real start = fret_gap_start(gap);
+    size_t i = table_piece(gap->table, start + e);
+    while (i > 0 && r[i] - start >= e)
+        i--;
+    return fmaxl(r[i] - start, 0);
 }
 
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
@@ -317,42 +511,19 @@ fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
     return fret_ok();
 }
 
-/* With r = a s:  g = a int f'(as) (1-s^2)^((k-1)/2) ds,  I = a^(k+2)/(k+1) int s^2 f'(as) (1-s^2)^((k-1)/2)
- * ds. The rule's weight takes the singular factor (1-s)^((k-1)/2); the rest is smooth. */
-static fret_profile profile_by_rule(const fret_gap *gap, const fret_rule *rule, fret_real e) {
-    const shape *sh = &shapes[gap->kind];
-    fret_real b = fret_gap_start(gap), a = b + e, k = rule->k, alpha = (k - 1) / 2;
-    fret_real span = e / a, sum_g = 0, sum_I = 0, sum_2 = 0;
-    for (int i = 0; i < FRET_RULE; i++) {
-        fret_real v = span * rule->v[i], s = 1 - v;
-        fret_real w = rule->weight[i] * fret_pow(2 - v, alpha), r = a * s;
-        fret_real f1 = w * sh->f1(gap, r, e * (1 - rule->v[i]));
-        sum_g += f1;
-        sum_I += f1 * s * s;
-        sum_2 += w * s * sh->f2(gap, r);
-    }
-    fret_real scale = fret_pow(span, alpha + 1);
-    fret_profile out;
-    out.g = a * scale * sum_g;
-    out.I = fret_pow(a, k + 2) / (k + 1) * scale * sum_I;
-    out.slope = scale * (sum_g + a * sum_2);
-    if (b > 0)
-        out.slope += sh->f1(gap, b, 0) * (b / a) * fret_pow(span * (1 + b / a), alpha);
-    return out;
-}
-
-fret_status fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule) {
+void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule) {
     rule->k = k;
     for (int i = 0; is_powers(gap) && i < gap->terms; i++)
         rule->kappa[i] = fret_kappa(gap->power[i].n, k);
-    return is_powers(gap) ? fret_ok() : fret_rule_make(k, rule);
+    if (!is_powers(gap))
+        make_series(rule);
 }
 
 fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
     if (gap->kind == FRET_GAP_TABLE)
-        return profile_of_table(gap, rule, fret_gap_start(gap) + e);
+        return profile_of_table(gap, rule, e);
     if (!is_powers(gap))
-        return profile_by_rule(gap, rule, e);
+        return shapes[gap->kind].profile(gap, rule, fret_gap_start(gap) + e, e);
     fret_real k = rule->k, a = e, ak = fret_pow(a, k + 1);
     fret_profile out = {0, 0, 0};
     for (int i = 0; i < gap->terms; i++) {
@@ -372,9 +543,7 @@ fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g,
     fret_profile out = {0, 0, 0};
     if (x > fret_gap_start(gap)) {
         fret_rule rule;
-        fret_status st = fret_gap_rule(gap, k, &rule);
-        if (st.code)
-            return st;
+        fret_gap_rule(gap, k, &rule);
         out = fret_gap_profile(gap, &rule, x - fret_gap_start(gap));
     }
     *g = out.g;

@@ -16,7 +16,7 @@ typedef struct fret_profile {
 dd_scaled fret_kappa_parts(double n, double k);
 
 /* What fret_gap_profile needs to know of the exponent k. */
-fret_status fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule);
+void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule);
 
 /* At contact radius fret_gap_start + e, e > 0: near a flat end g ~ e^((k+1)/2), which a radius that has
  * swallowed e could not tell. Valid gaps only. */
@@ -24,6 +24,13 @@ fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_r
 
 /* True only if g grows throughout; false is not yet a verdict. */
 bool fret_table_grows(const struct fret_table *table);
+
+/* Distance from the start of the last place below e > 0 where the profile is not smooth: the start itself or
+ * a row of a table. */
+fret_real fret_gap_kink(const fret_gap *gap, fret_real e);
+
+/* The power of r that a gap without a flat end begins with. */
+fret_real fret_gap_tip(const fret_gap *gap);
 
 /* Radius below which f = 0 (the flat end), and the radius where the gap ends (INFINITY: nowhere). */
 fret_real fret_gap_start(const fret_gap *gap);

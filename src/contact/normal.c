@@ -88,9 +88,8 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
     if (gap->kind == FRET_GAP_POWER) {
         make_power(&n);
     } else {
-        st = fret_gap_rule(gap, material->k, &n.rule);
-        if (!st.code)
-            st = find_end(&n);
+        fret_gap_rule(gap, material->k, &n.rule);
+        st = find_end(&n);
     }
     if (!st.code)
         *out = n;
@@ -208,66 +207,163 @@ fret_point fret_law_at_force(const fret_normal *n, fret_real F) {
     return point_at(n, true, F);
 }
 
-/* Shapes without a closed form: t = g(a_out) - g(a) over the annulus, dK = 2 cN0 (a/c0)^k da. */
+/* Slices of shapes without a closed form, over the annulus between two distances from the start:
+ * dK = 2 cN0 (x/c0)^k dx. */
+
+/* Thin slices inwards from `outer`, with `target` the thickness or the load: as integrals of the slope of the
+ * profile, where differences of depths would lose digits. Not where a kink of the profile is near. */
+static bool thin_slice(const fret_normal *n, fret_real outer, bool by_load, fret_real target, fret_real *h,
+                       fret_slice *out) {
+    fret_real start = fret_gap_start(&n->gap), reach = outer - fret_gap_kink(&n->gap, outer);
+    if (n->gap.kind == FRET_GAP_EXACT_SPHERE)
+        reach = fminl(reach, n->gap.R - outer);
+    fret_real width = 0, step, K[8], dy[8], dw[8], depth, load;
+    for (int i = 0; i < 8; i++) {
+        fret_real inner = outer - width, rate = profile(n, inner).slope, missing = target;
+        if (by_load)
+            rate *= fret_normal_stiffness(n, start + inner);
+        depth = load = 0;
+        for (int j = 0; j < 8 && width > 0; j++) {
+            fret_real e = outer - width * fret_gauss_node[j];
+            K[j] = fret_normal_stiffness(n, start + e);
+            dy[j] = width * profile(n, e).slope;
+            dw[j] = K[j] * dy[j];
+            depth += fret_gauss_weight[j] * dy[j];
+            load += fret_gauss_weight[j] * dw[j];
+        }
+        missing -= by_load ? load : depth;
+        if (fabsl(missing) <= 16 * LDBL_EPSILON * target)
+            break;
+        step = missing / rate;
+        width += step;
+        if (!(width > 0 && width < 0.03L * reach))
+            return false;
+    }
+    fret_real t[8], sums[3] = {0, 0, 0};
+    fret_gauss_running(dy, t);
+    for (int j = 0; j < 8; j++) {
+        fret_real x = start + (outer - width * fret_gauss_node[j]);
+        fret_real dK = (1 + n->foundation.k) * K[j] / x * width;
+        sums[0] += fret_gauss_weight[j] * t[j] * dw[j];
+        sums[1] += fret_gauss_weight[j] * t[j] * dK;
+        sums[2] += fret_gauss_weight[j] * t[j] * (depth - t[j]) * dK;
+    }
+    *h = depth;
+    *out = (fret_slice){load, sums[0], sums[1], sums[2]};
+    return true;
+}
+
+/* The others: t = y-g(x); G = int t dK, L = int t (h-t) dK, int t^2 dK. */
 typedef struct annulus {
     const fret_normal *normal;
-    fret_real start, inner, outer, g; /* inner, outer: distances from the start */
-    bool second;                      /* moment: t dK or t^2 dK */
+    fret_real start, y, h, G, L, t2;
 } annulus;
 
-static fret_real annulus_moment(fret_real t, fret_real rest, void *context) {
-    const annulus *s = context;
+static void annulus_add(annulus *s, fret_real e, fret_real dK) {
+    fret_real t = s->y - (e > 0 ? profile(s->normal, e).g : 0);
+    s->G += t * dK;
+    s->L += t * (s->h - t) * dK;
+    s->t2 += t * t * dK;
+}
+
+/* Gauss's rule between distances lo and hi of the kink: linear in the fourth root of the distance, which
+ * makes the kink, a power (k+3)/2 of it, smooth enough; linear in the distance where the kink is far. */
+static void annulus_gauss(annulus *s, fret_real kink, fret_real lo, fret_real hi) {
     const fret_foundation *f = &s->normal->foundation;
-    fret_real e = s->inner * rest + s->outer * t, d = s->g - (e > 0 ? profile(s->normal, e).g : 0);
-    return (s->second ? d * d : d) * 2 * f->cN0 * fret_pow((s->start + e) / f->c0, f->k) *
-           (s->outer - s->inner);
+    bool far = lo > 0.8L * hi;
+    const fret_real wide = hi / (s->start + kink + hi);
+    int parts = lo > 0.97L * hi || wide < 0.002L ? 1 : wide < 0.02L ? 2 : 4;
+    fret_real from = far ? lo : sqrtl(sqrtl(lo)), span = (far ? hi : sqrtl(sqrtl(hi))) - from;
+    for (int j = 0; j < 8 * parts; j++) {
+        fret_real v = from + span * (j / 8 + fret_gauss_node[j % 8]) / parts,
+                  e = kink + (far ? v : v * v * v * v);
+        fret_real dx = fret_gauss_weight[j % 8] * span / parts * (far ? 1 : 4 * v * v * v);
+        annulus_add(s, e, 2 * f->cN0 * fret_pow((s->start + e) / f->c0, f->k) * dx);
+    }
+}
+
+/* From the start of the gap, where the profile is a power, and to where x^k may be singular: linear in K. */
+static void annulus_inmost(annulus *s, fret_real lo, fret_real hi) {
+    fret_real k1 = 1 + s->normal->foundation.k, b = s->start, below = 0, span;
+    if (b > 0) {
+        below = fret_expm1(k1 * fret_log1p(lo / b));
+        span = fret_expm1(k1 * fret_log1p(hi / b)) - below;
+    } else {
+        span = lo > 0 ? -fret_expm1(k1 * fret_log(lo / hi)) : 1;
+    }
+    fret_real K = fret_normal_stiffness(s->normal, b > 0 ? b : hi) * span;
+    for (int i = 0; i < FRET_EXPONENTIAL; i++) {
+        fret_node node = fret_exponential_node(i);
+        fret_real e = b > 0 ? b * fret_expm1(fret_log1p(below + span * node.t) / k1)
+                            : hi * fret_exp(fret_log1p(-span * node.rest) / k1);
+        annulus_add(s, e, K * node.weight);
+    }
 }
 
 fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_real h) {
-    fret_real y = outer->y;
+    fret_real y = outer->y, start = fret_gap_start(&n->gap);
+    fret_slice out = {0, 0, 0, 0};
     if (h <= 0)
-        return (fret_slice){0, 0, 0, 0};
+        return out;
     if (n->p > 0) {
         fret_moments m = fret_power_moments(n->pm1, h / y);
         fret_real F = outer->F, Fy = F * y;
         return (fret_slice){F * m.w, Fy * m.J, F * m.m1, Fy * m.L};
     }
-    annulus s = {.normal = n, .start = fret_gap_start(&n->gap), .outer = solve_radius(n, false, y), .g = y};
-    s.inner = h < y ? solve_radius(n, false, y - h) : 0;
-    /* a thin slice away from the centre is smooth */
-    fret_real (*integrate)(fret_integrand *, void *) =
-        s.inner > 0.8L * s.outer ? fret_integrate_smooth : fret_integrate;
-    fret_real K = fret_normal_stiffness(n, s.start + s.inner), m1 = integrate(annulus_moment, &s);
-    s.second = true;
-    fret_real m2 = integrate(annulus_moment, &s);
-    return (fret_slice){h * K + m1, (h * h * K + m2) / 2, m1, h * m1 - m2};
+    fret_real hi = solve_radius(n, false, y), lo = 0;
+    if (thin_slice(n, hi, false, h, &h, &out))
+        return out;
+    out.w = outer->F;
+    if (h < y) {
+        lo = solve_radius(n, false, y - h);
+        fret_profile inner = profile(n, lo);
+        out.w -= force_of(n, &inner);
+    }
+    annulus s = {.normal = n, .start = start, .y = y, .h = h};
+    while (hi > lo) {
+        fret_real kink = fret_gap_kink(&n->gap, hi), next = fret_gap_kink(&n->gap, kink);
+        while (kink > 0 && hi - next < 1e-3L * (start + hi)) { /* rows as close leave no trace one by one */
+            kink = next;
+            next = fret_gap_kink(&n->gap, kink);
+        }
+        fret_real end = fmaxl(kink, lo);
+        if (kink > 0 || end > 0.8L * hi)
+            annulus_gauss(&s, kink, end - kink, hi - kink);
+        else
+            annulus_inmost(&s, end, hi);
+        hi = end;
+    }
+    fret_real K = fret_normal_stiffness(n, start + lo);
+    out.J = (h * h * K + s.t2) / 2;
+    out.G = s.G;
+    out.L = s.L;
+    return out;
 }
-
-/* Below this part of the whole a difference of two loads has lost too many digits. */
-static const fret_real thin = 1e-3L;
 
 fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real h) {
     fret_real y = outer->y;
+    fret_slice thin;
     if (h >= y)
         return outer->F;
     if (n->p > 0)
         return -outer->F * fret_expm1(n->p * fret_log1p(-h / y));
-    if (h > thin * y)
-        return outer->F - fret_law_force(n, y - h);
-    return fret_law_slice(n, outer, h).w;
+    if (h <= 0)
+        return 0;
+    if (thin_slice(n, solve_radius(n, false, y), false, h, &h, &thin))
+        return thin.w;
+    return outer->F - fret_law_force(n, y - h);
 }
 
 fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret_real w) {
-    fret_real y = outer->y, F = outer->F;
+    fret_real y = outer->y, F = outer->F, h = 0;
+    fret_slice thin;
     if (w >= F)
         return y;
     if (n->p > 0)
         return -y * fret_expm1(n->q * fret_log1p(-w / F));
-    fret_real h = y - fret_law_depth(n, F - w);
-    if (w < thin * F && h > 0) /* two Newton steps restore the digits */
-        for (int i = 0; i < 2; i++)
-            h += (w - fret_law_slice(n, outer, h).w) / fret_normal_stiffness(n, fret_law_radius(n, y - h));
-    return h;
+    if (w <= 0 || thin_slice(n, solve_radius(n, true, F), true, w, &h, &thin))
+        return h;
+    return y - fret_law_depth(n, F - w);
 }
 
 static fret_status finish(const fret_press *p, fret_press *out) {

@@ -63,55 +63,18 @@ fret_moments fret_power_moments(fret_real pm1, fret_real x) {
     return (fret_moments){x * y - em, (m2 + p * x * x * y) / 2, m1, x * m1 - m2};
 }
 
-/* Newton on the recurrence in v = (1-z)/2, so that the node at the edge keeps its digits as it goes to 0 with
- * alpha+1. It starts from the asymptotic places z = cos(theta), equally spaced in theta; basic arithmetic
- * turns from one to the next, and gives the same nodes with every mathematical library. */
-fret_status fret_rule_make(fret_real k, fret_rule *rule) {
-    enum { N = FRET_RULE };
-    fret_real alpha = (k - 1) / 2, alpha1 = (k + 1) / 2, total = 1 / alpha1, others = 0;
-    fret_real turn = PI_L / (N + alpha1 / 2), first = (0.25L + alpha1 / 2) * turn;
-    fret_real ct = 1 - turn * turn / 2, st = turn * (1 - turn * turn / 6);
-    fret_real cosine = 1 - first * first / 2, sine = first * (1 - first * first / 6);
-    rule->k = k;
-    for (int i = 0; i < N; i++) {
-        fret_real v = i == 0 ? alpha1 / (N * (N + alpha1)) : (1 - cosine) / 2, slope = 1;
-        for (int pass = 0; pass < 6; pass++) {
-            fret_real p0 = 1, p1 = alpha1 - (alpha + 2) * v;
-            for (int n = 2; n <= N; n++) {
-                fret_real c = 2 * n + alpha;
-                fret_real p2 = ((c - 1) * (c * (c - 2) * (1 - 2 * v) + alpha * alpha) * p1 -
-                                2 * (n - 2 + alpha1) * (n - 1) * c * p0) /
-                               (2 * n * (n + alpha) * (c - 2));
-                p0 = p1;
-                p1 = p2;
-            }
-            fret_real c = 2 * N + alpha;
-            slope = (N * (alpha - c * (1 - 2 * v)) * p1 + 2 * (N + alpha) * N * p0) / (4 * c);
-            v += p1 * v * (1 - v) / (2 * slope);
-        }
-        rule->v[i] = v;
-        rule->weight[i] = v * (1 - v) / (4 * slope * slope);
-        fret_real next = cosine * ct - sine * st;
-        sine = sine * ct + cosine * st;
-        cosine = next;
-    }
-    /* as alpha -> -1 one node carries nearly all, too near the edge for its own formula */
-    int edge = 0;
-    for (int i = 1; i < N; i++)
-        if (rule->v[i] < rule->v[edge])
-            edge = i;
-    for (int i = 0; i < N; i++)
-        if (i != edge)
-            others += rule->weight[i];
-    rule->weight[edge] = total - others;
-    return fret_ok();
+/* step 1/12: 1e-15 with a singularity half a unit off the axis */
+fret_node fret_exponential_node(int i) {
+    int j = i - FRET_EXPONENTIAL / 2;
+    fret_real small = exponential_rule[abs(j)].small, weight = exponential_rule[abs(j)].weight;
+    return j < 0 ? (fret_node){small, 1 - small, weight} : (fret_node){1 - small, small, weight};
 }
 
 fret_real fret_integrate(fret_integrand *f, void *context) {
     fret_sum sum = {0, 0};
-    for (int i = 54; i > -55; i--) { /* step 1/12: 1e-15 with a singularity half a unit off the axis */
-        fret_real small = exponential_rule[abs(i)].small, weight = exponential_rule[abs(i)].weight;
-        fret_sum_add(&sum, weight * (i < 0 ? f(small, 1 - small, context) : f(1 - small, small, context)));
+    for (int i = FRET_EXPONENTIAL; i-- > 0;) {
+        fret_node node = fret_exponential_node(i);
+        fret_sum_add(&sum, node.weight * f(node.t, node.rest, context));
     }
     return fret_sum_value(&sum);
 }
@@ -130,4 +93,26 @@ fret_real fret_integrate_smooth(fret_integrand *f, void *context) {
     for (int i = 0; i < 8; i++)
         sum += fret_gauss_weight[i] * f(fret_gauss_node[i], fret_gauss_node[7 - i], context);
     return sum;
+}
+
+/* By Legendre polynomials: the integral of P_n over -1..z is (P_(n+1)(z)-P_(n-1)(z))/(2n+1). */
+void fret_gauss_running(const fret_real f[8], fret_real sum[8]) {
+    fret_real p[8][9], c[8];
+    for (int j = 0; j < 8; j++) {
+        fret_real z = 2 * fret_gauss_node[j] - 1;
+        p[j][0] = 1;
+        p[j][1] = z;
+        for (int n = 1; n < 8; n++)
+            p[j][n + 1] = ((2 * n + 1) * z * p[j][n] - n * p[j][n - 1]) / (n + 1);
+    }
+    for (int n = 0; n < 8; n++) {
+        c[n] = 0;
+        for (int j = 0; j < 8; j++)
+            c[n] += fret_gauss_weight[j] * f[j] * p[j][n];
+    }
+    for (int j = 0; j < 8; j++) {
+        sum[j] = c[0] * fret_gauss_node[j];
+        for (int n = 1; n < 8; n++)
+            sum[j] += c[n] * (p[j][n + 1] - p[j][n - 1]) / 2;
+    }
 }

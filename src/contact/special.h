@@ -38,18 +38,25 @@ static inline fret_real fret_sum_value(const fret_sum *s) {
     return s->sum + s->rest;
 }
 
-/* Fills a rule for the exponent k. */
-fret_status fret_rule_make(fret_real k, fret_rule *rule);
-
 /* int_0^1 f dt by double-exponential quadrature; f gets t and 1-t, each with all its digits, so that
  * algebraic end-point singularities do no harm. */
 typedef fret_real fret_integrand(fret_real t, fret_real rest, void *context);
 fret_real fret_integrate(fret_integrand *f, void *context);
 
+/* The nodes of that rule, 0 <= i < FRET_EXPONENTIAL, for several integrals at once. */
+enum { FRET_EXPONENTIAL = 109 };
+typedef struct fret_node {
+    fret_real t, rest, weight;
+} fret_node;
+fret_node fret_exponential_node(int i);
+
 /* The same by eight Gauss-Legendre points: 1e-20 where f is smooth and its argument varies by less than 20 %.
  */
 fret_real fret_integrate_smooth(fret_integrand *f, void *context);
 extern const fret_real fret_gauss_node[8], fret_gauss_weight[8]; /* on 0..1 */
+
+/* int_0^(node j) f dt from the values of f at the eight nodes. */
+void fret_gauss_running(const fret_real f[8], fret_real sum[8]);
 
 /* Moments of the power law F = y^p at y = 1, pm1 = p-1, over distances 0..x from the edge:
  *   w = int K dt, J = int t K dt, m1 = int t dK, L = int m1 dt;  K = p y^(p-1). */
