@@ -3,7 +3,7 @@
 # Makes every table in tests/reference anew; needs Python 3 with mpmath. Same bytes every time.
 set -eu
 cd "$(dirname "$0")"
-for script in dd material kappa loss slice scene history shape corners; do
+for script in dd material kappa loss slice scene history shape field corners; do
     PYTHONDONTWRITEBYTECODE=1 "${PYTHON:-python3}" "$script.py" "$@"
 done
 "${PYTHON:-python3}" tables.py > ../../src/contact/tables.h

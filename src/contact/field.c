@@ -22,13 +22,19 @@ static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
     return fret_gap_profile(&c->normal->gap, &c->normal->rule, x - c->start).slope / x;
 }
 
-/* Away from the singularity, x from c.r to c.a: linear in ln x, since near a tip the field is a power. */
+/* Away from the singularity, from x = c.start to c.a: linear in ln x, since near a tip the field is a power;
+ * of a steep one only the outer end counts: linear in the power itself. */
 static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
-    (void)rest;
     const kernel *c = context;
-    fret_real alpha = (c->normal->rule.k - 1) / 2, span = fret_log(c->a / c->start);
-    fret_real x = fminl(c->start * fret_exp(span * t), c->a);
-    return span * x *
+    fret_real alpha = (c->normal->rule.k - 1) / 2, span = fret_log(c->a / c->start), l = span * t,
+              weight = span;
+    if (c->power * span > 150) {
+        fret_real u = rest + t * fret_exp(c->power * span);
+        l = fret_log(u) / c->power;
+        weight = fret_expm1(c->power * span) / (c->power * u);
+    }
+    fret_real x = fminl(c->start * fret_exp(l), c->a);
+    return weight * x *
            fret_gap_profile(&c->normal->gap, &c->normal->rule, x - fret_gap_start(&c->normal->gap)).slope *
            fret_pow((x - c->r) * (x + c->r), alpha);
 }
@@ -45,6 +51,16 @@ static fret_real pressure_below(fret_real t, fret_real rest, void *context) {
     return slope * fret_pow((x - c->r) * (x + c->r), alpha) * e / t;
 }
 
+/* At the tip: x = a t^(1/(n+k-1)), n the leading power of the gap. */
+static fret_real pressure_tip(fret_real t, fret_real rest, void *context) {
+    (void)rest;
+    const kernel *c = context;
+    fret_real x = c->a * fret_pow(t, c->power);
+    if (x <= 0) /* below the range of numbers: no contribution is as small */
+        return 0;
+    return fret_gap_profile(&c->normal->gap, &c->normal->rule, x).slope * fret_pow(x, c->normal->rule.k) / t;
+}
+
 fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
     fret_status st = fret_check_not_negative("r", (double)r);
     if (st.code)
@@ -54,21 +70,21 @@ fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_r
     if (r >= a || a <= start)
         return fret_ok();
     /* the leading power of the gap decides what the tip is like */
-    fret_real least = INFINITY;
-    for (int i = 0; i < n->gap.terms; i++)
-        least = fminl(least, n->gap.power[i].n);
-    bool tip = r == 0 && start == 0 && least + n->foundation.k <= 1;
+    const fret_real rise = fret_gap_tip(&n->gap) + n->foundation.k - 1;
+    const bool tip = r == 0 && start == 0;
     bool sharp =
         start > 0 && r == start && n->gap.kind != FRET_GAP_FLAT_ROUNDED && n->gap.kind != FRET_GAP_TABLE;
-    if (tip || sharp)
+    if ((tip && rise <= 0) || sharp)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     kernel c = {n, a, r, start, 2 / k1};
     fret_real scale = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / PI_L;
-    if (r >= start) {
-        if (r > 0 && r < a / 2)
-            c.a = 1.4142135623730950488L * r; /* farther, the kernel's x = -r would come too near */
+    if (tip) {
+        c.power = 1 / rise;
+        *p = scale / rise * fret_integrate(pressure_tip, &c);
+    } else if (r >= start) {
+        c.a = fminl(a, 1.4142135623730950488L * r); /* farther, the kernel's x = -r would come too near */
         *p = scale * fret_pow((c.a - r) * (c.a + r), k1 / 2) / k1 * fret_integrate(pressure_inside, &c);
-        kernel beyond = {n, a, r, c.a, 0};
+        kernel beyond = {n, a, r, c.a, rise};
         if (c.a < a)
             *p += scale * fret_integrate(pressure_beyond, &beyond);
     } else {
@@ -88,8 +104,8 @@ static fret_real outside_part(fret_real t, fret_real rest, void *context) {
     (void)t;
     const outside *c = context;
     fret_real k1 = 1 + c->normal->rule.k, l = fret_log1p(-c->span * rest) / k1;
-    fret_real below = -c->hi * fret_expm1(l), x = c->hi - below,
-              g = 0; /* hi-x keeps its digits near the edge */
+    fret_real below = -c->hi * fret_expm1(l), x = l < -1 ? c->hi * fret_exp(l) : c->hi - below,
+              g = 0; /* hi-x keeps its digits near the edge, x near the centre */
     if (!c->flat && x > c->lo)
         g = fret_gap_profile(&c->normal->gap, &c->normal->rule, x - c->lo).g;
     return (c->dz - g) * fret_pow((c->r - c->hi + below) * (c->r + x), -k1 / 2);

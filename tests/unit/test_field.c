@@ -2,6 +2,28 @@
 /* Local fields: their integrals are the forces, they agree with the gap inside, and with closed forms. */
 #include "unit.h"
 
+/* Power laws, from the tip to far outside; the nearest places to the edge are 1e-9 inside, 1e-4 outside. */
+static void reference(void) {
+    unit_table t;
+    if (!unit_open(&t, "field.csv"))
+        return;
+    while (unit_row(&t)) {
+        const double n = unit_input(&t, 0), k = unit_input(&t, 1), a = unit_input(&t, 2),
+                     r = unit_input(&t, 3);
+        const unit_scene s = unit_make_scene(n, k);
+        fret_normal normal;
+        fret_real p = -1, w = -1;
+        CHECK_OK(fret_normal_make(&s.material, &s.gap, &normal));
+        CHECK_OK(fret_pressure(&normal, a, r, &p));
+        CHECK_OK(fret_surface(&normal, a, r, &w));
+        if (r < a)
+            CHECK_REL(p, unit_result(&t, 4), 5e-14L);
+        else
+            CHECK(p == 0);
+        CHECK_REL(w, unit_result(&t, 5), 5e-14L);
+    }
+}
+
 typedef fret_status field(const void *what, fret_real r, fret_real *out);
 
 typedef struct pressed {
@@ -155,6 +177,7 @@ static void errors(void) {
 
 int main(int argc, char **argv) {
     unit_start("field", argc, argv);
+    reference();
     forces();
     closed();
     errors();
