@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""field.csv: pressure and surface displacement of power laws, by hypergeometric functions."""
+"""field.csv: pressure and surface displacement; of power laws by hypergeometric functions, of gaps with a flat
+end by quadrature."""
 
 from mpmath import mp, mpf
 
 import oracle
+import shape
 
 mp.dps = 60
 BODIES = (210e9, 0.3, 0, 70e9, 0.35, 0)
@@ -43,7 +45,62 @@ def check(scene, a, r):
             assert abs(outside(scene, a, r) / want - 1) < mpf(10)**-15, (n, k, r)
 
 
+class Flat(shape.Shape):
+    """The same of a gap with a flat end, a = b + e1."""
+
+    def steepness(self, e):
+        """g'"""
+        k, m, b, a, D, z = self.k, self.m, self.b, *self.span(e)
+        if self.kind == shape.CONE:
+            return self.g(e) / a + self.slope * b * D**(m - 1) * a**-k
+        if self.kind == shape.PARABOLOID:
+            return (2 * self.g(e) + b**2 * z**(m - 1) / self.R) / a
+        return (2 * self.g(e) + a * b * z**m / (2 * m * self.R) * mp.hyp2f1(0.5, m, m + 1, z)) / a
+
+    def f(self, r):
+        x = max(r - self.b, 0)
+        return {shape.CONE: self.slope * x, shape.PARABOLOID: x * (r + self.b) / (2 * self.R),
+                shape.ROUNDED: x**2 / (2 * self.R)}[self.kind]
+
+    def pressure(self, e1, r):
+        b, m = self.b, self.m
+        breaks = [e1, *(x for x in (abs(r - b), abs(r - b) / 30) if x < e1)]
+        if r <= b:  # e = e1 v^(1/m)
+            def p(v):
+                e = e1 * v**(1 / m)
+                return self.steepness(e) * ((b + e - r) * (b + e + r))**(m - 1) * e / (m * v)
+            return mp.quad(p, [0, *sorted((x / e1)**m for x in breaks)])
+        D = (b + e1)**2 - r**2
+
+        def q(v):  # x^2 = r^2 + D v^(1/m)
+            x = mp.sqrt(r**2 + D * v**(1 / m))
+            return self.steepness(x - b) / x
+        return D**m / (2 * m) * mp.quad(q, [0, *sorted((x / e1)**m for x in breaks)])
+
+    def surface(self, e1, r):
+        b, m, d = self.b, self.m, self.g(e1)
+
+        def below(v):  # x = b v^(1/(2m))
+            return (r**2 - b**2 * v**(1 / m))**-m
+
+        def beyond(v):  # x = b + e1 v^(1/m)
+            e = e1 * v**(1 / m)
+            return (d - self.g(e)) * (b + e)**self.k * ((r - b - e) * (r + b + e))**-m * e / (m * v)
+        return 2 * mp.cos(mp.pi * self.k / 2) / mp.pi * (
+            d * b**(2 * m) / (2 * m) * mp.quad(below, [0, 0.5, 1]) + mp.quad(beyond, [0, 0.5, 1]))
+
+
 rows = []
+for kind in (shape.CONE, shape.PARABOLOID, shape.ROUNDED):
+    for k in (-0.9, -0.3, 0.7):
+        cN0 = oracle.foundation(*BODIES, k)[0]
+        b, R, slope, a = 1e-3, 0.01, 0.05, 1.6e-3
+        flat, e1 = Flat((kind, b, R, slope, 1, 0, 1, 0, 1, 0), k), mpf(a) - mpf(b)
+        for r in (0.0, 0.5e-3, 0.99e-3, 1.01e-3, 1.3e-3, 1.59e-3, 1.7e-3):
+            with mp.workdps(40):
+                rows.append(((kind, b, R, slope, 1.0, k, a, r), [
+                    cN0 * mpf(C0)**-flat.k / mp.pi * flat.pressure(e1, mpf(r)) if r < a else mpf(0),
+                    flat.g(e1) - flat.f(mpf(r)) if r < a else flat.surface(e1, mpf(r))]))
 for n in (0.5, 1.0, 2.0, 4.0, 10.0):
     for k in (-0.9, -0.7, -0.3, 0.0, 0.3, 0.7, 0.9):
         scene = oracle.Scene(*BODIES, k, C0, n, H, R0, MU)
@@ -54,7 +111,8 @@ for n in (0.5, 1.0, 2.0, 4.0, 10.0):
             if part in (0.5, 0.9, 2, 100):
                 check(scene, a, mpf(r))
             within = r < A
-            rows.append(((n, k, A, r), [
+            rows.append(((0, 0.0, 0.0, 0.0, n, k, A, r), [
                 inside(scene, a, mpf(r)) if within else mpf(0),
                 scene.g(a) - mpf(H) * (mpf(r) / mpf(R0))**n if within else outside(scene, a, mpf(r))]))
-oracle.write("field.csv", "field.py", "fields of f = h (r/r0)^n", ["n", "k", "a", "r"], ["p", "w"], rows)
+oracle.write("field.csv", "field.py", "fields of f = h (r/r0)^n, kind 0, and of flat ends",
+             ["kind", "b", "R", "slope", "n", "k", "a", "r"], ["p", "w"], rows)

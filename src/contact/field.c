@@ -4,61 +4,59 @@
 #include "gap.h"
 #include "special.h"
 
-/* Both integrals run over one variable t in 0..1 that takes the singular factor of the kernel away. */
+/* The pressure as one or two integrals over a variable t in 0..1 that takes the singular factor of the kernel
+ * away. Distances e = x-b from the flat end or the centre. */
 typedef struct kernel {
     const fret_normal *normal;
-    fret_real a, r, start, power; /* start: where x begins, or the flat end */
+    fret_real b, r, from, to, power; /* e from .. to */
 } kernel;
 
-/* r beyond the flat end: x^2 = r^2 + (a^2-r^2) t^(2/(k+1)). */
+static fret_real slope_at(const kernel *c, fret_real e) {
+    return e > 0 ? fret_gap_profile(&c->normal->gap, &c->normal->rule, e).slope : 0;
+}
+
+/* (x^2-r^2)^((k-1)/2) */
+static fret_real singular(const kernel *c, fret_real e) {
+    return fret_pow(((c->b - c->r) + e) * (c->b + e + c->r), (c->normal->rule.k - 1) / 2);
+}
+
+/* r beyond the flat end: x^2 = r^2 + (to^2-r^2) t^(2/(k+1)). */
 static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
     (void)rest;
     const kernel *c = context;
-    fret_real v = fret_pow(t, c->power), x = sqrtl(c->r * c->r + (c->a - c->r) * (c->a + c->r) * v);
-    if (x <= c->start)
-        return 0;
-    if (x > c->a)
-        x = c->a;
-    return fret_gap_profile(&c->normal->gap, &c->normal->rule, x - c->start).slope / x;
+    fret_real last = c->b + c->to, span = (last - c->r) * (last + c->r);
+    fret_real x = sqrtl(c->r * c->r + span * fret_pow(t, c->power));
+    return slope_at(c, fminl(x - c->b, c->to)) / x;
 }
 
-/* Away from the singularity, from x = c.start to c.a: linear in ln x, since near a tip the field is a power;
- * of a steep one only the outer end counts: linear in the power itself. */
+/* r not beyond the flat end: e = to t^(2/(k+1)), where g' may be as singular as the kernel. */
+static fret_real pressure_below(fret_real t, fret_real rest, void *context) {
+    (void)rest;
+    const kernel *c = context;
+    fret_real e = c->to * fret_pow(t, c->power);
+    return e > 0 ? slope_at(c, e) * singular(c, e) * e / t : 0;
+}
+
+/* Away from the singularity: linear in ln e, since near a tip the field is a power; of a steep one only the
+ * outer end counts: linear in the power itself. */
 static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
     const kernel *c = context;
-    fret_real alpha = (c->normal->rule.k - 1) / 2, span = fret_log(c->a / c->start), l = span * t,
-              weight = span;
+    fret_real span = fret_log(c->to / c->from), l = span * t, weight = span;
     if (c->power * span > 150) {
         fret_real u = rest + t * fret_exp(c->power * span);
         l = fret_log(u) / c->power;
         weight = fret_expm1(c->power * span) / (c->power * u);
     }
-    fret_real x = fminl(c->start * fret_exp(l), c->a);
-    return weight * x *
-           fret_gap_profile(&c->normal->gap, &c->normal->rule, x - fret_gap_start(&c->normal->gap)).slope *
-           fret_pow((x - c->r) * (x + c->r), alpha);
-}
-
-/* r below the flat end: x = b + (a-b) t^(2/(k+1)), where g' may be as singular as the kernel. */
-static fret_real pressure_below(fret_real t, fret_real rest, void *context) {
-    (void)rest;
-    const kernel *c = context;
-    fret_real alpha = (c->normal->rule.k - 1) / 2, e = (c->a - c->start) * fret_pow(t, c->power),
-              x = c->start + e;
-    if (x <= c->start)
-        return 0;
-    fret_real slope = fret_gap_profile(&c->normal->gap, &c->normal->rule, e).slope;
-    return slope * fret_pow((x - c->r) * (x + c->r), alpha) * e / t;
+    fret_real e = fminl(c->from * fret_exp(l), c->to);
+    return weight * e * slope_at(c, e) * singular(c, e);
 }
 
 /* At the tip: x = a t^(1/(n+k-1)), n the leading power of the gap. */
 static fret_real pressure_tip(fret_real t, fret_real rest, void *context) {
     (void)rest;
     const kernel *c = context;
-    fret_real x = c->a * fret_pow(t, c->power);
-    if (x <= 0) /* below the range of numbers: no contribution is as small */
-        return 0;
-    return fret_gap_profile(&c->normal->gap, &c->normal->rule, x).slope * fret_pow(x, c->normal->rule.k) / t;
+    fret_real x = c->to * fret_pow(t, c->power);
+    return x > 0 ? slope_at(c, x) * fret_pow(x, c->normal->rule.k) / t : 0;
 }
 
 fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
@@ -76,20 +74,26 @@ fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_r
         start > 0 && r == start && n->gap.kind != FRET_GAP_FLAT_ROUNDED && n->gap.kind != FRET_GAP_TABLE;
     if ((tip && rise <= 0) || sharp)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
-    kernel c = {n, a, r, start, 2 / k1};
+    kernel c = {n, start, r, 0, a - start, 2 / k1};
     fret_real scale = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / PI_L;
     if (tip) {
         c.power = 1 / rise;
         *p = scale / rise * fret_integrate(pressure_tip, &c);
-    } else if (r >= start) {
-        c.a = fminl(a, 1.4142135623730950488L * r); /* farther, the kernel's x = -r would come too near */
-        *p = scale * fret_pow((c.a - r) * (c.a + r), k1 / 2) / k1 * fret_integrate(pressure_inside, &c);
-        kernel beyond = {n, a, r, c.a, rise};
-        if (c.a < a)
-            *p += scale * fret_integrate(pressure_beyond, &beyond);
-    } else {
-        *p = scale * 2 / k1 * fret_integrate(pressure_below, &c);
+        return fret_ok();
     }
+    /* the first part reaches no farther than what is singular on the other side: x = b, -r, or r below b */
+    kernel beyond = {n, start, r, c.to, c.to, rise};
+    if (r > start)
+        beyond.from = fminl(c.to, sqrtl(r * r + (r - start) * (r + start)) - start);
+    else if (r < start)
+        beyond.from = fminl(c.to, start - r);
+    c.to = beyond.from;
+    fret_real last = start + c.to;
+    *p = r > start ? fret_pow((last - r) * (last + r), k1 / 2) * fret_integrate(pressure_inside, &c)
+                   : 2 * fret_integrate(pressure_below, &c);
+    *p *= scale / k1;
+    if (c.to < beyond.to)
+        *p += scale * fret_integrate(pressure_beyond, &beyond);
     return isfinite(*p) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
 }
 
