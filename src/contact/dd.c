@@ -42,10 +42,9 @@ static dd expm1_series(dd r) {
     double u = r.hi, tail = c[12].hi + u * c[13].hi;
     for (int n = 11; n >= 6; n--)
         tail = c[n].hi + u * tail;
-    dd p = dd_extend(c[5], dd_of(u * tail));
-    for (int n = 4; n >= 2; n--)
-        p = dd_extend(c[n], dd_mul(r, p));
-    return dd_extend(r, dd_mul(dd_mul(r, r), p));
+    dd r2 = dd_mul(r, r), p = dd_extend(c[4], dd_mul(r, dd_extend(c[5], dd_of(u * tail))));
+    p = dd_extend(dd_extend(c[2], dd_mul(r, c[3])), dd_mul(r2, p));
+    return dd_extend(r, dd_mul(r2, p));
 }
 
 static const double small_argument = 0.0054;
@@ -69,7 +68,7 @@ static dd log_series(dd s) {
         tail = inverse[n].hi + u * tail;
     dd p = dd_extend(inverse[5], dd_of(u * tail));
     p = dd_extend(inverse[3], dd_mul(s2, p));
-    p = dd_extend(s, dd_mul(s, dd_mul(s2, p)));
+    p = dd_extend(s, dd_mul(dd_mul(s, s2), p));
     return (dd){2 * p.hi, 2 * p.lo};
 }
 
@@ -132,10 +131,10 @@ static dd sin_core(dd x) {
     double u = y2.hi, tail = c[25].hi;
     for (int n = 23; n >= 15; n -= 2)
         tail = c[n].hi - u * tail;
-    dd p = dd_extend(c[13], dd_of(-u * tail));
-    for (int n = 11; n >= 3; n -= 2)
-        p = dd_extend(c[n], dd_neg(dd_mul(y2, p)));
-    dd s = dd_extend(y, dd_neg(dd_mul(y, dd_mul(y2, p))));
+    dd y4 = dd_mul(y2, y2), p = dd_extend(c[11], dd_neg(dd_mul(y2, dd_extend(c[13], dd_of(-u * tail)))));
+    p = dd_extend(dd_extend(c[7], dd_neg(dd_mul(y2, c[9]))), dd_mul(y4, p));
+    p = dd_extend(dd_extend(c[3], dd_neg(dd_mul(y2, c[5]))), dd_mul(y4, p));
+    dd s = dd_extend(y, dd_neg(dd_mul(dd_mul(y, y2), p)));
     dd s2 = dd_mul(s, s);
     return dd_mul(s, dd_sub(dd_of(3), (dd){4 * s2.hi, 4 * s2.lo}));
 }
