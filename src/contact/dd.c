@@ -36,13 +36,21 @@ static fret_real mantissa(fret_real x, int *e) {
     return abs(*e) <= PLAIN ? x * two_to(-*e) : frexpl(x, e);
 }
 
+/* c[0] + u c[step] + u^2 c[2 step] ... to double, even and odd terms side by side */
+static inline double tail(const dd *c, int step, int pairs, double u) {
+    double u2 = u * u, even = 0, odd = 0;
+    for (int i = pairs - 1; i >= 0; i--) {
+        even = c[2 * i * step].hi + u2 * even;
+        odd = c[(2 * i + 1) * step].hi + u2 * odd;
+    }
+    return even + u * odd;
+}
+
 /* exp(r)-1, |r| <= ln 2/128: r^n/n! for n > 5 is below 2^-47 r and needs no second part. */
 static dd expm1_series(dd r) {
     const dd *c = inverse_factorial;
-    double u = r.hi, tail = c[12].hi + u * c[13].hi;
-    for (int n = 11; n >= 6; n--)
-        tail = c[n].hi + u * tail;
-    dd r2 = dd_mul(r, r), p = dd_extend(c[4], dd_mul(r, dd_extend(c[5], dd_of(u * tail))));
+    dd r2 = dd_mul(r, r),
+       p = dd_extend(c[4], dd_mul(r, dd_extend(c[5], dd_of(r.hi * tail(c + 6, 1, 4, r.hi)))));
     p = dd_extend(dd_extend(c[2], dd_mul(r, c[3])), dd_mul(r2, p));
     return dd_extend(r, dd_mul(r2, p));
 }
@@ -63,10 +71,7 @@ static dd exp_core(dd x, int *e) {
 /* 2 atanh(s), |s| < 0.0040 */
 static dd log_series(dd s) {
     dd s2 = dd_mul(s, s);
-    double u = s2.hi, tail = inverse[13].hi;
-    for (int n = 11; n >= 7; n -= 2)
-        tail = inverse[n].hi + u * tail;
-    dd p = dd_extend(inverse[5], dd_of(u * tail));
+    dd p = dd_extend(inverse[5], dd_of(s2.hi * tail(inverse + 7, 2, 2, s2.hi)));
     p = dd_extend(inverse[3], dd_mul(s2, p));
     p = dd_extend(s, dd_mul(dd_mul(s, s2), p));
     return (dd){2 * p.hi, 2 * p.lo};
@@ -128,10 +133,8 @@ dd dd_log1p(dd x) {
 static dd sin_core(dd x) {
     const dd *c = inverse_factorial;
     dd y = dd_div(x, dd_of(3)), y2 = dd_mul(y, y);
-    double u = y2.hi, tail = c[25].hi;
-    for (int n = 23; n >= 15; n -= 2)
-        tail = c[n].hi - u * tail;
-    dd y4 = dd_mul(y2, y2), p = dd_extend(c[11], dd_neg(dd_mul(y2, dd_extend(c[13], dd_of(-u * tail)))));
+    dd y4 = dd_mul(y2, y2),
+       p = dd_extend(c[11], dd_neg(dd_mul(y2, dd_extend(c[13], dd_of(-y2.hi * tail(c + 15, 2, 3, -y2.hi))))));
     p = dd_extend(dd_extend(c[7], dd_neg(dd_mul(y2, c[9]))), dd_mul(y4, p));
     p = dd_extend(dd_extend(c[3], dd_neg(dd_mul(y2, c[5]))), dd_mul(y4, p));
     dd s = dd_extend(y, dd_neg(dd_mul(dd_mul(y, y2), p)));
@@ -158,10 +161,8 @@ static dd gamma_part(dd x, dd *rising) {
         x = dd_add_d(x, 16);
     }
     dd z = dd_div(dd_of(1), x), z2 = dd_mul(z, z);
-    double u = z2.hi, tail = stirling[15].hi;
-    for (int j = 14; j >= 3; j--)
-        tail = stirling[j].hi + u * tail;
-    dd p = dd_extend(stirling[2], dd_of(u * tail));
+    double u = z2.hi, rest = stirling[3].hi + u * tail(stirling + 4, 1, 6, u);
+    dd p = dd_extend(stirling[2], dd_of(u * rest));
     p = dd_extend(stirling[1], dd_mul(z2, p));
     p = dd_mul(z, dd_extend(stirling[0], dd_mul(z2, p)));
     dd l = dd_mul(dd_add_d(x, -0.5), dd_log(x));
