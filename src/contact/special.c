@@ -23,7 +23,8 @@ fret_status fret_check_not_negative(const char *quantity, double value) {
 }
 
 /* The closed forms lose digits like (p x)^-3, within the guard digits down to p x = 0.2; beyond, the
- * series of (1-t)^(p-2) under the integral has terms falling at least as fast as x. */
+ * series of (1-t)^(p-2) under the integral has terms a falling at least as fast as p x. Integrated twice it
+ * is the one of (1-t)^p, of terms -a/((i+1)(i+2)). */
 static fret_moments moments_series(fret_real pm1, fret_real x) {
     static const fret_real inv[] = {
         1.0L / 1,  1.0L / 2,  1.0L / 3,  1.0L / 4,  1.0L / 5,  1.0L / 6,  1.0L / 7,  1.0L / 8,
@@ -31,21 +32,19 @@ static fret_moments moments_series(fret_real pm1, fret_real x) {
         1.0L / 17, 1.0L / 18, 1.0L / 19, 1.0L / 20, 1.0L / 21, 1.0L / 22, 1.0L / 23, 1.0L / 24,
         1.0L / 25, 1.0L / 26, 1.0L / 27, 1.0L / 28, 1.0L / 29, 1.0L / 30, 1.0L / 31, 1.0L / 32,
         1.0L / 33, 1.0L / 34, 1.0L / 35, 1.0L / 36, 1.0L / 37, 1.0L / 38, 1.0L / 39, 1.0L / 40};
-    fret_real p = 1 + pm1, a = p * pm1 * x * x, b = p * x; /* terms of (1-t)^(p-2) and (1-t)^(p-1) */
-    fret_real w = 0, J = 0, m1 = 0, L = 0, small_a = 1e-20L * a, small_b = 1e-20L * b;
+    fret_real p = 1 + pm1, a = p * pm1 * x * x, slope = pm1 * x, small = 1e-20L * a;
+    fret_real w = 0, J = 0, m1 = 0, L = 0;
     for (int i = 0; i < 38; i++) {
         fret_real c = a * inv[i + 1];
-        w += b * inv[i];
-        J += b * inv[i + 1];
+        w += c * inv[i];
+        J += a * inv[i] * inv[i + 2];
         m1 += c;
         L += c * inv[i + 2];
-        a *= (x - pm1 * x * inv[i]);
-        b *= (x - p * x * inv[i]);
-        /* both: at a whole p the one ends a term before the other */
-        if (fabsl(a) <= small_a && fabsl(b) <= small_b && i > 2)
+        a *= x - slope * inv[i];
+        if (fabsl(a) <= small)
             break;
     }
-    return (fret_moments){w, J * x, m1, L * x};
+    return (fret_moments){p * x - w, (p * x / 2 - J) * x, m1, L * x};
 }
 
 fret_moments fret_power_moments(fret_real pm1, fret_real x) {
