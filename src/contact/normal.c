@@ -98,7 +98,8 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
 
 fret_real fret_normal_stiffness(const fret_normal *n, fret_real a) {
     const fret_foundation *f = &n->foundation;
-    return 2 * f->cN0 * a * fret_pow(a / f->c0, f->k) / (1 + f->k);
+    return a > 0 ? 2 * f->cN0 * a * fret_pow(a / f->c0, f->k) / (1 + f->k)
+                 : 0; /* k < 0: not 0 times infinity */
 }
 
 /* F_N of a contact of radius a whose profile is known. */
