@@ -278,6 +278,12 @@ static bool measure_steady(bench *b, steady *m) {
         st = find_peak(m);
     if (!scene_status(m->s, b->error, &st))
         return false;
+    if (!isfinite((double)study->value)) {
+        st.code = FRET_OVERFLOW;
+        return scene_status(m->s, b->error, &st);
+    }
+    if (!(study->value > 0)) /* a general gap, and less slip than a long double tells from none */
+        return calc_fail(b->error, 0, 0, "the load is too small: no model of this gap can tell dW from 0");
     snprintf(study->reference, sizeof study->reference,
              "quadrature of the definition in long double arithmetic");
     study->automatic = m->normal->p > 0 ? "closed form" : "closed form, with quadrature over the gap";
