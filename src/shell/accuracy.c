@@ -282,7 +282,8 @@ static bool measure_steady(bench *b, steady *m) {
         st.code = FRET_OVERFLOW;
         return scene_status(m->s, b->error, &st);
     }
-    if (!(study->value > 0)) /* a general gap, and less slip than a long double tells from none */
+    if (!(study->value > 0 &&
+          study->agreement >= 0)) /* a general gap, and less slip than a long double tells from none */
         return calc_fail(b->error, 0, 0, "the load is too small: no model of this gap can tell dW from 0");
     snprintf(study->reference, sizeof study->reference,
              "quadrature of the definition in long double arithmetic");

@@ -112,7 +112,7 @@ void format_value(const shell *sh, value v, char *buf, size_t size) {
 
 void format_exact(const shell *sh, value v, char *buf, size_t size) {
     char unit_text[COLUMN_UNIT], number[NUMBER];
-    double want = (double)v.v, read = 0;
+    double want = (double)v.v, read = NAN;
     for (int digits = sh->set.digits; digits <= 17 && read != fabs(want); digits++) {
         long double scale = unit_choose(v.d, want, digits, unit_text, sizeof unit_text);
         size_t n = number_text(number, digits, (double)(want / scale));
