@@ -26,25 +26,32 @@ fret_status fret_check_not_negative(const char *quantity, double value) {
  * series of (1-t)^(p-2) under the integral has terms a falling at least as fast as p x. Integrated twice it
  * is the one of (1-t)^p, of terms -a/((i+1)(i+2)). */
 static fret_moments moments_series(fret_real pm1, fret_real x) {
-    static const fret_real inv[] = {
-        1.0L / 1,  1.0L / 2,  1.0L / 3,  1.0L / 4,  1.0L / 5,  1.0L / 6,  1.0L / 7,  1.0L / 8,
-        1.0L / 9,  1.0L / 10, 1.0L / 11, 1.0L / 12, 1.0L / 13, 1.0L / 14, 1.0L / 15, 1.0L / 16,
-        1.0L / 17, 1.0L / 18, 1.0L / 19, 1.0L / 20, 1.0L / 21, 1.0L / 22, 1.0L / 23, 1.0L / 24,
-        1.0L / 25, 1.0L / 26, 1.0L / 27, 1.0L / 28, 1.0L / 29, 1.0L / 30, 1.0L / 31, 1.0L / 32,
-        1.0L / 33, 1.0L / 34, 1.0L / 35, 1.0L / 36, 1.0L / 37, 1.0L / 38, 1.0L / 39, 1.0L / 40};
-    fret_real p = 1 + pm1, a = p * pm1 * x * x, slope = pm1 * x, small = 1e-20L * a;
-    fret_real w = 0, J = 0, m1 = 0, L = 0;
-    for (int i = 0; i < 38; i++) {
+    enum { LEADING = 6 }; /* all further terms together are below 2^-13: double will do */
+    static const fret_real inv[LEADING + 2] = {1.0L / 1, 1.0L / 2, 1.0L / 3, 1.0L / 4,
+                                               1.0L / 5, 1.0L / 6, 1.0L / 7, 1.0L / 8};
+    fret_real p = 1 + pm1, a = p * pm1 * x * x, slope = pm1 * x, w = 0, J = 0, m1 = 0, L = 0;
+    const double ratio = (double)x, fall = (double)slope, small = 1e-20 * (double)a;
+    for (int i = 0; i < LEADING; i++) {
         fret_real c = a * inv[i + 1];
         w += c * inv[i];
         J += a * inv[i] * inv[i + 2];
         m1 += c;
         L += c * inv[i + 2];
         a *= x - slope * inv[i];
-        if (fabsl(a) <= small)
-            break;
     }
-    return (fret_moments){p * x - w, (p * x / 2 - J) * x, m1, L * x};
+    double term = (double)a, wt = 0, Jt = 0, m1t = 0, Lt = 0;
+    double first = 1.0 / (LEADING + 1), second = 1.0 / (LEADING + 2);
+    for (int i = LEADING; fabs(term) > small; i++) {
+        const double c = term * second, third = 1.0 / (i + 3);
+        wt += c * first;
+        Jt += term * first * third;
+        m1t += c;
+        Lt += c * third;
+        term *= ratio - fall * first;
+        first = second;
+        second = third;
+    }
+    return (fret_moments){p * x - (w + wt), (p * x / 2 - (J + Jt)) * x, m1 + m1t, (L + Lt) * x};
 }
 
 fret_moments fret_power_moments(fret_real pm1, fret_real x) {
