@@ -33,7 +33,7 @@ fret_status fret_loading_displacement(const fret_normal *normal, double mu, cons
 /* Energy [J], >= 0, dissipated in a closed cycle F_x = -FA .. FA at constant F_N:
  *   8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx; power law: w(t) mu F_N delta_x,max (27),
  *   t = FA/(mu F_N). Range 0 <= FA <= mu F_N, else FRET_NEGATIVE, FRET_GROSS_SLIP.
- * Accuracy, power law: within 1 unit in the last place of a double; other shapes: 1e-13, tables of up to
+ * Accuracy, power law: within 1 unit in the last place of a double; other shapes: 1e-14, tables of up to
  * 1000 rows. Positive, where (26),(27) are printed negative. */
 fret_status fret_cycle_loss(const fret_normal *normal, double mu, const fret_press *press, double FA,
                             fret_real *loss);

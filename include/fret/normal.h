@@ -64,7 +64,7 @@ typedef struct fret_level {
 } fret_level;
 
 /* Integrals over the slice of depths [y-h, y], 0 <= h <= y, exact also for thin slices (shapes other than the
- * power law: 1e-13 relative; where a row of a table lies within a slice thinner than 1e-5 y, 1e-18 y/h);
+ * power law: 1e-14 relative; where a row of a table lies within a slice thinner than 1e-5 y, 1e-18 y/h);
  * K = dF_N/dy, t the distance from y:
  *   w = int K dt = F_N(y)-F_N(y-h) [N], J = int t K dt [N m],
  *   G = int t dK = w - h K(y-h) [N],    L = int_0^h G dt [N m]. */

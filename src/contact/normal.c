@@ -273,7 +273,7 @@ static void annulus_gauss(annulus *s, fret_real kink, fret_real lo, fret_real hi
     const fret_foundation *f = &s->normal->foundation;
     bool far = lo > 0.8L * hi;
     const fret_real wide = hi / (s->start + kink + hi);
-    int parts = lo > 0.97L * hi || wide < 0.002L ? 1 : wide < 0.02L ? 2 : 4;
+    int parts = lo > 0.97L * hi || wide < 0.002L ? 1 : wide < 0.02L ? 2 : wide < 0.2L ? 4 : 8;
     fret_real from = far ? lo : sqrtl(sqrtl(lo)), span = (far ? hi : sqrtl(sqrtl(hi))) - from;
     for (int j = 0; j < 8 * parts; j++) {
         fret_real v = from + span * (j / 8 + fret_gauss_node[j % 8]) / parts,
@@ -283,21 +283,26 @@ static void annulus_gauss(annulus *s, fret_real kink, fret_real lo, fret_real hi
     }
 }
 
-/* From the start of the gap, where the profile is a power, and to where x^k may be singular: linear in K. */
-static void annulus_inmost(annulus *s, fret_real lo, fret_real hi) {
-    fret_real k1 = 1 + s->normal->foundation.k, b = s->start, below = 0, span;
-    if (b > 0) {
-        below = fret_expm1(k1 * fret_log1p(lo / b));
-        span = fret_expm1(k1 * fret_log1p(hi / b)) - below;
-    } else {
-        span = lo > 0 ? -fret_expm1(k1 * fret_log(lo / hi)) : 1;
+/* From a flat end, where the profile is a power of e: by Gauss's rule, linear in ln e, down to where no
+ * contribution is left. */
+static void annulus_flat(annulus *s, fret_real lo, fret_real hi) {
+    const fret_foundation *f = &s->normal->foundation;
+    fret_real span = lo > 0 ? fminl(fret_log(hi / lo), 42) : 42;
+    int parts = (int)(2 * span) + 1;
+    for (int j = 0; j < 8 * parts; j++) {
+        fret_real e = hi * fret_exp(-span / parts * (j / 8 + fret_gauss_node[j % 8]));
+        fret_real dx = fret_gauss_weight[j % 8] * span / parts * e;
+        annulus_add(s, e, 2 * f->cN0 * fret_pow((s->start + e) / f->c0, f->k) * dx);
     }
-    fret_real K = fret_normal_stiffness(s->normal, b > 0 ? b : hi) * span;
+}
+
+/* From the centre: linear in K, since x^k may be singular there. */
+static void annulus_centre(annulus *s, fret_real lo, fret_real hi) {
+    fret_real k1 = 1 + s->normal->foundation.k, span = lo > 0 ? -fret_expm1(k1 * fret_log(lo / hi)) : 1;
+    fret_real K = fret_normal_stiffness(s->normal, hi) * span;
     for (int i = 0; i < FRET_EXPONENTIAL; i++) {
         fret_node node = fret_exponential_node(i);
-        fret_real e = b > 0 ? b * fret_expm1(fret_log1p(below + span * node.t) / k1)
-                            : hi * fret_exp(fret_log1p(-span * node.rest) / k1);
-        annulus_add(s, e, K * node.weight);
+        annulus_add(s, hi * fret_exp(fret_log1p(-span * node.rest) / k1), K * node.weight);
     }
 }
 
@@ -330,8 +335,10 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
         fret_real end = fmaxl(kink, lo);
         if (kink > 0 || end > 0.8L * hi)
             annulus_gauss(&s, kink, end - kink, hi - kink);
+        else if (start > 0)
+            annulus_flat(&s, end, hi);
         else
-            annulus_inmost(&s, end, hi);
+            annulus_centre(&s, end, hi);
         hi = end;
     }
     fret_real K = fret_normal_stiffness(n, start + lo);
