@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "contact/dd.h"
@@ -587,7 +588,13 @@ static const quantity *row_of(input in) {
 }
 
 /* What a change of a cause does to a result. */
-typedef enum influence { INFLUENCE_NONE, INFLUENCE_SMALL, INFLUENCE_HIDDEN, INFLUENCE_SHOWN } influence;
+typedef enum influence {
+    INFLUENCE_NONE,
+    INFLUENCE_SMALL,
+    INFLUENCE_HIDDEN,
+    INFLUENCE_LEFT, /* not looked for: it takes too long */
+    INFLUENCE_SHOWN
+} influence;
 
 /* One number that a result depends on: an input, or a load of the program. A change in its last digit moves
  * the result by change, both relative. */
@@ -718,6 +725,8 @@ static void find_influence(const scene *probe, const quantity *q, cause *c, long
                                                           : INFLUENCE_SHOWN;
 }
 
+enum { CONDITIONING = 3 }; /* seconds of the processor that it may take */
+
 static bool find_influences(shell *sh, const quantity *q, long double result, cause *causes, size_t *count,
                             calc_error *error) {
     const scene *s = &sh->calc.scene;
@@ -734,9 +743,13 @@ static bool find_influences(shell *sh, const quantity *q, long double result, ca
     probe.program = program;
     *count = find_causes(&probe, causes);
     bool ok = true;
+    clock_t start = clock();
     for (size_t i = 0; i < *count && ok; i++) {
         calc_error refused = {0};
-        find_influence(&probe, q, &causes[i], result, &refused);
+        if (clock() - start < CONDITIONING * CLOCKS_PER_SEC)
+            find_influence(&probe, q, &causes[i], result, &refused);
+        else
+            causes[i].influence = INFLUENCE_LEFT;
         ok = !refused.stop && !shell_stop;
     }
     scene_free(&probe);
@@ -750,7 +763,8 @@ static bool find_influences(shell *sh, const quantity *q, long double result, ca
 
 static void explain_conditioning(shell *sh, const quantity *q, const cause *causes, size_t count) {
     static const char *const not_shown[] = {"no effect", "condition number below 0.01",
-                                            "not smooth here, or hidden by rounding"};
+                                            "not smooth here, or hidden by rounding",
+                                            "left out after 3 seconds"};
     char head[100], moves[100], text[80];
     snprintf(moves, sizeof moves, "moves %s by", q->name);
     bool headed = false;
@@ -766,7 +780,7 @@ static void explain_conditioning(shell *sh, const quantity *q, const cause *caus
         fprintf(sh->out, "    %-20s  %10.1Le  %14.1Le  %16.2Lg%s\n", head, c->digit, c->change,
                 c->change / c->digit, c->refused ? "  (at the end of its range)" : "");
     }
-    for (influence kind = INFLUENCE_HIDDEN + 1; kind-- > INFLUENCE_NONE;) {
+    for (influence kind = INFLUENCE_SHOWN; kind-- > INFLUENCE_NONE;) {
         const char *separator = NULL;
         for (size_t i = 0; i < count; i++)
             if (causes[i].influence == kind) {
