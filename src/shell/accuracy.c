@@ -507,23 +507,25 @@ static const accuracy_row *good_springs(const accuracy_study *study) {
     return best;
 }
 
-/* Two sentences, with a separator between them. */
+/* What the springs pay, a separator, and what auto picks and why. */
 static void advise(const accuracy_study *study, const char *separator, char *buf, size_t size) {
     const accuracy_row *row = &study->row[0], *springs = good_springs(study); /* auto's choice comes first */
-    char error[40], t[40], springs_t[40], ratio[40];
+    char error[40], t[40], ratio[40];
+    int n = 0;
+    if (springs) {
+        format_error(springs, error, sizeof error);
+        format_seconds(springs->seconds, t, sizeof t);
+        bool slower = springs->seconds >= row->seconds;
+        format_ratio(slower ? springs->seconds / row->seconds : row->seconds / springs->seconds, ratio,
+                     sizeof ratio);
+        n = snprintf(buf, size, "%lu springs: error %s in %s, %s times as %s as auto%s", springs->size, error,
+                     t, ratio, slower ? "long" : "fast", separator);
+    }
     format_error(row, error, sizeof error);
     format_seconds(row->seconds, t, sizeof t);
-    int n =
-        snprintf(buf, size, "auto picks: %s (%s): error %s in %s", study->automatic, study->why, error, t);
-    if (!springs || n < 0 || (size_t)n >= size)
-        return;
-    format_error(springs, error, sizeof error);
-    format_seconds(springs->seconds, springs_t, sizeof springs_t);
-    bool slower = springs->seconds >= row->seconds;
-    format_ratio(slower ? springs->seconds / row->seconds : row->seconds / springs->seconds, ratio,
-                 sizeof ratio);
-    snprintf(buf + n, size - (size_t)n, "%s%lu springs: error %s in %s, %s times as %s", separator,
-             springs->size, error, springs_t, ratio, slower ? "long" : "fast");
+    if (n >= 0 && (size_t)n < size)
+        snprintf(buf + n, size - (size_t)n, "auto picks: %s (%s): error %s in %s", study->automatic,
+                 study->why, error, t);
 }
 
 static void print_text(shell *sh, const accuracy_study *study, const char *advice) {
