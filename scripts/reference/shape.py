@@ -11,9 +11,9 @@ import oracle
 mp.dps = 60
 BODIES = (210e9, 0.3, 0, 70e9, 0.35, 0)
 C0, MU = 1e-3, 0.4
-SUM, CONE, PARABOLOID, ROUNDED, SPHERE = 1, 2, 3, 4, 5  # fret_gap_kind
-KS = (-0.99, -0.7, -0.3, 0.0, 0.3, 0.7, 0.99)
-# kind, b, R, slope, three powers A r^n as n, A; radii
+SUM, CONE, PARABOLOID, ROUNDED, SPHERE, TABLE = 1, 2, 3, 4, 5, 6  # fret_gap_kind
+KS = (-0.99, -0.9, -0.7, -0.3, 0.0, 0.3, 0.7, 0.9, 0.99)
+# kind, b, R, slope, three powers A r^n as n, A; radii. Tables: see sampled()
 SHAPES = (
     ((SUM, 0.0, 0.0, 0.0, 2.0, 50.0, 4.0, -2e6, 1.0, 0.0), (1e-4, 7e-4, 2.4e-3)),
     ((SUM, 0.0, 0.0, 0.0, 1.0, 0.01, 2.0, 50.0, 3.5, -1e4), (1e-5, 3e-4, 2e-3)),
@@ -21,7 +21,46 @@ SHAPES = (
     ((PARABOLOID, 1e-3, 0.01, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0), (1.001e-3, 1.3e-3, 6e-3)),
     ((ROUNDED, 1e-3, 0.01, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0), (1.001e-3, 1.3e-3, 6e-3)),
     ((SPHERE, 0.0, 0.01, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0), (1e-5, 2e-3, 0.009)),
+    ((TABLE, 4e-3, 0.0, 0.3, 5.0, 0.01, 1.0, 40.0, 1.0, -1e3), (1e-4, 1.7e-3, 3.9e-3)),
+    ((TABLE, 3e-3, 1e-3, 0.0, 13.0, 0.0, 1.0, 50.0, 1.0, 1e4), (1.3e-3, 2.9e-3)),
 )
+LONG = ((TABLE, 3e-3, 0.0, 0.6, 40.0, 0.0, 1.0, 50.0, 1.0, 2e4), (2.2e-3,))  # slow: at some k only
+
+
+def sampled(end, flat, bend, count, A):
+    """The table at r = end t (1-bend+bend t), t = i/(count-1), of a cubic in r-flat; in doubles, as the test
+    samples it."""
+    count = int(count)
+    rs, fs = [], []
+    for i in range(count):
+        t = i / (count - 1)
+        r = end * t * (1 - bend + bend * t)
+        x = r - flat if r > flat else 0.0
+        rs.append(r)
+        fs.append(x * (A[0] + x * (A[1] + x * A[2])))
+    return [mpf(r) for r in rs], [mpf(f) for f in fs]
+
+
+def pieces(r, f):
+    """Coefficients of f' in powers of r on each piece: the cubic with Steffen's slopes."""
+    n = len(r)
+    h = [r[i + 1] - r[i] for i in range(n - 1)]
+    s = [(f[i + 1] - f[i]) / h[i] for i in range(n - 1)]
+
+    def end(i, j):
+        p = s[i] + (s[i] - s[j]) * h[i] / (h[i] + h[j])
+        return 0 if p * s[i] <= 0 else 2 * s[i] if abs(p) > 2 * abs(s[i]) else p
+    d = [end(0, 1)]
+    for i in range(1, n - 1):
+        p = (s[i - 1] * h[i] + s[i] * h[i - 1]) / (h[i - 1] + h[i])
+        d.append((mp.sign(s[i - 1]) + mp.sign(s[i])) * min(abs(s[i - 1]), abs(s[i]), abs(p) / 2))
+    d.append(end(n - 2, n - 3))
+    out = []
+    for i in range(n - 1):
+        d1 = 2 * (3 * s[i] - 2 * d[i] - d[i + 1]) / h[i]
+        d2 = 3 * (d[i] + d[i + 1] - 2 * s[i]) / h[i]**2
+        out.append((d[i] - d1 * r[i] + d2 * r[i]**2, d1 - 2 * d2 * r[i], d2))
+    return out
 
 
 class Shape:
@@ -34,8 +73,16 @@ class Shape:
         self.powers = [(mpf(given[i]), mpf(given[i + 1])) for i in (4, 6, 8)]
         self.k = mpf(k)
         self.m = (self.k + 1) / 2
+        self.knots = []
+        if self.kind == TABLE:
+            r, f = sampled(*given[1:5], given[5::2])
+            first = max(i for i in range(len(r)) if f[i] <= 0)  # may begin flat
+            self.b, self.r, self.pieces = r[first], r[first:], pieces(r, f)[first:]
+            self.knots = [x - self.b for x in self.r[1:-1]]
 
     def f1(self, r):
+        if self.kind == TABLE:
+            return sum(c * r**j for j, c in enumerate(self.pieces[max(0, sum(x <= r for x in self.r[:-1]) - 1)]))
         if self.kind == SUM:
             return sum(n * A * r**(n - 1) for n, A in self.powers)
         if r < self.b:
@@ -48,9 +95,30 @@ class Shape:
         D = e * (2 * self.b + e)  # a^2-b^2
         return self.b + e, D, D / (self.b + e)**2
 
+    def table(self, e, low, factor=(1, 1, 1)):
+        """int f'(r) r^low (a^2-r^2)^((k-1)/2) dr, the powers of f' times a factor each: every knot adds what the
+        polynomial changes by there."""
+        m, a, total, old = self.m, self.b + e, mpf(0), (0, 0, 0)
+        for r, now in zip(self.r, self.pieces):
+            now = [c * x for c, x in zip(now, factor)]
+            gap = e - (r - self.b)
+            if gap <= 0:
+                break
+            D = gap * (a + r)
+            Dm, z = D**m, D / a**2
+            T = [a**(2 * m - 1) * z**m / (2 * m) * mp.hyp2f1(0.5, m, m + 1, z), Dm / (2 * m)]
+            T.append((a**2 * T[0] + r * Dm) / (2 * m + 1))
+            T.append(a**2 * T[1] - D * Dm / (2 * (m + 1)))
+            T.append((3 * a**2 * T[2] + r**3 * Dm) / (2 * m + 3))
+            total += sum((now[j] - old[j]) * T[j + low] for j in range(3))
+            old = now
+        return total
+
     def g(self, e):
         k, m, b, R = self.k, self.m, self.b, self.R
         a, D, z = self.span(e)
+        if self.kind == TABLE:
+            return a**(1 - k) * self.table(e, 0)
         if self.kind == SUM:
             return sum(oracle.kappa(n, k) * A * a**n for n, A in self.powers if A)
         if self.kind == CONE:
@@ -65,6 +133,8 @@ class Shape:
     def moment(self, e):
         k, m, b, R = self.k, self.m, self.b, self.R
         a, D, z = self.span(e)
+        if self.kind == TABLE:
+            return self.table(e, 2) / (k + 1)
         if self.kind == SUM:
             return sum(oracle.kappa(n, k) * A * a**(n + k + 1) * n / ((k + 1) * (n + k + 1))
                        for n, A in self.powers if A)
@@ -87,7 +157,9 @@ class Shape:
         def density(v):
             e = high * v**(1 / m)
             return f(e) * ((self.b + e) / (self.b + high))**self.k * e / (high * v)
-        return high * (self.b + high)**self.k / m * mp.quad(density, mp.linspace((low / high)**m, 1, 3))
+        breaks = [(x / high)**m for x in self.knots if low < x < high]
+        breaks = [(low / high)**m, *breaks, 1] if breaks else mp.linspace((low / high)**m, 1, 3)
+        return high * (self.b + high)**self.k / m * mp.quad(density, breaks)
 
 
 def find(function, target, high):
@@ -109,11 +181,14 @@ def contact(job):
     scale = 2 * cN0 * mpf(C0)**-s.k
     ga, F = s.g(e), scale * s.moment(e)
     kn = scale * mpf(a)**(s.k + 1) / (s.k + 1)
-    with mp.workdps(120):  # a difference loses half the digits
-        h = e * mpf(10)**-40
-        slope = (s.g(e + h) - s.g(e - h)) / (2 * h)
+    if s.kind == TABLE:  # int (r f')'; at a row a difference would not do
+        slope = s.table(e, 0, (1, 2, 3)) / mpf(a)**k
+    else:
+        with mp.workdps(120):  # a difference loses half the digits
+            h = e * mpf(10)**-40
+            slope = (s.g(e + h) - s.g(e - h)) / (2 * h)
     rows = []
-    for t in (1e-3, 0.3, 0.9):
+    for t in (1e-6, 0.3, 0.99) if given not in LONG else (0.3,):
         FA = float(t * mu * F)
         low = find(s.moment, (F - mpf(FA) / mu) / scale, e)
         gc = s.g(low)
@@ -139,7 +214,9 @@ def check(job):
         def inner(u):
             r = mp.sqrt(abs(a**2 - D * u**(1 / m)))
             return s.f1(r) / s.f1(a) * a / r  # (3) without its end point
-        g = a**-mpf(k) * s.f1(a) * D**m / (2 * m) * mp.quad(inner, mp.linspace(0, 1, 5))
+        breaks = [((a**2 - (s.b + x)**2) / D)**m for x in reversed(s.knots) if x < e]
+        breaks = [0, *breaks, 1] if s.knots else mp.linspace(0, 1, 5)
+        g = a**-mpf(k) * s.f1(a) * D**m / (2 * m) * mp.quad(inner, breaks)
         I = s.g(e) * s.integral(lambda x: 1 - s.g(x) / s.g(e), mpf(0), e)
         if s.b:  # the flat end: g = 0
             I += s.g(e) * s.b**(2 * m) / (2 * m)
@@ -149,6 +226,7 @@ def check(job):
 
 if __name__ == "__main__":
     jobs = [(given, k, a) for given, radii in SHAPES for k in KS for a in radii]
+    jobs += [(LONG[0], k, a) for k in (-0.7, 0.3) for a in LONG[1]]
     with Pool() as pool:
         pool.map(check, jobs[1::5], chunksize=1)
         found = pool.map(contact, jobs, chunksize=1)

@@ -84,7 +84,7 @@ static void reference(void) {
     unit_table t;
     if (!unit_open(&t, "shape.csv"))
         return;
-    const fret_real tol = UNIT_TOL(1e-14L, 1e-11L);
+    const fret_real tol = UNIT_TOL(2e-15L, 1e-11L);
     while (unit_row(&t)) {
         struct fret_table *table = NULL;
         unit_scene s = read_shape(&t, &table);
