@@ -287,11 +287,9 @@ static bool measure_steady(bench *b, steady *m) {
     if (!(study->value > 0)) /* a general gap, and less slip than a long double tells from none */
         return calc_fail(b->error, 0, 0, "the load is too small: no model of this gap can tell dW from 0");
     study->agreement = fmaxl(study->agreement, rounding);
-    snprintf(study->reference, sizeof study->reference,
-             "quadrature of the definition in long double arithmetic");
+    snprintf(study->reference, sizeof study->reference, "quadrature in long double");
     study->automatic = m->normal->p > 0 ? "closed form" : "closed form, with quadrature over the gap";
-    study->why =
-        m->normal->p > 0 ? "power law at constant FN, nothing to set up" : "constant FN, nothing to set up";
+    study->why = "constant FN";
     bool ok = measure(b, FAMILY_CLOSED, 0, closed_cycle, m) && memory_rows(b, m);
     for (m->size = 16; ok && m->size <= 128; m->size *= 2)
         ok = measure(b, FAMILY_QUADRATURE, m->size, quadrature_cycle, m);
@@ -350,8 +348,7 @@ static bool measure_general(bench *b) {
     if (!(study->value > 0))
         return calc_fail(b->error, 0, 0, "nothing slips in the last cycle: dW is 0");
     study->agreement = fmaxl(fabsl(study->value - coarse) / study->value, rounding);
-    snprintf(study->reference, sizeof study->reference,
-             "memory diagram, each straight step of the load program cut in 8");
+    snprintf(study->reference, sizeof study->reference, "memory diagram, straight steps cut in 8");
     study->automatic = "memory diagram";
     study->why = swings ? "FN swings" : "FN has changed on the way";
     bool more, ok = general_row(b, FAMILY_MEMORY, 0, 0, 0, &more);
