@@ -292,13 +292,44 @@ static fret_real phase_rate(fret_real t, fret_real rest, void *context) {
     return front.K > 0 ? G / front.K : 0; /* dy = dF/K; the end point itself has no weight */
 }
 
+/* A part of 0..1. */
+typedef struct part {
+    fret_integrand *f;
+    void *context;
+    fret_real lo, hi;
+} part;
+
+static fret_real part_rate(fret_real t, fret_real rest, void *context) {
+    const part *p = context;
+    return p->f(p->lo * rest + p->hi * t, (1 - p->lo) * rest + (1 - p->hi) * t, p->context);
+}
+
+/* int_lo^hi f by halves until they add up to the whole: edge or front may cross rows of a table, where the
+ * rate is not smooth. tolerance: of the integral. */
+static fret_real bisect(fret_integrand *f, void *context, fret_real lo, fret_real hi, fret_real whole,
+                        fret_real tolerance, int depth) {
+    const fret_real mid = (lo + hi) / 2;
+    part left = {f, context, lo, mid}, right = {f, context, mid, hi};
+    fret_real a = (mid - lo) * fret_integrate_smooth(part_rate, &left),
+              b = (hi - mid) * fret_integrate_smooth(part_rate, &right);
+    if (depth == 0 || fabsl(a + b - whole) <= tolerance * (a + b))
+        return a + b;
+    tolerance *= (a + b) / fmaxl(fmaxl(a, b), LDBL_MIN); /* the smaller half may err by more of itself */
+    return bisect(f, context, lo, mid, a, tolerance, depth - 1) +
+           bisect(f, context, mid, hi, b, tolerance, depth - 1);
+}
+
 static fret_real phase_loss(const fret_memory *m, measure by, fret_real gain, fret_real edge0,
                             fret_real edge1, fret_real front0, fret_real front1) {
     phase p = {m, by, edge0, edge1, front0, front1};
+    fret_real rate;
     /* small steps, far from the centre: the rate is smooth */
     bool smooth = front1 > 0.8L * front0 && edge1 > 0.8L * edge0 && edge0 > 0.8L * edge1;
-    return gain * (front0 - front1) *
-           (smooth ? fret_integrate_smooth(phase_rate, &p) : fret_integrate(phase_rate, &p));
+    if (m->normal.gap.kind == FRET_GAP_TABLE)
+        rate = bisect(phase_rate, &p, 0, 1, fret_integrate_smooth(phase_rate, &p), 1e-15L, 24);
+    else
+        rate = smooth ? fret_integrate_smooth(phase_rate, &p) : fret_integrate(phase_rate, &p);
+    return gain * (front0 - front1) * rate;
 }
 
 /* Gross slip while the normal load changes: int F_N de. */

@@ -491,6 +491,40 @@ static void long_table(void) {
     fret_table_free(t);
 }
 
+/* W of large steps of both forces over a coarse table: edge and front cross rows, where the profile is not
+ * smooth. Small steps see one row at a time. */
+static void coarse_steps(void) {
+    static const double r[] = {0, 1e-4, 2e-4, 4e-4, 8e-4}, f[] = {0, 6e-7, 2.1e-6, 9e-6, 3.3e-5};
+    static const double to[][2] = {{40, 11}, {160, -30}, {70, 5}};
+    struct fret_table *t = NULL;
+    CHECK_OK(fret_table_make(r, f, 5, &t));
+    for (int j = 0; j < 2; j++) {
+        fret_real W[2] = {0, 0};
+        for (int fine = 0; fine < 2; fine++) {
+            unit_scene s = unit_make_scene(2, j ? -0.7 : 0.3);
+            s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = t};
+            fret_normal n = make(&s);
+            fret_memory *m = NULL;
+            CHECK_OK(fret_memory_make(&n, 0.3, &m));
+            double FN = 100, Fx = 0;
+            fret_step step = {FRET_TO_FORCE, FRET_TO_FX, FN, Fx};
+            CHECK_OK(fret_memory_step(m, &step));
+            for (int i = 0, parts = fine ? 200 : 1; i < 3; FN = to[i][0], Fx = to[i][1], i++)
+                for (int part = 1; part <= parts; part++) {
+                    step.normal = FN + (to[i][0] - FN) * part / parts;
+                    step.tangential = Fx + (to[i][1] - Fx) * part / parts;
+                    CHECK_OK(fret_memory_step(m, &step));
+                }
+            fret_state state;
+            fret_memory_forces(m, &state);
+            W[fine] = state.W;
+            fret_memory_free(m);
+        }
+        CHECK_REL(W[0], W[1], UNIT_TOL(1e-14L, 1e-12L));
+    }
+    fret_table_free(t);
+}
+
 int main(int argc, char **argv) {
     unit_start("shape", argc, argv);
     reference();
@@ -503,5 +537,6 @@ int main(int argc, char **argv) {
     bad_tables();
     table_order();
     long_table();
+    coarse_steps();
     return unit_finish();
 }
