@@ -17,8 +17,8 @@ fret_status fret_quadrature_loss(const fret_normal *normal, double mu, const fre
                                  const fret_loading *peak, unsigned points, fret_real *loss);
 
 /* The same with the step halved until two results agree to four units of long double, or 2048 nodes
- * (sampled gaps, which have corners: 512). agreement: relative difference of the last two, at least those
- * units and what a thin annulus loses of them. Arguments and errors of fret_cycle_loss and
+ * (sampled gaps: 512, from row to row of up to 500). agreement: relative difference of the last two, at least
+ * those units and what a thin annulus loses of them. Arguments and errors of fret_cycle_loss and
  * fret_cycle_loss_displacement. Accuracy: agreement; power laws 2e-18 + the rounding of FA/(mu F_N). */
 fret_status fret_reference_loss(const fret_normal *normal, double mu, const fret_press *press, double FA,
                                 fret_real *loss, fret_real *agreement);

@@ -14,6 +14,7 @@ typedef struct annulus {
     fret_real scale; /* of the integral, to J */
     fret_real yc, X;
     fret_real start, inner, outer, g_inner, g_outer;
+    bool by_rows; /* of a table */
 } annulus;
 
 /* int (1-y) (y-yc) K'(y) dy in units of F_N, K' = p (p-1) y^(p-2) */
@@ -38,7 +39,7 @@ static fret_real by_radius(const annulus *s, fret_real t, fret_real rest) {
 /* Nodes u = first, first + step, ... within +-END of t = 1/(1 + exp(-pi sinh u)). */
 static const fret_real END = 4; /* t = 1e-37 */
 
-static fret_real nodes_sum(const annulus *s, fret_real first, fret_real step) {
+static fret_real piece_sum(const annulus *s, fret_real first, fret_real step) {
     fret_real (*f)(const annulus *, fret_real, fret_real) = s->normal->p > 0 ? by_depth : by_radius;
     fret_sum sum = {0, 0};
     unsigned count = (unsigned)floorl((END - first) / step + 0.5L);
@@ -49,6 +50,27 @@ static fret_real nodes_sum(const annulus *s, fret_real first, fret_real step) {
         fret_sum_add(&sum, weight * (u < 0 ? f(s, near, far) : f(s, far, near)));
     }
     return fret_sum_value(&sum);
+}
+
+/* Over a table row by row: a rule across rows, where the profile is not smooth, converges slowly. */
+static fret_real nodes_sum(const annulus *s, fret_real first, fret_real step) {
+    if (!s->by_rows)
+        return piece_sum(s, first, step);
+    annulus piece = *s;
+    fret_real sum = 0;
+    for (; piece.outer > s->inner; piece.outer = piece.inner) {
+        piece.inner = fmaxl(fret_gap_kink(&s->normal->gap, piece.outer), s->inner);
+        sum += piece_sum(&piece, first, step);
+    }
+    return sum;
+}
+
+/* Are there rows within, and few enough to take one by one? */
+static bool has_rows(const annulus *s) {
+    int rows = 0;
+    for (fret_real e = s->outer; e > s->inner && rows <= 500; rows++)
+        e = fret_gap_kink(&s->normal->gap, e);
+    return rows > 1 && rows <= 500;
 }
 
 static fret_status annulus_make(const fret_normal *normal, double mu, const fret_press *press,
@@ -68,6 +90,7 @@ static fret_status annulus_make(const fret_normal *normal, double mu, const fret
         s.inner = fmaxl(peak->c - s.start, 0);
         s.g_outer = fret_gap_profile(&normal->gap, &normal->rule, s.outer).g;
         s.g_inner = s.inner > 0 ? fret_gap_profile(&normal->gap, &normal->rule, s.inner).g : 0;
+        s.by_rows = normal->gap.kind == FRET_GAP_TABLE && has_rows(&s);
     }
     *out = s;
     return st;
