@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Times of the library next to a baseline in the same run: one line "what|figure|baseline|ratio" each. */
+/* Times of the library next to a baseline in the same run: lines "what|figure|baseline|ratio|limit", the name
+ * of a group before its lines, and sentences on what they show after "= ". */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -46,41 +47,54 @@ static double spring_scheme(const fret_normal *n, const fret_press *p, long step
         bound[i] = dx * (1 - mid * mid / (a * a));
         u[i] = 0;
     }
-    double old = 0, W = 0, F = 0, t0 = seconds();
-    for (long s = 0; s < steps; s++) {
-        double x = dx * drive(s), d = x - old;
-        old = x;
-        F = 0;
-        for (int i = 0; i < SPRINGS; i++) {
-            double v = u[i] + d, c = v > bound[i] ? bound[i] : v < -bound[i] ? -bound[i] : v;
-            if (loss)
-                W += weight[i] * c * (v - c);
-            F += weight[i] * c;
-            u[i] = c;
+    double old = 0, W = 0, F = 0, best = INFINITY;
+    for (int run = 0; run < 10; run++) {
+        double t0 = seconds();
+        for (long s = 0; s < steps; s++) {
+            double x = dx * drive(s), d = x - old;
+            old = x;
+            F = 0;
+            for (int i = 0; i < SPRINGS; i++) {
+                double v = u[i] + d, c = v > bound[i] ? bound[i] : v < -bound[i] ? -bound[i] : v;
+                if (loss)
+                    W += weight[i] * c * (v - c);
+                F += weight[i] * c;
+                u[i] = c;
+            }
+            sink = F + W;
         }
-        sink = F + W;
+        best = fmin(best, (seconds() - t0) / (double)steps);
     }
-    return (seconds() - t0) / (double)steps;
+    return best;
 }
 
-static double memory_diagram(const fret_normal *n, const fret_press *p, long steps, bool loss) {
-    double dx = (double)(mu * n->foundation.eta * p->dz);
+enum { LOADS = 4096 };
+
+/* A step of the memory diagram at constant F_N. */
+static double memory_diagram(const fret_normal *n, const fret_press *p, bool loss) {
+    static double load[LOADS];
+    const double slip = (double)fret_gross_slip(n, mu, p);
+    double best = INFINITY;
     fret_memory *m = NULL;
     need(fret_memory_make(n, mu, &m));
     fret_step step = {FRET_TO_FORCE, FRET_TO_DX, FN, 0};
     need(fret_memory_step(m, &step));
     step.normal_by = FRET_KEEP_NORMAL;
-    double t0 = seconds();
-    for (long s = 0; s < steps; s++) {
-        fret_state st;
-        step.tangential = dx * drive(s);
-        need(fret_memory_step(m, &step));
-        fret_memory_forces(m, &st);
-        sink = (double)(st.Fx + (loss ? fret_memory_last_loss(m) : 0));
+    for (long i = 0; i < LOADS; i++)
+        load[i] = slip * drive(i);
+    for (int run = 0; run < 100; run++) {
+        double t0 = seconds();
+        for (long i = 0; i < LOADS; i++) {
+            fret_state st;
+            step.tangential = load[i];
+            need(fret_memory_step(m, &step));
+            fret_memory_forces(m, &st);
+            sink = (double)(st.Fx + (loss ? fret_memory_last_loss(m) : 0));
+        }
+        best = fmin(best, (seconds() - t0) / LOADS);
     }
-    double t = (seconds() - t0) / (double)steps;
     fret_memory_free(m);
-    return t;
+    return best;
 }
 
 /* Springs of the library, a spring and step: the least of some runs. */
@@ -132,7 +146,6 @@ static double triad(size_t count, long passes) {
 
 /* The memory at constant F_N, a step; `nested` turning points are held all the time. */
 static double masing(const fret_normal *n, const fret_press *p, bool loss, long nested) {
-    enum { LOADS = 4096 };
     static double load[LOADS];
     const double slip = (double)fret_gross_slip(n, mu, p);
     double best = INFINITY, size = 1, Fx;
@@ -273,7 +286,17 @@ static cycle to_error(cycle (*model)(const fret_normal *, const fret_press *, si
     return c;
 }
 
-static double scene(long count) {
+static double least(double (*run)(const fret_normal *, const fret_press *), const fret_normal *n,
+                    const fret_press *p) {
+    double best = INFINITY;
+    for (int i = 0; i < 20; i++)
+        best = fmin(best, run(n, p));
+    return best;
+}
+
+/* From material, gap and load to the loading curve and dW. */
+static double scene(const fret_normal *normal, const fret_press *press) {
+    const long count = 5000;
     double t0 = seconds();
     for (long i = 0; i < count; i++) {
         fret_normal n;
@@ -281,9 +304,9 @@ static double scene(long count) {
         fret_loading f;
         fret_real loss;
         fret_material m = material;
-        m.k = 0.3 + 1e-9 * (double)i;
+        m.k = (double)normal->foundation.k + 1e-9 * (double)i;
         need(fret_normal_make(&m, &gap, &n));
-        need(fret_press_force(&n, FN, &p));
+        need(fret_press_force(&n, (double)press->F, &p));
         need(fret_loading_force(&n, mu, &p, 20, &f));
         need(fret_cycle_loss(&n, mu, &p, 20, &loss));
         sink = (double)(f.c + loss);
@@ -291,7 +314,8 @@ static double scene(long count) {
     return (seconds() - t0) / (double)count;
 }
 
-static double cycle_loss(const fret_normal *n, const fret_press *p, long count) {
+static double cycle_loss(const fret_normal *n, const fret_press *p) {
+    const long count = 50000;
     double t0 = seconds();
     for (long i = 0; i < count; i++) {
         fret_real loss;
@@ -301,15 +325,17 @@ static double cycle_loss(const fret_normal *n, const fret_press *p, long count) 
     return (seconds() - t0) / (double)count;
 }
 
-static double powers(long count) {
+static double power(const fret_normal *n, const fret_press *p) {
+    const long count = 50000;
     double t0 = seconds();
     for (long i = 0; i < count; i++)
-        sink = (double)powl((fret_real)(i + 1) / (fret_real)count, 0.37L);
+        sink = (double)powl((fret_real)(i + 1) * p->F / (fret_real)count, n->q);
     return (seconds() - t0) / (double)count;
 }
 
-/* What a sweep costs a point; the least of several passes over an array that stays in the cache. */
-enum { POINTS = 1000, PASSES = 2000 };
+/* What a sweep costs a point: the least of several runs over an array that stays in the cache, each long
+ * enough for the clock of the processor, which is set right by some microseconds now and then. */
+enum { POINTS = 1000, PASSES = 20, RUNS = 100 };
 typedef enum sweep { LOG_EXP, LOSS_EACH, RADIUS_EACH, LOSS_ALL, RADIUS_ALL, LOADING_ALL, PRESS_ALL } sweep;
 static double sweep_point(const fret_normal *n, const fret_press *p, sweep kind) {
     static double F[POINTS], x[POINTS], y[POINTS];
@@ -318,36 +344,85 @@ static double sweep_point(const fret_normal *n, const fret_press *p, sweep kind)
         F[i] = mu * FN * (0.5 + i) / POINTS;
     fret_sweep w;
     need(fret_sweep_make(n, mu, p, &w));
-    for (int pass = 0; pass < PASSES; pass++) {
+    for (int run = 0; run < RUNS; run++) {
         double t0 = seconds();
-        if (kind == LOG_EXP)
-            for (int i = 0; i < POINTS; i++)
-                x[i] = exp(0.37 * log(F[i]));
-        else if (kind == LOSS_EACH)
-            for (int i = 0; i < POINTS; i++)
-                x[i] = fret_sweep_loss(&w, F[i]);
-        else if (kind == RADIUS_EACH)
-            for (int i = 0; i < POINTS; i++)
-                x[i] = fret_sweep_radius(&w, F[i]);
-        else if (kind == LOSS_ALL)
-            need(fret_batch_loss(n, mu, p, F, x, POINTS));
-        else if (kind == RADIUS_ALL)
-            need(fret_batch_loading(n, mu, p, F, x, NULL, POINTS));
-        else if (kind == LOADING_ALL)
-            need(fret_batch_loading(n, mu, p, F, x, y, POINTS));
-        else
-            need(fret_batch_press(n, F, x, y, POINTS));
-        double t = (seconds() - t0) / POINTS;
-        best = t < best ? t : best;
-        sink = x[pass % POINTS];
+        for (int pass = 0; pass < PASSES; pass++) {
+            if (kind == LOG_EXP)
+                for (int i = 0; i < POINTS; i++)
+                    x[i] = exp(0.37 * log(F[i]));
+            else if (kind == LOSS_EACH)
+                for (int i = 0; i < POINTS; i++)
+                    x[i] = fret_sweep_loss(&w, F[i]);
+            else if (kind == RADIUS_EACH)
+                for (int i = 0; i < POINTS; i++)
+                    x[i] = fret_sweep_radius(&w, F[i]);
+            else if (kind == LOSS_ALL)
+                need(fret_batch_loss(n, mu, p, F, x, POINTS));
+            else if (kind == RADIUS_ALL)
+                need(fret_batch_loading(n, mu, p, F, x, NULL, POINTS));
+            else if (kind == LOADING_ALL)
+                need(fret_batch_loading(n, mu, p, F, x, y, POINTS));
+            else
+                need(fret_batch_press(n, F, x, y, POINTS));
+            sink = x[pass];
+        }
+        best = fmin(best, (seconds() - t0) / (PASSES * POINTS));
     }
     return best;
 }
 
-static void line(const char *what, double value, double base, const char *base_name, double scale,
-                 const char *unit) {
-    printf("%s|%.4g %s|%.4g %s (%s)|%.3g\n", what, value * scale, unit, base * scale, unit, base_name,
-           value / base);
+static const double ns = 1e9, us = 1e6;
+
+static int places(double value, int digits) { /* so that all digits before the point are there */
+    const int before = value > 0 ? (int)floor(log10(value)) + 1 : 1;
+    return before < digits ? digits - before : 0;
+}
+
+static void line(const char *what, double value, double base, const char *base_name, double unit,
+                 const char *limit) {
+    const char *name = unit == ns ? "ns" : "us";
+    value *= unit;
+    base *= unit;
+    printf("%s|%.*f %s|%.*f %s, %s|%.3g|%s\n", what, places(value, 3), value, name, places(base, 3), base,
+           name, base_name, value / base, limit);
+}
+
+enum { ERRORS = 3 };
+
+/* Lines for the loss of a cycle to 1e-3, 1e-6 and 1e-9, by a closed form that takes `time`; how many times as
+ * long the other model takes. */
+static void equal_error(const fret_normal *n, const fret_press *p, const char *name, double time,
+                        cycle (*model)(const fret_normal *, const fret_press *, size_t), const char *size,
+                        double times[ERRORS]) {
+    for (int i = 0; i < ERRORS; i++) {
+        char what[60], base[60];
+        size_t count;
+        const cycle c = to_error(model, n, p, pow(10, -3 * (i + 1)), &count);
+        times[i] = c.time / time;
+        snprintf(what, sizeof what, "%s, dW to 1e-%d", name, 3 * (i + 1));
+        snprintf(base, sizeof base, "%zu %s", count, size);
+        line(what, time, c.time, base, us, "");
+    }
+}
+
+static void compare(const fret_normal *n, const fret_press *p) {
+    const struct {
+        const char *name, *words;
+        double time;
+    } ours[] = {{"fret_masing", "memory at constant F_N (fret_masing)", masing_cycle(n, p).time},
+                {"fret_memory", "memory diagram (fret_memory)", memory_cycle(n, p).time}};
+    for (int i = 0; i < 2; i++) {
+        double springs[ERRORS], area[ERRORS];
+        equal_error(n, p, ours[i].name, ours[i].time, springs_cycle, "springs", springs);
+        equal_error(n, p, ours[i].name, ours[i].time, area_cycle, "steps of loop area", area);
+        printf("= To an error of 1e-3, 1e-6, 1e-9 in the loss of a cycle the %s is ", ours[i].words);
+        for (int j = 0; j < ERRORS; j++)
+            printf("%.*f%s", places(springs[j], 2), springs[j],
+                   j < ERRORS - 1 ? ", " : " times as fast as springs");
+        for (int j = 0; j < ERRORS; j++)
+            printf("%s%.*f", j ? ", " : " and ", places(area[j], 2), area[j]);
+        puts(" times as fast as the area of the loop.");
+    }
 }
 
 int main(void) {
@@ -355,51 +430,41 @@ int main(void) {
     fret_press p;
     need(fret_normal_make(&material, &gap, &n));
     need(fret_press_force(&n, FN, &p));
-    line("memory step, Fx", memory_diagram(&n, &p, 1000000, false), spring_scheme(&n, &p, 20000, false),
-         "1000 springs", 1e9, "ns");
-    line("memory step, Fx and loss", memory_diagram(&n, &p, 1000000, true),
-         spring_scheme(&n, &p, 20000, true), "1000 springs", 1e9, "ns");
-    double power = powers(5000000);
-    line("scene: material to dW", scene(100000), power, "one powl", 1e6, "us");
-    line("fret_cycle_loss, a point", cycle_loss(&n, &p, 5000000), power, "one powl", 1e9, "ns");
-    double plain = spring_scheme(&n, &p, 20000, true) / SPRINGS;
-    line("springs, 1000, a spring-step", library_springs(&n, &p, SPRINGS, 20000, false), plain,
-         "plain loop in double; limit 0.3 ns", 1e9, "ns");
-    line("the same by force", library_springs(&n, &p, SPRINGS, 5000, true), plain,
-         "plain loop by displacement", 1e9, "ns");
+    const double plain = spring_scheme(&n, &p, 2000, true), one = plain / SPRINGS;
+    puts("A step of the memory diagram");
+    line("F_x", memory_diagram(&n, &p, false), spring_scheme(&n, &p, 2000, false), "1000 springs", ns, "");
+    line("F_x and loss", memory_diagram(&n, &p, true), plain, "1000 springs", ns, "");
+    puts("A step of the memory at constant F_N");
+    line("F_x", masing(&n, &p, false, 0), plain, "1000 springs", ns, "30 ns");
+    line("F_x and loss", masing(&n, &p, true, 0), plain, "1000 springs", ns, "70 ns");
+    line("F_x, 10^4 turning points", masing(&n, &p, false, 10000), plain, "1000 springs", ns, "30 ns");
+    line("F_x and loss, 10^4 turning points", masing(&n, &p, true, 10000), plain, "1000 springs", ns,
+         "70 ns");
+    puts("A spring and step of fret_springs");
     const size_t large = 4000000;
     char probe[80];
-    double bytes = triad(large, 5);
-    snprintf(probe, sizeof probe, "triad, 32 B at %.1f GB/s; limit 1.3", 32e-9 / bytes);
-    line("springs, 4e6, a spring-step", library_springs(&n, &p, large, 10, false), bytes, probe, 1e9, "ns");
-    line("masing, Fx", masing(&n, &p, false, 0), plain * SPRINGS, "1000 springs; limit 30 ns", 1e9, "ns");
-    line("masing, Fx and loss", masing(&n, &p, true, 0), plain * SPRINGS, "1000 springs; limit 70 ns", 1e9,
-         "ns");
-    line("masing, 10^4 turns, Fx", masing(&n, &p, false, 10000), plain * SPRINGS, "1000 springs; limit 30 ns",
-         1e9, "ns");
-    line("masing, 10^4 turns, loss", masing(&n, &p, true, 10000), plain * SPRINGS,
-         "1000 springs; limit 70 ns", 1e9, "ns");
-    const cycle exact = masing_cycle(&n, &p);
-    line("memory, dW of a cycle", memory_cycle(&n, &p).time, exact.time, "masing", 1e9, "ns");
-    for (int digits = 3; digits <= 9; digits += 3) {
-        char what[40], base[80];
-        size_t count;
-        snprintf(what, sizeof what, "masing, dW to 1e-%d", digits);
-        cycle c = to_error(springs_cycle, &n, &p, pow(10, -digits), &count);
-        snprintf(base, sizeof base, "%zu springs", count);
-        line(what, exact.time, c.time, base, 1e6, "us");
-        c = to_error(area_cycle, &n, &p, pow(10, -digits), &count);
-        snprintf(base, sizeof base, "loop area, %zu steps", count);
-        line(what, exact.time, c.time, base, 1e6, "us");
-    }
-    double pair = sweep_point(&n, &p, LOG_EXP), closed = cycle_loss(&n, &p, 1000000);
+    const double bytes = triad(large, 5);
+    snprintf(probe, sizeof probe, "triad, 32 B at %.1f GB/s", 32e-9 / bytes);
+    line("1000 springs", library_springs(&n, &p, SPRINGS, 20000, false), one, "plain loop in double", ns,
+         "0.3 ns");
+    line("1000 springs, by force", library_springs(&n, &p, SPRINGS, 5000, true), one,
+         "plain loop by displacement", ns, "");
+    line("4e6 springs", library_springs(&n, &p, large, 10, false), bytes, probe, ns, "1.3 baselines");
+    line("4e6 springs, by force", library_springs(&n, &p, large, 5, true), bytes, probe, ns, "");
+    puts("The loss of a cycle at equal error");
+    compare(&n, &p);
+    puts("Closed forms");
+    const double one_power = least(power, &n, &p), closed = least(cycle_loss, &n, &p);
+    line("scene, material to dW", least(scene, &n, &p), one_power, "one powl", us, "5 us");
+    line("fret_cycle_loss", closed, one_power, "one powl", ns, "");
+    puts("A load of a sweep");
+    const double pair = sweep_point(&n, &p, LOG_EXP);
     const char *libm = "libm log and exp";
-    line("loss, one by one (limit 40 ns)", sweep_point(&n, &p, LOSS_EACH), closed, "fret_cycle_loss", 1e9,
-         "ns");
-    line("loss, a point of a sweep (limit 10 ns)", sweep_point(&n, &p, LOSS_ALL), pair, libm, 1e9, "ns");
-    line("c, one by one", sweep_point(&n, &p, RADIUS_EACH), pair, libm, 1e9, "ns");
-    line("c, a point of a sweep", sweep_point(&n, &p, RADIUS_ALL), pair, libm, 1e9, "ns");
-    line("c and dx, a point of a sweep", sweep_point(&n, &p, LOADING_ALL), pair, libm, 1e9, "ns");
-    line("a and dz, a point of a sweep", sweep_point(&n, &p, PRESS_ALL), pair, libm, 1e9, "ns");
+    line("dW, one by one", sweep_point(&n, &p, LOSS_EACH), closed, "fret_cycle_loss", ns, "40 ns");
+    line("c, one by one", sweep_point(&n, &p, RADIUS_EACH), pair, libm, ns, "");
+    line("dW, an array", sweep_point(&n, &p, LOSS_ALL), pair, libm, ns, "10 ns");
+    line("c, an array", sweep_point(&n, &p, RADIUS_ALL), pair, libm, ns, "");
+    line("c and dx, an array", sweep_point(&n, &p, LOADING_ALL), pair, libm, ns, "");
+    line("a and dz, an array", sweep_point(&n, &p, PRESS_ALL), pair, libm, ns, "");
     return EXIT_SUCCESS;
 }
