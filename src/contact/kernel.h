@@ -111,24 +111,4 @@ static inline double kernel_log1p(double x) {
     return kernel_log_near(m, low, e);
 }
 
-/* x^y of x >= 0; NaN for negative x. */
-static inline double kernel_pow(double x, double y) {
-    if (y == 0 || x == 1)
-        return 1;
-    if (!(x > 0 && x < (double)INFINITY && fabs(y) < (double)INFINITY)) {
-        if (!(x >= 0) || y != y)
-            return (double)NAN;
-        return (x > 1) == (y > 0) ? (double)INFINITY : 0;
-    }
-    double m, e, factor, zero = 0, lh, ll, out, lift = kernel_normal(&x);
-    lanes1_reduce(&x, &m, &e, &factor);
-    e -= lift;
-    m -= 1;
-    lanes1_log_pair(&m, &zero, &e, &lh, &ll);
-    /* beyond 2^100 all overflows or vanishes, and halves of the product would be infinite */
-    const double exponent[2] = {y > 0x1p100 ? 0x1p100 : y < -0x1p100 ? -0x1p100 : y, 0};
-    lanes1_power(&lh, &ll, exponent, 1, &out);
-    return out;
-}
-
 #endif
