@@ -25,7 +25,7 @@ typedef struct runner {
     unsigned points;
     unsigned parts; /* cut each straight step into so many and sum the loop area; 0: neither */
     long double area, Fx, dx;
-    size_t index;
+    size_t index, cycle; /* next step of the program, and next of its cycles */
     long double cycle_loss;
     long double spent; /* dissipated on memory, step by step: W may be far larger */
 } runner;
@@ -65,6 +65,12 @@ static void seen(runner *r) {
         fret_memory_state(r->memory, &now);
         r->observe(&now, r->index, r->context);
     }
+}
+
+static fret_status unless_stopped(const runner *r, fret_status st) {
+    if (!st.code && r->s->stop && *r->s->stop)
+        st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+    return st;
 }
 
 static fret_status take(runner *r, const fret_step *step, unsigned points) {
@@ -115,9 +121,7 @@ static fret_status period(runner *r, const load_step *c, const cycle_extra *x, l
         double angle = 2 * pi * i / chords; /* from the top of F_x */
         step.tangential = i == chords ? c->tangential_value : c->tangential_value * (double)fret_cos(angle);
         step.normal = (double)(FN + c->normal_value * fret_cos(angle + x->phase));
-        st = take(r, &step, 1);
-        if (r->s->stop && *r->s->stop && !st.code)
-            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+        st = unless_stopped(r, take(r, &step, 1));
     }
     r->chords = false;
     return st;
@@ -141,8 +145,7 @@ static fret_status run_cycle(runner *r, const load_step *c, const cycle_extra *x
         st = period(r, c, x, FN);
         forces_of(r, &state);
         r->cycle_loss = r->springs ? state.W - before : r->spent;
-        if (r->s->stop && *r->s->stop && !st.code)
-            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+        st = unless_stopped(r, st);
     }
     if (st.code == FRET_GROSS_SLIP && c->tangential == BY_FORCE && c->normal_value == 0)
         st.quantity = "FA";
@@ -199,6 +202,24 @@ static bool on_the_way(const scene *s, size_t i) {
     return here == next || (last < here && here < next) || (last > here && here > next);
 }
 
+/* Runs the program from where the runner is to step `end`. */
+static fret_status run_until(runner *r, size_t end) {
+    const scene *s = r->s;
+    const bool seen_by_all = r->observe || r->parts || r->springs;
+    fret_status st = {FRET_OK, NULL, 0, 0};
+    for (; r->index < end; r->index++) {
+        const load_step *step = &s->program[r->index];
+        const cycle_extra *x = step->kind == LOAD_CYCLE ? &s->cycles[r->cycle] : NULL;
+        if (seen_by_all || !on_the_way(s, r->index))
+            st = run_step(r, step, x);
+        st = unless_stopped(r, st);
+        if (st.code)
+            break;
+        r->cycle += x != NULL;
+    }
+    return st;
+}
+
 /* Brings memory up to the end of the program. */
 static bool catch_up(scene *s, calc_error *error) {
     const fret_normal *normal;
@@ -211,28 +232,24 @@ static bool catch_up(scene *s, calc_error *error) {
             return scene_status(s, error, &st);
         s->applied = s->applied_cycles = 0;
     }
-    runner r = {.s = s, .memory = s->memory, .points = 1, .cycle_loss = s->cycle_loss};
+    runner r = {.s = s,
+                .memory = s->memory,
+                .points = 1,
+                .index = s->applied,
+                .cycle = s->applied_cycles,
+                .cycle_loss = s->cycle_loss};
     if (s->applied < s->steps && s->steps > 1)
         s->used |= USED_MEMORY;
-    while (s->applied < s->steps) {
-        const load_step *step = &s->program[s->applied];
-        const cycle_extra *x = step->kind == LOAD_CYCLE ? &s->cycles[s->applied_cycles] : NULL;
-        fret_status st = {FRET_OK, NULL, 0, 0};
-        if (!on_the_way(s, s->applied))
-            st = run_step(&r, step, x);
-        if (!st.code && s->stop && *s->stop)
-            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
-        if (st.code) {
-            fret_memory_free(s->memory); /* half-run: not to be used */
-            s->memory = NULL;
-            s->applied = s->applied_cycles = 0;
-            return scene_status(s, error, &st);
-        }
-        s->applied++;
-        s->applied_cycles += x != NULL;
-    }
+    fret_status st = run_until(&r, s->steps);
+    s->applied = r.index;
+    s->applied_cycles = r.cycle;
     s->cycle_loss = r.cycle_loss;
-    return true;
+    if (st.code) {
+        fret_memory_free(s->memory); /* half-run: not to be used */
+        s->memory = NULL;
+        s->applied = s->applied_cycles = 0;
+    }
+    return scene_status(s, error, &st);
 }
 
 static bool store(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
@@ -430,14 +447,7 @@ static bool run_springs(scene *s, calc_error *error) {
     runner r = {.s = s, .points = 1};
     if (!make_springs(s, s->springs, &r.springs, error))
         return false;
-    fret_status st = {FRET_OK, NULL, 0, 0};
-    size_t cycle = 0;
-    for (size_t i = 0; i < s->steps && !st.code; i++) {
-        const cycle_extra *x = s->program[i].kind == LOAD_CYCLE ? &s->cycles[cycle++] : NULL;
-        st = run_step(&r, &s->program[i], x);
-        if (!st.code && s->stop && *s->stop)
-            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
-    }
+    fret_status st = run_until(&r, s->steps);
     if (!st.code)
         fret_springs_state(r.springs, &s->state);
     s->springs_loss = r.cycle_loss;
@@ -573,14 +583,8 @@ bool scene_trace(scene *s, unsigned points, load_observer *observe, void *contex
     runner r = {.s = s, .observe = observe, .context = context, .points = points ? points : 1};
     s->used |= USED_MEMORY;
     fret_status st = fret_memory_make(normal, mu, &r.memory);
-    size_t cycle = 0;
-    for (size_t i = 0; i < s->steps && !st.code; i++) {
-        const cycle_extra *x = s->program[i].kind == LOAD_CYCLE ? &s->cycles[cycle++] : NULL;
-        r.index = i;
-        st = run_step(&r, &s->program[i], x);
-        if (!st.code && s->stop && *s->stop)
-            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
-    }
+    if (!st.code)
+        st = run_until(&r, s->steps);
     fret_memory_free(r.memory);
     return scene_status(s, error, &st);
 }
@@ -611,22 +615,16 @@ bool cycle_run_open(scene *s, unsigned springs, unsigned parts, cycle_run **out,
         ok = make_springs(s, springs, &run->r.springs, error);
     else
         st = fret_memory_make(normal, mu, &run->r.memory);
-    run->extra = s->cycles;
-    for (const load_step *step = s->program; ok && step <= last && !st.code; step++) {
-        if (step->kind != LOAD_CYCLE) {
-            st = run_step(&run->r, step, NULL);
-        } else if (step < last) {
-            st = run_step(&run->r, step, run->extra++);
-        } else {
-            fret_state state;
-            cycle_extra before = *run->extra;
-            before.times--;
-            forces_of(&run->r, &state);
-            run->FN = state.FN;
-            st = run_step(&run->r, step, &before);
-        }
-        if (!st.code && s->stop && *s->stop)
-            st = (fret_status){FRET_INTERRUPTED, NULL, 0, 0};
+    if (ok && !st.code)
+        st = run_until(&run->r, (size_t)(last - s->program));
+    if (ok && !st.code) {
+        fret_state state;
+        run->extra = &s->cycles[run->r.cycle];
+        cycle_extra before = *run->extra;
+        before.times--;
+        forces_of(&run->r, &state);
+        run->FN = state.FN;
+        st = unless_stopped(&run->r, run_step(&run->r, last, &before));
     }
     if (ok && scene_status(s, error, &st)) {
         *out = run;

@@ -12,11 +12,6 @@ typedef struct parts {
     dd one_nu; /* 1-nu */
 } parts;
 
-/* cos(pi k/2), k != +-1 */
-static dd cosine(double k) {
-    return dd_sin_quarter(dd_sum(1, -fabs(k)));
-}
-
 static parts parts_of(double k, double nu) {
     parts r;
     dd k1 = dd_sum(1, k), two = dd_of(2);
@@ -31,7 +26,7 @@ static parts parts_of(double k, double nu) {
     const dd over[] = {dd_add(x, half_beta), dd_sub(x, half_beta)}, w = dd_add_d(x, -0.5), under[] = {w, w};
     dd_scaled P = dd_gamma_quotient(over, 2, under, 2);
     r.SP = dd_mul(dd_div(S, r.beta), dd_mul(P.factor, dd_exp(P.log)));
-    r.ck = cosine(k);
+    r.ck = dd_sin_quarter(dd_sum(1, -fabs(k))); /* cos(pi k/2) */
     return r;
 }
 
@@ -98,7 +93,7 @@ fret_status fret_foundation_make(const fret_material *m, fret_foundation *out) {
         return fret_fail(FRET_BOTH_RIGID, NULL, 0, 0);
 
     fret_foundation f = {.k = m->k, .c0 = m->c0};
-    dd normal = dd_of(0), tangential = dd_of(0), ck = cosine(m->k);
+    dd normal = dd_of(0), tangential = dd_of(0), ck = dd_of(1);
     fret_real drive = 0, holl = 0;
     const fret_body *last = NULL;
     parts r;
@@ -111,6 +106,7 @@ fret_status fret_foundation_make(const fret_material *m, fret_foundation *out) {
         if (!last || last->nu != b->nu)
             r = parts_of(m->k, b->nu);
         last = b;
+        ck = r.ck; /* the same for both */
         const dd E = dd_of(ldexp(b->E0, -scale));
         normal = dd_add(normal, dd_div(normal_part(&r, m->k, b->nu), E));
         tangential = dd_add(tangential, dd_div(tangential_part(&r, b->nu), E));
