@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Elementary functions of expressions. */
+#include <math.h>
+
+#include "calc/tree.h"
+#include "contact/dd.h"
+
+/* Functions with the same digits under every mathematical library. */
+
+static long double real_tan(long double x) {
+    return fret_sin(x) / fret_cos(x);
+}
+
+static long double real_atan(long double x) {
+    return fret_atan2(x, 1);
+}
+
+static long double real_asin(long double x) {
+    return fret_atan2(x, sqrtl((1 - x) * (1 + x)));
+}
+
+static long double real_acos(long double x) {
+    return fret_atan2(sqrtl((1 - x) * (1 + x)), x);
+}
+
+static long double real_beta(long double x, long double y) {
+    long double b = x > 0 && y > 0 ? fret_beta(x, y) : 0;
+    return (double)b > 0 ? b : (long double)NAN;
+}
+
+static const builtin builtins[] = {
+    {"sqrt", sqrtl, NULL, "square root; halves the dimension"},
+    {"exp", fret_exp, NULL, "exponential"},
+    {"log", fret_log, NULL, "natural logarithm"},
+    {"log10", fret_log10, NULL, "decimal logarithm"},
+    {"sin", fret_sin, NULL, "sine of an angle"},
+    {"cos", fret_cos, NULL, "cosine of an angle"},
+    {"tan", real_tan, NULL, "tangent of an angle"},
+    {"asin", real_asin, NULL, "arc sine"},
+    {"acos", real_acos, NULL, "arc cosine"},
+    {"atan", real_atan, NULL, "arc tangent"},
+    {"abs", fabsl, NULL, "magnitude; keeps the dimension"},
+    {"gamma", fret_gamma, NULL, "gamma function"},
+    {"min", NULL, fminl, "the smaller of two"},
+    {"max", NULL, fmaxl, "the larger of two"},
+    {"beta", NULL, real_beta, "beta function B(x,y), x, y > 0"},
+};
+enum { BUILTINS = sizeof builtins / sizeof *builtins };
+
+const char *builtin_name(size_t i) {
+    return i < BUILTINS ? builtins[i].name : i == BUILTINS ? "pi" : NULL;
+}
+
+const builtin *builtin_row(size_t i) {
+    return i < BUILTINS ? &builtins[i] : NULL;
+}
+
+bool builtin_find(const char *name, size_t len, size_t *i) {
+    static word_index words = {.name = builtin_name};
+    return word_find(&words, name, len, i);
+}
+
+const char *builtin_summary(size_t i) {
+    return i < BUILTINS ? builtins[i].summary : "3.14159...";
+}
