@@ -3,21 +3,6 @@
 
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
 
-typedef struct contact {
-    fret_normal normal;
-    fret_press press;
-    double mu;
-} contact;
-
-static contact make(const unit_scene *s, double FN) {
-    contact c;
-    memset(&c, 0, sizeof c);
-    c.mu = s->mu;
-    CHECK_OK(fret_normal_make(&s->material, &s->gap, &c.normal));
-    CHECK_OK(fret_press_force(&c.normal, FN, &c.press));
-    return c;
-}
-
 static void reference(void) {
     unit_table t;
     if (!unit_open(&t, "scene.csv"))
@@ -29,7 +14,7 @@ static void reference(void) {
         const int out = UNIT_SCENE_COLUMNS + 2;
         fret_real c = unit_result(&t, out + 2), dx = unit_result(&t, out + 3), max = unit_result(&t, out + 4);
         fret_real dW = unit_result(&t, out + 5), U = unit_result(&t, out + 8), W = unit_result(&t, out + 9);
-        contact k = make(&s, FN);
+        unit_contact k = unit_make_contact(&s, FN);
         fret_loading f, g;
         CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, FA, &f));
         CHECK(f.Fx == FA);
@@ -88,7 +73,7 @@ static void loss_shape(void) {
 
 /* The definition: 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx. */
 typedef struct loop {
-    const contact *k;
+    const unit_contact *k;
     fret_real c, yc;
 } loop;
 
@@ -105,7 +90,7 @@ static void definition(void) {
     static const double ns[] = {0.7, 1, 2, 4}, ks[] = {-0.5, 0, 0.6};
     for (int i = 0; i < 12; i++) {
         unit_scene s = unit_make_scene(ns[i % 4], ks[i / 4]);
-        contact k = make(&s, 25);
+        unit_contact k = unit_make_contact(&s, 25);
         for (double part = 0.2; part < 1; part += 0.25) {
             double FA = part * s.mu * 25;
             fret_loading f = {0, 0, 0, 0};
@@ -125,7 +110,7 @@ static void published(void) {
     s.material.body[0] = s.material.body[1] = (fret_body){210e9, 0.3, false};
     s.mu = 0.3;
     s.gap.power[0] = (fret_power){2, 100, 1};
-    contact k = make(&s, 100);
+    unit_contact k = unit_make_contact(&s, 100);
     fret_loading f = {0, 0, 0, 0};
     fret_real loss = -1;
     CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 15, &f));
@@ -142,7 +127,7 @@ static void published(void) {
         s.mu = 0.4;
         s.material.k = i * 0.5;
         s.gap.power[0].h = 50;
-        k = make(&s, 100);
+        k = unit_make_contact(&s, 100);
         CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 20, &f));
         CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, 20, &loss));
         /* 0.3 and 0.4 there are decimal, here double */
@@ -157,7 +142,7 @@ static void published(void) {
 static void gross_slip(void) {
     unit_scene s = unit_make_scene(2, 0.4);
     s.mu = 0.5; /* mu F_N exact */
-    contact k = make(&s, 64);
+    unit_contact k = unit_make_contact(&s, 64);
     fret_real max = fret_gross_slip(&k.normal, k.mu, &k.press), loss = -1, more = -1;
     fret_loading f = {0, 0, 0, 0};
     CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 32, &f));
@@ -187,7 +172,7 @@ static void gross_slip(void) {
     CHECK_REL(more, loss, 1e-8L);
     /* a limit that is no double: 0.1 * 0.3 carries a rounding that must not shut out the last force */
     s.mu = 0.1;
-    k = make(&s, 0.3);
+    k = unit_make_contact(&s, 0.3);
     fret_real limit = (fret_real)0.1 * 0.3;
     double inside = (double)limit;
     while (inside > limit)
@@ -204,7 +189,7 @@ static void gross_slip(void) {
 
 static void errors(void) {
     unit_scene s = unit_make_scene(2, 0.4);
-    contact k = make(&s, 10);
+    unit_contact k = unit_make_contact(&s, 10);
     const double wild[] = {nan_, inf_, -inf_};
     fret_loading f = {7, 7, 7, 7};
     fret_real loss = 7;

@@ -3,13 +3,6 @@
 
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
 
-static fret_normal make(const unit_scene *s) {
-    fret_normal n;
-    memset(&n, 0, sizeof n);
-    CHECK_OK(fret_normal_make(&s->material, &s->gap, &n));
-    return n;
-}
-
 static void reference(void) {
     unit_table t;
     if (!unit_open(&t, "scene.csv"))
@@ -20,7 +13,7 @@ static void reference(void) {
         double FN = unit_input(&t, UNIT_SCENE_COLUMNS);
         const int out = UNIT_SCENE_COLUMNS + 2;
         fret_real a = unit_result(&t, out), dz = unit_result(&t, out + 1), kn = unit_result(&t, out + 7);
-        fret_normal n = make(&s);
+        fret_normal n = unit_make_normal(&s);
         fret_press p = {.F = 0}, back;
         CHECK_OK(fret_press_force(&n, FN, &p));
         CHECK(p.F == FN);
@@ -50,7 +43,7 @@ static void law(void) {
     for (int i = 0; i < 25; i++) {
         static const double ns[] = {0.5, 1, 2, 3, 8}, ks[] = {-0.9, -0.5, 0, 0.5, 0.9};
         unit_scene s = unit_make_scene(ns[i % 5], ks[i / 5]);
-        fret_normal n = make(&s);
+        fret_normal n = unit_make_normal(&s);
         CHECK(fret_law_force(&n, 0) == 0 && fret_law_depth(&n, 0) == 0 && fret_law_radius(&n, 0) == 0);
         fret_real last_F = 0, last_a = 0;
         for (double y = 1e-9; y < 1e-3; y *= 1.7) {
@@ -97,7 +90,7 @@ static void slices(void) {
     while (unit_row(&t)) {
         unit_scene s = unit_make_scene(unit_input(&t, 0), unit_input(&t, 1));
         double x = unit_input(&t, 2);
-        fret_normal n = make(&s);
+        fret_normal n = unit_make_normal(&s);
         /* at y = 1, F = 1 the slice is exactly h = x */
         const fret_level edge = {1, 1};
         fret_slice got = fret_law_slice(&n, &edge, x);
@@ -115,7 +108,7 @@ static void hertz(void) {
     s.gap.kind = FRET_GAP_POWER;
     s.gap.terms = 1;
     s.gap.power[0] = (fret_power){2, 100, 1};
-    fret_normal n = make(&s);
+    fret_normal n = unit_make_normal(&s);
     fret_press p = {.F = 0};
     CHECK_OK(fret_press_force(&n, 100, &p));
     fret_real nu = 0.3, modulus = 210e9L / (2 * (1 - nu * nu)), a = cbrtl(3 * 100 * 0.005L / (4 * modulus));
@@ -132,7 +125,7 @@ static void scales(void) {
     /* a high power, nanometres: a^(n+k+1) alone would underflow, A overflow */
     unit_scene s = unit_make_scene(50, 0.5);
     s.gap.power[0] = (fret_power){50, 1e-9, 1e-9};
-    fret_normal n = make(&s);
+    fret_normal n = unit_make_normal(&s);
     fret_press p = {.F = 0};
     CHECK_OK(fret_press_radius(&n, 1e-9, &p));
     CHECK(p.F > 0 && isfinite(p.F) && p.dz > 1e-10L && p.dz < 1e-8L);
@@ -142,7 +135,7 @@ static void scales(void) {
     /* k = 0: c0 does not matter */
     unit_scene one = unit_make_scene(2, 0), other = one;
     other.material.c0 = 123.0;
-    fret_normal n1 = make(&one), n2 = make(&other);
+    fret_normal n1 = unit_make_normal(&one), n2 = unit_make_normal(&other);
     CHECK_OK(fret_press_force(&n1, 10, &p));
     CHECK_OK(fret_press_force(&n2, 10, &q));
     CHECK_REL(p.a, q.a, UNIT_TOL(1e-18L, 1e-15L));
@@ -151,7 +144,7 @@ static void scales(void) {
 
 static void errors(void) {
     unit_scene s = unit_make_scene(2, 0.3), bad;
-    fret_normal n = make(&s);
+    fret_normal n = unit_make_normal(&s);
     typedef fret_status press(const fret_normal *, double, fret_press *);
     static press *const by[] = {fret_press_force, fret_press_depth, fret_press_radius};
     static const char *const name[] = {"FN", "dz", "a"};

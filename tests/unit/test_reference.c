@@ -2,21 +2,6 @@
 /* The loss by quadrature, against tables of 36 digits and against the closed forms. */
 #include "unit.h"
 
-typedef struct contact {
-    fret_normal normal;
-    fret_press press;
-    double mu;
-} contact;
-
-static contact make(const unit_scene *s, double FN) {
-    contact c;
-    memset(&c, 0, sizeof c);
-    c.mu = s->mu;
-    CHECK_OK(fret_normal_make(&s->material, &s->gap, &c.normal));
-    CHECK_OK(fret_press_force(&c.normal, FN, &c.press));
-    return c;
-}
-
 static void scenes(void) {
     unit_table t;
     if (!unit_open(&t, "scene.csv"))
@@ -24,7 +9,7 @@ static void scenes(void) {
     while (unit_row(&t)) {
         unit_scene s = unit_read_scene(&t, 0);
         double FN = unit_input(&t, UNIT_SCENE_COLUMNS), FA = unit_input(&t, UNIT_SCENE_COLUMNS + 1);
-        contact c = make(&s, FN);
+        unit_contact c = unit_make_contact(&s, FN);
         fret_real loss = -1, agreement = -1;
         CHECK_OK(fret_reference_loss(&c.normal, c.mu, &c.press, FA, &loss, &agreement));
         CHECK(agreement >= LDBL_EPSILON && agreement < UNIT_TOL(1e-17L, 1e-14L));
@@ -46,7 +31,7 @@ static void shapes(void) {
         for (size_t j = 0; j < sizeof ks / sizeof *ks; j++) {
             unit_scene s = unit_make_scene(2, ks[j]);
             s.gap = gaps[i];
-            contact c = make(&s, 100);
+            unit_contact c = unit_make_contact(&s, 100);
             for (size_t l = 0; l < sizeof ts / sizeof *ts; l++) {
                 fret_real loss, same, agreement;
                 double FA = ts[l] * c.mu * 100;
@@ -66,7 +51,7 @@ static void shapes(void) {
 /* By displacement, into gross slip, and with few nodes. */
 static void amplitudes(void) {
     unit_scene s = unit_make_scene(2, -0.5);
-    contact c = make(&s, 100);
+    unit_contact c = unit_make_contact(&s, 100);
     fret_real max = fret_gross_slip(&c.normal, c.mu, &c.press), loss, same, agreement;
     static const double part[] = {1e-6, 0.3, 1, 2.5};
     for (size_t i = 0; i < sizeof part / sizeof *part; i++) {
@@ -111,7 +96,7 @@ static void sampled(void) {
     struct fret_table *table = NULL;
     CHECK_OK(fret_table_make(r, f, ROWS, &table));
     s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = table};
-    contact c = make(&s, 20);
+    unit_contact c = unit_make_contact(&s, 20);
     fret_real loss, finer, agreement;
     fret_loading peak;
     CHECK_OK(fret_reference_loss(&c.normal, c.mu, &c.press, 4, &loss, &agreement));

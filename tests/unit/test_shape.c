@@ -37,13 +37,6 @@ static void show_worst(void) {
         CHECK_ABS(value_, (expected), (scale), (tolerance));                                                 \
     } while (0)
 
-static fret_normal make(const unit_scene *s) {
-    fret_normal n;
-    memset(&n, 0, sizeof n);
-    CHECK_OK(fret_normal_make(&s->material, &s->gap, &n));
-    return n;
-}
-
 /* The table at r = end t (1-bend+bend t), t = i/(count-1), of a cubic in r-flat. */
 static struct fret_table *read_table(const unit_table *t) {
     const double end = unit_input(t, 1), flat = unit_input(t, 2), bend = unit_input(t, 3);
@@ -92,7 +85,7 @@ static void reference(void) {
         fret_real dz = unit_result(&t, 19), F = unit_result(&t, 20), kn = unit_result(&t, 21);
         fret_real g1 = unit_result(&t, 22), c = unit_result(&t, 23), dx = unit_result(&t, 24);
         fret_real dW = unit_result(&t, 25);
-        fret_normal n = make(&s);
+        fret_normal n = unit_make_normal(&s);
         fret_press p = {.F = 0}, q = p;
         CHECK_OK(fret_press_radius(&n, a, &p));
         CHECK(p.a == a);
@@ -182,7 +175,7 @@ static void engine(void) {
         for (int j = 0; j < GRADINGS; j++) {
             unit_scene s = of_kind((fret_gap_kind)kind, gradings[j]);
             s.gap.table = table;
-            fret_normal n = make(&s);
+            fret_normal n = unit_make_normal(&s);
             fret_press p = {.F = 0};
             CHECK_OK(fret_press_radius(&n, 1.6e-3, &p));
             double FN = (double)p.F;
@@ -228,7 +221,7 @@ static void additive(void) {
             struct fret_table *table = sample(&s.gap, counts[i], 3e-3, true);
             s.gap.kind = FRET_GAP_TABLE;
             s.gap.table = table;
-            fret_normal n = make(&s);
+            fret_normal n = unit_make_normal(&s);
             fret_press p = {.F = 0};
             CHECK_OK(fret_press_radius(&n, 2.7e-3, &p));
             static const fret_real cuts[] = {0, 1e-4L, 0.02L, 0.3L, 0.31L, 0.9L, 1};
@@ -257,7 +250,7 @@ typedef struct answers {
 
 static answers ask(const unit_scene *s, double FN) {
     answers a = {.loss = -1};
-    fret_normal n = make(s);
+    fret_normal n = unit_make_normal(s);
     CHECK_OK(fret_press_force(&n, FN, &a.p));
     CHECK_OK(fret_loading_force(&n, s->mu, &a.p, 0.6 * s->mu * FN, &a.f));
     CHECK_OK(fret_cycle_loss(&n, s->mu, &a.p, 0.6 * s->mu * FN, &a.loss));
@@ -274,7 +267,7 @@ static void vanishing_flat(void) {
             full.gap.terms = 1;
             full.gap.power[0] =
                 kind == FRET_GAP_FLAT_CONE ? (fret_power){1, s.gap.slope, 1} : (fret_power){2, 50, 1};
-            fret_normal n = make(&full);
+            fret_normal n = unit_make_normal(&full);
             fret_press at = {.F = 0};
             CHECK_OK(fret_press_radius(&n, 1e-3, &at));
             answers want = ask(&full, (double)at.F);
@@ -314,7 +307,7 @@ static void one_term(void) {
 static void limits(void) {
     for (int j = 0; j < GRADINGS; j++) {
         unit_scene s = of_kind(FRET_GAP_SUM, gradings[j]);
-        fret_normal n = make(&s);
+        fret_normal n = unit_make_normal(&s);
         const double k = s.material.k;
         const fret_real r = sqrtl(100 * fret_kappa(2, k) / (8e6L * fret_kappa(4, k)));
         CHECK(n.falls);
@@ -349,10 +342,10 @@ static void limits(void) {
         CHECK_CODE(fret_normal_make(&s.material, &s.gap, &n), FRET_NOT_MONOTONE);
 
         s = of_kind(FRET_GAP_FLAT_ROUNDED, gradings[j]);
-        n = make(&s);
+        n = unit_make_normal(&s);
         CHECK_CODE(fret_press_radius(&n, 0.9e-3, &p), FRET_OUTSIDE);
         s = of_kind(FRET_GAP_EXACT_SPHERE, gradings[j]);
-        n = make(&s);
+        n = unit_make_normal(&s);
         CHECK(fret_press_radius(&n, 1.001e-2, &p).code != FRET_OK);
     }
 }
@@ -383,7 +376,7 @@ static void bad_tables(void) {
     s.gap.kind = FRET_GAP_TABLE;
     s.gap.table = t;
     cone.gap.power[0] = (fret_power){1, 1e-3, 1};
-    fret_normal n = make(&s), c = make(&cone);
+    fret_normal n = unit_make_normal(&s), c = unit_make_normal(&cone);
     fret_press p = {.F = 0}, q = p;
     CHECK_OK(fret_press_radius(&n, 9e-4, &p));
     CHECK_OK(fret_press_radius(&c, 9e-4, &q));
@@ -429,7 +422,7 @@ static void table_order(void) {
                 s.gap.terms = 1;
                 s.gap.power[0] = (fret_power){cases[i].n, 1e-4, 3e-3};
             }
-            fret_normal n = make(&s);
+            fret_normal n = unit_make_normal(&s);
             fret_press at = {.F = 0};
             CHECK_OK(fret_press_radius(&n, 2.3e-3, &at));
             answers want = ask(&s, (double)at.F);
@@ -475,7 +468,7 @@ static void table_order(void) {
 
 static void long_table(void) {
     unit_scene s = of_kind(FRET_GAP_FLAT_ROUNDED, 0.7), table = s;
-    fret_normal n = make(&s);
+    fret_normal n = unit_make_normal(&s);
     fret_press at = {.F = 0};
     CHECK_OK(fret_press_radius(&n, 1.9e-3, &at));
     struct fret_table *t = sample(&s.gap, 100001, 3.1e-3, false);
@@ -483,7 +476,7 @@ static void long_table(void) {
         return;
     table.gap.kind = FRET_GAP_TABLE;
     table.gap.table = t;
-    fret_normal long_ = make(&table);
+    fret_normal long_ = unit_make_normal(&table);
     fret_press p = {.F = 0};
     CHECK_OK(fret_press_force(&long_, (double)at.F, &p));
     CHECK_REL(p.a, at.a, 1e-6L);
@@ -503,7 +496,7 @@ static void coarse_steps(void) {
         for (int fine = 0; fine < 2; fine++) {
             unit_scene s = unit_make_scene(2, j ? -0.7 : 0.3);
             s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = t};
-            fret_normal n = make(&s);
+            fret_normal n = unit_make_normal(&s);
             fret_memory *m = NULL;
             CHECK_OK(fret_memory_make(&n, 0.3, &m));
             double FN = 100, Fx = 0;

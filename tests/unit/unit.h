@@ -208,6 +208,26 @@ static inline unit_scene unit_make_scene(double n, double k) {
     return s;
 }
 
+/* The normal contact of a scene, and pressed. */
+static inline fret_normal unit_make_normal(const unit_scene *s) {
+    fret_normal n;
+    memset(&n, 0, sizeof n);
+    CHECK_OK(fret_normal_make(&s->material, &s->gap, &n));
+    return n;
+}
+
+typedef struct unit_contact {
+    fret_normal normal;
+    fret_press press;
+    double mu;
+} unit_contact;
+
+static inline unit_contact unit_make_contact(const unit_scene *s, double FN) {
+    unit_contact c = {.normal = unit_make_normal(s), .mu = s->mu};
+    CHECK_OK(fret_press_force(&c.normal, FN, &c.press));
+    return c;
+}
+
 /* Deterministic uniform numbers (splitmix64). */
 static inline double unit_random(unsigned long long *state, double lo, double hi) {
     unsigned long long z = *state += 0x9e3779b97f4a7c15u;
