@@ -74,7 +74,7 @@ static void show_progress(const bench *b, const accuracy_row *row) {
 
 static void end_progress(const bench *b) {
     if (b->progress)
-        fprintf(b->sh->err, "\r%39s\r", "");
+        fprintf(b->sh->err, "\r%*s\r", shell_stop ? 41 : 39, ""); /* the ^C, too */
 }
 
 /* ---- measuring --------------------------------------------------------------------------------- */
