@@ -3,18 +3,20 @@
 VERSION := 0.1.0
 PREFIX  ?= /usr/local
 B       ?= build
+OBJCOPY ?= objcopy
 CC      ?= cc
 # Straight-line vectors pack pairs of doubles through memory: a tenth slower in double-double arithmetic.
 OPT     ?= -O2 -g -fno-tree-slp-vectorize
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion $(WERROR)
-CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE $(OPT) $(WARN) -ffp-contract=off -MMD -MP \
+CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE $(OPT) $(WARN) -ffp-contract=off \
+	-fvisibility=hidden -MMD -MP \
 	-Iinclude -Isrc -DFRET_VERSION='"$(VERSION)"' $(CFLAGS)
 # READLINE=no: a prompt without editing and history
 READLINE  ?= yes
 LIBS_CORE := -lm
 LIBS      := $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline)
 
-CORE  := $(wildcard src/contact/*.c)
+CORE  := $(wildcard src/number/*.c src/contact/*.c src/fast/*.c)
 PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c, \
 	$(wildcard src/calc/*.c src/plot/*.c src/shell/*.c))
 UNIT  := $(wildcard tests/unit/test_*.c)
@@ -22,18 +24,32 @@ HARD  := $(wildcard tests/hard/*.c)
 # the oracle of the hard cases needs MPFR, which the rest does without
 MPFR  := $(wildcard /usr/include/mpfr.h /usr/local/include/mpfr.h)
 OBJ    = $(patsubst %.c,$(B)/%.o,$(1))
+SHARED = $(patsubst %.c,$(B)/shared/%.o,$(1))
+# the first number of the version that programs were linked with: it changes when they must be linked anew
+SONAME := libfret.so.0
 TESTS := $(patsubst tests/unit/%.c,$(B)/tests/%,$(UNIT))
 
-all: $(B)/fret $(B)/libfret.a $(B)/fret.pc
+all: $(B)/fret $(B)/libfret.a $(B)/libfret.so $(B)/fret.pc
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS_ALL) -c $< -o $@
 
-$(B)/libfret.a: $(call OBJ,$(CORE))
-	$(AR) rcs $@ $^
+$(B)/shared/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS_ALL) -fPIC -c $< -o $@
 
-$(B)/fret: $(call OBJ,$(PROG)) $(B)/libfret.a
+# One object, in which only what the public headers declare is still to be seen.
+$(B)/libfret.a: $(call OBJ,$(CORE))
+	$(LD) -r -o $(B)/libfret.o $^
+	$(OBJCOPY) --localize-hidden $(B)/libfret.o
+	@rm -f $@
+	$(AR) rcs $@ $(B)/libfret.o
+
+$(B)/libfret.so: $(call SHARED,$(CORE))
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) -o $@ $^ $(LIBS_CORE)
+
+$(B)/fret: $(call OBJ,$(PROG) $(CORE))
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 # written anew each time: PREFIX may have changed
@@ -42,16 +58,17 @@ $(B)/fret.pc: FORCE
 	@printf 'prefix=%s\nName: fret\nDescription: partial-slip contact of power-law graded elastic solids\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lfret\nLibs.private: %s\n' \
 		'$(PREFIX)' '$(VERSION)' '$(LIBS_CORE)' > $@
 
-$(B)/tests/%: tests/unit/%.c $(B)/libfret.a
+# tests see what is not public too
+$(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE))
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(B)/libfret.a $(LIBS_CORE)
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(call OBJ,$(CORE)) $(LIBS_CORE)
 
 # One file that depends on nothing, to copy to another machine: with musl, where it is at hand.
 STATIC_CC = $(if $(filter default,$(origin CC)),$(shell command -v musl-gcc || echo $(CC)),$(CC))
 static:
 	@$(MAKE) --no-print-directory B=$(B)/static CC='$(STATIC_CC)' READLINE=no LDFLAGS='-static -s $(LDFLAGS)' $(B)/static/fret
 
-$(B)/tests/hard/hard: $(call OBJ,$(HARD)) $(B)/libfret.a
+$(B)/tests/hard/hard: $(call OBJ,$(HARD) $(CORE))
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ -lmpfr -lgmp $(LIBS_CORE)
 
 tests: $(TESTS) $(if $(MPFR),$(B)/tests/hard/hard)
@@ -89,6 +106,9 @@ install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/fret
 	install -m 755 $(B)/fret $(DESTDIR)$(PREFIX)/bin/
 	install -m 644 $(B)/libfret.a $(DESTDIR)$(PREFIX)/lib/
+	install -m 755 $(B)/libfret.so $(DESTDIR)$(PREFIX)/lib/libfret.so.$(VERSION)
+	ln -sf libfret.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/$(SONAME)
+	ln -sf $(SONAME) $(DESTDIR)$(PREFIX)/lib/libfret.so
 	install -m 644 $(B)/fret.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig/
 	install -m 644 include/fret/*.h $(DESTDIR)$(PREFIX)/include/fret/
 

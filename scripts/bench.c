@@ -39,8 +39,9 @@ static double drive(long i) {
 enum { SPRINGS = 1000 };
 static double spring_scheme(const fret_normal *n, const fret_press *p, long steps, bool loss) {
     static double weight[SPRINGS], bound[SPRINGS], u[SPRINGS];
-    double k1 = 1 + (double)n->foundation.k, a = (double)p->a, dx = (double)(mu * n->foundation.eta * p->dz);
-    double cT = 2 * (double)(n->foundation.cT0 * powl(n->foundation.c0, -n->foundation.k));
+    const fret_foundation *f = fret_normal_foundation(n);
+    double k1 = 1 + (double)f->k, a = (double)p->a, dx = (double)(mu * f->eta * p->dz);
+    double cT = 2 * (double)(f->cT0 * powl(f->c0, -f->k));
     for (int i = 0; i < SPRINGS; i++) {
         double lo = a * i / SPRINGS, hi = a * (i + 1) / SPRINGS, mid = (lo + hi) / 2;
         weight[i] = cT * (pow(hi, k1) - pow(lo, k1)) / k1;
@@ -73,7 +74,7 @@ enum { LOADS = 4096 };
 /* A step of the memory diagram at constant F_N. */
 static double memory_diagram(const fret_normal *n, const fret_press *p, bool loss) {
     static double load[LOADS];
-    const double slip = (double)fret_gross_slip(n, mu, p);
+    const double slip = (double)fret_gross_slip(&(fret_contact){n, mu, *p});
     double best = INFINITY;
     fret_memory *m = NULL;
     need(fret_memory_make(n, mu, &m));
@@ -100,7 +101,7 @@ static double memory_diagram(const fret_normal *n, const fret_press *p, bool los
 /* Springs of the library, a spring and step: the least of some runs. */
 static double library_springs(const fret_normal *n, const fret_press *p, size_t count, long steps,
                               bool by_force) {
-    const double slip = (double)(mu * n->foundation.eta * p->dz);
+    const double slip = (double)(mu * fret_normal_foundation(n)->eta * p->dz);
     double best = INFINITY, load[256];
     fret_springs *s = NULL;
     for (long i = 0; i < 256; i++)
@@ -147,10 +148,10 @@ static double triad(size_t count, long passes) {
 /* The memory at constant F_N, a step; `nested` turning points are held all the time. */
 static double masing(const fret_normal *n, const fret_press *p, bool loss, long nested) {
     static double load[LOADS];
-    const double slip = (double)fret_gross_slip(n, mu, p);
+    const double slip = (double)fret_gross_slip(&(fret_contact){n, mu, *p});
     double best = INFINITY, size = 1, Fx;
     fret_masing *m = NULL;
-    need(fret_masing_make(n, mu, p, &m));
+    need(fret_masing_make(&(fret_contact){n, mu, *p}, &m));
     for (long i = 0; i < nested; i++, size *= 1 - 2 / (double)nested)
         need(fret_masing_to_dx(m, (i % 2 ? -0.99 : 0.99) * size * slip, &Fx));
     for (long i = 0; i < LOADS; i++)
@@ -173,7 +174,7 @@ typedef struct cycle {
 } cycle;
 
 static double amplitude(const fret_normal *n, const fret_press *p) {
-    return 0.7 * (double)fret_gross_slip(n, mu, p);
+    return 0.7 * (double)fret_gross_slip(&(fret_contact){n, mu, *p});
 }
 
 static cycle masing_cycle(const fret_normal *n, const fret_press *p) {
@@ -182,7 +183,7 @@ static cycle masing_cycle(const fret_normal *n, const fret_press *p) {
     cycle c = {0, INFINITY};
     double Fx;
     fret_masing *m = NULL;
-    need(fret_masing_make(n, mu, p, &m));
+    need(fret_masing_make(&(fret_contact){n, mu, *p}, &m));
     for (int run = 0; run < 10; run++) {
         double W = fret_masing_loss(m), t0 = seconds();
         for (long i = 0; i < 2 * cycles; i++) {
@@ -253,7 +254,7 @@ static cycle area_cycle(const fret_normal *n, const fret_press *p, size_t count)
         exit(EXIT_FAILURE);
     for (size_t i = 0; i < count; i++)
         load[i] = dA * cos(2 * acos(-1) * (double)(i + 1) / (double)count);
-    need(fret_masing_make(n, mu, p, &m));
+    need(fret_masing_make(&(fret_contact){n, mu, *p}, &m));
     need(fret_masing_to_dx(m, -dA, &Fx));
     need(fret_masing_to_dx(m, dA, &Fx));
     for (int run = 0; run < 5; run++) {
@@ -277,7 +278,7 @@ static cycle to_error(cycle (*model)(const fret_normal *, const fret_press *, si
                       const fret_press *p, double error, size_t *count) {
     fret_real exact;
     cycle c = {0, 0};
-    need(fret_cycle_loss_displacement(n, mu, p, amplitude(n, p), &exact));
+    need(fret_cycle_loss_by_displacement(&(fret_contact){n, mu, *p}, amplitude(n, p), &exact));
     for (*count = 8; *count <= (size_t)1 << 23; *count *= 2) {
         c = model(n, p, *count);
         if (fabs((double)(c.loss / exact - 1)) <= error)
@@ -299,16 +300,18 @@ static double scene(const fret_normal *normal, const fret_press *press) {
     const long count = 5000;
     double t0 = seconds();
     for (long i = 0; i < count; i++) {
-        fret_normal n;
-        fret_press p;
+        fret_normal *n;
+        fret_contact c = {.mu = mu};
         fret_loading f;
         fret_real loss;
         fret_material m = material;
-        m.k = (double)normal->foundation.k + 1e-9 * (double)i;
+        m.k = (double)fret_normal_foundation(normal)->k + 1e-9 * (double)i;
         need(fret_normal_make(&m, &gap, &n));
-        need(fret_press_force(&n, (double)press->F, &p));
-        need(fret_loading_force(&n, mu, &p, 20, &f));
-        need(fret_cycle_loss(&n, mu, &p, 20, &loss));
+        c.normal = n;
+        need(fret_press_by_force(n, (double)press->F, &c.press));
+        need(fret_loading_by_force(&c, 20, &f));
+        need(fret_cycle_loss_by_force(&c, 20, &loss));
+        fret_normal_free(n);
         sink = (double)(f.c + loss);
     }
     return (seconds() - t0) / (double)count;
@@ -319,7 +322,8 @@ static double cycle_loss(const fret_normal *n, const fret_press *p) {
     double t0 = seconds();
     for (long i = 0; i < count; i++) {
         fret_real loss;
-        need(fret_cycle_loss(n, mu, p, mu * FN * (0.5 + (double)i) / (double)count, &loss));
+        need(fret_cycle_loss_by_force(&(fret_contact){n, mu, *p}, mu * FN * (0.5 + (double)i) / (double)count,
+                                      &loss));
         sink = (double)loss;
     }
     return (seconds() - t0) / (double)count;
@@ -327,41 +331,35 @@ static double cycle_loss(const fret_normal *n, const fret_press *p) {
 
 static double power(const fret_normal *n, const fret_press *p) {
     const long count = 50000;
+    const fret_real q = 2 / (3 + fret_normal_foundation(n)->k); /* n/(n+k+1) */
     double t0 = seconds();
     for (long i = 0; i < count; i++)
-        sink = (double)powl((fret_real)(i + 1) * p->F / (fret_real)count, n->q);
+        sink = (double)powl((fret_real)(i + 1) * p->F / (fret_real)count, q);
     return (seconds() - t0) / (double)count;
 }
 
 /* What a sweep costs a point: the least of several runs over an array that stays in the cache, each long
  * enough for the clock of the processor, which is set right by some microseconds now and then. */
 enum { POINTS = 1000, PASSES = 20, RUNS = 100 };
-typedef enum sweep { LOG_EXP, LOSS_EACH, RADIUS_EACH, LOSS_ALL, RADIUS_ALL, LOADING_ALL, PRESS_ALL } sweep;
+typedef enum sweep { LOG_EXP, LOSS_ALL, RADIUS_ALL, LOADING_ALL, PRESS_ALL } sweep;
 static double sweep_point(const fret_normal *n, const fret_press *p, sweep kind) {
     static double F[POINTS], x[POINTS], y[POINTS];
     double best = INFINITY;
     for (int i = 0; i < POINTS; i++)
         F[i] = mu * FN * (0.5 + i) / POINTS;
-    fret_sweep w;
-    need(fret_sweep_make(n, mu, p, &w));
+    const fret_contact c = {n, mu, *p};
     for (int run = 0; run < RUNS; run++) {
         double t0 = seconds();
         for (int pass = 0; pass < PASSES; pass++) {
             if (kind == LOG_EXP)
                 for (int i = 0; i < POINTS; i++)
                     x[i] = exp(0.37 * log(F[i]));
-            else if (kind == LOSS_EACH)
-                for (int i = 0; i < POINTS; i++)
-                    x[i] = fret_sweep_loss(&w, F[i]);
-            else if (kind == RADIUS_EACH)
-                for (int i = 0; i < POINTS; i++)
-                    x[i] = fret_sweep_radius(&w, F[i]);
             else if (kind == LOSS_ALL)
-                need(fret_batch_loss(n, mu, p, F, x, POINTS));
+                need(fret_batch_loss(&c, F, x, POINTS));
             else if (kind == RADIUS_ALL)
-                need(fret_batch_loading(n, mu, p, F, x, NULL, POINTS));
+                need(fret_batch_loading(&c, F, x, NULL, POINTS));
             else if (kind == LOADING_ALL)
-                need(fret_batch_loading(n, mu, p, F, x, y, POINTS));
+                need(fret_batch_loading(&c, F, x, y, POINTS));
             else
                 need(fret_batch_press(n, F, x, y, POINTS));
             sink = x[pass];
@@ -426,45 +424,43 @@ static void compare(const fret_normal *n, const fret_press *p) {
 }
 
 int main(void) {
-    fret_normal n;
+    fret_normal *n;
     fret_press p;
     need(fret_normal_make(&material, &gap, &n));
-    need(fret_press_force(&n, FN, &p));
-    const double plain = spring_scheme(&n, &p, 2000, true), one = plain / SPRINGS;
+    need(fret_press_by_force(n, FN, &p));
+    const double plain = spring_scheme(n, &p, 2000, true), one = plain / SPRINGS;
     puts("A step of the memory diagram");
-    line("F_x", memory_diagram(&n, &p, false), spring_scheme(&n, &p, 2000, false), "1000 springs", ns, "");
-    line("F_x and loss", memory_diagram(&n, &p, true), plain, "1000 springs", ns, "");
+    line("F_x", memory_diagram(n, &p, false), spring_scheme(n, &p, 2000, false), "1000 springs", ns, "");
+    line("F_x and loss", memory_diagram(n, &p, true), plain, "1000 springs", ns, "");
     puts("A step of the memory at constant F_N");
-    line("F_x", masing(&n, &p, false, 0), plain, "1000 springs", ns, "30 ns");
-    line("F_x and loss", masing(&n, &p, true, 0), plain, "1000 springs", ns, "70 ns");
-    line("F_x, 10^4 turning points", masing(&n, &p, false, 10000), plain, "1000 springs", ns, "30 ns");
-    line("F_x and loss, 10^4 turning points", masing(&n, &p, true, 10000), plain, "1000 springs", ns,
-         "70 ns");
+    line("F_x", masing(n, &p, false, 0), plain, "1000 springs", ns, "30 ns");
+    line("F_x and loss", masing(n, &p, true, 0), plain, "1000 springs", ns, "70 ns");
+    line("F_x, 10^4 turning points", masing(n, &p, false, 10000), plain, "1000 springs", ns, "30 ns");
+    line("F_x and loss, 10^4 turning points", masing(n, &p, true, 10000), plain, "1000 springs", ns, "70 ns");
     puts("A spring and step of fret_springs");
     const size_t large = 4000000;
     char probe[80];
     const double bytes = triad(large, 5);
     snprintf(probe, sizeof probe, "triad, 32 B at %.1f GB/s", 32e-9 / bytes);
-    line("1000 springs", library_springs(&n, &p, SPRINGS, 20000, false), one, "plain loop in double", ns,
+    line("1000 springs", library_springs(n, &p, SPRINGS, 20000, false), one, "plain loop in double", ns,
          "0.3 ns");
-    line("1000 springs, by force", library_springs(&n, &p, SPRINGS, 5000, true), one,
+    line("1000 springs, by force", library_springs(n, &p, SPRINGS, 5000, true), one,
          "plain loop by displacement", ns, "");
-    line("4e6 springs", library_springs(&n, &p, large, 10, false), bytes, probe, ns, "1.3 baselines");
-    line("4e6 springs, by force", library_springs(&n, &p, large, 5, true), bytes, probe, ns, "");
+    line("4e6 springs", library_springs(n, &p, large, 10, false), bytes, probe, ns, "1.3 baselines");
+    line("4e6 springs, by force", library_springs(n, &p, large, 5, true), bytes, probe, ns, "");
     puts("The loss of a cycle at equal error");
-    compare(&n, &p);
+    compare(n, &p);
     puts("Closed forms");
-    const double one_power = least(power, &n, &p), closed = least(cycle_loss, &n, &p);
-    line("scene, material to dW", least(scene, &n, &p), one_power, "one powl", us, "5 us");
+    const double one_power = least(power, n, &p), closed = least(cycle_loss, n, &p);
+    line("scene, material to dW", least(scene, n, &p), one_power, "one powl", us, "5 us");
     line("fret_cycle_loss", closed, one_power, "one powl", ns, "");
     puts("A load of a sweep");
-    const double pair = sweep_point(&n, &p, LOG_EXP);
+    const double pair = sweep_point(n, &p, LOG_EXP);
     const char *libm = "libm log and exp";
-    line("dW, one by one", sweep_point(&n, &p, LOSS_EACH), closed, "fret_cycle_loss", ns, "40 ns");
-    line("c, one by one", sweep_point(&n, &p, RADIUS_EACH), pair, libm, ns, "");
-    line("dW, an array", sweep_point(&n, &p, LOSS_ALL), pair, libm, ns, "10 ns");
-    line("c, an array", sweep_point(&n, &p, RADIUS_ALL), pair, libm, ns, "");
-    line("c and dx, an array", sweep_point(&n, &p, LOADING_ALL), pair, libm, ns, "");
-    line("a and dz, an array", sweep_point(&n, &p, PRESS_ALL), pair, libm, ns, "");
+    line("dW, an array", sweep_point(n, &p, LOSS_ALL), pair, libm, ns, "10 ns");
+    line("c, an array", sweep_point(n, &p, RADIUS_ALL), pair, libm, ns, "");
+    line("c and dx, an array", sweep_point(n, &p, LOADING_ALL), pair, libm, ns, "");
+    line("a and dz, an array", sweep_point(n, &p, PRESS_ALL), pair, libm, ns, "");
+    fret_normal_free(n);
     return EXIT_SUCCESS;
 }

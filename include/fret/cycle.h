@@ -4,6 +4,8 @@
 
 #include "fret/normal.h"
 
+FRET_BEGIN
+
 /* Closed forms at constant F_N: first loading, gross slip and the energy dissipated per cycle. */
 
 /* First loading from the tangentially unloaded state. */
@@ -15,7 +17,7 @@ typedef struct fret_loading {
 } fret_loading;
 
 /* delta_x,max = mu eta delta_z [m]: displacement at which gross slip begins (18). */
-fret_real fret_gross_slip(const fret_normal *normal, double mu, const fret_press *press);
+fret_real fret_gross_slip(const fret_contact *contact);
 
 /* F_x = mu [F_N(a)-F_N(c)], delta_x = mu eta [g(a)-g(c)] (15),(18); power law:
  *   c/a = (1-F_x/mu F_N)^(1/(n+k+1)), delta_x = mu eta delta_z [1-(c/a)^n].
@@ -25,26 +27,24 @@ fret_real fret_gross_slip(const fret_normal *normal, double mu, const fret_press
  * Accuracy, power law: within 1 unit in the last place of a double; by displacement, where delta_x,max itself
  * is known to 2^-96, this ends at |1-dx/delta_x,max| = 1e-9.
  * Other errors: FRET_NOT_POSITIVE (mu), FRET_NOT_FINITE. */
-fret_status fret_loading_force(const fret_normal *normal, double mu, const fret_press *press, double Fx,
-                               fret_loading *out);
-fret_status fret_loading_displacement(const fret_normal *normal, double mu, const fret_press *press,
-                                      double dx, fret_loading *out);
+fret_status fret_loading_by_force(const fret_contact *contact, double Fx, fret_loading *out);
+fret_status fret_loading_by_displacement(const fret_contact *contact, double dx, fret_loading *out);
 
 /* Energy [J], >= 0, dissipated in a closed cycle F_x = -FA .. FA at constant F_N:
  *   8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx; power law: w(t) mu F_N delta_x,max (27),
  *   t = FA/(mu F_N). Range 0 <= FA <= mu F_N, else FRET_NEGATIVE, FRET_GROSS_SLIP.
  * Accuracy, power law: within 1 unit in the last place of a double; other shapes: 1e-14, tables of up to
  * 1000 rows. Positive, where (26),(27) are printed negative. */
-fret_status fret_cycle_loss(const fret_normal *normal, double mu, const fret_press *press, double FA,
-                            fret_real *loss);
+fret_status fret_cycle_loss_by_force(const fret_contact *contact, double FA, fret_real *loss);
 
 /* The same by displacement amplitude dA >= 0 [m]; beyond delta_x,max gross slip adds
  * 4 mu F_N (dA - delta_x,max). */
-fret_status fret_cycle_loss_displacement(const fret_normal *normal, double mu, const fret_press *press,
-                                         double dA, fret_real *loss);
+fret_status fret_cycle_loss_by_displacement(const fret_contact *contact, double dA, fret_real *loss);
 
 /* w = loss/(mu F_N delta_x,max) of a power law as a function of t = 1-s; q = n/(n+k+1), r = 1-q.
  * 0 <= t <= 1; w ~ t^3 for small t, every digit kept. */
 fret_real fret_loss_shape(fret_real q, fret_real r, fret_real t, fret_real s);
+
+FRET_END
 
 #endif

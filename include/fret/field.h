@@ -4,6 +4,8 @@
 
 #include "fret/memory.h"
 
+FRET_BEGIN
+
 /* Local fields, by inverse transforms. A state of any history is a superposition of normal contacts: slices
  * of slope sigma are differences of contacts that end at their two ends. The local slip is not
  * meaningful in this theory, and there is no function for it.
@@ -23,5 +25,7 @@ fret_status fret_surface(const fret_normal *normal, fret_real a, fret_real r, fr
 /* q_x(r) [Pa] and u_x(r) [m] in the present state of a history: the same with -u'(x) and c_T, and u(x). */
 fret_status fret_traction(const fret_memory *memory, fret_real r, fret_real *q);
 fret_status fret_surface_x(const fret_memory *memory, fret_real r, fret_real *u);
+
+FRET_END
 
 #endif

@@ -6,6 +6,8 @@
 
 #include "fret/status.h"
 
+FRET_BEGIN
+
 /* The initial gap f(r) between the bodies, and its equivalent profile g(x) in a graded foundation:
  *   g(x) = x^(1-k) int_0^x f'(r) (x^2-r^2)^((k-1)/2) dr        (3), lengths in m. */
 typedef enum fret_gap_kind {
@@ -38,13 +40,6 @@ typedef struct fret_gap {
     const struct fret_table *table; /* TABLE only; borrowed */
 } fret_gap;
 
-/* What (3) needs to know of k: (2-u)^((k-1)/2), the kernel's factor that is smooth at the edge, as a series
- * in the distance u from the edge; term n is divided by (k+1)/2+4+n. Powers need kappa(n,k) of each term. */
-enum { FRET_SERIES = 64 };
-typedef struct fret_rule {
-    fret_real k, series[FRET_SERIES], kappa[FRET_GAP_TERMS];
-} fret_rule;
-
 /* kappa(n,k) = (n/2) B(n/2,(k+1)/2) (6)-(8): the profile of r^n is kappa x^n.
  * Range n > 0, -1 < k < 1. Accuracy 1e-19 relative for n <= 1e6; no overflow at large n. */
 fret_real fret_kappa(double n, double k);
@@ -64,5 +59,7 @@ fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g,
  * Errors: FRET_BAD_TABLE, FRET_NOT_FINITE, FRET_NO_MEMORY. Free with fret_table_free. */
 fret_status fret_table_make(const double *r, const double *f, size_t count, struct fret_table **out);
 void fret_table_free(struct fret_table *table);
+
+FRET_END
 
 #endif

@@ -6,6 +6,8 @@
 
 #include "fret/normal.h"
 
+FRET_BEGIN
+
 /* Tangential contact at constant normal force, in double, for the inner loop of a dynamics code (friction
  * dampers, joints). The general engine is fret_memory; this is its memory at one F_N.
  *
@@ -18,19 +20,17 @@
  * points; beyond gross slip F_x stays at +-mu F_N.
  *
  * A step of a power law costs one logarithm and one exponential at any depth of the stack; other shapes are
- * slow (fret_law_slice). Accuracy for p <= 10, against
+ * slow (an integral over the slice that slips). Accuracy for p <= 10, against
  * fret_memory: F_x to 2e-15 of mu F_N, W to 6e-15 of itself, without drift (1e8 steps: 3e-16), as sums are
  * compensated.
  *
  * Thread-compatible: distinct contacts may be used by distinct threads. */
 typedef struct fret_masing fret_masing;
 
-/* A contact at the load `press` of `normal`, without tangential load at delta_x = 0. Keeps its own copy of
- * normal; a gap table is borrowed and must outlive it.
+/* Begins at delta_x = 0. Borrows the normal contact, which must outlive it.
  * Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE (mu, FN), FRET_OVERFLOW (of mu F_N delta_x,max), FRET_NO_MEMORY.
  */
-fret_status fret_masing_make(const fret_normal *normal, double mu, const fret_press *press,
-                             fret_masing **out);
+fret_status fret_masing_make(const fret_contact *contact, fret_masing **out);
 void fret_masing_free(fret_masing *masing);
 
 /* Back to the start; keeps its storage. */
@@ -59,5 +59,7 @@ typedef struct fret_masing_state {
     size_t turns;  /* turning points held */
 } fret_masing_state;
 void fret_masing_now(const fret_masing *masing, fret_masing_state *out);
+
+FRET_END
 
 #endif

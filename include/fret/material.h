@@ -6,6 +6,8 @@
 
 #include "fret/status.h"
 
+FRET_BEGIN
+
 /* Equation numbers refer to Mathematics 2022, 10, 3641. */
 
 /* One half-space with E(z) = E0 (z/c0)^k; k and c0 are shared by both bodies. */
@@ -29,11 +31,7 @@ typedef struct fret_foundation {
     fret_real hN[2], hT[2]; /* h_N(k,nu), h_T(k,nu) of each body (A1),(A2); 0 for a rigid one */
     fret_real beta[2];      /* beta(k,nu) (A3); 0 for a rigid one */
     fret_real mismatch;     /* normal-tangential coupling left out; Dundurs' second constant at k = 0 */
-    struct {
-        fret_pair cN0, eta; /* c_N0/2^scale and eta to 100 bits */
-        int scale;
-    } wide;
-    bool similar; /* uncoupled: equal bodies, or each nu = 1/(2+k), or mismatch 0 at k = 0 */
+    bool similar;           /* uncoupled: equal bodies, or each nu = 1/(2+k), or mismatch 0 at k = 0 */
 } fret_foundation;
 
 /* h_N, h_T, beta of one half-space, (A1)-(A3), in forms without cancellation:
@@ -48,5 +46,7 @@ fret_status fret_half_space(double k, double nu, fret_real *hN, fret_real *hT, f
  *   1/cN0 = sum (1-nu_i^2)/(h_N E0_i), 1/cT0 = sum 1/(h_T E0_i), eta = cN0/cT0.
  * Errors: those above, FRET_NOT_POSITIVE (E0, c0), FRET_BOTH_RIGID. */
 fret_status fret_foundation_make(const fret_material *material, fret_foundation *out);
+
+FRET_END
 
 #endif

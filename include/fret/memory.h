@@ -6,6 +6,8 @@
 
 #include "fret/normal.h"
 
+FRET_BEGIN
+
 /* The memory diagram: tangential contact under any history of (F_N, F_x) or (delta_z, delta_x).
  *
  * With the depth y = g(x) as coordinate the spring at y has normal force ~ delta_z - y, so the
@@ -18,8 +20,8 @@
  * Thread-compatible: distinct contacts may be used by distinct threads. */
 typedef struct fret_memory fret_memory;
 
-/* A contact element, open (delta_z = 0, F_x = 0) at the start. Keeps its own copy of normal; a
- * gap table is borrowed and must outlive it. Errors: FRET_NOT_POSITIVE (mu), FRET_NO_MEMORY. */
+/* A contact element, open (delta_z = 0, F_x = 0) at the start. Borrows normal, which must outlive it. Errors:
+ * FRET_NOT_POSITIVE (mu), FRET_NO_MEMORY. */
 fret_status fret_memory_make(const fret_normal *normal, double mu, fret_memory **out);
 void fret_memory_free(fret_memory *memory);
 
@@ -79,5 +81,21 @@ typedef struct fret_segment {
     fret_real inner, outer, sigma, u;
 } fret_segment;
 int fret_memory_segment(const fret_memory *memory, size_t i, fret_segment *out);
+
+/* Displacement u1D(x) [m] of the spring at distance |x| [m] from the centre, relative to where it would rest,
+ * both sides together: u at the depth y = g(x), delta_x where it never slipped; 0 outside the contact. */
+fret_real fret_memory_displacement(const fret_memory *memory, fret_real x);
+
+/* What friction allows it, B = mu eta (delta_z - g(x)) [m], |u1D| <= B; 0 outside the contact. Accuracy of
+ * both: 1e-18 of mu eta delta_z. */
+fret_real fret_memory_bound(const fret_memory *memory, fret_real x);
+
+/* The springs' force times their present slip, W1D = -2 int_0^a c_T |u| |delta_x - u| dx [J], <= 0 (22). Its
+ * magnitude is the energy dissipated as long as the first branch lasts, a quarter of dW at its end, and has
+ * no such meaning after a reversal. Exact over the slices, in time ~ their number. c_T is that of both bodies
+ * together. */
+fret_real fret_memory_slip_work(const fret_memory *memory);
+
+FRET_END
 
 #endif

@@ -6,6 +6,8 @@
 
 #include "fret/memory.h"
 
+FRET_BEGIN
+
 /* The foundation cut into independent springs: the scheme of Mathematics 2022, 10, 3641, (19)-(22). A
  * cross-check of the memory diagram and the baseline for its cost; prefer fret_memory for work.
  *
@@ -29,7 +31,7 @@ typedef enum fret_weight {
 } fret_weight;
 
 /* Springs of an open contact (delta_z = 0, F_x = 0). radius [m] > 0: the largest contact radius of the
- * history. Keeps its own copy of normal; a gap table is borrowed and must outlive it.
+ * history. Borrows normal, which must outlive it.
  * Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE (mu, radius), FRET_NOT_POSITIVE (count), FRET_OUTSIDE (rule, or
  * a radius within the flat end), FRET_TABLE_SHORT, FRET_NOT_MONOTONE (radius beyond the gap),
  * FRET_OVERFLOW, FRET_NO_MEMORY. */
@@ -58,5 +60,7 @@ fret_status fret_springs_step(fret_springs *springs, const fret_step *step, unsi
 /* The state now, SI as in fret_state, in time ~ count; a is that of the continuum, c a cell boundary
  * (or a), slices the number of springs in contact. */
 void fret_springs_state(const fret_springs *springs, fret_state *out);
+
+FRET_END
 
 #endif

@@ -4,16 +4,11 @@
 
 #include <stddef.h>
 
-/* Results carry guard digits: where long double is wider than double, a result rounded to double
- * is within one unit in the last place. Arguments are exact as given. */
-typedef long double fret_real;
+#include "fret/base.h"
 
-/* A number to about 100 bits, hi + lo: where 64 would be spent near a limit, as 1 - F_x/(mu F_N) is. */
-typedef struct fret_pair {
-    double hi, lo;
-} fret_pair;
+FRET_BEGIN
 
-/* Codes are stable: append, never renumber. */
+/* Codes are stable: append, never renumber. 13 was withdrawn: no iteration fails to settle. */
 typedef enum fret_code {
     FRET_OK = 0,
     FRET_NOT_FINITE,     /* an argument is NaN or infinite                                  */
@@ -28,8 +23,7 @@ typedef enum fret_code {
     FRET_TABLE_SHORT,    /* the gap table ends before the load is carried; value: largest a */
     FRET_BAD_TABLE,      /* a gap table that is no function: radii must grow; value: radius */
     FRET_OVERFLOW,       /* the result does not fit in a double                             */
-    FRET_NO_CONVERGENCE, /* an iteration did not settle                                     */
-    FRET_NO_MEMORY,      /* allocation failed; the object is as before                      */
+    FRET_NO_MEMORY = 14, /* allocation failed; the object is as before                      */
     FRET_INTERRUPTED,    /* the caller's stop test asked to stop                            */
     FRET_SINGULAR,       /* the field is infinite there                                     */
     FRET_CODES
@@ -58,5 +52,7 @@ const char *fret_status_rule(fret_code code);
 
 /* Writes "quantity = value rule" into buf, always terminated; returns the length it needs. */
 int fret_status_text(const fret_status *status, char *buf, size_t size);
+
+FRET_END
 
 #endif

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "calc/tree.h"
-#include "contact/dd.h"
+#include "number/real.h"
 
 /* Functions with the same digits under every mathematical library. */
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "calc/tree.h"
-#include "contact/dd.h"
+#include "number/real.h"
 
 typedef struct machine {
     calc *c;

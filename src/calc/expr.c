@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "calc/tree.h"
-#include "contact/dd.h"
+#include "number/real.h"
 
 enum { DEPTH_LIMIT = 200 }; /* of nesting: the parser and the evaluator recurse */
 

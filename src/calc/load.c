@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "calc/scene.h"
-#include "contact/dd.h"
+#include "number/real.h"
 
 static bool friction_for_program(const scene *s, double *mu, calc_error *error) {
     /* a press alone can be shown without friction */
@@ -162,7 +162,7 @@ static fret_status run_step(runner *r, const load_step *c, const cycle_extra *x)
             step.normal = r->s->in[IN_FN]; /* FN is an input: it may have been changed since */
         if (c->normal == BY_RADIUS) {
             fret_press p;
-            fret_status st = fret_press_radius(&r->s->normal, c->normal_value, &p);
+            fret_status st = fret_press_by_radius(r->s->normal, c->normal_value, &p);
             if (st.code)
                 return st;
             step.normal = (double)p.dz;
@@ -278,7 +278,7 @@ static bool store(scene *s, const load_step *step, const cycle_extra *extra, cal
 /* A press starts a new program; the old one stays until the new one stands. */
 static bool start_program(scene *s, const load_step *press, calc_error *error) {
     scene old = *s;
-    s->memory = NULL;
+    scene_hand_over(s);
     scene_forget(s);
     s->program = NULL;
     s->cycles = NULL;
@@ -288,12 +288,12 @@ static bool start_program(scene *s, const load_step *press, calc_error *error) {
     s->in[IN_FN] = press->normal_value;
     const fret_press *p;
     if (store(s, press, NULL, error) && scene_press(s, &p, error)) {
-        fret_memory_free(old.memory);
+        scene_drop(&old);
         free(old.program);
         free(old.cycles);
         return true;
     }
-    fret_memory_free(s->memory);
+    scene_drop(s);
     free(s->program);
     free(s->cycles);
     *s = old;
@@ -304,7 +304,7 @@ static bool start_program(scene *s, const load_step *press, calc_error *error) {
 static bool keep_spare(scene *s, double mu, calc_error *error) {
     fret_status st = {FRET_OK, NULL, 0, 0};
     if (!s->spare)
-        st = fret_memory_make(&s->normal, mu, &s->spare);
+        st = fret_memory_make(s->normal, mu, &s->spare);
     if (!st.code)
         st = fret_memory_copy(s->spare, s->memory);
     return scene_status(s, error, &st);
@@ -399,9 +399,9 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
         } else {
             const load_step *step = &s->program[0];
             double v = step->normal == BY_FORCE ? s->in[IN_FN] : step->normal_value;
-            fret_status st = step->normal == BY_FORCE          ? fret_press_force(normal, v, &s->press)
-                             : step->normal == BY_DISPLACEMENT ? fret_press_depth(normal, v, &s->press)
-                                                               : fret_press_radius(normal, v, &s->press);
+            fret_status st = step->normal == BY_FORCE          ? fret_press_by_force(normal, v, &s->press)
+                             : step->normal == BY_DISPLACEMENT ? fret_press_by_depth(normal, v, &s->press)
+                                                               : fret_press_by_radius(normal, v, &s->press);
             if (st.code)
                 return scene_status(s, error, &st);
         }
@@ -539,8 +539,9 @@ bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
     double mu;
     if (!scene_friction(s, &mu, error))
         return false;
-    fret_status st = r->by == BY_FORCE ? fret_loading_force(normal, mu, press, r->end, out)
-                                       : fret_loading_displacement(normal, mu, press, r->end, out);
+    const fret_contact contact = {normal, mu, *press};
+    fret_status st = r->by == BY_FORCE ? fret_loading_by_force(&contact, r->end, out)
+                                       : fret_loading_by_displacement(&contact, r->end, out);
     return scene_status(s, error, &st);
 }
 
@@ -567,9 +568,10 @@ bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
     double mu;
     if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error) || !scene_friction(s, &mu, error))
         return false;
+    const fret_contact contact = {normal, mu, *press};
     fret_status st = c->tangential == BY_FORCE
-                         ? fret_cycle_loss(normal, mu, press, c->tangential_value, loss)
-                         : fret_cycle_loss_displacement(normal, mu, press, c->tangential_value, loss);
+                         ? fret_cycle_loss_by_force(&contact, c->tangential_value, loss)
+                         : fret_cycle_loss_by_displacement(&contact, c->tangential_value, loss);
     return scene_status(s, error, &st);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "calc/quantity.h"
-#include "contact/dd.h"
+#include "number/real.h"
 
 #include <math.h>
 #include <string.h>
@@ -71,7 +71,7 @@ static bool k0_press(scene *s, const fret_normal **normal, fret_press *out, calc
     if (!scene_press(s, &press, error) || !scene_k0(s, normal, error))
         return false;
     scene_used_closed(s);
-    fret_status st = fret_press_force(*normal, (double)press->F, out);
+    fret_status st = fret_press_by_force(*normal, (double)press->F, out);
     return scene_status(s, error, &st);
 }
 
@@ -99,7 +99,7 @@ static bool get_dx0max(scene *s, long double *out, calc_error *error) {
     double mu;
     if (!k0_press(s, &normal, &press, error) || !scene_friction(s, &mu, error))
         return false;
-    *out = fret_gross_slip(normal, mu, &press);
+    *out = fret_gross_slip(&(fret_contact){normal, mu, press});
     return true;
 }
 
@@ -109,7 +109,7 @@ static bool get_dxmax(scene *s, long double *out, calc_error *error) {
     double mu;
     if (!scene_press(s, &press, error) || !scene_normal(s, &normal, error) || !scene_friction(s, &mu, error))
         return false;
-    *out = fret_gross_slip(normal, mu, press);
+    *out = fret_gross_slip(&(fret_contact){normal, mu, *press});
     return true;
 }
 
@@ -127,7 +127,9 @@ static bool foundation_of(scene *s, fret_foundation *out, calc_error *error) {
     bool ok = scene_normal(s->geometry ? s : &probe, &normal, error);
     s->used |= USED_CLOSED;
     if (ok)
-        *out = normal->foundation;
+        *out = *fret_normal_foundation(normal);
+    if (!s->geometry)
+        scene_free(&probe);
     return ok;
 }
 
@@ -162,7 +164,7 @@ static bool pressed_by(scene *s, value F, fret_press *out, calc_error *error) {
     if (!scene_normal(s, &normal, error))
         return false;
     scene_used_closed(s);
-    fret_status st = fret_press_force(normal, (double)F.v, out);
+    fret_status st = fret_press_by_force(normal, (double)F.v, out);
     return scene_status(s, error, &st);
 }
 
@@ -194,8 +196,9 @@ static bool load_first(scene *s, value arg, bool by_force, fret_loading *out, ca
     double mu;
     if (!loaded(s, &normal, &press, &mu, error))
         return false;
-    fret_status st = by_force ? fret_loading_force(normal, mu, press, (double)arg.v, out)
-                              : fret_loading_displacement(normal, mu, press, (double)arg.v, out);
+    const fret_contact contact = {normal, mu, *press};
+    fret_status st = by_force ? fret_loading_by_force(&contact, (double)arg.v, out)
+                              : fret_loading_by_displacement(&contact, (double)arg.v, out);
     return scene_status(s, error, &st);
 }
 
@@ -229,7 +232,7 @@ static bool call_dW(scene *s, value FA, long double *out, calc_error *error) {
     double mu;
     if (!loaded(s, &normal, &press, &mu, error))
         return false;
-    fret_status st = fret_cycle_loss(normal, mu, press, (double)FA.v, out);
+    fret_status st = fret_cycle_loss_by_force(&(fret_contact){normal, mu, *press}, (double)FA.v, out);
     return scene_status(s, error, &st);
 }
 
@@ -249,7 +252,7 @@ static bool call_f(scene *s, value r, long double *out, calc_error *error) {
     if (!scene_normal(s, &normal, error))
         return false;
     s->used |= USED_CLOSED;
-    fret_status st = fret_gap_f(&normal->gap, r.v, out);
+    fret_status st = fret_gap_f(fret_normal_gap(normal), r.v, out);
     return scene_status(s, error, &st);
 }
 
@@ -258,7 +261,7 @@ static bool call_g(scene *s, value x, long double *out, calc_error *error) {
     if (!scene_normal(s, &normal, error))
         return false;
     scene_used_closed(s);
-    fret_status st = fret_gap_g(&normal->gap, s->in[IN_K], x.v, out, NULL);
+    fret_status st = fret_gap_g(fret_normal_gap(normal), s->in[IN_K], x.v, out, NULL);
     return scene_status(s, error, &st);
 }
 
@@ -330,7 +333,7 @@ static bool block_loading(scene *s, const double F[], double c[], double dx[], s
     double mu;
     if (!loaded(s, &normal, &press, &mu, error))
         return false;
-    fret_status st = fret_batch_loading(normal, mu, press, F, c, dx, count);
+    fret_status st = fret_batch_loading(&(fret_contact){normal, mu, *press}, F, c, dx, count);
     return scene_status(s, error, &st);
 }
 
@@ -348,7 +351,7 @@ static bool block_dW(scene *s, const double FA[], double out[], size_t count, ca
     double mu;
     if (!loaded(s, &normal, &press, &mu, error))
         return false;
-    fret_status st = fret_batch_loss(normal, mu, press, FA, out, count);
+    fret_status st = fret_batch_loss(&(fret_contact){normal, mu, *press}, FA, out, count);
     return scene_status(s, error, &st);
 }
 

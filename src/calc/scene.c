@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "calc/scene.h"
-#include "contact/dd.h"
+#include "number/real.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -92,11 +92,22 @@ static fret_gap gap_of(const scene *s) {
 /* ---- life -------------------------------------------------------------------------------------- */
 
 void scene_forget(scene *s) {
-    s->normal_ready = s->press_ready = s->k0_ready = s->state_ready = false;
+    s->press_ready = s->state_ready = false;
     s->applied = s->applied_cycles = 0;
     s->reach = (load_reach){0};
+    scene_drop(s);
+}
+
+void scene_drop(scene *s) {
     fret_memory_free(s->memory);
+    fret_normal_free(s->normal);
+    fret_normal_free(s->k0);
+    scene_hand_over(s);
+}
+
+void scene_hand_over(scene *s) {
     s->memory = NULL;
+    s->normal = s->k0 = NULL;
 }
 
 static void drop_table(shared_table *t) {
@@ -122,7 +133,8 @@ void scene_clone(scene *to, const scene *from) {
     to->borrowed = true;
     if (to->table)
         to->table->users++;
-    to->memory = to->spare = NULL;
+    to->spare = NULL;
+    scene_hand_over(to);
     to->applied = to->applied_cycles = 0;
     to->state_ready = false;
 }
@@ -255,7 +267,7 @@ bool scene_get(const scene *s, input in, long double *out, calc_error *error) {
     return true;
 }
 
-static bool make_normal(const scene *s, double k, fret_normal *out, calc_error *error) {
+static bool make_normal(const scene *s, double k, fret_normal **out, calc_error *error) {
     long double v;
     fret_material m = {.k = k, .c0 = 1};
     if (!scene_get(s, IN_E0, &v, error))
@@ -288,18 +300,16 @@ static bool make_normal(const scene *s, double k, fret_normal *out, calc_error *
 }
 
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
-    if (!s->normal_ready && !make_normal(s, s->in[IN_K], &s->normal, error))
+    if (!s->normal && !make_normal(s, s->in[IN_K], &s->normal, error))
         return false;
-    s->normal_ready = true;
-    *normal = &s->normal;
+    *normal = s->normal;
     return true;
 }
 
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error) {
-    if (!s->k0_ready && !make_normal(s, 0, &s->k0, error))
+    if (!s->k0 && !make_normal(s, 0, &s->k0, error))
         return false;
-    s->k0_ready = true;
-    *normal = &s->k0;
+    *normal = s->k0;
     return true;
 }
 
@@ -327,11 +337,14 @@ void scene_put(scene *s, input in, double v) {
         s->set[IN_H] = s->set[IN_R0] = false;
     else if (in == IN_H || in == IN_R0)
         s->set[IN_A] = false;
-    bool keep = in == IN_MU || in == IN_FN;
-    bool normal_ready = keep && s->normal_ready, k0_ready = keep && s->k0_ready;
+    fret_normal *normal = s->normal, *k0 = s->k0;
+    if (in == IN_MU || in == IN_FN) /* they do not depend on these */
+        s->normal = s->k0 = NULL;
     scene_forget(s);
-    s->normal_ready = normal_ready;
-    s->k0_ready = k0_ready;
+    if (in == IN_MU || in == IN_FN) {
+        s->normal = normal;
+        s->k0 = k0;
+    }
 }
 
 /* Everything that the present inputs and program claim must hold. */
@@ -357,15 +370,15 @@ static bool validate(scene *s, calc_error *error) {
 
 bool scene_edit(scene *s, void (*edit)(scene *, void *), void *context, calc_error *error) {
     scene old = *s;
-    s->memory = NULL; /* kept by old until the new one stands */
+    scene_hand_over(s); /* kept by old until the new one stands */
     edit(s, context);
     scene_forget(s);
     calc_error mine = {0};
     if (validate(s, &mine)) {
-        fret_memory_free(old.memory);
+        scene_drop(&old);
         return true;
     }
-    fret_memory_free(s->memory);
+    scene_drop(s);
     fret_memory *spare = s->spare;
     *s = old;
     s->spare = spare;

@@ -102,8 +102,8 @@ typedef struct scene {
     load_reach reach;
 
     /* derived, valid as far as the flags say */
-    bool normal_ready, press_ready, k0_ready;
-    fret_normal normal, k0;
+    fret_normal *normal, *k0; /* NULL: to be made */
+    bool press_ready;
     fret_press press;
     fret_memory *memory, *spare;
     size_t mark, mark_cycles; /* scene_begin */
@@ -133,6 +133,9 @@ bool scene_set_table(scene *s, struct fret_table *table, const char *name, calc_
 void scene_clone(scene *to, const scene *from);
 /* Forgets what has been computed. */
 void scene_forget(scene *s);
+/* Frees the contacts of a scene; hands them over to a copy of it that was made before. */
+void scene_drop(scene *s);
+void scene_hand_over(scene *s);
 /* Forgets the load program; `all`: the inputs too. */
 void scene_reset(scene *s, bool all);
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "contact/dd.h"
+#include "number/real.h"
 
 /* The one table of units. */
 static const struct {

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* First loading, gross slip and the loss per cycle at constant F_N: closed forms of the fraction t of gross
+ * slip, for other shapes the law of normal.h. */
 #include "fret/cycle.h"
 
 #include <float.h>
 
-#include "dd.h"
-#include "special.h"
+#include "contact/check.h"
+#include "contact/normal.h"
+#include "number/real.h"
 
 /* t, its complement s = 1-t to full relative accuracy (near gross slip the rounding of the product mu F_N
  * matters), and ln s, which stays finite where s itself is too small for a double. */
@@ -19,7 +22,7 @@ static const double tiny = 1e-40;
 static fraction fraction_from(dd t, dd s) {
     fraction f = {t, s, {-INFINITY, 0}, dd_value(t)};
     if (s.hi > 0)
-        f.l = t.hi < tiny ? dd_neg(t) : t.hi <= 0.5 ? dd_log1p(dd_neg(t)) : dd_log(s);
+        f.l = t.hi < tiny ? dd_neg(t) : t.hi <= 0.5 ? fret_dd_log1p(dd_neg(t)) : fret_dd_log(s);
     return f;
 }
 
@@ -32,8 +35,8 @@ static fraction fraction_of(double F, dd limit) {
 }
 
 /* 0.3 times 100 N is not 30 N in binary: F equal to mu F_N up to its rounding is gross slip, no more. */
-static fraction force_fraction(double mu, const fret_press *press, double F) {
-    fraction f = fraction_of(F, dd_mul_d(dd_from2(press->F, press->F_rest), mu));
+static fraction force_fraction(const fret_contact *c, double F) {
+    fraction f = fraction_of(F, dd_mul_d(dd_from2(c->press.F, c->press.F_rest), c->mu));
     return fabs(f.s.hi) <= DBL_EPSILON ? fraction_from(dd_of(1), dd_of(0)) : f;
 }
 
@@ -47,79 +50,71 @@ static fret_real lost(const fraction *f, dd power) {
         return 1;
     if (f->t.hi < tiny)
         return dd_value(power) * f->t_wide;
-    return -dd_value(dd_expm1(dd_mul(power, f->l)));
+    return -dd_value(fret_dd_expm1(dd_mul(power, f->l)));
 }
 static fret_real kept(const fraction *f, dd power) {
-    return gross(f) ? 0 : dd_exp_real(dd_mul(power, f->l));
+    return gross(f) ? 0 : fret_dd_exp_real(dd_mul(power, f->l));
 }
 
-fret_real fret_gross_slip(const fret_normal *normal, double mu, const fret_press *press) {
-    return mu * normal->foundation.eta * press->dz;
+fret_real fret_gross_slip(const fret_contact *c) {
+    return c->mu * c->normal->foundation.eta * c->press.dz;
 }
 
-static fret_status check_friction(double mu, const fret_press *press) {
-    fret_status st = fret_check_positive("mu", mu);
-    if (!st.code)
-        st = fret_check_positive("FN", (double)press->F);
-    return st;
-}
-
-fret_status fret_loading_force(const fret_normal *normal, double mu, const fret_press *press, double Fx,
-                               fret_loading *out) {
-    fret_status st = check_friction(mu, press);
+fret_status fret_loading_by_force(const fret_contact *c, double Fx, fret_loading *out) {
+    fret_status st = fret_contact_check(c);
     if (!st.code && !isfinite(Fx))
         st = fret_fail(FRET_NOT_FINITE, "Fx", Fx, 0);
     if (st.code)
         return st;
-    fraction f = force_fraction(mu, press, fabs(Fx));
+    fraction f = force_fraction(c, fabs(Fx));
     if (f.s.hi < 0)
-        return fret_fail(FRET_GROSS_SLIP, "Fx", Fx, (double)(mu * press->F));
+        return fret_fail(FRET_GROSS_SLIP, "Fx", Fx, (double)(c->mu * c->press.F));
     fret_real x; /* 1 - yc/dz */
-    if (normal->p > 0) {
-        x = lost(&f, normal->wide.q);
-        out->c = press->a * kept(&f, dd_div(dd_of(1), normal->wide.s));
-        out->yc = press->dz * kept(&f, normal->wide.q);
+    if (fret_normal_closed(c->normal)) {
+        x = lost(&f, c->normal->wide.q);
+        out->c = c->press.a * kept(&f, dd_div(dd_of(1), c->normal->wide.s));
+        out->yc = c->press.dz * kept(&f, c->normal->wide.q);
     } else {
         const fret_real s = dd_value(f.s);
-        fret_real w = f.t.hi <= 0.5 ? dd_value(f.t) * press->F : press->F - s * press->F;
-        x = s > 0 ? fret_law_thickness(normal, &(fret_level){press->dz, press->F}, w) / press->dz : 1;
-        out->yc = s > 0 ? fret_law_depth(normal, s * press->F) : 0;
-        out->c = s > 0 ? fret_law_radius(normal, out->yc) : 0;
+        fret_real w = f.t.hi <= 0.5 ? dd_value(f.t) * c->press.F : c->press.F - s * c->press.F;
+        x = s > 0 ? fret_law_thickness(c->normal, &(fret_level){c->press.dz, c->press.F}, w) / c->press.dz
+                  : 1;
+        out->yc = s > 0 ? fret_law_depth(c->normal, s * c->press.F) : 0;
+        out->c = s > 0 ? fret_law_radius(c->normal, out->yc) : 0;
     }
     out->Fx = Fx;
-    out->dx = copysignl(fret_gross_slip(normal, mu, press) * x, Fx);
+    out->dx = copysignl(fret_gross_slip(c) * x, Fx);
     return fret_ok();
 }
 
 /* The same by displacement: t = dx/delta_x,max, s = 1-t. */
-static fraction depth_fraction(const fret_normal *normal, double mu, const fret_press *press, double dx) {
-    dd max = dd_mul(dd_mul_d(normal->foundation.wide.eta, mu), dd_from2(press->dz, press->dz_rest));
+static fraction depth_fraction(const fret_contact *c, double dx) {
+    dd max = dd_mul(dd_mul_d(c->normal->wide_foundation.eta, c->mu), dd_from2(c->press.dz, c->press.dz_rest));
     return fraction_of(dx, max);
 }
 
-fret_status fret_loading_displacement(const fret_normal *normal, double mu, const fret_press *press,
-                                      double dx, fret_loading *out) {
-    fret_status st = check_friction(mu, press);
+fret_status fret_loading_by_displacement(const fret_contact *c, double dx, fret_loading *out) {
+    fret_status st = fret_contact_check(c);
     if (!st.code && !isfinite(dx))
         st = fret_fail(FRET_NOT_FINITE, "dx", dx, 0);
     if (st.code)
         return st;
-    fraction f = depth_fraction(normal, mu, press, fabs(dx));
+    fraction f = depth_fraction(c, fabs(dx));
     out->dx = dx;
     if (f.s.hi <= 0) {
-        out->Fx = copysignl(mu * press->F, dx);
+        out->Fx = copysignl(c->mu * c->press.F, dx);
         out->c = out->yc = 0;
         return fret_ok();
     }
     const fret_real x = f.t_wide;
-    out->yc = press->dz * dd_value(f.s);
-    if (normal->p > 0) {
-        out->Fx = copysignl(mu * press->F * lost(&f, normal->wide.p), dx);
-        out->c = press->a * kept(&f, dd_div(dd_of(1), dd_of(normal->gap.power[0].n)));
+    out->yc = c->press.dz * dd_value(f.s);
+    if (fret_normal_closed(c->normal)) {
+        out->Fx = copysignl(c->mu * c->press.F * lost(&f, c->normal->wide.p), dx);
+        out->c = c->press.a * kept(&f, dd_div(dd_of(1), dd_of(c->normal->gap.power[0].n)));
     } else {
-        out->Fx =
-            copysignl(mu * fret_law_load(normal, &(fret_level){press->dz, press->F}, x * press->dz), dx);
-        out->c = fret_law_radius(normal, out->yc);
+        out->Fx = copysignl(
+            c->mu * fret_law_load(c->normal, &(fret_level){c->press.dz, c->press.F}, x * c->press.dz), dx);
+        out->c = fret_law_radius(c->normal, out->yc);
     }
     return fret_ok();
 }
@@ -151,7 +146,7 @@ static fret_real loss_shape(dd q_wide, dd r_wide, const fraction *f) {
         return 4 / (1 + q) * (-(1 + s) * y - q * t * (2 + y));
     }
     fret_real y = kept(f, q_wide);
-    return 4 / (1 + q) * (r * t * (1 + y) - 2 * s * dd_value(dd_expm1(dd_neg(dd_mul(r_wide, f->l)))));
+    return 4 / (1 + q) * (r * t * (1 + y) - 2 * s * dd_value(fret_dd_expm1(dd_neg(dd_mul(r_wide, f->l)))));
 }
 
 fret_real fret_loss_shape(fret_real q, fret_real r, fret_real t, fret_real s) {
@@ -167,51 +162,50 @@ static fret_real loss_of_power(const fret_normal *normal, const fraction *f) {
 
 /* The general loop by Masing: 4 times the dissipation of first loading, counted from the edge:
  * int_0^d [F(y)-F(y-t)-tK(y-t)] dt = L. */
-static fret_real loss_of(const fret_normal *normal, double mu, const fret_press *press, const fraction *f) {
-    fret_real scale = mu * press->F * fret_gross_slip(normal, mu, press);
-    if (normal->p > 0)
-        return scale * loss_of_power(normal, f);
-    fret_level edge = {press->dz, press->F};
-    fret_real d = fret_law_thickness(normal, &edge, fminl(dd_value(f->t), 1) * press->F);
-    return 4 * mu * (mu * normal->foundation.eta) * fret_law_slice(normal, &edge, d).L;
+static fret_real loss_of(const fret_contact *c, const fraction *f) {
+    fret_real scale = c->mu * c->press.F * fret_gross_slip(c);
+    if (fret_normal_closed(c->normal))
+        return scale * loss_of_power(c->normal, f);
+    fret_level edge = {c->press.dz, c->press.F};
+    fret_real d = fret_law_thickness(c->normal, &edge, fminl(dd_value(f->t), 1) * c->press.F);
+    return 4 * c->mu * (c->mu * c->normal->foundation.eta) * fret_law_slice(c->normal, &edge, d).L;
 }
 
-fret_status fret_cycle_loss(const fret_normal *normal, double mu, const fret_press *press, double FA,
-                            fret_real *loss) {
-    fret_status st = check_friction(mu, press);
+fret_status fret_cycle_loss_by_force(const fret_contact *c, double FA, fret_real *loss) {
+    fret_status st = fret_contact_check(c);
     if (!st.code)
         st = fret_check_not_negative("FA", FA);
     if (st.code)
         return st;
-    fraction f = force_fraction(mu, press, FA);
+    fraction f = force_fraction(c, FA);
     if (f.s.hi < 0)
-        return fret_fail(FRET_GROSS_SLIP, "FA", FA, (double)(mu * press->F));
-    *loss = loss_of(normal, mu, press, &f);
+        return fret_fail(FRET_GROSS_SLIP, "FA", FA, (double)(c->mu * c->press.F));
+    *loss = loss_of(c, &f);
     return fret_ok();
 }
 
-fret_status fret_cycle_loss_displacement(const fret_normal *normal, double mu, const fret_press *press,
-                                         double dA, fret_real *loss) {
-    fret_status st = check_friction(mu, press);
+fret_status fret_cycle_loss_by_displacement(const fret_contact *c, double dA, fret_real *loss) {
+    fret_status st = fret_contact_check(c);
     if (!st.code)
         st = fret_check_not_negative("dxA", dA);
     if (st.code)
         return st;
-    fraction f = depth_fraction(normal, mu, press, dA);
+    fraction f = depth_fraction(c, dA);
     if (f.s.hi <= 0) {
-        const fret_real slid = -dd_value(f.s) * fret_gross_slip(normal, mu, press);
+        const fret_real slid = -dd_value(f.s) * fret_gross_slip(c);
         f = fraction_from(dd_of(1), dd_of(0));
-        *loss = loss_of(normal, mu, press, &f) + 4 * mu * press->F * slid;
+        *loss = loss_of(c, &f) + 4 * c->mu * c->press.F * slid;
         return fret_ok();
     }
-    if (normal->p > 0) { /* s^p in place of s */
-        const fret_real t = lost(&f, normal->wide.p), s = kept(&f, normal->wide.p);
-        f = (fraction){dd_from(t), dd_from(s), dd_mul(normal->wide.p, f.l), t};
+    if (fret_normal_closed(c->normal)) { /* s^p in place of s */
+        const fret_real t = lost(&f, c->normal->wide.p), s = kept(&f, c->normal->wide.p);
+        f = (fraction){dd_from(t), dd_from(s), dd_mul(c->normal->wide.p, f.l), t};
     } else {
-        const fret_real x = f.t_wide, F = press->F;
-        f = (fraction){.t = dd_from(fret_law_load(normal, &(fret_level){press->dz, F}, x * press->dz) / F)};
+        const fret_real x = f.t_wide, F = c->press.F;
+        f = (fraction){
+            .t = dd_from(fret_law_load(c->normal, &(fret_level){c->press.dz, F}, x * c->press.dz) / F)};
         f.s = dd_sub(dd_of(1), f.t);
     }
-    *loss = loss_of(normal, mu, press, &f);
+    *loss = loss_of(c, &f);
     return fret_ok();
 }

@@ -1,29 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pressure, traction and surface displacements by inverse transforms. */
 #include "fret/field.h"
 
-#include "gap.h"
-#include "special.h"
+#include "contact/check.h"
+#include "contact/normal.h"
+#include "number/quadrature.h"
+#include "number/real.h"
 
 /* The pressure as one or two integrals over a variable t in 0..1 that takes the singular factor of the kernel
  * away. Distances e = x-b from the flat end or the centre. */
-typedef struct kernel {
+typedef struct inside {
     const fret_normal *normal;
     fret_real b, r, from, to, power; /* e from .. to */
-} kernel;
+} inside;
 
-static fret_real slope_at(const kernel *c, fret_real e) {
+static fret_real slope_at(const inside *c, fret_real e) {
     return e > 0 ? fret_gap_profile(&c->normal->gap, &c->normal->rule, e).slope : 0;
 }
 
 /* (x^2-r^2)^((k-1)/2) */
-static fret_real singular(const kernel *c, fret_real e) {
+static fret_real singular(const inside *c, fret_real e) {
     return fret_pow(((c->b - c->r) + e) * (c->b + e + c->r), (c->normal->rule.k - 1) / 2);
 }
 
 /* r beyond the flat end: x^2 = r^2 + (to^2-r^2) t^(2/(k+1)). */
 static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
     (void)rest;
-    const kernel *c = context;
+    const inside *c = context;
     fret_real last = c->b + c->to, span = (last - c->r) * (last + c->r);
     fret_real x = sqrtl(c->r * c->r + span * fret_pow(t, c->power));
     return slope_at(c, fminl(x - c->b, c->to)) / x;
@@ -32,7 +35,7 @@ static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
 /* r not beyond the flat end: e = to t^(2/(k+1)), where g' may be as singular as the kernel. */
 static fret_real pressure_below(fret_real t, fret_real rest, void *context) {
     (void)rest;
-    const kernel *c = context;
+    const inside *c = context;
     fret_real e = c->to * fret_pow(t, c->power);
     return e > 0 ? slope_at(c, e) * singular(c, e) * e / t : 0;
 }
@@ -40,7 +43,7 @@ static fret_real pressure_below(fret_real t, fret_real rest, void *context) {
 /* Away from the singularity: linear in ln e, since near a tip the field is a power; of a steep one only the
  * outer end counts: linear in the power itself. */
 static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
-    const kernel *c = context;
+    const inside *c = context;
     fret_real span = fret_log(c->to / c->from), l = span * t, weight = span;
     if (c->power * span > 150) {
         fret_real u = rest + t * fret_exp(c->power * span);
@@ -54,7 +57,7 @@ static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
 /* At the tip: x = a t^(1/(n+k-1)), n the leading power of the gap. */
 static fret_real pressure_tip(fret_real t, fret_real rest, void *context) {
     (void)rest;
-    const kernel *c = context;
+    const inside *c = context;
     fret_real x = c->to * fret_pow(t, c->power);
     return x > 0 ? slope_at(c, x) * fret_pow(x, c->normal->rule.k) / t : 0;
 }
@@ -70,19 +73,18 @@ fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_r
     /* the leading power of the gap decides what the tip is like */
     const fret_real rise = fret_gap_tip(&n->gap) + n->foundation.k - 1;
     const bool tip = r == 0 && start == 0;
-    bool sharp =
-        start > 0 && r == start && n->gap.kind != FRET_GAP_FLAT_ROUNDED && n->gap.kind != FRET_GAP_TABLE;
+    const bool sharp = r == start && fret_gap_sharp(&n->gap);
     if ((tip && rise <= 0) || sharp)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
-    kernel c = {n, start, r, 0, a - start, 2 / k1};
-    fret_real scale = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / PI_L;
+    inside c = {n, start, r, 0, a - start, 2 / k1};
+    fret_real scale = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI;
     if (tip) {
         c.power = 1 / rise;
         *p = scale / rise * fret_integrate(pressure_tip, &c);
         return fret_ok();
     }
     /* the first part reaches no farther than what is singular on the other side: x = b, -r, or r below b */
-    kernel beyond = {n, start, r, c.to, c.to, rise};
+    inside beyond = {n, start, r, c.to, c.to, rise};
     if (r > start)
         beyond.from = fminl(c.to, sqrtl(r * r + (r - start) * (r + start)) - start);
     else if (r < start)
@@ -136,11 +138,11 @@ fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_re
         *w = dz - f;
         return st;
     }
-    fret_real ck = fabsl(k) <= 0.5L ? fret_cos(PI_L * k / 2) : fret_sin(PI_L * (1 - fabsl(k)) / 2);
+    fret_real ck = fabsl(k) <= 0.5L ? fret_cos(FRET_PI * k / 2) : fret_sin(FRET_PI * (1 - fabsl(k)) / 2);
     fret_real sum = outside_integral(n, r, dz, start, a, false);
     if (start > 0)
         sum += outside_integral(n, r, dz, 0, start, true);
-    *w = 2 * ck / PI_L * sum;
+    *w = 2 * ck / FRET_PI * sum;
     return fret_ok();
 }
 

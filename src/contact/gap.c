@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "gap.h"
+/* The shapes: initial gap f(r), profile g(x) and what is special about each. Nothing outside this file asks
+ * which shape a gap has; a new one is a row of shapes[] and its functions. */
+#include "contact/gap.h"
 
-#include "table.h"
+#include "contact/check.h"
+#include "contact/table.h"
+#include "number/real.h"
 
 dd_scaled fret_kappa_parts(double n, double k) {
     dd k1 = dd_sum(1, k), d = {k1.hi / 2, k1.lo / 2}, top = dd_add_d(dd_of(n / 2), 1);
     const dd over[] = {dd_add_d(d, 1), top}, under[] = {dd_add(top, d)};
-    dd_scaled q = dd_gamma_quotient(over, 2, under, 1);
+    dd_scaled q = fret_dd_gamma_quotient(over, 2, under, 1);
     q.factor = dd_mul(q.factor, dd_div(dd_add_d(k1, n), k1));
     return q;
 }
 
 fret_real fret_kappa(double n, double k) {
     dd_scaled q = fret_kappa_parts(n, k);
-    return dd_value(dd_mul(q.factor, dd_exp(q.log)));
+    return dd_value(dd_mul(q.factor, fret_dd_exp(q.log)));
 }
-
-/* ---- the kernel near its singularity ----------------------------------------------------------- */
 
 /* The last moment by its series, the others downwards: every term is positive. */
 fret_edge fret_edge_moments(const fret_rule *rule, fret_real v) {
@@ -48,26 +50,52 @@ static void make_series(fret_rule *rule) {
     }
 }
 
-/* ---- shapes ------------------------------------------------------------------------------------ */
-
-/* One row a shape: the gap and the profile for r > b, and which parameters it reads. In units of the contact
- * radius, with s = r/a, flat = b/a, K = (1-s^2)^((k-1)/2):
+/* In units of the contact radius, with s = r/a, flat = b/a, K = (1-s^2)^((k-1)/2):
  *   g = a int f' K ds, I = a^(k+2)/(k+1) int s^2 f' K ds. */
-typedef struct shape {
-    fret_real (*f)(const fret_gap *, fret_real r);
-    fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real a, fret_real e);
-    bool b, R, slope;
-} shape;
-
 fret_profile fret_profile_of(fret_real k, fret_real a, fret_real g, fret_real slope, fret_real I) {
     return (fret_profile){a * g, slope, fret_pow(a, k + 2) / (k + 1) * I};
+}
+
+static fret_real powers_f(const fret_gap *gap, fret_real r) {
+    fret_real f = 0;
+    for (int i = 0; i < gap->terms; i++)
+        f += gap->power[i].h * fret_ratio_pow(r, gap->power[i].r0, gap->power[i].n);
+    return f;
+}
+static fret_profile powers_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
+    fret_real k = rule->k, a = e, ak = fret_pow(a, k + 1);
+    fret_profile out = {0, 0, 0};
+    for (int i = 0; i < gap->terms; i++) {
+        const fret_power *p = &gap->power[i];
+        fret_real n = p->n, g = rule->kappa[i] * p->h * fret_ratio_pow(a, p->r0, n);
+        out.g += g;
+        out.slope += n * g / a;
+        out.I += n * g * ak / ((k + 1) * (n + (k + 1)));
+    }
+    return out;
+}
+static fret_real powers_tip(const fret_gap *gap) {
+    fret_real least = INFINITY;
+    for (int i = 0; i < gap->terms; i++)
+        least = gap->power[i].h != 0 ? fminl(least, gap->power[i].n) : least;
+    return least;
+}
+static bool sum_grows(const fret_gap *gap) {
+    for (int i = 0; i < gap->terms; i++)
+        if (gap->power[i].h < 0)
+            return false;
+    return true;
+}
+
+static fret_real flat_start(const fret_gap *gap) {
+    return gap->b;
 }
 
 static fret_real cone_f(const fret_gap *gap, fret_real r) {
     return gap->slope * (r - gap->b);
 }
-static fret_profile cone_profile(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_real e) {
-    fret_real k = rule->k, v = e / a, flat = gap->b / a;
+static fret_profile cone_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
+    fret_real k = rule->k, a = gap->b + e, v = e / a, flat = gap->b / a;
     fret_edge m = fret_edge_moments(rule, v);
     fret_real g = gap->slope * m.moment[0], rim = gap->slope * flat * m.rim;
     return fret_profile_of(k, a, g, g + rim / (v * (2 - v)), (g + rim) / (k + 2));
@@ -76,8 +104,8 @@ static fret_profile cone_profile(const fret_gap *gap, const fret_rule *rule, fre
 static fret_real paraboloid_f(const fret_gap *gap, fret_real r) {
     return (r - gap->b) * (r + gap->b) / (2 * (fret_real)gap->R);
 }
-static fret_profile paraboloid_profile(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_real e) {
-    fret_real k = rule->k, m = (k + 1) / 2, v = e / a, flat = gap->b / a, z = v * (2 - v);
+static fret_profile paraboloid_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
+    fret_real k = rule->k, a = gap->b + e, m = (k + 1) / 2, v = e / a, flat = gap->b / a, z = v * (2 - v);
     fret_real rim = a / gap->R * fret_pow(z, m), g = rim / (2 * m);
     return fret_profile_of(k, a, g, 2 * g + rim * flat * flat / z,
                            rim * (1 + m * (1 - z)) / (2 * m * (m + 1)));
@@ -86,8 +114,8 @@ static fret_profile paraboloid_profile(const fret_gap *gap, const fret_rule *rul
 static fret_real rounded_f(const fret_gap *gap, fret_real r) {
     return (r - gap->b) * (r - gap->b) / (2 * (fret_real)gap->R);
 }
-static fret_profile rounded_profile(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_real e) {
-    fret_real k = rule->k, v = e / a, flat = gap->b / a, z = v * (2 - v), steep = a / gap->R;
+static fret_profile rounded_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
+    fret_real k = rule->k, a = gap->b + e, v = e / a, flat = gap->b / a, z = v * (2 - v), steep = a / gap->R;
     fret_edge m = fret_edge_moments(rule, v);
     fret_real g = steep * (v * m.moment[0] - m.moment[1]);
     return fret_profile_of(k, a, g, 2 * g + steep * flat * m.moment[0],
@@ -99,9 +127,9 @@ static fret_real sphere_f(const fret_gap *gap, fret_real r) {
     return r * r / (R + sqrtl((R - r) * (R + r)));
 }
 /* Term by term: f has the powers r^2, r^4, ... with positive factors. */
-static fret_profile sphere_profile(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_real e) {
-    (void)e;
-    fret_real k = rule->k, m1 = (k + 3) / 2, q = a / gap->R * (a / gap->R), term = a / (gap->R * (k + 1));
+static fret_profile sphere_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
+    fret_real a = e, k = rule->k, m1 = (k + 3) / 2, q = a / gap->R * (a / gap->R),
+              term = a / (gap->R * (k + 1));
     fret_real g = 0, slope = 0, I = 0;
     for (int n = 0; n < 1000; n++) {
         fret_real rise = (2 * n + 2) * term;
@@ -115,36 +143,97 @@ static fret_profile sphere_profile(const fret_gap *gap, const fret_rule *rule, f
     return fret_profile_of(k, a, g, slope, I);
 }
 
+static fret_real sphere_end(const fret_gap *gap) {
+    return 0.95L * gap->R; /* near the equator g grows without bound, and its series no longer converges */
+}
+static fret_real sphere_ahead(const fret_gap *gap, fret_real e) {
+    return gap->R - e;
+}
+
+static fret_real sampled_f(const fret_gap *gap, fret_real r) {
+    return fret_table_f(gap->table, r);
+}
+static fret_profile sampled_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
+    return fret_table_profile(gap->table, rule, e);
+}
+static fret_real sampled_start(const fret_gap *gap) {
+    return fret_table_start(gap->table);
+}
+static fret_real sampled_end(const fret_gap *gap) {
+    return fret_table_end(gap->table);
+}
+static fret_real sampled_kink(const fret_gap *gap, fret_real e) {
+    return fret_table_kink(gap->table, e);
+}
+static fret_real sampled_tip(const fret_gap *gap) {
+    return fret_table_pointed(gap->table) ? 1 : 2;
+}
+static bool sampled_grows(const fret_gap *gap) {
+    return fret_table_grows(gap->table);
+}
+
+/* One row a shape. What a row leaves out: begins at 0, never ends, one smooth piece without a singularity
+ * ahead, begins like r^2, grows. */
+typedef struct shape {
+    fret_real (*f)(const fret_gap *, fret_real r); /* beyond the start */
+    fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real e);
+    fret_real (*start)(const fret_gap *), (*end)(const fret_gap *), (*tip)(const fret_gap *);
+    fret_real (*kink)(const fret_gap *, fret_real e), (*ahead)(const fret_gap *, fret_real e);
+    bool (*grows)(const fret_gap *);
+    bool powers, closed, sharp, rows; /* reads power[]; of gap.h the other three */
+    bool b, R, slope;                 /* reads these, which must be positive */
+} shape;
+
 static const shape shapes[] = {
-    [FRET_GAP_FLAT_CONE] = {cone_f, cone_profile, .b = true, .slope = true},
-    [FRET_GAP_FLAT_PARABOLOID] = {paraboloid_f, paraboloid_profile, .b = true, .R = true},
-    [FRET_GAP_FLAT_ROUNDED] = {rounded_f, rounded_profile, .b = true, .R = true},
-    [FRET_GAP_EXACT_SPHERE] = {sphere_f, sphere_profile, .R = true},
+    [FRET_GAP_POWER] =
+        {.f = powers_f, .profile = powers_profile, .tip = powers_tip, .powers = true, .closed = true},
+    [FRET_GAP_SUM] =
+        {.f = powers_f, .profile = powers_profile, .tip = powers_tip, .grows = sum_grows, .powers = true},
+    [FRET_GAP_FLAT_CONE] =
+        {.f = cone_f, .profile = cone_profile, .start = flat_start, .sharp = true, .b = true, .slope = true},
+    [FRET_GAP_FLAT_PARABOLOID] = {.f = paraboloid_f,
+                                  .profile = paraboloid_profile,
+                                  .start = flat_start,
+                                  .sharp = true,
+                                  .b = true,
+                                  .R = true},
+    [FRET_GAP_FLAT_ROUNDED] =
+        {.f = rounded_f, .profile = rounded_profile, .start = flat_start, .b = true, .R = true},
+    [FRET_GAP_EXACT_SPHERE] =
+        {.f = sphere_f, .profile = sphere_profile, .end = sphere_end, .ahead = sphere_ahead, .R = true},
+    [FRET_GAP_TABLE] = {.f = sampled_f,
+                        .profile = sampled_profile,
+                        .start = sampled_start,
+                        .end = sampled_end,
+                        .tip = sampled_tip,
+                        .kink = sampled_kink,
+                        .grows = sampled_grows,
+                        .rows = true},
 };
 
-static bool is_powers(const fret_gap *gap) {
-    return gap->kind == FRET_GAP_POWER || gap->kind == FRET_GAP_SUM;
+static const shape *shape_of(const fret_gap *gap) {
+    return &shapes[gap->kind];
+}
+
+static fret_status check_powers(const fret_gap *gap) {
+    fret_status st = fret_ok();
+    for (int i = 0; i < gap->terms && !st.code; i++) {
+        const fret_power *p = &gap->power[i];
+        st = fret_check_positive("n", p->n);
+        if (!st.code)
+            st = fret_check_positive("r0", p->r0);
+        if (!st.code && shape_of(gap)->closed)
+            st = fret_check_positive("h", p->h);
+        if (!st.code && !isfinite(p->h))
+            st = fret_fail(FRET_NOT_FINITE, "A", p->h, 0);
+    }
+    return st;
 }
 
 fret_status fret_gap_check(const fret_gap *gap) {
-    fret_status st = fret_ok();
-    if (is_powers(gap)) {
-        for (int i = 0; i < gap->terms && !st.code; i++) {
-            const fret_power *p = &gap->power[i];
-            st = fret_check_positive("n", p->n);
-            if (!st.code)
-                st = fret_check_positive("r0", p->r0);
-            if (!st.code && gap->kind == FRET_GAP_POWER)
-                st = fret_check_positive("h", p->h);
-            if (!st.code && !isfinite(p->h))
-                st = fret_fail(FRET_NOT_FINITE, "A", p->h, 0);
-        }
-        return st;
-    }
-    if (gap->kind == FRET_GAP_TABLE)
-        return st;
-    const shape *s = &shapes[gap->kind];
-    if (s->b)
+    const shape *s = shape_of(gap);
+    fret_status st = s->powers ? check_powers(gap) : fret_ok();
+    if (!st.code && s->b)
         st = fret_check_positive("b", gap->b);
     if (!st.code && s->R)
         st = fret_check_positive("R", gap->R);
@@ -154,31 +243,46 @@ fret_status fret_gap_check(const fret_gap *gap) {
 }
 
 fret_real fret_gap_start(const fret_gap *gap) {
-    if (is_powers(gap))
-        return 0;
-    if (gap->kind == FRET_GAP_TABLE)
-        return fret_table_start(gap->table);
-    return shapes[gap->kind].b ? gap->b : 0;
-}
-
-fret_real fret_gap_tip(const fret_gap *gap) {
-    if (gap->kind == FRET_GAP_TABLE)
-        return fret_table_pointed(gap->table) ? 1 : 2;
-    fret_real least = is_powers(gap) ? (fret_real)INFINITY : 2;
-    for (int i = 0; i < gap->terms && is_powers(gap); i++)
-        least = gap->power[i].h != 0 ? fminl(least, gap->power[i].n) : least;
-    return least;
+    const shape *s = shape_of(gap);
+    return s->start ? s->start(gap) : 0;
 }
 
 fret_real fret_gap_end(const fret_gap *gap) {
-    /* near the equator g grows without bound, and its series no longer converges */
-    return gap->kind == FRET_GAP_EXACT_SPHERE ? 0.95L * gap->R
-           : gap->kind == FRET_GAP_TABLE      ? fret_table_end(gap->table)
-                                              : (fret_real)INFINITY;
+    const shape *s = shape_of(gap);
+    return s->end ? s->end(gap) : (fret_real)INFINITY;
+}
+
+fret_real fret_gap_tip(const fret_gap *gap) {
+    const shape *s = shape_of(gap);
+    return s->tip ? s->tip(gap) : 2;
 }
 
 fret_real fret_gap_kink(const fret_gap *gap, fret_real e) {
-    return gap->kind == FRET_GAP_TABLE ? fret_table_kink(gap->table, e) : 0;
+    const shape *s = shape_of(gap);
+    return s->kink ? s->kink(gap, e) : 0;
+}
+
+fret_real fret_gap_reach(const fret_gap *gap, fret_real e) {
+    const shape *s = shape_of(gap);
+    fret_real behind = e - fret_gap_kink(gap, e);
+    return s->ahead ? fminl(behind, s->ahead(gap, e)) : behind;
+}
+
+bool fret_gap_sharp(const fret_gap *gap) {
+    return shape_of(gap)->sharp;
+}
+
+bool fret_gap_closed(const fret_gap *gap) {
+    return shape_of(gap)->closed;
+}
+
+bool fret_gap_has_rows(const fret_gap *gap) {
+    return shape_of(gap)->rows;
+}
+
+bool fret_gap_grows(const fret_gap *gap) {
+    const shape *s = shape_of(gap);
+    return !s->grows || s->grows(gap);
 }
 
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
@@ -186,39 +290,20 @@ fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
         return fret_fail(FRET_NEGATIVE, "r", (double)r, 0);
     if (r > fret_gap_end(gap))
         return fret_fail(FRET_OUTSIDE, "r", (double)r, (double)fret_gap_end(gap));
-    *f = 0;
-    if (is_powers(gap)) {
-        for (int i = 0; i < gap->terms; i++)
-            *f += r > 0 ? gap->power[i].h * fret_ratio_pow(r, gap->power[i].r0, gap->power[i].n) : 0;
-    } else if (r > fret_gap_start(gap)) {
-        *f = gap->kind == FRET_GAP_TABLE ? fret_table_f(gap->table, r) : shapes[gap->kind].f(gap, r);
-    }
+    *f = r > fret_gap_start(gap) ? shape_of(gap)->f(gap, r) : 0;
     return fret_ok();
 }
 
 void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule) {
     rule->k = k;
-    for (int i = 0; is_powers(gap) && i < gap->terms; i++)
-        rule->kappa[i] = fret_kappa(gap->power[i].n, k);
-    if (!is_powers(gap))
+    if (!shape_of(gap)->powers)
         make_series(rule);
+    for (int i = 0; shape_of(gap)->powers && i < gap->terms; i++)
+        rule->kappa[i] = fret_kappa(gap->power[i].n, k);
 }
 
 fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
-    if (gap->kind == FRET_GAP_TABLE)
-        return fret_table_profile(gap->table, rule, e);
-    if (!is_powers(gap))
-        return shapes[gap->kind].profile(gap, rule, fret_gap_start(gap) + e, e);
-    fret_real k = rule->k, a = e, ak = fret_pow(a, k + 1);
-    fret_profile out = {0, 0, 0};
-    for (int i = 0; i < gap->terms; i++) {
-        const fret_power *p = &gap->power[i];
-        fret_real n = p->n, g = rule->kappa[i] * p->h * fret_ratio_pow(a, p->r0, n);
-        out.g += g;
-        out.slope += n * g / a;
-        out.I += n * g * ak / ((k + 1) * (n + (k + 1)));
-    }
-    return out;
+    return shape_of(gap)->profile(gap, rule, e);
 }
 
 fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g, fret_real *slope) {

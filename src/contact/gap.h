@@ -1,39 +1,64 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What normal.c and field.c need of a gap beyond the public header. Not installed. */
-#ifndef FRET_GAP_PRIVATE_H
-#define FRET_GAP_PRIVATE_H
+/* What the mechanics needs of a gap beyond the public header: the one place that tells shapes apart is gap.c.
+ * Not installed. */
+#ifndef FRET_CONTACT_GAP_H
+#define FRET_CONTACT_GAP_H
 
-#include "dd.h"
+#include <stdbool.h>
+
 #include "fret/gap.h"
-#include "special.h"
+#include "number/dd.h"
+
+/* What (3) needs to know of k: (2-u)^((k-1)/2), the kernel's factor that is smooth at the edge, as a series
+ * in the distance u from the edge; term n is divided by (k+1)/2+4+n. Powers need kappa(n,k) of each term. */
+enum { FRET_SERIES = 64 };
+typedef struct fret_rule {
+    fret_real k, series[FRET_SERIES], kappa[FRET_GAP_TERMS];
+} fret_rule;
+
+/* What fret_gap_profile needs to know of the exponent k. */
+void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule);
+
+/* ln kappa(n,k) = .log + ln .factor */
+dd_scaled fret_kappa_parts(double n, double k);
 
 /* Profile and its moments at contact radius a: g, g', and I = int_0^a x^k (g(a)-g(x)) dx. */
 typedef struct fret_profile {
     fret_real g, slope, I;
 } fret_profile;
 
-/* ln kappa(n,k) = .log + ln .factor */
-dd_scaled fret_kappa_parts(double n, double k);
-
-/* What fret_gap_profile needs to know of the exponent k. */
-void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule);
-
 /* At contact radius fret_gap_start + e, e > 0: near a flat end g ~ e^((k+1)/2), which a radius that has
  * swallowed e could not tell. Valid gaps only. */
 fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real e);
 
-/* True only if g grows throughout; false is not yet a verdict. */
-bool fret_table_grows(const struct fret_table *table);
+/* From g and I in units of the contact radius a: g = a int f' K ds, I = a^(k+2)/(k+1) int s^2 f' K ds. */
+fret_profile fret_profile_of(fret_real k, fret_real a, fret_real g, fret_real slope, fret_real I);
+
+/* Radius below which f = 0 (the flat end), and the radius where the gap ends (INFINITY: nowhere). */
+fret_real fret_gap_start(const fret_gap *gap);
+fret_real fret_gap_end(const fret_gap *gap);
 
 /* Distance from the start of the last place below e > 0 where the profile is not smooth: the start itself or
  * a row of a table. */
 fret_real fret_gap_kink(const fret_gap *gap, fret_real e);
 
+/* How far the profile goes on smoothly outwards and inwards of e: to the kink, or to a singularity beyond e.
+ */
+fret_real fret_gap_reach(const fret_gap *gap, fret_real e);
+
 /* The power of r that a gap without a flat end begins with. */
 fret_real fret_gap_tip(const fret_gap *gap);
 
-/* Radius below which f = 0 (the flat end), and the radius where the gap ends (INFINITY: nowhere). */
-fret_real fret_gap_start(const fret_gap *gap);
-fret_real fret_gap_end(const fret_gap *gap);
+/* Is there an edge at the flat end, where f' jumps and the pressure is infinite? */
+bool fret_gap_sharp(const fret_gap *gap);
+
+/* One power: the contact has closed forms. */
+bool fret_gap_closed(const fret_gap *gap);
+
+/* Sampled: smooth from row to row alone. */
+bool fret_gap_has_rows(const fret_gap *gap);
+
+/* True only if g grows throughout; false is not yet a verdict. */
+bool fret_gap_grows(const fret_gap *gap);
 
 #endif

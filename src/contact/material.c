@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "fret/material.h"
+/* Coefficients of the equivalent foundations (A1)-(A3), (4), (5), in double-doubles throughout: the moduli
+ * are quotients that lose digits at the ends of the ranges of k and nu. */
+#include "contact/material.h"
 
 #include <float.h>
 
-#include "dd.h"
-#include "special.h"
+#include "contact/check.h"
 
 /* What h_N, h_T and eta are made of; ck is the only factor that vanishes as |k| -> 1. */
 typedef struct parts {
@@ -21,12 +22,12 @@ static parts parts_of(double k, double nu) {
     else
         r.Q = dd_add(dd_sum(1, -2 * nu), dd_mul_d(dd_sum(1, -k), nu));
     r.beta = dd_sqrt(dd_div(dd_mul(k1, r.Q), r.one_nu));
-    dd S = dd_sin_quarter(r.beta.hi > 1 ? dd_sub(two, r.beta) : r.beta);
+    dd S = fret_dd_sin_quarter(r.beta.hi > 1 ? dd_sub(two, r.beta) : r.beta);
     dd half_beta = {r.beta.hi / 2, r.beta.lo / 2}, x = dd_add_d((dd){k1.hi / 2, k1.lo / 2}, 1);
     const dd over[] = {dd_add(x, half_beta), dd_sub(x, half_beta)}, w = dd_add_d(x, -0.5), under[] = {w, w};
-    dd_scaled P = dd_gamma_quotient(over, 2, under, 2);
-    r.SP = dd_mul(dd_div(S, r.beta), dd_mul(P.factor, dd_exp(P.log)));
-    r.ck = dd_sin_quarter(dd_sum(1, -fabs(k))); /* cos(pi k/2) */
+    dd_scaled P = fret_dd_gamma_quotient(over, 2, under, 2);
+    r.SP = dd_mul(dd_div(S, r.beta), dd_mul(P.factor, fret_dd_exp(P.log)));
+    r.ck = fret_dd_sin_quarter(dd_sum(1, -fabs(k))); /* cos(pi k/2) */
     return r;
 }
 
@@ -75,8 +76,15 @@ fret_status fret_half_space(double k, double nu, fret_real *hN, fret_real *hT, f
     return fret_ok();
 }
 
-fret_status fret_foundation_make(const fret_material *m, fret_foundation *out) {
-    static const char *const E_name[2] = {"E0", "E0_2"}, *const nu_name[2] = {"nu", "nu_2"};
+static const char *const E_name[2] = {"E0", "E0_2"}, *const nu_name[2] = {"nu", "nu_2"};
+
+fret_status fret_foundation_make(const fret_material *material, fret_foundation *out) {
+    fret_wide_foundation wide;
+    return fret_foundation_make_wide(material, out, &wide);
+}
+
+/* Both bodies, those that are not rigid. */
+static fret_status check_bodies(const fret_material *m) {
     fret_status st = check_k(m->k);
     for (int i = 0; i < 2 && !st.code; i++) {
         if (m->body[i].rigid)
@@ -87,11 +95,16 @@ fret_status fret_foundation_make(const fret_material *m, fret_foundation *out) {
     }
     if (!st.code)
         st = fret_check_positive("c0", m->c0);
+    if (!st.code && m->body[0].rigid && m->body[1].rigid)
+        st = fret_fail(FRET_BOTH_RIGID, NULL, 0, 0);
+    return st;
+}
+
+fret_status fret_foundation_make_wide(const fret_material *m, fret_foundation *out,
+                                      fret_wide_foundation *wide) {
+    fret_status st = check_bodies(m);
     if (st.code)
         return st;
-    if (m->body[0].rigid && m->body[1].rigid)
-        return fret_fail(FRET_BOTH_RIGID, NULL, 0, 0);
-
     fret_foundation f = {.k = m->k, .c0 = m->c0};
     dd normal = dd_of(0), tangential = dd_of(0), ck = dd_of(1);
     fret_real drive = 0, holl = 0;
@@ -117,17 +130,17 @@ fret_status fret_foundation_make(const fret_material *m, fret_foundation *out) {
         f.hT[i] = hT_of(&r, b->nu);
         f.beta[i] = dd_value(r.beta);
     }
-    f.wide.cN0 = dd_div(ck, normal);
-    f.wide.scale = scale;
-    f.wide.eta = dd_div(tangential, normal);
-    f.cN0 = ldexpl(dd_value(f.wide.cN0), scale);
+    wide->cN0 = dd_div(ck, normal);
+    wide->scale = scale;
+    wide->eta = dd_div(tangential, normal);
+    f.cN0 = ldexpl(dd_value(wide->cN0), scale);
     f.cT0 = ldexpl(dd_value(dd_div(ck, tangential)), scale);
-    f.eta = dd_value(f.wide.eta);
+    f.eta = dd_value(wide->eta);
     if (!isfinite(f.cN0) || !isfinite(f.cT0) || !isfinite(f.eta))
         return fret_fail(FRET_OVERFLOW, E_name[m->body[0].rigid], m->body[m->body[0].rigid].E0, DBL_MAX);
     bool equal = !m->body[0].rigid && !m->body[1].rigid && m->body[0].E0 == m->body[1].E0 &&
                  m->body[0].nu == m->body[1].nu;
-    f.mismatch = fabsl(drive) * dd_value(f.wide.cN0) / 2;
+    f.mismatch = fabsl(drive) * dd_value(wide->cN0) / 2;
     /* 1e-12: nu = 1/(2+k) cannot be typed exactly */
     f.similar = equal || holl < 1e-12L || (m->k == 0 && f.mismatch < 1e-12L);
     *out = f;

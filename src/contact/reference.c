@@ -1,24 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The loss per cycle by quadrature of its definition, independent of the closed forms but for the place of
+ * the slip front. */
 #include "fret/reference.h"
 
 #include <float.h>
 
-#include "gap.h"
-#include "special.h"
+#include "contact/check.h"
+#include "contact/normal.h"
+#include "number/real.h"
+#include "number/sum.h"
 
 /* The annulus that slips. Power laws take depths relative to delta_z, where both brackets are distances from
  * the ends and keep every digit: from yc to 1, of width X = 1-yc. Other shapes take radii, as distances from
  * the start of the gap: depths there may jump. */
-typedef struct annulus {
+typedef struct slip_zone {
     const fret_normal *normal;
     fret_real scale; /* of the integral, to J */
     fret_real yc, X;
     fret_real start, inner, outer, g_inner, g_outer;
     bool by_rows; /* of a table */
-} annulus;
+} slip_zone;
 
 /* int (1-y) (y-yc) K'(y) dy in units of F_N, K' = p (p-1) y^(p-2) */
-static fret_real by_depth(const annulus *s, fret_real t, fret_real rest) {
+static fret_real by_depth(const slip_zone *s, fret_real t, fret_real rest) {
     const fret_normal *n = s->normal;
     fret_real from_edge = s->X * rest, y = s->yc + s->X * t;
     fret_real l = from_edge < 0.5L ? fret_log1p(-from_edge) : fret_log(y);
@@ -26,7 +30,7 @@ static fret_real by_depth(const annulus *s, fret_real t, fret_real rest) {
 }
 
 /* int 2 (x/c0)^k (g(a)-g(x)) (g(x)-g(c)) dx */
-static fret_real by_radius(const annulus *s, fret_real t, fret_real rest) {
+static fret_real by_radius(const slip_zone *s, fret_real t, fret_real rest) {
     const fret_normal *n = s->normal;
     fret_real e = s->inner * rest + s->outer * t;
     if (e <= 0)
@@ -39,24 +43,25 @@ static fret_real by_radius(const annulus *s, fret_real t, fret_real rest) {
 /* Nodes u = first, first + step, ... within +-END of t = 1/(1 + exp(-pi sinh u)). */
 static const fret_real END = 4; /* t = 1e-37 */
 
-static fret_real piece_sum(const annulus *s, fret_real first, fret_real step) {
-    fret_real (*f)(const annulus *, fret_real, fret_real) = s->normal->p > 0 ? by_depth : by_radius;
+static fret_real piece_sum(const slip_zone *s, fret_real first, fret_real step) {
+    fret_real (*f)(const slip_zone *, fret_real, fret_real) =
+        fret_normal_closed(s->normal) ? by_depth : by_radius;
     fret_sum sum = {0, 0};
     unsigned count = (unsigned)floorl((END - first) / step + 0.5L);
     for (unsigned i = 0; i <= count; i++) {
         fret_real u = first + step * i, grown = fret_exp(fabsl(u));
-        fret_real e = fret_exp(-PI_L * (grown - 1 / grown) / 2), near = e / (1 + e), far = 1 / (1 + e);
-        fret_real weight = PI_L * (grown + 1 / grown) / 2 * near * far; /* dt/du */
+        fret_real e = fret_exp(-FRET_PI * (grown - 1 / grown) / 2), near = e / (1 + e), far = 1 / (1 + e);
+        fret_real weight = FRET_PI * (grown + 1 / grown) / 2 * near * far; /* dt/du */
         fret_sum_add(&sum, weight * (u < 0 ? f(s, near, far) : f(s, far, near)));
     }
     return fret_sum_value(&sum);
 }
 
 /* Over a table row by row: a rule across rows, where the profile is not smooth, converges slowly. */
-static fret_real nodes_sum(const annulus *s, fret_real first, fret_real step) {
+static fret_real nodes_sum(const slip_zone *s, fret_real first, fret_real step) {
     if (!s->by_rows)
         return piece_sum(s, first, step);
-    annulus piece = *s;
+    slip_zone piece = *s;
     fret_real sum = 0;
     for (; piece.outer > s->inner; piece.outer = piece.inner) {
         piece.inner = fmaxl(fret_gap_kink(&s->normal->gap, piece.outer), s->inner);
@@ -66,60 +71,60 @@ static fret_real nodes_sum(const annulus *s, fret_real first, fret_real step) {
 }
 
 /* Are there rows within, and few enough to take one by one? */
-static bool has_rows(const annulus *s) {
+static bool has_rows(const slip_zone *s) {
     int rows = 0;
     for (fret_real e = s->outer; e > s->inner && rows <= 500; rows++)
         e = fret_gap_kink(&s->normal->gap, e);
     return rows > 1 && rows <= 500;
 }
 
-static fret_status annulus_make(const fret_normal *normal, double mu, const fret_press *press,
-                                const fret_loading *peak, annulus *out) {
-    fret_status st = fret_check_positive("mu", mu);
-    if (!st.code)
-        st = fret_check_positive("FN", (double)press->F);
+static fret_status slip_zone_make(const fret_contact *c, const fret_loading *peak, slip_zone *out) {
+    fret_status st = fret_contact_check(c);
     if (st.code)
         return st;
-    fret_real max = fret_gross_slip(normal, mu, press), x = fminl(fabsl(peak->dx) / max, 1);
-    annulus s = {.normal = normal, .yc = peak->yc / press->dz, .X = x};
+    const fret_normal *normal = c->normal;
+    const fret_press *press = &c->press;
+    const double mu = c->mu;
+    fret_real max = fret_gross_slip(c), x = fminl(fabsl(peak->dx) / max, 1);
+    slip_zone s = {.normal = normal, .yc = peak->yc / press->dz, .X = x};
     s.scale = 4 * mu * press->F * max * x * x * x;
-    if (normal->p <= 0) {
+    if (!fret_normal_closed(normal)) {
         s.scale = 4 * mu * mu * normal->foundation.eta * normal->foundation.cN0;
         s.start = fret_gap_start(&normal->gap);
         s.outer = press->a - s.start;
         s.inner = fmaxl(peak->c - s.start, 0);
         s.g_outer = fret_gap_profile(&normal->gap, &normal->rule, s.outer).g;
         s.g_inner = s.inner > 0 ? fret_gap_profile(&normal->gap, &normal->rule, s.inner).g : 0;
-        s.by_rows = normal->gap.kind == FRET_GAP_TABLE && has_rows(&s);
+        s.by_rows = fret_gap_has_rows(&normal->gap) && has_rows(&s);
     }
     *out = s;
     return st;
 }
 
 /* What gross slip adds. */
-static fret_real sliding(const annulus *s, double mu, const fret_press *press, const fret_loading *peak) {
-    return 4 * mu * press->F * fmaxl(fabsl(peak->dx) - fret_gross_slip(s->normal, mu, press), 0);
+static fret_real sliding(const fret_contact *c, const fret_loading *peak) {
+    return 4 * c->mu * c->press.F * fmaxl(fabsl(peak->dx) - fret_gross_slip(c), 0);
 }
 
-fret_status fret_quadrature_loss(const fret_normal *normal, double mu, const fret_press *press,
-                                 const fret_loading *peak, unsigned points, fret_real *loss) {
-    annulus s;
-    fret_status st = annulus_make(normal, mu, press, peak, &s);
+fret_status fret_quadrature_loss(const fret_contact *c, const fret_loading *peak, unsigned points,
+                                 fret_real *loss) {
+    slip_zone s;
+    fret_status st = slip_zone_make(c, peak, &s);
     if (!st.code && (points < 8 || points > 100000))
         st = fret_fail(FRET_OUTSIDE, "points", points, points < 8 ? 8 : 100000);
     if (st.code)
         return st;
     fret_real step = 2 * END / (points - 1);
-    *loss = s.scale * step * nodes_sum(&s, -END, step) + sliding(&s, mu, press, peak);
+    *loss = s.scale * step * nodes_sum(&s, -END, step) + sliding(c, peak);
     return fret_ok();
 }
 
-static fret_status refine(const fret_normal *normal, double mu, const fret_press *press,
-                          const fret_loading *peak, fret_real *loss, fret_real *agreement) {
+static fret_status refine(const fret_contact *c, const fret_loading *peak, fret_real *loss,
+                          fret_real *agreement) {
     const fret_real unit = 4 * LDBL_EPSILON,
-                    finest = normal->gap.kind == FRET_GAP_TABLE ? 1 / 64.0L : 1 / 256.0L;
-    annulus s;
-    fret_status st = annulus_make(normal, mu, press, peak, &s);
+                    finest = fret_gap_has_rows(&c->normal->gap) ? 1 / 64.0L : 1 / 256.0L;
+    slip_zone s;
+    fret_status st = slip_zone_make(c, peak, &s);
     if (st.code)
         return st;
     fret_real step = 0.25L, sum = nodes_sum(&s, -END, step), change;
@@ -129,29 +134,29 @@ static fret_status refine(const fret_normal *normal, double mu, const fret_press
         step /= 2;
         change = fabsl(step * sum - old);
     } while (change > unit * step * sum && step > finest);
-    *loss = s.scale * step * sum + sliding(&s, mu, press, peak);
+    *loss = s.scale * step * sum + sliding(c, peak);
     /* differences of depths, and of radii near a flat end, keep fewer digits */
-    fret_real lost = normal->p > 0 ? 1 : fmaxl(1, s.start / s.outer) / s.X;
+    fret_real lost = fret_normal_closed(c->normal) ? 1 : fmaxl(1, s.start / s.outer) / s.X;
     *agreement = sum > 0 ? fmaxl(change / (step * sum), unit * lost) : 0;
     return st;
 }
 
-fret_status fret_reference_loss(const fret_normal *normal, double mu, const fret_press *press, double FA,
-                                fret_real *loss, fret_real *agreement) {
+fret_status fret_reference_loss_by_force(const fret_contact *c, double FA, fret_real *loss,
+                                         fret_real *agreement) {
     fret_loading peak;
     fret_status st = fret_check_not_negative("FA", FA);
     if (!st.code)
-        st = fret_loading_force(normal, mu, press, FA, &peak);
+        st = fret_loading_by_force(c, FA, &peak);
     if (st.code == FRET_GROSS_SLIP)
         st.quantity = "FA";
-    return st.code ? st : refine(normal, mu, press, &peak, loss, agreement);
+    return st.code ? st : refine(c, &peak, loss, agreement);
 }
 
-fret_status fret_reference_loss_displacement(const fret_normal *normal, double mu, const fret_press *press,
-                                             double dA, fret_real *loss, fret_real *agreement) {
+fret_status fret_reference_loss_by_displacement(const fret_contact *c, double dA, fret_real *loss,
+                                                fret_real *agreement) {
     fret_loading peak;
     fret_status st = fret_check_not_negative("dxA", dA);
     if (!st.code)
-        st = fret_loading_displacement(normal, mu, press, dA, &peak);
-    return st.code ? st : refine(normal, mu, press, &peak, loss, agreement);
+        st = fret_loading_by_displacement(c, dA, &peak);
+    return st.code ? st : refine(c, &peak, loss, agreement);
 }

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the codes mean, and the checks of arguments that most functions share. The one file here that writes
+ * text, into the caller's buffer. */
 #include "fret/status.h"
 
+#include <stdbool.h>
 #include <stdio.h>
+
+#include "contact/check.h"
 
 static const struct {
     fret_category category;
@@ -20,18 +25,21 @@ static const struct {
     [FRET_TABLE_SHORT] = {FRET_CAT_STATE, "cannot be carried: the gap ends too early"},
     [FRET_BAD_TABLE] = {FRET_CAT_INPUT, "is out of order: radii must start at 0 and grow"},
     [FRET_OVERFLOW] = {FRET_CAT_NUMERIC, "a result is beyond the range of floating-point numbers"},
-    [FRET_NO_CONVERGENCE] = {FRET_CAT_NUMERIC, "did not settle"},
     [FRET_NO_MEMORY] = {FRET_CAT_SYSTEM, "out of memory"},
     [FRET_SINGULAR] = {FRET_CAT_INPUT, "is a singular place: the field is infinite there"},
     [FRET_INTERRUPTED] = {FRET_CAT_SYSTEM, "interrupted"},
 };
 
+static bool known(fret_code code) {
+    return (unsigned)code < FRET_CODES && codes[code].rule; /* a code that was withdrawn has none */
+}
+
 fret_category fret_status_category(fret_code code) {
-    return (unsigned)code < FRET_CODES ? codes[code].category : FRET_CAT_INPUT;
+    return known(code) ? codes[code].category : FRET_CAT_INPUT;
 }
 
 const char *fret_status_rule(fret_code code) {
-    return (unsigned)code < FRET_CODES ? codes[code].rule : "has an unknown status";
+    return known(code) ? codes[code].rule : "has an unknown status";
 }
 
 int fret_status_text(const fret_status *status, char *buf, size_t size) {
@@ -39,4 +47,20 @@ int fret_status_text(const fret_status *status, char *buf, size_t size) {
         return snprintf(buf, size, "%s", fret_status_rule(status->code));
     return snprintf(buf, size, "%s = %.6g %s", status->quantity, status->value,
                     fret_status_rule(status->code));
+}
+
+fret_status fret_check_positive(const char *quantity, double value) {
+    if (!isfinite(value))
+        return fret_fail(FRET_NOT_FINITE, quantity, value, 0);
+    if (value <= 0)
+        return fret_fail(FRET_NOT_POSITIVE, quantity, value, 0);
+    return fret_ok();
+}
+
+fret_status fret_check_not_negative(const char *quantity, double value) {
+    if (!isfinite(value))
+        return fret_fail(FRET_NOT_FINITE, quantity, value, 0);
+    if (value < 0)
+        return fret_fail(FRET_NEGATIVE, quantity, value, 0);
+    return fret_ok();
 }

@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sampled gaps. */
-#include "table.h"
+/* Sampled gaps: rows to a smooth monotone gap, and its profile in the logarithm of their number. Allocates,
+ * and frees what it allocated. */
+#include "contact/table.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+#include "contact/check.h"
+#include "number/quadrature.h"
+#include "number/real.h"
 
 /* Cubic Hermite pieces with Steffen's slopes: monotone data give a monotone gap, f' is continuous, and the
  * error falls with the third power of the spacing. Per piece f' = d0 + d1 t + d2 t^2, t = r - r_i. */

@@ -29,9 +29,7 @@ static const long double rounding = 4e-19L; /* no reference is better */
 /* One cycle at constant F_N: everything that its models need. */
 typedef struct steady {
     const scene *s;
-    const fret_normal *normal;
-    fret_press press;
-    double mu;
+    fret_contact contact;
     bool by_force;
     double amplitude;
     fret_loading peak;
@@ -121,13 +119,13 @@ static bool affords(const bench *b, double setting_up) {
 /* ---- models of a cycle at constant F_N --------------------------------------------------------- */
 
 static fret_status closed_loss(const steady *m, long double *out) {
-    return m->by_force ? fret_cycle_loss(m->normal, m->mu, &m->press, m->amplitude, out)
-                       : fret_cycle_loss_displacement(m->normal, m->mu, &m->press, m->amplitude, out);
+    return m->by_force ? fret_cycle_loss_by_force(&m->contact, m->amplitude, out)
+                       : fret_cycle_loss_by_displacement(&m->contact, m->amplitude, out);
 }
 
 static fret_status find_peak(steady *m) {
-    return m->by_force ? fret_loading_force(m->normal, m->mu, &m->press, m->amplitude, &m->peak)
-                       : fret_loading_displacement(m->normal, m->mu, &m->press, m->amplitude, &m->peak);
+    return m->by_force ? fret_loading_by_force(&m->contact, m->amplitude, &m->peak)
+                       : fret_loading_by_displacement(&m->contact, m->amplitude, &m->peak);
 }
 
 /* What has been checked by closed_loss cannot fail for its arguments. */
@@ -143,7 +141,7 @@ static bool quadrature_cycle(void *model, long double *loss, calc_error *error) 
     long double unused;
     (void)error;
     find_peak(m);
-    fret_quadrature_loss(m->normal, m->mu, &m->press, &m->peak, m->size, loss ? loss : &unused);
+    fret_quadrature_loss(&m->contact, &m->peak, m->size, loss ? loss : &unused);
     return true;
 }
 
@@ -191,7 +189,7 @@ static bool loop_cycle(void *model, long double *loss, calc_error *error) {
 /* mu F_N may be a rounding short of the amplitude. */
 static fret_step springs_to(const steady *m, int sign) {
     fret_step step = step_to(m, sign);
-    double limit = (double)(m->mu * m->press.F * (1 - 1e-16L));
+    double limit = (double)(m->contact.mu * m->contact.press.F * (1 - 1e-16L));
     if (m->by_force)
         step.tangential = sign * fmin(m->amplitude, limit);
     return step;
@@ -217,8 +215,8 @@ static bool springs_cycle(void *model, long double *loss, calc_error *error) {
 
 /* The memory diagram pressed and taken to the first turning point. */
 static bool memory_rows(bench *b, steady *m) {
-    fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, (double)m->press.F, 0}, up = step_to(m, 1);
-    fret_status st = fret_memory_make(m->normal, m->mu, &m->memory);
+    fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, (double)m->contact.press.F, 0}, up = step_to(m, 1);
+    fret_status st = fret_memory_make(m->contact.normal, m->contact.mu, &m->memory);
     if (!st.code)
         st = fret_memory_step(m->memory, &press);
     if (!st.code)
@@ -235,8 +233,8 @@ static bool memory_rows(bench *b, steady *m) {
 
 /* Pressed and taken to the first turning point. */
 static fret_status springs_ready(steady *m, unsigned count, double radius, fret_weight rule) {
-    fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, (double)m->press.F, 0}, up = springs_to(m, 1);
-    fret_status st = fret_springs_make(m->normal, m->mu, count, radius, rule, &m->springs);
+    fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, (double)m->contact.press.F, 0}, up = springs_to(m, 1);
+    fret_status st = fret_springs_make(m->contact.normal, m->contact.mu, count, radius, rule, &m->springs);
     if (st.code)
         return st;
     st = fret_springs_step(m->springs, &press, 1);
@@ -252,11 +250,11 @@ static fret_status springs_ready(steady *m, unsigned count, double radius, fret_
 static bool springs_rows(bench *b, steady *m, model_family family) {
     bool ok = true, midpoint = family == FAMILY_MIDPOINT;
     fret_weight rule = midpoint ? FRET_WEIGHT_MIDPOINT : FRET_WEIGHT_CELL;
-    unsigned wider = midpoint && m->normal->foundation.k < 0 ? 2 : 1;
+    unsigned wider = midpoint && fret_normal_foundation(m->contact.normal)->k < 0 ? 2 : 1;
     for (unsigned count = 100; ok && count <= 1000000; count *= 10) {
         double start = cpu_now();
         show_progress(b, &(accuracy_row){.family = family, .size = count});
-        fret_status st = springs_ready(m, wider * count, wider * (double)m->press.a, rule);
+        fret_status st = springs_ready(m, wider * count, wider * (double)m->contact.press.a, rule);
         if (st.code && fret_status_category(st.code) != FRET_CAT_SYSTEM)
             break;
         if (!scene_status(m->s, b->error, &st))
@@ -272,10 +270,10 @@ static bool springs_rows(bench *b, steady *m, model_family family) {
 
 static bool measure_steady(bench *b, steady *m) {
     accuracy_study *study = b->study;
-    fret_status st = m->by_force ? fret_reference_loss(m->normal, m->mu, &m->press, m->amplitude,
-                                                       &study->value, &study->agreement)
-                                 : fret_reference_loss_displacement(m->normal, m->mu, &m->press, m->amplitude,
-                                                                    &study->value, &study->agreement);
+    fret_status st = m->by_force ? fret_reference_loss_by_force(&m->contact, m->amplitude, &study->value,
+                                                                &study->agreement)
+                                 : fret_reference_loss_by_displacement(&m->contact, m->amplitude,
+                                                                       &study->value, &study->agreement);
     if (!st.code)
         st = find_peak(m);
     if (!scene_status(m->s, b->error, &st))
@@ -288,7 +286,8 @@ static bool measure_steady(bench *b, steady *m) {
         return calc_fail(b->error, 0, 0, "the load is too small: no model of this gap can tell dW from 0");
     study->agreement = fmaxl(study->agreement, rounding);
     snprintf(study->reference, sizeof study->reference, "quadrature in long double");
-    study->automatic = m->normal->p > 0 ? "closed form" : "closed form, with quadrature over the gap";
+    study->automatic =
+        fret_normal_is_power(m->contact.normal) ? "closed form" : "closed form, with quadrature over the gap";
     study->why = "constant FN";
     bool ok = measure(b, FAMILY_CLOSED, 0, closed_cycle, m) && memory_rows(b, m);
     for (m->size = 16; ok && m->size <= 128; m->size *= 2)
@@ -297,7 +296,7 @@ static bool measure_steady(bench *b, steady *m) {
     ok = ok && springs_rows(b, m, FAMILY_SPRINGS);
     b->end += b->budget / 4;
     /* at k = 0 the weights are the same */
-    return ok && (m->normal->foundation.k == 0 || springs_rows(b, m, FAMILY_MIDPOINT));
+    return ok && (fret_normal_foundation(m->contact.normal)->k == 0 || springs_rows(b, m, FAMILY_MIDPOINT));
 }
 
 /* ---- models of any other load program ---------------------------------------------------------- */
@@ -407,8 +406,8 @@ static bool choose_load(shell *sh, const accuracy_load *given, steady *m, bool *
     const char *from = "";
     *program = false;
     *m = (steady){.s = s, .by_force = given->by_force, .amplitude = given->amplitude};
-    if (!scene_press(s, &press, error) || !scene_normal(s, &m->normal, error) ||
-        !scene_friction(s, &m->mu, error))
+    if (!scene_press(s, &press, error) || !scene_normal(s, &m->contact.normal, error) ||
+        !scene_friction(s, &m->contact.mu, error))
         return false;
     const load_step *cycle = scene_last_cycle(s);
     if (!given->len && cycle) {
@@ -423,7 +422,7 @@ static bool choose_load(shell *sh, const accuracy_load *given, steady *m, bool *
         m->amplitude = fabs((double)state->Fx);
         from = ", that of the last step: no cycle has been run";
         if (!(m->amplitude > 0)) {
-            m->amplitude = m->mu * (double)press->F / 2;
+            m->amplitude = m->contact.mu * (double)press->F / 2;
             from = ", half of mu*FN: no cycle has been run";
         }
     }
@@ -437,7 +436,7 @@ static bool choose_load(shell *sh, const accuracy_load *given, steady *m, bool *
     else
         snprintf(text, ACCURACY_TEXT, "%s = %s at FN = %s%s", name, amplitude, FN, from);
     /* the models that take a double all get the same one */
-    fret_status st = fret_press_force(m->normal, (double)press->F, &m->press);
+    fret_status st = fret_press_by_force(m->contact.normal, (double)press->F, &m->contact.press);
     if (!st.code && !*program)
         st = closed_loss(m, &(long double){0});
     if (scene_status(s, error, &st))

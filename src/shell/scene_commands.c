@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "calc/csv.h"
-#include "contact/dd.h"
+#include "number/real.h"
 #include "shell/command.h"
 #include "shell/output.h"
 
@@ -343,7 +343,7 @@ static void warn_dissimilar(shell *sh) {
     const fret_normal *normal;
     calc_error ignored = {0};
     if (sh->warned_dissimilar || !scene_normal(&sh->calc.scene, &normal, &ignored) ||
-        normal->foundation.similar)
+        fret_normal_foundation(normal)->similar)
         return;
     sh->warned_dissimilar = true;
     fflush(sh->out);
@@ -351,7 +351,7 @@ static void warn_dissimilar(shell *sh) {
         sh->err,
         "warning: the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact are "
         "coupled, and these results are an approximation\n",
-        (double)normal->foundation.mismatch);
+        (double)fret_normal_foundation(normal)->mismatch);
 }
 
 bool do_press(shell *sh, lexer *lx) {

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "contact/dd.h"
+#include "number/real.h"
 #include "plot/plot.h"
 #include "shell/accuracy.h"
 #include "shell/command.h"

@@ -219,13 +219,37 @@ static void solve(oracle *o, const hard_scene *s) {
 
 /* --- the library's answers --- */
 
-/* NAN for what was refused. */
+/* At the load F of the normal contact. NAN for what was refused. */
+static void ask_loaded(const hard_scene *s, const fret_normal *normal, fret_real got[ORACLE_COUNT]) {
+    fret_contact c = {.normal = normal, .mu = s->mu};
+    fret_loading loading;
+    if (fret_press_by_force(normal, s->F, &c.press).code)
+        return;
+    got[ORACLE_A_OF_F] = c.press.a;
+    got[ORACLE_DZ_OF_F] = c.press.dz;
+    got[ORACLE_KN] = fret_normal_stiffness(normal, c.press.a);
+    got[ORACLE_DX_MAX] = fret_gross_slip(&c);
+    if (fret_loading_by_force(&c, s->Fx, &loading).code == FRET_OK) {
+        got[ORACLE_DX_OF_FX] = loading.dx;
+        got[ORACLE_C_OF_FX] = loading.c;
+        got[ORACLE_YC_OF_FX] = loading.yc;
+    }
+    if (fret_cycle_loss_by_force(&c, s->Fx, &got[ORACLE_DW_OF_FX]).code)
+        got[ORACLE_DW_OF_FX] = NAN;
+    if (fret_loading_by_displacement(&c, s->dx, &loading).code == FRET_OK) {
+        got[ORACLE_FX_OF_DX] = loading.Fx;
+        got[ORACLE_C_OF_DX] = loading.c;
+        got[ORACLE_YC_OF_DX] = loading.yc;
+    }
+    if (fret_cycle_loss_by_displacement(&c, s->dx, &got[ORACLE_DW_OF_DX]).code)
+        got[ORACLE_DW_OF_DX] = NAN;
+}
+
 static void ask(const hard_scene *s, fret_real got[ORACLE_COUNT]) {
     fret_material material;
     fret_gap gap;
-    fret_normal normal;
-    fret_press press = {.F = NAN, .dz = NAN, .a = NAN}, by = press;
-    fret_loading loading;
+    fret_normal *normal;
+    fret_press by;
     for (int i = 0; i < ORACLE_COUNT; i++)
         got[i] = NAN;
     hard_contact(&s->contact, &material, &gap);
@@ -237,38 +261,21 @@ static void ask(const hard_scene *s, fret_real got[ORACLE_COUNT]) {
     }
     if (fret_normal_make(&material, &gap, &normal).code)
         return;
-    got[ORACLE_CN0] = normal.foundation.cN0;
-    got[ORACLE_CT0] = normal.foundation.cT0;
-    got[ORACLE_ETA] = normal.foundation.eta;
+    const fret_foundation *foundation = fret_normal_foundation(normal);
+    got[ORACLE_CN0] = foundation->cN0;
+    got[ORACLE_CT0] = foundation->cT0;
+    got[ORACLE_ETA] = foundation->eta;
     got[ORACLE_KAPPA] = fret_kappa(s->contact.n, s->contact.k);
-    if (fret_press_depth(&normal, s->dz, &by).code == FRET_OK) {
+    if (fret_press_by_depth(normal, s->dz, &by).code == FRET_OK) {
         got[ORACLE_A_OF_DZ] = by.a;
         got[ORACLE_F_OF_DZ] = by.F;
     }
-    if (fret_press_radius(&normal, s->a, &by).code == FRET_OK) {
+    if (fret_press_by_radius(normal, s->a, &by).code == FRET_OK) {
         got[ORACLE_DZ_OF_A] = by.dz;
         got[ORACLE_F_OF_A] = by.F;
     }
-    if (fret_press_force(&normal, s->F, &press).code)
-        return;
-    got[ORACLE_A_OF_F] = press.a;
-    got[ORACLE_DZ_OF_F] = press.dz;
-    got[ORACLE_KN] = fret_normal_stiffness(&normal, press.a);
-    got[ORACLE_DX_MAX] = fret_gross_slip(&normal, s->mu, &press);
-    if (fret_loading_force(&normal, s->mu, &press, s->Fx, &loading).code == FRET_OK) {
-        got[ORACLE_DX_OF_FX] = loading.dx;
-        got[ORACLE_C_OF_FX] = loading.c;
-        got[ORACLE_YC_OF_FX] = loading.yc;
-    }
-    if (fret_cycle_loss(&normal, s->mu, &press, s->Fx, &got[ORACLE_DW_OF_FX]).code)
-        got[ORACLE_DW_OF_FX] = NAN;
-    if (fret_loading_displacement(&normal, s->mu, &press, s->dx, &loading).code == FRET_OK) {
-        got[ORACLE_FX_OF_DX] = loading.Fx;
-        got[ORACLE_C_OF_DX] = loading.c;
-        got[ORACLE_YC_OF_DX] = loading.yc;
-    }
-    if (fret_cycle_loss_displacement(&normal, s->mu, &press, s->dx, &got[ORACLE_DW_OF_DX]).code)
-        got[ORACLE_DW_OF_DX] = NAN;
+    ask_loaded(s, normal, got);
+    fret_normal_free(normal);
 }
 
 /* --- judging --- */

@@ -187,7 +187,7 @@ typedef struct fixture {
     const specimen *specimen;
     oracle *o;
     double F;
-    fret_normal normal;
+    fret_normal *normal;
 } fixture;
 
 static fixture fixture_make(const specimen *b) {
@@ -207,7 +207,7 @@ static fixture fixture_make(const specimen *b) {
 
 static fret_memory *pressed(const fixture *f) {
     fret_memory *m;
-    if (fret_memory_make(&f->normal, f->specimen->mu, &m).code ||
+    if (fret_memory_make(f->normal, f->specimen->mu, &m).code ||
         fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, f->F, 0}).code)
         abort();
     return m;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact/normal.h"
 #include "unit.h"
 
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
@@ -14,38 +15,38 @@ static void reference(void) {
         const int out = UNIT_SCENE_COLUMNS + 2;
         fret_real c = unit_result(&t, out + 2), dx = unit_result(&t, out + 3), max = unit_result(&t, out + 4);
         fret_real dW = unit_result(&t, out + 5), U = unit_result(&t, out + 8), W = unit_result(&t, out + 9);
-        unit_contact k = unit_make_contact(&s, FN);
+        fret_contact k = unit_make_contact(&s, FN);
         fret_loading f, g;
-        CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, FA, &f));
+        CHECK_OK(fret_loading_by_force(&k, FA, &f));
         CHECK(f.Fx == FA);
         CHECK_REL(f.c, c, tol);
         CHECK_REL(f.dx, dx, tol);
-        CHECK_REL(fret_gross_slip(&k.normal, k.mu, &k.press), max, tol);
+        CHECK_REL(fret_gross_slip(&k), max, tol);
         fret_real loss = -1, same = -1;
-        CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, FA, &loss));
+        CHECK_OK(fret_cycle_loss_by_force(&k, FA, &loss));
         CHECK_REL(loss, dW, tol);
         CHECK_REL(4 * W, dW, 1e-30L + UNIT_TOL(1e-18L, 1e-15L)); /* Masing, in the table itself */
         CHECK(U > 0);
 
         /* odd in the load */
-        CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, -FA, &g));
+        CHECK_OK(fret_loading_by_force(&k, -FA, &g));
         CHECK(g.Fx == -f.Fx && g.dx == -f.dx && g.c == f.c && g.yc == f.yc);
-        CHECK_REL(fret_law_radius(&k.normal, f.yc), f.c, tol * (1 + 1 / s.gap.power[0].n));
+        CHECK_REL(fret_law_radius(k.normal, f.yc), f.c, tol * (1 + 1 / s.gap.power[0].n));
 
         /* and back by displacement; rounding dx to double moves F_x by k_n(c)/eta times as much */
         double dx_ = (double)f.dx;
-        CHECK_OK(fret_loading_displacement(&k.normal, k.mu, &k.press, dx_, &g));
-        fret_real kt = fret_normal_stiffness(&k.normal, f.c) / k.normal.foundation.eta;
+        CHECK_OK(fret_loading_by_displacement(&k, dx_, &g));
+        fret_real kt = fret_normal_stiffness(k.normal, f.c) / k.normal->foundation.eta;
         CHECK(g.dx == dx_);
         CHECK_REL(g.Fx, FA + kt * (dx_ - f.dx), UNIT_TOL(1e-15L, 1e-13L));
         /* c = 0 at gross slip: its error is that of delta_x,max-delta_x */
         fret_real left = 1 - f.dx / max;
         CHECK_REL(g.c, f.c, 1e-15L + (UNIT_TOL(1e-18L, 1e-15L) + 2.3e-16L) / (left * s.gap.power[0].n));
-        CHECK_OK(fret_loading_displacement(&k.normal, k.mu, &k.press, -dx_, &f));
+        CHECK_OK(fret_loading_by_displacement(&k, -dx_, &f));
         CHECK(f.Fx == -g.Fx && f.dx == -g.dx && f.c == g.c && f.yc == g.yc);
         /* loss by displacement: d ln(loss)/d ln(dx) is 3 at small dx, (p+1)/(p-1) at gross slip */
-        CHECK_OK(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, dx_, &same));
-        CHECK_REL(same, dW, (3 + (k.normal.p + 1) / k.normal.pm1) * 1.2e-16L + tol);
+        CHECK_OK(fret_cycle_loss_by_displacement(&k, dx_, &same));
+        CHECK_REL(same, dW, (3 + (k.normal->p + 1) / k.normal->pm1) * 1.2e-16L + tol);
     }
 }
 
@@ -73,16 +74,16 @@ static void loss_shape(void) {
 
 /* The definition: 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx. */
 typedef struct loop {
-    const unit_contact *k;
+    const fret_contact *k;
     fret_real c, yc;
 } loop;
 
 static fret_real loop_density(fret_real x, fret_real from, fret_real to, const void *context) {
     const loop *l = context;
-    const fret_foundation *f = &l->k->normal.foundation;
+    const fret_foundation *f = &l->k->normal->foundation;
     fret_real g = -1;
     (void)from, (void)to;
-    fret_status st = fret_gap_g(&l->k->normal.gap, (double)f->k, x, &g, NULL);
+    fret_status st = fret_gap_g(&l->k->normal->gap, (double)f->k, x, &g, NULL);
     return st.code ? (fret_real)NAN : f->cN0 * powl(x / f->c0, f->k) * (l->k->press.dz - g) * (g - l->yc);
 }
 
@@ -90,16 +91,16 @@ static void definition(void) {
     static const double ns[] = {0.7, 1, 2, 4}, ks[] = {-0.5, 0, 0.6};
     for (int i = 0; i < 12; i++) {
         unit_scene s = unit_make_scene(ns[i % 4], ks[i / 4]);
-        unit_contact k = unit_make_contact(&s, 25);
+        fret_contact k = unit_make_contact(&s, 25);
         for (double part = 0.2; part < 1; part += 0.25) {
             double FA = part * s.mu * 25;
             fret_loading f = {0, 0, 0, 0};
             fret_real loss = -1;
-            CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, FA, &f));
-            CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, FA, &loss));
+            CHECK_OK(fret_loading_by_force(&k, FA, &f));
+            CHECK_OK(fret_cycle_loss_by_force(&k, FA, &loss));
             const loop l = {&k, f.c, f.yc};
             fret_real mu = k.mu, integral = unit_integrate(loop_density, &l, f.c, k.press.a);
-            CHECK_REL(8 * mu * mu * k.normal.foundation.eta * integral, loss, UNIT_TOL(1e-14L, 1e-11L));
+            CHECK_REL(8 * mu * mu * k.normal->foundation.eta * integral, loss, UNIT_TOL(1e-14L, 1e-11L));
         }
     }
 }
@@ -110,11 +111,11 @@ static void published(void) {
     s.material.body[0] = s.material.body[1] = (fret_body){210e9, 0.3, false};
     s.mu = 0.3;
     s.gap.power[0] = (fret_power){2, 100, 1};
-    unit_contact k = unit_make_contact(&s, 100);
+    fret_contact k = unit_make_contact(&s, 100);
     fret_loading f = {0, 0, 0, 0};
     fret_real loss = -1;
-    CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 15, &f));
-    CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, 15, &loss));
+    CHECK_OK(fret_loading_by_force(&k, 15, &f));
+    CHECK_OK(fret_cycle_loss_by_force(&k, 15, &loss));
     CHECK_REL(f.c / k.press.a, 0.79370L, 1e-5L);
     CHECK_REL(f.dx, 0.591529e-6L, 1e-6L);
     CHECK_REL(loss, 1.35112e-6L, 3e-6L);
@@ -128,8 +129,8 @@ static void published(void) {
         s.material.k = i * 0.5;
         s.gap.power[0].h = 50;
         k = unit_make_contact(&s, 100);
-        CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 20, &f));
-        CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, 20, &loss));
+        CHECK_OK(fret_loading_by_force(&k, 20, &f));
+        CHECK_OK(fret_cycle_loss_by_force(&k, 20, &loss));
         /* 0.3 and 0.4 there are decimal, here double */
         CHECK_REL(k.press.a, want[i][0], 1e-15L);
         CHECK_REL(k.press.dz, want[i][1], 1e-15L);
@@ -142,33 +143,33 @@ static void published(void) {
 static void gross_slip(void) {
     unit_scene s = unit_make_scene(2, 0.4);
     s.mu = 0.5; /* mu F_N exact */
-    unit_contact k = unit_make_contact(&s, 64);
-    fret_real max = fret_gross_slip(&k.normal, k.mu, &k.press), loss = -1, more = -1;
+    fret_contact k = unit_make_contact(&s, 64);
+    fret_real max = fret_gross_slip(&k), loss = -1, more = -1;
     fret_loading f = {0, 0, 0, 0};
-    CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 32, &f));
+    CHECK_OK(fret_loading_by_force(&k, 32, &f));
     CHECK(f.c == 0 && f.yc == 0);
     CHECK_REL(f.dx, max, UNIT_TOL(1e-18L, 1e-15L));
-    CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, -32, &f));
+    CHECK_OK(fret_loading_by_force(&k, -32, &f));
     CHECK(f.c == 0 && f.dx < 0);
-    fret_status st = fret_loading_force(&k.normal, k.mu, &k.press, 32 * (1 + 5e-16), &f);
+    fret_status st = fret_loading_by_force(&k, 32 * (1 + 5e-16), &f);
     CHECK_ERROR(st, FRET_GROSS_SLIP, "Fx");
     CHECK(st.limit == 32 && st.value > 32);
-    CHECK_CODE(fret_loading_force(&k.normal, k.mu, &k.press, -32.5, &f), FRET_GROSS_SLIP);
-    CHECK_OK(fret_loading_displacement(&k.normal, k.mu, &k.press, 3 * (double)max, &f));
+    CHECK_CODE(fret_loading_by_force(&k, -32.5, &f), FRET_GROSS_SLIP);
+    CHECK_OK(fret_loading_by_displacement(&k, 3 * (double)max, &f));
     CHECK(f.Fx == 32 && f.c == 0 && f.dx == 3 * (double)max);
-    CHECK_OK(fret_loading_displacement(&k.normal, k.mu, &k.press, -3 * (double)max, &f));
+    CHECK_OK(fret_loading_by_displacement(&k, -3 * (double)max, &f));
     CHECK(f.Fx == -32 && f.c == 0);
 
-    CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, 32, &loss));
-    CHECK_REL(loss, 4 * k.normal.pm1 * k.normal.q / (1 + k.normal.q) * 32 * max, UNIT_TOL(2e-18L, 3e-15L));
-    CHECK_CODE(fret_cycle_loss(&k.normal, k.mu, &k.press, 32.5, &more), FRET_GROSS_SLIP);
+    CHECK_OK(fret_cycle_loss_by_force(&k, 32, &loss));
+    CHECK_REL(loss, 4 * k.normal->pm1 * k.normal->q / (1 + k.normal->q) * 32 * max, UNIT_TOL(2e-18L, 3e-15L));
+    CHECK_CODE(fret_cycle_loss_by_force(&k, 32.5, &more), FRET_GROSS_SLIP);
     double dA = 2.5 * (double)max;
-    CHECK_OK(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, dA, &more));
+    CHECK_OK(fret_cycle_loss_by_displacement(&k, dA, &more));
     CHECK_REL(more, loss + 4 * 32 * (dA - max), UNIT_TOL(2e-18L, 3e-15L));
     /* continuous at the onset */
-    CHECK_OK(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, (double)max * (1 - 1e-9), &more));
+    CHECK_OK(fret_cycle_loss_by_displacement(&k, (double)max * (1 - 1e-9), &more));
     CHECK_REL(more, loss, 1e-8L);
-    CHECK_OK(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, (double)max * (1 + 1e-9), &more));
+    CHECK_OK(fret_cycle_loss_by_displacement(&k, (double)max * (1 + 1e-9), &more));
     CHECK_REL(more, loss, 1e-8L);
     /* a limit that is no double: 0.1 * 0.3 carries a rounding that must not shut out the last force */
     s.mu = 0.1;
@@ -177,47 +178,44 @@ static void gross_slip(void) {
     double inside = (double)limit;
     while (inside > limit)
         inside = nextafter(inside, 0);
-    CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, inside, &f));
-    CHECK_CODE(fret_loading_force(&k.normal, k.mu, &k.press, inside * (1 + 5e-16), &f), FRET_GROSS_SLIP);
-    CHECK_OK(fret_loading_force(&k.normal, k.mu, &k.press, 0, &f));
+    CHECK_OK(fret_loading_by_force(&k, inside, &f));
+    CHECK_CODE(fret_loading_by_force(&k, inside * (1 + 5e-16), &f), FRET_GROSS_SLIP);
+    CHECK_OK(fret_loading_by_force(&k, 0, &f));
     CHECK(f.dx == 0 && f.Fx == 0 && f.c == k.press.a && f.yc == k.press.dz);
-    CHECK_OK(fret_cycle_loss(&k.normal, k.mu, &k.press, 0, &loss));
+    CHECK_OK(fret_cycle_loss_by_force(&k, 0, &loss));
     CHECK(loss == 0);
-    CHECK_OK(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, 0, &loss));
+    CHECK_OK(fret_cycle_loss_by_displacement(&k, 0, &loss));
     CHECK(loss == 0);
 }
 
 static void errors(void) {
     unit_scene s = unit_make_scene(2, 0.4);
-    unit_contact k = unit_make_contact(&s, 10);
+    fret_contact k = unit_make_contact(&s, 10);
     const double wild[] = {nan_, inf_, -inf_};
     fret_loading f = {7, 7, 7, 7};
     fret_real loss = 7;
     for (int i = 0; i < 3; i++) {
-        CHECK_ERROR(fret_loading_force(&k.normal, k.mu, &k.press, wild[i], &f), FRET_NOT_FINITE, "Fx");
-        CHECK_ERROR(fret_loading_displacement(&k.normal, k.mu, &k.press, wild[i], &f), FRET_NOT_FINITE, "dx");
-        CHECK_CODE(fret_cycle_loss(&k.normal, k.mu, &k.press, wild[i], &loss), FRET_NOT_FINITE);
-        CHECK_CODE(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, wild[i], &loss), FRET_NOT_FINITE);
-        CHECK_ERROR(fret_loading_force(&k.normal, wild[i], &k.press, 1, &f), FRET_NOT_FINITE, "mu");
-        CHECK_ERROR(fret_loading_displacement(&k.normal, wild[i], &k.press, 1e-6, &f), FRET_NOT_FINITE, "mu");
-        CHECK_ERROR(fret_cycle_loss(&k.normal, wild[i], &k.press, 1, &loss), FRET_NOT_FINITE, "mu");
-        CHECK_ERROR(fret_cycle_loss_displacement(&k.normal, wild[i], &k.press, 1e-6, &loss), FRET_NOT_FINITE,
-                    "mu");
+        CHECK_ERROR(fret_loading_by_force(&k, wild[i], &f), FRET_NOT_FINITE, "Fx");
+        CHECK_ERROR(fret_loading_by_displacement(&k, wild[i], &f), FRET_NOT_FINITE, "dx");
+        CHECK_CODE(fret_cycle_loss_by_force(&k, wild[i], &loss), FRET_NOT_FINITE);
+        CHECK_CODE(fret_cycle_loss_by_displacement(&k, wild[i], &loss), FRET_NOT_FINITE);
     }
-    for (double mu = 0; mu >= -1; mu--) {
-        CHECK_ERROR(fret_loading_force(&k.normal, mu, &k.press, 1, &f), FRET_NOT_POSITIVE, "mu");
-        CHECK_ERROR(fret_loading_displacement(&k.normal, mu, &k.press, 1e-6, &f), FRET_NOT_POSITIVE, "mu");
-        CHECK_ERROR(fret_cycle_loss(&k.normal, mu, &k.press, 1, &loss), FRET_NOT_POSITIVE, "mu");
-        CHECK_ERROR(fret_cycle_loss_displacement(&k.normal, mu, &k.press, 1e-6, &loss), FRET_NOT_POSITIVE,
-                    "mu");
+    const double bad[] = {nan_, inf_, -inf_, 0, -1};
+    for (int i = 0; i < 5; i++) {
+        const fret_contact rough = {k.normal, bad[i], k.press};
+        const fret_code code = i < 3 ? FRET_NOT_FINITE : FRET_NOT_POSITIVE;
+        CHECK_ERROR(fret_loading_by_force(&rough, 1, &f), code, "mu");
+        CHECK_ERROR(fret_loading_by_displacement(&rough, 1e-6, &f), code, "mu");
+        CHECK_ERROR(fret_cycle_loss_by_force(&rough, 1, &loss), code, "mu");
+        CHECK_ERROR(fret_cycle_loss_by_displacement(&rough, 1e-6, &loss), code, "mu");
     }
-    CHECK_CODE(fret_cycle_loss(&k.normal, k.mu, &k.press, -1, &loss), FRET_NEGATIVE);
-    CHECK_CODE(fret_cycle_loss_displacement(&k.normal, k.mu, &k.press, -1e-6, &loss), FRET_NEGATIVE);
+    CHECK_CODE(fret_cycle_loss_by_force(&k, -1, &loss), FRET_NEGATIVE);
+    CHECK_CODE(fret_cycle_loss_by_displacement(&k, -1e-6, &loss), FRET_NEGATIVE);
     CHECK(f.Fx == 7 && f.dx == 7 && f.c == 7 && f.yc == 7 && loss == 7); /* untouched */
     /* an open contact carries no tangential load */
     fret_press open = {.F = 0};
-    CHECK(fret_gross_slip(&k.normal, k.mu, &open) == 0);
-    CHECK(fret_loading_force(&k.normal, k.mu, &open, 1, &f).code != FRET_OK);
+    CHECK(fret_gross_slip(&(fret_contact){k.normal, k.mu, open}) == 0);
+    CHECK(fret_loading_by_force(&(fret_contact){k.normal, k.mu, open}, 1, &f).code != FRET_OK);
 }
 
 int main(int argc, char **argv) {

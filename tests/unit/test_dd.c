@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Double-double functions against 80-digit values; the long double ones against those of the C library. */
-#include "contact/dd.h"
+#include "number/dd.h"
+#include "number/real.h"
 
 #include "unit.h"
 
 typedef dd dd_function(dd x);
 
 static dd gamma_of(dd x) {
-    dd_scaled q = dd_gamma_quotient(&x, 1, NULL, 0);
-    return dd_mul(q.factor, dd_exp(q.log));
+    dd_scaled q = fret_dd_gamma_quotient(&x, 1, NULL, 0);
+    return dd_mul(q.factor, fret_dd_exp(q.log));
 }
 
 static const struct {
@@ -16,8 +17,8 @@ static const struct {
     dd_function *f;
     fret_real tolerance; /* absolute part of the exponent of exp and gamma: |x| 2^-105 */
 } functions[] = {
-    {"exp", dd_exp, 2e-29L},     {"expm1", dd_expm1, 2e-29L},     {"log", dd_log, 2e-31L},
-    {"log1p", dd_log1p, 2e-30L}, {"sin", dd_sin_quarter, 1e-31L}, {"gamma", gamma_of, 5e-28L},
+    {"exp", fret_dd_exp, 2e-29L},     {"expm1", fret_dd_expm1, 2e-29L},     {"log", fret_dd_log, 2e-31L},
+    {"log1p", fret_dd_log1p, 2e-30L}, {"sin", fret_dd_sin_quarter, 1e-31L}, {"gamma", gamma_of, 5e-28L},
 };
 
 static void reference(void) {

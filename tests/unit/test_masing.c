@@ -6,22 +6,19 @@
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
 
 typedef struct pair {
-    fret_normal normal;
-    fret_press press;
-    double mu, limit, slip, energy; /* mu F_N, delta_x,max, their product */
+    fret_contact contact;
+    double limit, slip, energy; /* mu F_N, delta_x,max, their product */
     fret_memory *memory;
     fret_masing *masing;
 } pair;
 
 static pair make_of(const unit_scene *s, double FN) {
-    pair p = {.mu = s->mu};
-    CHECK_OK(fret_normal_make(&s->material, &s->gap, &p.normal));
-    CHECK_OK(fret_press_force(&p.normal, FN, &p.press));
-    p.limit = p.mu * FN;
-    p.slip = (double)fret_gross_slip(&p.normal, p.mu, &p.press);
+    pair p = {.contact = unit_make_contact(s, FN)};
+    p.limit = p.contact.mu * FN;
+    p.slip = (double)fret_gross_slip(&p.contact);
     p.energy = p.limit * p.slip;
-    if (!CHECK(fret_memory_make(&p.normal, p.mu, &p.memory).code == FRET_OK) ||
-        !CHECK(fret_masing_make(&p.normal, p.mu, &p.press, &p.masing).code == FRET_OK))
+    if (!CHECK(fret_memory_make(p.contact.normal, p.contact.mu, &p.memory).code == FRET_OK) ||
+        !CHECK(fret_masing_make(&p.contact, &p.masing).code == FRET_OK))
         exit(unit_finish());
     return p;
 }
@@ -37,7 +34,7 @@ static void drop(pair *p) {
 }
 
 static void restart(pair *p) {
-    const fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, (double)p->press.F, 0};
+    const fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, (double)p->contact.press.F, 0};
     fret_memory_reset(p->memory);
     fret_masing_reset(p->masing);
     CHECK_OK(fret_memory_step(p->memory, &press));
@@ -105,7 +102,7 @@ static void random_displacements(void) {
             CHECK_REL(s.W, m.W, 1e-14L);
             CHECK(s.W >= W && s.W == fret_masing_loss(p.masing));
             W = s.W;
-            CHECK_ABS(s.kt, m.kt, m.kn / p.normal.foundation.eta, 1e-12L);
+            CHECK_ABS(s.kt, m.kt, m.kn / fret_normal_foundation(p.contact.normal)->eta, 1e-12L);
         }
         drop(&p);
     }
@@ -123,7 +120,7 @@ static void random_forces(void) {
             last = fmax(fmin(target(&seed, last, j), 0.9), -0.9);
             if (unit_random(&seed, 0, 1) > 0.9) {
                 fret_loading f;
-                CHECK_OK(fret_loading_force(&p.normal, p.mu, &p.press, last * p.limit, &f));
+                CHECK_OK(fret_loading_by_force(&p.contact, last * p.limit, &f));
                 to_dx(&p, (double)f.dx);
                 last = now(&p).Fx / p.limit;
             } else {
@@ -148,8 +145,8 @@ static void force_to_gross_slip(void) {
         fret_loading f;
         fret_real loss;
         restart(&p);
-        CHECK_OK(fret_loading_force(&p.normal, p.mu, &p.press, FA, &f));
-        CHECK_OK(fret_cycle_loss(&p.normal, p.mu, &p.press, FA, &loss));
+        CHECK_OK(fret_loading_by_force(&p.contact, FA, &f));
+        CHECK_OK(fret_cycle_loss_by_force(&p.contact, FA, &loss));
         for (int j = 0; j < 4; j++) {
             const double sign = j % 2 ? -1 : 1;
             double dx;
@@ -168,7 +165,7 @@ static void loops(void) {
         pair p = make(ns[i % 6], ks[i / 6]);
         for (double size = 1; size > 1e-7; size /= 7) {
             fret_real loss;
-            CHECK_OK(fret_cycle_loss_displacement(&p.normal, p.mu, &p.press, size * p.slip, &loss));
+            CHECK_OK(fret_cycle_loss_by_displacement(&p.contact, size * p.slip, &loss));
             restart(&p);
             to_dx(&p, size * p.slip);
             CHECK_REL(4 * now(&p).W, loss, 1e-14L);
@@ -187,7 +184,7 @@ static void loops(void) {
             to_dx(&p, -size * p.slip / 8);
             to_dx(&p, 0);
             CHECK(now(&p).Fx == Fx && now(&p).turns == turns);
-            CHECK_OK(fret_cycle_loss_displacement(&p.normal, p.mu, &p.press, size * p.slip / 16, &loss));
+            CHECK_OK(fret_cycle_loss_by_displacement(&p.contact, size * p.slip / 16, &loss));
             CHECK_REL(now(&p).loop, loss, 1e-14L);
         }
         drop(&p);
@@ -255,7 +252,7 @@ static void drift(void) {
     for (int i = 0; i < 3; i++) {
         const double half[] = {0.8, 0.25, 0.025};
         fret_real loss;
-        CHECK_OK(fret_cycle_loss_displacement(&p.normal, p.mu, &p.press, half[i] * p.slip, &loss));
+        CHECK_OK(fret_cycle_loss_by_displacement(&p.contact, half[i] * p.slip, &loss));
         round += loss;
     }
     start = fret_masing_loss(p.masing);
@@ -290,7 +287,7 @@ static void other_shapes(void) {
 
             CHECK_ABS(now_.Fx, m.Fx, p.limit, 1e-12L);
             CHECK_REL(now_.W, m.W, 1e-12L);
-            CHECK_ABS(now_.kt, m.kt, m.kn / p.normal.foundation.eta, 1e-9L);
+            CHECK_ABS(now_.kt, m.kt, m.kn / fret_normal_foundation(p.contact.normal)->eta, 1e-9L);
             last = now_.dx / p.slip;
         }
         drop(&p);
@@ -310,8 +307,8 @@ static void objects(void) {
     unsigned long long seed = 9;
     fret_masing *copy, *fresh;
     double a, b;
-    CHECK_OK(fret_masing_make(&p.normal, p.mu, &p.press, &copy));
-    CHECK_OK(fret_masing_make(&p.normal, p.mu, &p.press, &fresh));
+    CHECK_OK(fret_masing_make(&p.contact, &copy));
+    CHECK_OK(fret_masing_make(&p.contact, &fresh));
     for (int i = 0; i < 100; i++)
         CHECK_OK(fret_masing_to_dx(p.masing, pow(-0.95, i) * p.slip, &a));
     CHECK_OK(fret_masing_copy(copy, p.masing));
@@ -334,10 +331,14 @@ static void objects(void) {
     const fret_masing_state before = now(&p);
     fret_masing *none = NULL;
     const fret_press open = {.F = 0};
-    CHECK_ERROR(fret_masing_make(&p.normal, 0, &p.press, &none), FRET_NOT_POSITIVE, "mu");
-    CHECK_ERROR(fret_masing_make(&p.normal, nan_, &p.press, &none), FRET_NOT_FINITE, "mu");
-    CHECK_ERROR(fret_masing_make(&p.normal, 0.3, &open, &none), FRET_NOT_POSITIVE, "FN");
-    CHECK_CODE(fret_masing_make(&p.normal, 1e300, &p.press, &none), FRET_OVERFLOW);
+    CHECK_ERROR(fret_masing_make(&(fret_contact){p.contact.normal, 0, p.contact.press}, &none),
+                FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_masing_make(&(fret_contact){p.contact.normal, nan_, p.contact.press}, &none),
+                FRET_NOT_FINITE, "mu");
+    CHECK_ERROR(fret_masing_make(&(fret_contact){p.contact.normal, 0.3, open}, &none), FRET_NOT_POSITIVE,
+                "FN");
+    CHECK_CODE(fret_masing_make(&(fret_contact){p.contact.normal, 1e300, p.contact.press}, &none),
+               FRET_OVERFLOW);
     CHECK(none == NULL);
     CHECK_ERROR(fret_masing_to_dx(p.masing, nan_, &a), FRET_NOT_FINITE, "dx");
     CHECK_ERROR(fret_masing_to_dx(p.masing, inf_, &a), FRET_NOT_FINITE, "dx");

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "contact/normal.h"
 #include "unit.h"
 
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
 
 typedef struct contact {
-    fret_normal normal;
+    const fret_normal *normal;
     double mu;
     fret_memory *memory;
     fret_real step_W; /* W after the last step seen by checked_step */
 } contact;
 
 static contact make(const unit_scene *s) {
-    contact c = {.mu = s->mu};
-    CHECK_OK(fret_normal_make(&s->material, &s->gap, &c.normal));
-    if (!CHECK(fret_memory_make(&c.normal, c.mu, &c.memory).code == FRET_OK))
+    contact c = {.normal = unit_make_normal(s), .mu = s->mu};
+    if (!CHECK(fret_memory_make(c.normal, c.mu, &c.memory).code == FRET_OK))
         exit(unit_finish());
     return c;
 }
@@ -52,7 +52,7 @@ static void go(const contact *c, fret_step step) {
 /* What must hold of every state. */
 static void check_state(contact *c) {
     fret_state s = state_of(c), f;
-    const fret_real mu_eta = c->mu * c->normal.foundation.eta;
+    const fret_real mu_eta = c->mu * c->normal->foundation.eta;
     CHECK(s.W >= c->step_W && s.U >= 0 && fret_memory_last_loss(c->memory) >= 0);
     c->step_W = s.W;
     fret_memory_forces(c->memory, &f);
@@ -68,8 +68,8 @@ static void check_state(contact *c) {
         if (count) /* continuous */
             CHECK_ABS(seg.u, last.u - mu_eta * last.sigma * (last.outer - last.inner), mu_eta * s.dz,
                       UNIT_TOL(1e-16L, 1e-13L));
-        force += c->mu * seg.sigma *
-                 (fret_law_force(&c->normal, seg.outer) - fret_law_force(&c->normal, seg.inner));
+        force +=
+            c->mu * seg.sigma * (fret_law_force(c->normal, seg.outer) - fret_law_force(c->normal, seg.inner));
         last = seg;
         count++;
     }
@@ -78,11 +78,11 @@ static void check_state(contact *c) {
         CHECK_ABS(last.outer, s.dz, s.dz, UNIT_TOL(1e-18L, 1e-15L));
         CHECK_ABS(last.u, mu_eta * last.sigma * (s.dz - last.inner), mu_eta * s.dz, UNIT_TOL(1e-17L, 1e-14L));
         CHECK_ABS(force, s.Fx, c->mu * s.FN, UNIT_TOL(1e-16L, 1e-13L));
-        CHECK_REL(s.FN, fret_law_force(&c->normal, s.dz), UNIT_TOL(2e-17L, 1e-14L));
-        CHECK_REL(s.a, fret_law_radius(&c->normal, s.dz), UNIT_TOL(2e-17L, 1e-14L));
-        CHECK_REL(s.kn, fret_normal_stiffness(&c->normal, s.a), UNIT_TOL(2e-17L, 1e-14L));
+        CHECK_REL(s.FN, fret_law_force(c->normal, s.dz), UNIT_TOL(2e-17L, 1e-14L));
+        CHECK_REL(s.a, fret_law_radius(c->normal, s.dz), UNIT_TOL(2e-17L, 1e-14L));
+        CHECK_REL(s.kn, fret_normal_stiffness(c->normal, s.a), UNIT_TOL(2e-17L, 1e-14L));
         CHECK(s.c >= 0 && s.c <= s.a && s.kt >= 0);
-        CHECK(s.kt <= s.kn / c->normal.foundation.eta * (1 + UNIT_TOL(1e-17L, 1e-14L)));
+        CHECK(s.kt <= s.kn / c->normal->foundation.eta * (1 + UNIT_TOL(1e-17L, 1e-14L)));
     } else {
         CHECK(s.FN == 0 && s.Fx == 0 && s.U == 0 && s.dz <= 0);
     }
@@ -110,7 +110,7 @@ static void history_reference(const char *name, bool by_force) {
         fret_state s = state_of(&c);
         most = fmaxl(most, s.FN);
         deepest = fmaxl(deepest, s.dz);
-        const fret_real Fmax = c.mu * most, dmax = c.mu * c.normal.foundation.eta * deepest;
+        const fret_real Fmax = c.mu * most, dmax = c.mu * c.normal->foundation.eta * deepest;
         if (by_force) {
             CHECK(s.FN == first);
             CHECK_ABS(s.Fx, (fret_real)second, Fmax, UNIT_TOL(1e-17L, 1e-14L));
@@ -179,10 +179,11 @@ static void ledger(bool by_force) {
     for (int i = 0; i < 7; i++) {
         contact c = make_plain(ns[i % 4], ks[i % 5]);
         fret_memory *probe = NULL;
-        CHECK_OK(fret_memory_make(&c.normal, c.mu, &probe));
+        CHECK_OK(fret_memory_make(c.normal, c.mu, &probe));
         fret_press base = {.F = 0};
-        CHECK_OK(fret_press_depth(&c.normal, 1e-6, &base));
-        const fret_real dmax = fret_gross_slip(&c.normal, c.mu, &base), scale = c.mu * base.F * dmax;
+        CHECK_OK(fret_press_by_depth(c.normal, 1e-6, &base));
+        const fret_real dmax = fret_gross_slip(&(fret_contact){c.normal, c.mu, base}),
+                        scale = c.mu * base.F * dmax;
         fret_real work = 0;
         /* not from the open state, where dx ~ F^q would be hard on the quadrature */
         double normal = by_force ? 0.7 * (double)base.F : 1e-7, tangential = 0;
@@ -225,23 +226,23 @@ static void closed_forms(void) {
         fret_press p = {.F = 0};
         fret_loading f = {0, 0, 0, 0}, twice;
         fret_real loss = 0;
-        CHECK_OK(fret_press_force(&c.normal, FN, &p));
-        CHECK_OK(fret_loading_force(&c.normal, c.mu, &p, FA, &f));
-        CHECK_OK(fret_cycle_loss(&c.normal, c.mu, &p, FA, &loss));
+        CHECK_OK(fret_press_by_force(c.normal, FN, &p));
+        CHECK_OK(fret_loading_by_force(&(fret_contact){c.normal, c.mu, p}, FA, &f));
+        CHECK_OK(fret_cycle_loss_by_force(&(fret_contact){c.normal, c.mu, p}, FA, &loss));
         go(&c, to_force(FN, 0));
         fret_state s = state_of(&c);
         CHECK(s.Fx == 0 && s.dx == 0 && s.W == 0 && s.U == 0 && s.c == s.a);
-        CHECK_REL(s.kt, s.kn / c.normal.foundation.eta, UNIT_TOL(1e-17L, 1e-14L));
+        CHECK_REL(s.kt, s.kn / c.normal->foundation.eta, UNIT_TOL(1e-17L, 1e-14L));
         go(&c, to_fx(FA));
         s = state_of(&c);
         CHECK_REL(s.dx, f.dx, UNIT_TOL(1e-17L, 1e-14L));
-        CHECK_REL(s.c, f.c, UNIT_TOL(1e-16L, 1e-13L) * (1 + 1e9L * (parts[i / 20] > 0.99) + 1 / c.normal.q));
+        CHECK_REL(s.c, f.c, UNIT_TOL(1e-16L, 1e-13L) * (1 + 1e9L * (parts[i / 20] > 0.99) + 1 / c.normal->q));
         CHECK_REL(4 * s.W, loss, UNIT_TOL(1e-15L, 1e-12L));
         check_state(&c);
         /* Masing: half the reversed branch is the first loading */
         for (int j = 1; j <= 4; j++) {
             double back = FA - j * FA / 2;
-            CHECK_OK(fret_loading_force(&c.normal, c.mu, &p, (FA - back) / 2, &twice));
+            CHECK_OK(fret_loading_by_force(&(fret_contact){c.normal, c.mu, p}, (FA - back) / 2, &twice));
             fret_real dx0 = f.dx;
             go(&c, to_fx(back));
             CHECK_ABS((dx0 - state_of(&c).dx) / 2, twice.dx, fabsl(f.dx), UNIT_TOL(1e-16L, 1e-13L));
@@ -267,15 +268,15 @@ static void displacement_cycles(void) {
     for (int i = 0; i < 20; i++) {
         contact c = make_plain(1 + i % 4, -0.8 + 0.4 * (i / 4));
         fret_press p = {.F = 0};
-        CHECK_OK(fret_press_force(&c.normal, 20, &p));
-        const fret_real max = fret_gross_slip(&c.normal, c.mu, &p);
+        CHECK_OK(fret_press_by_force(c.normal, 20, &p));
+        const fret_real max = fret_gross_slip(&(fret_contact){c.normal, c.mu, p});
         go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0});
         for (double part = 0.1; part < 4; part *= 2) {
             double dA = part * (double)max;
             fret_real loss = 0;
             fret_loading f = {0, 0, 0, 0};
-            CHECK_OK(fret_cycle_loss_displacement(&c.normal, c.mu, &p, dA, &loss));
-            CHECK_OK(fret_loading_displacement(&c.normal, c.mu, &p, dA, &f));
+            CHECK_OK(fret_cycle_loss_by_displacement(&(fret_contact){c.normal, c.mu, p}, dA, &loss));
+            CHECK_OK(fret_loading_by_displacement(&(fret_contact){c.normal, c.mu, p}, dA, &f));
             go(&c, to_dx(dA));
             go(&c, to_dx(-dA));
             fret_state s = state_of(&c);
@@ -313,8 +314,9 @@ static void wiping(void) {
         go(&looped, to_fx(-0.2 * limit)); /* closes the loop */
         fret_real inner = state_of(&looped).W - W0, expected = 0;
         fret_press p = {.F = 0};
-        CHECK_OK(fret_press_force(&plain.normal, FN, &p));
-        CHECK_OK(fret_cycle_loss(&plain.normal, plain.mu, &p, 0.3 * limit, &expected));
+        CHECK_OK(fret_press_by_force(plain.normal, FN, &p));
+        CHECK_OK(
+            fret_cycle_loss_by_force(&(fret_contact){plain.normal, plain.mu, p}, 0.3 * limit, &expected));
         CHECK_REL(inner, expected, 1e-14L);
         CHECK(state_of(&looped).slices == slices);
         static const double onwards[] = {-0.35, -0.7, 0.5};
@@ -322,7 +324,8 @@ static void wiping(void) {
             go(&plain, to_fx(onwards[j] * limit));
             go(&looped, to_fx(onwards[j] * limit));
             fret_state x = state_of(&plain), y = state_of(&looped);
-            CHECK_ABS(y.dx, x.dx, fret_gross_slip(&plain.normal, plain.mu, &p), UNIT_TOL(1e-17L, 1e-14L));
+            CHECK_ABS(y.dx, x.dx, fret_gross_slip(&(fret_contact){plain.normal, plain.mu, p}),
+                      UNIT_TOL(1e-17L, 1e-14L));
             CHECK_REL(y.W, x.W + inner, UNIT_TOL(1e-16L, 1e-13L));
             CHECK_REL(y.U, x.U, UNIT_TOL(1e-15L, 1e-13L));
             CHECK(x.slices == y.slices);
@@ -369,7 +372,7 @@ static void stiffness(void) {
     for (int i = 0; i < 12; i++) {
         contact c = make_plain(1 + i % 3, -0.6 + 0.4 * (i / 3));
         fret_memory *probe = NULL;
-        CHECK_OK(fret_memory_make(&c.normal, c.mu, &probe));
+        CHECK_OK(fret_memory_make(c.normal, c.mu, &probe));
         go(&c, to_force(20, 0));
         static const double targets[] = {0.5, -0.2, 0.1, -0.4, 0.8};
         for (int j = 0; j < 5; j++) {
@@ -382,12 +385,12 @@ static void stiffness(void) {
             CHECK_OK(fret_memory_step(probe, &on));
             fret_memory_forces(probe, &f);
             CHECK_REL((f.Fx - s.Fx) / (f.dx - s.dx), s.kt, 1e-4L);
-            CHECK_REL(s.kt, fret_normal_stiffness(&c.normal, s.c) / c.normal.foundation.eta,
+            CHECK_REL(s.kt, fret_normal_stiffness(c.normal, s.c) / c.normal->foundation.eta,
                       UNIT_TOL(1e-17L, 1e-14L));
             CHECK_OK(fret_memory_copy(probe, c.memory));
             CHECK_OK(fret_memory_step(probe, &back));
             fret_memory_forces(probe, &f);
-            CHECK_REL((f.Fx - s.Fx) / (f.dx - s.dx), s.kn / c.normal.foundation.eta, 1e-4L);
+            CHECK_REL((f.Fx - s.Fx) / (f.dx - s.dx), s.kn / c.normal->foundation.eta, 1e-4L);
         }
         fret_memory_free(probe);
         fret_memory_free(c.memory);
@@ -403,22 +406,23 @@ static void targets(void) {
         for (int j = 0; j < 30; j++) {
             double dz = unit_random(&seed, 2e-7, 2e-6);
             fret_press p = {.F = 0}, q = {.F = 0};
-            CHECK_OK(fret_press_depth(&a.normal, dz, &p));
+            CHECK_OK(fret_press_by_depth(a.normal, dz, &p));
             double FN = (double)p.F;
-            CHECK_OK(fret_press_force(&b.normal, FN, &q));
+            CHECK_OK(fret_press_by_force(b.normal, FN, &q));
             if (j & 1) { /* straight in (FN, Fx) */
                 double Fx = unit_random(&seed, -0.9, 0.9) * a.mu * FN;
                 go(&a, (fret_step){FRET_TO_DEPTH, FRET_TO_FX, dz, Fx});
                 go(&b, to_force(FN, Fx));
             } else { /* straight in (dz, dx) */
-                double dx = unit_random(&seed, -0.9, 0.9) * (double)fret_gross_slip(&a.normal, a.mu, &p);
+                double dx = unit_random(&seed, -0.9, 0.9) *
+                            (double)fret_gross_slip(&(fret_contact){a.normal, a.mu, p});
                 go(&a, to_depth(dz, dx));
                 go(&b, (fret_step){FRET_TO_FORCE, FRET_TO_DX, FN, dx});
             }
             fret_state x = state_of(&a), y = state_of(&b);
             /* alike but for the rounding of F_N to double */
             CHECK_ABS(x.Fx, y.Fx, a.mu * FN, 1e-14L);
-            CHECK_ABS(x.dx, y.dx, fret_gross_slip(&a.normal, a.mu, &p), 1e-13L);
+            CHECK_ABS(x.dx, y.dx, fret_gross_slip(&(fret_contact){a.normal, a.mu, p}), 1e-13L);
             CHECK_REL(x.W, y.W, 1e-13L);
             CHECK_REL(x.dz, y.dz, 1e-15L);
         }
@@ -481,8 +485,8 @@ static void gross_slip(void) {
     contact c = make_plain(2, -0.4);
     go(&c, to_force(20, 0));
     fret_press p = {.F = 0};
-    CHECK_OK(fret_press_force(&c.normal, 20, &p));
-    const double max = (double)fret_gross_slip(&c.normal, c.mu, &p), limit = c.mu * 20;
+    CHECK_OK(fret_press_by_force(c.normal, 20, &p));
+    const double max = (double)fret_gross_slip(&(fret_contact){c.normal, c.mu, p}), limit = c.mu * 20;
     go(&c, to_dx(3 * max));
     fret_state s = state_of(&c);
     CHECK_REL(s.Fx, (fret_real)c.mu * 20, UNIT_TOL(1e-18L, 1e-15L));
@@ -522,8 +526,8 @@ static void standing(void) {
     static const double dx[] = {0.4, 0.9, 0.2, -0.3, 0.1, -0.7}, Fx[] = {-25, 20, 3, -11, -10.7};
     contact c = make_plain(2, 0.3);
     fret_press p = {.F = 0};
-    CHECK_OK(fret_press_force(&c.normal, 100, &p));
-    const double scale = (double)fret_gross_slip(&c.normal, c.mu, &p);
+    CHECK_OK(fret_press_by_force(c.normal, 100, &p));
+    const double scale = (double)fret_gross_slip(&(fret_contact){c.normal, c.mu, p});
     go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0});
     for (int i = 0; i < 11; i++) {
         fret_step step = i < 6 ? to_dx(dx[i] * scale) : to_fx(Fx[i - 6]);
@@ -549,7 +553,7 @@ static void brink(double n, double k) {
         fret_press p = {.F = 0};
         fret_loading f = {0, 0, 0, 0};
         fret_real before = 0, after = 0;
-        CHECK_OK(fret_press_force(&c.normal, FN, &p));
+        CHECK_OK(fret_press_by_force(c.normal, FN, &p));
         go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0});
         const double from = c.mu * FN * (1 - last), to = c.mu * FN * (1 - 4e-15);
         go(&c, (fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, from});
@@ -558,11 +562,11 @@ static void brink(double n, double k) {
             go(&c, (fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0,
                                i == steps ? to : from + (to - from) * i / steps});
         fret_state end = state_of(&c);
-        CHECK_OK(fret_loading_force(&c.normal, c.mu, &p, to, &f));
+        CHECK_OK(fret_loading_by_force(&(fret_contact){c.normal, c.mu, p}, to, &f));
         CHECK_REL(end.c, f.c, UNIT_TOL(1e-17L, 1e-3L));
         CHECK_REL(end.dx, f.dx, UNIT_TOL(1e-18L, 1e-8L));
-        CHECK_OK(fret_cycle_loss(&c.normal, c.mu, &p, from, &before));
-        CHECK_OK(fret_cycle_loss(&c.normal, c.mu, &p, to, &after));
+        CHECK_OK(fret_cycle_loss_by_force(&(fret_contact){c.normal, c.mu, p}, from, &before));
+        CHECK_OK(fret_cycle_loss_by_force(&(fret_contact){c.normal, c.mu, p}, to, &after));
         CHECK_REL(4 * end.W, after, UNIT_TOL(5e-18L, 1e-14L));
         CHECK_REL(4 * (end.W - start.W), after - before, UNIT_TOL(1e-11L, 1e-7L));
         fret_memory_free(c.memory);
@@ -591,7 +595,7 @@ static void subdivision(int steps) {
             n0 = n1;
             t0 = t1;
             fret_state x = state_of(&one), y = state_of(&many);
-            const fret_real mu_eta = one.mu * one.normal.foundation.eta;
+            const fret_real mu_eta = one.mu * one.normal->foundation.eta;
             CHECK_ABS(y.Fx, x.Fx, one.mu * x.FN, loose * UNIT_TOL(1e-15L, 1e-12L));
             CHECK_ABS(y.dx, x.dx, mu_eta * x.dz, loose * UNIT_TOL(1e-15L, 1e-12L));
             CHECK_ABS(y.U, x.U, x.W + x.U, loose * UNIT_TOL(1e-15L, 1e-12L));
@@ -648,11 +652,10 @@ static void objects(void) {
     x = state_of(&a);
     y = state_of(&fresh);
     CHECK(x.Fx == y.Fx && x.dx == y.dx && x.U == y.U && x.W == y.W);
-    /* it keeps its own copy of the normal contact */
-    memset(&fresh.normal, 0, sizeof fresh.normal);
-    go(&fresh, to_force(20, 2));
-    go(&a, to_force(20, 2));
-    CHECK(state_of(&fresh).dx == state_of(&a).dx);
+    /* borrowed, and by a copy too */
+    CHECK(fret_memory_normal(fresh.memory) == fresh.normal);
+    CHECK_OK(fret_memory_copy(fresh.memory, a.memory));
+    CHECK(fret_memory_normal(fresh.memory) == a.normal);
     fret_memory_free(fresh.memory);
     fret_memory_free(a.memory);
     fret_memory_free(b.memory);
@@ -662,10 +665,10 @@ static void objects(void) {
 static void errors(void) {
     contact c = make_plain(2, 0.2);
     fret_memory *none = NULL;
-    CHECK_ERROR(fret_memory_make(&c.normal, 0, &none), FRET_NOT_POSITIVE, "mu");
-    CHECK_ERROR(fret_memory_make(&c.normal, -0.3, &none), FRET_NOT_POSITIVE, "mu");
-    CHECK_ERROR(fret_memory_make(&c.normal, nan_, &none), FRET_NOT_FINITE, "mu");
-    CHECK_ERROR(fret_memory_make(&c.normal, inf_, &none), FRET_NOT_FINITE, "mu");
+    CHECK_ERROR(fret_memory_make(c.normal, 0, &none), FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_memory_make(c.normal, -0.3, &none), FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_memory_make(c.normal, nan_, &none), FRET_NOT_FINITE, "mu");
+    CHECK_ERROR(fret_memory_make(c.normal, inf_, &none), FRET_NOT_FINITE, "mu");
     CHECK(none == NULL);
     go(&c, to_force(20, 3));
     go(&c, to_fx(-2));
@@ -729,12 +732,12 @@ typedef struct springs {
 
 static springs cut(const contact *c, const fret_press *p, int count) {
     springs s = {.count = count};
-    const fret_foundation *f = &c->normal.foundation;
+    const fret_foundation *f = &c->normal->foundation;
     const double e = 1 + (double)f->k;
     for (int i = 0; i < count; i++) {
         double x0 = (double)i / count, x1 = (double)(i + 1) / count, x = (x0 + x1) / 2;
         s.weight[i] = 2 * (double)(f->cT0 * p->a * powl(p->a / f->c0, f->k)) * (pow(x1, e) - pow(x0, e)) / e;
-        s.bound[i] = c->mu * (double)(f->eta * p->dz) * (1 - pow(x, c->normal.gap.power[0].n));
+        s.bound[i] = c->mu * (double)(f->eta * p->dz) * (1 - pow(x, c->normal->gap.power[0].n));
     }
     return s;
 }
@@ -776,7 +779,7 @@ static void pull(springs *s, double Fx) {
 static void spring_model(double n, double k) {
     contact c = make_plain(n, k);
     fret_press p = {.F = 0};
-    CHECK_OK(fret_press_force(&c.normal, 20, &p));
+    CHECK_OK(fret_press_by_force(c.normal, 20, &p));
     static springs coarse, fine;
     coarse = cut(&c, &p, SPRINGS / 4);
     fine = cut(&c, &p, SPRINGS);
@@ -804,7 +807,7 @@ static void spring_model(double n, double k) {
         W = s.W;
         slices = s.slices > slices ? s.slices : slices;
     }
-    const fret_real max = fret_gross_slip(&c.normal, c.mu, &p);
+    const fret_real max = fret_gross_slip(&(fret_contact){c.normal, c.mu, p});
     CHECK(!falls);
     CHECK(slices < 40); /* records of a random sequence: about ln(steps) a side */
     /* of second order, or of order 1+k where the centre weighs most: the rest is less than the gap */

@@ -136,7 +136,7 @@ typedef struct rig {
     oscillator mass;
     fret_memory *saved;
     double slip; /* delta_x,max at the mean load */
-    fret_normal normal;
+    const fret_normal *normal;
     double mu;
 } rig;
 
@@ -144,15 +144,14 @@ static rig make_rig(const drive *d) {
     const fret_material graded = {.body = {{.E0 = 210e9, .nu = 0.3}, {.rigid = true}}, .k = 0.4, .c0 = 1e-3};
     const fret_gap sphere = {
         .kind = FRET_GAP_POWER, .terms = 1, .power = {{.n = 2, .h = 1 / (2 * 0.01), .r0 = 1}}};
-    rig r = {.mu = 0.4};
+    rig r = {.normal = unit_keep_normal(&graded, &sphere), .mu = 0.4};
     fret_press press;
     fret_state start;
-    CHECK_OK(fret_normal_make(&graded, &sphere, &r.normal));
-    CHECK_OK(fret_press_force(&r.normal, d->FN, &press));
-    if (!CHECK(fret_memory_make(&r.normal, r.mu, &r.mass.contact).code == FRET_OK) ||
-        !CHECK(fret_memory_make(&r.normal, r.mu, &r.saved).code == FRET_OK))
+    CHECK_OK(fret_press_by_force(r.normal, d->FN, &press));
+    if (!CHECK(fret_memory_make(r.normal, r.mu, &r.mass.contact).code == FRET_OK) ||
+        !CHECK(fret_memory_make(r.normal, r.mu, &r.saved).code == FRET_OK))
         exit(unit_finish());
-    r.slip = (double)fret_gross_slip(&r.normal, r.mu, &press);
+    r.slip = (double)fret_gross_slip(&(fret_contact){r.normal, r.mu, press});
     CHECK_OK(contact_force(r.mass.contact, load_at(d, 0), 0, &r.mass.force));
     fret_memory_state(r.mass.contact, &start);
     const double omega = 2 * pi * 1000;

@@ -9,9 +9,9 @@ static void scenes(void) {
     while (unit_row(&t)) {
         unit_scene s = unit_read_scene(&t, 0);
         double FN = unit_input(&t, UNIT_SCENE_COLUMNS), FA = unit_input(&t, UNIT_SCENE_COLUMNS + 1);
-        unit_contact c = unit_make_contact(&s, FN);
+        fret_contact c = unit_make_contact(&s, FN);
         fret_real loss = -1, agreement = -1;
-        CHECK_OK(fret_reference_loss(&c.normal, c.mu, &c.press, FA, &loss, &agreement));
+        CHECK_OK(fret_reference_loss_by_force(&c, FA, &loss, &agreement));
         CHECK(agreement >= LDBL_EPSILON && agreement < UNIT_TOL(1e-17L, 1e-14L));
         CHECK_REL(loss, unit_result(&t, UNIT_SCENE_COLUMNS + 2 + 5), UNIT_TOL(2e-17L, 1e-14L));
     }
@@ -31,18 +31,17 @@ static void shapes(void) {
         for (size_t j = 0; j < sizeof ks / sizeof *ks; j++) {
             unit_scene s = unit_make_scene(2, ks[j]);
             s.gap = gaps[i];
-            unit_contact c = unit_make_contact(&s, 100);
+            fret_contact c = unit_make_contact(&s, 100);
             for (size_t l = 0; l < sizeof ts / sizeof *ts; l++) {
                 fret_real loss, same, agreement;
                 double FA = ts[l] * c.mu * 100;
-                CHECK_OK(fret_cycle_loss(&c.normal, c.mu, &c.press, FA, &same));
-                CHECK_OK(fret_reference_loss(&c.normal, c.mu, &c.press, FA, &loss, &agreement));
+                CHECK_OK(fret_cycle_loss_by_force(&c, FA, &same));
+                CHECK_OK(fret_reference_loss_by_force(&c, FA, &loss, &agreement));
                 CHECK_ABS(agreement, 0, 1, UNIT_TOL(1e-12L, 1e-9L));
                 CHECK_REL(loss, same, UNIT_TOL(1e-12L, 1e-9L));
                 fret_loading peak;
-                CHECK_OK(fret_loading_force(&c.normal, c.mu, &c.press, FA, &peak));
-                CHECK_OK(fret_reference_loss_displacement(&c.normal, c.mu, &c.press, (double)peak.dx, &same,
-                                                          &agreement));
+                CHECK_OK(fret_loading_by_force(&c, FA, &peak));
+                CHECK_OK(fret_reference_loss_by_displacement(&c, (double)peak.dx, &same, &agreement));
                 CHECK_REL(same, loss, 1e-11L);
             }
         }
@@ -51,37 +50,37 @@ static void shapes(void) {
 /* By displacement, into gross slip, and with few nodes. */
 static void amplitudes(void) {
     unit_scene s = unit_make_scene(2, -0.5);
-    unit_contact c = unit_make_contact(&s, 100);
-    fret_real max = fret_gross_slip(&c.normal, c.mu, &c.press), loss, same, agreement;
+    fret_contact c = unit_make_contact(&s, 100);
+    fret_real max = fret_gross_slip(&c), loss, same, agreement;
     static const double part[] = {1e-6, 0.3, 1, 2.5};
     for (size_t i = 0; i < sizeof part / sizeof *part; i++) {
         double dA = (double)(part[i] * max);
         fret_loading peak;
-        CHECK_OK(fret_cycle_loss_displacement(&c.normal, c.mu, &c.press, dA, &same));
-        CHECK_OK(fret_reference_loss_displacement(&c.normal, c.mu, &c.press, dA, &loss, &agreement));
+        CHECK_OK(fret_cycle_loss_by_displacement(&c, dA, &same));
+        CHECK_OK(fret_reference_loss_by_displacement(&c, dA, &loss, &agreement));
         CHECK_REL(loss, same, UNIT_TOL(2e-18L, 1e-14L));
-        CHECK_OK(fret_loading_displacement(&c.normal, c.mu, &c.press, dA, &peak));
+        CHECK_OK(fret_loading_by_displacement(&c, dA, &peak));
         fret_real error[2];
         for (unsigned n = 0; n < 2; n++) {
-            CHECK_OK(fret_quadrature_loss(&c.normal, c.mu, &c.press, &peak, 16u << n, &same));
+            CHECK_OK(fret_quadrature_loss(&c, &peak, 16u << n, &same));
             error[n] = fabsl(same - loss) / loss;
         }
         CHECK(error[1] < error[0] * error[0] * 100); /* twice the nodes, about twice the digits */
     }
-    CHECK_OK(fret_reference_loss(&c.normal, c.mu, &c.press, 0, &loss, &agreement));
+    CHECK_OK(fret_reference_loss_by_force(&c, 0, &loss, &agreement));
     CHECK(loss == 0);
-    CHECK_ERROR(fret_reference_loss(&c.normal, c.mu, &c.press, 41, &loss, &agreement), FRET_GROSS_SLIP, "FA");
-    CHECK_ERROR(fret_reference_loss(&c.normal, c.mu, &c.press, -1, &loss, &agreement), FRET_NEGATIVE, "FA");
-    CHECK_ERROR(fret_reference_loss(&c.normal, 0, &c.press, 1, &loss, &agreement), FRET_NOT_POSITIVE, "mu");
-    CHECK_ERROR(fret_reference_loss_displacement(&c.normal, c.mu, &c.press, -1, &loss, &agreement),
-                FRET_NEGATIVE, "dxA");
+    CHECK_ERROR(fret_reference_loss_by_force(&c, 41, &loss, &agreement), FRET_GROSS_SLIP, "FA");
+    CHECK_ERROR(fret_reference_loss_by_force(&c, -1, &loss, &agreement), FRET_NEGATIVE, "FA");
+    CHECK_ERROR(fret_reference_loss_by_force(&(fret_contact){c.normal, 0, c.press}, 1, &loss, &agreement),
+                FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_reference_loss_by_displacement(&c, -1, &loss, &agreement), FRET_NEGATIVE, "dxA");
     const fret_loading none = {0, 0, c.press.a, c.press.dz};
-    CHECK_OK(fret_quadrature_loss(&c.normal, c.mu, &c.press, &none, 64, &loss));
+    CHECK_OK(fret_quadrature_loss(&c, &none, 64, &loss));
     CHECK(loss == 0);
-    CHECK_ERROR(fret_quadrature_loss(&c.normal, c.mu, &c.press, &none, 7, &loss), FRET_OUTSIDE, "points");
-    CHECK_ERROR(fret_quadrature_loss(&c.normal, c.mu, &c.press, &none, 100001, &loss), FRET_OUTSIDE,
-                "points");
-    CHECK_ERROR(fret_quadrature_loss(&c.normal, -1, &c.press, &none, 64, &loss), FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_quadrature_loss(&c, &none, 7, &loss), FRET_OUTSIDE, "points");
+    CHECK_ERROR(fret_quadrature_loss(&c, &none, 100001, &loss), FRET_OUTSIDE, "points");
+    CHECK_ERROR(fret_quadrature_loss(&(fret_contact){c.normal, -1, c.press}, &none, 64, &loss),
+                FRET_NOT_POSITIVE, "mu");
 }
 
 /* A sampled gap has corners, each a place where the rule begins anew: the closed form is met. */
@@ -96,16 +95,16 @@ static void sampled(void) {
     struct fret_table *table = NULL;
     CHECK_OK(fret_table_make(r, f, ROWS, &table));
     s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = table};
-    unit_contact c = unit_make_contact(&s, 20);
+    fret_contact c = unit_make_contact(&s, 20);
     fret_real loss, finer, agreement;
     fret_loading peak;
-    CHECK_OK(fret_reference_loss(&c.normal, c.mu, &c.press, 4, &loss, &agreement));
-    CHECK_OK(fret_loading_force(&c.normal, c.mu, &c.press, 4, &peak));
-    CHECK_OK(fret_quadrature_loss(&c.normal, c.mu, &c.press, &peak, 2049, &finer));
+    CHECK_OK(fret_reference_loss_by_force(&c, 4, &loss, &agreement));
+    CHECK_OK(fret_loading_by_force(&c, 4, &peak));
+    CHECK_OK(fret_quadrature_loss(&c, &peak, 2049, &finer));
     CHECK(agreement < UNIT_TOL(1e-16L, 1e-12L));
     CHECK_REL(loss, finer, UNIT_TOL(1e-16L, 1e-12L));
     fret_real closed = 0;
-    CHECK_OK(fret_cycle_loss(&c.normal, c.mu, &c.press, 4, &closed));
+    CHECK_OK(fret_cycle_loss_by_force(&c, 4, &closed));
     CHECK_REL(closed, loss, UNIT_TOL(2e-15L, 1e-12L));
     fret_table_free(table);
 }

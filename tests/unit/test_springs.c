@@ -4,7 +4,7 @@
 #include "unit.h"
 
 typedef struct pair {
-    fret_normal normal;
+    const fret_normal *normal;
     double mu, FN, radius, slip; /* slip: delta_x,max at F_N */
     fret_memory *memory;
     fret_springs *springs;
@@ -13,19 +13,18 @@ typedef struct pair {
 static void springs_of(pair *p, size_t count, double radius, fret_weight rule) {
     fret_springs_free(p->springs);
     p->springs = NULL;
-    if (!CHECK(fret_springs_make(&p->normal, p->mu, count, radius, rule, &p->springs).code == FRET_OK))
+    if (!CHECK(fret_springs_make(p->normal, p->mu, count, radius, rule, &p->springs).code == FRET_OK))
         exit(unit_finish());
 }
 
 static pair make(double n, double k) {
     const unit_scene s = unit_make_scene(n, k);
-    pair p = {.mu = s.mu, .FN = 100};
+    pair p = {.normal = unit_make_normal(&s), .mu = s.mu, .FN = 100};
     fret_press press;
-    CHECK_OK(fret_normal_make(&s.material, &s.gap, &p.normal));
-    CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+    CHECK_OK(fret_press_by_force(p.normal, p.FN, &press));
     p.radius = (double)press.a;
-    p.slip = (double)fret_gross_slip(&p.normal, p.mu, &press);
-    if (!CHECK(fret_memory_make(&p.normal, p.mu, &p.memory).code == FRET_OK))
+    p.slip = (double)fret_gross_slip(&(fret_contact){p.normal, p.mu, press});
+    if (!CHECK(fret_memory_make(p.normal, p.mu, &p.memory).code == FRET_OK))
         exit(unit_finish());
     return p;
 }
@@ -164,8 +163,8 @@ static void test_straight_steps(void) {
     fret_press press;
     fret_springs *parts;
     springs_of(&p, 1000, p.radius, FRET_WEIGHT_CELL);
-    CHECK_OK(fret_springs_make(&p.normal, p.mu, 1000, p.radius, FRET_WEIGHT_CELL, &parts));
-    CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+    CHECK_OK(fret_springs_make(p.normal, p.mu, 1000, p.radius, FRET_WEIGHT_CELL, &parts));
+    CHECK_OK(fret_press_by_force(p.normal, p.FN, &press));
     for (int i = 0; i < 200; i++) {
         fret_state a, b;
         const double dz = unit_random(&seed, -0.3, 1) * (double)press.dz;
@@ -190,7 +189,7 @@ static void test_force_control(void) {
     pair p = make(2, -0.4);
     springs_of(&p, 500, p.radius, FRET_WEIGHT_CELL);
     fret_springs *parts;
-    CHECK_OK(fret_springs_make(&p.normal, p.mu, 500, p.radius, FRET_WEIGHT_CELL, &parts));
+    CHECK_OK(fret_springs_make(p.normal, p.mu, 500, p.radius, FRET_WEIGHT_CELL, &parts));
     const double limit = p.mu * p.FN, targets[] = {0.5, -0.3, 0.99, -1, 1, 0.2, 0, 1e-9, -1e-9};
     const fret_step press = press_only(p.FN);
     go(&p, press, 1);
@@ -216,7 +215,7 @@ static void test_weights(void) {
     for (size_t i = 0; i < sizeof ks / sizeof *ks; i++) {
         pair p = make(2, ks[i]);
         fret_press press;
-        CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+        CHECK_OK(fret_press_by_force(p.normal, p.FN, &press));
         const double FN = p.FN;
         for (size_t count = 1; count <= 100000; count = 10 * count + 1) {
             fret_state s, t;
@@ -225,8 +224,8 @@ static void test_weights(void) {
             CHECK_OK(fret_springs_step(p.springs, &deep, 1));
             fret_springs_state(p.springs, &s);
             CHECK(s.slices == count);
-            CHECK_REL(s.kn, fret_normal_stiffness(&p.normal, p.radius), 4e-16L);
-            CHECK_REL(s.kt, s.kn / p.normal.foundation.eta, 1e-18L * (fret_real)count + 1e-18L);
+            CHECK_REL(s.kn, fret_normal_stiffness(p.normal, p.radius), 4e-16L);
+            CHECK_REL(s.kt, s.kn / fret_normal_foundation(p.normal)->eta, 1e-18L * (fret_real)count + 1e-18L);
             CHECK_REL(s.a, p.radius, 1e-15L);
             CHECK(s.c == s.a);
             CHECK_OK(fret_springs_step(p.springs, &force, 1));
@@ -272,11 +271,11 @@ static void test_pad(void) {
     pair p = {.mu = 0.4, .FN = 100};
     fret_press press;
     fret_springs *none = NULL;
-    CHECK_OK(fret_normal_make(&steel.material, &gap, &p.normal));
-    CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
-    p.slip = (double)fret_gross_slip(&p.normal, p.mu, &press);
+    p.normal = unit_keep_normal(&steel.material, &gap);
+    CHECK_OK(fret_press_by_force(p.normal, p.FN, &press));
+    p.slip = (double)fret_gross_slip(&(fret_contact){p.normal, p.mu, press});
     p.radius = (double)press.a;
-    CHECK_OK(fret_memory_make(&p.normal, p.mu, &p.memory));
+    CHECK_OK(fret_memory_make(p.normal, p.mu, &p.memory));
     springs_of(&p, 2000, p.radius * 1.001, FRET_WEIGHT_CELL);
     go(&p, to_force(p.FN, 0), 1);
     go(&p, to_fx(0.6 * p.mu * p.FN), 1);
@@ -287,7 +286,7 @@ static void test_pad(void) {
     fret_state s;
     fret_springs_state(p.springs, &s);
     CHECK(s.FN == 0 && s.Fx == 0 && s.U == 0 && s.slices == 0);
-    CHECK_ERROR(fret_springs_make(&p.normal, p.mu, 10, 5e-5, FRET_WEIGHT_CELL, &none), FRET_OUTSIDE, "a");
+    CHECK_ERROR(fret_springs_make(p.normal, p.mu, 10, 5e-5, FRET_WEIGHT_CELL, &none), FRET_OUTSIDE, "a");
     drop(&p);
 }
 
@@ -296,7 +295,7 @@ static void test_copy(void) {
     fret_springs *saved;
     fret_state a, b;
     springs_of(&p, 333, p.radius, FRET_WEIGHT_CELL);
-    CHECK_OK(fret_springs_make(&p.normal, p.mu, 10, p.radius, FRET_WEIGHT_MIDPOINT, &saved));
+    CHECK_OK(fret_springs_make(p.normal, p.mu, 10, p.radius, FRET_WEIGHT_MIDPOINT, &saved));
     go(&p, to_force(60, 10), 3);
     CHECK_OK(fret_springs_copy(saved, p.springs));
     CHECK_OK(fret_springs_copy(saved, saved));
@@ -339,10 +338,10 @@ static void test_widths(void) {
         fret_springs *narrow;
         springs_of(&p, counts[i], p.radius * (1 + 1e-9), FRET_WEIGHT_CELL);
         CHECK_OK(
-            fret_springs_make(&p.normal, p.mu, counts[i], p.radius * (1 + 1e-9), FRET_WEIGHT_CELL, &narrow));
+            fret_springs_make(p.normal, p.mu, counts[i], p.radius * (1 + 1e-9), FRET_WEIGHT_CELL, &narrow));
         CHECK(fret_springs_use(narrow, 2));
         CHECK(!fret_springs_use(narrow, 3) && !fret_springs_use(narrow, 0));
-        CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+        CHECK_OK(fret_press_by_force(p.normal, p.FN, &press));
         for (unsigned width = 4; width <= 8; width += 4) {
             if (!fret_springs_use(p.springs, width))
                 continue;
@@ -378,12 +377,12 @@ static void test_constant_depth(void) {
     fret_state a, b;
     fret_springs *oblique;
     springs_of(&p, COUNT, p.radius * (1 + 1e-9), FRET_WEIGHT_CELL);
-    CHECK_OK(fret_springs_make(&p.normal, p.mu, COUNT, p.radius * (1 + 1e-9), FRET_WEIGHT_CELL, &oblique));
-    CHECK_OK(fret_press_force(&p.normal, p.FN, &press));
+    CHECK_OK(fret_springs_make(p.normal, p.mu, COUNT, p.radius * (1 + 1e-9), FRET_WEIGHT_CELL, &oblique));
+    CHECK_OK(fret_press_by_force(p.normal, p.FN, &press));
     const double dz = (double)press.dz, next = nextafter(dz, 0);
     const fret_step press_down = to_depth(dz, 0);
     CHECK_OK(fret_springs_step(p.springs, &press_down, 1));
-    const fret_foundation *f = &p.normal.foundation;
+    const fret_foundation *f = fret_normal_foundation(p.normal);
     const double cell = p.radius * (1 + 1e-9) / COUNT, eta = (double)f->eta, k1 = 1 + (double)f->k,
                  scale = (double)(2 * f->cN0 * powl(f->c0, -f->k)) * pow(cell, k1) / k1;
     static double u[COUNT];
@@ -419,7 +418,7 @@ static void test_constant_depth(void) {
 static void test_errors(void) {
     const double nan_ = (double)NAN, inf_ = (double)INFINITY;
     pair p = make(2, 0);
-    const fret_normal *n = &p.normal;
+    const fret_normal *n = p.normal;
     fret_springs *none = NULL;
     const fret_weight cell = FRET_WEIGHT_CELL;
     CHECK_ERROR(fret_springs_make(n, 0, 10, 1e-3, cell, &none), FRET_NOT_POSITIVE, "mu");
@@ -435,11 +434,10 @@ static void test_errors(void) {
     const double r[] = {0, 1e-4, 2e-4}, f[] = {0, 1e-6, 4e-6};
     const unit_scene steel = unit_make_scene(2, 0);
     struct fret_table *table;
-    fret_normal tabled;
     CHECK_OK(fret_table_make(r, f, 3, &table));
     const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
-    CHECK_OK(fret_normal_make(&steel.material, &gap, &tabled));
-    CHECK_CODE(fret_springs_make(&tabled, 0.3, 10, 3e-4, cell, &none), FRET_TABLE_SHORT);
+    const fret_normal *tabled = unit_keep_normal(&steel.material, &gap);
+    CHECK_CODE(fret_springs_make(tabled, 0.3, 10, 3e-4, cell, &none), FRET_TABLE_SHORT);
     fret_table_free(table);
 
     springs_of(&p, 100, p.radius, cell);

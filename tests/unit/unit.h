@@ -40,6 +40,8 @@ static struct {
     long passed, failed;
     unit_site *sites;
     const unit_table *table; /* the row at hand, for messages */
+    fret_normal **normal;    /* to be freed */
+    size_t normals, normal_room;
 } unit;
 
 static inline void unit_start(const char *name, int argc, char **argv) {
@@ -50,6 +52,9 @@ static inline void unit_start(const char *name, int argc, char **argv) {
 }
 
 static inline int unit_finish(void) {
+    while (unit.normals)
+        fret_normal_free(unit.normal[--unit.normals]);
+    free(unit.normal);
     if (getenv("FRET_UNIT_VERBOSE"))
         for (const unit_site *s = unit.sites; s; s = s->next)
             printf("%s:%d: worst %.2Le of %.2Le%s%s: %s\n", s->file, s->line, s->worst, s->tolerance,
@@ -208,23 +213,27 @@ static inline unit_scene unit_make_scene(double n, double k) {
     return s;
 }
 
-/* The normal contact of a scene, and pressed. */
-static inline fret_normal unit_make_normal(const unit_scene *s) {
-    fret_normal n;
-    memset(&n, 0, sizeof n);
-    CHECK_OK(fret_normal_make(&s->material, &s->gap, &n));
+/* Normal contacts live until the end of the test. NULL and a failed check where there is none. */
+static inline fret_normal *unit_keep_normal(const fret_material *material, const fret_gap *gap) {
+    fret_normal *n = NULL;
+    CHECK_OK(fret_normal_make(material, gap, &n));
+    if (n && unit.normals == unit.normal_room) {
+        unit.normal_room = unit.normal_room ? 2 * unit.normal_room : 64;
+        unit.normal = realloc(unit.normal, unit.normal_room * sizeof *unit.normal);
+    }
+    if (n)
+        unit.normal[unit.normals++] = n;
     return n;
 }
 
-typedef struct unit_contact {
-    fret_normal normal;
-    fret_press press;
-    double mu;
-} unit_contact;
+/* The normal contact of a scene, and pressed. */
+static inline fret_normal *unit_make_normal(const unit_scene *s) {
+    return unit_keep_normal(&s->material, &s->gap);
+}
 
-static inline unit_contact unit_make_contact(const unit_scene *s, double FN) {
-    unit_contact c = {.normal = unit_make_normal(s), .mu = s->mu};
-    CHECK_OK(fret_press_force(&c.normal, FN, &c.press));
+static inline fret_contact unit_make_contact(const unit_scene *s, double FN) {
+    fret_contact c = {.normal = unit_make_normal(s), .mu = s->mu};
+    CHECK_OK(fret_press_by_force(c.normal, FN, &c.press));
     return c;
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes src/contact/tables.h: constants of the elementary functions and of the quadrature."""
+"""Writes src/number/constants.h: constants of the elementary functions and of the quadrature."""
 from mpmath import mp, mpf, exp, log, pi, sinh, cosh, bernoulli, factorial
 
 mp.dps = 60
@@ -21,9 +21,15 @@ def real(x):
     return mp.nstr(x, 25, min_fixed=0, max_fixed=0) + "L"
 
 
-print("/* SPDX-License-Identifier: GPL-3.0-or-later */")
-print("/* Made by scripts/reference/tables.py. */")
-print("/* clang-format off */")
+print('''/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Constants of the elementary functions and of the quadrature: made by scripts/reference/constants.py. Each file
+ * that includes this keeps what it reads. Not installed. */
+#ifndef FRET_NUMBER_CONSTANTS_H
+#define FRET_NUMBER_CONSTANTS_H
+
+#include "number/dd.h"
+
+/* clang-format off */''')
 print("/* ln(j/128) for j = 90 .. 181 */")
 table("log_128", [log(mpf(j) / 128) for j in range(90, 182)])
 table("power_of_two", [mpf(2) ** (mpf(j) / 64) for j in range(64)])
@@ -50,3 +56,4 @@ for i in range(55):
     e = exp(-pi * sinh(u))
     print("    {%s, %s}," % (real(e / (1 + e)), real(pi * cosh(u) * e / (1 + e) ** 2 / 12)))
 print("};")
+print("\n#endif")

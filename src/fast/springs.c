@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The foundation cut into springs: loops in double over arrays of them, which springs_lanes.h holds once for
+ * each instruction set. Allocates the arrays. */
 #include "fret/springs.h"
 
 #include <float.h>
@@ -6,11 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gap.h"
-#include "special.h"
+#include "contact/check.h"
+#include "contact/normal.h"
+#include "number/real.h"
+#include "number/sum.h"
 
-/* Springs are handled LANES at a time, with LANES sums; those of STRIDE springs go into the total. */
-enum { LANES = 8, STRIDE = 512, ALIGNMENT = 8 * LANES };
+/* Springs are handled SUMS at a time, each into a sum of its own; those of STRIDE springs go into the total.
+ */
+enum { SUMS = 8, STRIDE = 512, ALIGNMENT = 8 * SUMS };
 
 typedef struct cells {
     double *g, *w; /* depth of touch, normal stiffness */
@@ -26,17 +31,17 @@ typedef struct straight {
 
 /* Sums, each with the rest that rounding has cut off: of w v; and of a step that is kept w times bound times
  * slip, else w over springs that stick. */
-typedef struct lane_sums {
-    _Alignas(ALIGNMENT) double force[LANES];
-    double force_rest[LANES], other[LANES], other_rest[LANES];
-} lane_sums;
+typedef struct partial_sums {
+    _Alignas(ALIGNMENT) double force[SUMS];
+    double force_rest[SUMS], other[SUMS], other_rest[SUMS];
+} partial_sums;
 
 #ifdef __x86_64__
 #include <immintrin.h>
 #define LEAST _mm_min_pd
 #define MOST _mm_max_pd
 #endif
-#define WIDTH 2
+#define LANES 2
 #define NAME(x) x##_2
 #define TARGET
 #include "springs_lanes.h"
@@ -44,30 +49,30 @@ typedef struct lane_sums {
 #ifdef __x86_64__
 #define LEAST _mm256_min_pd
 #define MOST _mm256_max_pd
-#define WIDTH 4
+#define LANES 4
 #define NAME(x) x##_4
 #define TARGET __attribute__((target("avx2")))
 #include "springs_lanes.h"
 
 #define LEAST _mm512_min_pd
 #define MOST _mm512_max_pd
-#define WIDTH 8
+#define LANES 8
 #define NAME(x) x##_8
 #define TARGET __attribute__((target("avx512f,avx512dq,avx512vl")))
 #include "springs_lanes.h"
 #endif
 
-typedef struct kernels {
+typedef struct loops {
     unsigned width;
-    void (*slide)(const cells *c, size_t end, double ddx, bool keep, lane_sums *out);
-    void (*deform)(const cells *c, size_t end, const straight *path, bool keep, lane_sums *out);
-} kernels;
+    void (*shift)(const cells *c, size_t end, double ddx, bool keep, partial_sums *out);
+    void (*deform)(const cells *c, size_t end, const straight *path, bool keep, partial_sums *out);
+} loops;
 
-static const kernels of_width[] = {
-    {2, slide_2, deform_2},
+static const loops of_width[] = {
+    {2, shift_2, deform_2},
 #ifdef __x86_64__
-    {4, slide_4, deform_4},
-    {8, slide_8, deform_8},
+    {4, shift_4, deform_4},
+    {8, shift_8, deform_8},
 #endif
 };
 
@@ -83,15 +88,15 @@ static bool runs_here(unsigned width) {
 }
 
 struct fret_springs {
-    fret_normal normal;
+    const fret_normal *normal; /* borrowed */
     double mu;
     fret_real compliance; /* 1/eta */
     double radius, cell;  /* width of a cell [m] */
     fret_real end_dz, end_FN;
-    size_t count, padded; /* springs, and up to a multiple of LANES */
+    size_t count, padded; /* springs, and up to a multiple of SUMS */
     size_t closed;        /* springs that the present depth touches */
     cells cells;
-    const kernels *run;
+    const loops *run;
     fret_real *w_sum; /* [i]: stiffness of springs 0..i-1 */
     fret_real *touch; /* [i]: F_N where spring i touches */
     fret_real dz, FN, dx, Fx;
@@ -103,19 +108,11 @@ static double most(double a, double b) {
     return a > b ? a : b;
 }
 
-static fret_real depth_at(const fret_normal *n, fret_real x) {
-    if (n->p > 0)
-        return n->rule.kappa[0] * n->gap.power[0].h *
-               fret_ratio_pow(x, n->gap.power[0].r0, n->gap.power[0].n);
-    return x > fret_gap_start(&n->gap) ? fret_gap_profile(&n->gap, &n->rule, x - fret_gap_start(&n->gap)).g
-                                       : 0;
-}
-
 static bool allocate(fret_springs *s, size_t count) {
-    if (count > SIZE_MAX / (4 * sizeof(fret_real)) - LANES)
+    if (count > SIZE_MAX / (4 * sizeof(fret_real)) - SUMS)
         return false;
     s->count = count;
-    s->padded = (count + LANES - 1) / LANES * LANES;
+    s->padded = (count + SUMS - 1) / SUMS * SUMS;
     cells *c = &s->cells;
     c->g = aligned_alloc(ALIGNMENT, 4 * s->padded * sizeof *c->g);
     s->w_sum = malloc((2 * count + 1) * sizeof *s->w_sum);
@@ -138,7 +135,7 @@ static fret_real cell_weight(size_t i, fret_real k) {
 }
 
 static void fill(fret_springs *s, fret_weight rule) {
-    const fret_foundation *f = &s->normal.foundation;
+    const fret_foundation *f = &s->normal->foundation;
     cells *c = &s->cells;
     fret_real h = (fret_real)s->radius / (fret_real)s->count;
     fret_real scale = 2 * f->cN0 * h * fret_pow(h / f->c0, f->k), stiffness = 0, force = 0, last = 0;
@@ -146,7 +143,7 @@ static void fill(fret_springs *s, fret_weight rule) {
         fret_real mid = (fret_real)i + 0.5L;
         c->w[i] = (double)(scale * (rule == FRET_WEIGHT_CELL ? cell_weight(i, f->k) : fret_pow(mid, f->k)));
         /* rounding must not undo the order of touch */
-        c->g[i] = most((double)depth_at(&s->normal, mid * h), (double)last);
+        c->g[i] = most((double)fret_normal_profile(s->normal, mid * h), (double)last);
         force += stiffness * (c->g[i] - last);
         last = c->g[i];
         s->touch[i] = force;
@@ -171,7 +168,7 @@ fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count
     if (!st.code && rule != FRET_WEIGHT_CELL && rule != FRET_WEIGHT_MIDPOINT)
         st = fret_fail(FRET_OUTSIDE, "rule", (double)rule, FRET_WEIGHT_MIDPOINT);
     if (!st.code)
-        st = fret_press_radius(normal, radius, &end);
+        st = fret_press_by_radius(normal, radius, &end);
     if (st.code)
         return st;
     fret_springs *s = calloc(1, sizeof *s);
@@ -179,11 +176,11 @@ fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count
         free(s);
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     }
-    s->normal = *normal;
+    s->normal = normal;
     s->mu = mu;
     s->compliance = 1 / normal->foundation.eta;
     s->cells.mu_eta = (double)(mu * normal->foundation.eta);
-    for (unsigned width = 2; width <= LANES; width *= 2)
+    for (unsigned width = 2; width <= SUMS; width *= 2)
         fret_springs_use(s, width);
     s->radius = radius;
     s->cell = radius / (double)count;
@@ -292,16 +289,16 @@ typedef struct response {
     fret_real stick; /* of w over springs that stick, if not */
 } response;
 
-static size_t groups(size_t springs) { /* up to whole LANES */
-    return (springs + LANES - 1) / LANES * LANES;
+static size_t groups(size_t springs) { /* up to whole SUMS */
+    return (springs + SUMS - 1) / SUMS * SUMS;
 }
 
 /* keep: stores the new displacements and bounds. */
 static response deform(fret_springs *s, double z0, double z1, double ddx, bool keep) {
     const size_t end = groups(z1 > z0 ? springs_below(s->cells.g, s->count, z1) : s->closed);
-    lane_sums sums;
+    partial_sums sums;
     if (z0 == z1) {
-        s->run->slide(&s->cells, end, ddx, keep, &sums);
+        s->run->shift(&s->cells, end, ddx, keep, &sums);
     } else {
         const straight path = {z1, ddx, most(z0, z1), 1 / fabs(z1 - z0)};
         s->run->deform(&s->cells, end, &path, keep, &sums);
@@ -327,9 +324,9 @@ static void turn(fret_springs *s, fret_real before, fret_real after) {
 
 /* The same at constant depth: most steps are of this kind, and what goes round the loop over springs would
  * cost as much as 200 of them. */
-static void slide(fret_springs *s, fret_real dx) {
-    lane_sums sums;
-    s->run->slide(&s->cells, groups(s->closed), (double)(dx - s->dx), true, &sums);
+static void step_at_depth(fret_springs *s, fret_real dx) {
+    partial_sums sums;
+    s->run->shift(&s->cells, groups(s->closed), (double)(dx - s->dx), true, &sums);
     turn(s, s->dx, dx);
     s->dx = dx;
     s->Fx = total(sums.force, sums.force_rest) * s->compliance;
@@ -355,7 +352,7 @@ static double displacement_of_front(const fret_springs *s, double missing) {
 /* The displacement nearest to the present one that makes F_x: Newton on a monotone piecewise linear
  * function, kept in a bracket that is wide enough for every spring to slip either way. */
 static fret_real displacement_for(fret_springs *s, fret_real dz, fret_real Fx, fret_real tolerance) {
-    const fret_real eta = s->normal.foundation.eta, reach = 2.0L * s->cells.mu_eta * fmaxl(s->dz, dz);
+    const fret_real eta = s->normal->foundation.eta, reach = 2.0L * s->cells.mu_eta * fmaxl(s->dz, dz);
     fret_real lo = -reach, hi = reach, x = 0;
     if (dz == s->dz)
         x = displacement_of_front(s, (double)((Fx - s->Fx) * eta));
@@ -397,35 +394,43 @@ static void walk_displacements(fret_springs *s, fret_real dz, fret_real dx, unsi
     advance(s, dz, dx);
 }
 
-fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned substeps) {
+/* Depth and load at the end of a step. */
+static fret_status normal_end(const fret_springs *s, const fret_step *step, fret_real *dz, fret_real *FN) {
     const fret_real slack = 1 + 1e-12L; /* radius was rounded */
-    fret_real dz = s->dz, FN = s->FN, dx = s->dx;
     fret_status st = fret_ok();
-    if (substeps == 0)
-        return fret_fail(FRET_NOT_POSITIVE, "substeps", 0, 0);
-    if (step->normal_by == FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_DX && substeps == 1 &&
-        isfinite(step->tangential)) {
-        slide(s, step->tangential);
-        return st;
-    }
+    *dz = s->dz;
+    *FN = s->FN;
     if (step->normal_by == FRET_TO_FORCE) {
         st = fret_check_not_negative("FN", step->normal);
         if (!st.code && step->normal > s->end_FN * slack)
             st = fret_fail(FRET_OUTSIDE, "FN", step->normal, (double)s->end_FN);
-        if (!st.code && (step->normal != FN || dz < 0)) {
-            FN = step->normal;
-            dz = depth_of_force(s, FN);
+        if (!st.code && (step->normal != s->FN || s->dz < 0)) {
+            *FN = step->normal;
+            *dz = depth_of_force(s, *FN);
         }
     } else if (step->normal_by == FRET_TO_DEPTH) {
         if (!isfinite(step->normal))
             st = fret_fail(FRET_NOT_FINITE, "dz", step->normal, 0);
         else if (step->normal > s->end_dz * slack)
             st = fret_fail(FRET_OUTSIDE, "dz", step->normal, (double)s->end_dz);
-        if (!st.code && step->normal != dz) {
-            dz = step->normal;
-            FN = force_of_depth(s, dz);
+        if (!st.code && step->normal != s->dz) {
+            *dz = step->normal;
+            *FN = force_of_depth(s, *dz);
         }
     }
+    return st;
+}
+
+fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned substeps) {
+    fret_real dz, FN;
+    if (substeps == 0)
+        return fret_fail(FRET_NOT_POSITIVE, "substeps", 0, 0);
+    if (step->normal_by == FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_DX && substeps == 1 &&
+        isfinite(step->tangential)) {
+        step_at_depth(s, step->tangential);
+        return fret_ok();
+    }
+    const fret_status st = normal_end(s, step, &dz, &FN);
     if (st.code)
         return st;
     const bool by_force = step->tangential_by == FRET_TO_FX;
@@ -433,13 +438,11 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
         return fret_fail(FRET_NOT_FINITE, by_force ? "Fx" : "dx", step->tangential, 0);
     if (by_force && fabs(step->tangential) > s->mu * FN)
         return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(s->mu * FN));
-    if (step->tangential_by == FRET_TO_DX)
-        dx = step->tangential;
-
     if (by_force) {
         turn(s, s->Fx, step->tangential);
         walk_forces(s, FN, dz, step->tangential, substeps);
     } else {
+        const fret_real dx = step->tangential_by == FRET_TO_DX ? (fret_real)step->tangential : s->dx;
         turn(s, s->dx, dx);
         walk_displacements(s, dz, dx, substeps);
     }
@@ -449,7 +452,7 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
 }
 
 void fret_springs_state(const fret_springs *s, fret_state *out) {
-    const fret_real eta = s->normal.foundation.eta;
+    const fret_real eta = s->normal->foundation.eta;
     const size_t closed = s->closed;
     fret_real stored = 0, going = 0;
     size_t slipping = 0; /* outermost run of them */
@@ -464,7 +467,7 @@ void fret_springs_state(const fret_springs *s, fret_state *out) {
     *out = (fret_state){
         .FN = s->FN,
         .dz = s->dz,
-        .a = s->dz > 0 ? fret_law_radius(&s->normal, s->dz) : 0,
+        .a = s->dz > 0 ? fret_law_radius(s->normal, s->dz) : 0,
         .Fx = s->Fx,
         .dx = s->dx,
         .W = fret_sum_value(&s->W),

@@ -1,21 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "batch.h"
+/* The closed forms for arrays of loads, each loop once for each instruction set; what these cannot do goes to
+ * the functions of cycle.h and normal.h. Pure. */
+#include "fast/batch.h"
 
 #include <float.h>
 
-#include "dd.h"
+#include "contact/check.h"
+#include "contact/normal.h"
 #include "fret/cycle.h"
-#include "kernel.h"
-#include "special.h"
+#include "number/double.h"
 
-#define KERNEL_ALSO "batch_body.h"
+#define LANES_ALSO "fast/batch_body.h"
 #define LANES 2
-#include "kernel_lanes.h"
+#include "number/lanes.h"
 #ifdef __x86_64__
 #define LANES 4
-#include "kernel_lanes.h"
+#include "number/lanes.h"
 #define LANES 8
-#include "kernel_lanes.h"
+#include "number/lanes.h"
 #endif
 
 static void split(dd x, double out[2]) {
@@ -53,20 +55,20 @@ void fret_loss_series(double rho, int terms, double out[]) {
     }
 }
 
-fret_status fret_sweep_make(const fret_normal *normal, double mu, const fret_press *press, fret_sweep *out) {
-    fret_status st = fret_check_positive("mu", mu);
-    if (!st.code)
-        st = fret_check_positive("FN", (double)press->F);
+fret_status fret_sweep_make(const fret_contact *contact, fret_sweep *out) {
+    fret_status st = fret_contact_check(contact);
     if (st.code)
         return st;
-    fret_sweep w = {.normal = normal, .press = *press, .mu = mu};
-    const fret_foundation *f = &normal->foundation;
+    fret_sweep w = {.fast = false};
+    const fret_normal *normal = contact->normal;
+    const fret_press *press = &contact->press;
+    const double mu = contact->mu;
     dd limit = dd_mul_d(dd_from2(press->F, press->F_rest), mu);
-    dd slip = dd_mul(dd_mul_d(f->wide.eta, mu), dd_from2(press->dz, press->dz_rest));
+    dd slip = dd_mul(dd_mul_d(normal->wide_foundation.eta, mu), dd_from2(press->dz, press->dz_rest));
     dd scale = dd_mul(limit, slip);
-    w.fast = normal->p > 0 && tame(limit.hi) && tame(slip.hi) && tame(scale.hi);
+    w.fast = fret_normal_closed(normal) && tame(limit.hi) && tame(slip.hi) && tame(scale.hi);
     if (w.fast) {
-        dd q = normal->wide.q, r = dd_div(dd_sum(1, (double)f->k), normal->wide.s);
+        dd q = normal->wide.q, r = dd_div(dd_sum(1, (double)normal->foundation.k), normal->wide.s);
         split(dd_div(dd_of(1), limit), w.inverse);
         w.q = q.hi;
         w.alpha = (1 + w.q) / 2;
@@ -86,55 +88,13 @@ fret_status fret_sweep_make(const fret_normal *normal, double mu, const fret_pre
     return fret_ok();
 }
 
-/* One load goes through two equal lanes: compilers do worse with single numbers, whose words change between
- * registers of two kinds. */
-
-double fret_sweep_loss(const fret_sweep *w, double FA) {
-    if (!w->fast) {
-        fret_real loss = (fret_real)NAN;
-        fret_status st = fret_cycle_loss(w->normal, w->mu, &w->press, FA, &loss);
-        return st.code ? (double)NAN : (double)loss;
-    }
-    lanes2_numbers x = {FA, FA};
-    lanes2_part p;
-    lanes2_depth(w, &x, &p);
-    lanes2_loss(w, &p, &x);
-    return x[0];
-}
-
-static fret_loading loading(const fret_sweep *w, double Fx) {
-    fret_loading f;
-    fret_status st = fret_loading_force(w->normal, w->mu, &w->press, Fx, &f);
-    return st.code ? (fret_loading){Fx, (fret_real)NAN, (fret_real)NAN, (fret_real)NAN} : f;
-}
-
-double fret_sweep_radius(const fret_sweep *w, double Fx) {
-    if (!w->fast)
-        return (double)loading(w, Fx).c;
-    lanes2_numbers x = {Fx, Fx};
-    lanes2_part p;
-    lanes2_depth_pair(w, &x, &p);
-    lanes2_radius(w, &p, &x);
-    return x[0];
-}
-
-double fret_sweep_displacement(const fret_sweep *w, double Fx) {
-    if (!w->fast)
-        return (double)loading(w, Fx).dx;
-    lanes2_numbers x = {Fx, Fx};
-    lanes2_part p;
-    lanes2_depth(w, &x, &p);
-    lanes2_displacement(w, &p, &x);
-    return x[0];
-}
-
 /* Force and depth at a = r0; infinite or 0 where a double does not hold them. */
 static dd law_force(const fret_normal *normal) {
-    return dd_exp(normal->wide.ln_force);
+    return fret_dd_exp(normal->wide.ln_force);
 }
 
 static double law_depth(const fret_normal *normal) {
-    return dd_exp(normal->wide.ln_depth).hi;
+    return fret_dd_exp(normal->wide.ln_depth).hi;
 }
 
 void fret_press_law_make(const fret_normal *normal, fret_press_law *out) {
@@ -176,7 +136,7 @@ enum { BLOCK = 64 };
             if (n < BLOCK)                                                                                   \
                 memcpy(out + i, copy, n * sizeof *out);                                                      \
         }                                                                                                    \
-        return kernel_any(&nan, LANES);                                                                      \
+        return fret_any(&nan, LANES);                                                                        \
     }
 
 #define VARIANT(set, lanes, target)                                                                          \
@@ -221,16 +181,15 @@ static const fret_variant *best(void) {
     return v;
 }
 
-fret_status fret_batch_loss(const fret_normal *normal, double mu, const fret_press *press, const double FA[],
-                            double loss[], size_t count) {
+fret_status fret_batch_loss(const fret_contact *contact, const double FA[], double loss[], size_t count) {
     fret_sweep w;
-    fret_status st = fret_sweep_make(normal, mu, press, &w);
+    fret_status st = fret_sweep_make(contact, &w);
     if (st.code || (w.fast && !best()->loss(&w, FA, loss, count)))
         return st;
     for (size_t i = 0; i < count; i++)
         if (!w.fast || isnan(loss[i])) {
             fret_real exact;
-            st = fret_cycle_loss(normal, mu, press, FA[i], &exact);
+            st = fret_cycle_loss_by_force(contact, FA[i], &exact);
             if (st.code)
                 return st;
             loss[i] = (double)exact;
@@ -238,10 +197,10 @@ fret_status fret_batch_loss(const fret_normal *normal, double mu, const fret_pre
     return st;
 }
 
-fret_status fret_batch_loading(const fret_normal *normal, double mu, const fret_press *press,
-                               const double Fx[], double c[], double dx[], size_t count) {
+fret_status fret_batch_loading(const fret_contact *contact, const double Fx[], double c[], double dx[],
+                               size_t count) {
     fret_sweep w;
-    fret_status st = fret_sweep_make(normal, mu, press, &w);
+    fret_status st = fret_sweep_make(contact, &w);
     if (st.code)
         return st;
     bool missing = !w.fast;
@@ -252,7 +211,7 @@ fret_status fret_batch_loading(const fret_normal *normal, double mu, const fret_
     for (size_t i = 0; missing && i < count; i++)
         if (!w.fast || (c && isnan(c[i])) || (dx && isnan(dx[i]))) {
             fret_loading f;
-            st = fret_loading_force(normal, mu, press, Fx[i], &f);
+            st = fret_loading_by_force(contact, Fx[i], &f);
             if (st.code)
                 return st;
             if (c)
@@ -265,7 +224,8 @@ fret_status fret_batch_loading(const fret_normal *normal, double mu, const fret_
 
 fret_status fret_batch_press(const fret_normal *normal, const double F[], double a[], double dz[],
                              size_t count) {
-    bool fast = normal->p > 0 && tame(law_force(normal).hi) && tame(law_depth(normal)), missing = !fast;
+    bool fast = fret_normal_closed(normal) && tame(law_force(normal).hi) && tame(law_depth(normal)),
+         missing = !fast;
     fret_status st = fret_ok();
     if (fast) {
         fret_press_law w;
@@ -278,7 +238,7 @@ fret_status fret_batch_press(const fret_normal *normal, const double F[], double
     for (size_t i = 0; missing && i < count; i++)
         if (!fast || (a && isnan(a[i])) || (dz && isnan(dz[i]))) {
             fret_press p;
-            st = fret_press_force(normal, F[i], &p);
+            st = fret_press_by_force(normal, F[i], &p);
             if (st.code)
                 return st;
             if (a)

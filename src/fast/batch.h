@@ -1,11 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The loops of fret/batch.h for each instruction set, for tests and timings. Not installed. */
-#ifndef FRET_CONTACT_BATCH_H
-#define FRET_CONTACT_BATCH_H
+/* The loops of fret/batch.h for each instruction set. Not installed. */
+#ifndef FRET_FAST_BATCH_H
+#define FRET_FAST_BATCH_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "fret/batch.h"
+
+/* All that does not depend on the tangential load. */
+enum { FRET_SWEEP_TERMS = 15 };
+typedef struct fret_sweep {
+    bool fast;                       /* else by the functions of cycle.h */
+    double inverse[2];               /* 1/(mu F_N), high and low part */
+    double q;                        /* n/(n+k+1) */
+    double alpha;                    /* (1+q)/2 */
+    double sigma, rho;               /* 2q/(1+q), r/(1+q), r = 1-q */
+    double shallow, deep;            /* exponents of the two forms of the loss */
+    double scale, gross, cubic;      /* 4 mu F_N delta_x,max; that times rho, and times q r */
+    double series[FRET_SWEEP_TERMS]; /* in alpha^2 L^2, L = -log(1-t) */
+    double slip;                     /* delta_x,max [m] */
+    double a, radius[2];             /* [m]; 1/(n+k+1), high and low part */
+} fret_sweep;
+
+/* Errors: FRET_NOT_POSITIVE (mu, FN), FRET_NOT_FINITE. */
+fret_status fret_sweep_make(const fret_contact *contact, fret_sweep *out);
 
 /* (F/Fref)^power for the normal contact. */
 typedef struct fret_press_law {

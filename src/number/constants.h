@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Made by scripts/reference/tables.py. */
+/* Constants of the elementary functions and of the quadrature: made by scripts/reference/constants.py. Each
+ * file that includes this keeps what it reads. Not installed. */
+#ifndef FRET_NUMBER_CONSTANTS_H
+#define FRET_NUMBER_CONSTANTS_H
+
+#include "number/dd.h"
+
 /* clang-format off */
 /* ln(j/128) for j = 90 .. 181 */
 static const dd log_128[92] = {
@@ -293,3 +299,5 @@ static const struct {
     {3.232784109720761463823416e-57L, 3.505198420013934358018312e-56L},
     {3.97151065961105805169829e-62L, 4.680293893952882829094781e-61L},
 };
+
+#endif

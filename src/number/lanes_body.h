@@ -1,74 +1,75 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The elementary functions of kernel.h, once for each width: included by kernel_lanes.h alone.
+/* The elementary functions of lanes.h, once for each width: included by that alone. + - * / and whole-word
+ * operations, no libm, no fused multiply-add.
  * Wants V (double or a vector of them), U (as many 64-bit words), M (what comparisons give), BITS and VALUE
  * between V and U, SELECT(mask, yes, no), ANY(mask) and NAMED(name). Arguments go by address: vectors wider
  * than the target's registers have no stable calling convention. */
 
-#define KERNEL_ONE 0x3ff0000000000000u
-#define KERNEL_INTEGER 0x1.8p52 /* added to |x| < 2^51, rounds it and leaves it in the low bits */
+#define ONE 0x3ff0000000000000u
+#define INTEGER 0x1.8p52 /* added to |x| < 2^51, rounds it and leaves it in the low bits */
 
 /* The leading 26 bits: products of two such numbers are exact. */
-#define KERNEL_HEAD(x) VALUE(BITS(x) & 0xfffffffff8000000u)
+#define HEAD(x) VALUE(BITS(x) & 0xfffffffff8000000u)
 
 /* a b = high + low to 2^-104. */
-KERNEL_INLINE void NAMED(product)(const V *a, const V *b, V *high, V *low) {
-    V ah = KERNEL_HEAD(*a), al = *a - ah;
-    V bh = KERNEL_HEAD(*b), bl = *b - bh;
+FRET_INLINE void NAMED(product)(const V *a, const V *b, V *high, V *low) {
+    V ah = HEAD(*a), al = *a - ah;
+    V bh = HEAD(*b), bl = *b - bh;
     V p = *a * *b;
     *low = (((ah * bh - p) + ah * bl) + al * bh) + al * bl;
     *high = p;
 }
 
 /* x = m 2^e with m in [sqrt(1/2), sqrt(2)), x > 0 normal; factor = 2^-e. */
-KERNEL_INLINE void NAMED(reduce)(const V *x, V *m, V *e, V *factor) {
-    U shifted = BITS(*x) + (KERNEL_ONE - 0x3fe6a09e667f3bcdu);
-    U exponent = (shifted & 0xfff0000000000000u) - KERNEL_ONE;
+FRET_INLINE void NAMED(reduce)(const V *x, V *m, V *e, V *factor) {
+    U shifted = BITS(*x) + (ONE - 0x3fe6a09e667f3bcdu);
+    U exponent = (shifted & 0xfff0000000000000u) - ONE;
     *m = VALUE(BITS(*x) - exponent);
-    *factor = VALUE(KERNEL_ONE - exponent);
+    *factor = VALUE(ONE - exponent);
     *e = VALUE((shifted >> 52) | 0x4330000000000000u) - (0x1p52 + 1023);
 }
 
-#define KERNEL_LN2_HIGH 0x1.62e42fefa3800p-1 /* 42 bits: its product with an exponent is exact */
-#define KERNEL_LN2_LOW 0x1.ef35793c76730p-45
+#define LN2_HIGH 0x1.62e42fefa3800p-1 /* 42 bits: its product with an exponent is exact */
+#define LN2_LOW 0x1.ef35793c76730p-45
 
 /* e ln 2 + log(1+f+low), sqrt(1/2) <= 1+f <= sqrt(2), |low| <= ulp(f): 0.7 ulp while e = 0, else 1 ulp.
  * With z = f/(2+f), log(1+f) = 2 atanh z = f - f^2/2 + z (f^2/2 + R), R = 2 z^2/3 + 2 z^4/5 + ... */
-KERNEL_INLINE void NAMED(log_of)(const V *f, const V *low, const V *e, V *out) {
+FRET_INLINE void NAMED(log_of)(const V *f, const V *low, const V *e, V *out) {
     V x = *f, z = x / (2.0 + x), half = 0.5 * x * x, w = z * z, w2 = w * w;
     V r = ((0x1.5555555555558p-1 + w * 0x1.9999999995224p-2) +
            w2 * (0x1.2492492e03e05p-2 + w * 0x1.c71c62d0402aep-3)) +
           (w2 * w2) * ((0x1.7462ba27c8794p-3 + w * 0x1.39fdb949c5e05p-3) + w2 * 0x1.2b5fbed6295a5p-3);
-    V rest = (z * half + (*e * KERNEL_LN2_LOW + (*low - *low * x))) + (z * w) * r;
-    *out = *e * KERNEL_LN2_HIGH - ((half - rest) - x);
+    V rest = (z * half + (*e * LN2_LOW + (*low - *low * x))) + (z * w) * r;
+    *out = *e * LN2_HIGH - ((half - rest) - x);
 }
 
 /* The same as high + rest, to 2^-66: 2z + 2 z^3 (1/3 + z^2 P), each factor cut so that the product of the
  * leading halves is exact. */
-KERNEL_INLINE void NAMED(log_pair)(const V *f, const V *low, const V *e, V *high, V *rest) {
+FRET_INLINE void NAMED(log_pair)(const V *f, const V *low, const V *e, V *high, V *rest) {
     V x = *f, d = 2.0 + x, z = x / d;
-    V zh = KERNEL_HEAD(z), dh = KERNEL_HEAD(d), dl = (x - (dh - 2.0)) + *low;
+    V zh = HEAD(z), dh = HEAD(d), dl = (x - (dh - 2.0)) + *low;
     V zl = (((x - zh * dh) - zh * dl) + *low) * (0.5 - 0.5 * z); /* 1/(2+f) = (1-z)/2 */
     V square = zh * zh, square_low = zl * (zh + z), w = z * z, w2 = w * w;
     V tail = w * (((0x1.999999999999ap-3 + w * 0x1.2492492492523p-3) +
                    w2 * (0x1.c71c71c6ea3a7p-4 + w * 0x1.745d177ae7ca4p-4)) +
                   (w2 * w2) * ((0x1.3b1395b312af8p-4 + w * 0x1.1118cdef60706p-4) +
                                w2 * (0x1.df7b9e38d150dp-5 + w * 0x1.e039c40bcc6e0p-5)));
-    V c = 0x1.5555555555555p-2 + tail, ch = KERNEL_HEAD(c);
+    V c = 0x1.5555555555555p-2 + tail, ch = HEAD(c);
     V cl = ((0x1.5555555555555p-2 - ch) + tail) + 0x1.5555555555555p-56;
-    V sh = KERNEL_HEAD(square), cube = zh * sh, cube_low = zh * ((square - sh) + square_low) + zl * w;
-    V qh = KERNEL_HEAD(cube), ql = (cube - qh) + cube_low;
+    V sh = HEAD(square), cube = zh * sh, cube_low = zh * ((square - sh) + square_low) + zl * w;
+    V qh = HEAD(cube), ql = (cube - qh) + cube_low;
     V v = qh * ch, vl = qh * cl + ql * c;
     V sum = zh + v, small = ((zh - sum) + v) + (zl + vl);
-    V first = *e * KERNEL_LN2_HIGH, total = first + 2.0 * sum; /* |first| > |2 sum| or e = 0 */
-    small = ((first - total) + 2.0 * sum) + (2.0 * small + *e * KERNEL_LN2_LOW);
+    V first = *e * LN2_HIGH, total = first + 2.0 * sum; /* |first| > |2 sum| or e = 0 */
+    small = ((first - total) + 2.0 * sum) + (2.0 * small + *e * LN2_LOW);
     *high = total + small;
     *rest = (total - *high) + small;
 }
 
 /* exp(x+low) = 2^k (1+p), |x| < 1420, |low| <= ulp(x); k is returned as a number. */
-KERNEL_INLINE void NAMED(exp_of)(const V *x, const V *low, V *k, V *p) {
-    V n = (*x * 0x1.71547652b82fep+0 + KERNEL_INTEGER) - KERNEL_INTEGER;
-    V rh = *x - n * KERNEL_LN2_HIGH, rl = *low - n * KERNEL_LN2_LOW, r = rh + rl;
+FRET_INLINE void NAMED(exp_of)(const V *x, const V *low, V *k, V *p) {
+    V n = (*x * 0x1.71547652b82fep+0 + INTEGER) - INTEGER;
+    V rh = *x - n * LN2_HIGH, rl = *low - n * LN2_LOW, r = rh + rl;
     V r2 = r * r, r4 = r2 * r2;
     V q = (((0.5 + r * 0x1.5555555555559p-3) + r2 * (0x1.555555555555ap-5 + r * 0x1.111111110f6afp-7)) +
            r4 * ((0x1.6c16c16c14470p-10 + r * 0x1.a01a01afe52d1p-13) +
@@ -79,24 +80,24 @@ KERNEL_INLINE void NAMED(exp_of)(const V *x, const V *low, V *k, V *p) {
 }
 
 /* 2^k, -1022 <= k <= 1023. */
-KERNEL_INLINE void NAMED(two_to)(const V *k, V *out) {
-    *out = VALUE((BITS(*k + KERNEL_INTEGER) << 52) + KERNEL_ONE);
+FRET_INLINE void NAMED(two_to)(const V *k, V *out) {
+    *out = VALUE((BITS(*k + INTEGER) << 52) + ONE);
 }
 
 /* factor exp(x+low), factor > 0; NaN of NaN. Over- or underflows only where the result does. */
-KERNEL_INLINE void NAMED(exp_times)(const V *factor, const V *x, const V *low, V *out) {
+FRET_INLINE void NAMED(exp_times)(const V *factor, const V *x, const V *low, V *out) {
     V h = SELECT(*x < -1416.0, (V){0} - 1416.0, *x), k, p, f1, f2;
     h = SELECT(h > 1416.0, (V){0} + 1416.0, h);
     V l = SELECT(h == *x, *low, (V){0});
     NAMED(exp_of)(&h, &l, &k, &p);
-    V k1 = (0.5 * k + KERNEL_INTEGER) - KERNEL_INTEGER, k2 = k - k1;
+    V k1 = (0.5 * k + INTEGER) - INTEGER, k2 = k - k1;
     NAMED(two_to)(&k1, &f1);
     NAMED(two_to)(&k2, &f2);
     *out = (((1.0 + p) * f1) * *factor) * f2;
 }
 
 /* factor exp((high+low) (y[0]+y[1])): a power from the logarithm of its base. */
-KERNEL_INLINE void NAMED(power)(const V *high, const V *low, const double y[2], double factor, V *out) {
+FRET_INLINE void NAMED(power)(const V *high, const V *low, const double y[2], double factor, V *out) {
     V yh = (V){0} + y[0], size = (V){0} + factor, h, l;
     NAMED(product)(high, &yh, &h, &l);
     l += *high * y[1] + *low * yh;
@@ -104,15 +105,15 @@ KERNEL_INLINE void NAMED(power)(const V *high, const V *low, const double y[2], 
 }
 
 /* exp(x)-1, |x| < 700. */
-KERNEL_INLINE void NAMED(expm1)(const V *x, V *out) {
+FRET_INLINE void NAMED(expm1)(const V *x, V *out) {
     V k, p, f, zero = (V){0};
     NAMED(exp_of)(x, &zero, &k, &p);
     NAMED(two_to)(&k, &f);
     *out = f * p + (f - 1.0);
 }
 
-#undef KERNEL_ONE
-#undef KERNEL_HEAD
-#undef KERNEL_INTEGER
-#undef KERNEL_LN2_HIGH
-#undef KERNEL_LN2_LOW
+#undef ONE
+#undef HEAD
+#undef INTEGER
+#undef LN2_HIGH
+#undef LN2_LOW

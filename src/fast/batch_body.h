@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The closed forms of a power law for each width: included by kernel_lanes.h alone. */
+/* The closed forms of a power law for each width: included by number/lanes.h alone. */
 
 /* Each quantity comes in two steps with this between them: an array goes through the first, then through the
  * second, since a processor overlaps the groups of a short loop better than those of a long one. */
@@ -9,7 +9,7 @@ typedef struct NAMED(part) {
 } NAMED(part);
 
 /* t and s of |F|, each as a pair, and f, low and e of -L for the logarithms. */
-KERNEL_INLINE void NAMED(fraction)(const fret_sweep *w, const V *F, NAMED(part) * p, V *f, V *low, V *e) {
+FRET_INLINE void NAMED(fraction)(const fret_sweep *w, const V *F, NAMED(part) * p, V *f, V *low, V *e) {
     V size = VALUE(BITS(*F) & 0x7fffffffffffffffu), ih = (V){0} + w->inverse[0], h, l;
     NAMED(product)(&size, &ih, &h, &l);
     l += size * w->inverse[1];
@@ -25,7 +25,7 @@ KERNEL_INLINE void NAMED(fraction)(const fret_sweep *w, const V *F, NAMED(part) 
 }
 
 /* The first step of loss and displacement. */
-KERNEL_INLINE void NAMED(depth)(const fret_sweep *w, const V *F, NAMED(part) * p) {
+FRET_INLINE void NAMED(depth)(const fret_sweep *w, const V *F, NAMED(part) * p) {
     V f, low, e, log;
     NAMED(fraction)(w, F, p, &f, &low, &e);
     NAMED(log_of)(&f, &low, &e, &log);
@@ -38,7 +38,7 @@ KERNEL_INLINE void NAMED(depth)(const fret_sweep *w, const V *F, NAMED(part) * p
  * for L < 3.5 as 4 q r L^3 e^-alpha times a series of positive terms in alpha^2; else
  *   w/4 = (1+rho s)(1-e^-qL) - sigma t          where q < 1/3,
  *       = rho t (1+s) - (1+rho s) s (e^rL-1)    else: the difference that cancels less. */
-KERNEL_INLINE void NAMED(loss)(const fret_sweep *w, const NAMED(part) * p, V *out) {
+FRET_INLINE void NAMED(loss)(const fret_sweep *w, const NAMED(part) * p, V *out) {
     V L = p->L, small = (V){0}, large = (V){0}, zero = (V){0};
     M shallow = L < 3.5, deep = L >= 3.5;
     if (ANY(shallow)) {
@@ -73,7 +73,7 @@ KERNEL_INLINE void NAMED(loss)(const fret_sweep *w, const NAMED(part) * p, V *ou
 }
 
 /* delta_x = delta_x,max (1 - e^-qL) */
-KERNEL_INLINE void NAMED(displacement)(const fret_sweep *w, const NAMED(part) * p, V *out) {
+FRET_INLINE void NAMED(displacement)(const fret_sweep *w, const NAMED(part) * p, V *out) {
     V x = -w->q * p->L, y;
     NAMED(expm1)(&x, &y);
     V inside = SELECT(p->s > DBL_EPSILON, -w->slip * y, (V){0} + w->slip);
@@ -82,14 +82,14 @@ KERNEL_INLINE void NAMED(displacement)(const fret_sweep *w, const NAMED(part) * 
 }
 
 /* The first step of the stick radius: the exponent magnifies the error of L. */
-KERNEL_INLINE void NAMED(depth_pair)(const fret_sweep *w, const V *F, NAMED(part) * p) {
+FRET_INLINE void NAMED(depth_pair)(const fret_sweep *w, const V *F, NAMED(part) * p) {
     V f, low, e;
     NAMED(fraction)(w, F, p, &f, &low, &e);
     NAMED(log_pair)(&f, &low, &e, &p->L, &p->low);
 }
 
 /* c = a s^(1/(n+k+1)) */
-KERNEL_INLINE void NAMED(radius)(const fret_sweep *w, const NAMED(part) * p, V *out) {
+FRET_INLINE void NAMED(radius)(const fret_sweep *w, const NAMED(part) * p, V *out) {
     V c;
     NAMED(power)(&p->L, &p->low, w->radius, w->a, &c);
     V inside = SELECT(p->s > DBL_EPSILON, c, (V){0});
@@ -97,7 +97,7 @@ KERNEL_INLINE void NAMED(radius)(const fret_sweep *w, const NAMED(part) * p, V *
 }
 
 /* The first step of radius and depth by load: log(F/Fref). */
-KERNEL_INLINE void NAMED(load)(const fret_press_law *w, const V *F, NAMED(part) * p) {
+FRET_INLINE void NAMED(load)(const fret_press_law *w, const V *F, NAMED(part) * p) {
     V m, e, more, factor, z, zl, f, ih = (V){0} + w->inverse[0];
     NAMED(reduce)(F, &m, &e, &factor);
     NAMED(product)(&m, &ih, &z, &zl);
@@ -111,7 +111,7 @@ KERNEL_INLINE void NAMED(load)(const fret_press_law *w, const V *F, NAMED(part) 
 }
 
 /* at_ref (F/Fref)^exponent; NaN where the scalar function is to decide. */
-KERNEL_INLINE void NAMED(press)(const NAMED(part) * p, const double exponent[2], double at_ref, V *out) {
+FRET_INLINE void NAMED(press)(const NAMED(part) * p, const double exponent[2], double at_ref, V *out) {
     V F = p->t, x, nan = (V){0} + (double)NAN;
     NAMED(power)(&p->L, &p->low, exponent, at_ref, &x);
     /* one by one: some compilers take a conjunction of masks apart, number by number */
@@ -122,10 +122,10 @@ KERNEL_INLINE void NAMED(press)(const NAMED(part) * p, const double exponent[2],
     *out = SELECT(F == 0.0, (V){0}, x);
 }
 
-KERNEL_INLINE void NAMED(press_radius)(const fret_press_law *w, const NAMED(part) * p, V *out) {
+FRET_INLINE void NAMED(press_radius)(const fret_press_law *w, const NAMED(part) * p, V *out) {
     NAMED(press)(p, w->radius, w->r0, out);
 }
 
-KERNEL_INLINE void NAMED(press_depth)(const fret_press_law *w, const NAMED(part) * p, V *out) {
+FRET_INLINE void NAMED(press_depth)(const fret_press_law *w, const NAMED(part) * p, V *out) {
     NAMED(press)(p, w->depth, w->dref, out);
 }

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The functions of kernel_body.h, and of the file KERNEL_ALSO where that is defined, for groups of LANES = 1,
- * 2, 4 or 8 numbers, each named lanes1_..., lanes2_... Wanted at the width of the registers: compilers split
- * wider groups badly. No guard: included once for each width. */
-#include "kernel.h"
+/* Elementary functions in double of LANES = 1, 2, 4 or 8 numbers at once, with the same bits at every width,
+ * each named lanes1_..., lanes2_...: those of lanes_body.h, and of the file LANES_ALSO where that is defined.
+ * Wanted at the width of the registers: compilers split wider groups badly. No guard: included once for each
+ * width. Not installed. */
+#include "number/bits.h"
 
-#define KERNEL_PASTE(count, name) lanes##count##_##name
-#define KERNEL_NAMED(count, name) KERNEL_PASTE(count, name)
-#define NAMED(name) KERNEL_NAMED(LANES, name)
+#define LANES_PASTE(count, name) lanes##count##_##name
+#define LANES_NAMED(count, name) LANES_PASTE(count, name)
+#define NAMED(name) LANES_NAMED(LANES, name)
 
 #if LANES == 1
 #define V double
 #define U uint64_t
 #define M int
-#define BITS kernel_bits
-#define VALUE kernel_value
+#define BITS fret_bits
+#define VALUE fret_from_bits
 #define SELECT(mask, yes, no) ((mask) ? (yes) : (no))
 #define ANY(mask) (mask)
 #else
@@ -26,12 +27,12 @@ typedef int64_t NAMED(mask) __attribute__((vector_size(LANES * sizeof(double))))
 #define BITS(x) ((U)(x))
 #define VALUE(u) ((V)(u))
 #define SELECT(mask, yes, no) VALUE((BITS(yes) & (U)(mask)) | (BITS(no) & ~(U)(mask)))
-#define ANY(mask) kernel_any(&(mask), LANES)
+#define ANY(mask) fret_any(&(mask), LANES)
 #endif
 
-#include "kernel_body.h"
-#ifdef KERNEL_ALSO
-#include KERNEL_ALSO
+#include "number/lanes_body.h"
+#ifdef LANES_ALSO
+#include LANES_ALSO
 #endif
 
 #undef V
@@ -42,6 +43,6 @@ typedef int64_t NAMED(mask) __attribute__((vector_size(LANES * sizeof(double))))
 #undef SELECT
 #undef ANY
 #undef NAMED
-#undef KERNEL_NAMED
-#undef KERNEL_PASTE
+#undef LANES_NAMED
+#undef LANES_PASTE
 #undef LANES

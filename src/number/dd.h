@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Double-double arithmetic: a number as the unevaluated sum hi + lo, about 100 bits. Only the basic IEEE
- * operations are used, so that every compiler, C library and processor gives the same digits. Not
- * installed. */
+ * operations are used, so that every compiler, C library and processor gives the same digits. What is inlined
+ * here is named dd_..., what is linked fret_dd_... Not installed. */
 #ifndef FRET_DD_H
 #define FRET_DD_H
 
 #include <math.h>
 
-#include "fret/status.h"
+#include "fret/base.h"
 
-typedef fret_pair dd; /* |lo| <= ulp(hi)/2 */
+typedef struct dd {
+    double hi, lo; /* |lo| <= ulp(hi)/2 */
+} dd;
 
 static inline dd dd_of(double x) {
     return (dd){x, 0};
@@ -106,39 +108,26 @@ static inline double dd_rest(dd a) {
     return (double)((a.hi - dd_value(a)) + a.lo);
 }
 
-/* Elementary functions, 2^-98 relative (dd_exp, dd_expm1: plus |x| 2^-105). */
-dd dd_exp(dd x);
-dd dd_expm1(dd x);
-dd dd_log(dd x);                   /* x > 0 */
-dd dd_log_scaled(dd x, int scale); /* of x 2^scale */
-dd dd_log1p(dd x);                 /* x > -1 */
+/* Elementary functions, 2^-98 relative (fret_dd_exp, fret_dd_expm1: plus |x| 2^-105). */
+dd fret_dd_exp(dd x);
+dd fret_dd_expm1(dd x);
+dd fret_dd_log(dd x);                   /* x > 0 */
+dd fret_dd_log_scaled(dd x, int scale); /* of x 2^scale */
+dd fret_dd_log1p(dd x);                 /* x > -1 */
+dd fret_dd_sin(dd x);                   /* |x| <= pi/2 */
 /* sin(pi x/2), 0 <= x <= 1. */
-dd dd_sin_quarter(dd x);
+dd fret_dd_sin_quarter(dd x);
 
 /* Gamma(over[0]) .../(Gamma(under[0]) ...) = factor exp(log), arguments >= 1/2. */
 typedef struct dd_scaled {
     dd factor, log;
 } dd_scaled;
-dd_scaled dd_gamma_quotient(const dd *over, int m, const dd *under, int n);
+dd_scaled fret_dd_gamma_quotient(const dd *over, int m, const dd *under, int n);
 
 /* Natural logarithm of x > 0, and exp, over the whole range of long double. */
-dd dd_log_real(fret_real x);
-fret_real dd_exp_real(dd x);
+dd fret_dd_log_real(fret_real x);
+fret_real fret_dd_exp_real(dd x);
 
-/* The same for long double, over its whole range: results are within 1 in the last of 64 bits. */
-fret_real fret_exp(fret_real x);
-fret_real fret_expm1(fret_real x);
-fret_real fret_log(fret_real x);
-fret_real fret_log10(fret_real x);
-fret_real fret_log1p(fret_real x);
-fret_real fret_pow(fret_real x, fret_real y);                     /* x >= 0, or y whole */
-fret_real fret_ratio_pow(fret_real x, fret_real x0, fret_real y); /* (x/x0)^y for large y too; x, x0 > 0 */
-fret_real fret_sin(fret_real x);
-fret_real fret_cos(fret_real x);
-fret_real fret_atan2(fret_real y, fret_real x);
-fret_real fret_gamma(fret_real x);
-fret_real fret_beta(fret_real x, fret_real y); /* x, y > 0 */
-
-extern const dd dd_pi;
+extern const dd fret_dd_pi;
 
 #endif

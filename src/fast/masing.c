@@ -1,25 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The memory of turning points at constant F_N, in double. Allocates its stack. */
 #include "fret/masing.h"
 
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "batch.h"
-#include "kernel.h"
-#include "special.h"
+#include "contact/check.h"
+#include "contact/normal.h"
+#include "fast/batch.h"
+#include "number/double.h"
 
 /* The elementary functions of a step, in one place. */
 static inline double log_of_rest(double t) { /* log(1-t) */
-    return kernel_log1p(-t);
+    return fret_double_log1p(-t);
 }
 
 static inline double log_of(double s) {
-    return kernel_log(s);
+    return fret_double_log(s);
 }
 
 static inline double exp_drop(double t) { /* 1-exp(-t) */
-    return -kernel_expm1(-t);
+    return -fret_double_expm1(-t);
 }
 
 typedef struct sum {
@@ -49,7 +51,7 @@ typedef struct turn {
 
 enum { SERIES = 11 };
 struct fret_masing {
-    fret_normal normal;
+    const fret_normal *normal; /* borrowed */
     fret_level edge;
     double mu;
     double p, pm1, q;         /* power law, else p = 0 */
@@ -70,13 +72,13 @@ struct fret_masing {
     turn *turns;
 };
 
-fret_status fret_masing_make(const fret_normal *normal, double mu, const fret_press *press,
-                             fret_masing **out) {
-    fret_status st = fret_check_positive("mu", mu);
-    if (!st.code)
-        st = fret_check_positive("FN", (double)press->F);
+fret_status fret_masing_make(const fret_contact *contact, fret_masing **out) {
+    fret_status st = fret_contact_check(contact);
     if (st.code)
         return st;
+    const fret_normal *normal = contact->normal;
+    const fret_press *press = &contact->press;
+    const double mu = contact->mu;
     const fret_real limit = mu * press->F, slip = mu * normal->foundation.eta * press->dz;
     if (!(limit * slip <= DBL_MAX && limit * slip >= DBL_MIN && limit / slip <= DBL_MAX))
         return fret_fail(FRET_OVERFLOW, NULL, (double)(limit * slip), DBL_MAX);
@@ -87,7 +89,7 @@ fret_status fret_masing_make(const fret_normal *normal, double mu, const fret_pr
         free(turns);
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     }
-    m->normal = *normal;
+    m->normal = normal;
     m->edge = (fret_level){press->dz, press->F};
     m->mu = mu;
     m->p = (double)normal->p;
@@ -154,7 +156,7 @@ static point point_at(const fret_masing *m, double x) {
         const double l = -log_of_rest(x);
         return (point){x, l, exp_drop(m->p * l)};
     }
-    return (point){x, 0, (double)(fret_law_load(&m->normal, &m->edge, x * m->edge.y) / m->edge.F)};
+    return (point){x, 0, (double)(fret_law_load(m->normal, &m->edge, x * m->edge.y) / m->edge.F)};
 }
 
 /* From P = F_x/(mu F_N) and 1-P, each with all its digits. */
@@ -166,7 +168,7 @@ static point point_of_force(const fret_masing *m, double P, double rest) {
         return (point){exp_drop(l), l, P};
     }
     const fret_real F = m->edge.F, w = P <= 0.5 ? P * F : F - rest * F;
-    return (point){(double)(fret_law_thickness(&m->normal, &m->edge, w) / m->edge.y), 0, P};
+    return (point){(double)(fret_law_thickness(m->normal, &m->edge, w) / m->edge.y), 0, P};
 }
 
 /* Power law: 1-(1-x)^(p-1); a step does without. */
@@ -178,7 +180,7 @@ static double drop(const fret_masing *m, const point *at) {
  * fret_loss_shape; or, at larger L, closed forms that keep every digit for p < 2 and for p >= 2. */
 static double first_loss(const fret_masing *m, const point *at) {
     if (m->p == 0)
-        return (double)(fret_law_slice(&m->normal, &m->edge, at->x * m->edge.y).L / (m->edge.F * m->edge.y));
+        return (double)(fret_law_slice(m->normal, &m->edge, at->x * m->edge.y).L / (m->edge.F * m->edge.y));
     const double x = at->x, q = m->q, l = at->l;
     if (m->p * l >= 1.75)
         return m->p < 2 ? (m->pm1 * q * at->P * (2 - x) - 2 * (1 - x) * drop(m, at)) / (1 + q)
@@ -314,7 +316,7 @@ void fret_masing_now(const fret_masing *m, fret_masing_state *out) {
     if (m->p > 0) {
         out->kt = m->p * (1 - drop(m, &m->at)) * (m->limit / m->slip);
     } else if (m->at.x < 1) {
-        const fret_real a = fret_law_radius(&m->normal, m->edge.y * (1 - (fret_real)m->at.x));
-        out->kt = (double)(fret_normal_stiffness(&m->normal, a) / m->normal.foundation.eta);
+        const fret_real a = fret_law_radius(m->normal, m->edge.y * (1 - (fret_real)m->at.x));
+        out->kt = (double)(fret_normal_stiffness(m->normal, a) / m->normal->foundation.eta);
     }
 }

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The loops over springs for vectors of WIDTH doubles; included once a width, with NAME(x) to tell the
- * functions apart and TARGET the instructions they may use. Lane l of every width adds the springs i with
- * i % LANES == l in their order, so that all widths give the same bits. */
+/* The loops over springs for vectors of LANES doubles; included once a width, with NAME(x) to tell the
+ * functions apart and TARGET the instructions they may use. At every width sum l takes the springs i with
+ * i % SUMS == l in their order, so that all widths give the same bits. */
 
-typedef double NAME(vec) __attribute__((vector_size(8 * WIDTH), may_alias));
-typedef long long NAME(mask) __attribute__((vector_size(8 * WIDTH), may_alias));
+typedef double NAME(vec) __attribute__((vector_size(8 * LANES), may_alias));
+typedef long long NAME(mask) __attribute__((vector_size(8 * LANES), may_alias));
 
-enum { NAME(PARTS) = LANES / WIDTH };
+enum { NAME(PARTS) = SUMS / LANES };
 
 /* compilers keep the sums in registers only when this loop is gone */
 #define EACH_PART _Pragma("GCC unroll 4") for (int k = 0; k < NAME(PARTS); k++)
-#define AT(array) (*(NAME(vec) *)((array) + i + k * WIDTH))
+#define AT(array) (*(NAME(vec) *)((array) + i + k * LANES))
 
 TARGET static inline NAME(vec) NAME(choose)(NAME(mask) which, NAME(vec) a, NAME(vec) b) {
     return (NAME(vec))(((NAME(mask))a & which) | ((NAME(mask))b & ~which));
@@ -35,15 +35,15 @@ TARGET static inline void NAME(add)(double *sum, double *rest, NAME(vec) x) {
     *(NAME(vec) *)sum = now;
 }
 
-TARGET static inline void NAME(clear)(lane_sums *out) {
+TARGET static inline void NAME(clear)(partial_sums *out) {
     double *const sums[] = {out->force, out->force_rest, out->other, out->other_rest};
     for (int i = 0; i < 4; i++)
-        EACH_PART *(NAME(vec) *)(sums[i] + k * WIDTH) = (NAME(vec)){0};
+        EACH_PART *(NAME(vec) *)(sums[i] + k * LANES) = (NAME(vec)){0};
 }
 
 /* At constant bounds a spring that slips dissipates w |v| |trial-v|, and |v| is its bound. */
 TARGET static inline __attribute__((always_inline)) void
-NAME(slide_all)(const cells *c, size_t end, double ddx, const bool keep, lane_sums *out) {
+NAME(shift_all)(const cells *c, size_t end, double ddx, const bool keep, partial_sums *out) {
     const NAME(vec) zero = {0};
     double *restrict const w_ = c->w, *restrict const b_ = c->b, *restrict const u_ = c->u;
     NAME(clear)(out);
@@ -51,7 +51,7 @@ NAME(slide_all)(const cells *c, size_t end, double ddx, const bool keep, lane_su
         NAME(vec) force[NAME(PARTS)], other[NAME(PARTS)];
         const size_t to = end - from > STRIDE ? from + STRIDE : end;
         EACH_PART force[k] = other[k] = zero;
-        for (size_t i = from; i < to; i += LANES) {
+        for (size_t i = from; i < to; i += SUMS) {
             EACH_PART {
                 NAME(vec) w = AT(w_), b = AT(b_), trial = AT(u_) + ddx;
                 NAME(vec) v = MOST(LEAST(trial, b), -b), pull = w * v, excess = trial - v;
@@ -65,22 +65,22 @@ NAME(slide_all)(const cells *c, size_t end, double ddx, const bool keep, lane_su
             }
         }
         EACH_PART {
-            NAME(add)(out->force + k * WIDTH, out->force_rest + k * WIDTH, force[k]);
-            NAME(add)(out->other + k * WIDTH, out->other_rest + k * WIDTH, other[k]);
+            NAME(add)(out->force + k * LANES, out->force_rest + k * LANES, force[k]);
+            NAME(add)(out->other + k * LANES, out->other_rest + k * LANES, other[k]);
         }
     }
 }
 
-TARGET static void NAME(slide)(const cells *c, size_t end, double ddx, bool keep, lane_sums *out) {
+TARGET static void NAME(shift)(const cells *c, size_t end, double ddx, bool keep, partial_sums *out) {
     if (keep)
-        NAME(slide_all)(c, end, ddx, true, out);
+        NAME(shift_all)(c, end, ddx, true, out);
     else
-        NAME(slide_all)(c, end, ddx, false, out);
+        NAME(shift_all)(c, end, ddx, false, out);
 }
 
 /* On a straight path a spring that has begun to slip goes on to the end, so the bound at both ends decides.
  * touched: the part of the step during which a spring is in contact. */
-TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, bool keep, lane_sums *out) {
+TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, bool keep, partial_sums *out) {
     const NAME(vec) zero = {0}, one = zero + 1, tiny = zero + DBL_MIN;
     double *restrict const g_ = c->g, *restrict const w_ = c->w, *restrict const b_ = c->b,
                            *restrict const u_ = c->u;
@@ -89,7 +89,7 @@ TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, b
         NAME(vec) force[NAME(PARTS)], other[NAME(PARTS)];
         const size_t to = end - from > STRIDE ? from + STRIDE : end;
         EACH_PART force[k] = other[k] = zero;
-        for (size_t i = from; i < to; i += LANES) {
+        for (size_t i = from; i < to; i += SUMS) {
             EACH_PART {
                 NAME(vec) g = AT(g_), w = AT(w_), b0 = AT(b_);
                 NAME(vec) b1 = MOST(c->mu_eta * (p->z1 - g), zero);
@@ -112,8 +112,8 @@ TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, b
             }
         }
         EACH_PART {
-            NAME(add)(out->force + k * WIDTH, out->force_rest + k * WIDTH, force[k]);
-            NAME(add)(out->other + k * WIDTH, out->other_rest + k * WIDTH, other[k]);
+            NAME(add)(out->force + k * LANES, out->force_rest + k * LANES, force[k]);
+            NAME(add)(out->other + k * LANES, out->other_rest + k * LANES, other[k]);
         }
     }
 }
@@ -123,5 +123,5 @@ TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, b
 #undef LEAST
 #undef MOST
 #undef NAME
-#undef WIDTH
+#undef LANES
 #undef TARGET

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* F_N(delta) and its inverse at any depth: in logarithms for the power law, by a search for other shapes. */
+#include "contact/normal.h"
+
+#include <float.h>
+
+#include "number/real.h"
+
+/* Radii are handled as their distance e from the start of the gap. */
+static fret_profile profile(const fret_normal *n, fret_real e) {
+    return fret_gap_profile(&n->gap, &n->rule, e);
+}
+
+fret_real fret_force_of(const fret_normal *n, const fret_profile *p) {
+    return 2 * n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) * p->I;
+}
+
+/* Newton in ln e, where depth and force are nearly powers, kept in a bracket. Returns e; infinity where the
+ * gap ends before the target is reached. */
+fret_real fret_search_radius(const fret_normal *n, bool by_force, fret_real target) {
+    fret_real start = fret_gap_start(&n->gap), end = n->end;
+    if (target <= 0)
+        return 0;
+    if (isfinite(end)) {
+        fret_profile p = profile(n, end - start);
+        if ((by_force ? fret_force_of(n, &p) : p.g) < target)
+            return INFINITY;
+    }
+    fret_real lo = 0, hi = isfinite(end) ? end - start : (fret_real)INFINITY,
+              e = isfinite(end) ? end / 16
+                  : start > 0   ? start / 16
+                                : 1e-4L;
+    for (int i = 0; i < 400; i++) {
+        fret_profile p = profile(n, e);
+        fret_real value = by_force ? fret_force_of(n, &p) : p.g;
+        if (value < target)
+            lo = e;
+        else
+            hi = e;
+        fret_real slope = e * p.slope * (by_force ? fret_normal_stiffness(n, start + e) : 1) / value;
+        fret_real next = e * fret_exp(fret_log(target / value) / slope);
+        if (fabsl(next - e) <= 1e-11L * e) /* quadratic: the next step would be 1e-22 */
+            return next;
+        if (!(next > lo && next < hi)) {
+            if (!isfinite(hi))
+                next = 4 * e;
+            else
+                next = lo > 0 ? sqrtl(lo) * sqrtl(hi) : hi / 16;
+        }
+        if (isfinite(hi) && hi - lo <= 2 * LDBL_EPSILON * hi)
+            return next;
+        e = next;
+    }
+    return e;
+}
+
+/* The power law in logarithms. */
+static dd force_of_depth(const fret_normal *n, dd y) {
+    return dd_add(n->wide.ln_force, dd_mul(n->wide.p, dd_sub(y, n->wide.ln_depth)));
+}
+static dd depth_of_force(const fret_normal *n, dd F) {
+    return dd_add(n->wide.ln_depth, dd_mul(n->wide.q, dd_sub(F, n->wide.ln_force)));
+}
+static dd radius_of_depth(const fret_normal *n, dd y) {
+    return dd_add(n->wide.ln_r0, dd_div(dd_sub(y, n->wide.ln_depth), dd_of(n->gap.power[0].n)));
+}
+
+fret_real fret_law_radius(const fret_normal *n, fret_real y) {
+    if (fret_normal_closed(n))
+        return y > 0 ? fret_dd_exp_real(radius_of_depth(n, fret_dd_log_real(y))) : 0;
+    return fret_gap_start(&n->gap) + fret_search_radius(n, false, y);
+}
+
+fret_real fret_law_force(const fret_normal *n, fret_real y) {
+    if (y <= 0)
+        return 0;
+    if (fret_normal_closed(n))
+        return fret_dd_exp_real(force_of_depth(n, fret_dd_log_real(y)));
+    fret_profile p = profile(n, fret_search_radius(n, false, y));
+    return fret_force_of(n, &p);
+}
+
+fret_real fret_law_depth(const fret_normal *n, fret_real F) {
+    if (F <= 0)
+        return 0;
+    if (fret_normal_closed(n))
+        return fret_dd_exp_real(depth_of_force(n, fret_dd_log_real(F)));
+    return profile(n, fret_search_radius(n, true, F)).g;
+}
+
+static fret_point point_at(const fret_normal *n, bool by_force, fret_real value) {
+    fret_point p = {0, 0, fret_gap_start(&n->gap), 0};
+    if (value <= 0)
+        return p;
+    if (fret_normal_closed(n)) {
+        p.y = by_force ? fret_law_depth(n, value) : value;
+        p.F = by_force ? value : fret_law_force(n, value);
+        p.K = n->p * p.F / p.y;
+        p.a = fret_law_radius(n, p.y);
+        return p;
+    }
+    fret_real e = fret_search_radius(n, by_force, value);
+    fret_profile profile_there = profile(n, e);
+    p.y = by_force ? profile_there.g : value;
+    p.F = by_force ? value : fret_force_of(n, &profile_there);
+    p.a += e;
+    p.K = fret_normal_stiffness(n, p.a);
+    return p;
+}
+
+fret_point fret_law_at_depth(const fret_normal *n, fret_real y) {
+    return point_at(n, false, y);
+}
+
+fret_point fret_law_at_force(const fret_normal *n, fret_real F) {
+    return point_at(n, true, F);
+}
+
+fret_real fret_law_load_outside(const fret_normal *n, const fret_level *outer, fret_real inner_depth) {
+    if (fret_normal_closed(n) && inner_depth > 0)
+        return -outer->F * fret_expm1(n->p * fret_log(inner_depth / outer->y));
+    return outer->F - fret_law_force(n, inner_depth);
+}
+
+fret_real fret_law_thickness_outside(const fret_normal *n, const fret_level *outer, fret_real inner_load) {
+    if (fret_normal_closed(n) && inner_load > 0)
+        return -outer->y * fret_expm1(n->q * fret_log(inner_load / outer->F));
+    return outer->y - fret_law_depth(n, inner_load);
+}
+
+fret_real fret_law_level_radius(const fret_normal *n, const fret_level *level) {
+    if (!fret_normal_closed(n))
+        return fret_law_radius(n, level->y);
+    if (level->F <= 0)
+        return 0;
+    dd l = dd_sub(fret_dd_log_real(level->F), n->wide.ln_force);
+    return fret_dd_exp_real(dd_add(n->wide.ln_r0, dd_div(l, n->wide.s)));
+}

@@ -1,0 +1,555 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One straight step of the memory diagram: slip at constant load, growth, retreat of the edge, and the energy
+ * that each dissipates. Touches the slices and sums of its contact alone. */
+#include <float.h>
+
+#include "contact/check.h"
+#include "contact/memory.h"
+#include "number/quadrature.h"
+
+static void resum_top(fret_memory *m) {
+    slice *top = &m->slices[m->count - 1];
+    for (coordinate by = DEPTH; by <= LOAD; by++)
+        top->sum[by] = (m->count > 1 ? top[-1].sum[by] : 0) + top->sigma * top->thick[by];
+}
+
+/* Slopes that differ by less than `rounding` merge, else a ramp in many small steps would pile up slices;
+ * the mean keeps F_x. */
+static void push(fret_memory *m, const fret_real thick[2], const fret_real inner[2], fret_real sigma,
+                 fret_real rounding) {
+    slice *top = m->count ? &m->slices[m->count - 1] : NULL;
+    if (top && fabsl(top->sigma - sigma) <= rounding && (fabsl(sigma) < 1) == (fabsl(top->sigma) < 1)) {
+        fret_real both = top->thick[LOAD] + thick[LOAD];
+        if (both > 0 && fabsl(sigma) < 1)
+            top->sigma = (top->sigma * top->thick[LOAD] + sigma * thick[LOAD]) / both;
+        top->thick[DEPTH] += thick[DEPTH];
+        top->thick[LOAD] = both;
+    } else {
+        m->slices[m->count++] = (slice){
+            .thick = {thick[DEPTH], thick[LOAD]}, .inner = {inner[DEPTH], inner[LOAD]}, .sigma = sigma};
+    }
+    resum_top(m);
+}
+
+/* int over distances 0..d from the edge of [F(y)-F(y-t)-tK(y-t)] dt: what a front that has reached d has
+ * dissipated, per mu^2 eta and gain. */
+static fret_slice edge_slice(const fret_memory *m, fret_real d) {
+    const fret_level edge = {m->edge[DEPTH], m->edge[LOAD]};
+    return fret_law_slice(m->normal, &edge, d);
+}
+
+typedef struct rise {
+    const fret_memory *m;
+    fret_real d, h;
+} rise;
+
+static fret_real rise_rate(fret_real t, fret_real rest, void *context) {
+    const rise *r = context;
+    (void)rest;
+    return edge_slice(r->m, r->d + r->h * t).G;
+}
+
+/* L2-L1, also where the two levels are too close for a difference: by quadrature of G, which is singular at
+ * the centre and the smoother the farther that is. */
+static fret_real level_rise(const fret_memory *m, fret_real d1, fret_real L1, fret_real d2, fret_real L2) {
+    const fret_real h = d2 - d1, inside = m->edge[DEPTH] - d2;
+    if (h > 1e-5L * d2)
+        return L2 - L1;
+    rise r = {m, d1, h};
+    if (inside < h)
+        return h * fret_integrate(rise_rate, &r);
+    if (inside < 1e4L * h)
+        return h * fret_integrate_smooth(rise_rate, &r);
+    const fret_real mid = (d1 + d2) / 2, offset = h / 2 * 0.5773502691896257645091487805019574556L;
+    return h / 2 * (edge_slice(m, mid - offset).G + edge_slice(m, mid + offset).G);
+}
+
+static fret_real inner_level(const fret_memory *m, slice *sl, fret_real d) {
+    if (sl->edge != m->edge_id) {
+        sl->L = edge_slice(m, d).L;
+        sl->edge = m->edge_id;
+    }
+    return sl->L;
+}
+
+/* Close to gross slip of sense s the part that sticks is far smaller than the contact. It is told by the
+ * distance of F_x from mu F_N, or of delta_x from delta_x,max, taken with all digits; the other follows. */
+static void keep_inner(fret_memory *m, coordinate by, fret_real s, double goal, fret_real eaten[2]) {
+    const fret_level edge = {m->edge[DEPTH], m->edge[LOAD]};
+    slice *only = &m->slices[0];
+    const dd scale = by == LOAD ? dd_of(m->mu) : dd_mul_d(m->normal->wide_foundation.eta, m->mu);
+    const dd bound = dd_mul(scale, dd_from2(m->edge[by], m->edge_rest[by]));
+    const dd at = by == LOAD ? dd_of(goal) : dd_sub(dd_of(goal), dd_from(m->slid));
+    const dd left = dd_div(s < 0 ? dd_add(bound, at) : dd_sub(bound, at), scale);
+    const fret_real inner = fmaxl(dd_value(left) / (1 - s * only->sigma), 0);
+    only->thick[by] = inner;
+    eaten[by] = m->edge[by] - inner;
+    if (by == DEPTH) {
+        only->thick[LOAD] = fret_law_force(m->normal, inner);
+        eaten[LOAD] = fret_law_load_outside(m->normal, &edge, inner);
+    } else {
+        only->thick[DEPTH] = fret_law_depth(m->normal, inner);
+        eaten[DEPTH] = fret_law_thickness_outside(m->normal, &edge, inner);
+    }
+}
+
+/* The front of a slip zone of sign s at constant normal load: the zone eats inwards from the edge. */
+typedef struct slip_front {
+    coordinate by;
+    fret_real s, drive;        /* drive left */
+    fret_real eaten[2], at[2]; /* so far, counted from the edge; the place */
+} slip_front;
+
+/* Each of the three moves returns what edge_slice gives at the new front. */
+
+/* All of the outermost slice. */
+static fret_real eat_slice(fret_memory *m, slip_front *f, fret_real cap) {
+    slice *top = &m->slices[m->count - 1];
+    f->drive = cap < f->drive ? f->drive - cap : 0;
+    for (coordinate i = DEPTH; i <= LOAD; i++) {
+        f->eaten[i] += top->thick[i];
+        f->at[i] = top->inner[i];
+    }
+    const fret_real level = inner_level(m, top, f->eaten[DEPTH]);
+    m->count--;
+    return level;
+}
+
+/* All but a small core of the only slice. */
+static fret_real eat_to_core(fret_memory *m, slip_front *f, double goal) {
+    keep_inner(m, f->by, f->s, goal, f->eaten);
+    for (coordinate i = DEPTH; i <= LOAD; i++)
+        f->at[i] = m->slices[0].thick[i];
+    resum_top(m);
+    f->drive = 0;
+    return edge_slice(m, f->eaten[DEPTH]).L;
+}
+
+/* A part of the outermost slice, until the drive is used up. */
+static fret_real eat_part(fret_memory *m, slip_front *f, fret_real gain) {
+    slice *top = &m->slices[m->count - 1];
+    const fret_level outer = {f->at[DEPTH], f->at[LOAD]};
+    const fret_real d = f->eaten[DEPTH];
+    fret_real part[2] = {f->drive / gain, f->drive / gain};
+    if (f->by == LOAD)
+        part[DEPTH] = fret_law_thickness(m->normal, &outer, part[LOAD]);
+    const fret_slice whole = edge_slice(m, d + part[DEPTH]);
+    if (f->by == DEPTH) /* a difference of loads from the edge does unless the part is thin */
+        part[LOAD] = part[DEPTH] > 1e-4L * d ? whole.w - f->eaten[LOAD]
+                                             : fret_law_load(m->normal, &outer, part[DEPTH]);
+    for (coordinate i = DEPTH; i <= LOAD; i++) {
+        f->eaten[i] += part[i];
+        f->at[i] -= part[i];
+        top->thick[i] -= part[i];
+    }
+    resum_top(m);
+    f->drive = 0;
+    return whole.L;
+}
+
+/* The zone becomes the outermost slice; `level` spares its inner end a quadrature. */
+static void push_zone(fret_memory *m, const slip_front *f, fret_real level) {
+    push(m, f->eaten, f->at, f->s, 0);
+    slice *top = &m->slices[m->count - 1];
+    if (top->inner[f->by] == f->at[f->by]) { /* not merged into the slice below */
+        top->L = level;
+        top->edge = m->edge_id;
+    }
+}
+
+/* Tangential step at constant normal load, to F_x or delta_x = goal: the slip zone eats inwards until its
+ * drive is used up. Drive left at the centre is gross slip. */
+static fret_real slip_inwards(fret_memory *m, coordinate by, fret_real drive, double goal) {
+    const fret_real snap = 1e-17L * m->edge[by]; /* a turning point is reached up to rounding */
+    slip_front f = {by, drive < 0 ? -1 : 1, fabsl(drive), {0, 0}, {m->edge[DEPTH], m->edge[LOAD]}};
+    fret_real loss = 0, level = 0;
+    while (m->count && f.drive > 0) {
+        const slice *top = &m->slices[m->count - 1];
+        const fret_real gain = 1 - f.s * top->sigma, cap = gain * top->thick[by], d = f.eaten[DEPTH];
+        fret_real next;
+        if (cap - f.drive <= snap && cap - f.drive <= 1e-6L * cap)
+            next = eat_slice(m, &f, cap);
+        else if (m->count == 1 && 8 * (cap - f.drive) < gain * m->edge[by])
+            next = eat_to_core(m, &f, goal);
+        else
+            next = eat_part(m, &f, gain);
+        if (gain > 0)
+            loss += gain * (d > 0 ? level_rise(m, d, level, f.eaten[DEPTH], next) : next);
+        level = next;
+    }
+    if (!m->count) {
+        f.at[DEPTH] = f.at[LOAD] = 0;
+        if (by == DEPTH) {
+            loss += f.drive * m->edge[LOAD];
+            m->slid += f.s * m->mu_eta * f.drive;
+        }
+    }
+    if (f.eaten[LOAD] > 0)
+        push_zone(m, &f, level);
+    return loss;
+}
+
+/* One phase of slip during which edge and front both move, linearly in the coordinate. */
+typedef struct phase {
+    const fret_memory *m;
+    coordinate by;
+    fret_real edge0, edge1, front0, front1;
+} phase;
+
+static fret_real phase_rate(fret_real t, fret_real rest, void *context) {
+    const phase *p = context;
+    const fret_normal *n = p->m->normal;
+    fret_real z = p->edge0 * rest + p->edge1 * t, y = p->front0 * rest + p->front1 * t;
+    fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
+    if (d <= 0 || z <= 0)
+        return 0;
+    fret_point edge = p->by == DEPTH ? fret_law_at_depth(n, z) : fret_law_at_force(n, z),
+               front = {0, 0, 0, 0};
+    const fret_level outer = {edge.y, edge.F};
+    if (p->by == LOAD || !fret_normal_closed(n))
+        front = p->by == DEPTH ? fret_law_at_depth(n, y) : fret_law_at_force(n, y);
+    if (p->by == LOAD) /* of a thin zone the depths would differ by too few digits */
+        d = d < 1e-3L * z ? fret_law_thickness(n, &outer, d) : edge.y - front.y;
+    fret_real G = fret_normal_closed(n) || d < 1e-3L * edge.y ? fret_law_slice(n, &outer, d).G
+                                                              : edge.F - front.F - d * front.K;
+    if (p->by == DEPTH)
+        return G;
+    return front.K > 0 ? G / front.K : 0; /* dy = dF/K; the end point itself has no weight */
+}
+
+static fret_real phase_loss(const fret_memory *m, coordinate by, fret_real gain, fret_real edge0,
+                            fret_real edge1, fret_real front0, fret_real front1) {
+    phase p = {m, by, edge0, edge1, front0, front1};
+    fret_real rate;
+    /* small steps, far from the centre: the rate is smooth */
+    bool smooth = front1 > 0.8L * front0 && edge1 > 0.8L * edge0 && edge0 > 0.8L * edge1;
+    if (fret_gap_has_rows(&m->normal->gap)) /* edge or front may cross rows, where the rate is not smooth */
+        rate = fret_integrate_pieces(phase_rate, &p, 1e-15L);
+    else
+        rate = smooth ? fret_integrate_smooth(phase_rate, &p) : fret_integrate(phase_rate, &p);
+    return gain * (front0 - front1) * rate;
+}
+
+/* Gross slip while the normal load changes: int F_N de. */
+static fret_real gross_rate(fret_real t, fret_real rest, void *context) {
+    const phase *p = context;
+    return fret_law_force(p->m->normal, p->edge0 * rest + p->edge1 * t);
+}
+
+/* After a phase only the coordinate of the step is up to date in the two outermost slices. */
+static void convert_top(fret_memory *m, coordinate by) {
+    const coordinate other = by == DEPTH ? LOAD : DEPTH;
+    fret_real outer = m->edge[other];
+    size_t first = m->count > 2 ? m->count - 2 : 0;
+    for (size_t i = m->count; i-- > first;) {
+        slice *sl = &m->slices[i];
+        if (i == 0)
+            sl->inner[other] = 0;
+        else if (i == m->count - 1)
+            sl->inner[other] = by == DEPTH ? fret_law_force(m->normal, sl->inner[by])
+                                           : fret_law_depth(m->normal, sl->inner[by]);
+        sl->thick[other] = fmaxl(outer - sl->inner[other], 0);
+        outer = sl->inner[other];
+    }
+    size_t count = m->count;
+    for (size_t i = first; i < count; i++) {
+        m->count = i + 1;
+        resum_top(m);
+    }
+}
+
+/* Slip front of sign s moving inwards over `reach` units of drive surplus while the edge grows. */
+static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive) {
+    fret_real s = drive < 0 ? -1 : 1, growth = edge[by] - m->edge[by];
+    fret_real e = fabsl(drive) - growth, surplus = e, old = m->edge[by], loss = 0;
+    fret_real front = old, snap = 1e-17L * edge[by];
+    while (m->count && e > 0) {
+        slice *top = &m->slices[m->count - 1];
+        fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by], before = front, e0 = e;
+        if (cap - e <= snap && cap - e <= 1e-6L * cap) {
+            e = cap < e ? e - cap : 0;
+            front = m->count > 1 ? top->inner[by] : 0;
+            m->count--;
+        } else {
+            front -= e / gain;
+            top->thick[by] -= e / gain;
+            e = 0;
+        }
+        if (gain > 0)
+            loss += phase_loss(m, by, gain, old + growth * (surplus - e0) / surplus,
+                               old + growth * (surplus - e) / surplus, before, front);
+    }
+    if (e > 0 && by == DEPTH) {
+        phase p = {m, by, old + growth * (surplus - e) / surplus, edge[by], 0, 0};
+        loss += e * fret_integrate(gross_rate, &p);
+        m->slid += s * m->mu_eta * e;
+    }
+    if (!m->count)
+        front = 0;
+    m->edge[DEPTH] = edge[DEPTH];
+    m->edge[LOAD] = edge[LOAD];
+    fret_real thick[2] = {0, 0}, inner[2] = {0, 0};
+    thick[by] = edge[by] - front;
+    inner[by] = front;
+    push(m, thick, inner, s, 0);
+    convert_top(m, by);
+    return loss;
+}
+
+/* Unloading: the edge moves inwards while the drive acts, both linearly. At the edge, a slope sigma means a
+ * surplus rate + sigma per unit: it starts a slip zone of that sign s, whose front moves at
+ * (s rate + 1)/(1 - s sigma); a front slower than the edge is overtaken, and the next slope decides anew. */
+typedef struct retreat {
+    coordinate by;
+    fret_real rate;        /* drive per unit of retreat */
+    fret_real z, left, to; /* the edge now, what it has to go, and where to */
+} retreat;
+
+/* Nothing slips: the slice at the edge gets thinner. */
+static void retreat_in_stick(fret_memory *m, retreat *r) {
+    slice *top = &m->slices[m->count - 1];
+    const fret_real t = fminl(r->left, top->thick[r->by]);
+    const bool gone = t >= top->thick[r->by];
+    top->thick[r->by] -= t;
+    r->left -= t;
+    r->z -= t;
+    if (gone)
+        m->count--;
+}
+
+/* A new slip zone at the edge, of no thickness yet. */
+static void begin_zone(fret_memory *m, const retreat *r, fret_real s) {
+    const slice *top = &m->slices[m->count - 1];
+    slice zone = {.inner = {top->inner[0] + top->thick[0], top->inner[1] + top->thick[1]}, .sigma = s};
+    zone.inner[r->by] = r->z;
+    m->slices[m->count++] = zone;
+}
+
+/* The zone is the whole contact, up to the end of the step. */
+static fret_real retreat_in_slip(fret_memory *m, retreat *r, fret_real s) {
+    fret_real loss = 0;
+    if (r->by == DEPTH) {
+        phase p = {m, r->by, r->z, r->to, 0, 0};
+        const fret_real e = (s * r->rate + 1) * r->left;
+        loss = e * fret_integrate(gross_rate, &p);
+        m->slid += s * m->mu_eta * e;
+    }
+    m->slices[0].thick[r->by] -= r->left;
+    r->z = r->to;
+    r->left = 0;
+    return loss;
+}
+
+/* The zone has taken in the slice below it, and joins the next one if that is of its own sign. */
+static void take_in(fret_memory *m, const retreat *r, fret_real s) {
+    slice *top = &m->slices[m->count - 1], *next = top - 1;
+    top->inner[r->by] = m->count > 2 ? next->inner[r->by] : 0;
+    top->thick[r->by] = r->z - top->inner[r->by];
+    next[0] = *top;
+    m->count--;
+    if (m->count > 1 && next[-1].sigma == s) {
+        next[-1].thick[r->by] += next->thick[r->by];
+        m->count--;
+    }
+}
+
+/* The front goes on inwards until it has taken in the slice below, the edge has overtaken it, or the step
+ * ends. */
+static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
+    const coordinate by = r->by;
+    slice *top = &m->slices[m->count - 1], *next = top - 1;
+    const fret_real gain = 1 - s * next->sigma, speed = (s * r->rate + 1) / gain;
+    fret_real t = r->left;
+    bool reached = false, overtaken = false;
+    if (next->thick[by] <= speed * t) {
+        t = next->thick[by] / speed;
+        reached = true;
+    }
+    if (speed < 1 && top->thick[by] <= (1 - speed) * t) {
+        t = top->thick[by] / (1 - speed);
+        reached = false;
+        overtaken = true;
+    }
+    const fret_real at = top->inner[by], step = reached ? next->thick[by] : speed * t;
+    const fret_real loss = phase_loss(m, by, gain, r->z, r->z - t, at, at - step);
+    r->z -= t;
+    r->left -= t;
+    if (reached) {
+        take_in(m, r, s);
+        return loss;
+    }
+    next->thick[by] -= step;
+    if (overtaken) {
+        m->count--;
+    } else {
+        top->inner[by] = at - step;
+        top->thick[by] = r->z - top->inner[by];
+    }
+    return loss;
+}
+
+static fret_real shrink(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive) {
+    const fret_real way = m->edge[by] - edge[by];
+    retreat r = {by, drive / way, m->edge[by], way, edge[by]};
+    fret_real loss = 0;
+    while (r.left > 0 && m->count) {
+        const slice *top = &m->slices[m->count - 1];
+        const fret_real surplus = r.rate + top->sigma, s = surplus < 0 ? -1 : 1;
+        if (fabsl(surplus) <= 4 * LDBL_EPSILON * fabsl(top->sigma) ||
+            (top->thick[by] <= 0 && m->count > 1 && fabsl(top->sigma) < 1)) {
+            retreat_in_stick(m, &r);
+            continue;
+        }
+        if (s * top->sigma < 1)
+            begin_zone(m, &r, s);
+        loss += m->count == 1 ? retreat_in_slip(m, &r, s) : retreat_with_zone(m, &r, s);
+    }
+    m->edge[DEPTH] = edge[DEPTH];
+    m->edge[LOAD] = edge[LOAD];
+    if (m->count)
+        convert_top(m, by);
+    return loss;
+}
+
+/* A straight piece with the contact closed at both ends; drive = change of delta_x/(mu eta) or F_x/mu. */
+static fret_real advance(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
+                         double goal) {
+    fret_real growth = edge[by] - m->edge[by];
+    if (growth == 0)
+        return drive == 0 ? 0 : slip_inwards(m, by, drive, goal);
+    m->edge_id++;
+    if (growth < 0)
+        return shrink(m, by, edge, drive);
+    if (fabsl(drive) > growth)
+        return grow_and_slip(m, by, edge, drive);
+    fret_real thick[2] = {edge[DEPTH] - m->edge[DEPTH], edge[LOAD] - m->edge[LOAD]};
+    fret_real inner[2] = {m->edge[DEPTH], m->edge[LOAD]};
+    /* targets are rounded to double: so much is uncertain in the slope of a short step */
+    push(m, thick, inner, drive / growth, 2 * DBL_EPSILON * edge[by] / growth);
+    m->edge[DEPTH] = edge[DEPTH];
+    m->edge[LOAD] = edge[LOAD];
+    return 0;
+}
+
+static void open_contact(fret_memory *m, fret_real dx) {
+    m->edge[DEPTH] = m->edge[LOAD] = 0;
+    m->edge_id++;
+    m->count = 0;
+    m->slid = dx;
+}
+
+/* The normal state at the end of a step, and the gap between the bodies where they part. */
+static fret_status normal_end(const fret_memory *m, const fret_step *step, fret_press *p, fret_real *gap) {
+    const fret_press now = {.F = m->edge[LOAD],
+                            .dz = m->edge[DEPTH],
+                            .a = m->radius,
+                            .F_rest = m->edge_rest[LOAD],
+                            .dz_rest = m->edge_rest[DEPTH]};
+    fret_status st = fret_ok();
+    *p = now;
+    *gap = m->gap;
+    if (step->normal_by == FRET_TO_FORCE) {
+        st = fret_press_by_force(m->normal, step->normal, p);
+        if (!st.code && p->F == now.F)
+            *p = now;
+        *gap = 0;
+    } else if (step->normal_by == FRET_TO_DEPTH) {
+        if (!isfinite(step->normal))
+            return fret_fail(FRET_NOT_FINITE, "dz", step->normal, 0);
+        *gap = step->normal < 0 ? -step->normal : 0;
+        st = fret_press_by_depth(m->normal, fmax(step->normal, 0), p);
+        if (!st.code && p->dz == now.dz)
+            *p = now;
+    }
+    return st;
+}
+
+/* F_x/mu at the end of a step by force, which must not exceed the normal force FN there. */
+static fret_status tangential_end(const fret_memory *m, const fret_step *step, fret_real FN,
+                                  fret_real *load) {
+    const bool by_force = step->tangential_by == FRET_TO_FX;
+    *load = 0;
+    if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
+        return fret_fail(FRET_NOT_FINITE, by_force ? "Fx" : "dx", step->tangential, 0);
+    if (by_force)
+        *load = step->tangential / (fret_real)m->mu;
+    if (fabsl(*load) > FN * (1 - (fret_real)DBL_EPSILON)) {
+        if (fabsl(*load) > FN * (1 + (fret_real)DBL_EPSILON))
+            return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(m->mu * FN));
+        *load = copysignl(FN, *load); /* mu F_N up to its rounding */
+    }
+    return fret_ok();
+}
+
+/* To where it is already: the rounding of sums must not pass for a reversal. */
+static bool stays(const fret_memory *m, const fret_step *step) {
+    return m->held == step->tangential_by && m->goal == step->tangential;
+}
+
+/* To F_x = mu load, straight in (F_N, F_x). */
+static fret_real step_by_force(fret_memory *m, const fret_step *step, const fret_real edge[2],
+                               fret_real load) {
+    const fret_real drive =
+        stays(m, step) && edge[LOAD] == m->edge[LOAD] ? 0 : load - fret_memory_total(m, LOAD);
+    if (drive != 0)
+        m->direction = drive < 0 ? -1 : 1;
+    const fret_real loss = advance(m, LOAD, edge, drive, step->tangential);
+    if (edge[LOAD] <= 0)
+        open_contact(m, m->slid); /* no spring is left to be displaced */
+    return loss;
+}
+
+/* To delta_x, straight in (delta_z, delta_x). While open, the bodies move freely: only the closed part of the
+ * path counts. */
+static fret_real step_by_displacement(fret_memory *m, const fret_step *step, const fret_real edge[2],
+                                      fret_real gap) {
+    const fret_real old_dx = fret_memory_dx(m);
+    const fret_real target =
+        step->tangential_by == FRET_TO_DX && !stays(m, step) ? (fret_real)step->tangential : old_dx;
+    const fret_real from = m->gap > 0 ? -m->gap : m->edge[DEPTH], to = gap > 0 ? -gap : edge[DEPTH];
+    fret_real start = old_dx, stop = target, loss = 0;
+    if (target != old_dx)
+        m->direction = target < old_dx ? -1 : 1;
+    if (from <= 0 && to > 0) {
+        start = old_dx + (target - old_dx) * (-from / (to - from));
+        open_contact(m, start);
+    } else if (from > 0 && to <= 0) {
+        stop = old_dx + (target - old_dx) * (from / (from - to));
+    }
+    if (from > 0 || to > 0) {
+        loss = advance(m, DEPTH, edge, (stop - start) / m->mu_eta, step->tangential);
+        if (to > 0 && step->tangential_by == FRET_TO_DX && m->count == 1 && fabsl(m->slices[0].sigma) == 1)
+            m->slid = target - m->mu_eta * fret_memory_total(m, DEPTH);
+    }
+    if (to <= 0)
+        open_contact(m, target);
+    return loss;
+}
+
+fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
+    fret_press p;
+    fret_real gap, load;
+    fret_status st = normal_end(m, step, &p, &gap);
+    if (!st.code)
+        st = tangential_end(m, step, p.F, &load);
+    if (!st.code)
+        st = fret_memory_reserve(m, m->count + 4);
+    if (st.code)
+        return st;
+    const fret_real edge[2] = {p.dz, p.F};
+    const fret_real loss = step->tangential_by == FRET_TO_FX ? step_by_force(m, step, edge, load)
+                                                             : step_by_displacement(m, step, edge, gap);
+    if (step->tangential_by != FRET_KEEP_DX) {
+        m->held = step->tangential_by;
+        m->goal = step->tangential;
+    } else if (m->held == FRET_TO_FX && step->normal_by != FRET_KEEP_NORMAL) {
+        m->held = FRET_KEEP_DX;
+    }
+    m->gap = gap;
+    m->radius = p.a;
+    m->edge_rest[DEPTH] = p.dz_rest;
+    m->edge_rest[LOAD] = p.F_rest;
+    m->last_loss = loss > 0 ? loss * m->loss_scale : 0;
+    fret_sum_add(&m->W, m->last_loss);
+    return fret_ok();
+}

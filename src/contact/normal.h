@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The normal contact from inside, and its law as the tangential problem sees it. Not installed. */
+#ifndef FRET_CONTACT_NORMAL_H
+#define FRET_CONTACT_NORMAL_H
+
+#include "contact/gap.h"
+#include "contact/material.h"
+#include "fret/normal.h"
+
+struct fret_normal {
+    fret_foundation foundation;
+    fret_wide_foundation wide_foundation;
+    fret_gap gap;
+    fret_rule rule;
+    fret_real p;   /* power law: F_N ~ delta_z^p, p = (n+k+1)/n; 0 for other shapes */
+    fret_real pm1; /* p-1 = (k+1)/n without cancellation */
+    fret_real q;   /* 1/p */
+    fret_real s;   /* n+k+1: F_N ~ a^s */
+    fret_real end; /* largest contact radius that the gap supports [m]; infinite for a power */
+    bool falls;    /* because g(x) begins to fall there */
+    struct {
+        dd p, q, s;                   /* to 100 bits */
+        dd ln_r0, ln_depth, ln_force; /* logarithms of r0, and of depth and force at a = r0 [m], [N] */
+    } wide;                           /* power law */
+};
+
+/* fret_normal_is_power where it is asked often. */
+static inline bool fret_normal_closed(const fret_normal *n) {
+    return n->p > 0;
+}
+
+/* mu and F_N must be positive: FRET_NOT_POSITIVE, FRET_NOT_FINITE. */
+fret_status fret_contact_check(const fret_contact *contact);
+
+/* F_N [N] of a contact whose profile is known. */
+fret_real fret_force_of(const fret_normal *normal, const fret_profile *profile);
+
+/* Distance from the start of the gap to the radius of the depth, or the load, `target`; infinity where the
+ * gap ends before it is reached. By a search: for gaps without a closed form. */
+fret_real fret_search_radius(const fret_normal *normal, bool by_force, fret_real target);
+
+/* The law as the tangential problem sees it, for the depth y of an inner contact, 0 <= y. */
+fret_real fret_law_radius(const fret_normal *normal, fret_real y); /* a(y) [m] */
+fret_real fret_law_force(const fret_normal *normal, fret_real y);  /* F_N(y) [N] */
+fret_real fret_law_depth(const fret_normal *normal, fret_real F);  /* F_N^-1(F) [m] */
+
+/* All of them at once, from the depth y or from the load F: one search where there is no closed form. */
+typedef struct fret_point {
+    fret_real y, F, a, K; /* depth [m], F_N(y) [N], radius [m], dF_N/dy [N/m] (0 at y = 0) */
+} fret_point;
+fret_point fret_law_at_depth(const fret_normal *normal, fret_real y);
+fret_point fret_law_at_force(const fret_normal *normal, fret_real F);
+
+/* A place in the contact: its depth y and F_N(y), both known where slices are cut. */
+typedef struct fret_level {
+    fret_real y, F;
+} fret_level;
+
+/* Integrals over the slice of depths [y-h, y], 0 <= h <= y, exact also for thin slices (shapes other than the
+ * power law: 1e-14 relative; where a row of a table lies within a slice thinner than 1e-5 y, 1e-18 y/h);
+ * K = dF_N/dy, t the distance from y:
+ *   w = int K dt = F_N(y)-F_N(y-h) [N], J = int t K dt [N m],
+ *   G = int t dK = w - h K(y-h) [N],    L = int_0^h G dt [N m]. */
+typedef struct fret_slice {
+    fret_real w, J, G, L;
+} fret_slice;
+fret_slice fret_law_slice(const fret_normal *normal, const fret_level *outer, fret_real h);
+
+/* The load w of a slice from its thickness, and the thickness from its load. */
+fret_real fret_law_load(const fret_normal *normal, const fret_level *outer, fret_real h);
+fret_real fret_law_thickness(const fret_normal *normal, const fret_level *outer, fret_real w);
+
+/* The same for all but an inner part that is known by itself, which may be far smaller than the whole. */
+fret_real fret_law_load_outside(const fret_normal *normal, const fret_level *outer, fret_real inner_depth);
+fret_real fret_law_thickness_outside(const fret_normal *normal, const fret_level *outer,
+                                     fret_real inner_load);
+
+/* Radius [m] of a level: from its load, which tells it best. */
+fret_real fret_law_level_radius(const fret_normal *normal, const fret_level *level);
+
+/* int dK = K(y)-K(y-h) [N/m] over the slice. */
+fret_real fret_law_stiffness_drop(const fret_normal *normal, const fret_level *outer, fret_real h);
+
+#endif

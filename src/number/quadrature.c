@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rules of quadrature.h. Pure arithmetic. */
+#include "number/quadrature.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "number/constants.h"
+#include "number/sum.h"
+
+/* step 1/12: 1e-15 with a singularity half a unit off the axis */
+fret_node fret_exponential_node(int i) {
+    int j = i - FRET_EXPONENTIAL / 2;
+    fret_real small = exponential_rule[abs(j)].small, weight = exponential_rule[abs(j)].weight;
+    return j < 0 ? (fret_node){small, 1 - small, weight} : (fret_node){1 - small, small, weight};
+}
+
+fret_real fret_integrate(fret_integrand *f, void *context) {
+    fret_sum sum = {0, 0};
+    for (int i = FRET_EXPONENTIAL; i-- > 0;) {
+        fret_node node = fret_exponential_node(i);
+        fret_sum_add(&sum, node.weight * f(node.t, node.rest, context));
+    }
+    return fret_sum_value(&sum);
+}
+
+const fret_real fret_gauss_node[8] = {0.0198550717512318841582195657153L, 0.101666761293186630204223031762L,
+                                      0.237233795041835507091130475405L,  0.40828267875217509753026192882L,
+                                      0.59171732124782490246973807118L,   0.762766204958164492908869524595L,
+                                      0.898333238706813369795776968238L,  0.980144928248768115841780434285L};
+const fret_real fret_gauss_weight[8] = {0.050614268145188129576265677155L, 0.111190517226687235272177997213L,
+                                        0.156853322938943643668981100993L, 0.181341891689180991482575224639L,
+                                        0.181341891689180991482575224639L, 0.156853322938943643668981100993L,
+                                        0.111190517226687235272177997213L, 0.050614268145188129576265677155L};
+
+fret_real fret_integrate_smooth(fret_integrand *f, void *context) {
+    fret_real sum = 0;
+    for (int i = 0; i < 8; i++)
+        sum += fret_gauss_weight[i] * f(fret_gauss_node[i], fret_gauss_node[7 - i], context);
+    return sum;
+}
+
+/* A part of 0..1. */
+typedef struct part {
+    fret_integrand *f;
+    void *context;
+    fret_real lo, hi;
+} part;
+
+static fret_real part_rate(fret_real t, fret_real rest, void *context) {
+    const part *p = context;
+    return p->f(p->lo * rest + p->hi * t, (1 - p->lo) * rest + (1 - p->hi) * t, p->context);
+}
+
+/* int_lo^hi f by halves until they add up to the whole. tolerance: of the integral. */
+static fret_real bisect(fret_integrand *f, void *context, fret_real lo, fret_real hi, fret_real whole,
+                        fret_real tolerance, int depth) {
+    const fret_real mid = (lo + hi) / 2;
+    part left = {f, context, lo, mid}, right = {f, context, mid, hi};
+    fret_real a = (mid - lo) * fret_integrate_smooth(part_rate, &left),
+              b = (hi - mid) * fret_integrate_smooth(part_rate, &right);
+    if (depth == 0 || fabsl(a + b - whole) <= tolerance * (a + b))
+        return a + b;
+    tolerance *= (a + b) / fmaxl(fmaxl(a, b), LDBL_MIN); /* the smaller half may err by more of itself */
+    return bisect(f, context, lo, mid, a, tolerance, depth - 1) +
+           bisect(f, context, mid, hi, b, tolerance, depth - 1);
+}
+
+fret_real fret_integrate_pieces(fret_integrand *f, void *context, fret_real tolerance) {
+    return bisect(f, context, 0, 1, fret_integrate_smooth(f, context), tolerance, 24);
+}
+
+/* By Legendre polynomials: the integral of P_n over -1..z is (P_(n+1)(z)-P_(n-1)(z))/(2n+1). */
+void fret_gauss_running(const fret_real f[8], fret_real sum[8]) {
+    fret_real p[8][9], c[8];
+    for (int j = 0; j < 8; j++) {
+        fret_real z = 2 * fret_gauss_node[j] - 1;
+        p[j][0] = 1;
+        p[j][1] = z;
+        for (int n = 1; n < 8; n++)
+            p[j][n + 1] = ((2 * n + 1) * z * p[j][n] - n * p[j][n - 1]) / (n + 1);
+    }
+    for (int n = 0; n < 8; n++) {
+        c[n] = 0;
+        for (int j = 0; j < 8; j++)
+            c[n] += fret_gauss_weight[j] * f[j] * p[j][n];
+    }
+    for (int j = 0; j < 8; j++) {
+        sum[j] = c[0] * fret_gauss_node[j];
+        for (int n = 1; n < 8; n++)
+            sum[j] += c[n] * (p[j][n + 1] - p[j][n - 1]) / 2;
+    }
+}

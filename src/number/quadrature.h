@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Quadrature over 0..1: double exponential for singular ends, Gauss-Legendre for smooth integrands. Not
+ * installed. */
+#ifndef FRET_NUMBER_QUADRATURE_H
+#define FRET_NUMBER_QUADRATURE_H
+
+#include "fret/base.h"
+
+/* int_0^1 f dt by double-exponential quadrature; f gets t and 1-t, each with all its digits, so that
+ * algebraic end-point singularities do no harm. */
+typedef fret_real fret_integrand(fret_real t, fret_real rest, void *context);
+fret_real fret_integrate(fret_integrand *f, void *context);
+
+/* The nodes of that rule, 0 <= i < FRET_EXPONENTIAL, for several integrals at once. */
+enum { FRET_EXPONENTIAL = 109 };
+typedef struct fret_node {
+    fret_real t, rest, weight;
+} fret_node;
+fret_node fret_exponential_node(int i);
+
+/* The same by eight Gauss-Legendre points: 1e-20 where f is smooth and its argument varies by less than 20 %.
+ */
+fret_real fret_integrate_smooth(fret_integrand *f, void *context);
+
+/* The same by halves, and halves of these, until they add up to `tolerance` of the integral, for integrands
+ * that are smooth but for kinks; at most 2^24 of them. */
+fret_real fret_integrate_pieces(fret_integrand *f, void *context, fret_real tolerance);
+
+/* The nodes of the eight points. */
+extern const fret_real fret_gauss_node[8], fret_gauss_weight[8]; /* on 0..1 */
+
+/* int_0^(node j) f dt from the values of f at the eight nodes. */
+void fret_gauss_running(const fret_real f[8], fret_real sum[8]);
+
+#endif
