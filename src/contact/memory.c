@@ -144,7 +144,8 @@ static bool spring_at(const fret_memory *m, fret_real x, fret_real *y) {
     const fret_real r = fabsl(x);
     if (!m->count || r >= m->radius)
         return false;
-    *y = fminl(fret_normal_profile(m->normal, r), m->edge[DEPTH]);
+    const fret_real g = fret_normal_profile(m->normal, r);
+    *y = g > m->edge[DEPTH] ? m->edge[DEPTH] : g; /* by rounding; NaN stays */
     return true;
 }
 
@@ -205,7 +206,8 @@ fret_real fret_memory_slip_work(const fret_memory *m) {
     fret_level outer = {m->edge[DEPTH], m->edge[LOAD]};
     for (size_t i = m->count; i-- > 0;) {
         const slice *sl = &m->slices[i];
-        const fret_real h = sl->thick[DEPTH], s = m->mu_eta * sl->sigma;
+        /* to the very centre, where K may rise so steeply that the rounding of a thickness shows */
+        const fret_real h = i ? sl->thick[DEPTH] : outer.y, s = m->mu_eta * sl->sigma;
         sum += slip_slice(m, &outer, h, u, dx - u, s);
         u += s * h;
         outer = (fret_level){sl->inner[DEPTH], sl->inner[LOAD]};
