@@ -22,12 +22,13 @@ def real(x):
 
 
 print('''/* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Constants of the elementary functions and of the quadrature: made by scripts/reference/constants.py. Each file
- * that includes this keeps what it reads. Not installed. */
+/* Constants of the elementary functions and of the quadrature: made by scripts/reference/constants.py. Each
+ * file that includes this keeps what it reads. Not installed. */
 #ifndef FRET_NUMBER_CONSTANTS_H
 #define FRET_NUMBER_CONSTANTS_H
 
-#include "number/dd.h"
+#include "fret/base.h"
+#include "number/pair.h"
 
 /* clang-format off */''')
 print("/* ln(j/128) for j = 90 .. 181 */")

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "lex.h"
+#include "calc/lex.h"
 
 #include <float.h>
 #include <math.h>

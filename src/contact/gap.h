@@ -6,15 +6,8 @@
 
 #include <stdbool.h>
 
-#include "fret/gap.h"
+#include "contact/profile.h"
 #include "number/dd.h"
-
-/* What (3) needs to know of k: (2-u)^((k-1)/2), the kernel's factor that is smooth at the edge, as a series
- * in the distance u from the edge; term n is divided by (k+1)/2+4+n. Powers need kappa(n,k) of each term. */
-enum { FRET_SERIES = 64 };
-typedef struct fret_rule {
-    fret_real k, series[FRET_SERIES], kappa[FRET_GAP_TERMS];
-} fret_rule;
 
 /* What fret_gap_profile needs to know of the exponent k. */
 void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule);
@@ -22,17 +15,9 @@ void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule);
 /* ln kappa(n,k) = .log + ln .factor */
 dd_scaled fret_kappa_parts(double n, double k);
 
-/* Profile and its moments at contact radius a: g, g', and I = int_0^a x^k (g(a)-g(x)) dx. */
-typedef struct fret_profile {
-    fret_real g, slope, I;
-} fret_profile;
-
 /* At contact radius fret_gap_start + e, e > 0: near a flat end g ~ e^((k+1)/2), which a radius that has
  * swallowed e could not tell. Valid gaps only. */
 fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real e);
-
-/* From g and I in units of the contact radius a: g = a int f' K ds, I = a^(k+2)/(k+1) int s^2 f' K ds. */
-fret_profile fret_profile_of(fret_real k, fret_real a, fret_real g, fret_real slope, fret_real I);
 
 /* Radius below which f = 0 (the flat end), and the radius where the gap ends (INFINITY: nowhere). */
 fret_real fret_gap_start(const fret_gap *gap);

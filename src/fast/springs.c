@@ -44,7 +44,7 @@ typedef struct partial_sums {
 #define LANES 2
 #define NAME(x) x##_2
 #define TARGET
-#include "springs_lanes.h"
+#include "fast/springs_lanes.h"
 
 #ifdef __x86_64__
 #define LEAST _mm256_min_pd
@@ -52,14 +52,14 @@ typedef struct partial_sums {
 #define LANES 4
 #define NAME(x) x##_4
 #define TARGET __attribute__((target("avx2")))
-#include "springs_lanes.h"
+#include "fast/springs_lanes.h"
 
 #define LEAST _mm512_min_pd
 #define MOST _mm512_max_pd
 #define LANES 8
 #define NAME(x) x##_8
 #define TARGET __attribute__((target("avx512f,avx512dq,avx512vl")))
-#include "springs_lanes.h"
+#include "fast/springs_lanes.h"
 #endif
 
 typedef struct loops {

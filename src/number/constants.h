@@ -4,7 +4,8 @@
 #ifndef FRET_NUMBER_CONSTANTS_H
 #define FRET_NUMBER_CONSTANTS_H
 
-#include "number/dd.h"
+#include "fret/base.h"
+#include "number/pair.h"
 
 /* clang-format off */
 /* ln(j/128) for j = 90 .. 181 */

@@ -8,10 +8,7 @@
 #include <math.h>
 
 #include "fret/base.h"
-
-typedef struct dd {
-    double hi, lo; /* |lo| <= ulp(hi)/2 */
-} dd;
+#include "number/pair.h"
 
 static inline dd dd_of(double x) {
     return (dd){x, 0};
