@@ -62,10 +62,8 @@ static fret_real pressure_tip(fret_real t, fret_real rest, void *context) {
     return x > 0 ? slope_at(c, x) * fret_pow(x, c->normal->rule.k) / t : 0;
 }
 
-fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
-    fret_status st = fret_check_not_negative("r", (double)r);
-    if (st.code)
-        return st;
+/* Of a gap without steep powers. */
+static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
     *p = 0;
     fret_real start = fret_gap_start(&n->gap), k1 = 1 + n->foundation.k;
     if (r >= a || a <= start)
@@ -124,44 +122,238 @@ static fret_real outside_integral(const fret_normal *n, fret_real r, fret_real d
     return fret_pow(hi, k1) * span / k1 * fret_integrate(outside_part, &c);
 }
 
-fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_real *w) {
-    fret_status st = fret_check_not_negative("r", (double)r);
+/* Of a gap without steep powers, r > a: the integral; the contact is dz deep. */
+static fret_real surface_gentle(const fret_normal *n, fret_real a, fret_real dz, fret_real r) {
+    const fret_real start = fret_gap_start(&n->gap);
+    const fret_real sum = outside_integral(n, r, dz, start, a, false);
+    return start > 0 ? sum + outside_integral(n, r, dz, 0, start, true) : sum;
+}
+
+/* Of a steep power g = G (x/a)^n only the last a/n of the contact counts, where nodes in the radius would be
+ * few. Its integrals are linear in y = g/G. */
+static const double STEEP = 20; /* the least such n */
+
+typedef struct power_field {
+    fret_real a, r, n, m; /* m = (k+1)/2 */
+    fret_real wide;       /* n ln(a/r): y = e^(z-wide), x = r e^(z/n), 0 <= z <= wide */
+    fret_real z;          /* where the part near r ends */
+} power_field;
+
+/* (x^2-r^2)^(m-1) */
+static fret_real steep_kernel(const power_field *c, fret_real z) {
+    return fret_pow(c->r * c->r * fret_expm1(2 * z / c->n), c->m - 1);
+}
+
+/* Near r, where the kernel is singular: z = c->z t^(1/m). */
+static fret_real steep_near(fret_real t, fret_real rest, void *context) {
+    const power_field *c = context;
+    (void)rest;
+    const fret_real z = c->z * fret_exp(fret_log(t) / c->m);
+    return z > 0 ? fret_exp(z - c->wide) * z / (c->m * t) * steep_kernel(c, z) : 0;
+}
+
+/* The rest, from there to the edge: z = c->z .. wide. */
+static fret_real steep_far(fret_real t, fret_real rest, void *context) {
+    const power_field *c = context;
+    const fret_real span = c->wide - c->z;
+    return span * fret_exp(-span * rest) * steep_kernel(c, c->z + span * t);
+}
+
+/* The whole where r lies so deep that what is near it has no weight: linear in y = 0 .. 1. */
+static fret_real steep_deep(fret_real t, fret_real rest, void *context) {
+    const power_field *c = context;
+    const fret_real ln_y = rest < 0.5L ? fret_log1p(-rest) : fret_log(t);
+    return ln_y > -c->wide ? steep_kernel(c, c->wide + ln_y) : 0;
+}
+
+/* x^(2m) (r^2-x^2)^-m, x = a e^l = a y^(1/n). */
+static fret_real steep_outside(const power_field *c, fret_real l) {
+    const fret_real gap = (c->r - c->a) * (c->r + c->a) - c->a * c->a * fret_expm1(2 * l);
+    return fret_pow(c->a * c->a * fret_exp(2 * l) / gap, c->m);
+}
+
+/* y = t/2 */
+static fret_real steep_centre(fret_real t, fret_real rest, void *context) {
+    const power_field *c = context;
+    (void)rest;
+    return steep_outside(c, fret_log(t / 2) / c->n) / 2;
+}
+
+/* y = 1 - t^(1/(1-m))/2, which takes the singularity at the edge away from an r that is near it. */
+static fret_real steep_rim(fret_real t, fret_real rest, void *context) {
+    const power_field *c = context;
+    const fret_real power = 1 / (1 - c->m), away = fret_pow(t, power) / 2;
+    (void)rest;
+    return steep_outside(c, fret_log1p(-away) / c->n) * power * away / t;
+}
+
+/* A contact of radius a and depth dz; the logarithm of a to 100 bits, where a power makes much of it. */
+typedef struct edge {
+    fret_real a, dz;
+    dd ln_a;
+} edge;
+
+/* int_r^a g' (x^2-r^2)^(m-1) dx of a power of depth G at the edge. */
+static fret_real pressure_steep(const fret_normal *n, const fret_power *g, const edge *at, fret_real G,
+                                fret_real r) {
+    const fret_real m = (n->foundation.k + 1) / 2;
+    if (r <= 0)
+        return G * g->n / (g->n + 2 * (m - 1)) * fret_pow(at->a, 2 * (m - 1));
+    const fret_real wide = dd_value(dd_mul_d(dd_sub(at->ln_a, fret_dd_log_real(r)), g->n));
+    power_field c = {at->a, r, g->n, m, wide, fminl(wide, 1)};
+    if (wide <= 0)
+        return 0;
+    if (wide > 60)
+        return G * fret_integrate(steep_deep, &c);
+    const fret_real near = fret_integrate(steep_near, &c);
+    return G * (wide > 1 ? near + fret_integrate_pieces(steep_far, &c, 1e-17L) : near);
+}
+
+/* Calls `steep` for each steep power of the gap and adds up. The rest of the gap goes to `gentle`; returns
+ * whether there is one. */
+typedef fret_real steep_field(const fret_normal *, const fret_power *, const edge *, fret_real G,
+                              fret_real r);
+
+static bool part(const fret_normal *n, const edge *at, fret_real r, steep_field *steep, fret_normal *gentle,
+                 fret_real *sum) {
+    const fret_power *power;
+    const int terms = fret_gap_powers(&n->gap, &power);
+    *gentle = *n;
+    gentle->gap.terms = 0;
+    *sum = 0;
+    for (int i = 0; i < terms; i++) {
+        const fret_power *g = &power[i];
+        if (g->n < STEEP) {
+            gentle->rule.kappa[gentle->gap.terms] = n->rule.kappa[i];
+            gentle->gap.power[gentle->gap.terms++] = *g;
+        } else {
+            const fret_real G =
+                terms == 1 ? at->dz : n->rule.kappa[i] * g->h * fret_ratio_pow(at->a, g->r0, g->n);
+            *sum += steep(n, g, at, G, r);
+        }
+    }
+    return gentle->gap.terms > 0;
+}
+
+static bool is_steep(const fret_normal *n) {
+    const fret_power *power;
+    for (int i = fret_gap_powers(&n->gap, &power); i-- > 0;)
+        if (power[i].n >= STEEP)
+            return true;
+    return false;
+}
+
+/* Depth and logarithm of a contact given by its radius, beyond the flat end. */
+static edge edge_at(const fret_normal *n, fret_real a) {
+    return (edge){a, fret_gap_profile(&n->gap, &n->rule, a - fret_gap_start(&n->gap)).g, fret_dd_log_real(a)};
+}
+
+static fret_status pressure_of(const fret_normal *n, const edge *at, fret_real r, fret_real *p) {
+    fret_normal gentle;
+    fret_real sum = 0, rest = 0;
+    if (!is_steep(n))
+        return pressure_gentle(n, at->a, r, p);
+    *p = 0;
+    if (r >= at->a)
+        return fret_ok();
+    if (part(n, at, r, pressure_steep, &gentle, &sum)) {
+        const fret_status st = pressure_gentle(&gentle, at->a, r, &rest);
+        if (st.code)
+            return st;
+    }
+    *p = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI * sum + rest;
+    return fret_ok();
+}
+
+fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
+    const fret_status st = fret_check_not_negative("r", (double)r);
     if (st.code)
         return st;
-    fret_real dz = 0, f = 0, k = n->foundation.k, start = fret_gap_start(&n->gap);
-    *w = 0;
-    if (a <= start)
+    *p = 0;
+    if (r >= a || a <= fret_gap_start(&n->gap))
         return fret_ok();
-    dz = fret_gap_profile(&n->gap, &n->rule, a - start).g;
-    if (r <= a) {
-        st = fret_gap_f(&n->gap, r, &f);
-        *w = dz - f;
+    const edge at = edge_at(n, a);
+    return pressure_of(n, &at, r, p);
+}
+
+/* int_0^a x^k (r^2-x^2)^-m dx, a flat punch's surface but for its depth: with q = (a/r)^2 half the incomplete
+ * beta function B_q(m,1-m), by its series in q, or in 1-q from the edge on. */
+static fret_real surface_flat(fret_real k, fret_real a, fret_real r) {
+    const fret_real m = (k + 1) / 2, q = (a / r) * (a / r), away = (r - a) / r * ((r + a) / r);
+    const bool near = away < 0.5L;
+    const fret_real b = near ? (1 - k) / 2 : m, x = near ? away : q;
+    fret_real sum = 0, term = 1;
+    for (int j = 0; j < 100 && term > 1e-22L; j++) {
+        sum += term / (b + j);
+        term *= x * (b + j) / (j + 1);
+    }
+    sum *= fret_pow(x, b);
+    return (near ? FRET_PI / fret_sin(FRET_PI * fminl(m, 1 - m)) - sum : sum) / 2;
+}
+
+/* What a steep power takes from the surface of a flat punch: int_0^a x^k g (r^2-x^2)^-m dx. */
+static fret_real surface_steep(const fret_normal *n, const fret_power *g, const edge *at, fret_real G,
+                               fret_real r) {
+    power_field c = {.a = at->a, .r = r, .n = g->n, .m = (n->foundation.k + 1) / 2};
+    return G / g->n * (fret_integrate(steep_centre, &c) + fret_integrate_pieces(steep_rim, &c, 1e-16L));
+}
+
+static fret_status surface_of(const fret_normal *n, const edge *at, fret_real r, fret_real *w) {
+    if (r <= at->a) {
+        fret_real f = 0;
+        const fret_status st = fret_gap_f(&n->gap, r, &f);
+        *w = at->dz - f;
         return st;
     }
-    fret_real ck = fabsl(k) <= 0.5L ? fret_cos(FRET_PI * k / 2) : fret_sin(FRET_PI * (1 - fabsl(k)) / 2);
-    fret_real sum = outside_integral(n, r, dz, start, a, false);
-    if (start > 0)
-        sum += outside_integral(n, r, dz, 0, start, true);
+    fret_normal gentle;
+    fret_real sum, steep = 0;
+    if (!is_steep(n))
+        sum = surface_gentle(n, at->a, at->dz, r);
+    else if (part(n, at, r, surface_steep, &gentle, &steep))
+        sum = surface_gentle(&gentle, at->a, at->dz, r) - steep;
+    else
+        sum = at->dz * surface_flat(n->foundation.k, at->a, r) - steep;
+    const fret_real k = n->foundation.k;
+    const fret_real ck =
+        fabsl(k) <= 0.5L ? fret_cos(FRET_PI * k / 2) : fret_sin(FRET_PI * (1 - fabsl(k)) / 2);
     *w = 2 * ck / FRET_PI * sum;
     return fret_ok();
+}
+
+fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_real *w) {
+    const fret_status st = fret_check_not_negative("r", (double)r);
+    if (st.code)
+        return st;
+    *w = 0;
+    if (a <= fret_gap_start(&n->gap))
+        return fret_ok();
+    const edge at = edge_at(n, a);
+    return surface_of(n, &at, r, w);
 }
 
 /* Sum over the slices of weight sigma times the difference of the field at their two ends. */
 static fret_status superpose(const fret_memory *m, fret_real r, bool traction, fret_real *out) {
     const fret_normal *n = fret_memory_normal(m);
     fret_segment s;
+    const bool steep = fret_normal_closed(n) && is_steep(n);
     fret_real inner = 0, sum = 0;
+    fret_status st = fret_check_not_negative("r", (double)r);
     *out = 0;
-    for (size_t i = 0; fret_memory_segment(m, i, &s); i++) {
-        fret_real a = fret_law_radius(n, s.outer), outer;
-        fret_status st = traction ? fret_pressure(n, a, r, &outer) : fret_surface(n, a, r, &outer);
-        if (st.code)
-            return st;
+    for (size_t i = 0; !st.code && fret_memory_segment(m, i, &s); i++) {
+        const fret_real a = fret_law_radius(n, s.outer);
+        fret_real outer = 0;
+        if (steep && s.outer > 0) { /* the depth tells the edge to more digits than its radius */
+            const edge at = {a, s.outer, fret_law_log_radius(n, s.outer)};
+            st = traction ? pressure_of(n, &at, r, &outer) : surface_of(n, &at, r, &outer);
+        } else {
+            st = traction ? fret_pressure(n, a, r, &outer) : fret_surface(n, a, r, &outer);
+        }
         sum += s.sigma * (outer - inner);
         inner = outer;
     }
-    *out = sum;
-    return fret_ok();
+    if (!st.code)
+        *out = sum;
+    return st;
 }
 
 /* A field at r counts only what is below it: slices that end inside r contribute their outside part. */

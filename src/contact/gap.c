@@ -235,6 +235,11 @@ fret_real fret_gap_reach(const fret_gap *gap, fret_real e) {
     return s->ahead ? fminl(behind, s->ahead(gap, e)) : behind;
 }
 
+int fret_gap_powers(const fret_gap *gap, const fret_power **power) {
+    *power = gap->power;
+    return shape_of(gap)->powers ? gap->terms : 0;
+}
+
 bool fret_gap_sharp(const fret_gap *gap) {
     return shape_of(gap)->sharp;
 }

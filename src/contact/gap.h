@@ -37,6 +37,9 @@ fret_real fret_gap_tip(const fret_gap *gap);
 /* Is there an edge at the flat end, where f' jumps and the pressure is infinite? */
 bool fret_gap_sharp(const fret_gap *gap);
 
+/* The powers of a gap that is a sum of such, and how many; 0 for other shapes. */
+int fret_gap_powers(const fret_gap *gap, const fret_power **power);
+
 /* One power: the contact has closed forms. */
 bool fret_gap_closed(const fret_gap *gap);
 

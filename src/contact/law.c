@@ -65,6 +65,10 @@ static dd radius_of_depth(const fret_normal *n, dd y) {
     return dd_add(n->wide.ln_r0, dd_div(dd_sub(y, n->wide.ln_depth), dd_of(n->gap.power[0].n)));
 }
 
+dd fret_law_log_radius(const fret_normal *n, fret_real y) {
+    return radius_of_depth(n, fret_dd_log_real(y));
+}
+
 fret_real fret_law_radius(const fret_normal *n, fret_real y) {
     if (fret_normal_closed(n))
         return y > 0 ? fret_dd_exp_real(radius_of_depth(n, fret_dd_log_real(y))) : 0;

@@ -78,6 +78,9 @@ fret_real fret_law_thickness_outside(const fret_normal *normal, const fret_level
 /* Radius [m] of a level: from its load, which tells it best. */
 fret_real fret_law_level_radius(const fret_normal *normal, const fret_level *level);
 
+/* ln a(y) of a power law. */
+dd fret_law_log_radius(const fret_normal *normal, fret_real y);
+
 /* int dK = K(y)-K(y-h) [N/m] over the slice. */
 fret_real fret_law_stiffness_drop(const fret_normal *normal, const fret_level *outer, fret_real h);
 

@@ -28,6 +28,63 @@ static void reference(void) {
     }
 }
 
+/* Large exponents: at given contact radius, and in a history. */
+static void steep(void) {
+    unit_table t;
+    if (!unit_open(&t, "steep.csv"))
+        return;
+    while (unit_row(&t)) {
+        const unit_scene s = unit_make_scene(unit_input(&t, 1), unit_input(&t, 2));
+        const fret_normal *normal = unit_make_normal(&s);
+        const double load = unit_input(&t, 3), r = unit_input(&t, 5);
+        fret_real normally = -1, tangentially = -1;
+        if (atoi(t.cell[0]) == 0) {
+            CHECK_OK(fret_pressure(normal, load, r, &normally));
+            CHECK_OK(fret_surface(normal, load, r, &tangentially));
+        } else {
+            const fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, load, 0},
+                            push = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, unit_input(&t, 4)};
+            fret_memory *m = NULL;
+            CHECK_OK(fret_memory_make(normal, s.mu, &m));
+            CHECK_OK(fret_memory_step(m, &press));
+            CHECK_OK(fret_memory_step(m, &push));
+            CHECK_OK(fret_traction(m, r, &normally));
+            CHECK_OK(fret_surface_x(m, r, &tangentially));
+            fret_memory_free(m);
+        }
+        CHECK_REL(normally, unit_result(&t, 6), UNIT_TOL(1e-13L, 1e-9L));
+        CHECK_REL(tangentially, unit_result(&t, 7), UNIT_TOL(1e-13L, 1e-9L));
+    }
+}
+
+/* The fields of a sum are the sums of those of its powers, steep ones and others, at one contact radius. */
+static void sums(void) {
+    static const double ks[] = {-0.7, 0, 0.5}, parts[] = {0.3, 0.9, 0.999, 1.001, 3};
+    static const fret_power powers[] = {{2, 1e-5, 1e-3}, {50, 2e-6, 1e-3}, {1e5, 1e-6, 1e-3}};
+    for (int i = 0; i < 3; i++) {
+        const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, ks[i], 1e-3};
+        fret_gap all = {.kind = FRET_GAP_SUM, .terms = 3, .power = {powers[0], powers[1], powers[2]}};
+        const fret_normal *whole = unit_keep_normal(&material, &all);
+        for (int j = 0; j < 5; j++) {
+            const fret_real a = 1e-3L, r = parts[j] * a;
+            fret_real p = -1, w = -1, p_sum = 0, w_sum = 0;
+            CHECK_OK(fret_pressure(whole, a, r, &p));
+            CHECK_OK(fret_surface(whole, a, r, &w));
+            for (int l = 0; l < 3; l++) {
+                const fret_gap one = {.kind = FRET_GAP_POWER, .terms = 1, .power = {powers[l]}};
+                const fret_normal *n = unit_keep_normal(&material, &one);
+                fret_real p_one = 0, w_one = 0;
+                CHECK_OK(fret_pressure(n, a, r, &p_one));
+                CHECK_OK(fret_surface(n, a, r, &w_one));
+                p_sum += p_one;
+                w_sum += w_one;
+            }
+            CHECK_ABS(p, p_sum, fabsl(p_sum) + 1e-300L, UNIT_TOL(1e-13L, 1e-9L));
+            CHECK_REL(w, w_sum, UNIT_TOL(1e-13L, 1e-9L));
+        }
+    }
+}
+
 typedef fret_status field(const void *what, fret_real r, fret_real *out);
 
 typedef struct pressed {
@@ -179,6 +236,8 @@ static void errors(void) {
 int main(int argc, char **argv) {
     unit_start("field", argc, argv);
     reference();
+    steep();
+    sums();
     forces();
     closed();
     errors();
