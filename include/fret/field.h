@@ -13,7 +13,7 @@ FRET_BEGIN
  * Arguments r >= 0 [m] else FRET_NEGATIVE. FRET_SINGULAR where the field is infinite: at the sharp edge of a
  * flat-ended gap, and at the tip where n + k <= 1. Accuracy 1e-14 relative; 2e-13 nearer
  * than 1e-3 a outside the edge and nearer than 1e-6 a to the centre. The pressure of a table has a kink at
- * every row, where it is less. */
+ * every row, where it is less. Powers up to n = 1e6: 1e-13, for the radii as given. */
 
 /* p(r) = (cN0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx [Pa]; 0 outside. The contact radius is a [m]. */
 fret_status fret_pressure(const fret_normal *normal, fret_real a, fret_real r, fret_real *p);
