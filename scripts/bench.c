@@ -319,11 +319,11 @@ static double scene(const fret_normal *normal, const fret_press *press) {
 
 static double cycle_loss(const fret_normal *n, const fret_press *p) {
     const long count = 50000;
+    const fret_contact c = {n, mu, *p};
     double t0 = seconds();
     for (long i = 0; i < count; i++) {
         fret_real loss;
-        need(fret_cycle_loss_by_force(&(fret_contact){n, mu, *p}, mu * FN * (0.5 + (double)i) / (double)count,
-                                      &loss));
+        need(fret_cycle_loss_by_force(&c, mu * FN * (0.5 + (double)i) / (double)count, &loss));
         sink = (double)loss;
     }
     return (seconds() - t0) / (double)count;
