@@ -42,9 +42,12 @@ $(B)/fret.pc: FORCE
 	@printf 'prefix=%s\nName: fret\nDescription: partial-slip contact of power-law graded elastic solids\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lfret\nLibs.private: %s\n' \
 		'$(PREFIX)' '$(VERSION)' '$(LIBS_CORE)' > $@
 
+# rooms above the core: their objects one by one
+OUTER := $(call OBJ,$(wildcard src/calc/file*.c src/plot/*.c))
+$(B)/tests/test_file $(B)/tests/test_plot: $(OUTER)
 $(B)/tests/%: tests/unit/%.c $(B)/libfret.a
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(B)/libfret.a $(LIBS_CORE)
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $(filter %.c %.o,$^) $(B)/libfret.a $(LIBS_CORE)
 
 # One file that depends on nothing, to copy to another machine: with musl, where it is at hand.
 STATIC_CC = $(if $(filter default,$(origin CC)),$(shell command -v musl-gcc || echo $(CC)),$(CC))
