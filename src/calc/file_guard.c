@@ -27,7 +27,7 @@ static int guard(kind what, const char *path, pid_t group) {
         guards[i].group = group;
         if (path && !guards[i].path)
             return -1;
-        guards[i].kind = what;
+        guards[i].kind = (sig_atomic_t)what;
         return i;
     }
     return -1;
