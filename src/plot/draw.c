@@ -10,9 +10,37 @@
 /* ---- files
  * ------------------------------------------------------------------------------------------------------- */
 
-static const char head_tex[] = "% a figure for \\input; it needs \\usepackage{pict2e,xcolor,graphicx}\n";
+/* The macros that gnuplot's pictures for TikZ call, so that one file and \usepackage{tikz} are enough. A
+ * group keeps them from the rest of a document. */
+static const char head_tex[] =
+    "% a figure for \\input; it needs \\usepackage{tikz} and \\usetikzlibrary{plotmarks}\n"
+    "\\begingroup\n"
+    "\\def\\gpdashlength{0.5pt}\n"
+    "\\def\\gpcolor#1{\\tikzset{fret #1}}\n"
+    "\\def\\gpsetlinetype#1{}\n"
+    "\\def\\gpsetdashtype#1{\\tikzset{gp path/.style={#1}}}\n"
+    "\\def\\gpsetlinewidth#1{\\pgfsetlinewidth{#1*0.4pt}}\n"
+    "\\def\\gpsetpointsize#1{\\tikzset{gp point/.style={mark size=#1*0.4pt}}}\n"
+    "\\def\\gppoint#1#2{\\path[solid] plot[only marks,gp point,#1] coordinates {#2};}\n"
+    "\\def\\gp3point#1#2#3{\\path[solid] plot[only marks,gp point,#1] coordinates {#3};}\n"
+    "\\def\\gpfill#1{\\path[line width=0.05pt,draw,fill,#1]}\n"
+    "\\def\\gpdefrectangularnode#1#2#3{}\n"
+    "\\tikzset{gnuplot/.style={line cap=round,line join=round},\n"
+    "  rgb color/.code={\\definecolor{fretcolor}{rgb}{#1}\\tikzset{color=fretcolor}},\n"
+    "  fret rgb color/.code={\\definecolor{fretcolor}{rgb}{#1}\\color{fretcolor}\\pgfsetcolor{fretcolor}},\n"
+    "  fret color/.code={\\color{black}\\pgfsetcolor{black}},\n"
+    "  gp node left/.style={anchor=mid west},gp node center/.style={anchor=mid},\n"
+    "  gp node right/.style={anchor=mid east},gp path/.style={},gp point/.style={mark size=1.6pt},\n"
+    "  gp dt solid/.style={solid},gp dt axes/.style={dotted},gp dt 1/.style={solid},\n"
+    "  gp mark 4/.style={mark=square},gp mark 5/.style={mark=square*},gp mark 6/.style={mark=o},\n"
+    "  gp mark 7/.style={mark=*},gp mark 8/.style={mark=triangle},gp mark 9/.style={mark=triangle*},\n"
+    "  gp mark 11/.style={mark=triangle*,mark options={rotate=180}},gp mark 12/.style={mark=diamond},\n"
+    "  gp mark 13/.style={mark=diamond*}}\n";
+static const char foot_tex[] = "\\endgroup\n";
 static const char head_html[] =
     "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><title>fret</title></head><body>\n";
+
+static const char foot_html[] = "</body></html>\n";
 
 /* Copies what gnuplot drew; every error of reading or writing is one. */
 static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, char *error, size_t size) {
@@ -20,8 +48,8 @@ static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, char *error
     FILE *from = fopen(r->out, "r");
     if (!from)
         return plot_fail(error, size, "cannot read what gnuplot drew: %s", strerror(errno));
-    bool html = !strcmp(kind->ending, ".html"), any = false;
-    if (!strcmp(kind->ending, ".tex"))
+    bool html = !strcmp(kind->ending, ".html"), tex = !strcmp(kind->ending, ".tex"), any = false;
+    if (tex)
         fputs(head_tex, to);
     if (html)
         fputs(head_html, to);
@@ -33,8 +61,10 @@ static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, char *error
     }
     int code = errno;
     bool bad = ferror(from) != 0;
+    if (tex)
+        fputs(foot_tex, to);
     if (html)
-        fputs("</body></html>\n", to);
+        fputs(foot_html, to);
     fclose(from);
     if (bad)
         return plot_fail(error, size, "cannot read what gnuplot drew: %s", strerror(code));
@@ -150,7 +180,7 @@ static bool print_line(FILE *out, const char **page, size_t count, const char *e
     for (size_t i = 0; i < count; i++) {
         const char *line = page[i];
         size_t n = strcspn(line, "\n");
-        more |= line[n] != 0;
+        more |= line[n] && line[n + 1];
         page[i] += n + (line[n] != 0);
         for (size_t k = 0; k < n; k++)
             if (line[k] == ' ') { /* blanks at the end of a line are not worth their bytes */

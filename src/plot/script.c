@@ -28,7 +28,7 @@ static const plot_kind kinds[] = {
     {".html", PLOT_ENHANCED,
      "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3},
     {".pdf", PLOT_ENHANCED, "pdfcairo size %.4gcm,%.4gcm font 'Sans,%.3g' enhanced", 12.0 / WIDTH, 9.5, 2.2},
-    {".tex", PLOT_TEX, "pict2e size %.4gcm,%.4gcm font ',%.3g' color", 12.0 / WIDTH, 10, 2},
+    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / WIDTH, 10, 2},
     {".gif", PLOT_ENHANCED, "gif size %.0f,%.0f font 'Sans,%.3g' enhanced animate delay %.0f loop 0", 1, 15,
      3},
     {".gp", PLOT_ENHANCED, NULL, 1, 16, 3}};
@@ -211,8 +211,9 @@ static void set_key(const scribe *s, const plot_panel *p) {
         fputs("set key outside right center vertical Left reverse samplen 3.5 spacing 1.15\n", s->to);
     else
         fprintf(s->to,
-                "set key outside below center horizontal Left reverse samplen 3.5 spacing 1.1 height 0.7 "
+                "set key outside below center horizontal Left reverse samplen 3.5 spacing 1.1 height %s "
                 "maxcols %d\n",
+                s->kind->form == PLOT_TEX ? "2.5" : "1.2",
                 longest > 40    ? 1
                 : longest > 24  ? 2
                 : s->panels > 1 ? 3
@@ -361,8 +362,8 @@ static void draw_map(const scribe *s, const plot_panel *p, const plot_axis *x) {
     if (n)
         fprintf(s->to,
                 ", \\\n  '' using 1:2:3 with lines nosurface lw %.3g lc rgb '#303030' notitle, \\\n"
-                "  '' using 1:2:3 with labels nosurface boxed notitle",
-                0.6 * s->kind->line * s->scale);
+                "  '' using 1:2:3 with labels nosurface%s notitle",
+                0.6 * s->kind->line * s->scale, s->kind->form == PLOT_TEX ? "" : " boxed");
     draw_all(s, p, false, true);
 }
 

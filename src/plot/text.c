@@ -8,6 +8,8 @@
 
 #include "plot/plot.h"
 
+enum { THIN_SPACE = 0x2009 };
+
 typedef struct writer {
     FILE *to;
     plot_form form;
@@ -113,7 +115,10 @@ static void put_char(writer *w, const char *p, size_t n, unsigned c) {
             fputs(s ? s->ascii : "?", w->to);
         break;
     case PLOT_UNICODE:
-        fwrite(p, 1, n, w->to);
+        if (c == THIN_SPACE) /* not every terminal has one */
+            putc(' ', w->to);
+        else
+            fwrite(p, 1, n, w->to);
         break;
     case PLOT_ENHANCED:
         if (n == 1 && strchr("_^{}@&~\\", (int)c))
@@ -413,7 +418,7 @@ char *plot_text(const char *text, plot_form form) {
     writer w = {.to = open_memstream(&made, &room), .form = form};
     if (!w.to)
         return NULL;
-    /* a bracket at the beginning would be an option to gnuplot's terminals for TeX */
+    /* a bracket at the beginning is an option to some of gnuplot's terminals for TeX */
     if (form == PLOT_TEX && *text)
         fputs("\\relax ", w.to);
     while (*text) {
@@ -439,10 +444,13 @@ char *plot_text(const char *text, plot_form form) {
 char *plot_label(const char *expression, const char *unit) {
     bool has = unit && *unit;
     size_t room = strlen(expression) + (has ? strlen(unit) : 0) + 16;
-    char *label = malloc(room);
-    if (label)
-        snprintf(label, room,
-                 has ? PLOT_EXPR "%s" PLOT_END " [" PLOT_UNIT "%s" PLOT_END "]" : PLOT_EXPR "%s" PLOT_END,
-                 expression, has ? unit : "");
+    char *label = malloc(room), *end = label;
+    if (!label)
+        return NULL;
+    if (*expression)
+        end += sprintf(end, PLOT_EXPR "%s" PLOT_END "%s", expression, has ? " " : "");
+    *end = 0;
+    if (has)
+        snprintf(end, room - (size_t)(end - label), "[" PLOT_UNIT "%s" PLOT_END "]", unit);
     return label;
 }
