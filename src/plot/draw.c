@@ -170,6 +170,11 @@ static bool sheets_read(sheets *s, const plot_run *r, char *error, size_t size) 
             *p = 0;
             s->page[n++] = p + 1;
         }
+    for (size_t i = 0; i < n; i++) { /* what follows the last line sets colours back, which each line does */
+        char *last = strrchr(s->page[i], '\n');
+        if (last)
+            last[1] = 0;
+    }
     return true;
 }
 

@@ -453,7 +453,11 @@ static bool lay_out(page *g, const plot_axis *x, const plot_axis *y) {
     make_ruler(&g->y, y, height < 3 ? 3 : height, 2);
     g->left = (int)(g->y.width < LEFT ? g->y.width : LEFT) + 2;
     int width = g->columns - 1 - g->left - g->right;
-    make_ruler(&g->x, x, width < 10 ? 10 : width, 8);
+    for (size_t gap = 6; gap < 40; gap = g->x.width + 2) { /* numbers side by side, with blanks between */
+        make_ruler(&g->x, x, width < 10 ? 10 : width, (int)gap);
+        if (g->x.width + 2 <= gap)
+            break;
+    }
     /* what is over goes below and to the right */
     g->rows -= height > g->y.cells ? height - g->y.cells : 0;
     fprintf(g->to,
