@@ -25,10 +25,10 @@ enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
 static const plot_kind kinds[] = {
     {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3},
     {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19, 3},
-    {".html", PLOT_ENHANCED,
-     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3},
     {".pdf", PLOT_ENHANCED, "pdfcairo size %.4gcm,%.4gcm font 'Sans,%.3g' enhanced", 12.0 / WIDTH, 9.5, 2.2},
     {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / WIDTH, 10, 2},
+    {".html", PLOT_ENHANCED,
+     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3},
     {".gif", PLOT_ENHANCED, "gif size %.0f,%.0f font 'Sans,%.3g' enhanced animate delay %.0f loop 0", 1, 15,
      3},
     {".gp", PLOT_ENHANCED, NULL, 1, 16, 3}};

@@ -384,7 +384,7 @@ static void refused(const char *tmp) {
     CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .stop = &stop}, NULL, error, sizeof error));
     CHECK(!strcmp(error, "interrupted") && access("x.png", F_OK) != 0 && !any_left(tmp));
     CHECK(!plot_draw(&f, &(plot_target){.file = "x.jpg"}, NULL, error, sizeof error));
-    CHECK(has(error, "use .png, .svg, .html, .pdf, .tex, .gif or .gp"));
+    CHECK(has(error, "use .png, .svg, .pdf, .tex, .html, .gif or .gp"));
     CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .width = 9000}, NULL, error, sizeof error));
     CHECK(!plot_check("no/such/x.png", error, sizeof error) && plot_check("x.png", error, sizeof error));
     CHECK(access("x.png", F_OK) != 0);
