@@ -17,8 +17,7 @@ typedef const volatile sig_atomic_t *file_stop;
 /* A name as the shell takes it: `~` and `~/...` are the home directory. To be freed; NULL: out of memory. */
 char *file_expand(const char *name);
 
-/* ---- output
- * ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------- */
 
 /* What became of an output file. */
 typedef struct file_report {
@@ -50,8 +49,7 @@ bool file_out_close(file_out *out, bool keep, file_report *report, char *error, 
 /* "812 B", "12 kB", "3.4 MB": at most 15 bytes. */
 void file_size_text(unsigned long long bytes, char text[16]);
 
-/* ---- input
- * ------------------------------------------------------------------------------------------------- */
+/* ---- input -------------------------------------------------------------------------------------- */
 
 enum { FILE_LINE_LIMIT = 16 << 20 }; /* bytes of a line, continued or not */
 
@@ -88,8 +86,7 @@ file_got file_in_logical(file_in *in, file_mark *mark, char *error, size_t size)
 
 void file_in_close(file_in *in);
 
-/* ---- what must not stay behind
- * ------------------------------------------------------------------------------- */
+/* ---- what must not stay behind ------------------------------------------------------------------ */
 
 /* The calls between hold the signals that end the program back: what is made is then listed, or not made. */
 void file_signals_hold(sigset_t *before);

@@ -7,8 +7,7 @@
 
 #include "plot/script.h"
 
-/* ---- files
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- files -------------------------------------------------------------------------------------- */
 
 /* The macros that gnuplot's pictures for TikZ call, so that one file and \usepackage{tikz} are enough. A
  * group keeps them from the rest of a document. */
@@ -114,8 +113,7 @@ static bool to_file(const scripted *s, file_report *report, char *error, size_t 
     return file_out_close(&out, ok, report, error, size) && ok;
 }
 
-/* ---- text
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- text --------------------------------------------------------------------------------------- */
 
 /* What gnuplot drew as text: pages, parted at its form feeds. */
 typedef struct sheets {
@@ -179,7 +177,7 @@ static bool sheets_read(sheets *s, const plot_run *r, char *error, size_t size) 
 }
 
 /* A line of each page, side by side; the pages move on. False after the last. */
-static bool print_line(FILE *out, const char **page, size_t count, const char *end) {
+static bool print_line(FILE *out, const char **page, size_t count, int columns, const char *end) {
     size_t trailing = 0;
     bool more = false;
     for (size_t i = 0; i < count; i++) {
@@ -187,6 +185,8 @@ static bool print_line(FILE *out, const char **page, size_t count, const char *e
         size_t n = strcspn(line, "\n");
         more |= line[n] && line[n + 1];
         page[i] += n + (line[n] != 0);
+        if (!*line) /* this page is shorter than its neighbours */
+            trailing += (size_t)columns;
         for (size_t k = 0; k < n; k++)
             if (line[k] == ' ') { /* blanks at the end of a line are not worth their bytes */
                 trailing++;
@@ -201,15 +201,16 @@ static bool print_line(FILE *out, const char **page, size_t count, const char *e
 }
 
 /* A frame's pages; the number of lines it took. */
-static size_t print_pages(FILE *out, char *const *page, size_t panels, bool beside, const char *end) {
-    size_t lines = 0, abreast = beside ? panels : 1;
+static size_t print_pages(FILE *out, char *const *page, size_t panels, const plot_pages *pages,
+                          const char *end) {
+    size_t lines = 0, abreast = pages->beside ? panels : 1;
     for (size_t i = 0; i < panels; i += abreast) {
         const char *at[PLOT_PANELS];
         for (size_t k = 0; k < abreast; k++)
             at[k] = page[i + k];
         do
             lines++;
-        while (print_line(out, at, abreast, end));
+        while (print_line(out, at, abreast, pages->columns, end));
     }
     return lines;
 }
@@ -218,11 +219,12 @@ static size_t print_pages(FILE *out, char *const *page, size_t panels, bool besi
 static bool play(const sheets *s, const scripted *w, size_t panels, char *error, size_t size) {
     const plot_target *t = w->target;
     size_t frames = s->count / panels, first = t->moving ? 0 : frames - 1, lines = 0;
+    if (s->count != w->reel->count * panels)
+        return plot_fail(error, size, "gnuplot drew %zu pages of %zu", s->count, w->reel->count * panels);
     for (size_t n = first; n < frames; n++) {
         if (lines)
             fprintf(t->out, "\033[%zuA", lines);
-        lines = print_pages(t->out, s->page + n * panels, panels, w->pages->beside,
-                            t->moving ? "\033[K\n" : "\n");
+        lines = print_pages(t->out, s->page + n * panels, panels, w->pages, t->moving ? "\033[K\n" : "\n");
         if (fflush(t->out))
             return plot_fail(error, size, "cannot write: %s", strerror(errno));
         for (int ms = (int)(1000 * w->reel->seconds); ms > 0 && n + 1 < frames; ms -= 10) {
@@ -294,12 +296,11 @@ static bool to_terminal(const plot_reel *reel, const plot_target *t, char *error
     return to_terminal_as(&s, panels, error, size);
 }
 
-/* ---- figures
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- figures ------------------------------------------------------------------------------------ */
 
-bool plot_check(const char *file, char *error, size_t size) {
+bool plot_check(const char *file, file_stop stop, char *error, size_t size) {
     file_out probe;
-    return plot_kind_of(file, error, size) && file_out_open(&probe, file, NULL, error, size) &&
+    return plot_kind_of(file, error, size) && file_out_open(&probe, file, stop, error, size) &&
            file_out_close(&probe, false, NULL, error, size);
 }
 

@@ -82,11 +82,11 @@ bool plot_map_make(plot_panel *p, size_t nx, size_t ny, char *error, size_t size
     return true;
 }
 
-/* ---- thinning
- * -------------------------------------------------------------------------------------------------- */
+/* ---- thinning ----------------------------------------------------------------------------------- */
 
 /* The first point, the last, both extremes of three coordinates, and a gap. */
 enum { PICKS = 9 };
+_Static_assert(PLOT_KEPT % (2 * PICKS) == 0, "a full series parts into buckets");
 
 static bool is_gap(const plot_series *s, size_t i) {
     return !isfinite(s->x[i]) || !isfinite(s->y[i]) || (s->y2 && !isfinite(s->y2[i]));

@@ -26,8 +26,7 @@ plot_pages plot_pages_for(const plot_target *t, size_t panels, bool one_screen) 
     return p;
 }
 
-/* ---- tics
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- tics --------------------------------------------------------------------------------------- */
 
 /* An axis over the cells 0 .. cells of the page, with its tics. */
 typedef struct ruler {
@@ -121,8 +120,7 @@ static void make_ruler(ruler *r, const plot_axis *axis, int cells, int gap) {
     }
 }
 
-/* ---- cells
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- cells -------------------------------------------------------------------------------------- */
 
 typedef struct page {
     FILE *to;
@@ -144,19 +142,9 @@ static const char *const chars = "*o+x#%@&=$0123456789abcdefghijklmnpqrstuvwyzAB
 static const char *const colors[] = {"#0087ff", "#ff5f00", "#00af5f", "#d75faf",
                                      "#d7af00", "#5fd7ff", "#878787"};
 
-static size_t place_of(const plot_panel *p, size_t at) {
-    const plot_series *s = p->series[at];
-    if (s->style >= 0)
-        return (size_t)s->style;
-    size_t n = 0;
-    for (size_t i = 0; i < at; i++)
-        n += p->series[i]->role == PLOT_CURVE && !p->series[i]->thin && p->series[i]->style < 0;
-    return n;
-}
-
 static void sign_of(const plot_panel *p, size_t at, char *sign, const char **color) {
     const plot_series *s = p->series[at];
-    size_t place = place_of(p, at);
+    size_t place = plot_style_of(p, at);
     *color = s->role == PLOT_NOW || s->thin || s->role == PLOT_BAND || s->role == PLOT_VERTICAL
                  ? "#a8a8a8"
                  : colors[place % (sizeof colors / sizeof *colors)];
@@ -299,8 +287,7 @@ static bool write_map_cells(const page *g) {
     return true;
 }
 
-/* ---- texts
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- texts -------------------------------------------------------------------------------------- */
 
 static char *shown(const page *g, const char *text) {
     return plot_text(text ? text : "", g->form);

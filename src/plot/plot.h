@@ -26,8 +26,7 @@ enum {
     PLOT_PIXELS = 8000   /* of a picture along an axis */
 };
 
-/* ---- texts
- * --------------------------------------------------------------------------------------------------- */
+/* ---- texts -------------------------------------------------------------------------------------- */
 
 /* Texts are UTF-8 and reach the reader as they are: no character means anything to gnuplot or TeX. What
  * stands between PLOT_EXPR or PLOT_UNIT and PLOT_END is an expression of the language or a unit, and is
@@ -52,8 +51,7 @@ typedef enum plot_form {
  * memory. */
 char *plot_text(const char *text, plot_form form);
 
-/* ---- figures
- * ------------------------------------------------------------------------------------------------- */
+/* ---- figures ------------------------------------------------------------------------------------ */
 
 typedef enum plot_role {
     PLOT_CURVE,    /* a line through the points; a point that is not finite is a gap */
@@ -112,8 +110,7 @@ bool plot_map_make(plot_panel *p, size_t nx, size_t ny, char *error, size_t size
 bool plot_point(plot_series *s, double x, double y);
 bool plot_band(plot_series *s, double x, double y, double y2);
 
-/* ---- where it goes
- * -------------------------------------------------------------------------------------------- */
+/* ---- where it goes ------------------------------------------------------------------------------ */
 
 typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL } plot_terminal;
 
@@ -131,7 +128,7 @@ typedef struct plot_target {
 } plot_target;
 
 /* Can a picture go to the file? To be asked before long work; the error names what stands against it. */
-bool plot_check(const char *file, char *error, size_t size);
+bool plot_check(const char *file, file_stop stop, char *error, size_t size);
 
 /* Draws. On failure the error, and no file left behind. The report may be NULL; it is of files only. */
 bool plot_draw(const plot_figure *f, const plot_target *target, file_report *report, char *error,
@@ -155,8 +152,7 @@ typedef struct plot_movie {
 bool plot_animate(const plot_movie *m, const plot_target *target, file_report *report, char *error,
                   size_t size);
 
-/* ---- numbers, for tests
- * ------------------------------------------------------------------------------------------ */
+/* ---- numbers, for tests ------------------------------------------------------------------------- */
 
 /* Thins to about `goal` points: of each stretch the first, the last, both extremes of each coordinate, and a
  * gap. */

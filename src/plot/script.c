@@ -18,8 +18,7 @@ bool plot_fail(char *error, size_t size, const char *format, ...) {
 
 enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
 
-/* ---- kinds
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- kinds -------------------------------------------------------------------------------------- */
 
 /* Lengths: 900 pixels are 12 cm of a page. */
 static const plot_kind kinds[] = {
@@ -50,8 +49,7 @@ const plot_kind *plot_kind_of(const char *file, char *error, size_t size) {
     return NULL;
 }
 
-/* ---- looks
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- looks -------------------------------------------------------------------------------------- */
 
 /* Okabe and Ito's colours, which the colour-blind tell apart (their yellow is too pale for lines), each with
  * its own dashes for print in black; the eighth curve begins again with marks on its line. */
@@ -82,8 +80,7 @@ static void quoted(FILE *to, const char *text, plot_form form) {
     free(shown);
 }
 
-/* ---- data
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- data --------------------------------------------------------------------------------------- */
 
 static void write_series(FILE *to, const plot_series *s) {
     bool gap = true; /* none before the first point */
@@ -157,8 +154,7 @@ static bool write_data(FILE *to, const plot_reel *reel) {
     return ok;
 }
 
-/* ---- a panel
- * ------------------------------------------------------------------------------------------------------ */
+/* ---- a panel ------------------------------------------------------------------------------------ */
 
 typedef struct scribe {
     FILE *to;
@@ -220,8 +216,7 @@ static void set_key(const scribe *s, const plot_panel *p) {
                                 : 4);
 }
 
-/* The place of a series among those that take a style of their own. */
-static size_t style_of(const plot_panel *p, size_t at) {
+size_t plot_style_of(const plot_panel *p, size_t at) {
     const plot_series *s = p->series[at];
     if (s->style >= 0)
         return (size_t)s->style;
@@ -233,7 +228,7 @@ static size_t style_of(const plot_panel *p, size_t at) {
 
 static void with_curve(const scribe *s, const plot_panel *p, size_t at) {
     const plot_series *c = p->series[at];
-    size_t style = style_of(p, at), mark = style / LOOKS;
+    size_t style = plot_style_of(p, at), mark = style / LOOKS;
     double line = s->kind->line * s->scale;
     if (c->thin) {
         fprintf(s->to, "lines lw %.3g lc rgb '#707070' dt solid", 0.5 * line);
@@ -251,7 +246,7 @@ static void with_curve(const scribe *s, const plot_panel *p, size_t at) {
 /* One element of the plot command. */
 static void draw_series(const scribe *s, const plot_panel *p, size_t at, bool deep) {
     const plot_series *c = p->series[at];
-    size_t style = style_of(p, at);
+    size_t style = plot_style_of(p, at);
     fprintf(s->to, "$data%zu_%zu_%zu using 1:2%s with ", s->frame, s->panel, at,
             deep                   ? ":(0)"
             : c->role == PLOT_BAND ? ":3"

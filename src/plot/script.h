@@ -5,8 +5,7 @@
 
 #include "plot/plot.h"
 
-/* ---- axis.c: limits and tics
- * ----------------------------------------------------------------------------------- */
+/* ---- axis.c: limits and tics -------------------------------------------------------------------- */
 
 /* From lo to hi, lo < hi; a logarithmic axis has lo > 0. */
 typedef struct plot_axis {
@@ -39,8 +38,7 @@ double plot_step(double least);
 /* At most `room` levels for contours of z, in rising order. */
 size_t plot_levels(const plot_map *m, double *level, size_t room);
 
-/* ---- script.c: pictures
- * ------------------------------------------------------------------------------------------ */
+/* ---- script.c: pictures ------------------------------------------------------------------------- */
 
 /* A kind of picture. */
 typedef struct plot_kind {
@@ -58,6 +56,9 @@ const plot_kind *plot_kind_of(const char *file, char *error, size_t size);
 /* The text as a string of gnuplot in which nothing but its characters is left. */
 void plot_quote(FILE *to, const char *text);
 
+/* The style of a series: its own, or its place among those of its role. */
+size_t plot_style_of(const plot_panel *p, size_t at);
+
 /* Frames that share axes. */
 typedef struct plot_reel {
     const plot_figure *frame;
@@ -71,8 +72,7 @@ typedef struct plot_reel {
 bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, int width, int height,
                         char *error, size_t size);
 
-/* ---- page.c: text
- * ---------------------------------------------------------------------------------------------- */
+/* ---- page.c: text ------------------------------------------------------------------------------- */
 
 /* Panels on a page of text. */
 typedef struct plot_pages {
@@ -85,14 +85,12 @@ plot_pages plot_pages_for(const plot_target *target, size_t panels, bool one_scr
 bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
                       char *error, size_t size);
 
-/* ---- draw.c: to the target
- * ---------------------------------------------------------------------------------------- */
+/* ---- draw.c: to the target ---------------------------------------------------------------------- */
 
 bool plot_draw_reel(const plot_reel *reel, const plot_target *target, file_report *report, char *error,
                     size_t size);
 
-/* ---- gnuplot.c: running it
- * --------------------------------------------------------------------------------------- */
+/* ---- gnuplot.c: running it ---------------------------------------------------------------------- */
 
 /* Our own folder for a run: gnuplot reads `script` there and leaves its output in `out`. Names never reach
  * it. */

@@ -16,8 +16,7 @@ typedef struct writer {
     bool math; /* within $...$ of TeX */
 } writer;
 
-/* ---- characters
- * ---------------------------------------------------------------------------------------------- */
+/* ---- characters --------------------------------------------------------------------------------- */
 
 /* Bytes of the character at p, 0 where it is no UTF-8; its code in *code. */
 static size_t character(const char *p, unsigned *code) {
@@ -153,8 +152,7 @@ static void puts_text(writer *w, const char *text) {
     put(w, text, strlen(text));
 }
 
-/* ---- names
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- names -------------------------------------------------------------------------------------- */
 
 typedef struct glyph {
     const char *name, *base, *sub;
@@ -242,8 +240,7 @@ static void put_name(writer *w, const char *name, size_t n) {
     }
 }
 
-/* ---- expressions
- * ------------------------------------------------------------------------------------------------- */
+/* ---- expressions -------------------------------------------------------------------------------- */
 
 static bool is_name(char c) {
     return isalpha((unsigned char)c) || c == '_';
@@ -408,9 +405,7 @@ static void put_expression(writer *w, const char *p, const char *end) {
     w->math = false;
 }
 
-/* ---- texts
- * ---------------------------------------------------------------------------------------------------------
- */
+/* ---- texts -------------------------------------------------------------------------------------- */
 
 char *plot_text(const char *text, plot_form form) {
     char *made = NULL;

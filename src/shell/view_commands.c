@@ -492,7 +492,7 @@ static bool read_plot_target(lexer *lx, char *file, size_t size) {
     size_t at = lx->at;
     if (!lex_filename(lx, file, size) || !at_end(lx))
         return false;
-    return plot_check(file, error, sizeof error) || calc_fail(lx->error, at, strlen(file), "%s", error);
+    return plot_check(file, &shell_stop, error, sizeof error) || calc_fail(lx->error, at, strlen(file), "%s", error);
 }
 
 static bool plot_expressions(shell *sh, lexer *lx) {

@@ -10,7 +10,7 @@
 
 static char error[400];
 
-/* ---- texts --------------------------------------------------------------------------------------- */
+/* ---- texts -------------------------------------------------------------------------------------- */
 
 static void check_text(const char *text, plot_form form, const char *want, int line) {
     char *got = plot_text(text, form);
@@ -95,7 +95,7 @@ static void quoting(void) {
     }
 }
 
-/* ---- figures ------------------------------------------------------------------------------------- */
+/* ---- figures ------------------------------------------------------------------------------------ */
 
 static plot_figure figure(plot_role role, char *title) {
     plot_figure f;
@@ -175,7 +175,7 @@ static void styles(void) {
     plot_figure_free(&f);
 }
 
-/* ---- thinning ------------------------------------------------------------------------------------ */
+/* ---- thinning ----------------------------------------------------------------------------------- */
 
 static void extremes(const plot_series *s, double of[4]) {
     of[0] = of[2] = INFINITY;
@@ -245,7 +245,7 @@ static void bands(void) {
     plot_figure_free(&f);
 }
 
-/* ---- axes ---------------------------------------------------------------------------------------- */
+/* ---- axes --------------------------------------------------------------------------------------- */
 
 static void axes(void) {
     plot_figure f = figure(PLOT_CURVE, NULL);
@@ -303,7 +303,7 @@ static void levels(void) {
     plot_figure_free(&f);
 }
 
-/* ---- targets ------------------------------------------------------------------------------------- */
+/* ---- targets ------------------------------------------------------------------------------------ */
 
 static bool any_left(const char *dir) {
     char command[300];
@@ -386,7 +386,7 @@ static void refused(const char *tmp) {
     CHECK(!plot_draw(&f, &(plot_target){.file = "x.jpg"}, NULL, error, sizeof error));
     CHECK(has(error, "use .png, .svg, .pdf, .tex, .html, .gif or .gp"));
     CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .width = 9000}, NULL, error, sizeof error));
-    CHECK(!plot_check("no/such/x.png", error, sizeof error) && plot_check("x.png", error, sizeof error));
+    CHECK(!plot_check("no/such/x.png", NULL, error, sizeof error) && plot_check("x.png", NULL, error, sizeof error));
     CHECK(access("x.png", F_OK) != 0);
     plot_figure_free(&f);
 }
@@ -419,7 +419,7 @@ static void hostile_names(const char *tmp) {
     plot_figure_free(&f);
 }
 
-/* ---- animations ---------------------------------------------------------------------------------- */
+/* ---- animations --------------------------------------------------------------------------------- */
 
 static size_t told;
 
