@@ -146,7 +146,10 @@ def stopped(tests):
         tests.check(name, job.returncode == status, "%d\n%s" % (job.returncode, (out + err).decode()))
         clean(tests, name, where)
         clean(tests, name + ": temporary", tmp)
-        time.sleep(0.05)
+        for _ in range(1000):  # the killed are gone when the kernel gets to them
+            if not alive(group):
+                break
+            time.sleep(0.01)
         tests.check(name + ": gnuplot is gone", not alive(group))
 
 
