@@ -58,10 +58,11 @@ $(B)/fret.pc: FORCE
 	@printf 'prefix=%s\nName: fret\nDescription: partial-slip contact of power-law graded elastic solids\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lfret\nLibs.private: %s\n' \
 		'$(PREFIX)' '$(VERSION)' '$(LIBS_CORE)' > $@
 
-# tests see what is not public too
-$(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE))
+# Tests see what is not public too; those of rooms above the mechanics take these objects one by one.
+OUTER := $(call OBJ,$(wildcard src/calc/file*.c src/plot/*.c))
+$(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE)) $(OUTER)
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(call OBJ,$(CORE)) $(LIBS_CORE)
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(OUTER) $(call OBJ,$(CORE)) $(LIBS_CORE)
 
 # One file that depends on nothing, to copy to another machine: with musl, where it is at hand.
 STATIC_CC = $(if $(filter default,$(origin CC)),$(shell command -v musl-gcc || echo $(CC)),$(CC))

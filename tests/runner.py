@@ -14,6 +14,7 @@ for room in ("", "sessions", "errors", "interactive", "portable", "house"):
     sys.path.insert(0, os.path.join(HERE, room))
 
 import accuracy_test  # noqa: E402
+import figures  # noqa: E402
 import harness  # noqa: E402
 import house  # noqa: E402
 import numbers_of_the_physics  # noqa: E402
@@ -162,8 +163,9 @@ def help_examples(tests):
 
 
 ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
-         "scripts": scripts.run, "accuracy": accuracy_test.run, "errors": table.run, "trouble": trouble.run,
-         "interactive": prompt.run, "readme": readme, "help": help_examples, "portable": portable.run, "house": house.run}
+         "scripts": scripts.run, "figures": figures.run, "accuracy": accuracy_test.run, "errors": table.run, "trouble": trouble.run,
+         "interactive": prompt.run, "readme": readme, "help": help_examples, "portable": portable.run,
+         "house": house.run}
 
 
 def main():

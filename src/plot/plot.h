@@ -1,47 +1,164 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures through gnuplot: to the terminal as text, or to a file. */
+/* Figures through gnuplot: numbers, texts and looks in; a picture in a file or text in the terminal out.
+ * Nothing here knows a scene or a quantity.
+ *
+ *     plot_figure f;
+ *     plot_figure_init(&f);
+ *     plot_panel *p = plot_panel_add(&f, error, sizeof error);
+ *     p->xlabel = plot_label("dx", "um"), p->ylabel = plot_label("Fx/(mu*FN)", NULL);
+ *     plot_series *s = plot_series_add(p, PLOT_CURVE, plot_label("k = 0.5", NULL), error, sizeof error);
+ *     plot_point(s, x, y);  ...
+ *     plot_draw(&f, &(plot_target){.file = "loop.png", .timeout = 60}, &report, error, sizeof error);
+ *     plot_figure_free(&f);
+ */
 #ifndef PLOT_PLOT_H
 #define PLOT_PLOT_H
 
-#include <signal.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdio.h>
+#include "calc/file.h"
+
+enum {
+    PLOT_PANELS = 6,     /* side by side */
+    PLOT_CURVES = 64,    /* series of a panel */
+    PLOT_KEPT = 294912,  /* points a series holds; beyond, it thins itself and keeps the extremes */
+    PLOT_WRITTEN = 5000, /* points of a series that go into a picture, about */
+    PLOT_GRID = 500,     /* points of a map along an axis */
+    PLOT_FRAMES = 1000,  /* of an animation */
+    PLOT_PIXELS = 8000   /* of a picture along an axis */
+};
+
+/* ---- texts -------------------------------------------------------------------------------------- */
+
+/* Texts are UTF-8 and reach the reader as they are: no character means anything to gnuplot or TeX. What
+ * stands between PLOT_EXPR or PLOT_UNIT and PLOT_END is an expression of the language or a unit, and is
+ * typeset: Fx/(mu*FN) with subscripts and Greek letters, um with its micro sign. */
+#define PLOT_EXPR "\001"
+#define PLOT_UNIT "\002"
+#define PLOT_END "\003"
+
+/* `expression [unit]`, typeset; without a unit (NULL or "") the expression alone. "k = 0.5", "mu = 0.3, k =
+ * 0" and "FN = 20 N" are expressions, too. To be freed; NULL: out of memory. */
+char *plot_label(const char *expression, const char *unit);
+
+/* Forms of a text. */
+typedef enum plot_form {
+    PLOT_ASCII,    /* as typed */
+    PLOT_UNICODE,  /* Fx/(μ FN), µm */
+    PLOT_ENHANCED, /* gnuplot's own markup; what is not ours is escaped */
+    PLOT_TEX
+} plot_form;
+
+/* The text in a form; control characters and bytes that are no UTF-8 become `?`. To be freed; NULL: out of
+ * memory. */
+char *plot_text(const char *text, plot_form form);
+
+/* ---- figures ------------------------------------------------------------------------------------ */
+
+typedef enum plot_role {
+    PLOT_CURVE,    /* a line through the points; a point that is not finite is a gap */
+    PLOT_MEASURED, /* marks without a line */
+    PLOT_BAND,     /* the area between y and y2 */
+    PLOT_VERTICAL, /* a vertical line at each x */
+    PLOT_NOW       /* the present point, above all */
+} plot_role;
 
 typedef struct plot_series {
-    char *title;
-    double *x, *y;
+    plot_role role;
+    int style;          /* of the series that look alike, from 0; -1: by its place among the curves */
+    bool thin;          /* a helping line: half as wide, not in the cycle of styles, gray */
+    char *title;        /* in the key; NULL: not there */
+    double *x, *y, *y2; /* y2 of bands only */
     size_t count, room;
+    /* thinning: points that a bucket stands for (0: all are held), that came into the last one, and that it
+     * holds */
+    size_t bucket, filling, pending;
 } plot_series;
 
-enum { PLOT_SERIES = 24, PLOT_LABEL = 160 };
+/* z over a grid, as contours with their values. */
+typedef struct plot_map {
+    size_t nx, ny;
+    double *x, *y, *z; /* z[j*nx + i] at x[i], y[j]; not finite: no value there */
+    char *label;       /* of z */
+} plot_map;
+
+typedef struct plot_panel {
+    char *title, *xlabel, *ylabel; /* owned; NULL: none */
+    double xlo, xhi, ylo, yhi;     /* limits; NaN: from the points */
+    bool logx, logy, flipx, flipy;
+    bool key_off;
+    bool points; /* marked on the lines */
+    plot_map map;
+    size_t count;
+    plot_series *series[PLOT_CURVES];
+} plot_panel;
 
 typedef struct plot_figure {
-    char title[PLOT_LABEL], xlabel[PLOT_LABEL], ylabel[PLOT_LABEL];
-    bool logx, logy;
-    bool points; /* marked on the lines */
     size_t count;
-    plot_series series[PLOT_SERIES];
+    plot_panel *panel[PLOT_PANELS];
 } plot_figure;
 
-/* Where a figure goes. */
+void plot_figure_init(plot_figure *f);
+void plot_figure_free(plot_figure *f);
+
+/* NULL with the error: too many, or out of memory. */
+plot_panel *plot_panel_add(plot_figure *f, char *error, size_t size);
+/* Takes the title, which may be NULL, also on failure. */
+plot_series *plot_series_add(plot_panel *p, plot_role role, char *title, char *error, size_t size);
+/* Gives a panel its grid, z without values. */
+bool plot_map_make(plot_panel *p, size_t nx, size_t ny, char *error, size_t size);
+
+/* False: out of memory. */
+bool plot_point(plot_series *s, double x, double y);
+bool plot_band(plot_series *s, double x, double y, double y2);
+
+/* ---- where it goes ------------------------------------------------------------------------------ */
+
+typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL } plot_terminal;
+
 typedef struct plot_target {
-    const char *file; /* .png .svg .pdf or .gp; NULL: text to out */
-    FILE *out;
-    int width, height; /* of the terminal in characters, or of the picture in pixels (0: default) */
-    double timeout;    /* seconds */
-    const volatile sig_atomic_t *stop;
+    const char *file; /* .png .svg .pdf .tex .html .gif .gp; NULL: text to `out` */
+    FILE *out;        /* of text */
+    plot_terminal
+        terminal; /* of text; auto: block where gnuplot knows it (6 or newer) and `unicode`, else dumb */
+    bool color, unicode; /* what the terminal can show */
+    bool moving;         /* `out` is a terminal whose cursor can go back up: frames in place */
+    int columns, rows;   /* of the terminal; 0: 79 x 24 */
+    int width, height;   /* of a picture in pixels; 0: 900 a panel (640 with several) x 675 */
+    double timeout;      /* seconds for gnuplot; 0: 60 */
+    file_stop stop;      /* NULL: nothing stops it */
 } plot_target;
 
-/* False if out of memory. */
-bool plot_point(plot_series *series, double x, double y);
-bool plot_title(plot_series *series, const char *title);
-void plot_free(plot_figure *figure);
+/* Can a picture go to the file? To be asked before long work; the error names what stands against it. */
+bool plot_check(const char *file, file_stop stop, char *error, size_t size);
 
-/* Can a picture go to the file? To be asked before long work. */
-bool plot_check(const char *file, char *error, size_t size);
+/* Draws. On failure the error, and no file left behind. The report may be NULL; it is of files only. */
+bool plot_draw(const plot_figure *f, const plot_target *target, file_report *report, char *error,
+               size_t size);
 
-/* Draws; on failure writes a message and leaves no file behind. */
-bool plot_draw(plot_figure *figure, const plot_target *target, char *error, size_t size);
+/* Fills in an empty figure for frame `i` of `frames`; all frames have the same panels and series. */
+typedef bool plot_fill(void *context, size_t i, size_t frames, plot_figure *f, char *error, size_t size);
+/* Told after each frame, and again when gnuplot begins to draw (done == frames). */
+typedef void plot_progress(void *context, size_t done, size_t frames);
+
+typedef struct plot_movie {
+    size_t frames;
+    double seconds; /* a frame lasts; 0: 0.05 */
+    plot_fill *fill;
+    plot_progress *progress; /* NULL: none */
+    void *context;           /* of both */
+} plot_movie;
+
+/* A .gif file, or frames in the terminal (the last one alone where `moving` is false). Axes hold for all
+ * frames. */
+bool plot_animate(const plot_movie *m, const plot_target *target, file_report *report, char *error,
+                  size_t size);
+
+/* ---- numbers, for tests ------------------------------------------------------------------------- */
+
+/* Thins to about `goal` points: of each stretch the first, the last, both extremes of each coordinate, and a
+ * gap. */
+void plot_thin(plot_series *s, size_t goal);
+
+/* The script for gnuplot, data included, for an ending such as ".png". */
+bool plot_script(const plot_figure *f, const char *ending, int width, int height, FILE *to);
 
 #endif

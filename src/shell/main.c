@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "calc/file.h"
 #include "shell/command.h"
 
 #ifndef FRET_VERSION
@@ -31,6 +32,13 @@ static const char usage[] =
 static void on_interrupt(int signal) {
     (void)signal;
     shell_stop = 1;
+}
+
+/* Nothing half made stays behind; then the signal does what it does. */
+static void on_end(int number) {
+    file_emergency();
+    signal(number, SIG_DFL);
+    raise(number);
 }
 
 static int bad_usage(const char *what, const char *word) {
@@ -184,6 +192,9 @@ int main(int argc, char **argv) {
     struct sigaction act = {.sa_handler = on_interrupt}; /* no SA_RESTART: a blocked read must return */
     sigaction(SIGINT, &act, NULL);
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGTERM, on_end);
+    signal(SIGHUP, on_end);
+    signal(SIGQUIT, on_end);
 
     if (status == EXIT_OK && !ran) {
         if (replay) {

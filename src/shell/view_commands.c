@@ -385,16 +385,16 @@ static void terminal_size(const shell *sh, int *w, int *h) {
 static bool draw(shell *sh, lexer *lx, plot_figure *f, const char *file) {
     plot_target to = {.file = *file ? file : NULL,
                       .out = sh->out,
-                      .width = sh->set.plot_width,
-                      .height = sh->set.plot_height,
+                      .terminal = PLOT_DUMB,
+                      .columns = sh->set.plot_width,
+                      .rows = sh->set.plot_height,
                       .timeout = sh->set.plot_timeout,
                       .stop = &shell_stop};
     char error[CALC_ERROR_TEXT - 8];
-    if (!to.file && !to.width)
-        terminal_size(sh, &to.width, &to.height);
+    if (!to.file && !to.columns)
+        terminal_size(sh, &to.columns, &to.rows);
     fflush(sh->out);
-    bool ok = plot_draw(f, &to, error, sizeof error);
-    plot_free(f);
+    bool ok = plot_draw(f, &to, NULL, error, sizeof error);
     if (!ok) {
         lx->error->stop = shell_stop;
         return calc_fail(lx->error, 0, 0, "%s", error);
@@ -402,51 +402,57 @@ static bool draw(shell *sh, lexer *lx, plot_figure *f, const char *file) {
     return true;
 }
 
-static void scale_axis(plot_figure *f, bool x_axis, dim d, const char *name, char *label) {
+/* Scales a panel's points to a unit that suits them, and labels the axis. */
+static char *scale_axis(plot_panel *p, bool x_axis, dim d, const char *name) {
     long double most = 0;
-    for (size_t i = 0; i < f->count; i++)
-        for (size_t j = 0; j < f->series[i].count; j++)
-            most = fmaxl(most, fabsl((long double)(x_axis ? f->series[i].x[j] : f->series[i].y[j])));
+    for (size_t i = 0; i < p->count; i++)
+        for (size_t j = 0; j < p->series[i]->count; j++)
+            most = fmaxl(most, fabsl((long double)(x_axis ? p->series[i]->x[j] : p->series[i]->y[j])));
     char unit_text[COLUMN_UNIT];
     long double scale = unit_choose(d, most, 6, unit_text, sizeof unit_text);
-    for (size_t i = 0; i < f->count; i++)
-        for (size_t j = 0; j < f->series[i].count; j++) {
-            double *v = x_axis ? &f->series[i].x[j] : &f->series[i].y[j];
+    for (size_t i = 0; i < p->count; i++)
+        for (size_t j = 0; j < p->series[i]->count; j++) {
+            double *v = x_axis ? &p->series[i]->x[j] : &p->series[i]->y[j];
             *v = (double)(*v / scale);
         }
-    snprintf(label, PLOT_LABEL, *unit_text ? "%.100s [%.40s]" : "%.100s", name, unit_text);
+    return plot_label(name, unit_text);
 }
 
+typedef struct loop_job {
+    plot_series *series;
+    bool memory;
+} loop_job;
+
 static void loop_point(const fret_state *s, size_t step, void *context) {
-    plot_figure *f = context;
+    loop_job *job = context;
     (void)step;
-    if (f->count && !plot_point(&f->series[0], (double)s->dx, (double)s->Fx))
-        f->count = 0; /* out of memory: said below */
+    job->memory = job->memory && plot_point(job->series, (double)s->dx, (double)s->Fx);
 }
 
 static bool plot_loop(shell *sh, lexer *lx, const char *file) {
-    plot_figure *f = calloc(1, sizeof *f);
-    if (!f)
-        return lex_fail(lx, "out of memory");
-    f->count = 1;
-    bool ok = scene_trace(&sh->calc.scene, 100, loop_point, f, lx->error);
-    if (ok && !f->count)
+    char error[100];
+    plot_figure f;
+    plot_figure_init(&f);
+    plot_panel *p = plot_panel_add(&f, error, sizeof error);
+    loop_job job = {p ? plot_series_add(p, PLOT_CURVE, NULL, error, sizeof error) : NULL, true};
+    bool ok = job.series ? scene_trace(&sh->calc.scene, 100, loop_point, &job, lx->error)
+                         : lex_fail(lx, "%s", error);
+    if (ok && !job.memory)
         ok = lex_fail(lx, "out of memory");
-    if (ok && f->series[0].count < 2)
+    if (ok && job.series->count < 2)
         ok = lex_fail(lx, "there is no loop yet: use step or cycle first");
     if (ok) {
-        snprintf(f->title, sizeof f->title, "hysteresis loop");
-        scale_axis(f, true, DIM_LENGTH, "dx", f->xlabel);
-        scale_axis(f, false, DIM_FORCE, "Fx", f->ylabel);
-        ok = draw(sh, lx, f, file);
+        p->title = strdup("hysteresis loop");
+        p->xlabel = scale_axis(p, true, DIM_LENGTH, "dx");
+        p->ylabel = scale_axis(p, false, DIM_FORCE, "Fx");
+        ok = draw(sh, lx, &f, file);
     }
-    plot_free(f);
-    free(f);
+    plot_figure_free(&f);
     return ok;
 }
 
 typedef struct plot_job {
-    plot_figure *f;
+    plot_panel *p;
     size_t count; /* expressions */
     const column *columns;
     const shell *sh;
@@ -459,19 +465,19 @@ static bool plot_row(void *context, const sweep *s, size_t with, const long doub
     for (size_t i = 0; i < job->count; i++) {
         size_t at = with * job->count + i;
         const column *c = &job->columns[i];
-        plot_series *series = &job->f->series[at];
-        if (at >= job->f->count) {
-            char title[COLUMN_NAME + 100], value_text[160];
-            job->f->count = at + 1;
+        if (at >= job->p->count) {
+            char title[COLUMN_NAME + 100], value_text[160], error[100];
             snprintf(title, sizeof title, "%s", c->name);
             if (s->with_count) {
                 format_value(job->sh, (value){values[1], s->with.d}, value_text, sizeof value_text);
                 snprintf(title, sizeof title, job->count > 1 ? "%s, %s = %s" : "%.0s%s = %s", c->name,
                          s->with.name, value_text);
             }
-            if (!plot_title(series, title))
+            char *shown = job->count > 1 || s->with_count ? plot_label(title, NULL) : NULL;
+            if (!plot_series_add(job->p, PLOT_CURVE, shown, error, sizeof error))
                 return job->memory = false;
         }
+        plot_series *series = job->p->series[at];
         if (!plot_point(series, (double)values[0], (double)(c->chosen ? v[i] / c->scale : v[i])))
             return job->memory = false;
     }
@@ -486,7 +492,7 @@ static bool read_plot_target(lexer *lx, char *file, size_t size) {
     size_t at = lx->at;
     if (!lex_filename(lx, file, size) || !at_end(lx))
         return false;
-    return plot_check(file, error, sizeof error) || calc_fail(lx->error, at, strlen(file), "%s", error);
+    return plot_check(file, &shell_stop, error, sizeof error) || calc_fail(lx->error, at, strlen(file), "%s", error);
 }
 
 static bool plot_expressions(shell *sh, lexer *lx) {
@@ -496,12 +502,15 @@ static bool plot_expressions(shell *sh, lexer *lx) {
     char file[4000];
     if (!read_swept(sh, lx, columns, 8, &count, &s, 200) || !read_plot_target(lx, file, sizeof file))
         return false;
-    if (count * (s.with_count ? s.with_count : 1) > PLOT_SERIES)
-        return lex_fail(lx, "more than %d curves", PLOT_SERIES);
-    plot_figure *f = calloc(1, sizeof *f);
-    if (!f)
+    if (count * (s.with_count ? s.with_count : 1) > PLOT_CURVES)
+        return lex_fail(lx, "more than %d curves", PLOT_CURVES);
+    char error[100];
+    plot_figure f;
+    plot_figure_init(&f);
+    plot_panel *p = plot_panel_add(&f, error, sizeof error);
+    if (!p)
         return lex_fail(lx, "out of memory");
-    plot_job job = {f, count, columns, sh, true};
+    plot_job job = {p, count, columns, sh, true};
     bool ok = run_sweep(sh, &s, columns, count, plot_row, &job, lx->error);
     if (!job.memory)
         ok = lex_fail(lx, "out of memory");
@@ -510,19 +519,14 @@ static bool plot_expressions(shell *sh, lexer *lx) {
             ok = calc_fail(lx->error, sh->list[i].at, sh->list[i].len, "%s and %s cannot share an axis",
                            columns[0].name, columns[i].name);
     if (ok) {
-        if (count == 1) /* several have the key */
-            snprintf(f->title, sizeof f->title, "%.*s", PLOT_LABEL - 1, columns[0].name);
-        scale_axis(f, true, s.var.d, s.var.name, f->xlabel);
+        p->xlabel = scale_axis(p, true, s.var.d, s.var.name);
         const char *name = count > 1 ? "" : columns[0].name;
-        if (columns[0].chosen)
-            snprintf(f->ylabel, sizeof f->ylabel, "%.100s [%.40s]", name, columns[0].unit);
-        else
-            scale_axis(f, false, columns[0].d, name, f->ylabel);
-        f->logx = s.log;
-        ok = draw(sh, lx, f, file);
+        p->ylabel =
+            columns[0].chosen ? plot_label(name, columns[0].unit) : scale_axis(p, false, columns[0].d, name);
+        p->logx = s.log;
+        ok = draw(sh, lx, &f, file);
     }
-    plot_free(f);
-    free(f);
+    plot_figure_free(&f);
     return ok;
 }
 
@@ -534,25 +538,30 @@ static bool plot_accuracy(shell *sh, lexer *lx) {
     if (!accuracy_read(sh, lx, &load) || !read_plot_target(lx, file, sizeof file) ||
         !accuracy_measure(sh, &load, &study, lx->error))
         return false;
-    plot_figure *f = calloc(1, sizeof *f);
-    bool ok = f != NULL;
+    char error[100];
+    plot_figure f;
+    plot_figure_init(&f);
+    plot_panel *p = plot_panel_add(&f, error, sizeof error);
+    bool ok = p != NULL;
     for (size_t i = 0; i < study.count && ok; i++) {
         const accuracy_row *row = &study.row[i];
         if (i == 0 || row->family != row[-1].family)
-            ok = plot_title(&f->series[f->count++], family_names[row->family]);
-        ok = ok && plot_point(&f->series[f->count - 1], row->seconds, (double)row->error);
+            ok = plot_series_add(p, PLOT_CURVE, strdup(family_names[row->family]), error, sizeof error) !=
+                 NULL;
+        ok = ok && plot_point(p->series[p->count - 1], row->seconds, (double)row->error);
     }
     if (ok) {
-        snprintf(f->title, sizeof f->title, "dW, %.140s", study.load);
-        snprintf(f->xlabel, sizeof f->xlabel, "time of a cycle [s]");
-        snprintf(f->ylabel, sizeof f->ylabel, "relative error");
-        f->logx = f->logy = f->points = true;
-        ok = draw(sh, lx, f, file);
-        plot_free(f);
+        char title[200];
+        snprintf(title, sizeof title, "dW, %.140s", study.load);
+        p->title = strdup(title);
+        p->xlabel = plot_label("time of a cycle", "s");
+        p->ylabel = plot_label("relative error", NULL);
+        p->logx = p->logy = p->points = true;
+        ok = draw(sh, lx, &f, file);
     } else {
         ok = lex_fail(lx, "out of memory");
     }
-    free(f);
+    plot_figure_free(&f);
     return ok;
 }
 

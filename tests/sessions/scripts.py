@@ -111,12 +111,12 @@ def pictures(tests):
         tests.check("picture " + name, data.startswith(head) and len(data) > 500, "%d bytes" % len(data))
         if name.endswith(".svg") and data:
             text = "".join(xml.etree.ElementTree.fromstring(data).itertext())
-            label = "dx [" if name == "a.svg" else "F [N]" if name == "b b.svg" else "FN [N]"
+            label = "δx [" if name == "a.svg" else "F [N]" if name == "b b.svg" else "FN [N]"
             tests.check("%s shows its label" % name, label in text, text[:500])
     tests.check("nothing else is left", sorted(os.listdir(where)) == sorted(heads), str(os.listdir(where)))
     if shutil.which("gnuplot"):
         again = subprocess.run(["gnuplot", "-e", "set terminal dumb", "a.gp"], cwd=where, capture_output=True, text=True)
-        tests.check("a.gp runs", again.returncode == 0 and "dx [" in again.stdout, again.stdout + again.stderr)
+        tests.check("a.gp runs", again.returncode == 0 and "+----" in again.stdout, again.stdout + again.stderr)
     done = tests.run("-c", "set plot 60x20\n" + SCENE + "plot dW(F) in uJ for F = 1 N .. 39 N")
     shown = done.stdout.splitlines()
     tests.check("set plot 60x20", done.returncode == 0 and 15 <= len(shown) <= 20 and

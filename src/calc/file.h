@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The one room for files: output that replaces its target whole or not at all, input by lines that tells
+ * every failure from the end of the file, and a list of what must go when a signal ends the program. Errors
+ * are text in `error`, one line without a full stop: "cannot write loop.png: No space left on device". */
+#ifndef CALC_FILE_H
+#define CALC_FILE_H
+
+#include <signal.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <sys/types.h>
+
+/* Set by a signal handler; NULL: nothing can stop the work. */
+typedef const volatile sig_atomic_t *file_stop;
+
+/* A name as the shell takes it: `~` and `~/...` are the home directory. To be freed; NULL: out of memory. */
+char *file_expand(const char *name);
+
+/* ---- output ------------------------------------------------------------------------------------- */
+
+/* What became of an output file. */
+typedef struct file_report {
+    bool overwrote;          /* the target held a file before */
+    bool direct;             /* a device or pipe: nothing was replaced */
+    unsigned long long size; /* bytes written */
+} file_report;
+
+/* A file on its way out. A regular target is written under another name in its own directory (symbolic links
+ * followed) and takes its place, with its mode, when it is whole; devices, pipes and the open files behind
+ * /dev/stdout and /dev/fd are written directly. */
+typedef struct file_out {
+    FILE *to;   /* NULL: not open */
+    char *name; /* as given, for messages */
+    char *real; /* what links lead to */
+    char *part; /* NULL: direct */
+    int guard;
+    bool existed;
+} file_out;
+
+/* Refuses directories and targets without permission to write. False with the error, and nothing left behind.
+ */
+bool file_out_open(file_out *out, const char *name, file_stop stop, char *error, size_t size);
+
+/* Puts the file in its place, or gives it up when `keep` is false: the target is then as it was. False with
+ * the error when a byte was lost; true when given up. The report may be NULL. */
+bool file_out_close(file_out *out, bool keep, file_report *report, char *error, size_t size);
+
+/* "812 B", "12 kB", "3.4 MB": at most 15 bytes. */
+void file_size_text(unsigned long long bytes, char text[16]);
+
+/* ---- input -------------------------------------------------------------------------------------- */
+
+enum { FILE_LINE_LIMIT = 16 << 20 }; /* bytes of a line, continued or not */
+
+typedef enum file_got { FILE_GOT_LINE, FILE_GOT_END, FILE_GOT_ERROR, FILE_GOT_STOP } file_got;
+
+/* A file read by lines. */
+typedef struct file_in {
+    int fd; /* -1: not open */
+    bool owned, ended, waits;
+    char *name;
+    char *block;
+    size_t at, have; /* of the block */
+    char *line;      /* the last line, without its end, NUL after it; it may hold NULs */
+    size_t length, room;
+    unsigned long long number; /* of the line's first physical line, from 1 */
+    unsigned long long read;   /* physical lines so far */
+    file_stop stop;
+} file_in;
+
+/* Refuses directories. A FIFO without a writer is waited for when it is read, not here. */
+bool file_in_open(file_in *in, const char *name, file_stop stop, char *error, size_t size);
+/* Reads an open descriptor, which stays open; `name` is for messages. */
+bool file_in_take(file_in *in, int fd, const char *name, file_stop stop, char *error, size_t size);
+
+/* The next line in in->line and in->length. FILE_GOT_ERROR: reading failed, memory ran out or the line is
+ * longer than the limit; FILE_GOT_STOP: the stop flag was set. Neither ever passes for the end. */
+file_got file_in_line(file_in *in, char *error, size_t size);
+
+/* The place of a line's continuation mark, or `length` when it has none. */
+typedef size_t file_mark(const char *line, size_t length);
+/* The same with the lines that continue it: the mark becomes a blank, the end of the line a newline. A mark
+ * in the last line stays. */
+file_got file_in_logical(file_in *in, file_mark *mark, char *error, size_t size);
+
+void file_in_close(file_in *in);
+
+/* ---- what must not stay behind ------------------------------------------------------------------ */
+
+/* The calls between hold the signals that end the program back: what is made is then listed, or not made. */
+void file_signals_hold(sigset_t *before);
+void file_signals_release(const sigset_t *before);
+
+/* List a file, a directory (removed after the files listed) or a process group. Returns a number for
+ * file_unguard, -1 when the list is full or memory is out: do not go on then. */
+int file_guard_file(const char *path);
+int file_guard_dir(const char *path);
+int file_guard_group(pid_t group);
+void file_unguard(int guard);
+
+/* Kills the groups, removes files and directories. For signal handlers: it takes no memory and no lock. */
+void file_emergency(void);
+
+#endif

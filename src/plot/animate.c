@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Animations: every frame is filled in first, since axes hold for all; one run of gnuplot then draws them. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "plot/script.h"
+
+/* Points of a series in a frame: less than in a still picture, there are many. */
+enum { FRAME_POINTS = 1000 };
+
+static bool fill_frame(const plot_movie *m, size_t i, plot_figure *f, plot_extents *extent, size_t panels,
+                       char *error, size_t size) {
+    if (!m->fill(m->context, i, m->frames, f, error, size))
+        return false;
+    if (!f->count || (i && f->count != panels))
+        return plot_fail(error, size,
+                         f->count ? "the frames differ in their figures" : "there is nothing to plot");
+    for (size_t p = 0; p < f->count; p++) {
+        plot_extents e = plot_extent_of(f->panel[p]);
+        extent[p] = i ? plot_extent_join(extent[p], e) : e;
+        for (size_t s = 0; s < f->panel[p]->count; s++)
+            plot_thin(f->panel[p]->series[s], FRAME_POINTS);
+    }
+    return true;
+}
+
+bool plot_animate(const plot_movie *m, const plot_target *t, file_report *report, char *error, size_t size) {
+    plot_extents extent[PLOT_PANELS];
+    const char *dot = t->file ? strrchr(t->file, '.') : NULL;
+    if (t->file && (!dot || strcmp(dot, ".gif")))
+        return plot_fail(error, size, "an animation goes to a .gif file or to the terminal");
+    if (m->frames < 1 || m->frames > PLOT_FRAMES)
+        return plot_fail(error, size, "an animation has 1 to %d frames", PLOT_FRAMES);
+    plot_figure *frame = calloc(m->frames, sizeof *frame);
+    bool ok = frame != NULL || plot_fail(error, size, "out of memory");
+    for (size_t i = 0; ok && i < m->frames; i++) {
+        if (m->progress)
+            m->progress(m->context, i, m->frames);
+        ok = fill_frame(m, i, &frame[i], extent, frame[0].count, error, size);
+        if (ok && t->stop && *t->stop)
+            ok = plot_fail(error, size, "interrupted");
+    }
+    if (ok && m->progress)
+        m->progress(m->context, m->frames, m->frames);
+    double seconds = m->seconds > 0 ? m->seconds : 0.05;
+    ok = ok && plot_draw_reel(&(plot_reel){frame, m->frames, extent, seconds}, t, report, error, size);
+    for (size_t i = 0; frame && i < m->frames; i++)
+        plot_figure_free(&frame[i]);
+    free(frame);
+    return ok;
+}

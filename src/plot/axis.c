@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Limits of axes, steps of tics, levels of contours. */
+#include <float.h>
+#include <math.h>
+
+#include "plot/script.h"
+
+/* Numbers closer than this part of their size are one: what differs is rounding. */
+static const double same = 1e-9;
+
+static void span(plot_extent *e, double v, bool log) {
+    if (isfinite(v) && (!log || v > 0)) {
+        e->lo = fmin(e->lo, v);
+        e->hi = fmax(e->hi, v);
+    }
+}
+
+/* Does x go one way only between gaps? */
+static bool one_way(const plot_series *s) {
+    bool up = true, down = true;
+    for (size_t i = 1; i < s->count; i++) {
+        up &= !(s->x[i] < s->x[i - 1]);
+        down &= !(s->x[i] > s->x[i - 1]);
+    }
+    return up || down;
+}
+
+static bool inside(double v, double lo, double hi) {
+    return !(v < lo) && !(v > hi);
+}
+
+plot_extents plot_extent_of(const plot_panel *p) {
+    plot_extents e = {{INFINITY, -INFINITY, true}, {INFINITY, -INFINITY, true}};
+    for (size_t j = 0; j < p->count; j++) {
+        const plot_series *s = p->series[j];
+        if (s->role == PLOT_MEASURED || (s->role == PLOT_CURVE && !one_way(s)))
+            e.x.graph = false;
+        for (size_t i = 0; i < s->count; i++) {
+            bool upright = s->role == PLOT_VERTICAL;
+            /* of what lies outside the limits along x, nothing is seen */
+            if (!isfinite(s->x[i]) || (!upright && !isfinite(s->y[i])) || !inside(s->x[i], p->xlo, p->xhi))
+                continue;
+            span(&e.x, s->x[i], p->logx);
+            if (!upright)
+                span(&e.y, s->y[i], p->logy);
+            if (s->y2)
+                span(&e.y, s->y2[i], p->logy);
+        }
+    }
+    for (size_t i = 0; i < p->map.nx; i++)
+        span(&e.x, p->map.x[i], p->logx);
+    for (size_t i = 0; i < p->map.ny; i++)
+        span(&e.y, p->map.y[i], p->logy);
+    e.y.graph = p->map.nx > 0; /* a map fills its frame */
+    return e;
+}
+
+static plot_extent join(plot_extent a, plot_extent b) {
+    return (plot_extent){fmin(a.lo, b.lo), fmax(a.hi, b.hi), a.graph && b.graph};
+}
+
+plot_extents plot_extent_join(plot_extents a, plot_extents b) {
+    return (plot_extents){join(a.x, b.x), join(a.y, b.y)};
+}
+
+/* Widens the limits that are not fixed. */
+static void air(plot_axis *a, bool tight) {
+    double lo = a->log ? log10(a->lo) : a->lo, hi = a->log ? log10(a->hi) : a->hi;
+    double most = fmax(fabs(lo), fabs(hi)), width = hi - lo;
+    double below = 0, above = 0;
+    if (!(width > same * most)) { /* one value */
+        below = above = a->log ? 0.5 : most > 0 ? 0.1 * most : 1;
+    } else if (!tight) {
+        below = above = 0.05 * width;
+        /* what begins at nothing is shown from there on */
+        if (!a->log && lo >= 0 && lo < 0.05 * width)
+            below = lo;
+        if (!a->log && hi <= 0 && -hi < 0.05 * width)
+            above = -hi;
+    }
+    if (!a->fixed_lo)
+        a->lo = a->log ? a->lo / pow(10, below) : lo - below;
+    if (!a->fixed_hi)
+        a->hi = a->log ? a->hi * pow(10, above) : hi + above;
+}
+
+static bool limits(const char *name, plot_axis *a, plot_extent e, double lo, double hi, bool airy,
+                   char *error, size_t size) {
+    a->fixed_lo = isfinite(lo);
+    a->fixed_hi = isfinite(hi);
+    a->lo = a->fixed_lo ? lo : e.lo;
+    a->hi = a->fixed_hi ? hi : e.hi;
+    if (a->log && ((a->fixed_lo && lo <= 0) || (a->fixed_hi && hi <= 0)))
+        return plot_fail(error, size, "a logarithmic %s axis needs limits above 0", name);
+    if (a->fixed_lo && a->fixed_hi && lo == hi)
+        return plot_fail(error, size, "the limits of the %s axis are one", name);
+    if (a->fixed_lo && a->fixed_hi && lo > hi) { /* from right to left */
+        a->lo = hi;
+        a->hi = lo;
+        a->flip = !a->flip;
+    }
+    if (!(a->lo <= a->hi))
+        return plot_fail(error, size,
+                         isfinite(e.lo) ? "nothing lies within the limits of the %s axis"
+                         : a->log       ? "there is nothing above 0 to plot on a logarithmic %s axis"
+                                        : "there is nothing to plot along %s",
+                         name);
+    air(a, e.graph || !airy);
+    /* gnuplot reckons with differences of limits */
+    if (!(fabs(a->lo) < 1e300 && fabs(a->hi) < 1e300 && (a->lo == 0 || fabs(a->lo) > DBL_MIN) &&
+          (a->hi == 0 || fabs(a->hi) > DBL_MIN)))
+        return plot_fail(error, size, "the numbers along %s are too large or too small to plot", name);
+    return true;
+}
+
+bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis *x, plot_axis *y, char *error,
+               size_t size) {
+    *x = (plot_axis){.log = p->logx, .flip = p->flipx};
+    *y = (plot_axis){.log = p->logy, .flip = p->flipy};
+    return limits("x", x, e->x, p->xlo, p->xhi, airy, error, size) &&
+           limits("y", y, e->y, p->ylo, p->yhi, airy, error, size);
+}
+
+double plot_step(double least) {
+    double power = pow(10, floor(log10(least)));
+    static const double steps[] = {1, 2, 5, 10};
+    for (size_t i = 0; i < 4; i++)
+        if (steps[i] * power >= least * (1 - same))
+            return steps[i] * power;
+    return 10 * power;
+}
+
+size_t plot_levels(const plot_map *m, double *level, size_t room) {
+    double lo = INFINITY, hi = -INFINITY;
+    for (size_t i = 0; i < m->nx * m->ny; i++)
+        if (isfinite(m->z[i])) {
+            lo = fmin(lo, m->z[i]);
+            hi = fmax(hi, m->z[i]);
+        }
+    size_t n = 0;
+    if (!(hi - lo > same * fmax(fabs(lo), fabs(hi))))
+        return 0;
+    if (lo > 0 && hi / lo > 300) { /* by decades, with 2 and 5 between where there is room */
+        static const double steps[] = {1, 2, 5};
+        double decades = log10(hi / lo);
+        int each = 3 * decades < (double)room - 1 ? 3 : 1,
+            skip = (int)ceil(decades * each / ((double)room - 1));
+        int e = (int)floor(log10(lo));
+        for (int k = 0; n < room; k += skip) {
+            double v = steps[each == 3 ? k % 3 : 0] * pow(10, e + k / each);
+            if (v >= hi)
+                break;
+            if (v > lo)
+                level[n++] = v;
+        }
+        return n;
+    }
+    double step = plot_step((hi - lo) / (double)room);
+    for (double k = floor(lo / step) + 1; k * step < hi && n < room; k++)
+        level[n++] = k * step;
+    return n;
+}

@@ -1,0 +1,325 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From a figure to its target: the script, gnuplot, and what it drew to where it belongs. */
+#include <errno.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plot/script.h"
+
+/* ---- files -------------------------------------------------------------------------------------- */
+
+/* The macros that gnuplot's pictures for TikZ call, so that one file and \usepackage{tikz} are enough. A
+ * group keeps them from the rest of a document. */
+static const char head_tex[] =
+    "% a figure for \\input; it needs \\usepackage{tikz} and \\usetikzlibrary{plotmarks}\n"
+    "\\begingroup\n"
+    "\\def\\gpdashlength{0.5pt}\n"
+    "\\def\\gpcolor#1{\\tikzset{fret #1}}\n"
+    "\\def\\gpsetlinetype#1{}\n"
+    "\\def\\gpsetdashtype#1{\\tikzset{gp path/.style={#1}}}\n"
+    "\\def\\gpsetlinewidth#1{\\pgfsetlinewidth{#1*0.4pt}}\n"
+    "\\def\\gpsetpointsize#1{\\tikzset{gp point/.style={mark size=#1*0.4pt}}}\n"
+    "\\def\\gppoint#1#2{\\path[solid] plot[only marks,gp point,#1] coordinates {#2};}\n"
+    "\\def\\gp3point#1#2#3{\\path[solid] plot[only marks,gp point,#1] coordinates {#3};}\n"
+    "\\def\\gpfill#1{\\path[line width=0.05pt,draw,fill,#1]}\n"
+    "\\def\\gpdefrectangularnode#1#2#3{}\n"
+    "\\tikzset{gnuplot/.style={line cap=round,line join=round},\n"
+    "  rgb color/.code={\\definecolor{fretcolor}{rgb}{#1}\\tikzset{color=fretcolor}},\n"
+    "  fret rgb color/.code={\\definecolor{fretcolor}{rgb}{#1}\\color{fretcolor}\\pgfsetcolor{fretcolor}},\n"
+    "  fret color/.code={\\color{black}\\pgfsetcolor{black}},\n"
+    "  gp node left/.style={anchor=mid west},gp node center/.style={anchor=mid},\n"
+    "  gp node right/.style={anchor=mid east},gp path/.style={},gp point/.style={mark size=1.6pt},\n"
+    "  gp dt solid/.style={solid},gp dt axes/.style={dotted},gp dt 1/.style={solid},\n"
+    "  gp mark 4/.style={mark=square},gp mark 5/.style={mark=square*},gp mark 6/.style={mark=o},\n"
+    "  gp mark 7/.style={mark=*},gp mark 8/.style={mark=triangle},gp mark 9/.style={mark=triangle*},\n"
+    "  gp mark 11/.style={mark=triangle*,mark options={rotate=180}},gp mark 12/.style={mark=diamond},\n"
+    "  gp mark 13/.style={mark=diamond*}}\n";
+static const char foot_tex[] = "\\endgroup\n";
+static const char head_html[] =
+    "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><title>fret</title></head><body>\n";
+
+static const char foot_html[] = "</body></html>\n";
+
+/* Copies what gnuplot drew; every error of reading or writing is one. */
+static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, char *error, size_t size) {
+    char block[1 << 14];
+    FILE *from = fopen(r->out, "r");
+    if (!from)
+        return plot_fail(error, size, "cannot read what gnuplot drew: %s", strerror(errno));
+    bool html = !strcmp(kind->ending, ".html"), tex = !strcmp(kind->ending, ".tex"), any = false;
+    if (tex)
+        fputs(head_tex, to);
+    if (html)
+        fputs(head_html, to);
+    for (size_t n; (n = fread(block, 1, sizeof block - 1, from)) > 0 && !ferror(to);) {
+        block[n] = 0;
+        const char *svg = html && !any ? strstr(block, "<svg") : NULL; /* without the prologue of a file */
+        fwrite(svg ? svg : block, 1, n - (size_t)(svg ? svg - block : 0), to);
+        any = true;
+    }
+    int code = errno;
+    bool bad = ferror(from) != 0;
+    if (tex)
+        fputs(foot_tex, to);
+    if (html)
+        fputs(foot_html, to);
+    fclose(from);
+    if (bad)
+        return plot_fail(error, size, "cannot read what gnuplot drew: %s", strerror(code));
+    return any || plot_fail(error, size, "gnuplot drew nothing");
+}
+
+typedef struct scripted {
+    const plot_reel *reel;
+    const plot_target *target;
+    const plot_kind *kind;
+    const plot_pages *pages; /* NULL: a picture */
+} scripted;
+
+static bool write_script(FILE *to, const scripted *s, char *error, size_t size) {
+    return s->pages
+               ? plot_write_pages(to, s->reel, s->target, s->pages, error, size)
+               : plot_write_picture(to, s->reel, s->kind, s->target->width, s->target->height, error, size);
+}
+
+/* Writes the script into the run's folder and has it drawn. */
+static bool have_drawn(const plot_run *r, const scripted *s, char *error, size_t size) {
+    FILE *script = fopen(r->script, "w");
+    if (!script)
+        return plot_fail(error, size, "cannot write a script for gnuplot: %s", strerror(errno));
+    bool ok = write_script(script, s, error, size), bad = ferror(script) != 0;
+    if ((fclose(script) || bad) && ok)
+        return plot_fail(error, size, "cannot write a script for gnuplot: %s", strerror(errno));
+    return ok && plot_run_gnuplot(r, s->target, error, size);
+}
+
+static bool to_file(const scripted *s, file_report *report, char *error, size_t size) {
+    file_out out;
+    plot_run r;
+    const plot_target *t = s->target;
+    if (!file_out_open(&out, t->file, t->stop, error, size))
+        return false;
+    bool ok;
+    if (s->kind->terminal) {
+        ok = plot_run_open(&r, error, size);
+        if (ok) {
+            ok = have_drawn(&r, s, error, size) && copy(&r, out.to, s->kind, error, size);
+            plot_run_close(&r);
+        }
+    } else {
+        ok = write_script(out.to, s, error, size);
+    }
+    return file_out_close(&out, ok, report, error, size) && ok;
+}
+
+/* ---- text --------------------------------------------------------------------------------------- */
+
+/* What gnuplot drew as text: pages, parted at its form feeds. */
+typedef struct sheets {
+    char *text, **page;
+    size_t count;
+} sheets;
+
+static void sheets_free(sheets *s) {
+    free(s->text);
+    free(s->page);
+    *s = (sheets){.count = 0};
+}
+
+static char *read_all(const char *path) {
+    FILE *f = fopen(path, "r");
+    char *text = NULL;
+    size_t room = 1 << 15, n = 0, got = 1;
+    while (f && got) {
+        char *grown = realloc(text, room *= 2);
+        if (!grown)
+            break;
+        text = grown;
+        got = fread(text + n, 1, room - n - 1, f);
+        n += got;
+    }
+    bool ok = f && !got && !ferror(f);
+    if (f)
+        fclose(f);
+    if (!ok) {
+        free(text);
+        return NULL;
+    }
+    text[n] = 0;
+    return text;
+}
+
+static bool sheets_read(sheets *s, const plot_run *r, char *error, size_t size) {
+    *s = (sheets){.text = read_all(r->out)};
+    if (!s->text)
+        return plot_fail(error, size, "cannot read what gnuplot drew: %s", strerror(errno ? errno : ENOMEM));
+    for (const char *p = s->text; *p; p++)
+        s->count += *p == '\f';
+    s->page = malloc((s->count + 1) * sizeof *s->page);
+    if (!s->page || !s->count) {
+        bool drawn = s->count > 0;
+        sheets_free(s);
+        return plot_fail(error, size, drawn ? "out of memory" : "gnuplot drew nothing");
+    }
+    size_t n = 0;
+    for (char *p = s->text; *p; p++)
+        if (*p == '\f') {
+            *p = 0;
+            s->page[n++] = p + 1;
+        }
+    for (size_t i = 0; i < n; i++) { /* what follows the last line sets colours back, which each line does */
+        char *last = strrchr(s->page[i], '\n');
+        if (last)
+            last[1] = 0;
+    }
+    return true;
+}
+
+/* A line of each page, side by side; the pages move on. False after the last. */
+static bool print_line(FILE *out, const char **page, size_t count, int columns, const char *end) {
+    size_t trailing = 0;
+    bool more = false;
+    for (size_t i = 0; i < count; i++) {
+        const char *line = page[i];
+        size_t n = strcspn(line, "\n");
+        more |= line[n] && line[n + 1];
+        page[i] += n + (line[n] != 0);
+        if (!*line) /* this page is shorter than its neighbours */
+            trailing += (size_t)columns;
+        for (size_t k = 0; k < n; k++)
+            if (line[k] == ' ') { /* blanks at the end of a line are not worth their bytes */
+                trailing++;
+            } else {
+                fprintf(out, "%*s", (int)trailing, "");
+                trailing = 0;
+                putc(line[k], out);
+            }
+    }
+    fputs(end, out);
+    return more;
+}
+
+/* A frame's pages; the number of lines it took. */
+static size_t print_pages(FILE *out, char *const *page, size_t panels, const plot_pages *pages,
+                          const char *end) {
+    size_t lines = 0, abreast = pages->beside ? panels : 1;
+    for (size_t i = 0; i < panels; i += abreast) {
+        const char *at[PLOT_PANELS];
+        for (size_t k = 0; k < abreast; k++)
+            at[k] = page[i + k];
+        do
+            lines++;
+        while (print_line(out, at, abreast, pages->columns, end));
+    }
+    return lines;
+}
+
+/* Frames one after another in place: the cursor goes back up, each line is written over. */
+static bool play(const sheets *s, const scripted *w, size_t panels, char *error, size_t size) {
+    const plot_target *t = w->target;
+    size_t frames = s->count / panels, first = t->moving ? 0 : frames - 1, lines = 0;
+    if (s->count != w->reel->count * panels)
+        return plot_fail(error, size, "gnuplot drew %zu pages of %zu", s->count, w->reel->count * panels);
+    for (size_t n = first; n < frames; n++) {
+        if (lines)
+            fprintf(t->out, "\033[%zuA", lines);
+        lines = print_pages(t->out, s->page + n * panels, panels, w->pages, t->moving ? "\033[K\n" : "\n");
+        if (fflush(t->out))
+            return plot_fail(error, size, "cannot write: %s", strerror(errno));
+        for (int ms = (int)(1000 * w->reel->seconds); ms > 0 && n + 1 < frames; ms -= 10) {
+            if (t->stop && *t->stop)
+                return plot_fail(error, size, "interrupted");
+            poll(NULL, 0, ms < 10 ? ms : 10);
+        }
+    }
+    return true;
+}
+
+/* Kinds of picture for terminals that can show more than characters. */
+static const plot_kind sixel = {
+    "", PLOT_ENHANCED, "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor", 1, 14, 3};
+static const plot_kind block = {"", PLOT_UNICODE, "block braille size %.0f,%.0f noenhanced ansi256", 1, 1, 1};
+static const plot_kind block_plain = {"", PLOT_UNICODE, "block braille size %.0f,%.0f noenhanced mono", 1, 1,
+                                      1};
+
+/* The picture for the terminal, where there is one: *kind stays NULL for text. */
+static bool terminal_kind(const plot_target *t, const plot_kind **kind, char *error, size_t size) {
+    bool auto_block = t->terminal == PLOT_AUTO && t->unicode;
+    *kind = NULL;
+    if (t->terminal == PLOT_SIXEL)
+        *kind = &sixel;
+    else if ((auto_block || t->terminal == PLOT_BLOCK) && plot_gnuplot_version(t->stop) >= 6)
+        *kind = t->color ? &block : &block_plain;
+    else if (t->terminal == PLOT_BLOCK)
+        return plot_fail(error, size, "blocks of braille need gnuplot 6 or newer");
+    return true;
+}
+
+static bool to_terminal_as(const scripted *s, size_t panels, char *error, size_t size) {
+    plot_run r;
+    sheets pages;
+    if (!plot_run_open(&r, error, size))
+        return false;
+    bool ok = have_drawn(&r, s, error, size);
+    if (ok && s->kind) {
+        ok = copy(&r, s->target->out, s->kind, error, size);
+        fputc('\n', s->target->out);
+    } else if (ok) {
+        ok = sheets_read(&pages, &r, error, size);
+        if (ok) {
+            ok = play(&pages, s, panels, error, size);
+            sheets_free(&pages);
+        }
+    }
+    plot_run_close(&r);
+    return ok;
+}
+
+static bool to_terminal(const plot_reel *reel, const plot_target *t, char *error, size_t size) {
+    size_t panels = reel->frame[0].count;
+    plot_pages pages = plot_pages_for(t, panels, reel->count > 1);
+    scripted s = {.reel = reel, .target = t, .pages = &pages};
+    plot_target whole = *t;
+    if (reel->count > 1) /* pictures that follow each other would scroll away */
+        return to_terminal_as(&s, panels, error, size);
+    if (!terminal_kind(t, &s.kind, error, size))
+        return false;
+    if (s.kind) {
+        s.pages = NULL;
+        if (s.kind != &sixel) {
+            whole.width = pages.beside ? pages.columns * (int)panels : pages.columns;
+            whole.height = pages.rows;
+        }
+        s.target = &whole;
+    }
+    return to_terminal_as(&s, panels, error, size);
+}
+
+/* ---- figures ------------------------------------------------------------------------------------ */
+
+bool plot_check(const char *file, file_stop stop, char *error, size_t size) {
+    file_out probe;
+    return plot_kind_of(file, error, size) && file_out_open(&probe, file, stop, error, size) &&
+           file_out_close(&probe, false, NULL, error, size);
+}
+
+bool plot_draw_reel(const plot_reel *reel, const plot_target *t, file_report *report, char *error,
+                    size_t size) {
+    if (!reel->count || !reel->frame[0].count)
+        return plot_fail(error, size, "there is nothing to plot");
+    if (t->width < 0 || t->height < 0 || t->width > PLOT_PIXELS || t->height > PLOT_PIXELS)
+        return plot_fail(error, size, "a picture has at most %d pixels along an axis", PLOT_PIXELS);
+    if (!t->file)
+        return to_terminal(reel, t, error, size);
+    scripted s = {.reel = reel, .target = t};
+    s.kind = plot_kind_of(t->file, error, size);
+    return s.kind && to_file(&s, report, error, size);
+}
+
+bool plot_draw(const plot_figure *f, const plot_target *t, file_report *report, char *error, size_t size) {
+    plot_extents extent[PLOT_PANELS];
+    for (size_t i = 0; i < f->count; i++)
+        extent[i] = plot_extent_of(f->panel[i]);
+    return plot_draw_reel(&(plot_reel){f, f->count > 0, extent, 0}, t, report, error, size);
+}

@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Figures in memory: panels, series, points, and their thinning. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plot/plot.h"
+
+void plot_figure_init(plot_figure *f) {
+    *f = (plot_figure){.count = 0};
+}
+
+static void series_free(plot_series *s) {
+    free(s->title);
+    free(s->x);
+    free(s->y);
+    free(s->y2);
+    free(s);
+}
+
+void plot_figure_free(plot_figure *f) {
+    for (size_t i = 0; i < f->count; i++) {
+        plot_panel *p = f->panel[i];
+        for (size_t j = 0; j < p->count; j++)
+            series_free(p->series[j]);
+        free(p->title);
+        free(p->xlabel);
+        free(p->ylabel);
+        free(p->map.x);
+        free(p->map.y);
+        free(p->map.z);
+        free(p->map.label);
+        free(p);
+    }
+    f->count = 0;
+}
+
+plot_panel *plot_panel_add(plot_figure *f, char *error, size_t size) {
+    plot_panel *p = f->count < PLOT_PANELS ? malloc(sizeof *p) : NULL;
+    if (!p) {
+        if (f->count < PLOT_PANELS)
+            snprintf(error, size, "out of memory");
+        else
+            snprintf(error, size, "more than %d figures side by side", PLOT_PANELS);
+        return NULL;
+    }
+    *p = (plot_panel){.xlo = NAN, .xhi = NAN, .ylo = NAN, .yhi = NAN};
+    return f->panel[f->count++] = p;
+}
+
+plot_series *plot_series_add(plot_panel *p, plot_role role, char *title, char *error, size_t size) {
+    plot_series *s = p->count < PLOT_CURVES ? malloc(sizeof *s) : NULL;
+    if (!s) {
+        free(title);
+        if (p->count < PLOT_CURVES)
+            snprintf(error, size, "out of memory");
+        else
+            snprintf(error, size, "more than %d curves in a figure", PLOT_CURVES);
+        return NULL;
+    }
+    *s = (plot_series){.role = role, .style = -1, .title = title};
+    return p->series[p->count++] = s;
+}
+
+bool plot_map_make(plot_panel *p, size_t nx, size_t ny, char *error, size_t size) {
+    plot_map *m = &p->map;
+    if (nx < 2 || ny < 2 || nx > PLOT_GRID || ny > PLOT_GRID) {
+        snprintf(error, size, "a map takes 2 to %d points along each axis", PLOT_GRID);
+        return false;
+    }
+    m->x = calloc(nx, sizeof *m->x);
+    m->y = calloc(ny, sizeof *m->y);
+    m->z = malloc(nx * ny * sizeof *m->z);
+    if (!m->x || !m->y || !m->z) {
+        snprintf(error, size, "out of memory"); /* freed with the figure */
+        return false;
+    }
+    for (size_t i = 0; i < nx * ny; i++)
+        m->z[i] = NAN;
+    m->nx = nx;
+    m->ny = ny;
+    return true;
+}
+
+/* ---- thinning ----------------------------------------------------------------------------------- */
+
+/* The first point, the last, both extremes of three coordinates, and a gap. */
+enum { PICKS = 9 };
+_Static_assert(PLOT_KEPT % (2 * PICKS) == 0, "a full series parts into buckets");
+
+static bool is_gap(const plot_series *s, size_t i) {
+    return !isfinite(s->x[i]) || !isfinite(s->y[i]) || (s->y2 && !isfinite(s->y2[i]));
+}
+
+static void move_point(plot_series *s, size_t to, size_t from) {
+    s->x[to] = s->x[from];
+    s->y[to] = s->y[from];
+    if (s->y2)
+        s->y2[to] = s->y2[from];
+}
+
+static int by_place(const void *a, const void *b) {
+    const size_t *m = a, *n = b;
+    return (*m > *n) - (*m < *n);
+}
+
+/* What to keep of `count` points from `begin`, in order, without repeats. */
+static size_t choose(const plot_series *s, size_t begin, size_t count, size_t pick[PICKS]) {
+    const double *of[3] = {s->x, s->y, s->y2};
+    size_t n = 0, end = begin + count, first = begin, gap = end;
+    for (size_t i = begin; i < end && gap == end; i++)
+        if (is_gap(s, i))
+            gap = i;
+    while (first < end && is_gap(s, first))
+        first++;
+    pick[n++] = begin;
+    pick[n++] = end - 1;
+    if (gap < end)
+        pick[n++] = gap;
+    for (int c = 0; c < 3 && first < end; c++) {
+        size_t lo = first, hi = first;
+        for (size_t i = first; of[c] && i < end; i++) {
+            if (is_gap(s, i))
+                continue;
+            lo = of[c][i] < of[c][lo] ? i : lo;
+            hi = of[c][i] > of[c][hi] ? i : hi;
+        }
+        pick[n++] = lo;
+        pick[n++] = hi;
+    }
+    qsort(pick, n, sizeof *pick, by_place);
+    size_t kept = 1;
+    for (size_t i = 1; i < n; i++)
+        if (pick[i] != pick[kept - 1])
+            pick[kept++] = pick[i];
+    return kept;
+}
+
+/* Moves the kept points of a stretch to `to`; with `pad`, PICKS of them, the last repeated. */
+static size_t squeeze(plot_series *s, size_t begin, size_t count, size_t to, bool pad) {
+    size_t pick[PICKS], n = choose(s, begin, count, pick), kept = n;
+    for (size_t i = 0; i < n; i++)
+        move_point(s, to + i, pick[i]);
+    for (; pad && kept < PICKS; kept++)
+        move_point(s, to + kept, to + n - 1);
+    return kept;
+}
+
+void plot_thin(plot_series *s, size_t goal) {
+    size_t buckets = goal / 4 ? goal / 4 : 1, to = 0; /* 4: what a zigzag keeps */
+    if (s->count <= goal)
+        return;
+    for (size_t i = 0; i < buckets; i++) {
+        size_t begin = s->count / buckets * i + s->count % buckets * i / buckets,
+               end = s->count / buckets * (i + 1) + s->count % buckets * (i + 1) / buckets;
+        if (end > begin)
+            to += squeeze(s, begin, end - begin, to, false);
+    }
+    s->count = to;
+}
+
+/* A full series becomes buckets of PICKS points, each standing for s->bucket points that came; from then on
+ * points come into a last bucket, and when room is out again pairs of buckets become one. */
+static void make_room(plot_series *s) {
+    size_t each = 2 * PICKS, to = 0;
+    for (size_t i = 0; i < s->count; i += each)
+        to += squeeze(s, i, each, to, true);
+    s->count = to;
+    s->bucket = s->bucket ? 2 * s->bucket : each;
+    s->filling = s->pending = 0;
+}
+
+static bool grow(plot_series *s, bool band) {
+    size_t room = s->room ? 2 * s->room : 256;
+    if (room > PLOT_KEPT)
+        room = PLOT_KEPT;
+    double **of[3] = {&s->x, &s->y, &s->y2};
+    for (int c = 0; c < 2 + band; c++) {
+        double *grown = realloc(*of[c], room * sizeof *grown);
+        if (!grown)
+            return false;
+        *of[c] = grown;
+    }
+    s->room = room;
+    return true;
+}
+
+/* Counts a point into the last bucket, which holds its picks so far and the points since. */
+static void fill_bucket(plot_series *s) {
+    s->filling++;
+    s->pending++;
+    bool whole = s->filling == s->bucket;
+    if (!whole && s->pending < 2 * PICKS)
+        return;
+    s->count -= s->pending;
+    s->count += squeeze(s, s->count, s->pending, s->count, true);
+    s->pending = whole ? 0 : PICKS;
+    s->filling = whole ? 0 : s->filling;
+}
+
+static bool add(plot_series *s, double x, double y, const double *y2) {
+    if (s->count == s->room && s->room < PLOT_KEPT && !grow(s, y2 != NULL))
+        return false;
+    if (s->bucket ? !s->filling && s->count + 2 * PICKS > PLOT_KEPT : s->count == PLOT_KEPT)
+        make_room(s);
+    s->x[s->count] = x;
+    s->y[s->count] = y;
+    if (y2)
+        s->y2[s->count] = *y2;
+    s->count++;
+    if (s->bucket)
+        fill_bucket(s);
+    return true;
+}
+
+bool plot_point(plot_series *s, double x, double y) {
+    return add(s, x, y, NULL);
+}
+
+bool plot_band(plot_series *s, double x, double y, double y2) {
+    return add(s, x, y, &y2);
+}

@@ -1,0 +1,495 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scripts for text: a page of gnuplot's terminal for each panel. The terminal draws frame, tics and texts;
+ * where the lines run is reckoned here, cell by cell, so that every curve has its own character and every tic
+ * its own row. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plot/script.h"
+
+enum { TICS = 24, TIC = 24, LEVELS = 9, LEFT = 40 };
+
+size_t plot_columns(const char *text) {
+    size_t n = 0;
+    for (; *text; text++)
+        n += ((unsigned char)*text & 0xc0) != 0x80;
+    return n;
+}
+
+plot_pages plot_pages_for(const plot_target *t, size_t panels, bool one_screen) {
+    int w = t->columns ? t->columns : 79, h = t->rows ? t->rows : 24, n = (int)panels;
+    bool beside = n == 1 || w / n >= 50;
+    plot_pages p = {beside ? w / n : w, beside || !one_screen ? h : h / n, beside};
+    p.columns = p.columns < 30 ? 30 : p.columns;
+    p.rows = p.rows < 8 ? 8 : p.rows;
+    return p;
+}
+
+/* ---- tics --------------------------------------------------------------------------------------- */
+
+/* An axis over the cells 0 .. cells of the page, with its tics. */
+typedef struct ruler {
+    plot_axis axis;
+    int cells, count;
+    size_t width; /* of the widest tic text */
+    double at[TICS];
+    char text[TICS][TIC];
+} ruler;
+
+static double cell_of(const ruler *r, double v) {
+    const plot_axis *a = &r->axis;
+    double t = a->log ? log(v / a->lo) / log(a->hi / a->lo) : (v - a->lo) / (a->hi - a->lo);
+    return (a->flip ? 1 - t : t) * r->cells;
+}
+
+static double at_cell(const ruler *r, double cell) {
+    const plot_axis *a = &r->axis;
+    double t = a->flip ? 1 - cell / r->cells : cell / r->cells;
+    return a->log ? a->lo * pow(a->hi / a->lo, t) : a->lo + (a->hi - a->lo) * t;
+}
+
+static void tic(ruler *r, double v, const char *format, int digits) {
+    if (r->count == TICS)
+        return;
+    r->at[r->count] = v;
+    snprintf(r->text[r->count], TIC, format, digits, v + 0.0);
+    size_t n = strlen(r->text[r->count++]);
+    r->width = n > r->width ? n : r->width;
+}
+
+/* Tics at multiples of a step, all with the same digits. */
+static void linear_tics(ruler *r, double step) {
+    const plot_axis *a = &r->axis;
+    double most = fmax(fabs(a->lo), fabs(a->hi));
+    bool plain = most < 1e6 && most >= 1e-4;
+    int digits =
+        plain ? (int)fmax(0, -floor(log10(step) + 1e-9)) : (int)fmax(3, ceil(log10(most / step)) + 1);
+    for (double k = ceil(a->lo / step - 1e-6); k <= a->hi / step + 1e-6; k++)
+        tic(r, k == 0 ? 0 : k * step, plain ? "%.*f" : "%.*g", digits);
+}
+
+static void log_tics(ruler *r, int most) {
+    const plot_axis *a = &r->axis;
+    int first = (int)ceil(log10(a->lo) - 1e-9), last = (int)floor(log10(a->hi) + 1e-9);
+    if (last - first < 1) { /* within a decade or two: 1, 2, 5 */
+        static const double steps[] = {1, 2, 5};
+        for (int e = first - 1; e <= last; e++)
+            for (int i = 0; i < 3; i++) {
+                double v = steps[i] * pow(10, e);
+                if (v >= a->lo * (1 - 1e-9) && v <= a->hi * (1 + 1e-9))
+                    tic(r, v, "%.*g", 6);
+            }
+        return;
+    }
+    int skip = (last - first) / (most > 1 ? most : 1) + 1;
+    for (int e = first; e <= last; e += skip)
+        tic(r, pow(10, e), "%.*g", 6);
+}
+
+/* Chooses tics at least `gap` cells apart. Limits that are not fixed move out to tics, and the cells that are
+ * over are given up, so that every step is as many cells as the next. */
+static void make_ruler(ruler *r, const plot_axis *axis, int cells, int gap) {
+    *r = (ruler){.axis = *axis, .cells = cells};
+    plot_axis *a = &r->axis;
+    if (a->log) {
+        log_tics(r, cells / gap);
+        return;
+    }
+    if (a->fixed_lo || a->fixed_hi) {
+        linear_tics(r, plot_step((a->hi - a->lo) * gap / cells));
+        return;
+    }
+    double best = -1, width = a->hi - a->lo;
+    for (double step = plot_step(width / cells); step <= 1.0001 * width; step = plot_step(1.5 * step)) {
+        double lo = floor(axis->lo / step + 1e-6), hi = ceil(axis->hi / step - 1e-6);
+        int n = (int)(hi - lo), each = n > 0 ? cells / n : 0;
+        if (each < gap || n > TICS - 1)
+            continue;
+        /* how much of the page shows points; too few tics are as bad as lost room */
+        double score = width / (n * step) * ((double)(n * each) / cells) * (n < 3 ? 0.6 : n < 5 ? 0.95 : 1);
+        if (score > best) {
+            best = score;
+            a->lo = lo * step;
+            a->hi = hi * step;
+            r->cells = n * each;
+            r->count = 0;
+            r->width = 0;
+            linear_tics(r, step);
+        }
+    }
+}
+
+/* ---- cells -------------------------------------------------------------------------------------- */
+
+typedef struct page {
+    FILE *to;
+    const plot_target *target;
+    const plot_panel *panel;
+    plot_form form;
+    ruler x, y;
+    size_t frame, index;
+    int columns, rows, left, right, top, bottom;
+    bool key_right;
+    int key_rows;
+    double level[LEVELS];
+    size_t levels;
+} page;
+
+static const char *const chars = "*o+x#%@&=$0123456789abcdefghijklmnpqrstuvwyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+
+/* As those of the pictures, on grounds both dark and light. */
+static const char *const colors[] = {"#0087ff", "#ff5f00", "#00af5f", "#d75faf",
+                                     "#d7af00", "#5fd7ff", "#878787"};
+
+static void sign_of(const plot_panel *p, size_t at, char *sign, const char **color) {
+    const plot_series *s = p->series[at];
+    size_t place = plot_style_of(p, at);
+    *color = s->role == PLOT_NOW || s->thin || s->role == PLOT_BAND || s->role == PLOT_VERTICAL
+                 ? "#a8a8a8"
+                 : colors[place % (sizeof colors / sizeof *colors)];
+    *sign = s->role == PLOT_NOW               ? '@'
+            : s->role == PLOT_VERTICAL        ? ':'
+            : s->role == PLOT_MEASURED        ? 'O'
+            : s->thin || s->role == PLOT_BAND ? '.'
+                                              : chars[place % strlen(chars)];
+}
+
+static void mark_cell(const page *g, char *cells, double cx, double cy) {
+    long c = lround(cx), r = lround(cy);
+    if (c >= 0 && c <= g->x.cells && r >= 0 && r <= g->y.cells)
+        cells[r * (g->x.cells + 1) + c] = 1;
+}
+
+/* The cells of a stretch of a line, a step of half a cell at a time, clipped to the frame with room to spare.
+ */
+static void mark_line(const page *g, char *cells, const double a[2], const double b[2]) {
+    double far = fmax(fabs(b[0] - a[0]), fabs(b[1] - a[1])), t0 = 0, t1 = 1;
+    const int most[2] = {g->x.cells, g->y.cells};
+    for (int i = 0; i < 2; i++) {
+        double d = b[i] - a[i], lo = -1 - a[i], hi = most[i] + 1 - a[i];
+        if (d == 0)
+            continue;
+        t0 = fmax(t0, fmin(lo / d, hi / d));
+        t1 = fmin(t1, fmax(lo / d, hi / d));
+    }
+    double steps = ceil(2 * far * (t1 - t0)) + 1;
+    for (double k = 0; t0 <= t1 && k <= steps; k++) {
+        double t = t0 + (t1 - t0) * k / steps;
+        mark_cell(g, cells, a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t);
+    }
+}
+
+/* In cells; false where there is no point. */
+static bool locate(const page *g, double x, double y, double at[2]) {
+    if (!isfinite(x) || !isfinite(y) || (g->x.axis.log && x <= 0) || (g->y.axis.log && y <= 0))
+        return false;
+    at[0] = cell_of(&g->x, x);
+    at[1] = cell_of(&g->y, y);
+    return fabs(at[0]) < 1e15 && fabs(at[1]) < 1e15;
+}
+
+static void mark_series(const page *g, const plot_series *s, const double *y, char *cells) {
+    double last[2], here[2];
+    bool joined = false;
+    for (size_t i = 0; i < s->count; i++) {
+        bool shown = locate(g, s->x[i], y[i], here);
+        if (shown)
+            mark_cell(g, cells, here[0], here[1]);
+        if (shown && joined && (s->role == PLOT_CURVE || s->role == PLOT_BAND))
+            mark_line(g, cells, last, here);
+        joined = shown;
+        memcpy(last, here, sizeof last);
+    }
+}
+
+static void write_cells(const page *g, const char *cells) {
+    for (int r = 0; r <= g->y.cells; r++)
+        for (int c = 0; c <= g->x.cells; c++)
+            if (cells[r * (g->x.cells + 1) + c])
+                fprintf(g->to, "%.12g %.12g\n", at_cell(&g->x, c), at_cell(&g->y, r));
+}
+
+static bool write_series_cells(const page *g, size_t at) {
+    const plot_series *s = g->panel->series[at];
+    char *cells = calloc((size_t)(g->x.cells + 1) * (size_t)(g->y.cells + 1), 1);
+    if (!cells)
+        return false;
+    if (s->role == PLOT_VERTICAL) {
+        double lo = at_cell(&g->y, 0), hi = at_cell(&g->y, g->y.cells), a[2], b[2];
+        for (size_t i = 0; i < s->count; i++)
+            if (locate(g, s->x[i], lo, a) && locate(g, s->x[i], hi, b))
+                mark_line(g, cells, a, b);
+    } else {
+        mark_series(g, s, s->y, cells);
+        if (s->y2)
+            mark_series(g, s, s->y2, cells);
+    }
+    fprintf(g->to, "$data%zu_%zu_%zu << END\n", g->frame, g->index, at);
+    write_cells(g, cells);
+    fputs("END\n", g->to);
+    free(cells);
+    return true;
+}
+
+/* The index i with list[i] <= v <= list[i+1], rising or falling; n where v lies outside. */
+static size_t find(const double *list, size_t n, double v) {
+    for (size_t i = 0; i + 1 < n; i++)
+        if ((list[i] <= v && v <= list[i + 1]) || (list[i] >= v && v >= list[i + 1]))
+            return i;
+    return n;
+}
+
+/* How many levels lie below z at a cell; -1: no value. */
+static int band_at(const page *g, int c, int r) {
+    const plot_map *m = &g->panel->map;
+    double x = at_cell(&g->x, c), y = at_cell(&g->y, r), e = 1e-9;
+    x = fmin(fmax(x, m->x[0] + e * (m->x[1] - m->x[0])), m->x[m->nx - 1]);
+    y = fmin(fmax(y, m->y[0] + e * (m->y[1] - m->y[0])), m->y[m->ny - 1]);
+    size_t i = find(m->x, m->nx, x), j = find(m->y, m->ny, y);
+    if (i >= m->nx || j >= m->ny)
+        return -1;
+    double u = (x - m->x[i]) / (m->x[i + 1] - m->x[i]), v = (y - m->y[j]) / (m->y[j + 1] - m->y[j]);
+    const double *z = m->z + j * m->nx + i;
+    double at = (1 - v) * ((1 - u) * z[0] + u * z[1]) + v * ((1 - u) * z[m->nx] + u * z[m->nx + 1]);
+    int below = 0;
+    if (!isfinite(at))
+        return -1;
+    for (size_t k = 0; k < g->levels; k++)
+        below += g->level[k] < at;
+    return below;
+}
+
+/* The contour of level k lies between cells with k levels below and more. */
+static bool write_map_cells(const page *g) {
+    size_t room = (size_t)(g->x.cells + 1) * (size_t)(g->y.cells + 1);
+    int *band = malloc(room * sizeof *band);
+    if (!band)
+        return false;
+    int w = g->x.cells + 1, h = g->y.cells + 1;
+    for (int r = 0; r < h; r++)
+        for (int c = 0; c < w; c++)
+            band[r * w + c] = band_at(g, c, r);
+    for (int k = 0; k < (int)g->levels; k++) {
+        fprintf(g->to, "$level%zu_%zu_%d << END\n", g->frame, g->index, k);
+        for (int r = 0; r < h; r++)
+            for (int c = 0; c < w; c++) {
+                int here = band[r * w + c], east = c + 1 < w ? band[r * w + c + 1] : here,
+                    north = r + 1 < h ? band[(r + 1) * w + c] : here;
+                if (here < 0 || east < 0 || north < 0)
+                    continue;
+                if ((here <= k) != (east <= k) || (here <= k) != (north <= k))
+                    fprintf(g->to, "%.12g %.12g\n", at_cell(&g->x, c), at_cell(&g->y, r));
+            }
+        fputs("END\n", g->to);
+    }
+    free(band);
+    return true;
+}
+
+/* ---- texts -------------------------------------------------------------------------------------- */
+
+static char *shown(const page *g, const char *text) {
+    return plot_text(text ? text : "", g->form);
+}
+
+/* The label of y stands level, in the line of the title. */
+static bool set_texts(const page *g) {
+    const plot_panel *p = g->panel;
+    char *title = shown(g, p->title), *x = shown(g, p->xlabel), *y = shown(g, p->ylabel),
+         *z = shown(g, p->map.nx ? p->map.label : "");
+    bool ok = title && x && y && z;
+    if (ok) {
+        size_t room = strlen(title) + strlen(y) + strlen(z) + 20;
+        char *line = malloc(room);
+        ok = line != NULL;
+        if (ok) {
+            snprintf(line, room, "%s%s%s%s%s", y, *z ? "   contours of " : "", z,
+                     *title && (*y || *z) ? "   " : "", title);
+            fputs("set label ", g->to);
+            plot_quote(g->to, line);
+            fprintf(g->to, " at character %d,%d left\nset xlabel ",
+                    plot_columns(y) + 2 < (size_t)g->left ? g->left - (int)plot_columns(y) - 1 : 1,
+                    g->rows - 1);
+            plot_quote(g->to, x);
+            putc('\n', g->to);
+            free(line);
+        }
+    }
+    free(title);
+    free(x);
+    free(y);
+    free(z);
+    return ok;
+}
+
+static void set_tics(const page *g, char name, const ruler *r) {
+    fprintf(g->to, "set %crange [%.12g:%.12g]\n", name, r->axis.flip ? r->axis.hi : r->axis.lo,
+            r->axis.flip ? r->axis.lo : r->axis.hi);
+    if (r->axis.log)
+        fprintf(g->to, "set logscale %c\n", name);
+    fprintf(g->to, "set %ctics (", name);
+    for (int i = 0; i < r->count; i++)
+        fprintf(g->to, "%s'%s' %.12g", i ? "," : "", r->text[i], r->at[i]);
+    fputs(")\n", g->to);
+}
+
+/* An entry of the key, 0 .. ; NULL after the last. */
+typedef struct entry {
+    char sign;
+    const char *color;
+    char *text; /* to be freed */
+} entry;
+
+static size_t key_of(const page *g, entry key[PLOT_CURVES + LEVELS]) {
+    const plot_panel *p = g->panel;
+    size_t n = 0;
+    for (size_t i = 0; i < p->count && !p->key_off; i++)
+        if (p->series[i]->title) {
+            sign_of(p, i, &key[n].sign, &key[n].color);
+            key[n++].text = shown(g, p->series[i]->title);
+        }
+    for (size_t k = 0; k < g->levels; k++) {
+        key[n].text = malloc(TIC);
+        if (key[n].text)
+            snprintf(key[n].text, TIC, "%.4g", g->level[k]);
+        key[n].sign = (char)('1' + k);
+        key[n++].color = colors[k % 7];
+    }
+    return n;
+}
+
+static void place_key(page *g, const entry *key, size_t n) {
+    size_t longest = 0;
+    for (size_t i = 0; i < n; i++) {
+        size_t c = key[i].text ? plot_columns(key[i].text) : 0;
+        longest = c > longest ? c : longest;
+    }
+    g->key_right = n && longest + 4 <= (size_t)g->columns / 4 && n <= (size_t)g->rows - 4;
+    g->key_rows = 0;
+    g->right = g->key_right ? (int)longest + 6 : 3;
+    size_t at = 0;
+    for (size_t i = 0; i < n && !g->key_right; i++) { /* rows of entries below */
+        size_t w = plot_columns(key[i].text ? key[i].text : "") + 5;
+        if (!g->key_rows || at + w > (size_t)g->columns) {
+            g->key_rows++;
+            at = 0;
+        }
+        at += w;
+    }
+    /* a key of half the page would leave no picture */
+    if (g->key_rows > (g->rows - 4) / 2)
+        g->key_rows = (g->rows - 4) / 2;
+}
+
+static void set_key(const page *g, const entry *key, size_t n) {
+    int column = g->key_right ? g->left + g->x.cells + 3 : 2,
+        row = g->key_right ? g->rows - 1 - g->top : g->key_rows - 1;
+    fputs("unset key\n", g->to);
+    for (size_t i = 0; i < n && row >= 0; i++) {
+        const char *text = key[i].text ? key[i].text : "?";
+        int w = (int)plot_columns(text) + 5;
+        if (!g->key_right && column > 2 && column + w - 2 > g->columns) {
+            column = 2;
+            if (--row < 0)
+                break;
+        }
+        fprintf(g->to, "set label '%c' at character %d,%d left tc rgb '%s'\nset label ", key[i].sign, column,
+                row, key[i].color);
+        plot_quote(g->to, text);
+        fprintf(g->to, " at character %d,%d left\n", column + 2, row);
+        if (g->key_right)
+            row--;
+        else
+            column += w;
+    }
+}
+
+/* Lines above bands, the present point above all. */
+static void draw(const page *g) {
+    static const plot_role order[] = {PLOT_BAND, PLOT_VERTICAL, PLOT_CURVE, PLOT_MEASURED, PLOT_NOW};
+    const plot_panel *p = g->panel;
+    fputs("plot NaN notitle", g->to);
+    for (size_t k = 0; k < g->levels; k++)
+        fprintf(g->to, ", \\\n  $level%zu_%zu_%zu with points pt '%zu' lc rgb '%s'", g->frame, g->index, k,
+                k + 1, colors[k % 7]);
+    for (int thin = 1; thin >= 0; thin--)
+        for (size_t o = 0; o < sizeof order / sizeof *order; o++)
+            for (size_t i = 0; i < p->count; i++) {
+                char sign;
+                const char *color;
+                if (p->series[i]->role != order[o] || p->series[i]->thin != (thin == 1))
+                    continue;
+                sign_of(p, i, &sign, &color);
+                fprintf(g->to, ", \\\n  $data%zu_%zu_%zu with points pt '%c' lc rgb '%s'", g->frame, g->index,
+                        i, sign, color);
+            }
+    putc('\n', g->to);
+}
+
+/* Margins in characters: texts first, then the frame takes what is left. */
+static bool lay_out(page *g, const plot_axis *x, const plot_axis *y) {
+    entry key[PLOT_CURVES + LEVELS];
+    const plot_map *m = &g->panel->map;
+    g->levels = m->nx ? plot_levels(m, g->level, LEVELS) : 0;
+    size_t n = key_of(g, key);
+    place_key(g, key, n);
+    g->top = 1;
+    g->bottom = 2 + g->key_rows;
+    int height = g->rows - 1 - g->top - g->bottom;
+    make_ruler(&g->y, y, height < 3 ? 3 : height, 2);
+    g->left = (int)(g->y.width < LEFT ? g->y.width : LEFT) + 2;
+    int width = g->columns - 1 - g->left - g->right;
+    for (size_t gap = 6; gap < 40; gap = g->x.width + 2) { /* numbers side by side, with blanks between */
+        make_ruler(&g->x, x, width < 10 ? 10 : width, (int)gap);
+        if (g->x.width + 2 <= gap)
+            break;
+    }
+    /* what is over goes below and to the right */
+    g->rows -= height > g->y.cells ? height - g->y.cells : 0;
+    fprintf(g->to,
+            "set terminal dumb size %d,%d noenhanced %s\nset lmargin %d\nset rmargin %d\nset tmargin %d\nset "
+            "bmargin %d\n",
+            g->columns, g->rows, g->target->color ? "ansi256" : "mono", g->left,
+            g->columns - 1 - g->left - g->x.cells, g->top, g->bottom);
+    set_tics(g, 'x', &g->x);
+    set_tics(g, 'y', &g->y);
+    set_key(g, key, n);
+    for (size_t i = 0; i < n; i++)
+        free(key[i].text);
+    return true;
+}
+
+static bool write_page(page *g, const plot_extents *e, char *error, size_t size) {
+    plot_axis x, y;
+    if (!plot_axes(g->panel, e, false, &x, &y, error, size))
+        return false;
+    fputs("reset\nset encoding utf8\nset border back\nset tics back\n", g->to);
+    bool ok = lay_out(g, &x, &y) && set_texts(g);
+    for (size_t i = 0; i < g->panel->count && ok; i++)
+        ok = write_series_cells(g, i);
+    if (ok && g->levels)
+        ok = write_map_cells(g);
+    if (!ok)
+        return plot_fail(error, size, "out of memory");
+    draw(g);
+    return true;
+}
+
+bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
+                      char *error, size_t size) {
+    for (size_t n = 0; n < reel->count; n++)
+        for (size_t i = 0; i < reel->frame[n].count; i++) {
+            page g = {.to = to,
+                      .target = target,
+                      .panel = reel->frame[n].panel[i],
+                      .form = target->unicode ? PLOT_UNICODE : PLOT_ASCII,
+                      .frame = n,
+                      .index = i,
+                      .columns = pages->columns,
+                      .rows = pages->rows};
+            if (!write_page(&g, &reel->extent[i], error, size))
+                return false;
+        }
+    return true;
+}

@@ -1,0 +1,436 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scripts for pictures. A script holds its data: it can be kept, edited and run again. */
+#include "plot/script.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool plot_fail(char *error, size_t size, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    vsnprintf(error, size, format, args);
+    va_end(args);
+    return false;
+}
+
+enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
+
+/* ---- kinds -------------------------------------------------------------------------------------- */
+
+/* Lengths: 900 pixels are 12 cm of a page. */
+static const plot_kind kinds[] = {
+    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3},
+    {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19, 3},
+    {".pdf", PLOT_ENHANCED, "pdfcairo size %.4gcm,%.4gcm font 'Sans,%.3g' enhanced", 12.0 / WIDTH, 9.5, 2.2},
+    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / WIDTH, 10, 2},
+    {".html", PLOT_ENHANCED,
+     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3},
+    {".gif", PLOT_ENHANCED, "gif size %.0f,%.0f font 'Sans,%.3g' enhanced animate delay %.0f loop 0", 1, 15,
+     3},
+    {".gp", PLOT_ENHANCED, NULL, 1, 16, 3}};
+
+const plot_kind *plot_kind_of(const char *file, char *error, size_t size) {
+    const char *slash = strrchr(file, '/'), *dot = strrchr(slash ? slash : file, '.');
+    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
+        if (!strcmp(dot, kinds[i].ending))
+            return &kinds[i];
+    char endings[80] = "";
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        size_t n = strlen(endings), left = sizeof kinds / sizeof *kinds - i;
+        snprintf(endings + n, sizeof endings - n, "%s%s", kinds[i].ending,
+                 left > 2    ? ", "
+                 : left == 2 ? " or "
+                             : "");
+    }
+    plot_fail(error, size, "cannot tell the kind of picture from '%s': use %s", file, endings);
+    return NULL;
+}
+
+/* ---- looks -------------------------------------------------------------------------------------- */
+
+/* Okabe and Ito's colours, which the colour-blind tell apart (their yellow is too pale for lines), each with
+ * its own dashes for print in black; the eighth curve begins again with marks on its line. */
+static const struct {
+    const char *color, *tint, *dash;
+} looks[] = {{"#0072b2", "#cce3f0", "solid"},  {"#d55e00", "#f7dfcc", "(14,6)"},
+             {"#009e73", "#ccece3", "(4,5)"},  {"#cc79a7", "#f5e4ed", "(14,5,3,5)"},
+             {"#e69f00", "#faeccc", "(24,7)"}, {"#56b4e9", "#ddf0fb", "(14,5,3,5,3,5)"},
+             {"#000000", "#d9d9d9", "(2,3)"}};
+enum { LOOKS = sizeof looks / sizeof *looks };
+
+static const int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12};
+enum { MARKS = sizeof marks / sizeof *marks };
+
+/* Between double quotes, all but the harmless as octal codes: between single quotes a doubled quote stands
+ * for one, but two of them in a row end the text, and what follows is a command. */
+void plot_quote(FILE *to, const char *text) {
+    static const char harmless[] = " _{}^/:=.,;()[]<>+*-!?&~|%";
+    putc('"', to);
+    for (const unsigned char *p = (const unsigned char *)text; *p; p++)
+        fprintf(to, *p >= 0x80 || isalnum(*p) || strchr(harmless, *p) ? "%c" : "\\%03o", *p);
+    putc('"', to);
+}
+
+static void quoted(FILE *to, const char *text, plot_form form) {
+    char *shown = plot_text(text ? text : "", form);
+    plot_quote(to, shown ? shown : "?");
+    free(shown);
+}
+
+/* ---- data --------------------------------------------------------------------------------------- */
+
+static void write_series(FILE *to, const plot_series *s) {
+    bool gap = true; /* none before the first point */
+    for (size_t i = 0; i < s->count; i++) {
+        bool shown = isfinite(s->x[i]) && (s->role == PLOT_VERTICAL || isfinite(s->y[i])) &&
+                     (!s->y2 || isfinite(s->y2[i]));
+        if (!shown && !gap)
+            putc('\n', to);
+        gap = !shown;
+        if (!shown)
+            continue;
+        fprintf(to, s->y2 ? "%.9g %.9g %.9g\n" : "%.9g %.9g\n", s->x[i],
+                s->role == PLOT_VERTICAL ? 0 : s->y[i], s->y2 ? s->y2[i] : 0);
+    }
+}
+
+/* A thinned copy, so that the figure stays whole. */
+static bool write_thinned(FILE *to, const plot_series *s) {
+    if (s->count <= PLOT_WRITTEN) {
+        write_series(to, s);
+        return true;
+    }
+    plot_series copy = {.role = s->role};
+    bool ok = true;
+    size_t bytes = s->count * sizeof *s->x;
+    copy.x = malloc(bytes);
+    copy.y = malloc(bytes);
+    copy.y2 = s->y2 ? malloc(bytes) : NULL;
+    ok = copy.x && copy.y && (!s->y2 || copy.y2);
+    if (ok) {
+        memcpy(copy.x, s->x, bytes);
+        memcpy(copy.y, s->y, bytes);
+        if (s->y2)
+            memcpy(copy.y2, s->y2, bytes);
+        copy.count = s->count;
+        plot_thin(&copy, PLOT_WRITTEN);
+        write_series(to, &copy);
+    }
+    free(copy.x);
+    free(copy.y);
+    free(copy.y2);
+    return ok;
+}
+
+static void write_map(FILE *to, const plot_map *m) {
+    for (size_t j = 0; j < m->ny; j++) {
+        for (size_t i = 0; i < m->nx; i++) {
+            double z = m->z[j * m->nx + i];
+            fprintf(to, isfinite(z) ? "%.9g %.9g %.9g\n" : "%.9g %.9g NaN\n", m->x[i], m->y[j], z);
+        }
+        putc('\n', to);
+    }
+}
+
+static bool write_data(FILE *to, const plot_reel *reel) {
+    bool ok = true;
+    for (size_t n = 0; n < reel->count; n++)
+        for (size_t i = 0; i < reel->frame[n].count; i++) {
+            const plot_panel *p = reel->frame[n].panel[i];
+            for (size_t j = 0; j < p->count; j++) {
+                fprintf(to, "$data%zu_%zu_%zu << END\n", n, i, j);
+                ok &= write_thinned(to, p->series[j]);
+                fputs("END\n", to);
+            }
+            if (p->map.nx) {
+                fprintf(to, "$map%zu_%zu << END\n", n, i);
+                write_map(to, &p->map);
+                fputs("END\n", to);
+            }
+        }
+    return ok;
+}
+
+/* ---- a panel ------------------------------------------------------------------------------------ */
+
+typedef struct scribe {
+    FILE *to;
+    const plot_kind *kind;
+    double scale; /* of points against the usual size */
+    size_t frame, panel, panels;
+} scribe;
+
+static void set_text(const scribe *s, const char *what, const char *text) {
+    fprintf(s->to, "set %s ", what);
+    quoted(s->to, text, s->kind->form);
+    putc('\n', s->to);
+}
+
+static void set_axis(const scribe *s, char name, const plot_axis *a) {
+    fprintf(s->to, "set %crange [%.9g:%.9g]\n", name, a->flip ? a->hi : a->lo, a->flip ? a->lo : a->hi);
+    if (a->log) {
+        fprintf(s->to, "set logscale %c\n", name);
+        if (a->hi / a->lo > 50)
+            fprintf(s->to,
+                    s->kind->form == PLOT_TEX ? "set format %c '$10^{%%T}$'\n" : "set format %c '10^{%%T}'\n",
+                    name);
+    } else if (fmax(fabs(a->lo), fabs(a->hi)) >= 1e5 || fmax(fabs(a->lo), fabs(a->hi)) < 1e-3) {
+        fprintf(s->to, "set format %c '%%h'\n", name);
+    }
+}
+
+/* Entries of the key, and the columns of the longest. */
+static size_t key_entries(const plot_panel *p, size_t *longest) {
+    size_t entries = 0;
+    *longest = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        if (!p->series[i]->title || p->series[i]->role == PLOT_VERTICAL)
+            continue;
+        char *text = plot_text(p->series[i]->title, PLOT_UNICODE);
+        size_t n = plot_columns(text ? text : "");
+        *longest = n > *longest ? n : *longest;
+        free(text);
+        entries++;
+    }
+    return p->key_off ? 0 : entries;
+}
+
+/* Outside the frame, so that it covers nothing: beside it where entries are many and short, else below. */
+static void set_key(const scribe *s, const plot_panel *p) {
+    size_t longest, entries = key_entries(p, &longest);
+    if (!entries || p->map.nx)
+        fputs("unset key\n", s->to);
+    else if (s->panels == 1 && longest <= 14 && entries > 3)
+        fputs("set key outside right center vertical Left reverse samplen 3.5 spacing 1.15\n", s->to);
+    else
+        fprintf(s->to,
+                "set key outside below center horizontal Left reverse samplen 3.5 spacing 1.1 height %s "
+                "maxcols %d\n",
+                s->kind->form == PLOT_TEX ? "2.5" : "1.2",
+                longest > 40    ? 1
+                : longest > 24  ? 2
+                : s->panels > 1 ? 3
+                                : 4);
+}
+
+size_t plot_style_of(const plot_panel *p, size_t at) {
+    const plot_series *s = p->series[at];
+    if (s->style >= 0)
+        return (size_t)s->style;
+    size_t n = 0;
+    for (size_t i = 0; i < at; i++)
+        n += p->series[i]->role == s->role && !p->series[i]->thin && p->series[i]->style < 0;
+    return n;
+}
+
+static void with_curve(const scribe *s, const plot_panel *p, size_t at) {
+    const plot_series *c = p->series[at];
+    size_t style = plot_style_of(p, at), mark = style / LOOKS;
+    double line = s->kind->line * s->scale;
+    if (c->thin) {
+        fprintf(s->to, "lines lw %.3g lc rgb '#707070' dt solid", 0.5 * line);
+        return;
+    }
+    bool marked = p->points || mark > 0;
+    fprintf(s->to, "%s lw %.3g lc rgb '%s' dt %s", marked ? "linespoints" : "lines", line,
+            looks[style % LOOKS].color, looks[style % LOOKS].dash);
+    size_t written = c->count < PLOT_WRITTEN ? c->count : PLOT_WRITTEN;
+    if (marked)
+        fprintf(s->to, " pt %d ps %.3g pi %zu", marks[(p->points ? style : mark - 1) % MARKS], 1.3 * s->scale,
+                p->points ? 1 : written / 8 + 1);
+}
+
+/* One element of the plot command. */
+static void draw_series(const scribe *s, const plot_panel *p, size_t at, bool deep) {
+    const plot_series *c = p->series[at];
+    size_t style = plot_style_of(p, at);
+    fprintf(s->to, "$data%zu_%zu_%zu using 1:2%s with ", s->frame, s->panel, at,
+            deep                   ? ":(0)"
+            : c->role == PLOT_BAND ? ":3"
+                                   : "");
+    switch (c->role) {
+    case PLOT_CURVE:
+        with_curve(s, p, at);
+        break;
+    case PLOT_MEASURED:
+        fprintf(s->to, "points pt %d ps %.3g lw %.3g lc rgb '%s'", marks[(style + 5) % MARKS], 1.3 * s->scale,
+                0.6 * s->kind->line * s->scale, style ? looks[style % LOOKS].color : "#000000");
+        break;
+    case PLOT_BAND:
+        fprintf(s->to, "filledcurves fs solid noborder fc rgb '%s'",
+                c->thin ? "#e4e4e4" : looks[style % LOOKS].tint);
+        break;
+    case PLOT_NOW:
+        fprintf(s->to, "points pt 7 ps %.3g lc rgb '#000000'", 2 * s->scale);
+        break;
+    case PLOT_VERTICAL: /* an arrow, see set_verticals */
+        break;
+    }
+    if (!c->title) {
+        fputs(" notitle", s->to);
+        return;
+    }
+    fputs(" title ", s->to);
+    quoted(s->to, c->title, s->kind->form);
+}
+
+/* Is the place right of the middle? Its text then stands on the left, within the frame. */
+static bool is_right(const plot_axis *x, double at) {
+    double t = x->log ? log(at / x->lo) / log(x->hi / x->lo) : (at - x->lo) / (x->hi - x->lo);
+    return (t > 0.5) != x->flip;
+}
+
+static void set_verticals(const scribe *s, const plot_panel *p, const plot_axis *x) {
+    for (size_t i = 0; i < p->count; i++) {
+        const plot_series *c = p->series[i];
+        if (c->role != PLOT_VERTICAL)
+            continue;
+        for (size_t j = 0; j < c->count; j++)
+            if (isfinite(c->x[j]))
+                fprintf(
+                    s->to,
+                    "set arrow from first %.9g,graph 0 to first %.9g,graph 1 nohead lw %.3g dt (6,5) lc rgb "
+                    "'#505050'\n",
+                    c->x[j], c->x[j], 0.5 * s->kind->line * s->scale);
+        if (!c->title || !c->count || !isfinite(c->x[0]))
+            continue;
+        fputs("set label ", s->to);
+        quoted(s->to, c->title, s->kind->form);
+        fprintf(s->to, " at first %.9g,graph 0.95 offset character %s front\n", c->x[0],
+                is_right(x, c->x[0]) ? "-0.6,0 right" : "0.6,0 left");
+    }
+}
+
+/* Bands lie below the lines, the present point above. */
+static int layer(plot_role role) {
+    return role == PLOT_BAND ? 0 : role == PLOT_NOW ? 2 : role == PLOT_VERTICAL ? 3 : 1;
+}
+
+static void draw_all(const scribe *s, const plot_panel *p, bool first, bool deep) {
+    for (int l = 0; l < 3; l++)
+        for (size_t i = 0; i < p->count; i++)
+            if (layer(p->series[i]->role) == l && (p->series[i]->count || p->series[i]->title)) {
+                fputs(first ? "" : ", \\\n  ", s->to);
+                draw_series(s, p, i, deep);
+                first = false;
+            }
+    if (first) /* nothing but upright lines */
+        fputs("NaN notitle", s->to);
+    putc('\n', s->to);
+}
+
+/* Of maps, where a key has no place beside the scale: titles at the first point. */
+static void set_places(const scribe *s, const plot_panel *p, const plot_axis *x) {
+    for (size_t i = 0; i < p->count; i++) {
+        const plot_series *c = p->series[i];
+        if (!c->title || !c->count || c->role == PLOT_VERTICAL || !isfinite(c->x[0]) || !isfinite(c->y[0]))
+            continue;
+        fputs("set label ", s->to);
+        quoted(s->to, c->title, s->kind->form);
+        fprintf(s->to, " at first %.9g,first %.9g offset character %s front%s\n", c->x[0], c->y[0],
+                is_right(x, c->x[0]) ? "-1,0.9 right" : "1,0.9 left",
+                s->kind->form == PLOT_TEX ? "" : " boxed");
+    }
+}
+
+/* Contours on a light ground, with their values on them. */
+static void draw_map(const scribe *s, const plot_panel *p, const plot_axis *x) {
+    double level[LEVELS], part = 1.0 / (double)s->panels, from = (double)s->panel * part;
+    size_t n = plot_levels(&p->map, level, LEVELS);
+    fprintf(s->to,
+            "set lmargin at screen %.4g\nset rmargin at screen %.4g\nset bmargin at screen 0.15\n"
+            "set tmargin at screen 0.92\nset view map\nset palette defined (0 '#ffffff', 1 '#8fc1e3')\n"
+            "set style textbox opaque noborder margins 0.5,0.5\nset contour base\n"
+            "set cntrparam levels discrete ",
+            from + 0.15 * part, from + 0.8 * part);
+    for (size_t i = 0; i < n; i++)
+        fprintf(s->to, "%s%.9g", i ? "," : "", level[i]);
+    fputs(n ? "\nset cntrlabel onecolor start 20 interval 400 format '%.4g'\n" : "0\n", s->to);
+    if (n && level[0] > 0 && level[n - 1] / level[0] > 50)
+        fputs("set logscale cb\nset format cb '%g'\n", s->to);
+    set_text(s, "cblabel offset 1.2,0", p->map.label);
+    set_places(s, p, x);
+    fprintf(s->to, "splot $map%zu_%zu using 1:2:3 with pm3d nocontour notitle", s->frame, s->panel);
+    if (n)
+        fprintf(s->to,
+                ", \\\n  '' using 1:2:3 with lines nosurface lw %.3g lc rgb '#303030' notitle, \\\n"
+                "  '' using 1:2:3 with labels nosurface%s notitle",
+                0.6 * s->kind->line * s->scale, s->kind->form == PLOT_TEX ? "" : " boxed");
+    draw_all(s, p, false, true);
+}
+
+static bool draw_panel(const scribe *s, const plot_panel *p, const plot_extents *e, char *error,
+                       size_t size) {
+    plot_axis x, y;
+    if (!plot_axes(p, e, true, &x, &y, error, size))
+        return false;
+    /* not `reset`, which would lose the panel's place */
+    fputs("set encoding utf8\nset minussign\nunset arrow\nunset label\nunset logscale\nset format\nunset "
+          "contour\n"
+          "unset pm3d\nunset grid\n",
+          s->to);
+    set_text(s, "title", p->title);
+    set_text(s, "xlabel", p->xlabel);
+    set_text(s, "ylabel", p->ylabel);
+    set_axis(s, 'x', &x);
+    set_axis(s, 'y', &y);
+    fputs("set border lw 1.2\nset tics front\nset mxtics\nset mytics\n", s->to);
+    if (!p->map.nx)
+        fputs("set grid back lt 1 lc rgb '#e6e6e6' lw 1\n", s->to);
+    if (!p->map.nx && !x.log && !y.log)
+        fputs("set xzeroaxis lt 1 lc rgb '#a0a0a0' lw 1\nset yzeroaxis lt 1 lc rgb '#a0a0a0' lw 1\n", s->to);
+    set_key(s, p);
+    set_verticals(s, p, &x);
+    if (p->map.nx) {
+        draw_map(s, p, &x);
+    } else {
+        fputs("plot ", s->to);
+        draw_all(s, p, true, false);
+    }
+    return true;
+}
+
+bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, int width, int height,
+                        char *error, size_t size) {
+    size_t panels = reel->frame[0].count;
+    double w = width ? width : panels > 1 ? (double)panels * BESIDE : WIDTH, h = height ? height : HEIGHT;
+    /* texts keep their part of a panel */
+    double scale = fmin(w / (double)panels / (panels > 1 ? BESIDE : WIDTH), h / HEIGHT);
+    scale = fmax(scale, 0.5);
+    double points = kind->font * scale * (panels > 1 ? 0.9 : 1);
+    fputs("# made by fret; to see it: gnuplot -p FILE\n", to);
+    if (!write_data(to, reel))
+        return plot_fail(error, size, "out of memory");
+    if (kind->terminal) {
+        fputs("set terminal ", to);
+        fprintf(to, kind->terminal, w * kind->per_pixel, h * kind->per_pixel, points,
+                reel->seconds > 0 ? 100 * reel->seconds : 100);
+        putc('\n', to);
+    }
+    for (size_t n = 0; n < reel->count; n++) {
+        const plot_figure *f = &reel->frame[n];
+        if (f->count > 1)
+            fprintf(to, "set multiplot layout 1,%zu\n", f->count);
+        for (size_t i = 0; i < f->count; i++) {
+            scribe s = {to, kind, scale, n, i, f->count};
+            if (!draw_panel(&s, f->panel[i], &reel->extent[i], error, size))
+                return false;
+        }
+        if (f->count > 1)
+            fputs("unset multiplot\n", to);
+    }
+    return true;
+}
+
+bool plot_script(const plot_figure *f, const char *ending, int width, int height, FILE *to) {
+    plot_extents extent[PLOT_PANELS];
+    char error[200];
+    for (size_t i = 0; i < f->count; i++)
+        extent[i] = plot_extent_of(f->panel[i]);
+    const plot_kind *kind = plot_kind_of(ending, error, sizeof error);
+    return kind && f->count &&
+           plot_write_picture(to, &(plot_reel){f, 1, extent, 0}, kind, width, height, error, sizeof error);
+}

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Between the files of this room: limits, scripts for gnuplot, and running it. */
+#ifndef PLOT_SCRIPT_H
+#define PLOT_SCRIPT_H
+
+#include "plot/plot.h"
+
+/* ---- axis.c: limits and tics -------------------------------------------------------------------- */
+
+/* From lo to hi, lo < hi; a logarithmic axis has lo > 0. */
+typedef struct plot_axis {
+    double lo, hi;
+    bool log, flip;
+    bool fixed_lo, fixed_hi; /* by the reader */
+} plot_axis;
+
+/* What the points of a panel span. */
+typedef struct plot_extent {
+    double lo, hi; /* lo > hi: nothing to see */
+    bool graph;    /* along x: every line goes one way only */
+} plot_extent;
+
+typedef struct plot_extents {
+    plot_extent x, y;
+} plot_extents;
+
+plot_extents plot_extent_of(const plot_panel *p);
+/* Of both together, as for the frames of an animation. */
+plot_extents plot_extent_join(plot_extents a, plot_extents b);
+
+/* Axes, `airy` with room around the points. False with the error when nothing can be shown. */
+bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis *x, plot_axis *y, char *error,
+               size_t size);
+
+/* The step 1, 2 or 5 times a power of ten next to `least` or above. */
+double plot_step(double least);
+
+/* At most `room` levels for contours of z, in rising order. */
+size_t plot_levels(const plot_map *m, double *level, size_t room);
+
+/* ---- script.c: pictures ------------------------------------------------------------------------- */
+
+/* A kind of picture. */
+typedef struct plot_kind {
+    const char *ending;
+    plot_form form;
+    const char *terminal; /* for printf: width, height, font size; NULL: the script itself */
+    double per_pixel;     /* of the terminal's unit of length */
+    double font;          /* at the usual size, in its own unit */
+    double line;          /* width of a curve */
+} plot_kind;
+
+/* The kind by a file's ending; NULL with the error. */
+const plot_kind *plot_kind_of(const char *file, char *error, size_t size);
+
+/* The text as a string of gnuplot in which nothing but its characters is left. */
+void plot_quote(FILE *to, const char *text);
+
+/* The style of a series: its own, or its place among those of its role. */
+size_t plot_style_of(const plot_panel *p, size_t at);
+
+/* Frames that share axes. */
+typedef struct plot_reel {
+    const plot_figure *frame;
+    size_t count;
+    const plot_extents *extent; /* of a panel over all frames */
+    double seconds;             /* a frame */
+} plot_reel;
+
+/* The whole script for a picture; `pixels` wide and high, 0 for the usual. False with the error when there is
+ * nothing to show. Writing is checked by the caller. */
+bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, int width, int height,
+                        char *error, size_t size);
+
+/* ---- page.c: text ------------------------------------------------------------------------------- */
+
+/* Panels on a page of text. */
+typedef struct plot_pages {
+    int columns, rows; /* of a panel */
+    bool beside;       /* panels side by side, else one below the other */
+} plot_pages;
+
+plot_pages plot_pages_for(const plot_target *target, size_t panels, bool one_screen);
+/* A page of gnuplot for each panel of each frame. */
+bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
+                      char *error, size_t size);
+
+/* ---- draw.c: to the target ---------------------------------------------------------------------- */
+
+bool plot_draw_reel(const plot_reel *reel, const plot_target *target, file_report *report, char *error,
+                    size_t size);
+
+/* ---- gnuplot.c: running it ---------------------------------------------------------------------- */
+
+/* Our own folder for a run: gnuplot reads `script` there and leaves its output in `out`. Names never reach
+ * it. */
+typedef struct plot_run {
+    char *dir, *script, *out, *err;
+    int guard[4];
+} plot_run;
+
+bool plot_run_open(plot_run *r, char *error, size_t size);
+/* Runs gnuplot on the script. */
+bool plot_run_gnuplot(const plot_run *r, const plot_target *target, char *error, size_t size);
+/* Removes everything; may be called twice. */
+void plot_run_close(plot_run *r);
+
+/* Major version of the gnuplot that would run, 0 where there is none. */
+int plot_gnuplot_version(file_stop stop);
+
+/* Room in a text of the terminal: columns of its characters. */
+size_t plot_columns(const char *text);
+
+bool plot_fail(char *error, size_t size, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 3, 4)))
+#endif
+    ;
+
+#endif

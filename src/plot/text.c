@@ -1,0 +1,451 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Texts of figures in the forms that the terminals of gnuplot take. Whatever the reader wrote stays text:
+ * here is the only place where a character could get a meaning. */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plot/plot.h"
+
+enum { THIN_SPACE = 0x2009 };
+
+typedef struct writer {
+    FILE *to;
+    plot_form form;
+    bool math; /* within $...$ of TeX */
+} writer;
+
+/* ---- characters --------------------------------------------------------------------------------- */
+
+/* Bytes of the character at p, 0 where it is no UTF-8; its code in *code. */
+static size_t character(const char *p, unsigned *code) {
+    static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
+    const unsigned char *b = (const unsigned char *)p;
+    size_t n = *b < 0x80                 ? 1
+               : *b >= 0xc2 && *b < 0xe0 ? 2
+               : *b >= 0xe0 && *b < 0xf0 ? 3
+               : *b >= 0xf0 && *b < 0xf5 ? 4
+                                         : 0;
+    unsigned c = n == 1 ? *b : n == 2 ? *b & 0x1f : n == 3 ? *b & 0x0f : *b & 0x07;
+    for (size_t i = 1; i < n; i++) {
+        if ((b[i] & 0xc0) != 0x80)
+            return 0;
+        c = c << 6 | (b[i] & 0x3f);
+    }
+    *code = c;
+    return n && c >= least[n] && (c < 0xd800 || c > 0xdfff) && c < 0x110000 ? n : 0;
+}
+
+/* Controls, and what turns or hides its neighbours. */
+static bool is_hidden(unsigned c) {
+    return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0xad || (c >= 0x200b && c <= 0x200f) ||
+           (c >= 0x2028 && c <= 0x202e) || (c >= 0x2060 && c <= 0x206f) || c == 0xfeff || c == 0x61c ||
+           (c >= 0xfff9 && c <= 0xfffb) || (c >= 0xe0000 && c < 0xe1000);
+}
+
+/* Greek and the like: typed in ASCII, and in the mathematics of TeX. */
+static const struct symbol {
+    unsigned code;
+    const char *ascii, *tex;
+} symbols[] = {{0xb0, "deg", "^\\circ"},
+               {0xb2, "^2", "^2"},
+               {0xb3, "^3", "^3"},
+               {0xb5, "u", "\\mu"},
+               {0xb7, "*", "\\cdot "},
+               {0xd7, "x", "\\times "},
+               {0x393, "Gamma", "\\Gamma "},
+               {0x394, "d", "\\Delta "},
+               {0x3b1, "alpha", "\\alpha "},
+               {0x3b2, "beta", "\\beta "},
+               {0x3b3, "gamma", "\\gamma "},
+               {0x3b4, "d", "\\delta "},
+               {0x3b5, "epsilon", "\\varepsilon "},
+               {0x3b7, "eta", "\\eta "},
+               {0x3b8, "theta", "\\theta "},
+               {0x3ba, "kappa", "\\kappa "},
+               {0x3bb, "lambda", "\\lambda "},
+               {0x3bc, "u", "\\mu "},
+               {0x3bd, "nu", "\\nu "},
+               {0x3c0, "pi", "\\pi "},
+               {0x3c1, "rho", "\\rho "},
+               {0x3c3, "sigma", "\\sigma "},
+               {0x3c4, "tau", "\\tau "},
+               {0x3c6, "phi", "\\varphi "},
+               {0x3c9, "omega", "\\omega "},
+               {0x2009, " ", "\\,"},
+               {0x2032, "'", "'"},
+               {0x2033, "''", "''"},
+               {0x2212, "-", "-"},
+               {0x221a, "sqrt", "\\surd "},
+               {0x2026, "...", "\\ldots "}};
+
+static void put_tex(writer *w, unsigned c) {
+    static const struct {
+        char c;
+        const char *tex;
+    } special[] = {{'\\', "\\textbackslash{}"}, {'~', "\\textasciitilde{}"}, {'^', "\\textasciicircum{}"},
+                   {'<', "\\textless{}"},       {'>', "\\textgreater{}"},    {'|', "\\textbar{}"},
+                   {'"', "\\textquotedbl{}"},   {'`', "\\textasciigrave{}"}};
+    for (size_t i = 0; i < sizeof special / sizeof *special; i++)
+        if (c == (unsigned char)special[i].c) {
+            /* the quotation mark needs another encoding of the font: two primes do as well */
+            fputs(c == '"'               ? "''"
+                  : w->math && c != '\\' ? (char[2]){special[i].c, 0}
+                                         : special[i].tex,
+                  w->to);
+            return;
+        }
+    if (strchr("#$%&_{}", (int)c))
+        putc('\\', w->to);
+    putc((int)c, w->to);
+}
+
+static void put_char(writer *w, const char *p, size_t n, unsigned c) {
+    const struct symbol *s = NULL;
+    for (size_t i = 0; n > 1 && i < sizeof symbols / sizeof *symbols; i++)
+        if (symbols[i].code == c)
+            s = &symbols[i];
+    switch (w->form) {
+    case PLOT_ASCII:
+        if (n == 1)
+            putc((int)c, w->to);
+        else
+            fputs(s ? s->ascii : "?", w->to);
+        break;
+    case PLOT_UNICODE:
+        if (c == THIN_SPACE) /* not every terminal has one */
+            putc(' ', w->to);
+        else
+            fwrite(p, 1, n, w->to);
+        break;
+    case PLOT_ENHANCED:
+        if (n == 1 && strchr("_^{}@&~\\", (int)c))
+            putc('\\', w->to);
+        fwrite(p, 1, n, w->to);
+        break;
+    case PLOT_TEX:
+        if (n == 1)
+            put_tex(w, c);
+        else if (s)
+            fprintf(w->to, w->math ? "%s" : "$%s$", s->tex);
+        else
+            fwrite(p, 1, n, w->to);
+        break;
+    }
+}
+
+static void put(writer *w, const char *text, size_t n) {
+    unsigned c;
+    for (size_t i = 0, step; i < n; i += step) {
+        step = character(text + i, &c);
+        if (!step || step > n - i || is_hidden(c)) {
+            step = step && step <= n - i ? step : 1;
+            putc('?', w->to);
+        } else {
+            put_char(w, text + i, step, c);
+        }
+    }
+}
+
+static void puts_text(writer *w, const char *text) {
+    put(w, text, strlen(text));
+}
+
+/* ---- names -------------------------------------------------------------------------------------- */
+
+typedef struct glyph {
+    const char *name, *base, *sub;
+} glyph;
+
+static const glyph glyphs[] = {
+    {"FN", "F", "N"},      {"Fx", "F", "x"},          {"FA", "F", "A"},    {"FNA", "F", "N,A"},
+    {"dz", "δ", "z"},      {"dx", "δ", "x"},          {"dxA", "δ", "x,A"}, {"dxmax", "δ", "x,max"},
+    {"dz0", "δ", "z,0"},   {"dx0max", "δ", "x,0max"}, {"dW", "ΔW", ""},    {"dWd", "ΔW", ""},
+    {"W1D", "W", "1D"},    {"w1D", "w", "1D"},        {"u1D", "u", "1D"},  {"s1D", "s", "1D"},
+    {"qz1D", "q", "z,1D"}, {"qx1D", "q", "x,1D"},     {"qx", "q", "x"},    {"uz", "u", "z"},
+    {"ux", "u", "x"},      {"cN", "c", "N"},          {"cT", "c", "T"},    {"hN", "h", "N"},
+    {"hT", "h", "T"},      {"kn", "k", "n"},          {"kt", "k", "t"},    {"a0", "a", "0"},
+    {"c0", "c", "0"},      {"r0", "r", "0"},          {"E0", "E", "0"},    {"E0_2", "E", "0,2"},
+    {"nu", "ν", ""},       {"nu_2", "ν", "2"},        {"mu", "μ", ""},     {"kappa", "κ", ""},
+    {"eta", "η", ""},      {"beta_k", "β", "k"},      {"phase", "φ", ""},  {"Ksec", "K", "sec"},
+    {"Kp", "K′", ""},      {"Kpp", "K″", ""},         {"pi", "π", ""},     {"time", "t", ""}};
+
+/* Functions and words that stand upright. */
+static const struct {
+    const char *name, *shown;
+} words[] = {{"sqrt", "√"}, {"gamma", "Γ"}, {"beta", "B"}, {"loss_factor", "loss factor"}};
+
+static void italic(writer *w, const char *text, size_t n) {
+    bool enhanced = w->form == PLOT_ENHANCED;
+    if (enhanced)
+        fputs("{/:Italic ", w->to);
+    put(w, text, n);
+    if (enhanced)
+        putc('}', w->to);
+}
+
+static void upright(writer *w, const char *text, size_t n) {
+    if (w->math)
+        fputs("\\mathrm{", w->to);
+    put(w, text, n);
+    if (w->math)
+        putc('}', w->to);
+}
+
+/* Parts between commas: an index of one small letter is a variable, all else a word or number. */
+static void subscript(writer *w, const char *sub) {
+    bool marked = w->form == PLOT_ENHANCED || w->form == PLOT_TEX;
+    if (!*sub)
+        return;
+    if (marked)
+        fputs("_{", w->to);
+    for (;; sub++) {
+        size_t n = strcspn(sub, ",");
+        if (n == 1 && islower((unsigned char)*sub))
+            italic(w, sub, n);
+        else
+            upright(w, sub, n);
+        sub += n;
+        if (!*sub)
+            break;
+        putc(',', w->to);
+    }
+    if (marked)
+        putc('}', w->to);
+}
+
+static void put_name(writer *w, const char *name, size_t n) {
+    for (size_t i = 0; i < sizeof glyphs / sizeof *glyphs; i++)
+        if (strlen(glyphs[i].name) == n && !strncmp(glyphs[i].name, name, n)) {
+            italic(w, glyphs[i].base, strlen(glyphs[i].base));
+            subscript(w, glyphs[i].sub);
+            return;
+        }
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i].name) == n && !strncmp(words[i].name, name, n)) {
+            upright(w, words[i].shown, strlen(words[i].shown));
+            return;
+        }
+    char digits[8];
+    size_t d = 1;
+    while (d < n && isdigit((unsigned char)name[d]))
+        d++;
+    if (d == n && n < sizeof digits) { /* x, x1 */
+        snprintf(digits, sizeof digits, "%.*s", (int)(n - 1), name + 1);
+        italic(w, name, 1);
+        subscript(w, digits);
+    } else {
+        upright(w, name, n);
+    }
+}
+
+/* ---- expressions -------------------------------------------------------------------------------- */
+
+static bool is_name(char c) {
+    return isalpha((unsigned char)c) || c == '_';
+}
+
+static size_t name_length(const char *p, const char *end) {
+    size_t n = 0;
+    while (p + n < end && (is_name(p[n]) || isdigit((unsigned char)p[n])))
+        n++;
+    return n;
+}
+
+/* 12, 0.5, 1e-6 */
+static size_t number_length(const char *p, const char *end) {
+    size_t n = 0;
+    while (p + n < end && (isdigit((unsigned char)p[n]) || p[n] == '.'))
+        n++;
+    if (n && p + n < end && (p[n] == 'e' || p[n] == 'E')) {
+        size_t sign = n + 1 + (p + n + 1 < end && (p[n + 1] == '+' || p[n + 1] == '-')), m = sign;
+        while (p + m < end && isdigit((unsigned char)p[m]))
+            m++;
+        if (m > sign)
+            n = m;
+    }
+    return n;
+}
+
+/* Exponents: of gnuplot's and TeX's markup, or small figures. */
+static void superscript(writer *w, const char *p, size_t n) {
+    static const char *const small[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    if (w->form == PLOT_UNICODE) {
+        for (size_t i = 0; i < n; i++)
+            fputs(p[i] == '-' ? "⁻" : small[p[i] - '0'], w->to);
+        return;
+    }
+    bool tex = w->form == PLOT_TEX && !w->math;
+    fputs(tex ? "$^{" : "^{", w->to);
+    for (size_t i = 0; i < n; i++)
+        if (p[i] == '-')
+            puts_text(w, "−");
+        else
+            putc(p[i], w->to);
+    fputs(tex ? "}$" : "}", w->to);
+}
+
+/* Bytes of an exponent that superscript shows: a plain number, whole where there are no small points. */
+static size_t exponent_length(const writer *w, const char *p, const char *end) {
+    size_t sign = p < end && *p == '-', n = sign;
+    while (p + n < end && (isdigit((unsigned char)p[n]) || (p[n] == '.' && w->form != PLOT_UNICODE)))
+        n++;
+    bool cut = p + n < end && p[n] == '.';
+    return n > sign && !cut && w->form != PLOT_ASCII ? n : 0;
+}
+
+/* The name of a unit: µ for its u, signs for words. */
+static void unit_name(writer *w, const char *p, size_t n) {
+    if (w->form == PLOT_ASCII) {
+        put(w, p, n);
+    } else if (n == 3 && !strncmp(p, "deg", 3)) {
+        puts_text(w, "°");
+    } else if (n == 4 && !strncmp(p, "inch", 4)) {
+        upright(w, "in", 2);
+    } else if (n > 1 && *p == 'u') {
+        puts_text(w, "µ");
+        upright(w, p + 1, n - 1);
+    } else {
+        upright(w, p, n);
+    }
+}
+
+static void put_unit(writer *w, const char *p, const char *end) {
+    while (p < end) {
+        size_t n = name_length(p, end), e = *p == '^' ? exponent_length(w, p + 1, end) : 0;
+        if (n) {
+            unit_name(w, p, n);
+        } else if (e) {
+            superscript(w, p + 1, e);
+            n = 1 + e;
+        } else if (*p == '*') {
+            puts_text(w, w->form == PLOT_ASCII ? "*" : "·");
+            n = 1;
+        } else {
+            unsigned code;
+            n = character(p, &code);
+            n = n && n <= (size_t)(end - p) ? n : 1;
+            put(w, p, n);
+        }
+        p += n;
+    }
+}
+
+/* Bytes of a unit such as N/mm^2 that follows a number. */
+static size_t unit_length(const char *p, const char *end) {
+    static const char *const bases[] = {"N",   "lbf", "kgf",  "dyn", "Pa",  "bar", "psi",
+                                        "ksi", "m",   "inch", "J",   "rad", "deg"};
+    size_t total = 0;
+    for (;;) {
+        const char *q = p + total + (total > 0);
+        size_t n = name_length(q, end), known = 0;
+        for (size_t i = 0; i < sizeof bases / sizeof *bases; i++) {
+            size_t b = strlen(bases[i]);
+            if ((n == b || (n == b + 1 && strchr("nuµmckMG", *q))) && !strncmp(q + n - b, bases[i], b))
+                known = n;
+        }
+        if (!known)
+            return total;
+        total = (size_t)(q - p) + n;
+        if (p + total < end && p[total] == '^') {
+            size_t sign = p + total + 1 < end && p[total + 1] == '-';
+            size_t e = number_length(p + total + 1 + sign, end);
+            total += e ? 1 + sign + e : 0;
+        }
+        if (p + total >= end || !strchr("*/", p[total]))
+            return total;
+    }
+}
+
+static void put_operator(writer *w, char c, const char *rest, const char *end) {
+    if (c == '*' && w->form != PLOT_ASCII)
+        puts_text(w, rest < end && isdigit((unsigned char)*rest) ? "·" : "\u2009");
+    else if (c == '-' && w->form != PLOT_ASCII)
+        puts_text(w, "−");
+    else if (c == ' ' && w->math)
+        fputs("\\ ", w->to);
+    else
+        put(w, &c, 1);
+}
+
+static void put_expression(writer *w, const char *p, const char *end) {
+    bool after_number = false;
+    w->math = w->form == PLOT_TEX;
+    if (w->math)
+        putc('$', w->to);
+    while (p < end) {
+        size_t number = number_length(p, end), name = name_length(p, end);
+        size_t unit = after_number && name ? unit_length(p, end) : 0;
+        size_t e = *p == '^' ? exponent_length(w, p + 1, end) : 0, n = 1;
+        if (number) {
+            put(w, p, n = number);
+        } else if (unit) {
+            put_unit(w, p, p + (n = unit));
+        } else if (name && w->form == PLOT_ASCII) {
+            put(w, p, n = name);
+        } else if (name) {
+            put_name(w, p, n = name);
+        } else if (e) {
+            superscript(w, p + 1, e);
+            n = 1 + e;
+        } else if ((unsigned char)*p < 0x80) {
+            put_operator(w, *p, p + 1, end);
+        } else {
+            unsigned code;
+            n = character(p, &code);
+            n = n && n <= (size_t)(end - p) ? n : 1;
+            put(w, p, n);
+        }
+        after_number = number || (after_number && *p == ' ');
+        p += n;
+    }
+    if (w->math)
+        putc('$', w->to);
+    w->math = false;
+}
+
+/* ---- texts -------------------------------------------------------------------------------------- */
+
+char *plot_text(const char *text, plot_form form) {
+    char *made = NULL;
+    size_t room;
+    writer w = {.to = open_memstream(&made, &room), .form = form};
+    if (!w.to)
+        return NULL;
+    /* a bracket at the beginning is an option to some of gnuplot's terminals for TeX */
+    if (form == PLOT_TEX && *text)
+        fputs("\\relax ", w.to);
+    while (*text) {
+        char mark = *text == *PLOT_EXPR || *text == *PLOT_UNIT ? *text : 0;
+        size_t n = strcspn(text + (mark != 0), PLOT_EXPR PLOT_UNIT PLOT_END);
+        text += mark != 0;
+        if (mark == *PLOT_EXPR)
+            put_expression(&w, text, text + n);
+        else if (mark)
+            put_unit(&w, text, text + n);
+        else
+            put(&w, text, n);
+        text += n + (text[n] == *PLOT_END);
+    }
+    bool bad = ferror(w.to) != 0;
+    if (fclose(w.to) || bad) {
+        free(made);
+        return NULL;
+    }
+    return made;
+}
+
+char *plot_label(const char *expression, const char *unit) {
+    bool has = unit && *unit;
+    size_t room = strlen(expression) + (has ? strlen(unit) : 0) + 16;
+    char *label = malloc(room), *end = label;
+    if (!label)
+        return NULL;
+    if (*expression)
+        end += sprintf(end, PLOT_EXPR "%s" PLOT_END "%s", expression, has ? " " : "");
+    *end = 0;
+    if (has)
+        snprintf(end, room - (size_t)(end - label), "[" PLOT_UNIT "%s" PLOT_END "]", unit);
+    return label;
+}

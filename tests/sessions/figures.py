@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures in files and in the terminal: their form, hostile names, and what must not stay behind."""
+import os
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree
+
+SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=38 N\n"
+ENDINGS = ("png", "svg", "pdf", "tex", "html", "gif", "gp")
+
+
+def read(path):
+    with open(path, "rb") as f:
+        return f.read()
+
+
+def folder(tests, name):
+    where = os.path.join(tests.dir, name)
+    os.makedirs(where)
+    return where
+
+
+def clean(tests, name, where, wanted=()):
+    """Nothing but the wanted files there, nothing among the temporary files."""
+    tests.check("%s: files" % name, sorted(os.listdir(where)) == sorted(wanted), str(os.listdir(where)))
+
+
+def texts(svg):
+    return "".join(xml.etree.ElementTree.fromstring(svg).itertext())
+
+
+def forms(tests):
+    where = folder(tests, "forms")
+    done = tests.run("-c", SCENE + "".join("plot loop to a.%s\n" % e for e in ENDINGS), cwd=where)
+    if not tests.check("pictures of every kind", done.returncode == 0, tests.report(done)):
+        return
+    clean(tests, "pictures of every kind", where, ["a." + e for e in ENDINGS])
+    data = {e: read(os.path.join(where, "a." + e)) for e in ENDINGS}
+    tests.check("PNG", data["png"][:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", data["png"][16:24]) == (900, 675))
+    tests.check("GIF", data["gif"][:6] == b"GIF89a" and struct.unpack("<HH", data["gif"][6:10]) == (900, 675))
+    tests.check("PDF", data["pdf"][:5] == b"%PDF-" and b"%%EOF" in data["pdf"][-10:])
+    for kind, text in (("SVG", data["svg"]), ("HTML", data["html"].replace(b"<!DOCTYPE html>", b"")
+                                              .replace(b'<meta charset="utf-8">', b""))):
+        words = texts(text)
+        tests.check("%s: names of the axes" % kind, all(word in words for word in ("δ", "F", "[N]", "[µm]")), words[-500:])
+    tests.check("HTML needs no other file", b"src=" not in data["html"] and b"xlink:href=\"http" not in data["html"])
+    tests.check("TeX: names of the axes", b"$\\delta _{x}$" in data["tex"] and b"$F_{x}$" in data["tex"])
+    if shutil.which("gnuplot"):
+        again = subprocess.run(["gnuplot", "-e", "set terminal dumb", "a.gp"], cwd=where, capture_output=True, text=True)
+        tests.check("a kept script runs", again.returncode == 0 and "+---" in again.stdout, again.stdout + again.stderr)
+    size = tests.run("-c", "set plot 80x24\n" + SCENE + "plot loop to b.png", cwd=where)
+    head = read(os.path.join(where, "b.png"))[16:24] if size.returncode == 0 else b"\0" * 8
+    tests.check("a picture's size is not the terminal's", struct.unpack(">II", head) == (900, 675), tests.report(size))
+    tex(tests, where)
+
+
+def tex(tests, where):
+    if not shutil.which("pdflatex"):
+        return
+    found = subprocess.run(["kpsewhich", "tikz.sty"], capture_output=True)
+    if found.returncode:
+        return
+    with open(os.path.join(where, "paper.tex"), "w", encoding="utf-8") as f:
+        f.write("\\documentclass{article}\\usepackage{tikz}\\usetikzlibrary{plotmarks}\n"
+                "\\begin{document}\\input{a}\\input{a}\\end{document}\n")
+    done = subprocess.run(["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper"], cwd=where,
+                          capture_output=True, text=True, errors="replace", timeout=120)
+    tests.check("TeX takes the figure", done.returncode == 0, done.stdout[-2000:])
+
+
+def names(tests):
+    """Names that a shell or gnuplot would run, also where the directory is deeper than any fixed buffer."""
+    where = folder(tests, "names")
+    wanted = ["|touch pwned #.png", "`touch pwned`.svg", "$(touch pwned).png", "a'b.png", "%s.png", "-x.svg", "é µ.svg"]
+    for name in wanted:
+        done = tests.run("-c", SCENE + 'plot loop to "%s"' % name, cwd=where)
+        tests.check("a picture named " + name, done.returncode == 0, tests.report(done))
+    clean(tests, "hostile names", where, wanted)
+    deep = """
+import os, subprocess, sys
+os.chdir(sys.argv[1])
+for i in range(22):
+    os.mkdir('d' * 200)
+    os.chdir('d' * 200)
+done = subprocess.run([sys.argv[2], '-c', sys.argv[3] + 'plot loop to "|touch pwned #.png"'], capture_output=True)
+print(done.returncode, done.stderr.decode(), sorted(os.listdir('.')))
+for name in os.listdir('.'):
+    os.unlink(name)
+for i in range(22):
+    os.chdir('..')
+    os.rmdir('d' * 200)
+"""
+    done = subprocess.run([sys.executable, "-c", deep, where, tests.fret, SCENE], capture_output=True, text=True,
+                          env=tests.env, timeout=120)
+    tests.check("a hostile name in a deep directory", done.stdout.split("\n")[0] == "0  ['|touch pwned #.png']",
+                done.stdout + done.stderr)
+
+
+def targets(tests):
+    where = folder(tests, "targets")
+    for name in ("real.svg", "old.svg"):
+        with open(os.path.join(where, name), "w", encoding="ascii") as f:
+            f.write("old")
+    os.chmod(os.path.join(where, "old.svg"), 0o640)
+    os.symlink("real.svg", os.path.join(where, "link.svg"))
+    done = tests.run("-c", SCENE + "plot loop to link.svg\nplot loop to old.svg", cwd=where)
+    tests.check("pictures over others", done.returncode == 0, tests.report(done))
+    tests.check("a link stays a link", os.path.islink(os.path.join(where, "link.svg")) and
+                read(os.path.join(where, "real.svg")).startswith(b"<?xml"))
+    tests.check("a mode stays", os.stat(os.path.join(where, "old.svg")).st_mode & 0o777 == 0o640)
+    clean(tests, "pictures over others", where, ["real.svg", "old.svg", "link.svg"])
+    done = tests.run("-c", SCENE + "cycle FA=38 N times 3 steps 400000\nplot loop to big.svg", cwd=where)
+    size = os.path.getsize(os.path.join(where, "big.svg")) if done.returncode == 0 else 0
+    tests.check("a million points are thinned", 1000 < size < 300000, "%d bytes\n%s" % (size, tests.report(done)))
+
+
+def stopped(tests):
+    """gnuplot hangs; a signal ends the program, gnuplot and all files."""
+    where = folder(tests, "stopped")
+    fake = folder(tests, "stopped-bin")
+    with open(os.path.join(fake, "gnuplot"), "w", encoding="ascii") as f:
+        f.write("#!/bin/sh\nsleep 300 & echo $$ >'%s/pid'; wait\n" % fake)
+    os.chmod(os.path.join(fake, "gnuplot"), 0o755)
+    pid_file = os.path.join(fake, "pid")
+    for sent, status in ((signal.SIGINT, 130), (signal.SIGTERM, -signal.SIGTERM), (signal.SIGHUP, -signal.SIGHUP),
+                         (signal.SIGQUIT, -signal.SIGQUIT)):
+        tmp = os.path.join(fake, "tmp-%d" % sent)
+        os.mkdir(tmp)
+        job = subprocess.Popen([tests.fret, "-c", SCENE + "plot loop to x.png"], cwd=where, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, start_new_session=True,
+                               env={**tests.env, "PATH": fake + ":" + tests.env["PATH"], "TMPDIR": tmp})
+        for _ in range(3000):
+            if os.path.exists(pid_file) and os.path.getsize(pid_file):
+                break
+            time.sleep(0.01)
+        group = int(read(pid_file))
+        os.unlink(pid_file)
+        job.send_signal(sent)
+        out, err = job.communicate(timeout=60)
+        name = "stopped by %s" % sent.name
+        tests.check(name, job.returncode == status, "%d\n%s" % (job.returncode, (out + err).decode()))
+        clean(tests, name, where)
+        clean(tests, name + ": temporary", tmp)
+        for _ in range(1000):  # the killed are gone when the kernel gets to them
+            if not alive(group):
+                break
+            time.sleep(0.01)
+        tests.check(name + ": gnuplot is gone", not alive(group))
+
+
+def alive(group):
+    for name in os.listdir("/proc"):
+        if name.isdigit():
+            try:
+                with open("/proc/%s/stat" % name, encoding="ascii", errors="replace") as f:
+                    fields = f.read().rpartition(")")[2].split()
+            except OSError:
+                continue
+            if fields[0] != "Z" and int(fields[2]) == group:
+                return True
+    return False
+
+
+def messages(tests):
+    """What gnuplot says is text to be shown, not to be obeyed."""
+    fake = folder(tests, "messages-bin")
+    with open(os.path.join(fake, "gnuplot"), "w", encoding="ascii") as f:
+        f.write("#!/bin/sh\nprintf 'line 3: \\033[31mred\\007 \\342\\200\\256back\\n' >&2; exit 1\n")
+    os.chmod(os.path.join(fake, "gnuplot"), 0o755)
+    done = tests.run("-c", SCENE + "plot loop", env={"PATH": fake + ":" + tests.env["PATH"]})
+    tests.check("gnuplot's message", done.returncode == 1 and "gnuplot failed: ?[31mred? ?back" in done.stderr and
+                not re.search("[\033\007\u202e]", done.stderr), tests.report(done))
+
+
+def run(tests):
+    tests.each([lambda one=one: one(tests) for one in (forms, names, targets, stopped, messages)])

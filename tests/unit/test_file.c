@@ -1,0 +1,428 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files out and in: modes, links, pipes, limits, faults. */
+#include "calc/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "unit.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+
+enum { ERROR = 400 };
+
+static char error[ERROR];
+
+static void put(const char *name, const char *text) {
+    FILE *f = fopen(name, "w");
+    if (CHECK(f != NULL)) {
+        fputs(text, f);
+        fclose(f);
+    }
+}
+
+/* Is this the file's whole text? */
+static bool holds(const char *name, const char *text) {
+    char got[256] = "";
+    FILE *f = fopen(name, "r");
+    if (!f)
+        return false;
+    size_t n = fread(got, 1, sizeof got - 1, f);
+    fclose(f);
+    return n == strlen(text) && memcmp(got, text, n) == 0;
+}
+
+static mode_t mode_of(const char *name) {
+    struct stat info;
+    return stat(name, &info) ? 0 : info.st_mode & 07777;
+}
+
+/* Entries of the working directory. */
+static int entries(void) {
+    FILE *list = popen("ls -A | wc -l", "r");
+    int n = -1;
+    if (!list || fscanf(list, "%d", &n) != 1)
+        n = -1;
+    if (list)
+        pclose(list);
+    return n;
+}
+
+static bool write_text(const char *name, const char *text, bool keep, file_report *report) {
+    file_out out;
+    if (!file_out_open(&out, name, NULL, error, sizeof error))
+        return false;
+    fputs(text, out.to);
+    return file_out_close(&out, keep, report, error, sizeof error);
+}
+
+/* Runs a check in a process of its own. */
+static void apart(bool (*check)(void)) {
+    fflush(stdout);
+    pid_t child = fork();
+    if (child == 0)
+        _exit(check() ? 0 : 1);
+    int status = -1;
+    CHECK(child > 0 && waitpid(child, &status, 0) == child && status == 0);
+}
+
+static void replaces(void) {
+    file_report report;
+    umask(022);
+    CHECK(write_text("new", "one\n", true, &report));
+    CHECK(!report.overwrote && !report.direct && report.size == 4 && mode_of("new") == 0644);
+    CHECK(chmod("new", 0640) == 0);
+    CHECK(write_text("new", "second\n", true, &report));
+    CHECK(report.overwrote && report.size == 7 && mode_of("new") == 0640 && holds("new", "second\n"));
+    CHECK(write_text("new", "third\n", false, &report) && holds("new", "second\n"));
+    CHECK(write_text("none", "third\n", false, NULL) && access("none", F_OK) != 0);
+    CHECK(entries() == 1);
+    /* two writers at once: each is whole, the later one stays */
+    file_out a, b;
+    CHECK(file_out_open(&a, "new", NULL, error, ERROR) && file_out_open(&b, "new", NULL, error, ERROR));
+    fputs("aaaa", a.to), fputs("b", b.to);
+    CHECK(file_out_close(&b, true, NULL, error, ERROR) && file_out_close(&a, true, NULL, error, ERROR));
+    CHECK(holds("new", "aaaa") && entries() == 1);
+    unlink("new");
+}
+
+static void links(void) {
+    struct stat info;
+    CHECK(mkdir("sub", 0755) == 0);
+    put("sub/target", "old");
+    CHECK(symlink("sub/hop", "link") == 0 && symlink("target", "sub/hop") == 0);
+    file_report report;
+    CHECK(write_text("link", "new", true, &report) && report.overwrote && holds("sub/target", "new"));
+    CHECK(lstat("link", &info) == 0 && S_ISLNK(info.st_mode));
+    unlink("sub/target"); /* a link that leads nowhere */
+    CHECK(write_text("link", "again", true, &report) && !report.overwrote && holds("sub/target", "again"));
+    CHECK(symlink("round", "round") == 0 && !write_text("round", "x", true, NULL));
+    CHECK(strstr(error, "cannot write round: ") != NULL);
+    unlink("round"), unlink("link"), unlink("sub/hop"), unlink("sub/target"), rmdir("sub");
+    CHECK(entries() == 0);
+}
+
+static bool read_only(void) {
+    if (geteuid() == 0 && (chmod(".", 0777) || setgid(65534) || setuid(65534)))
+        return false;
+    return !write_text("kept", "new", true, NULL) && strstr(error, "cannot write kept: Permission denied") &&
+           holds("kept", "old") && entries() == 1;
+}
+
+static void refused(void) {
+    put("kept", "old");
+    CHECK(chmod("kept", 0444) == 0);
+    apart(read_only);
+    unlink("kept");
+    static const char *const names[] = {".", "", "new/", "no/such/place", "\x01/x"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        CHECK(!write_text(names[i], "x", true, NULL) && strstr(error, "cannot write "));
+    char long_name[400];
+    memset(long_name, 'x', 300);
+    long_name[300] = 0;
+    CHECK(!write_text(long_name, "x", true, NULL) && strstr(error, "too long"));
+    memset(long_name, 'y', 255);
+    long_name[255] = 0;
+    CHECK(write_text(long_name, "x", true, NULL) && holds(long_name, "x"));
+    unlink(long_name);
+}
+
+static void pipes(void) {
+    CHECK(mkfifo("pipe", 0600) == 0);
+    static volatile sig_atomic_t stop = 1;
+    file_out out;
+    CHECK(!file_out_open(&out, "pipe", &stop, error, ERROR)); /* nobody reads */
+    fflush(stdout);
+    pid_t child = fork();
+    if (child == 0) {
+        file_report report;
+        _exit(write_text("pipe", "through\n", true, &report) && report.direct && !report.overwrote ? 0 : 1);
+    }
+    file_in in;
+    int status = -1;
+    CHECK(file_in_open(&in, "pipe", NULL, error, ERROR));
+    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "through"));
+    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_END);
+    file_in_close(&in);
+    CHECK(waitpid(child, &status, 0) == child && status == 0);
+    stop = 1; /* nobody writes */
+    CHECK(file_in_open(&in, "pipe", &stop, error, ERROR) && file_in_line(&in, error, ERROR) == FILE_GOT_STOP);
+    file_in_close(&in);
+    unlink("pipe");
+}
+
+static bool to_open_file(void) {
+    int fd = open("log", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (fd < 0 || dup2(fd, 1) != 1)
+        return false;
+    printf("before\n");
+    file_report report;
+    bool ok = write_text("/dev/stdout", "direct\n", true, &report) && report.direct;
+    printf("after\n");
+    fflush(stdout);
+    return ok && holds("log", "before\ndirect\nafter\n");
+}
+
+static bool reader_gone(void) {
+    int ends[2];
+    char name[40];
+    signal(SIGPIPE, SIG_IGN);
+    if (pipe(ends) || close(ends[0]))
+        return false;
+    snprintf(name, sizeof name, "/dev/fd/%d", ends[1]);
+    return !write_text(name, "x", true, NULL) && strstr(error, strerror(EPIPE));
+}
+
+static bool file_limit(void) {
+    signal(SIGXFSZ, SIG_IGN);
+    file_out out;
+    if (setrlimit(RLIMIT_FSIZE, &(struct rlimit){10000, 10000}) ||
+        !file_out_open(&out, "big", NULL, error, ERROR))
+        return false;
+    for (int i = 0; i < 100000; i++)
+        putc('x', out.to);
+    fputs("the end", out.to);
+    return !file_out_close(&out, true, NULL, error, ERROR) && strstr(error, strerror(EFBIG)) &&
+           access("big", F_OK) != 0 && entries() == 0;
+}
+
+static void full(void) {
+    CHECK(!write_text("/dev/full", "x", true, NULL));
+    CHECK(!strcmp(error, "cannot write /dev/full: No space left on device"));
+    file_out out; /* told even when a later flush has nothing left to write */
+    CHECK(file_out_open(&out, "/dev/full", NULL, error, ERROR));
+    fputs("x", out.to);
+    fflush(out.to);
+    *error = 0;
+    CHECK(!file_out_close(&out, true, NULL, error, ERROR) && strstr(error, "No space left"));
+    apart(to_open_file);
+    unlink("log");
+    apart(reader_gone);
+    apart(file_limit);
+    CHECK(entries() == 0);
+}
+
+/* A working directory whose absolute name no call takes. */
+static bool deep(void) {
+    char name[201];
+    memset(name, 'd', 200);
+    name[200] = 0;
+    for (int i = 0; i < 25; i++)
+        if (mkdir(name, 0755) || chdir(name))
+            return false;
+    file_report report;
+    file_in in;
+    bool ok = write_text("f", "deep\n", true, &report) && !report.overwrote &&
+              write_text("f", "deeper\n", true, &report) && report.overwrote && symlink("f", "l") == 0 &&
+              write_text("l", "deepest\n", true, &report) && holds("f", "deepest\n") &&
+              file_in_open(&in, "f", NULL, error, ERROR);
+    ok = ok && file_in_line(&in, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "deepest");
+    if (ok)
+        file_in_close(&in);
+    unlink("f"), unlink("l");
+    for (int i = 0; i < 25; i++)
+        if (chdir("..") || rmdir(name))
+            return false;
+    return ok;
+}
+
+static void home(void) {
+    char here[2000];
+    CHECK(getcwd(here, sizeof here) != NULL && setenv("HOME", here, 1) == 0);
+    CHECK(write_text("~/at-home", "x", true, NULL) && holds("at-home", "x"));
+    file_in in;
+    CHECK(file_in_open(&in, "~/at-home", NULL, error, ERROR));
+    file_in_close(&in);
+    unlink("at-home");
+    static const char *const plain[] = {"a~", "~user", "./~", "a/~/b"};
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) {
+        char *name = file_expand(plain[i]);
+        CHECK(name && !strcmp(name, plain[i]));
+        free(name);
+    }
+}
+
+static void sizes(void) {
+    static const struct {
+        unsigned long long bytes;
+        const char *text;
+    } rows[] = {{0, "0 B"},          {999, "999 B"},
+                {1000, "1.0 kB"},    {9949, "9.9 kB"},
+                {9951, "10 kB"},     {12345, "12 kB"},
+                {999499, "999 kB"},  {999500, "1.0 MB"},
+                {3400000, "3.4 MB"}, {18446744073709551615u, "18 EB"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[16];
+        file_size_text(rows[i].bytes, text);
+        if (!CHECK(!strcmp(text, rows[i].text)))
+            printf("%llu: %s\n", rows[i].bytes, text);
+    }
+}
+
+/* ---- input -------------------------------------------------------------------------------------- */
+
+static size_t mark(const char *line, size_t n) {
+    return n && line[n - 1] == '\\' ? n - 1 : n;
+}
+
+static void lines(void) {
+    FILE *f = fopen("in", "w");
+    fwrite("a\n\nb\0c\nlast", 1, 11, f);
+    fclose(f);
+    static const struct {
+        size_t length;
+        const char *bytes;
+    } want[] = {{1, "a"}, {0, ""}, {3, "b\0c"}, {4, "last"}};
+    file_in in;
+    CHECK(file_in_open(&in, "in", NULL, error, ERROR));
+    for (size_t i = 0; i < 4; i++) {
+        CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_LINE && in.length == want[i].length);
+        CHECK(!memcmp(in.line, want[i].bytes, want[i].length + 1) && in.number == i + 1);
+    }
+    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_END);
+    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_END);
+    file_in_close(&in);
+    put("in", "");
+    CHECK(file_in_open(&in, "in", NULL, error, ERROR) && file_in_line(&in, error, ERROR) == FILE_GOT_END);
+    file_in_close(&in);
+
+    put("in", "one\nx = \\\n1 + \\\n2\nend \\");
+    CHECK(file_in_open(&in, "in", NULL, error, ERROR));
+    CHECK(file_in_logical(&in, mark, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "one"));
+    CHECK(file_in_logical(&in, mark, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "x =  \n1 +  \n2"));
+    CHECK(in.number == 2 && in.read == 4);
+    CHECK(file_in_logical(&in, mark, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "end \\"));
+    CHECK(in.number == 5 && file_in_logical(&in, mark, error, ERROR) == FILE_GOT_END);
+    file_in_close(&in);
+    CHECK(!file_in_open(&in, ".", NULL, error, ERROR) && !strcmp(error, "cannot read .: Is a directory"));
+    CHECK(!file_in_open(&in, "none", NULL, error, ERROR) &&
+          !strcmp(error, "cannot read none: No such file or directory"));
+    unlink("in");
+}
+
+/* Lines across blocks, and one byte around the limit. */
+static void limits(void) {
+    FILE *f = fopen("in", "w");
+    for (int i = 0; i < FILE_LINE_LIMIT; i++)
+        putc('a' + i % 23, f);
+    fputs("\nb\n", f);
+    fclose(f);
+    file_in in;
+    CHECK(file_in_open(&in, "in", NULL, error, ERROR));
+    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_LINE && in.length == FILE_LINE_LIMIT);
+    bool same = true;
+    for (size_t i = 0; i < in.length; i++)
+        same &= in.line[i] == (char)('a' + i % 23);
+    CHECK(same && file_in_line(&in, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "b"));
+    file_in_close(&in);
+    unlink("in");
+    CHECK(file_in_open(&in, "/dev/zero", NULL, error, ERROR));
+    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_ERROR);
+    CHECK(!strcmp(error, "/dev/zero:1: the line is longer than 16 MB"));
+    file_in_close(&in);
+    /* continued lines count together */
+    f = fopen("in", "w");
+    for (int i = 0; i < 3; i++)
+        fprintf(f, "%*s\\\n", FILE_LINE_LIMIT * 2 / 5, "x");
+    fclose(f);
+    CHECK(file_in_open(&in, "in", NULL, error, ERROR));
+    CHECK(file_in_logical(&in, mark, error, ERROR) == FILE_GOT_ERROR && strstr(error, "longer than 16 MB"));
+    file_in_close(&in);
+    unlink("in");
+    static volatile sig_atomic_t stop = 1;
+    CHECK(file_in_open(&in, "/dev/zero", &stop, error, ERROR));
+    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_STOP);
+    file_in_close(&in);
+}
+
+#ifndef SANITIZED /* the sanitizer needs all the addresses there are */
+static bool out_of_memory(void) {
+    file_in in;
+    return file_in_open(&in, "/dev/zero", NULL, error, ERROR) &&
+           setrlimit(RLIMIT_AS, &(struct rlimit){8 << 20, 8 << 20}) == 0 &&
+           file_in_line(&in, error, ERROR) == FILE_GOT_ERROR && !strcmp(error, "/dev/zero:1: out of memory");
+}
+#endif
+
+static void faults(void) {
+#ifndef SANITIZED
+    apart(out_of_memory);
+#endif
+    int fd = open("/proc/self/mem", O_RDONLY); /* its first page cannot be read */
+    file_in in;
+    if (fd >= 0) {
+        CHECK(file_in_take(&in, fd, "mem", NULL, error, ERROR) &&
+              file_in_line(&in, error, ERROR) == FILE_GOT_ERROR);
+        CHECK(!strcmp(error, "cannot read mem: Input/output error"));
+        file_in_close(&in);
+        close(fd);
+    }
+}
+
+/* ---- emergency ---------------------------------------------------------------------------------- */
+
+static bool emergency(void) {
+    file_out out;
+    int group, dir, file;
+    pid_t sleeper = fork();
+    if (sleeper == 0) {
+        for (;;)
+            pause();
+    }
+    setpgid(sleeper, sleeper);
+    mkdir("folder", 0700);
+    put("folder/inside", "x");
+    put("given-up", "x");
+    file = file_guard_file("given-up");
+    dir = file_guard_dir("folder");
+    group = file_guard_group(sleeper);
+    if (!file_out_open(&out, "half", NULL, error, ERROR) || file < 0 || dir < 0 || group < 0 ||
+        file_guard_file("folder/inside") < 0)
+        return false;
+    file_unguard(file);
+    file_emergency();
+    int status = 0;
+    return waitpid(sleeper, &status, 0) == sleeper && WIFSIGNALED(status) && access("folder", F_OK) != 0 &&
+           access("given-up", F_OK) == 0 && entries() == 1 && unlink("given-up") == 0;
+}
+
+static bool too_many(void) {
+    int n = 0;
+    file_out out;
+    while (file_guard_file("x") >= 0)
+        n++;
+    return n >= 32 && !file_out_open(&out, "one-more", NULL, error, ERROR) && entries() == 0;
+}
+
+int main(int argc, char **argv) {
+    unit_start("test_file", argc, argv);
+    char dir[] = "/tmp/fret-unit-XXXXXX";
+    if (!CHECK(mkdtemp(dir) && !chdir(dir)))
+        return unit_finish();
+    replaces();
+    links();
+    refused();
+    pipes();
+    full();
+    apart(deep);
+    home();
+    sizes();
+    lines();
+    limits();
+    faults();
+    apart(emergency);
+    apart(too_many);
+    CHECK(entries() == 0);
+    CHECK(!chdir("/") && !rmdir(dir));
+    return unit_finish();
+}

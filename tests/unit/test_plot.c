@@ -1,0 +1,508 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Figures: the forms of texts, what reaches gnuplot, thinning, limits, pages, pictures. */
+#include "plot/plot.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "plot/script.h"
+#include "unit.h"
+
+static char error[400];
+
+/* ---- texts -------------------------------------------------------------------------------------- */
+
+static void check_text(const char *text, plot_form form, const char *want, int line) {
+    char *got = plot_text(text, form);
+    if (unit_count(got && !strcmp(got, want), __FILE__, line))
+        printf("form %d of '%s': '%s', expected '%s'\n", (int)form, text, got ? got : "(null)", want);
+    free(got);
+}
+#define TEXT(text, form, want) check_text(text, form, want, __LINE__)
+
+/* The four forms of a label. */
+static void label(const char *expression, const char *unit_text, const char *const want[4], int line) {
+    char *text = plot_label(expression, unit_text);
+    for (int form = PLOT_ASCII; CHECK(text) && form <= PLOT_TEX; form++)
+        if (want[form])
+            check_text(text, (plot_form)form, want[form], line);
+    free(text);
+}
+#define LABEL(expression, unit_text, ...)                                                                    \
+    label(expression, unit_text, (const char *const[4]){__VA_ARGS__}, __LINE__)
+
+static void names(void) {
+    LABEL("Fx/(mu*FN)", NULL, "Fx/(mu*FN)", "Fx/(μ FN)",
+          "{/:Italic F}_{{/:Italic x}}/({/:Italic μ}\u2009{/:Italic F}_{N})",
+          "\\relax $F_{x}/(\\mu \\,F_{\\mathrm{N}})$");
+    LABEL("dx", "um", "dx [um]", "δx [µm]", "{/:Italic δ}_{{/:Italic x}} [µm]",
+          "\\relax $\\delta _{x}$ [$\\mu$m]");
+    LABEL("dW", "uJ", "dW [uJ]", "ΔW [µJ]", NULL, NULL);
+    LABEL("p(0.1 mm)", "N/mm^2", "p(0.1 mm) [N/mm^2]", "p(0.1 mm) [N/mm²]", NULL, NULL);
+    LABEL("k = -0.5", "", "k = -0.5", "k = −0.5", "{/:Italic k} = −0.5", NULL);
+    LABEL("FN = 20 N, c0 = 1 um", "", "FN = 20 N, c0 = 1 um", "FN = 20 N, c0 = 1 µm", NULL, NULL);
+    LABEL("x", "MPa*m^0.5", "x [MPa*m^0.5]", "x [MPa·m^0.5]", "{/:Italic x} [MPa·m^{0.5}]", NULL);
+    LABEL("2*3*a^-2", "", "2*3*a^-2", "2·3 a⁻²", NULL, "\\relax $2\\cdot 3\\,a^{-2}$");
+    LABEL("phase", "deg", "phase [deg]", "φ [°]", NULL, NULL);
+    LABEL("force_max*x1", "", "force_max*x1", "force_max x1", "force\\_max\u2009{/:Italic x}_{1}", NULL);
+    LABEL("", "um", "[um]", "[µm]", NULL, NULL);
+    LABEL("dxmaximal + dWx + EE0", "", "dxmaximal + dWx + EE0", "dxmaximal + dWx + EE0", NULL, NULL);
+}
+
+static void plain(void) {
+    TEXT("a_b^c {d} @e &f ~g \\h", PLOT_ENHANCED, "a\\_b\\^c \\{d\\} \\@e \\&f \\~g \\\\h");
+    TEXT("a_b^c {d} #1 $x% &~\\", PLOT_TEX,
+         "\\relax a\\_b\\textasciicircum{}c \\{d\\} \\#1 \\$x\\% \\&\\textasciitilde{}\\textbackslash{}");
+    TEXT("[l]x", PLOT_TEX, "\\relax [l]x");
+    TEXT("dx um mu", PLOT_UNICODE, "dx um mu"); /* words stay words */
+    TEXT("µ δ é", PLOT_ASCII, "u d ?");
+    /* controls, escapes, bidirectional and invisible characters, and what is no UTF-8 */
+    TEXT("a\x1b[31m\nb\x7f\u202e\u200b\xc2\x85", PLOT_UNICODE, "a?[31m?b????");
+    TEXT("\xff\xc0\xaf\xed\xa0\x80\xe2\x82", PLOT_ENHANCED, "????????");
+    TEXT("\xf0\x9f\x98\x80", PLOT_UNICODE, "\xf0\x9f\x98\x80");
+    TEXT(PLOT_END PLOT_END "a" PLOT_EXPR, PLOT_UNICODE, "a");
+    TEXT("", PLOT_TEX, "");
+}
+
+/* Whatever the bytes: no control character, quote or newline leaves the quoting. */
+static void quoting(void) {
+    unsigned long long random = 7;
+    for (int n = 0; n < 2000; n++) {
+        char raw[40], *script = NULL;
+        size_t room;
+        for (size_t i = 0; i < sizeof raw - 1; i++) {
+            static const char nasty[] = "'\"`\\@$#\n%{}()|;_^&~\001\002\003";
+            double u = unit_random(&random, 0, 1);
+            raw[i] = u < 0.6 ? nasty[(size_t)unit_random(&random, 0, sizeof nasty - 1)]
+                             : (char)unit_random(&random, 1, 256);
+        }
+        raw[sizeof raw - 1] = 0;
+        for (int form = PLOT_ASCII; form <= PLOT_TEX; form++) {
+            char *text = plot_text(raw, (plot_form)form);
+            FILE *to = open_memstream(&script, &room);
+            plot_quote(to, text);
+            fclose(to);
+            bool ok = room >= 2 && script[0] == '"' && script[room - 1] == '"';
+            for (size_t i = 1; i + 1 < room; i++) {
+                ok &= !strchr("\"`'@$#", script[i]) && (unsigned char)script[i] >= 0x20;
+                if (script[i] == '\\') /* an octal code */
+                    ok &= i + 3 < room - 1 && strspn(script + i + 1, "01234567") >= 3;
+            }
+            CHECK(ok);
+            free(text);
+            free(script);
+        }
+    }
+}
+
+/* ---- figures ------------------------------------------------------------------------------------ */
+
+static plot_figure figure(plot_role role, char *title) {
+    plot_figure f;
+    plot_figure_init(&f);
+    plot_panel *p = plot_panel_add(&f, error, sizeof error);
+    CHECK(p && plot_series_add(p, role, title, error, sizeof error));
+    return f;
+}
+
+static char *script_of(const plot_figure *f, const char *ending) {
+    char *text = NULL;
+    size_t room;
+    FILE *to = open_memstream(&text, &room);
+    CHECK(plot_script(f, ending, 0, 0, to));
+    fclose(to);
+    return text;
+}
+
+static bool has(const char *text, const char *part) {
+    return strstr(text, part) != NULL;
+}
+
+static void scripts(void) {
+    plot_figure f = figure(PLOT_CURVE, strdup("'; system('touch pwned'); # \""));
+    plot_panel *p = f.panel[0];
+    plot_series *s = p->series[0];
+    p->title = strdup("''''; system(\"touch pwned\") `touch pwned`\nset output 'x'\n");
+    p->xlabel = plot_label("`touch pwned`", "'`\"");
+    plot_point(s, 0, 1);
+    plot_point(s, 1, 2);
+    plot_point(s, 2, NAN);
+    plot_point(s, 3, INFINITY);
+    plot_point(s, 4, 5);
+    static const char *const endings[] = {".png", ".svg", ".pdf", ".tex", ".html", ".gif", ".gp"};
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        char *text = script_of(&f, endings[i]);
+        CHECK(!has(text, "system(\"") && !has(text, "system('") && !has(text, "`") &&
+              !has(text, "\nset output"));
+        CHECK(has(text, "\n0 1\n1 2\n\n4 5\nEND\n")); /* a gap ends the line once */
+        CHECK(has(text, "set terminal") == (i < 6));
+        free(text);
+    }
+    CHECK(!plot_script(&f, ".jpg", 0, 0, stdout));
+    plot_figure_free(&f);
+}
+
+/* Curves are told apart without colour. */
+static void styles(void) {
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_panel *p = f.panel[0];
+    for (int i = 1; i < 12; i++)
+        plot_series_add(p, PLOT_CURVE, NULL, error, sizeof error);
+    for (size_t i = 0; i < p->count; i++)
+        for (int j = 0; j < 3; j++)
+            plot_point(p->series[i], j, j);
+    char *text = script_of(&f, ".gp");
+    const char *look[12], *at = text;
+    size_t length[12];
+    for (size_t i = 0; i < 12; i++) {
+        at = strstr(at, " with ");
+        if (!CHECK(at != NULL))
+            break;
+        at += 6;
+        const char *dash = strstr(at, "dt "); /* dashes and marks */
+        look[i] = dash;
+        length[i] = strcspn(dash, "\n");
+        for (size_t j = 0; j < i; j++)
+            CHECK(length[i] != length[j] || strncmp(look[i], look[j], length[i]) != 0);
+    }
+    free(text);
+    for (size_t i = p->count; i < PLOT_CURVES; i++)
+        CHECK(plot_series_add(p, PLOT_CURVE, NULL, error, sizeof error));
+    CHECK(!plot_series_add(p, PLOT_CURVE, strdup("x"), error, sizeof error) && has(error, "more than 64"));
+    for (size_t i = 1; i < PLOT_PANELS; i++)
+        CHECK(plot_panel_add(&f, error, sizeof error));
+    CHECK(!plot_panel_add(&f, error, sizeof error) && has(error, "more than 6"));
+    plot_figure_free(&f);
+}
+
+/* ---- thinning ----------------------------------------------------------------------------------- */
+
+static void extremes(const plot_series *s, double of[4]) {
+    of[0] = of[2] = INFINITY;
+    of[1] = of[3] = -INFINITY;
+    for (size_t i = 0; i < s->count; i++)
+        if (isfinite(s->x[i]) && isfinite(s->y[i])) {
+            of[0] = fmin(of[0], s->x[i]), of[1] = fmax(of[1], s->x[i]);
+            of[2] = fmin(of[2], s->y[i]), of[3] = fmax(of[3], s->y[i]);
+        }
+}
+
+static void thins(void) {
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_series *s = f.panel[0]->series[0];
+    double before[4], after[4];
+    for (int i = 0; i < 100000; i++) /* a zigzag with one spike, one gap */
+        plot_point(s, i, i == 33333 ? 7.0 : i == 77777 ? -9 : i == 50001 ? NAN : (double)(i % 2));
+    extremes(s, before);
+    plot_thin(s, 5000);
+    extremes(s, after);
+    CHECK(s->count <= 7500 && !memcmp(before, after, sizeof before));
+    bool gap = false, rising = true;
+    for (size_t i = 0; i < s->count; i++) {
+        gap |= isnan(s->y[i]);
+        rising &= i == 0 || s->x[i] > s->x[i - 1];
+    }
+    CHECK(gap && rising && s->x[0] == 0 && s->x[s->count - 1] == 99999);
+    size_t count = s->count;
+    plot_thin(s, 10000); /* few enough already */
+    CHECK(s->count == count);
+    plot_figure_free(&f);
+}
+
+/* A series without end: bounded, its extremes kept, spread evenly. */
+static void bounded(void) {
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_series *s = f.panel[0]->series[0];
+    enum { N = 5000011 };
+    bool ok = true;
+    for (int i = 0; i < N && ok; i++)
+        ok = plot_point(s, i, i == 1234567 ? 99 : i == 4000000 ? NAN : i == N - 2 ? -99 : sin(1e-5 * i));
+    double of[4];
+    extremes(s, of);
+    CHECK(ok && s->count <= PLOT_KEPT && s->room == PLOT_KEPT && s->count > PLOT_KEPT / 4);
+    CHECK(of[0] == 0 && of[1] == N - 1 && of[2] == -99 && of[3] == 99);
+    double widest = 0;
+    bool rising = true, gap = false;
+    for (size_t i = 1; i < s->count; i++) {
+        widest = fmax(widest, s->x[i] - s->x[i - 1]);
+        rising &= s->x[i] >= s->x[i - 1];
+        gap |= isnan(s->y[i]);
+    }
+    CHECK(rising && gap && widest < 1000);
+    plot_figure_free(&f);
+}
+
+static void bands(void) {
+    plot_figure f = figure(PLOT_BAND, NULL);
+    plot_series *s = f.panel[0]->series[0];
+    for (int i = 0; i < 400000; i++)
+        plot_band(s, i, 1, i == 123456 ? 50 : 2);
+    plot_thin(s, 100);
+    double most = 0;
+    for (size_t i = 0; i < s->count; i++)
+        most = fmax(most, s->y2[i]);
+    CHECK(most == 50 && s->count < 250);
+    plot_figure_free(&f);
+}
+
+/* ---- axes --------------------------------------------------------------------------------------- */
+
+static void axes(void) {
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_panel *p = f.panel[0];
+    plot_axis x, y;
+    plot_extents e = plot_extent_of(p);
+    CHECK(!plot_axes(p, &e, true, &x, &y, error, sizeof error) && has(error, "nothing to plot"));
+    plot_point(p->series[0], 1, 3);
+    plot_point(p->series[0], 2, 3 * (1 + 1e-14));
+    e = plot_extent_of(p);
+    CHECK(plot_axes(p, &e, true, &x, &y, error, sizeof error));
+    CHECK(x.lo == 1 && x.hi == 2);   /* a graph fills its frame */
+    CHECK(y.lo < 2.8 && y.hi > 3.2); /* one value */
+    plot_point(p->series[0], 1.5, -1);
+    e = plot_extent_of(p);
+    CHECK(plot_axes(p, &e, true, &x, &y, error, sizeof error) && x.lo < 1 && x.hi > 2 && y.lo < -1 &&
+          y.hi > 3);
+    p->ylo = 2;
+    p->yhi = 1;
+    CHECK(plot_axes(p, &e, true, &x, &y, error, sizeof error) && y.flip && y.lo == 1 && y.hi == 2);
+    p->yhi = 2;
+    CHECK(!plot_axes(p, &e, true, &x, &y, error, sizeof error) && has(error, "limits"));
+    p->ylo = 0;
+    p->logy = true;
+    CHECK(!plot_axes(p, &e, true, &x, &y, error, sizeof error) && has(error, "above 0"));
+    p->ylo = p->yhi = NAN;
+    e = plot_extent_of(p);
+    CHECK(plot_axes(p, &e, true, &x, &y, error, sizeof error) && y.lo > 0);
+    plot_figure_free(&f);
+
+    static const double steps[][2] = {{0.9, 1}, {1, 1},        {1.1, 2},    {3, 5},
+                                      {6, 10},  {0.011, 0.02}, {1e-7, 1e-7}};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        CHECK_REL(plot_step(steps[i][0]), steps[i][1], 1e-12L);
+}
+
+static void levels(void) {
+    plot_figure f;
+    plot_figure_init(&f);
+    plot_panel *p = plot_panel_add(&f, error, sizeof error);
+    CHECK(!plot_map_make(p, 1, 5, error, sizeof error) && !plot_map_make(p, 5, 501, error, sizeof error));
+    CHECK(plot_map_make(p, 10, 10, error, sizeof error));
+    double level[9];
+    CHECK(plot_levels(&p->map, level, 9) == 0); /* no values */
+    for (int i = 0; i < 100; i++)
+        p->map.z[i] = i;
+    size_t n = plot_levels(&p->map, level, 9);
+    CHECK(n == 4 && level[0] == 20 && level[3] == 80);
+    for (int i = 0; i < 100; i++)
+        p->map.z[i] = pow(10, i / 20.0);
+    n = plot_levels(&p->map, level, 9);
+    CHECK(n >= 4 && n <= 9);
+    for (size_t i = 1; i < n; i++)
+        CHECK(level[i] > level[i - 1] && level[i] < p->map.z[99]);
+    plot_figure_free(&f);
+}
+
+/* ---- targets ------------------------------------------------------------------------------------ */
+
+static bool any_left(const char *dir) {
+    char command[300];
+    snprintf(command, sizeof command, "test -n \"$(ls -A '%s')\"", dir);
+    return system(command) == 0;
+}
+
+static char *text_of(const plot_figure *f, plot_target target) {
+    char *text = NULL;
+    size_t room;
+    target.out = open_memstream(&text, &room);
+    target.terminal = PLOT_DUMB;
+    bool ok = plot_draw(f, &target, NULL, error, sizeof error);
+    fclose(target.out);
+    if (!CHECK(ok))
+        printf("%s\n", error);
+    return text;
+}
+
+static void pages(void) {
+    plot_figure f = figure(PLOT_CURVE, strdup("one"));
+    plot_panel *p = f.panel[0];
+    p->xlabel = plot_label("dx", "um");
+    p->ylabel = plot_label("Fx", "N");
+    plot_series_add(p, PLOT_CURVE, strdup("two"), error, sizeof error);
+    for (int i = 0; i <= 100; i++) {
+        plot_point(p->series[0], i - 50, sin(0.1 * i));
+        plot_point(p->series[1], i - 50, i > 20 && i < 40 ? NAN : cos(0.1 * i));
+    }
+    char *text = text_of(&f, (plot_target){.columns = 60, .rows = 20});
+    CHECK(has(text, "Fx [N]") && has(text, "dx [um]") && has(text, "* one") && has(text, "o two"));
+    size_t lines = 0, widest = 0;
+    int last = -1, step = 0, tics = 0;
+    for (char *line = text; *line; line += strcspn(line, "\n") + 1, lines++) {
+        size_t n = strcspn(line, "\n");
+        widest = n > widest ? n : widest;
+        char *end;
+        strtod(line, &end);
+        end += strspn(end, " ");
+        if (line[4] >= '0' && line[4] <= '9' && strchr("+|*o", *end)) { /* tics along y: evenly */
+            int now = (int)lines - last;
+            CHECK(tics < 2 || now == step);
+            step = now;
+            last = (int)lines;
+            tics++;
+        }
+    }
+    CHECK(lines <= 20 && lines >= 16 && widest <= 60 && tics >= 4);
+    free(text);
+    text = text_of(&f, (plot_target){.columns = 60, .rows = 20, .unicode = true, .color = true});
+    CHECK(has(text, "δx [µm]") && has(text, "\033[38;5;"));
+    free(text);
+    plot_figure_free(&f);
+}
+
+static void map_pages(void) {
+    plot_figure f;
+    plot_figure_init(&f);
+    plot_panel *p = plot_panel_add(&f, error, sizeof error);
+    CHECK(plot_map_make(p, 20, 20, error, sizeof error));
+    for (int i = 0; i < 400; i++) {
+        p->map.x[i % 20] = i % 20;
+        p->map.y[i / 20] = i / 20;
+        p->map.z[i] = i == 210 ? NAN : (double)(i % 20);
+    }
+    p->map.label = plot_label("dW", "uJ");
+    char *text = text_of(&f, (plot_target){.columns = 70, .rows = 20});
+    CHECK(has(text, "contours of dW [uJ]") && has(text, "1 5") && has(text, "2 10") && has(text, "3 15"));
+    free(text);
+    plot_figure_free(&f);
+}
+
+static void refused(const char *tmp) {
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_point(f.panel[0]->series[0], 0, 0);
+    plot_point(f.panel[0]->series[0], 1, 1);
+    static volatile sig_atomic_t stop = 1;
+    CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .stop = &stop}, NULL, error, sizeof error));
+    CHECK(!strcmp(error, "interrupted") && access("x.png", F_OK) != 0 && !any_left(tmp));
+    CHECK(!plot_draw(&f, &(plot_target){.file = "x.jpg"}, NULL, error, sizeof error));
+    CHECK(has(error, "use .png, .svg, .pdf, .tex, .html, .gif or .gp"));
+    CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .width = 9000}, NULL, error, sizeof error));
+    CHECK(!plot_check("no/such/x.png", NULL, error, sizeof error) && plot_check("x.png", NULL, error, sizeof error));
+    CHECK(access("x.png", F_OK) != 0);
+    plot_figure_free(&f);
+}
+
+/* A name that gnuplot would take for a command, if it saw it. */
+static void hostile_names(const char *tmp) {
+    static const char *const files[] = {"|touch pwned #.png",
+                                        "`touch pwned`.svg",
+                                        "'; system(\"touch pwned\") #.gp",
+                                        "a\nb.pdf",
+                                        "\".gif",
+                                        "-x.tex",
+                                        "é.html"};
+    plot_figure f = figure(PLOT_CURVE, strdup("'''' ; system(\"touch pwned\") # `touch pwned`"));
+    f.panel[0]->title = strdup("''''; system(\"touch pwned\") # ");
+    plot_point(f.panel[0]->series[0], 0, 0);
+    plot_point(f.panel[0]->series[0], 1, 1);
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        file_report report;
+        struct stat info;
+        bool ok = plot_draw(&f, &(plot_target){.file = files[i]}, &report, error, sizeof error);
+        if (!CHECK(ok))
+            printf("%s: %s\n", files[i], error);
+        CHECK(stat(files[i], &info) == 0 && (unsigned long long)info.st_size == report.size &&
+              report.size > 500);
+        unlink(files[i]);
+    }
+    free(text_of(&f, (plot_target){.columns = 60, .rows = 20}));
+    CHECK(access("pwned", F_OK) != 0 && !any_left(tmp) && !any_left("."));
+    plot_figure_free(&f);
+}
+
+/* ---- animations --------------------------------------------------------------------------------- */
+
+static size_t told;
+
+static void progress(void *context, size_t done, size_t frames) {
+    (void)context;
+    CHECK(done == told && done <= frames);
+    told++;
+}
+
+static bool fill(void *context, size_t i, size_t frames, plot_figure *f, char *text, size_t size) {
+    const size_t *bad = context;
+    plot_panel *p = plot_panel_add(f, text, size);
+    plot_series *s = p ? plot_series_add(p, PLOT_CURVE, NULL, text, size) : NULL;
+    if (bad && *bad == i)
+        return plot_fail(text, size, "frame %zu of %zu", i, frames);
+    return s && plot_point(s, 0, 0) && plot_point(s, 1, (double)i);
+}
+
+/* Images in a GIF: each has one graphic control extension. */
+static size_t images(const char *file) {
+    FILE *f = fopen(file, "r");
+    size_t n = 0;
+    unsigned last[3] = {0};
+    for (int c; f && (c = getc(f)) != EOF; last[0] = last[1], last[1] = last[2], last[2] = (unsigned)c)
+        n += last[0] == 0x21 && last[1] == 0xf9 && last[2] == 0x04;
+    if (f)
+        fclose(f);
+    return n;
+}
+
+static void animates(const char *tmp) {
+    plot_movie m = {.frames = 7, .fill = fill, .progress = progress, .seconds = 0.01};
+    CHECK(plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, error, sizeof error));
+    CHECK(told == 8 && images("a.gif") == 7);
+    unlink("a.gif");
+    char *text = NULL;
+    size_t room;
+    FILE *out = open_memstream(&text, &room);
+    m.progress = NULL;
+    CHECK(plot_animate(&m, &(plot_target){.out = out, .columns = 50, .rows = 12, .moving = true}, NULL, error,
+                       sizeof error));
+    fclose(out);
+    size_t ups = 0; /* the only letters A are of the cursor's way back up */
+    for (const char *p = text; (p = strchr(p, 'A')); p++)
+        ups++;
+    CHECK(ups == 6 && has(text, "\033[K\n"));
+    /* axes hold for all frames */
+    CHECK(has(text, "\n 6 ") || has(text, "\n 6.0 ") || !strncmp(text, " 6", 2));
+    free(text);
+    size_t bad = 3;
+    m.context = &bad;
+    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, error, sizeof error) &&
+          has(error, "frame 3 of 7"));
+    CHECK(!plot_animate(&m, &(plot_target){.file = "a.png"}, NULL, error, sizeof error) &&
+          has(error, ".gif"));
+    static volatile sig_atomic_t stop = 1;
+    m.context = NULL;
+    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif", .stop = &stop}, NULL, error, sizeof error));
+    CHECK(!any_left(tmp) && !any_left("."));
+}
+
+int main(int argc, char **argv) {
+    unit_start("test_plot", argc, argv);
+    char dir[] = "/tmp/fret-unit-XXXXXX", tmp[40];
+    if (!CHECK(mkdtemp(dir) && !chdir(dir)))
+        return unit_finish();
+    snprintf(tmp, sizeof tmp, "%s-tmp", dir);
+    CHECK(!mkdir(tmp, 0700) && !setenv("TMPDIR", tmp, 1));
+    names();
+    plain();
+    quoting();
+    scripts();
+    styles();
+    thins();
+    bounded();
+    bands();
+    axes();
+    levels();
+    pages();
+    map_pages();
+    refused(tmp);
+    hostile_names(tmp);
+    animates(tmp);
+    CHECK(!chdir("/") && !rmdir(dir) && !rmdir(tmp));
+    return unit_finish();
+}
