@@ -17,6 +17,9 @@ class Springs:
         self.dz = self.W = self.dx = 0.0
         self.mueta, self.scene = float(s.mu * s.eta), s
 
+    def u_at(self, g):
+        return np.interp(g, self.g, self.u)
+
     def move(self, FN, Fx):
         """One small step to these forces."""
         dz = float(self.scene.Kf**(-1 / self.scene.p)) * FN**(1 / float(self.scene.p)) if FN > 0 else 0.0

@@ -115,6 +115,10 @@ class Scene:
     def force(self, y):
         return self.Kf * y**self.p
 
+    def slope(self, a):
+        """dF_N/d delta_z = 2 int_0^a c_N dx"""
+        return 2 * self.cN0 * self.c0**-self.k * a**(self.k + 1) / (self.k + 1)
+
     def depth(self, F):
         return (F / self.Kf)**(1 / self.p)
 

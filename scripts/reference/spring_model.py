@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""line.csv: the springs of the one-dimensional model after several load programs."""
+"""line.csv: the springs of the one-dimensional model after several load programs. --check compares all with
+independent springs moved in small steps."""
+
+import sys
 
 from mpmath import mp, mpf
 
@@ -79,6 +82,19 @@ def signed_work(scene, contact):
     return -2 * scale**2 * total / scene.eta
 
 
+def small_steps(scene, program):
+    """The same springs, in double."""
+    import brute
+    springs = brute.Springs(scene, float(scene.radius_of_force(mpf(max(F for F, _ in program)))) * 1.0001)
+    F, X = program[0]
+    springs.move(F, X)
+    for FN, Fx in program[1:]:
+        for i in range(1, 1001):
+            springs.move(F + (FN - F) * i / 1000, X + (Fx - X) * i / 1000)
+        F, X = FN, Fx
+    return springs
+
+
 rows = []
 for geometry, n, A in SHAPES:
     for k in ("-0.5", "0", "0.5"):
@@ -92,6 +108,7 @@ for geometry, n, A in SHAPES:
             W1D = signed_work(scene, contact) if constant else None
             if constant and len(program) == 2:
                 assert abs(-W1D / contact.W - 1) < mpf(10)**-30
+            rough = small_steps(scene, program) if "--check" in sys.argv else None
             for place in PLACES:
                 x = mpf(place) * a
                 cN, cT = (c * (x / scene.c0)**scene.k for c in (scene.cN0, scene.cT0))
@@ -102,6 +119,11 @@ for geometry, n, A in SHAPES:
                 assert abs(u) <= MU * scene.eta * w * (1 + mpf(10)**-40)
                 if constant:
                     assert abs(u - masing(scene, program)(x)) < mpf(10)**-35 * contact.dz
+                if rough:
+                    near = rough.u_at(float(scene.g(x)))
+                    assert abs(near / u - 1) < 2e-3 or abs(near - u) < 1e-4 * contact.dx, (n, k, program, place)
+                    assert abs(rough.dx / contact.dx - 1) < 2e-3
+                    assert abs(rough.W - contact.W) < 2e-3 * contact.W + 1e-4 * contact.U()
                 rows.append(("material E0=210 GPa nu=0.3" + ("" if k == "0" else f" k={k} c0=1 mm") + "; " +
                              geometry + "; friction 0.4; " + lines(program), place, x, w, u, slip,
                              cN * w, cT * u, cN, cT, W1D, contact.dz, contact.dx))
