@@ -41,14 +41,13 @@ class Values:
     def dW(self, FA=None):
         t = (self.FA if FA is None else FA) / (self.mu * self.FN)
         assert 0 < t < 1
-        return 8 * oracle.bracket(self.q, t) / (1 + self.q) * self.mu * self.FN * self.dxmax
+        return oracle.share(self.q, t) * self.mu * self.FN * self.dxmax
 
     def dWd(self, d):
         """dW at an amplitude of displacement, gross slip included."""
         u = d / self.dxmax
         t = 1 - (1 - min(u, 1))**(1 / self.q)
-        w = 8 * oracle.bracket(self.q, t) / (1 + self.q)
-        return self.mu * self.FN * (w * self.dxmax + 4 * max(d - self.dxmax, 0))
+        return self.mu * self.FN * (oracle.share(self.q, t) * self.dxmax + 4 * max(d - self.dxmax, 0))
 
     def dx(self, F):
         return self.dxmax * (1 - (1 - F / (self.mu * self.FN))**self.q)
@@ -115,7 +114,8 @@ def solve(given, question, name, f, target, lo, hi, rows, unit):
                     solver="anderson", tol=mpf(10)**-150)
     at = {**values, name: x}
     own = partial(miss, at, name)
-    condition = sum(abs(partial(miss, at, other) / own) for other in values if other != name and values[other] != 0)
+    condition = sum(abs(partial(miss, at, other) / own)
+                    for other in values if other != name and values[other] != 0)
     assert abs(miss(at)) < mpf(10)**-60
     rows.append((line, question, name, x, unit, condition, None))
 
@@ -196,8 +196,10 @@ for args in (
         (STEEL, "solve R for a = 0.2 mm", "R", quantity("a"), "0.2 mm", "1e-4", "1", "m"),
         (CONE, "solve slope for dz = 5 um", "slope", quantity("dz"), "5 um", "1e-4", "1", ""),
         (SOFT, "solve c0 for a = 0.25 mm", "c0", quantity("a"), "0.25 mm", "1e-5", "1e-1", "m"),
-        ({**SOFT, "F": "20 N"}, "solve E0 for dx(20 N) = 1 um", "E0", lambda g: Values(g).dx(g["F"]), "1 um", "1e9", "1e13", "Pa"),
-        ({**GRADED, "F": "20 N"}, "solve nu for dW(20 N) = 3 uJ", "nu", lambda g: Values(g).dW(g["F"]), "3 uJ", "0.001", "0.5", ""),
+        ({**SOFT, "F": "20 N"}, "solve E0 for dx(20 N) = 1 um", "E0", quantity("dx", "F"), "1 um",
+         "1e9", "1e13", "Pa"),
+        ({**GRADED, "F": "20 N"}, "solve nu for dW(20 N) = 3 uJ", "nu", quantity("dW", "F"), "3 uJ", "0.001", "0.5",
+         ""),
         ({**GRADED, "step": "20 N"}, "solve mu for c/a = 0.5", "mu",
          lambda g: Values(g).c(g["step"]) / Values(g).a, "0.5", "0.2001", "10", ""),
         ({"E0": "210 GPa", "nu": "0.3", "k": "-0.4", "c0": "1 mm", "n": "3", "h": "1 um", "r0": "0.1 mm", "mu": "0.4",
@@ -205,7 +207,7 @@ for args in (
         ({**STEEL, "E0_2": "70 GPa", "nu_2": "0.33"}, "solve E0_2 for a = 0.25 mm", "E0_2", quantity("a"), "0.25 mm",
          "1e9", "1e13", "Pa"),
         ({**SOFT, "FA": "20 N"}, "solve FN for dW = 5 uJ", "FN", quantity("dW"), "5 uJ", "50.01", "1000", "N"),
-        ({**CONE, "dxA": "10 um"}, "solve dxA for dW = 2 mJ", "dxA", lambda g: Values(g).dWd(g["dxA"]), "2000 uJ",
+        ({**CONE, "dxA": "10 um"}, "solve dxA for dW = 2 mJ", "dxA", quantity("dWd", "dxA"), "2000 uJ",
          "1e-6", "1e-3", "m")):
     given, question, name, f, target, lo, hi, unit = args
     solve(given, question, name, f, target, lo, hi, rows, unit)
@@ -224,10 +226,12 @@ best({**GRADED, "c0": "0.2 mm"}, "minimize dz over k = -0.7 .. 0.7", quantity("d
      rows, {"k": ""}, "m")
 best({**GRADED, "c0": "0.2 mm"}, "maximize kn over k = 0.01 .. 0.7", quantity("kn"), {"k": ("0.01", "0.7")}, 1,
      rows, {"k": ""}, "N/m")
-best({**SLIDING, "middle": "20 mm", "wide": "20 mm"}, "maximize dWd(0.5 um)*(1 - (R - 20 mm)^2/(20 mm)^2) over mu = 0.05 .. 0.6, R = 5 mm .. 35 mm",
+best({**SLIDING, "middle": "20 mm", "wide": "20 mm"},
+     "maximize dWd(0.5 um)*(1 - (R - 20 mm)^2/(20 mm)^2) over mu = 0.05 .. 0.6, R = 5 mm .. 35 mm",
      lambda g: Values(g).dWd(g["d"]) * (1 - (g["R"] - g["middle"])**2 / g["wide"]**2),
      {"mu": ("0.05", "0.6"), "R": ("5 mm", "35 mm")}, 1, rows, {"mu": "", "R": "m"}, "J")
-best({**STEEL, "wide": "0.2 mm", "deep": "2 um"}, "minimize (a/(0.2 mm) - 1)^2 + (dz/(2 um) - 1)^2 + 1 over FN = 20 N .. 200 N, R = 5 mm .. 50 mm",
+best({**STEEL, "wide": "0.2 mm", "deep": "2 um"},
+     "minimize (a/(0.2 mm) - 1)^2 + (dz/(2 um) - 1)^2 + 1 over FN = 20 N .. 200 N, R = 5 mm .. 50 mm",
      lambda g: (Values(g).a / g["wide"] - 1)**2 + (Values(g).dz / g["deep"] - 1)**2 + 1,
      {"FN": ("20 N", "200 N"), "R": ("5 mm", "50 mm")}, -1, rows, {"FN": "N", "R": "m"}, "")
 best(SLIDING, "maximize dWd(0.5 um) over FN = 1 N .. 100 N, mu = 0.02 .. 0.4", quantity("dWd", "d"),

@@ -31,7 +31,7 @@ def harmonics(q, d):
     Kp = 2 / (mp.pi * d) * mp.quad(lambda th: force(th) * mp.cos(th), cuts)
     Kpp = 2 / (mp.pi * d) * mp.quad(lambda th: -force(th) * mp.sin(th), cuts)
     # the same Kpp from dW (27) and the flats
-    loss = 8 * oracle.bracket(q, FA) / (1 + q) + 4 * max(d - 1, 0)
+    loss = oracle.share(q, FA) + 4 * max(d - 1, 0)
     assert abs(loss / (mp.pi * d**2) / Kpp - 1) < mpf(10)**-32, (q, d)
     return Kp, Kpp, FA
 
@@ -64,8 +64,7 @@ for geometry, n, A in SHAPES:
             if mpf(d) < mpf("0.8"):
                 assert abs(series(q, mpf(d)) / Kp - 1) < mpf(10)**-32, (n, k, d)
             unit = MU * FN / dxmax
-            rows.append(("material E0=210 GPa nu=0.3" + ("" if k == "0" else f" k={k} c0=1 mm") + "; " + geometry +
-                         "; friction 0.4; press FN=100 N", d, mpf(d) * dxmax,
+            rows.append((f"{oracle.material(k)}; {geometry}; friction 0.4; press FN=100 N", d, mpf(d) * dxmax,
                          FA * MU * FN if mpf(d) < 1 else None, FA / mpf(d) * unit, Kp * unit, Kpp * unit, Kpp / Kp))
 oracle.write_cells("damper.csv", "damper.py",
                    ["damper outputs at the displacement amplitude dxA, delta_x = dxA cos(theta), SI units; FA is the",

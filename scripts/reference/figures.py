@@ -46,7 +46,7 @@ class Material:
         return MU * self.s.eta * (self.dz - self.s.g(x))
 
     def states(self, FA, turn):
-        """The branches under F_x = FA sin(2 pi turn) up to now: (sign, c of the branch), c = a at its start."""
+        """F_x = FA sin(2 pi turn), and the branches up to now: (weight, c of the branch)."""
         Fx = FA * mp.sinpi(2 * turn)
         if turn <= mpf("0.25"):
             return Fx, [(1, self.stick(Fx))]
@@ -199,7 +199,8 @@ def all_rows():
                      m.s.cT0 * u))
     losses("12", "paraboloid", [(k, "1") for k in three], "1")
     for k in every:
-        rows += [("13", k, "1", None, (mpf(i) / 5)**mpf(k), mpf(i) / 5) for i in range(0 if k[0] != "-" else 1, 11)]
+        depths = [mpf(i) / 5 for i in range(1 if k[0] == "-" else 0, 11)]
+        rows += [("13", k, "1", None, z**mpf(k), z) for z in depths]
     return rows
 
 
@@ -209,7 +210,7 @@ if __name__ == "__main__":
         ["points of the paper's figures; two equal bodies E0 = 210 GPa, nu = 0.3, mu = 0.4, FN = 100 N;",
          "cone slope = 0.05; paraboloid R = 10 mm; c0 = c0/a0 times a0 of (23), a0 being the radius at k = 0.",
          "x, y as FIGURES names them: dx/dx0max and Fx/(mu FN); FA/(mu FN) and dW E0 a0/(mu FN)^2; t/T and",
-         "W(t) E0 a0/(mu FN)^2 (panels '6a J', '6b J': the same W(t) in J); E(z)/E0 and z/c0 (not at z = 0 for k < 0).",
+         "W(t) E0 a0/(mu FN)^2 (panels '6a J', '6b J': the same W(t) in J); E(z)/E0 and z/c0, z > 0 for k < 0.",
          "Panel 11: the spring at x = 0.8 a of the paraboloid, slip s1D in m and line load qx1D in N/m.",
          "t: the instant t/T at which a point of a loop is taken, F_x = 0.9 mu FN sin(2 pi t/T), first loading",
          "up to 1/4; W(t) is (22), negative as printed."],

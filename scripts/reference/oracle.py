@@ -84,6 +84,16 @@ def bracket(q, t):
     return 1 - (1 - t)**(1 + q) - (1 + q) / 2 * t * (1 + (1 - t)**q)
 
 
+def share(q, t):
+    """w(t): the loss of a cycle over mu F_N dxmax (27)."""
+    return 8 * bracket(q, t) / (1 + q)
+
+
+def material(k, E0="210"):
+    """The statement for equal bodies as the tables here have them; E0 in GPa, both in text."""
+    return f"material E0={E0} GPa nu=0.3" + ("" if k == "0" else f" k={k} c0=1 mm")
+
+
 def equal_bodies(E0, nu, k, c0, n, A, mu):
     """The scene of two equal bodies with the gap A r^n; inputs may be decimals in text."""
     E0, nu, k, c0, n, A, mu = (mpf(x) for x in (E0, nu, k, c0, n, A, mu))
