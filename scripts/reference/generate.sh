@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes every table in tests/reference anew; needs Python 3 with mpmath. Same bytes every time.
+# Makes every table in tests/reference anew; needs Python 3 with mpmath (and numpy for --check). Same bytes every time.
 set -eu
 cd "$(dirname "$0")"
-for script in dd material kappa loss slice scene history shape field corners; do
+for script in dd material kappa loss slice scene history shape field corners \
+    figures spring_model swinging backwards damper; do
     PYTHONDONTWRITEBYTECODE=1 "${PYTHON:-python3}" "$script.py" "$@"
 done
 "${PYTHON:-python3}" tables.py > ../../src/contact/tables.h

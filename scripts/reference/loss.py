@@ -13,7 +13,7 @@ mp.dps = 280  # b ~ t^3, t >= 1e-60, and r = 1-q may be 1e-18
 
 def w(n, k, t):
     q = mpf(n) / (mpf(n) + mpf(k) + 1)
-    return 8 * oracle.bracket(q, mpf(t)) / (1 + q)
+    return oracle.share(q, mpf(t))
 
 
 def check(n, k, t):

@@ -2,6 +2,7 @@
 """High-precision definitions that the reference tables are made from: literal textbook forms, made
 safe by many digits rather than by rearrangement. Equation numbers: Mathematics 2022, 10, 3641."""
 
+import csv
 import os
 
 from mpmath import mp, mpf
@@ -23,6 +24,29 @@ def write(name, script, what, inputs, results, rows):
             cells = [("%d" % x) if isinstance(x, int) else ("%.17g" % x) for x in given]
             cells += [mp.nstr(x, 36, strip_zeros=True, min_fixed=1, max_fixed=0) for x in got]
             out.write(",".join(cells) + "\n")
+    print(f"{name}: {len(rows)} rows")
+
+
+def cell(x):
+    """Text and integers as they are, no value as nothing, numbers with 30 digits."""
+    if x is None:
+        return ""
+    if isinstance(x, (str, int)):
+        return str(x)
+    return mp.nstr(x, 30, strip_zeros=True, min_fixed=1, max_fixed=0)
+
+
+def write_cells(name, script, notes, columns, rows):
+    """A table with text among its cells: notes as comments, then a line of column names. Numbers given
+    to it as text are decimals meant exactly as written."""
+    with open(os.path.join(OUT, name), "w", encoding="ascii", newline="\n") as out:
+        for note in notes + [f"made by scripts/reference/{script}"]:
+            out.write(f"# {note}\n")
+        table = csv.writer(out, lineterminator="\n")
+        table.writerow(columns)
+        for row in rows:
+            assert len(row) == len(columns), row
+            table.writerow([cell(x) for x in row])
     print(f"{name}: {len(rows)} rows")
 
 
@@ -60,6 +84,22 @@ def bracket(q, t):
     return 1 - (1 - t)**(1 + q) - (1 + q) / 2 * t * (1 + (1 - t)**q)
 
 
+def share(q, t):
+    """w(t): the loss of a cycle over mu F_N dxmax (27)."""
+    return 8 * bracket(q, t) / (1 + q)
+
+
+def material(k, E0="210"):
+    """The statement for equal bodies as the tables here have them; E0 in GPa, both in text."""
+    return f"material E0={E0} GPa nu=0.3" + ("" if k == "0" else f" k={k} c0=1 mm")
+
+
+def equal_bodies(E0, nu, k, c0, n, A, mu):
+    """The scene of two equal bodies with the gap A r^n; inputs may be decimals in text."""
+    E0, nu, k, c0, n, A, mu = (mpf(x) for x in (E0, nu, k, c0, n, A, mu))
+    return Scene(E0, nu, 0, E0, nu, 0, k, c0, n, A, mpf(1), mu)
+
+
 class Scene:
     """Two bodies and a gap h (r/r0)^n: the normal contact and the law F_N = Kf y^p."""
 
@@ -84,6 +124,10 @@ class Scene:
 
     def force(self, y):
         return self.Kf * y**self.p
+
+    def slope(self, a):
+        """dF_N/d delta_z = 2 int_0^a c_N dx"""
+        return 2 * self.cN0 * self.c0**-self.k * a**(self.k + 1) / (self.k + 1)
 
     def depth(self, F):
         return (F / self.Kf)**(1 / self.p)

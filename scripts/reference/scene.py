@@ -18,9 +18,9 @@ def solve(scene, FN, FA):
     c = scene.radius_of_force(FN - FA / mu)
     yc = scene.g(c)
     dx, dxmax = mu * eta * (dz - yc), mu * eta * dz
-    kn = 2 * scene.cN0 * scene.c0**-scene.k * a**(scene.k + 1) / (scene.k + 1)
+    kn = scene.slope(a)
     q = 1 / p
-    dW = 8 * oracle.bracket(q, FA / (mu * FN)) / (1 + q) * mu * FN * dxmax
+    dW = oracle.share(q, FA / (mu * FN)) * mu * FN * dxmax
     # U = 1/(2 eta) int u^2 dK, u = mu eta (dz - max(y,yc)), dK = p (p-1) Kf y^(p-2) dy
 
     def moment(m, y):  # int_0^y y^m dK
