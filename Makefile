@@ -18,7 +18,7 @@ LIBS      := $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline)
 
 CORE  := $(wildcard src/number/*.c src/contact/*.c src/fast/*.c)
 PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c, \
-	$(wildcard src/calc/*.c src/plot/*.c src/shell/*.c))
+	$(wildcard src/calc/*.c src/study/*.c src/plot/*.c src/shell/*.c))
 UNIT  := $(wildcard tests/unit/test_*.c)
 HARD  := $(wildcard tests/hard/*.c)
 # the oracle of the hard cases needs MPFR, which the rest does without
@@ -59,7 +59,7 @@ $(B)/fret.pc: FORCE
 		'$(PREFIX)' '$(VERSION)' '$(LIBS_CORE)' > $@
 
 # Tests see what is not public too; those of rooms above the mechanics take these objects one by one.
-OUTER := $(call OBJ,$(wildcard src/calc/file*.c src/plot/*.c))
+OUTER := $(call OBJ,$(wildcard src/calc/*.c src/study/*.c src/plot/*.c))
 $(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE)) $(OUTER)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(OUTER) $(call OBJ,$(CORE)) $(LIBS_CORE)

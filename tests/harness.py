@@ -2,6 +2,7 @@
 """What the rooms of tests share: running the program, comparing, counting."""
 import contextlib
 import difflib
+import json
 import os
 import re
 import shutil
@@ -13,6 +14,17 @@ from concurrent.futures import ThreadPoolExecutor
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PROMPT = "fret> "
 NUMBER = re.compile(r"\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?")
+
+
+def printed_values(text):
+    """The values of JSON lines, events left out."""
+    return [row["value"] for row in map(json.loads, text.splitlines()) if "event" not in row]
+
+
+def reported(stderr, names, verb="wrote"):
+    """Does standard error report these files, in their order, and nothing else?"""
+    found = re.findall(r"^%s (.*) \([\d.]+ k?B\)\n" % verb, stderr, re.M)
+    return found == list(names) and len(stderr.splitlines()) == len(found)
 
 
 def last_place(number):
@@ -151,7 +163,7 @@ def replay(tests, name, steps):
 
 
 def is_message(line):
-    return line.startswith(("error:", "warning:"))
+    return line.startswith(("error:", "warning:", "note:"))
 
 
 def batch(tests, name, steps):
@@ -165,8 +177,8 @@ def batch(tests, name, steps):
         runs = {"file": tests.run("--keep-going", path), "-c": tests.run("--keep-going", "-c", script),
                 "pipe": tests.run("--keep-going", input=script)}
     for way, done in runs.items():
-        messages = [line[re.search("(error|warning): ", line).start():] for line in done.stderr.splitlines()
-                    if re.match(r"(\S+:\d+:\d+: )?(error|warning): ", line)]
+        messages = [line[re.search("(error|warning|note): ", line).start():] for line in done.stderr.splitlines()
+                    if re.match(r"(\S+:\d+:\d+: )?(error|warning|note): ", line)]
         ok = (same_text(want, done.stdout) and messages == errors and done.returncode == (1 if fails else 0))
         tests.check("%s as %s" % (name, way), ok,
                     diff(want + "\n" + "\n".join(errors), done.stdout + "\n" + "\n".join(messages)) +

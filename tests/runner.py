@@ -163,7 +163,8 @@ def help_examples(tests):
 
 
 ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
-         "scripts": scripts.run, "figures": figures.run, "accuracy": accuracy_test.run, "errors": table.run, "trouble": trouble.run,
+         "scripts": scripts.run, "figures": figures.run, "accuracy": accuracy_test.run, "errors": table.run,
+         "trouble": trouble.run,
          "interactive": prompt.run, "readme": readme, "help": help_examples, "portable": portable.run,
          "house": house.run}
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Elementary functions of expressions. */
 #include <math.h>
+#include <string.h>
 
 #include "calc/tree.h"
 #include "number/real.h"
@@ -29,21 +30,22 @@ static long double real_beta(long double x, long double y) {
 }
 
 static const builtin builtins[] = {
-    {"sqrt", sqrtl, NULL, "square root; halves the dimension"},
-    {"exp", fret_exp, NULL, "exponential"},
-    {"log", fret_log, NULL, "natural logarithm"},
-    {"log10", fret_log10, NULL, "decimal logarithm"},
-    {"sin", fret_sin, NULL, "sine of an angle"},
-    {"cos", fret_cos, NULL, "cosine of an angle"},
-    {"tan", real_tan, NULL, "tangent of an angle"},
-    {"asin", real_asin, NULL, "arc sine"},
-    {"acos", real_acos, NULL, "arc cosine"},
-    {"atan", real_atan, NULL, "arc tangent"},
-    {"abs", fabsl, NULL, "magnitude; keeps the dimension"},
-    {"gamma", fret_gamma, NULL, "gamma function"},
-    {"min", NULL, fminl, "the smaller of two"},
-    {"max", NULL, fmaxl, "the larger of two"},
-    {"beta", NULL, real_beta, "beta function B(x,y), x, y > 0"},
+    {"sqrt", sqrtl, NULL, DIM_HALVED, "square root; halves the dimension"},
+    {"exp", fret_exp, NULL, DIM_NUMBER, "exponential"},
+    {"log", fret_log, NULL, DIM_NUMBER, "natural logarithm"},
+    {"ln", fret_log, NULL, DIM_NUMBER, "natural logarithm"},
+    {"log10", fret_log10, NULL, DIM_NUMBER, "decimal logarithm"},
+    {"sin", fret_sin, NULL, DIM_NUMBER, "sine of an angle"},
+    {"cos", fret_cos, NULL, DIM_NUMBER, "cosine of an angle"},
+    {"tan", real_tan, NULL, DIM_NUMBER, "tangent of an angle"},
+    {"asin", real_asin, NULL, DIM_TO_ANGLE, "arc sine"},
+    {"acos", real_acos, NULL, DIM_TO_ANGLE, "arc cosine"},
+    {"atan", real_atan, NULL, DIM_TO_ANGLE, "arc tangent"},
+    {"abs", fabsl, NULL, DIM_KEPT, "magnitude; keeps the dimension"},
+    {"gamma", fret_gamma, NULL, DIM_NUMBER, "gamma function"},
+    {"min", NULL, fminl, DIM_SHARED, "the smaller of two"},
+    {"max", NULL, fmaxl, DIM_SHARED, "the larger of two"},
+    {"beta", NULL, real_beta, DIM_NUMBER, "beta function B(x,y), x, y > 0"},
 };
 enum { BUILTINS = sizeof builtins / sizeof *builtins };
 
@@ -62,4 +64,16 @@ bool builtin_find(const char *name, size_t len, size_t *i) {
 
 const char *builtin_summary(size_t i) {
     return i < BUILTINS ? builtins[i].summary : "3.14159...";
+}
+
+const char *name_taken(const char *name, size_t len) {
+    unit u;
+    size_t i;
+    if (quantity_find(name, len))
+        return "a quantity";
+    if (unit_lookup(name, len, &u))
+        return "a unit";
+    if (len == 3 && !memcmp(name, "ans", 3))
+        return "the last value printed";
+    return !builtin_find(name, len, &i) ? NULL : builtin_row(i) ? "a function" : "a constant";
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading tables, line by line. */
 #include "calc/csv.h"
 
 #include <errno.h>
@@ -7,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/expr.h"
+#include "calc/unit_text.h"
 
 void csv_free(csv *c) {
     free(c->column[0]);

@@ -6,14 +6,20 @@
 #include <string.h>
 
 #include "calc/tree.h"
+#include "calc/trial.h"
 #include "number/real.h"
 
 typedef struct machine {
     calc *c;
     const expr *e;
     calc_error *error;
-    bool dry; /* dimensions alone: values that cannot be had count as 1 */
+    const value *arguments; /* of the user's function */
+    bool dry;               /* dimensions alone: values that cannot be had count as 1 */
 } machine;
+
+static bool run(machine *m, value *out);
+
+/* ---- errors ------------------------------------------------------------------------------------ */
 
 /* In a dry run only dimensions can be wrong. */
 #if defined(__GNUC__)
@@ -31,24 +37,25 @@ bad_value(machine *m, const expr_node *n, const char *format, ...) {
     return calc_fail(m->error, n->at, n->len, "%s", text);
 }
 
-/* An error raised without a place gets that of the node. */
-static bool placed(machine *m, const expr_node *n) {
-    if (m->error->len == 0) {
-        m->error->at = n->at;
-        m->error->len = n->len;
-    }
-    return false;
-}
-
 static bool dims_differ(machine *m, const expr_node *n, const char *verb, const expr_node *a, dim da,
                         const char *link, const expr_node *b, dim db) {
     char first[128], second[128];
     dim_describe(da, first, sizeof first);
     dim_describe(db, second, sizeof second);
-    return calc_fail(m->error, n->at, n->len, "cannot %s %s (%.*s) %s %s (%.*s)", verb, first,
-                     (int)(a->len < 60 ? a->len : 60), m->e->text + a->at, link, second,
-                     (int)(b->len < 60 ? b->len : 60), m->e->text + b->at);
+    m->error->strange = true;
+    return calc_fail(m->error, n->at, n->len, "cannot %s %s (%.*s) %s %s (%.*s)", verb, first, LEX_SHOWN(a->len),
+                     m->e->text + a->at, link, second, LEX_SHOWN(b->len), m->e->text + b->at);
 }
+
+static bool dim_wrong(machine *m, const expr_node *n, dim d, const char *wants) {
+    char phrase[128];
+    dim_describe(d, phrase, sizeof phrase);
+    m->error->strange = true;
+    return calc_fail(m->error, n->at, n->len, "%s, not %s (%.*s)", wants, phrase, LEX_SHOWN(n->len),
+                     m->e->text + n->at);
+}
+
+/* ---- operators and elementary functions -------------------------------------------------------- */
 
 /* The numbers alone; where they are not defined, they are not finite. */
 static long double real_value(const expr_node *n, long double a, long double b) {
@@ -70,6 +77,10 @@ static long double real_value(const expr_node *n, long double a, long double b) 
     }
 }
 
+static bool is_bare_zero(const expr_node *n, value v) {
+    return n->kind == N_NUMBER && v.v == 0 && dim_equal(v.d, DIM_NONE);
+}
+
 static bool binary(machine *m, const expr_node *n, value *out) {
     const expr_node *l = &m->e->nodes[n->left], *r = &m->e->nodes[n->right];
     value a = l->v, b = r->v;
@@ -77,34 +88,29 @@ static bool binary(machine *m, const expr_node *n, value *out) {
     switch (n->op) {
     case '+':
     case '-':
-        /* a bare 0 has every dimension */
         if (!dim_equal(a.d, b.d)) {
-            if (r->kind == N_NUMBER && b.v == 0 && dim_equal(b.d, DIM_NONE))
+            if (is_bare_zero(r, b))
                 b.d = a.d;
-            else if (l->kind == N_NUMBER && a.v == 0 && dim_equal(a.d, DIM_NONE))
+            else if (is_bare_zero(l, a))
                 a.d = b.d;
             else
                 return dims_differ(m, n, n->op == '+' ? "add" : "subtract", r, b.d,
                                    n->op == '+' ? "to" : "from", l, a.d);
         }
-        out->d = a.d;
+        out->d = a.d.rad != 0 ? a.d : b.d;
         break;
     case '*':
-        out->d = (dim){a.d.N + b.d.N, a.d.m + b.d.m};
+        out->d = dim_product(a.d, b.d);
         break;
     case '/':
         if (b.v == 0 && !bad_value(m, r, "division by zero"))
             return false;
-        out->d = (dim){a.d.N - b.d.N, a.d.m - b.d.m};
+        out->d = dim_product(a.d, dim_power(b.d, -1));
         break;
     default:
-        if (!dim_equal(b.d, DIM_NONE)) {
-            char phrase[128];
-            dim_describe(b.d, phrase, sizeof phrase);
-            return calc_fail(m->error, r->at, r->len, "the exponent must be a number, not %s (%.*s)", phrase,
-                             (int)(r->len < 60 ? r->len : 60), m->e->text + r->at);
-        }
-        out->d = (dim){a.d.N * (double)b.v, a.d.m * (double)b.v};
+        if (!dim_equal(b.d, DIM_NONE))
+            return dim_wrong(m, r, b.d, "the exponent must be a number");
+        out->d = dim_power(a.d, (double)b.v);
         if (a.v < 0 && b.v != floorl(b.v))
             return bad_value(m, n, "a negative number has no real power %Lg", b.v);
         break;
@@ -113,74 +119,191 @@ static bool binary(machine *m, const expr_node *n, value *out) {
 }
 
 static bool call_builtin(machine *m, const expr_node *n, value *out) {
-    const char *name = builtin_row(n->index)->name;
+    const builtin *function = builtin_row(n->index);
     const expr_node *l = &m->e->nodes[n->left], *r = &m->e->nodes[n->right];
     value a = l->v, b = r->v;
-    bool two = builtin_row(n->index)->f2;
+    char wants[64];
     *out = (value){real_value(n, a.v, b.v), DIM_NONE};
-    if (!strcmp(name, "min") || !strcmp(name, "max")) {
+    switch (function->d) {
+    case DIM_SHARED:
         out->d = a.d;
         return dim_equal(a.d, b.d) || dims_differ(m, n, "compare", l, a.d, "with", r, b.d);
+    case DIM_KEPT:
+        out->d = a.d;
+        return true;
+    case DIM_HALVED:
+        out->d = dim_power(a.d, 0.5);
+        return a.v >= 0 || isnan(a.v) || bad_value(m, l, "the square root of a negative number is not real");
+    default:
+        break;
     }
-    if (!strcmp(name, "abs") || !strcmp(name, "sqrt")) {
-        double f = *name == 's' ? 0.5 : 1;
-        out->d = (dim){a.d.N * f, a.d.m * f};
-        return !(*name == 's' && a.v < 0) ||
-               bad_value(m, l, "the square root of a negative number is not real");
-    }
-    for (int j = 0; j < 1 + two; j++) {
-        const expr_node *x = j ? r : l;
-        dim d = j ? b.d : a.d;
-        if (!dim_equal(d, DIM_NONE)) {
-            char phrase[128];
-            dim_describe(d, phrase, sizeof phrase);
-            return calc_fail(m->error, x->at, x->len, "%s takes a number, not %s (%.*s)", name, phrase,
-                             (int)(x->len < 60 ? x->len : 60), m->e->text + x->at);
-        }
-    }
+    snprintf(wants, sizeof wants, "%s takes a number", function->name);
+    if (!dim_equal(a.d, DIM_NONE))
+        return dim_wrong(m, l, a.d, wants);
+    if (function->f2 && !dim_equal(b.d, DIM_NONE))
+        return dim_wrong(m, r, b.d, wants);
+    if (function->d == DIM_TO_ANGLE)
+        out->d = DIM_ANGLE;
     if (isnan(out->v))
-        return two ? bad_value(m, n, "beta needs two positive arguments in range")
-                   : bad_value(m, n, "%s is not defined there", name);
+        return function->f2 ? bad_value(m, n, "beta needs two positive arguments in range")
+                            : bad_value(m, n, "%s is not defined there", function->name);
     return true;
+}
+
+/* ---- names and changed scenes ------------------------------------------------------------------ */
+
+/* The chain of live definitions, from the one that comes again. */
+static bool circle(calc *c, const char *label, calc_error *error) {
+    char chain[CALC_ERROR_TEXT - 64] = "";
+    size_t from = c->chain_length;
+    while (from > 0 && strcmp(c->chain[from - 1]->label, label))
+        from--;
+    for (size_t i = from ? from - 1 : 0; i < c->chain_length; i++)
+        snprintf(chain + strlen(chain), sizeof chain - strlen(chain), "%s := %.80s -> ", c->chain[i]->label,
+                 c->chain[i]->text);
+    error->circle = true;
+    return calc_fail(error, 0, 0, "a circle of definitions: %s%s", chain, label);
+}
+
+static bool enter(calc *c, const definition *d, calc_error *error) {
+    for (size_t i = 0; i < c->chain_length; i++)
+        if (c->chain[i] == d)
+            return circle(c, d->label, error);
+    if (c->chain_length == CHAIN)
+        return calc_fail(error, 0, 0, "live definitions are nested more than %d deep", CHAIN);
+    c->chain[c->chain_length++] = d;
+    return true;
+}
+
+static bool evaluate_definition(calc *c, const definition *d, const value *arguments, bool dry, value *out,
+                                calc_error *error) {
+    calc_error mine;
+    error_clear(&mine);
+    machine m = {c, &d->body, &mine, arguments, dry};
+    if (!enter(c, d, error))
+        return false;
+    bool ok = run(&m, out);
+    if (!ok && mine.circle && mine.kind == ERROR_MISSING) { /* of inputs: the scene has met itself */
+        mine.raised = false;
+        circle(c, quantity_of_input((input)mine.input)->name, &mine);
+    }
+    c->chain_length--;
+    if (!ok && !error->raised) { /* places in the definition mean nothing in the statement */
+        *error = mine;
+        error->at = error->len = 0;
+    }
+    return ok;
+}
+
+bool definition_value(calc *c, definition *d, value *out, calc_error *error) {
+    return evaluate_definition(c, d, NULL, false, out, error);
+}
+
+static bool own_value(machine *m, const expr_node *n, value *out) {
+    const own_name *row = &m->c->names.row[n->index];
+    if (!row->definition) {
+        *out = row->v;
+        return true;
+    }
+    const definition *d = (const definition *)row->definition;
+    if (d->parameters)
+        return calc_fail(m->error, n->at, n->len, "%s is a function: %s(%s%s)", d->label, d->label, d->parameter[0],
+                         d->parameters > 1 ? ", ..." : "");
+    return evaluate_definition(m->c, d, NULL, m->dry, out, m->error) || calc_place(m->error, n->at, n->len);
+}
+
+static bool apply(machine *m, const expr_node *n, value *out) {
+    value arguments[PARAMETERS];
+    const definition *d = (const definition *)m->c->names.row[n->index].definition;
+    if (!d || d->parameters != n->right)
+        return calc_fail(m->error, n->at, n->len, "%s is no function of %zu arguments any more",
+                         m->c->names.row[n->index].text, n->right);
+    for (size_t i = 0; i < n->right; i++)
+        arguments[i] = m->e->nodes[m->e->arguments[n->left + i]].v;
+    return evaluate_definition(m->c, d, arguments, m->dry, out, m->error) || calc_place(m->error, n->at, n->len);
+}
+
+static bool wrong_dim_of_change(machine *m, const expr *e, const knob *p, dim want, dim got) {
+    char wanted[128], given[128];
+    dim_describe(want, wanted, sizeof wanted);
+    dim_describe(got, given, sizeof given);
+    m->error->strange = true;
+    return calc_fail(m->error, e->at, e->len, "%s is %s, not %s (%.*s)", p->text, wanted, given,
+                     LEX_SHOWN(e->len), e->text + e->at);
+}
+
+/* All values are those outside, then all are set. */
+static bool changed_value(machine *m, const expr_node *n, value *out) {
+    const expr_at *at = n->changed;
+    value v[CHANGES];
+    for (size_t i = 0; i < at->count; i++) {
+        machine outside = *m;
+        outside.e = &at->change[i].value;
+        if (!run(&outside, &v[i]))
+            return false;
+        const knob *p = &at->change[i].p;
+        const dim want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : v[i].d;
+        if (!dim_equal(v[i].d, want) && !(v[i].v == 0 && dim_equal(v[i].d, DIM_NONE)))
+            return wrong_dim_of_change(m, outside.e, p, want, v[i].d);
+        v[i].d = want;
+    }
+    trial *t = trial_open(m->c, m->error);
+    if (!t)
+        return false;
+    bool ok = true;
+    for (size_t i = 0; i < at->count && ok; i++) {
+        knob p = at->change[i].p;
+        p.d = v[i].d;
+        ok = (m->dry && p.is_input) || trial_set(t, &p, v[i].v, m->error) ||
+             calc_place(m->error, at->change[i].value.at, at->change[i].value.len);
+    }
+    machine inside = *m;
+    inside.e = &at->body;
+    ok = ok && run(&inside, out);
+    trial_close(t);
+    return ok || calc_place(m->error, n->at, n->len);
+}
+
+/* ---- nodes ------------------------------------------------------------------------------------- */
+
+static bool call_quantity(machine *m, const expr_node *n, value *out) {
+    const expr_node *a = &m->e->nodes[n->left];
+    value arg = a->v;
+    char wants[192], phrase[128];
+    if (!dim_equal(arg.d, n->q->argument_d) && !is_bare_zero(a, arg)) {
+        dim_describe(n->q->argument_d, phrase, sizeof phrase);
+        snprintf(wants, sizeof wants, "%s(%s) takes %s", n->q->name, n->q->argument, phrase);
+        return dim_wrong(m, a, arg.d, wants);
+    }
+    *out = (value){1, n->q->d};
+    return m->dry || n->q->call(m->c->now, arg, &out->v, m->error) || calc_place(m->error, n->at, n->len);
 }
 
 static bool eval(machine *m, const expr_node *n, value *out) {
     switch (n->kind) {
     case N_NUMBER:
         return true;
-    case N_VARIABLE:
-        *out = m->c->variables[n->index].v;
+    case N_NAME:
+        return own_value(m, n, out);
+    case N_PARAMETER:
+        *out = m->arguments[n->index];
         return true;
-    case N_SWEEP:
-        *out = m->c->sweep_value[n->index];
-        return true;
+    case N_ANS:
+        *out = m->c->ans;
+        return m->c->has_ans || calc_fail(m->error, n->at, n->len, "nothing has been printed yet");
     case N_NEGATE:
         out->d = m->e->nodes[n->left].v.d;
         out->v = real_value(n, m->e->nodes[n->left].v.v, 0);
         return true;
     case N_QUANTITY:
-        out->d = quantity_dim(n->q, &m->c->scene);
-        out->v = 1;
-        if (m->dry)
-            return true;
-        if (n->q->get ? n->q->get(&m->c->scene, &out->v, m->error)
-                      : scene_get(&m->c->scene, (input)n->q->in, &out->v, m->error))
-            return true;
-        return placed(m, n);
-    case N_CALL: {
-        const expr_node *a = &m->e->nodes[n->left];
-        value arg = a->v;
-        if (!dim_equal(arg.d, n->q->argument_d) && !(arg.v == 0 && a->kind == N_NUMBER)) {
-            char want[128], got[128];
-            dim_describe(n->q->argument_d, want, sizeof want);
-            dim_describe(arg.d, got, sizeof got);
-            return calc_fail(m->error, a->at, a->len, "%s(%s) takes %s, not %s (%.*s)", n->q->name,
-                             n->q->argument, want, got, (int)(a->len < 60 ? a->len : 60), m->e->text + a->at);
-        }
-        out->d = n->q->d;
-        out->v = 1;
-        return m->dry || n->q->call(&m->c->scene, arg, &out->v, m->error) || placed(m, n);
-    }
+        *out = (value){1, quantity_dim(n->q, m->c->now)};
+        return m->dry || quantity_get(n->q, m->c->now, &out->v, m->error) || calc_place(m->error, n->at, n->len);
+    case N_CALL:
+        return call_quantity(m, n, out);
+    case N_APPLY:
+        return apply(m, n, out);
+    case N_AT:
+        return changed_value(m, n, out);
     case N_BUILTIN:
         if (!call_builtin(m, n, out))
             return false;
@@ -195,34 +318,57 @@ static bool eval(machine *m, const expr_node *n, value *out) {
 
 /* A mismatch of dimensions is the deeper error: it is reported even where a value is still missing. Not
  * where an exponent is unknown, on which dimensions depend. */
-static void prefer_mismatch(calc *c, const expr *e, calc_error *error) {
-    calc_error mismatch = {0};
-    machine m = {c, e, &mismatch, true};
-    for (size_t i = 0; i < e->count; i++) {
-        const expr_node *n = &e->nodes[i];
-        if (n->kind == N_BINARY && n->op == '^' && e->nodes[n->right].kind != N_NUMBER)
+static void prefer_mismatch(const machine *m) {
+    calc_error mismatch;
+    error_clear(&mismatch);
+    machine dry = *m;
+    dry.error = &mismatch;
+    dry.dry = true;
+    for (size_t i = 0; i < m->e->count; i++) {
+        const expr_node *n = &m->e->nodes[i];
+        if (n->kind == N_BINARY && n->op == '^' && m->e->nodes[n->right].kind != N_NUMBER)
             return;
-        if (!eval(&m, n, &e->nodes[i].v)) {
-            *error = mismatch;
+        if (!eval(&dry, n, &m->e->nodes[i].v)) {
+            if (mismatch.strange)
+                *m->error = mismatch;
             return;
         }
     }
 }
 
-bool expr_eval(calc *c, const expr *e, value *out, calc_error *error) {
-    machine m = {c, e, error, false};
-    /* children come before their parents: a loop, so that no input can exhaust the stack */
-    for (size_t i = 0; i < e->count; i++)
-        if (!eval(&m, &e->nodes[i], &e->nodes[i].v)) {
-            if (!error->stop)
-                prefer_mismatch(c, e, error);
+/* Children come before their parents: a loop, so that no input can exhaust the stack. */
+static bool run(machine *m, value *out) {
+    for (size_t i = 0; i < m->e->count; i++)
+        if (!eval(m, &m->e->nodes[i], &m->e->nodes[i].v)) {
+            if (!m->dry && !m->error->stop && !m->error->circle)
+                prefer_mismatch(m);
             return false;
         }
-    *out = e->nodes[e->count - 1].v;
+    *out = m->e->nodes[m->e->count - 1].v;
     return true;
 }
 
-/* ---- a block of rows ---------------------------------------------------------------------------- */
+bool expr_eval(calc *c, const expr *e, value *out, calc_error *error) {
+    machine m = {c, e, error, NULL, false};
+    return run(&m, out);
+}
+
+bool expr_dim(calc *c, const expr *e, dim *d) {
+    calc_error ignored;
+    value v;
+    error_clear(&ignored);
+    machine m = {c, e, &ignored, NULL, true};
+    if (!run(&m, &v))
+        return false;
+    *d = v.d;
+    return true;
+}
+
+bool expr_value(calc *c, lexer *lx, value *out) {
+    return expr_parse(c, lx, &c->scratch) && expr_eval(c, &c->scratch, out, lx->error);
+}
+
+/* ---- a block of rows --------------------------------------------------------------------------- */
 
 /* A value at every row, or one for all of them: stride 0. */
 typedef struct operand {
@@ -231,74 +377,132 @@ typedef struct operand {
 } operand;
 
 static bool call_block(calc *c, const quantity *q, operand a, dim d, size_t rows, long double *out) {
-    calc_error unused = {0};
+    calc_error unused;
+    error_clear(&unused);
     if (q->block) {
         double argument[EXPR_BLOCK], result[EXPR_BLOCK];
         for (size_t i = 0; i < rows; i++)
             argument[i] = (double)a.v[i];
-        if (!q->block(&c->scene, argument, result, rows, &unused))
+        if (!q->block(c->now, argument, result, rows, &unused))
             return false;
         for (size_t i = 0; i < rows; i++)
             out[i] = result[i];
         return true;
     }
     for (size_t i = 0; i < rows; i++)
-        if ((c->scene.stop && *c->scene.stop) || !q->call(&c->scene, (value){a.v[i], d}, &out[i], &unused))
+        if ((c->now->stop && *c->now->stop) || !q->call(c->now, (value){a.v[i], d}, &out[i], &unused))
             return false;
     return true;
 }
 
-/* Children come before their parents, the left before the right: a stack machine. Dimensions, and what does
- * not vary, are those of the first row. */
-bool expr_eval_block(calc *c, const expr *e, const long double x[], size_t rows, long double out[], dim *d) {
-    enum { DEEPEST = 16 };
+/* What varies with the name; false where a node hides what it depends on. */
+static bool mark_varying(const calc *c, const expr *e, size_t name) {
+    for (size_t j = 0; j < e->count; j++) {
+        expr_node *n = &e->nodes[j];
+        const size_t takes = node_operands(n);
+        if (n->kind == N_APPLY || n->kind == N_AT || (n->kind == N_NAME && c->names.row[n->index].definition))
+            return false;
+        n->varies = (n->kind == N_NAME && n->index == name) || (takes && e->nodes[n->left].varies) ||
+                    (takes > 1 && e->nodes[n->right].varies);
+    }
+    return c->now->in.bindings == 0;
+}
+
+static bool elementwise(const expr_node *n, operand a, operand b, size_t rows, long double *to) {
+    bool finite = true;
+    for (size_t i = 0; i < rows; i++) {
+        to[i] = real_value(n, a.v[i * a.stride], b.v[i * b.stride]);
+        finite = finite && isfinite((double)to[i]);
+    }
+    return finite;
+}
+
+enum { DEEPEST = 16 };
+typedef struct block {
     long double column[DEEPEST][EXPR_BLOCK];
-    operand stack[DEEPEST] = {{NULL, 0}};
+    operand stack[DEEPEST];
+} block;
+
+static bool run_block(calc *c, const expr *e, const long double x[], size_t rows, block *b) {
     size_t depth = 0;
-    value first;
-    calc_error unused = {0};
-    c->sweep_value[0].v = x[0];
-    if (!expr_eval(c, e, &first, &unused))
-        return false;
     for (size_t j = 0; j < e->count; j++) {
         const expr_node *n = &e->nodes[j], *l = &e->nodes[n->left];
-        size_t takes = node_operands(n);
-        bool finite = true;
+        const size_t takes = node_operands(n);
         depth -= takes;
         if (depth == DEEPEST)
             return false;
-        operand *top = &stack[depth], a = *top, b = takes > 1 ? top[1] : a;
-        long double *to = column[depth++];
+        operand *top = &b->stack[depth], left = *top, right = takes > 1 ? top[1] : left;
+        long double *to = b->column[depth++];
         if (!n->varies) {
             *top = (operand){&n->v.v, 0};
             continue;
         }
-        if (n->kind == N_SWEEP) {
+        if (n->kind == N_NAME) {
             *top = (operand){x, 1};
             continue;
         }
         /* the dimension may vary too */
         if (n->op == '^' && e->nodes[n->right].varies && !dim_equal(l->v.d, DIM_NONE))
             return false;
-        if (n->kind == N_CALL) {
-            if (!call_block(c, n->q, a, l->v.d, rows, to))
-                return false;
-        } else {
-            for (size_t i = 0; i < rows; i++) {
-                to[i] = real_value(n, a.v[i * a.stride], b.v[i * b.stride]);
-                finite = finite && isfinite((double)to[i]);
-            }
-        }
-        if (!finite)
+        if (n->kind == N_CALL ? !call_block(c, n->q, left, l->v.d, rows, to)
+                              : !elementwise(n, left, right, rows, to))
             return false;
         *top = (operand){to, 1};
     }
+    return true;
+}
+
+/* Children come before their parents, the left before the right: a stack machine. Dimensions, and what does
+ * not vary, are those of the first row. */
+bool expr_eval_block(calc *c, const expr *e, size_t name, const long double x[], size_t rows, long double out[],
+                     dim *d) {
+    static _Thread_local block b; /* too large for a small stack */
+    value first;
+    calc_error unused;
+    error_clear(&unused);
+    c->names.row[name].v.v = x[0];
+    if (!mark_varying(c, e, name) || !expr_eval(c, e, &first, &unused) || !run_block(c, e, x, rows, &b))
+        return false;
     for (size_t i = 0; i < rows; i++)
-        out[i] = stack[0].v[i * stack[0].stride];
+        out[i] = b.stack[0].v[i * b.stack[0].stride];
     *d = first.d;
     return true;
 }
 
-bool expr_value(calc *c, lexer *lx, value *out) {
-    return expr_parse(c, lx, &c->scratch) && expr_eval(c, &c->scratch, out, lx->error);
+/* ---- what an expression is made of ------------------------------------------------------------- */
+
+bool expr_mentions(const calc *c, const expr *e, const quantity *q, const char *name) {
+    for (size_t i = 0; i < e->count; i++) {
+        const expr_node *n = &e->nodes[i];
+        if (q && (n->kind == N_QUANTITY || n->kind == N_CALL) && n->q == q)
+            return true;
+        if (n->kind == N_AT && expr_mentions(c, &n->changed->body, q, name))
+            return true;
+        for (size_t j = 0; n->kind == N_AT && j < n->changed->count; j++)
+            if (expr_mentions(c, &n->changed->change[j].value, q, name))
+                return true;
+        if (n->kind != N_NAME && n->kind != N_APPLY)
+            continue;
+        const own_name *row = &c->names.row[n->index];
+        if ((name && !strcmp(row->text, name)) ||
+            (row->definition && expr_mentions(c, &((const definition *)row->definition)->body, q, name)))
+            return true;
+    }
+    return false;
+}
+
+const quantity *expr_quantity(const expr *e, size_t i, bool *call) {
+    for (size_t j = 0; j < e->count; j++) {
+        const expr_node *n = &e->nodes[j];
+        if (n->kind != N_QUANTITY && n->kind != N_CALL)
+            continue;
+        bool again = false;
+        for (size_t k = 0; k < j; k++)
+            again = again || (e->nodes[k].q == n->q && e->nodes[k].kind == n->kind);
+        if (!again && i-- == 0) {
+            *call = n->kind == N_CALL;
+            return n->q;
+        }
+    }
+    return NULL;
 }

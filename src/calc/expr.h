@@ -1,61 +1,74 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Expressions with dimensions, and the variables they see. */
+/* Expressions with dimensions: parsed once, evaluated often. */
 #ifndef CALC_EXPR_H
 #define CALC_EXPR_H
 
+#include "calc/lex.h"
 #include "calc/quantity.h"
 
-typedef struct variable {
-    char *name;
-    value v;
-} variable;
+struct calc;
 
 /* A parsed expression: a tree in an array, children before parents; the root is last. */
 typedef struct expr_node expr_node;
+typedef struct expr_at expr_at;
 typedef struct expr {
     expr_node *nodes;
     size_t count, room;
+    size_t *arguments; /* roots of the arguments of the user's functions */
+    size_t argument_count, argument_room;
+    expr_at *ats;     /* its parts `... at NAME = EXPR`, a list */
     const char *text; /* the statement it was parsed from: borrowed */
     size_t at, len;   /* its place there */
 } expr;
 
-/* What an expression can refer to. */
-typedef struct calc {
-    scene scene;
-    variable *variables;
-    size_t variable_count, variable_room;
-    size_t *slots; /* hashed by name: 1 + index, or 0 */
-    /* free names of a sweep, seen before everything else */
-    const char *sweep_name[2];
-    value sweep_value[2];
-    expr scratch; /* storage of expr_value */
-} calc;
+enum { PARAMETERS = 4 };
 
-void calc_free(calc *c);
-bool calc_set_variable(calc *c, const char *name, size_t len, value v);
-bool calc_find_variable(const calc *c, const char *name, size_t len, size_t *index);
-/* i-th user variable's name, or NULL. */
-const char *calc_variable_name(const calc *c, size_t i);
+/* NAME := EXPR, or NAME(X, ...) := EXPR. */
+typedef struct definition {
+    counted base;
+    char *label; /* NAME */
+    char *text;  /* of the body, its own */
+    expr body;
+    unsigned parameters;
+    char parameter[PARAMETERS][LEX_NAME];
+} definition;
 
-/* Parses at the cursor, as far as an expression goes. Reuses e's storage. */
-bool expr_parse(const calc *c, lexer *lx, expr *e);
-bool expr_eval(calc *c, const expr *e, value *out, calc_error *error);
-/* The same at `rows` values x of the first name of a sweep, 1 to EXPR_BLOCK: one dimension for all. False
- * where a row fails, or may: expr_eval, row by row, finds out. */
+/* Parses at the cursor, as far as an expression goes, with `at` where it is within parentheses. Reuses e's storage.
+ */
+bool expr_parse(struct calc *c, lexer *lx, expr *e);
+/* The same with `at NAME = EXPR, ...` behind it. A comma ends it that no NAME = follows. */
+bool expr_parse_at(struct calc *c, lexer *lx, expr *e);
+/* `at ...` at the cursor, for an expression that has been parsed. */
+bool expr_read_at(struct calc *c, lexer *lx, expr *e);
+bool expr_eval(struct calc *c, const expr *e, value *out, calc_error *error);
+/* The same at `rows` values x of one name, 1 to EXPR_BLOCK: one dimension for all. False where a row fails, or
+ * may: expr_eval, row by row, finds out. */
 enum { EXPR_BLOCK = 256 };
-bool expr_eval_block(calc *c, const expr *e, const long double x[], size_t rows, long double out[], dim *d);
+bool expr_eval_block(struct calc *c, const expr *e, size_t name, const long double x[], size_t rows,
+                     long double out[], dim *d);
+/* The dimension alone, also where a value is missing. */
+bool expr_dim(struct calc *c, const expr *e, dim *d);
 void expr_free(expr *e);
 
-/* Parses a unit expression, such as N/mm^2, at the cursor. */
-bool unit_parse(lexer *lx, unit *out);
-
 /* Parse and evaluate in one go. */
-bool expr_value(calc *c, lexer *lx, value *out);
+bool expr_value(struct calc *c, lexer *lx, value *out);
+
+/* Does the expression depend on this quantity or own name, directly or by live definitions? */
+bool expr_mentions(const struct calc *c, const expr *e, const quantity *q, const char *name);
+/* The quantities of an expression in the order of their appearance: i = 0, 1, ... call: as a function. NULL after the
+ * last. */
+const quantity *expr_quantity(const expr *e, size_t i, bool *call);
+
+/* A definition of the text at the cursor to the end of its expression; takes its errors there. NULL on error. */
+definition *definition_parse(struct calc *c, lexer *lx, const char *label, size_t len,
+                             char (*parameter)[LEX_NAME], unsigned parameters);
+/* The value of a definition without parameters in the scene c->now; a circle is an error that names it. */
+bool definition_value(struct calc *c, definition *d, value *out, calc_error *error);
 
 /* Words with a meaning of their own in expressions: pi and the elementary functions. */
 const char *builtin_name(size_t i);
 const char *builtin_summary(size_t i);
-/* Why a word cannot be a variable, or NULL: unit, quantity, function. */
+/* Why a word cannot be a variable, or NULL: a unit, a quantity, a function. */
 const char *name_taken(const char *name, size_t len);
 
 #endif

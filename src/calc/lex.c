@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tokens, and decimal literals rounded once. Touches nothing but the lexer. */
 #include "calc/lex.h"
 
 #include <float.h>
@@ -19,30 +20,15 @@ static bool blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-static bool vfail(calc_error *error, size_t at, size_t len, const char *format, va_list args) {
-    if (!error->raised) {
-        error->raised = true;
-        error->at = at;
-        error->len = len;
-        vsnprintf(error->text, sizeof error->text, format, args);
-    }
-    return false;
-}
-
-bool calc_fail(calc_error *error, size_t at, size_t len, const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    vfail(error, at, len, format, args);
-    va_end(args);
-    return false;
-}
-
 bool lex_fail(lexer *lx, const char *format, ...) {
+    char text[CALC_ERROR_TEXT];
     va_list args;
+    if (lx->error->raised)
+        return false;
     va_start(args, format);
-    vfail(lx->error, lx->at, lx->len, format, args);
+    vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    return false;
+    return calc_fail(lx->error, lx->at, lx->len, "%s", text);
 }
 
 void lex_start(lexer *lx, const char *text, size_t len, calc_error *error) {
@@ -151,13 +137,16 @@ void lex_seek(lexer *lx, size_t at) {
             lex_fail(lx, "the quotation mark is not closed");
     } else if (c == '=' && d != '=') {
         lx->kind = T_ASSIGN;
+    } else if (c == ':' && d == '=') {
+        lx->kind = T_DEFINE;
+        lx->len = 2;
     } else if (c == '+' && d == '=') {
         lx->kind = T_INCREMENT;
         lx->len = 2;
     } else if (c == '.' && d == '.') {
         lx->kind = T_RANGE;
         lx->len = 2;
-    } else if (c && strchr("+-*/^(),:%", c)) {
+    } else if (c && strchr("+-*/^(),:%|", c)) {
         lx->kind = (token_kind)c;
     } else if (c == '=' || c == '<' || c == '>' || c == '!') {
         lex_fail(lx, "there are no comparisons: '%c' is not an operator here", c);
@@ -183,6 +172,10 @@ bool lex_accept(lexer *lx, const char *word) {
     return true;
 }
 
+void lex_word(const lexer *lx, char word[LEX_NAME]) {
+    snprintf(word, LEX_NAME, "%.*s", LEX_WORD(lx));
+}
+
 token_kind lex_peek(const lexer *lx) {
     size_t i = lx->at + lx->len;
     while (i < lx->end && blank(lx->text[i]))
@@ -190,8 +183,10 @@ token_kind lex_peek(const lexer *lx) {
     if (i >= lx->end)
         return T_END;
     char c = lx->text[i], d = i + 1 < lx->end ? lx->text[i + 1] : 0;
-    if (c == '=' || (c == '+' && d == '='))
-        return c == '+' ? T_INCREMENT : d == '=' ? T_END : T_ASSIGN;
+    if (d == '=' && (c == '+' || c == ':'))
+        return c == '+' ? T_INCREMENT : T_DEFINE;
+    if (c == '=')
+        return d == '=' ? T_END : T_ASSIGN;
     return letter(c) ? T_NAME : digit(c) ? T_NUMBER : (token_kind)(unsigned char)c;
 }
 

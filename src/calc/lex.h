@@ -1,19 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tokens of a statement, and the error that every room of the language reports. */
+/* Tokens of a statement. */
 #ifndef CALC_LEX_H
 #define CALC_LEX_H
 
-#include <stdbool.h>
-#include <stddef.h>
-
-enum { CALC_ERROR_TEXT = 512 };
-
-/* What went wrong, and where in the statement: bytes at .. at+len. */
-typedef struct calc_error {
-    bool raised, stop; /* stop: interrupted */
-    size_t at, len;
-    char text[CALC_ERROR_TEXT];
-} calc_error;
+#include "calc/error.h"
 
 typedef enum token_kind {
     T_END,
@@ -21,6 +11,7 @@ typedef enum token_kind {
     T_NAME,
     T_STRING,    /* "..." */
     T_ASSIGN,    /* = */
+    T_DEFINE,    /* := */
     T_INCREMENT, /* += */
     T_RANGE,     /* .. */
     T_PLUS = '+',
@@ -32,6 +23,7 @@ typedef enum token_kind {
     T_CLOSE = ')',
     T_COMMA = ',',
     T_COLON = ':',
+    T_BAR = '|',
     T_PERCENT = '%'
 } token_kind;
 
@@ -52,6 +44,12 @@ void lex_seek(lexer *lx, size_t at);
 bool lex_is(const lexer *lx, const char *word);
 /* If the cursor stands on the word, steps over it. */
 bool lex_accept(lexer *lx, const char *word);
+/* For "%.*s": the token under the cursor, as much of it as a message bears. */
+#define LEX_SHOWN(length) (int)((length) < 60 ? (length) : 60)
+#define LEX_WORD(lx) LEX_SHOWN((lx)->len), (lx)->text + (lx)->at
+/* The same as a string of its own. */
+enum { LEX_NAME = 64 };
+void lex_word(const lexer *lx, char word[LEX_NAME]);
 /* The kind of the token after the cursor. */
 token_kind lex_peek(const lexer *lx);
 /* A file name: a string, or all up to white space. False: none there. */
@@ -61,12 +59,7 @@ bool lex_filename(lexer *lx, char *buf, size_t size);
  * fit. */
 double lex_decimal(const char *text, size_t len, int shift);
 
-/* Records the first error; always returns false. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 4, 5)))
-#endif
-bool calc_fail(calc_error *error, size_t at, size_t len, const char *format, ...);
-/* The same at the cursor. */
+/* Records an error at the cursor; always returns false. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif

@@ -1,627 +1,180 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of quantities and how its rows are read. */
 #include "calc/quantity.h"
-#include "number/real.h"
 
-#include <math.h>
 #include <string.h>
 
-/* ---- results now ------------------------------------------------------------------------------- */
+#include "calc/functions.h"
 
-#define STATE(name, member)                                                                                  \
-    static bool get_##name(scene *s, long double *out, calc_error *error) {                                  \
-        const fret_state *state;                                                                             \
-        if (!scene_state(s, &state, error))                                                                  \
-            return false;                                                                                    \
-        *out = state->member;                                                                                \
-        return true;                                                                                         \
-    }
-STATE(W, W)
-STATE(U, U)
-STATE(kt, kt)
+#define INPUT(which) .of = OF_INPUT, .in = 1 + (which), .reads = INPUT_BIT(which)
+#define PRESS(member) .of = OF_PRESS, .at = offsetof(fret_press, member), .load = true
+#define LOADING(member)                                                                                        \
+    .of = OF_LOADING, .at = offsetof(fret_loading, member), .at_state = offsetof(fret_state, member), .load = true
+#define STATE(member) .of = OF_STATE, .at_state = offsetof(fret_state, member), .load = true
+#define FOUNDATION(member) .of = OF_FOUNDATION, .at = offsetof(fret_foundation, member), .reads = READS_MATERIAL
+#define GETTER(function) .of = OF_GETTER, .get = get_##function
+#define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
+#define FORCE                                                                                                  \
+    { 1, 0, 0 }
+#define LENGTH                                                                                                 \
+    { 0, 1, 0 }
+#define PRESSURE                                                                                               \
+    { 1, -2, 0 }
+#define ENERGY                                                                                                 \
+    { 1, 1, 0 }
+#define STIFFNESS                                                                                              \
+    { 1, -1, 0 }
+#define ANGLE                                                                                                  \
+    { 0, 0, 1 }
 
-#define PRESS(name, member)                                                                                  \
-    static bool get_##name(scene *s, long double *out, calc_error *error) {                                  \
-        const fret_press *press;                                                                             \
-        if (!scene_press(s, &press, error))                                                                  \
-            return false;                                                                                    \
-        *out = press->member;                                                                                \
-        return true;                                                                                         \
-    }
-PRESS(FN, F)
-PRESS(dz, dz)
-PRESS(a, a)
-
-/* First loading has a closed form, which keeps every digit also close to gross slip. */
-#define TANGENTIAL(name, member)                                                                             \
-    static bool get_##name(scene *s, long double *out, calc_error *error) {                                  \
-        const fret_state *state;                                                                             \
-        fret_loading first;                                                                                  \
-        if (scene_closed_state(s)) {                                                                         \
-            if (!scene_first_loading(s, &first, error))                                                      \
-                return false;                                                                                \
-            *out = first.member;                                                                             \
-            return true;                                                                                     \
-        }                                                                                                    \
-        if (!scene_state(s, &state, error))                                                                  \
-            return false;                                                                                    \
-        *out = state->member;                                                                                \
-        return true;                                                                                         \
-    }
-TANGENTIAL(Fx, Fx)
-TANGENTIAL(dx, dx)
-TANGENTIAL(c, c)
-
-static bool get_dW(scene *s, long double *out, calc_error *error) {
-    return scene_cycle_loss(s, out, error);
-}
-
-static bool get_kn(scene *s, long double *out, calc_error *error) {
-    const fret_press *press;
-    const fret_normal *normal;
-    if (!scene_press(s, &press, error) || !scene_normal(s, &normal, error))
-        return false;
-    *out = press->a > 0 ? fret_normal_stiffness(normal, press->a) : 0;
-    return true;
-}
-
-/* ---- the scene against its k = 0 twin ---------------------------------------------------------- */
-
-static bool k0_press(scene *s, const fret_normal **normal, fret_press *out, calc_error *error) {
-    const fret_press *press;
-    if (!scene_press(s, &press, error) || !scene_k0(s, normal, error))
-        return false;
-    scene_used_closed(s);
-    fret_status st = fret_press_by_force(*normal, (double)press->F, out);
-    return scene_status(s, error, &st);
-}
-
-static bool get_a0(scene *s, long double *out, calc_error *error) {
-    const fret_normal *normal;
-    fret_press press;
-    if (!k0_press(s, &normal, &press, error))
-        return false;
-    *out = press.a;
-    return true;
-}
-
-static bool get_dz0(scene *s, long double *out, calc_error *error) {
-    const fret_normal *normal;
-    fret_press press;
-    if (!k0_press(s, &normal, &press, error))
-        return false;
-    *out = press.dz;
-    return true;
-}
-
-static bool get_dx0max(scene *s, long double *out, calc_error *error) {
-    const fret_normal *normal;
-    fret_press press;
-    double mu;
-    if (!k0_press(s, &normal, &press, error) || !scene_friction(s, &mu, error))
-        return false;
-    *out = fret_gross_slip(&(fret_contact){normal, mu, press});
-    return true;
-}
-
-static bool get_dxmax(scene *s, long double *out, calc_error *error) {
-    const fret_normal *normal;
-    const fret_press *press;
-    double mu;
-    if (!scene_press(s, &press, error) || !scene_normal(s, &normal, error) || !scene_friction(s, &mu, error))
-        return false;
-    *out = fret_gross_slip(&(fret_contact){normal, mu, *press});
-    return true;
-}
-
-/* ---- coefficients ------------------------------------------------------------------------------ */
-
-/* Coefficients of the material alone do not wait for a geometry. */
-static bool foundation_of(scene *s, fret_foundation *out, calc_error *error) {
-    const fret_normal *normal;
-    scene probe;
-    if (!s->geometry) {
-        scene_clone(&probe, s);
-        probe.geometry = geometry_find("cone", 4);
-        probe.in[IN_SLOPE] = 1;
-    }
-    bool ok = scene_normal(s->geometry ? s : &probe, &normal, error);
-    s->used |= USED_CLOSED;
-    if (ok)
-        *out = *fret_normal_foundation(normal);
-    if (!s->geometry)
-        scene_free(&probe);
-    return ok;
-}
-
-#define MATERIAL(name, member)                                                                               \
-    static bool get_##name(scene *s, long double *out, calc_error *error) {                                  \
-        fret_foundation foundation;                                                                          \
-        if (!foundation_of(s, &foundation, error))                                                           \
-            return false;                                                                                    \
-        *out = foundation.member;                                                                            \
-        return true;                                                                                         \
-    }
-MATERIAL(eta, eta)
-MATERIAL(hN, hN[0])
-MATERIAL(hT, hT[0])
-MATERIAL(beta_k, beta[0])
-MATERIAL(cN, cN0)
-MATERIAL(cT, cT0)
-
-static bool get_kappa(scene *s, long double *out, calc_error *error) {
-    long double n = 0;
-    if (!scene_get(s, IN_N, &n, error))
-        return false;
-    s->used |= USED_CLOSED;
-    *out = fret_kappa((double)n, s->in[IN_K]);
-    return true;
-}
-
-/* ---- functions of the scene -------------------------------------------------------------------- */
-
-static bool pressed_by(scene *s, value F, fret_press *out, calc_error *error) {
-    const fret_normal *normal;
-    if (!scene_normal(s, &normal, error))
-        return false;
-    scene_used_closed(s);
-    fret_status st = fret_press_by_force(normal, (double)F.v, out);
-    return scene_status(s, error, &st);
-}
-
-static bool call_a(scene *s, value F, long double *out, calc_error *error) {
-    fret_press press;
-    if (!pressed_by(s, F, &press, error))
-        return false;
-    *out = press.a;
-    return true;
-}
-
-static bool call_dz(scene *s, value F, long double *out, calc_error *error) {
-    fret_press press;
-    if (!pressed_by(s, F, &press, error))
-        return false;
-    *out = press.dz;
-    return true;
-}
-
-/* What the closed forms of tangential loading start from. */
-static bool loaded(scene *s, const fret_normal **normal, const fret_press **press, double *mu,
-                   calc_error *error) {
-    return scene_normal(s, normal, error) && scene_press(s, press, error) && scene_friction(s, mu, error);
-}
-
-static bool load_first(scene *s, value arg, bool by_force, fret_loading *out, calc_error *error) {
-    const fret_normal *normal;
-    const fret_press *press;
-    double mu;
-    if (!loaded(s, &normal, &press, &mu, error))
-        return false;
-    const fret_contact contact = {normal, mu, *press};
-    fret_status st = by_force ? fret_loading_by_force(&contact, (double)arg.v, out)
-                              : fret_loading_by_displacement(&contact, (double)arg.v, out);
-    return scene_status(s, error, &st);
-}
-
-static bool call_c(scene *s, value F, long double *out, calc_error *error) {
-    fret_loading first;
-    if (!load_first(s, F, true, &first, error))
-        return false;
-    *out = first.c;
-    return true;
-}
-
-static bool call_dx(scene *s, value F, long double *out, calc_error *error) {
-    fret_loading first;
-    if (!load_first(s, F, true, &first, error))
-        return false;
-    *out = first.dx;
-    return true;
-}
-
-static bool call_Fx(scene *s, value d, long double *out, calc_error *error) {
-    fret_loading first;
-    if (!load_first(s, d, false, &first, error))
-        return false;
-    *out = first.Fx;
-    return true;
-}
-
-static bool call_dW(scene *s, value FA, long double *out, calc_error *error) {
-    const fret_normal *normal;
-    const fret_press *press;
-    double mu;
-    if (!loaded(s, &normal, &press, &mu, error))
-        return false;
-    fret_status st = fret_cycle_loss_by_force(&(fret_contact){normal, mu, *press}, (double)FA.v, out);
-    return scene_status(s, error, &st);
-}
-
-static bool call_E(scene *s, value z, long double *out, calc_error *error) {
-    long double E0 = 0, c0 = 1, k = s->in[IN_K];
-    if (!scene_get(s, IN_E0, &E0, error) || (k != 0 && !scene_get(s, IN_C0, &c0, error)))
-        return false;
-    if (z.v < 0)
-        return calc_fail(error, 0, 0, "E(z) is defined for z >= 0");
-    s->used |= USED_CLOSED;
-    *out = E0 * fret_pow(z.v / c0, k);
-    return true;
-}
-
-static bool call_f(scene *s, value r, long double *out, calc_error *error) {
-    const fret_normal *normal;
-    if (!scene_normal(s, &normal, error))
-        return false;
-    s->used |= USED_CLOSED;
-    fret_status st = fret_gap_f(fret_normal_gap(normal), r.v, out);
-    return scene_status(s, error, &st);
-}
-
-static bool call_g(scene *s, value x, long double *out, calc_error *error) {
-    const fret_normal *normal;
-    if (!scene_normal(s, &normal, error))
-        return false;
-    scene_used_closed(s);
-    fret_status st = fret_gap_g(fret_normal_gap(normal), s->in[IN_K], x.v, out, NULL);
-    return scene_status(s, error, &st);
-}
-
-/* ---- local fields, state now ------------------------------------------------------------------- */
-
-static bool normal_field(scene *s, value r,
-                         fret_status (*field)(const fret_normal *, fret_real, fret_real, fret_real *),
-                         long double *out, calc_error *error) {
-    const fret_normal *normal;
-    const fret_press *press;
-    if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error))
-        return false;
-    s->used |= USED_QUADRATURE;
-    fret_status st = field(normal, press->a, r.v, out);
-    return scene_status(s, error, &st);
-}
-
-static bool call_p(scene *s, value r, long double *out, calc_error *error) {
-    return normal_field(s, r, fret_pressure, out, error);
-}
-
-static bool call_uz(scene *s, value r, long double *out, calc_error *error) {
-    return normal_field(s, r, fret_surface, out, error);
-}
-
-static bool tangential_field(scene *s, value r,
-                             fret_status (*field)(const fret_memory *, fret_real, fret_real *),
-                             long double *out, calc_error *error) {
-    const fret_memory *memory;
-    double mu;
-    if (!scene_friction(s, &mu, error) || !scene_memory(s, &memory, error))
-        return false;
-    s->used |= USED_MEMORY | USED_QUADRATURE;
-    fret_status st = field(memory, r.v, out);
-    return scene_status(s, error, &st);
-}
-
-static bool call_qx(scene *s, value r, long double *out, calc_error *error) {
-    return tangential_field(s, r, fret_traction, out, error);
-}
-
-static bool call_ux(scene *s, value r, long double *out, calc_error *error) {
-    return tangential_field(s, r, fret_surface_x, out, error);
-}
-
-/* ---- functions at many arguments --------------------------------------------------------------- */
-
-static bool block_press(scene *s, const double F[], double a[], double dz[], size_t count,
-                        calc_error *error) {
-    const fret_normal *normal;
-    if (!scene_normal(s, &normal, error))
-        return false;
-    fret_status st = fret_batch_press(normal, F, a, dz, count);
-    return scene_status(s, error, &st);
-}
-
-static bool block_a(scene *s, const double F[], double out[], size_t count, calc_error *error) {
-    return block_press(s, F, out, NULL, count, error);
-}
-
-static bool block_dz(scene *s, const double F[], double out[], size_t count, calc_error *error) {
-    return block_press(s, F, NULL, out, count, error);
-}
-
-static bool block_loading(scene *s, const double F[], double c[], double dx[], size_t count,
-                          calc_error *error) {
-    const fret_normal *normal;
-    const fret_press *press;
-    double mu;
-    if (!loaded(s, &normal, &press, &mu, error))
-        return false;
-    fret_status st = fret_batch_loading(&(fret_contact){normal, mu, *press}, F, c, dx, count);
-    return scene_status(s, error, &st);
-}
-
-static bool block_c(scene *s, const double F[], double out[], size_t count, calc_error *error) {
-    return block_loading(s, F, out, NULL, count, error);
-}
-
-static bool block_dx(scene *s, const double F[], double out[], size_t count, calc_error *error) {
-    return block_loading(s, F, NULL, out, count, error);
-}
-
-static bool block_dW(scene *s, const double FA[], double out[], size_t count, calc_error *error) {
-    const fret_normal *normal;
-    const fret_press *press;
-    double mu;
-    if (!loaded(s, &normal, &press, &mu, error))
-        return false;
-    fret_status st = fret_batch_loss(&(fret_contact){normal, mu, *press}, FA, out, count);
-    return scene_status(s, error, &st);
-}
-
-/* ---- the table --------------------------------------------------------------------------------- */
-
+/* clang-format off */
 static const quantity quantities[] = {
-    {"E0", "characteristic modulus", "E(z) = E0 (z/c0)^k", "(1)", {1, -2}, IN_E0, 0, 0, 0, {0, 0}, 0},
-    {"nu", "Poisson's ratio", "-1 < nu <= 1/2", "(1)", {0, 0}, IN_NU, 0, 0, 0, {0, 0}, 0},
-    {"k", "exponent of grading", "-1 < k < 1", "(1)", {0, 0}, IN_K, 0, 0, 0, {0, 0}, 0},
-    {"c0", "characteristic depth", "E(c0) = E0", "(1)", {0, 1}, IN_C0, 0, 0, 0, {0, 0}, 0},
-    {"E0_2",
-     "modulus of the second body",
-     "as E0; default: same",
-     "(4)",
-     {1, -2},
-     IN_E0_2,
-     0,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"nu_2",
-     "Poisson's ratio of the second body",
-     "as nu; default: same",
-     "(4)",
-     {0, 0},
-     IN_NU_2,
-     0,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"mu", "coefficient of friction", "|q_x| <= mu p", "(14)", {0, 0}, IN_MU, 0, 0, 0, {0, 0}, 0},
-    {"n", "exponent of the gap", "f = A r^n", "(6)", {0, 0}, IN_N, 0, 0, 0, {0, 0}, 0},
-    {"A", "coefficient of the gap", "f = A r^n", "(6)", {0, 0}, IN_A, 0, 0, 0, {0, 0}, 0},
-    {"h", "gap at r0", "f = h (r/r0)^n", "(6)", {0, 1}, IN_H, 0, 0, 0, {0, 0}, 0},
-    {"r0", "reference radius of the gap", "f = h (r/r0)^n", "(6)", {0, 1}, IN_R0, 0, 0, 0, {0, 0}, 0},
-    {"R", "radius of curvature", "f = r^2/(2R)", "(6)", {0, 1}, IN_RADIUS, 0, 0, 0, {0, 0}, 0},
-    {"b", "radius of the flat end", "f = 0 for r < b", "(3)", {0, 1}, IN_B, 0, 0, 0, {0, 0}, 0},
-    {"slope",
-     "slope of the flank",
-     "f = slope r, slope = tan(angle)",
-     "(6)",
-     {0, 0},
-     IN_SLOPE,
-     0,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"FN",
-     "normal force",
-     "F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx",
-     "(13)",
-     {1, 0},
-     IN_FN,
-     get_FN,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"dz", "indentation depth", "delta_z = g(a)", "(11)", {0, 1}, -1, get_dz, call_dz, "F", {1, 0}, block_dz},
-    {"a",
-     "contact radius",
-     "g(a) = delta_z; power law: F_N ~ a^(n+k+1)",
-     "(11),(13)",
-     {0, 1},
-     -1,
-     get_a,
-     call_a,
-     "F",
-     {1, 0},
-     block_a},
-    {"Fx",
-     "tangential force",
-     "F_x = mu [F_N(a)-F_N(c)] on first loading",
-     "(15)",
-     {1, 0},
-     -1,
-     get_Fx,
-     call_Fx,
-     "d",
-     {0, 1},
-     0},
-    {"dx",
-     "tangential displacement",
-     "delta_x = mu eta [g(a)-g(c)] on first loading",
-     "(18)",
-     {0, 1},
-     -1,
-     get_dx,
-     call_dx,
-     "F",
-     {1, 0},
-     block_dx},
-    {"c",
-     "stick radius",
-     "c/a = (1-F_x/(mu F_N))^(1/(n+k+1)) on first loading",
-     "(17)",
-     {0, 1},
-     -1,
-     get_c,
-     call_c,
-     "F",
-     {1, 0},
-     block_c},
-    {"W", "energy dissipated so far", "W = sum of friction work", "(22)", {1, 1}, -1, get_W, 0, 0, {0, 0}, 0},
-    {"U", "stored tangential energy", "U = 1/2 int c_T u^2 dx", "(22)", {1, 1}, -1, get_U, 0, 0, {0, 0}, 0},
-    {"dW",
-     "energy dissipated per cycle",
-     "dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx",
-     "(27)",
-     {1, 1},
-     -1,
-     get_dW,
-     call_dW,
-     "FA",
-     {1, 0},
-     block_dW},
-    {"dxmax", "displacement at gross slip", "mu eta delta_z", "(18)", {0, 1}, -1, get_dxmax, 0, 0, {0, 0}, 0},
-    {"a0", "reference radius", "a for k = 0, same F_N and E0", "(23)", {0, 1}, -1, get_a0, 0, 0, {0, 0}, 0},
-    {"dz0",
-     "indentation depth for k = 0",
-     "delta_z for k = 0, same F_N and E0",
-     "(23)",
-     {0, 1},
-     -1,
-     get_dz0,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"dx0max",
-     "displacement at gross slip for k = 0",
-     "mu eta delta_z for k = 0",
-     "(18)",
-     {0, 1},
-     -1,
-     get_dx0max,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"kn",
-     "normal stiffness",
-     "dF_N/d delta_z = 2 c_N0 c0^-k a^(k+1)/(k+1)",
-     "(10)",
-     {1, -1},
-     -1,
-     get_kn,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"kt",
-     "tangential stiffness going on",
-     "dF_x/d delta_x = F_N'(y_c)/eta",
-     "(15),(18)",
-     {1, -1},
-     -1,
-     get_kt,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"eta", "stiffness ratio", "c_N/c_T", "(4),(5)", {0, 0}, -1, get_eta, 0, 0, {0, 0}, 0},
-    {"hN", "normal coefficient of the first body", "h_N(k,nu)", "(A1)", {0, 0}, -1, get_hN, 0, 0, {0, 0}, 0},
-    {"hT",
-     "tangential coefficient of the first body",
-     "h_T(k,nu)",
-     "(A2)",
-     {0, 0},
-     -1,
-     get_hT,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"beta_k",
-     "beta of the first body",
-     "beta^2 = (1+k)(1-k nu/(1-nu))",
-     "(A3)",
-     {0, 0},
-     -1,
-     get_beta_k,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"kappa", "shape factor", "(n/2) B(n/2,(k+1)/2)", "(8)", {0, 0}, -1, get_kappa, 0, 0, {0, 0}, 0},
-    {"cN",
-     "normal foundation modulus at c0",
-     "1/c_N = sum (1-nu^2)/(h_N E0)",
-     "(4)",
-     {1, -2},
-     -1,
-     get_cN,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"cT",
-     "tangential foundation modulus at c0",
-     "1/c_T = sum 1/(h_T E0)",
-     "(5)",
-     {1, -2},
-     -1,
-     get_cT,
-     0,
-     0,
-     {0, 0},
-     0},
-    {"E", "modulus at depth z", "E(z) = E0 (z/c0)^k", "(1)", {1, -2}, -1, 0, call_E, "z", {0, 1}, 0},
-    {"f", "gap at radius r", "f(r)", "(3)", {0, 1}, -1, 0, call_f, "r", {0, 1}, 0},
-    {"g",
-     "equivalent profile",
-     "g(x) = x^(1-k) int_0^x f'(r) (x^2-r^2)^((k-1)/2) dr",
-     "(3)",
-     {0, 1},
-     -1,
-     0,
-     call_g,
-     "x",
-     {0, 1},
-     0},
-    {"p",
-     "contact pressure",
-     "p(r) = (c_N0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx",
-     "inverse of (3)",
-     {1, -2},
-     -1,
-     0,
-     call_p,
-     "r",
-     {0, 1},
-     0},
-    {"qx",
-     "tangential traction",
-     "q_x(r): as p with -u'(x) and c_T0",
-     "inverse of (3)",
-     {1, -2},
-     -1,
-     0,
-     call_qx,
-     "r",
-     {0, 1},
-     0},
-    {"uz",
-     "normal surface displacement",
-     "(2 cos(pi k/2)/pi) int_0^a x^k (delta_z-g) (r^2-x^2)^(-(1+k)/2) dx",
-     "inverse of (3)",
-     {0, 1},
-     -1,
-     0,
-     call_uz,
-     "r",
-     {0, 1},
-     0},
-    {"ux",
-     "tangential surface displacement",
-     "u_x(r): as u_z with u(x)",
-     "inverse of (3)",
-     {0, 1},
-     -1,
-     0,
-     call_ux,
-     "r",
-     {0, 1},
-     0},
+    /* ---- inputs ---- */
+    {.name = "E0", .title = "characteristic modulus", .keywords = "Young stiffness", .d = PRESSURE, INPUT(IN_E0),
+     .formulas = {{"E(z) = E0 (z/c0)^k", "(1)", 0}}},
+    {.name = "nu", .title = "Poisson's ratio", .keywords = "poisson", INPUT(IN_NU),
+     .formulas = {{"-1 < nu <= 1/2", "(4),(5),(A1)-(A3)", 0}}},
+    {.name = "k", .title = "exponent of grading", .keywords = "gradient graded inhomogeneity", INPUT(IN_K),
+     .formulas = {{"-1 < k < 1", "(1)", 0}}},
+    {.name = "c0", .title = "characteristic depth", .keywords = "grading", .d = LENGTH, INPUT(IN_C0),
+     .formulas = {{"E(c0) = E0", "(1)", 0}}},
+    {.name = "E0_2", .title = "modulus of the second body", .d = PRESSURE, INPUT(IN_E0_2),
+     .formulas = {{"as E0; default: same", "(4)", 0}}},
+    {.name = "nu_2", .title = "Poisson's ratio of the second body", INPUT(IN_NU_2),
+     .formulas = {{"as nu; default: same", "(4)", 0}}},
+    {.name = "mu", .title = "coefficient of friction", .keywords = "Coulomb Amontons", INPUT(IN_MU),
+     .formulas = {{"|q_x| <= mu p", "(14)", 0}}},
+    {.name = "n", .title = "exponent of the gap", INPUT(IN_N), .formulas = {{"f = A r^n", "(6)", 0}}},
+    {.name = "A", .title = "coefficient of the gap", INPUT(IN_A), .formulas = {{"f = A r^n", "(6)", 0}}},
+    {.name = "h", .title = "gap at r0", .d = LENGTH, INPUT(IN_H), .formulas = {{"f = h (r/r0)^n", "(6)", 0}}},
+    {.name = "r0", .title = "reference radius of the gap", .d = LENGTH, INPUT(IN_R0),
+     .formulas = {{"f = h (r/r0)^n", "(6)", 0}}},
+    {.name = "R", .title = "radius of curvature", .d = LENGTH, INPUT(IN_RADIUS),
+     .formulas = {{"f = r^2/(2R)", "(6)", 0}}},
+    {.name = "b", .title = "radius of the flat end", .d = LENGTH, INPUT(IN_B),
+     .formulas = {{"f = 0 for r < b", "(3)", 0}}},
+    {.name = "slope", .title = "slope of the flank", .keywords = "angle", INPUT(IN_SLOPE),
+     .formulas = {{"f = slope r, slope = tan(angle)", "(6)", 0}}},
+    {.name = "FA", .title = "force amplitude of the last cycle", .keywords = "oscillation", .d = FORCE, INPUT(IN_FA),
+     .formulas = {{"F_x = FA sin(2 pi t)", NULL, 0}}},
+    {.name = "dxA", .title = "displacement amplitude of the last cycle", .d = LENGTH, INPUT(IN_DXA),
+     .formulas = {{"delta_x = dxA sin(2 pi t)", NULL, 0}}},
+    {.name = "FNA", .title = "amplitude of the normal force in the last cycle", .d = FORCE, INPUT(IN_FNA),
+     .formulas = {{"F_N + FNA sin(2 pi t + phase)", NULL, 0}}},
+    {.name = "phase", .title = "phase of the normal force in the last cycle", .d = ANGLE, INPUT(IN_PHASE),
+     .formulas = {{"F_N + FNA sin(2 pi t + phase)", NULL, 0}}},
+    {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(FN),
+     .reads = READS_NORMAL, .load = true,
+     .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(13)", WHEN_POWER},
+                  {"F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx", "(12)", 0}}},
+
+    /* ---- state now ---- */
+    {.name = "dz", .title = "indentation depth", .keywords = "approach penetration", .d = LENGTH, PRESS(dz), CALL(dz, F, FORCE),
+     .block = block_dz, .reads = READS_NORMAL,
+     .formulas = {{"delta_z = kappa A a^n", "(10)", WHEN_POWER}, {"delta_z = g(a)", "(10)", 0}}},
+    {.name = "a", .title = "contact radius", .keywords = "Hertz size area", .d = LENGTH, PRESS(a), CALL(a, F, FORCE),
+     .block = block_a, .reads = READS_NORMAL,
+     .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(10),(13)", WHEN_POWER},
+                  {"F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx", "(10),(12)", 0}}},
+    {.name = "Fx", .title = "tangential force", .keywords = "shear Mindlin Cattaneo", .d = FORCE, LOADING(Fx),
+     CALL(Fx, d, LENGTH), .reads = READS_TANGENTIAL,
+     .formulas = {{"F_x = mu F_N [1-(c/a)^(n+k+1)]", "(16),(18)", WHEN_CALL | WHEN_POWER},
+                  {"F_x = mu [F_N(a)-F_N(c)]", "(16)", WHEN_CALL},
+                  {"F_x = mu F_N [1-(c/a)^(n+k+1)]", "(16),(18)", WHEN_FIRST | WHEN_POWER},
+                  {"F_x = mu [F_N(a)-F_N(c)]", "(16)", WHEN_FIRST},
+                  {"F_x = mu int sigma dF_N, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
+    {.name = "dx", .title = "tangential displacement", .keywords = "shear", .d = LENGTH, LOADING(dx), CALL(dx, F, FORCE),
+     .block = block_dx, .reads = READS_TANGENTIAL,
+     .formulas = {{"delta_x = mu eta delta_z [1-(c/a)^n]", "(15),(17)", WHEN_FIRST | WHEN_POWER},
+                  {"delta_x = mu eta [g(a)-g(c)]", "(15)", WHEN_FIRST},
+                  {"Masing: (delta_1-delta_x)/2 = delta_first((F_1-F_x)/2), from the turning point (F_1, delta_1)", NULL, WHEN_LATER},
+                  {"delta_x = mu eta int sigma dy, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
+    {.name = "c", .title = "stick radius", .keywords = "slip annulus Cattaneo", .d = LENGTH, LOADING(c), CALL(c, F, FORCE),
+     .block = block_c, .reads = READS_TANGENTIAL,
+     .formulas = {{"c/a = (1-F_x/(mu F_N))^(1/(n+k+1))", "(18)", WHEN_FIRST | WHEN_POWER},
+                  {"F_x = mu [F_N(a)-F_N(c)]", "(16)", WHEN_FIRST},
+                  {"Masing: |F_1-F_x| = 2 mu [F_N(a)-F_N(c)], from the turning point F_1", NULL, WHEN_LATER},
+                  {"c = inner edge of the outermost springs with |u| = mu eta (delta_z-g)", NULL, 0}}},
+    {.name = "W", .title = "energy dissipated so far", .keywords = "hysteresis dissipation loss work heat", .d = ENERGY,
+     STATE(W), .reads = READS_TANGENTIAL,
+     .formulas = {{"W = sum of the friction work of all springs, int |c_T u| |d(delta_x)-du| dx", NULL, 0}}},
+    {.name = "U", .title = "stored tangential energy", .keywords = "elastic", .d = ENERGY, STATE(U),
+     .reads = READS_TANGENTIAL, .formulas = {{"U = 1/2 int c_T u^2 dx", NULL, 0}}},
+    {.name = "dW", .title = "energy dissipated per cycle", .keywords = "hysteresis loop dissipation loss damping Mindlin",
+     .d = ENERGY, GETTER(dW), CALL(dW, FA, FORCE), .block = block_dW, .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) h_T E0 a^(k+1))] "
+                   "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_FIRST | WHEN_POWER},
+                  {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_FIRST},
+                  {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
+    {.name = "dWd", .title = "energy per cycle by displacement amplitude", .keywords = "hysteresis dissipation gross slip", .d = ENERGY,
+     .of = OF_FUNCTION, CALL(dWd, dxA, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"dW(FA(dxA)); beyond dxmax gross slip adds 4 mu F_N (dxA-dxmax)", "(26)", 0}}},
+    {.name = "dxmax", .title = "displacement at gross slip", .keywords = "sliding", .d = LENGTH, GETTER(dxmax),
+     .reads = READS_TANGENTIAL, .load = true, .formulas = {{"delta_x,max = mu eta delta_z", "(17) with c = 0", 0}}},
+    {.name = "a0", .title = "reference radius", .d = LENGTH, GETTER(a0), .reads = READS_NORMAL, .load = true,
+     .formulas = {{"a for k = 0, same F_N and E0", "(23)", 0}}},
+    {.name = "dz0", .title = "indentation depth for k = 0", .d = LENGTH, GETTER(dz0), .reads = READS_NORMAL, .load = true,
+     .formulas = {{"delta_z for k = 0, same F_N and E0", "(10)", 0}}},
+    {.name = "dx0max", .title = "displacement at gross slip for k = 0", .d = LENGTH, GETTER(dx0max),
+     .reads = READS_TANGENTIAL, .load = true, .formulas = {{"mu eta delta_z for k = 0", "(17) with c = 0", 0}}},
+    {.name = "kn", .title = "normal stiffness", .keywords = "compliance", .d = STIFFNESS, GETTER(kn), .reads = READS_NORMAL,
+     .load = true, .formulas = {{"dF_N/d delta_z = 2 c_N0 c0^-k a^(k+1)/(k+1)", "(10),(13)", 0}}},
+    {.name = "kt", .title = "tangential stiffness going on", .keywords = "compliance", .d = STIFFNESS, STATE(kt),
+     .reads = READS_TANGENTIAL, .formulas = {{"dF_x/d delta_x = F_N'(y_c)/eta, y_c = g(c)", "(17),(18)", WHEN_FIRST},
+                                             {"dF_x/d delta_x = F_N'(y_c)/eta, y_c = g(c)", NULL, 0}}},
+    {.name = "W1D", .title = "work of the springs' forces along their slip", .keywords = "dissipation", .d = ENERGY, GETTER(W1D),
+     .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"W1D = -2 int_0^a c_T |u| |delta_x-u| dx", "(22)", 0}}},
+    {.name = "time", .title = "time along the load", .keywords = "phase instant", GETTER(time), .load = true,
+     .formulas = {{"0 at the press, 1 more each step, 1/4 to the first peak of a cycle, 1 more each period", NULL, 0}}},
+
+    /* ---- coefficients ---- */
+    {.name = "eta", .title = "stiffness ratio", .keywords = "Mindlin ratio", FOUNDATION(eta), .formulas = {{"eta = c_N/c_T", "(4),(5)", 0}}},
+    {.name = "hN", .title = "normal coefficient of the first body", FOUNDATION(hN), .formulas = {{"h_N(k,nu)", "(A1)", 0}}},
+    {.name = "hT", .title = "tangential coefficient of the first body", FOUNDATION(hT), .formulas = {{"h_T(k,nu)", "(A2)", 0}}},
+    {.name = "beta_k", .title = "beta of the first body", FOUNDATION(beta),
+     .formulas = {{"beta^2 = (1+k)(1-k nu/(1-nu))", "(A3)", 0}}},
+    {.name = "kappa", .title = "shape factor", GETTER(kappa), .reads = INPUT_BIT(IN_K) | INPUT_BIT(IN_N),
+     .formulas = {{"kappa = (n/2) B(n/2,(k+1)/2)", "(8)", 0}}},
+    {.name = "cN", .title = "normal foundation modulus, at c0 or at x", .keywords = "stiffness Winkler", .d = PRESSURE, FOUNDATION(cN0),
+     CALL(cN, x, LENGTH), .formulas = {{"c_N(x) = c_N0 (x/c0)^k", "(4)", WHEN_CALL}, {"1/c_N0 = sum (1-nu^2)/(h_N E0)", "(4)", 0}}},
+    {.name = "cT", .title = "tangential foundation modulus, at c0 or at x", .keywords = "stiffness Winkler", .d = PRESSURE, FOUNDATION(cT0),
+     CALL(cT, x, LENGTH), .formulas = {{"c_T(x) = c_T0 (x/c0)^k", "(5)", WHEN_CALL}, {"1/c_T0 = sum 1/(h_T E0)", "(5)", 0}}},
+
+    /* ---- at a place ---- */
+    {.name = "E", .title = "modulus at depth z", .keywords = "Young grading", .d = PRESSURE, .of = OF_FUNCTION, CALL(E, z, LENGTH),
+     .reads = INPUT_BIT(IN_E0) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0), .formulas = {{"E(z) = E0 (z/c0)^k", "(1)", 0}}},
+    {.name = "f", .title = "gap at radius r", .keywords = "shape profile", .d = LENGTH, .of = OF_FUNCTION, CALL(f, r, LENGTH),
+     .reads = INPUT_GEOMETRY, .formulas = {{"f(r) = A r^n", "(6)", WHEN_POWER}, {"f(r)", "(3)", 0}}},
+    {.name = "g", .title = "equivalent profile", .keywords = "shape", .d = LENGTH, .of = OF_FUNCTION, CALL(g, x, LENGTH),
+     .reads = INPUT_GEOMETRY | INPUT_BIT(IN_K),
+     .formulas = {{"g(x) = kappa A x^n", "(7)", WHEN_POWER},
+                  {"g(x) = x^(1-k) int_0^x f'(r) (x^2-r^2)^((k-1)/2) dr", "(3)", 0}}},
+    {.name = "p", .by = MODEL_QUADRATURE, .title = "contact pressure", .keywords = "stress Hertz", .d = PRESSURE, .of = OF_FUNCTION, CALL(p, r, LENGTH),
+     .reads = READS_NORMAL, .load = true,
+     .formulas = {{"p(r) = (c_N0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx", "inverse of (3)", 0}}},
+    {.name = "qx", .by = MODEL_MEMORY, .title = "tangential traction", .keywords = "stress shear", .d = PRESSURE, .of = OF_FUNCTION, CALL(qx, r, LENGTH),
+     .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"q_x(r) = -(c_T0 c0^-k/pi) int_r^a u'(x) (x^2-r^2)^((k-1)/2) dx", "inverse of (3)", 0}}},
+    {.name = "uz", .by = MODEL_QUADRATURE, .title = "normal surface displacement, both bodies' sum", .keywords = "deformation", .d = LENGTH, .of = OF_FUNCTION,
+     CALL(uz, r, LENGTH), .reads = READS_NORMAL, .load = true,
+     .formulas = {{"u_z(r) = (2 cos(pi k/2)/pi) int_0^min(r,a) x^k (delta_z-g) (r^2-x^2)^(-(1+k)/2) dx", "inverse of (3)", 0}}},
+    {.name = "ux", .by = MODEL_MEMORY, .title = "tangential surface displacement, both bodies' sum, mean over the angle", .keywords = "deformation", .d = LENGTH,
+     .of = OF_FUNCTION, CALL(ux, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"u_x(r) = (2 cos(pi k/2)/pi) int_0^min(r,a) x^k u(x) (r^2-x^2)^(-(1+k)/2) dx", "inverse of (3)", 0}}},
+    {.name = "w1D", .title = "normal spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION, CALL(w1D, x, LENGTH),
+     .reads = READS_NORMAL, .load = true, .formulas = {{"w_1D(x) = delta_z-g(x)", "(9)", 0}}},
+    {.name = "u1D", .by = MODEL_MEMORY, .title = "tangential spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION,
+     CALL(u1D, x, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"u_new = clip(u+d(delta_x), -B, B), B = mu eta (delta_z-g(x))", "(19),(20)", 0}}},
+    {.name = "s1D", .by = MODEL_MEMORY, .title = "slip of the springs", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION, CALL(s1D, x, LENGTH),
+     .reads = READS_TANGENTIAL, .load = true, .formulas = {{"s_1D(x) = delta_x-u_1D(x)", "(20)", 0}}},
+    {.name = "qz1D", .title = "normal line load", .keywords = "springs", .d = STIFFNESS, .of = OF_FUNCTION, CALL(qz1D, x, LENGTH),
+     .reads = READS_NORMAL, .load = true, .formulas = {{"q_z(x) = c_N(x) w_1D(x)", "(11)", 0}}},
+    {.name = "qx1D", .by = MODEL_MEMORY, .title = "tangential line load", .keywords = "springs", .d = STIFFNESS, .of = OF_FUNCTION, CALL(qx1D, x, LENGTH),
+     .reads = READS_TANGENTIAL, .load = true, .formulas = {{"q_x(x) = c_T(x) u_1D(x)", "(14)", 0}}},
 };
+/* clang-format on */
 enum { QUANTITIES = sizeof quantities / sizeof *quantities };
 
 const quantity *quantity_row(size_t i) {
@@ -638,8 +191,118 @@ const quantity *quantity_find(const char *name, size_t len) {
     return word_find(&words, name, len, &row) ? &quantities[row] : NULL;
 }
 
+const quantity *quantity_of_input(input in) {
+    size_t i = 0;
+    while (quantities[i].in != 1 + (int)in)
+        i++;
+    return &quantities[i];
+}
+
+static long double member(const void *of, size_t at) {
+    long double v;
+    memcpy(&v, (const char *)of + at, sizeof v);
+    return v;
+}
+
+/* First loading has a closed form, which keeps every digit also close to gross slip. */
+static bool get_loading(const quantity *q, scene *s, long double *out, calc_error *error) {
+    const fret_state *state;
+    fret_loading first;
+    if (scene_closed_state(s)) {
+        if (!scene_first_loading(s, &first, error))
+            return false;
+        *out = member(&first, q->at);
+        return true;
+    }
+    if (!scene_state(s, &state, error))
+        return false;
+    *out = member(state, q->at_state);
+    return true;
+}
+
+bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *error) {
+    const fret_press *press;
+    const fret_state *state;
+    fret_foundation foundation;
+    switch (q->of) {
+    case OF_INPUT:
+        return scene_get(s, quantity_input(q), out, error);
+    case OF_PRESS:
+        if (!scene_press(s, &press, error))
+            return false;
+        *out = member(press, q->at);
+        return true;
+    case OF_LOADING:
+        return get_loading(q, s, out, error);
+    case OF_STATE:
+        if (!scene_state(s, &state, error))
+            return false;
+        *out = member(state, q->at_state);
+        return true;
+    case OF_FOUNDATION:
+        if (!foundation_of(s, &foundation, error))
+            return false;
+        *out = member(&foundation, q->at);
+        return true;
+    case OF_GETTER:
+        return q->get(s, out, error);
+    default:
+        return calc_fail(error, 0, 0, "%s is a function: %s(%s)", q->name, q->name, q->argument);
+    }
+}
+
 dim quantity_dim(const quantity *q, const scene *s) {
-    if (q->in == IN_A)
-        return (dim){0, 1 - (s->geometry && s->geometry->n > 0 ? s->geometry->n : s->in[IN_N])};
+    if (q->in == 1 + IN_A)
+        return (dim){0, 1 - (s->in.geometry && s->in.geometry->n > 0 ? s->in.geometry->n : s->in.v[IN_N]), 0};
     return q->d;
+}
+
+/* Which formulas hold in the scene. */
+static unsigned holds(const quantity *q, scene *s, bool call) {
+    const load_reach *reach;
+    calc_error ignored;
+    error_clear(&ignored);
+    const bool power = !s->in.geometry || s->in.geometry->power;
+    const bool loaded = s->end.steps > 0 && scene_reach(s, &reach, &ignored);
+    const bool varies = loaded && (reach->normal_varies || s->now);
+    unsigned when = power ? WHEN_POWER : WHEN_SHAPE;
+    if (call)
+        return when | WHEN_CALL | WHEN_FIRST;
+    if (varies)
+        when |= WHEN_HISTORY;
+    else if (loaded && (q->get == get_dW ? scene_closed_loss(s) : reach->first))
+        when |= WHEN_FIRST;
+    else if (loaded && reach->alike)
+        when |= WHEN_LATER;
+    return when;
+}
+
+const formula *quantity_formula(const quantity *q, scene *s, bool call) {
+    const unsigned when = holds(q, s, call);
+    for (size_t i = 0; i < FORMULAS && q->formulas[i].text; i++)
+        if ((q->formulas[i].when & ~when) == 0)
+            return &q->formulas[i];
+    return NULL;
+}
+
+model_id quantity_model(const quantity *q, scene *s, bool call) {
+    const bool power = !s->in.geometry || s->in.geometry->power;
+    const model_id closed = power ? MODEL_CLOSED : MODEL_QUADRATURE;
+    const model_id stepped = !s->automatic && models[s->model].make ? s->model : MODEL_MEMORY;
+    if (call)
+        return q->by ? q->by : closed;
+    switch (q->of) {
+    case OF_LOADING:
+        return scene_closed_state(s) ? closed : stepped;
+    case OF_STATE:
+        return stepped;
+    case OF_PRESS:
+        return holds(q, s, false) & WHEN_HISTORY ? stepped : closed;
+    case OF_GETTER:
+        if (q->get == get_dW)
+            return scene_closed_loss(s) ? closed : stepped;
+        return q->get == get_W1D ? MODEL_MEMORY : closed;
+    default:
+        return closed;
+    }
 }

@@ -1,319 +1,226 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The life of a scene, its inputs, and the one way back. What follows from a scene is in answers.c. */
 #include "calc/scene.h"
-#include "number/real.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "calc/quantity.h"
-
-/* ---- geometries -------------------------------------------------------------------------------- */
-
-static const geometry geometries[] = {
-    {"cone",
-     FRET_GAP_POWER,
-     1,
-     {IN_SLOPE, INPUTS, INPUTS},
-     "cone slope=0.05 | cone angle=3 deg",
-     "f = slope r"},
-    {"paraboloid", FRET_GAP_POWER, 2, {IN_RADIUS, INPUTS, INPUTS}, "paraboloid R=10 mm", "f = r^2/(2R)"},
-    {"sphere", FRET_GAP_POWER, 2, {IN_RADIUS, INPUTS, INPUTS}, "sphere R=10 mm", "Hertz: the paraboloid"},
-    {"power",
-     FRET_GAP_POWER,
-     0,
-     {IN_N, INPUTS, INPUTS},
-     "power n=3 A=50 m^-2 | power n=3 h=1 um r0=1 mm",
-     "f = A r^n = h (r/r0)^n"},
-    {"sum", FRET_GAP_SUM, 0, {INPUTS, INPUTS, INPUTS}, "sum 2:50 m^-1, 4:2e6 m^-3", "f = sum of A r^n"},
-    {"flat-cone",
-     FRET_GAP_FLAT_CONE,
-     0,
-     {IN_B, IN_SLOPE, INPUTS},
-     "flat-cone b=1 mm slope=0.05",
-     "f = slope (r-b), r > b"},
-    {"flat-paraboloid",
-     FRET_GAP_FLAT_PARABOLOID,
-     0,
-     {IN_B, IN_RADIUS, INPUTS},
-     "flat-paraboloid b=1 mm R=10 mm",
-     "f = (r^2-b^2)/(2R), r > b"},
-    {"flat-rounded",
-     FRET_GAP_FLAT_ROUNDED,
-     0,
-     {IN_B, IN_RADIUS, INPUTS},
-     "flat-rounded b=1 mm R=10 mm",
-     "f = (r-b)^2/(2R), r > b"},
-    {"exact-sphere",
-     FRET_GAP_EXACT_SPHERE,
-     0,
-     {IN_RADIUS, INPUTS, INPUTS},
-     "exact-sphere R=10 mm",
-     "f = R - sqrt(R^2-r^2)"},
-    {"file",
-     FRET_GAP_TABLE,
-     0,
-     {INPUTS, INPUTS, INPUTS},
-     "file gap.csv",
-     "rows of r, f with units in the header"},
-};
-
-const geometry *geometry_row(size_t i) {
-    return i < sizeof geometries / sizeof *geometries ? &geometries[i] : NULL;
-}
-
-const geometry *geometry_find(const char *name, size_t len) {
-    for (size_t i = 0; i < sizeof geometries / sizeof *geometries; i++)
-        if (strlen(geometries[i].name) == len && !memcmp(geometries[i].name, name, len))
-            return &geometries[i];
-    return NULL;
-}
-
-/* R and slope enter as h and r0 without a rounding: r^2/(2R) = (R/2) (r/R)^2. */
-static fret_gap gap_of(const scene *s) {
-    const geometry *g = s->geometry;
-    if (g->kind == FRET_GAP_SUM)
-        return s->sum;
-    if (g->kind == FRET_GAP_TABLE)
-        return (fret_gap){.kind = FRET_GAP_TABLE, .table = s->table->table};
-    fret_gap gap = {
-        .kind = g->kind, .terms = 1, .b = s->in[IN_B], .R = s->in[IN_RADIUS], .slope = s->in[IN_SLOPE]};
-    if (g->n == 1)
-        gap.power[0] = (fret_power){1, s->in[IN_SLOPE], 1};
-    else if (g->n == 2)
-        gap.power[0] = (fret_power){2, s->in[IN_RADIUS] / 2, s->in[IN_RADIUS]};
-    else if (s->set[IN_A])
-        gap.power[0] = (fret_power){s->in[IN_N], s->in[IN_A], 1};
-    else
-        gap.power[0] = (fret_power){s->in[IN_N], s->in[IN_H], s->in[IN_R0]};
-    return gap;
-}
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
-void scene_forget(scene *s) {
-    s->press_ready = s->state_ready = false;
-    s->applied = s->applied_cycles = 0;
-    s->reach = (load_reach){0};
-    scene_drop(s);
-}
-
-void scene_drop(scene *s) {
-    fret_memory_free(s->memory);
-    fret_normal_free(s->normal);
-    fret_normal_free(s->k0);
-    scene_hand_over(s);
-}
-
-void scene_hand_over(scene *s) {
-    s->memory = NULL;
-    s->normal = s->k0 = NULL;
-}
-
-static void drop_table(shared_table *t) {
-    if (t && --t->users == 0) {
-        fret_table_free(t->table);
-        free(t);
+static void answers_end(answers *a, bool keep) {
+    for (unsigned i = 0; i < LEVELS; i++) {
+        engine_end(&a->run[i].engine);
+        engine_end(&a->spare[i].engine);
     }
+    fret_normal *normal = a->normal, *k0 = a->k0;
+    *a = (answers){.normal = NULL};
+    if (keep) {
+        a->normal = normal;
+        a->k0 = k0;
+    } else {
+        fret_normal_free(normal);
+        fret_normal_free(k0);
+    }
+}
+
+void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *evaluate, void *context) {
+    *s = (scene){.automatic = true, .stop = stop, .evaluate = evaluate, .context = context};
+}
+
+void scene_forget(scene *s, bool keep) {
+    answers_end(&s->answers, keep);
+    s->settled = 0;
 }
 
 void scene_free(scene *s) {
-    scene_forget(s);
-    drop_table(s->table);
-    fret_memory_free(s->spare);
-    if (!s->borrowed) {
-        free(s->program);
-        free(s->cycles);
-    }
-    *s = (scene){.stop = s->stop};
+    scene_forget(s, false);
+    inputs_drop(&s->in);
+    counted_drop(s->program ? &s->program->base : NULL);
+    s->program = NULL;
+    s->end = (load_mark){0, 0};
 }
 
 void scene_clone(scene *to, const scene *from) {
     *to = *from;
-    to->borrowed = true;
-    if (to->table)
-        to->table->users++;
-    to->spare = NULL;
-    scene_hand_over(to);
-    to->applied = to->applied_cycles = 0;
-    to->state_ready = false;
+    to->answers = (answers){.normal = NULL};
+    inputs_copy(&to->in, &from->in);
+    counted_hold(to->program ? &to->program->base : NULL);
 }
 
 void scene_reset(scene *s, bool all) {
     if (all) {
         scene_free(s);
+        s->automatic = true;
         return;
     }
-    s->steps = s->cycle_count = 0;
-    s->normal_varies = false;
-    s->set[IN_FN] = false;
-    scene_forget(s);
+    scene_forget(s, false);
+    counted_drop(s->program ? &s->program->base : NULL);
+    s->program = NULL;
+    s->end = (load_mark){0, 0};
+    inputs_unset(&s->in, INPUT_CYCLE | INPUT_BIT(IN_FN));
+}
+
+/* ---- the way back ------------------------------------------------------------------------------ */
+
+void scene_save(scene *s, scene_mark *m, bool move) {
+    inputs_copy(&m->in, &s->in);
+    m->program = counted_hold(s->program ? &s->program->base : NULL);
+    m->end = s->end;
+    m->kept = move;
+    if (move) {
+        m->answers = s->answers;
+        s->answers = (answers){.normal = NULL};
+        s->settled = 0;
+    }
+}
+
+void scene_drop(scene_mark *m) {
+    inputs_drop(&m->in);
+    counted_drop(m->program ? &m->program->base : NULL);
+    m->program = NULL;
+    if (m->kept)
+        answers_end(&m->answers, false);
+    m->kept = false;
+}
+
+void scene_back(scene *s, scene_mark *m) {
+    scene_free(s);
+    s->in = m->in;
+    s->program = m->program;
+    s->end = m->end;
+    if (m->kept)
+        s->answers = m->answers;
 }
 
 /* ---- inputs ------------------------------------------------------------------------------------ */
 
-/* Arguments of functions and of cycle are no quantities of the scene, but have a dimension too. */
-static dim argument_dimension(const char *name) {
-    const quantity *q;
-    for (size_t i = 0; (q = quantity_row(i)); i++)
-        if (q->argument && !strcmp(q->argument, name))
-            return q->argument_d;
-    return !strcmp(name, "FNA") ? DIM_FORCE : !strcmp(name, "dxA") ? DIM_LENGTH : DIM_NONE;
-}
-
-bool scene_status(const scene *s, calc_error *error, const fret_status *st) {
-    if (!st->code)
-        return true;
-    if (st->code == FRET_INTERRUPTED)
-        error->stop = true;
-    dim d = DIM_NONE;
-    const quantity *q = st->quantity ? quantity_find(st->quantity, strlen(st->quantity)) : NULL;
-    if (q)
-        d = quantity_dim(q, s);
-    else if (st->quantity)
-        d = argument_dimension(st->quantity);
-    char unit_text[128] = "", limit_unit[128] = "";
-    long double scale = unit_choose(d, st->value, 6, unit_text, sizeof unit_text);
-    long double limit_scale = unit_choose(d, st->limit, 6, limit_unit, sizeof limit_unit);
-    const char *gap1 = *unit_text ? " " : "", *gap2 = *limit_unit ? " " : "";
-    double given = (double)(st->value / scale), limit = (double)(st->limit / limit_scale);
-    if (st->code == FRET_GROSS_SLIP)
-        return calc_fail(error, 0, 0, "%s = %.6g%s%s exceeds mu*FN = %.6g%s%s: gross slip; %s to slide",
-                         st->quantity, given, gap1, unit_text, limit, gap2, limit_unit,
-                         strcmp(st->quantity, "FA") ? "step by displacement (dx=...)"
-                                                    : "cycle by displacement (dxA=...)");
-    if (st->code == FRET_TABLE_SHORT) {
-        limit_scale = unit_choose(DIM_LENGTH, st->limit, 6, limit_unit, sizeof limit_unit);
-        return calc_fail(error, 0, 0,
-                         "%s = %.6g%s%s cannot be carried: the gap supports contact radii up to %.6g %s",
-                         st->quantity, given, gap1, unit_text, (double)(st->limit / limit_scale), limit_unit);
+/* Amplitudes are evaluated where their cycle begins, everything else at the press: the scene as it is then. */
+static bool settle(scene *s, input in, calc_error *error) {
+    const unsigned bit = INPUT_BIT(in);
+    if (s->settling & bit) {
+        error->circle = true;
+        calc_missing(error, (int)in);
+        return false;
     }
-    if (st->code == FRET_OUTSIDE && st->limit > 0)
-        return calc_fail(error, 0, 0, "%s = %.6g%s%s %s (limit %.6g%s%s)", st->quantity, given, gap1,
-                         unit_text, fret_status_rule(st->code), limit, gap2, limit_unit);
-    if (!st->quantity)
-        return calc_fail(error, 0, 0, "%s", fret_status_rule(st->code));
-    return calc_fail(error, 0, 0, "%s = %.6g%s%s %s", st->quantity, given, gap1, unit_text,
-                     fret_status_rule(st->code));
-}
-
-/* Range of one input on its own. */
-static fret_status input_status(input in, double v) {
-    static const char *const names[INPUTS] = {"E0", "nu", "k", "c0", "E0_2", "nu_2", "mu",   "FN",
-                                              "n",  "A",  "h", "r0", "R",    "b",    "slope"};
-    fret_code code = FRET_OK;
-    if (!isfinite(v))
-        code = FRET_NOT_FINITE;
-    else if (in == IN_K)
-        code = v > -1 && v < 1 ? FRET_OK : FRET_BAD_K;
-    else if (in == IN_NU || in == IN_NU_2)
-        code = v > -1 && v <= 0.5 ? FRET_OK : FRET_BAD_NU;
-    else if (v <= 0)
-        code = FRET_NOT_POSITIVE;
-    return (fret_status){code, names[in], v, 0};
-}
-
-bool scene_check(const scene *s, input in, double v, calc_error *error) {
-    fret_status st = input_status(in, v);
-    return scene_status(s, error, &st);
-}
-
-bool scene_get(const scene *s, input in, long double *out, calc_error *error) {
-    bool here = s->set[in];
-    switch (in) {
-    case IN_K:
-        here = true;
-        break;
-    case IN_E0_2:
-    case IN_NU_2:
-        if (s->second == SECOND_RIGID)
-            return calc_fail(error, 0, 0, "the second body is rigid");
-        if (s->second == SECOND_SAME || !here)
-            return scene_get(s, in == IN_E0_2 ? IN_E0 : IN_NU, out, error);
-        break;
-    case IN_N:
-        if (s->geometry && s->geometry->n > 0) {
-            *out = (long double)s->geometry->n;
-            return true;
-        }
-        break;
-    case IN_A:
-        if (!here && s->geometry && s->geometry->kind == FRET_GAP_POWER) {
-            fret_gap gap = gap_of(s);
-            *out = gap.power[0].h * fret_ratio_pow(1, gap.power[0].r0, gap.power[0].n);
-            return true;
-        }
-        break;
-    default:
-        break;
+    scene then;
+    value v = {0};
+    scene_clone(&then, s);
+    then.settling |= bit;
+    then.now = NULL;
+    if (bit & INPUT_CYCLE && s->end.cycles > 0) {
+        then.end.steps = program_last_cycle(s->program, s->end);
+        then.end.cycles--;
+        inputs_unset(&then.in, INPUT_CYCLE);
+    } else if (s->end.steps > 1) {
+        then.end = (load_mark){1, 0};
+        inputs_unset(&then.in, INPUT_CYCLE);
     }
-    if (!here) {
-        const char *name = input_status(in, 1).quantity;
-        if (in <= IN_NU)
-            return calc_fail(error, 0, 0,
-                             "%s is not set: give the material first (material E0=210 GPa nu=0.3)", name);
-        if (in == IN_MU)
-            return calc_fail(error, 0, 0, "mu is not set: give the friction first (friction 0.4)");
-        if (in == IN_C0)
-            return calc_fail(error, 0, 0, "c0 is not set: E(z) = E0 (z/c0)^k needs it (c0 = 1 mm)");
-        if (in == IN_FN)
-            return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
-        if (!s->geometry)
-            return calc_fail(error, 0, 0, "%s is not set: give the geometry first (geometry sphere R=10 mm)",
-                             name);
-        return calc_fail(error, 0, 0, "%s is no parameter of geometry %s", name, s->geometry->name);
-    }
-    *out = s->in[in];
+    bool ok = s->evaluate(s->context, &then, s->in.bound[in], &v, error);
+    scene_free(&then);
+    fret_status st = input_status(in, (double)v.v);
+    if (!ok || !calc_input_status(error, (int)in, &st))
+        return false;
+    s->in.v[in] = (double)v.v;
+    s->in.set[in] = true;
+    s->settled |= bit;
     return true;
 }
 
-static bool make_normal(const scene *s, double k, fret_normal **out, calc_error *error) {
-    long double v;
-    fret_material m = {.k = k, .c0 = 1};
-    if (!scene_get(s, IN_E0, &v, error))
-        return false;
-    m.body[0].E0 = (double)v;
-    if (!scene_get(s, IN_NU, &v, error))
-        return false;
-    m.body[0].nu = (double)v;
-    m.body[1] = m.body[0];
-    if (s->second == SECOND_RIGID) {
-        m.body[1].rigid = true;
-    } else if (s->second == SECOND_GIVEN) {
-        if (!scene_get(s, IN_E0_2, &v, error))
+/* All of a set that are bound get their values. */
+static bool resolve(scene *s, unsigned set, calc_error *error) {
+    unsigned waiting = s->in.bindings & set & ~s->settled;
+    for (input in = 0; waiting >> in; in++)
+        if (waiting & INPUT_BIT(in) && !settle(s, in, error))
             return false;
-        m.body[1].E0 = (double)v;
-        if (!scene_get(s, IN_NU_2, &v, error))
-            return false;
-        m.body[1].nu = (double)v;
+    return true;
+}
+
+bool scene_get(scene *s, input in, long double *out, calc_error *error) {
+    return resolve(s, INPUT_BIT(in), error) && inputs_get(&s->in, in, out, error);
+}
+
+static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_BIT(IN_FN) | INPUT_CYCLE;
+
+void scene_put(scene *s, input in, double v) {
+    inputs_put(&s->in, in, v);
+    scene_forget(s, keeps_contact & INPUT_BIT(in));
+}
+
+static bool complete(const scene *s) {
+    const inputs *in = &s->in;
+    return in->set[IN_E0] && in->set[IN_NU] && in->geometry && (in->v[IN_K] == 0 || in->set[IN_C0]);
+}
+
+bool scene_valid(scene *s, calc_error *error) {
+    const fret_normal *normal;
+    const fret_memory *memory;
+    const fret_press *press;
+    double mu;
+    for (input in = 0; in < INPUTS; in++)
+        if (s->in.set[in] && !(s->in.bindings & INPUT_BIT(in))) {
+            fret_status st = input_status(in, s->in.v[in]);
+            if (!calc_input_status(error, (int)in, &st))
+                return false;
+        }
+    if (s->end.steps == 0)
+        return !complete(s) || scene_normal(s, &normal, error);
+    if (s->in.set[IN_MU] || s->end.steps > 1)
+        return scene_friction(s, &mu, error) && scene_memory(s, &memory, error);
+    return scene_press(s, &press, error);
+}
+
+bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_error *error) {
+    scene_mark before;
+    calc_error mine;
+    error_clear(&mine);
+    scene_save(s, &before, true);
+    edit(&s->in, context);
+    if (scene_valid(s, &mine)) {
+        scene_drop(&before);
+        return true;
     }
-    if (k != 0) {
-        if (!scene_get(s, IN_C0, &v, error))
-            return false;
-        m.c0 = (double)v;
-    }
-    if (!s->geometry)
-        return calc_fail(error, 0, 0, "there is no geometry yet: give one first (geometry sphere R=10 mm)");
-    fret_gap gap = gap_of(s);
-    fret_status st = fret_normal_make(&m, &gap, out);
-    return scene_status(s, error, &st);
+    scene_back(s, &before);
+    if (!error->raised)
+        *error = mine;
+    return false;
+}
+
+/* ---- the contact ------------------------------------------------------------------------------- */
+
+static const unsigned of_material =
+    INPUT_BIT(IN_E0) | INPUT_BIT(IN_NU) | INPUT_BIT(IN_E0_2) | INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_K);
+
+bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *error) {
+    if (!resolve(s, of_material, error))
+        return false;
+    const double k = homogeneous ? 0 : s->in.v[IN_K];
+    return (k == 0 || resolve(s, INPUT_BIT(IN_C0), error)) && inputs_material(&s->in, k, out, error);
+}
+
+static bool make_normal(scene *s, bool homogeneous, fret_normal **out, calc_error *error) {
+    fret_material material;
+    fret_gap gap;
+    if (!scene_material(s, homogeneous, &material, error) || !resolve(s, INPUT_GEOMETRY, error) ||
+        !inputs_gap(&s->in, &gap, error))
+        return false;
+    fret_status st = fret_normal_make(&material, &gap, out);
+    return calc_status(error, &st);
 }
 
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
-    if (!s->normal && !make_normal(s, s->in[IN_K], &s->normal, error))
+    if (!s->answers.normal && !make_normal(s, false, &s->answers.normal, error))
         return false;
-    *normal = s->normal;
+    *normal = s->answers.normal;
     return true;
 }
 
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error) {
-    if (!s->k0 && !make_normal(s, 0, &s->k0, error))
+    if (!s->answers.k0 && !make_normal(s, true, &s->answers.k0, error))
         return false;
-    *normal = s->k0;
+    *normal = s->answers.k0;
     return true;
 }
 
-bool scene_friction(const scene *s, double *mu, calc_error *error) {
+bool scene_friction(scene *s, double *mu, calc_error *error) {
     long double v = 0;
     if (!scene_get(s, IN_MU, &v, error))
         return false;
@@ -321,125 +228,76 @@ bool scene_friction(const scene *s, double *mu, calc_error *error) {
     return true;
 }
 
-static bool is_geometry_input(input in) {
-    return in >= IN_N;
+/* ---- the load ---------------------------------------------------------------------------------- */
+
+static bool is_pressed(const scene *s, calc_error *error) {
+    return s->end.steps > 0 ||
+           calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
 }
 
-void scene_put(scene *s, input in, double v) {
-    s->in[in] = v;
-    s->set[in] = true;
-    if ((in == IN_E0_2 || in == IN_NU_2) && s->second != SECOND_GIVEN) {
-        input other = in == IN_E0_2 ? IN_NU_2 : IN_E0_2;
-        s->set[other] = false;
-        s->second = SECOND_GIVEN;
+bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    program *own = step->kind == LOAD_PRESS || !s->program ? program_make() : program_copy(s->program, s->end);
+    load_mark end = step->kind == LOAD_PRESS ? (load_mark){0, 0} : s->end;
+    if (!own || !program_append(own, &end, step, extra)) {
+        counted_drop(own ? &own->base : NULL);
+        return calc_no_memory(error);
     }
-    if (in == IN_A) /* A and h (r/r0)^n are two ways to say the same */
-        s->set[IN_H] = s->set[IN_R0] = false;
-    else if (in == IN_H || in == IN_R0)
-        s->set[IN_A] = false;
-    fret_normal *normal = s->normal, *k0 = s->k0;
-    if (in == IN_MU || in == IN_FN) /* they do not depend on these */
-        s->normal = s->k0 = NULL;
-    scene_forget(s);
-    if (in == IN_MU || in == IN_FN) {
-        s->normal = normal;
-        s->k0 = k0;
+    if (extra && s->end.cycles)
+        program_freeze(own, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
+    program_to_inputs(step, extra, &s->in);
+    counted_drop(s->program ? &s->program->base : NULL);
+    s->program = own;
+    s->end = end;
+    scene_forget(s, true);
+    return true;
+}
+
+double scene_time(const scene *s) {
+    return s->now ? s->now->run->time : s->program ? program_time(s->program, s->end) : 0;
+}
+
+bool scene_last_cycle(scene *s, load_item *out, calc_error *error) {
+    if (!s->program || !s->end.cycles)
+        return calc_fail(error, 0, 0, "no cycle has been run yet: use cycle FA=... or the function dW(FA)");
+    if (!resolve(s, INPUT_CYCLE, error))
+        return false;
+    size_t i = program_last_cycle(s->program, s->end);
+    *out = program_item(s->program, (load_mark){i, s->end.cycles - 1}, i, &s->in);
+    return true;
+}
+
+static void reach_step(load_reach *r, const load_item *item) {
+    const load_step *step = &item->step;
+    const double v = step->tangential_value, size = fabs(v);
+    if (!r->by)
+        r->by = (load_by)step->tangential;
+    r->alike = r->alike && step->tangential == r->by && !(step->relative & RELATIVE_TANGENTIAL);
+    r->first = r->alike && size >= r->most;
+    r->most = fmax(r->most, size);
+    r->end = v;
+    r->normal_varies = r->normal_varies || load_moves_normal(step);
+    if (step->kind == LOAD_CYCLE) { /* a second period is closed whatever came before */
+        r->closed = r->first || item->extra.times > 1;
+        r->swings = r->swings || step->normal_value != 0;
     }
 }
 
-/* Everything that the present inputs and program claim must hold. */
-static bool validate(scene *s, calc_error *error) {
-    const fret_normal *normal;
-    const fret_memory *memory;
-    for (input in = 0; in < INPUTS; in++)
-        if (s->set[in]) {
-            fret_status st = input_status(in, s->in[in]);
-            if (st.code)
-                return scene_status(s, error, &st);
-        }
-    if (s->steps) {
-        long double mu;
-        if (s->set[IN_MU] || s->steps > 1)
-            return (s->set[IN_MU] || scene_get(s, IN_MU, &mu, error)) && scene_memory(s, &memory, error);
-        const fret_press *press;
-        return scene_press(s, &press, error);
+bool scene_reach(scene *s, const load_reach **out, calc_error *error) {
+    load_reach *r = &s->answers.reach;
+    if (!is_pressed(s, error) || (s->end.cycles && !resolve(s, INPUT_CYCLE, error)))
+        return false;
+    if (!s->answers.reach_ready || r->seen.steps > s->end.steps) {
+        *r = (load_reach){.seen = {1, 0}, .alike = true, .first = true};
+        r->last_cycle = program_last_cycle(s->program, s->end);
+        s->answers.reach_ready = true;
     }
-    bool complete = s->set[IN_E0] && s->set[IN_NU] && s->geometry && (s->in[IN_K] == 0 || s->set[IN_C0]);
-    return !complete || scene_normal(s, &normal, error);
-}
-
-bool scene_edit(scene *s, void (*edit)(scene *, void *), void *context, calc_error *error) {
-    scene old = *s;
-    scene_hand_over(s); /* kept by old until the new one stands */
-    edit(s, context);
-    scene_forget(s);
-    calc_error mine = {0};
-    if (validate(s, &mine)) {
-        scene_drop(&old);
-        return true;
+    while (r->seen.steps < s->end.steps) {
+        const bool cycle = s->program->steps[r->seen.steps].kind == LOAD_CYCLE;
+        load_item item = program_item(s->program, r->seen, r->last_cycle, &s->in);
+        reach_step(r, &item);
+        r->seen.steps++;
+        r->seen.cycles += cycle;
     }
-    scene_drop(s);
-    fret_memory *spare = s->spare;
-    *s = old;
-    s->spare = spare;
-    if (!error->raised)
-        *error = mine;
-    return false;
-}
-
-static void use_table(scene *s, void *context) {
-    s->table = context;
-    s->geometry = geometry_find("file", 4);
-    for (input in = IN_N; in < INPUTS; in++)
-        s->set[in] = false;
-}
-
-bool scene_set_table(scene *s, struct fret_table *table, const char *name, calc_error *error) {
-    shared_table *shared = malloc(sizeof *shared), *old = s->table;
-    if (!shared) {
-        fret_table_free(table);
-        return calc_fail(error, 0, 0, "out of memory");
-    }
-    *shared = (shared_table){.users = 1, .table = table};
-    size_t n = strlen(name) < sizeof shared->name ? strlen(name) : sizeof shared->name - 1;
-    memcpy(shared->name, name, n);
-    bool ok = scene_edit(s, use_table, shared, error);
-    drop_table(ok ? old : shared);
-    return ok;
-}
-
-typedef struct one_input {
-    input in;
-    double v;
-} one_input;
-
-static void put_one(scene *s, void *context) {
-    const one_input *one = context;
-    scene_put(s, one->in, one->v);
-}
-
-bool scene_set(scene *s, input in, double v, calc_error *error) {
-    fret_status st = input_status(in, v);
-    if (st.code)
-        return scene_status(s, error, &st);
-    if (is_geometry_input(in)) {
-        const geometry *g = s->geometry;
-        if (!g)
-            return calc_fail(error, 0, 0,
-                             "there is no geometry yet: give one first (geometry sphere R=10 mm)");
-        bool takes = g->required[0] == in || g->required[1] == in ||
-                     (g->kind == FRET_GAP_POWER && g->n == 0 &&
-                      (in == IN_A || ((in == IN_H || in == IN_R0) && s->set[IN_H])));
-        if (!takes)
-            return calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s)", st.quantity, g->name,
-                             g->usage);
-    }
-    if (in == IN_FN && (!s->steps || s->program[0].normal != BY_FORCE)) {
-        if (!s->steps)
-            return scene_load(s, &(load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = v},
-                              NULL, error);
-        return calc_fail(error, 0, 0, "the press was not given as FN: press again (press FN=...)");
-    }
-    one_input one = {in, v};
-    return scene_edit(s, put_one, &one, error);
+    *out = r;
+    return true;
 }

@@ -3,28 +3,44 @@
 #ifndef CALC_TREE_H
 #define CALC_TREE_H
 
-#include "calc/expr.h"
+#include "calc/calc.h"
 
 typedef enum node_kind {
     N_NUMBER,
     N_QUANTITY,
-    N_CALL,
-    N_VARIABLE,
-    N_SWEEP,
+    N_CALL,  /* of a quantity */
+    N_NAME,  /* of the user */
+    N_APPLY, /* of the user's function */
+    N_PARAMETER,
+    N_ANS,
     N_NEGATE,
     N_BINARY,
-    N_BUILTIN
+    N_BUILTIN,
+    N_AT
 } node_kind;
 
 struct expr_node {
     node_kind kind;
     char op;
-    size_t at, len; /* place in the statement */
-    size_t left, right;
-    size_t index; /* of a variable, sweep name or builtin */
-    bool varies;  /* with the first name of a sweep */
+    size_t at, len;     /* place in the statement */
+    size_t left, right; /* N_APPLY: first of the arguments, and how many */
+    size_t index;       /* of a name, parameter or builtin */
+    bool varies;        /* with the name of a block */
     const quantity *q;
+    expr_at *changed; /* N_AT */
     value v;
+};
+
+/* EXPR at NAME = EXPR, ... */
+enum { CHANGES = 8 };
+struct expr_at {
+    expr_at *next; /* of the expression that it is a part of */
+    expr body;
+    size_t count;
+    struct {
+        knob p;
+        expr value;
+    } change[CHANGES];
 };
 
 /* How many values a node takes from the nodes before it. */
@@ -35,6 +51,7 @@ typedef struct builtin {
     const char *name;
     long double (*f)(long double);
     long double (*f2)(long double, long double);
+    enum { DIM_NUMBER, DIM_TO_ANGLE, DIM_KEPT, DIM_HALVED, DIM_SHARED } d;
     const char *summary;
 } builtin;
 

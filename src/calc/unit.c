@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The tables of units. Touches nothing. */
 #include "calc/unit.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,20 +16,20 @@ static const struct {
     unit u;
     const char *meaning;
 } units[] = {
-    {"N", 1, true, {{1, 0}, 0, 1}, "newton, force"},
-    {"lbf", 3, false, {{1, 0}, 0, 4.4482216152605L}, "pound-force"},
-    {"kgf", 3, false, {{1, 0}, 0, 9.80665L}, "kilogram-force"},
-    {"dyn", 3, false, {{1, 0}, -5, 1}, "dyne, force"},
-    {"Pa", 2, true, {{1, -2}, 0, 1}, "pascal, pressure"},
-    {"bar", 3, false, {{1, -2}, 5, 1}, "bar, pressure"},
-    {"psi", 3, false, {{1, -2}, 0, 4.4482216152605L / (0.0254L * 0.0254L)}, "pound-force per square inch"},
-    {"ksi", 3, false, {{1, -2}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
-    {"m", 1, true, {{0, 1}, 0, 1}, "metre, length"},
-    {"inch", 4, false, {{0, 1}, -4, 254}, "inch, length"},
-    {"J", 1, true, {{1, 1}, 0, 1}, "joule, energy"},
-    {"rad", 3, false, {{0, 0}, 0, 1}, "radian, angle"},
-    {"deg", 3, false, {{0, 0}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
-    {"%", 1, false, {{0, 0}, -2, 1}, "per cent"},
+    {"N", 1, true, {{1, 0, 0}, 0, 1}, "newton, force"},
+    {"lbf", 3, false, {{1, 0, 0}, 0, 4.4482216152605L}, "pound-force"},
+    {"kgf", 3, false, {{1, 0, 0}, 0, 9.80665L}, "kilogram-force"},
+    {"dyn", 3, false, {{1, 0, 0}, -5, 1}, "dyne, force"},
+    {"Pa", 2, true, {{1, -2, 0}, 0, 1}, "pascal, pressure"},
+    {"bar", 3, false, {{1, -2, 0}, 5, 1}, "bar, pressure"},
+    {"psi", 3, false, {{1, -2, 0}, 0, 4.4482216152605L / (0.0254L * 0.0254L)}, "pound-force per square inch"},
+    {"ksi", 3, false, {{1, -2, 0}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
+    {"m", 1, true, {{0, 1, 0}, 0, 1}, "metre, length"},
+    {"inch", 4, false, {{0, 1, 0}, -4, 254}, "inch, length"},
+    {"J", 1, true, {{1, 1, 0}, 0, 1}, "joule, energy"},
+    {"rad", 3, false, {{0, 0, 1}, 0, 1}, "radian, angle"},
+    {"deg", 3, false, {{0, 0, 1}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
+    {"%", 1, false, {{0, 0, 0}, -2, 1}, "per cent"},
 };
 enum { UNITS = sizeof units / sizeof *units };
 
@@ -74,81 +74,6 @@ bool unit_lookup(const char *word, size_t len, unit *out) {
     return false;
 }
 
-static size_t word_slot(const word_index *x, const char *word, size_t len) {
-    return ((unsigned char)word[0] * 5U + (unsigned char)word[len - 1] * 3U + len) % sizeof x->first;
-}
-
-bool word_find(word_index *x, const char *word, size_t len, size_t *row) {
-    const char *name;
-    if (len == 0)
-        return false;
-    for (size_t i = 0; !x->made && (name = x->name(i)); i++) {
-        assert(i < WORDS);
-        unsigned char *first = &x->first[word_slot(x, name, strlen(name))];
-        x->next[i] = *first;
-        *first = (unsigned char)(i + 1);
-    }
-    x->made = true;
-    for (size_t i = x->first[word_slot(x, word, len)]; i; i = x->next[i - 1]) {
-        name = x->name(i - 1);
-        if (!strncmp(name, word, len) && !name[len]) {
-            *row = i - 1;
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Edits, counted double: a change of case costs 1, another letter, a missing one or a swap 2. */
-static size_t distance(const char *a, const char *b) {
-    enum { LONGEST = 40 };
-    size_t n = strlen(b), rows[3][LONGEST + 1];
-    if (n > LONGEST || strlen(a) > LONGEST)
-        return 2 * LONGEST;
-    for (size_t j = 0; j <= n; j++)
-        rows[0][j] = 2 * j;
-    size_t i = 0;
-    for (; a[i]; i++) {
-        const size_t *above = rows[i % 3], *twice = rows[(i + 2) % 3];
-        size_t *row = rows[(i + 1) % 3];
-        row[0] = 2 * (i + 1);
-        for (size_t j = 0; j < n; j++) {
-            bool fold = (a[i] ^ b[j]) == 0x20;
-            size_t best = above[j] + (a[i] == b[j] ? 0 : fold ? 1 : 2);
-            if (i && j && a[i] == b[j - 1] && a[i - 1] == b[j] && twice[j - 1] + 2 < best)
-                best = twice[j - 1] + 2;
-            if (row[j] + 2 < best)
-                best = row[j] + 2;
-            if (above[j + 1] + 2 < best)
-                best = above[j + 1] + 2;
-            row[j + 1] = best;
-        }
-    }
-    return rows[i % 3][n];
-}
-
-static bool equal_but_case(const char *a, const char *b) {
-    while (*a && (*a == *b || ((*a ^ *b) == 0x20 && (*a | 0x20) >= 'a' && (*a | 0x20) <= 'z')))
-        a++, b++;
-    return !*a && !*b;
-}
-
-const char *suggest(const char *word, const char *(*name)(size_t i)) {
-    const char *best = NULL;
-    size_t least = strlen(word) <= 2 ? 2 : strlen(word) <= 5 ? 3 : 5;
-    const char *candidate;
-    for (size_t i = 0; (candidate = name(i)); i++) {
-        size_t d = distance(word, candidate);
-        if (equal_but_case(word, candidate))
-            d = 1;
-        if (d < least) {
-            least = d;
-            best = candidate;
-        }
-    }
-    return best;
-}
-
 static const char *prefixed_name(size_t i) {
     static const char *const common[] = {"N",   "kN",   "mN",  "uN",  "MN",  "lbf", "kgf", "dyn", "Pa",
                                          "kPa", "MPa",  "GPa", "bar", "psi", "ksi", "m",   "mm",  "um",
@@ -177,10 +102,10 @@ static const struct {
     const char *unit, *phrase;
     bool prefixes;
 } named[] = {
-    {{0, 0}, "", "a number", false},   {{1, 0}, "N", "a force", true},
-    {{0, 1}, "m", "a length", true},   {{1, -2}, "Pa", "a pressure", true},
-    {{1, 1}, "J", "an energy", true},  {{1, -1}, "N/m", "a stiffness", true},
-    {{0, 2}, "m^2", "an area", false}, {{0, -1}, "m^-1", "an inverse length", false},
+    {{0, 0, 0}, "", "a number", false},   {{1, 0, 0}, "N", "a force", true},
+    {{0, 1, 0}, "m", "a length", true},   {{1, -2, 0}, "Pa", "a pressure", true},
+    {{1, 1, 0}, "J", "an energy", true},  {{1, -1, 0}, "N/m", "a stiffness", true},
+    {{0, 2, 0}, "m^2", "an area", false}, {{0, -1, 0}, "m^-1", "an inverse length", false},
 };
 enum { NAMED = sizeof named / sizeof *named };
 

@@ -3,21 +3,30 @@
 #ifndef CALC_UNIT_H
 #define CALC_UNIT_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "calc/words.h"
 
-/* Powers of newton and metre; exponents are real, since A of a gap A r^n is in m^(1-n). */
+/* Powers of newton and metre; exponents are real, since A of a gap A r^n is in m^(1-n). An angle is a number, but
+ * one that remembers its unit: where an angle is wanted, 90 is not 90 deg. */
 typedef struct dim {
-    double N, m;
+    double N, m, rad;
 } dim;
 
-#define DIM_NONE ((dim){0, 0})
-#define DIM_FORCE ((dim){1, 0})
-#define DIM_LENGTH ((dim){0, 1})
-#define DIM_PRESSURE ((dim){1, -2})
-#define DIM_ENERGY ((dim){1, 1})
-#define DIM_STIFFNESS ((dim){1, -1})
+#define DIM_NONE ((dim){0, 0, 0})
+#define DIM_FORCE ((dim){1, 0, 0})
+#define DIM_LENGTH ((dim){0, 1, 0})
+#define DIM_PRESSURE ((dim){1, -2, 0})
+#define DIM_ENERGY ((dim){1, 1, 0})
+#define DIM_STIFFNESS ((dim){1, -1, 0})
+#define DIM_ANGLE ((dim){0, 0, 1})
 
+static inline dim dim_product(dim a, dim b) {
+    return (dim){a.N + b.N, a.m + b.m, a.rad + b.rad};
+}
+static inline dim dim_power(dim a, double n) {
+    return (dim){a.N * n, a.m * n, a.rad * n};
+}
+
+/* Whether or not they are angles. */
 bool dim_equal(dim a, dim b);
 /* "a force", "a length", ... "a quantity in N/m^3". */
 void dim_describe(dim d, char *buf, size_t size);
@@ -47,18 +56,5 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
 const char *unit_name(size_t i);
 const char *unit_meaning(size_t i);
 bool unit_prefixed(size_t i);
-
-/* Finds a word in a table of names, name(0), name(1), ... until NULL. The index over them is made at the
- * first search; start it as {.name = name}. */
-enum { WORDS = 128 }; /* most names of a table */
-typedef struct word_index {
-    const char *(*name)(size_t i);
-    bool made;
-    unsigned char first[64], next[WORDS]; /* chains of rows + 1, ended by 0 */
-} word_index;
-bool word_find(word_index *x, const char *word, size_t len, size_t *row);
-
-/* Nearest of count names to word within a third of its length, or NULL. name(i) lists them. */
-const char *suggest(const char *word, const char *(*name)(size_t i));
 
 #endif

@@ -1,80 +1,49 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one table of commands: dispatch, usage, help, apropos, completion and README's list derive from it. */
+/* The one table of commands: dispatch, arguments, usage, help, apropos, completion, man page and README's list derive
+ * from it. */
 #ifndef SHELL_COMMAND_H
 #define SHELL_COMMAND_H
 
-#include "shell/shell.h"
+#include "shell/args.h"
 
-typedef enum completion {
-    COMPLETE_NONE,
-    COMPLETE_QUANTITY,
-    COMPLETE_GEOMETRY,
-    COMPLETE_FILE,
-    COMPLETE_TOPIC,
-    COMPLETE_SETTING
-} completion;
+/* Groups of arguments: one target in each direction. */
+enum { GROUP_NORMAL = 1, GROUP_TANGENTIAL };
 
 typedef struct command {
     const char *name;
-    bool (*run)(shell *sh, lexer *lx); /* the cursor after the command word */
-    const char *usage;                 /* lines, without the command word repeated */
-    const char *summary;               /* one line */
-    const char *help; /* what it does; ends with an example as a transcript, indented by four */
-    completion complete;
+    bool (*run)(shell *sh, lexer *lx, const struct command *self); /* the cursor after the command word */
+    const arg *args;     /* ended by an empty row; NULL: none */
+    const char *usage;   /* without the command word */
+    const char *summary; /* one line */
+    const char *help;    /* what it does; ends with an example as a transcript, indented by four */
+    const char *keywords;
+    const char *group; /* of `help`: what it is for */
+    bool changes;      /* the scene */
+    void (*print)(FILE *to); /* more help, from a table */
 } command;
+
+/* The rows of a command as its arguments are read. */
+static inline arg_list command_args(const command *c) {
+    return (arg_list){c->args, c->name, c->name, c->usage, "argument"};
+}
 
 const command *command_find(const char *name, size_t len);
 const command *command_row(size_t i); /* NULL after the last */
 const char *command_name(size_t i);
 
-/* An argument NAME = EXPR or NAME += EXPR. */
-typedef struct argument {
-    const char *name; /* in the statement */
-    size_t len, at, value_at, value_len;
-    bool increment;
-    value v;
-} argument;
-
-/* Is the cursor on an argument? */
-bool at_argument(const lexer *lx);
-bool read_argument(shell *sh, lexer *lx, argument *out);
-bool argument_is(const argument *a, const char *name);
-/* The argument's value must have this dimension; a bare 0 always has. */
-bool argument_dim(lexer *lx, const argument *a, dim d);
-bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d);
-bool unknown_argument(lexer *lx, const argument *a, const command *c);
-/* Nothing may follow. */
-bool at_end(lexer *lx);
-/* A positive whole number, such as after `steps`. */
-bool read_count(shell *sh, lexer *lx, const char *what, unsigned limit, unsigned *out);
-
-/* EXPR [in UNIT], ... into sh->list and columns; at most limit. */
-bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_t *count);
+/* The arguments of `step` or `cycle`, whose word the cursor is on: the load, not run; for `along`. */
+bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]);
 
 /* Rooms of handlers. */
-bool do_material(shell *sh, lexer *lx);
-bool do_second(shell *sh, lexer *lx);
-bool do_geometry(shell *sh, lexer *lx);
-bool do_friction(shell *sh, lexer *lx);
-bool do_press(shell *sh, lexer *lx);
-bool do_step(shell *sh, lexer *lx);
-bool do_cycle(shell *sh, lexer *lx);
-bool do_follow(shell *sh, lexer *lx);
-bool do_reset(shell *sh, lexer *lx);
-
-bool do_history(shell *sh, lexer *lx);
-bool do_table(shell *sh, lexer *lx);
-bool do_plot(shell *sh, lexer *lx);
-bool do_explain(shell *sh, lexer *lx);
-bool do_accuracy(shell *sh, lexer *lx);
-
-bool do_show(shell *sh, lexer *lx);
-bool do_set(shell *sh, lexer *lx);
-bool do_help(shell *sh, lexer *lx);
-bool do_apropos(shell *sh, lexer *lx);
-bool do_source(shell *sh, lexer *lx);
-bool do_demo(shell *sh, lexer *lx);
-bool do_quit(shell *sh, lexer *lx);
+typedef bool command_run(shell *sh, lexer *lx, const command *self);
+/* scene_commands.c, load_commands.c */
+command_run do_material, do_second, do_geometry, do_friction;
+command_run do_press, do_step, do_cycle, do_follow, do_reset, do_undo;
+/* view_commands.c, plot_commands.c, explain.c */
+command_run do_history, do_table, do_plot, do_explain, do_accuracy;
+/* show.c, help.c, session_commands.c */
+command_run do_show, do_set, do_help, do_apropos;
+command_run do_source, do_demo, do_quit;
 
 /* The demo session, one statement a line. */
 extern const char demo_text[];

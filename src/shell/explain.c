@@ -1,307 +1,428 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a quantity is made of, and how far the last digit of each input moves it. */
-#include <float.h>
+/* The command `explain`: what the quantities of an expression are made of, and how far the last digit of each
+ * input moves it. Changes nothing. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "shell/command.h"
 #include "shell/output.h"
+#include "shell/typeset.h"
+#include "study/influence.h"
 
-static void explain_value(shell *sh, const char *name, value v) {
-    char text[160];
-    format_value(sh, v, text, sizeof text);
-    fprintf(sh->out, "    %s = %s\n", name, text);
-}
-
-/* The row of an input. */
-static const quantity *row_of(input in) {
+/* One quantity of the expression, as it stands there. */
+typedef struct part {
     const quantity *q;
-    for (size_t i = 0; (q = quantity_row(i)) && q->in != (int)in;)
-        i++;
-    return q;
+    bool call;
+    const char *text; /* "dW(20 N)" */
+    size_t len;
+    size_t argument, argument_len; /* in text, of a call */
+} part;
+
+/* Who explains where to. */
+typedef struct page {
+    shell *sh;
+    FILE *to;
+} page;
+
+/* ---- lines ------------------------------------------------------------------------------------- */
+
+static void put_value(const page *p, const char *name, size_t len, value v) {
+    char text[160];
+    format_value(&p->sh->set, v, text, sizeof text);
+    fprintf(p->to, "    %.*s = %s\n", (int)len, name, text);
 }
 
-/* What a change of a cause does to a result. */
-typedef enum influence {
-    INFLUENCE_NONE,
-    INFLUENCE_SMALL,
-    INFLUENCE_HIDDEN,
-    INFLUENCE_LEFT, /* not looked for: it takes too long */
-    INFLUENCE_SHOWN
-} influence;
-
-/* One number that a result depends on: an input, or a load of the program. A change in its last digit moves
- * the result by change, both relative. */
-typedef struct cause {
-    const char *name;
-    value v;
-    input in;
-    double *load;   /* in the probe's own program; NULL: an input */
-    bool increment; /* given by += */
-    bool refused;   /* one neighbour is no valid input */
-    long double digit, change;
-    influence influence;
-} cause;
-
-enum { CAUSES = INPUTS + 3 };
-
-static void load_cause(cause *out, const char *name, load_by by, double *load, bool increment) {
-    *out = (cause){.name = name,
-                   .v = {*load, by == BY_FORCE ? DIM_FORCE : DIM_LENGTH},
-                   .in = INPUTS,
-                   .load = load,
-                   .increment = increment};
-}
-
-/* The inputs, the press and the last load. */
-static size_t find_causes(scene *probe, cause *out) {
-    size_t count = 0;
-    for (input in = 0; in < INPUTS; in++)
-        if (probe->set[in] && probe->in[in] != 0 && (in != IN_FN || probe->steps))
-            out[count++] = (cause){
-                .name = row_of(in)->name, .v = {probe->in[in], quantity_dim(row_of(in), probe)}, .in = in};
-    if (!probe->steps)
-        return count;
-    load_step *first = &probe->program[0], *last = &probe->program[probe->steps - 1];
-    bool cycle = last->kind == LOAD_CYCLE;
-    if (first->normal != BY_FORCE)
-        load_cause(&out[count++], first->normal == BY_RADIUS ? "a" : "dz", first->normal,
-                   &first->normal_value, false);
-    if (last != first && last->normal_value != 0) {
-        bool force = cycle || last->normal == BY_FORCE;
-        load_cause(&out[count++],
-                   cycle   ? "FNA"
-                   : force ? "step FN"
-                           : "step dz",
-                   force ? BY_FORCE : last->normal, &last->normal_value, last->relative & 1);
+/* Broken at spaces, further lines indented more; a character of UTF-8 is one wide. */
+static void put_wrapped(FILE *to, const char *text) {
+    enum { LINE = 79, INDENT = 4 };
+    size_t used = 0;
+    while (*text) {
+        const size_t gap = strspn(text, " "), len = strcspn(text + gap, " ");
+        size_t width = 0;
+        for (size_t i = gap; i < gap + len; i++)
+            width += ((unsigned char)text[i] & 0xC0) != 0x80;
+        const bool breaks = used > 0 && used + gap + width > LINE;
+        const size_t space = used == 0 ? INDENT : breaks ? (size_t)2 * INDENT : gap;
+        fprintf(to, "%s%*s%.*s", breaks ? "\n" : "", (int)space, "", (int)len, text + gap);
+        used = (breaks ? 0 : used) + space + width;
+        text += gap + len;
     }
-    if (last->tangential && last->tangential_value != 0) {
-        static const char *const names[2][2] = {{"Fx", "dx"}, {"FA", "dxA"}};
-        load_cause(&out[count++], names[cycle][last->tangential != BY_FORCE], last->tangential,
-                   &last->tangential_value, last->relative & 2);
-    }
-    return count;
+    fputc('\n', to);
 }
 
-/* The result with the cause moved to x, everything else as it is; false where that is refused. */
-static bool moved_to(const scene *probe, const quantity *q, const cause *c, double x, long double *out,
-                     calc_error *error) {
-    scene s;
-    if (!c->load && !scene_check(probe, c->in, x, error))
-        return false;
-    scene_clone(&s, probe);
-    if (c->load) {
-        *c->load = x;
-        scene_forget(&s);
-    } else {
-        scene_put(&s, c->in, x);
-    }
-    bool ok = q->get(&s, out, error);
-    if (c->load)
-        *c->load = (double)c->v.v;
-    scene_free(&s);
-    return ok;
+static void put_formula(const page *p, const quantity *q, bool call) {
+    const formula *f = quantity_formula(q, p->sh->calc.now, call);
+    char set[512], line[600];
+    fprintf(p->to, "%s: %s\n", q->name, q->title);
+    if (!f)
+        return;
+    if (typeset_unicode())
+        typeset(f->text, set, sizeof set);
+    snprintf(line, sizeof line, "%s%s%s", typeset_unicode() ? set : f->text, f->equation ? "  " : "",
+             f->equation ? f->equation : "");
+    put_wrapped(p->to, line);
 }
 
-/* The first and the second relative difference of the result for steps of h: what the cause does, and what
- * is rounding or curvature. How many of the neighbours are valid? */
-static int differences(const scene *probe, const quantity *q, const cause *c, double h, long double result,
-                       long double *change, long double *noise, calc_error *error) {
-    long double at[2];
-    int valid = 0, side = 0;
-    for (int sign = -1; sign <= 1 && !error->stop; sign += 2)
-        if (moved_to(probe, q, c, (double)c->v.v + sign * h, &at[valid], error)) {
-            valid++;
-            side = sign;
-        }
-    if (valid == 1) { /* at the end of its range: both to one side */
-        if (!moved_to(probe, q, c, (double)c->v.v + 2 * side * h, &at[1], error))
-            return 0;
-        *change = fabsl((at[0] - result) / result);
-        *noise = fabsl((at[1] - 2 * at[0] + result) / result);
-    } else if (valid == 2) {
-        *change = fabsl((at[1] - at[0]) / 2 / result);
-        *noise = fabsl((at[1] - 2 * result + at[0]) / result);
-    }
-    return valid;
-}
-
-/* Close to a singularity only neighbouring numbers tell the slope; elsewhere a wider step stands out from
- * the rounding of what has passed through a double. Of three steps the least uncertain counts. */
-static void find_influence(const scene *probe, const quantity *q, cause *c, long double result,
-                           calc_error *error) {
-    double x = fabs((double)c->v.v), ulp = nextafter(x, INFINITY) - x;
-    long double least = HUGE_VALL; /* uncertainty of change */
-    int nearest = 0;
-    c->digit = ulp / (long double)x;
-    for (int bits = 0; bits <= 24 && !error->stop; bits += 12) {
-        long double change, noise, scale = (long double)(1 << bits);
-        int valid = differences(probe, q, c, ulp * (double)scale, result, &change, &noise, error);
-        if (bits == 0)
-            nearest = valid;
-        if (valid == 0 || valid < nearest)
+/* Where a step mixes force and displacement, its path is a choice. */
+static void put_paths(const page *p) {
+    static const struct {
+        load_by normal, tangential;
+        const char *step, *plane;
+    } paths[] = {{BY_FORCE, BY_DISPLACEMENT, "step FN= dx=", "(delta_z, delta_x)"},
+                 {BY_DISPLACEMENT, BY_FORCE, "step dz= Fx=", "(F_N, F_x)"}};
+    const scene *s = p->sh->calc.now;
+    char plane[64];
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++)
+        for (size_t j = 1; j < s->end.steps; j++) {
+            const load_step *step = &s->program->steps[j];
+            if (step->kind != LOAD_STEP || step->normal != paths[i].normal ||
+                step->tangential != paths[i].tangential)
+                continue;
+            typeset(paths[i].plane, plane, sizeof plane);
+            fprintf(p->to, "    path: %s goes straight in %s\n", paths[i].step,
+                    typeset_unicode() ? plane : paths[i].plane);
             break;
-        if (change == 0 && noise == 0)
-            continue;
-        noise += DBL_EPSILON;
-        if (noise / scale < least) {
-            least = noise / scale;
-            c->change = change / scale;
         }
-        if (noise < change / 64)
-            break;
-    }
-    c->refused = nearest < 2;
-    c->influence = nearest == 0                           ? INFLUENCE_HIDDEN
-                   : least == HUGE_VALL                   ? INFLUENCE_NONE
-                   : c->change + least < 0.01L * c->digit ? INFLUENCE_SMALL
-                   : least > c->change / 2                ? INFLUENCE_HIDDEN
-                                                          : INFLUENCE_SHOWN;
 }
 
-enum { CONDITIONING = 3 }; /* seconds of the processor that it may take */
+/* ---- the model --------------------------------------------------------------------------------- */
 
-static bool find_influences(shell *sh, const quantity *q, long double result, cause *causes, size_t *count,
-                            calc_error *error) {
-    const scene *s = &sh->calc.scene;
-    *count = 0;
-    if (result == 0 || !isfinite(result))
-        return true;
-    scene probe;
-    load_step *program = malloc((s->steps ? s->steps : 1) * sizeof *program);
-    if (!program)
-        return calc_fail(error, 0, 0, "out of memory");
-    scene_clone(&probe, s);
-    if (s->steps)
-        memcpy(program, s->program, s->steps * sizeof *program);
-    probe.program = program;
-    *count = find_causes(&probe, causes);
-    bool ok = true;
-    clock_t start = clock();
-    for (size_t i = 0; i < *count && ok; i++) {
-        calc_error refused = {0};
-        if (clock() - start < CONDITIONING * CLOCKS_PER_SEC)
-            find_influence(&probe, q, &causes[i], result, &refused);
-        else
-            causes[i].influence = INFLUENCE_LEFT;
-        ok = !refused.stop && !shell_stop;
-    }
-    scene_free(&probe);
-    free(program);
-    if (!ok) {
-        error->stop = true;
-        return calc_fail(error, 0, 0, "interrupted");
-    }
+/* Of the results, those that are taken to the limit of chords. */
+static bool is_extrapolated(const quantity *q, bool call) {
+    static const char *const names[] = {"Fx", "dx", "W", "U", "dW"};
+    for (size_t i = 0; !call && i < sizeof names / sizeof *names; i++)
+        if (!strcmp(q->name, names[i]))
+            return true;
+    return false;
+}
+
+/* Rounded up to one digit. */
+static double round_up(double v) {
+    const double place = pow(10, floor(log10(v)));
+    return ceil(v / place * (1 - 1e-9)) * place;
+}
+
+static void put_sine(const page *p, const quantity *q, bool call, model_id model) {
+    scene *s = p->sh->calc.now;
+    const double error = fmax((double)s->answers.sine_error, 1e-18);
+    const int finest = RUN_CHORDS << (model == MODEL_MEMORY ? LEVELS - 1 : 0);
+    fprintf(p->to, "    model: %s, ", models[model].title);
+    if (model == MODEL_MEMORY && is_extrapolated(q, call))
+        fprintf(p->to, "converged to %.0e (the sine itself, by %d chords a period and fewer, extrapolated)\n",
+                round_up(error), finest);
+    else
+        fprintf(p->to, "by %d chords a period of the sine\n", finest);
+}
+
+static bool swings(scene *s) {
+    const load_reach *reach;
+    calc_error ignored;
+    error_clear(&ignored);
+    return s->end.steps > 0 && scene_reach(s, &reach, &ignored) && reach->swings;
+}
+
+static void put_model(const page *p, const quantity *q, bool call) {
+    scene *s = p->sh->calc.now;
+    const model_id model = quantity_model(q, s, call);
+    const bool stepped = model == MODEL_MEMORY || model == MODEL_SPRINGS;
+    if (stepped && (q->reads & INPUT_BIT(IN_MU)) && swings(s))
+        put_sine(p, q, call, model);
+    else if (model == MODEL_QUADRATURE && q->by != MODEL_QUADRATURE)
+        fprintf(p->to, "    model: %s, with quadrature over the gap\n", models[MODEL_CLOSED].title);
+    else
+        fprintf(p->to, "    model: %s%s\n", models[model].title, model == MODEL_MEMORY ? " (exact)" : "");
+    if (stepped && (q->reads & INPUT_BIT(IN_MU)))
+        put_paths(p);
+}
+
+/* ---- inputs and conditioning ------------------------------------------------------------------- */
+
+static bool has_effect(const influence_study *study, input in) {
+    for (size_t i = 0; i < study->count; i++)
+        if (study->cause[i].kind == CAUSE_INPUT && study->cause[i].in == in)
+            return study->cause[i].influence != INFLUENCE_NONE;
     return true;
-}
-
-static void explain_conditioning(shell *sh, const quantity *q, const cause *causes, size_t count) {
-    static const char *const not_shown[] = {"no effect", "condition number below 0.01",
-                                            "not smooth here, or hidden by rounding",
-                                            "left out after 3 seconds"};
-    char head[100], moves[100], text[80];
-    snprintf(moves, sizeof moves, "moves %s by", q->name);
-    bool headed = false;
-    for (size_t i = 0; i < count; i++) {
-        const cause *c = &causes[i];
-        if (c->influence != INFLUENCE_SHOWN)
-            continue;
-        if (!headed)
-            fprintf(sh->out, "    %-20s  last digit  %14s  condition number\n", "conditioning", moves);
-        headed = true;
-        format_value(sh, c->v, text, sizeof text);
-        snprintf(head, sizeof head, "%s %s %s", c->name, c->increment ? "+=" : "=", text);
-        fprintf(sh->out, "    %-20s  %10.1Le  %14.1Le  %16.2Lg%s\n", head, c->digit, c->change,
-                c->change / c->digit, c->refused ? "  (at the end of its range)" : "");
-    }
-    for (influence kind = INFLUENCE_SHOWN; kind-- > INFLUENCE_NONE;) {
-        const char *separator = NULL;
-        for (size_t i = 0; i < count; i++)
-            if (causes[i].influence == kind) {
-                if (separator)
-                    fputs(separator, sh->out);
-                else
-                    fprintf(sh->out, "    %s: ", not_shown[kind]);
-                fputs(causes[i].name, sh->out);
-                separator = ", ";
-            }
-        if (separator)
-            fputc('\n', sh->out);
-    }
 }
 
 /* The inputs that the result was made of. */
-static void explain_inputs(shell *sh, const quantity *q, const cause *causes, size_t count) {
+static void put_inputs(const page *p, const quantity *q, const influence_study *study) {
     static const input order[] = {IN_E0, IN_NU, IN_E0_2, IN_NU_2, IN_K,      IN_C0, IN_MU,
                                   IN_N,  IN_A,  IN_H,    IN_R0,   IN_RADIUS, IN_B,  IN_SLOPE};
-    const scene *s = &sh->calc.scene;
+    scene *s = p->sh->calc.now;
     for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
-        const quantity *p = row_of(order[i]);
-        bool used = s->set[order[i]] && p != q;
-        for (size_t j = 0; j < count; j++)
-            if (causes[j].in == order[i] && causes[j].influence == INFLUENCE_NONE)
-                used = false;
-        if (used)
-            explain_value(sh, p->name, (value){s->in[order[i]], quantity_dim(p, s)});
+        const input in = order[i];
+        const quantity *row = quantity_of_input(in);
+        value v = {0, quantity_dim(row, s)};
+        calc_error ignored;
+        error_clear(&ignored);
+        const bool set = s->in.set[in] || (s->in.bindings & INPUT_BIT(in));
+        if (set && row != q && (q->reads & INPUT_BIT(in)) && (in < IN_N || inputs_take(&s->in, in)) &&
+            !(in == IN_C0 && s->in.v[IN_K] == 0) && has_effect(study, in) && scene_get(s, in, &v.v, &ignored))
+            put_value(p, row->name, strlen(row->name), v);
     }
 }
 
-bool do_explain(shell *sh, lexer *lx) {
-    const quantity *q = lx->kind == T_NAME ? quantity_find(lx->text + lx->at, lx->len) : NULL;
-    if (!q && lx->kind == T_NAME) {
-        char word[64];
-        snprintf(word, sizeof word, "%.*s", (int)(lx->len < 60 ? lx->len : 60), lx->text + lx->at);
-        const char *near = suggest(word, quantity_name);
-        return lex_fail(
-            lx, near ? "'%s' is no quantity: did you mean %s?" : "'%s' is no quantity; try: explain dW", word,
-            near);
-    }
-    if (!q)
-        return lex_fail(lx, "explain which quantity? try: explain dW");
-    scene *s = &sh->calc.scene;
-    size_t at = lx->at, len = lx->len;
-    lex_next(lx);
-    if (lx->kind != T_END)
-        return lex_fail(lx, "explain takes the name of one quantity: explain %s", q->name);
-    value v = {0, quantity_dim(q, s)};
-    if (q->get && !q->get(s, &v.v, lx->error)) {
-        lx->error->at = at, lx->error->len = len;
-        return false;
-    }
-    cause causes[CAUSES];
-    size_t count = 0;
-    if (q->get && !find_influences(sh, q, v.v, causes, &count, lx->error))
-        return false;
-    fprintf(sh->out, "%s: %s\n    %s  %s\n", q->name, q->title, q->formula, q->source);
-    if (q->in >= 0 && !q->get) {
-        if (s->set[q->in])
-            explain_value(sh, q->name, (value){s->in[q->in], v.d});
-        return true;
-    }
-    explain_inputs(sh, q, causes, count);
-    if (!q->get)
-        return true;
+/* Where the load matters. */
+static void put_load(const page *p, const quantity *q, const influence_study *study) {
+    scene *s = p->sh->calc.now;
     const fret_press *press;
-    calc_error ignored = {0};
-    bool loaded = count == 0;
-    for (size_t i = 0; i < count; i++)
-        loaded =
-            loaded || (causes[i].influence != INFLUENCE_NONE && (causes[i].load || causes[i].in == IN_FN));
-    if (loaded && s->steps && q->in < 0 && scene_press(s, &press, &ignored))
-        explain_value(sh, "FN now", (value){press->F, DIM_FORCE});
-    static const char *const of_state[] = {"W", "U", "kt"}, *const of_first[] = {"Fx", "dx", "c"};
-    bool closed = true;
-    for (size_t i = 0; i < 3; i++)
-        if (!strcmp(q->name, of_state[i]))
-            closed = false;
-        else if (!strcmp(q->name, of_first[i]))
-            closed = scene_closed_state(s);
-    if (!strcmp(q->name, "dW"))
-        closed = scene_closed_loss(s);
-    fprintf(sh->out, "    model: %s\n", scene_model_name(s, closed));
-    explain_value(sh, q->name, v);
-    explain_conditioning(sh, q, causes, count);
+    calc_error ignored;
+    error_clear(&ignored);
+    bool matters = study->count == 0;
+    for (size_t i = 0; i < study->count; i++)
+        matters = matters || (cause_is_load(&study->cause[i]) && study->cause[i].influence != INFLUENCE_NONE);
+    if (matters && q->load && !quantity_is_input(q) && s->end.steps && scene_press(s, &press, &ignored))
+        put_value(p, "FN now", 6, (value){press->F, DIM_FORCE});
+}
+
+static void put_cause(const page *p, const cause *c) {
+    char head[220], text[160];
+    format_value(&p->sh->set, c->v, text, sizeof text);
+    snprintf(head, sizeof head, "%s%s %s %s", c->kind == CAUSE_ARGUMENT ? "argument " : "", c->name,
+             c->increment ? "+=" : "=", text);
+    fprintf(p->to, "    %-20s  %10.1Le  %14.1Le  %16.2Lg%s\n", head, c->digit, c->change,
+            c->change / c->digit, c->refused ? "  (at the end of its range)" : "");
+}
+
+static void put_conditioning(const page *p, const char *name, const influence_study *study) {
+    static const char *const not_shown[] = {"no effect", "condition number below 0.01",
+                                            "not smooth here, or hidden by rounding",
+                                            "left out after 3 seconds"};
+    char moves[100];
+    snprintf(moves, sizeof moves, "moves %s by", name);
+    bool headed = false;
+    for (size_t i = 0; i < study->count; i++) {
+        if (study->cause[i].influence != INFLUENCE_SHOWN)
+            continue;
+        if (!headed)
+            fprintf(p->to, "    %-20s  last digit  %14s  condition number\n", "conditioning", moves);
+        headed = true;
+        put_cause(p, &study->cause[i]);
+    }
+    for (influence kind = INFLUENCE_SHOWN; kind-- > INFLUENCE_NONE;) {
+        const char *separator = NULL;
+        for (size_t i = 0; i < study->count; i++) {
+            const cause *c = &study->cause[i];
+            if (c->influence != kind)
+                continue;
+            if (separator)
+                fputs(separator, p->to);
+            else
+                fprintf(p->to, "    %s: ", not_shown[kind]);
+            fprintf(p->to, "%s%s", c->kind == CAUSE_ARGUMENT ? "argument " : "", c->name);
+            separator = ", ";
+        }
+        if (separator)
+            fputc('\n', p->to);
+    }
+}
+
+/* ---- one quantity ------------------------------------------------------------------------------ */
+
+/* The part of a statement as an expression of its own, and its value. */
+static bool text_value(calc *c, const char *text, size_t len, expr *e, value *v) {
+    calc_error ignored;
+    lexer lx;
+    error_clear(&ignored);
+    lex_start(&lx, text, len, &ignored);
+    return expr_parse(c, &lx, e) && lx.kind == T_END && expr_eval(c, e, v, &ignored);
+}
+
+/* An input, and F_N as it was given: no formula made the number. */
+static bool is_given(const quantity *q, scene *s) {
+    const load_reach *reach;
+    calc_error ignored;
+    error_clear(&ignored);
+    return q->of == OF_INPUT || (quantity_is_input(q) && s->in.set[quantity_input(q)] &&
+                                 scene_reach(s, &reach, &ignored) && !reach->normal_varies);
+}
+
+static void explain_input(const page *p, const quantity *q) {
+    calc *c = &p->sh->calc;
+    value v = {0, quantity_dim(q, c->now)};
+    calc_error ignored;
+    error_clear(&ignored);
+    put_formula(p, q, false);
+    if (quantity_get(q, c->now, &v.v, &ignored))
+        put_value(p, q->name, strlen(q->name), v);
+}
+
+/* A function without an argument: no value. */
+static void explain_function(const page *p, const quantity *q) {
+    const influence_study nothing = {.count = 0};
+    put_formula(p, q, true);
+    put_inputs(p, q, &nothing);
+}
+
+/* whole: nothing else is explained, so the conditioning belongs here. */
+static bool explain_part(const page *p, const part *of, bool whole, calc_error *error) {
+    calc *c = &p->sh->calc;
+    const quantity *q = of->q;
+    expr e = {0}, unused = {0};
+    influence_study study = {.count = 0};
+    value v, argument = {0};
+    bool ok = true, has = text_value(c, of->text, of->len, &e, &v);
+    if (has && of->call)
+        text_value(c, of->text + of->argument, of->argument_len, &unused, &argument);
+    if (has)
+        ok = influences(c, &e, v.v, of->call ? q : NULL, argument, &study, error);
+    if (ok) {
+        put_formula(p, q, of->call);
+        put_inputs(p, q, &study);
+        if (has)
+            put_load(p, q, &study);
+        put_model(p, q, of->call);
+    }
+    if (ok && has)
+        put_value(p, of->text, of->len, v);
+    if (ok && whole)
+        put_conditioning(p, q->name, &study);
+    expr_free(&e);
+    expr_free(&unused);
+    return ok;
+}
+
+/* ---- the expression ---------------------------------------------------------------------------- */
+
+/* The first call of the quantity in the text. */
+static bool find_call(const expr *e, const quantity *q, part *out) {
+    calc_error ignored;
+    lexer lx;
+    error_clear(&ignored);
+    lex_start(&lx, e->text, e->at + e->len, &ignored);
+    lex_seek(&lx, e->at);
+    while (lx.kind != T_END && !ignored.raised && !(lex_is(&lx, q->name) && lex_peek(&lx) == T_OPEN))
+        lex_next(&lx);
+    const size_t begin = lx.at;
+    lex_next(&lx);
+    const size_t open = lx.at;
+    int depth = 0;
+    for (; lx.kind != T_END && !ignored.raised; lex_next(&lx)) {
+        depth += (lx.kind == T_OPEN) - (lx.kind == T_CLOSE);
+        if (depth == 0)
+            break;
+    }
+    if (lx.kind != T_CLOSE)
+        return false;
+    *out = (part){.q = q,
+                  .call = true,
+                  .text = e->text + begin,
+                  .len = lx.at + 1 - begin,
+                  .argument = open + 1 - begin,
+                  .argument_len = lx.at - open - 1};
     return true;
+}
+
+static bool part_of(const expr *e, size_t i, part *out) {
+    bool call;
+    const quantity *q = expr_quantity(e, i, &call);
+    if (!q)
+        return false;
+    if (!call || !find_call(e, q, out))
+        *out = (part){.q = q, .call = call, .text = q->name, .len = strlen(q->name)};
+    return true;
+}
+
+/* A name of the user's stands for its definition. */
+static const expr *meant_by(const calc *c, const expr *e) {
+    bool call;
+    size_t i;
+    if (expr_quantity(e, 0, &call))
+        return e;
+    lexer lx;
+    calc_error ignored;
+    error_clear(&ignored);
+    lex_start(&lx, e->text, e->at + e->len, &ignored);
+    lex_seek(&lx, e->at);
+    if (lx.kind != T_NAME || !names_find(&c->names, lx.text + lx.at, lx.len, &i) ||
+        !c->names.row[i].definition)
+        return e;
+    return &((const definition *)c->names.row[i].definition)->body;
+}
+
+static bool explain_whole(const page *p, const expr *e, value v, calc_error *error) {
+    influence_study study;
+    if (!influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, error))
+        return false;
+    put_value(p, e->text + e->at, e->len, v);
+    put_conditioning(p, "it", &study);
+    return true;
+}
+
+/* Each quantity, and at the end the expression, where it is more than one of them. */
+static bool explain_expression(const page *p, const expr *e, value v, calc_error *error) {
+    const expr *of = meant_by(&p->sh->calc, e);
+    part one;
+    bool whole = false;
+    for (size_t i = 0; part_of(of, i, &one); i++) {
+        whole = of == e && one.len == e->len && !memcmp(one.text, e->text + e->at, e->len);
+        if (!one.call && is_given(one.q, p->sh->calc.now))
+            explain_input(p, one.q);
+        else if (!explain_part(p, &one, whole, error))
+            return false;
+    }
+    return whole || explain_whole(p, e, v, error);
+}
+
+/* ---- the statement ----------------------------------------------------------------------------- */
+
+/* A name that means nothing. */
+static bool no_quantity(shell *sh, lexer *lx) {
+    char word[LEX_NAME];
+    size_t i;
+    if (lx->kind != T_NAME) {
+        if (lx->kind == T_END)
+            lex_fail(lx, "explain which quantity? try: explain dW");
+        return lx->kind == T_END;
+    }
+    lex_word(lx, word);
+    if (quantity_find(word, lx->len) || lex_is(lx, "ans") || names_find(&sh->calc.names, word, lx->len, &i))
+        return false;
+    i = 0;
+    for (const char *name; (name = builtin_name(i)); i++)
+        if (lex_is(lx, name))
+            return false;
+    const char *near = suggest(word, quantity_name);
+    lex_fail(lx, near ? "'%s' is no quantity: did you mean %s?" : "'%s' is no quantity; try: explain dW",
+             word, near);
+    return true;
+}
+
+/* An input or a function by its name alone may be without a value. */
+static const quantity *bare_name(const lexer *lx) {
+    const quantity *q = lx->kind == T_NAME ? quantity_find(lx->text + lx->at, lx->len) : NULL;
+    return q && (q->of == OF_INPUT || q->of == OF_FUNCTION) && lex_peek(lx) == T_END ? q : NULL;
+}
+
+static bool read_expression(shell *sh, lexer *lx, expr *e, value *v) {
+    bool call;
+    const size_t at = lx->at;
+    if (!expr_parse(&sh->calc, lx, e) || !at_end(lx))
+        return false;
+    if (!expr_quantity(meant_by(&sh->calc, e), 0, &call))
+        return calc_fail(lx->error, at, e->len, "explain which quantity? try: explain dW");
+    return expr_eval(&sh->calc, e, v, lx->error) || calc_place(lx->error, at, e->len);
+}
+
+bool do_explain(shell *sh, lexer *lx, const command *self) {
+    expr *e = &sh->list[0];
+    text_out text;
+    value v = {0};
+    (void)self;
+    if (no_quantity(sh, lx))
+        return false;
+    const quantity *bare = bare_name(lx);
+    if (!bare && !read_expression(sh, lx, e, &v))
+        return false;
+    if (!text_begin(&text, &sh->set, sh->out))
+        return calc_no_memory(lx->error);
+    const page p = {sh, text.to};
+    bool ok = true;
+    if (bare && bare->of == OF_INPUT)
+        explain_input(&p, bare);
+    else if (bare)
+        explain_function(&p, bare);
+    else
+        ok = explain_expression(&p, e, v, lx->error);
+    return (text_end(&text) || calc_no_memory(lx->error)) && ok;
 }

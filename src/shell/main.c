@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The program: options, signals, jobs, exit status. */
 #include <errno.h>
 #include <getopt.h>
 #include <math.h>
@@ -29,26 +30,94 @@ static const char usage[] =
     "  --version, --help\n\n"
     "  exit status: 0 fine, 1 an error, 2 wrong usage, 130 interrupted\n";
 
+/* ---- signals ----------------------------------------------------------------------------------- */
+
 static void on_interrupt(int signal) {
     (void)signal;
     shell_stop = 1;
 }
 
-/* Nothing half made stays behind; then the signal does what it does. */
+/* The end: what must not stay behind goes, and the signal does what it would have done. */
 static void on_end(int number) {
     file_emergency();
     signal(number, SIG_DFL);
     raise(number);
 }
 
+static void set_signals(void) {
+    static const int ends[] = {SIGTERM, SIGHUP, SIGQUIT};
+    struct sigaction act = {.sa_handler = on_interrupt}; /* no SA_RESTART: a blocked read must return */
+    sigaction(SIGINT, &act, NULL);
+    act.sa_handler = on_end;
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
+        sigaction(ends[i], &act, NULL);
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN); /* a write that fails is an error like any other */
+}
+
+/* ---- options ----------------------------------------------------------------------------------- */
+
+typedef struct job {
+    bool statements;
+    const char *text;
+} job;
+
+/* What the command line asks for. */
+typedef struct wishes {
+    bool keep_going, quiet, no_rc, done;
+    const char *replay, *color;
+    double tolerance;
+    job *jobs;
+    size_t count;
+} wishes;
+
 static int bad_usage(const char *what, const char *word) {
     fprintf(stderr, "fret: %s%s%s\ntry: fret --help\n", what, word ? " " : "", word ? word : "");
     return EXIT_USAGE;
 }
 
+static int take_tolerance(wishes *w, const char *text) {
+    char *end;
+    w->tolerance = strtod(text, &end);
+    if (*end || end == text || !(w->tolerance >= 0) || !isfinite(w->tolerance))
+        return bad_usage("--tolerance needs a number, not", text);
+    return EXIT_OK;
+}
+
+static int take_format(settings *set, const char *text) {
+    static const char *const names[] = {[FORMAT_TEXT] = "text", [FORMAT_CSV] = "csv", [FORMAT_JSON] = "json"};
+    for (int i = 0; i < 3; i++)
+        if (!strcmp(names[i], text)) {
+            set->format = i;
+            return EXIT_OK;
+        }
+    return bad_usage("--format is text, csv or json, not", text);
+}
+
+static int take_color(wishes *w, const char *text) {
+    w->color = text;
+    return !strcmp(text, "auto") || !strcmp(text, "always") || !strcmp(text, "never")
+               ? EXIT_OK
+               : bad_usage("--color is auto, always or never, not", text);
+}
+
+enum { OPT_REPLAY = 256, OPT_TOLERANCE, OPT_FORMAT, OPT_KEEP, OPT_QUIET, OPT_NO_RC, OPT_COLOR, OPT_VERSION, OPT_HELP };
+
+static const struct option options[] = {{"replay", required_argument, NULL, OPT_REPLAY},
+                                        {"tolerance", required_argument, NULL, OPT_TOLERANCE},
+                                        {"format", required_argument, NULL, OPT_FORMAT},
+                                        {"keep-going", no_argument, NULL, OPT_KEEP},
+                                        {"quiet", no_argument, NULL, OPT_QUIET},
+                                        {"no-rc", no_argument, NULL, OPT_NO_RC},
+                                        {"color", required_argument, NULL, OPT_COLOR},
+                                        {"version", no_argument, NULL, OPT_VERSION},
+                                        {"help", no_argument, NULL, OPT_HELP},
+                                        {NULL, 0, NULL, 0}};
+
 /* The option getopt stopped at: C libraries differ in where argv stands then. */
-static const char *option_word(const struct option *o, char **argv) {
+static const char *option_word(char **argv) {
     static char word[32];
+    const struct option *o = options;
     while (o->name && o->val != optopt)
         o++;
     if (!optopt)
@@ -58,6 +127,97 @@ static const char *option_word(const struct option *o, char **argv) {
     else
         snprintf(word, sizeof word, "-%c", optopt);
     return word;
+}
+
+static int take_option(int opt, wishes *w, settings *set, char **argv) {
+    switch (opt) {
+    case 'f':
+    case 'c':
+        w->jobs[w->count++] = (job){opt == 'c', optarg};
+        return EXIT_OK;
+    case OPT_REPLAY:
+        w->replay = optarg;
+        return EXIT_OK;
+    case OPT_TOLERANCE:
+        return take_tolerance(w, optarg);
+    case OPT_FORMAT:
+        return take_format(set, optarg);
+    case OPT_KEEP:
+        w->keep_going = true;
+        return EXIT_OK;
+    case OPT_QUIET:
+        w->quiet = true;
+        return EXIT_OK;
+    case OPT_NO_RC:
+        w->no_rc = true;
+        return EXIT_OK;
+    case OPT_COLOR:
+        return take_color(w, optarg);
+    case OPT_VERSION:
+        printf("fret %s\n", FRET_VERSION);
+        w->done = true;
+        return EXIT_OK;
+    case OPT_HELP:
+        fputs(usage, stdout);
+        w->done = true;
+        return EXIT_OK;
+    case ':':
+        return bad_usage("an argument is missing after", option_word(argv));
+    default:
+        return bad_usage("unknown option", option_word(argv));
+    }
+}
+
+static int read_options(int argc, char **argv, wishes *w, settings *set) {
+    int status = EXIT_OK, opt;
+    opterr = 0;
+    while (status == EXIT_OK && !w->done && (opt = getopt_long(argc, argv, ":f:c:", options, NULL)) >= 0)
+        status = take_option(opt, w, set, argv);
+    for (int i = optind; i < argc && !w->done && status == EXIT_OK; i++)
+        w->jobs[w->count++] = (job){false, argv[i]};
+    set->color = !strcmp(w->color, "always") ||
+                 (!strcmp(w->color, "auto") && isatty(STDERR_FILENO) && !getenv("NO_COLOR"));
+    return status;
+}
+
+/* ---- jobs -------------------------------------------------------------------------------------- */
+
+static int run_text(shell *sh, const char *text, bool keep_going) {
+    FILE *in = *text ? fmemopen((void *)(size_t)text, strlen(text), "r") : NULL;
+    if (!*text)
+        return EXIT_OK;
+    if (!in) {
+        fprintf(stderr, "error: %s\n", strerror(errno));
+        return EXIT_ERROR;
+    }
+    int status = shell_stream(sh, in, "-c", keep_going);
+    fclose(in);
+    return status;
+}
+
+static int run_jobs(shell *sh, const wishes *w) {
+    int status = EXIT_OK;
+    for (size_t i = 0; i < w->count && !sh->quit; i++) {
+        const job *j = &w->jobs[i];
+        int one = j->statements            ? run_text(sh, j->text, w->keep_going)
+                  : !strcmp(j->text, "-") ? shell_stream(sh, stdin, "stdin", w->keep_going)
+                                           : shell_file(sh, j->text, w->keep_going);
+        if (one != EXIT_OK)
+            status = one;
+        if (one == EXIT_INTERRUPTED || (one != EXIT_OK && !w->keep_going))
+            break;
+    }
+    return status;
+}
+
+static int run(shell *sh, const wishes *w) {
+    if (w->replay)
+        return shell_replay(w->replay, w->tolerance, stdout, stderr);
+    if (w->count)
+        return run_jobs(sh, w);
+    if (isatty(STDIN_FILENO))
+        return shell_prompt(sh, w->quiet, !w->no_rc);
+    return shell_stream(sh, stdin, "stdin", w->keep_going);
 }
 
 /* A lost write is an error. */
@@ -74,147 +234,21 @@ static int finish(shell *sh, int status) {
     return status;
 }
 
-static int run_text(shell *sh, const char *text, bool keep_going) {
-    FILE *in = *text ? fmemopen((void *)(size_t)text, strlen(text), "r") : NULL;
-    if (!*text)
-        return EXIT_OK;
-    if (!in) {
-        fprintf(stderr, "error: %s\n", strerror(errno));
-        return EXIT_ERROR;
-    }
-    int status = shell_stream(sh, in, "-c", keep_going);
-    fclose(in);
-    return status;
-}
-
-enum {
-    OPT_REPLAY = 256,
-    OPT_TOLERANCE,
-    OPT_FORMAT,
-    OPT_KEEP,
-    OPT_QUIET,
-    OPT_NO_RC,
-    OPT_COLOR,
-    OPT_VERSION,
-    OPT_HELP
-};
-
 int main(int argc, char **argv) {
-    static const struct option options[] = {{"replay", required_argument, NULL, OPT_REPLAY},
-                                            {"tolerance", required_argument, NULL, OPT_TOLERANCE},
-                                            {"format", required_argument, NULL, OPT_FORMAT},
-                                            {"keep-going", no_argument, NULL, OPT_KEEP},
-                                            {"quiet", no_argument, NULL, OPT_QUIET},
-                                            {"no-rc", no_argument, NULL, OPT_NO_RC},
-                                            {"color", required_argument, NULL, OPT_COLOR},
-                                            {"version", no_argument, NULL, OPT_VERSION},
-                                            {"help", no_argument, NULL, OPT_HELP},
-                                            {NULL, 0, NULL, 0}};
-    shell sh;
-    bool keep_going = false, quiet = false, rc = true, ran = false;
-    const char *replay = NULL, *color = "auto";
-    double tolerance = 0;
-    struct job {
-        bool statements;
-        const char *text;
-    } *jobs = calloc((size_t)argc + 1, sizeof *jobs);
-    size_t count = 0;
-    if (!jobs) {
+    static shell sh;
+    static char buffer[1 << 16];
+    wishes w = {.color = "auto", .jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
+    if (!w.jobs) {
         fprintf(stderr, "error: out of memory\n");
         return EXIT_ERROR;
     }
-    static char buffer[1 << 16];
     if (!isatty(STDOUT_FILENO)) /* musl writes the first line early: an error is forgotten by the end */
         setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     shell_init(&sh, stdout, stderr);
-    int status = EXIT_OK, opt;
-    opterr = 0;
-    while (status == EXIT_OK && (opt = getopt_long(argc, argv, ":f:c:", options, NULL)) >= 0) {
-        char *end;
-        switch (opt) {
-        case 'f':
-        case 'c':
-            jobs[count++] = (struct job){opt == 'c', optarg};
-            break;
-        case OPT_REPLAY:
-            replay = optarg;
-            break;
-        case OPT_TOLERANCE:
-            tolerance = strtod(optarg, &end);
-            if (*end || end == optarg || !(tolerance >= 0) || !isfinite(tolerance))
-                status = bad_usage("--tolerance needs a number, not", optarg);
-            break;
-        case OPT_FORMAT:
-            if (!strcmp(optarg, "json"))
-                sh.set.format = FORMAT_JSON;
-            else if (!strcmp(optarg, "csv"))
-                sh.set.format = FORMAT_CSV;
-            else if (strcmp(optarg, "text"))
-                status = bad_usage("--format is text, csv or json, not", optarg);
-            break;
-        case OPT_KEEP:
-            keep_going = true;
-            break;
-        case OPT_QUIET:
-            quiet = true;
-            break;
-        case OPT_NO_RC:
-            rc = false;
-            break;
-        case OPT_COLOR:
-            color = optarg;
-            if (strcmp(color, "auto") && strcmp(color, "always") && strcmp(color, "never"))
-                status = bad_usage("--color is auto, always or never, not", color);
-            break;
-        case OPT_VERSION:
-            printf("fret %s\n", FRET_VERSION);
-            ran = true;
-            break;
-        case OPT_HELP:
-            fputs(usage, stdout);
-            ran = true;
-            break;
-        case ':':
-            status = bad_usage("an argument is missing after", option_word(options, argv));
-            break;
-        default:
-            status = bad_usage("unknown option", option_word(options, argv));
-            break;
-        }
-        if (ran)
-            break;
-    }
-    for (int i = optind; i < argc && !ran && status == EXIT_OK; i++)
-        jobs[count++] = (struct job){false, argv[i]};
-    sh.set.color =
-        !strcmp(color, "always") || (!strcmp(color, "auto") && isatty(STDERR_FILENO) && !getenv("NO_COLOR"));
-
-    struct sigaction act = {.sa_handler = on_interrupt}; /* no SA_RESTART: a blocked read must return */
-    sigaction(SIGINT, &act, NULL);
-    signal(SIGPIPE, SIG_IGN);
-    signal(SIGTERM, on_end);
-    signal(SIGHUP, on_end);
-    signal(SIGQUIT, on_end);
-
-    if (status == EXIT_OK && !ran) {
-        if (replay) {
-            status = shell_replay(replay, tolerance, stdout, stderr);
-        } else if (count) {
-            for (size_t i = 0; i < count && !sh.quit; i++) {
-                int one = jobs[i].statements           ? run_text(&sh, jobs[i].text, keep_going)
-                          : !strcmp(jobs[i].text, "-") ? shell_stream(&sh, stdin, "stdin", keep_going)
-                                                       : shell_file(&sh, jobs[i].text, keep_going);
-                if (one != EXIT_OK)
-                    status = one;
-                if (one == EXIT_INTERRUPTED || (one != EXIT_OK && !keep_going))
-                    break;
-            }
-        } else if (isatty(STDIN_FILENO)) {
-            status = shell_prompt(&sh, quiet, rc);
-        } else {
-            status = shell_stream(&sh, stdin, "stdin", keep_going);
-        }
-    }
-    free(jobs);
+    int status = read_options(argc, argv, &w, &sh.set);
+    set_signals();
+    if (status == EXIT_OK && !w.done)
+        status = run(&sh, &w);
+    free(w.jobs);
     return finish(&sh, status);
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Values and tables as text, CSV or JSON. Writes to the streams that it is given. */
 #include "shell/output.h"
 
 #include <float.h>
@@ -6,14 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER = 32 }; /* bytes that hold any number of 17 digits */
-
 /* ---- numbers ----------------------------------------------------------------------------------- */
 
 /* printf takes 100 to 200 ns a number, most of a table's time. One product in extended precision with an
  * exact power of ten gives the same digits, wherever its rounding cannot tip them; where it can, printf
  * decides. */
-static size_t number_text(char text[NUMBER], int digits, double v) {
+size_t number_text(char text[NUMBER_TEXT], int digits, double v) {
     static const long double ten[] = {1e0L,  1e1L,  1e2L,  1e3L,  1e4L,  1e5L,  1e6L,  1e7L,  1e8L,  1e9L,
                                       1e10L, 1e11L, 1e12L, 1e13L, 1e14L, 1e15L, 1e16L, 1e17L, 1e18L, 1e19L,
                                       1e20L, 1e21L, 1e22L, 1e23L, 1e24L, 1e25L, 1e26L, 1e27L};
@@ -27,7 +26,7 @@ static size_t number_text(char text[NUMBER], int digits, double v) {
     for (int up = 0; up < 2; up++) {
         int shift = digits - 1 - e;
         if (!(x > 0) || !isfinite(v) || shift < -EXACT || shift > EXACT)
-            return (size_t)snprintf(text, NUMBER, "%.*g", digits, v);
+            return (size_t)snprintf(text, NUMBER_TEXT, "%.*g", digits, v);
         y = shift < 0 ? x / ten[-shift] : x * ten[shift];
         if (y < ten[digits])
             break;
@@ -35,7 +34,7 @@ static size_t number_text(char text[NUMBER], int digits, double v) {
     }
     long long d = llrintl(y);
     if (0.5L - fabsl(y - (long double)d) <= y * LDBL_EPSILON)
-        return (size_t)snprintf(text, NUMBER, "%.*g", digits, v);
+        return (size_t)snprintf(text, NUMBER_TEXT, "%.*g", digits, v);
     if ((long double)d >= ten[digits]) {
         d /= 10;
         e++;
@@ -77,7 +76,7 @@ static size_t number_text(char text[NUMBER], int digits, double v) {
 /* In a field of `width`, to the right. */
 static void put_number(FILE *to, int width, int digits, double v) {
     static const char blanks[] = "                        ";
-    char text[NUMBER];
+    char text[NUMBER_TEXT];
     size_t n = number_text(text, digits, v);
     for (size_t pad = (size_t)width > n ? (size_t)width - n : 0; pad;) {
         size_t part = pad < sizeof blanks - 1 ? pad : sizeof blanks - 1;
@@ -87,33 +86,52 @@ static void put_number(FILE *to, int width, int digits, double v) {
     fwrite(text, 1, n, to);
 }
 
+/* The bytes of one character of UTF-8, 0 where it is none. */
+static size_t character(const unsigned char *p) {
+    if (*p < 0x80)
+        return 1;
+    const size_t n = *p >= 0xf0 && *p < 0xf5 ? 4 : *p >= 0xe0 && *p < 0xf0 ? 3 : *p >= 0xc2 && *p < 0xe0 ? 2 : 0;
+    for (size_t i = 1; i < n; i++)
+        if ((p[i] & 0xc0) != 0x80)
+            return 0;
+    const bool overlong = (n == 3 && *p == 0xe0 && p[1] < 0xa0) || (n == 4 && *p == 0xf0 && p[1] < 0x90);
+    const bool outside = (n == 3 && *p == 0xed && p[1] >= 0xa0) || (n == 4 && *p == 0xf4 && p[1] >= 0x90);
+    return overlong || outside ? 0 : n;
+}
+
 void print_json_string(FILE *to, const char *text) {
     putc('"', to);
-    for (;; text++) {
-        size_t plain = 0;
-        while ((unsigned char)text[plain] >= 0x20 && text[plain] != '"' && text[plain] != '\\')
-            plain++;
-        fwrite(text, 1, plain, to);
-        text += plain;
-        if (!*text)
-            break;
-        fprintf(to, (unsigned char)*text < 0x20 ? "\\u%04x" : "\\%c", (unsigned char)*text);
+    for (const unsigned char *p = (const unsigned char *)text; *p;) {
+        size_t n = character(p);
+        if (n == 0) {
+            fputs("\\ufffd", to);
+            n = 1;
+        } else if (*p == '"' || *p == '\\') {
+            fprintf(to, "\\%c", *p);
+        } else if (*p < 0x20 || *p == 0x7f) {
+            fprintf(to, "\\u%04x", *p);
+        } else {
+            fwrite(p, 1, n, to);
+        }
+        p += n;
     }
     putc('"', to);
 }
 
-void format_value(const shell *sh, value v, char *buf, size_t size) {
+/* ---- values ------------------------------------------------------------------------------------ */
+
+void format_value(const settings *set, value v, char *buf, size_t size) {
     char unit_text[COLUMN_UNIT];
-    long double scale = unit_choose(v.d, v.v, sh->set.digits, unit_text, sizeof unit_text);
-    char number[NUMBER];
-    number_text(number, sh->set.digits, (double)(v.v / scale));
+    long double scale = unit_choose(v.d, v.v, set->digits, unit_text, sizeof unit_text);
+    char number[NUMBER_TEXT];
+    number_text(number, set->digits, (double)(v.v / scale));
     snprintf(buf, size, "%s%s%s", number, *unit_text ? " " : "", unit_text);
 }
 
-void format_exact(const shell *sh, value v, char *buf, size_t size) {
-    char unit_text[COLUMN_UNIT], number[NUMBER];
+void format_exact(const settings *set, value v, char *buf, size_t size) {
+    char unit_text[COLUMN_UNIT], number[NUMBER_TEXT];
     double want = (double)v.v, read = NAN;
-    for (int digits = sh->set.digits; digits <= 17 && read != fabs(want); digits++) {
+    for (int digits = set->digits; digits <= 17 && read != fabs(want); digits++) {
         long double scale = unit_choose(v.d, want, digits, unit_text, sizeof unit_text);
         size_t n = number_text(number, digits, (double)(want / scale));
         bool minus = number[0] == '-';
@@ -134,82 +152,110 @@ static void json_number(FILE *to, long double v) {
         fputs("null", to);
 }
 
-static void csv_field(FILE *to, const column *c) {
-    char text[COLUMN_NAME + COLUMN_UNIT + 8];
-    snprintf(text, sizeof text, *c->unit ? "%s [%s]" : "%s", c->name, c->unit);
-    if (!strpbrk(text, ",\"")) {
-        fputs(text, to);
-        return;
+/* ---- columns ----------------------------------------------------------------------------------- */
+
+char *column_name(const char *text, size_t len) {
+    char *name = malloc(len + 1);
+    size_t n = 0;
+    for (size_t i = 0; name && i < len; i++) {
+        const char c = text[i] == '\n' || text[i] == '\r' || text[i] == '\t' ? ' ' : text[i];
+        if (c != ' ' || (n > 0 && name[n - 1] != ' ')) /* a continued line is one */
+            name[n++] = c;
     }
-    fputc('"', to);
-    for (const char *p = text; *p; p++) {
-        if (*p == '"')
-            fputc('"', to);
-        fputc(*p, to);
-    }
-    fputc('"', to);
+    if (name)
+        name[n] = 0;
+    return name;
 }
 
-void print_values(shell *sh, const column *columns, const long double *si, size_t count) {
-    FILE *to = sh->out;
-    switch (sh->set.format) {
-    case FORMAT_TEXT:
-        for (size_t i = 0; i < count; i++) {
-            char text[COLUMN_UNIT + 64];
-            if (columns[i].chosen) {
-                char number[NUMBER];
-                number_text(number, sh->set.digits, (double)(si[i] / columns[i].scale));
-                snprintf(text, sizeof text, "%s %s", number, columns[i].unit);
-            } else {
-                format_value(sh, (value){si[i], columns[i].d}, text, sizeof text);
-            }
-            fprintf(to, "%s = %s\n", columns[i].name, text);
-        }
-        break;
-    case FORMAT_CSV: {
-        table t = {.sh = sh, .to = to, .count = count};
-        memcpy(t.columns, columns, count * sizeof *columns);
-        table_begin(&t);
-        table_row(&t, si);
-        break;
-    }
-    case FORMAT_JSON:
-        for (size_t i = 0; i < count; i++) {
-            char unit_text[COLUMN_UNIT];
-            dim_unit(columns[i].d, unit_text, sizeof unit_text);
-            fputs("{\"name\":", to);
-            print_json_string(to, columns[i].name);
-            fputs(",\"value\":", to);
-            json_number(to, si[i]);
-            fputs(",\"unit\":", to);
-            print_json_string(to, unit_text);
-            fputs("}\n", to);
-        }
-        break;
+bool column_si(column *c, const char *name, dim d) {
+    *c = (column){.name = column_name(name, strlen(name)), .scale = 1, .d = d};
+    dim_unit(d, c->unit, sizeof c->unit);
+    return c->name != NULL;
+}
+
+void columns_free(column *c, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        free(c[i].name);
+        c[i].name = NULL;
     }
 }
+
+static void csv_field(FILE *to, const column *c) {
+    const bool quoted = strpbrk(c->name, ",\"\n") != NULL;
+    if (quoted)
+        putc('"', to);
+    for (const char *p = c->name; *p; p++) {
+        if (*p == '"')
+            putc('"', to);
+        putc(*p, to);
+    }
+    if (*c->unit)
+        fprintf(to, " [%s]", c->unit);
+    if (quoted)
+        putc('"', to);
+}
+
+static void print_text(const settings *set, FILE *to, const column *c, long double v) {
+    char text[COLUMN_UNIT + NUMBER_TEXT + 2], number[NUMBER_TEXT];
+    if (c->chosen) {
+        number_text(number, set->digits, (double)(v / c->scale));
+        snprintf(text, sizeof text, "%s %s", number, c->unit);
+    } else {
+        format_value(set, (value){v, c->d}, text, sizeof text);
+    }
+    fprintf(to, "%s = %s\n", c->name, text);
+}
+
+void print_json_value(FILE *to, const char *name, long double v, dim d) {
+    char unit_text[COLUMN_UNIT];
+    dim_unit(d, unit_text, sizeof unit_text);
+    fputs("{\"name\":", to);
+    print_json_string(to, name);
+    fputs(",\"value\":", to);
+    json_number(to, v);
+    fputs(",\"unit\":", to);
+    print_json_string(to, unit_text);
+    fputs("}\n", to);
+}
+
+void print_values(const settings *set, FILE *to, const column *columns, const long double *si, size_t count) {
+    if (set->format == FORMAT_CSV) {
+        table t = {.set = set, .to = to, .format = FORMAT_CSV, .count = count, .columns = columns};
+        table_begin(&t);
+        table_row(&t, si);
+        return;
+    }
+    for (size_t i = 0; i < count; i++)
+        if (set->format == FORMAT_TEXT)
+            print_text(set, to, &columns[i], si[i]);
+        else
+            print_json_value(to, columns[i].name, si[i], columns[i].d);
+}
+
+/* ---- tables ------------------------------------------------------------------------------------ */
 
 /* Width of a text column: a number with its digits, or the head. */
 static int width(const table *t, size_t i) {
-    size_t head = strlen(t->columns[i].name) + (*t->columns[i].unit ? strlen(t->columns[i].unit) + 3 : 0);
-    size_t number = (size_t)t->sh->set.digits + 7;
+    const column *c = &t->columns[i];
+    size_t head = strlen(c->name) + (*c->unit ? strlen(c->unit) + 3 : 0);
+    size_t number = (size_t)t->set->digits + 7;
     return (int)(head > number ? head : number);
 }
 
 void table_begin(table *t) {
-    if (t->sh->set.format == FORMAT_JSON)
+    if (t->format == FORMAT_JSON)
         return;
     for (size_t i = 0; i < t->count; i++) {
         const column *c = &t->columns[i];
         t->width[i] = width(t, i);
-        if (t->sh->set.format == FORMAT_CSV) {
+        if (t->format == FORMAT_CSV) {
             if (i)
                 putc(',', t->to);
             csv_field(t->to, c);
         } else {
-            char head[COLUMN_NAME + COLUMN_UNIT + 8];
-            snprintf(head, sizeof head, *c->unit ? "%s [%s]" : "%s", c->name, c->unit);
-            fprintf(t->to, "%s%*s", i ? "  " : "", t->width[i], head);
+            const size_t head = strlen(c->name) + (*c->unit ? strlen(c->unit) + 3 : 0);
+            fprintf(t->to, "%s%*s", i ? "  " : "", t->width[i] - (int)head, "");
+            fprintf(t->to, *c->unit ? "%s [%s]" : "%s", c->name, c->unit);
         }
     }
     putc('\n', t->to);
@@ -217,25 +263,52 @@ void table_begin(table *t) {
 
 void table_row(table *t, const long double *si) {
     FILE *to = t->to;
-    format form = t->sh->set.format;
     for (size_t i = 0; i < t->count; i++) {
         const column *c = &t->columns[i];
-        if (form == FORMAT_JSON) {
+        const double v = (double)(si[i] / c->scale);
+        if (t->format == FORMAT_JSON) {
             putc(i ? ',' : '{', to);
             print_json_string(to, c->name);
             putc(':', to);
             json_number(to, si[i]);
-        } else if (form == FORMAT_CSV) {
+        } else if (t->format == FORMAT_CSV) {
             if (i)
                 putc(',', to);
-            put_number(to, 0, 17, (double)(si[i] / c->scale));
+            if (isfinite(v))
+                put_number(to, 0, 17, v);
         } else {
             if (i)
                 fwrite("  ", 1, 2, to);
-            put_number(to, t->width[i], t->sh->set.digits, (double)(si[i] / c->scale));
+            if (isfinite(v))
+                put_number(to, t->width[i], t->set->digits, v);
+            else
+                fprintf(to, "%*s", t->width[i], "");
         }
     }
-    if (form == FORMAT_JSON)
+    if (t->format == FORMAT_JSON)
         putc('}', to);
     putc('\n', to);
+}
+
+/* ---- text -------------------------------------------------------------------------------------- */
+
+bool text_begin(text_out *t, const settings *set, FILE *out) {
+    *t = (text_out){.out = out, .to = out};
+    if (set->format != FORMAT_JSON)
+        return true;
+    t->to = open_memstream(&t->buffer, &t->size);
+    return t->to != NULL;
+}
+
+bool text_end(text_out *t) {
+    if (t->to == t->out)
+        return true;
+    bool ok = fclose(t->to) == 0;
+    if (ok && t->size > 0) {
+        fputs("{\"text\":", t->out);
+        print_json_string(t->out, t->buffer);
+        fputs("}\n", t->out);
+    }
+    free(t->buffer);
+    return ok;
 }

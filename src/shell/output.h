@@ -3,24 +3,34 @@
 #ifndef SHELL_OUTPUT_H
 #define SHELL_OUTPUT_H
 
-#include "shell/shell.h"
+#include <stdio.h>
 
-enum { COLUMNS = 40, COLUMN_NAME = 200, COLUMN_UNIT = 100 };
+#include "calc/scene.h"
+#include "shell/settings.h"
 
-struct column {
-    char name[COLUMN_NAME];
+enum { COLUMNS = 42, COLUMN_UNIT = 100, NUMBER_TEXT = 32 };
+
+typedef struct column {
+    char *name;             /* its own */
     char unit[COLUMN_UNIT]; /* as the user asked, else SI */
     long double scale;      /* of that unit */
     bool chosen;            /* the user named the unit */
     dim d;
-};
+} column;
 
-/* A table on its way out. */
+/* A copy of a text as the name of a column, on one line; NULL: out of memory. */
+char *column_name(const char *text, size_t len);
+/* In SI. False: out of memory. */
+bool column_si(column *c, const char *name, dim d);
+void columns_free(column *c, size_t count);
+
+/* A table on its way out. A value that is not finite is a gap. */
 typedef struct table {
-    shell *sh;
+    const settings *set;
     FILE *to;
+    int format;
     size_t count;
-    column columns[COLUMNS];
+    const column *columns;
     int width[COLUMNS]; /* of text */
 } table;
 
@@ -28,12 +38,24 @@ void table_begin(table *t);
 void table_row(table *t, const long double *si);
 
 /* A line `name = value unit`, or its CSV or JSON form. One statement prints count of them. */
-void print_values(shell *sh, const column *columns, const long double *si, size_t count);
+void print_values(const settings *set, FILE *to, const column *columns, const long double *si, size_t count);
+void print_json_value(FILE *to, const char *name, long double v, dim d);
+/* %.*g, faster. */
+size_t number_text(char text[NUMBER_TEXT], int digits, double v);
 /* A value with a unit chosen for it, as text. */
-void format_value(const shell *sh, value v, char *buf, size_t size);
+void format_value(const settings *set, value v, char *buf, size_t size);
 /* The same with as many more digits as reading it back takes. */
-void format_exact(const shell *sh, value v, char *buf, size_t size);
-/* The text as a JSON string, quotation marks included. */
+void format_exact(const settings *set, value v, char *buf, size_t size);
+/* The text as a JSON string, quotation marks included; bytes that are no UTF-8 become U+FFFD. */
 void print_json_string(FILE *to, const char *text);
+
+/* Text on its way out: as it is, or as one JSON object. */
+typedef struct text_out {
+    FILE *out, *to; /* write to `to` */
+    char *buffer;
+    size_t size;
+} text_out;
+bool text_begin(text_out *t, const settings *set, FILE *out);
+bool text_end(text_out *t);
 
 #endif

@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The interactive session. */
+/* The interactive session: typed and pasted lines become statements. */
 #include "shell/prompt.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "shell/command.h"
+#include "shell/lines.h"
+
 static void read_startup(shell *sh) {
     const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
-    char path[1100] = "";
+    char path[4096] = "";
     if (config && *config)
         snprintf(path, sizeof path, "%s/fret/fretrc", config);
     else if (home && *home)
@@ -17,20 +20,135 @@ static void read_startup(shell *sh) {
         shell_file(sh, path, true);
 }
 
-static char *join(char *a, const char *b) {
-    size_t n = strlen(a);
-    char *both = realloc(a, n + strlen(b) + 2);
-    if (!both) {
-        free(a);
+/* ---- lines ------------------------------------------------------------------------------------- */
+
+/* What has been typed or pasted and not been run yet. */
+typedef struct typed {
+    char *text, *next;
+    bool transcript; /* some of its lines begin with a prompt: the others are answers */
+    size_t answers;  /* left out */
+} typed;
+
+static void forget(typed *t) {
+    free(t->text);
+    *t = (typed){.text = NULL};
+}
+
+static bool is_transcript(const char *text) {
+    bool prompts = false;
+    const char *line = text;
+    for (; *line && !prompts; line += line[strcspn(line, "\n")] ? strcspn(line, "\n") + 1 : strlen(line)) {
+        size_t len = strcspn(line, "\n");
+        prompts = strip_prompt(line, &len) != line;
+    }
+    return prompts && strchr(text, '\n');
+}
+
+/* The next line, asked for where none is waiting; NULL: the end, or Ctrl-C. */
+static const char *next_line(typed *t, const char *prompt, bool continued, size_t *len) {
+    for (;;) {
+        if (!t->next) {
+            forget(t);
+            t->text = prompt_line(prompt);
+            if (!t->text || shell_stop)
+                return NULL;
+            t->next = t->text;
+            t->transcript = is_transcript(t->text);
+        }
+        const char *line = t->next;
+        *len = strcspn(line, "\n");
+        t->next = line[*len] && line[*len + 1] ? t->next + *len + 1 : NULL;
+        const char *text = strip_prompt(line, len);
+        while (*len > 0 && text[*len - 1] == '\r')
+            --*len;
+        if (text != line || !t->transcript || continued)
+            return text;
+        t->answers += *len > 0;
+        if (!t->next) {
+            *len = 0;
+            return "";
+        }
+    }
+}
+
+static char *append(char *to, size_t *size, const char *line, size_t len) {
+    char *grown = realloc(to, *size + len + 1);
+    if (!grown) {
+        free(to);
         return NULL;
     }
-    both[n] = '\n';
-    strcpy(both + n + 1, b);
-    return both;
+    memcpy(grown + *size, line, len);
+    *size += len;
+    grown[*size] = 0;
+    return grown;
+}
+
+/* A line with those that continue it; NULL: the end, Ctrl-C, or no memory. */
+static char *logical_line(typed *t) {
+    size_t len, size = 0;
+    const char *line = next_line(t, "fret> ", false, &len);
+    char *whole = line ? append(NULL, &size, line, len) : NULL;
+    while (whole && !shell_stop && shell_continues(whole, size)) {
+        line = next_line(t, "....> ", true, &len);
+        whole[size - 1] = ' ';
+        if (!line)
+            break;
+        whole = append(whole, &size, "\n", 1);
+        whole = whole ? append(whole, &size, line, len) : NULL;
+    }
+    return whole;
+}
+
+/* ---- what is for the prompt alone -------------------------------------------------------------- */
+
+/* `1,5 mm` is two values: one may have been meant. */
+static void hint_comma(shell *sh, const char *text, size_t len) {
+    for (size_t i = 0, end; i < len; i = end + 1) {
+        end = shell_statement_end(text, i, len);
+        while (i < end && (text[i] == ' ' || text[i] == '\t'))
+            i++;
+        size_t word = i;
+        while (word < end && text[word] >= 'a' && text[word] <= 'z')
+            word++;
+        const char *comma = command_find(text + i, word - i) ? NULL : decimal_comma(text + i, end - i);
+        if (comma)
+            shell_note(sh, "the comma in %.3s parts two values: write %c.%c for one", comma - 1, comma[-1],
+                       comma[1]);
+        if (end < len && text[end] == '#')
+            return;
+    }
+}
+
+/* `!COMMAND`. */
+static void run_system(shell *sh, const char *line) {
+    fflush(sh->out);
+    const int status = system(line);
+    if (status == -1)
+        shell_note(sh, "the system's shell cannot be started");
+    else if (status != 0)
+        shell_note(sh, "the command ended with status %d", status > 255 ? status / 256 : status);
+}
+
+static void run_line(shell *sh, const char *line) {
+    static const source from = {NULL, true};
+    const char *text = line + strspn(line, " \t\n");
+    if (!*text)
+        return;
+    prompt_keep(text); /* before it runs: a crash must not lose it */
+    if (*text == '!') {
+        run_system(sh, text + 1);
+    } else if (*text == '?') {
+        char help[256];
+        snprintf(help, sizeof help, "help %.240s", text + 1);
+        shell_line(sh, &from, help, strlen(help), 1);
+    } else {
+        hint_comma(sh, text, strlen(text));
+        shell_line(sh, &from, text, strlen(text), 1);
+    }
 }
 
 int shell_prompt(shell *sh, bool quiet, bool read_rc) {
-    source from = {NULL, true};
+    typed waiting = {.text = NULL};
     sh->interactive = true;
     prompt_begin(sh);
     if (read_rc)
@@ -40,18 +158,11 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
     while (!sh->quit) {
         fflush(sh->out);
         shell_stop = 0;
-        char *line = prompt_line("fret> ");
-        while (line && !shell_stop && shell_continues(line, strlen(line))) {
-            char *more = prompt_line("....> ");
-            line[strlen(line) - 1] = ' ';
-            if (!more)
-                break;
-            line = join(line, more);
-            free(more);
-        }
+        char *line = logical_line(&waiting);
         if (shell_stop) { /* Ctrl-C drops the line */
             fputc('\n', sh->out);
             free(line);
+            forget(&waiting);
             prompt_dropped();
             continue;
         }
@@ -59,12 +170,16 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
             fputc('\n', sh->out);
             break;
         }
-        if (line[strspn(line, " \t")]) {
-            prompt_keep(line); /* before it runs: a crash must not lose it */
-            shell_line(sh, &from, line, strlen(line), 1);
+        if (waiting.answers > 0 && !waiting.next) {
+            shell_note(sh, "%zu pasted lines without a prompt were taken for answers", waiting.answers);
+            waiting.answers = 0;
         }
+        run_line(sh, line);
         free(line);
+        if (shell_stop) /* what was pasted behind it is dropped too */
+            forget(&waiting);
     }
+    forget(&waiting);
     fflush(sh->out);
     return EXIT_OK;
 }

@@ -5,13 +5,14 @@
 
 #include "shell/shell.h"
 
-/* Once, before the first line; sh is what completion looks at. */
-void prompt_begin(const shell *sh);
-/* The next line without its end, to be freed; NULL at the end of input and after Ctrl-C (shell_stop). */
+/* Once, before the first line; sh is what completion looks at, and what tells why no history is kept. */
+void prompt_begin(shell *sh);
+/* What has been typed, without its end, to be freed; NULL at the end of input and after Ctrl-C (shell_stop).
+ * A paste may hold several lines. */
 char *prompt_line(const char *text);
 /* Ctrl-C has dropped the line: clears what the editor holds of it. */
 void prompt_dropped(void);
-/* Remembers a line for the user to recall. */
+/* Remembers a line for the user to recall; one that holds line ends as one line. */
 void prompt_keep(const char *line);
 
 #endif

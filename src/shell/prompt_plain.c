@@ -4,7 +4,7 @@
 
 #include "shell/prompt.h"
 
-void prompt_begin(const shell *sh) {
+void prompt_begin(shell *sh) {
     (void)sh;
 }
 
@@ -19,7 +19,7 @@ char *prompt_line(const char *text) {
         free(line);
         return NULL;
     }
-    if (line[n - 1] == '\n')
+    if (n > 0 && line[n - 1] == '\n')
         line[n - 1] = 0;
     return line;
 }

@@ -1,28 +1,94 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines by readline: editing, history, completion. */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/select.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <readline/history.h>
 #include <readline/readline.h>
 
-#include "shell/command.h"
+#include "shell/complete.h"
 #include "shell/prompt.h"
 
 /* readline's callbacks carry no context */
 static const shell *completing;
-static char history_path[1200]; /* empty: none is kept */
+static int history_file = -1; /* open for appending; -1: none is kept */
 
-/* readline's own getc restarts after a signal: Ctrl-C would not be seen before the next key. */
+/* ---- signals ----------------------------------------------------------------------------------- */
+
+/* While a line is edited the terminal is not as the user left it: it is put right before any of these acts.
+ */
+static struct {
+    int number;
+    struct sigaction before;
+} guarded[] = {
+    {.number = SIGTERM}, {.number = SIGHUP}, {.number = SIGQUIT}, {.number = SIGTSTP}, {.number = SIGCONT}};
+enum { GUARDED = sizeof guarded / sizeof *guarded };
+
+static volatile sig_atomic_t caught;
+
+static void on_signal(int number) {
+    caught = number;
+}
+
+static void guard(void) {
+    for (size_t i = 0; i < GUARDED; i++) {
+        struct sigaction act = {.sa_handler = on_signal};
+        sigaction(guarded[i].number, &act, &guarded[i].before);
+        if (guarded[i].before.sa_handler == SIG_IGN)
+            sigaction(guarded[i].number, &guarded[i].before, NULL);
+    }
+}
+
+static void unguard(void) {
+    for (size_t i = 0; i < GUARDED; i++)
+        sigaction(guarded[i].number, &guarded[i].before, NULL);
+}
+
+/* Lets the signal do what it would have done; whoever stopped us may have changed the terminal. */
+static void act_on_signal(void) {
+    const int number = caught;
+    caught = 0;
+    rl_deprep_term_function();
+    unguard();
+    if (number != SIGCONT)
+        raise(number);
+    guard();
+    rl_prep_term_function(1);
+    rl_forced_update_display();
+}
+
+/* readline's own getc restarts after a signal: Ctrl-C would not be seen before the next key. Signals are let
+ * through while it waits and nowhere else, so that none comes between looking and waiting. */
 static int read_key(FILE *in) {
+    const int fd = fileno(in);
     unsigned char c;
+    sigset_t ours, before;
+    sigemptyset(&ours);
+    sigaddset(&ours, SIGINT);
+    for (size_t i = 0; i < GUARDED; i++)
+        sigaddset(&ours, guarded[i].number);
     for (;;) {
-        if (shell_stop)
+        fd_set set;
+        FD_ZERO(&set);
+        FD_SET(fd, &set);
+        sigprocmask(SIG_BLOCK, &ours, &before);
+        const int ready = shell_stop || caught ? 0 : pselect(fd + 1, &set, NULL, NULL, NULL, &before);
+        const bool failed = ready < 0 && errno != EINTR;
+        sigprocmask(SIG_SETMASK, &before, NULL);
+        if (shell_stop || failed)
             return EOF;
-        ssize_t n = read(fileno(in), &c, 1);
+        if (caught) {
+            act_on_signal();
+            continue;
+        }
+        if (ready <= 0)
+            continue;
+        const ssize_t n = read(fd, &c, 1);
         if (n == 1)
             return c;
         if (n == 0 || errno != EINTR)
@@ -30,154 +96,165 @@ static int read_key(FILE *in) {
     }
 }
 
-static const char *file_words[] = {"source", "to", NULL};
+/* ---- completion -------------------------------------------------------------------------------- */
 
-/* All words that may stand at the cursor: i counts through one list after the other. */
-static const char *candidate(size_t i, bool at_start, completion kind) {
-    const char *name;
-    size_t n = 0;
-    if (at_start || kind == COMPLETE_TOPIC) {
-        while (command_name(n))
-            if (n++ == i)
-                return command_name(i);
-        i -= n;
-    }
-    if (kind == COMPLETE_GEOMETRY)
-        for (n = 0; geometry_row(n); n++)
-            if (n == i)
-                return geometry_row(n)->name;
-    if (kind == COMPLETE_SETTING) {
-        static const char *const words[] = {"format", "digits", "report", "timing",  "plot",
-                                            "model",  "closed", "memory", "springs", "text",
-                                            "csv",    "json",   "on",     "off",     "auto"};
-        if (i < sizeof words / sizeof *words)
-            return words[i];
-        return NULL;
-    }
-    if (kind == COMPLETE_GEOMETRY)
-        i -= n;
-    for (n = 0; (name = quantity_name(n)); n++)
-        if (n == i)
-            return name;
-    i -= n;
-    for (n = 0; (name = builtin_name(n)); n++)
-        if (n == i)
-            return name;
-    i -= n;
-    return completing ? calc_variable_name(&completing->calc, i) : NULL;
+static candidates found;
+
+/* Tells readline where the word begins, by the one byte before it. */
+static char *word_breaks(void) {
+    static char breaks[2];
+    candidates_free(&found);
+    complete(&completing->calc, rl_line_buffer, (size_t)rl_point, &found);
+    breaks[0] = '\001';
+    if (found.start > 0)
+        breaks[0] = rl_line_buffer[found.start - 1];
+    return breaks;
 }
-
-static bool word_at_start;
-static completion word_kind;
 
 static char *next_match(const char *text, int state) {
-    static size_t i;
-    const char *name;
+    static size_t next;
+    (void)text;
     if (!state)
-        i = 0;
-    while ((name = candidate(i++, word_at_start, word_kind)))
-        if (!strncmp(name, text, strlen(text)))
-            return strdup(name);
-    return NULL;
+        next = 0;
+    return next < found.count ? strdup(found.word[next++]) : NULL;
 }
 
-/* Does the statement up to the word end in `source` or `to`, which a file name follows? */
-static bool at_file(int start) {
-    while (start > 0 && rl_line_buffer[start - 1] == ' ')
-        start--;
-    for (const char **w = file_words; *w; w++) {
-        int n = (int)strlen(*w);
-        if (start >= n && !strncmp(rl_line_buffer + start - n, *w, (size_t)n) &&
-            (start == n || rl_line_buffer[start - n - 1] == ' ' || rl_line_buffer[start - n - 1] == ';'))
-            return true;
-    }
-    return false;
-}
-
-/* File names and the names of geometries hold characters that end a word elsewhere. */
-static char *word_breaks(void) {
-    static char plain[] = " \t;,()+-*/^=:\"", loose[] = " \t;,\"";
-    int start = rl_point;
-    while (start > 0 && !strchr(loose, rl_line_buffer[start - 1]))
-        start--;
-    int before = start;
-    while (before > 0 && rl_line_buffer[before - 1] == ' ')
-        before--;
-    bool shape = before >= 8 && !strncmp(rl_line_buffer + before - 8, "geometry", 8);
-    return shape || at_file(start) ? loose : plain;
-}
-
-static char **complete(const char *text, int start, int end) {
+static char **matches(const char *text, int start, int end) {
     (void)end;
     rl_attempted_completion_over = 1;
-    int begin = start;
-    while (begin > 0 && rl_line_buffer[begin - 1] != ';')
-        begin--;
-    while (rl_line_buffer[begin] == ' ')
-        begin++;
-    word_at_start = begin >= start;
-    size_t len = strcspn(rl_line_buffer + begin, " ");
-    const command *c = word_at_start ? NULL : command_find(rl_line_buffer + begin, len);
-    word_kind = c ? c->complete : COMPLETE_QUANTITY;
-    if (at_file(start)) {
-        rl_attempted_completion_over = 0;
+    if ((size_t)start != found.start)
         return NULL;
+    if (found.files) {
+        rl_attempted_completion_over = 0; /* readline knows file names */
+        if (start > 0 && rl_line_buffer[start - 1] == '"')
+            rl_completion_append_character = '"';
+        return NULL;
+    }
+    if (found.count == 1) {
+        const char *word = found.word[0];
+        rl_completion_suppress_append = strchr("=(", word[strlen(word) - 1]) != NULL;
     }
     return rl_completion_matches(text, next_match);
 }
 
-/* $XDG_STATE_HOME/fret/history, or the same under the home directory. */
-static void open_history(void) {
-    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-    char dir[1000];
-    if (state && *state)
-        snprintf(dir, sizeof dir, "%s", state);
-    else if (home && *home)
-        snprintf(dir, sizeof dir, "%s/.local/state", home);
-    else
-        return;
-    for (char *p = dir + 1; *p; p++)
-        if (*p == '/') {
-            *p = 0;
-            mkdir(dir, 0700);
-            *p = '/';
-        }
-    mkdir(dir, 0700);
-    size_t n = strlen(dir);
-    snprintf(dir + n, sizeof dir - n, "/fret");
-    mkdir(dir, 0700);
-    snprintf(history_path, sizeof history_path, "%s/history", dir);
-    FILE *f = fopen(history_path, "a");
-    if (!f) {
-        *history_path = 0;
-        return;
+/* ---- history ----------------------------------------------------------------------------------- */
+
+enum { HISTORY_PATH = 4096, HISTORY_READ = 1 << 20, HISTORY_LINES = 10000 };
+
+/* The directories of the path from byte `from` on; what lies before must be there. */
+static void make_directories(char *path, size_t from) {
+    for (char *slash = strchr(path + from, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = 0;
+        mkdir(path, 0700);
+        *slash = '/';
     }
-    fclose(f);
-    chmod(history_path, 0600);
-    read_history(history_path);
 }
 
-void prompt_begin(const shell *sh) {
+/* $XDG_STATE_HOME/fret/history, or the same under the home directory, which is not made. False: nowhere. */
+static bool history_path(char path[HISTORY_PATH]) {
+    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
+    const bool given = state && *state == '/';
+    int n = 0;
+    if (given)
+        n = snprintf(path, HISTORY_PATH, "%s/fret/history", state);
+    else if (home && *home)
+        n = snprintf(path, HISTORY_PATH, "%s/.local/state/fret/history", home);
+    if (n <= 0 || n >= HISTORY_PATH)
+        return false;
+    make_directories(path, given ? strlen(state) : strlen(home) + 1);
+    return true;
+}
+
+/* The latest lines of the file. */
+static void read_lines(int fd, off_t size) {
+    const off_t from = size > HISTORY_READ ? size - HISTORY_READ : 0;
+    const size_t want = (size_t)(size - from);
+    char *text = malloc(want + 1);
+    size_t have = 0;
+    ssize_t n = 1;
+    while (text && have < want && n > 0) {
+        n = pread(fd, text + have, want - have, from + (off_t)have);
+        have += n > 0 ? (size_t)n : 0;
+    }
+    if (!text)
+        return;
+    text[have] = 0;
+    char *line = text;
+    if (from > 0) /* a part of one */
+        line += strcspn(line, "\n");
+    for (char *end; *line; line = end) {
+        end = line + strcspn(line, "\n");
+        end += *end ? (*end = 0, 1) : 0;
+        if (*line)
+            add_history(line);
+    }
+    free(text);
+}
+
+/* For the user alone, and a plain file: a pipe would block, and a link may lead anywhere. */
+static void open_history(shell *sh) {
+    char path[HISTORY_PATH];
+    struct stat st;
+    if (!history_path(path))
+        return;
+    int fd = open(path, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY, 0600);
+    const bool strange = fd < 0 ? errno == ELOOP : fstat(fd, &st) != 0 || !S_ISREG(st.st_mode);
+    if (strange) {
+        shell_note(sh, "no history is kept: %s is no plain file", path);
+        if (fd >= 0)
+            close(fd);
+        return;
+    }
+    if (fd < 0)
+        return;
+    if ((st.st_mode & 077) != 0 && st.st_nlink == 1 && fchmod(fd, 0600) != 0)
+        shell_note(sh, "others can read %s", path);
+    read_lines(fd, st.st_size);
+    history_file = fd;
+}
+
+/* ---- what the session calls -------------------------------------------------------------------- */
+
+void prompt_begin(shell *sh) {
     completing = sh;
-    rl_readline_name = "fret";
+    rl_readline_name = "fret"; /* `$if fret` in inputrc */
     rl_getc_function = read_key;
-    rl_attempted_completion_function = complete;
+    rl_attempted_completion_function = matches;
     rl_completion_word_break_hook = word_breaks;
     rl_catch_signals = 0;
     using_history();
-    open_history();
+    stifle_history(HISTORY_LINES);
+    open_history(sh);
 }
 
 char *prompt_line(const char *text) {
-    return readline(text);
+    guard();
+    char *line = readline(text);
+    unguard();
+    if (caught) /* came when the line was done: it acts now */
+        raise(caught);
+    caught = 0;
+    return line;
 }
 
 void prompt_dropped(void) {
     rl_callback_sigcleanup();
 }
 
+/* One write at the end of the file: two sessions do not mix. */
 void prompt_keep(const char *line) {
-    add_history(line);
-    if (*history_path)
-        append_history(1, history_path);
+    const size_t n = strlen(line);
+    char *copy = malloc(n + 2);
+    if (!copy)
+        return;
+    for (size_t i = 0; i < n; i++)
+        copy[i] = line[i] == '\n' ? ' ' : line[i];
+    copy[n] = 0;
+    add_history(copy);
+    copy[n] = '\n';
+    if (history_file >= 0 && write(history_file, copy, n + 1) < 0) {
+        close(history_file); /* full, or gone */
+        history_file = -1;
+    }
+    free(copy);
 }

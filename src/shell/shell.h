@@ -6,24 +6,10 @@
 #include <signal.h>
 #include <stdio.h>
 
-#include "calc/expr.h"
-
-typedef enum format { FORMAT_TEXT, FORMAT_CSV, FORMAT_JSON } format;
-typedef enum report { REPORT_AUTO, REPORT_OFF, REPORT_ON } report;
+#include "calc/calc.h"
+#include "shell/settings.h"
 
 enum { EXIT_OK = 0, EXIT_ERROR = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
-
-typedef struct settings {
-    format format;
-    int digits;
-    report report; /* auto: at the prompt only */
-    bool timing;
-    bool color;
-    int plot_width, plot_height; /* 0: the terminal's, or the picture's default */
-    double plot_timeout;
-} settings;
-
-typedef struct column column; /* output.h */
 
 /* Where statements come from. */
 typedef struct source {
@@ -31,15 +17,16 @@ typedef struct source {
     bool keep_going;
 } source;
 
+enum { EXPRESSIONS = 40 };
+
 typedef struct shell {
     calc calc;
     settings set;
     FILE *out, *err;
-    FILE *record;
     bool interactive, quit, failed;
-    bool warned_dissimilar;
-    int nesting;   /* of `source` */
-    expr list[64]; /* expressions of a print, table or plot statement, reused */
+    bool dissimilar;         /* the bodies are, and it has been said */
+    int nesting;             /* of `source` */
+    expr list[EXPRESSIONS];  /* of a print, table or plot statement, reused */
 } shell;
 
 /* Set by the SIGINT handler. */
@@ -62,6 +49,14 @@ FILE *shell_open(const char *path);
 int shell_file(shell *sh, const char *path, bool keep_going);
 /* Does the line end in a continuation mark? */
 bool shell_continues(const char *text, size_t len);
+/* End of the statement that begins at i: a `;`, a comment or the end of the line. */
+size_t shell_statement_end(const char *text, size_t i, size_t len);
+
+/* Something to be told that is no error, on standard error. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void shell_note(shell *sh, const char *format, ...);
 
 /* prompt.c: the interactive session. */
 int shell_prompt(shell *sh, bool quiet, bool read_rc);

@@ -40,8 +40,8 @@ def check(tests, statements, out, errors):
     with tests.file(script) as path:
         runs = {path: tests.run(path), "-c": tests.run("-c", script), "stdin": tests.run(input=script)}
     for name, done in runs.items():
-        messages = [line for line in done.stderr.splitlines() if "error:" in line or line.startswith("warning:")]
-        want = [line if line.startswith("warning:") else name + ":" + line for line in errors]
+        messages = [line for line in done.stderr.splitlines() if "error:" in line or line.startswith(("warning:", "note:"))]
+        want = [line if line.startswith(("warning:", "note:")) else name + ":" + line for line in errors]
         ok = (messages == want and harness.same_text("\n".join(out), done.stdout) and done.returncode == status
               and carets(done.stderr))
         way = "file" if name == path else name

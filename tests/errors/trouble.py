@@ -10,7 +10,7 @@ import subprocess
 import time
 
 SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-LONG = SCENE + "table dW(FA) for FA = 1 N .. 30 N steps 50000000 to %s\n"
+LONG = SCENE + "table dW(F) for F = 1 N .. 30 N steps 50000000 to %s\n"
 
 
 def expect(tests, name, done, status, out=None, err=None):
@@ -87,7 +87,7 @@ def writes(tests):
     old = os.path.join(where, "x.csv")
     with open(old, "w", encoding="ascii") as f:
         f.write("old\n")
-    tests.run("-c", SCENE + "table dW(F) for F = 30 N .. 50 N to " + old)
+    tests.run("-c", "table (2 m)^x in m for x = 1 .. 2 to " + old)
     with open(old, encoding="ascii") as f:
         tests.check("a table that fails leaves the old file", f.read() == "old\n")
     tests.check("and nothing beside it", os.listdir(where) == ["x.csv"], str(os.listdir(where)))
@@ -234,7 +234,7 @@ def interrupts(tests):
         finish(tests, "interrupted: table on standard output", job)
     with open(out, encoding="ascii") as f:
         lines = f.read().splitlines(True)
-    tests.check("an interrupted table ends with a whole row", len(lines) > 2 and "FA [N]" in lines[0] and
+    tests.check("an interrupted table ends with a whole row", len(lines) > 2 and "F [N]" in lines[0] and
                 len(lines[-1]) == len(lines[1]), repr(lines[-1:]))
     os.unlink(out)
 

@@ -108,7 +108,7 @@ def interrupts(tests):
     s.say(SCENE)
     s.say("press FN=100 N")
     s.say("step Fx=20 N")
-    for name, command in (("table", "table dW(FA) for FA = 1 N .. 30 N steps 50000000 to /dev/null"),
+    for name, command in (("table", "table dW(F) for F = 1 N .. 30 N steps 50000000 to /dev/null"),
                           ("sweep", "table a for k = 0 .. 0.5 steps 50000000 to /dev/null"),
                           ("accuracy", "plot accuracy within 60"),
                           ("cycle", "cycle FA=20 N FNA=10 N times 1000000"),

@@ -9,6 +9,8 @@ import os
 import re
 import xml.etree.ElementTree
 
+import harness
+
 GRADED = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry %s; friction 0.3; press FN=100 N\n"
 SPHERE, CONE = "sphere R=10 mm", "cone slope=0.01"
 
@@ -97,13 +99,20 @@ def other_models(tests):
     rows, last = measured(tests, GRADED % (0.3, SPHERE) + "cycle FA=12 N FNA=20 N phase=90 deg times 2 steps 40",
                           "accuracy within 1")
     tests.check("accuracy, FN swings", rows and set(rows) == {"memory diagram", "loop area (21)", "springs"} and
-                rows["memory diagram"][0]["error"] <= 1e-11 and last["auto"] == "memory diagram" and
+                rows["memory diagram"][0]["error"] <= 1e-10 and last["auto"] == "memory diagram" and
                 "FN swings" in last["advice"], str(last))
     tests.check("accuracy, FN swings: loop area", rows and abs(order(rows["loop area (21)"]) - 2) < 0.1, str(rows))
     tests.check("accuracy, FN swings: springs", rows and order(rows["springs"]) > 1.5, str(rows))
     scene = GRADED % (0.3, SPHERE) + "cycle FA=12 N FNA=20 N phase=90 deg times 2 steps 40\n"
-    dW = json.loads(tests.run("--format=json", "-c", scene + "dW").stdout)["value"]
+    dW = harness.printed_values(tests.run("--format=json", "-c", scene + "dW").stdout)[0]
     tests.check("accuracy, FN swings: dW", rows and rows["memory diagram"][0]["value"] == dW, str(dW))
+    with open(os.path.join(harness.ROOT, "tests/reference/swinging.csv"), encoding="ascii") as f:
+        exact = list(csv.DictReader(line for line in f if not line.startswith("#")))
+    for row in (exact[0], exact[6], exact[11]):
+        rows, last = measured(tests, row["setup"] + "\n" + row["cycle"], "accuracy within 0.01")
+        dW = float(row["dW"])
+        tests.check("accuracy, %s: exact" % row["cycle"], rows and abs(last["value"] / dW - 1) <= 1e-10 and
+                    abs(rows["memory diagram"][0]["value"] / dW - 1) <= 1e-10, str(last))
     rows, last = measured(tests, GRADED % (0.3, SPHERE) + "step FN=120 N Fx=10 N; cycle FA=12 N; step FN=90 N")
     tests.check("accuracy, FN has changed", rows and rows["memory diagram"][0]["error"] <= 1e-14 and
                 abs(order(rows["springs"]) - 2) < 0.4, str(rows))
@@ -151,7 +160,7 @@ def pictures(tests):
     done = tests.run("-c", GRADED % (-0.3, SPHERE) + "set plot 79x24\nplot accuracy FA=20 N within 0.1\n"
                      "plot accuracy within 0.1 to a.svg", cwd=where)
     tests.check("plot accuracy", all(text in done.stdout for text in ("time of a cycle [s]", "relative error",
-                "closed form", "springs, midpoint")) and not done.stderr, tests.report(done))
+                "closed form", "springs, midpoint")) and harness.reported(done.stderr, ["a.svg"]), tests.report(done))
     tests.check("files of plot accuracy", os.listdir(where) == ["a.svg"], str(os.listdir(where)))
     text = "".join(xml.etree.ElementTree.parse(os.path.join(where, "a.svg")).getroot().itertext())
     tests.check("a.svg", "memory diagram" in text and "relative error" in text, text[:500])

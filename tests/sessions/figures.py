@@ -97,7 +97,8 @@ for i in range(22):
 """
     done = subprocess.run([sys.executable, "-c", deep, where, tests.fret, SCENE], capture_output=True, text=True,
                           env=tests.env, timeout=120)
-    tests.check("a hostile name in a deep directory", done.stdout.split("\n")[0] == "0  ['|touch pwned #.png']",
+    tests.check("a hostile name in a deep directory", re.match(r"0 wrote \|touch pwned #\.png \([\d.]+ kB\)\n "
+                r"\['\|touch pwned #\.png'\]$", done.stdout),
                 done.stdout + done.stderr)
 
 

@@ -65,7 +65,15 @@ def written(tests):
     done = tests.run("-c", SCENE + "step Fx=20 N\nhistory to h.csv\ntable dW(F) in uJ, c(F)/a for F = 10 N .. 30 N "
                      "steps 2 to t.csv\ntable x for x = 1 .. 3 steps 2 to t.txt\n"
                      "set format json; table x^2 for x = 1 .. 3 steps 2 to \"t 2.json\"\nhistory to h.json", cwd=where)
-    says(tests, "tables to files", done, "")
+    tests.check("tables to files", done.returncode == 0 and not done.stdout and
+                harness.reported(done.stderr, ["h.csv", "t.csv", "t.txt", "t 2.json", "h.json"]), tests.report(done))
+    done = tests.run("-c", "table x for x = 1 .. 3 to t.txt", cwd=where)
+    tests.check("a table over another", harness.reported(done.stderr, ["t.txt"], "overwrote"), tests.report(done))
+    with open(os.path.join(where, "t.txt"), encoding="ascii") as f:
+        tests.check("it is the new one", len(f.read().splitlines()) == 22)
+    tests.run("-c", "table x for x = 1 .. 3 steps 2 to t.txt", cwd=where)
+    done = tests.run("-c", "set report off; table x for x = 1 .. 3 steps 2 to t.txt", cwd=where)
+    says(tests, "set report off", done, "")
     tests.check("no other files", sorted(os.listdir(where)) == ["h.csv", "h.json", "t 2.json", "t.csv", "t.txt"],
                 str(os.listdir(where)))
 
@@ -102,7 +110,8 @@ def pictures(tests):
         "plot dW(F) in uJ for F = 1 N .. 39 N log to \"b b.svg\"\n" \
         "reset; press FN=100 N\nplot a, dz for FN = 1 N .. 100 N with mu = 0.1, 0.2 to 'c.svg\n"
     done = tests.run("-c", script, cwd=where)
-    says(tests, "plots to files", done, "")
+    tests.check("plots to files", done.returncode == 0 and not done.stdout and
+                harness.reported(done.stderr, ["a.png", "a.svg", "a.pdf", "a.gp", "b b.svg", "'c.svg"]), tests.report(done))
     heads = {"a.png": b"\x89PNG", "a.svg": b"<?xml", "a.pdf": b"%PDF", "a.gp": b"# made by fret", "b b.svg": b"<?xml",
              "'c.svg": b"<?xml"}
     for name, head in heads.items():
@@ -208,14 +217,14 @@ def long_tables(tests):
         singly = tests.run("--format=json", input=scene + "\n".join(
             ", ".join(f.strip().replace("F*", row[0] + " N*").replace("(F)", "(%s N)" % row[0])
                       for f in functions.split(", ")) for row in rows))
-        values = [json.loads(line)["value"] for line in singly.stdout.splitlines()]
+        values = harness.printed_values(singly.stdout)
         got = [float(cell) for row in rows for cell in row[1:]]
         worst = [(g, v) for g, v in zip(got, values) if not alike(g, v)]
         tests.check("700 rows as one by one, " + name, len(rows) == 700 and len(got) == len(values) == 4900 and not worst,
                     str(worst[:5]) + tests.report(done)[:500])
     sums = "x^2, -x/3, min(x,300)+max(x,2), sqrt(abs(x-500)), 2^-x*x, FN/x in mN, 7, 1+(2-(3*(x-(4-x)))), pi*dW(20 N)*x"
     done = tests.run("--format=csv", "-c", SCENE + "table %s for x = 1 .. 1025 steps 1024" % sums)
-    loss = json.loads(tests.run("--format=json", "-c", SCENE + "dW(20 N)").stdout)["value"]
+    loss = harness.printed_values(tests.run("--format=json", "-c", SCENE + "dW(20 N)").stdout)[0]
     rows = [[float(cell) for cell in row] for row in table_rows(done)[1]]
     wrong = [row for row in rows if not all(map(alike, row[1:], (
         row[0] ** 2, -row[0] / 3, min(row[0], 300) + max(row[0], 2), abs(row[0] - 500) ** 0.5, 2.0 ** -row[0] * row[0],
@@ -231,22 +240,39 @@ def long_tables(tests):
                 all(float(row[2]) == (1 + i // 600) * (1 + i % 600) and row[1] == str(1 + i // 600) for i, row in
                     enumerate(rows)) and alike(float(rows[1199][3]), float(rows[600][3]) / 600), tests.report(done)[-300:])
     done = tests.run("--format=csv", "-c", SCENE + "table a(F) for F = 1 N .. 600 N steps 599 with k = 0, 0.5")
-    tests.check("a curve that fails", len(table_rows(done)[1]) == 600 and "c0 is not set" in done.stderr and
-                "(at F = 1 N)" in done.stderr, tests.report(done)[-500:])
+    rows = table_rows(done)[1]
+    tests.check("a curve that is a gap", len(rows) == 1200 and all((row[2] == "") == (row[1] == "0.5") for row in rows) and
+                done.returncode == 0 and done.stderr.startswith("note: some values are missing: c0 is not set") and
+                done.stderr.endswith("(at F = 1 N, k = 0.5)\n"), tests.report(done)[-500:])
+
+
+def gaps_in_tables(tests):
+    """A value that cannot be had is a gap, also in the middle of a block, and one note says why."""
+    for expression, sweep, gap, why in (
+            ("dW(F)", "F = 1 N .. 71 N steps 1400", lambda i: i > 780, "gross slip"),
+            ("F, c(F)", "F = 0.05 N .. 60.05 N steps 1200", lambda i: i >= 800, "gross slip"),
+            ("a(100 N-F)", "F = 1 N .. 1001 N steps 1000", lambda i: i >= 100, "(at F = "),
+            ("1/(x-699)", "x = 0 .. 1000 steps 1000", lambda i: i == 699, "division by zero (at x = 699)"),
+            ("x, sqrt(511.5-x)", "x = 0 .. 1000 steps 1000", lambda i: i >= 512,
+             "square root of a negative number is not real (at x = 512)"),
+            ("(256-x)^0.5", "x = 0 .. 1000 steps 1000", lambda i: i >= 257, "no real power 0.5 (at x = 257)"),
+            ("exp(x)", "x = 0 .. 1000 steps 1000", lambda i: i >= 710, "too large for double precision (at x = 710)"),
+            ("log(700-x)", "x = 0 .. 1000 steps 1000", lambda i: i >= 700, "too large for double precision (at x = 700)"),
+            ("beta(300-x,2)", "x = 0 .. 1000 steps 1000", lambda i: i >= 300,
+             "beta needs two positive arguments in range (at x = 300)")):
+        done = tests.run("--format=csv", "-c", SCENE + "table %s for %s" % (expression, sweep))
+        rows = done.stdout.splitlines()[1:]
+        steps = int(sweep.split()[-1])
+        wrong = [i for i, row in enumerate(rows) if (row.split(",")[-1] == "") != gap(i)]
+        tests.check("table %s for %s" % (expression, sweep),
+                    len(rows) == steps + 1 and not wrong and why in done.stderr and done.returncode == 0 and
+                    len([line for line in done.stderr.splitlines() if line.startswith("note:")]) == 1,
+                    "%d rows, wrong at %s\n%s" % (len(rows), wrong[:5], tests.report(done)[-600:]))
 
 
 def failing_tables(tests):
-    """What fails in the middle of a block: the rows before it are there, and the message names its row."""
+    """Dimensions that do not fit end a table: the rows before it are there, and the message names its row."""
     for expression, sweep, rows, where in (
-            ("dW(F)", "F = 1 N .. 71 N steps 1400", 781, "gross slip"),
-            ("F, c(F)", "F = 0.05 N .. 60.05 N steps 1200", 800, "gross slip"),
-            ("a(100 N-F)", "F = 1 N .. 1001 N steps 1000", 100, "(at F = "),
-            ("1/(x-699)", "x = 0 .. 1000 steps 1000", 699, "division by zero (at x = 699)"),
-            ("x, sqrt(511.5-x)", "x = 0 .. 1000 steps 1000", 512, "square root of a negative number is not real (at x = 512)"),
-            ("(256-x)^0.5", "x = 0 .. 1000 steps 1000", 257, "no real power 0.5 (at x = 257)"),
-            ("exp(x)", "x = 0 .. 1000 steps 1000", 710, "too large for double precision (at x = 710)"),
-            ("log(700-x)", "x = 0 .. 1000 steps 1000", 700, "too large for double precision (at x = 700)"),
-            ("beta(300-x,2)", "x = 0 .. 1000 steps 1000", 300, "beta needs two positive arguments in range (at x = 300)"),
             ("(2 m)^x in m", "x = 1 .. 2 steps 1000", 1, "cannot be shown in m (at x = 1.001)"),
             ("x + 1 mm", "x = 0 .. 1 N steps 1000", 0, "cannot add a length (1 mm) to a force (x) (at x = "),
             ("x in mm", "x = 0 .. 1 N steps 1000", 0, "x is a force: it cannot be shown in mm"),
@@ -328,5 +354,5 @@ def demos(tests):
 
 def run(tests):
     tests.each([lambda room=room: room(tests) for room in
-                (jobs, written, long_tables, failing_tables, digits, shown_scenes, waiting_steps, many_variables,
+                (jobs, written, long_tables, gaps_in_tables, failing_tables, digits, shown_scenes, waiting_steps, many_variables,
                  read_tables, pictures, demos)])

@@ -1,0 +1,471 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What follows from a scene, made ready on demand: the load program is run as far as it has grown, the cheapest
+ * model that is exact answers. */
+#include <math.h>
+#include <string.h>
+
+#include "calc/scene.h"
+
+static const fret_status fine = {FRET_OK, NULL, 0, 0};
+
+/* ---- running the program ----------------------------------------------------------------------- */
+
+/* A press alone can be shown without friction. */
+static bool friction_for_program(scene *s, double *mu, calc_error *error) {
+    *mu = 1;
+    return (!s->in.set[IN_MU] && !(s->in.bindings & INPUT_BIT(IN_MU)) && s->end.steps <= 1) ||
+           scene_friction(s, mu, error);
+}
+
+bool scene_load_of(scene *s, load_view *out, calc_error *error) {
+    const load_reach *reach;
+    long double FN;
+    *out = (load_view){.program = s->program, .end = s->end, .in = &s->in, .stop = s->stop};
+    if (!scene_reach(s, &reach, error) || !scene_normal(s, &out->normal, error) ||
+        !friction_for_program(s, &out->mu, error))
+        return false;
+    if (s->program->steps[0].normal == BY_FORCE && !scene_get(s, IN_FN, &FN, error))
+        return false;
+    out->last_cycle = reach->last_cycle;
+    return true;
+}
+
+static void drop_runs(answers *a) {
+    for (unsigned i = 0; i < LEVELS; i++)
+        engine_end(&a->run[i].engine);
+    a->levels = 0;
+}
+
+/* As many runs as the load wants: those that are new start where the first one is. */
+static fret_status raise_levels(answers *a, const load_view *load, unsigned wanted) {
+    fret_status st = fine;
+    if (a->levels == 0) {
+        a->run[0] = (runner){.load = load};
+        st = engine_make(&a->run[0].engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
+        a->levels = !st.code;
+    }
+    for (; a->levels < wanted && !st.code; a->levels++) {
+        runner *r = &a->run[a->levels];
+        *r = a->run[0];
+        r->level = a->levels;
+        r->engine.self = NULL;
+        st = engine_copy(&r->engine, &a->run[0].engine, load->normal, load->mu);
+        if (st.code)
+            engine_end(&r->engine);
+    }
+    return st;
+}
+
+static fret_status run_levels(answers *a, const load_view *load) {
+    fret_status st = fine;
+    for (unsigned i = 0; i < a->levels && !st.code; i++) {
+        a->run[i].load = load;
+        st = run_to(&a->run[i], load->end);
+    }
+    return st;
+}
+
+/* Brings the memory up to the end of the program. */
+static bool catch_up(scene *s, calc_error *error) {
+    answers *a = &s->answers;
+    load_view load;
+    if (a->levels && a->run[a->levels - 1].at.steps == s->end.steps)
+        return true;
+    if (!scene_load_of(s, &load, error))
+        return false;
+    if (s->end.steps > 1)
+        s->used |= USED(MODEL_MEMORY);
+    fret_status st = raise_levels(a, &load, a->reach.swings ? LEVELS : 1);
+    if (!st.code)
+        st = run_levels(a, &load);
+    if (st.code)
+        drop_runs(a); /* half-run: not to be used */
+    return calc_status(error, &st);
+}
+
+/* Keeps the contacts as they are; the storage is used again. */
+static fret_status keep_spares(answers *a, const load_view *load) {
+    fret_status st = fine;
+    for (unsigned i = 0; i < a->levels && !st.code; i++) {
+        engine kept = a->spare[i].engine;
+        a->spare[i] = a->run[i];
+        a->spare[i].engine = kept;
+        st = engine_copy(&a->spare[i].engine, &a->run[i].engine, load->normal, load->mu);
+    }
+    return st;
+}
+
+static void use_spares(answers *a) {
+    for (unsigned i = 0; i < a->levels; i++) {
+        runner half = a->run[i];
+        a->run[i] = a->spare[i];
+        a->spare[i] = half;
+    }
+}
+
+/* To slide to a displacement at constant F_N is always possible: such a step waits until a result is asked. */
+static bool can_wait(const scene *s, const load_step *step) {
+    return s->answers.levels && load_is_slide(step);
+}
+
+static bool start_program(scene *s, const load_step *press, calc_error *error) {
+    scene_mark before;
+    const fret_press *p;
+    scene_save(s, &before, true);
+    if (scene_append(s, press, NULL, error) && scene_press(s, &p, error)) {
+        scene_drop(&before);
+        return true;
+    }
+    scene_back(s, &before);
+    return false;
+}
+
+/* The step that has just been appended. A single step leaves the memory as it was when it fails; a cycle, or one of
+ * several levels, needs the spares. */
+static bool run_appended(scene *s, bool whole, calc_error *error) {
+    answers *a = &s->answers;
+    load_view load;
+    if (!scene_load_of(s, &load, error))
+        return false;
+    fret_status st = raise_levels(a, &load, a->reach.swings ? LEVELS : 1);
+    const bool spares = whole || a->levels > 1;
+    const runner before = a->run[0];
+    if (!st.code && spares)
+        st = keep_spares(a, &load);
+    if (st.code)
+        return calc_status(error, &st);
+    st = run_levels(a, &load);
+    if (!st.code)
+        return true;
+    if (spares)
+        use_spares(a);
+    else
+        a->run[0] = before;
+    return calc_status(error, &st);
+}
+
+static bool append_step(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    if (extra && s->end.cycles)
+        program_freeze(s->program, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
+    if (!program_append(s->program, &s->end, step, extra))
+        return calc_no_memory(error);
+    if (extra) {
+        program_to_inputs(step, extra, &s->in);
+        s->settled &= ~INPUT_CYCLE;
+        s->answers.reach.last_cycle = s->end.steps - 1;
+    }
+    s->answers.state_ready = s->answers.press_ready = false;
+    return true;
+}
+
+bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    double mu;
+    if (step->kind == LOAD_PRESS)
+        return start_program(s, step, error);
+    if (!s->end.steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    if (!scene_friction(s, &mu, error))
+        return false;
+    if (can_wait(s, step))
+        return append_step(s, step, extra, error);
+    const load_reach *reach;
+    if (!catch_up(s, error) || !scene_reach(s, &reach, error))
+        return false;
+    const load_reach reached = *reach;
+    const load_mark end = s->end;
+    inputs before = {.geometry = NULL}; /* a cycle changes them */
+    if (extra)
+        inputs_copy(&before, &s->in);
+    bool ok = append_step(s, step, extra, error) && run_appended(s, extra != NULL, error);
+    if (ok) {
+        s->used |= USED(MODEL_MEMORY);
+    } else {
+        s->end = end;
+        s->answers.reach = reached;
+        if (extra) {
+            inputs_drop(&s->in);
+            inputs_copy(&s->in, &before);
+        }
+    }
+    inputs_drop(&before);
+    return ok;
+}
+
+bool scene_memory(scene *s, const fret_memory **memory, calc_error *error) {
+    if (s->now) {
+        *memory = s->now->run->engine.self;
+        return true;
+    }
+    if (!s->end.steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    if (!catch_up(s, error))
+        return false;
+    *memory = s->answers.run[s->answers.levels - 1].engine.self;
+    return true;
+}
+
+/* ---- the normal contact now -------------------------------------------------------------------- */
+
+static bool press_of_program(scene *s, calc_error *error) {
+    const load_step *step = &s->program->steps[0];
+    const fret_normal *normal;
+    long double FN = step->normal_value;
+    if (!scene_normal(s, &normal, error) ||
+        (step->normal == BY_FORCE && !scene_get(s, IN_FN, &FN, error)))
+        return false;
+    fret_press *press = &s->answers.press;
+    fret_status st = step->normal == BY_FORCE          ? fret_press_by_force(normal, (double)FN, press)
+                     : step->normal == BY_DISPLACEMENT ? fret_press_by_depth(normal, (double)FN, press)
+                                                       : fret_press_by_radius(normal, (double)FN, press);
+    return calc_status(error, &st);
+}
+
+bool scene_press(scene *s, const fret_press **press, calc_error *error) {
+    const load_reach *reach;
+    const fret_memory *memory;
+    fret_state state;
+    answers *a = &s->answers;
+    *press = &a->press;
+    if (!scene_reach(s, &reach, error))
+        return false;
+    const bool moves = reach->normal_varies || s->now;
+    if (!a->press_ready) {
+        if (!moves) {
+            if (!press_of_program(s, error))
+                return false;
+        } else if (!scene_memory(s, &memory, error)) {
+            return false;
+        } else {
+            fret_memory_state(memory, &state);
+            a->press = (fret_press){.F = state.FN, .dz = state.dz, .a = state.a};
+        }
+        a->press_ready = true;
+    }
+    if (moves)
+        s->used |= USED(MODEL_MEMORY);
+    else
+        scene_used_closed(s);
+    return true;
+}
+
+bool scene_FN(scene *s, long double *FN, calc_error *error) {
+    const load_reach *reach;
+    const fret_press *press;
+    if (!scene_reach(s, &reach, error))
+        return false;
+    if (!s->now && !reach->normal_varies && s->program->steps[0].normal == BY_FORCE)
+        return scene_get(s, IN_FN, FN, error);
+    if (!scene_press(s, &press, error))
+        return false;
+    *FN = press->F;
+    return true;
+}
+
+bool scene_contact(scene *s, fret_contact *out, calc_error *error) {
+    const fret_press *press;
+    if (!scene_normal(s, &out->normal, error) || !scene_press(s, &press, error) ||
+        !scene_friction(s, &out->mu, error))
+        return false;
+    out->press = *press;
+    return true;
+}
+
+/* ---- the tangential state ---------------------------------------------------------------------- */
+
+/* A member of the states of all levels, and its limit. */
+static void to_limit(const fret_state at[LEVELS], size_t member, fret_state *out, long double *error) {
+    long double v[LEVELS];
+    for (unsigned i = 0; i < LEVELS; i++)
+        memcpy(&v[i], (const char *)&at[i] + member, sizeof v[i]);
+    v[0] = run_limit(v, error);
+    memcpy((char *)out + member, &v[0], sizeof v[0]);
+}
+
+/* The state at the end of runs at all levels; what lies at the end of the path needs no limit. */
+static void swinging_state(answers *a, const runner run[LEVELS]) {
+    fret_state at[LEVELS];
+    const long double loss[LEVELS] = {run[0].cycle_loss, run[1].cycle_loss, run[2].cycle_loss};
+    long double error[2], unused;
+    for (unsigned i = 0; i < LEVELS; i++)
+        engine_state(&run[i].engine, &at[i]);
+    a->state = at[LEVELS - 1];
+    to_limit(at, offsetof(fret_state, W), &a->state, &error[0]);
+    to_limit(at, offsetof(fret_state, U), &a->state, &unused);
+    to_limit(at, offsetof(fret_state, Fx), &a->state, &unused);
+    to_limit(at, offsetof(fret_state, dx), &a->state, &unused);
+    a->loss = run_limit(loss, &error[1]);
+    a->sine_error = fmaxl(error[0], error[1]);
+}
+
+static bool widest(const runner *r, void *context) {
+    long double *a = context;
+    fret_state state;
+    engine_state(&r->engine, &state);
+    *a = fmaxl(*a, state.a);
+    return true;
+}
+
+bool scene_engine(scene *s, model_id model, unsigned count, engine *out, calc_error *error) {
+    load_view load;
+    long double a = 0;
+    watch w = watch_ends();
+    w.see = widest;
+    w.context = &a;
+    if ((models[model].count && !scene_trace(s, &w, error)) || !scene_load_of(s, &load, error))
+        return false;
+    fret_status st = engine_make(out, model, load.normal, load.mu, count, (double)(a * (1 + 1e-12L)));
+    return calc_status(error, &st);
+}
+
+/* A model that steps, other than the memory diagram, was asked for. */
+static bool is_stepped(const scene *s) {
+    return !s->automatic && s->model != MODEL_MEMORY && models[s->model].make && !s->now;
+}
+
+static bool stepped_state(scene *s, calc_error *error) {
+    load_view load;
+    runner run[LEVELS] = {{.load = &load}};
+    if (!scene_load_of(s, &load, error))
+        return false;
+    const unsigned levels = s->answers.reach.swings ? LEVELS : 1;
+    bool ok = true;
+    for (unsigned i = 0; i < levels && ok; i++) {
+        run[i] = (runner){.load = &load, .level = i};
+        ok = scene_engine(s, s->model, s->springs, &run[i].engine, error);
+        fret_status st = ok ? run_to(&run[i], load.end) : fine;
+        ok = ok && calc_status(error, &st);
+    }
+    if (ok && levels > 1) {
+        swinging_state(&s->answers, run);
+    } else if (ok) {
+        engine_state(&run[0].engine, &s->answers.state);
+        s->answers.loss = run[0].cycle_loss;
+    }
+    for (unsigned i = 0; i < levels; i++)
+        engine_end(&run[i].engine);
+    return ok;
+}
+
+static bool memory_state(scene *s, calc_error *error) {
+    const fret_memory *memory = NULL;
+    answers *a = &s->answers;
+    if (!scene_memory(s, &memory, error))
+        return false;
+    if (!s->now && a->levels > 1) {
+        swinging_state(a, a->run);
+        return true;
+    }
+    fret_memory_state(memory, &a->state);
+    a->loss = (s->now ? s->now->run : &a->run[0])->cycle_loss;
+    return true;
+}
+
+bool scene_state(scene *s, const fret_state **state, calc_error *error) {
+    const bool stepped = is_stepped(s);
+    const unsigned used = s->used; /* what only checks the load program does not answer */
+    if (!s->answers.state_ready) {
+        const fret_memory *memory;
+        s->answers.sine_error = 0;
+        if (!scene_memory(s, &memory, error))
+            return false;
+        if (!s->automatic && s->model == MODEL_CLOSED)
+            return calc_fail(error, 0, 0, "no closed form for this: set model auto");
+        if (!(stepped ? stepped_state : memory_state)(s, error))
+            return false;
+        s->answers.state_ready = true;
+    }
+    s->used = used | USED(stepped ? s->model : MODEL_MEMORY);
+    *state = &s->answers.state;
+    return true;
+}
+
+void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs) {
+    s->automatic = automatic;
+    s->model = model;
+    s->springs = springs;
+    s->answers.state_ready = s->answers.press_ready = false;
+}
+
+/* ---- closed forms ------------------------------------------------------------------------------ */
+
+void scene_used_closed(scene *s) {
+    const bool power = !s->in.geometry || s->in.geometry->power;
+    s->used |= USED(power ? MODEL_CLOSED : MODEL_QUADRATURE);
+}
+
+static const load_reach *closed_reach(scene *s) {
+    const load_reach *reach;
+    calc_error ignored;
+    error_clear(&ignored);
+    const bool allowed = (s->automatic || s->model == MODEL_CLOSED) && !s->now && s->end.steps > 0;
+    return allowed && scene_reach(s, &reach, &ignored) && !reach->normal_varies ? reach : NULL;
+}
+
+bool scene_closed_state(scene *s) {
+    const load_reach *reach = closed_reach(s);
+    return reach && reach->first;
+}
+
+bool scene_closed_loss(scene *s) {
+    const load_reach *reach = closed_reach(s);
+    return reach && reach->closed;
+}
+
+bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
+    const fret_press *press;
+    const load_reach *reach;
+    fret_contact contact;
+    if (!scene_press(s, &press, error) || !scene_reach(s, &reach, error))
+        return false;
+    if (!reach->by) {
+        *out = (fret_loading){0, 0, press->a, press->dz};
+        return true;
+    }
+    if (!scene_contact(s, &contact, error))
+        return false;
+    fret_status st = reach->by == BY_FORCE ? fret_loading_by_force(&contact, reach->end, out)
+                                           : fret_loading_by_displacement(&contact, reach->end, out);
+    return calc_status(error, &st);
+}
+
+bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
+    load_item cycle;
+    const fret_state *state;
+    fret_contact contact;
+    if (s->now && !s->now->run->closed)
+        return calc_fail(error, 0, 0, "no cycle has been closed yet");
+    if (!s->now && !scene_last_cycle(s, &cycle, error))
+        return false;
+    if (!scene_closed_loss(s)) {
+        if (!scene_state(s, &state, error))
+            return false;
+        *loss = s->answers.loss;
+        return true;
+    }
+    if (!scene_contact(s, &contact, error))
+        return false;
+    const double amplitude = cycle.step.tangential_value;
+    fret_status st = cycle.step.tangential == BY_FORCE
+                         ? fret_cycle_loss_by_force(&contact, amplitude, loss)
+                         : fret_cycle_loss_by_displacement(&contact, amplitude, loss);
+    return calc_status(error, &st);
+}
+
+/* ---- running it again -------------------------------------------------------------------------- */
+
+bool scene_trace(scene *s, watch *w, calc_error *error) {
+    load_view load;
+    const fret_memory *unused;
+    runner r = {.load = &load, .watch = w};
+    if (!scene_memory(s, &unused, error) || !scene_load_of(s, &load, error))
+        return false;
+    r.level = s->answers.reach.swings ? LEVELS - 1 : 0;
+    s->used |= USED(MODEL_MEMORY);
+    fret_status st = engine_make(&r.engine, MODEL_MEMORY, load.normal, load.mu, 0, 0);
+    if (!st.code)
+        st = run_to(&r, load.end);
+    engine_end(&r.engine);
+    if (r.halted && error->raised)
+        return false;
+    return calc_status(error, &st);
+}

@@ -1,0 +1,434 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The session: its life, and assignments. */
+#include "calc/calc.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- life -------------------------------------------------------------------------------------- */
+
+/* A scene asks for the value of what an input is bound to. */
+static bool evaluate(void *context, scene *s, counted *d, value *out, calc_error *error) {
+    calc *c = context;
+    scene *outer = c->now;
+    c->now = s;
+    bool ok = definition_value(c, (definition *)d, out, error);
+    c->now = outer;
+    return ok;
+}
+
+void calc_init(calc *c, const volatile sig_atomic_t *stop) {
+    *c = (calc){.now = &c->scene};
+    scene_init(&c->scene, stop, evaluate, c);
+}
+
+void calc_free(calc *c) {
+    while (c->undo.count > 0)
+        undo_pop(c, false);
+    free(c->undo.entry);
+    names_free(&c->names);
+    expr_free(&c->scratch);
+    scene_free(&c->scene);
+    c->undo = (undo){.entry = NULL};
+}
+
+/* ---- what inputs are good for ------------------------------------------------------------------ */
+
+bool calc_takes(const calc *c, input in, calc_error *error) {
+    const scene *s = c->now;
+    const quantity *q = quantity_of_input(in);
+    if (in >= IN_N) {
+        if (!s->in.geometry)
+            return calc_fail(error, 0, 0,
+                             "there is no geometry yet: give one first (geometry sphere R=10 mm)");
+        return inputs_take(&s->in, in) ||
+               calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s)", q->name, s->in.geometry->name,
+                         s->in.geometry->usage);
+    }
+    if (in == IN_FN)
+        return !s->end.steps || s->program->steps[0].normal == BY_FORCE ||
+               calc_fail(error, 0, 0, "the press was not given as FN: press again (press FN=...)");
+    if (!(INPUT_BIT(in) & INPUT_CYCLE))
+        return true;
+    if (!s->end.cycles)
+        return calc_fail(error, 0, 0, "there is no cycle that %s could belong to: run one first (cycle FA=20 N)",
+                         q->name);
+    if (in == IN_FA && !s->in.set[IN_FA])
+        return calc_fail(error, 0, 0, "the last cycle was given by displacement: dxA, not FA");
+    if (in == IN_DXA && !s->in.set[IN_DXA])
+        return calc_fail(error, 0, 0, "the last cycle was given by force: FA, not dxA");
+    return true;
+}
+
+bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d) {
+    if (v.d.N == d.N && v.d.m == d.m && d.rad == 0) /* the common case */
+        return true;
+    const bool plain = dim_equal(v.d, DIM_NONE) && v.d.rad == 0;
+    const bool angle = d.rad != 0;
+    if ((dim_equal(v.d, d) && (!angle || v.d.rad != 0)) || (v.v == 0 && plain))
+        return true;
+    if (angle && plain)
+        return calc_fail(lx->error, at, len, "%s needs a unit: it is an angle, in deg or rad", name);
+    char want[128], got[128], unit_text[128];
+    dim_describe(d, want, sizeof want);
+    dim_describe(v.d, got, sizeof got);
+    dim_unit(d, unit_text, sizeof unit_text);
+    if (plain)
+        return calc_fail(lx->error, at, len, "%s needs a unit: it is %s%s%s", name, want,
+                         strstr(want, unit_text) ? "" : ", in ", strstr(want, unit_text) ? "" : unit_text);
+    return calc_fail(lx->error, at, len, "%s is %s, not %s (%.*s)", name, want, got, LEX_SHOWN(len),
+                     lx->text + at);
+}
+
+/* ---- assignments ------------------------------------------------------------------------------- */
+
+enum { ASSIGNMENTS = 16 };
+
+/* One of `NAME = EXPR, ...`. */
+typedef struct assignment {
+    const quantity *q; /* an input, or NULL: a name of the user's */
+    size_t at, len;    /* of the name */
+    size_t value_at, value_len;
+    bool increment, live;
+    value v;
+    definition *d; /* live, or a function */
+} assignment;
+
+static bool is_list(const lexer *lx, token_kind *then) {
+    lexer scan = *lx;
+    calc_error ignored;
+    error_clear(&ignored);
+    scan.error = &ignored;
+    for (lex_next(&scan); scan.kind == T_OPEN || scan.kind == T_COMMA;) {
+        lex_next(&scan);
+        if (scan.kind != T_NAME)
+            return false;
+        lex_next(&scan);
+    }
+    if (scan.kind != T_CLOSE)
+        return false;
+    *then = lex_peek(&scan);
+    return *then == T_ASSIGN || *then == T_DEFINE;
+}
+
+bool assign_at(const lexer *lx) {
+    if (lx->kind != T_NAME)
+        return false;
+    token_kind next = lex_peek(lx);
+    if (next == T_OPEN)
+        return is_list(lx, &next);
+    return next == T_ASSIGN || next == T_INCREMENT || next == T_DEFINE;
+}
+
+static bool name_allowed(calc *c, lexer *lx, assignment *a) {
+    const char *text = lx->text + lx->at;
+    size_t i;
+    if (names_find(&c->names, text, lx->len, &i)) /* it has been allowed before */
+        return true;
+    const char *taken = name_taken(text, lx->len);
+    a->q = quantity_find(text, lx->len);
+    if (a->q && !quantity_is_input(a->q))
+        return lex_fail(lx, "%s is a result: it follows from the inputs and the load", a->q->name);
+    if (!a->q && taken)
+        return lex_fail(lx, "'%.*s' is %s: it cannot be a variable", LEX_WORD(lx), taken);
+    if (a->q && !calc_takes(c, quantity_input(a->q), lx->error)) {
+        /* where it stands is told better by its value */
+        return false;
+    }
+    return true;
+}
+
+static bool read_parameters(lexer *lx, char (*parameter)[LEX_NAME], unsigned *count) {
+    *count = 0;
+    if (lx->kind != T_OPEN)
+        return true;
+    do {
+        lex_next(lx);
+        if (*count == PARAMETERS)
+            return lex_fail(lx, "a function takes at most %d arguments", PARAMETERS);
+        const char *taken = lx->kind == T_NAME ? name_taken(lx->text + lx->at, lx->len) : NULL;
+        if (taken)
+            return lex_fail(lx, "'%.*s' is %s: it cannot be an argument's name", LEX_WORD(lx), taken);
+        lex_word(lx, parameter[(*count)++]);
+        lex_next(lx);
+    } while (lx->kind == T_COMMA);
+    if (lx->kind != T_CLOSE)
+        return lex_fail(lx, "expected )");
+    lex_next(lx);
+    return true;
+}
+
+/* The dimension that an input must have: that of A depends on n, which may be given beside it. */
+static dim wanted_dim(const calc *c, const quantity *q, const assignment *all, size_t count) {
+    dim d = quantity_dim(q, &c->scene);
+    for (size_t i = 0; i < count && quantity_input(q) == IN_A; i++)
+        if (all[i].q && quantity_input(all[i].q) == IN_N)
+            d.m = 1 - (double)all[i].v.v;
+    return d;
+}
+
+static bool read_value(calc *c, lexer *lx, assignment *all, size_t count) {
+    assignment *a = &all[count];
+    a->value_at = lx->at;
+    if (!expr_parse_at(c, lx, &c->scratch) || !expr_eval(c, &c->scratch, &a->v, lx->error))
+        return false;
+    a->value_len = lx->last - a->value_at;
+    return !a->q || value_dim(lx, a->q->name, a->value_at, a->value_len, a->v, wanted_dim(c, a->q, all, count));
+}
+
+static bool read_assignment(calc *c, lexer *lx, assignment *all, size_t count) {
+    assignment *a = &all[count];
+    char parameter[PARAMETERS][LEX_NAME];
+    unsigned parameters;
+    calc_error useless;
+    error_clear(&useless);
+    *a = (assignment){.at = lx->at, .len = lx->len};
+    if (!name_allowed(c, lx, a)) {
+        if (lx->error->len || !a->q)
+            return false;
+        useless = *lx->error; /* a wrong value is the deeper error */
+        error_clear(lx->error);
+    }
+    lex_next(lx);
+    if (!read_parameters(lx, parameter, &parameters))
+        return false;
+    a->increment = lx->kind == T_INCREMENT;
+    a->live = lx->kind == T_DEFINE;
+    lex_next(lx);
+    if (parameters && a->q)
+        return calc_fail(lx->error, a->at, a->len, "%s is an input: it takes no arguments", a->q->name);
+    a->value_at = lx->at;
+    if (a->live || parameters) {
+        a->d = definition_parse(c, lx, lx->text + a->at, a->len, parameter, parameters);
+        a->value_len = lx->last - a->value_at;
+        if (!a->d)
+            return false;
+    } else if (!read_value(c, lx, all, count)) {
+        return false;
+    }
+    if (!useless.raised)
+        return true;
+    *lx->error = useless;
+    return calc_place(lx->error, a->value_at, a->value_len);
+}
+
+static bool read_assignments(calc *c, lexer *lx, assignment *all, size_t *count) {
+    for (*count = 0;;) {
+        if (*count == ASSIGNMENTS)
+            return lex_fail(lx, "at most %d assignments together", ASSIGNMENTS);
+        if (!assign_at(lx))
+            return lex_fail(lx, "expected NAME = EXPR after the comma");
+        const size_t i = (*count)++;
+        if (!read_assignment(c, lx, all, i))
+            return false;
+        if (lx->kind != T_COMMA)
+            return !lx->error->raised;
+        lex_next(lx);
+    }
+}
+
+/* ---- what they do ------------------------------------------------------------------------------ */
+
+typedef struct assigned {
+    calc *c;
+    const assignment *all;
+    size_t count;
+} assigned;
+
+/* n alone would make another gap of A. */
+static bool exponent_alone(const calc *c, const assignment *all, size_t count, size_t *which) {
+    bool n = false, A = false;
+    for (size_t i = 0; i < count; i++)
+        if (all[i].q && quantity_input(all[i].q) == IN_N)
+            n = true, *which = i;
+        else if (all[i].q && quantity_input(all[i].q) == IN_A)
+            A = true;
+    return n && !A && c->scene.in.set[IN_A];
+}
+
+static void put_inputs(inputs *in, void *context) {
+    const assigned *job = context;
+    for (size_t i = 0; i < job->count; i++) {
+        const assignment *a = &job->all[i];
+        if (!a->q)
+            continue;
+        const input which = quantity_input(a->q);
+        if (a->d)
+            inputs_bind(in, which, counted_hold(&a->d->base));
+        else
+            inputs_put(in, which, (double)a->v.v);
+    }
+}
+
+/* A live definition may wait for what it needs, but not for itself; nor can its dimensions be mended later. */
+static bool definition_fails(calc *c, lexer *lx, const assignment *a, calc_error *error) {
+    if (!error->circle && !error->strange)
+        return false;
+    calc_word(c, error);
+    calc_fail(lx->error, a->value_at, a->value_len, "%s", error->text);
+    return true;
+}
+
+static bool binding_holds(calc *c, lexer *lx, const assignment *a) {
+    const input in = quantity_input(a->q);
+    calc_error error;
+    long double unused;
+    value v;
+    scene probe, *outer = c->now;
+    error_clear(&error);
+    scene_clone(&probe, &c->scene);
+    inputs_bind(&probe.in, in, counted_hold(&a->d->base));
+    c->now = &probe;
+    bool ok = scene_get(&probe, in, &unused, &error);
+    c->now = outer;
+    if (ok && definition_value(c, a->d, &v, &error))
+        ok = value_dim(lx, a->q->name, a->value_at, a->value_len, v, quantity_dim(a->q, &c->scene));
+    scene_free(&probe);
+    return !lx->error->raised && !definition_fails(c, lx, a, &error);
+}
+
+static bool bindings_hold(calc *c, lexer *lx, const assignment *all, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (all[i].d && all[i].q && !binding_holds(c, lx, &all[i]))
+            return false;
+    return true;
+}
+
+/* A name that looks like an input was perhaps meant to be one. */
+static void note_new_name(calc *c, const char *text, size_t len) {
+    static const char *const other_names[][2] = {{"angle", "slope"}, {"Fn", "FN"}, {"radius", "R"}};
+    char plain[LEX_NAME] = "";
+    size_t n = 0;
+    for (size_t i = 0; i < len && n + 1 < sizeof plain; i++)
+        if (text[i] != '_')
+            plain[n++] = text[i];
+    plain[n] = 0;
+    const char *near = NULL;
+    for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++)
+        if (!strcmp(plain, other_names[i][0]))
+            near = other_names[i][1];
+    for (input in = 0; in < INPUTS && !near; in++) {
+        const char *name = quantity_of_input(in)->name;
+        if (same_but_case(plain, name) || (n > 2 && one_letter_apart(plain, name)))
+            near = name;
+    }
+    if (near)
+        snprintf(c->note, sizeof c->note, "new variable %.*s; did you mean %s?", LEX_SHOWN(len), text, near);
+}
+
+/* Tried as it stands: the evaluation tells the chain. */
+static bool name_holds(calc *c, lexer *lx, const assignment *a) {
+    calc_error error;
+    value unused;
+    error_clear(&error);
+    if (a->d->parameters)
+        return !expr_mentions(c, &a->d->body, NULL, a->d->label) ||
+               calc_fail(lx->error, a->value_at, a->value_len, "a circle of definitions: %s needs itself",
+                         a->d->label);
+    scene probe, *outer = c->now; /* where nothing bound has its value yet */
+    scene_clone(&probe, outer);
+    probe.settled = 0;
+    c->now = &probe;
+    bool ok = definition_value(c, a->d, &unused, &error) || !definition_fails(c, lx, a, &error);
+    c->now = outer;
+    scene_free(&probe);
+    return ok;
+}
+
+static bool put_name(calc *c, lexer *lx, const assignment *a) {
+    size_t i;
+    const char *text = lx->text + a->at;
+    if (a->increment)
+        return calc_fail(lx->error, a->at, a->len, "+= belongs to step; write %.*s = ...", LEX_SHOWN(a->len), text);
+    if (!names_find(&c->names, text, a->len, &i)) {
+        note_new_name(c, text, a->len);
+        if (!names_add(&c->names, text, a->len, &i))
+            return calc_no_memory(lx->error);
+    }
+    undo_name(c, i);
+    names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);
+    return !a->d || name_holds(c, lx, a);
+}
+
+static void nothing(inputs *in, void *context) {
+    (void)in, (void)context;
+}
+
+static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
+    size_t inputs_count = 0, names_count = 0, which = 0;
+    for (size_t i = 0; i < count; i++)
+        *(all[i].q ? &inputs_count : &names_count) += 1;
+    if (exponent_alone(c, all, count, &which))
+        return calc_fail(lx->error, all[which].at, all[which].len,
+                         "A belongs to the n it was given with: set both (n = 3, A = 50 m^-2)");
+    for (size_t i = 0; i < count; i++) { /* += of an input */
+        long double old;
+        if (!all[i].increment || !all[i].q)
+            continue;
+        if (!scene_get(&c->scene, quantity_input(all[i].q), &old, lx->error))
+            return false;
+        all[i].v.v += old;
+    }
+    if (!bindings_hold(c, lx, all, count))
+        return false;
+    for (size_t i = 0; i < count; i++)
+        if (!all[i].q && !put_name(c, lx, &all[i]))
+            return false;
+    assigned job = {c, all, count};
+    scene *s = &c->scene;
+    if (inputs_count == 0) /* what is bound may have moved with the names */
+        return names_count == 0 || s->in.bindings == 0 || scene_edit(s, nothing, NULL, lx->error);
+    if (inputs_count == 1 && count == 1 && quantity_input(all[0].q) == IN_FN && !s->end.steps && !all[0].d)
+        return scene_load(
+            s, &(load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = (double)all[0].v.v}, NULL,
+            lx->error);
+    return scene_edit(s, put_inputs, &job, lx->error);
+}
+
+/* All or nothing, and a way back. */
+static bool put_undoable(calc *c, lexer *lx, assignment *all, size_t count) {
+    const size_t entries = c->undo.count;
+    scene_mark before;
+    bool of_scene = false;
+    for (size_t i = 0; i < count; i++)
+        of_scene = of_scene || all[i].q;
+    if (of_scene)
+        scene_save(&c->scene, &before, false);
+    bool ok = put_all(c, lx, all, count);
+    if (of_scene && ok)
+        undo_scene(c, &before);
+    else if (of_scene)
+        scene_drop(&before);
+    while (!ok && c->undo.count > entries) /* names that were set before something was refused */
+        undo_pop(c, true);
+    return ok;
+}
+
+bool calc_assign(calc *c, lexer *lx) {
+    assignment all[ASSIGNMENTS];
+    size_t count = 0;
+    bool ok = read_assignments(c, lx, all, &count);
+    if (ok && lx->kind != T_END)
+        ok = lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
+    for (size_t i = 0; i < count && ok; i++) {
+        fret_status st = all[i].q && !all[i].d && !all[i].increment
+                             ? input_status(quantity_input(all[i].q), (double)all[i].v.v)
+                             : (fret_status){FRET_OK, NULL, 0, 0};
+        ok = calc_input_status(lx->error, st.code ? (int)quantity_input(all[i].q) : -1, &st) ||
+             calc_place(lx->error, all[i].value_at, all[i].value_len);
+    }
+    ok = ok && put_undoable(c, lx, all, count);
+    if (!ok && count > 0)
+        calc_place(lx->error, all[count - 1].value_at, all[count - 1].value_len);
+    for (size_t i = 0; i < count; i++)
+        counted_drop(all[i].d ? &all[i].d->base : NULL);
+    return ok;
+}
+
+bool calc_bind(calc *c, lexer *lx, input in, counted **out) {
+    const char *name = quantity_of_input(in)->name;
+    definition *d = definition_parse(c, lx, name, strlen(name), NULL, 0);
+    *out = d ? &d->base : NULL;
+    return d != NULL;
+}

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A session of the calculator: the user's scene, the user's names, and the way back. */
+#ifndef CALC_CALC_H
+#define CALC_CALC_H
+
+#include "calc/expr.h"
+#include "calc/names.h"
+
+/* One change that undo takes back: of the scene, or of a name. */
+typedef struct undo_entry {
+    unsigned long group; /* changes of one statement go together */
+    scene_mark *before; /* of the scene; NULL: of a name */
+    program *program;   /* after it: only to be compared */
+    size_t steps;
+    size_t name;
+    own_name old; /* text is not its own */
+} undo_entry;
+
+typedef struct undo {
+    undo_entry *entry;
+    size_t count, room;
+    unsigned long group;
+    int nesting;       /* of statements that hold others */
+    size_t base_steps; /* of the oldest state that can come back */
+} undo;
+
+enum { CHAIN = 100, CALC_NOTE = 200 };
+
+typedef struct calc {
+    scene scene;
+    scene *now; /* what expressions see: the user's scene, or a trial's */
+    own_names names;
+    undo undo;
+    value ans; /* the last value printed */
+    bool has_ans;
+    char note[CALC_NOTE]; /* something to be told that is no error; empty: nothing */
+    expr scratch;         /* storage of expr_value */
+    const definition *chain[CHAIN]; /* being evaluated */
+    size_t chain_length;
+} calc;
+
+void calc_init(calc *c, const volatile sig_atomic_t *stop);
+void calc_free(calc *c);
+
+/* What is changed by name: an input or one of the user's names. */
+typedef struct knob {
+    bool is_input;
+    input in;
+    size_t name;
+    dim d;
+    char text[LEX_NAME];
+} knob;
+
+/* `NAME = EXPR, ...`, `NAME := EXPR` and `NAME(X, ...) := EXPR`. Is the cursor on an assignment? */
+bool assign_at(const lexer *lx);
+bool calc_assign(calc *c, lexer *lx);
+/* Binds an input to the expression at the cursor, as `NAME := EXPR` does; for the arguments of commands. */
+bool calc_bind(calc *c, lexer *lx, input in, counted **out);
+/* Is the input of use in the scene? Else an error that says so. */
+bool calc_takes(const calc *c, input in, calc_error *error);
+
+/* The value must have this dimension; a bare 0 always has. */
+bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d);
+
+/* Around every statement that may change the scene: begin, then end, then keep if it did. Statements within
+ * statements join the outermost. */
+void undo_begin(calc *c);
+void undo_end(calc *c);
+/* m is taken over. */
+void undo_scene(calc *c, scene_mark *m);
+bool undo_name(calc *c, size_t name);
+/* Forgets the last entry; back: its name gets its old value. */
+void undo_pop(calc *c, bool back);
+/* Takes back the last change; false: there is none. */
+bool calc_undo(calc *c);
+
+/* Puts an error into words, once. */
+void calc_word(const calc *c, calc_error *error);
+/* Adds to the words. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void calc_append(const calc *c, calc_error *error, const char *format, ...);
+
+#endif

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Models: what can answer for a scene, and those of them that step along a load. One table: the runner, `set model`,
+ * `accuracy`, `explain` and `set timing` derive from it. Touches the mechanics alone. */
+#ifndef CALC_ENGINE_H
+#define CALC_ENGINE_H
+
+#include "fret/fret.h"
+
+typedef enum model_id { MODEL_CLOSED, MODEL_MEMORY, MODEL_QUADRATURE, MODEL_SPRINGS, MODELS } model_id;
+
+/* What has answered: bits of scene.used. */
+#define USED(id) (1u << (id))
+
+typedef struct model_row {
+    const char *name;  /* after `set model`, and where it is named */
+    const char *title; /* for explain */
+    const char *count; /* what its number means, as in `springs N`; NULL: it has none */
+    bool chosen;       /* `set model` can ask for it */
+    /* stepping; NULL where the model has a formula only */
+    fret_status (*make)(const fret_normal *normal, double mu, unsigned count, double radius, void **out);
+    fret_status (*step)(void *self, const fret_step *step);
+    fret_status (*copy)(void *to, const void *from); /* NULL: cannot be copied */
+    void (*state)(const void *self, fret_state *out);
+    void (*forces)(const void *self, fret_state *out); /* of it F_N, dz, F_x, dx, W */
+    long double (*last_loss)(const void *self);        /* NULL: W tells */
+    void (*end)(void *self);
+} model_row;
+
+extern const model_row models[MODELS];
+
+/* A model on its way. */
+typedef struct engine {
+    const model_row *kind;
+    void *self;
+    long double spent; /* dissipated since engine_mark, step by step: W may be far larger */
+} engine;
+
+/* count and radius (the largest contact radius to come) are for the springs. */
+fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count, double radius);
+void engine_end(engine *e);
+fret_status engine_step(engine *e, const fret_step *step);
+void engine_state(const engine *e, fret_state *out);
+void engine_forces(const engine *e, fret_state *out);
+/* A copy made anew in `to`, of the same contact. */
+fret_status engine_copy(engine *to, const engine *from, const fret_normal *normal, double mu);
+/* From here on engine_spent counts. */
+void engine_mark(engine *e);
+long double engine_spent(const engine *e);
+
+#endif

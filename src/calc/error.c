@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Raising errors. Touches nothing but the error. */
+#include "calc/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+void error_clear(calc_error *error) {
+    error->raised = error->stop = error->circle = error->strange = error->worded = false;
+    error->kind = ERROR_WORDS;
+    error->input = -1;
+    error->at = error->len = 0;
+    error->text[0] = 0;
+}
+
+static bool first(calc_error *error, error_kind kind) {
+    if (error->raised)
+        return false;
+    error->raised = true;
+    error->worded = false;
+    error->kind = kind;
+    error->input = -1;
+    error->text[0] = 0;
+    return true;
+}
+
+bool calc_fail(calc_error *error, size_t at, size_t len, const char *format, ...) {
+    if (!first(error, ERROR_WORDS))
+        return false;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(error->text, sizeof error->text, format, args);
+    va_end(args);
+    error->at = at;
+    error->len = len;
+    return false;
+}
+
+bool calc_interrupted(calc_error *error) {
+    error->stop = true;
+    return calc_fail(error, 0, 0, "interrupted");
+}
+
+bool calc_missing(calc_error *error, int input) {
+    if (first(error, ERROR_MISSING))
+        error->input = input;
+    return false;
+}
+
+bool calc_no_memory(calc_error *error) {
+    return calc_fail(error, 0, 0, "out of memory");
+}
+
+bool calc_input_status(calc_error *error, int input, const fret_status *status) {
+    if (!status->code)
+        return true;
+    if (status->code == FRET_INTERRUPTED)
+        error->stop = true;
+    if (first(error, ERROR_STATUS)) {
+        error->status = *status;
+        error->input = input;
+    }
+    return false;
+}
+
+bool calc_status(calc_error *error, const fret_status *status) {
+    return calc_input_status(error, -1, status);
+}
+
+bool calc_place(calc_error *error, size_t at, size_t len) {
+    if (error->len == 0) {
+        error->at = at;
+        error->len = len;
+    }
+    return false;
+}

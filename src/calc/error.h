@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The error that every room of the language reports: raised where it is seen, worded in wording.c. */
+#ifndef CALC_ERROR_H
+#define CALC_ERROR_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "fret/status.h"
+
+enum { CALC_ERROR_TEXT = 512 };
+
+typedef enum error_kind {
+    ERROR_WORDS,  /* text says it */
+    ERROR_STATUS, /* status: of the mechanics, or of an input's range */
+    ERROR_MISSING /* the input has no value in this scene */
+} error_kind;
+
+/* What went wrong, and where in the statement: bytes at .. at+len, len 0: not known yet. */
+typedef struct calc_error {
+    bool raised;
+    bool stop;    /* interrupted */
+    bool circle;  /* a live definition that needs itself */
+    bool strange; /* dimensions do not fit: no other value would help */
+    bool worded;  /* wording.c has been here */
+    error_kind kind;
+    int input; /* of ERROR_MISSING, and of a status without a name; else -1 */
+    size_t at, len;
+    fret_status status;
+    char text[CALC_ERROR_TEXT];
+} calc_error;
+
+/* Ready to be raised; the text of a million good statements need not be cleared. */
+void error_clear(calc_error *error);
+
+/* All of these record the first error only, and return false. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+bool calc_fail(calc_error *error, size_t at, size_t len, const char *format, ...);
+bool calc_interrupted(calc_error *error);
+bool calc_missing(calc_error *error, int input);
+bool calc_no_memory(calc_error *error);
+
+/* True where the status is fine. */
+bool calc_status(calc_error *error, const fret_status *status);
+/* The same for an input of the scene, which wording.c names. */
+bool calc_input_status(calc_error *error, int input, const fret_status *status);
+
+/* Gives the error a place where it has none; false. */
+bool calc_place(calc_error *error, size_t at, size_t len);
+
+#endif

@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Inputs as a value, and the table of geometries. Touches no scene. */
+#include "calc/inputs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "number/real.h"
+
+/* ---- geometries -------------------------------------------------------------------------------- */
+
+static fret_gap power_gap(double n, double h, double r0) {
+    return (fret_gap){.kind = FRET_GAP_POWER, .terms = 1, .power = {{n, h, r0}}};
+}
+
+/* R and slope enter as h and r0 without a rounding: r^2/(2R) = (R/2) (r/R)^2. */
+static void cone(const inputs *in, fret_gap *out) {
+    *out = power_gap(1, in->v[IN_SLOPE], 1);
+}
+
+static void paraboloid(const inputs *in, fret_gap *out) {
+    *out = power_gap(2, in->v[IN_RADIUS] / 2, in->v[IN_RADIUS]);
+}
+
+static void power(const inputs *in, fret_gap *out) {
+    *out = in->set[IN_A] ? power_gap(in->v[IN_N], in->v[IN_A], 1)
+                         : power_gap(in->v[IN_N], in->v[IN_H], in->v[IN_R0]);
+}
+
+static void sum(const inputs *in, fret_gap *out) {
+    *out = in->sum;
+}
+
+static fret_gap shape_gap(const inputs *in, fret_gap_kind kind) {
+    return (fret_gap){
+        .kind = kind, .b = in->v[IN_B], .R = in->v[IN_RADIUS], .slope = in->v[IN_SLOPE]};
+}
+
+static void flat_cone(const inputs *in, fret_gap *out) {
+    *out = shape_gap(in, FRET_GAP_FLAT_CONE);
+}
+
+static void flat_paraboloid(const inputs *in, fret_gap *out) {
+    *out = shape_gap(in, FRET_GAP_FLAT_PARABOLOID);
+}
+
+static void flat_rounded(const inputs *in, fret_gap *out) {
+    *out = shape_gap(in, FRET_GAP_FLAT_ROUNDED);
+}
+
+static void exact_sphere(const inputs *in, fret_gap *out) {
+    *out = shape_gap(in, FRET_GAP_EXACT_SPHERE);
+}
+
+static void file(const inputs *in, fret_gap *out) {
+    *out = (fret_gap){.kind = FRET_GAP_TABLE, .table = in->table->table};
+}
+
+#define ONE(a) .required = INPUT_BIT(a), .allowed = INPUT_BIT(a)
+#define TWO(a, b) .required = INPUT_BIT(a) | INPUT_BIT(b), .allowed = INPUT_BIT(a) | INPUT_BIT(b)
+
+static const geometry geometries[] = {
+    {.name = "cone",
+     .gap = cone,
+     .n = 1,
+     .power = true,
+     ONE(IN_SLOPE),
+     .usage = "cone slope=0.05 | cone angle=3 deg",
+     .meaning = "f = slope r",
+     .keywords = "angle"},
+    {.name = "paraboloid",
+     .gap = paraboloid,
+     .n = 2,
+     .power = true,
+     ONE(IN_RADIUS),
+     .usage = "paraboloid R=10 mm | paraboloid R1=20 mm R2=20 mm",
+     .meaning = "f = r^2/(2R)",
+     .keywords = "Hertz Mindlin"},
+    {.name = "sphere",
+     .gap = paraboloid,
+     .n = 2,
+     .power = true,
+     ONE(IN_RADIUS),
+     .usage = "sphere R=10 mm | sphere R1=20 mm R2=20 mm",
+     .meaning = "Hertz: the paraboloid",
+     .keywords = "Mindlin"},
+    {.name = "power",
+     .gap = power,
+     .power = true,
+     .required = INPUT_BIT(IN_N),
+     .allowed = INPUT_BIT(IN_N) | INPUT_BIT(IN_A) | INPUT_BIT(IN_H) | INPUT_BIT(IN_R0),
+     .usage = "power n=3 A=50 m^-2 | power n=3 h=1 um r0=1 mm",
+     .meaning = "f = A r^n = h (r/r0)^n",
+     .keywords = "exponent"},
+    {.name = "sum",
+     .gap = sum,
+     .by = PARAMETERS_TERMS,
+     .usage = "sum 2:50 m^-1, 4:2e6 m^-3",
+     .meaning = "f = sum of A r^n",
+     .keywords = "powers polynomial"},
+    {.name = "flat-cone",
+     .gap = flat_cone,
+     TWO(IN_B, IN_SLOPE),
+     .usage = "flat-cone b=1 mm slope=0.05",
+     .meaning = "f = slope (r-b), r > b",
+     .keywords = "punch"},
+    {.name = "flat-paraboloid",
+     .gap = flat_paraboloid,
+     TWO(IN_B, IN_RADIUS),
+     .usage = "flat-paraboloid b=1 mm R=10 mm",
+     .meaning = "f = (r^2-b^2)/(2R), r > b",
+     .keywords = "worn punch"},
+    {.name = "flat-rounded",
+     .gap = flat_rounded,
+     TWO(IN_B, IN_RADIUS),
+     .usage = "flat-rounded b=1 mm R=10 mm",
+     .meaning = "f = (r-b)^2/(2R), r > b",
+     .keywords = "pad punch fretting"},
+    {.name = "exact-sphere",
+     .gap = exact_sphere,
+     ONE(IN_RADIUS),
+     .usage = "exact-sphere R=10 mm",
+     .meaning = "f = R - sqrt(R^2-r^2)",
+     .keywords = "ball"},
+    {.name = "file",
+     .gap = file,
+     .by = PARAMETERS_FILE,
+     .usage = "file gap.csv",
+     .meaning = "rows of r, f with units in the header",
+     .keywords = "csv table sampled measured profile"},
+};
+enum { GEOMETRIES = sizeof geometries / sizeof *geometries };
+
+const geometry *geometry_row(size_t i) {
+    return i < GEOMETRIES ? &geometries[i] : NULL;
+}
+
+const char *geometry_name(size_t i) {
+    return i < GEOMETRIES ? geometries[i].name : NULL;
+}
+
+const geometry *geometry_find(const char *name, size_t len) {
+    for (size_t i = 0; i < GEOMETRIES; i++)
+        if (strlen(geometries[i].name) == len && !memcmp(geometries[i].name, name, len))
+            return &geometries[i];
+    return NULL;
+}
+
+static void table_end(counted *self) {
+    shared_table *t = (shared_table *)self;
+    fret_table_free(t->table);
+    free(t);
+}
+
+shared_table *shared_table_make(struct fret_table *table, const char *name) {
+    shared_table *t = malloc(sizeof *t + strlen(name) + 1);
+    if (!t) {
+        fret_table_free(table);
+        return NULL;
+    }
+    t->base = (counted){1, table_end};
+    t->table = table;
+    memcpy(t->name, name, strlen(name) + 1);
+    return t;
+}
+
+/* ---- the value --------------------------------------------------------------------------------- */
+
+static void hold_all(const inputs *in) {
+    for (input i = 0; in->bindings >> i; i++)
+        counted_hold(in->bound[i]);
+    counted_hold(in->table ? &in->table->base : NULL);
+}
+
+void inputs_copy(inputs *to, const inputs *from) {
+    *to = *from;
+    hold_all(to);
+}
+
+void inputs_drop(inputs *in) {
+    for (input i = 0; in->bindings >> i; i++)
+        counted_drop(in->bound[i]);
+    counted_drop(in->table ? &in->table->base : NULL);
+    *in = (inputs){.geometry = NULL};
+}
+
+fret_status input_status(input in, double v) {
+    fret_code code = FRET_OK;
+    if (!isfinite(v))
+        code = FRET_NOT_FINITE;
+    else if (in == IN_K)
+        code = v > -1 && v < 1 ? FRET_OK : FRET_BAD_K;
+    else if (in == IN_NU || in == IN_NU_2)
+        code = v > -1 && v <= 0.5 ? FRET_OK : FRET_BAD_NU;
+    else if (in == IN_FNA)
+        code = v >= 0 ? FRET_OK : FRET_NEGATIVE;
+    else if (in != IN_PHASE && v <= 0)
+        code = FRET_NOT_POSITIVE;
+    return (fret_status){code, NULL, v, 0};
+}
+
+void inputs_unset(inputs *in, unsigned set) {
+    for (input i = 0; i < INPUTS; i++)
+        if (set & INPUT_BIT(i)) {
+            inputs_bind(in, i, NULL);
+            in->set[i] = false;
+            in->v[i] = 0;
+        }
+}
+
+void inputs_bind(inputs *in, input which, counted *to) {
+    counted_drop(in->bound[which]);
+    in->bound[which] = to;
+    in->bindings = to ? in->bindings | INPUT_BIT(which) : in->bindings & ~INPUT_BIT(which);
+}
+
+void inputs_put(inputs *in, input which, double v) {
+    inputs_bind(in, which, NULL);
+    in->v[which] = v;
+    in->set[which] = true;
+    if ((which == IN_E0_2 || which == IN_NU_2) && in->second != SECOND_GIVEN) {
+        inputs_unset(in, INPUT_BIT(which == IN_E0_2 ? IN_NU_2 : IN_E0_2));
+        in->second = SECOND_GIVEN;
+    }
+    if (which == IN_A) /* A and h (r/r0)^n are two ways to say the same */
+        inputs_unset(in, INPUT_BIT(IN_H) | INPUT_BIT(IN_R0));
+    else if (which == IN_H || which == IN_R0)
+        inputs_unset(in, INPUT_BIT(IN_A));
+}
+
+void inputs_geometry(inputs *in, const geometry *g, const fret_gap *terms, shared_table *table) {
+    inputs_unset(in, INPUT_GEOMETRY);
+    counted_drop(in->table ? &in->table->base : NULL);
+    in->table = table;
+    in->geometry = g;
+    if (terms)
+        in->sum = *terms;
+}
+
+bool inputs_take(const inputs *in, input which) {
+    const geometry *g = in->geometry;
+    if (!g || !(g->allowed & INPUT_BIT(which)))
+        return false;
+    return (which != IN_H && which != IN_R0) || in->set[IN_H];
+}
+
+bool inputs_get(const inputs *in, input which, long double *out, calc_error *error) {
+    fret_gap gap;
+    bool here = in->set[which];
+    switch (which) {
+    case IN_K:
+    case IN_FNA:
+    case IN_PHASE:
+        here = here || which == IN_K || in->set[IN_FA] || in->set[IN_DXA];
+        break;
+    case IN_E0_2:
+    case IN_NU_2:
+        if (in->second == SECOND_RIGID)
+            return calc_missing(error, (int)which);
+        if (in->second == SECOND_SAME || !here)
+            return inputs_get(in, which == IN_E0_2 ? IN_E0 : IN_NU, out, error);
+        break;
+    case IN_N:
+        if (in->geometry && in->geometry->n > 0) {
+            *out = (long double)in->geometry->n;
+            return true;
+        }
+        break;
+    case IN_A:
+        if (!here && in->geometry && in->geometry->power) {
+            in->geometry->gap(in, &gap);
+            *out = gap.power[0].h * fret_ratio_pow(1, gap.power[0].r0, gap.power[0].n);
+            return true;
+        }
+        break;
+    default:
+        break;
+    }
+    if (!here)
+        return calc_missing(error, (int)which);
+    *out = in->v[which];
+    return true;
+}
+
+static bool get_double(const inputs *in, input which, double *out, calc_error *error) {
+    long double v = 0;
+    if (!inputs_get(in, which, &v, error))
+        return false;
+    *out = (double)v;
+    return true;
+}
+
+bool inputs_material(const inputs *in, double k, fret_material *m, calc_error *error) {
+    *m = (fret_material){.k = k, .c0 = 1};
+    if (!get_double(in, IN_E0, &m->body[0].E0, error) || !get_double(in, IN_NU, &m->body[0].nu, error))
+        return false;
+    m->body[1] = m->body[0];
+    m->body[1].rigid = in->second == SECOND_RIGID;
+    if (in->second == SECOND_GIVEN && (!get_double(in, IN_E0_2, &m->body[1].E0, error) ||
+                                       !get_double(in, IN_NU_2, &m->body[1].nu, error)))
+        return false;
+    return k == 0 || get_double(in, IN_C0, &m->c0, error);
+}
+
+bool inputs_gap(const inputs *in, fret_gap *out, calc_error *error) {
+    if (!in->geometry)
+        return calc_fail(error, 0, 0, "there is no geometry yet: give one first (geometry sphere R=10 mm)");
+    in->geometry->gap(in, out);
+    return true;
+}

@@ -1,0 +1,377 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Running a load program: legs, periods, swinging normal forces. */
+#include "calc/run.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "number/real.h"
+
+static const double pi = 3.14159265358979323846;
+
+static const fret_status fine = {FRET_OK, NULL, 0, 0};
+static const fret_status interrupted = {FRET_INTERRUPTED, NULL, 0, 0};
+
+static fret_status unless_stopped(const runner *r, fret_status st) {
+    return !st.code && r->load->stop && *r->load->stop ? interrupted : st;
+}
+
+/* ---- looking on -------------------------------------------------------------------------------- */
+
+static double next_point(const watch *w, const leg *l, double after) {
+    const unsigned points = l->points ? l->points : w->points;
+    if (!l->chord)
+        return (floor(after * points + 1e-9) + 1) / points;
+    /* chords are many: points of a period, evenly in time */
+    const double length = l->end - l->begin, here = l->begin + after * length - l->origin;
+    const double x = ((floor(here * points + 1e-9) + 1) / points + l->origin - l->begin) / length;
+    return x > 1 + 1e-9 ? 2 : x > 1 - 1e-9 ? 1 : x;
+}
+
+static double next_time(const watch *w, const leg *l, double after) {
+    const double t = w->first + w->every * (double)w->sample, little = 1e-9 * w->every;
+    const double end = w->turns && !l->chord ? 1 : 2;
+    (void)after;
+    if (w->sample > w->last || t > l->end + little)
+        return end;
+    if (t > l->end - little)
+        return 1;
+    return (t - l->begin) / (l->end - l->begin);
+}
+
+watch watch_points(unsigned points) {
+    return (watch){.next = next_point, .points = points};
+}
+
+static double next_end(const watch *w, const leg *l, double after) {
+    (void)w, (void)l, (void)after;
+    return 1;
+}
+
+watch watch_ends(void) {
+    return (watch){.next = next_end};
+}
+
+watch watch_times(double first, double every, size_t last, bool turns) {
+    return (watch){.next = next_time, .first = first, .every = every, .last = last, .turns = turns};
+}
+
+static void sum_area(runner *r) {
+    fret_state now;
+    engine_forces(&r->engine, &now);
+    r->area += (now.dx - r->dx) * (now.Fx + r->Fx) / 2;
+    r->Fx = now.Fx;
+    r->dx = now.dx;
+}
+
+static fret_status look(runner *r, double time, bool turning) {
+    watch *w = r->watch;
+    r->time = time;
+    r->turning = turning;
+    if (r->area_wanted)
+        sum_area(r);
+    if (w->see && !w->see(r, w->context)) {
+        r->halted = true;
+        return interrupted;
+    }
+    while (w->next == next_time && w->sample <= w->last &&
+           w->first + w->every * (double)w->sample <= time + 1e-9 * w->every)
+        w->sample++;
+    return unless_stopped(r, fine);
+}
+
+/* Where the load is at the part x of a leg, as a part of the way. */
+static double way(const leg *l, double x) {
+    if (l->even || l->law == LEG_STRAIGHT || (l->law == LEG_HALF && x == 0.5)) /* through 0 exactly */
+        return x;
+    return (double)(l->law == LEG_RISE ? fret_sin(pi / 2 * x) : (1 - fret_cos(pi * x)) / 2);
+}
+
+static fret_status take_watched(runner *r, const leg *l) {
+    fret_state from;
+    fret_status st = fine;
+    engine_forces(&r->engine, &from);
+    const fret_step *to = &l->to;
+    const long double n0 = to->normal_by == FRET_TO_FORCE ? from.FN : from.dz;
+    const long double t0 = to->tangential_by == FRET_TO_FX ? from.Fx : from.dx;
+    double x = r->watch->next(r->watch, l, 0);
+    for (; x < 1; x = r->watch->next(r->watch, l, x)) {
+        const long double part = (long double)way(l, x);
+        fret_step step = *to;
+        step.normal = (double)(n0 + (to->normal - n0) * part);
+        step.tangential = (double)(t0 + (to->tangential - t0) * part);
+        st = engine_step(&r->engine, &step);
+        if (!st.code)
+            st = look(r, l->begin + (l->end - l->begin) * x, false);
+        if (st.code)
+            return st;
+    }
+    st = engine_step(&r->engine, to);
+    if (!st.code && x <= 1)
+        return look(r, l->end, !l->chord);
+    return st;
+}
+
+static fret_status take(runner *r, const leg *l) {
+    fret_status st = r->watch ? take_watched(r, l) : engine_step(&r->engine, &l->to);
+    r->time = l->end;
+    return st;
+}
+
+/* ---- cycles ------------------------------------------------------------------------------------ */
+
+static fret_tangential_target tangential_by(const load_step *c) {
+    return c->tangential == BY_FORCE ? FRET_TO_FX : FRET_TO_DX;
+}
+
+/* The two branches at constant F_N. */
+static fret_status constant_period(runner *r, const load_step *c) {
+    leg l = {.to = {FRET_KEEP_NORMAL, tangential_by(c), 0, 0},
+             .law = LEG_HALF,
+             .points = c->points ? (c->points + 1) / 2 : 0,
+             .even = r->watch && r->watch->next == next_point};
+    fret_status st = fine;
+    for (int sign = -1; sign <= 1 && !st.code; sign += 2) {
+        l.to.tangential = sign * c->tangential_value;
+        l.begin = r->time;
+        l.end = r->time + 0.5;
+        st = take(r, &l);
+    }
+    return st;
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* An angle in 0..2 pi. */
+static double wrapped(double angle) {
+    double turns = angle / (2 * pi);
+    return 2 * pi * (turns - floor(turns));
+}
+
+
+/* What a swinging period turns about. */
+typedef struct swing {
+    const load_view *load;
+    const load_item *cycle;
+    long double FN;
+} swing;
+
+/* d/d(angle) of the tangential load + sign x its bound at gross slip; by displacement the bound is mu eta delta_z,
+ * which moves with d(F_N)/k_n. */
+static double slip_rate(const swing *w, double angle, int sign) {
+    const double A = w->cycle->step.tangential_value, FNA = w->cycle->step.normal_value;
+    const double phase = w->cycle->extra.phase;
+    double bound = w->load->mu * FNA * (double)fret_sin((long double)angle + phase);
+    if (w->cycle->step.tangential == BY_DISPLACEMENT) {
+        fret_press press;
+        const double FN = (double)(w->FN + FNA * fret_cos((long double)angle + phase));
+        if (!(FN > 0) || fret_press_by_force(w->load->normal, FN, &press).code || !(press.a > 0))
+            return NAN;
+        bound *= (double)(fret_normal_foundation(w->load->normal)->eta /
+                          fret_normal_stiffness(w->load->normal, press.a));
+    }
+    return -A * (double)fret_sin(angle) - sign * bound;
+}
+
+enum { NODES = 24, SCAN = 64 };
+
+/* Where slip_rate changes its sign: few places, found by a scan and bisection. */
+static size_t find_turns(const swing *w, int sign, double node[NODES], size_t count) {
+    double before = slip_rate(w, 0, sign);
+    for (int i = 1; i <= SCAN && count < NODES - 2; i++) {
+        double lo = 2 * pi * (i - 1) / SCAN, hi = 2 * pi * i / SCAN;
+        const double after = slip_rate(w, hi, sign);
+        if (before * after < 0) {
+            for (int j = 0; j < 50; j++) {
+                const double middle = (lo + hi) / 2;
+                *(slip_rate(w, middle, sign) * before > 0 ? &lo : &hi) = middle;
+            }
+            node[count++] = (lo + hi) / 2;
+        }
+        before = after;
+    }
+    return count;
+}
+
+/* Where F_N, the tangential load, and it + and - its bound turn, in order, 0 and 2 pi among them: between these places
+ * the error of chords is clean. */
+static size_t find_nodes(const swing *w, double node[NODES]) {
+    const double phase = w->cycle->extra.phase;
+    size_t count = 0;
+    node[count++] = 0;
+    node[count++] = pi;
+    node[count++] = wrapped(-phase);
+    node[count++] = wrapped(pi - phase);
+    count = find_turns(w, 1, node, count);
+    count = find_turns(w, -1, node, count);
+    qsort(node, count, sizeof *node, ascending);
+    size_t kept = 1;
+    for (size_t i = 1; i < count; i++)
+        if (node[i] - node[kept - 1] > 1e-9 && 2 * pi - node[i] > 1e-9)
+            node[kept++] = node[i];
+    node[kept++] = 2 * pi;
+    return kept;
+}
+
+/* Chords of the harmonic path, from the top of F_x, cut evenly between the nodes. */
+static fret_status swinging_period(runner *r, const load_item *c, long double FN) {
+    double node[NODES];
+    const swing about = {r->load, c, FN};
+    const size_t nodes = find_nodes(&about, node);
+    const double begin = r->time;
+    leg l = {.to = {FRET_TO_FORCE, tangential_by(&c->step), 0, 0},
+             .chord = true,
+             .points = c->step.points ? c->step.points : RUN_CHORDS,
+             .origin = begin};
+    fret_status st = fine;
+    for (size_t i = 0; i + 1 < nodes && !st.code; i++) {
+        const double length = node[i + 1] - node[i];
+        const unsigned count = (unsigned)(1 + RUN_CHORDS * length / (2 * pi)) << r->level;
+        for (unsigned j = 1; j <= count && !st.code; j++) {
+            const double angle = node[i] + length * j / count;
+            const bool last = i + 2 == nodes && j == count;
+            l.to.tangential =
+                last ? c->step.tangential_value : c->step.tangential_value * (double)fret_cos(angle);
+            l.to.normal = (double)(FN + c->step.normal_value * fret_cos((long double)angle + c->extra.phase));
+            l.begin = r->time;
+            l.end = begin + angle / (2 * pi);
+            st = unless_stopped(r, take(r, &l));
+        }
+    }
+    return st;
+}
+
+fret_status run_period(runner *r, const load_item *c, long double FN) {
+    return c->step.normal_value == 0 ? constant_period(r, &c->step) : swinging_period(r, c, FN);
+}
+
+static fret_status run_cycle(runner *r, const load_item *c) {
+    fret_state state;
+    engine_forces(&r->engine, &state);
+    const long double FN = state.FN;
+    leg first = {.to = {FRET_KEEP_NORMAL, tangential_by(&c->step), 0, c->step.tangential_value},
+                 .begin = r->time,
+                 .end = r->time + 0.25,
+                 .law = LEG_RISE,
+                 .even = r->watch && r->watch->next == next_point};
+    if (c->step.normal_value != 0) {
+        first.to.normal_by = FRET_TO_FORCE;
+        first.to.normal = (double)(FN + c->step.normal_value * fret_cos(c->extra.phase));
+        first.law = LEG_STRAIGHT;
+    }
+    fret_status st = take(r, &first);
+    for (unsigned i = 0; i < c->extra.times && !st.code; i++) {
+        engine_mark(&r->engine);
+        st = unless_stopped(r, run_period(r, c, FN));
+        r->cycle_loss = engine_spent(&r->engine);
+        r->closed = true;
+    }
+    if (st.code == FRET_GROSS_SLIP && c->step.tangential == BY_FORCE && c->step.normal_value == 0)
+        st.quantity = "FA";
+    return st;
+}
+
+/* ---- steps ------------------------------------------------------------------------------------- */
+
+static fret_status run_press(runner *r, const load_step *c) {
+    leg l = {.to = {c->normal == BY_FORCE ? FRET_TO_FORCE : FRET_TO_DEPTH, FRET_KEEP_DX, c->normal_value, 0},
+             .points = 1,
+             .begin = r->time,
+             .end = r->time};
+    if (c->normal == BY_RADIUS) {
+        fret_press p;
+        fret_status st = fret_press_by_radius(r->load->normal, c->normal_value, &p);
+        if (st.code)
+            return st;
+        l.to.normal = (double)p.dz;
+    }
+    return take(r, &l);
+}
+
+static fret_status run_step(runner *r, const load_step *c) {
+    leg l = {.to = {FRET_KEEP_NORMAL, FRET_KEEP_DX, c->normal_value, c->tangential_value},
+             .points = c->points,
+             .begin = r->time,
+             .end = r->time + 1};
+    fret_state now = {0};
+    if (!c->normal && (c->relative & RELATIVE_TANGENTIAL) && c->tangential_value == 0) {
+        r->time++; /* nothing to do, and rounding must not make it a reversal */
+        return fine;
+    }
+    if (c->relative)
+        engine_forces(&r->engine, &now);
+    if (c->normal) {
+        l.to.normal_by = c->normal == BY_FORCE ? FRET_TO_FORCE : FRET_TO_DEPTH;
+        if (c->relative & RELATIVE_NORMAL)
+            l.to.normal = (double)((c->normal == BY_FORCE ? now.FN : now.dz) + l.to.normal);
+    }
+    if (c->tangential) {
+        l.to.tangential_by = c->tangential == BY_FORCE ? FRET_TO_FX : FRET_TO_DX;
+        if (c->relative & RELATIVE_TANGENTIAL)
+            l.to.tangential = (double)((c->tangential == BY_FORCE ? now.Fx : now.dx) + l.to.tangential);
+    }
+    return take(r, &l);
+}
+
+fret_status run_item(runner *r, const load_item *item) {
+    switch ((load_kind)item->step.kind) {
+    case LOAD_PRESS:
+        return run_press(r, &item->step);
+    case LOAD_STEP:
+        return run_step(r, &item->step);
+    default:
+        return run_cycle(r, item);
+    }
+}
+
+/* At constant F_N only turning points count: a displacement on the way to the next one need not be taken. */
+static bool on_the_way(const load_view *load, size_t i) {
+    const load_step *step = &load->program->steps[i];
+    if (i + 1 >= load->end.steps || !load_is_slide(step) || !load_is_slide(step + 1) || !load_is_slide(step - 1))
+        return false;
+    const double here = step->tangential_value, last = step[-1].tangential_value,
+                 next = step[1].tangential_value;
+    return here == next || (last < here && here < next) || (last > here && here > next);
+}
+
+fret_status run_to(runner *r, load_mark end) {
+    const load_view *load = r->load;
+    const bool every = r->watch || !r->engine.kind->last_loss; /* springs round otherwise */
+    fret_status st = fine;
+    while (r->at.steps < end.steps) {
+        const bool cycle = load->program->steps[r->at.steps].kind == LOAD_CYCLE;
+        if (every || !on_the_way(load, r->at.steps)) {
+            load_item item = program_item(load->program, r->at, load->last_cycle, load->in);
+            st = run_item(r, &item);
+        } else {
+            r->time++;
+        }
+        st = unless_stopped(r, st);
+        if (st.code)
+            break;
+        r->at.steps++;
+        r->at.cycles += cycle;
+    }
+    return st;
+}
+
+double program_time(const program *p, load_mark end) {
+    double time = 0;
+    size_t cycle = 0;
+    for (size_t i = 0; i < end.steps; i++)
+        if (p->steps[i].kind == LOAD_STEP)
+            time += 1;
+        else if (p->steps[i].kind == LOAD_CYCLE)
+            time += 0.25 + p->cycles[cycle++].times;
+    return time;
+}
+
+long double run_limit(const long double at[LEVELS], long double *error) {
+    const long double first = at[1] + (at[1] - at[0]) / 3, last = at[2] + (at[2] - at[1]) / 3;
+    const long double step = (last - first) / 15, scale = fmaxl(fabsl(last), fabsl(at[2]));
+    *error = scale > 0 ? fabsl(step) / scale : 0;
+    return last + step;
+}

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scratch scenes for expressions, with inputs, names, the load or the instant changed. */
+#include "calc/trial.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+trial *trial_open(calc *c, calc_error *error) {
+    trial *t = calloc(1, sizeof *t);
+    if (!t) {
+        calc_no_memory(error);
+        return NULL;
+    }
+    t->c = c;
+    t->outer = c->now;
+    t->names = c->names.count;
+    scene_clone(&t->scene, c->now);
+    t->scene.used = 0;
+    c->now = &t->scene;
+    return t;
+}
+
+void trial_reset(trial *t) {
+    const unsigned used = t->scene.used;
+    scene_free(&t->scene);
+    scene_clone(&t->scene, t->outer);
+    t->scene.used = used;
+}
+
+void trial_close(trial *t) {
+    calc *c = t->c;
+    t->outer->used |= t->scene.used;
+    c->now = t->outer;
+    scene_free(&t->scene);
+    while (t->hidden_count > 0) {
+        own_name *row = &c->names.row[t->hidden[--t->hidden_count]];
+        counted_drop(row->definition);
+        char *text = row->text;
+        *row = t->old[t->hidden_count];
+        row->text = text;
+    }
+    free(t->hidden);
+    free(t->old);
+    free(t);
+}
+
+/* The user's value comes back when the trial closes. */
+static bool hide(trial *t, size_t name, calc_error *error) {
+    for (size_t i = 0; i < t->hidden_count; i++)
+        if (t->hidden[i] == name)
+            return true;
+    size_t *hidden = realloc(t->hidden, (t->hidden_count + 1) * sizeof *hidden);
+    if (hidden)
+        t->hidden = hidden;
+    own_name *old = realloc(t->old, (t->hidden_count + 1) * sizeof *old);
+    if (old)
+        t->old = old;
+    if (!hidden || !old)
+        return calc_no_memory(error);
+    own_name *row = &t->c->names.row[name];
+    t->hidden[t->hidden_count] = name;
+    t->old[t->hidden_count++] = *row;
+    row->definition = NULL; /* it belongs to the old one */
+    return true;
+}
+
+bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
+    scene *s = &t->scene;
+    if (!p->is_input) {
+        if (!hide(t, p->name, error))
+            return false;
+        names_put(&t->c->names, p->name, (value){v, p->d}, NULL);
+        if (s->in.bindings)
+            scene_forget(s, false);
+        return true;
+    }
+    fret_status st = input_status(p->in, (double)v);
+    if (!calc_input_status(error, (int)p->in, &st))
+        return false;
+    if (p->in == IN_FN && s->end.steps && s->program->steps[0].normal != BY_FORCE)
+        return calc_fail(error, 0, 0, "FN cannot be changed: the press was not given as FN");
+    if (p->in == IN_FN && !s->end.steps) {
+        const load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = (double)v};
+        return scene_append(s, &press, NULL, error);
+    }
+    scene_put(s, p->in, (double)v);
+    return true;
+}
+
+/* ---- what is changed by name ------------------------------------------------------------------- */
+
+bool knob_read(calc *c, lexer *lx, knob *out) {
+    *out = (knob){.is_input = false};
+    if (lx->kind != T_NAME || lx->len >= LEX_NAME)
+        return lex_fail(lx, "expected a name");
+    lex_word(lx, out->text);
+    const quantity *q = quantity_find(out->text, lx->len);
+    if (q && !quantity_is_input(q))
+        return lex_fail(lx, "%s is a result: only inputs and free names can be swept", out->text);
+    if (q) {
+        out->is_input = true;
+        out->in = quantity_input(q);
+        out->d = quantity_dim(q, c->now);
+        if (!(out->in == IN_FN && !c->now->end.steps) && !calc_takes(c, out->in, lx->error))
+            return calc_place(lx->error, lx->at, lx->len);
+    } else {
+        const char *taken = name_taken(out->text, lx->len);
+        if (taken)
+            return lex_fail(lx, "'%s' is %s: it cannot be swept", out->text, taken);
+        if (!names_add(&c->names, out->text, lx->len, &out->name))
+            return calc_no_memory(lx->error);
+        if (c->names.row[out->name].known)
+            out->d = c->names.row[out->name].v.d;
+        c->names.row[out->name].known = true;
+    }
+    lex_next(lx);
+    return true;
+}
+
+/* ---- along a load ------------------------------------------------------------------------------ */
+
+typedef struct along {
+    trial *t;
+    instant now;
+    along_look *look;
+    void *context;
+    calc_error *error;
+    double first, last; /* times that count */
+} along;
+
+static bool see(const runner *r, void *context) {
+    along *a = context;
+    scene *s = &a->t->scene;
+    if (r->time < a->first - 1e-9 || r->time > a->last + 1e-9)
+        return true;
+    a->now.run = r;
+    s->now = &a->now;
+    s->answers.state_ready = s->answers.press_ready = false;
+    bool ok = a->look(a->context, r->time, a->error);
+    s->now = NULL;
+    s->answers.state_ready = s->answers.press_ready = false;
+    return ok;
+}
+
+bool trial_along(trial *t, along_what what, load_mark from, size_t points, bool turns, along_look *look,
+                 void *context, calc_error *error) {
+    scene *s = &t->scene;
+    along a = {.t = t, .look = look, .context = context, .error = error};
+    if (!s->end.steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    a.last = program_time(s->program, s->end);
+    if (what == ALONG_LOAD)
+        a.first = program_time(s->program, from);
+    if (what == ALONG_CYCLE) {
+        const size_t cycle = program_last_cycle(s->program, s->end);
+        if (cycle == NO_CYCLE)
+            return calc_fail(error, 0, 0, "no cycle has been run yet: use along cycle FA=...");
+        a.last = program_time(s->program, (load_mark){cycle + 1, s->end.cycles});
+        a.first = a.last - 1;
+    }
+    if (a.last <= a.first)
+        points = 0;
+    watch w = watch_times(a.first, points ? (a.last - a.first) / (double)points : 1, points, turns);
+    w.see = see;
+    w.context = &a;
+    return scene_trace(s, &w, error);
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Errors in words: the one place where names and units meet what went wrong. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "calc/calc.h"
+
+/* Arguments of functions and of commands are no quantities, but have a dimension too. */
+static dim dimension_of(const calc *c, const char *name) {
+    const quantity *q = quantity_find(name, strlen(name));
+    if (q)
+        return quantity_dim(q, &c->scene);
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        if (q->argument && !strcmp(q->argument, name))
+            return q->argument_d;
+    return DIM_NONE;
+}
+
+/* "3 um", with no more digits than a message bears. */
+static void say(dim d, double v, char text[160]) {
+    char unit_text[128] = "";
+    long double scale = unit_choose(d, v, 6, unit_text, sizeof unit_text);
+    snprintf(text, 160, "%.6g%s%s", (double)(v / scale), *unit_text ? " " : "", unit_text);
+}
+
+static void word_status(const calc *c, calc_error *error) {
+    const fret_status *st = &error->status;
+    const char *name = error->input >= 0 ? quantity_of_input((input)error->input)->name : st->quantity;
+    const char *rule = fret_status_rule(st->code);
+    char given[160], limit[160], *text = error->text;
+    const size_t size = sizeof error->text;
+    if (!name) {
+        snprintf(text, size, "%s", rule);
+        return;
+    }
+    const dim d = dimension_of(c, name);
+    say(d, st->value, given);
+    say(st->code == FRET_TABLE_SHORT ? DIM_LENGTH : d, st->limit, limit);
+    if (st->code == FRET_GROSS_SLIP)
+        snprintf(text, size, "%s = %s exceeds mu*FN = %s: gross slip; %s to slide", name, given, limit,
+                 strcmp(name, "FA") ? "step by displacement (dx=...)" : "cycle by displacement (dxA=...)");
+    else if (st->code == FRET_TABLE_SHORT)
+        snprintf(text, size, "%s = %s cannot be carried: the gap supports contact radii up to %s", name, given,
+                 limit);
+    else if (st->code == FRET_OUTSIDE && st->limit > 0)
+        snprintf(text, size, "%s = %s %s (limit %s)", name, given, rule, limit);
+    else
+        snprintf(text, size, "%s = %s %s", name, given, rule);
+}
+
+static void word_missing(const calc *c, calc_error *error) {
+    const input in = (input)error->input;
+    const char *name = quantity_of_input(in)->name;
+    const geometry *g = c->now->in.geometry;
+    char *text = error->text;
+    const size_t size = sizeof error->text;
+    if ((in == IN_E0_2 || in == IN_NU_2) && c->now->in.second == SECOND_RIGID)
+        snprintf(text, size, "the second body is rigid");
+    else if (in <= IN_NU || in == IN_E0_2 || in == IN_NU_2)
+        snprintf(text, size, "%s is not set: give the material first (material E0=210 GPa nu=0.3)",
+                 in <= IN_NU ? name : in == IN_E0_2 ? "E0" : "nu");
+    else if (in == IN_MU)
+        snprintf(text, size, "mu is not set: give the friction first (friction 0.4)");
+    else if (in == IN_C0)
+        snprintf(text, size, "c0 is not set: E(z) = E0 (z/c0)^k needs it (c0 = 1 mm)");
+    else if (in == IN_FN)
+        snprintf(text, size, "there is no load yet: press first (press FN=100 N)");
+    else if (INPUT_BIT(in) & INPUT_CYCLE)
+        snprintf(text, size, c->now->end.cycles ? "%s is no amplitude of the last cycle"
+                                                : "%s: no cycle has been run yet (cycle FA=...)",
+                 name);
+    else if (!g)
+        snprintf(text, size, "%s is not set: give the geometry first (geometry sphere R=10 mm)", name);
+    else
+        snprintf(text, size, "%s is no parameter of geometry %s", name, g->name);
+}
+
+void calc_word(const calc *c, calc_error *error) {
+    if (!error->raised || error->worded)
+        return;
+    if (error->kind == ERROR_STATUS)
+        word_status(c, error);
+    else if (error->kind == ERROR_MISSING)
+        word_missing(c, error);
+    error->worded = true;
+}
+
+void calc_append(const calc *c, calc_error *error, const char *format, ...) {
+    va_list args;
+    calc_word(c, error);
+    const size_t n = strlen(error->text);
+    va_start(args, format);
+    vsnprintf(error->text + n, sizeof error->text - n, format, args);
+    va_end(args);
+}

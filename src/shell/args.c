@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading arguments by the rows that describe them. Changes nothing. */
+#include "shell/args.h"
+
+#include <string.h>
+
+#include "calc/unit_text.h"
+
+/* ---- small things ------------------------------------------------------------------------------ */
+
+static bool read_value(calc *c, lexer *lx, arg_value *v) {
+    v->value_at = lx->at;
+    bool ok = expr_value(c, lx, &v->v) && !stray_unit(lx);
+    v->value_len = lx->last - v->value_at;
+    return ok;
+}
+
+static bool read_number(calc *c, lexer *lx, const arg *a, arg_value *v) {
+    return read_value(c, lx, v) &&
+           ((dim_equal(v->v.d, DIM_NONE) && v->v.v > 0 && v->v.v <= a->most) ||
+            calc_fail(lx->error, v->value_at, v->value_len, "the %s must be a positive number up to %u",
+                      !strcmp(a->name, "within") ? "seconds" : a->name, a->most));
+}
+
+bool arg_place(calc_error *error, const arg_value *v) {
+    return calc_place(error, v->value_at, v->value_len);
+}
+
+void args_drop(const arg_list *list, arg_value v[ARGS]) {
+    for (const arg *a = list->args; a && a->kind; a++) {
+        counted_drop(v[a - list->args].live);
+        v[a - list->args].live = NULL;
+    }
+}
+
+/* ---- NAME = EXPR ------------------------------------------------------------------------------- */
+
+static bool unknown_argument(lexer *lx, const arg_list *list) {
+    return calc_fail(lx->error, lx->at, lx->len, "%s has no %s '%.*s'; usage: %s %s", list->who,
+                     list->noun, LEX_WORD(lx), list->command, list->usage);
+}
+
+static const arg *find(const lexer *lx, const arg_list *list, arg_kind kind) {
+    const arg *a = list->args;
+    while (a && a->kind && !(a->kind == kind && lex_is(lx, a->name)))
+        a++;
+    return a && a->kind ? a : NULL;
+}
+
+/* Twice the same, or another of its group. */
+static bool twice(lexer *lx, const arg_list *list, const arg *a, const arg_value out[ARGS]) {
+    if (out[a - list->args].given) {
+        calc_fail(lx->error, lx->at, lx->len, a->group ? "two targets in one direction" : "%s is given twice", a->name);
+        return true;
+    }
+    for (const arg *other = list->args; a->group && other->kind; other++)
+        if (other->group == a->group && out[other - list->args].given) {
+            calc_fail(lx->error, lx->at, lx->len, "two targets in one direction");
+            return true;
+        }
+    return false;
+}
+
+static bool not_positive(lexer *lx, const arg *a, const arg_value *v) {
+    char unit_text[128];
+    dim_unit(a->d, unit_text, sizeof unit_text);
+    return calc_fail(lx->error, v->value_at, v->value_len, "%s = %.6Lg%s%s must be positive", a->name, v->v.v,
+                     *unit_text ? " " : "", unit_text);
+}
+
+static bool in_range(lexer *lx, const arg *a, const arg_value *v) {
+    fret_status st = {FRET_NOT_POSITIVE, a->name, (double)v->v.v, 0};
+    if (a->flags & ARG_OWN_DIM)
+        return v->v.v > 0 || not_positive(lx, a, v);
+    if (a->in && !v->increment) {
+        st = input_status((input)(a->in - 1), (double)v->v.v);
+        return calc_input_status(lx->error, a->in - 1, &st) || arg_place(lx->error, v);
+    }
+    if (a->flags & ARG_NONZERO && v->v.v == 0)
+        return calc_fail(lx->error, v->value_at, v->value_len, "%s must not be 0", a->name);
+    return !(a->flags & ARG_POSITIVE) || v->v.v > 0 || calc_status(lx->error, &st) || arg_place(lx->error, v);
+}
+
+static bool read_named(shell *sh, lexer *lx, const arg_list *list, const arg *a, arg_value *v) {
+    const token_kind how = lex_peek(lx);
+    if (!a || (how == T_INCREMENT && !(a->flags & ARG_INCREMENT)) || (how == T_DEFINE && !(a->flags & ARG_LIVE)))
+        return unknown_argument(lx, list);
+    const dim d = a->in && !(a->flags & ARG_OWN_DIM) ? quantity_of_input((input)(a->in - 1))->d : a->d;
+    v->at = lx->at;
+    v->len = lx->len;
+    v->increment = how == T_INCREMENT;
+    lex_next(lx);
+    lex_next(lx);
+    if (how == T_DEFINE) {
+        v->value_at = lx->at;
+        bool ok = calc_bind(&sh->calc, lx, (input)(a->in - 1), &v->live);
+        v->value_len = lx->last - v->value_at;
+        v->given = ok;
+        return ok;
+    }
+    v->given = read_value(&sh->calc, lx, v) && value_dim(lx, a->name, v->value_at, v->value_len, v->v, d) &&
+               in_range(lx, a, v);
+    return v->given;
+}
+
+/* ---- the rest ---------------------------------------------------------------------------------- */
+
+static bool read_choice(lexer *lx, const arg *a, arg_value *v) {
+    char word[LEX_NAME];
+    const char *name;
+    const size_t len = word_at(lx);
+    snprintf(word, sizeof word, "%.*s", LEX_SHOWN(len), lx->text + lx->at);
+    for (v->choice = 0; (name = a->words(v->choice)); v->choice++)
+        if (!strcmp(name, word)) {
+            v->at = lx->at;
+            v->len = len;
+            lex_seek(lx, lx->at + len);
+            return v->given = true;
+        }
+    lx->len = len;
+    const char *near = suggest(word, a->words);
+    char list[CALC_ERROR_TEXT - 64] = "";
+    for (size_t i = 0; (name = a->words(i)) && i < 7; i++)
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", name);
+    return lex_fail(lx, near ? "unknown %s '%s': did you mean %s?" : "unknown %s '%s' (%s)", a->name, word,
+                    near ? near : list);
+}
+
+/* What may only come first. */
+static bool read_first(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file) {
+    const arg *a = list->args;
+    if (!a)
+        return true;
+    arg_value *v = &out[0];
+    const bool named = at_argument(lx);
+    switch (a->kind) {
+    case ARG_CHOICE:
+        return lx->kind != T_NAME || named || read_choice(lx, a, v);
+    case ARG_EXPR:
+        if (named && lex_is(lx, a->name)) {
+            lex_next(lx);
+            lex_next(lx);
+        }
+        v->given = read_value(&sh->calc, lx, v) &&
+                   value_dim(lx, a->name, v->value_at, v->value_len, v->v, a->d) && in_range(lx, a, v);
+        return v->given;
+    case ARG_FILE:
+        v->value_at = lx->at;
+        v->given = lex_filename(lx, file, ARG_FILE_NAME);
+        v->value_len = lx->last - v->value_at;
+        return v->given;
+    default:
+        return true;
+    }
+}
+
+static bool read_keyword(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file, bool *found) {
+    const arg *a = list->args;
+    *found = false;
+    for (; a && a->kind; a++)
+        if ((a->kind == ARG_COUNT || a->kind == ARG_NUMBER || a->kind == ARG_WORD || a->kind == ARG_TO) &&
+            lex_is(lx, a->name))
+            break;
+    if (!a || !a->kind)
+        return true;
+    arg_value *v = &out[a - list->args];
+    *found = true;
+    if (twice(lx, list, a, out))
+        return false;
+    v->at = lx->at;
+    v->len = lx->len;
+    lex_next(lx);
+    v->value_at = lx->at;
+    switch (a->kind) {
+    case ARG_COUNT:
+        v->given = read_count(&sh->calc, lx, a->name, a->most, &v->count);
+        break;
+    case ARG_NUMBER:
+        v->given = read_number(&sh->calc, lx, a, v);
+        break;
+    case ARG_TO:
+        v->given = lex_filename(lx, file, ARG_FILE_NAME);
+        break;
+    default:
+        v->given = true;
+        break;
+    }
+    v->value_len = lx->last - v->value_at;
+    return v->given;
+}
+
+bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file) {
+    bool found = true;
+    for (const arg *a = list->args; a && a->kind; a++) { /* the rest is for those that are given */
+        arg_value *v = &out[a - list->args];
+        v->given = v->increment = false;
+        v->live = NULL;
+    }
+    if (!read_first(sh, lx, list, out, file))
+        return false;
+    while (found) {
+        if (at_argument(lx)) {
+            const arg *a = find(lx, list, ARG_VALUE);
+            if (a && lex_peek(lx) != T_DEFINE && twice(lx, list, a, out))
+                return false;
+            if (!read_named(sh, lx, list, a, &out[a ? a - list->args : 0]))
+                return false;
+            found = !(a->flags & ARG_ALONE);
+        } else if (!read_keyword(sh, lx, list, out, file, &found)) {
+            return false;
+        }
+    }
+    return !lx->error->raised;
+}
+
+bool args_read(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file) {
+    return (args_read_some(sh, lx, list, out, file) && at_end(lx)) || (args_drop(list, out), false);
+}

@@ -1,0 +1,443 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of commands and the rows of their arguments: the one file that knows all handlers. */
+#include "shell/command.h"
+
+#include <string.h>
+
+#include "shell/accuracy_command.h"
+#include "shell/figures.h"
+#include "shell/help.h"
+#include "shell/presets.h"
+#include "shell/range.h"
+#include "shell/show.h"
+
+#define INPUT(which) .in = 1 + (which)
+
+static const arg material_args[] = {
+    {.kind = ARG_CHOICE, .name = "material", .words = preset_name},
+    {.kind = ARG_VALUE, .name = "E0", INPUT(IN_E0), .flags = ARG_LIVE},
+    {.kind = ARG_VALUE, .name = "nu", INPUT(IN_NU), .flags = ARG_LIVE},
+    {.kind = ARG_VALUE, .name = "k", INPUT(IN_K), .flags = ARG_LIVE},
+    {.kind = ARG_VALUE, .name = "c0", INPUT(IN_C0), .flags = ARG_LIVE},
+    {.kind = ARG_VALUE, .name = "E0_2", INPUT(IN_E0_2), .flags = ARG_LIVE},
+    {.kind = ARG_VALUE, .name = "nu_2", INPUT(IN_NU_2), .flags = ARG_LIVE},
+    {.kind = ARG_END}};
+
+static const arg second_args[] = {
+    {.kind = ARG_CHOICE, .name = "material", .words = second_name},
+    {.kind = ARG_VALUE, .name = "E0", INPUT(IN_E0), .flags = ARG_LIVE},
+    {.kind = ARG_VALUE, .name = "nu", INPUT(IN_NU), .flags = ARG_LIVE},
+    {.kind = ARG_VALUE, .name = "E0_2", INPUT(IN_E0_2), .flags = ARG_LIVE},
+    {.kind = ARG_VALUE, .name = "nu_2", INPUT(IN_NU_2), .flags = ARG_LIVE},
+    {.kind = ARG_END}};
+
+static const arg friction_args[] = {
+    {.kind = ARG_EXPR, .name = "mu", INPUT(IN_MU)},
+    {.kind = ARG_END}};
+
+static const arg press_args[] = {
+    {.kind = ARG_VALUE, .name = "FN", INPUT(IN_FN), .flags = ARG_ALONE},
+    {.kind = ARG_VALUE, .name = "dz", .d = {0, 1, 0}, .flags = ARG_ALONE | ARG_POSITIVE},
+    {.kind = ARG_VALUE, .name = "a", .d = {0, 1, 0}, .flags = ARG_ALONE | ARG_POSITIVE},
+    {.kind = ARG_END}};
+
+static const arg step_args[] = {
+    {.kind = ARG_VALUE, .name = "Fx", .d = {1, 0, 0}, .flags = ARG_INCREMENT, .group = GROUP_TANGENTIAL},
+    {.kind = ARG_VALUE, .name = "dx", .d = {0, 1, 0}, .flags = ARG_INCREMENT, .group = GROUP_TANGENTIAL},
+    {.kind = ARG_VALUE, .name = "FN", .d = {1, 0, 0}, .flags = ARG_INCREMENT, .group = GROUP_NORMAL},
+    {.kind = ARG_VALUE, .name = "dz", .d = {0, 1, 0}, .flags = ARG_INCREMENT, .group = GROUP_NORMAL},
+    {.kind = ARG_COUNT, .name = "steps", .most = 1000000},
+    {.kind = ARG_END}};
+
+static const arg cycle_args[] = {
+    {.kind = ARG_VALUE, .name = "FA", INPUT(IN_FA), .flags = ARG_LIVE, .group = GROUP_TANGENTIAL},
+    {.kind = ARG_VALUE, .name = "dxA", INPUT(IN_DXA), .flags = ARG_LIVE, .group = GROUP_TANGENTIAL},
+    {.kind = ARG_VALUE, .name = "FNA", INPUT(IN_FNA), .flags = ARG_LIVE},
+    {.kind = ARG_VALUE, .name = "phase", INPUT(IN_PHASE), .flags = ARG_LIVE},
+    {.kind = ARG_COUNT, .name = "times", .most = 1000000},
+    {.kind = ARG_COUNT, .name = "steps", .most = 1000000},
+    {.kind = ARG_END}};
+
+static const arg geometry_args[] = {{.kind = ARG_NAME, .name = "shape", .words = geometry_name},
+                                    {.kind = ARG_END}};
+static const arg show_args[] = {{.kind = ARG_NAME, .name = "part", .words = show_name}, {.kind = ARG_END}};
+static const arg set_args[] = {{.kind = ARG_NAME, .name = "setting", .words = setting_name}, {.kind = ARG_END}};
+static const arg help_args[] = {{.kind = ARG_NAME, .name = "topic", .words = help_name}, {.kind = ARG_END}};
+
+static const arg reset_args[] = {
+    {.kind = ARG_WORD, .name = "all"},
+    {.kind = ARG_END}};
+
+static const arg file_args[] = {
+    {.kind = ARG_FILE, .name = "file"},
+    {.kind = ARG_END}};
+
+static const arg to_args[] = {
+    {.kind = ARG_TO, .name = "to"},
+    {.kind = ARG_END}};
+
+static const arg list_args[] = {
+    {.kind = ARG_LIST, .name = "quantity"},
+    {.kind = ARG_END}};
+
+static const arg table_args[] = {
+    {.kind = ARG_LIST, .name = "expression"},
+    {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
+    {.kind = ARG_WORD, .name = "log"},
+    {.kind = ARG_TO, .name = "to"},
+    {.kind = ARG_END}};
+
+static const arg plot_args[] = {
+    {.kind = ARG_NAME, .name = "figure", .words = figure_name},
+    {.kind = ARG_LIST, .name = "expression"},
+    {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
+    {.kind = ARG_WORD, .name = "log"},
+    {.kind = ARG_TO, .name = "to"},
+    {.kind = ARG_END}};
+
+static const arg accuracy_args[] = {
+    {.kind = ARG_VALUE, .name = "FA", .d = {1, 0, 0}, .flags = ARG_POSITIVE, .group = GROUP_TANGENTIAL},
+    {.kind = ARG_VALUE, .name = "dxA", .d = {0, 1, 0}, .flags = ARG_POSITIVE, .group = GROUP_TANGENTIAL},
+    {.kind = ARG_NUMBER, .name = "within", .most = 3600},
+    {.kind = ARG_END}};
+
+static void geometry_list(FILE *to) {
+    const geometry *g;
+    for (size_t i = 0; (g = geometry_row(i)); i++)
+        fprintf(to, "    geometry %s\n        %s\n", g->usage, g->meaning);
+    fputs("\n    fret> geometry cone angle=45 deg\n    fret> slope\n    slope = 1\n", to);
+}
+
+static const command commands[] = {
+    {.name = "material",
+     .run = do_material,
+     .args = material_args,
+     .group = "the bodies",
+     .keywords = "steel aluminium Young elastic graded",
+     .changes = true,
+     .usage = "E0=210 GPa nu=0.3 [k=0.5 c0=1 mm] | steel",
+     .summary = "the elastic bodies",
+     .help = "Sets E(z) = E0 (z/c0)^k and Poisson's ratio of both bodies. Without k the\n"
+             "material is homogeneous and c0 is not needed. Presets: steel, aluminium,\n"
+             "titanium, copper, glass, alumina, rubber.\n\n"
+             "    fret> material E0=210 GPa nu=0.3 k=0.5 c0=1 mm\n"
+             "    fret> E(0.25 mm), eta\n"
+             "    E(0.25 mm) = 105 GPa\n"
+             "    eta = 2.10754\n"},
+    {.name = "second",
+     .run = do_second,
+     .args = second_args,
+     .group = "the bodies",
+     .keywords = "other body",
+     .changes = true,
+     .usage = "E0=70 GPa nu=0.33 | rigid | same",
+     .summary = "the other body, where it differs",
+     .help = "The second body shares k and c0 with the first; by default it is the same.\n"
+             "Bodies that are not elastically similar couple normal and tangential contact,\n"
+             "which is left out here: a warning says so.\n\n"
+             "    fret> material steel; second rigid; friction 0.3\n"
+             "    fret> geometry sphere R=10 mm; press FN=100 N\n"
+             "    warning: the bodies are elastically dissimilar (mismatch 0.286): normal and tangential contact are "
+             "coupled, and these results are an approximation\n"
+             "    fret> a\n"
+             "    a = 148.125 um\n"},
+    {.name = "geometry",
+     .run = do_geometry,
+     .args = geometry_args,
+     .group = "the bodies",
+     .keywords = "gap shape indenter sphere cone",
+     .changes = true,
+     .print = geometry_list,
+     .usage = "SHAPE NAME=EXPR ...",
+     .summary = "the gap between the bodies"},
+    {.name = "friction",
+     .run = do_friction,
+     .args = friction_args,
+     .group = "the bodies",
+     .keywords = "Coulomb mu",
+     .changes = true,
+     .usage = "MU",
+     .summary = "the coefficient of friction",
+     .help = "Sets mu, Coulomb's coefficient. `mu = 0.4` does the same.\n\n"
+             "    fret> friction 0.4\n"
+             "    fret> mu\n"
+             "    mu = 0.4\n"},
+    {.name = "press",
+     .run = do_press,
+     .args = press_args,
+     .group = "the load",
+     .keywords = "normal load Hertz indentation",
+     .changes = true,
+     .usage = "FN=100 N | dz=1 um | a=0.2 mm",
+     .summary = "press the bodies together: starts a load program",
+     .help = "By force, indentation depth or contact radius. What was stepped before is\n"
+             "forgotten.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm\n"
+             "    fret> press a=0.2 mm\n"
+             "    fret> FN, dz\n"
+             "    FN = 123.077 N\n"
+             "    dz = 4 um\n"},
+    {.name = "step",
+     .run = do_step,
+     .args = step_args,
+     .group = "the load",
+     .keywords = "tangential load",
+     .usage = "Fx=20 N | dx=0.5 um | FN=120 N | dz=1 um, += for an increment [steps 50]",
+     .summary = "a straight step of the load",
+     .help = "A tangential target, a normal target, or both for a straight ramp; += adds to\n"
+             "what is there now. A normal step alone holds dx. Force cannot go beyond mu*FN;\n"
+             "displacement can, and then the contact slides. `steps` records points on the\n"
+             "way for `history`.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> press FN=100 N\n"
+             "    fret> step Fx=20 N; step Fx+=-10 N\n"
+             "    fret> Fx, dx, c/a\n"
+             "    Fx = 10 N\n"
+             "    dx = 337.819 nm\n"
+             "    c/a = 0.956466\n"},
+    {.name = "cycle",
+     .run = do_cycle,
+     .args = cycle_args,
+     .group = "the load",
+     .keywords = "oscillation fretting hysteresis loop dissipation",
+     .changes = true,
+     .usage = "FA=20 N | dxA=0.5 um [times 3] [steps 200] [FNA=30 N phase=90 deg]",
+     .summary = "close tangential cycles",
+     .help = "Goes to +FA, then through whole cycles +FA, -FA, +FA; dW is the energy that\n"
+             "the last one dissipated. With FNA the normal force swings too,\n"
+             "FN + FNA sin(w t + phase) against FA sin(w t), in `steps` chords.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> press FN=100 N\n"
+             "    fret> cycle FA=20 N\n"
+             "    fret> dW, dW/(4*FN*dxmax) in %\n"
+             "    dW = 1.90646 uJ\n"
+             "    dW/(4*FN*dxmax) = 0.281737 %\n"},
+    {.name = "follow",
+     .run = do_follow,
+     .args = file_args,
+     .group = "the load",
+     .keywords = "csv history measured",
+     .changes = true,
+     .usage = "FILE.csv",
+     .summary = "load along a table of FN,Fx or dz,dx",
+     .help = "The header gives the columns and their units. Every row is a straight step; one\n"
+             "that cannot be carried leaves the scene as before the command. Where nothing is\n"
+             "pressed yet the first row presses, and must have Fx or dx = 0. The first lines\n"
+             "of such a file: `FN [N],Fx [N]`, then `100,0`, `120,15`.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> follow /nonexistent.csv\n"
+             "    error: cannot read /nonexistent.csv: No such file or directory\n"},
+    {.name = "reset",
+     .run = do_reset,
+     .args = reset_args,
+     .group = "the load",
+     .changes = true,
+     .usage = "[all]",
+     .summary = "forget the load program; all: the inputs too",
+     .help = "Variables of your own are kept.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; press FN=1 N\n"
+             "    fret> reset\n"
+             "    fret> a\n"
+             "    error: there is no load yet: press first (press FN=100 N)\n"},
+    {.name = "undo",
+     .run = do_undo,
+     .group = "the load",
+     .keywords = "back",
+     .usage = "",
+     .summary = "take back the last change of the scene",
+     .help = "Of the inputs, the load or a name; again for the one before. A script run by\n"
+             "`source`, or a file that was followed, is one change.\n\n"
+             "    fret> friction 0.4; friction 0.3\n"
+             "    fret> undo\n"
+             "    fret> mu\n"
+             "    mu = 0.4\n"},
+    {.name = "history",
+     .run = do_history,
+     .args = to_args,
+     .group = "results",
+     .keywords = "loop hysteresis csv export",
+     .usage = "[to FILE]",
+     .summary = "the recorded load history as a table",
+     .help = "One row for every press and step, and for the points that `steps` asked for.\n"
+             "FILE.csv is written as CSV.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> press FN=100 N; step Fx=20 N; step Fx=-20 N\n"
+             "    fret> history\n"
+             "           FN [N]         dz [m]         Fx [N]         dx [m]          W [J]\n"
+             "              100    3.48291e-06              0              0              0\n"
+             "              100    3.48291e-06             20    6.25995e-07    4.76614e-07\n"
+             "              100    3.48291e-06            -20   -6.25995e-07    1.42984e-06\n"},
+    {.name = "table",
+     .run = do_table,
+     .args = table_args,
+     .group = "results",
+     .keywords = "sweep csv export",
+     .usage = "EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, v2, ...] [to FILE]",
+     .summary = "a table over a range",
+     .help = "VAR is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> table dW(F) in uJ, c(F)/a for F = 10 N .. 40 N steps 3\n"
+             "            F [N]     dW(F) [uJ]         c(F)/a\n"
+             "               10       0.188365        0.90856\n"
+             "               20        1.90646       0.793701\n"
+             "               30        9.01533       0.629961\n"
+             "               40        54.1344              0\n"},
+    {.name = "plot",
+     .run = do_plot,
+     .args = plot_args,
+     .group = "results",
+     .keywords = "figure loop hysteresis png svg pdf export",
+     .usage = "loop | accuracy [FA=20 N] | EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, ...] [to "
+              "FILE.png|svg|pdf|gp]",
+     .summary = "a figure, in the terminal or to a file",
+     .help = "`plot loop` draws the hysteresis loop, F_x against delta_x; `plot accuracy` the\n"
+             "table of `accuracy`, error against time. FILE.gp is the gnuplot script itself.\n"
+             "`set plot 80x24` fixes the size, `set plot auto` follows the terminal.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> plot loop\n"
+             "    error: there is no load yet: press first (press FN=100 N)\n"},
+    {.name = "explain",
+     .run = do_explain,
+     .args = list_args,
+     .group = "results",
+     .keywords = "formula equation Mindlin",
+     .usage = "QUANTITY",
+     .summary = "formula, source, numbers put in, model used",
+     .help = "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs\n"
+             "that the value depends on, and how it was computed. `conditioning`: by which\n"
+             "part of itself the last binary digit of each input, of the press and of the\n"
+             "last load moves the value, and the ratio of the two. Large numbers, as close\n"
+             "to gross slip, mean that the value cannot be better than its inputs, whatever\n"
+             "the model.\n\n"
+             "    fret> material E0=210 GPa nu=0.3\n"
+             "    fret> explain eta\n"
+             "    eta: stiffness ratio\n"
+             "        eta = c_N/c_T  (4),(5)\n"
+             "        nu = 0.3\n"
+             "        model: closed form\n"
+             "        eta = 1.21429\n"
+             "        conditioning          last digit    moves eta by  condition number\n"
+             "        nu = 0.3                 1.9e-16         4.7e-17              0.25\n"
+             "        no effect: E0\n"},
+    {.name = "accuracy",
+     .run = do_accuracy,
+     .args = accuracy_args,
+     .group = "results",
+     .keywords = "error speed",
+     .usage = "[FA=20 N | dxA=0.5 um] [within 3]",
+     .summary = "error against time of every model, for this scene",
+     .help = "A table of the models that can answer for dW: value, relative error, time of a\n"
+             "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
+             "marks one that is below what it can tell. Without an argument the amplitude is\n"
+             "that of the last cycle, else of Fx now, else half of mu*FN. Where FN swings or\n"
+             "has changed, the load program is run as it is and errors refer to a refined\n"
+             "memory diagram. Springs with `midpoint` weights x^k h converge with order 1+k\n"
+             "where k < 0. The end says what `set model auto` picks, and which springs come\n"
+             "close. Larger models are left out where all would take more than 3 seconds;\n"
+             "`within 20` allows more, `within 0.3` less. `plot accuracy` draws the table.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> accuracy FA=50 N\n"
+             "    error: FA = 50 N exceeds mu*FN = 40 N: gross slip; cycle by displacement (dxA=...) to slide\n"},
+    {.name = "show",
+     .run = do_show,
+     .args = show_args,
+     .group = "the session",
+     .keywords = "save",
+     .usage = "[scene|settings|units|commands|variables]",
+     .summary = "what is set",
+     .help = "The scene as the commands that make it again, to the last digit; the settings,\n"
+             "the units or the commands.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm\n"
+             "    fret> show\n"
+             "    material E0=210 GPa nu=0.3\n"
+             "    geometry sphere R=10 mm\n"},
+    {.name = "set",
+     .run = do_set,
+     .args = set_args,
+     .group = "the session",
+     .keywords = "options",
+     .print = help_settings,
+     .usage = "NAME VALUE",
+     .summary = "settings",
+     .help = "One setting a statement. `set timing on` shows the time of each statement and\n"
+             "the models that answered. `set model` picks one: auto takes the closed form\n"
+             "where there is one, else the memory diagram; springs are an approximation.\n\n"
+             "    fret> set digits 12; pi\n"
+             "    pi = 3.14159265359\n"},
+    {.name = "source",
+     .run = do_source,
+     .args = file_args,
+     .group = "the session",
+     .keywords = "script",
+     .changes = true,
+     .usage = "FILE",
+     .summary = "run a script",
+     .help = "Statements of a file, as if typed here; it stops at the first error.\n\n"
+             "    fret> source /nonexistent\n"
+             "    error: cannot read /nonexistent: No such file or directory\n"},
+    {.name = "demo",
+     .run = do_demo,
+     .group = "the session",
+     .keywords = "tour",
+     .usage = "",
+     .summary = "play a session: a steel sphere on a graded half-space",
+     .help = "Shows each statement and its answer, in a scene of its own.\n"},
+    {.name = "help",
+     .run = do_help,
+     .args = help_args,
+     .group = "the session",
+     .usage = "[TOPIC]",
+     .summary = "this help, or that on a command, a quantity or a topic",
+     .help = "    fret> help kappa\n"
+             "    kappa: shape factor\n"
+             "        kappa = (n/2) B(n/2,(k+1)/2)  (8)\n"},
+    {.name = "apropos",
+     .run = do_apropos,
+     .group = "the session",
+     .keywords = "search",
+     .usage = "WORD",
+     .summary = "find commands and quantities by a word",
+     .help = "    fret> apropos stick\n"
+             "    c           stick radius\n"},
+    {.name = "quit",
+     .run = do_quit,
+     .group = "the session",
+     .usage = "",
+     .summary = "leave (so does Ctrl-D)",
+     .help = "    fret> quit\n"},
+    {.name = "exit",
+     .run = do_quit,
+     .group = "the session",
+     .usage = "",
+     .summary = "the same as quit",
+     .help = "    fret> exit\n"},
+};
+enum { COMMANDS = sizeof commands / sizeof *commands };
+
+const command *command_row(size_t i) {
+    return i < COMMANDS ? &commands[i] : NULL;
+}
+
+const char *command_name(size_t i) {
+    return i < COMMANDS ? commands[i].name : NULL;
+}
+
+const command *command_find(const char *name, size_t len) {
+    static word_index words = {.name = command_name};
+    size_t row;
+    return word_find(&words, name, len, &row) ? &commands[row] : NULL;
+}
+
+/* Words that may follow a number: those that rows of the table of commands name, and those of ranges. */
+bool argument_word(const lexer *lx) {
+    static const char *const others[] = {"to", "for", "in", "at", "log", "with", "from", "over", "along", "against"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (lex_is(lx, others[i]))
+            return true;
+    const command *c;
+    for (size_t i = 0; (c = command_row(i)); i++)
+        for (const arg *a = c->args; a && a->kind; a++)
+            if (a->kind != ARG_VALUE && a->name && lex_is(lx, a->name))
+                return true;
+    return false;
+}

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading lists of expressions. */
+#include "shell/expressions.h"
+
+#include <string.h>
+
+#include "calc/unit_text.h"
+
+static bool read_unit(lexer *lx, column *c) {
+    const size_t at = lx->at;
+    unit u;
+    if (c->chosen)
+        return lex_fail(lx, "the unit is given twice");
+    if (lx->error->raised || !unit_parse(lx, &u))
+        return false;
+    const size_t len = lx->last - at;
+    c->chosen = true;
+    c->scale = unit_scale(&u);
+    c->d = u.d;
+    snprintf(c->unit, sizeof c->unit, "%.*s", (int)(len < sizeof c->unit ? len : sizeof c->unit - 1), lx->text + at);
+    return true;
+}
+
+static bool read_expression(shell *sh, lexer *lx, expr *e, column *c) {
+    *c = (column){.scale = 1};
+    if (!expr_parse(&sh->calc, lx, e))
+        return false;
+    c->name = column_name(lx->text + e->at, e->len);
+    if (!c->name)
+        return calc_no_memory(lx->error);
+    for (;;) {
+        if (lex_is(lx, "at")) {
+            if (!expr_read_at(&sh->calc, lx, e))
+                return false;
+        } else if (!lex_accept(lx, "in")) {
+            return !lx->error->raised;
+        } else if (!read_unit(lx, c)) {
+            return false;
+        }
+    }
+}
+
+bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c) {
+    return read_expression(sh, lx, &sh->list[i], c);
+}
+
+bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_t *count) {
+    for (*count = 0;;) {
+        if (*count == limit)
+            return lex_fail(lx, "more than %zu expressions", limit);
+        const size_t i = (*count)++;
+        if (!read_expression(sh, lx, &sh->list[i], &columns[i]))
+            return false;
+        if (lx->kind != T_COMMA)
+            return !lx->error->raised;
+        lex_next(lx);
+    }
+}
+
+bool column_fits(const expr *e, column *c, dim d, calc_error *error) {
+    if (c->chosen && !dim_equal(c->d, d)) {
+        char is[128];
+        dim_describe(d, is, sizeof is);
+        error->strange = true;
+        return calc_fail(error, e->at, e->len, "%s is %s: it cannot be shown in %s", c->name, is, c->unit);
+    }
+    c->d = d;
+    if (!c->chosen)
+        dim_unit(d, c->unit, sizeof c->unit);
+    return true;
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of figures, and those that no sweep can draw. */
+#include "shell/figures.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "shell/accuracy_command.h"
+#include "shell/command.h"
+
+static const figure figures[] = {
+    {.name = "loop",
+     .title = "hysteresis loop",
+     .summary = "F_x against delta_x along the load program",
+     .statement = "Fx against dx along program"},
+    {.name = "pressure",
+     .title = "contact pressure",
+     .summary = "p(r)",
+     .statement = "p(r) for r = 0 .. 1.25*a"},
+    {.name = "traction",
+     .title = "tangential traction",
+     .summary = "q_x(r) between its bounds",
+     .statement = "qx(r), mu*p(r), -mu*p(r) for r = 0 .. 1.25*a",
+     .roles = "cbb"},
+    {.name = "springs",
+     .title = "springs",
+     .summary = "tangential displacement of the springs between its bounds",
+     .statement = "u1D(x), mu*eta*w1D(x), -mu*eta*w1D(x) for x = -1.25*a .. 1.25*a",
+     .roles = "cbb"},
+    {.name = "dissipation",
+     .title = "energy dissipated per cycle",
+     .summary = "dW against the amplitude, up to gross slip",
+     .statement = "dW(FA) for FA = 0 N .. mu*FN"},
+    {.name = "load",
+     .title = "load path",
+     .summary = "F_x against F_N between the limits of friction",
+     .statement = "Fx, mu*FN, -mu*FN against FN along program",
+     .roles = "ctt"},
+    {.name = "gap",
+     .title = "gap and equivalent profile",
+     .summary = "f(r) and g(x)",
+     .statement = "f(r), g(r) for r = 0 .. 1.25*a"},
+    {.name = "E",
+     .title = "modulus over depth",
+     .summary = "E(z), the depth downward",
+     .statement = "z against E(z) for z = 0 .. 2*c0",
+     .flipy = true},
+    {.name = "accuracy",
+     .title = "error against time",
+     .summary = "of every model, for this scene",
+     .points = true,
+     .build = figure_accuracy},
+};
+enum { FIGURES = sizeof figures / sizeof *figures };
+
+const figure *figure_row(size_t i) {
+    return i < FIGURES ? &figures[i] : NULL;
+}
+
+const char *figure_name(size_t i) {
+    return i < FIGURES ? figures[i].name : NULL;
+}
+
+const figure *figure_find(const char *name, size_t len) {
+    for (size_t i = 0; i < FIGURES; i++)
+        if (strlen(figures[i].name) == len && !memcmp(figures[i].name, name, len))
+            return &figures[i];
+    return NULL;
+}
+
+/* Error against time, one curve a model. */
+bool figure_accuracy(shell *sh, lexer *lx, plot_panel *p) {
+    accuracy_study study;
+    char error[CALC_ERROR_TEXT], text[400], load[360];
+    plot_series *series = NULL;
+    if (!accuracy_study_read(sh, lx, command_find("accuracy", 8), &study))
+        return false;
+    for (size_t i = 0; i < study.count; i++) {
+        const accuracy_row *row = &study.row[i];
+        if (i == 0 || row->family != row[-1].family)
+            series = plot_series_add(p, PLOT_CURVE, strdup(families[row->family].name), error, sizeof error);
+        if (!series || !plot_point(series, row->seconds, (double)row->error))
+            return calc_no_memory(lx->error);
+    }
+    accuracy_load_text(sh, &study, load, sizeof load);
+    snprintf(text, sizeof text, "dW, %s", load);
+    p->title = strdup(text);
+    p->xlabel = strdup("time of a cycle [s]");
+    p->ylabel = strdup("relative error");
+    p->logx = p->logy = p->points = true;
+    return true;
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The one table of figures: each is a plot that could be typed, and how it looks. */
+#ifndef SHELL_FIGURES_H
+#define SHELL_FIGURES_H
+
+#include "plot/plot.h"
+#include "shell/shell.h"
+
+typedef struct figure {
+    const char *name;
+    const char *title;
+    const char *summary;
+    const char *statement; /* EXPR, ... [against EXPR] RANGE; NULL: build makes it */
+    const char *roles;     /* of the expressions: c curve, t thin line, b edge of a band (two of them) */
+    bool flipy, points;
+    /* reads its own arguments */
+    bool (*build)(shell *sh, lexer *lx, plot_panel *p);
+} figure;
+
+const figure *figure_row(size_t i); /* NULL after the last */
+const char *figure_name(size_t i);
+const figure *figure_find(const char *name, size_t len);
+
+/* figures that are no sweep */
+bool figure_accuracy(shell *sh, lexer *lx, plot_panel *p);
+
+#endif

@@ -1,0 +1,443 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* help and apropos: one table of all that has help. Changes nothing. */
+#include "shell/help.h"
+
+#include <string.h>
+
+#include "shell/command.h"
+#include "shell/lines.h"
+#include "shell/output.h"
+#include "shell/presets.h"
+#include "shell/topics.h"
+
+enum { LINE_LABEL = 64, LINE_SUMMARY = 256, HELP_TEXT = 1024 };
+
+/* ---- quantities -------------------------------------------------------------------------------- */
+
+static void quantity_label(size_t i, char *label, char *summary) {
+    const quantity *q = quantity_row(i);
+    snprintf(label, LINE_LABEL, quantity_has_value(q) ? "%s" : "%s(%s)", q->name, q->argument);
+    snprintf(summary, LINE_SUMMARY, "%s", q->title);
+}
+
+static const char *quantity_keywords(size_t i) {
+    return quantity_row(i)->keywords;
+}
+
+static const char *quantity_text(size_t i) {
+    return quantity_row(i)->formulas[0].text;
+}
+
+/* When the formula is used, in words; empty: whatever the scene is. */
+static void when_text(const formula *f, bool others, char *buf, size_t size) {
+    static const struct {
+        unsigned when;
+        const char *text;
+    } words[] = {{WHEN_CALL, "as a function"},     {WHEN_FIRST, "on first loading"},
+                 {WHEN_LATER, "after a reversal"}, {WHEN_HISTORY, "where FN changed"},
+                 {WHEN_POWER, "power-law gap"},    {WHEN_SHAPE, "other gaps"}};
+    *buf = 0;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (f->when & words[i].when) {
+            const size_t n = strlen(buf);
+            snprintf(buf + n, size - n, "%s%s", n ? ", " : "", words[i].text);
+        }
+    if (f->when == WHEN_ALWAYS && others)
+        snprintf(buf, size, "else");
+}
+
+/* What values it takes, where they have a unit. */
+static void dim_line(FILE *to, const char *what, dim d) {
+    char unit_text[128], described[128];
+    if (dim_equal(d, DIM_NONE)) {
+        if (d.rad != 0)
+            fprintf(to, "    %san angle, in deg or rad\n", what);
+        return;
+    }
+    dim_unit(d, unit_text, sizeof unit_text);
+    dim_describe(d, described, sizeof described);
+    fprintf(to, "    %s%s, in %s\n", what, described, unit_text);
+}
+
+static void quantity_help(FILE *to, size_t row) {
+    const quantity *q = quantity_row(row);
+    char text[HELP_TEXT], when[128];
+    fprintf(to, "%s: %s\n", q->name, q->title);
+    for (size_t i = 0; i < FORMULAS && q->formulas[i].text; i++) {
+        const formula *f = &q->formulas[i];
+        when_text(f, i > 0, when, sizeof when);
+        snprintf(text, sizeof text, "%s%s%s%s%s%s", f->text, f->equation ? "  " : "",
+                 f->equation ? f->equation : "", *when ? "  [" : "", when, *when ? "]" : "");
+        fputs("    ", to);
+        help_wrapped(to, text, 4, 8);
+    }
+    dim_line(to, "", quantity_is_input(q) && quantity_input(q) == IN_A ? DIM_NONE : q->d);
+    if (quantity_is_input(q))
+        fprintf(to, "    an input: %s = EXPR sets it, %s := EXPR binds it\n", q->name, q->name);
+    if (!q->call)
+        return;
+    fprintf(to, "    as a function: %s(%s)\n", q->name, q->argument);
+    snprintf(when, sizeof when, "%s is ", q->argument);
+    dim_line(to, when, q->argument_d);
+}
+
+/* ---- commands, settings, models ---------------------------------------------------------------- */
+
+static void command_label(size_t i, char *label, char *summary) {
+    snprintf(label, LINE_LABEL, "%s", command_row(i)->name);
+    snprintf(summary, LINE_SUMMARY, "%s", command_row(i)->summary);
+}
+
+static const char *command_keywords(size_t i) {
+    return command_row(i)->keywords;
+}
+
+static const char *command_text(size_t i) {
+    return command_row(i)->help;
+}
+
+/* Ends with the example: the command's own text, else what its table prints. */
+static void command_help(FILE *to, size_t i) {
+    const command *c = command_row(i);
+    char text[HELP_TEXT];
+    snprintf(text, sizeof text, "%s%s%s", c->name, *c->usage ? " " : "", c->usage);
+    help_wrapped(to, text, 0, 6);
+    fprintf(to, "  %s\n", c->summary);
+    if (c->print) {
+        putc('\n', to);
+        c->print(to);
+    }
+    if (c->help)
+        fprintf(to, "\n%s", c->help);
+}
+
+static void setting_label(size_t i, char *label, char *summary) {
+    snprintf(label, LINE_LABEL, "set %s", setting_row(i)->name);
+    snprintf(summary, LINE_SUMMARY, "%s", setting_row(i)->summary);
+}
+
+static const char *setting_keywords(size_t i) {
+    return setting_row(i)->usage;
+}
+
+static void setting_help(FILE *to, size_t i) {
+    const setting *row = setting_row(i);
+    fprintf(to, "set %s %s\n  %s\n", row->name, row->usage, row->summary);
+}
+
+static const char *model_name(size_t i) {
+    return i < MODELS ? models[i].name : NULL;
+}
+
+static void model_label(size_t i, char *label, char *summary) {
+    snprintf(label, LINE_LABEL, models[i].chosen ? "set model %s" : "%s", models[i].name);
+    snprintf(summary, LINE_SUMMARY, "a model: %s", models[i].title);
+}
+
+static void model_help(FILE *to, size_t i) {
+    if (models[i].chosen)
+        fprintf(to, "set model %s%s\n  answers by: %s\n\n", models[i].name, models[i].count ? " N" : "",
+                models[i].title);
+    else
+        fprintf(to, "%s\n\n", models[i].title);
+    fputs(model_text(i), to);
+}
+
+/* ---- geometries, materials, units, functions --------------------------------------------------- */
+
+static void geometry_label(size_t i, char *label, char *summary) {
+    snprintf(label, LINE_LABEL, "geometry %s", geometry_row(i)->name);
+    snprintf(summary, LINE_SUMMARY, "%s", geometry_row(i)->meaning);
+}
+
+static const char *geometry_keywords(size_t i) {
+    return geometry_row(i)->keywords;
+}
+
+static void geometry_help(FILE *to, size_t i) {
+    const geometry *g = geometry_row(i);
+    fprintf(to, "geometry %s\n  %s\n", g->usage, g->meaning);
+    for (input in = IN_N; in < INPUTS; in++)
+        if (g->allowed & INPUT_BIT(in))
+            fprintf(to, "    %-10s  %s\n", quantity_of_input(in)->name, quantity_of_input(in)->title);
+}
+
+static void preset_label(size_t i, char *label, char *summary) {
+    const preset *p = preset_row(i);
+    snprintf(label, LINE_LABEL, "material %s", p->name);
+    snprintf(summary, LINE_SUMMARY, "E0=%.10g GPa nu=%.10g", p->E0 / 1e9, p->nu);
+}
+
+static const char *preset_source(size_t i) {
+    return preset_row(i)->source;
+}
+
+static void preset_help(FILE *to, size_t i) {
+    char label[LINE_LABEL], summary[LINE_SUMMARY];
+    preset_label(i, label, summary);
+    fprintf(to, "%s\n  %s\n", label, summary);
+    if (preset_row(i)->source) {
+        fputs("  ", to);
+        help_wrapped(to, preset_row(i)->source, 2, 2);
+    }
+}
+
+static void unit_label(size_t i, char *label, char *summary) {
+    snprintf(label, LINE_LABEL, "%s", unit_name(i));
+    snprintf(summary, LINE_SUMMARY, "a unit: %s", unit_meaning(i));
+}
+
+static const char *unit_keywords(size_t i) {
+    (void)i;
+    return "unit";
+}
+
+/* With a prefix too. */
+static void unit_help(FILE *to, const char *word, const unit *u) {
+    char si[128], described[128];
+    dim_unit(u->d, si, sizeof si);
+    if (u->d.rad != 0)
+        snprintf(si, sizeof si, "rad");
+    dim_describe(u->d, described, sizeof described);
+    fprintf(to, "%s: %s; 1 %s = %.10Lg%s%s\n", word, u->d.rad != 0 ? "an angle" : described, word,
+            unit_scale(u), *si ? " " : "", si);
+}
+
+static void builtin_label(size_t i, char *label, char *summary) {
+    snprintf(label, LINE_LABEL, "%s", builtin_name(i));
+    snprintf(summary, LINE_SUMMARY, "%s", builtin_summary(i));
+}
+
+static const char *builtin_keywords(size_t i) {
+    (void)i;
+    return "function";
+}
+
+static void builtin_help(FILE *to, size_t i) {
+    fprintf(to, "%s: %s\n", builtin_name(i), builtin_summary(i));
+}
+
+static void topic_label(size_t i, char *label, char *summary) {
+    snprintf(label, LINE_LABEL, "help %s", topic_row(i)->name);
+    snprintf(summary, LINE_SUMMARY, "%s", topic_row(i)->summary);
+}
+
+static const char *topic_keywords(size_t i) {
+    return topic_row(i)->keywords;
+}
+
+static const char *topic_text(size_t i) {
+    return topic_row(i)->text;
+}
+
+static void topic_help(FILE *to, size_t i) {
+    const topic *t = topic_row(i);
+    if (t->text)
+        fputs(t->text, to);
+    if (t->print)
+        t->print(to);
+}
+
+/* ---- the table --------------------------------------------------------------------------------- */
+
+typedef struct subject {
+    const char *(*name)(size_t i);                       /* ended by NULL */
+    void (*label)(size_t i, char *label, char *summary); /* its line in a list */
+    const char *(*keywords)(size_t i);
+    const char *(*text)(size_t i);    /* searched where nothing else is found */
+    void (*help)(FILE *to, size_t i); /* NULL: by its word, see do_help */
+} subject;
+
+static const subject subjects[] = {
+    {command_name, command_label, command_keywords, command_text, command_help},
+    {topic_name, topic_label, topic_keywords, topic_text, topic_help},
+    {setting_name, setting_label, setting_keywords, NULL, setting_help},
+    {model_name, model_label, NULL, model_text, model_help},
+    {geometry_name, geometry_label, geometry_keywords, NULL, geometry_help},
+    {preset_name, preset_label, preset_source, NULL, preset_help},
+    {quantity_name, quantity_label, quantity_keywords, quantity_text, quantity_help},
+    {builtin_name, builtin_label, builtin_keywords, NULL, builtin_help},
+    {unit_name, unit_label, unit_keywords, NULL, NULL},
+};
+enum { SUBJECTS = sizeof subjects / sizeof *subjects };
+
+const char *help_name(size_t i) {
+    const char *name = NULL;
+    for (size_t s = 0; s < SUBJECTS; s++)
+        for (size_t row = 0; (name = subjects[s].name(row)); row++)
+            if (i-- == 0)
+                return name;
+    return NULL;
+}
+
+void help_settings(FILE *to) {
+    const setting *row;
+    for (size_t i = 0; (row = setting_row(i)); i++)
+        fprintf(to, "    set %s %s\n        %s\n", row->name, row->usage, row->summary);
+}
+
+/* ---- help -------------------------------------------------------------------------------------- */
+
+/* The commands of a group on one line, broken where it is full. */
+static void group_line(FILE *to, const char *group) {
+    enum { GROUP = 18 };
+    char names[HELP_TEXT] = "";
+    const command *c;
+    for (size_t i = 0; (c = command_row(i)); i++)
+        if (!strcmp(c->group ? c->group : "", group)) {
+            const size_t n = strlen(names);
+            snprintf(names + n, sizeof names - n, "%s%s", n ? " " : "", c->name);
+        }
+    fprintf(to, "    %-*s", GROUP - 4, group);
+    help_wrapped(to, names, GROUP, GROUP);
+}
+
+static bool group_seen(size_t row, const char *group) {
+    for (size_t i = 0; i < row; i++) {
+        const char *other = command_row(i)->group;
+        if (!strcmp(other ? other : "", group))
+            return true;
+    }
+    return false;
+}
+
+/* On one screen of 80 by 24. */
+static void overview(FILE *to) {
+    const command *c;
+    char names[HELP_TEXT] = "";
+    fputs("fret: partial-slip contact of power-law graded elastic solids.\n\n"
+          "    NAME = EXPR, ...        set inputs (k = 0.5) or variables of your own\n"
+          "    NAME := EXPR            a live definition, followed wherever NAME is used\n"
+          "    EXPR [in UNIT], ...     print values: a, c/a, dW in uJ, dW at k=0\n\n"
+          "Commands (help COMMAND tells more):\n",
+          to);
+    for (size_t i = 0; (c = command_row(i)); i++)
+        if (!group_seen(i, c->group ? c->group : ""))
+            group_line(to, c->group ? c->group : "");
+    for (size_t i = 0; topic_name(i); i++) {
+        const size_t n = strlen(names);
+        snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "Topics: ", topic_name(i));
+    }
+    help_wrapped(to, names, 0, 8);
+    fputs("help NAME tells of any quantity, unit, geometry, setting or model, such as\n"
+          "`help dW`; apropos WORD finds them by what they are about.\n\n"
+          "Begin with `demo`, or:\n"
+          "    material steel; geometry sphere R=10 mm; friction 0.4\n"
+          "    press FN=100 N; cycle FA=20 N; dW\n",
+          to);
+}
+
+/* A word need not be made of tokens: flat-rounded, %. */
+static void raw_word(lexer *lx, char word[LEX_NAME]) {
+    size_t n = 0;
+    while (lx->at + n < lx->end && !strchr(" \t\r\n", lx->text[lx->at + n]))
+        n++;
+    lx->error->raised = false;
+    lx->len = n;
+    snprintf(word, LEX_NAME, "%.*s", LEX_SHOWN(n), lx->text + lx->at);
+    if (n >= LEX_NAME)
+        *word = 0; /* no name is as long */
+}
+
+/* All that have this name; how many. */
+static size_t help_on(FILE *to, const char *word) {
+    size_t count = 0;
+    const char *name;
+    unit u;
+    for (size_t s = 0; s < SUBJECTS; s++)
+        for (size_t i = 0; subjects[s].help && (name = subjects[s].name(i)); i++)
+            if (!strcmp(name, word)) {
+                if (to && count > 0)
+                    putc('\n', to);
+                if (to)
+                    subjects[s].help(to, i);
+                count++;
+            }
+    if (*word && unit_lookup(word, strlen(word), &u)) {
+        if (to && count > 0)
+            putc('\n', to);
+        if (to)
+            unit_help(to, word, &u);
+        count++;
+    }
+    return count;
+}
+
+bool do_help(shell *sh, lexer *lx, const command *self) {
+    char word[LEX_NAME] = "";
+    text_out t;
+    (void)self;
+    if (lx->kind != T_END) {
+        raw_word(lx, word);
+        if (!help_on(NULL, word)) {
+            const char *near = *word ? suggest(word, help_name) : NULL;
+            return near ? lex_fail(lx, "no help on '%.*s': did you mean %s?", LEX_WORD(lx), near)
+                        : lex_fail(lx, "no help on '%.*s'; try: help", LEX_WORD(lx));
+        }
+        lex_next(lx);
+        if (!at_end(lx))
+            return false;
+    }
+    if (!text_begin(&t, &sh->set, sh->out))
+        return calc_no_memory(lx->error);
+    if (*word)
+        help_on(t.to, word);
+    else
+        overview(t.to);
+    return text_end(&t) || calc_no_memory(lx->error);
+}
+
+/* ---- apropos ----------------------------------------------------------------------------------- */
+
+static bool contains(const char *text, const char *word) {
+    const size_t n = strlen(word);
+    for (; text && *text; text++) {
+        size_t i = 0;
+        while (i < n && text[i] && (text[i] | 0x20) == (word[i] | 0x20))
+            i++;
+        if (i == n)
+            return true;
+    }
+    return false;
+}
+
+static bool is_about(const subject *s, size_t i, const char *word, bool deep) {
+    char label[LINE_LABEL], summary[LINE_SUMMARY];
+    s->label(i, label, summary);
+    return contains(s->name(i), word) || contains(summary, word) ||
+           (s->keywords && contains(s->keywords(i), word)) || (deep && s->text && contains(s->text(i), word));
+}
+
+/* One line each; deep: by their texts too. */
+static size_t list_about(FILE *to, const char *word, bool deep) {
+    enum { LABELS = 10 };
+    size_t count = 0;
+    for (size_t s = 0; s < SUBJECTS; s++)
+        for (size_t i = 0; subjects[s].name(i); i++) {
+            char label[LINE_LABEL], summary[LINE_SUMMARY];
+            if (!is_about(&subjects[s], i, word, deep))
+                continue;
+            subjects[s].label(i, label, summary);
+            fprintf(to, "%-*s  %s\n", LABELS, label, summary);
+            count++;
+        }
+    return count;
+}
+
+bool do_apropos(shell *sh, lexer *lx, const command *self) {
+    char word[LEX_NAME];
+    text_out t;
+    (void)self;
+    if (lx->kind == T_END)
+        return lex_fail(lx, "apropos what? such as: apropos radius");
+    raw_word(lx, word);
+    const size_t at = lx->at, len = lx->len;
+    lex_next(lx);
+    if (!at_end(lx))
+        return false;
+    if (!text_begin(&t, &sh->set, sh->out))
+        return calc_no_memory(lx->error);
+    if (!*word || (!list_about(t.to, word, false) && !list_about(t.to, word, true)))
+        fprintf(t.to, "nothing on '%.*s'\n", LEX_SHOWN(len), lx->text + at);
+    return text_end(&t) || calc_no_memory(lx->error);
+}

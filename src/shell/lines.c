@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines as users type, paste and read them. */
+#include "shell/lines.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const char *strip_prompt(const char *line, size_t *len) {
+    static const char *const prompts[] = {"fret>", "....>"};
+    enum { PROMPT = 5 };
+    size_t i = 0;
+    while (i < *len && (line[i] == ' ' || line[i] == '\t'))
+        i++;
+    for (size_t p = 0; p < sizeof prompts / sizeof *prompts; p++) {
+        if (*len - i < PROMPT || memcmp(line + i, prompts[p], PROMPT))
+            continue;
+        size_t end = i + PROMPT; /* a terminal may have cut the blank off a bare prompt */
+        if (end < *len && line[end] != ' ' && line[end] != '\r')
+            continue;
+        end += end < *len;
+        *len -= end;
+        return line + end;
+    }
+    return line;
+}
+
+static bool digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+const char *decimal_comma(const char *text, size_t len) {
+    int depth = 0;
+    bool quoted = false;
+    for (size_t i = 0; i < len; i++) {
+        const char c = text[i];
+        if (c == '"')
+            quoted = !quoted;
+        else if (!quoted && c == '#')
+            return NULL;
+        else if (!quoted && (c == '(' || c == ')'))
+            depth += c == '(' ? 1 : -1;
+        else if (!quoted && c == ',' && depth == 0 && i > 0 && i + 1 < len && digit(text[i - 1]) &&
+                 digit(text[i + 1]))
+            return text + i;
+    }
+    return NULL;
+}
+
+void list_word(char *buf, size_t size, const char *word, bool last) {
+    const size_t n = strlen(buf);
+    snprintf(buf + n, size - n, "%s%s", !n ? "" : last ? " or " : ", ", word);
+}
+
+void help_wrapped(FILE *to, const char *text, size_t at, size_t indent) {
+    enum { WIDTH = 79 };
+    for (size_t gap = 0; *text;) {
+        const size_t n = strcspn(text, " ");
+        if (gap && at + gap + n > WIDTH) {
+            fprintf(to, "\n%*s", (int)indent, "");
+            at = indent;
+        } else {
+            fprintf(to, "%*s", (int)gap, "");
+            at += gap;
+        }
+        fwrite(text, 1, n, to);
+        at += n;
+        gap = strspn(text + n, " ");
+        text += n + gap;
+    }
+    putc('\n', to);
+}

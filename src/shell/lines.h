@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines as users type, paste and read them. */
+#ifndef SHELL_LINES_H
+#define SHELL_LINES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* What follows the prompt that a pasted line begins with, `fret> ` or `....> `, and its length; without one
+ * the line as it is. Blanks before the prompt go with it. */
+const char *strip_prompt(const char *line, size_t *len);
+
+/* The comma of `1,5 mm`, outside parentheses and quotes: perhaps meant as a decimal point. NULL: none. */
+const char *decimal_comma(const char *text, size_t len);
+
+/* Adds a word to a list as messages have it, "a, b or c"; starts with an empty buf. */
+void list_word(char *buf, size_t size, const char *word, bool last);
+
+/* A text and the end of its line, broken at blanks before column 80. at: the column where it begins; the
+ * lines that follow begin at `indent`. */
+void help_wrapped(FILE *to, const char *text, size_t at, size_t indent);
+
+#endif

@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands of the load program: press, step, cycle, follow, and the ways back. Each reads everything, then changes
+ * everything or nothing. */
+#include <string.h>
+
+#include "calc/csv.h"
+#include "shell/command.h"
+#include "shell/output.h"
+
+/* ---- reports ----------------------------------------------------------------------------------- */
+
+static bool reports(const shell *sh) {
+    return sh->set.report == REPORT_ON || (sh->set.report == REPORT_AUTO && sh->interactive) ||
+           (sh->set.format == FORMAT_JSON && sh->set.report != REPORT_OFF);
+}
+
+static void report_event(shell *sh, const char *event, const char *const *names) {
+    if (!reports(sh))
+        return;
+    const bool json = sh->set.format == FORMAT_JSON;
+    if (json)
+        fprintf(sh->out, "{\"event\":\"%s\"", event);
+    for (bool first = true; *names; names++) {
+        const quantity *q = quantity_find(*names, strlen(*names));
+        calc_error error;
+        value v = {0, q->d};
+        char text[160];
+        error_clear(&error);
+        if (!quantity_get(q, &sh->calc.scene, &v.v, &error))
+            continue;
+        format_value(&sh->set, v, text, sizeof text);
+        if (json)
+            fprintf(sh->out, ",\"%s\":%.17g", *names, (double)v.v);
+        else
+            fprintf(sh->out, "%s%s = %s", first ? "  " : ", ", *names, text);
+        first = false;
+    }
+    fputs(json ? "}\n" : "\n", sh->out);
+}
+
+/* ---- press, step, cycle ------------------------------------------------------------------------ */
+
+static load_by by_of(const char *name) {
+    return *name == 'F' ? BY_FORCE : *name == 'd' ? BY_DISPLACEMENT : BY_RADIUS;
+}
+
+/* What a step or a cycle was given. last: the target that the error of the load belongs to. */
+static void load_of(const arg_list *list, const arg_value v[ARGS], load_step *step, cycle_extra *extra,
+                    const arg_value **last) {
+    *last = NULL;
+    for (const arg *a = list->args; a->kind; a++) {
+        const arg_value *x = &v[a - list->args];
+        if (!x->given)
+            continue;
+        if (a->kind == ARG_COUNT) {
+            *(a->name[0] == 's' ? &step->points : &extra->times) = x->count;
+        } else if (a->group == GROUP_TANGENTIAL) {
+            step->tangential = (unsigned char)by_of(a->name);
+            step->tangential_value = (double)x->v.v;
+            step->relative |= x->increment ? RELATIVE_TANGENTIAL : 0;
+        } else if (a->group == GROUP_NORMAL) {
+            step->normal = (unsigned char)by_of(a->name);
+            step->normal_value = (double)x->v.v;
+            step->relative |= x->increment ? RELATIVE_NORMAL : 0;
+        } else {
+            *(a->in == 1 + IN_PHASE ? &extra->phase : &step->normal_value) = (double)x->v.v;
+        }
+        if (a->group && (!*last || x->at > (*last)->at))
+            *last = x;
+    }
+}
+
+/* A live amplitude has its value in the scene as it is. */
+static bool live_values(shell *sh, lexer *lx, const arg_list *list, arg_value v[ARGS]) {
+    for (const arg *a = list->args; a->kind; a++) {
+        arg_value *x = &v[a - list->args];
+        if (!x->live)
+            continue;
+        if (!definition_value(&sh->calc, (definition *)x->live, &x->v, lx->error) ||
+            !value_dim(lx, a->name, x->value_at, x->value_len, x->v, quantity_of_input((input)(a->in - 1))->d))
+            return arg_place(lx->error, x);
+        fret_status st = input_status((input)(a->in - 1), (double)x->v.v);
+        if (!calc_input_status(lx->error, a->in - 1, &st))
+            return arg_place(lx->error, x);
+    }
+    return true;
+}
+
+static bool read_targets(shell *sh, lexer *lx, const command *self, arg_value v[ARGS], load_step *step,
+                         cycle_extra *extra, const arg_value **last) {
+    const arg_list list = command_args(self);
+    const bool cycle = self->run == do_cycle;
+    *step = (load_step){.kind = cycle ? LOAD_CYCLE : LOAD_STEP};
+    *extra = (cycle_extra){.times = 1};
+    if (!args_read_some(sh, lx, &list, v, NULL)) {
+        args_drop(&list, v);
+        return false;
+    }
+    bool ok = live_values(sh, lx, &list, v);
+    load_of(&list, v, step, extra, last);
+    if (ok && (cycle ? !step->tangential : !step->tangential && !step->normal))
+        ok = lex_fail(lx, "%s usage: %s %s", cycle ? "cycle by what amplitude?" : "step to where?",
+                      self->name, self->usage);
+    if (!ok)
+        args_drop(&list, v);
+    return ok;
+}
+
+bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]) {
+    const command *c = command_find(lx->text + lx->at, lx->len);
+    arg_value v[ARGS];
+    const arg_value *last;
+    lex_next(lx);
+    if (!read_targets(sh, lx, c, v, step, extra, &last))
+        return false;
+    for (const arg *a = c->args; a->kind; a++)
+        if (v[a - c->args].live)
+            bound[a->in - 1] = v[a - c->args].live;
+    return true;
+}
+
+bool do_press(shell *sh, lexer *lx, const command *self) {
+    static const char *const names[] = {"FN", "a", "dz", NULL};
+    const arg_list list = command_args(self);
+    arg_value v[ARGS];
+    if (!at_argument(lx))
+        return lex_fail(lx, "press by what? usage: %s %s", self->name, self->usage);
+    if (!args_read(sh, lx, &list, v, NULL))
+        return false;
+    size_t i = 0;
+    while (!v[i].given)
+        i++;
+    const load_step step = {.kind = LOAD_PRESS,
+                            .normal = (unsigned char)by_of(self->args[i].name),
+                            .normal_value = (double)v[i].v.v};
+    if (!scene_load(&sh->calc.scene, &step, NULL, lx->error)) {
+        const char *of = lx->error->kind == ERROR_STATUS ? lx->error->status.quantity : NULL;
+        return of && !strcmp(of, self->args[i].name) ? arg_place(lx->error, &v[i]) : false;
+    }
+    report_event(sh, "press", names);
+    return true;
+}
+
+bool do_step(shell *sh, lexer *lx, const command *self) {
+    static const char *const names[] = {"Fx", "dx", "c", NULL}, *const oblique[] = {"FN", "Fx", "dx", "c", NULL};
+    arg_value v[ARGS];
+    load_step step;
+    cycle_extra extra;
+    const arg_value *last;
+    if (!read_targets(sh, lx, self, v, &step, &extra, &last) || !at_end(lx))
+        return false;
+    if (!scene_load(&sh->calc.scene, &step, NULL, lx->error))
+        return arg_place(lx->error, last);
+    if (reports(sh)) /* a step may wait until it is asked for */
+        report_event(sh, "step", step.normal ? oblique : names);
+    return true;
+}
+
+static void bind_all(inputs *in, void *context) {
+    counted **bound = context;
+    for (input i = 0; i < INPUTS; i++)
+        if (bound[i])
+            inputs_bind(in, i, counted_hold(bound[i]));
+}
+
+bool do_cycle(shell *sh, lexer *lx, const command *self) {
+    static const char *const names[] = {"dW", "Fx", "dx", "c", NULL};
+    arg_value v[ARGS];
+    load_step step;
+    cycle_extra extra;
+    const arg_value *last;
+    const arg_list list = command_args(self);
+    counted *bound[INPUTS] = {NULL};
+    bool live = false;
+    if (!read_targets(sh, lx, self, v, &step, &extra, &last))
+        return false;
+    bool ok = at_end(lx) &&
+              (scene_load(&sh->calc.scene, &step, &extra, lx->error) || arg_place(lx->error, last));
+    for (const arg *a = self->args; ok && a->kind; a++)
+        if (v[a - self->args].live) {
+            bound[a->in - 1] = v[a - self->args].live;
+            live = true;
+        }
+    if (ok && live)
+        ok = scene_edit(&sh->calc.scene, bind_all, bound, lx->error);
+    args_drop(&list, v);
+    if (ok)
+        report_event(sh, "cycle", names);
+    return ok;
+}
+
+/* ---- follow ------------------------------------------------------------------------------------ */
+
+/* What the columns of a history may be. */
+static const struct {
+    const char *name[2];
+    unsigned char by;
+    dim d;
+    const char *example;
+} columns_of[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0, 0}, "FN [N],Fx [N]"},
+                  {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1, 0}, "dz [um],dx [um]"}};
+
+/* Rows become steps; the first one presses where nothing is pressed yet. */
+static bool follow_rows(shell *sh, const csv *data, int kind, const char *name, calc_error *error) {
+    scene *s = &sh->calc.scene;
+    load_step step = {.kind = LOAD_STEP, .normal = columns_of[kind].by, .tangential = columns_of[kind].by};
+    size_t row = 0;
+    if (!s->end.steps) {
+        const load_step press = {
+            .kind = LOAD_PRESS, .normal = columns_of[kind].by, .normal_value = data->column[0][0]};
+        if (!(data->column[0][0] > 0) || data->column[1][0] != 0)
+            return calc_fail(
+                error, 0, 0,
+                "%s: there is no load yet: press first, or begin with a row that presses (%s > 0, %s = 0)", name,
+                data->name[0], data->name[1]);
+        if (!scene_load(s, &press, NULL, error))
+            return false;
+        row = 1;
+    }
+    for (; row < data->count; row++) {
+        step.normal_value = data->column[0][row];
+        step.tangential_value = data->column[1][row];
+        bool ok = scene_load(s, &step, NULL, error);
+        if (ok && shell_stop)
+            ok = calc_interrupted(error);
+        if (!ok && !error->stop)
+            calc_append(&sh->calc, error, " (row %zu of %.200s)", row + 1, name);
+        if (!ok)
+            return false;
+    }
+    return true;
+}
+
+static bool follow(shell *sh, const csv *data, const char *name, calc_error *error) {
+    const int kind = strcmp(data->name[0], "FN") ? 1 : 0;
+    scene_mark before;
+    double mu;
+    if (strcmp(data->name[0], columns_of[kind].name[0]) || strcmp(data->name[1], columns_of[kind].name[1]))
+        return calc_fail(error, 0, 0, "%s: the columns must be FN,Fx or dz,dx, not %s,%s", name, data->name[0],
+                         data->name[1]);
+    if (!dim_equal(data->d[0], columns_of[kind].d) || !dim_equal(data->d[1], columns_of[kind].d))
+        return calc_fail(error, 0, 0, "%s: the columns need units in the header, such as %s", name,
+                         columns_of[kind].example);
+    if (!scene_friction(&sh->calc.scene, &mu, error))
+        return false;
+    scene_save(&sh->calc.scene, &before, false);
+    if (!follow_rows(sh, data, kind, name, error)) {
+        scene_back(&sh->calc.scene, &before);
+        return false;
+    }
+    scene_drop(&before);
+    return true;
+}
+
+bool do_follow(shell *sh, lexer *lx, const command *self) {
+    static const char *const names[] = {"FN", "Fx", "dx", "c", NULL};
+    const arg_list list = command_args(self);
+    char name[ARG_FILE_NAME];
+    arg_value v[ARGS];
+    csv data;
+    if (!args_read(sh, lx, &list, v, name))
+        return false;
+    bool ok = csv_read(name, &data, lx->error);
+    if (ok) {
+        ok = follow(sh, &data, name, lx->error);
+        csv_free(&data);
+    }
+    if (!ok) {
+        lx->error->at = v[0].value_at;
+        lx->error->len = v[0].value_len;
+        return false;
+    }
+    report_event(sh, "follow", names);
+    return true;
+}
+
+/* ---- the ways back ----------------------------------------------------------------------------- */
+
+bool do_reset(shell *sh, lexer *lx, const command *self) {
+    const arg_list list = command_args(self);
+    arg_value v[ARGS];
+    if (!args_read(sh, lx, &list, v, NULL))
+        return false;
+    scene_reset(&sh->calc.scene, v[0].given);
+    return true;
+}
+
+bool do_undo(shell *sh, lexer *lx, const command *self) {
+    (void)self;
+    return at_end(lx) && (calc_undo(&sh->calc) || lex_fail(lx, "there is nothing to take back"));
+}

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading ranges. */
+#include "shell/range.h"
+
+#include <string.h>
+
+/* ---- names ------------------------------------------------------------------------------------- */
+
+static bool wake(shell *sh, const lexer *lx, range_names *out) {
+    own_names *n = &sh->calc.names;
+    size_t i;
+    const char *text = lx->text + lx->at;
+    if (quantity_find(text, lx->len) || name_taken(text, lx->len) || names_find(n, text, lx->len, &i))
+        return true;
+    if (!names_add(n, text, lx->len, &i))
+        return calc_no_memory(lx->error);
+    if (i < out->count && out->woken_count < sizeof out->woken / sizeof *out->woken)
+        out->woken[out->woken_count++] = i;
+    n->row[i].known = true;
+    return true;
+}
+
+bool range_names_find(shell *sh, lexer *lx, range_names *out, bool *found) {
+    calc_error ignored;
+    lexer scan = *lx;
+    error_clear(&ignored);
+    scan.error = &ignored;
+    *out = (range_names){.count = sh->calc.names.count};
+    *found = false;
+    while (scan.kind != T_END && !ignored.raised) {
+        const bool by_name = lex_is(&scan, "for"), along = lex_is(&scan, "along"), with = lex_is(&scan, "with");
+        lex_next(&scan);
+        *found = *found || ((by_name || along) && scan.kind == T_NAME);
+        if ((by_name || with) && scan.kind == T_NAME && scan.len < LEX_NAME && !wake(sh, &scan, out))
+            return calc_no_memory(lx->error);
+    }
+    return true;
+}
+
+void range_forget(shell *sh, const range_names *names) {
+    names_drop(&sh->calc.names, names->count);
+    for (size_t i = 0; i < names->woken_count; i++)
+        sh->calc.names.row[names->woken[i]].known = false;
+}
+
+/* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
+
+static bool read_bound(calc *c, lexer *lx, const knob *var, bool first, dim *d, long double *out) {
+    value v;
+    const size_t at = lx->at;
+    if (!expr_value(c, lx, &v))
+        return false;
+    if (first)
+        *d = var->is_input ? quantity_dim(quantity_of_input(var->in), c->now) : v.d;
+    if (!first && !var->is_input && dim_equal(*d, DIM_NONE))
+        *d = v.d; /* 0 .. 3 mm */
+    *out = v.v;
+    return value_dim(lx, var->text, at, lx->last - at, v, *d);
+}
+
+static bool read_ends(calc *c, lexer *lx, const knob *var, sweep_range *out) {
+    if (!read_bound(c, lx, var, true, &out->d, &out->lo))
+        return false;
+    if (lx->kind != T_RANGE)
+        return lex_fail(lx, "expected .. between the two ends of the sweep");
+    lex_next(lx);
+    return read_bound(c, lx, var, false, &out->d, &out->hi);
+}
+
+/* The range where a curve sees it. */
+static bool evaluate_range(const sweep *s, sweep_range *out, calc_error *error) {
+    const range *r = s->context;
+    lexer lx = *r->statement;
+    lx.error = error;
+    lex_seek(&lx, r->at);
+    if (!s->along)
+        return read_ends(&r->sh->calc, &lx, &s->var, out);
+    return s->what != ALONG_LOAD || read_load(r->sh, &lx, &out->step, &out->extra, out->bound);
+}
+
+static bool read_name(calc *c, lexer *lx, knob *out) {
+    if (!knob_read(c, lx, out))
+        return false;
+    if (lx->kind != T_ASSIGN)
+        return lex_fail(lx, "expected = after %s", out->text);
+    lex_next(lx);
+    return true;
+}
+
+static bool read_along(shell *sh, lexer *lx, range *out) {
+    sweep *s = &out->sweep;
+    sweep_range load = {.lo = 0};
+    s->along = true;
+    out->at = lx->at;
+    if (lex_accept(lx, "program")) {
+        s->what = ALONG_PROGRAM;
+        return true;
+    }
+    if (lex_is(lx, "cycle") && lex_peek(lx) != T_NAME) {
+        s->what = ALONG_CYCLE;
+        lex_next(lx);
+        return true;
+    }
+    if (lex_is(lx, "cycle")) {
+        /* `along cycle steps 40` is the last period, `along cycle FA=..` a load */
+        lexer ahead = *lx;
+        lex_next(&ahead);
+        s->what = at_argument(&ahead) ? ALONG_LOAD : ALONG_CYCLE;
+        if (s->what == ALONG_CYCLE) {
+            lex_next(lx);
+            return true;
+        }
+    } else if (lex_is(lx, "step")) {
+        s->what = ALONG_LOAD;
+    } else {
+        return lex_fail(lx, "along what? program, cycle, step ... or cycle ...");
+    }
+    bool ok = read_load(sh, lx, &load.step, &load.extra, load.bound);
+    if (ok && load.step.points)
+        s->steps = load.step.points;
+    for (input in = 0; in < INPUTS; in++)
+        counted_drop(load.bound[in]);
+    return ok;
+}
+
+bool range_read_with(shell *sh, lexer *lx, sweep *s) {
+    if (!lex_accept(lx, "with"))
+        return !lx->error->raised;
+    if (!read_name(&sh->calc, lx, &s->with))
+        return false;
+    do {
+        if (s->curves == SWEEP_VALUES)
+            return lex_fail(lx, "more than %d values", SWEEP_VALUES);
+        if (s->curves)
+            lex_next(lx);
+        if (!read_bound(&sh->calc, lx, &s->with, s->curves == 0, &s->with.d, &s->value[s->curves]))
+            return false;
+        s->curves++;
+    } while (lx->kind == T_COMMA);
+    return !lx->error->raised;
+}
+
+static bool read_options(shell *sh, lexer *lx, sweep *s) {
+    for (;;) {
+        unsigned steps;
+        if (lex_accept(lx, "steps")) {
+            if (!read_count(&sh->calc, lx, "steps", RANGE_STEPS, &steps))
+                return false;
+            s->steps = steps;
+        } else if (!s->along && lex_accept(lx, "log")) {
+            s->log = true;
+        } else if (lex_is(lx, "with")) {
+            if (!range_read_with(sh, lx, s))
+                return false;
+        } else {
+            return !lx->error->raised;
+        }
+    }
+}
+
+bool range_read(shell *sh, lexer *lx, range *out, size_t steps) {
+    sweep *s = &out->sweep;
+    sweep_range ends = {.lo = 0};
+    *out = (range){.sweep = {.steps = steps, .range = evaluate_range}, .sh = sh, .statement = lx};
+    s->context = out;
+    if (lex_accept(lx, "along"))
+        return read_along(sh, lx, out) && read_options(sh, lx, s);
+    if (!lex_accept(lx, "for"))
+        return lex_fail(lx, "expected for VAR = LO .. HI");
+    if (!read_name(&sh->calc, lx, &s->var))
+        return false;
+    out->at = lx->at;
+    if (!read_ends(&sh->calc, lx, &s->var, &ends))
+        return false;
+    s->var.d = ends.d;
+    const size_t at = lx->at;
+    if (!read_options(sh, lx, s))
+        return false;
+    return !s->log || (ends.lo > 0 && ends.hi > 0) ||
+           calc_fail(lx->error, at, 1, "a logarithmic sweep needs positive ends");
+}

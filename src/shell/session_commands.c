@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands on the session itself: scripts, the demo, the end. */
+#include <errno.h>
+#include <string.h>
+
+#include "shell/command.h"
+
+bool do_source(shell *sh, lexer *lx, const command *self) {
+    enum { NESTING = 16 };
+    char name[ARG_FILE_NAME];
+    const arg_list list = command_args(self);
+    arg_value v[ARGS];
+    if (!args_read(sh, lx, &list, v, name))
+        return false;
+    if (sh->nesting == NESTING)
+        return calc_fail(lx->error, v[0].value_at, 1, "scripts are nested more than %d deep", NESTING);
+    FILE *in = shell_open(name);
+    if (!in)
+        return calc_fail(lx->error, v[0].value_at, v[0].value_len, "cannot read %s: %s", name, strerror(errno));
+    sh->nesting++;
+    int status = shell_stream(sh, in, name, false);
+    sh->nesting--;
+    fclose(in);
+    return status == EXIT_OK;
+}
+
+const char demo_text[] = "# Two steel bodies that grow stiffer with depth, a sphere on a flat, R = 10 mm\n"
+                         "material E0=210 GPa nu=0.3 k=0.5 c0=1 mm\n"
+                         "geometry sphere R=10 mm\n"
+                         "friction 0.4\n"
+                         "# Pressed with 100 N: contact radius and indentation depth\n"
+                         "press FN=100 N\n"
+                         "a, dz\n"
+                         "# Pushed sideways with half of what friction holds: rim slips, middle sticks\n"
+                         "step Fx=20 N\n"
+                         "c, c/a, Fx, dx\n"
+                         "# A full cycle: the energy lost, in closed form and along the way\n"
+                         "cycle FA=20 N\n"
+                         "dW, dW(20 N)\n"
+                         "# The same with homogeneous bodies: everything is computed anew\n"
+                         "k = 0\n"
+                         "a, c, dW\n"
+                         "k = 0.5\n"
+                         "# Close to gross slip the loop is widest\n"
+                         "cycle FA=39 N\n"
+                         "dW\n"
+                         "plot loop\n";
+
+/* In a session of its own: the user's stays as it is. */
+bool do_demo(shell *sh, lexer *lx, const command *self) {
+    (void)self;
+    if (!at_end(lx))
+        return false;
+    shell own;
+    shell_init(&own, sh->out, sh->err);
+    own.set = sh->set;
+    own.set.report = REPORT_OFF;
+    bool ok = true;
+    for (const char *line = demo_text; *line && ok && !shell_stop; line += strcspn(line, "\n") + 1) {
+        const size_t n = strcspn(line, "\n");
+        const bool comment = *line == '#';
+        if (sh->set.format == FORMAT_TEXT)
+            fprintf(sh->out, comment ? "\n%.*s\n" : "fret> %.*s\n", (int)n, line);
+        ok = comment || shell_statement(&own, line, n, lx->error);
+    }
+    if (!ok) {
+        calc_word(&own.calc, lx->error);
+        lx->error->at = lx->error->len = 0;
+    }
+    sh->calc.scene.used |= own.calc.scene.used;
+    shell_free(&own);
+    return ok;
+}
+
+bool do_quit(shell *sh, lexer *lx, const command *self) {
+    (void)self;
+    if (!at_end(lx))
+        return false;
+    sh->quit = true;
+    return true;
+}

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of settings, and reading and showing them. Touches the settings and the scene's choice of a
+ * model. */
+#include "shell/settings.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "shell/cursor.h"
+#include "shell/lines.h"
+
+/* ---- neither a word nor a number --------------------------------------------------------------- */
+
+/* 80x24 reads as the number 80 and the name x24. */
+static bool parse_plot(calc *c, settings *set, lexer *lx) {
+    enum { LEAST_WIDTH = 20, LEAST_HEIGHT = 8, SIZE = 30 };
+    char text[SIZE + 1];
+    int width = 0, height = 0, used = 0;
+    (void)c;
+    if (!lex_accept(lx, "auto")) {
+        const size_t left = lx->end - lx->at;
+        snprintf(text, sizeof text, "%.*s", (int)(left < SIZE ? left : SIZE), lx->text + lx->at);
+        if (sscanf(text, "%4dx%4d%n", &width, &height, &used) != 2 || width < LEAST_WIDTH ||
+            height < LEAST_HEIGHT)
+            return lex_fail(lx, "expected a size such as 80x24 (at least %dx%d), or auto", LEAST_WIDTH,
+                            LEAST_HEIGHT);
+        lx->len = (size_t)used;
+        lex_next(lx);
+    }
+    if (!at_end(lx))
+        return false;
+    set->plot_width = width;
+    set->plot_height = height;
+    return true;
+}
+
+static void show_plot(const calc *c, const settings *set, FILE *to) {
+    (void)c;
+    if (set->plot_width)
+        fprintf(to, "%dx%d", set->plot_width, set->plot_height);
+    else
+        fputs("auto", to);
+}
+
+static bool parse_model(calc *c, settings *set, lexer *lx) {
+    enum { MOST_SPRINGS = 10000000 };
+    model_id id = 0, last = 0;
+    unsigned count = 0;
+    (void)set;
+    const bool automatic = lex_accept(lx, "auto");
+    for (id = 0; !automatic && id < MODELS; id++)
+        if (models[id].chosen && lex_accept(lx, models[id].name))
+            break;
+    if (!automatic && id == MODELS) {
+        char list[CALC_ERROR_TEXT / 2] = "auto";
+        for (id = 0; id < MODELS; id++)
+            if (models[id].chosen)
+                last = id;
+        for (id = 0; id < MODELS; id++)
+            if (models[id].chosen)
+                list_word(list, sizeof list, models[id].name, id == last);
+        return lex_fail(lx, "expected %s", list);
+    }
+    if (!automatic && models[id].count && !read_count(c, lx, models[id].count, MOST_SPRINGS, &count))
+        return false;
+    if (!at_end(lx))
+        return false;
+    scene_set_model(&c->scene, automatic, automatic ? MODEL_CLOSED : id, count);
+    return true;
+}
+
+static void show_model(const calc *c, const settings *set, FILE *to) {
+    const scene *s = &c->scene;
+    (void)set;
+    fputs(s->automatic ? "auto" : models[s->model].name, to);
+    if (!s->automatic && models[s->model].count)
+        fprintf(to, " %u", s->springs);
+}
+
+/* ---- the table --------------------------------------------------------------------------------- */
+
+static const char *const formats[] = {"text", "csv", "json", NULL},
+                         *const reports[] = {"auto", "off", "on", NULL},
+                         *const switches[] = {"off", "on", NULL};
+
+static const setting rows[] = {
+    {.name = "format",
+     .usage = "text|csv|json",
+     .summary = "how answers and tables are written; JSON: an object a line",
+     .words = formats,
+     .at = offsetof(settings, format)},
+    {.name = "digits",
+     .usage = "N",
+     .summary = "significant digits of numbers as text, 1 to 17",
+     .most = 17,
+     .at = offsetof(settings, digits)},
+    {.name = "report",
+     .usage = "auto|on|off",
+     .summary = "what press, step and cycle tell of themselves; auto: at the prompt",
+     .words = reports,
+     .at = offsetof(settings, report)},
+    {.name = "timing",
+     .usage = "on|off",
+     .summary = "the time of each statement, and the models that answered",
+     .words = switches,
+     .at = offsetof(settings, timing)},
+    {.name = "model",
+     .usage = "auto|closed|memory|springs N",
+     .summary = "what answers for tangential loads; auto: the cheapest that is exact",
+     .parse = parse_model,
+     .show = show_model},
+    {.name = "plot",
+     .usage = "WxH|auto",
+     .summary = "size of a plot in the terminal, in characters; auto: all of it",
+     .parse = parse_plot,
+     .show = show_plot},
+};
+enum { SETTINGS = sizeof rows / sizeof *rows };
+
+const setting *setting_row(size_t i) {
+    return i < SETTINGS ? &rows[i] : NULL;
+}
+
+const char *setting_name(size_t i) {
+    return i < SETTINGS ? rows[i].name : NULL;
+}
+
+/* ---- by the table ------------------------------------------------------------------------------ */
+
+static bool read_word(const setting *row, lexer *lx, int *out) {
+    char list[CALC_ERROR_TEXT / 2] = "";
+    for (int i = 0; row->words[i]; i++)
+        if (lex_accept(lx, row->words[i])) {
+            *out = i;
+            return true;
+        }
+    for (int i = 0; row->words[i]; i++)
+        list_word(list, sizeof list, row->words[i], !row->words[i + 1]);
+    return lex_fail(lx, "expected %s", list);
+}
+
+bool setting_read(calc *c, settings *set, lexer *lx) {
+    const setting *row = rows;
+    while (row < rows + SETTINGS && !lex_is(lx, row->name))
+        row++;
+    if (row == rows + SETTINGS) {
+        char list[CALC_ERROR_TEXT / 2] = "";
+        for (size_t i = 0; i < SETTINGS; i++)
+            list_word(list, sizeof list, rows[i].name, i + 1 == SETTINGS);
+        return lex_fail(lx, "expected %s", list);
+    }
+    lex_next(lx);
+    if (row->parse)
+        return row->parse(c, set, lx);
+    int choice = 0;
+    unsigned count = 0;
+    if (row->words ? !read_word(row, lx, &choice)
+                   : !read_count(c, lx, row->name, (unsigned)row->most, &count))
+        return false;
+    if (!at_end(lx))
+        return false;
+    choice = row->words ? choice : (int)count;
+    memcpy((char *)set + row->at, &choice, sizeof choice);
+    return true;
+}
+
+void setting_show(const setting *row, const calc *c, const settings *set, FILE *to) {
+    int v = 0;
+    fprintf(to, "set %s ", row->name);
+    if (!row->show)
+        memcpy(&v, (const char *)set + row->at, sizeof v);
+    if (row->show)
+        row->show(c, set, to);
+    else if (row->words)
+        fputs(row->words[v], to);
+    else
+        fprintf(to, "%d", v);
+    fputc('\n', to);
+}

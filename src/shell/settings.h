@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The one table of settings: `set`, `show settings`, completion and help derive from it. */
+#ifndef SHELL_SETTINGS_H
+#define SHELL_SETTINGS_H
+
+#include <stdio.h>
+
+#include "calc/calc.h"
+
+typedef enum output_format { FORMAT_TEXT, FORMAT_CSV, FORMAT_JSON } output_format;
+typedef enum report_when { REPORT_AUTO, REPORT_OFF, REPORT_ON } report_when;
+
+typedef struct settings {
+    int format;
+    int digits;
+    int report; /* auto: at the prompt only */
+    int timing;
+    bool color;
+    int plot_width, plot_height; /* 0: the terminal's, or the picture's default */
+    double plot_timeout;
+} settings;
+
+typedef struct setting {
+    const char *name;
+    const char *usage; /* what may follow */
+    const char *summary;
+    const char *const *words; /* a choice among these, ended by NULL; or NULL */
+    int most;                 /* of a whole number from 1, where there are no words */
+    size_t at;                /* an int of settings that holds either */
+    /* where it is neither; the model belongs to the scene */
+    bool (*parse)(calc *c, settings *set, lexer *lx);
+    void (*show)(const calc *c, const settings *set, FILE *to);
+} setting;
+
+const setting *setting_row(size_t i); /* NULL after the last */
+const char *setting_name(size_t i);
+/* `NAME VALUE` at the cursor; on error nothing has changed. */
+bool setting_read(calc *c, settings *set, lexer *lx);
+void setting_show(const setting *row, const calc *c, const settings *set, FILE *to);
+
+#endif

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files of tables. */
+#include "shell/target.h"
+
+#include <string.h>
+
+/* Forms by their endings. */
+static const struct {
+    const char *ending;
+    int format;
+    bool blocks;
+} forms[] = {{".csv", FORMAT_CSV, false}, {".json", FORMAT_JSON, false}, {".txt", FORMAT_TEXT, true},
+             {".dat", FORMAT_TEXT, true}};
+
+static bool choose_form(lexer *lx, const char *name, target *t) {
+    const char *base = strrchr(name, '/'), *dot = strrchr(base ? base : name, '.');
+    if (!strncmp(name, "/dev/", 5))
+        return true;
+    for (size_t i = 0; dot && i < sizeof forms / sizeof *forms; i++)
+        if (!strcmp(dot, forms[i].ending)) {
+            t->format = forms[i].format;
+            t->blocks = forms[i].blocks;
+            return true;
+        }
+    return calc_fail(lx->error, t->at, t->len,
+                     "cannot tell the form of a table from '%s': use .csv, .json, .txt or .dat", name);
+}
+
+bool target_open(shell *sh, lexer *lx, target *t) {
+    char name[ARG_FILE_NAME], error[CALC_ERROR_TEXT];
+    *t = (target){.to = sh->out, .format = sh->set.format};
+    if (!lex_accept(lx, "to"))
+        return at_end(lx);
+    t->at = lx->at;
+    if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
+        return false;
+    t->len = lx->last - t->at;
+    if (!choose_form(lx, name, t))
+        return false;
+    if (!file_out_open(&t->file, name, &shell_stop, error, sizeof error))
+        return calc_fail(lx->error, t->at, t->len, "%s", error);
+    t->to = t->file.to;
+    return true;
+}
+
+void target_report(shell *sh, const char *name, const file_report *r) {
+    char size[16];
+    if (r->direct || sh->set.report == REPORT_OFF)
+        return;
+    file_size_text(r->size, size);
+    shell_note(sh, "%s %s (%s)", r->overwrote ? "overwrote" : "wrote", name, size);
+}
+
+bool target_close(shell *sh, lexer *lx, target *t, bool ok) {
+    char error[CALC_ERROR_TEXT], name[ARG_FILE_NAME];
+    file_report report;
+    if (!t->file.to)
+        return ok;
+    snprintf(name, sizeof name, "%s", t->file.name);
+    if (!file_out_close(&t->file, ok, &report, error, sizeof error))
+        return calc_fail(lx->error, t->at, t->len, "%s", error);
+    if (ok)
+        target_report(sh, name, &report);
+    return ok;
+}

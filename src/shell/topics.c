@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Topics of help: one row each. Touches nothing. */
+#include "shell/topics.h"
+
+#include <string.h>
+
+#include "calc/expr.h"
+#include "shell/lines.h"
+
+/* ---- from tables ------------------------------------------------------------------------------- */
+
+void help_units(FILE *to) {
+    fputs("After a number, with or without a space (210 GPa, 0.3N/mm^2), and after `in`.\n"
+          "Those marked * take the prefixes n u \xc2\xb5 m k M G.\n",
+          to);
+    for (size_t i = 0; unit_name(i); i++)
+        fprintf(to, "    %-5s%c  %s\n", unit_name(i), unit_prefixed(i) ? '*' : ' ', unit_meaning(i));
+}
+
+static void functions(FILE *to) {
+    for (size_t i = 0; builtin_name(i); i++)
+        fprintf(to, "    %-10s  %s\n", builtin_name(i), builtin_summary(i));
+}
+
+static void quantity_line(FILE *to, const quantity *q, bool call) {
+    char name[LEX_NAME];
+    snprintf(name, sizeof name, call ? "%s(%s)" : "%s", q->name, q->argument);
+    fprintf(to, "    %-10s  ", name);
+    help_wrapped(to, q->title, 16, 16);
+}
+
+static void quantities(FILE *to) {
+    const quantity *q;
+    fputs("Inputs (NAME = EXPR sets them, NAME := EXPR binds them):\n", to);
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        if (quantity_is_input(q))
+            quantity_line(to, q, false);
+    fputs("Results:\n", to);
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        if (!quantity_is_input(q) && quantity_has_value(q))
+            quantity_line(to, q, false);
+    fputs("Functions of the scene:\n", to);
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        if (q->call)
+            quantity_line(to, q, true);
+}
+
+/* ---- the paper --------------------------------------------------------------------------------- */
+
+/* Its equations in order, with what no formula of a quantity says. */
+static const struct {
+    const char *number, *text;
+} equations[] = {
+    {"(1)", NULL},
+    {"(3)", "g(x) from f(r), an Abel transform; fields by its inverse"},
+    {"(4)", NULL},
+    {"(5)", NULL},
+    {"(6)", NULL},
+    {"(7)", NULL},
+    {"(8)", NULL},
+    {"(9)", NULL},
+    {"(10)", NULL},
+    {"(11)", NULL},
+    {"(12)", NULL},
+    {"(13)", NULL},
+    {"(14)", NULL},
+    {"(15)", NULL},
+    {"(16)", NULL},
+    {"(17)", NULL},
+    {"(18)", NULL},
+    {"(19)", "which springs stick in a step: step, cycle, follow"},
+    {"(20)", NULL},
+    {"(21)", "the area of the hysteresis loop: plot loop, and W over a cycle"},
+    {"(22)", NULL},
+    {"(23)", NULL},
+    {"(26)", NULL},
+    {"(27)", NULL},
+    {"(28)", "(27) for a sphere and k = 0, by Mindlin and Deresiewicz: dW there"},
+    {"(A1)", NULL},
+    {"(A2)", NULL},
+    {"(A3)", NULL},
+};
+enum { EQUATIONS = sizeof equations / sizeof *equations };
+
+static bool quotes(const quantity *q, const char *number) {
+    for (size_t j = 0; j < FORMULAS && q->formulas[j].text; j++)
+        if (q->formulas[j].equation && strstr(q->formulas[j].equation, number))
+            return true;
+    return false;
+}
+
+/* The first formula of a result with this number alone, else the first that mentions it. */
+static const char *formula_of(const char *number) {
+    const quantity *q;
+    const char *mentions = NULL;
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        for (size_t j = 0; j < FORMULAS && q->formulas[j].text; j++) {
+            const formula *f = &q->formulas[j];
+            if (f->equation && q->of != OF_INPUT && !strcmp(f->equation, number))
+                return f->text;
+            if (f->equation && !mentions && strstr(f->equation, number))
+                mentions = f->text;
+        }
+    return mentions;
+}
+
+static void equation(FILE *to, const char *number, const char *text) {
+    char names[512] = "";
+    const quantity *q;
+    fprintf(to, "%-5s ", number);
+    if (!text)
+        text = formula_of(number);
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        if (quotes(q, number)) {
+            const size_t n = strlen(names);
+            snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : text ? "in: " : "", q->name);
+        }
+    enum { INDENT = 6 };
+    if (text)
+        help_wrapped(to, text, INDENT, INDENT);
+    if (text && *names)
+        fprintf(to, "%*s", INDENT, "");
+    if (*names)
+        help_wrapped(to, names, INDENT, INDENT + 4);
+}
+
+static void paper(FILE *to) {
+    fputs("Mathematics 2022, 10, 3641: its equations, and the quantities that they make.\n"
+          "`explain NAME` puts the numbers of the scene in.\n\n",
+          to);
+    for (size_t i = 0; i < EQUATIONS; i++)
+        equation(to, equations[i].number, equations[i].text);
+    fputs("\nSlips of the paper, as this program reads it:\n"
+          "  (13)       is for two equal elastic bodies; here it holds for any two\n"
+          "  (19)       beyond first loading the test needs the trial displacement of\n"
+          "             the spring, u + d(delta_x), not delta_x\n"
+          "  (22)       tells the loss on the first branch only; here it is W1D, signed\n"
+          "  (26),(27)  come out negative; dW is the positive energy dissipated\n"
+          "  Fig. 12    `k = -0.5, 1, 0.5` in its text means k = -0.5, 0, 0.5\n"
+          "  Section 3  `exponentially` is a power law: dW ~ FA^3 at small FA\n",
+          to);
+}
+
+/* ---- the table --------------------------------------------------------------------------------- */
+
+static const char expressions_text[] =
+    "+ - * / ^ ( ) bind as usual; -2^2 is -4. Every value has a dimension, and a\n"
+    "mismatch is an error that names both.\n\n"
+    "    NAME = EXPR, ...       sets inputs or names of your own, now\n"
+    "    NAME := EXPR           a live definition: evaluated wherever NAME is used\n"
+    "    NAME(X, ...) := EXPR   a function of your own\n"
+    "    EXPR in UNIT           the value in that unit\n"
+    "    EXPR at NAME = EXPR    the value in the scene with that input changed\n"
+    "    ans                    the last value printed\n\n"
+    "Several statements on a line: `;`. A comment: `#`. A line goes on after `\\`.\n\n";
+
+static const char scripts_text[] =
+    "    fret FILE ...          runs scripts; so do fret -f FILE and a pipe\n"
+    "    fret -c 'STATEMENTS'   runs these\n"
+    "    source FILE            runs a script from the prompt or from a script\n"
+    "    fret --replay FILE     runs what follows each `fret> ` of a transcript and\n"
+    "                           compares the answers: a transcript is a test\n\n"
+    "A script stops at its first error, told as FILE:LINE:COLUMN, with exit status 1;\n"
+    "--keep-going goes on. A wrong option exits with 2, an interrupt with 130.\n\n"
+    "At a terminal the statements of $XDG_CONFIG_HOME/fret/fretrc, else of\n"
+    "~/.config/fret/fretrc, run before the first prompt, such as `set digits 8`;\n"
+    "--no-rc leaves them out. `show` in a script writes the whole scene as\n"
+    "statements.\n";
+
+static const char files_text[] =
+    "Read: `geometry file GAP.csv` has columns r and f, `follow LOAD.csv` FN,Fx or\n"
+    "dz,dx. The first line names the columns with their units, as `FN [N],Fx [N]`;\n"
+    "rows of numbers follow; `#` begins a comment. A name with blanks goes into\n"
+    "quotation marks.\n\n"
+    "Written: `history to FILE`, `table ... to FILE`, `plot ... to FILE`. The ending\n"
+    "tells the kind. A file is written whole or not at all.\n\n"
+    "What is typed at the prompt is kept in $XDG_STATE_HOME/fret/history, else in\n"
+    "~/.local/state/fret/history, for you alone to read.\n";
+
+static const char theory_text[] =
+    "Two bodies, pressed together with F_N and pushed sideways with F_x, touch in a\n"
+    "disc of radius a. Its rim slips, its middle r < c sticks: partial slip. At\n"
+    "F_x = mu F_N all of it slips: gross slip. A cycle of F_x dissipates dW, the area\n"
+    "of the hysteresis loop.\n\n"
+    "The modulus grows or falls with depth, E(z) = E0 (z/c0)^k. The method of\n"
+    "dimensionality reduction (MDR) replaces the bodies by independent springs of\n"
+    "stiffness c_N(x) and c_T(x) under the profile g(x), exactly within the theory\n"
+    "of Cattaneo and Mindlin. In the depth y = g(x), k and the shape vanish from the\n"
+    "rule of stick and slip: the memory diagram follows any history of F_N and F_x\n"
+    "without discretisation. `help paper` lists the equations, `explain NAME` uses them.\n";
+
+static const char limits_text[] =
+    "The theory neglects what couples normal and tangential contact. That is exact\n"
+    "for equal bodies, and for nu = 1/(2+k). Else a warning tells the mismatch. For\n"
+    "steel on aluminium, k = 0, a coupled solution gave 1.39, 1.05, 1.03, 1.02 and\n"
+    "1.01 times the dW of here in the first five cycles. Slip across the direction of\n"
+    "F_x is neglected too, as by Cattaneo and Mindlin: 0.4 % of dW in a comparison\n"
+    "with boundary elements.\n\n"
+    "    -1 < k < 1, -1 < nu <= 1/2; both bodies share k and c0\n"
+    "    bodies are half-spaces: a small against R, slopes small\n"
+    "    the contact is a disc: g(x) must not fall\n"
+    "    quasi-static, no adhesion, one coefficient of friction\n"
+    "    the place where energy is lost inside the annulus is no result here\n\n"
+    "`accuracy` tells the numerical error of every model in your scene, and `explain`\n"
+    "what the last digit of each input does.\n";
+
+static const char prompt_text[] =
+    "    Tab            completes: commands, arguments, units, names, files\n"
+    "    Up, Ctrl-R     earlier lines, of earlier sessions too\n"
+    "    Ctrl-C         drops the line, or stops what runs; the scene stays\n"
+    "    Ctrl-D         leaves\n"
+    "    ?WORD          the same as help WORD\n"
+    "    !COMMAND       runs a command of the system's shell\n\n"
+    "Pasted lines run one after the other, their prompts are taken off. Keys are\n"
+    "those of readline; in ~/.inputrc `$if fret` begins what is for this program.\n";
+
+static const topic topics[] = {
+    {.name = "expressions",
+     .summary = "arithmetic, names of your own, functions",
+     .keywords = "variable definition function operator live what-if",
+     .text = expressions_text,
+     .print = functions},
+    {.name = "units",
+     .summary = "units and their prefixes",
+     .keywords = "dimension SI prefix",
+     .print = help_units},
+    {.name = "quantities",
+     .summary = "inputs, results and functions of the scene",
+     .keywords = "input result variable stress loop",
+     .print = quantities},
+    {.name = "prompt",
+     .summary = "keys, completion, history, pasting",
+     .keywords = "readline history completion Tab inputrc paste shell",
+     .text = prompt_text},
+    {.name = "scripts",
+     .summary = "files of statements, options, the start-up file",
+     .keywords = "batch pipe start-up fretrc config replay transcript save",
+     .text = scripts_text},
+    {.name = "files",
+     .summary = "tables and figures that are read and written",
+     .keywords = "csv json export import Excel data png svg pdf save write history",
+     .text = files_text},
+    {.name = "theory",
+     .summary = "what is computed, in a few words",
+     .keywords = "MDR Mindlin Cattaneo Hertz springs hysteresis loop dissipation partial slip memory diagram",
+     .text = theory_text},
+    {.name = "paper",
+     .summary = "every equation of the paper, and where it is here",
+     .keywords = "equation formula reference literature slip misprint",
+     .print = paper},
+    {.name = "limits",
+     .summary = "what the theory leaves out",
+     .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",
+     .text = limits_text},
+};
+enum { TOPICS = sizeof topics / sizeof *topics };
+
+const topic *topic_row(size_t i) {
+    return i < TOPICS ? &topics[i] : NULL;
+}
+
+const char *topic_name(size_t i) {
+    return i < TOPICS ? topics[i].name : NULL;
+}
+
+const char *model_text(size_t id) {
+    static const char *const texts[MODELS] = {
+        [MODEL_CLOSED] = "Formulas of the paper, where the load program has one: a press and a tangential\n"
+                         "step, or cycles at constant FN.\n",
+        [MODEL_MEMORY] = "Follows any history exactly, without springs or step sizes: the state is a\n"
+                         "polyline over the depth y = g(x). `help theory` tells more.\n",
+        [MODEL_QUADRATURE] = "Integrals over the gap, for shapes without a formula and for local fields.\n",
+        [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
+                          "`accuracy` tells its error against its time.\n",
+    };
+    return id < MODELS ? texts[id] : NULL;
+}

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Conditioning by differences between neighbouring numbers. Touches nothing but a trial. */
+#include "study/influence.h"
+
+#include <float.h>
+#include <math.h>
+#include <time.h>
+
+/* ---- what there is to change ------------------------------------------------------------------- */
+
+static void add_input(const scene *s, input in, influence_study *out) {
+    if (!s->in.set[in] || s->in.v[in] == 0 || (s->in.bindings & INPUT_BIT(in)) ||
+        (in == IN_FN && !s->end.steps))
+        return;
+    const quantity *q = quantity_of_input(in);
+    out->cause[out->count++] =
+        (cause){.name = q->name, .v = {s->in.v[in], quantity_dim(q, s)}, .kind = CAUSE_INPUT, .in = in};
+}
+
+static void add_step(influence_study *out, const char *name, load_by by, double *step, bool increment) {
+    if (*step != 0)
+        out->cause[out->count++] = (cause){.name = name,
+                                           .v = {*step, by == BY_FORCE ? DIM_FORCE : DIM_LENGTH},
+                                           .kind = CAUSE_STEP,
+                                           .step = step,
+                                           .increment = increment};
+}
+
+/* Does the value depend on this name of the user's, directly or by what inputs are bound to? */
+static bool is_mentioned(const calc *c, const expr *e, const char *name) {
+    const inputs *in = &c->now->in;
+    if (expr_mentions(c, e, NULL, name))
+        return true;
+    for (input i = 0; in->bindings >> i; i++)
+        if (in->bindings & INPUT_BIT(i) &&
+            expr_mentions(c, &((const definition *)in->bound[i])->body, NULL, name))
+            return true;
+    return false;
+}
+
+static void add_names(const calc *c, const expr *e, influence_study *out) {
+    size_t left = CAUSE_NAMES;
+    for (size_t i = 0; i < c->names.count && left > 0; i++) {
+        const own_name *row = &c->names.row[i];
+        if (!row->known || row->definition || row->v.v == 0 || !is_mentioned(c, e, row->text))
+            continue;
+        out->cause[out->count++] = (cause){.name = row->text, .v = row->v, .kind = CAUSE_NAME, .own = i};
+        left--;
+    }
+}
+
+/* In the order in which a session gives them. */
+static void find_causes(const calc *c, const expr *e, program *own, const quantity *call, value argument,
+                        influence_study *out) {
+    static const input of_contact[] = {IN_E0, IN_NU, IN_K, IN_C0, IN_E0_2,   IN_NU_2, IN_MU,   IN_FN,
+                                       IN_N,  IN_A,  IN_H, IN_R0, IN_RADIUS, IN_B,    IN_SLOPE};
+    static const input of_cycle[] = {IN_FNA, IN_PHASE, IN_FA, IN_DXA};
+    const scene *s = c->now;
+    for (size_t i = 0; i < sizeof of_contact / sizeof *of_contact; i++)
+        add_input(s, of_contact[i], out);
+    load_step *first = own ? &own->steps[0] : NULL, *last = own ? &own->steps[s->end.steps - 1] : NULL;
+    if (own && first->normal != BY_FORCE)
+        add_step(out, first->normal == BY_RADIUS ? "a" : "dz", (load_by)first->normal, &first->normal_value,
+                 false);
+    for (size_t i = 0; i < sizeof of_cycle / sizeof *of_cycle; i++)
+        add_input(s, of_cycle[i], out);
+    if (own && last->kind == LOAD_STEP && last->normal)
+        add_step(out, last->normal == BY_FORCE ? "step FN" : "step dz", (load_by)last->normal,
+                 &last->normal_value, last->relative & RELATIVE_NORMAL);
+    if (own && last->kind == LOAD_STEP && last->tangential)
+        add_step(out, last->tangential == BY_FORCE ? "Fx" : "dx", (load_by)last->tangential,
+                 &last->tangential_value, last->relative & RELATIVE_TANGENTIAL);
+    add_names(c, e, out);
+    if (call && argument.v != 0)
+        out->cause[out->count++] = (cause){.name = call->argument, .v = argument, .kind = CAUSE_ARGUMENT};
+}
+
+bool cause_is_load(const cause *c) {
+    return c->kind == CAUSE_STEP ||
+           (c->kind == CAUSE_INPUT && INPUT_BIT(c->in) & (INPUT_BIT(IN_FN) | INPUT_CYCLE));
+}
+
+/* ---- changing it ------------------------------------------------------------------------------- */
+
+typedef struct probe {
+    trial *t;
+    const expr *e;
+    long double result;
+    const quantity *call; /* or NULL */
+    program *own;         /* or NULL: nothing is pressed */
+    bool stopped;
+} probe;
+
+static bool set_to(probe *p, const cause *c, double x, calc_error *error) {
+    scene *s = &p->t->scene;
+    knob k = {.is_input = c->kind == CAUSE_INPUT, .in = c->in, .name = c->own, .d = c->v.d};
+    if (c->kind != CAUSE_STEP)
+        return trial_set(p->t, &k, x, error);
+    counted_drop(&s->program->base);
+    s->program = counted_hold(&p->own->base);
+    *c->step = x;
+    scene_forget(s, true);
+    return true;
+}
+
+/* The result with the cause moved to x, everything else as it is; false where that is refused. */
+static bool moved_to(probe *p, const cause *c, double x, long double *out) {
+    calc_error error;
+    value v = {0};
+    error_clear(&error);
+    trial_reset(p->t);
+    bool ok;
+    if (c->kind == CAUSE_ARGUMENT) {
+        ok = p->call->call(&p->t->scene, (value){x, c->v.d}, &v.v, &error);
+    } else {
+        ok = set_to(p, c, x, &error) && expr_eval(p->t->c, p->e, &v, &error);
+        if (c->kind == CAUSE_STEP)
+            *c->step = (double)c->v.v;
+        else if (c->kind == CAUSE_NAME) /* a reset leaves it */
+            set_to(p, c, (double)c->v.v, &error);
+    }
+    p->stopped = p->stopped || error.stop;
+    *out = v.v;
+    return ok;
+}
+
+/* The first and the second relative difference of the result for steps of h: what the cause does, and what is
+ * rounding or curvature. How many of the neighbours are valid? */
+static int differences(probe *p, const cause *c, double h, long double *change, long double *noise) {
+    long double at[2];
+    int valid = 0, side = 0;
+    for (int sign = -1; sign <= 1 && !p->stopped; sign += 2)
+        if (moved_to(p, c, (double)c->v.v + sign * h, &at[valid])) {
+            valid++;
+            side = sign;
+        }
+    if (valid == 1) { /* at the end of its range: both to one side */
+        if (!moved_to(p, c, (double)c->v.v + 2 * side * h, &at[1]))
+            return 0;
+        *change = fabsl((at[0] - p->result) / p->result);
+        *noise = fabsl((at[1] - 2 * at[0] + p->result) / p->result);
+    } else if (valid == 2) {
+        *change = fabsl((at[1] - at[0]) / 2 / p->result);
+        *noise = fabsl((at[1] - 2 * p->result + at[0]) / p->result);
+    }
+    return valid;
+}
+
+/* Close to a singularity only neighbouring numbers tell the slope; elsewhere a wider step stands out from the
+ * rounding of what has passed through a double. Of three steps the least uncertain counts. */
+static void find_influence(probe *p, cause *c) {
+    const double x = fabs((double)c->v.v), ulp = nextafter(x, INFINITY) - x;
+    long double least = HUGE_VALL; /* uncertainty of change */
+    int nearest = 0;
+    c->digit = ulp / (long double)x;
+    for (int bits = 0; bits <= 24 && !p->stopped; bits += 12) {
+        long double change = 0, noise = 0, scale = (long double)(1 << bits);
+        const int valid = differences(p, c, ulp * (double)scale, &change, &noise);
+        if (bits == 0)
+            nearest = valid;
+        if (valid == 0 || valid < nearest)
+            break;
+        if (change == 0 && noise == 0)
+            continue;
+        noise += DBL_EPSILON;
+        if (noise / scale < least) {
+            least = noise / scale;
+            c->change = change / scale;
+        }
+        if (noise < change / 64)
+            break;
+    }
+    c->refused = nearest < 2;
+    c->influence = nearest == 0                           ? INFLUENCE_HIDDEN
+                   : least == HUGE_VALL                   ? INFLUENCE_NONE
+                   : c->change + least < 0.01L * c->digit ? INFLUENCE_SMALL
+                   : least > c->change / 2                ? INFLUENCE_HIDDEN
+                                                          : INFLUENCE_SHOWN;
+}
+
+static bool probe_all(probe *p, influence_study *out, calc_error *error) {
+    const scene *s = &p->t->scene;
+    const clock_t start = clock();
+    for (size_t i = 0; i < out->count; i++) {
+        if (clock() - start < INFLUENCE_SECONDS * CLOCKS_PER_SEC)
+            find_influence(p, &out->cause[i]);
+        else
+            out->cause[i].influence = INFLUENCE_LEFT;
+        if (p->stopped || (s->stop && *s->stop))
+            return calc_interrupted(error);
+    }
+    return true;
+}
+
+bool influences(calc *c, const expr *e, long double result, const quantity *call, value argument,
+                influence_study *out, calc_error *error) {
+    const scene *s = c->now;
+    probe p = {.e = e, .result = result, .call = call};
+    out->count = 0;
+    if (result == 0 || !isfinite(result))
+        return true;
+    if (s->end.steps && !(p.own = program_copy(s->program, s->end)))
+        return calc_no_memory(error);
+    find_causes(c, e, p.own, call, argument, out);
+    bool ok = (p.t = trial_open(c, error)) && probe_all(&p, out, error);
+    if (p.t) {
+        p.t->scene.used = 0; /* none of this has answered */
+        trial_close(p.t);
+    }
+    counted_drop(p.own ? &p.own->base : NULL);
+    return ok;
+}

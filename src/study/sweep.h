@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Expressions over a range of an input or a free name, or along a load: rows for tables and curves for plots. Reads and
+ * prints nothing. */
+#ifndef STUDY_SWEEP_H
+#define STUDY_SWEEP_H
+
+#include "calc/trial.h"
+
+enum { SWEEP_VALUES = 20 };
+
+/* One of the curves of a sweep in its own circumstances: the ends of its range, or its load. */
+typedef struct sweep_range {
+    long double lo, hi;
+    dim d;
+    load_step step; /* ALONG_LOAD */
+    cycle_extra extra;
+    counted *bound[INPUTS]; /* of its amplitudes, live */
+} sweep_range;
+
+typedef struct sweep sweep;
+struct sweep {
+    bool along;
+    knob var; /* for NAME = LO .. HI */
+    bool log;
+    size_t steps;
+    bool turns;      /* along: at turning points too */
+    along_what what; /* along */
+    /* Evaluates the range where expressions see what this curve sees. */
+    bool (*range)(const sweep *s, sweep_range *out, calc_error *error);
+    void *context;
+    /* with NAME = v1, v2, ... */
+    knob with;
+    long double value[SWEEP_VALUES];
+    size_t curves; /* at least 1; 0: no `with` */
+};
+
+/* One row: x is the value of the name, or the time; a value that cannot be had is NaN. False ends the sweep. */
+typedef bool sweep_row(void *context, const sweep *s, size_t curve, long double x, const long double *values);
+
+typedef struct sweep_job {
+    calc *c;
+    const expr *expressions;
+    size_t count;
+    dim *d;                   /* of the expressions; those with known[i] must come out so */
+    bool *known;
+    const char *const *units; /* how those are called; NULL, or NULL each: in SI */
+    sweep_row *row;
+    void *context;
+    calc_error *error;
+    calc_error missing; /* the first value that could not be had: raised */
+    char where[240];    /* of it */
+    size_t values;      /* that could be had */
+    void (*progress)(void *context, double part); /* or NULL */
+} sweep_job;
+
+/* False: an error; job->missing tells of gaps, which are none. An interrupt is an error, and so is a sweep without any
+ * value. */
+bool sweep_run(const sweep *s, sweep_job *job);
+
+#endif
