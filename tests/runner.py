@@ -10,7 +10,7 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.dont_write_bytecode = True
-for room in ("", "sessions", "errors", "interactive", "portable", "house"):
+for room in ("", "sessions", "errors", "interactive", "portable", "house", "reference"):
     sys.path.insert(0, os.path.join(HERE, room))
 
 import accuracy_test  # noqa: E402
@@ -20,6 +20,7 @@ import house  # noqa: E402
 import numbers_of_the_physics  # noqa: E402
 import portable  # noqa: E402
 import prompt  # noqa: E402
+import reference  # noqa: E402
 import scripts  # noqa: E402
 import table  # noqa: E402
 import trouble  # noqa: E402
@@ -163,7 +164,7 @@ def help_examples(tests):
 
 
 ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
-         "scripts": scripts.run, "figures": figures.run, "accuracy": accuracy_test.run, "errors": table.run,
+         "reference": reference.run, "scripts": scripts.run, "figures": figures.run, "accuracy": accuracy_test.run, "errors": table.run,
          "trouble": trouble.run,
          "interactive": prompt.run, "readme": readme, "help": help_examples, "portable": portable.run,
          "house": house.run}

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What follows from a scene, made ready on demand: the load program is run as far as it has grown, the cheapest
  * model that is exact answers. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -277,7 +278,7 @@ static void to_limit(const fret_state at[LEVELS], size_t member, fret_state *out
     long double v[LEVELS];
     for (unsigned i = 0; i < LEVELS; i++)
         memcpy(&v[i], (const char *)&at[i] + member, sizeof v[i]);
-    v[0] = run_limit(v, error);
+    v[0] = run_limit(v, 0, error);
     memcpy((char *)out + member, &v[0], sizeof v[0]);
 }
 
@@ -293,7 +294,7 @@ static void swinging_state(answers *a, const runner run[LEVELS]) {
     to_limit(at, offsetof(fret_state, U), &a->state, &unused);
     to_limit(at, offsetof(fret_state, Fx), &a->state, &unused);
     to_limit(at, offsetof(fret_state, dx), &a->state, &unused);
-    a->loss = run_limit(loss, &error[1]);
+    a->loss = run_limit(loss, LDBL_EPSILON * a->state.W, &error[1]); /* rounding leaves no more of W */
     a->sine_error = fmaxl(error[0], error[1]);
 }
 

@@ -317,15 +317,13 @@ static void note_new_name(calc *c, const char *text, size_t len) {
         snprintf(c->note, sizeof c->note, "new variable %.*s; did you mean %s?", LEX_SHOWN(len), text, near);
 }
 
-/* Tried as it stands: the evaluation tells the chain. */
+/* Tried as it stands: a circle through what inputs are bound to shows only so. */
 static bool name_holds(calc *c, lexer *lx, const assignment *a) {
     calc_error error;
     value unused;
     error_clear(&error);
     if (a->d->parameters)
-        return !expr_mentions(c, &a->d->body, NULL, a->d->label) ||
-               calc_fail(lx->error, a->value_at, a->value_len, "a circle of definitions: %s needs itself",
-                         a->d->label);
+        return true;
     scene probe, *outer = c->now; /* where nothing bound has its value yet */
     scene_clone(&probe, outer);
     probe.settled = 0;
@@ -338,6 +336,7 @@ static bool name_holds(calc *c, lexer *lx, const assignment *a) {
 
 static bool put_name(calc *c, lexer *lx, const assignment *a) {
     size_t i;
+    char way[CALC_ERROR_TEXT / 2];
     const char *text = lx->text + a->at;
     if (a->increment)
         return calc_fail(lx->error, a->at, a->len, "+= belongs to step; write %.*s = ...", LEX_SHOWN(a->len), text);
@@ -346,6 +345,9 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
         if (!names_add(&c->names, text, a->len, &i))
             return calc_no_memory(lx->error);
     }
+    if (a->d && expr_way(c, &a->d->body, a->d->label, way, sizeof way))
+        return calc_fail(lx->error, a->value_at, a->value_len, "a circle of definitions: %s -> %s%s", a->d->label, way,
+                         a->d->label);
     undo_name(c, i);
     names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);
     return !a->d || name_holds(c, lx, a);

@@ -20,7 +20,8 @@ typedef struct undo {
     undo_entry *entry;
     size_t count, room;
     unsigned long group;
-    int nesting;       /* of statements that hold others */
+    unsigned long outermost; /* the group of the statement that holds the others */
+    int nesting;             /* of statements that hold others */
     size_t base_steps; /* of the oldest state that can come back */
 } undo;
 
@@ -63,7 +64,7 @@ bool calc_takes(const calc *c, input in, calc_error *error);
 bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d);
 
 /* Around every statement that may change the scene: begin, then end, then keep if it did. Statements within
- * statements join the outermost. */
+ * a statement join it when it ends. */
 void undo_begin(calc *c);
 void undo_end(calc *c);
 /* m is taken over. */

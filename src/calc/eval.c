@@ -471,24 +471,40 @@ bool expr_eval_block(calc *c, const expr *e, size_t name, const long double x[],
 
 /* ---- what an expression is made of ------------------------------------------------------------- */
 
-bool expr_mentions(const calc *c, const expr *e, const quantity *q, const char *name) {
+/* way: where there is one, "b -> c -> " of the definitions that lead to the name. */
+static bool mentions(const calc *c, const expr *e, const quantity *q, const char *name, char *way, size_t size) {
     for (size_t i = 0; i < e->count; i++) {
         const expr_node *n = &e->nodes[i];
         if (q && (n->kind == N_QUANTITY || n->kind == N_CALL) && n->q == q)
             return true;
-        if (n->kind == N_AT && expr_mentions(c, &n->changed->body, q, name))
+        if (n->kind == N_AT && mentions(c, &n->changed->body, q, name, way, size))
             return true;
         for (size_t j = 0; n->kind == N_AT && j < n->changed->count; j++)
-            if (expr_mentions(c, &n->changed->change[j].value, q, name))
+            if (mentions(c, &n->changed->change[j].value, q, name, way, size))
                 return true;
         if (n->kind != N_NAME && n->kind != N_APPLY)
             continue;
         const own_name *row = &c->names.row[n->index];
-        if ((name && !strcmp(row->text, name)) ||
-            (row->definition && expr_mentions(c, &((const definition *)row->definition)->body, q, name)))
+        const definition *d = (const definition *)row->definition;
+        if (name && !strcmp(row->text, name))
             return true;
+        const int used = way && d ? snprintf(way, size, "%s -> ", row->text) : 0;
+        const size_t step = (size_t)used < size ? (size_t)used : size;
+        if (d && mentions(c, &d->body, q, name, way ? way + step : NULL, size - step))
+            return true;
+        if (used)
+            way[0] = 0;
     }
     return false;
+}
+
+bool expr_mentions(const calc *c, const expr *e, const quantity *q, const char *name) {
+    return mentions(c, e, q, name, NULL, 0);
+}
+
+bool expr_way(const calc *c, const expr *e, const char *name, char *way, size_t size) {
+    way[0] = 0;
+    return mentions(c, e, NULL, name, way, size);
 }
 
 const quantity *expr_quantity(const expr *e, size_t i, bool *call) {

@@ -55,6 +55,8 @@ bool expr_value(struct calc *c, lexer *lx, value *out);
 
 /* Does the expression depend on this quantity or own name, directly or by live definitions? */
 bool expr_mentions(const struct calc *c, const expr *e, const quantity *q, const char *name);
+/* Does it depend on this name? way: the live definitions that lead there, as "b -> c -> ". */
+bool expr_way(const struct calc *c, const expr *e, const char *name, char *way, size_t size);
 /* The quantities of an expression in the order of their appearance: i = 0, 1, ... call: as a function. NULL after the
  * last. */
 const quantity *expr_quantity(const expr *e, size_t i, bool *call);

@@ -109,6 +109,23 @@ static bool split_tail(parser *p, size_t first, expr *body) {
     return true;
 }
 
+static bool unknown_name(parser *p) {
+    lexer *lx = p->lx;
+    char word[LEX_NAME];
+    unit u;
+    lex_word(lx, word);
+    if (unit_lookup(lx->text + lx->at, lx->len, &u))
+        return lex_fail(lx, "'%s' is a unit: it must follow a number", word);
+    const char *near = suggest(word, quantity_name);
+    if (!near)
+        near = suggest(word, builtin_name);
+    for (size_t i = 0; !near && i < p->c->names.count; i++)
+        if (p->c->names.row[i].known && strlen(word) > 2 &&
+            !strncmp(p->c->names.row[i].text, word, strlen(word) - 1))
+            near = p->c->names.row[i].text;
+    return lex_fail(lx, near ? "unknown name '%s': did you mean %s?" : "unknown name '%s'", word, near);
+}
+
 static bool at_change(const lexer *lx) {
     return lx->kind == T_NAME && lex_peek(lx) == T_ASSIGN;
 }
@@ -116,10 +133,13 @@ static bool at_change(const lexer *lx) {
 static bool parse_change(parser *p, expr_at *at) {
     lexer *lx = p->lx;
     knob *q = &at->change[at->count].p;
+    size_t name;
     if (at->count == CHANGES)
         return lex_fail(lx, "at most %d changes", CHANGES);
     if (!at_change(lx))
         return lex_fail(lx, "expected NAME = EXPR after `at`");
+    if (!quantity_find(lx->text + lx->at, lx->len) && !names_find(&p->c->names, lx->text + lx->at, lx->len, &name))
+        return unknown_name(p); /* nothing before it could have meant it */
     if (!knob_read(p->c, lx, q))
         return false;
     lex_next(lx);
@@ -153,23 +173,6 @@ static bool parse_at(parser *p, size_t first, size_t begin, size_t *out) {
 }
 
 /* ---- names ------------------------------------------------------------------------------------- */
-
-static bool unknown_name(parser *p) {
-    lexer *lx = p->lx;
-    char word[LEX_NAME];
-    unit u;
-    lex_word(lx, word);
-    if (unit_lookup(lx->text + lx->at, lx->len, &u))
-        return lex_fail(lx, "'%s' is a unit: it must follow a number", word);
-    const char *near = suggest(word, quantity_name);
-    if (!near)
-        near = suggest(word, builtin_name);
-    for (size_t i = 0; !near && i < p->c->names.count; i++)
-        if (p->c->names.row[i].known && strlen(word) > 2 &&
-            !strncmp(p->c->names.row[i].text, word, strlen(word) - 1))
-            near = p->c->names.row[i].text;
-    return lex_fail(lx, near ? "unknown name '%s': did you mean %s?" : "unknown name '%s'", word, near);
-}
 
 static bool parse_quantity(parser *p, const quantity *q, size_t *out) {
     lexer *lx = p->lx;

@@ -369,9 +369,9 @@ double program_time(const program *p, load_mark end) {
     return time;
 }
 
-long double run_limit(const long double at[LEVELS], long double *error) {
+long double run_limit(const long double at[LEVELS], long double least, long double *error) {
     const long double first = at[1] + (at[1] - at[0]) / 3, last = at[2] + (at[2] - at[1]) / 3;
-    const long double step = (last - first) / 15, scale = fmaxl(fabsl(last), fabsl(at[2]));
-    *error = scale > 0 ? fabsl(step) / scale : 0;
+    const long double step = (last - first) / 15, scale = fmaxl(least, fmaxl(fabsl(last), fabsl(at[2])));
+    *error = scale > 0 ? 2 * fabsl(step) / scale : 0;
     return last + step;
 }

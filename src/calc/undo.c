@@ -17,12 +17,18 @@ static void entry_end(undo_entry *e) {
 }
 
 void undo_begin(calc *c) {
-    if (c->undo.nesting++ == 0)
-        c->undo.group++;
+    undo *u = &c->undo;
+    u->group++;
+    if (u->nesting++ == 0)
+        u->outermost = u->group;
 }
 
 void undo_end(calc *c) {
-    c->undo.nesting--;
+    undo *u = &c->undo;
+    if (--u->nesting > 0)
+        return;
+    for (size_t i = u->count; i > 0 && u->entry[i - 1].group > u->outermost; i--)
+        u->entry[i - 1].group = u->outermost;
 }
 
 /* The entry to fill, with the oldest gone where there are too many; NULL: out of memory, the past is forgotten. */

@@ -104,7 +104,7 @@ static double round_up(double v) {
 
 static void put_sine(const page *p, const quantity *q, bool call, model_id model) {
     scene *s = p->sh->calc.now;
-    const double error = fmax((double)s->answers.sine_error, 1e-18);
+    const double error = fmax((double)s->answers.sine_error, 1e-15);
     const int finest = RUN_CHORDS << (model == MODEL_MEMORY ? LEVELS - 1 : 0);
     fprintf(p->to, "    model: %s, ", models[model].title);
     if (model == MODEL_MEMORY && is_extrapolated(q, call))
@@ -146,17 +146,15 @@ static bool has_effect(const influence_study *study, input in) {
 
 /* The inputs that the result was made of. */
 static void put_inputs(const page *p, const quantity *q, const influence_study *study) {
-    static const input order[] = {IN_E0, IN_NU, IN_E0_2, IN_NU_2, IN_K,      IN_C0, IN_MU,
-                                  IN_N,  IN_A,  IN_H,    IN_R0,   IN_RADIUS, IN_B,  IN_SLOPE};
+    const unsigned of_load = INPUT_BIT(IN_FN) | INPUT_CYCLE;
     scene *s = p->sh->calc.now;
-    for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
-        const input in = order[i];
+    for (input in = 0; in < INPUTS; in++) {
         const quantity *row = quantity_of_input(in);
         value v = {0, quantity_dim(row, s)};
         calc_error ignored;
         error_clear(&ignored);
         const bool set = s->in.set[in] || (s->in.bindings & INPUT_BIT(in));
-        if (set && row != q && (q->reads & INPUT_BIT(in)) && (in < IN_N || inputs_take(&s->in, in)) &&
+        if (set && row != q && (q->reads & ~of_load & INPUT_BIT(in)) && (in < IN_N || inputs_take(&s->in, in)) &&
             !(in == IN_C0 && s->in.v[IN_K] == 0) && has_effect(study, in) && scene_get(s, in, &v.v, &ignored))
             put_value(p, row->name, strlen(row->name), v);
     }

@@ -197,9 +197,7 @@ static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
         e->table = gap ? shared_table_make(gap, name) : NULL;
         if (gap && !e->table)
             calc_no_memory(lx->error);
-        ok = e->table && scene_edit(&sh->calc.scene, apply, e, lx->error);
-        if (!ok)
-            counted_drop(e->table ? &e->table->base : NULL);
+        ok = e->table && scene_edit(&sh->calc.scene, apply, e, lx->error); /* which takes the table over */
         csv_free(&data);
     }
     lx->error->at = at;

@@ -52,12 +52,11 @@ static void add_names(const calc *c, const expr *e, influence_study *out) {
 /* In the order in which a session gives them. */
 static void find_causes(const calc *c, const expr *e, program *own, const quantity *call, value argument,
                         influence_study *out) {
-    static const input of_contact[] = {IN_E0, IN_NU, IN_K, IN_C0, IN_E0_2,   IN_NU_2, IN_MU,   IN_FN,
-                                       IN_N,  IN_A,  IN_H, IN_R0, IN_RADIUS, IN_B,    IN_SLOPE};
     static const input of_cycle[] = {IN_FNA, IN_PHASE, IN_FA, IN_DXA};
     const scene *s = c->now;
-    for (size_t i = 0; i < sizeof of_contact / sizeof *of_contact; i++)
-        add_input(s, of_contact[i], out);
+    for (input in = 0; in < INPUTS; in++)
+        if (!(INPUT_BIT(in) & INPUT_CYCLE))
+            add_input(s, in, out);
     load_step *first = own ? &own->steps[0] : NULL, *last = own ? &own->steps[s->end.steps - 1] : NULL;
     if (own && first->normal != BY_FORCE)
         add_step(out, first->normal == BY_RADIUS ? "a" : "dz", (load_by)first->normal, &first->normal_value,

@@ -48,7 +48,7 @@ typedef struct sweep_job {
     void *context;
     calc_error *error;
     calc_error missing; /* the first value that could not be had: raised */
-    char where[240];    /* of it */
+    char where[320];    /* of it */
     size_t values;      /* that could be had */
     void (*progress)(void *context, double part); /* or NULL */
 } sweep_job;

@@ -24,7 +24,6 @@ BELOW = {
 }
 LIBRARY = ("number", "contact", "fast", "fret")
 
-
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<(fret/[^>]+)>)', re.M)
 SHAPE = re.compile(r"\bFRET_GAP_(?!TERMS\b)[A-Z_]+\b")
 

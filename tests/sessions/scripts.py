@@ -331,6 +331,27 @@ def waiting_steps(tests):
                 done.stderr.startswith("-c:3:9: error: mu is not set"), tests.report(done))
 
 
+def taken_back(tests):
+    """A script and a history are one change each, whatever they hold; a script that fails has changed what it says."""
+    with tests.file("k = 0.3, c0 = 1 mm\nx = 5\nmu = 0.2\npress FN=30 N\nundo\nx = 6\n") as script, \
+            tests.file("foo = 1\nmu = 7 N\n") as bad, tests.file("FN [N],Fx [N]\n100,0\n100,10\n90,5\n") as rows:
+        done = tests.run("-c", SCENE + "source %s\nk, x, mu, FN\nundo\nk, mu, FN\nx" % script)
+        tests.check("undo takes a script back", done.stdout == "k = 0.3\nx = 6\nmu = 0.2\nFN = 100 N\nk = 0\nmu = 0.4\n"
+                    "FN = 100 N\n" and "unknown name 'x'" in done.stderr, tests.report(done))
+        done = tests.run("--keep-going", "-c", "friction 0.4\nsource %s\nfoo\nmu\nundo\nmu\nfoo" % bad)
+        tests.check("undo takes a failed script back", done.stdout == "foo = 1\nmu = 0.4\nmu = 0.4\n" and
+                    "unknown name 'foo'" in done.stderr, tests.report(done))
+        done = tests.run("-c", SCENE + "step Fx=20 N\nfollow %s\nFN, Fx\nundo\nFN, Fx\nundo\nFx" % rows)
+        says(tests, "undo takes a history back", done, "FN = 90 N\nFx = 5 N\nFN = 100 N\nFx = 20 N\nFx = 0 N")
+    many = 300
+    done = tests.run("-c", SCENE + "".join("step Fx=%d N\nx = %d\n" % (i % 30, i) for i in range(many)) +
+                     "undo\n" * (2 * many - 7) + "Fx, x")
+    says(tests, "many levels of undo", done, "Fx = 3 N\nx = 2")
+    done = tests.run("-c", SCENE + "x = 1\n" + "".join("mu = 0.3\nmu = 0.4\n" for i in range(1000)) + "undo\n" * 700 +
+                     "mu, x")
+    says(tests, "700 levels of undo", done, "mu = 0.4\nx = 1")
+
+
 def many_variables(tests):
     count = 3000
     script = "".join("v%d = %d\n" % (i, i) for i in range(count)) + "v7 = v7 + 1\n"
@@ -354,5 +375,5 @@ def demos(tests):
 
 def run(tests):
     tests.each([lambda room=room: room(tests) for room in
-                (jobs, written, long_tables, gaps_in_tables, failing_tables, digits, shown_scenes, waiting_steps, many_variables,
+                (jobs, written, long_tables, gaps_in_tables, failing_tables, digits, shown_scenes, waiting_steps, taken_back, many_variables,
                  read_tables, pictures, demos)])
