@@ -49,8 +49,30 @@ $(B)/libfret.a: $(call OBJ,$(CORE))
 $(B)/libfret.so: $(call SHARED,$(CORE))
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) -o $@ $^ $(LIBS_CORE)
 
-$(B)/fret: $(call OBJ,$(PROG) $(CORE))
+# The scripts of the paper's figures go into the program: `demo fig07a` needs no file.
+PAPER := $(wildcard scripts/paper/*.txt)
+$(B)/paper.c: $(PAPER)
+	@mkdir -p $(@D)
+	@{ echo '#include "shell/command.h"'; echo 'const script paper_scripts[] = {'; \
+	  for f in $(PAPER); do echo "{\"$$(basename $$f .txt)\","; \
+	    sed -e 's/\\/\\\\/g' -e 's/"/\\"/g' -e 's/.*/"&\\n"/' $$f; echo '},'; done; echo '{NULL, NULL}};'; } > $@
+
+$(B)/paper.o: $(B)/paper.c
+	$(CC) $(CFLAGS_ALL) -c $< -o $@
+
+$(B)/fret: $(call OBJ,$(PROG) $(CORE)) $(B)/paper.o
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+# Every panel and video of the paper, and the two pictures of README.
+FIGURES := $(patsubst scripts/paper/%.txt,$(B)/figures/%.png,$(filter-out scripts/paper/s%,$(PAPER))) \
+	$(patsubst scripts/paper/%.txt,$(B)/figures/%.gif,$(filter scripts/paper/s%,$(PAPER)))
+figures: $(FIGURES) scripts/paper/fig07a.svg scripts/paper/fig07b.svg
+DRAW = sed '$$s|$$| to $@|' $< | $(B)/fret
+$(B)/figures/%.png $(B)/figures/%.gif: scripts/paper/%.txt $(B)/fret
+	@mkdir -p $(@D)
+	@$(DRAW)
+scripts/paper/%.svg: scripts/paper/%.txt $(B)/fret
+	@$(DRAW)
 
 # written anew each time: PREFIX may have changed
 $(B)/fret.pc: FORCE
@@ -118,5 +140,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: all static tests deps deps-check run check hard bench format install clean FORCE
+.PHONY: figures all static tests deps deps-check run check hard bench format install clean FORCE
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

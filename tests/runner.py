@@ -17,7 +17,9 @@ import accuracy_test  # noqa: E402
 import figures  # noqa: E402
 import harness  # noqa: E402
 import house  # noqa: E402
+import looks  # noqa: E402
 import numbers_of_the_physics  # noqa: E402
+import paper  # noqa: E402
 import portable  # noqa: E402
 import prompt  # noqa: E402
 import reference  # noqa: E402
@@ -164,7 +166,8 @@ def help_examples(tests):
 
 
 ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
-         "reference": reference.run, "scripts": scripts.run, "figures": figures.run, "accuracy": accuracy_test.run, "errors": table.run,
+         "reference": reference.run, "scripts": scripts.run, "figures": figures.run, "looks": looks.run,
+         "paper": paper.run, "accuracy": accuracy_test.run, "errors": table.run,
          "trouble": trouble.run,
          "interactive": prompt.run, "readme": readme, "help": help_examples, "portable": portable.run,
          "house": house.run}

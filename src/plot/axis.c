@@ -30,7 +30,7 @@ static bool inside(double v, double lo, double hi) {
 }
 
 plot_extents plot_extent_of(const plot_panel *p) {
-    plot_extents e = {{INFINITY, -INFINITY, true}, {INFINITY, -INFINITY, true}};
+    plot_extents e = {{INFINITY, -INFINITY, !p->airy}, {INFINITY, -INFINITY, true}};
     for (size_t j = 0; j < p->count; j++) {
         const plot_series *s = p->series[j];
         if (s->role == PLOT_MEASURED || (s->role == PLOT_CURVE && !one_way(s)))

@@ -86,6 +86,7 @@ typedef struct plot_panel {
     bool logx, logy, flipx, flipy;
     bool key_off;
     bool points; /* marked on the lines */
+    bool airy;   /* room around the points along x, too; else curves that are graphs over x fill its axis */
     plot_map map;
     size_t count;
     plot_series *series[PLOT_CURVES];

@@ -227,6 +227,14 @@ static void put_name(writer *w, const char *name, size_t n) {
             upright(w, words[i].shown, strlen(words[i].shown));
             return;
         }
+    const char *line = memchr(name, '_', n);
+    if (line == name + 1 && n > 2 && n < 16) { /* F_A */
+        char index[16];
+        snprintf(index, sizeof index, "%.*s", (int)(n - 2), name + 2);
+        italic(w, name, 1);
+        subscript(w, index);
+        return;
+    }
     char digits[8];
     size_t d = 1;
     while (d < n && isdigit((unsigned char)name[d]))

@@ -40,12 +40,20 @@ typedef bool command_run(shell *sh, lexer *lx, const command *self);
 command_run do_material, do_second, do_geometry, do_friction;
 command_run do_press, do_step, do_cycle, do_follow, do_reset, do_undo;
 /* view_commands.c, plot_commands.c, explain.c */
-command_run do_history, do_table, do_plot, do_explain, do_accuracy;
+command_run do_history, do_table, do_plot, do_animate, do_explain, do_accuracy;
 /* show.c, help.c, session_commands.c */
 command_run do_show, do_set, do_help, do_apropos;
 command_run do_source, do_demo, do_quit;
 
-/* The demo session, one statement a line. */
+/* A session to be played, one statement a line. */
+typedef struct script {
+    const char *name, *text;
+} script;
+
+/* The demo without a name. */
 extern const char demo_text[];
+/* scripts/paper, taken in when the program is built; ended by NULL. */
+extern const script paper_scripts[];
+const char *demo_name(size_t i);
 
 #endif

@@ -62,6 +62,7 @@ static const arg geometry_args[] = {{.kind = ARG_NAME, .name = "shape", .words =
                                     {.kind = ARG_END}};
 static const arg show_args[] = {{.kind = ARG_NAME, .name = "part", .words = show_name}, {.kind = ARG_END}};
 static const arg set_args[] = {{.kind = ARG_NAME, .name = "setting", .words = setting_name}, {.kind = ARG_END}};
+static const arg demo_args[] = {{.kind = ARG_NAME, .name = "demo", .words = demo_name}, {.kind = ARG_END}};
 static const arg help_args[] = {{.kind = ARG_NAME, .name = "topic", .words = help_name}, {.kind = ARG_END}};
 
 static const arg reset_args[] = {
@@ -95,6 +96,13 @@ static const arg plot_args[] = {
     {.kind = ARG_TO, .name = "to"},
     {.kind = ARG_END}};
 
+static const arg animate_args[] = {
+    {.kind = ARG_NAME, .name = "figure", .words = figure_name},
+    {.kind = ARG_LIST, .name = "expression"},
+    {.kind = ARG_COUNT, .name = "frames", .most = PLOT_FRAMES},
+    {.kind = ARG_TO, .name = "to"},
+    {.kind = ARG_END}};
+
 static const arg accuracy_args[] = {
     {.kind = ARG_VALUE, .name = "FA", .d = {1, 0, 0}, .flags = ARG_POSITIVE, .group = GROUP_TANGENTIAL},
     {.kind = ARG_VALUE, .name = "dxA", .d = {0, 1, 0}, .flags = ARG_POSITIVE, .group = GROUP_TANGENTIAL},
@@ -106,6 +114,17 @@ static void geometry_list(FILE *to) {
     for (size_t i = 0; (g = geometry_row(i)); i++)
         fprintf(to, "    geometry %s\n        %s\n", g->usage, g->meaning);
     fputs("\n    fret> geometry cone angle=45 deg\n    fret> slope\n    slope = 1\n", to);
+}
+
+static void demos_list(FILE *to) {
+    for (const script *s = paper_scripts; s->name; s++)
+        fprintf(to, "    %-8s %.*s\n", s->name, (int)strcspn(s->text + 2, "\n"), s->text + 2);
+}
+
+static void figures_list(FILE *to) {
+    const figure *f;
+    for (size_t i = 0; (f = figure_row(i)); i++)
+        fprintf(to, "    %-12s %s\n", f->name, f->summary);
 }
 
 static const command commands[] = {
@@ -272,9 +291,11 @@ static const command commands[] = {
      .args = table_args,
      .group = "results",
      .keywords = "sweep csv export",
-     .usage = "EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, v2, ...] [to FILE]",
+     .usage = "EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, v2, ...] | for VAR2 = ... [to FILE]",
      .summary = "a table over a range",
-     .help = "VAR is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n\n"
+     .help = "VAR is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n"
+             "Two ranges make a matrix, as CSV and JSON a row for each pair. `along program`,\n"
+             "`along cycle` and `along cycle FA=...` go along a load.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> table dW(F) in uJ, c(F)/a for F = 10 N .. 40 N steps 3\n"
              "            F [N]     dW(F) [uJ]         c(F)/a\n"
@@ -286,15 +307,37 @@ static const command commands[] = {
      .run = do_plot,
      .args = plot_args,
      .group = "results",
-     .keywords = "figure loop hysteresis png svg pdf export",
-     .usage = "loop | accuracy [FA=20 N] | EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, ...] [to "
-              "FILE.png|svg|pdf|gp]",
-     .summary = "a figure, in the terminal or to a file",
-     .help = "`plot loop` draws the hysteresis loop, F_x against delta_x; `plot accuracy` the\n"
-             "table of `accuracy`, error against time. FILE.gp is the gnuplot script itself.\n"
-             "`set plot 80x24` fixes the size, `set plot auto` follows the terminal.\n\n"
+     .keywords = "figure loop hysteresis png svg pdf tex export contour map measured",
+     .usage = "FIGURE [| FIGURE ...] [to FILE.png|svg|pdf|tex|html|gp]",
+     .summary = "figures, in the terminal or to a file",
+     .print = figures_list,
+     .help = "FIGURE is one of\n\n"
+             "    EXPR, ... [against EXPR] RANGE [with NAME = v1, v2, ...] [LOOKS]\n"
+             "    map EXPR for A = LO .. HI for B = LO .. HI [LOOKS]\n"
+             "    a name of the list above [with ...] [LOOKS]\n\n"
+             "RANGE is `for NAME = LO .. HI [steps N] [log]`, with more points where the curve\n"
+             "bends unless steps are given, or `along program`, `along cycle` or\n"
+             "`along step ...`, `along cycle ...` for a load that is only tried. LOOKS: title \"...\", xlabel \"...\", ylabel \"...\",\n"
+             "xrange LO .. HI, yrange LO .. HI, log x|y|xy, flip x|y, key off, points, and\n"
+             "over FILE.csv, which lays measured points on top. FILE.gp is the gnuplot script\n"
+             "itself. `set plot 80x24` fixes the size in the terminal, `set plot terminal` how\n"
+             "it is drawn there.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> plot loop\n"
+             "    error: there is no load yet: press first (press FN=100 N)\n"},
+    {.name = "animate",
+     .run = do_animate,
+     .args = animate_args,
+     .group = "results",
+     .keywords = "video movie gif springs",
+     .usage = "FIGURE [| FIGURE ...] [frames N] [to FILE.gif]",
+     .summary = "figures in motion along a load",
+     .help = "Figures as of `plot`. Those `along` a load, all along the same one, are drawn up\n"
+             "to a moving instant; `springs`, `pressure`, `traction` and what else goes over a\n"
+             "place show the state then. Without a figure along a load it is the program.\n"
+             "Ctrl-C stops.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> animate springs | loop | W1D along program\n"
              "    error: there is no load yet: press first (press FN=100 N)\n"},
     {.name = "explain",
      .run = do_explain,
@@ -379,9 +422,15 @@ static const command commands[] = {
      .run = do_demo,
      .group = "the session",
      .keywords = "tour",
-     .usage = "",
-     .summary = "play a session: a steel sphere on a graded half-space",
-     .help = "Shows each statement and its answer, in a scene of its own.\n"},
+     .args = demo_args,
+     .usage = "[NAME]",
+     .summary = "play a session: a tour, or a figure of the paper",
+     .print = demos_list,
+     .help = "Shows each statement and its answer, in a scene of its own. Without a name: a\n"
+             "sphere on a graded half-space. The names are those of the figures and videos of\n"
+             "Mathematics 2022, 10, 3641.\n\n"
+             "    fret> demo fig7a\n"
+             "    error: no demo 'fig7a': did you mean fig07a?\n"},
     {.name = "help",
      .run = do_help,
      .args = help_args,

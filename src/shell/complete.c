@@ -9,6 +9,7 @@
 
 #include "shell/command.h"
 #include "shell/help.h"
+#include "shell/looks.h"
 
 /* ---- candidates -------------------------------------------------------------------------------- */
 
@@ -348,6 +349,9 @@ static void add_continuation(const place *p) {
                      : !c && words[i].of_value) &&
             !is_given(p, words[i].word))
             add(p, words[i].word, "");
+    for (size_t i = 0; figure && looks_word(i); i++)
+        if (!is_given(p, looks_word(i)) && strcmp(looks_word(i), "over"))
+            add(p, looks_word(i), "");
 }
 
 /* The dimension that `NAME = NUMBER` wants at the cursor after the number. */

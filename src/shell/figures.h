@@ -10,9 +10,10 @@ typedef struct figure {
     const char *name;
     const char *title;
     const char *summary;
-    const char *statement; /* EXPR, ... [against EXPR] RANGE; NULL: build makes it */
-    const char *roles;     /* of the expressions: c curve, t thin line, b edge of a band (two of them) */
-    bool flipy, points;
+    const char *statement; /* EXPR, ... [against EXPR] RANGE [looks]; NULL: build makes it */
+    /* of the expressions: c curve, t thin line, b edge of a band (two of them), s curve that slips where it
+     * is at its bounds, which follow */
+    const char *roles;
     /* reads its own arguments */
     bool (*build)(shell *sh, lexer *lx, plot_panel *p);
 } figure;

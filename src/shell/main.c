@@ -175,8 +175,10 @@ static int read_options(int argc, char **argv, wishes *w, settings *set) {
         status = take_option(opt, w, set, argv);
     for (int i = optind; i < argc && !w->done && status == EXIT_OK; i++)
         w->jobs[w->count++] = (job){false, argv[i]};
-    set->color = !strcmp(w->color, "always") ||
-                 (!strcmp(w->color, "auto") && isatty(STDERR_FILENO) && !getenv("NO_COLOR"));
+    const char *no = getenv("NO_COLOR");
+    const bool always = !strcmp(w->color, "always"), may = !strcmp(w->color, "auto") && !(no && *no);
+    set->color = always || (may && isatty(STDERR_FILENO));
+    set->color_out = always || (may && isatty(STDOUT_FILENO));
     return status;
 }
 

@@ -1,255 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* `plot`: reads figures, lets the sweeps fill them, and gives them to gnuplot. */
+/* `plot` and `animate`: reads figures and gives them to gnuplot. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "shell/expressions.h"
-#include "shell/figures.h"
-#include "shell/range.h"
+#include "shell/panel.h"
 #include "shell/target.h"
-
-enum { PLOTTED = 8 }; /* expressions of a panel */
-
-/* A panel on its way: expressions of a sweep become curves. */
-typedef struct panel_job {
-    shell *sh;
-    plot_panel *p;
-    const figure *figure; /* or NULL */
-    const sweep *s;
-    size_t count;                /* expressions that are drawn */
-    bool against;                /* the one after them is the abscissa */
-    const column *columns;
-    calc_error *error;
-    size_t first; /* series of the panel before this sweep */
-} panel_job;
-
-static char role_of(const panel_job *job, size_t i) {
-    return job->figure && job->figure->roles ? job->figure->roles[i] : 'c';
-}
-
-/* "k = 0.5", the expression, or both: what tells the curves apart. */
-static char *title_of(const panel_job *job, size_t curve, size_t i) {
-    char text[500] = "", number[160];
-    const column *c = &job->columns[i];
-    size_t drawn = 0;
-    for (size_t j = 0; j < job->count; j++)
-        drawn += role_of(job, j) == 'c';
-    if (role_of(job, i) != 'c' || (drawn < 2 && !job->s->curves))
-        return NULL;
-    if (job->s->curves)
-        format_value(&job->sh->set, (value){job->s->value[curve], job->s->with.d}, number, sizeof number);
-    if (drawn > 1 && job->s->curves)
-        snprintf(text, sizeof text, "%.200s, %s = %s", c->name, job->s->with.text, number);
-    else if (job->s->curves)
-        snprintf(text, sizeof text, "%s = %s", job->s->with.text, number);
-    else
-        snprintf(text, sizeof text, "%.300s", c->name);
-    return plot_label(text, NULL);
-}
-
-/* The series of a curve: one an expression, one for both edges of a band. */
-static bool add_series(panel_job *job, size_t curve) {
-    char error[CALC_ERROR_TEXT - 8];
-    for (size_t i = 0; i < job->count; i++) {
-        const char role = role_of(job, i);
-        plot_series *s = plot_series_add(job->p, role == 'b' ? PLOT_BAND : PLOT_CURVE, title_of(job, curve, i), error,
-                                         sizeof error);
-        if (!s)
-            return calc_fail(job->error, 0, 0, "%s", error);
-        s->thin = role != 'c';
-        i += role == 'b';
-    }
-    return true;
-}
-
-static bool give_point(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
-    panel_job *job = context;
-    size_t each = 0;
-    (void)s;
-    for (size_t i = 0; i < job->count; i++, each++)
-        i += role_of(job, i) == 'b';
-    const size_t at = job->first + curve * each;
-    if (at >= job->p->count && !add_series(job, curve))
-        return false;
-    const double abscissa = (double)(job->against ? values[job->count] : x);
-    for (size_t i = 0, j = at; i < job->count; i++, j++) {
-        plot_series *to = job->p->series[j];
-        const bool band = role_of(job, i) == 'b';
-        if (!(band ? plot_band(to, abscissa, (double)values[i], (double)values[i + 1])
-                   : plot_point(to, abscissa, (double)values[i])))
-            return calc_no_memory(job->error);
-        i += band;
-    }
-    return true;
-}
-
-/* ---- axes -------------------------------------------------------------------------------------- */
-
-static double largest(const plot_panel *p, bool x_axis) {
-    double most = 0;
-    for (size_t i = 0; i < p->count; i++)
-        for (size_t j = 0; j < p->series[i]->count; j++) {
-            const double v = fabs(x_axis ? p->series[i]->x[j] : p->series[i]->y[j]);
-            if (isfinite(v))
-                most = fmax(most, v);
-        }
-    return most;
-}
-
-static void divide(plot_panel *p, bool x_axis, long double scale) {
-    for (size_t i = 0; i < p->count; i++) {
-        plot_series *s = p->series[i];
-        for (size_t j = 0; j < s->count; j++) {
-            double *v = x_axis ? &s->x[j] : &s->y[j];
-            *v = (double)(*v / scale);
-            if (!x_axis && s->y2)
-                s->y2[j] = (double)(s->y2[j] / scale);
-        }
-    }
-}
-
-/* In the unit that was asked for, or one with a prefix that fits. */
-static char *scale_axis(plot_panel *p, bool x_axis, const column *c, dim d, const char *name) {
-    char unit_text[COLUMN_UNIT];
-    long double scale;
-    if (c && c->chosen) {
-        scale = c->scale;
-        snprintf(unit_text, sizeof unit_text, "%s", c->unit);
-    } else {
-        scale = unit_choose(d, largest(p, x_axis), 6, unit_text, sizeof unit_text);
-    }
-    divide(p, x_axis, scale);
-    return plot_label(name, unit_text);
-}
-
-static bool finish_axes(panel_job *job, const dim *d, const bool *known) {
-    const sweep *s = job->s;
-    const column *c = job->columns;
-    size_t drawn = 0;
-    for (size_t i = 0; i < job->count; i++)
-        drawn += role_of(job, i) == 'c';
-    for (size_t i = 1; i < job->count; i++)
-        if (known[i] && known[0] && !dim_equal(d[i], d[0]))
-            return calc_fail(job->error, job->sh->list[i].at, job->sh->list[i].len, "%s and %s cannot share an axis",
-                             c[0].name, c[i].name);
-    const column *x = job->against ? &c[job->count] : NULL;
-    const char *xname = x ? x->name : s->along ? "time" : s->var.text;
-    job->p->xlabel = scale_axis(job->p, true, x, x ? d[job->count] : s->along ? DIM_NONE : s->var.d, xname);
-    job->p->ylabel = scale_axis(job->p, false, &c[0], d[0], drawn > 1 ? "" : c[0].name);
-    job->p->logx = job->p->logx || s->log;
-    if (!job->p->title)
-        job->p->title = job->figure ? strdup(job->figure->title) : drawn == 1 ? plot_label(c[0].name, NULL) : NULL;
-    return true;
-}
-
-/* ---- figures ----------------------------------------------------------------------------------- */
-
-/* EXPR, ... [against EXPR] RANGE at the cursor. */
-static bool draw_sweep(shell *sh, lexer *lx, const figure *f, plot_panel *p) {
-    column columns[PLOTTED + 1];
-    size_t count = 0, more = 0;
-    dim d[PLOTTED + 1] = {DIM_NONE};
-    bool known[PLOTTED + 1] = {false};
-    range r;
-    bool ok = read_expressions(sh, lx, columns, PLOTTED, &count);
-    panel_job job = {.sh = sh, .p = p, .figure = f, .count = count, .columns = columns, .error = lx->error};
-    if (ok && lex_accept(lx, "against")) {
-        ok = read_one_expression(sh, lx, count, &columns[count]);
-        job.against = true;
-        more = 1;
-    }
-    ok = ok && range_read(sh, lx, &r, 200);
-    if (ok) {
-        job.s = &r.sweep;
-        r.sweep.turns = true;
-        for (size_t i = 0; i < count + more; i++) {
-            known[i] = columns[i].chosen;
-            d[i] = columns[i].d;
-        }
-        sweep_job sweeping = {.c = &sh->calc,
-                              .expressions = sh->list,
-                              .count = count + more,
-                              .d = d,
-                              .known = known,
-                              .row = give_point,
-                              .context = &job,
-                              .error = lx->error};
-        if (r.sweep.along && r.sweep.steps == 200)
-            r.sweep.steps = 400;
-        if (r.sweep.along && r.sweep.what == ALONG_PROGRAM && sh->calc.scene.end.steps == 1)
-            ok = calc_fail(lx->error, 0, 0, "there is no loop yet: use step or cycle first");
-        ok = ok && sweep_run(&r.sweep, &sweeping) && finish_axes(&job, d, known);
-        if (ok)
-            note_missing(sh, &sweeping);
-    }
-    columns_free(columns, count + more);
-    return ok;
-}
-
-/* The end of what belongs to this figure: a `|`, `to FILE`, or the end. */
-static size_t figure_end(const lexer *lx) {
-    calc_error ignored;
-    lexer scan = *lx;
-    error_clear(&ignored);
-    scan.error = &ignored;
-    while (scan.kind != T_END && scan.kind != T_BAR && !lex_is(&scan, "to"))
-        lex_next(&scan);
-    return scan.kind == T_END ? lx->end : scan.at;
-}
-
-/* A figure of the table: its statement as if it stood here, what follows the name after it. */
-static bool draw_named(shell *sh, lexer *lx, const figure *f, plot_panel *p) {
-    p->flipy = f->flipy;
-    p->points = f->points;
-    lex_next(lx);
-    if (f->build)
-        return f->build(sh, lx, p);
-    const size_t rest = figure_end(lx), length = strlen(f->statement);
-    char *text = malloc(length + 1 + (rest - lx->at) + 1);
-    if (!text)
-        return calc_no_memory(lx->error);
-    snprintf(text, length + 1 + (rest - lx->at) + 1, "%s %.*s", f->statement, (int)(rest - lx->at), lx->text + lx->at);
-    lexer own;
-    lex_start(&own, text, strlen(text), lx->error);
-    range_names used;
-    bool found;
-    bool ok = range_names_find(sh, &own, &used, &found) && draw_sweep(sh, &own, f, p) && at_end(&own);
-    range_forget(sh, &used);
-    free(text);
-    if (!ok && lx->error->len && lx->error->at > length)
-        lx->error->at += lx->at - (length + 1);
-    else if (!ok)
-        lx->error->len = 0;
-    lex_seek(lx, rest);
-    return ok;
-}
-
-/* The name of a figure is an expression where one goes on behind it. */
-static const figure *figure_at(const lexer *lx) {
-    static const char *const goes_on[] = {"for", "along", "in", "at", "against"};
-    const figure *f = lx->kind == T_NAME ? figure_find(lx->text + lx->at, lx->len) : NULL;
-    lexer next = *lx;
-    calc_error ignored;
-    error_clear(&ignored);
-    next.error = &ignored;
-    lex_next(&next);
-    for (size_t i = 0; i < sizeof goes_on / sizeof *goes_on; i++)
-        if (lex_is(&next, goes_on[i]))
-            return NULL;
-    return next.kind == T_END || next.kind == T_NAME || next.kind == T_BAR ? f : NULL;
-}
-
-static bool draw_panel(shell *sh, lexer *lx, plot_figure *f) {
-    char error[CALC_ERROR_TEXT - 8];
-    plot_panel *p = plot_panel_add(f, error, sizeof error);
-    if (!p)
-        return lex_fail(lx, "%s", error);
-    const figure *named = figure_at(lx);
-    return named ? draw_named(sh, lx, named, p) : draw_sweep(sh, lx, NULL, p);
-}
+#include "shell/typeset.h"
 
 /* ---- where it goes ----------------------------------------------------------------------------- */
 
@@ -263,31 +22,51 @@ static void terminal_size(const shell *sh, int *w, int *h) {
     }
 }
 
-static bool draw(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
-    char error[CALC_ERROR_TEXT - 8];
-    file_report written;
-    text_out text;
-    if (!text_begin(&text, &sh->set, sh->out))
-        return calc_no_memory(lx->error);
-    plot_target to = {.file = file,
-                      .out = text.to,
-                      .columns = sh->set.plot_width,
-                      .rows = sh->set.plot_height,
-                      .timeout = sh->set.plot_timeout,
-                      .stop = &shell_stop};
-    if (!file && !to.columns)
-        terminal_size(sh, &to.columns, &to.rows);
+/* The target; the text of the terminal begins. */
+static bool begin_target(shell *sh, const char *file, text_out *text, plot_target *to, calc_error *error) {
+    if (!text_begin(text, &sh->set, sh->out))
+        return calc_no_memory(error);
+    const bool terminal = text->to == stdout && isatty(STDOUT_FILENO);
+    *to = (plot_target){.file = file,
+                        .out = text->to,
+                        .terminal = (plot_terminal)sh->set.plot_terminal,
+                        .color = sh->set.color_out && text->to == sh->out,
+                        .unicode = typeset_unicode(),
+                        .moving = terminal,
+                        .columns = sh->set.plot_width,
+                        .rows = sh->set.plot_height,
+                        .timeout = sh->set.plot_timeout,
+                        .stop = &shell_stop};
+    if (!file && !to->columns)
+        terminal_size(sh, &to->columns, &to->rows);
     fflush(sh->out);
-    bool ok = plot_draw(f, &to, &written, error, sizeof error);
-    text_end(&text);
+    return true;
+}
+
+static bool end_target(shell *sh, const char *file, text_out *text, const file_report *written, bool ok,
+                       const char *error, lexer *lx) {
+    text_end(text);
     if (!ok) {
         lx->error->stop = shell_stop;
         return calc_fail(lx->error, 0, 0, "%s", error);
     }
     if (file)
-        target_report(sh, file, &written);
+        target_report(sh, file, written);
     return true;
 }
+
+static bool draw(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
+    char error[CALC_ERROR_TEXT - 8];
+    file_report written;
+    text_out text;
+    plot_target to;
+    if (!begin_target(sh, file, &text, &to, lx->error))
+        return false;
+    const bool ok = plot_draw(f, &to, &written, error, sizeof error);
+    return end_target(sh, file, &text, &written, ok, error, lx);
+}
+
+/* ---- figures ----------------------------------------------------------------------------------- */
 
 /* `to FILE` may stand behind long work: it is asked for before. */
 static bool find_file(lexer *lx, char *file) {
@@ -297,7 +76,10 @@ static bool find_file(lexer *lx, char *file) {
     error_clear(&ignored);
     scan.error = &ignored;
     while (scan.kind != T_END && !lex_is(&scan, "to"))
-        lex_next(&scan);
+        if (lex_accept(&scan, "over"))
+            lex_filename(&scan, file, ARG_FILE_NAME);
+        else
+            lex_next(&scan);
     file[0] = 0;
     if (scan.kind == T_END)
         return true;
@@ -305,11 +87,30 @@ static bool find_file(lexer *lx, char *file) {
     const size_t at = scan.at;
     if (!lex_filename(&scan, file, ARG_FILE_NAME))
         return true; /* said when it is read */
-    return plot_check(file, &shell_stop, error, sizeof error) || calc_fail(lx->error, at, scan.last - at, "%s", error);
+    return plot_check(file, &shell_stop, error, sizeof error) ||
+           calc_fail(lx->error, at, scan.last - at, "%s", error);
+}
+
+/* FIGURE [| FIGURE ...] at the cursor. */
+static bool draw_panels(shell *sh, lexer *lx, plot_figure *f, motion *m) {
+    bool ok;
+    while ((ok = panel_draw(sh, lx, f, m)) && lx->kind == T_BAR)
+        lex_next(lx);
+    return ok;
+}
+
+/* Behind the figures. */
+static bool read_end(shell *sh, lexer *lx, unsigned *frames) {
+    char again[ARG_FILE_NAME];
+    if (frames && lex_accept(lx, "frames") && !read_count(&sh->calc, lx, "frames", PLOT_FRAMES, frames))
+        return false;
+    if (lex_accept(lx, "to") && !lex_filename(lx, again, sizeof again))
+        return false;
+    return at_end(lx);
 }
 
 bool do_plot(shell *sh, lexer *lx, const command *self) {
-    char file[ARG_FILE_NAME], again[ARG_FILE_NAME];
+    char file[ARG_FILE_NAME];
     plot_figure f;
     range_names used;
     bool found, ok = true;
@@ -317,15 +118,146 @@ bool do_plot(shell *sh, lexer *lx, const command *self) {
     if (!range_names_find(sh, lx, &used, &found))
         return false;
     plot_figure_init(&f);
-    if (!found && !figure_at(lx))
+    if (!found && !panel_is_named(lx))
         ok = lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI");
-    ok = ok && find_file(lx, file);
-    while (ok && (ok = draw_panel(sh, lx, &f)) && lx->kind == T_BAR)
-        lex_next(lx);
-    if (ok && lex_accept(lx, "to"))
-        ok = lex_filename(lx, again, sizeof again);
-    ok = ok && at_end(lx) && draw(sh, lx, &f, *file ? file : NULL);
+    ok = ok && find_file(lx, file) && draw_panels(sh, lx, &f, NULL) && read_end(sh, lx, NULL) &&
+         draw(sh, lx, &f, *file ? file : NULL);
     plot_figure_free(&f);
+    range_forget(sh, &used);
+    return ok;
+}
+
+/* ---- motion ------------------------------------------------------------------------------------ */
+
+typedef struct movie {
+    shell *sh;
+    const lexer *figures; /* at the first */
+    motion motion;
+    plot_figure *frame;
+    size_t done, frames;
+    calc_error *error;
+} movie;
+
+static void show_progress(const movie *m, const char *what) {
+    if (isatty(STDERR_FILENO))
+        fprintf(m->sh->err, "\r%s %zu/%zu\033[K", what, m->done, m->frames);
+}
+
+static void clear_progress(const movie *m) {
+    if (isatty(STDERR_FILENO))
+        fputs("\r\033[K", m->sh->err);
+}
+
+/* The figures at an instant; turning points between the frames are passed by. */
+static bool take_frame(void *context, double time, calc_error *error) {
+    movie *m = context;
+    lexer lx = *m->figures;
+    (void)error;
+    if (m->done == m->frames)
+        return true;
+    lx.error = m->error;
+    m->motion.until = time;
+    show_progress(m, "frame");
+    return draw_panels(m->sh, &lx, &m->frame[m->done++], &m->motion);
+}
+
+/* Goes along the load on a scratch scene. */
+static bool take_frames(movie *m) {
+    calc *c = &m->sh->calc;
+    load_mark from;
+    sweep_range load = {.lo = 0};
+    bool ok = true;
+    trial *t = trial_open(c, m->error);
+    if (!t)
+        return false;
+    from = t->scene.end;
+    if (m->motion.load) {
+        lexer lx;
+        lex_start(&lx, m->motion.load, strlen(m->motion.load), m->error);
+        ok = read_load(m->sh, &lx, &load.step, &load.extra, load.bound) &&
+             sweep_try_load(t, &load, &from, m->error);
+    }
+    m->motion.at = t;
+    if (ok && !trial_along(t, m->motion.what, from, m->frames - 1, false, take_frame, m, m->error))
+        ok = m->error->raised ? false : calc_interrupted(m->error);
+    m->motion.at = NULL;
+    for (input in = 0; in < INPUTS; in++)
+        counted_drop(load.bound[in]);
+    if (!ok)
+        calc_word(c, m->error);
+    trial_close(t);
+    clear_progress(m);
+    return ok;
+}
+
+static bool fill(void *context, size_t i, size_t frames, plot_figure *f, char *error, size_t size) {
+    movie *m = context;
+    (void)frames, (void)error, (void)size;
+    *f = m->frame[i];
+    m->frame[i].count = 0;
+    return true;
+}
+
+static void drawing(void *context, size_t done, size_t frames) {
+    movie *m = context;
+    m->done = done;
+    if (done == frames && isatty(STDERR_FILENO))
+        fprintf(m->sh->err, "\rgnuplot draws %zu frames\033[K", frames);
+}
+
+static bool draw_movie(movie *m, lexer *lx, const char *file) {
+    char error[CALC_ERROR_TEXT - 8];
+    file_report written;
+    text_out text;
+    plot_target to;
+    if (!begin_target(m->sh, file, &text, &to, lx->error))
+        return false;
+    const plot_movie of = {.frames = m->done, .fill = fill, .progress = drawing, .context = m};
+    const bool ok = plot_animate(&of, &to, &written, error, sizeof error);
+    clear_progress(m);
+    return end_target(m->sh, file, &text, &written, ok, error, lx);
+}
+
+/* Draws the figures once as they stand, then at every instant, then all of it. */
+static bool run_movie(movie *m, lexer *lx, const char *file) {
+    plot_figure whole;
+    unsigned frames = (unsigned)m->frames;
+    plot_figure_init(&whole);
+    bool ok = draw_panels(m->sh, lx, &whole, &m->motion) && read_end(m->sh, lx, &frames);
+    plot_figure_free(&whole);
+    m->frames = frames;
+    if (ok && !m->motion.found)
+        m->motion.what = ALONG_PROGRAM;
+    m->frame = ok ? calloc(frames, sizeof *m->frame) : NULL;
+    if (ok && !m->frame)
+        ok = calc_no_memory(lx->error);
+    if (ok && frames < 2)
+        ok = calc_fail(lx->error, 0, 0, "an animation takes 2 frames or more");
+    ok = ok && take_frames(m) && draw_movie(m, lx, file);
+    for (size_t i = 0; m->frame && i < frames; i++)
+        plot_figure_free(&m->frame[i]);
+    free(m->frame);
+    free(m->motion.load);
+    return ok;
+}
+
+bool do_animate(shell *sh, lexer *lx, const command *self) {
+    enum { FRAMES = 80 };
+    char file[ARG_FILE_NAME];
+    range_names used;
+    bool found;
+    (void)self;
+    if (!range_names_find(sh, lx, &used, &found))
+        return false;
+    const lexer figures = *lx;
+    movie *m = calloc(1, sizeof *m);
+    bool ok = m || calc_no_memory(lx->error);
+    if (ok) {
+        *m = (movie){.sh = sh, .figures = &figures, .frames = FRAMES, .error = lx->error};
+        ok = (found || panel_is_named(lx) || lex_fail(lx, "expected EXPR, ... along program, or a figure")) &&
+             find_file(lx, file) && run_movie(m, lx, *file ? file : NULL);
+    }
+    free(m);
     range_forget(sh, &used);
     return ok;
 }

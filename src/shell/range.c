@@ -133,21 +133,33 @@ bool range_read_with(shell *sh, lexer *lx, sweep *s) {
             return lex_fail(lx, "more than %d values", SWEEP_VALUES);
         if (s->curves)
             lex_next(lx);
+        s->value_at[s->curves] = lx->at;
         if (!read_bound(&sh->calc, lx, &s->with, s->curves == 0, &s->with.d, &s->value[s->curves]))
             return false;
+        s->value_len[s->curves] = lx->last - s->value_at[s->curves];
         s->curves++;
     } while (lx->kind == T_COMMA);
     return !lx->error->raised;
 }
 
-static bool read_options(shell *sh, lexer *lx, sweep *s) {
+/* `log x` is of the axes. */
+static bool accept_log(lexer *lx) {
+    lexer ahead = *lx;
+    if (!lex_is(lx, "log"))
+        return false;
+    lex_next(&ahead);
+    return !lex_is(&ahead, "x") && !lex_is(&ahead, "y") && !lex_is(&ahead, "xy") && lex_accept(lx, "log");
+}
+
+bool range_read_options(shell *sh, lexer *lx, sweep *s) {
     for (;;) {
         unsigned steps;
         if (lex_accept(lx, "steps")) {
             if (!read_count(&sh->calc, lx, "steps", RANGE_STEPS, &steps))
                 return false;
             s->steps = steps;
-        } else if (!s->along && lex_accept(lx, "log")) {
+            s->refine = false;
+        } else if (!s->along && accept_log(lx)) {
             s->log = true;
         } else if (lex_is(lx, "with")) {
             if (!range_read_with(sh, lx, s))
@@ -164,7 +176,7 @@ bool range_read(shell *sh, lexer *lx, range *out, size_t steps) {
     *out = (range){.sweep = {.steps = steps, .range = evaluate_range}, .sh = sh, .statement = lx};
     s->context = out;
     if (lex_accept(lx, "along"))
-        return read_along(sh, lx, out) && read_options(sh, lx, s);
+        return read_along(sh, lx, out) && range_read_options(sh, lx, s);
     if (!lex_accept(lx, "for"))
         return lex_fail(lx, "expected for VAR = LO .. HI");
     if (!read_name(&sh->calc, lx, &s->var))
@@ -174,7 +186,7 @@ bool range_read(shell *sh, lexer *lx, range *out, size_t steps) {
         return false;
     s->var.d = ends.d;
     const size_t at = lx->at;
-    if (!read_options(sh, lx, s))
+    if (!range_read_options(sh, lx, s))
         return false;
     return !s->log || (ends.lo > 0 && ends.hi > 0) ||
            calc_fail(lx->error, at, 1, "a logarithmic sweep needs positive ends");

@@ -27,6 +27,8 @@ void range_forget(shell *sh, const range_names *names);
 
 /* At `for` or `along`; steps: where none are given. The lexer must outlive the range. */
 bool range_read(shell *sh, lexer *lx, range *out, size_t steps);
+/* `steps N`, `log` and `with ...` at the cursor, as many as stand there. */
+bool range_read_options(shell *sh, lexer *lx, sweep *s);
 /* `with NAME = v1, ...` at the cursor, if it stands there. */
 bool range_read_with(shell *sh, lexer *lx, sweep *s);
 /* Says on standard error why some values of a sweep are missing. */

@@ -72,6 +72,35 @@ static void warn_dissimilar(shell *sh) {
     sh->dissimilar = !f->similar;
 }
 
+/* Beyond these the bodies are no half-spaces, which the theory takes them for. */
+static const double most_radius = 0.3, most_slope = 0.36397023426620236; /* of R; tan 20 deg */
+
+static void warn_half_space(shell *sh) {
+    scene *s = &sh->calc.scene;
+    const fret_press *press;
+    long double R = 0, slope = 0;
+    calc_error ignored;
+    error_clear(&ignored);
+    if (!s->end.steps || !scene_press(s, &press, &ignored))
+        return;
+    enum { WIDE = 1, STEEP = 2 };
+    const bool wide = inputs_take(&s->in, IN_RADIUS) && scene_get(s, IN_RADIUS, &R, &ignored) && press->a > most_radius * R;
+    const bool steep = inputs_take(&s->in, IN_SLOPE) && scene_get(s, IN_SLOPE, &slope, &ignored) && slope > most_slope;
+    if (wide && !(sh->no_half_space & WIDE))
+        shell_note(sh, "warning: a/R = %.3g: beyond 0.3 the bodies are no half-spaces, and these results are an approximation",
+                   (double)(press->a / R));
+    if (steep && !(sh->no_half_space & STEEP))
+        shell_note(sh, "warning: slope = %.3g: flanks steeper than 20 deg leave the half-space, and these results are an "
+                       "approximation",
+                   (double)slope);
+    sh->no_half_space = (wide ? WIDE : 0u) | (steep ? STEEP : 0u);
+}
+
+static void warn(shell *sh) {
+    warn_dissimilar(sh);
+    warn_half_space(sh);
+}
+
 static bool run_command(shell *sh, lexer *lx, const command *c) {
     const size_t at = lx->at, len = lx->len;
     scene_mark before;
@@ -86,7 +115,7 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
     else if (c->changes)
         scene_drop(&before);
     if (ok && (c->changes || c->run == do_undo))
-        warn_dissimilar(sh);
+        warn(sh);
     return ok || calc_place(lx->error, at, lx->end > at + len ? lx->end - at : len);
 }
 
@@ -100,7 +129,7 @@ static bool assign(shell *sh, lexer *lx) {
         *sh->calc.note = 0;
     }
     if (ok)
-        warn_dissimilar(sh);
+        warn(sh);
     return ok;
 }
 

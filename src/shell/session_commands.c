@@ -46,22 +46,50 @@ const char demo_text[] = "# Two steel bodies that grow stiffer with depth, a sph
                          "dW\n"
                          "plot loop\n";
 
+const char *demo_name(size_t i) {
+    return paper_scripts[i].name;
+}
+
+/* The session at the cursor, or the one without a name. */
+static const char *find_demo(lexer *lx) {
+    char word[LEX_NAME];
+    if (lx->kind == T_END)
+        return demo_text;
+    for (const script *s = paper_scripts; s->name; s++)
+        if (lex_accept(lx, s->name))
+            return s->text;
+    lex_word(lx, word);
+    const char *near = suggest(word, demo_name);
+    lex_fail(lx, near ? "no demo '%s': did you mean %s?" : "no demo '%s'", word, near);
+    return NULL;
+}
+
+static bool play_line(shell *own, const char *line, size_t n, calc_error *error) {
+    for (size_t i = 0, end; i < n; i = end + 1) {
+        end = shell_statement_end(line, i, n);
+        if (!shell_statement(own, line + i, end - i, error))
+            return false;
+    }
+    return true;
+}
+
 /* In a session of its own: the user's stays as it is. */
 bool do_demo(shell *sh, lexer *lx, const command *self) {
     (void)self;
-    if (!at_end(lx))
+    const char *line = find_demo(lx);
+    if (!line || !at_end(lx))
         return false;
     shell own;
     shell_init(&own, sh->out, sh->err);
     own.set = sh->set;
     own.set.report = REPORT_OFF;
     bool ok = true;
-    for (const char *line = demo_text; *line && ok && !shell_stop; line += strcspn(line, "\n") + 1) {
+    for (; *line && ok && !shell_stop; line += strcspn(line, "\n") + 1) {
         const size_t n = strcspn(line, "\n");
         const bool comment = *line == '#';
         if (sh->set.format == FORMAT_TEXT)
             fprintf(sh->out, comment ? "\n%.*s\n" : "fret> %.*s\n", (int)n, line);
-        ok = comment || shell_statement(&own, line, n, lx->error);
+        ok = comment || play_line(&own, line, n, lx->error);
     }
     if (!ok) {
         calc_word(&own.calc, lx->error);

@@ -11,12 +11,26 @@
 
 /* ---- neither a word nor a number --------------------------------------------------------------- */
 
+static const char *const terminals[] = {"auto", "dumb", "block", "sixel", NULL};
+
+static bool read_word(const char *const *words, lexer *lx, int *out);
+
+static bool parse_terminal(settings *set, lexer *lx) {
+    int choice;
+    if (!read_word(terminals, lx, &choice) || !at_end(lx))
+        return false;
+    set->plot_terminal = choice;
+    return true;
+}
+
 /* 80x24 reads as the number 80 and the name x24. */
 static bool parse_plot(calc *c, settings *set, lexer *lx) {
     enum { LEAST_WIDTH = 20, LEAST_HEIGHT = 8, SIZE = 30 };
     char text[SIZE + 1];
     int width = 0, height = 0, used = 0;
     (void)c;
+    if (lex_accept(lx, "terminal"))
+        return parse_terminal(set, lx);
     if (!lex_accept(lx, "auto")) {
         const size_t left = lx->end - lx->at;
         snprintf(text, sizeof text, "%.*s", (int)(left < SIZE ? left : SIZE), lx->text + lx->at);
@@ -40,6 +54,8 @@ static void show_plot(const calc *c, const settings *set, FILE *to) {
         fprintf(to, "%dx%d", set->plot_width, set->plot_height);
     else
         fputs("auto", to);
+    if (set->plot_terminal)
+        fprintf(to, "\nset plot terminal %s", terminals[set->plot_terminal]);
 }
 
 static bool parse_model(calc *c, settings *set, lexer *lx) {
@@ -110,8 +126,8 @@ static const setting rows[] = {
      .parse = parse_model,
      .show = show_model},
     {.name = "plot",
-     .usage = "WxH|auto",
-     .summary = "size of a plot in the terminal, in characters; auto: all of it",
+     .usage = "WxH|auto|terminal auto|dumb|block|sixel",
+     .summary = "size of plots in the terminal, in characters, and how they are drawn there",
      .parse = parse_plot,
      .show = show_plot},
 };
@@ -127,15 +143,15 @@ const char *setting_name(size_t i) {
 
 /* ---- by the table ------------------------------------------------------------------------------ */
 
-static bool read_word(const setting *row, lexer *lx, int *out) {
+static bool read_word(const char *const *words, lexer *lx, int *out) {
     char list[CALC_ERROR_TEXT / 2] = "";
-    for (int i = 0; row->words[i]; i++)
-        if (lex_accept(lx, row->words[i])) {
+    for (int i = 0; words[i]; i++)
+        if (lex_accept(lx, words[i])) {
             *out = i;
             return true;
         }
-    for (int i = 0; row->words[i]; i++)
-        list_word(list, sizeof list, row->words[i], !row->words[i + 1]);
+    for (int i = 0; words[i]; i++)
+        list_word(list, sizeof list, words[i], !words[i + 1]);
     return lex_fail(lx, "expected %s", list);
 }
 
@@ -154,7 +170,7 @@ bool setting_read(calc *c, settings *set, lexer *lx) {
         return row->parse(c, set, lx);
     int choice = 0;
     unsigned count = 0;
-    if (row->words ? !read_word(row, lx, &choice)
+    if (row->words ? !read_word(row->words, lx, &choice)
                    : !read_count(c, lx, row->name, (unsigned)row->most, &count))
         return false;
     if (!at_end(lx))

@@ -15,7 +15,8 @@ typedef struct settings {
     int digits;
     int report; /* auto: at the prompt only */
     int timing;
-    bool color;
+    bool color, color_out; /* of errors, of figures in the terminal */
+    int plot_terminal;     /* plot_terminal of plot.h */
     int plot_width, plot_height; /* 0: the terminal's, or the picture's default */
     double plot_timeout;
 } settings;

@@ -25,6 +25,7 @@ typedef struct shell {
     FILE *out, *err;
     bool interactive, quit, failed;
     bool dissimilar;         /* the bodies are, and it has been said */
+    unsigned no_half_space;      /* likewise: 1 the contact is too wide, 2 the flanks are too steep */
     int nesting;             /* of `source` */
     expr list[EXPRESSIONS];  /* of a print, table or plot statement, reused */
 } shell;

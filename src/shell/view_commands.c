@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "shell/expressions.h"
-#include "shell/range.h"
+#include "shell/map.h"
 #include "shell/target.h"
 
 /* ---- history ----------------------------------------------------------------------------------- */
@@ -56,18 +56,23 @@ typedef struct table_job {
     bool known[COLUMNS];
     const char *units[COLUMNS];
     size_t curve;
+    long double second; /* the value of the second name of a grid, in the last row */
     bool begun, blocks;
     const char *name; /* where it goes, for messages */
     calc_error *error;
 } table_job;
 
-static bool begin(table_job *job) {
+static void begin_columns(table_job *job) {
     for (size_t i = 0; i < job->count; i++) {
         column *c = &job->columns[job->first + i];
         if (!c->chosen)
             dim_unit(job->known[i] ? job->d[i] : DIM_NONE, c->unit, sizeof c->unit);
     }
+}
+
+static bool begin(table_job *job) {
     job->begun = true;
+    begin_columns(job);
     table_begin(&job->t);
     return true;
 }
@@ -75,11 +80,13 @@ static bool begin(table_job *job) {
 static bool give_row(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
     table_job *job = context;
     long double row[COLUMNS];
-    if (!job->begun && !begin(job))
+    const bool first = !job->begun;
+    if (first && !begin(job))
         return false;
-    if (job->blocks && curve != job->curve)
+    if (job->blocks && !first && (curve != job->curve || (s->curves && s->value[curve] != job->second)))
         putc('\n', job->t.to);
     job->curve = curve;
+    job->second = s->curves ? s->value[curve] : 0;
     row[0] = x;
     if (s->curves)
         row[1] = s->value[curve];
@@ -98,11 +105,12 @@ static void wanted(table_job *job) {
     }
 }
 
-static bool own_columns(table_job *job, const sweep *s) {
+/* second: the other name of a grid, or of the curves; NULL: there is none */
+static bool own_columns(table_job *job, const sweep *s, const knob *second) {
     const char *name = s->along ? "time" : s->var.text;
     column *own = job->columns;
     return column_si(&own[0], name, s->along ? DIM_NONE : s->var.d) &&
-           (!s->curves || column_si(&own[1], s->with.text, s->with.d));
+           (!second || column_si(&own[1], second->text, second->d));
 }
 
 void note_missing(shell *sh, const sweep_job *job) {
@@ -110,7 +118,80 @@ void note_missing(shell *sh, const sweep_job *job) {
         shell_note(sh, "note: some values are missing: %s (%s)", job->missing.text, job->where);
 }
 
-static bool run_table(shell *sh, lexer *lx, const sweep *s, column *columns, size_t count) {
+/* ---- a grid as text: a matrix of each expression ----------------------------------------------- */
+
+typedef struct matrix {
+    const grid *g;
+    size_t count, at;   /* expressions; rows so far */
+    long double *value; /* of all expressions, as they come */
+    long double *a, *b;
+} matrix;
+
+static bool keep_row(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
+    matrix *m = context;
+    const size_t rows = m->g->a.steps + 1;
+    (void)curve;
+    m->a[m->at % rows] = x;
+    m->b[m->at / rows] = s->value[0];
+    memcpy(m->value + m->at++ * m->count, values, m->count * sizeof *values);
+    return true;
+}
+
+/* One expression: the first name downward, the second across. */
+static bool print_matrix(shell *sh, FILE *to, const matrix *m, size_t i, const column *c) {
+    const size_t rows = m->g->a.steps + 1, across = m->g->b.steps + 1;
+    column columns[COLUMNS] = {{.name = NULL}};
+    char head[200], number[120];
+    bool ok = column_si(&columns[0], m->g->a.var.text, m->g->a.var.d);
+    for (size_t j = 0; ok && j < across; j++) {
+        format_value(&sh->set, (value){m->b[j], m->g->b.var.d}, number, sizeof number);
+        snprintf(head, sizeof head, "%s = %s", m->g->b.var.text, number);
+        ok = column_si(&columns[j + 1], head, DIM_NONE);
+        columns[j + 1].scale = c->scale;
+    }
+    if (ok) {
+        table t = {.set = &sh->set, .to = to, .format = FORMAT_TEXT, .count = across + 1, .columns = columns};
+        fprintf(to, *c->unit ? "%s%s [%s]\n" : "%s%s\n", i ? "\n" : "", c->name, c->unit);
+        table_begin(&t);
+        for (size_t r = 0; r < rows; r++) {
+            long double row[COLUMNS] = {m->a[r]};
+            for (size_t j = 0; j < across; j++)
+                row[j + 1] = m->value[(j * rows + r) * m->count + i];
+            table_row(&t, row);
+        }
+    }
+    columns_free(columns, across + 1);
+    return ok;
+}
+
+static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *sweeping) {
+    const size_t rows = g->a.steps + 1, across = g->b.steps + 1;
+    if (across > COLUMNS - 1)
+        return calc_fail(sweeping->error, 0, 0,
+                         "a matrix as text has at most %d columns: use fewer steps, or a file", COLUMNS - 1);
+    matrix m = {.g = g, .count = job->count};
+    m.value = calloc(rows * across, job->count * sizeof *m.value);
+    m.a = calloc(rows, sizeof *m.a);
+    m.b = calloc(across, sizeof *m.b);
+    bool ok = (m.value && m.a && m.b) || calc_no_memory(sweeping->error);
+    sweeping->row = keep_row;
+    sweeping->context = &m;
+    ok = ok && grid_run(g, sweeping);
+    if (ok)
+        begin_columns(job);
+    for (size_t i = 0; ok && i < job->count; i++)
+        ok = print_matrix(sh, job->t.to, &m, i, &job->columns[job->first + i]) ||
+             calc_no_memory(sweeping->error);
+    free(m.value);
+    free(m.a);
+    free(m.b);
+    return ok;
+}
+
+/* ---- the command ------------------------------------------------------------------------------- */
+
+/* g: of two names, or NULL. */
+static bool run_table(shell *sh, lexer *lx, const sweep *s, const grid *g, column *columns, size_t count) {
     table_job *job = calloc(1, sizeof *job);
     target to;
     if (!job)
@@ -119,7 +200,8 @@ static bool run_table(shell *sh, lexer *lx, const sweep *s, column *columns, siz
         free(job);
         return false;
     }
-    job->first = 1 + (s->curves > 0);
+    const knob *second = g ? &g->b.var : s->curves ? &s->with : NULL;
+    job->first = 1 + (second != NULL);
     job->count = count;
     job->blocks = to.blocks;
     job->name = to.file.to ? to.file.name : "to standard output";
@@ -140,8 +222,11 @@ static bool run_table(shell *sh, lexer *lx, const sweep *s, column *columns, siz
                           .row = give_row,
                           .context = job,
                           .error = lx->error};
-    bool ok = own_columns(job, s) || calc_no_memory(lx->error);
-    ok = ok && sweep_run(s, &sweeping);
+    bool ok = own_columns(job, s, second) || calc_no_memory(lx->error);
+    const bool square = g && to.format == FORMAT_TEXT && !to.blocks;
+    ok = ok && (square ? run_matrix(sh, job, g, &sweeping)
+                : g    ? grid_run(g, &sweeping)
+                       : sweep_run(s, &sweeping));
     if (ok)
         note_missing(sh, &sweeping);
     columns_free(job->columns, job->first);
@@ -150,17 +235,23 @@ static bool run_table(shell *sh, lexer *lx, const sweep *s, column *columns, siz
 }
 
 bool do_table(shell *sh, lexer *lx, const command *self) {
+    enum { ROWS = 20, ACROSS = 5 };
     column columns[COLUMNS - 2];
     size_t count = 0;
     range_names names;
     range r;
+    grid_range two;
     bool found;
     (void)self;
     if (!range_names_find(sh, lx, &names, &found))
         return false;
     bool ok = found || lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI");
-    ok = ok && read_expressions(sh, lx, columns, COLUMNS - 2, &count) && range_read(sh, lx, &r, 20) &&
-         run_table(sh, lx, &r.sweep, columns, count);
+    ok = ok && read_expressions(sh, lx, columns, COLUMNS - 2, &count);
+    if (ok && grid_range_at(lx))
+        ok = grid_range_read(sh, lx, &two, ROWS, ACROSS) &&
+             run_table(sh, lx, &two.grid.a, &two.grid, columns, count);
+    else
+        ok = ok && range_read(sh, lx, &r, ROWS) && run_table(sh, lx, &r.sweep, NULL, columns, count);
     columns_free(columns, count);
     range_forget(sh, &names);
     return ok;

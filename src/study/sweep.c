@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "number/real.h"
+#include "study/refine.h"
 
 typedef struct state {
     const sweep *s;
@@ -15,8 +16,8 @@ typedef struct state {
     trial *t;
     size_t curve;
     sweep_range range;
-    long double *values;                    /* of a row */
-    long double (*block)[EXPR_BLOCK];       /* of the expressions */
+    long double *values;              /* of a row */
+    long double (*block)[EXPR_BLOCK]; /* of the expressions */
 } state;
 
 static bool stopped(const state *st) {
@@ -73,8 +74,9 @@ static bool fits(state *st, size_t i, dim d, long double x) {
     dim_describe(d, is, sizeof is);
     dim_unit(job->d[i], should, sizeof should);
     say_where(st, x);
-    return calc_fail(job->error, e->at, e->len, "%.*s is %s: it cannot be shown in %s (%s)", LEX_SHOWN(e->len),
-                     e->text + e->at, is, job->units && job->units[i] ? job->units[i] : should, job->where);
+    return calc_fail(job->error, e->at, e->len, "%.*s is %s: it cannot be shown in %s (%s)",
+                     LEX_SHOWN(e->len), e->text + e->at, is,
+                     job->units && job->units[i] ? job->units[i] : should, job->where);
 }
 
 /* The expressions in the scene as it stands. */
@@ -92,7 +94,8 @@ static bool evaluate_row(state *st, long double x) {
             job->values++;
             continue;
         }
-        if (!gap(st, &error, x) || (!job->known[i] && expr_dim(job->c, &job->expressions[i], &v.d) && !fits(st, i, v.d, x)))
+        if (!gap(st, &error, x) ||
+            (!job->known[i] && expr_dim(job->c, &job->expressions[i], &v.d) && !fits(st, i, v.d, x)))
             return false;
     }
     return !stopped(st);
@@ -104,12 +107,14 @@ static bool give_row(state *st, long double x) {
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
-static long double sweep_at(const state *st, size_t i) {
-    const sweep_range *r = &st->range;
-    if (i == st->s->steps)
+long double sweep_value(const sweep *s, const sweep_range *r, long double part) {
+    if (part == 1)
         return r->hi;
-    const long double t = (long double)i / (long double)st->s->steps;
-    return st->s->log ? r->lo * fret_pow(r->hi / r->lo, t) : r->lo + (r->hi - r->lo) * t;
+    return s->log ? r->lo * fret_pow(r->hi / r->lo, part) : r->lo + (r->hi - r->lo) * part;
+}
+
+static long double sweep_at(const state *st, long double part) {
+    return sweep_value(st->s, &st->range, part);
 }
 
 /* Many rows at once, all expressions or none. An input that is swept makes a new scene of every row. */
@@ -145,36 +150,64 @@ static bool one_row(state *st, long double x) {
 static void progress(const state *st, size_t row) {
     const size_t curves = st->s->curves ? st->s->curves : 1;
     if (st->job->progress)
-        st->job->progress(st->job->context, ((double)st->curve + (double)row / (double)(st->s->steps + 1)) /
-                                                (double)curves);
+        st->job->progress(st->job->context,
+                          ((double)st->curve + (double)row / (double)(st->s->steps + 1)) / (double)curves);
+}
+
+/* Up to EXPR_BLOCK rows, one after the other in `out`. */
+static bool evaluate_rows(void *context, const long double *part, size_t rows, long double *out) {
+    state *st = context;
+    const size_t count = st->job->count;
+    long double x[EXPR_BLOCK];
+    for (size_t r = 0; r < rows; r++)
+        x[r] = sweep_at(st, part[r]);
+    const bool whole = run_block(st, x, rows);
+    for (size_t r = 0; r < rows; r++) {
+        for (size_t j = 0; whole && j < count; j++)
+            st->values[j] = st->block[j][r];
+        if (!whole && !one_row(st, x[r]))
+            return false;
+        memcpy(out + r * count, st->values, count * sizeof *out);
+    }
+    return !stopped(st);
+}
+
+static bool give_part(void *context, long double part, const long double *values) {
+    state *st = context;
+    return st->job->row(st->job->context, st->s, st->curve, sweep_at(st, part), values);
+}
+
+static bool run_evenly(state *st) {
+    const size_t steps = st->s->steps, count = st->job->count;
+    long double part[EXPR_BLOCK], *values = malloc(EXPR_BLOCK * count * sizeof *values);
+    bool ok = values || calc_no_memory(st->job->error);
+    for (size_t i = 0, rows; ok && i <= steps; i += rows) {
+        rows = steps - i < EXPR_BLOCK ? steps - i + 1 : EXPR_BLOCK;
+        for (size_t r = 0; r < rows; r++)
+            part[r] = (long double)(i + r) / (long double)steps;
+        progress(st, i);
+        ok = evaluate_rows(st, part, rows, values);
+        for (size_t r = 0; ok && r < rows; r++)
+            ok = give_part(st, part[r], values + r * count);
+    }
+    free(values);
+    return ok;
 }
 
 static bool run_range(state *st) {
-    long double x[EXPR_BLOCK];
-    bool whole = false;
     knob var = st->s->var;
     var.d = st->range.d;
-    calc_error error;
-    error_clear(&error);
     if (!var.is_input && !trial_set(st->t, &var, st->range.lo, st->job->error))
         return false;
-    for (size_t i = 0; i <= st->s->steps; i++) {
-        const size_t r = i % EXPR_BLOCK;
-        if (r == 0) {
-            const size_t rows = st->s->steps - i < EXPR_BLOCK ? st->s->steps - i + 1 : EXPR_BLOCK;
-            for (size_t j = 0; j < rows; j++)
-                x[j] = sweep_at(st, i + j);
-            progress(st, i);
-            whole = run_block(st, x, rows);
-            if (stopped(st))
-                return false;
-        }
-        for (size_t j = 0; whole && j < st->job->count; j++)
-            st->values[j] = st->block[j][r];
-        if ((!whole && !one_row(st, x[r])) || !give_row(st, x[r]))
-            return false;
-    }
-    return true;
+    if (!st->s->refine)
+        return run_evenly(st);
+    const refinement r = {.count = st->job->count,
+                          .steps = st->s->steps,
+                          .rows = EXPR_BLOCK,
+                          .evaluate = evaluate_rows,
+                          .give = give_part,
+                          .context = st};
+    return refine(&r, st->job->error);
 }
 
 /* ---- along a load ------------------------------------------------------------------------------ */
@@ -185,22 +218,26 @@ static bool look(void *context, double time, calc_error *error) {
     return evaluate_row(st, time) && give_row(st, time);
 }
 
+bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error) {
+    scene *tried = &t->scene;
+    double mu;
+    *from = tried->end;
+    if (!tried->end.steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    if (!scene_friction(tried, &mu, error) ||
+        !scene_append(tried, &range->step, range->step.kind == LOAD_CYCLE ? &range->extra : NULL, error))
+        return false;
+    for (input in = 0; in < INPUTS; in++)
+        if (range->bound[in])
+            inputs_bind(&tried->in, in, counted_hold(range->bound[in]));
+    return true;
+}
+
 static bool run_along(state *st) {
     const sweep *s = st->s;
-    scene *tried = &st->t->scene;
-    load_mark from = tried->end;
-    if (s->what == ALONG_LOAD) {
-        const bool cycle = st->range.step.kind == LOAD_CYCLE;
-        double mu;
-        if (!tried->end.steps)
-            return calc_fail(st->job->error, 0, 0, "there is no load yet: press first (press FN=100 N)");
-        if (!scene_friction(tried, &mu, st->job->error) ||
-            !scene_append(tried, &st->range.step, cycle ? &st->range.extra : NULL, st->job->error))
-            return false;
-        for (input in = 0; in < INPUTS; in++)
-            if (st->range.bound[in])
-                inputs_bind(&tried->in, in, counted_hold(st->range.bound[in]));
-    }
+    load_mark from = st->t->scene.end;
+    if (s->what == ALONG_LOAD && !sweep_try_load(st->t, &st->range, &from, st->job->error))
+        return false;
     calc_error error;
     error_clear(&error);
     if (trial_along(st->t, s->what, from, s->steps, s->turns, look, st, &error))
@@ -227,11 +264,19 @@ static bool run_curve(state *st) {
     return ok;
 }
 
+bool sweep_nothing(sweep_job *job) {
+    *job->error = job->missing;
+    calc_append(job->c, job->error, " (%s)", job->where);
+    return false;
+}
+
 bool sweep_run(const sweep *s, sweep_job *job) {
     const size_t curves = s->curves ? s->curves : 1;
     state st = {.s = s, .job = job};
-    error_clear(&job->missing);
-    job->values = 0;
+    if (!job->part) {
+        error_clear(&job->missing);
+        job->values = 0;
+    }
     st.values = malloc(job->count * sizeof *st.values);
     st.block = malloc(job->count * sizeof *st.block);
     bool ok = st.values && st.block;
@@ -246,10 +291,5 @@ bool sweep_run(const sweep *s, sweep_job *job) {
     }
     free(st.values);
     free(st.block);
-    if (ok && job->values == 0 && job->missing.raised) {
-        *job->error = job->missing;
-        calc_append(job->c, job->error, " (%s)", job->where);
-        return false;
-    }
-    return ok;
+    return ok && (job->part || job->values > 0 || !job->missing.raised || sweep_nothing(job));
 }

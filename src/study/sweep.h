@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Expressions over a range of an input or a free name, or along a load: rows for tables and curves for plots. Reads and
- * prints nothing. */
+/* Expressions over a range of an input or a free name, or along a load: rows for tables and curves for plots.
+ * Reads and prints nothing. */
 #ifndef STUDY_SWEEP_H
 #define STUDY_SWEEP_H
 
@@ -23,6 +23,7 @@ struct sweep {
     knob var; /* for NAME = LO .. HI */
     bool log;
     size_t steps;
+    bool refine;     /* for: more points where a picture of it bends */
     bool turns;      /* along: at turning points too */
     along_what what; /* along */
     /* Evaluates the range where expressions see what this curve sees. */
@@ -31,17 +32,19 @@ struct sweep {
     /* with NAME = v1, v2, ... */
     knob with;
     long double value[SWEEP_VALUES];
-    size_t curves; /* at least 1; 0: no `with` */
+    size_t value_at[SWEEP_VALUES], value_len[SWEEP_VALUES]; /* their places in the statement */
+    size_t curves;                                          /* at least 1; 0: no `with` */
 };
 
-/* One row: x is the value of the name, or the time; a value that cannot be had is NaN. False ends the sweep. */
+/* One row: x is the value of the name, or the time; a value that cannot be had is NaN. False ends the sweep.
+ */
 typedef bool sweep_row(void *context, const sweep *s, size_t curve, long double x, const long double *values);
 
 typedef struct sweep_job {
     calc *c;
     const expr *expressions;
     size_t count;
-    dim *d;                   /* of the expressions; those with known[i] must come out so */
+    dim *d; /* of the expressions; those with known[i] must come out so */
     bool *known;
     const char *const *units; /* how those are called; NULL, or NULL each: in SI */
     sweep_row *row;
@@ -50,11 +53,19 @@ typedef struct sweep_job {
     calc_error missing; /* the first value that could not be had: raised */
     char where[320];    /* of it */
     size_t values;      /* that could be had */
+    bool part; /* of something larger: no value at all is no error, and missing and values go on counting */
     void (*progress)(void *context, double part); /* or NULL */
 } sweep_job;
 
-/* False: an error; job->missing tells of gaps, which are none. An interrupt is an error, and so is a sweep without any
- * value. */
+/* False: an error; job->missing tells of gaps, which are none. An interrupt is an error, and so is a sweep
+ * without any value. */
 bool sweep_run(const sweep *s, sweep_job *job);
+
+/* The value of the name at a part 0..1 of its range. */
+long double sweep_value(const sweep *s, const sweep_range *r, long double part);
+/* The error of a sweep without any value; false. */
+bool sweep_nothing(sweep_job *job);
+/* Appends the load of a range to the program of a trial; `from` gets where it begins. */
+bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error);
 
 #endif

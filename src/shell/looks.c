@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of looks, and measured points from files. Touches the panel only. */
+#include "shell/looks.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "calc/csv.h"
+
+typedef struct look look;
+struct look {
+    const char *name;
+    bool (*read)(shell *sh, lexer *lx, const look *self, plot_panel *p,
+                 looks *out); /* the cursor behind the word */
+    size_t at;                /* of the panel's text */
+};
+
+static bool read_text(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
+    (void)sh, (void)out;
+    if (lx->kind != T_STRING)
+        return lex_fail(lx, "expected %s \"TEXT\"", self->name);
+    char **text = (char **)(void *)((char *)p + self->at);
+    free(*text);
+    *text = strndup(lx->text + lx->at + 1, lx->len - 2);
+    lex_next(lx);
+    return *text || calc_no_memory(lx->error);
+}
+
+static bool read_limits(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
+    (void)p;
+    limits *l = *self->name == 'x' ? &out->x : &out->y;
+    l->at = lx->at;
+    if (!expr_value(&sh->calc, lx, &l->end[0]))
+        return false;
+    if (lx->kind != T_RANGE)
+        return lex_fail(lx, "expected %s LO .. HI", self->name);
+    lex_next(lx);
+    if (!expr_value(&sh->calc, lx, &l->end[1]))
+        return false;
+    l->len = lx->last - l->at;
+    l->given = true;
+    return true;
+}
+
+/* x, y or both. */
+static bool read_axes(lexer *lx, const look *self, bool *x, bool *y) {
+    const bool both = lex_is(lx, "xy");
+    if (!both && !lex_is(lx, "x") && !lex_is(lx, "y"))
+        return lex_fail(lx, "expected %s x, %s y or %s xy", self->name, self->name, self->name);
+    *x = *x || both || lex_is(lx, "x");
+    *y = *y || both || lex_is(lx, "y");
+    lex_next(lx);
+    return true;
+}
+
+static bool read_log(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
+    (void)sh, (void)out;
+    return read_axes(lx, self, &p->logx, &p->logy);
+}
+
+static bool read_flip(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
+    (void)sh, (void)out;
+    return read_axes(lx, self, &p->flipx, &p->flipy);
+}
+
+static bool read_key(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
+    (void)sh, (void)out;
+    p->key_off = lex_accept(lx, "off");
+    return p->key_off || lex_fail(lx, "expected %s off", self->name);
+}
+
+static bool read_points(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
+    (void)sh, (void)out, (void)self;
+    p->points = true;
+    return !lx->error->raised;
+}
+
+static bool read_over(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
+    (void)sh, (void)self, (void)p;
+    if (out->files == OVER)
+        return lex_fail(lx, "more than %d files", OVER);
+    const size_t i = out->files++;
+    out->over_at[i] = lx->at;
+    if (!lex_filename(lx, out->over[i], ARG_FILE_NAME))
+        return false;
+    out->over_len[i] = lx->last - out->over_at[i];
+    return true;
+}
+
+static const look rows[] = {{"title", read_text, offsetof(plot_panel, title)},
+                            {"xlabel", read_text, offsetof(plot_panel, xlabel)},
+                            {"ylabel", read_text, offsetof(plot_panel, ylabel)},
+                            {"xrange", read_limits, 0},
+                            {"yrange", read_limits, 0},
+                            {"log", read_log, 0},
+                            {"flip", read_flip, 0},
+                            {"key", read_key, 0},
+                            {"points", read_points, 0},
+                            {"over", read_over, 0}};
+enum { ROWS = sizeof rows / sizeof *rows };
+
+const char *looks_word(size_t i) {
+    return i < ROWS ? rows[i].name : NULL;
+}
+
+bool looks_read(shell *sh, lexer *lx, plot_panel *p, looks *out, bool *found) {
+    const look *row = rows;
+    while (row < rows + ROWS && !lex_is(lx, row->name))
+        row++;
+    *found = row < rows + ROWS;
+    if (!*found)
+        return true;
+    if (row->read != read_over) /* a file's name is not made of tokens */
+        lex_next(lx);
+    else
+        lx->error->raised = (lex_next(lx), false);
+    return !lx->error->raised && row->read(sh, lx, row, p, out);
+}
+
+/* ---- measured points --------------------------------------------------------------------------- */
+
+/* Which column is the abscissa: by names, else by dimensions, else the first. -1: they do not fit. */
+static int abscissa_of(const csv *c, const axis_of *x, const axis_of *y) {
+    int fits[2];
+    for (int i = 0; i < 2; i++)
+        fits[i] = dim_equal(c->d[i], x->d) && dim_equal(c->d[1 - i], y->d);
+    for (int i = 0; i < 2; i++)
+        if (fits[i] && (!strcmp(c->name[i], x->name) || !strcmp(c->name[1 - i], y->name)))
+            return i;
+    return fits[0] ? 0 : fits[1] ? 1 : -1;
+}
+
+static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const axis_of *x, const axis_of *y) {
+    csv c;
+    char error[CALC_ERROR_TEXT - 8];
+    const char *slash = strrchr(l->over[i], '/');
+    if (!csv_read(l->over[i], &c, lx->error))
+        return calc_place(lx->error, l->over_at[i], l->over_len[i]);
+    const int first = abscissa_of(&c, x, y);
+    bool ok = true;
+    if (first < 0) {
+        char has[2][128], wants[2][128];
+        for (int j = 0; j < 2; j++) {
+            dim_describe(c.d[j], has[j], sizeof has[j]);
+            dim_describe(j ? y->d : x->d, wants[j], sizeof wants[j]);
+        }
+        ok = calc_fail(lx->error, l->over_at[i], l->over_len[i],
+                       "the columns %s (%s) and %s (%s) do not fit the axes: %s and %s", c.name[0], has[0],
+                       c.name[1], has[1], wants[0], wants[1]);
+    }
+    plot_series *s =
+        ok ? plot_series_add(p, PLOT_MEASURED, strdup(slash ? slash + 1 : l->over[i]), error, sizeof error)
+           : NULL;
+    if (ok && !s)
+        ok = calc_fail(lx->error, 0, 0, "%s", error);
+    for (size_t j = 0; ok && j < c.count; j++)
+        ok = plot_point(s, c.column[first][j], c.column[1 - first][j]) || calc_no_memory(lx->error);
+    csv_free(&c);
+    return ok;
+}
+
+bool looks_lay_over(shell *sh, lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y) {
+    (void)sh;
+    for (size_t i = 0; i < l->files; i++)
+        if (!lay_file(lx, l, i, p, x, y))
+            return false;
+    return true;
+}
+
+/* ---- limits ------------------------------------------------------------------------------------ */
+
+bool looks_limit(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
+                 long double scale) {
+    const limits *given = x_axis ? &l->x : &l->y;
+    for (int i = 0; given->given && i < 2; i++) {
+        if (!value_dim(lx, x_axis ? "xrange" : "yrange", given->at, given->len, given->end[i], axis->d))
+            return false;
+        const double v = (double)(given->end[i].v / scale);
+        *(x_axis ? i ? &p->xhi : &p->xlo : i ? &p->yhi : &p->ylo) = v;
+    }
+    return true;
+}

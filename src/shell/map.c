@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Maps: grids of values as contours. */
+#include "shell/map.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "shell/looks.h"
+
+enum { MAP_STEPS = 60 };
+
+bool grid_range_at(const lexer *lx) {
+    calc_error ignored;
+    lexer scan = *lx;
+    size_t ranges = 0;
+    error_clear(&ignored);
+    scan.error = &ignored;
+    for (; scan.kind != T_END && !lex_is(&scan, "to"); lex_next(&scan))
+        ranges += lex_is(&scan, "for");
+    return ranges > 1;
+}
+
+bool grid_range_read(shell *sh, lexer *lx, grid_range *out, size_t steps_a, size_t steps_b) {
+    if (!range_read(sh, lx, &out->a, steps_a))
+        return false;
+    if (out->a.sweep.along || out->a.sweep.curves)
+        return lex_fail(lx, "a map goes for A = LO .. HI for B = LO .. HI");
+    if (!lex_is(lx, "for"))
+        return lex_fail(lx, "expected for VAR2 = LO .. HI");
+    if (!range_read(sh, lx, &out->b, steps_b))
+        return false;
+    out->grid = (grid){out->a.sweep, out->b.sweep};
+    return !out->b.sweep.curves || lex_fail(lx, "a map has no curves: `with` does not go with two ranges");
+}
+
+bool map_at(const lexer *lx) {
+    const token_kind next = lex_peek(lx);
+    return lex_is(lx, "map") && (next == T_NAME || next == T_NUMBER || next == T_OPEN || next == T_MINUS);
+}
+
+typedef struct map_job {
+    plot_map *m;
+    size_t at;
+} map_job;
+
+static bool give_value(void *context, const sweep *s, size_t curve, long double x,
+                       const long double *values) {
+    map_job *job = context;
+    plot_map *m = job->m;
+    (void)curve;
+    m->x[job->at % m->nx] = (double)x;
+    m->y[job->at / m->nx] = (double)s->value[0];
+    m->z[job->at++] = (double)values[0];
+    return true;
+}
+
+static double largest(const double *v, size_t n) {
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(v[i]))
+            most = fmax(most, fabs(v[i]));
+    return most;
+}
+
+/* In a unit with a prefix that fits, or the one asked for; the label where none was given. */
+static bool scale(double *v, size_t n, const column *c, const axis_of *of, char **label, long double *by) {
+    char unit_text[COLUMN_UNIT];
+    *by = c && c->chosen ? c->scale : unit_choose(of->d, largest(v, n), 6, unit_text, sizeof unit_text);
+    for (size_t i = 0; i < n; i++)
+        v[i] = (double)(v[i] / *by);
+    if (!*label)
+        *label = plot_label(of->name, c && c->chosen ? c->unit : unit_text);
+    return *label != NULL;
+}
+
+static bool finish(lexer *lx, const grid *g, const looks *l, const column *c, dim d, plot_panel *p) {
+    plot_map *m = &p->map;
+    const axis_of x = {g->a.var.text, g->a.var.d}, y = {g->b.var.text, g->b.var.d}, z = {c->name, d};
+    long double by_x, by_y, by_z;
+    p->logx = p->logx || g->a.log;
+    p->logy = p->logy || g->b.log;
+    if (l->files)
+        return calc_fail(lx->error, l->over_at[0], l->over_len[0], "points cannot lie over a map");
+    return ((scale(m->x, m->nx, NULL, &x, &p->xlabel, &by_x) &&
+             scale(m->y, m->ny, NULL, &y, &p->ylabel, &by_y) &&
+             scale(m->z, m->nx * m->ny, c, &z, &m->label, &by_z)) ||
+            calc_no_memory(lx->error)) &&
+           looks_limit(lx, l, p, true, &x, by_x) && looks_limit(lx, l, p, false, &y, by_y);
+}
+
+static bool run_map(shell *sh, lexer *lx, const grid_range *r, column *c, const looks *l, plot_panel *p) {
+    char error[CALC_ERROR_TEXT - 8];
+    const grid *g = &r->grid;
+    map_job job = {.m = &p->map};
+    dim d = c->d;
+    bool known = c->chosen;
+    const char *unit_name_of = c->chosen ? c->unit : NULL;
+    sweep_job sweeping = {.c = &sh->calc,
+                          .expressions = sh->list,
+                          .count = 1,
+                          .d = &d,
+                          .known = &known,
+                          .units = &unit_name_of,
+                          .row = give_value,
+                          .context = &job,
+                          .error = lx->error};
+    if (!plot_map_make(p, g->a.steps + 1, g->b.steps + 1, error, sizeof error))
+        return calc_fail(lx->error, 0, 0, "%s", error);
+    if (!grid_run(g, &sweeping) || !finish(lx, g, l, c, d, p))
+        return false;
+    note_missing(sh, &sweeping);
+    return true;
+}
+
+bool map_draw(shell *sh, lexer *lx, plot_panel *p) {
+    column c;
+    grid_range r;
+    bool found = true;
+    looks *l = calloc(1, sizeof *l);
+    if (!l)
+        return calc_no_memory(lx->error);
+    lex_next(lx);
+    bool ok = read_one_expression(sh, lx, 0, &c);
+    ok = ok && grid_range_read(sh, lx, &r, MAP_STEPS, MAP_STEPS);
+    while (ok && found)
+        ok = looks_read(sh, lx, p, l, &found);
+    ok = ok && run_map(sh, lx, &r, &c, l, p);
+    columns_free(&c, 1);
+    free(l);
+    return ok;
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Two names at once: `map EXPR for A = ... for B = ...` as contours, and matrices of `table`. */
+#ifndef SHELL_MAP_H
+#define SHELL_MAP_H
+
+#include "plot/plot.h"
+#include "shell/range.h"
+#include "study/grid.h"
+
+/* Both ranges of a grid; it must stay where it is. */
+typedef struct grid_range {
+    range a, b;
+    grid grid;
+} grid_range;
+
+/* Is the cursor on the first of two ranges? */
+bool grid_range_at(const lexer *lx);
+/* At the first `for`; steps: where none are given. */
+bool grid_range_read(shell *sh, lexer *lx, grid_range *out, size_t steps_a, size_t steps_b);
+
+/* Is the cursor on `map EXPR`? */
+bool map_at(const lexer *lx);
+bool map_draw(shell *sh, lexer *lx, plot_panel *p);
+
+#endif

@@ -1,0 +1,451 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Figures as they are written, and the curves that sweeps make of them. */
+#include "shell/panel.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "shell/figures.h"
+#include "shell/looks.h"
+#include "shell/map.h"
+
+enum {
+    PLOTTED = 8,
+    EVENLY = 100,
+    ALONG = 1000,
+    MOVING = 300
+}; /* expressions of a panel, points of its curves to begin with */
+
+/* A panel on its way: expressions of a sweep become curves. */
+typedef struct panel_job {
+    shell *sh;
+    plot_panel *p;
+    const figure *figure; /* or NULL */
+    const sweep *s;
+    motion *m;
+    size_t index; /* of the panel */
+    size_t count; /* expressions that are drawn */
+    bool against; /* the one after them is the abscissa */
+    const column *columns;
+    const char *statement;
+    calc_error *error;
+    size_t each;                                 /* series of a curve */
+    bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series told apart by their bound */
+    plot_series *now;                            /* the present points of an animation */
+    double last[PLOTTED][2];
+} panel_job;
+
+/* c curve, t thin line, b an edge of a band, of two; s a curve told apart where it is at the bounds that
+ * follow it */
+static char role_of(const panel_job *job, size_t i) {
+    return job->figure && job->figure->roles ? job->figure->roles[i] : 'c';
+}
+
+static bool is_main(const panel_job *job, size_t i) {
+    return role_of(job, i) == 'c' || role_of(job, i) == 's';
+}
+
+static size_t main_count(const panel_job *job) {
+    size_t n = 0;
+    for (size_t i = 0; i < job->count; i++)
+        n += is_main(job, i);
+    return n;
+}
+
+/* ---- curves ------------------------------------------------------------------------------------ */
+
+/* The value of a curve: as it is written where that says more than the number, as c0 = 2*a0 does. */
+static void value_text(const panel_job *job, size_t curve, char *text, size_t size) {
+    const sweep *s = job->s;
+    const char *written = job->statement + s->value_at[curve];
+    const size_t len = s->value_len[curve];
+    if (isalpha((unsigned char)*written) || memchr(written, '*', len))
+        snprintf(text, size, "%.*s", (int)len, written);
+    else
+        format_value(&job->sh->set, (value){s->value[curve], s->with.d}, text, size);
+}
+
+/* "k = 0.5", the expression, or both: what tells the curves apart. */
+static char *title_of(const panel_job *job, size_t curve, size_t i) {
+    char text[500], number[160];
+    const column *c = &job->columns[i];
+    const size_t drawn = main_count(job);
+    if (!is_main(job, i) || (drawn < 2 && !job->s->curves))
+        return NULL;
+    if (job->s->curves)
+        value_text(job, curve, number, sizeof number);
+    if (drawn > 1 && job->s->curves)
+        snprintf(text, sizeof text, "%.200s, %s = %s", c->name, job->s->with.text, number);
+    else if (job->s->curves)
+        snprintf(text, sizeof text, "%s = %s", job->s->with.text, number);
+    else
+        snprintf(text, sizeof text, "%.300s", c->name);
+    return plot_label(text, NULL);
+}
+
+static plot_series *add_series(panel_job *job, plot_role role, char *title, bool thin) {
+    char error[CALC_ERROR_TEXT - 8];
+    plot_series *s = plot_series_add(job->p, role, title, error, sizeof error);
+    if (s)
+        s->thin = thin;
+    else
+        calc_fail(job->error, 0, 0, "%s", error);
+    return s;
+}
+
+/* The series of a curve: one an expression, one for both edges of a band, two where stick and slip are told
+ * apart. */
+static bool add_curve(panel_job *job, size_t curve) {
+    for (size_t i = 0; i < job->count; i++) {
+        const char role = role_of(job, i);
+        char *title = title_of(job, curve, i);
+        if (role == 's') {
+            if (!title)
+                title = strdup("stick");
+            plot_series *stick = add_series(job, PLOT_CURVE, title, false),
+                        *slip =
+                            stick ? add_series(job, PLOT_CURVE, job->s->curves ? NULL : strdup("slip"), false)
+                                  : NULL;
+            if (!slip)
+                return false;
+            stick->style = (int)(2 * curve);
+            slip->style = (int)(2 * curve + 1);
+        } else if (!add_series(job, role == 'b' ? PLOT_BAND : PLOT_CURVE, title, role != 'c')) {
+            return false;
+        }
+        i += role == 'b';
+    }
+    return true;
+}
+
+static bool add_point(panel_job *job, plot_series *s, double x, double y) {
+    return plot_point(s, x, y) || calc_no_memory(job->error);
+}
+
+/* To the stick or the slip series at j, j+1; the point between is in both, so that they join. */
+static bool add_told_apart(panel_job *job, size_t j, size_t i, double x, const long double *values) {
+    plot_series *const *s = job->p->series + j;
+    const double u = (double)values[i], bound = fabs((double)values[i + 1]);
+    if (!(bound > 1e-12 * fabs(u)) || bound == 0) /* out of contact */
+        return add_point(job, s[0], x, NAN) && add_point(job, s[1], x, NAN) && !(job->begun[j] = false);
+    const bool slips = fabs(u) >= bound * (1 - 1e-9);
+    bool ok = true;
+    if (job->begun[j] && slips != job->slips[j])
+        ok = add_point(job, s[slips], x, NAN) && add_point(job, s[slips], job->last[i][0], job->last[i][1]);
+    job->slips[j] = slips;
+    job->begun[j] = true;
+    job->last[i][0] = x;
+    job->last[i][1] = u;
+    return ok && add_point(job, s[slips], x, u);
+}
+
+static size_t series_each(const panel_job *job) {
+    size_t each = 0;
+    for (size_t i = 0; i < job->count; i++) {
+        const char role = role_of(job, i);
+        each += role == 's' ? 2 : 1;
+        i += role == 'b';
+    }
+    return each;
+}
+
+static bool is_over(const panel_job *job, const sweep *s, long double time) {
+    return job->m && job->m->at && s->along && time > (long double)job->m->until + 1e-9L;
+}
+
+static bool give_point(void *context, const sweep *s, size_t curve, long double x,
+                       const long double *values) {
+    panel_job *job = context;
+    const size_t at = curve * job->each;
+    const double abscissa = (double)(job->against ? values[job->count] : x);
+    if (at >= job->p->count && !add_curve(job, curve))
+        return false;
+    if (is_over(job, s, x))
+        return true;
+    for (size_t i = 0, j = at; i < job->count; i++, j++) {
+        const char role = role_of(job, i);
+        plot_series *to = job->p->series[j];
+        bool ok;
+        if (role == 'b')
+            ok = plot_band(to, abscissa, (double)values[i], (double)values[i + 1]) ||
+                 calc_no_memory(job->error);
+        else if (role == 's')
+            ok = add_told_apart(job, j, i, abscissa, values);
+        else
+            ok = add_point(job, to, abscissa, (double)values[i]);
+        if (!ok)
+            return false;
+        i += role == 'b';
+        j += role == 's';
+    }
+    return true;
+}
+
+/* The last point of every main curve, marked. */
+static bool mark_now(panel_job *job) {
+    const size_t series = job->p->count;
+    if (!job->m || !job->m->at || !job->s->along)
+        return true;
+    plot_series *now = add_series(job, PLOT_NOW, NULL, false);
+    for (size_t i = 0; now && i < series; i++) {
+        const plot_series *s = job->p->series[i];
+        if (s->role == PLOT_CURVE && !s->thin && s->count &&
+            !add_point(job, now, s->x[s->count - 1], s->y[s->count - 1]))
+            return false;
+    }
+    return now != NULL;
+}
+
+/* ---- axes -------------------------------------------------------------------------------------- */
+
+static double largest(const plot_panel *p, bool x_axis, const limits *given) {
+    double most = 0;
+    if (given->given)
+        return fmax(fabs((double)given->end[0].v), fabs((double)given->end[1].v));
+    for (size_t i = 0; i < p->count; i++)
+        for (size_t j = 0; j < p->series[i]->count; j++) {
+            const double v = fabs(x_axis ? p->series[i]->x[j] : p->series[i]->y[j]);
+            if (isfinite(v))
+                most = fmax(most, v);
+        }
+    return most;
+}
+
+static void divide(plot_panel *p, bool x_axis, long double scale) {
+    for (size_t i = 0; i < p->count; i++) {
+        plot_series *s = p->series[i];
+        for (size_t j = 0; j < s->count; j++) {
+            double *v = x_axis ? &s->x[j] : &s->y[j];
+            *v = (double)(*v / scale);
+            if (!x_axis && s->y2)
+                s->y2[j] = (double)(s->y2[j] / scale);
+        }
+    }
+}
+
+/* In the unit that was asked for, or one with a prefix that fits. */
+static bool scale_axis(panel_job *job, lexer *lx, const looks *l, bool x_axis, const column *c,
+                       const axis_of *axis) {
+    axis_unit own, *u = job->m ? &job->m->unit[job->index][x_axis] : &own;
+    if (c && c->chosen) {
+        u->scale = c->scale;
+        snprintf(u->text, sizeof u->text, "%s", c->unit);
+    } else if (!job->m || !job->m->at) {
+        u->scale =
+            unit_choose(axis->d, largest(job->p, x_axis, x_axis ? &l->x : &l->y), 6, u->text, sizeof u->text);
+    }
+    divide(job->p, x_axis, u->scale);
+    char **label = x_axis ? &job->p->xlabel : &job->p->ylabel;
+    if (!*label)
+        *label = plot_label(axis->name, u->text);
+    return (*label || calc_no_memory(lx->error)) && looks_limit(lx, l, job->p, x_axis, axis, u->scale);
+}
+
+static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const dim *d, const bool *known) {
+    const sweep *s = job->s;
+    const column *c = job->columns, *x = job->against ? &c[job->count] : NULL;
+    for (size_t i = 1; i < job->count; i++)
+        if (known[i] && known[0] && !dim_equal(d[i], d[0]))
+            return calc_fail(job->error, job->sh->list[i].at, job->sh->list[i].len,
+                             "%s and %s cannot share an axis", c[0].name, c[i].name);
+    const axis_of ax = {x          ? x->name
+                        : s->along ? "time"
+                                   : s->var.text,
+                        x          ? d[job->count]
+                        : s->along ? DIM_NONE
+                                   : s->var.d},
+                  ay = {main_count(job) > 1 ? "" : c[0].name, d[0]};
+    job->p->logx = job->p->logx || s->log;
+    if (!job->p->title && job->figure)
+        job->p->title = strdup(job->figure->title);
+    return looks_lay_over(job->sh, lx, l, job->p, &ax, &ay) && scale_axis(job, lx, l, true, x, &ax) &&
+           scale_axis(job, lx, l, false, &c[0], &ay);
+}
+
+/* ---- motion ------------------------------------------------------------------------------------ */
+
+/* Does the sweep make scenes of its own, which know nothing of the instant? */
+static bool is_still(const sweep *s) {
+    return s->along || s->var.is_input || (s->curves && s->with.is_input);
+}
+
+/* All figures follow one load. */
+static bool follow(motion *m, lexer *lx, const range *r, size_t load_end) {
+    const sweep *s = &r->sweep;
+    if (!m || m->at || !s->along)
+        return true;
+    const size_t len = load_end - r->at;
+    char *load = s->what == ALONG_LOAD ? strndup(lx->text + r->at, len) : NULL;
+    if (s->what == ALONG_LOAD && !load)
+        return calc_no_memory(lx->error);
+    const bool same = !m->found || (m->what == s->what && (!load || !strcmp(load, m->load)));
+    if (m->found) {
+        free(load);
+        return same || calc_fail(lx->error, r->at, len, "the figures of an animation go along one load");
+    }
+    m->found = true;
+    m->what = s->what;
+    m->load = load;
+    return true;
+}
+
+/* ---- figures ----------------------------------------------------------------------------------- */
+
+/* What stands behind the range, in any order. */
+static bool read_behind(shell *sh, lexer *lx, sweep *s, plot_panel *p, looks *l) {
+    bool found;
+    do {
+        if (!range_read_options(sh, lx, s) || !looks_read(sh, lx, p, l, &found))
+            return false;
+    } while (found);
+    return true;
+}
+
+static bool run_sweep(panel_job *job, lexer *lx, sweep_job *sweeping, const sweep *s) {
+    calc *c = &job->sh->calc;
+    scene *seen = c->now;
+    const bool still = job->m && job->m->at && is_still(s);
+    if (s->along && s->what == ALONG_PROGRAM && c->scene.end.steps == 1)
+        return calc_fail(lx->error, 0, 0, "there is no loop yet: use step or cycle first");
+    if (still)
+        c->now = job->m->at->outer;
+    const bool ok = sweep_run(s, sweeping);
+    c->now = seen;
+    return ok && mark_now(job);
+}
+
+/* What has been read is all there is. */
+static bool no_second_range(lexer *lx) {
+    return !lex_is(lx, "for") || lex_fail(lx, "two ranges make a map: plot map EXPR for A = ... for B = ...");
+}
+
+/* EXPR, ... [against EXPR] RANGE at the cursor. */
+static bool draw_sweep(shell *sh, lexer *lx, const figure *f, plot_panel *p, size_t index, motion *m) {
+    column columns[PLOTTED + 1];
+    size_t count = 0, more = 0;
+    dim d[PLOTTED + 1] = {DIM_NONE};
+    bool known[PLOTTED + 1] = {false};
+    looks *l = calloc(1, sizeof *l);
+    range r;
+    if (!l)
+        return calc_no_memory(lx->error);
+    bool ok = read_expressions(sh, lx, columns, PLOTTED, &count);
+    panel_job job = {.sh = sh,
+                     .p = p,
+                     .figure = f,
+                     .m = m,
+                     .index = index,
+                     .count = count,
+                     .columns = columns,
+                     .statement = lx->text,
+                     .error = lx->error};
+    if (ok && lex_accept(lx, "against")) {
+        ok = read_one_expression(sh, lx, count, &columns[count]);
+        job.against = p->airy = true;
+        more = 1;
+    }
+    ok = ok && range_read(sh, lx, &r, 0) && follow(m, lx, &r, lx->last) &&
+         read_behind(sh, lx, &r.sweep, p, l) && no_second_range(lx);
+    if (ok) {
+        sweep *s = &r.sweep;
+        job.s = s;
+        job.each = series_each(&job);
+        s->turns = true;
+        s->refine = !s->along && !s->steps;
+        s->steps = s->steps ? s->steps : !s->along ? EVENLY : m ? MOVING : ALONG;
+        for (size_t i = 0; i < count + more; i++) {
+            known[i] = columns[i].chosen;
+            d[i] = columns[i].d;
+        }
+        sweep_job sweeping = {.c = &sh->calc,
+                              .expressions = sh->list,
+                              .count = count + more,
+                              .d = d,
+                              .known = known,
+                              .row = give_point,
+                              .context = &job,
+                              .error = lx->error};
+        ok = run_sweep(&job, lx, &sweeping, s) && finish_axes(&job, lx, l, d, known);
+        if (ok && (!m || !m->at))
+            note_missing(sh, &sweeping);
+    }
+    columns_free(columns, count + more);
+    free(l);
+    return ok;
+}
+
+/* The end of what belongs to this figure: a `|`, `to FILE`, `frames N`, or the end. */
+static size_t figure_end(const lexer *lx) {
+    calc_error ignored;
+    char file[ARG_FILE_NAME];
+    lexer scan = *lx;
+    error_clear(&ignored);
+    scan.error = &ignored;
+    while (scan.kind != T_END && scan.kind != T_BAR && !lex_is(&scan, "to") && !lex_is(&scan, "frames"))
+        if (lex_accept(&scan, "over")) /* a name need not be made of tokens */
+            lex_filename(&scan, file, sizeof file);
+        else
+            lex_next(&scan);
+    return scan.kind == T_END ? lx->end : scan.at;
+}
+
+/* A figure of the table: its statement as if it stood here, what follows the name after it. */
+static bool draw_named(shell *sh, lexer *lx, const figure *f, plot_panel *p, size_t index, motion *m) {
+    if (f->build) {
+        lex_next(lx);
+        return f->build(sh, lx, p);
+    }
+    const size_t from = lx->at + lx->len, rest = figure_end(lx), length = strlen(f->statement);
+    const size_t room = length + (rest - from) + 1;
+    char *text = malloc(room);
+    if (!text)
+        return calc_no_memory(lx->error);
+    snprintf(text, room, "%s%.*s", f->statement, (int)(rest - from), lx->text + from);
+    lexer own;
+    lex_start(&own, text, strlen(text), lx->error);
+    range_names used;
+    bool found;
+    bool ok =
+        range_names_find(sh, &own, &used, &found) && draw_sweep(sh, &own, f, p, index, m) && at_end(&own);
+    range_forget(sh, &used);
+    free(text);
+    if (!ok && lx->error->len && lx->error->at >= length)
+        lx->error->at += from - length;
+    else if (!ok)
+        lx->error->len = 0;
+    lex_seek(lx, rest);
+    return ok;
+}
+
+/* The name of a figure is an expression where one goes on behind it. */
+static const figure *figure_at(const lexer *lx) {
+    static const char *const goes_on[] = {"for", "along", "in", "at", "against"};
+    const figure *f = lx->kind == T_NAME ? figure_find(lx->text + lx->at, lx->len) : NULL;
+    lexer next = *lx;
+    calc_error ignored;
+    error_clear(&ignored);
+    next.error = &ignored;
+    lex_next(&next);
+    for (size_t i = 0; i < sizeof goes_on / sizeof *goes_on; i++)
+        if (lex_is(&next, goes_on[i]))
+            return NULL;
+    return next.kind == T_END || next.kind == T_NAME || next.kind == T_BAR ? f : NULL;
+}
+
+bool panel_is_named(const lexer *lx) {
+    return figure_at(lx) != NULL;
+}
+
+bool panel_draw(shell *sh, lexer *lx, plot_figure *f, motion *m) {
+    char error[CALC_ERROR_TEXT - 8];
+    const size_t index = f->count;
+    plot_panel *p = plot_panel_add(f, error, sizeof error);
+    if (!p)
+        return lex_fail(lx, "%s", error);
+    const figure *named = figure_at(lx);
+    if (named)
+        return draw_named(sh, lx, named, p, index, m);
+    return map_at(lx) ? map_draw(sh, lx, p) : draw_sweep(sh, lx, NULL, p, index, m);
+}

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figures as statements: their points, their looks, measured points, maps, animations, and how the terminal shows them."""
+import math
+import os
+import re
+import signal
+import subprocess
+import time
+
+SCENE = ("material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+         "c0 := a0\ncycle FA=36 N\n")
+A, R = 1.8662555784086242e-4, 0.01
+
+
+def script(tests, name, plots, head=SCENE):
+    """The gnuplot script of a plot, and its data: one list of points a series, None for a gap."""
+    path = os.path.join(tests.dir, name.replace(" ", "-") + ".gp")
+    done = tests.run("-c", head + plots + " to " + path)
+    if not tests.check(name, done.returncode == 0, tests.report(done)):
+        return "", []
+    with open(path, encoding="utf-8") as f:
+        text = f.read()
+    series = []
+    for block in re.findall(r"^\$data\d+_\d+_\d+ << END\n(.*?)^END$", text, re.S | re.M):
+        series.append([tuple(map(float, line.split())) if line else None for line in block.split("\n")[:-1]])
+    return text, series
+
+
+def fails(tests, statement, message, head=SCENE):
+    done = tests.run("-c", head + statement)
+    tests.check("refused: " + statement, done.returncode == 1 and message in done.stderr, tests.report(done))
+
+
+def points(tests):
+    """Enough points where a curve bends, no more than asked for, gaps where there is no value."""
+    text, (kink,) = script(tests, "a kink", "plot abs(x-1/3) for x = 0 .. 1")
+    tests.check("points at a kink", min(abs(x - 1 / 3) for x, _ in kink) < 1e-3 and len(kink) < 300, str(len(kink)))
+    text, (line,) = script(tests, "a line", "plot 2*x for x = 0 .. 1")
+    tests.check("a straight line needs no more points", len(line) == 101, str(len(line)))
+    text, (asked,) = script(tests, "steps", "plot abs(x-1/3) for x = 0 .. 1 steps 7")
+    tests.check("steps that are asked for", len(asked) == 8, str(asked))
+    text, (noise,) = script(tests, "rounding", "plot 1 + 1e-15*sin(1e6*x) for x = 0 .. 1")
+    tests.check("rounding is not refined", len(noise) == 101, str(len(noise)))
+    text, (jump,) = script(tests, "a pole", "plot 1/(x-1/3) for x = 0 .. 1")
+    tests.check("a pole is not run after", len(jump) < 600 and max(abs(y) for _, y in jump) < 1e4, str(len(jump)))
+    text, (p,) = script(tests, "an edge", "plot p(r) for r = 0 m .. 1.25*a")
+    peak = 3 * 100 / (2 * math.pi * A ** 2)
+    hertz = lambda r: peak * math.sqrt(max(0.0, 1 - (r / A) ** 2))
+    worst = 0
+    for (x0, y0), (x1, y1) in zip(p, p[1:]):
+        for part in (0.25, 0.5, 0.75):
+            x = x0 + (x1 - x0) * part
+            worst = max(worst, abs((y0 + (y1 - y0) * part) * 1e9 - hertz(x * 1e-6)) / peak)
+    tests.check("lines keep to the pressure at its edge", worst < 3e-3, "%g" % worst)
+    done = tests.run("-c", SCENE + "plot c(F) for F = 0 N .. 60 N to %s/gap.gp" % tests.dir)
+    tests.check("beyond gross slip is a gap, said once", done.returncode == 0 and done.stderr.count("note: ") == 1 and
+                "gross slip" in done.stderr, tests.report(done))
+    text, (c,) = script(tests, "a gap", "plot c(F) for F = 0 N .. 60 N")
+    tests.check("the curve goes on to gross slip", 39.99 < max(p[0] for p in c if p) <= 40, str(c[-3:]))
+    text, curves = script(tests, "own ends", "plot dW(F) for F = 0 N .. mu*FN with mu=0.2,0.4")
+    tests.check("each curve has its own ends", [round(s[-1][0], 9) for s in curves] == [20, 40], str(curves)[:300])
+    text, loops = script(tests, "own loads", "plot Fx/(mu*FN) against dx/dx0max along cycle FA=0.9*mu*FN with "
+                         "k=-0.7,-0.5,0,0.5,0.7")
+    tests.check("each curve has its own load", len(loops) == 5 and
+                all(abs(max(y for _, y in s) - 0.9) < 1e-9 and abs(min(y for _, y in s) + 0.9) < 1e-9 for s in loops))
+    text, (k0,) = script(tests, "definitions", "plot a/a0 for k = -0.5 .. 0.5")
+    tests.check("live definitions hold for each value", abs(dict(k0)[0] - 1) < 1e-9 and dict(k0)[0.5] != 1)
+
+
+def springs(tests):
+    text, (stick, slip, band) = script(tests, "springs", "plot springs", SCENE + "step Fx=20 N\n")
+    stuck, slid = [p for p in stick if p], [p for p in slip if p]
+    tests.check("springs: both are there", len(stuck) > 10 and len(slid) > 10, text[-500:])
+    rest = [p for p in slid if abs(p[0]) * 1e-6 > A * (1 + 1e-9)]
+    tests.check("springs: none slips out of contact", not rest, str(rest[:3]))
+    reversed_slip = A * (1 - (36 - 20) / 80) ** (1 / 3)
+    edge = min(abs(x) for x, _ in slid) * 1e-6
+    tests.check("springs: the slip annulus begins at c", abs(edge / reversed_slip - 1) < 1e-3, "%g %g" % (edge, reversed_slip))
+
+
+def looks(tests):
+    text, _ = script(tests, "looks", 'plot loop title "a \\"b" xlabel "X" ylabel "Y" xrange -2 um .. 2 um '
+                     'yrange 50 N .. -50 N flip x key off points'.replace('\\"', "'"))
+    for want in ("set title \"a \\047b\"", 'set xlabel "X"', 'set ylabel "Y"', "set xrange [2:-2]", "set yrange [50:-50]",
+                 "unset key", "linespoints"):
+        tests.check("looks: " + want, want in text, text[-1500:])
+    text, _ = script(tests, "logarithms", "plot dissipation log xy")
+    tests.check("log xy", "set logscale x" in text and "set logscale y" in text, text[-1500:])
+    text, _ = script(tests, "an axis of a sweep", "plot x^2 for x = 1 .. 100 log")
+    tests.check("a logarithmic sweep", "set logscale x" in text and "set logscale y" not in text, text[-1500:])
+    text, series = script(tests, "several", "plot loop | traction | x^2 for x = 0 .. 1 | E with k=-0.5,0.5")
+    tests.check("several side by side", text.count("\nplot ") == 4 and "layout 1,4" in text, text[-1500:])
+    text, _ = script(tests, "units", "plot dx in nm, dz in nm against Fx in kN along program")
+    tests.check("units that are asked for", "[nm]" in text and "[kN]" in text, text[-1500:])
+    text, _ = script(tests, "written values", "plot dW(F) for F = 0 N .. 30 N with c0=a0,2*a0")
+    tests.check("curves are named as they are written", text.count("title ") >= 2 and "2" in text and "µm" not in
+                text.partition("with c0")[2], text[-800:])
+    fails(tests, "plot loop | x for x = 0 .. 1 | x for x = 0 .. 1 | x for x = 0 .. 1 | x for x = 0 .. 1 | loop | loop",
+          "more than 6 figures")
+    fails(tests, "plot Fx, dx along program", "cannot share an axis")
+    fails(tests, "plot loop xrange 0 N .. 1 N", "xrange is a length, not a force")
+    fails(tests, "plot loop log z", "expected log x, log y or log xy")
+    fails(tests, "plot loop title hello", 'expected title "TEXT"')
+    fails(tests, "plot x for x = 0 .. 1 for y = 0 .. 1", "two ranges make a map")
+    fails(tests, "plot loop xrange 1 um .. 1 um", "the limits of the x axis are one")
+    fails(tests, "plot dissipation key", "expected key off")
+
+
+def over(tests):
+    path = os.path.join(tests.dir, "measured-1.csv")
+    with open(path, "w", encoding="ascii") as f:
+        f.write("Fx [kN],dx [nm]\n0.01,200\n-0.02,-500\n")
+    text, series = script(tests, "measured", "plot loop over %s" % path)
+    tests.check("measured points, columns by their names", series[-1:] == [[(0.2, 10), (-0.5, -20)]], str(series[-1:]))
+    tests.check("measured points are named", "measured-1.csv" in text)
+    text, series = script(tests, "measured beside", "plot pressure | loop over %s" % path)
+    tests.check("a file for the second figure", series[-1:] == [[(0.2, 10), (-0.5, -20)]], str(series[-1:]))
+    fails(tests, "plot pressure over " + path, "do not fit the axes")
+    fails(tests, "plot loop over /nonexistent.csv", "cannot read /nonexistent.csv")
+
+
+def maps(tests):
+    text, _ = script(tests, "a map", "plot map dW(F)/1 J for F = 5 N .. 35 N steps 3 for mu = 0.4 .. 0.5 steps 2 "
+                     "title \"m\"")
+    rows = [line.split() for line in re.search(r"\$map0_0 << END\n(.*?)END", text, re.S).group(1).splitlines() if line]
+    tests.check("a map holds its grid", len(rows) == 12 and float(rows[0][0]) == 5 and float(rows[-1][1]) == 0.5, str(rows))
+    fails(tests, "plot map a for k = 0 .. 0.5", "expected for VAR2 = LO .. HI")
+    fails(tests, "plot map a along program", "a map goes for A = LO .. HI for B = LO .. HI")
+    done = tests.run("-c", SCENE + "table x*y, x+y for x = 1 .. 3 steps 2 for y = 1 .. 2 steps 1")
+    tests.check("a matrix", [line.split() for line in done.stdout.splitlines()] ==
+                [["x*y"], ["x", "y", "=", "1", "y", "=", "2"], ["1", "1", "2"], ["2", "2", "4"], ["3", "3", "6"], [],
+                 ["x+y"], ["x", "y", "=", "1", "y", "=", "2"], ["1", "2", "3"], ["2", "3", "4"], ["3", "4", "5"]],
+                tests.report(done))
+    done = tests.run("--format=csv", "-c", SCENE + "table x*y for x = 1 .. 2 steps 1 for y = 1 .. 2 steps 1")
+    tests.check("a matrix as CSV is long", done.stdout.endswith("x,y,x*y\n1,1,1\n2,1,2\n1,2,2\n2,2,4\n"), tests.report(done))
+    fails(tests, "table x*y for x = 1 .. 2 for y = 1 .. 2 steps 100", "a matrix as text has at most")
+
+
+def frames_of(path):
+    with open(path, "rb") as f:
+        return f.read().count(b"\x00\x21\xf9\x04")
+
+
+def moving(tests):
+    path = os.path.join(tests.dir, "a.gif")
+    done = tests.run("-c", SCENE + "animate springs | loop | W1D along program frames 9 to " + path)
+    tests.check("an animation", done.returncode == 0 and frames_of(path) in (9, 8), tests.report(done))
+    done = tests.run("-c", SCENE + "animate loop frames 3\nFx")
+    tests.check("in a pipe the last frame stays", done.returncode == 0 and "\033" not in done.stdout and
+                "Fx = 36 N" in done.stdout, tests.report(done))
+    done = tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                     "animate springs | Fx against dx along cycle FA=0.9*mu*FN with k=0 frames 3\nFx")
+    tests.check("along a load that is tried", done.returncode == 0 and "Fx = 0 N" in done.stdout, tests.report(done))
+    fails(tests, "animate loop | W1D along cycle", "the figures of an animation go along one load")
+    fails(tests, "animate loop to x.png", "an animation goes to a .gif file or to the terminal")
+    fails(tests, "animate loop frames 1", "an animation takes 2 frames or more")
+    fails(tests, "animate springs", "there is no load yet", "material steel; geometry sphere R=10 mm; friction 0.4\n")
+    where = os.path.join(tests.dir, "stop.gif")
+    job = subprocess.Popen([tests.fret, "-c", SCENE + "animate springs | loop frames 1000 to " + where],
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=tests.env)
+    time.sleep(0.3)
+    job.send_signal(signal.SIGINT)
+    out, err = job.communicate(timeout=120)
+    tests.check("Ctrl-C stops an animation", job.returncode == 130 and not os.path.exists(where), (out + err).decode())
+
+
+def terminals(tests):
+    plain = tests.run("-c", SCENE + "plot loop")
+    tests.check("no colours in a pipe", "\033" not in plain.stdout, plain.stdout)
+    color = tests.run("--color=always", "-c", SCENE + "plot loop")
+    tests.check("colours when asked for", "\033[38;5;" in color.stdout or "\033[3" in color.stdout, color.stdout[:300])
+    tests.check("colours change no character", re.sub(r"\033\[[0-9;]*m", "", color.stdout) == plain.stdout,
+                color.stdout[:300])
+    wide = tests.run("-c", SCENE + "plot loop", env={"LC_ALL": "C.UTF-8"})
+    tests.check("Unicode where the locale has it", "δx [µm]" in wide.stdout and "dx [um]" in plain.stdout, wide.stdout)
+    sixel = tests.run("-c", SCENE + "set plot terminal sixel\nplot loop")
+    tests.check("sixel when asked for", "\033P" in sixel.stdout, tests.report(sixel)[:400])
+    shown = tests.run("-c", "set plot 100x30; set plot terminal dumb; show settings")
+    tests.check("settings of plots are shown as they are set", "set plot 100x30\nset plot terminal dumb\n" in shown.stdout,
+                shown.stdout)
+    fails(tests, "set plot terminal vt100", "expected auto, dumb, block or sixel")
+    json = tests.run("--format=json", "--color=always", "-c", SCENE + "plot loop")
+    tests.check("no colours in JSON", "\\u001b" not in json.stdout, json.stdout[:300])
+
+
+def bodies(tests):
+    """What leaves the half-space is said, once each time."""
+    head = "material steel; geometry sphere R=10 mm; friction 0.4\n"
+    for statements, count in (("press a=2 mm", 0), ("press a=4 mm", 1), ("press a=4 mm; press a=5 mm", 1),
+                              ("press a=4 mm; press a=1 mm; R = 2 mm", 2), ("geometry cone angle=19 deg; press FN=1 N", 0),
+                              ("geometry cone angle=21 deg; press FN=1 N; slope = 0.4; slope = 0.1; slope = 0.5", 2),
+                              ("geometry cone angle=21 deg", 0), ("geometry exact-sphere R=1 mm; press a=0.4 mm", 1)):
+        done = tests.run("-c", head + statements)
+        tests.check("half-space: " + statements, done.returncode == 0 and done.stderr.count("warning: ") == count,
+                    tests.report(done))
+
+
+def run(tests):
+    tests.each([lambda one=one: one(tests) for one in (points, springs, looks, over, maps, moving, terminals, bodies)])
