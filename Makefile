@@ -13,11 +13,17 @@ CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE $(OPT) $(WARN
 	-Iinclude -Isrc -DFRET_VERSION='"$(VERSION)"' $(CFLAGS)
 # READLINE=no: a prompt without editing and history
 READLINE  ?= yes
+# GSL=no: without solve, maximize, minimize, fit and uncertainty
+GSL       ?= yes
 LIBS_CORE := -lm
-LIBS      := $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline)
+LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas)
+LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline)
+CFLAGS_ALL += $(if $(filter no,$(GSL)),-DFRET_WITHOUT_GSL)
 
+# what needs GSL
+BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,solve optimise fit uncertainty)) src/shell/study_commands.c src/shell/data_commands.c)
 CORE  := $(wildcard src/number/*.c src/contact/*.c src/fast/*.c)
-PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c, \
+PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c $(BACK), \
 	$(wildcard src/calc/*.c src/study/*.c src/plot/*.c src/shell/*.c))
 UNIT  := $(wildcard tests/unit/test_*.c)
 HARD  := $(wildcard tests/hard/*.c)
@@ -81,15 +87,15 @@ $(B)/fret.pc: FORCE
 		'$(PREFIX)' '$(VERSION)' '$(LIBS_CORE)' > $@
 
 # Tests see what is not public too; those of rooms above the mechanics take these objects one by one.
-OUTER := $(call OBJ,$(wildcard src/calc/*.c src/study/*.c src/plot/*.c))
+OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard src/calc/*.c src/study/*.c src/plot/*.c)))
 $(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE)) $(OUTER)
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(OUTER) $(call OBJ,$(CORE)) $(LIBS_CORE)
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(OUTER) $(call OBJ,$(CORE)) $(LIBS_GSL) $(LIBS_CORE)
 
 # One file that depends on nothing, to copy to another machine: with musl, where it is at hand.
 STATIC_CC = $(if $(filter default,$(origin CC)),$(shell command -v musl-gcc || echo $(CC)),$(CC))
 static:
-	@$(MAKE) --no-print-directory B=$(B)/static CC='$(STATIC_CC)' READLINE=no LDFLAGS='-static -s $(LDFLAGS)' $(B)/static/fret
+	@$(MAKE) --no-print-directory B=$(B)/static CC='$(STATIC_CC)' READLINE=no GSL=no LDFLAGS='-static -s $(LDFLAGS)' $(B)/static/fret
 
 $(B)/tests/hard/hard: $(call OBJ,$(HARD) $(CORE))
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ -lmpfr -lgmp $(LIBS_CORE)

@@ -14,7 +14,9 @@ for room in ("", "sessions", "errors", "interactive", "portable", "house", "refe
     sys.path.insert(0, os.path.join(HERE, room))
 
 import accuracy_test  # noqa: E402
+import backwards  # noqa: E402
 import figures  # noqa: E402
+import fits  # noqa: E402
 import harness  # noqa: E402
 import house  # noqa: E402
 import looks  # noqa: E402
@@ -167,7 +169,8 @@ def help_examples(tests):
 
 ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
          "reference": reference.run, "scripts": scripts.run, "figures": figures.run, "looks": looks.run,
-         "paper": paper.run, "accuracy": accuracy_test.run, "errors": table.run,
+         "paper": paper.run, "accuracy": accuracy_test.run, "fits": fits.run,
+         "backwards": backwards.run, "errors": table.run,
          "trouble": trouble.run,
          "interactive": prompt.run, "readme": readme, "help": help_examples, "portable": portable.run,
          "house": house.run}

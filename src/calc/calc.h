@@ -75,6 +75,9 @@ void undo_pop(calc *c, bool back);
 /* Takes back the last change; false: there is none. */
 bool calc_undo(calc *c);
 
+/* "3 um", with no more digits than a message bears. */
+enum { CALC_VALUE_TEXT = 160 };
+void calc_value_text(dim d, double v, char text[CALC_VALUE_TEXT]);
 /* Puts an error into words, once. */
 void calc_word(const calc *c, calc_error *error);
 /* Adds to the words. */

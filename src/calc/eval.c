@@ -266,11 +266,15 @@ static bool changed_value(machine *m, const expr_node *n, value *out) {
 
 /* ---- nodes ------------------------------------------------------------------------------------- */
 
+static bool takes(const quantity *q, dim d) {
+    return dim_equal(d, q->argument_d) || (!dim_equal(q->argument_or, DIM_NONE) && dim_equal(d, q->argument_or));
+}
+
 static bool call_quantity(machine *m, const expr_node *n, value *out) {
     const expr_node *a = &m->e->nodes[n->left];
     value arg = a->v;
     char wants[192], phrase[128];
-    if (!dim_equal(arg.d, n->q->argument_d) && !is_bare_zero(a, arg)) {
+    if (!takes(n->q, arg.d) && !is_bare_zero(a, arg)) {
         dim_describe(n->q->argument_d, phrase, sizeof phrase);
         snprintf(wants, sizeof wants, "%s(%s) takes %s", n->q->name, n->q->argument, phrase);
         return dim_wrong(m, a, arg.d, wants);

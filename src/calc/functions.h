@@ -16,6 +16,9 @@ quantity_get_function get_FN, get_dW, get_kn, get_a0, get_dz0, get_dxmax, get_dx
 quantity_call_function call_a, call_dz, call_c, call_dx, call_Fx, call_dW, call_dWd;
 quantity_block_function block_a, block_dz, block_c, block_dx, block_dW;
 
+/* damper.c: over a closed cycle of an amplitude, at constant F_N */
+quantity_call_function call_Ksec, call_Kp, call_Kpp, call_loss_factor;
+
 /* fields.c: at a place, state now */
 quantity_call_function call_E, call_f, call_g, call_p, call_qx, call_uz, call_ux;
 quantity_call_function call_w1D, call_u1D, call_s1D, call_qz1D, call_qx1D, call_cN, call_cT;

@@ -185,18 +185,21 @@ void inputs_drop(inputs *in) {
     *in = (inputs){.geometry = NULL};
 }
 
+void input_range(input in, double *lo, double *hi) {
+    const bool nu = in == IN_NU || in == IN_NU_2;
+    *lo = in == IN_K || nu ? -1 : in == IN_PHASE ? -(double)INFINITY : 0;
+    *hi = in == IN_K ? 1 : nu ? 0.5 : (double)INFINITY;
+}
+
 fret_status input_status(input in, double v) {
+    const bool nu = in == IN_NU || in == IN_NU_2;
+    double lo, hi;
     fret_code code = FRET_OK;
+    input_range(in, &lo, &hi);
     if (!isfinite(v))
         code = FRET_NOT_FINITE;
-    else if (in == IN_K)
-        code = v > -1 && v < 1 ? FRET_OK : FRET_BAD_K;
-    else if (in == IN_NU || in == IN_NU_2)
-        code = v > -1 && v <= 0.5 ? FRET_OK : FRET_BAD_NU;
-    else if (in == IN_FNA)
-        code = v >= 0 ? FRET_OK : FRET_NEGATIVE;
-    else if (in != IN_PHASE && v <= 0)
-        code = FRET_NOT_POSITIVE;
+    else if (!(v > lo || (in == IN_FNA && v == lo)) || !(v < hi || (nu && v == hi)))
+        code = in == IN_K ? FRET_BAD_K : nu ? FRET_BAD_NU : in == IN_FNA ? FRET_NEGATIVE : FRET_NOT_POSITIVE;
     return (fret_status){code, NULL, v, 0};
 }
 

@@ -80,6 +80,8 @@ struct inputs {
 void inputs_copy(inputs *to, const inputs *from);
 void inputs_drop(inputs *in);
 
+/* Between what an input lies, whatever the rest; may be infinite. Of these ends only nu = 1/2 and FNA = 0 belong. */
+void input_range(input in, double *lo, double *hi);
 /* Is the value in the range of the input, whatever the rest? */
 fret_status input_status(input in, double v);
 

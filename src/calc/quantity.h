@@ -56,6 +56,7 @@ typedef struct quantity {
     model_id by; /* what answers for the function; MODEL_CLOSED: the closed form, or quadrature over the gap */
     const char *argument;
     dim argument_d;
+    dim argument_or; /* what the argument may be instead; a number: nothing else */
     /* the function at many arguments, to 2e-15; NULL: call does them one by one */
     bool (*block)(scene *s, const double arg[], double out[], size_t count, calc_error *error);
     unsigned reads; /* inputs that it can depend on */

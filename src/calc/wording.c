@@ -17,26 +17,25 @@ static dim dimension_of(const calc *c, const char *name) {
     return DIM_NONE;
 }
 
-/* "3 um", with no more digits than a message bears. */
-static void say(dim d, double v, char text[160]) {
+void calc_value_text(dim d, double v, char text[CALC_VALUE_TEXT]) {
     char unit_text[128] = "";
     long double scale = unit_choose(d, v, 6, unit_text, sizeof unit_text);
-    snprintf(text, 160, "%.6g%s%s", (double)(v / scale), *unit_text ? " " : "", unit_text);
+    snprintf(text, CALC_VALUE_TEXT, "%.6g%s%s", (double)(v / scale), *unit_text ? " " : "", unit_text);
 }
 
 static void word_status(const calc *c, calc_error *error) {
     const fret_status *st = &error->status;
     const char *name = error->input >= 0 ? quantity_of_input((input)error->input)->name : st->quantity;
     const char *rule = fret_status_rule(st->code);
-    char given[160], limit[160], *text = error->text;
+    char given[CALC_VALUE_TEXT], limit[CALC_VALUE_TEXT], *text = error->text;
     const size_t size = sizeof error->text;
     if (!name) {
         snprintf(text, size, "%s", rule);
         return;
     }
     const dim d = dimension_of(c, name);
-    say(d, st->value, given);
-    say(st->code == FRET_TABLE_SHORT ? DIM_LENGTH : d, st->limit, limit);
+    calc_value_text(d, st->value, given);
+    calc_value_text(st->code == FRET_TABLE_SHORT ? DIM_LENGTH : d, st->limit, limit);
     if (st->code == FRET_GROSS_SLIP)
         snprintf(text, size, "%s = %s exceeds mu*FN = %s: gross slip; %s to slide", name, given, limit,
                  strcmp(name, "FA") ? "step by displacement (dx=...)" : "cycle by displacement (dxA=...)");

@@ -10,6 +10,7 @@
 #include "shell/presets.h"
 #include "shell/range.h"
 #include "shell/show.h"
+#include "shell/study_commands.h"
 
 #define INPUT(which) .in = 1 + (which)
 
@@ -108,6 +109,33 @@ static const arg accuracy_args[] = {
     {.kind = ARG_VALUE, .name = "dxA", .d = {0, 1, 0}, .flags = ARG_POSITIVE, .group = GROUP_TANGENTIAL},
     {.kind = ARG_NUMBER, .name = "within", .most = 3600},
     {.kind = ARG_END}};
+
+static const arg export_args[] = {
+    {.kind = ARG_COUNT, .name = "jenkins", .most = 1000},
+    {.kind = ARG_TO, .name = "to"},
+    {.kind = ARG_VALUE, .name = "FA", .d = {1, 0, 0}, .flags = ARG_POSITIVE},
+    {.kind = ARG_END}};
+
+#ifndef FRET_WITHOUT_GSL
+static const arg solve_args[] = {
+    {.kind = ARG_LIST, .name = "input"},
+    {.kind = ARG_END}};
+
+static const arg fit_args[] = {
+    {.kind = ARG_LIST, .name = "input"},
+    {.kind = ARG_WORD, .name = "robust"},
+    {.kind = ARG_END}};
+
+static const arg uncertainty_args[] = {
+    {.kind = ARG_LIST, .name = "expression"},
+    {.kind = ARG_COUNT, .name = "samples", .most = 10000000},
+    {.kind = ARG_COUNT, .name = "seed", .most = 1000000000},
+    {.kind = ARG_END}};
+
+static const arg optimise_args[] = {
+    {.kind = ARG_LIST, .name = "expression"},
+    {.kind = ARG_END}};
+#endif
 
 static void geometry_list(FILE *to) {
     const geometry *g;
@@ -339,6 +367,100 @@ static const command commands[] = {
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> animate springs | loop | W1D along program\n"
              "    error: there is no load yet: press first (press FN=100 N)\n"},
+#ifndef FRET_WITHOUT_GSL
+    {.name = "solve",
+     .run = do_solve,
+     .args = solve_args,
+     .group = "questions backwards",
+     .keywords = "root equation inverse backwards find",
+     .usage = "NAME for EXPR = EXPR [from LO to HI]",
+     .summary = "the value of an input that makes an equation hold",
+     .help = "NAME is an input or a variable of yours; the scene stays as it is. Without a\n"
+             "range it looks over the whole range of k and nu, and three decades on either\n"
+             "side of the present value of others. It says where there is no root, where\n"
+             "there are several, and where the scene ends.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> solve FN for a = 0.2 mm\n"
+             "    FN = 123.077 N\n"
+             "    fret> cycle FA=20 N\n"
+             "    fret> solve mu for dW = 1 uJ\n"
+             "    mu = 0.636473\n"},
+    {.name = "maximize",
+     .run = do_maximize,
+     .args = optimise_args,
+     .group = "questions backwards",
+     .keywords = "optimum optimise best design largest peak",
+     .usage = "EXPR over NAME = LO .. HI, ...",
+     .summary = "where an expression is largest",
+     .help = "One to three inputs or free names, each in its range; the scene stays as it is.\n"
+             "A note says where the best is an end of a range, or where the scene ends.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> maximize dWd(0.5 um) over FN = 1 N .. 100 N\n"
+             "    FN = 10.4367 N\n"
+             "    dWd(0.5 um) = 3.33974 uJ\n"},
+    {.name = "minimize",
+     .run = do_minimize,
+     .args = optimise_args,
+     .group = "questions backwards",
+     .keywords = "optimum optimise best design smallest",
+     .usage = "EXPR over NAME = LO .. HI, ...",
+     .summary = "where an expression is smallest",
+     .help = "As `maximize`.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> minimize dz over FN = 20 N .. 100 N\n"
+             "    FN = 20 N\n"
+             "    dz = 1.19114 um\n"
+             "    note: no inner optimum in FN: FN = 20 N is the lower end of its range\n"},
+    {.name = "fit",
+     .run = do_fit,
+     .args = fit_args,
+     .group = "questions backwards",
+     .keywords = "least squares regression identify parameter measured data inverse calibrate",
+     .usage = "NAME, ... for EXPR = EXPR to FILE.csv | along FILE.csv [robust]",
+     .summary = "inputs from measured data, with how sure they are",
+     .help = "Starts from the present values; the scene stays as it is. With `for` each row is\n"
+             "an equation whose columns are names: depth = dz(force). With `along` the file is\n"
+             "a measured loop: driven by dx (and FN or dz, where there is such a column), Fx\n"
+             "compared. Answers are values with their standard errors, correlations and the\n"
+             "rms of the residuals; data that do not determine a name, or cannot tell two\n"
+             "apart, are an error that names them. `robust` gives rows far off less weight\n"
+             "(Huber).\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> fit E0 for depth = dz(force) to /nonexistent.csv\n"
+             "    error: cannot read /nonexistent.csv: No such file or directory\n"},
+    {.name = "uncertainty",
+     .run = do_uncertainty,
+     .args = uncertainty_args,
+     .group = "questions backwards",
+     .keywords = "error deviation Monte Carlo tolerance variance confidence sensitivity",
+     .usage = "EXPR, ... with NAME +- DEVIATION, ... [samples 10000] [seed 1]",
+     .summary = "how sure a value is, and which input that comes from",
+     .help = "Standard deviations of independent inputs; 5 % is a part of the value. The\n"
+             "answer is first order, from derivatives, with the share of each input in the\n"
+             "variance.\n"
+             "A Monte Carlo of normal samples stands beside it where it says something else.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> uncertainty dWd(0.5 um), a with mu +- 0.02, E0 +- 5 %\n"
+             "    dWd(0.5 um) = 948.431 nJ +- 84 nJ\n"
+             "        from mu 38 %, E0 62 %\n"
+             "        Monte Carlo = 953.21 nJ +- 83.6 nJ\n"
+             "    a = 186.626 um +- 3.11 um\n"
+             "        from mu 0 %, E0 100 %\n"},
+#endif
+    {.name = "export",
+     .run = do_export,
+     .args = export_args,
+     .group = "questions backwards",
+     .keywords = "jenkins masing iwan elements dynamics damper model springs",
+     .usage = "jenkins N to FILE.csv|json|h [FA=20 N]",
+     .summary = "the contact as parallel Jenkins elements, for a dynamics code",
+     .help = "Springs in line with sliders, chosen to minimise the worst error of the energy\n"
+             "per cycle over all amplitudes, at this normal force; with FA, over those up to\n"
+             "it. The answer is that error, and its part of the energy at gross slip (at FA).\n"
+             "FILE.h is a C table to compile in.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> export jenkins 8 to /dev/null\n"
+             "    error: cannot tell the form of a model from '/dev/null': use .csv, .json or .h\n"},
     {.name = "explain",
      .run = do_explain,
      .args = list_args,

@@ -79,6 +79,8 @@ static void quantity_help(FILE *to, size_t row) {
     fprintf(to, "    as a function: %s(%s)\n", q->name, q->argument);
     snprintf(when, sizeof when, "%s is ", q->argument);
     dim_line(to, when, q->argument_d);
+    if (!dim_equal(q->argument_or, DIM_NONE))
+        dim_line(to, "or ", q->argument_or);
 }
 
 /* ---- commands, settings, models ---------------------------------------------------------------- */

@@ -6,7 +6,7 @@
 
 /* ---- names ------------------------------------------------------------------------------------- */
 
-static bool wake(shell *sh, const lexer *lx, range_names *out) {
+bool range_wake(shell *sh, const lexer *lx, range_names *out) {
     own_names *n = &sh->calc.names;
     size_t i;
     const char *text = lx->text + lx->at;
@@ -31,7 +31,7 @@ bool range_names_find(shell *sh, lexer *lx, range_names *out, bool *found) {
         const bool by_name = lex_is(&scan, "for"), along = lex_is(&scan, "along"), with = lex_is(&scan, "with");
         lex_next(&scan);
         *found = *found || ((by_name || along) && scan.kind == T_NAME);
-        if ((by_name || with) && scan.kind == T_NAME && scan.len < LEX_NAME && !wake(sh, &scan, out))
+        if ((by_name || with) && scan.kind == T_NAME && scan.len < LEX_NAME && !range_wake(sh, &scan, out))
             return calc_no_memory(lx->error);
     }
     return true;
@@ -58,11 +58,11 @@ static bool read_bound(calc *c, lexer *lx, const knob *var, bool first, dim *d, 
     return value_dim(lx, var->text, at, lx->last - at, v, *d);
 }
 
-static bool read_ends(calc *c, lexer *lx, const knob *var, sweep_range *out) {
+bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out) {
     if (!read_bound(c, lx, var, true, &out->d, &out->lo))
         return false;
-    if (lx->kind != T_RANGE)
-        return lex_fail(lx, "expected .. between the two ends of the sweep");
+    if (word ? !lex_is(lx, word) : lx->kind != T_RANGE)
+        return lex_fail(lx, "expected %s between the two ends of the sweep", word ? word : "..");
     lex_next(lx);
     return read_bound(c, lx, var, false, &out->d, &out->hi);
 }
@@ -74,7 +74,7 @@ static bool evaluate_range(const sweep *s, sweep_range *out, calc_error *error) 
     lx.error = error;
     lex_seek(&lx, r->at);
     if (!s->along)
-        return read_ends(&r->sh->calc, &lx, &s->var, out);
+        return range_read_interval(&r->sh->calc, &lx, &s->var, NULL, out);
     return s->what != ALONG_LOAD || read_load(r->sh, &lx, &out->step, &out->extra, out->bound);
 }
 
@@ -182,7 +182,7 @@ bool range_read(shell *sh, lexer *lx, range *out, size_t steps) {
     if (!read_name(&sh->calc, lx, &s->var))
         return false;
     out->at = lx->at;
-    if (!read_ends(&sh->calc, lx, &s->var, &ends))
+    if (!range_read_interval(&sh->calc, lx, &s->var, NULL, &ends))
         return false;
     s->var.d = ends.d;
     const size_t at = lx->at;

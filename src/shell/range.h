@@ -19,12 +19,16 @@ typedef struct range {
 /* The names of the range, which stand behind the expressions that use them, become known until range_forget. */
 typedef struct range_names {
     size_t count;
-    size_t woken[4]; /* names that had been taken back */
+    size_t woken[16]; /* names that had been taken back */
     size_t woken_count;
 } range_names;
 bool range_names_find(shell *sh, lexer *lx, range_names *out, bool *found);
+/* The name at the cursor does. out begins as {.count = of the names}. */
+bool range_wake(shell *sh, const lexer *lx, range_names *out);
 void range_forget(shell *sh, const range_names *names);
 
+/* LO .. HI of var at the cursor; word: what stands between them instead of `..`, or NULL. */
+bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out);
 /* At `for` or `along`; steps: where none are given. The lexer must outlive the range. */
 bool range_read(shell *sh, lexer *lx, range *out, size_t steps);
 /* `steps N`, `log` and `with ...` at the cursor, as many as stand there. */

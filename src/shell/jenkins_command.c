@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* export jenkins: the contact for a dynamics code. Leaves the scene as it is. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "shell/output.h"
+#include "shell/study_commands.h"
+#include "shell/target.h"
+#include "study/jenkins.h"
+
+enum { ELEMENTS = 1000 };
+
+typedef struct model {
+    unsigned count;
+    jenkins_element *element;
+    jenkins_error quality;
+    fret_contact contact;
+} model;
+
+/* ---- forms ------------------------------------------------------------------------------------- */
+
+static void write_csv(const model *m, FILE *to) {
+    fprintf(to, "# parallel Jenkins elements of a contact at F_N = %.17g N, mu = %.17g\n",
+            (double)m->contact.press.F, m->contact.mu);
+    fprintf(to, "# worst error of the energy per cycle, up to the amplitude %.17g m: %.17g J\n",
+            m->quality.most, m->quality.worst);
+    fputs("k [N/m],slip [N]\n", to);
+    for (unsigned i = 0; i < m->count; i++)
+        fprintf(to, "%.17g,%.17g\n", m->element[i].k, m->element[i].s);
+}
+
+static void write_json(const model *m, FILE *to) {
+    fprintf(
+        to,
+        "{\"model\":\"jenkins\",\"FN\":%.17g,\"mu\":%.17g,\"error\":%.17g,\"amplitude\":%.17g,\"elements\":[",
+        (double)m->contact.press.F, m->contact.mu, m->quality.worst, m->quality.most);
+    for (unsigned i = 0; i < m->count; i++)
+        fprintf(to, "%s{\"k\":%.17g,\"slip\":%.17g}", i ? "," : "", m->element[i].k, m->element[i].s);
+    fputs("]}\n", to);
+}
+
+static void write_header(const model *m, FILE *to) {
+    fprintf(
+        to,
+        "/* Parallel Jenkins elements, each a spring k [N/m] in line with a slider of the force slip [N], of "
+        "a\n"
+        " * contact at F_N = %.9g N, mu = %.9g. Worst error of the energy per cycle, up to the amplitude\n"
+        " * %.9g m: %.3g J. One step of the displacement d, with a force f[i] an element, all 0 at first:\n"
+        " *     f[i] += k * (d_new - d_old), then f[i] = -slip or slip where it is beyond; F_x is their sum. "
+        "*/\n",
+        (double)m->contact.press.F, m->contact.mu, m->quality.most, m->quality.worst);
+    fprintf(to, "#ifndef JENKINS_ELEMENTS\n#define JENKINS_ELEMENTS %u\n", m->count);
+    fputs("static const struct { double k, slip; } jenkins_element[JENKINS_ELEMENTS] = {\n", to);
+    for (unsigned i = 0; i < m->count; i++)
+        fprintf(to, "    {%.17g, %.17g},\n", m->element[i].k, m->element[i].s);
+    fputs("};\n#endif\n", to);
+}
+
+typedef void writer(const model *m, FILE *to);
+static const struct {
+    const char *ending;
+    writer *write;
+} forms[] = {{".csv", write_csv}, {".json", write_json}, {".h", write_header}};
+
+static writer *form_of(const char *name, calc_error *error, size_t at, size_t len) {
+    const char *base = strrchr(name, '/'), *dot = strrchr(base ? base : name, '.');
+    for (size_t i = 0; dot && i < sizeof forms / sizeof *forms; i++)
+        if (!strcmp(dot, forms[i].ending))
+            return forms[i].write;
+    calc_fail(error, at, len, "cannot tell the form of a model from '%s': use .csv, .json or .h", name);
+    return NULL;
+}
+
+/* ---- the command ------------------------------------------------------------------------------- */
+
+typedef struct request {
+    unsigned count;
+    char name[ARG_FILE_NAME];
+    size_t at, len; /* of it */
+    writer *write;
+    bool limited;
+    double FA;
+} request;
+
+static bool read_request(shell *sh, lexer *lx, request *r) {
+    static const dim force = {1, 0, 0};
+    value v;
+    if (!lex_accept(lx, "jenkins"))
+        return lex_fail(lx, "export what? jenkins N to FILE");
+    if (!read_count(&sh->calc, lx, "the number of elements", ELEMENTS, &r->count))
+        return false;
+    if (!lex_is(lx, "to"))
+        return lex_fail(lx, "expected to FILE.csv, .json or .h");
+    lex_next(lx);
+    error_clear(lx->error); /* a file name need not be made of tokens */
+    r->at = lx->at;
+    if (!lex_filename(lx, r->name, sizeof r->name))
+        return false;
+    r->len = lx->last - r->at;
+    r->write = form_of(r->name, lx->error, r->at, r->len);
+    if (!r->write)
+        return false;
+    r->limited = at_argument(lx) && lex_is(lx, "FA");
+    if (!r->limited)
+        return at_end(lx);
+    lex_next(lx);
+    lex_next(lx);
+    const size_t at = lx->at;
+    if (!expr_value(&sh->calc, lx, &v) || !value_dim(lx, "FA", at, lx->last - at, v, force))
+        return false;
+    r->FA = (double)v.v;
+    return (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "FA must be positive")) && at_end(lx);
+}
+
+static bool make_model(shell *sh, const request *r, model *m, calc_error *error) {
+    double amplitude = (double)INFINITY;
+    fret_loading first;
+    if (!scene_contact(&sh->calc.scene, &m->contact, error))
+        return false;
+    if (r->limited) {
+        fret_status st = fret_loading_by_force(&m->contact, r->FA, &first);
+        st.quantity = "FA";
+        if (!calc_status(error, &st))
+            return false;
+        amplitude = (double)first.dx;
+    }
+    m->count = r->count;
+    m->element = malloc(m->count * sizeof *m->element);
+    if (!m->element)
+        return calc_no_memory(error);
+    return jenkins(&m->contact, amplitude, m->count, &shell_stop, m->element, &m->quality, error);
+}
+
+static bool write_model(shell *sh, lexer *lx, const request *r, const model *m) {
+    char text[CALC_ERROR_TEXT];
+    file_out file;
+    file_report report;
+    if (!file_out_open(&file, r->name, &shell_stop, text, sizeof text))
+        return calc_fail(lx->error, r->at, r->len, "%s", text);
+    r->write(m, file.to);
+    if (!file_out_close(&file, true, &report, text, sizeof text))
+        return calc_fail(lx->error, r->at, r->len, "%s", text);
+    target_report(sh, r->name, &report);
+    return true;
+}
+
+static bool report_model(shell *sh, const model *m, calc_error *error) {
+    column columns[2] = {{.name = NULL}};
+    const long double si[] = {m->quality.worst, m->quality.worst / m->quality.scale};
+    bool ok =
+        (column_si(&columns[0], "error of dW", DIM_ENERGY) && column_si(&columns[1], "relative", DIM_NONE)) ||
+        calc_no_memory(error);
+    if (ok)
+        print_values(&sh->set, sh->out, columns, si, 2);
+    if (ok && sh->set.format == FORMAT_JSON)
+        fprintf(sh->out, "{\"event\":\"export\",\"model\":\"jenkins\",\"elements\":%u}\n", m->count);
+    columns_free(columns, 2);
+    return ok;
+}
+
+bool do_export(shell *sh, lexer *lx, const command *self) {
+    request *r = calloc(1, sizeof *r);
+    model m = {.count = 0};
+    (void)self;
+    bool ok = (r || calc_no_memory(lx->error)) && read_request(sh, lx, r) &&
+              make_model(sh, r, &m, lx->error) && write_model(sh, lx, r, &m) &&
+              report_model(sh, &m, lx->error);
+    free(m.element);
+    free(r);
+    return ok;
+}

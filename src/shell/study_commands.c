@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Questions that go backwards: solve, maximize, minimize. They leave the scene as it is. */
+#include "shell/study_commands.h"
+
+#include <string.h>
+
+#include "shell/expressions.h"
+#include "shell/range.h"
+#include "study/optimise.h"
+#include "study/solve.h"
+
+/* ---- what they share --------------------------------------------------------------------------- */
+
+/* Answers as printed values are, and remembered as `ans`. */
+static bool print_answers(shell *sh, column *columns, const long double *si, size_t count) {
+    print_values(&sh->set, sh->out, columns, si, count);
+    sh->calc.ans = (value){si[count - 1], columns[count - 1].d};
+    sh->calc.has_ans = true;
+    return true;
+}
+
+/* A knob where it was found, as a column. */
+static bool knob_column(column *c, const knob *k, calc_error *error) {
+    return column_si(c, k->text, k->d) || calc_no_memory(error);
+}
+
+/* ---- solve ------------------------------------------------------------------------------------- */
+
+static bool read_solve(shell *sh, lexer *lx, solve_question *q) {
+    sweep_range ends = {.lo = 0};
+    if (!knob_read(&sh->calc, lx, &q->name))
+        return false;
+    if (!lex_accept(lx, "for"))
+        return lex_fail(lx, "expected for EXPR = EXPR");
+    if (!expr_parse_at(&sh->calc, lx, &sh->list[0]))
+        return false;
+    if (lx->kind != T_ASSIGN)
+        return lex_fail(lx, "expected = EXPR: what should it be equal to?");
+    lex_next(lx);
+    if (!expr_parse_at(&sh->calc, lx, &sh->list[1]))
+        return false;
+    q->c = &sh->calc;
+    q->left = &sh->list[0];
+    q->right = &sh->list[1];
+    q->given = lex_accept(lx, "from");
+    if (q->given && !range_read_interval(&sh->calc, lx, &q->name, "to", &ends))
+        return false;
+    q->lo = (double)ends.lo;
+    q->hi = (double)ends.hi;
+    if (q->given)
+        q->name.d = ends.d;
+    return at_end(lx);
+}
+
+static void report_solve(shell *sh, const solve_question *q, const solve_answer *a) {
+    char lo[CALC_VALUE_TEXT], hi[CALC_VALUE_TEXT];
+    if (sh->set.format == FORMAT_JSON) {
+        fputs("{\"event\":\"solve\",\"method\":\"Brent\"", sh->out);
+        fprintf(sh->out, ",\"evaluations\":%u", a->evaluations);
+        fprintf(sh->out, ",\"bracket\":[%.17g,%.17g]}\n", a->lo, a->hi);
+    }
+    if (!sh->set.timing)
+        return;
+    calc_value_text(q->name.d, a->lo, lo);
+    calc_value_text(q->name.d, a->hi, hi);
+    shell_note(sh, "solve: scan and Brent's method, %u evaluations, bracket %s = %s .. %s", a->evaluations,
+               q->name.text, lo, hi);
+}
+
+bool do_solve(shell *sh, lexer *lx, const command *self) {
+    range_names names = {.count = sh->calc.names.count};
+    solve_question q;
+    solve_answer a;
+    column c = {.name = NULL};
+    (void)self;
+    bool ok = (lx->kind != T_NAME || range_wake(sh, lx, &names)) && read_solve(sh, lx, &q) &&
+              solve(&q, &a, lx->error) && knob_column(&c, &q.name, lx->error) &&
+              print_answers(sh, &c, &(long double){a.x}, 1);
+    if (ok)
+        report_solve(sh, &q, &a);
+    columns_free(&c, 1);
+    range_forget(sh, &names);
+    return ok;
+}
+
+/* ---- maximize, minimize ------------------------------------------------------------------------ */
+
+/* The names stand behind the expression that uses them. */
+static bool wake_over(shell *sh, const lexer *lx, range_names *names) {
+    calc_error ignored;
+    lexer scan = *lx;
+    bool over = false, name = false;
+    error_clear(&ignored);
+    scan.error = &ignored;
+    while (scan.kind != T_END && !ignored.raised) {
+        if (name && scan.kind == T_NAME && scan.len < LEX_NAME && !range_wake(sh, &scan, names))
+            return calc_no_memory(lx->error);
+        name = lex_is(&scan, "over") || (over && scan.kind == T_COMMA);
+        over = over || lex_is(&scan, "over");
+        lex_next(&scan);
+    }
+    return true;
+}
+
+static bool read_over(shell *sh, lexer *lx, optimise_question *q) {
+    if (!lex_accept(lx, "over"))
+        return lex_fail(lx, "expected over NAME = LO .. HI");
+    for (;;) {
+        sweep_range ends = {.lo = 0};
+        knob *k = &q->name[q->count];
+        if (q->count == OPTIMISE_NAMES)
+            return lex_fail(lx, "more than %d names", OPTIMISE_NAMES);
+        if (!knob_read(&sh->calc, lx, k))
+            return false;
+        if (lx->kind != T_ASSIGN)
+            return lex_fail(lx, "expected = LO .. HI after %s", k->text);
+        lex_next(lx);
+        const size_t from = lx->at;
+        if (!range_read_interval(&sh->calc, lx, k, NULL, &ends))
+            return false;
+        if (!(ends.lo < ends.hi))
+            return calc_fail(lx->error, from, lx->last - from, "an empty range: LO must be below HI");
+        k->d = ends.d;
+        q->lo[q->count] = (double)ends.lo;
+        q->hi[q->count++] = (double)ends.hi;
+        if (lx->kind != T_COMMA)
+            return !lx->error->raised;
+        lex_next(lx);
+    }
+}
+
+static const char *const end_words[] = {"inner", "low", "high", "scene"};
+
+static void report_optimum(shell *sh, const optimise_question *q, const optimise_answer *a,
+                           const char *word) {
+    if (sh->set.format == FORMAT_JSON) {
+        fprintf(sh->out, "{\"event\":\"%s\"", word);
+        fprintf(sh->out, ",\"evaluations\":%u", a->evaluations);
+        fprintf(sh->out, ",\"sharp\":%s,\"ends\":{", a->sharp ? "true" : "false");
+        for (size_t i = 0; i < q->count; i++)
+            fprintf(sh->out, "%s\"%s\":\"%s\"", i ? "," : "", q->name[i].text, end_words[a->end[i]]);
+        fputs("}}\n", sh->out);
+    }
+    bool inner = false, edge = false;
+    for (size_t i = 0; i < q->count; i++) {
+        char there[ASK_TEXT];
+        ask_text(&q->name[i], a->x[i], there);
+        inner = inner || a->end[i] == END_INNER;
+        if (a->end[i] == END_SCENE && !edge)
+            shell_note(sh, "note: the scene ends at %s: %s%s", there, a->why.text,
+                       q->count > 1 ? "; along that edge there may be better places" : "");
+        edge = edge || a->end[i] == END_SCENE;
+        if (a->end[i] == END_LOW || a->end[i] == END_HIGH)
+            shell_note(sh, "note: no inner optimum in %s: %s is the %s end of its range", q->name[i].text,
+                       there, a->end[i] == END_LOW ? "lower" : "upper");
+    }
+    if (sh->set.timing)
+        shell_note(sh, "%s: grid, %s%s, %u evaluations", word,
+                   q->count == 1 ? "Brent's method" : "simplex of Nelder and Mead",
+                   a->sharp && inner ? ", Newton's method" : "", a->evaluations);
+}
+
+static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {
+    range_names names = {.count = sh->calc.names.count};
+    optimise_question q = {.c = &sh->calc, .e = &sh->list[0], .most = most};
+    optimise_answer a;
+    column columns[OPTIMISE_NAMES + 1] = {{.name = NULL}}, optimised = {.name = NULL};
+    long double si[OPTIMISE_NAMES + 1];
+    bool ok = wake_over(sh, lx, &names) && read_one_expression(sh, lx, 0, &optimised) &&
+              read_over(sh, lx, &q) && at_end(lx) && optimise(&q, &a, lx->error) &&
+              column_fits(q.e, &optimised, a.d, lx->error);
+    for (size_t i = 0; i < q.count && ok; i++) {
+        ok = knob_column(&columns[i], &q.name[i], lx->error);
+        si[i] = a.x[i];
+    }
+    columns[q.count] = optimised;
+    if (ok) {
+        si[q.count] = a.value;
+        print_answers(sh, columns, si, q.count + 1);
+        report_optimum(sh, &q, &a, self->name);
+    }
+    columns_free(columns, q.count + 1);
+    range_forget(sh, &names);
+    return ok;
+}
+
+bool do_maximize(shell *sh, lexer *lx, const command *self) {
+    return optimum(sh, lx, self, true);
+}
+
+bool do_minimize(shell *sh, lexer *lx, const command *self) {
+    return optimum(sh, lx, self, false);
+}

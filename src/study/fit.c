@@ -1,0 +1,405 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/fit.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where a trial point has no value its residuals are this large: the step is taken back. */
+static const double refused = 1e6;
+/* Tuned to 95 % of the efficiency of least squares on normal noise (Huber 1981). */
+static const double huber = 1.345;
+enum { ITERATIONS = 200, ROUNDS = 30 };
+
+typedef struct state {
+    const fit_question *of;
+    ask q;
+    double start[FIT_NAMES], scale[FIT_NAMES];
+    /* parameter i is start exp(q-1), or start + scale (q-1): GSL's differences are parts of q */
+    bool ratio[FIT_NAMES];
+    double unit; /* of the residuals */
+    dim d;
+    bool known;
+    bool twice;
+    size_t bad_row; /* the last one without a value */
+    gsl_vector *weight;
+    double *residual; /* as they are computed */
+} state;
+
+static double parameter(const state *s, size_t i, double q) {
+    return s->ratio[i] ? s->start[i] * exp(q - 1) : s->start[i] + s->scale[i] * (q - 1);
+}
+
+static bool stopped(state *s) {
+    const volatile sig_atomic_t *stop = s->of->c->scene.stop;
+    return stop && *stop && !calc_interrupted(s->q.error);
+}
+
+/* ---- residuals --------------------------------------------------------------------------------- */
+
+static bool equation_row(state *s, size_t row, double *out) {
+    const fit_question *of = s->of;
+    calc_error error;
+    long double left;
+    value right;
+    error_clear(&error);
+    for (size_t j = 0; j < of->columns; j++)
+        if (!trial_set(s->q.t, &of->column[j].name, of->column[j].v[row], &error))
+            return ask_failed(&s->q, &error);
+    if (!ask_value(&s->q, of->left, &s->d, &s->known, &left))
+        return false;
+    if (!expr_eval(of->c, of->right, &right, &error))
+        return ask_failed(&s->q, &error);
+    if (!dim_equal(right.d, s->d)) {
+        char is[128], wants[128];
+        dim_describe(s->d, wants, sizeof wants);
+        dim_describe(right.d, is, sizeof is);
+        return calc_fail(s->q.error, of->right->at, of->right->len,
+                         "the left side is %s, the right side is %s", wants, is);
+    }
+    *out = (double)(left - right.v);
+    return true;
+}
+
+static bool equations(state *s, double *out) {
+    for (size_t i = 0; i < s->of->rows; i++) {
+        s->bad_row = i;
+        if ((i % 64 == 0 && stopped(s)) || !equation_row(s, i, &out[i]))
+            return false;
+    }
+    return true;
+}
+
+/* The press that everything begins with. */
+static bool press_of(state *s, load_step *out, calc_error *error) {
+    scene *tried = &s->q.t->scene;
+    const fit_loop *loop = &s->of->loop;
+    long double FN;
+    *out = (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE};
+    if (loop->normal) {
+        out->normal = (unsigned char)loop->normal_by;
+        out->normal_value = loop->normal[0];
+        return true;
+    }
+    if (!tried->end.steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    *out = tried->program->steps[0];
+    if (out->normal == BY_FORCE) {
+        if (!scene_get(tried, IN_FN, &FN, error))
+            return false;
+        out->normal_value = (double)FN;
+    }
+    return true;
+}
+
+static fret_status run_rows(state *s, runner *r, double *out) {
+    const fit_loop *loop = &s->of->loop;
+    fret_status st = {.code = FRET_OK};
+    fret_state now;
+    for (size_t pass = 0; pass < 1u + s->twice; pass++)
+        for (size_t i = 0; i < s->of->rows && !st.code; i++) {
+            load_item item = {
+                .step = {.kind = LOAD_STEP, .tangential = BY_DISPLACEMENT, .tangential_value = loop->dx[i]}};
+            if (loop->normal) {
+                item.step.normal = (unsigned char)loop->normal_by;
+                item.step.normal_value = loop->normal[i];
+            }
+            s->bad_row = i;
+            st = run_item(r, &item);
+            engine_forces(&r->engine, &now);
+            out[i] = loop->Fx[i] - (double)now.Fx;
+            if (i % 64 == 0 && stopped(s))
+                return st;
+        }
+    return st;
+}
+
+static bool loop_rows(state *s, double *out) {
+    scene *tried = &s->q.t->scene;
+    load_view view = {.in = &tried->in, .stop = s->of->c->scene.stop};
+    runner r = {.load = &view};
+    load_item press = {.extra = {0}};
+    calc_error error;
+    error_clear(&error);
+    if (!scene_normal(tried, &view.normal, &error) || !scene_friction(tried, &view.mu, &error) ||
+        !press_of(s, &press.step, &error))
+        return ask_failed(&s->q, &error);
+    fret_status st = engine_make(&r.engine, MODEL_MEMORY, view.normal, view.mu, 0, 0);
+    if (!st.code)
+        st = run_item(&r, &press);
+    if (!st.code)
+        st = run_rows(s, &r, out);
+    engine_end(&r.engine);
+    s->d = DIM_FORCE;
+    s->known = true;
+    if (!s->q.error->raised && !calc_status(&error, &st))
+        ask_failed(&s->q, &error);
+    return !st.code && !s->q.error->raised;
+}
+
+/* left - right, or measured - computed F_x, in SI. */
+static bool residuals(state *s, const gsl_vector *q, double *out) {
+    double x[FIT_NAMES];
+    for (size_t i = 0; i < s->of->count; i++)
+        x[i] = parameter(s, i, gsl_vector_get(q, i));
+    return ask_set(&s->q, x) && (s->of->left ? equations : loop_rows)(s, out);
+}
+
+static int gsl_residuals(const gsl_vector *q, void *context, gsl_vector *f) {
+    state *s = context;
+    if (residuals(s, q, s->residual)) { /* f may be a column of a matrix */
+        for (size_t i = 0; i < s->of->rows; i++)
+            gsl_vector_set(f, i, s->residual[i] / s->unit);
+        return GSL_SUCCESS;
+    }
+    gsl_vector_set_all(f, refused);
+    return s->q.error->raised ? GSL_EFAILED : GSL_SUCCESS;
+}
+
+/* ---- the start --------------------------------------------------------------------------------- */
+
+/* A loop that begins in its midst came from somewhere: its own last period. */
+static bool begins_midway(const fit_question *of) {
+    const fit_loop *l = &of->loop;
+    double dx = 0, Fx = 0;
+    for (size_t i = 0; i < of->rows; i++) {
+        dx = fmax(dx, fabs(l->dx[i]));
+        Fx = fmax(Fx, fabs(l->Fx[i]));
+    }
+    const bool at_rest = fabs(l->dx[0]) < 0.05 * dx && fabs(l->Fx[0]) < 0.05 * Fx;
+    const size_t last = of->rows - 1;
+    return !at_rest && fabs(l->dx[last] - l->dx[0]) < 0.1 * dx && fabs(l->Fx[last] - l->Fx[0]) < 0.2 * Fx;
+}
+
+static bool begin(state *s, gsl_vector *q, calc_error *error) {
+    const fit_question *of = s->of;
+    for (size_t i = 0; i < of->count; i++) {
+        const knob *k = &of->name[i];
+        double lo = -(double)INFINITY, hi = (double)INFINITY;
+        if (!ask_present(of->c, k, &s->start[i]))
+            return calc_fail(error, 0, 0, "%s has no value to start from", k->text);
+        if (k->is_input)
+            input_range(k->in, &lo, &hi);
+        s->ratio[i] = lo == 0 && !isfinite(hi) && s->start[i] > 0;
+        s->scale[i] = isfinite(lo) && isfinite(hi) ? 0.1 * (hi - lo) : fabs(s->start[i]);
+    }
+    gsl_vector_set_all(q, 1);
+    if (!residuals(s, q, s->residual)) {
+        if (!error->raised) {
+            *error = s->q.none;
+            calc_append(of->c, error, " (row %zu of the data)", s->bad_row + 1);
+        }
+        return false;
+    }
+    const gsl_vector_const_view f = gsl_vector_const_view_array(s->residual, of->rows);
+    s->unit = gsl_blas_dnrm2(&f.vector) / sqrt((double)of->rows);
+    if (!(s->unit > 0))
+        s->unit = 1;
+    /* names that begin at 0, such as an offset: of the size of the residuals where they have their dimension
+     */
+    for (size_t i = 0; i < of->count; i++)
+        if (s->scale[i] == 0)
+            s->scale[i] = dim_equal(of->name[i].d, s->d) ? s->unit : 1;
+    return true;
+}
+
+/* ---- what the data say ------------------------------------------------------------------------- */
+
+/* Without the weights, whose effect the variance holds. */
+static gsl_matrix *jacobian(const state *s, gsl_multifit_nlinear_workspace *w, calc_error *error) {
+    gsl_matrix *J = gsl_matrix_alloc(s->of->rows, s->of->count);
+    if (!J) {
+        calc_no_memory(error);
+        return NULL;
+    }
+    gsl_matrix_memcpy(J, gsl_multifit_nlinear_jac(w));
+    for (size_t i = 0; i < s->of->rows; i++) {
+        gsl_vector_view row = gsl_matrix_row(J, i);
+        gsl_vector_scale(&row.vector, 1 / sqrt(gsl_vector_get(s->weight, i)));
+    }
+    return J;
+}
+
+/* In plain words, where columns of the Jacobian vanish or depend on each other. J is used up. */
+static bool determined(const state *s, gsl_matrix *J, calc_error *error) {
+    const size_t p = s->of->count;
+    gsl_matrix *V = gsl_matrix_alloc(p, p);
+    gsl_vector *sv = gsl_vector_alloc(p), *work = gsl_vector_alloc(p);
+    double norm[FIT_NAMES], most = 0;
+    bool ok = V && sv && work;
+    for (size_t i = 0; i < p; i++) {
+        const gsl_vector_const_view column = gsl_matrix_const_column(J, i);
+        norm[i] = gsl_blas_dnrm2(&column.vector);
+        most = fmax(most, norm[i]);
+    }
+    for (size_t i = 0; i < p && ok; i++) {
+        gsl_vector_view column = gsl_matrix_column(J, i);
+        if (!(norm[i] > 1e-9 * most))
+            ok = calc_fail(error, 0, 0, "the data do not determine %s: nothing in them depends on it",
+                           s->of->name[i].text);
+        else
+            gsl_vector_scale(&column.vector, 1 / norm[i]);
+    }
+    ok = ok && !gsl_linalg_SV_decomp(J, V, sv, work);
+    if (ok && gsl_vector_get(sv, p - 1) < 1e-5 * gsl_vector_get(sv, 0)) {
+        char list[FIT_NAMES * (LEX_NAME + 6)] = "";
+        size_t left = 0;
+        for (size_t i = 0; i < p; i++)
+            left += fabs(gsl_matrix_get(V, i, p - 1)) > 0.05;
+        for (size_t i = 0; i < p; i++)
+            if (fabs(gsl_matrix_get(V, i, p - 1)) > 0.05) {
+                left--;
+                snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", s->of->name[i].text,
+                         left > 1 ? ", "
+                         : left   ? " and "
+                                  : "");
+            }
+        ok = calc_fail(
+            error, 0, 0,
+            "the data cannot tell %s apart: only a combination of them shows; give the value of one", list);
+    }
+    gsl_matrix_free(V);
+    gsl_vector_free(sv);
+    gsl_vector_free(work);
+    return ok || error->raised ? ok : calc_no_memory(error);
+}
+
+/* ---- solving ----------------------------------------------------------------------------------- */
+
+/* GSL's residuals carry the root of their weight. */
+static double residual_size(const state *s, const gsl_vector *f, size_t i) {
+    return fabs(gsl_vector_get(f, i)) / sqrt(gsl_vector_get(s->weight, i));
+}
+
+/* Weights after Huber from the residuals; the largest change. */
+static double reweigh(state *s, const gsl_vector *f, double *scale) {
+    const size_t n = s->of->rows;
+    double *sorted = malloc(n * sizeof *sorted), change = 0;
+    if (!sorted)
+        return 0;
+    for (size_t i = 0; i < n; i++)
+        sorted[i] = residual_size(s, f, i);
+    *scale = 1.4826 * gsl_stats_median(sorted, 1, n);
+    free(sorted);
+    for (size_t i = 0; i < n; i++) {
+        const double r = residual_size(s, f, i), w = r > huber * *scale ? huber * *scale / r : 1;
+        change = fmax(change, fabs(w - gsl_vector_get(s->weight, i)));
+        gsl_vector_set(s->weight, i, w);
+    }
+    return change;
+}
+
+/* Most often the data are to blame. */
+static bool unsettled(state *s, gsl_multifit_nlinear_workspace *w, int status, calc_error *error) {
+    gsl_matrix *J = jacobian(s, w, error);
+    const bool blameless = J && determined(s, J, error);
+    gsl_matrix_free(J);
+    return blameless && calc_fail(error, 0, 0, "the fit does not settle: %s", gsl_strerror(status));
+}
+
+static bool descend(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
+                    calc_error *error) {
+    gsl_multifit_nlinear_fdf fdf = {.f = gsl_residuals, .n = s->of->rows, .p = s->of->count, .params = s};
+    int info = 0;
+    for (int round = 0; round < (s->of->robust ? ROUNDS : 1); round++) {
+        int status = gsl_multifit_nlinear_winit(q, s->weight, &fdf, w);
+        if (!status)
+            status = gsl_multifit_nlinear_driver(ITERATIONS, 1e-10, 1e-10, 0, NULL, NULL, &info, w);
+        if (error->raised)
+            return false;
+        out->iterations += (unsigned)gsl_multifit_nlinear_niter(w);
+        gsl_vector_memcpy(q, gsl_multifit_nlinear_position(w));
+        /* no progress is where it should be when the residuals are rounding */
+        if (status && status != GSL_ENOPROG)
+            return unsettled(s, w, status, error);
+        if (!s->of->robust || reweigh(s, gsl_multifit_nlinear_residual(w), &out->scale) < 1e-4)
+            break;
+    }
+    return true;
+}
+
+/* The variance of a residual, as the standard errors see it. */
+static double variance(const state *s, const gsl_vector *f, double scale, fit_answer *out) {
+    const size_t n = s->of->rows;
+    double squares = 0, psi = 0, inside = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double r = residual_size(s, f, i);
+        squares += r * r;
+        if (s->of->robust) {
+            const bool in = r <= huber * scale;
+            inside += in;
+            psi += in ? r * r : huber * scale * huber * scale;
+            out->far += r > 3 * scale;
+        }
+    }
+    const double free = (double)(n - s->of->count);
+    out->rms = sqrt(squares / (double)n) * s->unit;
+    /* Huber 1981, (6.6.4) without its correction */
+    return s->of->robust && inside > 0 ? psi / free / (inside / (double)n * inside / (double)n)
+                                       : squares / free;
+}
+
+static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector *q, fit_answer *out,
+                  calc_error *error) {
+    const size_t p = s->of->count;
+    const double v = variance(s, gsl_multifit_nlinear_residual(w), out->scale, out);
+    gsl_matrix *C = gsl_matrix_alloc(p, p), *J = jacobian(s, w, error);
+    bool ok = J && (C || calc_no_memory(error));
+    if (ok) {
+        gsl_multifit_nlinear_covar(J, 0, C);
+        ok = determined(s, J, error);
+    }
+    for (size_t i = 0; i < p && ok; i++) {
+        const double x = parameter(s, i, gsl_vector_get(q, i));
+        out->value[i] = x;
+        out->deviation[i] = sqrt(gsl_matrix_get(C, i, i) * v) * fabs(s->ratio[i] ? x : s->scale[i]);
+        for (size_t j = 0; j < p; j++)
+            out->correlation[i][j] =
+                gsl_matrix_get(C, i, j) / sqrt(gsl_matrix_get(C, i, i) * gsl_matrix_get(C, j, j));
+    }
+    out->scale *= s->unit;
+    out->d = s->d;
+    out->twice = s->twice;
+    out->evaluations = s->q.evaluations;
+    gsl_matrix_free(C);
+    gsl_matrix_free(J);
+    return ok;
+}
+
+static bool run(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
+                calc_error *error) {
+    gsl_vector_set_all(s->weight, 1);
+    return begin(s, q, error) && descend(s, w, q, out, error) && judge(s, w, q, out, error);
+}
+
+bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
+    const size_t n = question->rows, p = question->count;
+    gsl_multifit_nlinear_parameters method = gsl_multifit_nlinear_default_parameters();
+    state s = {.of = question, .twice = !question->left && begins_midway(question)};
+    *out = (fit_answer){.rms = 0};
+    gsl_set_error_handler_off();
+    method.fdtype = GSL_MULTIFIT_NLINEAR_CTRDIFF;
+    method.h_df = 1e-5;
+    if (n <= p)
+        return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", n, p);
+    if (!ask_open(&s.q, question->c, question->name, p, error))
+        return false;
+    gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &method, n, p);
+    gsl_vector *q = gsl_vector_alloc(p);
+    s.weight = gsl_vector_alloc(n);
+    s.residual = malloc(n * sizeof *s.residual);
+    bool ok = (w && q && s.weight && s.residual) ? run(&s, w, q, out, error) : calc_no_memory(error);
+    if (w)
+        gsl_multifit_nlinear_free(w);
+    gsl_vector_free(q);
+    gsl_vector_free(s.weight);
+    free(s.residual);
+    ask_close(&s.q);
+    return ok;
+}

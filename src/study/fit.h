@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Inputs and names from measured data: least squares by Levenberg and Marquardt (GSL), or robust after Huber.
+ */
+#ifndef STUDY_FIT_H
+#define STUDY_FIT_H
+
+#include "study/ask.h"
+
+enum { FIT_NAMES = 8, FIT_COLUMNS = 16 };
+
+/* A column of the data as a name of the expressions. */
+typedef struct fit_column {
+    knob name;
+    const double *v;
+} fit_column;
+
+/* A measured loop: F_x compared at each row. */
+typedef struct fit_loop {
+    const double *dx, *Fx;
+    const double *normal; /* F_N or delta_z at each row, or NULL: as pressed */
+    load_by normal_by;    /* BY_FORCE, BY_DISPLACEMENT */
+} fit_loop;
+
+typedef struct fit_question {
+    calc *c;
+    knob name[FIT_NAMES];
+    size_t count;
+    size_t rows; /* more than names */
+    /* each row an equation; left NULL: a loop */
+    const expr *left, *right;
+    fit_column column[FIT_COLUMNS];
+    size_t columns;
+    fit_loop loop;
+    bool robust;
+} fit_question;
+
+typedef struct fit_answer {
+    double value[FIT_NAMES];
+    double deviation[FIT_NAMES]; /* standard error, from the scatter of the residuals */
+    double correlation[FIT_NAMES][FIT_NAMES];
+    double rms;           /* of all residuals */
+    dim d;                /* of them */
+    double scale;         /* robust: of the residuals, 1.4826 times the median magnitude */
+    size_t far;           /* robust: rows beyond three times that */
+    bool twice;           /* a closed loop that does not begin at rest: run twice, the second time compared */
+    unsigned evaluations; /* of all rows */
+    unsigned iterations;
+} fit_answer;
+
+/* Starts from the present values. Errors: a name without one; a row without a value; names that the data do
+ * not determine, or cannot tell apart. */
+bool fit(const fit_question *question, fit_answer *out, calc_error *error);
+
+#endif

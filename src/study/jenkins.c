@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/jenkins.h"
+
+#include <float.h>
+#include <math.h>
+
+/* The loss f(d) is convex. From a kink (d_i, f-e) the steepest line that stays below f+e touches it; the next
+ * kink is where the line meets f-e again. The least e whose kinks suffice is looked for by halves. */
+/* The least error is looked for to this part; the one that is stated holds exactly. */
+#define ENOUGH 1e-4
+
+typedef struct march {
+    const fret_contact *contact;
+    double end; /* of what is fitted */
+    bool all;   /* it is gross slip */
+    double e;
+    double d, p;  /* the latest kink */
+    double slope; /* of the line from it */
+    fret_status failed;
+} march;
+
+static double loss(march *m, double d) {
+    fret_real out = 0;
+    const fret_status st = fret_cycle_loss_by_displacement(m->contact, d, &out);
+    if (st.code)
+        m->failed = st;
+    return (double)out;
+}
+
+/* f' = 4 (F_x - d dF_x/d delta_x) on first loading: short of gross slip, where a flat end makes it jump. */
+static double loss_slope(march *m, double d) {
+    fret_loading first;
+    d = fmin(d, (double)fret_gross_slip(m->contact) * (1 - 4 * DBL_EPSILON));
+    const fret_normal *normal = m->contact->normal;
+    const fret_status st = fret_loading_by_displacement(m->contact, d, &first);
+    if (st.code) {
+        m->failed = st;
+        return 0;
+    }
+    const fret_real stiffness =
+        first.c > 0 ? fret_normal_stiffness(normal, first.c) / fret_normal_foundation(normal)->eta : 0;
+    return (double)(4 * (first.Fx - d * stiffness));
+}
+
+/* ---- zeros of what grows ----------------------------------------------------------------------- */
+
+typedef double growing(march *m, double d);
+
+/* Regula falsi, the standing end halved (Illinois). f(lo) <= 0 <= f(hi). */
+static double zero_of(march *m, growing *f, double lo, double hi) {
+    double at_lo = f(m, lo), at_hi = f(m, hi);
+    int side = 0;
+    for (int i = 0; i < 100 && hi - lo > 2 * DBL_EPSILON * hi; i++) {
+        double mid = (lo * at_hi - hi * at_lo) / (at_hi - at_lo);
+        if (!(mid > lo && mid < hi))
+            mid = lo + (hi - lo) / 2;
+        const double at = f(m, mid);
+        if (at == 0)
+            return mid;
+        if (at < 0) {
+            lo = mid;
+            at_lo = at;
+            at_hi *= side < 0 ? 0.5 : 1;
+            side = -1;
+        } else {
+            hi = mid;
+            at_hi = at;
+            at_lo *= side > 0 ? 0.5 : 1;
+            side = 1;
+        }
+    }
+    return lo + (hi - lo) / 2;
+}
+
+static double first_kink(march *m, double d) {
+    return loss(m, d) - m->e;
+}
+
+/* The line from the kink to f+e at d is no tangent yet: too steep by this much times its length. */
+static double tangent(march *m, double d) {
+    return loss_slope(m, d) * (d - m->d) - (loss(m, d) + m->e - m->p);
+}
+
+static double next_kink(march *m, double d) {
+    return loss(m, d) - m->e - (m->p + m->slope * (d - m->d));
+}
+
+/* ---- marching ---------------------------------------------------------------------------------- */
+
+/* The line of the latest kink; false: the end comes before it touches. */
+static bool touch(march *m, double *at) {
+    if (tangent(m, m->end) < 0) {
+        *at = m->end;
+        m->slope = (loss(m, m->end) + m->e - m->p) / (m->end - m->d);
+        return false;
+    }
+    *at = zero_of(m, tangent, m->d, m->end);
+    m->slope = loss_slope(m, *at);
+    return true;
+}
+
+static double sliding_slope(const march *m) {
+    return 4 * m->contact->mu * (double)m->contact->press.F;
+}
+
+/* Is the line of sliding close enough from the latest kink on? */
+static bool slides(march *m) {
+    return sliding_slope(m) * (m->end - m->d) <= loss(m, m->end) + m->e - m->p;
+}
+
+/* The next kink, from where the line touches; beyond gross slip the loss is a line too. */
+static double kink_after(march *m, double at) {
+    const double short_of = -next_kink(m, m->end);
+    return short_of > 0 ? m->end + short_of / (sliding_slope(m) - m->slope)
+                        : zero_of(m, next_kink, at, m->end);
+}
+
+/* Do `count` kinks suffice for m->e? The elements, where out is not NULL. */
+static bool suffices(march *m, size_t count, jenkins_element *out) {
+    double slope = 0;
+    if (loss(m, m->end) <= m->e)
+        return true;
+    m->d = zero_of(m, first_kink, 0, m->end);
+    for (size_t i = 0;; i++) {
+        const bool last = i + 1 == count;
+        double at = m->end;
+        bool done;
+        m->p = i ? loss(m, m->d) - m->e : 0;
+        if (m->all && (last || slides(m))) {
+            done = slides(m);
+            m->slope = sliding_slope(m);
+        } else {
+            const bool touches = touch(m, &at);
+            done = !m->all && (!touches || next_kink(m, m->end) <= 0);
+        }
+        if (out) {
+            out[i].s = (m->slope - slope) / 4;
+            out[i].k = out[i].s / m->d;
+        }
+        if (done || last)
+            return done;
+        slope = m->slope;
+        m->d = kink_after(m, at);
+    }
+}
+
+bool jenkins(const fret_contact *contact, double amplitude, size_t count, const volatile sig_atomic_t *stop,
+             jenkins_element *out, jenkins_error *quality, calc_error *error) {
+    const double slip = (double)fret_gross_slip(contact);
+    march m = {.contact = contact, .all = !(amplitude < slip)};
+    m.end = m.all ? slip : amplitude;
+    const double scale = loss(&m, m.end);
+    double lo = 0, hi = scale;
+    while (!m.failed.code && hi - lo > ENOUGH * hi) {
+        if (stop && *stop)
+            return calc_interrupted(error);
+        m.e = lo > 0 ? sqrt(lo) * sqrt(hi) : hi / 16;
+        if (m.e <= lo || m.e >= hi)
+            break;
+        if (suffices(&m, count, NULL))
+            hi = m.e;
+        else
+            lo = m.e;
+    }
+    if (!calc_status(error, &m.failed))
+        return false;
+    for (size_t i = 0; i < count; i++)
+        out[i] = (jenkins_element){0, 0};
+    m.e = hi;
+    suffices(&m, count, out);
+    *quality = (jenkins_error){.worst = hi, .scale = scale, .most = m.end};
+    return calc_status(error, &m.failed);
+}

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/solve.h"
+
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Intervals of the scan, and evaluations kept for the method itself. */
+enum { SCAN = 24, METHOD = 14, ROOTS = 8 };
+
+typedef struct place {
+    double x, f; /* f: NaN where there is no value */
+} place;
+
+typedef struct search {
+    const solve_question *of;
+    ask q;
+    dim d;
+    bool known, ratios;
+    double lo, hi; /* searched */
+    place at[SCAN + 1];
+    place root[ROOTS], other[ROOTS]; /* brackets: a change of sign between them */
+    unsigned roots;
+    bool edged;     /* the edge of what the scene allows has been met */
+    place edge;     /* the last place with a value there */
+    calc_error why; /* beyond it */
+} search;
+
+/* left - right. NaN: no value there, or the question has ended. */
+static double difference(search *s, double x) {
+    long double left, right;
+    if (!ask_set(&s->q, &x) || !ask_value(&s->q, s->of->left, &s->d, &s->known, &left))
+        return (double)NAN;
+    /* a bare 0 has any dimension */
+    bool known = s->known;
+    dim d = s->d;
+    calc_error error;
+    value v;
+    error_clear(&error);
+    if (!expr_eval(s->q.c, s->of->right, &v, &error))
+        return ask_failed(&s->q, &error), (double)NAN;
+    right = v.v;
+    if (known && !dim_equal(v.d, d) && !(right == 0 && dim_equal(v.d, DIM_NONE))) {
+        char is[128], wants[128];
+        dim_describe(v.d, is, sizeof is);
+        dim_describe(d, wants, sizeof wants);
+        calc_fail(s->q.error, s->of->right->at, s->of->right->len,
+                  "the left side is %s, the right side is %s", wants, is);
+        return (double)NAN;
+    }
+    return (double)(left - right);
+}
+
+static double middle(const search *s, double a, double b) {
+    return s->ratios ? sqrt(a) * sqrt(b) : a + (b - a) / 2;
+}
+
+static bool opposite(double a, double b) {
+    return (a < 0 && b > 0) || (a > 0 && b < 0);
+}
+
+static void add_bracket(search *s, place a, place b) {
+    if (s->roots < ROOTS) {
+        s->root[s->roots] = a;
+        s->other[s->roots++] = b;
+    }
+}
+
+/* ---- where to look ----------------------------------------------------------------------------- */
+
+static bool choose_range(search *s, calc_error *error) {
+    const knob *k = &s->of->name;
+    double lo = -(double)INFINITY, hi = (double)INFINITY, now;
+    s->lo = s->of->lo;
+    s->hi = s->of->hi;
+    if (!s->of->given) {
+        if (k->is_input)
+            input_range(k->in, &lo, &hi);
+        if (k->is_input && k->in == IN_PHASE) {
+            s->lo = 0;
+            s->hi = 6.283185307179586;
+        } else if (isfinite(lo) && isfinite(hi)) {
+            const double margin = 1e-3 * (hi - lo);
+            s->lo = lo + margin;
+            s->hi = hi - margin;
+        } else if (ask_present(s->of->c, k, &now) && now != 0) {
+            s->lo = now / 1e3;
+            s->hi = now * 1e3;
+        } else {
+            return calc_fail(error, 0, 0, "%s has no value to search around: solve %s for ... from LO to HI",
+                             k->text, k->text);
+        }
+    }
+    s->ratios = ask_in_ratios(s->lo, s->hi) || ask_in_ratios(-s->lo, -s->hi);
+    return true;
+}
+
+static bool scan(search *s) {
+    for (unsigned i = 0; i <= SCAN; i++) {
+        place *p = &s->at[i];
+        p->x = s->lo < 0 && s->ratios ? -ask_grid(-s->lo, -s->hi, true, i, SCAN)
+                                      : ask_grid(s->lo, s->hi, s->ratios, i, SCAN);
+        p->f = difference(s, p->x);
+        if (s->q.error->raised)
+            return false;
+        if (p->f == 0)
+            add_bracket(s, *p, *p);
+        else if (i && opposite(p->f, p[-1].f))
+            add_bracket(s, p[-1], *p);
+    }
+    return true;
+}
+
+/* Between a place without and one with a value: a root may hide there. */
+static bool approach_edge(search *s, place bad, place good) {
+    while (s->q.evaluations + METHOD < SOLVE_EVALUATIONS) {
+        place mid = {.x = middle(s, bad.x, good.x)};
+        if (mid.x == bad.x || mid.x == good.x || fabs(mid.x - good.x) < 1e-14 * fabs(good.x))
+            break;
+        mid.f = difference(s, mid.x);
+        if (s->q.error->raised)
+            return false;
+        if (isnan(mid.f)) {
+            bad = mid;
+            s->why = s->q.none;
+        } else if (opposite(mid.f, good.f) || mid.f == 0) {
+            add_bracket(s, mid, mid.f == 0 ? mid : good);
+            return true;
+        } else {
+            good = mid;
+        }
+    }
+    if (!s->why.raised) {
+        difference(s, bad.x);
+        s->why = s->q.none;
+    }
+    s->edged = true;
+    s->edge = good;
+    return true;
+}
+
+static bool search_edges(search *s) {
+    for (unsigned i = 0; i < SCAN && !s->roots; i++) {
+        const place a = s->at[i], b = s->at[i + 1];
+        if (isnan(a.f) != isnan(b.f) && !(isnan(a.f) ? approach_edge(s, a, b) : approach_edge(s, b, a)))
+            return false;
+    }
+    return true;
+}
+
+/* ---- no root ----------------------------------------------------------------------------------- */
+
+static bool no_root(search *s, calc_error *error) {
+    const expr *left = s->of->left;
+    const knob *k = &s->of->name;
+    place best = {.f = (double)NAN};
+    char from[CALC_VALUE_TEXT], to[CALC_VALUE_TEXT], off[CALC_VALUE_TEXT], there[ASK_TEXT];
+    bool alike = true;
+    for (unsigned i = 0; i <= SCAN; i++) {
+        if (!isnan(s->at[i].f) && !(fabs(s->at[i].f) >= fabs(best.f)))
+            best = s->at[i];
+        alike = alike && s->at[i].f == s->at[0].f;
+    }
+    calc_value_text(k->d, s->lo, from);
+    calc_value_text(k->d, s->hi, to);
+    if (isnan(best.f))
+        return calc_fail(error, left->at, left->len, "no value anywhere from %s = %s to %s: %s", k->text,
+                         from, to, s->q.none.text);
+    if (alike)
+        return calc_fail(error, left->at, left->len,
+                         "the two sides differ by the same for every %s from %s to %s", k->text, from, to);
+    if (s->edged && fabs(s->edge.f) <= fabs(best.f))
+        best = s->edge;
+    calc_value_text(s->d, best.f, off);
+    ask_text(k, best.x, there);
+    calc_fail(error, left->at, left->len,
+              "no root from %s = %s to %s: the left side stays %s the right, nearest by %s at %s", k->text,
+              from, to, best.f < 0 ? "below" : "above", off + (best.f < 0), there);
+    if (s->edged) {
+        ask_text(k, s->edge.x, there);
+        calc_append(s->of->c, error, ", and the scene ends at %s: %s", there, s->why.text);
+    }
+    return false;
+}
+
+/* ---- the method -------------------------------------------------------------------------------- */
+
+static double gsl_difference(double x, void *context) {
+    return difference(context, x);
+}
+
+/* To the last digit; rough: to six. */
+static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *error) {
+    const place a = s->root[i], b = s->other[i];
+    *x = a.x;
+    if (a.x == b.x)
+        return true;
+    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    gsl_function f = {gsl_difference, s};
+    if (!solver)
+        return calc_no_memory(error);
+    int status = gsl_root_fsolver_set(solver, &f, fmin(a.x, b.x), fmax(a.x, b.x));
+    double lo = a.x, hi = b.x;
+    while (!status && s->q.evaluations < SOLVE_EVALUATIONS * (rough ? ROOTS : 1)) {
+        const double before = *x;
+        status = gsl_root_fsolver_iterate(solver);
+        *x = gsl_root_fsolver_root(solver);
+        lo = gsl_root_fsolver_x_lower(solver);
+        hi = gsl_root_fsolver_x_upper(solver);
+        if (fabs(hi - lo) <= (rough ? 1e-7 : DBL_EPSILON) * fabs(*x) ||
+            (rough && fabs(*x - before) < 1e-7 * fabs(*x)) || fabs(*x - before) <= DBL_EPSILON * fabs(*x))
+            break;
+    }
+    gsl_root_fsolver_free(solver);
+    if (s->q.error->raised)
+        return false;
+    if (status)
+        return calc_fail(error, s->of->left->at, s->of->left->len, "no value within the bracket: %s",
+                         s->q.none.raised ? s->q.none.text : gsl_strerror(status));
+    return true;
+}
+
+/* A change of sign may be a jump. */
+static bool is_root(search *s, unsigned i, double x, calc_error *error) {
+    char there[ASK_TEXT];
+    const double f = difference(s, x), least = fmin(fabs(s->root[i].f), fabs(s->other[i].f));
+    if (s->q.error->raised)
+        return false;
+    ask_text(&s->of->name, x, there);
+    return !(fabs(f) > 1e-3 * least) || calc_fail(error, s->of->left->at, s->of->left->len,
+                                                  "no root: the sides jump past each other at %s", there);
+}
+
+static bool several(search *s, calc_error *error) {
+    char list[CALC_ERROR_TEXT / 2] = "";
+    for (unsigned i = 0; i < s->roots; i++) {
+        char text[CALC_VALUE_TEXT];
+        double x;
+        if (!refine(s, i, true, &x, error))
+            return false;
+        calc_value_text(s->of->name.d, x, text);
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", text);
+    }
+    return calc_fail(error, s->of->left->at, s->of->left->len,
+                     "several roots, %s = %s: choose by from LO to HI", s->of->name.text, list);
+}
+
+static bool answer(search *s, solve_answer *out, calc_error *error) {
+    if (!choose_range(s, error) || !scan(s) || (!s->roots && !search_edges(s)))
+        return false;
+    if (!s->roots)
+        return no_root(s, error);
+    if (s->roots > 1)
+        return several(s, error);
+    if (!refine(s, 0, false, &out->x, error) ||
+        (s->root[0].x != s->other[0].x && !is_root(s, 0, out->x, error)))
+        return false;
+    out->lo = fmin(s->root[0].x, s->other[0].x);
+    out->hi = fmax(s->root[0].x, s->other[0].x);
+    out->evaluations = s->q.evaluations;
+    return true;
+}
+
+bool solve(const solve_question *question, solve_answer *out, calc_error *error) {
+    search s = {.of = question};
+    gsl_set_error_handler_off();
+    if (!ask_open(&s.q, question->c, &question->name, 1, error))
+        return false;
+    bool ok = answer(&s, out, error);
+    ask_close(&s.q);
+    return ok;
+}

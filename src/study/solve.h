@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where two expressions are equal: a scan that finds brackets, then Brent's method (GSL). */
+#ifndef STUDY_SOLVE_H
+#define STUDY_SOLVE_H
+
+#include "study/ask.h"
+
+enum { SOLVE_EVALUATIONS = 60 };
+
+typedef struct solve_question {
+    calc *c;
+    knob name;
+    const expr *left, *right;
+    bool given;    /* the range is */
+    double lo, hi; /* it */
+} solve_question;
+
+typedef struct solve_answer {
+    double x;
+    double lo, hi; /* the bracket that the method began with */
+    unsigned evaluations;
+} solve_answer;
+
+/* Without a range: the range of an input that has two ends, else three decades on either side of the present
+ * value. Errors: no change of sign, with the place that comes closest and the edge of what the scene allows;
+ * several roots; a jump instead of a root. The answer is good to the last digits that the expressions carry.
+ */
+bool solve(const solve_question *question, solve_answer *out, calc_error *error);
+
+#endif

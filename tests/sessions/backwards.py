@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""solve, maximize and minimize against answers of 30 digits, damper functions too, and exported models as they run."""
+import csv
+import json
+import os
+import re
+import subprocess
+
+import harness
+
+
+def table(name):
+    with open(os.path.join(harness.ROOT, "tests/reference", name), encoding="utf-8") as f:
+        return list(csv.DictReader(line for line in f if not line.startswith("#")))
+
+
+def run_json(tests, script):
+    done = tests.run("--format=json", input=script)
+    rows = [json.loads(line) for line in done.stdout.splitlines()]
+    return [r for r in rows if "name" in r], [r for r in rows if "event" in r], done
+
+
+def questions(tests):
+    """Answers are good to 1e-12, or to what a rounding of the inputs does to them."""
+    asked = {}
+    for row in table("backwards.csv"):
+        asked.setdefault((row["setup"], row["question"]), []).append(row)
+    for (setup, question), rows in asked.items():
+        values, events, done = run_json(tests, setup + "\n" + question + "\n")
+        events = [e for e in events if e["event"] == question.split()[0]]
+        if not tests.check(question, values and events, tests.report(done)):
+            continue
+        got = {v["name"]: v["value"] for v in values[:-1] or values}
+        got["value"] = values[-1]["value"]
+        for row in rows:
+            want = float(row["value"])
+            bound = max(1e-12, 4 * 2.3e-16 * float(row["condition"]))
+            tests.check("%s: %s" % (question, row["name"]), abs(got.get(row["name"], 0) - want) <= bound * abs(want),
+                        "%r instead of %r in %s" % (got.get(row["name"]), want, setup))
+        if len(rows) <= 2:
+            tests.check("%s: evaluations" % question, events[0]["evaluations"] <= 60, str(events))
+
+
+def damper(tests):
+    by = {}
+    for row in table("damper.csv"):
+        by.setdefault(row["setup"], []).append(row)
+    for setup, rows in by.items():
+        names = ("Ksec", "Kp", "Kpp", "loss_factor")
+        lines = [setup]
+        for row in rows:
+            d = "%r m" % float(row["dxA"])
+            lines.append(", ".join("%s(%s)" % (n, d) for n in names) + ", pi*(%s)^2*Kpp(%s)/dWd(%s)" % (d, d, d))
+            if row["FA"]:
+                lines.append("loss_factor(%s N)" % row["FA"])
+        values, _, done = run_json(tests, "\n".join(lines) + "\n")
+        values = iter([v["value"] for v in values])
+        worst = 0.0
+        try:
+            for row in rows:
+                for n in names:
+                    worst = max(worst, abs(next(values) / float(row[n]) - 1))
+                worst = max(worst, abs(next(values) - 1))
+                if row["FA"]:  # F_A has been rounded: close to gross slip that tells
+                    s = 1 - float(row["FA"]) / 40
+                    worst = max(worst, abs(next(values) / float(row["loss_factor"]) - 1) - 1e-15 / max(s, 1e-9))
+            tests.check("damper: " + setup, worst < 1e-14, "%.2e" % worst)
+        except StopIteration:
+            tests.check("damper: " + setup, False, tests.report(done))
+
+
+SHAPES = ("geometry sphere R=10 mm", "geometry flat-cone b=0.1 mm slope=0.01", "geometry cone slope=0.05; k = 0.5, c0 = 1 mm")
+
+
+def run_elements(elements, path):
+    """F_x along a path of displacements, and the work done on the way."""
+    force, last, work, out = [0.0] * len(elements), 0.0, 0.0, []
+    for d in path:
+        before = sum(force)
+        for i, (k, s) in enumerate(elements):
+            force[i] = max(-s, min(s, force[i] + k * (d - last)))
+        work += (before + sum(force)) / 2 * (d - last)
+        last = d
+        out.append(sum(force))
+    return out, work
+
+
+def jenkins(tests):
+    """The stated error is that of the elements as they run, and of order 2."""
+    for shape in SHAPES:
+        setup = "material steel; friction 0.4; %s; press FN=100 N" % shape
+        errors = {}
+        for count in (1, 4, 8, 16):
+            name = os.path.join(tests.dir, "jenkins.csv")
+            values, events, done = run_json(tests, "%s; export jenkins %d to %s; dxmax\n" % (setup, count, name))
+            if not tests.check("jenkins: " + shape, len(values) == 3 and events, tests.report(done)):
+                return
+            stated, most = values[0]["value"], values[2]["value"]
+            with open(name, encoding="utf-8") as f:
+                elements = [tuple(map(float, line.split(","))) for line in f if line[0] not in "#k"]
+            amplitudes = [most * i / 40 for i in range(1, 60)]
+            losses, _, done = run_json(tests, setup + "\n" + "\n".join("dWd(%r m)" % d for d in amplitudes) + "\n")
+            seen = max(abs(sum(4 * s * max(d - s / k, 0) for k, s in elements) - loss["value"])
+                       for d, loss in zip(amplitudes, losses))
+            errors[count] = stated
+            tests.check("jenkins: %d elements err as stated (%s)" % (count, shape), 0.5 * stated < seen <= stated * (1 + 1e-9),
+                        "%g, stated %g" % (seen, stated))
+            tests.check("jenkins: the elements slide at mu FN", abs(sum(s for _, s in elements) - 40) < 1e-9, str(elements))
+        tests.check("jenkins: order 2 (%s)" % shape, 3.5 < errors[8] / errors[16] < 4.6, str(errors))
+        # a loop, step by step; the corners of every element are passed on the way
+        d = 0.7 * most
+        steps = sorted({s / k for k, s in elements} | {2 * s / k for k, s in elements} | {d * i / 200 for i in range(401)})
+        up = [x for x in steps if x <= d] + [d]
+        down = [d - x for x in steps if x <= 2 * d] + [-d]
+        back = [-x for x in down]
+        _, before = run_elements(elements, up)
+        _, after = run_elements(elements, up + down + back)
+        (loss,), _, done = run_json(tests, "%s; dWd(%r m)\n" % (setup, d))
+        tests.check("jenkins: a loop of the elements (%s)" % shape, abs(after - before - loss["value"]) <= 1.01 * errors[16],
+                    "%g %g" % (after - before, loss["value"]))
+
+
+def header(tests):
+    """The C table compiles and adds up."""
+    name = os.path.join(tests.dir, "elements.h")
+    done = tests.run("-c", "material steel; friction 0.4; geometry sphere R=10 mm; press FN=100 N; export jenkins 5 to %s; "
+                     "export jenkins 5 to %s.json FA=20 N" % (name, name))
+    source = os.path.join(tests.dir, "elements.c")
+    with open(source, "w", encoding="utf-8") as f:
+        f.write('#include <stdio.h>\n#include "elements.h"\nint main(void) {\n    double s = 0;\n'
+                '    for (int i = 0; i < JENKINS_ELEMENTS; i++)\n        s += jenkins_element[i].slip;\n'
+                '    printf("%.6f", s);\n    return 0;\n}\n')
+    made = subprocess.run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-o", source[:-2], source], capture_output=True, text=True)
+    ran = subprocess.run([source[:-2]], capture_output=True, text=True).stdout if made.returncode == 0 else made.stderr
+    tests.check("jenkins: the C table", done.returncode == 0 and ran == "40.000000", done.stderr + ran)
+    with open(name + ".json", encoding="utf-8") as f:
+        model = json.load(f)
+    tests.check("jenkins: JSON up to an amplitude", len(model["elements"]) == 5 and sum(e["slip"] for e in model["elements"]) < 20,
+                str(model))
+
+
+def linear(tests):
+    """First order and Monte Carlo agree where nothing bends."""
+    values, events, done = run_json(
+        tests, "x = 3 N, y = 4 N, z = 5\nuncertainty 2*x - 3*y + 0*x*z with x +- 0.3 N, y +- 10 %, z +- 1\n")
+    events = [e for e in events if e["event"] == "uncertainty"]
+    if not tests.check("uncertainty: a linear sum", events, tests.report(done)):
+        return
+    (e,) = events
+    want = (0.6 ** 2 + 1.2 ** 2) ** 0.5
+    mc = e["Monte Carlo"]
+    tests.check("uncertainty: first order", abs(e["deviation"] / want - 1) < 1e-12 and abs(e["shares"]["y"] - 0.8) < 1e-12
+                and e["shares"]["z"] == 0, str(e))
+    tests.check("uncertainty: Monte Carlo agrees", not mc["differs"] and abs(mc["deviation"] / want - 1) < 0.03
+                and abs(mc["mean"] + 6) < 0.05 and mc["samples"] == 10000, str(e))
+    again = tests.run("--format=json", "-c", "x = 3 N; uncertainty x^2 with x +- 0.3 N").stdout
+    tests.check("uncertainty: the same seed, the same answer",
+                again == tests.run("--format=json", "-c", "x = 3 N; uncertainty x^2 with x +- 0.3 N").stdout)
+
+
+def stays(tests):
+    """Nothing changes in the scene, nor among the names."""
+    setup = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N; v = 3 N; FNA = 0 N; "
+    asked = ("solve mu for dW = 1 uJ; solve v for dW(v) = 1 uJ; solve q for dW(q) = 1 uJ from 1 N to 30 N; "
+             "maximize dW(q) over q = 1 N .. 30 N; maximize dW(v) over v = 1 N .. 30 N; uncertainty dW, v with mu +- 0.01, v +- 1 N; "
+             "solve mu for dW = 1 J; maximize dW over mu = 0.01 .. 0.02; ")
+    plain = tests.run("--keep-going", "-c", setup + "show; v; q")
+    after = tests.run("--keep-going", "-c", setup + asked + "show; v; q")
+    tests.check("questions leave the scene as it is", after.stdout.endswith(plain.stdout) and "unknown name 'q'" in after.stderr,
+                plain.stdout + tests.report(after))
+
+
+def told(tests):
+    """`set timing on` tells how the answer was found."""
+    done = tests.run("-c", "material steel; geometry sphere R=10 mm; press FN=100 N; set timing on; solve FN for a = 0.2 mm; "
+                     "minimize dz over FN = 20 N .. 100 N")
+    tests.check("timing tells method, evaluations and bracket",
+                re.search(r"solve: scan and Brent's method, \d+ evaluations, bracket FN = [\d.]+ N \.\. [\d.]+ N", done.stderr)
+                and re.search(r"minimize: grid, Brent's method, \d+ evaluations", done.stderr), tests.report(done))
+
+
+def run(tests):
+    questions(tests)
+    damper(tests)
+    jenkins(tests)
+    header(tests)
+    linear(tests)
+    stays(tests)
+    told(tests)
