@@ -110,6 +110,8 @@ deps-check:
 run: deps
 	@$(MAKE) --no-print-directory -s all
 	@$(B)/fret -c demo
+	@echo
+	@echo 'Now type  $(B)/fret  for a prompt of your own, and  help  there; Ctrl-D leaves.'
 
 check: deps-check
 	@sh tests/run

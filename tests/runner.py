@@ -15,15 +15,18 @@ for room in ("", "sessions", "errors", "interactive", "portable", "house", "refe
 
 import accuracy_test  # noqa: E402
 import backwards  # noqa: E402
+import completion  # noqa: E402
 import figures  # noqa: E402
 import fits  # noqa: E402
 import harness  # noqa: E402
 import house  # noqa: E402
+import keeping  # noqa: E402
 import looks  # noqa: E402
 import numbers_of_the_physics  # noqa: E402
 import paper  # noqa: E402
 import portable  # noqa: E402
 import prompt  # noqa: E402
+import reading  # noqa: E402
 import reference  # noqa: E402
 import scripts  # noqa: E402
 import table  # noqa: E402
@@ -146,6 +149,15 @@ def command_names(tests):
     return sorted({line.split()[0] for line in done.stdout.splitlines() if line and not line.startswith(" ")})
 
 
+# what apropos must find
+APROPOS = {"loop": "cycle, plot, dW", "hysteresis": "cycle, dW", "dissipation": "dW, W", "csv": "history, table, follow",
+           "export": "history, table, plot", "stress": "p(r), qx(r)", "steel": "material, material steel",
+           "Hertz": "press, geometry sphere, a", "unit": "help units, Pa", "Mindlin": "explain, dW",
+           "undo": "undo", "transcript": "record, replay", "start-up": "help scripts"}
+HELPED = ("sphere", "springs", "flat-rounded", "format", "pager", "GPa", "cm", "%", "steel", "Ti-6Al-4V", "sin", "memory",
+          "expressions", "scripts", "files", "theory", "paper", "limits", "prompt")
+
+
 def help_examples(tests):
     """Each help text ends with an example as a transcript; it must come out so."""
     def one(topic):
@@ -165,14 +177,23 @@ def help_examples(tests):
     topics = ["quantities", "expressions", "units", "geometry"]
     tests.each([lambda t=t: one(t) for t in commands + topics + quantities])
     tests.check("help lists the quantities", len(quantities) > 30, text)
+    for word, found in APROPOS.items():
+        done = tests.run("-c", "apropos " + word)
+        tests.check("apropos " + word, all(re.search("^%s( |$)" % re.escape(name), done.stdout, re.M)
+                                           for name in found.split(", ")), tests.report(done))
+    for name in HELPED:
+        done = tests.run("-c", "help " + name)
+        tests.check("help on " + name, name in done.stdout and not done.stderr, tests.report(done))
+    done = tests.run("-c", "help")
+    tests.check("help fits a screen", len(done.stdout.splitlines()) <= 24, done.stdout)
 
 
 ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
-         "reference": reference.run, "scripts": scripts.run, "figures": figures.run, "looks": looks.run,
-         "paper": paper.run, "accuracy": accuracy_test.run, "fits": fits.run,
-         "backwards": backwards.run, "errors": table.run,
+         "reference": reference.run, "scripts": scripts.run, "reading": reading.run, "keeping": keeping.run,
+         "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
+         "fits": fits.run, "backwards": backwards.run, "errors": table.run,
          "trouble": trouble.run,
-         "interactive": prompt.run, "readme": readme, "help": help_examples, "portable": portable.run,
+         "interactive": prompt.run, "completion": completion.run, "readme": readme, "help": help_examples, "portable": portable.run,
          "house": house.run}
 
 

@@ -21,7 +21,7 @@ static bool friction_for_program(scene *s, double *mu, calc_error *error) {
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {
     const load_reach *reach;
     long double FN;
-    *out = (load_view){.program = s->program, .end = s->end, .in = &s->in, .stop = s->stop};
+    *out = (load_view){.program = s->program, .end = s->end, .in = &s->in, .stop = s->stop, .pulse = s->pulse};
     if (!scene_reach(s, &reach, error) || !scene_normal(s, &out->normal, error) ||
         !friction_for_program(s, &out->mu, error))
         return false;

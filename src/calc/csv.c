@@ -1,124 +1,380 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading tables, line by line. */
+/* Reading tables. A field is a piece of a line; a number is what the language takes for one, or the same with
+ * a decimal comma. */
 #include "calc/csv.h"
 
-#include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "calc/unit_text.h"
 
+typedef struct reader {
+    csv *c;
+    calc_error *error;
+    char separator; /* ' ': blanks and tabs */
+    bool header;    /* has been read */
+    size_t line;
+    unit unit[CSV_COLUMNS];
+} reader;
+
 void csv_free(csv *c) {
-    free(c->column[0]);
-    free(c->column[1]);
-    *c = (csv){0};
-}
-
-static bool is_break(char ch) {
-    return ch == ',' || ch == ';' || ch == '\t' || ch == ' ' || ch == '\r' || ch == '\n';
-}
-
-/* `r [mm]`, `r (mm)`, `r/mm` and plain `k`. */
-static bool read_header(char *line, csv *c, long double scale[2], const char *path, size_t number,
-                        calc_error *error) {
-    char *p = line;
-    for (int i = 0; i < 2; i++) {
-        p += strspn(p, " \t,;\"");
-        size_t n = strcspn(p, " \t,;[(/\r\n\"");
-        if (!n || n >= CSV_NAME)
-            return calc_fail(
-                error, 0, 0,
-                "%s:%zu: the header must name two columns with their units, such as r [mm],f [um]", path,
-                number);
-        memcpy(c->name[i], p, n);
-        c->name[i][n] = 0;
-        p += n;
-        p += strspn(p, " \t");
-        c->d[i] = DIM_NONE;
-        scale[i] = 1;
-        if (*p == '[' || *p == '(' || *p == '/') {
-            char *begin = p + 1;
-            size_t len = strcspn(begin, *p == '[' ? "]" : *p == '(' ? ")" : " \t,;\r\n\"");
-            unit u;
-            lexer lx;
-            calc_error mine = {0};
-            lex_start(&lx, begin, len, &mine);
-            if (mine.raised || !unit_parse(&lx, &u) || lx.kind != T_END)
-                return calc_fail(error, 0, 0, "%s:%zu: %s in the header", path, number,
-                                 mine.raised ? mine.text : "a bad unit");
-            c->d[i] = u.d;
-            scale[i] = unit_scale(&u);
-            p = begin + len;
-            if (*p == ']' || *p == ')')
-                p++;
-        }
+    for (size_t i = 0; i < c->columns; i++) {
+        free(c->column[i].v);
+        free(c->column[i].trouble);
     }
-    p += strspn(p, " \t\r\n,;\"");
-    return !*p || calc_fail(error, 0, 0, "%s:%zu: more than two columns", path, number);
+    free(c->line);
+    free(c->path);
+    *c = (csv){.path = NULL};
 }
 
-static bool add_row(csv *c, size_t *room, const double row[2]) {
-    if (c->count == *room) {
-        size_t more = *room ? 2 * *room : 256;
-        for (int i = 0; i < 2; i++) {
-            double *grown = realloc(c->column[i], more * sizeof *grown);
-            if (!grown)
-                return false;
-            c->column[i] = grown;
-        }
-        *room = more;
+static bool fail(const reader *r, const char *what) {
+    return calc_fail(r->error, 0, 0, "%s:%zu: %s", r->c->path, r->line, what);
+}
+
+/* ---- fields ------------------------------------------------------------------------------------ */
+
+typedef struct field {
+    const char *text;
+    size_t len;
+} field;
+
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+static field trimmed(const char *text, size_t len) {
+    while (len > 0 && is_blank(text[len - 1]))
+        len--;
+    while (len > 0 && is_blank(*text))
+        text++, len--;
+    return (field){text, len};
+}
+
+static bool parts(const reader *r, char c) {
+    return r->separator == ' ' ? is_blank(c) : c == r->separator;
+}
+
+/* The field at *at and the place of the next; false: there is none. Quotation marks and brackets hold
+ * separators. */
+static bool next_field(const reader *r, const char *line, size_t len, size_t *at, field *out) {
+    size_t i = *at;
+    while (r->separator == ' ' && i < len && is_blank(line[i]))
+        i++;
+    if (i >= len + (r->separator != ' '))
+        return false;
+    const size_t begin = i;
+    bool quoted = false;
+    int depth = 0;
+    for (; i < len && (quoted || depth > 0 || !parts(r, line[i])); i++) {
+        const char c = line[i];
+        quoted = c == '"' ? !quoted : quoted;
+        depth += quoted ? 0 : c == '[' || c == '(' ? 1 : (c == ']' || c == ')') && depth > 0 ? -1 : 0;
     }
-    c->column[0][c->count] = row[0];
-    c->column[1][c->count++] = row[1];
+    *out = trimmed(line + begin, i - begin);
+    *at = i + 1;
+    if (out->len >= 2 && *out->text == '"' && out->text[out->len - 1] == '"')
+        *out = trimmed(out->text + 1, out->len - 2);
     return true;
 }
 
-bool csv_read(const char *path, csv *c, calc_error *error) {
-    *c = (csv){0};
-    FILE *in = fopen(path, "r");
-    if (!in)
-        return calc_fail(error, 0, 0, "cannot read %s: %s", path, strerror(errno));
-    char *line = NULL;
-    size_t size = 0, room = 0, number = 0;
-    long double scale[2] = {1, 1};
-    bool header = false, ok = true;
-    while (ok && getline(&line, &size, in) >= 0) {
-        char *p = line + strspn(line, " \t\r\n");
-        number++;
-        if (!*p || *p == '#')
-            continue;
-        if (!header) {
-            header = true;
-            ok = read_header(p, c, scale, path, number, error);
-            continue;
-        }
-        double row[2] = {0, 0};
-        for (int i = 0; i < 2 && ok; i++) {
-            char *end;
-            while (is_break(*p))
-                p++;
-            double v = strtod(p, &end);
-            /* strtod knows nan, inf and hexadecimal; a table of lengths and forces does not */
-            ok = end > p && (is_break(*end) || !*end) && isfinite(v) &&
-                 strcspn(p, "xXnN") >= (size_t)(end - p);
-            row[i] = (double)(v * scale[i]);
-            p = end;
-        }
-        p += strspn(p, " \t\r\n,;");
-        if (!ok || *p)
-            ok = calc_fail(error, 0, 0, "%s:%zu: expected two numbers", path, number);
-        else if (!add_row(c, &room, row))
-            ok = calc_fail(error, 0, 0, "out of memory");
+/* ---- the header -------------------------------------------------------------------------------- */
+
+/* What is wrong with a column, once. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+static bool
+trouble(const reader *r, csv_values *column, const char *format, ...) {
+    char text[CALC_ERROR_TEXT];
+    va_list args;
+    if (column->trouble)
+        return true;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    column->trouble = malloc(strlen(text) + 1);
+    if (!column->trouble)
+        return calc_no_memory(r->error);
+    strcpy(column->trouble, text);
+    return true;
+}
+
+static bool read_unit(reader *r, csv_values *column, unit *u, const char *text, size_t len) {
+    lexer lx;
+    calc_error wrong;
+    error_clear(&wrong);
+    lex_start(&lx, text, len, &wrong);
+    if (lx.kind == T_END) /* of `k []` or `k [-]`: a plain number */
+        return true;
+    if (len == 1 && *text == '-')
+        return true;
+    if (wrong.raised || !unit_parse(&lx, u) || lx.kind != T_END)
+        return trouble(r, column, "%.200s:%zu: %.200s in the header", r->c->path, r->line,
+                       wrong.raised ? wrong.text : "a bad unit");
+    column->d = u->d;
+    column->has_unit = true;
+    return true;
+}
+
+static bool read_title(reader *r, field f) {
+    csv *c = r->c;
+    if (c->columns == CSV_COLUMNS)
+        return calc_fail(r->error, 0, 0, "%s:%zu: more than %d columns", c->path, r->line, CSV_COLUMNS);
+    csv_values *column = &c->column[c->columns];
+    unit *u = &r->unit[c->columns++];
+    *column = (csv_values){.d = DIM_NONE};
+    *u = (unit){DIM_NONE, 0, 1};
+    size_t n = 0;
+    while (n < f.len && !strchr("[(/", f.text[n]))
+        n++;
+    const field name = trimmed(f.text, n);
+    snprintf(column->name, sizeof column->name, "%.*s", (int)(name.len < CSV_NAME ? name.len : CSV_NAME - 1),
+             name.text);
+    if (n == f.len)
+        return true;
+    const char closing = f.text[n] == '[' ? ']' : f.text[n] == '(' ? ')' : 0;
+    const char *end = closing ? memchr(f.text + n, closing, f.len - n) : f.text + f.len;
+    if (!end)
+        return fail(r, "a unit in the header is not closed");
+    return read_unit(r, column, u, f.text + n + 1, (size_t)(end - f.text) - n - 1);
+}
+
+static char separator_of(const char *line, size_t len) {
+    static const char kinds[] = ";\t,";
+    for (const char *kind = kinds; *kind; kind++)
+        if (memchr(line, *kind, len))
+            return *kind;
+    return ' ';
+}
+
+/* `r [mm] f [um]` parts names from their units too. */
+static size_t unit_behind(const char *line, size_t len, size_t at, field *f) {
+    size_t next = at;
+    while (next < len && is_blank(line[next]))
+        next++;
+    if (next >= len || (line[next] != '[' && line[next] != '('))
+        return at;
+    const char *end = memchr(line + next, line[next] == '[' ? ']' : ')', len - next);
+    if (!end)
+        return at;
+    f->len = (size_t)(end + 1 - f->text);
+    return (size_t)(end + 1 - line);
+}
+
+static bool read_header(reader *r, const char *line, size_t len) {
+    size_t at = 0;
+    field f;
+    if (len > 4 && !memcmp(line, "sep=", 4)) /* by which spreadsheets tell themselves the separator */
+        return true;
+    r->header = true;
+    r->separator = separator_of(line, len);
+    while (next_field(r, line, len, &at, &f)) {
+        if (r->separator == ' ')
+            at = unit_behind(line, len, at, &f);
+        if (!read_title(r, f))
+            return false;
     }
-    if (ok && ferror(in))
-        ok = calc_fail(error, 0, 0, "cannot read %s: %s", path, strerror(errno));
-    if (ok && c->count == 0)
-        ok = calc_fail(error, 0, 0, "%s holds no rows of numbers", path);
-    free(line);
-    fclose(in);
-    if (!ok)
-        csv_free(c);
+    while (r->c->columns > 0 && !*r->c->column[r->c->columns - 1].name) /* separators at the end */
+        free(r->c->column[--r->c->columns].trouble);
+    const char *first = r->c->column[0].name;
+    return (r->c->columns > 0 && *first && !strchr("0123456789.+-", *first)) ||
+           fail(r, "the header must name the columns with their units, such as r [mm],f [um]");
+}
+
+/* ---- rows -------------------------------------------------------------------------------------- */
+
+static size_t digits(const char *p, const char *end) {
+    size_t n = 0;
+    while (p + n < end && p[n] >= '0' && p[n] <= '9')
+        n++;
+    return n;
+}
+
+/* A decimal number, with a point or, where it cannot be a separator, with a comma. */
+static bool read_number(field f, const unit *u, bool comma, double *out) {
+    char text[64];
+    if (f.len == 0 || f.len >= sizeof text)
+        return false;
+    memcpy(text, f.text, f.len);
+    text[f.len] = 0;
+    char *p = text, *mark = comma && !strchr(text, '.') ? strchr(text, ',') : NULL;
+    const char *end = text + f.len;
+    const bool minus = *p == '-';
+    if (mark)
+        *mark = '.';
+    p += minus || *p == '+';
+    const char *begin = p;
+    size_t n = digits(p, end);
+    p += n;
+    if (*p == '.') {
+        const size_t behind = digits(p + 1, end);
+        n += behind;
+        p += 1 + behind;
+    }
+    if (n == 0)
+        return false;
+    if (*p == 'e' || *p == 'E') {
+        p += 1 + (p[1] == '-' || p[1] == '+');
+        n = digits(p, end);
+        p += n;
+    }
+    if (n == 0 || p != end)
+        return false;
+    const size_t len = (size_t)(end - begin);
+    const double v = u->factor == 1 ? lex_decimal(begin, len, u->exp10)
+                                    : (double)((long double)lex_decimal(begin, len, 0) * unit_scale(u));
+    *out = minus ? -v : v;
+    return isfinite(v);
+}
+
+static bool make_room(csv *c) {
+    const size_t room = c->room ? 2 * c->room : 256;
+    if (c->rows < c->room)
+        return true;
+    size_t *line = realloc(c->line, room * sizeof *line);
+    if (!line)
+        return false;
+    c->line = line;
+    for (size_t i = 0; i < c->columns; i++) {
+        double *grown = realloc(c->column[i].v, room * sizeof *grown);
+        if (!grown)
+            return false;
+        c->column[i].v = grown;
+    }
+    c->room = room;
+    return true;
+}
+
+static bool read_row(reader *r, const char *line, size_t len) {
+    csv *c = r->c;
+    reader own = *r;
+    size_t at = 0, i = 0, blank = 0;
+    field f;
+    while (blank < len && (is_blank(line[blank]) || line[blank] == r->separator))
+        blank++;
+    if (blank == len) /* spreadsheets write empty rows as separators */
+        return true;
+    if (c->columns > 1 && !memchr(line, r->separator, len))
+        own.separator = ' '; /* a header with commas over rows with blanks */
+    if (!make_room(c))
+        return calc_no_memory(r->error);
+    for (; next_field(&own, line, len, &at, &f); i++) {
+        if (i >= c->columns && f.len > 0)
+            return calc_fail(r->error, 0, 0, "%s:%zu: more than %zu fields, one for each name of the header",
+                             c->path, r->line, c->columns);
+        if (i >= c->columns)
+            continue;
+        const bool comma = own.separator != ',' || (f.text > line && f.text[-1] == '"');
+        double *v = &c->column[i].v[c->rows];
+        if (!read_number(f, &r->unit[i], comma, v)) {
+            *v = NAN;
+            if (!trouble(r, &c->column[i], "%.200s:%zu: expected a number as %s, not '%.*s'", c->path,
+                         r->line, c->column[i].name, LEX_SHOWN(f.len), f.text))
+                return false;
+        }
+    }
+    for (; i < c->columns; i++) {
+        c->column[i].v[c->rows] = NAN;
+        if (!trouble(r, &c->column[i], "%.200s:%zu: expected a number as %s, and the line ends", c->path,
+                     r->line, c->column[i].name))
+            return false;
+    }
+    c->line[c->rows++] = r->line;
+    return true;
+}
+
+/* ---- the file ---------------------------------------------------------------------------------- */
+
+/* The micro sign of Latin-1 is no UTF-8: it stands alone there. The new text is to be freed. */
+static char *micro_signs(const char *line, size_t *len) {
+    char *text = malloc(2 * *len + 1);
+    size_t n = 0;
+    for (size_t i = 0; text && i < *len; i++) {
+        const bool alone = (unsigned char)line[i] == 0xb5 && (i == 0 || (unsigned char)line[i - 1] < 0x80);
+        if (alone)
+            text[n++] = '\xc2';
+        text[n++] = line[i];
+    }
+    if (text)
+        text[n] = 0;
+    *len = n;
+    return text;
+}
+
+static bool read_line(reader *r, const char *line, size_t len) {
+    if (r->line == 1 && len >= 3 && !memcmp(line, "\xef\xbb\xbf", 3))
+        line += 3, len -= 3;
+    if (r->line == 1 && len >= 2 && (!memcmp(line, "\xff\xfe", 2) || !memcmp(line, "\xfe\xff", 2)))
+        return fail(r, "this is UTF-16: save the file as CSV in UTF-8");
+    if (memchr(line, 0, len))
+        return fail(r, "this is no text");
+    const field whole = trimmed(line, len);
+    if (whole.len == 0 || *whole.text == '#')
+        return true;
+    while (len > 0 && line[len - 1] == '\r')
+        len--;
+    if (r->header)
+        return read_row(r, line, len);
+    char *text = micro_signs(line, &len);
+    bool ok = text ? read_header(r, text, len) : calc_no_memory(r->error);
+    free(text);
     return ok;
+}
+
+bool csv_read(const char *path, file_stop stop, csv *c, calc_error *error) {
+    char text[CALC_ERROR_TEXT - 8];
+    file_in in;
+    *c = (csv){.path = malloc(strlen(path) + 1)};
+    if (!c->path)
+        return calc_no_memory(error);
+    strcpy(c->path, path);
+    if (!file_in_open(&in, path, stop, text, sizeof text))
+        return calc_fail(error, 0, 0, "%s", text);
+    reader r = {.c = c, .error = error};
+    bool ok = true;
+    file_got got = FILE_GOT_END;
+    while (ok && (got = file_in_line(&in, text, sizeof text)) == FILE_GOT_LINE) {
+        r.line = (size_t)in.number;
+        ok = read_line(&r, in.line, in.length);
+    }
+    file_in_close(&in);
+    if (ok && got == FILE_GOT_STOP)
+        ok = calc_interrupted(error);
+    else if (ok && got == FILE_GOT_ERROR)
+        ok = calc_fail(error, 0, 0, "%s", text);
+    return ok && (c->rows > 0 || calc_fail(error, 0, 0, "%s holds no rows of numbers", path));
+}
+
+/* ---- columns ----------------------------------------------------------------------------------- */
+
+static const csv_values *find(const csv *c, const char *name) {
+    for (size_t i = 0; i < c->columns; i++)
+        if (!strcmp(c->column[i].name, name))
+            return &c->column[i];
+    return NULL;
+}
+
+bool csv_has(const csv *c, const char *name) {
+    return find(c, name) != NULL;
+}
+
+void csv_names(const csv *c, char *buf, size_t size) {
+    size_t n = 0;
+    *buf = 0;
+    for (size_t i = 0; i < c->columns && n < size; i++)
+        n += (size_t)snprintf(buf + n, size - n, "%s%s", i ? ", " : "", c->column[i].name);
+}
+
+const csv_values *csv_column(const csv *c, const char *name, calc_error *error) {
+    char names[CALC_ERROR_TEXT / 2];
+    const csv_values *column = find(c, name);
+    csv_names(c, names, sizeof names);
+    if (!column)
+        calc_fail(error, 0, 0, "%.200s has no column %s: its columns are %s", c->path, name, names);
+    else if (column->trouble)
+        calc_fail(error, 0, 0, "%s", column->trouble);
+    return column && !column->trouble ? column : NULL;
 }

@@ -1,23 +1,44 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tables from files: two columns of numbers with names and units in the header. */
+/* Tables from files, as people and spreadsheets write them: columns of numbers with names and units in the
+ * header. Reads the file that it is given. */
 #ifndef CALC_CSV_H
 #define CALC_CSV_H
 
-#include "calc/lex.h"
+#include "calc/error.h"
+#include "calc/file.h"
 #include "calc/unit.h"
 
-enum { CSV_NAME = 32 };
+enum { CSV_COLUMNS = 64, CSV_NAME = 32 };
+
+/* One column. What is wrong with it is told when it is asked for: a file may have columns of text beside. */
+typedef struct csv_values {
+    char name[CSV_NAME];
+    dim d;
+    bool has_unit;
+    double *v;     /* SI; rows of them */
+    char *trouble; /* the first thing wrong, or NULL */
+} csv_values;
 
 typedef struct csv {
-    size_t count;
-    double *column[2]; /* SI */
-    char name[2][CSV_NAME];
-    dim d[2];
+    char *path;
+    size_t rows, columns, room;
+    csv_values column[CSV_COLUMNS];
+    size_t *line; /* of each row in the file */
 } csv;
 
-/* Reads `name [unit],name [unit]` and rows of two numbers; `#` begins a comment line. Commas, semicolons,
- * tabs or blanks part the columns. The error names file and line. Free with csv_free. */
-bool csv_read(const char *path, csv *out, calc_error *error);
+/* The header is `name [unit]`, `name (unit)`, `name/unit` or a bare name, for each column. Columns are parted
+ * by semicolons, tabs, commas or blanks, whichever the header has first in this order; where it is no comma,
+ * a comma within a number is a decimal one. Fields may stand in quotation marks, `#` begins a comment line,
+ * UTF-8 may begin with its mark, and the micro sign may be that of Latin-1. Reading stops when `stop` is set.
+ * Errors name file and line. Free with csv_free whatever comes. */
+bool csv_read(const char *path, file_stop stop, csv *out, calc_error *error);
 void csv_free(csv *c);
+
+/* The column of this name, whole and of numbers; NULL with an error. */
+const csv_values *csv_column(const csv *c, const char *name, calc_error *error);
+/* Is there one? */
+bool csv_has(const csv *c, const char *name);
+/* Their names, "r, f, time". */
+void csv_names(const csv *c, char *buf, size_t size);
 
 #endif

@@ -74,6 +74,9 @@ bool file_in_open(file_in *in, const char *name, file_stop stop, char *error, si
 /* Reads an open descriptor, which stays open; `name` is for messages. */
 bool file_in_take(file_in *in, int fd, const char *name, file_stop stop, char *error, size_t size);
 
+/* Reads a text that is in memory. */
+bool file_in_text(file_in *in, const char *text, const char *name, file_stop stop, char *error, size_t size);
+
 /* The next line in in->line and in->length. FILE_GOT_ERROR: reading failed, memory ran out or the line is
  * longer than the limit; FILE_GOT_STOP: the stop flag was set. Neither ever passes for the end. */
 file_got file_in_line(file_in *in, char *error, size_t size);

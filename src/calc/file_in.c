@@ -51,6 +51,16 @@ bool file_in_open(file_in *in, const char *name, file_stop stop, char *error, si
     return ok;
 }
 
+bool file_in_text(file_in *in, const char *text, const char *name, file_stop stop, char *error, size_t size) {
+    *in = (file_in){.fd = -1, .stop = stop, .name = strdup(name), .block = strdup(text), .ended = true};
+    if (!in->name || !in->block) {
+        file_in_close(in);
+        return cannot_read(name, ENOMEM, error, size);
+    }
+    in->have = strlen(text);
+    return true;
+}
+
 void file_in_close(file_in *in) {
     if (in->owned)
         close(in->fd);
@@ -121,7 +131,7 @@ static file_got add_line(file_in *in, char *error, size_t size) {
     bool any = false;
     for (;;) {
         if (in->at == in->have) {
-            file_got got = in->ended ? FILE_GOT_END : fill(in, error, size);
+            file_got got = stopped(in) ? FILE_GOT_STOP : in->ended ? FILE_GOT_END : fill(in, error, size);
             if (got == FILE_GOT_END) {
                 in->ended = true;
                 if (!any)

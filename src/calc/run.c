@@ -2,6 +2,7 @@
 /* Running a load program: legs, periods, swinging normal forces. */
 #include "calc/run.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,6 +14,8 @@ static const fret_status fine = {FRET_OK, NULL, 0, 0};
 static const fret_status interrupted = {FRET_INTERRUPTED, NULL, 0, 0};
 
 static fret_status unless_stopped(const runner *r, fret_status st) {
+    if (r->load->pulse)
+        r->load->pulse();
     return !st.code && r->load->stop && *r->load->stop ? interrupted : st;
 }
 
@@ -151,6 +154,11 @@ static double wrapped(double angle) {
     return 2 * pi * (turns - floor(turns));
 }
 
+/* cos at a rounded angle: 0 where it is below what the rounding moves it by, as the load passes through its mean. */
+static double harmonic(long double angle) {
+    const double v = (double)fret_cos(angle);
+    return fabs(v) < 4 * DBL_EPSILON ? 0 : v;
+}
 
 /* What a swinging period turns about. */
 typedef struct swing {
@@ -234,8 +242,8 @@ static fret_status swinging_period(runner *r, const load_item *c, long double FN
             const double angle = node[i] + length * j / count;
             const bool last = i + 2 == nodes && j == count;
             l.to.tangential =
-                last ? c->step.tangential_value : c->step.tangential_value * (double)fret_cos(angle);
-            l.to.normal = (double)(FN + c->step.normal_value * fret_cos((long double)angle + c->extra.phase));
+                last ? c->step.tangential_value : c->step.tangential_value * harmonic(angle);
+            l.to.normal = (double)(FN + c->step.normal_value * harmonic((long double)angle + c->extra.phase));
             l.begin = r->time;
             l.end = begin + angle / (2 * pi);
             st = unless_stopped(r, take(r, &l));
@@ -259,7 +267,7 @@ static fret_status run_cycle(runner *r, const load_item *c) {
                  .even = r->watch && r->watch->next == next_point};
     if (c->step.normal_value != 0) {
         first.to.normal_by = FRET_TO_FORCE;
-        first.to.normal = (double)(FN + c->step.normal_value * fret_cos(c->extra.phase));
+        first.to.normal = (double)(FN + c->step.normal_value * harmonic(c->extra.phase));
         first.law = LEG_STRAIGHT;
     }
     fret_status st = take(r, &first);

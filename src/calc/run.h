@@ -17,6 +17,7 @@ typedef struct load_view {
     const fret_normal *normal;
     double mu;
     const volatile sig_atomic_t *stop; /* or NULL */
+    void (*pulse)(void);               /* or NULL */
 } load_view;
 
 /* A part of the load without a corner. Time is 0 at the press, 1 more each step, a quarter to the first peak of a

@@ -62,6 +62,7 @@ struct scene {
     unsigned springs;
     unsigned used; /* what has answered: raised by whatever does, cleared by whoever wants to know */
     const volatile sig_atomic_t *stop;
+    void (*pulse)(void); /* called now and then by what takes long; or NULL */
     scene_definition *evaluate;
     void *context;
 };

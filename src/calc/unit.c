@@ -37,7 +37,12 @@ static const struct {
     const char *name;
     int exp10;
 } prefixes[] = {{"n", -9}, {"u", -6}, {"\xc2\xb5", -6}, {"\xce\xbc", -6},
-                {"m", -3}, {"k", 3},  {"M", 6},         {"G", 9}};
+                {"m", -3}, {"k", 3},  {"M", 6},         {"G", 9}, {"c", -2}};
+
+/* centi is for metres alone */
+static bool goes_with(const char *prefix, const char *name) {
+    return *prefix != 'c' || !strcmp(name, "m");
+}
 
 const char *unit_name(size_t i) {
     return i < UNITS ? units[i].name : NULL;
@@ -64,7 +69,8 @@ bool unit_lookup(const char *word, size_t len, unit *out) {
             continue;
         for (size_t j = 0; j < sizeof prefixes / sizeof *prefixes; j++) {
             size_t p = strlen(prefixes[j].name);
-            if (p + n == len && !memcmp(prefixes[j].name, word, p) && !memcmp(units[i].name, word + p, n)) {
+            if (p + n == len && !memcmp(prefixes[j].name, word, p) && !memcmp(units[i].name, word + p, n) &&
+                goes_with(prefixes[j].name, units[i].name)) {
                 *out = units[i].u;
                 out->exp10 += prefixes[j].exp10;
                 return true;
@@ -77,7 +83,7 @@ bool unit_lookup(const char *word, size_t len, unit *out) {
 static const char *prefixed_name(size_t i) {
     static const char *const common[] = {"N",   "kN",   "mN",  "uN",  "MN",  "lbf", "kgf", "dyn", "Pa",
                                          "kPa", "MPa",  "GPa", "bar", "psi", "ksi", "m",   "mm",  "um",
-                                         "nm",  "inch", "J",   "mJ",  "uJ",  "nJ",  "kJ",  "rad", "deg"};
+                                         "nm",  "cm",   "inch", "J",   "mJ",  "uJ",  "nJ",  "kJ",  "rad", "deg"};
     return i < sizeof common / sizeof *common ? common[i] : NULL;
 }
 
@@ -116,7 +122,16 @@ static void put_text(const char *text, char *buf, size_t size) {
     buf[n] = 0;
 }
 
+/* dim_equal takes an angle for a number, as expressions do. */
+static bool is_angle(dim d) {
+    return d.rad == 1 && dim_equal(d, DIM_NONE);
+}
+
 void dim_unit(dim d, char *buf, size_t size) {
+    if (is_angle(d)) {
+        put_text("rad", buf, size);
+        return;
+    }
     for (size_t i = 0; i < NAMED; i++)
         if (dim_equal(d, named[i].d)) {
             put_text(named[i].unit, buf, size);
@@ -132,6 +147,10 @@ void dim_unit(dim d, char *buf, size_t size) {
 }
 
 void dim_describe(dim d, char *buf, size_t size) {
+    if (is_angle(d)) {
+        put_text("an angle", buf, size);
+        return;
+    }
     for (size_t i = 0; i < NAMED; i++)
         if (dim_equal(d, named[i].d)) {
             put_text(named[i].phrase, buf, size);
@@ -148,6 +167,10 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
         long double scale;
     } steps[] = {{"G", 1e9L}, {"M", 1e6L}, {"k", 1e3L}, {"", 1}, {"m", 1e-3L}, {"u", 1e-6L}, {"n", 1e-9L}};
     enum { STEPS = sizeof steps / sizeof *steps };
+    if (is_angle(d)) {
+        put_text("deg", buf, size);
+        return 3.14159265358979323846264338327950288L / 180;
+    }
     dim_unit(d, buf, size);
     size_t i = 0;
     while (i < NAMED && !dim_equal(d, named[i].d))

@@ -4,9 +4,9 @@
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "shell/output.h"
+#include "shell/progress.h"
 
 /* Rows of its arguments in the table of commands. */
 enum { ROW_FA, ROW_DXA, ROW_WITHIN };
@@ -20,15 +20,11 @@ static void describe_size(const accuracy_row *row, char *buf, size_t size) {
 }
 
 static void show_progress(void *context, const accuracy_row *row) {
-    const shell *sh = context;
-    char text[40];
-    describe_size(row, text, sizeof text);
-    fprintf(sh->err, "\rmeasuring %-17s %-11s", families[row->family].name, text);
-    fflush(sh->err);
-}
-
-static void wipe_progress(const shell *sh) {
-    fprintf(sh->err, "\r%*s\r", shell_stop ? 41 : 39, ""); /* the ^C, too */
+    char size[40], words[80];
+    describe_size(row, size, sizeof size);
+    snprintf(words, sizeof words, "measuring %-17s %-11s", families[row->family].name, size);
+    (void)context;
+    progress_words(words);
 }
 
 static bool read_load_given(shell *sh, lexer *lx, const command *self, arg_value out[ARGS]) {
@@ -42,10 +38,8 @@ static bool run_study(shell *sh, const arg_value given[ARGS], accuracy_study *ou
                                 .by_force = !given[ROW_DXA].given,
                                 .amplitude = (double)v->v.v,
                                 .seconds = given[ROW_WITHIN].given ? (double)given[ROW_WITHIN].v.v : 3};
-    const bool progress = sh->err == stderr && isatty(STDERR_FILENO);
-    bool ok = accuracy_measure(sh->calc.now, &load, progress ? show_progress : NULL, sh, out, error);
-    if (progress)
-        wipe_progress(sh);
+    bool ok = accuracy_measure(sh->calc.now, &load, show_progress, NULL, out, error);
+    progress_wipe();
     const char *blamed = error->raised && error->kind == ERROR_STATUS ? error->status.quantity : NULL;
     if (blamed && v->given && !strcmp(blamed, load.by_force ? "FA" : "dxA"))
         arg_place(error, v);
@@ -145,6 +139,10 @@ static void print_text(shell *sh, const accuracy_study *study, const char *load,
     const int width = sh->set.digits + 7;
     const accuracy_row bound = {.error = study->agreement, .below = true};
     char error[40], parameter[40], t[40], ratio[40];
+    if (sh->replaying) { /* times, and what follows from them */
+        fprintf(sh->out, "%c\n", MARK_DRAWING);
+        return;
+    }
     format_error(&bound, error, sizeof error);
     fprintf(sh->out, "%s\nreference: %s, %.*g %s, good to %s\n", load, study->reference, sh->set.digits,
             (double)(study->value / scale), unit_text, error + 1);

@@ -43,6 +43,8 @@ command_run do_press, do_step, do_cycle, do_follow, do_reset, do_undo;
 command_run do_history, do_table, do_plot, do_animate, do_explain, do_accuracy;
 /* show.c, help.c, session_commands.c */
 command_run do_show, do_set, do_help, do_apropos;
+/* keep_commands.c */
+command_run do_save, do_record, do_replay;
 command_run do_source, do_demo, do_quit;
 
 /* A session to be played, one statement a line. */

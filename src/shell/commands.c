@@ -74,6 +74,16 @@ static const arg file_args[] = {
     {.kind = ARG_FILE, .name = "file"},
     {.kind = ARG_END}};
 
+static const arg record_args[] = {
+    {.kind = ARG_FILE, .name = "file"},
+    {.kind = ARG_WORD, .name = "off"},
+    {.kind = ARG_END}};
+
+static const arg save_args[] = {
+    {.kind = ARG_FILE, .name = "file"},
+    {.kind = ARG_WORD, .name = "history"},
+    {.kind = ARG_END}};
+
 static const arg to_args[] = {
     {.kind = ARG_TO, .name = "to"},
     {.kind = ARG_END}};
@@ -310,10 +320,10 @@ static const command commands[] = {
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> press FN=100 N; step Fx=20 N; step Fx=-20 N\n"
              "    fret> history\n"
-             "           FN [N]         dz [m]         Fx [N]         dx [m]          W [J]\n"
-             "              100    3.48291e-06              0              0              0\n"
-             "              100    3.48291e-06             20    6.25995e-07    4.76614e-07\n"
-             "              100    3.48291e-06            -20   -6.25995e-07    1.42984e-06\n"},
+             "           FN [N]        dz [um]         Fx [N]        dx [nm]         W [nJ]\n"
+             "              100        3.48291              0              0              0\n"
+             "              100        3.48291             20        625.995        476.614\n"
+             "              100        3.48291            -20       -625.995        1429.84\n"},
     {.name = "table",
      .run = do_table,
      .args = table_args,
@@ -539,6 +549,40 @@ static const command commands[] = {
      .summary = "run a script",
      .help = "Statements of a file, as if typed here; it stops at the first error.\n\n"
              "    fret> source /nonexistent\n"
+             "    error: cannot read /nonexistent: No such file or directory\n"},
+    {.name = "save",
+     .run = do_save,
+     .args = save_args,
+     .group = "the session",
+     .keywords = "write keep export scene history",
+     .usage = "FILE | history FILE",
+     .summary = "write the scene as commands; or what has been typed",
+     .help = "The file makes the scene again, to the last bit: `source FILE`, or fret FILE.\n"
+             "`save history` writes the lines typed in this session, as they were typed.\n\n"
+             "    fret> material steel; save /nonexistent/a.fret\n"
+             "    error: cannot write /nonexistent/a.fret: No such file or directory\n"},
+    {.name = "record",
+     .run = do_record,
+     .args = record_args,
+     .group = "the session",
+     .keywords = "transcript log protocol test save",
+     .usage = "FILE | off",
+     .summary = "keep what is typed and answered as a transcript",
+     .help = "It begins with the scene and the settings as they are. `replay FILE`, or\n"
+             "fret --replay FILE, runs it and compares the answers.\n\n"
+             "    fret> record off\n"},
+    {.name = "replay",
+     .run = do_replay,
+     .args = file_args,
+     .group = "the session",
+     .keywords = "transcript test compare record",
+     .usage = "FILE",
+     .summary = "run a transcript and compare what comes out",
+     .help = "In a session of its own: the scene stays. Lines after `fret> ` are run, what\n"
+             "follows each must come out again, numbers within their printed digits.\n"
+             "Differences are shown: - is the transcript, + is now. A session copied from a\n"
+             "terminal is a transcript, too.\n\n"
+             "    fret> replay /nonexistent\n"
              "    error: cannot read /nonexistent: No such file or directory\n"},
     {.name = "demo",
      .run = do_demo,

@@ -335,6 +335,8 @@ static void add_continuation(const place *p) {
     const command *c = p->command;
     const bool range = has_range(c), figure = range && row_of_kind(c, ARG_NAME);
     const geometry *shape = shape_of(p);
+    if (c && c->run == do_set && p->count > 2)
+        return;
     if (c && c->run == do_set)
         add_setting_words(p);
     else if (shape)
@@ -357,8 +359,8 @@ static void add_continuation(const place *p) {
 /* The dimension that `NAME = NUMBER` wants at the cursor after the number. */
 static bool wanted_dim(const place *p, dim *d) {
     size_t i = p->count - 1; /* the number */
-    while (i > 0 &&
-           (p->token[i].kind == T_NUMBER || p->token[i].kind == T_MINUS || p->token[i].kind == T_RANGE))
+    while (i > 0 && (p->token[i].kind == T_NUMBER || p->token[i].kind == T_MINUS || p->token[i].kind == T_RANGE ||
+                     (p->token[i].kind == T_NAME && p->token[i - 1].kind == T_NUMBER))) /* 1 N .. 2 */
         i--;
     if (p->command && i == 0 && p->command->args && p->command->args->kind == ARG_EXPR) {
         *d = p->command->args->d;
@@ -391,6 +393,14 @@ static bool wants_file(const place *p) {
         if (words[i].what == FOLLOWS_FILE && is_word(p, last, words[i].word))
             return has_range(p->command);
     return false;
+}
+
+/* `record off`, where it has been begun: the editor completes either words or files. */
+static void add_words_beside_file(const place *p) {
+    const arg *a = p->cursor > p->start && p->count == 1 ? p->command->args : NULL;
+    for (; a && a->kind; a++)
+        if (a->kind == ARG_WORD)
+            add(p, a->name, "");
 }
 
 static void complete_word(const place *p) {
@@ -457,7 +467,10 @@ void complete(const calc *c, const char *line, size_t cursor, candidates *out) {
     read_tokens(&p, begin, start);
     p.start = out->start = start + quoted;
     out->files = wants_file(&p);
-    if (out->files || quoted)
+    if (out->files && !quoted)
+        add_words_beside_file(&p);
+    out->files = out->files && out->count == 0;
+    if (out->files || out->count > 0 || quoted)
         return;
     if (begin < cursor && line[begin] == '?') { /* of the prompt: help */
         p.start = out->start = start > begin ? start : begin + 1;

@@ -118,43 +118,43 @@ static bool file_ahead(const lexer *lx, char name[ARG_FILE_NAME]) {
     return false;
 }
 
-static size_t column_count(const csv *data) {
-    return sizeof data->column / sizeof *data->column;
-}
-
-/* Column `name` of this dimension; NULL: there is none, or it has another one. */
+/* Column `name` of this dimension; NULL: there is none, or with an error it is not of it. */
 static const double *column_of(const csv *data, const char *name, dim d, calc_error *error) {
-    for (size_t i = 0; i < column_count(data); i++)
-        if (!strcmp(data->name[i], name)) {
-            char wants[128], is[128];
-            if (dim_equal(data->d[i], d))
-                return data->column[i];
-            dim_describe(d, wants, sizeof wants);
-            dim_describe(data->d[i], is, sizeof is);
-            calc_fail(error, 0, 0, "column %s is %s: it needs the unit of %s in the header", name, is, wants);
-        }
+    char wants[128], is[128];
+    if (!csv_has(data, name))
+        return NULL;
+    const csv_values *of_file = csv_column(data, name, error);
+    if (!of_file || dim_equal(of_file->d, d))
+        return of_file ? of_file->v : NULL;
+    dim_describe(d, wants, sizeof wants);
+    dim_describe(of_file->d, is, sizeof is);
+    calc_fail(error, 0, 0, "column %s is %s: it needs the unit of %s in the header", name, is, wants);
     return NULL;
 }
 
-/* Columns as names: of inputs, or free ones. Those that are results have no say, and are missed if they are
- * asked for. */
+/* Columns as names: of inputs, or free ones. Those that are results, or no names, have no say, and are missed if they
+ * are asked for; one that is named in vain is no matter. */
 static bool read_columns(shell *sh, const csv *data, fit_question *q, range_names *names, calc_error *error) {
-    for (size_t i = 0; i < column_count(data) && q->columns < FIT_COLUMNS; i++) {
+    for (size_t i = 0; i < data->columns && q->columns < FIT_COLUMNS; i++) {
+        const csv_values *of_file = &data->column[i];
+        calc_error useless;
         lexer lx;
         knob *k = &q->column[q->columns].name;
-        lex_start(&lx, data->name[i], strlen(data->name[i]), error);
-        if (error->raised || lx.kind != T_NAME || lex_peek(&lx) != T_END)
-            return calc_fail(error, 0, 0, "column '%s' has no name that an expression could use",
-                             data->name[i]);
-        const quantity *of = quantity_find(data->name[i], strlen(data->name[i]));
-        if (of && !quantity_is_input(of))
+        error_clear(&useless);
+        lex_start(&lx, of_file->name, strlen(of_file->name), &useless);
+        if (useless.raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble)
             continue;
-        if (!range_wake(sh, &lx, names) || !knob_read(&sh->calc, &lx, k))
+        const quantity *of = quantity_find(of_file->name, strlen(of_file->name));
+        if ((of && !quantity_is_input(of)) || (!of && name_taken(of_file->name, strlen(of_file->name))))
+            continue;
+        if (!range_wake(sh, &lx, names) || !knob_read(&sh->calc, &lx, k)) {
+            *error = useless;
             return false;
-        if (k->is_input && !dim_equal(k->d, data->d[i]))
-            return column_of(data, data->name[i], k->d, error) != NULL;
-        k->d = data->d[i];
-        q->column[q->columns++].v = data->column[i];
+        }
+        if (k->is_input && !dim_equal(k->d, of_file->d))
+            return column_of(data, of_file->name, k->d, error) != NULL;
+        k->d = of_file->d;
+        q->column[q->columns++].v = of_file->v;
     }
     return true;
 }
@@ -164,13 +164,11 @@ static bool ambiguous(const csv *data, const expr *e, calc_error *error) {
     const quantity *of;
     bool call;
     for (size_t i = 0; (of = expr_quantity(e, i, &call)); i++)
-        for (size_t j = 0; j < column_count(data) && !call; j++)
-            if (!quantity_is_input(of) && !strcmp(data->name[j], of->name)) {
-                calc_fail(error, e->at, e->len,
-                          "%s is a result of the scene and a column of the file: rename the column",
-                          of->name);
-                return true;
-            }
+        if (!call && !quantity_is_input(of) && csv_has(data, of->name)) {
+            calc_fail(error, e->at, e->len,
+                      "%s is a result of the scene and a column of the file: rename the column", of->name);
+            return true;
+        }
     return false;
 }
 
@@ -189,7 +187,7 @@ static bool read_equation(shell *sh, lexer *lx, fit_question *q, csv *data, rang
     char name[ARG_FILE_NAME];
     if (!file_ahead(lx, name))
         return lex_fail(lx, "expected EXPR = EXPR to FILE.csv");
-    if (!csv_read(name, data, lx->error) || !read_columns(sh, data, q, names, lx->error) ||
+    if (!csv_read(name, &shell_stop, data, lx->error) || !read_columns(sh, data, q, names, lx->error) ||
         !expr_parse_at(&sh->calc, lx, &sh->list[0]))
         return false;
     if (lx->kind != T_ASSIGN)
@@ -199,15 +197,17 @@ static bool read_equation(shell *sh, lexer *lx, fit_question *q, csv *data, rang
         return false;
     q->left = &sh->list[0];
     q->right = &sh->list[1];
-    q->rows = data->count;
+    q->rows = data->rows;
     if (!lex_is(lx, "to"))
         return lex_fail(lx, "expected to FILE.csv");
     if (ambiguous(data, q->left, lx->error) || ambiguous(data, q->right, lx->error))
         return false;
-    if (!uses_columns(sh, q))
+    if (!uses_columns(sh, q)) {
+        char columns[CALC_ERROR_TEXT / 2];
+        csv_names(data, columns, sizeof columns);
         return calc_fail(lx->error, q->left->at, lx->last - q->left->at,
-                         "no column of %s is in the equation: they are %s and %s", name, data->name[0],
-                         data->name[1]);
+                         "no column of %.100s is in the equation: they are %s", name, columns);
+    }
     lex_next(lx);
     return lex_filename(lx, name, sizeof name);
 }
@@ -216,9 +216,9 @@ static bool read_loop(lexer *lx, fit_question *q, csv *data) {
     char name[ARG_FILE_NAME];
     const size_t at = lx->at;
     calc_error *error = lx->error;
-    if (!lex_filename(lx, name, sizeof name) || !csv_read(name, data, error))
+    if (!lex_filename(lx, name, sizeof name) || !csv_read(name, &shell_stop, data, error))
         return calc_place(error, at, lx->last - at);
-    q->rows = data->count;
+    q->rows = data->rows;
     q->loop.dx = column_of(data, "dx", DIM_LENGTH, error);
     q->loop.Fx = column_of(data, "Fx", DIM_FORCE, error);
     q->loop.normal = column_of(data, "FN", DIM_FORCE, error);

@@ -24,6 +24,22 @@ const char *strip_prompt(const char *line, size_t *len) {
     return line;
 }
 
+void blank_prompts(char *text, size_t len) {
+    for (size_t i = 0, n; i < len; i += n + 1) {
+        const char *end = memchr(text + i, '\n', len - i);
+        n = end ? (size_t)(end - text) - i : len - i;
+        size_t left = n;
+        const char *rest = strip_prompt(text + i, &left);
+        memset(text + i, ' ', (size_t)(rest - (text + i)));
+    }
+}
+
+bool is_continuation(const char *line, size_t len) {
+    while (len > 0 && (*line == ' ' || *line == '\t'))
+        line++, len--;
+    return len > 0 && *line == '.';
+}
+
 static bool digit(char c) {
     return c >= '0' && c <= '9';
 }

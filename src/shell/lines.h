@@ -11,6 +11,11 @@
  * the line as it is. Blanks before the prompt go with it. */
 const char *strip_prompt(const char *line, size_t *len);
 
+/* Blanks out the prompts that physical lines of a text begin with: what follows keeps its place. */
+void blank_prompts(char *text, size_t len);
+/* Does the line begin with the prompt of a line that goes on, `....> `? */
+bool is_continuation(const char *line, size_t len);
+
 /* The comma of `1,5 mm`, outside parentheses and quotes: perhaps meant as a decimal point. NULL: none. */
 const char *decimal_comma(const char *text, size_t len);
 

@@ -6,18 +6,23 @@
 #include "calc/csv.h"
 #include "shell/command.h"
 #include "shell/output.h"
+#include "shell/progress.h"
 
 /* ---- reports ----------------------------------------------------------------------------------- */
 
+/* Events are data where answers are JSON; else they are for who types. */
 static bool reports(const shell *sh) {
-    return sh->set.report == REPORT_ON || (sh->set.report == REPORT_AUTO && sh->interactive) ||
-           (sh->set.format == FORMAT_JSON && sh->set.report != REPORT_OFF);
+    return sh->set.report == REPORT_ON ||
+           (sh->set.report == REPORT_AUTO && (sh->interactive || sh->replaying || sh->set.format == FORMAT_JSON));
 }
 
 static void report_event(shell *sh, const char *event, const char *const *names) {
     if (!reports(sh))
         return;
+    progress_wipe();
     const bool json = sh->set.format == FORMAT_JSON;
+    if (!json && sh->set.report == REPORT_AUTO)
+        shell_aside(sh, sh->out);
     if (json)
         fprintf(sh->out, "{\"event\":\"%s\"", event);
     for (bool first = true; *names; names++) {
@@ -192,59 +197,69 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
 /* ---- follow ------------------------------------------------------------------------------------ */
 
 /* What the columns of a history may be. */
-static const struct {
+typedef struct followed {
     const char *name[2];
     unsigned char by;
     dim d;
     const char *example;
-} columns_of[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0, 0}, "FN [N],Fx [N]"},
-                  {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1, 0}, "dz [um],dx [um]"}};
+} followed;
+
+static const followed kinds[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0, 0}, "FN [N],Fx [N]"},
+                                 {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1, 0}, "dz [um],dx [um]"}};
 
 /* Rows become steps; the first one presses where nothing is pressed yet. */
-static bool follow_rows(shell *sh, const csv *data, int kind, const char *name, calc_error *error) {
+static bool follow_rows(shell *sh, const csv *data, const followed *kind, const double *normal, const double *tangential,
+                        calc_error *error) {
     scene *s = &sh->calc.scene;
-    load_step step = {.kind = LOAD_STEP, .normal = columns_of[kind].by, .tangential = columns_of[kind].by};
+    load_step step = {.kind = LOAD_STEP, .normal = kind->by, .tangential = kind->by};
     size_t row = 0;
     if (!s->end.steps) {
-        const load_step press = {
-            .kind = LOAD_PRESS, .normal = columns_of[kind].by, .normal_value = data->column[0][0]};
-        if (!(data->column[0][0] > 0) || data->column[1][0] != 0)
+        const load_step press = {.kind = LOAD_PRESS, .normal = kind->by, .normal_value = normal[0]};
+        if (!(normal[0] > 0) || tangential[0] != 0)
             return calc_fail(
                 error, 0, 0,
-                "%s: there is no load yet: press first, or begin with a row that presses (%s > 0, %s = 0)", name,
-                data->name[0], data->name[1]);
+                "%s: there is no load yet: press first, or begin with a row that presses (%s > 0, %s = 0)", data->path,
+                kind->name[0], kind->name[1]);
         if (!scene_load(s, &press, NULL, error))
             return false;
         row = 1;
     }
-    for (; row < data->count; row++) {
-        step.normal_value = data->column[0][row];
-        step.tangential_value = data->column[1][row];
+    for (; row < data->rows; row++) {
+        step.normal_value = normal[row];
+        step.tangential_value = tangential[row];
+        progress_part((double)row / (double)data->rows);
         bool ok = scene_load(s, &step, NULL, error);
         if (ok && shell_stop)
             ok = calc_interrupted(error);
         if (!ok && !error->stop)
-            calc_append(&sh->calc, error, " (row %zu of %.200s)", row + 1, name);
+            calc_append(&sh->calc, error, " (row %zu of %.200s)", row + 1, data->path);
         if (!ok)
             return false;
     }
     return true;
 }
 
-static bool follow(shell *sh, const csv *data, const char *name, calc_error *error) {
-    const int kind = strcmp(data->name[0], "FN") ? 1 : 0;
+static bool follow(shell *sh, const csv *data, calc_error *error) {
+    const followed *kind = csv_has(data, kinds[1].name[0]) && csv_has(data, kinds[1].name[1]) ? &kinds[1] : &kinds[0];
+    char names[CALC_ERROR_TEXT / 2];
     scene_mark before;
     double mu;
-    if (strcmp(data->name[0], columns_of[kind].name[0]) || strcmp(data->name[1], columns_of[kind].name[1]))
-        return calc_fail(error, 0, 0, "%s: the columns must be FN,Fx or dz,dx, not %s,%s", name, data->name[0],
-                         data->name[1]);
-    if (!dim_equal(data->d[0], columns_of[kind].d) || !dim_equal(data->d[1], columns_of[kind].d))
-        return calc_fail(error, 0, 0, "%s: the columns need units in the header, such as %s", name,
-                         columns_of[kind].example);
+    csv_names(data, names, sizeof names);
+    if (!csv_has(data, kind->name[0]) || !csv_has(data, kind->name[1]))
+        return calc_fail(error, 0, 0, "%s: the columns must be FN,Fx or dz,dx, not %s", data->path, names);
+    if (kind == &kinds[1] && csv_has(data, "FN") && csv_has(data, "Fx"))
+        return calc_fail(error, 0, 0, "%s has FN,Fx and dz,dx: leave one pair", data->path);
+    const csv_values *normal = csv_column(data, kind->name[0], error),
+                     *tangential = normal ? csv_column(data, kind->name[1], error) : NULL;
+    if (!tangential)
+        return false;
+    if (!dim_equal(normal->d, kind->d) || !dim_equal(tangential->d, kind->d))
+        return calc_fail(error, 0, 0, "%s: the columns need units in the header, such as %s", data->path,
+                         kind->example);
     if (!scene_friction(&sh->calc.scene, &mu, error))
         return false;
     scene_save(&sh->calc.scene, &before, false);
-    if (!follow_rows(sh, data, kind, name, error)) {
+    if (!follow_rows(sh, data, kind, normal->v, tangential->v, error)) {
         scene_back(&sh->calc.scene, &before);
         return false;
     }
@@ -260,11 +275,8 @@ bool do_follow(shell *sh, lexer *lx, const command *self) {
     csv data;
     if (!args_read(sh, lx, &list, v, name))
         return false;
-    bool ok = csv_read(name, &data, lx->error);
-    if (ok) {
-        ok = follow(sh, &data, name, lx->error);
-        csv_free(&data);
-    }
+    bool ok = csv_read(name, &shell_stop, &data, lx->error) && follow(sh, &data, lx->error);
+    csv_free(&data);
     if (!ok) {
         lx->error->at = v[0].value_at;
         lx->error->len = v[0].value_len;

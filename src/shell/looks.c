@@ -119,42 +119,44 @@ bool looks_read(shell *sh, lexer *lx, plot_panel *p, looks *out, bool *found) {
 
 /* ---- measured points --------------------------------------------------------------------------- */
 
-/* Which column is the abscissa: by names, else by dimensions, else the first. -1: they do not fit. */
-static int abscissa_of(const csv *c, const axis_of *x, const axis_of *y) {
-    int fits[2];
-    for (int i = 0; i < 2; i++)
-        fits[i] = dim_equal(c->d[i], x->d) && dim_equal(c->d[1 - i], y->d);
-    for (int i = 0; i < 2; i++)
-        if (fits[i] && (!strcmp(c->name[i], x->name) || !strcmp(c->name[1 - i], y->name)))
-            return i;
-    return fits[0] ? 0 : fits[1] ? 1 : -1;
+/* The first column of an axis' dimension, of its name where that is wanted; NULL: there is none. */
+static const csv_values *column_for(const csv *c, const axis_of *axis, const csv_values *but, bool by_name) {
+    for (size_t i = 0; i < c->columns; i++) {
+        const csv_values *v = &c->column[i];
+        if (v != but && !v->trouble && dim_equal(v->d, axis->d) && (!by_name || !strcmp(v->name, axis->name)))
+            return v;
+    }
+    return NULL;
+}
+
+static bool no_column(lexer *lx, const looks *l, size_t i, const csv *c, const axis_of *axis) {
+    char wants[128], has[CALC_ERROR_TEXT / 2];
+    dim_describe(axis->d, wants, sizeof wants);
+    csv_names(c, has, sizeof has);
+    return calc_fail(lx->error, l->over_at[i], l->over_len[i],
+                     "no column fits the axis %.60s, which is %s: there are %s; their units stand in the header",
+                     axis->name, wants, has);
 }
 
 static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const axis_of *x, const axis_of *y) {
     csv c;
     char error[CALC_ERROR_TEXT - 8];
     const char *slash = strrchr(l->over[i], '/');
-    if (!csv_read(l->over[i], &c, lx->error))
+    if (!csv_read(l->over[i], &shell_stop, &c, lx->error)) {
+        csv_free(&c);
         return calc_place(lx->error, l->over_at[i], l->over_len[i]);
-    const int first = abscissa_of(&c, x, y);
-    bool ok = true;
-    if (first < 0) {
-        char has[2][128], wants[2][128];
-        for (int j = 0; j < 2; j++) {
-            dim_describe(c.d[j], has[j], sizeof has[j]);
-            dim_describe(j ? y->d : x->d, wants[j], sizeof wants[j]);
-        }
-        ok = calc_fail(lx->error, l->over_at[i], l->over_len[i],
-                       "the columns %s (%s) and %s (%s) do not fit the axes: %s and %s", c.name[0], has[0],
-                       c.name[1], has[1], wants[0], wants[1]);
     }
+    const csv_values *of_x = column_for(&c, x, NULL, true), *of_y = column_for(&c, y, of_x, true);
+    of_x = of_x ? of_x : column_for(&c, x, of_y, false); /* names first, then the order of the columns */
+    of_y = of_y ? of_y : column_for(&c, y, of_x, false);
+    bool ok = (of_y || no_column(lx, l, i, &c, y)) && (of_x || no_column(lx, l, i, &c, x));
     plot_series *s =
         ok ? plot_series_add(p, PLOT_MEASURED, strdup(slash ? slash + 1 : l->over[i]), error, sizeof error)
            : NULL;
     if (ok && !s)
         ok = calc_fail(lx->error, 0, 0, "%s", error);
-    for (size_t j = 0; ok && j < c.count; j++)
-        ok = plot_point(s, c.column[first][j], c.column[1 - first][j]) || calc_no_memory(lx->error);
+    for (size_t j = 0; ok && j < c.rows; j++)
+        ok = plot_point(s, of_x->v[j], of_y->v[j]) || calc_no_memory(lx->error);
     csv_free(&c);
     return ok;
 }

@@ -184,25 +184,12 @@ static int read_options(int argc, char **argv, wishes *w, settings *set) {
 
 /* ---- jobs -------------------------------------------------------------------------------------- */
 
-static int run_text(shell *sh, const char *text, bool keep_going) {
-    FILE *in = *text ? fmemopen((void *)(size_t)text, strlen(text), "r") : NULL;
-    if (!*text)
-        return EXIT_OK;
-    if (!in) {
-        fprintf(stderr, "error: %s\n", strerror(errno));
-        return EXIT_ERROR;
-    }
-    int status = shell_stream(sh, in, "-c", keep_going);
-    fclose(in);
-    return status;
-}
-
 static int run_jobs(shell *sh, const wishes *w) {
     int status = EXIT_OK;
     for (size_t i = 0; i < w->count && !sh->quit; i++) {
         const job *j = &w->jobs[i];
-        int one = j->statements            ? run_text(sh, j->text, w->keep_going)
-                  : !strcmp(j->text, "-") ? shell_stream(sh, stdin, "stdin", w->keep_going)
+        int one = j->statements            ? shell_text(sh, j->text, "-c", w->keep_going)
+                  : !strcmp(j->text, "-") ? shell_stdin(sh, w->keep_going)
                                            : shell_file(sh, j->text, w->keep_going);
         if (one != EXIT_OK)
             status = one;
@@ -213,13 +200,18 @@ static int run_jobs(shell *sh, const wishes *w) {
 }
 
 static int run(shell *sh, const wishes *w) {
-    if (w->replay)
-        return shell_replay(w->replay, w->tolerance, stdout, stderr);
+    if (w->replay) {
+        char error[CALC_ERROR_TEXT];
+        const int status = shell_replay(w->replay, w->tolerance, &sh->set, stdout, error, sizeof error);
+        if (*error)
+            fprintf(stderr, "error: %s\n", error);
+        return status;
+    }
     if (w->count)
         return run_jobs(sh, w);
     if (isatty(STDIN_FILENO))
         return shell_prompt(sh, w->quiet, !w->no_rc);
-    return shell_stream(sh, stdin, "stdin", w->keep_going);
+    return shell_stdin(sh, w->keep_going);
 }
 
 /* A lost write is an error. */

@@ -7,6 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shell/pager.h"
+#include "shell/progress.h"
+#include "shell/record.h"
+
 /* ---- numbers ----------------------------------------------------------------------------------- */
 
 /* printf takes 100 to 200 ns a number, most of a table's time. One product in extended precision with an
@@ -234,35 +238,124 @@ void print_values(const settings *set, FILE *to, const column *columns, const lo
 
 /* ---- tables ------------------------------------------------------------------------------------ */
 
-/* Width of a text column: a number with its digits, or the head. */
-static int width(const table *t, size_t i) {
-    const column *c = &t->columns[i];
-    size_t head = strlen(c->name) + (*c->unit ? strlen(c->unit) + 3 : 0);
-    size_t number = (size_t)t->set->digits + 7;
-    return (int)(head > number ? head : number);
+enum { TABLE_HELD = 200 };
+
+/* The middle, in decades, of the magnitudes that a column holds; what is 1e-6 of the largest is as good as 0. */
+static long double middle(const table *t, size_t i) {
+    long double most = 0, least = INFINITY;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t row = 0; row < t->rows; row++) {
+            const long double v = fabsl(t->held[row * (t->count + 1) + i]);
+            if (isfinite(v) && pass == 0)
+                most = fmaxl(most, v);
+            else if (isfinite(v) && v > 1e-6L * most)
+                least = fminl(least, v);
+        }
+    return most > 0 ? sqrtl(least) * sqrtl(most) : 0;
 }
 
-void table_begin(table *t) {
-    if (t->format == FORMAT_JSON)
-        return;
+/* The unit of a text column: the one that was asked for, or one with the prefix that suits what is held. */
+static void choose_unit(table *t, size_t i, char unit_text[COLUMN_UNIT]) {
+    const column *c = &t->columns[i];
+    t->scale[i] = c->scale;
+    snprintf(unit_text, COLUMN_UNIT, "%s", c->unit);
+    if (!c->chosen)
+        t->scale[i] = unit_choose(c->d, middle(t, i), t->set->digits, unit_text, COLUMN_UNIT);
+}
+
+/* As wide as a number with its digits, or as the name. */
+static void text_head(table *t) {
     for (size_t i = 0; i < t->count; i++) {
+        char unit_text[COLUMN_UNIT];
         const column *c = &t->columns[i];
-        t->width[i] = width(t, i);
-        if (t->format == FORMAT_CSV) {
-            if (i)
-                putc(',', t->to);
-            csv_field(t->to, c);
-        } else {
-            const size_t head = strlen(c->name) + (*c->unit ? strlen(c->unit) + 3 : 0);
-            fprintf(t->to, "%s%*s", i ? "  " : "", t->width[i] - (int)head, "");
-            fprintf(t->to, *c->unit ? "%s [%s]" : "%s", c->name, c->unit);
-        }
+        choose_unit(t, i, unit_text);
+        const size_t head = strlen(c->name) + (*unit_text ? strlen(unit_text) + 3 : 0);
+        const size_t number = (size_t)t->set->digits + 7;
+        t->width[i] = (int)(head > number ? head : number);
+        fprintf(t->to, "%s%*s", i ? "  " : "", t->width[i] - (int)head, "");
+        fprintf(t->to, *unit_text ? "%s [%s]" : "%s", c->name, unit_text);
     }
     putc('\n', t->to);
 }
 
+static void text_row(const table *t, const long double *si) {
+    if (si[t->count] != 0)
+        putc('\n', t->to);
+    for (size_t i = 0; i < t->count; i++) {
+        const double v = (double)(si[i] / t->scale[i]);
+        if (i)
+            fwrite("  ", 1, 2, t->to);
+        if (isfinite(v))
+            put_number(t->to, t->width[i], t->set->digits, v);
+        else
+            fprintf(t->to, "%*s", t->width[i], "");
+    }
+    putc('\n', t->to);
+}
+
+static void release(table *t) {
+    t->headed = true;
+    text_head(t);
+    for (size_t row = 0; row < t->rows; row++)
+        text_row(t, t->held + row * (t->count + 1));
+    free(t->held);
+    t->held = NULL;
+    t->rows = 0;
+}
+
+/* Out of memory nothing is held. */
+static void hold(table *t, const long double *si) {
+    long double row[COLUMNS + 1];
+    memcpy(row, si, t->count * sizeof *row);
+    row[t->count] = t->gap;
+    t->gap = false;
+    if (!t->headed && !t->held)
+        t->held = malloc(TABLE_HELD * (t->count + 1) * sizeof *t->held);
+    if (!t->headed && t->held)
+        memcpy(t->held + t->rows++ * (t->count + 1), row, (t->count + 1) * sizeof *row);
+    else if (!t->headed)
+        release(t);
+    if (t->headed)
+        text_row(t, row);
+    else if (t->rows == TABLE_HELD)
+        release(t);
+}
+
+void table_begin(table *t) {
+    t->headed = t->gap = false;
+    t->held = NULL;
+    t->rows = 0;
+    if (t->format != FORMAT_CSV)
+        return;
+    for (size_t i = 0; i < t->count; i++) {
+        if (i)
+            putc(',', t->to);
+        csv_field(t->to, &t->columns[i]);
+    }
+    putc('\n', t->to);
+}
+
+bool table_shows_next(const table *t) {
+    return t->format != FORMAT_TEXT || t->headed || t->rows + 1 == TABLE_HELD;
+}
+
+void table_gap(table *t) {
+    t->gap = true;
+}
+
+void table_end(table *t, bool ok) {
+    if (ok && t->format == FORMAT_TEXT && !t->headed)
+        release(t);
+    free(t->held);
+    t->held = NULL;
+}
+
 void table_row(table *t, const long double *si) {
     FILE *to = t->to;
+    if (t->format == FORMAT_TEXT) {
+        hold(t, si);
+        return;
+    }
     for (size_t i = 0; i < t->count; i++) {
         const column *c = &t->columns[i];
         const double v = (double)(si[i] / c->scale);
@@ -271,18 +364,11 @@ void table_row(table *t, const long double *si) {
             print_json_string(to, c->name);
             putc(':', to);
             json_number(to, si[i]);
-        } else if (t->format == FORMAT_CSV) {
+        } else {
             if (i)
                 putc(',', to);
             if (isfinite(v))
                 put_number(to, 0, 17, v);
-        } else {
-            if (i)
-                fwrite("  ", 1, 2, to);
-            if (isfinite(v))
-                put_number(to, t->width[i], t->set->digits, v);
-            else
-                fprintf(to, "%*s", t->width[i], "");
         }
     }
     if (t->format == FORMAT_JSON)
@@ -293,21 +379,35 @@ void table_row(table *t, const long double *si) {
 /* ---- text -------------------------------------------------------------------------------------- */
 
 bool text_begin(text_out *t, const settings *set, FILE *out) {
-    *t = (text_out){.out = out, .to = out};
-    if (set->format != FORMAT_JSON)
+    progress_wipe();
+    *t = (text_out){.set = set, .out = out, .to = out};
+    if (set->format != FORMAT_JSON && !(set->pages && set->pager != PAGER_OFF))
         return true;
     t->to = open_memstream(&t->buffer, &t->size);
     return t->to != NULL;
 }
 
+/* A recorder has it either way. */
+static void show_text(const text_out *t) {
+    const bool page = t->set->pager == PAGER_ON || pager_needed(t->buffer);
+    fflush(t->out);
+    if (page && pager_show(t->buffer))
+        record_aside(t->out, t->buffer);
+    else
+        fputs(t->buffer, t->out);
+}
+
 bool text_end(text_out *t) {
+    progress_wipe();
     if (t->to == t->out)
         return true;
     bool ok = fclose(t->to) == 0;
-    if (ok && t->size > 0) {
+    if (ok && t->size > 0 && t->set->format == FORMAT_JSON) {
         fputs("{\"text\":", t->out);
         print_json_string(t->out, t->buffer);
         fputs("}\n", t->out);
+    } else if (ok && t->size > 0) {
+        show_text(t);
     }
     free(t->buffer);
     return ok;

@@ -31,11 +31,23 @@ typedef struct table {
     int format;
     size_t count;
     const column *columns;
-    int width[COLUMNS]; /* of text */
+    /* of text: the first rows wait until units that suit them are chosen */
+    bool headed;
+    long double *held; /* rows of count values, and 1 where a blank line comes before */
+    size_t rows;
+    bool gap;
+    int width[COLUMNS];
+    long double scale[COLUMNS];
 } table;
 
 void table_begin(table *t);
 void table_row(table *t, const long double *si);
+/* Will the next row be written, not held? */
+bool table_shows_next(const table *t);
+/* A blank line before the next row, in text. */
+void table_gap(table *t);
+/* What still waits goes out; ok: else it is dropped. */
+void table_end(table *t, bool ok);
 
 /* A line `name = value unit`, or its CSV or JSON form. One statement prints count of them. */
 void print_values(const settings *set, FILE *to, const column *columns, const long double *si, size_t count);
@@ -49,8 +61,9 @@ void format_exact(const settings *set, value v, char *buf, size_t size);
 /* The text as a JSON string, quotation marks included; bytes that are no UTF-8 become U+FFFD. */
 void print_json_string(FILE *to, const char *text);
 
-/* Text on its way out: as it is, or as one JSON object. */
+/* Text on its way out: as it is, as one JSON object, or at a terminal by the pager. */
 typedef struct text_out {
+    const settings *set;
     FILE *out, *to; /* write to `to` */
     char *buffer;
     size_t size;

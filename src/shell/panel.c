@@ -10,6 +10,7 @@
 #include "shell/figures.h"
 #include "shell/looks.h"
 #include "shell/map.h"
+#include "shell/progress.h"
 
 enum {
     PLOTTED = 8,
@@ -159,6 +160,7 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
                        const long double *values) {
     panel_job *job = context;
     const size_t at = curve * job->each;
+    progress_pulse();
     const double abscissa = (double)(job->against ? values[job->count] : x);
     if (at >= job->p->count && !add_curve(job, curve))
         return false;

@@ -6,6 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "shell/figures.h"
 #include "shell/panel.h"
 #include "shell/target.h"
 #include "shell/typeset.h"
@@ -15,7 +16,7 @@
 static void terminal_size(const shell *sh, int *w, int *h) {
     struct winsize size;
     *w = 79, *h = 24;
-    if (sh->out == stdout && isatty(STDOUT_FILENO) && !ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) &&
+    if (shell_on_terminal(sh) && !ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) &&
         size.ws_col >= 20 && size.ws_row >= 8) {
         *w = size.ws_col - 1;
         *h = size.ws_row - 2; /* the prompt and the command stay in sight */
@@ -26,7 +27,7 @@ static void terminal_size(const shell *sh, int *w, int *h) {
 static bool begin_target(shell *sh, const char *file, text_out *text, plot_target *to, calc_error *error) {
     if (!text_begin(text, &sh->set, sh->out))
         return calc_no_memory(error);
-    const bool terminal = text->to == stdout && isatty(STDOUT_FILENO);
+    const bool terminal = text->to == sh->out && shell_on_terminal(sh);
     *to = (plot_target){.file = file,
                         .out = text->to,
                         .terminal = (plot_terminal)sh->set.plot_terminal,
@@ -56,6 +57,10 @@ static bool end_target(shell *sh, const char *file, text_out *text, const file_r
 }
 
 static bool draw(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
+    if (sh->replaying && !file) {
+        fprintf(sh->out, "%c\n", MARK_DRAWING);
+        return true;
+    }
     char error[CALC_ERROR_TEXT - 8];
     file_report written;
     text_out text;
@@ -109,6 +114,18 @@ static bool read_end(shell *sh, lexer *lx, unsigned *frames) {
     return at_end(lx);
 }
 
+/* Neither a figure nor a range: a figure may have been misspelt. */
+static bool no_figure(lexer *lx) {
+    char word[LEX_NAME];
+    const char *near = NULL;
+    if (lx->kind == T_NAME && !name_taken(lx->text + lx->at, lx->len)) {
+        lex_word(lx, word);
+        near = suggest(word, figure_name);
+    }
+    return near ? lex_fail(lx, "there is no figure '%s': did you mean %s?", word, near)
+                : lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI");
+}
+
 bool do_plot(shell *sh, lexer *lx, const command *self) {
     char file[ARG_FILE_NAME];
     plot_figure f;
@@ -119,7 +136,7 @@ bool do_plot(shell *sh, lexer *lx, const command *self) {
         return false;
     plot_figure_init(&f);
     if (!found && !panel_is_named(lx))
-        ok = lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI");
+        ok = no_figure(lx);
     ok = ok && find_file(lx, file) && draw_panels(sh, lx, &f, NULL) && read_end(sh, lx, NULL) &&
          draw(sh, lx, &f, *file ? file : NULL);
     plot_figure_free(&f);

@@ -8,6 +8,7 @@
 
 #include "shell/command.h"
 #include "shell/lines.h"
+#include "shell/record.h"
 
 static void read_startup(shell *sh) {
     const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
@@ -26,6 +27,7 @@ static void read_startup(shell *sh) {
 typedef struct typed {
     char *text, *next;
     bool transcript; /* some of its lines begin with a prompt: the others are answers */
+    bool shows;      /* its lines one by one, as if typed */
     size_t answers;  /* left out */
 } typed;
 
@@ -54,6 +56,7 @@ static const char *next_line(typed *t, const char *prompt, bool continued, size_
                 return NULL;
             t->next = t->text;
             t->transcript = is_transcript(t->text);
+            t->shows = strchr(t->text, '\n') && prompt_erase(t->text);
         }
         const char *line = t->next;
         *len = strcspn(line, "\n");
@@ -61,8 +64,11 @@ static const char *next_line(typed *t, const char *prompt, bool continued, size_
         const char *text = strip_prompt(line, len);
         while (*len > 0 && text[*len - 1] == '\r')
             --*len;
-        if (text != line || !t->transcript || continued)
+        if (text != line || !t->transcript || continued) {
+            if (t->shows)
+                printf("%s%.*s\n", prompt, (int)*len, text);
             return text;
+        }
         t->answers += *len > 0;
         if (!t->next) {
             *len = 0;
@@ -111,7 +117,7 @@ static void hint_comma(shell *sh, const char *text, size_t len) {
         while (word < end && text[word] >= 'a' && text[word] <= 'z')
             word++;
         const char *comma = command_find(text + i, word - i) ? NULL : decimal_comma(text + i, end - i);
-        if (comma)
+        if (comma && shell_aside(sh, sh->err))
             shell_note(sh, "the comma in %.3s parts two values: write %c.%c for one", comma - 1, comma[-1],
                        comma[1]);
         if (end < len && text[end] == '#')
@@ -129,27 +135,39 @@ static void run_system(shell *sh, const char *line) {
         shell_note(sh, "the command ended with status %d", status > 255 ? status / 256 : status);
 }
 
+bool shell_special(shell *sh, const source *from, const char *text) {
+    char help[256];
+    text += strspn(text, " \t\n");
+    record_line(sh, text, strlen(text));
+    hint_comma(sh, text, strlen(text));
+    if (*text != '!' && *text != '?')
+        return false;
+    if (*text == '!' && sh->replaying) { /* what it wrote went past the session */
+        fprintf(sh->out, "%c\n", MARK_DRAWING);
+    } else if (*text == '!') {
+        run_system(sh, text + 1);
+    } else {
+        snprintf(help, sizeof help, "help %.240s", text + 1);
+        shell_line(sh, from, help, strlen(help), 1);
+    }
+    return true;
+}
+
 static void run_line(shell *sh, const char *line) {
     static const source from = {NULL, true};
     const char *text = line + strspn(line, " \t\n");
     if (!*text)
         return;
     prompt_keep(text); /* before it runs: a crash must not lose it */
-    if (*text == '!') {
-        run_system(sh, text + 1);
-    } else if (*text == '?') {
-        char help[256];
-        snprintf(help, sizeof help, "help %.240s", text + 1);
-        shell_line(sh, &from, help, strlen(help), 1);
-    } else {
-        hint_comma(sh, text, strlen(text));
+    typed_keep(sh, text);
+    if (!shell_special(sh, &from, text))
         shell_line(sh, &from, text, strlen(text), 1);
-    }
 }
 
 int shell_prompt(shell *sh, bool quiet, bool read_rc) {
     typed waiting = {.text = NULL};
     sh->interactive = true;
+    sh->set.pages = isatty(STDOUT_FILENO);
     prompt_begin(sh);
     if (read_rc)
         read_startup(sh);
@@ -171,7 +189,8 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
             break;
         }
         if (waiting.answers > 0 && !waiting.next) {
-            shell_note(sh, "%zu pasted lines without a prompt were taken for answers", waiting.answers);
+            shell_note(sh, PASTED "%zu line%s without a prompt taken for answers", waiting.answers,
+                       waiting.answers == 1 ? "" : "s");
             waiting.answers = 0;
         }
         run_line(sh, line);

@@ -24,6 +24,11 @@ char *prompt_line(const char *text) {
     return line;
 }
 
+bool prompt_erase(const char *text) {
+    (void)text;
+    return false;
+}
+
 void prompt_dropped(void) {
 }
 

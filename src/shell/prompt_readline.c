@@ -237,6 +237,40 @@ char *prompt_line(const char *text) {
     return line;
 }
 
+/* Rows that the editor took to show it: the prompt, and every line from the left edge on. */
+static int rows_of(const char *text, int columns) {
+    enum { PROMPT = 6 };
+    int rows = 0, width = PROMPT;
+    for (;; text++) {
+        if (*text && *text != '\n') {
+            width += ((unsigned char)*text & 0xc0) != 0x80;
+            continue;
+        }
+        if (!*text && width == 0 && rows > 0) /* an empty last one is not gone past */
+            return rows;
+        rows += 1 + (width > 0 ? (width - 1) / columns : 0);
+        width = 0;
+        if (!*text)
+            return rows;
+    }
+}
+
+bool prompt_erase(const char *text) {
+    int high, wide;
+    const char *up = rl_get_termcap("up"); /* readline knows no capability to clear downwards */
+    rl_get_screen_size(&high, &wide);
+    if (!up || !*up || wide < 1 || strchr(text, '\t'))
+        return false;
+    const int rows = rows_of(text, wide);
+    if (rows >= high) /* a part has left the screen */
+        return false;
+    for (int i = 0; i < rows; i++)
+        fputs(up, rl_outstream);
+    fputs("\033[J", rl_outstream);
+    fflush(rl_outstream);
+    return true;
+}
+
 void prompt_dropped(void) {
     rl_callback_sigcleanup();
 }

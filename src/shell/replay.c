@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A transcript is a test: lines after `fret> ` are run, what follows each must come out again. */
-#include <errno.h>
+/* A transcript is a test: lines after `fret> ` are run, what follows each must come out again. A copy of a terminal is
+ * one too: what depends on who types, on the terminal and on the clock may be there or not. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "shell/shell.h"
+#include "shell/lines.h"
+#include "shell/record.h"
+#include "shell/output.h"
+#include "shell/typeset.h"
 
-static const char prompt[] = "fret> ";
+/* ---- lines ------------------------------------------------------------------------------------- */
 
 static bool starts_number(const char *s) {
     return (*s >= '0' && *s <= '9') || (*s == '.' && s[1] >= '0' && s[1] <= '9');
@@ -30,7 +33,7 @@ static double last_place(const char *s, const char *end) {
 }
 
 /* Equal, but for numbers that agree to the digits wanted, or within the tolerance. */
-static bool same(const char *want, const char *got, double tolerance) {
+static bool same_plainly(const char *want, const char *got, double tolerance) {
     while (*want && *got) {
         if (starts_number(want) && starts_number(got)) {
             char *we, *ge;
@@ -46,42 +49,94 @@ static bool same(const char *want, const char *got, double tolerance) {
     return *want == *got;
 }
 
-/* The next line of a text, without its end; NULL at the end. */
-static char *next_line(char **text) {
-    char *line = *text;
-    if (!line || !*line)
-        return NULL;
-    char *end = strchr(line, '\n');
-    *text = end ? end + 1 : line + strlen(line);
-    if (end)
-        *end = 0;
-    for (size_t n = strlen(line); n && (line[n - 1] == ' ' || line[n - 1] == '\r'); n--)
-        line[n - 1] = 0;
-    return line;
+/* Past `FILE:LINE:COLUMN: ` of an error: the same statement has another place in a replay. */
+static const char *without_place(const char *line) {
+    const char *error = strstr(line, ": error: ");
+    const char *p = error;
+    for (int colons = 0; p && p > line && colons < 2; p--)
+        if (p[-1] == ':')
+            colons++;
+        else if (p[-1] < '0' || p[-1] > '9')
+            return line;
+    return error && p > line ? error + 2 : line;
 }
 
-/* Compares line by line; trailing empty lines do not count. */
-static bool compare(char *want, char *got, double tolerance) {
-    for (;;) {
-        char *w = next_line(&want), *g = next_line(&got);
-        while (!g && w && !*w)
-            w = next_line(&want);
-        while (!w && g && !*g)
-            g = next_line(&got);
-        if (!w && !g)
-            return true;
-        if (!w || !g || !same(w, g, tolerance))
+/* Formulas may have been typeset in another locale. */
+static bool same(const char *want, const char *got, double tolerance) {
+    enum { FORMULA = 600 };
+    char set[2][FORMULA];
+    if (same_plainly(want, got, tolerance) || same_plainly(without_place(want), without_place(got), tolerance))
+        return true;
+    if (strlen(want) >= FORMULA / 3 || strlen(got) >= FORMULA / 3)
+        return false;
+    typeset(want, set[0], FORMULA);
+    typeset(got, set[1], FORMULA);
+    return same_plainly(set[0], set[1], tolerance);
+}
+
+/* The end of the line without what a terminal leaves there. */
+static size_t line_length(const char *line) {
+    size_t n = strcspn(line, "\n");
+    while (n > 0 && (line[n - 1] == ' ' || line[n - 1] == '\r'))
+        n--;
+    return n;
+}
+
+static const char *line_after(const char *line) {
+    line += strcspn(line, "\n");
+    return *line ? line + 1 : line;
+}
+
+static bool same_lines(const char *want, const char *got, double tolerance) {
+    char *w = strndup(want, line_length(want)), *g = strndup(got, line_length(got));
+    const bool ok = w && g && same(w, g, tolerance);
+    free(w);
+    free(g);
+    return ok;
+}
+
+static bool is_blank(const char *text) {
+    return strspn(text, " \r\n") == strlen(text);
+}
+
+static bool begins(const char *line, const char *words) {
+    return !strncmp(line, words, strlen(words));
+}
+
+/* What two runs tell differently: times, and whether a file was there before. */
+static bool is_passing(const char *line) {
+    return begins(line, "time: ") || begins(line, "wrote ") || begins(line, "overwrote ") || begins(line, PASTED);
+}
+
+/* Compares line by line; empty lines at the end do not count. */
+static bool compare(const char *want, const char *got, double tolerance) {
+    while (*want || *got) {
+        if (is_passing(want)) {
+            want = line_after(want);
+        } else if (is_passing(got)) {
+            got = line_after(got);
+        } else if (*got == MARK_ASIDE) {
+            if (*want && same_lines(want, got + 1, tolerance))
+                want = line_after(want);
+            got = line_after(got);
+        } else if (*got == MARK_DRAWING) {
+            const char *rest = line_after(got);
+            while (*want && !compare(want, rest, tolerance))
+                want = line_after(want);
+            got = rest;
+        } else if (!*got || !*want) {
+            return is_blank(want) && (is_blank(got) || !*got);
+        } else if (same_lines(want, got, tolerance)) {
+            want = line_after(want);
+            got = line_after(got);
+        } else {
             return false;
+        }
     }
+    return true;
 }
 
-static void show(FILE *out, char mark, const char *text) {
-    while (*text) {
-        size_t n = strcspn(text, "\n");
-        fprintf(out, "%c %.*s\n", mark, (int)n, text);
-        text += n + (text[n] == '\n');
-    }
-}
+/* ---- a statement ------------------------------------------------------------------------------- */
 
 typedef struct text {
     char *p;
@@ -99,90 +154,164 @@ static bool append(text *t, const char *line, size_t n) {
     return true;
 }
 
+static void empty(text *t) {
+    t->len = 0;
+    if (t->p)
+        *t->p = 0;
+}
+
 typedef struct replay {
-    FILE *out, *err;
+    FILE *out;
     double tolerance;
     const char *path;
     size_t passed, failed;
+    shell sh;
+    text statement, want;
+    size_t at;      /* line of the statement; 0: none yet */
+    size_t prompts; /* in what it wrote that are still to come in the transcript: a demo shows some */
+    char *got;
 } replay;
 
-static bool check(replay *r, shell *sh, const char *statement, size_t line, const text *want) {
-    char *got = NULL;
-    size_t got_len = 0;
-    FILE *to = open_memstream(&got, &got_len);
+static void show(FILE *out, char mark, const char *line) {
+    for (; *line; line = line_after(line)) {
+        const bool marked = *line == MARK_ASIDE || *line == MARK_DRAWING;
+        if (!marked)
+            fprintf(out, "%c %.*s\n", mark, (int)strcspn(line, "\n"), line);
+    }
+}
+
+static size_t count_prompts(const char *line) {
+    size_t count = 0;
+    for (; *line; line = line_after(line)) {
+        size_t n = strcspn(line, "\n");
+        count += strip_prompt(line, &n) != line;
+    }
+    return count;
+}
+
+/* Runs the statement. False: out of memory. */
+static bool run(replay *r) {
+    size_t size = 0;
+    free(r->got);
+    r->got = NULL;
+    FILE *to = open_memstream(&r->got, &size);
     if (!to)
         return false;
-    sh->out = sh->err = to;
-    source from = {NULL, false};
-    sh->quit = false;
-    shell_line(sh, &from, statement, strlen(statement), line);
-    if (fclose(to)) {
-        free(got);
-        return false;
-    }
-    char *w = strdup(want->p ? want->p : ""), *g = strdup(got);
-    bool ok = w && g && compare(w, g, r->tolerance);
-    free(w);
-    free(g);
-    if (ok) {
+    const source from = {NULL, true};
+    r->sh.out = r->sh.err = to;
+    r->sh.quit = false;
+    if (!shell_special(&r->sh, &from, r->statement.p))
+        shell_line(&r->sh, &from, r->statement.p, r->statement.len, r->at);
+    const bool ok = fclose(to) == 0;
+    r->prompts = ok ? count_prompts(r->got) : 0;
+    return ok;
+}
+
+/* What follows the statement has been gathered. */
+static void judge(replay *r) {
+    const char *want = r->want.p ? r->want.p : "";
+    if (r->at == 0)
+        return;
+    if (compare(want, r->got, r->tolerance)) {
         r->passed++;
     } else {
         r->failed++;
-        fprintf(r->out, "%s:%zu: %s%s\n", r->path, line, prompt, statement);
-        show(r->out, '-', want->p ? want->p : "");
-        show(r->out, '+', got);
+        fprintf(r->out, "%s:%zu: fret> %s\n", r->path, r->at, r->statement.p);
+        show(r->out, '-', want);
+        show(r->out, '+', r->got);
     }
-    free(got);
+}
+
+/* ---- the transcript ---------------------------------------------------------------------------- */
+
+/* Adds a physical line of a statement; a mark of continuation becomes a blank, as it does where lines are typed. */
+static bool add_part(replay *r, const char *line, size_t n, bool *whole) {
+    *whole = !shell_continues(line, n);
+    if (r->statement.len > 0 && !append(&r->statement, "\n", 1))
+        return false;
+    if (!append(&r->statement, line, n))
+        return false;
+    if (!*whole)
+        *strrchr(r->statement.p, '\\') = ' ';
     return true;
 }
 
-int shell_replay(const char *path, double tolerance, FILE *out, FILE *err) {
-    FILE *in = strcmp(path, "-") ? shell_open(path) : stdin;
-    if (!in) {
-        fprintf(err, "error: cannot read %s: %s\n", path, strerror(errno));
-        return EXIT_ERROR;
+static bool take_line(replay *r, const file_in *in, bool *waiting) {
+    size_t n = in->length;
+    while (n > 0 && in->line[n - 1] == '\r')
+        n--;
+    const char *typed = strip_prompt(in->line, &n);
+    const bool prompt = typed != in->line, more = prompt && is_continuation(in->line, in->length);
+    bool whole = true;
+    if (more && *waiting) {
+        if (!add_part(r, typed, n, &whole))
+            return false;
+        *waiting = !whole;
+        return *waiting || run(r);
     }
-    replay r = {out, err, tolerance, path, 0, 0};
-    shell sh;
-    shell_init(&sh, out, err);
-    char *buf = NULL, *statement = NULL;
-    size_t room = 0, line = 0, at = 0;
-    text want = {NULL, 0};
-    bool ok = true;
-    ssize_t n;
-    while (ok && (n = getline(&buf, &room, in)) >= 0 && !shell_stop) {
-        line++;
-        if (strncmp(buf, prompt, sizeof prompt - 1)) {
-            ok = !statement || append(&want, buf, (size_t)n);
-            continue;
-        }
-        if (statement)
-            ok = check(&r, &sh, statement, at, &want);
-        free(statement);
-        buf[strcspn(buf, "\r\n")] = 0;
-        statement = strdup(buf + sizeof prompt - 1);
-        ok = ok && statement;
-        at = line;
-        want.len = 0;
-        if (want.p)
-            want.p[0] = 0;
+    if (!prompt || r->prompts > 0) {
+        r->prompts -= prompt;
+        return r->at == 0 || (append(&r->want, in->line, in->length) && append(&r->want, "\n", 1));
     }
-    if (ok && statement)
-        ok = check(&r, &sh, statement, at, &want);
+    if (*waiting && !run(r)) /* it was dropped, or is all there is */
+        return false;
+    judge(r);
+    r->at = (size_t)in->number;
+    empty(&r->statement);
+    empty(&r->want);
+    if (!add_part(r, typed, n, &whole))
+        return false;
+    *waiting = !whole;
+    return *waiting || run(r);
+}
+
+static bool take_lines(replay *r, file_in *in, char *error, size_t size) {
+    bool waiting = false, ok = true;
+    file_got got = FILE_GOT_END;
+    while (ok && (got = file_in_line(in, error, size)) == FILE_GOT_LINE)
+        ok = take_line(r, in, &waiting);
+    if (ok && waiting)
+        ok = run(r);
     if (!ok)
-        fprintf(err, "error: out of memory\n");
-    if (ok && r.passed + r.failed == 0) {
-        fprintf(err, "error: %s holds no lines that begin with `%s`\n", path, prompt);
+        snprintf(error, size, "out of memory");
+    else if (got != FILE_GOT_ERROR && !shell_stop)
+        judge(r);
+    if (ok && got == FILE_GOT_END && r->passed + r->failed == 0) {
+        snprintf(error, size, "%s holds no lines that begin with `fret> `", r->path);
         ok = false;
     }
+    return ok && got != FILE_GOT_ERROR;
+}
+
+int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, char *error, size_t size) {
+    static int nesting; /* a transcript may replay others */
+    enum { NESTING = 8 };
+    file_in in;
+    text_out t;
+    *error = 0;
+    if (nesting == NESTING)
+        snprintf(error, size, "transcripts are nested more than %d deep", NESTING);
+    if (nesting == NESTING || !(strcmp(path, "-") ? file_in_open(&in, path, &shell_stop, error, size)
+                                                  : file_in_take(&in, 0, "stdin", &shell_stop, error, size)))
+        return EXIT_ERROR;
+    replay r = {.tolerance = tolerance, .path = path};
+    shell_init(&r.sh, out, out);
+    r.sh.replaying = true;
+    bool ok = text_begin(&t, set, out);
+    r.out = ok ? t.to : out;
+    nesting++;
+    ok = ok && take_lines(&r, &in, error, size);
+    nesting--;
     if (ok)
-        fprintf(out, "%s: %zu passed, %zu failed\n", path, r.passed, r.failed);
-    sh.out = out, sh.err = err;
-    shell_free(&sh);
-    free(buf);
-    free(statement);
-    free(want.p);
-    if (in != stdin)
-        fclose(in);
+        fprintf(r.out, "%s: %zu passed, %zu failed\n", path, r.passed, r.failed);
+    text_end(&t);
+    if (!ok && !*error)
+        snprintf(error, size, "out of memory");
+    file_in_close(&in);
+    r.sh.out = r.sh.err = out;
+    shell_free(&r.sh);
+    free(r.statement.p);
+    free(r.want.p);
+    free(r.got);
     return shell_stop ? EXIT_INTERRUPTED : ok && !r.failed ? EXIT_OK : EXIT_ERROR;
 }

@@ -2,25 +2,29 @@
 /* Statements, lines and streams of them: dispatch, and the one place that reports errors. */
 #include "shell/shell.h"
 
-#include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "shell/command.h"
 #include "shell/expressions.h"
+#include "shell/lines.h"
+#include "shell/progress.h"
+#include "shell/record.h"
 
 volatile sig_atomic_t shell_stop;
 
 void shell_init(shell *sh, FILE *out, FILE *err) {
-    *sh = (shell){.out = out, .err = err};
-    sh->set = (settings){.digits = 6, .plot_timeout = 30};
+    *sh = (shell){.out = out, .err = err, .set = settings_initial};
     calc_init(&sh->calc, &shell_stop);
+    sh->calc.scene.pulse = progress_pulse;
 }
 
 void shell_free(shell *sh) {
+    record_end(sh);
+    typed_forget(sh);
     calc_free(&sh->calc);
     for (size_t i = 0; i < EXPRESSIONS; i++)
         expr_free(&sh->list[i]);
@@ -28,11 +32,22 @@ void shell_free(shell *sh) {
 
 void shell_note(shell *sh, const char *format, ...) {
     va_list args;
+    progress_wipe();
     fflush(sh->out);
     va_start(args, format);
     vfprintf(sh->err, format, args);
     va_end(args);
     fputc('\n', sh->err);
+}
+
+bool shell_aside(const shell *sh, FILE *to) {
+    if (sh->replaying)
+        putc(MARK_ASIDE, to);
+    return sh->replaying || sh->interactive;
+}
+
+bool shell_on_terminal(const shell *sh) {
+    return (sh->out == stdout || record_shows(sh)) && isatty(STDOUT_FILENO);
 }
 
 /* ---- statements -------------------------------------------------------------------------------- */
@@ -50,6 +65,7 @@ static bool print_statement(shell *sh, lexer *lx) {
         sh->calc.ans = ok ? v : sh->calc.ans;
         sh->calc.has_ans = sh->calc.has_ans || ok;
     }
+    progress_wipe();
     if (ok)
         print_values(&sh->set, sh->out, columns, si, count);
     columns_free(columns, count);
@@ -172,7 +188,9 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     if (lx.kind == T_END)
         return true;
     undo_begin(&sh->calc);
+    progress_begin(sh, text + lx.at, word_at(&lx));
     bool ok = dispatch(sh, &lx);
+    progress_end();
     undo_end(&sh->calc);
     return ok;
 }
@@ -209,7 +227,8 @@ bool shell_continues(const char *text, size_t len) {
 
 enum { SHOWN = 100 }; /* of a long line, around the place */
 
-static void show_place(FILE *to, const char *text, size_t len, size_t at, size_t width) {
+static void show_place(const shell *sh, bool aside, const char *text, size_t len, size_t at, size_t width) {
+    FILE *to = sh->err;
     size_t begin = 0, end = len;
     if (len > SHOWN) {
         begin = at > SHOWN / 2 ? at - SHOWN / 2 : 0;
@@ -217,12 +236,17 @@ static void show_place(FILE *to, const char *text, size_t len, size_t at, size_t
     }
     while (begin < at && ((unsigned char)text[begin] & 0xc0) == 0x80)
         begin++;
+    if (aside)
+        shell_aside(sh, to);
     fprintf(to, "  %s", begin ? "..." : "");
     for (size_t i = begin; i < end; i++) {
         unsigned char c = (unsigned char)text[i];
         fputc(c == '\t' || c < 0x20 || c == 0x7f ? (c == '\t' ? ' ' : '?') : c, to);
     }
-    fprintf(to, "%s\n  %s", end < len ? "..." : "", begin ? "   " : "");
+    fprintf(to, "%s\n", end < len ? "..." : "");
+    if (aside)
+        shell_aside(sh, to);
+    fprintf(to, "  %s", begin ? "   " : "");
     for (size_t i = begin; i < at && i < end; i++)
         if (((unsigned char)text[i] & 0xc0) != 0x80)
             fputc(' ', to);
@@ -237,11 +261,6 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
                          const calc_error *error) {
     fflush(sh->out);
     const char *red = sh->set.color ? "\033[1;31m" : "", *plain = sh->set.color ? "\033[0m" : "";
-    if (!from->name) {
-        fprintf(sh->err, "%serror:%s %s\n", red, plain, error->text);
-        fflush(sh->err);
-        return;
-    }
     /* the physical line within a continued one */
     size_t begin = 0;
     for (size_t i = 0; i < at && i < len; i++)
@@ -252,9 +271,12 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
     size_t end = begin;
     while (end < len && text[end] != '\n')
         end++;
-    fprintf(sh->err, "%s:%zu:%zu: %serror:%s %s\n", from->name, line, at - begin + 1, red, plain,
-            error->text);
-    show_place(sh->err, text + begin, end - begin, at - begin, error->len ? error->len : 1);
+    if (from->name)
+        fprintf(sh->err, "%s:%zu:%zu: ", from->name, line, at - begin + 1);
+    fprintf(sh->err, "%serror:%s %s\n", red, plain, error->text);
+    const size_t width = error->len ? error->len : 1;
+    if (from->name || sh->replaying || (sh->interactive && width < end - begin))
+        show_place(sh, !from->name, text + begin, end - begin, at - begin, width);
     fflush(sh->err);
 }
 
@@ -266,6 +288,8 @@ static double seconds(void) {
 
 static void report_time(shell *sh, double t) {
     fflush(sh->out);
+    if (sh->replaying) /* no two runs agree */
+        return;
     fprintf(sh->err, "time: %.3g ms", 1e3 * t);
     const char *before = " (";
     for (model_id i = 0; i < MODELS; i++)
@@ -305,87 +329,71 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
     return ok;
 }
 
-/* A `\` at the end of a line becomes a blank; the line break stays, to count lines by. */
-static bool read_logical(FILE *in, char **buf, size_t *room, size_t *len, size_t *lines) {
-    *len = 0;
-    *lines = 0;
-    char *part = NULL;
-    size_t part_room = 0;
-    for (;;) {
-        char **into = *lines ? &part : buf;
-        ssize_t n = getline(into, *lines ? &part_room : room, in);
-        if (n < 0)
-            break;
-        ++*lines;
-        if (*lines == 1) {
-            *len = (size_t)n;
-        } else {
-            if (*len + (size_t)n + 1 > *room) {
-                char *grown = realloc(*buf, *len + (size_t)n + 1);
-                if (!grown)
-                    break;
-                *buf = grown;
-                *room = *len + (size_t)n + 1;
-            }
-            memcpy(*buf + *len, part, (size_t)n + 1);
-            *len += (size_t)n;
-        }
-        if (!shell_continues(*buf + (*len - (size_t)n), (size_t)n))
-            break;
-        for (size_t i = *len; i-- > 0;)
-            if ((*buf)[i] == '\\') {
-                (*buf)[i] = ' ';
-                break;
-            }
-    }
-    free(part);
-    return *lines > 0;
+/* ---- streams ----------------------------------------------------------------------------------- */
+
+/* The place of a continuation mark. */
+static size_t mark_of(const char *line, size_t len) {
+    size_t at = len;
+    if (shell_continues(line, len))
+        while (at > 0 && line[--at] != '\\')
+            ;
+    return at;
 }
 
-int shell_stream(shell *sh, FILE *in, const char *name, bool keep_going) {
-    source from = {name, keep_going};
-    char *buf = NULL;
-    size_t room = 0, len, lines, line = 1;
+int shell_stream(shell *sh, file_in *in, bool keep_going) {
+    const source from = {in->name, keep_going};
+    char error[CALC_ERROR_TEXT];
     int status = EXIT_OK;
-    while (!sh->quit && read_logical(in, &buf, &room, &len, &lines)) {
-        size_t mark =
-            line == 1 && len >= 3 && !memcmp(buf, "\xef\xbb\xbf", 3) ? 3 : 0; /* editors' byte-order mark */
-        if (!shell_line(sh, &from, buf + mark, len - mark, line))
+    file_got got = FILE_GOT_LINE;
+    while (!sh->quit && (got = file_in_logical(in, mark_of, error, sizeof error)) == FILE_GOT_LINE) {
+        size_t mark = in->number == 1 && in->length >= 3 && !memcmp(in->line, "\xef\xbb\xbf", 3)
+                          ? 3
+                          : 0; /* editors' byte-order mark */
+        if (shell_continues(in->line, in->length)) /* with nothing behind it */
+            *strrchr(in->line, '\\') = ' ';
+        blank_prompts(in->line + mark, in->length - mark);
+        if (sh->nesting == 0)
+            record_line(sh, in->line + mark, in->length - mark);
+        if (!shell_line(sh, &from, in->line + mark, in->length - mark, (size_t)in->number))
             status = EXIT_ERROR;
         if (shell_stop || (status && !keep_going) || ferror(sh->out))
             break;
-        line += lines;
     }
-    if (shell_stop) {
+    if (shell_stop || got == FILE_GOT_STOP) {
         status = EXIT_INTERRUPTED;
-    } else if (ferror(in)) {
-        fprintf(sh->err, "error: cannot read %s: %s\n", name, strerror(errno));
+    } else if (got == FILE_GOT_ERROR) {
+        fprintf(sh->err, "error: %s\n", error);
         status = EXIT_ERROR;
     }
-    free(buf);
+    file_in_close(in);
     return status;
 }
 
-/* fopen succeeds on a directory; reading it then fails late. */
-FILE *shell_open(const char *path) {
-    FILE *in = fopen(path, "r");
-    struct stat info;
-    if (in && !fstat(fileno(in), &info) && S_ISDIR(info.st_mode)) {
-        fclose(in);
-        errno = EISDIR;
-        return NULL;
-    }
-    return in;
+static int run_opened(shell *sh, bool ok, file_in *in, const char *error, bool keep_going) {
+    if (ok)
+        return shell_stream(sh, in, keep_going);
+    fflush(sh->out);
+    fprintf(sh->err, "error: %s\n", error);
+    return EXIT_ERROR;
 }
 
 int shell_file(shell *sh, const char *path, bool keep_going) {
-    FILE *in = shell_open(path);
-    if (!in) {
-        fflush(sh->out);
-        fprintf(sh->err, "error: cannot read %s: %s\n", path, strerror(errno));
-        return EXIT_ERROR;
-    }
-    int status = shell_stream(sh, in, path, keep_going);
-    fclose(in);
-    return status;
+    char error[CALC_ERROR_TEXT];
+    file_in in;
+    const bool ok = file_in_open(&in, path, &shell_stop, error, sizeof error);
+    return run_opened(sh, ok, &in, error, keep_going);
+}
+
+int shell_text(shell *sh, const char *text, const char *name, bool keep_going) {
+    char error[CALC_ERROR_TEXT];
+    file_in in;
+    const bool ok = file_in_text(&in, text, name, &shell_stop, error, sizeof error);
+    return run_opened(sh, ok, &in, error, keep_going);
+}
+
+int shell_stdin(shell *sh, bool keep_going) {
+    char error[CALC_ERROR_TEXT];
+    file_in in;
+    const bool ok = file_in_take(&in, STDIN_FILENO, "stdin", &shell_stop, error, sizeof error);
+    return run_opened(sh, ok, &in, error, keep_going);
 }

@@ -168,17 +168,19 @@ static bool read_sum(shell *sh, lexer *lx, fret_gap *sum) {
     return at_end(lx);
 }
 
-/* Columns r and f, in either order. */
-static struct fret_table *table_of(const csv *data, const char *name, calc_error *error) {
+/* Columns r and f, among others in any order. */
+static struct fret_table *table_of(const csv *data, calc_error *error) {
     struct fret_table *gap = NULL;
-    const int r = !strcmp(data->name[1], "r");
-    if (strcmp(data->name[r], "r") || strcmp(data->name[1 - r], "f")) {
-        calc_fail(error, 0, 0, "%s: the columns must be named r and f, not %s and %s", name, data->name[0],
-                  data->name[1]);
-    } else if (!dim_equal(data->d[0], DIM_LENGTH) || !dim_equal(data->d[1], DIM_LENGTH)) {
-        calc_fail(error, 0, 0, "%s: r and f are lengths and need units in the header, such as r [mm],f [um]", name);
+    const csv_values *r = csv_column(data, "r", error), *f = r ? csv_column(data, "f", error) : NULL;
+    if (!f)
+        return NULL;
+    if (!dim_equal(r->d, DIM_LENGTH) || !dim_equal(f->d, DIM_LENGTH)) {
+        calc_fail(error, 0, 0, "%s: r and f are lengths and need units in the header, such as r [mm],f [um]", data->path);
+    } else if (r->v[0] == 0 && f->v[0] != 0) {
+        calc_fail(error, 0, 0, "%s:%zu: f(0) = %.6g m must be 0: the bodies touch at r = 0 before they are pressed",
+                  data->path, data->line[0], f->v[0]);
     } else {
-        fret_status st = fret_table_make(data->column[r], data->column[1 - r], data->count, &gap);
+        fret_status st = fret_table_make(r->v, f->v, data->rows, &gap);
         if (!calc_status(error, &st))
             gap = NULL;
     }
@@ -191,15 +193,15 @@ static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
     csv data;
     if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
         return false;
-    bool ok = csv_read(name, &data, lx->error);
+    bool ok = csv_read(name, &shell_stop, &data, lx->error);
     if (ok) {
-        struct fret_table *gap = table_of(&data, name, lx->error);
+        struct fret_table *gap = table_of(&data, lx->error);
         e->table = gap ? shared_table_make(gap, name) : NULL;
         if (gap && !e->table)
             calc_no_memory(lx->error);
         ok = e->table && scene_edit(&sh->calc.scene, apply, e, lx->error); /* which takes the table over */
-        csv_free(&data);
     }
+    csv_free(&data);
     lx->error->at = at;
     lx->error->len = strlen(name);
     return ok;

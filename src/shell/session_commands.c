@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Commands on the session itself: scripts, the demo, the end. */
-#include <errno.h>
 #include <string.h>
 
 #include "shell/command.h"
@@ -14,13 +13,13 @@ bool do_source(shell *sh, lexer *lx, const command *self) {
         return false;
     if (sh->nesting == NESTING)
         return calc_fail(lx->error, v[0].value_at, 1, "scripts are nested more than %d deep", NESTING);
-    FILE *in = shell_open(name);
-    if (!in)
-        return calc_fail(lx->error, v[0].value_at, v[0].value_len, "cannot read %s: %s", name, strerror(errno));
+    file_in in;
+    char error[CALC_ERROR_TEXT - 8];
+    if (!file_in_open(&in, name, &shell_stop, error, sizeof error))
+        return calc_fail(lx->error, v[0].value_at, v[0].value_len, "%s", error);
     sh->nesting++;
-    int status = shell_stream(sh, in, name, false);
+    int status = shell_stream(sh, &in, false);
     sh->nesting--;
-    fclose(in);
     return status == EXIT_OK;
 }
 

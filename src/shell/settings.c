@@ -93,6 +93,8 @@ static void show_model(const calc *c, const settings *set, FILE *to) {
         fprintf(to, " %u", s->springs);
 }
 
+const settings settings_initial = {.digits = 6, .plot_timeout = 30};
+
 /* ---- the table --------------------------------------------------------------------------------- */
 
 static const char *const formats[] = {"text", "csv", "json", NULL},
@@ -120,6 +122,11 @@ static const setting rows[] = {
      .summary = "the time of each statement, and the models that answered",
      .words = switches,
      .at = offsetof(settings, timing)},
+    {.name = "pager",
+     .usage = "auto|on|off",
+     .summary = "show text by $PAGER; auto: what the terminal is too low for",
+     .words = reports,
+     .at = offsetof(settings, pager)},
     {.name = "model",
      .usage = "auto|closed|memory|springs N",
      .summary = "what answers for tangential loads; auto: the cheapest that is exact",
@@ -192,4 +199,11 @@ void setting_show(const setting *row, const calc *c, const settings *set, FILE *
     else
         fprintf(to, "%d", v);
     fputc('\n', to);
+}
+
+void settings_write(const calc *c, const settings *set, FILE *to) {
+    for (const setting *row = rows; row < rows + SETTINGS; row++)
+        if (row->show ? row->show == show_plot && set->plot_width
+                      : memcmp((const char *)set + row->at, (const char *)&settings_initial + row->at, sizeof(int)) != 0)
+            setting_show(row, c, set, to);
 }

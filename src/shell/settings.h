@@ -8,6 +8,7 @@
 #include "calc/calc.h"
 
 typedef enum output_format { FORMAT_TEXT, FORMAT_CSV, FORMAT_JSON } output_format;
+typedef enum pager_when { PAGER_AUTO, PAGER_OFF, PAGER_ON } pager_when;
 typedef enum report_when { REPORT_AUTO, REPORT_OFF, REPORT_ON } report_when;
 
 typedef struct settings {
@@ -17,6 +18,8 @@ typedef struct settings {
     int timing;
     bool color, color_out; /* of errors, of figures in the terminal */
     int plot_terminal;     /* plot_terminal of plot.h */
+    int pager;
+    bool pages; /* there is a terminal to page on */
     int plot_width, plot_height; /* 0: the terminal's, or the picture's default */
     double plot_timeout;
 } settings;
@@ -33,10 +36,14 @@ typedef struct setting {
     void (*show)(const calc *c, const settings *set, FILE *to);
 } setting;
 
+extern const settings settings_initial;
+
 const setting *setting_row(size_t i); /* NULL after the last */
 const char *setting_name(size_t i);
 /* `NAME VALUE` at the cursor; on error nothing has changed. */
 bool setting_read(calc *c, settings *set, lexer *lx);
+/* The settings that are not as they begin, but for the model, which belongs to the scene. */
+void settings_write(const calc *c, const settings *set, FILE *to);
 void setting_show(const setting *row, const calc *c, const settings *set, FILE *to);
 
 #endif

@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "calc/calc.h"
+#include "calc/file.h"
 #include "shell/settings.h"
 
 enum { EXIT_OK = 0, EXIT_ERROR = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
@@ -24,9 +25,12 @@ typedef struct shell {
     settings set;
     FILE *out, *err;
     bool interactive, quit, failed;
+    bool replaying;          /* a transcript: see shell_aside */
+    struct recorder *record; /* or NULL */
+    struct lines *typed;     /* at the prompt, for `save history`; or NULL */
     bool dissimilar;         /* the bodies are, and it has been said */
-    unsigned no_half_space;      /* likewise: 1 the contact is too wide, 2 the flanks are too steep */
-    int nesting;             /* of `source` */
+    unsigned no_half_space;  /* likewise: 1 the contact is too wide, 2 the flanks are too steep */
+    int nesting;             /* of `source` and `replay` */
     expr list[EXPRESSIONS];  /* of a print, table or plot statement, reused */
 } shell;
 
@@ -43,11 +47,11 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
  * of its first physical line. */
 bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line);
 
-/* Runs a stream to its end, or to the first error. Returns an exit status. */
-int shell_stream(shell *sh, FILE *in, const char *name, bool keep_going);
-/* fopen for reading that refuses a directory. */
-FILE *shell_open(const char *path);
+/* Runs a stream to its end, or to the first error, and closes it. Returns an exit status. */
+int shell_stream(shell *sh, file_in *in, bool keep_going);
 int shell_file(shell *sh, const char *path, bool keep_going);
+int shell_text(shell *sh, const char *text, const char *name, bool keep_going);
+int shell_stdin(shell *sh, bool keep_going);
 /* Does the line end in a continuation mark? */
 bool shell_continues(const char *text, size_t len);
 /* End of the statement that begins at i: a `;`, a comment or the end of the line. */
@@ -59,9 +63,22 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void shell_note(shell *sh, const char *format, ...);
 
+/* Is a line to be written that is for who types, and has no place in a script's output? In a replay it is, after a
+ * mark: a transcript may have it or not. */
+bool shell_aside(const shell *sh, FILE *to);
+/* Marks of replays, first bytes of a line: an aside, and a drawing, which depends on the terminal. */
+enum { MARK_ASIDE = 1, MARK_DRAWING };
+/* A note on what was pasted begins so. */
+#define PASTED "pasted: "
+/* Is standard output a terminal that shows what the session writes? */
+bool shell_on_terminal(const shell *sh);
+
 /* prompt.c: the interactive session. */
 int shell_prompt(shell *sh, bool quiet, bool read_rc);
-/* replay.c: runs a transcript and compares; returns an exit status. */
-int shell_replay(const char *path, double tolerance, FILE *out, FILE *err);
+/* replay.c: runs a transcript in a session of its own and compares, reports on `out`; returns an exit status. error:
+ * why the transcript could not be run; empty: it has been. */
+int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, char *error, size_t size);
+/* prompt.c: `?WORD` and `!COMMAND` as a line that a statement stands for; true: it was one of them, and has been run. */
+bool shell_special(shell *sh, const source *from, const char *text);
 
 #endif

@@ -11,7 +11,7 @@
 
 void help_units(FILE *to) {
     fputs("After a number, with or without a space (210 GPa, 0.3N/mm^2), and after `in`.\n"
-          "Those marked * take the prefixes n u \xc2\xb5 m k M G.\n",
+          "Those marked * take the prefixes n u \xc2\xb5 m k M G; c goes with m alone.\n",
           to);
     for (size_t i = 0; unit_name(i); i++)
         fprintf(to, "    %-5s%c  %s\n", unit_name(i), unit_prefixed(i) ? '*' : ' ', unit_meaning(i));

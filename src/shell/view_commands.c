@@ -6,6 +6,7 @@
 
 #include "shell/expressions.h"
 #include "shell/map.h"
+#include "shell/progress.h"
 #include "shell/target.h"
 
 /* ---- history ----------------------------------------------------------------------------------- */
@@ -38,6 +39,7 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
         w.see = history_row;
         w.context = &t;
         ok = scene_trace(&sh->calc.scene, &w, lx->error);
+        table_end(&t, ok);
     } else {
         calc_no_memory(lx->error);
     }
@@ -59,14 +61,17 @@ typedef struct table_job {
     long double second; /* the value of the second name of a grid, in the last row */
     bool begun, blocks;
     const char *name; /* where it goes, for messages */
+    bool screen;      /* rows that go there are progress enough */
+    size_t rows;
     calc_error *error;
 } table_job;
 
 static void begin_columns(table_job *job) {
     for (size_t i = 0; i < job->count; i++) {
         column *c = &job->columns[job->first + i];
+        c->d = job->known[i] ? job->d[i] : DIM_NONE;
         if (!c->chosen)
-            dim_unit(job->known[i] ? job->d[i] : DIM_NONE, c->unit, sizeof c->unit);
+            dim_unit(c->d, c->unit, sizeof c->unit);
     }
 }
 
@@ -84,13 +89,19 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     if (first && !begin(job))
         return false;
     if (job->blocks && !first && (curve != job->curve || (s->curves && s->value[curve] != job->second)))
-        putc('\n', job->t.to);
+        table_gap(&job->t);
     job->curve = curve;
     job->second = s->curves ? s->value[curve] : 0;
     row[0] = x;
     if (s->curves)
         row[1] = s->value[curve];
     memcpy(row + job->first, values, job->count * sizeof *row);
+    const size_t curves = s->curves ? s->curves : 1;
+    job->rows++;
+    if (job->screen && table_shows_next(&job->t))
+        progress_wipe();
+    else
+        progress_part((double)job->rows / (double)(curves * (s->steps + 1)));
     table_row(&job->t, row);
     /* a reader that has gone, or a full disk: no use in going on */
     return !ferror(job->t.to) || calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
@@ -222,11 +233,15 @@ static bool run_table(shell *sh, lexer *lx, const sweep *s, const grid *g, colum
                           .row = give_row,
                           .context = job,
                           .error = lx->error};
+    job->screen = to.to == sh->out && shell_on_terminal(sh);
     bool ok = own_columns(job, s, second) || calc_no_memory(lx->error);
     const bool square = g && to.format == FORMAT_TEXT && !to.blocks;
     ok = ok && (square ? run_matrix(sh, job, g, &sweeping)
                 : g    ? grid_run(g, &sweeping)
                        : sweep_run(s, &sweeping));
+    progress_wipe();
+    if (job->begun && !square)
+        table_end(&job->t, ok);
     if (ok)
         note_missing(sh, &sweeping);
     columns_free(job->columns, job->first);

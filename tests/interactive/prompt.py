@@ -12,13 +12,13 @@ SCENE = "material steel; geometry sphere R=10 mm; friction 0.4"
 
 
 class Session:
-    def __init__(self, tests, *args, **env):
+    def __init__(self, tests, *args, cwd=None, dimensions=(30, 100), **env):
         self.tests = tests
         self.state = env.get("XDG_STATE_HOME") or os.path.join(tests.dir, "state-%d" % time.monotonic_ns())
         env = {**tests.env, "TERM": "xterm", "INPUTRC": "/dev/null", "XDG_STATE_HOME": self.state,
                "XDG_CONFIG_HOME": os.path.join(tests.dir, "no-config"), **env}
-        self.child = pexpect.spawn(tests.fret, list(args), env=env, encoding="utf-8", timeout=40, cwd=tests.dir,
-                                   dimensions=(30, 100), codec_errors="replace")
+        self.child = pexpect.spawn(tests.fret, list(args), env=env, encoding="utf-8", timeout=40,
+                                   cwd=cwd or tests.dir, dimensions=dimensions, codec_errors="replace")
         self.child.delaybeforesend = 0.02
         self.banner = self.prompt()
 
@@ -59,7 +59,7 @@ def dialogue(tests):
     report = s.say("step Fx=20 N")
     tests.check("a step reports", "dx = 625.995 nm" in report, report)
     report = s.say("step Fx=50 N")
-    tests.check("gross slip is refused", report.endswith("gross slip; step by displacement (dx=...) to slide"), report)
+    tests.check("gross slip is refused", "gross slip; step by displacement (dx=...) to slide\n  step Fx=50 N\n          ^~~~" in report, report)
     report = s.say("plot loop")
     lines = report.splitlines()
     tests.check("a plot in the terminal", "dx [nm]" in report and len(lines) <= 30 and max(map(len, lines)) <= 100, report)
@@ -138,41 +138,6 @@ def interrupts(tests):
     tests.check("Ctrl-D leaves after interrupts", s.end() == 0)
 
 
-def completion(tests):
-    s = Session(tests)
-
-    def tab(typed, done):
-        s.child.send(typed + "\t")
-        try:
-            s.child.expect_exact(done, timeout=10)
-            ok = True
-        except pexpect.TIMEOUT:
-            ok = False
-        tests.check("Tab after `%s`" % typed, ok, clean(s.child.before or ""))
-        s.child.sendintr()
-        s.prompt()
-
-    s.say("wobble = 3")
-    tab("geom", "geometry ")
-    tab("geometry para", "paraboloid ")
-    tab("geometry flat-r", "flat-rounded")
-    tab("x = dxm", "dxmax")
-    tab("2*kap", "2*kappa")
-    tab("help apr", "apropos")
-    tab("wob", "wobble")
-    tab("set form", "format")
-    tab("1; fric", "friction")
-    with tests.file("7 * 6\n", ".fret") as path:
-        tab("source " + path[:-3], path)
-    s.child.send("c\t\t")
-    s.child.expect("c0")
-    s.prompt()  # drawn again below the list
-    s.child.sendintr()
-    s.prompt()
-    s.child.sendeof()
-    tests.check("completion leaves", s.end() == 0)
-
-
 def starting(tests):
     s = Session(tests, "--quiet")
     tests.check("--quiet", s.banner.strip() == "", s.banner)
@@ -207,10 +172,15 @@ def starting(tests):
     s.end()
 
 
-def run(tests):
+def each(tests, rooms):
+    """Side by side; one that waits in vain has failed."""
     def one(room):
         try:
             room(tests)
         except (pexpect.TIMEOUT, pexpect.EOF) as error:
             tests.check("the prompt: " + room.__name__, False, clean(str(error))[:3000])
-    tests.each([lambda room=room: one(room) for room in (dialogue, interrupts, completion, starting)])
+    tests.each([lambda room=room: one(room) for room in rooms])
+
+
+def run(tests):
+    each(tests, (dialogue, interrupts, starting))

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands that keep a session: save, record, and replay, which runs a kept one beside it. */
+#include <string.h>
+
+#include "shell/command.h"
+#include "shell/record.h"
+#include "shell/show.h"
+#include "shell/target.h"
+
+/* ---- save -------------------------------------------------------------------------------------- */
+
+bool do_save(shell *sh, lexer *lx, const command *self) {
+    char name[ARG_FILE_NAME], error[CALC_ERROR_TEXT - 8];
+    file_out file;
+    file_report report;
+    (void)self;
+    const bool history = lex_is(lx, "history") && lex_peek(lx) != T_END;
+    if (history)
+        lex_next(lx);
+    const size_t at = lx->at;
+    if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
+        return false;
+    const size_t len = lx->last - at;
+    if (history && sh->replaying)
+        return true;
+    if (history && !sh->typed)
+        return calc_fail(lx->error, at, len, "nothing has been typed here: a script is its own history");
+    if (!file_out_open(&file, name, &shell_stop, error, sizeof error))
+        return calc_fail(lx->error, at, len, "%s", error);
+    if (history)
+        typed_write(sh, file.to);
+    else
+        scene_write(&sh->calc, &sh->set, file.to, true);
+    if (!file_out_close(&file, true, &report, error, sizeof error))
+        return calc_fail(lx->error, at, len, "%s", error);
+    target_report(sh, name, &report);
+    return true;
+}
+
+/* ---- record and replay ------------------------------------------------------------------------- */
+
+bool do_record(shell *sh, lexer *lx, const command *self) {
+    char name[ARG_FILE_NAME], error[CALC_ERROR_TEXT - 8];
+    (void)self;
+    if (lex_accept(lx, "off"))
+        return at_end(lx) && (record_end(sh) || lex_fail(lx, "nothing is being recorded"));
+    const size_t at = lx->at;
+    if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
+        return false;
+    return record_begin(sh, name, error, sizeof error) || calc_fail(lx->error, at, lx->last - at, "%s", error);
+}
+
+bool do_replay(shell *sh, lexer *lx, const command *self) {
+    const arg_list list = command_args(self);
+    char name[ARG_FILE_NAME], error[CALC_ERROR_TEXT - 8];
+    arg_value v[ARGS];
+    if (!args_read(sh, lx, &list, v, name))
+        return false;
+    const int status = shell_replay(name, 0, &sh->set, sh->out, error, sizeof error);
+    if (status == EXIT_INTERRUPTED)
+        return calc_interrupted(lx->error);
+    if (status == EXIT_OK)
+        return true;
+    return *error ? calc_fail(lx->error, v[0].value_at, v[0].value_len, "%s", error)
+                  : calc_fail(lx->error, v[0].value_at, v[0].value_len, "%s does not come out again", name);
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One line on the terminal that tells how far a statement is that takes long. */
+#ifndef SHELL_PROGRESS_H
+#define SHELL_PROGRESS_H
+
+#include "shell/shell.h"
+
+/* Around every statement, named by its first `len` bytes; statements within statements belong to the outermost. Shown
+ * from half a second on, ten times a second, on standard error where that is a terminal. */
+void progress_begin(const shell *sh, const char *what, size_t len);
+void progress_end(void);
+
+/* How far it is, 0..1. */
+void progress_part(double part);
+/* It is still at work; for scenes. */
+void progress_pulse(void);
+/* In words, at once. */
+void progress_words(const char *words);
+/* Before anything is written. */
+void progress_wipe(void);
+
+#endif

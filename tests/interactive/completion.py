@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Tab offers, by position; pasting; the history of sessions side by side; recording at the prompt."""
+import os
+import time
+
+import pexpect
+
+from prompt import SCENE, Session, clean, each
+
+INPUTRC = """$if fret
+set show-all-if-ambiguous on
+set bell-style none
+set completion-query-items 0
+set page-completions off
+$endif
+"""
+
+# typed, then the words that must be offered, then one that must not (or None)
+OFFERED = (
+    ("plot l", "loop load", "length"),
+    ("material s", "steel silicon-nitride", "sphere"),
+    ("cycle FA=2 N ", "times steps FNA= phase=", "dxA="),
+    ("second r", "rigid rubber", "reset"),
+    ("a in ", "um mm cm inch", "Pa"),
+    ("press ", "FN= dz= a=", "Fx="),
+    ("set format ", "text csv json", "digits"),
+    ("set ", "format digits pager plot model", "steel"),
+    ("geometry file gap", "gap1.csv gap2.csv", None),
+    ("follow gap", "gap1.csv gap2.csv", None),
+    ("history to gap", "gap1.csv gap2.csv", None),
+    ("source \"gap", "gap1.csv gap2.csv", None),
+    ("table a for ", "FN= k= wobble=", "n="),
+    ("table a for FN = 1 N .. 2 ", "N kN lbf steps log with", "mm"),
+    ("table a for k = 0 .. 1 with ", "FN= mu=", "n="),
+    ("plot a for FN = 1 N .. 2 N over gap", "gap1.csv gap2.csv", None),
+    ("table a along ", "program cycle step", "press"),
+    ("help se", "second set", "secant"),
+    ("help p", "plot press paper paraboloid psi phase p", "program"),
+    ("geometry flat-", "flat-cone flat-paraboloid flat-rounded", "file"),
+    ("geometry flat-rounded ", "b= R=", "slope="),
+    ("step ", "Fx= dx= FN= dz= steps", "FA="),
+    ("2*wob", "wobble wobbly(", None),
+    ("set model ", "auto closed memory springs", "off"),
+)
+# typed, and the one way that it goes on
+DONE = (
+    ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("second ri", "gid "),
+    ("step dx=1 u", "m "), ("geometry flat-r", "ounded "), ("record o", "ff "), ("x = 3*kap", "pa "), ("?apr", "opos "),
+    ("reset ", "all "), ("1; fric", "tion "), ("dW at m", "u="), ("wobbl", "e"),
+)
+
+
+def offers(tests):
+    with open(os.path.join(tests.dir, "inputrc"), "w", encoding="ascii") as f:
+        f.write(INPUTRC)
+    here = os.path.join(tests.dir, "tab")
+    os.mkdir(here)
+    for name in ("gap1.csv", "gap2.csv"):
+        with open(os.path.join(here, name), "w", encoding="ascii") as f:
+            f.write("r [mm],f [um]\n0,0\n")
+    s = Session(tests, INPUTRC=os.path.join(tests.dir, "inputrc"), TERM="dumb", cwd=here)
+    for line in (SCENE, "press FN=100 N", "cycle FA=20 N", "wobble = 3", "wobbly(x) = x"):
+        s.say(line)
+    for i, (typed, words, other) in enumerate(OFFERED):
+        s.child.send(typed + "\t\x15%d\r" % (7000 + i))  # what comes after tells that the list is whole
+        s.child.expect("%d = %d" % (7000 + i, 7000 + i))
+        listed = clean(s.child.before).partition("\n")[2].split()
+        tests.check("Tab after `%s`" % typed, set(words.split()) <= set(listed) and other not in listed,
+                    "%s\n%s" % (words, " ".join(listed)))
+        s.prompt()
+    for typed, rest in DONE:
+        s.child.send(typed + "\t")
+        try:
+            s.child.expect_exact(typed + rest, timeout=10)
+            ok = True
+        except pexpect.TIMEOUT:
+            ok = False
+        tests.check("Tab completes `%s`" % typed, ok, clean(s.child.before or ""))
+        s.child.sendintr()
+        s.prompt()
+    s.child.sendeof()
+    tests.check("completion leaves", s.end() == 0)
+
+
+def paste(s, text):
+    s.child.send("\x1b[200~" + text + "\x1b[201~\r")
+
+
+def pasting(tests):
+    s = Session(tests)
+    paste(s, "material steel\ngeometry sphere R=10 mm\nfriction 0.4\n# a comment\n\npress FN=100 N\na\n")
+    s.child.expect(r"a = 186.626 um\r")
+    tests.check("lines pasted run one by one", "error" not in s.child.before, clean(s.child.before))
+    s.prompt()
+    paste(s, "fret> step Fx=20 N\n  Fx = 20 N, dx = 625.995 nm, c = 148.125 um\nfret> dx + \\\n....> 1 um\nfret> c")
+    s.child.expect(r"c = 148.125 um\r")
+    s.child.expect(r"1.6\d* um")
+    s.child.expect(r"c = 148.125 um\r")
+    tests.check("prompts pasted are taken off, answers left out", "error" not in s.child.before, clean(s.child.before))
+    s.prompt()
+    tests.check("and all of it happened", s.say("Fx") == "Fx = 20 N")
+    paste(s, "fret> mu")
+    s.child.expect("mu = 0.4")
+    s.prompt()
+    tests.check("a decimal comma gets a hint", "write 1.5 for one" in s.say("1,5 mm"))
+    tests.check("a list does not", "write" not in s.say("a, c, dx"))
+    s.child.sendeof()
+    tests.check("pasting leaves", s.end() == 0)
+
+
+def histories(tests):
+    one = Session(tests)
+    two = Session(tests, XDG_STATE_HOME=one.state)
+    for i in range(3):
+        one.say("1%d" % i)
+        two.say("2%d" % i)
+    for s in (one, two):
+        s.child.sendeof()
+        s.end()
+    with open(os.path.join(one.state, "fret", "history"), encoding="utf-8") as f:
+        kept = f.read().split()
+    tests.check("two sessions keep their lines", kept == ["10", "20", "11", "21", "12", "22"], str(kept))
+    s = Session(tests, XDG_STATE_HOME=one.state)
+    s.child.send("\x12" + "2")
+    time.sleep(0.2)
+    s.child.send("1\r")
+    s.child.expect("21 = 21")
+    tests.check("Ctrl-R finds a line of another session", True)
+    s.prompt()
+    s.child.sendeof()
+    s.end()
+
+
+TYPED = ("friction 0.4", "material steel; geometry sphere R=10 mm", "press FN=100 N", "foo",
+         "step Fx=50 N", "step Fx=20 N", "?c", "1,5 mm", "cycle FA=20 N", "plot loop", "set timing on", "dW",
+         "set timing off", "!echo past the session", "table Fx along cycle steps 4", "set format json", "a", "help a",
+         "press FN=3", "set format text", "1 + ; 2", "explain dW", "demo", "a, dz", "k =")
+
+
+def recorded(tests):
+    """A session with errors, continuation lines and a pasted block replays: what it recorded, and what a terminal held."""
+    path = os.path.join(tests.dir, "session.txt")
+    s = Session(tests, "--color=always", LC_ALL="C.UTF-8", dimensions=(60, 120))
+    s.say("mu = 0.3")
+    s.child.logfile_read = shown = open(os.path.join(tests.dir, "shown"), "w", encoding="utf-8")
+    s.say("record " + path)
+    for line in TYPED:
+        s.child.sendline(line)
+        s.child.sendline("4321 + %d" % len(line))  # a demo shows prompts of its own
+        s.child.expect(r"4321 \+ %d(?: =|\",).*\r" % len(line))
+        s.prompt()
+    s.child.send("dx + \\\r")
+    s.child.expect(r"\.\.\.\.> ")
+    s.say("1 um")
+    paste(s, "fret> a\na = 186.626 um\nfret> step \\\n....> Fx=-5 N\nfret> Fx")
+    s.child.expect(r"Fx = -5 N\r")
+    s.prompt()
+    for line in ("save history " + os.path.join(tests.dir, "typed.fret"), "save " + os.path.join(tests.dir, "scene.fret")):
+        s.say(line)
+    s.say("record off")
+    shown.close()
+    s.child.logfile_read = None
+    done = tests.run("--replay", path)
+    tests.check("a recorded session replays", done.returncode == 0, tests.report(done))
+    tests.check("it begins with the scene", open(path, encoding="utf-8").readline() == "fret> friction 0.3\n")
+    report = s.say("replay " + path)
+    tests.check("replay in a session", report.endswith("0 failed"), report)
+    tests.check("leaves the scene", s.say("Fx") == "Fx = -5 N")
+    s.child.sendeof()
+    s.end()
+    done = tests.run("-c", "source %s; Fx, dx, mu" % os.path.join(tests.dir, "scene.fret"))
+    tests.check("a saved scene", done.stdout.startswith("Fx = -5 N\n") and done.stdout.endswith("mu = 0.4\n"),
+                tests.report(done))
+    with open(os.path.join(tests.dir, "typed.fret"), encoding="utf-8") as f:
+        typed = f.read()
+    tests.check("save history", typed.startswith("mu = 0.3\nrecord ") and "dx +  \\\n1 um\n" in typed, typed)
+
+
+def run(tests):
+    each(tests, (offers, pasting, histories, recorded))

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sessions kept and run again: save, record, replay, copies of a terminal; JSON whatever the command."""
+import json
+import os
+
+SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+
+# what a copy of a terminal looks like: reports, carets, hints, times, drawings, continuation lines, a bare last prompt
+TERMINAL = """$ fret
+fret: partial-slip contact of graded elastic solids; try `demo` or `help`.
+fret> material steel; geometry sphere R=10 mm; friction 0.4
+fret> press FN=100 N
+  FN = 100 N, a = 186.626 um, dz = 3.48291 um
+fret> step Fx=50 N
+error: Fx = 50 N exceeds mu*FN = 40 N: gross slip; step by displacement (dx=...) to slide
+  step Fx=50 N
+          ^~~~
+fret> step \\
+....>   Fx=20 N
+  Fx = 20 N, dx = 625.995 nm, c = 148.125 um
+fret> 1,5 mm
+the comma in 1,5 parts two values: write 1.5 for one
+1 = 1
+5 mm = 5 mm
+fret> set timing on
+fret> c
+c = 148.125 um
+time: 0.0214 ms (closed form)
+fret> set timing off
+time: 0.002 ms
+fret> plot loop
+ Fx [N]   a picture that depends on the terminal
+   |
+fret> ?friction
+friction MU
+  the coefficient of friction
+
+Sets mu, Coulomb's coefficient. `mu = 0.4` does the same.
+
+    fret> friction 0.4
+    fret> mu
+    mu = 0.4
+fret> explain eta
+eta: stiffness ratio
+    \u03b7 = c_N/c_T  (4),(5)
+    nu = 0.3
+    model: closed form
+    eta = 1.21429
+    conditioning          last digit    moves eta by  condition number
+    nu = 0.3                 1.9e-16         4.7e-17              0.25
+    no effect: E0, mu, FN, R, Fx
+fret> !ls
+a file
+fret> history to %s
+wrote h.csv (1 B)
+fret> a
+a = 186.626 um
+fret>
+"""
+
+SCENES = (
+    "",
+    "material E0=210.123456789 GPa nu=1/3 k=0.1 c0=1/3 mm; second E0=70 GPa nu=0.33; geometry cone angle=3 deg\n"
+    "friction 1/7; press FN=100/3 N; step Fx=1 N steps 3; step dx+=1 nm; cycle dxA=10 nm times 3",
+    SCENE + "cycle FA=20 N FNA=10 N phase=90 deg steps 20\nstep FN+=3 N Fx=-5 N",
+    SCENE + "FA0 = 0.7*mu*FN\nhalf(x, y) := x/y\nc0 := a0\ncycle FA:=half(FA0, 2)\nk = 0.3",
+    SCENE + "set model springs 50; step Fx=20 N",
+    "material steel; second rigid; geometry sum 2:50 m^-1, 4:2e6 m^-3; mu = 0.2; press a=0.1 mm; step dz=1 um dx=20 nm",
+    "material PTFE; geometry flat-rounded b=1 mm R=10 mm; friction 0.1; press dz=1 um",
+    "k = 0.5, c0 = 2 mm",
+)
+ASKED = "show\nshow variables\nset digits 17\nFN, dz, a\nFx, dx, c, W, U\ndW\nkt, kn\nhistory"
+
+LINES = """material steel; geometry sphere R=10 mm; friction 0.4
+press FN=100 N
+step Fx=20 N steps 3
+cycle FA=20 N times 2
+a, c in mm, dW at k=0, 1/3, phase
+explain dW
+explain c
+show
+show settings
+show units
+show commands
+show variables
+show nothing
+set
+help
+help a
+help units
+help paper
+apropos stick
+apropos zzzz
+plot loop
+plot a for FN = 1 N .. 100 N
+plot accuracy within 0.1
+demo
+history
+accuracy within 0.1
+table a for FN = 1 N .. 100 N steps 3
+table a for FN = 1 N .. 100 N steps 3 to t.json
+record r.txt
+a
+record off
+replay r.txt
+save s.fret
+source s.fret
+undo
+reset
+second rigid; second same
+set timing on
+a
+1,5 mm
+foo
+"
+"""
+
+
+def copies(tests):
+    path = os.path.join(tests.dir, "h.csv")
+    with tests.file(TERMINAL % path, ".txt") as copy:
+        done = tests.run("--replay", copy)
+    tests.check("a copy of a terminal replays", done.returncode == 0 and "0 failed" in done.stdout, tests.report(done))
+    for old, new in (("c = 148.125 um\ntime", "c = 148.126 um\ntime"), ("a = 186.626 um\nfret>\n", "fret>\n"),
+                     ("5 mm = 5 mm\n", "5 mm = 5 mm\nmore\n"), ("gross slip; step by", "gross slip, step by")):
+        with tests.file((TERMINAL % path).replace(old, new), ".txt") as copy:
+            done = tests.run("--replay", copy)
+        tests.check("a copy that is wrong: " + new.strip(), done.returncode == 1 and " 1 failed" in done.stdout,
+                    tests.report(done))
+    script = "fret> friction 0.4\n  fret> x = 1 + \\\n....> 2\nx\nfret>\n....> \n"
+    for way, done in (("file", None), ("pipe", tests.run(input=script)), ("-c", tests.run("-c", script))):
+        if way == "file":
+            with tests.file(script) as path:
+                done = tests.run(path)
+        tests.check("a script with prompts as " + way, done.stdout == "x = 3\n" and not done.stderr, tests.report(done))
+
+
+def recorded(tests):
+    where = os.path.join(tests.dir, "kept")
+    os.mkdir(where)
+    done = tests.run("--keep-going", "-c", "mu = 0.3\nrecord r.txt\n" + SCENE + "foo\nstep Fx=20 N; dx\na + \\\n1 um\n"
+                     "set format json\nc\nset format text\nrecord off\nk", cwd=where)
+    tests.check("a script is recorded", done.returncode == 1 and "k = 0" in done.stdout, tests.report(done))
+    done = tests.run("--replay", "r.txt", cwd=where)
+    tests.check("and replays", done.returncode == 0 and done.stdout.endswith("r.txt: 8 passed, 0 failed\n"), tests.report(done))
+    done = tests.run("-c", "record r.txt; a = 1 m", cwd=where)
+    tests.check("overwriting a transcript is told", "overwriting r.txt" in done.stderr, tests.report(done))
+    done = tests.run("-c", "record /nonexistent/r", cwd=where)
+    tests.check("where none can be written", "cannot write /nonexistent/r: No such file" in done.stderr and
+                done.returncode == 1, tests.report(done))
+    with open(os.path.join(where, "self.txt"), "w", encoding="ascii") as f:
+        f.write("fret> replay self.txt\nfret> record self.txt\nfret> record off\n")
+    done = tests.run("--replay", "self.txt", cwd=where)
+    tests.check("a transcript of itself ends", "nested more than" in done.stdout and done.returncode == 1,
+                tests.report(done))
+
+
+def saved(tests):
+    for i, scene in enumerate(SCENES):
+        name = os.path.join(tests.dir, "saved%d.fret" % i)
+        first = tests.run("--keep-going", "-c", scene + "\nsave %s\n" % name + ASKED)
+        again = tests.run("--keep-going", "-c", "mu = 0.9; source %s\n" % name + ASKED if i == 1 else
+                          "source %s\n" % name + ASKED)
+        tests.check("a scene comes back to the last bit: " + scene[:40], first.stdout == again.stdout and
+                    first.stdout.count("\n") > 1, "%s\n%s" % (tests.report(first), tests.report(again)))
+    name = os.path.join(tests.dir, "saved0.fret")
+    done = tests.run("-c", "mu = 0.1; save %s" % name)
+    tests.check("overwriting a scene is told", "overwrote %s" % name in done.stderr, tests.report(done))
+    done = tests.run("-c", "save history %s" % name)
+    tests.check("a script has no history", "a script is its own history" in done.stderr, tests.report(done))
+
+
+def pure(tests):
+    where = os.path.join(tests.dir, "pure")
+    os.mkdir(where)
+    done = tests.run("--format=json", "--keep-going", "-c", LINES, cwd=where)
+    kinds = set()
+    for line in done.stdout.splitlines():
+        try:
+            kinds |= set(json.loads(line))
+        except (ValueError, TypeError):
+            tests.check("JSON: " + line[:80], False)
+    tests.check("every line is one object", {"name", "text", "event", "model", "FN", "a"} <= kinds, str(kinds))
+    transcript = os.path.join(where, "r.txt")
+    done = tests.run("--format=json", "--replay", transcript)
+    tests.check("a replay too", "text" in json.loads(done.stdout) and done.returncode == 0, tests.report(done))
+
+
+def targets(tests):
+    where = os.path.join(tests.dir, "targets")
+    os.mkdir(where)
+    table = "table x, x^2 for x = 1 mm .. 2 mm steps 1 with y = 1, 2 to "
+    done = tests.run("-c", "".join(table + "t." + ending + "\n" for ending in ("csv", "json", "txt", "dat")), cwd=where)
+    tests.check("tables in every form", done.returncode == 0 and done.stderr.count("wrote t.") == 4, tests.report(done))
+
+    def text(name):
+        with open(os.path.join(where, name), encoding="utf-8") as f:
+            return f.read()
+    tests.check(".csv", text("t.csv").startswith("x [m],y,x [m],x^2 [m^2]\n0.001,1,0.001,"), text("t.csv"))
+    tests.check(".json", [json.loads(line)["x"] for line in text("t.json").splitlines()] == [.001, .002] * 2,
+                text("t.json"))
+    tests.check(".txt", "x [mm]" in text("t.txt").splitlines()[0] and text("t.txt").count("\n\n") == 1, text("t.txt"))
+    tests.check(".dat", text("t.dat") == text("t.txt"), text("t.dat"))
+    for name in ("t.xlsx", "t", "t.CSV.old"):
+        done = tests.run("-c", table + name, cwd=where)
+        tests.check("no table goes to " + name, "cannot tell the form of a table from '%s': use .csv, .json, .txt or .dat"
+                    % name in done.stderr and done.returncode == 1, tests.report(done))
+    home = {"HOME": where}
+    done = tests.run("-c", table + "~/h.csv\nsave ~/s.fret\nsource ~/s.fret", cwd="/", env=home)
+    tests.check("~ is the home directory", done.returncode == 0 and os.path.exists(os.path.join(where, "h.csv")),
+                tests.report(done))
+    with open(os.path.join(where, "gap.csv"), "w", encoding="ascii") as f:
+        f.write("r [mm],f [um]\n0,0\n1,50\n")
+    done = tests.run("-c", "material steel; geometry file ~/gap.csv; f(1 mm)", cwd="/", env=home)
+    tests.check("a gap at home", done.stdout == "f(1 mm) = 50 um\n", tests.report(done))
+
+
+def run(tests):
+    for room in (copies, recorded, saved, pure, targets):
+        room(tests)

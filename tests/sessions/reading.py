@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables as spreadsheets and instruments write them."""
+
+SCENE = "material steel; friction 0.4; "
+PLAIN = b"r [mm],f [um]\n0,0\n0.5,12.5\n1,50\n"
+# the same gap as PLAIN
+SAME = {
+    "a byte-order mark, semicolons, decimal commas, CR LF": b"\xef\xbb\xbfr [mm];f [um]\r\n0;0\r\n0,5;12,5\r\n1;50\r\n",
+    "quoted fields, the micro sign of Latin-1": b'"r [mm]","f [\xb5m]"\n0,0\n"0,5","12,5"\n1,50\n',
+    "both micro signs of Unicode": "r [mm],f [\u00b5m]\n0,0\n0.5,12.5\n1,50\n".encode(),
+    "the letter mu": "r [mm],f [\u03bcm]\n0,0\n0.5,12.5\n1,50\n".encode(),
+    "other columns, another order, empty rows": "time [s];f (\u00b5m);r/mm;note\n0;0;0;a\n1;12,5;0,5;b 1\n2;50;1;\n;;;\n"
+                                                .encode(),
+    "blanks": b"# measured\nr [mm] f [um]\n0 0\n0.5 12.5\n\n1 50\n",
+    "tabs": b"r [mm]\tf [um]\n0\t0\n5e-1\t12,5\n1\t+50\n",
+    "commas above, blanks below": b"r [mm], f [um]\n0 0\n0.5 12.5\n1 50\n",
+    "a separator named": b"sep=;\nr [mm];f [um]\n0;0\n0,5;12,5\n1;50\n",
+}
+WRONG = {
+    b"r [mm],f [um]\n0,0\n0.5,12,5\n": ":3: more than 2 fields, one for each name of the header",
+    b"r [mm];f [um]\n0;0\n1.234,5;12\n": ":3: expected a number as r, not '1.234,5'",
+    b"r [mm],f [um]\n0,0\n0.5,12x\n": ":3: expected a number as f, not '12x'",
+    b"r [mm],f [um]\n0,0\n0x5,12\n": ":3: expected a number as r, not '0x5'",
+    b"r [mm],f [um]\n0,0\n0.5\n": ":3: expected a number as f, and the line ends",
+    b"r [mm],g [um]\n0,0\n": "has no column f: its columns are r, g",
+    b"r [mm],f [um\n0,0\n": ":1: a unit in the header is not closed",
+    b"\xff\xfer\0 \0": ":1: this is UTF-16: save the file as CSV in UTF-8",
+    b"r [mm],f [um]\n0,0\n1,\0\n": ":3: this is no text",
+    b"r [mm],f [um]\n0,1\n1,2\n": ":2: f(0) = 1e-06 m must be 0",
+}
+
+
+def run(tests):
+    def answer(data):
+        with tests.file(data, ".csv") as path:
+            done = tests.run("--format=json", "-c", SCENE + "geometry file %s; press FN=1 N; a, dz, f(0.7 mm)" % path)
+        return done
+
+    want = answer(PLAIN)
+    tests.check("a gap from a file", want.stdout.count('"name"') == 3 and want.returncode == 0, tests.report(want))
+    for name, data in SAME.items():
+        done = answer(data)
+        tests.check("a gap with " + name, done.stdout == want.stdout and done.returncode == 0, tests.report(done))
+    for data, message in WRONG.items():
+        done = answer(data)
+        tests.check("a gap: " + message, message in done.stderr and done.returncode == 1, tests.report(done))
+    with tests.file(b"time [s];Fx [N];FN [kN]\n0;0;0,1\n1;15;0,12\n", ".csv") as path:
+        done = tests.run("-c", SCENE + "geometry sphere R=10 mm; follow %s; FN, Fx" % path)
+        tests.same("a load with other columns", "FN = 120 N\nFx = 15 N", done.stdout + done.stderr)
