@@ -15,16 +15,22 @@ CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE $(OPT) $(WARN
 READLINE  ?= yes
 # GSL=no: without solve, maximize, minimize, fit and uncertainty
 GSL       ?= yes
+# LIVE=no: no full-screen mode
+LIVE      ?= yes
 LIBS_CORE := -lm
 LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas)
-LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline)
+LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline) $(if $(filter no,$(LIVE)),,-lncursesw -ltinfo)
 CFLAGS_ALL += $(if $(filter no,$(GSL)),-DFRET_WITHOUT_GSL)
 
 # what needs GSL
 BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,solve optimise fit uncertainty)) src/shell/study_commands.c src/shell/data_commands.c)
 CORE  := $(wildcard src/number/*.c src/contact/*.c src/fast/*.c)
 PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c $(BACK), \
-	$(wildcard src/calc/*.c src/study/*.c src/plot/*.c src/shell/*.c))
+	$(wildcard src/calc/*.c src/study/*.c src/plot/*.c src/shell/*.c)) \
+	$(if $(filter no,$(LIVE)),src/live/none.c,$(filter-out src/live/none.c,$(wildcard src/live/*.c)))
+# scripts/demos and scripts/paper as C, for `demo`
+PAPER   := $(wildcard scripts/paper/*.txt)
+SCRIPTS := $(wildcard scripts/demos/*.txt) $(PAPER)
 UNIT  := $(wildcard tests/unit/test_*.c)
 HARD  := $(wildcard tests/hard/*.c)
 # the oracle of the hard cases needs MPFR, which the rest does without
@@ -55,18 +61,14 @@ $(B)/libfret.a: $(call OBJ,$(CORE))
 $(B)/libfret.so: $(call SHARED,$(CORE))
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) -o $@ $^ $(LIBS_CORE)
 
-# The scripts of the paper's figures go into the program: `demo fig07a` needs no file.
-PAPER := $(wildcard scripts/paper/*.txt)
-$(B)/paper.c: $(PAPER)
+$(B)/scripts.c: scripts/embed $(SCRIPTS)
 	@mkdir -p $(@D)
-	@{ echo '#include "shell/command.h"'; echo 'const script paper_scripts[] = {'; \
-	  for f in $(PAPER); do echo "{\"$$(basename $$f .txt)\","; \
-	    sed -e 's/\\/\\\\/g' -e 's/"/\\"/g' -e 's/.*/"&\\n"/' $$f; echo '},'; done; echo '{NULL, NULL}};'; } > $@
+	@sh scripts/embed $(SCRIPTS) > $@.part && mv $@.part $@
 
-$(B)/paper.o: $(B)/paper.c
+$(B)/scripts.o: $(B)/scripts.c
 	$(CC) $(CFLAGS_ALL) -c $< -o $@
 
-$(B)/fret: $(call OBJ,$(PROG) $(CORE)) $(B)/paper.o
+$(B)/fret: $(call OBJ,$(PROG) $(CORE)) $(B)/scripts.o
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 # Every panel and video of the paper, and the two pictures of README.
@@ -95,7 +97,7 @@ $(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE)) $(OUTER)
 # One file that depends on nothing, to copy to another machine: with musl, where it is at hand.
 STATIC_CC = $(if $(filter default,$(origin CC)),$(shell command -v musl-gcc || echo $(CC)),$(CC))
 static:
-	@$(MAKE) --no-print-directory B=$(B)/static CC='$(STATIC_CC)' READLINE=no GSL=no LDFLAGS='-static -s $(LDFLAGS)' $(B)/static/fret
+	@$(MAKE) --no-print-directory B=$(B)/static CC='$(STATIC_CC)' READLINE=no GSL=no LIVE=no LDFLAGS='-static -s $(LDFLAGS)' $(B)/static/fret
 
 $(B)/tests/hard/hard: $(call OBJ,$(HARD) $(CORE))
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ -lmpfr -lgmp $(LIBS_CORE)

@@ -21,6 +21,7 @@ import fits  # noqa: E402
 import harness  # noqa: E402
 import house  # noqa: E402
 import keeping  # noqa: E402
+import live  # noqa: E402
 import looks  # noqa: E402
 import numbers_of_the_physics  # noqa: E402
 import paper  # noqa: E402
@@ -169,7 +170,7 @@ def help_examples(tests):
         steps = harness.read_transcript("\n".join(lines))
         if steps:
             harness.replay(tests, "help " + topic, steps)
-        elif topic in commands and topic != "demo":
+        elif topic in commands:
             tests.check("help %s has an example" % topic, False)
     commands = command_names(tests)
     text = tests.run("-c", "help quantities").stdout
@@ -193,7 +194,8 @@ ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
          "fits": fits.run, "backwards": backwards.run, "errors": table.run,
          "trouble": trouble.run,
-         "interactive": prompt.run, "completion": completion.run, "readme": readme, "help": help_examples, "portable": portable.run,
+         "interactive": prompt.run, "live": live.run, "completion": completion.run, "readme": readme, "help": help_examples,
+         "portable": portable.run,
          "house": house.run}
 
 

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-typedef enum kind { NOTHING, A_FILE, A_DIR, A_GROUP } kind;
+typedef enum kind { NOTHING, A_FILE, A_DIR, A_GROUP, A_TERMINAL } kind;
 
 enum { GUARDS = 64 };
 
@@ -16,33 +16,52 @@ static struct {
     volatile sig_atomic_t kind;
     pid_t group;
     char *path;
+    int fd;
+    struct termios modes;
+    const char *farewell;
 } guards[GUARDS];
 
-static int guard(kind what, const char *path, pid_t group) {
+/* A row with a path, if any; -1: none is left. */
+static int take(const char *path) {
     for (int i = 0; i < GUARDS; i++) {
         if (guards[i].kind != NOTHING)
             continue;
         free(guards[i].path);
         guards[i].path = path ? strdup(path) : NULL;
-        guards[i].group = group;
-        if (path && !guards[i].path)
-            return -1;
-        guards[i].kind = (sig_atomic_t)what;
-        return i;
+        return path && !guards[i].path ? -1 : i;
     }
     return -1;
 }
 
+static int set(int row, kind what) {
+    if (row >= 0)
+        guards[row].kind = (sig_atomic_t)what;
+    return row;
+}
+
 int file_guard_file(const char *path) {
-    return guard(A_FILE, path, 0);
+    return set(take(path), A_FILE);
 }
 
 int file_guard_dir(const char *path) {
-    return guard(A_DIR, path, 0);
+    return set(take(path), A_DIR);
 }
 
 int file_guard_group(pid_t group) {
-    return guard(A_GROUP, NULL, group);
+    const int row = take(NULL);
+    if (row >= 0)
+        guards[row].group = group;
+    return set(row, A_GROUP);
+}
+
+int file_guard_terminal(int fd, const struct termios *modes, const char *farewell) {
+    const int row = take(NULL);
+    if (row >= 0) {
+        guards[row].fd = fd;
+        guards[row].modes = *modes;
+        guards[row].farewell = farewell;
+    }
+    return set(row, A_TERMINAL);
 }
 
 void file_unguard(int number) {
@@ -50,10 +69,19 @@ void file_unguard(int number) {
         guards[number].kind = NOTHING;
 }
 
+static void restore(int i) {
+    const ssize_t sent = write(guards[i].fd, guards[i].farewell, strlen(guards[i].farewell));
+    (void)sent; /* nobody is left to be told */
+    tcsetattr(guards[i].fd, TCSANOW, &guards[i].modes);
+}
+
 void file_emergency(void) {
     for (int i = 0; i < GUARDS; i++)
         if (guards[i].kind == A_GROUP)
             kill(-guards[i].group, SIGKILL);
+    for (int i = 0; i < GUARDS; i++)
+        if (guards[i].kind == A_TERMINAL)
+            restore(i);
     for (int i = 0; i < GUARDS; i++)
         if (guards[i].kind == A_FILE)
             unlink(guards[i].path);

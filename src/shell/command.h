@@ -41,21 +41,13 @@ command_run do_material, do_second, do_geometry, do_friction;
 command_run do_press, do_step, do_cycle, do_follow, do_reset, do_undo;
 /* view_commands.c, plot_commands.c, explain.c */
 command_run do_history, do_table, do_plot, do_animate, do_explain, do_accuracy;
-/* show.c, help.c, session_commands.c */
+/* show.c, help.c, session_commands.c, demo.c, live_command.c */
 command_run do_show, do_set, do_help, do_apropos;
 /* keep_commands.c */
 command_run do_save, do_record, do_replay;
-command_run do_source, do_demo, do_quit;
+command_run do_source, do_quit, do_demo, do_live;
 
-/* A session to be played, one statement a line. */
-typedef struct script {
-    const char *name, *text;
-} script;
-
-/* The demo without a name. */
-extern const char demo_text[];
-/* scripts/paper, taken in when the program is built; ended by NULL. */
-extern const script paper_scripts[];
-const char *demo_name(size_t i);
+/* The full-screen mode; script: a file to step through, or NULL. */
+bool shell_live(shell *sh, const char *script, calc_error *error);
 
 #endif

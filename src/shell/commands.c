@@ -9,6 +9,7 @@
 #include "shell/help.h"
 #include "shell/presets.h"
 #include "shell/range.h"
+#include "shell/scripts.h"
 #include "shell/show.h"
 #include "shell/study_commands.h"
 
@@ -63,7 +64,7 @@ static const arg geometry_args[] = {{.kind = ARG_NAME, .name = "shape", .words =
                                     {.kind = ARG_END}};
 static const arg show_args[] = {{.kind = ARG_NAME, .name = "part", .words = show_name}, {.kind = ARG_END}};
 static const arg set_args[] = {{.kind = ARG_NAME, .name = "setting", .words = setting_name}, {.kind = ARG_END}};
-static const arg demo_args[] = {{.kind = ARG_NAME, .name = "demo", .words = demo_name}, {.kind = ARG_END}};
+static const arg demo_args[] = {{.kind = ARG_NAME, .name = "lesson", .words = script_name}, {.kind = ARG_END}};
 static const arg help_args[] = {{.kind = ARG_NAME, .name = "topic", .words = help_name}, {.kind = ARG_END}};
 
 static const arg reset_args[] = {
@@ -152,11 +153,6 @@ static void geometry_list(FILE *to) {
     for (size_t i = 0; (g = geometry_row(i)); i++)
         fprintf(to, "    geometry %s\n        %s\n", g->usage, g->meaning);
     fputs("\n    fret> geometry cone angle=45 deg\n    fret> slope\n    slope = 1\n", to);
-}
-
-static void demos_list(FILE *to) {
-    for (const script *s = paper_scripts; s->name; s++)
-        fprintf(to, "    %-8s %.*s\n", s->name, (int)strcspn(s->text + 2, "\n"), s->text + 2);
 }
 
 static void figures_list(FILE *to) {
@@ -518,7 +514,7 @@ static const command commands[] = {
      .args = show_args,
      .group = "the session",
      .keywords = "save",
-     .usage = "[scene|settings|units|commands|variables]",
+     .usage = "[scene|settings|units|commands|variables|demos]",
      .summary = "what is set",
      .help = "The scene as the commands that make it again, to the last digit; the settings,\n"
              "the units or the commands.\n\n"
@@ -584,19 +580,30 @@ static const command commands[] = {
              "terminal is a transcript, too.\n\n"
              "    fret> replay /nonexistent\n"
              "    error: cannot read /nonexistent: No such file or directory\n"},
+    {.name = "live",
+     .run = do_live,
+     .args = file_args,
+     .group = "the session",
+     .keywords = "full-screen teach demonstration tui animate",
+     .usage = "[FILE]",
+     .summary = "press, push and pull by hand, everything drawn: the full-screen mode",
+     .help = "Arrows push and press, space plays a cycle, `:` takes a statement, `?` lists the\n"
+             "keys, `q` leaves. What is done there are statements: undo takes them back. FILE\n"
+             "is a script to step through, space by space. It needs a terminal.\n\n"
+             "    fret> live /nonexistent\n"
+             "    error: cannot read /nonexistent: No such file or directory\n"},
     {.name = "demo",
      .run = do_demo,
-     .group = "the session",
-     .keywords = "tour",
      .args = demo_args,
+     .group = "the session",
+     .keywords = "tour lesson teach figure paper",
      .usage = "[NAME]",
-     .summary = "play a session: a tour, or a figure of the paper",
-     .print = demos_list,
-     .help = "Shows each statement and its answer, in a scene of its own. Without a name: a\n"
-             "sphere on a graded half-space. The names are those of the figures and videos of\n"
-             "Mathematics 2022, 10, 3641.\n\n"
-             "    fret> demo fig7a\n"
-             "    error: no demo 'fig7a': did you mean fig07a?\n"},
+     .summary = "play a lesson, or a tour of the program",
+     .help = "A lesson asks, then shows each statement and its answer, in a scene of its own.\n"
+             "At the prompt a key leads on, `b` back, `q` out; in a script it plays through.\n"
+             "`show demos` lists them. Without a name: the tour.\n\n"
+             "    fret> demo pressin\n"
+             "    error: there is no demo 'pressin': did you mean pressing?\n"},
     {.name = "help",
      .run = do_help,
      .args = help_args,

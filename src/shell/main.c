@@ -20,6 +20,7 @@ static const char usage[] =
     "  standard input: with line editing at a terminal, as a script otherwise.\n\n"
     "  -f FILE             run a script (- is standard input)\n"
     "  -c STATEMENTS       run these statements\n"
+    "  --live              the full-screen mode; FILE: a script to step through\n"
     "  --replay FILE       run a transcript and compare; exit 1 where it differs\n"
     "  --tolerance X       relative tolerance of numbers in a replay\n"
     "  --format=FORMAT     text, csv or json\n"
@@ -64,7 +65,7 @@ typedef struct job {
 
 /* What the command line asks for. */
 typedef struct wishes {
-    bool keep_going, quiet, no_rc, done;
+    bool keep_going, quiet, no_rc, live, done;
     const char *replay, *color;
     double tolerance;
     job *jobs;
@@ -101,9 +102,10 @@ static int take_color(wishes *w, const char *text) {
                : bad_usage("--color is auto, always or never, not", text);
 }
 
-enum { OPT_REPLAY = 256, OPT_TOLERANCE, OPT_FORMAT, OPT_KEEP, OPT_QUIET, OPT_NO_RC, OPT_COLOR, OPT_VERSION, OPT_HELP };
+enum { OPT_REPLAY = 256, OPT_LIVE, OPT_TOLERANCE, OPT_FORMAT, OPT_KEEP, OPT_QUIET, OPT_NO_RC, OPT_COLOR, OPT_VERSION, OPT_HELP };
 
 static const struct option options[] = {{"replay", required_argument, NULL, OPT_REPLAY},
+                                        {"live", no_argument, NULL, OPT_LIVE},
                                         {"tolerance", required_argument, NULL, OPT_TOLERANCE},
                                         {"format", required_argument, NULL, OPT_FORMAT},
                                         {"keep-going", no_argument, NULL, OPT_KEEP},
@@ -137,6 +139,9 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
         return EXIT_OK;
     case OPT_REPLAY:
         w->replay = optarg;
+        return EXIT_OK;
+    case OPT_LIVE:
+        w->live = true;
         return EXIT_OK;
     case OPT_TOLERANCE:
         return take_tolerance(w, optarg);
@@ -199,7 +204,21 @@ static int run_jobs(shell *sh, const wishes *w) {
     return status;
 }
 
+/* One script, or none. */
+static int run_live(shell *sh, const wishes *w) {
+    calc_error error;
+    error_clear(&error);
+    if (w->count > 1 || (w->count && w->jobs[0].statements))
+        return bad_usage("--live takes one script", NULL);
+    if (shell_live(sh, w->count ? w->jobs[0].text : NULL, &error))
+        return EXIT_OK;
+    fprintf(stderr, "error: %s\n", error.text);
+    return EXIT_ERROR;
+}
+
 static int run(shell *sh, const wishes *w) {
+    if (w->live)
+        return run_live(sh, w);
     if (w->replay) {
         char error[CALC_ERROR_TEXT];
         const int status = shell_replay(w->replay, w->tolerance, &sh->set, stdout, error, sizeof error);

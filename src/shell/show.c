@@ -358,7 +358,7 @@ static const struct {
     void (*show)(shell *sh, FILE *to);
 } shown[] = {
     {"scene", show_scene},       {"settings", show_settings},   {"units", show_units},
-    {"commands", show_commands}, {"variables", show_variables},
+    {"commands", show_commands}, {"variables", show_variables}, {"demos", show_demos},
 };
 enum { SHOWS = sizeof shown / sizeof *shown };
 

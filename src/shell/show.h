@@ -13,4 +13,7 @@ void scene_write(const calc *c, const settings *set, FILE *to, bool whole);
 /* What `show` can show: i = 0, 1, ... until NULL. */
 const char *show_name(size_t i);
 
+/* demo.c: the scripted sessions. */
+void show_demos(shell *sh, FILE *to);
+
 #endif

@@ -19,7 +19,7 @@ BELOW = {
     "calc": {"number", "fret"},
     "plot": {"calc", "number", "fret"},
     "study": {"calc", "number", "fret"},
-    "shell": {"study", "plot", "calc", "number", "fret"},
+    "shell": {"live/live.h", "study", "plot", "calc", "number", "fret"},
     "live": {"study", "plot", "calc", "number", "fret"},
 }
 LIBRARY = ("number", "contact", "fast", "fret")

@@ -4,6 +4,7 @@ import csv
 import glob
 import json
 import os
+import re
 import shutil
 import subprocess
 import xml.etree.ElementTree
@@ -360,17 +361,50 @@ def many_variables(tests):
 
 
 def demos(tests):
-    paths = sorted(glob.glob(os.path.join(harness.ROOT, "scripts", "demos", "*")))
-    tests.check("there are demos", paths)
-    for path in paths:
-        if path.endswith(".txt"):
-            with open(path, encoding="utf-8") as f:
-                steps = harness.read_transcript(f.read())
-            harness.replay(tests, os.path.relpath(path, harness.ROOT), steps)
-        elif path.endswith(".fret"):
-            done = tests.run(path)
-            tests.check(os.path.relpath(path, harness.ROOT), done.returncode == 0 and done.stdout and not done.stderr,
-                        tests.report(done))
+    """Each lesson is a transcript; `demo` plays it, drawings included, and leaves the user's scene alone."""
+    paths = sorted(glob.glob(os.path.join(harness.ROOT, "scripts", "demos", "*.txt")))
+    tests.check("there are demos", len(paths) > 10)
+    listed = tests.run("-c", "show demos").stdout.splitlines()
+    figures_of_paper = glob.glob(os.path.join(harness.ROOT, "scripts", "paper", "*.txt"))
+    tests.check("show demos", len(listed) == len(paths) + len(figures_of_paper), "\n".join(listed))
+    jobs = [lambda p=path, row=row: lesson(tests, p, row) for path, row in zip(paths, listed)]
+    tests.each(jobs + [lambda: lessons_aside(tests)])
+
+
+def lesson(tests, path, row):
+    with open(path, encoding="utf-8") as f:
+        text = f.read()
+    name = re.sub(r"^\d+-", "", os.path.basename(path)[:-4])
+    steps = harness.read_transcript(text)
+    harness.replay(tests, os.path.relpath(path, harness.ROOT), steps)
+    tests.check("show demos on " + name, row.split(None, 1) == [name, text.splitlines()[0]], row)
+    statements = [s for s, _ in steps if not s.startswith("#")]
+    remarks = [s for s, _ in steps if s.startswith("#")]
+    if name not in ("shapes", "tour"):
+        tests.check("%s asks first, and names the paper" % name,
+                    steps[0][0].startswith("#") and any("?" in s for s in remarks) and
+                    any(s.startswith("# The paper: (") for s in remarks) and any(map(harness.draws, statements)) ==
+                    (name not in ("grading", "swinging", "accuracy")), text)
+    tests.check("%s fits 80 columns" % name, all(len(s) <= 78 for s in remarks), "\n".join(remarks))
+    done = tests.run("-c", "demo " + name)
+    shown = [line for line in done.stdout.splitlines() if line.startswith(harness.PROMPT)]
+    tests.check("demo " + name, done.returncode == 0 and [harness.PROMPT + s for s in statements] == shown,
+                tests.report(done))
+    lines = (done.stdout + done.stderr).splitlines()
+    missing = [line for s, out in steps if not harness.draws(s) for line in out
+               if not any(harness.same_line(line, got) for got in lines)]
+    tests.check("demo %s answers as its transcript" % name, not missing, "\n".join(missing))
+
+
+def lessons_aside(tests):
+    scene = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; step Fx=20 N; x = 3; "
+    done = tests.run("-c", scene + "demo sliding; Fx, x; undo; Fx")
+    tests.check("a lesson is no change", done.returncode == 0 and
+                done.stdout.endswith("Fx = 20 N\nx = 3\nFx = 20 N\n"), tests.report(done))
+    done = tests.run("--format=json", "-c", "demo loop")
+    rows = [json.loads(line) for line in done.stdout.splitlines()]
+    tests.check("a lesson in JSON", done.returncode == 0 and any(row.get("name") == "dW" for row in rows),
+                tests.report(done))
 
 
 def run(tests):

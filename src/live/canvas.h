@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A rectangle of dots, 2 x 4 a cell in braille, 1 x 2 in plain characters. Draws on the screen of curses. */
+#ifndef LIVE_CANVAS_H
+#define LIVE_CANVAS_H
+
+#include <stdbool.h>
+
+/* What is drawn; where things meet in a cell the later one is seen. */
+typedef enum ink {
+    INK_NONE,
+    INK_FRAME,  /* axes, titles */
+    INK_BOUND,  /* what friction allows */
+    INK_MEMORY, /* slipped earlier */
+    INK_STICK,
+    INK_SLIP,
+    INK_CURVE,
+    INK_OTHER, /* a second curve */
+    INK_POINT,
+    INK_ERROR,
+    INKS
+} ink;
+
+typedef struct rect {
+    int top, left, rows, cols;
+} rect;
+
+typedef struct canvas {
+    rect at;
+    int wide, high; /* dots */
+    bool braille;
+    struct canvas_cell *cell;
+} canvas;
+
+/* False: out of memory, or no room; nothing is to be freed then. */
+bool canvas_make(canvas *c, rect at, bool braille);
+void canvas_dot(canvas *c, int x, int y, ink of);
+/* From and to in dots, 0,0 at the left top; every: only each of so many dots. */
+void canvas_line(canvas *c, double x0, double y0, double x1, double y1, ink of, int every);
+/* A character in the cell of a dot. */
+void canvas_sign(canvas *c, int x, int y, char sign, ink of);
+/* Puts it on the screen and frees it. */
+void canvas_show(canvas *c);
+
+/* Text in the rectangle's row, cut to its width. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+void put_text(rect at, int row, ink of, const char *format, ...);
+
+#endif

@@ -1,0 +1,507 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The one table of keys: what they do, and what `?` says of them. Each change of the scene is a statement. */
+#define _XOPEN_SOURCE 700
+#define NCURSES_WIDECHAR 1
+#include <curses.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "live/state.h"
+#include "live/terminal.h"
+
+/* ---- pushing and pressing ---------------------------------------------------------------------- */
+
+static const shot *now(const live *l) {
+    return &l->side[0].now;
+}
+
+static double number(const live *l, const char *name, double otherwise) {
+    for (size_t i = 0; i < SHOT_VALUES; i++)
+        if (!strcmp(shot_name(i), name) && now(l)->known[i] && now(l)->value[i] > 0)
+            return (double)now(l)->value[i];
+    return otherwise;
+}
+
+enum { PARTS = 25, FINE = 10 };
+
+/* By a part of what makes it slide, or of the normal load. */
+static void push(live *l, double way) {
+    char by[40];
+    const double whole = l->by_displacement ? now(l)->bound : now(l)->slip;
+    if (!(whole > 0)) {
+        live_tell(l, true, "nothing is pressed: r presses again");
+        return;
+    }
+    live_amount(live_nice(whole / PARTS) * way, l->by_displacement ? DIM_LENGTH : DIM_FORCE, by, sizeof by);
+    live_say(l, "step %s+=%s", l->by_displacement ? "dx" : "Fx", by);
+}
+
+static void press(live *l, double way) {
+    char by[40];
+    const double whole = l->by_displacement ? number(l, "dz", 1e-6) : number(l, "FN", 1);
+    live_amount(live_nice(whole / PARTS) * way, l->by_displacement ? DIM_LENGTH : DIM_FORCE, by, sizeof by);
+    live_say(l, "step %s+=%s", l->by_displacement ? "dz" : "FN", by);
+}
+
+static void right(live *l) {
+    push(l, 1);
+}
+static void left(live *l) {
+    push(l, -1);
+}
+static void right_fine(live *l) {
+    push(l, 1.0 / FINE);
+}
+static void left_fine(live *l) {
+    push(l, -1.0 / FINE);
+}
+static void up(live *l) {
+    press(l, 1);
+}
+static void down(live *l) {
+    press(l, -1);
+}
+static void up_fine(live *l) {
+    press(l, 1.0 / FINE);
+}
+static void down_fine(live *l) {
+    press(l, -1.0 / FINE);
+}
+
+static void drive(live *l) {
+    l->by_displacement = !l->by_displacement;
+    live_tell(l, false, "arrows change %s",
+              l->by_displacement ? "the displacements dx and dz" : "the forces Fx and FN");
+}
+
+/* ---- the bodies -------------------------------------------------------------------------------- */
+
+static double input_now(const live *l, input in) {
+    return l->host->calc->scene.in.v[in];
+}
+
+static void grade(live *l, double by) {
+    const double k = round(100 * (input_now(l, IN_K) + by)) / 100;
+    char depth[40] = "";
+    if (!l->host->calc->scene.in.set[IN_C0]) /* as deep as the contact is wide */
+        live_amount(live_nice(number(l, "a", 1e-3)), DIM_LENGTH, depth, sizeof depth);
+    live_say(l, "k = %g%s%s", k, *depth ? ", c0 = " : "", depth);
+}
+
+static void deepen(live *l, double by) {
+    char depth[40];
+    const double c0 =
+        l->host->calc->scene.in.set[IN_C0] ? input_now(l, IN_C0) * by : live_nice(number(l, "a", 1e-3));
+    live_amount(c0, DIM_LENGTH, depth, sizeof depth);
+    live_say(l, "c0 = %s", depth);
+}
+
+static void rub(live *l, double by) {
+    live_say(l, "mu = %g", round(100 * (input_now(l, IN_MU) + by)) / 100);
+}
+
+static void k_up(live *l) {
+    grade(l, 0.05);
+}
+static void k_down(live *l) {
+    grade(l, -0.05);
+}
+static void mu_up(live *l) {
+    rub(l, 0.02);
+}
+static void mu_down(live *l) {
+    rub(l, -0.02);
+}
+static void c0_up(live *l) {
+    deepen(l, 1.25);
+}
+static void c0_down(live *l) {
+    deepen(l, 0.8);
+}
+
+static void next_shape(live *l) {
+    static const char *const shapes[] = {"sphere R=10 mm", "cone slope=0.02", "power n=4 h=2 um r0=0.2 mm",
+                                         "flat-rounded b=0.1 mm R=10 mm"};
+    enum { SHAPES = sizeof shapes / sizeof *shapes };
+    const geometry *g = l->host->calc->scene.in.geometry;
+    size_t i = 0;
+    while (g && i < SHAPES && strncmp(shapes[i], g->name, strlen(g->name)))
+        i++;
+    live_say(l, "geometry %s", shapes[g ? (i + 1) % SHAPES % SHAPES : 0]);
+}
+
+/* ---- the cycle --------------------------------------------------------------------------------- */
+
+static void play(live *l) {
+    if (l->script.count && l->script.at < l->script.count) {
+        script_on(l);
+    } else if (!l->playing) {
+        live_play(l);
+    } else if (!l->last_cycle) {
+        l->last_cycle = true;
+        live_tell(l, false, "the last cycle: space again shows its end");
+    } else {
+        live_play_end(l);
+    }
+}
+
+static void wider(live *l, double way) {
+    const double by = live_nice(now(l)->slip > 0 ? now(l)->slip / PARTS : 1) * way, FA = l->FA + by;
+    l->FA = FA > 0.5 * fabs(by) ? FA : l->FA;
+    l->changed = true;
+}
+
+static void FA_up(live *l) {
+    wider(l, 1);
+}
+static void FA_down(live *l) {
+    wider(l, -1);
+}
+
+static void faster(live *l) {
+    l->speed = fmin(l->speed * 2, 8);
+    l->changed = true;
+}
+
+static void slower(live *l) {
+    l->speed = fmax(l->speed / 2, 0.0625);
+    l->changed = true;
+}
+
+static void swing(live *l) {
+    const double FN = number(l, "FN", 0);
+    l->FNA = l->FNA > 0.35 * FN ? 0 : l->FNA + 0.1 * FN;
+    l->changed = true;
+    live_tell(l, false, l->FNA > 0 ? "the cycle swings FN too" : "the cycle holds FN");
+}
+
+static void phase(live *l) {
+    l->phase = l->phase >= 345 ? 0 : l->phase + 15;
+    live_tell(l, false, "phase of FN against Fx: %g deg", l->phase);
+}
+
+/* ---- the session ------------------------------------------------------------------------------- */
+
+static void undo_last(live *l) {
+    live_say(l, "undo");
+}
+
+/* As pressed, nothing pushed. */
+static void reset(live *l) {
+    const scene *s = &l->host->calc->scene;
+    static const struct {
+        load_by by;
+        const char *name;
+        dim d;
+    } kinds[] = {
+        {BY_FORCE, "FN", {1, 0, 0}}, {BY_DISPLACEMENT, "dz", {0, 1, 0}}, {BY_RADIUS, "a", {0, 1, 0}}};
+    if (!s->end.steps) {
+        live_begin(l);
+        return;
+    }
+    const load_step *first = &s->program->steps[0];
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (kinds[i].by == (load_by)first->normal)
+            live_say(l, "press %s=%.17g %s", kinds[i].name,
+                     first->normal == BY_FORCE ? s->in.v[IN_FN] : first->normal_value,
+                     first->normal == BY_FORCE ? "N" : "m");
+}
+
+static void ask(live *l, const char *prompt, const char *text, void (*entered)(live *l, const char *line)) {
+    l->typing = true;
+    l->prompt = prompt;
+    snprintf(l->line, sizeof l->line, "%s", text);
+    l->cursor = strlen(l->line);
+    l->kept_at = l->kept_count;
+    l->entered = entered;
+    l->changed = true;
+}
+
+/* `compare NAME = v1, v2`, and `compare off`. */
+static void compare(live *l, const char *text) {
+    calc *c = l->host->calc;
+    calc_error error;
+    lexer lx;
+    value v[SIDES];
+    knob by;
+    error_clear(&error);
+    lex_start(&lx, text, strlen(text), &error);
+    if (lex_is(&lx, "off") || lx.kind == T_END) {
+        l->comparing = false;
+        l->side[0].title[0] = 0;
+        live_update(l);
+        return;
+    }
+    const size_t names = c->names.count;
+    bool ok = knob_read(c, &lx, &by) &&
+              (c->names.count == names || lex_fail(&lx, "unknown name '%s': compare an input", by.text)) &&
+              (lx.kind == T_ASSIGN || lex_fail(&lx, "compare NAME = v1, v2, or compare off"));
+    for (size_t i = 0; i < SIDES && ok; i++) {
+        lex_next(&lx);
+        const size_t at = lx.at;
+        ok = expr_value(c, &lx, &v[i]) && value_dim(&lx, by.text, at, lx.last - at, v[i], by.d) &&
+             (lx.kind == (i + 1 < SIDES ? T_COMMA : T_END) ||
+              lex_fail(&lx, "compare NAME = v1, v2: two values"));
+    }
+    names_drop(&c->names, names);
+    if (!ok) {
+        calc_word(c, &error);
+        live_tell(l, true, "error: %.400s", error.text);
+        return;
+    }
+    l->compared = by;
+    for (size_t i = 0; i < SIDES; i++) {
+        char text_of[40];
+        live_amount((double)v[i].v, v[i].d, text_of, sizeof text_of);
+        l->compared_with[i] = v[i].v;
+        snprintf(l->side[i].title, sizeof l->side[i].title, "%s = %s", l->compared.text, text_of);
+        track_free(&l->side[i].path);
+    }
+    l->comparing = true;
+    live_tell(l, false, "the same hand moves both; :compare off ends it");
+    live_update(l);
+}
+
+static void keep_line(live *l, const char *line) {
+    char *copy = strdup(line);
+    if (!copy)
+        return;
+    if (l->kept_count == KEPT_LINES) {
+        free(l->kept[0]);
+        memmove(l->kept, l->kept + 1, (KEPT_LINES - 1) * sizeof *l->kept);
+        l->kept_count--;
+    }
+    l->kept[l->kept_count++] = copy;
+}
+
+static void statement_entered(live *l, const char *line) {
+    static const char word[] = "compare";
+    line += strspn(line, " \t");
+    if (!*line)
+        return;
+    keep_line(l, line);
+    if (!strncmp(line, word, sizeof word - 1) &&
+        !strchr("abcdefghijklmnopqrstuvwxyz_", line[sizeof word - 1]))
+        compare(l, line + sizeof word - 1);
+    else if (!strcmp(line, "compare"))
+        compare(l, "");
+    else
+        live_say(l, "%s", line);
+}
+
+static void statement(live *l) {
+    ask(l, ":", "", statement_entered);
+}
+
+static void save_entered(live *l, const char *line) {
+    char error[LIVE_TEXT];
+    if (l->host->save(l->host->self, line, error, sizeof error))
+        live_tell(l, false, "wrote %.400s", line);
+    else
+        live_tell(l, true, "error: %s", error);
+}
+
+static void save(live *l) {
+    ask(l, "save as: ", "live.fret", save_entered);
+}
+
+static void picture_entered(live *l, const char *line) {
+    live_say(l, "plot loop to \"%s\"", line);
+}
+
+static void picture(live *l) {
+    ask(l, "picture: ", "live.png", picture_entered);
+}
+
+static void leave(live *l) {
+    l->leave = true;
+}
+
+static void back(live *l) {
+    if (l->script.count)
+        script_back(l);
+    else
+        undo_last(l);
+}
+
+/* ---- the mouse --------------------------------------------------------------------------------- */
+
+/* The point of the loop follows by displacement. */
+static void mouse(live *l) {
+    MEVENT e;
+    if (getmouse(&e) == ERR || l->loop.cols < 2)
+        return;
+    const bool inside = e.x >= l->loop.left && e.x < l->loop.left + l->loop.cols && e.y >= l->loop.top &&
+                        e.y < l->loop.top + l->loop.rows;
+    if (e.bstate & BUTTON1_PRESSED)
+        l->dragging = inside;
+    if (l->dragging && !l->page && !l->typing) {
+        char to[40];
+        const double x = (2.0 * (e.x - l->loop.left) + 1 - l->loop.cols) / (l->loop.cols - 1) * l->loop_dx;
+        live_amount(x, DIM_LENGTH, to, sizeof to);
+        if (fabs(x - now(l)->dx) > 0.6 * l->loop_dx / l->loop.cols)
+            live_say(l, "step dx=%s", to);
+    }
+    if (e.bstate & BUTTON1_RELEASED)
+        l->dragging = false;
+}
+
+/* ---- the table --------------------------------------------------------------------------------- */
+
+static void help(live *l);
+
+typedef struct key_row {
+    int key, other; /* other: on another keyboard, 0: none */
+    void (*act)(live *l);
+    const char *keys, *does; /* for help; NULL: said by the row before */
+} key_row;
+
+static const key_row keys[] = {
+    {KEY_RIGHT, 'l', right, "right, left", "push tangentially; with shift, or as l h and L H: finely"},
+    {KEY_LEFT, 'h', left, NULL, NULL},
+    {KEY_SRIGHT, 'L', right_fine, NULL, NULL},
+    {KEY_SLEFT, 'H', left_fine, NULL, NULL},
+    {KEY_UP, 'i', up, "up, down", "press more, less; with shift, or as i j and I J: finely"},
+    {KEY_DOWN, 'j', down, NULL, NULL},
+    {KEY_SR, 'I', up_fine, NULL, NULL},
+    {KEY_SF, 'J', down_fine, NULL, NULL},
+    {'f', 0, drive, "f", "arrows by force, or by displacement"},
+    {'k', 0, k_up, "k, K", "grading k up, down"},
+    {'K', 0, k_down, NULL, NULL},
+    {'c', 0, c0_up, "c, C", "its depth c0 up, down"},
+    {'C', 0, c0_down, NULL, NULL},
+    {'m', 0, mu_up, "m, M", "friction mu up, down"},
+    {'M', 0, mu_down, NULL, NULL},
+    {'g', 0, next_shape, "g", "the next shape"},
+    {' ', 0, play, "space", "a cycle plays; again: the last one, its end; a script: next line"},
+    {'+', '=', FA_up, "+, -", "amplitude FA of the cycle"},
+    {'-', 0, FA_down, NULL, NULL},
+    {']', 0, faster, "], [", "its speed"},
+    {'[', 0, slower, NULL, NULL},
+    {'n', 0, swing, "n", "FN swings too, by 10 % more; none again"},
+    {'a', 0, phase, "a", "phase of FN against Fx, 15 deg more"},
+    {'u', 0, undo_last, "u", "undo"},
+    {'b', 0, back, "b", "back: a line of the script, else undo"},
+    {'r', 0, reset, "r", "as pressed at first: nothing pushed"},
+    {':', 0, statement, ":", "a statement of the language; Tab completes; compare k = -0.5, 0.5"},
+    {'s', 0, save, "s", "save the scene as a script"},
+    {'p', 0, picture, "p", "the loop as a picture"},
+    {'?', KEY_F(1), help, "?", "this help"},
+    {'q', KEY_STOP, leave, "q, Ctrl-C", "leave; Ctrl-Z stops, fg goes on"},
+};
+enum { KEYS = sizeof keys / sizeof *keys };
+
+static void help(live *l) {
+    size_t size = 0;
+    FILE *to = open_memstream(&l->page, &size);
+    if (!to)
+        return;
+    for (size_t i = 0; i < KEYS; i++)
+        if (keys[i].keys)
+            fprintf(to, "  %-12s %s\n", keys[i].keys, keys[i].does);
+    fputs("\nThe mouse drags the point of the loop. All of it is statements: `history`, `save`\n"
+          "and `undo` know them.\n",
+          to);
+    if (fclose(to))
+        l->page = NULL;
+    l->page_from = 0;
+    l->changed = true;
+}
+
+/* ---- a page, a line being typed ---------------------------------------------------------------- */
+
+static void page_key(live *l, int key) {
+    const bool next = key == ' ' || key == KEY_DOWN || key == KEY_NPAGE,
+               before = key == KEY_UP || key == KEY_PPAGE;
+    size_t lines = 0;
+    const size_t rows = LINES > 4 ? (size_t)LINES - 3 : 1;
+    for (const char *p = l->page; *p; p++)
+        lines += *p == '\n' || !p[1];
+    l->changed = true;
+    if (next && l->page_from + rows < lines) {
+        l->page_from += rows;
+    } else if (before) {
+        l->page_from = l->page_from > rows ? l->page_from - rows : 0;
+    } else {
+        free(l->page);
+        l->page = NULL;
+    }
+}
+
+static void recall(live *l, bool older) {
+    if (older ? l->kept_at == 0 : l->kept_at >= l->kept_count)
+        return;
+    l->kept_at += older ? (size_t)-1 : 1;
+    snprintf(l->line, sizeof l->line, "%s", l->kept_at < l->kept_count ? l->kept[l->kept_at] : "");
+    l->cursor = strlen(l->line);
+}
+
+static void enter(live *l) {
+    char line[LIVE_LINE];
+    memcpy(line, l->line, sizeof line);
+    l->typing = false;
+    l->entered(l, line);
+}
+
+static void insert(live *l, int key) {
+    const size_t n = strlen(l->line);
+    if (key < ' ' || key > 0xff || key == 0x7f || n + 1 >= sizeof l->line)
+        return;
+    memmove(l->line + l->cursor + 1, l->line + l->cursor, n - l->cursor + 1);
+    l->line[l->cursor++] = (char)key;
+}
+
+static void erase_one(live *l) {
+    if (l->cursor == 0)
+        return;
+    memmove(l->line + l->cursor - 1, l->line + l->cursor, strlen(l->line) - l->cursor + 1);
+    l->cursor--;
+}
+
+static void typing_key(live *l, int key) {
+    enum { CTRL_A = 1, CTRL_E = 5, CTRL_U = 21, ESCAPE = 27, DELETE = 0x7f };
+    l->changed = true;
+    if (key == '\r' || key == '\n' || key == KEY_ENTER) {
+        enter(l);
+    } else if (key == ESCAPE || key == KEY_STOP) {
+        l->typing = false;
+    } else if (key == '\t') {
+        l->host->complete(l->host->self, l->line, sizeof l->line, &l->cursor);
+    } else if (key == KEY_BACKSPACE || key == DELETE || key == '\b') {
+        erase_one(l);
+    } else if (key == KEY_LEFT) {
+        l->cursor -= l->cursor > 0;
+    } else if (key == KEY_RIGHT) {
+        l->cursor += l->cursor < strlen(l->line);
+    } else if (key == KEY_UP || key == KEY_DOWN) {
+        recall(l, key == KEY_UP);
+    } else if (key == CTRL_U) {
+        l->line[l->cursor = 0] = 0;
+    } else if (key == CTRL_A || key == KEY_HOME) {
+        l->cursor = 0;
+    } else if (key == CTRL_E || key == KEY_END) {
+        l->cursor = strlen(l->line);
+    } else {
+        insert(l, key);
+    }
+}
+
+void live_key(live *l, int key) {
+    if (key == KEY_AGAIN) {
+        l->changed = true;
+    } else if (key == KEY_MOUSE) {
+        mouse(l);
+    } else if (l->typing) {
+        typing_key(l, key);
+    } else if (l->page) {
+        page_key(l, key);
+    } else {
+        for (size_t i = 0; i < KEYS; i++)
+            if (keys[i].key == key || (keys[i].other && keys[i].other == key)) {
+                keys[i].act(l);
+                return;
+            }
+        live_tell(l, false, "? lists the keys");
+    }
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The full-screen mode: the contact pressed, pushed and pulled by hand. Everything done is a statement of the
+ * language, run by its host. */
+#ifndef LIVE_LIVE_H
+#define LIVE_LIVE_H
+
+#include "calc/calc.h"
+
+/* What the program around the language does for it. */
+typedef struct live_host {
+    void *self;
+    calc *calc;
+    const int *digits; /* of printed values */
+    const bool *quit;  /* the user wants to leave the program */
+    volatile sig_atomic_t *stop;
+    /* Runs a line of statements. What it says, errors too, goes into answer (to be freed, or NULL); false: an
+     * error. */
+    bool (*run)(void *self, const char *line, char **answer);
+    /* The line with the word before the cursor completed as far as it is the same for all candidates; the
+     * cursor moves. */
+    void (*complete)(void *self, char *line, size_t size, size_t *cursor);
+    /* The scene as a script. */
+    bool (*save)(void *self, const char *path, char *error, size_t size);
+} live_host;
+
+/* Work on frames: seconds, writing to the terminal included. */
+typedef struct live_work {
+    size_t frames;
+    double total, worst;
+} live_work;
+
+/* Until the user leaves. script: a file to step through, or NULL. False with the error where there is no
+ * terminal for it or the script cannot be read. */
+bool live_run(const live_host *host, const char *script, live_work *work, char *error, size_t size);
+
+#endif

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A script stepped through: a line at a time, and back by undo. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "calc/file.h"
+#include "live/state.h"
+
+static const char prompt[] = "fret> ";
+
+static size_t continuation(const char *line, size_t length) {
+    size_t n = length;
+    while (n > 0 && (line[n - 1] == ' ' || line[n - 1] == '\t' || line[n - 1] == '\r'))
+        n--;
+    return n > 0 && line[n - 1] == '\\' ? n - 1 : length;
+}
+
+static bool keep(live_script *s, const char *line) {
+    char **grown = realloc(s->line, (s->count + 1) * sizeof *grown);
+    if (!grown)
+        return false;
+    s->line = grown;
+    s->line[s->count] = strdup(line + strspn(line, " \t"));
+    return s->line[s->count] && ++s->count;
+}
+
+/* Of a transcript the statements alone. */
+static void statements_only(live_script *s) {
+    size_t kept = 0;
+    bool transcript = false;
+    for (size_t i = 0; i < s->count; i++)
+        transcript = transcript || !strncmp(s->line[i], prompt, sizeof prompt - 1);
+    for (size_t i = 0; transcript && i < s->count; i++) {
+        char *line = s->line[i];
+        if (strncmp(line, prompt, sizeof prompt - 1)) {
+            free(line);
+        } else {
+            memmove(line, line + sizeof prompt - 1, strlen(line) - sizeof prompt + 2);
+            s->line[kept++] = line;
+        }
+    }
+    s->count = transcript ? kept : s->count;
+}
+
+bool script_open(live *l, const char *path, char *error, size_t size) {
+    live_script *s = &l->script;
+    file_in in;
+    if (!file_in_open(&in, path, l->host->stop, error, size))
+        return false;
+    file_got got = FILE_GOT_LINE;
+    bool ok = true;
+    while (ok && (got = file_in_logical(&in, continuation, error, size)) == FILE_GOT_LINE) {
+        in.line[strcspn(in.line, "\r")] = 0;
+        ok = keep(s, in.line);
+    }
+    file_in_close(&in);
+    statements_only(s);
+    s->undo = calloc(s->count + 1, sizeof *s->undo);
+    s->steps = calloc(s->count + 1, sizeof *s->steps);
+    if (!ok || !s->undo || !s->steps)
+        snprintf(error, size, "out of memory");
+    return ok && got == FILE_GOT_END && s->undo && s->steps;
+}
+
+void script_close(live *l) {
+    live_script *s = &l->script;
+    for (size_t i = 0; i < s->count; i++)
+        free(s->line[i]);
+    free(s->line);
+    free(s->undo);
+    free(s->steps);
+    *s = (live_script){.line = NULL};
+}
+
+static bool is_comment(const char *line) {
+    return *line == '#' || !*line;
+}
+
+/* The comments before the next statement are shown with it still to come. */
+static void take_note(live *l) {
+    live_script *s = &l->script;
+    l->note[0] = 0;
+    for (; s->at < s->count && is_comment(s->line[s->at]); s->at++) {
+        const char *text = s->line[s->at] + strspn(s->line[s->at], "# ");
+        const size_t n = strlen(l->note);
+        if (*text)
+            snprintf(l->note + n, sizeof l->note - n, "%s%s", n ? " " : "", text);
+    }
+    if (s->at == s->count && !*l->note)
+        snprintf(l->note, sizeof l->note, "the end of the script");
+}
+
+void script_on(live *l) {
+    live_script *s = &l->script;
+    const calc *c = l->host->calc;
+    if (s->at == s->count) {
+        live_tell(l, false, "the end of the script");
+        take_note(l);
+        live_update(l);
+        return;
+    }
+    if (is_comment(s->line[s->at])) {
+        take_note(l);
+        live_update(l);
+        return;
+    }
+    s->undo[s->at] = c->undo.count;
+    s->steps[s->at] = c->scene.end.steps;
+    const char *line = s->line[s->at++];
+    take_note(l);
+    live_say(l, "%s", line);
+}
+
+void script_back(live *l) {
+    live_script *s = &l->script;
+    const calc *c = l->host->calc;
+    size_t to = s->at;
+    while (to > 0 && is_comment(s->line[to - 1]))
+        to--;
+    if (to == 0) {
+        live_tell(l, false, "the beginning of the script");
+        return;
+    }
+    s->at = to - 1;
+    l->note[0] = 0;
+    while ((c->undo.count > s->undo[s->at] || c->scene.end.steps > s->steps[s->at]) && live_say(l, "undo"))
+        ;
+    live_tell(l, false, "back before: %s", s->line[s->at]);
+    live_update(l);
+}

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* States of a scene as plain numbers. Changes no scene. */
+#include "live/shot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const names[SHOT_VALUES] = {"FN", "Fx", "dx", "dz", "a", "c", "c/a", "W", "U", "dW", "kt"};
+
+const char *shot_name(size_t i) {
+    return names[i];
+}
+
+/* ---- a state ----------------------------------------------------------------------------------- */
+
+static void take_values(calc *c, shot *out) {
+    for (size_t i = 0; i < SHOT_VALUES; i++) {
+        const quantity *q = quantity_find(names[i], strlen(names[i]));
+        calc_error ignored;
+        error_clear(&ignored);
+        out->known[i] = q && quantity_get(q, c->now, &out->value[i], &ignored);
+        out->d[i] = q ? q->d : DIM_NONE;
+        if (!q) { /* c/a, of two that have been read */
+            out->known[i] = out->known[i - 1] && out->known[i - 2] && out->value[i - 2] > 0;
+            out->value[i] = out->known[i] ? out->value[i - 1] / out->value[i - 2] : 0;
+        }
+    }
+}
+
+/* Parts of uniform slope; only the outermost where there are many. */
+static void take_rings(const fret_memory *memory, shot *out) {
+    fret_segment part;
+    size_t count = 0;
+    out->rings = 0;
+    while (fret_memory_segment(memory, count, &part))
+        count++;
+    for (size_t i = count > SHOT_RINGS ? count - SHOT_RINGS : 0; i < count; i++) {
+        fret_press edge = {.a = 0};
+        fret_memory_segment(memory, i, &part);
+        if (part.outer > 0 &&
+            !fret_press_by_depth(fret_memory_normal(memory), (double)part.outer, &edge).code)
+            out->ring[out->rings++] = (shot_ring){(double)edge.a, (double)part.sigma};
+    }
+}
+
+bool shot_take(calc *c, shot *out, calc_error *error) {
+    const fret_memory *memory;
+    fret_state state;
+    if (!scene_memory(c->now, &memory, error))
+        return false;
+    fret_memory_state(memory, &state);
+    out->time = scene_time(c->now);
+    out->a = (double)state.a;
+    out->c = (double)state.c;
+    out->dx = (double)state.dx;
+    out->Fx = (double)state.Fx;
+    out->slip = fret_memory_friction(memory) * (double)state.FN;
+    out->bound = (double)fret_memory_bound(memory, 0);
+    for (int i = 0; i <= SHOT_SAMPLES; i++) {
+        const fret_real x = state.a * i / SHOT_SAMPLES;
+        out->u[i] = (double)fret_memory_displacement(memory, x);
+        out->B[i] = (double)fret_memory_bound(memory, x);
+    }
+    take_rings(memory, out);
+    take_values(c, out);
+    return true;
+}
+
+/* ---- the way ----------------------------------------------------------------------------------- */
+
+enum { TRACK_POINTS = 20000 };
+
+static bool add(track *t, track_point p) {
+    if (t->count == TRACK_POINTS) {
+        t->count /= 2;
+        memmove(t->point, t->point + t->count, t->count * sizeof *t->point);
+    }
+    if (t->count == t->room) {
+        const size_t room = t->room ? 2 * t->room : 256;
+        track_point *grown = realloc(t->point, room * sizeof *grown);
+        if (!grown)
+            return false;
+        t->point = grown;
+        t->room = room;
+    }
+    t->point[t->count++] = p;
+    t->dx = fmax(t->dx, fabs(p.dx));
+    t->Fx = fmax(t->Fx, fabs(p.Fx));
+    t->energy = fmax(t->energy, fmax(p.W, p.U));
+    return true;
+}
+
+static track_point point_of(const fret_state *s, double time) {
+    return (track_point){time, (double)s->dx, (double)s->Fx, (double)s->W, (double)s->U};
+}
+
+static void widen(track *t, double a, double bound) {
+    t->a = fmax(t->a, a);
+    t->bound = fmax(t->bound, bound);
+}
+
+static bool see(const runner *r, void *context) {
+    track *t = context;
+    fret_state s;
+    engine_state(&r->engine, &s);
+    widen(t, (double)s.a, (double)fret_memory_bound(r->engine.self, 0));
+    return add(t, point_of(&s, r->time));
+}
+
+/* A step that is small on the screen is drawn as it is: long sessions by hand stay quick. */
+static bool same_inputs(const inputs *a, const inputs *b) {
+    return !memcmp(a->v, b->v, sizeof a->v) && !memcmp(a->set, b->set, sizeof a->set) && a->bindings == 0 &&
+           b->bindings == 0 && a->geometry == b->geometry && a->table == b->table && a->second == b->second;
+}
+
+static bool grown_little(const track *t, const scene *s, const shot *now) {
+    enum { SMALL = 12 }; /* of the width of the loop */
+    if (!t->count || s->program != t->program || s->end.steps != t->steps + 1 ||
+        !same_inputs(&s->in, &t->in) || s->program->steps[t->steps].kind != LOAD_STEP)
+        return false;
+    const track_point *last = &t->point[t->count - 1];
+    return fabs(now->dx - last->dx) * SMALL <= t->dx && fabs(now->Fx - last->Fx) * SMALL <= now->slip;
+}
+
+static bool track_again(track *t, scene *s, calc_error *error) {
+    enum { FEW = 100, MANY = 400 };
+    t->count = 0;
+    t->dx = t->Fx = t->a = t->bound = t->energy = 0;
+    watch w = watch_points(s->end.steps <= FEW ? 24 : s->end.steps <= MANY ? 8 : 2);
+    w.see = see;
+    w.context = t;
+    if (!add(t, (track_point){.time = 0}))
+        return calc_no_memory(error);
+    return scene_trace(s, &w, error);
+}
+
+bool track_follow(track *t, calc *c, const shot *now, calc_error *error) {
+    scene *s = c->now;
+    bool ok = true;
+    if (grown_little(t, s, now)) {
+        const double W = (double)now->value[7], U = (double)now->value[8];
+        ok = add(t, (track_point){now->time, now->dx, now->Fx, W, U}) || calc_no_memory(error);
+    } else if (s->program != t->program || s->end.steps != t->steps || !same_inputs(&s->in, &t->in)) {
+        ok = track_again(t, s, error);
+    }
+    widen(t, now->a, now->bound);
+    t->program = ok ? s->program : NULL;
+    t->steps = s->end.steps;
+    t->in = s->in;
+    return ok;
+}
+
+void track_free(track *t) {
+    free(t->point);
+    *t = (track){.point = NULL};
+}
+
+/* ---- the last item of the load ----------------------------------------------------------------- */
+
+typedef struct shots {
+    calc *c;
+    shot *out;
+    size_t count, taken;
+} shots;
+
+static bool look(void *context, double time, calc_error *error) {
+    shots *s = context;
+    if (s->taken == s->count)
+        return true;
+    if (!shot_take(s->c, &s->out[s->taken], error))
+        return false;
+    s->out[s->taken++].time = time;
+    return true;
+}
+
+bool shots_along(calc *c, shot *out, size_t count, size_t *taken, calc_error *error) {
+    shots s = {c, out, count, 0};
+    const load_mark end = c->now->end;
+    if (!end.steps)
+        return false;
+    const bool cycle = c->now->program->steps[end.steps - 1].kind == LOAD_CYCLE;
+    const load_mark from = {end.steps - 1, end.cycles - (cycle ? 1 : 0)};
+    trial *t = trial_open(c, error);
+    bool ok = t && trial_along(t, ALONG_LOAD, from, count - 1, false, look, &s, error);
+    if (t)
+        trial_close(t);
+    *taken = s.taken;
+    return ok && s.taken > 0;
+}

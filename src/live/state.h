@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The state of the full-screen mode: what the keys change and the views draw. */
+#ifndef LIVE_STATE_H
+#define LIVE_STATE_H
+
+#include "live/canvas.h"
+#include "live/live.h"
+#include "live/shot.h"
+
+enum { LIVE_TEXT = 256, LIVE_LINE = 512, PLAY_SHOTS = 76, SIDES = 2, KEPT_LINES = 50 };
+
+/* One scene on the screen: the user's, or the user's with an input changed. */
+typedef struct side {
+    char title[LIVE_TEXT];   /* of a comparison, else empty */
+    char trouble[LIVE_TEXT]; /* why there is nothing to show; empty: there is */
+    shot now;
+    track path;
+    shot *play; /* the way of the cycle that plays */
+    size_t shots;
+} side;
+
+/* A script that is stepped through. */
+typedef struct live_script {
+    char **line; /* without ends; NULL: there is none */
+    size_t count, at;
+    size_t *undo, *steps; /* of the session before each line */
+} live_script;
+
+typedef struct live {
+    const live_host *host;
+    bool leave;
+    bool by_displacement; /* what the arrows push */
+    /* the cycle that space plays */
+    double FA, FNA, phase, speed; /* [N], [N], [deg], periods a second */
+    bool playing, last_cycle;
+    double play_at; /* time of the load */
+    /* two scenes */
+    bool comparing;
+    knob compared;
+    long double compared_with[SIDES];
+    side side[SIDES];
+    /* what is told */
+    char status[LIVE_LINE];
+    bool bad;
+    char note[LIVE_LINE]; /* a comment of the script */
+    char *page;           /* a text over all views, or NULL */
+    size_t page_from;
+    /* the line being typed */
+    bool typing;
+    const char *prompt;
+    char line[LIVE_LINE];
+    size_t cursor;
+    void (*entered)(struct live *l, const char *line);
+    char *kept[KEPT_LINES];
+    size_t kept_count, kept_at;
+    live_script script;
+    /* where the loop is, for the mouse */
+    rect loop;
+    double loop_dx, loop_Fx; /* half its width and height */
+    bool dragging;
+    bool changed; /* something is to be drawn */
+} live;
+
+/* ---- what the keys do: statements, most of them ---- */
+
+/* Runs a line and tells what it says; false: an error. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+bool live_say(live *l, const char *format, ...);
+/* 1, 2 or 5 times a power of ten, near v. */
+double live_nice(double v);
+/* A number for a statement, in a unit that suits it. */
+void live_amount(double v, dim d, char *text, size_t size);
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void live_tell(live *l, bool bad, const char *format, ...);
+/* After a change: what is to be shown. */
+void live_update(live *l);
+/* Nothing set yet: a scene to begin with. */
+void live_begin(live *l);
+void live_play(live *l);
+/* Goes on by so many seconds; stops: shows the end at once. */
+void live_play_on(live *l, double seconds);
+void live_play_end(live *l);
+/* The state that is shown: on the way of a cycle, or the present one. */
+const shot *side_shown(const live *l, const side *s);
+
+/* ---- script.c ---- */
+bool script_open(live *l, const char *path, char *error, size_t size);
+void script_close(live *l);
+void script_on(live *l);
+void script_back(live *l);
+
+/* ---- views.c ---- */
+void live_draw(live *l);
+
+/* ---- keys.c ---- */
+void live_key(live *l, int key);
+/* Key i of the table, and what it does; false after the last. */
+bool key_help(size_t i, const char **keys, const char **does);
+
+#endif

@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The terminal by curses. Signals that end the program put it right through the list of calc/file.h; those
+ * that stop it or change its size wait until nothing is being drawn. */
+#define _XOPEN_SOURCE 700
+#define NCURSES_WIDECHAR 1
+#include "live/terminal.h"
+
+#include <curses.h>
+#include <langinfo.h>
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <sys/select.h>
+#include <term.h>
+#include <unistd.h>
+
+#include "calc/file.h"
+#include "live/canvas.h"
+
+static const char mouse_on[] = "\033[?1002h", mouse_off[] = "\033[?1002l\033[?1006l\033[?1000l";
+
+static struct {
+    SCREEN *screen;
+    int guard;
+    bool unicode, mouse;
+    char farewell[256]; /* what the terminal is sent when there is no time for curses */
+} own = {.guard = -1};
+
+/* ---- signals ----------------------------------------------------------------------------------- */
+
+static volatile sig_atomic_t stopped, resized;
+
+static void on_stop(int number) {
+    (void)number;
+    stopped = 1;
+}
+
+static void on_resize(int number) {
+    (void)number;
+    resized = 1;
+}
+
+static void on_crash(int number);
+
+static struct taken {
+    int number;
+    void (*handler)(int number);
+    struct sigaction before;
+} taken[] = {{.number = SIGTSTP, .handler = on_stop},
+             {.number = SIGCONT, .handler = on_resize},
+             {.number = SIGWINCH, .handler = on_resize},
+             {.number = SIGSEGV, .handler = on_crash},
+             {.number = SIGBUS, .handler = on_crash},
+             {.number = SIGFPE, .handler = on_crash},
+             {.number = SIGILL, .handler = on_crash},
+             {.number = SIGABRT, .handler = on_crash},
+             {.number = 0}};
+
+/* A crash: the terminal first, then what it would have been. */
+static void on_crash(int number) {
+    file_emergency();
+    for (struct taken *t = taken; t->number; t++)
+        if (t->number == number)
+            sigaction(number, &t->before, NULL);
+    raise(number);
+}
+
+static void take_signals(void) {
+    stopped = resized = 0;
+    for (struct taken *t = taken; t->number; t++) {
+        const struct sigaction act = {.sa_handler = t->handler};
+        sigaction(t->number, &act, &t->before);
+    }
+}
+
+static void give_signals_back(void) {
+    for (struct taken *t = taken; t->number; t++)
+        sigaction(t->number, &t->before, NULL);
+}
+
+/* ---- taking over ------------------------------------------------------------------------------- */
+
+/* A string of the terminal's description, without its padding. */
+static void append(char *to, size_t size, const char *name) {
+    const char *s = tigetstr(name);
+    size_t n = strlen(to);
+    for (; s && s != (const char *)-1 && *s && n + 1 < size; s++) {
+        if (s[0] == '$' && s[1] == '<' && strchr(s, '>'))
+            s = strchr(s, '>');
+        else
+            to[n++] = *s;
+    }
+    to[n] = 0;
+}
+
+static void send(const char *text) {
+    const ssize_t sent = write(STDOUT_FILENO, text, strlen(text));
+    (void)sent; /* a mouse that is not there is no harm */
+}
+
+static void set_colors(void) {
+    static const short basic[INKS] = {
+        [INK_FRAME] = COLOR_WHITE,  [INK_BOUND] = COLOR_YELLOW, [INK_MEMORY] = COLOR_MAGENTA,
+        [INK_STICK] = COLOR_GREEN,  [INK_SLIP] = COLOR_RED,     [INK_CURVE] = COLOR_CYAN,
+        [INK_OTHER] = COLOR_YELLOW, [INK_POINT] = COLOR_WHITE,  [INK_ERROR] = COLOR_RED};
+    static const short many[INKS] = {
+        [INK_FRAME] = 250, [INK_BOUND] = 179, [INK_MEMORY] = 133, [INK_STICK] = 71, [INK_SLIP] = 203,
+        [INK_CURVE] = 80,  [INK_OTHER] = 179, [INK_POINT] = 231,  [INK_ERROR] = 203};
+    if (!has_colors() || start_color() == ERR)
+        return;
+    use_default_colors();
+    for (short i = INK_FRAME; i < INKS && i < COLOR_PAIRS; i++)
+        init_pair(i, COLORS >= 256 ? many[i] : basic[i], -1);
+}
+
+/* Arrows of terminals that take no notice of the keypad's mode. */
+static const struct {
+    const char *sent;
+    int key;
+} arrows[] = {{"\033[A", KEY_UP}, {"\033[B", KEY_DOWN}, {"\033[C", KEY_RIGHT}, {"\033[D", KEY_LEFT}};
+
+bool terminal_open(char *error, size_t size) {
+    struct termios modes;
+    if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO) || tcgetattr(STDIN_FILENO, &modes)) {
+        snprintf(error, size, "the full-screen mode needs a terminal");
+        return false;
+    }
+    setlocale(LC_CTYPE, "");
+    take_signals();
+    own.screen = newterm(NULL, stdout, stdin);
+    if (!own.screen || !tigetstr("cup") || tigetstr("cup") == (char *)-1) {
+        const char *name = getenv("TERM");
+        snprintf(error, size, "the full-screen mode cannot be had on this terminal (TERM=%s)",
+                 name ? name : "");
+        terminal_close();
+        return false;
+    }
+    own.unicode = !strcmp(nl_langinfo(CODESET), "UTF-8");
+    own.farewell[0] = 0;
+    const char *reports = tigetstr("kmous");
+    own.mouse = reports && reports != (const char *)-1;
+    if (own.mouse)
+        strcpy(own.farewell, mouse_off);
+    append(own.farewell, sizeof own.farewell, "sgr0");
+    append(own.farewell, sizeof own.farewell, "rmkx");
+    append(own.farewell, sizeof own.farewell, "cnorm");
+    append(own.farewell, sizeof own.farewell, "rmcup");
+    own.guard = file_guard_terminal(STDIN_FILENO, &modes, own.farewell);
+    cbreak();
+    noecho();
+    nonl();
+    keypad(stdscr, TRUE);
+    nodelay(stdscr, TRUE);
+    set_escdelay(50);
+    for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++)
+        define_key(arrows[i].sent, arrows[i].key);
+    curs_set(0);
+    set_colors();
+    if (own.mouse) {
+        mousemask(BUTTON1_PRESSED | BUTTON1_RELEASED | REPORT_MOUSE_POSITION, NULL);
+        mouseinterval(0);
+        send(mouse_on);
+    }
+    return true;
+}
+
+void terminal_close(void) {
+    if (own.screen) {
+        if (own.mouse) {
+            mousemask(0, NULL);
+            send(mouse_off);
+        }
+        endwin();
+        delscreen(own.screen);
+    }
+    own.screen = NULL;
+    own.mouse = false;
+    file_unguard(own.guard);
+    own.guard = -1;
+    give_signals_back();
+    setlocale(LC_CTYPE, "C");
+}
+
+bool terminal_unicode(void) {
+    return own.unicode;
+}
+
+/* ---- keys -------------------------------------------------------------------------------------- */
+
+/* As Ctrl-Z does; comes back when the program is continued. */
+static void stop_here(void) {
+    struct sigaction act = {.sa_handler = SIG_DFL}, ours;
+    if (own.mouse)
+        send(mouse_off);
+    endwin();
+    sigaction(SIGTSTP, &act, &ours);
+    raise(SIGTSTP);
+    sigaction(SIGTSTP, &ours, NULL);
+    stopped = 0;
+    resized = 1;
+}
+
+static void take_size(void) {
+    struct winsize size;
+    resized = 0;
+    if (isendwin())
+        refresh();
+    else
+        reset_prog_mode(); /* whoever stopped us may have changed it */
+    if (!ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) && size.ws_row > 0 && size.ws_col > 0 &&
+        (size.ws_row != LINES || size.ws_col != COLS))
+        resizeterm(size.ws_row, size.ws_col);
+    clearok(curscr, TRUE);
+    curs_set(0);
+    if (own.mouse)
+        send(mouse_on);
+}
+
+int terminal_key(int milliseconds, volatile sig_atomic_t *stop) {
+    int key = getch(); /* what curses holds back, and all that came with it */
+    if (key != ERR)
+        return key == KEY_RESIZE ? KEY_AGAIN : key;
+    sigset_t ours, before;
+    sigemptyset(&ours);
+    sigaddset(&ours, SIGINT);
+    for (struct taken *t = taken; t->handler != on_crash; t++)
+        sigaddset(&ours, t->number);
+    sigprocmask(SIG_BLOCK, &ours, &before); /* none comes between looking and waiting */
+    fd_set in;
+    FD_ZERO(&in);
+    FD_SET(STDIN_FILENO, &in);
+    const struct timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000L};
+    const int ready = *stop || stopped || resized ? 0
+                                                  : pselect(STDIN_FILENO + 1, &in, NULL, NULL,
+                                                            milliseconds < 0 ? NULL : &time, &before);
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    if (stopped)
+        stop_here();
+    if (resized) {
+        take_size();
+        return KEY_AGAIN;
+    }
+    if (*stop) {
+        *stop = 0;
+        return KEY_STOP;
+    }
+    key = ready > 0 ? getch() : ERR;
+    if (ready > 0 && key == ERR && !isatty(STDIN_FILENO))
+        return KEY_STOP; /* the terminal is gone */
+    return key == ERR ? KEY_NONE : key == KEY_RESIZE ? KEY_AGAIN : key;
+}

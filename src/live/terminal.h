@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The terminal: taken over, given back, and never left as it should not be. */
+#ifndef LIVE_TERMINAL_H
+#define LIVE_TERMINAL_H
+
+#include <signal.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Beyond the keys of curses. */
+enum { KEY_NONE = -1, KEY_STOP = 0x10000 /* Ctrl-C */, KEY_AGAIN /* the screen must be drawn anew */ };
+
+bool terminal_open(char *error, size_t size);
+void terminal_close(void);
+/* Braille and other signs can be shown. */
+bool terminal_unicode(void);
+/* Waits for a key or for the time to pass. */
+int terminal_key(int milliseconds, volatile sig_atomic_t *stop);
+
+#endif

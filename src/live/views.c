@@ -1,0 +1,383 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The views: one table. Draws what the state says and changes none of it, but for the place of the loop,
+ * which the mouse wants to know. */
+#define _XOPEN_SOURCE 700
+#define NCURSES_WIDECHAR 1
+#include <curses.h>
+#include <math.h>
+#include <string.h>
+
+#include "live/state.h"
+#include "live/terminal.h"
+
+/* ---- scales, the same for all scenes on the screen --------------------------------------------- */
+
+typedef struct scales {
+    double a, bound, dx, Fx, energy;
+} scales;
+
+/* A little above, in steps: the picture must not breathe with every key. */
+static double roomy(double v) {
+    static const double steps[] = {1, 1.5, 2, 3, 4, 5, 6, 8, 10};
+    if (!(v > 0) || !isfinite(v))
+        return 1;
+    const double ten = pow(10, floor(log10(v * 1.02)));
+    size_t i = 0;
+    while (i + 1 < sizeof steps / sizeof *steps && steps[i] * ten < v * 1.02)
+        i++;
+    return steps[i] * ten;
+}
+
+static scales scales_of(const live *l) {
+    scales most = {0, 0, 0, 0, 0};
+    for (size_t i = 0; i < (l->comparing ? SIDES : 1); i++) {
+        const side *s = &l->side[i];
+        if (*s->trouble)
+            continue;
+        most.a = fmax(most.a, s->path.a);
+        most.bound = fmax(most.bound, s->path.bound);
+        most.dx = fmax(most.dx, fmax(s->path.dx, s->now.bound));
+        most.Fx = fmax(most.Fx, fmax(s->path.Fx, s->now.slip));
+        most.energy = fmax(most.energy, s->path.energy);
+    }
+    return (scales){roomy(most.a), roomy(most.bound), roomy(most.dx), roomy(most.Fx), roomy(most.energy)};
+}
+
+static void amount(double v, dim d, char text[40]) {
+    live_amount(v, d, text, 40);
+}
+
+/* ---- the contact disc -------------------------------------------------------------------------- */
+
+typedef struct zone {
+    ink of;
+    char sign;
+    int every; /* dots of a row, so that zones differ without colours */
+} zone;
+
+static const zone stick = {INK_STICK, '#', 1}, slip = {INK_SLIP, '.', 4}, earlier = {INK_MEMORY, '+', 2};
+
+static const zone *zone_at(const shot *s, double r) {
+    if (r > s->a)
+        return NULL;
+    if (r > s->c)
+        return &slip;
+    size_t i = 0;
+    while (i < s->rings && s->ring[i].radius < r)
+        i++;
+    return i < s->rings && fabs(s->ring[i].sigma) > 0.5 ? &earlier : &stick;
+}
+
+/* Edges of the rings are left out, so that rings side by side are told apart. */
+static bool on_edge(const shot *s, double r, double width) {
+    for (size_t i = 0; i < s->rings; i++)
+        if (fabs(s->ring[i].radius - r) < width && s->ring[i].radius < s->c * (1 - 1e-9))
+            return true;
+    return false;
+}
+
+static void draw_disc(live *l, const side *sd, const scales *sc, rect at) {
+    const shot *s = side_shown(l, sd);
+    canvas c;
+    rect disc = at;
+    (void)l;
+    disc.rows -= 1;
+    if (!canvas_make(&c, disc, terminal_unicode()))
+        return;
+    const double radius = fmin(c.wide, c.high) / 2.0 - 0.5, dot = sc->a / radius;
+    const int mx = c.wide / 2, my = c.high / 2;
+    for (int y = 0; y < c.high; y++)
+        for (int x = 0; x < c.wide; x++) {
+            const double r = hypot(x - mx + 0.5, y - my + 0.5) * dot;
+            const zone *z = zone_at(s, r);
+            if (!z || on_edge(s, r, 0.5 * dot))
+                continue;
+            if (!c.braille)
+                canvas_sign(&c, x, y, z->sign, z->of);
+            else if ((x + 2 * (y % 2) * (z->every / 4) + (y % 2) * (z->every == 2)) % z->every == 0 &&
+                     (z->every < 4 || y % 2 == 0))
+                canvas_dot(&c, x, y, z->of);
+        }
+    canvas_show(&c);
+    static const char *const names[] = {"stick", "slip", "earlier"};
+    const zone *zones[] = {&stick, &slip, &earlier};
+    rect part = {at.top, at.left + 1, at.rows, at.cols - 1};
+    for (size_t i = 0; i < 3; i++) {
+        put_text(part, at.rows - 1, zones[i]->of, "%s %s",
+                 terminal_unicode() ? (i == 0   ? "\u28ff"
+                                       : i == 1 ? "\u2801"
+                                                : "\u28a5")
+                                    : (char[]){zones[i]->sign, 0},
+                 names[i]);
+        const int used = (int)strlen(names[i]) + 4;
+        part.left += used;
+        part.cols -= used;
+    }
+}
+
+/* ---- the springs ------------------------------------------------------------------------------- */
+
+static void draw_springs(live *l, const side *sd, const scales *sc, rect at) {
+    const shot *s = side_shown(l, sd);
+    char text[40];
+    canvas c;
+    rect box = {at.top, at.left, at.rows - 1, at.cols};
+    (void)l;
+    if (!canvas_make(&c, box, terminal_unicode()))
+        return;
+    const double mx = (c.wide - 1) / 2.0, my = (c.high - 1) / 2.0, kx = mx / sc->a, ky = my / sc->bound;
+    canvas_line(&c, 0, my, c.wide - 1, my, INK_FRAME, 4);
+    for (int way = -1; way <= 1; way += 2)
+        for (int i = 0; i < SHOT_SAMPLES; i++) {
+            const double x0 = mx + way * kx * s->a * i / SHOT_SAMPLES,
+                         x1 = x0 + way * kx * s->a / SHOT_SAMPLES;
+            canvas_line(&c, x0, my - ky * s->B[i], x1, my - ky * s->B[i + 1], INK_BOUND, 2);
+            canvas_line(&c, x0, my + ky * s->B[i], x1, my + ky * s->B[i + 1], INK_BOUND, 2);
+            const bool slips = s->a * (i + 0.5) / SHOT_SAMPLES > s->c;
+            canvas_line(&c, x0, my - ky * s->u[i], x1, my - ky * s->u[i + 1], slips ? INK_SLIP : INK_STICK,
+                        1);
+        }
+    canvas_show(&c);
+    amount(sc->bound, DIM_LENGTH, text);
+    put_text(at, 0, INK_FRAME, "%s", text);
+    /* which springs slip, along the bottom */
+    for (int col = 0; col < at.cols; col++) {
+        const double r = fabs((col + 0.5) * c.wide / at.cols - mx) / kx;
+        rect one = {at.top, at.left + col, at.rows, 1};
+        if (r <= s->a)
+            put_text(one, at.rows - 1, r > s->c ? INK_SLIP : INK_STICK, r > s->c ? "~" : "=");
+    }
+    amount(sc->a, DIM_LENGTH, text);
+    rect right = {at.top, at.left + at.cols - (int)strlen(text), at.rows, (int)strlen(text)};
+    put_text(right, at.rows - 2, INK_FRAME, "%s", text);
+}
+
+/* ---- the loop ---------------------------------------------------------------------------------- */
+
+static void draw_loop(live *l, const side *sd, const scales *sc, rect at) {
+    const shot *s = side_shown(l, sd);
+    char text[40];
+    canvas c;
+    if (!canvas_make(&c, at, terminal_unicode()))
+        return;
+    const double mx = (c.wide - 1) / 2.0, my = (c.high - 1) / 2.0, kx = mx / sc->dx, ky = my / sc->Fx;
+    canvas_line(&c, 0, my, c.wide - 1, my, INK_FRAME, 4);
+    canvas_line(&c, mx, 0, mx, c.high - 1, INK_FRAME, 4);
+    canvas_line(&c, 0, my - ky * s->slip, c.wide - 1, my - ky * s->slip, INK_BOUND, 4);
+    canvas_line(&c, 0, my + ky * s->slip, c.wide - 1, my + ky * s->slip, INK_BOUND, 4);
+    const track *t = &sd->path;
+    const double until = s->time + 1e-9;
+    for (size_t i = 0; i + 1 < t->count && t->point[i].time <= until; i++) {
+        const track_point *p = &t->point[i], *q = p + 1;
+        const bool whole = q->time <= until; /* else as far as the present point */
+        canvas_line(&c, mx + kx * p->dx, my - ky * p->Fx, mx + kx * (whole ? q->dx : s->dx),
+                    my - ky * (whole ? q->Fx : s->Fx), INK_CURVE, 1);
+    }
+    canvas_sign(&c, (int)lround(mx + kx * s->dx), (int)lround(my - ky * s->Fx), 'O', INK_POINT);
+    canvas_show(&c);
+    amount(sc->Fx, DIM_FORCE, text);
+    put_text(at, 0, INK_FRAME, "Fx %s", text);
+    amount(sc->dx, DIM_LENGTH, text);
+    const int n = (int)strlen(text) + 3;
+    put_text((rect){at.top, at.left + at.cols - n, at.rows, n}, at.rows - 1, INK_FRAME, "dx %s", text);
+    if (sd == &l->side[0]) {
+        l->loop = at;
+        l->loop_dx = sc->dx;
+        l->loop_Fx = sc->Fx;
+    }
+}
+
+/* ---- energies ---------------------------------------------------------------------------------- */
+
+static void draw_energies(live *l, const side *sd, const scales *sc, rect at) {
+    const shot *s = side_shown(l, sd);
+    const track *t = &sd->path;
+    char text[40];
+    canvas c;
+    if (t->count < 2 || !canvas_make(&c, at, terminal_unicode()))
+        return;
+    (void)l;
+    const double begin = t->point[0].time, end = fmax(t->point[t->count - 1].time, begin + 1);
+    const double kx = (c.wide - 1) / (end - begin), ky = (c.high - 1) / sc->energy, floor_y = c.high - 1;
+    for (size_t i = 0; i + 1 < t->count && t->point[i + 1].time <= s->time + 1e-9; i++) {
+        const track_point *p = &t->point[i], *q = p + 1;
+        const double x0 = kx * (p->time - begin), x1 = kx * (q->time - begin);
+        canvas_line(&c, x0, floor_y - ky * p->W, x1, floor_y - ky * q->W, INK_SLIP, 1);
+        canvas_line(&c, x0, floor_y - ky * p->U, x1, floor_y - ky * q->U, INK_OTHER, 2);
+    }
+    canvas_show(&c);
+    amount(sc->energy, DIM_ENERGY, text);
+    put_text(at, 0, INK_FRAME, "%s", text);
+}
+
+/* ---- the numbers ------------------------------------------------------------------------------- */
+
+static void draw_numbers(live *l, const side *sd, const scales *sc, rect at) {
+    const shot *s = side_shown(l, sd);
+    const int columns = at.rows >= SHOT_VALUES || at.cols < 30 ? 1 : 2,
+              rows = (SHOT_VALUES + columns - 1) / columns;
+    (void)sc;
+    for (int i = 0; i < SHOT_VALUES; i++) {
+        char number[48] = "-";
+        rect cell = {at.top, at.left + 1 + i / rows * ((at.cols - 1) / columns), at.rows,
+                     (at.cols - 1) / columns};
+        put_text(cell, i % rows, INK_CURVE, "%-3s", shot_name((size_t)i));
+        cell.left += 4;
+        cell.cols -= 4;
+        for (int digits = *l->host->digits; s->known[i] && digits > 0;
+             digits--) { /* as many as there is room for */
+            char in[32];
+            const long double scale = unit_choose(s->d[i], s->value[i], digits, in, sizeof in);
+            if (snprintf(number, sizeof number, "%.*g %s", digits, (double)(s->value[i] / scale), in) <
+                cell.cols)
+                break;
+        }
+        put_text(cell, i % rows, INK_NONE, "%s", number);
+    }
+}
+
+/* ---- the table --------------------------------------------------------------------------------- */
+
+typedef struct view {
+    const char *title;
+    void (*draw)(live *l, const side *s, const scales *sc, rect at);
+    bool right;     /* in the right column; narrow screens have one column */
+    int share;      /* of the height of its column */
+    int least;      /* rows that it takes where there is little room */
+    int worth_rows; /* shown from so many rows of the screen on */
+} view;
+
+static const view views[] = {
+    {"contact", draw_disc, false, 5, 7, 0},
+    {"springs: u1D(x) between +-B", draw_springs, true, 4, 6, 0},
+    {"loop: Fx over dx", draw_loop, true, 6, 8, 0},
+    {"energy: W, U (dotted)", draw_energies, false, 4, 8, 40},
+    {"", draw_numbers, false, 0, (SHOT_VALUES + 1) / 2, 0},
+};
+enum { VIEWS = sizeof views / sizeof *views };
+
+static bool is_shown(const view *v, rect all, bool narrow) {
+    const int rows = v->worth_rows ? v->worth_rows : narrow && v->draw == draw_disc ? 30 : 0;
+    return all.rows + 3 >= rows;
+}
+
+/* Views of a column, one below the other: those without a share as high as they must be. */
+static void draw_column(live *l, const side *s, const scales *sc, rect all, rect column, bool narrow,
+                        bool right) {
+    int shares = 0, room = column.rows;
+    for (size_t i = 0; i < VIEWS; i++) {
+        const view *v = &views[i];
+        if (!is_shown(v, all, narrow) || (!narrow && v->right != right))
+            continue;
+        shares += v->share;
+        room -= v->share ? 0 : v->least;
+    }
+    rect at = column;
+    for (size_t i = 0; i < VIEWS; i++) {
+        const view *v = &views[i];
+        if (!is_shown(v, all, narrow) || (!narrow && v->right != right))
+            continue;
+        at.rows = v->share ? room * v->share / shares : v->least;
+        shares -= v->share;
+        room -= v->share ? at.rows : 0;
+        if (*v->title)
+            put_text(at, 0, INK_FRAME, "-- %s%s%s", s->title, *s->title ? ": " : "", v->title);
+        const int title = *v->title != 0;
+        v->draw(l, s, sc, (rect){at.top + title, at.left, at.rows - title, at.cols});
+        at.top += at.rows;
+    }
+}
+
+static void draw_side(live *l, const side *s, const scales *sc, rect all) {
+    const bool narrow = all.cols < 60;
+    const int left = narrow ? all.cols : all.cols * 2 / 5 > 34 ? all.cols * 2 / 5 : 34;
+    if (*s->trouble) {
+        put_text(all, 1, INK_ERROR, "%s%s%s", s->title, *s->title ? ": " : "", s->trouble);
+        return;
+    }
+    rect column = {all.top, all.left, all.rows, left - 1};
+    draw_column(l, s, sc, all, column, narrow, false);
+    if (!narrow)
+        draw_column(l, s, sc, all, (rect){all.top, all.left + left, all.rows, all.cols - left}, narrow, true);
+}
+
+/* ---- lines around them ------------------------------------------------------------------------- */
+
+static void draw_head(const live *l, rect at) {
+    const scene *s = &l->host->calc->scene;
+    char text[LIVE_LINE] = "";
+    static const input shown[] = {IN_K, IN_C0, IN_MU, IN_RADIUS, IN_SLOPE, IN_N};
+    size_t n = 0;
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++) {
+        const quantity *q = quantity_of_input(shown[i]);
+        char text_of[40];
+        if (!s->in.set[shown[i]])
+            continue;
+        live_amount(s->in.v[shown[i]], quantity_dim(q, s), text_of, sizeof text_of);
+        n += (size_t)snprintf(text + n, sizeof text - n, "%s = %s  ", q->name, text_of);
+    }
+    char FA[40], FNA[40] = "";
+    live_amount(l->FA, DIM_FORCE, FA, sizeof FA);
+    if (l->FNA > 0)
+        live_amount(l->FNA, DIM_FORCE, FNA, sizeof FNA);
+    put_text(at, 0, INK_NONE, "%s  %s", s->in.geometry ? s->in.geometry->name : "", text);
+    char right[120];
+    snprintf(right, sizeof right, "%scycle FA %s%s%s %g/s  %s", l->playing ? "> " : "", FA,
+             *FNA ? " FNA " : "", FNA, l->speed, l->by_displacement ? "[dx dz]" : "[Fx FN]");
+    const int w = (int)strlen(right);
+    put_text((rect){at.top, at.cols - w, 1, w}, 0, INK_CURVE, "%s", right);
+}
+
+static void draw_foot(const live *l, rect at) {
+    if (l->page)
+        put_text(at, 0, INK_FRAME, "space: more of it  up: before  any other key: back");
+    else if (*l->note)
+        put_text(at, 0, INK_CURVE, "%s", l->note);
+    else
+        put_text(at, 0, INK_FRAME,
+                 "arrows push and press  space plays  u undo  r reset  : statement  ? keys  q quit");
+    if (!l->typing) {
+        put_text(at, 1, l->bad ? INK_ERROR : INK_NONE, "%s", l->status);
+        curs_set(0);
+        return;
+    }
+    const int width = at.cols - (int)strlen(l->prompt) - 1;
+    const size_t from = l->cursor > (size_t)width ? l->cursor - (size_t)width : 0;
+    put_text(at, 1, INK_NONE, "%s%s", l->prompt, l->line + from);
+    move(at.top + 1, at.left + (int)(strlen(l->prompt) + l->cursor - from));
+    curs_set(1);
+}
+
+/* A text over everything, a screen of lines at a time. */
+static void draw_page(const live *l, rect all) {
+    size_t row = 0;
+    int shown = 0;
+    for (const char *p = l->page; *p && shown < all.rows; row++) {
+        const size_t n = strcspn(p, "\n");
+        if (row >= l->page_from)
+            put_text(all, shown++, INK_NONE, "%.*s", (int)n, p);
+        p += n + (p[n] == '\n');
+    }
+}
+
+void live_draw(live *l) {
+    rect all = {1, 0, LINES - 3, COLS};
+    erase();
+    if (LINES < 10 || COLS < 40) {
+        put_text((rect){0, 0, LINES, COLS}, 0, INK_ERROR, "the screen is too small: 40 x 10");
+        refresh();
+        return;
+    }
+    draw_head(l, (rect){0, 0, 1, COLS});
+    if (l->page) {
+        draw_page(l, all);
+    } else {
+        const scales sc = scales_of(l);
+        const int sides = l->comparing ? SIDES : 1;
+        for (int i = 0; i < sides; i++)
+            draw_side(l, &l->side[i], &sc,
+                      (rect){all.top, COLS * i / sides, all.rows, COLS / sides - (sides > 1 ? 1 : 0)});
+    }
+    draw_foot(l, (rect){LINES - 2, 0, 2, COLS});
+    refresh();
+}

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The full-screen mode as a command: what the shell does for it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "calc/file.h"
+#include "live/live.h"
+#include "shell/command.h"
+#include "shell/complete.h"
+#include "shell/show.h"
+
+static bool run(void *self, const char *line, char **answer) {
+    static const source from = {NULL, false};
+    shell *sh = self;
+    size_t size = 0;
+    FILE *to = open_memstream(answer, &size);
+    if (!to)
+        return false;
+    FILE *out = sh->out, *err = sh->err;
+    sh->out = sh->err = to;
+    const bool failed = sh->failed, ok = shell_line(sh, &from, line, strlen(line), 1);
+    sh->out = out;
+    sh->err = err;
+    sh->failed = failed; /* it has been told there */
+    if (fclose(to)) {
+        *answer = NULL;
+        return false;
+    }
+    return ok;
+}
+
+static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
+    shell *sh = self;
+    candidates found = {.word = NULL};
+    complete(&sh->calc, line, *cursor, &found);
+    if (found.count > 0) {
+        size_t same = strlen(found.word[0]);
+        for (size_t i = 1; i < found.count; i++)
+            for (size_t j = 0; j < same; j++)
+                if (found.word[i][j] != found.word[0][j])
+                    same = j;
+        char rest[256];
+        snprintf(rest, sizeof rest, "%.255s", line + *cursor);
+        const char last = same ? found.word[0][same - 1] : 0;
+        const bool blank = found.count == 1 && last != '=' && last != '(' && last != ' ';
+        snprintf(line + found.start, size - found.start, "%.*s%s%s", (int)same, found.word[0],
+                 blank ? " " : "", rest);
+        *cursor = found.start + same + (blank ? 1 : 0);
+        if (*cursor > strlen(line))
+            *cursor = strlen(line);
+    }
+    candidates_free(&found);
+}
+
+static bool save(void *self, const char *path, char *error, size_t size) {
+    shell *sh = self;
+    file_out file;
+    if (!file_out_open(&file, path, &shell_stop, error, size))
+        return false;
+    scene_write(&sh->calc, &sh->set, file.to, true);
+    return file_out_close(&file, true, NULL, error, size);
+}
+
+bool shell_live(shell *sh, const char *script, calc_error *error) {
+    const settings before = sh->set;
+    const live_host host = {.self = sh,
+                            .calc = &sh->calc,
+                            .digits = &sh->set.digits,
+                            .quit = &sh->quit,
+                            .stop = &shell_stop,
+                            .run = run,
+                            .complete = complete_line,
+                            .save = save};
+    char text[CALC_ERROR_TEXT / 2];
+    live_work work;
+    fflush(sh->out);
+    sh->set.color = false;
+    if (sh->set.report == REPORT_AUTO)
+        sh->set.report = REPORT_OFF; /* the screen shows it */
+    const bool ok = live_run(&host, script, &work, text, sizeof text);
+    sh->set.color = before.color;
+    if (sh->set.report == REPORT_OFF)
+        sh->set.report = before.report;
+    if (ok && sh->set.timing && work.frames)
+        shell_note(sh, "live: %zu frames, %.3g ms of work each, %.3g ms the longest", work.frames,
+                   1e3 * work.total / (double)work.frames, 1e3 * work.worst);
+    return ok || calc_fail(error, 0, 0, "%s", text);
+}
+
+bool do_live(shell *sh, lexer *lx, const command *self) {
+    char name[ARG_FILE_NAME];
+    const arg_list list = command_args(self);
+    arg_value v[ARGS];
+    const bool script = lx->kind != T_END;
+    if (script && !args_read(sh, lx, &list, v, name))
+        return false;
+    return shell_live(sh, script ? name : NULL, lx->error);
+}

@@ -1,0 +1,376 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The full-screen mode on a terminal of its own: screens, keys, sizes, signals, and sessions that come out again."""
+import os
+import random
+import re
+import signal
+import time
+
+import pexpect
+
+from screen import Screen
+
+UTF8 = {"LC_ALL": "C.UTF-8", "TERM": "xterm-256color"}
+SHOWN = "FN, Fx, dx, dz, a, c, W, U, kt, k, mu"
+
+
+class Live:
+    """fret --live, or what else is run, and its screen."""
+
+    def __init__(self, tests, *args, size=(24, 80), command=None, **env):
+        env = {**tests.env, "XDG_CONFIG_HOME": os.path.join(tests.dir, "no-config"),
+               "XDG_STATE_HOME": os.path.join(tests.dir, "live-state"), "INPUTRC": "/dev/null", **UTF8, **env}
+        program, args = (tests.fret, ["--live", *args]) if command is None else (command[0], list(command[1:]))
+        self.screen = Screen(*size)
+        self.raw = ""
+        self.child = pexpect.spawn(program, args, env=env, encoding="utf-8", timeout=30, cwd=tests.dir, dimensions=size,
+                                   codec_errors="replace")
+        self.child.delaybeforesend = None
+
+    def read(self, seconds=0.02):
+        try:
+            text = self.child.read_nonblocking(65536, seconds)
+        except pexpect.TIMEOUT:
+            return False
+        except pexpect.EOF:
+            return False
+        self.raw += text
+        self.screen.feed(text)
+        return True
+
+    def wait(self, what, seconds=20):
+        """Until the screen shows it: a regular expression, or a function of the screen. False: it never does."""
+        end = time.time() + seconds
+        seen = what if callable(what) else lambda screen: re.search(what, screen.text())
+        while not seen(self.screen):
+            if time.time() > end:
+                return False
+            self.read()
+        while self.read(0.01):
+            pass
+        return True
+
+    def key(self, keys, what=None):
+        self.child.send(keys)
+        return self.wait(what) if what else True
+
+    def status(self):
+        return self.screen.row(self.screen.rows - 1)
+
+    def says(self, line):
+        """A statement by `:`; the screen when it has been run."""
+        self.child.send(":" + line + "\r")
+
+    def value(self, name):
+        found = re.search(r"(?m)(?:^|\s)%s (-?[0-9.e+-]+|-) ?(\S*)" % re.escape(name.ljust(3)), self.screen.text())
+        return (found.group(1), found.group(2)) if found else None
+
+    def end(self, keys="q"):
+        self.child.send(keys)
+        return self.gone()
+
+    def gone(self):
+        while self.child.isalive():
+            if not self.read(0.05) and not self.child.isalive():
+                break
+        self.read()
+        self.child.close()
+        return self.child.exitstatus
+
+
+def beginning(tests):
+    for size in ((24, 80), (50, 160), (12, 44)):
+        live = Live(tests, size=size)
+        ok = live.wait(r"a +186\.626 um")
+        text = live.screen.text()
+        tests.check("the screen at %dx%d" % size, ok and "loop: Fx over dx" in text and "springs" in text and
+                    ("-- contact" in text) == (size[1] >= 60) and ("energy" in text) == (size[0] >= 40) and
+                    re.search("[\u2801-\u28ff]", text) and "q quit" in text or size[1] < 80, text)
+        tests.check("q leaves at %dx%d" % size, live.end() == 0)
+    for name, env, wanted in (("plain characters", {"LC_ALL": "C", "TERM": "vt100"}, "####"),
+                              ("eight colours", {"LC_ALL": "C", "TERM": "xterm"}, "####")):
+        live = Live(tests, **env)
+        ok = live.wait(r"a +186\.626 um")
+        text = live.screen.text()
+        tests.check(name, ok and wanted in text and text.isascii(), text)
+        tests.check("colours: " + name, (re.search(r"\x1b\[(\d+;)*3\dm", live.raw) is not None) == (name == "eight colours"), repr(live.raw[-500:]))
+        live.end()
+    live = Live(tests, size=(8, 30))
+    tests.check("a screen too small", live.wait("too small") and live.end() == 0, live.screen.text())
+
+
+def refusals(tests):
+    done = tests.run("--live")
+    tests.check("without a terminal", done.returncode == 1 and "needs a terminal" in done.stderr, tests.report(done))
+    done = tests.run("-c", "live")
+    tests.check("the command without a terminal", done.returncode == 1 and "needs a terminal" in done.stderr,
+                tests.report(done))
+    done = tests.run("--live", "a", "b")
+    tests.check("two scripts", done.returncode == 2, tests.report(done))
+    for args, env, says in ((["--live"], {"TERM": "dumb"}, "TERM=dumb"), (["--live"], {"TERM": "none-such"}, "TERM=none"),
+                            (["--live", "/nonexistent"], {}, "cannot read /nonexistent")):
+        live = Live(tests, command=[tests.fret, *args], **env)
+        status = live.gone()
+        tests.check("refused: " + says, status == 1 and says in live.raw, live.raw)
+
+
+# key, what the status line says, and a value afterwards
+KEYS = [("\x1b[C", r"step Fx\+=2 N", "Fx", "2"), ("l", r"step Fx\+=2 N", "Fx", "4"),
+        ("\x1b[D", r"step Fx\+=-2 N", "Fx", "2"), ("\x1b[1;2C", r"step Fx\+=200 mN", "Fx", "2.2"),
+        ("\x1b[1;2D", r"step Fx\+=-200 mN", "Fx", "2"), ("L", r"step Fx\+=200 mN", "Fx", "2.2"),
+        ("H", r"step Fx\+=-200 mN", "Fx", "2"), ("h", r"step Fx\+=-2 N", "Fx", "0"),
+        ("\x1b[A", r"step FN\+=5 N", "FN", "105"), ("\x1b[B", r"step FN\+=-5 N", "FN", "100"),
+        ("\x1b[1;2A", r"step FN\+=500 mN", "FN", "100.5"), ("\x1b[1;2B", r"step FN\+=-500 mN", "FN", "100"),
+        ("i", r"step FN\+=5 N", "FN", "105"), ("j", r"step FN\+=-5 N", "FN", "100"),
+        ("u", r"undo", "FN", "105"), ("u", r"undo", "FN", "100"),
+        ("r", r"press FN=100 N", "Fx", "0"), ("f", "displacements", "FN", "100"), ("l", r"step dx\+=50 nm", "dx", "50"),
+        ("i", r"step dz\+=100 nm", "dz", "3.58291"), ("f", "forces", "dx", "50"),
+        ("k", "k = 0.05", "a", "202.163"), ("K", "k = 0", "a", "189.286"), ("m", "mu = 0.42", "dx", "50"),
+        ("M", "mu = 0.4", "dx", "50"), ("c", "c0 = 1.25 mm", "dx", "50"), ("C", "c0 = 1 mm", "dx", "50"),
+        ("g", "geometry cone slope=0.02", "dx", "50"), ("u", "undo", "a", "189.286"),
+        ("r", r"press FN=100 N", "a", "186.626"), ("x", "lists the keys", "a", "186.626")]
+
+
+def keys(tests):
+    live = Live(tests)
+    live.wait(r"a +186\.626 um")
+    for i, (key, says, name, value) in enumerate(KEYS):
+        ok = live.key(key, lambda s, says=says: re.search(says, s.row(23)) and live.value(name)[0] == value)
+        if not tests.check("key %d, %r" % (i, key), ok, "%s: %s\n%s" % (name, live.value(name), live.screen.text())):
+            break
+    head = lambda pattern: lambda screen: re.search(pattern, screen.row(0))  # noqa: E731
+    for key, pattern in (("+", "FA 22 N"), ("-", "FA 20 N"), ("]", " 1/s"), ("[", r" 0\.5/s"), ("n", "FNA 10 N")):
+        tests.check("key " + key, live.key(key, head(pattern)), live.screen.text())
+    tests.check("key a", live.key("a", "phase of FN against Fx: 105 deg"), live.screen.text())
+    tests.check("key ?", live.key("?", "push tangentially"), live.screen.text())
+    tests.check("and back", live.key("x", "loop: Fx over dx"), live.screen.text())
+    tests.check("gross slip is told", live.says("step Fx=50 N") or live.wait("exceeds mu"), live.screen.text())
+    tests.check("and nothing lost", live.value("Fx")[0] == "0" and live.value("a")[0] == "186.626", live.screen.text())
+    live.says("fric")
+    tests.check("an error is told", live.wait("error: unknown"), live.screen.text())
+    live.child.send(":geometry para\t")
+    tests.check("Tab completes", live.wait(":geometry paraboloid"), live.screen.text())
+    tests.check("Escape drops the line", live.key("\x1b", lambda s: ":geometry" not in s.text()), live.screen.text())
+    live.child.send(":xx\x1b[D\x1b[D\x7fa\x1b[Cb\x05c\x01d")
+    tests.check("editing a line", live.wait(":daxbxc"), live.screen.text())
+    tests.check("Ctrl-C drops the line only", live.key("\x03", lambda s: "daxbxc" not in s.text()), live.screen.text())
+    live.says("table a for k = 0 .. 0.5 steps 60")
+    tests.check("a long answer is a page", live.wait(r"0\.000186626"), live.screen.text())
+    tests.check("its next page", live.key(" ", r"0\.000205546|0\.0002"), live.screen.text())
+    live.key("x", "loop: Fx")
+    tests.check("Ctrl-C leaves", live.end("\x03") == 0)
+
+
+def playing(tests):
+    live = Live(tests)
+    live.wait(r"a +186\.626 um")
+    live.key("]]]")
+    live.key(" ", "cycle FA=20 N")
+    seen = set()
+    end = time.time() + 20
+    while len(seen) < 8 and time.time() < end:
+        live.read()
+        seen.add(live.value("Fx"))
+    tests.check("a cycle plays", len(seen) >= 8 and "> cycle" in live.screen.row(0), str(seen))
+    live.key(" ", "last cycle")
+    tests.check("and ends at the peak", live.wait(lambda s: "> cycle" not in s.row(0) and live.value("Fx")[0] == "20"),
+                live.screen.text())
+    tests.check("it is in the load program", live.value("dW")[0] == "1.90646", live.screen.text())
+    live.key("n")
+    live.key(" ", r"cycle FA=20 N FNA=10 N phase=90 deg")
+    live.key("  ", lambda s: "> cycle" not in s.row(0))
+    tests.check("a key ends the play", live.key("h", lambda s: live.value("Fx")[0] == "18"), live.screen.text())
+    live.end()
+
+
+def sizes(tests):
+    live = Live(tests)
+    live.wait(r"a +186\.626 um")
+    for rows, cols in ((50, 160), (24, 80), (10, 40), (30, 100)):
+        live.screen.resize(rows, cols)
+        live.child.setwinsize(rows, cols)
+        ok = live.wait(lambda s: "loop: Fx over dx" in s.text() and re.search(r"Fx +0 N", s.text()) and s.row(rows - 1))
+        tests.check("the size becomes %dx%d" % (rows, cols), ok and ("energy" in live.screen.text()) == (rows >= 40),
+                    live.screen.text())
+    live.end()
+
+
+def comparing(tests):
+    live = Live(tests)
+    live.wait(r"a +186\.626 um")
+    live.says("compare k = -0.5, 0.5")
+    ok = live.wait(lambda s: "106.532 um" in s.text() and "300.925 um" in s.text())
+    tests.check("two scenes", ok and "k = -0.5: " in live.screen.text(), live.screen.text())
+    live.key("l", r"step Fx\+=2 N")
+    tests.check("one hand moves both", len(re.findall(r"Fx +2 N", live.screen.text())) == 2, live.screen.text())
+    live.says("compare mu = 0.01, 0.5")
+    tests.check("one that cannot follow says why", live.wait("mu = 0.01: .*exceeds"), live.screen.text())
+    live.says("compare k = 1 mm, 2")
+    tests.check("a wrong comparison", live.wait("error: "), live.screen.text())
+    live.says("compare nix = 1, 2")
+    tests.check("an unknown name to compare", live.wait("unknown name 'nix'"), live.screen.text())
+    live.says("compare off")
+    tests.check("one again", live.wait(lambda s: "mu = 0.5:" not in s.text() and "-- contact" in s.text()),
+                live.screen.text())
+    live.end()
+
+
+def stepping(tests):
+    script = ("# A lesson\nmaterial steel; geometry sphere R=10 mm\n\n# What will a be?\nfriction 0.4; press FN=100 N\n"
+              "x = 3\nstep Fx=20 N\n# The end\n")
+    transcript = "A title\n\nfret> material steel; geometry sphere R=10 mm; friction 0.4\nfret> press FN=100 N\nfret> a\na = 1 m\n"
+    with tests.file(script) as path:
+        live = Live(tests, path)
+        tests.check("a script begins with its comment", live.wait("A lesson"), live.screen.text())
+        live.key(" ", "What will a be")
+        live.key(" ", r"a +186\.626 um")
+        live.key(" ", "x = 3")
+        tests.check("space steps", live.key(" ", r"Fx +20 N") and "The end" in live.screen.text(), live.screen.text())
+        tests.check("b goes back", live.key("b", r"Fx +0 N"), live.screen.text())
+        live.key("b", "back before: x = 3")
+        tests.check("and further", live.key("b", "nothing|no load"), live.screen.text())
+        for _ in range(3):
+            live.key(" ")
+        tests.check("and on again", live.wait(r"Fx +20 N"), live.screen.text())
+        tests.check("a script is left", live.end() == 0)
+    with tests.file(transcript, ".txt") as path:
+        live = Live(tests, path)
+        live.key("  ")
+        tests.check("a transcript is stepped through", live.wait(r"a +186\.626 um"), live.screen.text())
+        tests.check("its answers are its own", live.key(" ", "a = 186.626 um"), live.screen.text())
+        live.end()
+
+
+def mouse(tests):
+    live = Live(tests)
+    live.wait(r"a +186\.626 um")
+    def at(button, x, y):
+        live.child.send("\x1b[<%d;%d;%d%s" % (button & ~128, x + 1, y + 1, "m" if button & 128 else "M"))
+    at(0, 60, 15)
+    tests.check("the mouse pulls the point", live.wait(r"step dx="), live.screen.text())
+    at(32, 66, 13)
+    tests.check("and drags it", live.wait(lambda s: re.match(r"step dx=\d", live.status()) and
+                                          live.value("dx")[1] == "nm" and float(live.value("dx")[0]) > 500),
+                live.screen.text())
+    before = live.value("dx")
+    at(128, 66, 13)
+    at(35, 50, 13)
+    time.sleep(0.2)
+    live.read()
+    tests.check("and lets it go", live.value("dx") == before, live.screen.text())
+    tests.check("the mouse is given back", live.end() == 0 and not live.screen.modes.get(1002) and
+                not live.screen.modes.get(1000), str(live.screen.modes))
+
+
+def saving(tests):
+    """Keys at random, saved and run again: the same to the last digit; the prompt knows them too."""
+    for seed in (1, 2):
+        chosen = random.Random(seed)
+        live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
+        live.wait("fret> ")
+        live.child.send("live\r")
+        live.wait(r"a +186\.626 um")
+        live.key("llll", r"Fx  8 N")
+        for _ in range(50):
+            live.child.send(chosen.choice(["\x1b[C", "\x1b[D", "\x1b[A", "\x1b[B", "\x1b[1;2C", "\x1b[1;2D", "l", "l", "H",
+                                           "f", "k", "K", "m", "c", "u"]))
+            live.read()
+        path = os.path.join(tests.dir, "live-%d.fret" % seed)
+        live.child.send("s\x15" + path + "\r")
+        tests.check("a session is saved", live.wait("wrote "), live.screen.text())
+        live.child.send("q")
+        live.wait(lambda s: not s.modes.get(1049))
+        live.raw = ""
+        live.child.send("set format json\r" + SHOWN + "\r1234\r")
+        end = time.time() + 20
+        while '"name":"1234"' not in live.raw and time.time() < end:
+            live.read()
+        by_hand = re.findall(r'\{"name":"(\w+)","value":([^,]*),', live.raw)[:11]
+        done = tests.run("--format=json", "-f", path, "-c", SHOWN)
+        again = re.findall(r'\{"name":"(\w+)","value":([^,]*),', done.stdout)
+        tests.check("a session by hand comes out again (%d)" % seed, len(again) == 11 and by_hand == again,
+                    "%s\n%s\n%s" % (by_hand, again, open(path, encoding="utf-8").read()))
+        live.child.send("\x04")
+        live.gone()
+
+
+def child_of(pid):
+    with open("/proc/%d/task/%d/children" % (pid, pid), encoding="ascii") as f:
+        found = f.read().split()
+    return int(found[0]) if found else 0
+
+
+ENDS = [("q", None), ("\x03", None), ("", signal.SIGINT), ("", signal.SIGTERM), ("", signal.SIGHUP), ("", signal.SIGQUIT),
+        ("", signal.SIGSEGV), ("", signal.SIGABRT), ("", signal.SIGBUS)]
+
+
+def endings(tests):
+    """Whatever ends it: the modes of the terminal as before, the cursor seen, its screen back."""
+    for i, (keys_sent, number) in enumerate(ENDS):
+        name = number.name if number else repr(keys_sent)
+        files = [os.path.join(tests.dir, "stty-%d-%s" % (i, when)) for when in "ab"]
+        script = 'trap : HUP QUIT INT; stty -a > %s; "$FRET" --live; stty -a > %s' % tuple(files)
+        live = Live(tests, command=["/bin/sh", "-c", script], FRET=tests.fret,
+                    ASAN_OPTIONS=tests.env["ASAN_OPTIONS"] + ":handle_segv=0:handle_abort=0:handle_sigbus=0")
+        tests.check("it begins before " + name, live.wait(r"a +186\.626 um"), live.screen.text())
+        before = dict(live.screen.modes)
+        if number:
+            os.kill(child_of(live.child.pid), number)
+        else:
+            live.child.send(keys_sent)
+        live.gone()
+        texts = [open(path, encoding="ascii").read() if os.path.exists(path) else "" for path in files]
+        modes = live.screen.modes
+        tests.check("the terminal after " + name, texts[0] and texts[0] == texts[1] and before.get(1049) and
+                    not before.get(25) and not modes.get(1049) and modes.get(25, True) and not modes.get(1002),
+                    "%s\n%s\n%s\n%r" % (texts[0], texts[1], modes, live.raw[-200:]))
+
+
+def stopping(tests):
+    """Ctrl-Z, and on again by fg."""
+    live = Live(tests, command=["/bin/bash", "--norc", "--noprofile", "-i"], PS1="shell> ", FRET=tests.fret)
+    live.wait("shell> ")
+    live.child.send('stty -a > before; "$FRET" --live\r')
+    live.wait(r"a +186\.626 um")
+    live.key("l", r"step Fx\+=2 N")
+    live.child.send("\x1a")
+    ok = live.wait(lambda s: not s.modes.get(1049) and "Stopped" in live.raw)
+    live.child.send("stty -a > after; cmp before after && echo all sa''me\r")
+    tests.check("Ctrl-Z gives the terminal back", ok and live.wait("all same"), live.screen.text())
+    live.child.send("fg\r")
+    tests.check("fg goes on where it was", live.wait(r"Fx +2 N"), live.screen.text())
+    live.key("l", r"Fx +4 N")
+    live.child.send("q")
+    live.wait(lambda s: not s.modes.get(1049))
+    live.child.send("exit\r")
+    live.gone()
+
+
+def lessons(tests):
+    """A key per step."""
+    live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"], TERM="xterm")
+    live.wait("fret> ")
+    live.child.send("mu = 0.123\rdemo sticking\r")
+    tests.check("a lesson asks first", live.wait("Where will it slip first") and "c/a = " not in live.raw, live.raw)
+    live.child.send(" ")
+    tests.check("a key shows the answer", live.wait(r"c/a = 0\.793701") and "c(36 N)/a = " not in live.raw, live.raw)
+    live.raw = ""
+    live.child.send("b")
+    tests.check("b goes back", live.wait(lambda s: "Where will it slip first" in live.raw), live.raw)
+    live.child.send(" ")
+    live.wait(lambda s: "c/a = 0.793701" in live.raw)
+    live.child.send("q")
+    live.child.send("mu\r")
+    tests.check("q leaves, the scene is the user's", live.wait(r"mu = 0\.123"), live.raw)
+    live.child.send("\x04")
+    live.gone()
+
+
+def run(tests):
+    def one(room):
+        try:
+            room(tests)
+        except (pexpect.TIMEOUT, pexpect.EOF, OSError, ValueError, TypeError) as error:
+            tests.check("live: " + room.__name__, False, "%s: %s" % (type(error).__name__, str(error)[:2000]))
+    tests.each([lambda room=room: one(room) for room in
+                (beginning, refusals, keys, playing, sizes, comparing, stepping, mouse, saving, endings, stopping, lessons)])
