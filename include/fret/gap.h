@@ -55,9 +55,11 @@ fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f);
  * rows. */
 fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g, fret_real *slope);
 
-/* A sampled gap: r[0] = 0 < r[1] < ..., f[0] = 0, lengths in m. Copies the arrays.
- * Errors: FRET_BAD_TABLE, FRET_NOT_FINITE, FRET_NO_MEMORY. Free with fret_table_free. */
-fret_status fret_table_make(const double *r, const double *f, size_t count, struct fret_table **out);
+/* A sampled gap: r[0] = 0 < r[1] < ..., f[0] = 0, lengths in m. Copies the arrays. A million rows take
+ * seconds: the stop flag, which may be NULL, is looked at meanwhile and is not kept. Errors: FRET_BAD_TABLE,
+ * FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. Free with fret_table_free. */
+fret_status fret_table_make(const double *r, const double *f, size_t count, fret_stop stop,
+                            struct fret_table **out);
 void fret_table_free(struct fret_table *table);
 
 FRET_END

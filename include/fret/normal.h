@@ -26,6 +26,12 @@ typedef struct fret_press {
 fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, fret_normal **out);
 void fret_normal_free(fret_normal *normal);
 
+/* Long work on this contact, and on all that borrows it, ends when the flag is set. Functions with a status
+ * then return FRET_INTERRUPTED, with results that are not to be used; the results of others, asked while it
+ * is set, are not either. A memory diagram or springs whose step was interrupted can only be reset, copied to
+ * or freed. The flag must outlive the contact; NULL, as at first: nothing stops. */
+void fret_normal_stop(fret_normal *normal, fret_stop stop);
+
 /* What it was made of. */
 const fret_foundation *fret_normal_foundation(const fret_normal *normal);
 const fret_gap *fret_normal_gap(const fret_normal *normal);

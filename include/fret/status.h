@@ -2,6 +2,7 @@
 #ifndef FRET_STATUS_H
 #define FRET_STATUS_H
 
+#include <signal.h>
 #include <stddef.h>
 
 #include "fret/base.h"
@@ -24,7 +25,7 @@ typedef enum fret_code {
     FRET_BAD_TABLE,      /* a gap table that is no function: radii must grow; value: radius */
     FRET_OVERFLOW,       /* the result does not fit in a double                             */
     FRET_NO_MEMORY = 14, /* allocation failed; the object is as before                      */
-    FRET_INTERRUPTED,    /* the caller's stop test asked to stop                            */
+    FRET_INTERRUPTED,    /* the caller's stop flag was set                                  */
     FRET_SINGULAR,       /* the field is infinite there                                     */
     FRET_CODES
 } fret_code;
@@ -44,6 +45,10 @@ typedef struct fret_status {
     double value;         /* the offending value, SI */
     double limit;         /* the bound that was passed, where there is one, SI */
 } fret_status;
+
+/* A flag that a signal handler or another thread sets: long work that knows it ends with FRET_INTERRUPTED, as
+ * a rule within some milliseconds. NULL: nothing can stop the work, and asking costs nothing. */
+typedef const volatile sig_atomic_t *fret_stop;
 
 fret_category fret_status_category(fret_code code);
 

@@ -348,7 +348,8 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
     if (a->d && expr_way(c, &a->d->body, a->d->label, way, sizeof way))
         return calc_fail(lx->error, a->value_at, a->value_len, "a circle of definitions: %s -> %s%s", a->d->label, way,
                          a->d->label);
-    undo_name(c, i);
+    if (!undo_name(c, i))
+        return calc_no_memory(lx->error);
     names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);
     return !a->d || name_holds(c, lx, a);
 }
@@ -391,17 +392,17 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
 /* All or nothing, and a way back. */
 static bool put_undoable(calc *c, lexer *lx, assignment *all, size_t count) {
     const size_t entries = c->undo.count;
-    scene_mark before;
     bool of_scene = false;
     for (size_t i = 0; i < count; i++)
         of_scene = of_scene || all[i].q;
-    if (of_scene)
-        scene_save(&c->scene, &before, false);
+    scene_mark *before = of_scene ? undo_mark(c) : NULL;
+    if (of_scene && !before)
+        return calc_no_memory(lx->error);
     bool ok = put_all(c, lx, all, count);
     if (of_scene && ok)
-        undo_scene(c, &before);
+        undo_scene(c, before);
     else if (of_scene)
-        scene_drop(&before);
+        undo_unmark(c, before);
     while (!ok && c->undo.count > entries) /* names that were set before something was refused */
         undo_pop(c, true);
     return ok;

@@ -9,8 +9,8 @@
 /* One change that undo takes back: of the scene, or of a name. */
 typedef struct undo_entry {
     unsigned long group; /* changes of one statement go together */
-    scene_mark *before; /* of the scene; NULL: of a name */
-    program *program;   /* after it: only to be compared */
+    scene_mark *before;  /* of the scene; NULL: of a name */
+    program *program;    /* after it: only to be compared */
     size_t steps;
     size_t name;
     own_name old; /* text is not its own */
@@ -19,6 +19,7 @@ typedef struct undo_entry {
 typedef struct undo {
     undo_entry *entry;
     size_t count, room;
+    size_t promised; /* entries that statements under way will need */
     unsigned long group;
     unsigned long outermost; /* the group of the statement that holds the others */
     int nesting;             /* of statements that hold others */
@@ -67,8 +68,12 @@ bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim 
  * a statement join it when it ends. */
 void undo_begin(calc *c);
 void undo_end(calc *c);
-/* m is taken over. */
+/* Before a change of the scene: keeps it as it is. NULL: out of memory, and nothing may be changed that could
+ * not be taken back. Ends with undo_scene, which makes it an entry, or undo_unmark. */
+scene_mark *undo_mark(calc *c);
 void undo_scene(calc *c, scene_mark *m);
+void undo_unmark(calc *c, scene_mark *m);
+/* Before a change of a name. False: out of memory. */
 bool undo_name(calc *c, size_t name);
 /* Forgets the last entry; back: its name gets its old value. */
 void undo_pop(calc *c, bool back);

@@ -48,13 +48,14 @@ bool calc_missing(calc_error *error, int input) {
 }
 
 bool calc_no_memory(calc_error *error) {
+    error->stop = true;
     return calc_fail(error, 0, 0, "out of memory");
 }
 
 bool calc_input_status(calc_error *error, int input, const fret_status *status) {
     if (!status->code)
         return true;
-    if (status->code == FRET_INTERRUPTED)
+    if (status->code == FRET_INTERRUPTED || status->code == FRET_NO_MEMORY)
         error->stop = true;
     if (first(error, ERROR_STATUS)) {
         error->status = *status;

@@ -19,7 +19,7 @@ typedef enum error_kind {
 /* What went wrong, and where in the statement: bytes at .. at+len, len 0: not known yet. */
 typedef struct calc_error {
     bool raised;
-    bool stop;    /* interrupted */
+    bool stop;    /* interrupted, or memory is out: trying something else instead is no use */
     bool circle;  /* a live definition that needs itself */
     bool strange; /* dimensions do not fit: no other value would help */
     bool worded;  /* wording.c has been here */

@@ -354,7 +354,8 @@ static bool run(machine *m, value *out) {
 
 bool expr_eval(calc *c, const expr *e, value *out, calc_error *error) {
     machine m = {c, e, error, NULL, false};
-    return run(&m, out);
+    const bool ok = run(&m, out);
+    return c->scene.stop && *c->scene.stop ? calc_interrupted(error) : ok;
 }
 
 bool expr_dim(calc *c, const expr *e, dim *d) {

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/characters.h"
+
 /* Not <ctype.h>: bytes above 127 belong to UTF-8 names (micro), whatever the locale. */
 static bool digit(char c) {
     return c >= '0' && c <= '9';
@@ -70,7 +72,7 @@ double lex_decimal(const char *text, size_t len, int shift) {
 #endif
     char small[96], *copy = mantissa + 32 < sizeof small ? small : malloc(mantissa + 32);
     if (!copy)
-        return INFINITY;
+        return NAN;
     snprintf(copy, mantissa + 32, "%.*se%ld", (int)mantissa, text, written + shift);
     double value = strtod(copy, NULL);
     if (copy != small)
@@ -99,11 +101,32 @@ static void read_number(lexer *lx) {
     lx->len = i - lx->at;
     lx->kind = T_NUMBER;
     lx->number = lex_decimal(s + lx->at, lx->len, 0);
+    if (isnan(lx->number)) {
+        calc_no_memory(lx->error);
+        return;
+    }
     bool zero = true;
     for (i = lx->at; i < lx->at + lx->len && s[i] != 'e' && s[i] != 'E'; i++)
         zero = zero && (s[i] == '0' || s[i] == '.');
     if (!isfinite(lx->number) || (lx->number == 0 && !zero))
         lex_fail(lx, "the number is too %s for double precision", lx->number == 0 ? "small" : "large");
+}
+
+/* Names hold letters of any script, and nothing that does not show. */
+static void check_name(lexer *lx) {
+    const char *s = lx->text + lx->at;
+    for (size_t i = 0; i < lx->len;) {
+        unsigned code;
+        const size_t n = character_at(s + i, lx->len - i, &code);
+        if (n == 0 || !character_shows(code)) {
+            lx->at += i;
+            lx->len = n ? n : 1;
+            lex_fail(lx, n ? "unexpected character U+%04X" : "unexpected byte 0x%02x",
+                     n ? code : (unsigned)(unsigned char)s[i]);
+            return;
+        }
+        i += n;
+    }
 }
 
 void lex_seek(lexer *lx, size_t at) {
@@ -123,10 +146,13 @@ void lex_seek(lexer *lx, size_t at) {
     if (digit(c) || (c == '.' && digit(d))) {
         read_number(lx);
     } else if (letter(c)) {
-        while (at < lx->end && (letter(s[at]) || digit(s[at])))
-            at++;
+        bool wide = false;
+        for (; at < lx->end && (letter(s[at]) || digit(s[at])); at++)
+            wide = wide || (unsigned char)s[at] >= 0x80;
         lx->len = at - lx->at;
         lx->kind = T_NAME;
+        if (wide)
+            check_name(lx);
     } else if (c == '"') {
         size_t i = at + 1;
         while (i < lx->end && s[i] != '"')

@@ -9,7 +9,11 @@
 #include "calc/trial.h"
 #include "calc/unit_text.h"
 
-enum { DEPTH_LIMIT = 200, NODE_LIMIT = 2000000 }; /* of nesting: the parser recurses; of nodes: 96 bytes each */
+enum {
+    DEPTH_LIMIT = 200,    /* of nesting: the parser recurses */
+    NODE_LIMIT = 1 << 21, /* 96 bytes each */
+    LOOK = 4096           /* nodes after which the stop flag is looked at */
+};
 
 typedef struct parser {
     calc *c;
@@ -37,10 +41,13 @@ size_t node_operands(const expr_node *n) {
 
 static bool add(parser *p, const expr_node *node, size_t *index) {
     expr *e = p->e;
+    if (e->count % LOOK == 0 && p->c->scene.stop && *p->c->scene.stop)
+        return calc_interrupted(p->lx->error);
     if (e->count == e->room) {
         void *nodes = e->nodes;
         if (e->count >= NODE_LIMIT)
-            return lex_fail(p->lx, "the expression is longer than %d terms", NODE_LIMIT);
+            return lex_fail(p->lx, "the expression has more than %d numbers, names and operators",
+                            NODE_LIMIT);
         bool ok = array_room(&nodes, &e->room, e->count, sizeof *e->nodes);
         e->nodes = nodes;
         if (!ok)
@@ -143,7 +150,8 @@ static bool parse_change(parser *p, expr_at *at) {
     if (!knob_read(p->c, lx, q))
         return false;
     lex_next(lx);
-    parser inner = {.c = p->c, .lx = lx, .e = &at->change[at->count++].value, .within = p->within, .depth = p->depth};
+    parser inner = {
+        .c = p->c, .lx = lx, .e = &at->change[at->count++].value, .within = p->within, .depth = p->depth};
     return parse_whole(&inner);
 }
 
@@ -230,7 +238,8 @@ static bool parse_arguments(parser *p, const definition *d, expr_node *node) {
         if (!parse_sum(p, &root[j]))
             return false;
         if (lx->kind != (j + 1 < d->parameters ? T_COMMA : T_CLOSE))
-            return lex_fail(lx, "%s takes %u argument%s", d->label, d->parameters, d->parameters > 1 ? "s" : "");
+            return lex_fail(lx, "%s takes %u argument%s", d->label, d->parameters,
+                            d->parameters > 1 ? "s" : "");
     }
     lex_next(lx);
     node->left = e->argument_count;

@@ -203,6 +203,8 @@ static bool make_normal(scene *s, bool homogeneous, fret_normal **out, calc_erro
         !inputs_gap(&s->in, &gap, error))
         return false;
     fret_status st = fret_normal_make(&material, &gap, out);
+    if (!st.code)
+        fret_normal_stop(*out, s->stop);
     return calc_status(error, &st);
 }
 

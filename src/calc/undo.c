@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The way back of a session. A step needs no entry: taking it off the load program is enough, and programs of 1e6
- * steps cost nothing. */
+/* The way back of a session. A step needs no entry: taking it off the load program is enough, and programs of
+ * 1e6 steps cost nothing. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,7 +31,21 @@ void undo_end(calc *c) {
         u->entry[i - 1].group = u->outermost;
 }
 
-/* The entry to fill, with the oldest gone where there are too many; NULL: out of memory, the past is forgotten. */
+/* Room for one more entry beside those that have been promised. */
+static bool reserve(undo *u) {
+    const size_t need = u->count + u->promised + 1;
+    if (need <= u->room)
+        return true;
+    const size_t room = need < 8 ? 8 : 2 * need;
+    undo_entry *grown = realloc(u->entry, room * sizeof *grown);
+    if (grown) {
+        u->entry = grown;
+        u->room = room;
+    }
+    return grown != NULL;
+}
+
+/* The entry to fill, which has been reserved, with the oldest gone where there are too many. */
 static undo_entry *push(calc *c) {
     undo *u = &c->undo;
     if (u->count == UNDO_LEVELS) {
@@ -42,35 +56,37 @@ static undo_entry *push(calc *c) {
         u->count -= gone;
         memmove(u->entry, u->entry + gone, u->count * sizeof *u->entry);
     }
-    if (u->count == u->room) {
-        size_t room = u->room ? 2 * u->room : 8;
-        undo_entry *grown = realloc(u->entry, room * sizeof *grown);
-        if (!grown)
-            return NULL;
-        u->entry = grown;
-        u->room = room;
-    }
     undo_entry *e = &u->entry[u->count++];
     *e = (undo_entry){.group = u->group, .program = c->scene.program, .steps = c->scene.end.steps};
     return e;
 }
 
-void undo_scene(calc *c, scene_mark *m) {
-    scene_mark *kept = malloc(sizeof *kept);
-    undo_entry *e = kept ? push(c) : NULL;
-    if (!e) {
-        free(kept);
-        scene_drop(m);
-        return;
+scene_mark *undo_mark(calc *c) {
+    scene_mark *m = malloc(sizeof *m);
+    if (!m || !reserve(&c->undo)) {
+        free(m);
+        return NULL;
     }
-    *kept = *m;
-    e->before = kept;
+    c->undo.promised++;
+    scene_save(&c->scene, m, false);
+    return m;
+}
+
+void undo_scene(calc *c, scene_mark *m) {
+    c->undo.promised--;
+    push(c)->before = m;
+}
+
+void undo_unmark(calc *c, scene_mark *m) {
+    c->undo.promised--;
+    scene_drop(m);
+    free(m);
 }
 
 bool undo_name(calc *c, size_t name) {
-    undo_entry *e = push(c);
-    if (!e)
+    if (!reserve(&c->undo))
         return false;
+    undo_entry *e = push(c);
     e->name = name;
     e->old = c->names.row[name];
     counted_hold(e->old.definition);

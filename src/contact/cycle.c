@@ -181,7 +181,7 @@ fret_status fret_cycle_loss_by_force(const fret_contact *c, double FA, fret_real
     if (f.s.hi < 0)
         return fret_fail(FRET_GROSS_SLIP, "FA", FA, (double)(c->mu * c->press.F));
     *loss = loss_of(c, &f);
-    return fret_ok();
+    return fret_unless_stopped(c->normal, fret_ok());
 }
 
 fret_status fret_cycle_loss_by_displacement(const fret_contact *c, double dA, fret_real *loss) {
@@ -207,5 +207,5 @@ fret_status fret_cycle_loss_by_displacement(const fret_contact *c, double dA, fr
         f.s = dd_sub(dd_of(1), f.t);
     }
     *loss = loss_of(c, &f);
-    return fret_ok();
+    return fret_unless_stopped(c->normal, fret_ok());
 }

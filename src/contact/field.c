@@ -340,6 +340,9 @@ static fret_status superpose(const fret_memory *m, fret_real r, bool traction, f
     fret_status st = fret_check_not_negative("r", (double)r);
     *out = 0;
     for (size_t i = 0; !st.code && fret_memory_segment(m, i, &s); i++) {
+        st = fret_unless_stopped(n, st);
+        if (st.code)
+            break;
         const fret_real a = fret_law_radius(n, s.outer);
         fret_real outer = 0;
         if (steep && s.outer > 0) { /* the depth tells the edge to more digits than its radius */

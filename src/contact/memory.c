@@ -87,7 +87,7 @@ void fret_memory_forces(const fret_memory *m, fret_state *out) {
  * thickness h adds sigma h T + sigma^2 J to the half integral, T the sum of sigma dF_N inside it. */
 static fret_real stored(const fret_memory *m) {
     fret_real sum = 0, T = 0;
-    for (size_t i = 0; i < m->count; i++) {
+    for (size_t i = 0; i < m->count && !fret_stopped(m->normal); i++) {
         const slice *sl = &m->slices[i];
         const fret_real *end = i + 1 < m->count ? sl[1].inner : m->edge, h = sl->thick[DEPTH];
         const fret_level outer = {end[DEPTH], end[LOAD]};
@@ -204,7 +204,7 @@ fret_real fret_memory_slip_work(const fret_memory *m) {
     const fret_real dx = fret_memory_dx(m);
     fret_real sum = 0, u = 0;
     fret_level outer = {m->edge[DEPTH], m->edge[LOAD]};
-    for (size_t i = m->count; i-- > 0;) {
+    for (size_t i = m->count; i-- > 0 && !fret_stopped(m->normal);) {
         const slice *sl = &m->slices[i];
         /* to the very centre, where K may rise so steeply that the rounding of a thickness shows */
         const fret_real h = i ? sl->thick[DEPTH] : outer.y, s = m->mu_eta * sl->sigma;

@@ -46,7 +46,7 @@ typedef struct rise {
 static fret_real rise_rate(fret_real t, fret_real rest, void *context) {
     const rise *r = context;
     (void)rest;
-    return edge_slice(r->m, r->d + r->h * t).G;
+    return fret_stopped(r->m->normal) ? 0 : edge_slice(r->m, r->d + r->h * t).G;
 }
 
 /* L2-L1, also where the two levels are too close for a difference: by quadrature of G, which is singular at
@@ -201,7 +201,7 @@ static fret_real phase_rate(fret_real t, fret_real rest, void *context) {
     const fret_normal *n = p->m->normal;
     fret_real z = p->edge0 * rest + p->edge1 * t, y = p->front0 * rest + p->front1 * t;
     fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
-    if (d <= 0 || z <= 0)
+    if (d <= 0 || z <= 0 || fret_stopped(n))
         return 0;
     fret_point edge = p->by == DEPTH ? fret_law_at_depth(n, z) : fret_law_at_force(n, z),
                front = {0, 0, 0, 0};
@@ -551,5 +551,5 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     m->edge_rest[LOAD] = p.F_rest;
     m->last_loss = loss > 0 ? loss * m->loss_scale : 0;
     fret_sum_add(&m->W, m->last_loss);
-    return fret_ok();
+    return fret_unless_stopped(m->normal, fret_ok());
 }

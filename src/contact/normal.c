@@ -102,6 +102,10 @@ void fret_normal_free(fret_normal *n) {
     free(n);
 }
 
+void fret_normal_stop(fret_normal *n, fret_stop stop) {
+    n->stop = stop;
+}
+
 const fret_foundation *fret_normal_foundation(const fret_normal *n) {
     return &n->foundation;
 }
@@ -156,6 +160,8 @@ static fret_status at_radius(const fret_normal *n, const char *name, double valu
     fret_profile p = {0, 0, 0};
     if (e > 0)
         p = profile(n, e);
+    if (fret_stopped(n))
+        return fret_unless_stopped(n, fret_ok());
     s->a = fret_gap_start(&n->gap) + e;
     if (s->F < 0)
         s->F = fret_force_of(n, &p);

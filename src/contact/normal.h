@@ -12,12 +12,13 @@ struct fret_normal {
     fret_wide_foundation wide_foundation;
     fret_gap gap;
     fret_rule rule;
-    fret_real p;   /* power law: F_N ~ delta_z^p, p = (n+k+1)/n; 0 for other shapes */
-    fret_real pm1; /* p-1 = (k+1)/n without cancellation */
-    fret_real q;   /* 1/p */
-    fret_real s;   /* n+k+1: F_N ~ a^s */
-    fret_real end; /* largest contact radius that the gap supports [m]; infinite for a power */
-    bool falls;    /* because g(x) begins to fall there */
+    fret_real p;    /* power law: F_N ~ delta_z^p, p = (n+k+1)/n; 0 for other shapes */
+    fret_real pm1;  /* p-1 = (k+1)/n without cancellation */
+    fret_real q;    /* 1/p */
+    fret_real s;    /* n+k+1: F_N ~ a^s */
+    fret_real end;  /* largest contact radius that the gap supports [m]; infinite for a power */
+    bool falls;     /* because g(x) begins to fall there */
+    fret_stop stop; /* or NULL */
     struct {
         dd p, q, s;                   /* to 100 bits */
         dd ln_r0, ln_depth, ln_force; /* logarithms of r0, and of depth and force at a = r0 [m], [N] */
@@ -27,6 +28,16 @@ struct fret_normal {
 /* fret_normal_is_power where it is asked often. */
 static inline bool fret_normal_closed(const fret_normal *n) {
     return n->p > 0;
+}
+
+/* Shall long work end? Loops over rows, springs and slices ask; what they then return is of no use. */
+static inline bool fret_stopped(const fret_normal *n) {
+    return n->stop && *n->stop;
+}
+
+/* FRET_INTERRUPTED for work on a contact that was stopped, else the status. */
+static inline fret_status fret_unless_stopped(const fret_normal *n, fret_status st) {
+    return fret_stopped(n) ? (fret_status){FRET_INTERRUPTED, NULL, 0, 0} : st;
 }
 
 /* mu and F_N must be positive: FRET_NOT_POSITIVE, FRET_NOT_FINITE. */

@@ -48,7 +48,7 @@ static fret_real piece_sum(const slip_zone *s, fret_real first, fret_real step) 
         fret_normal_closed(s->normal) ? by_depth : by_radius;
     fret_sum sum = {0, 0};
     unsigned count = (unsigned)floorl((END - first) / step + 0.5L);
-    for (unsigned i = 0; i <= count; i++) {
+    for (unsigned i = 0; i <= count && !fret_stopped(s->normal); i++) {
         fret_real u = first + step * i, grown = fret_exp(fabsl(u));
         fret_real e = fret_exp(-FRET_PI * (grown - 1 / grown) / 2), near = e / (1 + e), far = 1 / (1 + e);
         fret_real weight = FRET_PI * (grown + 1 / grown) / 2 * near * far; /* dt/du */
@@ -63,7 +63,7 @@ static fret_real nodes_sum(const slip_zone *s, fret_real first, fret_real step) 
         return piece_sum(s, first, step);
     slip_zone piece = *s;
     fret_real sum = 0;
-    for (; piece.outer > s->inner; piece.outer = piece.inner) {
+    for (; piece.outer > s->inner && !fret_stopped(s->normal); piece.outer = piece.inner) {
         piece.inner = fmaxl(fret_gap_kink(&s->normal->gap, piece.outer), s->inner);
         sum += piece_sum(&piece, first, step);
     }
@@ -116,7 +116,7 @@ fret_status fret_quadrature_loss(const fret_contact *c, const fret_loading *peak
         return st;
     fret_real step = 2 * END / (points - 1);
     *loss = s.scale * step * nodes_sum(&s, -END, step) + sliding(c, peak);
-    return fret_ok();
+    return fret_unless_stopped(c->normal, fret_ok());
 }
 
 static fret_status refine(const fret_contact *c, const fret_loading *peak, fret_real *loss,
@@ -133,12 +133,12 @@ static fret_status refine(const fret_contact *c, const fret_loading *peak, fret_
         sum += nodes_sum(&s, -END + step / 2, step);
         step /= 2;
         change = fabsl(step * sum - old);
-    } while (change > unit * step * sum && step > finest);
+    } while (change > unit * step * sum && step > finest && !fret_stopped(c->normal));
     *loss = s.scale * step * sum + sliding(c, peak);
     /* differences of depths, and of radii near a flat end, keep fewer digits */
     fret_real lost = fret_normal_closed(c->normal) ? 1 : fmaxl(1, s.start / s.outer) / s.X;
     *agreement = sum > 0 ? fmaxl(change / (step * sum), unit * lost) : 0;
-    return st;
+    return fret_unless_stopped(c->normal, st);
 }
 
 fret_status fret_reference_loss_by_force(const fret_contact *c, double FA, fret_real *loss,

@@ -181,7 +181,7 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
         out.w -= fret_force_of(n, &inner);
     }
     cut s = {.normal = n, .start = start, .y = y, .h = h};
-    while (hi > lo) {
+    while (hi > lo && !fret_stopped(n)) {
         fret_real kink = fret_gap_kink(&n->gap, hi), next = fret_gap_kink(&n->gap, kink);
         while (kink > 0 && hi - next < 1e-3L * (start + hi)) { /* rows as close leave no trace one by one */
             kink = next;

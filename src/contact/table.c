@@ -16,6 +16,8 @@ struct fret_table {
     size_t count, blocks;
     double *r, *f, *d0, *d1, *d2;
     double start; /* it may begin flat */
+    bool grows;
+    fret_stop stop; /* while it is made */
     struct block *block;
 };
 
@@ -97,10 +99,17 @@ static size_t block_count(size_t pieces) {
     return pieces <= LEAF ? 1 : 1 + block_count(pieces / 2) + block_count(pieces - pieces / 2);
 }
 
+static bool stopped(const struct fret_table *t) {
+    return t->stop && *t->stop;
+}
+
+/* Unfinished where it is stopped. */
 static const block *make_block(struct fret_table *t, size_t first, size_t last) {
     block *b = &t->block[t->blocks++];
     fret_real lo = t->r[first], hi = t->r[last];
     *b = (block){.first = first, .last = last, .c = (lo + hi) / 2, .d = (hi - lo) / 2};
+    if (stopped(t))
+        return b;
     if (last - first > LEAF) {
         size_t middle = first + (last - first) / 2;
         add_moved(b, make_block(t, first, middle));
@@ -123,7 +132,7 @@ static fret_real sign_of(fret_real x) {
 
 static void table_slopes(struct fret_table *t) {
     size_t n = t->count;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n && !stopped(t); i++) {
         fret_real h1, s1, h2, s2, p;
         if (i > 0 && i + 1 < n) {
             h1 = (fret_real)t->r[i] - t->r[i - 1];
@@ -148,14 +157,26 @@ static void table_slopes(struct fret_table *t) {
             p = 2 * s1;
         t->d0[i] = (double)p;
     }
-    for (size_t i = 0; i + 1 < n; i++) {
+    for (size_t i = 0; i + 1 < n && !stopped(t); i++) {
         fret_real h = (fret_real)t->r[i + 1] - t->r[i], s = ((fret_real)t->f[i + 1] - t->f[i]) / h;
         t->d1[i] = (double)(2 * (3 * s - 2 * (fret_real)t->d0[i] - t->d0[i + 1]) / h);
         t->d2[i] = (double)(3 * ((fret_real)t->d0[i] + t->d0[i + 1] - 2 * s) / (h * h));
     }
 }
 
-fret_status fret_table_make(const double *r, const double *f, size_t count, struct fret_table **out) {
+/* f' + r f'' >= 0 everywhere makes g grow. */
+static bool grows(const struct fret_table *t) {
+    for (size_t i = 0; i + 1 < t->count && !stopped(t); i++)
+        for (int j = 0; j <= 4; j++) {
+            double h = t->r[i + 1] - t->r[i], x = h * j / 4;
+            if (t->d0[i] + x * (t->d1[i] + x * t->d2[i]) + (t->r[i] + x) * (t->d1[i] + 2 * x * t->d2[i]) < 0)
+                return false;
+        }
+    return true;
+}
+
+fret_status fret_table_make(const double *r, const double *f, size_t count, fret_stop stop,
+                            struct fret_table **out) {
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(r[i]) || !isfinite(f[i]))
             return fret_fail(FRET_NOT_FINITE, isfinite(r[i]) ? "f" : "r", isfinite(r[i]) ? f[i] : r[i], 0);
@@ -172,14 +193,26 @@ fret_status fret_table_make(const double *r, const double *f, size_t count, stru
         free(t);
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     }
-    *t = (struct fret_table){
-        count, 0, data, data + count, data + 2 * count, data + 3 * count, data + 4 * count, 0, blocks};
+    *t = (struct fret_table){.count = count,
+                             .r = data,
+                             .f = data + count,
+                             .d0 = data + 2 * count,
+                             .d1 = data + 3 * count,
+                             .d2 = data + 4 * count,
+                             .block = blocks,
+                             .stop = stop};
     memcpy(t->r, r, count * sizeof *r);
     memcpy(t->f, f, count * sizeof *f);
     table_slopes(t);
     make_block(t, 0, count - 1);
+    t->grows = grows(t);
     for (size_t i = 1; i + 1 < count && f[i] <= 0; i++)
         t->start = r[i];
+    if (stopped(t)) {
+        fret_table_free(t);
+        return fret_fail(FRET_INTERRUPTED, NULL, 0, 0);
+    }
+    t->stop = NULL;
     *out = t;
     return fret_ok();
 }
@@ -221,6 +254,10 @@ fret_real fret_table_end(const struct fret_table *t) {
 
 bool fret_table_pointed(const struct fret_table *t) {
     return t->d0[0] > 0;
+}
+
+bool fret_table_grows(const struct fret_table *t) {
+    return t->grows;
 }
 
 fret_real fret_table_kink(const struct fret_table *t, fret_real e) {
@@ -278,17 +315,6 @@ static void add_near(sums *all, const struct fret_table *t, size_t i, fret_real 
         all->I += p[j] * (m[j] - 2 * m[j + 1] + m[j + 2]);
     }
     all->s += -p[1] * (m[0] - m[1]) - 2 * p[2] * (m[1] - m[2]);
-}
-
-/* f' + r f'' >= 0 everywhere makes g grow, and costs nothing to see. */
-bool fret_table_grows(const struct fret_table *t) {
-    for (size_t i = 0; i + 1 < t->count; i++)
-        for (int j = 0; j <= 4; j++) {
-            double h = t->r[i + 1] - t->r[i], x = h * j / 4;
-            if (t->d0[i] + x * (t->d1[i] + x * t->d2[i]) + (t->r[i] + x) * (t->d1[i] + 2 * x * t->d2[i]) < 0)
-                return false;
-        }
-    return true;
 }
 
 fret_profile fret_table_profile(const struct fret_table *t, const fret_rule *rule, fret_real e) {

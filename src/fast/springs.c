@@ -104,6 +104,9 @@ struct fret_springs {
     fret_sum W;
 };
 
+/* Springs after which the stop flag is looked at; where each takes a profile, fewer. */
+enum { LOOK = 4096, LOOK_AT_PROFILE = 64 };
+
 static double most(double a, double b) {
     return a > b ? a : b;
 }
@@ -134,12 +137,15 @@ static fret_real cell_weight(size_t i, fret_real k) {
     return fret_pow(outer, k1) * -fret_expm1(k1 * fret_log1p(-1 / outer)) / k1;
 }
 
+/* Unfinished where it is stopped. */
 static void fill(fret_springs *s, fret_weight rule) {
     const fret_foundation *f = &s->normal->foundation;
     cells *c = &s->cells;
     fret_real h = (fret_real)s->radius / (fret_real)s->count;
     fret_real scale = 2 * f->cN0 * h * fret_pow(h / f->c0, f->k), stiffness = 0, force = 0, last = 0;
     for (size_t i = 0; i < s->count; i++) {
+        if (i % LOOK_AT_PROFILE == 0 && fret_stopped(s->normal))
+            return;
         fret_real mid = (fret_real)i + 0.5L;
         c->w[i] = (double)(scale * (rule == FRET_WEIGHT_CELL ? cell_weight(i, f->k) : fret_pow(mid, f->k)));
         /* rounding must not undo the order of touch */
@@ -187,6 +193,10 @@ fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count
     s->end_dz = end.dz;
     s->end_FN = end.F;
     fill(s, rule);
+    if (fret_stopped(normal)) {
+        fret_springs_free(s);
+        return fret_unless_stopped(normal, fret_ok());
+    }
     fret_springs_reset(s);
     *out = s;
     return fret_ok();
@@ -339,7 +349,7 @@ static double displacement_of_front(const fret_springs *s, double missing) {
     const cells *c = &s->cells;
     const double sign = missing < 0 ? -1 : 1;
     double slipping = 0, left = 0; /* force of those that slip; what the next can take */
-    for (size_t i = s->closed; i-- > 0;) {
+    for (size_t i = s->closed; i-- > 0 && (i % LOOK || !fret_stopped(s->normal));) {
         const double sticks = (double)s->w_sum[i + 1];
         left = c->b[i] - sign * c->u[i];
         if (slipping + sticks * left >= fabs(missing))
@@ -356,7 +366,7 @@ static fret_real displacement_for(fret_springs *s, fret_real dz, fret_real Fx, f
     fret_real lo = -reach, hi = reach, x = 0;
     if (dz == s->dz)
         x = displacement_of_front(s, (double)((Fx - s->Fx) * eta));
-    for (int i = 0; i < 200 && hi - lo > 4 * DBL_EPSILON * fabsl(x); i++) {
+    for (int i = 0; i < 200 && hi - lo > 4 * DBL_EPSILON * fabsl(x) && !fret_stopped(s->normal); i++) {
         response r = deform(s, (double)s->dz, (double)dz, (double)x, false);
         fret_real missing = Fx - r.force * s->compliance;
         if (fabsl(missing) <= tolerance)
@@ -375,7 +385,7 @@ static fret_real displacement_for(fret_springs *s, fret_real dz, fret_real Fx, f
 static void walk_forces(fret_springs *s, fret_real FN, fret_real dz, fret_real Fx, unsigned substeps) {
     const fret_real FN0 = s->FN, Fx0 = s->Fx;
     s->dz = fmaxl(s->dz, 0); /* an open contact closes without load */
-    for (unsigned j = 1; j <= substeps; j++) {
+    for (unsigned j = 1; j <= substeps && !fret_stopped(s->normal); j++) {
         fret_real t = (fret_real)j / substeps, rest = (fret_real)(substeps - j) / substeps;
         fret_real load = FN0 * rest + FN * t, depth = j == substeps ? fmaxl(dz, 0) : depth_of_force(s, load);
         if (FN == FN0)
@@ -387,7 +397,7 @@ static void walk_forces(fret_springs *s, fret_real FN, fret_real dz, fret_real F
 
 static void walk_displacements(fret_springs *s, fret_real dz, fret_real dx, unsigned substeps) {
     const fret_real dz0 = s->dz, dx0 = s->dx;
-    for (unsigned j = 1; j < substeps; j++) {
+    for (unsigned j = 1; j < substeps && !fret_stopped(s->normal); j++) {
         fret_real t = (fret_real)j / substeps, rest = (fret_real)(substeps - j) / substeps;
         advance(s, dz == dz0 ? dz : dz0 * rest + dz * t, dx == dx0 ? dx : dx0 * rest + dx * t);
     }
@@ -448,7 +458,7 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
     }
     s->dz = dz;
     s->FN = FN;
-    return fret_ok();
+    return fret_unless_stopped(s->normal, fret_ok());
 }
 
 void fret_springs_state(const fret_springs *s, fret_state *out) {
@@ -457,7 +467,7 @@ void fret_springs_state(const fret_springs *s, fret_state *out) {
     fret_real stored = 0, going = 0;
     size_t slipping = 0; /* outermost run of them */
     bool run = true;
-    for (size_t i = closed; i-- > 0;) {
+    for (size_t i = closed; i-- > 0 && (i % LOOK || !fret_stopped(s->normal));) {
         double bound = s->cells.b[i], u = s->cells.u[i], w = s->cells.w[i];
         run = run && fabs(u) >= bound;
         slipping += run;

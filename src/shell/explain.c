@@ -22,7 +22,15 @@ typedef struct part {
 typedef struct page {
     shell *sh;
     FILE *to;
+    calc_error *error; /* raised: the page is not to be shown */
 } page;
+
+/* What may be missing, unless it is because memory is out or the user has stopped it. */
+static bool had(const page *p, bool ok, const calc_error *why) {
+    if (!ok && why->stop && !p->error->raised)
+        *p->error = *why;
+    return ok;
+}
 
 /* ---- lines ------------------------------------------------------------------------------------- */
 
@@ -155,7 +163,8 @@ static void put_inputs(const page *p, const quantity *q, const influence_study *
         error_clear(&ignored);
         const bool set = s->in.set[in] || (s->in.bindings & INPUT_BIT(in));
         if (set && row != q && (q->reads & ~of_load & INPUT_BIT(in)) && (in < IN_N || inputs_take(&s->in, in)) &&
-            !(in == IN_C0 && s->in.v[IN_K] == 0) && has_effect(study, in) && scene_get(s, in, &v.v, &ignored))
+            !(in == IN_C0 && s->in.v[IN_K] == 0) && has_effect(study, in) &&
+            had(p, scene_get(s, in, &v.v, &ignored), &ignored))
             put_value(p, row->name, strlen(row->name), v);
     }
 }
@@ -169,7 +178,8 @@ static void put_load(const page *p, const quantity *q, const influence_study *st
     bool matters = study->count == 0;
     for (size_t i = 0; i < study->count; i++)
         matters = matters || (cause_is_load(&study->cause[i]) && study->cause[i].influence != INFLUENCE_NONE);
-    if (matters && q->load && !quantity_is_input(q) && s->end.steps && scene_press(s, &press, &ignored))
+    if (matters && q->load && !quantity_is_input(q) && s->end.steps &&
+        had(p, scene_press(s, &press, &ignored), &ignored))
         put_value(p, "FN now", 6, (value){press->F, DIM_FORCE});
 }
 
@@ -218,21 +228,23 @@ static void put_conditioning(const page *p, const char *name, const influence_st
 /* ---- one quantity ------------------------------------------------------------------------------ */
 
 /* The part of a statement as an expression of its own, and its value. */
-static bool text_value(calc *c, const char *text, size_t len, expr *e, value *v) {
+static bool text_value(const page *p, const char *text, size_t len, expr *e, value *v) {
+    calc *c = &p->sh->calc;
     calc_error ignored;
     lexer lx;
     error_clear(&ignored);
     lex_start(&lx, text, len, &ignored);
-    return expr_parse(c, &lx, e) && lx.kind == T_END && expr_eval(c, e, v, &ignored);
+    return had(p, expr_parse(c, &lx, e) && lx.kind == T_END && expr_eval(c, e, v, &ignored), &ignored);
 }
 
 /* An input, and F_N as it was given: no formula made the number. */
-static bool is_given(const quantity *q, scene *s) {
+static bool is_given(const page *p, const quantity *q) {
+    scene *s = p->sh->calc.now;
     const load_reach *reach;
     calc_error ignored;
     error_clear(&ignored);
     return q->of == OF_INPUT || (quantity_is_input(q) && s->in.set[quantity_input(q)] &&
-                                 scene_reach(s, &reach, &ignored) && !reach->normal_varies);
+                                 had(p, scene_reach(s, &reach, &ignored), &ignored) && !reach->normal_varies);
 }
 
 static void explain_input(const page *p, const quantity *q) {
@@ -241,7 +253,7 @@ static void explain_input(const page *p, const quantity *q) {
     calc_error ignored;
     error_clear(&ignored);
     put_formula(p, q, false);
-    if (quantity_get(q, c->now, &v.v, &ignored))
+    if (had(p, quantity_get(q, c->now, &v.v, &ignored), &ignored))
         put_value(p, q->name, strlen(q->name), v);
 }
 
@@ -259,9 +271,9 @@ static bool explain_part(const page *p, const part *of, bool whole, calc_error *
     expr e = {0}, unused = {0};
     influence_study study = {.count = 0};
     value v, argument = {0};
-    bool ok = true, has = text_value(c, of->text, of->len, &e, &v);
+    bool ok = true, has = text_value(p, of->text, of->len, &e, &v);
     if (has && of->call)
-        text_value(c, of->text + of->argument, of->argument_len, &unused, &argument);
+        text_value(p, of->text + of->argument, of->argument_len, &unused, &argument);
     if (has)
         ok = influences(c, &e, v.v, of->call ? q : NULL, argument, &study, error);
     if (ok) {
@@ -354,7 +366,7 @@ static bool explain_expression(const page *p, const expr *e, value v, calc_error
     bool whole = false;
     for (size_t i = 0; part_of(of, i, &one); i++) {
         whole = of == e && one.len == e->len && !memcmp(one.text, e->text + e->at, e->len);
-        if (!one.call && is_given(one.q, p->sh->calc.now))
+        if (!one.call && is_given(p, one.q))
             explain_input(p, one.q);
         else if (!explain_part(p, &one, whole, error))
             return false;
@@ -412,9 +424,9 @@ bool do_explain(shell *sh, lexer *lx, const command *self) {
     const quantity *bare = bare_name(lx);
     if (!bare && !read_expression(sh, lx, e, &v))
         return false;
-    if (!text_begin(&text, &sh->set, sh->out))
+    if (!text_begin(&text, &sh->set, sh->out, false))
         return calc_no_memory(lx->error);
-    const page p = {sh, text.to};
+    const page p = {sh, text.to, lx->error};
     bool ok = true;
     if (bare && bare->of == OF_INPUT)
         explain_input(&p, bare);
@@ -422,5 +434,6 @@ bool do_explain(shell *sh, lexer *lx, const command *self) {
         explain_function(&p, bare);
     else
         ok = explain_expression(&p, e, v, lx->error);
-    return (text_end(&text) || calc_no_memory(lx->error)) && ok;
+    ok = ok && !lx->error->raised;
+    return (text_end(&text, ok) || calc_no_memory(lx->error)) && ok;
 }

@@ -85,6 +85,8 @@ bool figure_accuracy(shell *sh, lexer *lx, plot_panel *p) {
     p->title = strdup(text);
     p->xlabel = strdup("time of a cycle [s]");
     p->ylabel = strdup("relative error");
+    if (!p->title || !p->xlabel || !p->ylabel)
+        return calc_no_memory(lx->error);
     p->logx = p->logy = p->points = true;
     return true;
 }

@@ -380,13 +380,13 @@ bool do_help(shell *sh, lexer *lx, const command *self) {
         if (!at_end(lx))
             return false;
     }
-    if (!text_begin(&t, &sh->set, sh->out))
+    if (!text_begin(&t, &sh->set, sh->out, false))
         return calc_no_memory(lx->error);
     if (*word)
         help_on(t.to, word);
     else
         overview(t.to);
-    return text_end(&t) || calc_no_memory(lx->error);
+    return text_end(&t, true) || calc_no_memory(lx->error);
 }
 
 /* ---- apropos ----------------------------------------------------------------------------------- */
@@ -437,9 +437,9 @@ bool do_apropos(shell *sh, lexer *lx, const command *self) {
     lex_next(lx);
     if (!at_end(lx))
         return false;
-    if (!text_begin(&t, &sh->set, sh->out))
+    if (!text_begin(&t, &sh->set, sh->out, false))
         return calc_no_memory(lx->error);
     if (!*word || (!list_about(t.to, word, false) && !list_about(t.to, word, true)))
         fprintf(t.to, "nothing on '%.*s'\n", LEX_SHOWN(len), lx->text + at);
-    return text_end(&t) || calc_no_memory(lx->error);
+    return text_end(&t, true) || calc_no_memory(lx->error);
 }

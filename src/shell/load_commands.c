@@ -179,8 +179,11 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
     bool live = false;
     if (!read_targets(sh, lx, self, v, &step, &extra, &last))
         return false;
+    scene_mark before;
+    scene_save(&sh->calc.scene, &before, false);
     bool ok = at_end(lx) &&
               (scene_load(&sh->calc.scene, &step, &extra, lx->error) || arg_place(lx->error, last));
+    const bool loaded = ok;
     for (const arg *a = self->args; ok && a->kind; a++)
         if (v[a - self->args].live) {
             bound[a->in - 1] = v[a - self->args].live;
@@ -188,6 +191,10 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
         }
     if (ok && live)
         ok = scene_edit(&sh->calc.scene, bind_all, bound, lx->error);
+    if (loaded && !ok)
+        scene_back(&sh->calc.scene, &before);
+    else
+        scene_drop(&before);
     args_drop(&list, v);
     if (ok)
         report_event(sh, "cycle", names);

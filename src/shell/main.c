@@ -9,6 +9,7 @@
 
 #include "calc/file.h"
 #include "shell/command.h"
+#include "shell/output.h"
 
 #ifndef FRET_VERSION
 #define FRET_VERSION "unknown"
@@ -73,7 +74,9 @@ typedef struct wishes {
 } wishes;
 
 static int bad_usage(const char *what, const char *word) {
-    fprintf(stderr, "fret: %s%s%s\ntry: fret --help\n", what, word ? " " : "", word ? word : "");
+    fprintf(stderr, "fret: %s%s", what, word ? " " : "");
+    print_safe(stderr, word ? word : "", word ? strlen(word) : 0);
+    fputs("\ntry: fret --help\n", stderr);
     return EXIT_USAGE;
 }
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/characters.h"
 #include "shell/pager.h"
 #include "shell/progress.h"
 #include "shell/record.h"
@@ -90,34 +91,37 @@ static void put_number(FILE *to, int width, int digits, double v) {
     fwrite(text, 1, n, to);
 }
 
-/* The bytes of one character of UTF-8, 0 where it is none. */
-static size_t character(const unsigned char *p) {
-    if (*p < 0x80)
-        return 1;
-    const size_t n = *p >= 0xf0 && *p < 0xf5 ? 4 : *p >= 0xe0 && *p < 0xf0 ? 3 : *p >= 0xc2 && *p < 0xe0 ? 2 : 0;
-    for (size_t i = 1; i < n; i++)
-        if ((p[i] & 0xc0) != 0x80)
-            return 0;
-    const bool overlong = (n == 3 && *p == 0xe0 && p[1] < 0xa0) || (n == 4 && *p == 0xf0 && p[1] < 0x90);
-    const bool outside = (n == 3 && *p == 0xed && p[1] >= 0xa0) || (n == 4 && *p == 0xf4 && p[1] >= 0x90);
-    return overlong || outside ? 0 : n;
+void print_safe(FILE *to, const char *text, size_t len) {
+    char shown[CHARACTER_SHOWN];
+    for (size_t i = 0; i < len;) {
+        if (text[i] == '\n') {
+            putc(' ', to);
+            i++;
+        } else {
+            i += character_shown(text + i, len - i, shown);
+            fputs(shown, to);
+        }
+    }
 }
 
 void print_json_string(FILE *to, const char *text) {
+    size_t left = strlen(text);
     putc('"', to);
-    for (const unsigned char *p = (const unsigned char *)text; *p;) {
-        size_t n = character(p);
+    while (left > 0) {
+        unsigned code;
+        size_t n = character_at(text, left, &code);
         if (n == 0) {
             fputs("\\ufffd", to);
             n = 1;
-        } else if (*p == '"' || *p == '\\') {
-            fprintf(to, "\\%c", *p);
-        } else if (*p < 0x20 || *p == 0x7f) {
-            fprintf(to, "\\u%04x", *p);
+        } else if (code == '"' || code == '\\') {
+            fprintf(to, "\\%c", *text);
+        } else if (code < 0x10000 && !character_shows(code)) {
+            fprintf(to, "\\u%04x", code);
         } else {
-            fwrite(p, 1, n, to);
+            fwrite(text, 1, n, to);
         }
-        p += n;
+        text += n;
+        left -= n;
     }
     putc('"', to);
 }
@@ -378,10 +382,10 @@ void table_row(table *t, const long double *si) {
 
 /* ---- text -------------------------------------------------------------------------------------- */
 
-bool text_begin(text_out *t, const settings *set, FILE *out) {
+bool text_begin(text_out *t, const settings *set, FILE *out, bool picture) {
     progress_wipe();
-    *t = (text_out){.set = set, .out = out, .to = out};
-    if (set->format != FORMAT_JSON && !(set->pages && set->pager != PAGER_OFF))
+    *t = (text_out){.set = set, .out = out, .to = out, .picture = picture};
+    if (picture && set->format != FORMAT_JSON && !(set->pages && set->pager != PAGER_OFF))
         return true;
     t->to = open_memstream(&t->buffer, &t->size);
     return t->to != NULL;
@@ -389,7 +393,8 @@ bool text_begin(text_out *t, const settings *set, FILE *out) {
 
 /* A recorder has it either way. */
 static void show_text(const text_out *t) {
-    const bool page = t->set->pager == PAGER_ON || pager_needed(t->buffer);
+    const bool page =
+        t->set->pages && t->set->pager != PAGER_OFF && (t->set->pager == PAGER_ON || pager_needed(t->buffer));
     fflush(t->out);
     if (page && pager_show(t->buffer))
         record_aside(t->out, t->buffer);
@@ -397,16 +402,38 @@ static void show_text(const text_out *t) {
         fputs(t->buffer, t->out);
 }
 
-bool text_end(text_out *t) {
+static bool text_close(text_out *t) {
+    const bool ok = !ferror(t->to);
+    return fclose(t->to) == 0 && ok && t->buffer;
+}
+
+/* The text with what does not show escaped, in place of it. */
+static bool make_safe(text_out *t) {
+    text_out safe = {.to = NULL};
+    safe.to = open_memstream(&safe.buffer, &safe.size);
+    for (const char *line = t->buffer; safe.to && *line;) {
+        const size_t n = strcspn(line, "\n");
+        print_safe(safe.to, line, n);
+        if (line[n])
+            putc('\n', safe.to);
+        line += n + (line[n] == '\n');
+    }
+    free(t->buffer);
+    t->buffer = NULL;
+    return safe.to && text_close(&safe) && (t->buffer = safe.buffer, t->size = safe.size, true);
+}
+
+bool text_end(text_out *t, bool keep) {
     progress_wipe();
     if (t->to == t->out)
         return true;
-    bool ok = fclose(t->to) == 0;
-    if (ok && t->size > 0 && t->set->format == FORMAT_JSON) {
+    const bool json = t->set->format == FORMAT_JSON;
+    bool ok = text_close(t) && (json || t->picture || make_safe(t));
+    if (ok && keep && t->size > 0 && json) {
         fputs("{\"text\":", t->out);
         print_json_string(t->out, t->buffer);
         fputs("}\n", t->out);
-    } else if (ok && t->size > 0) {
+    } else if (ok && keep && t->size > 0) {
         show_text(t);
     }
     free(t->buffer);

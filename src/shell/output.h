@@ -58,6 +58,8 @@ size_t number_text(char text[NUMBER_TEXT], int digits, double v);
 void format_value(const settings *set, value v, char *buf, size_t size);
 /* The same with as many more digits as reading it back takes. */
 void format_exact(const settings *set, value v, char *buf, size_t size);
+/* A text on one line, what does not show escaped: see calc/characters.h. Line ends become blanks. */
+void print_safe(FILE *to, const char *text, size_t len);
 /* The text as a JSON string, quotation marks included; bytes that are no UTF-8 become U+FFFD. */
 void print_json_string(FILE *to, const char *text);
 
@@ -65,10 +67,13 @@ void print_json_string(FILE *to, const char *text);
 typedef struct text_out {
     const settings *set;
     FILE *out, *to; /* write to `to` */
+    bool picture;
     char *buffer;
     size_t size;
 } text_out;
-bool text_begin(text_out *t, const settings *set, FILE *out);
-bool text_end(text_out *t);
+/* picture: of gnuplot, which knows what it sends to a terminal; else what does not show is escaped. */
+bool text_begin(text_out *t, const settings *set, FILE *out, bool picture);
+/* keep: else what has been written is dropped, where it is not out yet. False: out of memory. */
+bool text_end(text_out *t, bool keep);
 
 #endif

@@ -25,7 +25,7 @@ static void terminal_size(const shell *sh, int *w, int *h) {
 
 /* The target; the text of the terminal begins. */
 static bool begin_target(shell *sh, const char *file, text_out *text, plot_target *to, calc_error *error) {
-    if (!text_begin(text, &sh->set, sh->out))
+    if (!text_begin(text, &sh->set, sh->out, true))
         return calc_no_memory(error);
     const bool terminal = text->to == sh->out && shell_on_terminal(sh);
     *to = (plot_target){.file = file,
@@ -46,7 +46,8 @@ static bool begin_target(shell *sh, const char *file, text_out *text, plot_targe
 
 static bool end_target(shell *sh, const char *file, text_out *text, const file_report *written, bool ok,
                        const char *error, lexer *lx) {
-    text_end(text);
+    if (!text_end(text, ok))
+        return calc_no_memory(lx->error);
     if (!ok) {
         lx->error->stop = shell_stop;
         return calc_fail(lx->error, 0, 0, "%s", error);

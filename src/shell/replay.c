@@ -297,14 +297,14 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
     replay r = {.tolerance = tolerance, .path = path};
     shell_init(&r.sh, out, out);
     r.sh.replaying = true;
-    bool ok = text_begin(&t, set, out);
+    bool ok = text_begin(&t, set, out, true);
     r.out = ok ? t.to : out;
     nesting++;
     ok = ok && take_lines(&r, &in, error, size);
     nesting--;
     if (ok)
         fprintf(r.out, "%s: %zu passed, %zu failed\n", path, r.passed, r.failed);
-    text_end(&t);
+    text_end(&t, true);
     if (!ok && !*error)
         snprintf(error, size, "out of memory");
     file_in_close(&in);

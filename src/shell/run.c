@@ -8,6 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "calc/characters.h"
 #include "shell/command.h"
 #include "shell/expressions.h"
 #include "shell/lines.h"
@@ -30,13 +31,17 @@ void shell_free(shell *sh) {
         expr_free(&sh->list[i]);
 }
 
+enum { NOTE = 8192 }; /* holds a file's name, escaped or not */
+
 void shell_note(shell *sh, const char *format, ...) {
+    char text[NOTE];
     va_list args;
     progress_wipe();
-    fflush(sh->out);
     va_start(args, format);
-    vfprintf(sh->err, format, args);
+    vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    fflush(sh->out);
+    print_safe(sh->err, text, strlen(text));
     fputc('\n', sh->err);
 }
 
@@ -81,10 +86,11 @@ static void warn_dissimilar(shell *sh) {
         return;
     const fret_foundation *f = fret_normal_foundation(normal);
     if (!f->similar && !sh->dissimilar)
-        shell_note(sh,
-                   "warning: the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
-                   "are coupled, and these results are an approximation",
-                   (double)f->mismatch);
+        shell_note(
+            sh,
+            "warning: the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
+            "are coupled, and these results are an approximation",
+            (double)f->mismatch);
     sh->dissimilar = !f->similar;
 }
 
@@ -119,17 +125,17 @@ static void warn(shell *sh) {
 
 static bool run_command(shell *sh, lexer *lx, const command *c) {
     const size_t at = lx->at, len = lx->len;
-    scene_mark before;
+    scene_mark *before = NULL;
     lex_next(lx);
     if (lx->error->raised && !(c->args && c->args->kind == ARG_FILE))
         return false;
-    if (c->changes)
-        scene_save(&sh->calc.scene, &before, false);
+    if (c->changes && !(before = undo_mark(&sh->calc)))
+        return calc_no_memory(lx->error);
     bool ok = c->run(sh, lx, c);
     if (c->changes && (ok || c->run == do_source))
-        undo_scene(&sh->calc, &before);
+        undo_scene(&sh->calc, before);
     else if (c->changes)
-        scene_drop(&before);
+        undo_unmark(&sh->calc, before);
     if (ok && (c->changes || c->run == do_undo))
         warn(sh);
     return ok || calc_place(lx->error, at, lx->end > at + len ? lx->end - at : len);
@@ -192,6 +198,13 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     bool ok = dispatch(sh, &lx);
     progress_end();
     undo_end(&sh->calc);
+    if (shell_stop) { /* what has been half computed must answer nothing, whatever it seemed to say */
+        scene_forget(&sh->calc.scene, false);
+        if (!ok && error->raised) {
+            error->raised = false;
+            calc_interrupted(error);
+        }
+    }
     return ok;
 }
 
@@ -239,28 +252,45 @@ static void show_place(const shell *sh, bool aside, const char *text, size_t len
     if (aside)
         shell_aside(sh, to);
     fprintf(to, "  %s", begin ? "..." : "");
-    for (size_t i = begin; i < end; i++) {
-        unsigned char c = (unsigned char)text[i];
-        fputc(c == '\t' || c < 0x20 || c == 0x7f ? (c == '\t' ? ' ' : '?') : c, to);
+    size_t blanks = 0, marks = 0;
+    for (size_t i = begin; i < end;) {
+        unsigned code;
+        const size_t n = character_at(text + i, end - i, &code);
+        if (n && character_shows(code))
+            fwrite(text + i, 1, n, to);
+        else
+            putc(n && code == '\t' ? ' ' : '?', to);
+        blanks += i < at;
+        marks += i > at && i < at + width;
+        i += n ? n : 1;
     }
     fprintf(to, "%s\n", end < len ? "..." : "");
     if (aside)
         shell_aside(sh, to);
-    fprintf(to, "  %s", begin ? "   " : "");
-    for (size_t i = begin; i < at && i < end; i++)
-        if (((unsigned char)text[i] & 0xc0) != 0x80)
-            fputc(' ', to);
-    fputc('^', to);
-    for (size_t i = at + 1; i < at + width && i < end; i++)
-        if (((unsigned char)text[i] & 0xc0) != 0x80)
-            fputc('~', to);
-    fputc('\n', to);
+    fprintf(to, "  %s%*s^", begin ? "   " : "", (int)blanks, "");
+    while (marks-- > 0)
+        putc('~', to);
+    putc('\n', to);
+}
+
+/* `error: ...`, behind a place or not. */
+static void print_error(const shell *sh, const char *text) {
+    fputs(sh->set.color ? "\033[1;31merror:\033[0m " : "error: ", sh->err);
+    print_safe(sh->err, text, strlen(text));
+    putc('\n', sh->err);
+}
+
+void shell_error(shell *sh, const char *text) {
+    progress_wipe();
+    fflush(sh->out);
+    print_error(sh, text);
+    fflush(sh->err);
+    sh->failed = true;
 }
 
 static void report_error(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
                          const calc_error *error) {
     fflush(sh->out);
-    const char *red = sh->set.color ? "\033[1;31m" : "", *plain = sh->set.color ? "\033[0m" : "";
     /* the physical line within a continued one */
     size_t begin = 0;
     for (size_t i = 0; i < at && i < len; i++)
@@ -271,9 +301,11 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
     size_t end = begin;
     while (end < len && text[end] != '\n')
         end++;
-    if (from->name)
-        fprintf(sh->err, "%s:%zu:%zu: ", from->name, line, at - begin + 1);
-    fprintf(sh->err, "%serror:%s %s\n", red, plain, error->text);
+    if (from->name) {
+        print_safe(sh->err, from->name, strlen(from->name));
+        fprintf(sh->err, ":%zu:%zu: ", line, at - begin + 1);
+    }
+    print_error(sh, error->text);
     const size_t width = error->len ? error->len : 1;
     if (from->name || sh->replaying || (sh->interactive && width < end - begin))
         show_place(sh, !from->name, text + begin, end - begin, at - begin, width);
@@ -343,28 +375,26 @@ static size_t mark_of(const char *line, size_t len) {
 int shell_stream(shell *sh, file_in *in, bool keep_going) {
     const source from = {in->name, keep_going};
     char error[CALC_ERROR_TEXT];
-    int status = EXIT_OK;
-    file_got got = FILE_GOT_LINE;
-    while (!sh->quit && (got = file_in_logical(in, mark_of, error, sizeof error)) == FILE_GOT_LINE) {
-        size_t mark = in->number == 1 && in->length >= 3 && !memcmp(in->line, "\xef\xbb\xbf", 3)
-                          ? 3
-                          : 0; /* editors' byte-order mark */
-        if (shell_continues(in->line, in->length)) /* with nothing behind it */
-            *strrchr(in->line, '\\') = ' ';
+    file_got got = FILE_GOT_END;
+    bool ok = true, last = true; /* all statements so far; those of the last line */
+    while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || keep_going) &&
+           (got = file_in_logical(in, mark_of, error, sizeof error)) == FILE_GOT_LINE) {
+        const size_t mark = /* of byte order, by editors */
+            in->number == 1 && in->length >= 3 && !memcmp(in->line, "\xef\xbb\xbf", 3) ? 3 : 0;
+        const size_t open = mark_of(in->line, in->length); /* nothing continues the last line */
+        if (open < in->length)
+            in->line[open] = ' ';
         blank_prompts(in->line + mark, in->length - mark);
         if (sh->nesting == 0)
             record_line(sh, in->line + mark, in->length - mark);
-        if (!shell_line(sh, &from, in->line + mark, in->length - mark, (size_t)in->number))
-            status = EXIT_ERROR;
-        if (shell_stop || (status && !keep_going) || ferror(sh->out))
-            break;
+        last = shell_line(sh, &from, in->line + mark, in->length - mark, (size_t)in->number);
+        ok = ok && last;
     }
-    if (shell_stop || got == FILE_GOT_STOP) {
-        status = EXIT_INTERRUPTED;
-    } else if (got == FILE_GOT_ERROR) {
-        fprintf(sh->err, "error: %s\n", error);
-        status = EXIT_ERROR;
-    }
+    if (got == FILE_GOT_ERROR)
+        shell_error(sh, error);
+    if (shell_stop && last)
+        shell_error(sh, "interrupted");
+    const int status = shell_stop ? EXIT_INTERRUPTED : ok && got != FILE_GOT_ERROR ? EXIT_OK : EXIT_ERROR;
     file_in_close(in);
     return status;
 }
@@ -372,8 +402,7 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
 static int run_opened(shell *sh, bool ok, file_in *in, const char *error, bool keep_going) {
     if (ok)
         return shell_stream(sh, in, keep_going);
-    fflush(sh->out);
-    fprintf(sh->err, "error: %s\n", error);
+    shell_error(sh, error);
     return EXIT_ERROR;
 }
 

@@ -180,7 +180,7 @@ static struct fret_table *table_of(const csv *data, calc_error *error) {
         calc_fail(error, 0, 0, "%s:%zu: f(0) = %.6g m must be 0: the bodies touch at r = 0 before they are pressed",
                   data->path, data->line[0], f->v[0]);
     } else {
-        fret_status st = fret_table_make(r->v, f->v, data->rows, &gap);
+        fret_status st = fret_table_make(r->v, f->v, data->rows, &shell_stop, &gap);
         if (!calc_status(error, &st))
             gap = NULL;
     }

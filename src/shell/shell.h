@@ -47,7 +47,8 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
  * of its first physical line. */
 bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line);
 
-/* Runs a stream to its end, or to the first error, and closes it. Returns an exit status. */
+/* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it. Returns an
+ * exit status. */
 int shell_stream(shell *sh, file_in *in, bool keep_going);
 int shell_file(shell *sh, const char *path, bool keep_going);
 int shell_text(shell *sh, const char *text, const char *name, bool keep_going);
@@ -57,6 +58,8 @@ bool shell_continues(const char *text, size_t len);
 /* End of the statement that begins at i: a `;`, a comment or the end of the line. */
 size_t shell_statement_end(const char *text, size_t i, size_t len);
 
+/* Reports an error that has no place in a statement. */
+void shell_error(shell *sh, const char *text);
 /* Something to be told that is no error, on standard error. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))

@@ -220,13 +220,11 @@ static bool waits(const calc *c, size_t row, const bool written[]) {
 }
 
 /* Values first, then definitions, each after those that it uses: a name must be known to be read. */
-static void write_names(writer *w) {
+static bool write_names(writer *w) {
     const own_names *n = &w->c->names;
     bool *written = calloc(n->count + 1, sizeof *written), more = true;
-    if (!written) {
-        fputs("# out of memory: your names are not shown\n", w->to);
-        return;
-    }
+    if (!written)
+        return false;
     for (size_t i = 0; i < n->count; i++) {
         written[i] = !n->row[i].known || !n->row[i].definition;
         if (n->row[i].known && written[i])
@@ -241,6 +239,7 @@ static void write_names(writer *w) {
             }
     }
     free(written);
+    return true;
 }
 
 /* ---- the load ---------------------------------------------------------------------------------- */
@@ -301,7 +300,7 @@ static void write_load(writer *w, bool whole) {
     }
 }
 
-void scene_write(const calc *c, const settings *set, FILE *to, bool whole) {
+bool scene_write(const calc *c, const settings *set, FILE *to, bool whole) {
     writer w = {c, set, to, false};
     if (whole && !c->scene.automatic) {
         const setting *row;
@@ -314,48 +313,54 @@ void scene_write(const calc *c, const settings *set, FILE *to, bool whole) {
     write_geometry(&w);
     write_friction(&w);
     write_load(&w, whole);
-    write_names(&w);
+    const bool ok = write_names(&w);
     for (input i = 0; i < INPUTS; i++)
         write_binding(&w, i);
     if (!w.any)
         fputs("# nothing is set yet; try: demo, or help\n", to);
+    return ok;
 }
 
 /* ---- show and set ------------------------------------------------------------------------------ */
 
 /* At the prompt a long load is shortened; a script's output may be read back. */
-static void show_scene(shell *sh, FILE *to) {
-    scene_write(&sh->calc, &sh->set, to, !sh->interactive);
+static bool show_scene(shell *sh, FILE *to) {
+    return scene_write(&sh->calc, &sh->set, to, !sh->interactive);
 }
 
-static void show_settings(shell *sh, FILE *to) {
+static bool show_settings(shell *sh, FILE *to) {
     const setting *row;
     for (size_t i = 0; (row = setting_row(i)); i++)
         setting_show(row, &sh->calc, &sh->set, to);
+    return true;
 }
 
-static void show_units(shell *sh, FILE *to) {
+static bool show_units(shell *sh, FILE *to) {
     (void)sh;
     help_units(to);
+    return true;
 }
 
-static void show_commands(shell *sh, FILE *to) {
+static bool show_commands(shell *sh, FILE *to) {
     const command *c;
     (void)sh;
     for (size_t i = 0; (c = command_row(i)); i++)
         fprintf(to, "%s%s%s\n", c->name, *c->usage ? " " : "", c->usage);
+    return true;
 }
 
-static void show_variables(shell *sh, FILE *to) {
+static bool show_variables(shell *sh, FILE *to) {
     writer w = {&sh->calc, &sh->set, to, false};
-    write_names(&w);
+    if (!write_names(&w))
+        return false;
     if (!w.any)
         fputs("# you have no names of your own yet; NAME = EXPR makes one\n", to);
+    return true;
 }
 
 static const struct {
     const char *name;
-    void (*show)(shell *sh, FILE *to);
+    bool (*show)(shell *sh, FILE *to); /* false: out of memory */
 } shown[] = {
     {"scene", show_scene},       {"settings", show_settings},   {"units", show_units},
     {"commands", show_commands}, {"variables", show_variables}, {"demos", show_demos},
@@ -366,12 +371,12 @@ const char *show_name(size_t i) {
     return i < SHOWS ? shown[i].name : NULL;
 }
 
-static bool say(shell *sh, lexer *lx, void (*show)(shell *sh, FILE *to)) {
+static bool say(shell *sh, lexer *lx, bool (*show)(shell *sh, FILE *to)) {
     text_out t;
-    if (!text_begin(&t, &sh->set, sh->out))
+    if (!text_begin(&t, &sh->set, sh->out, false))
         return calc_no_memory(lx->error);
-    show(sh, t.to);
-    return text_end(&t) || calc_no_memory(lx->error);
+    const bool ok = show(sh, t.to);
+    return (text_end(&t, ok) && ok) || calc_no_memory(lx->error);
 }
 
 bool do_show(shell *sh, lexer *lx, const command *self) {

@@ -87,7 +87,7 @@ typedef struct probe {
     long double result;
     const quantity *call; /* or NULL */
     program *own;         /* or NULL: nothing is pressed */
-    bool stopped;
+    calc_error *error;    /* raised: what ends the study */
 } probe;
 
 static bool set_to(probe *p, const cause *c, double x, calc_error *error) {
@@ -118,7 +118,8 @@ static bool moved_to(probe *p, const cause *c, double x, long double *out) {
         else if (c->kind == CAUSE_NAME) /* a reset leaves it */
             set_to(p, c, (double)c->v.v, &error);
     }
-    p->stopped = p->stopped || error.stop;
+    if (error.stop && !p->error->raised)
+        *p->error = error;
     *out = v.v;
     return ok;
 }
@@ -128,7 +129,7 @@ static bool moved_to(probe *p, const cause *c, double x, long double *out) {
 static int differences(probe *p, const cause *c, double h, long double *change, long double *noise) {
     long double at[2];
     int valid = 0, side = 0;
-    for (int sign = -1; sign <= 1 && !p->stopped; sign += 2)
+    for (int sign = -1; sign <= 1 && !p->error->raised; sign += 2)
         if (moved_to(p, c, (double)c->v.v + sign * h, &at[valid])) {
             valid++;
             side = sign;
@@ -152,7 +153,7 @@ static void find_influence(probe *p, cause *c) {
     long double least = HUGE_VALL; /* uncertainty of change */
     int nearest = 0;
     c->digit = ulp / (long double)x;
-    for (int bits = 0; bits <= 24 && !p->stopped; bits += 12) {
+    for (int bits = 0; bits <= 24 && !p->error->raised; bits += 12) {
         long double change = 0, noise = 0, scale = (long double)(1 << bits);
         const int valid = differences(p, c, ulp * (double)scale, &change, &noise);
         if (bits == 0)
@@ -177,7 +178,7 @@ static void find_influence(probe *p, cause *c) {
                                                           : INFLUENCE_SHOWN;
 }
 
-static bool probe_all(probe *p, influence_study *out, calc_error *error) {
+static bool probe_all(probe *p, influence_study *out) {
     const scene *s = &p->t->scene;
     const clock_t start = clock();
     for (size_t i = 0; i < out->count; i++) {
@@ -185,8 +186,10 @@ static bool probe_all(probe *p, influence_study *out, calc_error *error) {
             find_influence(p, &out->cause[i]);
         else
             out->cause[i].influence = INFLUENCE_LEFT;
-        if (p->stopped || (s->stop && *s->stop))
-            return calc_interrupted(error);
+        if (s->stop && *s->stop)
+            return calc_interrupted(p->error);
+        if (p->error->raised)
+            return false;
     }
     return true;
 }
@@ -194,14 +197,14 @@ static bool probe_all(probe *p, influence_study *out, calc_error *error) {
 bool influences(calc *c, const expr *e, long double result, const quantity *call, value argument,
                 influence_study *out, calc_error *error) {
     const scene *s = c->now;
-    probe p = {.e = e, .result = result, .call = call};
+    probe p = {.e = e, .result = result, .call = call, .error = error};
     out->count = 0;
     if (result == 0 || !isfinite(result))
         return true;
     if (s->end.steps && !(p.own = program_copy(s->program, s->end)))
         return calc_no_memory(error);
     find_causes(c, e, p.own, call, argument, out);
-    bool ok = (p.t = trial_open(c, error)) && probe_all(&p, out, error);
+    bool ok = (p.t = trial_open(c, error)) && probe_all(&p, out);
     if (p.t) {
         p.t->scene.used = 0; /* none of this has answered */
         trial_close(p.t);

@@ -93,7 +93,7 @@ static void sampled(void) {
     }
     unit_scene s = unit_make_scene(2, 0);
     struct fret_table *table = NULL;
-    CHECK_OK(fret_table_make(r, f, ROWS, &table));
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
     s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = table};
     fret_contact c = unit_make_contact(&s, 20);
     fret_real loss, finer, agreement;

@@ -50,7 +50,7 @@ static struct fret_table *read_table(const unit_table *t) {
         double x = r[i] > flat ? r[i] - flat : 0;
         f[i] = x * (unit_input(t, 5) + x * (unit_input(t, 7) + x * unit_input(t, 9)));
     }
-    CHECK_OK(fret_table_make(r, f, (size_t)count, &out));
+    CHECK_OK(fret_table_make(r, f, (size_t)count, NULL, &out));
     return out;
 }
 
@@ -156,7 +156,7 @@ static struct fret_table *sample(const fret_gap *gap, int count, double end, boo
         CHECK_OK(fret_gap_f(gap, r[i], &y));
         f[i] = (double)y;
     }
-    CHECK_OK(fret_table_make(r, f, (size_t)count, &t));
+    CHECK_OK(fret_table_make(r, f, (size_t)count, NULL, &t));
     free(r);
     return t;
 }
@@ -361,20 +361,20 @@ static void bad_tables(void) {
     const double twice[] = {0, 1e-3, 1e-3}, back[] = {0, 2e-3, 1e-3}, late[] = {1e-4, 1e-3, 2e-3};
     const double lifted[] = {1e-7, 1e-6, 4e-6}, nans[] = {0, (double)NAN, 1},
                  inf[] = {0, 1, (double)INFINITY};
-    CHECK_ERROR(fret_table_make(twice, f, 3, &t), FRET_BAD_TABLE, "r");
-    CHECK_ERROR(fret_table_make(back, f, 3, &t), FRET_BAD_TABLE, "r");
-    CHECK_ERROR(fret_table_make(late, f, 3, &t), FRET_BAD_TABLE, "r");
-    CHECK_CODE(fret_table_make(r, lifted, 3, &t), FRET_BAD_TABLE);
-    CHECK_CODE(fret_table_make(r, f, 1, &t), FRET_BAD_TABLE);
-    CHECK_CODE(fret_table_make(r, f, 0, &t), FRET_BAD_TABLE);
-    CHECK_ERROR(fret_table_make(nans, f, 3, &t), FRET_NOT_FINITE, "r");
-    CHECK_ERROR(fret_table_make(r, inf, 3, &t), FRET_NOT_FINITE, "f");
-    CHECK(fret_table_make(back, f, 3, &t).value == 1e-3);
+    CHECK_ERROR(fret_table_make(twice, f, 3, NULL, &t), FRET_BAD_TABLE, "r");
+    CHECK_ERROR(fret_table_make(back, f, 3, NULL, &t), FRET_BAD_TABLE, "r");
+    CHECK_ERROR(fret_table_make(late, f, 3, NULL, &t), FRET_BAD_TABLE, "r");
+    CHECK_CODE(fret_table_make(r, lifted, 3, NULL, &t), FRET_BAD_TABLE);
+    CHECK_CODE(fret_table_make(r, f, 1, NULL, &t), FRET_BAD_TABLE);
+    CHECK_CODE(fret_table_make(r, f, 0, NULL, &t), FRET_BAD_TABLE);
+    CHECK_ERROR(fret_table_make(nans, f, 3, NULL, &t), FRET_NOT_FINITE, "r");
+    CHECK_ERROR(fret_table_make(r, inf, 3, NULL, &t), FRET_NOT_FINITE, "f");
+    CHECK(fret_table_make(back, f, 3, NULL, &t).value == 1e-3);
     CHECK(t == NULL);
     fret_table_free(NULL);
 
     /* two points make a cone, up to its end */
-    CHECK_OK(fret_table_make(r, f, 2, &t));
+    CHECK_OK(fret_table_make(r, f, 2, NULL, &t));
     unit_scene s = unit_make_scene(1, 0.3), cone = s;
     s.gap.kind = FRET_GAP_TABLE;
     s.gap.table = t;
@@ -395,7 +395,7 @@ static void bad_tables(void) {
 
     /* a gap that turns back in the middle is no disc */
     const double hill[] = {0, 4e-6, 1e-6};
-    CHECK_OK(fret_table_make(r, hill, 3, &t));
+    CHECK_OK(fret_table_make(r, hill, 3, NULL, &t));
     s.gap.table = t;
     fret_normal *none = NULL;
     st = fret_normal_make(&s.material, &s.gap, &none);
@@ -493,7 +493,7 @@ static void coarse_steps(void) {
     static const double r[] = {0, 1e-4, 2e-4, 4e-4, 8e-4}, f[] = {0, 6e-7, 2.1e-6, 9e-6, 3.3e-5};
     static const double to[][2] = {{40, 11}, {160, -30}, {70, 5}};
     struct fret_table *t = NULL;
-    CHECK_OK(fret_table_make(r, f, 5, &t));
+    CHECK_OK(fret_table_make(r, f, 5, NULL, &t));
     for (int j = 0; j < 2; j++) {
         fret_real W[2] = {0, 0};
         for (int fine = 0; fine < 2; fine++) {

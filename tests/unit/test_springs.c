@@ -434,7 +434,7 @@ static void test_errors(void) {
     const double r[] = {0, 1e-4, 2e-4}, f[] = {0, 1e-6, 4e-6};
     const unit_scene steel = unit_make_scene(2, 0);
     struct fret_table *table;
-    CHECK_OK(fret_table_make(r, f, 3, &table));
+    CHECK_OK(fret_table_make(r, f, 3, NULL, &table));
     const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
     const fret_normal *tabled = unit_keep_normal(&steel.material, &gap);
     CHECK_CODE(fret_springs_make(tabled, 0.3, 10, 3e-4, cell, &none), FRET_TABLE_SHORT);

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Characters of UTF-8 and which of them show. */
+#include "calc/characters.h"
+
+#include <stdio.h>
+#include <string.h>
+
+size_t character_at(const char *text, size_t left, unsigned *code) {
+    const unsigned char *p = (const unsigned char *)text;
+    if (left == 0)
+        return 0;
+    const size_t n = *p < 0x80                 ? 1
+                     : *p >= 0xf0 && *p < 0xf5 ? 4
+                     : *p >= 0xe0 && *p < 0xf0 ? 3
+                     : *p >= 0xc2 && *p < 0xe0 ? 2
+                                               : 0;
+    if (n == 0 || n > left)
+        return 0;
+    unsigned c = n == 1 ? *p : *p & (0xffU >> (n + 1));
+    for (size_t i = 1; i < n; i++) {
+        if ((p[i] & 0xc0) != 0x80)
+            return 0;
+        c = c << 6 | (p[i] & 0x3fU);
+    }
+    const bool overlong = (n == 3 && c < 0x800) || (n == 4 && c < 0x10000);
+    if (overlong || c > 0x10ffff || (c >= 0xd800 && c < 0xe000))
+        return 0;
+    if (code)
+        *code = c;
+    return n;
+}
+
+bool character_shows(unsigned c) {
+    static const struct {
+        unsigned first, last;
+    } hidden[] = {{0x0, 0x1f},        {0x7f, 0x9f},       {0xad, 0xad},      {0x34f, 0x34f},
+                  {0x61c, 0x61c},     {0x115f, 0x1160},   {0x17b4, 0x17b5},  {0x180b, 0x180f},
+                  {0x200b, 0x200f},   {0x2028, 0x202e},   {0x2060, 0x206f},  {0x3164, 0x3164},
+                  {0xfe00, 0xfe0f},   {0xfeff, 0xfeff},   {0xffa0, 0xffa0},  {0xfff0, 0xfffb},
+                  {0x1bca0, 0x1bca3}, {0x1d173, 0x1d17a}, {0xe0000, 0xe0fff}};
+    if (c >= 0x20 && c < 0x7f)
+        return true;
+    for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++)
+        if (c >= hidden[i].first && c <= hidden[i].last)
+            return false;
+    return true;
+}
+
+size_t character_shown(const char *text, size_t left, char shown[CHARACTER_SHOWN]) {
+    unsigned code = (unsigned char)*text;
+    const size_t n = character_at(text, left, &code);
+    if (n && character_shows(code)) {
+        memcpy(shown, text, n);
+        shown[n] = 0;
+    } else if (n && code == '\t') {
+        strcpy(shown, " ");
+    } else {
+        snprintf(shown, CHARACTER_SHOWN, n == 0 || code < 0x80 ? "\\x%02x" : "\\u%04x", code);
+    }
+    return n ? n : 1;
+}

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Characters of UTF-8, and which of them may be shown: what comes from statements, files and other programs
+ * must not command the terminal, hide or turn round what is beside it. Touches nothing. */
+#ifndef CALC_CHARACTERS_H
+#define CALC_CHARACTERS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* The bytes of the character at text, of which `left` are there; 0: they are no UTF-8. code may be NULL. */
+size_t character_at(const char *text, size_t left, unsigned *code);
+
+/* No control character, and none that turns the direction of writing or takes no place. */
+bool character_shows(unsigned code);
+
+/* A character that does not show is written in this way, as \x1b or \u202e; a byte that is no UTF-8 too.
+ * Returns the bytes taken from text; shown holds a text of at most 10 bytes. */
+enum { CHARACTER_SHOWN = 12 };
+size_t character_shown(const char *text, size_t left, char shown[CHARACTER_SHOWN]);
+
+#endif

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Loaded before the C library: lets one allocation fail. Counting begins when a file named `arm` is closed and ends
+ * when one named `disarm` is opened; FAULT=n fails the n-th, and FAULT_COUNT names a file for how many there were. For glibc. */
+#define _GNU_SOURCE
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+extern void *__libc_malloc(size_t size);
+extern void *__libc_calloc(size_t count, size_t size);
+extern void *__libc_realloc(void *old, size_t size);
+extern void *__libc_memalign(size_t alignment, size_t size);
+
+static int armed, arming = -1;
+static long seen, wanted;
+
+static int fails(void) {
+    if (!armed || ++seen != wanted)
+        return 0;
+    errno = ENOMEM;
+    return 1;
+}
+
+void *malloc(size_t size) {
+    return fails() ? NULL : __libc_malloc(size);
+}
+
+void *calloc(size_t count, size_t size) {
+    return fails() ? NULL : __libc_calloc(count, size);
+}
+
+void *realloc(void *old, size_t size) {
+    return fails() ? NULL : __libc_realloc(old, size);
+}
+
+void *aligned_alloc(size_t alignment, size_t size) {
+    return fails() ? NULL : __libc_memalign(alignment, size);
+}
+
+static int named(const char *path, const char *name) {
+    const char *slash = strrchr(path, '/');
+    return !strcmp(slash ? slash + 1 : path, name);
+}
+
+int open(const char *path, int flags, ...) {
+    va_list args;
+    va_start(args, flags);
+    const mode_t mode = flags & O_CREAT ? va_arg(args, mode_t) : 0;
+    va_end(args);
+    if (named(path, "disarm"))
+        armed = 0;
+    const int fd = (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
+    if (named(path, "arm"))
+        arming = fd;
+    return fd;
+}
+
+int close(int fd) {
+    if (fd == arming) {
+        const char *n = getenv("FAULT");
+        wanted = n ? atol(n) : 0;
+        armed = 1;
+        arming = -1;
+    }
+    return (int)syscall(SYS_close, fd);
+}
+
+__attribute__((destructor)) static void tell(void) {
+    const char *name = getenv("FAULT_COUNT");
+    FILE *to = name ? fopen(name, "w") : NULL;
+    if (to) {
+        fprintf(to, "%ld\n", seen);
+        fclose(to);
+    }
+}

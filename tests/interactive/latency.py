@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How long Ctrl-C takes, from the key to the next prompt, for what takes longest: `latency.py FRET` prints a table.
+The tests take a short version of it, with generous bounds."""
+import contextlib
+import math
+import os
+import pty
+import select
+import shutil
+import signal
+import sys
+import tempfile
+import termios
+import time
+
+STEEL = "material steel; friction 0.4"
+GRADED = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; friction 0.4"
+PRESSED = STEEL + "; geometry sphere R=10 mm; press FN=100 N"
+DELAYS = (0.03, 0.1, 0.3, 0.6, 1, 1.5, 2.5, 4, 6)
+PATIENCE = 20
+
+
+def gap(path, rows):
+    """A sampled sphere of 10 mm as far as 1 mm, with a millionth of roughness."""
+    with open(path, "w", encoding="ascii") as f:
+        f.write("r [mm],f [mm]\n")
+        for i in range(rows):
+            r = i / (rows - 1)
+            f.write("%.17g,%.17g\n" % (r, r * r / 20 * (1 + 1e-6 * math.sin(40 * r))))
+
+
+def history(path, rows):
+    with open(path, "w", encoding="ascii") as f:
+        f.write("FN [N],Fx [N]\n")
+        for i in range(rows):
+            f.write("%.17g,%.17g\n" % (100 + 10 * math.sin(i), 20 * math.cos(1.3 * i)))
+
+
+def cases(where, size):
+    """(name, statements before, the statement); size divides rows and springs."""
+    springs, rows = 10000000 // size, 100000 // size
+    path = {name: os.path.join(where, name) for name in ("gap", "small", "huge", "follow", "line", "sum")}
+    gap(path["gap"], rows)
+    gap(path["small"], 1000)
+    gap(path["huge"], 3000000 // size)
+    history(path["follow"], 1000000 // size)
+    with open(path["line"], "w", encoding="ascii") as f:
+        f.write("x = 1 # " + "x" * (200000000 // size) + "\n")
+    with open(path["sum"], "w", encoding="ascii") as f:
+        f.write("1" + "+1" * (5000000 // size) + "\n")
+    table = "%s; geometry file %s; press FN=100 N" % (GRADED, path["gap"])
+    oblique = "cycle FA=20 N FNA=30 N phase=60 deg"
+    model = "; set model springs %d" % springs
+    return [
+        ("springs, table of %d rows" % rows, table + "; cycle FA=20 N" + model, "Fx"),
+        ("/dev/zero as a gap", STEEL, "geometry file /dev/zero"),
+        ("/dev/zero as a source", "x = 1", "source /dev/zero"),
+        ("springs, sphere", PRESSED + "; cycle FA=20 N" + model, "W"),
+        ("springs, sum", STEEL + "; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=100 N; cycle FA=20 N" + model, "W"),
+        ("geometry file of %d rows" % (3000000 // size), GRADED, "geometry file " + path["huge"]),
+        ("a history, oblique, table", table + "; " + oblique, "history to /dev/null"),
+        ("table dW(F), table", table, "table dW(F) for F = 1 N .. 39 N steps 2000 to /dev/null"),
+        ("a source of one long line", "x = 1", "source " + path["line"]),
+        ("follow %d rows" % (1000000 // size),
+         "%s; geometry file %s; press FN=100 N" % (GRADED, path["small"]), "follow " + path["follow"]),
+        ("a sum of %d terms" % (5000000 // size), "x = 1", "source " + path["sum"]),
+        ("accuracy", PRESSED + "; cycle FA=20 N", "accuracy within 60"),
+        ("oblique cycles, table", table, oblique + " times 100"),
+        ("springs, oblique", PRESSED + "; " + oblique + "; set model springs %d" % (1000000 // size), "W"),
+        ("a field, table", table + "; step Fx=20 N", "table p(r), qx(r) for r = 0 mm .. 0.2 mm steps 100000 to /dev/null"),
+        ("a sweep of an input, table", table, "table a for k = 0 .. 0.5 steps 100000 to /dev/null"),
+    ]
+
+
+class Terminal:
+    """The prompt on a terminal of its own."""
+
+    def __init__(self, fret, env):
+        self.pid, self.fd = pty.fork()
+        if self.pid == 0:
+            os.execve(fret, [fret, "--quiet", "--no-rc"], env)
+        self.read(PATIENCE)
+
+    def read(self, patience):
+        """Up to the next prompt; None: it did not come."""
+        text, end = b"", time.monotonic() + patience
+        while not text.endswith(b"fret> "):
+            left = end - time.monotonic()
+            if left <= 0 or not select.select([self.fd], [], [], left)[0]:
+                return None
+            try:
+                text += os.read(self.fd, 1 << 16)
+            except OSError:
+                return None
+        return text.decode("utf-8", "replace")
+
+    def send(self, line):
+        os.write(self.fd, line.encode() + b"\r")
+
+    def say(self, line, patience=600):
+        self.send(line)
+        return self.read(patience)
+
+    def close(self):
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.pid, signal.SIGKILL)
+        os.waitpid(self.pid, 0)
+        os.close(self.fd)
+
+
+def interrupted(terminal, statement, delay):
+    """Seconds from Ctrl-C to the prompt; None: the statement was faster, infinity: it did not end."""
+    terminal.send(statement)
+    answer = terminal.read(delay)
+    if answer is not None:
+        return None
+    start = time.monotonic()
+    os.write(terminal.fd, termios.tcgetattr(terminal.fd)[6][termios.VINTR])
+    answer = terminal.read(PATIENCE)
+    if answer is None:
+        return math.inf
+    return time.monotonic() - start if "interrupted" in answer else None
+
+
+def measure(fret, env, case, delays):
+    """The longest of several interrupts, and whether the scene stayed: (seconds, bool); None: never interrupted."""
+    _, before, statement = case
+    terminal = Terminal(fret, env)
+    try:
+        for part in before.split("; "):
+            terminal.say(part)
+        scene = "show variables"
+        kept, worst = terminal.say(scene), None
+        programs = terminal.say("show")
+        for delay in delays:
+            took = interrupted(terminal, statement, delay)
+            if took is None:
+                continue
+            worst = max(worst or 0, took)
+            if took == math.inf:
+                return worst, False
+        return worst, terminal.say(scene) == kept and terminal.say("show") == programs
+    finally:
+        terminal.close()
+
+
+def main():
+    fret = os.path.abspath(sys.argv[1])
+    where = tempfile.mkdtemp(prefix="fret-latency-")
+    env = {**os.environ, "TERM": "dumb", "HOME": where, "XDG_STATE_HOME": where, "INPUTRC": "/dev/null"}
+    try:
+        print("# Ctrl-C to the next prompt, the longest of interrupts after %s s [ms]" %
+              ", ".join("%g" % delay for delay in DELAYS))
+        for case in cases(where, 1):
+            worst = measure(fret, env, case, DELAYS)
+            text = "done before" if worst[0] is None else "never" if worst[0] == math.inf else "%d" % (1e3 * worst[0])
+            print("%-40s %12s%s" % (case[0], text, "" if worst[1] else "  scene changed"), flush=True)
+    finally:
+        shutil.rmtree(where, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    main()
