@@ -2,6 +2,7 @@
 # make run: install what is missing, build, play the demo.   make check: install, build, run every test.
 VERSION := 0.1.0
 PREFIX  ?= /usr/local
+LIBDIR  ?= $(PREFIX)/lib
 B       ?= build
 OBJCOPY ?= objcopy
 CC      ?= cc
@@ -20,10 +21,10 @@ LIVE      ?= yes
 LIBS_CORE := -lm
 LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas)
 LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline) $(if $(filter no,$(LIVE)),,-lncursesw -ltinfo)
-CFLAGS_ALL += $(if $(filter no,$(GSL)),-DFRET_WITHOUT_GSL)
 
-# what needs GSL
-BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,solve optimise fit uncertainty)) src/shell/study_commands.c src/shell/data_commands.c)
+# what is left out with GSL=no, and without
+BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,ask solve optimise fit uncertainty)) \
+	src/shell/study_commands.c src/shell/data_commands.c,src/shell/study_none.c)
 CORE  := $(wildcard src/number/*.c src/contact/*.c src/fast/*.c)
 PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c $(BACK), \
 	$(wildcard src/calc/*.c src/study/*.c src/plot/*.c src/shell/*.c)) \
@@ -85,8 +86,8 @@ scripts/paper/%.svg: scripts/paper/%.txt $(B)/fret
 # written anew each time: PREFIX may have changed
 $(B)/fret.pc: FORCE
 	@mkdir -p $(@D)
-	@printf 'prefix=%s\nName: fret\nDescription: partial-slip contact of power-law graded elastic solids\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lfret\nLibs.private: %s\n' \
-		'$(PREFIX)' '$(VERSION)' '$(LIBS_CORE)' > $@
+	@printf 'prefix=%s\nlibdir=%s\nName: fret\nDescription: partial-slip contact of power-law graded elastic solids\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${libdir} -lfret\nLibs.private: %s\n' \
+		'$(PREFIX)' '$(LIBDIR)' '$(VERSION)' '$(LIBS_CORE)' > $@
 
 # Tests see what is not public too; those of rooms above the mechanics take these objects one by one.
 OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard src/calc/*.c src/study/*.c src/plot/*.c)))
@@ -135,20 +136,45 @@ bench: all
 format:
 	clang-format -i $(shell git ls-files '*.c' '*.h')
 
-install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/fret
+# Made from the tables of the program and from the headers.
+manual: $(B)/fret
+	@mkdir -p $(B)/manual
+	@for page in 1 5; do $(B)/fret --manual=$$page > $(B)/manual/fret.$$page || exit 1; done
+	@$(B)/fret --manual=bash > $(B)/manual/fret.bash
+	@sh scripts/library-manual $(VERSION) $(HEADERS) > $(B)/manual/libfret.3
+
+HEADERS := $(sort $(wildcard include/fret/*.h))
+SHARE    = $(DESTDIR)$(PREFIX)/share
+install: all manual
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(PREFIX)/include/fret \
+		$(SHARE)/man/man1 $(SHARE)/man/man3 $(SHARE)/man/man5 $(SHARE)/bash-completion/completions
 	install -m 755 $(B)/fret $(DESTDIR)$(PREFIX)/bin/
-	install -m 644 $(B)/libfret.a $(DESTDIR)$(PREFIX)/lib/
-	install -m 755 $(B)/libfret.so $(DESTDIR)$(PREFIX)/lib/libfret.so.$(VERSION)
-	ln -sf libfret.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/$(SONAME)
-	ln -sf $(SONAME) $(DESTDIR)$(PREFIX)/lib/libfret.so
-	install -m 644 $(B)/fret.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig/
-	install -m 644 include/fret/*.h $(DESTDIR)$(PREFIX)/include/fret/
+	install -m 644 $(B)/libfret.a $(DESTDIR)$(LIBDIR)/
+	install -m 755 $(B)/libfret.so $(DESTDIR)$(LIBDIR)/libfret.so.$(VERSION)
+	ln -sf libfret.so.$(VERSION) $(DESTDIR)$(LIBDIR)/$(SONAME)
+	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/libfret.so
+	install -m 644 $(B)/fret.pc $(DESTDIR)$(LIBDIR)/pkgconfig/
+	install -m 644 $(HEADERS) $(DESTDIR)$(PREFIX)/include/fret/
+	for n in 1 5; do install -m 644 $(B)/manual/fret.$$n $(SHARE)/man/man$$n/; done
+	install -m 644 $(B)/manual/libfret.3 $(SHARE)/man/man3/
+	install -m 644 $(B)/manual/fret.bash $(SHARE)/bash-completion/completions/fret
+
+# What install put there, and the directory that is ours.
+uninstall:
+	rm -f $(DESTDIR)$(PREFIX)/bin/fret $(DESTDIR)$(LIBDIR)/libfret.a $(DESTDIR)$(LIBDIR)/libfret.so \
+		$(DESTDIR)$(LIBDIR)/$(SONAME) $(DESTDIR)$(LIBDIR)/libfret.so.$(VERSION) $(DESTDIR)$(LIBDIR)/pkgconfig/fret.pc \
+		$(SHARE)/man/man1/fret.1 $(SHARE)/man/man5/fret.5 $(SHARE)/man/man3/libfret.3 \
+		$(SHARE)/bash-completion/completions/fret $(addprefix $(DESTDIR)$(PREFIX)/,$(HEADERS))
+	if [ -d $(DESTDIR)$(PREFIX)/include/fret ]; then rmdir $(DESTDIR)$(PREFIX)/include/fret; fi
+
+# Debian packages, in build/deb.
+deb:
+	@sh scripts/deb $(VERSION)
 
 FORCE:
 
 clean:
 	rm -rf build
 
-.PHONY: figures all static tests deps deps-check run check hard bench format install clean FORCE
+.PHONY: all figures manual uninstall deb static tests deps deps-check run check hard bench format install clean FORCE
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

@@ -35,7 +35,7 @@ void canvas_dot(canvas *c, int x, int y, ink of) {
     canvas_cell *at = cell_of(c, x, y);
     if (!at)
         return;
-    at->dots |= c->braille ? bits[y % 4][x % 2] : (unsigned char)(1 << y % 2);
+    at->dots = (unsigned char)(at->dots | (c->braille ? bits[y % 4][x % 2] : 1 << y % 2));
     if (of > at->ink)
         at->ink = (unsigned char)of;
 }

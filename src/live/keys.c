@@ -327,24 +327,32 @@ static void back(live *l) {
 
 /* ---- the mouse --------------------------------------------------------------------------------- */
 
-/* The point of the loop follows by displacement. */
+static void pull_to(live *l, int column) {
+    char to[40];
+    const double x = (2.0 * (column - l->loop.left) + 1 - l->loop.cols) / (l->loop.cols - 1) * l->loop_dx;
+    live_amount(x, DIM_LENGTH, to, sizeof to);
+    if (fabs(x - now(l)->dx) > 0.6 * l->loop_dx / l->loop.cols)
+        live_say(l, "step dx=%s", to);
+}
+
+/* The point of the loop follows by displacement. Curses may hand over several events at a time, in no order.
+ */
 static void mouse(live *l) {
     MEVENT e;
-    if (getmouse(&e) == ERR || l->loop.cols < 2)
-        return;
-    const bool inside = e.x >= l->loop.left && e.x < l->loop.left + l->loop.cols && e.y >= l->loop.top &&
-                        e.y < l->loop.top + l->loop.rows;
-    if (e.bstate & BUTTON1_PRESSED)
-        l->dragging = inside;
-    if (l->dragging && !l->page && !l->typing) {
-        char to[40];
-        const double x = (2.0 * (e.x - l->loop.left) + 1 - l->loop.cols) / (l->loop.cols - 1) * l->loop_dx;
-        live_amount(x, DIM_LENGTH, to, sizeof to);
-        if (fabs(x - now(l)->dx) > 0.6 * l->loop_dx / l->loop.cols)
-            live_say(l, "step dx=%s", to);
+    bool released = false;
+    int to = -1;
+    while (getmouse(&e) == OK) {
+        const bool inside = e.x >= l->loop.left && e.x < l->loop.left + l->loop.cols && e.y >= l->loop.top &&
+                            e.y < l->loop.top + l->loop.rows;
+        if (e.bstate & BUTTON1_PRESSED)
+            l->dragging = inside && !l->page && !l->typing;
+        released = released || (e.bstate & BUTTON1_RELEASED);
+        if (to < 0 || e.bstate & (BUTTON1_PRESSED | BUTTON1_RELEASED))
+            to = e.x;
     }
-    if (e.bstate & BUTTON1_RELEASED)
-        l->dragging = false;
+    if (l->dragging && to >= 0 && l->loop.cols > 1)
+        pull_to(l, to);
+    l->dragging = l->dragging && !released;
 }
 
 /* ---- the table --------------------------------------------------------------------------------- */

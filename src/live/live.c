@@ -95,7 +95,7 @@ static bool take(live *l, side *s, bool along, calc_error *error) {
     calc *c = l->host->calc;
     s->trouble[0] = 0;
     s->shots = 0;
-    if (!shot_take(c, &s->now, error) || !track_follow(&s->path, c, &s->now, error))
+    if (!shot_take(c, NULL, &s->now, error) || !track_follow(&s->path, c, &s->now, error))
         return false;
     if (along && !s->play)
         s->play = calloc(PLAY_SHOTS, sizeof *s->play);
@@ -210,13 +210,14 @@ static void count_frame(live_work *work, double spent) {
 
 static void session(live *l, live_work *work) {
     enum { FRAME = 16, IDLE = 1000 /* milliseconds */, MANY = 20 };
-    double before = seconds();
+    double before = seconds(), spent = 0;
     while (!l->leave) {
         double start = seconds();
         if (l->changed) {
             l->changed = false;
             live_draw(l);
-            count_frame(work, seconds() - start);
+            count_frame(work, spent + seconds() - start);
+            spent = 0;
         }
         int key = terminal_key(l->playing ? FRAME : IDLE, l->host->stop);
         start = seconds();
@@ -224,9 +225,9 @@ static void session(live *l, live_work *work) {
             live_key(l, key);
             key = many < MANY && !l->leave ? terminal_key(0, l->host->stop) : KEY_NONE;
         }
-        const double now = seconds();
-        live_play_on(l, now - before);
-        before = now;
+        live_play_on(l, start - before);
+        before = start;
+        spent += seconds() - start;
     }
 }
 

@@ -44,7 +44,32 @@ static void take_rings(const fret_memory *memory, shot *out) {
     }
 }
 
-bool shot_take(calc *c, shot *out, calc_error *error) {
+/* What friction allows depends on F_N alone: taken over from a shot of the same press. */
+static void take_bounds(const fret_memory *memory, const shot *like, shot *out) {
+    if (like && like->a == out->a && like->bound == out->bound) {
+        memcpy(out->B, like->B, sizeof out->B);
+        return;
+    }
+    for (int i = 0; i <= SHOT_SAMPLES; i++)
+        out->B[i] = (double)fret_memory_bound(memory, out->a * (fret_real)i / SHOT_SAMPLES);
+}
+
+/* u is straight in the depth, and so in the bound B = mu eta (dz - y), on each slice:
+ * fret_memory_displacement at the places of the bounds, which are known. */
+static void take_displacements(const fret_memory *memory, double dz, shot *out) {
+    const double rise = dz > 0 ? out->bound / dz : 0; /* mu eta */
+    fret_segment part;
+    size_t slice = 0;
+    bool any = fret_memory_segment(memory, 0, &part);
+    for (int i = 0; i <= SHOT_SAMPLES; i++) {
+        const double y = rise > 0 ? dz - out->B[i] / rise : 0;
+        while (any && y > (double)part.outer && fret_memory_segment(memory, slice + 1, &part))
+            slice++;
+        out->u[i] = any ? (double)part.u - rise * (double)part.sigma * (y - (double)part.inner) : 0;
+    }
+}
+
+bool shot_take(calc *c, const shot *like, shot *out, calc_error *error) {
     const fret_memory *memory;
     fret_state state;
     if (!scene_memory(c->now, &memory, error))
@@ -57,11 +82,8 @@ bool shot_take(calc *c, shot *out, calc_error *error) {
     out->Fx = (double)state.Fx;
     out->slip = fret_memory_friction(memory) * (double)state.FN;
     out->bound = (double)fret_memory_bound(memory, 0);
-    for (int i = 0; i <= SHOT_SAMPLES; i++) {
-        const fret_real x = state.a * i / SHOT_SAMPLES;
-        out->u[i] = (double)fret_memory_displacement(memory, x);
-        out->B[i] = (double)fret_memory_bound(memory, x);
-    }
+    take_bounds(memory, like, out);
+    take_displacements(memory, (double)state.dz, out);
     take_rings(memory, out);
     take_values(c, out);
     return true;
@@ -115,19 +137,28 @@ static bool same_inputs(const inputs *a, const inputs *b) {
 }
 
 static bool grown_little(const track *t, const scene *s, const shot *now) {
-    enum { SMALL = 12 }; /* of the width of the loop */
+    enum { SMALL = 12 }; /* of what makes it slide */
     if (!t->count || s->program != t->program || s->end.steps != t->steps + 1 ||
         !same_inputs(&s->in, &t->in) || s->program->steps[t->steps].kind != LOAD_STEP)
         return false;
     const track_point *last = &t->point[t->count - 1];
-    return fabs(now->dx - last->dx) * SMALL <= t->dx && fabs(now->Fx - last->Fx) * SMALL <= now->slip;
+    return fabs(now->dx - last->dx) * SMALL <= now->bound && fabs(now->Fx - last->Fx) * SMALL <= now->slip;
+}
+
+/* In how many parts each leg is drawn: a frame must not take long. */
+static unsigned parts_of(const scene *s) {
+    enum { STATES = 1200, FEWEST = 2, MOST = 24 };
+    size_t legs = s->end.steps;
+    for (size_t i = 0; i < s->end.cycles; i++)
+        legs += 2 * (size_t)s->program->cycles[i].times;
+    const size_t parts = STATES / legs;
+    return parts < FEWEST ? FEWEST : parts > MOST ? MOST : (unsigned)parts;
 }
 
 static bool track_again(track *t, scene *s, calc_error *error) {
-    enum { FEW = 100, MANY = 400 };
     t->count = 0;
     t->dx = t->Fx = t->a = t->bound = t->energy = 0;
-    watch w = watch_points(s->end.steps <= FEW ? 24 : s->end.steps <= MANY ? 8 : 2);
+    watch w = watch_points(parts_of(s));
     w.see = see;
     w.context = t;
     if (!add(t, (track_point){.time = 0}))
@@ -168,7 +199,7 @@ static bool look(void *context, double time, calc_error *error) {
     shots *s = context;
     if (s->taken == s->count)
         return true;
-    if (!shot_take(s->c, &s->out[s->taken], error))
+    if (!shot_take(s->c, s->taken ? &s->out[s->taken - 1] : NULL, &s->out[s->taken], error))
         return false;
     s->out[s->taken++].time = time;
     return true;

@@ -27,8 +27,8 @@ typedef struct shot {
 } shot;
 
 const char *shot_name(size_t i);
-/* Of the scene that expressions see. */
-bool shot_take(calc *c, shot *out, calc_error *error);
+/* Of the scene that expressions see. like: an earlier one, whose bounds may be taken over, or NULL. */
+bool shot_take(calc *c, const shot *like, shot *out, calc_error *error);
 
 /* The way so far: a polyline with every turning point; the oldest part goes where it is long. */
 typedef struct track_point {

@@ -127,7 +127,6 @@ static const arg export_args[] = {
     {.kind = ARG_VALUE, .name = "FA", .d = {1, 0, 0}, .flags = ARG_POSITIVE},
     {.kind = ARG_END}};
 
-#ifndef FRET_WITHOUT_GSL
 static const arg solve_args[] = {
     {.kind = ARG_LIST, .name = "input"},
     {.kind = ARG_END}};
@@ -146,7 +145,6 @@ static const arg uncertainty_args[] = {
 static const arg optimise_args[] = {
     {.kind = ARG_LIST, .name = "expression"},
     {.kind = ARG_END}};
-#endif
 
 static void geometry_list(FILE *to) {
     const geometry *g;
@@ -276,7 +274,8 @@ static const command commands[] = {
      .help = "The header gives the columns and their units. Every row is a straight step; one\n"
              "that cannot be carried leaves the scene as before the command. Where nothing is\n"
              "pressed yet the first row presses, and must have Fx or dx = 0. The first lines\n"
-             "of such a file: `FN [N],Fx [N]`, then `100,0`, `120,15`.\n\n"
+             "of such a file: `FN [N],Fx [N]`, then `100,0`, `120,15`. `help files` tells\n"
+             "more.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> follow /nonexistent.csv\n"
              "    error: cannot read /nonexistent.csv: No such file or directory\n"},
@@ -312,7 +311,7 @@ static const command commands[] = {
      .usage = "[to FILE]",
      .summary = "the recorded load history as a table",
      .help = "One row for every press and step, and for the points that `steps` asked for.\n"
-             "FILE.csv is written as CSV.\n\n"
+             "`help files` tells the forms of FILE.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> press FN=100 N; step Fx=20 N; step Fx=-20 N\n"
              "    fret> history\n"
@@ -351,9 +350,10 @@ static const command commands[] = {
              "    a name of the list above [with ...] [LOOKS]\n\n"
              "RANGE is `for NAME = LO .. HI [steps N] [log]`, with more points where the curve\n"
              "bends unless steps are given, or `along program`, `along cycle` or\n"
-             "`along step ...`, `along cycle ...` for a load that is only tried. LOOKS: title \"...\", xlabel \"...\", ylabel \"...\",\n"
-             "xrange LO .. HI, yrange LO .. HI, log x|y|xy, flip x|y, key off, points, and\n"
-             "over FILE.csv, which lays measured points on top. FILE.gp is the gnuplot script\n"
+             "`along step ...`, `along cycle ...` for a load that is only tried. LOOKS:\n"
+             "title \"...\", xlabel \"...\", ylabel \"...\", xrange LO .. HI,\n"
+             "yrange LO .. HI, log x|y|xy, flip x|y, key off, points, and over FILE.csv,\n"
+             "which lays measured points on top. FILE.gp is the gnuplot script\n"
              "itself. `set plot 80x24` fixes the size in the terminal, `set plot terminal` how\n"
              "it is drawn there.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
@@ -373,7 +373,6 @@ static const command commands[] = {
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> animate springs | loop | W1D along program\n"
              "    error: there is no load yet: press first (press FN=100 N)\n"},
-#ifndef FRET_WITHOUT_GSL
     {.name = "solve",
      .run = do_solve,
      .args = solve_args,
@@ -452,7 +451,6 @@ static const command commands[] = {
              "        Monte Carlo = 953.21 nJ +- 83.6 nJ\n"
              "    a = 186.626 um +- 3.11 um\n"
              "        from mu 0 %, E0 100 %\n"},
-#endif
     {.name = "export",
      .run = do_export,
      .args = export_args,

@@ -21,10 +21,11 @@ static const script *script_find(const char *name, size_t len) {
     return s->name ? s : NULL;
 }
 
-void show_demos(shell *sh, FILE *to) {
+bool show_demos(shell *sh, FILE *to) {
     (void)sh;
     for (const script *s = scripts; s->name; s++)
         fprintf(to, "%-11s %s\n", s->name, s->title);
+    return true;
 }
 
 /* ---- keys -------------------------------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 
 #include "shell/command.h"
 #include "shell/output.h"
+#include "shell/topics.h"
 #include "shell/typeset.h"
 #include "study/influence.h"
 
@@ -414,11 +415,30 @@ static bool read_expression(shell *sh, lexer *lx, expr *e, value *v) {
     return expr_eval(&sh->calc, e, v, lx->error) || calc_place(lx->error, at, e->len);
 }
 
+/* Not a quantity, but a word of the warning on dissimilar bodies. */
+static bool explain_mismatch(shell *sh, lexer *lx) {
+    const fret_normal *normal;
+    calc_error ignored;
+    text_out text;
+    error_clear(&ignored);
+    lex_next(lx);
+    if (!at_end(lx))
+        return false;
+    if (!text_begin(&text, &sh->set, sh->out, false))
+        return calc_no_memory(lx->error);
+    if (scene_normal(&sh->calc.scene, &normal, &ignored))
+        fprintf(text.to, "mismatch = %.3g\n\n", (double)fret_normal_foundation(normal)->mismatch);
+    fputs(coupling_text, text.to);
+    return text_end(&text, true) || calc_no_memory(lx->error);
+}
+
 bool do_explain(shell *sh, lexer *lx, const command *self) {
     expr *e = &sh->list[0];
     text_out text;
     value v = {0};
     (void)self;
+    if (lex_is(lx, "mismatch") && lex_peek(lx) == T_END)
+        return explain_mismatch(sh, lx);
     if (no_quantity(sh, lx))
         return false;
     const quantity *bare = bare_name(lx);

@@ -161,8 +161,7 @@ static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const a
     return ok;
 }
 
-bool looks_lay_over(shell *sh, lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y) {
-    (void)sh;
+bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y) {
     for (size_t i = 0; i < l->files; i++)
         if (!lay_file(lx, l, i, p, x, y))
             return false;

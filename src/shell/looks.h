@@ -34,7 +34,7 @@ typedef struct axis_of {
 } axis_of;
 
 /* Adds the measured points, in SI. */
-bool looks_lay_over(shell *sh, lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y);
+bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y);
 /* Limits in the unit of the axis, which is scale SI. */
 bool looks_limit(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
                  long double scale);

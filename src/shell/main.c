@@ -9,7 +9,9 @@
 
 #include "calc/file.h"
 #include "shell/command.h"
+#include "shell/manual.h"
 #include "shell/output.h"
+#include "shell/study_commands.h"
 
 #ifndef FRET_VERSION
 #define FRET_VERSION "unknown"
@@ -105,7 +107,19 @@ static int take_color(wishes *w, const char *text) {
                : bad_usage("--color is auto, always or never, not", text);
 }
 
-enum { OPT_REPLAY = 256, OPT_LIVE, OPT_TOLERANCE, OPT_FORMAT, OPT_KEEP, OPT_QUIET, OPT_NO_RC, OPT_COLOR, OPT_VERSION, OPT_HELP };
+enum {
+    OPT_REPLAY = 256,
+    OPT_LIVE,
+    OPT_TOLERANCE,
+    OPT_FORMAT,
+    OPT_KEEP,
+    OPT_QUIET,
+    OPT_NO_RC,
+    OPT_COLOR,
+    OPT_VERSION,
+    OPT_HELP,
+    OPT_MANUAL
+};
 
 static const struct option options[] = {{"replay", required_argument, NULL, OPT_REPLAY},
                                         {"live", no_argument, NULL, OPT_LIVE},
@@ -117,6 +131,7 @@ static const struct option options[] = {{"replay", required_argument, NULL, OPT_
                                         {"color", required_argument, NULL, OPT_COLOR},
                                         {"version", no_argument, NULL, OPT_VERSION},
                                         {"help", no_argument, NULL, OPT_HELP},
+                                        {"manual", required_argument, NULL, OPT_MANUAL}, /* for `make install` */
                                         {NULL, 0, NULL, 0}};
 
 /* The option getopt stopped at: C libraries differ in where argv stands then. */
@@ -161,8 +176,12 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
         return EXIT_OK;
     case OPT_COLOR:
         return take_color(w, optarg);
+    case OPT_MANUAL:
+        w->done = true;
+        return manual_write(stdout, optarg, usage, FRET_VERSION) ? EXIT_OK
+                                                                 : bad_usage("--manual is 1, 5 or bash, not", optarg);
     case OPT_VERSION:
-        printf("fret %s\n", FRET_VERSION);
+        printf("fret %s%s%s%s\n", FRET_VERSION, *study_library ? " (" : "", study_library, *study_library ? ")" : "");
         w->done = true;
         return EXIT_OK;
     case OPT_HELP:

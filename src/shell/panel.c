@@ -34,7 +34,6 @@ typedef struct panel_job {
     calc_error *error;
     size_t each;                                 /* series of a curve */
     bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series told apart by their bound */
-    plot_series *now;                            /* the present points of an animation */
     double last[PLOTTED][2];
 } panel_job;
 
@@ -227,6 +226,21 @@ static void divide(plot_panel *p, bool x_axis, long double scale) {
     }
 }
 
+/* The ordinate by the expressions that share it, as far as there is room for them. */
+static void ordinate_name(const panel_job *job, char *name, size_t size) {
+    *name = 0;
+    for (size_t i = 0; i < job->count; i++) {
+        const size_t n = strlen(name);
+        if (!is_main(job, i))
+            continue;
+        if (n + strlen(job->columns[i].name) + 3 > size) {
+            *name = 0;
+            return;
+        }
+        snprintf(name + n, size - n, "%s%s", n ? ", " : "", job->columns[i].name);
+    }
+}
+
 /* In the unit that was asked for, or one with a prefix that fits. */
 static bool scale_axis(panel_job *job, lexer *lx, const looks *l, bool x_axis, const column *c,
                        const axis_of *axis) {
@@ -247,22 +261,25 @@ static bool scale_axis(panel_job *job, lexer *lx, const looks *l, bool x_axis, c
 
 static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const dim *d, const bool *known) {
     const sweep *s = job->s;
+    char name[40];
+    const bool shared = main_count(job) > 1;
     const column *c = job->columns, *x = job->against ? &c[job->count] : NULL;
     for (size_t i = 1; i < job->count; i++)
         if (known[i] && known[0] && !dim_equal(d[i], d[0]))
             return calc_fail(job->error, job->sh->list[i].at, job->sh->list[i].len,
                              "%s and %s cannot share an axis", c[0].name, c[i].name);
+    ordinate_name(job, name, sizeof name);
     const axis_of ax = {x          ? x->name
                         : s->along ? "time"
                                    : s->var.text,
                         x          ? d[job->count]
                         : s->along ? DIM_NONE
                                    : s->var.d},
-                  ay = {main_count(job) > 1 ? "" : c[0].name, d[0]};
+                  ay = {shared ? name : c[0].name, d[0]};
     job->p->logx = job->p->logx || s->log;
     if (!job->p->title && job->figure)
         job->p->title = strdup(job->figure->title);
-    return looks_lay_over(job->sh, lx, l, job->p, &ax, &ay) && scale_axis(job, lx, l, true, x, &ax) &&
+    return looks_lay_over(lx, l, job->p, &ax, &ay) && scale_axis(job, lx, l, true, x, &ax) &&
            scale_axis(job, lx, l, false, &c[0], &ay);
 }
 
@@ -323,12 +340,39 @@ static bool no_second_range(lexer *lx) {
     return !lex_is(lx, "for") || lex_fail(lx, "two ranges make a map: plot map EXPR for A = ... for B = ...");
 }
 
+/* Curves and axes of what has been read. */
+static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
+    const size_t count = job->count + job->against;
+    dim d[PLOTTED + 1] = {DIM_NONE};
+    bool known[PLOTTED + 1] = {false};
+    job->s = s;
+    job->each = series_each(job);
+    s->turns = true;
+    s->refine = !s->along && !s->steps;
+    s->steps = s->steps ? s->steps : !s->along ? EVENLY : job->m ? MOVING : ALONG;
+    for (size_t i = 0; i < count; i++) {
+        known[i] = job->columns[i].chosen;
+        d[i] = job->columns[i].d;
+    }
+    sweep_job sweeping = {.c = &job->sh->calc,
+                          .expressions = job->sh->list,
+                          .count = count,
+                          .d = d,
+                          .known = known,
+                          .row = give_point,
+                          .context = job,
+                          .error = lx->error};
+    if (!run_sweep(job, lx, &sweeping, s) || !finish_axes(job, lx, l, d, known))
+        return false;
+    if (!job->m || !job->m->at)
+        note_missing(job->sh, &sweeping);
+    return true;
+}
+
 /* EXPR, ... [against EXPR] RANGE at the cursor. */
 static bool draw_sweep(shell *sh, lexer *lx, const figure *f, plot_panel *p, size_t index, motion *m) {
     column columns[PLOTTED + 1];
-    size_t count = 0, more = 0;
-    dim d[PLOTTED + 1] = {DIM_NONE};
-    bool known[PLOTTED + 1] = {false};
+    size_t count = 0;
     looks *l = calloc(1, sizeof *l);
     range r;
     if (!l)
@@ -346,34 +390,10 @@ static bool draw_sweep(shell *sh, lexer *lx, const figure *f, plot_panel *p, siz
     if (ok && lex_accept(lx, "against")) {
         ok = read_one_expression(sh, lx, count, &columns[count]);
         job.against = p->airy = true;
-        more = 1;
     }
     ok = ok && range_read(sh, lx, &r, 0) && follow(m, lx, &r, lx->last) &&
-         read_behind(sh, lx, &r.sweep, p, l) && no_second_range(lx);
-    if (ok) {
-        sweep *s = &r.sweep;
-        job.s = s;
-        job.each = series_each(&job);
-        s->turns = true;
-        s->refine = !s->along && !s->steps;
-        s->steps = s->steps ? s->steps : !s->along ? EVENLY : m ? MOVING : ALONG;
-        for (size_t i = 0; i < count + more; i++) {
-            known[i] = columns[i].chosen;
-            d[i] = columns[i].d;
-        }
-        sweep_job sweeping = {.c = &sh->calc,
-                              .expressions = sh->list,
-                              .count = count + more,
-                              .d = d,
-                              .known = known,
-                              .row = give_point,
-                              .context = &job,
-                              .error = lx->error};
-        ok = run_sweep(&job, lx, &sweeping, s) && finish_axes(&job, lx, l, d, known);
-        if (ok && (!m || !m->at))
-            note_missing(sh, &sweeping);
-    }
-    columns_free(columns, count + more);
+         read_behind(sh, lx, &r.sweep, p, l) && no_second_range(lx) && make_curves(&job, lx, l, &r.sweep);
+    columns_free(columns, count + job.against);
     free(l);
     return ok;
 }

@@ -62,7 +62,8 @@ bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, 
     if (!read_bound(c, lx, var, true, &out->d, &out->lo))
         return false;
     if (word ? !lex_is(lx, word) : lx->kind != T_RANGE)
-        return lex_fail(lx, "expected %s between the two ends of the sweep", word ? word : "..");
+        return word ? lex_fail(lx, "expected %s and the other end of the range", word)
+                    : lex_fail(lx, "expected .. between the two ends of the sweep");
     lex_next(lx);
     return read_bound(c, lx, var, false, &out->d, &out->hi);
 }

@@ -14,6 +14,6 @@ bool scene_write(const calc *c, const settings *set, FILE *to, bool whole);
 const char *show_name(size_t i);
 
 /* demo.c: the scripted sessions. */
-void show_demos(shell *sh, FILE *to);
+bool show_demos(shell *sh, FILE *to);
 
 #endif

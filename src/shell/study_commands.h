@@ -5,10 +5,12 @@
 
 #include "shell/command.h"
 
-#ifndef FRET_WITHOUT_GSL
+/* study_commands.c, data_commands.c; without GSL study_none.c */
 command_run do_solve, do_maximize, do_minimize, do_fit, do_uncertainty;
-#endif
 /* jenkins_command.c */
 command_run do_export;
+
+/* What --version says of it; empty: nothing. */
+extern const char study_library[];
 
 #endif

@@ -166,18 +166,32 @@ static const char scripts_text[] =
     "--keep-going goes on. A wrong option exits with 2, an interrupt with 130.\n\n"
     "At a terminal the statements of $XDG_CONFIG_HOME/fret/fretrc, else of\n"
     "~/.config/fret/fretrc, run before the first prompt, such as `set digits 8`;\n"
-    "--no-rc leaves them out. `show` in a script writes the whole scene as\n"
-    "statements.\n";
+    "--no-rc leaves them out.\n\n"
+    "    save FILE              the scene as a script that makes it again\n"
+    "    save history FILE      the lines typed in this session\n"
+    "    record FILE            from here on a transcript, until record off\n"
+    "    replay FILE            runs a transcript beside the session\n\n"
+    "A copy of a terminal is a transcript, too. What depends on who types, on the\n"
+    "terminal or on the clock (reports, pictures, times) may be there or not.\n";
 
 static const char files_text[] =
-    "Read: `geometry file GAP.csv` has columns r and f, `follow LOAD.csv` FN,Fx or\n"
-    "dz,dx. The first line names the columns with their units, as `FN [N],Fx [N]`;\n"
-    "rows of numbers follow; `#` begins a comment. A name with blanks goes into\n"
-    "quotation marks.\n\n"
-    "`plot ... over FILE.csv` lays points on top: two columns with the names or the\n"
-    "dimensions of the axes.\n\n"
-    "Written: `history to FILE`, `table ... to FILE`, `plot ... to FILE`, `animate ... to\n"
-    "FILE.gif`. The ending tells the kind. A file is written whole or not at all.\n\n"
+    "Read: `geometry file GAP.csv` wants columns r and f, `follow LOAD.csv` FN and\n"
+    "Fx, or dz and dx; among others, in any order. The first line names the columns\n"
+    "with their units, as `FN [N],Fx [N]`; rows of numbers follow; `#` begins a\n"
+    "comment. Commas, semicolons, tabs or blanks part the columns. Where it is no\n"
+    "comma, a comma within a number is a decimal one: files of spreadsheets can be\n"
+    "read as they are.\n\n"
+    "    r [mm],f [um]\n"
+    "    0,0\n"
+    "    0.5,12.5\n\n"
+    "Written: `history to FILE`, `table ... to FILE`. FILE.csv is in SI or the units\n"
+    "asked for, FILE.json has an object a line in SI, FILE.txt and FILE.dat are as\n"
+    "shown, with blank lines between curves. `plot ... to FILE`: the ending tells the\n"
+    "kind of picture. A file is written whole or not at all; that one was there\n"
+    "before is said. ~ is the home directory; a name with blanks goes into quotation\n"
+    "marks.\n\n"
+    "`plot ... over FILE.csv` lays points on top: columns with the names or the\n"
+    "dimensions of the axes. `animate ... to FILE.gif` writes a moving picture.\n\n"
     "What is typed at the prompt is kept in $XDG_STATE_HOME/fret/history, else in\n"
     "~/.local/state/fret/history, for you alone to read.\n";
 
@@ -193,16 +207,18 @@ static const char theory_text[] =
     "rule of stick and slip: the memory diagram follows any history of F_N and F_x\n"
     "without discretisation. `help paper` lists the equations, `explain NAME` uses them.\n";
 
-static const char limits_text[] =
+const char coupling_text[] =
     "The theory neglects what couples normal and tangential contact. That is exact\n"
     "for equal bodies, and for nu = 1/(2+k). Else a warning tells the mismatch: how\n"
     "far a pressure displaces the two surfaces sideways against each other, as a part\n"
     "of how far it presses them in; 0: not at all; for k = 0 it is Dundurs' second\n"
-    "constant. What it costs, for steel on aluminium (0.117, k = 0): a coupled solution\n"
-    "gave 1.39, 1.05, 1.03, 1.02 and 1.01 times the dW of here in the first five\n"
-    "cycles, so the first is badly off. Slip across the direction of\n"
-    "F_x is neglected too, as by Cattaneo and Mindlin: 0.4 % of dW in a comparison\n"
-    "with boundary elements.\n\n"
+    "constant. What it costs, for steel on aluminium (0.117, k = 0): a coupled\n"
+    "solution gave 1.39, 1.05, 1.03, 1.02 and 1.01 times the dW of here in the first\n"
+    "five cycles: the first is badly off, then the contact shakes down.\n";
+
+static const char limits_text[] =
+    "\nSlip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"
+    "0.4 % of dW in a comparison with boundary elements.\n\n"
     "    -1 < k < 1, -1 < nu <= 1/2; both bodies share k and c0\n"
     "    bodies are half-spaces: a warning where a > 0.3 R or a slope exceeds 20 deg\n"
     "    the contact is a disc: g(x) must not fall\n"
@@ -220,6 +236,11 @@ static const char prompt_text[] =
     "    !COMMAND       runs a command of the system's shell\n\n"
     "Pasted lines run one after the other, their prompts are taken off. Keys are\n"
     "those of readline; in ~/.inputrc `$if fret` begins what is for this program.\n";
+
+static void limits(FILE *to) {
+    fputs(coupling_text, to);
+    fputs(limits_text, to);
+}
 
 static const topic topics[] = {
     {.name = "expressions",
@@ -258,7 +279,7 @@ static const topic topics[] = {
     {.name = "limits",
      .summary = "what the theory leaves out",
      .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",
-     .text = limits_text},
+     .print = limits},
 };
 enum { TOPICS = sizeof topics / sizeof *topics };
 

@@ -20,6 +20,9 @@ const char *topic_name(size_t i);
 /* The table of units, for `show` too. */
 void help_units(FILE *to);
 
+/* What is left out where the bodies are dissimilar, and what that costs. */
+extern const char coupling_text[];
+
 /* Help on a model: a text by its number in models[]. */
 const char *model_text(size_t id);
 

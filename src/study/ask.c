@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Trials that count. Reads and prints nothing. */
 #include "study/ask.h"
 
 #include <math.h>

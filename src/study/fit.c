@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Residuals of equations and of loops, and what they say of the names. */
 #include "study/fit.h"
 
 #include <gsl/gsl_blas.h>

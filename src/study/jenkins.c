@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Marching from kink to kink of a piecewise linear loss. */
 #include "study/jenkins.h"
 
 #include <float.h>
@@ -17,7 +18,12 @@ typedef struct march {
     double d, p;  /* the latest kink */
     double slope; /* of the line from it */
     fret_status failed;
+    const volatile sig_atomic_t *stop;
 } march;
+
+static bool stopped(const march *m) {
+    return m->stop && *m->stop;
+}
 
 static double loss(march *m, double d) {
     fret_real out = 0;
@@ -137,7 +143,7 @@ static bool suffices(march *m, size_t count, jenkins_element *out) {
             out[i].s = (m->slope - slope) / 4;
             out[i].k = out[i].s / m->d;
         }
-        if (done || last)
+        if (done || last || stopped(m))
             return done;
         slope = m->slope;
         m->d = kink_after(m, at);
@@ -147,13 +153,11 @@ static bool suffices(march *m, size_t count, jenkins_element *out) {
 bool jenkins(const fret_contact *contact, double amplitude, size_t count, const volatile sig_atomic_t *stop,
              jenkins_element *out, jenkins_error *quality, calc_error *error) {
     const double slip = (double)fret_gross_slip(contact);
-    march m = {.contact = contact, .all = !(amplitude < slip)};
+    march m = {.contact = contact, .stop = stop, .all = !(amplitude < slip)};
     m.end = m.all ? slip : amplitude;
     const double scale = loss(&m, m.end);
     double lo = 0, hi = scale;
-    while (!m.failed.code && hi - lo > ENOUGH * hi) {
-        if (stop && *stop)
-            return calc_interrupted(error);
+    while (!m.failed.code && !stopped(&m) && hi - lo > ENOUGH * hi) {
         m.e = lo > 0 ? sqrt(lo) * sqrt(hi) : hi / 16;
         if (m.e <= lo || m.e >= hi)
             break;
@@ -162,8 +166,8 @@ bool jenkins(const fret_contact *contact, double amplitude, size_t count, const 
         else
             lo = m.e;
     }
-    if (!calc_status(error, &m.failed))
-        return false;
+    if (stopped(&m))
+        return calc_interrupted(error);
     for (size_t i = 0; i < count; i++)
         out[i] = (jenkins_element){0, 0};
     m.e = hi;

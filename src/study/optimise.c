@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Grids, simplices and Newton's method over parts of ranges. */
 #include "study/optimise.h"
 
 #include <float.h>

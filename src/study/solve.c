@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scan for brackets and the method on them. */
 #include "study/solve.h"
 
 #include <float.h>
@@ -116,6 +117,8 @@ static bool scan(search *s) {
 
 /* Between a place without and one with a value: a root may hide there. */
 static bool approach_edge(search *s, place bad, place good) {
+    if (s->q.evaluations + METHOD >= SOLVE_EVALUATIONS)
+        return true;
     while (s->q.evaluations + METHOD < SOLVE_EVALUATIONS) {
         place mid = {.x = middle(s, bad.x, good.x)};
         if (mid.x == bad.x || mid.x == good.x || fabs(mid.x - good.x) < 1e-14 * fabs(good.x))
@@ -158,11 +161,13 @@ static bool no_root(search *s, calc_error *error) {
     const knob *k = &s->of->name;
     place best = {.f = (double)NAN};
     char from[CALC_VALUE_TEXT], to[CALC_VALUE_TEXT], off[CALC_VALUE_TEXT], there[ASK_TEXT];
-    bool alike = true;
+    bool alike = true, below = false, above = false;
     for (unsigned i = 0; i <= SCAN; i++) {
         if (!isnan(s->at[i].f) && !(fabs(s->at[i].f) >= fabs(best.f)))
             best = s->at[i];
         alike = alike && s->at[i].f == s->at[0].f;
+        below = below || s->at[i].f < 0;
+        above = above || s->at[i].f > 0;
     }
     calc_value_text(k->d, s->lo, from);
     calc_value_text(k->d, s->hi, to);
@@ -172,6 +177,10 @@ static bool no_root(search *s, calc_error *error) {
     if (alike)
         return calc_fail(error, left->at, left->len,
                          "the two sides differ by the same for every %s from %s to %s", k->text, from, to);
+    if (below && above)
+        return calc_fail(error, left->at, left->len,
+                         "no root from %s = %s to %s: the sides pass each other where they have no value: %s",
+                         k->text, from, to, s->why.text);
     if (s->edged && fabs(s->edge.f) <= fabs(best.f))
         best = s->edge;
     calc_value_text(s->d, best.f, off);

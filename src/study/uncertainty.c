@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Derivatives and samples. */
 #include "study/uncertainty.h"
 
 #include <gsl/gsl_errno.h>

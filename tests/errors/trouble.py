@@ -211,7 +211,10 @@ def interrupts(tests):
                "cycle": SCENE + "cycle FA=20 N FNA=30 N times 1000000\n",
                "step": SCENE + "cycle FA=20 N times 1000000 steps 1000000\nhistory to /dev/null\n",
                "script": SCENE + "cycle FA=20 N times 2000\n" * 20000,
-               "sweep": SCENE + "cycle FA=20 N FNA=30 N times 20\ntable W for k = 0 .. 0 steps 1000000 to /dev/null\n"}
+               "sweep": SCENE + "cycle FA=20 N FNA=30 N times 20\ntable W for k = 0 .. 0 steps 1000000 to /dev/null\n",
+               "uncertainty": SCENE + "uncertainty dWd(1 um) with mu +- 0.01, FN +- 1 N samples 10000000\n",
+               "maximize": SCENE + "cycle FA=20 N FNA=30 N times 20\nmaximize W over mu = 0.5 .. 1, E0 = 1 GPa .. 300 GPa\n",
+               "export": SCENE + "geometry flat-rounded b=0.1 mm R=10 mm\nexport jenkins 1000 to " + csv + ".h\n"}
     for name, script in scripts.items():
         with tests.file(script) as path:
             job = subprocess.Popen([tests.fret, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=tests.env,

@@ -342,6 +342,7 @@ void hard_histories(unsigned long steps, unsigned long *passed, unsigned long *f
         unsigned long count = steps / specimens[i].shorter / 100;
         run_swing(&f, count > LEAST ? count : LEAST, sum);
         oracle_free(f.o);
+        fret_normal_free(f.normal);
     }
     printf("\n");
 }

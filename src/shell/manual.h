@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pages of the manual and completion for the system's shell, from the tables: for those who install the program. */
+#ifndef SHELL_MANUAL_H
+#define SHELL_MANUAL_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* what: "1", "5" or "bash"; false: there is no such page. usage: the options, as `--help` tells them. */
+bool manual_write(FILE *to, const char *what, const char *usage, const char *version);
+
+#endif

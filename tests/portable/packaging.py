@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is installed, read and removed again; the library from Python; package names of other systems."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import harness
+
+
+def make(tests, target, root):
+    return subprocess.run(["make", "--no-print-directory", "-s", "B=" + tests.build, "DESTDIR=" + root, "PREFIX=/usr",
+                           target], cwd=harness.ROOT, capture_output=True, text=True)
+
+
+def files(root):
+    return sorted(os.path.relpath(os.path.join(at, name), root) for at, _, names in os.walk(root) for name in names)
+
+
+def installed(tests):
+    root = os.path.join(tests.dir, "root")
+    done = make(tests, "install", root)
+    there = files(root)
+    tests.check("make install", done.returncode == 0 and {"usr/bin/fret", "usr/lib/libfret.so.0", "usr/include/fret/fret.h",
+                                                          "usr/share/man/man1/fret.1"} <= set(there),
+                done.stdout + done.stderr + "\n".join(there))
+    for page in ("man1/fret.1", "man5/fret.5", "man3/libfret.3"):
+        path = os.path.join(root, "usr/share/man", page)
+        with open(path, encoding="utf-8") as f:
+            text = f.read()
+        tests.check(page + " has a name and a description", ".SH NAME\n" in text and ".SH DESCRIPTION\n" in text, text[:500])
+        if shutil.which("man"):
+            shown = subprocess.run(["man", "--warnings", "-l", path], capture_output=True, text=True,
+                                   env={**tests.env, "MANPAGER": "cat", "MANWIDTH": "80", "LC_ALL": "C.UTF-8"})
+            tests.check("man reads " + page, shown.returncode == 0 and not shown.stderr and len(shown.stdout) > 1000,
+                        shown.stderr[:1000])
+    for command in ("material", "record", "quit"):
+        with open(os.path.join(root, "usr/share/man/man1/fret.1"), encoding="utf-8") as f:
+            tests.check("fret(1) names " + command, re.search(r"^\.B %s\b" % command, f.read(), re.M))
+    completes(tests, os.path.join(root, "usr/share/bash-completion/completions/fret"))
+    done = make(tests, "uninstall", root)
+    tests.check("make uninstall leaves nothing", done.returncode == 0 and not files(root) and
+                not os.path.exists(os.path.join(root, "usr/include/fret")), done.stderr + "\n".join(files(root)))
+
+
+def completes(tests, path):
+    """What bash would offer; it parts words at =."""
+    if not shutil.which("bash"):
+        return
+    for words, line, want in (("fret --form", "fret --form", "--format=text --format=csv --format=json"),
+                              ("fret --format = j", "fret --format=j", "json"),
+                              ("fret --format =", "fret --format=", "text csv json"),
+                              ("fret --re", "fret --re", "--replay"), ("fret Mak", "fret Mak", "Makefile")):
+        script = "source %s; COMP_WORDS=(%s); COMP_CWORD=%d; COMP_LINE='%s'; COMP_POINT=%d; _fret; echo \"${COMPREPLY[*]}\"" % (
+            path, words, len(words.split()) - 1, line, len(line))
+        done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, cwd=harness.ROOT)
+        tests.check("bash completes `%s`" % line, done.stdout.split() == want.split(), done.stdout + done.stderr)
+
+
+def from_python(tests):
+    if tests.sanitized:  # the library wants the sanitizer in the program that loads it
+        return
+    script = os.path.join(harness.ROOT, "scripts/ctypes_loss.py")
+    done = subprocess.run([sys.executable, script, os.path.join(harness.ROOT, tests.build, "libfret.so")],
+                          capture_output=True, text=True)
+    want = tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                     "table dW(F) in uJ for F = 5 N .. 40 N steps 7").stdout
+    tests.check("the library from Python", [line.split() for line in done.stdout.splitlines()[1:]] ==
+                [line.split() for line in want.splitlines()[1:]] and want.count("\n") == 9, done.stdout + done.stderr + want)
+
+
+def elsewhere(tests):
+    for manager, words in (("dnf", "dnf install .*readline-devel"), ("pacman", "pacman -S .*readline"),
+                           ("zypper", "zypper install .*readline-devel"), ("apk", "apk add .*readline-dev"),
+                           ("brew", "brew install .*readline"), (None, "this system's package manager")):
+        where = os.path.join(tests.dir, "bin-%s" % manager)
+        os.mkdir(where)
+        for tool in ("sh", "awk", "sort", "tr", "cat", "id"):
+            os.symlink(shutil.which(tool), os.path.join(where, tool))
+        if manager:
+            os.symlink(shutil.which("true"), os.path.join(where, manager))
+        done = subprocess.run([shutil.which("sh"), os.path.join(harness.ROOT, "scripts/install-deps"), "run"],
+                              capture_output=True, text=True, env={"PATH": where})
+        tests.check("package names for %s" % manager, done.returncode == 1 and re.search(words, done.stderr), done.stderr)
+
+
+def run(tests):
+    for room in (installed, from_python, elsewhere):
+        room(tests)
