@@ -15,5 +15,6 @@
 #include "fret/reference.h"
 #include "fret/springs.h"
 #include "fret/status.h"
+#include "fret/swing.h"
 
 #endif

@@ -37,14 +37,32 @@ static void drop_runs(answers *a) {
     a->levels = 0;
 }
 
+/* Can a swinging load be taken as it is? By force, from the first such cycle on, on a power law. */
+static bool takes_sine(const load_view *load) {
+    bool swings = false;
+    for (size_t i = 0; i < load->end.steps; i++) {
+        const load_step *step = &load->program->steps[i];
+        swings = swings || (step->kind == LOAD_CYCLE && load_moves_normal(step));
+        if (swings && step->tangential != BY_FORCE)
+            return false;
+    }
+    return fret_normal_is_power(load->normal);
+}
+
 /* As many runs as the load wants: those that are new start where the first one is. */
-static fret_status raise_levels(answers *a, const load_view *load, unsigned wanted) {
+static fret_status raise_levels(answers *a, const load_view *load) {
+    const bool sine = a->reach.swings && !a->chords && takes_sine(load);
+    const unsigned wanted = a->reach.swings && !sine ? LEVELS : 1;
     fret_status st = fine;
+    if (a->levels && engine_is_sine(&a->run[0].engine) && !sine)
+        drop_runs(a);
     if (a->levels == 0) {
         a->run[0] = (runner){.load = load};
         st = engine_make(&a->run[0].engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
         a->levels = !st.code;
     }
+    if (sine && !st.code && !engine_is_sine(&a->run[0].engine))
+        st = engine_to_sine(&a->run[0].engine);
     for (; a->levels < wanted && !st.code; a->levels++) {
         runner *r = &a->run[a->levels];
         *r = a->run[0];
@@ -63,7 +81,12 @@ static fret_status run_levels(answers *a, const load_view *load) {
         a->run[i].load = load;
         st = run_to(&a->run[i], load->end);
     }
-    return st;
+    if (st.code || !a->run[0].chorded)
+        return st;
+    a->chords = true; /* the contact opens: what is not the sine itself wants its limit */
+    drop_runs(a);
+    st = raise_levels(a, load);
+    return st.code ? st : run_levels(a, load);
 }
 
 /* Brings the memory up to the end of the program. */
@@ -76,7 +99,7 @@ static bool catch_up(scene *s, calc_error *error) {
         return false;
     if (s->end.steps > 1)
         s->used |= USED(MODEL_MEMORY);
-    fret_status st = raise_levels(a, &load, a->reach.swings ? LEVELS : 1);
+    fret_status st = raise_levels(a, &load);
     if (!st.code)
         st = run_levels(a, &load);
     if (st.code)
@@ -128,7 +151,7 @@ static bool run_appended(scene *s, bool whole, calc_error *error) {
     load_view load;
     if (!scene_load_of(s, &load, error))
         return false;
-    fret_status st = raise_levels(a, &load, a->reach.swings ? LEVELS : 1);
+    fret_status st = raise_levels(a, &load);
     const bool spares = whole || a->levels > 1;
     const runner before = a->run[0];
     if (!st.code && spares)
@@ -192,17 +215,25 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
     return ok;
 }
 
-bool scene_memory(scene *s, const fret_memory **memory, calc_error *error) {
-    if (s->now) {
-        *memory = s->now->run->engine.self;
+/* The run that has come to the end of the program, or to now. */
+static bool present_run(scene *s, const runner **run, calc_error *error) {
+    *run = s->now ? s->now->run : NULL;
+    if (s->now)
         return true;
-    }
     if (!s->end.steps)
         return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
     if (!catch_up(s, error))
         return false;
-    *memory = s->answers.run[s->answers.levels - 1].engine.self;
+    *run = &s->answers.run[s->answers.levels - 1];
     return true;
+}
+
+bool scene_memory(scene *s, const fret_memory **memory, calc_error *error) {
+    const runner *run;
+    if (!present_run(s, &run, error))
+        return false;
+    *memory = engine_memory(&run->engine);
+    return *memory || calc_no_memory(error);
 }
 
 /* ---- the normal contact now -------------------------------------------------------------------- */
@@ -223,7 +254,7 @@ static bool press_of_program(scene *s, calc_error *error) {
 
 bool scene_press(scene *s, const fret_press **press, calc_error *error) {
     const load_reach *reach;
-    const fret_memory *memory;
+    const runner *run;
     fret_state state;
     answers *a = &s->answers;
     *press = &a->press;
@@ -234,10 +265,10 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
         if (!moves) {
             if (!press_of_program(s, error))
                 return false;
-        } else if (!scene_memory(s, &memory, error)) {
+        } else if (!present_run(s, &run, error)) {
             return false;
         } else {
-            fret_memory_state(memory, &state);
+            engine_state(&run->engine, &state);
             a->press = (fret_press){.F = state.FN, .dz = state.dz, .a = state.a};
         }
         a->press_ready = true;
@@ -311,6 +342,7 @@ bool scene_engine(scene *s, model_id model, unsigned count, engine *out, calc_er
     long double a = 0;
     watch w = watch_ends();
     w.see = widest;
+    w.once = true;
     w.context = &a;
     if ((models[model].count && !scene_trace(s, &w, error)) || !scene_load_of(s, &load, error))
         return false;
@@ -348,16 +380,16 @@ static bool stepped_state(scene *s, calc_error *error) {
 }
 
 static bool memory_state(scene *s, calc_error *error) {
-    const fret_memory *memory = NULL;
+    const runner *run;
     answers *a = &s->answers;
-    if (!scene_memory(s, &memory, error))
+    if (!present_run(s, &run, error))
         return false;
     if (!s->now && a->levels > 1) {
         swinging_state(a, a->run);
         return true;
     }
-    fret_memory_state(memory, &a->state);
-    a->loss = (s->now ? s->now->run : &a->run[0])->cycle_loss;
+    engine_state(&run->engine, &a->state);
+    a->loss = run->cycle_loss;
     return true;
 }
 
@@ -365,9 +397,9 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     const bool stepped = is_stepped(s);
     const unsigned used = s->used; /* what only checks the load program does not answer */
     if (!s->answers.state_ready) {
-        const fret_memory *memory;
+        const runner *run;
         s->answers.sine_error = 0;
-        if (!scene_memory(s, &memory, error))
+        if (!present_run(s, &run, error))
             return false;
         if (!s->automatic && s->model == MODEL_CLOSED)
             return calc_fail(error, 0, 0, "no closed form for this: set model auto");
@@ -456,9 +488,9 @@ bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
 
 bool scene_trace(scene *s, watch *w, calc_error *error) {
     load_view load;
-    const fret_memory *unused;
+    const runner *unused;
     runner r = {.load = &load, .watch = w};
-    if (!scene_memory(s, &unused, error) || !scene_load_of(s, &load, error))
+    if (!present_run(s, &unused, error) || !scene_load_of(s, &load, error))
         return false;
     r.level = s->answers.reach.swings ? LEVELS - 1 : 0;
     s->used |= USED(MODEL_MEMORY);

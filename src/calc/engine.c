@@ -2,6 +2,8 @@
 /* The table of models and how they step. */
 #include "calc/engine.h"
 
+#include <stdlib.h>
+
 static fret_status memory_make(const fret_normal *normal, double mu, unsigned count, double radius, void **out) {
     fret_memory *m = NULL;
     fret_status st = fret_memory_make(normal, mu, &m);
@@ -79,6 +81,123 @@ const model_row models[MODELS] = {
                        .end = springs_end},
 };
 
+/* ---- the sine itself --------------------------------------------------------------------------- */
+
+/* A memory until something swings. */
+typedef struct sine {
+    fret_memory *memory; /* from then on to be shown only */
+    fret_swing *swing;   /* or NULL */
+    bool shown;          /* memory is up to date */
+} sine;
+
+static const fret_status no_memory = {FRET_NO_MEMORY, NULL, 0, 0};
+
+static void sine_end(void *self) {
+    sine *s = self;
+    fret_memory_free(s->memory);
+    fret_swing_free(s->swing);
+    free(s);
+}
+
+static fret_status sine_make(const fret_normal *normal, double mu, unsigned count, double radius, void **out) {
+    sine *s = calloc(1, sizeof *s);
+    (void)count, (void)radius;
+    const fret_status st = s ? fret_memory_make(normal, mu, &s->memory) : no_memory;
+    if (st.code)
+        free(s);
+    else
+        *out = s;
+    return st;
+}
+
+static fret_status sine_step(void *self, const fret_step *step) {
+    sine *s = self;
+    s->shown = false;
+    return s->swing ? fret_swing_step(s->swing, step) : fret_memory_step(s->memory, step);
+}
+
+static fret_status sine_copy(void *to, const void *from) {
+    sine *t = to;
+    const sine *s = from;
+    fret_status st = fret_memory_copy(t->memory, s->memory);
+    t->shown = s->shown;
+    if (!s->swing) {
+        fret_swing_free(t->swing);
+        t->swing = NULL;
+        return st;
+    }
+    if (!st.code && !t->swing)
+        st = fret_swing_make(s->memory, &t->swing);
+    return st.code ? st : fret_swing_copy(t->swing, s->swing);
+}
+
+static void sine_state(const void *self, fret_state *out) {
+    const sine *s = self;
+    if (s->swing)
+        fret_swing_state(s->swing, out);
+    else
+        fret_memory_state(s->memory, out);
+}
+
+static long double sine_last_loss(const void *self) {
+    const sine *s = self;
+    return s->swing ? fret_swing_last_loss(s->swing) : fret_memory_last_loss(s->memory);
+}
+
+static const model_row sine_model = {.name = "memory",
+                                     .title = "memory diagram",
+                                     .make = sine_make,
+                                     .step = sine_step,
+                                     .copy = sine_copy,
+                                     .state = sine_state,
+                                     .forces = sine_state,
+                                     .last_loss = sine_last_loss,
+                                     .end = sine_end};
+
+bool engine_is_sine(const engine *e) {
+    return e->kind == &sine_model;
+}
+
+fret_status engine_to_sine(engine *e) {
+    sine *s = calloc(1, sizeof *s);
+    if (!s)
+        return no_memory;
+    s->memory = e->self;
+    s->shown = true;
+    e->self = s;
+    e->kind = &sine_model;
+    return (fret_status){FRET_OK, NULL, 0, 0};
+}
+
+fret_status engine_swing(engine *e, const fret_sine *load, bool *taken) {
+    fret_status st = {FRET_OK, NULL, 0, 0};
+    *taken = false;
+    if (!engine_is_sine(e))
+        return st;
+    sine *s = e->self;
+    if (!s->swing)
+        st = fret_swing_make(s->memory, &s->swing);
+    if (st.code || !fret_swing_fits(s->swing, load))
+        return st;
+    st = fret_swing_period(s->swing, load);
+    s->shown = false;
+    *taken = !st.code;
+    e->spent += fret_swing_last_loss(s->swing);
+    return st;
+}
+
+const fret_memory *engine_memory(const engine *e) {
+    if (!engine_is_sine(e))
+        return e->self;
+    sine *s = e->self;
+    if (s->swing && !s->shown && fret_swing_memory(s->swing, s->memory).code)
+        return NULL;
+    s->shown = true;
+    return s->memory;
+}
+
+/* ---- any model --------------------------------------------------------------------------------- */
+
 fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count, double radius) {
     *e = (engine){.kind = &models[id]};
     return e->kind->make(normal, mu, count, radius, &e->self);
@@ -99,20 +218,31 @@ fret_status engine_step(engine *e, const fret_step *step) {
 
 void engine_state(const engine *e, fret_state *out) {
     e->kind->state(e->self, out);
+    out->W += e->more;
 }
 
 void engine_forces(const engine *e, fret_state *out) {
     e->kind->forces(e->self, out);
+    out->W += e->more;
 }
 
 fret_status engine_copy(engine *to, const engine *from, const fret_normal *normal, double mu) {
     fret_status st = {FRET_OK, NULL, 0, 0};
-    if (!to->self)
-        st = engine_make(to, (model_id)(from->kind - models), normal, mu, 0, 0);
+    if (to->self && to->kind != from->kind)
+        engine_end(to);
+    if (!to->self) {
+        to->kind = from->kind;
+        st = to->kind->make(normal, mu, 0, 0, &to->self);
+    }
     if (!st.code)
         st = from->kind->copy(to->self, from->self);
     to->spent = from->spent;
+    to->more = from->more;
     return st;
+}
+
+void engine_repeat(engine *e, unsigned times, long double loss) {
+    e->more += times * loss;
 }
 
 static long double dissipated(const engine *e) {

@@ -4,6 +4,8 @@
 #ifndef CALC_ENGINE_H
 #define CALC_ENGINE_H
 
+#include <stdbool.h>
+
 #include "fret/fret.h"
 
 typedef enum model_id { MODEL_CLOSED, MODEL_MEMORY, MODEL_QUADRATURE, MODEL_SPRINGS, MODELS } model_id;
@@ -33,6 +35,7 @@ typedef struct engine {
     const model_row *kind;
     void *self;
     long double spent; /* dissipated since engine_mark, step by step: W may be far larger */
+    long double more;  /* dissipated in periods that were not run: engine_repeat */
 } engine;
 
 /* count and radius (the largest contact radius to come) are for the springs. */
@@ -43,6 +46,15 @@ void engine_state(const engine *e, fret_state *out);
 void engine_forces(const engine *e, fret_state *out);
 /* A copy made anew in `to`, of the same contact. */
 fret_status engine_copy(engine *to, const engine *from, const fret_normal *normal, double mu);
+/* `times` more periods that begin and end in the present state, each with the loss. */
+void engine_repeat(engine *e, unsigned times, long double loss);
+/* Makes of a memory one that takes a swinging load as it is, without chords. */
+fret_status engine_to_sine(engine *e);
+bool engine_is_sine(const engine *e);
+/* A period of it; taken: false where it cannot, nothing has changed. */
+fret_status engine_swing(engine *e, const fret_sine *sine, bool *taken);
+/* The state as a memory: what curves, in chords. NULL: out of memory. */
+const fret_memory *engine_memory(const engine *e);
 /* From here on engine_spent counts. */
 void engine_mark(engine *e);
 long double engine_spent(const engine *e);

@@ -225,7 +225,7 @@ static size_t find_nodes(const swing *w, double node[NODES]) {
 }
 
 /* Chords of the harmonic path, from the top of F_x, cut evenly between the nodes. */
-static fret_status swinging_period(runner *r, const load_item *c, long double FN) {
+static fret_status chords_period(runner *r, const load_item *c, long double FN) {
     double node[NODES];
     const swing about = {r->load, c, FN};
     const size_t nodes = find_nodes(&about, node);
@@ -252,8 +252,62 @@ static fret_status swinging_period(runner *r, const load_item *c, long double FN
     return st;
 }
 
+static fret_status swinging_period(runner *r, const load_item *c, long double FN) {
+    const fret_sine load = {c->step.tangential_value, c->step.normal_value, c->extra.phase, FN};
+    bool taken;
+    const fret_status st = engine_swing(&r->engine, &load, &taken);
+    if (taken)
+        r->time++;
+    if (taken || st.code)
+        return st;
+    r->chorded = engine_is_sine(&r->engine);
+    return chords_period(r, c, FN);
+}
+
 fret_status run_period(runner *r, const load_item *c, long double FN) {
     return c->step.normal_value == 0 ? constant_period(r, &c->step) : swinging_period(r, c, FN);
+}
+
+/* A state at the end of a period, and what the period dissipated. */
+typedef struct lap {
+    fret_state state;
+    long double loss;
+} lap;
+
+/* Do two periods end alike, so that W stays right to 1e-15 where the second stands for `left` more? */
+static bool laps_repeat(const lap *a, const lap *b, unsigned left) {
+    const long double little = 1e-15L, reach = fabsl(b->state.dx) + fabsl(b->state.dz);
+    return a->state.slices == b->state.slices && fabsl(a->state.FN - b->state.FN) <= little * b->state.FN &&
+           fabsl(a->state.Fx - b->state.Fx) <= little * fabsl(b->state.Fx) &&
+           fabsl(a->state.dx - b->state.dx) <= little * reach &&
+           left * fabsl(a->loss - b->loss) <= little * (b->state.W + left * b->loss);
+}
+
+/* Until it is done, or one period has repeated the one before twice: the others repeat it too. */
+static fret_status run_periods(runner *r, const load_item *c, long double FN) {
+    const unsigned times = c->extra.times;
+    const bool seen = r->watch && !r->watch->once;
+    lap last = {.loss = -1};
+    unsigned alike = 0;
+    fret_status st = fine;
+    r->repeated = 0;
+    for (unsigned i = 0; i < times && !st.code; i++) {
+        engine_mark(&r->engine);
+        st = unless_stopped(r, run_period(r, c, FN));
+        lap now = {.loss = engine_spent(&r->engine)};
+        r->cycle_loss = now.loss;
+        r->closed = true;
+        engine_forces(&r->engine, &now.state);
+        alike = i > 0 && laps_repeat(&last, &now, times - 1 - i) ? alike + 1 : 0;
+        last = now;
+        if (!st.code && !seen && alike == 2 && i + 1 < times) {
+            r->repeated = times - 1 - i;
+            engine_repeat(&r->engine, r->repeated, now.loss);
+            r->time += r->repeated;
+            break;
+        }
+    }
+    return st;
 }
 
 static fret_status run_cycle(runner *r, const load_item *c) {
@@ -271,12 +325,8 @@ static fret_status run_cycle(runner *r, const load_item *c) {
         first.law = LEG_STRAIGHT;
     }
     fret_status st = take(r, &first);
-    for (unsigned i = 0; i < c->extra.times && !st.code; i++) {
-        engine_mark(&r->engine);
-        st = unless_stopped(r, run_period(r, c, FN));
-        r->cycle_loss = engine_spent(&r->engine);
-        r->closed = true;
-    }
+    if (!st.code)
+        st = run_periods(r, c, FN);
     if (st.code == FRET_GROSS_SLIP && c->step.tangential == BY_FORCE && c->step.normal_value == 0)
         st.quantity = "FA";
     return st;

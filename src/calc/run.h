@@ -46,6 +46,7 @@ struct watch {
     double first, every; /* watch_times */
     size_t sample, last; /* next and last of them */
     bool turns;          /* turning points too */
+    bool once;           /* a period that repeats the one before need not be seen again */
 };
 
 /* Every leg in so many parts. */
@@ -68,6 +69,8 @@ struct runner {
     long double area, Fx, dx; /* int F_x d(delta_x) by the trapezoidal rule, at what the watch sees */
     long double cycle_loss;   /* of the last period run; of a program without one 0 */
     bool closed;              /* a period has been run */
+    bool chorded;             /* a swinging period was run in chords that should not have been */
+    unsigned repeated;        /* periods of the last cycle that were not run, since they repeat those before */
 };
 
 enum { RUN_CHORDS = 160 };

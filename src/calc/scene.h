@@ -34,6 +34,7 @@ typedef struct answers {
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
     unsigned levels, spares;
+    bool chords; /* the swinging load of the program cannot be taken as it is */
     load_reach reach;
     fret_state state;
     long double loss;       /* of the last period */

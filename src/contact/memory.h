@@ -3,14 +3,9 @@
 #ifndef FRET_CONTACT_MEMORY_H
 #define FRET_CONTACT_MEMORY_H
 
-#include "contact/normal.h"
+#include "contact/phase.h"
 #include "fret/memory.h"
 #include "number/sum.h"
-
-/* Positions and thicknesses are kept in two coordinates. A straight step in (delta_z, delta_x) moves
- * edge and slip front linearly in depth; a straight step in (F_N, F_x) moves them linearly in load,
- * by the same rule: delta_x/(mu eta) = int sigma dy + const and F_x/mu = int sigma dF_N. */
-typedef enum coordinate { DEPTH, LOAD } coordinate;
 
 typedef struct slice {
     fret_real thick[2]; /* kept apart from the positions: a thin slice at the edge keeps its digits */

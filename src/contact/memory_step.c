@@ -189,51 +189,10 @@ static fret_real slip_inwards(fret_memory *m, coordinate by, fret_real drive, do
     return loss;
 }
 
-/* One phase of slip during which edge and front both move, linearly in the coordinate. */
-typedef struct phase {
-    const fret_memory *m;
-    coordinate by;
-    fret_real edge0, edge1, front0, front1;
-} phase;
-
-static fret_real phase_rate(fret_real t, fret_real rest, void *context) {
-    const phase *p = context;
-    const fret_normal *n = p->m->normal;
-    fret_real z = p->edge0 * rest + p->edge1 * t, y = p->front0 * rest + p->front1 * t;
-    fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
-    if (d <= 0 || z <= 0 || fret_stopped(n))
-        return 0;
-    fret_point edge = p->by == DEPTH ? fret_law_at_depth(n, z) : fret_law_at_force(n, z),
-               front = {0, 0, 0, 0};
-    const fret_level outer = {edge.y, edge.F};
-    if (p->by == LOAD || !fret_normal_closed(n))
-        front = p->by == DEPTH ? fret_law_at_depth(n, y) : fret_law_at_force(n, y);
-    if (p->by == LOAD) /* of a thin zone the depths would differ by too few digits */
-        d = d < 1e-3L * z ? fret_law_thickness(n, &outer, d) : edge.y - front.y;
-    fret_real G = fret_normal_closed(n) || d < 1e-3L * edge.y ? fret_law_slice(n, &outer, d).G
-                                                              : edge.F - front.F - d * front.K;
-    if (p->by == DEPTH)
-        return G;
-    return front.K > 0 ? G / front.K : 0; /* dy = dF/K; the end point itself has no weight */
-}
-
+/* A phase of the front with the gain 1 - s sigma. */
 static fret_real phase_loss(const fret_memory *m, coordinate by, fret_real gain, fret_real edge0,
                             fret_real edge1, fret_real front0, fret_real front1) {
-    phase p = {m, by, edge0, edge1, front0, front1};
-    fret_real rate;
-    /* small steps, far from the centre: the rate is smooth */
-    bool smooth = front1 > 0.8L * front0 && edge1 > 0.8L * edge0 && edge0 > 0.8L * edge1;
-    if (fret_gap_has_rows(&m->normal->gap)) /* edge or front may cross rows, where the rate is not smooth */
-        rate = fret_integrate_pieces(phase_rate, &p, 1e-15L);
-    else
-        rate = smooth ? fret_integrate_smooth(phase_rate, &p) : fret_integrate(phase_rate, &p);
-    return gain * (front0 - front1) * rate;
-}
-
-/* Gross slip while the normal load changes: int F_N de. */
-static fret_real gross_rate(fret_real t, fret_real rest, void *context) {
-    const phase *p = context;
-    return fret_law_force(p->m->normal, p->edge0 * rest + p->edge1 * t);
+    return gain * fret_phase_loss(&(fret_phase){m->normal, by, edge0, edge1, front0, front1});
 }
 
 /* After a phase only the coordinate of the step is up to date in the two outermost slices. */
@@ -280,8 +239,8 @@ static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real ed
                                old + growth * (surplus - e) / surplus, before, front);
     }
     if (e > 0 && by == DEPTH) {
-        phase p = {m, by, old + growth * (surplus - e) / surplus, edge[by], 0, 0};
-        loss += e * fret_integrate(gross_rate, &p);
+        const fret_real from = old + growth * (surplus - e) / surplus;
+        loss += e * fret_phase_force(&(fret_phase){m->normal, by, from, edge[by], 0, 0});
         m->slid += s * m->mu_eta * e;
     }
     if (!m->count)
@@ -329,9 +288,8 @@ static void begin_zone(fret_memory *m, const retreat *r, fret_real s) {
 static fret_real retreat_in_slip(fret_memory *m, retreat *r, fret_real s) {
     fret_real loss = 0;
     if (r->by == DEPTH) {
-        phase p = {m, r->by, r->z, r->to, 0, 0};
         const fret_real e = (s * r->rate + 1) * r->left;
-        loss = e * fret_integrate(gross_rate, &p);
+        loss = e * fret_phase_force(&(fret_phase){m->normal, r->by, r->z, r->to, 0, 0});
         m->slid += s * m->mu_eta * e;
     }
     m->slices[0].thick[r->by] -= r->left;

@@ -115,8 +115,11 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
     scene *s = p->sh->calc.now;
     const double error = fmax((double)s->answers.sine_error, 1e-15);
     const int finest = RUN_CHORDS << (model == MODEL_MEMORY ? LEVELS - 1 : 0);
+    const bool sampled = call || !strcmp(q->name, "W1D");
     fprintf(p->to, "    model: %s, ", models[model].title);
-    if (model == MODEL_MEMORY && is_extrapolated(q, call))
+    if (model == MODEL_MEMORY && s->answers.levels == 1 && !sampled)
+        fprintf(p->to, "the sine itself, event by event (exact)\n");
+    else if (model == MODEL_MEMORY && is_extrapolated(q, call))
         fprintf(p->to, "converged to %.0e (the sine itself, by %d chords a period and fewer, extrapolated)\n",
                 round_up(error), finest);
     else
@@ -140,8 +143,12 @@ static void put_model(const page *p, const quantity *q, bool call) {
         fprintf(p->to, "    model: %s, with quadrature over the gap\n", models[MODEL_CLOSED].title);
     else
         fprintf(p->to, "    model: %s%s\n", models[model].title, model == MODEL_MEMORY ? " (exact)" : "");
-    if (stepped && (q->reads & INPUT_BIT(IN_MU)))
+    if (stepped && (q->reads & INPUT_BIT(IN_MU))) {
+        if (s->answers.levels && s->answers.run[0].repeated)
+            fprintf(p->to, "    cycle: %u more periods repeat the last one that was run\n",
+                    s->answers.run[0].repeated);
         put_paths(p);
+    }
 }
 
 /* ---- inputs and conditioning ------------------------------------------------------------------- */

@@ -329,6 +329,9 @@ static void report_time(shell *sh, double t) {
             fprintf(sh->err, "%s%s", before, models[i].title);
             before = ", ";
         }
+    const answers *a = &sh->calc.scene.answers;
+    if (sh->calc.scene.used & USED(MODEL_MEMORY) && a->levels && a->run[0].repeated)
+        fprintf(sh->err, ", %u periods repeat the last one run", a->run[0].repeated);
     fputs(*before == ',' ? ")\n" : "\n", sh->err);
 }
 

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef FRET_SWING_H
+#define FRET_SWING_H
+
+#include "fret/memory.h"
+
+FRET_BEGIN
+
+/* The memory diagram under harmonic forces, event by event: no chords, no step error. Power laws, by force.
+ *
+ * With P = F_N + F_x/mu and M = F_N - F_x/mu the memory of a contact is a curve that rises in both from (0,
+ * 0) to the present (M, P); its slice at the load N = (M+P)/2 has the slope sigma = (dP-dM)/(dP+dM). When
+ * both grow the curve grows; when M falls below it, it is cut at M and goes straight up (slip forward), when
+ * P does, straight across (slip backward). With D and d the depths of the edge and of the cut, forward slip
+ * dissipates
+ *   dW = -dM mu^2 eta [F_N(D) - F_N(d) - (D-d) F_N'(d)]/F_N'(d),   backward slip the same with dP.
+ * A swinging load keeps pieces of its own way as pieces of the curve.
+ *
+ * Accuracy, against 64-digit references: W and the loss of a period 1e-15 of W; 1e-13 after steps that end
+ * within a thousandth of gross slip.
+ *
+ * Thread-compatible: distinct objects may be used by distinct threads. */
+typedef struct fret_swing fret_swing;
+
+/* One period of F_x = FA cos s, F_N = FN + FNA cos(s + phase), s = 0 .. 2 pi. */
+typedef struct fret_sine {
+    double FA, FNA, phase; /* [N], [N], [rad] */
+    fret_real FN;          /* [N] */
+} fret_sine;
+
+/* Goes on from the state of a memory of a power law, closed. Borrows its normal contact, not the memory.
+ * Errors: FRET_OUTSIDE (no power law), FRET_NO_MEMORY. */
+fret_status fret_swing_make(const fret_memory *memory, fret_swing **out);
+void fret_swing_free(fret_swing *swing);
+
+/* Makes `to` equal to `from`. Error: FRET_NO_MEMORY. */
+fret_status fret_swing_copy(fret_swing *to, const fret_swing *from);
+
+/* Can it run this: the contact stays closed and slips partially throughout, and begins where the period does?
+ */
+int fret_swing_fits(const fret_swing *swing, const fret_sine *sine);
+
+/* One period that fits. Error: FRET_NO_MEMORY, the contact unusable but for fret_swing_copy and _free. */
+fret_status fret_swing_period(fret_swing *swing, const fret_sine *sine);
+
+/* A step by force, or by depth with F_x (FRET_KEEP_DX is no such step: FRET_OUTSIDE). Errors otherwise those
+ * of fret_memory_step; the contact as before it, but for FRET_NO_MEMORY as above. */
+fret_status fret_swing_step(fret_swing *swing, const fret_step *step);
+
+/* As of a memory. */
+void fret_swing_state(const fret_swing *swing, fret_state *out);
+fret_real fret_swing_last_loss(const fret_swing *swing); /* of the last period or step [J] */
+
+/* The state as a memory: curved pieces in 160 straight ones each. Error: FRET_NO_MEMORY. */
+fret_status fret_swing_memory(const fret_swing *swing, fret_memory *out);
+
+FRET_END
+
+#endif

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The loss of a moving slip front: of a power law by a rule as short as the phase allows, of other shapes by
+ * quadrature of their law. Pure. */
+#include "contact/phase.h"
+
+#include <float.h>
+
+#include "number/quadrature.h"
+#include "number/real.h"
+
+/* ---- any shape --------------------------------------------------------------------------------- */
+
+static fret_real law_rate(fret_real t, fret_real rest, void *context) {
+    const fret_phase *p = context;
+    const fret_normal *n = p->normal;
+    fret_real z = p->edge0 * rest + p->edge1 * t, y = p->front0 * rest + p->front1 * t;
+    fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
+    if (d <= 0 || z <= 0 || fret_stopped(n))
+        return 0;
+    fret_point edge = p->by == DEPTH ? fret_law_at_depth(n, z) : fret_law_at_force(n, z),
+               front = {0, 0, 0, 0};
+    const fret_level outer = {edge.y, edge.F};
+    if (p->by == LOAD || !fret_normal_closed(n))
+        front = p->by == DEPTH ? fret_law_at_depth(n, y) : fret_law_at_force(n, y);
+    if (p->by == LOAD) /* of a thin zone the depths would differ by too few digits */
+        d = d < 1e-3L * z ? fret_law_thickness(n, &outer, d) : edge.y - front.y;
+    fret_real G = fret_normal_closed(n) || d < 1e-3L * edge.y ? fret_law_slice(n, &outer, d).G
+                                                              : edge.F - front.F - d * front.K;
+    if (p->by == DEPTH)
+        return G;
+    return front.K > 0 ? G / front.K : 0; /* dy = dF/K; the end point itself has no weight */
+}
+
+/* Is the rate smooth: a small step, far from the centre? */
+static bool is_smooth(const fret_phase *p) {
+    return p->front1 > 0.8L * p->front0 && p->edge1 > 0.8L * p->edge0 && p->edge0 > 0.8L * p->edge1;
+}
+
+fret_real fret_phase_loss_by_law(const fret_phase *phase) {
+    fret_phase p = *phase;
+    fret_real rate;
+    if (fret_gap_has_rows(&p.normal->gap)) /* edge or front may cross rows, where the rate is not smooth */
+        rate = fret_integrate_pieces(law_rate, &p, 1e-15L);
+    else
+        rate = is_smooth(&p) ? fret_integrate_smooth(law_rate, &p) : fret_integrate(law_rate, &p);
+    return (p.front0 - p.front1) * rate;
+}
+
+/* ---- the power law ----------------------------------------------------------------------------- */
+
+/* Depth by load and load by depth are both powers v = e^s of the coordinate, and the rate is how far the
+ * power at the edge lies from its tangent at the front: v(e) |m(x)|, x = (e-f)/e the thickness of the zone,
+ *   m(x) = 1 - (1-x)^s - s x (1-x)^(s-1). */
+typedef struct power_phase {
+    const fret_phase *p;
+    fret_real s, sm1; /* the exponent, and s-1 without cancellation */
+    fret_real e, v;   /* the larger of both edges, and the power there */
+} power_phase;
+
+/* |m| as a series, whose terms fall at least as fast as s x. */
+static fret_real thin_bow(const power_phase *c, fret_real x) {
+    const fret_real slope = c->sm1 * x;
+    fret_real term = c->s * slope * x, sum = 0;
+    const fret_real small = LDBL_EPSILON / 4 * fabsl(term);
+    for (int i = 1; fabsl(term) > small; i++) {
+        sum += term / (fret_real)(i + 1);
+        term *= x - slope / (fret_real)i;
+    }
+    return fabsl(sum);
+}
+
+static fret_real bow(const power_phase *c, fret_real x, fret_real inner) {
+    if (fmaxl(c->s, 1) * x < 0.2L)
+        return thin_bow(c, x);
+    const fret_real log = x < 0.5L ? fret_log1p(-x) : fret_log(inner), em = fret_expm1(c->sm1 * log);
+    return fabsl(em * (1 + c->sm1 * x) + c->sm1 * x);
+}
+
+/* (1+u)^s, -1 < u <= 0 */
+static fret_real power_near(const power_phase *c, fret_real u) {
+    if (c->s * -u > 0.02L || -u > 0.02L)
+        return fret_exp(c->s * fret_log1p(u));
+    fret_real term = c->s * u, sum = 1 + term;
+    for (int i = 2; fabsl(term) > LDBL_EPSILON / 4; i++) {
+        term *= u * (c->s - (fret_real)(i - 1)) / (fret_real)i;
+        sum += term;
+    }
+    return sum;
+}
+
+static fret_real power_rate(fret_real t, fret_real rest, void *context) {
+    const power_phase *c = context;
+    const fret_phase *p = c->p;
+    const fret_real e = p->edge0 * rest + p->edge1 * t, f = p->front0 * rest + p->front1 * t;
+    const fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
+    if (d <= 0 || f <= 0) /* the centre has no weight */
+        return 0;
+    const fret_real below = p->edge0 > p->edge1 ? (p->edge1 - p->edge0) * t : (p->edge0 - p->edge1) * rest;
+    return c->v * power_near(c, below / c->e) * bow(c, d / e, f / e);
+}
+
+/* Gauss's rule of four points: 1e-19 for a rate that is smooth farther than 60 times the way. */
+static fret_real short_rule(const power_phase *c) {
+    static const fret_real node[2] = {0.0694318442029737123880267555535953L,
+                                      0.330009478207571867598667120448378L},
+                           weight[2] = {0.173927422568726928686531974610999L,
+                                        0.326072577431273071313468025389001L};
+    power_phase context = *c;
+    fret_real sum = 0;
+    for (int i = 0; i < 2; i++)
+        sum += weight[i] *
+               (power_rate(node[i], 1 - node[i], &context) + power_rate(1 - node[i], node[i], &context));
+    return sum;
+}
+
+static fret_real power_loss(const fret_phase *p) {
+    const fret_normal *n = p->normal;
+    const fret_real e = fmaxl(p->edge0, p->edge1);
+    power_phase c = {p, n->p, n->pm1, e, 0};
+    if (p->by == LOAD) {
+        c.s = n->q;
+        c.sm1 = -n->pm1 * n->q;
+    }
+    if (e <= 0)
+        return 0;
+    c.v = p->by == DEPTH ? fret_law_force(n, e) : fret_law_depth(n, e);
+    const fret_real way = fmaxl(p->front0 - p->front1, fabsl(p->edge1 - p->edge0)) * fmaxl(c.s, 1);
+    const fret_real rate = way < 0.016L * p->front1 ? short_rule(&c)
+                           : is_smooth(p)           ? fret_integrate_smooth(power_rate, &c)
+                                                    : fret_integrate(power_rate, &c);
+    return (p->front0 - p->front1) * rate;
+}
+
+fret_real fret_phase_rate_by_load(const fret_normal *n, fret_real edge, fret_real front, fret_real zone) {
+    const power_phase c = {.s = n->q, .sm1 = -n->pm1 * n->q};
+    return zone > 0 && front > 0 ? fret_law_depth(n, edge) * bow(&c, zone / edge, front / edge) : 0;
+}
+
+fret_real fret_phase_loss(const fret_phase *phase) {
+    return fret_normal_closed(phase->normal) ? power_loss(phase) : fret_phase_loss_by_law(phase);
+}
+
+/* ---- gross slip -------------------------------------------------------------------------------- */
+
+static fret_real gross_rate(fret_real t, fret_real rest, void *context) {
+    const fret_phase *p = context;
+    return fret_law_force(p->normal, p->edge0 * rest + p->edge1 * t);
+}
+
+fret_real fret_phase_force(const fret_phase *phase) {
+    fret_phase p = *phase;
+    return fret_integrate(gross_rate, &p);
+}

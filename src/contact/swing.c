@@ -1,0 +1,563 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The memory curve in (M, P): cut, grown and integrated along its pieces. Allocates its pieces. */
+#include "fret/swing.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "contact/check.h"
+#include "contact/memory.h"
+#include "contact/phase.h"
+#include "number/quadrature.h"
+#include "number/real.h"
+
+/* Two coordinates of a place on the curve or on the way of the load. */
+enum { M, P };
+
+/* A way of the load over s: straight over 0..1, or harmonic, each coordinate mean + size cos(s - lag). */
+typedef struct way {
+    bool harmonic;
+    fret_real start[2], span[2];
+    fret_real mean, size[2], lag[2];
+} way;
+
+/* A part of the curve from the place first to the place last: straight, or the way itself between two
+ * instants. */
+typedef struct piece {
+    fret_real first[2], last[2];
+    bool curved;
+    way way;
+    fret_real lo, hi;
+} piece;
+
+struct fret_swing {
+    const fret_normal *normal;
+    double mu;
+    fret_real FN, Fx; /* now; the end of the curve is their M, P */
+    fret_real dz, a;  /* the edge */
+    fret_real slid;   /* delta_x - mu eta int sigma dy */
+    int direction;
+    fret_sum W;
+    fret_real last_loss, scale; /* scale: the largest of M and P so far */
+    size_t count, room;
+    piece *pieces; /* innermost first */
+};
+
+/* ---- ways -------------------------------------------------------------------------------------- */
+
+static fret_real way_at(const way *w, int which, fret_real s) {
+    return w->harmonic ? w->mean + w->size[which] * fret_cos(s - w->lag[which])
+                       : w->start[which] + w->span[which] * s;
+}
+
+/* -d/ds of a coordinate */
+static fret_real way_fall(const way *w, int which, fret_real s) {
+    return w->harmonic ? w->size[which] * fret_sin(s - w->lag[which]) : -w->span[which];
+}
+
+/* The angle less whole turns, within pi of `middle`. */
+static fret_real turned_to(fret_real angle, fret_real middle) {
+    const fret_real turn = 2 * FRET_PI;
+    return angle - turn * floorl((angle - middle) / turn + 0.5L);
+}
+
+/* When a coordinate, monotone between lo and hi, has the level. */
+static fret_real way_when(const way *w, int which, fret_real level, fret_real lo, fret_real hi) {
+    fret_real s;
+    if (w->harmonic) {
+        const fret_real c = fmaxl(-1, fminl(1, (level - w->mean) / w->size[which]));
+        const fret_real angle = fret_atan2(sqrtl((1 - c) * (1 + c)), c), middle = (lo + hi) / 2;
+        const fret_real one = turned_to(w->lag[which] + angle, middle),
+                        two = turned_to(w->lag[which] - angle, middle);
+        s = fabsl(one - middle) < fabsl(two - middle) ? one : two;
+    } else {
+        s = (level - w->start[which]) / w->span[which];
+    }
+    return fminl(fmaxl(s, lo), hi);
+}
+
+/* ---- the curve --------------------------------------------------------------------------------- */
+
+static fret_status reserve(fret_swing *c, size_t count) {
+    if (count <= c->room)
+        return fret_ok();
+    const size_t room = count + count / 2 + 8;
+    piece *grown = realloc(c->pieces, room * sizeof *grown);
+    if (!grown)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    c->pieces = grown;
+    c->room = room;
+    return fret_ok();
+}
+
+/* What a force of the present size is known to. */
+static fret_real noise(const fret_swing *c) {
+    return 512 * LDBL_EPSILON * c->scale;
+}
+
+static fret_real piece_other(const piece *p, int which, fret_real level) {
+    const int other = 1 - which;
+    if (p->curved)
+        return way_at(&p->way, other, way_when(&p->way, which, level, p->lo, p->hi));
+    const fret_real part = (level - p->first[which]) / (p->last[which] - p->first[which]);
+    return p->first[other] + (p->last[other] - p->first[other]) * part;
+}
+
+/* The other coordinate where the curve crosses the level of `which`. */
+static fret_real curve_other(const fret_swing *c, int which, fret_real level) {
+    for (size_t i = c->count; i-- > 0;) {
+        const piece *p = &c->pieces[i];
+        if (p->first[which] <= level && p->first[which] < p->last[which])
+            return piece_other(p, which, fminl(level, p->last[which]));
+    }
+    return 0;
+}
+
+static fret_status append(fret_swing *c, const piece *p) {
+    const fret_status st = reserve(c, c->count + 1);
+    if (!st.code)
+        c->pieces[c->count++] = *p;
+    return st;
+}
+
+/* Cut at the level of `which`, then straight to the end. */
+static fret_status cut(fret_swing *c, int which, fret_real level, const fret_real end[2]) {
+    while (c->count && c->pieces[c->count - 1].last[which] > level &&
+           c->pieces[c->count - 1].first[which] >= level)
+        c->count--;
+    fret_real corner[2] = {0, 0};
+    if (c->count) {
+        piece *top = &c->pieces[c->count - 1];
+        if (top->last[which] > level) {
+            top->last[1 - which] = piece_other(top, which, level);
+            top->last[which] = level;
+            if (top->curved)
+                top->hi = way_when(&top->way, which, level, top->lo, top->hi);
+        }
+        memcpy(corner, top->last, sizeof corner);
+    }
+    if (end[1 - which] - corner[1 - which] > noise(c)) {
+        const piece straight = {.first = {corner[0], corner[1]}, .last = {end[0], end[1]}};
+        return append(c, &straight);
+    }
+    if (c->count)
+        memcpy(c->pieces[c->count - 1].last, end, sizeof corner);
+    return fret_ok();
+}
+
+/* ---- slip -------------------------------------------------------------------------------------- */
+
+typedef struct slip {
+    const fret_swing *curve;
+    const way *way;
+    int which;
+    fret_real lo, hi;
+} slip;
+
+/* [F(D)-F(d)-(D-d) F'(d)]/F'(d) times the fall of the level. */
+static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
+    const slip *l = context;
+    const fret_real s = l->lo * rest + l->hi * t, level = way_at(l->way, l->which, s);
+    const fret_real other = way_at(l->way, 1 - l->which, s), inner = curve_other(l->curve, l->which, level);
+    return fret_phase_rate_by_load(l->curve->normal, (level + other) / 2, (level + inner) / 2,
+                                   (other - inner) / 2) *
+           way_fall(l->way, l->which, s);
+}
+
+enum { CLOSE = 16 }; /* instants closer than so many roundings are one */
+
+/* The first instant after lo at which a falling coordinate (bits: 1 M, 2 P) meets an end of a piece, or hi.
+ */
+static fret_real next_crossing(const fret_swing *c, const way *w, int coordinates, fret_real lo,
+                               fret_real hi) {
+    const fret_real close = CLOSE * LDBL_EPSILON * fmaxl(1, fabsl(hi));
+    fret_real next = hi;
+    for (int which = M; which <= P; which++) {
+        const fret_real from = way_at(w, which, lo), to = way_at(w, which, hi);
+        if (!(coordinates >> which & 1))
+            continue;
+        for (size_t i = c->count; i-- > 0 && c->pieces[i].last[which] > to;) {
+            const fret_real level = c->pieces[i].first[which];
+            if (!(level > to + noise(c) && level < from - noise(c)))
+                continue;
+            const fret_real s = way_when(w, which, level, lo, hi);
+            if (s > lo + close && s < next - close)
+                next = s;
+        }
+    }
+    return next;
+}
+
+/* Where the front comes near the centre at the end, the rate, a power of its level, is singular as near to
+ * that end in the plane of complex instants: a part is no longer than twice that distance and what follows
+ * it. */
+static fret_real part_end(const way *w, int which, fret_real lo, fret_real hi) {
+    const fret_real level = way_at(w, which, hi);
+    const fret_real distance = w->harmonic ? sqrtl(2 * level / w->size[which]) : level / -w->span[which];
+    return hi - lo > 2 * distance && hi - lo > 1e-6L ? (lo + hi) / 2 : hi;
+}
+
+/* Between two instants with the front at the level of `which`, which falls. */
+static fret_status slip_between(fret_swing *c, const way *w, int which, fret_real lo, fret_real hi) {
+    slip l = {.curve = c, .way = w, .which = which, .lo = lo};
+    while (l.lo < hi) {
+        l.hi = part_end(w, which, l.lo, next_crossing(c, w, 1 << which, l.lo, hi));
+        const fret_real loss = (l.hi - l.lo) * fret_integrate(slip_rate, &l);
+        c->last_loss += loss > 0 ? loss : 0;
+        l.lo = l.hi;
+    }
+    const fret_real end[2] = {way_at(w, M, hi), way_at(w, P, hi)};
+    return cut(c, which, end[which], end);
+}
+
+/* Does P lie above the curve (1), below it (-1), or on it? */
+static int side_of(const fret_swing *c, const way *w, fret_real s) {
+    const fret_real above = way_at(w, P, s) - curve_other(c, M, way_at(w, M, s));
+    return fabsl(above) <= 4 * noise(c) ? 0 : above > 0 ? 1 : -1;
+}
+
+/* Where the sides meet the zone is thin: what an instant of change is missed by counts by its third power. */
+enum { LOOKS = 24, HALVINGS = 40 };
+
+/* Up to when, at most hi, is the way on the side that it is on after lo? */
+static int side_until(const fret_swing *c, const way *w, fret_real lo, fret_real *hi) {
+    const fret_real step = (*hi - lo) / LOOKS;
+    const int side = side_of(c, w, lo + step / 2);
+    for (int i = 1; i < LOOKS; i++) {
+        fret_real before = lo + step * (i - 0.5L), after = before + step;
+        if (side_of(c, w, after) == side)
+            continue;
+        for (int j = 0; j < HALVINGS; j++) {
+            const fret_real middle = (before + after) / 2;
+            *(side_of(c, w, middle) == side ? &before : &after) = middle;
+        }
+        *hi = after;
+        break;
+    }
+    return side;
+}
+
+/* Slip is forward above the curve, backward below; there is none on the way back along it. The curve is
+ * another after each. */
+static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
+    fret_status st = fret_ok();
+    const fret_real least = 1e-9L * (hi - lo);
+    while (lo < hi && !st.code) {
+        const fret_real crossing = next_crossing(c, w, 1 << M | 1 << P, lo, hi);
+        fret_real stop = crossing;
+        const int side = side_until(c, w, lo, &stop);
+        stop = fminl(fmaxl(stop, lo + least), crossing);
+        if (side == 0) {
+            const fret_real end[2] = {way_at(w, M, stop), way_at(w, P, stop)};
+            st = cut(c, M, end[M], end);
+        } else {
+            st = slip_between(c, w, side > 0 ? M : P, lo, stop);
+        }
+        lo = stop;
+    }
+    return st;
+}
+
+/* A part of the way in which both coordinates are monotone. */
+static fret_status go_between(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
+    const fret_real begin[2] = {way_at(w, M, lo), way_at(w, P, lo)},
+                    end[2] = {way_at(w, M, hi), way_at(w, P, hi)};
+    bool rises[2], falls[2];
+    for (int i = M; i <= P; i++) {
+        rises[i] = end[i] - begin[i] > noise(c);
+        falls[i] = begin[i] - end[i] > noise(c);
+    }
+    if (falls[M] && falls[P])
+        return both_fall(c, w, lo, hi);
+    if (falls[M] || falls[P])
+        return slip_between(c, w, falls[M] ? M : P, lo, hi);
+    if (!rises[M] && !rises[P])
+        return fret_ok();
+    const piece grown = {.first = {begin[M], begin[P]},
+                         .last = {end[M], end[P]},
+                         .curved = w->harmonic && rises[M] && rises[P],
+                         .way = *w,
+                         .lo = lo,
+                         .hi = hi};
+    return append(c, &grown);
+}
+
+/* ---- along the curve --------------------------------------------------------------------------- */
+
+/* int sigma dy and int T sigma dy, T = (P-M)/2: displacement and stored energy. */
+typedef struct along {
+    const fret_swing *curve;
+    const piece *piece;
+    bool energy;
+} along;
+
+static fret_real along_rate(fret_real t, fret_real rest, void *context) {
+    const along *l = context;
+    const piece *p = l->piece;
+    const fret_real s = p->lo * rest + p->hi * t, m = way_at(&p->way, M, s), up = way_at(&p->way, P, s);
+    const fret_real N = (m + up) / 2, T = (up - m) / 2;
+    const fret_real dT = (way_fall(&p->way, M, s) - way_fall(&p->way, P, s)) / 2;
+    const fret_normal *n = l->curve->normal;
+    return N > 0 ? (l->energy ? T : 1) * dT * n->q * fret_law_depth(n, N) / N : 0;
+}
+
+static fret_real sum_along(const fret_swing *c, bool energy) {
+    fret_real sum = 0;
+    for (size_t i = 0; i < c->count; i++) {
+        const piece *p = &c->pieces[i];
+        along l = {c, p, energy};
+        if (p->curved) {
+            sum += (p->hi - p->lo) * fret_integrate(along_rate, &l);
+            continue;
+        }
+        const fret_real N0 = (p->first[M] + p->first[P]) / 2, N1 = (p->last[M] + p->last[P]) / 2;
+        const fret_real T0 = (p->first[P] - p->first[M]) / 2, T1 = (p->last[P] - p->last[M]) / 2;
+        if (!(N1 > N0))
+            continue;
+        const fret_level outer = {fret_law_depth(c->normal, N1), N1};
+        const fret_real h = fret_law_thickness(c->normal, &outer, N1 - N0), sigma = (T1 - T0) / (N1 - N0);
+        sum += energy ? sigma * (h * T0 + sigma * fret_law_slice(c->normal, &outer, h).J) : sigma * h;
+    }
+    return sum;
+}
+
+void fret_swing_state(const fret_swing *c, fret_state *out) {
+    const fret_real mu_eta = c->mu * c->normal->foundation.eta;
+    *out = (fret_state){.FN = c->FN,
+                        .dz = c->dz,
+                        .a = c->a,
+                        .Fx = c->Fx,
+                        .dx = c->slid + mu_eta * sum_along(c, false),
+                        .c = c->a,
+                        .W = fret_sum_value(&c->W),
+                        .U = c->mu * mu_eta * sum_along(c, true),
+                        .kn = fret_normal_stiffness(c->normal, c->a),
+                        .slices = c->count};
+    fret_real inner = c->a;
+    if (c->count) {
+        const piece *top = &c->pieces[c->count - 1];
+        const bool forward = top->first[M] == top->last[M], backward = top->first[P] == top->last[P];
+        const fret_real N = (top->first[M] + top->first[P]) / 2;
+        if (forward || backward)
+            out->c =
+                N > 0 ? fret_law_level_radius(c->normal, &(fret_level){fret_law_depth(c->normal, N), N}) : 0;
+        if (c->direction > 0 ? forward : backward)
+            inner = out->c;
+    }
+    out->kt = inner > 0 ? fret_normal_stiffness(c->normal, inner) / c->normal->foundation.eta : 0;
+}
+
+fret_real fret_swing_last_loss(const fret_swing *c) {
+    return c->last_loss;
+}
+
+/* ---- periods and steps ------------------------------------------------------------------------- */
+
+static void make_harmonic(const fret_swing *c, const fret_sine *sine, way *out) {
+    *out = (way){.harmonic = true, .mean = sine->FN};
+    const fret_real y = -sine->FNA * fret_sin(sine->phase), normal = sine->FNA * fret_cos(sine->phase);
+    for (int i = M; i <= P; i++) {
+        const fret_real x = normal + (i == M ? -1 : 1) * sine->FA / (fret_real)c->mu;
+        out->size[i] = sqrtl(x * x + y * y);
+        out->lag[i] = fret_atan2(y, x);
+    }
+}
+
+int fret_swing_fits(const fret_swing *c, const fret_sine *sine) {
+    way w;
+    make_harmonic(c, sine, &w);
+    const fret_real little = 4 * DBL_EPSILON * sine->FN;
+    const fret_real begin[2] = {c->FN - c->Fx / c->mu, c->FN + c->Fx / c->mu};
+    for (int i = M; i <= P; i++)
+        if (!(w.size[i] < w.mean * (1 - 1e-12L)) || !(fabsl(way_at(&w, i, 0) - begin[i]) <= little))
+            return 0;
+    return 1;
+}
+
+static void set_edge(fret_swing *c, const fret_press *p, fret_real Fx) {
+    if (Fx != c->Fx)
+        c->direction = Fx < c->Fx ? -1 : 1;
+    c->FN = p->F;
+    c->dz = p->dz;
+    c->a = p->a;
+    c->Fx = Fx;
+}
+
+static void add_loss(fret_swing *c) {
+    c->last_loss *= c->mu * c->mu * c->normal->foundation.eta;
+    fret_sum_add(&c->W, c->last_loss);
+}
+
+fret_status fret_swing_period(fret_swing *c, const fret_sine *sine) {
+    fret_real turn[8] = {0};
+    size_t turns = 1;
+    fret_press p;
+    way w;
+    make_harmonic(c, sine, &w);
+    for (int i = M; i <= P; i++)
+        for (int half = -2; half <= 3; half++) {
+            const fret_real s = w.lag[i] + half * FRET_PI;
+            if (w.size[i] > 0 && s > 0 && s < 2 * FRET_PI)
+                turn[turns++] = s;
+        }
+    for (size_t i = 1; i < turns; i++) /* few */
+        for (size_t j = i; j > 1 && turn[j] < turn[j - 1]; j--) {
+            const fret_real s = turn[j];
+            turn[j] = turn[j - 1];
+            turn[j - 1] = s;
+        }
+    turn[turns++] = 2 * FRET_PI;
+    c->scale = fmaxl(c->scale, w.mean + fmaxl(w.size[M], w.size[P]));
+    c->last_loss = 0;
+    fret_status st = fret_ok();
+    for (size_t i = 1; i < turns && !st.code; i++)
+        if (turn[i] - turn[i - 1] > CLOSE * LDBL_EPSILON * 2 * FRET_PI)
+            st = go_between(c, &w, turn[i - 1], turn[i]);
+    if (!st.code)
+        st = fret_press_by_force(c->normal, (double)(sine->FN + sine->FNA * fret_cos(sine->phase)), &p);
+    if (st.code)
+        return st;
+    add_loss(c);
+    set_edge(c, &p, sine->FA);
+    c->direction = 1;
+    return st;
+}
+
+fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
+    fret_press p = {.F = c->FN, .dz = c->dz, .a = c->a};
+    fret_status st = fret_ok();
+    if (step->tangential_by != FRET_TO_FX)
+        return fret_fail(FRET_OUTSIDE, "dx", step->tangential, 0);
+    if (step->normal_by == FRET_TO_FORCE)
+        st = fret_press_by_force(c->normal, step->normal, &p);
+    else if (step->normal_by == FRET_TO_DEPTH)
+        st = fret_press_by_depth(c->normal, fmax(step->normal, 0), &p);
+    fret_real load = step->tangential / (fret_real)c->mu;
+    if (!st.code && !isfinite(step->tangential))
+        st = fret_fail(FRET_NOT_FINITE, "Fx", step->tangential, 0);
+    if (!st.code && fabsl(load) > p.F * (1 - (fret_real)DBL_EPSILON)) {
+        if (fabsl(load) > p.F * (1 + (fret_real)DBL_EPSILON))
+            st = fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(c->mu * p.F));
+        load = copysignl(p.F, load);
+    }
+    if (st.code)
+        return st;
+    way w = {.harmonic = false};
+    const fret_real old = c->Fx / c->mu, begin[2] = {c->FN - old, c->FN + old},
+                    end[2] = {p.F - load, p.F + load};
+    for (int i = M; i <= P; i++) {
+        w.start[i] = begin[i];
+        w.span[i] = end[i] - begin[i];
+        c->scale = fmaxl(c->scale, end[i]);
+    }
+    c->last_loss = 0;
+    st = go_between(c, &w, 0, 1);
+    if (st.code)
+        return st;
+    add_loss(c);
+    set_edge(c, &p, step->tangential);
+    return st;
+}
+
+/* ---- life -------------------------------------------------------------------------------------- */
+
+fret_status fret_swing_make(const fret_memory *m, fret_swing **out) {
+    if (!fret_normal_closed(m->normal))
+        return fret_fail(FRET_OUTSIDE, "gap", 0, 0);
+    fret_swing *c = calloc(1, sizeof *c);
+    fret_status st = c ? reserve(c, m->count + 8) : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    if (st.code) {
+        free(c);
+        return st;
+    }
+    c->normal = m->normal;
+    c->mu = m->mu;
+    c->FN = m->edge[LOAD];
+    c->dz = m->edge[DEPTH];
+    c->a = m->radius;
+    c->Fx = m->held == FRET_TO_FX ? m->goal : m->mu * fret_memory_total(m, LOAD);
+    c->slid = m->slid;
+    c->direction = m->direction;
+    c->W = m->W;
+    fret_real at[2] = {0, 0};
+    for (size_t i = 0; i < m->count; i++) {
+        piece *p = &c->pieces[c->count++];
+        const fret_real h = m->slices[i].thick[LOAD], sigma = m->slices[i].sigma;
+        *p = (piece){.first = {at[M], at[P]}};
+        at[M] += (1 - sigma) * h;
+        at[P] += (1 + sigma) * h;
+        memcpy(p->last, at, sizeof at);
+    }
+    c->scale = fmaxl(at[M], at[P]);
+    *out = c;
+    return st;
+}
+
+void fret_swing_free(fret_swing *c) {
+    if (c)
+        free(c->pieces);
+    free(c);
+}
+
+fret_status fret_swing_copy(fret_swing *to, const fret_swing *from) {
+    if (to == from)
+        return fret_ok();
+    const fret_status st = reserve(to, from->count);
+    if (st.code)
+        return st;
+    piece *pieces = to->pieces;
+    const size_t room = to->room;
+    *to = *from;
+    to->pieces = pieces;
+    to->room = room;
+    memcpy(pieces, from->pieces, from->count * sizeof *pieces);
+    return st;
+}
+
+enum { SAMPLES = 160 };
+
+/* A straight slice of the memory between two places. */
+static void put_slice(fret_memory *m, const fret_real from[2], const fret_real to[2]) {
+    const fret_real N0 = (from[M] + from[P]) / 2, N1 = (to[M] + to[P]) / 2, load = N1 - N0;
+    if (!(load > 0))
+        return;
+    const fret_level outer = {fret_law_depth(m->normal, N1), N1};
+    slice *s = &m->slices[m->count++];
+    *s = (slice){.thick = {fret_law_thickness(m->normal, &outer, load), load},
+                 .inner = {fret_law_depth(m->normal, N0), N0},
+                 .sigma = (to[P] - from[P] - (to[M] - from[M])) / (2 * load)};
+    for (coordinate by = DEPTH; by <= LOAD; by++)
+        s->sum[by] = (m->count > 1 ? s[-1].sum[by] : 0) + s->sigma * s->thick[by];
+}
+
+fret_status fret_swing_memory(const fret_swing *c, fret_memory *m) {
+    fret_state now;
+    const fret_status st = fret_memory_reserve(m, c->count * SAMPLES + 4);
+    if (st.code)
+        return st;
+    fret_swing_state(c, &now);
+    fret_memory_reset(m);
+    for (size_t i = 0; i < c->count; i++) {
+        const piece *p = &c->pieces[i];
+        fret_real from[2] = {p->first[M], p->first[P]}, to[2];
+        for (int j = 1; p->curved && j < SAMPLES; j++) {
+            const fret_real s = p->lo + (p->hi - p->lo) * j / SAMPLES;
+            to[M] = way_at(&p->way, M, s);
+            to[P] = way_at(&p->way, P, s);
+            put_slice(m, from, to);
+            memcpy(from, to, sizeof from);
+        }
+        put_slice(m, from, p->last);
+    }
+    m->edge[DEPTH] = c->dz;
+    m->edge[LOAD] = c->FN;
+    m->radius = c->a;
+    m->slid = now.dx - m->mu_eta * fret_memory_total(m, DEPTH);
+    m->direction = c->direction;
+    m->held = FRET_TO_FX;
+    m->goal = (double)c->Fx;
+    m->W = c->W;
+    m->last_loss = c->last_loss;
+    return st;
+}

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Harmonic forces event by event: against exact references, and against chords of the same memory. */
+#include "contact/memory.h"
+#include "unit.h"
+
+static const double half_turn = 3.14159265358979323846;
+
+typedef struct load {
+    double n, A, E0, k, mu, FN, FA, FNA, degrees;
+    double lead; /* Fx that is gone to first, in units of mu FN */
+} load;
+
+static const fret_normal *normal_of(const load *l) {
+    const fret_material material = {{{l->E0, 0.3, false}, {l->E0, 0.3, false}}, l->k, 1e-3};
+    const fret_gap gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{l->n, l->A, 1}}};
+    const unit_scene s = {.material = material, .gap = gap, .mu = l->mu};
+    return unit_make_normal(&s);
+}
+
+static fret_sine sine_of(const load *l) {
+    return (fret_sine){l->FA, l->FNA, l->degrees * half_turn / 180, l->FN};
+}
+
+/* Pressed, led somewhere, and taken to where the period begins. */
+static fret_memory *begin(const load *l) {
+    const fret_sine w = sine_of(l);
+    fret_memory *m = NULL;
+    if (!CHECK(fret_memory_make(normal_of(l), l->mu, &m).code == FRET_OK))
+        exit(unit_finish());
+    const fret_step steps[] = {{FRET_TO_FORCE, FRET_KEEP_DX, l->FN, 0},
+                               {FRET_KEEP_NORMAL, FRET_TO_FX, 0, l->lead * l->mu * l->FN},
+                               {FRET_TO_FORCE, FRET_TO_FX, l->FN + w.FNA * cos(w.phase), l->FA}};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        CHECK_OK(fret_memory_step(m, &steps[i]));
+    return m;
+}
+
+static fret_swing *swing_of(const fret_memory *m) {
+    fret_swing *s = NULL;
+    if (!CHECK(fret_swing_make(m, &s).code == FRET_OK))
+        exit(unit_finish());
+    return s;
+}
+
+/* A period in chords that end where F_N, Fx, or one plus or minus the other in units of mu turn. */
+static fret_real chords(fret_memory *m, const load *l, int count) {
+    const fret_sine w = sine_of(l);
+    const double x = l->FNA * cos(w.phase), y = -l->FNA * sin(w.phase);
+    double node[16];
+    int nodes = 0;
+    fret_real sum = 0;
+    const double turn[] = {0, -w.phase, atan2(y, x - l->FA / l->mu), atan2(y, x + l->FA / l->mu)};
+    for (int i = 0; i < 4; i++)
+        for (int half = 0; half < 2; half++)
+            node[nodes++] = fmod(turn[i] + half * half_turn + 4 * half_turn, 2 * half_turn);
+    node[nodes++] = 2 * half_turn;
+    for (int i = 1; i < nodes; i++)
+        for (int j = i; j > 0 && node[j] < node[j - 1]; j--) {
+            const double swap = node[j];
+            node[j] = node[j - 1];
+            node[j - 1] = swap;
+        }
+    for (int i = 1; i < nodes; i++)
+        for (int j = 1; j <= count && node[i] - node[i - 1] > 1e-9; j++) {
+            const double s = node[i - 1] + (node[i] - node[i - 1]) * j / count;
+            const fret_step step = {FRET_TO_FORCE, FRET_TO_FX, l->FN + l->FNA * cos(s + w.phase),
+                                    l->FA * cos(s)};
+            CHECK_OK(fret_memory_step(m, &step));
+            sum += fret_memory_last_loss(m);
+        }
+    return sum;
+}
+
+static double number_after(const char *text, const char *word) {
+    const char *at = strstr(text, word);
+    return CHECK(at != NULL) ? strtod(at + strlen(word), NULL) : (double)NAN;
+}
+
+/* Every row of the table, in the words of the language. */
+static void references(void) {
+    unit_table t;
+    if (!unit_open(&t, "swinging.csv"))
+        return;
+    while (unit_row(&t)) {
+        if (t.line < 6) /* the names of the columns */
+            continue;
+        const char *setup = t.cell[0], *cycle = t.cell[1];
+        const bool sphere = strstr(setup, "paraboloid"), cone = strstr(setup, "cone");
+        const load l = {.n = sphere ? 2
+                             : cone ? 1
+                                    : number_after(setup, " n="),
+                        .A = sphere ? 50 : number_after(setup, cone ? "slope=" : " A="),
+                        .E0 = 1e9 * number_after(setup, "E0="),
+                        .k = strstr(setup, " k=") ? number_after(setup, " k=") : 0,
+                        .mu = number_after(setup, "friction "),
+                        .FN = number_after(setup, "FN="),
+                        .FA = number_after(cycle, "FA="),
+                        .FNA = number_after(cycle, "FNA="),
+                        .degrees = number_after(cycle, "phase=")};
+        const fret_sine w = sine_of(&l);
+        fret_memory *m = begin(&l);
+        fret_swing *s = swing_of(m);
+        fret_state now;
+        CHECK(fret_swing_fits(s, &w));
+        for (int i = 0; i < 3; i++)
+            CHECK_OK(fret_swing_period(s, &w));
+        fret_swing_state(s, &now);
+        CHECK_REL(now.W, unit_result(&t, 2), 1e-15L);
+        CHECK_ABS(fret_swing_last_loss(s), unit_result(&t, 3), unit_result(&t, 2), 1e-15L);
+        fret_swing_free(s);
+        fret_memory_free(m);
+    }
+}
+
+static unsigned long long seed = 88172645463325252ull;
+static double uniform(void) {
+    seed ^= seed << 13;
+    seed ^= seed >> 7;
+    seed ^= seed << 17;
+    return (double)(seed >> 11) * 0x1p-53;
+}
+
+static double pick(const double *from, size_t count) {
+    return from[(size_t)(uniform() * (double)count)];
+}
+
+static load random_load(void) {
+    static const double n[] = {0.5, 1, 2, 4, 100}, k[] = {-0.99, -0.4, 0, 0.5, 0.99},
+                        angle[] = {0, 90, 180, 270};
+    load l = {pick(n, 5), 0.05, 210e9, pick(k, 5), 0.4, 100, 0, 0, 0, 1.8 * uniform() - 0.9};
+    l.FNA = 90 * uniform();
+    l.FA = 0.95 * uniform() * l.mu * (l.FN - l.FNA);
+    l.degrees = uniform() < 0.3 ? pick(angle, 4) : 360 * uniform();
+    return l;
+}
+
+/* Two periods of any load: what ever finer chords come near to. */
+static void against_chords(int count) {
+    for (int i = 0; i < count; i++) {
+        const load l = random_load();
+        const fret_sine w = sine_of(&l);
+        fret_memory *coarse = begin(&l), *fine = begin(&l);
+        fret_swing *s = swing_of(coarse);
+        fret_state a, b, now;
+        fret_real loss[2] = {0, 0};
+        CHECK(fret_swing_fits(s, &w));
+        for (int j = 0; j < 2; j++) {
+            CHECK_OK(fret_swing_period(s, &w));
+            loss[0] = chords(coarse, &l, 40);
+            loss[1] = chords(fine, &l, 80);
+        }
+        fret_memory_state(coarse, &a);
+        fret_memory_state(fine, &b);
+        fret_swing_state(s, &now);
+        CHECK_ABS(fret_swing_last_loss(s), loss[1] + (loss[1] - loss[0]) / 3, now.W, 1e-5L);
+        CHECK_REL(now.W, b.W + (b.W - a.W) / 3, 1e-5L);
+        CHECK_REL(now.U, b.U + (b.U - a.U) / 3, 1e-5L);
+        CHECK_REL(now.dx, b.dx + (b.dx - a.dx) / 3, 1e-5L);
+        CHECK_REL(now.FN, b.FN, 1e-15L);
+        CHECK_REL(now.dz, b.dz, 1e-15L);
+        CHECK_REL(now.a, b.a, 2e-14L);
+        if (fmod(l.degrees, 180) != 0) /* where it ends on the brink of slip, any will do */
+            CHECK_REL(now.c, b.c, 1e-3L);
+        /* as a memory it carries on from there */
+        CHECK_OK(fret_swing_memory(s, coarse));
+        fret_memory_state(coarse, &a);
+        CHECK_REL(a.dx, now.dx, 1e-15L);
+        CHECK_ABS(a.Fx, now.Fx, l.mu * now.FN, 1e-15L);
+        CHECK_REL(a.U, now.U, 1e-3L);
+        CHECK(a.W == now.W && a.FN == now.FN);
+        fret_swing_free(s);
+        fret_memory_free(coarse);
+        fret_memory_free(fine);
+    }
+}
+
+/* Straight steps, as the memory takes them. */
+static void against_memory(int count) {
+    for (int i = 0; i < count; i++) {
+        const load l = random_load();
+        fret_memory *m = begin(&l);
+        fret_swing *s = swing_of(m), *kept = swing_of(m);
+        fret_state a, b;
+        for (int j = 0; j < 30; j++) {
+            const double FN = 100 * uniform(), part = 2 * uniform() - 1;
+            const fret_step step = {j % 3 ? FRET_TO_FORCE : FRET_KEEP_NORMAL, FRET_TO_FX, FN,
+                                    j % 3 ? l.mu * FN * part : 0.01 * part};
+            const fret_status one = fret_memory_step(m, &step), two = fret_swing_step(s, &step);
+            CHECK(one.code == two.code);
+            if (one.code)
+                continue;
+            fret_memory_state(m, &a);
+            fret_swing_state(s, &b);
+            const fret_real size =
+                l.mu * l.mu * m->normal->foundation.eta * 100 * fret_law_depth(m->normal, 100);
+            CHECK_REL(b.W, a.W, 1e-13L);
+            CHECK_ABS(fret_swing_last_loss(s), fret_memory_last_loss(m), size, 1e-14L);
+            CHECK_ABS(b.U, a.U, size, 1e-15L);
+            CHECK_ABS(b.dx, a.dx, l.mu * m->normal->foundation.eta * a.dz, 1e-14L);
+            CHECK(b.FN == a.FN && b.dz == a.dz && b.a == a.a);
+            CHECK_REL(b.c, a.c, 1e-9L);
+            CHECK_REL(b.kt, a.kt, 1e-9L);
+            CHECK_OK(fret_swing_copy(kept, s));
+        }
+        fret_swing_state(s, &a);
+        fret_swing_state(kept, &b);
+        CHECK(a.W == b.W && a.dx == b.dx && a.U == b.U);
+        fret_swing_free(s);
+        fret_swing_free(kept);
+        fret_memory_free(m);
+    }
+}
+
+static void refusals(void) {
+    load l = {2, 50, 210e9, 0, 0.4, 100, 20, 30, 90, 0};
+    fret_memory *m = begin(&l);
+    fret_swing *s = swing_of(m);
+    fret_state before, after;
+    fret_swing_state(s, &before);
+    const fret_sine slides = {39, 30, 1, 100}, elsewhere = {20, 30, 1, 100}, opens = {0, 100, 0, 100};
+    CHECK(!fret_swing_fits(s, &slides) && !fret_swing_fits(s, &elsewhere) && !fret_swing_fits(s, &opens));
+    const fret_step by_dx = {FRET_KEEP_NORMAL, FRET_TO_DX, 0, 1e-7},
+                    too_much = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 50},
+                    nan = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, (double)NAN};
+    CHECK(fret_swing_step(s, &by_dx).code == FRET_OUTSIDE);
+    CHECK(fret_swing_step(s, &too_much).code == FRET_GROSS_SLIP);
+    CHECK(fret_swing_step(s, &nan).code == FRET_NOT_FINITE);
+    fret_swing_state(s, &after);
+    CHECK(before.dx == after.dx && before.W == after.W);
+    fret_swing_free(s);
+    fret_memory_free(m);
+}
+
+int main(int argc, char **argv) {
+    unit_start("swing", argc, argv);
+    references();
+    against_chords(60);
+    against_memory(40);
+    refusals();
+    return unit_finish();
+}
