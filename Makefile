@@ -18,9 +18,10 @@ READLINE  ?= yes
 GSL       ?= yes
 # LIVE=no: no full-screen mode
 LIVE      ?= yes
+CURSES    := $(shell pkg-config --libs ncursesw 2>/dev/null || echo -lncursesw -ltinfo)
 LIBS_CORE := -lm
 LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas)
-LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline) $(if $(filter no,$(LIVE)),,-lncursesw -ltinfo)
+LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline) $(if $(filter no,$(LIVE)),,$(CURSES))
 
 # what is left out with GSL=no, and without
 BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,ask solve optimise fit uncertainty)) \
@@ -103,7 +104,12 @@ static:
 $(B)/tests/hard/hard: $(call OBJ,$(HARD) $(CORE))
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ -lmpfr -lgmp $(LIBS_CORE)
 
-tests: $(TESTS) $(if $(MPFR),$(B)/tests/hard/hard)
+# Loaded before the C library: lets allocations fail. It takes glibc, and no sanitizer.
+$(B)/tests/faults.so: tests/fuzz/faults.c
+	@mkdir -p $(@D)
+	$(CC) -O1 -g $(WARN) -fPIC -shared -o $@ $<
+
+tests: $(B)/tests/faults.so $(TESTS) $(if $(MPFR),$(B)/tests/hard/hard)
 
 deps:
 	@sh scripts/install-deps run
@@ -127,6 +133,17 @@ hard: deps-check
 	@{ echo '# make hard HARD_SCENES=$(HARD_SCENES) HARD_STEPS=$(HARD_STEPS)'; \
 	  nice $(B)/tests/hard/hard --scenes $(HARD_SCENES) --steps $(HARD_STEPS) --jobs $$(nproc); } > $(B)/worst.txt; \
 	  status=$$?; mv $(B)/worst.txt tests/hard/worst.txt; tail -n 1 tests/hard/worst.txt; exit $$status
+
+# Every allocation of every kind of statement fails once.
+faults: deps-check
+	@$(MAKE) --no-print-directory -s $(B)/fret $(B)/tests/faults.so
+	@python3 tests/fuzz/faults.py $(B)/fret $(B)/tests/faults.so
+
+# How long Ctrl-C takes. The table is kept in git.
+latency: deps-check
+	@$(MAKE) --no-print-directory -s $(B)/fret
+	@python3 tests/interactive/latency.py $(B)/fret > $(B)/latency.txt
+	@mv $(B)/latency.txt tests/hard/latency.txt; cat tests/hard/latency.txt
 
 # Ratios against a baseline in the same run; nothing is asserted.
 bench: all
@@ -176,5 +193,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: all figures manual uninstall deb static tests deps deps-check run check hard bench format install clean FORCE
+.PHONY: all figures manual uninstall deb static tests deps deps-check run check hard faults latency bench format install clean FORCE
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

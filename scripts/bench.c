@@ -369,6 +369,62 @@ static double sweep_point(const fret_normal *n, const fret_press *p, sweep kind)
     return best;
 }
 
+/* A load that swings in F_N and F_x, 90 degrees apart: a chord of 200 a period, and a period of the sine
+ * itself. */
+static const double FNA = 30, FA = 20;
+static double swinging_chord(const fret_normal *n, bool in_phase) {
+    const double pi = acos(-1), phase = in_phase ? 0 : pi / 2;
+    double best = INFINITY, load[200][2];
+    fret_memory *m = NULL;
+    for (int i = 0; i < 200; i++) {
+        load[i][0] = FN + FNA * cos(2 * pi * i / 200 + phase);
+        load[i][1] = FA * cos(2 * pi * i / 200);
+    }
+    need(fret_memory_make(n, mu, &m));
+    for (int run = 0; run < 20; run++) {
+        double t0 = seconds();
+        for (int i = 0; i < 200; i++) {
+            need(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, load[i][0], load[i][1]}));
+            sink = (double)fret_memory_last_loss(m);
+        }
+        best = fmin(best, (seconds() - t0) / 200);
+    }
+    fret_memory_free(m);
+    return best;
+}
+
+static double swinging_period(const fret_normal *n) {
+    const fret_sine sine = {FA, FNA, acos(-1) / 2, FN};
+    double best = INFINITY;
+    fret_memory *m = NULL;
+    fret_swing *s = NULL;
+    need(fret_memory_make(n, mu, &m));
+    need(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
+    need(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, FN + FNA * cos(sine.phase), FA}));
+    need(fret_swing_make(m, &s));
+    for (int run = 0; run < 20; run++) {
+        double t0 = seconds();
+        need(fret_swing_period(s, &sine));
+        sink = (double)fret_swing_last_loss(s);
+        best = fmin(best, seconds() - t0);
+    }
+    fret_swing_free(s);
+    fret_memory_free(m);
+    return best;
+}
+
+/* The pressure at a place, over the contact. */
+static double pressure_value(const fret_normal *n, const fret_press *p) {
+    const int count = 200;
+    double t0 = seconds();
+    for (int i = 1; i < count; i++) {
+        fret_real value;
+        need(fret_pressure(n, p->a, p->a * i / count, &value));
+        sink = (double)value;
+    }
+    return (seconds() - t0) / (count - 1);
+}
+
 static const double ns = 1e9, us = 1e6;
 
 static int places(double value, int digits) { /* so that all digits before the point are there */
@@ -461,6 +517,13 @@ int main(void) {
     line("c, an array", sweep_point(n, &p, RADIUS_ALL), pair, libm, ns, "");
     line("c and dx, an array", sweep_point(n, &p, LOADING_ALL), pair, libm, ns, "");
     line("a and dz, an array", sweep_point(n, &p, PRESS_ALL), pair, libm, ns, "");
+    puts("A swinging normal force");
+    const double chord = swinging_chord(n, false);
+    line("a chord of 200", chord, one_power, "one powl", us, "0.3 us");
+    line("a chord of 200, in phase", swinging_chord(n, true), one_power, "one powl", us, "0.3 us");
+    line("a period of the sine itself", swinging_period(n), 200 * chord, "200 chords", us, "2000 us");
+    puts("A local field");
+    line("p(r)", least(pressure_value, n, &p), one_power, "one powl", us, "5 us");
     fret_normal_free(n);
     return EXIT_SUCCESS;
 }

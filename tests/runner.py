@@ -30,6 +30,7 @@ import portable  # noqa: E402
 import prompt  # noqa: E402
 import reading  # noqa: E402
 import reference  # noqa: E402
+import rim  # noqa: E402
 import scripts  # noqa: E402
 import table  # noqa: E402
 import trouble  # noqa: E402
@@ -194,7 +195,7 @@ ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of
          "reference": reference.run, "scripts": scripts.run, "reading": reading.run, "keeping": keeping.run,
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
          "fits": fits.run, "backwards": backwards.run, "errors": table.run,
-         "trouble": trouble.run,
+         "trouble": trouble.run, "rim": rim.run,
          "interactive": prompt.run, "live": live.run, "completion": completion.run, "readme": readme, "help": help_examples,
          "portable": portable.run, "packaging": packaging.run,
          "house": house.run}

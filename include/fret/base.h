@@ -9,8 +9,12 @@ typedef long double fret_real;
 
 /* Around the declarations of a header: C names, visible in the shared library. */
 #ifdef __cplusplus
-#define FRET_BEGIN extern "C" { _Pragma("GCC visibility push(default)")
-#define FRET_END _Pragma("GCC visibility pop") }
+#define FRET_BEGIN                                                                                           \
+    extern "C" {                                                                                             \
+    _Pragma("GCC visibility push(default)")
+#define FRET_END                                                                                             \
+    _Pragma("GCC visibility pop")                                                                            \
+    }
 #else
 #define FRET_BEGIN _Pragma("GCC visibility push(default)")
 #define FRET_END _Pragma("GCC visibility pop")

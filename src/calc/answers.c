@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows from a scene, made ready on demand: the load program is run as far as it has grown, the cheapest
- * model that is exact answers. */
+/* What follows from a scene, made ready on demand: the load program is run as far as it has grown, the
+ * cheapest model that is exact answers. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -21,7 +21,8 @@ static bool friction_for_program(scene *s, double *mu, calc_error *error) {
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {
     const load_reach *reach;
     long double FN;
-    *out = (load_view){.program = s->program, .end = s->end, .in = &s->in, .stop = s->stop, .pulse = s->pulse};
+    *out =
+        (load_view){.program = s->program, .end = s->end, .in = &s->in, .stop = s->stop, .pulse = s->pulse};
     if (!scene_reach(s, &reach, error) || !scene_normal(s, &out->normal, error) ||
         !friction_for_program(s, &out->mu, error))
         return false;
@@ -40,11 +41,12 @@ static void drop_runs(answers *a) {
 /* Can a swinging load be taken as it is? By force, from the first such cycle on, on a power law. */
 static bool takes_sine(const load_view *load) {
     bool swings = false;
-    for (size_t i = 0; i < load->end.steps; i++) {
-        const load_step *step = &load->program->steps[i];
-        swings = swings || (step->kind == LOAD_CYCLE && load_moves_normal(step));
-        if (swings && step->tangential != BY_FORCE)
+    for (load_mark at = {0, 0}; at.steps < load->end.steps; at.steps++) {
+        const load_item item = program_item(load->program, at, load->last_cycle, load->in);
+        swings = swings || (item.step.kind == LOAD_CYCLE && load_moves_normal(&item.step));
+        if (swings && item.step.tangential != BY_FORCE)
             return false;
+        at.cycles += item.step.kind == LOAD_CYCLE;
     }
     return fret_normal_is_power(load->normal);
 }
@@ -81,7 +83,7 @@ static fret_status run_levels(answers *a, const load_view *load) {
         a->run[i].load = load;
         st = run_to(&a->run[i], load->end);
     }
-    if (st.code || !a->run[0].chorded)
+    if (!a->run[0].chorded)
         return st;
     a->chords = true; /* the contact opens: what is not the sine itself wants its limit */
     drop_runs(a);
@@ -127,7 +129,8 @@ static void use_spares(answers *a) {
     }
 }
 
-/* To slide to a displacement at constant F_N is always possible: such a step waits until a result is asked. */
+/* To slide to a displacement at constant F_N is always possible: such a step waits until a result is asked.
+ */
 static bool can_wait(const scene *s, const load_step *step) {
     return s->answers.levels && load_is_slide(step);
 }
@@ -144,15 +147,16 @@ static bool start_program(scene *s, const load_step *press, calc_error *error) {
     return false;
 }
 
-/* The step that has just been appended. A single step leaves the memory as it was when it fails; a cycle, or one of
- * several levels, needs the spares. */
+/* The step that has just been appended. A single step leaves the memory as it was when it fails; a cycle, or
+ * one of several levels, needs the spares. */
 static bool run_appended(scene *s, bool whole, calc_error *error) {
     answers *a = &s->answers;
     load_view load;
     if (!scene_load_of(s, &load, error))
         return false;
     fret_status st = raise_levels(a, &load);
-    const bool spares = whole || a->levels > 1;
+    const unsigned levels = a->levels;
+    const bool spares = whole || levels > 1;
     const runner before = a->run[0];
     if (!st.code && spares)
         st = keep_spares(a, &load);
@@ -161,7 +165,9 @@ static bool run_appended(scene *s, bool whole, calc_error *error) {
     st = run_levels(a, &load);
     if (!st.code)
         return true;
-    if (spares)
+    if (spares && a->levels != levels) /* begun anew in chords: to be run again when it is asked for */
+        drop_runs(a);
+    else if (spares)
         use_spares(a);
     else
         a->run[0] = before;
@@ -242,8 +248,7 @@ static bool press_of_program(scene *s, calc_error *error) {
     const load_step *step = &s->program->steps[0];
     const fret_normal *normal;
     long double FN = step->normal_value;
-    if (!scene_normal(s, &normal, error) ||
-        (step->normal == BY_FORCE && !scene_get(s, IN_FN, &FN, error)))
+    if (!scene_normal(s, &normal, error) || (step->normal == BY_FORCE && !scene_get(s, IN_FN, &FN, error)))
         return false;
     fret_press *press = &s->answers.press;
     fret_status st = step->normal == BY_FORCE          ? fret_press_by_force(normal, (double)FN, press)

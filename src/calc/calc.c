@@ -42,9 +42,8 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
         if (!s->in.geometry)
             return calc_fail(error, 0, 0,
                              "there is no geometry yet: give one first (geometry sphere R=10 mm)");
-        return inputs_take(&s->in, in) ||
-               calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s)", q->name, s->in.geometry->name,
-                         s->in.geometry->usage);
+        return inputs_take(&s->in, in) || calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s)",
+                                                    q->name, s->in.geometry->name, s->in.geometry->usage);
     }
     if (in == IN_FN)
         return !s->end.steps || s->program->steps[0].normal == BY_FORCE ||
@@ -52,8 +51,8 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
     if (!(INPUT_BIT(in) & INPUT_CYCLE))
         return true;
     if (!s->end.cycles)
-        return calc_fail(error, 0, 0, "there is no cycle that %s could belong to: run one first (cycle FA=20 N)",
-                         q->name);
+        return calc_fail(error, 0, 0,
+                         "there is no cycle that %s could belong to: run one first (cycle FA=20 N)", q->name);
     if (in == IN_FA && !s->in.set[IN_FA])
         return calc_fail(error, 0, 0, "the last cycle was given by displacement: dxA, not FA");
     if (in == IN_DXA && !s->in.set[IN_DXA])
@@ -174,7 +173,8 @@ static bool read_value(calc *c, lexer *lx, assignment *all, size_t count) {
     if (!expr_parse_at(c, lx, &c->scratch) || !expr_eval(c, &c->scratch, &a->v, lx->error))
         return false;
     a->value_len = lx->last - a->value_at;
-    return !a->q || value_dim(lx, a->q->name, a->value_at, a->value_len, a->v, wanted_dim(c, a->q, all, count));
+    return !a->q ||
+           value_dim(lx, a->q->name, a->value_at, a->value_len, a->v, wanted_dim(c, a->q, all, count));
 }
 
 static bool read_assignment(calc *c, lexer *lx, assignment *all, size_t count) {
@@ -261,7 +261,8 @@ static void put_inputs(inputs *in, void *context) {
     }
 }
 
-/* A live definition may wait for what it needs, but not for itself; nor can its dimensions be mended later. */
+/* A live definition may wait for what it needs, but not for itself; nor can its dimensions be mended later.
+ */
 static bool definition_fails(calc *c, lexer *lx, const assignment *a, calc_error *error) {
     if (!error->circle && !error->strange)
         return false;
@@ -339,15 +340,16 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
     char way[CALC_ERROR_TEXT / 2];
     const char *text = lx->text + a->at;
     if (a->increment)
-        return calc_fail(lx->error, a->at, a->len, "+= belongs to step; write %.*s = ...", LEX_SHOWN(a->len), text);
+        return calc_fail(lx->error, a->at, a->len, "+= belongs to step; write %.*s = ...", LEX_SHOWN(a->len),
+                         text);
     if (!names_find(&c->names, text, a->len, &i)) {
         note_new_name(c, text, a->len);
         if (!names_add(&c->names, text, a->len, &i))
             return calc_no_memory(lx->error);
     }
     if (a->d && expr_way(c, &a->d->body, a->d->label, way, sizeof way))
-        return calc_fail(lx->error, a->value_at, a->value_len, "a circle of definitions: %s -> %s%s", a->d->label, way,
-                         a->d->label);
+        return calc_fail(lx->error, a->value_at, a->value_len, "a circle of definitions: %s -> %s%s",
+                         a->d->label, way, a->d->label);
     if (!undo_name(c, i))
         return calc_no_memory(lx->error);
     names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);

@@ -23,7 +23,7 @@ typedef struct undo {
     unsigned long group;
     unsigned long outermost; /* the group of the statement that holds the others */
     int nesting;             /* of statements that hold others */
-    size_t base_steps; /* of the oldest state that can come back */
+    size_t base_steps;       /* of the oldest state that can come back */
 } undo;
 
 enum { CHAIN = 100, CALC_NOTE = 200 };
@@ -35,8 +35,8 @@ typedef struct calc {
     undo undo;
     value ans; /* the last value printed */
     bool has_ans;
-    char note[CALC_NOTE]; /* something to be told that is no error; empty: nothing */
-    expr scratch;         /* storage of expr_value */
+    char note[CALC_NOTE];           /* something to be told that is no error; empty: nothing */
+    expr scratch;                   /* storage of expr_value */
     const definition *chain[CHAIN]; /* being evaluated */
     size_t chain_length;
 } calc;

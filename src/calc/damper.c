@@ -33,10 +33,12 @@ static bool peak_of(scene *s, value amplitude, peak *out, calc_error *error) {
                       : fret_cycle_loss_by_displacement(&out->contact, v, &out->loss);
     if (st.code == FRET_GROSS_SLIP)
         st.quantity = "FA";
+    if (!calc_status(error, &st))
+        return false;
     out->dxA = (double)first.dx;
     out->Fx = first.Fx;
     out->dx = first.dx;
-    return calc_status(error, &st);
+    return true;
 }
 
 /* Without slip the contact is a spring. */
@@ -51,15 +53,13 @@ static fret_real stuck(const fret_contact *contact) {
  * int_0^(pi/2) F_1 cos(2 phi) d phi. */
 typedef struct branch {
     const peak *of;
-    fret_real lo, hi; /* phi of 0 and 1 */
+    fret_real end; /* phi of 1; that of 0 is 0 */
     fret_status failed;
 } branch;
 
 static fret_real branch_at(fret_real t, fret_real rest, void *context) {
     branch *b = context;
-    const fret_real phi = b->lo + (b->hi - b->lo) * t;
-    const fret_real sine =
-        t < rest ? fret_sin(phi) : fret_cos((FRET_PI / 2 - b->hi) + (b->hi - b->lo) * rest);
+    const fret_real sine = t < rest ? fret_sin(b->end * t) : fret_cos((FRET_PI / 2 - b->end) + b->end * rest);
     fret_loading first;
     const fret_status st =
         fret_loading_by_displacement(&b->of->contact, (double)(b->of->dxA * sine * sine), &first);
@@ -72,19 +72,19 @@ static fret_real branch_at(fret_real t, fret_real rest, void *context) {
 
 /* First loading is singular in its slope where it slides: an end of the interval, for the rule to bear. */
 static bool harmonic_stiffness(const peak *p, fret_real *out, calc_error *error) {
-    const fret_real slides = fret_gross_slip(&p->contact) / p->dxA; /* sin^2 phi there */
-    branch b = {.of = p, .hi = FRET_PI / 2};
+    branch b = {.of = p, .end = FRET_PI / 2};
     fret_real flat = 0;
     if (p->dxA <= 0) {
         *out = stuck(&p->contact);
         return true;
     }
+    const fret_real slides = fret_gross_slip(&p->contact) / p->dxA; /* sin^2 phi there */
     if (slides < 1) {
         const fret_real rest = 1 - slides;
-        b.hi = fret_atan2(sqrtl(slides), sqrtl(rest));
+        b.end = fret_atan2(sqrtl(slides), sqrtl(rest));
         flat = -p->contact.mu * p->contact.press.F * sqrtl(slides * rest);
     }
-    const fret_real part = (b.hi - b.lo) * fret_integrate(branch_at, &b);
+    const fret_real part = b.end * fret_integrate(branch_at, &b);
     *out = -8 / (FRET_PI * p->dxA) * (part + flat);
     return calc_status(error, &b.failed);
 }

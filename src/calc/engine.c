@@ -4,7 +4,8 @@
 
 #include <stdlib.h>
 
-static fret_status memory_make(const fret_normal *normal, double mu, unsigned count, double radius, void **out) {
+static fret_status memory_make(const fret_normal *normal, double mu, unsigned count, double radius,
+                               void **out) {
     fret_memory *m = NULL;
     fret_status st = fret_memory_make(normal, mu, &m);
     (void)count, (void)radius;
@@ -36,7 +37,8 @@ static void memory_end(void *self) {
     fret_memory_free(self);
 }
 
-static fret_status springs_make(const fret_normal *normal, double mu, unsigned count, double radius, void **out) {
+static fret_status springs_make(const fret_normal *normal, double mu, unsigned count, double radius,
+                                void **out) {
     fret_springs *s = NULL;
     fret_status st = fret_springs_make(normal, mu, count, radius, FRET_WEIGHT_CELL, &s);
     *out = s;
@@ -47,6 +49,10 @@ static fret_status springs_make(const fret_normal *normal, double mu, unsigned c
 static fret_status springs_step(void *self, const fret_step *step) {
     bool ramp = step->normal_by != FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_FX;
     return fret_springs_step(self, step, ramp ? 64 : 1);
+}
+
+static fret_status springs_chord(void *self, const fret_step *step) {
+    return fret_springs_step(self, step, 1);
 }
 
 static void springs_state(const void *self, fret_state *out) {
@@ -76,6 +82,7 @@ const model_row models[MODELS] = {
                        .chosen = true,
                        .make = springs_make,
                        .step = springs_step,
+                       .chord = springs_chord,
                        .state = springs_state,
                        .forces = springs_state,
                        .end = springs_end},
@@ -99,7 +106,8 @@ static void sine_end(void *self) {
     free(s);
 }
 
-static fret_status sine_make(const fret_normal *normal, double mu, unsigned count, double radius, void **out) {
+static fret_status sine_make(const fret_normal *normal, double mu, unsigned count, double radius,
+                             void **out) {
     sine *s = calloc(1, sizeof *s);
     (void)count, (void)radius;
     const fret_status st = s ? fret_memory_make(normal, mu, &s->memory) : no_memory;
@@ -198,7 +206,8 @@ const fret_memory *engine_memory(const engine *e) {
 
 /* ---- any model --------------------------------------------------------------------------------- */
 
-fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count, double radius) {
+fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count,
+                        double radius) {
     *e = (engine){.kind = &models[id]};
     return e->kind->make(normal, mu, count, radius, &e->self);
 }
@@ -209,11 +218,19 @@ void engine_end(engine *e) {
     e->self = NULL;
 }
 
-fret_status engine_step(engine *e, const fret_step *step) {
-    fret_status st = e->kind->step(e->self, step);
+static fret_status take(engine *e, const fret_step *step, fret_status (*how)(void *, const fret_step *)) {
+    fret_status st = how(e->self, step);
     if (!st.code && e->kind->last_loss)
         e->spent += e->kind->last_loss(e->self);
     return st;
+}
+
+fret_status engine_step(engine *e, const fret_step *step) {
+    return take(e, step, e->kind->step);
+}
+
+fret_status engine_chord(engine *e, const fret_step *step) {
+    return take(e, step, e->kind->chord ? e->kind->chord : e->kind->step);
 }
 
 void engine_state(const engine *e, fret_state *out) {

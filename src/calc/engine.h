@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Models: what can answer for a scene, and those of them that step along a load. One table: the runner, `set model`,
- * `accuracy`, `explain` and `set timing` derive from it. Touches the mechanics alone. */
+/* Models: what can answer for a scene, and those of them that step along a load. One table: the runner, `set
+ * model`, `accuracy`, `explain` and `set timing` derive from it. Touches the mechanics alone. */
 #ifndef CALC_ENGINE_H
 #define CALC_ENGINE_H
 
@@ -21,7 +21,8 @@ typedef struct model_row {
     /* stepping; NULL where the model has a formula only */
     fret_status (*make)(const fret_normal *normal, double mu, unsigned count, double radius, void **out);
     fret_status (*step)(void *self, const fret_step *step);
-    fret_status (*copy)(void *to, const void *from); /* NULL: cannot be copied */
+    fret_status (*chord)(void *self, const fret_step *step); /* as engine_chord; NULL: a step will do */
+    fret_status (*copy)(void *to, const void *from);         /* NULL: cannot be copied */
     void (*state)(const void *self, fret_state *out);
     void (*forces)(const void *self, fret_state *out); /* of it F_N, dz, F_x, dx, W */
     long double (*last_loss)(const void *self);        /* NULL: W tells */
@@ -39,9 +40,12 @@ typedef struct engine {
 } engine;
 
 /* count and radius (the largest contact radius to come) are for the springs. */
-fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count, double radius);
+fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count,
+                        double radius);
 void engine_end(engine *e);
 fret_status engine_step(engine *e, const fret_step *step);
+/* A step that stands for a part of a curve: as long as it goes from end to end, any path near it will do. */
+fret_status engine_chord(engine *e, const fret_step *step);
 void engine_state(const engine *e, fret_state *out);
 void engine_forces(const engine *e, fret_state *out);
 /* A copy made anew in `to`, of the same contact. */

@@ -43,8 +43,9 @@ static bool dims_differ(machine *m, const expr_node *n, const char *verb, const 
     dim_describe(da, first, sizeof first);
     dim_describe(db, second, sizeof second);
     m->error->strange = true;
-    return calc_fail(m->error, n->at, n->len, "cannot %s %s (%.*s) %s %s (%.*s)", verb, first, LEX_SHOWN(a->len),
-                     m->e->text + a->at, link, second, LEX_SHOWN(b->len), m->e->text + b->at);
+    return calc_fail(m->error, n->at, n->len, "cannot %s %s (%.*s) %s %s (%.*s)", verb, first,
+                     LEX_SHOWN(a->len), m->e->text + a->at, link, second, LEX_SHOWN(b->len),
+                     m->e->text + b->at);
 }
 
 static bool dim_wrong(machine *m, const expr_node *n, dim d, const char *wants) {
@@ -207,8 +208,8 @@ static bool own_value(machine *m, const expr_node *n, value *out) {
     }
     const definition *d = (const definition *)row->definition;
     if (d->parameters)
-        return calc_fail(m->error, n->at, n->len, "%s is a function: %s(%s%s)", d->label, d->label, d->parameter[0],
-                         d->parameters > 1 ? ", ..." : "");
+        return calc_fail(m->error, n->at, n->len, "%s is a function: %s(%s%s)", d->label, d->label,
+                         d->parameter[0], d->parameters > 1 ? ", ..." : "");
     return evaluate_definition(m->c, d, NULL, m->dry, out, m->error) || calc_place(m->error, n->at, n->len);
 }
 
@@ -220,7 +221,8 @@ static bool apply(machine *m, const expr_node *n, value *out) {
                          m->c->names.row[n->index].text, n->right);
     for (size_t i = 0; i < n->right; i++)
         arguments[i] = m->e->nodes[m->e->arguments[n->left + i]].v;
-    return evaluate_definition(m->c, d, arguments, m->dry, out, m->error) || calc_place(m->error, n->at, n->len);
+    return evaluate_definition(m->c, d, arguments, m->dry, out, m->error) ||
+           calc_place(m->error, n->at, n->len);
 }
 
 static bool wrong_dim_of_change(machine *m, const expr *e, const knob *p, dim want, dim got) {
@@ -267,7 +269,8 @@ static bool changed_value(machine *m, const expr_node *n, value *out) {
 /* ---- nodes ------------------------------------------------------------------------------------- */
 
 static bool takes(const quantity *q, dim d) {
-    return dim_equal(d, q->argument_d) || (!dim_equal(q->argument_or, DIM_NONE) && dim_equal(d, q->argument_or));
+    return dim_equal(d, q->argument_d) ||
+           (!dim_equal(q->argument_or, DIM_NONE) && dim_equal(d, q->argument_or));
 }
 
 static bool call_quantity(machine *m, const expr_node *n, value *out) {
@@ -301,7 +304,8 @@ static bool eval(machine *m, const expr_node *n, value *out) {
         return true;
     case N_QUANTITY:
         *out = (value){1, quantity_dim(n->q, m->c->now)};
-        return m->dry || quantity_get(n->q, m->c->now, &out->v, m->error) || calc_place(m->error, n->at, n->len);
+        return m->dry || quantity_get(n->q, m->c->now, &out->v, m->error) ||
+               calc_place(m->error, n->at, n->len);
     case N_CALL:
         return call_quantity(m, n, out);
     case N_APPLY:
@@ -459,8 +463,8 @@ static bool run_block(calc *c, const expr *e, const long double x[], size_t rows
 
 /* Children come before their parents, the left before the right: a stack machine. Dimensions, and what does
  * not vary, are those of the first row. */
-bool expr_eval_block(calc *c, const expr *e, size_t name, const long double x[], size_t rows, long double out[],
-                     dim *d) {
+bool expr_eval_block(calc *c, const expr *e, size_t name, const long double x[], size_t rows,
+                     long double out[], dim *d) {
     static _Thread_local block b; /* too large for a small stack */
     value first;
     calc_error unused;
@@ -477,7 +481,8 @@ bool expr_eval_block(calc *c, const expr *e, size_t name, const long double x[],
 /* ---- what an expression is made of ------------------------------------------------------------- */
 
 /* way: where there is one, "b -> c -> " of the definitions that lead to the name. */
-static bool mentions(const calc *c, const expr *e, const quantity *q, const char *name, char *way, size_t size) {
+static bool mentions(const calc *c, const expr *e, const quantity *q, const char *name, char *way,
+                     size_t size) {
     for (size_t i = 0; i < e->count; i++) {
         const expr_node *n = &e->nodes[i];
         if (q && (n->kind == N_QUANTITY || n->kind == N_CALL) && n->q == q)

@@ -33,7 +33,8 @@ typedef struct definition {
     char parameter[PARAMETERS][LEX_NAME];
 } definition;
 
-/* Parses at the cursor, as far as an expression goes, with `at` where it is within parentheses. Reuses e's storage.
+/* Parses at the cursor, as far as an expression goes, with `at` where it is within parentheses. Reuses e's
+ * storage.
  */
 bool expr_parse(struct calc *c, lexer *lx, expr *e);
 /* The same with `at NAME = EXPR, ...` behind it. A comma ends it that no NAME = follows. */
@@ -41,8 +42,8 @@ bool expr_parse_at(struct calc *c, lexer *lx, expr *e);
 /* `at ...` at the cursor, for an expression that has been parsed. */
 bool expr_read_at(struct calc *c, lexer *lx, expr *e);
 bool expr_eval(struct calc *c, const expr *e, value *out, calc_error *error);
-/* The same at `rows` values x of one name, 1 to EXPR_BLOCK: one dimension for all. False where a row fails, or
- * may: expr_eval, row by row, finds out. */
+/* The same at `rows` values x of one name, 1 to EXPR_BLOCK: one dimension for all. False where a row fails,
+ * or may: expr_eval, row by row, finds out. */
 enum { EXPR_BLOCK = 256 };
 bool expr_eval_block(struct calc *c, const expr *e, size_t name, const long double x[], size_t rows,
                      long double out[], dim *d);
@@ -57,11 +58,12 @@ bool expr_value(struct calc *c, lexer *lx, value *out);
 bool expr_mentions(const struct calc *c, const expr *e, const quantity *q, const char *name);
 /* Does it depend on this name? way: the live definitions that lead there, as "b -> c -> ". */
 bool expr_way(const struct calc *c, const expr *e, const char *name, char *way, size_t size);
-/* The quantities of an expression in the order of their appearance: i = 0, 1, ... call: as a function. NULL after the
- * last. */
+/* The quantities of an expression in the order of their appearance: i = 0, 1, ... call: as a function. NULL
+ * after the last. */
 const quantity *expr_quantity(const expr *e, size_t i, bool *call);
 
-/* A definition of the text at the cursor to the end of its expression; takes its errors there. NULL on error. */
+/* A definition of the text at the cursor to the end of its expression; takes its errors there. NULL on error.
+ */
 definition *definition_parse(struct calc *c, lexer *lx, const char *label, size_t len,
                              char (*parameter)[LEX_NAME], unsigned parameters);
 /* The value of a definition without parameters in the scene c->now; a circle is an error that names it. */

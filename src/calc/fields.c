@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Functions of a place: the material, the shape, local fields and the one-dimensional model, in the state now. */
+/* Functions of a place: the material, the shape, local fields and the one-dimensional model, in the state
+ * now. */
 #include <math.h>
 
 #include "calc/functions.h"

@@ -83,7 +83,8 @@ bool call_dWd(scene *s, value dxA, long double *out, calc_error *error) {
 
 /* ---- at many arguments ------------------------------------------------------------------------- */
 
-static bool block_press(scene *s, const double F[], double a[], double dz[], size_t count, calc_error *error) {
+static bool block_press(scene *s, const double F[], double a[], double dz[], size_t count,
+                        calc_error *error) {
     const fret_normal *normal;
     if (!scene_normal(s, &normal, error))
         return false;
@@ -99,7 +100,8 @@ bool block_dz(scene *s, const double F[], double out[], size_t count, calc_error
     return block_press(s, F, NULL, out, count, error);
 }
 
-static bool block_loading(scene *s, const double F[], double c[], double dx[], size_t count, calc_error *error) {
+static bool block_loading(scene *s, const double F[], double c[], double dx[], size_t count,
+                          calc_error *error) {
     fret_contact contact;
     if (!scene_contact(s, &contact, error))
         return false;

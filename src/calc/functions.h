@@ -7,10 +7,12 @@
 
 typedef bool quantity_get_function(scene *s, long double *out, calc_error *error);
 typedef bool quantity_call_function(scene *s, value arg, long double *out, calc_error *error);
-typedef bool quantity_block_function(scene *s, const double arg[], double out[], size_t count, calc_error *error);
+typedef bool quantity_block_function(scene *s, const double arg[], double out[], size_t count,
+                                     calc_error *error);
 
 /* results.c */
-quantity_get_function get_FN, get_dW, get_kn, get_a0, get_dz0, get_dxmax, get_dx0max, get_kappa, get_W1D, get_time;
+quantity_get_function get_FN, get_dW, get_kn, get_a0, get_dz0, get_dxmax, get_dx0max, get_kappa, get_W1D,
+    get_time;
 
 /* functions.c: of the scene, tangentially unloaded */
 quantity_call_function call_a, call_dz, call_c, call_dx, call_Fx, call_dW, call_dWd;

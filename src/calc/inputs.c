@@ -33,8 +33,7 @@ static void sum(const inputs *in, fret_gap *out) {
 }
 
 static fret_gap shape_gap(const inputs *in, fret_gap_kind kind) {
-    return (fret_gap){
-        .kind = kind, .b = in->v[IN_B], .R = in->v[IN_RADIUS], .slope = in->v[IN_SLOPE]};
+    return (fret_gap){.kind = kind, .b = in->v[IN_B], .R = in->v[IN_RADIUS], .slope = in->v[IN_SLOPE]};
 }
 
 static void flat_cone(const inputs *in, fret_gap *out) {
@@ -300,8 +299,8 @@ bool inputs_material(const inputs *in, double k, fret_material *m, calc_error *e
         return false;
     m->body[1] = m->body[0];
     m->body[1].rigid = in->second == SECOND_RIGID;
-    if (in->second == SECOND_GIVEN && (!get_double(in, IN_E0_2, &m->body[1].E0, error) ||
-                                       !get_double(in, IN_NU_2, &m->body[1].nu, error)))
+    if (in->second == SECOND_GIVEN &&
+        (!get_double(in, IN_E0_2, &m->body[1].E0, error) || !get_double(in, IN_NU_2, &m->body[1].nu, error)))
         return false;
     return k == 0 || get_double(in, IN_C0, &m->c0, error);
 }

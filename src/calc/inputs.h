@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inputs of a scene as a plain value: material, geometry, friction, and the amplitudes of the load that can be
- * changed afterwards. Knows ranges, no names; touches nothing else of a scene. */
+/* Inputs of a scene as a plain value: material, geometry, friction, and the amplitudes of the load that can
+ * be changed afterwards. Knows ranges, no names; touches nothing else of a scene. */
 #ifndef CALC_INPUTS_H
 #define CALC_INPUTS_H
 
@@ -53,8 +53,8 @@ typedef struct geometry {
 } geometry;
 
 const geometry *geometry_find(const char *name, size_t len);
-const geometry *geometry_row(size_t i);  /* NULL after the last */
-const char *geometry_name(size_t i);     /* for suggest() */
+const geometry *geometry_row(size_t i); /* NULL after the last */
+const char *geometry_name(size_t i);    /* for suggest() */
 
 typedef enum second_body { SECOND_SAME, SECOND_RIGID, SECOND_GIVEN } second_body;
 
@@ -69,7 +69,7 @@ struct inputs {
     double v[INPUTS];
     bool set[INPUTS];
     counted *bound[INPUTS]; /* NAME := EXPR, a definition (names.h): v follows it */
-    unsigned bindings; /* which are bound */
+    unsigned bindings;      /* which are bound */
     second_body second;
     const geometry *geometry;
     fret_gap sum;        /* terms of `geometry sum` */
@@ -80,7 +80,8 @@ struct inputs {
 void inputs_copy(inputs *to, const inputs *from);
 void inputs_drop(inputs *in);
 
-/* Between what an input lies, whatever the rest; may be infinite. Of these ends only nu = 1/2 and FNA = 0 belong. */
+/* Between what an input lies, whatever the rest; may be infinite. Of these ends only nu = 1/2 and FNA = 0
+ * belong. */
 void input_range(input in, double *lo, double *hi);
 /* Is the value in the range of the input, whatever the rest? */
 fret_status input_status(input in, double v);

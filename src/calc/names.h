@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Names of the user's own: variables, live definitions, functions, and free names of a sweep while it lasts. */
+/* Names of the user's own: variables, live definitions, functions, and free names of a sweep while it lasts.
+ */
 #ifndef CALC_NAMES_H
 #define CALC_NAMES_H
 

@@ -145,7 +145,8 @@ static bool parse_change(parser *p, expr_at *at) {
         return lex_fail(lx, "at most %d changes", CHANGES);
     if (!at_change(lx))
         return lex_fail(lx, "expected NAME = EXPR after `at`");
-    if (!quantity_find(lx->text + lx->at, lx->len) && !names_find(&p->c->names, lx->text + lx->at, lx->len, &name))
+    if (!quantity_find(lx->text + lx->at, lx->len) &&
+        !names_find(&p->c->names, lx->text + lx->at, lx->len, &name))
         return unknown_name(p); /* nothing before it could have meant it */
     if (!knob_read(p->c, lx, q))
         return false;

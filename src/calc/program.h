@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The load program: presses, steps and cycles in the order they were given. Append-only, so that a place in it is
- * a length and scenes can share it. Touches no scene. */
+/* The load program: presses, steps and cycles in the order they were given. Append-only, so that a place in
+ * it is a length and scenes can share it. Touches no scene. */
 #ifndef CALC_PROGRAM_H
 #define CALC_PROGRAM_H
 
@@ -40,7 +40,8 @@ typedef struct load_mark {
 program *program_make(void); /* NULL: out of memory */
 /* One of its own, as far as the mark: to be changed. */
 program *program_copy(const program *from, load_mark mark);
-/* Appends at the mark, forgetting what lies beyond, and moves it; false: out of memory, nothing has changed. */
+/* Appends at the mark, forgetting what lies beyond, and moves it; false: out of memory, nothing has changed.
+ */
 bool program_append(program *p, load_mark *mark, const load_step *step, const cycle_extra *extra);
 
 /* Index of the last cycle before the mark, or NO_CYCLE. */
@@ -61,7 +62,8 @@ void program_freeze(program *p, size_t last_cycle, size_t cycle, const inputs *i
 
 /* Does F_N change in this step? */
 static inline bool load_moves_normal(const load_step *step) {
-    return step->kind == LOAD_STEP ? step->normal != BY_NONE : step->kind == LOAD_CYCLE && step->normal_value != 0;
+    return step->kind == LOAD_STEP ? step->normal != BY_NONE
+                                   : step->kind == LOAD_CYCLE && step->normal_value != 0;
 }
 
 /* A step straight to a displacement, the normal force as it is. */

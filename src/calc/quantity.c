@@ -8,23 +8,25 @@
 
 #define INPUT(which) .of = OF_INPUT, .in = 1 + (which), .reads = INPUT_BIT(which)
 #define PRESS(member) .of = OF_PRESS, .at = offsetof(fret_press, member), .load = true
-#define LOADING(member)                                                                                        \
-    .of = OF_LOADING, .at = offsetof(fret_loading, member), .at_state = offsetof(fret_state, member), .load = true
+#define LOADING(member)                                                                                      \
+    .of = OF_LOADING, .at = offsetof(fret_loading, member), .at_state = offsetof(fret_state, member),        \
+    .load = true
 #define STATE(member) .of = OF_STATE, .at_state = offsetof(fret_state, member), .load = true
-#define FOUNDATION(member) .of = OF_FOUNDATION, .at = offsetof(fret_foundation, member), .reads = READS_MATERIAL
+#define FOUNDATION(member)                                                                                   \
+    .of = OF_FOUNDATION, .at = offsetof(fret_foundation, member), .reads = READS_MATERIAL
 #define GETTER(function) .of = OF_GETTER, .get = get_##function
 #define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
-#define FORCE                                                                                                  \
+#define FORCE                                                                                                \
     { 1, 0, 0 }
-#define LENGTH                                                                                                 \
+#define LENGTH                                                                                               \
     { 0, 1, 0 }
-#define PRESSURE                                                                                               \
+#define PRESSURE                                                                                             \
     { 1, -2, 0 }
-#define ENERGY                                                                                                 \
+#define ENERGY                                                                                               \
     { 1, 1, 0 }
-#define STIFFNESS                                                                                              \
+#define STIFFNESS                                                                                            \
     { 1, -1, 0 }
-#define ANGLE                                                                                                  \
+#define ANGLE                                                                                                \
     { 0, 0, 1 }
 
 /* clang-format off */

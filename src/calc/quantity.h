@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one table of quantities: assignment, query, explain, help, completion, labels and JSON derive from it. */
+/* The one table of quantities: assignment, query, explain, help, completion, labels and JSON derive from it.
+ */
 #ifndef CALC_QUANTITY_H
 #define CALC_QUANTITY_H
 
@@ -34,8 +35,8 @@ typedef struct formula {
 } formula;
 
 /* Inputs that results have in common. */
-#define READS_MATERIAL                                                                                         \
-    (INPUT_BIT(IN_E0) | INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0) | INPUT_BIT(IN_E0_2) |           \
+#define READS_MATERIAL                                                                                       \
+    (INPUT_BIT(IN_E0) | INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0) | INPUT_BIT(IN_E0_2) |         \
      INPUT_BIT(IN_NU_2))
 #define READS_NORMAL (READS_MATERIAL | INPUT_GEOMETRY | INPUT_BIT(IN_FN))
 #define READS_TANGENTIAL (READS_NORMAL | INPUT_BIT(IN_MU) | INPUT_CYCLE)
@@ -53,7 +54,8 @@ typedef struct quantity {
     bool (*get)(scene *s, long double *out, calc_error *error);
     /* as a function; NULL: it is none */
     bool (*call)(scene *s, value arg, long double *out, calc_error *error);
-    model_id by; /* what answers for the function; MODEL_CLOSED: the closed form, or quadrature over the gap */
+    model_id
+        by; /* what answers for the function; MODEL_CLOSED: the closed form, or quadrature over the gap */
     const char *argument;
     dim argument_d;
     dim argument_or; /* what the argument may be instead; a number: nothing else */

@@ -90,6 +90,10 @@ static double way(const leg *l, double x) {
     return (double)(l->law == LEG_RISE ? fret_sin(pi / 2 * x) : (1 - fret_cos(pi * x)) / 2);
 }
 
+static fret_status step_of(runner *r, const leg *l, const fret_step *step) {
+    return l->chord ? engine_chord(&r->engine, step) : engine_step(&r->engine, step);
+}
+
 static fret_status take_watched(runner *r, const leg *l) {
     fret_state from;
     fret_status st = fine;
@@ -103,20 +107,20 @@ static fret_status take_watched(runner *r, const leg *l) {
         fret_step step = *to;
         step.normal = (double)(n0 + (to->normal - n0) * part);
         step.tangential = (double)(t0 + (to->tangential - t0) * part);
-        st = engine_step(&r->engine, &step);
+        st = step_of(r, l, &step);
         if (!st.code)
             st = look(r, l->begin + (l->end - l->begin) * x, false);
         if (st.code)
             return st;
     }
-    st = engine_step(&r->engine, to);
+    st = step_of(r, l, to);
     if (!st.code && x <= 1)
         return look(r, l->end, !l->chord);
     return st;
 }
 
 static fret_status take(runner *r, const leg *l) {
-    fret_status st = r->watch ? take_watched(r, l) : engine_step(&r->engine, &l->to);
+    fret_status st = r->watch ? take_watched(r, l) : step_of(r, l, &l->to);
     r->time = l->end;
     return st;
 }
@@ -154,7 +158,8 @@ static double wrapped(double angle) {
     return 2 * pi * (turns - floor(turns));
 }
 
-/* cos at a rounded angle: 0 where it is below what the rounding moves it by, as the load passes through its mean. */
+/* cos at a rounded angle: 0 where it is below what the rounding moves it by, as the load passes through its
+ * mean. */
 static double harmonic(long double angle) {
     const double v = (double)fret_cos(angle);
     return fabs(v) < 4 * DBL_EPSILON ? 0 : v;
@@ -167,8 +172,8 @@ typedef struct swing {
     long double FN;
 } swing;
 
-/* d/d(angle) of the tangential load + sign x its bound at gross slip; by displacement the bound is mu eta delta_z,
- * which moves with d(F_N)/k_n. */
+/* d/d(angle) of the tangential load + sign x its bound at gross slip; by displacement the bound is mu eta
+ * delta_z, which moves with d(F_N)/k_n. */
 static double slip_rate(const swing *w, double angle, int sign) {
     const double A = w->cycle->step.tangential_value, FNA = w->cycle->step.normal_value;
     const double phase = w->cycle->extra.phase;
@@ -204,8 +209,8 @@ static size_t find_turns(const swing *w, int sign, double node[NODES], size_t co
     return count;
 }
 
-/* Where F_N, the tangential load, and it + and - its bound turn, in order, 0 and 2 pi among them: between these places
- * the error of chords is clean. */
+/* Where F_N, the tangential load, and it + and - its bound turn, in order, 0 and 2 pi among them: between
+ * these places the error of chords is clean. */
 static size_t find_nodes(const swing *w, double node[NODES]) {
     const double phase = w->cycle->extra.phase;
     size_t count = 0;
@@ -241,8 +246,7 @@ static fret_status chords_period(runner *r, const load_item *c, long double FN) 
         for (unsigned j = 1; j <= count && !st.code; j++) {
             const double angle = node[i] + length * j / count;
             const bool last = i + 2 == nodes && j == count;
-            l.to.tangential =
-                last ? c->step.tangential_value : c->step.tangential_value * harmonic(angle);
+            l.to.tangential = last ? c->step.tangential_value : c->step.tangential_value * harmonic(angle);
             l.to.normal = (double)(FN + c->step.normal_value * harmonic((long double)angle + c->extra.phase));
             l.begin = r->time;
             l.end = begin + angle / (2 * pi);
@@ -260,8 +264,8 @@ static fret_status swinging_period(runner *r, const load_item *c, long double FN
         r->time++;
     if (taken || st.code)
         return st;
-    r->chorded = engine_is_sine(&r->engine);
-    return chords_period(r, c, FN);
+    r->chorded = engine_is_sine(&r->engine); /* this run ends: it must be run in chords from its beginning */
+    return r->chorded ? interrupted : chords_period(r, c, FN);
 }
 
 fret_status run_period(runner *r, const load_item *c, long double FN) {
@@ -388,7 +392,8 @@ fret_status run_item(runner *r, const load_item *item) {
 /* At constant F_N only turning points count: a displacement on the way to the next one need not be taken. */
 static bool on_the_way(const load_view *load, size_t i) {
     const load_step *step = &load->program->steps[i];
-    if (i + 1 >= load->end.steps || !load_is_slide(step) || !load_is_slide(step + 1) || !load_is_slide(step - 1))
+    if (i + 1 >= load->end.steps || !load_is_slide(step) || !load_is_slide(step + 1) ||
+        !load_is_slide(step - 1))
         return false;
     const double here = step->tangential_value, last = step[-1].tangential_value,
                  next = step[1].tangential_value;

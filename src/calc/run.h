@@ -20,8 +20,8 @@ typedef struct load_view {
     void (*pulse)(void);               /* or NULL */
 } load_view;
 
-/* A part of the load without a corner. Time is 0 at the press, 1 more each step, a quarter to the first peak of a
- * cycle, 1 more each period. */
+/* A part of the load without a corner. Time is 0 at the press, 1 more each step, a quarter to the first peak
+ * of a cycle, 1 more each period. */
 typedef enum leg_law { LEG_STRAIGHT, LEG_RISE, LEG_HALF } leg_law;
 typedef struct leg {
     fret_step to;
@@ -35,8 +35,8 @@ typedef struct leg {
 
 typedef struct runner runner;
 
-/* Who looks on. next: the part of the leg, 0..1, at which to look after the part `after`; beyond 1: not again.
- * see: false ends the run. */
+/* Who looks on. next: the part of the leg, 0..1, at which to look after the part `after`; beyond 1: not
+ * again. see: false ends the run. */
 typedef struct watch watch;
 struct watch {
     double (*next)(const watch *w, const leg *l, double after);
@@ -59,26 +59,27 @@ watch watch_times(double first, double every, size_t last, bool turns);
 struct runner {
     const load_view *load;
     engine engine;
-    unsigned level;  /* a swinging period in RUN_CHORDS 2^level chords */
-    watch *watch;    /* or NULL */
-    load_mark at;    /* next step of the program, and next of its cycles */
-    double time;     /* now */
-    bool turning;    /* for the watch: the end of a leg */
-    bool halted;     /* by the watch */
+    unsigned level; /* a swinging period in RUN_CHORDS 2^level chords */
+    watch *watch;   /* or NULL */
+    load_mark at;   /* next step of the program, and next of its cycles */
+    double time;    /* now */
+    bool turning;   /* for the watch: the end of a leg */
+    bool halted;    /* by the watch */
     bool area_wanted;
     long double area, Fx, dx; /* int F_x d(delta_x) by the trapezoidal rule, at what the watch sees */
     long double cycle_loss;   /* of the last period run; of a program without one 0 */
     bool closed;              /* a period has been run */
-    bool chorded;             /* a swinging period was run in chords that should not have been */
-    unsigned repeated;        /* periods of the last cycle that were not run, since they repeat those before */
+    bool chorded;             /* the run ended at a swinging period that only chords can take */
+    unsigned repeated; /* periods of the last cycle that were not run, since they repeat those before */
 };
 
 enum { RUN_CHORDS = 160 };
 
-/* A swinging normal force is run at several numbers of chords, each double the last. Their error goes with the square
- * of the length of a chord, then with its fourth power: the limit, extrapolated twice. error gets twice
- * how far the last extrapolation moved it, relative to the value, or to `least` where that is larger; of the losses in
- * tests/reference/swinging.csv it is a bound, also where the contact is nearly lost and the orders are not clean. */
+/* A swinging normal force is run at several numbers of chords, each double the last. Their error goes with
+ * the square of the length of a chord, then with its fourth power: the limit, extrapolated twice. error gets
+ * twice how far the last extrapolation moved it, relative to the value, or to `least` where that is larger;
+ * of the losses in tests/reference/swinging.csv it is a bound, also where the contact is nearly lost and the
+ * orders are not clean. */
 enum { LEVELS = 3 };
 long double run_limit(const long double at[LEVELS], long double least, long double *error);
 

@@ -93,7 +93,8 @@ void scene_back(scene *s, scene_mark *m) {
 
 /* ---- inputs ------------------------------------------------------------------------------------ */
 
-/* Amplitudes are evaluated where their cycle begins, everything else at the press: the scene as it is then. */
+/* Amplitudes are evaluated where their cycle begins, everything else at the press: the scene as it is then.
+ */
 static bool settle(scene *s, input in, calc_error *error) {
     const unsigned bit = INPUT_BIT(in);
     if (s->settling & bit) {
@@ -233,12 +234,12 @@ bool scene_friction(scene *s, double *mu, calc_error *error) {
 /* ---- the load ---------------------------------------------------------------------------------- */
 
 static bool is_pressed(const scene *s, calc_error *error) {
-    return s->end.steps > 0 ||
-           calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    return s->end.steps > 0 || calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
 }
 
 bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
-    program *own = step->kind == LOAD_PRESS || !s->program ? program_make() : program_copy(s->program, s->end);
+    program *own =
+        step->kind == LOAD_PRESS || !s->program ? program_make() : program_copy(s->program, s->end);
     load_mark end = step->kind == LOAD_PRESS ? (load_mark){0, 0} : s->end;
     if (!own || !program_append(own, &end, step, extra)) {
         counted_drop(own ? &own->base : NULL);

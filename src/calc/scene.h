@@ -94,7 +94,8 @@ void scene_drop(scene_mark *m);           /* the change stands */
 bool scene_get(scene *s, input in, long double *value, calc_error *error);
 /* Sets an input without running or checking anything: for trials. */
 void scene_put(scene *s, input in, double value);
-/* Changes of inputs: edit works on s->in. All that the scene claims must hold afterwards, or nothing has changed. */
+/* Changes of inputs: edit works on s->in. All that the scene claims must hold afterwards, or nothing has
+ * changed. */
 bool scene_edit(scene *s, void (*edit)(inputs *in, void *context), void *context, calc_error *error);
 /* Everything that the present inputs and program claim must hold. */
 bool scene_valid(scene *s, calc_error *error);
@@ -143,7 +144,8 @@ void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs)
 bool scene_load_of(scene *s, load_view *out, calc_error *error);
 /* Runs the program on a contact of its own, seen by the watch. The watch may have ended it with an error. */
 bool scene_trace(scene *s, watch *w, calc_error *error);
-/* A contact of its own of a model that steps; springs are wide enough for the largest contact of the program. */
+/* A contact of its own of a model that steps; springs are wide enough for the largest contact of the program.
+ */
 bool scene_engine(scene *s, model_id model, unsigned count, engine *out, calc_error *error);
 
 #endif

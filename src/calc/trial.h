@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An expression in (inputs, load program, instant): some of these changed, the user's scene untouched. Sweeps, `at`,
- * states along a load, solve, fit and the rest are short loops over this. */
+/* An expression in (inputs, load program, instant): some of these changed, the user's scene untouched.
+ * Sweeps, `at`, states along a load, solve, fit and the rest are short loops over this. */
 #ifndef CALC_TRIAL_H
 #define CALC_TRIAL_H
 
@@ -10,8 +10,8 @@
 typedef struct trial {
     calc *c;
     scene scene;
-    scene *outer;     /* whom it stands for */
-    size_t names;     /* those from here on are free names of the trial */
+    scene *outer;  /* whom it stands for */
+    size_t names;  /* those from here on are free names of the trial */
     own_name *old; /* values of the user's names that it hides, in the order of `hidden` */
     size_t *hidden;
     size_t hidden_count;
@@ -24,16 +24,16 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error);
 void trial_reset(trial *t);
 void trial_close(trial *t);
 
-/* NAME at the cursor as a parameter: an input that the scene takes, or a name; a new one is known to expressions
- * until the trial, or whoever called, drops it. */
+/* NAME at the cursor as a parameter: an input that the scene takes, or a name; a new one is known to
+ * expressions until the trial, or whoever called, drops it. */
 bool knob_read(calc *c, lexer *lx, knob *out);
 
 /* Which load the states come from. */
 typedef enum along_what { ALONG_PROGRAM, ALONG_CYCLE, ALONG_LOAD } along_what;
 typedef bool along_look(void *context, double time, calc_error *error);
 
-/* Looks at the scene of the trial at `points`+1 instants, evenly in time; turns: at the turning points too. from: the
- * mark where a load tried on it (ALONG_LOAD, scene_append) begins. */
+/* Looks at the scene of the trial at `points`+1 instants, evenly in time; turns: at the turning points too.
+ * from: the mark where a load tried on it (ALONG_LOAD, scene_append) begins. */
 bool trial_along(trial *t, along_what what, load_mark from, size_t points, bool turns, along_look *look,
                  void *context, calc_error *error);
 

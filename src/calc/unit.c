@@ -36,8 +36,8 @@ enum { UNITS = sizeof units / sizeof *units };
 static const struct {
     const char *name;
     int exp10;
-} prefixes[] = {{"n", -9}, {"u", -6}, {"\xc2\xb5", -6}, {"\xce\xbc", -6},
-                {"m", -3}, {"k", 3},  {"M", 6},         {"G", 9}, {"c", -2}};
+} prefixes[] = {{"n", -9}, {"u", -6}, {"\xc2\xb5", -6}, {"\xce\xbc", -6}, {"m", -3},
+                {"k", 3},  {"M", 6},  {"G", 9},         {"c", -2}};
 
 /* centi is for metres alone */
 static bool goes_with(const char *prefix, const char *name) {
@@ -81,9 +81,9 @@ bool unit_lookup(const char *word, size_t len, unit *out) {
 }
 
 static const char *prefixed_name(size_t i) {
-    static const char *const common[] = {"N",   "kN",   "mN",  "uN",  "MN",  "lbf", "kgf", "dyn", "Pa",
-                                         "kPa", "MPa",  "GPa", "bar", "psi", "ksi", "m",   "mm",  "um",
-                                         "nm",  "cm",   "inch", "J",   "mJ",  "uJ",  "nJ",  "kJ",  "rad", "deg"};
+    static const char *const common[] = {"N",    "kN",  "mN",  "uN",  "MN",  "lbf", "kgf", "dyn", "Pa", "kPa",
+                                         "MPa",  "GPa", "bar", "psi", "ksi", "m",   "mm",  "um",  "nm", "cm",
+                                         "inch", "J",   "mJ",  "uJ",  "nJ",  "kJ",  "rad", "deg"};
     return i < sizeof common / sizeof *common ? common[i] : NULL;
 }
 

@@ -5,8 +5,8 @@
 
 #include "calc/words.h"
 
-/* Powers of newton and metre; exponents are real, since A of a gap A r^n is in m^(1-n). An angle is a number, but
- * one that remembers its unit: where an angle is wanted, 90 is not 90 deg. */
+/* Powers of newton and metre; exponents are real, since A of a gap A r^n is in m^(1-n). An angle is a number,
+ * but one that remembers its unit: where an angle is wanted, 90 is not 90 deg. */
 typedef struct dim {
     double N, m, rad;
 } dim;

@@ -40,8 +40,8 @@ static void word_status(const calc *c, calc_error *error) {
         snprintf(text, size, "%s = %s exceeds mu*FN = %s: gross slip; %s to slide", name, given, limit,
                  strcmp(name, "FA") ? "step by displacement (dx=...)" : "cycle by displacement (dxA=...)");
     else if (st->code == FRET_TABLE_SHORT)
-        snprintf(text, size, "%s = %s cannot be carried: the gap supports contact radii up to %s", name, given,
-                 limit);
+        snprintf(text, size, "%s = %s cannot be carried: the gap supports contact radii up to %s", name,
+                 given, limit);
     else if (st->code == FRET_OUTSIDE && st->limit > 0)
         snprintf(text, size, "%s = %s %s (limit %s)", name, given, rule, limit);
     else
@@ -58,7 +58,9 @@ static void word_missing(const calc *c, calc_error *error) {
         snprintf(text, size, "the second body is rigid");
     else if (in <= IN_NU || in == IN_E0_2 || in == IN_NU_2)
         snprintf(text, size, "%s is not set: give the material first (material E0=210 GPa nu=0.3)",
-                 in <= IN_NU ? name : in == IN_E0_2 ? "E0" : "nu");
+                 in <= IN_NU     ? name
+                 : in == IN_E0_2 ? "E0"
+                                 : "nu");
     else if (in == IN_MU)
         snprintf(text, size, "mu is not set: give the friction first (friction 0.4)");
     else if (in == IN_C0)
@@ -66,8 +68,9 @@ static void word_missing(const calc *c, calc_error *error) {
     else if (in == IN_FN)
         snprintf(text, size, "there is no load yet: press first (press FN=100 N)");
     else if (INPUT_BIT(in) & INPUT_CYCLE)
-        snprintf(text, size, c->now->end.cycles ? "%s is no amplitude of the last cycle"
-                                                : "%s: no cycle has been run yet (cycle FA=...)",
+        snprintf(text, size,
+                 c->now->end.cycles ? "%s is no amplitude of the last cycle"
+                                    : "%s: no cycle has been run yet (cycle FA=...)",
                  name);
     else if (!g)
         snprintf(text, size, "%s is not set: give the geometry first (geometry sphere R=10 mm)", name);

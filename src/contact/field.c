@@ -2,6 +2,8 @@
 /* Pressure, traction and surface displacements by inverse transforms. */
 #include "fret/field.h"
 
+#include <float.h>
+
 #include "contact/check.h"
 #include "contact/normal.h"
 #include "number/quadrature.h"
@@ -62,6 +64,59 @@ static fret_real pressure_tip(fret_real t, fret_real rest, void *context) {
     return x > 0 ? slope_at(c, x) * fret_pow(x, c->normal->rule.k) / t : 0;
 }
 
+/* Powers, by series of positive terms: int_r^b x^(n-1) (x^2-r^2)^(m-1) dx with w = 1-(r/b)^2, m = (k+1)/2 and
+ * e = (n-2)/2 is b^(n+k-1) w^m/(2m) times
+ *   sum (-e)_j/(m+1)_j w^j = (1-w)^(m+e) sum (m+1+e)_j/j! m/(m+j) w^j:
+ * the first sum for n <= 2, the second else. */
+static fret_real near_edge(fret_real n, fret_real m, fret_real v, fret_real w) {
+    const fret_real e = n / 2 - 1, enough = LDBL_EPSILON / 4 * (1 - w);
+    const bool gentle = e <= 0;
+    fret_real sum = 0, term = 1, ratio = 0;
+    for (int i = 0; ratio >= 1 || term > enough * sum; i++) {
+        const fret_real j = i;
+        sum += gentle ? term : term * m / (m + j);
+        ratio = gentle ? (j - e) / (m + 1 + j) * w : (m + 1 + e + j) / (1 + j) * w;
+        term *= ratio;
+    }
+    return fret_pow(w, m) / (2 * m) * (gentle ? sum : sum * fret_pow(v, m + e));
+}
+
+/* From b to 1, with v = (r/b)^2 well below 1: the kernel as a series in (r/x)^2. */
+static fret_real far_from_edge(fret_real n, fret_real m, fret_real r, fret_real b, fret_real v) {
+    const fret_real rise = n + 2 * m - 2, span = -fret_log(b);
+    fret_real sum = 0, c = 1, outer = 1, inner = fret_pow(b, rise);
+    for (int j = 0; j < 100 && c * (inner + outer) > LDBL_EPSILON / 8 * sum; j++) {
+        const fret_real power = rise - 2 * j;
+        sum +=
+            c * (fabsl(power) * span < 0.5L ? inner * (power != 0 ? fret_expm1(power * span) / power : span)
+                                            : (outer - inner) / power);
+        c *= (1 - m + j) / (1 + j);
+        outer *= r * r;
+        inner *= v;
+    }
+    return sum;
+}
+
+/* int_r^1 x^(n-1) (x^2-r^2)^(m-1) dx */
+static fret_real power_integral(fret_real n, fret_real m, fret_real r, fret_real w) {
+    static const fret_real most = 0.7L; /* a longer series is slower than two */
+    if (w <= most)
+        return near_edge(n, m, r * r, w);
+    const fret_real b = r / sqrtl(1 - most);
+    return fret_pow(b, n + 2 * m - 2) * near_edge(n, m, 1 - most, most) + far_from_edge(n, m, r, b, 1 - most);
+}
+
+static fret_real pressure_powers(const fret_normal *n, const fret_power *power, int terms, fret_real a,
+                                 fret_real r) {
+    const fret_foundation *f = &n->foundation;
+    const fret_real part = r / a, w = (a - r) / a * ((a + r) / a);
+    fret_real sum = 0;
+    for (int i = 0; i < terms; i++)
+        sum += n->rule.kappa[i] * power[i].h * fret_ratio_pow(a, power[i].r0, power[i].n) * power[i].n *
+               power_integral(power[i].n, (f->k + 1) / 2, part, w);
+    return f->cN0 / FRET_PI * fret_pow(a / f->c0, f->k) * sum / a;
+}
+
 /* Of a gap without steep powers. */
 static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
     *p = 0;
@@ -74,6 +129,12 @@ static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real 
     const bool sharp = r == start && fret_gap_sharp(&n->gap);
     if ((tip && rise <= 0) || sharp)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
+    const fret_power *power;
+    const int terms = fret_gap_powers(&n->gap, &power);
+    if (terms > 0 && r > 0) {
+        *p = pressure_powers(n, power, terms, a, r);
+        return isfinite(*p) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
+    }
     inside c = {n, start, r, 0, a - start, 2 / k1};
     fret_real scale = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI;
     if (tip) {

@@ -38,6 +38,10 @@ struct fret_memory {
 /* Room for `count` slices. Error: FRET_NO_MEMORY. */
 fret_status fret_memory_reserve(fret_memory *memory, size_t count);
 
+/* F_x/mu at the end of a step by force, which must not exceed the normal force FN there; 0 by displacement.
+ * Errors: FRET_NOT_FINITE, FRET_GROSS_SLIP. */
+fret_status fret_step_load(double mu, const fret_step *step, fret_real FN, fret_real *load);
+
 /* int sigma dy, or int sigma dF_N, over the whole contact. */
 static inline fret_real fret_memory_total(const fret_memory *m, coordinate by) {
     return m->count ? m->slices[m->count - 1].sum[by] : 0;

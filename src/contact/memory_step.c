@@ -422,18 +422,16 @@ static fret_status normal_end(const fret_memory *m, const fret_step *step, fret_
     return st;
 }
 
-/* F_x/mu at the end of a step by force, which must not exceed the normal force FN there. */
-static fret_status tangential_end(const fret_memory *m, const fret_step *step, fret_real FN,
-                                  fret_real *load) {
+fret_status fret_step_load(double mu, const fret_step *step, fret_real FN, fret_real *load) {
     const bool by_force = step->tangential_by == FRET_TO_FX;
     *load = 0;
     if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
         return fret_fail(FRET_NOT_FINITE, by_force ? "Fx" : "dx", step->tangential, 0);
     if (by_force)
-        *load = step->tangential / (fret_real)m->mu;
+        *load = step->tangential / (fret_real)mu;
     if (fabsl(*load) > FN * (1 - (fret_real)DBL_EPSILON)) {
         if (fabsl(*load) > FN * (1 + (fret_real)DBL_EPSILON))
-            return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(m->mu * FN));
+            return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(mu * FN));
         *load = copysignl(FN, *load); /* mu F_N up to its rounding */
     }
     return fret_ok();
@@ -489,7 +487,7 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     fret_real gap, load;
     fret_status st = normal_end(m, step, &p, &gap);
     if (!st.code)
-        st = tangential_end(m, step, p.F, &load);
+        st = fret_step_load(m->mu, step, p.F, &load);
     if (!st.code)
         st = fret_memory_reserve(m, m->count + 4);
     if (st.code)

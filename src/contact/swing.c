@@ -247,7 +247,7 @@ static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_rea
         const fret_real crossing = next_crossing(c, w, 1 << M | 1 << P, lo, hi);
         fret_real stop = crossing;
         const int side = side_until(c, w, lo, &stop);
-        stop = fminl(fmaxl(stop, lo + least), crossing);
+        stop = fminl(fmaxl(stop, lo + least), crossing); /* on, whatever rounding says */
         if (side == 0) {
             const fret_real end[2] = {way_at(w, M, stop), way_at(w, P, stop)};
             st = cut(c, M, end[M], end);
@@ -433,14 +433,9 @@ fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
         st = fret_press_by_force(c->normal, step->normal, &p);
     else if (step->normal_by == FRET_TO_DEPTH)
         st = fret_press_by_depth(c->normal, fmax(step->normal, 0), &p);
-    fret_real load = step->tangential / (fret_real)c->mu;
-    if (!st.code && !isfinite(step->tangential))
-        st = fret_fail(FRET_NOT_FINITE, "Fx", step->tangential, 0);
-    if (!st.code && fabsl(load) > p.F * (1 - (fret_real)DBL_EPSILON)) {
-        if (fabsl(load) > p.F * (1 + (fret_real)DBL_EPSILON))
-            st = fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(c->mu * p.F));
-        load = copysignl(p.F, load);
-    }
+    fret_real load = 0;
+    if (!st.code)
+        st = fret_step_load(c->mu, step, p.F, &load);
     if (st.code)
         return st;
     way w = {.harmonic = false};

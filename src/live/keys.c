@@ -25,23 +25,24 @@ static double number(const live *l, const char *name, double otherwise) {
 
 enum { PARTS = 25, FINE = 10 };
 
-/* By a part of what makes it slide, or of the normal load. */
-static void push(live *l, double way) {
+/* By a part of the whole. */
+static void step_by(live *l, const char *name, double whole, double way) {
     char by[40];
-    const double whole = l->by_displacement ? now(l)->bound : now(l)->slip;
     if (!(whole > 0)) {
         live_tell(l, true, "nothing is pressed: r presses again");
         return;
     }
     live_amount(live_nice(whole / PARTS) * way, l->by_displacement ? DIM_LENGTH : DIM_FORCE, by, sizeof by);
-    live_say(l, "step %s+=%s", l->by_displacement ? "dx" : "Fx", by);
+    live_say(l, "step %s+=%s", name, by);
+}
+
+static void push(live *l, double way) {
+    step_by(l, l->by_displacement ? "dx" : "Fx", l->by_displacement ? now(l)->bound : now(l)->slip, way);
 }
 
 static void press(live *l, double way) {
-    char by[40];
-    const double whole = l->by_displacement ? number(l, "dz", 1e-6) : number(l, "FN", 1);
-    live_amount(live_nice(whole / PARTS) * way, l->by_displacement ? DIM_LENGTH : DIM_FORCE, by, sizeof by);
-    live_say(l, "step %s+=%s", l->by_displacement ? "dz" : "FN", by);
+    const char *name = l->by_displacement ? "dz" : "FN";
+    step_by(l, name, number(l, name, 0), way);
 }
 
 static void right(live *l) {

@@ -187,6 +187,12 @@ bool terminal_unicode(void) {
     return own.unicode;
 }
 
+int terminal_frame(void) {
+    enum { FAST = 19200, FRAME = 16, BITS = 15000 /* of a picture that moves, about */ };
+    const int rate = baudrate();
+    return rate > 0 && rate <= FAST ? 1000 * BITS / rate : FRAME;
+}
+
 /* ---- keys -------------------------------------------------------------------------------------- */
 
 /* As Ctrl-Z does; comes back when the program is continued. */

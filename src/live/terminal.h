@@ -14,6 +14,8 @@ bool terminal_open(char *error, size_t size);
 void terminal_close(void);
 /* Braille and other signs can be shown. */
 bool terminal_unicode(void);
+/* Milliseconds from one moving picture to the next: a slow line must not fall behind. */
+int terminal_frame(void);
 /* Waits for a key or for the time to pass. */
 int terminal_key(int milliseconds, volatile sig_atomic_t *stop);
 

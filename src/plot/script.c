@@ -304,15 +304,26 @@ static void set_verticals(const scribe *s, const plot_panel *p, const plot_axis 
     }
 }
 
-/* Bands lie below the lines, the present point above. */
-static int layer(plot_role role) {
-    return role == PLOT_BAND ? 0 : role == PLOT_NOW ? 2 : role == PLOT_VERTICAL ? 3 : 1;
+enum { LAYERS = 4 };
+
+/* Bands lie below the lines, thin ones below the others, the present point above. */
+static int layer(const plot_series *s) {
+    switch (s->role) {
+    case PLOT_BAND:
+        return 0;
+    case PLOT_NOW:
+        return 3;
+    case PLOT_VERTICAL: /* an arrow */
+        return LAYERS;
+    default:
+        return s->thin ? 1 : 2;
+    }
 }
 
 static void draw_all(const scribe *s, const plot_panel *p, bool first, bool deep) {
-    for (int l = 0; l < 3; l++)
+    for (int l = 0; l < LAYERS; l++)
         for (size_t i = 0; i < p->count; i++)
-            if (layer(p->series[i]->role) == l && (p->series[i]->count || p->series[i]->title)) {
+            if (layer(p->series[i]) == l && (p->series[i]->count || p->series[i]->title)) {
                 fputs(first ? "" : ", \\\n  ", s->to);
                 draw_series(s, p, i, deep);
                 first = false;
@@ -345,7 +356,7 @@ static void draw_map(const scribe *s, const plot_panel *p, const plot_axis *x) {
             "set tmargin at screen 0.92\nset view map\nset palette defined (0 '#ffffff', 1 '#8fc1e3')\n"
             "set style textbox opaque noborder margins 0.5,0.5\nset contour base\n"
             "set cntrparam levels discrete ",
-            from + 0.15 * part, from + 0.8 * part);
+            from + 0.15 * part, from + (s->panels > 1 ? 0.7 : 0.8) * part);
     for (size_t i = 0; i < n; i++)
         fprintf(s->to, "%s%.9g", i ? "," : "", level[i]);
     fputs(n ? "\nset cntrlabel onecolor start 20 interval 400 format '%.4g'\n" : "0\n", s->to);
@@ -368,9 +379,9 @@ static bool draw_panel(const scribe *s, const plot_panel *p, const plot_extents 
     if (!plot_axes(p, e, true, &x, &y, error, size))
         return false;
     /* not `reset`, which would lose the panel's place */
-    fputs("set encoding utf8\nset minussign\nunset arrow\nunset label\nunset logscale\nset format\nunset "
-          "contour\n"
-          "unset pm3d\nunset grid\n",
+    fputs("set encoding utf8\nset minussign\nunset arrow\nunset label\nunset logscale\nset format\n"
+          "unset contour\nunset pm3d\nset grid layerdefault\nunset grid\nunset xzeroaxis\nunset yzeroaxis\n"
+          "set lmargin\nset rmargin\nset bmargin\nset tmargin\n",
           s->to);
     set_text(s, "title", p->title);
     set_text(s, "xlabel", p->xlabel);

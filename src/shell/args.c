@@ -36,8 +36,8 @@ void args_drop(const arg_list *list, arg_value v[ARGS]) {
 /* ---- NAME = EXPR ------------------------------------------------------------------------------- */
 
 static bool unknown_argument(lexer *lx, const arg_list *list) {
-    return calc_fail(lx->error, lx->at, lx->len, "%s has no %s '%.*s'; usage: %s %s", list->who,
-                     list->noun, LEX_WORD(lx), list->command, list->usage);
+    return calc_fail(lx->error, lx->at, lx->len, "%s has no %s '%.*s'; usage: %s %s", list->who, list->noun,
+                     LEX_WORD(lx), list->command, list->usage);
 }
 
 static const arg *find(const lexer *lx, const arg_list *list, arg_kind kind) {
@@ -50,7 +50,8 @@ static const arg *find(const lexer *lx, const arg_list *list, arg_kind kind) {
 /* Twice the same, or another of its group. */
 static bool twice(lexer *lx, const arg_list *list, const arg *a, const arg_value out[ARGS]) {
     if (out[a - list->args].given) {
-        calc_fail(lx->error, lx->at, lx->len, a->group ? "two targets in one direction" : "%s is given twice", a->name);
+        calc_fail(lx->error, lx->at, lx->len, a->group ? "two targets in one direction" : "%s is given twice",
+                  a->name);
         return true;
     }
     for (const arg *other = list->args; a->group && other->kind; other++)
@@ -83,7 +84,8 @@ static bool in_range(lexer *lx, const arg *a, const arg_value *v) {
 
 static bool read_named(shell *sh, lexer *lx, const arg_list *list, const arg *a, arg_value *v) {
     const token_kind how = lex_peek(lx);
-    if (!a || (how == T_INCREMENT && !(a->flags & ARG_INCREMENT)) || (how == T_DEFINE && !(a->flags & ARG_LIVE)))
+    if (!a || (how == T_INCREMENT && !(a->flags & ARG_INCREMENT)) ||
+        (how == T_DEFINE && !(a->flags & ARG_LIVE)))
         return unknown_argument(lx, list);
     const dim d = a->in && !(a->flags & ARG_OWN_DIM) ? quantity_of_input((input)(a->in - 1))->d : a->d;
     v->at = lx->at;
@@ -154,7 +156,8 @@ static bool read_first(shell *sh, lexer *lx, const arg_list *list, arg_value out
     }
 }
 
-static bool read_keyword(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file, bool *found) {
+static bool read_keyword(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file,
+                         bool *found) {
     const arg *a = list->args;
     *found = false;
     for (; a && a->kind; a++)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Arguments of commands: what a row of the table of commands takes, and reading it. Usage errors and completion by
- * position derive from the same rows. */
+/* Arguments of commands: what a row of the table of commands takes, and reading it. Usage errors and
+ * completion by position derive from the same rows. */
 #ifndef SHELL_ARGS_H
 #define SHELL_ARGS_H
 
@@ -36,9 +36,9 @@ typedef struct arg {
     arg_kind kind;
     const char *name; /* of ARG_CHOICE and ARG_NAME: what is chosen, for messages */
     dim d;
-    int in;         /* 1 + the input whose dimension and range it has; 0: none */
+    int in; /* 1 + the input whose dimension and range it has; 0: none */
     unsigned flags;
-    int group;      /* one of a group, 0: no group */
+    int group; /* one of a group, 0: no group */
     unsigned most;
     const char *(*words)(size_t i); /* of ARG_CHOICE and ARG_NAME, for completion too */
 } arg;
@@ -65,8 +65,8 @@ typedef struct arg_list {
     const char *noun;    /* "argument", "parameter" */
 } arg_list;
 
-/* Reads all that the rows allow to the end of the statement. file: of ARG_FILE or ARG_TO, the size of ARG_FILE_NAME, or
- * NULL where there are none. */
+/* Reads all that the rows allow to the end of the statement. file: of ARG_FILE or ARG_TO, the size of
+ * ARG_FILE_NAME, or NULL where there are none. */
 bool args_read(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file);
 /* The same as far as the arguments go. */
 bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file);

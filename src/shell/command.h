@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one table of commands: dispatch, arguments, usage, help, apropos, completion, man page and README's list derive
- * from it. */
+/* The one table of commands: dispatch, arguments, usage, help, apropos, completion, man page and README's
+ * list derive from it. */
 #ifndef SHELL_COMMAND_H
 #define SHELL_COMMAND_H
 
@@ -12,13 +12,13 @@ enum { GROUP_NORMAL = 1, GROUP_TANGENTIAL };
 typedef struct command {
     const char *name;
     bool (*run)(shell *sh, lexer *lx, const struct command *self); /* the cursor after the command word */
-    const arg *args;     /* ended by an empty row; NULL: none */
-    const char *usage;   /* without the command word */
-    const char *summary; /* one line */
-    const char *help;    /* what it does; ends with an example as a transcript, indented by four */
+    const arg *args;                                               /* ended by an empty row; NULL: none */
+    const char *usage;                                             /* without the command word */
+    const char *summary;                                           /* one line */
+    const char *help; /* what it does; ends with an example as a transcript, indented by four */
     const char *keywords;
-    const char *group; /* of `help`: what it is for */
-    bool changes;      /* the scene */
+    const char *group;       /* of `help`: what it is for */
+    bool changes;            /* the scene */
     void (*print)(FILE *to); /* more help, from a table */
 } command;
 

@@ -15,27 +15,23 @@
 
 #define INPUT(which) .in = 1 + (which)
 
-static const arg material_args[] = {
-    {.kind = ARG_CHOICE, .name = "material", .words = preset_name},
-    {.kind = ARG_VALUE, .name = "E0", INPUT(IN_E0), .flags = ARG_LIVE},
-    {.kind = ARG_VALUE, .name = "nu", INPUT(IN_NU), .flags = ARG_LIVE},
-    {.kind = ARG_VALUE, .name = "k", INPUT(IN_K), .flags = ARG_LIVE},
-    {.kind = ARG_VALUE, .name = "c0", INPUT(IN_C0), .flags = ARG_LIVE},
-    {.kind = ARG_VALUE, .name = "E0_2", INPUT(IN_E0_2), .flags = ARG_LIVE},
-    {.kind = ARG_VALUE, .name = "nu_2", INPUT(IN_NU_2), .flags = ARG_LIVE},
-    {.kind = ARG_END}};
+static const arg material_args[] = {{.kind = ARG_CHOICE, .name = "material", .words = preset_name},
+                                    {.kind = ARG_VALUE, .name = "E0", INPUT(IN_E0), .flags = ARG_LIVE},
+                                    {.kind = ARG_VALUE, .name = "nu", INPUT(IN_NU), .flags = ARG_LIVE},
+                                    {.kind = ARG_VALUE, .name = "k", INPUT(IN_K), .flags = ARG_LIVE},
+                                    {.kind = ARG_VALUE, .name = "c0", INPUT(IN_C0), .flags = ARG_LIVE},
+                                    {.kind = ARG_VALUE, .name = "E0_2", INPUT(IN_E0_2), .flags = ARG_LIVE},
+                                    {.kind = ARG_VALUE, .name = "nu_2", INPUT(IN_NU_2), .flags = ARG_LIVE},
+                                    {.kind = ARG_END}};
 
-static const arg second_args[] = {
-    {.kind = ARG_CHOICE, .name = "material", .words = second_name},
-    {.kind = ARG_VALUE, .name = "E0", INPUT(IN_E0), .flags = ARG_LIVE},
-    {.kind = ARG_VALUE, .name = "nu", INPUT(IN_NU), .flags = ARG_LIVE},
-    {.kind = ARG_VALUE, .name = "E0_2", INPUT(IN_E0_2), .flags = ARG_LIVE},
-    {.kind = ARG_VALUE, .name = "nu_2", INPUT(IN_NU_2), .flags = ARG_LIVE},
-    {.kind = ARG_END}};
+static const arg second_args[] = {{.kind = ARG_CHOICE, .name = "material", .words = second_name},
+                                  {.kind = ARG_VALUE, .name = "E0", INPUT(IN_E0), .flags = ARG_LIVE},
+                                  {.kind = ARG_VALUE, .name = "nu", INPUT(IN_NU), .flags = ARG_LIVE},
+                                  {.kind = ARG_VALUE, .name = "E0_2", INPUT(IN_E0_2), .flags = ARG_LIVE},
+                                  {.kind = ARG_VALUE, .name = "nu_2", INPUT(IN_NU_2), .flags = ARG_LIVE},
+                                  {.kind = ARG_END}};
 
-static const arg friction_args[] = {
-    {.kind = ARG_EXPR, .name = "mu", INPUT(IN_MU)},
-    {.kind = ARG_END}};
+static const arg friction_args[] = {{.kind = ARG_EXPR, .name = "mu", INPUT(IN_MU)}, {.kind = ARG_END}};
 
 static const arg press_args[] = {
     {.kind = ARG_VALUE, .name = "FN", INPUT(IN_FN), .flags = ARG_ALONE},
@@ -63,57 +59,44 @@ static const arg cycle_args[] = {
 static const arg geometry_args[] = {{.kind = ARG_NAME, .name = "shape", .words = geometry_name},
                                     {.kind = ARG_END}};
 static const arg show_args[] = {{.kind = ARG_NAME, .name = "part", .words = show_name}, {.kind = ARG_END}};
-static const arg set_args[] = {{.kind = ARG_NAME, .name = "setting", .words = setting_name}, {.kind = ARG_END}};
-static const arg demo_args[] = {{.kind = ARG_NAME, .name = "lesson", .words = script_name}, {.kind = ARG_END}};
+static const arg set_args[] = {{.kind = ARG_NAME, .name = "setting", .words = setting_name},
+                               {.kind = ARG_END}};
+static const arg demo_args[] = {{.kind = ARG_NAME, .name = "lesson", .words = script_name},
+                                {.kind = ARG_END}};
 static const arg help_args[] = {{.kind = ARG_NAME, .name = "topic", .words = help_name}, {.kind = ARG_END}};
 
-static const arg reset_args[] = {
-    {.kind = ARG_WORD, .name = "all"},
-    {.kind = ARG_END}};
+static const arg reset_args[] = {{.kind = ARG_WORD, .name = "all"}, {.kind = ARG_END}};
 
-static const arg file_args[] = {
-    {.kind = ARG_FILE, .name = "file"},
-    {.kind = ARG_END}};
+static const arg file_args[] = {{.kind = ARG_FILE, .name = "file"}, {.kind = ARG_END}};
 
 static const arg record_args[] = {
-    {.kind = ARG_FILE, .name = "file"},
-    {.kind = ARG_WORD, .name = "off"},
-    {.kind = ARG_END}};
+    {.kind = ARG_FILE, .name = "file"}, {.kind = ARG_WORD, .name = "off"}, {.kind = ARG_END}};
 
 static const arg save_args[] = {
-    {.kind = ARG_FILE, .name = "file"},
-    {.kind = ARG_WORD, .name = "history"},
-    {.kind = ARG_END}};
+    {.kind = ARG_FILE, .name = "file"}, {.kind = ARG_WORD, .name = "history"}, {.kind = ARG_END}};
 
-static const arg to_args[] = {
-    {.kind = ARG_TO, .name = "to"},
-    {.kind = ARG_END}};
+static const arg to_args[] = {{.kind = ARG_TO, .name = "to"}, {.kind = ARG_END}};
 
-static const arg list_args[] = {
-    {.kind = ARG_LIST, .name = "quantity"},
-    {.kind = ARG_END}};
+static const arg list_args[] = {{.kind = ARG_LIST, .name = "quantity"}, {.kind = ARG_END}};
 
-static const arg table_args[] = {
-    {.kind = ARG_LIST, .name = "expression"},
-    {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
-    {.kind = ARG_WORD, .name = "log"},
-    {.kind = ARG_TO, .name = "to"},
-    {.kind = ARG_END}};
+static const arg table_args[] = {{.kind = ARG_LIST, .name = "expression"},
+                                 {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
+                                 {.kind = ARG_WORD, .name = "log"},
+                                 {.kind = ARG_TO, .name = "to"},
+                                 {.kind = ARG_END}};
 
-static const arg plot_args[] = {
-    {.kind = ARG_NAME, .name = "figure", .words = figure_name},
-    {.kind = ARG_LIST, .name = "expression"},
-    {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
-    {.kind = ARG_WORD, .name = "log"},
-    {.kind = ARG_TO, .name = "to"},
-    {.kind = ARG_END}};
+static const arg plot_args[] = {{.kind = ARG_NAME, .name = "figure", .words = figure_name},
+                                {.kind = ARG_LIST, .name = "expression"},
+                                {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
+                                {.kind = ARG_WORD, .name = "log"},
+                                {.kind = ARG_TO, .name = "to"},
+                                {.kind = ARG_END}};
 
-static const arg animate_args[] = {
-    {.kind = ARG_NAME, .name = "figure", .words = figure_name},
-    {.kind = ARG_LIST, .name = "expression"},
-    {.kind = ARG_COUNT, .name = "frames", .most = PLOT_FRAMES},
-    {.kind = ARG_TO, .name = "to"},
-    {.kind = ARG_END}};
+static const arg animate_args[] = {{.kind = ARG_NAME, .name = "figure", .words = figure_name},
+                                   {.kind = ARG_LIST, .name = "expression"},
+                                   {.kind = ARG_COUNT, .name = "frames", .most = PLOT_FRAMES},
+                                   {.kind = ARG_TO, .name = "to"},
+                                   {.kind = ARG_END}};
 
 static const arg accuracy_args[] = {
     {.kind = ARG_VALUE, .name = "FA", .d = {1, 0, 0}, .flags = ARG_POSITIVE, .group = GROUP_TANGENTIAL},
@@ -121,30 +104,22 @@ static const arg accuracy_args[] = {
     {.kind = ARG_NUMBER, .name = "within", .most = 3600},
     {.kind = ARG_END}};
 
-static const arg export_args[] = {
-    {.kind = ARG_COUNT, .name = "jenkins", .most = 1000},
-    {.kind = ARG_TO, .name = "to"},
-    {.kind = ARG_VALUE, .name = "FA", .d = {1, 0, 0}, .flags = ARG_POSITIVE},
-    {.kind = ARG_END}};
+static const arg export_args[] = {{.kind = ARG_COUNT, .name = "jenkins", .most = 1000},
+                                  {.kind = ARG_TO, .name = "to"},
+                                  {.kind = ARG_VALUE, .name = "FA", .d = {1, 0, 0}, .flags = ARG_POSITIVE},
+                                  {.kind = ARG_END}};
 
-static const arg solve_args[] = {
-    {.kind = ARG_LIST, .name = "input"},
-    {.kind = ARG_END}};
+static const arg solve_args[] = {{.kind = ARG_LIST, .name = "input"}, {.kind = ARG_END}};
 
 static const arg fit_args[] = {
-    {.kind = ARG_LIST, .name = "input"},
-    {.kind = ARG_WORD, .name = "robust"},
-    {.kind = ARG_END}};
+    {.kind = ARG_LIST, .name = "input"}, {.kind = ARG_WORD, .name = "robust"}, {.kind = ARG_END}};
 
-static const arg uncertainty_args[] = {
-    {.kind = ARG_LIST, .name = "expression"},
-    {.kind = ARG_COUNT, .name = "samples", .most = 10000000},
-    {.kind = ARG_COUNT, .name = "seed", .most = 1000000000},
-    {.kind = ARG_END}};
+static const arg uncertainty_args[] = {{.kind = ARG_LIST, .name = "expression"},
+                                       {.kind = ARG_COUNT, .name = "samples", .most = 10000000},
+                                       {.kind = ARG_COUNT, .name = "seed", .most = 1000000000},
+                                       {.kind = ARG_END}};
 
-static const arg optimise_args[] = {
-    {.kind = ARG_LIST, .name = "expression"},
-    {.kind = ARG_END}};
+static const arg optimise_args[] = {{.kind = ARG_LIST, .name = "expression"}, {.kind = ARG_END}};
 
 static void geometry_list(FILE *to) {
     const geometry *g;
@@ -188,7 +163,8 @@ static const command commands[] = {
              "which is left out here: a warning says so.\n\n"
              "    fret> material steel; second rigid; friction 0.3\n"
              "    fret> geometry sphere R=10 mm; press FN=100 N\n"
-             "    warning: the bodies are elastically dissimilar (mismatch 0.286): normal and tangential contact are "
+             "    warning: the bodies are elastically dissimilar (mismatch 0.286): normal and tangential "
+             "contact are "
              "coupled, and these results are an approximation\n"
              "    fret> a\n"
              "    a = 148.125 um\n"},
@@ -324,7 +300,8 @@ static const command commands[] = {
      .args = table_args,
      .group = "results",
      .keywords = "sweep csv export",
-     .usage = "EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, v2, ...] | for VAR2 = ... [to FILE]",
+     .usage =
+         "EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, v2, ...] | for VAR2 = ... [to FILE]",
      .summary = "a table over a range",
      .help = "VAR is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n"
              "Two ranges make a matrix, as CSV and JSON a row for each pair. `along program`,\n"
@@ -495,18 +472,19 @@ static const command commands[] = {
      .keywords = "error speed",
      .usage = "[FA=20 N | dxA=0.5 um] [within 3]",
      .summary = "error against time of every model, for this scene",
-     .help = "A table of the models that can answer for dW: value, relative error, time of a\n"
-             "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
-             "marks one that is below what it can tell. Without an argument the amplitude is\n"
-             "that of the last cycle, else of Fx now, else half of mu*FN. Where FN swings or\n"
-             "has changed, the load program is run as it is and errors refer to a refined\n"
-             "memory diagram. Springs with `midpoint` weights x^k h converge with order 1+k\n"
-             "where k < 0. The end says what `set model auto` picks, and which springs come\n"
-             "close. Larger models are left out where all would take more than 3 seconds;\n"
-             "`within 20` allows more, `within 0.3` less. `plot accuracy` draws the table.\n\n"
-             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-             "    fret> accuracy FA=50 N\n"
-             "    error: FA = 50 N exceeds mu*FN = 40 N: gross slip; cycle by displacement (dxA=...) to slide\n"},
+     .help =
+         "A table of the models that can answer for dW: value, relative error, time of a\n"
+         "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
+         "marks one that is below what it can tell. Without an argument the amplitude is\n"
+         "that of the last cycle, else of Fx now, else half of mu*FN. Where FN swings or\n"
+         "has changed, the load program is run as it is and errors refer to a refined\n"
+         "memory diagram. Springs with `midpoint` weights x^k h converge with order 1+k\n"
+         "where k < 0. The end says what `set model auto` picks, and which springs come\n"
+         "close. Larger models are left out where all would take more than 3 seconds;\n"
+         "`within 20` allows more, `within 0.3` less. `plot accuracy` draws the table.\n\n"
+         "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+         "    fret> accuracy FA=50 N\n"
+         "    error: FA = 50 N exceeds mu*FN = 40 N: gross slip; cycle by displacement (dxA=...) to slide\n"},
     {.name = "show",
      .run = do_show,
      .args = show_args,
@@ -650,7 +628,8 @@ const command *command_find(const char *name, size_t len) {
 
 /* Words that may follow a number: those that rows of the table of commands name, and those of ranges. */
 bool argument_word(const lexer *lx) {
-    static const char *const others[] = {"to", "for", "in", "at", "log", "with", "from", "over", "along", "against"};
+    static const char *const others[] = {"to",   "for",  "in",   "at",    "log",
+                                         "with", "from", "over", "along", "against"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (lex_is(lx, others[i]))
             return true;

@@ -359,8 +359,9 @@ static void add_continuation(const place *p) {
 /* The dimension that `NAME = NUMBER` wants at the cursor after the number. */
 static bool wanted_dim(const place *p, dim *d) {
     size_t i = p->count - 1; /* the number */
-    while (i > 0 && (p->token[i].kind == T_NUMBER || p->token[i].kind == T_MINUS || p->token[i].kind == T_RANGE ||
-                     (p->token[i].kind == T_NAME && p->token[i - 1].kind == T_NUMBER))) /* 1 N .. 2 */
+    while (i > 0 &&
+           (p->token[i].kind == T_NUMBER || p->token[i].kind == T_MINUS || p->token[i].kind == T_RANGE ||
+            (p->token[i].kind == T_NAME && p->token[i - 1].kind == T_NUMBER))) /* 1 N .. 2 */
         i--;
     if (p->command && i == 0 && p->command->args && p->command->args->kind == ARG_EXPR) {
         *d = p->command->args->d;

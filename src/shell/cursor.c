@@ -20,7 +20,8 @@ bool stray_unit(lexer *lx) {
         return false;
     lex_word(lx, word);
     const char *near = unit_suggest(word);
-    lex_fail(lx, near ? "unknown unit '%s': did you mean %s?" : "unknown unit '%s'; try: help units", word, near);
+    lex_fail(lx, near ? "unknown unit '%s': did you mean %s?" : "unknown unit '%s'; try: help units", word,
+             near);
     return true;
 }
 

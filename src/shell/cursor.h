@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What readers of statements ask of the cursor: what it is on, whether anything follows. Touches nothing else. */
+/* What readers of statements ask of the cursor: what it is on, whether anything follows. Touches nothing
+ * else. */
 #ifndef SHELL_CURSOR_H
 #define SHELL_CURSOR_H
 
 #include "calc/calc.h"
 
-/* The word of bytes up to a blank that the cursor begins: names with hyphens are several tokens to the lexer. */
+/* The word of bytes up to a blank that the cursor begins: names with hyphens are several tokens to the lexer.
+ */
 size_t word_at(const lexer *lx);
 /* Is the cursor on NAME =, NAME += or NAME :=? */
 bool at_argument(const lexer *lx);
@@ -16,7 +18,8 @@ bool stray_unit(lexer *lx);
 /* A whole number from 1 to limit. */
 bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, unsigned *out);
 
-/* Is it a word that may follow a number: one that the table of commands names, or of a range? In commands.c. */
+/* Is it a word that may follow a number: one that the table of commands names, or of a range? In commands.c.
+ */
 bool argument_word(const lexer *lx);
 
 #endif

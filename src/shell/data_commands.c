@@ -93,8 +93,11 @@ static bool read_names(shell *sh, lexer *lx, fit_question *q) {
             !name_taken(lx->text + lx->at, lx->len) &&
             !names_find(&sh->calc.names, lx->text + lx->at, lx->len, &unused))
             return lex_fail(lx, "'%.*s' is no input and has no value to start from", LEX_WORD(lx));
+        const size_t at = lx->at;
         if (!knob_read(&sh->calc, lx, &q->name[q->count++]))
             return false;
+        if (ask_repeats(q->name, q->count))
+            return calc_fail(lx->error, at, lx->last - at, "%s is given twice", q->name[q->count - 1].text);
         if (lx->kind != T_COMMA)
             return !lx->error->raised;
         lex_next(lx);
@@ -132,8 +135,8 @@ static const double *column_of(const csv *data, const char *name, dim d, calc_er
     return NULL;
 }
 
-/* Columns as names: of inputs, or free ones. Those that are results, or no names, have no say, and are missed if they
- * are asked for; one that is named in vain is no matter. */
+/* Columns as names: of inputs, or free ones. Those that are results, or no names, have no say, and are missed
+ * if they are asked for; one that is named in vain is no matter. */
 static bool read_columns(shell *sh, const csv *data, fit_question *q, range_names *names, calc_error *error) {
     for (size_t i = 0; i < data->columns && q->columns < FIT_COLUMNS; i++) {
         const csv_values *of_file = &data->column[i];
@@ -366,7 +369,12 @@ static bool read_uncertain(shell *sh, lexer *lx, uncertainty_question *q) {
         if (lx->kind == T_NAME && !quantity_find(lx->text + lx->at, lx->len) &&
             !names_find(&sh->calc.names, lx->text + lx->at, lx->len, &unused))
             return lex_fail(lx, "'%.*s' is no input and has no value", LEX_WORD(lx));
-        if (!knob_read(&sh->calc, lx, k) || !read_deviation(sh, lx, k, &q->deviation[q->count++]))
+        const size_t at = lx->at;
+        if (!knob_read(&sh->calc, lx, k))
+            return false;
+        if (ask_repeats(q->name, q->count + 1))
+            return calc_fail(lx->error, at, lx->last - at, "%s is given twice", k->text);
+        if (!read_deviation(sh, lx, k, &q->deviation[q->count++]))
             return false;
         if (lx->kind != T_COMMA)
             return !lx->error->raised;

@@ -86,6 +86,7 @@ static void begin(shell *own, const shell *sh) {
     shell_init(own, sh->out, sh->err);
     own->set = sh->set;
     own->set.report = REPORT_OFF;
+    own->replaying = sh->replaying;
 }
 
 static void run(shell *own, const char *line) {
@@ -126,15 +127,16 @@ static bool play_step(shell *own, const shell *sh, const script *s, size_t i, bo
     for (; shown && i < statements; i++)
         fprintf(sh->out, "%s\n", s->line[i]);
     const wish w = keys && s->line[statements] ? ask(own) : ON;
-    for (i = statements; w == ON && i < *next && !shell_stop; i++) {
+    for (i = statements; w == ON && i < *next && !shell_stop && !own->stopped; i++) {
         if (shown)
             fprintf(sh->out, "fret> %s\n", s->line[i]);
         run(own, s->line[i]);
     }
-    return w != LEAVE && !shell_stop && (w == ON || (*next = (size_t)-1));
+    return w != LEAVE && !shell_stop && !own->stopped && (w == ON || (*next = (size_t)-1));
 }
 
-static void play(shell *sh, const script *s, bool keys) {
+/* False: memory ran out. */
+static bool play(shell *sh, const script *s, bool keys) {
     shell own;
     begin(&own, sh);
     if (sh->set.format == FORMAT_TEXT)
@@ -149,7 +151,9 @@ static void play(shell *sh, const script *s, bool keys) {
         }
     }
     sh->calc.scene.used |= own.calc.scene.used;
+    const bool ok = !own.stopped || shell_stop;
     shell_free(&own);
+    return ok;
 }
 
 /* In a session of its own: the user's stays as it is. */
@@ -171,9 +175,10 @@ bool do_demo(shell *sh, lexer *lx, const command *self) {
         if (!at_end(lx))
             return false;
     }
-    play(sh, s,
-         !tour && sh->interactive && sh->set.format == FORMAT_TEXT && isatty(STDIN_FILENO) &&
-             isatty(STDOUT_FILENO));
+    if (!play(sh, s,
+              !tour && sh->interactive && sh->set.format == FORMAT_TEXT && isatty(STDIN_FILENO) &&
+                  isatty(STDOUT_FILENO)))
+        return calc_no_memory(lx->error);
     if (tour && sh->set.format == FORMAT_TEXT)
         fputs("\nLessons, such as `demo pressing`: `show demos` lists them.\n", sh->out);
     return !shell_stop || calc_interrupted(lx->error);

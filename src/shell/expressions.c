@@ -17,7 +17,8 @@ static bool read_unit(lexer *lx, column *c) {
     c->chosen = true;
     c->scale = unit_scale(&u);
     c->d = u.d;
-    snprintf(c->unit, sizeof c->unit, "%.*s", (int)(len < sizeof c->unit ? len : sizeof c->unit - 1), lx->text + at);
+    snprintf(c->unit, sizeof c->unit, "%.*s", (int)(len < sizeof c->unit ? len : sizeof c->unit - 1),
+             lx->text + at);
     return true;
 }
 

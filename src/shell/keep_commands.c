@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Commands that keep a session: save, record, and replay, which runs a kept one beside it. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "shell/command.h"
@@ -14,7 +15,7 @@ bool do_save(shell *sh, lexer *lx, const command *self) {
     file_out file;
     file_report report;
     (void)self;
-    const bool history = lex_is(lx, "history") && lex_peek(lx) != T_END;
+    const bool history = lex_is(lx, "history") && word_at(lx) == lx->len && lex_peek(lx) != T_END;
     if (history)
         lex_next(lx);
     const size_t at = lx->at;
@@ -39,15 +40,36 @@ bool do_save(shell *sh, lexer *lx, const command *self) {
 
 /* ---- record and replay ------------------------------------------------------------------------- */
 
+/* The scene as it is, and behind it the settings: in JSON a scene would tell of itself. NULL: out of memory.
+ */
+static char *beginning(shell *sh) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    if (!to)
+        return NULL;
+    scene_write(&sh->calc, &sh->set, to, true);
+    settings_write(&sh->calc, &sh->set, to);
+    if (fclose(to) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
 bool do_record(shell *sh, lexer *lx, const command *self) {
     char name[ARG_FILE_NAME], error[CALC_ERROR_TEXT - 8];
     (void)self;
-    if (lex_accept(lx, "off"))
+    if (word_at(lx) == lx->len && lex_accept(lx, "off"))
         return at_end(lx) && (record_end(sh) || lex_fail(lx, "nothing is being recorded"));
     const size_t at = lx->at;
     if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
         return false;
-    return record_begin(sh, name, error, sizeof error) || calc_fail(lx->error, at, lx->last - at, "%s", error);
+    char *text = beginning(sh);
+    if (!text)
+        return calc_no_memory(lx->error);
+    const bool ok = record_begin(sh, name, text, error, sizeof error);
+    free(text);
+    return ok || calc_fail(lx->error, at, lx->last - at, "%s", error);
 }
 
 bool do_replay(shell *sh, lexer *lx, const command *self) {

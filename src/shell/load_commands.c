@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands of the load program: press, step, cycle, follow, and the ways back. Each reads everything, then changes
- * everything or nothing. */
+/* Commands of the load program: press, step, cycle, follow, and the ways back. Each reads everything, then
+ * changes everything or nothing. */
 #include <string.h>
 
 #include "calc/csv.h"
@@ -13,7 +13,8 @@
 /* Events are data where answers are JSON; else they are for who types. */
 static bool reports(const shell *sh) {
     return sh->set.report == REPORT_ON ||
-           (sh->set.report == REPORT_AUTO && (sh->interactive || sh->replaying || sh->set.format == FORMAT_JSON));
+           (sh->set.report == REPORT_AUTO &&
+            (sh->interactive || sh->replaying || sh->set.format == FORMAT_JSON));
 }
 
 static void report_event(shell *sh, const char *event, const char *const *names) {
@@ -82,7 +83,8 @@ static bool live_values(shell *sh, lexer *lx, const arg_list *list, arg_value v[
         if (!x->live)
             continue;
         if (!definition_value(&sh->calc, (definition *)x->live, &x->v, lx->error) ||
-            !value_dim(lx, a->name, x->value_at, x->value_len, x->v, quantity_of_input((input)(a->in - 1))->d))
+            !value_dim(lx, a->name, x->value_at, x->value_len, x->v,
+                       quantity_of_input((input)(a->in - 1))->d))
             return arg_place(lx->error, x);
         fret_status st = input_status((input)(a->in - 1), (double)x->v.v);
         if (!calc_input_status(lx->error, a->in - 1, &st))
@@ -147,7 +149,8 @@ bool do_press(shell *sh, lexer *lx, const command *self) {
 }
 
 bool do_step(shell *sh, lexer *lx, const command *self) {
-    static const char *const names[] = {"Fx", "dx", "c", NULL}, *const oblique[] = {"FN", "Fx", "dx", "c", NULL};
+    static const char *const names[] = {"Fx", "dx", "c", NULL}, *const oblique[] = {"FN", "Fx", "dx", "c",
+                                                                                    NULL};
     arg_value v[ARGS];
     load_step step;
     cycle_extra extra;
@@ -181,8 +184,8 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
         return false;
     scene_mark before;
     scene_save(&sh->calc.scene, &before, false);
-    bool ok = at_end(lx) &&
-              (scene_load(&sh->calc.scene, &step, &extra, lx->error) || arg_place(lx->error, last));
+    bool ok =
+        at_end(lx) && (scene_load(&sh->calc.scene, &step, &extra, lx->error) || arg_place(lx->error, last));
     const bool loaded = ok;
     for (const arg *a = self->args; ok && a->kind; a++)
         if (v[a - self->args].live) {
@@ -215,8 +218,8 @@ static const followed kinds[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0, 0}, "FN [N],Fx 
                                  {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1, 0}, "dz [um],dx [um]"}};
 
 /* Rows become steps; the first one presses where nothing is pressed yet. */
-static bool follow_rows(shell *sh, const csv *data, const followed *kind, const double *normal, const double *tangential,
-                        calc_error *error) {
+static bool follow_rows(shell *sh, const csv *data, const followed *kind, const double *normal,
+                        const double *tangential, calc_error *error) {
     scene *s = &sh->calc.scene;
     load_step step = {.kind = LOAD_STEP, .normal = kind->by, .tangential = kind->by};
     size_t row = 0;
@@ -225,8 +228,8 @@ static bool follow_rows(shell *sh, const csv *data, const followed *kind, const 
         if (!(normal[0] > 0) || tangential[0] != 0)
             return calc_fail(
                 error, 0, 0,
-                "%s: there is no load yet: press first, or begin with a row that presses (%s > 0, %s = 0)", data->path,
-                kind->name[0], kind->name[1]);
+                "%s: there is no load yet: press first, or begin with a row that presses (%s > 0, %s = 0)",
+                data->path, kind->name[0], kind->name[1]);
         if (!scene_load(s, &press, NULL, error))
             return false;
         row = 1;
@@ -247,7 +250,8 @@ static bool follow_rows(shell *sh, const csv *data, const followed *kind, const 
 }
 
 static bool follow(shell *sh, const csv *data, calc_error *error) {
-    const followed *kind = csv_has(data, kinds[1].name[0]) && csv_has(data, kinds[1].name[1]) ? &kinds[1] : &kinds[0];
+    const followed *kind =
+        csv_has(data, kinds[1].name[0]) && csv_has(data, kinds[1].name[1]) ? &kinds[1] : &kinds[0];
     char names[CALC_ERROR_TEXT / 2];
     scene_mark before;
     double mu;

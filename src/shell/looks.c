@@ -133,9 +133,10 @@ static bool no_column(lexer *lx, const looks *l, size_t i, const csv *c, const a
     char wants[128], has[CALC_ERROR_TEXT / 2];
     dim_describe(axis->d, wants, sizeof wants);
     csv_names(c, has, sizeof has);
-    return calc_fail(lx->error, l->over_at[i], l->over_len[i],
-                     "no column fits the axis %.60s, which is %s: there are %s; their units stand in the header",
-                     axis->name, wants, has);
+    return calc_fail(
+        lx->error, l->over_at[i], l->over_len[i],
+        "no column fits the axis %.60s, which is %s: there are %s; their units stand in the header",
+        axis->name, wants, has);
 }
 
 static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const axis_of *x, const axis_of *y) {

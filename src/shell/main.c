@@ -11,6 +11,7 @@
 #include "shell/command.h"
 #include "shell/manual.h"
 #include "shell/output.h"
+#include "shell/record.h"
 #include "shell/study_commands.h"
 
 #ifndef FRET_VERSION
@@ -121,18 +122,19 @@ enum {
     OPT_MANUAL
 };
 
-static const struct option options[] = {{"replay", required_argument, NULL, OPT_REPLAY},
-                                        {"live", no_argument, NULL, OPT_LIVE},
-                                        {"tolerance", required_argument, NULL, OPT_TOLERANCE},
-                                        {"format", required_argument, NULL, OPT_FORMAT},
-                                        {"keep-going", no_argument, NULL, OPT_KEEP},
-                                        {"quiet", no_argument, NULL, OPT_QUIET},
-                                        {"no-rc", no_argument, NULL, OPT_NO_RC},
-                                        {"color", required_argument, NULL, OPT_COLOR},
-                                        {"version", no_argument, NULL, OPT_VERSION},
-                                        {"help", no_argument, NULL, OPT_HELP},
-                                        {"manual", required_argument, NULL, OPT_MANUAL}, /* for `make install` */
-                                        {NULL, 0, NULL, 0}};
+static const struct option options[] = {
+    {"replay", required_argument, NULL, OPT_REPLAY},
+    {"live", no_argument, NULL, OPT_LIVE},
+    {"tolerance", required_argument, NULL, OPT_TOLERANCE},
+    {"format", required_argument, NULL, OPT_FORMAT},
+    {"keep-going", no_argument, NULL, OPT_KEEP},
+    {"quiet", no_argument, NULL, OPT_QUIET},
+    {"no-rc", no_argument, NULL, OPT_NO_RC},
+    {"color", required_argument, NULL, OPT_COLOR},
+    {"version", no_argument, NULL, OPT_VERSION},
+    {"help", no_argument, NULL, OPT_HELP},
+    {"manual", required_argument, NULL, OPT_MANUAL}, /* for `make install` */
+    {NULL, 0, NULL, 0}};
 
 /* The option getopt stopped at: C libraries differ in where argv stands then. */
 static const char *option_word(char **argv) {
@@ -178,10 +180,12 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
         return take_color(w, optarg);
     case OPT_MANUAL:
         w->done = true;
-        return manual_write(stdout, optarg, usage, FRET_VERSION) ? EXIT_OK
-                                                                 : bad_usage("--manual is 1, 5 or bash, not", optarg);
+        return manual_write(stdout, optarg, usage, FRET_VERSION)
+                   ? EXIT_OK
+                   : bad_usage("--manual is 1, 5 or bash, not", optarg);
     case OPT_VERSION:
-        printf("fret %s%s%s%s\n", FRET_VERSION, *study_library ? " (" : "", study_library, *study_library ? ")" : "");
+        printf("fret %s%s%s%s\n", FRET_VERSION, *study_library ? " (" : "", study_library,
+               *study_library ? ")" : "");
         w->done = true;
         return EXIT_OK;
     case OPT_HELP:
@@ -215,9 +219,9 @@ static int run_jobs(shell *sh, const wishes *w) {
     int status = EXIT_OK;
     for (size_t i = 0; i < w->count && !sh->quit; i++) {
         const job *j = &w->jobs[i];
-        int one = j->statements            ? shell_text(sh, j->text, "-c", w->keep_going)
+        int one = j->statements           ? shell_text(sh, j->text, "-c", w->keep_going)
                   : !strcmp(j->text, "-") ? shell_stdin(sh, w->keep_going)
-                                           : shell_file(sh, j->text, w->keep_going);
+                                          : shell_file(sh, j->text, w->keep_going);
         if (one != EXIT_OK)
             status = one;
         if (one == EXIT_INTERRUPTED || (one != EXIT_OK && !w->keep_going))
@@ -245,7 +249,7 @@ static int run(shell *sh, const wishes *w) {
         char error[CALC_ERROR_TEXT];
         const int status = shell_replay(w->replay, w->tolerance, &sh->set, stdout, error, sizeof error);
         if (*error)
-            fprintf(stderr, "error: %s\n", error);
+            shell_error(sh, error);
         return status;
     }
     if (w->count)
@@ -257,6 +261,7 @@ static int run(shell *sh, const wishes *w) {
 
 /* A lost write is an error. */
 static int finish(shell *sh, int status) {
+    record_end(sh);
     errno = 0;
     bool bad = ferror(sh->out) != 0;
     if (fflush(sh->out) || bad || fclose(sh->out)) {

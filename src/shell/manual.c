@@ -114,8 +114,10 @@ static void page_1(FILE *to, const char *usage, const char *version) {
     fprintf(to, ".TH FRET 1 \"\" \"fret %s\" \"User Commands\"\n", version);
     fputs(".SH NAME\nfret \\- partial\\-slip contact of graded elastic solids\n"
           ".SH SYNOPSIS\n.B fret\n[\\fIOPTION\\fR...] [\\fIFILE\\fR...]\n"
-          ".SH DESCRIPTION\nAn interactive calculator for fretting contact: two elastic bodies, whose modulus may grow "
-          "or fall with depth as a power law, are pressed together and pushed sideways. Without\n.I FILE\nor\n.B \\-c\n"
+          ".SH DESCRIPTION\nAn interactive calculator for fretting contact: two elastic bodies, whose "
+          "modulus may grow "
+          "or fall with depth as a power law, are pressed together and pushed sideways. Without\n.I "
+          "FILE\nor\n.B \\-c\n"
           "it reads standard input: with line editing at a terminal, as a script otherwise.\n.PP\n",
           to);
     put_topic(to, "theory");
@@ -123,9 +125,9 @@ static void page_1(FILE *to, const char *usage, const char *version) {
     put_options(to, usage);
     fputs(".SH COMMANDS\n.B help\n.I NAME\ntells more, with an example.\n", to);
     put_commands(to);
-    static const char *const sections[][2] = {{"EXPRESSIONS", "expressions"}, {"QUANTITIES", "quantities"},
-                                              {"UNITS", "units"},             {"THE PROMPT", "prompt"},
-                                              {"SCRIPTS", "scripts"},         {"LIMITS", "limits"}};
+    static const char *const sections[][2] = {
+        {"EXPRESSIONS", "expressions"}, {"QUANTITIES", "quantities"}, {"UNITS", "units"},
+        {"THE PROMPT", "prompt"},       {"SCRIPTS", "scripts"},       {"LIMITS", "limits"}};
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
         fprintf(to, ".SH %s\n", sections[i][0]);
         put_topic(to, sections[i][1]);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pages of the manual and completion for the system's shell, from the tables: for those who install the program. */
+/* Pages of the manual and completion for the system's shell, from the tables: for those who install the
+ * program. */
 #ifndef SHELL_MANUAL_H
 #define SHELL_MANUAL_H
 

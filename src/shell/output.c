@@ -104,9 +104,20 @@ void print_safe(FILE *to, const char *text, size_t len) {
     }
 }
 
+/* Length of the printable ASCII that begins there and stands for itself in JSON: most names are that. */
+static size_t json_plain(const char *text) {
+    size_t n = 0;
+    while (text[n] >= ' ' && text[n] < 0x7f && text[n] != '"' && text[n] != '\\')
+        n++;
+    return n;
+}
+
 void print_json_string(FILE *to, const char *text) {
-    size_t left = strlen(text);
     putc('"', to);
+    size_t plain = json_plain(text);
+    fwrite(text, 1, plain, to);
+    text += plain;
+    size_t left = strlen(text);
     while (left > 0) {
         unsigned code;
         size_t n = character_at(text, left, &code);
@@ -181,6 +192,25 @@ bool column_si(column *c, const char *name, dim d) {
     return c->name != NULL;
 }
 
+bool columns_distinct(column *c, size_t count) {
+    enum { MARK = 16 };
+    for (size_t i = count; i-- > 1;) {
+        size_t before = 0;
+        for (size_t j = 0; j < i; j++)
+            before += !strcmp(c[j].name, c[i].name);
+        const size_t size = strlen(c[i].name) + MARK;
+        char *name = before ? malloc(size) : c[i].name;
+        if (!name)
+            return false;
+        if (before) {
+            snprintf(name, size, "%s (%zu)", c[i].name, before + 1);
+            free(c[i].name);
+        }
+        c[i].name = name;
+    }
+    return true;
+}
+
 void columns_free(column *c, size_t count) {
     for (size_t i = 0; i < count; i++) {
         free(c[i].name);
@@ -244,7 +274,8 @@ void print_values(const settings *set, FILE *to, const column *columns, const lo
 
 enum { TABLE_HELD = 200 };
 
-/* The middle, in decades, of the magnitudes that a column holds; what is 1e-6 of the largest is as good as 0. */
+/* The middle, in decades, of the magnitudes that a column holds; what is 1e-6 of the largest is as good as 0.
+ */
 static long double middle(const table *t, size_t i) {
     long double most = 0, least = INFINITY;
     for (int pass = 0; pass < 2; pass++)
@@ -307,36 +338,32 @@ static void release(table *t) {
     t->rows = 0;
 }
 
-/* Out of memory nothing is held. */
 static void hold(table *t, const long double *si) {
     long double row[COLUMNS + 1];
     memcpy(row, si, t->count * sizeof *row);
     row[t->count] = t->gap;
     t->gap = false;
-    if (!t->headed && !t->held)
-        t->held = malloc(TABLE_HELD * (t->count + 1) * sizeof *t->held);
-    if (!t->headed && t->held)
+    if (!t->headed)
         memcpy(t->held + t->rows++ * (t->count + 1), row, (t->count + 1) * sizeof *row);
-    else if (!t->headed)
-        release(t);
     if (t->headed)
         text_row(t, row);
     else if (t->rows == TABLE_HELD)
         release(t);
 }
 
-void table_begin(table *t) {
+bool table_begin(table *t) {
     t->headed = t->gap = false;
-    t->held = NULL;
+    t->held = t->format == FORMAT_TEXT ? malloc(TABLE_HELD * (t->count + 1) * sizeof *t->held) : NULL;
     t->rows = 0;
     if (t->format != FORMAT_CSV)
-        return;
+        return t->held || t->format != FORMAT_TEXT;
     for (size_t i = 0; i < t->count; i++) {
         if (i)
             putc(',', t->to);
         csv_field(t->to, &t->columns[i]);
     }
     putc('\n', t->to);
+    return true;
 }
 
 bool table_shows_next(const table *t) {
@@ -348,7 +375,7 @@ void table_gap(table *t) {
 }
 
 void table_end(table *t, bool ok) {
-    if (ok && t->format == FORMAT_TEXT && !t->headed)
+    if (ok && t->held && !t->headed)
         release(t);
     free(t->held);
     t->held = NULL;

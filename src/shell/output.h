@@ -22,6 +22,8 @@ typedef struct column {
 char *column_name(const char *text, size_t len);
 /* In SI. False: out of memory. */
 bool column_si(column *c, const char *name, dim d);
+/* Names that stand twice are told apart, as `x` and `x (2)`. False: out of memory. */
+bool columns_distinct(column *c, size_t count);
 void columns_free(column *c, size_t count);
 
 /* A table on its way out. A value that is not finite is a gap. */
@@ -40,7 +42,8 @@ typedef struct table {
     long double scale[COLUMNS];
 } table;
 
-void table_begin(table *t);
+/* False: out of memory; there is nothing to end then. */
+bool table_begin(table *t);
 void table_row(table *t, const long double *si);
 /* Will the next row be written, not held? */
 bool table_shows_next(const table *t);

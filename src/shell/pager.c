@@ -12,7 +12,8 @@
 bool pager_needed(const char *text) {
     struct winsize size;
     size_t rows = 1; /* the prompt */
-    if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) || size.ws_row == 0 || size.ws_col == 0)
+    if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) || size.ws_row == 0 ||
+        size.ws_col == 0)
         return false;
     while (*text) {
         const size_t n = strcspn(text, "\n");

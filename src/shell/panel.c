@@ -38,9 +38,10 @@ typedef struct panel_job {
 } panel_job;
 
 /* c curve, t thin line, b an edge of a band, of two; s a curve told apart where it is at the bounds that
- * follow it */
+ * follow it. Of several curves the bands would cover each other: their edges are lines. */
 static char role_of(const panel_job *job, size_t i) {
-    return job->figure && job->figure->roles ? job->figure->roles[i] : 'c';
+    const char role = job->figure && job->figure->roles ? job->figure->roles[i] : 'c';
+    return role == 'b' && job->s->curves ? 't' : role;
 }
 
 static bool is_main(const panel_job *job, size_t i) {
@@ -95,6 +96,14 @@ static plot_series *add_series(panel_job *job, plot_role role, char *title, bool
     return s;
 }
 
+static char *part_title(const char *curve, const char *part) {
+    const size_t room = (curve ? strlen(curve) + 2 : 0) + strlen(part) + 1;
+    char *title = malloc(room);
+    if (title)
+        snprintf(title, room, "%s%s%s", curve ? curve : "", curve ? ", " : "", part);
+    return title;
+}
+
 /* The series of a curve: one an expression, one for both edges of a band, two where stick and slip are told
  * apart. */
 static bool add_curve(panel_job *job, size_t curve) {
@@ -102,12 +111,9 @@ static bool add_curve(panel_job *job, size_t curve) {
         const char role = role_of(job, i);
         char *title = title_of(job, curve, i);
         if (role == 's') {
-            if (!title)
-                title = strdup("stick");
-            plot_series *stick = add_series(job, PLOT_CURVE, title, false),
-                        *slip =
-                            stick ? add_series(job, PLOT_CURVE, job->s->curves ? NULL : strdup("slip"), false)
-                                  : NULL;
+            plot_series *stick = add_series(job, PLOT_CURVE, part_title(title, "stick"), false),
+                        *slip = stick ? add_series(job, PLOT_CURVE, part_title(title, "slip"), false) : NULL;
+            free(title);
             if (!slip)
                 return false;
             stick->style = (int)(2 * curve);

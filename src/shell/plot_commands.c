@@ -16,8 +16,8 @@
 static void terminal_size(const shell *sh, int *w, int *h) {
     struct winsize size;
     *w = 79, *h = 24;
-    if (shell_on_terminal(sh) && !ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) &&
-        size.ws_col >= 20 && size.ws_row >= 8) {
+    if (shell_on_terminal(sh) && !ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) && size.ws_col >= 20 &&
+        size.ws_row >= 8) {
         *w = size.ws_col - 1;
         *h = size.ws_row - 2; /* the prompt and the command stay in sight */
     }

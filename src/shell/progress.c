@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Progress of statements that take long. Writes to standard error, where that is a terminal: there is one, and one line
- * of it, hence the static state. */
+/* Progress of statements that take long. Writes to standard error, where that is a terminal: there is one,
+ * and one line of it, hence the static state. */
 #include "shell/progress.h"
 
+#include <math.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -19,7 +21,8 @@ static struct {
     char what[WHAT];
     double began, shown; /* in seconds */
     double part;         /* negative: not known */
-    bool seen;           /* the line is on the terminal */
+    int width;           /* of the line: one that wraps could not be wiped */
+    bool seen;           /* it is on the terminal */
 } now;
 
 static double seconds(void) {
@@ -38,6 +41,9 @@ void progress_begin(const shell *sh, const char *what, size_t len) {
     now.began = seconds();
     now.part = -1;
     now.seen = false;
+    struct winsize size;
+    const bool narrow = !ioctl(STDERR_FILENO, TIOCGWINSZ, &size) && size.ws_col > 4 && size.ws_col < LINE + 3;
+    now.width = narrow ? size.ws_col - 3 : LINE - 1;
     snprintf(now.what, sizeof now.what, "%.*s", (int)(len < WHAT ? len : WHAT - 1), what);
 }
 
@@ -47,12 +53,16 @@ void progress_words(const char *words) {
     if (!now.seen)
         fflush(now.sh->out);
     now.seen = true;
-    fprintf(stderr, "\r%-*.*s", LINE - 1, LINE - 1, words); /* past the recorder */
+    fprintf(stderr, "\r%-*.*s", now.width, now.width, words); /* past the recorder */
     fflush(stderr);
 }
 
+static int whole(double x) {
+    return x < 1e9 ? (int)lrint(x) : 1000000000;
+}
+
 void progress_pulse(void) {
-    char words[LINE], left[24] = "";
+    char words[LINE + 40], left[24] = "";
     if (!now.on || now.depth == 0)
         return;
     const double t = seconds(), taken = t - now.began;
@@ -60,11 +70,11 @@ void progress_pulse(void) {
         return;
     now.shown = t;
     if (now.part > 0.01)
-        snprintf(left, sizeof left, ", %.0f s to go", taken / now.part * (1 - now.part));
+        snprintf(left, sizeof left, ", %d s to go", whole(taken / now.part * (1 - now.part)));
     if (now.part >= 0)
-        snprintf(words, sizeof words, "%s: %.0f %%%s (Ctrl-C stops it)", now.what, 100 * now.part, left);
+        snprintf(words, sizeof words, "%s: %d %%%s (Ctrl-C stops it)", now.what, whole(100 * now.part), left);
     else
-        snprintf(words, sizeof words, "%s: %.0f s (Ctrl-C stops it)", now.what, taken);
+        snprintf(words, sizeof words, "%s: %d s (Ctrl-C stops it)", now.what, whole(taken));
     progress_words(words);
 }
 
@@ -77,7 +87,7 @@ void progress_wipe(void) {
     if (!now.seen)
         return;
     now.seen = false;
-    fprintf(stderr, "\r%*s\r", LINE + 2, ""); /* the ^C, too */
+    fprintf(stderr, "\r%*s\r", now.width + 2, ""); /* the ^C, too */
     fflush(stderr);
 }
 

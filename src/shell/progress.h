@@ -5,8 +5,8 @@
 
 #include "shell/shell.h"
 
-/* Around every statement, named by its first `len` bytes; statements within statements belong to the outermost. Shown
- * from half a second on, ten times a second, on standard error where that is a terminal. */
+/* Around every statement, named by its first `len` bytes; statements within statements belong to the
+ * outermost. Shown from half a second on, ten times a second, on standard error where that is a terminal. */
 void progress_begin(const shell *sh, const char *what, size_t len);
 void progress_end(void);
 

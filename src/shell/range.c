@@ -28,7 +28,8 @@ bool range_names_find(shell *sh, lexer *lx, range_names *out, bool *found) {
     *out = (range_names){.count = sh->calc.names.count};
     *found = false;
     while (scan.kind != T_END && !ignored.raised) {
-        const bool by_name = lex_is(&scan, "for"), along = lex_is(&scan, "along"), with = lex_is(&scan, "with");
+        const bool by_name = lex_is(&scan, "for"), along = lex_is(&scan, "along"),
+                   with = lex_is(&scan, "with");
         lex_next(&scan);
         *found = *found || ((by_name || along) && scan.kind == T_NAME);
         if ((by_name || with) && scan.kind == T_NAME && scan.len < LEX_NAME && !range_wake(sh, &scan, out))

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ranges of tables and plots as they are written: for NAME = LO .. HI, along a load, with NAME = v1, v2, ... */
+/* Ranges of tables and plots as they are written: for NAME = LO .. HI, along a load, with NAME = v1, v2, ...
+ */
 #ifndef SHELL_RANGE_H
 #define SHELL_RANGE_H
 
@@ -16,7 +17,8 @@ typedef struct range {
     size_t at; /* of LO, or of the load */
 } range;
 
-/* The names of the range, which stand behind the expressions that use them, become known until range_forget. */
+/* The names of the range, which stand behind the expressions that use them, become known until range_forget.
+ */
 typedef struct range_names {
     size_t count;
     size_t woken[16]; /* names that had been taken back */

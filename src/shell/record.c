@@ -10,8 +10,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "shell/show.h"
-
 /* ---- two places -------------------------------------------------------------------------------- */
 
 struct recorder {
@@ -102,25 +100,9 @@ static void write_statements(FILE *to, const char *text) {
     }
 }
 
-/* The scene and the settings, for the replay begins without. */
-static bool write_beginning(const shell *sh, FILE *to) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *all = open_memstream(&text, &size);
-    if (!all)
-        return false;
-    scene_write(&sh->calc, &sh->set, all, true);
-    settings_write(&sh->calc, &sh->set, all); /* behind it: in JSON it would tell of itself */
-    const bool ok = fclose(all) == 0;
-    if (ok)
-        write_statements(to, text);
-    free(text);
-    return ok;
-}
-
 /* ---- a transcript ------------------------------------------------------------------------------ */
 
-bool record_begin(shell *sh, const char *path, char *error, size_t size) {
+bool record_begin(shell *sh, const char *path, const char *beginning, char *error, size_t size) {
     struct stat before;
     if (sh->replaying)
         return true;
@@ -129,7 +111,8 @@ bool record_begin(shell *sh, const char *path, char *error, size_t size) {
     const bool over = real && !stat(real, &before) && before.st_size > 0;
     struct recorder *r = calloc(1, sizeof *r);
     if (r)
-        *r = (struct recorder){.file = real ? fopen(real, "w") : NULL, .out = sh->out, .err = sh->err, .path = strdup(path)};
+        *r = (struct recorder){
+            .file = real ? fopen(real, "w") : NULL, .out = sh->out, .err = sh->err, .path = strdup(path)};
     const int code = r && real ? errno : ENOMEM;
     free(real);
     if (!r || !r->file || !r->path) {
@@ -139,11 +122,12 @@ bool record_begin(shell *sh, const char *path, char *error, size_t size) {
         return false;
     }
     open_both(r);
-    if (!r->both_out || !r->both_err || !write_beginning(sh, r->file)) {
+    if (!r->both_out || !r->both_err) {
         snprintf(error, size, "out of memory");
         free_recorder(r);
         return false;
     }
+    write_statements(r->file, beginning);
     setvbuf(r->file, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
     setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ);
     setvbuf(r->both_err, NULL, _IONBF, 0);

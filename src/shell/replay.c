@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A transcript is a test: lines after `fret> ` are run, what follows each must come out again. A copy of a terminal is
- * one too: what depends on who types, on the terminal and on the clock may be there or not. */
+/* A transcript is a test: lines after `fret> ` are run, what follows each must come out again. A copy of a
+ * terminal is one too: what depends on who types, on the terminal and on the clock may be there or not. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "shell/lines.h"
-#include "shell/record.h"
 #include "shell/output.h"
+#include "shell/record.h"
 #include "shell/typeset.h"
 
 /* ---- lines ------------------------------------------------------------------------------------- */
@@ -65,7 +65,8 @@ static const char *without_place(const char *line) {
 static bool same(const char *want, const char *got, double tolerance) {
     enum { FORMULA = 600 };
     char set[2][FORMULA];
-    if (same_plainly(want, got, tolerance) || same_plainly(without_place(want), without_place(got), tolerance))
+    if (same_plainly(want, got, tolerance) ||
+        same_plainly(without_place(want), without_place(got), tolerance))
         return true;
     if (strlen(want) >= FORMULA / 3 || strlen(got) >= FORMULA / 3)
         return false;
@@ -105,7 +106,8 @@ static bool begins(const char *line, const char *words) {
 
 /* What two runs tell differently: times, and whether a file was there before. */
 static bool is_passing(const char *line) {
-    return begins(line, "time: ") || begins(line, "wrote ") || begins(line, "overwrote ") || begins(line, PASTED);
+    return begins(line, "time: ") || begins(line, "wrote ") || begins(line, "overwrote ") ||
+           begins(line, PASTED);
 }
 
 /* Compares line by line; empty lines at the end do not count. */
@@ -224,7 +226,8 @@ static void judge(replay *r) {
 
 /* ---- the transcript ---------------------------------------------------------------------------- */
 
-/* Adds a physical line of a statement; a mark of continuation becomes a blank, as it does where lines are typed. */
+/* Adds a physical line of a statement; a mark of continuation becomes a blank, as it does where lines are
+ * typed. */
 static bool add_part(replay *r, const char *line, size_t n, bool *whole) {
     *whole = !shell_continues(line, n);
     if (r->statement.len > 0 && !append(&r->statement, "\n", 1))
@@ -283,7 +286,8 @@ static bool take_lines(replay *r, file_in *in, char *error, size_t size) {
     return ok && got != FILE_GOT_ERROR;
 }
 
-int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, char *error, size_t size) {
+int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, char *error,
+                 size_t size) {
     static int nesting; /* a transcript may replay others */
     enum { NESTING = 8 };
     file_in in;

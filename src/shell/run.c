@@ -106,14 +106,20 @@ static void warn_half_space(shell *sh) {
     if (!s->end.steps || !scene_press(s, &press, &ignored))
         return;
     enum { WIDE = 1, STEEP = 2 };
-    const bool wide = inputs_take(&s->in, IN_RADIUS) && scene_get(s, IN_RADIUS, &R, &ignored) && press->a > most_radius * R;
-    const bool steep = inputs_take(&s->in, IN_SLOPE) && scene_get(s, IN_SLOPE, &slope, &ignored) && slope > most_slope;
+    const bool wide =
+        inputs_take(&s->in, IN_RADIUS) && scene_get(s, IN_RADIUS, &R, &ignored) && press->a > most_radius * R;
+    const bool steep =
+        inputs_take(&s->in, IN_SLOPE) && scene_get(s, IN_SLOPE, &slope, &ignored) && slope > most_slope;
     if (wide && !(sh->no_half_space & WIDE))
-        shell_note(sh, "warning: a/R = %.3g: beyond 0.3 the bodies are no half-spaces, and these results are an approximation",
+        shell_note(sh,
+                   "warning: a/R = %.3g: beyond 0.3 the bodies are no half-spaces, and these results are an "
+                   "approximation",
                    (double)(press->a / R));
     if (steep && !(sh->no_half_space & STEEP))
-        shell_note(sh, "warning: slope = %.3g: flanks steeper than 20 deg leave the half-space, and these results are an "
-                       "approximation",
+        shell_note(sh,
+                   "warning: slope = %.3g: flanks steeper than 20 deg leave the half-space, and these "
+                   "results are an "
+                   "approximation",
                    (double)slope);
     sh->no_half_space = (wide ? WIDE : 0u) | (steep ? STEEP : 0u);
 }
@@ -353,6 +359,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         if (!done) {
             report_error(sh, from, text, len, line, i + error.at, &error);
             sh->failed = true;
+            sh->stopped |= error.stop;
             ok = false;
             if (!from->keep_going)
                 return false;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands that set material, second body, friction and geometry. Each reads everything, then changes everything or
- * nothing. */
+/* Commands that set material, second body, friction and geometry. Each reads everything, then changes
+ * everything or nothing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -175,9 +175,11 @@ static struct fret_table *table_of(const csv *data, calc_error *error) {
     if (!f)
         return NULL;
     if (!dim_equal(r->d, DIM_LENGTH) || !dim_equal(f->d, DIM_LENGTH)) {
-        calc_fail(error, 0, 0, "%s: r and f are lengths and need units in the header, such as r [mm],f [um]", data->path);
+        calc_fail(error, 0, 0, "%s: r and f are lengths and need units in the header, such as r [mm],f [um]",
+                  data->path);
     } else if (r->v[0] == 0 && f->v[0] != 0) {
-        calc_fail(error, 0, 0, "%s:%zu: f(0) = %.6g m must be 0: the bodies touch at r = 0 before they are pressed",
+        calc_fail(error, 0, 0,
+                  "%s:%zu: f(0) = %.6g m must be 0: the bodies touch at r = 0 before they are pressed",
                   data->path, data->line[0], f->v[0]);
     } else {
         fret_status st = fret_table_make(r->v, f->v, data->rows, &shell_stop, &gap);
@@ -207,13 +209,14 @@ static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
     return ok;
 }
 
-/* The rows of what the geometry takes; `angle` beside slope, R1 and R2 beside R are no inputs of their own. */
+/* The rows of what the geometry takes; `angle` beside slope, R1 and R2 beside R are no inputs of their own.
+ */
 static void rows_of(const geometry *g, arg rows[ARGS]) {
     size_t count = 0;
     for (input in = IN_N; in < INPUTS; in++)
         if (g->allowed & INPUT_BIT(in))
-            rows[count++] =
-                (arg){.kind = ARG_VALUE, .name = quantity_of_input(in)->name, .in = 1 + (int)in, .flags = ARG_LIVE};
+            rows[count++] = (arg){
+                .kind = ARG_VALUE, .name = quantity_of_input(in)->name, .in = 1 + (int)in, .flags = ARG_LIVE};
     if (g->allowed & INPUT_BIT(IN_SLOPE))
         rows[count++] = (arg){.kind = ARG_VALUE, .name = "angle", .d = {0, 0, 1}};
     if (g->power && g->allowed & INPUT_BIT(IN_RADIUS)) {
@@ -267,7 +270,8 @@ static bool put_angle(lexer *lx, edit *e, const arg_value *angle) {
     return true;
 }
 
-static bool read_parameters(lexer *lx, const geometry *g, edit *e, const arg_list *list, const arg_value v[ARGS]) {
+static bool read_parameters(lexer *lx, const geometry *g, edit *e, const arg_list *list,
+                            const arg_value v[ARGS]) {
     gather(e, list, v);
     for (size_t i = 0; list->args[i].kind; i++) {
         const char *name = list->args[i].name;
@@ -300,8 +304,8 @@ static const geometry *read_shape(lexer *lx) {
     }
     const char *near = suggest(word, geometry_name);
     calc_fail(lx->error, begin, len,
-              near ? "unknown geometry '%s': did you mean %s?" : "unknown geometry '%s'; try: help geometry", word,
-              near);
+              near ? "unknown geometry '%s': did you mean %s?" : "unknown geometry '%s'; try: help geometry",
+              word, near);
     return NULL;
 }
 

@@ -204,6 +204,7 @@ void setting_show(const setting *row, const calc *c, const settings *set, FILE *
 void settings_write(const calc *c, const settings *set, FILE *to) {
     for (const setting *row = rows; row < rows + SETTINGS; row++)
         if (row->show ? row->show == show_plot && set->plot_width
-                      : memcmp((const char *)set + row->at, (const char *)&settings_initial + row->at, sizeof(int)) != 0)
+                      : memcmp((const char *)set + row->at, (const char *)&settings_initial + row->at,
+                               sizeof(int)) != 0)
             setting_show(row, c, set, to);
 }

@@ -19,7 +19,7 @@ typedef struct settings {
     bool color, color_out; /* of errors, of figures in the terminal */
     int plot_terminal;     /* plot_terminal of plot.h */
     int pager;
-    bool pages; /* there is a terminal to page on */
+    bool pages;                  /* there is a terminal to page on */
     int plot_width, plot_height; /* 0: the terminal's, or the picture's default */
     double plot_timeout;
 } settings;

@@ -25,6 +25,7 @@ typedef struct shell {
     settings set;
     FILE *out, *err;
     bool interactive, quit, failed;
+    bool stopped;            /* an error was of the kind after which nothing else is of use */
     bool replaying;          /* a transcript: see shell_aside */
     struct recorder *record; /* or NULL */
     struct lines *typed;     /* at the prompt, for `save history`; or NULL */
@@ -47,8 +48,8 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
  * of its first physical line. */
 bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line);
 
-/* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it. Returns an
- * exit status. */
+/* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it.
+ * Returns an exit status. */
 int shell_stream(shell *sh, file_in *in, bool keep_going);
 int shell_file(shell *sh, const char *path, bool keep_going);
 int shell_text(shell *sh, const char *text, const char *name, bool keep_going);
@@ -66,8 +67,8 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void shell_note(shell *sh, const char *format, ...);
 
-/* Is a line to be written that is for who types, and has no place in a script's output? In a replay it is, after a
- * mark: a transcript may have it or not. */
+/* Is a line to be written that is for who types, and has no place in a script's output? In a replay it is,
+ * after a mark: a transcript may have it or not. */
 bool shell_aside(const shell *sh, FILE *to);
 /* Marks of replays, first bytes of a line: an aside, and a drawing, which depends on the terminal. */
 enum { MARK_ASIDE = 1, MARK_DRAWING };
@@ -78,10 +79,12 @@ bool shell_on_terminal(const shell *sh);
 
 /* prompt.c: the interactive session. */
 int shell_prompt(shell *sh, bool quiet, bool read_rc);
-/* replay.c: runs a transcript in a session of its own and compares, reports on `out`; returns an exit status. error:
- * why the transcript could not be run; empty: it has been. */
-int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, char *error, size_t size);
-/* prompt.c: `?WORD` and `!COMMAND` as a line that a statement stands for; true: it was one of them, and has been run. */
+/* replay.c: runs a transcript in a session of its own and compares, reports on `out`; returns an exit status.
+ * error: why the transcript could not be run; empty: it has been. */
+int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, char *error,
+                 size_t size);
+/* prompt.c: `?WORD` and `!COMMAND` as a line that a statement stands for; true: it was one of them, and has
+ * been run. */
 bool shell_special(shell *sh, const source *from, const char *text);
 
 #endif

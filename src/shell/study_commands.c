@@ -112,8 +112,11 @@ static bool read_over(shell *sh, lexer *lx, optimise_question *q) {
         knob *k = &q->name[q->count];
         if (q->count == OPTIMISE_NAMES)
             return lex_fail(lx, "more than %d names", OPTIMISE_NAMES);
+        const size_t at = lx->at;
         if (!knob_read(&sh->calc, lx, k))
             return false;
+        if (ask_repeats(q->name, q->count + 1))
+            return calc_fail(lx->error, at, lx->last - at, "%s is given twice", k->text);
         if (lx->kind != T_ASSIGN)
             return lex_fail(lx, "expected = LO .. HI after %s", k->text);
         lex_next(lx);
@@ -149,8 +152,7 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
         ask_text(&q->name[i], a->x[i], there);
         inner = inner || a->end[i] == END_INNER;
         if (a->end[i] == END_SCENE && !edge)
-            shell_note(sh, "note: the scene ends at %s: %s%s", there, a->why.text,
-                       q->count > 1 ? "; along that edge there may be better places" : "");
+            shell_note(sh, "note: the scene ends at %s: %s", there, a->why.text);
         edge = edge || a->end[i] == END_SCENE;
         if (a->end[i] == END_LOW || a->end[i] == END_HIGH)
             shell_note(sh, "note: no inner optimum in %s: %s is the %s end of its range", q->name[i].text,

@@ -9,7 +9,9 @@ static const struct {
     const char *ending;
     int format;
     bool blocks;
-} forms[] = {{".csv", FORMAT_CSV, false}, {".json", FORMAT_JSON, false}, {".txt", FORMAT_TEXT, true},
+} forms[] = {{".csv", FORMAT_CSV, false},
+             {".json", FORMAT_JSON, false},
+             {".txt", FORMAT_TEXT, true},
              {".dat", FORMAT_TEXT, true}};
 
 static bool choose_form(lexer *lx, const char *name, target *t) {

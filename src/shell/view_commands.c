@@ -34,8 +34,8 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
     for (size_t i = 0; i < HISTORY; i++)
         ok = ok && column_si(&columns[i], history_names[i],
                              quantity_find(history_names[i], strlen(history_names[i]))->d);
+    ok = ok && table_begin(&t);
     if (ok) {
-        table_begin(&t);
         w.see = history_row;
         w.context = &t;
         ok = scene_trace(&sh->calc.scene, &w, lx->error);
@@ -76,10 +76,11 @@ static void begin_columns(table_job *job) {
 }
 
 static bool begin(table_job *job) {
-    job->begun = true;
     begin_columns(job);
-    table_begin(&job->t);
-    return true;
+    if (!columns_distinct(job->columns, job->first + job->count))
+        return calc_no_memory(job->error);
+    job->begun = table_begin(&job->t);
+    return job->begun || calc_no_memory(job->error);
 }
 
 static bool give_row(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
@@ -104,7 +105,8 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
         progress_part((double)job->rows / (double)(curves * (s->steps + 1)));
     table_row(&job->t, row);
     /* a reader that has gone, or a full disk: no use in going on */
-    return !ferror(job->t.to) || calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
+    return !ferror(job->t.to) ||
+           calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
 }
 
 /* A dimension that the user asked for must come out. */
@@ -160,16 +162,17 @@ static bool print_matrix(shell *sh, FILE *to, const matrix *m, size_t i, const c
         ok = column_si(&columns[j + 1], head, DIM_NONE);
         columns[j + 1].scale = c->scale;
     }
+    table t = {.set = &sh->set, .to = to, .format = FORMAT_TEXT, .count = across + 1, .columns = columns};
+    ok = ok && table_begin(&t);
     if (ok) {
-        table t = {.set = &sh->set, .to = to, .format = FORMAT_TEXT, .count = across + 1, .columns = columns};
         fprintf(to, *c->unit ? "%s%s [%s]\n" : "%s%s\n", i ? "\n" : "", c->name, c->unit);
-        table_begin(&t);
         for (size_t r = 0; r < rows; r++) {
             long double row[COLUMNS] = {m->a[r]};
             for (size_t j = 0; j < across; j++)
                 row[j + 1] = m->value[(j * rows + r) * m->count + i];
             table_row(&t, row);
         }
+        table_end(&t, true);
     }
     columns_free(columns, across + 1);
     return ok;
@@ -217,7 +220,9 @@ static bool run_table(shell *sh, lexer *lx, const sweep *s, const grid *g, colum
     job->blocks = to.blocks;
     job->name = to.file.to ? to.file.name : "to standard output";
     job->error = lx->error;
-    memcpy(job->columns + job->first, columns, count * sizeof *columns);
+    memcpy(job->columns + job->first, columns, count * sizeof *columns); /* with their names */
+    for (size_t i = 0; i < count; i++)
+        columns[i].name = NULL;
     job->t = (table){.set = &sh->set,
                      .to = to.to,
                      .format = to.format,
@@ -241,10 +246,10 @@ static bool run_table(shell *sh, lexer *lx, const sweep *s, const grid *g, colum
                        : sweep_run(s, &sweeping));
     progress_wipe();
     if (job->begun && !square)
-        table_end(&job->t, ok);
+        table_end(&job->t, sweeping.values > 0);
     if (ok)
         note_missing(sh, &sweeping);
-    columns_free(job->columns, job->first);
+    columns_free(job->columns, job->first + count);
     free(job);
     return target_close(sh, lx, &to, ok);
 }

@@ -282,6 +282,7 @@ typedef struct general {
     long double FN; /* about which the normal force swings */
     runner run[LEVELS];
     unsigned levels;
+    bool sine;           /* no chords: as the scene answers */
     watch watch;         /* of a loop area */
     unsigned long looks; /* of the last period */
 } general;
@@ -341,6 +342,8 @@ static bool open_general(bench *b, general *g, unsigned springs, unsigned first,
         }
         if (!springs)
             st = engine_make(&r->engine, MODEL_MEMORY, g->load.normal, g->load.mu, 0, 0);
+        if (g->sine && !st.code)
+            st = engine_to_sine(&r->engine);
         g->levels = i + 1;
         if (!st.code)
             st = approach(g, r);
@@ -398,9 +401,16 @@ static bool count_look(const runner *r, void *context) {
     return true;
 }
 
+/* Does the scene answer for a swinging load without chords? */
+static bool by_sine(const bench *b) {
+    const answers *a = &b->s->answers;
+    return swings(b) && a->levels == 1 && engine_is_sine(&a->run[0].engine);
+}
+
 /* more: is there time for one that is larger? */
-static bool general_row(bench *b, model_family family, unsigned springs, unsigned levels, bool *more) {
-    general g = {.levels = 0};
+static bool general_row(bench *b, model_family family, unsigned springs, bool *more) {
+    general g = {.sine = family == FAMILY_MEMORY && by_sine(b)};
+    const unsigned levels = swings(b) && !g.sine ? LEVELS : 1;
     const double start = cpu_now();
     tell(b, family, springs);
     if (!open_general(b, &g, springs, 0, levels, false))
@@ -458,7 +468,7 @@ static bool straight_reference(bench *b, accuracy_study *study) {
 static bool sine_reference(bench *b, accuracy_study *study) {
     snprintf(study->reference, sizeof study->reference, "memory diagram, limit of up to %d chords a period",
              RUN_CHORDS << FINEST);
-    study->why = "FN swings: chords taken to their limit";
+    study->why = by_sine(b) ? "FN swings: the sine itself" : "FN swings: chords taken to their limit";
     return refined(b, 0, &study->value, &study->agreement);
 }
 
@@ -475,12 +485,12 @@ static bool general_reference(bench *b) {
 
 static bool measure_general(bench *b) {
     bool more = true;
-    bool ok = general_reference(b) && general_row(b, FAMILY_MEMORY, 0, swings(b) ? LEVELS : 1, &more);
+    bool ok = general_reference(b) && general_row(b, FAMILY_MEMORY, 0, &more);
     for (unsigned i = 0, parts = 10; ok && more && i < 4; i++, parts *= 10)
         ok = loop_row(b, 2 * i, parts, &more);
     more = true;
     for (unsigned count = 100; ok && more && count <= 1000000; count *= 10)
-        ok = general_row(b, FAMILY_SPRINGS, count, swings(b) ? LEVELS : 1, &more);
+        ok = general_row(b, FAMILY_SPRINGS, count, &more);
     return ok;
 }
 

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "number/real.h"
 
@@ -65,6 +66,13 @@ bool ask_value(ask *q, const expr *e, dim *d, bool *known, long double *out) {
     *d = v.d;
     *out = v.v;
     return true;
+}
+
+bool ask_repeats(const knob *knobs, size_t count) {
+    for (size_t i = 0; i + 1 < count; i++)
+        if (!strcmp(knobs[i].text, knobs[count - 1].text))
+            return true;
+    return false;
 }
 
 bool ask_present(calc *c, const knob *k, double *v) {

@@ -28,6 +28,9 @@ bool ask_value(ask *q, const expr *e, dim *d, bool *known, long double *out);
 /* Takes an error as one of these two; false. */
 bool ask_failed(ask *q, const calc_error *error);
 
+/* Is the last of these the same as one before? */
+bool ask_repeats(const knob *knobs, size_t count);
+
 /* The value of the knob now, if it has one. */
 bool ask_present(calc *c, const knob *k, double *v);
 

@@ -17,6 +17,7 @@ static const double refused = 1e6;
 /* Tuned to 95 % of the efficiency of least squares on normal noise (Huber 1981). */
 static const double huber = 1.345;
 enum { ITERATIONS = 200, ROUNDS = 30 };
+#define NO_ROW ((size_t)-1)
 
 typedef struct state {
     const fit_question *of;
@@ -28,7 +29,7 @@ typedef struct state {
     dim d;
     bool known;
     bool twice;
-    size_t bad_row; /* the last one without a value */
+    size_t bad_row; /* the last one without a value; NO_ROW: it was not a row's fault */
     gsl_vector *weight;
     double *residual; /* as they are computed */
 } state;
@@ -128,6 +129,7 @@ static bool loop_rows(state *s, double *out) {
     load_item press = {.extra = {0}};
     calc_error error;
     error_clear(&error);
+    s->bad_row = NO_ROW;
     if (!scene_normal(tried, &view.normal, &error) || !scene_friction(tried, &view.mu, &error) ||
         !press_of(s, &press.step, &error))
         return ask_failed(&s->q, &error);
@@ -194,7 +196,8 @@ static bool begin(state *s, gsl_vector *q, calc_error *error) {
     if (!residuals(s, q, s->residual)) {
         if (!error->raised) {
             *error = s->q.none;
-            calc_append(of->c, error, " (row %zu of the data)", s->bad_row + 1);
+            if (s->bad_row != NO_ROW)
+                calc_append(of->c, error, " (row %zu of the data)", s->bad_row + 1);
         }
         return false;
     }

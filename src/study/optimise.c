@@ -12,7 +12,7 @@
 #include "number/real.h"
 
 /* Names are turned into parts of their ranges, 0 to 1. */
-enum { N = OPTIMISE_NAMES, LINE = 16, SLOPES = 3, EDGE_EVALUATIONS = 60, SIMPLEX_STEPS = 400, RESTARTS = 40 };
+enum { N = OPTIMISE_NAMES, LINE = 16, SLOPES = 3, EDGE_EVALUATIONS = 60, SIMPLEX_STEPS = 400 };
 
 /* Narrow enough for Newton's method. */
 #define NARROW 2e-3
@@ -24,7 +24,6 @@ typedef struct search {
     bool known, varies;
     dim d;
     long double seen; /* the first value */
-    double lo, hi;    /* bracket of a single name; lo = hi: none */
     bool fixed[N];    /* at an end of the range */
     double u[N];      /* the best place so far */
     long double f;    /* and what is there, to be made small */
@@ -66,92 +65,154 @@ static bool better(search *s, const double *u, long double f) {
     return true;
 }
 
-/* ---- one name ---------------------------------------------------------------------------------- */
+/* ---- along one name ---------------------------------------------------------------------------- */
+
+/* The best place along one name, the others held; or, nested, with the best of the names after it each time:
+ * slow, but it follows the edge of a scene. */
+typedef struct line {
+    search *s;
+    size_t axis;
+    bool nested;
+    double base[N];
+    double u;        /* the best part so far */
+    double place[N]; /* where all names are there */
+    long double f;
+    double lo, hi; /* bracket around it; lo = hi: none */
+    unsigned evaluations;
+    optimise_end end;
+    calc_error why; /* of END_SCENE */
+} line;
+
+static bool search_line(line *l);
+
+/* Takes what is better. */
+static long double line_at(line *l, double u) {
+    double place[N];
+    long double f;
+    l->evaluations++;
+    for (size_t i = 0; i < N; i++)
+        place[i] = l->base[i];
+    place[l->axis] = u;
+    if (l->nested && l->axis + 1 < l->s->of->count) {
+        line inner = {.s = l->s, .axis = l->axis + 1, .nested = true, .f = (long double)NAN};
+        for (size_t i = 0; i < N; i++)
+            inner.base[i] = place[i];
+        if (!search_line(&inner))
+            return (long double)NAN;
+        for (size_t i = 0; i < N; i++)
+            place[i] = inner.place[i];
+        f = inner.f;
+    } else {
+        f = at(l->s, place);
+    }
+    if (f < l->f || (isnan(l->f) && !isnan(f))) {
+        l->u = u;
+        l->f = f;
+        for (size_t i = 0; i < N; i++)
+            l->place[i] = place[i];
+    }
+    return f;
+}
 
 static double gsl_line(double u, void *context) {
-    return (double)at(context, &u);
+    return (double)line_at(context, u);
 }
 
 /* A bracket of three, the best inside, made narrow: to this part of what is left on either side. */
-static bool narrow(search *s, double lo, double hi, double part) {
-    const double f = (double)s->f, u = s->u[0];
+static bool narrow(line *l, double lo, double hi, double part) {
+    const double f = (double)l->f, u = l->u;
     gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
-    gsl_function line = {gsl_line, s};
+    gsl_function along = {gsl_line, l};
     if (!m)
-        return calc_no_memory(s->q.error);
-    const double at_lo = (double)at(s, &lo), at_hi = (double)at(s, &hi);
-    int status = gsl_min_fminimizer_set_with_values(m, &line, u, f, lo, at_lo, hi, at_hi);
+        return calc_no_memory(l->s->q.error);
+    const double at_lo = (double)line_at(l, lo), at_hi = (double)line_at(l, hi);
+    int status = gsl_min_fminimizer_set_with_values(m, &along, u, f, lo, at_lo, hi, at_hi);
     for (int i = 0; !status && i < 40; i++) {
         status = gsl_min_fminimizer_iterate(m);
-        const double now = gsl_min_fminimizer_x_minimum(m),
-                     width = gsl_min_fminimizer_x_upper(m) - gsl_min_fminimizer_x_lower(m);
-        better(s, &now, gsl_min_fminimizer_f_minimum(m));
-        if (width < part * fmin(now, 1 - now))
+        const double now = gsl_min_fminimizer_x_minimum(m);
+        l->lo = gsl_min_fminimizer_x_lower(m);
+        l->hi = gsl_min_fminimizer_x_upper(m);
+        if (l->hi - l->lo < part * fmin(now, 1 - now))
             break;
     }
-    s->lo = gsl_min_fminimizer_x_lower(m);
-    s->hi = gsl_min_fminimizer_x_upper(m);
     gsl_min_fminimizer_free(m);
-    return !s->q.error->raised;
-}
-
-/* The best place has a neighbour without a value: go there. other: the neighbour on the far side. */
-static bool approach_edge(search *s, double bad, double other, optimise_end *end) {
-    calc_error why = s->why;
-    while (s->q.evaluations < EDGE_EVALUATIONS && fabs(bad - s->u[0]) > DBL_EPSILON * fabs(bad)) {
-        const double mid = bad + (s->u[0] - bad) / 2, good = s->u[0];
-        const long double f = at(s, &mid);
-        if (s->q.error->raised)
-            return false;
-        if (isnan(f)) {
-            bad = mid;
-            why = s->why;
-        } else if (better(s, &mid, f)) {
-            other = good;
-        } else {
-            return narrow(s, fmin(mid, other), fmax(mid, other), NARROW);
-        }
-    }
-    *end = END_SCENE;
-    s->why = why;
-    return true;
+    return !l->s->q.error->raised;
 }
 
 /* At an end of the range, unless it is better a little inside. */
-static bool leave_end(search *s, double end, double next, optimise_end *found) {
-    const double inside = end + (next - end) * 1e-4;
-    const long double f = at(s, &inside);
-    if (s->q.error->raised)
+static bool leave_end(line *l, double next) {
+    const double end = l->u;
+    line_at(l, end + (next - end) * 1e-4);
+    if (l->s->q.error->raised)
         return false;
-    if (!better(s, &inside, f)) {
-        *found = end > 0 ? END_HIGH : END_LOW;
-        s->fixed[0] = true;
+    if (l->u == end) {
+        l->end = end > 0 ? END_HIGH : END_LOW;
         return true;
     }
-    return narrow(s, fmin(end, next), fmax(end, next), NARROW);
+    return narrow(l, fmin(end, next), fmax(end, next), NARROW);
 }
 
-static bool search_line(search *s, optimise_end *end) {
-    double u[LINE + 1];
+/* The best place has a neighbour without a value: go there. other: the neighbour on the far side, or itself.
+ */
+static bool approach_edge(line *l, double bad, double other) {
+    calc_error why = l->s->why;
+    while (l->evaluations < EDGE_EVALUATIONS && fabs(bad - l->u) > DBL_EPSILON * fabs(bad)) {
+        const double good = l->u, mid = bad + (good - bad) / 2;
+        const long double f = line_at(l, mid);
+        if (l->s->q.error->raised)
+            return false;
+        if (isnan(f)) {
+            bad = mid;
+            why = l->s->why;
+        } else if (l->u == mid) {
+            other = good;
+        } else {
+            return other == good ? leave_end(l, mid) : narrow(l, fmin(mid, other), fmax(mid, other), NARROW);
+        }
+    }
+    l->end = END_SCENE;
+    l->why = why;
+    return true;
+}
+
+static bool search_line(line *l) {
     long double f[LINE + 1];
     int best = -1;
     for (int i = 0; i <= LINE; i++) {
-        u[i] = (double)i / LINE;
-        f[i] = at(s, &u[i]);
-        if (s->q.error->raised)
+        f[i] = line_at(l, (double)i / LINE);
+        if (l->s->q.error->raised)
             return false;
-        if (better(s, &u[i], f[i]) && !isnan(f[i]))
+        if (!isnan(f[i]) && l->u == (double)i / LINE)
             best = i;
     }
     if (best < 0)
         return true;
+    const double u = l->u, before = (double)(best - 1) / LINE, after = (double)(best + 1) / LINE;
     if (best > 0 && isnan(f[best - 1]))
-        return approach_edge(s, u[best - 1], u[best < LINE ? best + 1 : best], end);
+        return approach_edge(l, before, best < LINE ? after : u);
     if (best < LINE && isnan(f[best + 1]))
-        return approach_edge(s, u[best + 1], u[best ? best - 1 : best], end);
+        return approach_edge(l, after, best ? before : u);
     if (best == 0 || best == LINE)
-        return leave_end(s, u[best], u[best ? LINE - 1 : 1], end);
-    return narrow(s, u[best - 1], u[best + 1], NARROW);
+        return leave_end(l, best ? before : after);
+    return narrow(l, before, after, NARROW);
+}
+
+/* Takes over what the line has found. */
+static void keep_line(search *s, const line *l) {
+    s->f = l->f;
+    for (size_t i = 0; i < N; i++)
+        s->u[i] = l->place[i];
+}
+
+static bool search_one(search *s, line *l, optimise_end *end) {
+    if (!search_line(l))
+        return false;
+    keep_line(s, l);
+    *end = l->end;
+    s->fixed[0] = l->end == END_LOW || l->end == END_HIGH;
+    if (l->end == END_SCENE)
+        s->why = l->why;
+    return true;
 }
 
 /* ---- several names ----------------------------------------------------------------------------- */
@@ -354,44 +415,53 @@ static bool sharpen(search *s, bool *sharp) {
 
 /* ---- answers ----------------------------------------------------------------------------------- */
 
-/* A place that Newton's method does not reach because a neighbour has no value. */
-static void end_of_scene(search *s, optimise_answer *out) {
+/* Has a neighbour no value? Names that lie there are marked. */
+static bool end_of_scene(search *s, optimise_answer *out) {
+    bool found = false;
     for (size_t i = 0; i < s->of->count; i++)
-        if (!s->fixed[i] && out->end[i] == END_INNER &&
-            (isnan(moved(s, i, 1e-4, i, 0)) || isnan(moved(s, i, -1e-4, i, 0))))
+        if (out->end[i] == END_INNER && (isnan(moved(s, i, 1e-4, i, 0)) || isnan(moved(s, i, -1e-4, i, 0)))) {
             out->end[i] = END_SCENE;
+            found = true;
+        }
+    return found;
 }
 
-/* Several names without Newton's method: a simplex that begins anew, also along the edge of the scene, until
- * nothing is gained. */
-static bool stay_blunt(search *s, optimise_answer *out) {
+/* Without Newton's method: one name to what its values tell; several first by a new simplex, then, where the
+ * scene ends, name within name. */
+static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     size_t free = 0;
+    if (s->of->count == 1) {
+        const bool ok = !(l->lo < l->hi) || narrow(l, l->lo, l->hi, 1e-8);
+        keep_line(s, l);
+        return ok;
+    }
     for (size_t i = 0; i < s->of->count; i++)
         free += !s->fixed[i];
-    for (int i = 0; i < RESTARTS && free; i++) {
-        const long double before = s->f;
-        if (!simplex(s, free, i % 2 ? 0.1 : 0.02, 1e-9))
-            return false;
-        if (i % 2 && before - s->f <= 1e-9L * fabsl(s->f))
-            break;
-    }
+    if (free && !simplex(s, free, 1e-3, 1e-10))
+        return false;
+    if (!end_of_scene(s, out))
+        return !s->q.error->raised;
+    line outer = {.s = s, .nested = true, .f = (long double)NAN};
+    if (!search_line(&outer) || !narrow(&outer, outer.lo, outer.hi, 1e-8))
+        return false;
+    keep_line(s, &outer);
+    for (size_t i = 0; i < s->of->count; i++)
+        out->end[i] = s->u[i] <= 0 ? END_LOW : s->u[i] >= 1 ? END_HIGH : END_INNER;
     end_of_scene(s, out);
-    return true;
+    return !s->q.error->raised;
 }
 
 static bool answer(search *s, optimise_answer *out, calc_error *error) {
     const expr *e = s->of->e;
-    if (!(s->of->count == 1 ? search_line(s, out->end) : search_several(s, out->end)))
+    line l = {.s = s, .f = (long double)NAN};
+    if (!(s->of->count == 1 ? search_one(s, &l, out->end) : search_several(s, out->end)))
         return false;
     if (isnan(s->f))
         return calc_fail(error, e->at, e->len, "no value anywhere in the range: %s", s->why.text);
     if (!s->varies)
         return calc_fail(error, e->at, e->len, "%.*s is the same everywhere in the range", LEX_SHOWN(e->len),
                          e->text + e->at);
-    if (out->end[0] != END_SCENE && !sharpen(s, &out->sharp))
-        return false;
-    if (!out->sharp &&
-        !(s->of->count == 1 ? !(s->lo < s->hi) || narrow(s, s->lo, s->hi, 1e-8) : stay_blunt(s, out)))
+    if (out->end[0] != END_SCENE && !(sharpen(s, &out->sharp) && (out->sharp || stay_blunt(s, &l, out))))
         return false;
     for (size_t i = 0; i < s->of->count; i++)
         out->x[i] = place_of(s, i, s->u[i]);

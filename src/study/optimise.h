@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where an expression is largest or smallest over ranges of one to three names: a grid, then Brent's method or the
- * simplex of Nelder and Mead (GSL), then Newton's on differences of sixth order. */
+/* Where an expression is largest or smallest over ranges of one to three names: a grid, then Brent's method
+ * or the simplex of Nelder and Mead (GSL), then Newton's on differences of sixth order. */
 #ifndef STUDY_OPTIMISE_H
 #define STUDY_OPTIMISE_H
 
@@ -29,14 +29,14 @@ typedef struct optimise_answer {
     optimise_end end[OPTIMISE_NAMES];
     long double value;
     dim d;
-    bool sharp;     /* Newton's method has settled: the place is good to what the expression's digits allow, about
-                       1e-12 of the range; else, as at a kink, to half the digits */
+    bool sharp; /* Newton's method has settled: the place is good to what the expression's digits allow, about
+                   1e-12 of the range; else, as at a kink, to half the digits */
     calc_error why; /* of END_SCENE: what is wrong beyond */
     unsigned evaluations;
 } optimise_answer;
 
-/* Errors: no value anywhere; a value that is the same everywhere. Of several optima the best that the grid sees: 17
- * places, 7 times 7, or 5 times 5 times 5. */
+/* Errors: no value anywhere; a value that is the same everywhere. Of several optima the best that the grid
+ * sees: 17 places, 7 times 7, or 5 times 5 times 5. */
 bool optimise(const optimise_question *question, optimise_answer *out, calc_error *error);
 
 #endif

@@ -39,7 +39,8 @@ static void say_where(state *st, long double x) {
         snprintf(with, sizeof with, ", %s = ", s->with.text);
         say_value(with + strlen(with), sizeof with - strlen(with), s->with.d, s->value[st->curve]);
     }
-    snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->along ? "time" : s->var.text, at, with);
+    snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->along ? "time" : s->var.text, at,
+             with);
 }
 
 /* A gap, unless the error is one that no other value would mend. */
@@ -158,7 +159,7 @@ static void progress(const state *st, size_t row) {
 static bool evaluate_rows(void *context, const long double *part, size_t rows, long double *out) {
     state *st = context;
     const size_t count = st->job->count;
-    long double x[EXPR_BLOCK];
+    long double x[EXPR_BLOCK] = {0};
     for (size_t r = 0; r < rows; r++)
         x[r] = sweep_at(st, part[r]);
     const bool whole = run_block(st, x, rows);
@@ -177,20 +178,24 @@ static bool give_part(void *context, long double part, const long double *values
     return st->job->row(st->job->context, st->s, st->curve, sweep_at(st, part), values);
 }
 
+/* Every row goes out as soon as it is there: an error loses none before it. */
 static bool run_evenly(state *st) {
     const size_t steps = st->s->steps, count = st->job->count;
-    long double part[EXPR_BLOCK], *values = malloc(EXPR_BLOCK * count * sizeof *values);
-    bool ok = values || calc_no_memory(st->job->error);
+    long double x[EXPR_BLOCK];
+    bool ok = true;
     for (size_t i = 0, rows; ok && i <= steps; i += rows) {
         rows = steps - i < EXPR_BLOCK ? steps - i + 1 : EXPR_BLOCK;
         for (size_t r = 0; r < rows; r++)
-            part[r] = (long double)(i + r) / (long double)steps;
+            x[r] = sweep_at(st, (long double)(i + r) / (long double)steps);
         progress(st, i);
-        ok = evaluate_rows(st, part, rows, values);
-        for (size_t r = 0; ok && r < rows; r++)
-            ok = give_part(st, part[r], values + r * count);
+        const bool whole = run_block(st, x, rows);
+        for (size_t r = 0; ok && r < rows; r++) {
+            for (size_t j = 0; whole && j < count; j++)
+                st->values[j] = st->block[j][r];
+            ok = (whole || one_row(st, x[r])) && give_row(st, x[r]);
+        }
+        ok = ok && !stopped(st);
     }
-    free(values);
     return ok;
 }
 

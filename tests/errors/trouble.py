@@ -208,12 +208,12 @@ def finish(tests, name, job):
 def interrupts(tests):
     csv = os.path.join(tests.dir, "long.csv")
     scripts = {"table": LONG % "/dev/null", "table to a file": LONG % csv,
-               "cycle": SCENE + "cycle FA=20 N FNA=30 N times 1000000\n",
+               "cycle": SCENE + "cycle dxA=0.1 um FNA=30 N times 1000000\n",
                "step": SCENE + "cycle FA=20 N times 1000000 steps 1000000\nhistory to /dev/null\n",
-               "script": SCENE + "cycle FA=20 N times 2000\n" * 20000,
+               "script": SCENE + "cycle dxA=0.1 um FNA=30 N times 2\n" * 20000,
                "sweep": SCENE + "cycle FA=20 N FNA=30 N times 20\ntable W for k = 0 .. 0 steps 1000000 to /dev/null\n",
                "uncertainty": SCENE + "uncertainty dWd(1 um) with mu +- 0.01, FN +- 1 N samples 10000000\n",
-               "maximize": SCENE + "cycle FA=20 N FNA=30 N times 20\nmaximize W over mu = 0.5 .. 1, E0 = 1 GPa .. 300 GPa\n",
+               "maximize": SCENE + "cycle dxA=0.1 um FNA=30 N times 20\nmaximize W over mu = 0.5 .. 1, E0 = 1 GPa .. 300 GPa\n",
                "export": SCENE + "geometry flat-rounded b=0.1 mm R=10 mm\nexport jenkins 1000 to " + csv + ".h\n"}
     for name, script in scripts.items():
         with tests.file(script) as path:

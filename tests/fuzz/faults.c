@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Loaded before the C library: lets one allocation fail. Counting begins when a file named `arm` is closed and ends
- * when one named `disarm` is opened; FAULT=n fails the n-th, and FAULT_COUNT names a file for how many there were. For glibc. */
+/* Loaded before the C library: lets one allocation fail. Counting begins when a file named `arm` is closed
+ * and ends when one named `disarm` is opened; FAULT=n fails the n-th, and FAULT_COUNT names a file for how
+ * many there were. For glibc. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>

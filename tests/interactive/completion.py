@@ -176,5 +176,39 @@ def recorded(tests):
     tests.check("save history", typed.startswith("mu = 0.3\nrecord ") and "dx +  \\\n1 um\n" in typed, typed)
 
 
+def screens(tests):
+    """What depends on the terminal: the pager, progress, carets."""
+    s = Session(tests, PAGER="sed s/^/PAGED:/", dimensions=(10, 100))
+    tests.check("a pager for what does not fit", s.say("help").splitlines()[0].startswith("PAGED:fret: partial"))
+    tests.check("none for what does", s.say("help pi").startswith("pi: "))
+    s.say("set pager off")
+    tests.check("none when it is off", s.say("help").startswith("fret: partial"))
+    s.say("set pager on")
+    tests.check("always when it is on", s.say("help pi").startswith("PAGED:pi: "))
+    s.say("set format json")
+    tests.check("none for JSON", s.say("help").startswith('{"text":"fret: partial'))
+    s.say("set format text; set pager auto")
+    path = os.path.join(tests.dir, "paged.txt")
+    s.say("record " + path)
+    s.say("help")
+    s.say("record off")
+    with open(path, encoding="utf-8") as f:
+        tests.check("what is paged is recorded", "fret> help\nfret: partial" in f.read())
+    s.say(SCENE)
+    s.say("press FN=100 N; cycle FA=20 N")
+    s.child.sendline("table qx(0.1 mm) for mu = 0.3 .. 0.5 steps 1000000 to t.csv")
+    s.child.expect(r"table: \d+ %(, \d+ s to go)? \(Ctrl-C stops it\)", timeout=30)
+    s.child.sendintr()
+    tests.check("a long table shows progress", "interrupted" in s.prompt())
+    s.child.sendline("cycle dxA=0.1 um FNA=10 N times 1000000")
+    s.child.expect(r"cycle: \d+ s \(Ctrl-C stops it\)", timeout=30)
+    s.child.sendintr()
+    tests.check("a long cycle shows progress", "interrupted" in s.prompt())
+    tests.check("an error points into the line", "  1 + foo\n      ^~~" in s.say("1 + foo"))
+    tests.check("not where it is all of it", "^" not in s.say("foo"))
+    s.child.sendeof()
+    tests.check("screens leave", s.end() == 0)
+
+
 def run(tests):
-    each(tests, (offers, pasting, histories, recorded))
+    each(tests, (offers, pasting, histories, recorded, screens))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How long Ctrl-C takes, from the key to the next prompt, for what takes longest: `latency.py FRET` prints a table.
+"""How long Ctrl-C takes, from the key to the next prompt, for what takes longest: `latency.py FRET [NAME...]` prints a
+table.
 The tests take a short version of it, with generous bounds."""
 import contextlib
 import math
@@ -58,7 +59,7 @@ def cases(where, size):
         ("springs, sphere", PRESSED + "; cycle FA=20 N" + model, "W"),
         ("springs, sum", STEEL + "; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=100 N; cycle FA=20 N" + model, "W"),
         ("geometry file of %d rows" % (3000000 // size), GRADED, "geometry file " + path["huge"]),
-        ("a history, oblique, table", table + "; " + oblique, "history to /dev/null"),
+        ("a history, oblique, table", table + "; step FN=110 N Fx=10 N", "history to /dev/null"),
         ("table dW(F), table", table, "table dW(F) for F = 1 N .. 39 N steps 2000 to /dev/null"),
         ("a source of one long line", "x = 1", "source " + path["line"]),
         ("follow %d rows" % (1000000 // size),
@@ -129,17 +130,17 @@ def measure(fret, env, case, delays):
     try:
         for part in before.split("; "):
             terminal.say(part)
-        scene = "show variables"
-        kept, worst = terminal.say(scene), None
-        programs = terminal.say("show")
+        worst, kept = None, True
         for delay in delays:
+            scene = terminal.say("show")
             took = interrupted(terminal, statement, delay)
             if took is None:
                 continue
             worst = max(worst or 0, took)
-            if took == math.inf:
-                return worst, False
-        return worst, terminal.say(scene) == kept and terminal.say("show") == programs
+            kept = kept and took != math.inf and terminal.say("show") == scene
+            if not kept:
+                break
+        return worst, kept
     finally:
         terminal.close()
 
@@ -152,6 +153,8 @@ def main():
         print("# Ctrl-C to the next prompt, the longest of interrupts after %s s [ms]" %
               ", ".join("%g" % delay for delay in DELAYS))
         for case in cases(where, 1):
+            if len(sys.argv) > 2 and case[0] not in sys.argv[2:]:
+                continue
             worst = measure(fret, env, case, DELAYS)
             text = "done before" if worst[0] is None else "never" if worst[0] == math.inf else "%d" % (1e3 * worst[0])
             print("%-40s %12s%s" % (case[0], text, "" if worst[1] else "  scene changed"), flush=True)

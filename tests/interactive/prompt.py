@@ -111,7 +111,7 @@ def interrupts(tests):
     for name, command in (("table", "table dW(F) for F = 1 N .. 30 N steps 50000000 to /dev/null"),
                           ("sweep", "table a for k = 0 .. 0.5 steps 50000000 to /dev/null"),
                           ("accuracy", "plot accuracy within 60"),
-                          ("cycle", "cycle FA=20 N FNA=10 N times 1000000"),
+                          ("cycle", "cycle dxA=0.1 um FNA=10 N times 1000000"),
                           ("plain cycle", "cycle FA=20 N times 1000000 steps 10; history to /dev/null")):
         if name == "sweep":
             s.say("c0 = 1 mm")

@@ -34,7 +34,7 @@ def variants():
     if shutil.which("clang"):
         found["clang-O3"] = ["CC=clang", "OPT=-O3"]
     if shutil.which("musl-gcc"):
-        found["musl"] = ["CC=musl-gcc", "LDFLAGS=-static"]
+        found["musl"] = ["CC=musl-gcc", "LDFLAGS=-static", "LIVE=no"]
     return found
 
 

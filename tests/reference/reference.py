@@ -96,10 +96,13 @@ def swinging(tests, i, row):
     compared(tests, name + ": dW", [dW], got[1:], SINE, [W if dW == 0 else dW])
     bound = SINE
     if asks:
-        stated = re.search(r"model: memory diagram, converged to (\S+) ", done.stdout)
-        if not tests.check(name + ": states how far", stated and float(stated.group(1)) <= 5e-9, tests.report(done)):
-            return
-        bound = float(stated.group(1))
+        if "model: memory diagram, the sine itself, event by event (exact)" in done.stdout:
+            bound = SINE
+        else:
+            stated = re.search(r"model: memory diagram, converged to (\S+) ", done.stdout)
+            if not tests.check(name + ": states how far", stated and float(stated.group(1)) <= 5e-9, tests.report(done)):
+                return
+            bound = float(stated.group(1))
     compared(tests, name, [W, dW], got, bound, [W, W if dW == 0 else dW])
 
 

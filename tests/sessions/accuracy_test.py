@@ -19,7 +19,9 @@ def measured(tests, script, command="accuracy within 0.3"):
     """The rows by model, as {parameter: row}, and the last object."""
     done = tests.run("-c", script + "\nset format json\n" + command)
     lines = [json.loads(line) for line in done.stdout.splitlines()]
-    if not tests.check("%s; %s" % (script, command), len(lines) > 1 and not done.stderr and done.returncode == 0,
+    wide = "warning: a/R = 0.7: beyond 0.3 the bodies are no half-spaces"  # a scene of the tests is, on purpose
+    told = [line for line in done.stderr.splitlines() if not line.startswith(wide)]
+    if not tests.check("%s; %s" % (script, command), len(lines) > 1 and not told and done.returncode == 0,
                        tests.report(done)):
         return {}, {}
     rows = {}

@@ -2,6 +2,7 @@
 """solve, maximize and minimize against answers of 30 digits, damper functions too, and exported models as they run."""
 import csv
 import json
+import math
 import os
 import re
 import subprocess
@@ -41,6 +42,21 @@ def questions(tests):
             tests.check("%s: evaluations" % question, events[0]["evaluations"] <= 60, str(events))
 
 
+def edges(tests):
+    """The best lies where the scene ends, and along that edge."""
+    setup = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+    for question, want in (
+            ("maximize dW(20 N) over FN = 1 N .. 100 N", {"FN": 50}),
+            ("maximize dW(20 N) over FN = 1 N .. 100 N, mu = 0.1 .. 0.8", {"FN": 25, "mu": 0.8}),
+            ("maximize dW(F) over F = 1 N .. 60 N", {"F": 40}),
+            ("minimize abs(FN - 33 N) over FN = 1 N .. 100 N", {"FN": 33})):
+        values, events, done = run_json(tests, setup + question + "\n")
+        got = {v["name"]: v["value"] for v in values}
+        tests.check(question, all(abs(got.get(name, 0) / v - 1) < 1e-7 for name, v in want.items()), tests.report(done))
+        scene = "scene" in events[-1]["ends"].values() if events else False
+        tests.check(question + ": tells the edge", scene == ("dW" in question), tests.report(done))
+
+
 def damper(tests):
     by = {}
     for row in table("damper.csv"):
@@ -67,6 +83,22 @@ def damper(tests):
             tests.check("damper: " + setup, worst < 1e-14, "%.2e" % worst)
         except StopIteration:
             tests.check("damper: " + setup, False, tests.report(done))
+
+
+def other_shapes(tests):
+    """Kp short of gross slip against the midpoint rule, which converges fast on a whole period."""
+    count = 600
+    for shape in ("flat-cone b=0.1 mm slope=0.01", "flat-rounded b=0.1 mm R=10 mm", "exact-sphere R=10 mm",
+                  "sum 2:50 m^-1, 4:2e9 m^-3"):
+        setup = "material steel; friction 0.4; geometry %s; press FN=100 N\n" % shape
+        d = 0.5e-6
+        angles = [(i + 0.5) / count * math.pi for i in range(count)]
+        script = setup + "\n".join("Fx(%r m)" % (d * math.sin(t / 2) ** 2) for t in angles) + "\nKp(%r m)\n" % d
+        values, _, done = run_json(tests, script)
+        v = [value["value"] for value in values]
+        if tests.check("damper: " + shape, len(v) == count + 1, tests.report(done)):
+            want = -4 / (math.pi * d) * math.fsum(f * math.cos(t) for f, t in zip(v, angles)) * math.pi / count
+            tests.check("Kp: " + shape, abs(v[-1] / want - 1) < 1e-12, "%r %r" % (v[-1], want))
 
 
 SHAPES = ("geometry sphere R=10 mm", "geometry flat-cone b=0.1 mm slope=0.01", "geometry cone slope=0.05; k = 0.5, c0 = 1 mm")
@@ -181,7 +213,9 @@ def told(tests):
 
 def run(tests):
     questions(tests)
+    edges(tests)
     damper(tests)
+    other_shapes(tests)
     jenkins(tests)
     header(tests)
     linear(tests)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures in files and in the terminal: their form, hostile names, and what must not stay behind."""
 import os
+import tempfile
 import re
 import shutil
 import signal
@@ -20,9 +21,7 @@ def read(path):
 
 
 def folder(tests, name):
-    where = os.path.join(tests.dir, name)
-    os.makedirs(where)
-    return where
+    return tempfile.mkdtemp(prefix=name + "-", dir=tests.dir)
 
 
 def clean(tests, name, where, wanted=()):

@@ -163,6 +163,11 @@ def saved(tests):
                           "source %s\n" % name + ASKED)
         tests.check("a scene comes back to the last bit: " + scene[:40], first.stdout == again.stdout and
                     first.stdout.count("\n") > 1, "%s\n%s" % (tests.report(first), tests.report(again)))
+    for name in ("history.fret", "history", "off.txt"):
+        command = "record" if name == "off.txt" else "save"
+        done = tests.run("-c", "mu = 0.1; %s %s" % (command, name))
+        path = os.path.join(tests.dir, name)
+        tests.check("%s to %s" % (command, name), done.returncode == 0 and os.path.getsize(path) > 10, tests.report(done))
     name = os.path.join(tests.dir, "saved0.fret")
     done = tests.run("-c", "mu = 0.1; save %s" % name)
     tests.check("overwriting a scene is told", "overwrote %s" % name in done.stderr, tests.report(done))
@@ -196,7 +201,7 @@ def targets(tests):
     def text(name):
         with open(os.path.join(where, name), encoding="utf-8") as f:
             return f.read()
-    tests.check(".csv", text("t.csv").startswith("x [m],y,x [m],x^2 [m^2]\n0.001,1,0.001,"), text("t.csv"))
+    tests.check(".csv", text("t.csv").startswith("x [m],y,x (2) [m],x^2 [m^2]\n0.001,1,0.001,"), text("t.csv"))
     tests.check(".json", [json.loads(line)["x"] for line in text("t.json").splitlines()] == [.001, .002] * 2,
                 text("t.json"))
     tests.check(".txt", "x [mm]" in text("t.txt").splitlines()[0] and text("t.txt").count("\n\n") == 1, text("t.txt"))

@@ -115,7 +115,7 @@ def over(tests):
     tests.check("measured points are named", "measured-1.csv" in text)
     text, series = script(tests, "measured beside", "plot pressure | loop over %s" % path)
     tests.check("a file for the second figure", series[-1:] == [[(0.2, 10), (-0.5, -20)]], str(series[-1:]))
-    fails(tests, "plot pressure over " + path, "do not fit the axes")
+    fails(tests, "plot pressure over " + path, "no column fits the axis p(r), which is a pressure: there are Fx, dx")
     fails(tests, "plot loop over /nonexistent.csv", "cannot read /nonexistent.csv")
 
 

@@ -93,7 +93,7 @@ def written(tests):
     tests.check("JSON to a file", [row["x^2"] for row in lines("t 2.json")] == [1, 4, 9])
     tests.check("history as JSON", [row["Fx"] for row in lines("h.json")] == [0, 20], str(lines("h.json")))
     with open(os.path.join(where, "t.txt"), encoding="ascii") as f:
-        tests.same("t.txt", "            x              x\n            1              1\n            2              2\n"
+        tests.same("t.txt", "            x          x (2)\n            1              1\n            2              2\n"
                    "            3              3\n", f.read())
     done = tests.run("--format=json", "-c", 'x = 1\ntable x, x^2 for x = 1 .. 3 steps 2\n"')
     tests.check("rows are on standard output, errors are not",

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Local fields: their integrals are the forces, they agree with the gap inside, and with closed forms. */
 #include "contact/normal.h"
+#include "number/real.h"
 #include "unit.h"
 
 /* Power laws, from the tip to far outside, and flat ends on both sides of their rim. The nearest places to
@@ -233,6 +234,24 @@ static void errors(void) {
     fret_memory_free(m);
 }
 
+/* The pressure of a power has the shape of the table; its scale from g and c_N at the edge. */
+static void power_series(void) {
+    unit_table t;
+    if (!unit_open(&t, "pressure.csv"))
+        return;
+    while (unit_row(&t)) {
+        const double n = unit_input(&t, 0), k = unit_input(&t, 1);
+        const unit_scene s = unit_make_scene(n, k);
+        const fret_normal *normal = unit_make_normal(&s);
+        const fret_foundation *f = fret_normal_foundation(normal);
+        const fret_real scale =
+            fret_normal_profile(normal, 1) * n * f->cN0 / FRET_PI * fret_pow(1 / f->c0, f->k);
+        fret_real p = 0;
+        CHECK_OK(fret_pressure(normal, 1, unit_input(&t, 2), &p));
+        CHECK_REL(p, scale * unit_result(&t, 3), UNIT_TOL(1e-17L, 1e-13L));
+    }
+}
+
 int main(int argc, char **argv) {
     unit_start("field", argc, argv);
     reference();
@@ -241,5 +260,6 @@ int main(int argc, char **argv) {
     forces();
     closed();
     errors();
+    power_series();
     return unit_finish();
 }

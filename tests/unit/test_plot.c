@@ -386,7 +386,8 @@ static void refused(const char *tmp) {
     CHECK(!plot_draw(&f, &(plot_target){.file = "x.jpg"}, NULL, error, sizeof error));
     CHECK(has(error, "use .png, .svg, .pdf, .tex, .html, .gif or .gp"));
     CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .width = 9000}, NULL, error, sizeof error));
-    CHECK(!plot_check("no/such/x.png", NULL, error, sizeof error) && plot_check("x.png", NULL, error, sizeof error));
+    CHECK(!plot_check("no/such/x.png", NULL, error, sizeof error) &&
+          plot_check("x.png", NULL, error, sizeof error));
     CHECK(access("x.png", F_OK) != 0);
     plot_figure_free(&f);
 }

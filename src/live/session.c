@@ -209,7 +209,8 @@ static void count_frame(live_work *work, double spent) {
 }
 
 static void session(live *l, live_work *work) {
-    enum { FRAME = 16, IDLE = 1000 /* milliseconds */, MANY = 20 };
+    enum { IDLE = 1000 /* milliseconds */, MANY = 20 };
+    const int frame = terminal_frame();
     double before = seconds(), spent = 0;
     while (!l->leave) {
         double start = seconds();
@@ -219,7 +220,7 @@ static void session(live *l, live_work *work) {
             count_frame(work, spent + seconds() - start);
             spent = 0;
         }
-        int key = terminal_key(l->playing ? FRAME : IDLE, l->host->stop);
+        int key = terminal_key(l->playing ? frame : IDLE, l->host->stop);
         start = seconds();
         for (int many = 1; key != KEY_NONE; many++) { /* held keys: one frame for all that wait */
             live_key(l, key);

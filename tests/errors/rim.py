@@ -1,0 +1,409 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rim of the program: lines without end, memory that runs out, signals at the prompt, text that would command the
+terminal, small stacks. Nothing is lost, nothing is wrong in silence."""
+import os
+import pty
+import resource
+import select
+import shutil
+import signal
+import stat
+import subprocess
+import sys
+import termios
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "fuzz"))
+import faults  # noqa: E402
+import latency  # noqa: E402
+
+SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+ESCAPES = ("\x1b[31m", "\x9b31m", "\u202e", "\u200b", "\u2066", "\ufeff", "\x07")
+MB = 1 << 20
+
+
+def limited(tests, args, kind, limit, cwd=None, env=None, input=b""):
+    """Runs the program with a limit of the system."""
+    done = subprocess.run([tests.fret, *args], input=input, capture_output=True, cwd=cwd or tests.dir, timeout=120,
+                          env={**tests.env, **(env or {})}, check=False,
+                          preexec_fn=lambda: resource.setrlimit(kind, (limit, limit)))
+    done.stdout, done.stderr = done.stdout.decode("utf-8", "replace"), done.stderr.decode("utf-8", "replace")
+    return done
+
+
+def expect(tests, name, done, status, out=None, err=None):
+    ok = (done.returncode == status and "Sanitizer" not in done.stderr and "runtime error" not in done.stderr
+          and (out is None or out in done.stdout) and (err is None or err in done.stderr))
+    tests.check(name, ok, "expected exit %s, %r, %r\n%s" % (status, out, err, tests.report(done)))
+
+
+def lines_without_end(tests):
+    """A line longer than the limit, and memory that is out while a line is read, are errors and never the end."""
+    for name, way in (("a script", lambda path: tests.run(path)),
+                      ("a pipe", lambda path: subprocess.run(
+                          "'%s' < '%s'" % (tests.fret, path), shell=True, capture_output=True, text=True,
+                          env=tests.env, check=False)),
+                      ("source", lambda path: tests.run("-c", "source " + path)),
+                      ("a table", lambda path: tests.run("-c", "geometry file " + path)),
+                      ("a transcript", lambda path: tests.run("--replay", path))):
+        with tests.file("fret> x = 1 # " + "x" * (17 * MB) + "\nfret> x\nx = 1\n") as path:
+            done = way(path)
+            expect(tests, "a line of 17 MB: " + name, done, 1, None, ":1: the line is longer than 16 MB")
+            tests.check("nothing behind it has run: " + name, "x = 1" not in done.stdout, done.stdout[:300])
+    with tests.file("x = 1 + \\\n" + " " * (17 * MB) + "2\nx\n") as path:
+        done = tests.run("--keep-going", path)
+        expect(tests, "a continued line of 17 MB does not run its first half", done, 1, "", "longer than 16 MB")
+    expect(tests, "source /dev/zero", tests.run("-c", "source /dev/zero"), 1, "", "longer than 16 MB")
+    expect(tests, "geometry file /dev/zero", tests.run("-c", "geometry file /dev/zero"), 1, "", "longer than 16 MB")
+    if tests.sanitized:  # shadow memory needs all of the address space
+        return
+    follow = "FN [N],Fx [N]\n100,0\n100,30\n100,20" + " " * (10 * MB) + "\n"
+    with tests.file(follow, ".csv") as path:
+        done = limited(tests, ["-c", "material steel; geometry sphere R=10 mm; friction 0.4; follow %s; Fx" % path],
+                       resource.RLIMIT_AS, 16 * MB)
+        expect(tests, "no memory for a row of a history", done, 1, "", "memory")
+    with tests.file("fret> 1\n1 = 1\nfret> 2 # " + "x" * (10 * MB) + "\n2 = 3\n") as path:
+        done = limited(tests, ["--replay", path], resource.RLIMIT_AS, 16 * MB)
+        expect(tests, "no memory for a line of a transcript", done, 1, "", "memory")
+        tests.check("and no verdict", "passed" not in done.stdout, done.stdout)
+
+
+def memory(tests):
+    """Some of the allocations of each statement fail, once each; `make faults` takes them all."""
+    shim = os.path.join(os.path.abspath(tests.build), "tests", "faults.so")
+    if tests.sanitized or not os.path.exists(shim):
+        return
+    env = {name: tests.env[name] for name in ("PATH", "LC_ALL", "TERM")}
+
+    def one(statement):
+        wrong, tried = faults.attempt(statement, 4)
+        tests.check("memory runs out in: " + statement.statement[:60], not wrong and tried > 0,
+                    "\n".join("allocation %d: %s" % row[1:] for row in wrong) or "no allocation was counted")
+    tests.each([lambda s=s: one(s) for s in faults.statements(tests.fret, shim, env)])
+
+
+def limits(tests):
+    """What would take all memory is refused, and small stacks do."""
+    with tests.file("1" + "+1" * (5 * MB) + "\n") as path:
+        done = tests.run(path) if tests.sanitized else limited(tests, [path], resource.RLIMIT_AS, 400 * MB)
+        expect(tests, "a sum of 5e6 terms", done, 1, "", "more than 2097152 numbers, names and operators")
+    if tests.sanitized:  # frames are larger there
+        return
+    script = SCENE + "cycle FA=20 N\n" + "".join("d%d := %s + 1\n" % (i, "d%d" % (i - 1) if i else "1")
+                                                 for i in range(90)) + "d89\n"
+    script += "(" * 150 + "1" + ")" * 150 + "\n" + "table dW(F), a(F) for F = 1 N .. 30 N steps 600 to /dev/null\n"
+    script += "table " + ", ".join("x^%d" % i for i in range(1, 39)) + " for x = 1 .. 2 to /dev/null\n"
+    script += "table dW for FA = 1 N .. 20 N steps 5 with mu = 0.3, 0.4\nexplain dW\nhistory to /dev/null\n"
+    with tests.file(script) as path:
+        expect(tests, "a stack of 256 kB", limited(tests, [path], resource.RLIMIT_STACK, 256 * 1024), 0, "d89 = 91")
+        done = limited(tests, ["-c", "plot x, 2*x, x^2, x^3, x/2, x/3 for x = 1 .. 2 steps 1000000 to many.gp"],
+                       resource.RLIMIT_AS, 120 * MB)
+        expect(tests, "a plot of 6e6 points in 120 MB", done, 0, "", "many.gp")
+
+
+def hostile(tests):
+    """Bytes from outside reach the terminal escaped, and JSON as UTF-8."""
+    where = os.path.join(tests.dir, "hostile")
+    os.mkdir(where)
+    for i, escape in enumerate(ESCAPES):
+        bad = "a%sb" % escape
+        name = os.path.join(where, "gap%s.csv" % escape)
+        with open(name, "w", encoding="utf-8") as f:
+            f.write("r [mm],f [um]\n" + "".join("%g,%g\n" % (j / 50, j * j / 50) for j in range(40)))
+        header = os.path.join(where, "header%d.csv" % i)
+        with open(header, "w", encoding="utf-8") as f:
+            f.write("r%s [mm],f [um]\n0,0\n1,1\n" % escape)
+        script = os.path.join(where, "%s.fret" % bad)
+        with open(script, "w", encoding="utf-8") as f:
+            f.write("foo # %s\n" % escape)
+        cases = {"statement": "1 + %s" % bad, "name": "%s = 1; %s" % (bad, bad), "comment": "foo # %s" % escape,
+                 "help": "help " + bad, "apropos": "apropos " + bad, "file": 'geometry file "%s"; show' % name,
+                 "explain": 'material steel; geometry file "%s"; explain f' % name,
+                 "no file": 'geometry file "%s"' % bad, "header": "geometry file %s" % header,
+                 "source": 'source "%s"' % script, "unit": "1 %s" % bad, "setting": "set %s" % bad,
+                 "table": 'table x for x = 1 .. 2 to "%s/%s.csv"' % (where, bad),
+                 "argument": "press %s=1" % bad, "show": "show " + bad, "figure": "plot " + bad}
+        for case, statement in cases.items():
+            for way in ("text", "json"):
+                done = subprocess.run([tests.fret, "--keep-going", "--format=" + way, "-c", statement],
+                                      capture_output=True, env=tests.env, cwd=where, timeout=60, check=False)
+                both = done.stdout + done.stderr
+                raw = escape.encode() in both or b"\x1b" in both
+                valid = True
+                try:
+                    both.decode("utf-8")
+                except UnicodeDecodeError:
+                    valid = False
+                tests.check("%s with U+%04X as %s" % (case, ord(escape[0]), way),
+                            not raw and valid and done.returncode in (0, 1), repr(both[:600]))
+        for args in (["--" + bad], ["--format=" + bad], [bad], ["-f", bad], ["--replay", bad]):
+            done = subprocess.run([tests.fret, *args], capture_output=True, env=tests.env, cwd=where, timeout=60,
+                                  check=False)
+            tests.check("option with U+%04X: %s" % (ord(escape[0]), ascii(args)),
+                        escape.encode() not in done.stderr and done.stderr, repr(done.stderr))
+    for args in (["-c", b"1 + \xff\xfe"], ["-c", b'geometry file "\xff"'], [b"\xff\xfe"]):
+        done = subprocess.run([tests.fret, "--format=json", *args], capture_output=True, env=tests.env, cwd=where,
+                              timeout=60, check=False)
+        expect_utf8 = done.stdout + done.stderr
+        tests.check("bytes that are no UTF-8: %s" % args, b"\xff" not in expect_utf8 and done.returncode == 1,
+                    repr(expect_utf8))
+    long = "+".join(["1"] * 300)
+    done = tests.run("--format=json", "-c", long)
+    expect(tests, "a long name in JSON is whole", done, 0, '{"name":"%s",' % long)
+    done = tests.run("--format=json", "-c", "table x, x, x^2 for x = 1 .. 2 steps 1")
+    expect(tests, "columns that stand twice in JSON", done, 0, '{"x":1,"x (2)":1,"x (3)":1,"x^2":1}')
+    done = tests.run("--format=csv", input="table x, \\\n 2*x + \\\n1 for x = 1 .. 2 steps 1\n")
+    expect(tests, "a continued line in a header", done, 0, "x,x (2),2*x + 1\n")
+    shutil.rmtree(where)
+
+
+def fake_gnuplot(tests, words):
+    where = os.path.join(tests.dir, "fake-gnuplot")
+    os.makedirs(where, exist_ok=True)
+    path = os.path.join(where, "gnuplot")
+    with open(path, "wb") as f:
+        f.write(b"#!/bin/sh\n[ \"$1\" = --version ] && { echo gnuplot 5.4; exit 0; }\nprintf '%b' '" + words +
+                b"' >&2; exit 1\n")
+    os.chmod(path, 0o755)
+    return {"PATH": where + ":" + tests.env["PATH"]}
+
+
+def gnuplot(tests):
+    env = fake_gnuplot(tests, rb"line 3: \033]0;gotcha\007 \342\200\256evil \377")
+    done = subprocess.run([tests.fret, "-c", "plot x for x = 1 .. 2 to x.png"], capture_output=True,
+                          env={**tests.env, **env}, cwd=tests.dir, timeout=60, check=False)
+    tests.check("gnuplot's words", b"evil" in done.stderr and not any(
+        bad in done.stderr for bad in (b"\x1b", b"\x07", b"\xe2\x80\xae", b"\xff")), repr(done.stderr))
+    deep = os.path.join(tests.dir, "deep")
+    os.mkdir(deep)
+    here = os.open(deep, os.O_RDONLY)
+    try:
+        for _ in range(22):
+            os.mkdir("d" * 200, dir_fd=here)
+            inner = os.open("d" * 200, os.O_RDONLY, dir_fd=here)
+            os.close(here)
+            here = inner
+        done = subprocess.run([tests.fret, "-c", 'plot x for x = 1 .. 2 to "|touch pwned #.png"'], capture_output=True,
+                              env=tests.env, timeout=60, check=False, preexec_fn=lambda: os.fchdir(here))
+        left = os.listdir(here)
+        tests.check("a name in a deep directory is no command", "pwned" not in left and
+                    all("part" not in name for name in left), "%s %s" % (left, done.stderr))
+    finally:
+        os.close(here)
+        subprocess.run(["rm", "-rf", deep], check=False)
+
+
+# The prompt is a job of a session's leader, as of a shell: a process group without one is never stopped.
+LEADER = """
+import fcntl, os, signal, sys, termios
+fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+pid = os.fork()
+if pid == 0:
+    os.setpgrp()
+    signal.signal(signal.SIGTTOU, signal.SIG_IGN)
+    os.tcsetpgrp(0, os.getpid())
+    signal.signal(signal.SIGTTOU, signal.SIG_DFL)
+    os.execv(sys.argv[2], sys.argv[2:])
+os.write(int(sys.argv[1]), b"%d\\n" % pid)
+status = os.waitpid(pid, 0)[1]
+os.write(int(sys.argv[1]), b"%d\\n" % (-os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)))
+"""
+
+
+class Prompt:
+    """The prompt on a terminal whose settings are looked at."""
+
+    def __init__(self, tests, **env):
+        self.tests = tests
+        self.main, self.side = pty.openpty()
+        self.before = termios.tcgetattr(self.side)
+        told, tell = os.pipe()
+        self.leader = subprocess.Popen([sys.executable, "-c", LEADER, str(tell), tests.fret, "--quiet", "--no-rc"],
+                                       stdin=self.side, stdout=self.side, stderr=self.side, cwd=tests.dir,
+                                       start_new_session=True, pass_fds=[tell],
+                                       env={**tests.env, "TERM": "xterm", "INPUTRC": "/dev/null", **env})
+        os.close(tell)
+        self.told = os.fdopen(told)
+        self.pid = int(self.told.readline())
+        self.read()
+
+    def read(self, seconds=20, end=b"fret> "):
+        text, limit = b"", time.monotonic() + seconds
+        while end not in text and select.select([self.main], [], [], max(0, limit - time.monotonic()))[0]:
+            try:
+                text += os.read(self.main, 65536)
+            except OSError:
+                break
+        return text.decode("utf-8", "replace")
+
+    def say(self, line):
+        os.write(self.main, line.encode() + b"\r")
+        return self.read()
+
+    def restored(self):
+        """As it was before, within seconds."""
+        for _ in range(100):
+            if termios.tcgetattr(self.side) == self.before:
+                return True
+            time.sleep(0.05)
+        return False
+
+    def signal(self, number):
+        os.kill(self.pid, number)
+
+    def status(self):
+        """How it ended; None: not yet."""
+        return int(self.told.readline()) if select.select([self.told], [], [], 20)[0] else None
+
+    def stopped(self):
+        for _ in range(200):
+            with open("/proc/%d/stat" % self.pid, encoding="ascii") as f:
+                if f.read().rpartition(")")[2].split()[0] == "T":
+                    return True
+            time.sleep(0.02)
+        return False
+
+    def close(self):
+        try:
+            self.signal(signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        self.leader.wait()
+        self.told.close()
+        os.close(self.main)
+        os.close(self.side)
+
+
+def signals(tests):
+    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+        p = Prompt(tests)
+        os.write(p.main, b"1 + 1")
+        p.read(0.5, b"1 + 1")
+        edits = termios.tcgetattr(p.side) != p.before
+        resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
+        p.signal(number)
+        status = p.status()
+        tests.check("%s at the prompt ends with its status" % number.name, status == -number and edits, str(status))
+        tests.check("%s at the prompt restores the terminal" % number.name, p.restored())
+        p.close()
+    p = Prompt(tests)
+    os.write(p.main, b"x = 4")
+    p.read(0.5, b"x = 4")
+    raw = termios.tcgetattr(p.side)
+    p.signal(signal.SIGTSTP)
+    tests.check("SIGTSTP stops", p.stopped())
+    tests.check("SIGTSTP restores the terminal", raw != p.before and p.restored())
+    p.signal(signal.SIGCONT)
+    p.read(5)
+    for _ in range(100):
+        if termios.tcgetattr(p.side) == raw:
+            break
+        time.sleep(0.05)
+    tests.check("SIGCONT prepares it again", termios.tcgetattr(p.side) == raw)
+    os.write(p.main, b"\r")
+    p.read()
+    tests.check("and the line goes on", "x = 4" in p.say("x"))
+    p.close()
+
+
+def ended_at_work(tests):
+    """Half-written files, gnuplot and its directory go when the program is ended."""
+    where = os.path.join(tests.dir, "ended")
+    tmp = os.path.join(where, "tmp")
+    os.makedirs(tmp)
+    env = fake_gnuplot(tests, b"")
+    with open(os.path.join(tests.dir, "fake-gnuplot", "gnuplot"), "w", encoding="ascii") as f:
+        f.write("#!/bin/sh\n[ \"$1\" = --version ] && { echo gnuplot 5.4; exit 0; }\necho $$ >%s/pid\nexec sleep 60\n"
+                % where)
+    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+        for name, statement, begun in (
+                ("a table", "table x for x = 1 .. 2 steps 100000000 to out.csv", lambda: len(os.listdir(where)) > 1),
+                ("a plot", "plot x for x = 1 .. 2 to out.png", lambda: os.path.exists(where + "/pid"))):
+            child = subprocess.Popen([tests.fret, "-c", statement], cwd=where, stderr=subprocess.DEVNULL,
+                                     stdout=subprocess.DEVNULL, env={**tests.env, **env, "TMPDIR": tmp})
+            limit = time.monotonic() + 20
+            while not begun() and time.monotonic() < limit:
+                time.sleep(0.02)
+            child.send_signal(number)
+            status = child.wait(20)
+            left = [entry for entry in os.listdir(where) if entry not in ("tmp", "pid")] + os.listdir(tmp)
+            tests.check("%s during %s" % (number.name, name), status == -number and not left, "%s %s" % (status, left))
+            if os.path.exists(where + "/pid"):
+                with open(where + "/pid", encoding="ascii") as f:
+                    pid = f.read().strip()
+                for _ in range(100):
+                    if not pid or not os.path.exists("/proc/" + pid) or gone(pid):
+                        break
+                    time.sleep(0.05)
+                tests.check("%s ends gnuplot" % number.name, not pid or gone(pid))
+                os.unlink(where + "/pid")
+    done = limited(tests, ["-c", "table x for x = 1 .. 2 steps 1000000 to big.csv"], resource.RLIMIT_FSIZE, 65536,
+                   cwd=where)
+    expect(tests, "a file beyond the limit", done, 1, "", "cannot write")
+    tests.check("leaves nothing", not [entry for entry in os.listdir(where) if entry != "tmp"], str(os.listdir(where)))
+    shutil.rmtree(where)
+
+
+def gone(pid):
+    """Ended, or waiting to be collected."""
+    try:
+        with open("/proc/%s/stat" % pid, encoding="ascii") as f:
+            return f.read().rpartition(")")[2].split()[0] == "Z"
+    except OSError:
+        return True
+
+
+def interrupts(tests):
+    """Ctrl-C in what takes longest, on smaller cases: the scene is as before, and it does not take long."""
+    where = os.path.join(tests.dir, "latency")
+    os.mkdir(where)
+    env = {**tests.env, "TERM": "dumb", "INPUTRC": "/dev/null", "XDG_STATE_HOME": where}
+    size = 50 if tests.sanitized else 10
+    for case in latency.cases(where, size):
+        took, kept = latency.measure(tests.fret, env, case, (0.05, 0.4))
+        tests.check("Ctrl-C: " + case[0], took is None or (took < 2 and kept), "%s s, scene kept: %s" % (took, kept))
+    p = Prompt(tests)
+    fifo = os.path.join(where, "fifo")
+    os.mkfifo(fifo)
+    os.write(p.main, b"source " + fifo.encode() + b"\r")
+    p.read(0.5, b"nothing")
+    os.write(p.main, b"\x03")
+    tests.check("an interrupted source says so", "interrupted" in p.read())
+    p.close()
+    shutil.rmtree(where)
+
+
+def history(tests):
+    """The history makes no home, follows no link, waits for no pipe."""
+    home = os.path.join(tests.dir, "no-home")
+    p = Prompt(tests, HOME=home)
+    p.say("1")
+    p.close()
+    tests.check("a missing home stays missing", not os.path.exists(home))
+    state = os.path.join(tests.dir, "state-rim")
+    os.makedirs(os.path.join(state, "fret"))
+    path, victim = os.path.join(state, "fret", "history"), os.path.join(tests.dir, "victim")
+    with open(victim, "w", encoding="ascii") as f:
+        f.write("mine\n")
+    os.chmod(victim, 0o644)
+    os.symlink(victim, path)
+    p = Prompt(tests, XDG_STATE_HOME=state)
+    p.say("1 + 2")
+    p.close()
+    with open(victim, encoding="ascii") as f:
+        text = f.read()
+    tests.check("a link as history is not followed", text == "mine\n" and
+                stat.S_IMODE(os.stat(victim).st_mode) == 0o644, text)
+    os.unlink(path)
+    os.mkfifo(path)
+    p = Prompt(tests, XDG_STATE_HOME=state)
+    tests.check("a pipe as history does not block", "1 + 2 = 3" in p.say("1 + 2"))
+    p.close()
+
+
+ROOM = (lines_without_end, memory, limits, hostile, gnuplot, signals, ended_at_work, interrupts, history)
+
+
+def run(tests):
+    for room in ROOM:
+        room(tests)

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A flag that is set ends long work with its own status, and what was interrupted serves again after a reset.
+ */
+#include "fret/fret.h"
+
+#include "unit.h"
+
+enum { ROWS = 2000 };
+
+static volatile sig_atomic_t stop;
+
+static struct fret_table *sampled(void) {
+    static double r[ROWS], f[ROWS];
+    struct fret_table *t = NULL;
+    for (int i = 0; i < ROWS; i++) {
+        r[i] = 1e-3 * i / (ROWS - 1);
+        f[i] = r[i] * r[i] / 0.02;
+    }
+    stop = 1;
+    CHECK_CODE(fret_table_make(r, f, ROWS, &stop, &t), FRET_INTERRUPTED);
+    CHECK(t == NULL);
+    stop = 0;
+    CHECK_OK(fret_table_make(r, f, ROWS, &stop, &t));
+    return t;
+}
+
+static void check_memory(const fret_normal *normal) {
+    const fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, 10, 0}, push = {FRET_TO_FORCE, FRET_TO_FX, 12, 2};
+    fret_memory *m;
+    fret_state before, after;
+    CHECK_OK(fret_memory_make(normal, 0.4, &m));
+    CHECK_OK(fret_memory_step(m, &press));
+    CHECK_OK(fret_memory_step(m, &push));
+    fret_memory_state(m, &before);
+    stop = 1;
+    CHECK_CODE(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 11, -2}), FRET_INTERRUPTED);
+    stop = 0;
+    fret_memory_reset(m);
+    CHECK_OK(fret_memory_step(m, &press));
+    CHECK_OK(fret_memory_step(m, &push));
+    fret_memory_state(m, &after);
+    CHECK(before.Fx == after.Fx && before.dx == after.dx && before.W == after.W && before.U == after.U);
+    fret_memory_free(m);
+}
+
+static void check_springs(const fret_normal *normal) {
+    fret_springs *s = NULL;
+    stop = 1;
+    CHECK_CODE(fret_springs_make(normal, 0.4, 1000, 1e-4, FRET_WEIGHT_CELL, &s), FRET_INTERRUPTED);
+    CHECK(s == NULL);
+    stop = 0;
+    CHECK_OK(fret_springs_make(normal, 0.4, 1000, 1e-4, FRET_WEIGHT_CELL, &s));
+    CHECK_OK(fret_springs_step(s, &(fret_step){FRET_TO_DEPTH, FRET_KEEP_DX, 4e-7, 0}, 1));
+    stop = 1;
+    CHECK_CODE(fret_springs_step(s, &(fret_step){FRET_TO_DEPTH, FRET_TO_DX, 3e-7, 1e-8}, 10),
+               FRET_INTERRUPTED);
+    stop = 0;
+    fret_springs_reset(s);
+    CHECK_OK(fret_springs_step(s, &(fret_step){FRET_TO_DEPTH, FRET_KEEP_DX, 4e-7, 0}, 1));
+    fret_springs_free(s);
+}
+
+int main(int argc, char **argv) {
+    unit_start("stop", argc, argv);
+    const fret_material steel = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1};
+    struct fret_table *table = sampled();
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
+    fret_normal *normal;
+    fret_press press;
+    fret_real loss;
+    CHECK_OK(fret_normal_make(&steel, &gap, &normal));
+    fret_normal_stop(normal, &stop);
+    CHECK_OK(fret_press_by_force(normal, 10, &press));
+    const fret_contact contact = {normal, 0.4, press};
+    stop = 1;
+    CHECK_CODE(fret_press_by_force(normal, 10, &press), FRET_INTERRUPTED);
+    CHECK_CODE(fret_cycle_loss_by_force(&contact, 1, &loss), FRET_INTERRUPTED);
+    stop = 0;
+    CHECK_OK(fret_cycle_loss_by_force(&contact, 1, &loss));
+    CHECK(loss > 0);
+    check_memory(normal);
+    check_springs(normal);
+    stop = 1;
+    fret_normal_stop(normal, NULL);
+    CHECK_OK(fret_press_by_force(normal, 10, &press));
+    fret_normal_free(normal);
+    fret_table_free(table);
+    return unit_finish();
+}
