@@ -15,15 +15,18 @@ enum { LINE = 60, WHAT = 20 };
 static const double WAIT = 0.5, EVERY = 0.1; /* seconds */
 
 static struct {
-    int depth; /* of statements; 0: none runs */
+    int depth;    /* of statements; 0: none runs */
+    int terminal; /* is standard error one? Negative: not asked yet: a call of the system at every statement
+                     shows */
     bool on;
     const shell *sh;
-    char what[WHAT];
+    char what[WHAT];     /* not ended */
+    size_t len;          /* of it */
     double began, shown; /* in seconds */
     double part;         /* negative: not known */
     int width;           /* of the line: one that wraps could not be wiped */
     bool seen;           /* it is on the terminal */
-} now;
+} now = {.terminal = -1};
 
 static double seconds(void) {
     struct timespec t;
@@ -34,24 +37,32 @@ static double seconds(void) {
 void progress_begin(const shell *sh, const char *what, size_t len) {
     if (now.depth++ > 0)
         return;
-    now.on = (sh->err == stderr || record_shows(sh)) && !sh->replaying && isatty(STDERR_FILENO);
+    if (now.terminal < 0)
+        now.terminal = isatty(STDERR_FILENO);
+    now.on = now.terminal && (sh->err == stderr || record_shows(sh)) && !sh->replaying;
     if (!now.on)
         return;
     now.sh = sh;
     now.began = seconds();
     now.part = -1;
     now.seen = false;
+    now.len = len < WHAT ? len : WHAT - 1;
+    memcpy(now.what, what, now.len);
+}
+
+static void find_width(void) {
     struct winsize size;
     const bool narrow = !ioctl(STDERR_FILENO, TIOCGWINSZ, &size) && size.ws_col > 4 && size.ws_col < LINE + 3;
     now.width = narrow ? size.ws_col - 3 : LINE - 1;
-    snprintf(now.what, sizeof now.what, "%.*s", (int)(len < WHAT ? len : WHAT - 1), what);
 }
 
 void progress_words(const char *words) {
     if (!now.on || now.depth == 0)
         return;
-    if (!now.seen)
+    if (!now.seen) {
         fflush(now.sh->out);
+        find_width();
+    }
     now.seen = true;
     fprintf(stderr, "\r%-*.*s", now.width, now.width, words); /* past the recorder */
     fflush(stderr);
@@ -72,9 +83,10 @@ void progress_pulse(void) {
     if (now.part > 0.01)
         snprintf(left, sizeof left, ", %d s to go", whole(taken / now.part * (1 - now.part)));
     if (now.part >= 0)
-        snprintf(words, sizeof words, "%s: %d %%%s (Ctrl-C stops it)", now.what, whole(100 * now.part), left);
+        snprintf(words, sizeof words, "%.*s: %d %%%s (Ctrl-C stops it)", (int)now.len, now.what,
+                 whole(100 * now.part), left);
     else
-        snprintf(words, sizeof words, "%s: %d s (Ctrl-C stops it)", now.what, whole(taken));
+        snprintf(words, sizeof words, "%.*s: %d s (Ctrl-C stops it)", (int)now.len, now.what, whole(taken));
     progress_words(words);
 }
 
