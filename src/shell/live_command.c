@@ -7,6 +7,7 @@
 #include "live/live.h"
 #include "shell/command.h"
 #include "shell/complete.h"
+#include "shell/progress.h"
 #include "shell/show.h"
 
 static bool run(void *self, const char *line, char **answer) {
@@ -77,7 +78,9 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
     sh->set.color = false;
     if (sh->set.report == REPORT_AUTO)
         sh->set.report = REPORT_OFF; /* the screen shows it */
+    progress_hide(true);
     const bool ok = live_run(&host, script, &work, text, sizeof text);
+    progress_hide(false);
     sh->set.color = before.color;
     if (sh->set.report == REPORT_OFF)
         sh->set.report = before.report;

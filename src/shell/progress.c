@@ -19,6 +19,7 @@ static struct {
     int terminal; /* is standard error one? Negative: not asked yet: a call of the system at every statement
                      shows */
     bool on;
+    bool hidden; /* the screen is another's */
     const shell *sh;
     char what[WHAT];     /* not ended */
     size_t len;          /* of it */
@@ -57,7 +58,7 @@ static void find_width(void) {
 }
 
 void progress_words(const char *words) {
-    if (!now.on || now.depth == 0)
+    if (!now.on || now.hidden || now.depth == 0)
         return;
     if (!now.seen) {
         fflush(now.sh->out);
@@ -74,7 +75,7 @@ static int whole(double x) {
 
 void progress_pulse(void) {
     char words[LINE + 40], left[24] = "";
-    if (!now.on || now.depth == 0)
+    if (!now.on || now.hidden || now.depth == 0)
         return;
     const double t = seconds(), taken = t - now.began;
     if (taken < WAIT || t - now.shown < EVERY)
@@ -88,6 +89,12 @@ void progress_pulse(void) {
     else
         snprintf(words, sizeof words, "%.*s: %d s (Ctrl-C stops it)", (int)now.len, now.what, whole(taken));
     progress_words(words);
+}
+
+void progress_hide(bool hidden) {
+    progress_wipe();
+    now.hidden = hidden;
+    now.on = false;
 }
 
 void progress_part(double part) {

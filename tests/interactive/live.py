@@ -266,6 +266,24 @@ def mouse(tests):
                 not live.screen.modes.get(1000), str(live.screen.modes))
 
 
+def undisturbed(tests):
+    """A statement that takes long tells how far it is, but not on the screen of `live`."""
+    live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
+    live.wait("fret> ")
+    live.child.send("material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N; live\r")
+    live.wait(r"a +186\.626 um")
+    live.child.send(" ")
+    end = time.time() + 1.5
+    while time.time() < end:
+        live.read()
+    live.child.send("q")
+    live.wait(lambda s: not s.modes.get(1049))
+    tests.check("no progress while the screen is another's", live.screen.text() and "Ctrl-C stops it" not in live.raw,
+                live.screen.text())
+    live.child.send("\x04")
+    live.gone()
+
+
 def saving(tests):
     """Keys at random, saved and run again: the same to the last digit; the prompt knows them too."""
     for seed in (1, 2):
@@ -377,4 +395,5 @@ def run(tests):
         except (pexpect.TIMEOUT, pexpect.EOF, OSError, ValueError, TypeError) as error:
             tests.check("live: " + room.__name__, False, "%s: %s" % (type(error).__name__, str(error)[:2000]))
     tests.each([lambda room=room: one(room) for room in
-                (beginning, refusals, keys, playing, sizes, comparing, stepping, mouse, saving, endings, stopping, lessons)])
+                (beginning, refusals, keys, playing, sizes, comparing, stepping, mouse, undisturbed, saving, endings, stopping,
+                 lessons)])
