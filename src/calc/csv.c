@@ -305,17 +305,11 @@ static char *micro_signs(const char *line, size_t *len) {
 }
 
 static bool read_line(reader *r, const char *line, size_t len) {
-    if (r->line == 1 && len >= 3 && !memcmp(line, "\xef\xbb\xbf", 3))
-        line += 3, len -= 3;
-    if (r->line == 1 && len >= 2 && (!memcmp(line, "\xff\xfe", 2) || !memcmp(line, "\xfe\xff", 2)))
-        return fail(r, "this is UTF-16: save the file as CSV in UTF-8");
     if (memchr(line, 0, len))
-        return fail(r, "this is no text");
+        return fail(r, "this is no text, or UTF-16 without its mark: save it as UTF-8");
     const field whole = trimmed(line, len);
     if (whole.len == 0 || *whole.text == '#')
         return true;
-    while (len > 0 && line[len - 1] == '\r')
-        len--;
     if (r->header)
         return read_row(r, line, len);
     char *text = micro_signs(line, &len);

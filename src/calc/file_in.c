@@ -12,6 +12,17 @@
 #include <unistd.h>
 
 enum { BLOCK = 1 << 16, PAUSE = 20 /* ms between looks at the stop flag */ };
+/* UTF-16 is read into the last quarter of the block and becomes UTF-8 at its beginning, which is at most half
+ * as long again. */
+enum { RAW = BLOCK / 4 * 3, REPLACEMENT = 0xfffd };
+
+/* Of byte order. */
+static const struct {
+    const char *bytes;
+    size_t length;
+    int order;
+} marks[] = {{"\xef\xbb\xbf", 3, FILE_BYTES}, {"\xff\xfe", 2, FILE_LITTLE}, {"\xfe\xff", 2, FILE_BIG}};
+enum { MARKS = sizeof marks / sizeof *marks };
 
 static bool cannot_read(const char *name, int code, char *error, size_t size) {
     snprintf(error, size, "cannot read %s: %s", name, strerror(code));
@@ -58,6 +69,7 @@ bool file_in_text(file_in *in, const char *text, const char *name, file_stop sto
         return cannot_read(name, ENOMEM, error, size);
     }
     in->have = strlen(text);
+    in->at = strncmp(text, marks[0].bytes, marks[0].length) ? 0 : marks[0].length;
     return true;
 }
 
@@ -74,8 +86,8 @@ static bool stopped(const file_in *in) {
     return in->stop && *in->stop;
 }
 
-/* The next block: FILE_GOT_LINE stands for "some bytes". */
-static file_got fill(file_in *in, char *error, size_t size) {
+/* Some bytes, FILE_GOT_LINE, to `to`. */
+static file_got read_some(file_in *in, char *to, size_t room, size_t *got, char *error, size_t size) {
     for (;;) {
         if (stopped(in))
             return FILE_GOT_STOP;
@@ -85,10 +97,9 @@ static file_got fill(file_in *in, char *error, size_t size) {
             if (n == 0 || (n < 0 && errno == EINTR))
                 continue;
         }
-        ssize_t n = read(in->fd, in->block, BLOCK);
+        ssize_t n = read(in->fd, to, room);
         if (n > 0) {
-            in->at = 0;
-            in->have = (size_t)n;
+            *got = (size_t)n;
             return FILE_GOT_LINE;
         }
         if (n == 0)
@@ -98,6 +109,102 @@ static file_got fill(file_in *in, char *error, size_t size) {
             return FILE_GOT_ERROR;
         }
     }
+}
+
+/* ---- UTF-16 ------------------------------------------------------------------------------------ */
+
+static void put_character(file_in *in, unsigned code) {
+    char *to = in->block + in->have;
+    const int more = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+    static const unsigned first[] = {0, 0xc0, 0xe0, 0xf0};
+    to[0] = (char)(first[more] | code >> (6 * more));
+    for (int i = 1; i <= more; i++)
+        to[i] = (char)(0x80 | (code >> (6 * (more - i)) & 0x3f));
+    in->have += 1 + (size_t)more;
+}
+
+/* What has no other half is replaced. */
+static void put_unit(file_in *in, unsigned unit) {
+    const bool first = unit >= 0xd800 && unit < 0xdc00, second = unit >= 0xdc00 && unit < 0xe000;
+    if (in->high && !second)
+        put_character(in, REPLACEMENT);
+    if (second)
+        put_character(in, in->high ? 0x10000 + ((in->high - 0xd800) << 10) + (unit - 0xdc00) : REPLACEMENT);
+    else if (!first)
+        put_character(in, unit);
+    in->high = first ? unit : 0;
+}
+
+static void put_bytes(file_in *in, const char *bytes, size_t n) {
+    for (size_t i = 0; i < n; i++) {
+        const unsigned now = (unsigned char)bytes[i], before = in->odd - 1;
+        if (in->odd)
+            put_unit(in, in->order == FILE_BIG ? before << 8 | now : now << 8 | before);
+        in->odd = in->odd ? 0 : 1 + now;
+    }
+}
+
+/* At the end of the file. */
+static void put_halves(file_in *in) {
+    if (in->odd || in->high)
+        put_character(in, REPLACEMENT);
+    in->odd = in->high = 0;
+}
+
+/* ---- the mark ---------------------------------------------------------------------------------- */
+
+/* Could more bytes make it a mark? */
+static bool begins_mark(const char *bytes, size_t n) {
+    for (size_t i = 0; i < MARKS; i++)
+        if (n < marks[i].length && !memcmp(bytes, marks[i].bytes, n))
+            return true;
+    return false;
+}
+
+/* The first bytes, without the mark. */
+static file_got begin(file_in *in, char *error, size_t size) {
+    file_got got = FILE_GOT_LINE;
+    size_t n = 0;
+    while (got == FILE_GOT_LINE && begins_mark(in->block, in->have)) {
+        got = read_some(in, in->block + in->have, BLOCK - RAW - in->have, &n, error, size);
+        in->have += got == FILE_GOT_LINE ? n : 0;
+    }
+    if (got == FILE_GOT_STOP || got == FILE_GOT_ERROR)
+        return got;
+    in->order = FILE_BYTES;
+    for (size_t i = 0; i < MARKS; i++)
+        if (in->have >= marks[i].length && !memcmp(in->block, marks[i].bytes, marks[i].length)) {
+            in->order = marks[i].order;
+            in->at = marks[i].length;
+        }
+    if (in->order != FILE_BYTES) {
+        n = in->have - in->at;
+        memmove(in->block + RAW, in->block + in->at, n);
+        in->at = in->have = 0;
+        put_bytes(in, in->block + RAW, n);
+    }
+    return FILE_GOT_LINE;
+}
+
+/* The next block: FILE_GOT_LINE stands for "some bytes". */
+static file_got fill(file_in *in, char *error, size_t size) {
+    file_got got = FILE_GOT_LINE;
+    in->at = in->have = 0;
+    if (in->order == FILE_UNTOLD)
+        got = begin(in, error, size);
+    while (got == FILE_GOT_LINE && in->at == in->have) {
+        size_t n = 0;
+        in->at = in->have = 0;
+        const size_t from = in->order == FILE_BYTES ? 0 : RAW;
+        got = read_some(in, in->block + from, BLOCK - from, &n, error, size);
+        if (in->order == FILE_BYTES)
+            in->have = n;
+        else if (got == FILE_GOT_LINE)
+            put_bytes(in, in->block + RAW, n);
+        else if (got == FILE_GOT_END)
+            put_halves(in);
+    }
+    return got == FILE_GOT_END && in->have > 0 ? FILE_GOT_LINE : got;
 }
 
 /* Appends to the line and ends it by a NUL. */
@@ -126,8 +233,9 @@ static bool append(file_in *in, const char *bytes, size_t n, char *error, size_t
     return true;
 }
 
-/* Appends a physical line without its end. */
+/* Appends a physical line without its end, which may be that of Windows. */
 static file_got add_line(file_in *in, char *error, size_t size) {
+    const size_t begin = in->length;
     bool any = false;
     for (;;) {
         if (in->at == in->have) {
@@ -153,6 +261,8 @@ static file_got add_line(file_in *in, char *error, size_t size) {
         if (end)
             break;
     }
+    if (in->length > begin && in->line[in->length - 1] == '\r')
+        in->line[--in->length] = 0;
     return FILE_GOT_LINE;
 }
 

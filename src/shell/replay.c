@@ -241,8 +241,6 @@ static bool add_part(replay *r, const char *line, size_t n, bool *whole) {
 
 static bool take_line(replay *r, const file_in *in, bool *waiting) {
     size_t n = in->length;
-    while (n > 0 && in->line[n - 1] == '\r')
-        n--;
     const char *typed = strip_prompt(in->line, &n);
     const bool prompt = typed != in->line, more = prompt && is_continuation(in->line, in->length);
     bool whole = true;

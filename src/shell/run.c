@@ -389,15 +389,13 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
     bool ok = true, last = true; /* all statements so far; those of the last line */
     while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || keep_going) &&
            (got = file_in_logical(in, mark_of, error, sizeof error)) == FILE_GOT_LINE) {
-        const size_t mark = /* of byte order, by editors */
-            in->number == 1 && in->length >= 3 && !memcmp(in->line, "\xef\xbb\xbf", 3) ? 3 : 0;
         const size_t open = mark_of(in->line, in->length); /* nothing continues the last line */
         if (open < in->length)
             in->line[open] = ' ';
-        blank_prompts(in->line + mark, in->length - mark);
+        blank_prompts(in->line, in->length);
         if (sh->nesting == 0)
-            record_line(sh, in->line + mark, in->length - mark);
-        last = shell_line(sh, &from, in->line + mark, in->length - mark, (size_t)in->number);
+            record_line(sh, in->line, in->length);
+        last = shell_line(sh, &from, in->line, in->length, (size_t)in->number);
         ok = ok && last;
     }
     if (got == FILE_GOT_ERROR)

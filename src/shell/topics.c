@@ -180,7 +180,7 @@ static const char files_text[] =
     "with their units, as `FN [N],Fx [N]`; rows of numbers follow; `#` begins a\n"
     "comment. Commas, semicolons, tabs or blanks part the columns. Where it is no\n"
     "comma, a comma within a number is a decimal one: files of spreadsheets can be\n"
-    "read as they are.\n\n"
+    "read as they are, Excel's `Unicode text` (UTF-16) too.\n\n"
     "    r [mm],f [um]\n"
     "    0,0\n"
     "    0.5,12.5\n\n"

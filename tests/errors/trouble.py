@@ -112,7 +112,7 @@ def junk(tests):
         expect(tests, "random words %d" % i, done, 1, None, "error:")
     expect(tests, "a NUL", tests.run(input=b"x = 1\0\n"), 1, "", "unexpected byte 0x00")
     expect(tests, "a NUL after a name", tests.run(input=b"pi\0pi\n"), 1, "", "0x00")
-    expect(tests, "bytes that are no UTF-8", tests.run(input=b"\xff\xfe\n"), 1, "", "unexpected byte 0xff")
+    expect(tests, "bytes that are no UTF-8", tests.run(input=b"\xff\xff\n"), 1, "", "unexpected byte 0xff")
 
 
 def long_lines(tests):

@@ -14,6 +14,9 @@ SAME = {
     "blanks": b"# measured\nr [mm] f [um]\n0 0\n0.5 12.5\n\n1 50\n",
     "tabs": b"r [mm]\tf [um]\n0\t0\n5e-1\t12,5\n1\t+50\n",
     "commas above, blanks below": b"r [mm], f [um]\n0 0\n0.5 12.5\n1 50\n",
+    "Excel's Unicode text (UTF-16, tabs, decimal commas)": "\ufeffr [mm]\tf [\u00b5m]\r\n0\t0\r\n0,5\t12,5\r\n1\t50\r\n"
+                                                           .encode("utf-16-le"),
+    "UTF-16, high byte first": "\ufeffr [mm];f [\u03bcm]\n0;0\n0,5;12,5\n1;50".encode("utf-16-be"),
     "a separator named": b"sep=;\nr [mm];f [um]\n0;0\n0,5;12,5\n1;50\n",
 }
 WRONG = {
@@ -24,10 +27,24 @@ WRONG = {
     b"r [mm],f [um]\n0,0\n0.5\n": ":3: expected a number as f, and the line ends",
     b"r [mm],g [um]\n0,0\n": "has no column f: its columns are r, g",
     b"r [mm],f [um\n0,0\n": ":1: a unit in the header is not closed",
-    b"\xff\xfer\0 \0": ":1: this is UTF-16: save the file as CSV in UTF-8",
-    b"r [mm],f [um]\n0,0\n1,\0\n": ":3: this is no text",
+    "r [mm],f [um]\n0,0\n".encode("utf-16-le"): ":1: this is no text, or UTF-16 without its mark: save it as UTF-8",
+    b"r [mm],f [um]\n0,0\n1,\0\n": ":3: this is no text, or UTF-16 without its mark: save it as UTF-8",
     b"r [mm],f [um]\n0,1\n1,2\n": ":2: f(0) = 1e-06 m must be 0",
 }
+
+
+def scripts(tests):
+    """Scripts and transcripts as Windows' editors save them."""
+    for coding in "utf-8", "utf-16-le", "utf-16-be":
+        script = "\ufefffret> x = 3 \u00b5m\r\nx # \u20ac\r\nfoo\r\n".encode(coding)
+        with tests.file(script) as path:
+            for way, name, done in (("file", path, tests.run(path)), ("pipe", "stdin", tests.run(input=script)),
+                                    ("source", path, tests.run("-c", "source " + path))):
+                tests.check("a script in %s, as %s" % (coding, way), done.stdout == "x = 3 um\n" and done.returncode == 1 and
+                            "%s:3:1: error: unknown name 'foo'\n  foo\n  ^~~\n" % name in done.stderr, tests.report(done))
+        with tests.file("\ufefffret> 3 \u00b5m\r\n3 \u00b5m = 3 um\r\n".encode(coding), ".txt") as path:
+            done = tests.run("--replay", path)
+            tests.check("a transcript in " + coding, done.stdout.endswith(": 1 passed, 0 failed\n"), tests.report(done))
 
 
 def run(tests):
@@ -44,6 +61,7 @@ def run(tests):
     for data, message in WRONG.items():
         done = answer(data)
         tests.check("a gap: " + message, message in done.stderr and done.returncode == 1, tests.report(done))
+    scripts(tests)
     with tests.file(b"time [s];Fx [N];FN [kN]\n0;0;0,1\n1;15;0,12\n", ".csv") as path:
         done = tests.run("-c", SCENE + "geometry sphere R=10 mm; follow %s; FN, Fx" % path)
         tests.same("a load with other columns", "FN = 120 N\nFx = 15 N", done.stdout + done.stderr)

@@ -310,6 +310,110 @@ static void lines(void) {
     unlink("in");
 }
 
+/* One character as UTF-8 and as UTF-16, high byte first. */
+static const struct {
+    const char *utf8, *utf16;
+    size_t length;
+} characters[] = {{"a", "\0a", 2},
+                  {"\xc2\xb5", "\0\xb5", 2},
+                  {"\xe2\x82\xac", "\x20\xac", 2},
+                  {"\xf0\x9f\x98\x80", "\xd8\x3d\xde\0", 4},
+                  {"\xef\xbf\xbd", "\xd8\x3d", 2}, /* halves of a pair alone */
+                  {"\n", "\0\n", 2},
+                  {"\xef\xbf\xbd", "\xde\0", 2}};
+enum { CHARACTERS = sizeof characters / sizeof *characters, TEXT = 120000 };
+
+/* A text longer than a block; how long it is as UTF-16. */
+static size_t write_characters(char *utf8, char *utf16, bool big) {
+    size_t n = 0, m = 2;
+    memcpy(utf16, big ? "\xfe\xff" : "\xff\xfe", 2);
+    for (size_t i = 0; m < TEXT; i++) {
+        const size_t which = (i + i / CHARACTERS) % CHARACTERS;
+        if (characters[which].utf16[0] == '\xde' && m > 4 && (utf16[big ? m - 2 : m - 1] & '\xfc') == '\xd8')
+            continue; /* the two would be a pair */
+        n += (size_t)sprintf(utf8 + n, "%s", characters[which].utf8);
+        for (size_t j = 0; j < characters[which].length; j++)
+            utf16[m + (big ? j : j ^ 1)] = characters[which].utf16[j];
+        m += characters[which].length;
+    }
+    return m;
+}
+
+/* Is what comes from the file this text? */
+static bool reads(file_in *in, const char *text) {
+    bool same = true;
+    while (same && file_in_line(in, error, ERROR) == FILE_GOT_LINE) {
+        same = !memcmp(text, in->line, in->length);
+        text += in->length;
+        same = same && *text == (*text ? '\n' : 0);
+        text += *text == '\n';
+    }
+    file_in_close(in);
+    return same && !*text;
+}
+
+/* Through a pipe, so many bytes at a time. */
+static bool reads_piped(const char *bytes, size_t n, size_t at_once, const char *text) {
+    int ends[2], status = -1;
+    file_in in;
+    if (pipe(ends))
+        return false;
+    fflush(stdout);
+    pid_t child = fork();
+    if (child == 0) {
+        bool ok = true;
+        for (size_t i = 0; i < n && ok; i += at_once) {
+            const size_t more = n - i < at_once ? n - i : at_once;
+            ok = write(ends[1], bytes + i, more) == (ssize_t)more;
+        }
+        _exit(!ok);
+    }
+    close(ends[1]);
+    bool ok = file_in_take(&in, ends[0], "pipe", NULL, error, ERROR) && reads(&in, text);
+    close(ends[0]);
+    return waitpid(child, &status, 0) == child && status == 0 && ok;
+}
+
+static void encodings(void) {
+    static char utf8[2 * TEXT], utf16[TEXT + 8];
+    file_in in;
+    for (int big = 0; big < 2; big++) {
+        const size_t n = write_characters(utf8, utf16, big);
+        FILE *f = fopen("in", "w");
+        fwrite(utf16, 1, n, f);
+        fclose(f);
+        CHECK(file_in_open(&in, "in", NULL, error, ERROR) && reads(&in, utf8));
+        CHECK(reads_piped(utf16, n, 1, utf8));
+        CHECK(reads_piped(utf16, n, 3, utf8));
+        CHECK(reads_piped(utf16, n, 8191, utf8));
+    }
+    /* marks alone, halves of them, a byte too many */
+    static const struct {
+        const char *bytes;
+        size_t n;
+        const char *text;
+    } small[] = {{"\xff\xfe", 2, ""},
+                 {"\xfe\xff", 2, ""},
+                 {"\xef\xbb\xbf", 3, ""},
+                 {"\xef\xbb\xbf"
+                  "a\nb",
+                  6, "a\nb"},
+                 {"\xef\xbb", 2, "\xef\xbb"},
+                 {"\xff", 1, "\xff"},
+                 {"\xff\xfe\n", 3, "\xef\xbf\xbd"},
+                 {"\xff\xfe\x3d\xd8", 4, "\xef\xbf\xbd"},
+                 {"\xfe\xff\xfe\xff", 4, "\xef\xbb\xbf"}};
+    for (size_t i = 0; i < sizeof small / sizeof *small; i++)
+        for (size_t at_once = 1; at_once < 4; at_once++)
+            CHECK(reads_piped(small[i].bytes, small[i].n, at_once, small[i].text));
+    CHECK(file_in_text(&in,
+                       "\xef\xbb\xbf"
+                       "a",
+                       "-c", NULL, error, ERROR) &&
+          reads(&in, "a"));
+    unlink("in");
+}
+
 /* Lines across blocks, and one byte around the limit. */
 static void limits(void) {
     FILE *f = fopen("in", "w");
@@ -417,9 +521,10 @@ int main(int argc, char **argv) {
     apart(deep);
     home();
     sizes();
+    faults(); /* before memory is kept that a long line has freed */
     lines();
+    encodings();
     limits();
-    faults();
     apart(emergency);
     apart(too_many);
     CHECK(entries() == 0);
