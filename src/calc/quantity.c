@@ -35,15 +35,15 @@ static const quantity quantities[] = {
     {.name = "E0", .title = "characteristic modulus", .keywords = "Young stiffness", .d = PRESSURE, INPUT(IN_E0),
      .formulas = {{"E(z) = E0 (z/c0)^k", "(1)", 0}}},
     {.name = "nu", .title = "Poisson's ratio", .keywords = "poisson", INPUT(IN_NU),
-     .formulas = {{"-1 < nu <= 1/2", "(4),(5),(A1)-(A3)", 0}}},
+     .formulas = {{"-1 < nu <= 1/2", "(4),(5),(A1),(A2),(A3)", 0}}},
     {.name = "k", .title = "exponent of grading", .keywords = "gradient graded inhomogeneity", INPUT(IN_K),
      .formulas = {{"-1 < k < 1", "(1)", 0}}},
     {.name = "c0", .title = "characteristic depth", .keywords = "grading", .d = LENGTH, INPUT(IN_C0),
      .formulas = {{"E(c0) = E0", "(1)", 0}}},
     {.name = "E0_2", .title = "modulus of the second body", .d = PRESSURE, INPUT(IN_E0_2),
-     .formulas = {{"as E0; default: same", "(4)", 0}}},
+     .formulas = {{"as E0; default: same", "(4),(5)", 0}}},
     {.name = "nu_2", .title = "Poisson's ratio of the second body", INPUT(IN_NU_2),
-     .formulas = {{"as nu; default: same", "(4)", 0}}},
+     .formulas = {{"as nu; default: same", "(4),(5)", 0}}},
     {.name = "mu", .title = "coefficient of friction", .keywords = "Coulomb Amontons", INPUT(IN_MU),
      .formulas = {{"|q_x| <= mu p", "(14)", 0}}},
     {.name = "n", .title = "exponent of the gap", INPUT(IN_N), .formulas = {{"f = A r^n", "(6)", 0}}},
@@ -145,8 +145,12 @@ static const quantity quantities[] = {
 
     /* ---- coefficients ---- */
     {.name = "eta", .title = "stiffness ratio", .keywords = "Mindlin ratio", FOUNDATION(eta), .formulas = {{"eta = c_N/c_T", "(4),(5)", 0}}},
-    {.name = "hN", .title = "normal coefficient of the first body", FOUNDATION(hN), .formulas = {{"h_N(k,nu)", "(A1)", 0}}},
-    {.name = "hT", .title = "tangential coefficient of the first body", FOUNDATION(hT), .formulas = {{"h_T(k,nu)", "(A2)", 0}}},
+    {.name = "hN", .title = "normal coefficient of the first body", FOUNDATION(hN),
+     .formulas = {{"h_N = (1+k) (1-nu) cos(pi k/2)/(Q S P), Q = 1-(1+k) nu, S = sin(pi beta/2)/beta, "
+                   "P = Gamma((3+k+beta)/2) Gamma((3+k-beta)/2)/Gamma(1+k/2)^2", "(A1)", 0}}},
+    {.name = "hT", .title = "tangential coefficient of the first body", FOUNDATION(hT),
+     .formulas = {{"h_T = 2 cos(pi k/2)/((1+nu) [1+(1-nu) S P]), S = sin(pi beta/2)/beta, "
+                   "P = Gamma((3+k+beta)/2) Gamma((3+k-beta)/2)/Gamma(1+k/2)^2", "(A2)", 0}}},
     {.name = "beta_k", .title = "beta of the first body", FOUNDATION(beta),
      .formulas = {{"beta^2 = (1+k)(1-k nu/(1-nu))", "(A3)", 0}}},
     {.name = "kappa", .title = "shape factor", GETTER(kappa), .reads = INPUT_BIT(IN_K) | INPUT_BIT(IN_N),

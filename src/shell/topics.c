@@ -52,6 +52,7 @@ static const struct {
     const char *number, *text;
 } equations[] = {
     {"(1)", NULL},
+    {"(2)", "no quantity is computed by it"},
     {"(3)", "g(x) from f(r), an Abel transform; fields by its inverse"},
     {"(4)", NULL},
     {"(5)", NULL},
@@ -73,6 +74,7 @@ static const struct {
     {"(21)", "the area of the hysteresis loop: plot loop, and W over a cycle"},
     {"(22)", NULL},
     {"(23)", NULL},
+    {"(24)", "no quantity is computed by it"},
     {"(25)", "the energy dissipated per cycle; agrees with (21), (22), (26) and (27)"},
     {"(26)", NULL},
     {"(27)", NULL},

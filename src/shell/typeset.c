@@ -25,8 +25,8 @@ typedef struct sign {
 
 /* Whole words, or what stands before the index of one: delta_x, beta_k. */
 static const sign letters[] = {
-    {"delta", "δ"}, {"mu", "μ"}, {"eta", "η"},   {"kappa", "κ"}, {"nu", "ν"},
-    {"beta", "β"},  {"pi", "π"}, {"sigma", "σ"}, {"int", "∫"},   {"sum", "Σ"},
+    {"delta", "δ"}, {"mu", "μ"},    {"eta", "η"}, {"kappa", "κ"}, {"nu", "ν"},    {"beta", "β"},
+    {"pi", "π"},    {"sigma", "σ"}, {"int", "∫"}, {"sum", "Σ"},   {"Gamma", "Γ"},
 };
 
 static const sign signs[] = {{"<=", "≤"}, {">=", "≥"}, {"-", "−"}};

@@ -158,7 +158,51 @@ def demos(tests, found):
     tests.check("a demo that is none", "did you mean fig07a?" in wrong.stderr, tests.report(wrong))
 
 
+# The equation that `explain` must name: of a power law on first loading and later, of another shape, of a history.
+PRESSED = "material E0=100 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=10 mm; friction 0.5; press FN=100 N"
+SHAPED = PRESSED.replace("sphere", "exact-sphere")
+BY_CASE = (
+    (PRESSED + "; step Fx=20 N",
+     {"dz": "(10)", "a": "(10),(13)", "FN": "(13)", "Fx": "(16),(18)", "dx": "(15),(17)", "c": "(18)", "kt": "(17),(18)",
+      "kn": "(10),(13)", "dz0": "(10)", "a0": "(23)", "dxmax": "(17) with c = 0", "dx0max": "(17) with c = 0",
+      "dW(20 N)": "(27)", "nu": "(4),(5),(A1),(A2),(A3)", "hN": "(A1)", "hT": "(A2)", "beta_k": "(A3)", "kappa": "(8)",
+      "g(0.1 mm)": "(7)", "f(0.1 mm)": "(6)", "E(1 mm)": "(1)", "cN(0.1 mm)": "(4)", "cT(0.1 mm)": "(5)",
+      "w1D(0.1 mm)": "(9)", "qz1D(0.1 mm)": "(11)", "qx1D(0.1 mm)": "(14)", "u1D(0.1 mm)": "(19),(20)",
+      "s1D(0.1 mm)": "(20)", "W1D": "(22)", "p(0.1 mm)": "inverse of (3)", "U": None, "W": None}),
+    # a closed cycle ends on the curve of first loading
+    (PRESSED + "; cycle FA=20 N", {"dW": "(27)", "dx": "(15),(17)", "c": "(18)"}),
+    (PRESSED + "; step Fx=20 N; step Fx=-5 N", {"dx": None, "c": None, "kt": None}),
+    (SHAPED + "; step Fx=20 N",
+     {"dz": "(10)", "a": "(10),(12)", "FN": "(12)", "Fx": "(16)", "dx": "(15)", "c": "(16)", "dW(20 N)": "(26)",
+      "g(0.1 mm)": "(3)"}),
+    (PRESSED + "; cycle FA=20 N FNA=30 N phase=90 deg", {"dW": None, "Fx": None, "dx": None, "c": None, "W": None}),
+)
+
+
+def equations(tests):
+    """`help paper` lists every number, and `explain` names the right one."""
+    want = ["(%d)" % i for i in range(1, 29)] + ["(A%d)" % i for i in range(1, 4)]
+    listed = tests.run("-c", "help paper").stdout.split("Slips", 1)[0]
+    numbers = re.findall(r"^(\(A?\d+\))  +\S", listed, re.M)
+    tests.check("help paper: every equation", numbers == want, listed)
+    for scene, wanted in BY_CASE:
+        done = tests.run("-c", scene + "; " + "; ".join("explain " + name for name in wanted))
+        parts = re.split(r"^(?=[A-Za-z_0-9]+(?:\([^)]*\))?: )", done.stdout, flags=re.M)
+        named = {}
+        for part in parts:
+            head = re.split(r"\n    (?=\S)", part)
+            if len(head) > 1:
+                number = re.search(r"  ((?:inverse of )?\(A?\d+\)\S*(?: with c = 0)?)$", head[1].strip("\n"))
+                named[head[0].split(":")[0]] = number.group(1) if number else None
+        for name, number in wanted.items():
+            short = name.split("(")[0]
+            got = named.get(name, named.get(short, "nothing"))
+            tests.check("explain %s after %s" % (name, scene.split("N; ")[-1]), got == number,
+                        "%s, not %s\n%s" % (got, number, tests.report(done)))
+
+
 def run(tests):
+    equations(tests)
     found, want = scripts(), reference()
     panels = {re.sub(r"^fig0?", "", name): name for name in found if name.startswith("fig")}
     tests.check("a script for each panel", set(panels) == {p for p in want if not p.endswith(" J")} and
