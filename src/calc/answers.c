@@ -194,16 +194,14 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
         return start_program(s, step, error);
     if (!s->end.steps)
         return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
-    if (!scene_friction(s, &mu, error))
-        return false;
     if (can_wait(s, step))
-        return append_step(s, step, extra, error);
+        return scene_friction(s, &mu, error) && append_step(s, step, extra, error);
     const load_reach *reach;
     if (!catch_up(s, error) || !scene_reach(s, &reach, error))
         return false;
     const load_reach reached = *reach;
     const load_mark end = s->end;
-    inputs before = {.geometry = NULL}; /* a cycle changes them */
+    inputs before; /* a cycle changes them */
     if (extra)
         inputs_copy(&before, &s->in);
     bool ok = append_step(s, step, extra, error) && run_appended(s, extra != NULL, error);
@@ -217,7 +215,8 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
             inputs_copy(&s->in, &before);
         }
     }
-    inputs_drop(&before);
+    if (extra)
+        inputs_drop(&before);
     return ok;
 }
 

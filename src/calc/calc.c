@@ -87,7 +87,9 @@ enum { ASSIGNMENTS = 16 };
 /* One of `NAME = EXPR, ...`. */
 typedef struct assignment {
     const quantity *q; /* an input, or NULL: a name of the user's */
-    size_t at, len;    /* of the name */
+    bool known;        /* one that has been given before: `own` */
+    size_t own;
+    size_t at, len; /* of the name */
     size_t value_at, value_len;
     bool increment, live;
     value v;
@@ -122,8 +124,8 @@ bool assign_at(const lexer *lx) {
 
 static bool name_allowed(calc *c, lexer *lx, assignment *a) {
     const char *text = lx->text + lx->at;
-    size_t i;
-    if (names_find(&c->names, text, lx->len, &i)) /* it has been allowed before */
+    a->known = names_find(&c->names, text, lx->len, &a->own);
+    if (a->known) /* it has been allowed before */
         return true;
     const char *taken = name_taken(text, lx->len);
     a->q = quantity_find(text, lx->len);
@@ -183,7 +185,11 @@ static bool read_assignment(calc *c, lexer *lx, assignment *all, size_t count) {
     unsigned parameters;
     calc_error useless;
     error_clear(&useless);
-    *a = (assignment){.at = lx->at, .len = lx->len};
+    a->q = NULL; /* one by one: the rest need not be cleared */
+    a->d = NULL;
+    a->at = lx->at;
+    a->len = lx->len;
+    a->value_at = a->value_len = 0;
     if (!name_allowed(c, lx, a)) {
         if (lx->error->len || !a->q)
             return false;
@@ -336,13 +342,13 @@ static bool name_holds(calc *c, lexer *lx, const assignment *a) {
 }
 
 static bool put_name(calc *c, lexer *lx, const assignment *a) {
-    size_t i;
+    size_t i = a->own;
     char way[CALC_ERROR_TEXT / 2];
     const char *text = lx->text + a->at;
     if (a->increment)
         return calc_fail(lx->error, a->at, a->len, "+= belongs to step; write %.*s = ...", LEX_SHOWN(a->len),
                          text);
-    if (!names_find(&c->names, text, a->len, &i)) {
+    if (!a->known && !names_find(&c->names, text, a->len, &i)) {
         note_new_name(c, text, a->len);
         if (!names_add(&c->names, text, a->len, &i))
             return calc_no_memory(lx->error);
@@ -417,9 +423,9 @@ bool calc_assign(calc *c, lexer *lx) {
     if (ok && lx->kind != T_END)
         ok = lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
     for (size_t i = 0; i < count && ok; i++) {
-        fret_status st = all[i].q && !all[i].d && !all[i].increment
-                             ? input_status(quantity_input(all[i].q), (double)all[i].v.v)
-                             : (fret_status){FRET_OK, NULL, 0, 0};
+        if (!all[i].q || all[i].d || all[i].increment)
+            continue;
+        fret_status st = input_status(quantity_input(all[i].q), (double)all[i].v.v);
         ok = calc_input_status(lx->error, st.code ? (int)quantity_input(all[i].q) : -1, &st) ||
              calc_place(lx->error, all[i].value_at, all[i].value_len);
     }

@@ -287,7 +287,7 @@ static bool call_quantity(machine *m, const expr_node *n, value *out) {
 }
 
 static bool eval(machine *m, const expr_node *n, value *out) {
-    switch (n->kind) {
+    switch ((node_kind)n->kind) {
     case N_NUMBER:
         return true;
     case N_NAME:

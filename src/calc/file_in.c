@@ -207,6 +207,20 @@ static file_got fill(file_in *in, char *error, size_t size) {
     return got == FILE_GOT_END && in->have > 0 ? FILE_GOT_LINE : got;
 }
 
+static bool grow(file_in *in, size_t need, char *error, size_t size) {
+    size_t room = in->room ? in->room : 256;
+    while (room < need)
+        room *= 2;
+    char *grown = realloc(in->line, room);
+    if (!grown) {
+        snprintf(error, size, "%s:%llu: out of memory", in->name, in->number);
+        return false;
+    }
+    in->line = grown;
+    in->room = room;
+    return true;
+}
+
 /* Appends to the line and ends it by a NUL. */
 static bool append(file_in *in, const char *bytes, size_t n, char *error, size_t size) {
     if (n > FILE_LINE_LIMIT - in->length) {
@@ -214,20 +228,9 @@ static bool append(file_in *in, const char *bytes, size_t n, char *error, size_t
                  FILE_LINE_LIMIT >> 20);
         return false;
     }
-    if (in->length + n + 1 > in->room) {
-        size_t room = in->room ? in->room : 256;
-        while (room < in->length + n + 1)
-            room *= 2;
-        char *grown = realloc(in->line, room);
-        if (!grown) {
-            snprintf(error, size, "%s:%llu: out of memory", in->name, in->number);
-            return false;
-        }
-        in->line = grown;
-        in->room = room;
-    }
-    if (n)
-        memcpy(in->line + in->length, bytes, n);
+    if (in->length + n + 1 > in->room && !grow(in, in->length + n + 1, error, size))
+        return false;
+    memcpy(in->line + in->length, bytes, n);
     in->length += n;
     in->line[in->length] = 0;
     return true;
@@ -269,7 +272,7 @@ static file_got add_line(file_in *in, char *error, size_t size) {
 file_got file_in_line(file_in *in, char *error, size_t size) {
     in->length = 0;
     in->number = in->read + 1;
-    return append(in, "", 0, error, size) ? add_line(in, error, size) : FILE_GOT_ERROR;
+    return add_line(in, error, size);
 }
 
 file_got file_in_logical(file_in *in, file_mark *mark, char *error, size_t size) {

@@ -42,16 +42,18 @@ double lex_decimal(const char *text, size_t len, int shift) {
     unsigned long long digits = 0;
     size_t i = 0, used = 0;
     long exponent = shift;
-    for (bool point = false; i < len && text[i] != 'e' && text[i] != 'E'; i++) {
-        if (text[i] == '.') {
+    for (bool point = false; i < len; i++) {
+        const unsigned d = (unsigned)(text[i] - '0');
+        if (d <= 9) {
+            used += used || d;
+            if (used <= 19)
+                digits = 10 * digits + d;
+            exponent -= point;
+        } else if (text[i] == '.') {
             point = true;
-            continue;
+        } else { /* e, E */
+            break;
         }
-        if (digits || text[i] != '0')
-            used++;
-        if (used <= 19)
-            digits = 10 * digits + (unsigned)(text[i] - '0');
-        exponent -= point;
     }
     size_t mantissa = i;
     long written = 0;
@@ -105,10 +107,12 @@ static void read_number(lexer *lx) {
         calc_no_memory(lx->error);
         return;
     }
+    if (isfinite(lx->number) && lx->number != 0) /* most of them */
+        return;
     bool zero = true;
     for (i = lx->at; i < lx->at + lx->len && s[i] != 'e' && s[i] != 'E'; i++)
         zero = zero && (s[i] == '0' || s[i] == '.');
-    if (!isfinite(lx->number) || (lx->number == 0 && !zero))
+    if (lx->number != 0 || !zero)
         lex_fail(lx, "the number is too %s for double precision", lx->number == 0 ? "small" : "large");
 }
 

@@ -13,7 +13,7 @@ void names_free(own_names *n) {
 }
 
 static bool is_word(const char *a, const char *word, size_t len) {
-    return strlen(a) == len && !memcmp(a, word, len);
+    return !strncmp(a, word, len) && !a[len];
 }
 
 /* The place of a name among the slots: its own, or the free one where it belongs. */

@@ -26,7 +26,7 @@ typedef struct parser {
 /* ---- nodes ------------------------------------------------------------------------------------- */
 
 size_t node_operands(const expr_node *n) {
-    switch (n->kind) {
+    switch ((node_kind)n->kind) {
     case N_BINARY:
         return 2;
     case N_BUILTIN:
@@ -55,7 +55,7 @@ static bool add(parser *p, const expr_node *node, size_t *index) {
     }
     *index = e->count;
     e->nodes[e->count] = *node;
-    e->nodes[e->count++].len = p->lx->last - node->at;
+    e->nodes[e->count++].len = (unsigned)(p->lx->last - node->at);
     return true;
 }
 
@@ -299,8 +299,15 @@ static bool parse_name(parser *p, size_t *out) {
 
 static bool parse_number(parser *p, size_t *out) {
     lexer *lx = p->lx;
-    expr_node node = {.kind = N_NUMBER, .at = lx->at, .v = {lx->number, DIM_NONE}};
     size_t at = lx->at, len = lx->len;
+    expr_node node; /* one by one: to clear the whole would cost more than the rest */
+    node.kind = N_NUMBER;
+    node.op = 0;
+    node.varies = false;
+    node.at = at;
+    node.left = node.right = node.index = 0;
+    node.q = NULL;
+    node.v = (value){lx->number, DIM_NONE};
     unit u;
     lex_next(lx);
     if (unit_at(lx)) {

@@ -358,20 +358,19 @@ static fret_status run_step(runner *r, const load_step *c) {
              .points = c->points,
              .begin = r->time,
              .end = r->time + 1};
-    fret_state now = {0};
     if (!c->normal && (c->relative & RELATIVE_TANGENTIAL) && c->tangential_value == 0) {
         r->time++; /* nothing to do, and rounding must not make it a reversal */
         return fine;
     }
-    if (c->relative)
-        engine_forces(&r->engine, &now);
-    if (c->normal) {
+    if (c->normal)
         l.to.normal_by = c->normal == BY_FORCE ? FRET_TO_FORCE : FRET_TO_DEPTH;
+    if (c->tangential)
+        l.to.tangential_by = c->tangential == BY_FORCE ? FRET_TO_FX : FRET_TO_DX;
+    if (c->relative) {
+        fret_state now;
+        engine_forces(&r->engine, &now);
         if (c->relative & RELATIVE_NORMAL)
             l.to.normal = (double)((c->normal == BY_FORCE ? now.FN : now.dz) + l.to.normal);
-    }
-    if (c->tangential) {
-        l.to.tangential_by = c->tangential == BY_FORCE ? FRET_TO_FX : FRET_TO_DX;
         if (c->relative & RELATIVE_TANGENTIAL)
             l.to.tangential = (double)((c->tangential == BY_FORCE ? now.Fx : now.dx) + l.to.tangential);
     }
@@ -405,18 +404,20 @@ fret_status run_to(runner *r, load_mark end) {
     const bool every = r->watch || !r->engine.kind->last_loss; /* springs round otherwise */
     fret_status st = fine;
     while (r->at.steps < end.steps) {
-        const bool cycle = load->program->steps[r->at.steps].kind == LOAD_CYCLE;
-        if (every || !on_the_way(load, r->at.steps)) {
+        const load_step *step = &load->program->steps[r->at.steps];
+        if (!every && on_the_way(load, r->at.steps)) {
+            r->time++;
+        } else if (step->kind == LOAD_STEP) { /* most of them, and as they are */
+            st = run_step(r, step);
+        } else {
             load_item item = program_item(load->program, r->at, load->last_cycle, load->in);
             st = run_item(r, &item);
-        } else {
-            r->time++;
         }
         st = unless_stopped(r, st);
         if (st.code)
             break;
         r->at.steps++;
-        r->at.cycles += cycle;
+        r->at.cycles += step->kind == LOAD_CYCLE;
     }
     return st;
 }

@@ -269,8 +269,7 @@ bool scene_last_cycle(scene *s, load_item *out, calc_error *error) {
     return true;
 }
 
-static void reach_step(load_reach *r, const load_item *item) {
-    const load_step *step = &item->step;
+static void reach_step(load_reach *r, const load_step *step, unsigned times) {
     const double v = step->tangential_value, size = fabs(v);
     if (!r->by)
         r->by = (load_by)step->tangential;
@@ -280,7 +279,7 @@ static void reach_step(load_reach *r, const load_item *item) {
     r->end = v;
     r->normal_varies = r->normal_varies || load_moves_normal(step);
     if (step->kind == LOAD_CYCLE) { /* a second period is closed whatever came before */
-        r->closed = r->first || item->extra.times > 1;
+        r->closed = r->first || times > 1;
         r->swings = r->swings || step->normal_value != 0;
     }
 }
@@ -295,11 +294,15 @@ bool scene_reach(scene *s, const load_reach **out, calc_error *error) {
         s->answers.reach_ready = true;
     }
     while (r->seen.steps < s->end.steps) {
-        const bool cycle = s->program->steps[r->seen.steps].kind == LOAD_CYCLE;
-        load_item item = program_item(s->program, r->seen, r->last_cycle, &s->in);
-        reach_step(r, &item);
+        const load_step *step = &s->program->steps[r->seen.steps];
+        if (step->kind == LOAD_CYCLE) {
+            const load_item item = program_item(s->program, r->seen, r->last_cycle, &s->in);
+            reach_step(r, &item.step, item.extra.times);
+            r->seen.cycles++;
+        } else {
+            reach_step(r, step, 1);
+        }
         r->seen.steps++;
-        r->seen.cycles += cycle;
     }
     *out = r;
     return true;

@@ -20,14 +20,17 @@ typedef enum node_kind {
 } node_kind;
 
 struct expr_node {
-    node_kind kind;
+    unsigned char kind; /* node_kind */
     char op;
-    size_t at, len;     /* place in the statement */
+    bool varies; /* with the name of a block */
+    unsigned len;
+    size_t at;          /* its place in the statement */
     size_t left, right; /* N_APPLY: first of the arguments, and how many */
     size_t index;       /* of a name, parameter or builtin */
-    bool varies;        /* with the name of a block */
-    const quantity *q;
-    expr_at *changed; /* N_AT */
+    union {
+        const quantity *q;
+        expr_at *changed; /* N_AT */
+    };
     value v;
 };
 

@@ -6,7 +6,7 @@
 
 #include "calc/calc.h"
 
-enum { UNDO_LEVELS = 1000 };
+enum { UNDO_LEVELS = 1000 }; /* at least */
 
 static void entry_end(undo_entry *e) {
     if (e->before)
@@ -48,8 +48,8 @@ static bool reserve(undo *u) {
 /* The entry to fill, which has been reserved, with the oldest gone where there are too many. */
 static undo_entry *push(calc *c) {
     undo *u = &c->undo;
-    if (u->count == UNDO_LEVELS) {
-        size_t gone = UNDO_LEVELS / 4;
+    if (u->count == 2 * UNDO_LEVELS) { /* seldom: what stays is moved */
+        const size_t gone = UNDO_LEVELS;
         u->base_steps = u->entry[gone - 1].steps;
         for (size_t i = 0; i < gone; i++)
             entry_end(&u->entry[i]);
@@ -57,7 +57,10 @@ static undo_entry *push(calc *c) {
         memmove(u->entry, u->entry + gone, u->count * sizeof *u->entry);
     }
     undo_entry *e = &u->entry[u->count++];
-    *e = (undo_entry){.group = u->group, .program = c->scene.program, .steps = c->scene.end.steps};
+    e->group = u->group; /* one by one: the rest need not be cleared */
+    e->before = NULL;
+    e->program = c->scene.program;
+    e->steps = c->scene.end.steps;
     return e;
 }
 

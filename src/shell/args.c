@@ -82,8 +82,8 @@ static bool in_range(lexer *lx, const arg *a, const arg_value *v) {
     return !(a->flags & ARG_POSITIVE) || v->v.v > 0 || calc_status(lx->error, &st) || arg_place(lx->error, v);
 }
 
-static bool read_named(shell *sh, lexer *lx, const arg_list *list, const arg *a, arg_value *v) {
-    const token_kind how = lex_peek(lx);
+static bool read_named(shell *sh, lexer *lx, const arg_list *list, const arg *a, token_kind how,
+                       arg_value *v) {
     if (!a || (how == T_INCREMENT && !(a->flags & ARG_INCREMENT)) ||
         (how == T_DEFINE && !(a->flags & ARG_LIVE)))
         return unknown_argument(lx, list);
@@ -193,7 +193,6 @@ static bool read_keyword(shell *sh, lexer *lx, const arg_list *list, arg_value o
 }
 
 bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file) {
-    bool found = true;
     for (const arg *a = list->args; a && a->kind; a++) { /* the rest is for those that are given */
         arg_value *v = &out[a - list->args];
         v->given = v->increment = false;
@@ -201,12 +200,13 @@ bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[AR
     }
     if (!read_first(sh, lx, list, out, file))
         return false;
-    while (found) {
-        if (at_argument(lx)) {
+    for (bool found = true; found && lx->kind == T_NAME;) {
+        const token_kind how = lex_peek(lx);
+        if (how == T_ASSIGN || how == T_INCREMENT || how == T_DEFINE) {
             const arg *a = find(lx, list, ARG_VALUE);
-            if (a && lex_peek(lx) != T_DEFINE && twice(lx, list, a, out))
+            if (a && how != T_DEFINE && twice(lx, list, a, out))
                 return false;
-            if (!read_named(sh, lx, list, a, &out[a ? a - list->args : 0]))
+            if (!read_named(sh, lx, list, a, how, &out[a ? a - list->args : 0]))
                 return false;
             found = !(a->flags & ARG_ALONE);
         } else if (!read_keyword(sh, lx, list, out, file, &found)) {

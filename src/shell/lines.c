@@ -11,6 +11,8 @@ const char *strip_prompt(const char *line, size_t *len) {
     size_t i = 0;
     while (i < *len && (line[i] == ' ' || line[i] == '\t'))
         i++;
+    if (i == *len || (line[i] != 'f' && line[i] != '.')) /* most of them */
+        return line;
     for (size_t p = 0; p < sizeof prompts / sizeof *prompts; p++) {
         if (*len - i < PROMPT || memcmp(line + i, prompts[p], PROMPT))
             continue;
@@ -30,7 +32,8 @@ void blank_prompts(char *text, size_t len) {
         n = end ? (size_t)(end - text) - i : len - i;
         size_t left = n;
         const char *rest = strip_prompt(text + i, &left);
-        memset(text + i, ' ', (size_t)(rest - (text + i)));
+        if (rest > text + i)
+            memset(text + i, ' ', (size_t)(rest - (text + i)));
     }
 }
 

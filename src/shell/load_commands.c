@@ -103,7 +103,7 @@ static bool read_targets(shell *sh, lexer *lx, const command *self, arg_value v[
         args_drop(&list, v);
         return false;
     }
-    bool ok = live_values(sh, lx, &list, v);
+    bool ok = !cycle || live_values(sh, lx, &list, v);
     load_of(&list, v, step, extra, last);
     if (ok && (cycle ? !step->tangential : !step->tangential && !step->normal))
         ok = lex_fail(lx, "%s usage: %s %s", cycle ? "cycle by what amplitude?" : "step to where?",

@@ -47,8 +47,8 @@ void progress_begin(const shell *sh, const char *what, size_t len) {
     now.began = seconds();
     now.part = -1;
     now.seen = false;
-    now.len = len < WHAT ? len : WHAT - 1;
-    memcpy(now.what, what, now.len);
+    for (now.len = 0; now.len < len && now.len < WHAT && !strchr(" \t\n\r", what[now.len]); now.len++)
+        now.what[now.len] = what[now.len];
 }
 
 static void find_width(void) {

@@ -82,7 +82,7 @@ static void warn_dissimilar(shell *sh) {
     const fret_normal *normal;
     calc_error ignored;
     error_clear(&ignored);
-    if (!sh->calc.scene.end.steps || !scene_normal(&sh->calc.scene, &normal, &ignored))
+    if (!scene_normal(&sh->calc.scene, &normal, &ignored))
         return;
     const fret_foundation *f = fret_normal_foundation(normal);
     if (!f->similar && !sh->dissimilar)
@@ -103,7 +103,7 @@ static void warn_half_space(shell *sh) {
     long double R = 0, slope = 0;
     calc_error ignored;
     error_clear(&ignored);
-    if (!s->end.steps || !scene_press(s, &press, &ignored))
+    if (!scene_press(s, &press, &ignored))
         return;
     enum { WIDE = 1, STEEP = 2 };
     const bool wide =
@@ -125,6 +125,8 @@ static void warn_half_space(shell *sh) {
 }
 
 static void warn(shell *sh) {
+    if (!sh->calc.scene.end.steps)
+        return;
     warn_dissimilar(sh);
     warn_half_space(sh);
 }
@@ -200,7 +202,7 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     if (lx.kind == T_END)
         return true;
     undo_begin(&sh->calc);
-    progress_begin(sh, text + lx.at, word_at(&lx));
+    progress_begin(sh, text + lx.at, len - lx.at);
     bool ok = dispatch(sh, &lx);
     progress_end();
     undo_end(&sh->calc);
@@ -218,16 +220,17 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
 
 /* End of the statement that begins at i: a `;`, a comment or the end of the line. */
 size_t shell_statement_end(const char *text, size_t i, size_t len) {
+    static const bool special[256] = {['"'] = true, ['\n'] = true, [';'] = true, ['#'] = true};
     bool quoted = false;
     for (; i < len; i++) {
-        char c = text[i];
-        if (c > ';') /* most of them */
+        const char c = text[i];
+        if (!special[(unsigned char)c])
             continue;
         if (c == '"')
             quoted = !quoted;
         else if (c == '\n')
             quoted = false;
-        else if (!quoted && (c == ';' || c == '#'))
+        else if (!quoted)
             break;
     }
     return i;
