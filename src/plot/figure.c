@@ -159,6 +159,69 @@ void plot_thin(plot_series *s, size_t goal) {
     s->count = to;
 }
 
+/* ---- straight stretches ------------------------------------------------------------------------- */
+
+/* Where a point lies on paper of the size 1 x 1. */
+static double place(double v, double size, bool log) {
+    return log ? log10(v) / size : v / size;
+}
+
+/* How far a point lies off the line between two others. */
+static double off_line(const plot_series *s, const plot_paper *paper, const double *y, size_t i, size_t from,
+                       size_t to) {
+    const double x0 = place(s->x[from], paper->width, paper->logx),
+                 y0 = place(y[from], paper->height, paper->logy);
+    const double dx = place(s->x[to], paper->width, paper->logx) - x0,
+                 dy = place(y[to], paper->height, paper->logy) - y0;
+    const double px = place(s->x[i], paper->width, paper->logx) - x0,
+                 py = place(y[i], paper->height, paper->logy) - y0;
+    const double length = hypot(dx, dy), along = length > 0 ? (px * dx + py * dy) / length : 0;
+    if (along <= 0) /* a turning point lies beyond the ends of the line */
+        return hypot(px, py);
+    return along < length ? fabs(px * dy - py * dx) / length : hypot(px - dx, py - dy);
+}
+
+/* The point farthest off the line between two others, if it can be seen to be; else `to`. */
+static size_t farthest(const plot_series *s, const plot_paper *paper, size_t from, size_t to) {
+    double most = paper->least;
+    size_t at = to;
+    for (size_t i = from + 1; i < to; i++) {
+        double off = off_line(s, paper, s->y, i, from, to);
+        if (s->y2)
+            off = fmax(off, off_line(s, paper, s->y2, i, from, to));
+        if (!(off <= most)) { /* what has no place stays */
+            most = off;
+            at = i;
+        }
+    }
+    return at;
+}
+
+void plot_straighten(plot_series *s, const plot_paper *paper) {
+    /* ends of stretches to come, the nearest on top */
+    size_t *end = s->count > 2 ? malloc(s->count * sizeof *end) : NULL, to = 0;
+    for (size_t i = 0; end && i < s->count;) {
+        size_t last = i, open = 0;
+        while (last + 1 < s->count && !is_gap(s, last) && !is_gap(s, last + 1))
+            last++;
+        move_point(s, to++, i);
+        end[open++] = last;
+        while (open > 0 && i < last) {
+            const size_t at = farthest(s, paper, i, end[open - 1]);
+            if (at < end[open - 1]) {
+                end[open++] = at;
+                continue;
+            }
+            i = end[--open];
+            move_point(s, to++, i);
+        }
+        i = last + 1;
+    }
+    if (end)
+        s->count = to;
+    free(end);
+}
+
 /* A full series becomes buckets of PICKS points, each standing for s->bucket points that came; from then on
  * points come into a last bucket, and when room is out again pairs of buckets become one. */
 static void make_room(plot_series *s) {

@@ -159,6 +159,16 @@ bool plot_animate(const plot_movie *m, const plot_target *target, file_report *r
  * gap. */
 void plot_thin(plot_series *s, size_t goal);
 
+/* What a picture shows of its axes: what they span (decades of a logarithmic one), and the part of it that
+ * can be seen. */
+typedef struct plot_paper {
+    double width, height, least;
+    bool logx, logy;
+} plot_paper;
+
+/* Leaves out points of a curve or band that nobody would miss on the line between those that stay. */
+void plot_straighten(plot_series *s, const plot_paper *paper);
+
 /* The script for gnuplot, data included, for an ending such as ".png". */
 bool plot_script(const plot_figure *f, const char *ending, int width, int height, FILE *to);
 

@@ -64,6 +64,9 @@ enum { LOOKS = sizeof looks / sizeof *looks };
 static const int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12};
 enum { MARKS = sizeof marks / sizeof *marks };
 
+/* Of a picture: a tenth of a pixel at the usual size. */
+static const double SEEN = 1.0 / 6000;
+
 /* Between double quotes, all but the harmless as octal codes: between single quotes a doubled quote stands
  * for one, but two of them in a row end the text, and what follows is a command. */
 void plot_quote(FILE *to, const char *text) {
@@ -97,26 +100,49 @@ static void write_series(FILE *to, const plot_series *s) {
     }
 }
 
-/* A thinned copy, so that the figure stays whole. */
-static bool write_thinned(FILE *to, const plot_series *s) {
-    if (s->count <= PLOT_WRITTEN) {
-        write_series(to, s);
-        return true;
-    }
-    plot_series copy = {.role = s->role};
-    bool ok = true;
-    size_t bytes = s->count * sizeof *s->x;
+size_t plot_style_of(const plot_panel *p, size_t at) {
+    const plot_series *s = p->series[at];
+    if (s->style >= 0)
+        return (size_t)s->style;
+    size_t n = 0;
+    for (size_t i = 0; i < at; i++)
+        n += p->series[i]->role == s->role && !p->series[i]->thin && p->series[i]->style < 0;
+    return n;
+}
+
+/* Is every point seen as such? */
+static bool is_marked(const plot_panel *p, size_t at) {
+    return p->points || plot_style_of(p, at) >= LOOKS;
+}
+
+/* The paper of a panel; none for the script itself, which may be looked at more closely. */
+static plot_paper paper_of(const plot_panel *p, const plot_extents *e, const plot_kind *kind) {
+    const double xlo = isfinite(p->xlo) ? p->xlo : e->x.lo, xhi = isfinite(p->xhi) ? p->xhi : e->x.hi,
+                 ylo = isfinite(p->ylo) ? p->ylo : e->y.lo, yhi = isfinite(p->yhi) ? p->yhi : e->y.hi;
+    return (plot_paper){.width = fabs(p->logx ? log10(xhi / xlo) : xhi - xlo),
+                        .height = fabs(p->logy ? log10(yhi / ylo) : yhi - ylo),
+                        .least = kind->terminal ? SEEN : 0,
+                        .logx = p->logx,
+                        .logy = p->logy};
+}
+
+/* A copy with fewer points, so that the figure stays whole. */
+static bool write_fewer(FILE *to, const plot_panel *p, size_t at, const plot_paper *paper) {
+    const plot_series *s = p->series[at];
+    const size_t bytes = s->count * sizeof *s->x;
+    plot_series copy = {.role = s->role, .count = s->count};
     copy.x = malloc(bytes);
     copy.y = malloc(bytes);
     copy.y2 = s->y2 ? malloc(bytes) : NULL;
-    ok = copy.x && copy.y && (!s->y2 || copy.y2);
+    const bool ok = copy.x && copy.y && (!s->y2 || copy.y2);
     if (ok) {
         memcpy(copy.x, s->x, bytes);
         memcpy(copy.y, s->y, bytes);
         if (s->y2)
             memcpy(copy.y2, s->y2, bytes);
-        copy.count = s->count;
         plot_thin(&copy, PLOT_WRITTEN);
+        if ((s->role == PLOT_CURVE || s->role == PLOT_BAND) && paper->least > 0 && !is_marked(p, at))
+            plot_straighten(&copy, paper);
         write_series(to, &copy);
     }
     free(copy.x);
@@ -135,14 +161,15 @@ static void write_map(FILE *to, const plot_map *m) {
     }
 }
 
-static bool write_data(FILE *to, const plot_reel *reel) {
+static bool write_data(FILE *to, const plot_reel *reel, const plot_kind *kind) {
     bool ok = true;
     for (size_t n = 0; n < reel->count; n++)
         for (size_t i = 0; i < reel->frame[n].count; i++) {
             const plot_panel *p = reel->frame[n].panel[i];
+            const plot_paper paper = paper_of(p, &reel->extent[i], kind);
             for (size_t j = 0; j < p->count; j++) {
                 fprintf(to, "$data%zu_%zu_%zu << END\n", n, i, j);
-                ok &= write_thinned(to, p->series[j]);
+                ok &= !p->series[j]->count || write_fewer(to, p, j, &paper);
                 fputs("END\n", to);
             }
             if (p->map.nx) {
@@ -216,16 +243,6 @@ static void set_key(const scribe *s, const plot_panel *p) {
                                 : 4);
 }
 
-size_t plot_style_of(const plot_panel *p, size_t at) {
-    const plot_series *s = p->series[at];
-    if (s->style >= 0)
-        return (size_t)s->style;
-    size_t n = 0;
-    for (size_t i = 0; i < at; i++)
-        n += p->series[i]->role == s->role && !p->series[i]->thin && p->series[i]->style < 0;
-    return n;
-}
-
 static void with_curve(const scribe *s, const plot_panel *p, size_t at) {
     const plot_series *c = p->series[at];
     size_t style = plot_style_of(p, at), mark = style / LOOKS;
@@ -234,7 +251,7 @@ static void with_curve(const scribe *s, const plot_panel *p, size_t at) {
         fprintf(s->to, "lines lw %.3g lc rgb '#707070' dt solid", 0.5 * line);
         return;
     }
-    bool marked = p->points || mark > 0;
+    bool marked = is_marked(p, at);
     fprintf(s->to, "%s lw %.3g lc rgb '%s' dt %s", marked ? "linespoints" : "lines", line,
             looks[style % LOOKS].color, looks[style % LOOKS].dash);
     size_t written = c->count < PLOT_WRITTEN ? c->count : PLOT_WRITTEN;
@@ -413,7 +430,7 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
     scale = fmax(scale, 0.5);
     double points = kind->font * scale * (panels > 1 ? 0.9 : 1);
     fputs("# made by fret; to see it: gnuplot -p FILE\n", to);
-    if (!write_data(to, reel))
+    if (!write_data(to, reel, kind))
         return plot_fail(error, size, "out of memory");
     if (kind->terminal) {
         fputs("set terminal ", to);

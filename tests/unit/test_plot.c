@@ -245,6 +245,61 @@ static void bands(void) {
     plot_figure_free(&f);
 }
 
+/* The largest distance of a point from the polyline of a series, on paper. */
+static double off(const plot_series *s, const plot_paper *paper, double x, double y) {
+    double least = INFINITY;
+    for (size_t i = 1; i < s->count; i++) {
+        const double ax = (s->x[i - 1] - x) / paper->width, ay = (s->y[i - 1] - y) / paper->height;
+        const double bx = (s->x[i] - s->x[i - 1]) / paper->width,
+                     by = (s->y[i] - s->y[i - 1]) / paper->height;
+        const double length = bx * bx + by * by;
+        const double t = length > 0 ? fmin(fmax(-(ax * bx + ay * by) / length, 0), 1) : 0;
+        least = fmin(least, hypot(ax + t * bx, ay + t * by));
+    }
+    return least;
+}
+
+/* An ellipse that is run through twice, and a stretch there and back. */
+static void straightens(void) {
+    enum { N = 3000 };
+    const plot_paper paper = {.width = 4, .height = 2e-3, .least = 1.0 / 6000};
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_series *s = f.panel[0]->series[0];
+    double x[N], y[N], worst = 0;
+    for (int i = 0; i < N; i++) {
+        x[i] = i < 2000   ? 2 * cos(6.283185307179586 * i / 1000)
+               : i < 2500 ? 2 - 0.004 * (i - 2000)
+                          : 0.004 * (i - 2500);
+        y[i] = i < 2000 ? 1e-3 * sin(6.283185307179586 * i / 1000) : 0;
+        plot_point(s, x[i], y[i]);
+    }
+    plot_straighten(s, &paper);
+    for (int i = 0; i < N; i++)
+        worst = fmax(worst, off(s, &paper, x[i], y[i]));
+    CHECK(worst <= 1.001 * paper.least && s->count > 200 && s->count < 400);
+    CHECK(s->x[0] == x[0] && s->x[s->count - 1] == x[N - 1] && s->x[s->count - 2] == x[2500]);
+    plot_figure_free(&f);
+}
+
+/* Straight where the paper is logarithmic; gaps and what is next to them stay. */
+static void straightens_parts(void) {
+    const plot_paper paper = {.width = 3, .height = 6, .least = 1e-4, .logx = true, .logy = true};
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_series *s = f.panel[0]->series[0];
+    for (int i = 0; i <= 300; i++)
+        plot_point(s, pow(10, i / 100.0), i == 200 ? NAN : pow(10, i / 50.0));
+    plot_straighten(s, &paper);
+    CHECK(s->count == 5 && isnan(s->y[2]) && s->x[1] == pow(10, 1.99) && s->x[3] == pow(10, 2.01));
+    plot_figure_free(&f);
+    f = figure(PLOT_BAND, NULL);
+    s = f.panel[0]->series[0];
+    for (int i = 0; i <= 100; i++) /* one edge bends, the other does not */
+        plot_band(s, i, 1, i < 50 ? 2 : 3);
+    plot_straighten(s, &(plot_paper){.width = 100, .height = 3, .least = 1e-4});
+    CHECK(s->count == 4 && s->x[1] == 49 && s->x[2] == 50);
+    plot_figure_free(&f);
+}
+
 /* ---- axes --------------------------------------------------------------------------------------- */
 
 static void axes(void) {
@@ -497,6 +552,8 @@ int main(int argc, char **argv) {
     thins();
     bounded();
     bands();
+    straightens();
+    straightens_parts();
     axes();
     levels();
     pages();
