@@ -10,22 +10,27 @@
 #include "shell/presets.h"
 #include "shell/topics.h"
 
-enum { LINE_LABEL = 64, LINE_SUMMARY = 256, HELP_TEXT = 1024 };
+enum { LINE_LABEL = 64, HELP_TEXT = 1024 };
+
+/* A row of any table, for lists and searches: "geometry sphere  a sphere ...". */
+typedef struct entry {
+    const char *command;         /* that takes the name, or NULL */
+    const char *name, *argument; /* NULL: none */
+    const char *kind;            /* before its summary, or NULL */
+    char numbers[LINE_LABEL];    /* the summary, where there is no other */
+    const char *summary;
+    const char *keywords, *text; /* searched too; text only where nothing else is found; or NULL */
+} entry;
 
 /* ---- quantities -------------------------------------------------------------------------------- */
 
-static void quantity_label(size_t i, char *label, char *summary) {
+static entry quantity_entry(size_t i) {
     const quantity *q = quantity_row(i);
-    snprintf(label, LINE_LABEL, quantity_has_value(q) ? "%s" : "%s(%s)", q->name, q->argument);
-    snprintf(summary, LINE_SUMMARY, "%s", q->title);
-}
-
-static const char *quantity_keywords(size_t i) {
-    return quantity_row(i)->keywords;
-}
-
-static const char *quantity_text(size_t i) {
-    return quantity_row(i)->formulas[0].text;
+    return (entry){.name = q->name,
+                   .argument = quantity_has_value(q) ? NULL : q->argument,
+                   .summary = q->title,
+                   .keywords = q->keywords,
+                   .text = q->formulas[0].text};
 }
 
 /* When the formula is used, in words; empty: whatever the scene is. */
@@ -85,17 +90,9 @@ static void quantity_help(FILE *to, size_t row) {
 
 /* ---- commands, settings, models ---------------------------------------------------------------- */
 
-static void command_label(size_t i, char *label, char *summary) {
-    snprintf(label, LINE_LABEL, "%s", command_row(i)->name);
-    snprintf(summary, LINE_SUMMARY, "%s", command_row(i)->summary);
-}
-
-static const char *command_keywords(size_t i) {
-    return command_row(i)->keywords;
-}
-
-static const char *command_text(size_t i) {
-    return command_row(i)->help;
+static entry command_entry(size_t i) {
+    const command *c = command_row(i);
+    return (entry){.name = c->name, .summary = c->summary, .keywords = c->keywords, .text = c->help};
 }
 
 /* Ends with the example: the command's own text, else what its table prints. */
@@ -113,13 +110,9 @@ static void command_help(FILE *to, size_t i) {
         fprintf(to, "\n%s", c->help);
 }
 
-static void setting_label(size_t i, char *label, char *summary) {
-    snprintf(label, LINE_LABEL, "set %s", setting_row(i)->name);
-    snprintf(summary, LINE_SUMMARY, "%s", setting_row(i)->summary);
-}
-
-static const char *setting_keywords(size_t i) {
-    return setting_row(i)->usage;
+static entry setting_entry(size_t i) {
+    const setting *row = setting_row(i);
+    return (entry){.command = "set ", .name = row->name, .summary = row->summary, .keywords = row->usage};
 }
 
 static void setting_help(FILE *to, size_t i) {
@@ -131,9 +124,12 @@ static const char *model_name(size_t i) {
     return i < MODELS ? models[i].name : NULL;
 }
 
-static void model_label(size_t i, char *label, char *summary) {
-    snprintf(label, LINE_LABEL, models[i].chosen ? "set model %s" : "%s", models[i].name);
-    snprintf(summary, LINE_SUMMARY, "a model: %s", models[i].title);
+static entry model_entry(size_t i) {
+    return (entry){.command = models[i].chosen ? "set model " : NULL,
+                   .name = models[i].name,
+                   .kind = "a model: ",
+                   .summary = models[i].title,
+                   .text = model_text(i)};
 }
 
 static void model_help(FILE *to, size_t i) {
@@ -147,13 +143,9 @@ static void model_help(FILE *to, size_t i) {
 
 /* ---- geometries, materials, units, functions --------------------------------------------------- */
 
-static void geometry_label(size_t i, char *label, char *summary) {
-    snprintf(label, LINE_LABEL, "geometry %s", geometry_row(i)->name);
-    snprintf(summary, LINE_SUMMARY, "%s", geometry_row(i)->meaning);
-}
-
-static const char *geometry_keywords(size_t i) {
-    return geometry_row(i)->keywords;
+static entry geometry_entry(size_t i) {
+    const geometry *g = geometry_row(i);
+    return (entry){.command = "geometry ", .name = g->name, .summary = g->meaning, .keywords = g->keywords};
 }
 
 static void geometry_help(FILE *to, size_t i) {
@@ -164,34 +156,24 @@ static void geometry_help(FILE *to, size_t i) {
             fprintf(to, "    %-10s  %s\n", quantity_of_input(in)->name, quantity_of_input(in)->title);
 }
 
-static void preset_label(size_t i, char *label, char *summary) {
+static entry preset_entry(size_t i) {
     const preset *p = preset_row(i);
-    snprintf(label, LINE_LABEL, "material %s", p->name);
-    snprintf(summary, LINE_SUMMARY, "E0=%.10g GPa nu=%.10g", p->E0 / 1e9, p->nu);
-}
-
-static const char *preset_source(size_t i) {
-    return preset_row(i)->source;
+    entry e = {.command = "material ", .name = p->name, .keywords = p->source};
+    snprintf(e.numbers, sizeof e.numbers, "E0=%.10g GPa nu=%.10g", p->E0 / 1e9, p->nu);
+    return e;
 }
 
 static void preset_help(FILE *to, size_t i) {
-    char label[LINE_LABEL], summary[LINE_SUMMARY];
-    preset_label(i, label, summary);
-    fprintf(to, "%s\n  %s\n", label, summary);
-    if (preset_row(i)->source) {
+    const entry e = preset_entry(i);
+    fprintf(to, "%s%s\n  %s\n", e.command, e.name, e.numbers);
+    if (e.keywords) {
         fputs("  ", to);
-        help_wrapped(to, preset_row(i)->source, 2, 2);
+        help_wrapped(to, e.keywords, 2, 2);
     }
 }
 
-static void unit_label(size_t i, char *label, char *summary) {
-    snprintf(label, LINE_LABEL, "%s", unit_name(i));
-    snprintf(summary, LINE_SUMMARY, "a unit: %s", unit_meaning(i));
-}
-
-static const char *unit_keywords(size_t i) {
-    (void)i;
-    return "unit";
+static entry unit_entry(size_t i) {
+    return (entry){.name = unit_name(i), .kind = "a unit: ", .summary = unit_meaning(i), .keywords = "unit"};
 }
 
 /* With a prefix too. */
@@ -205,31 +187,18 @@ static void unit_help(FILE *to, const char *word, const unit *u) {
             unit_scale(u), *si ? " " : "", si);
 }
 
-static void builtin_label(size_t i, char *label, char *summary) {
-    snprintf(label, LINE_LABEL, "%s", builtin_name(i));
-    snprintf(summary, LINE_SUMMARY, "%s", builtin_summary(i));
-}
-
-static const char *builtin_keywords(size_t i) {
-    (void)i;
-    return "function";
+static entry builtin_entry(size_t i) {
+    return (entry){.name = builtin_name(i), .summary = builtin_summary(i), .keywords = "function"};
 }
 
 static void builtin_help(FILE *to, size_t i) {
     fprintf(to, "%s: %s\n", builtin_name(i), builtin_summary(i));
 }
 
-static void topic_label(size_t i, char *label, char *summary) {
-    snprintf(label, LINE_LABEL, "help %s", topic_row(i)->name);
-    snprintf(summary, LINE_SUMMARY, "%s", topic_row(i)->summary);
-}
-
-static const char *topic_keywords(size_t i) {
-    return topic_row(i)->keywords;
-}
-
-static const char *topic_text(size_t i) {
-    return topic_row(i)->text;
+static entry topic_entry(size_t i) {
+    const topic *t = topic_row(i);
+    return (entry){
+        .command = "help ", .name = t->name, .summary = t->summary, .keywords = t->keywords, .text = t->text};
 }
 
 static void topic_help(FILE *to, size_t i) {
@@ -243,23 +212,21 @@ static void topic_help(FILE *to, size_t i) {
 /* ---- the table --------------------------------------------------------------------------------- */
 
 typedef struct subject {
-    const char *(*name)(size_t i);                       /* ended by NULL */
-    void (*label)(size_t i, char *label, char *summary); /* its line in a list */
-    const char *(*keywords)(size_t i);
-    const char *(*text)(size_t i);    /* searched where nothing else is found */
+    const char *(*name)(size_t i); /* ended by NULL */
+    entry (*entry)(size_t i);
     void (*help)(FILE *to, size_t i); /* NULL: by its word, see do_help */
 } subject;
 
 static const subject subjects[] = {
-    {command_name, command_label, command_keywords, command_text, command_help},
-    {topic_name, topic_label, topic_keywords, topic_text, topic_help},
-    {setting_name, setting_label, setting_keywords, NULL, setting_help},
-    {model_name, model_label, NULL, model_text, model_help},
-    {geometry_name, geometry_label, geometry_keywords, NULL, geometry_help},
-    {preset_name, preset_label, preset_source, NULL, preset_help},
-    {quantity_name, quantity_label, quantity_keywords, quantity_text, quantity_help},
-    {builtin_name, builtin_label, builtin_keywords, NULL, builtin_help},
-    {unit_name, unit_label, unit_keywords, NULL, NULL},
+    {command_name, command_entry, command_help},
+    {topic_name, topic_entry, topic_help},
+    {setting_name, setting_entry, setting_help},
+    {model_name, model_entry, model_help},
+    {geometry_name, geometry_entry, geometry_help},
+    {preset_name, preset_entry, preset_help},
+    {quantity_name, quantity_entry, quantity_help},
+    {builtin_name, builtin_entry, builtin_help},
+    {unit_name, unit_entry, NULL},
 };
 enum { SUBJECTS = sizeof subjects / sizeof *subjects };
 
@@ -403,11 +370,9 @@ static bool contains(const char *text, const char *word) {
     return false;
 }
 
-static bool is_about(const subject *s, size_t i, const char *word, bool deep) {
-    char label[LINE_LABEL], summary[LINE_SUMMARY];
-    s->label(i, label, summary);
-    return contains(s->name(i), word) || contains(summary, word) ||
-           (s->keywords && contains(s->keywords(i), word)) || (deep && s->text && contains(s->text(i), word));
+static bool is_about(const entry *e, const char *word, bool deep) {
+    return contains(e->name, word) || contains(e->kind, word) || contains(e->numbers, word) ||
+           contains(e->summary, word) || contains(e->keywords, word) || (deep && contains(e->text, word));
 }
 
 /* One line each; deep: by their texts too. */
@@ -416,11 +381,14 @@ static size_t list_about(FILE *to, const char *word, bool deep) {
     size_t count = 0;
     for (size_t s = 0; s < SUBJECTS; s++)
         for (size_t i = 0; subjects[s].name(i); i++) {
-            char label[LINE_LABEL], summary[LINE_SUMMARY];
-            if (!is_about(&subjects[s], i, word, deep))
+            const entry e = subjects[s].entry(i);
+            char label[LINE_LABEL];
+            if (!is_about(&e, word, deep))
                 continue;
-            subjects[s].label(i, label, summary);
-            fprintf(to, "%-*s  %s\n", LABELS, label, summary);
+            snprintf(label, sizeof label, "%s%s%s%s%s", e.command ? e.command : "", e.name,
+                     e.argument ? "(" : "", e.argument ? e.argument : "", e.argument ? ")" : "");
+            fprintf(to, "%-*s  %s%s\n", LABELS, label, e.kind ? e.kind : "",
+                    e.summary ? e.summary : e.numbers);
             count++;
         }
     return count;
