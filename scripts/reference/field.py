@@ -68,7 +68,7 @@ class Flat(shape.Shape):
         if r <= b:  # e = e1 v^(1/m)
             def p(v):
                 e = e1 * v**(1 / m)
-                return self.steepness(e) * ((b + e - r) * (b + e + r))**(m - 1) * e / (m * v)
+                return self.steepness(e) * ((b - r + e) * (b + e + r))**(m - 1) * e / (m * v)
             return mp.quad(p, [0, *sorted((x / e1)**m for x in breaks)])
         D = (b + e1)**2 - r**2
 
@@ -90,13 +90,33 @@ class Flat(shape.Shape):
             d * b**(2 * m) / (2 * m) * mp.quad(below, [0, 0.5, 1]) + mp.quad(beyond, [0, 0.5, 1]))
 
 
+def sphere(R, k, a, r):
+    """p and w within the contact of an exact sphere; x^2 = r^2 + D e^-t, of which h(t) - h(inf) goes fast."""
+    k, R, a, r = mpf(k), mpf(R), mpf(a), mpf(r)
+    m, D = (k + 1) / 2, a**2 - r**2
+
+    def g(x):
+        return x**2 / (2 * R * m) * mp.hyp2f1(0.5, 1, m + 1, (x / R)**2)
+
+    def rate(x):  # g'/x
+        return (mp.hyp2f1(0.5, 1, m + 1, (x / R)**2) + (x / R)**2 / (2 * (m + 1)) * mp.hyp2f1(1.5, 2, m + 2, (x / R)**2)) / (R * m)
+    rest = mp.quad(lambda t: mp.exp(-m * t) * (rate(mp.sqrt(r**2 + D * mp.exp(-t))) - rate(r)), [0, 1, 4, 10, 20, 45, 90])
+    p = oracle.foundation(*BODIES, k)[0] * mpf(C0)**-k / mp.pi * D**m / 2 * (rate(r) / m + rest)
+    return [p, g(a) - r**2 / (R + mp.sqrt(R**2 - r**2))]
+
+
 rows = []
+for k in (-0.99, -0.5, 0.6):
+    for r in (0.0, 1e-9, 5e-3, 8.99e-3):
+        with mp.workdps(40):
+            rows.append(((shape.SPHERE, 0.0, 0.01, 0.0, 1.0, k, 9e-3, r), sphere(0.01, k, 9e-3, r)))
 for kind in (shape.CONE, shape.PARABOLOID, shape.ROUNDED):
-    for k in (-0.9, -0.3, 0.7):
+    for k in (-0.99, -0.9, -0.3, 0.7):
         cN0 = oracle.foundation(*BODIES, k)[0]
         b, R, slope, a = 1e-3, 0.01, 0.05, 1.6e-3
         flat, e1 = Flat((kind, b, R, slope, 1, 0, 1, 0, 1, 0), k), mpf(a) - mpf(b)
-        for r in (0.0, 0.5e-3, 0.99e-3, 1.01e-3, 1.3e-3, 1.59e-3, 1.7e-3):
+        rim = [b] if kind == shape.ROUNDED else []  # elsewhere infinite
+        for r in [0.0, 0.5e-3, 0.99e-3, *rim, 1.01e-3, 1.3e-3, 1.59e-3, 1.7e-3]:
             with mp.workdps(40):
                 rows.append(((kind, b, R, slope, 1.0, k, a, r), [
                     cN0 * mpf(C0)**-flat.k / mp.pi * flat.pressure(e1, mpf(r)) if r < a else mpf(0),

@@ -64,6 +64,17 @@ static fret_real pressure_tip(fret_real t, fret_real rest, void *context) {
     return x > 0 ? slope_at(c, x) * fret_pow(x, c->normal->rule.k) / t : 0;
 }
 
+/* A large exponent makes a step at t = 1 of all else that varies with x, and steep where that is singular not
+ * far beyond: then these three take this part of the way only. */
+enum { WIDE = 16, CLOSE = 64 };
+static fret_real close_part(const inside *c) {
+    if (c->r > c->b) {
+        const fret_real last = c->b + c->to, span = (last - c->r) * (last + c->r) / CLOSE;
+        return (c->r - c->b) + span / (c->r + sqrtl(c->r * c->r + span));
+    }
+    return (c->b > 0 ? fminl(c->to, c->b) : c->to) / CLOSE;
+}
+
 /* Powers, by series of positive terms: int_r^b x^(n-1) (x^2-r^2)^(m-1) dx with w = 1-(r/b)^2, m = (k+1)/2 and
  * e = (n-2)/2 is b^(n+k-1) w^m/(2m) times
  *   sum (-e)_j/(m+1)_j w^j = (1-w)^(m+e) sum (m+1+e)_j/j! m/(m+j) w^j:
@@ -135,26 +146,26 @@ static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real 
         *p = pressure_powers(n, power, terms, a, r);
         return isfinite(*p) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     }
-    inside c = {n, start, r, 0, a - start, 2 / k1};
-    fret_real scale = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI;
-    if (tip) {
-        c.power = 1 / rise;
-        *p = scale / rise * fret_integrate(pressure_tip, &c);
-        return fret_ok();
-    }
+    inside c = {n, start, r, 0, a - start, tip ? 1 / rise : 2 / k1}, middle = c, beyond = c;
+    middle.power = beyond.power = rise;
     /* the first part reaches no farther than what is singular on the other side: x = b, -r, or r below b */
-    inside beyond = {n, start, r, c.to, c.to, rise};
     if (r > start)
-        beyond.from = fminl(c.to, sqrtl(r * r + (r - start) * (r + start)) - start);
+        middle.to = fminl(c.to, sqrtl(r * r + (r - start) * (r + start)) - start);
     else if (r < start)
-        beyond.from = fminl(c.to, start - r);
-    c.to = beyond.from;
-    fret_real last = start + c.to;
-    *p = r > start ? fret_pow((last - r) * (last + r), k1 / 2) * fret_integrate(pressure_inside, &c)
-                   : 2 * fret_integrate(pressure_below, &c);
-    *p *= scale / k1;
-    if (c.to < beyond.to)
-        *p += scale * fret_integrate(pressure_beyond, &beyond);
+        middle.to = fminl(c.to, start - r);
+    beyond.from = c.to = middle.to;
+    if (c.power > WIDE)
+        c.to = close_part(&c);
+    middle.from = c.to;
+    const fret_real last = start + c.to;
+    *p = tip         ? fret_integrate(pressure_tip, &c) / rise
+         : r > start ? fret_pow((last - r) * (last + r), k1 / 2) * fret_integrate(pressure_inside, &c) / k1
+                     : 2 * fret_integrate(pressure_below, &c) / k1;
+    if (middle.from < middle.to)
+        *p += fret_integrate(pressure_beyond, &middle);
+    if (beyond.from < beyond.to)
+        *p += fret_integrate(pressure_beyond, &beyond);
+    *p *= n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI;
     return isfinite(*p) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
 }
 
