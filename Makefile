@@ -43,6 +43,8 @@ SHARED = $(patsubst %.c,$(B)/shared/%.o,$(1))
 SONAME := libfret.so.0
 TESTS := $(patsubst tests/unit/%.c,$(B)/tests/%,$(UNIT))
 
+COMMA := ,
+
 all: $(B)/fret $(B)/libfret.a $(B)/libfret.so $(B)/fret.pc
 
 $(B)/%.o: %.c
@@ -94,7 +96,9 @@ $(B)/fret.pc: FORCE
 OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard src/calc/*.c src/study/*.c src/plot/*.c)))
 $(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE)) $(OUTER)
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $< $(OUTER) $(call OBJ,$(CORE)) $(LIBS_GSL) $(LIBS_CORE)
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) $(WRAP) -o $@ $< $(OUTER) $(call OBJ,$(CORE)) $(LIBS_GSL) $(LIBS_CORE)
+# the library's allocations pass through the test
+$(B)/tests/test_allocation: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
 
 # One file that depends on nothing, to copy to another machine: with musl, where it is at hand.
 STATIC_CC = $(if $(filter default,$(origin CC)),$(shell command -v musl-gcc || echo $(CC)),$(CC))

@@ -228,6 +228,7 @@ SCENES = [
     (SPHERE, "210e9", "-0.4", "0.4", 100, 1, 97, 0),
     (QUARTIC, "210e9", "0.5", "0.4", 100, 12, 50, 225),
     (SPHERE, "210e9", "0", "0.4", 100, 20, "0.001", 90),
+    (SPHERE, "210e9", "0", "0.4", 100, 12, 30, 0),
 ]
 NAMES = {SPHERE: "paraboloid R=10 mm", CONE: "cone slope=0.05", QUARTIC: "power n=4 A=1e6 m^-3"}
 
@@ -238,7 +239,7 @@ def build(given):
 
 
 def limit(given):
-    """W and dW after three periods."""
+    """W and dW after one period and after three."""
     FN, FA, FNA, degrees = (mpf(x) for x in given[4:])
     scene, mu = build(given)
     phase = mp.pi * degrees / 180
@@ -252,24 +253,24 @@ def limit(given):
         contact.go(start)
         losses.append(contact.W - before)
     assert abs(losses[2] - losses[1]) < mpf(10)**-26 * contact.W, losses  # the third repeats the second
-    return contact.W, losses[2]
+    return contact.W - losses[1] - losses[2], losses[0], contact.W, losses[2]
 
 
 def main():
     rows = []
     for given in SCENES:
-        W, dW = limit(given)
+        W1, dW1, W, dW = limit(given)
         if "--check" in sys.argv:
             import brute
             rough = brute.swinging(build(given)[0], given)
             assert abs(rough[0] - W) < 2e-5 * W and abs(rough[1] - dW) < 2e-5 * W, (given, rough)
         rows.append((f"{oracle.material(given[2], given[1][:-2])}; geometry {NAMES[given[0]]}; friction {given[3]}; "
-                     f"press FN={given[4]} N", f"cycle FA={given[5]} N times 3 FNA={given[6]} N phase={given[7]} deg", W, dW))
+                     f"press FN={given[4]} N", f"cycle FA={given[5]} N times 3 FNA={given[6]} N phase={given[7]} deg", W, dW, W1, dW1))
     oracle.write_cells("swinging.csv", "swinging.py",
                        ["loss under harmonic F_N and F_x, exact (limit of ever finer chords), J: W after three",
-                        "periods, dW of the third. From the press straight in (FN, Fx) to Fx = FA, FN + FNA cos(phase), then",
+                        "periods, dW of the third; W1 and dW1 after the first. From the press straight in (FN, Fx) to Fx = FA, FN + FNA cos(phase), then",
                         "Fx = FA cos s, FN + FNA cos(s + phase). dW = 0 where the way goes back on itself without slip."],
-                       ["setup", "cycle", "W", "dW"], rows)
+                       ["setup", "cycle", "W", "dW", "W1", "dW1"], rows)
 
 
 if __name__ == "__main__":

@@ -38,6 +38,17 @@ def order(rows):
     return math.log(rows[sizes[0]]["error"] / rows[sizes[-1]]["error"]) / math.log(sizes[-1] / sizes[0])
 
 
+def stepped_area(k, n, t, M):
+    """(21) over (27): the loop at F = FA cos(pi i/M), by trapezoids, from (17) and (18)."""
+    q = n / (n + k + 1)
+    first = [1 - (1 - t * (1 - math.cos(math.pi * i / M)) / 2) ** q for i in range(M + 1)]
+    F = [t * math.cos(math.pi * i / M) for i in range(M + 1)]
+    down = [first[M] - 2 * x for x in first]  # of the amplitude's own dx, over dxmax
+    area = sum((a - b) * (f + g) / 2 for a, b, f, g in zip(down, down[1:], F, F[1:])) * -2
+    bracket = 1 - (1 - t) ** (1 + q) - (1 + q) / 2 * t * (1 + (1 - t) ** q)
+    return area / (8 / (1 + q) * bracket)
+
+
 def power_law(tests, k, shape, load, springs, midpoint=None, seconds=0.3):
     rows, last = measured(tests, GRADED % (k, shape) + load, "accuracy within %g" % seconds)
     if not rows:
@@ -50,6 +61,11 @@ def power_law(tests, k, shape, load, springs, midpoint=None, seconds=0.3):
     tests.check(name + "quadrature", quadrature[16]["error"] > quadrature[32]["error"] and
                 quadrature[128]["error"] <= 2e-16, str(quadrature))
     tests.check(name + "loop area", abs(order(rows["loop area (21)"]) - 2) < 0.1, str(rows["loop area (21)"]))
+    if load == "cycle FA=20 N":
+        for M in (10, 100):
+            got = rows["loop area (21)"][M]["value"] / rows["closed form"][0]["value"]
+            want = stepped_area(k, 2 if shape == SPHERE else 1, 20 / 30, M)
+            tests.check(name + "loop area at M = %d" % M, abs(got - want) < 1e-12, "%.17g, expected %.17g" % (got, want))
     got = order(rows["springs"])
     tests.check(name + "springs", abs(got - springs) < 0.35, "order %g, expected %g" % (got, springs))
     if k == 0:
@@ -149,6 +165,11 @@ def forms(tests):
                 lines[3].startswith("closed form ") and lines[-1].startswith("auto picks: closed form (constant FN): error <") and
                 re.match(r"\d+ springs: error ", lines[-2]) and not done.stderr and
                 all(len(line) < 80 for line in lines), tests.report(done))
+    _, last = measured(tests, scene, "accuracy FA=20 N within 0.1")
+    told = re.search(r", good to (\d)e-(\d+)$", lines[1])
+    bound = int(told.group(1)) * 10.0 ** -int(told.group(2)) if told else 0
+    tests.check("accuracy: how good the reference is, rounded up", last and
+                last["agreement"] * 0.999 <= bound <= 2 * last["agreement"] and 0 < bound < 1e-16, lines[1] + str(last))
     tests.check("below what the reference tells", "<" in lines[3] and " 0 " not in lines[3], tests.report(done))
     rows = list(csv.reader(io.StringIO(tests.run("--format=csv", "-c", scene + "accuracy FA=20 N within 0.1").stdout)))
     tests.check("accuracy as CSV", rows[0][:4] == ["model", "parameter", "value [J]", "error"] and
@@ -249,7 +270,7 @@ def models(tests):
                           ("geometry exact-sphere R=10 mm; a", " (quadrature)")):
         done = tests.run("-c", scene + script)
         last = (done.stderr.splitlines() or [""])[-1]
-        tests.check("set timing on; %s" % script, re.fullmatch(r"time: \S+ ms" + re.escape(names), last),
+        tests.check("set timing on; %s" % script, re.fullmatch(r"time: [\d.]+(?:e[-+]\d+)? ms" + re.escape(names), last),
                     tests.report(done))
 
 

@@ -72,6 +72,39 @@ def tex(tests, where):
     tests.check("TeX takes the figure", done.returncode == 0, done.stdout[-2000:])
 
 
+def points_of(path):
+    """Each block of points of a kept script."""
+    blocks = re.findall(r"^\$data\S+ << END\n(.*?)^END$", read(path).decode(), re.S | re.M)
+    return [[tuple(map(float, line.split())) for line in block.splitlines()] for block in blocks]
+
+
+def points(tests):
+    """As many points as were asked for, where they belong."""
+    where = folder(tests, "points")
+    done = tests.run("-c", "plot x^2 for x = 0 .. 1 steps 4 to a.gp; plot x, 2*x for x = 0 .. 2 to b.gp\n" + SCENE +
+                     "plot loop to c.gp; set format json; dx in um, Fx", cwd=where)
+    if not tests.check("points", done.returncode == 0, tests.report(done)):
+        return
+    tests.check("five points", points_of(where + "/a.gp") == [[(i / 4, i * i / 16) for i in range(5)]])
+    one, two = points_of(where + "/b.gp")
+    tests.check("101 points", len(one) == len(two) == 101 and all(
+        abs(x - i / 50) < 1e-8 and abs(y - x) < 1e-8 and abs(z - 2 * x) < 1e-8
+        for i, ((x, y), (_, z)) in enumerate(zip(one, two))), str(one[:3] + two[-3:]))
+    (loop,) = points_of(where + "/c.gp")
+    dx, Fx = (float(value) for value in re.findall(r'"value":([^,]*),', done.stdout))
+    tests.check("a loop begins and ends", len(loop) > 200 and loop[0] == (0, 0) and abs(loop[-1][0] / 1e6 - dx) < 1e-7 * dx
+                and abs(loop[-1][1] - Fx) < 1e-7 * Fx, str(loop[:2] + loop[-2:]))
+    done = tests.run("-c", "set plot 40x12\nplot x for x = 0 .. 1 steps 1")
+    rows = [line.rstrip() for line in done.stdout.splitlines()]
+    marks = [line.find("*") for line in rows[1:10]]
+    tests.check("a line in the terminal, from the first column to the last", rows[9].startswith(" 0.0 **---") and
+                rows[1].endswith("--**") and marks == sorted(marks, reverse=True) and marks[-1] == 5, done.stdout)
+    done = tests.run("-c", SCENE + "plot loop to x.png", cwd=where, env={"TMPDIR": "/nonexistent"})
+    tests.check("no folder for gnuplot", done.returncode == 1 and "cannot make a temporary directory in /nonexistent"
+                in done.stderr, tests.report(done))
+    clean(tests, "no folder for gnuplot", where, ["a.gp", "b.gp", "c.gp"])
+
+
 def names(tests):
     """Names that a shell or gnuplot would run, also where the directory is deeper than any fixed buffer."""
     where = folder(tests, "names")
@@ -178,4 +211,4 @@ def messages(tests):
 
 
 def run(tests):
-    tests.each([lambda one=one: one(tests) for one in (forms, names, targets, stopped, messages)])
+    tests.each([lambda one=one: one(tests) for one in (forms, points, names, targets, stopped, messages)])

@@ -174,6 +174,25 @@ def shapes(tests):
             close(tests, name + "a(FN)", a, got.get("a(FN)"), 1e-9)
 
 
+def gap_file(tests):
+    """Equal steps of a paraboloid, which the interpolation brings back: f itself, and what follows from it."""
+    where = os.path.join(tests.dir, "paraboloid.csv")
+    with open(where, "w", encoding="ascii") as f:
+        f.write("r [mm],f [um]\n" + "".join("%d,%d\n" % (r, 50 * r * r) for r in range(9)))
+    for k in (-0.6, 0.0, 0.4):
+        hN, _ = coefficients(k, 0.3) if k else (1, None)
+        cN = hN * 210e9 / (2 * 0.91) * 1e-3 ** -k
+        got = values(tests, "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry file %s\n" % (k, where) +
+                     "f(0 m), f(0.3 mm), f(1 mm), f(4.7 mm), f(8 mm), g(0.3 mm), g(4.7 mm); press a=2 mm; dz, FN, kn")
+        for name, want in {"f(0.3 mm)": 0.3e-3 ** 2 / 0.02, "f(1 mm)": 5e-5, "f(4.7 mm)": 4.7e-3 ** 2 / 0.02,
+                           "f(8 mm)": 3.2e-3, "g(0.3 mm)": 2 / (k + 1) * 0.3e-3 ** 2 / 0.02,
+                           "g(4.7 mm)": 2 / (k + 1) * 4.7e-3 ** 2 / 0.02, "dz": 2 / (k + 1) * 2e-3 ** 2 / 0.02,
+                           "FN": 4 * cN * 100 / (k + 1) * 2e-3 ** (k + 3) / ((k + 1) * (k + 3)),
+                           "kn": 2 * cN * 2e-3 ** (k + 1) / (k + 1)}.items():
+            close(tests, "gap file, k = %g: %s" % (k, name), want, got.get(name), 1e-12)
+        tests.check("gap file: f(0)", got.get("f(0 m)") == 0, str(got))
+
+
 class Springs:
     """A plain model: many springs, each slides when its force would exceed mu times its normal force."""
 
@@ -241,4 +260,4 @@ def histories(tests):
 
 
 def run(tests):
-    tests.each([lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests), lambda: histories(tests)])
+    tests.each([lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests), lambda: gap_file(tests), lambda: histories(tests)])

@@ -162,6 +162,7 @@ static void bits(void) {
         for (size_t i = 0; i < sizeof special / sizeof *special; i++)
             loads[7 * i] = special[i];
         const fret_variant *plain = &fret_variants[fret_variant_count - 1];
+        CHECK(plain->runs()); /* everywhere */
         plain->loss(&w, loads, one[0], LOADS);
         plain->displacement(&w, loads, one[1], LOADS);
         plain->radius(&w, loads, one[2], LOADS);

@@ -367,6 +367,40 @@ static void test_widths(void) {
     }
 }
 
+/* After a reset nothing is left of what was. */
+static void test_reset(void) {
+    pair p = make(2, 0.3);
+    unsigned long long seed = 11;
+    fret_springs *fresh;
+    fret_state a, b;
+    springs_of(&p, 300, p.radius, FRET_WEIGHT_CELL);
+    CHECK_OK(fret_springs_make(p.normal, p.mu, 300, p.radius, FRET_WEIGHT_CELL, &fresh));
+    for (int round = 0; round < 4; round++) {
+        const fret_step steps[] = {press_only(p.FN), to_dx((round % 2 ? -2 : 2) * p.slip),
+                                   to_dx((round % 2 ? 0.3 : -0.3) * p.slip)};
+        for (int i = 0; i < 3; i++)
+            CHECK_OK(fret_springs_step(p.springs, &steps[i], 1));
+        fret_springs_reset(p.springs);
+        fret_springs_reset(fresh);
+        fret_springs_state(p.springs, &a);
+        fret_springs_state(fresh, &b);
+        CHECK(same(&a, &b) && a.FN == 0 && a.dz == 0 && a.Fx == 0 && a.dx == 0 && a.W == 0 && a.U == 0);
+        for (int i = 0; i < 20; i++) {
+            const fret_step step = i ? to_dx(unit_random(&seed, -1.2, 1.2) * p.slip) : press_only(p.FN);
+            CHECK_OK(fret_springs_step(p.springs, &step, 1));
+            CHECK_OK(fret_springs_step(fresh, &step, 1));
+            fret_springs_state(p.springs, &a);
+            fret_springs_state(fresh, &b);
+            CHECK(same(&a, &b));
+        }
+        fret_springs_free(fresh);
+        CHECK_OK(fret_springs_make(p.normal, p.mu, 300, p.radius, FRET_WEIGHT_CELL, &fresh));
+        fret_springs_reset(p.springs);
+    }
+    fret_springs_free(fresh);
+    drop(&p);
+}
+
 /* At constant depth bounds are constant, which has a loop of its own: the same as a step that changes the
  * depth by one unit in the last place, and as springs handled one by one. */
 static void test_constant_depth(void) {
@@ -469,6 +503,7 @@ int main(int argc, char **argv) {
     test_pad();
     test_copy();
     test_widths();
+    test_reset();
     test_constant_depth();
     test_errors();
     return unit_finish();

@@ -24,6 +24,7 @@ static void categories(void) {
     CHECK(fret_status_category(FRET_NO_MEMORY) == FRET_CAT_SYSTEM);
     CHECK(fret_status_category(FRET_INTERRUPTED) == FRET_CAT_SYSTEM);
     /* codes of a newer or broken caller are errors, never success */
+    CHECK(fret_status_category(FRET_CODES) != FRET_CAT_NONE);
     CHECK(fret_status_category((fret_code)(FRET_CODES + 5)) != FRET_CAT_NONE);
 }
 
@@ -37,6 +38,7 @@ static void rules(void) {
             CHECK(strcmp(rule, fret_status_rule((fret_code)j)) != 0);
     }
     CHECK(fret_status_rule((fret_code)(FRET_CODES + 5)) && *fret_status_rule((fret_code)(FRET_CODES + 5)));
+    CHECK(!strcmp(fret_status_rule(FRET_CODES), fret_status_rule((fret_code)(FRET_CODES + 5))));
     CHECK(strstr(fret_status_rule(FRET_BAD_K), "-1 < k < 1") != NULL);
 }
 

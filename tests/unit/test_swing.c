@@ -102,8 +102,14 @@ static void references(void) {
         fret_swing *s = swing_of(m);
         fret_state now;
         CHECK(fret_swing_fits(s, &w));
-        for (int i = 0; i < 3; i++)
+        for (int i = 0; i < 3; i++) {
             CHECK_OK(fret_swing_period(s, &w));
+            if (i == 0) {
+                fret_swing_state(s, &now);
+                CHECK_REL(now.W, unit_result(&t, 4), 1e-15L);
+                CHECK_ABS(fret_swing_last_loss(s), unit_result(&t, 5), unit_result(&t, 2), 1e-15L);
+            }
+        }
         fret_swing_state(s, &now);
         CHECK_REL(now.W, unit_result(&t, 2), 1e-15L);
         CHECK_ABS(fret_swing_last_loss(s), unit_result(&t, 3), unit_result(&t, 2), 1e-15L);

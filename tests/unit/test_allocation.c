@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Each allocation of the library fails once: the call says so, what it was to change is as it was, nothing
+ * leaks. The Makefile links this program so that the library allocates through the functions here. */
+#include "unit.h"
+
+static int left = -1; /* allocations that succeed before one fails; -1: all do */
+
+static bool fails(void) {
+    return left >= 0 && left-- == 0;
+}
+
+#define WRAPPED(type, name, parameters, arguments)                                                           \
+    type __real_##name parameters;                                                                           \
+    type __wrap_##name parameters;                                                                           \
+    type __wrap_##name parameters {                                                                          \
+        return fails() ? NULL : __real_##name arguments;                                                     \
+    }
+WRAPPED(void *, malloc, (size_t size), (size))
+WRAPPED(void *, calloc, (size_t count, size_t size), (count, size))
+WRAPPED(void *, realloc, (void *old, size_t size), (old, size))
+WRAPPED(void *, aligned_alloc, (size_t alignment, size_t size), (alignment, size))
+
+enum { ROWS = 40 };
+static double r[ROWS], f[ROWS];
+static fret_contact contact;
+static double limit, slip;
+
+/* One call, tried with each of its allocations failing: more than so many tries until it succeeds. */
+#define EACH_FAILS(least, call, unchanged)                                                                   \
+    do {                                                                                                     \
+        int n_ = 0;                                                                                          \
+        for (fret_code code_ = FRET_NO_MEMORY; code_ && n_ < 100; n_++) {                                    \
+            left = n_;                                                                                       \
+            const fret_status st_ = (call);                                                                  \
+            left = -1;                                                                                       \
+            code_ = st_.code;                                                                                \
+            CHECK(code_ == FRET_OK || code_ == FRET_NO_MEMORY);                                              \
+            CHECK(code_ == FRET_OK || (unchanged));                                                          \
+        }                                                                                                    \
+        CHECK(n_ > (least));                                                                                 \
+    } while (0)
+
+static void tables_and_contacts(void) {
+    struct fret_table *table = NULL;
+    fret_normal *normal = NULL;
+    fret_memory *memory = NULL;
+    fret_springs *springs = NULL;
+    fret_masing *masing = NULL;
+    fret_swing *swing = NULL;
+    const unit_scene s = unit_make_scene(2, 0.3);
+    EACH_FAILS(3, fret_table_make(r, f, ROWS, NULL, &table), table == NULL);
+    EACH_FAILS(1, fret_normal_make(&s.material, &s.gap, &normal), normal == NULL);
+    EACH_FAILS(2, fret_memory_make(contact.normal, 0.4, &memory), memory == NULL);
+    EACH_FAILS(3, fret_springs_make(contact.normal, 0.4, 100, 1e-3, FRET_WEIGHT_CELL, &springs),
+               springs == NULL);
+    EACH_FAILS(2, fret_masing_make(&contact, &masing), masing == NULL);
+    EACH_FAILS(2, fret_swing_make(memory, &swing), swing == NULL);
+    fret_swing_free(swing);
+    fret_masing_free(masing);
+    fret_springs_free(springs);
+    fret_memory_free(memory);
+    fret_normal_free(normal);
+    fret_table_free(table);
+}
+
+static bool same(const fret_state *a, const fret_state *b) {
+    return a->FN == b->FN && a->dz == b->dz && a->Fx == b->Fx && a->dx == b->dx && a->W == b->W &&
+           a->U == b->U && a->slices == b->slices;
+}
+
+/* Ever smaller swings: each turning point is kept. */
+static void memories(void) {
+    fret_memory *m, *copy, *whole;
+    fret_state before, now;
+    CHECK_OK(fret_memory_make(contact.normal, 0.4, &m));
+    CHECK_OK(fret_memory_make(contact.normal, 0.4, &copy));
+    CHECK_OK(fret_memory_make(contact.normal, 0.4, &whole));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
+    CHECK_OK(fret_memory_step(whole, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
+    int refused = 0;
+    for (int i = 0; i < 200; i++) {
+        const fret_step step = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 0.9 * limit * pow(-0.99, i)};
+        fret_memory_state(m, &before);
+        left = 0;
+        fret_status st = fret_memory_step(m, &step);
+        left = -1;
+        if (st.code) {
+            CHECK_CODE(st, FRET_NO_MEMORY);
+            fret_memory_state(m, &now);
+            CHECK(same(&before, &now));
+            CHECK_OK(fret_memory_step(m, &step));
+            refused++;
+        }
+        CHECK_OK(fret_memory_step(whole, &step));
+    }
+    fret_memory_state(m, &now);
+    fret_memory_state(whole, &before);
+    CHECK(refused > 3 && same(&before, &now));
+    fret_memory_state(copy, &before);
+    EACH_FAILS(1, fret_memory_copy(copy, m), (fret_memory_state(copy, &now), same(&before, &now)));
+    fret_memory_state(m, &before);
+    fret_memory_state(copy, &now);
+    CHECK(same(&before, &now));
+    fret_memory_free(m);
+    fret_memory_free(copy);
+    fret_memory_free(whole);
+}
+
+static bool alike(const fret_masing *a, const fret_masing *b) {
+    fret_masing_state x, y;
+    fret_masing_now(a, &x);
+    fret_masing_now(b, &y);
+    return x.Fx == y.Fx && x.dx == y.dx && x.W == y.W && x.turns == y.turns;
+}
+
+static void masings(void) {
+    fret_masing *m, *copy, *whole, *open;
+    double out;
+    CHECK_OK(fret_masing_make(&contact, &m));
+    CHECK_OK(fret_masing_make(&contact, &copy));
+    CHECK_OK(fret_masing_make(&contact, &whole));
+    CHECK_OK(fret_masing_make(&contact, &open));
+    int refused = 0;
+    for (int i = 0; i < 200; i++) {
+        const double part = pow(-0.99, i);
+        const bool force = i % 2;
+        left = 0;
+        const fret_status st = force ? fret_masing_to_force(m, 0.9 * limit * part, &out)
+                                     : fret_masing_to_dx(m, 0.6 * slip * part, &out);
+        left = -1;
+        if (st.code) {
+            CHECK_CODE(st, FRET_NO_MEMORY);
+            CHECK(alike(m, whole));
+            CHECK_OK(force ? fret_masing_to_force(m, 0.9 * limit * part, &out)
+                           : fret_masing_to_dx(m, 0.6 * slip * part, &out));
+            refused++;
+        }
+        CHECK_OK(force ? fret_masing_to_force(whole, 0.9 * limit * part, &out)
+                       : fret_masing_to_dx(whole, 0.6 * slip * part, &out));
+    }
+    CHECK(refused > 2 && alike(m, whole));
+    EACH_FAILS(1, fret_masing_copy(copy, m), alike(copy, open));
+    CHECK(alike(copy, m));
+    fret_masing_free(m);
+    fret_masing_free(copy);
+    fret_masing_free(whole);
+    fret_masing_free(open);
+}
+
+static void springs(void) {
+    fret_springs *s, *other;
+    fret_state before, now;
+    const fret_step steps[] = {{FRET_TO_FORCE, FRET_KEEP_DX, 20, 0},
+                               {FRET_KEEP_NORMAL, FRET_TO_DX, 0, 0.5 * slip}};
+    CHECK_OK(fret_springs_make(contact.normal, 0.4, 200, 1e-3, FRET_WEIGHT_CELL, &s));
+    CHECK_OK(fret_springs_make(contact.normal, 0.4, 100, 1e-3, FRET_WEIGHT_CELL, &other));
+    for (int i = 0; i < 2; i++) {
+        CHECK_OK(fret_springs_step(s, &steps[i], 1));
+        CHECK_OK(fret_springs_step(other, &steps[i], 1));
+    }
+    fret_springs_state(other, &before);
+    EACH_FAILS(2, fret_springs_copy(other, s), (fret_springs_state(other, &now), same(&before, &now)));
+    fret_springs_state(s, &before);
+    fret_springs_state(other, &now);
+    CHECK(same(&before, &now));
+    fret_springs_free(s);
+    fret_springs_free(other);
+}
+
+/* One period from the state of `from`: what a failed one leaves is good for a copy only. */
+static fret_status period_of(fret_swing *w, const fret_swing *from, const fret_sine *sine) {
+    const fret_status st = fret_swing_copy(w, from);
+    return st.code ? st : fret_swing_period(w, sine);
+}
+
+/* Falling phases that each leave a piece more: the sine's own curve. */
+static void swings(void) {
+    fret_memory *m, *back;
+    fret_swing *w, *copy;
+    fret_state before, now;
+    const fret_sine sine = {.FN = 20, .FNA = 6, .FA = 3, .phase = 1};
+    CHECK_OK(fret_memory_make(contact.normal, 0.4, &m));
+    CHECK_OK(fret_memory_make(contact.normal, 0.4, &back));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
+    CHECK_OK(fret_swing_make(m, &w));
+    CHECK_OK(fret_swing_make(m, &copy));
+    EACH_FAILS(0, period_of(w, copy, &sine), true);
+    fret_swing_state(copy, &before);
+    EACH_FAILS(0, fret_swing_copy(copy, w), (fret_swing_state(copy, &now), same(&before, &now)));
+    fret_swing_state(w, &before);
+    fret_swing_state(copy, &now);
+    CHECK(same(&before, &now));
+    fret_memory_state(back, &before);
+    EACH_FAILS(0, fret_swing_memory(w, back), (fret_memory_state(back, &now), same(&before, &now)));
+    fret_swing_free(w);
+    fret_swing_free(copy);
+    fret_memory_free(m);
+    fret_memory_free(back);
+}
+
+int main(int argc, char **argv) {
+    unit_start("allocation", argc, argv);
+    const unit_scene s = unit_make_scene(2, 0.3);
+    for (int i = 0; i < ROWS; i++) {
+        r[i] = i * 1e-4;
+        f[i] = r[i] * r[i] / 0.02;
+    }
+    contact = unit_make_contact(&s, 20);
+    limit = contact.mu * 20;
+    slip = (double)fret_gross_slip(&contact);
+    tables_and_contacts();
+    memories();
+    masings();
+    springs();
+    swings();
+    return unit_finish();
+}
