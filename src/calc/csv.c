@@ -319,27 +319,25 @@ static bool read_line(reader *r, const char *line, size_t len) {
 }
 
 bool csv_read(const char *path, file_stop stop, csv *c, calc_error *error) {
-    char text[CALC_ERROR_TEXT - 8];
     file_in in;
     *c = (csv){.path = malloc(strlen(path) + 1)};
     if (!c->path)
         return calc_no_memory(error);
     strcpy(c->path, path);
-    if (!file_in_open(&in, path, stop, text, sizeof text))
-        return calc_fail(error, 0, 0, "%s", text);
+    if (!file_in_open(&in, path, stop, error))
+        return false;
     reader r = {.c = c, .error = error};
     bool ok = true;
     file_got got = FILE_GOT_END;
-    while (ok && (got = file_in_line(&in, text, sizeof text)) == FILE_GOT_LINE) {
+    while (ok && (got = file_in_line(&in, error)) == FILE_GOT_LINE) {
         r.line = (size_t)in.number;
         ok = read_line(&r, in.line, in.length);
     }
     file_in_close(&in);
     if (ok && got == FILE_GOT_STOP)
         ok = calc_interrupted(error);
-    else if (ok && got == FILE_GOT_ERROR)
-        ok = calc_fail(error, 0, 0, "%s", text);
-    return ok && (c->rows > 0 || calc_fail(error, 0, 0, "%s holds no rows of numbers", path));
+    return ok && got != FILE_GOT_ERROR &&
+           (c->rows > 0 || calc_fail(error, 0, 0, "%s holds no rows of numbers", path));
 }
 
 /* ---- columns ----------------------------------------------------------------------------------- */

@@ -2,8 +2,10 @@
 /* Raising errors. Touches nothing but the error. */
 #include "calc/error.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 void error_clear(calc_error *error) {
     error->raised = error->stop = error->circle = error->strange = error->worded = false;
@@ -50,6 +52,16 @@ bool calc_missing(calc_error *error, int input) {
 bool calc_no_memory(calc_error *error) {
     error->stop = true;
     return calc_fail(error, 0, 0, "out of memory");
+}
+
+bool calc_errno(calc_error *error, int code, const char *format, ...) {
+    char words[CALC_ERROR_TEXT - 64]; /* the reason is never cut off */
+    va_list args;
+    va_start(args, format);
+    vsnprintf(words, sizeof words, format, args);
+    va_end(args);
+    error->stop = error->stop || code == ENOMEM;
+    return calc_fail(error, 0, 0, "%s: %s", words, code == ENOMEM ? "out of memory" : strerror(code));
 }
 
 bool calc_input_status(calc_error *error, int input, const fret_status *status) {

@@ -41,6 +41,11 @@ bool calc_fail(calc_error *error, size_t at, size_t len, const char *format, ...
 bool calc_interrupted(calc_error *error);
 bool calc_missing(calc_error *error, int input);
 bool calc_no_memory(calc_error *error);
+/* What the system refused: the words, and its own behind them. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+bool calc_errno(calc_error *error, int code, const char *format, ...);
 
 /* True where the status is fine. */
 bool calc_status(calc_error *error, const fret_status *status);

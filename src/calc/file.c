@@ -8,7 +8,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <pwd.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -16,16 +15,8 @@
 
 enum { LINKS = 40, PAUSE = 20 /* ms between looks at the stop flag */ };
 
-static bool fail(char *error, size_t size, const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    vsnprintf(error, size, format, args);
-    va_end(args);
-    return false;
-}
-
-static bool cannot_write(const file_out *out, int code, char *error, size_t size) {
-    return fail(error, size, "cannot write %s: %s", out->name, strerror(code));
+static bool cannot_write(const file_out *out, int code, calc_error *error) {
+    return calc_errno(error, code, "cannot write %s", out->name);
 }
 
 char *file_expand(const char *name) {
@@ -187,28 +178,28 @@ static void out_free(file_out *out) {
     *out = (file_out){.guard = -1};
 }
 
-static bool open_error(file_out *out, int code, char *error, size_t size) {
-    cannot_write(out, code, error, size);
+static bool open_error(file_out *out, int code, calc_error *error) {
+    cannot_write(out, code, error);
     out_free(out);
     return false;
 }
 
-bool file_out_open(file_out *out, const char *name, file_stop stop, char *error, size_t size) {
+bool file_out_open(file_out *out, const char *name, file_stop stop, calc_error *error) {
     struct stat info;
     *out = (file_out){.guard = -1, .name = strdup(name), .real = file_expand(name)};
     if (!out->name || !out->real) {
         out_free(out);
-        return fail(error, size, "out of memory");
+        return calc_no_memory(error);
     }
     size_t n = strlen(out->real);
     int code = n && out->real[n - 1] != '/' ? follow(out) : n ? EISDIR : ENOENT;
     if (code)
-        return open_error(out, code, error, size);
+        return open_error(out, code, error);
     out->existed = !stat(out->real, &info);
     if (!out->existed && errno != ENOENT && descriptor(out->real) < 0)
-        return open_error(out, errno, error, size);
+        return open_error(out, errno, error);
     if (out->existed && S_ISDIR(info.st_mode))
-        return open_error(out, EISDIR, error, size);
+        return open_error(out, EISDIR, error);
     bool direct = descriptor(out->real) >= 0 || (out->existed && !S_ISREG(info.st_mode));
     int fd = direct ? open_direct(out->real, stop) : open_part(out, out->existed ? &info : NULL);
     out->to = fd < 0 ? NULL : fdopen(fd, "w");
@@ -220,7 +211,7 @@ bool file_out_open(file_out *out, const char *name, file_stop stop, char *error,
         if (out->part)
             unlink(out->part);
     }
-    return open_error(out, code, error, size);
+    return open_error(out, code, error);
 }
 
 /* A stream remembers that a write failed, not why: the same write again tells. What it writes is lost anyway.
@@ -230,7 +221,7 @@ static int write_error(const file_out *out) {
     return write(fileno(out->to), again, out->part ? sizeof again : 1) < 0 ? errno : EIO;
 }
 
-bool file_out_close(file_out *out, bool keep, file_report *report, char *error, size_t size) {
+bool file_out_close(file_out *out, bool keep, file_report *report, calc_error *error) {
     if (!out->to)
         return true;
     struct stat info = {.st_size = 0};
@@ -251,7 +242,7 @@ bool file_out_close(file_out *out, bool keep, file_report *report, char *error, 
     file_signals_release(&before);
     bool ok = !keep || !code;
     if (!ok)
-        cannot_write(out, code, error, size);
+        cannot_write(out, code, error);
     if (report)
         *report = (file_report){.overwrote = out->existed && out->part && keep,
                                 .direct = !out->part,

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The one room for files: output that replaces its target whole or not at all, input by lines that tells
- * every failure from the end of the file, and a list of what must go when a signal ends the program. Errors
- * are text in `error`, one line without a full stop: "cannot write loop.png: No space left on device". */
+ * every failure from the end of the file, and a list of what must go when a signal ends the program. */
 #ifndef CALC_FILE_H
 #define CALC_FILE_H
 
@@ -11,6 +10,8 @@
 #include <stdio.h>
 #include <sys/types.h>
 #include <termios.h>
+
+#include "calc/error.h"
 
 /* Set by a signal handler; NULL: nothing can stop the work. */
 typedef const volatile sig_atomic_t *file_stop;
@@ -41,11 +42,24 @@ typedef struct file_out {
 
 /* Refuses directories and targets without permission to write. False with the error, and nothing left behind.
  */
-bool file_out_open(file_out *out, const char *name, file_stop stop, char *error, size_t size);
+bool file_out_open(file_out *out, const char *name, file_stop stop, calc_error *error);
 
 /* Puts the file in its place, or gives it up when `keep` is false: the target is then as it was. False with
  * the error when a byte was lost; true when given up. The report may be NULL. */
-bool file_out_close(file_out *out, bool keep, file_report *report, char *error, size_t size);
+bool file_out_close(file_out *out, bool keep, file_report *report, calc_error *error);
+
+/* A text written as a file is. open_memstream(3) will not do: it loses in silence what finds no memory. It
+ * stays where it is while it is open. */
+typedef struct file_text {
+    FILE *to;
+    char *text; /* after closing, NUL-terminated and to be freed */
+    size_t size, room;
+    bool lost;
+} file_text;
+
+/* Both false: out of memory, and nothing is to be freed. */
+bool file_text_open(file_text *t);
+bool file_text_close(file_text *t);
 
 /* "812 B", "12 kB", "3.4 MB": at most 15 bytes. */
 void file_size_text(unsigned long long bytes, char text[16]);
@@ -74,22 +88,22 @@ typedef struct file_in {
 } file_in;
 
 /* Refuses directories. A FIFO without a writer is waited for when it is read, not here. */
-bool file_in_open(file_in *in, const char *name, file_stop stop, char *error, size_t size);
+bool file_in_open(file_in *in, const char *name, file_stop stop, calc_error *error);
 /* Reads an open descriptor, which stays open; `name` is for messages. */
-bool file_in_take(file_in *in, int fd, const char *name, file_stop stop, char *error, size_t size);
+bool file_in_take(file_in *in, int fd, const char *name, file_stop stop, calc_error *error);
 
 /* Reads a text that is in memory. */
-bool file_in_text(file_in *in, const char *text, const char *name, file_stop stop, char *error, size_t size);
+bool file_in_text(file_in *in, const char *text, const char *name, file_stop stop, calc_error *error);
 
 /* The next line in in->line and in->length. FILE_GOT_ERROR: reading failed, memory ran out or the line is
  * longer than the limit; FILE_GOT_STOP: the stop flag was set. Neither ever passes for the end. */
-file_got file_in_line(file_in *in, char *error, size_t size);
+file_got file_in_line(file_in *in, calc_error *error);
 
 /* The place of a line's continuation mark, or `length` when it has none. */
 typedef size_t file_mark(const char *line, size_t length);
 /* The same with the lines that continue it: the mark becomes a blank, the end of the line a newline. A mark
  * in the last line stays. */
-file_got file_in_logical(file_in *in, file_mark *mark, char *error, size_t size);
+file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error);
 
 void file_in_close(file_in *in);
 

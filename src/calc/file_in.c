@@ -24,12 +24,11 @@ static const struct {
 } marks[] = {{"\xef\xbb\xbf", 3, FILE_BYTES}, {"\xff\xfe", 2, FILE_LITTLE}, {"\xfe\xff", 2, FILE_BIG}};
 enum { MARKS = sizeof marks / sizeof *marks };
 
-static bool cannot_read(const char *name, int code, char *error, size_t size) {
-    snprintf(error, size, "cannot read %s: %s", name, strerror(code));
-    return false;
+static bool cannot_read(const char *name, int code, calc_error *error) {
+    return calc_errno(error, code, "cannot read %s", name);
 }
 
-bool file_in_take(file_in *in, int fd, const char *name, file_stop stop, char *error, size_t size) {
+bool file_in_take(file_in *in, int fd, const char *name, file_stop stop, calc_error *error) {
     struct stat info;
     *in = (file_in){.fd = fd, .stop = stop, .name = strdup(name), .block = malloc(BLOCK)};
     int code = !in->name || !in->block ? ENOMEM
@@ -38,23 +37,23 @@ bool file_in_take(file_in *in, int fd, const char *name, file_stop stop, char *e
                                        : 0;
     if (code) {
         file_in_close(in);
-        return cannot_read(name, code, error, size);
+        return cannot_read(name, code, error);
     }
     in->waits = !S_ISREG(info.st_mode);
     return true;
 }
 
-bool file_in_open(file_in *in, const char *name, file_stop stop, char *error, size_t size) {
+bool file_in_open(file_in *in, const char *name, file_stop stop, calc_error *error) {
     *in = (file_in){.fd = -1};
     char *path = file_expand(name);
     if (!path)
-        return cannot_read(name, ENOMEM, error, size);
+        return cannot_read(name, ENOMEM, error);
     /* not to hang on a FIFO that nobody writes */
     int fd = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK), code = errno;
     free(path);
     if (fd < 0)
-        return cannot_read(name, code, error, size);
-    bool ok = file_in_take(in, fd, name, stop, error, size);
+        return cannot_read(name, code, error);
+    bool ok = file_in_take(in, fd, name, stop, error);
     if (ok)
         in->owned = true;
     else
@@ -62,11 +61,11 @@ bool file_in_open(file_in *in, const char *name, file_stop stop, char *error, si
     return ok;
 }
 
-bool file_in_text(file_in *in, const char *text, const char *name, file_stop stop, char *error, size_t size) {
+bool file_in_text(file_in *in, const char *text, const char *name, file_stop stop, calc_error *error) {
     *in = (file_in){.fd = -1, .stop = stop, .name = strdup(name), .block = strdup(text), .ended = true};
     if (!in->name || !in->block) {
         file_in_close(in);
-        return cannot_read(name, ENOMEM, error, size);
+        return cannot_read(name, ENOMEM, error);
     }
     in->have = strlen(text);
     in->at = strncmp(text, marks[0].bytes, marks[0].length) ? 0 : marks[0].length;
@@ -87,7 +86,7 @@ static bool stopped(const file_in *in) {
 }
 
 /* Some bytes, FILE_GOT_LINE, to `to`. */
-static file_got read_some(file_in *in, char *to, size_t room, size_t *got, char *error, size_t size) {
+static file_got read_some(file_in *in, char *to, size_t room, size_t *got, calc_error *error) {
     for (;;) {
         if (stopped(in))
             return FILE_GOT_STOP;
@@ -105,7 +104,7 @@ static file_got read_some(file_in *in, char *to, size_t room, size_t *got, char 
         if (n == 0)
             return FILE_GOT_END;
         if (errno != EINTR && errno != EAGAIN) {
-            cannot_read(in->name, errno, error, size);
+            cannot_read(in->name, errno, error);
             return FILE_GOT_ERROR;
         }
     }
@@ -162,11 +161,11 @@ static bool begins_mark(const char *bytes, size_t n) {
 }
 
 /* The first bytes, without the mark. */
-static file_got begin(file_in *in, char *error, size_t size) {
+static file_got begin(file_in *in, calc_error *error) {
     file_got got = FILE_GOT_LINE;
     size_t n = 0;
     while (got == FILE_GOT_LINE && begins_mark(in->block, in->have)) {
-        got = read_some(in, in->block + in->have, BLOCK - RAW - in->have, &n, error, size);
+        got = read_some(in, in->block + in->have, BLOCK - RAW - in->have, &n, error);
         in->have += got == FILE_GOT_LINE ? n : 0;
     }
     if (got == FILE_GOT_STOP || got == FILE_GOT_ERROR)
@@ -187,16 +186,16 @@ static file_got begin(file_in *in, char *error, size_t size) {
 }
 
 /* The next block: FILE_GOT_LINE stands for "some bytes". */
-static file_got fill(file_in *in, char *error, size_t size) {
+static file_got fill(file_in *in, calc_error *error) {
     file_got got = FILE_GOT_LINE;
     in->at = in->have = 0;
     if (in->order == FILE_UNTOLD)
-        got = begin(in, error, size);
+        got = begin(in, error);
     while (got == FILE_GOT_LINE && in->at == in->have) {
         size_t n = 0;
         in->at = in->have = 0;
         const size_t from = in->order == FILE_BYTES ? 0 : RAW;
-        got = read_some(in, in->block + from, BLOCK - from, &n, error, size);
+        got = read_some(in, in->block + from, BLOCK - from, &n, error);
         if (in->order == FILE_BYTES)
             in->have = n;
         else if (got == FILE_GOT_LINE)
@@ -207,28 +206,24 @@ static file_got fill(file_in *in, char *error, size_t size) {
     return got == FILE_GOT_END && in->have > 0 ? FILE_GOT_LINE : got;
 }
 
-static bool grow(file_in *in, size_t need, char *error, size_t size) {
+static bool grow(file_in *in, size_t need, calc_error *error) {
     size_t room = in->room ? in->room : 256;
     while (room < need)
         room *= 2;
     char *grown = realloc(in->line, room);
-    if (!grown) {
-        snprintf(error, size, "%s:%llu: out of memory", in->name, in->number);
-        return false;
-    }
+    if (!grown)
+        return calc_errno(error, ENOMEM, "%s:%llu", in->name, in->number);
     in->line = grown;
     in->room = room;
     return true;
 }
 
 /* Appends to the line and ends it by a NUL. */
-static bool append(file_in *in, const char *bytes, size_t n, char *error, size_t size) {
-    if (n > FILE_LINE_LIMIT - in->length) {
-        snprintf(error, size, "%s:%llu: the line is longer than %d MB", in->name, in->number,
-                 FILE_LINE_LIMIT >> 20);
-        return false;
-    }
-    if (in->length + n + 1 > in->room && !grow(in, in->length + n + 1, error, size))
+static bool append(file_in *in, const char *bytes, size_t n, calc_error *error) {
+    if (n > FILE_LINE_LIMIT - in->length)
+        return calc_fail(error, 0, 0, "%s:%llu: the line is longer than %d MB", in->name, in->number,
+                         FILE_LINE_LIMIT >> 20);
+    if (in->length + n + 1 > in->room && !grow(in, in->length + n + 1, error))
         return false;
     memcpy(in->line + in->length, bytes, n);
     in->length += n;
@@ -237,12 +232,12 @@ static bool append(file_in *in, const char *bytes, size_t n, char *error, size_t
 }
 
 /* Appends a physical line without its end, which may be that of Windows. */
-static file_got add_line(file_in *in, char *error, size_t size) {
+static file_got add_line(file_in *in, calc_error *error) {
     const size_t begin = in->length;
     bool any = false;
     for (;;) {
         if (in->at == in->have) {
-            file_got got = stopped(in) ? FILE_GOT_STOP : in->ended ? FILE_GOT_END : fill(in, error, size);
+            file_got got = stopped(in) ? FILE_GOT_STOP : in->ended ? FILE_GOT_END : fill(in, error);
             if (got == FILE_GOT_END) {
                 in->ended = true;
                 if (!any)
@@ -258,7 +253,7 @@ static file_got add_line(file_in *in, char *error, size_t size) {
         }
         const char *from = in->block + in->at, *end = memchr(from, '\n', in->have - in->at);
         size_t n = end ? (size_t)(end - from) : in->have - in->at;
-        if (!append(in, from, n, error, size))
+        if (!append(in, from, n, error))
             return FILE_GOT_ERROR;
         in->at += n + (end != NULL);
         if (end)
@@ -269,23 +264,23 @@ static file_got add_line(file_in *in, char *error, size_t size) {
     return FILE_GOT_LINE;
 }
 
-file_got file_in_line(file_in *in, char *error, size_t size) {
+file_got file_in_line(file_in *in, calc_error *error) {
     in->length = 0;
     in->number = in->read + 1;
-    return add_line(in, error, size);
+    return add_line(in, error);
 }
 
-file_got file_in_logical(file_in *in, file_mark *mark, char *error, size_t size) {
-    file_got got = file_in_line(in, error, size);
+file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error) {
+    file_got got = file_in_line(in, error);
     size_t begin = 0;
     while (got == FILE_GOT_LINE) {
         size_t at = begin + mark(in->line + begin, in->length - begin);
         if (at >= in->length)
             break;
         begin = in->length + 1;
-        if (!append(in, "\n", 1, error, size))
+        if (!append(in, "\n", 1, error))
             return FILE_GOT_ERROR;
-        got = add_line(in, error, size);
+        got = add_line(in, error);
         if (got == FILE_GOT_END) {
             in->line[--in->length] = 0;
             return FILE_GOT_LINE;

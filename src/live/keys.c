@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/file.h"
 #include "live/state.h"
 #include "live/terminal.h"
 
@@ -296,11 +297,12 @@ static void statement(live *l) {
 }
 
 static void save_entered(live *l, const char *line) {
-    char error[LIVE_TEXT];
-    if (l->host->save(l->host->self, line, error, sizeof error))
+    calc_error error;
+    error_clear(&error);
+    if (l->host->save(l->host->self, line, &error))
         live_tell(l, false, "wrote %.400s", line);
     else
-        live_tell(l, true, "error: %s", error);
+        live_tell(l, true, "error: %s", error.text);
 }
 
 static void save(live *l) {
@@ -402,18 +404,19 @@ static const key_row keys[] = {
 enum { KEYS = sizeof keys / sizeof *keys };
 
 static void help(live *l) {
-    size_t size = 0;
-    FILE *to = open_memstream(&l->page, &size);
-    if (!to)
+    file_text page;
+    if (!file_text_open(&page))
         return;
     for (size_t i = 0; i < KEYS; i++)
         if (keys[i].keys)
-            fprintf(to, "  %-12s %s\n", keys[i].keys, keys[i].does);
+            fprintf(page.to, "  %-12s %s\n", keys[i].keys, keys[i].does);
     fputs("\nThe mouse drags the point of the loop. All of it is statements: `history`, `save`\n"
           "and `undo` know them.\n",
-          to);
-    if (fclose(to))
-        l->page = NULL;
+          page.to);
+    if (!file_text_close(&page))
+        return;
+    free(l->page);
+    l->page = page.text;
     l->page_from = 0;
     l->changed = true;
 }

@@ -20,7 +20,7 @@ typedef struct live_host {
      * cursor moves. */
     void (*complete)(void *self, char *line, size_t size, size_t *cursor);
     /* The scene as a script. */
-    bool (*save)(void *self, const char *path, char *error, size_t size);
+    bool (*save)(void *self, const char *path, calc_error *error);
 } live_host;
 
 /* Work on frames: seconds, writing to the terminal included. */
@@ -31,6 +31,6 @@ typedef struct live_work {
 
 /* Until the user leaves. script: a file to step through, or NULL. False with the error where there is no
  * terminal for it or the script cannot be read. */
-bool live_run(const live_host *host, const char *script, live_work *work, char *error, size_t size);
+bool live_run(const live_host *host, const char *script, live_work *work, calc_error *error);
 
 #endif

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* In place of the full-screen mode where it is not wanted (LIVE=no). */
-#include <stdio.h>
-
 #include "live/live.h"
 
-bool live_run(const live_host *host, const char *script, live_work *work, char *error, size_t size) {
+bool live_run(const live_host *host, const char *script, live_work *work, calc_error *error) {
     (void)host, (void)script, (void)work;
-    snprintf(error, size, "this fret has been built without the full-screen mode (LIVE=no)");
-    return false;
+    return calc_fail(error, 0, 0, "this fret has been built without the full-screen mode (LIVE=no)");
 }

@@ -42,14 +42,14 @@ static void statements_only(live_script *s) {
     s->count = transcript ? kept : s->count;
 }
 
-bool script_open(live *l, const char *path, char *error, size_t size) {
+bool script_open(live *l, const char *path, calc_error *error) {
     live_script *s = &l->script;
     file_in in;
-    if (!file_in_open(&in, path, l->host->stop, error, size))
+    if (!file_in_open(&in, path, l->host->stop, error))
         return false;
     file_got got = FILE_GOT_LINE;
     bool ok = true;
-    while (ok && (got = file_in_logical(&in, continuation, error, size)) == FILE_GOT_LINE) {
+    while (ok && (got = file_in_logical(&in, continuation, error)) == FILE_GOT_LINE) {
         in.line[strcspn(in.line, "\r")] = 0;
         ok = keep(s, in.line);
     }
@@ -58,7 +58,7 @@ bool script_open(live *l, const char *path, char *error, size_t size) {
     s->undo = calloc(s->count + 1, sizeof *s->undo);
     s->steps = calloc(s->count + 1, sizeof *s->steps);
     if (!ok || !s->undo || !s->steps)
-        snprintf(error, size, "out of memory");
+        calc_no_memory(error);
     return ok && got == FILE_GOT_END && s->undo && s->steps;
 }
 

@@ -244,17 +244,15 @@ static void end(live *l) {
     free(l);
 }
 
-bool live_run(const live_host *host, const char *script, live_work *work, char *error, size_t size) {
+bool live_run(const live_host *host, const char *script, live_work *work, calc_error *error) {
     live *l = calloc(1, sizeof *l);
     *work = (live_work){0, 0, 0};
-    if (!l) {
-        snprintf(error, size, "out of memory");
-        return false;
-    }
+    if (!l)
+        return calc_no_memory(error);
     l->host = host;
     l->speed = 0.5;
     l->phase = 90;
-    bool ok = (!script || script_open(l, script, error, size)) && terminal_open(error, size);
+    bool ok = (!script || script_open(l, script, error)) && terminal_open(error);
     if (ok) {
         if (!script)
             live_begin(l);

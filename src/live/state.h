@@ -88,7 +88,7 @@ void live_play_end(live *l);
 const shot *side_shown(const live *l, const side *s);
 
 /* ---- script.c ---- */
-bool script_open(live *l, const char *path, char *error, size_t size);
+bool script_open(live *l, const char *path, calc_error *error);
 void script_close(live *l);
 void script_on(live *l);
 void script_back(live *l);

@@ -121,19 +121,17 @@ static const struct {
     int key;
 } arrows[] = {{"\033[A", KEY_UP}, {"\033[B", KEY_DOWN}, {"\033[C", KEY_RIGHT}, {"\033[D", KEY_LEFT}};
 
-bool terminal_open(char *error, size_t size) {
+bool terminal_open(calc_error *error) {
     struct termios modes;
-    if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO) || tcgetattr(STDIN_FILENO, &modes)) {
-        snprintf(error, size, "the full-screen mode needs a terminal");
-        return false;
-    }
+    if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO) || tcgetattr(STDIN_FILENO, &modes))
+        return calc_fail(error, 0, 0, "the full-screen mode needs a terminal");
     setlocale(LC_CTYPE, "");
     take_signals();
     own.screen = newterm(NULL, stdout, stdin);
     if (!own.screen || !tigetstr("cup") || tigetstr("cup") == (char *)-1) {
         const char *name = getenv("TERM");
-        snprintf(error, size, "the full-screen mode cannot be had on this terminal (TERM=%s)",
-                 name ? name : "");
+        calc_fail(error, 0, 0, "the full-screen mode cannot be had on this terminal (TERM=%s)",
+                  name ? name : "");
         terminal_close();
         return false;
     }

@@ -7,10 +7,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "calc/error.h"
+
 /* Beyond the keys of curses. */
 enum { KEY_NONE = -1, KEY_STOP = 0x10000 /* Ctrl-C */, KEY_AGAIN /* the screen must be drawn anew */ };
 
-bool terminal_open(char *error, size_t size);
+bool terminal_open(calc_error *error);
 void terminal_close(void);
 /* Braille and other signs can be shown. */
 bool terminal_unicode(void);

@@ -9,11 +9,11 @@
 enum { FRAME_POINTS = 1000 };
 
 static bool fill_frame(const plot_movie *m, size_t i, plot_figure *f, plot_extents *extent, size_t panels,
-                       char *error, size_t size) {
-    if (!m->fill(m->context, i, m->frames, f, error, size))
+                       calc_error *error) {
+    if (!m->fill(m->context, i, m->frames, f, error))
         return false;
     if (!f->count || (i && f->count != panels))
-        return plot_fail(error, size,
+        return calc_fail(error, 0, 0,
                          f->count ? "the frames differ in their figures" : "there is nothing to plot");
     for (size_t p = 0; p < f->count; p++) {
         plot_extents e = plot_extent_of(f->panel[p]);
@@ -24,26 +24,26 @@ static bool fill_frame(const plot_movie *m, size_t i, plot_figure *f, plot_exten
     return true;
 }
 
-bool plot_animate(const plot_movie *m, const plot_target *t, file_report *report, char *error, size_t size) {
+bool plot_animate(const plot_movie *m, const plot_target *t, file_report *report, calc_error *error) {
     plot_extents extent[PLOT_PANELS];
     const char *dot = t->file ? strrchr(t->file, '.') : NULL;
     if (t->file && (!dot || strcmp(dot, ".gif")))
-        return plot_fail(error, size, "an animation goes to a .gif file or to the terminal");
+        return calc_fail(error, 0, 0, "an animation goes to a .gif file or to the terminal");
     if (m->frames < 1 || m->frames > PLOT_FRAMES)
-        return plot_fail(error, size, "an animation has 1 to %d frames", PLOT_FRAMES);
+        return calc_fail(error, 0, 0, "an animation has 1 to %d frames", PLOT_FRAMES);
     plot_figure *frame = calloc(m->frames, sizeof *frame);
-    bool ok = frame != NULL || plot_fail(error, size, "out of memory");
+    bool ok = frame != NULL || calc_no_memory(error);
     for (size_t i = 0; ok && i < m->frames; i++) {
         if (m->progress)
             m->progress(m->context, i, m->frames);
-        ok = fill_frame(m, i, &frame[i], extent, frame[0].count, error, size);
+        ok = fill_frame(m, i, &frame[i], extent, frame[0].count, error);
         if (ok && t->stop && *t->stop)
-            ok = plot_fail(error, size, "interrupted");
+            ok = calc_interrupted(error);
     }
     if (ok && m->progress)
         m->progress(m->context, m->frames, m->frames);
     double seconds = m->seconds > 0 ? m->seconds : 0.05;
-    ok = ok && plot_draw_reel(&(plot_reel){frame, m->frames, extent, seconds}, t, report, error, size);
+    ok = ok && plot_draw_reel(&(plot_reel){frame, m->frames, extent, seconds}, t, report, error);
     for (size_t i = 0; frame && i < m->frames; i++)
         plot_figure_free(&frame[i]);
     free(frame);

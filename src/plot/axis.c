@@ -85,22 +85,22 @@ static void air(plot_axis *a, bool tight) {
 }
 
 static bool limits(const char *name, plot_axis *a, plot_extent e, double lo, double hi, bool airy,
-                   char *error, size_t size) {
+                   calc_error *error) {
     a->fixed_lo = isfinite(lo);
     a->fixed_hi = isfinite(hi);
     a->lo = a->fixed_lo ? lo : e.lo;
     a->hi = a->fixed_hi ? hi : e.hi;
     if (a->log && ((a->fixed_lo && lo <= 0) || (a->fixed_hi && hi <= 0)))
-        return plot_fail(error, size, "a logarithmic %s axis needs limits above 0", name);
+        return calc_fail(error, 0, 0, "a logarithmic %s axis needs limits above 0", name);
     if (a->fixed_lo && a->fixed_hi && lo == hi)
-        return plot_fail(error, size, "the limits of the %s axis are one", name);
+        return calc_fail(error, 0, 0, "the limits of the %s axis are one", name);
     if (a->fixed_lo && a->fixed_hi && lo > hi) { /* from right to left */
         a->lo = hi;
         a->hi = lo;
         a->flip = !a->flip;
     }
     if (!(a->lo <= a->hi))
-        return plot_fail(error, size,
+        return calc_fail(error, 0, 0,
                          isfinite(e.lo) ? "nothing lies within the limits of the %s axis"
                          : a->log       ? "there is nothing above 0 to plot on a logarithmic %s axis"
                                         : "there is nothing to plot along %s",
@@ -109,16 +109,16 @@ static bool limits(const char *name, plot_axis *a, plot_extent e, double lo, dou
     /* gnuplot reckons with differences of limits */
     if (!(fabs(a->lo) < 1e300 && fabs(a->hi) < 1e300 && (a->lo == 0 || fabs(a->lo) > DBL_MIN) &&
           (a->hi == 0 || fabs(a->hi) > DBL_MIN)))
-        return plot_fail(error, size, "the numbers along %s are too large or too small to plot", name);
+        return calc_fail(error, 0, 0, "the numbers along %s are too large or too small to plot", name);
     return true;
 }
 
-bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis *x, plot_axis *y, char *error,
-               size_t size) {
+bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis *x, plot_axis *y,
+               calc_error *error) {
     *x = (plot_axis){.log = p->logx, .flip = p->flipx};
     *y = (plot_axis){.log = p->logy, .flip = p->flipy};
-    return limits("x", x, e->x, p->xlo, p->xhi, airy, error, size) &&
-           limits("y", y, e->y, p->ylo, p->yhi, airy, error, size);
+    return limits("x", x, e->x, p->xlo, p->xhi, airy, error) &&
+           limits("y", y, e->y, p->ylo, p->yhi, airy, error);
 }
 
 double plot_step(double least) {

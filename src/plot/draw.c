@@ -42,11 +42,11 @@ static const char head_html[] =
 static const char foot_html[] = "</body></html>\n";
 
 /* Copies what gnuplot drew; every error of reading or writing is one. */
-static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, char *error, size_t size) {
+static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error *error) {
     char block[1 << 14];
     FILE *from = fopen(r->out, "r");
     if (!from)
-        return plot_fail(error, size, "cannot read what gnuplot drew: %s", strerror(errno));
+        return calc_errno(error, errno, "cannot read what gnuplot drew");
     bool html = !strcmp(kind->ending, ".html"), tex = !strcmp(kind->ending, ".tex"), any = false;
     if (tex)
         fputs(head_tex, to);
@@ -66,8 +66,8 @@ static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, char *error
         fputs(foot_html, to);
     fclose(from);
     if (bad)
-        return plot_fail(error, size, "cannot read what gnuplot drew: %s", strerror(code));
-    return any || plot_fail(error, size, "gnuplot drew nothing");
+        return calc_errno(error, code, "cannot read what gnuplot drew");
+    return any || calc_fail(error, 0, 0, "gnuplot drew nothing");
 }
 
 typedef struct scripted {
@@ -77,40 +77,39 @@ typedef struct scripted {
     const plot_pages *pages; /* NULL: a picture */
 } scripted;
 
-static bool write_script(FILE *to, const scripted *s, char *error, size_t size) {
-    return s->pages
-               ? plot_write_pages(to, s->reel, s->target, s->pages, error, size)
-               : plot_write_picture(to, s->reel, s->kind, s->target->width, s->target->height, error, size);
+static bool write_script(FILE *to, const scripted *s, calc_error *error) {
+    return s->pages ? plot_write_pages(to, s->reel, s->target, s->pages, error)
+                    : plot_write_picture(to, s->reel, s->kind, s->target->width, s->target->height, error);
 }
 
 /* Writes the script into the run's folder and has it drawn. */
-static bool have_drawn(const plot_run *r, const scripted *s, char *error, size_t size) {
+static bool have_drawn(const plot_run *r, const scripted *s, calc_error *error) {
     FILE *script = fopen(r->script, "w");
     if (!script)
-        return plot_fail(error, size, "cannot write a script for gnuplot: %s", strerror(errno));
-    bool ok = write_script(script, s, error, size), bad = ferror(script) != 0;
+        return calc_errno(error, errno, "cannot write a script for gnuplot");
+    bool ok = write_script(script, s, error), bad = ferror(script) != 0;
     if ((fclose(script) || bad) && ok)
-        return plot_fail(error, size, "cannot write a script for gnuplot: %s", strerror(errno));
-    return ok && plot_run_gnuplot(r, s->target, error, size);
+        return calc_errno(error, errno, "cannot write a script for gnuplot");
+    return ok && plot_run_gnuplot(r, s->target, error);
 }
 
-static bool to_file(const scripted *s, file_report *report, char *error, size_t size) {
+static bool to_file(const scripted *s, file_report *report, calc_error *error) {
     file_out out;
     plot_run r;
     const plot_target *t = s->target;
-    if (!file_out_open(&out, t->file, t->stop, error, size))
+    if (!file_out_open(&out, t->file, t->stop, error))
         return false;
     bool ok;
     if (s->kind->terminal) {
-        ok = plot_run_open(&r, error, size);
+        ok = plot_run_open(&r, error);
         if (ok) {
-            ok = have_drawn(&r, s, error, size) && copy(&r, out.to, s->kind, error, size);
+            ok = have_drawn(&r, s, error) && copy(&r, out.to, s->kind, error);
             plot_run_close(&r);
         }
     } else {
-        ok = write_script(out.to, s, error, size);
+        ok = write_script(out.to, s, error);
     }
-    return file_out_close(&out, ok, report, error, size) && ok;
+    return file_out_close(&out, ok, report, error) && ok;
 }
 
 /* ---- text --------------------------------------------------------------------------------------- */
@@ -150,17 +149,17 @@ static char *read_all(const char *path) {
     return text;
 }
 
-static bool sheets_read(sheets *s, const plot_run *r, char *error, size_t size) {
+static bool sheets_read(sheets *s, const plot_run *r, calc_error *error) {
     *s = (sheets){.text = read_all(r->out)};
     if (!s->text)
-        return plot_fail(error, size, "cannot read what gnuplot drew: %s", strerror(errno ? errno : ENOMEM));
+        return calc_errno(error, errno ? errno : ENOMEM, "cannot read what gnuplot drew");
     for (const char *p = s->text; *p; p++)
         s->count += *p == '\f';
     s->page = malloc((s->count + 1) * sizeof *s->page);
     if (!s->page || !s->count) {
         bool drawn = s->count > 0;
         sheets_free(s);
-        return plot_fail(error, size, drawn ? "out of memory" : "gnuplot drew nothing");
+        return drawn ? calc_no_memory(error) : calc_fail(error, 0, 0, "gnuplot drew nothing");
     }
     size_t n = 0;
     for (char *p = s->text; *p; p++)
@@ -216,20 +215,20 @@ static size_t print_pages(FILE *out, char *const *page, size_t panels, const plo
 }
 
 /* Frames one after another in place: the cursor goes back up, each line is written over. */
-static bool play(const sheets *s, const scripted *w, size_t panels, char *error, size_t size) {
+static bool play(const sheets *s, const scripted *w, size_t panels, calc_error *error) {
     const plot_target *t = w->target;
     size_t frames = s->count / panels, first = t->moving ? 0 : frames - 1, lines = 0;
     if (s->count != w->reel->count * panels)
-        return plot_fail(error, size, "gnuplot drew %zu pages of %zu", s->count, w->reel->count * panels);
+        return calc_fail(error, 0, 0, "gnuplot drew %zu pages of %zu", s->count, w->reel->count * panels);
     for (size_t n = first; n < frames; n++) {
         if (lines)
             fprintf(t->out, "\033[%zuA", lines);
         lines = print_pages(t->out, s->page + n * panels, panels, w->pages, t->moving ? "\033[K\n" : "\n");
         if (fflush(t->out))
-            return plot_fail(error, size, "cannot write: %s", strerror(errno));
+            return calc_errno(error, errno, "cannot write");
         for (int ms = (int)(1000 * w->reel->seconds); ms > 0 && n + 1 < frames; ms -= 10) {
             if (t->stop && *t->stop)
-                return plot_fail(error, size, "interrupted");
+                return calc_interrupted(error);
             poll(NULL, 0, ms < 10 ? ms : 10);
         }
     }
@@ -244,7 +243,7 @@ static const plot_kind block_plain = {"", PLOT_UNICODE, "block braille size %.0f
                                       1};
 
 /* The picture for the terminal, where there is one: *kind stays NULL for text. */
-static bool terminal_kind(const plot_target *t, const plot_kind **kind, char *error, size_t size) {
+static bool terminal_kind(const plot_target *t, const plot_kind **kind, calc_error *error) {
     bool auto_block = t->terminal == PLOT_AUTO && t->unicode;
     *kind = NULL;
     if (t->terminal == PLOT_SIXEL)
@@ -252,23 +251,23 @@ static bool terminal_kind(const plot_target *t, const plot_kind **kind, char *er
     else if ((auto_block || t->terminal == PLOT_BLOCK) && plot_gnuplot_version(t->stop) >= 6)
         *kind = t->color ? &block : &block_plain;
     else if (t->terminal == PLOT_BLOCK)
-        return plot_fail(error, size, "blocks of braille need gnuplot 6 or newer");
+        return calc_fail(error, 0, 0, "blocks of braille need gnuplot 6 or newer");
     return true;
 }
 
-static bool to_terminal_as(const scripted *s, size_t panels, char *error, size_t size) {
+static bool to_terminal_as(const scripted *s, size_t panels, calc_error *error) {
     plot_run r;
     sheets pages;
-    if (!plot_run_open(&r, error, size))
+    if (!plot_run_open(&r, error))
         return false;
-    bool ok = have_drawn(&r, s, error, size);
+    bool ok = have_drawn(&r, s, error);
     if (ok && s->kind) {
-        ok = copy(&r, s->target->out, s->kind, error, size);
+        ok = copy(&r, s->target->out, s->kind, error);
         fputc('\n', s->target->out);
     } else if (ok) {
-        ok = sheets_read(&pages, &r, error, size);
+        ok = sheets_read(&pages, &r, error);
         if (ok) {
-            ok = play(&pages, s, panels, error, size);
+            ok = play(&pages, s, panels, error);
             sheets_free(&pages);
         }
     }
@@ -276,14 +275,14 @@ static bool to_terminal_as(const scripted *s, size_t panels, char *error, size_t
     return ok;
 }
 
-static bool to_terminal(const plot_reel *reel, const plot_target *t, char *error, size_t size) {
+static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error *error) {
     size_t panels = reel->frame[0].count;
     plot_pages pages = plot_pages_for(t, panels, reel->count > 1);
     scripted s = {.reel = reel, .target = t, .pages = &pages};
     plot_target whole = *t;
     if (reel->count > 1) /* pictures that follow each other would scroll away */
-        return to_terminal_as(&s, panels, error, size);
-    if (!terminal_kind(t, &s.kind, error, size))
+        return to_terminal_as(&s, panels, error);
+    if (!terminal_kind(t, &s.kind, error))
         return false;
     if (s.kind) {
         s.pages = NULL;
@@ -293,33 +292,32 @@ static bool to_terminal(const plot_reel *reel, const plot_target *t, char *error
         }
         s.target = &whole;
     }
-    return to_terminal_as(&s, panels, error, size);
+    return to_terminal_as(&s, panels, error);
 }
 
 /* ---- figures ------------------------------------------------------------------------------------ */
 
-bool plot_check(const char *file, file_stop stop, char *error, size_t size) {
+bool plot_check(const char *file, file_stop stop, calc_error *error) {
     file_out probe;
-    return plot_kind_of(file, error, size) && file_out_open(&probe, file, stop, error, size) &&
-           file_out_close(&probe, false, NULL, error, size);
+    return plot_kind_of(file, error) && file_out_open(&probe, file, stop, error) &&
+           file_out_close(&probe, false, NULL, error);
 }
 
-bool plot_draw_reel(const plot_reel *reel, const plot_target *t, file_report *report, char *error,
-                    size_t size) {
+bool plot_draw_reel(const plot_reel *reel, const plot_target *t, file_report *report, calc_error *error) {
     if (!reel->count || !reel->frame[0].count)
-        return plot_fail(error, size, "there is nothing to plot");
+        return calc_fail(error, 0, 0, "there is nothing to plot");
     if (t->width < 0 || t->height < 0 || t->width > PLOT_PIXELS || t->height > PLOT_PIXELS)
-        return plot_fail(error, size, "a picture has at most %d pixels along an axis", PLOT_PIXELS);
+        return calc_fail(error, 0, 0, "a picture has at most %d pixels along an axis", PLOT_PIXELS);
     if (!t->file)
-        return to_terminal(reel, t, error, size);
+        return to_terminal(reel, t, error);
     scripted s = {.reel = reel, .target = t};
-    s.kind = plot_kind_of(t->file, error, size);
-    return s.kind && to_file(&s, report, error, size);
+    s.kind = plot_kind_of(t->file, error);
+    return s.kind && to_file(&s, report, error);
 }
 
-bool plot_draw(const plot_figure *f, const plot_target *t, file_report *report, char *error, size_t size) {
+bool plot_draw(const plot_figure *f, const plot_target *t, file_report *report, calc_error *error) {
     plot_extents extent[PLOT_PANELS];
     for (size_t i = 0; i < f->count; i++)
         extent[i] = plot_extent_of(f->panel[i]);
-    return plot_draw_reel(&(plot_reel){f, f->count > 0, extent, 0}, t, report, error, size);
+    return plot_draw_reel(&(plot_reel){f, f->count > 0, extent, 0}, t, report, error);
 }

@@ -35,46 +35,46 @@ void plot_figure_free(plot_figure *f) {
     f->count = 0;
 }
 
-plot_panel *plot_panel_add(plot_figure *f, char *error, size_t size) {
-    plot_panel *p = f->count < PLOT_PANELS ? malloc(sizeof *p) : NULL;
+plot_panel *plot_panel_add(plot_figure *f, calc_error *error) {
+    if (f->count == PLOT_PANELS) {
+        calc_fail(error, 0, 0, "more than %d figures side by side", PLOT_PANELS);
+        return NULL;
+    }
+    plot_panel *p = malloc(sizeof *p);
     if (!p) {
-        if (f->count < PLOT_PANELS)
-            snprintf(error, size, "out of memory");
-        else
-            snprintf(error, size, "more than %d figures side by side", PLOT_PANELS);
+        calc_no_memory(error);
         return NULL;
     }
     *p = (plot_panel){.xlo = NAN, .xhi = NAN, .ylo = NAN, .yhi = NAN};
     return f->panel[f->count++] = p;
 }
 
-plot_series *plot_series_add(plot_panel *p, plot_role role, char *title, char *error, size_t size) {
-    plot_series *s = p->count < PLOT_CURVES ? malloc(sizeof *s) : NULL;
-    if (!s) {
-        free(title);
-        if (p->count < PLOT_CURVES)
-            snprintf(error, size, "out of memory");
-        else
-            snprintf(error, size, "more than %d curves in a figure", PLOT_CURVES);
+plot_series *plot_series_add(plot_panel *p, plot_role role, const char *title, calc_error *error) {
+    if (p->count == PLOT_CURVES) {
+        calc_fail(error, 0, 0, "more than %d curves in a figure", PLOT_CURVES);
         return NULL;
     }
-    *s = (plot_series){.role = role, .style = -1, .title = title};
+    plot_series *s = malloc(sizeof *s);
+    char *own = title ? strdup(title) : NULL;
+    if (!s || (title && !own)) {
+        free(s);
+        free(own);
+        calc_no_memory(error);
+        return NULL;
+    }
+    *s = (plot_series){.role = role, .style = -1, .title = own};
     return p->series[p->count++] = s;
 }
 
-bool plot_map_make(plot_panel *p, size_t nx, size_t ny, char *error, size_t size) {
+bool plot_map_make(plot_panel *p, size_t nx, size_t ny, calc_error *error) {
     plot_map *m = &p->map;
-    if (nx < 2 || ny < 2 || nx > PLOT_GRID || ny > PLOT_GRID) {
-        snprintf(error, size, "a map takes 2 to %d points along each axis", PLOT_GRID);
-        return false;
-    }
+    if (nx < 2 || ny < 2 || nx > PLOT_GRID || ny > PLOT_GRID)
+        return calc_fail(error, 0, 0, "a map takes 2 to %d points along each axis", PLOT_GRID);
     m->x = calloc(nx, sizeof *m->x);
     m->y = calloc(ny, sizeof *m->y);
     m->z = malloc(nx * ny * sizeof *m->z);
-    if (!m->x || !m->y || !m->z) {
-        snprintf(error, size, "out of memory"); /* freed with the figure */
-        return false;
-    }
+    if (!m->x || !m->y || !m->z)
+        return calc_no_memory(error); /* freed with the figure */
     for (size_t i = 0; i < nx * ny; i++)
         m->z[i] = NAN;
     m->nx = nx;

@@ -40,7 +40,7 @@ void plot_run_close(plot_run *r) {
     *r = (plot_run){.guard = {-1, -1, -1, -1}};
 }
 
-bool plot_run_open(plot_run *r, char *error, size_t size) {
+bool plot_run_open(plot_run *r, calc_error *error) {
     const char *tmp = getenv("TMPDIR");
     tmp = tmp && *tmp ? tmp : "/tmp";
     *r = (plot_run){.guard = {-1, -1, -1, -1}, .dir = joined(tmp, "fret-XXXXXX")};
@@ -68,7 +68,7 @@ bool plot_run_open(plot_run *r, char *error, size_t size) {
     }
     file_signals_release(&before);
     if (code) {
-        plot_fail(error, size, "cannot make a temporary directory in %s: %s", tmp, strerror(code));
+        calc_errno(error, code, "cannot make a temporary directory in %s", tmp);
         plot_run_close(r);
     }
     return !code;
@@ -158,49 +158,50 @@ static void message(const plot_run *r, char *text, size_t size) {
 static const char missing[] =
     "plots need gnuplot, which is not installed (Debian: apt-get install gnuplot-nox)";
 
-static bool run(const plot_run *r, char *const argv[], const plot_target *target, char *error, size_t size) {
+static bool run(const plot_run *r, char *const argv[], const plot_target *target, calc_error *error) {
     pid_t pid;
     int guard, status = 0, code = start(r, argv, &pid, &guard);
     double timeout = target->timeout > 0 ? target->timeout : 60;
     if (code == ENOENT || code == ENOTDIR)
-        return plot_fail(error, size, "%s", missing);
+        return calc_fail(error, 0, 0, "%s", missing);
     if (code)
-        return plot_fail(error, size, "cannot run gnuplot: %s", strerror(code));
+        return calc_errno(error, code, "cannot run gnuplot");
     switch (wait_for(pid, guard, target, timeout, &status)) {
     case STOPPED:
-        return plot_fail(error, size, "interrupted");
+        return calc_interrupted(error);
     case LATE:
-        return plot_fail(error, size, "gnuplot gave no picture within %g s and was stopped", timeout);
+        return calc_fail(error, 0, 0, "gnuplot gave no picture within %g s and was stopped", timeout);
     case ENDED:
         break;
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return true;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127) /* a C library that finds out late */
-        return plot_fail(error, size, "%s", missing);
+        return calc_fail(error, 0, 0, "%s", missing);
     char text[300];
     message(r, text, sizeof text);
-    return plot_fail(error, size, "gnuplot failed: %s", text);
+    return calc_fail(error, 0, 0, "gnuplot failed: %s", text);
 }
 
-bool plot_run_gnuplot(const plot_run *r, const plot_target *target, char *error, size_t size) {
+bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *error) {
     /* loaded as a file, not typed in: then it stops at the first error */
     char *argv[] = {"gnuplot", "-d", "/dev/stdin", NULL};
-    return run(r, argv, target, error, size);
+    return run(r, argv, target, error);
 }
 
 int plot_gnuplot_version(file_stop stop) {
     static int version = -1;
-    char error[300];
+    calc_error error;
     plot_run r;
     if (version >= 0)
         return version;
-    if (!plot_run_open(&r, error, sizeof error))
+    error_clear(&error);
+    if (!plot_run_open(&r, &error))
         return 0;
     FILE *f = fopen(r.script, "w");
     char *argv[] = {"gnuplot", "--version", NULL};
     int read = 0;
-    if (f && !fclose(f) && run(&r, argv, &(plot_target){.stop = stop, .timeout = 10}, error, sizeof error)) {
+    if (f && !fclose(f) && run(&r, argv, &(plot_target){.stop = stop, .timeout = 10}, &error)) {
         f = fopen(r.out, "r");
         if (f && fscanf(f, "gnuplot %d", &read) == 1)
             version = read;

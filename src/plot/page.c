@@ -362,7 +362,7 @@ static size_t key_of(const page *g, entry key[PLOT_CURVES + LEVELS]) {
 static void place_key(page *g, const entry *key, size_t n) {
     size_t longest = 0;
     for (size_t i = 0; i < n; i++) {
-        size_t c = key[i].text ? plot_columns(key[i].text) : 0;
+        size_t c = plot_columns(key[i].text);
         longest = c > longest ? c : longest;
     }
     g->key_right = n && longest + 4 <= (size_t)g->columns / 4 && n <= (size_t)g->rows - 4;
@@ -370,7 +370,7 @@ static void place_key(page *g, const entry *key, size_t n) {
     g->right = g->key_right ? (int)longest + 6 : 3;
     size_t at = 0;
     for (size_t i = 0; i < n && !g->key_right; i++) { /* rows of entries below */
-        size_t w = plot_columns(key[i].text ? key[i].text : "") + 5;
+        size_t w = plot_columns(key[i].text) + 5;
         if (!g->key_rows || at + w > (size_t)g->columns) {
             g->key_rows++;
             at = 0;
@@ -387,8 +387,7 @@ static void set_key(const page *g, const entry *key, size_t n) {
         row = g->key_right ? g->rows - 1 - g->top : g->key_rows - 1;
     fputs("unset key\n", g->to);
     for (size_t i = 0; i < n && row >= 0; i++) {
-        const char *text = key[i].text ? key[i].text : "?";
-        int w = (int)plot_columns(text) + 5;
+        int w = (int)plot_columns(key[i].text) + 5;
         if (!g->key_right && column > 2 && column + w - 2 > g->columns) {
             column = 2;
             if (--row < 0)
@@ -396,7 +395,7 @@ static void set_key(const page *g, const entry *key, size_t n) {
         }
         fprintf(g->to, "set label '%c' at character %d,%d left tc rgb '%s'\nset label ", key[i].sign, column,
                 row, key[i].color);
-        plot_quote(g->to, text);
+        plot_quote(g->to, key[i].text);
         fprintf(g->to, " at character %d,%d left\n", column + 2, row);
         if (g->key_right)
             row--;
@@ -428,11 +427,7 @@ static void draw(const page *g) {
 }
 
 /* Margins in characters: texts first, then the frame takes what is left. */
-static bool lay_out(page *g, const plot_axis *x, const plot_axis *y) {
-    entry key[PLOT_CURVES + LEVELS];
-    const plot_map *m = &g->panel->map;
-    g->levels = m->nx ? plot_levels(m, g->level, LEVELS) : 0;
-    size_t n = key_of(g, key);
+static void place_frame(page *g, const plot_axis *x, const plot_axis *y, const entry *key, size_t n) {
     place_key(g, key, n);
     g->top = 1;
     g->bottom = 2 + g->key_rows;
@@ -455,14 +450,27 @@ static bool lay_out(page *g, const plot_axis *x, const plot_axis *y) {
     set_tics(g, 'x', &g->x);
     set_tics(g, 'y', &g->y);
     set_key(g, key, n);
-    for (size_t i = 0; i < n; i++)
-        free(key[i].text);
-    return true;
 }
 
-static bool write_page(page *g, const plot_extents *e, char *error, size_t size) {
+/* False: out of memory. */
+static bool lay_out(page *g, const plot_axis *x, const plot_axis *y) {
+    entry key[PLOT_CURVES + LEVELS];
+    const plot_map *m = &g->panel->map;
+    bool ok = true;
+    g->levels = m->nx ? plot_levels(m, g->level, LEVELS) : 0;
+    const size_t n = key_of(g, key);
+    for (size_t i = 0; i < n; i++)
+        ok &= key[i].text != NULL;
+    if (ok)
+        place_frame(g, x, y, key, n);
+    for (size_t i = 0; i < n; i++)
+        free(key[i].text);
+    return ok;
+}
+
+static bool write_page(page *g, const plot_extents *e, calc_error *error) {
     plot_axis x, y;
-    if (!plot_axes(g->panel, e, false, &x, &y, error, size))
+    if (!plot_axes(g->panel, e, false, &x, &y, error))
         return false;
     fputs("reset\nset encoding utf8\nset border back\nset tics back\n", g->to);
     bool ok = lay_out(g, &x, &y) && set_texts(g);
@@ -471,13 +479,13 @@ static bool write_page(page *g, const plot_extents *e, char *error, size_t size)
     if (ok && g->levels)
         ok = write_map_cells(g);
     if (!ok)
-        return plot_fail(error, size, "out of memory");
+        return calc_no_memory(error);
     draw(g);
     return true;
 }
 
 bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
-                      char *error, size_t size) {
+                      calc_error *error) {
     for (size_t n = 0; n < reel->count; n++)
         for (size_t i = 0; i < reel->frame[n].count; i++) {
             page g = {.to = to,
@@ -488,7 +496,7 @@ bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target
                       .index = i,
                       .columns = pages->columns,
                       .rows = pages->rows};
-            if (!write_page(&g, &reel->extent[i], error, size))
+            if (!write_page(&g, &reel->extent[i], error))
                 return false;
         }
     return true;

@@ -4,11 +4,11 @@
  *
  *     plot_figure f;
  *     plot_figure_init(&f);
- *     plot_panel *p = plot_panel_add(&f, error, sizeof error);
+ *     plot_panel *p = plot_panel_add(&f, error);
  *     p->xlabel = plot_label("dx", "um"), p->ylabel = plot_label("Fx/(mu*FN)", NULL);
- *     plot_series *s = plot_series_add(p, PLOT_CURVE, plot_label("k = 0.5", NULL), error, sizeof error);
+ *     plot_series *s = plot_series_add(p, PLOT_CURVE, PLOT_EXPR "k = 0.5" PLOT_END, error);
  *     plot_point(s, x, y);  ...
- *     plot_draw(&f, &(plot_target){.file = "loop.png", .timeout = 60}, &report, error, sizeof error);
+ *     plot_draw(&f, &(plot_target){.file = "loop.png", .timeout = 60}, &report, error);
  *     plot_figure_free(&f);
  */
 #ifndef PLOT_PLOT_H
@@ -101,11 +101,11 @@ void plot_figure_init(plot_figure *f);
 void plot_figure_free(plot_figure *f);
 
 /* NULL with the error: too many, or out of memory. */
-plot_panel *plot_panel_add(plot_figure *f, char *error, size_t size);
-/* Takes the title, which may be NULL, also on failure. */
-plot_series *plot_series_add(plot_panel *p, plot_role role, char *title, char *error, size_t size);
+plot_panel *plot_panel_add(plot_figure *f, calc_error *error);
+/* Copies the title, which may be NULL. */
+plot_series *plot_series_add(plot_panel *p, plot_role role, const char *title, calc_error *error);
 /* Gives a panel its grid, z without values. */
-bool plot_map_make(plot_panel *p, size_t nx, size_t ny, char *error, size_t size);
+bool plot_map_make(plot_panel *p, size_t nx, size_t ny, calc_error *error);
 
 /* False: out of memory. */
 bool plot_point(plot_series *s, double x, double y);
@@ -129,14 +129,13 @@ typedef struct plot_target {
 } plot_target;
 
 /* Can a picture go to the file? To be asked before long work; the error names what stands against it. */
-bool plot_check(const char *file, file_stop stop, char *error, size_t size);
+bool plot_check(const char *file, file_stop stop, calc_error *error);
 
 /* Draws. On failure the error, and no file left behind. The report may be NULL; it is of files only. */
-bool plot_draw(const plot_figure *f, const plot_target *target, file_report *report, char *error,
-               size_t size);
+bool plot_draw(const plot_figure *f, const plot_target *target, file_report *report, calc_error *error);
 
 /* Fills in an empty figure for frame `i` of `frames`; all frames have the same panels and series. */
-typedef bool plot_fill(void *context, size_t i, size_t frames, plot_figure *f, char *error, size_t size);
+typedef bool plot_fill(void *context, size_t i, size_t frames, plot_figure *f, calc_error *error);
 /* Told after each frame, and again when gnuplot begins to draw (done == frames). */
 typedef void plot_progress(void *context, size_t done, size_t frames);
 
@@ -150,8 +149,7 @@ typedef struct plot_movie {
 
 /* A .gif file, or frames in the terminal (the last one alone where `moving` is false). Axes hold for all
  * frames. */
-bool plot_animate(const plot_movie *m, const plot_target *target, file_report *report, char *error,
-                  size_t size);
+bool plot_animate(const plot_movie *m, const plot_target *target, file_report *report, calc_error *error);
 
 /* ---- numbers, for tests ------------------------------------------------------------------------- */
 

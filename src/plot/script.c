@@ -4,17 +4,8 @@
 
 #include <ctype.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-
-bool plot_fail(char *error, size_t size, const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    vsnprintf(error, size, format, args);
-    va_end(args);
-    return false;
-}
 
 enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
 
@@ -32,7 +23,7 @@ static const plot_kind kinds[] = {
      3},
     {".gp", PLOT_ENHANCED, NULL, 1, 16, 3}};
 
-const plot_kind *plot_kind_of(const char *file, char *error, size_t size) {
+const plot_kind *plot_kind_of(const char *file, calc_error *error) {
     const char *slash = strrchr(file, '/'), *dot = strrchr(slash ? slash : file, '.');
     for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
         if (!strcmp(dot, kinds[i].ending))
@@ -45,7 +36,7 @@ const plot_kind *plot_kind_of(const char *file, char *error, size_t size) {
                  : left == 2 ? " or "
                              : "");
     }
-    plot_fail(error, size, "cannot tell the kind of picture from '%s': use %s", file, endings);
+    calc_fail(error, 0, 0, "cannot tell the kind of picture from '%s': use %s", file, endings);
     return NULL;
 }
 
@@ -75,12 +66,6 @@ void plot_quote(FILE *to, const char *text) {
     for (const unsigned char *p = (const unsigned char *)text; *p; p++)
         fprintf(to, *p >= 0x80 || isalnum(*p) || strchr(harmless, *p) ? "%c" : "\\%03o", *p);
     putc('"', to);
-}
-
-static void quoted(FILE *to, const char *text, plot_form form) {
-    char *shown = plot_text(text ? text : "", form);
-    plot_quote(to, shown ? shown : "?");
-    free(shown);
 }
 
 /* ---- data --------------------------------------------------------------------------------------- */
@@ -188,15 +173,23 @@ typedef struct scribe {
     const plot_kind *kind;
     double scale; /* of points against the usual size */
     size_t frame, panel, panels;
+    bool lost; /* a text found no memory */
 } scribe;
 
-static void set_text(const scribe *s, const char *what, const char *text) {
+static void quoted(scribe *s, const char *text) {
+    char *shown = plot_text(text ? text : "", s->kind->form);
+    plot_quote(s->to, shown ? shown : "");
+    s->lost |= !shown;
+    free(shown);
+}
+
+static void set_text(scribe *s, const char *what, const char *text) {
     fprintf(s->to, "set %s ", what);
-    quoted(s->to, text, s->kind->form);
+    quoted(s, text);
     putc('\n', s->to);
 }
 
-static void set_axis(const scribe *s, char name, const plot_axis *a) {
+static void set_axis(scribe *s, char name, const plot_axis *a) {
     fprintf(s->to, "set %crange [%.9g:%.9g]\n", name, a->flip ? a->hi : a->lo, a->flip ? a->lo : a->hi);
     if (a->log) {
         fprintf(s->to, "set logscale %c\n", name);
@@ -210,7 +203,7 @@ static void set_axis(const scribe *s, char name, const plot_axis *a) {
 }
 
 /* Entries of the key, and the columns of the longest. */
-static size_t key_entries(const plot_panel *p, size_t *longest) {
+static size_t key_entries(scribe *s, const plot_panel *p, size_t *longest) {
     size_t entries = 0;
     *longest = 0;
     for (size_t i = 0; i < p->count; i++) {
@@ -218,6 +211,7 @@ static size_t key_entries(const plot_panel *p, size_t *longest) {
             continue;
         char *text = plot_text(p->series[i]->title, PLOT_UNICODE);
         size_t n = plot_columns(text ? text : "");
+        s->lost |= !text;
         *longest = n > *longest ? n : *longest;
         free(text);
         entries++;
@@ -226,8 +220,8 @@ static size_t key_entries(const plot_panel *p, size_t *longest) {
 }
 
 /* Outside the frame, so that it covers nothing: beside it where entries are many and short, else below. */
-static void set_key(const scribe *s, const plot_panel *p) {
-    size_t longest, entries = key_entries(p, &longest);
+static void set_key(scribe *s, const plot_panel *p) {
+    size_t longest, entries = key_entries(s, p, &longest);
     if (!entries || p->map.nx)
         fputs("unset key\n", s->to);
     else if (s->panels == 1 && longest <= 14 && entries > 3)
@@ -243,7 +237,7 @@ static void set_key(const scribe *s, const plot_panel *p) {
                                 : 4);
 }
 
-static void with_curve(const scribe *s, const plot_panel *p, size_t at) {
+static void with_curve(scribe *s, const plot_panel *p, size_t at) {
     const plot_series *c = p->series[at];
     size_t style = plot_style_of(p, at), mark = style / LOOKS;
     double line = s->kind->line * s->scale;
@@ -261,7 +255,7 @@ static void with_curve(const scribe *s, const plot_panel *p, size_t at) {
 }
 
 /* One element of the plot command. */
-static void draw_series(const scribe *s, const plot_panel *p, size_t at, bool deep) {
+static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
     const plot_series *c = p->series[at];
     size_t style = plot_style_of(p, at);
     fprintf(s->to, "$data%zu_%zu_%zu using 1:2%s with ", s->frame, s->panel, at,
@@ -291,7 +285,7 @@ static void draw_series(const scribe *s, const plot_panel *p, size_t at, bool de
         return;
     }
     fputs(" title ", s->to);
-    quoted(s->to, c->title, s->kind->form);
+    quoted(s, c->title);
 }
 
 /* Is the place right of the middle? Its text then stands on the left, within the frame. */
@@ -300,7 +294,7 @@ static bool is_right(const plot_axis *x, double at) {
     return (t > 0.5) != x->flip;
 }
 
-static void set_verticals(const scribe *s, const plot_panel *p, const plot_axis *x) {
+static void set_verticals(scribe *s, const plot_panel *p, const plot_axis *x) {
     for (size_t i = 0; i < p->count; i++) {
         const plot_series *c = p->series[i];
         if (c->role != PLOT_VERTICAL)
@@ -315,7 +309,7 @@ static void set_verticals(const scribe *s, const plot_panel *p, const plot_axis 
         if (!c->title || !c->count || !isfinite(c->x[0]))
             continue;
         fputs("set label ", s->to);
-        quoted(s->to, c->title, s->kind->form);
+        quoted(s, c->title);
         fprintf(s->to, " at first %.9g,graph 0.95 offset character %s front\n", c->x[0],
                 is_right(x, c->x[0]) ? "-0.6,0 right" : "0.6,0 left");
     }
@@ -337,7 +331,7 @@ static int layer(const plot_series *s) {
     }
 }
 
-static void draw_all(const scribe *s, const plot_panel *p, bool first, bool deep) {
+static void draw_all(scribe *s, const plot_panel *p, bool first, bool deep) {
     for (int l = 0; l < LAYERS; l++)
         for (size_t i = 0; i < p->count; i++)
             if (layer(p->series[i]) == l && (p->series[i]->count || p->series[i]->title)) {
@@ -351,13 +345,13 @@ static void draw_all(const scribe *s, const plot_panel *p, bool first, bool deep
 }
 
 /* Of maps, where a key has no place beside the scale: titles at the first point. */
-static void set_places(const scribe *s, const plot_panel *p, const plot_axis *x) {
+static void set_places(scribe *s, const plot_panel *p, const plot_axis *x) {
     for (size_t i = 0; i < p->count; i++) {
         const plot_series *c = p->series[i];
         if (!c->title || !c->count || c->role == PLOT_VERTICAL || !isfinite(c->x[0]) || !isfinite(c->y[0]))
             continue;
         fputs("set label ", s->to);
-        quoted(s->to, c->title, s->kind->form);
+        quoted(s, c->title);
         fprintf(s->to, " at first %.9g,first %.9g offset character %s front%s\n", c->x[0], c->y[0],
                 is_right(x, c->x[0]) ? "-1,0.9 right" : "1,0.9 left",
                 s->kind->form == PLOT_TEX ? "" : " boxed");
@@ -365,7 +359,7 @@ static void set_places(const scribe *s, const plot_panel *p, const plot_axis *x)
 }
 
 /* Contours on a light ground, with their values on them. */
-static void draw_map(const scribe *s, const plot_panel *p, const plot_axis *x) {
+static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x) {
     double level[LEVELS], part = 1.0 / (double)s->panels, from = (double)s->panel * part;
     size_t n = plot_levels(&p->map, level, LEVELS);
     fprintf(s->to,
@@ -390,10 +384,9 @@ static void draw_map(const scribe *s, const plot_panel *p, const plot_axis *x) {
     draw_all(s, p, false, true);
 }
 
-static bool draw_panel(const scribe *s, const plot_panel *p, const plot_extents *e, char *error,
-                       size_t size) {
+static bool draw_panel(scribe *s, const plot_panel *p, const plot_extents *e, calc_error *error) {
     plot_axis x, y;
-    if (!plot_axes(p, e, true, &x, &y, error, size))
+    if (!plot_axes(p, e, true, &x, &y, error))
         return false;
     /* not `reset`, which would lose the panel's place */
     fputs("set encoding utf8\nset minussign\nunset arrow\nunset label\nunset logscale\nset format\n"
@@ -418,11 +411,11 @@ static bool draw_panel(const scribe *s, const plot_panel *p, const plot_extents 
         fputs("plot ", s->to);
         draw_all(s, p, true, false);
     }
-    return true;
+    return !s->lost || calc_no_memory(error);
 }
 
 bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, int width, int height,
-                        char *error, size_t size) {
+                        calc_error *error) {
     size_t panels = reel->frame[0].count;
     double w = width ? width : panels > 1 ? (double)panels * BESIDE : WIDTH, h = height ? height : HEIGHT;
     /* texts keep their part of a panel */
@@ -431,7 +424,7 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
     double points = kind->font * scale * (panels > 1 ? 0.9 : 1);
     fputs("# made by fret; to see it: gnuplot -p FILE\n", to);
     if (!write_data(to, reel, kind))
-        return plot_fail(error, size, "out of memory");
+        return calc_no_memory(error);
     if (kind->terminal) {
         fputs("set terminal ", to);
         fprintf(to, kind->terminal, w * kind->per_pixel, h * kind->per_pixel, points,
@@ -443,8 +436,8 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
         if (f->count > 1)
             fprintf(to, "set multiplot layout 1,%zu\n", f->count);
         for (size_t i = 0; i < f->count; i++) {
-            scribe s = {to, kind, scale, n, i, f->count};
-            if (!draw_panel(&s, f->panel[i], &reel->extent[i], error, size))
+            scribe s = {to, kind, scale, n, i, f->count, false};
+            if (!draw_panel(&s, f->panel[i], &reel->extent[i], error))
                 return false;
         }
         if (f->count > 1)
@@ -455,10 +448,11 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
 
 bool plot_script(const plot_figure *f, const char *ending, int width, int height, FILE *to) {
     plot_extents extent[PLOT_PANELS];
-    char error[200];
+    calc_error error;
+    error_clear(&error);
     for (size_t i = 0; i < f->count; i++)
         extent[i] = plot_extent_of(f->panel[i]);
-    const plot_kind *kind = plot_kind_of(ending, error, sizeof error);
+    const plot_kind *kind = plot_kind_of(ending, &error);
     return kind && f->count &&
-           plot_write_picture(to, &(plot_reel){f, 1, extent, 0}, kind, width, height, error, sizeof error);
+           plot_write_picture(to, &(plot_reel){f, 1, extent, 0}, kind, width, height, &error);
 }

@@ -29,8 +29,8 @@ plot_extents plot_extent_of(const plot_panel *p);
 plot_extents plot_extent_join(plot_extents a, plot_extents b);
 
 /* Axes, `airy` with room around the points. False with the error when nothing can be shown. */
-bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis *x, plot_axis *y, char *error,
-               size_t size);
+bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis *x, plot_axis *y,
+               calc_error *error);
 
 /* The step 1, 2 or 5 times a power of ten next to `least` or above. */
 double plot_step(double least);
@@ -51,7 +51,7 @@ typedef struct plot_kind {
 } plot_kind;
 
 /* The kind by a file's ending; NULL with the error. */
-const plot_kind *plot_kind_of(const char *file, char *error, size_t size);
+const plot_kind *plot_kind_of(const char *file, calc_error *error);
 
 /* The text as a string of gnuplot in which nothing but its characters is left. */
 void plot_quote(FILE *to, const char *text);
@@ -70,7 +70,7 @@ typedef struct plot_reel {
 /* The whole script for a picture; `pixels` wide and high, 0 for the usual. False with the error when there is
  * nothing to show. Writing is checked by the caller. */
 bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, int width, int height,
-                        char *error, size_t size);
+                        calc_error *error);
 
 /* ---- page.c: text ------------------------------------------------------------------------------- */
 
@@ -83,12 +83,11 @@ typedef struct plot_pages {
 plot_pages plot_pages_for(const plot_target *target, size_t panels, bool one_screen);
 /* A page of gnuplot for each panel of each frame. */
 bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
-                      char *error, size_t size);
+                      calc_error *error);
 
 /* ---- draw.c: to the target ---------------------------------------------------------------------- */
 
-bool plot_draw_reel(const plot_reel *reel, const plot_target *target, file_report *report, char *error,
-                    size_t size);
+bool plot_draw_reel(const plot_reel *reel, const plot_target *target, file_report *report, calc_error *error);
 
 /* ---- gnuplot.c: running it ---------------------------------------------------------------------- */
 
@@ -99,9 +98,9 @@ typedef struct plot_run {
     int guard[4];
 } plot_run;
 
-bool plot_run_open(plot_run *r, char *error, size_t size);
+bool plot_run_open(plot_run *r, calc_error *error);
 /* Runs gnuplot on the script. */
-bool plot_run_gnuplot(const plot_run *r, const plot_target *target, char *error, size_t size);
+bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *error);
 /* Removes everything; may be called twice. */
 void plot_run_close(plot_run *r);
 
@@ -110,11 +109,5 @@ int plot_gnuplot_version(file_stop stop);
 
 /* Room in a text of the terminal: columns of its characters. */
 size_t plot_columns(const char *text);
-
-bool plot_fail(char *error, size_t size, const char *format, ...)
-#if defined(__GNUC__)
-    __attribute__((format(printf, 3, 4)))
-#endif
-    ;
 
 #endif

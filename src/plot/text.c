@@ -416,11 +416,10 @@ static void put_expression(writer *w, const char *p, const char *end) {
 /* ---- texts -------------------------------------------------------------------------------------- */
 
 char *plot_text(const char *text, plot_form form) {
-    char *made = NULL;
-    size_t room;
-    writer w = {.to = open_memstream(&made, &room), .form = form};
-    if (!w.to)
+    file_text made;
+    if (!file_text_open(&made))
         return NULL;
+    writer w = {.to = made.to, .form = form};
     /* a bracket at the beginning is an option to some of gnuplot's terminals for TeX */
     if (form == PLOT_TEX && *text)
         fputs("\\relax ", w.to);
@@ -436,12 +435,7 @@ char *plot_text(const char *text, plot_form form) {
             put(&w, text, n);
         text += n + (text[n] == *PLOT_END);
     }
-    bool bad = ferror(w.to) != 0;
-    if (fclose(w.to) || bad) {
-        free(made);
-        return NULL;
-    }
-    return made;
+    return file_text_close(&made) ? made.text : NULL;
 }
 
 char *plot_label(const char *expression, const char *unit) {

@@ -69,15 +69,17 @@ const figure *figure_find(const char *name, size_t len) {
 /* Error against time, one curve a model. */
 bool figure_accuracy(shell *sh, lexer *lx, plot_panel *p) {
     accuracy_study study;
-    char error[CALC_ERROR_TEXT], text[400], load[360];
+    char text[400], load[360];
     plot_series *series = NULL;
     if (!accuracy_study_read(sh, lx, command_find("accuracy", 8), &study))
         return false;
     for (size_t i = 0; i < study.count; i++) {
         const accuracy_row *row = &study.row[i];
         if (i == 0 || row->family != row[-1].family)
-            series = plot_series_add(p, PLOT_CURVE, strdup(families[row->family].name), error, sizeof error);
-        if (!series || !plot_point(series, row->seconds, (double)row->error))
+            series = plot_series_add(p, PLOT_CURVE, families[row->family].name, lx->error);
+        if (!series)
+            return false;
+        if (!plot_point(series, row->seconds, (double)row->error))
             return calc_no_memory(lx->error);
     }
     accuracy_load_text(sh, &study, load, sizeof load);

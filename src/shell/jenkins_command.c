@@ -133,14 +133,13 @@ static bool make_model(shell *sh, const request *r, model *m, calc_error *error)
 }
 
 static bool write_model(shell *sh, lexer *lx, const request *r, const model *m) {
-    char text[CALC_ERROR_TEXT];
     file_out file;
     file_report report;
-    if (!file_out_open(&file, r->name, &shell_stop, text, sizeof text))
-        return calc_fail(lx->error, r->at, r->len, "%s", text);
+    if (!file_out_open(&file, r->name, &shell_stop, lx->error))
+        return calc_place(lx->error, r->at, r->len);
     r->write(m, file.to);
-    if (!file_out_close(&file, true, &report, text, sizeof text))
-        return calc_fail(lx->error, r->at, r->len, "%s", text);
+    if (!file_out_close(&file, true, &report, lx->error))
+        return calc_place(lx->error, r->at, r->len);
     target_report(sh, r->name, &report);
     return true;
 }

@@ -11,7 +11,7 @@
 /* ---- save -------------------------------------------------------------------------------------- */
 
 bool do_save(shell *sh, lexer *lx, const command *self) {
-    char name[ARG_FILE_NAME], error[CALC_ERROR_TEXT - 8];
+    char name[ARG_FILE_NAME];
     file_out file;
     file_report report;
     (void)self;
@@ -26,14 +26,14 @@ bool do_save(shell *sh, lexer *lx, const command *self) {
         return true;
     if (history && !sh->typed)
         return calc_fail(lx->error, at, len, "nothing has been typed here: a script is its own history");
-    if (!file_out_open(&file, name, &shell_stop, error, sizeof error))
-        return calc_fail(lx->error, at, len, "%s", error);
+    if (!file_out_open(&file, name, &shell_stop, lx->error))
+        return calc_place(lx->error, at, len);
     if (history)
         typed_write(sh, file.to);
     else
         scene_write(&sh->calc, &sh->set, file.to, true);
-    if (!file_out_close(&file, true, &report, error, sizeof error))
-        return calc_fail(lx->error, at, len, "%s", error);
+    if (!file_out_close(&file, true, &report, lx->error))
+        return calc_place(lx->error, at, len);
     target_report(sh, name, &report);
     return true;
 }
@@ -43,21 +43,16 @@ bool do_save(shell *sh, lexer *lx, const command *self) {
 /* The scene as it is, and behind it the settings: in JSON a scene would tell of itself. NULL: out of memory.
  */
 static char *beginning(shell *sh) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *to = open_memstream(&text, &size);
-    if (!to)
+    file_text kept;
+    if (!file_text_open(&kept))
         return NULL;
-    scene_write(&sh->calc, &sh->set, to, true);
-    settings_write(&sh->calc, &sh->set, to);
-    if (fclose(to) == 0)
-        return text;
-    free(text);
-    return NULL;
+    scene_write(&sh->calc, &sh->set, kept.to, true);
+    settings_write(&sh->calc, &sh->set, kept.to);
+    return file_text_close(&kept) ? kept.text : NULL;
 }
 
 bool do_record(shell *sh, lexer *lx, const command *self) {
-    char name[ARG_FILE_NAME], error[CALC_ERROR_TEXT - 8];
+    char name[ARG_FILE_NAME];
     (void)self;
     if (word_at(lx) == lx->len && lex_accept(lx, "off"))
         return at_end(lx) && (record_end(sh) || lex_fail(lx, "nothing is being recorded"));
@@ -67,22 +62,23 @@ bool do_record(shell *sh, lexer *lx, const command *self) {
     char *text = beginning(sh);
     if (!text)
         return calc_no_memory(lx->error);
-    const bool ok = record_begin(sh, name, text, error, sizeof error);
+    const bool ok = record_begin(sh, name, text, lx->error);
     free(text);
-    return ok || calc_fail(lx->error, at, lx->last - at, "%s", error);
+    return ok || calc_place(lx->error, at, lx->last - at);
 }
 
 bool do_replay(shell *sh, lexer *lx, const command *self) {
     const arg_list list = command_args(self);
-    char name[ARG_FILE_NAME], error[CALC_ERROR_TEXT - 8];
+    char name[ARG_FILE_NAME];
     arg_value v[ARGS];
     if (!args_read(sh, lx, &list, v, name))
         return false;
-    const int status = shell_replay(name, 0, &sh->set, sh->out, error, sizeof error);
+    const int status = shell_replay(name, 0, &sh->set, sh->out, lx->error);
     if (status == EXIT_INTERRUPTED)
         return calc_interrupted(lx->error);
     if (status == EXIT_OK)
         return true;
-    return *error ? calc_fail(lx->error, v[0].value_at, v[0].value_len, "%s", error)
-                  : calc_fail(lx->error, v[0].value_at, v[0].value_len, "%s does not come out again", name);
+    if (!lx->error->raised)
+        calc_fail(lx->error, 0, 0, "%s does not come out again", name);
+    return calc_place(lx->error, v[0].value_at, v[0].value_len);
 }

@@ -13,20 +13,18 @@
 static bool run(void *self, const char *line, char **answer) {
     static const source from = {NULL, false};
     shell *sh = self;
-    size_t size = 0;
-    FILE *to = open_memstream(answer, &size);
-    if (!to)
+    file_text said;
+    if (!file_text_open(&said))
         return false;
     FILE *out = sh->out, *err = sh->err;
-    sh->out = sh->err = to;
+    sh->out = sh->err = said.to;
     const bool failed = sh->failed, ok = shell_line(sh, &from, line, strlen(line), 1);
     sh->out = out;
     sh->err = err;
     sh->failed = failed; /* it has been told there */
-    if (fclose(to)) {
-        *answer = NULL;
+    if (!file_text_close(&said))
         return false;
-    }
+    *answer = said.text;
     return ok;
 }
 
@@ -53,13 +51,13 @@ static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
     candidates_free(&found);
 }
 
-static bool save(void *self, const char *path, char *error, size_t size) {
+static bool save(void *self, const char *path, calc_error *error) {
     shell *sh = self;
     file_out file;
-    if (!file_out_open(&file, path, &shell_stop, error, size))
+    if (!file_out_open(&file, path, &shell_stop, error))
         return false;
     scene_write(&sh->calc, &sh->set, file.to, true);
-    return file_out_close(&file, true, NULL, error, size);
+    return file_out_close(&file, true, NULL, error);
 }
 
 bool shell_live(shell *sh, const char *script, calc_error *error) {
@@ -72,14 +70,13 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
                             .run = run,
                             .complete = complete_line,
                             .save = save};
-    char text[CALC_ERROR_TEXT / 2];
     live_work work;
     fflush(sh->out);
     sh->set.color = false;
     if (sh->set.report == REPORT_AUTO)
         sh->set.report = REPORT_OFF; /* the screen shows it */
     progress_hide(true);
-    const bool ok = live_run(&host, script, &work, text, sizeof text);
+    const bool ok = live_run(&host, script, &work, error);
     progress_hide(false);
     sh->set.color = before.color;
     if (sh->set.report == REPORT_OFF)
@@ -87,7 +84,7 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
     if (ok && sh->set.timing && work.frames)
         shell_note(sh, "live: %zu frames, %.3g ms of work each, %.3g ms the longest", work.frames,
                    1e3 * work.total / (double)work.frames, 1e3 * work.worst);
-    return ok || calc_fail(error, 0, 0, "%s", text);
+    return ok;
 }
 
 bool do_live(shell *sh, lexer *lx, const command *self) {

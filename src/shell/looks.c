@@ -141,7 +141,6 @@ static bool no_column(lexer *lx, const looks *l, size_t i, const csv *c, const a
 
 static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const axis_of *x, const axis_of *y) {
     csv c;
-    char error[CALC_ERROR_TEXT - 8];
     const char *slash = strrchr(l->over[i], '/');
     if (!csv_read(l->over[i], &shell_stop, &c, lx->error)) {
         csv_free(&c);
@@ -151,15 +150,11 @@ static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const a
     of_x = of_x ? of_x : column_for(&c, x, of_y, false); /* names first, then the order of the columns */
     of_y = of_y ? of_y : column_for(&c, y, of_x, false);
     bool ok = (of_y || no_column(lx, l, i, &c, y)) && (of_x || no_column(lx, l, i, &c, x));
-    plot_series *s =
-        ok ? plot_series_add(p, PLOT_MEASURED, strdup(slash ? slash + 1 : l->over[i]), error, sizeof error)
-           : NULL;
-    if (ok && !s)
-        ok = calc_fail(lx->error, 0, 0, "%s", error);
-    for (size_t j = 0; ok && j < c.rows; j++)
+    plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, slash ? slash + 1 : l->over[i], lx->error) : NULL;
+    for (size_t j = 0; s && ok && j < c.rows; j++)
         ok = plot_point(s, of_x->v[j], of_y->v[j]) || calc_no_memory(lx->error);
     csv_free(&c);
-    return ok;
+    return ok && s;
 }
 
 bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y) {

@@ -246,10 +246,11 @@ static int run(shell *sh, const wishes *w) {
     if (w->live)
         return run_live(sh, w);
     if (w->replay) {
-        char error[CALC_ERROR_TEXT];
-        const int status = shell_replay(w->replay, w->tolerance, &sh->set, stdout, error, sizeof error);
-        if (*error)
-            shell_error(sh, error);
+        calc_error error;
+        error_clear(&error);
+        const int status = shell_replay(w->replay, w->tolerance, &sh->set, stdout, &error);
+        if (error.raised)
+            shell_error(sh, error.text);
         return status;
     }
     if (w->count)

@@ -57,15 +57,14 @@ static void put_help(FILE *to, const char *text) {
 }
 
 static void put_printed(FILE *to, void (*print)(FILE *to)) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *page = open_memstream(&text, &size);
-    if (!page)
+    file_text page;
+    if (!file_text_open(&page))
         return;
-    print(page);
-    if (fclose(page) == 0)
-        put_help(to, text);
-    free(text);
+    print(page.to);
+    if (!file_text_close(&page))
+        return;
+    put_help(to, page.text);
+    free(page.text);
 }
 
 static void put_topic(FILE *to, const char *name) {

@@ -90,7 +90,6 @@ static bool finish(lexer *lx, const grid *g, const looks *l, const column *c, di
 }
 
 static bool run_map(shell *sh, lexer *lx, const grid_range *r, column *c, const looks *l, plot_panel *p) {
-    char error[CALC_ERROR_TEXT - 8];
     const grid *g = &r->grid;
     map_job job = {.m = &p->map};
     dim d = c->d;
@@ -105,9 +104,8 @@ static bool run_map(shell *sh, lexer *lx, const grid_range *r, column *c, const 
                           .row = give_value,
                           .context = &job,
                           .error = lx->error};
-    if (!plot_map_make(p, g->a.steps + 1, g->b.steps + 1, error, sizeof error))
-        return calc_fail(lx->error, 0, 0, "%s", error);
-    if (!grid_run(g, &sweeping) || !finish(lx, g, l, c, d, p))
+    if (!plot_map_make(p, g->a.steps + 1, g->b.steps + 1, lx->error) || !grid_run(g, &sweeping) ||
+        !finish(lx, g, l, c, d, p))
         return false;
     note_missing(sh, &sweeping);
     return true;

@@ -414,40 +414,40 @@ bool text_begin(text_out *t, const settings *set, FILE *out, bool picture) {
     *t = (text_out){.set = set, .out = out, .to = out, .picture = picture};
     if (picture && set->format != FORMAT_JSON && !(set->pages && set->pager != PAGER_OFF))
         return true;
-    t->to = open_memstream(&t->buffer, &t->size);
-    return t->to != NULL;
+    if (!file_text_open(&t->kept))
+        return false;
+    t->to = t->kept.to;
+    return true;
 }
 
 /* A recorder has it either way. */
 static void show_text(const text_out *t) {
-    const bool page =
-        t->set->pages && t->set->pager != PAGER_OFF && (t->set->pager == PAGER_ON || pager_needed(t->buffer));
+    const bool page = t->set->pages && t->set->pager != PAGER_OFF &&
+                      (t->set->pager == PAGER_ON || pager_needed(t->kept.text));
     fflush(t->out);
-    if (page && pager_show(t->buffer))
-        record_aside(t->out, t->buffer);
+    if (page && pager_show(t->kept.text))
+        record_aside(t->out, t->kept.text);
     else
-        fputs(t->buffer, t->out);
-}
-
-static bool text_close(text_out *t) {
-    const bool ok = !ferror(t->to);
-    return fclose(t->to) == 0 && ok && t->buffer;
+        fputs(t->kept.text, t->out);
 }
 
 /* The text with what does not show escaped, in place of it. */
 static bool make_safe(text_out *t) {
-    text_out safe = {.to = NULL};
-    safe.to = open_memstream(&safe.buffer, &safe.size);
-    for (const char *line = t->buffer; safe.to && *line;) {
+    file_text safe;
+    const bool ok = file_text_open(&safe);
+    for (const char *line = t->kept.text; ok && *line;) {
         const size_t n = strcspn(line, "\n");
         print_safe(safe.to, line, n);
         if (line[n])
             putc('\n', safe.to);
         line += n + (line[n] == '\n');
     }
-    free(t->buffer);
-    t->buffer = NULL;
-    return safe.to && text_close(&safe) && (t->buffer = safe.buffer, t->size = safe.size, true);
+    free(t->kept.text);
+    t->kept.text = NULL;
+    if (!ok || !file_text_close(&safe))
+        return false;
+    t->kept = safe;
+    return true;
 }
 
 bool text_end(text_out *t, bool keep) {
@@ -455,14 +455,16 @@ bool text_end(text_out *t, bool keep) {
     if (t->to == t->out)
         return true;
     const bool json = t->set->format == FORMAT_JSON;
-    bool ok = text_close(t) && (json || t->picture || make_safe(t));
-    if (ok && keep && t->size > 0 && json) {
+    if (!file_text_close(&t->kept))
+        return false;
+    const bool ok = json || t->picture || make_safe(t), any = ok && keep && t->kept.size > 0;
+    if (any && json) {
         fputs("{\"text\":", t->out);
-        print_json_string(t->out, t->buffer);
+        print_json_string(t->out, t->kept.text);
         fputs("}\n", t->out);
-    } else if (ok && keep && t->size > 0) {
+    } else if (any) {
         show_text(t);
     }
-    free(t->buffer);
+    free(t->kept.text);
     return ok;
 }

@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 
+#include "calc/file.h"
 #include "calc/scene.h"
 #include "shell/settings.h"
 
@@ -71,8 +72,7 @@ typedef struct text_out {
     const settings *set;
     FILE *out, *to; /* write to `to` */
     bool picture;
-    char *buffer;
-    size_t size;
+    file_text kept; /* where it does not go out at once */
 } text_out;
 /* picture: of gnuplot, which knows what it sends to a terminal; else what does not show is escaped. */
 bool text_begin(text_out *t, const settings *set, FILE *out, bool picture);

@@ -68,40 +68,38 @@ static void value_text(const panel_job *job, size_t curve, char *text, size_t si
         format_value(&job->sh->set, (value){s->value[curve], s->with.d}, text, size);
 }
 
-/* "k = 0.5", the expression, or both: what tells the curves apart. */
-static char *title_of(const panel_job *job, size_t curve, size_t i) {
-    char text[500], number[160];
+enum { TITLE = 520 };
+
+/* "k = 0.5", the expression, or both: what tells the curves apart; then the part, which may be NULL. NULL:
+ * there is nothing to tell. */
+static const char *title_of(const panel_job *job, size_t curve, size_t i, const char *part,
+                            char title[TITLE]) {
+    char number[160];
     const column *c = &job->columns[i];
-    const size_t drawn = main_count(job);
-    if (!is_main(job, i) || (drawn < 2 && !job->s->curves))
+    const bool several = main_count(job) > 1, own = is_main(job, i) && (several || job->s->curves);
+    if (!own && !part)
         return NULL;
     if (job->s->curves)
         value_text(job, curve, number, sizeof number);
-    if (drawn > 1 && job->s->curves)
-        snprintf(text, sizeof text, "%.200s, %s = %s", c->name, job->s->with.text, number);
+    if (!own)
+        *title = 0;
+    else if (several && job->s->curves)
+        snprintf(title, TITLE, PLOT_EXPR "%.200s, %s = %s" PLOT_END, c->name, job->s->with.text, number);
     else if (job->s->curves)
-        snprintf(text, sizeof text, "%s = %s", job->s->with.text, number);
+        snprintf(title, TITLE, PLOT_EXPR "%s = %s" PLOT_END, job->s->with.text, number);
     else
-        snprintf(text, sizeof text, "%.300s", c->name);
-    return plot_label(text, NULL);
+        snprintf(title, TITLE, PLOT_EXPR "%.300s" PLOT_END, c->name);
+    const size_t n = strlen(title);
+    if (part)
+        snprintf(title + n, TITLE - n, "%s%s", n ? ", " : "", part);
+    return title;
 }
 
-static plot_series *add_series(panel_job *job, plot_role role, char *title, bool thin) {
-    char error[CALC_ERROR_TEXT - 8];
-    plot_series *s = plot_series_add(job->p, role, title, error, sizeof error);
+static plot_series *add_series(panel_job *job, plot_role role, const char *title, bool thin) {
+    plot_series *s = plot_series_add(job->p, role, title, job->error);
     if (s)
         s->thin = thin;
-    else
-        calc_fail(job->error, 0, 0, "%s", error);
     return s;
-}
-
-static char *part_title(const char *curve, const char *part) {
-    const size_t room = (curve ? strlen(curve) + 2 : 0) + strlen(part) + 1;
-    char *title = malloc(room);
-    if (title)
-        snprintf(title, room, "%s%s%s", curve ? curve : "", curve ? ", " : "", part);
-    return title;
 }
 
 /* The series of a curve: one an expression, one for both edges of a band, two where stick and slip are told
@@ -109,16 +107,18 @@ static char *part_title(const char *curve, const char *part) {
 static bool add_curve(panel_job *job, size_t curve) {
     for (size_t i = 0; i < job->count; i++) {
         const char role = role_of(job, i);
-        char *title = title_of(job, curve, i);
+        char title[TITLE];
         if (role == 's') {
-            plot_series *stick = add_series(job, PLOT_CURVE, part_title(title, "stick"), false),
-                        *slip = stick ? add_series(job, PLOT_CURVE, part_title(title, "slip"), false) : NULL;
-            free(title);
+            plot_series *stick = add_series(job, PLOT_CURVE, title_of(job, curve, i, "stick", title), false),
+                        *slip =
+                            stick ? add_series(job, PLOT_CURVE, title_of(job, curve, i, "slip", title), false)
+                                  : NULL;
             if (!slip)
                 return false;
             stick->style = (int)(2 * curve);
             slip->style = (int)(2 * curve + 1);
-        } else if (!add_series(job, role == 'b' ? PLOT_BAND : PLOT_CURVE, title, role != 'c')) {
+        } else if (!add_series(job, role == 'b' ? PLOT_BAND : PLOT_CURVE,
+                               title_of(job, curve, i, NULL, title), role != 'c')) {
             return false;
         }
         i += role == 'b';
@@ -285,6 +285,8 @@ static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const dim *d,
     job->p->logx = job->p->logx || s->log;
     if (!job->p->title && job->figure)
         job->p->title = strdup(job->figure->title);
+    if (!job->p->title && job->figure)
+        return calc_no_memory(lx->error);
     return looks_lay_over(lx, l, job->p, &ax, &ay) && scale_axis(job, lx, l, true, x, &ax) &&
            scale_axis(job, lx, l, false, &c[0], &ay);
 }
@@ -467,11 +469,10 @@ bool panel_is_named(const lexer *lx) {
 }
 
 bool panel_draw(shell *sh, lexer *lx, plot_figure *f, motion *m) {
-    char error[CALC_ERROR_TEXT - 8];
     const size_t index = f->count;
-    plot_panel *p = plot_panel_add(f, error, sizeof error);
+    plot_panel *p = plot_panel_add(f, lx->error);
     if (!p)
-        return lex_fail(lx, "%s", error);
+        return calc_place(lx->error, lx->at, lx->len);
     const figure *named = figure_at(lx);
     if (named)
         return draw_named(sh, lx, named, p, index, m);

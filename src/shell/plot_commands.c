@@ -45,16 +45,12 @@ static bool begin_target(shell *sh, const char *file, text_out *text, plot_targe
 }
 
 static bool end_target(shell *sh, const char *file, text_out *text, const file_report *written, bool ok,
-                       const char *error, lexer *lx) {
+                       calc_error *error) {
     if (!text_end(text, ok))
-        return calc_no_memory(lx->error);
-    if (!ok) {
-        lx->error->stop = shell_stop;
-        return calc_fail(lx->error, 0, 0, "%s", error);
-    }
-    if (file)
+        return calc_no_memory(error);
+    if (ok && file)
         target_report(sh, file, written);
-    return true;
+    return ok;
 }
 
 static bool draw(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
@@ -62,14 +58,13 @@ static bool draw(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
         fprintf(sh->out, "%c\n", MARK_DRAWING);
         return true;
     }
-    char error[CALC_ERROR_TEXT - 8];
     file_report written;
     text_out text;
     plot_target to;
     if (!begin_target(sh, file, &text, &to, lx->error))
         return false;
-    const bool ok = plot_draw(f, &to, &written, error, sizeof error);
-    return end_target(sh, file, &text, &written, ok, error, lx);
+    const bool ok = plot_draw(f, &to, &written, lx->error);
+    return end_target(sh, file, &text, &written, ok, lx->error);
 }
 
 /* ---- figures ----------------------------------------------------------------------------------- */
@@ -77,7 +72,6 @@ static bool draw(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
 /* `to FILE` may stand behind long work: it is asked for before. */
 static bool find_file(lexer *lx, char *file) {
     calc_error ignored;
-    char error[CALC_ERROR_TEXT - 8];
     lexer scan = *lx;
     error_clear(&ignored);
     scan.error = &ignored;
@@ -93,8 +87,7 @@ static bool find_file(lexer *lx, char *file) {
     const size_t at = scan.at;
     if (!lex_filename(&scan, file, ARG_FILE_NAME))
         return true; /* said when it is read */
-    return plot_check(file, &shell_stop, error, sizeof error) ||
-           calc_fail(lx->error, at, scan.last - at, "%s", error);
+    return plot_check(file, &shell_stop, lx->error) || calc_place(lx->error, at, scan.last - at);
 }
 
 /* FIGURE [| FIGURE ...] at the cursor. */
@@ -208,9 +201,9 @@ static bool take_frames(movie *m) {
     return ok;
 }
 
-static bool fill(void *context, size_t i, size_t frames, plot_figure *f, char *error, size_t size) {
+static bool fill(void *context, size_t i, size_t frames, plot_figure *f, calc_error *error) {
     movie *m = context;
-    (void)frames, (void)error, (void)size;
+    (void)frames, (void)error;
     *f = m->frame[i];
     m->frame[i].count = 0;
     return true;
@@ -224,16 +217,15 @@ static void drawing(void *context, size_t done, size_t frames) {
 }
 
 static bool draw_movie(movie *m, lexer *lx, const char *file) {
-    char error[CALC_ERROR_TEXT - 8];
     file_report written;
     text_out text;
     plot_target to;
     if (!begin_target(m->sh, file, &text, &to, lx->error))
         return false;
     const plot_movie of = {.frames = m->done, .fill = fill, .progress = drawing, .context = m};
-    const bool ok = plot_animate(&of, &to, &written, error, sizeof error);
+    const bool ok = plot_animate(&of, &to, &written, lx->error);
     clear_progress(m);
-    return end_target(m->sh, file, &text, &written, ok, error, lx);
+    return end_target(m->sh, file, &text, &written, ok, lx->error);
 }
 
 /* Draws the figures once as they stand, then at every instant, then all of it. */

@@ -102,7 +102,7 @@ static void write_statements(FILE *to, const char *text) {
 
 /* ---- a transcript ------------------------------------------------------------------------------ */
 
-bool record_begin(shell *sh, const char *path, const char *beginning, char *error, size_t size) {
+bool record_begin(shell *sh, const char *path, const char *beginning, calc_error *error) {
     struct stat before;
     if (sh->replaying)
         return true;
@@ -116,16 +116,15 @@ bool record_begin(shell *sh, const char *path, const char *beginning, char *erro
     const int code = r && real ? errno : ENOMEM;
     free(real);
     if (!r || !r->file || !r->path) {
-        snprintf(error, size, "cannot write %s: %s", path, strerror(code));
+        calc_errno(error, code, "cannot write %s", path);
         if (r)
             free_recorder(r);
         return false;
     }
     open_both(r);
     if (!r->both_out || !r->both_err) {
-        snprintf(error, size, "out of memory");
         free_recorder(r);
-        return false;
+        return calc_no_memory(error);
     }
     write_statements(r->file, beginning);
     setvbuf(r->file, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
@@ -158,22 +157,18 @@ bool record_end(shell *sh) {
 /* `fret> ` and `....> ` before its physical lines, whose marks have become blanks. */
 void record_line(shell *sh, const char *text, size_t len) {
     struct recorder *r = sh->record;
-    char *line = NULL;
-    size_t size = 0;
-    FILE *to = r ? open_memstream(&line, &size) : NULL;
-    if (!to)
+    file_text typed;
+    if (!r || !file_text_open(&typed))
         return;
     fflush(sh->out);
     write_line(r);
     for (size_t i = 0, n; i <= len; i += n + 1) {
         const char *end = i < len ? memchr(text + i, '\n', len - i) : NULL;
         n = end ? (size_t)(end - text) - i : len - i;
-        fprintf(to, "%s%.*s%s\n", i ? "....> " : "fret> ", (int)n, text + i, end ? "\\" : "");
+        fprintf(typed.to, "%s%.*s%s\n", i ? "....> " : "fret> ", (int)n, text + i, end ? "\\" : "");
     }
-    if (fclose(to) == 0)
-        r->line = line;
-    else
-        free(line);
+    if (file_text_close(&typed))
+        r->line = typed.text;
 }
 
 void record_aside(FILE *out, const char *text) {

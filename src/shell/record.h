@@ -7,7 +7,7 @@
 
 /* Begins a transcript: these statements, for a replay begins without a scene, then whatever comes. Nothing is
  * recorded in a replay. */
-bool record_begin(shell *sh, const char *path, const char *beginning, char *error, size_t size);
+bool record_begin(shell *sh, const char *path, const char *beginning, calc_error *error);
 /* Ends it; false: there was none. A lost write is told. */
 bool record_end(shell *sh);
 /* The line that will be run, physical lines and all. */

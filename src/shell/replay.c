@@ -193,20 +193,21 @@ static size_t count_prompts(const char *line) {
 
 /* Runs the statement. False: out of memory. */
 static bool run(replay *r) {
-    size_t size = 0;
+    file_text got;
     free(r->got);
     r->got = NULL;
-    FILE *to = open_memstream(&r->got, &size);
-    if (!to)
+    if (!file_text_open(&got))
         return false;
     const source from = {NULL, true};
-    r->sh.out = r->sh.err = to;
+    r->sh.out = r->sh.err = got.to;
     r->sh.quit = false;
     if (!shell_special(&r->sh, &from, r->statement.p))
         shell_line(&r->sh, &from, r->statement.p, r->statement.len, r->at);
-    const bool ok = fclose(to) == 0;
-    r->prompts = ok ? count_prompts(r->got) : 0;
-    return ok;
+    if (!file_text_close(&got))
+        return false;
+    r->got = got.text;
+    r->prompts = count_prompts(r->got);
+    return true;
 }
 
 /* What follows the statement has been gathered. */
@@ -266,49 +267,45 @@ static bool take_line(replay *r, const file_in *in, bool *waiting) {
     return *waiting || run(r);
 }
 
-static bool take_lines(replay *r, file_in *in, char *error, size_t size) {
+static bool take_lines(replay *r, file_in *in, calc_error *error) {
     bool waiting = false, ok = true;
     file_got got = FILE_GOT_END;
-    while (ok && (got = file_in_line(in, error, size)) == FILE_GOT_LINE)
+    while (ok && (got = file_in_line(in, error)) == FILE_GOT_LINE)
         ok = take_line(r, in, &waiting);
     if (ok && waiting)
         ok = run(r);
     if (!ok)
-        snprintf(error, size, "out of memory");
+        calc_no_memory(error);
     else if (got != FILE_GOT_ERROR && !shell_stop)
         judge(r);
-    if (ok && got == FILE_GOT_END && r->passed + r->failed == 0) {
-        snprintf(error, size, "%s holds no lines that begin with `fret> `", r->path);
-        ok = false;
-    }
+    if (ok && got == FILE_GOT_END && r->passed + r->failed == 0)
+        ok = calc_fail(error, 0, 0, "%s holds no lines that begin with `fret> `", r->path);
     return ok && got != FILE_GOT_ERROR;
 }
 
-int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, char *error,
-                 size_t size) {
+int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, calc_error *error) {
     static int nesting; /* a transcript may replay others */
     enum { NESTING = 8 };
     file_in in;
     text_out t;
-    *error = 0;
     if (nesting == NESTING)
-        snprintf(error, size, "transcripts are nested more than %d deep", NESTING);
-    if (nesting == NESTING || !(strcmp(path, "-") ? file_in_open(&in, path, &shell_stop, error, size)
-                                                  : file_in_take(&in, 0, "stdin", &shell_stop, error, size)))
+        calc_fail(error, 0, 0, "transcripts are nested more than %d deep", NESTING);
+    if (nesting == NESTING || !(strcmp(path, "-") ? file_in_open(&in, path, &shell_stop, error)
+                                                  : file_in_take(&in, 0, "stdin", &shell_stop, error)))
         return EXIT_ERROR;
     replay r = {.tolerance = tolerance, .path = path};
     shell_init(&r.sh, out, out);
     r.sh.replaying = true;
-    bool ok = text_begin(&t, set, out, true);
-    r.out = ok ? t.to : out;
+    const bool text_begun = text_begin(&t, set, out, true);
+    r.out = text_begun ? t.to : out;
     nesting++;
-    ok = ok && take_lines(&r, &in, error, size);
+    bool ok = text_begun && take_lines(&r, &in, error);
     nesting--;
     if (ok)
         fprintf(r.out, "%s: %zu passed, %zu failed\n", path, r.passed, r.failed);
-    text_end(&t, true);
-    if (!ok && !*error)
-        snprintf(error, size, "out of memory");
+    ok = text_begun && text_end(&t, true) && ok;
+    if (!ok && !error->raised)
+        calc_no_memory(error);
     file_in_close(&in);
     r.sh.out = r.sh.err = out;
     shell_free(&r.sh);

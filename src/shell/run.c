@@ -387,11 +387,12 @@ static size_t mark_of(const char *line, size_t len) {
 
 int shell_stream(shell *sh, file_in *in, bool keep_going) {
     const source from = {in->name, keep_going};
-    char error[CALC_ERROR_TEXT];
+    calc_error error;
+    error_clear(&error);
     file_got got = FILE_GOT_END;
     bool ok = true, last = true; /* all statements so far; those of the last line */
     while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || keep_going) &&
-           (got = file_in_logical(in, mark_of, error, sizeof error)) == FILE_GOT_LINE) {
+           (got = file_in_logical(in, mark_of, &error)) == FILE_GOT_LINE) {
         const size_t open = mark_of(in->line, in->length); /* nothing continues the last line */
         if (open < in->length)
             in->line[open] = ' ';
@@ -402,7 +403,8 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
         ok = ok && last;
     }
     if (got == FILE_GOT_ERROR)
-        shell_error(sh, error);
+        shell_error(sh, error.text);
+    sh->stopped |= error.stop;
     if (shell_stop && last)
         shell_error(sh, "interrupted");
     const int status = shell_stop ? EXIT_INTERRUPTED : ok && got != FILE_GOT_ERROR ? EXIT_OK : EXIT_ERROR;
@@ -410,30 +412,33 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
     return status;
 }
 
-static int run_opened(shell *sh, bool ok, file_in *in, const char *error, bool keep_going) {
+static int run_opened(shell *sh, bool ok, file_in *in, const calc_error *error, bool keep_going) {
     if (ok)
         return shell_stream(sh, in, keep_going);
-    shell_error(sh, error);
+    shell_error(sh, error->text);
     return EXIT_ERROR;
 }
 
 int shell_file(shell *sh, const char *path, bool keep_going) {
-    char error[CALC_ERROR_TEXT];
+    calc_error error;
     file_in in;
-    const bool ok = file_in_open(&in, path, &shell_stop, error, sizeof error);
-    return run_opened(sh, ok, &in, error, keep_going);
+    error_clear(&error);
+    const bool ok = file_in_open(&in, path, &shell_stop, &error);
+    return run_opened(sh, ok, &in, &error, keep_going);
 }
 
 int shell_text(shell *sh, const char *text, const char *name, bool keep_going) {
-    char error[CALC_ERROR_TEXT];
+    calc_error error;
     file_in in;
-    const bool ok = file_in_text(&in, text, name, &shell_stop, error, sizeof error);
-    return run_opened(sh, ok, &in, error, keep_going);
+    error_clear(&error);
+    const bool ok = file_in_text(&in, text, name, &shell_stop, &error);
+    return run_opened(sh, ok, &in, &error, keep_going);
 }
 
 int shell_stdin(shell *sh, bool keep_going) {
-    char error[CALC_ERROR_TEXT];
+    calc_error error;
     file_in in;
-    const bool ok = file_in_take(&in, STDIN_FILENO, "stdin", &shell_stop, error, sizeof error);
-    return run_opened(sh, ok, &in, error, keep_going);
+    error_clear(&error);
+    const bool ok = file_in_take(&in, STDIN_FILENO, "stdin", &shell_stop, &error);
+    return run_opened(sh, ok, &in, &error, keep_going);
 }

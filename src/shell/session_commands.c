@@ -14,9 +14,8 @@ bool do_source(shell *sh, lexer *lx, const command *self) {
     if (sh->nesting == NESTING)
         return calc_fail(lx->error, v[0].value_at, 1, "scripts are nested more than %d deep", NESTING);
     file_in in;
-    char error[CALC_ERROR_TEXT - 8];
-    if (!file_in_open(&in, name, &shell_stop, error, sizeof error))
-        return calc_fail(lx->error, v[0].value_at, v[0].value_len, "%s", error);
+    if (!file_in_open(&in, name, &shell_stop, lx->error))
+        return calc_place(lx->error, v[0].value_at, v[0].value_len);
     sh->nesting++;
     int status = shell_stream(sh, &in, false);
     sh->nesting--;

@@ -81,8 +81,7 @@ bool shell_on_terminal(const shell *sh);
 int shell_prompt(shell *sh, bool quiet, bool read_rc);
 /* replay.c: runs a transcript in a session of its own and compares, reports on `out`; returns an exit status.
  * error: why the transcript could not be run; empty: it has been. */
-int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, char *error,
-                 size_t size);
+int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, calc_error *error);
 /* prompt.c: `?WORD` and `!COMMAND` as a line that a statement stands for; true: it was one of them, and has
  * been run. */
 bool shell_special(shell *sh, const source *from, const char *text);

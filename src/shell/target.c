@@ -29,7 +29,7 @@ static bool choose_form(lexer *lx, const char *name, target *t) {
 }
 
 bool target_open(shell *sh, lexer *lx, target *t) {
-    char name[ARG_FILE_NAME], error[CALC_ERROR_TEXT];
+    char name[ARG_FILE_NAME];
     *t = (target){.to = sh->out, .format = sh->set.format};
     if (!lex_accept(lx, "to"))
         return at_end(lx);
@@ -39,8 +39,8 @@ bool target_open(shell *sh, lexer *lx, target *t) {
     t->len = lx->last - t->at;
     if (!choose_form(lx, name, t))
         return false;
-    if (!file_out_open(&t->file, name, &shell_stop, error, sizeof error))
-        return calc_fail(lx->error, t->at, t->len, "%s", error);
+    if (!file_out_open(&t->file, name, &shell_stop, lx->error))
+        return calc_place(lx->error, t->at, t->len);
     t->to = t->file.to;
     return true;
 }
@@ -54,13 +54,13 @@ void target_report(shell *sh, const char *name, const file_report *r) {
 }
 
 bool target_close(shell *sh, lexer *lx, target *t, bool ok) {
-    char error[CALC_ERROR_TEXT], name[ARG_FILE_NAME];
+    char name[ARG_FILE_NAME];
     file_report report;
     if (!t->file.to)
         return ok;
     snprintf(name, sizeof name, "%s", t->file.name);
-    if (!file_out_close(&t->file, ok, &report, error, sizeof error))
-        return calc_fail(lx->error, t->at, t->len, "%s", error);
+    if (!file_out_close(&t->file, ok, &report, lx->error))
+        return calc_place(lx->error, t->at, t->len);
     if (ok)
         target_report(sh, name, &report);
     return ok;

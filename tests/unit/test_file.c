@@ -19,9 +19,12 @@
 #endif
 #endif
 
-enum { ERROR = 400 };
+static calc_error error;
 
-static char error[ERROR];
+static calc_error *fresh(void) {
+    error_clear(&error);
+    return &error;
+}
 
 static void put(const char *name, const char *text) {
     FILE *f = fopen(name, "w");
@@ -60,10 +63,10 @@ static int entries(void) {
 
 static bool write_text(const char *name, const char *text, bool keep, file_report *report) {
     file_out out;
-    if (!file_out_open(&out, name, NULL, error, sizeof error))
+    if (!file_out_open(&out, name, NULL, fresh()))
         return false;
     fputs(text, out.to);
-    return file_out_close(&out, keep, report, error, sizeof error);
+    return file_out_close(&out, keep, report, fresh());
 }
 
 /* Runs a check in a process of its own. */
@@ -89,9 +92,9 @@ static void replaces(void) {
     CHECK(entries() == 1);
     /* two writers at once: each is whole, the later one stays */
     file_out a, b;
-    CHECK(file_out_open(&a, "new", NULL, error, ERROR) && file_out_open(&b, "new", NULL, error, ERROR));
+    CHECK(file_out_open(&a, "new", NULL, fresh()) && file_out_open(&b, "new", NULL, fresh()));
     fputs("aaaa", a.to), fputs("b", b.to);
-    CHECK(file_out_close(&b, true, NULL, error, ERROR) && file_out_close(&a, true, NULL, error, ERROR));
+    CHECK(file_out_close(&b, true, NULL, fresh()) && file_out_close(&a, true, NULL, fresh()));
     CHECK(holds("new", "aaaa") && entries() == 1);
     unlink("new");
 }
@@ -107,7 +110,7 @@ static void links(void) {
     unlink("sub/target"); /* a link that leads nowhere */
     CHECK(write_text("link", "again", true, &report) && !report.overwrote && holds("sub/target", "again"));
     CHECK(symlink("round", "round") == 0 && !write_text("round", "x", true, NULL));
-    CHECK(strstr(error, "cannot write round: ") != NULL);
+    CHECK(strstr(error.text, "cannot write round: ") != NULL);
     unlink("round"), unlink("link"), unlink("sub/hop"), unlink("sub/target"), rmdir("sub");
     CHECK(entries() == 0);
 }
@@ -115,8 +118,9 @@ static void links(void) {
 static bool read_only(void) {
     if (geteuid() == 0 && (chmod(".", 0777) || setgid(65534) || setuid(65534)))
         return false;
-    return !write_text("kept", "new", true, NULL) && strstr(error, "cannot write kept: Permission denied") &&
-           holds("kept", "old") && entries() == 1;
+    return !write_text("kept", "new", true, NULL) &&
+           strstr(error.text, "cannot write kept: Permission denied") && holds("kept", "old") &&
+           entries() == 1;
 }
 
 static void refused(void) {
@@ -126,11 +130,11 @@ static void refused(void) {
     unlink("kept");
     static const char *const names[] = {".", "", "new/", "no/such/place", "\x01/x"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        CHECK(!write_text(names[i], "x", true, NULL) && strstr(error, "cannot write "));
+        CHECK(!write_text(names[i], "x", true, NULL) && strstr(error.text, "cannot write "));
     char long_name[400];
     memset(long_name, 'x', 300);
     long_name[300] = 0;
-    CHECK(!write_text(long_name, "x", true, NULL) && strstr(error, "too long"));
+    CHECK(!write_text(long_name, "x", true, NULL) && strstr(error.text, "too long"));
     memset(long_name, 'y', 255);
     long_name[255] = 0;
     CHECK(write_text(long_name, "x", true, NULL) && holds(long_name, "x"));
@@ -141,7 +145,7 @@ static void pipes(void) {
     CHECK(mkfifo("pipe", 0600) == 0);
     static volatile sig_atomic_t stop = 1;
     file_out out;
-    CHECK(!file_out_open(&out, "pipe", &stop, error, ERROR)); /* nobody reads */
+    CHECK(!file_out_open(&out, "pipe", &stop, fresh())); /* nobody reads */
     fflush(stdout);
     pid_t child = fork();
     if (child == 0) {
@@ -150,13 +154,13 @@ static void pipes(void) {
     }
     file_in in;
     int status = -1;
-    CHECK(file_in_open(&in, "pipe", NULL, error, ERROR));
-    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "through"));
-    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_END);
+    CHECK(file_in_open(&in, "pipe", NULL, fresh()));
+    CHECK(file_in_line(&in, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "through"));
+    CHECK(file_in_line(&in, fresh()) == FILE_GOT_END);
     file_in_close(&in);
     CHECK(waitpid(child, &status, 0) == child && status == 0);
     stop = 1; /* nobody writes */
-    CHECK(file_in_open(&in, "pipe", &stop, error, ERROR) && file_in_line(&in, error, ERROR) == FILE_GOT_STOP);
+    CHECK(file_in_open(&in, "pipe", &stop, fresh()) && file_in_line(&in, fresh()) == FILE_GOT_STOP);
     file_in_close(&in);
     unlink("pipe");
 }
@@ -180,31 +184,30 @@ static bool reader_gone(void) {
     if (pipe(ends) || close(ends[0]))
         return false;
     snprintf(name, sizeof name, "/dev/fd/%d", ends[1]);
-    return !write_text(name, "x", true, NULL) && strstr(error, strerror(EPIPE));
+    return !write_text(name, "x", true, NULL) && strstr(error.text, strerror(EPIPE));
 }
 
 static bool file_limit(void) {
     signal(SIGXFSZ, SIG_IGN);
     file_out out;
-    if (setrlimit(RLIMIT_FSIZE, &(struct rlimit){10000, 10000}) ||
-        !file_out_open(&out, "big", NULL, error, ERROR))
+    if (setrlimit(RLIMIT_FSIZE, &(struct rlimit){10000, 10000}) || !file_out_open(&out, "big", NULL, fresh()))
         return false;
     for (int i = 0; i < 100000; i++)
         putc('x', out.to);
     fputs("the end", out.to);
-    return !file_out_close(&out, true, NULL, error, ERROR) && strstr(error, strerror(EFBIG)) &&
+    return !file_out_close(&out, true, NULL, fresh()) && strstr(error.text, strerror(EFBIG)) &&
            access("big", F_OK) != 0 && entries() == 0;
 }
 
 static void full(void) {
     CHECK(!write_text("/dev/full", "x", true, NULL));
-    CHECK(!strcmp(error, "cannot write /dev/full: No space left on device"));
+    CHECK(!strcmp(error.text, "cannot write /dev/full: No space left on device"));
     file_out out; /* told even when a later flush has nothing left to write */
-    CHECK(file_out_open(&out, "/dev/full", NULL, error, ERROR));
+    CHECK(file_out_open(&out, "/dev/full", NULL, fresh()));
     fputs("x", out.to);
     fflush(out.to);
-    *error = 0;
-    CHECK(!file_out_close(&out, true, NULL, error, ERROR) && strstr(error, "No space left"));
+    error_clear(&error);
+    CHECK(!file_out_close(&out, true, NULL, fresh()) && strstr(error.text, "No space left"));
     apart(to_open_file);
     unlink("log");
     apart(reader_gone);
@@ -225,8 +228,8 @@ static bool deep(void) {
     bool ok = write_text("f", "deep\n", true, &report) && !report.overwrote &&
               write_text("f", "deeper\n", true, &report) && report.overwrote && symlink("f", "l") == 0 &&
               write_text("l", "deepest\n", true, &report) && holds("f", "deepest\n") &&
-              file_in_open(&in, "f", NULL, error, ERROR);
-    ok = ok && file_in_line(&in, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "deepest");
+              file_in_open(&in, "f", NULL, fresh());
+    ok = ok && file_in_line(&in, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "deepest");
     if (ok)
         file_in_close(&in);
     unlink("f"), unlink("l");
@@ -241,7 +244,7 @@ static void home(void) {
     CHECK(getcwd(here, sizeof here) != NULL && setenv("HOME", here, 1) == 0);
     CHECK(write_text("~/at-home", "x", true, NULL) && holds("at-home", "x"));
     file_in in;
-    CHECK(file_in_open(&in, "~/at-home", NULL, error, ERROR));
+    CHECK(file_in_open(&in, "~/at-home", NULL, fresh()));
     file_in_close(&in);
     unlink("at-home");
     static const char *const plain[] = {"a~", "~user", "./~", "a/~/b"};
@@ -284,29 +287,29 @@ static void lines(void) {
         const char *bytes;
     } want[] = {{1, "a"}, {0, ""}, {3, "b\0c"}, {4, "last"}};
     file_in in;
-    CHECK(file_in_open(&in, "in", NULL, error, ERROR));
+    CHECK(file_in_open(&in, "in", NULL, fresh()));
     for (size_t i = 0; i < 4; i++) {
-        CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_LINE && in.length == want[i].length);
+        CHECK(file_in_line(&in, fresh()) == FILE_GOT_LINE && in.length == want[i].length);
         CHECK(!memcmp(in.line, want[i].bytes, want[i].length + 1) && in.number == i + 1);
     }
-    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_END);
-    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_END);
+    CHECK(file_in_line(&in, fresh()) == FILE_GOT_END);
+    CHECK(file_in_line(&in, fresh()) == FILE_GOT_END);
     file_in_close(&in);
     put("in", "");
-    CHECK(file_in_open(&in, "in", NULL, error, ERROR) && file_in_line(&in, error, ERROR) == FILE_GOT_END);
+    CHECK(file_in_open(&in, "in", NULL, fresh()) && file_in_line(&in, fresh()) == FILE_GOT_END);
     file_in_close(&in);
 
     put("in", "one\nx = \\\n1 + \\\n2\nend \\");
-    CHECK(file_in_open(&in, "in", NULL, error, ERROR));
-    CHECK(file_in_logical(&in, mark, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "one"));
-    CHECK(file_in_logical(&in, mark, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "x =  \n1 +  \n2"));
+    CHECK(file_in_open(&in, "in", NULL, fresh()));
+    CHECK(file_in_logical(&in, mark, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "one"));
+    CHECK(file_in_logical(&in, mark, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "x =  \n1 +  \n2"));
     CHECK(in.number == 2 && in.read == 4);
-    CHECK(file_in_logical(&in, mark, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "end \\"));
-    CHECK(in.number == 5 && file_in_logical(&in, mark, error, ERROR) == FILE_GOT_END);
+    CHECK(file_in_logical(&in, mark, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "end \\"));
+    CHECK(in.number == 5 && file_in_logical(&in, mark, fresh()) == FILE_GOT_END);
     file_in_close(&in);
-    CHECK(!file_in_open(&in, ".", NULL, error, ERROR) && !strcmp(error, "cannot read .: Is a directory"));
-    CHECK(!file_in_open(&in, "none", NULL, error, ERROR) &&
-          !strcmp(error, "cannot read none: No such file or directory"));
+    CHECK(!file_in_open(&in, ".", NULL, fresh()) && !strcmp(error.text, "cannot read .: Is a directory"));
+    CHECK(!file_in_open(&in, "none", NULL, fresh()) &&
+          !strcmp(error.text, "cannot read none: No such file or directory"));
     unlink("in");
 }
 
@@ -342,7 +345,7 @@ static size_t write_characters(char *utf8, char *utf16, bool big) {
 /* Is what comes from the file this text? */
 static bool reads(file_in *in, const char *text) {
     bool same = true;
-    while (same && file_in_line(in, error, ERROR) == FILE_GOT_LINE) {
+    while (same && file_in_line(in, fresh()) == FILE_GOT_LINE) {
         same = !memcmp(text, in->line, in->length);
         text += in->length;
         same = same && *text == (*text ? '\n' : 0);
@@ -369,7 +372,7 @@ static bool reads_piped(const char *bytes, size_t n, size_t at_once, const char 
         _exit(!ok);
     }
     close(ends[1]);
-    bool ok = file_in_take(&in, ends[0], "pipe", NULL, error, ERROR) && reads(&in, text);
+    bool ok = file_in_take(&in, ends[0], "pipe", NULL, fresh()) && reads(&in, text);
     close(ends[0]);
     return waitpid(child, &status, 0) == child && status == 0 && ok;
 }
@@ -382,7 +385,7 @@ static void encodings(void) {
         FILE *f = fopen("in", "w");
         fwrite(utf16, 1, n, f);
         fclose(f);
-        CHECK(file_in_open(&in, "in", NULL, error, ERROR) && reads(&in, utf8));
+        CHECK(file_in_open(&in, "in", NULL, fresh()) && reads(&in, utf8));
         CHECK(reads_piped(utf16, n, 1, utf8));
         CHECK(reads_piped(utf16, n, 3, utf8));
         CHECK(reads_piped(utf16, n, 8191, utf8));
@@ -409,7 +412,7 @@ static void encodings(void) {
     CHECK(file_in_text(&in,
                        "\xef\xbb\xbf"
                        "a",
-                       "-c", NULL, error, ERROR) &&
+                       "-c", NULL, fresh()) &&
           reads(&in, "a"));
     unlink("in");
 }
@@ -422,52 +425,75 @@ static void limits(void) {
     fputs("\nb\n", f);
     fclose(f);
     file_in in;
-    CHECK(file_in_open(&in, "in", NULL, error, ERROR));
-    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_LINE && in.length == FILE_LINE_LIMIT);
+    CHECK(file_in_open(&in, "in", NULL, fresh()));
+    CHECK(file_in_line(&in, fresh()) == FILE_GOT_LINE && in.length == FILE_LINE_LIMIT);
     bool same = true;
     for (size_t i = 0; i < in.length; i++)
         same &= in.line[i] == (char)('a' + i % 23);
-    CHECK(same && file_in_line(&in, error, ERROR) == FILE_GOT_LINE && !strcmp(in.line, "b"));
+    CHECK(same && file_in_line(&in, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "b"));
     file_in_close(&in);
     unlink("in");
-    CHECK(file_in_open(&in, "/dev/zero", NULL, error, ERROR));
-    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_ERROR);
-    CHECK(!strcmp(error, "/dev/zero:1: the line is longer than 16 MB"));
+    CHECK(file_in_open(&in, "/dev/zero", NULL, fresh()));
+    CHECK(file_in_line(&in, fresh()) == FILE_GOT_ERROR);
+    CHECK(!strcmp(error.text, "/dev/zero:1: the line is longer than 16 MB"));
     file_in_close(&in);
     /* continued lines count together */
     f = fopen("in", "w");
     for (int i = 0; i < 3; i++)
         fprintf(f, "%*s\\\n", FILE_LINE_LIMIT * 2 / 5, "x");
     fclose(f);
-    CHECK(file_in_open(&in, "in", NULL, error, ERROR));
-    CHECK(file_in_logical(&in, mark, error, ERROR) == FILE_GOT_ERROR && strstr(error, "longer than 16 MB"));
+    CHECK(file_in_open(&in, "in", NULL, fresh()));
+    CHECK(file_in_logical(&in, mark, fresh()) == FILE_GOT_ERROR && strstr(error.text, "longer than 16 MB"));
     file_in_close(&in);
     unlink("in");
     static volatile sig_atomic_t stop = 1;
-    CHECK(file_in_open(&in, "/dev/zero", &stop, error, ERROR));
-    CHECK(file_in_line(&in, error, ERROR) == FILE_GOT_STOP);
+    CHECK(file_in_open(&in, "/dev/zero", &stop, fresh()));
+    CHECK(file_in_line(&in, fresh()) == FILE_GOT_STOP);
     file_in_close(&in);
 }
 
 #ifndef SANITIZED /* the sanitizer needs all the addresses there are */
 static bool out_of_memory(void) {
     file_in in;
-    return file_in_open(&in, "/dev/zero", NULL, error, ERROR) &&
+    return file_in_open(&in, "/dev/zero", NULL, fresh()) &&
            setrlimit(RLIMIT_AS, &(struct rlimit){8 << 20, 8 << 20}) == 0 &&
-           file_in_line(&in, error, ERROR) == FILE_GOT_ERROR && !strcmp(error, "/dev/zero:1: out of memory");
+           file_in_line(&in, fresh()) == FILE_GOT_ERROR && !strcmp(error.text, "/dev/zero:1: out of memory");
+}
+
+/* A text that finds no memory is lost as a whole, and says so. */
+static bool lost_text(void) {
+    file_text t;
+    if (!file_text_open(&t) || setrlimit(RLIMIT_AS, &(struct rlimit){8 << 20, 8 << 20}))
+        return false;
+    for (int i = 0; i < 32 << 20; i++)
+        putc('x', t.to);
+    fputs("the end", t.to);
+    return !file_text_close(&t);
 }
 #endif
+
+static void texts(void) {
+    file_text t;
+    CHECK(file_text_open(&t));
+    for (int i = 0; i < 20000; i++)
+        fprintf(t.to, "%d\n", i);
+    CHECK(file_text_close(&t) && t.size == 108890 && strlen(t.text) == t.size);
+    CHECK(!strncmp(t.text, "0\n1\n2\n", 6) && !strcmp(t.text + t.size - 6, "19999\n"));
+    free(t.text);
+    CHECK(file_text_open(&t) && file_text_close(&t) && t.size == 0 && !*t.text);
+    free(t.text);
+}
 
 static void faults(void) {
 #ifndef SANITIZED
     apart(out_of_memory);
+    apart(lost_text);
 #endif
     int fd = open("/proc/self/mem", O_RDONLY); /* its first page cannot be read */
     file_in in;
     if (fd >= 0) {
-        CHECK(file_in_take(&in, fd, "mem", NULL, error, ERROR) &&
-              file_in_line(&in, error, ERROR) == FILE_GOT_ERROR);
-        CHECK(!strcmp(error, "cannot read mem: Input/output error"));
+        CHECK(file_in_take(&in, fd, "mem", NULL, fresh()) && file_in_line(&in, fresh()) == FILE_GOT_ERROR);
+        CHECK(!strcmp(error.text, "cannot read mem: Input/output error"));
         file_in_close(&in);
         close(fd);
     }
@@ -490,7 +516,7 @@ static bool emergency(void) {
     file = file_guard_file("given-up");
     dir = file_guard_dir("folder");
     group = file_guard_group(sleeper);
-    if (!file_out_open(&out, "half", NULL, error, ERROR) || file < 0 || dir < 0 || group < 0 ||
+    if (!file_out_open(&out, "half", NULL, fresh()) || file < 0 || dir < 0 || group < 0 ||
         file_guard_file("folder/inside") < 0)
         return false;
     file_unguard(file);
@@ -505,7 +531,7 @@ static bool too_many(void) {
     file_out out;
     while (file_guard_file("x") >= 0)
         n++;
-    return n >= 32 && !file_out_open(&out, "one-more", NULL, error, ERROR) && entries() == 0;
+    return n >= 32 && !file_out_open(&out, "one-more", NULL, fresh()) && entries() == 0;
 }
 
 int main(int argc, char **argv) {
@@ -525,6 +551,7 @@ int main(int argc, char **argv) {
     lines();
     encodings();
     limits();
+    texts();
     apart(emergency);
     apart(too_many);
     CHECK(entries() == 0);

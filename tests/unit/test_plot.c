@@ -8,7 +8,12 @@
 #include "plot/script.h"
 #include "unit.h"
 
-static char error[400];
+static calc_error error;
+
+static calc_error *fresh(void) {
+    error_clear(&error);
+    return &error;
+}
 
 /* ---- texts -------------------------------------------------------------------------------------- */
 
@@ -97,11 +102,11 @@ static void quoting(void) {
 
 /* ---- figures ------------------------------------------------------------------------------------ */
 
-static plot_figure figure(plot_role role, char *title) {
+static plot_figure figure(plot_role role, const char *title) {
     plot_figure f;
     plot_figure_init(&f);
-    plot_panel *p = plot_panel_add(&f, error, sizeof error);
-    CHECK(p && plot_series_add(p, role, title, error, sizeof error));
+    plot_panel *p = plot_panel_add(&f, fresh());
+    CHECK(p && plot_series_add(p, role, title, fresh()));
     return f;
 }
 
@@ -119,7 +124,7 @@ static bool has(const char *text, const char *part) {
 }
 
 static void scripts(void) {
-    plot_figure f = figure(PLOT_CURVE, strdup("'; system('touch pwned'); # \""));
+    plot_figure f = figure(PLOT_CURVE, "'; system('touch pwned'); # \"");
     plot_panel *p = f.panel[0];
     plot_series *s = p->series[0];
     p->title = strdup("''''; system(\"touch pwned\") `touch pwned`\nset output 'x'\n");
@@ -147,7 +152,7 @@ static void styles(void) {
     plot_figure f = figure(PLOT_CURVE, NULL);
     plot_panel *p = f.panel[0];
     for (int i = 1; i < 12; i++)
-        plot_series_add(p, PLOT_CURVE, NULL, error, sizeof error);
+        plot_series_add(p, PLOT_CURVE, NULL, fresh());
     for (size_t i = 0; i < p->count; i++)
         for (int j = 0; j < 3; j++)
             plot_point(p->series[i], j, j);
@@ -167,11 +172,11 @@ static void styles(void) {
     }
     free(text);
     for (size_t i = p->count; i < PLOT_CURVES; i++)
-        CHECK(plot_series_add(p, PLOT_CURVE, NULL, error, sizeof error));
-    CHECK(!plot_series_add(p, PLOT_CURVE, strdup("x"), error, sizeof error) && has(error, "more than 64"));
+        CHECK(plot_series_add(p, PLOT_CURVE, NULL, fresh()));
+    CHECK(!plot_series_add(p, PLOT_CURVE, "x", fresh()) && has(error.text, "more than 64"));
     for (size_t i = 1; i < PLOT_PANELS; i++)
-        CHECK(plot_panel_add(&f, error, sizeof error));
-    CHECK(!plot_panel_add(&f, error, sizeof error) && has(error, "more than 6"));
+        CHECK(plot_panel_add(&f, fresh()));
+    CHECK(!plot_panel_add(&f, fresh()) && has(error.text, "more than 6"));
     plot_figure_free(&f);
 }
 
@@ -307,28 +312,27 @@ static void axes(void) {
     plot_panel *p = f.panel[0];
     plot_axis x, y;
     plot_extents e = plot_extent_of(p);
-    CHECK(!plot_axes(p, &e, true, &x, &y, error, sizeof error) && has(error, "nothing to plot"));
+    CHECK(!plot_axes(p, &e, true, &x, &y, fresh()) && has(error.text, "nothing to plot"));
     plot_point(p->series[0], 1, 3);
     plot_point(p->series[0], 2, 3 * (1 + 1e-14));
     e = plot_extent_of(p);
-    CHECK(plot_axes(p, &e, true, &x, &y, error, sizeof error));
+    CHECK(plot_axes(p, &e, true, &x, &y, fresh()));
     CHECK(x.lo == 1 && x.hi == 2);   /* a graph fills its frame */
     CHECK(y.lo < 2.8 && y.hi > 3.2); /* one value */
     plot_point(p->series[0], 1.5, -1);
     e = plot_extent_of(p);
-    CHECK(plot_axes(p, &e, true, &x, &y, error, sizeof error) && x.lo < 1 && x.hi > 2 && y.lo < -1 &&
-          y.hi > 3);
+    CHECK(plot_axes(p, &e, true, &x, &y, fresh()) && x.lo < 1 && x.hi > 2 && y.lo < -1 && y.hi > 3);
     p->ylo = 2;
     p->yhi = 1;
-    CHECK(plot_axes(p, &e, true, &x, &y, error, sizeof error) && y.flip && y.lo == 1 && y.hi == 2);
+    CHECK(plot_axes(p, &e, true, &x, &y, fresh()) && y.flip && y.lo == 1 && y.hi == 2);
     p->yhi = 2;
-    CHECK(!plot_axes(p, &e, true, &x, &y, error, sizeof error) && has(error, "limits"));
+    CHECK(!plot_axes(p, &e, true, &x, &y, fresh()) && has(error.text, "limits"));
     p->ylo = 0;
     p->logy = true;
-    CHECK(!plot_axes(p, &e, true, &x, &y, error, sizeof error) && has(error, "above 0"));
+    CHECK(!plot_axes(p, &e, true, &x, &y, fresh()) && has(error.text, "above 0"));
     p->ylo = p->yhi = NAN;
     e = plot_extent_of(p);
-    CHECK(plot_axes(p, &e, true, &x, &y, error, sizeof error) && y.lo > 0);
+    CHECK(plot_axes(p, &e, true, &x, &y, fresh()) && y.lo > 0);
     plot_figure_free(&f);
 
     static const double steps[][2] = {{0.9, 1}, {1, 1},        {1.1, 2},    {3, 5},
@@ -340,9 +344,9 @@ static void axes(void) {
 static void levels(void) {
     plot_figure f;
     plot_figure_init(&f);
-    plot_panel *p = plot_panel_add(&f, error, sizeof error);
-    CHECK(!plot_map_make(p, 1, 5, error, sizeof error) && !plot_map_make(p, 5, 501, error, sizeof error));
-    CHECK(plot_map_make(p, 10, 10, error, sizeof error));
+    plot_panel *p = plot_panel_add(&f, fresh());
+    CHECK(!plot_map_make(p, 1, 5, fresh()) && !plot_map_make(p, 5, 501, fresh()));
+    CHECK(plot_map_make(p, 10, 10, fresh()));
     double level[9];
     CHECK(plot_levels(&p->map, level, 9) == 0); /* no values */
     for (int i = 0; i < 100; i++)
@@ -371,19 +375,19 @@ static char *text_of(const plot_figure *f, plot_target target) {
     size_t room;
     target.out = open_memstream(&text, &room);
     target.terminal = PLOT_DUMB;
-    bool ok = plot_draw(f, &target, NULL, error, sizeof error);
+    bool ok = plot_draw(f, &target, NULL, fresh());
     fclose(target.out);
     if (!CHECK(ok))
-        printf("%s\n", error);
+        printf("%s\n", error.text);
     return text;
 }
 
 static void pages(void) {
-    plot_figure f = figure(PLOT_CURVE, strdup("one"));
+    plot_figure f = figure(PLOT_CURVE, "one");
     plot_panel *p = f.panel[0];
     p->xlabel = plot_label("dx", "um");
     p->ylabel = plot_label("Fx", "N");
-    plot_series_add(p, PLOT_CURVE, strdup("two"), error, sizeof error);
+    plot_series_add(p, PLOT_CURVE, "two", fresh());
     for (int i = 0; i <= 100; i++) {
         plot_point(p->series[0], i - 50, sin(0.1 * i));
         plot_point(p->series[1], i - 50, i > 20 && i < 40 ? NAN : cos(0.1 * i));
@@ -417,8 +421,8 @@ static void pages(void) {
 static void map_pages(void) {
     plot_figure f;
     plot_figure_init(&f);
-    plot_panel *p = plot_panel_add(&f, error, sizeof error);
-    CHECK(plot_map_make(p, 20, 20, error, sizeof error));
+    plot_panel *p = plot_panel_add(&f, fresh());
+    CHECK(plot_map_make(p, 20, 20, fresh()));
     for (int i = 0; i < 400; i++) {
         p->map.x[i % 20] = i % 20;
         p->map.y[i / 20] = i / 20;
@@ -436,13 +440,12 @@ static void refused(const char *tmp) {
     plot_point(f.panel[0]->series[0], 0, 0);
     plot_point(f.panel[0]->series[0], 1, 1);
     static volatile sig_atomic_t stop = 1;
-    CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .stop = &stop}, NULL, error, sizeof error));
-    CHECK(!strcmp(error, "interrupted") && access("x.png", F_OK) != 0 && !any_left(tmp));
-    CHECK(!plot_draw(&f, &(plot_target){.file = "x.jpg"}, NULL, error, sizeof error));
-    CHECK(has(error, "use .png, .svg, .pdf, .tex, .html, .gif or .gp"));
-    CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .width = 9000}, NULL, error, sizeof error));
-    CHECK(!plot_check("no/such/x.png", NULL, error, sizeof error) &&
-          plot_check("x.png", NULL, error, sizeof error));
+    CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .stop = &stop}, NULL, fresh()));
+    CHECK(!strcmp(error.text, "interrupted") && access("x.png", F_OK) != 0 && !any_left(tmp));
+    CHECK(!plot_draw(&f, &(plot_target){.file = "x.jpg"}, NULL, fresh()));
+    CHECK(has(error.text, "use .png, .svg, .pdf, .tex, .html, .gif or .gp"));
+    CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .width = 9000}, NULL, fresh()));
+    CHECK(!plot_check("no/such/x.png", NULL, fresh()) && plot_check("x.png", NULL, fresh()));
     CHECK(access("x.png", F_OK) != 0);
     plot_figure_free(&f);
 }
@@ -456,16 +459,16 @@ static void hostile_names(const char *tmp) {
                                         "\".gif",
                                         "-x.tex",
                                         "é.html"};
-    plot_figure f = figure(PLOT_CURVE, strdup("'''' ; system(\"touch pwned\") # `touch pwned`"));
+    plot_figure f = figure(PLOT_CURVE, "'''' ; system(\"touch pwned\") # `touch pwned`");
     f.panel[0]->title = strdup("''''; system(\"touch pwned\") # ");
     plot_point(f.panel[0]->series[0], 0, 0);
     plot_point(f.panel[0]->series[0], 1, 1);
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         file_report report;
         struct stat info;
-        bool ok = plot_draw(&f, &(plot_target){.file = files[i]}, &report, error, sizeof error);
+        bool ok = plot_draw(&f, &(plot_target){.file = files[i]}, &report, fresh());
         if (!CHECK(ok))
-            printf("%s: %s\n", files[i], error);
+            printf("%s: %s\n", files[i], error.text);
         CHECK(stat(files[i], &info) == 0 && (unsigned long long)info.st_size == report.size &&
               report.size > 500);
         unlink(files[i]);
@@ -485,12 +488,12 @@ static void progress(void *context, size_t done, size_t frames) {
     told++;
 }
 
-static bool fill(void *context, size_t i, size_t frames, plot_figure *f, char *text, size_t size) {
+static bool fill(void *context, size_t i, size_t frames, plot_figure *f, calc_error *raised) {
     const size_t *bad = context;
-    plot_panel *p = plot_panel_add(f, text, size);
-    plot_series *s = p ? plot_series_add(p, PLOT_CURVE, NULL, text, size) : NULL;
+    plot_panel *p = plot_panel_add(f, raised);
+    plot_series *s = p ? plot_series_add(p, PLOT_CURVE, NULL, raised) : NULL;
     if (bad && *bad == i)
-        return plot_fail(text, size, "frame %zu of %zu", i, frames);
+        return calc_fail(raised, 0, 0, "frame %zu of %zu", i, frames);
     return s && plot_point(s, 0, 0) && plot_point(s, 1, (double)i);
 }
 
@@ -508,15 +511,15 @@ static size_t images(const char *file) {
 
 static void animates(const char *tmp) {
     plot_movie m = {.frames = 7, .fill = fill, .progress = progress, .seconds = 0.01};
-    CHECK(plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, error, sizeof error));
+    CHECK(plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()));
     CHECK(told == 8 && images("a.gif") == 7);
     unlink("a.gif");
     char *text = NULL;
     size_t room;
     FILE *out = open_memstream(&text, &room);
     m.progress = NULL;
-    CHECK(plot_animate(&m, &(plot_target){.out = out, .columns = 50, .rows = 12, .moving = true}, NULL, error,
-                       sizeof error));
+    CHECK(plot_animate(&m, &(plot_target){.out = out, .columns = 50, .rows = 12, .moving = true}, NULL,
+                       fresh()));
     fclose(out);
     size_t ups = 0; /* the only letters A are of the cursor's way back up */
     for (const char *p = text; (p = strchr(p, 'A')); p++)
@@ -527,13 +530,12 @@ static void animates(const char *tmp) {
     free(text);
     size_t bad = 3;
     m.context = &bad;
-    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, error, sizeof error) &&
-          has(error, "frame 3 of 7"));
-    CHECK(!plot_animate(&m, &(plot_target){.file = "a.png"}, NULL, error, sizeof error) &&
-          has(error, ".gif"));
+    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()) &&
+          has(error.text, "frame 3 of 7"));
+    CHECK(!plot_animate(&m, &(plot_target){.file = "a.png"}, NULL, fresh()) && has(error.text, ".gif"));
     static volatile sig_atomic_t stop = 1;
     m.context = NULL;
-    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif", .stop = &stop}, NULL, error, sizeof error));
+    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif", .stop = &stop}, NULL, fresh()));
     CHECK(!any_left(tmp) && !any_left("."));
 }
 
