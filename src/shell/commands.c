@@ -360,7 +360,7 @@ static const command commands[] = {
      .help = "NAME is an input or a variable of yours; the scene stays as it is. Without a\n"
              "range it looks over the whole range of k and nu, and three decades on either\n"
              "side of the present value of others. It says where there is no root, where\n"
-             "there are several, and where the scene ends.\n\n"
+             "there are several, where the two sides only touch, and where the scene ends.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> solve FN for a = 0.2 mm\n"
              "    FN = 123.077 N\n"

@@ -4,6 +4,7 @@
 
 #include <float.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_min.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,6 +29,9 @@ typedef struct search {
     bool edged;     /* the edge of what the scene allows has been met */
     place edge;     /* the last place with a value there */
     calc_error why; /* beyond it */
+    place nearest;  /* between places of the scan, without passing: NaN where that was not asked */
+    double side;    /* of the left side there: 1 above, -1 below */
+    bool touches;
 } search;
 
 /* left - right. NaN: no value there, or the question has ended. */
@@ -154,6 +158,59 @@ static bool search_edges(search *s) {
     return true;
 }
 
+/* ---- between the places of the scan ------------------------------------------------------------ */
+
+static double distance(double x, void *context) {
+    search *s = context;
+    return s->side * difference(s, x);
+}
+
+/* The sides come nearest at b, with a and c beside it: they may pass each other twice within, or touch. */
+static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
+    static const double touching = 1e-13; /* of the distance at a and c: what rounding leaves */
+    gsl_min_fminimizer *method = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
+    gsl_function f = {distance, s};
+    if (!method)
+        return calc_no_memory(error);
+    s->side = b.f > 0 ? 1 : -1;
+    s->nearest = b;
+    int status = gsl_min_fminimizer_set_with_values(method, &f, b.x, fabs(b.f), fmin(a.x, c.x), fabs(a.f),
+                                                    fmax(a.x, c.x), fabs(c.f));
+    while (!status && s->nearest.f * s->side > 0 && s->q.evaluations + METHOD < SOLVE_EVALUATIONS) {
+        const double lo = gsl_min_fminimizer_x_lower(method), hi = gsl_min_fminimizer_x_upper(method);
+        if (hi - lo < 1e-9 * fabs(s->nearest.x))
+            break;
+        status = gsl_min_fminimizer_iterate(method);
+        s->nearest.x = gsl_min_fminimizer_x_minimum(method);
+        s->nearest.f = s->side * gsl_min_fminimizer_f_minimum(method);
+    }
+    gsl_min_fminimizer_free(method);
+    if (s->q.error->raised)
+        return false;
+    const double left = s->nearest.f * s->side; /* not NaN: it is the least that has been met */
+    if (left < 0) {
+        add_bracket(s, a, s->nearest);
+        add_bracket(s, s->nearest, c);
+    } else if (left <= touching * fmin(fabs(a.f), fabs(c.f))) {
+        s->touches = true;
+        add_bracket(s, s->nearest, s->nearest);
+    }
+    return true;
+}
+
+/* Where the sides come near each other without passing at any two places of the scan. */
+static bool search_dips(search *s, calc_error *error) {
+    unsigned best = 0;
+    for (unsigned i = 1; i < SCAN; i++) {
+        const double f = fabs(s->at[i].f);
+        const bool dip = f <= fabs(s->at[i - 1].f) && f <= fabs(s->at[i + 1].f) &&
+                         (f < fabs(s->at[i - 1].f) || f < fabs(s->at[i + 1].f));
+        if (dip && (!best || f < fabs(s->at[best].f)))
+            best = i;
+    }
+    return !best || go_nearer(s, s->at[best - 1], s->at[best], s->at[best + 1], error);
+}
+
 /* ---- no root ----------------------------------------------------------------------------------- */
 
 static bool no_root(search *s, calc_error *error) {
@@ -181,6 +238,8 @@ static bool no_root(search *s, calc_error *error) {
         return calc_fail(error, left->at, left->len,
                          "no root from %s = %s to %s: the sides pass each other where they have no value: %s",
                          k->text, from, to, s->why.text);
+    if (fabs(s->nearest.f) <= fabs(best.f))
+        best = s->nearest;
     if (s->edged && fabs(s->edge.f) <= fabs(best.f))
         best = s->edge;
     calc_value_text(s->d, best.f, off);
@@ -258,7 +317,8 @@ static bool several(search *s, calc_error *error) {
 }
 
 static bool answer(search *s, solve_answer *out, calc_error *error) {
-    if (!choose_range(s, error) || !scan(s) || (!s->roots && !search_edges(s)))
+    if (!choose_range(s, error) || !scan(s) || (!s->roots && !search_edges(s)) ||
+        (!s->roots && !search_dips(s, error)))
         return false;
     if (!s->roots)
         return no_root(s, error);
@@ -270,11 +330,12 @@ static bool answer(search *s, solve_answer *out, calc_error *error) {
     out->lo = fmin(s->root[0].x, s->other[0].x);
     out->hi = fmax(s->root[0].x, s->other[0].x);
     out->evaluations = s->q.evaluations;
+    out->touches = s->touches;
     return true;
 }
 
 bool solve(const solve_question *question, solve_answer *out, calc_error *error) {
-    search s = {.of = question};
+    search s = {.of = question, .nearest = {.f = (double)NAN}};
     gsl_set_error_handler_off();
     if (!ask_open(&s.q, question->c, &question->name, 1, error))
         return false;

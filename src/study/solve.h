@@ -19,11 +19,14 @@ typedef struct solve_answer {
     double x;
     double lo, hi; /* the bracket that the method began with */
     unsigned evaluations;
+    bool touches; /* the sides do not pass each other there: half of the digits are lost */
 } solve_answer;
 
 /* Without a range: the range of an input that has two ends, else three decades on either side of the present
- * value. Errors: no change of sign, with the place that comes closest and the edge of what the scene allows;
- * several roots; a jump instead of a root. The answer is good to the last digits that the expressions carry.
+ * value. Where the scan sees no change of sign, the sides may still meet where they come nearest: looked for
+ * by Brent's method for minima. Errors: no root, with the place that comes closest and the edge of what the
+ * scene allows; several roots; a jump instead of a root. The answer is good to the last digits that the
+ * expressions carry.
  */
 bool solve(const solve_question *question, solve_answer *out, calc_error *error);
 
