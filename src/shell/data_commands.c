@@ -16,6 +16,7 @@
 typedef struct estimate {
     column c;
     long double v, deviation;
+    const double *share; /* of its variance, by input, or NULL */
 } estimate;
 
 /* `mu = 0.4 +- 0.002`, both in the unit of the value. */
@@ -34,36 +35,51 @@ static void print_estimate(shell *sh, const estimate *e) {
         fprintf(sh->out, "%s = %s +- %s\n", e->c.name, value_text, deviation);
 }
 
-/* CSV: a row of values and deviations. */
-static bool print_row(shell *sh, const estimate *e, size_t count, calc_error *error) {
-    column columns[COLUMNS] = {{.name = NULL}};
-    long double si[COLUMNS];
-    bool ok = true;
-    for (size_t i = 0; i < count && ok; i++) {
-        char name[ARG_FILE_NAME];
-        snprintf(name, sizeof name, "%s deviation", e[i].c.name);
-        columns[2 * i] = e[i].c;
-        columns[2 * i + 1] = e[i].c;
-        columns[2 * i + 1].name = column_name(name, strlen(name));
-        ok = columns[2 * i + 1].name || calc_no_memory(error);
-        if (!e[i].c.chosen)
-            dim_unit(e[i].c.d, columns[2 * i].unit, sizeof columns[2 * i].unit);
-        memcpy(columns[2 * i + 1].unit, columns[2 * i].unit, sizeof columns[2 * i].unit);
-        si[2 * i] = e[i].v;
-        si[2 * i + 1] = e[i].deviation;
-    }
-    if (ok)
-        print_values(&sh->set, sh->out, columns, si, 2 * count);
-    for (size_t i = 0; i < count; i++)
-        free(columns[2 * i + 1].name);
-    return ok;
+/* One more column of a row. like: its unit, or NULL. */
+static bool add_column(column *c, const char *name, const column *like) {
+    *c = like ? *like : (column){.scale = 1};
+    c->name = column_name(name, strlen(name));
+    if (like && !like->chosen)
+        dim_unit(like->d, c->unit, sizeof c->unit);
+    return c->name != NULL;
 }
 
-static bool print_estimates(shell *sh, const estimate *e, size_t count, calc_error *error) {
+/* CSV: a row of values, deviations and, of what is uncertain, the shares of its inputs. */
+static bool print_row(shell *sh, const estimate *e, size_t count, const uncertainty_question *q,
+                      calc_error *error) {
+    const size_t shares = q ? q->count : 0, most = count * (2 + shares);
+    column *columns = calloc(most, sizeof *columns);
+    long double *si = calloc(most, sizeof *si);
+    size_t n = 0;
+    bool ok = columns && si;
+    for (size_t i = 0; i < count && ok; i++) {
+        char name[ARG_FILE_NAME];
+        si[n] = e[i].v;
+        ok = add_column(&columns[n++], e[i].c.name, &e[i].c);
+        snprintf(name, sizeof name, "%s deviation", e[i].c.name);
+        si[n] = e[i].deviation;
+        ok = ok && add_column(&columns[n++], name, &e[i].c);
+        for (size_t k = 0; k < shares && ok; k++) {
+            snprintf(name, sizeof name, "%s from %s", e[i].c.name, q->name[k].text);
+            si[n] = e[i].share[k];
+            ok = add_column(&columns[n++], name, NULL);
+        }
+    }
+    if (ok)
+        print_values(&sh->set, sh->out, columns, si, n);
+    for (size_t i = 0; columns && i < n; i++)
+        free(columns[i].name);
+    free(columns);
+    free(si);
+    return ok || calc_no_memory(error);
+}
+
+static bool print_estimates(shell *sh, const estimate *e, size_t count, const uncertainty_question *q,
+                            calc_error *error) {
     sh->calc.ans = (value){e[count - 1].v, e[count - 1].c.d};
     sh->calc.has_ans = true;
     if (sh->set.format == FORMAT_CSV)
-        return print_row(sh, e, count, error);
+        return print_row(sh, e, count, q, error);
     for (size_t i = 0; i < count; i++)
         if (sh->set.format == FORMAT_JSON)
             print_json_value(sh->out, e[i].c.name, e[i].v, e[i].c.d);
@@ -312,7 +328,7 @@ static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, cal
         e[i].deviation = a->deviation[i];
         ok = column_si(&e[i].c, q->name[i].text, q->name[i].d) || calc_no_memory(error);
     }
-    ok = ok && print_estimates(sh, e, q->count, error);
+    ok = ok && print_estimates(sh, e, q->count, NULL, error);
     if (ok)
         report_fit(sh, q, a);
     for (size_t i = 0; i < q->count; i++)
@@ -437,23 +453,28 @@ static bool print_uncertain(shell *sh, const uncertainty_question *q, const unce
         ok = column_fits(&q->e[k], &e[k].c, a->value[k].d, error);
         e[k].v = a->value[k].v;
         e[k].deviation = a->value[k].deviation;
+        e[k].share = a->value[k].share;
     }
     if (!ok)
         return false;
-    if (sh->set.format != FORMAT_TEXT && !print_estimates(sh, e, q->expressions, error))
+    if (sh->set.format != FORMAT_TEXT && !print_estimates(sh, e, q->expressions, q, error))
         return false;
     if (sh->set.format == FORMAT_JSON)
         json_uncertain(sh, q, a, e);
     for (size_t k = 0; k < q->expressions; k++) {
         const uncertain *u = &a->value[k];
         if (sh->set.format == FORMAT_TEXT) {
-            if (!print_estimates(sh, &e[k], 1, error))
+            if (!print_estimates(sh, &e[k], 1, q, error))
                 return false;
             text_uncertain(sh, q, u, &e[k]);
         }
-        if (u->differs && sh->set.format == FORMAT_CSV)
-            shell_note(sh, "note: the Monte Carlo says something else of %s: mean %.6g, deviation %.3g (SI)",
-                       e[k].c.name, u->mean, u->spread);
+        if (u->differs && sh->set.format == FORMAT_CSV) {
+            char mean[CALC_VALUE_TEXT], spread[CALC_VALUE_TEXT];
+            calc_value_text(u->d, u->mean, mean);
+            calc_value_text(u->d, u->spread, spread);
+            shell_note(sh, "note: the Monte Carlo says something else of %s: mean %s, deviation %s",
+                       e[k].c.name, mean, spread);
+        }
         if (u->samples < q->samples)
             shell_note(sh, "note: %u of %u samples have no value: %s", q->samples - u->samples, q->samples,
                        a->missing.text);
