@@ -32,6 +32,7 @@ import reading  # noqa: E402
 import reference  # noqa: E402
 import rim  # noqa: E402
 import scripts  # noqa: E402
+import sharing  # noqa: E402
 import table  # noqa: E402
 import trouble  # noqa: E402
 
@@ -194,7 +195,7 @@ def help_examples(tests):
 ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
          "reference": reference.run, "scripts": scripts.run, "reading": reading.run, "keeping": keeping.run,
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
-         "fits": fits.run, "backwards": backwards.run, "errors": table.run,
+         "fits": fits.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,
          "trouble": trouble.run, "rim": rim.run,
          "interactive": prompt.run, "live": live.run, "completion": completion.run, "readme": readme, "help": help_examples,
          "portable": portable.run, "packaging": packaging.run,

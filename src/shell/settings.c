@@ -93,6 +93,37 @@ static void show_model(const calc *c, const settings *set, FILE *to) {
         fprintf(to, " %u", s->springs);
 }
 
+/* A number of cores is the calculator's. */
+static bool parse_cores(calc *c, settings *set, lexer *lx) {
+    enum { MOST_CORES = 64 };
+    unsigned count = 0;
+    (void)set;
+    if (!lex_accept(lx, "auto") && !read_count(c, lx, "the number of cores", MOST_CORES, &count))
+        return false;
+    if (!at_end(lx))
+        return false;
+    c->cores = count;
+    return true;
+}
+
+static void show_cores(const calc *c, const settings *set, FILE *to) {
+    (void)set;
+    if (c->cores)
+        fprintf(to, "%u", c->cores);
+    else
+        fputs("auto", to);
+}
+
+static bool has_cores(const calc *c, const settings *set) {
+    (void)set;
+    return c->cores > 0;
+}
+
+static bool has_plot(const calc *c, const settings *set) {
+    (void)c;
+    return set->plot_width > 0;
+}
+
 const settings settings_initial = {.digits = 6, .plot_timeout = 30};
 
 /* ---- the table --------------------------------------------------------------------------------- */
@@ -136,7 +167,15 @@ static const setting rows[] = {
      .usage = "WxH|auto|terminal auto|dumb|block|sixel",
      .summary = "size of plots in the terminal, in characters, and how they are drawn there",
      .parse = parse_plot,
-     .show = show_plot},
+     .show = show_plot,
+     .differs = has_plot},
+    {.name = "cores",
+     .usage = "auto|N",
+     .summary =
+         "processes that long tables, maps, fits and samples are shared among; auto: one for each core",
+     .parse = parse_cores,
+     .show = show_cores,
+     .differs = has_cores},
 };
 enum { SETTINGS = sizeof rows / sizeof *rows };
 
@@ -203,7 +242,7 @@ void setting_show(const setting *row, const calc *c, const settings *set, FILE *
 
 void settings_write(const calc *c, const settings *set, FILE *to) {
     for (const setting *row = rows; row < rows + SETTINGS; row++)
-        if (row->show ? row->show == show_plot && set->plot_width
+        if (row->show ? row->differs && row->differs(c, set)
                       : memcmp((const char *)set + row->at, (const char *)&settings_initial + row->at,
                                sizeof(int)) != 0)
             setting_show(row, c, set, to);

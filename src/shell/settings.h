@@ -34,6 +34,7 @@ typedef struct setting {
     /* where it is neither; the model belongs to the scene */
     bool (*parse)(calc *c, settings *set, lexer *lx);
     void (*show)(const calc *c, const settings *set, FILE *to);
+    bool (*differs)(const calc *c, const settings *set); /* from how it begins; NULL: not to be written */
 } setting;
 
 extern const settings settings_initial;

@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/team.h"
+
 /* Where a trial point has no value its residuals are this large: the step is taken back. */
 static const double refused = 1e6;
 /* Tuned to 95 % of the efficiency of least squares on normal noise (Huber 1981). */
@@ -31,7 +33,11 @@ typedef struct state {
     bool twice;
     size_t bad_row; /* the last one without a value; NO_ROW: it was not a row's fault */
     gsl_vector *weight;
-    double *residual; /* as they are computed */
+    double *residual;    /* as they are computed */
+    double x[FIT_NAMES]; /* of the names, present */
+    team *t;
+    bool alone;   /* a team is of no use, or cannot be had */
+    double taken; /* seconds, for all equations once */
 } state;
 
 static double parameter(const state *s, size_t i, double q) {
@@ -69,13 +75,100 @@ static bool equation_row(state *s, size_t row, double *out) {
     return true;
 }
 
-static bool equations(state *s, double *out) {
-    for (size_t i = 0; i < s->of->rows; i++) {
+/* Rows from first to last. */
+static bool equation_rows(state *s, size_t first, size_t last, double *out) {
+    for (size_t i = first; i < last; i++) {
         s->bad_row = i;
-        if ((i % 64 == 0 && stopped(s)) || !equation_row(s, i, &out[i]))
+        if ((i % 64 == 0 && stopped(s)) || !equation_row(s, i, &out[i - first]))
             return false;
     }
     return true;
+}
+
+/* Rows go in portions where a team pays: at least a millisecond of them. */
+enum { ROWS = 1024 };
+
+typedef struct portion {
+    double x[FIT_NAMES];
+    size_t first, last;
+} portion;
+
+typedef struct outcome {
+    unsigned used;
+    dim d;
+    double v[ROWS];
+} outcome;
+
+static bool work(void *context, const void *in, void *out) {
+    state *s = context;
+    const portion *p = in;
+    outcome *o = out;
+    error_clear(s->q.error);
+    s->q.t->scene.used = 0;
+    const bool ok = ask_set(&s->q, p->x) && equation_rows(s, p->first, p->last, o->v);
+    o->used = s->q.t->scene.used;
+    o->d = s->d;
+    return ok;
+}
+
+typedef struct sharing {
+    state *s;
+    double *out;
+    size_t rows; /* of a portion */
+} sharing;
+
+static void give(void *context, size_t part, void *in) {
+    const sharing *sh = context;
+    const state *s = sh->s;
+    portion *p = in;
+    for (size_t i = 0; i < s->of->count; i++)
+        p->x[i] = s->x[i];
+    p->first = part * sh->rows;
+    p->last = p->first + sh->rows < s->of->rows ? p->first + sh->rows : s->of->rows;
+}
+
+static bool take(void *context, size_t part, const void *in, const void *out) {
+    const sharing *sh = context;
+    state *s = sh->s;
+    const portion *p = in;
+    const outcome *o = out;
+    (void)part;
+    if (!o || !dim_equal(o->d, s->d))
+        return equation_rows(s, p->first, p->last, sh->out + p->first);
+    s->q.t->scene.used |= o->used;
+    memcpy(sh->out + p->first, o->v, (p->last - p->first) * sizeof *o->v);
+    return true;
+}
+
+static bool shared(state *s) {
+    const double rounds = 10; /* a fit goes through the rows more often than that */
+    if (s->t || s->alone || !s->known || !team_pays(s->of->c, s->taken * rounds, 1, 2))
+        return s->t;
+    s->t = team_begin(&(team_job){
+        .c = s->of->c, .in = sizeof(portion), .out = sizeof(outcome), .work = work, .context = s});
+    s->alone = !s->t;
+    return s->t;
+}
+
+static bool equations(state *s, double *out) {
+    const size_t rows = s->of->rows;
+    if (shared(s)) {
+        sharing sh = {.s = s, .out = out};
+        const double each = s->taken / (double)rows;
+        sh.rows = (size_t)fmin(fmax(fmin(1e-3 / each, (double)rows / 4), 1), ROWS);
+        const team_run run = {
+            .parts = (rows + sh.rows - 1) / sh.rows, .give = give, .take = take, .context = &sh};
+        const bool ok = team_work(s->t, &run);
+        if (!ok) { /* the rest of it is of no use */
+            team_end(s->t);
+            s->t = NULL;
+        }
+        return !stopped(s) && ok;
+    }
+    const double began = team_clock();
+    const bool ok = equation_rows(s, 0, rows, out);
+    s->taken = team_clock() - began;
+    return ok;
 }
 
 /* The press that everything begins with. */
@@ -148,10 +241,9 @@ static bool loop_rows(state *s, double *out) {
 
 /* left - right, or measured - computed F_x, in SI. */
 static bool residuals(state *s, const gsl_vector *q, double *out) {
-    double x[FIT_NAMES];
     for (size_t i = 0; i < s->of->count; i++)
-        x[i] = parameter(s, i, gsl_vector_get(q, i));
-    return ask_set(&s->q, x) && (s->of->left ? equations : loop_rows)(s, out);
+        s->x[i] = parameter(s, i, gsl_vector_get(q, i));
+    return ask_set(&s->q, s->x) && (s->of->left ? equations : loop_rows)(s, out);
 }
 
 static int gsl_residuals(const gsl_vector *q, void *context, gsl_vector *f) {
@@ -404,6 +496,7 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     gsl_vector_free(q);
     gsl_vector_free(s.weight);
     free(s.residual);
+    team_end(s.t);
     ask_close(&s.q);
     return ok;
 }

@@ -2,11 +2,8 @@
 /* Sweeps in rows. */
 #include "study/grid.h"
 
-bool grid_run(const grid *g, sweep_job *job) {
+static bool run_sweeps(const grid *g, sweep_job *job) {
     sweep_range ends = {.lo = 0};
-    error_clear(&job->missing);
-    job->values = 0;
-    job->part = true;
     if (!g->b.range(&g->b, &ends, job->error))
         return false;
     for (size_t j = 0; j <= g->b.steps; j++) {
@@ -18,5 +15,13 @@ bool grid_run(const grid *g, sweep_job *job) {
         if (!sweep_run(&s, job))
             return false;
     }
-    return job->values > 0 || !job->missing.raised || sweep_nothing(job);
+    return true;
+}
+
+bool grid_run(const grid *g, sweep_job *job) {
+    sweep_begin(job, (g->a.steps + 1) * (g->b.steps + 1));
+    job->part = true;
+    const bool ok = run_sweeps(g, job);
+    sweep_end(job);
+    return ok && (job->values > 0 || !job->missing.raised || sweep_nothing(job));
 }

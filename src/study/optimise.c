@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "number/real.h"
+#include "study/team.h"
 
 /* Names are turned into parts of their ranges, 0 to 1. */
 enum { N = OPTIMISE_NAMES, LINE = 16, SLOPES = 3, EDGE_EVALUATIONS = 60, SIMPLEX_STEPS = 400 };
@@ -39,21 +40,28 @@ static double place_of(const search *s, size_t i, double u) {
     return (double)(of->lo[i] * fret_pow((long double)of->hi[i] / of->lo[i], u));
 }
 
-/* To be made small; NaN: no value there, or the question has ended. */
-static long double at(search *s, const double *u) {
+static bool value_at(search *s, const double *u, long double *v) {
     double x[N];
-    long double v;
     for (size_t i = 0; i < s->of->count; i++)
         x[i] = place_of(s, i, u[i]);
-    if (!ask_set(&s->q, x) || !ask_value(&s->q, s->of->e, &s->d, &s->known, &v)) {
-        if (s->q.none.raised)
-            s->why = s->q.none;
-        return (long double)NAN;
-    }
+    return ask_set(&s->q, x) && ask_value(&s->q, s->of->e, &s->d, &s->known, v);
+}
+
+static long double seen(search *s, long double v) {
     if (isnan(s->seen))
         s->seen = v;
     s->varies = s->varies || v != s->seen;
     return s->of->most ? -v : v;
+}
+
+/* To be made small; NaN: no value there, or the question has ended. */
+static long double at(search *s, const double *u) {
+    long double v;
+    if (value_at(s, u, &v))
+        return seen(s, v);
+    if (s->q.none.raised)
+        s->why = s->q.none;
+    return (long double)NAN;
 }
 
 static bool better(search *s, const double *u, long double f) {
@@ -63,6 +71,78 @@ static bool better(search *s, const double *u, long double f) {
     for (size_t i = 0; i < s->of->count; i++)
         s->u[i] = u[i];
     return true;
+}
+
+/* ---- many places at once ----------------------------------------------------------------------- */
+
+enum { PLACES = 128 };
+
+typedef struct places {
+    search *s;
+    size_t count, first; /* where the team begins */
+    double u[PLACES][N];
+    long double f[PLACES];
+} places;
+
+typedef struct outcome {
+    long double v;
+    dim d;
+    unsigned used;
+} outcome;
+
+static bool work(void *context, const void *in, void *out) {
+    search *s = context;
+    outcome *o = out;
+    error_clear(s->q.error);
+    s->q.t->scene.used = 0;
+    const bool ok = value_at(s, in, &o->v);
+    o->d = s->d;
+    o->used = s->q.t->scene.used;
+    return ok;
+}
+
+static void give(void *context, size_t part, void *in) {
+    const places *p = context;
+    for (size_t i = 0; i < N; i++)
+        ((double *)in)[i] = p->u[p->first + part][i];
+}
+
+static bool take(void *context, size_t part, const void *in, const void *out) {
+    places *p = context;
+    search *s = p->s;
+    const outcome *o = out;
+    const bool of_use = o && s->known && dim_equal(o->d, s->d);
+    p->f[p->first + part] = of_use ? seen(s, o->v) : at(s, in);
+    if (of_use) {
+        s->q.evaluations++;
+        s->q.t->scene.used |= o->used;
+    }
+    return !s->q.error->raised;
+}
+
+/* One after the other, or by a team where that pays. */
+static bool at_all(places *p) {
+    search *s = p->s;
+    const double began = team_clock();
+    size_t i = 0;
+    for (; i < p->count && !team_pays(s->of->c, team_clock() - began, (double)i, (double)p->count); i++) {
+        p->f[i] = at(s, p->u[i]);
+        if (s->q.error->raised)
+            return false;
+    }
+    p->first = i;
+    team *t =
+        i < p->count
+            ? team_begin(&(team_job){
+                  .c = s->of->c, .in = sizeof p->u[0], .out = sizeof(outcome), .work = work, .context = s})
+            : NULL;
+    const team_run run = {.parts = p->count - i, .give = give, .take = take, .context = p};
+    if (t && !team_work(t, &run) && !s->q.error->raised)
+        calc_interrupted(s->q.error);
+    team_end(t);
+    for (; !t && i < p->count && !s->q.error->raised; i++)
+        p->f[i] = at(s, p->u[i]);
+    return !s->q.error->raised;
 }
 
 /* ---- along one name ---------------------------------------------------------------------------- */
@@ -85,26 +165,15 @@ typedef struct line {
 
 static bool search_line(line *l);
 
-/* Takes what is better. */
-static long double line_at(line *l, double u) {
-    double place[N];
-    long double f;
-    l->evaluations++;
+static void line_place(const line *l, double u, double place[N]) {
     for (size_t i = 0; i < N; i++)
         place[i] = l->base[i];
     place[l->axis] = u;
-    if (l->nested && l->axis + 1 < l->s->of->count) {
-        line inner = {.s = l->s, .axis = l->axis + 1, .nested = true, .f = (long double)NAN};
-        for (size_t i = 0; i < N; i++)
-            inner.base[i] = place[i];
-        if (!search_line(&inner))
-            return (long double)NAN;
-        for (size_t i = 0; i < N; i++)
-            place[i] = inner.place[i];
-        f = inner.f;
-    } else {
-        f = at(l->s, place);
-    }
+}
+
+/* Takes what is better. */
+static long double line_take(line *l, double u, const double place[N], long double f) {
+    l->evaluations++;
     if (f < l->f || (isnan(l->f) && !isnan(f))) {
         l->u = u;
         l->f = f;
@@ -112,6 +181,27 @@ static long double line_at(line *l, double u) {
             l->place[i] = place[i];
     }
     return f;
+}
+
+static long double line_at(line *l, double u) {
+    double place[N];
+    long double f;
+    line_place(l, u, place);
+    if (l->nested && l->axis + 1 < l->s->of->count) {
+        line inner = {.s = l->s, .axis = l->axis + 1, .nested = true, .f = (long double)NAN};
+        for (size_t i = 0; i < N; i++)
+            inner.base[i] = place[i];
+        if (!search_line(&inner)) {
+            l->evaluations++;
+            return (long double)NAN;
+        }
+        for (size_t i = 0; i < N; i++)
+            place[i] = inner.place[i];
+        f = inner.f;
+    } else {
+        f = at(l->s, place);
+    }
+    return line_take(l, u, place, f);
 }
 
 static double gsl_line(double u, void *context) {
@@ -178,8 +268,14 @@ static bool approach_edge(line *l, double bad, double other) {
 static bool search_line(line *l) {
     long double f[LINE + 1];
     int best = -1;
+    places all = {.s = l->s, .count = LINE + 1};
+    const bool nested = l->nested && l->axis + 1 < l->s->of->count;
+    for (int i = 0; i <= LINE; i++)
+        line_place(l, (double)i / LINE, all.u[i]);
+    if (!nested && !at_all(&all))
+        return false;
     for (int i = 0; i <= LINE; i++) {
-        f[i] = line_at(l, (double)i / LINE);
+        f[i] = nested ? line_at(l, (double)i / LINE) : line_take(l, (double)i / LINE, all.u[i], all.f[i]);
         if (l->s->q.error->raised)
             return false;
         if (!isnan(f[i]) && l->u == (double)i / LINE)
@@ -265,18 +361,16 @@ static bool simplex(search *s, size_t free, double step, double size) {
 
 static bool search_grid(search *s) {
     const size_t count = s->of->count, side = count == 2 ? 7 : 5;
-    size_t places = 1;
+    places all = {.s = s, .count = 1};
     for (size_t i = 0; i < count; i++)
-        places *= side;
-    for (size_t p = 0; p < places; p++) {
-        double u[N];
+        all.count *= side;
+    for (size_t p = 0; p < all.count; p++)
         for (size_t i = 0, rest = p; i < count; i++, rest /= side)
-            u[i] = (double)(rest % side) / (double)(side - 1);
-        const long double f = at(s, u);
-        if (s->q.error->raised)
-            return false;
-        better(s, u, f);
-    }
+            all.u[p][i] = (double)(rest % side) / (double)(side - 1);
+    if (!at_all(&all))
+        return false;
+    for (size_t p = 0; p < all.count; p++)
+        better(s, all.u[p], all.f[p]);
     return true;
 }
 

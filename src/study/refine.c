@@ -82,15 +82,6 @@ static void mark_column(points *p, size_t column) {
     }
 }
 
-static bool evaluate(const points *p, const long double *part, size_t n, long double *value) {
-    for (size_t i = 0, rows; i < n; i += rows) {
-        rows = n - i < p->r->rows ? n - i : p->r->rows;
-        if (!p->r->evaluate(p->r->context, part + i, rows, value + i * p->r->count))
-            return false;
-    }
-    return true;
-}
-
 /* The middles of marked intervals come between their ends, from the back so that nothing is overwritten. */
 static void merge(points *p, size_t more, const long double *part, const long double *value) {
     const size_t count = p->r->count, row = count * sizeof *value;
@@ -118,7 +109,7 @@ static bool halve(points *p, long double *part, long double *value, size_t *more
             part[(*more)++] = (p->part[i] + p->part[i + 1]) / 2;
     if (p->n + *more >= POINTS) /* a curve that bends everywhere is drawn as it is */
         *more = 0;
-    if (!evaluate(p, part, *more, value))
+    if (!p->r->evaluate(p->r->context, part, *more, value))
         return false;
     if (*more)
         merge(p, *more, part, value);
@@ -128,7 +119,7 @@ static bool halve(points *p, long double *part, long double *value, size_t *more
 static bool run(points *p, double *sorted, long double *part, long double *value) {
     for (size_t i = 0; i < p->n; i++)
         p->part[i] = (long double)i / (long double)(p->n - 1);
-    if (!evaluate(p, p->part, p->n, p->value))
+    if (!p->r->evaluate(p->r->context, p->part, p->n, p->value))
         return false;
     for (size_t j = 0; j < p->r->count; j++)
         p->of[j] = bulk_of(p, j, sorted);

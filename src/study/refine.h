@@ -9,7 +9,6 @@
 typedef struct refinement {
     size_t count; /* values of a row; one that is not finite is a gap */
     size_t steps; /* even ones to begin with */
-    size_t rows;  /* most rows of a call */
     /* Fills rows x count values; false: an error, or stopped. */
     bool (*evaluate)(void *context, const long double *part, size_t rows, long double *values);
     /* Takes the rows in the end, in their order. */

@@ -9,15 +9,22 @@
 
 #include "number/real.h"
 #include "study/refine.h"
+#include "study/team.h"
 
 typedef struct state {
     const sweep *s;
     sweep_job *job;
     trial *t;
     size_t curve;
+    long double with; /* its value */
     sweep_range range;
-    long double *values;              /* of a row */
+    long double *values;              /* of a block, row by row */
+    long double *row;                 /* of the row that is being evaluated */
     long double (*block)[EXPR_BLOCK]; /* of the expressions */
+    /* of the range */
+    size_t rows;
+    const long double *part; /* where each row is in it, 0..1; NULL: evenly */
+    long double *out;        /* of all rows; NULL: they go to the job as soon as they are there */
 } state;
 
 static bool stopped(const state *st) {
@@ -87,11 +94,11 @@ static bool evaluate_row(state *st, long double x) {
         value v;
         calc_error error;
         error_clear(&error);
-        st->values[i] = (long double)NAN;
+        st->row[i] = (long double)NAN;
         if (expr_eval(job->c, &job->expressions[i], &v, &error)) {
             if (!fits(st, i, v.d, x))
                 return false;
-            st->values[i] = v.v;
+            st->row[i] = v.v;
             job->values++;
             continue;
         }
@@ -102,10 +109,6 @@ static bool evaluate_row(state *st, long double x) {
     return !stopped(st);
 }
 
-static bool give_row(state *st, long double x) {
-    return st->job->row(st->job->context, st->s, st->curve, x, st->values);
-}
-
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
 long double sweep_value(const sweep *s, const sweep_range *r, long double part) {
@@ -114,8 +117,9 @@ long double sweep_value(const sweep *s, const sweep_range *r, long double part) 
     return s->log ? r->lo * fret_pow(r->hi / r->lo, part) : r->lo + (r->hi - r->lo) * part;
 }
 
-static long double sweep_at(const state *st, long double part) {
-    return sweep_value(st->s, &st->range, part);
+static long double place(const state *st, size_t row) {
+    return sweep_value(st->s, &st->range,
+                       st->part ? st->part[row] : (long double)row / (long double)st->s->steps);
 }
 
 /* Many rows at once, all expressions or none. An input that is swept makes a new scene of every row. */
@@ -141,7 +145,7 @@ static bool one_row(state *st, long double x) {
         return evaluate_row(st, x);
     for (size_t i = 0; i < st->job->count; i++) {
         dim d;
-        st->values[i] = (long double)NAN;
+        st->row[i] = (long double)NAN;
         if (!st->job->known[i] && expr_dim(st->job->c, &st->job->expressions[i], &d) && !fits(st, i, d, x))
             return false;
     }
@@ -155,48 +159,225 @@ static void progress(const state *st, size_t row) {
                           ((double)st->curve + (double)row / (double)(st->s->steps + 1)) / (double)curves);
 }
 
-/* Up to EXPR_BLOCK rows, one after the other in `out`. */
-static bool evaluate_rows(void *context, const long double *part, size_t rows, long double *out) {
-    state *st = context;
+/* Rows that are had together, or else one by one: how many there are before one that ends it. Which way
+ * decides on last digits: the ends of a block depend on nothing but the range. */
+static size_t evaluate(state *st, const long double *x, size_t rows, long double *values) {
     const size_t count = st->job->count;
-    long double x[EXPR_BLOCK] = {0};
-    for (size_t r = 0; r < rows; r++)
-        x[r] = sweep_at(st, part[r]);
     const bool whole = run_block(st, x, rows);
     for (size_t r = 0; r < rows; r++) {
+        st->row = values + r * count;
         for (size_t j = 0; whole && j < count; j++)
-            st->values[j] = st->block[j][r];
+            st->row[j] = st->block[j][r];
         if (!whole && !one_row(st, x[r]))
-            return false;
-        memcpy(out + r * count, st->values, count * sizeof *out);
+            return r;
     }
+    return rows;
+}
+
+static bool give_rows(state *st, size_t first, const long double *x, const long double *values, size_t rows) {
+    const size_t count = st->job->count;
+    st->job->done += rows;
+    if (st->out)
+        memcpy(st->out + first * count, values, rows * count * sizeof *values);
+    for (size_t r = 0; !st->out && r < rows; r++)
+        if (!st->job->row(st->job->context, st->s, st->curve, x[r], values + r * count))
+            return false;
     return !stopped(st);
+}
+
+/* An error loses no row before it. */
+static bool run_rows(state *st, size_t first, const long double *x, size_t rows) {
+    const double began = team_clock();
+    const size_t n = evaluate(st, x, rows, st->values);
+    st->job->taken += team_clock() - began;
+    return give_rows(st, first, x, st->values, n) && n == rows;
+}
+
+/* ---- by a team --------------------------------------------------------------------------------- */
+
+/* Rows one after the other, and the circumstances of their curve. */
+typedef struct portion {
+    long double with;
+    sweep_range range;
+    size_t rows;
+    long double x[EXPR_BLOCK];
+} portion;
+
+/* What comes of them; behind it a found for each expression, and the values, row by row. */
+typedef struct outcome {
+    unsigned used;
+    bool missing; /* a value is */
+    size_t values;
+} outcome;
+
+typedef struct found {
+    dim d;
+    bool known;
+} found;
+
+static size_t found_at(void) {
+    return (sizeof(outcome) + 63) / 64 * 64;
+}
+
+static size_t values_at(size_t count) {
+    return found_at() + (count * sizeof(found) + 63) / 64 * 64;
+}
+
+static bool begin_curve(state *st, long double with, calc_error *error) {
+    knob var = st->s->var;
+    var.d = st->range.d;
+    st->t = trial_open(st->job->c, error);
+    return st->t && (!st->s->curves || trial_set(st->t, &st->s->with, with, error)) &&
+           (var.is_input || trial_set(st->t, &var, st->range.lo, error));
+}
+
+/* In a copy, whose state is its own. */
+static bool work(void *context, const void *in, void *out) {
+    state *st = context;
+    sweep_job *job = st->job;
+    const portion *p = in;
+    outcome *o = out;
+    found *f = (found *)((char *)out + found_at());
+    error_clear(job->error);
+    error_clear(&job->missing);
+    job->values = 0;
+    const bool same = p->with == st->with;
+    st->range = p->range;
+    st->with = p->with;
+    if (!same) {
+        trial_close(st->t);
+        if (!begin_curve(st, p->with, job->error))
+            _Exit(0);
+    }
+    st->t->scene.used = 0;
+    const bool ok =
+        evaluate(st, p->x, p->rows, (long double *)((char *)out + values_at(job->count))) == p->rows;
+    *o = (outcome){st->t->scene.used, job->missing.raised, job->values};
+    for (size_t i = 0; i < job->count; i++)
+        f[i] = (found){job->d[i], job->known[i]};
+    return ok;
+}
+
+typedef struct sharing {
+    state *st;
+    size_t first, rows; /* where it begins; rows of a portion */
+} sharing;
+
+static void give(void *context, size_t part, void *in) {
+    const sharing *sh = context;
+    const state *st = sh->st;
+    portion *p = in;
+    const size_t row = sh->first + part * sh->rows;
+    p->with = st->with;
+    p->range = st->range;
+    p->rows = st->rows - row < sh->rows ? st->rows - row : sh->rows;
+    for (size_t i = 0; i < p->rows; i++)
+        p->x[i] = place(st, row + i);
+}
+
+/* Dimensions as they have been found before, and no gap that would be the first to be told. */
+static bool agrees(const sweep_job *job, const outcome *o, const found *f) {
+    for (size_t i = 0; i < job->count; i++)
+        if (f[i].known != job->known[i] || !dim_equal(f[i].d, job->d[i]))
+            return false;
+    return !o->missing || job->missing.raised;
+}
+
+static bool take(void *context, size_t part, const void *in, const void *out) {
+    const sharing *sh = context;
+    state *st = sh->st;
+    sweep_job *job = st->job;
+    const portion *p = in;
+    const outcome *o = out;
+    const size_t row = sh->first + part * sh->rows;
+    progress(st, row);
+    if (!o || !agrees(job, o, (const found *)((const char *)out + found_at())))
+        return run_rows(st, row, p->x, p->rows);
+    const long double *values = (const long double *)((const char *)out + values_at(job->count));
+    job->values += o->values;
+    st->t->scene.used |= o->used;
+    return give_rows(st, row, p->x, values, p->rows);
+}
+
+/* Rows of a block. Where an input is swept they are had one by one, and any number does. */
+static size_t block_rows(const state *st) {
+    const size_t least = st->s->var.is_input ? 4 : 16, rows = st->rows / 64 / least * least;
+    return rows < least ? least : rows < EXPR_BLOCK ? rows : EXPR_BLOCK;
+}
+
+/* Has it come to be worth while? */
+static bool shared(state *st) {
+    sweep_job *job = st->job;
+    if (job->team || job->alone || !team_pays(job->c, job->taken, (double)job->done, (double)job->all))
+        return job->team;
+    const size_t out = values_at(job->count) + EXPR_BLOCK * job->count * sizeof *st->values;
+    job->team =
+        team_begin(&(team_job){.c = job->c, .in = sizeof(portion), .out = out, .work = work, .context = st});
+    job->alone = !job->team;
+    return job->team;
+}
+
+/* From a row on. A portion takes a millisecond, or less where there are few. */
+static bool share(state *st, size_t row) {
+    static const double portion_seconds = 1e-3;
+    sweep_job *job = st->job;
+    const size_t left = st->rows - row;
+    sharing sh = {.st = st, .first = row, .rows = block_rows(st)};
+    if (st->s->var.is_input) {
+        const double each = job->taken / (double)job->done, most = (double)left / 4;
+        const double rows = fmin(fmin(portion_seconds / each, most), EXPR_BLOCK);
+        sh.rows = rows > 1 ? (size_t)rows : 1;
+    }
+    const team_run run = {
+        .parts = (left + sh.rows - 1) / sh.rows, .give = give, .take = take, .context = &sh};
+    const bool ok = team_work(job->team, &run);
+    return !stopped(st) && ok;
+}
+
+static bool run_all(state *st) {
+    sweep_job *job = st->job;
+    const size_t most = block_rows(st);
+    long double x[EXPR_BLOCK];
+    if (job->done + st->rows > job->all)
+        job->all = job->done + st->rows;
+    for (size_t i = 0, rows; i < st->rows; i += rows) {
+        if (st->rows - i > most && shared(st))
+            return share(st, i);
+        rows = st->rows - i < most ? st->rows - i : most;
+        for (size_t r = 0; r < rows; r++)
+            x[r] = place(st, i + r);
+        progress(st, i);
+        if (!run_rows(st, i, x, rows))
+            return false;
+    }
+    return true;
+}
+
+void sweep_begin(sweep_job *job, size_t rows) {
+    error_clear(&job->missing);
+    job->values = job->done = 0;
+    job->all = rows;
+    job->taken = 0;
+}
+
+void sweep_end(sweep_job *job) {
+    team_end(job->team);
+    job->team = NULL;
+}
+
+/* ---- even rows, or where they are wanted ------------------------------------------------------- */
+
+static bool evaluate_rows(void *context, const long double *part, size_t rows, long double *out) {
+    state *st = context;
+    st->part = part;
+    st->rows = rows;
+    st->out = out;
+    return run_all(st);
 }
 
 static bool give_part(void *context, long double part, const long double *values) {
     state *st = context;
-    return st->job->row(st->job->context, st->s, st->curve, sweep_at(st, part), values);
-}
-
-/* Every row goes out as soon as it is there: an error loses none before it. */
-static bool run_evenly(state *st) {
-    const size_t steps = st->s->steps, count = st->job->count;
-    long double x[EXPR_BLOCK];
-    bool ok = true;
-    for (size_t i = 0, rows; ok && i <= steps; i += rows) {
-        rows = steps - i < EXPR_BLOCK ? steps - i + 1 : EXPR_BLOCK;
-        for (size_t r = 0; r < rows; r++)
-            x[r] = sweep_at(st, (long double)(i + r) / (long double)steps);
-        progress(st, i);
-        const bool whole = run_block(st, x, rows);
-        for (size_t r = 0; ok && r < rows; r++) {
-            for (size_t j = 0; whole && j < count; j++)
-                st->values[j] = st->block[j][r];
-            ok = (whole || one_row(st, x[r])) && give_row(st, x[r]);
-        }
-        ok = ok && !stopped(st);
-    }
-    return ok;
+    return st->job->row(st->job->context, st->s, st->curve, sweep_value(st->s, &st->range, part), values);
 }
 
 static bool run_range(state *st) {
@@ -204,11 +385,11 @@ static bool run_range(state *st) {
     var.d = st->range.d;
     if (!var.is_input && !trial_set(st->t, &var, st->range.lo, st->job->error))
         return false;
+    st->rows = st->s->steps + 1;
     if (!st->s->refine)
-        return run_evenly(st);
+        return run_all(st);
     const refinement r = {.count = st->job->count,
                           .steps = st->s->steps,
-                          .rows = EXPR_BLOCK,
                           .evaluate = evaluate_rows,
                           .give = give_part,
                           .context = st};
@@ -220,7 +401,8 @@ static bool run_range(state *st) {
 static bool look(void *context, double time, calc_error *error) {
     state *st = context;
     (void)error;
-    return evaluate_row(st, time) && give_row(st, time);
+    st->row = st->values;
+    return evaluate_row(st, time) && st->job->row(st->job->context, st->s, st->curve, time, st->row);
 }
 
 bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error) {
@@ -257,7 +439,8 @@ static bool run_along(state *st) {
 static bool run_curve(state *st) {
     const sweep *s = st->s;
     calc_error *error = st->job->error;
-    if (s->curves && !trial_set(st->t, &s->with, s->value[st->curve], error))
+    st->with = s->curves ? s->value[st->curve] : 0;
+    if (s->curves && !trial_set(st->t, &s->with, st->with, error))
         return false;
     st->range = (sweep_range){.lo = 0};
     bool ok = s->range(s, &st->range, error);
@@ -278,11 +461,9 @@ bool sweep_nothing(sweep_job *job) {
 bool sweep_run(const sweep *s, sweep_job *job) {
     const size_t curves = s->curves ? s->curves : 1;
     state st = {.s = s, .job = job};
-    if (!job->part) {
-        error_clear(&job->missing);
-        job->values = 0;
-    }
-    st.values = malloc(job->count * sizeof *st.values);
+    if (!job->part)
+        sweep_begin(job, curves * (s->steps + 1));
+    st.values = malloc(EXPR_BLOCK * job->count * sizeof *st.values);
     st.block = malloc(job->count * sizeof *st.block);
     bool ok = st.values && st.block;
     if (!ok)
@@ -296,5 +477,7 @@ bool sweep_run(const sweep *s, sweep_job *job) {
     }
     free(st.values);
     free(st.block);
+    if (!job->part)
+        sweep_end(job);
     return ok && (job->part || job->values > 0 || !job->missing.raised || sweep_nothing(job));
 }

@@ -53,7 +53,12 @@ typedef struct sweep_job {
     calc_error missing; /* the first value that could not be had: raised */
     char where[320];    /* of it */
     size_t values;      /* that could be had */
-    bool part; /* of something larger: no value at all is no error, and missing and values go on counting */
+    bool part; /* of something larger: no value at all is no error, and missing, values and what follows go on
+                  counting */
+    struct team *team;                            /* at work on it, or NULL */
+    bool alone;                                   /* there is none to be had */
+    size_t done, all;                             /* rows */
+    double taken;                                 /* seconds for those, without what became of them */
     void (*progress)(void *context, double part); /* or NULL */
 } sweep_job;
 
@@ -63,6 +68,9 @@ bool sweep_run(const sweep *s, sweep_job *job);
 
 /* The value of the name at a part 0..1 of its range. */
 long double sweep_value(const sweep *s, const sweep_range *r, long double part);
+/* Around the sweeps that are parts of one job: of so many rows in all. */
+void sweep_begin(sweep_job *job, size_t rows);
+void sweep_end(sweep_job *job);
 /* The error of a sweep without any value; false. */
 bool sweep_nothing(sweep_job *job);
 /* Appends the load of a range to the program of a trial; `from` gets where it begins. */

@@ -7,6 +7,8 @@
 #include <gsl/gsl_rng.h>
 #include <math.h>
 
+#include "study/team.h"
+
 typedef struct state {
     const uncertainty_question *of;
     ask q;
@@ -103,31 +105,145 @@ static bool differs(const uncertain *u) {
     return fabs(u->mean - (double)u->v) > mean || fabs(u->spread - u->deviation) > spread;
 }
 
-static bool monte_carlo(state *s, uncertainty_answer *out, calc_error *error) {
-    const uncertainty_question *of = s->of;
-    double squares[UNCERTAIN_VALUES] = {0}, x[UNCERTAIN_NAMES];
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    if (!rng)
-        return calc_no_memory(error);
-    gsl_rng_set(rng, of->seed);
-    for (unsigned n = 0; n < of->samples && !error->raised; n++) {
+/* Samples go in portions, to a team where it pays; they are drawn, and counted, in their order. */
+enum { SAMPLES = 16 };
+
+typedef struct portion {
+    unsigned samples;
+    double x[SAMPLES][UNCERTAIN_NAMES];
+} portion;
+
+typedef struct outcome {
+    unsigned used;
+    bool missing; /* a value is */
+    bool known[UNCERTAIN_VALUES];
+    dim d[UNCERTAIN_VALUES];
+    double v[SAMPLES][UNCERTAIN_VALUES]; /* NaN: there is none */
+} outcome;
+
+typedef struct sampling {
+    state *s;
+    uncertainty_answer *answer;
+    gsl_rng *rng;
+    double squares[UNCERTAIN_VALUES];
+    unsigned drawn, counted;
+    double taken; /* seconds */
+    team *t;
+} sampling;
+
+static void draw(void *context, size_t part, void *in) {
+    sampling *m = context;
+    const uncertainty_question *of = m->s->of;
+    portion *p = in;
+    (void)part;
+    for (p->samples = 0; p->samples < SAMPLES && m->drawn < of->samples; p->samples++, m->drawn++)
         for (size_t i = 0; i < of->count; i++)
-            x[i] = out->x[i] + gsl_ran_gaussian_ziggurat(rng, of->deviation[i]);
-        const bool set = ask_set(&s->q, x);
-        if (!set && !out->missing.raised)
-            out->missing = s->q.none;
-        for (size_t k = 0; k < of->expressions && set; k++) {
+            p->x[p->samples][i] = m->answer->x[i] + gsl_ran_gaussian_ziggurat(m->rng, of->deviation[i]);
+}
+
+static bool evaluate(void *context, const void *in, void *out) {
+    sampling *m = context;
+    state *s = m->s;
+    const portion *p = in;
+    outcome *o = out;
+    calc_error *missing = &m->answer->missing;
+    error_clear(missing);
+    s->q.t->scene.used = 0;
+    for (unsigned n = 0; n < p->samples && !s->q.error->raised; n++) {
+        const bool set = ask_set(&s->q, p->x[n]);
+        for (size_t k = 0; k < s->of->expressions; k++) {
             long double v;
-            if (ask_value(&s->q, &of->e[k], &s->d[k], &s->known[k], &v))
-                take(&out->value[k], (double)v, &squares[k]);
-            else if (!out->missing.raised)
-                out->missing = s->q.none;
+            const bool has = set && ask_value(&s->q, &s->of->e[k], &s->d[k], &s->known[k], &v);
+            o->v[n][k] = has ? (double)v : (double)NAN;
+            if (!has && !missing->raised)
+                *missing = s->q.none;
         }
     }
-    gsl_rng_free(rng);
-    for (size_t k = 0; k < of->expressions; k++) {
+    o->used = s->q.t->scene.used;
+    o->missing = missing->raised;
+    for (size_t k = 0; k < s->of->expressions; k++) {
+        o->known[k] = s->known[k];
+        o->d[k] = s->d[k];
+    }
+    return !s->q.error->raised;
+}
+
+/* Dimensions are those of the present inputs, where every value is known. */
+static bool agrees(const state *s, const outcome *o) {
+    for (size_t k = 0; k < s->of->expressions; k++)
+        if (!o->known[k] || !dim_equal(o->d[k], s->d[k]))
+            return false;
+    return true;
+}
+
+static bool count(void *context, size_t part, const void *in, const void *out) {
+    sampling *m = context;
+    state *s = m->s;
+    const portion *p = in;
+    const outcome *o = out;
+    outcome own;
+    (void)part;
+    if (!o || !agrees(s, o) || (o->missing && !m->answer->missing.raised)) {
+        const calc_error before = m->answer->missing;
+        const unsigned used = s->q.t->scene.used;
+        const double began = team_clock();
+        const bool ok = evaluate(m, p, &own);
+        m->taken += team_clock() - began;
+        s->q.t->scene.used |= used;
+        if (before.raised)
+            m->answer->missing = before;
+        if (!ok)
+            return false;
+        o = &own;
+    } else {
+        s->q.evaluations += p->samples;
+        s->q.t->scene.used |= o->used;
+    }
+    for (unsigned n = 0; n < p->samples; n++)
+        for (size_t k = 0; k < s->of->expressions; k++)
+            if (!isnan(o->v[n][k]))
+                take(&m->answer->value[k], o->v[n][k], &m->squares[k]);
+    m->counted += p->samples;
+    return true;
+}
+
+static bool sample(sampling *m) {
+    const unsigned all = m->s->of->samples;
+    portion p;
+    while (m->counted < all && !team_pays(m->s->of->c, m->taken, m->counted, all)) {
+        draw(m, 0, &p);
+        if (!count(m, 0, &p, NULL))
+            return false;
+    }
+    const team_run rest = {
+        .parts = (all - m->counted + SAMPLES - 1) / SAMPLES, .give = draw, .take = count, .context = m};
+    m->t = rest.parts ? team_begin(&(team_job){.c = m->s->of->c,
+                                               .in = sizeof(portion),
+                                               .out = sizeof(outcome),
+                                               .work = evaluate,
+                                               .context = m})
+                      : NULL;
+    if (m->t)
+        return team_work(m->t, &rest) || m->s->q.error->raised || calc_interrupted(m->s->q.error);
+    for (size_t i = 0; i < rest.parts; i++) {
+        draw(m, i, &p);
+        if (!count(m, i, &p, NULL))
+            return false;
+    }
+    return true;
+}
+
+static bool monte_carlo(state *s, uncertainty_answer *out, calc_error *error) {
+    sampling m = {.s = s, .answer = out, .rng = gsl_rng_alloc(gsl_rng_mt19937)};
+    if (!m.rng)
+        return calc_no_memory(error);
+    gsl_rng_set(m.rng, s->of->seed);
+    sample(&m);
+    team_end(m.t);
+    gsl_rng_free(m.rng);
+    for (size_t k = 0; k < s->of->expressions; k++) {
         uncertain *u = &out->value[k];
-        u->spread = u->samples > 1 ? sqrt(squares[k] / (u->samples - 1)) : 0;
+        u->spread = u->samples > 1 ? sqrt(m.squares[k] / (u->samples - 1)) : 0;
         u->differs = differs(u);
     }
     return !error->raised;

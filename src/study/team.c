@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Processes that wait for parts: the number of a part's place on the sheet goes to whoever reads it first,
+ * and comes back when the part is done. */
+#include "study/team.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+enum {
+    WORKERS = 64,
+    AHEAD = 3,  /* places for each of them: what is slow does not keep the others waiting */
+    WAKE = 20,  /* ms: how often a stop and the end of a process are looked for */
+    ALIGN = 64, /* what a part holds may want as much */
+};
+static const double pays = 4e-3; /* seconds, many times what it costs to begin */
+
+typedef struct place {
+    bool of_use; /* what came of the part */
+    bool done;   /* seen by the one who gave it */
+} place;
+
+struct team {
+    team_job job;
+    unsigned workers, places;
+    pid_t worker[WORKERS];
+    int given[2], done[2]; /* the first end is read, by the workers and by the one who gives */
+    char *sheet;
+    size_t in_at, out_at, size; /* of a place */
+    bool alone;                 /* a worker is gone */
+};
+
+double team_clock(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static unsigned cores(const calc *c) {
+    static long there; /* asked once: the system reads a file for it */
+    if (!there)
+        there = sysconf(_SC_NPROCESSORS_ONLN);
+    const long n = c->cores ? (long)c->cores : there;
+    return n < 1 ? 1 : n > WORKERS ? WORKERS : (unsigned)n;
+}
+
+bool team_pays(const calc *c, double taken, double done, double all) {
+    return taken > pays && done > 0 && taken / done * (all - done) > pays && cores(c) > 1;
+}
+
+static size_t aligned(size_t bytes) {
+    return (bytes + ALIGN - 1) / ALIGN * ALIGN;
+}
+
+static place *place_at(const team *t, unsigned i) {
+    return (place *)(t->sheet + i * t->size);
+}
+
+static void *in_of(const team *t, unsigned i) {
+    return t->sheet + i * t->size + t->in_at;
+}
+
+static void *out_of(const team *t, unsigned i) {
+    return t->sheet + i * t->size + t->out_at;
+}
+
+/* ---- a worker ---------------------------------------------------------------------------------- */
+
+static bool passes(int fd, unsigned char *i, bool reads) {
+    ssize_t n;
+    do
+        n = reads ? read(fd, i, 1) : send(fd, i, 1, MSG_NOSIGNAL);
+    while (n < 0 && errno == EINTR);
+    return n == 1;
+}
+
+/* Signals are blocked. The terminal's interrupt is for the one who gives; what else there was to be done at a
+ * signal is not a worker's to do. */
+static void leave_signals(const sigset_t *before) {
+    static const int plain[] = {SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH, SIGALRM, SIGCHLD};
+    signal(SIGINT, SIG_IGN);
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
+        signal(plain[i], SIG_DFL);
+    sigprocmask(SIG_SETMASK, before, NULL);
+}
+
+static void work(team *t, const sigset_t *before, pid_t giver) {
+    unsigned char i;
+    leave_signals(before);
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+    close(t->given[1]);
+    close(t->done[0]);
+    t->job.c->cores = 1;
+    t->job.c->scene.pulse = t->job.c->now->pulse = NULL;
+    while (getppid() == giver && passes(t->given[0], &i, true)) {
+        place_at(t, i)->of_use = t->job.work(t->job.context, in_of(t, i), out_of(t, i));
+        if (!passes(t->done[1], &i, false))
+            break;
+    }
+    _exit(0); /* what is buffered is the other's to write */
+}
+
+/* ---- the one who gives ------------------------------------------------------------------------- */
+
+static void close_end(int *fd) {
+    if (*fd >= 0)
+        close(*fd);
+    *fd = -1;
+}
+
+static bool start(team *t) {
+    sigset_t all, before;
+    const pid_t giver = getpid();
+    const unsigned wanted = cores(t->job.c);
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &before);
+    while (t->workers < wanted) {
+        const pid_t id = fork();
+        if (id == 0)
+            work(t, &before, giver);
+        if (id < 0)
+            break;
+        t->worker[t->workers++] = id;
+    }
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    close_end(&t->given[0]);
+    close_end(&t->done[1]);
+    return t->workers > 0;
+}
+
+static bool open_all(team *t, unsigned wanted) {
+    t->places = AHEAD * wanted;
+    t->in_at = aligned(sizeof(place));
+    t->out_at = t->in_at + aligned(t->job.in);
+    t->size = t->out_at + aligned(t->job.out);
+    void *sheet = mmap(NULL, t->places * t->size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (sheet == MAP_FAILED)
+        return false;
+    t->sheet = sheet;
+    return !socketpair(AF_UNIX, SOCK_STREAM, 0, t->given) && !socketpair(AF_UNIX, SOCK_STREAM, 0, t->done);
+}
+
+team *team_begin(const team_job *job) {
+    const unsigned wanted = cores(job->c);
+    team *t = wanted > 1 ? calloc(1, sizeof *t) : NULL;
+    if (!t)
+        return NULL;
+    t->job = *job;
+    t->given[0] = t->given[1] = t->done[0] = t->done[1] = -1;
+    if (!open_all(t, wanted) || !start(t)) {
+        team_end(t);
+        return NULL;
+    }
+    return t;
+}
+
+static void dismiss(team *t) {
+    for (unsigned i = 0; i < t->workers; i++)
+        kill(t->worker[i], SIGKILL);
+    for (unsigned i = 0; i < t->workers; i++)
+        while (waitpid(t->worker[i], NULL, 0) < 0 && errno == EINTR)
+            ;
+    t->workers = 0;
+}
+
+void team_end(team *t) {
+    if (!t)
+        return;
+    dismiss(t);
+    for (int i = 0; i < 2; i++) {
+        close_end(&t->given[i]);
+        close_end(&t->done[i]);
+    }
+    if (t->sheet)
+        munmap(t->sheet, t->places * t->size);
+    free(t);
+}
+
+static bool stopped(const team *t) {
+    const volatile sig_atomic_t *stop = t->job.c->scene.stop;
+    return stop && *stop;
+}
+
+/* A process that has ended was short of memory, or was killed: the rest is done here. */
+static void look_after(team *t) {
+    for (unsigned i = 0; i < t->workers && !t->alone; i++)
+        if (waitpid(t->worker[i], NULL, WNOHANG) == t->worker[i]) {
+            t->worker[i] = t->worker[--t->workers];
+            t->alone = true;
+        }
+    if (t->alone)
+        dismiss(t);
+}
+
+/* Until one more part is done, the run is to stop, or there are no others any more. */
+static void wait_for_one(team *t) {
+    struct pollfd done = {.fd = t->done[0], .events = POLLIN};
+    unsigned char i;
+    while (!t->alone && !stopped(t)) {
+        const int n = poll(&done, 1, WAKE);
+        if (n > 0 && passes(t->done[0], &i, true)) {
+            place_at(t, i)->done = true;
+            return;
+        }
+        if (t->job.c->scene.pulse)
+            t->job.c->scene.pulse();
+        look_after(t);
+    }
+}
+
+bool team_work(team *t, const team_run *run) {
+    for (size_t given = 0, taken = 0; taken < run->parts;) {
+        for (; given < run->parts && given - taken < t->places; given++) {
+            unsigned char i = (unsigned char)(given % t->places);
+            *place_at(t, i) = (place){.done = false};
+            run->give(run->context, given, in_of(t, i));
+            if (!t->alone)
+                passes(t->given[1], &i, false);
+        }
+        const unsigned i = (unsigned)(taken % t->places);
+        while (!place_at(t, i)->done && !t->alone && !stopped(t))
+            wait_for_one(t);
+        if (stopped(t))
+            return false;
+        const place *p = place_at(t, i);
+        if (!run->take(run->context, taken, in_of(t, i), p->done && p->of_use ? out_of(t, i) : NULL))
+            return false;
+        taken++;
+    }
+    return true;
+}

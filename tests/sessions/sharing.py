@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Work shared among processes: the same characters from any number of them, whatever becomes of them, and none left."""
+import os
+import re
+import signal
+import subprocess
+import time
+
+GRADED = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N"
+STEEL = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
+OBLIQUE = STEEL + "; cycle FA=15 N FNA=20 N phase=60 deg; set model springs 300"
+SLOW = STEEL + "; cycle FA=15 N FNA=20 N phase=60 deg times 50; set model springs 3000"
+HISTORY = "; step Fx=20 N; step FN=90 N Fx=5 N; step FN=110 N Fx=20 N"
+
+# What takes long enough to be shared; a table of gaps, one whose dimension changes on its way, a map, a fit and samples
+# among them.
+STATEMENTS = (
+    (GRADED, "table a, dW, hN for k = -0.9 .. 0.9 steps 6000"),
+    (GRADED, "table a, c for E0 = 1 GPa .. 500 GPa log steps 5000 with k=-0.3,0,0.3"),
+    (GRADED, "table dW, a for FN = 40 N .. 60 N steps 9000"),
+    (GRADED, "table (1 m)^max(k, 0.5), a for k = 0 .. 0.9 steps 9000"),
+    (GRADED, "table W at k=q, a at k=q for q = -0.5 .. 0.95 steps 3000"),
+    (GRADED, "table a, dW for k = 0 .. 0.9 steps 70 for nu = 0 .. 0.5 steps 60"),
+    (GRADED, "q = 2; y(x) := q*x*a; table y(x), y(2*x) at k=x for x = 0.1 .. 0.9 steps 3000; q; k"),
+    (STEEL + HISTORY, "table qx(r), ux(r) for r = 0 mm .. 0.2 mm steps 300"),
+    (STEEL + HISTORY, "table W for mu = 0.1 .. 0.9 steps 4000"),
+    (OBLIQUE, "table dW for phase = 0 deg .. 60 deg steps 11"),
+    (OBLIQUE, "maximize dW/FN over phase = 1 deg .. 170 deg"),
+    (OBLIQUE, "maximize dW over phase = 1 deg .. 170 deg, mu = 0.3 .. 0.4"),
+    (GRADED, "uncertainty dW, a with k +- 0.01, mu +- 5 %, FN +- 30 N samples 8000"),
+    (GRADED, "fit E0, k for depth = dz(force) to indent.csv"),
+)
+
+
+def shown(done):
+    """All but times."""
+    return done.stdout, re.sub(r"(?m)^time: .*?ms", "", done.stderr), done.returncode
+
+
+def children(pid):
+    """Processes that one has begun and that have not ended."""
+    with open("/proc/%d/task/%d/children" % (pid, pid), encoding="ascii") as f:
+        return [int(word) for word in f.read().split()]
+
+
+def data(tests):
+    with open(os.path.join(tests.dir, "indent.csv"), "w", encoding="ascii") as f:
+        f.write("depth [um],force [N]\n")
+        for i in range(1, 4001):
+            f.write("%.8g,%.8g\n" % (3.4829 * (i / 4e3) ** (2 / 3) * (1 + 0.01 * (i * i % 7 - 3)), i / 40))
+
+
+def same(tests):
+    """By one, two and five."""
+    def one(setup, statement):
+        script = "%s; set timing on; %s" % (setup, statement)
+        want, *results = [shown(tests.run("--format=csv", "-c", "set cores %d" % n, "-c", script)) for n in (1, 2, 5)]
+        tests.check(statement + ": answers", want[0], str(want)[-1500:])
+        for n, got in zip((2, 5), results):
+            tests.check("%s by %d" % (statement, n), got == want,
+                        "%s\ninstead of\n%s" % (str(got)[-1500:], str(want)[-1500:]))
+    tests.each([lambda a=a: one(*a) for a in STATEMENTS])
+
+
+class Running:
+    """A table of a minute that goes to a file, once it is shared."""
+
+    def __init__(self, tests, cores):
+        self.out = os.path.join(tests.dir, "shared.csv")
+        self.process = subprocess.Popen(
+            [tests.fret, "-c", "%s; set cores %d; table dW for phase = 0 deg .. 60 deg steps 400 to %s" %
+             (SLOW, cores, self.out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=tests.env, cwd=tests.dir)
+        self.workers = []
+        end = time.monotonic() + 30
+        while len(self.workers) < cores and time.monotonic() < end and self.process.poll() is None:
+            time.sleep(0.01)
+            self.workers = children(self.process.pid)
+
+    def all_gone(self):
+        end = time.monotonic() + 5
+        while time.monotonic() < end:
+            if not any(os.path.exists("/proc/%d" % pid) for pid in self.workers):
+                return True
+            time.sleep(0.01)
+        return False
+
+
+def signals(tests):
+    """An interrupt ends all of them at once; so does whatever ends the program."""
+    for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, -signal.SIGTERM), (signal.SIGKILL, -signal.SIGKILL)):
+        r = Running(tests, 3)
+        name = signal.Signals(number).name
+        tests.check(name + ": shared by three", len(r.workers) == 3, str(r.workers))
+        began = time.monotonic()
+        r.process.send_signal(number)
+        _, err = r.process.communicate(timeout=60)
+        took = time.monotonic() - began
+        tests.check("%s: ends with %d" % (name, status), r.process.returncode == status,
+                    "exit %d\n%s" % (r.process.returncode, err.decode()))
+        tests.check(name + ": soon", took < (5 if tests.sanitized else 1), "%g s" % took)
+        tests.check(name + ": nobody stays", r.all_gone(), str(r.workers))
+        tests.check(name + ": no half file", not os.path.exists(r.out))
+
+
+def losses(tests):
+    """A process that is killed on its way leaves no gap."""
+    script = OBLIQUE + "; set cores %d; table dW for phase = 0 deg .. 60 deg steps 40"
+    want = shown(tests.run("-c", script % 1))
+    process = subprocess.Popen([tests.fret, "-c", script % 2], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               env=tests.env, cwd=tests.dir)
+    end = time.monotonic() + 30
+    killed = []
+    while not killed and time.monotonic() < end and process.poll() is None:
+        time.sleep(0.01)
+        killed = children(process.pid)[:1]
+    for pid in killed:
+        os.kill(pid, signal.SIGKILL)
+    out, err = process.communicate(timeout=120)
+    tests.check("a killed worker: there was one", killed)
+    tests.check("a killed worker: all rows", (out, err, process.returncode) == want, out[-1000:] + err)
+
+
+def settings(tests):
+    for bad in ("0", "65", "two", "1.5", "-1"):
+        done = tests.run("-c", "set cores " + bad)
+        tests.check("set cores " + bad, done.returncode == 1 and "error:" in done.stderr, tests.report(done))
+    done = tests.run("-c", "set cores 3; set")
+    tests.check("set cores 3", "set cores 3\n" in done.stdout, tests.report(done))
+    done = tests.run("-c", "set cores 3; record cores.txt; record off")
+    with open(os.path.join(tests.dir, "cores.txt"), encoding="utf-8") as f:
+        tests.check("a record begins with them", "set cores 3\n" in f.read(), tests.report(done))
+
+
+def run(tests):
+    data(tests)
+    settings(tests)
+    same(tests)
+    signals(tests)
+    losses(tests)
