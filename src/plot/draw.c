@@ -48,14 +48,16 @@ static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error 
     if (!from)
         return calc_errno(error, errno, "cannot read what gnuplot drew");
     bool html = !strcmp(kind->ending, ".html"), tex = !strcmp(kind->ending, ".tex"), any = false;
+    /* the prologue of a file, or what sends the cursor home */
+    const char *begin = html ? "<svg" : !*kind->ending ? "\033P" : NULL;
     if (tex)
         fputs(head_tex, to);
     if (html)
         fputs(head_html, to);
     for (size_t n; (n = fread(block, 1, sizeof block - 1, from)) > 0 && !ferror(to);) {
         block[n] = 0;
-        const char *svg = html && !any ? strstr(block, "<svg") : NULL; /* without the prologue of a file */
-        fwrite(svg ? svg : block, 1, n - (size_t)(svg ? svg - block : 0), to);
+        const char *from_here = begin && !any ? strstr(block, begin) : NULL;
+        fwrite(from_here ? from_here : block, 1, n - (size_t)(from_here ? from_here - block : 0), to);
         any = true;
     }
     int code = errno;
@@ -115,6 +117,8 @@ static bool to_file(const scripted *s, file_report *report, calc_error *error) {
 /* ---- text --------------------------------------------------------------------------------------- */
 
 /* What gnuplot drew as text: pages, parted at its form feeds. */
+enum { COLOR = 24 };
+
 typedef struct sheets {
     char *text, **page;
     size_t count;
@@ -167,7 +171,7 @@ static bool sheets_read(sheets *s, const plot_run *r, calc_error *error) {
             *p = 0;
             s->page[n++] = p + 1;
         }
-    for (size_t i = 0; i < n; i++) { /* what follows the last line sets colours back, which each line does */
+    for (size_t i = 0; i < n; i++) { /* what follows the last line sets colours back */
         char *last = strrchr(s->page[i], '\n');
         if (last)
             last[1] = 0;
@@ -175,26 +179,55 @@ static bool sheets_read(sheets *s, const plot_run *r, calc_error *error) {
     return true;
 }
 
+/* What a page shows next, and the colour that holds there: gnuplot 6 lets one reach over many lines. */
+typedef struct reader {
+    const char *at;
+    char color[COLOR];
+} reader;
+
+/* A sequence of colour at the text: its length, and the reader remembers it; 0: none. */
+static size_t take_color(reader *r, const char *text) {
+    if (text[0] != '\033' || text[1] != '[')
+        return 0;
+    const size_t n = 2 + strspn(text + 2, "0123456789;");
+    if (text[n] != 'm')
+        return 0;
+    const bool plain = !strncmp(text, "\033[0;39m", 7) || !strncmp(text, "\033[22;39m", 8) || n + 1 >= COLOR;
+    snprintf(r->color, COLOR, "%.*s", plain ? 0 : (int)(n + 1), text);
+    return n + 1;
+}
+
 /* A line of each page, side by side; the pages move on. False after the last. */
-static bool print_line(FILE *out, const char **page, size_t count, int columns, const char *end) {
+static bool print_line(FILE *out, reader *page, size_t count, int columns, const char *end) {
     size_t trailing = 0;
     bool more = false;
+    char color[COLOR] = ""; /* of the terminal */
     for (size_t i = 0; i < count; i++) {
-        const char *line = page[i];
-        size_t n = strcspn(line, "\n");
+        reader *r = &page[i];
+        const char *line = r->at;
+        const size_t n = strcspn(line, "\n");
         more |= line[n] && line[n + 1];
-        page[i] += n + (line[n] != 0);
+        r->at += n + (line[n] != 0);
         if (!*line) /* this page is shorter than its neighbours */
             trailing += (size_t)columns;
-        for (size_t k = 0; k < n; k++)
+        for (size_t k = 0, step; k < n; k += step) {
+            step = take_color(r, line + k);
+            if (step)
+                continue;
+            step = 1;
             if (line[k] == ' ') { /* blanks at the end of a line are not worth their bytes */
                 trailing++;
-            } else {
-                fprintf(out, "%*s", (int)trailing, "");
-                trailing = 0;
-                putc(line[k], out);
+                continue;
             }
+            fprintf(out, "%*s", (int)trailing, "");
+            trailing = 0;
+            if (strcmp(color, r->color))
+                fputs(*r->color ? r->color : "\033[39m", out);
+            memcpy(color, r->color, COLOR);
+            putc(line[k], out);
+        }
     }
+    fputs(*color ? "\033[39m" : "", out);
     fputs(end, out);
     return more;
 }
@@ -204,9 +237,9 @@ static size_t print_pages(FILE *out, char *const *page, size_t panels, const plo
                           const char *end) {
     size_t lines = 0, abreast = pages->beside ? panels : 1;
     for (size_t i = 0; i < panels; i += abreast) {
-        const char *at[PLOT_PANELS];
+        reader at[PLOT_PANELS];
         for (size_t k = 0; k < abreast; k++)
-            at[k] = page[i + k];
+            at[k] = (reader){page[i + k], ""};
         do
             lines++;
         while (print_line(out, at, abreast, pages->columns, end));
@@ -235,25 +268,8 @@ static bool play(const sheets *s, const scripted *w, size_t panels, calc_error *
     return true;
 }
 
-/* Kinds of picture for terminals that can show more than characters. */
 static const plot_kind sixel = {
     "", PLOT_ENHANCED, "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor", 1, 14, 3};
-static const plot_kind block = {"", PLOT_UNICODE, "block braille size %.0f,%.0f noenhanced ansi256", 1, 1, 1};
-static const plot_kind block_plain = {"", PLOT_UNICODE, "block braille size %.0f,%.0f noenhanced mono", 1, 1,
-                                      1};
-
-/* The picture for the terminal, where there is one: *kind stays NULL for text. */
-static bool terminal_kind(const plot_target *t, const plot_kind **kind, calc_error *error) {
-    bool auto_block = t->terminal == PLOT_AUTO && t->unicode;
-    *kind = NULL;
-    if (t->terminal == PLOT_SIXEL)
-        *kind = &sixel;
-    else if ((auto_block || t->terminal == PLOT_BLOCK) && plot_gnuplot_version(t->stop) >= 6)
-        *kind = t->color ? &block : &block_plain;
-    else if (t->terminal == PLOT_BLOCK)
-        return calc_fail(error, 0, 0, "blocks of braille need gnuplot 6 or newer");
-    return true;
-}
 
 static bool to_terminal_as(const scripted *s, size_t panels, calc_error *error) {
     plot_run r;
@@ -279,18 +295,10 @@ static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error 
     size_t panels = reel->frame[0].count;
     plot_pages pages = plot_pages_for(t, panels, reel->count > 1);
     scripted s = {.reel = reel, .target = t, .pages = &pages};
-    plot_target whole = *t;
-    if (reel->count > 1) /* pictures that follow each other would scroll away */
-        return to_terminal_as(&s, panels, error);
-    if (!terminal_kind(t, &s.kind, error))
-        return false;
-    if (s.kind) {
+    if (t->terminal == PLOT_SIXEL &&
+        reel->count == 1) { /* pictures that follow each other would scroll away */
+        s.kind = &sixel;
         s.pages = NULL;
-        if (s.kind != &sixel) {
-            whole.width = pages.beside ? pages.columns * (int)panels : pages.columns;
-            whole.height = pages.rows;
-        }
-        s.target = &whole;
     }
     return to_terminal_as(&s, panels, error);
 }

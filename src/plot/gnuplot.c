@@ -188,26 +188,3 @@ bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *
     char *argv[] = {"gnuplot", "-d", "/dev/stdin", NULL};
     return run(r, argv, target, error);
 }
-
-int plot_gnuplot_version(file_stop stop) {
-    static int version = -1;
-    calc_error error;
-    plot_run r;
-    if (version >= 0)
-        return version;
-    error_clear(&error);
-    if (!plot_run_open(&r, &error))
-        return 0;
-    FILE *f = fopen(r.script, "w");
-    char *argv[] = {"gnuplot", "--version", NULL};
-    int read = 0;
-    if (f && !fclose(f) && run(&r, argv, &(plot_target){.stop = stop, .timeout = 10}, &error)) {
-        f = fopen(r.out, "r");
-        if (f && fscanf(f, "gnuplot %d", &read) == 1)
-            version = read;
-        if (f)
-            fclose(f);
-    }
-    plot_run_close(&r);
-    return read;
-}

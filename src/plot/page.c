@@ -20,7 +20,7 @@ size_t plot_columns(const char *text) {
 plot_pages plot_pages_for(const plot_target *t, size_t panels, bool one_screen) {
     int w = t->columns ? t->columns : 79, h = t->rows ? t->rows : 24, n = (int)panels;
     bool beside = n == 1 || w / n >= 50;
-    plot_pages p = {beside ? w / n : w, beside || !one_screen ? h : h / n, beside};
+    plot_pages p = {beside ? w / n : w, beside || !one_screen ? h : h / n, beside, t->terminal == PLOT_BLOCK};
     p.columns = p.columns < 30 ? 30 : p.columns;
     p.rows = p.rows < 8 ? 8 : p.rows;
     return p;
@@ -122,6 +122,15 @@ static void make_ruler(ruler *r, const plot_axis *axis, int cells, int gap) {
 
 /* ---- cells -------------------------------------------------------------------------------------- */
 
+enum { SIGN = 16 };
+
+/* What a cell of braille shows. */
+typedef struct ink {
+    unsigned char bits;
+    bool helping;
+    const char *color;
+} ink;
+
 typedef struct page {
     FILE *to;
     const plot_target *target;
@@ -132,6 +141,8 @@ typedef struct page {
     int columns, rows, left, right, top, bottom;
     bool key_right;
     int key_rows;
+    bool braille;
+    ink *ink; /* of braille: the cells of the frame */
     double level[LEVELS];
     size_t levels;
 } page;
@@ -142,94 +153,151 @@ static const char *const chars = "*o+x#%@&=$0123456789abcdefghijklmnpqrstuvwyzAB
 static const char *const colors[] = {"#0087ff", "#ff5f00", "#00af5f", "#d75faf",
                                      "#d7af00", "#5fd7ff", "#878787"};
 
-static void sign_of(const plot_panel *p, size_t at, char *sign, const char **color) {
+static const char gray[] = "#a8a8a8";
+
+/* The colours of ink, the uppermost last; NULL after them. */
+static const char *ink_color(size_t n) {
+    enum { COLORS = sizeof colors / sizeof *colors };
+    return n == 0 ? gray : n <= COLORS ? colors[n - 1] : NULL;
+}
+
+static bool is_line(const plot_series *s) {
+    return s->role == PLOT_CURVE || s->role == PLOT_BAND || s->role == PLOT_VERTICAL;
+}
+
+static bool is_helping(const plot_series *s) {
+    return s->thin || s->role == PLOT_BAND || s->role == PLOT_VERTICAL;
+}
+
+/* Which dots along a line of braille are put down: helping lines are dotted; dashes tell curves apart where
+ * colours cannot. */
+static const char *dash_of(const page *g, size_t at) {
+    static const char *const dashes[] = {"1",    "11111000", "1000", "11111001000", "111111111100",
+                                         "1100", "10"};
+    if (!g->braille)
+        return "1";
+    if (is_helping(g->panel->series[at]))
+        return "10";
+    return g->target->color ? "1" : dashes[plot_style_of(g->panel, at) % (sizeof dashes / sizeof *dashes)];
+}
+
+/* In the key: a stretch of the line, or its character. */
+static void sign_of(const page *g, size_t at, char sign[SIGN], const char **color) {
+    const plot_panel *p = g->panel;
     const plot_series *s = p->series[at];
-    size_t place = plot_style_of(p, at);
-    *color = s->role == PLOT_NOW || s->thin || s->role == PLOT_BAND || s->role == PLOT_VERTICAL
-                 ? "#a8a8a8"
-                 : colors[place % (sizeof colors / sizeof *colors)];
-    *sign = s->role == PLOT_NOW               ? '@'
-            : s->role == PLOT_VERTICAL        ? ':'
-            : s->role == PLOT_MEASURED        ? 'O'
-            : s->thin || s->role == PLOT_BAND ? '.'
+    const size_t place = plot_style_of(p, at);
+    *color = s->role == PLOT_NOW || is_helping(s) ? gray : colors[place % (sizeof colors / sizeof *colors)];
+    if (g->braille && is_line(s)) {
+        const char *dash = dash_of(g, at);
+        const size_t n = strlen(dash);
+        size_t used = 0;
+        for (size_t i = 0; i < 8; i += 2)
+            used += plot_braille(
+                (unsigned char)((dash[i % n] == '1' ? 0x02 : 0) | (dash[(i + 1) % n] == '1' ? 0x10 : 0)),
+                sign + used);
+        return;
+    }
+    const char c = s->role == PLOT_NOW        ? '@'
+                   : s->role == PLOT_VERTICAL ? ':'
+                   : s->role == PLOT_MEASURED ? 'O'
+                   : is_helping(s)            ? '.'
                                               : chars[place % strlen(chars)];
-}
-
-static void mark_cell(const page *g, char *cells, double cx, double cy) {
-    long c = lround(cx), r = lround(cy);
-    if (c >= 0 && c <= g->x.cells && r >= 0 && r <= g->y.cells)
-        cells[r * (g->x.cells + 1) + c] = 1;
-}
-
-/* The cells of a stretch of a line, a step of half a cell at a time, clipped to the frame with room to spare.
- */
-static void mark_line(const page *g, char *cells, const double a[2], const double b[2]) {
-    double far = fmax(fabs(b[0] - a[0]), fabs(b[1] - a[1])), t0 = 0, t1 = 1;
-    const int most[2] = {g->x.cells, g->y.cells};
-    for (int i = 0; i < 2; i++) {
-        double d = b[i] - a[i], lo = -1 - a[i], hi = most[i] + 1 - a[i];
-        if (d == 0)
-            continue;
-        t0 = fmax(t0, fmin(lo / d, hi / d));
-        t1 = fmin(t1, fmax(lo / d, hi / d));
-    }
-    double steps = ceil(2 * far * (t1 - t0)) + 1;
-    for (double k = 0; t0 <= t1 && k <= steps; k++) {
-        double t = t0 + (t1 - t0) * k / steps;
-        mark_cell(g, cells, a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t);
-    }
+    snprintf(sign, SIGN, "%c", c);
 }
 
 /* In cells; false where there is no point. */
 static bool locate(const page *g, double x, double y, double at[2]) {
+    at[0] = at[1] = NAN;
     if (!isfinite(x) || !isfinite(y) || (g->x.axis.log && x <= 0) || (g->y.axis.log && y <= 0))
         return false;
-    at[0] = cell_of(&g->x, x);
-    at[1] = cell_of(&g->y, y);
-    return fabs(at[0]) < 1e15 && fabs(at[1]) < 1e15;
+    const double cx = cell_of(&g->x, x), cy = cell_of(&g->y, y);
+    if (!(fabs(cx) < 1e15 && fabs(cy) < 1e15))
+        return false;
+    at[0] = cx;
+    at[1] = cy;
+    return true;
 }
 
-static void mark_series(const page *g, const plot_series *s, const double *y, char *cells) {
-    double last[2], here[2];
-    bool joined = false;
-    for (size_t i = 0; i < s->count; i++) {
-        bool shown = locate(g, s->x[i], y[i], here);
-        if (shown)
-            mark_cell(g, cells, here[0], here[1]);
-        if (shown && joined && (s->role == PLOT_CURVE || s->role == PLOT_BAND))
-            mark_line(g, cells, last, here);
-        joined = shown;
-        memcpy(last, here, sizeof last);
+/* The cells that a series touches. */
+static bool trace(const page *g, size_t at, plot_cells *cells) {
+    const plot_series *s = g->panel->series[at];
+    const bool upright = s->role == PLOT_VERTICAL;
+    const size_t count = upright ? 3 * s->count : s->count;
+    double(*point)[2] = malloc((count + 1) * sizeof *point);
+    if (!point || !plot_cells_make(cells, g->x.cells + 1, g->y.cells + 1, g->braille && is_line(s))) {
+        free(point);
+        return false;
     }
+    const double lo = at_cell(&g->y, 0), hi = at_cell(&g->y, g->y.cells);
+    for (size_t i = 0; i < s->count && upright; i++) {
+        locate(g, s->x[i], lo, point[3 * i]);
+        locate(g, s->x[i], hi, point[3 * i + 1]);
+        locate(g, NAN, NAN, point[3 * i + 2]);
+    }
+    for (int edge = 0; edge < 1 + (s->y2 != NULL); edge++) {
+        const double *y = edge ? s->y2 : s->y;
+        for (size_t i = 0; i < s->count && !upright; i++)
+            locate(g, s->x[i], y[i], point[i]);
+        plot_cells_draw(cells, (const double(*)[2])point, count, is_line(s), dash_of(g, at));
+    }
+    free(point);
+    return true;
 }
 
-static void write_cells(const page *g, const char *cells) {
-    for (int r = 0; r <= g->y.cells; r++)
-        for (int c = 0; c <= g->x.cells; c++)
-            if (cells[r * (g->x.cells + 1) + c])
+static void write_cells(const page *g, const plot_cells *cells) {
+    for (int r = 0; r < cells->rows; r++)
+        for (int c = 0; c < cells->columns; c++)
+            if (plot_cells_has(cells, c, r))
                 fprintf(g->to, "%.12g %.12g\n", at_cell(&g->x, c), at_cell(&g->y, r));
 }
 
-static bool write_series_cells(const page *g, size_t at) {
-    const plot_series *s = g->panel->series[at];
-    char *cells = calloc((size_t)(g->x.cells + 1) * (size_t)(g->y.cells + 1), 1);
-    if (!cells)
+/* A cell of braille shows all the lines through it in the colour of the uppermost; helping lines give way. */
+static void ink_cells(page *g, size_t at, const plot_cells *cells) {
+    char sign[SIGN];
+    const char *color;
+    sign_of(g, at, sign, &color);
+    const bool helping = is_helping(g->panel->series[at]);
+    for (int r = 0; r < cells->rows; r++)
+        for (int c = 0; c < cells->columns; c++) {
+            const unsigned char bits = plot_cells_braille(cells, c, r);
+            ink *i = &g->ink[r * cells->columns + c];
+            if (!bits)
+                continue;
+            i->bits = i->helping && !helping ? bits : (unsigned char)(i->bits | bits);
+            i->helping = helping;
+            i->color = color;
+        }
+}
+
+static bool write_series_cells(page *g, size_t at) {
+    plot_cells cells;
+    if (!trace(g, at, &cells))
         return false;
-    if (s->role == PLOT_VERTICAL) {
-        double lo = at_cell(&g->y, 0), hi = at_cell(&g->y, g->y.cells), a[2], b[2];
-        for (size_t i = 0; i < s->count; i++)
-            if (locate(g, s->x[i], lo, a) && locate(g, s->x[i], hi, b))
-                mark_line(g, cells, a, b);
+    if (g->braille && is_line(g->panel->series[at])) {
+        ink_cells(g, at, &cells);
     } else {
-        mark_series(g, s, s->y, cells);
-        if (s->y2)
-            mark_series(g, s, s->y2, cells);
+        fprintf(g->to, "$data%zu_%zu_%zu << END\n", g->frame, g->index, at);
+        write_cells(g, &cells);
+        fputs("END\n", g->to);
     }
-    fprintf(g->to, "$data%zu_%zu_%zu << END\n", g->frame, g->index, at);
-    write_cells(g, cells);
-    fputs("END\n", g->to);
-    free(cells);
+    free(cells.dot);
     return true;
+}
+
+/* The characters of one colour. */
+static void write_ink(const page *g, size_t n) {
+    const int columns = g->x.cells + 1;
+    char braille[4];
+    fprintf(g->to, "$ink%zu_%zu_%zu << END\n", g->frame, g->index, n);
+    for (int r = 0; r <= g->y.cells; r++)
+        for (int c = 0; c < columns; c++) {
+            const ink *i = &g->ink[r * columns + c];
+            if (!i->bits || i->color != ink_color(n))
+                continue;
+            plot_braille(i->bits, braille);
+            fprintf(g->to, "%.12g %.12g %s\n", at_cell(&g->x, c), at_cell(&g->y, r), braille);
+        }
+    fputs("END\n", g->to);
 }
 
 /* The index i with list[i] <= v <= list[i+1], rising or falling; n where v lies outside. */
@@ -336,7 +404,7 @@ static void set_tics(const page *g, char name, const ruler *r) {
 
 /* An entry of the key, 0 .. ; NULL after the last. */
 typedef struct entry {
-    char sign;
+    char sign[SIGN];
     const char *color;
     char *text; /* to be freed */
 } entry;
@@ -346,17 +414,25 @@ static size_t key_of(const page *g, entry key[PLOT_CURVES + LEVELS]) {
     size_t n = 0;
     for (size_t i = 0; i < p->count && !p->key_off; i++)
         if (p->series[i]->title) {
-            sign_of(p, i, &key[n].sign, &key[n].color);
+            sign_of(g, i, key[n].sign, &key[n].color);
             key[n++].text = shown(g, p->series[i]->title);
         }
     for (size_t k = 0; k < g->levels; k++) {
         key[n].text = malloc(TIC);
         if (key[n].text)
             snprintf(key[n].text, TIC, "%.4g", g->level[k]);
-        key[n].sign = (char)('1' + k);
+        key[n].sign[0] = (char)('1' + k);
+        key[n].sign[1] = 0;
         key[n++].color = colors[k % 7];
     }
     return n;
+}
+
+static size_t sign_columns(const entry *key, size_t n) {
+    size_t most = 1;
+    for (size_t i = 0; i < n; i++)
+        most = plot_columns(key[i].sign) > most ? plot_columns(key[i].sign) : most;
+    return most;
 }
 
 static void place_key(page *g, const entry *key, size_t n) {
@@ -365,12 +441,13 @@ static void place_key(page *g, const entry *key, size_t n) {
         size_t c = plot_columns(key[i].text);
         longest = c > longest ? c : longest;
     }
-    g->key_right = n && longest + 4 <= (size_t)g->columns / 4 && n <= (size_t)g->rows - 4;
+    const size_t sign = sign_columns(key, n);
+    g->key_right = n && longest + sign + 3 <= (size_t)g->columns / 4 && n <= (size_t)g->rows - 4;
     g->key_rows = 0;
-    g->right = g->key_right ? (int)longest + 6 : 3;
+    g->right = g->key_right ? (int)(longest + sign) + 5 : 3;
     size_t at = 0;
     for (size_t i = 0; i < n && !g->key_right; i++) { /* rows of entries below */
-        size_t w = plot_columns(key[i].text) + 5;
+        size_t w = plot_columns(key[i].text) + sign + 4;
         if (!g->key_rows || at + w > (size_t)g->columns) {
             g->key_rows++;
             at = 0;
@@ -385,18 +462,19 @@ static void place_key(page *g, const entry *key, size_t n) {
 static void set_key(const page *g, const entry *key, size_t n) {
     int column = g->key_right ? g->left + g->x.cells + 3 : 2,
         row = g->key_right ? g->rows - 1 - g->top : g->key_rows - 1;
+    const int sign = (int)sign_columns(key, n);
     fputs("unset key\n", g->to);
     for (size_t i = 0; i < n && row >= 0; i++) {
-        int w = (int)plot_columns(key[i].text) + 5;
+        int w = (int)plot_columns(key[i].text) + sign + 4;
         if (!g->key_right && column > 2 && column + w - 2 > g->columns) {
             column = 2;
             if (--row < 0)
                 break;
         }
-        fprintf(g->to, "set label '%c' at character %d,%d left tc rgb '%s'\nset label ", key[i].sign, column,
+        fprintf(g->to, "set label '%s' at character %d,%d left tc rgb '%s'\nset label ", key[i].sign, column,
                 row, key[i].color);
         plot_quote(g->to, key[i].text);
-        fprintf(g->to, " at character %d,%d left\n", column + 2, row);
+        fprintf(g->to, " at character %d,%d left\n", column + sign + 1, row);
         if (g->key_right)
             row--;
         else
@@ -404,26 +482,49 @@ static void set_key(const page *g, const entry *key, size_t n) {
     }
 }
 
-/* Lines above bands, the present point above all. */
-static void draw(const page *g) {
+/* From the lowest: lines above bands, the present point above all. */
+static size_t in_order(const plot_panel *p, size_t at[PLOT_CURVES]) {
     static const plot_role order[] = {PLOT_BAND, PLOT_VERTICAL, PLOT_CURVE, PLOT_MEASURED, PLOT_NOW};
-    const plot_panel *p = g->panel;
+    size_t n = 0;
+    for (int thin = 1; thin >= 0; thin--)
+        for (size_t o = 0; o < sizeof order / sizeof *order; o++)
+            for (size_t i = 0; i < p->count; i++)
+                if (p->series[i]->role == order[o] && p->series[i]->thin == (thin == 1))
+                    at[n++] = i;
+    return n;
+}
+
+static void draw(const page *g, const size_t *order, size_t count) {
     fputs("plot NaN notitle", g->to);
     for (size_t k = 0; k < g->levels; k++)
         fprintf(g->to, ", \\\n  $level%zu_%zu_%zu with points pt '%zu' lc rgb '%s'", g->frame, g->index, k,
                 k + 1, colors[k % 7]);
-    for (int thin = 1; thin >= 0; thin--)
-        for (size_t o = 0; o < sizeof order / sizeof *order; o++)
-            for (size_t i = 0; i < p->count; i++) {
-                char sign;
-                const char *color;
-                if (p->series[i]->role != order[o] || p->series[i]->thin != (thin == 1))
-                    continue;
-                sign_of(p, i, &sign, &color);
-                fprintf(g->to, ", \\\n  $data%zu_%zu_%zu with points pt '%c' lc rgb '%s'", g->frame, g->index,
-                        i, sign, color);
-            }
+    for (size_t n = 0; g->braille && ink_color(n); n++)
+        fprintf(g->to, ", \\\n  $ink%zu_%zu_%zu using 1:2:3 with labels tc rgb '%s' notitle", g->frame,
+                g->index, n, ink_color(n));
+    for (size_t i = 0; i < count; i++) {
+        char sign[SIGN];
+        const char *color;
+        if (g->braille && is_line(g->panel->series[order[i]]))
+            continue;
+        sign_of(g, order[i], sign, &color);
+        fprintf(g->to, ", \\\n  $data%zu_%zu_%zu with points pt '%s' lc rgb '%s'", g->frame, g->index,
+                order[i], sign, color);
+    }
     putc('\n', g->to);
+}
+
+/* All cells of the series, in the script. */
+static bool write_all_cells(page *g, const size_t *order, size_t count) {
+    const size_t cells = (size_t)(g->x.cells + 1) * (size_t)(g->y.cells + 1);
+    g->ink = g->braille ? calloc(cells, sizeof *g->ink) : NULL;
+    bool ok = g->ink || !g->braille;
+    for (size_t i = 0; i < count && ok; i++)
+        ok = write_series_cells(g, order[i]);
+    for (size_t n = 0; g->braille && ok && ink_color(n); n++)
+        write_ink(g, n);
+    free(g->ink);
+    return ok;
 }
 
 /* Margins in characters: texts first, then the frame takes what is left. */
@@ -469,18 +570,19 @@ static bool lay_out(page *g, const plot_axis *x, const plot_axis *y) {
 }
 
 static bool write_page(page *g, const plot_extents *e, calc_error *error) {
+    size_t order[PLOT_CURVES];
+    const size_t count = in_order(g->panel, order);
     plot_axis x, y;
     if (!plot_axes(g->panel, e, false, &x, &y, error))
         return false;
     fputs("reset\nset encoding utf8\nset border back\nset tics back\n", g->to);
     bool ok = lay_out(g, &x, &y) && set_texts(g);
-    for (size_t i = 0; i < g->panel->count && ok; i++)
-        ok = write_series_cells(g, i);
+    ok = ok && write_all_cells(g, order, count);
     if (ok && g->levels)
         ok = write_map_cells(g);
     if (!ok)
         return calc_no_memory(error);
-    draw(g);
+    draw(g, order, count);
     return true;
 }
 
@@ -495,7 +597,8 @@ bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target
                       .frame = n,
                       .index = i,
                       .columns = pages->columns,
-                      .rows = pages->rows};
+                      .rows = pages->rows,
+                      .braille = pages->braille && !reel->frame[n].panel[i]->map.nx};
             if (!write_page(&g, &reel->extent[i], error))
                 return false;
         }

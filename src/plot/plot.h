@@ -116,16 +116,15 @@ bool plot_band(plot_series *s, double x, double y, double y2);
 typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL } plot_terminal;
 
 typedef struct plot_target {
-    const char *file; /* .png .svg .pdf .tex .html .gif .gp; NULL: text to `out` */
-    FILE *out;        /* of text */
-    plot_terminal
-        terminal; /* of text; auto: block where gnuplot knows it (6 or newer) and `unicode`, else dumb */
-    bool color, unicode; /* what the terminal can show */
-    bool moving;         /* `out` is a terminal whose cursor can go back up: frames in place */
-    int columns, rows;   /* of the terminal; 0: 79 x 24 */
-    int width, height;   /* of a picture in pixels; 0: 900 a panel (640 with several) x 675 */
-    double timeout;      /* seconds for gnuplot; 0: 60 */
-    file_stop stop;      /* NULL: nothing stops it */
+    const char *file;       /* .png .svg .pdf .tex .html .gif .gp; NULL: text to `out` */
+    FILE *out;              /* of text */
+    plot_terminal terminal; /* of text; auto: dumb */
+    bool color, unicode;    /* what the terminal can show */
+    bool moving;            /* `out` is a terminal whose cursor can go back up: frames in place */
+    int columns, rows;      /* of the terminal; 0: 79 x 24 */
+    int width, height;      /* of a picture in pixels; 0: 900 a panel (640 with several) x 675 */
+    double timeout;         /* seconds for gnuplot; 0: 60 */
+    file_stop stop;         /* NULL: nothing stops it */
 } plot_target;
 
 /* Can a picture go to the file? To be asked before long work; the error names what stands against it. */

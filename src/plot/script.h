@@ -72,12 +72,32 @@ typedef struct plot_reel {
 bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, int width, int height,
                         calc_error *error);
 
+/* ---- dots.c: lines on text ----------------------------------------------------------------------- */
+
+/* The cells of a frame, from its lower left, parted into dots: 2 x 4 for braille, else 1 x 1. */
+typedef struct plot_cells {
+    int columns, rows, across, up;
+    char *dot; /* row by row; to be freed */
+} plot_cells;
+
+bool plot_cells_make(plot_cells *c, int columns, int rows, bool braille); /* false: out of memory */
+/* A line through points given in cells (0,0 is the middle of the first), or the points alone; one that is not
+ * finite is a gap. `dash` tells which dots along the way to put down, as "1110". */
+void plot_cells_draw(const plot_cells *c, const double (*point)[2], size_t count, bool joined,
+                     const char *dash);
+bool plot_cells_has(const plot_cells *c, int column, int row);
+/* The dots of a cell as bits of U+2800; of braille only. */
+unsigned char plot_cells_braille(const plot_cells *c, int column, int row);
+/* The character in UTF-8; its length. */
+size_t plot_braille(unsigned char bits, char to[4]);
+
 /* ---- page.c: text ------------------------------------------------------------------------------- */
 
 /* Panels on a page of text. */
 typedef struct plot_pages {
     int columns, rows; /* of a panel */
     bool beside;       /* panels side by side, else one below the other */
+    bool braille;
 } plot_pages;
 
 plot_pages plot_pages_for(const plot_target *target, size_t panels, bool one_screen);
@@ -103,9 +123,6 @@ bool plot_run_open(plot_run *r, calc_error *error);
 bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *error);
 /* Removes everything; may be called twice. */
 void plot_run_close(plot_run *r);
-
-/* Major version of the gnuplot that would run, 0 where there is none. */
-int plot_gnuplot_version(file_stop stop);
 
 /* Room in a text of the terminal: columns of its characters. */
 size_t plot_columns(const char *text);

@@ -332,7 +332,8 @@ static const command commands[] = {
              "yrange LO .. HI, log x|y|xy, flip x|y, key off, points, and over FILE.csv,\n"
              "which lays measured points on top. FILE.gp is the gnuplot script\n"
              "itself. `set plot 80x24` fixes the size in the terminal, `set plot terminal` how\n"
-             "it is drawn there.\n\n"
+             "it is drawn there: dumb in plain characters, block in braille (auto takes it\n"
+             "where it can), sixel as a picture.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> plot loop\n"
              "    error: there is no load yet: press first (press FN=100 N)\n"},

@@ -431,7 +431,7 @@ static bool explain_mismatch(shell *sh, lexer *lx) {
     lex_next(lx);
     if (!at_end(lx))
         return false;
-    if (!text_begin(&text, &sh->set, sh->out, false))
+    if (!text_begin(&text, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
     if (scene_normal(&sh->calc.scene, &normal, &ignored))
         fprintf(text.to, "mismatch = %.3g\n\n", (double)fret_normal_foundation(normal)->mismatch);
@@ -451,7 +451,7 @@ bool do_explain(shell *sh, lexer *lx, const command *self) {
     const quantity *bare = bare_name(lx);
     if (!bare && !read_expression(sh, lx, e, &v))
         return false;
-    if (!text_begin(&text, &sh->set, sh->out, false))
+    if (!text_begin(&text, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
     const page p = {sh, text.to, lx->error};
     bool ok = true;

@@ -347,7 +347,7 @@ bool do_help(shell *sh, lexer *lx, const command *self) {
         if (!at_end(lx))
             return false;
     }
-    if (!text_begin(&t, &sh->set, sh->out, false))
+    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
     if (*word)
         help_on(t.to, word);
@@ -405,7 +405,7 @@ bool do_apropos(shell *sh, lexer *lx, const command *self) {
     lex_next(lx);
     if (!at_end(lx))
         return false;
-    if (!text_begin(&t, &sh->set, sh->out, false))
+    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
     if (!*word || (!list_about(t.to, word, false) && !list_about(t.to, word, true)))
         fprintf(t.to, "nothing on '%.*s'\n", LEX_SHOWN(len), lx->text + at);

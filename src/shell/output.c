@@ -409,10 +409,11 @@ void table_row(table *t, const long double *si) {
 
 /* ---- text -------------------------------------------------------------------------------------- */
 
-bool text_begin(text_out *t, const settings *set, FILE *out, bool picture) {
+bool text_begin(text_out *t, const settings *set, FILE *out, text_kind kind) {
     progress_wipe();
-    *t = (text_out){.set = set, .out = out, .to = out, .picture = picture};
-    if (picture && set->format != FORMAT_JSON && !(set->pages && set->pager != PAGER_OFF))
+    *t = (text_out){.set = set, .out = out, .to = out, .kind = kind};
+    const bool paged = set->pages && set->pager != PAGER_OFF && kind != TEXT_MOTION;
+    if (kind != TEXT_WORDS && set->format != FORMAT_JSON && !paged)
         return true;
     if (!file_text_open(&t->kept))
         return false;
@@ -457,7 +458,7 @@ bool text_end(text_out *t, bool keep) {
     const bool json = t->set->format == FORMAT_JSON;
     if (!file_text_close(&t->kept))
         return false;
-    const bool ok = json || t->picture || make_safe(t), any = ok && keep && t->kept.size > 0;
+    const bool ok = json || t->kind != TEXT_WORDS || make_safe(t), any = ok && keep && t->kept.size > 0;
     if (any && json) {
         fputs("{\"text\":", t->out);
         print_json_string(t->out, t->kept.text);

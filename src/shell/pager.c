@@ -9,6 +9,18 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+/* Columns that a line takes: characters, without colours. */
+static size_t columns(const char *line, size_t n) {
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++)
+        if (line[i] == '\033')
+            while (i + 1 < n && line[i] != 'm')
+                i++;
+        else
+            count += ((unsigned char)line[i] & 0xc0) != 0x80;
+    return count;
+}
+
 bool pager_needed(const char *text) {
     struct winsize size;
     size_t rows = 1; /* the prompt */
@@ -16,8 +28,8 @@ bool pager_needed(const char *text) {
         size.ws_col == 0)
         return false;
     while (*text) {
-        const size_t n = strcspn(text, "\n");
-        rows += n > 0 ? (n - 1) / size.ws_col + 1 : 1;
+        const size_t n = strcspn(text, "\n"), wide = columns(text, n);
+        rows += wide > 0 ? (wide - 1) / size.ws_col + 1 : 1;
         text += n + (text[n] == '\n');
     }
     return rows > size.ws_row;

@@ -23,17 +23,26 @@ static void terminal_size(const shell *sh, int *w, int *h) {
     }
 }
 
+/* Braille at terminals that have it, which the console of Linux does not. */
+static plot_terminal terminal_kind(const shell *sh, bool on_terminal) {
+    const char *term = getenv("TERM");
+    if (sh->set.plot_terminal != PLOT_AUTO)
+        return (plot_terminal)sh->set.plot_terminal;
+    return on_terminal && typeset_unicode() && term && strcmp(term, "linux") != 0 ? PLOT_BLOCK : PLOT_DUMB;
+}
+
 /* The target; the text of the terminal begins. */
-static bool begin_target(shell *sh, const char *file, text_out *text, plot_target *to, calc_error *error) {
-    if (!text_begin(text, &sh->set, sh->out, true))
+static bool begin_target(shell *sh, const char *file, text_kind kind, text_out *text, plot_target *to,
+                         calc_error *error) {
+    if (!text_begin(text, &sh->set, sh->out, kind))
         return calc_no_memory(error);
-    const bool terminal = text->to == sh->out && shell_on_terminal(sh);
+    const bool json = sh->set.format == FORMAT_JSON;
     *to = (plot_target){.file = file,
                         .out = text->to,
-                        .terminal = (plot_terminal)sh->set.plot_terminal,
-                        .color = sh->set.color_out && text->to == sh->out,
+                        .terminal = terminal_kind(sh, !json && shell_on_terminal(sh)),
+                        .color = sh->set.color_out && !json,
                         .unicode = typeset_unicode(),
-                        .moving = terminal,
+                        .moving = kind == TEXT_MOTION && !json && sh->out == stdout && shell_on_terminal(sh),
                         .columns = sh->set.plot_width,
                         .rows = sh->set.plot_height,
                         .timeout = sh->set.plot_timeout,
@@ -61,7 +70,7 @@ static bool draw(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
     file_report written;
     text_out text;
     plot_target to;
-    if (!begin_target(sh, file, &text, &to, lx->error))
+    if (!begin_target(sh, file, TEXT_PICTURE, &text, &to, lx->error))
         return false;
     const bool ok = plot_draw(f, &to, &written, lx->error);
     return end_target(sh, file, &text, &written, ok, lx->error);
@@ -220,7 +229,7 @@ static bool draw_movie(movie *m, lexer *lx, const char *file) {
     file_report written;
     text_out text;
     plot_target to;
-    if (!begin_target(m->sh, file, &text, &to, lx->error))
+    if (!begin_target(m->sh, file, TEXT_MOTION, &text, &to, lx->error))
         return false;
     const plot_movie of = {.frames = m->done, .fill = fill, .progress = drawing, .context = m};
     const bool ok = plot_animate(&of, &to, &written, lx->error);

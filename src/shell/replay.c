@@ -296,7 +296,7 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
     replay r = {.tolerance = tolerance, .path = path};
     shell_init(&r.sh, out, out);
     r.sh.replaying = true;
-    const bool text_begun = text_begin(&t, set, out, true);
+    const bool text_begun = text_begin(&t, set, out, TEXT_PICTURE);
     r.out = text_begun ? t.to : out;
     nesting++;
     bool ok = text_begun && take_lines(&r, &in, error);

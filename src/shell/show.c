@@ -373,7 +373,7 @@ const char *show_name(size_t i) {
 
 static bool say(shell *sh, lexer *lx, bool (*show)(shell *sh, FILE *to)) {
     text_out t;
-    if (!text_begin(&t, &sh->set, sh->out, false))
+    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
     const bool ok = show(sh, t.to);
     return (text_end(&t, ok) && ok) || calc_no_memory(lx->error);

@@ -172,6 +172,31 @@ def starting(tests):
     s.end()
 
 
+def figures(tests):
+    """Colours and braille where the terminal has them, and frames in place."""
+    s = Session(tests, LC_ALL="C.UTF-8", TERM="xterm-256color")
+    s.say(SCENE)
+    s.say("press FN=100 N; cycle FA=20 N")
+    s.child.sendline("plot loop")
+    s.child.expect(PROMPT)
+    shown = s.child.before
+    tests.check("a plot in braille and colour", re.search("\x1b\\[38;5;[0-9]+m[\u2801-\u28ff]", shown) and
+                "hysteresis loop" in shown, shown)
+    s.child.sendline("animate loop frames 5")
+    s.child.expect(PROMPT)
+    tests.check("an animation goes back up for each frame", len(re.findall("\x1b\\[[0-9]+A", s.child.before)) == 4,
+                repr(s.child.before))
+    s.child.sendeof()
+    s.end()
+    s = Session(tests, "--color=never", TERM="linux", LC_ALL="C.UTF-8")
+    s.say(SCENE)
+    s.say("press FN=100 N; cycle FA=20 N")
+    shown = s.say("plot loop")
+    tests.check("a console without braille", "****" in shown and not re.search("[\u2800-\u28ff]", shown), shown)
+    s.child.sendeof()
+    s.end()
+
+
 def each(tests, rooms):
     """Side by side; one that waits in vain has failed."""
     def one(room):
@@ -183,4 +208,4 @@ def each(tests, rooms):
 
 
 def run(tests):
-    each(tests, (dialogue, interrupts, starting))
+    each(tests, (dialogue, interrupts, starting, figures))

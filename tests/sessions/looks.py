@@ -175,12 +175,42 @@ def terminals(tests):
     tests.check("Unicode where the locale has it", "δx [µm]" in wide.stdout and "dx [um]" in plain.stdout, wide.stdout)
     sixel = tests.run("-c", SCENE + "set plot terminal sixel\nplot loop")
     tests.check("sixel when asked for", "\033P" in sixel.stdout, tests.report(sixel)[:400])
+    tests.check("nothing but the picture", sixel.stdout.startswith("\033P"), sixel.stdout[:40])
+    block = tests.run("-c", SCENE + "set plot terminal block\nplot loop", env={"LC_ALL": "C.UTF-8"})
+    tests.check("braille when asked for", re.search("[\u2801-\u28ff]{8}", block.stdout) and "*" not in block.stdout and
+                [line[:7] for line in block.stdout.splitlines()] == [line[:7] for line in wide.stdout.splitlines()],
+                block.stdout)
+    gnuplots(tests)
     shown = tests.run("-c", "set plot 100x30; set plot terminal dumb; show settings")
     tests.check("settings of plots are shown as they are set", "set plot 100x30\nset plot terminal dumb\n" in shown.stdout,
                 shown.stdout)
     fails(tests, "set plot terminal vt100", "expected auto, dumb, block or sixel")
     json = tests.run("--format=json", "--color=always", "-c", SCENE + "plot loop")
     tests.check("no colours in JSON", "\\u001b" not in json.stdout, json.stdout[:300])
+
+
+def gnuplots(tests):
+    """What some versions of gnuplot put around a picture: the cursor sent home, colours that reach over lines."""
+    where = os.path.join(tests.dir, "gnuplots")
+    os.mkdir(where)
+    path = os.path.join(where, "gnuplot")
+    with open(path, "w", encoding="ascii") as f:
+        f.write("#!/bin/sh\ncat \"$0.out\"\n")
+    os.chmod(path, 0o755)
+
+    def shown(output, *statements):
+        with open(path + ".out", "w", encoding="ascii") as f:
+            f.write(output)
+        return tests.run("--color=always", "-c", SCENE + "\n".join(statements),
+                         env={"PATH": where + ":" + os.environ["PATH"]}).stdout
+    sixel = shown("\033[H\033Pq#1~-\033\\", "set plot terminal sixel", "plot loop")
+    tests.check("the cursor stays where it is", sixel == "\033Pq#1~-\033\\\n", repr(sixel))
+    page = "\f\033[0;39m\n a\033[38;5;33mb  \nc \033[22;39md\n\033[0;39;49m"
+    lines = shown(page + page, "set plot 120x20", "plot loop | loop").splitlines()[-2:]
+    blue, plain = "\033[38;5;33m", "\033[39m"
+    tests.check("a colour ends with its line and its panel", lines ==
+                [" a%sb   %sa%sb%s" % (blue, plain, blue, plain), "%sc %sd%sc %sd" % (blue, plain, blue, plain)],
+                repr(lines))
 
 
 def bodies(tests):

@@ -362,6 +362,47 @@ static void levels(void) {
     plot_figure_free(&f);
 }
 
+/* ---- dots --------------------------------------------------------------------------------------- */
+
+static int count_dots(const plot_cells *c) {
+    int n = 0;
+    for (int i = 0; i < c->columns * c->across * c->rows * c->up; i++)
+        n += c->dot[i];
+    return n;
+}
+
+static void dots(void) {
+    plot_cells c;
+    char text[4];
+    if (!CHECK(plot_cells_make(&c, 10, 5, true)))
+        return;
+    /* from corner to corner of the frame, and far beyond it */
+    const double line[][2] = {{-0.5, -0.5}, {9.5, 4.5}}, far[][2] = {{-1e14, 2}, {1e14, 2}};
+    plot_cells_draw(&c, line, 2, true, "1");
+    CHECK(count_dots(&c) >= 20 && count_dots(&c) <= 40);
+    CHECK(plot_cells_braille(&c, 0, 0) == 0xe0 || plot_cells_has(&c, 0, 0));
+    CHECK(plot_cells_has(&c, 9, 4) && !plot_cells_has(&c, 0, 4) && !plot_cells_has(&c, 9, 0));
+    plot_cells_draw(&c, far, 2, true, "1");
+    for (int i = 0; i < 10; i++)
+        CHECK(plot_cells_has(&c, i, 2));
+    free(c.dot);
+    if (!CHECK(plot_cells_make(&c, 4, 2, true)))
+        return;
+    const double points[][2] = {{0, 0}, {NAN, NAN}, {1.3, 0.4}, {7, 7}};
+    plot_cells_draw(&c, points, 4, false, "1");
+    CHECK(count_dots(&c) == 2 && plot_cells_braille(&c, 0, 0) == 0x10 &&
+          plot_cells_braille(&c, 1, 0) == 0x08);
+    free(c.dot);
+    if (!CHECK(plot_cells_make(&c, 8, 1, true)))
+        return;
+    const double level[][2] = {{-0.5, 0}, {7.49, 0}};
+    plot_cells_draw(&c, level, 2, true, "1100");
+    CHECK(count_dots(&c) == 8 && plot_cells_has(&c, 0, 0) && !plot_cells_has(&c, 1, 0));
+    free(c.dot);
+    CHECK(plot_braille(0xff, text) == 3 && !strcmp(text, "\u28ff"));
+    CHECK(plot_braille(0x40, text) == 3 && !strcmp(text, "\u2840"));
+}
+
 /* ---- targets ------------------------------------------------------------------------------------ */
 
 static bool any_left(const char *dir) {
@@ -374,7 +415,8 @@ static char *text_of(const plot_figure *f, plot_target target) {
     char *text = NULL;
     size_t room;
     target.out = open_memstream(&text, &room);
-    target.terminal = PLOT_DUMB;
+    if (!target.terminal)
+        target.terminal = PLOT_DUMB;
     bool ok = plot_draw(f, &target, NULL, fresh());
     fclose(target.out);
     if (!CHECK(ok))
@@ -414,6 +456,16 @@ static void pages(void) {
     free(text);
     text = text_of(&f, (plot_target){.columns = 60, .rows = 20, .unicode = true, .color = true});
     CHECK(has(text, "δx [µm]") && has(text, "\033[38;5;"));
+    free(text);
+    /* braille: the same page, curves by dashes or by colours */
+    text = text_of(&f, (plot_target){.columns = 60, .rows = 20, .unicode = true, .terminal = PLOT_BLOCK});
+    CHECK(has(text, "\u2812\u2812\u2812\u2812 one") && has(text, "\u2812\u2812\u2802\u2800 two") &&
+          !has(text, "\033"));
+    free(text);
+    text = text_of(
+        &f, (plot_target){.columns = 60, .rows = 20, .unicode = true, .color = true, .terminal = PLOT_BLOCK});
+    CHECK(has(text, "\u2812\u2812\u2812\u2812 \033[39mone") &&
+          has(text, "\u2812\u2812\u2812\u2812 \033[39mtwo"));
     free(text);
     plot_figure_free(&f);
 }
@@ -558,6 +610,7 @@ int main(int argc, char **argv) {
     straightens_parts();
     axes();
     levels();
+    dots();
     pages();
     map_pages();
     refused(tmp);
