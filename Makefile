@@ -14,7 +14,7 @@ CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE $(OPT) $(WARN
 	-Iinclude -Isrc -DFRET_VERSION='"$(VERSION)"' $(CFLAGS)
 # READLINE=no: a prompt without editing and history
 READLINE  ?= yes
-# GSL=no: without solve, maximize, minimize, fit and uncertainty
+# GSL=no: without solve, maximize, minimize, fit, uncertainty and smooth
 GSL       ?= yes
 # LIVE=no: no full-screen mode
 LIVE      ?= yes
@@ -24,7 +24,7 @@ LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas)
 LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline) $(if $(filter no,$(LIVE)),,$(CURSES))
 
 # what is left out with GSL=no, and without
-BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,ask solve optimise fit uncertainty)) \
+BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,ask solve optimise fit uncertainty smooth nonnegative)) \
 	src/shell/study_commands.c src/shell/data_commands.c,src/shell/study_none.c)
 CORE  := $(wildcard src/number/*.c src/contact/*.c src/fast/*.c)
 PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c $(BACK), \

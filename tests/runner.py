@@ -33,6 +33,7 @@ import reference  # noqa: E402
 import rim  # noqa: E402
 import scripts  # noqa: E402
 import sharing  # noqa: E402
+import smoothing  # noqa: E402
 import table  # noqa: E402
 import trouble  # noqa: E402
 
@@ -193,7 +194,8 @@ def help_examples(tests):
 
 
 ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
-         "reference": reference.run, "scripts": scripts.run, "reading": reading.run, "keeping": keeping.run,
+         "reference": reference.run, "scripts": scripts.run, "reading": reading.run, "smoothing": smoothing.run,
+         "keeping": keeping.run,
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
          "fits": fits.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,
          "trouble": trouble.run, "rim": rim.run,

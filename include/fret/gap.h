@@ -60,6 +60,10 @@ fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g,
  * FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. Free with fret_table_free. */
 fret_status fret_table_make(const double *r, const double *f, size_t count, fret_stop stop,
                             struct fret_table **out);
+/* The same with f' given at each row: f is the cubic Hermite interpolant, so that a cubic spline comes out as
+ * it is. Errors also: FRET_NOT_FINITE naming slope. */
+fret_status fret_table_sloped(const double *r, const double *f, const double *slope, size_t count,
+                              fret_stop stop, struct fret_table **out);
 void fret_table_free(struct fret_table *table);
 
 FRET_END

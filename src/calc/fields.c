@@ -6,7 +6,7 @@
 #include "calc/functions.h"
 #include "number/real.h"
 
-/* ---- material and shape ------------------------------------------------------------------------ */
+/* ---- material and shape: each without the other ------------------------------------------------- */
 
 bool call_E(scene *s, value z, long double *out, calc_error *error) {
     long double E0 = 0, c0 = 1, k = 0;
@@ -23,11 +23,13 @@ bool call_E(scene *s, value z, long double *out, calc_error *error) {
 }
 
 bool call_f(scene *s, value r, long double *out, calc_error *error) {
-    const fret_normal *normal;
-    if (!scene_normal(s, &normal, error))
+    fret_gap gap;
+    if (!scene_gap(s, &gap, error))
         return false;
     s->used |= USED(MODEL_CLOSED);
-    fret_status st = fret_gap_f(fret_normal_gap(normal), r.v, out);
+    fret_status st = fret_gap_check(&gap);
+    if (!st.code)
+        st = fret_gap_f(&gap, r.v, out);
     return calc_status(error, &st);
 }
 

@@ -125,9 +125,9 @@ static const geometry geometries[] = {
     {.name = "file",
      .gap = file,
      .by = PARAMETERS_FILE,
-     .usage = "file gap.csv",
+     .usage = "file gap.csv [smooth | smooth 0.1 um | smooth 8]",
      .meaning = "rows of r, f with units in the header",
-     .keywords = "csv table sampled measured profile"},
+     .keywords = "csv table sampled measured profile noisy noise spline smooth roughness"},
 };
 enum { GEOMETRIES = sizeof geometries / sizeof *geometries };
 
@@ -152,7 +152,7 @@ static void table_end(counted *self) {
     free(t);
 }
 
-shared_table *shared_table_make(struct fret_table *table, const char *name) {
+shared_table *shared_table_make(struct fret_table *table, const char *name, smoothing how) {
     shared_table *t = malloc(sizeof *t + strlen(name) + 1);
     if (!t) {
         fret_table_free(table);
@@ -160,6 +160,7 @@ shared_table *shared_table_make(struct fret_table *table, const char *name) {
     }
     t->base = (counted){1, table_end};
     t->table = table;
+    t->smoothing = how;
     memcpy(t->name, name, strlen(name) + 1);
     return t;
 }

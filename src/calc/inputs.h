@@ -58,10 +58,18 @@ const char *geometry_name(size_t i);    /* for suggest() */
 
 typedef enum second_body { SECOND_SAME, SECOND_RIGID, SECOND_GIVEN } second_body;
 
+/* How the rows of a file become a gap. */
+typedef struct smoothing {
+    enum { SMOOTH_NOT, SMOOTH_FREELY, SMOOTH_PIECES, SMOOTH_WITHIN } by;
+    size_t pieces;
+    double within; /* rms [m] */
+} smoothing;
+
 /* A gap table: scenes share it, and an old one can come back. */
 typedef struct shared_table {
     counted base;
     struct fret_table *table;
+    smoothing smoothing;
     char name[]; /* of its file */
 } shared_table;
 
@@ -105,6 +113,6 @@ bool inputs_material(const inputs *in, double k, fret_material *out, calc_error 
 bool inputs_gap(const inputs *in, fret_gap *out, calc_error *error);
 
 /* Takes over the table; NULL: out of memory, the table is freed. */
-shared_table *shared_table_make(struct fret_table *table, const char *name);
+shared_table *shared_table_make(struct fret_table *table, const char *name, smoothing how);
 
 #endif

@@ -197,11 +197,14 @@ bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *
     return (k == 0 || resolve(s, INPUT_BIT(IN_C0), error)) && inputs_material(&s->in, k, out, error);
 }
 
+bool scene_gap(scene *s, fret_gap *out, calc_error *error) {
+    return resolve(s, INPUT_GEOMETRY, error) && inputs_gap(&s->in, out, error);
+}
+
 static bool make_normal(scene *s, bool homogeneous, fret_normal **out, calc_error *error) {
     fret_material material;
     fret_gap gap;
-    if (!scene_material(s, homogeneous, &material, error) || !resolve(s, INPUT_GEOMETRY, error) ||
-        !inputs_gap(&s->in, &gap, error))
+    if (!scene_material(s, homogeneous, &material, error) || !scene_gap(s, &gap, error))
         return false;
     fret_status st = fret_normal_make(&material, &gap, out);
     if (!st.code)

@@ -118,6 +118,8 @@ double scene_time(const scene *s);
 
 /* homogeneous: with k = 0. */
 bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *error);
+/* The shape alone, unchecked. */
+bool scene_gap(scene *s, fret_gap *out, calc_error *error);
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
 /* The same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);

@@ -10,8 +10,9 @@
 #include "number/quadrature.h"
 #include "number/real.h"
 
-/* Cubic Hermite pieces with Steffen's slopes: monotone data give a monotone gap, f' is continuous, and the
- * error falls with the third power of the spacing. Per piece f' = d0 + d1 t + d2 t^2, t = r - r_i. */
+/* Cubic Hermite pieces, with Steffen's slopes where none are given: monotone data give a monotone gap, f' is
+ * continuous, and the error falls with the third power of the spacing. Per piece f' = d0 + d1 t + d2 t^2, t =
+ * r - r_i. */
 struct fret_table {
     size_t count, blocks;
     double *r, *f, *d0, *d1, *d2;
@@ -130,7 +131,7 @@ static fret_real sign_of(fret_real x) {
     return x > 0 ? 1 : x < 0 ? -1 : 0;
 }
 
-static void table_slopes(struct fret_table *t) {
+static void steffen_slopes(struct fret_table *t) {
     size_t n = t->count;
     for (size_t i = 0; i < n && !stopped(t); i++) {
         fret_real h1, s1, h2, s2, p;
@@ -157,7 +158,10 @@ static void table_slopes(struct fret_table *t) {
             p = 2 * s1;
         t->d0[i] = (double)p;
     }
-    for (size_t i = 0; i + 1 < n && !stopped(t); i++) {
+}
+
+static void hermite_pieces(struct fret_table *t) {
+    for (size_t i = 0; i + 1 < t->count && !stopped(t); i++) {
         fret_real h = (fret_real)t->r[i + 1] - t->r[i], s = ((fret_real)t->f[i + 1] - t->f[i]) / h;
         t->d1[i] = (double)(2 * (3 * s - 2 * (fret_real)t->d0[i] - t->d0[i + 1]) / h);
         t->d2[i] = (double)(3 * ((fret_real)t->d0[i] + t->d0[i + 1] - 2 * s) / (h * h));
@@ -177,7 +181,15 @@ static bool grows(const struct fret_table *t) {
 
 fret_status fret_table_make(const double *r, const double *f, size_t count, fret_stop stop,
                             struct fret_table **out) {
+    return fret_table_sloped(r, f, NULL, count, stop, out);
+}
+
+/* slope NULL: Steffen's. */
+fret_status fret_table_sloped(const double *r, const double *f, const double *slope, size_t count,
+                              fret_stop stop, struct fret_table **out) {
     for (size_t i = 0; i < count; i++) {
+        if (slope && !isfinite(slope[i]))
+            return fret_fail(FRET_NOT_FINITE, "slope", slope[i], 0);
         if (!isfinite(r[i]) || !isfinite(f[i]))
             return fret_fail(FRET_NOT_FINITE, isfinite(r[i]) ? "f" : "r", isfinite(r[i]) ? f[i] : r[i], 0);
         if (i == 0 ? r[0] != 0 || f[0] != 0 : r[i] <= r[i - 1])
@@ -203,7 +215,11 @@ fret_status fret_table_make(const double *r, const double *f, size_t count, fret
                              .stop = stop};
     memcpy(t->r, r, count * sizeof *r);
     memcpy(t->f, f, count * sizeof *f);
-    table_slopes(t);
+    if (slope)
+        memcpy(t->d0, slope, count * sizeof *slope);
+    else
+        steffen_slopes(t);
+    hermite_pieces(t);
     make_block(t, 0, count - 1);
     t->grows = grows(t);
     for (size_t i = 1; i + 1 < count && f[i] <= 0; i++)

@@ -301,7 +301,8 @@ static void add_arguments(const place *p, const command *c, bool first) {
 }
 
 /* NAME= of a usage line such as `cone slope=0.05 | cone angle=3 deg`. */
-static void add_parameters(const place *p, const char *usage) {
+static void add_parameters(const place *p, const geometry *shape) {
+    const char *usage = shape->usage;
     for (const char *equals = strchr(usage, '='); equals; equals = strchr(equals + 1, '=')) {
         char name[LEX_NAME];
         size_t n = 0;
@@ -311,6 +312,8 @@ static void add_parameters(const place *p, const char *usage) {
         if (!is_assigned(p, name))
             add(p, name, "=");
     }
+    if (shape->by == PARAMETERS_FILE && !is_given(p, "smooth"))
+        add(p, "smooth", "");
 }
 
 /* The words among what a setting takes: `auto|closed|springs N`. */
@@ -340,7 +343,7 @@ static void add_continuation(const place *p) {
     if (c && c->run == do_set)
         add_setting_words(p);
     else if (shape)
-        add_parameters(p, shape->usage);
+        add_parameters(p, shape);
     else if (c)
         add_arguments(p, c, false);
     if (load_along(p))

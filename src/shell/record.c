@@ -95,7 +95,7 @@ static void write_statements(FILE *to, const char *text) {
     while (*text) {
         const size_t n = strcspn(text, "\n");
         if (n > 0 && *text != '#')
-            fprintf(to, "fret> %.*s\n", (int)n, text);
+            fprintf(to, "fret> %.*s" RECORD_GIVEN "\n", (int)n, text);
         text += n + (text[n] == '\n');
     }
 }

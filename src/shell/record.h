@@ -5,8 +5,9 @@
 
 #include "shell/shell.h"
 
-/* Begins a transcript: these statements, for a replay begins without a scene, then whatever comes. Nothing is
- * recorded in a replay. */
+/* Begins a transcript: these statements, for a replay begins without a scene, then whatever comes. They end
+ * in a mark: what is noted or warned of there was said before. Nothing is recorded in a replay. */
+#define RECORD_GIVEN " # as it was"
 bool record_begin(shell *sh, const char *path, const char *beginning, calc_error *error);
 /* Ends it; false: there was none. A lost write is told. */
 bool record_end(shell *sh);

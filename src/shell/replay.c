@@ -210,11 +210,22 @@ static bool run(replay *r) {
     return true;
 }
 
+/* Notes and warnings of a scene that a record begins with may be there or not. */
+static void spare_notes(replay *r) {
+    const size_t n = strlen(RECORD_GIVEN), len = r->statement.len;
+    if (len < n || strcmp(r->statement.p + len - n, RECORD_GIVEN) != 0)
+        return;
+    for (char *line = r->got; *line; line += line_after(line) - line)
+        if (begins(line, "note: ") || begins(line, "warning: "))
+            *line = MARK_ASIDE;
+}
+
 /* What follows the statement has been gathered. */
 static void judge(replay *r) {
     const char *want = r->want.p ? r->want.p : "";
     if (r->at == 0)
         return;
+    spare_notes(r);
     if (compare(want, r->got, r->tolerance)) {
         r->passed++;
     } else {

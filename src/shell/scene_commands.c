@@ -10,6 +10,7 @@
 #include "shell/command.h"
 #include "shell/output.h"
 #include "shell/presets.h"
+#include "study/smooth.h"
 
 /* ---- gathering --------------------------------------------------------------------------------- */
 
@@ -168,45 +169,106 @@ static bool read_sum(shell *sh, lexer *lx, fret_gap *sum) {
     return at_end(lx);
 }
 
+/* `smooth`, `smooth 8`, `smooth 0.1 um`. */
+static bool read_smoothing(shell *sh, lexer *lx, smoothing *how) {
+    value v;
+    if (lx->kind == T_END)
+        return true;
+    if (!lex_accept(lx, "smooth"))
+        return lex_fail(lx, "expected smooth, or nothing, after the name of the file");
+    how->by = SMOOTH_FREELY;
+    if (lx->kind == T_END)
+        return true;
+    const size_t at = lx->at;
+    if (!expr_value(&sh->calc, lx, &v) || stray_unit(lx) || !at_end(lx))
+        return false;
+    const bool within = dim_equal(v.d, DIM_LENGTH), number = dim_equal(v.d, DIM_NONE);
+    if (!(within && v.v > 0) && !(number && v.v >= 1 && v.v <= SMOOTH_PIECES_MOST && v.v == floorl(v.v)))
+        return calc_fail(lx->error, at, lx->last - at,
+                         "smooth takes a misfit (smooth 0.1 um) or a number of pieces (smooth 8)");
+    *how = (smoothing){within ? SMOOTH_WITHIN : SMOOTH_PIECES, within ? 0 : (size_t)v.v, (double)v.v};
+    return true;
+}
+
 /* Columns r and f, among others in any order. */
-static struct fret_table *table_of(const csv *data, calc_error *error) {
+static bool columns_of(const csv *data, const csv_values **r, const csv_values **f, calc_error *error) {
+    *r = csv_column(data, "r", error);
+    *f = *r ? csv_column(data, "f", error) : NULL;
+    return *f && ((dim_equal((*r)->d, DIM_LENGTH) && dim_equal((*f)->d, DIM_LENGTH)) ||
+                  calc_fail(error, 0, 0,
+                            "%s: r and f are lengths and need units in the header, such as r [mm],f [um]",
+                            data->path));
+}
+
+static struct fret_table *table_of(const csv *data, smoothing how, smooth_answer *smoothed,
+                                   calc_error *error) {
     struct fret_table *gap = NULL;
-    const csv_values *r = csv_column(data, "r", error), *f = r ? csv_column(data, "f", error) : NULL;
-    if (!f)
+    const csv_values *r, *f;
+    fret_status st;
+    if (!columns_of(data, &r, &f, error))
         return NULL;
-    if (!dim_equal(r->d, DIM_LENGTH) || !dim_equal(f->d, DIM_LENGTH)) {
-        calc_fail(error, 0, 0, "%s: r and f are lengths and need units in the header, such as r [mm],f [um]",
-                  data->path);
+    if (how.by) {
+        if (!smooth(r->v, f->v, data->rows, how, &shell_stop, smoothed, error))
+            return NULL;
+        st = fret_table_sloped(smoothed->r, smoothed->f, smoothed->slope, smoothed->pieces + 1, &shell_stop,
+                               &gap);
     } else if (r->v[0] == 0 && f->v[0] != 0) {
-        calc_fail(error, 0, 0,
-                  "%s:%zu: f(0) = %.6g m must be 0: the bodies touch at r = 0 before they are pressed",
-                  data->path, data->line[0], f->v[0]);
+        calc_fail(
+            error, 0, 0,
+            "%s:%zu: f(0) = %.6g m must be 0: the bodies touch at r = 0 before they are pressed (smooth "
+            "takes it off)",
+            data->path, data->line[0], f->v[0]);
+        return NULL;
     } else {
-        fret_status st = fret_table_make(r->v, f->v, data->rows, &shell_stop, &gap);
-        if (!calc_status(error, &st))
-            gap = NULL;
+        st = fret_table_make(r->v, f->v, data->rows, &shell_stop, &gap);
     }
-    return gap;
+    return calc_status(error, &st) ? gap : NULL;
+}
+
+/* What smoothing has changed is never silent. */
+static void report_misfit(shell *sh, const smooth_answer *a) {
+    enum { MISFITS = 4 };
+    const double v[MISFITS] = {a->rms, a->worst, a->at, a->offset};
+    char text[MISFITS][CALC_VALUE_TEXT];
+    settings brief = sh->set;
+    brief.digits = 3;
+    if (sh->set.format == FORMAT_JSON) {
+        fprintf(sh->out,
+                "{\"event\":\"smooth\",\"pieces\":%zu,\"rms\":%.17g,\"worst\":%.17g,\"at\":%.17g,"
+                "\"offset\":%.17g}\n",
+                a->pieces, v[0], v[1], v[2], v[3]);
+        return;
+    }
+    for (int i = 0; i < MISFITS; i++)
+        format_value(&brief, (value){v[i], DIM_LENGTH}, text[i], sizeof text[i]);
+    shell_note(sh, "note: smoothed, %zu piece%s: misfit %s rms, %s at worst (r = %s); f(0) = %s is taken off",
+               a->pieces, a->pieces == 1 ? "" : "s", text[0], text[1], text[2], text[3]);
 }
 
 static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
     char name[ARG_FILE_NAME];
-    size_t at = lx->at;
+    const size_t at = lx->at;
+    smoothing how = {.by = SMOOTH_NOT};
+    smooth_answer smoothed = {.pieces = 0};
     csv data;
-    if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
+    if (!lex_filename(lx, name, sizeof name))
+        return false;
+    const size_t end = lx->last;
+    if (!read_smoothing(sh, lx, &how))
         return false;
     bool ok = csv_read(name, &shell_stop, &data, lx->error);
     if (ok) {
-        struct fret_table *gap = table_of(&data, lx->error);
-        e->table = gap ? shared_table_make(gap, name) : NULL;
+        struct fret_table *gap = table_of(&data, how, &smoothed, lx->error);
+        e->table = gap ? shared_table_make(gap, name, how) : NULL;
         if (gap && !e->table)
             calc_no_memory(lx->error);
         ok = e->table && scene_edit(&sh->calc.scene, apply, e, lx->error); /* which takes the table over */
     }
+    if (ok && how.by)
+        report_misfit(sh, &smoothed);
+    smooth_free(&smoothed);
     csv_free(&data);
-    lx->error->at = at;
-    lx->error->len = strlen(name);
-    return ok;
+    return ok || calc_place(lx->error, at, end - at);
 }
 
 /* The rows of what the geometry takes; `angle` beside slope, R1 and R2 beside R are no inputs of their own.

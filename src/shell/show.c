@@ -166,6 +166,15 @@ static bool write_file_name(writer *w, const char *name) {
     return true;
 }
 
+static void write_smoothing(writer *w, const smoothing *how) {
+    if (how->by)
+        fputs(" smooth", w->to);
+    if (how->by == SMOOTH_PIECES)
+        fprintf(w->to, " %zu", how->pieces);
+    if (how->by == SMOOTH_WITHIN)
+        write_value(w, " ", "", (value){(long double)how->within, DIM_LENGTH});
+}
+
 static void write_geometry(writer *w) {
     const inputs *in = &w->c->scene.in;
     const geometry *g = in->geometry;
@@ -184,6 +193,8 @@ static void write_geometry(writer *w) {
     }
     if (g->by == PARAMETERS_FILE && !write_file_name(w, in->table->name))
         fputs(" # the name of the file cannot be written in a statement", w->to);
+    if (g->by == PARAMETERS_FILE)
+        write_smoothing(w, &in->table->smoothing);
     putc('\n', w->to);
 }
 

@@ -19,7 +19,7 @@ STATEMENTS = (
     (POWER, ("y = 3 mm, z = x + 1", "z := x^2", "G(u, v) := u + v*x", "k = 0.3", "c0 := 2 mm*x", "undo", "x, x^2 in %",
              "F(3), (x at x=5)", "material steel nu=0.2", "second E0=70 GPa nu=0.33", "second aluminium",
              "geometry cone angle=3 deg", "geometry sum 2:50 m^-1, 4:2e6 m^-3", "geometry power n=3 A=50 m^-2",
-             "geometry file gap.csv", "friction 0.3", "press FN=100 N", "press a=0.2 mm", "press dz=1 um", "reset all",
+             "geometry file gap.csv", "geometry file gap.csv smooth", "friction 0.3", "press FN=100 N", "press a=0.2 mm", "press dz=1 um", "reset all",
              "set digits 9", "set format json", "set format json; help press; show commands", "show", "show variables", "show units", "show settings",
              "show commands", "help", "help press", "help units", "apropos contact", "apropos radius",
              "table x^2, y for y = 1 .. 5 steps 4 to out.csv", "table a(y) for y = 1 N .. 9 N steps 300",

@@ -117,6 +117,14 @@ def plain_prompt(tests):
     tests.check("plain prompt: Ctrl-D leaves", s.end() == 0)
 
 
+def without_library(tests):
+    """Where GSL is left out, what needs it says so."""
+    for statement, name in (("solve FN for a = 1 mm", "solve"), ("geometry file gap.csv smooth", "smooth")):
+        done = tests.run("-c", statement)
+        tests.check(name + " without GSL", "error: %s needs GSL, which this program was built without" % name in done.stderr and
+                    done.returncode == 1, tests.report(done))
+
+
 def run(tests):
     """The sanitized program is slow and has the same sources: one pass is enough."""
     if tests.sanitized:
@@ -154,6 +162,7 @@ def run(tests):
         print("portable: %d numbers by %s" % (numbers, "; ".join(programs)), flush=True)
         for variant in builds.values():
             plain_prompt(variant)
+            without_library(variant)
             tests.passed += variant.passed
             tests.failed += variant.failed
     finally:

@@ -161,6 +161,31 @@ static struct fret_table *sample(const fret_gap *gap, int count, double end, boo
     return t;
 }
 
+/* With its slopes given, a cubic comes back from two rows, one of which is within. */
+static void sloped(void) {
+    const double end = 3e-3, r[] = {0, 1.1e-3, end};
+    const fret_gap cubic = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {3, 2e4, 1}}};
+    double f[3], slope[3];
+    fret_gap table = {.kind = FRET_GAP_TABLE};
+    struct fret_table *t = NULL;
+    for (int i = 0; i < 3; i++) {
+        f[i] = r[i] * r[i] * (50 + 2e4 * r[i]);
+        slope[i] = r[i] * (100 + 6e4 * r[i]);
+    }
+    CHECK_OK(fret_table_sloped(r, f, slope, 3, NULL, &t));
+    table.table = t;
+    CHECK(fret_gap_tip(&table) == 2 && fret_gap_grows(&table));
+    for (int j = 0; j < GRADINGS; j++)
+        for (int i = 1; i < 30; i++) {
+            fret_real want, got, want_slope, got_slope, x = end * i / 30;
+            CHECK_OK(fret_gap_g(&cubic, gradings[j], x, &want, &want_slope));
+            CHECK_OK(fret_gap_g(&table, gradings[j], x, &got, &got_slope));
+            CHECK_REL(got, want, 1e-14L);
+            CHECK_REL(got_slope, want_slope, 1e-14L);
+        }
+    fret_table_free(t);
+}
+
 static fret_real lost(fret_memory *m, double tangential) {
     fret_step step = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, tangential};
     CHECK_OK(fret_memory_step(m, &step));
@@ -370,6 +395,8 @@ static void bad_tables(void) {
     CHECK_ERROR(fret_table_make(nans, f, 3, NULL, &t), FRET_NOT_FINITE, "r");
     CHECK_ERROR(fret_table_make(r, inf, 3, NULL, &t), FRET_NOT_FINITE, "f");
     CHECK(fret_table_make(back, f, 3, NULL, &t).value == 1e-3);
+    CHECK_ERROR(fret_table_sloped(r, f, inf, 3, NULL, &t), FRET_NOT_FINITE, "slope");
+    CHECK_ERROR(fret_table_sloped(back, f, r, 3, NULL, &t), FRET_BAD_TABLE, "r");
     CHECK(t == NULL);
     fret_table_free(NULL);
 
@@ -531,6 +558,7 @@ int main(int argc, char **argv) {
     one_term();
     limits();
     bad_tables();
+    sloped();
     table_order();
     long_table();
     coarse_steps();

@@ -1,0 +1,394 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Least squares over B-splines, by their normal equations: the basis is local, so that these are well
+ * conditioned, and a refinement takes away what they lose. Where noise bends the spline down, the
+ * nearest convex one is taken: its coefficients are convex over the abscissae of Greville. */
+#include "study/smooth.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_bspline.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_poly.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "calc/calc.h"
+#include "study/nonnegative.h"
+
+/* The two first functions of the basis carry f(0) and f'(0), and are left out. */
+enum { ORDER = 4, FIXED = 2 };
+
+/* |r| and f in units of their largest, by |r|. */
+typedef struct row {
+    double r, f;
+} row;
+
+typedef struct rows {
+    row *row;
+    size_t count, distinct; /* different r */
+    double *at;             /* they */
+    double r, f;            /* units [m] */
+} rows;
+
+typedef struct trial {
+    size_t pieces, unknowns;
+    gsl_bspline_workspace *spline;
+    gsl_vector *ends, *c, *right, *whole, *basis;
+    gsl_matrix *normal, *factor, *slopes;
+    double rms, worst, at;
+    bool grows;         /* so does g(x): (r f')' >= 0 */
+    double falls, drop; /* where f' < 0, and by how much f falls in all */
+} trial;
+
+static int by_r(const void *a, const void *b) {
+    const double x = ((const row *)a)->r, y = ((const row *)b)->r;
+    return (x > y) - (x < y);
+}
+
+static bool rows_make(rows *all, const double *r, const double *f, size_t count, calc_error *error) {
+    *all = (rows){.row = malloc(count * sizeof *all->row), .at = malloc(count * sizeof *all->at)};
+    if (!all->row || !all->at)
+        return calc_no_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        all->r = fmax(all->r, fabs(r[i]));
+        all->f = fmax(all->f, fabs(f[i]));
+    }
+    if (!(all->r > 0 && all->f > 0))
+        return calc_fail(error, 0, 0, "the rows are all at %s = 0", all->r > 0 ? "f" : "r");
+    all->count = count;
+    for (size_t i = 0; i < count; i++)
+        all->row[i] = (row){fabs(r[i]) / all->r, f[i] / all->f};
+    qsort(all->row, count, sizeof *all->row, by_r);
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 || all->row[i].r > all->row[i - 1].r)
+            all->at[all->distinct++] = all->row[i].r;
+    return true;
+}
+
+/* ---- one fit ----------------------------------------------------------------------------------- */
+
+static void trial_end(trial *t) {
+    if (t->spline)
+        gsl_bspline_free(t->spline);
+    gsl_vector_free(t->ends);
+    gsl_vector_free(t->c);
+    gsl_vector_free(t->right);
+    gsl_vector_free(t->whole);
+    gsl_vector_free(t->basis);
+    gsl_matrix_free(t->normal);
+    gsl_matrix_free(t->factor);
+    gsl_matrix_free(t->slopes);
+    *t = (trial){.pieces = 0};
+}
+
+static bool trial_begin(trial *t, const rows *all, size_t pieces, calc_error *error) {
+    const size_t unknowns = pieces + ORDER - 1 - FIXED + 1; /* and the offset */
+    *t = (trial){.pieces = pieces,
+                 .unknowns = unknowns,
+                 .spline = gsl_bspline_alloc(ORDER, pieces + 1),
+                 .ends = gsl_vector_alloc(pieces + 1),
+                 .c = gsl_vector_calloc(unknowns),
+                 .right = gsl_vector_alloc(unknowns),
+                 .whole = gsl_vector_alloc(unknowns),
+                 .basis = gsl_vector_alloc(ORDER),
+                 .normal = gsl_matrix_calloc(unknowns, unknowns),
+                 .factor = gsl_matrix_alloc(unknowns, unknowns),
+                 .slopes = gsl_matrix_alloc(ORDER, 2)};
+    if (!t->spline || !t->ends || !t->c || !t->right || !t->whole || !t->basis || !t->normal || !t->factor ||
+        !t->slopes)
+        return calc_no_memory(error);
+    for (size_t i = 0; i <= pieces; i++)
+        gsl_vector_set(t->ends, i, i ? all->at[i * (all->distinct - 1) / pieces] : 0);
+    gsl_bspline_knots(t->ends, t->spline);
+    return true;
+}
+
+/* The functions that are not 0 at r, with their places among the unknowns; the offset last. */
+typedef struct line {
+    double v[ORDER + 1];
+    size_t at[ORDER + 1], count;
+} line;
+
+static line line_at(const trial *t, double r) {
+    line out = {.count = 0};
+    size_t first, last;
+    gsl_bspline_eval_nonzero(r, t->basis, &first, &last, t->spline);
+    for (size_t j = first; j <= last; j++)
+        if (j >= FIXED) {
+            out.v[out.count] = gsl_vector_get(t->basis, j - first);
+            out.at[out.count++] = j - FIXED;
+        }
+    out.v[out.count] = 1;
+    out.at[out.count++] = t->unknowns - 1;
+    return out;
+}
+
+static double residual(const trial *t, const line *x, double f) {
+    for (size_t j = 0; j < x->count; j++)
+        f -= x->v[j] * gsl_vector_get(t->c, x->at[j]);
+    return f;
+}
+
+/* Moves the unknowns to where the rest is least. begin: the normal equations too. */
+static bool improve(trial *t, const rows *all, bool begin, file_stop stop, calc_error *error) {
+    gsl_vector_set_zero(t->right);
+    for (size_t i = 0; i < all->count; i++) {
+        const line x = line_at(t, all->row[i].r);
+        const double rest = residual(t, &x, all->row[i].f);
+        if (stop && *stop)
+            return calc_interrupted(error);
+        for (size_t j = 0; j < x.count; j++) {
+            *gsl_vector_ptr(t->right, x.at[j]) += x.v[j] * rest;
+            for (size_t k = 0; k < x.count && begin; k++)
+                *gsl_matrix_ptr(t->normal, x.at[j], x.at[k]) += x.v[j] * x.v[k];
+        }
+    }
+    if (begin) {
+        gsl_matrix_memcpy(t->factor, t->normal);
+        gsl_vector_memcpy(t->whole, t->right);
+    }
+    if ((begin && gsl_linalg_cholesky_decomp1(t->factor)) || gsl_linalg_cholesky_svx(t->factor, t->right))
+        return calc_fail(error, 0, 0, "%zu different r cannot carry %zu pieces: take fewer", all->distinct,
+                         t->pieces);
+    gsl_vector_add(t->c, t->right);
+    return true;
+}
+
+static void judge(trial *t, const rows *all) {
+    double squares = 0;
+    t->worst = -1;
+    for (size_t i = 0; i < all->count; i++) {
+        const line x = line_at(t, all->row[i].r);
+        const double rest = fabs(residual(t, &x, all->row[i].f));
+        squares += rest * rest;
+        if (rest > t->worst) {
+            t->worst = rest;
+            t->at = all->row[i].r;
+        }
+    }
+    t->rms = sqrt(squares / (double)all->count);
+}
+
+/* f and f' at the end of a piece. */
+static void end_of(const trial *t, size_t i, double *f, double *slope) {
+    size_t first, last;
+    gsl_bspline_deriv_eval_nonzero(gsl_vector_get(t->ends, i), 1, t->slopes, &first, &last, t->spline);
+    *f = *slope = 0;
+    for (size_t j = first; j <= last && i > 0; j++)
+        if (j >= FIXED) {
+            const double c = gsl_vector_get(t->c, j - FIXED);
+            *f += c * gsl_matrix_get(t->slopes, j - first, 0);
+            *slope += c * gsl_matrix_get(t->slopes, j - first, 1);
+        }
+}
+
+/* f' is a parabola on each piece: f falls least and most at its zeros and at the ends. */
+static void look_for_fall(trial *t) {
+    double f0, s0, f1 = 0, s1 = 0, top = 0, top_at = 0;
+    t->grows = true;
+    t->drop = 0;
+    for (size_t i = 0; i < t->pieces; i++) {
+        const double r0 = gsl_vector_get(t->ends, i), h = gsl_vector_get(t->ends, i + 1) - r0;
+        f0 = f1;
+        s0 = s1 * h;
+        end_of(t, i + 1, &f1, &s1);
+        const double d1 = 3 * (f1 - f0) - 2 * s0 - s1 * h, d2 = s0 + s1 * h - 2 * (f1 - f0);
+        double x[4] = {0, 1, 1, 1}; /* f = f0 + s0 x + d1 x^2 + d2 x^3, x = 0..1 */
+        const int zeros = gsl_poly_solve_quadratic(3 * d2, 2 * d1, s0, &x[1], &x[2]);
+        for (int j = 0; j < 4; j++) {
+            if ((j == 1 || j == 2) && (j > zeros || !(x[j] > 0 && x[j] < 1)))
+                continue;
+            const double f = j == 3 ? f1 : f0 + x[j] * (s0 + x[j] * (d1 + x[j] * d2));
+            if (top - f > t->drop) {
+                t->falls = t->drop > 0 ? t->falls : top_at;
+                t->drop = top - f;
+            }
+            if (f > top) {
+                top = f;
+                top_at = r0 + x[j] * h;
+            }
+        }
+        /* (r f')' is a parabola too */
+        const double q1 = 2 * (2 * d1 + 3 * d2 * r0 / h), q2 = 9 * d2, q0 = s0 + 2 * d1 * r0 / h;
+        const double vertex = q2 > 0 ? -q1 / (2 * q2) : 0;
+        t->grows = t->grows && q0 >= 0 && q0 + q1 + q2 >= 0 &&
+                   (!(vertex > 0 && vertex < 1) || q0 + vertex * (q1 + vertex * q2) >= 0);
+    }
+}
+
+/* c = T e for second differences e, which are not to be negative; the offset is its own. */
+static bool make_convex(trial *t, const rows *all) {
+    const size_t n = t->unknowns;
+    gsl_matrix *T = gsl_matrix_calloc(n, n), *AT = gsl_matrix_alloc(n, n), *M = gsl_matrix_alloc(n, n);
+    gsl_vector *e = gsl_vector_alloc(n), *right = gsl_vector_alloc(n);
+    bool ok = T && AT && M && e && right;
+    for (size_t i = 0; i + 1 < n && ok; i++)
+        for (size_t j = 0; j <= i; j++)
+            gsl_matrix_set(T, i, j,
+                           gsl_bspline_greville_abscissa(i + FIXED, t->spline) -
+                               gsl_bspline_greville_abscissa(j + FIXED - 1, t->spline));
+    if (ok) {
+        gsl_matrix_set(T, n - 1, n - 1, 1);
+        gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1, t->normal, T, 0, AT);
+        gsl_blas_dgemm(CblasTrans, CblasNoTrans, 1, T, AT, 0, M);
+        gsl_blas_dgemv(CblasTrans, 1, T, t->whole, 0, right);
+        ok = nonnegative(M, right, e);
+    }
+    if (ok) {
+        gsl_blas_dgemv(CblasNoTrans, 1, T, e, 0, t->c);
+        judge(t, all);
+    }
+    gsl_matrix_free(T);
+    gsl_matrix_free(AT);
+    gsl_matrix_free(M);
+    gsl_vector_free(e);
+    gsl_vector_free(right);
+    return ok;
+}
+
+/* Would noise alone have moved the convex profile so far from the nearest one? Its squares are greater by the
+ * noise of at most all unknowns. */
+static bool noise_alone(const trial *t, const rows *all, double nearest) {
+    const double p = (double)t->unknowns, left = (double)all->count - p;
+    return t->rms * t->rms <= nearest * nearest * (1 + (p + 4 * sqrt(2 * p)) / left);
+}
+
+static bool attempt(trial *t, const rows *all, size_t pieces, file_stop stop, calc_error *error) {
+    if (!trial_begin(t, all, pieces, error) || !improve(t, all, true, stop, error) ||
+        !improve(t, all, false, stop, error))
+        return false;
+    judge(t, all);
+    look_for_fall(t);
+    if (t->grows)
+        return true;
+    const double nearest = t->rms;
+    const bool small = t->drop > 0 && t->drop <= 3 * nearest;
+    gsl_vector_memcpy(t->right, t->c);
+    if (!make_convex(t, all))
+        return calc_no_memory(error);
+    if (small || noise_alone(t, all, nearest)) {
+        t->drop = 0;
+    } else { /* it may be pressed as far as g grows, where f does not fall */
+        gsl_vector_memcpy(t->c, t->right);
+        judge(t, all);
+    }
+    return true;
+}
+
+/* ---- how many pieces --------------------------------------------------------------------------- */
+
+static bool rises(const trial *t, const rows *all, calc_error *error) {
+    char where[CALC_VALUE_TEXT], drop[CALC_VALUE_TEXT];
+    calc_value_text(DIM_LENGTH, t->falls * all->r, where);
+    calc_value_text(DIM_LENGTH, t->drop * all->f, drop);
+    return t->drop == 0 ||
+           calc_fail(error, 0, 0,
+                     "the profile of %zu piece%s falls from r = %s on, by %s, which is no noise: "
+                     "leave out what lies beyond, or take fewer pieces",
+                     t->pieces, t->pieces == 1 ? "" : "s", where, drop);
+}
+
+/* By rows: each piece is to have some. */
+static size_t most_pieces(const rows *all, size_t most) {
+    return all->distinct / 4 < most ? all->distinct / 4 : most;
+}
+
+static size_t next_pieces(size_t pieces) {
+    return pieces + 1 + pieces / 8;
+}
+
+static bool choose_freely(trial *t, const rows *all, file_stop stop, calc_error *error) {
+    const size_t most = most_pieces(all, SMOOTH_PIECES_TRIED);
+    double best = INFINITY;
+    size_t pieces = 1;
+    for (size_t i = 1; i <= most; i = next_pieces(i)) {
+        if (!attempt(t, all, i, stop, error))
+            return false;
+        const double score = t->rms / (1 - (double)t->unknowns / (double)all->count);
+        pieces = score < best ? i : pieces;
+        best = fmin(score, best);
+        trial_end(t);
+    }
+    return attempt(t, all, pieces, stop, error) && rises(t, all, error);
+}
+
+static bool choose_within(trial *t, const rows *all, double within, file_stop stop, calc_error *error) {
+    const size_t most = most_pieces(all, SMOOTH_PIECES_TRIED);
+    char wanted[CALC_VALUE_TEXT], got[CALC_VALUE_TEXT];
+    double least = INFINITY;
+    calc_error falls;
+    error_clear(&falls);
+    for (size_t i = 1; i <= most; i = next_pieces(i)) {
+        if (!attempt(t, all, i, stop, error))
+            return false;
+        if (t->rms * all->f <= within && rises(t, all, &falls))
+            return true;
+        least = fmin(least, t->rms * all->f);
+        trial_end(t);
+    }
+    calc_value_text(DIM_LENGTH, within, wanted);
+    calc_value_text(DIM_LENGTH, least, got);
+    *error = falls;
+    return calc_fail(error, 0, 0,
+                     "no profile of up to %zu pieces comes within %s (rms): the nearest is %s off", most,
+                     wanted, got);
+}
+
+/* ---- */
+
+static bool hand_out(const trial *t, const rows *all, smooth_answer *out, calc_error *error) {
+    const size_t n = t->pieces + 1;
+    out->pieces = t->pieces;
+    out->r = malloc(n * sizeof *out->r);
+    out->f = malloc(n * sizeof *out->f);
+    out->slope = malloc(n * sizeof *out->slope);
+    if (!out->r || !out->f || !out->slope)
+        return calc_no_memory(error);
+    for (size_t i = 0; i < n; i++) {
+        double f, slope;
+        end_of(t, i, &f, &slope);
+        out->r[i] = gsl_vector_get(t->ends, i) * all->r;
+        out->f[i] = f * all->f;
+        out->slope[i] = slope * all->f / all->r;
+    }
+    out->rms = t->rms * all->f;
+    out->worst = t->worst * all->f;
+    out->at = t->at * all->r;
+    out->offset = gsl_vector_get(t->c, t->unknowns - 1) * all->f;
+    return true;
+}
+
+static bool choose(trial *t, const rows *all, smoothing how, file_stop stop, calc_error *error) {
+    const size_t most = most_pieces(all, SMOOTH_PIECES_MOST);
+    if (most == 0)
+        return calc_fail(error, 0, 0, "%zu different r are too few to smooth", all->distinct);
+    if (how.by == SMOOTH_FREELY)
+        return choose_freely(t, all, stop, error);
+    if (how.by == SMOOTH_WITHIN)
+        return choose_within(t, all, how.within, stop, error);
+    if (how.pieces > most)
+        return calc_fail(error, 0, 0, "%zu different r carry up to %zu pieces", all->distinct, most);
+    return attempt(t, all, how.pieces, stop, error) && rises(t, all, error);
+}
+
+bool smooth(const double *r, const double *f, size_t count, smoothing how, file_stop stop, smooth_answer *out,
+            calc_error *error) {
+    rows all;
+    trial t = {.pieces = 0};
+    *out = (smooth_answer){.pieces = 0};
+    gsl_set_error_handler_off();
+    const bool ok = rows_make(&all, r, f, count, error) && choose(&t, &all, how, stop, error) &&
+                    hand_out(&t, &all, out, error);
+    trial_end(&t);
+    free(all.row);
+    free(all.at);
+    return ok;
+}
+
+void smooth_free(smooth_answer *a) {
+    free(a->r);
+    free(a->f);
+    free(a->slope);
+    *a = (smooth_answer){.pieces = 0};
+}
