@@ -287,13 +287,14 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
 bool scene_FN(scene *s, long double *FN, calc_error *error) {
     const load_reach *reach;
     const fret_press *press;
+    const fret_state *state;
     if (!scene_reach(s, &reach, error))
         return false;
     if (!s->now && !reach->normal_varies && s->program->steps[0].normal == BY_FORCE)
         return scene_get(s, IN_FN, FN, error);
-    if (!scene_press(s, &press, error))
+    if (s->now ? !scene_forces(s, &state, error) : !scene_press(s, &press, error))
         return false;
-    *FN = press->F;
+    *FN = s->now ? state->FN : press->F;
     return true;
 }
 
@@ -416,6 +417,16 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     return true;
 }
 
+bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
+    answers *a = &s->answers;
+    if (!s->now || a->state_ready || (!s->automatic && s->model == MODEL_CLOSED))
+        return scene_state(s, state, error);
+    engine_forces(&s->now->run->engine, &a->state);
+    s->used |= USED(MODEL_MEMORY);
+    *state = &a->state;
+    return true;
+}
+
 void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs) {
     s->automatic = automatic;
     s->model = model;
@@ -494,7 +505,8 @@ bool scene_trace(scene *s, watch *w, calc_error *error) {
     load_view load;
     const runner *unused;
     runner r = {.load = &load, .watch = w};
-    if (!present_run(s, &unused, error) || !scene_load_of(s, &load, error))
+    /* a load that cannot be is refused before anything of it is seen */
+    if ((!s->sound && !present_run(s, &unused, error)) || !scene_load_of(s, &load, error))
         return false;
     r.level = s->answers.reach.swings ? LEVELS - 1 : 0;
     s->used |= USED(MODEL_MEMORY);

@@ -223,9 +223,19 @@ static long double member(const void *of, size_t at) {
     return v;
 }
 
+/* The state as far as the member wants it. */
+static bool get_state(const quantity *q, scene *s, long double *out, calc_error *error) {
+    const fret_state *state;
+    const bool forces = q->at_state == offsetof(fret_state, Fx) || q->at_state == offsetof(fret_state, dx) ||
+                        q->at_state == offsetof(fret_state, W);
+    if (!(forces ? scene_forces : scene_state)(s, &state, error))
+        return false;
+    *out = member(state, q->at_state);
+    return true;
+}
+
 /* First loading has a closed form, which keeps every digit also close to gross slip. */
 static bool get_loading(const quantity *q, scene *s, long double *out, calc_error *error) {
-    const fret_state *state;
     fret_loading first;
     if (scene_closed_state(s)) {
         if (!scene_first_loading(s, &first, error))
@@ -233,15 +243,11 @@ static bool get_loading(const quantity *q, scene *s, long double *out, calc_erro
         *out = member(&first, q->at);
         return true;
     }
-    if (!scene_state(s, &state, error))
-        return false;
-    *out = member(state, q->at_state);
-    return true;
+    return get_state(q, s, out, error);
 }
 
 bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *error) {
     const fret_press *press;
-    const fret_state *state;
     fret_foundation foundation;
     switch (q->of) {
     case OF_INPUT:
@@ -254,10 +260,7 @@ bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *err
     case OF_LOADING:
         return get_loading(q, s, out, error);
     case OF_STATE:
-        if (!scene_state(s, &state, error))
-            return false;
-        *out = member(state, q->at_state);
-        return true;
+        return get_state(q, s, out, error);
     case OF_FOUNDATION:
         if (!foundation_of(s, &foundation, error))
             return false;

@@ -29,6 +29,7 @@ void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *e
 void scene_forget(scene *s, bool keep) {
     answers_end(&s->answers, keep);
     s->settled = 0;
+    s->sound = false;
 }
 
 void scene_free(scene *s) {

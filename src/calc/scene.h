@@ -57,6 +57,7 @@ struct scene {
     program *program;           /* or NULL: nothing is pressed */
     load_mark end;
     const instant *now; /* or NULL: the end of the program */
+    bool sound;         /* of a scratch scene: a copy of one whose program runs to its end */
     answers answers;
     bool automatic; /* the model: the closed form where there is one, else the memory diagram */
     model_id model; /* else this one */
@@ -129,6 +130,8 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error);
 bool scene_FN(scene *s, long double *FN, calc_error *error);
 bool scene_contact(scene *s, fret_contact *contact, calc_error *error);
 bool scene_state(scene *s, const fret_state **state, calc_error *error);
+/* Of it only F_N, dz, F_x, dx and W: at an instant on the way of a load far cheaper. */
+bool scene_forces(scene *s, const fret_state **state, calc_error *error);
 bool scene_memory(scene *s, const fret_memory **memory, calc_error *error);
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error);
 bool scene_cycle_loss(scene *s, long double *loss, calc_error *error);

@@ -16,6 +16,7 @@ trial *trial_open(calc *c, calc_error *error) {
     t->outer = c->now;
     t->names = c->names.count;
     scene_clone(&t->scene, c->now);
+    t->scene.sound = c->now == &c->scene || c->now->sound;
     t->scene.used = 0;
     c->now = &t->scene;
     return t;
@@ -25,6 +26,7 @@ void trial_reset(trial *t) {
     const unsigned used = t->scene.used;
     scene_free(&t->scene);
     scene_clone(&t->scene, t->outer);
+    t->scene.sound = t->outer == &t->c->scene || t->outer->sound;
     t->scene.used = used;
 }
 

@@ -54,7 +54,8 @@ bool plot_cells_make(plot_cells *c, int columns, int rows, bool braille) {
     return c->dot != NULL;
 }
 
-void plot_cells_draw(const plot_cells *c, const double (*point)[2], size_t count, bool joined, const char *dash) {
+void plot_cells_draw(const plot_cells *c, const double (*point)[2], size_t count, bool joined,
+                     const char *dash) {
     pen p = {.of = c, .dash = dash, .length = strlen(dash), .at = (size_t)-1};
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(point[i][0]))

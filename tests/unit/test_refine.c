@@ -35,8 +35,7 @@ static bool give(void *context, long double part, const long double *values) {
 
 static bool run(curve *c, double (*f)(double, int), size_t fail_at) {
     calc_error error;
-    const refinement r = {
-        .count = COLUMNS, .steps = 100, .evaluate = evaluate, .give = give, .context = c};
+    const refinement r = {.count = COLUMNS, .steps = 100, .evaluate = evaluate, .give = give, .context = c};
     *c = (curve){.f = f, .fail_at = fail_at};
     error_clear(&error);
     return refine(&r, &error);
