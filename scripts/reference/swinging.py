@@ -229,6 +229,7 @@ SCENES = [
     (QUARTIC, "210e9", "0.5", "0.4", 100, 12, 50, 225),
     (SPHERE, "210e9", "0", "0.4", 100, 20, "0.001", 90),
     (SPHERE, "210e9", "0", "0.4", 100, 12, 30, 0),
+    (SPHERE, "210e9", "0", "0.4", 100, "0.5", 30, 37),  # next to no slip
 ]
 NAMES = {SPHERE: "paraboloid R=10 mm", CONE: "cone slope=0.05", QUARTIC: "power n=4 A=1e6 m^-3"}
 

@@ -167,9 +167,9 @@ static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
 
 enum { CLOSE = 16 }; /* instants closer than so many roundings are one */
 
-/* The first instant after lo at which a falling coordinate (bits: 1 M, 2 P) meets an end of a piece, or hi.
- */
-static fret_real next_crossing(const fret_swing *c, const way *w, int coordinates, fret_real lo,
+/* The first instant after lo at which a falling coordinate (bits: 1 M, 2 P) meets an end of a piece, of
+ * `count`, or hi. */
+static fret_real next_crossing(const fret_swing *c, size_t count, const way *w, int coordinates, fret_real lo,
                                fret_real hi) {
     const fret_real close = CLOSE * LDBL_EPSILON * fmaxl(1, fabsl(hi));
     fret_real next = hi;
@@ -177,7 +177,7 @@ static fret_real next_crossing(const fret_swing *c, const way *w, int coordinate
         const fret_real from = way_at(w, which, lo), to = way_at(w, which, hi);
         if (!(coordinates >> which & 1))
             continue;
-        for (size_t i = c->count; i-- > 0 && c->pieces[i].last[which] > to;) {
+        for (size_t i = count; i-- > 0 && c->pieces[i].last[which] > to;) {
             const fret_real level = c->pieces[i].first[which];
             if (!(level > to + noise(c) && level < from - noise(c)))
                 continue;
@@ -202,7 +202,7 @@ static fret_real part_end(const way *w, int which, fret_real lo, fret_real hi) {
 static fret_status slip_between(fret_swing *c, const way *w, int which, fret_real lo, fret_real hi) {
     slip l = {.curve = c, .way = w, .which = which, .lo = lo};
     while (l.lo < hi) {
-        l.hi = part_end(w, which, l.lo, next_crossing(c, w, 1 << which, l.lo, hi));
+        l.hi = part_end(w, which, l.lo, next_crossing(c, c->count, w, 1 << which, l.lo, hi));
         const fret_real loss = (l.hi - l.lo) * fret_integrate(slip_rate, &l);
         c->last_loss += loss > 0 ? loss : 0;
         l.lo = l.hi;
@@ -217,8 +217,9 @@ static int side_of(const fret_swing *c, const way *w, fret_real s) {
     return fabsl(above) <= 4 * noise(c) ? 0 : above > 0 ? 1 : -1;
 }
 
-/* Where the sides meet the zone is thin: what an instant of change is missed by counts by its third power. */
-enum { LOOKS = 24, HALVINGS = 40 };
+/* Where the sides meet the zone is thin: what an instant of change is missed by counts by its third power in
+ * the loss, but the curve ends there. */
+enum { LOOKS = 24, HALVINGS = 64 };
 
 /* Up to when, at most hi, is the way on the side that it is on after lo? */
 static int side_until(const fret_swing *c, const way *w, fret_real lo, fret_real *hi) {
@@ -238,13 +239,19 @@ static int side_until(const fret_swing *c, const way *w, fret_real lo, fret_real
     return side;
 }
 
+/* Is the piece straight along this coordinate? */
+static bool goes_along(const piece *p, int which) {
+    return !p->curved && p->first[1 - which] == p->last[1 - which];
+}
+
 /* Slip is forward above the curve, backward below; there is none on the way back along it. The curve is
  * another after each. */
 static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
     fret_status st = fret_ok();
     const fret_real least = 1e-9L * (hi - lo);
+    size_t left = 0; /* a straight piece that slip has left goes with the next fall: its end is no event */
     while (lo < hi && !st.code) {
-        const fret_real crossing = next_crossing(c, w, 1 << M | 1 << P, lo, hi);
+        const fret_real crossing = next_crossing(c, c->count - left, w, 1 << M | 1 << P, lo, hi);
         fret_real stop = crossing;
         const int side = side_until(c, w, lo, &stop);
         stop = fminl(fmaxl(stop, lo + least), crossing); /* on, whatever rounding says */
@@ -254,6 +261,7 @@ static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_rea
         } else {
             st = slip_between(c, w, side > 0 ? M : P, lo, stop);
         }
+        left = side != 0 && c->count > 0 && goes_along(&c->pieces[c->count - 1], side > 0 ? P : M);
         lo = stop;
     }
     return st;
