@@ -193,7 +193,7 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
     if (step->kind == LOAD_PRESS)
         return start_program(s, step, error);
     if (!s->end.steps)
-        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+        return calc_missing(error, IN_FN);
     if (can_wait(s, step))
         return scene_friction(s, &mu, error) && append_step(s, step, extra, error);
     const load_reach *reach;
@@ -226,7 +226,7 @@ static bool present_run(scene *s, const runner **run, calc_error *error) {
     if (s->now)
         return true;
     if (!s->end.steps)
-        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+        return calc_missing(error, IN_FN);
     if (!catch_up(s, error))
         return false;
     *run = &s->answers.run[s->answers.levels - 1];

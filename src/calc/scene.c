@@ -163,8 +163,14 @@ bool scene_valid(scene *s, calc_error *error) {
             if (!calc_input_status(error, (int)in, &st))
                 return false;
         }
-    if (s->end.steps == 0)
-        return !complete(s) || scene_normal(s, &normal, error);
+    if (s->end.steps == 0) {
+        if (!complete(s) || scene_normal(s, &normal, error))
+            return true;
+        const bool waits = error->kind == ERROR_MISSING && error->input == IN_FN; /* c0 := a0 */
+        if (waits)
+            error_clear(error);
+        return waits;
+    }
     if (s->in.set[IN_MU] || s->end.steps > 1)
         return scene_friction(s, &mu, error) && scene_memory(s, &memory, error);
     return scene_press(s, &press, error);
@@ -238,7 +244,7 @@ bool scene_friction(scene *s, double *mu, calc_error *error) {
 /* ---- the load ---------------------------------------------------------------------------------- */
 
 static bool is_pressed(const scene *s, calc_error *error) {
-    return s->end.steps > 0 || calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    return s->end.steps > 0 || calc_missing(error, IN_FN);
 }
 
 bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {

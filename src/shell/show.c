@@ -69,9 +69,10 @@ static const definition *binding(const writer *w, input in) {
     return (const definition *)w->c->scene.in.bound[in];
 }
 
-/* The value of a bound input too, as it is now: the definition may need the load that needs the value. */
+/* The value of a bound input too, as it is now: the definition may need the load that needs the value. Before
+ * there is a load it may have none. */
 static bool is_set(const writer *w, input in) {
-    return w->c->scene.in.set[in];
+    return w->c->scene.in.set[in] && !(binding(w, in) && input_status(in, w->c->scene.in.v[in]).code);
 }
 
 static void begin(writer *w, const char *words) {
@@ -311,8 +312,19 @@ static void write_load(writer *w, bool whole) {
     }
 }
 
-bool scene_write(const calc *c, const settings *set, FILE *to, bool whole) {
+/* What is bound gets its value; where it has none yet it keeps what it had. */
+static void settle(calc *c) {
+    calc_error ignored;
+    long double unused;
+    error_clear(&ignored);
+    for (input i = 0; i < INPUTS; i++)
+        if (c->scene.in.bound[i] && !scene_get(&c->scene, i, &unused, &ignored))
+            error_clear(&ignored);
+}
+
+bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
     writer w = {c, set, to, false};
+    settle(c);
     if (whole && !c->scene.automatic) {
         const setting *row;
         for (size_t i = 0; (row = setting_row(i)); i++)
