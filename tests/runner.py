@@ -10,7 +10,7 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.dont_write_bytecode = True
-for room in ("", "sessions", "errors", "interactive", "portable", "house", "reference"):
+for room in ("", "sessions", "errors", "interactive", "portable", "house", "reference", "fuzz"):
     sys.path.insert(0, os.path.join(HERE, room))
 
 import accuracy_test  # noqa: E402
@@ -27,6 +27,7 @@ import numbers_of_the_physics  # noqa: E402
 import packaging  # noqa: E402
 import paper  # noqa: E402
 import portable  # noqa: E402
+import programs  # noqa: E402
 import prompt  # noqa: E402
 import reading  # noqa: E402
 import reference  # noqa: E402
@@ -198,7 +199,7 @@ ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of
          "keeping": keeping.run,
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
          "fits": fits.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,
-         "trouble": trouble.run, "rim": rim.run,
+         "trouble": trouble.run, "rim": rim.run, "programs": programs.run,
          "interactive": prompt.run, "live": live.run, "completion": completion.run, "readme": readme, "help": help_examples,
          "portable": portable.run, "packaging": packaging.run,
          "house": house.run}
