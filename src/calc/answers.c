@@ -3,6 +3,7 @@
  * cheapest model that is exact answers. */
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "calc/scene.h"
@@ -21,8 +22,12 @@ static bool friction_for_program(scene *s, double *mu, calc_error *error) {
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {
     const load_reach *reach;
     long double FN;
-    *out =
-        (load_view){.program = s->program, .end = s->end, .in = &s->in, .stop = s->stop, .pulse = s->pulse};
+    *out = (load_view){.program = s->program,
+                       .end = s->end,
+                       .in = &s->in,
+                       .stop = s->stop,
+                       .pulse = s->pulse,
+                       .trailed = s->trailed};
     if (!scene_reach(s, &reach, error) || !scene_normal(s, &out->normal, error) ||
         !friction_for_program(s, &out->mu, error))
         return false;
@@ -59,7 +64,9 @@ static fret_status raise_levels(answers *a, const load_view *load) {
     if (a->levels && engine_is_sine(&a->run[0].engine) && !sine)
         drop_runs(a);
     if (a->levels == 0) {
-        a->run[0] = (runner){.load = load};
+        if (load->trailed && !a->trail)
+            a->trail = calloc(1, sizeof *a->trail); /* without it figures take longer */
+        a->run[0] = (runner){.load = load, .trail = a->trail};
         st = engine_make(&a->run[0].engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
         a->levels = !st.code;
     }
@@ -70,6 +77,7 @@ static fret_status raise_levels(answers *a, const load_view *load) {
         *r = a->run[0];
         r->level = a->levels;
         r->engine.self = NULL;
+        r->trail = NULL;
         st = engine_copy(&r->engine, &a->run[0].engine, load->normal, load->mu);
         if (st.code)
             engine_end(&r->engine);
@@ -223,6 +231,10 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
 /* The run that has come to the end of the program, or to now. */
 static bool present_run(scene *s, const runner **run, calc_error *error) {
     *run = s->now ? s->now->run : NULL;
+    if (s->now && !*run) {
+        *s->now->lacking = true;
+        return calc_fail(error, 0, 0, "only forces are known here"); /* to be asked of a run again */
+    }
     if (s->now)
         return true;
     if (!s->end.steps)
@@ -421,7 +433,15 @@ bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
     answers *a = &s->answers;
     if (!s->now || a->state_ready || (!s->automatic && s->model == MODEL_CLOSED))
         return scene_state(s, state, error);
-    engine_forces(&s->now->run->engine, &a->state);
+    const double *kept = s->now->kept;
+    if (kept)
+        a->state = (fret_state){.FN = kept[TRAIL_FN],
+                                .dz = kept[TRAIL_DZ],
+                                .Fx = kept[TRAIL_FX],
+                                .dx = kept[TRAIL_DX],
+                                .W = kept[TRAIL_W]};
+    else
+        engine_forces(&s->now->run->engine, &a->state);
     s->used |= USED(MODEL_MEMORY);
     *state = &a->state;
     return true;
@@ -480,7 +500,10 @@ bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
     load_item cycle;
     const fret_state *state;
     fret_contact contact;
-    if (s->now && !s->now->run->closed)
+    const runner *run;
+    if (s->now && !present_run(s, &run, error))
+        return false;
+    if (s->now && !run->closed)
         return calc_fail(error, 0, 0, "no cycle has been closed yet");
     if (!s->now && !scene_last_cycle(s, &cycle, error))
         return false;

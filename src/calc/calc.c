@@ -21,6 +21,7 @@ static bool evaluate(void *context, scene *s, counted *d, value *out, calc_error
 void calc_init(calc *c, const volatile sig_atomic_t *stop) {
     *c = (calc){.now = &c->scene};
     scene_init(&c->scene, stop, evaluate, c);
+    c->scene.trailed = true;
 }
 
 void calc_free(calc *c) {

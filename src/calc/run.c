@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "number/real.h"
 
@@ -399,13 +400,38 @@ static bool on_the_way(const load_view *load, size_t i) {
     return here == next || (last < here && here < next) || (last > here && here > next);
 }
 
+/* Out of memory the trail ends here. */
+static void keep_trail(const runner *r, size_t i) {
+    trail *t = r->trail;
+    fret_state now;
+    if (!t || i > t->count)
+        return;
+    if (i == t->room) {
+        const size_t room = t->room ? 2 * t->room : 64;
+        double(*grown)[TRAILED] = realloc(t->at, room * sizeof *grown);
+        if (!grown)
+            return;
+        t->at = grown;
+        t->room = room;
+    }
+    engine_forces(&r->engine, &now);
+    const double kept[TRAILED] = {[TRAIL_FN] = (double)now.FN,
+                                  [TRAIL_DZ] = (double)now.dz,
+                                  [TRAIL_FX] = (double)now.Fx,
+                                  [TRAIL_DX] = (double)now.dx,
+                                  [TRAIL_W] = (double)now.W};
+    memcpy(t->at[i], kept, sizeof kept);
+    t->count = i + 1;
+}
+
 fret_status run_to(runner *r, load_mark end) {
     const load_view *load = r->load;
     const bool every = r->watch || !r->engine.kind->last_loss; /* springs round otherwise */
     fret_status st = fine;
     while (r->at.steps < end.steps) {
         const load_step *step = &load->program->steps[r->at.steps];
-        if (!every && on_the_way(load, r->at.steps)) {
+        const bool passed = !every && on_the_way(load, r->at.steps);
+        if (passed) {
             r->time++;
         } else if (step->kind == LOAD_STEP) { /* most of them, and as they are */
             st = run_step(r, step);
@@ -416,6 +442,8 @@ fret_status run_to(runner *r, load_mark end) {
         st = unless_stopped(r, st);
         if (st.code)
             break;
+        if (!passed)
+            keep_trail(r, r->at.steps);
         r->at.steps++;
         r->at.cycles += step->kind == LOAD_CYCLE;
     }

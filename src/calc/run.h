@@ -18,6 +18,7 @@ typedef struct load_view {
     double mu;
     const volatile sig_atomic_t *stop; /* or NULL */
     void (*pulse)(void);               /* or NULL */
+    bool trailed;                      /* the run leaves a trail */
 } load_view;
 
 /* A part of the load without a corner. Time is 0 at the press, 1 more each step, a quarter to the first peak
@@ -34,6 +35,15 @@ typedef struct leg {
 } leg;
 
 typedef struct runner runner;
+
+/* What each step left behind, in double, so that a long history can be drawn without running it again: 40
+ * bytes a step. The first `count` steps are there; steps that were never taken are missing, with all after
+ * them. */
+enum { TRAIL_FN, TRAIL_DZ, TRAIL_FX, TRAIL_DX, TRAIL_W, TRAILED };
+typedef struct trail {
+    double (*at)[TRAILED];
+    size_t count, room;
+} trail;
 
 /* Who looks on. next: the part of the leg, 0..1, at which to look after the part `after`; beyond 1: not
  * again. see: false ends the run. */
@@ -61,6 +71,7 @@ struct runner {
     engine engine;
     unsigned level; /* a swinging period in RUN_CHORDS 2^level chords */
     watch *watch;   /* or NULL */
+    trail *trail;   /* or NULL */
     load_mark at;   /* next step of the program, and next of its cycles */
     double time;    /* now */
     bool turning;   /* for the watch: the end of a leg */

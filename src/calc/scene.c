@@ -3,6 +3,7 @@
 #include "calc/scene.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
@@ -11,6 +12,9 @@ static void answers_end(answers *a, bool keep) {
         engine_end(&a->run[i].engine);
         engine_end(&a->spare[i].engine);
     }
+    if (a->trail)
+        free(a->trail->at);
+    free(a->trail);
     fret_normal *normal = a->normal, *k0 = a->k0;
     *a = (answers){.normal = NULL};
     if (keep) {
@@ -43,6 +47,7 @@ void scene_free(scene *s) {
 void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->answers = (answers){.normal = NULL};
+    to->trailed = false;
     inputs_copy(&to->in, &from->in);
     counted_hold(to->program ? &to->program->base : NULL);
 }
@@ -266,7 +271,9 @@ bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, cal
 }
 
 double scene_time(const scene *s) {
-    return s->now ? s->now->run->time : s->program ? program_time(s->program, s->end) : 0;
+    if (s->now)
+        return s->now->run ? s->now->run->time : s->now->time;
+    return s->program ? program_time(s->program, s->end) : 0;
 }
 
 bool scene_last_cycle(scene *s, load_item *out, calc_error *error) {

@@ -36,6 +36,7 @@ typedef struct answers {
     unsigned levels, spares;
     bool chords; /* the swinging load of the program cannot be taken as it is */
     load_reach reach;
+    trail *trail; /* of run[0], or NULL */
     fret_state state;
     long double loss;       /* of the last period */
     long double sine_error; /* relative, what the limit of chords is good to; 0: there are none */
@@ -46,9 +47,12 @@ typedef struct scene scene;
 /* Evaluates a live definition in a scene. */
 typedef bool scene_definition(void *context, scene *s, counted *definition, value *out, calc_error *error);
 
-/* An instant on the way of a load: the run as it stands there. */
+/* An instant on the way of a load: the run as it stands there, or what it has left behind. */
 typedef struct instant {
     const runner *run;
+    const double *kept; /* TRAILED; NULL: there is the run */
+    double time;        /* of it */
+    bool *lacking;      /* raised where more than that is wanted */
 } instant;
 
 struct scene {
@@ -57,6 +61,7 @@ struct scene {
     program *program;           /* or NULL: nothing is pressed */
     load_mark end;
     const instant *now; /* or NULL: the end of the program */
+    bool trailed;       /* its runs leave a trail: the user's, which is drawn */
     bool sound;         /* of a scratch scene: a copy of one whose program runs to its end */
     answers answers;
     bool automatic; /* the model: the closed form where there is one, else the memory diagram */

@@ -145,6 +145,38 @@ static bool see(const runner *r, void *context) {
     return ok;
 }
 
+/* At an instant that is known by its forces. */
+static bool see_kept(trial *t, const trail *kept, size_t i, bool *lacking, along_look *look, void *context,
+                     calc_error *error) {
+    const instant now = {.kept = kept->at[i], .time = (double)i, .lacking = lacking};
+    scene *s = &t->scene;
+    s->now = &now;
+    s->answers.state_ready = s->answers.press_ready = false;
+    const bool ok = look(context, now.time, error);
+    s->now = NULL;
+    s->answers.state_ready = s->answers.press_ready = false;
+    return ok;
+}
+
+bool trial_trail(trial *t, along_what what, size_t points, along_look *probe, along_look *look, void *context,
+                 bool *done, calc_error *error) {
+    enum { MANY = 10 }; /* steps for each point */
+    const size_t steps = t->scene.end.steps;
+    const trail *kept = t->outer->answers.trail;
+    bool lacking = false;
+    *done = false;
+    if (what != ALONG_PROGRAM || !kept || !t->scene.sound || t->outer != &t->c->scene ||
+        t->scene.end.cycles || kept->count < steps || steps < MANY * points)
+        return true;
+    if (!see_kept(t, kept, steps - 1, &lacking, probe, context, error))
+        return false;
+    *done = !lacking;
+    bool ok = true;
+    for (size_t i = 0; i < steps && *done && ok; i++)
+        ok = see_kept(t, kept, i, &lacking, look, context, error);
+    return ok;
+}
+
 bool trial_along(trial *t, along_what what, load_mark from, size_t points, bool turns, along_look *look,
                  void *context, calc_error *error) {
     scene *s = &t->scene;

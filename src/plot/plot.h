@@ -20,7 +20,7 @@ enum {
     PLOT_PANELS = 6,     /* side by side */
     PLOT_CURVES = 64,    /* series of a panel */
     PLOT_KEPT = 294912,  /* points a series holds; beyond, it thins itself and keeps the extremes */
-    PLOT_WRITTEN = 5000, /* points of a series that go into a picture, about */
+    PLOT_WRITTEN = 2500, /* points of a series that go into a picture, about */
     PLOT_GRID = 500,     /* points of a map along an axis */
     PLOT_FRAMES = 1000,  /* of an animation */
     PLOT_PIXELS = 8000   /* of a picture along an axis */

@@ -2,6 +2,7 @@
 """Figures as statements: their points, their looks, measured points, maps, animations, and how the terminal shows them."""
 import math
 import os
+import random
 import re
 import signal
 import subprocess
@@ -164,6 +165,31 @@ def moving(tests):
     tests.check("Ctrl-C stops an animation", job.returncode == 130 and not os.path.exists(where), (out + err).decode())
 
 
+def histories(tests):
+    """Long ones are drawn from what was kept as they were run: the same points as running them again gives."""
+    random.seed(11)
+    path = os.path.join(tests.dir, "history.csv")
+    with open(path, "w", encoding="ascii") as f:
+        f.write("FN [N],Fx [N]\n")
+        for _ in range(600):
+            FN = random.uniform(60, 140)
+            f.write("%r,%r\n" % (FN, random.uniform(-0.35, 0.35) * FN))
+    scene = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\nfollow %s\n" % path
+    slides = scene + "\n".join("step dx=%r um" % random.uniform(-0.6, 0.6) for _ in range(600)) + "\n"
+    for name, start, change, count in (
+            ("followed", scene, "", 601), ("taken back", scene + "step Fx=3 N; step Fx=-2 N\n", "undo", 602),
+            ("with other inputs", scene, "k = 0.3, c0 = 1 mm", 601), ("of displacements", slides, "", 0)):
+        plot = "plot Fx, W*(1 N/uJ), FN against dx along program steps 41"
+        _, kept = script(tests, "a history " + name, plot, start + change + "\n")
+        _, again = script(tests, "a history %s, run again" % name, plot + " with mu=0.4", start + change + "\n")
+        places = [iter(curve) for curve in again]
+        tests.check("a history %s: its points" % name, len(kept) == 3 and all(
+            (len(curve) == count or not count) and all(point in place for point in curve)
+            for curve, place in zip(kept, places)), "%s\n%s" % ([len(c) for c in kept], [len(c) for c in again]))
+    _, (c, a) = script(tests, "more than forces", "plot c/a, a/a0 along program steps 41", scene)
+    tests.check("more than forces are run for", len(c) == len(a) == 641, "%d %d" % (len(c), len(a)))
+
+
 def terminals(tests):
     plain = tests.run("-c", SCENE + "plot loop")
     tests.check("no colours in a pipe", "\033" not in plain.stdout, plain.stdout)
@@ -226,4 +252,4 @@ def bodies(tests):
 
 
 def run(tests):
-    tests.each([lambda one=one: one(tests) for one in (points, springs, looks, over, maps, moving, terminals, bodies)])
+    tests.each([lambda one=one: one(tests) for one in (points, springs, looks, over, maps, moving, histories, terminals, bodies)])
