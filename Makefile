@@ -75,16 +75,22 @@ $(B)/scripts.o: $(B)/scripts.c
 $(B)/fret: $(call OBJ,$(PROG) $(CORE)) $(B)/scripts.o
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-# Every panel and video of the paper, and the two pictures of README.
+# Every panel and video of the paper, and the pictures and casts of README.
 FIGURES := $(patsubst scripts/paper/%.txt,$(B)/figures/%.png,$(filter-out scripts/paper/s%,$(PAPER))) \
 	$(patsubst scripts/paper/%.txt,$(B)/figures/%.gif,$(filter scripts/paper/s%,$(PAPER)))
-figures: $(FIGURES) scripts/paper/fig07a.svg scripts/paper/fig07b.svg
+CASTS := scripts/casts/tour.cast scripts/casts/live.cast
+figures: $(FIGURES) scripts/paper/fig07a.svg scripts/paper/fig07b.svg $(CASTS)
 DRAW = sed '$$s|$$| to $@|' $< | $(B)/fret
 $(B)/figures/%.png $(B)/figures/%.gif: scripts/paper/%.txt $(B)/fret
 	@mkdir -p $(@D)
 	@$(DRAW)
 scripts/paper/%.svg: scripts/paper/%.txt $(B)/fret
 	@$(DRAW)
+
+# The demonstrations that README links: what is typed takes its time, by no clock.
+scripts/casts/%.cast: scripts/casts/%.fret scripts/casts/steps.fret $(B)/fret
+	@rm -f $@
+	@{ echo 'record $@'; cat $<; } | LC_ALL=C.UTF-8 $(B)/fret > $(B)/cast.txt
 
 # written anew each time: PREFIX may have changed
 $(B)/fret.pc: FORCE

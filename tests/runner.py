@@ -15,6 +15,7 @@ for room in ("", "sessions", "errors", "interactive", "portable", "house", "refe
 
 import accuracy_test  # noqa: E402
 import backwards  # noqa: E402
+import casts  # noqa: E402
 import completion  # noqa: E402
 import figures  # noqa: E402
 import fits  # noqa: E402
@@ -200,7 +201,7 @@ ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
          "fits": fits.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,
          "trouble": trouble.run, "rim": rim.run, "programs": programs.run,
-         "interactive": prompt.run, "live": live.run, "completion": completion.run, "readme": readme, "help": help_examples,
+         "interactive": prompt.run, "live": live.run, "casts": casts.run, "completion": completion.run, "readme": readme, "help": help_examples,
          "portable": portable.run, "packaging": packaging.run,
          "house": house.run}
 

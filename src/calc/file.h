@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one room for files: output that replaces its target whole or not at all, input by lines that tells
- * every failure from the end of the file, and a list of what must go when a signal ends the program. */
+/* The one room for files: output that replaces its target whole or not at all, logs that grow, input by lines
+ * that tells every failure from the end of the file, and a list of what must go when a signal ends the
+ * program. */
 #ifndef CALC_FILE_H
 #define CALC_FILE_H
 
@@ -63,6 +64,21 @@ bool file_text_close(file_text *t);
 
 /* "812 B", "12 kB", "3.4 MB": at most 15 bytes. */
 void file_size_text(unsigned long long bytes, char text[16]);
+
+/* A file that grows as a session goes on: in its place from the beginning, and what has been written stays,
+ * whatever ends the program. */
+typedef struct file_log {
+    int fd; /* -1: not open */
+    char *name;
+    bool regular;
+    off_t length;
+    file_stop stop;
+} file_log;
+
+bool file_log_open(file_log *log, const char *name, file_stop stop, bool *overwrote, calc_error *error);
+/* Whole or not at all. */
+bool file_log_add(file_log *log, const char *bytes, size_t n, calc_error *error);
+void file_log_close(file_log *log);
 
 /* ---- input -------------------------------------------------------------------------------------- */
 

@@ -297,12 +297,8 @@ static void statement(live *l) {
 }
 
 static void save_entered(live *l, const char *line) {
-    calc_error error;
-    error_clear(&error);
-    if (l->host->save(l->host->self, line, &error))
+    if (live_say(l, "save \"%s\"", line))
         live_tell(l, false, "wrote %.400s", line);
-    else
-        live_tell(l, true, "error: %s", error.text);
 }
 
 static void save(live *l) {

@@ -19,8 +19,10 @@ typedef struct live_host {
     /* The line with the word before the cursor completed as far as it is the same for all candidates; the
      * cursor moves. */
     void (*complete)(void *self, char *line, size_t size, size_t *cursor);
-    /* The scene as a script. */
-    bool (*save)(void *self, const char *path, calc_error *error);
+    /* Is the screen recorded? And the size that it has where there is no terminal. */
+    bool (*filming)(void *self, int *cols, int *rows);
+    /* What it shows from now on, after so many seconds. */
+    void (*film)(void *self, const char *bytes, size_t n, double seconds);
 } live_host;
 
 /* Work on frames: seconds, writing to the terminal included. */
@@ -29,8 +31,9 @@ typedef struct live_work {
     double total, worst;
 } live_work;
 
-/* Until the user leaves. script: a file to step through, or NULL. False with the error where there is no
- * terminal for it or the script cannot be read. */
+/* Until the user leaves. script: a file to step through, or NULL. Where the screen is recorded and there is
+ * no terminal, a script plays by itself. False with the error where there is no terminal for it or the script
+ * cannot be read. */
 bool live_run(const live_host *host, const char *script, live_work *work, calc_error *error);
 
 #endif

@@ -104,11 +104,16 @@ void script_on(live *l) {
         live_update(l);
         return;
     }
+    const size_t steps = s->steps[s->at] = c->scene.end.steps;
     s->undo[s->at] = c->undo.count;
-    s->steps[s->at] = c->scene.end.steps;
     const char *line = s->line[s->at++];
     take_note(l);
-    live_say(l, "%s", line);
+    if (live_say(l, "%s", line) && c->scene.end.steps > 1 && c->scene.end.steps > steps)
+        live_play_item(l);
+}
+
+bool script_ends(const live *l) {
+    return l->script.at == l->script.count;
 }
 
 void script_back(live *l) {

@@ -151,6 +151,22 @@ void live_begin(live *l) {
 
 /* ---- a cycle that plays ------------------------------------------------------------------------ */
 
+/* From where the last item of the load begins to move. */
+static void start_play(live *l) {
+    update(l, true);
+    const side *s = &l->side[0];
+    if (*s->trouble || !s->shots)
+        return;
+    size_t first = 0; /* what stands still at the beginning, after another cycle, is left out */
+    while (first + 1 < s->shots && s->play[first + 1].Fx == s->play[0].Fx &&
+           s->play[first + 1].a == s->play[0].a)
+        first++;
+    if (first + 1 == s->shots)
+        return;
+    l->play_at = s->play[first].time;
+    l->playing = true;
+}
+
 static void start_cycle(live *l) {
     char FA[40], FNA[80] = "", swing[40];
     live_amount(l->FA, DIM_FORCE, FA, sizeof FA);
@@ -158,22 +174,18 @@ static void start_cycle(live *l) {
         live_amount(l->FNA, DIM_FORCE, swing, sizeof swing);
         snprintf(FNA, sizeof FNA, " FNA=%s phase=%g deg", swing, l->phase);
     }
-    if (!live_say(l, "cycle FA=%s%s", FA, FNA))
-        return;
-    update(l, true);
-    const side *s = &l->side[0];
-    if (*s->trouble || !s->shots)
-        return;
-    size_t first = 0; /* what stands still at the beginning, after another cycle, is left out */
-    while (first + 1 < s->shots && s->play[first + 1].Fx == s->play[0].Fx)
-        first++;
-    l->play_at = s->play[first].time;
-    l->playing = true;
+    if (live_say(l, "cycle FA=%s%s", FA, FNA))
+        start_play(l);
 }
 
 void live_play(live *l) {
     l->last_cycle = false;
     start_cycle(l);
+}
+
+void live_play_item(live *l) {
+    l->last_cycle = true;
+    start_play(l);
 }
 
 void live_play_end(live *l) {
@@ -211,7 +223,7 @@ static void count_frame(live_work *work, double spent) {
 static void session(live *l, live_work *work) {
     enum { IDLE = 1000 /* milliseconds */, MANY = 20 };
     const int frame = terminal_frame();
-    double before = seconds(), spent = 0;
+    double before = seconds(), filmed = before, spent = 0;
     while (!l->leave) {
         double start = seconds();
         if (l->changed) {
@@ -219,6 +231,8 @@ static void session(live *l, live_work *work) {
             live_draw(l);
             count_frame(work, spent + seconds() - start);
             spent = 0;
+            film_frame(&l->film, l->host, l->typing, start - filmed);
+            filmed = start;
         }
         int key = terminal_key(l->playing ? frame : IDLE, l->host->stop);
         start = seconds();
@@ -230,6 +244,26 @@ static void session(live *l, live_work *work) {
         before = start;
         spent += seconds() - start;
     }
+}
+
+/* Nobody is there: the script goes on by itself, with time to read. */
+static void play_script(live *l) {
+    static const double FRAME = 1.0 / 15, READING = 1.5, READING_SIGN = 0.04;
+    double passed = 0;
+    while (!l->leave && !*l->host->stop) {
+        live_draw(l);
+        film_frame(&l->film, l->host, l->typing, passed);
+        if (l->playing) {
+            live_play_on(l, passed = FRAME);
+        } else {
+            passed = READING + READING_SIGN * (double)(strlen(l->note) + strlen(l->status));
+            if (script_ends(l))
+                break;
+            script_on(l);
+        }
+    }
+    live_draw(l);
+    film_frame(&l->film, l->host, l->typing, passed);
 }
 
 static void end(live *l) {
@@ -252,13 +286,20 @@ bool live_run(const live_host *host, const char *script, live_work *work, calc_e
     l->host = host;
     l->speed = 0.5;
     l->phase = 90;
-    bool ok = (!script || script_open(l, script, error)) && terminal_open(error);
+    int cols, rows;
+    const bool unseen = script && !terminal_there() && host->filming(host->self, &cols, &rows);
+    const bool ok = (!script || script_open(l, script, error)) &&
+                    (unseen ? terminal_open_unseen(cols, rows, error) : terminal_open(error));
     if (ok) {
         if (!script)
             live_begin(l);
         else
             script_on(l);
-        session(l, work);
+        if (unseen)
+            play_script(l);
+        else
+            session(l, work);
+        film_end(&l->film, host);
         terminal_close();
     }
     end(l);

@@ -4,6 +4,7 @@
 #define LIVE_STATE_H
 
 #include "live/canvas.h"
+#include "live/film.h"
 #include "live/live.h"
 #include "live/shot.h"
 
@@ -58,6 +59,7 @@ typedef struct live {
     rect loop;
     double loop_dx, loop_Fx; /* half its width and height */
     bool dragging;
+    film film;
     bool changed; /* something is to be drawn */
 } live;
 
@@ -84,6 +86,8 @@ void live_play(live *l);
 /* Goes on by so many seconds; stops: shows the end at once. */
 void live_play_on(live *l, double seconds);
 void live_play_end(live *l);
+/* The way of the load's last item, step or cycle, once. */
+void live_play_item(live *l);
 /* The state that is shown: on the way of a cycle, or the present one. */
 const shot *side_shown(const live *l, const side *s);
 
@@ -92,6 +96,7 @@ bool script_open(live *l, const char *path, calc_error *error);
 void script_close(live *l);
 void script_on(live *l);
 void script_back(live *l);
+bool script_ends(const live *l);
 
 /* ---- views.c ---- */
 void live_draw(live *l);

@@ -23,6 +23,7 @@ static const char mouse_on[] = "\033[?1002h", mouse_off[] = "\033[?1002l\033[?10
 
 static struct {
     SCREEN *screen;
+    FILE *nowhere; /* in place of the terminal */
     int guard;
     bool unicode, mouse;
     char farewell[256]; /* what the terminal is sent when there is no time for curses */
@@ -121,9 +122,13 @@ static const struct {
     int key;
 } arrows[] = {{"\033[A", KEY_UP}, {"\033[B", KEY_DOWN}, {"\033[C", KEY_RIGHT}, {"\033[D", KEY_LEFT}};
 
+bool terminal_there(void) {
+    return isatty(STDIN_FILENO) && isatty(STDOUT_FILENO);
+}
+
 bool terminal_open(calc_error *error) {
     struct termios modes;
-    if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO) || tcgetattr(STDIN_FILENO, &modes))
+    if (!terminal_there() || tcgetattr(STDIN_FILENO, &modes))
         return calc_fail(error, 0, 0, "the full-screen mode needs a terminal");
     setlocale(LC_CTYPE, "");
     take_signals();
@@ -164,6 +169,22 @@ bool terminal_open(calc_error *error) {
     return true;
 }
 
+bool terminal_open_unseen(int cols, int rows, calc_error *error) {
+    char name[] = "xterm-256color";
+    setlocale(LC_CTYPE, "");
+    take_signals();
+    own.nowhere = fopen("/dev/null", "r+");
+    own.screen = own.nowhere ? newterm(name, own.nowhere, own.nowhere) : NULL;
+    if (!own.screen || resizeterm(rows, cols) == ERR) {
+        terminal_close();
+        return calc_fail(error, 0, 0, "no screen can be had to record");
+    }
+    own.unicode = !strcmp(nl_langinfo(CODESET), "UTF-8");
+    curs_set(0);
+    set_colors();
+    return true;
+}
+
 void terminal_close(void) {
     if (own.screen) {
         if (own.mouse) {
@@ -173,6 +194,9 @@ void terminal_close(void) {
         endwin();
         delscreen(own.screen);
     }
+    if (own.nowhere)
+        fclose(own.nowhere);
+    own.nowhere = NULL;
     own.screen = NULL;
     own.mouse = false;
     file_unguard(own.guard);

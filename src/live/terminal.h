@@ -13,6 +13,9 @@
 enum { KEY_NONE = -1, KEY_STOP = 0x10000 /* Ctrl-C */, KEY_AGAIN /* the screen must be drawn anew */ };
 
 bool terminal_open(calc_error *error);
+/* A screen that nobody sees: it is recorded. */
+bool terminal_open_unseen(int cols, int rows, calc_error *error);
+bool terminal_there(void);
 void terminal_close(void);
 /* Braille and other signs can be shown. */
 bool terminal_unicode(void);

@@ -538,11 +538,15 @@ static const command commands[] = {
      .run = do_record,
      .args = record_args,
      .group = "the session",
-     .keywords = "transcript log protocol test save",
-     .usage = "FILE | off",
-     .summary = "keep what is typed and answered as a transcript",
-     .help = "It begins with the scene and the settings as they are. `replay FILE`, or\n"
-             "fret --replay FILE, runs it and compares the answers.\n\n"
+     .keywords = "transcript log protocol test save cast asciicast asciinema film demonstration",
+     .usage = "FILE | FILE.cast | off",
+     .summary = "keep what is typed and answered as a transcript, or the terminal as a cast",
+     .help = "A transcript begins with the scene and the settings as they are. `replay FILE`,\n"
+             "or fret --replay FILE, runs it and compares the answers.\n\n"
+             "FILE.cast is what the terminal shows, the full-screen mode too, with its times,\n"
+             "to be shown on a page: asciicast v2, which `asciinema play FILE.cast` plays. In\n"
+             "a script it is as if typed, the same in every run, and `live FILE` plays by\n"
+             "itself. What `!COMMAND` writes is not in it.\n\n"
              "    fret> record off\n"},
     {.name = "replay",
      .run = do_replay,
@@ -566,7 +570,8 @@ static const command commands[] = {
      .summary = "press, push and pull by hand, everything drawn: the full-screen mode",
      .help = "Arrows push and press, space plays a cycle, `:` takes a statement, `?` lists the\n"
              "keys, `q` leaves. What is done there are statements: undo takes them back. FILE\n"
-             "is a script to step through, space by space. It needs a terminal.\n\n"
+             "is a script to step through, space by space. It needs a terminal, or a cast that\n"
+             "records it: `record FILE.cast`.\n\n"
              "    fret> live /nonexistent\n"
              "    error: cannot read /nonexistent: No such file or directory\n"},
     {.name = "demo",

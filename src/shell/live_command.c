@@ -8,6 +8,7 @@
 #include "shell/command.h"
 #include "shell/complete.h"
 #include "shell/progress.h"
+#include "shell/record.h"
 #include "shell/show.h"
 
 static bool run(void *self, const char *line, char **answer) {
@@ -16,12 +17,16 @@ static bool run(void *self, const char *line, char **answer) {
     file_text said;
     if (!file_text_open(&said))
         return false;
-    FILE *out = sh->out, *err = sh->err;
-    sh->out = sh->err = said.to;
-    const bool failed = sh->failed, ok = shell_line(sh, &from, line, strlen(line), 1);
-    sh->out = out;
-    sh->err = err;
-    sh->failed = failed; /* it has been told there */
+    FILE *out, *err;
+    record_line(sh, line, strlen(line));
+    record_streams(sh, &out, &err);
+    record_divert(sh, said.to, said.to);
+    const bool failed = sh->failed, interactive = sh->interactive;
+    sh->interactive = false; /* an error is one line, a demo does not wait for keys */
+    const bool ok = shell_line(sh, &from, line, strlen(line), 1);
+    sh->interactive = interactive;
+    record_divert(sh, out, err); /* a recording may have begun or ended */
+    sh->failed = failed;         /* it has been told there */
     if (!file_text_close(&said))
         return false;
     *answer = said.text;
@@ -51,13 +56,12 @@ static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
     candidates_free(&found);
 }
 
-static bool save(void *self, const char *path, calc_error *error) {
-    shell *sh = self;
-    file_out file;
-    if (!file_out_open(&file, path, &shell_stop, error))
-        return false;
-    scene_write(&sh->calc, &sh->set, file.to, true);
-    return file_out_close(&file, true, NULL, error);
+static bool filming(void *self, int *cols, int *rows) {
+    return record_filming(self, cols, rows);
+}
+
+static void film_on(void *self, const char *bytes, size_t n, double seconds) {
+    record_film(self, bytes, n, seconds);
 }
 
 bool shell_live(shell *sh, const char *script, calc_error *error) {
@@ -69,14 +73,17 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
                             .stop = &shell_stop,
                             .run = run,
                             .complete = complete_line,
-                            .save = save};
+                            .filming = filming,
+                            .film = film_on};
     live_work work;
     fflush(sh->out);
     sh->set.color = false;
     if (sh->set.report == REPORT_AUTO)
         sh->set.report = REPORT_OFF; /* the screen shows it */
     progress_hide(true);
+    record_away(sh, true);
     const bool ok = live_run(&host, script, &work, error);
+    record_away(sh, false);
     progress_hide(false);
     sh->set.color = before.color;
     if (sh->set.report == REPORT_OFF)
@@ -87,6 +94,14 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
     return ok;
 }
 
+static bool can_read(const char *name, calc_error *error) {
+    file_in in;
+    if (!file_in_open(&in, name, &shell_stop, error))
+        return false;
+    file_in_close(&in);
+    return true;
+}
+
 bool do_live(shell *sh, lexer *lx, const command *self) {
     char name[ARG_FILE_NAME];
     const arg_list list = command_args(self);
@@ -94,5 +109,7 @@ bool do_live(shell *sh, lexer *lx, const command *self) {
     const bool script = lx->kind != T_END;
     if (script && !args_read(sh, lx, &list, v, name))
         return false;
+    if (sh->replaying) /* what was done there follows, statement by statement */
+        return !script || can_read(name, lx->error);
     return shell_live(sh, script ? name : NULL, lx->error);
 }

@@ -263,6 +263,7 @@ static int run(shell *sh, const wishes *w) {
 /* A lost write is an error. */
 static int finish(shell *sh, int status) {
     record_end(sh);
+    status = status == EXIT_OK && sh->lost ? EXIT_ERROR : status;
     errno = 0;
     bool bad = ferror(sh->out) != 0;
     if (fflush(sh->out) || bad || fclose(sh->out)) {

@@ -159,8 +159,10 @@ typedef struct movie {
 } movie;
 
 static void show_progress(const movie *m, const char *what) {
-    if (isatty(STDERR_FILENO))
-        fprintf(m->sh->err, "\r%s %zu/%zu\033[K", what, m->done, m->frames);
+    if (!isatty(STDERR_FILENO))
+        return;
+    fprintf(m->sh->err, "\r%s %zu/%zu\033[K", what, m->done, m->frames);
+    fflush(m->sh->err);
 }
 
 static void clear_progress(const movie *m) {

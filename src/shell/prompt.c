@@ -66,7 +66,7 @@ static const char *next_line(typed *t, const char *prompt, bool continued, size_
             --*len;
         if (text != line || !t->transcript || continued) {
             if (t->shows)
-                printf("%s%.*s\n", prompt, (int)*len, text);
+                fprintf(record_terminal(), "%s%.*s\n", prompt, (int)*len, text);
             return text;
         }
         t->answers += *len > 0;

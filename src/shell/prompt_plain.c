@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "shell/prompt.h"
+#include "shell/record.h"
 
 void prompt_begin(shell *sh) {
     (void)sh;
@@ -11,14 +12,16 @@ void prompt_begin(shell *sh) {
 char *prompt_line(const char *text) {
     char *line = NULL;
     size_t room = 0;
-    fputs(text, stdout);
-    fflush(stdout);
+    FILE *to = record_terminal();
+    fputs(text, to);
+    fflush(to);
     ssize_t n = getline(&line, &room, stdin);
     if (n < 0) {
         clearerr(stdin); /* Ctrl-C is no error of the stream */
         free(line);
         return NULL;
     }
+    record_echo(line);
     if (n > 0 && line[n - 1] == '\n')
         line[n - 1] = 0;
     return line;

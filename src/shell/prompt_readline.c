@@ -13,6 +13,7 @@
 
 #include "shell/complete.h"
 #include "shell/prompt.h"
+#include "shell/record.h"
 
 /* readline's callbacks carry no context */
 static const shell *completing;
@@ -228,6 +229,7 @@ void prompt_begin(shell *sh) {
 }
 
 char *prompt_line(const char *text) {
+    rl_outstream = record_terminal();
     guard();
     char *line = readline(text);
     unguard();

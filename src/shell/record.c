@@ -5,48 +5,130 @@
 #endif
 #include "shell/record.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <unistd.h>
+
+#include "shell/cast.h"
 
 /* ---- two places -------------------------------------------------------------------------------- */
 
+enum { HELD = 1024 };
+
 struct recorder {
-    FILE *file;
+    shell *sh;
+    cast *cast; /* or NULL: a transcript, to the log */
+    file_log log;
     FILE *out, *err;           /* of the session */
     FILE *both_out, *both_err; /* with the file */
     char *line;                /* that is to be written before anything follows, or NULL */
-    char *path;
+    char held[HELD];           /* of the transcript's line */
+    size_t held_count;
     bool escape; /* within a colour, which a transcript does without */
+    bool lost;   /* the file cannot be written any more */
 };
 
 /* There is one session that can record. */
 static struct recorder *recording;
 
-static void write_line(struct recorder *r) {
-    if (r->line)
-        fputs(r->line, r->file);
-    free(r->line);
-    r->line = NULL;
+/* The terminal is another's, who tells what it shows. */
+static bool away;
+
+/* What follows is not kept, and this is told at once. */
+static bool check(struct recorder *r, bool ok, const calc_error *error) {
+    if (ok || r->lost)
+        return ok;
+    shell *sh = r->sh;
+    FILE *out = sh->out, *err = sh->err;
+    char text[CALC_ERROR_TEXT + 40];
+    snprintf(text, sizeof text, "%s; what follows is not recorded", error->text);
+    r->lost = sh->lost = true;
+    sh->out = r->out; /* a stream of the recorder's may be at work */
+    sh->err = r->err;
+    shell_error(sh, text);
+    sh->out = out;
+    sh->err = err;
+    return false;
 }
 
-static void write_both(struct recorder *r, FILE *to, const char *bytes, size_t n) {
-    write_line(r);
+static void write_held(struct recorder *r) {
+    calc_error error;
+    error_clear(&error);
+    if (!r->lost && r->held_count > 0)
+        check(r, file_log_add(&r->log, r->held, r->held_count, &error), &error);
+    r->held_count = 0;
+}
+
+/* To the transcript, line by line. */
+static void put(struct recorder *r, char c) {
+    r->held[r->held_count++] = c;
+    if (c == '\n' || r->held_count == HELD)
+        write_held(r);
+}
+
+static void put_text(struct recorder *r, const char *text) {
+    while (*text)
+        put(r, *text++);
+}
+
+static void put_cast(struct recorder *r, const char *bytes, size_t n) {
+    calc_error error;
+    error_clear(&error);
+    if (!r->lost)
+        check(r, cast_write(r->cast, bytes, n, &error), &error);
+}
+
+/* A physical line of a statement, prompt and all, with its end. */
+static void type_line(struct recorder *r, const char *line, size_t n) {
+    static const char prompt[] = "fret> "; /* as long as the one of lines that go on */
+    enum { PROMPT = sizeof prompt - 1 };
+    calc_error error;
+    char shown[sizeof prompt];
+    error_clear(&error);
+    snprintf(shown, sizeof shown, "%.*s", PROMPT, line);
+    if (!r->lost && n > PROMPT)
+        check(r, cast_type(r->cast, shown, line + PROMPT, n - PROMPT, &error), &error);
+}
+
+static void write_line(struct recorder *r) {
+    char *line = r->line;
+    r->line = NULL;
+    if (line && r->cast)
+        for (const char *p = line; *p; p += strcspn(p, "\n") + 1)
+            type_line(r, p, strcspn(p, "\n"));
+    else if (line)
+        put_text(r, line);
+    free(line);
+}
+
+static void keep_plain(struct recorder *r, const char *bytes, size_t n) {
     for (size_t i = 0; i < n; i++) {
         if (r->escape)
             r->escape = bytes[i] != 'm';
         else if (bytes[i] == '\033')
             r->escape = true;
         else
-            putc(bytes[i], r->file);
+            put(r, bytes[i]);
     }
+}
+
+static void keep(struct recorder *r, const char *bytes, size_t n) {
+    write_line(r);
+    if (!r->cast)
+        keep_plain(r, bytes, n);
+    else if (!away)
+        put_cast(r, bytes, n);
+}
+
+static void write_both(struct recorder *r, FILE *to, const char *bytes, size_t n) {
+    keep(r, bytes, n);
     fwrite(bytes, 1, n, to);
     fflush(to);
 }
 
 #if defined(__APPLE__)
 static int write_out(void *cookie, const char *bytes, int n) {
+    fflush(((struct recorder *)cookie)->both_err);
     write_both(cookie, ((struct recorder *)cookie)->out, bytes, (size_t)n);
     return n;
 }
@@ -62,6 +144,7 @@ static void open_both(struct recorder *r) {
 }
 #else
 static ssize_t write_out(void *cookie, const char *bytes, size_t n) {
+    fflush(((struct recorder *)cookie)->both_err); /* what was said before comes before */
     write_both(cookie, ((struct recorder *)cookie)->out, bytes, n);
     return (ssize_t)n;
 }
@@ -82,63 +165,74 @@ static void free_recorder(struct recorder *r) {
         fclose(r->both_out);
     if (r->both_err)
         fclose(r->both_err);
-    if (r->file)
-        fclose(r->file);
+    file_log_close(&r->log);
     free(r->line);
-    free(r->path);
     free(r);
 }
 
 /* ---- what comes first -------------------------------------------------------------------------- */
 
-static void write_statements(FILE *to, const char *text) {
+static void put_statements(struct recorder *r, const char *text) {
     while (*text) {
         const size_t n = strcspn(text, "\n");
-        if (n > 0 && *text != '#')
-            fprintf(to, "fret> %.*s" RECORD_GIVEN "\n", (int)n, text);
+        if (n > 0 && *text != '#') {
+            put_text(r, "fret> ");
+            for (size_t i = 0; i < n; i++)
+                put(r, text[i]);
+            put_text(r, RECORD_GIVEN "\n");
+        }
         text += n + (text[n] == '\n');
     }
 }
 
-/* ---- a transcript ------------------------------------------------------------------------------ */
+/* ---- a recording ------------------------------------------------------------------------------- */
+
+static bool ends(const char *name, const char *end) {
+    const size_t n = strlen(name), m = strlen(end);
+    return n >= m && !strcmp(name + n - m, end);
+}
 
 bool record_begin(shell *sh, const char *path, const char *beginning, calc_error *error) {
-    struct stat before;
+    bool over = false;
     if (sh->replaying)
         return true;
     record_end(sh);
-    char *real = file_expand(path);
-    const bool over = real && !stat(real, &before) && before.st_size > 0;
     struct recorder *r = calloc(1, sizeof *r);
-    if (r)
-        *r = (struct recorder){
-            .file = real ? fopen(real, "w") : NULL, .out = sh->out, .err = sh->err, .path = strdup(path)};
-    const int code = r && real ? errno : ENOMEM;
-    free(real);
-    if (!r || !r->file || !r->path) {
-        calc_errno(error, code, "cannot write %s", path);
-        if (r)
-            free_recorder(r);
+    if (!r) {
+        return calc_no_memory(error);
+    }
+    r->sh = sh;
+    r->log.fd = -1;
+    r->out = sh->out;
+    r->err = sh->err;
+    const bool as_cast = ends(path, ".cast");
+    if (as_cast)
+        r->cast = cast_begin(path, sh->interactive || away, &over, error);
+    if (as_cast ? !r->cast : !file_log_open(&r->log, path, &shell_stop, &over, error)) {
+        free_recorder(r);
         return false;
     }
     open_both(r);
     if (!r->both_out || !r->both_err) {
+        cast_end(r->cast, error);
         free_recorder(r);
         return calc_no_memory(error);
     }
-    write_statements(r->file, beginning);
-    setvbuf(r->file, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
-    setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ);
-    setvbuf(r->both_err, NULL, _IONBF, 0);
+    setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
+    setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
     if (over)
         shell_note(sh, "overwriting %s", path);
     sh->record = recording = r;
     sh->out = r->both_out;
     sh->err = r->both_err;
+    if (!r->cast)
+        put_statements(r, beginning);
     return true;
 }
 
 bool record_end(shell *sh) {
+    calc_error error;
+    error_clear(&error);
     struct recorder *r = sh->record;
     if (!r)
         return sh->replaying;
@@ -147,9 +241,10 @@ bool record_end(shell *sh) {
     sh->out = r->out;
     sh->err = r->err;
     sh->record = recording = NULL;
-    fflush(r->file);
-    if (ferror(r->file))
-        shell_note(sh, "error: cannot write %s: %s", r->path, strerror(errno ? errno : EIO));
+    if (r->cast)
+        check(r, cast_end(r->cast, &error), &error);
+    else
+        write_held(r);
     free_recorder(r);
     return true;
 }
@@ -158,7 +253,9 @@ bool record_end(shell *sh) {
 void record_line(shell *sh, const char *text, size_t len) {
     struct recorder *r = sh->record;
     file_text typed;
-    if (!r || !file_text_open(&typed))
+    if (!r || (r->cast && (away || cast_has_clock(r->cast)))) /* the terminal shows it */
+        return;
+    if (!file_text_open(&typed))
         return;
     fflush(sh->out);
     write_line(r);
@@ -175,12 +272,56 @@ void record_aside(FILE *out, const char *text) {
     if (!recording || out != recording->both_out)
         return;
     fflush(out);
-    write_line(recording);
-    fputs(text, recording->file);
+    keep(recording, text, strlen(text));
 }
 
 bool record_shows(const shell *sh) {
     return sh->record && sh->record->out == stdout;
+}
+
+/* ---- the terminal ------------------------------------------------------------------------------ */
+
+FILE *record_terminal(void) {
+    return recording && recording->cast && recording->out == stdout ? recording->both_out : stdout;
+}
+
+void record_echo(const char *text) {
+    if (!recording || !recording->cast || !cast_has_clock(recording->cast))
+        return;
+    fflush(recording->both_out);
+    put_cast(recording, text, strlen(text));
+}
+
+void record_streams(const shell *sh, FILE **out, FILE **err) {
+    *out = sh->record ? sh->record->out : sh->out;
+    *err = sh->record ? sh->record->err : sh->err;
+}
+
+void record_divert(shell *sh, FILE *out, FILE *err) {
+    fflush(sh->out);
+    fflush(sh->err);
+    *(sh->record ? &sh->record->out : &sh->out) = out;
+    *(sh->record ? &sh->record->err : &sh->err) = err;
+}
+
+void record_away(shell *sh, bool now) {
+    fflush(sh->out);
+    if (sh->record)
+        write_line(sh->record);
+    away = now;
+}
+
+bool record_filming(const shell *sh, int *cols, int *rows) {
+    const struct recorder *r = sh->record;
+    if (!r || !r->cast || r->lost)
+        return false;
+    cast_size(r->cast, cols, rows);
+    return true;
+}
+
+void record_film(shell *sh, const char *bytes, size_t n, double seconds) {
+    cast_wait(sh->record->cast, seconds);
+    put_cast(sh->record, bytes, n);
 }
 
 /* ---- what is typed ----------------------------------------------------------------------------- */

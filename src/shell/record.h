@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a session writes, kept as a transcript that `--replay` accepts; and what has been typed in it. */
+/* What a session writes, kept as a transcript that `--replay` accepts, or as a cast of its terminal; and what
+ * has been typed in it. */
 #ifndef SHELL_RECORD_H
 #define SHELL_RECORD_H
 
 #include "shell/shell.h"
 
-/* Begins a transcript: these statements, for a replay begins without a scene, then whatever comes. They end
- * in a mark: what is noted or warned of there was said before. Nothing is recorded in a replay. */
+/* Begins a transcript: these statements, for a replay begins without a scene, then whatever comes; or, where
+ * the name ends in `.cast`, a cast. Nothing is recorded in a replay. What cannot be written any more is told
+ * at once, and the session goes on. The statements end in a mark: what is noted or warned of there was said
+ * before. */
 #define RECORD_GIVEN " # as it was"
 bool record_begin(shell *sh, const char *path, const char *beginning, calc_error *error);
-/* Ends it; false: there was none. A lost write is told. */
+/* Ends it; false: there was none. */
 bool record_end(shell *sh);
 /* The line that will be run, physical lines and all. */
 void record_line(shell *sh, const char *text, size_t len);
@@ -17,6 +20,19 @@ void record_line(shell *sh, const char *text, size_t len);
 void record_aside(FILE *out, const char *text);
 /* Does the recorder pass on to standard output? */
 bool record_shows(const shell *sh);
+
+/* Where an editor of lines writes to the terminal; and what the terminal itself has shown of a line. */
+FILE *record_terminal(void);
+void record_echo(const char *text);
+/* The session's own streams, below a recorder; and others in place of them. */
+void record_streams(const shell *sh, FILE **out, FILE **err);
+void record_divert(shell *sh, FILE *out, FILE *err);
+/* The screen is another's for a while: a cast is not told what the session says. */
+void record_away(shell *sh, bool now);
+/* Is there a cast that is to be told what the screen shows, and of what size? And that, after so many
+ * seconds. */
+bool record_filming(const shell *sh, int *cols, int *rows);
+void record_film(shell *sh, const char *bytes, size_t n, double seconds);
 
 /* What is typed at the prompt is kept for `save history`. */
 void typed_keep(shell *sh, const char *line);

@@ -25,6 +25,7 @@ typedef struct shell {
     settings set;
     FILE *out, *err;
     bool interactive, quit, failed;
+    bool lost;               /* a recording could not be written */
     bool stopped;            /* an error was of the kind after which nothing else is of use */
     bool replaying;          /* a transcript: see shell_aside */
     struct recorder *record; /* or NULL */

@@ -269,7 +269,7 @@ def mouse(tests):
 def undisturbed(tests):
     """A statement that takes long tells how far it is, but not on the screen of `live`."""
     live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
-    live.wait("fret> ")
+    live.wait("fret>")
     live.child.send("material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N; live\r")
     live.wait(r"a +186\.626 um")
     live.child.send(" ")
@@ -289,7 +289,7 @@ def saving(tests):
     for seed in (1, 2):
         chosen = random.Random(seed)
         live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
-        live.wait("fret> ")
+        live.wait("fret>")
         live.child.send("live\r")
         live.wait(r"a +186\.626 um")
         live.key("llll", r"Fx  8 N")
@@ -314,6 +314,39 @@ def saving(tests):
                     "%s\n%s\n%s" % (by_hand, again, open(path, encoding="utf-8").read()))
         live.child.send("\x04")
         live.gone()
+
+
+def recording(tests):
+    """What is done by hand is in a transcript, whether it began before or from within, and comes out again."""
+    for within in (False, True):
+        path = os.path.join(tests.dir, "by-hand-%d.txt" % within)
+        live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
+        live.wait("fret>")
+        live.child.send(("live\r" if within else "record " + path + "\rlive\r"))
+        live.wait(r"a +186\.626 um")
+        if within:
+            live.says("record " + path)
+            live.wait("record /")
+        live.key("ll", r"Fx +4 N")
+        live.says("c/a, dx")
+        live.wait(r"dx = 114\.748 nm")
+        live.key("x", "loop: Fx")
+        live.says("step Fx=50 N")
+        live.wait("exceeds mu")
+        live.child.send("q")
+        live.wait(lambda s: not s.modes.get(1049))
+        live.child.send("dz\r")
+        live.wait("dz = 3.48291 um")
+        live.child.send("record off\rW\r")
+        tests.check("the prompt goes on", live.wait("W = 2.68594 nJ"), live.raw[-300:])
+        live.child.send("\x04")
+        live.gone()
+        with open(path, encoding="utf-8") as f:
+            text = f.read()
+        done = tests.run("--replay", path)
+        tests.check("by hand, a transcript (%s)" % within, done.returncode == 0 and text.count("fret> step Fx+=2 N\n") == 2 and
+                    "dx = 114.748 nm\n" in text and "exceeds" in text and text.endswith("dz = 3.48291 um\n"),
+                    tests.report(done) + text)
 
 
 def child_of(pid):
@@ -351,7 +384,7 @@ def endings(tests):
 def stopping(tests):
     """Ctrl-Z, and on again by fg."""
     live = Live(tests, command=["/bin/bash", "--norc", "--noprofile", "-i"], PS1="shell> ", FRET=tests.fret)
-    live.wait("shell> ")
+    live.wait("shell>")
     live.child.send('stty -a > before; "$FRET" --live\r')
     live.wait(r"a +186\.626 um")
     live.key("l", r"step Fx\+=2 N")
@@ -371,7 +404,7 @@ def stopping(tests):
 def lessons(tests):
     """A key per step."""
     live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"], TERM="xterm")
-    live.wait("fret> ")
+    live.wait("fret>")
     live.child.send("mu = 0.123\rdemo sticking\r")
     tests.check("a lesson asks first", live.wait("Where will it slip first") and "c/a = " not in live.raw, live.raw)
     live.child.send(" ")
@@ -395,5 +428,5 @@ def run(tests):
         except (pexpect.TIMEOUT, pexpect.EOF, OSError, ValueError, TypeError) as error:
             tests.check("live: " + room.__name__, False, "%s: %s" % (type(error).__name__, str(error)[:2000]))
     tests.each([lambda room=room: one(room) for room in
-                (beginning, refusals, keys, playing, sizes, comparing, stepping, mouse, undisturbed, saving, endings, stopping,
+                (beginning, refusals, keys, playing, sizes, comparing, stepping, mouse, undisturbed, saving, recording, endings, stopping,
                  lessons)])

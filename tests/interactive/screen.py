@@ -10,7 +10,7 @@ class Screen:
         self.resize(rows, cols)
         self.pending = self.modes_text = ""
         self.modes = {}
-        self.alternate_count = 0
+        self.main = None  # the screen that waits, and its cursor
 
     def resize(self, rows, cols):
         self.rows, self.cols = rows, cols
@@ -103,8 +103,8 @@ class Screen:
         if private:
             for mode in n:
                 self.modes[mode] = c == "h"
-                if mode == 1049 and c == "h":
-                    self.cells = [[" "] * self.cols for _ in range(self.rows)]
+                if mode == 1049:
+                    self.other_screen(c == "h")
         elif c in "Hf":
             self.y = min(self.rows, first) - 1
             self.x = min(self.cols, max(1, n[1] if len(n) > 1 else 1)) - 1
@@ -147,6 +147,16 @@ class Screen:
             self.y = self.x = 0
         elif c not in "mlhntgc":
             raise ValueError("an unknown control: %s%s" % (numbers, c))
+
+    def other_screen(self, there):
+        """Over to the other screen, which is empty, and back."""
+        if there:
+            self.main = self.cells, self.y, self.x
+            self.cells = [[" "] * self.cols for _ in range(self.rows)]
+        elif self.main:
+            cells, self.y, self.x = self.main
+            self.cells = [(row + [" "] * self.cols)[:self.cols] for row in (cells + [[]] * self.rows)[:self.rows]]
+            self.main = None
 
     def erase(self, y, begin, end):
         for x in range(max(0, begin), min(self.cols, end)):

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the screen of curses and writes what is another than before. */
+#define _XOPEN_SOURCE 700
+#define NCURSES_WIDECHAR 1
+#include "live/film.h"
+
+#include <curses.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <wchar.h>
+
+#include "calc/file.h"
+
+typedef struct film_cell {
+    wchar_t sign;
+    bool bold, reverse;
+    short color; /* -1: the terminal's own */
+} film_cell;
+
+static const film_cell blank = {L' ', false, false, -1};
+
+static film_cell cell_of(const cchar_t *from) {
+    wchar_t signs[CCHARW_MAX + 1] = {0};
+    attr_t attributes = A_NORMAL;
+    short pair = 0, back;
+    film_cell c = blank;
+    if (getcchar(from, signs, &attributes, &pair, NULL) == ERR || !signs[0])
+        return c;
+    c.sign = signs[0];
+    c.bold = (attributes & A_BOLD) != 0;
+    c.reverse = (attributes & A_REVERSE) != 0;
+    if (pair && pair_content(pair, &c.color, &back) == ERR)
+        c.color = -1;
+    return c;
+}
+
+static bool same_look(const film_cell *a, const film_cell *b) {
+    return a->bold == b->bold && a->reverse == b->reverse && a->color == b->color;
+}
+
+/* UTF-8, whatever the locale is. */
+static void put_sign(FILE *to, wchar_t sign) {
+    const unsigned c = (unsigned)sign;
+    if (c < 0x80) {
+        putc((int)c, to);
+        return;
+    }
+    if (c >= 0x10000)
+        fprintf(to, "%c%c", (int)(0xf0 | c >> 18), (int)(0x80 | (c >> 12 & 0x3f)));
+    else if (c >= 0x800)
+        putc((int)(0xe0 | c >> 12), to);
+    else
+        putc((int)(0xc0 | c >> 6), to);
+    if (c >= 0x800)
+        putc((int)(0x80 | (c >> 6 & 0x3f)), to);
+    putc((int)(0x80 | (c & 0x3f)), to);
+}
+
+static void put_look(FILE *to, const film_cell *c) {
+    fprintf(to, "\033[0%s%s", c->bold ? ";1" : "", c->reverse ? ";7" : "");
+    if (c->color >= 8)
+        fprintf(to, ";38;5;%d", c->color);
+    else if (c->color >= 0)
+        fprintf(to, ";3%d", c->color);
+    putc('m', to);
+}
+
+/* A row: runs of cells that have changed. */
+static void put_row(FILE *to, int y, film_cell *before, int cols, const cchar_t *now) {
+    film_cell look = blank;
+    int at = -1; /* where the next sign goes */
+    for (int x = 0; x < cols; x++) {
+        const film_cell c = cell_of(&now[x]);
+        if (c.sign == before[x].sign && same_look(&c, &before[x]))
+            continue;
+        if (at != x)
+            fprintf(to, "\033[%d;%dH", y + 1, x + 1);
+        if (!same_look(&c, &look))
+            put_look(to, &c);
+        put_sign(to, c.sign);
+        before[x] = look = c;
+        at = x + 1;
+    }
+    if (!same_look(&look, &blank))
+        put_look(to, &blank);
+}
+
+/* An empty screen of this size. False: out of memory. */
+static bool begin(film *f, FILE *to) {
+    const bool first = !f->cell;
+    const size_t n = (size_t)LINES * (size_t)COLS;
+    film_cell *cell = realloc(f->cell, n * sizeof *cell);
+    if (!cell)
+        return false;
+    *f = (film){cell, LINES, COLS};
+    for (size_t i = 0; i < n; i++)
+        cell[i] = blank;
+    fputs(first ? "\033[?1049h\033[?25l\033[H\033[2J" : "\033[H\033[2J", to);
+    return true;
+}
+
+static void put_screen(film *f, FILE *to, bool cursor) {
+    cchar_t *row = calloc((size_t)f->cols + 1, sizeof *row);
+    int y, x;
+    getyx(stdscr, y, x);
+    for (int i = 0; row && i < f->rows; i++)
+        if (mvin_wchnstr(i, 0, row, f->cols) != ERR)
+            put_row(to, i, f->cell + (size_t)i * (size_t)f->cols, f->cols, row);
+    move(y, x);
+    free(row);
+    if (cursor)
+        fprintf(to, "\033[%d;%dH", y + 1, x + 1);
+    fputs(cursor ? "\033[?25h" : "\033[?25l", to);
+}
+
+void film_frame(film *f, const live_host *host, bool cursor, double seconds) {
+    int cols, rows;
+    file_text now;
+    if (!host->filming(host->self, &cols, &rows)) {
+        free(f->cell);
+        f->cell = NULL;
+        return;
+    }
+    if (!file_text_open(&now))
+        return;
+    if ((f->cell && f->rows == LINES && f->cols == COLS) || begin(f, now.to))
+        put_screen(f, now.to, cursor);
+    if (!file_text_close(&now))
+        return;
+    host->film(host->self, now.text, now.size, seconds);
+    free(now.text);
+}
+
+void film_end(film *f, const live_host *host) {
+    static const char back[] = "\033[0m\033[?1049l\033[?25h";
+    int cols, rows;
+    if (f->cell && host->filming(host->self, &cols, &rows))
+        host->film(host->self, back, sizeof back - 1, 0);
+    free(f->cell);
+    f->cell = NULL;
+}

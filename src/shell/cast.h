@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A terminal's output as it comes, in asciicast v2: a header, then a line of JSON an event. */
+#ifndef SHELL_CAST_H
+#define SHELL_CAST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "calc/error.h"
+
+typedef struct cast cast;
+
+/* clock: times are those of the clock, the size is the terminal's. Else a script's: typed at an even pace,
+ * with time to read, the same in every run. NULL with the error. */
+cast *cast_begin(const char *path, bool clock, bool *overwrote, calc_error *error);
+/* What the program writes: the ends of lines are `\n`, as for a terminal. False: it could not be kept, the
+ * error says why; nothing is from then on. */
+bool cast_write(cast *c, const char *bytes, size_t n, calc_error *error);
+/* A script's statement, as if typed after this prompt. */
+bool cast_type(cast *c, const char *prompt, const char *text, size_t n, calc_error *error);
+/* In a script's: so many seconds pass. */
+void cast_wait(cast *c, double seconds);
+/* The size of the screen. */
+void cast_size(const cast *c, int *cols, int *rows);
+bool cast_has_clock(const cast *c);
+/* NULL is let pass. */
+bool cast_end(cast *c, calc_error *error);
+
+#endif
