@@ -85,6 +85,15 @@ def elsewhere(tests):
         tests.check("package names for %s" % manager, done.returncode == 1 and re.search(words, done.stderr), done.stderr)
 
 
+def debian(tests):
+    """The package is built with all that the program links, and nobody is made up as its maintainer."""
+    with open(os.path.join(harness.ROOT, "scripts/debian/control.in"), encoding="utf-8") as f:
+        control = f.read()
+    tests.check("what the Debian package is built with", all(name in control for name in (
+        "libreadline-dev", "libgsl-dev", "libncurses-dev")), control)
+    tests.check("who maintains it", "Maintainer: @MAINTAINER@\n" in control and control.count("@") == 2, control)
+
+
 def run(tests):
-    for room in (installed, from_python, elsewhere):
+    for room in (installed, from_python, elsewhere, debian):
         room(tests)
