@@ -142,14 +142,14 @@ def draws(statement):
     return re.search(r"(^|;)\s*plot\b", statement) and " to " not in statement and not statement.startswith("set")
 
 
-def replay(tests, name, steps):
+def replay(tests, name, steps, cwd=None):
     """The transcript by --replay, plots left out; each statement counts as one check."""
     text = ""
     for statement, out in steps:
         if not (draws(statement) and not any("error:" in line for line in out)):
             text += PROMPT + statement + "\n" + "".join(line + "\n" for line in out)
     with tests.file(text, ".txt") as path:
-        done = tests.run("--replay", path, "--tolerance", "1e-12")
+        done = tests.run("--replay", path, "--tolerance", "1e-12", cwd=cwd)
     last = done.stdout.splitlines()[-1] if done.stdout else ""
     found = re.match(r".*: (\d+) passed, (\d+) failed$", last)
     if not found or (done.returncode != 0) != (int(found.group(2)) > 0) or done.stderr:

@@ -162,27 +162,60 @@ APROPOS = {"loop": "cycle, plot, dW", "hysteresis": "cycle, dW", "dissipation": 
            "Hertz": "press, geometry sphere, a", "unit": "help units, Pa", "Mindlin": "explain, dW",
            "undo": "undo", "transcript": "record, replay", "start-up": "help scripts"}
 HELPED = ("sphere", "springs", "flat-rounded", "format", "pager", "GPa", "cm", "%", "steel", "Ti-6Al-4V", "sin", "memory",
-          "expressions", "scripts", "files", "theory", "paper", "limits", "prompt")
+          "expressions", "scripts", "files", "theory", "paper", "limits", "prompt", "set model", "geometry cone",
+          "material steel", "p(r)", "dW(20 N)", "FN=100 N", "set format")
+
+
+def examples(tests, topic, lines):
+    """The files that a help text shows by `$ cat`, its calls of the program and its transcript; how many answers."""
+    where, files, calls, session, into = os.path.join(tests.dir, "help " + topic), {}, [], [], None
+    for line in lines:
+        if line.startswith("$ cat "):
+            into = files.setdefault(line[6:], [])
+        elif line.startswith("$ fret "):
+            into = [line[2:]]
+            calls.append(into)
+        elif line.startswith(harness.PROMPT) or into is None:
+            into = session
+            session.append(line)
+        else:
+            into.append(line)
+    os.mkdir(where)
+    for name, text in files.items():
+        with open(os.path.join(where, name), "w", encoding="utf-8") as f:
+            f.write("".join((line[4:] if text[0].startswith("    ") else line) + "\n" for line in text))
+    steps = harness.read_transcript("\n".join(session))
+    if steps:
+        harness.replay(tests, "help " + topic, steps, cwd=where)
+    path = os.path.dirname(tests.fret) + ":" + tests.env["PATH"]
+    for command, *want in calls:
+        done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, cwd=where, env={**tests.env, "PATH": path})
+        got = (done.stdout + done.stderr).splitlines()[:len(want)]
+        tests.same("help %s: %s" % (topic, command), "\n".join(want), "\n".join(got))
+    return len(steps) + len(calls)
 
 
 def help_examples(tests):
-    """Each help text ends with an example as a transcript; it must come out so."""
+    """Each help text of a command, a topic, a setting, a geometry or a model ends with an example; it must come out so."""
     def one(topic):
         done = tests.run("-c", "help " + topic)
         tests.check("help " + topic, done.returncode == 0 and done.stdout and not done.stderr, tests.report(done))
         wide = [line for line in done.stdout.splitlines()[1:] if len(line) > 80 and not line.startswith("    ")]
         tests.check("help %s fits a terminal" % topic, not wide, "\n".join(wide))
         lines = [line[4:] for line in done.stdout.splitlines() if line.startswith("    ")]
-        steps = harness.read_transcript("\n".join(lines))
-        if steps:
-            harness.replay(tests, "help " + topic, steps)
-        elif topic in commands:
-            tests.check("help %s has an example" % topic, False)
-    commands = command_names(tests)
+        count = examples(tests, topic, lines)
+        tests.check("help %s has an example" % topic, count > 0 or topic not in shown, done.stdout)
+
+    def words(statement, pattern):
+        return re.findall(pattern, tests.run("-c", statement).stdout, re.M)
+    topics = " ".join(words("help", r"^Topics: (.*)\n +(.*)$")[0]).replace(",", "").split()
+    settings, geometries = words("show settings", r"^set (\w+)"), words("help geometry", r"^    geometry ([\w-]+)")
+    tests.check("what has an example", len(topics) >= 9 and len(settings) >= 8 and len(geometries) >= 10,
+                "%s\n%s\n%s" % (topics, settings, geometries))
+    shown = {*command_names(tests), *topics, *settings, *geometries, "closed", "memory", "springs", "quadrature"}
     text = tests.run("-c", "help quantities").stdout
     quantities = re.findall(r"^    (\w+)(?:\(\w+\))?  ", text, re.M)
-    topics = ["quantities", "expressions", "units", "geometry"]
-    tests.each([lambda t=t: one(t) for t in commands + topics + quantities])
+    tests.each([lambda t=t: one(t) for t in sorted(shown | set(quantities))])
     tests.check("help lists the quantities", len(quantities) > 30, text)
     for word, found in APROPOS.items():
         done = tests.run("-c", "apropos " + word)

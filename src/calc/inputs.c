@@ -67,7 +67,12 @@ static const geometry geometries[] = {
      ONE(IN_SLOPE),
      .usage = "cone slope=0.05 | cone angle=3 deg",
      .meaning = "f = slope r",
-     .keywords = "angle"},
+     .keywords = "angle",
+     .example = "    fret> material steel; geometry cone angle=3 deg; press FN=100 N\n"
+                "    fret> slope, a, dz\n"
+                "    slope = 0.0524078\n"
+                "    a = 102.605 um\n"
+                "    dz = 8.44664 um\n"},
     {.name = "paraboloid",
      .gap = paraboloid,
      .n = 2,
@@ -75,7 +80,12 @@ static const geometry geometries[] = {
      ONE(IN_RADIUS),
      .usage = "paraboloid R=10 mm | paraboloid R1=20 mm R2=20 mm",
      .meaning = "f = r^2/(2R)",
-     .keywords = "Hertz Mindlin"},
+     .keywords = "Hertz Mindlin",
+     .example = "    fret> material steel; geometry paraboloid R=10 mm; press FN=100 N\n"
+                "    fret> f(1 mm), a, dz\n"
+                "    f(1 mm) = 50 um\n"
+                "    a = 186.626 um\n"
+                "    dz = 3.48291 um\n"},
     {.name = "sphere",
      .gap = paraboloid,
      .n = 2,
@@ -83,7 +93,12 @@ static const geometry geometries[] = {
      ONE(IN_RADIUS),
      .usage = "sphere R=10 mm | sphere R1=20 mm R2=20 mm",
      .meaning = "Hertz: the paraboloid",
-     .keywords = "Mindlin"},
+     .keywords = "Mindlin",
+     .example = "    fret> material steel; geometry sphere R1=20 mm R2=30 mm; press FN=100 N\n"
+                "    fret> R, a, dz\n"
+                "    R = 12 mm\n"
+                "    a = 198.319 um\n"
+                "    dz = 3.27754 um\n"},
     {.name = "power",
      .gap = power,
      .power = true,
@@ -91,43 +106,77 @@ static const geometry geometries[] = {
      .allowed = INPUT_BIT(IN_N) | INPUT_BIT(IN_A) | INPUT_BIT(IN_H) | INPUT_BIT(IN_R0),
      .usage = "power n=3 A=50 m^-2 | power n=3 h=1 um r0=1 mm",
      .meaning = "f = A r^n = h (r/r0)^n",
-     .keywords = "exponent"},
+     .keywords = "exponent",
+     .example = "    fret> material steel; geometry power n=4 h=1 um r0=1 mm; press FN=100 N\n"
+                "    fret> A, f(0.5 mm), a\n"
+                "    A = 1e+06 m^-3\n"
+                "    f(0.5 mm) = 62.5 nm\n"
+                "    a = 727.031 um\n"},
     {.name = "sum",
      .gap = sum,
      .by = PARAMETERS_TERMS,
      .usage = "sum 2:50 m^-1, 4:2e6 m^-3",
      .meaning = "f = sum of A r^n",
-     .keywords = "powers polynomial"},
+     .keywords = "powers polynomial",
+     .example = "    fret> material steel; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=100 N\n"
+                "    fret> f(1 mm), a\n"
+                "    f(1 mm) = 52 um\n"
+                "    a = 186.487 um\n"},
     {.name = "flat-cone",
      .gap = flat_cone,
      TWO(IN_B, IN_SLOPE),
      .usage = "flat-cone b=1 mm slope=0.05",
      .meaning = "f = slope (r-b), r > b",
-     .keywords = "punch"},
+     .keywords = "punch",
+     .example = "    fret> material steel; geometry flat-cone b=0.2 mm slope=0.05; press FN=100 N\n"
+                "    fret> a, p(0.1 mm)\n"
+                "    a = 204.506 um\n"
+                "    p(0.1 mm) = 451.461 MPa\n"},
     {.name = "flat-paraboloid",
      .gap = flat_paraboloid,
      TWO(IN_B, IN_RADIUS),
      .usage = "flat-paraboloid b=1 mm R=10 mm",
      .meaning = "f = (r^2-b^2)/(2R), r > b",
-     .keywords = "worn punch"},
+     .keywords = "worn punch",
+     .example = "    fret> material steel; geometry flat-paraboloid b=0.2 mm R=10 mm; press FN=100 N\n"
+                "    fret> a, dz\n"
+                "    a = 221.133 um\n"
+                "    dz = 2.08616 um\n"},
     {.name = "flat-rounded",
      .gap = flat_rounded,
      TWO(IN_B, IN_RADIUS),
      .usage = "flat-rounded b=1 mm R=10 mm",
      .meaning = "f = (r-b)^2/(2R), r > b",
-     .keywords = "pad punch fretting"},
+     .keywords = "pad punch fretting",
+     .example = "    fret> material steel; geometry flat-rounded b=0.2 mm R=10 mm; press FN=100 N\n"
+                "    fret> a, dz\n"
+                "    a = 299.728 um\n"
+                "    dz = 1.65421 um\n"},
     {.name = "exact-sphere",
      .gap = exact_sphere,
      ONE(IN_RADIUS),
      .usage = "exact-sphere R=10 mm",
      .meaning = "f = R - sqrt(R^2-r^2)",
-     .keywords = "ball"},
+     .keywords = "ball",
+     .example = "    fret> material steel; geometry exact-sphere R=10 mm; press FN=100 N\n"
+                "    fret> f(1 mm), a\n"
+                "    f(1 mm) = 50.1256 um\n"
+                "    a = 186.617 um\n"},
     {.name = "file",
      .gap = file,
      .by = PARAMETERS_FILE,
      .usage = "file gap.csv [smooth | smooth 0.1 um | smooth 8]",
-     .meaning = "rows of r, f with units in the header",
-     .keywords = "csv table sampled measured profile noisy noise spline smooth roughness"},
+     .meaning = "rows of r, f with units in the header; smooth: see help files",
+     .keywords = "csv table sampled measured profile noisy noise spline smooth roughness",
+     .example = "    $ cat gap.csv\n"
+                "    r [mm],f [um]\n"
+                "    0,0\n"
+                "    0.5,12.5\n"
+                "    1,50\n"
+                "    fret> material steel; geometry file gap.csv; press FN=100 N\n"
+                "    fret> f(0.25 mm), a\n"
+                "    f(0.25 mm) = 3.125 um\n"
+                "    a = 186.626 um\n"},
 };
 enum { GEOMETRIES = sizeof geometries / sizeof *geometries };
 

@@ -50,6 +50,7 @@ typedef struct geometry {
     const char *usage;
     const char *meaning;
     const char *keywords; /* other words to find it by */
+    const char *example;  /* of `help`: a transcript, indented by four */
 } geometry;
 
 const geometry *geometry_find(const char *name, size_t len);

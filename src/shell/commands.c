@@ -249,12 +249,19 @@ static const command commands[] = {
      .summary = "load along a table of FN,Fx or dz,dx",
      .help = "The header gives the columns and their units. Every row is a straight step; one\n"
              "that cannot be carried leaves the scene as before the command. Where nothing is\n"
-             "pressed yet the first row presses, and must have Fx or dx = 0. The first lines\n"
-             "of such a file: `FN [N],Fx [N]`, then `100,0`, `120,15`. `help files` tells\n"
-             "more.\n\n"
-             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-             "    fret> follow /nonexistent.csv\n"
-             "    error: cannot read /nonexistent.csv: No such file or directory\n"},
+             "pressed yet the first row presses, and must have Fx or dx = 0. `help files`\n"
+             "tells what else such a file may hold.\n\n"
+             "    $ cat load.csv\n"
+             "    FN [N],Fx [N]\n"
+             "    100,0\n"
+             "    120,15\n"
+             "    120,-15\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> follow load.csv\n"
+             "    fret> FN, Fx, W\n"
+             "    FN = 120 N\n"
+             "    Fx = -15 N\n"
+             "    W = 328.223 nJ\n"},
     {.name = "reset",
      .run = do_reset,
      .args = reset_args,
@@ -408,9 +415,16 @@ static const command commands[] = {
              "rms of the residuals; data that do not determine a name, or cannot tell two\n"
              "apart, are an error that names them. `robust` gives rows far off less weight\n"
              "(Huber).\n\n"
-             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-             "    fret> fit E0 for depth = dz(force) to /nonexistent.csv\n"
-             "    error: cannot read /nonexistent.csv: No such file or directory\n"},
+             "    $ cat depth.csv\n"
+             "    force [N],depth [um]\n"
+             "    20,1.21\n"
+             "    50,2.28\n"
+             "    80,3.09\n"
+             "    120,4.09\n"
+             "    fret> material steel; geometry sphere R=10 mm\n"
+             "    fret> fit E0 for depth = dz(force) to depth.csv\n"
+             "    E0 = 199.259 GPa +- 1.06 GPa\n"
+             "    rms = 17.5911 nm over 4 rows\n"},
     {.name = "uncertainty",
      .run = do_uncertainty,
      .args = uncertainty_args,
@@ -441,8 +455,10 @@ static const command commands[] = {
              "it. The answer is that error, and its part of the energy at gross slip (at FA).\n"
              "FILE.h is a C table to compile in.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-             "    fret> export jenkins 8 to /dev/null\n"
-             "    error: cannot tell the form of a model from '/dev/null': use .csv, .json or .h\n"},
+             "    fret> export jenkins 4 to damper.h\n"
+             "    wrote damper.h (733 B)\n"
+             "    error of dW = 798.218 nJ\n"
+             "    relative = 0.0147451\n"},
     {.name = "explain",
      .run = do_explain,
      .args = list_args,
@@ -521,8 +537,14 @@ static const command commands[] = {
      .usage = "FILE",
      .summary = "run a script",
      .help = "Statements of a file, as if typed here; it stops at the first error.\n\n"
-             "    fret> source /nonexistent\n"
-             "    error: cannot read /nonexistent: No such file or directory\n"},
+             "    $ cat ball.fret\n"
+             "    material steel; geometry sphere R=10 mm\n"
+             "    press FN=100 N\n"
+             "    a\n"
+             "    fret> source ball.fret\n"
+             "    a = 186.626 um\n"
+             "    fret> dz\n"
+             "    dz = 3.48291 um\n"},
     {.name = "save",
      .run = do_save,
      .args = save_args,
@@ -532,8 +554,12 @@ static const command commands[] = {
      .summary = "write the scene as commands; or what has been typed",
      .help = "The file makes the scene again, to the last bit: `source FILE`, or fret FILE.\n"
              "`save history` writes the lines typed in this session, as they were typed.\n\n"
-             "    fret> material steel; save /nonexistent/a.fret\n"
-             "    error: cannot write /nonexistent/a.fret: No such file or directory\n"},
+             "    fret> material steel; friction 0.3; save steel.fret\n"
+             "    wrote steel.fret (40 B)\n"
+             "    fret> reset all; source steel.fret\n"
+             "    fret> show\n"
+             "    material E0=210 GPa nu=0.3\n"
+             "    friction 0.3\n"},
     {.name = "record",
      .run = do_record,
      .args = record_args,
@@ -547,6 +573,9 @@ static const command commands[] = {
              "to be shown on a page: asciicast v2, which `asciinema play FILE.cast` plays. In\n"
              "a script it is as if typed, the same in every run, and `live FILE` plays by\n"
              "itself. What `!COMMAND` writes is not in it.\n\n"
+             "    fret> record session.txt\n"
+             "    fret> friction 0.3; 2*mu\n"
+             "    2*mu = 0.6\n"
              "    fret> record off\n"},
     {.name = "replay",
      .run = do_replay,
@@ -559,8 +588,13 @@ static const command commands[] = {
              "follows each must come out again, numbers within their printed digits.\n"
              "Differences are shown: - is the transcript, + is now. A session copied from a\n"
              "terminal is a transcript, too.\n\n"
-             "    fret> replay /nonexistent\n"
-             "    error: cannot read /nonexistent: No such file or directory\n"},
+             "    $ cat check.txt\n"
+             "        fret> friction 0.4\n"
+             "        fret> mu, 1/3\n"
+             "        mu = 0.4\n"
+             "        1/3 = 0.333\n"
+             "    fret> replay check.txt\n"
+             "    check.txt: 2 passed, 0 failed\n"},
     {.name = "live",
      .run = do_live,
      .args = file_args,
@@ -572,8 +606,8 @@ static const command commands[] = {
              "keys, `q` leaves. What is done there are statements: undo takes them back. FILE\n"
              "is a script to step through, space by space. It needs a terminal, or a cast that\n"
              "records it: `record FILE.cast`.\n\n"
-             "    fret> live /nonexistent\n"
-             "    error: cannot read /nonexistent: No such file or directory\n"},
+             "    $ fret -c 'live'\n"
+             "    -c:1:1: error: the full-screen mode needs a terminal\n"},
     {.name = "demo",
      .run = do_demo,
      .args = demo_args,

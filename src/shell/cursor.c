@@ -15,8 +15,10 @@ bool at_argument(const lexer *lx) {
 
 bool stray_unit(lexer *lx) {
     char word[LEX_NAME];
+    unit known;
     if (lx->kind != T_NAME || !lx->last || lx->text[lx->last - 1] < '0' || lx->text[lx->last - 1] > '9' ||
-        argument_word(lx) || at_argument(lx) || quantity_find(lx->text + lx->at, lx->len))
+        argument_word(lx) || at_argument(lx) || quantity_find(lx->text + lx->at, lx->len) ||
+        unit_lookup(lx->text + lx->at, lx->len, &known))
         return false;
     lex_word(lx, word);
     const char *near = unit_suggest(word);

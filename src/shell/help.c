@@ -117,7 +117,9 @@ static entry setting_entry(size_t i) {
 
 static void setting_help(FILE *to, size_t i) {
     const setting *row = setting_row(i);
-    fprintf(to, "set %s %s\n  %s\n", row->name, row->usage, row->summary);
+    fprintf(to, "set %s %s\n  ", row->name, row->usage);
+    help_wrapped(to, row->summary, 2, 2);
+    fprintf(to, "\n%s", row->example);
 }
 
 static const char *model_name(size_t i) {
@@ -154,6 +156,7 @@ static void geometry_help(FILE *to, size_t i) {
     for (input in = IN_N; in < INPUTS; in++)
         if (g->allowed & INPUT_BIT(in))
             fprintf(to, "    %-10s  %s\n", quantity_of_input(in)->name, quantity_of_input(in)->title);
+    fprintf(to, "\n%s", g->example);
 }
 
 static entry preset_entry(size_t i) {
@@ -207,6 +210,7 @@ static void topic_help(FILE *to, size_t i) {
         fputs(t->text, to);
     if (t->print)
         t->print(to);
+    fprintf(to, "\n%s", t->example);
 }
 
 /* ---- the table --------------------------------------------------------------------------------- */
@@ -241,8 +245,10 @@ const char *help_name(size_t i) {
 
 void help_settings(FILE *to) {
     const setting *row;
-    for (size_t i = 0; (row = setting_row(i)); i++)
-        fprintf(to, "    set %s %s\n        %s\n", row->name, row->usage, row->summary);
+    for (size_t i = 0; (row = setting_row(i)); i++) {
+        fprintf(to, "    set %s %s\n        ", row->name, row->usage);
+        help_wrapped(to, row->summary, 8, 8);
+    }
 }
 
 /* ---- help -------------------------------------------------------------------------------------- */
@@ -338,6 +344,15 @@ bool do_help(shell *sh, lexer *lx, const command *self) {
     (void)self;
     if (lx->kind != T_END) {
         raw_word(lx, word);
+        if (command_find(word, strlen(word)) &&
+            lex_peek(lx) != T_END) { /* geometry cone, set model, material steel */
+            lex_next(lx);
+            raw_word(lx, word);
+        }
+        if (!help_on(NULL, word) && strpbrk(word, "(=")) { /* p(r) of a list, FN=100 N of a statement */
+            word[strcspn(word, "(=")] = 0;
+            lx->len = lx->end - lx->at;
+        }
         if (!help_on(NULL, word)) {
             const char *near = *word ? suggest(word, help_name) : NULL;
             return near ? lex_fail(lx, "no help on '%.*s': did you mean %s?", LEX_WORD(lx), near)

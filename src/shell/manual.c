@@ -75,6 +75,7 @@ static void put_topic(FILE *to, const char *name) {
                 put_help(to, t->text);
             if (t->print)
                 put_printed(to, t->print);
+            put_help(to, t->example);
         }
 }
 

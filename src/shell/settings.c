@@ -136,36 +136,62 @@ static const setting rows[] = {
     {.name = "format",
      .usage = "text|csv|json",
      .summary = "how answers and tables are written; JSON: an object a line",
+     .example = "    fret> set format csv\n"
+                "    fret> pi, 1 mm\n"
+                "    pi,1 mm [m]\n"
+                "    3.1415926535897931,0.001\n"
+                "    fret> set format json\n"
+                "    fret> 1 mm\n"
+                "    {\"name\":\"1 mm\",\"value\":0.001,\"unit\":\"m\"}\n",
      .words = formats,
      .at = offsetof(settings, format)},
     {.name = "digits",
      .usage = "N",
      .summary = "significant digits of numbers as text, 1 to 17",
+     .example = "    fret> set digits 12\n"
+                "    fret> pi\n"
+                "    pi = 3.14159265359\n",
      .most = 17,
      .at = offsetof(settings, digits)},
     {.name = "report",
      .usage = "auto|on|off",
      .summary = "what press, step and cycle tell of themselves; auto: at the prompt",
+     .example = "    fret> set report on\n"
+                "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
+                "      FN = 100 N, a = 186.626 um, dz = 3.48291 um\n",
      .words = reports,
      .at = offsetof(settings, report)},
     {.name = "timing",
      .usage = "on|off",
      .summary = "the time of each statement, and the models that answered",
+     .example = "    fret> set timing on\n"
+                "    fret> pi\n"
+                "    pi = 3.14159\n"
+                "    time: 0.000241 ms\n",
      .words = switches,
      .at = offsetof(settings, timing)},
     {.name = "pager",
      .usage = "auto|on|off",
      .summary = "show text by $PAGER; auto: what the terminal is too low for",
+     .example = "    fret> set pager off\n",
      .words = reports,
      .at = offsetof(settings, pager)},
     {.name = "model",
      .usage = "auto|closed|memory|springs N",
      .summary = "what answers for tangential loads; auto: the cheapest that is exact",
+     .example =
+         "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N\n"
+         "    fret> dW\n"
+         "    dW = 1.90646 uJ\n"
+         "    fret> set model springs 100\n"
+         "    fret> dW\n"
+         "    dW = 1.90687 uJ\n",
      .parse = parse_model,
      .show = show_model},
     {.name = "plot",
      .usage = "WxH|auto|terminal auto|dumb|block|sixel",
      .summary = "size of plots in the terminal, in characters, and how they are drawn there",
+     .example = "    fret> set plot 64x18\n",
      .parse = parse_plot,
      .show = show_plot,
      .differs = has_plot},
@@ -173,6 +199,7 @@ static const setting rows[] = {
      .usage = "auto|N",
      .summary =
          "processes that long tables, maps, fits and samples are shared among; auto: one for each core",
+     .example = "    fret> set cores 1\n",
      .parse = parse_cores,
      .show = show_cores,
      .differs = has_cores},

@@ -28,6 +28,7 @@ typedef struct setting {
     const char *name;
     const char *usage; /* what may follow */
     const char *summary;
+    const char *example;      /* of `help`: a transcript, indented by four */
     const char *const *words; /* a choice among these, ended by NULL; or NULL */
     int most;                 /* of a whole number from 1, where there are no words */
     size_t at;                /* an int of settings that holds either */

@@ -129,8 +129,8 @@ static void equation(FILE *to, const char *number, const char *text) {
 
 static void paper(FILE *to) {
     fputs("Mathematics 2022, 10, 3641: its equations, and the quantities that they make.\n"
-          "`explain NAME` puts the numbers of the scene in; `demo fig04` to `demo fig13` and\n"
-          "`demo s1` to `demo s3` draw the figures and videos.\n\n",
+          "`explain NAME` puts the numbers of the scene in; `demo fig04` to `demo fig13`\n"
+          "and `demo s1` to `demo s3` draw the figures and videos.\n\n",
           to);
     for (size_t i = 0; i < EQUATIONS; i++)
         equation(to, equations[i].number, equations[i].text);
@@ -183,9 +183,6 @@ static const char files_text[] =
     "comment. Commas, semicolons, tabs or blanks part the columns. Where it is no\n"
     "comma, a comma within a number is a decimal one: files of spreadsheets can be\n"
     "read as they are, Excel's `Unicode text` (UTF-16) too.\n\n"
-    "    r [mm],f [um]\n"
-    "    0,0\n"
-    "    0.5,12.5\n\n"
     "A measured profile is noisy, and a contact on its bumps is no disc. `geometry\n"
     "file GAP.csv smooth` takes the cubic spline nearest to the rows (least squares)\n"
     "that begins with f = 0 and f' = 0: `smooth 8` of 8 pieces, `smooth 0.1 um` of as\n"
@@ -215,7 +212,8 @@ static const char theory_text[] =
     "stiffness c_N(x) and c_T(x) under the profile g(x), exactly within the theory\n"
     "of Cattaneo and Mindlin. In the depth y = g(x), k and the shape vanish from the\n"
     "rule of stick and slip: the memory diagram follows any history of F_N and F_x\n"
-    "without discretisation. `help paper` lists the equations, `explain NAME` uses them.\n";
+    "without discretisation. `help paper` lists the equations, `explain NAME` puts\n"
+    "numbers in.\n";
 
 const char coupling_text[] =
     "The theory neglects what couples normal and tangential contact. That is exact\n"
@@ -257,39 +255,100 @@ static const topic topics[] = {
      .summary = "arithmetic, names of your own, functions",
      .keywords = "variable definition function operator live what-if",
      .text = expressions_text,
-     .print = functions},
+     .print = functions,
+     .example = "    fret> x = 3 mm; half(u) := u/2\n"
+                "    fret> half(x) + 20 um in mm, sqrt(2)^-2\n"
+                "    half(x) + 20 um = 1.52 mm\n"
+                "    sqrt(2)^-2 = 0.5\n"
+                "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                "    fret> a, (a at FN=200 N)/a\n"
+                "    a = 186.626 um\n"
+                "    (a at FN=200 N)/a = 1.25992\n"},
     {.name = "units",
      .summary = "units and their prefixes",
      .keywords = "dimension SI prefix",
-     .print = help_units},
+     .print = help_units,
+     .example = "    fret> 1 ksi in MPa, 0.3N/mm^2, 90 deg, 5 %\n"
+                "    1 ksi = 6.89476 MPa\n"
+                "    0.3N/mm^2 = 300 kPa\n"
+                "    90 deg = 90 deg\n"
+                "    5 % = 0.05\n"},
     {.name = "quantities",
      .summary = "inputs, results and functions of the scene",
      .keywords = "input result variable stress loop",
-     .print = quantities},
+     .print = quantities,
+     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                "    fret> a, c(20 N), dW(20 N), p(0.1 mm)\n"
+                "    a = 186.626 um\n"
+                "    c(20 N) = 148.125 um\n"
+                "    dW(20 N) = 1.90646 uJ\n"
+                "    p(0.1 mm) = 1.15747 GPa\n"},
     {.name = "prompt",
      .summary = "keys, completion, history, pasting",
      .keywords = "readline history completion Tab inputrc paste shell",
-     .text = prompt_text},
+     .text = prompt_text,
+     .example = "    fret> ?pi\n"
+                "    pi: 3.14159...\n"},
     {.name = "scripts",
      .summary = "files of statements, options, the start-up file",
      .keywords = "batch pipe start-up fretrc config replay transcript save",
-     .text = scripts_text},
+     .text = scripts_text,
+     .example = "    fret> friction 0.4; save friction.fret\n"
+                "    wrote friction.fret (13 B)\n"
+                "    fret> mu = 0.3; source friction.fret\n"
+                "    fret> mu\n"
+                "    mu = 0.4\n"},
     {.name = "files",
      .summary = "tables and figures that are read and written",
      .keywords = "csv json export import Excel data png svg pdf save write history",
-     .text = files_text},
+     .text = files_text,
+     .example = "    $ cat gap.csv\n"
+                "    r [mm],f [um]\n"
+                "    0,0\n"
+                "    0.5,12.5\n"
+                "    1,50\n"
+                "    $ cat load.csv\n"
+                "    FN [N],Fx [N]\n"
+                "    100,0\n"
+                "    120,15\n"
+                "    120,-15\n"
+                "    fret> material steel; geometry file gap.csv; friction 0.4\n"
+                "    fret> follow load.csv\n"
+                "    fret> FN, Fx, W\n"
+                "    FN = 120 N\n"
+                "    Fx = -15 N\n"
+                "    W = 328.223 nJ\n"
+                "    fret> history to loop.csv\n"
+                "    wrote loop.csv (221 B)\n"},
     {.name = "theory",
      .summary = "what is computed, in a few words",
      .keywords = "MDR Mindlin Cattaneo Hertz springs hysteresis loop dissipation partial slip memory diagram",
-     .text = theory_text},
+     .text = theory_text,
+     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                "    fret> step Fx=20 N\n"
+                "    fret> a, c, dx, dxmax\n"
+                "    a = 186.626 um\n"
+                "    c = 148.125 um\n"
+                "    dx = 625.995 nm\n"
+                "    dxmax = 1.6917 um\n"
+                "    fret> cycle FA=20 N\n"
+                "    fret> dW\n"
+                "    dW = 1.90646 uJ\n"},
     {.name = "paper",
      .summary = "every equation of the paper, and where it is here",
      .keywords = "equation formula reference literature slip misprint",
-     .print = paper},
+     .print = paper,
+     .example = "    fret> material E0=210 GPa nu=0.3; geometry sphere R=10 mm\n"
+                "    fret> kappa\n"
+                "    kappa = 2\n"},
     {.name = "limits",
      .summary = "what the theory leaves out",
      .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",
-     .print = limits},
+     .print = limits,
+     .example = "    fret> material steel; second aluminium; geometry sphere R=10 mm; friction 0.4\n"
+                "    fret> press FN=100 N\n"
+                "    warning: the bodies are elastically dissimilar (mismatch 0.117): normal and tangential "
+                "contact are coupled, and these results are an approximation\n"},
 };
 enum { TOPICS = sizeof topics / sizeof *topics };
 
@@ -301,15 +360,24 @@ const char *topic_name(size_t i) {
     return i < TOPICS ? topics[i].name : NULL;
 }
 
+/* Begins a transcript. */
+#define EXAMPLE "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; "
+
 const char *model_text(size_t id) {
     static const char *const texts[MODELS] = {
         [MODEL_CLOSED] = "Formulas of the paper, where the load program has one: a press and a tangential\n"
-                         "step, or cycles at constant FN.\n",
+                         "step, or cycles at constant FN.\n\n" EXAMPLE "cycle FA=20 N\n"
+                         "    fret> set model closed\n    fret> dW\n    dW = 1.90646 uJ\n",
         [MODEL_MEMORY] = "Follows any history exactly, without springs or step sizes: the state is a\n"
-                         "polyline over the depth y = g(x). `help theory` tells more.\n",
-        [MODEL_QUADRATURE] = "Integrals over the gap, for shapes without a formula and for local fields.\n",
+                         "polyline over the depth y = g(x). `help theory` tells more.\n\n" EXAMPLE
+                         "step Fx=20 N; step FN=80 N Fx=10 N\n    fret> set model memory\n    fret> W\n"
+                         "    W = 477.51 nJ\n",
+        [MODEL_QUADRATURE] =
+            "Integrals over the gap, for shapes without a formula and for local fields.\n\n" EXAMPLE
+            "step Fx=20 N\n    fret> qx(0.1 mm)\n    qx(0.1 mm) = 141.911 MPa\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
-                          "`accuracy` tells its error against its time.\n",
+                          "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
+                          "    fret> set model springs 100\n    fret> dW\n    dW = 1.9 uJ\n",
     };
     return id < MODELS ? texts[id] : NULL;
 }

@@ -12,6 +12,7 @@ typedef struct topic {
     const char *keywords;    /* other words to find it by */
     const char *text;        /* or NULL */
     void (*print)(FILE *to); /* more, from a table; or NULL */
+    const char *example;     /* a transcript, indented by four */
 } topic;
 
 const topic *topic_row(size_t i); /* NULL after the last */
