@@ -119,7 +119,13 @@ $(B)/tests/faults.so: tests/fuzz/faults.c
 	@mkdir -p $(@D)
 	$(CC) -O1 -g $(WARN) -fPIC -shared -o $@ $<
 
-tests: $(B)/tests/faults.so $(TESTS) $(if $(MPFR),$(B)/tests/hard/hard)
+# Runs a program and lets its system calls fail, on Linux.
+SECCOMP := $(wildcard /usr/include/linux/seccomp.h)
+$(B)/tests/calls: tests/fuzz/calls.c
+	@mkdir -p $(@D)
+	$(CC) -O1 -g $(WARN) -o $@ $<
+
+tests: $(B)/tests/faults.so $(if $(SECCOMP),$(B)/tests/calls) $(TESTS) $(if $(MPFR),$(B)/tests/hard/hard)
 
 deps:
 	@sh scripts/install-deps run

@@ -8,7 +8,7 @@
 #include <string.h>
 
 void error_clear(calc_error *error) {
-    error->raised = error->stop = error->circle = error->strange = error->worded = false;
+    error->raised = error->stop = error->refused = error->circle = error->strange = error->worded = false;
     error->kind = ERROR_WORDS;
     error->input = -1;
     error->at = error->len = 0;
@@ -61,6 +61,7 @@ bool calc_errno(calc_error *error, int code, const char *format, ...) {
     vsnprintf(words, sizeof words, format, args);
     va_end(args);
     error->stop = error->stop || code == ENOMEM;
+    error->refused = true;
     return calc_fail(error, 0, 0, "%s: %s", words, code == ENOMEM ? "out of memory" : strerror(code));
 }
 

@@ -20,6 +20,7 @@ typedef enum error_kind {
 typedef struct calc_error {
     bool raised;
     bool stop;    /* interrupted, or memory is out: trying something else instead is no use */
+    bool refused; /* by the system: no word of the language is to blame */
     bool circle;  /* a live definition that needs itself */
     bool strange; /* dimensions do not fit: no other value would help */
     bool worded;  /* wording.c has been here */

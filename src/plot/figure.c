@@ -197,10 +197,12 @@ static size_t farthest(const plot_series *s, const plot_paper *paper, size_t fro
     return at;
 }
 
-void plot_straighten(plot_series *s, const plot_paper *paper) {
+bool plot_straighten(plot_series *s, const plot_paper *paper) {
     /* ends of stretches to come, the nearest on top */
-    size_t *end = s->count > 2 ? malloc(s->count * sizeof *end) : NULL, to = 0;
-    for (size_t i = 0; end && i < s->count;) {
+    size_t *end = malloc((s->count + 1) * sizeof *end), to = 0;
+    if (!end)
+        return false;
+    for (size_t i = 0; i < s->count;) {
         size_t last = i, open = 0;
         while (last + 1 < s->count && !is_gap(s, last) && !is_gap(s, last + 1))
             last++;
@@ -217,9 +219,9 @@ void plot_straighten(plot_series *s, const plot_paper *paper) {
         }
         i = last + 1;
     }
-    if (end)
-        s->count = to;
+    s->count = to;
     free(end);
+    return true;
 }
 
 /* A full series becomes buckets of PICKS points, each standing for s->bucket points that came; from then on

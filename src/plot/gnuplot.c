@@ -113,14 +113,18 @@ static double seconds(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-typedef enum end { ENDED, STOPPED, LATE } end;
+typedef enum end { ENDED, STOPPED, LATE, LOST } end;
 
 static end wait_for(pid_t pid, int guard, const plot_target *target, double timeout, int *status) {
     double limit = seconds() + timeout;
     for (;;) {
-        pid_t done = waitpid(pid, status, WNOHANG);
-        end how = target->stop && *target->stop ? STOPPED : seconds() > limit ? LATE : ENDED;
-        if (done == 0 && how == ENDED) {
+        const pid_t done = waitpid(pid, status, WNOHANG);
+        const bool lost = done < 0 && errno != EINTR;
+        const end how = target->stop && *target->stop ? STOPPED
+                        : seconds() > limit           ? LATE
+                        : lost                        ? LOST
+                                                      : ENDED;
+        if (done != pid && how == ENDED) {
             poll(NULL, 0, PAUSE);
             continue;
         }
@@ -171,6 +175,8 @@ static bool run(const plot_run *r, char *const argv[], const plot_target *target
         return calc_interrupted(error);
     case LATE:
         return calc_fail(error, 0, 0, "gnuplot gave no picture within %g s and was stopped", timeout);
+    case LOST:
+        return calc_errno(error, ECHILD, "cannot wait for gnuplot");
     case ENDED:
         break;
     }

@@ -164,7 +164,7 @@ typedef struct plot_paper {
 } plot_paper;
 
 /* Leaves out points of a curve or band that nobody would miss on the line between those that stay. */
-void plot_straighten(plot_series *s, const plot_paper *paper);
+bool plot_straighten(plot_series *s, const plot_paper *paper);
 
 /* The script for gnuplot, data included, for an ending such as ".png". */
 bool plot_script(const plot_figure *f, const char *ending, int width, int height, FILE *to);

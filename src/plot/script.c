@@ -119,7 +119,7 @@ static bool write_fewer(FILE *to, const plot_panel *p, size_t at, const plot_pap
     copy.x = malloc(bytes);
     copy.y = malloc(bytes);
     copy.y2 = s->y2 ? malloc(bytes) : NULL;
-    const bool ok = copy.x && copy.y && (!s->y2 || copy.y2);
+    bool ok = copy.x && copy.y && (!s->y2 || copy.y2);
     if (ok) {
         memcpy(copy.x, s->x, bytes);
         memcpy(copy.y, s->y, bytes);
@@ -127,7 +127,7 @@ static bool write_fewer(FILE *to, const plot_panel *p, size_t at, const plot_pap
             memcpy(copy.y2, s->y2, bytes);
         plot_thin(&copy, PLOT_WRITTEN);
         if ((s->role == PLOT_CURVE || s->role == PLOT_BAND) && paper->least > 0 && !is_marked(p, at))
-            plot_straighten(&copy, paper);
+            ok = plot_straighten(&copy, paper);
         write_series(to, &copy);
     }
     free(copy.x);

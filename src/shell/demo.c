@@ -117,6 +117,11 @@ static size_t step_before(const script *s, size_t to) {
     return i;
 }
 
+/* Is there something wrong that no lesson is about? */
+static bool ended(const shell *own) {
+    return own->stopped || own->refused;
+}
+
 /* False: the user leaves. Goes back to an earlier step by *next. */
 static bool play_step(shell *own, const shell *sh, const script *s, size_t i, bool keys, size_t *next) {
     const bool shown = sh->set.format == FORMAT_TEXT;
@@ -127,15 +132,15 @@ static bool play_step(shell *own, const shell *sh, const script *s, size_t i, bo
     for (; shown && i < statements; i++)
         fprintf(sh->out, "%s\n", s->line[i]);
     const wish w = keys && s->line[statements] ? ask(own) : ON;
-    for (i = statements; w == ON && i < *next && !shell_stop && !own->stopped; i++) {
+    for (i = statements; w == ON && i < *next && !shell_stop && !ended(own); i++) {
         if (shown)
             fprintf(sh->out, "fret> %s\n", s->line[i]);
         run(own, s->line[i]);
     }
-    return w != LEAVE && !shell_stop && !own->stopped && (w == ON || (*next = (size_t)-1));
+    return w != LEAVE && !shell_stop && !ended(own) && (w == ON || (*next = (size_t)-1));
 }
 
-/* False: memory ran out. */
+/* False: it could not go on, as has been reported. */
 static bool play(shell *sh, const script *s, bool keys) {
     shell own;
     begin(&own, sh);
@@ -151,7 +156,7 @@ static bool play(shell *sh, const script *s, bool keys) {
         }
     }
     sh->calc.scene.used |= own.calc.scene.used;
-    const bool ok = !own.stopped || shell_stop;
+    const bool ok = !ended(&own);
     shell_free(&own);
     return ok;
 }
@@ -175,11 +180,11 @@ bool do_demo(shell *sh, lexer *lx, const command *self) {
         if (!at_end(lx))
             return false;
     }
-    if (!play(sh, s,
-              !tour && sh->interactive && sh->set.format == FORMAT_TEXT && isatty(STDIN_FILENO) &&
-                  isatty(STDOUT_FILENO)))
-        return calc_no_memory(lx->error);
+    const bool keys = !tour && sh->interactive && sh->set.format == FORMAT_TEXT && isatty(STDIN_FILENO) &&
+                      isatty(STDOUT_FILENO);
+    if (!play(sh, s, keys) || shell_stop)
+        return shell_stop ? calc_interrupted(lx->error) : false;
     if (tour && sh->set.format == FORMAT_TEXT)
         fputs("\nLessons, such as `demo pressing`: `show demos` lists them.\n", sh->out);
-    return !shell_stop || calc_interrupted(lx->error);
+    return true;
 }

@@ -144,12 +144,14 @@ static bool write_model(shell *sh, lexer *lx, const request *r, const model *m) 
     return true;
 }
 
-static bool report_model(shell *sh, const model *m, calc_error *error) {
+/* Into the file, and how good it is to the reader; what can fail without the file comes first. */
+static bool give_model(shell *sh, lexer *lx, const request *r, const model *m) {
     column columns[2] = {{.name = NULL}};
     const long double si[] = {m->quality.worst, m->quality.worst / m->quality.scale};
-    bool ok =
-        (column_si(&columns[0], "error of dW", DIM_ENERGY) && column_si(&columns[1], "relative", DIM_NONE)) ||
-        calc_no_memory(error);
+    const bool ok = ((column_si(&columns[0], "error of dW", DIM_ENERGY) &&
+                      column_si(&columns[1], "relative", DIM_NONE)) ||
+                     calc_no_memory(lx->error)) &&
+                    write_model(sh, lx, r, m);
     if (ok)
         print_values(&sh->set, sh->out, columns, si, 2);
     if (ok && sh->set.format == FORMAT_JSON)
@@ -163,8 +165,7 @@ bool do_export(shell *sh, lexer *lx, const command *self) {
     model m = {.count = 0};
     (void)self;
     bool ok = (r || calc_no_memory(lx->error)) && read_request(sh, lx, r) &&
-              make_model(sh, r, &m, lx->error) && write_model(sh, lx, r, &m) &&
-              report_model(sh, &m, lx->error);
+              make_model(sh, r, &m, lx->error) && give_model(sh, lx, r, &m);
     free(m.element);
     free(r);
     return ok;

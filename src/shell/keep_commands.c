@@ -28,11 +28,9 @@ bool do_save(shell *sh, lexer *lx, const command *self) {
         return calc_fail(lx->error, at, len, "nothing has been typed here: a script is its own history");
     if (!file_out_open(&file, name, &shell_stop, lx->error))
         return calc_place(lx->error, at, len);
-    if (history)
-        typed_write(sh, file.to);
-    else
-        scene_write(&sh->calc, &sh->set, file.to, true);
-    if (!file_out_close(&file, true, &report, lx->error))
+    if (!(history ? typed_write(sh, file.to) : scene_write(&sh->calc, &sh->set, file.to, true)))
+        calc_no_memory(lx->error);
+    if (!file_out_close(&file, !lx->error->raised, &report, lx->error) || lx->error->raised)
         return calc_place(lx->error, at, len);
     target_report(sh, name, &report);
     return true;
@@ -46,9 +44,14 @@ static char *beginning(shell *sh) {
     file_text kept;
     if (!file_text_open(&kept))
         return NULL;
-    scene_write(&sh->calc, &sh->set, kept.to, true);
+    const bool whole = scene_write(&sh->calc, &sh->set, kept.to, true);
     settings_write(&sh->calc, &sh->set, kept.to);
-    return file_text_close(&kept) ? kept.text : NULL;
+    if (!file_text_close(&kept))
+        return NULL;
+    if (whole)
+        return kept.text;
+    free(kept.text);
+    return NULL;
 }
 
 bool do_record(shell *sh, lexer *lx, const command *self) {

@@ -49,13 +49,20 @@ static void on_end(int number) {
     raise(number);
 }
 
+/* What nohup(1), or a shell that starts us in the background, has us ignore stays ignored. */
+static void handle(int number, void (*handler)(int)) {
+    const struct sigaction act = {.sa_handler = handler}; /* no SA_RESTART: a blocked read must return */
+    struct sigaction before;
+    if (sigaction(number, NULL, &before) || before.sa_handler != SIG_IGN || isatty(STDIN_FILENO))
+        sigaction(number, &act, NULL);
+}
+
 static void set_signals(void) {
     static const int ends[] = {SIGTERM, SIGHUP, SIGQUIT};
-    struct sigaction act = {.sa_handler = on_interrupt}; /* no SA_RESTART: a blocked read must return */
-    sigaction(SIGINT, &act, NULL);
-    act.sa_handler = on_end;
+    handle(SIGINT, on_interrupt);
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
-        sigaction(ends[i], &act, NULL);
+        handle(ends[i], on_end);
+    signal(SIGCHLD, SIG_DFL); /* whoever started us may not have waited for children, but we do */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN); /* a write that fails is an error like any other */
 }

@@ -93,8 +93,13 @@ static void put_number(FILE *to, int width, int digits, double v) {
 
 void print_safe(FILE *to, const char *text, size_t len) {
     char shown[CHARACTER_SHOWN];
-    for (size_t i = 0; i < len;) {
-        if (text[i] == '\n') {
+    for (size_t i = 0, plain = 0; i < len; plain = 0) {
+        while (i + plain < len && text[i + plain] >= ' ' && text[i + plain] < 0x7f)
+            plain++;
+        if (plain > 0) { /* most of it: a message is a few writes */
+            fwrite(text + i, 1, plain, to);
+            i += plain;
+        } else if (text[i] == '\n') {
             putc(' ', to);
             i++;
         } else {

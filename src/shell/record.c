@@ -206,17 +206,16 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     r->out = sh->out;
     r->err = sh->err;
     const bool as_cast = ends(path, ".cast");
-    if (as_cast)
+    open_both(r); /* before the file is emptied */
+    if (!r->both_out || !r->both_err)
+        calc_no_memory(error);
+    else if (as_cast)
         r->cast = cast_begin(path, sh->interactive || away, &over, error);
-    if (as_cast ? !r->cast : !file_log_open(&r->log, path, &shell_stop, &over, error)) {
+    else
+        file_log_open(&r->log, path, &shell_stop, &over, error);
+    if (error->raised) {
         free_recorder(r);
         return false;
-    }
-    open_both(r);
-    if (!r->both_out || !r->both_err) {
-        cast_end(r->cast, error);
-        free_recorder(r);
-        return calc_no_memory(error);
     }
     setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
     setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
@@ -255,17 +254,21 @@ void record_line(shell *sh, const char *text, size_t len) {
     file_text typed;
     if (!r || (r->cast && (away || cast_has_clock(r->cast)))) /* the terminal shows it */
         return;
-    if (!file_text_open(&typed))
-        return;
     fflush(sh->out);
     write_line(r);
-    for (size_t i = 0, n; i <= len; i += n + 1) {
+    bool ok = file_text_open(&typed);
+    for (size_t i = 0, n; ok && i <= len; i += n + 1) {
         const char *end = i < len ? memchr(text + i, '\n', len - i) : NULL;
         n = end ? (size_t)(end - text) - i : len - i;
         fprintf(typed.to, "%s%.*s%s\n", i ? "....> " : "fret> ", (int)n, text + i, end ? "\\" : "");
     }
-    if (file_text_close(&typed))
-        r->line = typed.text;
+    ok = ok && file_text_close(&typed);
+    r->line = ok ? typed.text : NULL;
+    calc_error error;
+    error_clear(&error);
+    if (!ok)
+        calc_no_memory(&error);
+    check(r, ok, &error);
 }
 
 void record_aside(FILE *out, const char *text) {
@@ -329,32 +332,38 @@ void record_film(shell *sh, const char *bytes, size_t n, double seconds) {
 struct lines {
     size_t count, room;
     char **line;
+    bool lost; /* there was no memory for some */
 };
 
 void typed_keep(shell *sh, const char *line) {
     if (!sh->typed)
         sh->typed = calloc(1, sizeof *sh->typed);
     struct lines *t = sh->typed;
-    if (t && t->count == t->room) {
+    if (!t)
+        return;
+    if (t->count == t->room) {
         const size_t room = t->room ? 2 * t->room : 64;
         char **grown = realloc(t->line, room * sizeof *grown);
-        if (!grown)
-            return;
-        t->line = grown;
-        t->room = room;
+        if (grown) {
+            t->line = grown;
+            t->room = room;
+        }
     }
-    char *copy = t ? strdup(line) : NULL;
+    char *copy = t->count < t->room ? strdup(line) : NULL;
     if (copy)
         t->line[t->count++] = copy;
+    else
+        t->lost = true;
 }
 
 /* A line that went on over others does so again. */
-void typed_write(const shell *sh, FILE *to) {
+bool typed_write(const shell *sh, FILE *to) {
     for (size_t i = 0; sh->typed && i < sh->typed->count; i++) {
         for (const char *p = sh->typed->line[i]; *p; p++)
             fputs((const char[]){*p == '\n' ? '\\' : *p, *p == '\n' ? '\n' : 0, 0}, to);
         putc('\n', to);
     }
+    return !sh->typed || !sh->typed->lost;
 }
 
 void typed_forget(shell *sh) {

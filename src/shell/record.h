@@ -36,7 +36,8 @@ void record_film(shell *sh, const char *bytes, size_t n, double seconds);
 
 /* What is typed at the prompt is kept for `save history`. */
 void typed_keep(shell *sh, const char *line);
-void typed_write(const shell *sh, FILE *to);
+/* False: there was no memory to keep all of it. */
+bool typed_write(const shell *sh, FILE *to);
 void typed_forget(shell *sh);
 
 #endif

@@ -88,9 +88,15 @@ static const char *line_after(const char *line) {
     return *line ? line + 1 : line;
 }
 
-static bool same_lines(const char *want, const char *got, double tolerance) {
+typedef struct measure {
+    double tolerance; /* of numbers */
+    bool lost;        /* memory was out: nothing can be said */
+} measure;
+
+static bool same_lines(const char *want, const char *got, measure *m) {
     char *w = strndup(want, line_length(want)), *g = strndup(got, line_length(got));
-    const bool ok = w && g && same(w, g, tolerance);
+    const bool ok = w && g && same(w, g, m->tolerance);
+    m->lost |= !w || !g;
     free(w);
     free(g);
     return ok;
@@ -111,24 +117,24 @@ static bool is_passing(const char *line) {
 }
 
 /* Compares line by line; empty lines at the end do not count. */
-static bool compare(const char *want, const char *got, double tolerance) {
+static bool compare(const char *want, const char *got, measure *m) {
     while (*want || *got) {
         if (is_passing(want)) {
             want = line_after(want);
         } else if (is_passing(got)) {
             got = line_after(got);
         } else if (*got == MARK_ASIDE) {
-            if (*want && same_lines(want, got + 1, tolerance))
+            if (*want && same_lines(want, got + 1, m))
                 want = line_after(want);
             got = line_after(got);
         } else if (*got == MARK_DRAWING) {
             const char *rest = line_after(got);
-            while (*want && !compare(want, rest, tolerance))
+            while (*want && !compare(want, rest, m))
                 want = line_after(want);
             got = rest;
         } else if (!*got || !*want) {
             return is_blank(want) && (is_blank(got) || !*got);
-        } else if (same_lines(want, got, tolerance)) {
+        } else if (same_lines(want, got, m)) {
             want = line_after(want);
             got = line_after(got);
         } else {
@@ -206,6 +212,8 @@ static bool run(replay *r) {
     if (!file_text_close(&got))
         return false;
     r->got = got.text;
+    if (r->sh.stopped && !shell_stop)
+        return false; /* what it said is no answer */
     r->prompts = count_prompts(r->got);
     return true;
 }
@@ -220,20 +228,22 @@ static void spare_notes(replay *r) {
             *line = MARK_ASIDE;
 }
 
-/* What follows the statement has been gathered. */
-static void judge(replay *r) {
+/* What follows the statement has been gathered. False: out of memory. */
+static bool judge(replay *r) {
     const char *want = r->want.p ? r->want.p : "";
+    measure m = {r->tolerance, false};
     if (r->at == 0)
-        return;
+        return true;
     spare_notes(r);
-    if (compare(want, r->got, r->tolerance)) {
+    if (compare(want, r->got, &m)) {
         r->passed++;
-    } else {
+    } else if (!m.lost) {
         r->failed++;
         fprintf(r->out, "%s:%zu: fret> %s\n", r->path, r->at, r->statement.p);
         show(r->out, '-', want);
         show(r->out, '+', r->got);
     }
+    return !m.lost;
 }
 
 /* ---- the transcript ---------------------------------------------------------------------------- */
@@ -266,9 +276,8 @@ static bool take_line(replay *r, const file_in *in, bool *waiting) {
         r->prompts -= prompt;
         return r->at == 0 || (append(&r->want, in->line, in->length) && append(&r->want, "\n", 1));
     }
-    if (*waiting && !run(r)) /* it was dropped, or is all there is */
+    if ((*waiting && !run(r)) || !judge(r)) /* it was dropped, or is all there is */
         return false;
-    judge(r);
     r->at = (size_t)in->number;
     empty(&r->statement);
     empty(&r->want);
@@ -285,10 +294,10 @@ static bool take_lines(replay *r, file_in *in, calc_error *error) {
         ok = take_line(r, in, &waiting);
     if (ok && waiting)
         ok = run(r);
+    if (ok && got != FILE_GOT_ERROR && !shell_stop)
+        ok = judge(r);
     if (!ok)
         calc_no_memory(error);
-    else if (got != FILE_GOT_ERROR && !shell_stop)
-        judge(r);
     if (ok && got == FILE_GOT_END && r->passed + r->failed == 0)
         ok = calc_fail(error, 0, 0, "%s holds no lines that begin with `fret> `", r->path);
     return ok && got != FILE_GOT_ERROR;

@@ -363,6 +363,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
             report_error(sh, from, text, len, line, i + error.at, &error);
             sh->failed = true;
             sh->stopped |= error.stop;
+            sh->refused |= error.refused;
             ok = false;
             if (!from->keep_going)
                 return false;
@@ -405,6 +406,7 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
     if (got == FILE_GOT_ERROR)
         shell_error(sh, error.text);
     sh->stopped |= error.stop;
+    sh->refused |= error.refused;
     if (shell_stop && last)
         shell_error(sh, "interrupted");
     const int status = shell_stop ? EXIT_INTERRUPTED : ok && got != FILE_GOT_ERROR ? EXIT_OK : EXIT_ERROR;

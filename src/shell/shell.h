@@ -26,7 +26,7 @@ typedef struct shell {
     FILE *out, *err;
     bool interactive, quit, failed;
     bool lost;               /* a recording could not be written */
-    bool stopped;            /* an error was of the kind after which nothing else is of use */
+    bool stopped, refused;   /* there was an error of that kind */
     bool replaying;          /* a transcript: see shell_aside */
     struct recorder *record; /* or NULL */
     struct lines *typed;     /* at the prompt, for `save history`; or NULL */

@@ -322,8 +322,24 @@ static gsl_matrix *jacobian(const state *s, gsl_multifit_nlinear_workspace *w, c
     return J;
 }
 
-/* In plain words, where columns of the Jacobian vanish or depend on each other. J is used up. */
-static bool determined(const state *s, gsl_matrix *J, calc_error *error) {
+/* (J^T J)^-1 from J = U S V^T diag(norm). GSL's own does not look whether it has got its memory. */
+static void covariance(const gsl_matrix *V, const gsl_vector *sv, const double *norm,
+                       double C[FIT_NAMES][FIT_NAMES]) {
+    const size_t p = V->size1;
+    for (size_t i = 0; i < p; i++)
+        for (size_t j = 0; j < p; j++) {
+            double sum = 0;
+            for (size_t k = 0; k < p; k++) {
+                const double s = gsl_vector_get(sv, k);
+                sum += gsl_matrix_get(V, i, k) / s * (gsl_matrix_get(V, j, k) / s);
+            }
+            C[i][j] = sum / (norm[i] * norm[j]);
+        }
+}
+
+/* In plain words, where columns of the Jacobian vanish or depend on each other; else the covariances of a
+ * unit variance. J is used up. */
+static bool determined(const state *s, gsl_matrix *J, double C[FIT_NAMES][FIT_NAMES], calc_error *error) {
     const size_t p = s->of->count;
     gsl_matrix *V = gsl_matrix_alloc(p, p);
     gsl_vector *sv = gsl_vector_alloc(p), *work = gsl_vector_alloc(p);
@@ -360,6 +376,8 @@ static bool determined(const state *s, gsl_matrix *J, calc_error *error) {
             error, 0, 0,
             "the data cannot tell %s apart: only a combination of them shows; give the value of one", list);
     }
+    if (ok)
+        covariance(V, sv, norm, C);
     gsl_matrix_free(V);
     gsl_vector_free(sv);
     gsl_vector_free(work);
@@ -373,28 +391,30 @@ static double residual_size(const state *s, const gsl_vector *f, size_t i) {
     return fabs(gsl_vector_get(f, i)) / sqrt(gsl_vector_get(s->weight, i));
 }
 
-/* Weights after Huber from the residuals; the largest change. */
-static double reweigh(state *s, const gsl_vector *f, double *scale) {
+/* Weights after Huber from the residuals; *change is the largest. */
+static bool reweigh(state *s, const gsl_vector *f, double *scale, double *change, calc_error *error) {
     const size_t n = s->of->rows;
-    double *sorted = malloc(n * sizeof *sorted), change = 0;
+    double *sorted = malloc(n * sizeof *sorted);
     if (!sorted)
-        return 0;
+        return calc_no_memory(error);
+    *change = 0;
     for (size_t i = 0; i < n; i++)
         sorted[i] = residual_size(s, f, i);
     *scale = 1.4826 * gsl_stats_median(sorted, 1, n);
     free(sorted);
     for (size_t i = 0; i < n; i++) {
         const double r = residual_size(s, f, i), w = r > huber * *scale ? huber * *scale / r : 1;
-        change = fmax(change, fabs(w - gsl_vector_get(s->weight, i)));
+        *change = fmax(*change, fabs(w - gsl_vector_get(s->weight, i)));
         gsl_vector_set(s->weight, i, w);
     }
-    return change;
+    return true;
 }
 
 /* Most often the data are to blame. */
 static bool unsettled(state *s, gsl_multifit_nlinear_workspace *w, int status, calc_error *error) {
     gsl_matrix *J = jacobian(s, w, error);
-    const bool blameless = J && determined(s, J, error);
+    double C[FIT_NAMES][FIT_NAMES];
+    const bool blameless = J && determined(s, J, C, error);
     gsl_matrix_free(J);
     return blameless && calc_fail(error, 0, 0, "the fit does not settle: %s", gsl_strerror(status));
 }
@@ -403,7 +423,8 @@ static bool descend(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, 
                     calc_error *error) {
     gsl_multifit_nlinear_fdf fdf = {.f = gsl_residuals, .n = s->of->rows, .p = s->of->count, .params = s};
     int info = 0;
-    for (int round = 0; round < (s->of->robust ? ROUNDS : 1); round++) {
+    double change = INFINITY;
+    for (int round = 0; round < (s->of->robust ? ROUNDS : 1) && change >= 1e-4; round++) {
         int status = gsl_multifit_nlinear_winit(q, s->weight, &fdf, w);
         if (!status)
             status = gsl_multifit_nlinear_driver(ITERATIONS, 1e-10, 1e-10, 0, NULL, NULL, &info, w);
@@ -414,8 +435,8 @@ static bool descend(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, 
         /* no progress is where it should be when the residuals are rounding */
         if (status && status != GSL_ENOPROG)
             return unsettled(s, w, status, error);
-        if (!s->of->robust || reweigh(s, gsl_multifit_nlinear_residual(w), &out->scale) < 1e-4)
-            break;
+        if (s->of->robust && !reweigh(s, gsl_multifit_nlinear_residual(w), &out->scale, &change, error))
+            return false;
     }
     return true;
 }
@@ -445,25 +466,20 @@ static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector 
                   calc_error *error) {
     const size_t p = s->of->count;
     const double v = variance(s, gsl_multifit_nlinear_residual(w), out->scale, out);
-    gsl_matrix *C = gsl_matrix_alloc(p, p), *J = jacobian(s, w, error);
-    bool ok = J && (C || calc_no_memory(error));
-    if (ok) {
-        gsl_multifit_nlinear_covar(J, 0, C);
-        ok = determined(s, J, error);
-    }
+    gsl_matrix *J = jacobian(s, w, error);
+    double C[FIT_NAMES][FIT_NAMES];
+    const bool ok = J && determined(s, J, C, error);
     for (size_t i = 0; i < p && ok; i++) {
         const double x = parameter(s, i, gsl_vector_get(q, i));
         out->value[i] = x;
-        out->deviation[i] = sqrt(gsl_matrix_get(C, i, i) * v) * fabs(s->ratio[i] ? x : s->scale[i]);
+        out->deviation[i] = sqrt(C[i][i] * v) * fabs(s->ratio[i] ? x : s->scale[i]);
         for (size_t j = 0; j < p; j++)
-            out->correlation[i][j] =
-                gsl_matrix_get(C, i, j) / sqrt(gsl_matrix_get(C, i, i) * gsl_matrix_get(C, j, j));
+            out->correlation[i][j] = C[i][j] / sqrt(C[i][i] * C[j][j]);
     }
     out->scale *= s->unit;
     out->d = s->d;
     out->twice = s->twice;
     out->evaluations = s->q.evaluations;
-    gsl_matrix_free(C);
     gsl_matrix_free(J);
     return ok;
 }

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rim of the program: lines without end, memory that runs out, signals at the prompt, text that would command the
 terminal, small stacks. Nothing is lost, nothing is wrong in silence."""
+import errno
 import os
 import pty
+import re
 import resource
 import select
 import shutil
@@ -68,19 +70,65 @@ def lines_without_end(tests):
         tests.check("and no verdict", "passed" not in done.stdout, done.stdout)
 
 
-def memory(tests):
-    """Some of the allocations of each statement fail, once each, and all of those that pass through every room of the
-    program; `make faults` takes them all."""
-    shim = os.path.join(os.path.abspath(tests.build), "tests", "faults.so")
-    if tests.sanitized or not os.path.exists(shim):
+def once(tests):
+    """Some of the allocations and system calls of each statement fail, once each, and all of those that pass through
+    every room of the program; `make faults` takes them all."""
+    folder = os.path.join(os.path.abspath(tests.build), "tests")
+    if tests.sanitized or not os.path.exists(os.path.join(folder, "faults.so")):
         return
     env = {name: tests.env[name] for name in ("PATH", "LC_ALL", "TERM")}
+    whole = {faults.allocations: ("demo", "plot loop", "save out.fret", "record log.txt"),
+             faults.calls: ("plot loop | pressure to out.svg", "save out.fret", "record log.txt", "history to out.csv")}
 
-    def one(statement):
-        wrong, tried = faults.attempt(statement, 0 if statement.statement in ("demo", "plot loop") else 4)
-        tests.check("memory runs out in: " + statement.statement[:60], not wrong and tried > 0,
-                    "\n".join("allocation %d: %s" % row[1:] for row in wrong) or "no allocation was counted")
-    tests.each([lambda s=s: one(s) for s in faults.statements(tests.fret, shim, env)])
+    def one(statement, kind):
+        ends, wrong = faults.attempt(statement, kind, 0 if statement.statement in whole[kind] else 4)
+        tests.check("%s that fail in: %s" % (kind.__name__, statement.statement[:60]), not wrong and ends,
+                    "\n".join("%s: %s" % (faults.told(fault), what) for fault, what in wrong) or "nothing was counted")
+    statements = faults.statements(tests.fret, folder, env)
+    filtered = [s for s in statements if re.search(r"[a-z]\.[a-z]", s.statement)] if faults.can_filter(folder) else []
+    tests.each([lambda s=s: one(s, faults.allocations) for s in statements] +
+               [lambda s=s: one(s, faults.calls) for s in filtered])
+
+
+def lost_reads(tests):
+    """A picture that cannot be read back is an error, not a shorter picture."""
+    tool = os.path.join(os.path.abspath(tests.build), "tests", "calls")
+    if tests.sanitized or not faults.can_filter(os.path.dirname(tool)):
+        return
+    where = os.path.join(tests.dir, "lost-reads")
+    os.mkdir(where)
+    for name in ("arm", "disarm"):
+        with open(os.path.join(where, name), "w", encoding="ascii"):
+            pass
+    for target in ("", " to x.png", " to x.svg", " to x.html", " to x.tex", " to x.gp"):
+        script = "source arm\nplot x^2 for x = 0 .. 1%s\nsource disarm" % target
+        for entry in os.listdir(where):
+            if entry.startswith("x."):
+                os.unlink(os.path.join(where, entry))
+        refused = 0
+        for number in range(1, 40):
+            done = subprocess.run([tool, "told", "read", str(number), str(errno.EIO), tests.fret, "-c", script],
+                                  capture_output=True, text=True, cwd=where, env=tests.env, timeout=60, check=False)
+            with open(os.path.join(where, "told"), encoding="ascii") as f:
+                if "FAILED" not in f.read():
+                    break  # the picture of the last one stays
+            left = [entry for entry in os.listdir(where) if entry not in ("arm", "disarm", "told")]
+            for entry in left:
+                os.unlink(os.path.join(where, entry))
+            refused += "cannot read what gnuplot drew: Input/output error" in done.stderr
+            tests.check("read %d of a plot%s" % (number, target), done.returncode == 1 and not left or
+                        (done.returncode == 0 and left == [target[4:]] * (target != "")), "%s %s" % (left, done.stderr))
+        tests.check("a lost read of a picture is told:%s" % target, refused > 0 or target.endswith(".gp"), str(refused))
+    shutil.rmtree(where)
+
+
+def transcripts(tests):
+    """What is lost of a transcript is told when it is lost, and at the end."""
+    for name, script, out in (("at once", "record /dev/full\nx = 1\nx\n", ""), ("at the end", "record /dev/full\n", None),
+                              ("by record off", "record /dev/full; record off\n", None)):
+        done = tests.run(input=SCENE + script)
+        expect(tests, "a transcript on a full disk, told " + name, done, 1, out, "cannot write /dev/full: No space left")
+        tests.check("once: " + name, done.stderr.count("error:") == 1, done.stderr)
 
 
 def limits(tests):
@@ -275,6 +323,26 @@ class Prompt:
         os.close(self.side)
 
 
+def inherited(tests):
+    """What whoever starts the program has it ignore: nohup(1) is obeyed, children are waited for all the same."""
+    for number in (signal.SIGHUP, signal.SIGINT):
+        child = subprocess.Popen([tests.fret, "-c", "x = 1; source /dev/stdin; x + 1"], stdin=subprocess.PIPE,
+                                 stdout=subprocess.PIPE, env=tests.env,
+                                 preexec_fn=lambda n=number: signal.signal(n, signal.SIG_IGN))
+        time.sleep(0.3)
+        child.send_signal(number)
+        out = child.communicate(b"x\n", timeout=30)[0]
+        tests.check("%s ignored from the start" % number.name, child.returncode == 0 and b"x + 1 = 2" in out,
+                    "%s %s" % (child.returncode, out))
+    done = subprocess.run([tests.fret, "-c", "plot x for x = 1 .. 2"], env=tests.env, capture_output=True, text=True,
+                          preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN), timeout=60, check=False)
+    expect(tests, "a plot where ended children are not kept", done, 0, "1.5", "")
+    done = subprocess.run([tests.fret, "-c", "plot x for x = 1 .. 2"], capture_output=True, text=True, timeout=60, check=False,
+                          env={**tests.env, **fake_gnuplot(tests, b"broken")},
+                          preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
+    expect(tests, "and gnuplot's failure is seen", done, 1, None, "broken")
+
+
 def signals(tests):
     for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
         p = Prompt(tests)
@@ -402,7 +470,7 @@ def history(tests):
     p.close()
 
 
-ROOM = (lines_without_end, memory, limits, hostile, gnuplot, signals, ended_at_work, interrupts, history)
+ROOM = (lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, ended_at_work, interrupts, history)
 
 
 def run(tests):

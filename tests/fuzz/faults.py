@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Memory that runs out once, at every allocation of a statement: it ends with the right answer, or with an error that
-says so and the scene and its files as before. `faults.py FRET FAULTS.SO` tries them all, the tests some."""
+"""What fails once, at every place where it can: memory that runs out, and system calls. A statement then ends with the
+right answer, or with an error that says so and the scene and its files as before. `faults.py FRET TESTS [STATEMENT...]`
+tries them all and prints a table, the tests some; TESTS is the folder with faults.so and calls."""
 import difflib
+import errno
 import os
 import shutil
 import subprocess
@@ -13,6 +15,7 @@ POWER = "material E0=210 GPa nu=0.3 k=0.5 c0=1 mm; geometry sphere R=10 mm; fric
 LOADED = POWER + "; press FN=100 N; step Fx=20 N; cycle FA=20 N"
 TABLE = "material steel; friction 0.4; geometry file gap.csv; press FN=10 N; cycle FA=2 N"
 SUM = "material steel; friction 0.4; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=10 N; step Fx=1 N"
+STEEL = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
 
 # a setup, and statements that are tried after it
 STATEMENTS = (
@@ -20,16 +23,18 @@ STATEMENTS = (
              "F(3), (x at x=5)", "material steel nu=0.2", "second E0=70 GPa nu=0.33", "second aluminium",
              "geometry cone angle=3 deg", "geometry sum 2:50 m^-1, 4:2e6 m^-3", "geometry power n=3 A=50 m^-2",
              "geometry file gap.csv", "geometry file gap.csv smooth", "friction 0.3", "press FN=100 N", "press a=0.2 mm", "press dz=1 um", "reset all",
-             "set digits 9", "set format json", "set format json; help press; show commands", "show", "show variables", "show units", "show settings",
-             "show commands", "help", "help press", "help units", "apropos contact", "apropos radius",
+             "set digits 9", "set format json", "set format json; help press; show commands", "show",
+             "show variables", "show units", "show settings",
+             "show commands", "show demos", "help", "help press", "help units", "apropos contact", "apropos radius",
              "table x^2, y for y = 1 .. 5 steps 4 to out.csv", "table a(y) for y = 1 N .. 9 N steps 300",
-             "table y, x for y = 1 .. 9 steps 600", "demo", "1" + "+1" * 300, "explain kappa",
-             "0." + "0" * 120 + "1 + 1")),
+             "table y, x for y = 1 .. 9 steps 600", "demo", "demo pressing", "1" + "+1" * 300, "explain kappa",
+             "0." + "0" * 120 + "1 + 1", "source script.fret", "exit")),
     (LOADED, ("step Fx=5 N", "step Fx+=1 N FN=110 N", "step dx=0.1 um steps 20", "cycle dxA=0.1 um times 2",
               "cycle FA=20 N FNA=10 N phase=90 deg", "cycle FA:=0.5*mu*FN", "follow follow.csv", "FA = 10 N", "mu = 0.3",
               "FA := 0.4*mu*FN", "k = 0.2, x = 5", "undo", "reset", "history", "history to out.csv", "history to out.json",
               "dW, Fx, W, c, a, kt", "dW at k=0", "explain dW", "explain a", "explain x*dW",
               "table dW for FA = 1 N .. 20 N steps 5", "table dW for FA = 1 N .. 9 N steps 2 with mu = 0.3, 0.4",
+              "table dW for FA = 1 N .. 9 N steps 2 for mu = 0.3 .. 0.4 steps 2",
               "table Fx, dx along program steps 10", "table Fx along cycle steps 9 to out.dat",
               "table Fx, W along cycle FA=10 N steps 8", "table Fx along step Fx=25 N steps 4",
               "qx(0.1 mm), ux(0.1 mm), p(0), uz(0.5 mm)", "w1D(0), u1D(0), s1D(0)", "accuracy within 0.001",
@@ -38,23 +43,56 @@ STATEMENTS = (
               'plot loop title "%s" to out.gp' % ("long " * 4000), "plot dW for FA = 1 N .. 9 N with k = 0, 0.5",
               "plot map dW for FA = 1 N .. 9 N steps 5 for mu = 0.3 .. 0.5 steps 5 to out.gp",
               "plot FN against Fx along program over follow.csv to out.gp",
-              "show", "press FN=50 N", "geometry cone slope=0.1", "quit")),
+              "animate loop frames 3 to out.gif", "animate loop frames 3",
+              "save out.fret", "record log.txt", "record out.cast", "show", "press FN=50 N", "geometry cone slope=0.1",
+              "quit")),
+    (STEEL, ("solve FN for a = 0.2 mm", "maximize dWd(0.5 um) over FN = 1 N .. 100 N",
+             "minimize dz over FN = 20 N .. 100 N", "fit E0 for depth = dz(force) to measured.csv",
+             "fit E0 for depth = dz(force) to measured.csv robust", "fit mu along loop.csv", "uncertainty a, dWd(1 um) with mu +- 0.02, E0 +- 5 % samples 20",
+             "export jenkins 8 to out.csv", "export jenkins 4 to out.h FA=20 N", "replay replay.txt")),
     (TABLE, ("step Fx=1 N", "dW, a, Fx", "cycle FA=2 N FNA=1 N", "geometry file gap.csv", "k = 0.2, c0 = 1 mm",
              "explain dW", "show", "p(0.01 mm)")),
     (LOADED + "; set model springs 40", ("Fx, W", "dW", "history", "explain W", "cycle FA=10 N")),
     (SUM, ("cycle FA=1 N", "W, dW(1 N)", "FN = 20 N", "explain W", "qx(0.01 mm)", "dW(1 N), dx(1 N)")),
 )
 
+# how calls fail; those that are not named, with EIO
+CODES = {"read": ("EIO", "EINTR", "EAGAIN"), "write": ("ENOSPC", "EIO", "EINTR"), "open": ("EMFILE", "EACCES", "EINTR"),
+         "close": ("EIO", "EINTR"), "fsync": ("EIO", "ENOSPC"), "rename": ("EIO", "ENOSPC", "EACCES"),
+         "unlink": ("EIO", "EACCES"), "mkdir": ("ENOSPC", "EMFILE"), "fork": ("EAGAIN", "ENOMEM"),
+         "wait": ("EINTR", "ECHILD"), "mmap": ("ENOMEM",), "exec": ("EACCES", "ENOMEM", "EMFILE"),
+         "fcntl": ("EMFILE",), "dup": ("EMFILE", "EINTR"), "pipe": ("EMFILE",), "poll": ("EINTR", "ENOMEM"),
+         "getrandom": ("EINTR", "EAGAIN"), "ioctl": ("ENOTTY",), "lseek": ("ESPIPE",)}
+# families of calls that do the same
+FAMILIES = {"openat": "open", "pread64": "read", "writev": "write", "renameat": "rename", "renameat2": "rename",
+            "unlinkat": "unlink", "rmdir": "unlink", "mkdirat": "mkdir", "clone": "fork", "clone3": "fork",
+            "vfork": "fork", "wait4": "wait", "waitid": "wait", "mremap": "mmap", "execve": "exec",
+            "dup2": "dup", "dup3": "dup", "pipe2": "pipe", "ppoll": "poll"}
+ALLOCATION = "allocation"
+LIVE = ("log.txt", "out.cast")  # written as they go on
+LOST_OUTPUT = "error: cannot write to standard output"
+AGAIN = 4  # calls in a row that only wait
+
+
+def codes_of(call):
+    return [getattr(errno, name) for name in CODES.get(FAMILIES.get(call, call), ("EIO",))]
+
 
 def prepare(where):
     """Files that the statements read, and one that must survive."""
-    texts = {"arm": "", "disarm": "", "script.fret": "x = 7\nstep_ = 2; y = x\nx + y\n",
+    texts = {"arm": "", "disarm": "", "script.fret": "x\nx + 1; x + 2\n",
              "gap.csv": "r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(40)),
-             "follow.csv": "FN [N],Fx [N]\n" + "".join("%g,%g\n" % (100 + i, 20 - i) for i in range(20))}
+             "follow.csv": "FN [N],Fx [N],force [N]\n" + "".join("%g,%g,%g\n" % (100 + i, 20 - i, 50 - 2 * i)
+                                                                 for i in range(20)),
+             "measured.csv": "force [N],depth [um]\n" + "".join("%g,%g\n" % (10 * i, 0.75 * i ** 0.667)
+                                                                for i in range(1, 12)),
+             "loop.csv": "dx [um],Fx [N]\n" + "".join("%g,%g\n" % row for row in (
+                 (0.1, 3.5), (0.3, 10.2), (0.6, 19.2), (0.3, 9.5), (0, 0), (-0.3, -9.5), (-0.6, -19.2))),
+             "replay.txt": "fret> x = 2\nfret> x + 1\nx + 1 = 3\n", "log.txt": ""}
     for name, text in texts.items():
         with open(os.path.join(where, name), "w", encoding="ascii") as f:
             f.write(text)
-    for ending in ("csv", "json", "dat", "gp", "svg"):
+    for ending in ("csv", "json", "dat", "gp", "svg", "gif", "fret", "h", "cast"):
         with open(os.path.join(where, "out." + ending), "w", encoding="ascii") as f:
             f.write("old\n")
 
@@ -73,111 +111,164 @@ def differ(want, got):
 
 
 class Faults:
-    """One statement, run again and again."""
+    """One statement, run again and again. A fault is (what, number, code), None for none."""
 
-    def __init__(self, fret, shim, env, setup, statement):
-        self.fret, self.shim, self.env, self.statement = fret, shim, env, statement
+    def __init__(self, fret, tests, env, setup, statement):
+        self.fret, self.tests, self.env, self.statement = fret, tests, env, statement
         self.script = "".join(line + "\n" for line in
                               (setup, "show", "source arm", statement, "source disarm", "set format text", "set digits 6",
                                "1234567", "show", "show variables"))
 
-    def run(self, fault):
-        """(exit status, output, messages, files, allocations seen)"""
+    def run(self, fault, count=None, script=None):
+        """(exit status, output, messages, files, what was counted)"""
         where = tempfile.mkdtemp(prefix="fret-faults-")
-        count = where + ".count"
+        told = where + ".told"
         tmp = where + ".tmp"
         os.mkdir(tmp)
+        env = {**self.env, "TMPDIR": tmp, "HOME": tmp}
+        argv = [self.fret, "--keep-going", "-c", script or self.script]
+        what, number, code = fault or (count, 0, 0)
+        if what == ALLOCATION:
+            env.update(LD_PRELOAD=os.path.join(self.tests, "faults.so"), FAULT=str(number), FAULT_COUNT=told)
+        elif what:
+            argv = [os.path.join(self.tests, "calls"), told, what, str(number), str(code), *argv]
         try:
             prepare(where)
-            done = subprocess.run([self.fret, "--keep-going", "-c", self.script], cwd=where, capture_output=True,
-                                  env={**self.env, "LD_PRELOAD": self.shim, "FAULT": str(fault), "FAULT_COUNT": count,
-                                       "TMPDIR": tmp, "HOME": tmp}, timeout=120, check=False)
+            done = subprocess.run(argv, cwd=where, capture_output=True, env=env, timeout=120, check=False)
             left = files(where)
-            seen = 0
-            if os.path.exists(count):
-                with open(count, encoding="ascii") as f:
-                    seen = int(f.read())
+            seen = ""
+            if os.path.exists(told):
+                with open(told, encoding="ascii") as f:
+                    seen = f.read()
             if os.listdir(tmp):
                 left["left in TMPDIR"] = os.listdir(tmp)
             return done.returncode, done.stdout.decode(), done.stderr.decode(), left, seen
         finally:
             shutil.rmtree(where)
             shutil.rmtree(tmp, ignore_errors=True)
-            if os.path.exists(count):
-                os.unlink(count)
+            if os.path.exists(told):
+                os.unlink(told)
 
-    def problem(self, fault, right):
-        """What is wrong with a run whose allocation `fault` failed; None: nothing."""
-        status, out, err, left, _ = self.run(fault)
+    def changed(self, wants, left, what):
+        """Files that are none of these, without what a removal that fails leaves behind."""
+        if FAMILIES.get(what, what) == "unlink":
+            left = {name: text for name, text in left.items()
+                    if name != "left in TMPDIR" and not name.startswith(".fret-")}
+        names = {name for some in (left, *wants) for name in some} - {*LIVE}
+        return [name for name in sorted(names) if all(want.get(name) != left.get(name) for want in wants)]
+
+    def try_one(self, fault, right):
+        """"refused", "harmless", "not reached", or what is wrong."""
+        what = fault[0]
+        status, out, err, left, seen = self.run(fault)
+        if what != ALLOCATION and "FAILED\n" not in seen:
+            return "not reached"
         before, final = right[1].partition("\n1234567 = ")[0], out.rpartition("1234567 = ")[2]
         timing = self.statement.startswith("accuracy")
         if status == 0:
-            if (out != right[1] and not timing) or left.keys() != right[3].keys():
-                return "ends well with another answer\n" + differ(right[1], out)
-            return None
+            changed = self.changed([right[3]], left, what) + [n for n in LIVE if left[n] != right[3][n]]
+            if (out != right[1] and not timing) or changed:
+                return "ends well with another answer\n%s\n%s" % (differ(right[1], out), " ".join(changed))
+            return "harmless"
         if status != 1:
-            return "exit %d" % status
-        if "memory" not in err and "Cannot allocate" not in err:
+            return "exit %d\n%s" % (status, err)
+        if what == ALLOCATION and "memory" not in err and "Cannot allocate" not in err:
             return "a message that does not say so: " + err
+        if not err.strip() and what != "write":
+            return "an error without a message"
+        if LOST_OUTPUT in err and FAMILIES.get(what, what) in ("write", "close"):
+            changed = self.changed([self.files, right[3]], left, what)
+            return "%s changed\n%s" % (" ".join(changed), err) if changed else "refused"
         started = out.partition("\n")[0]
         if not before.startswith(started):
             return "another beginning"
         first = [line for line in err.splitlines() if "error:" in line][:1]
         if first and first[0].startswith("-c:5:"):  # what follows the statement
-            return None
-        want = self.kept
-        if "1234567 = " in out and final != want:
-            return "the scene changed, or what follows fails:\n" + differ(want, final) + "\n" + err
-        for name, text in left.items():
-            if text != self.files.get(name):
-                return "%s changed" % name
-        return None
+            return "refused"
+        if "1234567 = " in out and final != self.kept:
+            return "the scene changed, or what follows fails:\n" + differ(self.kept, final) + "\n" + err
+        changed = self.changed([self.files], left, what)
+        return "%s changed\n%s" % (" ".join(changed), err) if changed else "refused"
 
-    def unchanged(self):
-        return self.kept
-
-    def reference(self):
+    def reference(self, count):
         """The run without a fault; what the scene and the files are before the statement."""
-        whole = self.script
-        self.script = whole.replace("source arm\n%s\nsource disarm\n" % self.statement, "", 1)
-        bare = self.run(0)
+        bare = self.run(None, None, self.script.replace("source arm\n%s\nsource disarm\n" % self.statement, "", 1))
         self.kept, self.files = bare[1].rpartition("1234567 = ")[2], bare[3]
-        self.script = whole
-        return self.run(0)
+        return self.run(None, count)
 
 
-def statements(fret, shim, env):
-    return [Faults(fret, shim, env, setup, statement) for setup, list_ in STATEMENTS for statement in list_]
+def statements(fret, tests, env):
+    return [Faults(fret, tests, env, setup, statement) for setup, list_ in STATEMENTS for statement in list_]
 
 
-def attempt(one, most):
-    """[(statement, fault, what is wrong)] of at most so many faults, evenly chosen; and how many were tried."""
-    right = one.reference()
+def allocations(seen):
+    return [(ALLOCATION, number + 1, 0) for number in range(int(seen or 0))]
+
+
+def calls(seen):
+    """Each call with each code; of those that wait for gnuplot, whose number changes, the first."""
+    found, numbers = [], {}
+    for call in seen.split():
+        numbers[call] = numbers.get(call, 0) + 1
+        if FAMILIES.get(call, call) not in ("wait", "poll") or numbers[call] <= AGAIN:
+            found += [(call, numbers[call], code) for code in codes_of(call)]
+    return found
+
+
+def attempt(one, kind, most=0):
+    """{how it ended: faults}, and [(fault, what is wrong)], of at most so many faults, evenly chosen."""
+    right = one.reference(ALLOCATION if kind is allocations else "all")
     if right[0] != 0:
-        return [(one.statement, 0, "does not run: " + right[2])], 0
-    count = right[4]
-    tried = sorted({1 + i * count // most for i in range(most)} if most and count > most else range(1, count + 1))
-    wrong = [(one.statement, fault, one.problem(fault, right)) for fault in tried if fault <= count]
-    return [row for row in wrong if row[2]], len(tried)
+        return {}, [(None, "does not run: " + right[2])]
+    every = kind(right[4])
+    tried = [every[i * len(every) // most] for i in range(most)] if most and len(every) > most else every
+    ends, wrong = {}, []
+    for fault in tried:
+        how = one.try_one(fault, right)
+        if how in ("refused", "harmless", "not reached"):
+            ends[how] = ends.get(how, 0) + 1
+        else:
+            wrong.append((fault, how))
+    return ends, wrong
 
 
-def main():
-    fret, shim = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+def can_filter(tests):
+    """May system calls be filtered here?"""
+    tool = os.path.join(tests, "calls")
+    return os.path.exists(tool) and subprocess.run([tool, os.devnull, "none", "0", "0", "/bin/true"], check=False,
+                                                   stderr=subprocess.DEVNULL).returncode == 0
+
+
+def told(fault):
+    what, number, code = fault or ("nothing", 0, 0)
+    return "%s %d%s" % (what, number, " " + errno.errorcode[code] if code else "")
+
+
+def campaign(fret, tests, only):
     env = {"PATH": os.environ["PATH"], "LC_ALL": "C", "TERM": "dumb"}
-    only = sys.argv[3:]
-    tried = failed = 0
-    chosen = [one for one in statements(fret, shim, env) if not only or one.statement in only]
+    chosen = [one for one in statements(fret, tests, env) if not only or one.statement in only]
+    jobs = [(one, kind) for one in chosen for kind in (allocations, calls)]
+    sums = {kind: [0, 0, 0, 0] for kind in (allocations, calls)}
+    print("# %-52s %27s  %27s" % ("make faults", "allocations", "system calls"))
+    print("# %-52s %9s%9s%9s  %9s%9s%9s" % (("statement",) + 2 * ("injected", "refused", "harmless")))
+    row, failed = "", 0
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
-        for one, (wrong, count) in zip(chosen, pool.map(lambda one: attempt(one, 0), chosen)):
-            tried += count
+        for (one, kind), (ends, wrong) in zip(jobs, pool.map(lambda job: attempt(*job), jobs)):
+            refused, harmless = ends.get("refused", 0), ends.get("harmless", 0)
+            numbers = (refused + harmless + len(wrong), refused, harmless, len(wrong))
+            sums[kind] = [a + b for a, b in zip(sums[kind], numbers)]
+            row = ("%-54s " % one.statement[:54] if kind is allocations else row + " ") + "%9d%9d%9d" % numbers[:3]
+            if kind is calls:
+                print(row.rstrip(), flush=True)
             failed += len(wrong)
-            for statement, fault, what in wrong[:3]:
-                print("FAILED %s: allocation %d: %s" % (statement[:60], fault, what), flush=True)
-            if len(wrong) > 3:
-                print("  and %d more" % (len(wrong) - 3))
-    print("faults: %d passed, %d failed" % (tried - failed, failed))
+            for fault, what in wrong[:5]:
+                print("FAILED %s: %s: %s" % (one.statement[:60], told(fault), what), file=sys.stderr, flush=True)
+            if len(wrong) > 5:
+                print("  and %d more" % (len(wrong) - 5), file=sys.stderr)
+    print("%-54s " % "all" + "  ".join("%9d%9d%9d" % tuple(sums[kind][:3]) for kind in (allocations, calls)))
+    print("# %d neither refused nor harmless" % failed)
     return 1 if failed else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(campaign(os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), sys.argv[3:]))

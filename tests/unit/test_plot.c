@@ -278,7 +278,7 @@ static void straightens(void) {
         y[i] = i < 2000 ? 1e-3 * sin(6.283185307179586 * i / 1000) : 0;
         plot_point(s, x[i], y[i]);
     }
-    plot_straighten(s, &paper);
+    CHECK(plot_straighten(s, &paper));
     for (int i = 0; i < N; i++)
         worst = fmax(worst, off(s, &paper, x[i], y[i]));
     CHECK(worst <= 1.001 * paper.least && s->count > 200 && s->count < 400);
@@ -293,14 +293,14 @@ static void straightens_parts(void) {
     plot_series *s = f.panel[0]->series[0];
     for (int i = 0; i <= 300; i++)
         plot_point(s, pow(10, i / 100.0), i == 200 ? NAN : pow(10, i / 50.0));
-    plot_straighten(s, &paper);
+    CHECK(plot_straighten(s, &paper));
     CHECK(s->count == 5 && isnan(s->y[2]) && s->x[1] == pow(10, 1.99) && s->x[3] == pow(10, 2.01));
     plot_figure_free(&f);
     f = figure(PLOT_BAND, NULL);
     s = f.panel[0]->series[0];
     for (int i = 0; i <= 100; i++) /* one edge bends, the other does not */
         plot_band(s, i, 1, i < 50 ? 2 : 3);
-    plot_straighten(s, &(plot_paper){.width = 100, .height = 3, .least = 1e-4});
+    CHECK(plot_straighten(s, &(plot_paper){.width = 100, .height = 3, .least = 1e-4}));
     CHECK(s->count == 4 && s->x[1] == 49 && s->x[2] == 50);
     plot_figure_free(&f);
 }
