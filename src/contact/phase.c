@@ -36,9 +36,25 @@ static bool is_smooth(const fret_phase *p) {
     return p->front1 > 0.8L * p->front0 && p->edge1 > 0.8L * p->edge0 && p->edge0 > 0.8L * p->edge1;
 }
 
+/* Does edge or front come near the centre without reaching it? A rate is singular there, just beyond an end,
+ * where no rule expects it: by halves, then. */
+static bool comes_near(const fret_phase *p) {
+    const fret_real most = fmaxl(p->edge0, p->edge1), least = fminl(p->edge0, p->edge1);
+    return (p->front1 > 0 && p->front1 < p->front0 / 4) || (least > 0 && least < most / 4);
+}
+
+static fret_real by_halves(const fret_phase *p, fret_real (*loss)(const fret_phase *)) {
+    fret_phase first = *p, second = *p;
+    first.edge1 = second.edge0 = (p->edge0 + p->edge1) / 2;
+    first.front1 = second.front0 = (p->front0 + p->front1) / 2;
+    return loss(&first) + loss(&second);
+}
+
 fret_real fret_phase_loss_by_law(const fret_phase *phase) {
     fret_phase p = *phase;
     fret_real rate;
+    if (comes_near(&p))
+        return by_halves(&p, fret_phase_loss_by_law);
     if (fret_gap_has_rows(&p.normal->gap)) /* edge or front may cross rows, where the rate is not smooth */
         rate = fret_integrate_pieces(law_rate, &p, 1e-15L);
     else
@@ -113,6 +129,34 @@ static fret_real short_rule(const power_phase *c) {
     return sum;
 }
 
+/* Zones that come far: a straight line dissipates nothing, so v less its chord from the centre counts alone,
+ *   u = x^s - x, x = y/e,   int_0^x u dx = x (u - (s-1) x/2)/(s+1),
+ * and the loss is travel [mean of u(edge) - mean of u(front)] + [thickness (u(front) - mean of u(front))],
+ * from one end of the phase to the other. */
+static fret_real bent(const power_phase *c, fret_real x) {
+    return x > 0 ? x * fret_expm1(c->sm1 * fret_log(x)) : 0;
+}
+
+static fret_real mean_bent(const power_phase *c, fret_real x0, fret_real u0, fret_real x1, fret_real u1) {
+    if (fabsl(x1 - x0) < 0.05L * fmaxl(x0, x1)) /* not of use here */
+        return (fret_real)NAN;
+    return (x1 * (u1 - c->sm1 * x1 / 2) - x0 * (u0 - c->sm1 * x0 / 2)) / ((c->s + 1) * (x1 - x0));
+}
+
+/* NaN where it would lose digits. */
+static fret_real closed_loss(const power_phase *c) {
+    const fret_phase *p = c->p;
+    const fret_real edge[2] = {p->edge0 / c->e, p->edge1 / c->e},
+                    front[2] = {p->front0 / c->e, p->front1 / c->e}, travel = (p->front0 - p->front1) / c->e;
+    const fret_real u[2] = {bent(c, edge[0]), bent(c, edge[1])},
+                    v[2] = {bent(c, front[0]), bent(c, front[1])};
+    const fret_real above = p->edge0 == p->edge1 ? u[0] : mean_bent(c, edge[0], u[0], edge[1], u[1]),
+                    below = mean_bent(c, front[0], v[0], front[1], v[1]);
+    const fret_real loss = fabsl(travel * (above - below) + ((edge[1] - front[1]) * (v[1] - below) -
+                                                             (edge[0] - front[0]) * (v[0] - below)));
+    return loss > 0.02L * fabsl(c->s * c->sm1) ? c->e * c->v * loss : (fret_real)NAN;
+}
+
 static fret_real power_loss(const fret_phase *p) {
     const fret_normal *n = p->normal;
     const fret_real e = fmaxl(p->edge0, p->edge1);
@@ -125,10 +169,16 @@ static fret_real power_loss(const fret_phase *p) {
         return 0;
     c.v = p->by == DEPTH ? fret_law_force(n, e) : fret_law_depth(n, e);
     const fret_real way = fmaxl(p->front0 - p->front1, fabsl(p->edge1 - p->edge0)) * fmaxl(c.s, 1);
-    const fret_real rate = way < 0.016L * p->front1 ? short_rule(&c)
-                           : is_smooth(p)           ? fret_integrate_smooth(power_rate, &c)
-                                                    : fret_integrate(power_rate, &c);
-    return (p->front0 - p->front1) * rate;
+    if (way < 0.016L * p->front1)
+        return (p->front0 - p->front1) * short_rule(&c);
+    if (is_smooth(p))
+        return (p->front0 - p->front1) * fret_integrate_smooth(power_rate, &c);
+    const fret_real closed = closed_loss(&c);
+    if (closed >= 0)
+        return closed;
+    if (comes_near(p))
+        return by_halves(p, power_loss);
+    return (p->front0 - p->front1) * fret_integrate(power_rate, &c);
 }
 
 fret_real fret_phase_rate_by_load(const fret_normal *n, fret_real edge, fret_real front, fret_real zone) {
@@ -149,5 +199,11 @@ static fret_real gross_rate(fret_real t, fret_real rest, void *context) {
 
 fret_real fret_phase_force(const fret_phase *phase) {
     fret_phase p = *phase;
+    const fret_normal *n = p.normal;
+    if (fabsl(p.edge1 - p.edge0) < 0.2L * fmaxl(p.edge0, p.edge1))
+        return fret_integrate_smooth(gross_rate, &p);
+    if (fret_normal_closed(n))
+        return (p.edge1 * fret_law_force(n, p.edge1) - p.edge0 * fret_law_force(n, p.edge0)) /
+               ((n->p + 1) * (p.edge1 - p.edge0));
     return fret_integrate(gross_rate, &p);
 }
