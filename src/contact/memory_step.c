@@ -93,6 +93,16 @@ static void keep_inner(fret_memory *m, coordinate by, fret_real s, double goal, 
     }
 }
 
+/* The same where F_N changes too, by force: the load of the part that sticks at the end, where it is small;
+ * else the load that the steps of the front have left. */
+static fret_real core_load(const fret_memory *m, fret_real s, double goal, fret_real edge, fret_real load) {
+    if (m->slices[0].sigma * s >= 1 || 8 * load > edge)
+        return load;
+    const dd bound = dd_mul_d(dd_from2(edge, m->edge_rest[LOAD]), m->mu);
+    const dd left = s < 0 ? dd_add_d(bound, goal) : dd_add_d(bound, -goal);
+    return fmaxl(dd_value(dd_div(left, dd_of(m->mu))) / (1 - s * m->slices[0].sigma), 0);
+}
+
 /* The front of a slip zone of sign s at constant normal load: the zone eats inwards from the edge. */
 typedef struct slip_front {
     coordinate by;
@@ -218,7 +228,8 @@ static void convert_top(fret_memory *m, coordinate by) {
 }
 
 /* Slip front of sign s moving inwards over `reach` units of drive surplus while the edge grows. */
-static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive) {
+static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
+                               double goal) {
     fret_real s = drive < 0 ? -1 : 1, growth = edge[by] - m->edge[by];
     fret_real e = fabsl(drive) - growth, surplus = e, old = m->edge[by], loss = 0;
     fret_real front = old, snap = 1e-17L * edge[by];
@@ -230,8 +241,11 @@ static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real ed
             front = m->count > 1 ? top->inner[by] : 0;
             m->count--;
         } else {
-            front -= e / gain;
-            top->thick[by] -= e / gain;
+            const fret_real part = e / gain;
+            front -= part;
+            top->thick[by] -= part;
+            if (m->count == 1 && by == LOAD)
+                top->thick[LOAD] = front = core_load(m, s, goal, edge[LOAD], front);
             e = 0;
         }
         if (gain > 0)
@@ -262,6 +276,7 @@ typedef struct retreat {
     coordinate by;
     fret_real rate;        /* drive per unit of retreat */
     fret_real z, left, to; /* the edge now, what it has to go, and where to */
+    double goal;           /* F_x at the end, by force */
 } retreat;
 
 /* Nothing slips: the slice at the edge gets thinner. */
@@ -329,26 +344,29 @@ static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
         overtaken = true;
     }
     const fret_real at = top->inner[by], step = reached ? next->thick[by] : speed * t;
-    const fret_real loss = phase_loss(m, by, gain, r->z, r->z - t, at, at - step);
+    const bool core = by == LOAD && m->count == 2 && !reached && !overtaken;
+    const fret_real inner = core ? core_load(m, s, r->goal, r->to, at - step) : at - step;
+    const fret_real loss = phase_loss(m, by, gain, r->z, r->z - t, at, inner);
     r->z -= t;
     r->left -= t;
     if (reached) {
         take_in(m, r, s);
         return loss;
     }
-    next->thick[by] -= step;
+    next->thick[by] = core ? inner : next->thick[by] - step;
     if (overtaken) {
         m->count--;
     } else {
-        top->inner[by] = at - step;
+        top->inner[by] = inner;
         top->thick[by] = r->z - top->inner[by];
     }
     return loss;
 }
 
-static fret_real shrink(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive) {
+static fret_real shrink(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
+                        double goal) {
     const fret_real way = m->edge[by] - edge[by];
-    retreat r = {by, drive / way, m->edge[by], way, edge[by]};
+    retreat r = {by, drive / way, m->edge[by], way, edge[by], goal};
     fret_real loss = 0;
     while (r.left > 0 && m->count) {
         const slice *top = &m->slices[m->count - 1];
@@ -377,9 +395,9 @@ static fret_real advance(fret_memory *m, coordinate by, const fret_real edge[2],
         return drive == 0 ? 0 : slip_inwards(m, by, drive, goal);
     m->edge_id++;
     if (growth < 0)
-        return shrink(m, by, edge, drive);
+        return shrink(m, by, edge, drive, goal);
     if (fabsl(drive) > growth)
-        return grow_and_slip(m, by, edge, drive);
+        return grow_and_slip(m, by, edge, drive, goal);
     fret_real thick[2] = {edge[DEPTH] - m->edge[DEPTH], edge[LOAD] - m->edge[LOAD]};
     fret_real inner[2] = {m->edge[DEPTH], m->edge[LOAD]};
     /* targets are rounded to double: so much is uncertain in the slope of a short step */
@@ -493,6 +511,8 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     if (st.code)
         return st;
     const fret_real edge[2] = {p.dz, p.F};
+    m->edge_rest[DEPTH] = p.dz_rest;
+    m->edge_rest[LOAD] = p.F_rest;
     const fret_real loss = step->tangential_by == FRET_TO_FX ? step_by_force(m, step, edge, load)
                                                              : step_by_displacement(m, step, edge, gap);
     if (step->tangential_by != FRET_KEEP_DX) {
@@ -503,8 +523,6 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     }
     m->gap = gap;
     m->radius = p.a;
-    m->edge_rest[DEPTH] = p.dz_rest;
-    m->edge_rest[LOAD] = p.F_rest;
     m->last_loss = loss > 0 ? loss * m->loss_scale : 0;
     fret_sum_add(&m->W, m->last_loss);
     return fret_unless_stopped(m->normal, fret_ok());

@@ -573,6 +573,25 @@ static void brink(double n, double k) {
     }
 }
 
+/* The same with F_N growing or falling on the way: what sticks at the end is as at first loading there. */
+static void brink_on_the_way(double n, double k) {
+    for (int i = 0; i < 40; i++) {
+        contact c = make_plain(n, k);
+        const double from = i % 2 ? 100 : 60 + i, FN = i % 2 ? 60 + i : 100, side = i % 4 < 2 ? 1 : -1;
+        const double to = side * c.mu * FN * (1 - ldexp(1, -8 - i));
+        fret_press p = {.F = 0};
+        fret_loading f = {0, 0, 0, 0};
+        CHECK_OK(fret_press_by_force(c.normal, FN, &p));
+        CHECK_OK(fret_loading_by_force(&(fret_contact){c.normal, c.mu, p}, to, &f));
+        go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, from, 0});
+        go(&c, (fret_step){FRET_TO_FORCE, FRET_TO_FX, FN, to});
+        const fret_state end = state_of(&c);
+        CHECK_REL(end.c, f.c, UNIT_TOL(1e-18L, 1e-3L));
+        CHECK_REL(end.dx, f.dx, UNIT_TOL(1e-18L, 1e-8L));
+        fret_memory_free(c.memory);
+    }
+}
+
 static void subdivision(int steps) {
     const fret_real loose = steps == 2048 ? 1 : 1e4L;
     for (int by_force = 0; by_force < 2; by_force++) {
@@ -840,6 +859,9 @@ int main(int argc, char **argv) {
     gross_slip();
     standing();
     brink(2, 0);
+    brink_on_the_way(2, 0);
+    brink_on_the_way(0.5, 0.99);
+    brink_on_the_way(50, -0.5);
     brink(2, -0.95);
     brink(0.1, 0.5);
     brink(50, -0.5);
