@@ -150,6 +150,12 @@ hard: deps-check
 	  nice $(B)/tests/hard/hard --scenes $(HARD_SCENES) --steps $(HARD_STEPS) --jobs $$(nproc); } > $(B)/worst.txt; \
 	  status=$$?; mv $(B)/worst.txt tests/hard/worst.txt; tail -n 1 tests/hard/worst.txt; exit $$status
 
+# The memory diagram in double beside the exact one, 1e8 steps of a round: minutes. Its table is kept in git too.
+hard-diagram: deps-check
+	@$(MAKE) --no-print-directory -s $(B)/tests/hard/hard
+	@{ echo '# make hard-diagram HARD_STEPS=$(HARD_STEPS)'; nice $(B)/tests/hard/hard --diagrams $(HARD_STEPS); } > $(B)/diagram.txt; \
+	  status=$$?; mv $(B)/diagram.txt tests/hard/diagram.txt; tail -n 1 tests/hard/diagram.txt; exit $$status
+
 # Every allocation of every kind of statement fails once.
 faults: deps-check
 	@$(MAKE) --no-print-directory -s $(B)/fret $(B)/tests/faults.so
@@ -209,5 +215,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: all figures manual uninstall deb static tests deps deps-check run check hard faults latency bench format install clean FORCE
+.PHONY: all figures manual uninstall deb static tests deps deps-check run check hard hard-diagram faults latency bench format install clean FORCE
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

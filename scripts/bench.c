@@ -98,6 +98,46 @@ static double memory_diagram(const fret_normal *n, const fret_press *p, bool los
     return best;
 }
 
+/* A round of 200 steps in which both directions move, a step: of fret_memory, or of fret_diagram with the
+ * loss or without. */
+typedef enum diagram { EXACT, DOUBLE, DOUBLE_LOSS } diagram;
+static double moving(const fret_normal *n, const fret_press *p, bool by_force, diagram kind) {
+    enum { STEPS = 200 };
+    const double pi = acos(-1), normal = by_force ? FN : (double)p->dz,
+                 tangential = by_force ? mu * FN : (double)fret_gross_slip(&(fret_contact){n, mu, *p});
+    static fret_step load[STEPS];
+    double best = INFINITY;
+    fret_memory *exact = NULL;
+    fret_diagram *fast = NULL;
+    need(fret_memory_make(n, mu, &exact));
+    need(fret_diagram_make(n, mu, 0, &fast));
+    fret_diagram_count_loss(fast, kind == DOUBLE_LOSS);
+    for (int i = 0; i < STEPS; i++)
+        load[i] = (fret_step){by_force ? FRET_TO_FORCE : FRET_TO_DEPTH, by_force ? FRET_TO_FX : FRET_TO_DX,
+                              normal * (0.7 + 0.2 * sin(2 * pi * i / STEPS)),
+                              tangential * 0.4 * cos(2 * pi * i / STEPS)};
+    for (int run = 0; run < 200; run++) {
+        double t0 = seconds();
+        for (int i = 0; i < STEPS; i++) {
+            if (kind == EXACT) {
+                fret_state st;
+                need(fret_memory_step(exact, &load[i]));
+                fret_memory_forces(exact, &st);
+                sink = (double)st.Fx;
+            } else {
+                fret_diagram_now now;
+                need(fret_diagram_step(fast, &load[i]));
+                fret_diagram_forces(fast, &now);
+                sink = now.Fx;
+            }
+        }
+        best = fmin(best, (seconds() - t0) / STEPS);
+    }
+    fret_memory_free(exact);
+    fret_diagram_free(fast);
+    return best;
+}
+
 /* Springs of the library, a spring and step: the least of some runs. */
 static double library_springs(const fret_normal *n, const fret_press *p, size_t count, long steps,
                               bool by_force) {
@@ -338,6 +378,21 @@ static double power(const fret_normal *n, const fret_press *p) {
     return (seconds() - t0) / (double)count;
 }
 
+/* The same in double, one after the other. */
+static double double_power(const fret_normal *n, const fret_press *p) {
+    const long count = 50000;
+    const double q = 2 / (3 + (double)fret_normal_foundation(n)->k);
+    double best = INFINITY;
+    for (int run = 0; run < 20; run++) {
+        double t0 = seconds(), x = 0.5;
+        for (long i = 0; i < count; i++)
+            x = pow((double)p->F * (0.5 + x * 1e-9), q) * 1e-3;
+        sink = x;
+        best = fmin(best, (seconds() - t0) / (double)count);
+    }
+    return best;
+}
+
 /* What a sweep costs a point: the least of several runs over an array that stays in the cache, each long
  * enough for the clock of the processor, which is set right by some microseconds now and then. */
 enum { POINTS = 1000, PASSES = 20, RUNS = 100 };
@@ -493,6 +548,24 @@ int main(void) {
     line("F_x and loss", masing(n, &p, true, 0), plain, "1000 springs", ns, "70 ns");
     line("F_x, 10^4 turning points", masing(n, &p, false, 10000), plain, "1000 springs", ns, "30 ns");
     line("F_x and loss, 10^4 turning points", masing(n, &p, true, 10000), plain, "1000 springs", ns, "70 ns");
+    puts("A step of the diagram in double, both directions moving");
+    fret_material even = material;
+    fret_normal *hertz;
+    fret_press q;
+    even.k = 0;
+    need(fret_normal_make(&even, &gap, &hertz));
+    need(fret_press_by_force(hertz, FN, &q));
+    const double exact = moving(n, &p, false, EXACT), exact_hertz = moving(hertz, &q, false, EXACT),
+                 by_force = moving(n, &p, true, EXACT);
+    line("dz and dx: F_x", moving(n, &p, false, DOUBLE), exact, "fret_memory", ns, "60 ns");
+    line("dz and dx: F_x and loss", moving(n, &p, false, DOUBLE_LOSS), exact, "fret_memory", ns, "120 ns");
+    line("dz and dx, Hertz: F_x", moving(hertz, &q, false, DOUBLE), exact_hertz, "fret_memory", ns, "25 ns");
+    line("dz and dx, Hertz: F_x and loss", moving(hertz, &q, false, DOUBLE_LOSS), exact_hertz, "fret_memory",
+         ns, "60 ns");
+    line("FN and Fx: dx and loss", moving(n, &p, true, DOUBLE_LOSS), by_force, "fret_memory", ns, "300 ns");
+    line("two powers, the least that F_x takes", 2 * double_power(n, &p), double_power(n, &p), "libm pow", ns,
+         "");
+    fret_normal_free(hertz);
     puts("A spring and step of fret_springs");
     const size_t large = 4000000;
     char probe[80];

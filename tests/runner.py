@@ -86,6 +86,7 @@ def hard(tests):
         return
     counted(tests, "hard", program, "--scenes", str(scenes), "--steps", str(steps),
             "--jobs", str(os.cpu_count() or 1))
+    counted(tests, "hard, diagrams", program, "--diagrams", str(steps // 10))
 
 
 def plots_of(tests, name, steps):

@@ -6,6 +6,7 @@
 
 #include "fret/batch.h"
 #include "fret/cycle.h"
+#include "fret/diagram.h"
 #include "fret/field.h"
 #include "fret/gap.h"
 #include "fret/masing.h"

@@ -33,6 +33,20 @@ static inline double fret_double_expm1(double x) {
     return (high - 1) + (root->lo * scale + high * p);
 }
 
+/* exp(x), |x| < 700: as fret_double_exp in a shorter chain. */
+static inline double double_exp_near(double x) {
+    const double integer = 0x1.8p52;
+    double shifted = x * 0x1.71547652b82fep+6 + integer, n = shifted - integer;
+    double first = x - n * (double)ln2_64_short, rest = n * (double)ln2_64_left, r = first - rest, r2 = r * r;
+    const dd *root = &power_of_two[fret_bits(shifted) & 63];
+    const uint64_t exponent = fret_bits(shifted) >> 6 << 52;
+    double high = fret_from_bits(fret_bits(root->hi) + exponent),
+           scale = fret_from_bits(exponent + fret_bits(1));
+    double p = first +
+               (r2 * ((0.5 + r * (1 / 6.0)) + r2 * ((1 / 24.0 + r * (1 / 120.0)) + r2 * (1 / 720.0))) - rest);
+    return high + (root->lo * scale + high * p);
+}
+
 /* A number > 0 made normal: x = *x 2^-returned. */
 FRET_INLINE double double_normal(double *x) {
     if (*x >= 0x1p-1022)
@@ -73,6 +87,22 @@ static inline double fret_double_log1p(double x) {
         low = (x < 1 ? low : 1 - (u - x)) * factor;
     }
     return double_log_near(m, low, e);
+}
+
+/* x^y for normal x > 0: 4e-16 (1 + |y ln x|); 0 below exp(-700), infinite above exp(700). Of the logarithm it
+ * is the absolute error that counts: no case apart near 1, which would be hard to foresee. */
+static inline double fret_double_power(double x, double y) {
+    const double integer = 0x1.8p45;
+    double m, e, factor;
+    lanes1_reduce(&x, &m, &e, &factor);
+    double shifted = m + integer, C = shifted - integer, s = (m - C) / (m + C), w = s * s;
+    const dd *near = &log_128[(fret_bits(shifted) & 0xff) - 90];
+    const double first = e * (double)ln2_short + near->hi,
+                 rest = 2 * s + ((s * w) * (2 / 3.0 + w * (2 / 5.0)) + (near->lo + e * (double)ln2_left));
+    const double l = y * (first + rest);
+    if (!(fabs(l) < 700))
+        return l > 0 ? (double)INFINITY : l < 0 ? 0 : (double)NAN;
+    return double_exp_near(l);
 }
 
 #endif

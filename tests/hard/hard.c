@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* hard [--scenes N] [--steps N] [--jobs N] [--table FILE]: prints the worst errors by region and scalar.
+/* hard --diagrams STEPS: the memory diagram in double beside the exact one.
+ * hard [--scenes N] [--steps N] [--jobs N] [--table FILE]: prints the worst errors by region and scalar.
  * hard --scene INDEX | --corner LINE: inputs, ours and exact of one random scene or one row of the table. */
 #include "hard.h"
 
@@ -585,6 +586,11 @@ static void show_corner(const char *path, unsigned long number) {
         fclose(file);
 }
 
+static int finish(unsigned long passed, unsigned long failed) {
+    printf("hard: %lu passed, %lu failed\n", passed, failed);
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
+
 int main(int argc, char **argv) {
     unsigned long scenes = 2000, steps = 20000, jobs = 1, passed = 0, failed = 0;
     const char *table = "tests/reference/corners.csv";
@@ -598,6 +604,10 @@ int main(int argc, char **argv) {
             show_corner(table, number);
             return EXIT_SUCCESS;
         }
+        if (strcmp(argv[i], "--diagrams") == 0) {
+            hard_diagrams(number, &passed, &failed);
+            return finish(passed, failed);
+        }
         if (strcmp(argv[i], "--scenes") == 0)
             scenes = number;
         else if (strcmp(argv[i], "--steps") == 0)
@@ -610,8 +620,8 @@ int main(int argc, char **argv) {
             argc = 0;
     }
     if (argc % 2 == 0) {
-        fprintf(stderr, "usage: hard [--scenes N] [--steps N] [--jobs N] [--table FILE] | --scene INDEX | "
-                        "--corner LINE\n");
+        fprintf(stderr, "usage: hard [--scenes N] [--steps N] [--jobs N] [--table FILE] | --diagrams STEPS | "
+                        "--scene INDEX | --corner LINE\n");
         return 2;
     }
     for (int region = 0; region < HARD_REGION_COUNT; region++)
@@ -624,6 +634,5 @@ int main(int argc, char **argv) {
     report(&sum, "random scenes");
     passed += sum.passed;
     failed += sum.failed;
-    printf("hard: %lu passed, %lu failed\n", passed, failed);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return finish(passed, failed);
 }

@@ -73,4 +73,7 @@ unsigned hard_choice(hard_random *r, unsigned count);
  * length of the longest. Prints its own table; counts its results into passed and failed. */
 void hard_histories(unsigned long steps, unsigned long *passed, unsigned long *failed);
 
+/* The memory diagram in double against the exact one, to what fret/diagram.h promises. Likewise. */
+void hard_diagrams(unsigned long steps, unsigned long *passed, unsigned long *failed);
+
 #endif
