@@ -224,6 +224,24 @@ bool plot_straighten(plot_series *s, const plot_paper *paper) {
     return true;
 }
 
+size_t plot_marks(const plot_series *s, const plot_paper *paper, size_t *at, size_t most) {
+    double length = 0;
+    size_t n = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        double walked = 0;
+        for (size_t i = 1; i < s->count; i++) {
+            const double step = hypot(
+                place(s->x[i], paper->width, paper->logx) - place(s->x[i - 1], paper->width, paper->logx),
+                place(s->y[i], paper->height, paper->logy) - place(s->y[i - 1], paper->height, paper->logy));
+            walked += isfinite(step) ? step : 0;
+            if (pass && isfinite(step) && n < most && walked >= length * ((double)n + 0.5) / (double)most)
+                at[n++] = i;
+        }
+        length = walked;
+    }
+    return n;
+}
+
 /* A full series becomes buckets of PICKS points, each standing for s->bucket points that came; from then on
  * points come into a last bucket, and when room is out again pairs of buckets become one. */
 static void make_room(plot_series *s) {

@@ -166,6 +166,9 @@ typedef struct plot_paper {
 /* Leaves out points of a curve or band that nobody would miss on the line between those that stay. */
 bool plot_straighten(plot_series *s, const plot_paper *paper);
 
+/* Up to `most` points that lie evenly along the way of a curve. */
+size_t plot_marks(const plot_series *s, const plot_paper *paper, size_t *at, size_t most);
+
 /* The script for gnuplot, data included, for an ending such as ".png". */
 bool plot_script(const plot_figure *f, const char *ending, int width, int height, FILE *to);
 

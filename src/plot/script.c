@@ -95,9 +95,18 @@ size_t plot_style_of(const plot_panel *p, size_t at) {
     return n;
 }
 
-/* Is every point seen as such? */
+/* Curves beyond the looks have marks on their lines, where not every point is one. */
 static bool is_marked(const plot_panel *p, size_t at) {
-    return p->points || plot_style_of(p, at) >= LOOKS;
+    const plot_series *s = p->series[at];
+    return s->role == PLOT_CURVE && !s->thin && !p->points && plot_style_of(p, at) >= LOOKS;
+}
+
+static void write_marks(FILE *to, const plot_series *s, const plot_paper *paper) {
+    enum { ON_LINE = 8 };
+    size_t at[ON_LINE];
+    const size_t n = plot_marks(s, paper, at, ON_LINE);
+    for (size_t i = 0; i < n; i++)
+        fprintf(to, "%.9g %.9g\n", s->x[at[i]], s->y[at[i]]);
 }
 
 /* The paper of a panel; none for the script itself, which may be looked at more closely. */
@@ -112,7 +121,7 @@ static plot_paper paper_of(const plot_panel *p, const plot_extents *e, const plo
 }
 
 /* A copy with fewer points, so that the figure stays whole. */
-static bool write_fewer(FILE *to, const plot_panel *p, size_t at, const plot_paper *paper) {
+static bool write_fewer(FILE *to, const plot_panel *p, size_t at, const plot_paper *paper, bool as_marks) {
     const plot_series *s = p->series[at];
     const size_t bytes = s->count * sizeof *s->x;
     plot_series copy = {.role = s->role, .count = s->count};
@@ -126,9 +135,12 @@ static bool write_fewer(FILE *to, const plot_panel *p, size_t at, const plot_pap
         if (s->y2)
             memcpy(copy.y2, s->y2, bytes);
         plot_thin(&copy, PLOT_WRITTEN);
-        if ((s->role == PLOT_CURVE || s->role == PLOT_BAND) && paper->least > 0 && !is_marked(p, at))
+        if (!as_marks && (s->role == PLOT_CURVE || s->role == PLOT_BAND) && paper->least > 0 && !p->points)
             ok = plot_straighten(&copy, paper);
-        write_series(to, &copy);
+        if (as_marks)
+            write_marks(to, &copy, paper);
+        else
+            write_series(to, &copy);
     }
     free(copy.x);
     free(copy.y);
@@ -154,7 +166,12 @@ static bool write_data(FILE *to, const plot_reel *reel, const plot_kind *kind) {
             const plot_paper paper = paper_of(p, &reel->extent[i], kind);
             for (size_t j = 0; j < p->count; j++) {
                 fprintf(to, "$data%zu_%zu_%zu << END\n", n, i, j);
-                ok &= !p->series[j]->count || write_fewer(to, p, j, &paper);
+                ok &= !p->series[j]->count || write_fewer(to, p, j, &paper, false);
+                fputs("END\n", to);
+                if (!is_marked(p, j))
+                    continue;
+                fprintf(to, "$marks%zu_%zu_%zu << END\n", n, i, j);
+                ok &= !p->series[j]->count || write_fewer(to, p, j, &paper, true);
                 fputs("END\n", to);
             }
             if (p->map.nx) {
@@ -219,25 +236,47 @@ static size_t key_entries(scribe *s, const plot_panel *p, size_t *longest) {
     return p->key_off ? 0 : entries;
 }
 
+/* Of a key below the frame. */
+static int key_columns(const scribe *s, size_t longest) {
+    return longest > 40 ? 1 : longest > 24 ? 2 : s->panels > 1 ? 3 : 4;
+}
+
 /* Outside the frame, so that it covers nothing: beside it where entries are many and short, else below. */
 static void set_key(scribe *s, const plot_panel *p) {
     size_t longest, entries = key_entries(s, p, &longest);
     if (!entries || p->map.nx)
         fputs("unset key\n", s->to);
-    else if (s->panels == 1 && longest <= 14 && entries > 3)
+    else if (s->panels == 1 && longest <= 12 && entries > 3)
         fputs("set key outside right center vertical Left reverse samplen 3.5 spacing 1.15\n", s->to);
     else
         fprintf(s->to,
                 "set key outside below center horizontal Left reverse samplen 3.5 spacing 1.1 height %s "
                 "maxcols %d\n",
-                s->kind->form == PLOT_TEX ? "2.5" : "1.2",
-                longest > 40    ? 1
-                : longest > 24  ? 2
-                : s->panels > 1 ? 3
-                                : 4);
+                s->kind->form == PLOT_TEX ? "2.5" : "1.2", key_columns(s, longest));
 }
 
-static void with_curve(scribe *s, const plot_panel *p, size_t at) {
+/* Panels side by side stand on one line and are of one height, whatever titles and keys they have. */
+static void set_margins(scribe *s, const plot_figure *f) {
+    size_t rows = 0;
+    bool titled = false;
+    for (size_t i = 0; i < f->count; i++) {
+        const plot_panel *p = f->panel[i];
+        size_t longest, entries = p->map.nx ? 0 : key_entries(s, p, &longest);
+        const size_t columns = entries ? (size_t)key_columns(s, longest) : 1,
+                     needed = (entries + columns - 1) / columns;
+        rows = needed > rows ? needed : rows;
+        titled |= p->title && *p->title;
+    }
+    fprintf(s->to, "set lmargin\nset rmargin\n");
+    const double room = s->kind->form == PLOT_TEX ? 2.5 : 0.8; /* between the label of x and the key */
+    if (f->count > 1)
+        fprintf(s->to, "set tmargin %s\nset bmargin %.3g\n", titled ? "3" : "1.5",
+                3.8 + (rows ? room + 1.2 * (double)rows : 0));
+    else
+        fputs("set tmargin\nset bmargin\n", s->to);
+}
+
+static void with_curve(scribe *s, const plot_panel *p, size_t at, const char *how) {
     const plot_series *c = p->series[at];
     size_t style = plot_style_of(p, at), mark = style / LOOKS;
     double line = s->kind->line * s->scale;
@@ -245,13 +284,19 @@ static void with_curve(scribe *s, const plot_panel *p, size_t at) {
         fprintf(s->to, "lines lw %.3g lc rgb '#707070' dt solid", 0.5 * line);
         return;
     }
-    bool marked = is_marked(p, at);
-    fprintf(s->to, "%s lw %.3g lc rgb '%s' dt %s", marked ? "linespoints" : "lines", line,
-            looks[style % LOOKS].color, looks[style % LOOKS].dash);
-    size_t written = c->count < PLOT_WRITTEN ? c->count : PLOT_WRITTEN;
-    if (marked)
-        fprintf(s->to, " pt %d ps %.3g pi %zu", marks[(p->points ? style : mark - 1) % MARKS], 1.3 * s->scale,
-                p->points ? 1 : written / 8 + 1);
+    fprintf(s->to, "%s lw %.3g lc rgb '%s' dt %s", how, line, looks[style % LOOKS].color,
+            looks[style % LOOKS].dash);
+    if (strcmp(how, "lines") != 0)
+        fprintf(s->to, " pt %d ps %.3g", marks[(p->points ? style : mark - 1) % MARKS], 1.3 * s->scale);
+}
+
+/* A line, and marks here and there; both in the key. */
+static void draw_marked(scribe *s, const plot_panel *p, size_t at) {
+    with_curve(s, p, at, "lines");
+    fprintf(s->to, " notitle, \\\n  $marks%zu_%zu_%zu using 1:2 with ", s->frame, s->panel, at);
+    with_curve(s, p, at, "points");
+    fputs(" notitle, \\\n  NaN with ", s->to);
+    with_curve(s, p, at, "linespoints");
 }
 
 /* One element of the plot command. */
@@ -264,7 +309,10 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
                                    : "");
     switch (c->role) {
     case PLOT_CURVE:
-        with_curve(s, p, at);
+        if (is_marked(p, at) && !deep)
+            draw_marked(s, p, at);
+        else
+            with_curve(s, p, at, p->points && !c->thin ? "linespoints" : "lines");
         break;
     case PLOT_MEASURED:
         fprintf(s->to, "points pt %d ps %.3g lw %.3g lc rgb '%s'", marks[(style + 5) % MARKS], 1.3 * s->scale,
@@ -358,47 +406,121 @@ static void set_places(scribe *s, const plot_panel *p, const plot_axis *x) {
     }
 }
 
+/* Where a value lies along an axis, 0 to 1. */
+static double part_of(const plot_axis *a, double v) {
+    return a->log ? log(v / a->lo) / log(a->hi / a->lo) : (v - a->lo) / (a->hi - a->lo);
+}
+
+/* Places for the values of contours: within the frame, near its middle, apart from each other. */
+typedef struct spots {
+    const plot_map *map;
+    const plot_axis *x, *y;
+    size_t count;
+    double at[LEVELS][2]; /* parts of the frame */
+    double best, here[2]; /* for the present level */
+} spots;
+
+/* Offers the crossing of a level between two points of the grid. */
+static void offer(spots *s, size_t from, size_t to, double level) {
+    const plot_map *m = s->map;
+    const double a = m->z[from], b = m->z[to];
+    if (!((a < level && level <= b) || (b < level && level <= a)))
+        return;
+    const double t = (level - a) / (b - a);
+    const double x = m->x[from % m->nx] + t * (m->x[to % m->nx] - m->x[from % m->nx]),
+                 y = m->y[from / m->nx] + t * (m->y[to / m->nx] - m->y[from / m->nx]);
+    const double u = part_of(s->x, x), v = part_of(s->y, y), wide = 0.16, high = 0.08;
+    double apart = 2;
+    if (!(u > wide / 2 && u < 1 - wide / 2 && v > high / 2 && v < 1 - high / 2))
+        return;
+    for (size_t i = 0; i < s->count; i++)
+        apart = fmin(apart, fmax(fabs(u - s->at[i][0]) / wide, fabs(v - s->at[i][1]) / high));
+    const double score = apart - hypot(u - 0.5, v - 0.5);
+    if (apart >= 1 && score > s->best) {
+        s->best = score;
+        s->here[0] = u;
+        s->here[1] = v;
+    }
+}
+
+/* The values of the contours; one without room bears none. */
+static void set_values(const scribe *s, const plot_map *m, const plot_axis *x, const plot_axis *y,
+                       const double *level, size_t n) {
+    spots of = {.map = m, .x = x, .y = y};
+    for (size_t k = 0; k < n; k++) {
+        of.best = -INFINITY;
+        for (size_t i = 0; i < m->nx * m->ny; i++) {
+            if ((i + 1) % m->nx)
+                offer(&of, i, i + 1, level[k]);
+            if (i + m->nx < m->nx * m->ny)
+                offer(&of, i, i + m->nx, level[k]);
+        }
+        if (!(of.best > -INFINITY))
+            continue;
+        const double u = x->flip ? 1 - of.here[0] : of.here[0], v = y->flip ? 1 - of.here[1] : of.here[1];
+        fprintf(
+            s->to,
+            s->kind->form == PLOT_TEX
+                ? "set label '{\\fboxsep1pt\\colorbox{white}{%.4g}}' at graph %.4g,graph %.4g center front\n"
+                : "set label '%.4g' at graph %.4g,graph %.4g center front boxed\n",
+            level[k], u, v);
+        memcpy(of.at[of.count++], of.here, sizeof of.here);
+    }
+}
+
 /* Contours on a light ground, with their values on them. */
-static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x) {
+static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x, const plot_axis *y) {
     double level[LEVELS], part = 1.0 / (double)s->panels, from = (double)s->panel * part;
     size_t n = plot_levels(&p->map, level, LEVELS);
     fprintf(s->to,
             "set lmargin at screen %.4g\nset rmargin at screen %.4g\nset bmargin at screen 0.15\n"
             "set tmargin at screen 0.92\nset view map\nset palette defined (0 '#ffffff', 1 '#8fc1e3')\n"
-            "set style textbox opaque noborder margins 0.5,0.5\nset contour base\n"
+            "set colorbox\nset style textbox opaque noborder margins 0.5,0.5\nset contour base\n"
+            "set cntrlabel onecolor\n"
             "set cntrparam levels discrete ",
-            from + 0.15 * part, from + (s->panels > 1 ? 0.7 : 0.8) * part);
+            from + 0.15 * part, from + (s->panels > 1 ? 0.72 : 0.77) * part);
     for (size_t i = 0; i < n; i++)
         fprintf(s->to, "%s%.9g", i ? "," : "", level[i]);
-    fputs(n ? "\nset cntrlabel onecolor start 20 interval 400 format '%.4g'\n" : "0\n", s->to);
+    fputs(n ? "\n" : "0\n", s->to);
     if (n && level[0] > 0 && level[n - 1] / level[0] > 50)
-        fputs("set logscale cb\nset format cb '%g'\n", s->to);
-    set_text(s, "cblabel offset 1.2,0", p->map.label);
+        fputs(s->kind->form == PLOT_TEX ? "set logscale cb\nset format cb '$10^{%T}$'\n"
+                                        : "set logscale cb\nset format cb '10^{%T}'\n",
+              s->to);
+    set_text(s, "cblabel offset 1.6,0", p->map.label);
+    if (s->panels > 1 && !x->log) /* narrow */
+        fprintf(s->to, "set xtics %.9g\n", plot_step((x->hi - x->lo) / 6));
+    if (s->panels > 1 || s->kind->form == PLOT_TEX)
+        fputs("set ylabel offset -1.5,0\n", s->to);
     set_places(s, p, x);
+    set_values(s, &p->map, x, y, level, n);
     fprintf(s->to, "splot $map%zu_%zu using 1:2:3 with pm3d nocontour notitle", s->frame, s->panel);
     if (n)
-        fprintf(s->to,
-                ", \\\n  '' using 1:2:3 with lines nosurface lw %.3g lc rgb '#303030' notitle, \\\n"
-                "  '' using 1:2:3 with labels nosurface%s notitle",
-                0.6 * s->kind->line * s->scale, s->kind->form == PLOT_TEX ? "" : " boxed");
+        fprintf(s->to, ", \\\n  '' using 1:2:3 with lines nosurface lw %.3g lc rgb '#303030' notitle",
+                0.6 * s->kind->line * s->scale);
     draw_all(s, p, false, true);
 }
 
-static bool draw_panel(scribe *s, const plot_panel *p, const plot_extents *e, calc_error *error) {
+static bool draw_panel(scribe *s, const plot_figure *f, const plot_extents *e, calc_error *error) {
+    const plot_panel *p = f->panel[s->panel];
     plot_axis x, y;
     if (!plot_axes(p, e, true, &x, &y, error))
         return false;
     /* not `reset`, which would lose the panel's place */
     fputs("set encoding utf8\nset minussign\nunset arrow\nunset label\nunset logscale\nset format\n"
           "unset contour\nunset pm3d\nset grid layerdefault\nunset grid\nunset xzeroaxis\nunset yzeroaxis\n"
-          "set lmargin\nset rmargin\nset bmargin\nset tmargin\n",
+          "unset colorbox\n",
           s->to);
+    if (s->kind->form != PLOT_TEX) /* the usual format puts a blank before each number */
+        fputs("set format '%h'\n", s->to);
+    set_margins(s, f);
     set_text(s, "title", p->title);
     set_text(s, "xlabel", p->xlabel);
     set_text(s, "ylabel", p->ylabel);
     set_axis(s, 'x', &x);
     set_axis(s, 'y', &y);
-    fputs("set border lw 1.2\nset tics front\nset mxtics\nset mytics\n", s->to);
+    fputs("set border lw 1.2\nset xtics autofreq\nset ylabel offset 0,0\nset tics front\nset mxtics\nset "
+          "mytics\n",
+          s->to);
     if (!p->map.nx)
         fputs("set grid back lt 1 lc rgb '#e6e6e6' lw 1\n", s->to);
     if (!p->map.nx && !x.log && !y.log)
@@ -406,7 +528,7 @@ static bool draw_panel(scribe *s, const plot_panel *p, const plot_extents *e, ca
     set_key(s, p);
     set_verticals(s, p, &x);
     if (p->map.nx) {
-        draw_map(s, p, &x);
+        draw_map(s, p, &x, &y);
     } else {
         fputs("plot ", s->to);
         draw_all(s, p, true, false);
@@ -437,7 +559,7 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
             fprintf(to, "set multiplot layout 1,%zu\n", f->count);
         for (size_t i = 0; i < f->count; i++) {
             scribe s = {to, kind, scale, n, i, f->count, false};
-            if (!draw_panel(&s, f->panel[i], &reel->extent[i], error))
+            if (!draw_panel(&s, f, &reel->extent[i], error))
                 return false;
         }
         if (f->count > 1)

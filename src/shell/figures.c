@@ -83,12 +83,12 @@ bool figure_accuracy(shell *sh, lexer *lx, plot_panel *p) {
             return calc_no_memory(lx->error);
     }
     accuracy_load_text(sh, &study, load, sizeof load);
-    snprintf(text, sizeof text, "dW, %s", load);
+    snprintf(text, sizeof text, PLOT_EXPR "dW, %s" PLOT_END, load);
     p->title = strdup(text);
     p->xlabel = strdup("time of a cycle [s]");
     p->ylabel = strdup("relative error");
     if (!p->title || !p->xlabel || !p->ylabel)
         return calc_no_memory(lx->error);
-    p->logx = p->logy = p->points = true;
+    p->logx = p->logy = p->points = p->airy = true;
     return true;
 }

@@ -125,6 +125,17 @@ def maps(tests):
                      "title \"m\"")
     rows = [line.split() for line in re.search(r"\$map0_0 << END\n(.*?)END", text, re.S).group(1).splitlines() if line]
     tests.check("a map holds its grid", len(rows) == 12 and float(rows[0][0]) == 5 and float(rows[-1][1]) == 0.5, str(rows))
+    text, _ = script(tests, "contours and their values", "plot map dW(F) for F = 1 N .. 30 N for mu = 0.4 .. 0.8")
+    values = re.findall(r"^set label '(\S+)' at graph (\S+),graph (\S+) ", text, re.M)
+    levels = re.search(r"^set cntrparam levels discrete (.*)$", text, re.M).group(1).split(",")
+    apart = [max(abs(float(a[1]) - float(b[1])) / 0.16, abs(float(a[2]) - float(b[2])) / 0.08)
+             for i, a in enumerate(values) for b in values[:i]]
+    tests.check("values stand on contours, apart and within the frame", 2 < len(values) <= len(levels) and
+                {float(v[0]) for v in values} <= set(map(float, levels)) and min(apart) >= 1 and
+                all(0.08 <= float(v[1]) <= 0.92 and 0.04 <= float(v[2]) <= 0.96 for v in values), str(values))
+    text, _ = script(tests, "panels of one height", "plot springs | loop title \"\" | W1D along program")
+    tests.check("panels stand on one line", [len(set(re.findall("^set %s .*" % m, text, re.M)))
+                                             for m in ("tmargin", "bmargin")] == [1, 1], text[-3000:])
     fails(tests, "plot map a for k = 0 .. 0.5", "expected for VAR2 = LO .. HI")
     fails(tests, "plot map a along program", "a map goes for A = LO .. HI for B = LO .. HI")
     done = tests.run("-c", SCENE + "table x*y, x+y for x = 1 .. 3 steps 2 for y = 1 .. 2 steps 1")

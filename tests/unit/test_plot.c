@@ -149,27 +149,34 @@ static void scripts(void) {
 
 /* Curves are told apart without colour. */
 static void styles(void) {
-    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_figure f = figure(PLOT_CURVE, strdup("c0"));
     plot_panel *p = f.panel[0];
-    for (int i = 1; i < 12; i++)
-        plot_series_add(p, PLOT_CURVE, NULL, fresh());
+    for (int i = 1; i < 12; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "c%d", i);
+        plot_series_add(p, PLOT_CURVE, strdup(name), fresh());
+    }
     for (size_t i = 0; i < p->count; i++)
         for (int j = 0; j < 3; j++)
             plot_point(p->series[i], j, j);
     char *text = script_of(&f, ".gp");
-    const char *look[12], *at = text;
+    const char *look[12];
     size_t length[12];
     for (size_t i = 0; i < 12; i++) {
-        at = strstr(at, " with ");
-        if (!CHECK(at != NULL))
+        char name[16];
+        snprintf(name, sizeof name, " title \"c%zu\"", i);
+        const char *end = strstr(text, name), *at = end;
+        if (!CHECK(end != NULL))
             break;
-        at += 6;
-        const char *dash = strstr(at, "dt "); /* dashes and marks */
-        look[i] = dash;
-        length[i] = strcspn(dash, "\n");
+        while (strncmp(at, "dt ", 3) != 0) /* dashes and marks */
+            at--;
+        look[i] = at;
+        length[i] = (size_t)(end - at);
         for (size_t j = 0; j < i; j++)
             CHECK(length[i] != length[j] || strncmp(look[i], look[j], length[i]) != 0);
     }
+    CHECK(has(text, "$marks0_0_7 << END\n") && !has(text, "$marks0_0_6") &&
+          has(text, "$marks0_0_7 using 1:2 with points"));
     free(text);
     for (size_t i = p->count; i < PLOT_CURVES; i++)
         CHECK(plot_series_add(p, PLOT_CURVE, NULL, fresh()));
@@ -283,6 +290,20 @@ static void straightens(void) {
         worst = fmax(worst, off(s, &paper, x[i], y[i]));
     CHECK(worst <= 1.001 * paper.least && s->count > 200 && s->count < 400);
     CHECK(s->x[0] == x[0] && s->x[s->count - 1] == x[N - 1] && s->x[s->count - 2] == x[2500]);
+    plot_figure_free(&f);
+}
+
+/* Evenly along the way, however close the points lie. */
+static void marked(void) {
+    const plot_paper paper = {.width = 1, .height = 2};
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_series *s = f.panel[0]->series[0];
+    for (int i = 0; i <= 1000; i++)
+        plot_point(s, 1e-6 * i * i, i == 500 ? NAN : 0);
+    size_t at[8];
+    CHECK(plot_marks(s, &paper, at, 8) == 8);
+    for (size_t i = 0; i < 8; i++)
+        CHECK(fabs(s->x[at[i]] - ((double)i + 0.5) / 8) < 0.01);
     plot_figure_free(&f);
 }
 
@@ -608,6 +629,7 @@ int main(int argc, char **argv) {
     bands();
     straightens();
     straightens_parts();
+    marked();
     axes();
     levels();
     dots();
