@@ -161,6 +161,30 @@ faults: deps-check
 	@$(MAKE) --no-print-directory -s $(B)/fret $(B)/tests/faults.so
 	@python3 tests/fuzz/faults.py $(B)/fret $(B)/tests/faults.so
 
+# Lines and branches that the tests reach. Needs gcovr.
+coverage: deps-check
+	@PYTHONDONTWRITEBYTECODE=1 nice python3 tests/coverage.py $(ROOMS)
+
+# MUTANTS tokens of the sources changed one at a time: which of them does no test notice? Hours.
+MUTANTS ?= 300
+SEED    ?= 1
+mutants: deps-check
+	@PYTHONDONTWRITEBYTECODE=1 nice -n 19 python3 tests/fuzz/mutants.py --count $(MUTANTS) --seed $(SEED)
+
+# Needs clang. FUZZ: seconds for each target; figures in tests/hard/fuzz.txt, new inputs in build/fuzz/corpus.
+FUZZ      ?= 450
+FUZZ_CALLS := open fopen posix_spawnp system popen fork mkdtemp
+fuzz-build:
+	@$(MAKE) --no-print-directory -s B=build/fuzz CC=clang OPT='-O1 -g -fsanitize=address,undefined,fuzzer-no-link \
+		-fno-sanitize-recover=all' CFLAGS='$(foreach call,$(FUZZ_CALLS),-D$(call)=fuzz_$(call))' build/fuzz/fuzz
+$(B)/fuzz: tests/fuzz/fuzz.c $(call OBJ,$(filter-out src/shell/main.c,$(PROG)) $(CORE)) $(B)/scripts.o
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -fsanitize=fuzzer -o $@ $(filter %.c %.o,$^) $(LIBS)
+fuzz: deps-check
+	@$(MAKE) --no-print-directory -s fuzz-build $(B)/fret
+	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/fuzzing.py build/fuzz/fuzz $(FUZZ)
+	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/programs.py $(B)/fret $(FUZZ) $$(date +%s)
+	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/typed.py $(B)/fret $(FUZZ) $$(date +%s)
+
 # How long Ctrl-C takes. The table is kept in git.
 latency: deps-check
 	@$(MAKE) --no-print-directory -s $(B)/fret
@@ -215,5 +239,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: all figures manual uninstall deb static tests deps deps-check run check hard hard-diagram faults latency bench format install clean FORCE
+.PHONY: coverage mutants fuzz fuzz-build all figures manual uninstall deb static tests deps deps-check run check hard hard-diagram faults latency bench format install clean FORCE
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

@@ -19,6 +19,7 @@ import casts  # noqa: E402
 import completion  # noqa: E402
 import figures  # noqa: E402
 import fits  # noqa: E402
+import fuzzing  # noqa: E402
 import harness  # noqa: E402
 import house  # noqa: E402
 import keeping  # noqa: E402
@@ -38,6 +39,7 @@ import sharing  # noqa: E402
 import smoothing  # noqa: E402
 import table  # noqa: E402
 import trouble  # noqa: E402
+import typed  # noqa: E402
 
 SANITIZE = "-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all"
 
@@ -234,7 +236,7 @@ ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of
          "keeping": keeping.run,
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
          "fits": fits.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,
-         "trouble": trouble.run, "rim": rim.run, "programs": programs.run,
+         "trouble": trouble.run, "rim": rim.run, "programs": programs.run, "typed": typed.run, "fuzz": fuzzing.run,
          "interactive": prompt.run, "live": live.run, "casts": casts.run, "completion": completion.run, "readme": readme, "help": help_examples,
          "portable": portable.run, "packaging": packaging.run,
          "house": house.run}

@@ -86,12 +86,14 @@ enum { FILE_LINE_LIMIT = 16 << 20 }; /* bytes of a line, continued or not */
 
 typedef enum file_got { FILE_GOT_LINE, FILE_GOT_END, FILE_GOT_ERROR, FILE_GOT_STOP } file_got;
 
+typedef enum file_order { FILE_UNTOLD, FILE_BYTES, FILE_LITTLE, FILE_BIG } file_order;
+
 /* A file read by lines. Where it begins with a mark of byte order, it is UTF-8, or UTF-16 that becomes UTF-8.
  */
 typedef struct file_in {
     int fd; /* -1: not open */
     bool owned, ended, waits;
-    enum { FILE_UNTOLD, FILE_BYTES, FILE_LITTLE, FILE_BIG } order;
+    file_order order;
     unsigned odd, high; /* 1 + a byte without its other half, a surrogate without its second */
     char *name;
     char *block;

@@ -20,7 +20,7 @@ enum { RAW = BLOCK / 4 * 3, REPLACEMENT = 0xfffd };
 static const struct {
     const char *bytes;
     size_t length;
-    int order;
+    file_order order;
 } marks[] = {{"\xef\xbb\xbf", 3, FILE_BYTES}, {"\xff\xfe", 2, FILE_LITTLE}, {"\xfe\xff", 2, FILE_BIG}};
 enum { MARKS = sizeof marks / sizeof *marks };
 

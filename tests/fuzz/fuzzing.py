@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the targets of fuzz.c from the corpus in git. `fuzzing.py FUZZ SECONDS [TARGET...]` goes on for so long with each,
+keeps new inputs in build/fuzz/corpus and writes tests/hard/fuzz.txt; the tests run ten seconds of each. `--minimise` puts
+what the corpus and build/fuzz/corpus reach between them into the corpus, in few inputs."""
+import glob
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(ROOT, "tests"))
+TARGETS = ("statements", "json", "gap", "follow", "table", "replay")
+LONGEST = {"statements": 1200, "json": 1200, "gap": 2000, "follow": 2000, "table": 2000, "replay": 2000}
+OPTIONS = ("-timeout=30", "-rss_limit_mb=3000", "-use_value_profile=0", "-print_final_stats=1", "-verbosity=1")
+
+
+def corpus(target):
+    return os.path.join(HERE, "corpus", target)
+
+
+def environment(target, tmp):
+    return {"PATH": os.environ["PATH"], "LC_ALL": "C", "FRET_FUZZ": target, "TMPDIR": tmp,
+            "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1:max_allocation_size_mb=512",
+            "UBSAN_OPTIONS": "print_stacktrace=1"}
+
+
+def seeds(target):
+    """Text to begin with, from what the tests have."""
+    import harness
+    for path in sorted(glob.glob(os.path.join(ROOT, "tests/sessions/*.txt")) + glob.glob(os.path.join(ROOT, "scripts/demos/*.txt")) +
+                       glob.glob(os.path.join(ROOT, "scripts/paper/*.txt"))):
+        with open(path, encoding="utf-8") as f:
+            text = f.read()
+        lines = [statement for statement, _ in harness.read_transcript(text)] or text.splitlines()
+        if target == "replay":
+            part = re.split(r"(?m)^(?=fret> )", text)
+            for i in range(1, len(part), 12):
+                yield "".join(part[i:i + 12])
+        else:
+            for i in range(0, len(lines), 8):
+                yield "\n".join(lines[i:i + 8])
+    import programs
+    for seed in range(40):
+        program = programs.Writer(seed).program()
+        for name, mine in (("gap.csv", "given.csv"), ("loads.csv", "given-loads.csv"), ("data.csv", "given-data.csv"),
+                           ("more.fret", "given.fret")):
+            program = [line.replace(name, mine) for line in program]
+        if target != "replay":
+            yield "\n".join(program)
+
+
+FILES = ("r [mm],f [um]\n0,0\n0.1,0.5\n0.2,2\n0.4,8\n0.8,32\n1.6,128\n", "r,f\n0,0\n1e-3,5e-5\n2e-3,2e-4\n",
+         "FN [N],Fx [N]\n100,0\n120,15\n90,-10\n100,20\n", "dz [um];dx [nm]\n2;0\n3;400\n2,5;-200\n", "FN\tFx\n100\t0\n80\t5\n",
+         "force [N],depth [um]\n10,0.75\n50,2.2\n100,3.5\n", "dx [um],Fx [N],FN [N]\n0,0,100\n0.2,10,100\n0.5,18,100\n0,-3,100\n",
+         "# a note\nx [N],y [um]\n1,0.1\n\n2,0.2\n3,\n", "\ufeffr [mm],f [um]\r\n0,0\r\n1,50\r\n", "\"r [mm]\",\"f [um]\"\n\"0\",\"0\"\n\"1\",\"2\"\n")
+
+
+def start(target, folder):
+    """Seeds of a new corpus."""
+    given = FILES if target in ("gap", "follow", "table") else seeds(target)
+    for i, text in enumerate(given):
+        with open(os.path.join(folder, "seed-%d" % i), "w", encoding="utf-8", newline="") as f:
+            f.write(text[:LONGEST[target]])
+
+
+def dictionary(path):
+    """Words of the language, from the program's sources."""
+    words = set()
+    for name in glob.glob(os.path.join(ROOT, "src/calc/*.c")) + glob.glob(os.path.join(ROOT, "src/shell/commands.c")):
+        with open(name, encoding="utf-8") as f:
+            words |= set(re.findall(r'"([A-Za-z][\w.-]{0,14})"', f.read()))
+    with open(path, "w", encoding="utf-8") as f:
+        f.writelines('"%s"\n' % word for word in sorted(words | {":=", "+=", "..", " at ", " in ", " along ", "FN=100 N"}))
+
+
+def fuzz(program, target, seconds, folder, seed):
+    """(executions, coverage, features, inputs, what went wrong)"""
+    with tempfile.TemporaryDirectory(prefix="fret-fuzzing-") as tmp:
+        dictionary(os.path.join(tmp, "words"))
+        known = [corpus(target)] if os.path.isdir(corpus(target)) else []
+        try:
+            done = subprocess.run([program, folder, *known, "-max_total_time=%d" % seconds, "-seed=%d" % seed,
+                                   "-max_len=%d" % LONGEST[target], "-dict=" + os.path.join(tmp, "words"),
+                                   "-artifact_prefix=%s/" % tmp, *OPTIONS], capture_output=True, cwd=tmp,
+                                  env=environment(target, tmp), timeout=20 * seconds + 600, check=False)
+            text, status = done.stderr.decode(errors="replace"), done.returncode
+        except subprocess.TimeoutExpired as error:
+            text, status = (error.stderr or b"").decode(errors="replace"), "no end"
+        wrong = None
+        if status != 0:
+            inputs = [name for name in os.listdir(tmp) if re.match("(crash|leak|timeout|oom)-", name)]
+            kept = os.path.join(ROOT, "build", "fuzz", "found")
+            os.makedirs(kept, exist_ok=True)
+            for name in inputs:
+                shutil.copy(os.path.join(tmp, name), os.path.join(kept, target + "-" + name))
+            wrong = "ends with %s, %s\n%s" % (status, " ".join(inputs), "\n".join(
+                line for line in text.splitlines() if not re.match(r"#\d+\s+(NEW|REDUCE|pulse|RELOAD)", line))[-4000:])
+        runs = re.findall(r"stat::number_of_executed_units: (\d+)", text) or re.findall(r"^#(\d+)\s", text, re.M) or ["0"]
+        reached = re.findall(r"cov: (\d+) ft: (\d+) corp: (\d+)", text) or [("0", "0", "0")]
+        return (int(runs[-1]), *map(int, reached[-1]), wrong)
+
+
+def run(tests):
+    """Ten seconds of each target; and the lines of a session, typed."""
+    program = os.path.join(ROOT, "build/fuzz/fuzz")
+    if tests.sanitized:
+        return
+    with tests.file("int LLVMFuzzerTestOneInput(void); int LLVMFuzzerTestOneInput(void) { return 0; }", ".c") as source:
+        if not shutil.which("clang") or subprocess.run(["clang", "-fsanitize=fuzzer", "-o", source + ".out", source],
+                                                       capture_output=True, check=False).returncode:
+            print("fuzz: not run, clang with libFuzzer is not installed")
+            return
+    done = subprocess.run(["make", "--no-print-directory", "-s", "-j%d" % (os.cpu_count() or 1), "fuzz-build"], cwd=ROOT,
+                          capture_output=True, text=True, check=False)
+    if not tests.check("the targets build", done.returncode == 0, done.stdout[-1000:] + done.stderr[-2000:]):
+        return
+
+    def one(target):
+        with tempfile.TemporaryDirectory(prefix="corpus-", dir=tests.dir) as folder:
+            runs, *_, wrong = fuzz(program, target, 10, folder, 1)
+        tests.check("fuzz: " + target, not wrong and runs > len(os.listdir(corpus(target))), wrong or "%d runs" % runs)
+    tests.each([lambda target=target: one(target) for target in TARGETS])
+
+
+def minimise(program):
+    for target in TARGETS:
+        found = os.path.join(ROOT, "build/fuzz/corpus", target)
+        with tempfile.TemporaryDirectory(prefix="fret-fuzzing-") as tmp:
+            new = os.path.join(tmp, "new")
+            os.mkdir(new)
+            folders = [folder for folder in (corpus(target), found) if os.path.isdir(folder)]
+            subprocess.run([program, "-merge=1", "-use_counters=0", "-max_len=%d" % LONGEST[target], new, *folders, "-timeout=30", "-rss_limit_mb=3000"],
+                           cwd=tmp, env=environment(target, tmp), capture_output=True, check=False)
+            shutil.rmtree(corpus(target), ignore_errors=True)
+            shutil.copytree(new, corpus(target))
+            size = sum(os.path.getsize(os.path.join(new, name)) for name in os.listdir(new))
+            print("%s: %d inputs, %d bytes" % (target, len(os.listdir(new)), size), flush=True)
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    if sys.argv[2] == "--minimise":
+        minimise(program)
+        return 0
+    seconds, chosen, failed = int(sys.argv[2]), sys.argv[3:] or TARGETS, 0
+
+    def one(target):
+        folder = os.path.join(ROOT, "build/fuzz/corpus", target)
+        os.makedirs(folder, exist_ok=True)
+        if not os.path.isdir(corpus(target)) and not os.listdir(folder):
+            start(target, folder)
+        return fuzz(program, target, seconds, folder, int.from_bytes(os.urandom(3), "big") + 1)
+    text = "# make fuzz FUZZ=%d: each target for so many seconds, ASan and UBSan\n%-12s %12s %10s %10s %8s\n" % (
+        seconds, "target", "executions", "edges", "features", "inputs")
+    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        for target, (runs, edges, features, inputs, wrong) in zip(chosen, pool.map(one, chosen)):
+            text += "%-12s %12d %10d %10d %8d\n" % (target, runs, edges, features, inputs)
+            if wrong:
+                print("FAILED %s: %s" % (target, wrong), flush=True)
+                failed += 1
+    print(text, end="")
+    if not failed and len(chosen) == len(TARGETS):
+        with open(os.path.join(ROOT, "tests/hard/fuzz.txt"), "w", encoding="ascii") as f:
+            f.write(text)
+    print("fuzz: %d passed, %d failed" % (len(chosen) - failed, failed))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

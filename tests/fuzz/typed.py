@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A prompt that gets random keys, a random start-up file and a random history: it ends when it is told to, without a word
+of a sanitizer, the terminal as before and the history whole. `typed.py FRET SECONDS [SEED]` goes on for so long."""
+import os
+import pty
+import random
+import select
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import time
+from concurrent.futures import ThreadPoolExecutor
+import fcntl
+
+import programs
+
+KEYS = ("\x01", "\x02", "\x05", "\x06", "\x08", "\x0b", "\x0c", "\x0e", "\x10", "\x12", "\x14", "\x15", "\x17", "\x19", "\t", "\t\t",
+        "\x1b[A", "\x1b[B", "\x1b[C", "\x1b[D", "\x1b[H", "\x1b[F", "\x1b[3~", "\x1b[5~", "\x1bb", "\x1bf", "\x1bd", "\x1b\x7f", "\x1b.",
+        "\x7f", "\x7f\x7f\x7f", "\x03", "\r", "\\\r", "\x1b[200~step Fx=1 N\rdW\r\x1b[201~", "é", "µ", "\x1b", "\x16\x01", "?a\r", "ma\t",
+        "press F\t", "set \t\t", "geometry file g\t", "source \t\t", "a at k\t", "\x1f", "(", ")", '"')
+
+
+def text_of(r):
+    """Statements, and what is none."""
+    writer = programs.Writer(r.randrange(1 << 30))
+    lines = [writer.line() for _ in range(r.choice((0, 3, 12)))]
+    noise = bytes(r.randrange(256) for _ in range(r.choice((0, 0, 40, 3000))))
+    parts = [("\n".join(lines) + "\n").encode(), noise.replace(b"!", b"?")]
+    r.shuffle(parts)
+    return b"".join(parts)
+
+
+def keys_of(r):
+    writer, keys = programs.Writer(r.randrange(1 << 30)), []
+    for _ in range(r.choice((5, 15, 30))):
+        line = writer.line().replace("!", "")
+        at = r.randrange(len(line) + 1)
+        keys.append(line[:at] + r.choice(KEYS) + line[at:] + r.choice(("\r", "\r", "\r", r.choice(KEYS))))
+    return "".join(keys).encode()
+
+
+def problem(fret, env, seed):
+    """What is wrong with a session; None: nothing."""
+    r = random.Random(seed)
+    where = tempfile.mkdtemp(prefix="fret-typed-", dir=env["TMPDIR"])
+    try:
+        with open(os.path.join(where, "suppressions"), "w", encoding="ascii") as f:
+            f.write("leak:libreadline\n")  # what an interrupted search of its own had in hand
+        for name, text in programs.FILES.items():
+            with open(os.path.join(where, name), "w", encoding="ascii") as f:
+                f.write(text)
+        os.makedirs(os.path.join(where, "config/fret"))
+        os.makedirs(os.path.join(where, "state/fret"), mode=0o700)
+        history = text_of(r)
+        for name, text in (("config/fret/fretrc", text_of(r)), ("state/fret/history", history)):
+            if r.random() < .7:
+                with open(os.path.join(where, name), "wb") as f:
+                    f.write(text)
+        return session(fret, {**env, "HOME": where, "XDG_CONFIG_HOME": where + "/config", "XDG_STATE_HOME": where + "/state",
+                              "TERM": "xterm", "INPUTRC": "/dev/null", "PAGER": "cat",
+                              "LSAN_OPTIONS": "print_suppressions=0:suppressions=%s/suppressions" % where}, where, keys_of(r), r)
+    finally:
+        shutil.rmtree(where)
+
+
+def session(fret, env, where, keys, r):
+    master, slave = pty.openpty()
+    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", r.choice((24, 5, 50)), r.choice((80, 20, 200)), 0, 0))
+    before = termios.tcgetattr(slave)
+    job = subprocess.Popen([fret], stdin=slave, stdout=slave, stderr=slave, env=env, cwd=where, start_new_session=True,
+                           preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+    out, sent, end, told = b"", 0, time.time() + 120, 0.0
+    try:
+        while job.poll() is None and time.time() < end:
+            ready, _, _ = select.select([master], [], [], 0.02)
+            if ready:
+                out += os.read(master, 65536)
+            elif b"fret> " not in out:  # Ctrl-C ends what has not begun
+                continue
+            elif sent < len(keys):
+                sent += os.write(master, keys[sent:sent + r.choice((1, 10, 100, 200))])
+            elif time.time() > told + 2:  # a half-typed key, line or search may swallow the first
+                os.write(master, b"\x03\x07\r\x03\rquit\r")
+                told = time.time()
+        while select.select([master], [], [], 0)[0]:
+            out += os.read(master, 65536)
+        after = termios.tcgetattr(slave)
+        if job.poll() is None:
+            return "no end: " + out[-1500:].decode(errors="replace")
+        text = out.decode(errors="replace")
+        if "Sanitizer" in text or "runtime error" in text or job.returncode != 0:
+            return "ends with %s: %s" % (job.returncode, text[-3000:])
+        if after[:4] != before[:4]:
+            return "leaves the terminal otherwise: %s, %s" % (before[:4], after[:4])
+        return None
+    finally:
+        if job.poll() is None:
+            job.kill()
+            job.wait()
+        os.close(master)
+        os.close(slave)
+
+
+def campaign(fret, env, seconds, seed, workers):
+    """(sessions, [(seed, problem)])"""
+    end, wrong, counts = time.time() + seconds, [], [0] * workers
+
+    def work(worker):
+        one = seed + worker
+        while time.time() < end and len(wrong) < 3:
+            what = problem(fret, env, one)
+            if what:
+                wrong.append((one, what))
+            counts[worker] += 1
+            one += workers
+    with ThreadPoolExecutor(max_workers=workers) as pool:
+        for future in [pool.submit(work, i) for i in range(workers)]:
+            future.result()
+    return sum(counts), wrong
+
+
+def run(tests):
+    count, wrong = campaign(tests.fret, {**tests.env, "TMPDIR": tests.tmp}, 10, 1000000 if tests.sanitized else 1, 2)
+    for seed, what in wrong:
+        tests.check("random keys %d" % seed, False, what)
+    with tests.lock:
+        tests.passed += count - len(wrong)
+
+
+def main():
+    fret, seconds, seed = os.path.abspath(sys.argv[1]), float(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 1
+    with tempfile.TemporaryDirectory(prefix="fret-typed-") as tmp:
+        env = {"PATH": os.environ["PATH"], "TMPDIR": tmp, "LC_ALL": "C.UTF-8", "ASAN_OPTIONS": "detect_leaks=1"}
+        count, wrong = campaign(fret, env, seconds, seed, os.cpu_count() or 1)
+        for one, what in wrong:
+            print("FAILED session %d: %s" % (one, what))
+        print("typed: %d passed, %d failed" % (count - len(wrong), len(wrong)))
+        return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
