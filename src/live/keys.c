@@ -306,7 +306,9 @@ static void save(live *l) {
 }
 
 static void picture_entered(live *l, const char *line) {
-    live_say(l, "plot loop to \"%s\"", line);
+    const bool pushed = l->host->calc->scene.end.steps > 1;
+    if (live_say(l, "plot springs | %s to \"%s\"", pushed ? "loop | traction" : "pressure", line))
+        live_tell(l, false, "wrote %.400s", line);
 }
 
 static void picture(live *l) {
@@ -393,7 +395,7 @@ static const key_row keys[] = {
     {'r', 0, reset, "r", "as pressed at first: nothing pushed"},
     {':', 0, statement, ":", "a statement of the language; Tab completes; compare k = -0.5, 0.5"},
     {'s', 0, save, "s", "save the scene as a script"},
-    {'p', 0, picture, "p", "the loop as a picture"},
+    {'p', 0, picture, "p", "springs, loop and traction as a picture"},
     {'?', KEY_F(1), help, "?", "this help"},
     {'q', KEY_STOP, leave, "q, Ctrl-C", "leave; Ctrl-Z stops, fg goes on"},
 };

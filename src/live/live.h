@@ -25,7 +25,7 @@ typedef struct live_host {
     void (*film)(void *self, const char *bytes, size_t n, double seconds);
 } live_host;
 
-/* Work on frames: seconds, writing to the terminal included. */
+/* Work on frames: seconds of the processor, writing to the terminal included. */
 typedef struct live_work {
     size_t frames;
     double total, worst;

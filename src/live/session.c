@@ -93,13 +93,18 @@ static void trouble(live *l, side *s, calc_error *error) {
 /* Of the scene that expressions see; along: the way of the last item too. */
 static bool take(live *l, side *s, bool along, calc_error *error) {
     calc *c = l->host->calc;
+    const size_t before = s->shots;
     s->trouble[0] = 0;
     s->shots = 0;
-    if (!shot_take(c, NULL, &s->now, error) || !track_follow(&s->path, c, &s->now, error))
+    if (!shot_take(c, NULL, &s->now, error))
         return false;
     if (along && !s->play)
         s->play = calloc(PLAY_SHOTS, sizeof *s->play);
-    return !along || !s->play || shots_along(c, s->play, PLAY_SHOTS, &s->shots, error);
+    if (along && s->play && shots_again(&s->path, c, &s->now, s->play, before))
+        s->shots = before;
+    else if (along && s->play && !shots_along(c, s->play, PLAY_SHOTS, &s->shots, error))
+        return false;
+    return track_follow(&s->path, c, &s->now, s->play, s->shots, error);
 }
 
 static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *error) {
@@ -122,7 +127,7 @@ static void update(live *l, bool along) {
 }
 
 void live_update(live *l) {
-    update(l, false);
+    update(l, l->follow);
     const shot *s = &l->side[0].now;
     if (!(l->FA > 0) && s->slip > 0 && !*l->side[0].trouble) /* half of what would slide it */
         l->FA = live_nice(s->slip / 2);
@@ -153,7 +158,6 @@ void live_begin(live *l) {
 
 /* From where the last item of the load begins to move. */
 static void start_play(live *l) {
-    update(l, true);
     const side *s = &l->side[0];
     if (*s->trouble || !s->shots)
         return;
@@ -174,7 +178,10 @@ static void start_cycle(live *l) {
         live_amount(l->FNA, DIM_FORCE, swing, sizeof swing);
         snprintf(FNA, sizeof FNA, " FNA=%s phase=%g deg", swing, l->phase);
     }
-    if (live_say(l, "cycle FA=%s%s", FA, FNA))
+    l->follow = true;
+    const bool ok = live_say(l, "cycle FA=%s%s", FA, FNA);
+    l->follow = false;
+    if (ok)
         start_play(l);
 }
 
@@ -185,6 +192,7 @@ void live_play(live *l) {
 
 void live_play_item(live *l) {
     l->last_cycle = true;
+    update(l, true);
     start_play(l);
 }
 
@@ -214,6 +222,13 @@ static double seconds(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* Of the processor: how busy the machine is and how slow the terminal is no work of ours. */
+static double worked(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
 static void count_frame(live_work *work, double spent) {
     work->frames++;
     work->total += spent;
@@ -223,14 +238,15 @@ static void count_frame(live_work *work, double spent) {
 static void session(live *l, live_work *work) {
     enum { IDLE = 1000 /* milliseconds */, MANY = 20 };
     const int frame = terminal_frame();
-    double before = seconds(), filmed = before, spent = 0;
+    double before = seconds(), filmed = before, last = worked();
     while (!l->leave) {
         double start = seconds();
         if (l->changed) {
             l->changed = false;
             live_draw(l);
-            count_frame(work, spent + seconds() - start);
-            spent = 0;
+            const double now = worked();
+            count_frame(work, now - last);
+            last = now;
             film_frame(&l->film, l->host, l->typing, start - filmed);
             filmed = start;
         }
@@ -242,7 +258,6 @@ static void session(live *l, live_work *work) {
         }
         live_play_on(l, start - before);
         before = start;
-        spent += seconds() - start;
     }
 }
 

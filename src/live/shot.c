@@ -7,6 +7,7 @@
 #include <string.h>
 
 static const char *const names[SHOT_VALUES] = {"FN", "Fx", "dx", "dz", "a", "c", "c/a", "W", "U", "dW", "kt"};
+enum { SHOT_W = 7, SHOT_U, SHOT_DW };
 
 const char *shot_name(size_t i) {
     return names[i];
@@ -93,6 +94,11 @@ bool shot_take(calc *c, const shot *like, shot *out, calc_error *error) {
 
 enum { TRACK_POINTS = 20000 };
 
+static void widen(track *t, double a, double bound) {
+    t->a = fmax(t->a, a);
+    t->bound = fmax(t->bound, bound);
+}
+
 static bool add(track *t, track_point p) {
     if (t->count == TRACK_POINTS) {
         t->count /= 2;
@@ -117,14 +123,13 @@ static track_point point_of(const fret_state *s, double time) {
     return (track_point){time, (double)s->dx, (double)s->Fx, (double)s->W, (double)s->U};
 }
 
-static void widen(track *t, double a, double bound) {
-    t->a = fmax(t->a, a);
-    t->bound = fmax(t->bound, bound);
-}
-
+/* Of a swinging period's many chords as many as can be told apart: each state takes its time. */
 static bool see(const runner *r, void *context) {
+    static const double APART = 1.0 / 64;
     track *t = context;
     fret_state s;
+    if (!r->turning && t->count && r->time - t->point[t->count - 1].time < APART)
+        return true;
     engine_state(&r->engine, &s);
     widen(t, (double)s.a, (double)fret_memory_bound(r->engine.self, 0));
     return add(t, point_of(&s, r->time));
@@ -136,10 +141,14 @@ static bool same_inputs(const inputs *a, const inputs *b) {
            b->bindings == 0 && a->geometry == b->geometry && a->table == b->table && a->second == b->second;
 }
 
+static bool grown(const track *t, const scene *s) {
+    return t->count && s->program == t->program && s->end.steps == t->steps + 1 &&
+           same_inputs(&s->in, &t->in);
+}
+
 static bool grown_little(const track *t, const scene *s, const shot *now) {
     enum { SMALL = 12 }; /* of what makes it slide */
-    if (!t->count || s->program != t->program || s->end.steps != t->steps + 1 ||
-        !same_inputs(&s->in, &t->in) || s->program->steps[t->steps].kind != LOAD_STEP)
+    if (!grown(t, s) || s->program->steps[t->steps].kind != LOAD_STEP)
         return false;
     const track_point *last = &t->point[t->count - 1];
     return fabs(now->dx - last->dx) * SMALL <= now->bound && fabs(now->Fx - last->Fx) * SMALL <= now->slip;
@@ -166,12 +175,20 @@ static bool track_again(track *t, scene *s, calc_error *error) {
     return scene_trace(s, &w, error);
 }
 
-bool track_follow(track *t, calc *c, const shot *now, calc_error *error) {
+static bool add_shot(track *t, const shot *s) {
+    const double W = (double)s->value[SHOT_W], U = (double)s->value[SHOT_U];
+    widen(t, s->a, s->bound);
+    return add(t, (track_point){s->time, s->dx, s->Fx, W, U});
+}
+
+bool track_follow(track *t, calc *c, const shot *now, const shot *way, size_t count, calc_error *error) {
     scene *s = c->now;
     bool ok = true;
     if (grown_little(t, s, now)) {
-        const double W = (double)now->value[7], U = (double)now->value[8];
-        ok = add(t, (track_point){now->time, now->dx, now->Fx, W, U}) || calc_no_memory(error);
+        ok = add_shot(t, now) || calc_no_memory(error);
+    } else if (grown(t, s) && count > 1) {
+        for (size_t i = 0; i < count && ok; i++)
+            ok = add_shot(t, &way[i]) || calc_no_memory(error);
     } else if (s->program != t->program || s->end.steps != t->steps || !same_inputs(&s->in, &t->in)) {
         ok = track_again(t, s, error);
     }
@@ -218,4 +235,33 @@ bool shots_along(calc *c, shot *out, size_t count, size_t *taken, calc_error *er
         trial_close(t);
     *taken = s.taken;
     return ok && s.taken > 0;
+}
+
+static bool same_state(const shot *a, const shot *b) {
+    const double tight = 1e-9;
+    return fabs(a->a - b->a) <= tight * b->a && fabs(a->c - b->c) <= tight * b->a &&
+           fabs(a->dx - b->dx) <= tight * b->bound && fabs(a->Fx - b->Fx) <= tight * b->slip;
+}
+
+static bool same_cycle(const calc *c) {
+    const program *p = c->now->program;
+    const load_mark end = c->now->end;
+    return end.steps > 1 && end.cycles > 1 && p->steps[end.steps - 1].kind == LOAD_CYCLE &&
+           p->steps[end.steps - 2].kind == LOAD_CYCLE &&
+           !memcmp(&p->cycles[end.cycles - 1], &p->cycles[end.cycles - 2], sizeof *p->cycles);
+}
+
+bool shots_again(const track *t, const calc *c, const shot *now, shot *way, size_t count) {
+    if (count < 2 || !grown(t, c->now) || !same_cycle(c) || !same_state(&way[0], now) ||
+        !same_state(&way[count - 1], now))
+        return false;
+    const double later = now->time - way[count - 1].time;
+    const long double lost = now->value[SHOT_W] - way[count - 1].value[SHOT_W];
+    for (size_t i = 0; i < count; i++) {
+        way[i].time += later;
+        way[i].value[SHOT_W] += lost;
+        way[i].known[SHOT_DW] = now->known[SHOT_DW];
+        way[i].value[SHOT_DW] = now->value[SHOT_DW];
+    }
+    return true;
 }

@@ -44,11 +44,15 @@ typedef struct track {
     inputs in; /* only to be compared */
 } track;
 
-/* Brings it up to the end of the load of the scene that expressions see; now is that end. */
-bool track_follow(track *t, calc *c, const shot *now, calc_error *error);
+/* Brings it up to the end of the load of the scene that expressions see; now is that end, and way, if not
+ * empty, what shots_along took. */
+bool track_follow(track *t, calc *c, const shot *now, const shot *way, size_t count, calc_error *error);
 void track_free(track *t);
 
 /* States on the way of the last item of the load, evenly in time; false: there is none, or no memory. */
 bool shots_along(calc *c, shot *out, size_t count, size_t *taken, calc_error *error);
+/* Has a cycle more brought the scene, as track_follow saw it last, to `now`, where the same cycle began and
+ * ended before? Then its states are those again, later and with more lost. */
+bool shots_again(const track *t, const calc *c, const shot *now, shot *way, size_t count);
 
 #endif

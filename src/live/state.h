@@ -34,6 +34,7 @@ typedef struct live {
     /* the cycle that space plays */
     double FA, FNA, phase, speed; /* [N], [N], [deg], periods a second */
     bool playing, last_cycle;
+    bool follow;    /* the way of what is said now is wanted */
     double play_at; /* time of the load */
     /* two scenes */
     bool comparing;

@@ -292,7 +292,8 @@ static void draw_side(live *l, const side *s, const scales *sc, rect all) {
     const bool narrow = all.cols < 60;
     const int left = narrow ? all.cols : all.cols * 2 / 5 > 34 ? all.cols * 2 / 5 : 34;
     if (*s->trouble) {
-        put_text(all, 1, INK_ERROR, "%s%s%s", s->title, *s->title ? ": " : "", s->trouble);
+        put_text(all, 1, l->host->calc->scene.end.steps ? INK_ERROR : INK_FRAME, "%s%s%s", s->title,
+                 *s->title ? ": " : "", s->trouble);
         return;
     }
     rect column = {all.top, all.left, all.rows, left - 1};
@@ -311,8 +312,8 @@ static void draw_head(const live *l, rect at) {
     for (size_t i = 0; i < sizeof shown / sizeof *shown; i++) {
         const quantity *q = quantity_of_input(shown[i]);
         char text_of[40];
-        if (!s->in.set[shown[i]])
-            continue;
+        if (!s->in.set[shown[i]] || (shown[i] == IN_C0 && s->in.v[IN_K] == 0))
+            continue; /* c0 says nothing of a body without grading */
         live_amount(s->in.v[shown[i]], quantity_dim(q, s), text_of, sizeof text_of);
         n += (size_t)snprintf(text + n, sizeof text - n, "%s = %s  ", q->name, text_of);
     }
@@ -328,23 +329,63 @@ static void draw_head(const live *l, rect at) {
     put_text((rect){at.top, at.cols - w, 1, w}, 0, INK_CURVE, "%s", right);
 }
 
+enum { NOTE_ROWS = 4 };
+
+/* Columns that bytes of UTF-8 take. */
+static int columns(const char *text, size_t n) {
+    int count = 0;
+    for (size_t i = 0; i < n; i++)
+        count += ((unsigned char)text[i] & 0xc0) != 0x80;
+    return count;
+}
+
+/* As much of the text as goes into a row, broken between words. */
+static size_t row_of(const char *text, int cols) {
+    size_t whole = 0;
+    for (size_t i = 0;; i++) {
+        if (text[i] && text[i] != ' ')
+            continue;
+        if (whole > 0 && columns(text, i) > cols)
+            return whole;
+        whole = i;
+        if (!text[i])
+            return whole;
+    }
+}
+
+/* Rows that a comment of the script takes; drawn where `at` has rows. */
+static int put_note(const char *text, rect at) {
+    int row = 0;
+    for (; *text && row < NOTE_ROWS; row++) {
+        const size_t n = row_of(text, at.cols);
+        put_text(at, row, INK_CURVE, "%.*s", (int)n, text);
+        text += n + strspn(text + n, " ");
+    }
+    return row;
+}
+
+static int foot_rows(const live *l) {
+    return 1 + (*l->note && !l->page ? put_note(l->note, (rect){0, 0, 0, COLS}) : 1);
+}
+
 static void draw_foot(const live *l, rect at) {
+    const int last = at.rows - 1;
     if (l->page)
         put_text(at, 0, INK_FRAME, "space: more of it  up: before  any other key: back");
     else if (*l->note)
-        put_text(at, 0, INK_CURVE, "%s", l->note);
+        put_note(l->note, at);
     else
         put_text(at, 0, INK_FRAME,
                  "arrows push and press  space plays  u undo  r reset  : statement  ? keys  q quit");
     if (!l->typing) {
-        put_text(at, 1, l->bad ? INK_ERROR : INK_NONE, "%s", l->status);
+        put_text(at, last, l->bad ? INK_ERROR : INK_NONE, "%s", l->status);
         curs_set(0);
         return;
     }
     const int width = at.cols - (int)strlen(l->prompt) - 1;
     const size_t from = l->cursor > (size_t)width ? l->cursor - (size_t)width : 0;
-    put_text(at, 1, INK_NONE, "%s%s", l->prompt, l->line + from);
-    move(at.top + 1, at.left + (int)(strlen(l->prompt) + l->cursor - from));
+    put_text(at, last, INK_NONE, "%s%s", l->prompt, l->line + from);
+    move(at.top + last, at.left + (int)(strlen(l->prompt) + l->cursor - from));
     curs_set(1);
 }
 
@@ -361,7 +402,8 @@ static void draw_page(const live *l, rect all) {
 }
 
 void live_draw(live *l) {
-    rect all = {1, 0, LINES - 3, COLS};
+    const int foot = foot_rows(l);
+    rect all = {1, 0, LINES - 1 - foot, COLS};
     erase();
     if (LINES < 10 || COLS < 40) {
         put_text((rect){0, 0, LINES, COLS}, 0, INK_ERROR, "the screen is too small: 40 x 10");
@@ -378,6 +420,6 @@ void live_draw(live *l) {
             draw_side(l, &l->side[i], &sc,
                       (rect){all.top, COLS * i / sides, all.rows, COLS / sides - (sides > 1 ? 1 : 0)});
     }
-    draw_foot(l, (rect){LINES - 2, 0, 2, COLS});
+    draw_foot(l, (rect){LINES - foot, 0, foot, COLS});
     refresh();
 }
