@@ -149,12 +149,12 @@ static void scripts(void) {
 
 /* Curves are told apart without colour. */
 static void styles(void) {
-    plot_figure f = figure(PLOT_CURVE, strdup("c0"));
+    plot_figure f = figure(PLOT_CURVE, "c0");
     plot_panel *p = f.panel[0];
     for (int i = 1; i < 12; i++) {
         char name[16];
         snprintf(name, sizeof name, "c%d", i);
-        plot_series_add(p, PLOT_CURVE, strdup(name), fresh());
+        plot_series_add(p, PLOT_CURVE, name, fresh());
     }
     for (size_t i = 0; i < p->count; i++)
         for (int j = 0; j < 3; j++)
