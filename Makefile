@@ -156,6 +156,13 @@ hard-diagram: deps-check
 	@{ echo '# make hard-diagram HARD_STEPS=$(HARD_STEPS)'; nice $(B)/tests/hard/hard --diagrams $(HARD_STEPS); } > $(B)/diagram.txt; \
 	  status=$$?; mv $(B)/diagram.txt tests/hard/diagram.txt; tail -n 1 tests/hard/diagram.txt; exit $$status
 
+# The same for scenes in vectors, against the exact functions, in a minute.
+SCENES ?= 40000
+scenes: deps-check
+	@$(MAKE) --no-print-directory -s $(B)/tests/test_scenes
+	@{ echo '# make scenes SCENES=$(SCENES)'; nice $(B)/tests/test_scenes --worst $(SCENES); } > $(B)/scenes.txt
+	@mv $(B)/scenes.txt tests/hard/scenes.txt; cat tests/hard/scenes.txt
+
 # Every allocation of every kind of statement fails once.
 faults: deps-check
 	@$(MAKE) --no-print-directory -s $(B)/fret $(B)/tests/faults.so
@@ -239,5 +246,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: coverage mutants fuzz fuzz-build all figures manual uninstall deb static tests deps deps-check run check hard hard-diagram faults latency bench format install clean FORCE
+.PHONY: coverage mutants fuzz fuzz-build all figures manual uninstall deb static tests deps deps-check run check hard hard-diagram scenes faults latency bench format install clean FORCE
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

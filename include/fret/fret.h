@@ -14,6 +14,7 @@
 #include "fret/memory.h"
 #include "fret/normal.h"
 #include "fret/reference.h"
+#include "fret/scenes.h"
 #include "fret/springs.h"
 #include "fret/status.h"
 #include "fret/swing.h"

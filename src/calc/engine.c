@@ -86,6 +86,7 @@ const model_row models[MODELS] = {
                        .state = springs_state,
                        .forces = springs_state,
                        .end = springs_end},
+    [MODEL_VECTORS] = {.name = "vectors", .title = "vectors to 2e-15"},
 };
 
 /* ---- the sine itself --------------------------------------------------------------------------- */

@@ -8,7 +8,7 @@
 
 #include "fret/fret.h"
 
-typedef enum model_id { MODEL_CLOSED, MODEL_MEMORY, MODEL_QUADRATURE, MODEL_SPRINGS, MODELS } model_id;
+typedef enum model_id { MODEL_CLOSED, MODEL_MEMORY, MODEL_QUADRATURE, MODEL_SPRINGS, MODEL_VECTORS, MODELS } model_id;
 
 /* What has answered: bits of scene.used. */
 #define USED(id) (1u << (id))

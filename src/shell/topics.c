@@ -378,6 +378,15 @@ const char *model_text(size_t id) {
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
                           "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
                           "    fret> set model springs 100\n    fret> dW\n    dW = 1.9 uJ\n",
+        [MODEL_VECTORS] =
+            "The formulas in double, for many rows of a table or a curve at once: of a force\n"
+            "or amplitude, or of an input of a power-law gap at constant FN. Good to 2e-15.\n"
+            "Rows that they cannot answer for, and single values, are asked one by one.\n\n" EXAMPLE
+            "cycle FA=20 N\n    fret> table a, dW for R = 10 mm .. 20 mm steps 2\n"
+            "           R [mm]         a [um]        dW [uJ]\n"
+            "               10        186.626        1.90646\n"
+            "               15        213.633        1.66544\n"
+            "               20        235.133        1.51316\n",
     };
     return id < MODELS ? texts[id] : NULL;
 }

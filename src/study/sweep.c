@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/rows.h"
 #include "number/real.h"
 #include "study/refine.h"
 #include "study/team.h"
@@ -21,6 +22,7 @@ typedef struct state {
     long double *values;              /* of a block, row by row */
     long double *row;                 /* of the row that is being evaluated */
     long double (*block)[EXPR_BLOCK]; /* of the expressions */
+    scene_rows *scenes;               /* where an input is swept */
     /* of the range */
     size_t rows;
     const long double *part; /* where each row is in it, 0..1; NULL: evenly */
@@ -122,15 +124,29 @@ static long double place(const state *st, size_t row) {
                        st->part ? st->part[row] : (long double)row / (long double)st->s->steps);
 }
 
-/* Many rows at once, all expressions or none. An input that is swept makes a new scene of every row. */
+/* An expression at many rows. */
+static bool eval_block(state *st, size_t i, const long double *x, size_t rows, dim *d) {
+    sweep_job *job = st->job;
+    const expr *e = &job->expressions[i];
+    return st->s->var.is_input ? expr_eval_rows(job->c, e, st->scenes, st->block[i], d)
+                               : expr_eval_block(job->c, e, st->s->var.name, x, rows, st->block[i], d);
+}
+
+/* Many rows at once, all expressions or none. */
 static bool run_block(state *st, const long double *x, size_t rows) {
     sweep_job *job = st->job;
     dim d;
-    if (st->s->var.is_input)
-        return false;
+    if (st->s->var.is_input) {
+        calc_error unused;
+        knob var = st->s->var;
+        error_clear(&unused);
+        var.d = st->range.d;
+        if (!trial_set(st->t, &var, x[0], &unused) || !rows_begin(st->scenes, &st->t->scene, var.in, x, rows))
+            return false;
+    }
     for (size_t i = 0; i < job->count; i++)
-        if (!expr_eval_block(job->c, &job->expressions[i], st->s->var.name, x, rows, st->block[i], &d) ||
-            (job->known[i] && !dim_equal(job->d[i], d)) || !fits(st, i, d, x[0]))
+        if (!eval_block(st, i, x, rows, &d) || (job->known[i] && !dim_equal(job->d[i], d)) ||
+            !fits(st, i, d, x[0]))
             return false;
     job->values += rows * job->count;
     return true;
@@ -299,9 +315,9 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
     return give_rows(st, row, p->x, values, p->rows);
 }
 
-/* Rows of a block. Where an input is swept they are had one by one, and any number does. */
+/* Rows of a block: few where there are few, so that a team can share those that take long. */
 static size_t block_rows(const state *st) {
-    const size_t least = st->s->var.is_input ? 4 : 16, rows = st->rows / 64 / least * least;
+    const size_t least = st->s->var.is_input ? 1 : 16, rows = st->rows / 64 / least * least;
     return rows < least ? least : rows < EXPR_BLOCK ? rows : EXPR_BLOCK;
 }
 
@@ -317,20 +333,12 @@ static bool shared(state *st) {
     return job->team;
 }
 
-/* From a row on. A portion takes a millisecond, or less where there are few. */
+/* From a row on, where a block begins. */
 static bool share(state *st, size_t row) {
-    static const double portion_seconds = 1e-3;
-    sweep_job *job = st->job;
-    const size_t left = st->rows - row;
     sharing sh = {.st = st, .first = row, .rows = block_rows(st)};
-    if (st->s->var.is_input) {
-        const double each = job->taken / (double)job->done, most = (double)left / 4;
-        const double rows = fmin(fmin(portion_seconds / each, most), EXPR_BLOCK);
-        sh.rows = rows > 1 ? (size_t)rows : 1;
-    }
     const team_run run = {
-        .parts = (left + sh.rows - 1) / sh.rows, .give = give, .take = take, .context = &sh};
-    const bool ok = team_work(job->team, &run);
+        .parts = (st->rows - row + sh.rows - 1) / sh.rows, .give = give, .take = take, .context = &sh};
+    const bool ok = team_work(st->job->team, &run);
     return !stopped(st) && ok;
 }
 
@@ -481,7 +489,8 @@ bool sweep_run(const sweep *s, sweep_job *job) {
         sweep_begin(job, curves * (s->steps + 1));
     st.values = malloc(EXPR_BLOCK * job->count * sizeof *st.values);
     st.block = malloc(job->count * sizeof *st.block);
-    bool ok = st.values && st.block;
+    st.scenes = !s->along && s->var.is_input ? malloc(sizeof *st.scenes) : NULL;
+    bool ok = st.values && st.block && (s->along || !s->var.is_input || st.scenes);
     if (!ok)
         calc_no_memory(job->error);
     for (; st.curve < curves && ok; st.curve++) {
@@ -493,6 +502,7 @@ bool sweep_run(const sweep *s, sweep_job *job) {
     }
     free(st.values);
     free(st.block);
+    free(st.scenes);
     if (!job->part)
         sweep_end(job);
     return ok && (job->part || job->values > 0 || !job->missing.raised || sweep_nothing(job));

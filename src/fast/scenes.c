@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The closed forms for arrays of scenes, in blocks, once for each instruction set. Pure. */
+#include "fast/scenes.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "number/bits.h"
+#include "number/constants.h"
+
+/* 1/(2j+3)!: see fret_loss_series. */
+enum { FRET_SCENE_TERMS = 15 };
+static const double fret_scene_factorial[FRET_SCENE_TERMS] = {
+    1 / 6.0,
+    1 / 120.0,
+    1 / 5040.0,
+    1 / 362880.0,
+    1 / 39916800.0,
+    1 / 6227020800.0,
+    1 / 1307674368000.0,
+    1 / 355687428096000.0,
+    1 / 121645100408832000.0,
+    1 / 51090942171709440000.0,
+    1 / 25852016738884976640000.0,
+    1 / 15511210043330985984000000.0,
+    1 / 10888869450418352160768000000.0,
+    1 / 8841761993739701954543616000000.0,
+    1 / 8222838654177922817725562880000000.0,
+};
+
+#define LANES_ALSO "fast/scenes_body.h"
+#define LANES 2
+#include "number/lanes.h"
+#ifdef __x86_64__
+#define LANES 4
+#include "number/lanes.h"
+#define LANES 8
+#include "number/lanes.h"
+#endif
+
+#define VARIANT(set, lanes, target)                                                                          \
+    target static void set##_run(fret_scene_block *b) {                                                      \
+        for (size_t i = 0; i < b->count; i += sizeof(lanes##_numbers) / sizeof(double))                      \
+            lanes##_scene(b, i);                                                                             \
+    }
+#define ROW(set)                                                                                             \
+    { #set, set##_runs, set##_run }
+
+#ifdef __x86_64__
+VARIANT(avx512, lanes8, __attribute__((target("avx512f,avx512dq,avx512vl"))))
+static bool avx512_runs(void) {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+}
+VARIANT(avx2, lanes4, __attribute__((target("avx2"))))
+static bool avx2_runs(void) {
+    return __builtin_cpu_supports("avx2");
+}
+#endif
+
+VARIANT(plain, lanes2, )
+static bool plain_runs(void) {
+    return true;
+}
+
+const fret_scene_variant fret_scene_variants[] = {
+#ifdef __x86_64__
+    ROW(avx512),
+    ROW(avx2),
+#endif
+    ROW(plain),
+};
+const size_t fret_scene_variant_count = sizeof fret_scene_variants / sizeof *fret_scene_variants;
+
+static const fret_scene_variant *best(void) {
+    const fret_scene_variant *v = fret_scene_variants;
+    while (!v->runs())
+        v++;
+    return v;
+}
+
+/* What is left of a block holds numbers that make no trouble. */
+static void fill(fret_scene_block *b, const fret_scenes *s, size_t first, size_t count) {
+    const double *const from[SCENE_INPUTS] = {
+        [SCENE_E0] = s->E0[0],
+        [SCENE_NU] = s->nu[0],
+        [SCENE_E0_2] = b->alike || b->rigid ? s->E0[0] : s->E0[1],
+        [SCENE_NU_2] = b->alike || b->rigid ? s->nu[0] : s->nu[1],
+        [SCENE_K] = s->k,
+        [SCENE_C0] = s->c0,
+        [SCENE_N] = s->n,
+        [SCENE_H] = s->h,
+        [SCENE_R0] = s->r0,
+        [SCENE_F] = s->F,
+        [SCENE_MU] = s->mu,
+        [SCENE_FX] = s->Fx,
+    };
+    b->count = count;
+    for (int i = 0; i < SCENE_INPUTS; i++)
+        for (size_t j = 0; j < FRET_SCENE_BLOCK; j++)
+            b->in[i][j] = from[i] ? from[i][first + (j < count ? j : 0)] : 0;
+}
+
+bool fret_batch_scenes(const fret_scenes *s, const fret_scene_values *out, size_t count) {
+    const fret_scene_variant *v = best();
+    fret_scene_block b = {.alike = !s->rigid && !s->E0[1], .rigid = s->rigid, .pushed = s->Fx};
+    double *const to[SCENE_OUTPUTS] = {
+        [SCENE_HN] = out->hN,   [SCENE_HT] = out->hT,    [SCENE_BETA] = out->beta,   [SCENE_CN0] = out->cN0,
+        [SCENE_CT0] = out->cT0, [SCENE_ETA] = out->eta,  [SCENE_KAPPA] = out->kappa, [SCENE_A] = out->a,
+        [SCENE_DZ] = out->dz,   [SCENE_KN] = out->kn,    [SCENE_SLIP] = out->slip,   [SCENE_C] = out->c,
+        [SCENE_DX] = out->dx,   [SCENE_LOSS] = out->loss};
+    bool missing = false;
+    for (size_t i = 0; i < count; i += FRET_SCENE_BLOCK) {
+        const size_t n = count - i < FRET_SCENE_BLOCK ? count - i : FRET_SCENE_BLOCK;
+        fill(&b, s, i, n);
+        v->run(&b);
+        for (int j = 0; j < SCENE_OUTPUTS; j++)
+            for (size_t r = 0; to[j] && r < n; r++) {
+                to[j][i + r] = b.out[j][r];
+                missing |= isnan(b.out[j][r]);
+            }
+    }
+    return missing;
+}
