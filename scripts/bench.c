@@ -163,6 +163,27 @@ static double library_springs(const fret_normal *n, const fret_press *p, size_t 
     return best;
 }
 
+/* The same under swinging forces, 200 steps a round. */
+static double swinging_springs(const fret_normal *n, const fret_press *p, size_t count) {
+    enum { STEPS = 200 };
+    const double pi = acos(-1);
+    double best = INFINITY;
+    fret_springs *s = NULL;
+    need(fret_springs_make(n, mu, count, 1.1 * (double)p->a, FRET_WEIGHT_CELL, &s));
+    for (int run = 0; run < 20; run++) {
+        double t0 = seconds();
+        for (int i = 0; i < STEPS; i++)
+            need(fret_springs_step(s,
+                                   &(fret_step){FRET_TO_FORCE, FRET_TO_FX,
+                                                FN * (1 + 0.3 * sin(2 * pi * i / STEPS)),
+                                                20 * cos(2 * pi * i / STEPS)},
+                                   1));
+        best = fmin(best, (seconds() - t0) / STEPS / (double)count);
+    }
+    fret_springs_free(s);
+    return best;
+}
+
 /* What memory allows: three arrays read, one of them written, as a step of springs does. */
 static double triad(size_t count, long passes) {
     double *a = malloc(3 * count * sizeof *a), best = INFINITY;
@@ -575,6 +596,8 @@ int main(void) {
          "0.3 ns");
     line("1000 springs, by force", library_springs(n, &p, SPRINGS, 5000, true), one,
          "plain loop by displacement", ns, "");
+    line("10^4 springs, FN and Fx swing", swinging_springs(n, &p, 10000), one, "plain loop by displacement",
+         ns, "1 ns");
     line("4e6 springs", library_springs(n, &p, large, 10, false), bytes, probe, ns, "1.3 baselines");
     line("4e6 springs, by force", library_springs(n, &p, large, 5, true), bytes, probe, ns, "");
     puts("The loss of a cycle at equal error");

@@ -343,17 +343,41 @@ static void step_at_depth(fret_springs *s, fret_real dx) {
     fret_sum_add(&s->W, total(sums.other, sums.other_rest) * s->compliance);
 }
 
-/* At constant depth, from the last F_x on: no history makes u steeper in g than the bound is, so springs
- * begin to slip one after the other from the edge inwards, and the front is found in one pass over them. */
-static double displacement_of_front(const fret_springs *s, double missing) {
+/* Sum of w (z - g) over the springs before `end`, which all touch at depth z. */
+static fret_real load_inside(const fret_springs *s, size_t end, fret_real z) {
+    return end ? s->touch[end - 1] + s->w_sum[end] * (z - s->cells.g[end - 1]) : 0;
+}
+
+/* The change of delta_x that brings F_x on the way to depth z, up to rounding. No history makes u steeper in
+ * g than the bound is, so springs begin to slip one after the other from the edge inwards, all to one side,
+ * and the front is found in one pass over those that slip. Sums are of w u. */
+static double displacement_of_front(const fret_springs *s, fret_real z, fret_real Fx) {
     const cells *c = &s->cells;
-    const double sign = missing < 0 ? -1 : 1;
-    double slipping = 0, left = 0; /* force of those that slip; what the next can take */
-    for (size_t i = s->closed; i-- > 0 && (i % LOOK || !fret_stopped(s->normal));) {
+    const fret_real z0 = s->dz > 0 ? s->dz : 0, z1 = z > 0 ? z : 0, deeper = z1 - z0;
+    size_t inside = s->closed;
+    fret_real missing = (Fx - s->Fx) * s->normal->foundation.eta;
+    double touching = 0; /* what springs touched on the way add per displacement, up to that of their bound */
+    if (deeper > 0) {
+        const size_t end = springs_below(c->g, s->count, (double)z1);
+        touching = (double)((load_inside(s, end, z1) - load_inside(s, inside, z1)) / deeper);
+    }
+    while (inside > 0 && !(c->g[inside - 1] < (double)z1)) { /* parted on the way */
+        inside--;
+        missing += (fret_real)c->w[inside] * c->u[inside];
+    }
+    const double all = (double)s->w_sum[inside] + touching, x = all > 0 ? (double)missing / all : 0,
+                 bound = inside ? c->mu_eta * ((double)z1 - c->g[inside - 1]) : 0;
+    double u = inside ? c->u[inside - 1] : 0, slipping = 0,
+           left = 0; /* force of those that slip; room of the next */
+    if (deeper > 0 ? fabs(x) <= c->mu_eta * (double)deeper : fabs(u + x) <= bound)
+        return x;
+    const double sign = (deeper > 0 ? x : u + x) < 0 ? -1 : 1, want = sign * (double)missing;
+    slipping = touching * (c->mu_eta * (double)deeper);
+    for (size_t i = inside; i-- > 0 && (i % LOOK || !fret_stopped(s->normal));) {
         const double sticks = (double)s->w_sum[i + 1];
-        left = c->b[i] - sign * c->u[i];
-        if (slipping + sticks * left >= fabs(missing))
-            return sign * (fabs(missing) - slipping) / sticks;
+        left = c->mu_eta * ((double)z1 - c->g[i]) - sign * c->u[i];
+        if (slipping + sticks * left >= want)
+            return sign * (want - slipping) / sticks;
         slipping += c->w[i] * left;
     }
     return sign * left;
@@ -365,7 +389,7 @@ static fret_real displacement_for(fret_springs *s, fret_real dz, fret_real Fx, f
     const fret_real eta = s->normal->foundation.eta, reach = 2.0L * s->cells.mu_eta * fmaxl(s->dz, dz);
     fret_real lo = -reach, hi = reach, x = 0;
     if (dz == s->dz)
-        x = displacement_of_front(s, (double)((Fx - s->Fx) * eta));
+        x = displacement_of_front(s, dz, Fx);
     for (int i = 0; i < 200 && hi - lo > 4 * DBL_EPSILON * fabsl(x) && !fret_stopped(s->normal); i++) {
         response r = deform(s, (double)s->dz, (double)dz, (double)x, false);
         fret_real missing = Fx - r.force * s->compliance;
@@ -390,8 +414,10 @@ static void walk_forces(fret_springs *s, fret_real FN, fret_real dz, fret_real F
         fret_real load = FN0 * rest + FN * t, depth = j == substeps ? fmaxl(dz, 0) : depth_of_force(s, load);
         if (FN == FN0)
             depth = s->dz; /* rounding must not make it breathe */
-        fret_real limit = s->mu * load, force = fminl(fmaxl(Fx0 * rest + Fx * t, -limit), limit);
-        advance(s, depth, displacement_for(s, depth, force, 1e-14L * limit));
+        const fret_real limit = s->mu * load, force = fminl(fmaxl(Fx0 * rest + Fx * t, -limit), limit);
+        advance(s, depth, s->dx + displacement_of_front(s, depth, force));
+        if (fabsl(force - s->Fx) > 1e-14L * limit) /* the rounding of many springs */
+            advance(s, depth, displacement_for(s, depth, force, 1e-14L * limit));
     }
 }
 

@@ -210,6 +210,51 @@ static void test_force_control(void) {
 }
 
 /* Weights add up to the stiffness of the continuum; F_N and its inverse agree. */
+/* By force with F_N changing: the displacement that bisection finds on copies, step by step. */
+static void front_on_the_way(double n, double k, size_t count) {
+    pair p = make(n, k);
+    fret_springs *trial = NULL;
+    unsigned long long seed = 5;
+    springs_of(&p, count, p.radius, FRET_WEIGHT_CELL);
+    CHECK_OK(fret_springs_make(p.normal, p.mu, count, p.radius, FRET_WEIGHT_CELL, &trial));
+    for (int i = 0; i < 120; i++) {
+        fret_state now, end, other;
+        fret_springs_state(p.springs, &now);
+        const double near = unit_random(&seed, 0, 1) < 0.5 ? 0.02 : 1;
+        double FN = (double)now.FN + near * p.FN * unit_random(&seed, -1, 1);
+        if (!(FN > 0.01 * p.FN && FN < p.FN))
+            FN = p.FN * unit_random(&seed, 0.01, 1);
+        const double Fx =
+            p.mu * FN * (i % 7 ? unit_random(&seed, -1, 1) : copysign(1 - 1e-9, unit_random(&seed, -1, 1)));
+        const double reach = 3 * (double)p.slip;
+        double lo = -reach, hi = reach;
+        for (int j = 0; j < 60; j++) {
+            const double middle = (lo + hi) / 2;
+            CHECK_OK(fret_springs_copy(trial, p.springs));
+            CHECK_OK(fret_springs_step(
+                trial, &(fret_step){FRET_TO_FORCE, FRET_TO_DX, FN, (double)now.dx + middle}, 1));
+            fret_springs_state(trial, &other);
+            *(other.Fx < Fx ? &lo : &hi) = middle;
+        }
+        const fret_step step = to_force(FN, Fx);
+        CHECK_OK(fret_springs_step(p.springs, &step, 1));
+        fret_springs_state(p.springs, &end);
+        CHECK_ABS(end.Fx, Fx, p.mu * FN, 2e-14L);
+        CHECK_ABS(end.dx, now.dx + hi, p.slip,
+                  i % 7 ? 1e-11L : 1e-4L); /* next to gross slip F_x hardly tells it */
+        CHECK_ABS(end.W - now.W, other.W - now.W, p.mu * p.FN * p.slip, i % 7 ? 1e-11L : 1e-5L);
+    }
+    fret_springs_free(trial);
+    drop(&p);
+}
+
+static void test_front_on_the_way(void) {
+    front_on_the_way(2, 0, 100);
+    front_on_the_way(2, 0.5, 1000);
+    front_on_the_way(1, -0.5, 333);
+    front_on_the_way(8, 0.3, 64);
+}
+
 static void test_weights(void) {
     static const double ks[] = {-0.95, -0.5, 0, 0.5, 0.95};
     for (size_t i = 0; i < sizeof ks / sizeof *ks; i++) {
@@ -498,6 +543,7 @@ int main(int argc, char **argv) {
     test_order_in_substeps();
     test_straight_steps();
     test_force_control();
+    test_front_on_the_way();
     test_weights();
     test_stick();
     test_pad();
