@@ -220,6 +220,13 @@ def help_examples(tests):
     quantities = re.findall(r"^    (\w+)(?:\(\w+\))?  ", text, re.M)
     tests.each([lambda t=t: one(t) for t in sorted(shown | set(quantities))])
     tests.check("help lists the quantities", len(quantities) > 30, text)
+    presets = words("help material", r"^    (\S+) +E0=\S+ GPa nu=")
+    tests.check("help material lists them", {"steel", "Ti-6Al-4V", "Inconel", "bronze", "tungsten-carbide", "silicon-nitride",
+                                             "PTFE"} <= set(presets), str(presets))
+    for name in presets:
+        done = tests.run("-c", "help %s; second %s; material %s" % (name, name, name))
+        tests.check("help %s names its source" % name, done.returncode == 0 and re.search(
+            r"\n  (EN |Callister|makers|incompressible)", done.stdout), tests.report(done))
     for word, found in APROPOS.items():
         done = tests.run("-c", "apropos " + word)
         tests.check("apropos " + word, all(re.search("^%s( |$)" % re.escape(name), done.stdout, re.M)

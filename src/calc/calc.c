@@ -225,7 +225,9 @@ static bool read_assignments(calc *c, lexer *lx, assignment *all, size_t *count)
         if (*count == ASSIGNMENTS)
             return lex_fail(lx, "at most %d assignments together", ASSIGNMENTS);
         if (!assign_at(lx))
-            return lex_fail(lx, "expected NAME = EXPR after the comma");
+            return lex_fail(lx, lx->kind == T_NUMBER
+                                    ? "expected NAME = EXPR after the comma; a decimal comma is a point here"
+                                    : "expected NAME = EXPR after the comma");
         const size_t i = (*count)++;
         if (!read_assignment(c, lx, all, i))
             return false;
@@ -266,6 +268,15 @@ static void put_inputs(inputs *in, void *context) {
         else
             inputs_put(in, which, (double)a->v.v);
     }
+}
+
+/* Would the cycle slip because its amplitude stays while others change? */
+static bool amplitude_is_left(const calc_error *error, const assignment *all, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (all[i].q && quantity_input(all[i].q) == IN_FA)
+            return false;
+    return error->kind == ERROR_STATUS && error->status.code == FRET_GROSS_SLIP && error->status.quantity &&
+           !strcmp(error->status.quantity, "FA");
 }
 
 /* A live definition may wait for what it needs, but not for itself; nor can its dimensions be mended later.
@@ -395,7 +406,11 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
         return scene_load(
             s, &(load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = (double)all[0].v.v}, NULL,
             lx->error);
-    return scene_edit(s, put_inputs, &job, lx->error);
+    if (scene_edit(s, put_inputs, &job, lx->error))
+        return true;
+    if (amplitude_is_left(lx->error, all, count))
+        calc_append(c, lx->error, ", or let FA follow (FA := 0.9*mu*FN)");
+    return false;
 }
 
 /* All or nothing, and a way back. */

@@ -121,6 +121,12 @@ static const arg uncertainty_args[] = {{.kind = ARG_LIST, .name = "expression"},
 
 static const arg optimise_args[] = {{.kind = ARG_LIST, .name = "expression"}, {.kind = ARG_END}};
 
+static void presets_list(FILE *to) {
+    const preset *p;
+    for (size_t i = 0; (p = preset_row(i)); i++)
+        fprintf(to, "    %-17s E0=%.10g GPa nu=%.10g\n", p->name, p->E0 / 1e9, p->nu);
+}
+
 static void geometry_list(FILE *to) {
     const geometry *g;
     for (size_t i = 0; (g = geometry_row(i)); i++)
@@ -141,11 +147,13 @@ static const command commands[] = {
      .group = "the bodies",
      .keywords = "steel aluminium Young elastic graded",
      .changes = true,
+     .print = presets_list,
      .usage = "E0=210 GPa nu=0.3 [k=0.5 c0=1 mm] | steel",
      .summary = "the elastic bodies",
      .help = "Sets E(z) = E0 (z/c0)^k and Poisson's ratio of both bodies. Without k the\n"
-             "material is homogeneous and c0 is not needed. Presets: steel, aluminium,\n"
-             "titanium, copper, glass, alumina, rubber.\n\n"
+             "material is homogeneous and c0 is not needed. Arguments behind a name of\n"
+             "the list above change it (`material steel nu=0.28`); `help NAME` tells the\n"
+             "source.\n\n"
              "    fret> material E0=210 GPa nu=0.3 k=0.5 c0=1 mm\n"
              "    fret> E(0.25 mm), eta\n"
              "    E(0.25 mm) = 105 GPa\n"

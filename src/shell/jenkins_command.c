@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "shell/output.h"
+#include "shell/progress.h"
 #include "shell/study_commands.h"
 #include "shell/target.h"
 #include "study/jenkins.h"
@@ -129,7 +130,8 @@ static bool make_model(shell *sh, const request *r, model *m, calc_error *error)
     m->element = malloc(m->count * sizeof *m->element);
     if (!m->element)
         return calc_no_memory(error);
-    return jenkins(&m->contact, amplitude, m->count, &shell_stop, m->element, &m->quality, error);
+    return jenkins(&m->contact, amplitude, m->count, &shell_stop, progress_pulse, m->element, &m->quality,
+                   error);
 }
 
 static bool write_model(shell *sh, lexer *lx, const request *r, const model *m) {

@@ -10,6 +10,8 @@
 
 /* ---- reports ----------------------------------------------------------------------------------- */
 
+enum { REPORTED = 8 }; /* quantities at most */
+
 /* Events are data where answers are JSON; else they are for who types. */
 static bool reports(const shell *sh) {
     return sh->set.report == REPORT_ON ||
@@ -17,29 +19,33 @@ static bool reports(const shell *sh) {
             (sh->interactive || sh->replaying || sh->set.format == FORMAT_JSON));
 }
 
+/* What they are is found first: it may take its time, and show that. */
 static void report_event(shell *sh, const char *event, const char *const *names) {
+    const quantity *of[REPORTED];
+    value v[REPORTED];
+    size_t count = 0;
     if (!reports(sh))
         return;
+    for (; *names; names++) {
+        calc_error error;
+        error_clear(&error);
+        of[count] = quantity_find(*names, strlen(*names));
+        v[count] = (value){0, of[count]->d};
+        count += quantity_get(of[count], &sh->calc.scene, &v[count].v, &error);
+    }
     progress_wipe();
     const bool json = sh->set.format == FORMAT_JSON;
     if (!json && sh->set.report == REPORT_AUTO)
         shell_aside(sh, sh->out);
     if (json)
         fprintf(sh->out, "{\"event\":\"%s\"", event);
-    for (bool first = true; *names; names++) {
-        const quantity *q = quantity_find(*names, strlen(*names));
-        calc_error error;
-        value v = {0, q->d};
+    for (size_t i = 0; i < count; i++) {
         char text[160];
-        error_clear(&error);
-        if (!quantity_get(q, &sh->calc.scene, &v.v, &error))
-            continue;
-        format_value(&sh->set, v, text, sizeof text);
+        format_value(&sh->set, v[i], text, sizeof text);
         if (json)
-            fprintf(sh->out, ",\"%s\":%.17g", *names, (double)v.v);
+            fprintf(sh->out, ",\"%s\":%.17g", of[i]->name, (double)v[i].v);
         else
-            fprintf(sh->out, "%s%s = %s", first ? "  " : ", ", *names, text);
-        first = false;
+            fprintf(sh->out, "%s%s = %s", i ? ", " : "  ", of[i]->name, text);
     }
     fputs(json ? "}\n" : "\n", sh->out);
 }
@@ -161,6 +167,10 @@ bool do_step(shell *sh, lexer *lx, const command *self) {
         return arg_place(lx->error, last);
     if (reports(sh)) /* a step may wait until it is asked for */
         report_event(sh, "step", step.normal ? oblique : names);
+    if (shell_stop) { /* run_command takes back what other loads are */
+        calc_undo(&sh->calc);
+        return calc_interrupted(lx->error);
+    }
     return true;
 }
 
@@ -246,6 +256,7 @@ static bool follow_rows(shell *sh, const csv *data, const followed *kind, const 
         if (!ok)
             return false;
     }
+    progress_part(-1); /* what springs make of it is not known yet */
     return true;
 }
 

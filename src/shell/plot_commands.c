@@ -8,6 +8,7 @@
 
 #include "shell/figures.h"
 #include "shell/panel.h"
+#include "shell/progress.h"
 #include "shell/target.h"
 #include "shell/typeset.h"
 
@@ -158,18 +159,6 @@ typedef struct movie {
     calc_error *error;
 } movie;
 
-static void show_progress(const movie *m, const char *what) {
-    if (!isatty(STDERR_FILENO))
-        return;
-    fprintf(m->sh->err, "\r%s %zu/%zu\033[K", what, m->done, m->frames);
-    fflush(m->sh->err);
-}
-
-static void clear_progress(const movie *m) {
-    if (isatty(STDERR_FILENO))
-        fputs("\r\033[K", m->sh->err);
-}
-
 /* The figures at an instant; turning points between the frames are passed by. */
 static bool take_frame(void *context, double time, calc_error *error) {
     movie *m = context;
@@ -179,7 +168,7 @@ static bool take_frame(void *context, double time, calc_error *error) {
         return true;
     lx.error = m->error;
     m->motion.until = time;
-    show_progress(m, "frame");
+    progress_part((double)m->done / (double)m->frames);
     return draw_panels(m->sh, &lx, &m->frame[m->done++], &m->motion);
 }
 
@@ -208,7 +197,6 @@ static bool take_frames(movie *m) {
     if (!ok)
         calc_word(c, m->error);
     trial_close(t);
-    clear_progress(m);
     return ok;
 }
 
@@ -221,10 +209,11 @@ static bool fill(void *context, size_t i, size_t frames, plot_figure *f, calc_er
 }
 
 static void drawing(void *context, size_t done, size_t frames) {
-    movie *m = context;
-    m->done = done;
-    if (done == frames && isatty(STDERR_FILENO))
-        fprintf(m->sh->err, "\rgnuplot draws %zu frames\033[K", frames);
+    char words[80];
+    (void)context;
+    snprintf(words, sizeof words, "animate: gnuplot draws %zu frames (Ctrl-C stops it)", frames);
+    if (done == frames)
+        progress_words(words);
 }
 
 static bool draw_movie(movie *m, lexer *lx, const char *file) {
@@ -235,7 +224,7 @@ static bool draw_movie(movie *m, lexer *lx, const char *file) {
         return false;
     const plot_movie of = {.frames = m->done, .fill = fill, .progress = drawing, .context = m};
     const bool ok = plot_animate(&of, &to, &written, lx->error);
-    clear_progress(m);
+    progress_wipe();
     return end_target(m->sh, file, &text, &written, ok, lx->error);
 }
 

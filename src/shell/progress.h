@@ -10,7 +10,7 @@
 void progress_begin(const shell *sh, const char *what, size_t len);
 void progress_end(void);
 
-/* How far it is, 0..1. */
+/* How far it is, 0..1; negative: nobody knows. */
 void progress_part(double part);
 /* It is still at work; for scenes. */
 void progress_pulse(void);

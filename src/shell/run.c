@@ -144,6 +144,10 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
         undo_scene(&sh->calc, before);
     else if (c->changes)
         undo_unmark(&sh->calc, before);
+    if (ok && c->changes && shell_stop && c->run != do_source) { /* while it told of itself */
+        undo_pop(&sh->calc, true);
+        ok = calc_interrupted(lx->error);
+    }
     if (ok && (c->changes || c->run == do_undo))
         warn(sh);
     return ok || calc_place(lx->error, at, lx->end > at + len ? lx->end - at : len);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Trials that count. Reads and prints nothing. */
+/* Trials that count, and tell that they are at work. Reads and prints nothing. */
 #include "study/ask.h"
 
 #include <math.h>
@@ -55,6 +55,8 @@ bool ask_value(ask *q, const expr *e, dim *d, bool *known, long double *out) {
     error_clear(&error);
     if (q->error->raised)
         return false;
+    if (q->c->scene.pulse)
+        q->c->scene.pulse();
     if (!expr_eval(q->c, e, &v, &error))
         return ask_failed(q, &error);
     if (*known && !dim_equal(v.d, *d)) {

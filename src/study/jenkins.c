@@ -19,6 +19,7 @@ typedef struct march {
     double slope; /* of the line from it */
     fret_status failed;
     const volatile sig_atomic_t *stop;
+    void (*pulse)(void);
 } march;
 
 static bool stopped(const march *m) {
@@ -128,6 +129,8 @@ static bool suffices(march *m, size_t count, jenkins_element *out) {
         return true;
     m->d = zero_of(m, first_kink, 0, m->end);
     for (size_t i = 0;; i++) {
+        if (m->pulse)
+            m->pulse();
         const bool last = i + 1 == count;
         double at = m->end;
         bool done;
@@ -151,9 +154,9 @@ static bool suffices(march *m, size_t count, jenkins_element *out) {
 }
 
 bool jenkins(const fret_contact *contact, double amplitude, size_t count, const volatile sig_atomic_t *stop,
-             jenkins_element *out, jenkins_error *quality, calc_error *error) {
+             void (*pulse)(void), jenkins_element *out, jenkins_error *quality, calc_error *error) {
     const double slip = (double)fret_gross_slip(contact);
-    march m = {.contact = contact, .stop = stop, .all = !(amplitude < slip)};
+    march m = {.contact = contact, .stop = stop, .pulse = pulse, .all = !(amplitude < slip)};
     m.end = m.all ? slip : amplitude;
     const double scale = loss(&m, m.end);
     double lo = 0, hi = scale;

@@ -177,6 +177,35 @@ def recorded(tests):
     tests.check("save history", typed.startswith("mu = 0.3\nrecord ") and "dx +  \\\n1 um\n" in typed, typed)
 
 
+def slowly(tests, s):
+    """What takes long tells how far it is, and nothing of it stays."""
+    for name, rows in (("load", ["FN [N],Fx [N]"] + ["%d,%d" % (100 + i % 7, i % 11) for i in range(60000)]),
+                       ("depth", ["force [N],depth [um]"] + ["%d,%d" % (1 + i % 997, 2 + i % 997) for i in range(100000)])):
+        with open(os.path.join(tests.dir, name + ".csv"), "w", encoding="ascii") as f:
+            f.write("\n".join(rows))
+    s.say("reset; press FN=100 N; cycle FA=20 N")
+    for statement, shown, setup in (
+            ("animate springs | loop frames 500 to a.gif", r"animate: \d+ %|gnuplot draws 500 frames", ""),
+            ("cycle FA=20 N times 10000", r"cycle: \d+ s", "set model springs 500000"),
+            ("follow load.csv", r"follow: \d+ (%|s)", "reset; press FN=100 N"),
+            ("step Fx=15 N", r"step: \d+ s", "reset; press FN=100 N; set report off; cycle FA=10 N times 100000; set report auto"),
+            ("fit E0 for depth = dz(force) to depth.csv", r"fit: \d+ s",
+             "reset; set model auto; geometry flat-rounded b=1 mm R=10 mm; press FN=100 N; set cores 1"),
+            ("export jenkins 1000 to a.csv", r"export: \d+ s", "set model auto")):
+        s.say(setup)
+        scene = s.say("set pager off; show")
+        s.child.sendline(statement)
+        try:
+            s.child.expect("(" + shown + r").*\(Ctrl-C stops it\)", timeout=30)
+            ok = True
+        except pexpect.TIMEOUT:
+            ok = False
+        s.child.sendintr()
+        tests.check("progress of " + statement, ok and "interrupted" in s.prompt(), clean(s.child.before))
+        tests.check("interrupted, it changes nothing: " + statement, s.say("show") == scene, scene + clean(s.child.before))
+    s.say("set model auto")
+
+
 def screens(tests):
     """What depends on the terminal: the pager, progress, carets."""
     s = Session(tests, PAGER="sed s/^/PAGED:/", dimensions=(10, 100))
@@ -205,6 +234,7 @@ def screens(tests):
     s.child.expect(r"cycle: \d+ s \(Ctrl-C stops it\)", timeout=30)
     s.child.sendintr()
     tests.check("a long cycle shows progress", "interrupted" in s.prompt())
+    slowly(tests, s)
     tests.check("an error points into the line", "  1 + foo\n      ^~~" in s.say("1 + foo"))
     tests.check("not where it is all of it", "^" not in s.say("foo"))
     s.child.sendeof()
