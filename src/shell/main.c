@@ -245,7 +245,7 @@ static int run_live(shell *sh, const wishes *w) {
         return bad_usage("--live takes one script", NULL);
     if (shell_live(sh, w->count ? w->jobs[0].text : NULL, &error))
         return EXIT_OK;
-    fprintf(stderr, "error: %s\n", error.text);
+    shell_error(sh, error.text);
     return EXIT_ERROR;
 }
 

@@ -183,8 +183,11 @@ typedef struct replay {
 static void show(FILE *out, char mark, const char *line) {
     for (; *line; line = line_after(line)) {
         const bool marked = *line == MARK_ASIDE || *line == MARK_DRAWING;
-        if (!marked)
-            fprintf(out, "%c %.*s\n", mark, (int)strcspn(line, "\n"), line);
+        if (marked)
+            continue;
+        fprintf(out, "%c ", mark);
+        print_safe(out, line, strcspn(line, "\n"));
+        putc('\n', out);
     }
 }
 
@@ -239,7 +242,10 @@ static bool judge(replay *r) {
         r->passed++;
     } else if (!m.lost) {
         r->failed++;
-        fprintf(r->out, "%s:%zu: fret> %s\n", r->path, r->at, r->statement.p);
+        print_safe(r->out, r->path, strlen(r->path));
+        fprintf(r->out, ":%zu: fret> ", r->at);
+        print_safe(r->out, r->statement.p, r->statement.len);
+        putc('\n', r->out);
         show(r->out, '-', want);
         show(r->out, '+', r->got);
     }
@@ -321,8 +327,10 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
     nesting++;
     bool ok = text_begun && take_lines(&r, &in, error);
     nesting--;
-    if (ok)
-        fprintf(r.out, "%s: %zu passed, %zu failed\n", path, r.passed, r.failed);
+    if (ok) {
+        print_safe(r.out, path, strlen(path));
+        fprintf(r.out, ": %zu passed, %zu failed\n", r.passed, r.failed);
+    }
     ok = text_begun && text_end(&t, true) && ok;
     if (!ok && !error->raised)
         calc_no_memory(error);

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How long Ctrl-C takes, from the key to the next prompt, for what takes longest: `latency.py FRET [NAME...]` prints a
-table.
-The tests take a short version of it, with generous bounds."""
+table of interrupts at random moments. The tests take a short version of it, with generous bounds."""
 import contextlib
 import math
 import os
 import pty
+import random
 import select
 import shutil
 import signal
@@ -17,7 +17,8 @@ import time
 STEEL = "material steel; friction 0.4"
 GRADED = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; friction 0.4"
 PRESSED = STEEL + "; geometry sphere R=10 mm; press FN=100 N"
-DELAYS = (0.03, 0.1, 0.3, 0.6, 1, 1.5, 2.5, 4, 6)
+INTERRUPTS = 25  # of a statement
+LONGEST = 5  # seconds until one
 PATIENCE = 20
 
 
@@ -40,7 +41,8 @@ def history(path, rows):
 def cases(where, size):
     """(name, statements before, the statement); size divides rows and springs."""
     springs, rows = 10000000 // size, 100000 // size
-    path = {name: os.path.join(where, name) for name in ("gap", "small", "huge", "follow", "line", "sum")}
+    path = {name: os.path.join(where, name) for name in ("gap", "small", "huge", "follow", "line", "sum", "transcript",
+                                                      "measured")}
     gap(path["gap"], rows)
     gap(path["small"], 1000)
     gap(path["huge"], 3000000 // size)
@@ -49,6 +51,11 @@ def cases(where, size):
         f.write("x = 1 # " + "x" * (200000000 // size) + "\n")
     with open(path["sum"], "w", encoding="ascii") as f:
         f.write("1" + "+1" * (5000000 // size) + "\n")
+    with open(path["transcript"], "w", encoding="ascii") as f:
+        f.write(PRESSED.replace("; ", "\nfret> ").join(("fret> ", "\n")) + "fret> cycle dxA=0.1 um FNA=30 N\n" * 10000)
+    with open(path["measured"], "w", encoding="ascii") as f:
+        f.write("time,dx [um],Fx [N]\n" + "".join("%d,%.9g,%.9g\n" % (i, math.sin(i / 9), 30 * math.sin(i / 9 - 0.2))
+                                                  for i in range(20000 // size)))
     table = "%s; geometry file %s; press FN=100 N" % (GRADED, path["gap"])
     oblique = "cycle FA=20 N FNA=30 N phase=60 deg"
     model = "; set model springs %d" % springs
@@ -69,6 +76,15 @@ def cases(where, size):
         ("oblique cycles, table", table, oblique + " times 100"),
         ("springs, oblique", PRESSED + "; " + oblique + "; set model springs %d" % (1000000 // size), "W"),
         ("a field, table", table + "; step Fx=20 N", "table p(r), qx(r) for r = 0 mm .. 0.2 mm steps 100000 to /dev/null"),
+        ("maximize", PRESSED + "; cycle dxA=0.1 um FNA=30 N times 20", "maximize W over mu = 0.5 .. 1, E0 = 1 GPa .. 300 GPa"),
+        ("fit to a loop", PRESSED, "fit mu, E0 along " + path["measured"]),
+        ("uncertainty", PRESSED, "uncertainty dWd(1 um) with mu +- 0.01, FN +- 1 N samples 10000000"),
+        ("export jenkins", PRESSED.replace("sphere", "flat-rounded b=0.1 mm"), "export jenkins 1000 to /dev/null"),
+        ("replay", "x = 1", "replay " + path["transcript"]),
+        ("a plot, table", table + "; cycle FA=20 N", "plot dW for FA = 1 N .. 30 N with k = 0, 0.1, 0.2, 0.3, 0.4, 0.5"),
+        ("a map, table", table, "plot map a for k = 0 .. 0.5 steps 400 for FN = 1 N .. 100 N steps 400"),
+        ("animate", PRESSED + "; cycle FA=20 N", "animate traction | pressure along program frames 1000 to x.gif"),
+        ("explain, table", table + "; " + oblique, "explain W"),
         ("a sweep of an input, table", table, "table a for k = 0 .. 0.5 steps 100000 to /dev/null"),
     ]
 
@@ -109,38 +125,59 @@ class Terminal:
         os.close(self.fd)
 
 
+def busy(pid):
+    """Seconds that a process has spent on a processor: others may be at work too."""
+    with open("/proc/%d/schedstat" % pid, encoding="ascii") as f:
+        return int(f.read().split()[0]) * 1e-9
+
+
 def interrupted(terminal, statement, delay):
-    """Seconds from Ctrl-C to the prompt; None: the statement was faster, infinity: it did not end."""
+    """Seconds from Ctrl-C to the prompt, and of these on a processor; None: the statement was faster, infinity: it did
+    not end."""
     terminal.send(statement)
     answer = terminal.read(delay)
     if answer is not None:
         return None
-    start = time.monotonic()
+    start, before = time.monotonic(), busy(terminal.pid)
     os.write(terminal.fd, termios.tcgetattr(terminal.fd)[6][termios.VINTR])
     answer = terminal.read(PATIENCE)
     if answer is None:
-        return math.inf
-    return time.monotonic() - start if "interrupted" in answer else None
+        return math.inf, math.inf
+    return (time.monotonic() - start, busy(terminal.pid) - before) if "interrupted" in answer else None
 
 
 def measure(fret, env, case, delays):
-    """The longest of several interrupts, and whether the scene stayed: (seconds, bool); None: never interrupted."""
+    """[(seconds, seconds on a processor)] of interrupts after these delays, and whether the scene stayed."""
     _, before, statement = case
     terminal = Terminal(fret, env)
     try:
         for part in before.split("; "):
             terminal.say(part)
-        worst, kept = None, True
+        took, kept = [], True
         for delay in delays:
             scene = terminal.say("show")
-            took = interrupted(terminal, statement, delay)
-            if took is None:
+            one = interrupted(terminal, statement, delay)
+            if one is None:
                 continue
-            worst = max(worst or 0, took)
-            kept = kept and took != math.inf and terminal.say("show") == scene
+            took.append(one)
+            kept = kept and one[0] != math.inf and terminal.say("show") == scene
             if not kept:
                 break
-        return worst, kept
+        return took, kept
+    finally:
+        terminal.close()
+
+
+def lasts(fret, env, case):
+    """Seconds, no more than the longest delay."""
+    terminal = Terminal(fret, env)
+    try:
+        for part in case[1].split("; "):
+            terminal.say(part)
+        start = time.monotonic()
+        terminal.send(case[2])
+        terminal.read(LONGEST)
+        return time.monotonic() - start
     finally:
         terminal.close()
 
@@ -149,15 +186,21 @@ def main():
     fret = os.path.abspath(sys.argv[1])
     where = tempfile.mkdtemp(prefix="fret-latency-")
     env = {**os.environ, "TERM": "dumb", "HOME": where, "XDG_STATE_HOME": where, "INPUTRC": "/dev/null"}
+    rnd = random.Random(1)
+    os.chdir(where)
     try:
-        print("# Ctrl-C to the next prompt, the longest of interrupts after %s s [ms]" %
-              ", ".join("%g" % delay for delay in DELAYS))
+        print("# make latency: Ctrl-C to the next prompt, %d interrupts at random moments of the first %g s [ms]" %
+              (INTERRUPTS, LONGEST))
+        print("# %-38s %8s %8s %20s" % ("", "p50", "p100", "p100 on a processor"))
         for case in cases(where, 1):
             if len(sys.argv) > 2 and case[0] not in sys.argv[2:]:
                 continue
-            worst = measure(fret, env, case, DELAYS)
-            text = "done before" if worst[0] is None else "never" if worst[0] == math.inf else "%d" % (1e3 * worst[0])
-            print("%-40s %12s%s" % (case[0], text, "" if worst[1] else "  scene changed"), flush=True)
+            last = lasts(fret, env, case)
+            took, kept = measure(fret, env, case, sorted(rnd.uniform(0.01, last) for _ in range(INTERRUPTS)))
+            wall, own = sorted(one[0] for one in took), max([one[1] for one in took] or [0])
+            text = ("%8.0f %8.0f %20.0f" % (1e3 * wall[len(wall) // 2], 1e3 * wall[-1], 1e3 * own) if wall and
+                    wall[-1] < math.inf else "   never" if wall else "   done before")
+            print("%-40s %s%s" % (case[0], text, "" if kept else "  scene changed"), flush=True)
     finally:
         shutil.rmtree(where, ignore_errors=True)
 
