@@ -28,6 +28,7 @@ typedef struct typed {
     char *text, *next;
     bool transcript; /* some of its lines begin with a prompt: the others are answers */
     bool shows;      /* its lines one by one, as if typed */
+    bool lost;       /* there was no memory for a line */
     size_t answers;  /* left out */
 } typed;
 
@@ -89,7 +90,7 @@ static char *append(char *to, size_t *size, const char *line, size_t len) {
     return grown;
 }
 
-/* A line with those that continue it; NULL: the end, Ctrl-C, or no memory. */
+/* A line with those that continue it; NULL: the end, Ctrl-C, or no memory, which is told apart by t->lost. */
 static char *logical_line(typed *t) {
     size_t len, size = 0;
     const char *line = next_line(t, "fret> ", false, &len);
@@ -102,6 +103,7 @@ static char *logical_line(typed *t) {
         whole = append(whole, &size, "\n", 1);
         whole = whole ? append(whole, &size, line, len) : NULL;
     }
+    t->lost = line && !whole;
     return whole;
 }
 
@@ -182,6 +184,11 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
             free(line);
             forget(&waiting);
             prompt_dropped();
+            continue;
+        }
+        if (!line && waiting.lost) {
+            shell_error(sh, "out of memory: the line is dropped");
+            forget(&waiting);
             continue;
         }
         if (!line) {

@@ -16,7 +16,8 @@
 #include "shell/record.h"
 
 /* readline's callbacks carry no context */
-static const shell *completing;
+static shell *completing;
+static bool at_work;          /* readline is */
 static int history_file = -1; /* open for appending; -1: none is kept */
 
 /* ---- signals ----------------------------------------------------------------------------------- */
@@ -92,7 +93,7 @@ static int read_key(FILE *in) {
         const ssize_t n = read(fd, &c, 1);
         if (n == 1)
             return c;
-        if (n == 0 || errno != EINTR)
+        if (n == 0 || (errno != EINTR && errno != EAGAIN))
             return EOF;
     }
 }
@@ -166,6 +167,12 @@ static bool history_path(char path[HISTORY_PATH]) {
     return true;
 }
 
+static void remember(const char *line) {
+    at_work = true;
+    add_history(line);
+    at_work = false;
+}
+
 /* The latest lines of the file. */
 static void read_lines(int fd, off_t size) {
     const off_t from = size > HISTORY_READ ? size - HISTORY_READ : 0;
@@ -187,7 +194,7 @@ static void read_lines(int fd, off_t size) {
         end = line + strcspn(line, "\n");
         end += *end ? (*end = 0, 1) : 0;
         if (*line)
-            add_history(line);
+            remember(line);
     }
     free(text);
 }
@@ -216,8 +223,19 @@ static void open_history(shell *sh) {
 
 /* ---- what the session calls -------------------------------------------------------------------- */
 
+/* readline ends the program where it finds no memory; the terminal must not stay as it had it. */
+static void at_exit(void) {
+    if (!at_work)
+        return;
+    at_work = false;
+    rl_deprep_term_function();
+    fflush(NULL);
+    _exit(EXIT_ERROR);
+}
+
 void prompt_begin(shell *sh) {
     completing = sh;
+    atexit(at_exit);
     rl_readline_name = "fret"; /* `$if fret` in inputrc */
     rl_getc_function = read_key;
     rl_attempted_completion_function = matches;
@@ -231,7 +249,9 @@ void prompt_begin(shell *sh) {
 char *prompt_line(const char *text) {
     rl_outstream = record_terminal();
     guard();
+    at_work = true;
     char *line = readline(text);
+    at_work = false;
     unguard();
     if (caught) /* came when the line was done: it acts now */
         raise(caught);
@@ -286,10 +306,11 @@ void prompt_keep(const char *line) {
     for (size_t i = 0; i < n; i++)
         copy[i] = line[i] == '\n' ? ' ' : line[i];
     copy[n] = 0;
-    add_history(copy);
+    remember(copy);
     copy[n] = '\n';
-    if (history_file >= 0 && write(history_file, copy, n + 1) < 0) {
-        close(history_file); /* full, or gone */
+    if (history_file >= 0 && write(history_file, copy, n + 1) < 0) { /* full, or gone */
+        shell_note(completing, "no history is kept any more: %s", strerror(errno));
+        close(history_file);
         history_file = -1;
     }
     free(copy);

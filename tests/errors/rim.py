@@ -386,6 +386,27 @@ def signals(tests):
     p.close()
 
 
+def prompt_memory(tests):
+    """Memory that runs out while a line is edited: the terminal is right again, and an end is no good one."""
+    shim = os.path.join(os.path.abspath(tests.build), "tests", "faults.so")
+    if tests.sanitized or not os.path.exists(shim):
+        return
+    with open(os.path.join(tests.dir, "arm"), "w", encoding="ascii"):
+        pass
+    for number in range(1, 62, 12):
+        p = Prompt(tests, LD_PRELOAD=shim, FAULT=str(number))
+        text = p.say("source arm")
+        for line in ("x = 5", "x", "x + 1", "\x04"):
+            if "virtual memory" not in text:  # of readline, which ends the program
+                os.write(p.main, line.encode() + (b"" if line == "\x04" else b"\r"))
+                text += p.read(0.7 if line == "\x04" else 2)
+        status = p.status()
+        tests.check("allocation %d at the prompt" % number, p.restored() and
+                    (status == 1 if "virtual memory" in text else status == 0 and "x + 1 = 6" in text or "memory" in text),
+                    "%s %s" % (status, text))
+        p.close()
+
+
 def ended_at_work(tests):
     """Half-written files, gnuplot and its directory go when the program is ended."""
     where = os.path.join(tests.dir, "ended")
@@ -481,7 +502,7 @@ def history(tests):
     p.close()
 
 
-ROOM = (lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, ended_at_work, interrupts, history)
+ROOM = (lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
 
 
 def run(tests):

@@ -112,6 +112,7 @@ def differ(want, got):
 
 class Faults:
     """One statement, run again and again. A fault is (what, number, code), None for none."""
+    given = None  # to the program, beside the script; standard input
 
     def __init__(self, fret, tests, env, setup, statement):
         self.fret, self.tests, self.env, self.statement = fret, tests, env, statement
@@ -126,7 +127,7 @@ class Faults:
         tmp = where + ".tmp"
         os.mkdir(tmp)
         env = {**self.env, "TMPDIR": tmp, "HOME": tmp}
-        argv = [self.fret, "--keep-going", "-c", script or self.script]
+        argv = [self.fret, *self.arguments(script or self.script)]
         what, number, code = fault or (count, 0, 0)
         if what == ALLOCATION:
             env.update(LD_PRELOAD=os.path.join(self.tests, "faults.so"), FAULT=str(number), FAULT_COUNT=told)
@@ -134,7 +135,10 @@ class Faults:
             argv = [os.path.join(self.tests, "calls"), told, what, str(number), str(code), *argv]
         try:
             prepare(where)
-            done = subprocess.run(argv, cwd=where, capture_output=True, env=env, timeout=120, check=False)
+            with open(os.path.join(where, "main.fret"), "w", encoding="ascii") as f:
+                f.write(script or self.script)
+            done = subprocess.run(argv, cwd=where, input=self.given, capture_output=True, env=env, timeout=120, check=False)
+            os.unlink(os.path.join(where, "main.fret"))
             left = files(where)
             seen = ""
             if os.path.exists(told):
@@ -148,6 +152,9 @@ class Faults:
             shutil.rmtree(tmp, ignore_errors=True)
             if os.path.exists(told):
                 os.unlink(told)
+
+    def arguments(self, script):
+        return ["--keep-going", "-c", script]
 
     def changed(self, wants, left, what):
         """Files that are none of these, without what a removal that fails leaves behind."""
@@ -197,8 +204,39 @@ class Faults:
         return self.run(None, count)
 
 
+class ToTheEnd(Faults):
+    """A script and the end of the program, by one of the ways to give it."""
+    ways = {"-c": lambda script: ["-c", script], "a file": lambda script: ["main.fret"], "standard input": lambda script: [],
+            "a transcript": lambda script: ["--replay", "main.fret"]}
+
+    def __init__(self, fret, tests, env, way):
+        super().__init__(fret, tests, env, STEEL, way)
+        self.script = "%s\nsource arm\nstep Fx=20 N\nFx, c\nshow\n" % STEEL
+        self.arguments = self.ways[way]
+        if way == "a transcript":
+            self.script = "fret> %s\nfret> source arm\nfret> y = 3\nfret> y\ny = 3\nfret> step Fx=20 N\n" % STEEL
+        self.given = self.script.encode() if way == "standard input" else None
+
+    def try_one(self, fault, right):
+        status, out, err, left, seen = self.run(fault)
+        if fault[0] != ALLOCATION and "FAILED\n" not in seen:
+            return "not reached"
+        if self.changed([self.files], left, fault[0]):
+            return "files changed"
+        if status == 0:
+            return "harmless" if out == right[1] else "ends well with another answer\n" + differ(right[1], out)
+        told_of = "error:" in err or (not err and fault[0] == "write")
+        return "refused" if status == 1 and told_of else "exit %d\n%s" % (status, err)
+
+    def reference(self, count):
+        right = self.run(None, count)
+        self.files = right[3]
+        return right
+
+
 def statements(fret, tests, env):
-    return [Faults(fret, tests, env, setup, statement) for setup, list_ in STATEMENTS for statement in list_]
+    return ([Faults(fret, tests, env, setup, statement) for setup, list_ in STATEMENTS for statement in list_] +
+            [ToTheEnd(fret, tests, env, way) for way in ToTheEnd.ways])
 
 
 def allocations(seen):
