@@ -363,6 +363,9 @@ bool scene_engine(scene *s, model_id model, unsigned count, engine *out, calc_er
     w.context = &a;
     if ((models[model].count && !scene_trace(s, &w, error)) || !scene_load_of(s, &load, error))
         return false;
+    if (models[model].power && !fret_normal_is_power(load.normal))
+        return calc_fail(error, 0, 0, "`%s` is for gaps of a single power: set model auto",
+                         models[model].name);
     fret_status st = engine_make(out, model, load.normal, load.mu, count, (double)(a * (1 + 1e-12L)));
     return calc_status(error, &st);
 }

@@ -63,6 +63,43 @@ static void springs_end(void *self) {
     fret_springs_free(self);
 }
 
+static fret_status diagram_make(const fret_normal *normal, double mu, unsigned count, double radius,
+                                void **out) {
+    fret_diagram *d = NULL;
+    fret_status st = fret_diagram_make(normal, mu, 0, &d);
+    (void)count, (void)radius;
+    *out = d;
+    return st;
+}
+
+static fret_status diagram_step(void *self, const fret_step *step) {
+    return fret_diagram_step(self, step);
+}
+
+static fret_status diagram_copy(void *to, const void *from) {
+    return fret_diagram_copy(to, from);
+}
+
+static void diagram_state(const void *self, fret_state *out) {
+    fret_diagram_state(self, out);
+}
+
+static void diagram_forces(const void *self, fret_state *out) {
+    fret_diagram_now now;
+    fret_diagram_forces(self, &now);
+    *out = (fret_state){.FN = now.FN, .dz = now.dz, .Fx = now.Fx, .dx = now.dx, .W = now.W};
+}
+
+static long double diagram_last_loss(const void *self) {
+    fret_diagram_now now;
+    fret_diagram_forces(self, &now);
+    return now.last_loss;
+}
+
+static void diagram_end(void *self) {
+    fret_diagram_free(self);
+}
+
 const model_row models[MODELS] = {
     [MODEL_CLOSED] = {.name = "closed", .title = "closed form", .chosen = true},
     [MODEL_MEMORY] = {.name = "memory",
@@ -87,6 +124,17 @@ const model_row models[MODELS] = {
                        .forces = springs_state,
                        .end = springs_end},
     [MODEL_VECTORS] = {.name = "vectors", .title = "vectors to 2e-15"},
+    [MODEL_DOUBLE] = {.name = "double",
+                      .title = "memory diagram in double, to 3e-14",
+                      .chosen = true,
+                      .power = true,
+                      .make = diagram_make,
+                      .step = diagram_step,
+                      .copy = diagram_copy,
+                      .state = diagram_state,
+                      .forces = diagram_forces,
+                      .last_loss = diagram_last_loss,
+                      .end = diagram_end},
 };
 
 /* ---- the sine itself --------------------------------------------------------------------------- */

@@ -8,7 +8,15 @@
 
 #include "fret/fret.h"
 
-typedef enum model_id { MODEL_CLOSED, MODEL_MEMORY, MODEL_QUADRATURE, MODEL_SPRINGS, MODEL_VECTORS, MODELS } model_id;
+typedef enum model_id {
+    MODEL_CLOSED,
+    MODEL_MEMORY,
+    MODEL_QUADRATURE,
+    MODEL_SPRINGS,
+    MODEL_VECTORS,
+    MODEL_DOUBLE,
+    MODELS
+} model_id;
 
 /* What has answered: bits of scene.used. */
 #define USED(id) (1u << (id))
@@ -18,6 +26,7 @@ typedef struct model_row {
     const char *title; /* for explain */
     const char *count; /* what its number means, as in `springs N`; NULL: it has none */
     bool chosen;       /* `set model` can ask for it */
+    bool power;        /* for gaps of a single power only */
     /* stepping; NULL where the model has a formula only */
     fret_status (*make)(const fret_normal *normal, double mu, unsigned count, double radius, void **out);
     fret_status (*step)(void *self, const fret_step *step);

@@ -136,7 +136,7 @@ static bool swings(scene *s) {
 static void put_model(const page *p, const quantity *q, bool call) {
     scene *s = p->sh->calc.now;
     const model_id model = quantity_model(q, s, call);
-    const bool stepped = model == MODEL_MEMORY || model == MODEL_SPRINGS;
+    const bool stepped = models[model].make;
     if (stepped && (q->reads & INPUT_BIT(IN_MU)) && swings(s))
         put_sine(p, q, call, model);
     else if (model == MODEL_QUADRATURE && q->by != MODEL_QUADRATURE)
