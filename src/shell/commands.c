@@ -339,7 +339,7 @@ static const command commands[] = {
      .help = "FIGURE is one of\n\n"
              "    EXPR, ... [against EXPR] RANGE [with NAME = v1, v2, ...] [LOOKS]\n"
              "    map EXPR for A = LO .. HI for B = LO .. HI [LOOKS]\n"
-             "    a name of the list above [with ...] [LOOKS]\n\n"
+             "    a name of the list above [another RANGE] [with ...] [LOOKS]\n\n"
              "RANGE is `for NAME = LO .. HI [steps N] [log]`, with more points where the curve\n"
              "bends unless steps are given, or `along program`, `along cycle` or\n"
              "`along step ...`, `along cycle ...` for a load that is only tried. LOOKS:\n"

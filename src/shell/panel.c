@@ -421,18 +421,29 @@ static size_t figure_end(const lexer *lx) {
     return scan.kind == T_END ? lx->end : scan.at;
 }
 
+/* What follows the name of a figure may be another range. */
+static size_t statement_length(const figure *f, const lexer *lx) {
+    lexer next = *lx;
+    lex_next(&next);
+    if (!lex_is(&next, "along") && !lex_is(&next, "for"))
+        return strlen(f->statement);
+    const char *own = strstr(f->statement, " along ");
+    own = own ? own : strstr(f->statement, " for ");
+    return own ? (size_t)(own - f->statement) : strlen(f->statement);
+}
+
 /* A figure of the table: its statement as if it stood here, what follows the name after it. */
 static bool draw_named(shell *sh, lexer *lx, const figure *f, plot_panel *p, size_t index, motion *m) {
     if (f->build) {
         lex_next(lx);
         return f->build(sh, lx, p);
     }
-    const size_t from = lx->at + lx->len, rest = figure_end(lx), length = strlen(f->statement);
+    const size_t from = lx->at + lx->len, rest = figure_end(lx), length = statement_length(f, lx);
     const size_t room = length + (rest - from) + 1;
     char *text = malloc(room);
     if (!text)
         return calc_no_memory(lx->error);
-    snprintf(text, room, "%s%.*s", f->statement, (int)(rest - from), lx->text + from);
+    snprintf(text, room, "%.*s%.*s", (int)length, f->statement, (int)(rest - from), lx->text + from);
     lexer own;
     lex_start(&own, text, strlen(text), lx->error);
     range_names used;
@@ -449,23 +460,31 @@ static bool draw_named(shell *sh, lexer *lx, const figure *f, plot_panel *p, siz
     return ok;
 }
 
-/* The name of a figure is an expression where one goes on behind it. */
-static const figure *figure_at(const lexer *lx) {
-    static const char *const goes_on[] = {"for", "along", "in", "at", "against"};
-    const figure *f = lx->kind == T_NAME ? figure_find(lx->text + lx->at, lx->len) : NULL;
+/* The name of a figure is an expression where one goes on behind it; a range may follow one that has no
+ * value. */
+static const figure *figure_at(const shell *sh, const lexer *lx) {
+    static const char *const goes_on[] = {"in", "at", "against", "for", "along"};
+    enum { EXPRESSION = 3 }; /* those that are no range */
+    const char *name = lx->text + lx->at;
+    size_t own;
+    const figure *f = lx->kind == T_NAME ? figure_find(name, lx->len) : NULL;
+    if (!f)
+        return NULL;
+    const bool valued = quantity_find(name, lx->len) ||
+                        (names_find(&sh->calc.names, name, lx->len, &own) && sh->calc.names.row[own].known);
     lexer next = *lx;
     calc_error ignored;
     error_clear(&ignored);
     next.error = &ignored;
     lex_next(&next);
-    for (size_t i = 0; i < sizeof goes_on / sizeof *goes_on; i++)
+    for (size_t i = 0; i < (valued ? sizeof goes_on / sizeof *goes_on : EXPRESSION); i++)
         if (lex_is(&next, goes_on[i]))
             return NULL;
     return next.kind == T_END || next.kind == T_NAME || next.kind == T_BAR ? f : NULL;
 }
 
-bool panel_is_named(const lexer *lx) {
-    return figure_at(lx) != NULL;
+bool panel_is_named(const shell *sh, const lexer *lx) {
+    return figure_at(sh, lx) != NULL;
 }
 
 bool panel_draw(shell *sh, lexer *lx, plot_figure *f, motion *m) {
@@ -473,7 +492,7 @@ bool panel_draw(shell *sh, lexer *lx, plot_figure *f, motion *m) {
     plot_panel *p = plot_panel_add(f, lx->error);
     if (!p)
         return calc_place(lx->error, lx->at, lx->len);
-    const figure *named = figure_at(lx);
+    const figure *named = figure_at(sh, lx);
     if (named)
         return draw_named(sh, lx, named, p, index, m);
     return map_at(lx) ? map_draw(sh, lx, p) : draw_sweep(sh, lx, NULL, p, index, m);

@@ -25,7 +25,7 @@ typedef struct motion {
 } motion;
 
 /* Is the cursor on a figure that needs no range? */
-bool panel_is_named(const lexer *lx);
+bool panel_is_named(const shell *sh, const lexer *lx);
 /* Appends a panel; m: NULL where nothing moves. */
 bool panel_draw(shell *sh, lexer *lx, plot_figure *f, motion *m);
 

@@ -139,7 +139,7 @@ bool do_plot(shell *sh, lexer *lx, const command *self) {
     if (!range_names_find(sh, lx, &used, &found))
         return false;
     plot_figure_init(&f);
-    if (!found && !panel_is_named(lx))
+    if (!found && !panel_is_named(sh, lx))
         ok = no_figure(lx);
     ok = ok && find_file(lx, file) && draw_panels(sh, lx, &f, NULL) && read_end(sh, lx, NULL) &&
          draw(sh, lx, &f, *file ? file : NULL);
@@ -264,7 +264,8 @@ bool do_animate(shell *sh, lexer *lx, const command *self) {
     bool ok = m || calc_no_memory(lx->error);
     if (ok) {
         *m = (movie){.sh = sh, .figures = &figures, .frames = FRAMES, .error = lx->error};
-        ok = (found || panel_is_named(lx) || lex_fail(lx, "expected EXPR, ... along program, or a figure")) &&
+        ok = (found || panel_is_named(sh, lx) ||
+              lex_fail(lx, "expected EXPR, ... along program, or a figure")) &&
              find_file(lx, file) && run_movie(m, lx, *file ? file : NULL);
     }
     free(m);

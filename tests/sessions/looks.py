@@ -107,6 +107,18 @@ def looks(tests):
     fails(tests, "plot dissipation key", "expected key off")
 
 
+def ranges(tests):
+    """A figure over another range than its own; a name with a value is an expression."""
+    _, (whole,) = script(tests, "the loop", "plot loop")
+    _, (last,) = script(tests, "the last period of it", "plot loop along cycle")
+    tests.check("a period begins at its peak", whole[0] == (0, 0) and last[0] == last[-1] == whole[-1], str(last[0]))
+    _, (spent,) = script(tests, "up to less", "plot dissipation for F_A = 0 N .. 10 N")
+    tests.check("a range of one's own", spent[-1][0] == 10, str(spent[-1]))
+    _, (line,) = script(tests, "a name of a figure", "load = 3\nplot load for x = 0 .. 1 steps 1")
+    tests.check("is an expression where it has a value", line == [(0, 3), (1, 3)], str(line))
+    fails(tests, "plot loop in N along program", "unknown name 'loop'")
+
+
 def over(tests):
     path = os.path.join(tests.dir, "measured-1.csv")
     with open(path, "w", encoding="ascii") as f:
@@ -263,4 +275,4 @@ def bodies(tests):
 
 
 def run(tests):
-    tests.each([lambda one=one: one(tests) for one in (points, springs, looks, over, maps, moving, histories, terminals, bodies)])
+    tests.each([lambda one=one: one(tests) for one in (points, ranges, springs, looks, over, maps, moving, histories, terminals, bodies)])
