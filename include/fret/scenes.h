@@ -36,8 +36,8 @@ typedef struct fret_scene_values {
     double *loss;            /* [J], fret_cycle_loss_by_force */
 } fret_scene_values;
 
-/* NaN where the functions named are to be asked: inputs out of range, n outside 0.05 .. 1000, n+k+1 < 1/4, moduli,
- * lengths, forces or results outside 1e-60 .. 1e60, Fx below 1e-20 mu F_N. True: there is a NaN. */
+/* NaN where the functions named are to be asked: inputs out of range, n outside 0.05 .. 1000, n+k+1 < 1/4,
+ * moduli, lengths, forces or results outside 1e-60 .. 1e60, Fx below 1e-20 mu F_N. True: there is a NaN. */
 bool fret_batch_scenes(const fret_scenes *scenes, const fret_scene_values *out, size_t count);
 
 FRET_END

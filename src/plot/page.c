@@ -170,7 +170,7 @@ static bool is_helping(const plot_series *s) {
 }
 
 /* Which dots along a line of braille are put down: helping lines are dotted; dashes tell curves apart where
- * colours cannot. */
+ * there are no colours, or none left. */
 static const char *dash_of(const page *g, size_t at) {
     static const char *const dashes[] = {"1",    "11111000", "1000", "11111001000", "111111111100",
                                          "1100", "10"};
@@ -178,7 +178,8 @@ static const char *dash_of(const page *g, size_t at) {
         return "1";
     if (is_helping(g->panel->series[at]))
         return "10";
-    return g->target->color ? "1" : dashes[plot_style_of(g->panel, at) % (sizeof dashes / sizeof *dashes)];
+    const size_t style = plot_style_of(g->panel, at), colored = style / (sizeof colors / sizeof *colors);
+    return dashes[(g->target->color ? colored : style) % (sizeof dashes / sizeof *dashes)];
 }
 
 /* In the key: a stretch of the line, or its character. */

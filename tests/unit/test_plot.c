@@ -488,6 +488,12 @@ static void pages(void) {
     CHECK(has(text, "\u2812\u2812\u2812\u2812 \033[39mone") &&
           has(text, "\u2812\u2812\u2812\u2812 \033[39mtwo"));
     free(text);
+    for (int i = 3; i <= 8; i++) /* the eighth has the colour of the first */
+        plot_series_add(p, PLOT_CURVE, i == 8 ? "eight" : "more", fresh());
+    text = text_of(
+        &f, (plot_target){.columns = 90, .rows = 20, .unicode = true, .color = true, .terminal = PLOT_BLOCK});
+    CHECK(has(text, "\u2812\u2812\u2802\u2800 \033[39meight") && has(text, "\u2812 \033[39mmore"));
+    free(text);
     plot_figure_free(&f);
 }
 
