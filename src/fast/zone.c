@@ -122,6 +122,8 @@ typedef struct bent {
 } bent;
 
 static bent bent_of(const fret_double_law *law, double y, double v, double Y, double V) {
+    if (y == Y)
+        return (bent){1, 0};
     const double x = y / Y;
     if (!(x > 0))
         return (bent){0, 0};
