@@ -130,6 +130,8 @@ static bool name_allowed(calc *c, lexer *lx, assignment *a) {
         return true;
     const char *taken = name_taken(text, lx->len);
     a->q = quantity_find(text, lx->len);
+    if (a->q && !quantity_is_input(a->q) && !strcmp(a->q->name, "E"))
+        return lex_fail(lx, "E(z) is the modulus at a depth; the input is E0");
     if (a->q && !quantity_is_input(a->q))
         return lex_fail(lx, "%s is a result: it follows from the inputs and the load", a->q->name);
     if (!a->q && taken)
@@ -316,7 +318,8 @@ static bool bindings_hold(calc *c, lexer *lx, const assignment *all, size_t coun
 
 /* A name that looks like an input was perhaps meant to be one. */
 static void note_new_name(calc *c, const char *text, size_t len) {
-    static const char *const other_names[][2] = {{"angle", "slope"}, {"Fn", "FN"}, {"radius", "R"}};
+    static const char *const other_names[][2] = {{"angle", "slope"}, {"Fn", "FN"},    {"F", "FN"},
+                                                 {"P", "FN"},        {"radius", "R"}, {"v", "nu"}};
     char plain[LEX_NAME] = "";
     size_t n = 0;
     for (size_t i = 0; i < len && n + 1 < sizeof plain; i++)

@@ -30,6 +30,8 @@ bool stray_unit(lexer *lx) {
 bool at_end(lexer *lx) {
     if (lx->error->raised || lx->kind == T_END)
         return !lx->error->raised;
+    if (lex_is(lx, "to") || lex_is(lx, "as") || lex_is(lx, "into"))
+        return lex_fail(lx, "unexpected '%.*s': units are asked for by `in` (a in mm)", LEX_WORD(lx));
     return stray_unit(lx) ? false : lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
 }
 

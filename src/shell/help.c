@@ -402,11 +402,19 @@ static size_t list_about(FILE *to, const char *word, bool deep) {
                 continue;
             snprintf(label, sizeof label, "%s%s%s%s%s", e.command ? e.command : "", e.name,
                      e.argument ? "(" : "", e.argument ? e.argument : "", e.argument ? ")" : "");
-            fprintf(to, "%-*s  %s%s\n", LABELS, label, e.kind ? e.kind : "",
-                    e.summary ? e.summary : e.numbers);
+            if (to)
+                fprintf(to, "%-*s  %s%s\n", LABELS, label, e.kind ? e.kind : "",
+                        e.summary ? e.summary : e.numbers);
             count++;
         }
     return count;
+}
+
+const char *help_where(const char *word) {
+    enum { LEAST = 3 }; /* letters: less are in every text */
+    if (help_on(NULL, word))
+        return "help";
+    return strlen(word) >= LEAST && list_about(NULL, word, false) ? "apropos" : NULL;
 }
 
 bool do_apropos(shell *sh, lexer *lx, const command *self) {

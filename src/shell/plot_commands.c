@@ -127,7 +127,7 @@ static bool no_figure(lexer *lx) {
         near = suggest(word, figure_name);
     }
     return near ? lex_fail(lx, "there is no figure '%s': did you mean %s?", word, near)
-                : lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI");
+                : lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N");
 }
 
 bool do_plot(shell *sh, lexer *lx, const command *self) {

@@ -11,6 +11,7 @@
 #include "calc/characters.h"
 #include "shell/command.h"
 #include "shell/expressions.h"
+#include "shell/help.h"
 #include "shell/lines.h"
 #include "shell/progress.h"
 #include "shell/record.h"
@@ -154,8 +155,10 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
 }
 
 static bool assign(shell *sh, lexer *lx) {
-    if (command_find(lx->text + lx->at, lx->len))
-        return lex_fail(lx, "'%.*s' is a command: it cannot be a variable", LEX_WORD(lx));
+    if (command_find(lx->text + lx->at, lx->len)) {
+        const command *c = command_find(lx->text + lx->at, lx->len);
+        return lex_fail(lx, "'%s' is a command, no variable: %s %s", c->name, c->name, c->usage);
+    }
     bool ok = calc_assign(&sh->calc, lx);
     if (*sh->calc.note) {
         if (ok)
@@ -165,6 +168,20 @@ static bool assign(shell *sh, lexer *lx) {
     if (ok)
         warn(sh);
     return ok;
+}
+
+/* An unknown word, alone or before another, of which help tells. */
+static bool told_of(lexer *lx, const char *word, token_kind after) {
+    lexer next = *lx;
+    calc_error ignored;
+    error_clear(&ignored);
+    next.error = &ignored;
+    lex_next(&next);
+    if ((after != T_NAME && after != T_NUMBER && after != T_END) || lex_is(&next, "in") ||
+        lex_is(&next, "at"))
+        return false;
+    const char *where = suggest(word, quantity_name) ? NULL : help_where(word);
+    return where && !lex_fail(lx, "unknown name '%s'; try: %s %s", word, where, word);
 }
 
 /* A misspelt command followed by its arguments. */
@@ -178,7 +195,7 @@ static bool misspelt(shell *sh, lexer *lx) {
     const char *near = suggest(word, command_name);
     if ((after != T_NAME && after != T_NUMBER && after != T_END) || !near ||
         (after == T_END && suggest(word, quantity_name)))
-        return false;
+        return told_of(lx, word, after);
     lex_fail(lx, "unknown command '%s': did you mean %s?", word, near);
     return true;
 }
@@ -193,6 +210,13 @@ static bool dispatch(shell *sh, lexer *lx) {
             return assign(sh, lx);
         if (!c && misspelt(sh, lx))
             return false;
+        const quantity *q = lex_peek(lx) == T_NUMBER ? quantity_find(lx->text + lx->at, lx->len) : NULL;
+        if (q && quantity_is_input(q)) { /* mu 0.3 */
+            const char *name = q->name;
+            lex_next(lx);
+            return lex_fail(lx, "unexpected '%.*s': did you mean %s = %.*s?", LEX_WORD(lx), name,
+                            LEX_WORD(lx));
+        }
     }
     return print_statement(sh, lx);
 }

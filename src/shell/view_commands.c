@@ -265,7 +265,7 @@ bool do_table(shell *sh, lexer *lx, const command *self) {
     (void)self;
     if (!range_names_find(sh, lx, &names, &found))
         return false;
-    bool ok = found || lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI");
+    bool ok = found || lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N");
     ok = ok && read_expressions(sh, lx, columns, COLUMNS - 2, &count);
     if (ok && grid_range_at(lx))
         ok = grid_range_read(sh, lx, &two, ROWS, ACROSS) &&
