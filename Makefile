@@ -169,7 +169,7 @@ faults: deps-check
 	@python3 tests/fuzz/faults.py $(B)/fret $(B)/tests > $(B)/faults.txt; \
 	  status=$$?; mv $(B)/faults.txt tests/hard/faults.txt; tail -n 2 tests/hard/faults.txt; exit $$status
 
-# Lines and branches that the tests reach. Needs gcovr.
+# Lines and branches that the tests reach.
 coverage: deps-check
 	@PYTHONDONTWRITEBYTECODE=1 nice python3 tests/coverage.py $(ROOMS)
 
