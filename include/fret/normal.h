@@ -32,6 +32,18 @@ void fret_normal_free(fret_normal *normal);
  * or freed. The flag must outlive the contact; NULL, as at first: nothing stops. */
 void fret_normal_stop(fret_normal *normal, fret_stop stop);
 
+/* For many questions, about loads up to F [N]: the law of a shape other than a power becomes polynomials,
+ * piece by piece. To set up takes some 1000 times g(x), of a table some 20 times for each row; then
+ * F_N(delta_z), its inverse and what is asked of slices take about 1 us whatever the shape,
+ * fret_normal_profile less. A power law needs none. Where no pieces come out, of tables with more than some
+ * 2000 rows, or where a question is beyond them, answers come as before: they agree to 1e-15. Not while
+ * others use the contact. Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
+fret_status fret_normal_prepare(fret_normal *normal, double F);
+
+/* The largest relative error of these polynomials against g(x) and F_N that was found when they were made;
+ * NaN: there are none. */
+double fret_normal_prepared(const fret_normal *normal);
+
 /* What it was made of. */
 const fret_foundation *fret_normal_foundation(const fret_normal *normal);
 const fret_gap *fret_normal_gap(const fret_normal *normal);

@@ -10,6 +10,15 @@
 
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
 
+static bool used_pieces(scene *s, const fret_normal *normal) {
+    const double error = fret_normal_prepared(normal);
+    if (isnan(error))
+        return false;
+    s->used |= USED(MODEL_PIECES);
+    s->pieces_error = error;
+    return true;
+}
+
 /* ---- running the program ----------------------------------------------------------------------- */
 
 /* A press alone can be shown without friction. */
@@ -17,6 +26,28 @@ static bool friction_for_program(scene *s, double *mu, calc_error *error) {
     *mu = 1;
     return (!s->in.set[IN_MU] && !(s->in.bindings & INPUT_BIT(IN_MU)) && s->end.steps <= 1) ||
            scene_friction(s, mu, error);
+}
+
+static bool press_by(scene *s, const fret_normal *normal, fret_press *out, calc_error *error) {
+    const load_step *step = &s->program->steps[0];
+    long double by = step->normal_value;
+    if (step->normal == BY_FORCE && !scene_get(s, IN_FN, &by, error))
+        return false;
+    fret_status st = step->normal == BY_FORCE          ? fret_press_by_force(normal, (double)by, out)
+                     : step->normal == BY_DISPLACEMENT ? fret_press_by_depth(normal, (double)by, out)
+                                                       : fret_press_by_radius(normal, (double)by, out);
+    return calc_status(error, &st);
+}
+
+/* Chords of a swinging load are many; a power law needs nothing of the kind. */
+static bool normal_of_load(scene *s, const load_reach *reach, const fret_normal **out, calc_error *error) {
+    fret_press press;
+    if (!scene_normal(s, out, error))
+        return false;
+    if (fret_normal_is_power(*out) || !(s->many || reach->swings))
+        return true;
+    return press_by(s, *out, &press, error) &&
+           scene_many_normal(s, fmax((double)press.F, reach->FN_most) + reach->FN_more, out, error);
 }
 
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {
@@ -28,7 +59,7 @@ bool scene_load_of(scene *s, load_view *out, calc_error *error) {
                        .stop = s->stop,
                        .pulse = s->pulse,
                        .trailed = s->trailed};
-    if (!scene_reach(s, &reach, error) || !scene_normal(s, &out->normal, error) ||
+    if (!scene_reach(s, &reach, error) || !normal_of_load(s, reach, &out->normal, error) ||
         !friction_for_program(s, &out->mu, error))
         return false;
     if (s->program->steps[0].normal == BY_FORCE && !scene_get(s, IN_FN, &FN, error))
@@ -61,7 +92,9 @@ static fret_status raise_levels(answers *a, const load_view *load) {
     const bool sine = a->reach.swings && !a->chords && takes_sine(load);
     const unsigned wanted = a->reach.swings && !sine ? LEVELS : 1;
     fret_status st = fine;
-    if (a->levels && engine_is_sine(&a->run[0].engine) && !sine)
+    if (a->levels && ((engine_is_sine(&a->run[0].engine) && !sine) ||
+                      (!engine_is_sine(&a->run[0].engine) &&
+                       fret_memory_normal(engine_memory(&a->run[0].engine)) != load->normal)))
         drop_runs(a);
     if (a->levels == 0) {
         if (load->trailed && !a->trail)
@@ -256,16 +289,8 @@ bool scene_memory(scene *s, const fret_memory **memory, calc_error *error) {
 /* ---- the normal contact now -------------------------------------------------------------------- */
 
 static bool press_of_program(scene *s, calc_error *error) {
-    const load_step *step = &s->program->steps[0];
     const fret_normal *normal;
-    long double FN = step->normal_value;
-    if (!scene_normal(s, &normal, error) || (step->normal == BY_FORCE && !scene_get(s, IN_FN, &FN, error)))
-        return false;
-    fret_press *press = &s->answers.press;
-    fret_status st = step->normal == BY_FORCE          ? fret_press_by_force(normal, (double)FN, press)
-                     : step->normal == BY_DISPLACEMENT ? fret_press_by_depth(normal, (double)FN, press)
-                                                       : fret_press_by_radius(normal, (double)FN, press);
-    return calc_status(error, &st);
+    return scene_normal(s, &normal, error) && press_by(s, normal, &s->answers.press, error);
 }
 
 bool scene_press(scene *s, const fret_press **press, calc_error *error) {
@@ -316,6 +341,11 @@ bool scene_contact(scene *s, fret_contact *out, calc_error *error) {
         !scene_friction(s, &out->mu, error))
         return false;
     out->press = *press;
+    const bool many = s->many && press->F > 0 && !fret_normal_is_power(out->normal);
+    if (many && !scene_many_normal(s, (double)press->F, &out->normal, error))
+        return false;
+    if (many && used_pieces(s, out->normal))
+        s->used &= ~USED(MODEL_QUADRATURE);
     return true;
 }
 
@@ -428,6 +458,8 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
         s->answers.state_ready = true;
     }
     s->used = used | USED(stepped ? s->model : MODEL_MEMORY);
+    if (!stepped && s->answers.levels && !engine_is_sine(&s->answers.run[0].engine))
+        used_pieces(s, fret_memory_normal(engine_memory(&s->answers.run[0].engine)));
     *state = &s->answers.state;
     return true;
 }

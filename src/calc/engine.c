@@ -113,6 +113,7 @@ const model_row models[MODELS] = {
                       .last_loss = memory_last_loss,
                       .end = memory_end},
     [MODEL_QUADRATURE] = {.name = "quadrature", .title = "quadrature"},
+    [MODEL_PIECES] = {.name = "polynomials", .title = "polynomials"},
     [MODEL_SPRINGS] = {.name = "springs",
                        .title = "springs",
                        .count = "the number of springs",

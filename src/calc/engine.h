@@ -12,6 +12,7 @@ typedef enum model_id {
     MODEL_CLOSED,
     MODEL_MEMORY,
     MODEL_QUADRATURE,
+    MODEL_PIECES,
     MODEL_SPRINGS,
     MODEL_VECTORS,
     MODEL_DOUBLE,

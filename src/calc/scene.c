@@ -15,14 +15,16 @@ static void answers_end(answers *a, bool keep) {
     if (a->trail)
         free(a->trail->at);
     free(a->trail);
-    fret_normal *normal = a->normal, *k0 = a->k0;
+    fret_normal *normal = a->normal, *k0 = a->k0, *many = a->many;
     *a = (answers){.normal = NULL};
     if (keep) {
         a->normal = normal;
         a->k0 = k0;
+        a->many = many;
     } else {
         fret_normal_free(normal);
         fret_normal_free(k0);
+        fret_normal_free(many);
     }
 }
 
@@ -231,6 +233,14 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
     return true;
 }
 
+bool scene_many_normal(scene *s, double F, const fret_normal **normal, calc_error *error) {
+    if (!s->answers.many && !make_normal(s, false, &s->answers.many, error))
+        return false;
+    *normal = s->answers.many;
+    fret_status st = fret_normal_prepare(s->answers.many, F);
+    return calc_status(error, &st);
+}
+
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error) {
     if (!s->answers.k0 && !make_normal(s, true, &s->answers.k0, error))
         return false;
@@ -295,6 +305,12 @@ static void reach_step(load_reach *r, const load_step *step, unsigned times) {
     r->most = fmax(r->most, size);
     r->end = v;
     r->normal_varies = r->normal_varies || load_moves_normal(step);
+    if (step->normal == BY_FORCE && step->kind == LOAD_CYCLE)
+        r->FN_more = fmax(r->FN_more, fabs(step->normal_value));
+    else if (step->normal == BY_FORCE && step->relative & RELATIVE_NORMAL)
+        r->FN_more += fmax(step->normal_value, 0);
+    else if (step->normal == BY_FORCE)
+        r->FN_most = fmax(r->FN_most, step->normal_value);
     if (step->kind == LOAD_CYCLE) { /* a second period is closed whatever came before */
         r->closed = r->first || times > 1;
         r->swings = r->swings || step->normal_value != 0;

@@ -23,13 +23,15 @@ typedef struct load_reach {
     double end;         /* where it ends */
     bool closed;        /* the last period of the last cycle returned to the state that it began in */
     bool normal_varies; /* some step changes F_N */
-    bool swings;        /* a cycle does */
-    size_t last_cycle;  /* its index, or NO_CYCLE */
+    double FN_most, FN_more; /* largest F_N that a step asks for; what steps and swings may add */
+    bool swings;             /* a cycle does */
+    size_t last_cycle;       /* its index, or NO_CYCLE */
 } load_reach;
 
 /* What follows, valid as far as the flags say. */
 typedef struct answers {
     fret_normal *normal, *k0; /* or NULL: not made yet */
+    fret_normal *many;        /* of a gap without a formula, prepared for many questions; or NULL */
     bool press_ready, state_ready, reach_ready;
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
@@ -67,7 +69,10 @@ struct scene {
     bool automatic; /* the model: the closed form where there is one, else the memory diagram */
     model_id model; /* else this one */
     unsigned springs;
-    unsigned used; /* what has answered: raised by whatever does, cleared by whoever wants to know */
+    bool many; /* many values of this contact are asked for: a decision of what asks, never of what was asked
+                */
+    double pieces_error; /* of the polynomials among them, relative */
+    unsigned used;       /* what has answered: raised by whatever does, cleared by whoever wants to know */
     const volatile sig_atomic_t *stop;
     void (*pulse)(void); /* called now and then by what takes long; or NULL */
     scene_definition *evaluate;
@@ -127,6 +132,8 @@ bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *
 /* The shape alone, unchecked. */
 bool scene_gap(scene *s, fret_gap *out, calc_error *error);
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
+/* The one for many questions, prepared for loads up to F. */
+bool scene_many_normal(scene *s, double F, const fret_normal **normal, calc_error *error);
 /* The same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);
 bool scene_friction(scene *s, double *mu, calc_error *error);

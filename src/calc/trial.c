@@ -33,6 +33,7 @@ void trial_reset(trial *t) {
 void trial_close(trial *t) {
     calc *c = t->c;
     t->outer->used |= t->scene.used;
+    t->outer->pieces_error = t->scene.pieces_error;
     c->now = t->outer;
     scene_free(&t->scene);
     while (t->hidden_count > 0) {

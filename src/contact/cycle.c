@@ -79,8 +79,9 @@ fret_status fret_loading_by_force(const fret_contact *c, double Fx, fret_loading
         fret_real w = f.t.hi <= 0.5 ? dd_value(f.t) * c->press.F : c->press.F - s * c->press.F;
         x = s > 0 ? fret_law_thickness(c->normal, &(fret_level){c->press.dz, c->press.F}, w) / c->press.dz
                   : 1;
-        out->yc = s > 0 ? fret_law_depth(c->normal, s * c->press.F) : 0;
-        out->c = s > 0 ? fret_law_radius(c->normal, out->yc) : 0;
+        const fret_point inner = fret_law_at_force(c->normal, s * c->press.F);
+        out->yc = s > 0 ? inner.y : 0;
+        out->c = s > 0 ? inner.a : 0;
     }
     out->Fx = Fx;
     out->dx = copysignl(fret_gross_slip(c) * x, Fx);
@@ -161,14 +162,19 @@ static fret_real loss_of_power(const fret_normal *normal, const fraction *f) {
 }
 
 /* The general loop by Masing: 4 times the dissipation of first loading, counted from the edge:
- * int_0^d [F(y)-F(y-t)-tK(y-t)] dt = L. */
+ * int_0^d [F(y)-F(y-t)-tK(y-t)] dt = L. f: of the load, or of the depth. */
+static fret_real general_loss(const fret_contact *c, bool by_load, const fraction *f) {
+    const fret_level edge = {c->press.dz, c->press.F};
+    const fret_real whole = by_load ? edge.F : edge.y, s = dd_value(f->s), t = fminl(f->t_wide, 1);
+    return 4 * c->mu * (c->mu * c->normal->foundation.eta) *
+           fret_law_slice_to(c->normal, &edge, by_load, t * whole, s * whole).L;
+}
+
 static fret_real loss_of(const fret_contact *c, const fraction *f) {
     fret_real scale = c->mu * c->press.F * fret_gross_slip(c);
     if (fret_normal_closed(c->normal))
         return scale * loss_of_power(c->normal, f);
-    fret_level edge = {c->press.dz, c->press.F};
-    fret_real d = fret_law_thickness(c->normal, &edge, fminl(dd_value(f->t), 1) * c->press.F);
-    return 4 * c->mu * (c->mu * c->normal->foundation.eta) * fret_law_slice(c->normal, &edge, d).L;
+    return general_loss(c, true, f);
 }
 
 fret_status fret_cycle_loss_by_force(const fret_contact *c, double FA, fret_real *loss) {
@@ -197,15 +203,12 @@ fret_status fret_cycle_loss_by_displacement(const fret_contact *c, double dA, fr
         *loss = loss_of(c, &f) + 4 * c->mu * c->press.F * slid;
         return fret_ok();
     }
-    if (fret_normal_closed(c->normal)) { /* s^p in place of s */
-        const fret_real t = lost(&f, c->normal->wide.p), s = kept(&f, c->normal->wide.p);
-        f = (fraction){dd_from(t), dd_from(s), dd_mul(c->normal->wide.p, f.l), t};
-    } else {
-        const fret_real x = f.t_wide, F = c->press.F;
-        f = (fraction){
-            .t = dd_from(fret_law_load(c->normal, &(fret_level){c->press.dz, F}, x * c->press.dz) / F)};
-        f.s = dd_sub(dd_of(1), f.t);
+    if (!fret_normal_closed(c->normal)) {
+        *loss = general_loss(c, false, &f);
+        return fret_unless_stopped(c->normal, fret_ok());
     }
+    const fret_real t = lost(&f, c->normal->wide.p), s = kept(&f, c->normal->wide.p); /* s^p in place of s */
+    f = (fraction){dd_from(t), dd_from(s), dd_mul(c->normal->wide.p, f.l), t};
     *loss = loss_of(c, &f);
     return fret_unless_stopped(c->normal, fret_ok());
 }

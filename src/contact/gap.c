@@ -132,6 +132,9 @@ static fret_real sampled_end(const fret_gap *gap) {
 static fret_real sampled_kink(const fret_gap *gap, fret_real e) {
     return fret_table_kink(gap->table, e);
 }
+static fret_real sampled_bend(const fret_gap *gap, const fret_rule *rule, fret_real kink, fret_real e) {
+    return fret_table_bend(gap->table, rule, kink, e);
+}
 static fret_real sampled_tip(const fret_gap *gap) {
     return fret_table_pointed(gap->table) ? 1 : 2;
 }
@@ -146,6 +149,7 @@ typedef struct shape {
     fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real e);
     fret_real (*start)(const fret_gap *), (*end)(const fret_gap *), (*tip)(const fret_gap *);
     fret_real (*kink)(const fret_gap *, fret_real e), (*ahead)(const fret_gap *, fret_real e);
+    fret_real (*bend)(const fret_gap *, const fret_rule *, fret_real kink, fret_real e);
     bool (*grows)(const fret_gap *);
     bool powers, closed, sharp, rows; /* reads power[]; of gap.h the other three */
     bool b, R, slope;                 /* reads these, which must be positive */
@@ -174,6 +178,7 @@ static const shape shapes[] = {
                         .end = sampled_end,
                         .tip = sampled_tip,
                         .kink = sampled_kink,
+                        .bend = sampled_bend,
                         .grows = sampled_grows,
                         .rows = true},
 };
@@ -227,6 +232,11 @@ fret_real fret_gap_tip(const fret_gap *gap) {
 fret_real fret_gap_kink(const fret_gap *gap, fret_real e) {
     const shape *s = shape_of(gap);
     return s->kink ? s->kink(gap, e) : 0;
+}
+
+fret_real fret_gap_bend(const fret_gap *gap, const fret_rule *rule, fret_real kink, fret_real e) {
+    const shape *s = shape_of(gap);
+    return s->bend ? s->bend(gap, rule, kink, e) : 0;
 }
 
 fret_real fret_gap_reach(const fret_gap *gap, fret_real e) {

@@ -27,6 +27,10 @@ fret_real fret_gap_end(const fret_gap *gap);
  * a row of a table. */
 fret_real fret_gap_kink(const fret_gap *gap, fret_real e);
 
+/* What in g' at e > kink is not smooth because of the last kink before e: without it g' goes on smoothly
+ * across that one. */
+fret_real fret_gap_bend(const fret_gap *gap, const fret_rule *rule, fret_real kink, fret_real e);
+
 /* How far the profile goes on smoothly outwards and inwards of e: to the kink, or to a singularity beyond e.
  */
 fret_real fret_gap_reach(const fret_gap *gap, fret_real e);

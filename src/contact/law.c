@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* F_N(delta) and its inverse at any depth: in logarithms for the power law, by a search for other shapes. */
-#include "contact/normal.h"
+#include "contact/pieces.h"
 
 #include <float.h>
 
@@ -69,10 +69,12 @@ dd fret_law_log_radius(const fret_normal *n, fret_real y) {
     return radius_of_depth(n, fret_dd_log_real(y));
 }
 
+static fret_point point_at(const fret_normal *n, bool by_force, fret_real value);
+
 fret_real fret_law_radius(const fret_normal *n, fret_real y) {
     if (fret_normal_closed(n))
         return y > 0 ? fret_dd_exp_real(radius_of_depth(n, fret_dd_log_real(y))) : 0;
-    return fret_gap_start(&n->gap) + fret_search_radius(n, false, y);
+    return point_at(n, false, y).a;
 }
 
 fret_real fret_law_force(const fret_normal *n, fret_real y) {
@@ -80,8 +82,7 @@ fret_real fret_law_force(const fret_normal *n, fret_real y) {
         return 0;
     if (fret_normal_closed(n))
         return fret_dd_exp_real(force_of_depth(n, fret_dd_log_real(y)));
-    fret_profile p = profile(n, fret_search_radius(n, false, y));
-    return fret_force_of(n, &p);
+    return point_at(n, false, y).F;
 }
 
 fret_real fret_law_depth(const fret_normal *n, fret_real F) {
@@ -89,7 +90,7 @@ fret_real fret_law_depth(const fret_normal *n, fret_real F) {
         return 0;
     if (fret_normal_closed(n))
         return fret_dd_exp_real(depth_of_force(n, fret_dd_log_real(F)));
-    return profile(n, fret_search_radius(n, true, F)).g;
+    return point_at(n, true, F).y;
 }
 
 static fret_point point_at(const fret_normal *n, bool by_force, fret_real value) {
@@ -103,6 +104,8 @@ static fret_point point_at(const fret_normal *n, bool by_force, fret_real value)
         p.a = fret_law_radius(n, p.y);
         return p;
     }
+    if (fret_law_prepared(n, by_force, value, &p))
+        return p;
     fret_real e = fret_search_radius(n, by_force, value);
     fret_profile profile_there = profile(n, e);
     p.y = by_force ? profile_there.g : value;
@@ -110,6 +113,14 @@ static fret_point point_at(const fret_normal *n, bool by_force, fret_real value)
     p.a += e;
     p.K = fret_normal_stiffness(n, p.a);
     return p;
+}
+
+bool fret_law_prepared(const fret_normal *n, bool by_force, fret_real value, fret_point *out) {
+    return n->pieces && fret_pieces_point(n->pieces, by_force, value, out);
+}
+
+bool fret_law_prepared_depth(const fret_normal *n, fret_real e, fret_real *depth) {
+    return n->pieces && fret_pieces_depth(n->pieces, e, depth);
 }
 
 fret_point fret_law_at_depth(const fret_normal *n, fret_real y) {

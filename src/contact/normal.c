@@ -99,6 +99,8 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
 }
 
 void fret_normal_free(fret_normal *n) {
+    if (n)
+        fret_pieces_free(n->pieces);
     free(n);
 }
 
@@ -126,6 +128,9 @@ fret_real fret_normal_profile(const fret_normal *n, fret_real x) {
     const fret_real e = fabsl(x) - fret_gap_start(&n->gap);
     if (!(fabsl(x) <= n->end))
         return (fret_real)NAN;
+    fret_real depth;
+    if (fret_law_prepared_depth(n, e, &depth))
+        return depth;
     return e > 0 ? profile(n, e).g : 0;
 }
 
@@ -149,6 +154,14 @@ static fret_status finish(const fret_press *p, fret_press *out) {
         return fret_fail(FRET_OVERFLOW, NULL, (double)p->F, DBL_MIN);
     *out = *p;
     return fret_ok();
+}
+
+static bool by_pieces(const fret_normal *n, bool by_force, double value, fret_press *out) {
+    fret_point p;
+    if (!fret_law_prepared(n, by_force, value, &p))
+        return false;
+    *out = (fret_press){.F = p.F, .dz = p.y, .a = p.a};
+    return true;
 }
 
 /* Completes a state at distance e from the start of the gap. */
@@ -183,6 +196,8 @@ fret_status fret_press_by_force(const fret_normal *n, double F, fret_press *out)
         s.dz_rest = dd_rest(dz);
         return finish(&s, out);
     }
+    if (by_pieces(n, true, F, &s))
+        return finish(&s, out);
     return at_radius(n, "FN", F, fret_search_radius(n, true, F), &s, out);
 }
 
@@ -199,6 +214,8 @@ fret_status fret_press_by_depth(const fret_normal *n, double dz, fret_press *out
         s.F_rest = dd_rest(F);
         return finish(&s, out);
     }
+    if (by_pieces(n, false, dz, &s))
+        return finish(&s, out);
     return at_radius(n, "dz", dz, fret_search_radius(n, false, dz), &s, out);
 }
 

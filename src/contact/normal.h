@@ -7,18 +7,24 @@
 #include "contact/material.h"
 #include "fret/normal.h"
 
+/* Of fret_normal_prepare, see pieces.h. */
+struct fret_pieces;
+void fret_pieces_free(struct fret_pieces *pieces);
+
 struct fret_normal {
     fret_foundation foundation;
     fret_wide_foundation wide_foundation;
     fret_gap gap;
     fret_rule rule;
-    fret_real p;    /* power law: F_N ~ delta_z^p, p = (n+k+1)/n; 0 for other shapes */
-    fret_real pm1;  /* p-1 = (k+1)/n without cancellation */
-    fret_real q;    /* 1/p */
-    fret_real s;    /* n+k+1: F_N ~ a^s */
-    fret_real end;  /* largest contact radius that the gap supports [m]; infinite for a power */
-    bool falls;     /* because g(x) begins to fall there */
-    fret_stop stop; /* or NULL */
+    fret_real p;                /* power law: F_N ~ delta_z^p, p = (n+k+1)/n; 0 for other shapes */
+    fret_real pm1;              /* p-1 = (k+1)/n without cancellation */
+    fret_real q;                /* 1/p */
+    fret_real s;                /* n+k+1: F_N ~ a^s */
+    fret_real end;              /* largest contact radius that the gap supports [m]; infinite for a power */
+    bool falls;                 /* because g(x) begins to fall there */
+    fret_stop stop;             /* or NULL */
+    struct fret_pieces *pieces; /* or NULL: of fret_normal_prepare */
+    double prepared;            /* the load up to which they were asked for [N]; 0: they were not */
     struct {
         dd p, q, s;                   /* to 100 bits */
         dd ln_r0, ln_depth, ln_force; /* logarithms of r0, and of depth and force at a = r0 [m], [N] */
@@ -59,6 +65,9 @@ fret_real fret_law_depth(const fret_normal *normal, fret_real F);  /* F_N^-1(F) 
 typedef struct fret_point {
     fret_real y, F, a, K; /* depth [m], F_N(y) [N], radius [m], dF_N/dy [N/m] (0 at y = 0) */
 } fret_point;
+/* The same where pieces know it; else false. Depth g at the distance e from the start of the gap. */
+bool fret_law_prepared(const fret_normal *normal, bool by_force, fret_real value, fret_point *out);
+bool fret_law_prepared_depth(const fret_normal *normal, fret_real e, fret_real *depth);
 fret_point fret_law_at_depth(const fret_normal *normal, fret_real y);
 fret_point fret_law_at_force(const fret_normal *normal, fret_real F);
 
@@ -76,6 +85,11 @@ typedef struct fret_slice {
     fret_real w, J, G, L;
 } fret_slice;
 fret_slice fret_law_slice(const fret_normal *normal, const fret_level *outer, fret_real h);
+
+/* The slice of a thickness, or load, `target`, beyond which `left` is left, with all digits where that is
+ * little. */
+fret_slice fret_law_slice_to(const fret_normal *normal, const fret_level *outer, bool by_load,
+                             fret_real target, fret_real left);
 
 /* The load w of a slice from its thickness, and the thickness from its load. */
 fret_real fret_law_load(const fret_normal *normal, const fret_level *outer, fret_real h);

@@ -3,12 +3,38 @@
  * quadrature of their law. Pure. */
 #include "contact/phase.h"
 
+#include "contact/pieces.h"
+
 #include <float.h>
 
 #include "number/quadrature.h"
 #include "number/real.h"
 
+/* Gauss's rule of four points: 1e-19 for a rate that is smooth farther than 60 times the way. */
+static fret_real short_rule(fret_integrand *rate, void *context) {
+    static const fret_real node[2] = {0.0694318442029737123880267555535953L,
+                                      0.330009478207571867598667120448378L},
+                           weight[2] = {0.173927422568726928686531974610999L,
+                                        0.326072577431273071313468025389001L};
+    fret_real sum = 0;
+    for (int i = 0; i < 2; i++)
+        sum += weight[i] * (rate(node[i], 1 - node[i], context) + rate(1 - node[i], node[i], context));
+    return sum;
+}
+
 /* ---- any shape --------------------------------------------------------------------------------- */
+
+/* By the pieces: one look for all that the rate is made of. */
+static bool pieces_rate(const fret_phase *p, fret_real edge, fret_real zone, fret_real *rate) {
+    const fret_normal *n = p->normal;
+    fret_slice s;
+    fret_real h;
+    if (!n->pieces ||
+        !fret_pieces_slice(n->pieces, &(fret_level){edge, edge}, p->by == LOAD, zone, edge - zone, &h, &s))
+        return false;
+    *rate = p->by == DEPTH ? s.G : s.w > s.G ? s.G * h / (s.w - s.G) : 0; /* G/K there */
+    return true;
+}
 
 static fret_real law_rate(fret_real t, fret_real rest, void *context) {
     const fret_phase *p = context;
@@ -17,6 +43,9 @@ static fret_real law_rate(fret_real t, fret_real rest, void *context) {
     fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
     if (d <= 0 || z <= 0 || fret_stopped(n))
         return 0;
+    fret_real rate;
+    if (pieces_rate(p, z, d, &rate))
+        return rate;
     fret_point edge = p->by == DEPTH ? fret_law_at_depth(n, z) : fret_law_at_force(n, z),
                front = {0, 0, 0, 0};
     const fret_level outer = {edge.y, edge.F};
@@ -25,7 +54,7 @@ static fret_real law_rate(fret_real t, fret_real rest, void *context) {
     if (p->by == LOAD) /* of a thin zone the depths would differ by too few digits */
         d = d < 1e-3L * z ? fret_law_thickness(n, &outer, d) : edge.y - front.y;
     fret_real G = fret_normal_closed(n) || d < 1e-3L * edge.y ? fret_law_slice(n, &outer, d).G
-                                                              : edge.F - front.F - d * front.K;
+                                                              : fmaxl(edge.F - front.F - d * front.K, 0);
     if (p->by == DEPTH)
         return G;
     return front.K > 0 ? G / front.K : 0; /* dy = dF/K; the end point itself has no weight */
@@ -50,9 +79,29 @@ static fret_real by_halves(const fret_phase *p, fret_real (*loss)(const fret_pha
     return loss(&first) + loss(&second);
 }
 
+/* In parts; where digits are lost by a rule, as long as the parts agree. */
+static bool by_pieces(const fret_phase *phase, fret_real *loss) {
+    fret_phase p = *phase;
+    const fret_real edge[2] = {p.edge0, p.edge1}, front[2] = {p.front0, p.front1};
+    fret_real parts, bound;
+    if (!fret_pieces_phase(p.normal->pieces, p.by == LOAD, edge, front, &parts, &bound))
+        return false;
+    *loss = parts;
+    if (bound <= 1e-12L * parts)
+        return true;
+    if (bound > 1e-6L * parts || !is_smooth(&p))
+        return false;
+    const bool little =
+        p.front1 > 0.985L * p.front0 && p.edge1 > 0.985L * p.edge0 && p.edge0 > 0.985L * p.edge1;
+    *loss = (p.front0 - p.front1) * (little ? short_rule(law_rate, &p) : fret_integrate_smooth(law_rate, &p));
+    return fabsl(*loss - parts) <= bound + 1e-14L * *loss;
+}
+
 fret_real fret_phase_loss_by_law(const fret_phase *phase) {
     fret_phase p = *phase;
     fret_real rate;
+    if (p.normal->pieces && by_pieces(&p, &rate))
+        return rate;
     if (comes_near(&p))
         return by_halves(&p, fret_phase_loss_by_law);
     if (fret_gap_has_rows(&p.normal->gap)) /* edge or front may cross rows, where the rate is not smooth */
@@ -115,20 +164,6 @@ static fret_real power_rate(fret_real t, fret_real rest, void *context) {
     return c->v * power_near(c, below / c->e) * bow(c, d / e, f / e);
 }
 
-/* Gauss's rule of four points: 1e-19 for a rate that is smooth farther than 60 times the way. */
-static fret_real short_rule(const power_phase *c) {
-    static const fret_real node[2] = {0.0694318442029737123880267555535953L,
-                                      0.330009478207571867598667120448378L},
-                           weight[2] = {0.173927422568726928686531974610999L,
-                                        0.326072577431273071313468025389001L};
-    power_phase context = *c;
-    fret_real sum = 0;
-    for (int i = 0; i < 2; i++)
-        sum += weight[i] *
-               (power_rate(node[i], 1 - node[i], &context) + power_rate(1 - node[i], node[i], &context));
-    return sum;
-}
-
 /* Zones that come far: a straight line dissipates nothing, so v less its chord from the centre counts alone,
  *   u = x^s - x, x = y/e,   int_0^x u dx = x (u - (s-1) x/2)/(s+1),
  * and the loss is travel [mean of u(edge) - mean of u(front)] + [thickness (u(front) - mean of u(front))],
@@ -170,7 +205,7 @@ static fret_real power_loss(const fret_phase *p) {
     c.v = p->by == DEPTH ? fret_law_force(n, e) : fret_law_depth(n, e);
     const fret_real way = fmaxl(p->front0 - p->front1, fabsl(p->edge1 - p->edge0)) * fmaxl(c.s, 1);
     if (way < 0.016L * p->front1)
-        return (p->front0 - p->front1) * short_rule(&c);
+        return (p->front0 - p->front1) * short_rule(power_rate, &c);
     if (is_smooth(p))
         return (p->front0 - p->front1) * fret_integrate_smooth(power_rate, &c);
     const fret_real closed = closed_loss(&c);
@@ -199,6 +234,9 @@ static fret_real gross_rate(fret_real t, fret_real rest, void *context) {
 
 fret_real fret_phase_force(const fret_phase *phase) {
     fret_phase p = *phase;
+    fret_real mean;
+    if (p.normal->pieces && fret_pieces_mean(p.normal->pieces, p.edge0, p.edge1, &mean))
+        return mean;
     const fret_normal *n = p.normal;
     if (fabsl(p.edge1 - p.edge0) < 0.2L * fmaxl(p.edge0, p.edge1))
         return fret_integrate_smooth(gross_rate, &p);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Integrals over slices of depths, exact also for thin ones: closed for the power law, by quadrature for
  * other shapes. */
-#include "contact/normal.h"
+#include "contact/pieces.h"
 
 #include <float.h>
 
@@ -171,6 +171,8 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
         fret_real F = outer->F, Fy = F * y;
         return (fret_slice){F * m.w, Fy * m.J, F * m.m1, Fy * m.L};
     }
+    if (n->pieces && fret_pieces_slice(n->pieces, outer, false, h, y - h, &h, &out))
+        return out;
     fret_real hi = fret_search_radius(n, false, y), lo = 0;
     if (thin_slice(n, hi, false, h, &h, &out))
         return out;
@@ -203,6 +205,15 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
     return out;
 }
 
+fret_slice fret_law_slice_to(const fret_normal *n, const fret_level *outer, bool by_load, fret_real target,
+                             fret_real left) {
+    fret_slice out;
+    fret_real h;
+    if (n->pieces && fret_pieces_slice(n->pieces, outer, by_load, target, left, &h, &out))
+        return out;
+    return fret_law_slice(n, outer, by_load ? fret_law_thickness(n, outer, target) : target);
+}
+
 fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real h) {
     fret_real y = outer->y;
     fret_slice thin;
@@ -212,6 +223,8 @@ fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real
         return -outer->F * fret_expm1(n->p * fret_log1p(-h / y));
     if (h <= 0)
         return 0;
+    if (n->pieces && fret_pieces_across(n->pieces, outer, false, h, &thin.w))
+        return thin.w;
     if (thin_slice(n, fret_search_radius(n, false, y), false, h, &h, &thin))
         return thin.w;
     return outer->F - fret_law_force(n, y - h);
@@ -224,6 +237,8 @@ fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret
         return y;
     if (fret_normal_closed(n))
         return -y * fret_expm1(n->q * fret_log1p(-w / F));
+    if (w > 0 && n->pieces && fret_pieces_across(n->pieces, outer, true, w, &h))
+        return h;
     if (w <= 0 || thin_slice(n, fret_search_radius(n, true, F), true, w, &h, &thin))
         return h;
     return y - fret_law_depth(n, F - w);

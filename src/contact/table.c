@@ -368,3 +368,18 @@ fret_profile fret_table_profile(const struct fret_table *t, const fret_rule *rul
     }
     return fret_profile_of(k, a, all.g, all.g + all.s, all.I);
 }
+
+/* From the jumps of both derivatives of f' at a row, near the edge alone. */
+fret_real fret_table_bend(const struct fret_table *t, const fret_rule *rule, fret_real kink, fret_real e) {
+    const fret_real start = t->start, a = start + e, v = (e - kink) / a;
+    const size_t i = table_piece(t, start + kink);
+    if (i == 0 || v <= 0)
+        return 0;
+    const fret_real h = (fret_real)t->r[i] - t->r[i - 1];
+    const fret_real d1 = (t->d1[i] - (t->d1[i - 1] + 2 * h * t->d2[i - 1])) * a,
+                    d2 = ((fret_real)t->d2[i] - t->d2[i - 1]) * a * a;
+    const fret_edge m = fret_edge_moments(rule, v);
+    const fret_real p1 = -(d1 + 2 * v * d2);
+    const fret_real g = v * (d1 + v * d2) * m.moment[0] + p1 * m.moment[1] + d2 * m.moment[2];
+    return g - p1 * (m.moment[0] - m.moment[1]) - 2 * d2 * (m.moment[1] - m.moment[2]);
+}

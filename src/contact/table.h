@@ -13,6 +13,7 @@ bool fret_table_pointed(const struct fret_table *table); /* begins with a slope,
 bool fret_table_grows(const struct fret_table *table);   /* as fret_gap_grows */
 fret_real fret_table_kink(const struct fret_table *table, fret_real e);
 fret_real fret_table_f(const struct fret_table *table, fret_real r);
+fret_real fret_table_bend(const struct fret_table *table, const fret_rule *rule, fret_real kink, fret_real e);
 fret_profile fret_table_profile(const struct fret_table *table, const fret_rule *rule, fret_real e);
 
 #endif

@@ -143,6 +143,8 @@ static void put_model(const page *p, const quantity *q, bool call) {
         fprintf(p->to, "    model: %s, with quadrature over the gap\n", models[MODEL_CLOSED].title);
     else
         fprintf(p->to, "    model: %s%s\n", models[model].title, model == MODEL_MEMORY ? " (exact)" : "");
+    if (model == MODEL_MEMORY && s->used & USED(MODEL_PIECES))
+        fprintf(p->to, "    law of the gap: %s, good to %.0e\n", models[MODEL_PIECES].title, s->pieces_error);
     if (stepped && (q->reads & INPUT_BIT(IN_MU))) {
         if (s->answers.levels && s->answers.run[0].repeated)
             fprintf(p->to, "    cycle: %u more periods repeat the last one that was run\n",

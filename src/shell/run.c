@@ -364,6 +364,8 @@ static void report_time(shell *sh, double t) {
     for (model_id i = 0; i < MODELS; i++)
         if (sh->calc.scene.used & USED(i)) {
             fprintf(sh->err, "%s%s", before, models[i].title);
+            if (i == MODEL_PIECES)
+                fprintf(sh->err, " to %.0e", sh->calc.scene.pieces_error);
             before = ", ";
         }
     const answers *a = &sh->calc.scene.answers;

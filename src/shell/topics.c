@@ -375,6 +375,12 @@ const char *model_text(size_t id) {
         [MODEL_QUADRATURE] =
             "Integrals over the gap, for shapes without a formula and for local fields.\n\n" EXAMPLE
             "step Fx=20 N\n    fret> qx(0.1 mm)\n    qx(0.1 mm) = 141.911 MPa\n",
+        [MODEL_PIECES] =
+            "The law FN(dz) of a gap without a formula as polynomials, piece by piece: made where\n"
+            "many values of one contact are asked for, 32 rows of a table or a swinging FN. They\n"
+            "agree with the quadrature to 2e-15; `set timing on` tells how well.\n\n" EXAMPLE
+            "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
+            "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
                           "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
                           "    fret> set model springs 100\n    fret> dW\n    dW = 1.9 uJ\n",

@@ -8,6 +8,7 @@
 
 typedef enum model_family {
     FAMILY_CLOSED,
+    FAMILY_PIECES,
     FAMILY_MEMORY,
     FAMILY_DOUBLE,
     FAMILY_QUADRATURE,

@@ -239,10 +239,27 @@ static size_t values_at(size_t count) {
     return found_at() + (count * sizeof(found) + 63) / 64 * 64;
 }
 
+/* Are the values of a curve so many, of one contact, that its law is worth preparing? Then for all of them: a
+ * row has the same digits wherever it is worked out. */
+static bool is_many(const state *st) {
+    enum { MANY = 32, OF_LOADS = 1000 }; /* the law is prepared anew each time that F_N doubles */
+    const sweep *s = st->s;
+    if (!s->along && s->var.is_input && s->var.in != IN_MU && s->var.in != IN_FN)
+        return false;
+    return s->steps + 1 >= (!s->along && s->var.is_input && s->var.in == IN_FN ? OF_LOADS : MANY) &&
+           !st->t->scene.in.bindings;
+}
+
+static void open_trial(state *st, calc_error *error) {
+    st->t = trial_open(st->job->c, error);
+    if (st->t)
+        st->t->scene.many = is_many(st);
+}
+
 static bool begin_curve(state *st, long double with, calc_error *error) {
     knob var = st->s->var;
     var.d = st->range.d;
-    st->t = trial_open(st->job->c, error);
+    open_trial(st, error);
     return st->t && (!st->s->curves || trial_set(st->t, &st->s->with, with, error)) &&
            (var.is_input || trial_set(st->t, &var, st->range.lo, error));
 }
@@ -494,7 +511,7 @@ bool sweep_run(const sweep *s, sweep_job *job) {
     if (!ok)
         calc_no_memory(job->error);
     for (; st.curve < curves && ok; st.curve++) {
-        st.t = trial_open(job->c, job->error);
+        open_trial(&st, job->error);
         ok = st.t && run_curve(&st);
         calc_word(job->c, job->error);
         if (st.t)

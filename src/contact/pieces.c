@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading the law from its pieces. Pure. */
+#include "contact/pieces.h"
+
+#include "contact/piece.h"
+#include "number/real.h"
+
+enum { BY_DISTANCE, BY_DEPTH, BY_LOAD };
+
+/* The piece that holds a value; false: none does. */
+static bool find(const struct fret_pieces *all, int by, fret_real value, size_t *found) {
+    const fret_real *reach = all->reach + (size_t)by * all->count;
+    const fret_real least = by == BY_DISTANCE ? all->from : by == BY_DEPTH ? all->least.y : all->least.F;
+    if (!(value > least && value <= reach[all->count - 1]))
+        return false;
+    size_t lo = 0, count = all->count; /* the first whose end is not before the value */
+    while (count > 1) {
+        const size_t half = count / 2;
+        lo += reach[lo + half - 1] < value ? half : 0;
+        count -= half;
+    }
+    *found = lo;
+    return true;
+}
+
+bool fret_pieces_point(const struct fret_pieces *all, bool by_force, fret_real value, fret_point *out) {
+    size_t i;
+    fret_real rate;
+    if (!find(all, by_force ? BY_LOAD : BY_DEPTH, value, &i))
+        return false;
+    const piece *p = &all->piece[i];
+    const fret_real z = fret_piece_place(p, by_force, value);
+    out->y = by_force ? p->inner.y + fret_polynomial_at(&p->rise[DEPTHS], z) : value;
+    out->F = by_force ? value : p->inner.F + fret_polynomial_at(&p->rise[LOADS], z);
+    out->K = p->K_inner + fret_polynomial_at(&p->K, z);
+    out->a = fret_gap_start(&all->normal->gap) + fret_piece_distance(p, z, &rate);
+    return true;
+}
+
+bool fret_pieces_depth(const struct fret_pieces *all, fret_real e, fret_real *depth) {
+    size_t i;
+    if (!find(all, BY_DISTANCE, e, &i))
+        return false;
+    const piece *p = &all->piece[i];
+    const fret_real s = p->width > 0 ? sqrtl(sqrtl((e - p->origin) / p->width)) : fret_log(e);
+    *depth = p->inner.y + fret_polynomial_at(&p->rise[DEPTHS], (s - p->middle) / p->half);
+    return true;
+}
+
+/* Adds to `sum` the whole pieces below piece `from`, down to and with piece `to`. */
+static void add_runs(const struct fret_pieces *all, size_t from, size_t to, stretch *sum) {
+    while (from > to) {
+        int l = 0;
+        while (from % ((size_t)2 << l) == 0 && from - ((size_t)2 << l) >= to && from >= (size_t)2 << l)
+            l++;
+        *sum = fret_stretch_join(sum, &all->run[l][(from >> l) - 1]);
+        from -= (size_t)1 << l;
+    }
+}
+
+/* Where a slice begins and ends: in piece `outer` at z, inwards to `way` before z, or before the outer end of
+ * piece `inner` where that is another; inner = count: at the centre. */
+typedef struct ends {
+    size_t outer, inner;
+    fret_real z, way;
+} ends;
+
+static fret_real way_from_end(const piece *p, int by, fret_real drop) {
+    return drop > 0 ? fret_piece_way(p, by, &p->from_end[by], 1, fret_piece_rise(p, by), drop) : 0;
+}
+
+/* by: that in which whole, of the place, and target are told. */
+static bool find_ends(const struct fret_pieces *all, int by, fret_real whole, fret_real target,
+                      fret_real left, ends *c) {
+    const int table = by == LOADS ? BY_LOAD : BY_DEPTH;
+    if (!(target > 0) || !find(all, table, whole, &c->outer))
+        return false;
+    const piece *p = &all->piece[c->outer];
+    c->z = fret_piece_place(p, by, whole);
+    c->inner = c->outer;
+    const fret_real have = fret_polynomial_at(&p->rise[by], c->z);
+    /* close to a kink a piece is as steep as a third power: thin slices there are not for it */
+    if (p->blunt && c->z < -0.6L && target < fret_piece_rise(p, by))
+        return false;
+    if (target <= have) {
+        polynomial q;
+        fret_polynomial_quotient(&p->rise[by], c->z, &q);
+        c->way = fret_piece_way(p, by, &q, c->z, have, target);
+        return true;
+    }
+    if (left <= 0) {
+        c->inner = all->count;
+        return true;
+    }
+    if (c->outer == 0)
+        return false;
+    fret_real drop = target - have;
+    const piece *next = &all->piece[--c->inner];
+    if (drop > fret_piece_rise(next, by)) {
+        if (!find(all, table, left, &c->inner))
+            return false;
+        next = &all->piece[c->inner];
+        drop = fret_level_by(&next->outer, by) - left;
+    }
+    c->way = way_from_end(next, by, drop);
+    return true;
+}
+
+/* The fall of depth or load over a slice that does not reach the centre. */
+static fret_real fall_of(const struct fret_pieces *all, int by, const ends *c) {
+    const piece *p = &all->piece[c->outer], *last = &all->piece[c->inner];
+    polynomial q;
+    if (c->inner == c->outer) {
+        fret_polynomial_quotient(&p->rise[by], c->z, &q);
+        return c->way * fret_polynomial_at(&q, c->z - c->way);
+    }
+    return fret_polynomial_at(&p->rise[by], c->z) +
+           (fret_level_by(&p->inner, by) - fret_level_by(&last->outer, by)) +
+           c->way * fret_polynomial_at(&last->from_end[by], 1 - c->way);
+}
+
+/* The integrals, and K at the inner end. */
+static stretch integrals_of(const struct fret_pieces *all, const ends *c, fret_real *K) {
+    const piece *p = &all->piece[c->outer], *last = &all->piece[c->inner];
+    polynomial q;
+    fret_polynomial_quotient(&p->rise[DEPTHS], c->z, &q);
+    stretch sum = fret_piece_part(p, &q, c->z, c->inner == c->outer ? c->way : 1 + c->z);
+    if (c->inner == all->count) {
+        *K = fret_normal_stiffness(all->normal, fret_gap_start(&all->normal->gap));
+        add_runs(all, c->outer, 0, &sum);
+        return fret_stretch_join(&sum, &all->core);
+    }
+    *K = last->K_inner + fret_polynomial_at(&last->K, (c->inner == c->outer ? c->z : 1) - c->way);
+    if (c->inner == c->outer)
+        return sum;
+    add_runs(all, c->outer, c->inner + 1, &sum);
+    if (!(c->way > 0))
+        return sum;
+    const stretch rest = fret_piece_part(last, &last->from_end[DEPTHS], 1, c->way);
+    return fret_stretch_join(&sum, &rest);
+}
+
+bool fret_pieces_slice(const struct fret_pieces *all, const fret_level *outer, bool by_load, fret_real target,
+                       fret_real left, fret_real *h, fret_slice *out) {
+    ends c;
+    fret_real K;
+    const fret_real whole = by_load ? outer->F : outer->y;
+    if (!find_ends(all, by_load, whole, target, left, &c))
+        return false;
+    const stretch s = integrals_of(all, &c, &K);
+    *h = by_load ? s.h : fminl(target, whole);
+    *out = (fret_slice){.w = by_load ? fminl(target, whole) : s.G + *h * K,
+                        .J = (*h * *h * K + (*h * s.G - s.L)) / 2,
+                        .G = s.G,
+                        .L = s.L};
+    return true;
+}
+
+bool fret_pieces_across(const struct fret_pieces *all, const fret_level *outer, bool by_load,
+                        fret_real target, fret_real *other) {
+    const fret_real whole = by_load ? outer->F : outer->y;
+    ends c;
+    if (!find_ends(all, by_load, whole, target, whole - target, &c))
+        return false;
+    *other = c.inner == all->count ? (by_load ? outer->y : outer->F) : fall_of(all, !by_load, &c);
+    return true;
+}
+/* Depth by load, or load by depth, at both ends of a way, and its mean between them. */
+static bool mean_of(const struct fret_pieces *all, int by, fret_real from, fret_real to, fret_real end[2],
+                    fret_real *mean) {
+    const int other = by == LOADS ? DEPTHS : LOADS;
+    fret_real sum[2][2];
+    for (int i = 0; i < 2; i++) {
+        size_t at;
+        const fret_real value = i ? to : from;
+        if (!find(all, by == LOADS ? BY_LOAD : BY_DEPTH, value, &at))
+            return false;
+        const piece *p = &all->piece[at];
+        const fret_real z = fret_piece_place(p, by, value);
+        end[i] = fret_level_by(&p->inner, other) + fret_polynomial_at(&p->rise[other], z);
+        sum[i][DEPTHS] = p->sum[DEPTHS];
+        sum[i][LOADS] = p->sum[LOADS];
+        fret_piece_add_work(p, z, sum[i]);
+    }
+    *mean = from == to ? end[0] : (sum[0][other] - sum[1][other]) / (from - to);
+    return true;
+}
+
+bool fret_pieces_mean(const struct fret_pieces *all, fret_real from, fret_real to, fret_real *mean) {
+    fret_real end[2];
+    return (from == to || fabsl(from - to) > 1e-3L * fmaxl(from, to)) &&
+           mean_of(all, DEPTHS, from, to, end, mean);
+}
+
+/* With v(e) what the law makes of the coordinate e: the integral of the distance of v at the edge from its
+ * tangent at the front, int [v(E)-v(f)-(E-f) v'(f)] df, in parts. */
+bool fret_pieces_phase(const struct fret_pieces *all, bool by_load, const fret_real edge[2],
+                       const fret_real front[2], fret_real *out, fret_real *bound) {
+    const fret_real went = front[0] - front[1], moved = edge[0] - edge[1];
+    fret_real v[2], at_edge[2], mean, mean_edge;
+    if (!(went > 0) || !mean_of(all, by_load, front[0], front[1], v, &mean) ||
+        !mean_of(all, by_load, edge[0], edge[1], at_edge, &mean_edge))
+        return false;
+    const fret_real bow = (edge[0] - front[0]) * v[0] - (edge[1] - front[1]) * v[1] -
+                          (moved - 2 * went) * mean - went * mean_edge;
+    *out = fabsl(bow);
+    *bound = 1e-19L * fmaxl(edge[0] * at_edge[0], edge[1] * at_edge[1]) *
+             (1 + fabsl(moved) / went + (moved != 0 ? went / fabsl(moved) : 0));
+    return true;
+}

@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Making the pieces: polynomials through Chebyshev's nodes, shorter pieces where one does not do, all held
+ * against the profile itself. Allocates them. */
+#include "contact/pieces.h"
+
+#include <stdlib.h>
+
+#include "contact/check.h"
+#include "contact/piece.h"
+#include "number/real.h"
+
+/* ---- polynomials through values ---------------------------------------------------------------- */
+
+enum { FEWER = 14 }; /* of what is smooth across a row of a table */
+
+/* From values at Chebyshev's nodes to polynomials in z, by Chebyshev's polynomials. */
+typedef struct rule {
+    int count;
+    fret_real wave[4 * NODES];     /* cos(pi i/(2 count)) */
+    fret_real power[NODES][NODES]; /* T_i in powers of z */
+} rule;
+
+static void make_rule(rule *r, int count) {
+    r->count = count;
+    for (int i = 0; i < 4 * count; i++)
+        r->wave[i] = fret_cos(FRET_PI * i / (2 * count));
+    for (int i = 0; i < NODES; i++)
+        for (int j = 0; j < NODES; j++)
+            r->power[i][j] = i < 2    ? (fret_real)(i == j)
+                             : j == 0 ? -r->power[i - 2][0]
+                                      : 2 * r->power[i - 1][j - 1] - r->power[i - 2][j];
+}
+
+static fret_real node_of(const rule *r, int j) {
+    return r->wave[2 * j + 1];
+}
+
+/* Returns how large the last terms are, relative to the largest; infinite where doubles would not do for
+ * those that a polynomial keeps in them, smooth as it is asked to be. */
+static fret_real fit(const rule *r, bool smooth, const fret_real *value, fret_real *c) {
+    const int count = r->count;
+    fret_real most = 0, last = 0;
+    for (int j = 0; j < NODES; j++)
+        c[j] = 0;
+    for (int i = 0; i < count; i++) {
+        fret_real term = 0;
+        for (int j = 0; j < count; j++)
+            term += r->wave[i * (2 * j + 1) % (4 * count)] * value[j];
+        term *= (i ? 2 : 1) / (fret_real)count;
+        most = fmaxl(most, fabsl(term));
+        if (i >= count - 2)
+            last = fmaxl(last, fabsl(term));
+        for (int j = i & 1; j <= i; j += 2)
+            c[j] += term * r->power[i][j];
+    }
+    for (int j = HEAD; smooth && j < count; j++)
+        if (fabsl(c[j]) > 2e-3L * most)
+            return INFINITY;
+    return last / most;
+}
+
+/* The integral of a polynomial of NODES terms, 0 at z = -1. */
+static polynomial integral(const fret_real *c) {
+    fret_real out[TERMS] = {0};
+    for (int i = 0; i < NODES; i++)
+        out[i + 1] = c[i] / (fret_real)(i + 1);
+    for (int i = 1; i < TERMS; i++)
+        out[0] -= i % 2 ? -out[i] : out[i];
+    return fret_polynomial_of(out);
+}
+
+typedef struct maker {
+    struct fret_pieces *all;
+    const fret_normal *normal;
+    fret_real start, tolerance;
+    rule rule, row_rule;
+    size_t spent;    /* profiles asked for */
+    fret_level edge; /* outer end of the last piece */
+    /* from one row of a table to the next: g' less its bend at the first, a polynomial in -1..1 of a part */
+    bool by_row;
+    fret_real row, middle, half, smooth[NODES]; /* FEWER terms */
+    fret_status failed;
+} maker;
+
+enum { MOST_PROFILES = 40000 };
+
+static fret_profile profile(maker *m, fret_real e) {
+    m->spent++;
+    return fret_gap_profile(&m->normal->gap, &m->normal->rule, e);
+}
+
+static fret_real slope_at(maker *m, fret_real e) {
+    if (!m->by_row)
+        return profile(m, e).slope;
+    const fret_real z = ((e - m->row) - m->middle) / m->half;
+    fret_real v = m->smooth[FEWER - 1];
+    for (int i = FEWER - 1; i-- > 0;)
+        v = v * z + m->smooth[i];
+    return v + fret_gap_bend(&m->normal->gap, &m->normal->rule, m->row, e);
+}
+
+static fret_level level_at(maker *m, fret_real e) {
+    const fret_profile p = profile(m, e);
+    return (fret_level){p.g, fret_force_of(m->normal, &p)};
+}
+
+static fret_level level_in(const piece *p, fret_real z) {
+    return (fret_level){p->inner.y + fret_polynomial_at(&p->rise[DEPTHS], z),
+                        p->inner.F + fret_polynomial_at(&p->rise[LOADS], z)};
+}
+
+static fret_real missed_by(maker *m, fret_level found, fret_real e) {
+    const fret_level at = level_at(m, e);
+    return fmaxl(fabsl(found.y / at.y - 1), fabsl(found.F / at.F - 1));
+}
+
+static bool make_piece(maker *m, piece *p) {
+    const fret_normal *n = m->normal;
+    fret_real slope[NODES], load[NODES], rise[NODES], c[TERMS] = {0}, rate, worst;
+    for (int j = 0; j < NODES; j++) {
+        const fret_real e = fret_piece_distance(p, node_of(&m->rule, j), &rate), x = m->start + e;
+        const fret_real K = fret_normal_stiffness(n, x);
+        slope[j] = slope_at(m, e) * rate;
+        load[j] = K * slope[j];
+        rise[j] = (1 + n->foundation.k) * K / x * rate;
+        if (!(slope[j] > 0))
+            return false;
+    }
+    worst = fit(&m->rule, !m->by_row, rise, c);
+    p->dK = fret_polynomial_of(c);
+    p->K = integral(c);
+    worst = fmaxl(worst, fit(&m->rule, !m->by_row, slope, c));
+    p->rise[DEPTHS] = integral(c);
+    worst = fmaxl(worst, fit(&m->rule, !m->by_row, load, c));
+    p->rise[LOADS] = integral(c);
+    for (int j = 0; j < NODES; j++)
+        load[j] *= fret_polynomial_at(&p->rise[DEPTHS], node_of(&m->rule, j));
+    if (!(fit(&m->rule, !m->by_row, load, c) <= m->tolerance / 10))
+        return false;
+    p->work = integral(c);
+    for (int i = DEPTHS; i <= LOADS; i++)
+        fret_polynomial_quotient(&p->rise[i], 1, &p->from_end[i]);
+    if (!(worst <= m->tolerance))
+        return false;
+    worst = 0;
+    p->inner = m->edge;
+    p->K_inner = fret_normal_stiffness(n, m->start + fret_piece_distance(p, -1, &rate));
+    /* from end to end without a jump: differences of sums stay exact; what adds up is held against the
+     * profile */
+    p->outer = level_in(p, 1);
+    for (int i = 0; i < 2 && !m->by_row; i++) {
+        const fret_real z = i ? 0.29L : 1;
+        worst = fmaxl(worst, missed_by(m, level_in(p, z), fret_piece_distance(p, z, &rate)));
+    }
+    const fret_real rough = fret_piece_make_whole(p);
+    if (!(worst <= 1e-15L && rough <= 1e-12L)) /* in halves 2^-16 of it is left */
+        return false;
+    p->coarse = rough > 1e-17L;
+    fret_real z[GUESS];
+    for (int i = 0; i < GUESS; i++)
+        z[i] = node_of(&m->rule, (2 * i + 1) * NODES / (2 * GUESS));
+    for (int i = DEPTHS; i <= LOADS; i++)
+        fret_piece_make_guess(p, i, z);
+    m->all->error = fmaxl(m->all->error, worst);
+    return true;
+}
+
+static bool add(maker *m, const piece *p) {
+    struct fret_pieces *all = m->all;
+    if (all->count == all->room) {
+        const size_t room = 2 * all->room + 32;
+        piece *grown = realloc(all->piece, room * sizeof *grown);
+        if (!grown) {
+            m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+            return false;
+        }
+        all->piece = grown;
+        all->room = room;
+    }
+    all->piece[all->count++] = *p;
+    m->edge = p->outer;
+    return true;
+}
+
+/* From s = lo to hi of a map, in halves where one piece does not do. */
+static bool cover(maker *m, fret_real origin, fret_real width, fret_real lo, fret_real hi, int halvings) {
+    piece p = {.origin = origin,
+               .width = width,
+               .middle = (lo + hi) / 2,
+               .half = (hi - lo) / 2,
+               .blunt = width > 0 && lo == 0};
+    if (fret_stopped(m->normal) || m->spent > MOST_PROFILES)
+        return false;
+    if (make_piece(m, &p))
+        return add(m, &p);
+    if (halvings == 0)
+        return false;
+    return cover(m, origin, width, lo, p.middle, halvings - 1) &&
+           cover(m, origin, width, p.middle, hi, halvings - 1);
+}
+
+/* Each piece twice as long as the last, as far as that does. */
+static bool cover_smooth(maker *m, fret_real from, fret_real to) {
+    fret_real lo = fret_log(from), length = 0.4L, most = 2;
+    const fret_real hi = fret_log(to);
+    while (lo < hi) {
+        const fret_real end = hi - lo < 1.3L * length ? hi : lo + length;
+        if (cover(m, 0, 0, lo, end, 0)) {
+            lo = end;
+            length = fminl(2 * length, most);
+        } else if (length > 0.01L) {
+            length /= 2;
+            most = length;
+        } else {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* From the kink at `row` on, lo to hi of the way to the next, which is `way`. */
+static bool cover_row(maker *m, fret_real row, fret_real way, fret_real lo, fret_real hi, int halvings) {
+    fret_real value[FEWER];
+    m->row = row;
+    m->middle = way * (lo + hi) / 2;
+    m->half = way * (hi - lo) / 2;
+    for (int j = 0; j < FEWER; j++) {
+        const fret_real e = row + (m->middle + m->half * node_of(&m->row_rule, j));
+        value[j] = profile(m, e).slope - fret_gap_bend(&m->normal->gap, &m->normal->rule, row, e);
+    }
+    const fret_real last = fit(&m->row_rule, false, value, m->smooth);
+    if (last <= 20 * m->tolerance) { /* of thin slices; of y less by the way to e */
+        m->by_row = true;
+        bool ok = cover(m, row, way, sqrtl(sqrtl(lo)), sqrtl(sqrtl(hi)), 8);
+        m->by_row = false;
+        if (!ok)
+            return false;
+        const fret_real error = missed_by(m, m->edge, row + way * hi);
+        m->all->error = fmaxl(m->all->error, error);
+        return error <= 1e-15L;
+    }
+    return halvings > 0 && cover_row(m, row, way, lo, (lo + hi) / 2, halvings - 1) &&
+           cover_row(m, row, way, (lo + hi) / 2, hi, halvings - 1);
+}
+
+/* From one row of a table to another: in one piece where that does, else row by row. row: distances. */
+static bool cover_rows(maker *m, const fret_real *row, size_t first, size_t last) {
+    enum { FEW = 8 };
+    if (last - first >= FEW && row[last] < 2 * row[first] &&
+        cover(m, 0, 0, fret_log(row[first]), fret_log(row[last]), 0))
+        return true;
+    if (last - first > 1) {
+        const size_t middle = first + (last - first) / 2;
+        return cover_rows(m, row, first, middle) && cover_rows(m, row, middle, last);
+    }
+    return cover_row(m, row[first], row[last] - row[first], 0, 1, 6);
+}
+
+/* Rows between two distances, both ends too. */
+static bool cover_table(maker *m, fret_real from, fret_real to) {
+    const fret_gap *gap = &m->normal->gap;
+    size_t count = 1;
+    for (fret_real e = fret_gap_kink(gap, to); e > from; e = fret_gap_kink(gap, e))
+        count++;
+    if (count * FEWER > MOST_PROFILES)
+        return false;
+    fret_real *row = malloc((count + 1) * sizeof *row), e = to;
+    if (!row) {
+        m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        return false;
+    }
+    for (size_t i = count; i > 0; i--, e = fret_gap_kink(gap, e))
+        row[i] = e;
+    row[0] = from;
+    const bool ok = cover_smooth(m, from, row[1]) && (count == 1 || cover_rows(m, row + 1, 0, count - 1));
+    free(row);
+    return ok;
+}
+
+/* ---- making ------------------------------------------------------------------------------------ */
+
+static bool make_runs(maker *m) {
+    struct fret_pieces *all = m->all;
+    all->reach = malloc(3 * all->count * sizeof *all->reach);
+    bool ok = all->reach != NULL;
+    for (int l = 0; ok && all->count >> l; l++) {
+        const size_t count = all->count >> l;
+        all->run[l] = malloc(count * sizeof *all->run[l]);
+        ok = all->run[l] != NULL;
+        for (size_t i = 0; ok && i < count; i++)
+            if (l > 0)
+                all->run[l][i] = fret_stretch_join(&all->run[l - 1][2 * i + 1], &all->run[l - 1][2 * i]);
+            else
+                all->run[0][i] = all->piece[i].whole;
+    }
+    if (!ok)
+        m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    for (size_t i = 0; ok && i < all->count; i++) {
+        fret_real unused;
+        all->reach[i] = fret_piece_distance(&all->piece[i], 1, &unused);
+        all->reach[all->count + i] = all->piece[i].outer.y;
+        all->reach[2 * all->count + i] = all->piece[i].outer.F;
+    }
+    return ok;
+}
+
+static bool make_core(maker *m) {
+    struct fret_pieces *all = m->all;
+    const fret_normal *n = m->normal;
+    const fret_slice core = fret_law_slice(n, &all->least, all->least.y);
+    fret_real K = fret_normal_stiffness(n, m->start + all->from);
+    if (m->start > 0) /* it grows from that of the flat end by little */
+        K = fret_normal_stiffness(n, m->start) *
+            fret_expm1((1 + n->foundation.k) * fret_log1p(all->from / m->start));
+    all->core = (stretch){all->least.y, K, core.G, core.L};
+    fret_real sum[2] = {all->least.y * all->least.F - core.J, core.J};
+    for (size_t i = 0; i < all->count; i++) {
+        piece *p = &all->piece[i];
+        for (int by = DEPTHS; by <= LOADS; by++)
+            p->sum[by] = sum[by];
+        fret_piece_add_work(p, 1, sum);
+    }
+    return isfinite(core.L);
+}
+
+static fret_status make_pieces(const fret_normal *n, fret_real e, struct fret_pieces **out) {
+    const bool rows = fret_gap_has_rows(&n->gap);
+    struct fret_pieces *all = calloc(1, sizeof *all);
+    maker *m = calloc(1, sizeof *m);
+    *out = NULL;
+    if (!all || !m) {
+        free(all);
+        free(m);
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    }
+    *m = (maker){
+        .all = all, .normal = n, .start = fret_gap_start(&n->gap), .tolerance = rows ? 1e-15L : 2e-17L};
+    make_rule(&m->rule, NODES);
+    make_rule(&m->row_rule, FEWER);
+    all->normal = n;
+    all->from = (m->start > 0 ? 1e-12L : 1e-5L) * e;
+    m->edge = all->least = level_at(m, all->from);
+    const bool ok = (rows ? cover_table : cover_smooth)(m, all->from, e) && make_core(m) && make_runs(m);
+    fret_status st = m->failed;
+    if (!st.code)
+        st = fret_unless_stopped(n, st);
+    free(m);
+    if (ok && !st.code)
+        *out = all;
+    else
+        fret_pieces_free(all);
+    return st;
+}
+
+void fret_pieces_free(struct fret_pieces *all) {
+    if (!all)
+        return;
+    for (int l = 0; l < 40; l++)
+        free(all->run[l]);
+    free(all->reach);
+    free(all->piece);
+    free(all);
+}
+
+/* Up to the next power of two, so that what comes out does not depend on what was asked before; where that is
+ * more than the gap carries, up to its end. */
+fret_status fret_normal_prepare(fret_normal *n, double F) {
+    fret_status st = fret_check_positive("FN", F);
+    int exponent;
+    (void)frexp(F, &exponent);
+    const double most = ldexp(1, exponent);
+    if (st.code || fret_normal_closed(n) || most == n->prepared)
+        return st;
+    struct fret_pieces *made = NULL;
+    fret_pieces_free(n->pieces);
+    n->pieces = NULL;
+    n->prepared = 0;
+    fret_real e = fret_search_radius(n, true, most);
+    if (!isfinite(e) && isfinite(n->end)) /* not where g begins to fall: there it is no inverse */
+        e = (n->falls ? 0.99L : 1) * (n->end - fret_gap_start(&n->gap));
+    if (isfinite(e))
+        st = make_pieces(n, e, &made);
+    n->pieces = made;
+    if (!st.code)
+        n->prepared = most;
+    return st;
+}
+
+double fret_normal_prepared(const fret_normal *n) {
+    return n->pieces ? (double)n->pieces->error : NAN;
+}

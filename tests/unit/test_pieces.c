@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A prepared contact against its slow twin, which answers by searches and quadrature: random contacts of all
+ * shapes, random questions and histories. FRET_PIECES=N asks N times as much and prints the worst errors. */
+#include "contact/phase.h"
+#include "unit.h"
+
+static unsigned long long seed = 7;
+static double uniform(double lo, double hi) {
+    return unit_random(&seed, lo, hi);
+}
+
+/* 10^-most .. 1 */
+static double small(double most) {
+    return pow(10, uniform(-most, 0));
+}
+
+/* ---- contacts ---------------------------------------------------------------------------------- */
+
+enum { ROWS = 48 };
+
+/* A sphere in rows; rough: each of them off, and at uneven distances. */
+static struct fret_table *make_table(double R, double wide, bool rough) {
+    double r[ROWS], f[ROWS];
+    struct fret_table *table = NULL;
+    r[0] = f[0] = 0;
+    for (int i = 1; i < ROWS; i++) {
+        r[i] = wide * (i + (rough ? uniform(-0.3, 0.3) : 0)) / ROWS;
+        f[i] = r[i] * r[i] / (R + sqrt(R * R - r[i] * r[i])) * (1 + (rough ? uniform(0, 1e-3) : 0));
+    }
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
+    return table;
+}
+
+typedef enum shape {
+    SUM,
+    SUM_STEEP,
+    FLAT_CONE,
+    FLAT_PARABOLOID,
+    FLAT_ROUNDED,
+    SPHERE,
+    TABLE,
+    ROUGH_TABLE,
+    SHAPES
+} shape;
+
+static const char *const shape_name[SHAPES] = {"sum",          "steep sum",    "flat-cone", "flat-paraboloid",
+                                               "flat-rounded", "exact-sphere", "table",     "rough table"};
+
+static fret_gap make_gap(shape which) {
+    const double R = 1e-2 * small(1), b = 2e-4 * small(1.5);
+    fret_gap g = {.R = R, .b = b, .slope = small(2)};
+    switch (which) {
+    case SUM:
+    case SUM_STEEP:
+        g.kind = FRET_GAP_SUM;
+        g.terms = 2;
+        g.power[0] = (fret_power){which == SUM ? uniform(0.6, 2) : 4, 1e-6 * small(2), 1e-4};
+        g.power[1] = (fret_power){which == SUM ? uniform(2, 4) : 12, 1e-6 * small(2), 1e-4};
+        break;
+    case FLAT_CONE:
+        g.kind = FRET_GAP_FLAT_CONE;
+        break;
+    case FLAT_PARABOLOID:
+        g.kind = FRET_GAP_FLAT_PARABOLOID;
+        break;
+    case FLAT_ROUNDED:
+        g.kind = FRET_GAP_FLAT_ROUNDED;
+        break;
+    case SPHERE:
+        g.kind = FRET_GAP_EXACT_SPHERE;
+        break;
+    default:
+        g.kind = FRET_GAP_TABLE;
+        g.table = make_table(R, 0.2 * R, which == ROUGH_TABLE);
+    }
+    return g;
+}
+
+/* The same contact twice, and a load that it carries. */
+typedef struct twins {
+    fret_normal *plain, *ready;
+    struct fret_table *table;
+    double F;
+} twins;
+
+static bool make_twins(shape which, double k, twins *out) {
+    const fret_material m = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
+    const fret_gap gap = make_gap(which);
+    const double start = which >= FLAT_CONE && which <= FLAT_ROUNDED ? gap.b : 0;
+    const double a = which >= SPHERE ? gap.R * uniform(0.02, 0.19) : start + 2e-4 * small(1.5);
+    fret_press p;
+    *out = (twins){.table = (struct fret_table *)gap.table};
+    CHECK_OK(fret_normal_make(&m, &gap, &out->plain));
+    CHECK_OK(fret_normal_make(&m, &gap, &out->ready));
+    CHECK_OK(fret_press_by_radius(out->plain, a, &p));
+    out->F = (double)p.F;
+    CHECK_OK(fret_normal_prepare(out->ready, out->F));
+    return !isnan(fret_normal_prepared(out->ready));
+}
+
+static void end_twins(twins *t) {
+    fret_normal_free(t->plain);
+    fret_normal_free(t->ready);
+    fret_table_free(t->table);
+}
+
+/* ---- worst errors ------------------------------------------------------------------------------ */
+
+typedef enum what { PLACE, LOSS, THIN, PHASE, HISTORY, WHATS } what;
+static const char *const what_name[WHATS] = {"places", "dW", "slices", "phases", "histories"};
+static fret_real worst[SHAPES][WHATS];
+static long asked[SHAPES];
+
+/* What the slow twin promises itself is no better. */
+static const fret_real promise[WHATS] = {2e-15L, 2e-14L, 1e-13L, 1e-12L, 1e-9L};
+
+static double grading_now;
+
+static void compare_at(int line, shape which, what w, fret_real got, fret_real want, fret_real scale) {
+    const fret_real error = got == want ? 0 : fabsl(got - want) / scale;
+    if (unit_count(error <= promise[w], __FILE__, line))
+        printf("%s, k = %g: %.18Lg, expected %.18Lg, error %.1Le\n", shape_name[which], grading_now, got,
+               want, error);
+    if (error > worst[which][w])
+        worst[which][w] = error;
+    asked[which]++;
+}
+
+#define compare(...) compare_at(__LINE__, __VA_ARGS__)
+
+static void places(shape which, const twins *t) {
+    const double F = t->F * small(6);
+    fret_press want, got;
+    CHECK_OK(fret_press_by_force(t->plain, F, &want));
+    CHECK_OK(fret_press_by_force(t->ready, F, &got));
+    compare(which, PLACE, got.dz, want.dz, want.dz);
+    compare(which, PLACE, got.a, want.a, want.a);
+    CHECK_OK(fret_press_by_depth(t->plain, (double)want.dz, &want));
+    CHECK_OK(fret_press_by_depth(t->ready, (double)want.dz, &got));
+    compare(which, PLACE, got.F, want.F, want.F);
+    const fret_real x = want.a * uniform(0, 1), g = fret_normal_profile(t->plain, x);
+    compare(which, PLACE, fret_normal_profile(t->ready, x), g, g > 0 ? g : 1);
+}
+
+/* Near k = -1 the slow twin is good to 1e-8 alone where all slips, and at a flat end the quadrature of the
+ * definition does not resolve the front: one of both must agree. */
+static fret_real nearer(fret_real got, fret_real a, fret_real b) {
+    return fabsl(got - a) < fabsl(got - b) ? a : b;
+}
+
+/* Up to gross slip within 1e-9, and it itself. */
+static void losses(shape which, const twins *t) {
+    fret_contact plain = {.normal = t->plain, .mu = 0.3}, ready;
+    fret_loading first[2];
+    fret_real want = 0, got = 0, reference = 0, agreement = 0;
+    CHECK_OK(fret_press_by_force(t->plain, t->F * small(3), &plain.press));
+    ready = plain;
+    ready.normal = t->ready;
+    const double limit = (double)(0.3 * plain.press.F), part = uniform(0, 1) < 0.3   ? 1 - small(9)
+                                                               : uniform(0, 1) < 0.1 ? 1
+                                                                                     : uniform(0.01, 1);
+    CHECK_OK(fret_cycle_loss_by_force(&plain, limit * part, &want));
+    CHECK_OK(fret_reference_loss_by_force(&plain, limit * part, &reference, &agreement));
+    CHECK_OK(fret_cycle_loss_by_force(&ready, limit * part, &got));
+    compare(which, LOSS, got, nearer(got, want, reference), want);
+    CHECK_OK(fret_loading_by_force(&plain, limit * part, &first[0]));
+    CHECK_OK(fret_loading_by_force(&ready, limit * part, &first[1]));
+    compare(which, LOSS, first[1].dx, first[0].dx, first[0].dx);
+    compare(which, LOSS, first[1].c, first[0].c, plain.press.a);
+    const double dx = (double)fret_gross_slip(&plain) * part;
+    CHECK_OK(fret_cycle_loss_by_displacement(&plain, dx, &want));
+    CHECK_OK(fret_reference_loss_by_displacement(&plain, dx, &reference, &agreement));
+    CHECK_OK(fret_cycle_loss_by_displacement(&ready, dx, &got));
+    compare(which, LOSS, got, nearer(got, want, reference), want);
+}
+
+static void slices(shape which, const twins *t) {
+    const fret_real F = t->F * small(2);
+    const fret_level outer = {fret_law_depth(t->plain, F), F};
+    const fret_real h = outer.y * small(7);
+    const fret_slice want = fret_law_slice(t->plain, &outer, h), got = fret_law_slice(t->ready, &outer, h);
+    compare(which, THIN, got.w, want.w, want.w);
+    compare(which, THIN, got.J, want.J, want.J);
+    compare(which, THIN, got.G, want.G, want.G);
+    compare(which, THIN, got.L, want.L, want.L);
+    compare(which, THIN, fret_law_load(t->ready, &outer, h), want.w, want.w);
+    compare(which, THIN, fret_law_thickness(t->ready, &outer, want.w), h, h);
+}
+
+/* As chords of a swinging load are, and longer ones: relative to what one of the whole contact loses. */
+static void phases(shape which, const twins *t) {
+    const coordinate by = uniform(0, 1) < 0.5 ? DEPTH : LOAD;
+    const fret_real edge = by == LOAD ? (fret_real)t->F : fret_law_depth(t->plain, t->F);
+    fret_phase p = {.normal = t->plain, .by = by, .edge0 = edge * uniform(0.5, 1)};
+    p.edge1 = fminl(p.edge0 * (1 + uniform(-1, 1) * small(3)), edge);
+    p.front0 = fminl(p.edge0, p.edge1) * (1 - small(3));
+    p.front1 = p.front0 * (1 - small(3));
+    const fret_real want = fret_phase_loss(&p);
+    p.normal = t->ready;
+    const fret_real got = fret_phase_loss(&p);
+    const fret_real all =
+        (by == LOAD ? fret_law_depth(t->plain, p.edge0) : fret_law_force(t->plain, p.edge0)) * p.edge0;
+    compare(which, PHASE, got, want, want + 1e-6L * all);
+    CHECK(got >= 0);
+}
+
+/* Both twins along one way: pressed, slid, opened and pressed again. */
+static void history(shape which, const twins *t, int steps) {
+    const double mu = 0.3;
+    fret_memory *plain = NULL, *ready = NULL;
+    fret_state a = {0}, b = {0};
+    fret_press top;
+    CHECK_OK(fret_memory_make(t->plain, mu, &plain));
+    CHECK_OK(fret_memory_make(t->ready, mu, &ready));
+    CHECK_OK(fret_press_by_force(t->plain, t->F, &top));
+    const fret_real slip = fret_gross_slip(&(fret_contact){t->plain, mu, top});
+    for (int i = 0; i < steps; i++) {
+        const bool opens = uniform(0, 1) < 0.03;
+        const double FN = t->F * uniform(0.3, 1);
+        fret_step s = {FRET_TO_FORCE, FRET_TO_FX, FN, mu * FN * uniform(-1, 1) * (1 - 1e-12)};
+        if (opens)
+            s = (fret_step){FRET_TO_DEPTH, FRET_TO_DX, -1e-9, (double)(slip * uniform(-1, 1))};
+        else if (uniform(0, 1) < 0.3)
+            s = (fret_step){FRET_TO_FORCE, FRET_TO_DX, FN, (double)(a.dx + slip * uniform(-1, 1))};
+        CHECK_OK(fret_memory_step(plain, &s));
+        CHECK_OK(fret_memory_step(ready, &s));
+        fret_memory_state(plain, &a);
+        fret_memory_state(ready, &b);
+        const fret_real load = mu * t->F, work = load * slip;
+        compare(which, HISTORY, b.Fx, a.Fx, load);
+        compare(which, HISTORY, b.dx - a.dx, 0, slip);
+        compare(which, HISTORY, b.W, a.W, work + a.W);
+        compare(which, HISTORY, b.U, a.U, work);
+    }
+    fret_memory_free(plain);
+    fret_memory_free(ready);
+}
+
+/* ---- all of it --------------------------------------------------------------------------------- */
+
+static const double grading[] = {-0.99, -0.8, -0.4, 0, 0.3, 0.7, 0.99};
+enum { GRADINGS = sizeof grading / sizeof *grading };
+
+/* There, near k = -1, the load hardly tells the radius: the slow twin keeps 1e-6 of the loss of a phase. */
+static bool is_flat(shape which) {
+    return which >= FLAT_CONE && which <= FLAT_ROUNDED;
+}
+
+static void contact(shape which, double k, int times) {
+    const bool slow = which >= TABLE;
+    grading_now = k;
+    twins t;
+    if (which == ROUGH_TABLE && k < -0.5) /* the profile falls */
+        return;
+    if (make_twins(which, k, &t)) {
+        for (int i = 0; i < times * (slow ? 3 : 24); i++) {
+            places(which, &t);
+            losses(which, &t);
+            slices(which, &t);
+        }
+        for (int i = 0; i < times * (slow ? 2 : 12) && !(is_flat(which) && k < -0.5); i++)
+            phases(which, &t);
+        if (fabs(k) < 0.9 && !(is_flat(which) && k < -0.5))
+            history(which, &t, times * (slow ? 2 : 8));
+    } else {
+        if (unit_count(which >= TABLE && k < (which == TABLE ? -0.5 : 0), __FILE__,
+                       __LINE__)) /* kinks are too sharp near k = -1 */
+            printf("no pieces: %s, k = %g\n", shape_name[which], k);
+    }
+    end_twins(&t);
+}
+
+/* What comes out does not hang on what was asked before. */
+static void prepares_alike(void) {
+    unit_scene s = unit_make_scene(2, 0.3);
+    s.gap = (fret_gap){.kind = FRET_GAP_EXACT_SPHERE, .R = 1e-2};
+    fret_normal *a = unit_make_normal(&s), *b = unit_make_normal(&s);
+    fret_press p, q;
+    CHECK(isnan(fret_normal_prepared(a)));
+    CHECK_OK(fret_normal_prepare(a, 100));
+    CHECK_OK(fret_normal_prepare(b, 3000));
+    CHECK_OK(fret_normal_prepare(b, 2e-5));
+    CHECK_OK(fret_normal_prepare(b, 70));
+    CHECK(fret_normal_prepared(a) < 1e-16 && fret_normal_prepared(a) == fret_normal_prepared(b));
+    for (double F = 1e-3; F < 1000; F *= 1.7) {
+        CHECK_OK(fret_press_by_force(a, F, &p));
+        CHECK_OK(fret_press_by_force(b, F, &q));
+        CHECK(p.dz == q.dz && p.a == q.a);
+    }
+    CHECK_ERROR(fret_normal_prepare(a, -1), FRET_NOT_POSITIVE, "FN");
+    CHECK_OK(fret_normal_prepare(a, 1e300)); /* more than the sphere carries */
+    CHECK_OK(fret_press_by_force(a, 100, &p));
+    CHECK_OK(fret_press_by_force(b, 100, &q));
+    CHECK_REL(p.dz, q.dz, UNIT_TOL(1e-17L, 1e-14L));
+    s = unit_make_scene(2, 0.3);
+    a = unit_make_normal(&s);
+    CHECK_OK(fret_normal_prepare(a, 100));
+    CHECK(isnan(fret_normal_prepared(a)));
+}
+
+/* Of the work that it takes to set up nothing is left over when it is stopped. */
+static void stops(void) {
+    volatile sig_atomic_t stop = 1;
+    unit_scene s = unit_make_scene(2, 0.3);
+    s.gap = (fret_gap){.kind = FRET_GAP_EXACT_SPHERE, .R = 1e-2};
+    fret_normal *n = unit_make_normal(&s);
+    fret_normal_stop(n, &stop);
+    CHECK_CODE(fret_normal_prepare(n, 100), FRET_INTERRUPTED);
+    CHECK(isnan(fret_normal_prepared(n)));
+    stop = 0;
+    CHECK_OK(fret_normal_prepare(n, 100));
+    CHECK(!isnan(fret_normal_prepared(n)));
+}
+
+static void print_table(int times) {
+    printf("# FRET_PIECES=%d build/tests/test_pieces: polynomials against searches and quadrature, worst\n",
+           times);
+    printf(
+        "# relative difference; phases of the loss + 1e-6 of F_N delta_z, histories of their scales\n%-16s",
+        "shape");
+    for (what w = 0; w < WHATS; w++)
+        printf("%10s", what_name[w]);
+    printf("%10s\n", "asked");
+    for (shape which = 0; which < SHAPES; which++) {
+        printf("%-16s", shape_name[which]);
+        for (what w = 0; w < WHATS; w++)
+            printf("%10.1Le", worst[which][w]);
+        printf("%10ld\n", asked[which]);
+    }
+}
+
+int main(int argc, char **argv) {
+    unit_start("pieces", argc, argv);
+    const char *many = getenv("FRET_PIECES");
+    const int times = many ? atoi(many) : 1;
+    for (int i = 0; i < times; i++)
+        for (shape which = 0; which < SHAPES; which++)
+            for (int j = 0; j < GRADINGS; j++)
+                contact(which, grading[j], 1);
+    prepares_alike();
+    stops();
+    if (many)
+        print_table(times);
+    return unit_finish();
+}
