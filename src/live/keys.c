@@ -497,7 +497,12 @@ static void typing_key(live *l, int key) {
     }
 }
 
+/* A key that is held acts by what was shown: a scene that takes its time is computed once for all its
+ * repeats. */
 void live_key(live *l, int key) {
+    if (key != l->last_key)
+        live_refresh(l);
+    l->last_key = key;
     if (key == KEY_AGAIN) {
         l->changed = true;
     } else if (key == KEY_MOUSE) {

@@ -116,6 +116,7 @@ static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *er
 }
 
 static void update(live *l, bool along) {
+    l->stale = false;
     for (size_t i = 0; i < (l->comparing ? SIDES : 1); i++) {
         calc_error error;
         error_clear(&error);
@@ -127,6 +128,15 @@ static void update(live *l, bool along) {
 }
 
 void live_update(live *l) {
+    l->stale = true;
+    l->changed = true;
+    if (l->follow)
+        live_refresh(l);
+}
+
+void live_refresh(live *l) {
+    if (!l->stale)
+        return;
     update(l, l->follow);
     const shot *s = &l->side[0].now;
     if (!(l->FA > 0) && s->slip > 0 && !*l->side[0].trouble) /* half of what would slide it */

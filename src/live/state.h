@@ -61,6 +61,8 @@ typedef struct live {
     double loop_dx, loop_Fx; /* half its width and height */
     bool dragging;
     film film;
+    bool stale; /* what is shown is of an earlier scene */
+    int last_key;
     bool changed; /* something is to be drawn */
 } live;
 
@@ -79,8 +81,9 @@ void live_amount(double v, dim d, char *text, size_t size);
 __attribute__((format(printf, 3, 4)))
 #endif
 void live_tell(live *l, bool bad, const char *format, ...);
-/* After a change: what is to be shown. */
+/* After a change: what is shown must follow; and does, before it is drawn or asked. */
 void live_update(live *l);
+void live_refresh(live *l);
 /* Nothing set yet: a scene to begin with. */
 void live_begin(live *l);
 void live_play(live *l);

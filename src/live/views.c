@@ -402,6 +402,7 @@ static void draw_page(const live *l, rect all) {
 }
 
 void live_draw(live *l) {
+    live_refresh(l);
     const int foot = foot_rows(l);
     rect all = {1, 0, LINES - 1 - foot, COLS};
     erase();

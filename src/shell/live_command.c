@@ -78,6 +78,7 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
     live_work work;
     fflush(sh->out);
     sh->set.color = false;
+    sh->set.pages = false; /* a pager would take the terminal */
     if (sh->set.report == REPORT_AUTO)
         sh->set.report = REPORT_OFF; /* the screen shows it */
     progress_hide(true);
@@ -86,6 +87,7 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
     record_away(sh, false);
     progress_hide(false);
     sh->set.color = before.color;
+    sh->set.pages = before.pages;
     if (sh->set.report == REPORT_OFF)
         sh->set.report = before.report;
     if (ok && sh->set.timing && work.frames)

@@ -366,7 +366,11 @@ def recording(tests):
         live.wait(r"dx = 114\.748 nm")
         live.key("x", "loop: Fx")
         live.says("step Fx=50 N")
-        live.wait("exceeds mu")
+        tests.check("an error in one line", live.wait(lambda s: live.status().startswith("error: Fx = 50 N exceeds")) and
+                    "loop: Fx" in live.screen.text(), live.screen.text())
+        live.says("show units")
+        tests.check("no pager within", live.wait("any other key: back"), live.screen.text())
+        live.key("x", "loop: Fx")
         live.child.send("q")
         live.wait(lambda s: not s.modes.get(1049))
         live.child.send("dz\r")
