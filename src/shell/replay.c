@@ -235,7 +235,7 @@ static void spare_notes(replay *r) {
 static bool judge(replay *r) {
     const char *want = r->want.p ? r->want.p : "";
     measure m = {r->tolerance, false};
-    if (r->at == 0)
+    if (r->at == 0 || shell_stop) /* what is half done is no answer */
         return true;
     spare_notes(r);
     if (compare(want, r->got, &m)) {
@@ -296,9 +296,9 @@ static bool take_line(replay *r, const file_in *in, bool *waiting) {
 static bool take_lines(replay *r, file_in *in, calc_error *error) {
     bool waiting = false, ok = true;
     file_got got = FILE_GOT_END;
-    while (ok && (got = file_in_line(in, error)) == FILE_GOT_LINE)
+    while (ok && !shell_stop && (got = file_in_line(in, error)) == FILE_GOT_LINE)
         ok = take_line(r, in, &waiting);
-    if (ok && waiting)
+    if (ok && waiting && !shell_stop)
         ok = run(r);
     if (ok && got != FILE_GOT_ERROR && !shell_stop)
         ok = judge(r);
@@ -327,7 +327,7 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
     nesting++;
     bool ok = text_begun && take_lines(&r, &in, error);
     nesting--;
-    if (ok) {
+    if (ok && !shell_stop) {
         print_safe(r.out, path, strlen(path));
         fprintf(r.out, ": %zu passed, %zu failed\n", r.passed, r.failed);
     }

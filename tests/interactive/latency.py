@@ -79,11 +79,11 @@ def cases(where, size):
         ("maximize", PRESSED + "; cycle dxA=0.1 um FNA=30 N times 20", "maximize W over mu = 0.5 .. 1, E0 = 1 GPa .. 300 GPa"),
         ("fit to a loop", PRESSED, "fit mu, E0 along " + path["measured"]),
         ("uncertainty", PRESSED, "uncertainty dWd(1 um) with mu +- 0.01, FN +- 1 N samples 10000000"),
-        ("export jenkins", PRESSED.replace("sphere", "flat-rounded b=0.1 mm"), "export jenkins 1000 to /dev/null"),
+        ("export jenkins", PRESSED.replace("sphere", "flat-rounded b=0.1 mm"), "export jenkins 1000 to x.csv"),
         ("replay", "x = 1", "replay " + path["transcript"]),
         ("a plot, table", table + "; cycle FA=20 N", "plot dW for FA = 1 N .. 30 N with k = 0, 0.1, 0.2, 0.3, 0.4, 0.5"),
         ("a map, table", table, "plot map a for k = 0 .. 0.5 steps 400 for FN = 1 N .. 100 N steps 400"),
-        ("animate", PRESSED + "; cycle FA=20 N", "animate traction | pressure along program frames 1000 to x.gif"),
+        ("animate", PRESSED + "; cycle FA=20 N", "animate springs | loop frames 1000 to x.gif"),
         ("explain, table", table + "; " + oblique, "explain W"),
         ("a sweep of an input, table", table, "table a for k = 0 .. 0.5 steps 100000 to /dev/null"),
     ]
