@@ -8,6 +8,7 @@ The table lists what no test noticed, with the judgement that the table of befor
 `--work` keeps the copy and its log, so that a run that was ended goes on."""
 import argparse
 import collections
+import glob
 import json
 import os
 import random
@@ -186,6 +187,14 @@ def run_room(name):
     os._exit(0)
 
 
+def nearest(top, path):
+    """The programs of tests/unit that are about a file."""
+    stem = os.path.basename(path).rpartition(".")[0]
+    names = [stem, stem.partition("_")[0], {"table": "shape", "law": "normal", "zone": "diagram"}.get(stem, path.split("/")[1])]
+    return [name for name in dict.fromkeys("test_" + name for name in names)
+            if os.path.exists(os.path.join(top, "tests/unit", name + ".c"))]
+
+
 def order(path, first):
     """Rooms, those first that are likely to notice."""
     directory = path.split("/")[1]
@@ -204,6 +213,16 @@ def attempt(copy, path, at, length, other, first, factor):
             return "no program", ""
         if not copy.changed():
             return "same code", ""
+        for test in nearest(copy.top, path):
+            if copy.make("build/tests/" + test):
+                return "killed", "build"
+            try:
+                ended = subprocess.run([os.path.join(copy.top, "build/tests", test)], cwd=copy.top, capture_output=True,
+                                       timeout=TIMEOUT * factor, check=False)
+            except subprocess.TimeoutExpired:
+                return "late", test
+            if ended.returncode:
+                return "killed", test
         if copy.make("tests"):
             return "killed", "build"
         for room in order(path, first):
@@ -275,8 +294,7 @@ def main():
     copy = Copy(work)
     copy.restore()
     all_, texts = [], {}
-    for path in sorted(subprocess.run(["git", "ls-files", "src/*.[ch]"], cwd=ROOT, capture_output=True,
-                                      text=True, check=True).stdout.split()):
+    for path in sorted(os.path.relpath(name, copy.good) for name in glob.glob(os.path.join(copy.good, "src/*/*.[ch]"))):
         if path not in LEFT_OUT:
             with open(os.path.join(copy.good, path), encoding="utf-8") as f:
                 texts[path] = f.read()
@@ -297,7 +315,7 @@ def main():
             break
         if (path, at) in known:
             one = known[path, at]
-            if one.get("where"):
+            if one["where"] in ROOMS[path.split("/")[1]].split():
                 first[path].append(one["where"])
             done.append(one)
             continue
