@@ -170,10 +170,27 @@ static void use_spares(answers *a) {
     }
 }
 
-/* To slide to a displacement at constant F_N is always possible: such a step waits until a result is asked.
- */
-static bool can_wait(const scene *s, const load_step *step) {
-    return s->answers.levels && load_is_slide(step);
+/* The diagram in double was asked for, which tells the state without the exact one. */
+static bool by_double(const scene *s) {
+    return !s->automatic && s->model == MODEL_DOUBLE && !s->now && s->answers.normal &&
+           fret_normal_is_power(s->answers.normal);
+}
+
+/* Can the step not fail? Both forces, or both displacements, well within what friction and the range of
+ * numbers allow. */
+static bool is_tame(const load_step *step, double mu) {
+    const double normal = step->normal_value, tangential = fabs(step->tangential_value);
+    if (step->kind != LOAD_STEP || step->relative || step->normal != step->tangential || !(normal >= 1e-30) ||
+        !(normal <= 1e30))
+        return false;
+    return step->normal == BY_FORCE ? tangential <= mu * normal * (1 - 1e-12)
+                                    : step->normal == BY_DISPLACEMENT && tangential <= 1e30;
+}
+
+/* What is always possible waits until a result is asked: to slide to a displacement at constant F_N, and,
+ * where the exact diagram is not to answer, any step that cannot fail. */
+static bool can_wait(const scene *s, const load_step *step, double mu) {
+    return s->answers.levels && (load_is_slide(step) || (by_double(s) && is_tame(step, mu)));
 }
 
 static bool start_program(scene *s, const load_step *press, calc_error *error) {
@@ -235,8 +252,10 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
         return start_program(s, step, error);
     if (!s->end.steps)
         return calc_missing(error, IN_FN);
-    if (can_wait(s, step))
-        return scene_friction(s, &mu, error) && append_step(s, step, extra, error);
+    if (!scene_friction(s, &mu, error))
+        return false;
+    if (can_wait(s, step, mu))
+        return append_step(s, step, extra, error);
     const load_reach *reach;
     if (!catch_up(s, error) || !scene_reach(s, &reach, error))
         return false;
@@ -306,6 +325,11 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
         if (!moves) {
             if (!press_of_program(s, error))
                 return false;
+        } else if (by_double(s)) {
+            const fret_state *now;
+            if (!scene_state(s, &now, error))
+                return false;
+            a->press = (fret_press){.F = now->FN, .dz = now->dz, .a = now->a};
         } else if (!present_run(s, &run, error)) {
             return false;
         } else {
@@ -315,7 +339,7 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
         a->press_ready = true;
     }
     if (moves)
-        s->used |= USED(MODEL_MEMORY);
+        s->used |= USED(by_double(s) ? MODEL_DOUBLE : MODEL_MEMORY);
     else
         scene_used_closed(s);
     return true;
@@ -449,7 +473,7 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     if (!s->answers.state_ready) {
         const runner *run;
         s->answers.sine_error = 0;
-        if (!present_run(s, &run, error))
+        if (!(by_double(s) && s->end.steps > 0) && !present_run(s, &run, error))
             return false;
         if (!s->automatic && s->model == MODEL_CLOSED)
             return calc_fail(error, 0, 0, "no closed form for this: set model auto");

@@ -3,11 +3,14 @@
 any number of them, whatever becomes of them, and none left."""
 import csv
 import io
+import math
 import os
 import re
 import signal
 import subprocess
 import time
+
+import harness
 
 GRADED = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N"
 STEEL = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
@@ -87,6 +90,33 @@ def vectors(tests):
 
 def split(what):
     return what.split(", ")
+
+
+def histories(tests):
+    """A history that is followed by the diagram in double alone: as the exact one has it, which then still can be asked."""
+    names = ("W", "FN", "dz", "a", "Fx", "dx", "c", "U", "kt")
+    forces = [(100 + 10 * math.sin(0.013 * i), 15 * math.sin(0.37 * i) + 8 * math.sin(0.0113 * i)) for i in range(3000)]
+    depths = [(3 + 0.4 * math.sin(0.017 * i), 0.5 * math.sin(0.31 * i) + 0.4 * math.sin(0.007 * i)) for i in range(3000)]
+    bad = forces[:2000] + [(100, 40.5)] + forces[2000:]
+    for head, rows, end in (("FN [N],Fx [N]", forces, ""), ("dz [um],dx [um]", depths, ""), ("FN [N],Fx [N]", bad, ""),
+                            ("FN [N],Fx [N]", forces, "step FN=90 N Fx=3 N; step Fx+=1 N; cycle FA=5 N; undo; step dx=0.1 um; "),
+                            ("FN [N],Fx [N]", forces, "k = 0.1; mu = 0.35; ")):
+        with tests.file(head + "\n" + "".join("%.17g,%.17g\n" % row for row in rows), ".csv") as path:
+            follow = "follow %s; %s" % (path, end)
+            asked = ["--format=json", "--keep-going", "-c", GRADED.partition("; cycle")[0]]
+            script = follow + "; ".join(names)
+            exact, fast, back = (tests.run(*asked, "-c", before, "-c", script, "-c", after, "-c", "; ".join(names))
+                                 for before, after in (("set model auto", "set model auto"),
+                                                       ("set model double", "set model double"),
+                                                       ("set model double", "set model auto")))
+            name = "%s, %d rows, %s" % (head, len(rows), end)
+            want, got, then = (harness.printed_values(done.stdout) for done in (exact, fast, back))
+            tests.check("follow by %s: messages" % name, exact.stderr == fast.stderr == back.stderr and
+                        bool(exact.stderr) == (rows is bad), exact.stderr + fast.stderr + back.stderr)
+            far = max((abs(g - w) / abs(w or 1) for g, w in zip(got, want)), default=1)
+            tests.check("follow by %s: in double" % name, len(got) == len(want) and far < 1e-10, "%g\n%s\n%s" % (far, want, got))
+            tests.check("follow by %s: exact again" % name, then[-len(names):] == want[-len(names):],
+                        "%s\n%s" % (want, then))
 
 
 def shown(done):
@@ -190,6 +220,7 @@ def settings(tests):
 
 def run(tests):
     vectors(tests)
+    histories(tests)
     data(tests)
     settings(tests)
     same(tests)
