@@ -26,8 +26,9 @@ FRET_BEGIN
  * Accuracy for p <= 5 against fret_memory, worst of random histories with contact lost and regained, up to
  * gross slip, within 1e-15 of it and beyond (make hard-diagram, tests/hard/diagram.txt): F_x to 3e-14 of mu
  * times the largest F_N so far, dx by force to 3e-14 of the largest delta_x,max so far, W to 1e-13 of itself
- * and of mu F_N delta_x,max together; no worse after 1e8 steps. Up to p = 10 ten times that, beyond in
- * proportion to p. The results have the same bits on every processor and from every compiler.
+ * and of mu F_N delta_x,max together; no worse after 1e8 steps. Up to p = 10 ten times that, dx a hundred
+ * times; beyond, nothing is promised. The results have the same bits on every processor and from every
+ * compiler.
  *
  * Thread-compatible: distinct contacts may be used by distinct threads. */
 typedef struct fret_diagram fret_diagram;
