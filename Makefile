@@ -193,6 +193,14 @@ fuzz: deps-check
 	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/programs.py $(B)/fret $(FUZZ) $$(date +%s)
 	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/typed.py $(B)/fret $(FUZZ) $$(date +%s)
 
+# Polynomials of the law beside searches and quadrature, worst errors: seconds for each of PIECES. The table is
+# kept in git.
+PIECES ?= 3
+pieces: deps-check
+	@$(MAKE) --no-print-directory -s $(B)/tests/test_pieces
+	@FRET_PIECES=$(PIECES) nice $(B)/tests/test_pieces > $(B)/pieces.txt
+	@mv $(B)/pieces.txt tests/hard/pieces.txt; cat tests/hard/pieces.txt
+
 # How long Ctrl-C takes. The table is kept in git.
 latency: deps-check
 	@$(MAKE) --no-print-directory -s $(B)/fret
@@ -247,5 +255,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: coverage mutants fuzz fuzz-build all figures manual uninstall deb static tests deps deps-check run check hard hard-diagram scenes faults latency bench format install clean FORCE
+.PHONY: coverage mutants fuzz fuzz-build all figures manual uninstall deb static tests deps deps-check run check hard hard-diagram scenes faults pieces latency bench format install clean FORCE
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

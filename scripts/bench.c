@@ -593,6 +593,83 @@ static void compare(const fret_normal *n, const fret_press *p) {
     }
 }
 
+/* ---- gaps without a formula --------------------------------------------------------------------- */
+
+enum { GAP_ROWS = 400, GAP_CHORDS = 200 };
+
+/* dW at one load after the other, and a chord of a swinging load. */
+static double gap_losses(const fret_normal *n, long count) {
+    fret_contact c = {.normal = n, .mu = mu};
+    fret_real loss;
+    need(fret_press_by_force(n, FN, &c.press));
+    const double t0 = seconds();
+    for (long i = 0; i < count; i++) {
+        need(fret_cycle_loss_by_force(&c, mu * FN * (double)(i + 1) / (double)(count + 1), &loss));
+        sink = (double)loss;
+    }
+    return (seconds() - t0) / (double)count;
+}
+
+static double gap_chord(const fret_normal *n, long count) {
+    fret_memory *m = NULL;
+    fret_step step = {FRET_TO_FORCE, FRET_KEEP_DX, FN, 0};
+    need(fret_memory_make(n, mu, &m));
+    need(fret_memory_step(m, &step));
+    step.tangential_by = FRET_TO_FX;
+    const double t0 = seconds();
+    for (long i = 1; i <= count; i++) {
+        const double angle = 2 * 3.14159265358979 * (double)i / GAP_CHORDS;
+        step.normal = FN * (0.9 + 0.1 * cos(angle));
+        step.tangential = mu * FN / 2 * sin(angle);
+        need(fret_memory_step(m, &step));
+    }
+    const double t = (seconds() - t0) / (double)count;
+    fret_memory_free(m);
+    return t;
+}
+
+static void other_gap(const char *name, const fret_gap *of, long few) {
+    char what[80];
+    fret_normal *plain, *ready;
+    need(fret_normal_make(&material, of, &plain));
+    need(fret_normal_make(&material, of, &ready));
+    const double t0 = seconds();
+    need(fret_normal_prepare(ready, FN));
+    const double setting_up = seconds() - t0;
+    double loss = INFINITY, chord = INFINITY;
+    for (int run = 0; run < 5; run++) {
+        loss = fmin(loss, gap_losses(ready, 2000));
+        chord = fmin(chord, gap_chord(ready, GAP_CHORDS));
+    }
+    const double one = gap_losses(plain, few);
+    snprintf(what, sizeof what, "%s: dW", name);
+    line(what, loss, one, "searches and quadrature", us, of->table ? "2 us" : "1 us");
+    snprintf(what, sizeof what, "%s: a swinging chord", name);
+    line(what, chord, gap_chord(plain, few / 10 + 2), "searches and quadrature", us, "5 us");
+    snprintf(what, sizeof what, "%s: to set up", name);
+    line(what, setting_up, one, "one dW", us, of->table ? "50 ms" : "5 ms");
+    fret_normal_free(plain);
+    fret_normal_free(ready);
+}
+
+static void other_gaps(void) {
+    static double r[GAP_ROWS], f[GAP_ROWS];
+    const fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 10e-3},
+                   rounded = {.kind = FRET_GAP_FLAT_ROUNDED, .b = 0.1e-3, .R = 10e-3};
+    fret_gap table = {.kind = FRET_GAP_TABLE};
+    struct fret_table *rows = NULL;
+    for (int i = 0; i < GAP_ROWS; i++) {
+        r[i] = 0.3e-3 * i / (GAP_ROWS - 1);
+        f[i] = r[i] * r[i] / (10e-3 + sqrt(1e-4 - r[i] * r[i]));
+    }
+    need(fret_table_make(r, f, GAP_ROWS, NULL, &rows));
+    table.table = rows;
+    other_gap("exact-sphere", &sphere, 200);
+    other_gap("flat-rounded", &rounded, 200);
+    other_gap("400 rows", &table, 10);
+    fret_table_free(rows);
+}
+
 int main(void) {
     fret_normal *n;
     fret_press p;
@@ -653,6 +730,8 @@ int main(void) {
     line("c, an array", sweep_point(n, &p, RADIUS_ALL), pair, libm, ns, "");
     line("c and dx, an array", sweep_point(n, &p, LOADING_ALL), pair, libm, ns, "");
     line("a and dz, an array", sweep_point(n, &p, PRESS_ALL), pair, libm, ns, "");
+    puts("A gap without a formula, prepared");
+    other_gaps();
     puts("A swinging normal force");
     const double chord = swinging_chord(n, false);
     line("a chord of 200", chord, one_power, "one powl", us, "0.3 us");

@@ -87,7 +87,7 @@ static bool by_pieces(const fret_phase *phase, fret_real *loss) {
     if (!fret_pieces_phase(p.normal->pieces, p.by == LOAD, edge, front, &parts, &bound))
         return false;
     *loss = parts;
-    if (bound <= 1e-12L * parts)
+    if (bound <= (fret_gap_has_rows(&p.normal->gap) ? 1e-9L : 1e-12L) * parts) /* rules do not bear rows */
         return true;
     if (bound > 1e-6L * parts || !is_smooth(&p))
         return false;
