@@ -84,7 +84,7 @@ def cases(where, size):
         ("a plot, table", table + "; cycle FA=20 N", "plot dW for FA = 1 N .. 30 N with k = 0, 0.1, 0.2, 0.3, 0.4, 0.5"),
         ("a map, table", table, "plot map a for k = 0 .. 0.5 steps 400 for FN = 1 N .. 100 N steps 400"),
         ("animate", PRESSED + "; cycle FA=20 N", "animate springs | loop frames 1000 to x.gif"),
-        ("explain, table", table + "; " + oblique, "explain W"),
+        ("explain, table", table + "; cycle FA=20 N", "explain W"),
         ("a sweep of an input, table", table, "table a for k = 0 .. 0.5 steps 100000 to /dev/null"),
     ]
 
