@@ -94,6 +94,13 @@ def debian(tests):
     tests.check("who maintains it", "Maintainer: @MAINTAINER@\n" in control and control.count("@") == 2, control)
 
 
+def begins(tests):
+    """`make run` ends with what to type next."""
+    done = subprocess.run(["make", "-n", "B=" + tests.build, "run"], cwd=harness.ROOT, capture_output=True, text=True)
+    tests.check("the last words of make run", re.search(r"Now type +%s/fret .*help +there; Ctrl-D leaves" % tests.build,
+                                                        done.stdout.strip().splitlines()[-1]), done.stdout + done.stderr)
+
+
 def run(tests):
-    for room in (installed, from_python, elsewhere, debian):
+    for room in (installed, from_python, elsewhere, debian, begins):
         room(tests)
