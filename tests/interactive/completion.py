@@ -186,7 +186,7 @@ def slowly(tests, s):
     s.say("reset; press FN=100 N; cycle FA=20 N")
     for statement, shown, setup in (
             ("animate springs | loop frames 500 to a.gif", r"animate: \d+ %|gnuplot draws 500 frames", ""),
-            ("cycle FA=20 N times 10000", r"cycle: \d+ s", "set model springs 500000"),
+            ("cycle FA=20 N times 10000", r"cycle: \d+ s", "set model springs 5000000"),
             ("follow load.csv", r"follow: \d+ (%|s)", "reset; press FN=100 N"),
             ("step Fx=15 N", r"step: \d+ s", "reset; press FN=100 N; set report off; cycle FA=10 N times 100000; set report auto"),
             ("fit E0 for depth = dz(force) to depth.csv", r"fit: \d+ s",
