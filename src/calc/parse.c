@@ -147,8 +147,8 @@ static bool parse_change(parser *p, expr_at *at) {
         return lex_fail(lx, "expected NAME = EXPR after `at`");
     if (!quantity_find(lx->text + lx->at, lx->len) &&
         !names_find(&p->c->names, lx->text + lx->at, lx->len, &name))
-        return unknown_name(p); /* nothing before it could have meant it */
-    if (!knob_read(p->c, lx, q))
+        return unknown_name(p);                            /* nothing before it could have meant it */
+    if (!(p->within ? knob_name : knob_read)(p->c, lx, q)) /* a definition may wait for the load it needs */
         return false;
     lex_next(lx);
     parser inner = {

@@ -81,8 +81,13 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
     fret_status st = input_status(p->in, (double)v);
     if (!calc_input_status(error, (int)p->in, &st))
         return false;
-    if (p->in == IN_FN && s->end.steps && s->program->steps[0].normal != BY_FORCE)
-        return calc_fail(error, 0, 0, "FN cannot be changed: the press was not given as FN");
+    scene *outer = t->c->now;
+    t->c->now = s;
+    const bool takes =
+        calc_takes(t->c, p->in, error); /* not where a definition that says so was made, perhaps */
+    t->c->now = outer;
+    if (!takes)
+        return false;
     if (p->in == IN_FN && !s->end.steps) {
         const load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = (double)v};
         return scene_append(s, &press, NULL, error);
@@ -94,6 +99,12 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
 /* ---- what is changed by name ------------------------------------------------------------------- */
 
 bool knob_read(calc *c, lexer *lx, knob *out) {
+    const size_t at = lx->at, len = lx->len;
+    return knob_name(c, lx, out) &&
+           (!out->is_input || calc_takes(c, out->in, lx->error) || calc_place(lx->error, at, len));
+}
+
+bool knob_name(calc *c, lexer *lx, knob *out) {
     *out = (knob){.is_input = false};
     if (lx->kind != T_NAME || lx->len >= LEX_NAME)
         return lex_fail(lx, "expected a name");
@@ -105,8 +116,6 @@ bool knob_read(calc *c, lexer *lx, knob *out) {
         out->is_input = true;
         out->in = quantity_input(q);
         out->d = quantity_dim(q, c->now);
-        if (!(out->in == IN_FN && !c->now->end.steps) && !calc_takes(c, out->in, lx->error))
-            return calc_place(lx->error, lx->at, lx->len);
     } else {
         const char *taken = name_taken(out->text, lx->len);
         if (taken)

@@ -27,6 +27,8 @@ void trial_close(trial *t);
 /* NAME at the cursor as a parameter: an input that the scene takes, or a name; a new one is known to
  * expressions until the trial, or whoever called, drops it. */
 bool knob_read(calc *c, lexer *lx, knob *out);
+/* The same, whatever the scene takes now. */
+bool knob_name(calc *c, lexer *lx, knob *out);
 
 /* Which load the states come from. */
 typedef enum along_what { ALONG_PROGRAM, ALONG_CYCLE, ALONG_LOAD } along_what;

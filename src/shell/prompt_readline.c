@@ -64,6 +64,24 @@ static void act_on_signal(void) {
     rl_forced_update_display();
 }
 
+/* readline forgets to end the text of a paste that is cut off: that is given its end, and what cut it off
+ * comes after it. */
+static bool pasting;
+static size_t ending; /* bytes of the end that it has got */
+
+static int nothing_more(void) {
+    static const char end[] = "\033[201~";
+    return pasting ? end[ending++ % (sizeof end - 1)] : EOF;
+}
+
+static int paste(int count, int key) {
+    pasting = true;
+    ending = 0;
+    const int status = rl_bracketed_paste_begin(count, key);
+    pasting = false;
+    return status;
+}
+
 /* readline's own getc restarts after a signal: Ctrl-C would not be seen before the next key. Signals are let
  * through while it waits and nowhere else, so that none comes between looking and waiting. */
 static int read_key(FILE *in) {
@@ -83,7 +101,7 @@ static int read_key(FILE *in) {
         const bool failed = ready < 0 && errno != EINTR;
         sigprocmask(SIG_SETMASK, &before, NULL);
         if (shell_stop || failed)
-            return EOF;
+            return nothing_more();
         if (caught) {
             act_on_signal();
             continue;
@@ -94,7 +112,7 @@ static int read_key(FILE *in) {
         if (n == 1)
             return c;
         if (n == 0 || (errno != EINTR && errno != EAGAIN))
-            return EOF;
+            return nothing_more();
     }
 }
 
@@ -238,6 +256,8 @@ void prompt_begin(shell *sh) {
     atexit(at_exit);
     rl_readline_name = "fret"; /* `$if fret` in inputrc */
     rl_getc_function = read_key;
+    rl_bind_keyseq_in_map("\\e[200~", paste, emacs_standard_keymap);
+    rl_bind_keyseq_in_map("\\e[200~", paste, vi_insertion_keymap);
     rl_attempted_completion_function = matches;
     rl_completion_word_break_hook = word_breaks;
     rl_catch_signals = 0;

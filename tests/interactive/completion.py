@@ -100,6 +100,11 @@ def pasting(tests):
     tests.check("prompts pasted are taken off, answers left out", "error" not in s.child.before, clean(s.child.before))
     s.prompt()
     tests.check("and all of it happened", s.say("Fx") == "Fx = 20 N")
+    for length in (63, 64, 65):  # readline takes 64 bytes at first
+        s.child.send("\x1b[200~" + "x" * length)
+        s.child.sendintr()
+        s.prompt()
+        tests.check("a paste of %d bytes that is cut off" % length, s.say("1 + 1") == "1 + 1 = 2", clean(s.child.before))
     paste(s, "fret> mu")
     s.child.expect("mu = 0.4")
     s.prompt()
