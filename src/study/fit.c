@@ -419,15 +419,30 @@ static bool unsettled(state *s, gsl_multifit_nlinear_workspace *w, int status, c
     return blameless && calc_fail(error, 0, 0, "the fit does not settle: %s", gsl_strerror(status));
 }
 
+/* GSL's driver, which goes on to its last iteration whatever the residuals say: an interrupt is to end it. */
+static int drive(const state *s, gsl_multifit_nlinear_workspace *w) {
+    int status = GSL_CONTINUE, info;
+    for (int i = 0; i < ITERATIONS && status == GSL_CONTINUE; i++) {
+        const int step = gsl_multifit_nlinear_iterate(w);
+        if (s->q.error->raised)
+            return GSL_EFAILED;
+        if (step == GSL_ENOPROG && i == 0) /* later it may have arrived */
+            return GSL_EMAXITER;
+        status = gsl_multifit_nlinear_test(1e-10, 1e-10, 0, &info, w);
+    }
+    const bool arrived =
+        status == GSL_SUCCESS || status == GSL_ETOLF || status == GSL_ETOLX || status == GSL_ETOLG;
+    return arrived ? GSL_SUCCESS : GSL_EMAXITER;
+}
+
 static bool descend(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
                     calc_error *error) {
     gsl_multifit_nlinear_fdf fdf = {.f = gsl_residuals, .n = s->of->rows, .p = s->of->count, .params = s};
-    int info = 0;
     double change = INFINITY;
     for (int round = 0; round < (s->of->robust ? ROUNDS : 1) && change >= 1e-4; round++) {
         int status = gsl_multifit_nlinear_winit(q, s->weight, &fdf, w);
         if (!status)
-            status = gsl_multifit_nlinear_driver(ITERATIONS, 1e-10, 1e-10, 0, NULL, NULL, &info, w);
+            status = drive(s, w);
         if (error->raised)
             return false;
         out->iterations += (unsigned)gsl_multifit_nlinear_niter(w);
