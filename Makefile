@@ -202,9 +202,11 @@ pieces: deps-check
 	@mv $(B)/pieces.txt tests/hard/pieces.txt; cat tests/hard/pieces.txt
 
 # How long Ctrl-C takes. The table is kept in git.
+INTERRUPTS ?= 25
+LONGEST    ?= 5
 latency: deps-check
 	@$(MAKE) --no-print-directory -s $(B)/fret
-	@python3 tests/interactive/latency.py $(B)/fret > $(B)/latency.txt
+	@INTERRUPTS=$(INTERRUPTS) LONGEST=$(LONGEST) python3 tests/interactive/latency.py $(B)/fret > $(B)/latency.txt
 	@mv $(B)/latency.txt tests/hard/latency.txt; cat tests/hard/latency.txt
 
 # Ratios against a baseline in the same run; nothing is asserted.

@@ -17,8 +17,8 @@ import time
 STEEL = "material steel; friction 0.4"
 GRADED = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; friction 0.4"
 PRESSED = STEEL + "; geometry sphere R=10 mm; press FN=100 N"
-INTERRUPTS = 25  # of a statement
-LONGEST = 5  # seconds until one
+INTERRUPTS = int(os.environ.get("INTERRUPTS", "25"))  # of a statement
+LONGEST = float(os.environ.get("LONGEST", "5"))  # seconds until one
 PATIENCE = 20
 
 
@@ -189,8 +189,8 @@ def main():
     rnd = random.Random(1)
     os.chdir(where)
     try:
-        print("# make latency: Ctrl-C to the next prompt, %d interrupts at random moments of the first %g s [ms]" %
-              (INTERRUPTS, LONGEST))
+        print("# make latency INTERRUPTS=%d LONGEST=%g: Ctrl-C to the next prompt, so many interrupts at random moments "
+              "of the first so many seconds [ms]" % (INTERRUPTS, LONGEST))
         print("# %-38s %8s %8s %20s" % ("", "p50", "p100", "p100 on a processor"))
         for case in cases(where, 1):
             if len(sys.argv) > 2 and case[0] not in sys.argv[2:]:
