@@ -234,6 +234,12 @@ def gnuplot(tests):
                           env={**tests.env, **env}, cwd=tests.dir, timeout=60, check=False)
     tests.check("gnuplot's words", b"evil" in done.stderr and not any(
         bad in done.stderr for bad in (b"\x1b", b"\x07", b"\xe2\x80\xae", b"\xff")), repr(done.stderr))
+    tab = os.path.join(tests.dir, "tab")
+    os.mkdir(tab)
+    done = subprocess.run([tests.fret, "-c", "plot x for x = 1 .. 2 to \"a\tb.png\""], capture_output=True, env=tests.env,
+                          cwd=tab, timeout=60, check=False)
+    tests.check("a tab in a plot's name", done.returncode == 0 and os.listdir(tab) == ["a\tb.png"] and
+                b"\t" not in done.stderr, repr((done.stderr, os.listdir(tab))))
     deep = os.path.join(tests.dir, "deep")
     os.mkdir(deep)
     here = os.open(deep, os.O_RDONLY)
