@@ -96,7 +96,8 @@ def debian(tests):
 
 def begins(tests):
     """`make run` ends with what to type next."""
-    done = subprocess.run(["make", "-n", "B=" + tests.build, "run"], cwd=harness.ROOT, capture_output=True, text=True)
+    done = subprocess.run(["make", "--no-print-directory", "-n", "B=" + tests.build, "run"], cwd=harness.ROOT,
+                          capture_output=True, text=True)
     tests.check("the last words of make run", re.search(r"Now type +%s/fret .*help +there; Ctrl-D leaves" % tests.build,
                                                         done.stdout.strip().splitlines()[-1]), done.stdout + done.stderr)
 
