@@ -9,6 +9,7 @@
 #include "contact/normal.h"
 #include "fret/cycle.h"
 #include "number/double.h"
+#include "number/processor.h"
 
 #define LANES_ALSO "fast/batch_body.h"
 #define LANES 2
@@ -30,28 +31,10 @@ static bool tame(double x) {
 }
 
 void fret_loss_series(double rho, int terms, double out[]) {
-    static const double per_factorial[FRET_SWEEP_TERMS] = {
-        /* 1/(2j+3)! */
-        1 / 6.0,
-        1 / 120.0,
-        1 / 5040.0,
-        1 / 362880.0,
-        1 / 39916800.0,
-        1 / 6227020800.0,
-        1 / 1307674368000.0,
-        1 / 355687428096000.0,
-        1 / 121645100408832000.0,
-        1 / 51090942171709440000.0,
-        1 / 25852016738884976640000.0,
-        1 / 15511210043330985984000000.0,
-        1 / 10888869450418352160768000000.0,
-        1 / 8841761993739701954543616000000.0,
-        1 / 8222838654177922817725562880000000.0,
-    };
     double sum = 0;
     for (int j = 0; j < terms; j++) {
         sum = 1 + rho * rho * sum;
-        out[j] = sum * per_factorial[j];
+        out[j] = sum * fret_loss_factorial[j];
     }
 }
 
@@ -146,25 +129,17 @@ enum { BLOCK = 64 };
     SWEEP(set, lanes, target, press_radius, fret_press_law, load, press_radius)                              \
     SWEEP(set, lanes, target, press_depth, fret_press_law, load, press_depth)
 #define ROW(set)                                                                                             \
-    { #set, set##_runs, set##_loss, set##_displacement, set##_radius, set##_press_radius, set##_press_depth }
+    {                                                                                                        \
+#set, fret_runs_##set, set##_loss, set##_displacement, set##_radius, set##_press_radius,             \
+            set##_press_depth                                                                                \
+    }
 
 #ifdef __x86_64__
-VARIANT(avx512, lanes8, __attribute__((target("avx512f,avx512dq,avx512vl"))))
-static bool avx512_runs(void) {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl");
-}
-VARIANT(avx2, lanes4, __attribute__((target("avx2"))))
-static bool avx2_runs(void) {
-    return __builtin_cpu_supports("avx2");
-}
+VARIANT(avx512, lanes8, FRET_AVX512)
+VARIANT(avx2, lanes4, FRET_AVX2)
 #endif
 
 VARIANT(plain, lanes2, )
-static bool plain_runs(void) {
-    return true;
-}
-
 const fret_variant fret_variants[] = {
 #ifdef __x86_64__
     ROW(avx512),

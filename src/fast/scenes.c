@@ -5,28 +5,10 @@
 #include <float.h>
 #include <math.h>
 
+#include "fast/batch.h"
 #include "number/bits.h"
 #include "number/constants.h"
-
-/* 1/(2j+3)!: see fret_loss_series. */
-enum { FRET_SCENE_TERMS = 15 };
-static const double fret_scene_factorial[FRET_SCENE_TERMS] = {
-    1 / 6.0,
-    1 / 120.0,
-    1 / 5040.0,
-    1 / 362880.0,
-    1 / 39916800.0,
-    1 / 6227020800.0,
-    1 / 1307674368000.0,
-    1 / 355687428096000.0,
-    1 / 121645100408832000.0,
-    1 / 51090942171709440000.0,
-    1 / 25852016738884976640000.0,
-    1 / 15511210043330985984000000.0,
-    1 / 10888869450418352160768000000.0,
-    1 / 8841761993739701954543616000000.0,
-    1 / 8222838654177922817725562880000000.0,
-};
+#include "number/processor.h"
 
 #define LANES_ALSO "fast/scenes_body.h"
 #define LANES 2
@@ -44,25 +26,14 @@ static const double fret_scene_factorial[FRET_SCENE_TERMS] = {
             lanes##_scene(b, i);                                                                             \
     }
 #define ROW(set)                                                                                             \
-    { #set, set##_runs, set##_run }
+    { #set, fret_runs_##set, set##_run }
 
 #ifdef __x86_64__
-VARIANT(avx512, lanes8, __attribute__((target("avx512f,avx512dq,avx512vl"))))
-static bool avx512_runs(void) {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl");
-}
-VARIANT(avx2, lanes4, __attribute__((target("avx2"))))
-static bool avx2_runs(void) {
-    return __builtin_cpu_supports("avx2");
-}
+VARIANT(avx512, lanes8, FRET_AVX512)
+VARIANT(avx2, lanes4, FRET_AVX2)
 #endif
 
 VARIANT(plain, lanes2, )
-static bool plain_runs(void) {
-    return true;
-}
-
 const fret_scene_variant fret_scene_variants[] = {
 #ifdef __x86_64__
     ROW(avx512),

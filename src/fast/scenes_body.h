@@ -267,10 +267,10 @@ FRET_INLINE void NAMED(push_of)(const NAMED(push) * p, const PAIR *limit, V *c, 
       rho2 = rho * rho;
     const V scale = 4.0 * (p->limit * p->slip);
     M blunt = q < 1 / 3.0, shallow = L < 3.5;
-    V series[FRET_SCENE_TERMS], sum = zero;
-    for (int j = 0; j < FRET_SCENE_TERMS; j++) {
+    V series[FRET_SWEEP_TERMS], sum = zero;
+    for (int j = 0; j < FRET_SWEEP_TERMS; j++) {
         sum = 1.0 + rho2 * sum;
-        series[j] = sum * fret_scene_factorial[j];
+        series[j] = sum * fret_loss_factorial[j];
     }
     V b = alpha * L, w = b * b, w2 = w * w, w4 = w2 * w2, w8 = w4 * w4, k, g, h;
     const V *u = series;

@@ -10,6 +10,7 @@
 
 #include "contact/check.h"
 #include "contact/normal.h"
+#include "number/processor.h"
 #include "number/real.h"
 #include "number/sum.h"
 
@@ -51,14 +52,14 @@ typedef struct partial_sums {
 #define MOST _mm256_max_pd
 #define LANES 4
 #define NAME(x) x##_4
-#define TARGET __attribute__((target("avx2")))
+#define TARGET FRET_AVX2
 #include "fast/springs_lanes.h"
 
 #define LEAST _mm512_min_pd
 #define MOST _mm512_max_pd
 #define LANES 8
 #define NAME(x) x##_8
-#define TARGET __attribute__((target("avx512f,avx512dq,avx512vl")))
+#define TARGET FRET_AVX512
 #include "fast/springs_lanes.h"
 #endif
 
@@ -79,10 +80,9 @@ static const loops of_width[] = {
 static bool runs_here(unsigned width) {
 #ifdef __x86_64__
     if (width == 4)
-        return __builtin_cpu_supports("avx2");
+        return fret_runs_avx2();
     if (width == 8)
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-               __builtin_cpu_supports("avx512vl");
+        return fret_runs_avx512();
 #endif
     return width == 2;
 }

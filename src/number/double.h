@@ -16,12 +16,9 @@ static inline double fret_double_exp(double x) {
     return out;
 }
 
-static inline double fret_double_expm1(double x) {
+/* exp(x) = high + tail, |x| < 700. */
+static inline double double_exp_parts(double x, double *tail) {
     const double integer = 0x1.8p52; /* added, rounds, and leaves the number in the low bits */
-    if (!(x < 38))                   /* e^x - 1 = e^x there; NaN */
-        return fret_double_exp(x);
-    if (x < -38)
-        return -1;
     double shifted = x * 0x1.71547652b82fep+6 + integer, n = shifted - integer;
     double first = x - n * (double)ln2_64_short, rest = n * (double)ln2_64_left, r = first - rest, r2 = r * r;
     const dd *root = &power_of_two[fret_bits(shifted) & 63];
@@ -30,21 +27,25 @@ static inline double fret_double_expm1(double x) {
            scale = fret_from_bits(exponent + fret_bits(1));
     double p = first +
                (r2 * ((0.5 + r * (1 / 6.0)) + r2 * ((1 / 24.0 + r * (1 / 120.0)) + r2 * (1 / 720.0))) - rest);
-    return (high - 1) + (root->lo * scale + high * p);
+    *tail = root->lo * scale + high * p;
+    return high;
+}
+
+static inline double fret_double_expm1(double x) {
+    if (!(x < 38)) /* e^x - 1 = e^x there; NaN */
+        return fret_double_exp(x);
+    if (x < -38)
+        return -1;
+    double tail;
+    const double high = double_exp_parts(x, &tail);
+    return (high - 1) + tail;
 }
 
 /* exp(x), |x| < 700: as fret_double_exp in a shorter chain. */
 static inline double double_exp_near(double x) {
-    const double integer = 0x1.8p52;
-    double shifted = x * 0x1.71547652b82fep+6 + integer, n = shifted - integer;
-    double first = x - n * (double)ln2_64_short, rest = n * (double)ln2_64_left, r = first - rest, r2 = r * r;
-    const dd *root = &power_of_two[fret_bits(shifted) & 63];
-    const uint64_t exponent = fret_bits(shifted) >> 6 << 52;
-    double high = fret_from_bits(fret_bits(root->hi) + exponent),
-           scale = fret_from_bits(exponent + fret_bits(1));
-    double p = first +
-               (r2 * ((0.5 + r * (1 / 6.0)) + r2 * ((1 / 24.0 + r * (1 / 120.0)) + r2 * (1 / 720.0))) - rest);
-    return high + (root->lo * scale + high * p);
+    double tail;
+    const double high = double_exp_parts(x, &tail);
+    return high + tail;
 }
 
 /* A number > 0 made normal: x = *x 2^-returned. */

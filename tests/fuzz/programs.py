@@ -251,8 +251,8 @@ def problem(fret, env, seed):
     return refused(lines, shown[1], shown[2])
 
 
-def campaign(fret, env, seconds, seed, workers):
-    """(programs compared, [(seed, problem)])"""
+def campaign(problem, fret, env, seconds, seed, workers):
+    """(those tried, [(seed, problem)]); also of typed sessions."""
     end, wrong, counts = time.time() + seconds, [], [0] * workers
 
     def work(worker):
@@ -271,7 +271,7 @@ def campaign(fret, env, seconds, seed, workers):
 
 def run(tests):
     """Programs of fixed seeds, as many as there is time for; the sanitized build goes on with others."""
-    count, wrong = campaign(tests.fret, {**tests.env, "TMPDIR": tests.tmp}, 15, 1000000 if tests.sanitized else 1, 2)
+    count, wrong = campaign(problem, tests.fret, {**tests.env, "TMPDIR": tests.tmp}, 15, 1000000 if tests.sanitized else 1, 2)
     for seed, what in wrong:
         tests.check("random program %d" % seed, False, "%s\n%s" % (what, "\n".join(Writer(seed).program())))
     with tests.lock:
@@ -287,7 +287,7 @@ def main():
             print("\n".join(Writer(seed).program()))
             print("#", problem(fret, env, seed))
             return 0
-        count, wrong = campaign(fret, env, seconds, seed, os.cpu_count() or 1)
+        count, wrong = campaign(problem, fret, env, seconds, seed, os.cpu_count() or 1)
         for one, what in wrong:
             print("FAILED program %d: %s" % (one, what))
         print("programs: %d passed, %d failed" % (count - len(wrong), len(wrong)))

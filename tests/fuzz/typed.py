@@ -12,7 +12,6 @@ import sys
 import tempfile
 import termios
 import time
-from concurrent.futures import ThreadPoolExecutor
 import fcntl
 
 import programs
@@ -104,26 +103,8 @@ def session(fret, env, where, keys, r):
         os.close(slave)
 
 
-def campaign(fret, env, seconds, seed, workers):
-    """(sessions, [(seed, problem)])"""
-    end, wrong, counts = time.time() + seconds, [], [0] * workers
-
-    def work(worker):
-        one = seed + worker
-        while time.time() < end and len(wrong) < 3:
-            what = problem(fret, env, one)
-            if what:
-                wrong.append((one, what))
-            counts[worker] += 1
-            one += workers
-    with ThreadPoolExecutor(max_workers=workers) as pool:
-        for future in [pool.submit(work, i) for i in range(workers)]:
-            future.result()
-    return sum(counts), wrong
-
-
 def run(tests):
-    count, wrong = campaign(tests.fret, {**tests.env, "TMPDIR": tests.tmp}, 10, 1000000 if tests.sanitized else 1, 2)
+    count, wrong = programs.campaign(problem, tests.fret, {**tests.env, "TMPDIR": tests.tmp}, 10, 1000000 if tests.sanitized else 1, 2)
     for seed, what in wrong:
         tests.check("random keys %d" % seed, False, what)
     with tests.lock:
@@ -134,7 +115,7 @@ def main():
     fret, seconds, seed = os.path.abspath(sys.argv[1]), float(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 1
     with tempfile.TemporaryDirectory(prefix="fret-typed-") as tmp:
         env = {"PATH": os.environ["PATH"], "TMPDIR": tmp, "LC_ALL": "C.UTF-8", "ASAN_OPTIONS": "detect_leaks=1"}
-        count, wrong = campaign(fret, env, seconds, seed, os.cpu_count() or 1)
+        count, wrong = programs.campaign(problem, fret, env, seconds, seed, os.cpu_count() or 1)
         for one, what in wrong:
             print("FAILED session %d: %s" % (one, what))
         print("typed: %d passed, %d failed" % (count - len(wrong), len(wrong)))

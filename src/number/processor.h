@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The instruction sets that loops over vectors are built for, and whether this processor has them. Not
+ * installed. */
+#ifndef NUMBER_PROCESSOR_H
+#define NUMBER_PROCESSOR_H
+
+#include <stdbool.h>
+
+#ifdef __x86_64__
+#define FRET_AVX2 __attribute__((target("avx2")))
+#define FRET_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl")))
+
+static inline bool fret_runs_avx2(void) {
+    return __builtin_cpu_supports("avx2");
+}
+
+static inline bool fret_runs_avx512(void) {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+}
+#endif
+
+static inline bool fret_runs_plain(void) {
+    return true;
+}
+
+#endif
