@@ -4,7 +4,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 
 import harness
 import runner
@@ -23,12 +22,7 @@ def main():
     tests = harness.Tests(B, "coverage", False)
     rooms = sys.argv[1:] or [room for room in runner.ROOMS if room not in SLOW]
     for room in rooms:
-        start = time.time()
-        try:
-            runner.ROOMS[room](tests)
-        except Exception as error:  # what has been reached counts
-            print(room, error)
-        print("%-12s %6.1f s" % (room, time.time() - start), flush=True)
+        tests.room(room, runner.ROOMS[room])
     tests.close()
     return report(rooms)
 

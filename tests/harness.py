@@ -6,9 +6,12 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 import threading
+import time
+import traceback
 from concurrent.futures import ThreadPoolExecutor
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -57,6 +60,18 @@ def diff(want, got):
     return "\n".join(line[:300] for line in list(lines)[:40])
 
 
+def at_work(process):
+    """Waits until it would take an interrupt as one, and a little more; False: it has ended."""
+    while process.poll() is None:
+        with open("/proc/%d/status" % process.pid, encoding="ascii") as f:
+            caught = re.search(r"^SigCgt:\s*(\w+)", f.read(), re.M)
+        if caught and int(caught.group(1), 16) >> (signal.SIGINT - 1) & 1:
+            time.sleep(0.3)
+            return process.poll() is None
+        time.sleep(0.01)
+    return False
+
+
 class Tests:
     """One run of all rooms with one build of the program."""
 
@@ -65,11 +80,14 @@ class Tests:
         self.build, self.label, self.sanitized = build, label, sanitized
         self.passed = self.failed = 0
         self.lock = threading.Lock()
-        self.dir = tempfile.mkdtemp(prefix="fret-tests-")
-        self.tmp = os.path.join(self.dir, "tmp")  # where the program may keep temporary files
-        os.makedirs(os.path.join(self.dir, "home"))
+        self.top = self.dir = tempfile.mkdtemp(prefix="fret-tests-")
+        self.tmp = os.path.join(self.top, "tmp")  # where the program may keep temporary files
+        os.makedirs(os.path.join(self.top, "home"))
         os.mkdir(self.tmp)
-        self.env = {"PATH": os.environ["PATH"], "HOME": os.path.join(self.dir, "home"), "TMPDIR": self.tmp,
+        for number in (signal.SIGHUP, signal.SIGINT, signal.SIGQUIT, signal.SIGTERM):  # nohup and & pass on ignored ones
+            if signal.getsignal(number) == signal.SIG_IGN:
+                signal.signal(number, signal.SIG_DFL)
+        self.env = {"PATH": os.environ["PATH"], "HOME": os.path.join(self.top, "home"), "TMPDIR": self.tmp,
                     "LC_ALL": "C", "TERM": "dumb",
                     "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1"}
         for name in ("LD_LIBRARY_PATH", "FRET_REFERENCE"):
@@ -77,7 +95,23 @@ class Tests:
                 self.env[name] = os.environ[name]
 
     def close(self):
-        shutil.rmtree(self.dir, ignore_errors=True)
+        shutil.rmtree(self.top, ignore_errors=True)
+
+    def room(self, name, run):
+        """Runs a room of tests in a directory of its own."""
+        start, before = time.time(), (self.passed, self.failed)
+        self.dir = tempfile.mkdtemp(prefix=name + "-", dir=self.top)
+        self.guarded(name, run)
+        print("%-10s %-12s %5d passed %3d failed  %5.1f s" % (self.label, name, self.passed - before[0],
+                                                              self.failed - before[1], time.time() - start), flush=True)
+
+    def guarded(self, name, run):
+        """A test that breaks off has failed."""
+        try:
+            run(self)
+        except Exception as error:
+            self.check(name + " stopped", False, "%s\n%s" % (re.sub(r"\x1b\[[?0-9;]*[a-zA-Z]", "", str(error))[:3000],
+                                                            traceback.format_exc()[-1500:]))
 
     def run(self, *args, input="", env=None, timeout=120, cwd=None):
         """Runs the program; bytes in `input` go in as they are. Output is text."""
@@ -111,6 +145,10 @@ class Tests:
         with ThreadPoolExecutor(max_workers=2 * (os.cpu_count() or 1)) as pool:
             for future in [pool.submit(job) for job in jobs]:
                 future.result()
+
+    def rooms(self, *runs):
+        """Parts of a room, side by side."""
+        self.each([lambda run=run: self.guarded(run.__name__, run) for run in runs])
 
     @contextlib.contextmanager
     def file(self, text, suffix=".fret"):

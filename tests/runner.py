@@ -6,7 +6,6 @@ import re
 import shutil
 import subprocess
 import sys
-import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.dont_write_bytecode = True
@@ -269,15 +268,7 @@ def main():
         tests = harness.Tests(build, label, label == "sanitized")
         try:
             for name in wanted:
-                start, before = time.time(), (tests.passed, tests.failed)
-                try:
-                    ROOMS[name](tests)
-                except Exception as error:  # a broken test is a failed test
-                    import traceback
-                    tests.check(name + " stopped", False, traceback.format_exc() + str(error))
-                print("%-10s %-12s %5d passed %3d failed  %5.1f s" %
-                      (label, name, tests.passed - before[0], tests.failed - before[1], time.time() - start),
-                      flush=True)
+                tests.room(name, ROOMS[name])
             left = os.listdir(tests.tmp)
             tests.check("no temporary files are left", not left, " ".join(left))
         finally:

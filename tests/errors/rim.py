@@ -293,7 +293,7 @@ class Prompt:
         self.pid = int(self.told.readline())
         self.read()
 
-    def read(self, seconds=20, end=b"fret> "):
+    def read(self, seconds=60, end=b"fret> "):
         text, limit = b"", time.monotonic() + seconds
         while end not in text and select.select([self.main], [], [], max(0, limit - time.monotonic()))[0]:
             try:
@@ -319,10 +319,10 @@ class Prompt:
 
     def status(self):
         """How it ended; None: not yet."""
-        return int(self.told.readline()) if select.select([self.told], [], [], 20)[0] else None
+        return int(self.told.readline()) if select.select([self.told], [], [], 60)[0] else None
 
     def stopped(self):
-        for _ in range(200):
+        for _ in range(2000):
             with open("/proc/%d/stat" % self.pid, encoding="ascii") as f:
                 if f.read().rpartition(")")[2].split()[0] == "T":
                     return True
@@ -428,11 +428,11 @@ def ended_at_work(tests):
                 ("a plot", "plot x for x = 1 .. 2 to out.png", lambda: os.path.exists(where + "/pid"))):
             child = subprocess.Popen([tests.fret, "-c", statement], cwd=where, stderr=subprocess.DEVNULL,
                                      stdout=subprocess.DEVNULL, env={**tests.env, **env, "TMPDIR": tmp})
-            limit = time.monotonic() + 20
+            limit = time.monotonic() + 60
             while not begun() and time.monotonic() < limit:
                 time.sleep(0.02)
             child.send_signal(number)
-            status = child.wait(20)
+            status = child.wait(60)
             left = [entry for entry in os.listdir(where) if entry not in ("tmp", "pid")] + os.listdir(tmp)
             tests.check("%s during %s" % (number.name, name), status == -number and not left, "%s %s" % (status, left))
             if os.path.exists(where + "/pid"):

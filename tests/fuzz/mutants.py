@@ -174,7 +174,7 @@ def run_room(name):
             if value:
                 sys.__stdout__.write("noticed\n")
                 sys.__stdout__.flush()
-                shutil.rmtree(self.dir, ignore_errors=True)
+                shutil.rmtree(self.top, ignore_errors=True)
                 os._exit(1)
 
     tests = Stops("build", "mutant", False)

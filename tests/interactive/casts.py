@@ -8,7 +8,6 @@ import signal
 import subprocess
 import time
 
-import pexpect
 
 import harness
 from live import Live
@@ -242,9 +241,4 @@ def kept(tests):
 
 
 def run(tests):
-    def one(room):
-        try:
-            room(tests)
-        except (pexpect.TIMEOUT, pexpect.EOF, OSError, ValueError, TypeError, AttributeError) as error:
-            tests.check("casts: " + room.__name__, False, "%s: %s" % (type(error).__name__, str(error)[:2000]))
-    tests.each([lambda room=room: one(room) for room in (scripted, full, typed, screens, ended, played, kept)])
+    tests.rooms(scripted, full, typed, screens, ended, played, kept)

@@ -5,7 +5,7 @@ import time
 
 import pexpect
 
-from prompt import SCENE, Session, clean, each
+from prompt import SCENE, Session, clean
 
 INPUTRC = """$if fret
 set show-all-if-ambiguous on
@@ -72,7 +72,7 @@ def offers(tests):
     for typed, rest in DONE:
         s.child.send(typed + "\t")
         try:
-            s.child.expect_exact(typed + rest, timeout=10)
+            s.child.expect_exact(typed + rest, timeout=60)
             ok = True
         except pexpect.TIMEOUT:
             ok = False
@@ -201,7 +201,7 @@ def slowly(tests, s):
         scene = s.say("set pager off; show")
         s.child.sendline(statement)
         try:
-            s.child.expect("(" + shown + r").*\(Ctrl-C stops it\)", timeout=30)
+            s.child.expect("(" + shown + r").*\(Ctrl-C stops it\)", timeout=120)
             ok = True
         except pexpect.TIMEOUT:
             ok = False
@@ -232,11 +232,11 @@ def screens(tests):
     s.say(SCENE)
     s.say("press FN=100 N; cycle FA=20 N")
     s.child.sendline("table qx(0.1 mm) for mu = 0.3 .. 0.5 steps 1000000 to t.csv")
-    s.child.expect(r"table: \d+ %(, \d+ s to go)? \(Ctrl-C stops it\)", timeout=30)
+    s.child.expect(r"table: \d+ %(, \d+ s to go)? \(Ctrl-C stops it\)", timeout=120)
     s.child.sendintr()
     tests.check("a long table shows progress", "interrupted" in s.prompt())
     s.child.sendline("cycle dxA=0.1 um FNA=10 N times 1000000")
-    s.child.expect(r"cycle: \d+ s \(Ctrl-C stops it\)", timeout=30)
+    s.child.expect(r"cycle: \d+ s \(Ctrl-C stops it\)", timeout=120)
     s.child.sendintr()
     tests.check("a long cycle shows progress", "interrupted" in s.prompt())
     slowly(tests, s)
@@ -247,4 +247,4 @@ def screens(tests):
 
 
 def run(tests):
-    each(tests, (offers, pasting, histories, recorded, screens))
+    tests.rooms(offers, pasting, histories, recorded, screens)

@@ -23,7 +23,7 @@ class Live:
         program, args = (tests.fret, ["--live", *args]) if command is None else (command[0], list(command[1:]))
         self.screen = Screen(*size)
         self.raw = ""
-        self.child = pexpect.spawn(program, args, env=env, encoding="utf-8", timeout=30, cwd=tests.dir, dimensions=size,
+        self.child = pexpect.spawn(program, args, env=env, encoding="utf-8", timeout=120, cwd=tests.dir, dimensions=size,
                                    codec_errors="replace")
         self.child.delaybeforesend = None
 
@@ -38,7 +38,7 @@ class Live:
         self.screen.feed(text)
         return True
 
-    def wait(self, what, seconds=20):
+    def wait(self, what, seconds=60):
         """Until the screen shows it: a regular expression, or a function of the screen. False: it never does."""
         end = time.time() + seconds
         seen = what if callable(what) else lambda screen: re.search(what, screen.text())
@@ -70,7 +70,8 @@ class Live:
         return self.gone()
 
     def gone(self):
-        while self.child.isalive():
+        limit = time.time() + 120
+        while self.child.isalive() and time.time() < limit:
             if not self.read(0.05) and not self.child.isalive():
                 break
         self.read()
@@ -170,7 +171,7 @@ def playing(tests):
     live.key("]]]")
     live.key(" ", "cycle FA=20 N")
     seen = set()
-    end = time.time() + 20
+    end = time.time() + 60
     while len(seen) < 8 and time.time() < end:
         live.read()
         seen.add(live.value("Fx"))
@@ -338,7 +339,7 @@ def saving(tests):
         live.wait(lambda s: not s.modes.get(1049))
         live.raw = ""
         live.child.send("set format json\r" + SHOWN + "\r1234\r")
-        end = time.time() + 20
+        end = time.time() + 60
         while '"name":"1234"' not in live.raw and time.time() < end:
             live.read()
         by_hand = re.findall(r'\{"name":"(\w+)","value":([^,]*),', live.raw)[:11]
@@ -460,11 +461,5 @@ def lessons(tests):
 
 
 def run(tests):
-    def one(room):
-        try:
-            room(tests)
-        except (pexpect.TIMEOUT, pexpect.EOF, OSError, ValueError, TypeError) as error:
-            tests.check("live: " + room.__name__, False, "%s: %s" % (type(error).__name__, str(error)[:2000]))
-    tests.each([lambda room=room: one(room) for room in
-                (beginning, refusals, keys, playing, repeating, sizes, comparing, stepping, mouse, undisturbed, saving, recording, endings, stopping,
-                 lessons)])
+    tests.rooms(beginning, refusals, keys, playing, repeating, sizes, comparing, stepping, mouse, undisturbed, saving, recording,
+                endings, stopping, lessons)

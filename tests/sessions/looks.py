@@ -6,7 +6,8 @@ import random
 import re
 import signal
 import subprocess
-import time
+
+from harness import at_work
 
 SCENE = ("material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
          "c0 := a0\ncycle FA=36 N\n")
@@ -182,7 +183,7 @@ def moving(tests):
     where = os.path.join(tests.dir, "stop.gif")
     job = subprocess.Popen([tests.fret, "-c", SCENE + "animate springs | loop frames 1000 to " + where],
                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=tests.env)
-    time.sleep(0.3)
+    at_work(job)
     job.send_signal(signal.SIGINT)
     out, err = job.communicate(timeout=120)
     tests.check("Ctrl-C stops an animation", job.returncode == 130 and not os.path.exists(where), (out + err).decode())
