@@ -1,34 +1,82 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines and branches of src/ that the rooms of tests reach, by gcov, and those that they do not: tests/hard/coverage.txt."""
+"""Lines and branches of src/ that the rooms of tests and the faults reach, by gcov, and those that they do not:
+tests/hard/coverage.txt. A comment `unreached: REASON` leaves out its line and what is indented under it; alone on its line,
+the next one."""
+import collections
 import json
 import os
+import re
 import subprocess
 import sys
 
 import harness
 import runner
 
+import faults
+
 B = "build/coverage"
 SLOW = ("hard", "packaging", "portable", "programs", "fuzz")  # build of their own, or reach nothing more
+MARK = re.compile(r"/\* unreached: ")
+MARKED_LINE = re.compile(r"\s*/\* unreached: .*\*/$")
+
+
+def every_fault(tests):
+    """Every allocation and every system call fails once, as by `make faults`."""
+    folder = os.path.join(os.path.abspath(tests.build), "tests")
+    env = {"PATH": os.environ["PATH"], "LC_ALL": "C", "TERM": "dumb"}
+    kinds = (faults.allocations, faults.calls) if faults.can_filter(folder) else (faults.allocations,)
+
+    def one(statement, kind):
+        ends, wrong = faults.attempt(statement, kind)
+        tests.check("%s, %s" % (statement.statement[:60], kind.__name__), not wrong,
+                    "\n".join("%s: %s" % (faults.told(fault), what) for fault, what in wrong[:3]))
+    tests.each([lambda s=s, k=k: one(s, k) for s in faults.statements(tests.fret, folder, env) for k in kinds])
+
+
+ROOMS = {**{name: run for name, run in runner.ROOMS.items() if name not in SLOW}, "faults": every_fault}
+
+
+def build():
+    """With what writes the counts at ends that run no exit handler."""
+    flush, program = B + "/tests/coverage.o", os.path.join(harness.ROOT, B, "fret")
+    if os.path.exists(program):  # linked in another way, perhaps
+        os.unlink(program)
+    return runner.make("B=" + B, "WERROR=", "OPT=-O1 -g -fPIC", flush) and runner.make(
+        "B=" + B, "WERROR=", "OPT=-O1 -g --coverage", "LDFLAGS=--coverage -Wl,--wrap=_exit,--wrap=raise " + flush, "all", "tests")
 
 
 def main():
-    if not runner.make("B=" + B, "WERROR=", "OPT=-O1 -g --coverage", "LDFLAGS=--coverage", "all", "tests"):
+    if not build():
         return 1
     for folder, _, names in os.walk(os.path.join(harness.ROOT, B)):
         for name in names:
             if name.endswith(".gcda"):
                 os.unlink(os.path.join(folder, name))
     tests = harness.Tests(B, "coverage", False)
-    rooms = sys.argv[1:] or [room for room in runner.ROOMS if room not in SLOW]
+    rooms = sys.argv[1:] or list(ROOMS)
     for room in rooms:
-        tests.room(room, runner.ROOMS[room])
+        tests.room(room, ROOMS.get(room) or runner.ROOMS[room])
     tests.close()
     return report(rooms)
 
 
+def marked(text):
+    """The numbers of the lines that comments leave out."""
+    found, under = set(), None  # the indentation below which the rest belongs to a mark
+    for n, line in enumerate(text.splitlines(), 1):
+        depth = len(line) - len(line.lstrip())
+        if under is not None and line.strip() and depth <= under[0] and n != under[1]:
+            under = None
+        if MARK.search(line):
+            under = (depth, n + 1 if MARKED_LINE.match(line) else n)
+        if under is not None:
+            found.add(n)
+    return found
+
+
 def reached():
-    """{file: ({line: reached}, {(line, place): taken})} of src/, over all objects that include it."""
+    """{file: ({line: reached}, {line: [branch taken]})} of src/, over all objects that include it. A line that is compiled
+    in several ways, inlined or for several processors, has the branches of that with the most."""
     files = {}
     for folder, _, names in os.walk(os.path.join(harness.ROOT, B, "src")):
         data = [os.path.join(folder, name) for name in names if name.endswith(".gcda")]
@@ -38,34 +86,48 @@ def reached():
             for one in json.loads(text)["files"]:
                 if not one["file"].startswith("src/"):
                     continue
-                lines, branches = files.setdefault(one["file"], ({}, {}))
+                lines, ways = files.setdefault(one["file"], ({}, collections.defaultdict(dict)))
                 for line in one["lines"]:
-                    n = line["line_number"]
+                    n, taken = line["line_number"], [branch["count"] > 0 for branch in line["branches"]]
                     lines[n] = lines.get(n, False) or line["count"] > 0
-                    for i, branch in enumerate(line["branches"]):
-                        branches[n, i] = branches.get((n, i), False) or branch["count"] > 0
-    return files
+                    before = ways[n].get(len(taken), [False] * len(taken))
+                    ways[n][len(taken)] = [a or b for a, b in zip(before, taken)]
+    return {name: (lines, {n: way[max(way)] for n, way in ways.items()}) for name, (lines, ways) in files.items()}
+
+
+def numbers(name, what):
+    return "%s: %s\n" % (name, " ".join(map(str, what))) if what else ""
 
 
 def report(rooms):
+    row = "%-34s %7s %7s %7s %8s %8s %7s %7s\n"
+    text = "# make coverage (gcov, -O1; rooms: %s)\n" % " ".join(rooms)
+    text += row % ("file", "lines", "reached", "%", "branches", "taken", "%", "marked")
+    total = [0] * 5
+    missed, partly, wrongly = "", "", ""
+
+    def told(name, counts):
+        return row % (name, *counts[:2], "%.1f" % (100 * counts[1] / max(1, counts[0])), *counts[2:4],
+                      "%.1f" % (100 * counts[3] / max(1, counts[2])), counts[4])
     files = reached()
-    text = "# make coverage (gcov, -O1; rooms: %s)\n%-34s %7s %7s %7s %8s %8s %7s\n" % (
-        " ".join(rooms), "file", "lines", "reached", "%", "branches", "taken", "%")
-    total = [0] * 4
-    for name in [*sorted(files), "all"]:
-        counts = total
-        if name != "all":
-            lines, branches = files[name]
-            counts = [len(lines), sum(lines.values()), len(branches), sum(branches.values())]
-            total = [a + b for a, b in zip(total, counts)]
-        text += "%-34s %7d %7d %7.1f %8d %8d %7.1f\n" % (name, *counts[:2], 100 * counts[1] / max(1, counts[0]),
-                                                        *counts[2:], 100 * counts[3] / max(1, counts[2]))
-    text += "\nLines that no test reaches:\n"
     for name in sorted(files):
-        missed = [str(n) for n, yes in sorted(files[name][0].items()) if not yes]
-        if missed:
-            text += "%s: %s\n" % (name, " ".join(missed))
-    if len(rooms) > 20:
+        lines, branches = files[name]
+        with open(os.path.join(harness.ROOT, name), encoding="utf-8") as f:
+            out = marked(f.read())
+        left = {n: yes for n, yes in lines.items() if n not in out}
+        flags = [yes for n, way in branches.items() if n not in out for yes in way]
+        counts = [len(left), sum(left.values()), len(flags), sum(flags), len(lines) - len(left)]
+        total = [a + b for a, b in zip(total, counts)]
+        text += told(name, counts)
+        missed += numbers(name, sorted(n for n, yes in left.items() if not yes))
+        partly += numbers(name, ["%d%s" % (n, "" if way.count(False) == 1 else "(%d)" % way.count(False))
+                                 for n, way in sorted(branches.items()) if n not in out and lines[n] and not all(way)])
+        wrongly += numbers(name, sorted(n for n in lines if n in out and lines[n] and all(branches[n])))
+    text += told("all", total)
+    text += "\nLines that no test reaches:\n" + missed
+    text += "\nLines with branches that no test takes, and how many where there are more than one:\n" + partly
+    text += "\nMarked, and reached with all its branches:\n" + wrongly if wrongly else ""
+    if not sys.argv[1:]:
         with open(os.path.join(harness.ROOT, "tests/hard/coverage.txt"), "w", encoding="ascii") as f:
             f.write(text)
     print(text, end="")

@@ -126,7 +126,7 @@ class Faults:
         told = where + ".told"
         tmp = where + ".tmp"
         os.mkdir(tmp)
-        env = {**self.env, "TMPDIR": tmp, "HOME": tmp}
+        env = {**self.env, "TMPDIR": tmp, "HOME": tmp, "FRET_FAULTS": "1"}  # read by tests/coverage.c
         argv = [self.fret, *self.arguments(script or self.script)]
         what, number, code = fault or (count, 0, 0)
         if what == ALLOCATION:
