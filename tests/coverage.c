@@ -1,17 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linked into the program whose coverage is measured, in place of what ends a process without its exit handlers:
- * what it has counted is written before. Nothing of that is fault injection's to count or to fail. */
+/* Linked into the program whose coverage is measured, in place of what ends a process without its exit
+ * handlers: what it has counted is written before. Nothing of that is fault injection's to count or to fail.
+ */
 #include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 void __gcov_dump(void);
 void __gcov_reset(void);
 void __real__exit(int status) __attribute__((noreturn));
 int __real_raise(int number);
+int __real_kill(pid_t process, int number);
+pid_t __real_fork(void);
 void __wrap__exit(int status) __attribute__((noreturn));
 int __wrap_raise(int number);
+int __wrap_kill(pid_t process, int number);
+pid_t __wrap_fork(void);
 
 static void disarm(void) {
     const int fd = open("disarm", O_RDONLY);
@@ -40,4 +46,24 @@ int __wrap_raise(int number) {
     if (!getenv("FRET_FAULTS"))
         flush();
     return __real_raise(number);
+}
+
+/* A worker is killed when it is of no more use: it writes first. */
+static void leave(int number) {
+    (void)number;
+    _exit(0);
+}
+
+pid_t __wrap_fork(void) {
+    const pid_t process = __real_fork();
+    if (process == 0)
+        signal(SIGUSR2, leave);
+    return process;
+}
+
+int __wrap_kill(pid_t process, int number) {
+    siginfo_t unused;
+    if (process > 0 && number == SIGKILL && !getenv("FRET_FAULTS") && !__real_kill(process, SIGUSR2))
+        waitid(P_PID, (id_t)process, &unused, WEXITED | WNOWAIT);
+    return __real_kill(process, number);
 }

@@ -12,8 +12,11 @@
 
 #include "fret/base.h"
 
-/* Inlined also without optimisation: the caller's instruction set applies. */
+/* Inlined also without optimisation: the caller's instruction set applies. Who counts branches has them once.
+ */
+#ifndef FRET_INLINE
 #define FRET_INLINE static inline __attribute__((always_inline))
+#endif
 
 FRET_INLINE uint64_t fret_bits(double x) {
     uint64_t u;
