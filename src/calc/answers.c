@@ -375,29 +375,14 @@ bool scene_contact(scene *s, fret_contact *out, calc_error *error) {
 
 /* ---- the tangential state ---------------------------------------------------------------------- */
 
-/* A member of the states of all levels, and its limit. */
-static void to_limit(const fret_state at[LEVELS], size_t member, fret_state *out, long double *error) {
-    long double v[LEVELS];
-    for (unsigned i = 0; i < LEVELS; i++)
-        memcpy(&v[i], (const char *)&at[i] + member, sizeof v[i]);
-    v[0] = run_limit(v, 0, error);
-    memcpy((char *)out + member, &v[0], sizeof v[0]);
-}
-
-/* The state at the end of runs at all levels; what lies at the end of the path needs no limit. */
+/* The state at the end of runs at all levels. */
 static void swinging_state(answers *a, const runner run[LEVELS]) {
-    fret_state at[LEVELS];
-    const long double loss[LEVELS] = {run[0].cycle_loss, run[1].cycle_loss, run[2].cycle_loss};
-    long double error[2], unused;
+    sight at[LEVELS], limit;
     for (unsigned i = 0; i < LEVELS; i++)
-        engine_state(&run[i].engine, &at[i]);
-    a->state = at[LEVELS - 1];
-    to_limit(at, offsetof(fret_state, W), &a->state, &error[0]);
-    to_limit(at, offsetof(fret_state, U), &a->state, &unused);
-    to_limit(at, offsetof(fret_state, Fx), &a->state, &unused);
-    to_limit(at, offsetof(fret_state, dx), &a->state, &unused);
-    a->loss = run_limit(loss, LDBL_EPSILON * a->state.W, &error[1]); /* rounding leaves no more of W */
-    a->sine_error = fmaxl(error[0], error[1]);
+        run_sight(&run[i], &at[i]);
+    sight_limit(at, &limit, &a->sine_error);
+    a->state = limit.state;
+    a->loss = limit.loss;
 }
 
 static bool widest(const runner *r, void *context) {
@@ -462,8 +447,10 @@ static bool memory_state(scene *s, calc_error *error) {
         swinging_state(a, a->run);
         return true;
     }
-    engine_state(&run->engine, &a->state);
-    a->loss = run->cycle_loss;
+    sight now;
+    run_sight(run, &now);
+    a->state = now.state;
+    a->loss = now.loss;
     return true;
 }
 
@@ -490,7 +477,8 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
 
 bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
     answers *a = &s->answers;
-    if (!s->now || a->state_ready || (!s->automatic && s->model == MODEL_CLOSED))
+    const runner *run = s->now ? s->now->run : NULL;
+    if (!s->now || a->state_ready || (run && run->coarse) || (!s->automatic && s->model == MODEL_CLOSED))
         return scene_state(s, state, error);
     const double *kept = s->now->kept;
     if (kept)
@@ -500,7 +488,7 @@ bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
                                 .dx = kept[TRAIL_DX],
                                 .W = kept[TRAIL_W]};
     else
-        engine_forces(&s->now->run->engine, &a->state);
+        engine_forces(&run->engine, &a->state);
     s->used |= USED(MODEL_MEMORY);
     *state = &a->state;
     return true;
@@ -583,20 +571,82 @@ bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
 
 /* ---- running it again -------------------------------------------------------------------------- */
 
+/* What the coarser levels saw, look by look. */
+typedef struct looks {
+    sight (*at)[LEVELS - 1];
+    size_t count, room, next;
+    unsigned level; /* that looks on now */
+    runner *finest;
+    const watch *for_whom;
+    bool no_memory;
+} looks;
+
+static bool keep_look(const runner *r, void *context) {
+    looks *l = context;
+    if (l->level == 0 && l->count == l->room) {
+        const size_t room = l->room ? 2 * l->room : 64;
+        void *grown = realloc(l->at, room * sizeof *l->at);
+        l->no_memory = !grown;
+        if (!grown)
+            return false;
+        l->at = grown;
+        l->room = room;
+    }
+    if (l->level == 0)
+        l->count++;
+    if (l->next < l->count)
+        run_sight(r, &l->at[l->next++][l->level]);
+    return true;
+}
+
+static bool look_deeper(const runner *r, void *context) {
+    looks *l = context;
+    l->finest->coarse = l->next < l->count ? l->at[l->next++] : NULL;
+    return l->for_whom->see(r, l->for_whom->context);
+}
+
+static fret_status trace_level(const load_view *load, unsigned level, watch *w, looks *before, bool *halted) {
+    runner r = {.load = load, .watch = w, .level = level};
+    if (before)
+        before->finest = &r;
+    fret_status st = engine_make(&r.engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
+    if (!st.code)
+        st = run_to(&r, load->end);
+    engine_end(&r.engine);
+    *halted = r.halted;
+    return st;
+}
+
+/* All levels, one after the other: whoever looks on sees the finest, and with it the limit. */
+static fret_status trace_limit(const load_view *load, watch *w, bool *halted, bool *no_memory) {
+    looks l = {.for_whom = w};
+    fret_status st = fine;
+    for (; l.level < LEVELS && !st.code; l.level++) {
+        watch at = *w;
+        at.see = l.level < LEVELS - 1 ? keep_look : look_deeper;
+        at.context = &l;
+        l.next = 0;
+        st = trace_level(load, l.level, &at, &l, halted);
+    }
+    *no_memory = l.no_memory;
+    free(l.at);
+    return st;
+}
+
 bool scene_trace(scene *s, watch *w, calc_error *error) {
     load_view load;
     const runner *unused;
-    runner r = {.load = &load, .watch = w};
+    bool halted, no_memory = false;
     /* a load that cannot be is refused before anything of it is seen */
     if ((!s->sound && !present_run(s, &unused, error)) || !scene_load_of(s, &load, error))
         return false;
-    r.level = s->answers.reach.swings ? LEVELS - 1 : 0;
     s->used |= USED(MODEL_MEMORY);
-    fret_status st = engine_make(&r.engine, MODEL_MEMORY, load.normal, load.mu, 0, 0);
-    if (!st.code)
-        st = run_to(&r, load.end);
-    engine_end(&r.engine);
-    if (r.halted && error->raised)
+    const bool swings = s->answers.reach.swings;
+    const fret_status st = swings && w->limit ? trace_limit(&load, w, &halted, &no_memory)
+                                              : trace_level(&load, swings ? LEVELS - 1 : 0, w, NULL, &halted);
+    if (no_memory)
+        return calc_no_memory(error);
+    if (halted && error->raised)
         return false;
     return calc_status(error, &st);
 }

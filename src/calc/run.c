@@ -4,6 +4,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -95,13 +96,27 @@ static fret_status step_of(runner *r, const leg *l, const fret_step *step) {
     return l->chord ? engine_chord(&r->engine, step) : engine_step(&r->engine, step);
 }
 
+static void close_period(runner *r) {
+    r->cycle_loss = engine_spent(&r->engine);
+    r->closed = true;
+}
+
+/* The rest of a leg: whoever looks at the end of a period sees it closed. */
+static fret_status step_to_end(runner *r, const leg *l) {
+    const fret_status st = step_of(r, l, &l->to);
+    if (!st.code && l->closes)
+        close_period(r);
+    return st;
+}
+
 static fret_status take_watched(runner *r, const leg *l) {
     fret_state from;
     fret_status st = fine;
     engine_forces(&r->engine, &from);
     const fret_step *to = &l->to;
-    const long double n0 = to->normal_by == FRET_TO_FORCE ? from.FN : from.dz;
-    const long double t0 = to->tangential_by == FRET_TO_FX ? from.Fx : from.dx;
+    /* in double, as targets are: what was asked for is where it begins, and half of the way back is 0 */
+    const double n0 = (double)(to->normal_by == FRET_TO_FORCE ? from.FN : from.dz);
+    const double t0 = (double)(to->tangential_by == FRET_TO_FX ? from.Fx : from.dx);
     double x = r->watch->next(r->watch, l, 0);
     for (; x < 1; x = r->watch->next(r->watch, l, x)) {
         const long double part = (long double)way(l, x);
@@ -114,14 +129,14 @@ static fret_status take_watched(runner *r, const leg *l) {
         if (st.code)
             return st;
     }
-    st = step_of(r, l, to);
+    st = step_to_end(r, l);
     if (!st.code && x <= 1)
         return look(r, l->end, !l->chord);
     return st;
 }
 
 static fret_status take(runner *r, const leg *l) {
-    fret_status st = r->watch ? take_watched(r, l) : step_of(r, l, &l->to);
+    fret_status st = r->watch ? take_watched(r, l) : step_to_end(r, l);
     r->time = l->end;
     return st;
 }
@@ -141,6 +156,7 @@ static fret_status constant_period(runner *r, const load_step *c) {
     fret_status st = fine;
     for (int sign = -1; sign <= 1 && !st.code; sign += 2) {
         l.to.tangential = sign * c->tangential_value;
+        l.closes = sign > 0;
         l.begin = r->time;
         l.end = r->time + 0.5;
         st = take(r, &l);
@@ -230,7 +246,18 @@ static size_t find_nodes(const swing *w, double node[NODES]) {
     return kept;
 }
 
-/* Chords of the harmonic path, from the top of F_x, cut evenly between the nodes. */
+/* Where whoever looks on looks next, between two angles: a chord ends there, on the sine. */
+static double next_look(const runner *r, const leg *period, double from, double to) {
+    leg l = *period;
+    if (!r->watch)
+        return to;
+    l.begin = l.origin + from / (2 * pi);
+    l.end = l.origin + to / (2 * pi);
+    const double x = r->watch->next(r->watch, &l, 0), at = from + (to - from) * x;
+    return x < 1 && at - from > 1e-9 && to - at > 1e-9 ? at : to;
+}
+
+/* Chords of the harmonic path, from the top of F_x, cut evenly between the nodes and between looks. */
 static fret_status chords_period(runner *r, const load_item *c, long double FN) {
     double node[NODES];
     const swing about = {r->load, c, FN};
@@ -242,16 +269,21 @@ static fret_status chords_period(runner *r, const load_item *c, long double FN) 
              .origin = begin};
     fret_status st = fine;
     for (size_t i = 0; i + 1 < nodes && !st.code; i++) {
-        const double length = node[i + 1] - node[i];
-        const unsigned count = (unsigned)(1 + RUN_CHORDS * length / (2 * pi)) << r->level;
-        for (unsigned j = 1; j <= count && !st.code; j++) {
-            const double angle = node[i] + length * j / count;
-            const bool last = i + 2 == nodes && j == count;
-            l.to.tangential = last ? c->step.tangential_value : c->step.tangential_value * harmonic(angle);
-            l.to.normal = (double)(FN + c->step.normal_value * harmonic((long double)angle + c->extra.phase));
-            l.begin = r->time;
-            l.end = begin + angle / (2 * pi);
-            st = unless_stopped(r, take(r, &l));
+        for (double from = node[i]; from < node[i + 1] && !st.code;) {
+            const double end = next_look(r, &l, from, node[i + 1]), length = end - from;
+            const unsigned count = (unsigned)(1 + RUN_CHORDS * length / (2 * pi)) << r->level;
+            for (unsigned j = 1; j <= count && !st.code; j++) {
+                const double angle = from + length * j / count;
+                l.closes = i + 2 == nodes && j == count && end == node[i + 1];
+                l.to.tangential =
+                    l.closes ? c->step.tangential_value : c->step.tangential_value * harmonic(angle);
+                l.to.normal =
+                    (double)(FN + c->step.normal_value * harmonic((long double)angle + c->extra.phase));
+                l.begin = r->time;
+                l.end = begin + angle / (2 * pi);
+                st = unless_stopped(r, take(r, &l));
+            }
+            from = end;
         }
     }
     return st;
@@ -299,9 +331,8 @@ static fret_status run_periods(runner *r, const load_item *c, long double FN) {
     for (unsigned i = 0; i < times && !st.code; i++) {
         engine_mark(&r->engine);
         st = unless_stopped(r, run_period(r, c, FN));
-        lap now = {.loss = engine_spent(&r->engine)};
-        r->cycle_loss = now.loss;
-        r->closed = true;
+        close_period(r); /* the sine's, too */
+        lap now = {.loss = r->cycle_loss};
         engine_forces(&r->engine, &now.state);
         alike = i > 0 && laps_repeat(&last, &now, times - 1 - i) ? alike + 1 : 0;
         last = now;
@@ -466,4 +497,41 @@ long double run_limit(const long double at[LEVELS], long double least, long doub
     const long double step = (last - first) / 15, scale = fmaxl(least, fmaxl(fabsl(last), fabsl(at[2])));
     *error = scale > 0 ? 2 * fabsl(step) / scale : 0;
     return last + step;
+}
+
+/* A member of the states of all levels, and its limit. Where they differ by rounding of `scale` alone it was
+ * asked for: so it stays, 0 above all. */
+static void to_limit(const sight at[LEVELS], size_t member, long double scale, fret_state *out,
+                     long double *error) {
+    long double v[LEVELS];
+    for (unsigned i = 0; i < LEVELS; i++)
+        memcpy(&v[i], (const char *)&at[i].state + member, sizeof v[i]);
+    v[0] = run_limit(v, 0, error);
+    if (fabsl(v[LEVELS - 1] - v[LEVELS - 2]) <= 16 * LDBL_EPSILON * scale)
+        return;
+    memcpy((char *)out + member, &v[0], sizeof v[0]);
+}
+
+void sight_limit(const sight at[LEVELS], sight *out, long double *error) {
+    const long double loss[LEVELS] = {at[0].loss, at[1].loss, at[2].loss};
+    long double errors[2], unused;
+    out->state = at[LEVELS - 1].state;
+    to_limit(at, offsetof(fret_state, W), 0, &out->state, &errors[0]);
+    to_limit(at, offsetof(fret_state, U), 0, &out->state, &unused);
+    to_limit(at, offsetof(fret_state, Fx), out->state.FN, &out->state, &unused);
+    to_limit(at, offsetof(fret_state, dx), out->state.dz, &out->state, &unused);
+    out->loss = run_limit(loss, LDBL_EPSILON * out->state.W, &errors[1]); /* rounding leaves no more of W */
+    *error = fmaxl(errors[0], errors[1]);
+}
+
+void run_sight(const runner *r, sight *out) {
+    sight at[LEVELS] = {{.loss = r->cycle_loss}};
+    long double unused;
+    engine_state(&r->engine, &at[0].state);
+    *out = at[0];
+    if (!r->coarse)
+        return;
+    at[LEVELS - 1] = *out;
+    memcpy(at, r->coarse, (LEVELS - 1) * sizeof *at);
+    sight_limit(at, out, &unused);
 }

@@ -30,6 +30,7 @@ typedef struct leg {
     leg_law law;       /* how the load goes in time: evenly, as a quarter or a half of a sine */
     bool chord;        /* of a swinging normal force: its ends are no turning points */
     bool even;         /* part it evenly in load, not in time */
+    bool closes;       /* its end is that of a period */
     unsigned points;   /* asked for by `steps`, of a chord: a period; 0: none */
     double origin;     /* of a chord: time at the beginning of its period */
 } leg;
@@ -57,6 +58,7 @@ struct watch {
     size_t sample, last; /* next and last of them */
     bool turns;          /* turning points too */
     bool once;           /* a period that repeats the one before need not be seen again */
+    bool limit;          /* of swinging periods it wants the limit of all levels */
 };
 
 /* Every leg in so many parts. */
@@ -66,16 +68,31 @@ watch watch_ends(void);
 /* At the times first + i*every, i = 0..last; turns: at turning points too. */
 watch watch_times(double first, double every, size_t last, bool turns);
 
+/* A swinging normal force is run at several numbers of chords, each double the last. Their error goes with
+ * the square of the length of a chord, then with its fourth power: the limit, extrapolated twice. error gets
+ * twice how far the last extrapolation moved it, relative to the value, or to `least` where that is larger;
+ * of the losses in tests/reference/swinging.csv it is a bound, also where the contact is nearly lost and the
+ * orders are not clean. */
+enum { RUN_CHORDS = 160, LEVELS = 3 };
+long double run_limit(const long double at[LEVELS], long double least, long double *error);
+
+/* What a run shows: the state, and the loss of the last period. */
+typedef struct sight {
+    fret_state state;
+    long double loss;
+} sight;
+
 struct runner {
     const load_view *load;
     engine engine;
-    unsigned level; /* a swinging period in RUN_CHORDS 2^level chords */
-    watch *watch;   /* or NULL */
-    trail *trail;   /* or NULL */
-    load_mark at;   /* next step of the program, and next of its cycles */
-    double time;    /* now */
-    bool turning;   /* for the watch: the end of a leg */
-    bool halted;    /* by the watch */
+    unsigned level;      /* a swinging period in RUN_CHORDS 2^level chords */
+    watch *watch;        /* or NULL */
+    trail *trail;        /* or NULL */
+    const sight *coarse; /* the same instant at the LEVELS - 1 coarser levels, or NULL */
+    load_mark at;        /* next step of the program, and next of its cycles */
+    double time;         /* now */
+    bool turning;        /* for the watch: the end of a leg */
+    bool halted;         /* by the watch */
     bool area_wanted;
     long double area, Fx, dx; /* int F_x d(delta_x) by the trapezoidal rule, at what the watch sees */
     long double cycle_loss;   /* of the last period run; of a program without one 0 */
@@ -84,15 +101,10 @@ struct runner {
     unsigned repeated; /* periods of the last cycle that were not run, since they repeat those before */
 };
 
-enum { RUN_CHORDS = 160 };
-
-/* A swinging normal force is run at several numbers of chords, each double the last. Their error goes with
- * the square of the length of a chord, then with its fourth power: the limit, extrapolated twice. error gets
- * twice how far the last extrapolation moved it, relative to the value, or to `least` where that is larger;
- * of the losses in tests/reference/swinging.csv it is a bound, also where the contact is nearly lost and the
- * orders are not clean. */
-enum { LEVELS = 3 };
-long double run_limit(const long double at[LEVELS], long double least, long double *error);
+/* Now; its limit, where `coarse` is there. */
+void run_sight(const runner *r, sight *out);
+/* Of the same instant at all levels; what lies at the end of the path needs no limit. */
+void sight_limit(const sight at[LEVELS], sight *out, long double *error);
 
 /* Runs to the end of the load. The stop flag is looked at between steps and chords. */
 fret_status run_to(runner *r, load_mark end);

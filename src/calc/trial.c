@@ -208,5 +208,6 @@ bool trial_along(trial *t, along_what what, load_mark from, size_t points, bool 
     watch w = watch_times(a.first, points ? (a.last - a.first) / (double)points : 1, points, turns);
     w.see = see;
     w.context = &a;
+    w.limit = true;
     return scene_trace(s, &w, error);
 }

@@ -15,9 +15,10 @@ static const char *const history_names[] = {"FN", "dz", "Fx", "dx", "W"};
 enum { HISTORY = sizeof history_names / sizeof *history_names };
 
 static bool history_row(const runner *r, void *context) {
-    fret_state s;
-    engine_state(&r->engine, &s);
-    table_row(context, (const long double[HISTORY]){s.FN, s.dz, s.Fx, s.dx, s.W});
+    sight now;
+    run_sight(r, &now);
+    const fret_state *s = &now.state;
+    table_row(context, (const long double[HISTORY]){s->FN, s->dz, s->Fx, s->dx, s->W});
     return true;
 }
 
@@ -36,6 +37,7 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
                              quantity_find(history_names[i], strlen(history_names[i]))->d);
     ok = ok && table_begin(&t);
     if (ok) {
+        w.limit = true;
         w.see = history_row;
         w.context = &t;
         ok = scene_trace(&sh->calc.scene, &w, lx->error);
