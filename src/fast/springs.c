@@ -30,11 +30,10 @@ typedef struct straight {
     double hi, inverse; /* the larger depth, 1/|change of depth| */
 } straight;
 
-/* Sums, each with the rest that rounding has cut off: of w v; and of a step that is kept w times bound times
- * slip, else w over springs that stick. */
+/* Sums, each with the rest that rounding has cut off: of w v, and of w times bound times slip. */
 typedef struct partial_sums {
     _Alignas(ALIGNMENT) double force[SUMS];
-    double force_rest[SUMS], other[SUMS], other_rest[SUMS];
+    double force_rest[SUMS], loss[SUMS], loss_rest[SUMS];
 } partial_sums;
 
 #ifdef __x86_64__
@@ -65,8 +64,8 @@ typedef struct partial_sums {
 
 typedef struct loops {
     unsigned width;
-    void (*shift)(const cells *c, size_t end, double ddx, bool keep, partial_sums *out);
-    void (*deform)(const cells *c, size_t end, const straight *path, bool keep, partial_sums *out);
+    void (*shift)(const cells *c, size_t end, double ddx, partial_sums *out);
+    void (*deform)(const cells *c, size_t end, const straight *path, partial_sums *out);
 } loops;
 
 static const loops of_width[] = {
@@ -292,35 +291,23 @@ static inline fret_real total(const double *sum, const double *rest) {
     return half[0] + half[1];
 }
 
-/* What a straight step does, over all springs that it touches. */
-typedef struct response {
-    fret_real force; /* sum of w u */
-    fret_real loss;  /* of w times bound times slip, if kept */
-    fret_real stick; /* of w over springs that stick, if not */
-} response;
-
 static size_t groups(size_t springs) { /* up to whole SUMS */
     return (springs + SUMS - 1) / SUMS * SUMS;
 }
 
-/* keep: stores the new displacements and bounds. */
-static response deform(fret_springs *s, double z0, double z1, double ddx, bool keep) {
+/* A straight step of all springs that it touches. */
+static void advance(fret_springs *s, fret_real dz, fret_real dx) {
+    const double z0 = (double)s->dz, z1 = (double)dz, ddx = (double)(dx - s->dx);
     const size_t end = groups(z1 > z0 ? springs_below(s->cells.g, s->count, z1) : s->closed);
     partial_sums sums;
     if (z0 == z1) {
-        s->run->shift(&s->cells, end, ddx, keep, &sums);
+        s->run->shift(&s->cells, end, ddx, &sums);
     } else {
         const straight path = {z1, ddx, most(z0, z1), 1 / fabs(z1 - z0)};
-        s->run->deform(&s->cells, end, &path, keep, &sums);
+        s->run->deform(&s->cells, end, &path, &sums);
     }
-    const fret_real other = total(sums.other, sums.other_rest);
-    return (response){total(sums.force, sums.force_rest), keep ? other : 0, keep ? 0 : other};
-}
-
-static void advance(fret_springs *s, fret_real dz, fret_real dx) {
-    response r = deform(s, (double)s->dz, (double)dz, (double)(dx - s->dx), true);
-    s->Fx = r.force * s->compliance;
-    fret_sum_add(&s->W, r.loss * s->compliance);
+    s->Fx = total(sums.force, sums.force_rest) * s->compliance;
+    fret_sum_add(&s->W, total(sums.loss, sums.loss_rest) * s->compliance);
     if (dz != s->dz)
         s->closed = springs_below(s->cells.g, s->count, (double)dz);
     s->dz = dz;
@@ -336,11 +323,11 @@ static void turn(fret_springs *s, fret_real before, fret_real after) {
  * cost as much as 200 of them. */
 static void step_at_depth(fret_springs *s, fret_real dx) {
     partial_sums sums;
-    s->run->shift(&s->cells, groups(s->closed), (double)(dx - s->dx), true, &sums);
+    s->run->shift(&s->cells, groups(s->closed), (double)(dx - s->dx), &sums);
     turn(s, s->dx, dx);
     s->dx = dx;
     s->Fx = total(sums.force, sums.force_rest) * s->compliance;
-    fret_sum_add(&s->W, total(sums.other, sums.other_rest) * s->compliance);
+    fret_sum_add(&s->W, total(sums.loss, sums.loss_rest) * s->compliance);
 }
 
 /* Sum of w (z - g) over the springs before `end`, which all touch at depth z. */
@@ -383,29 +370,6 @@ static double displacement_of_front(const fret_springs *s, fret_real z, fret_rea
     return sign * left;
 }
 
-/* The displacement nearest to the present one that makes F_x: Newton on a monotone piecewise linear
- * function, kept in a bracket that is wide enough for every spring to slip either way. */
-static fret_real displacement_for(fret_springs *s, fret_real dz, fret_real Fx, fret_real tolerance) {
-    const fret_real eta = s->normal->foundation.eta, reach = 2.0L * s->cells.mu_eta * fmaxl(s->dz, dz);
-    fret_real lo = -reach, hi = reach, x = 0;
-    if (dz == s->dz)
-        x = displacement_of_front(s, dz, Fx);
-    for (int i = 0; i < 200 && hi - lo > 4 * DBL_EPSILON * fabsl(x) && !fret_stopped(s->normal); i++) {
-        response r = deform(s, (double)s->dz, (double)dz, (double)x, false);
-        fret_real missing = Fx - r.force * s->compliance;
-        if (fabsl(missing) <= tolerance)
-            break;
-        if (missing > 0)
-            lo = x;
-        else
-            hi = x;
-        x += r.stick > 0 ? missing * eta / r.stick : 0;
-        if (!(x > lo && x < hi) || i >= 50) /* Newton may cycle between two pieces */
-            x = (lo + hi) / 2;
-    }
-    return s->dx + x;
-}
-
 static void walk_forces(fret_springs *s, fret_real FN, fret_real dz, fret_real Fx, unsigned substeps) {
     const fret_real FN0 = s->FN, Fx0 = s->Fx;
     s->dz = fmaxl(s->dz, 0); /* an open contact closes without load */
@@ -417,7 +381,7 @@ static void walk_forces(fret_springs *s, fret_real FN, fret_real dz, fret_real F
         const fret_real limit = s->mu * load, force = fminl(fmaxl(Fx0 * rest + Fx * t, -limit), limit);
         advance(s, depth, s->dx + displacement_of_front(s, depth, force));
         if (fabsl(force - s->Fx) > 1e-14L * limit) /* the rounding of many springs */
-            advance(s, depth, displacement_for(s, depth, force, 1e-14L * limit));
+            advance(s, depth, s->dx + displacement_of_front(s, depth, force));
     }
 }
 

@@ -36,59 +36,47 @@ TARGET static inline void NAME(add)(double *sum, double *rest, NAME(vec) x) {
 }
 
 TARGET static inline void NAME(clear)(partial_sums *out) {
-    double *const sums[] = {out->force, out->force_rest, out->other, out->other_rest};
+    double *const sums[] = {out->force, out->force_rest, out->loss, out->loss_rest};
     for (int i = 0; i < 4; i++)
         EACH_PART *(NAME(vec) *)(sums[i] + k * LANES) = (NAME(vec)){0};
 }
 
 /* At constant bounds a spring that slips dissipates w |v| |trial-v|, and |v| is its bound. */
-TARGET static inline __attribute__((always_inline)) void
-NAME(shift_all)(const cells *c, size_t end, double ddx, const bool keep, partial_sums *out) {
+TARGET static void NAME(shift)(const cells *c, size_t end, double ddx, partial_sums *out) {
     const NAME(vec) zero = {0};
     double *restrict const w_ = c->w, *restrict const b_ = c->b, *restrict const u_ = c->u;
     NAME(clear)(out);
     for (size_t from = 0; from < end; from += STRIDE) {
-        NAME(vec) force[NAME(PARTS)], other[NAME(PARTS)];
+        NAME(vec) force[NAME(PARTS)], loss[NAME(PARTS)];
         const size_t to = end - from > STRIDE ? from + STRIDE : end;
-        EACH_PART force[k] = other[k] = zero;
+        EACH_PART force[k] = loss[k] = zero;
         for (size_t i = from; i < to; i += SUMS) {
             EACH_PART {
                 NAME(vec) w = AT(w_), b = AT(b_), trial = AT(u_) + ddx;
                 NAME(vec) v = MOST(LEAST(trial, b), -b), pull = w * v, excess = trial - v;
                 force[k] += pull;
-                if (keep) {
-                    other[k] += pull * excess;
-                    AT(u_) = v;
-                } else {
-                    other[k] += NAME(choose)(excess != zero, zero, w);
-                }
+                loss[k] += pull * excess;
+                AT(u_) = v;
             }
         }
         EACH_PART {
             NAME(add)(out->force + k * LANES, out->force_rest + k * LANES, force[k]);
-            NAME(add)(out->other + k * LANES, out->other_rest + k * LANES, other[k]);
+            NAME(add)(out->loss + k * LANES, out->loss_rest + k * LANES, loss[k]);
         }
     }
 }
 
-TARGET static void NAME(shift)(const cells *c, size_t end, double ddx, bool keep, partial_sums *out) {
-    if (keep)
-        NAME(shift_all)(c, end, ddx, true, out);
-    else
-        NAME(shift_all)(c, end, ddx, false, out);
-}
-
 /* On a straight path a spring that has begun to slip goes on to the end, so the bound at both ends decides.
  * touched: the part of the step during which a spring is in contact. */
-TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, bool keep, partial_sums *out) {
+TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, partial_sums *out) {
     const NAME(vec) zero = {0}, one = zero + 1, tiny = zero + DBL_MIN;
     double *restrict const g_ = c->g, *restrict const w_ = c->w, *restrict const b_ = c->b,
                            *restrict const u_ = c->u;
     NAME(clear)(out);
     for (size_t from = 0; from < end; from += STRIDE) {
-        NAME(vec) force[NAME(PARTS)], other[NAME(PARTS)];
+        NAME(vec) force[NAME(PARTS)], loss[NAME(PARTS)];
         const size_t to = end - from > STRIDE ? from + STRIDE : end;
-        EACH_PART force[k] = other[k] = zero;
+        EACH_PART force[k] = loss[k] = zero;
         for (size_t i = from; i < to; i += SUMS) {
             EACH_PART {
                 NAME(vec) g = AT(g_), w = AT(w_), b0 = AT(b_);
@@ -102,18 +90,14 @@ TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, b
                 NAME(vec) whole = MOST(MOST(along + (b0 - b1), slip), tiny);
                 NAME(vec) bound = b1 + 0.5 * (b0 - b1) * (slip / whole);
                 force[k] += w * v;
-                if (keep) {
-                    other[k] += w * bound * slip;
-                    AT(u_) = v;
-                    AT(b_) = b1;
-                } else {
-                    other[k] += NAME(choose)(excess != zero, zero, w * touched);
-                }
+                loss[k] += w * bound * slip;
+                AT(u_) = v;
+                AT(b_) = b1;
             }
         }
         EACH_PART {
             NAME(add)(out->force + k * LANES, out->force_rest + k * LANES, force[k]);
-            NAME(add)(out->other + k * LANES, out->other_rest + k * LANES, other[k]);
+            NAME(add)(out->loss + k * LANES, out->loss_rest + k * LANES, loss[k]);
         }
     }
 }

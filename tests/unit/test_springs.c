@@ -209,7 +209,22 @@ static void test_force_control(void) {
     drop(&p);
 }
 
-/* Weights add up to the stiffness of the continuum; F_N and its inverse agree. */
+/* A hundred thousand of them make the force that is asked for, as 500 do. */
+static void test_many(void) {
+    pair p = make(2, 0.3);
+    springs_of(&p, 100000, p.radius, FRET_WEIGHT_CELL);
+    unsigned long long seed = 3;
+    for (int i = 0; i < 60; i++) {
+        const double FN = unit_random(&seed, 5, p.FN), part = i % 5 ? unit_random(&seed, -1, 1) : 1 - 1e-6;
+        fret_state now;
+        CHECK_OK(
+            fret_springs_step(p.springs, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, FN, part * p.mu * FN}, 1));
+        fret_springs_state(p.springs, &now);
+        CHECK_ABS(now.Fx, part * p.mu * FN, p.mu * FN, 1e-14L);
+    }
+    drop(&p);
+}
+
 /* By force with F_N changing: the displacement that bisection finds on copies, step by step. */
 static void front_on_the_way(double n, double k, size_t count) {
     pair p = make(n, k);
@@ -255,6 +270,7 @@ static void test_front_on_the_way(void) {
     front_on_the_way(8, 0.3, 64);
 }
 
+/* Weights add up to the stiffness of the continuum; F_N and its inverse agree. */
 static void test_weights(void) {
     static const double ks[] = {-0.95, -0.5, 0, 0.5, 0.95};
     for (size_t i = 0; i < sizeof ks / sizeof *ks; i++) {
@@ -544,6 +560,7 @@ int main(int argc, char **argv) {
     test_straight_steps();
     test_force_control();
     test_front_on_the_way();
+    test_many();
     test_weights();
     test_stick();
     test_pad();
