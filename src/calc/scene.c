@@ -101,10 +101,24 @@ void scene_back(scene *s, scene_mark *m) {
 
 /* ---- inputs ------------------------------------------------------------------------------------ */
 
-/* Amplitudes are evaluated where their cycle begins, everything else at the press: the scene as it is then.
- */
+/* Amplitudes are evaluated where their cycle begins, everything else at the press: the scene as it is then,
+ * with the amplitudes to come, and cycles before as they were. */
+static void go_back(scene *then, bool amplitude) {
+    const load_mark end = then->end;
+    const bool cycle = !then->before && end.cycles > 0;
+    const size_t steps = cycle ? program_last_cycle(then->program, end) : end.steps;
+    then->now = NULL;
+    if (cycle && amplitude)
+        then->end = (load_mark){steps, end.cycles - 1};
+    else if (!amplitude && end.steps > 1)
+        then->end = (load_mark){1, 0};
+    then->early = then->early || (!amplitude && steps > 1);
+    then->before = then->before || cycle;
+}
+
 static bool settle(scene *s, input in, calc_error *error) {
     const unsigned bit = INPUT_BIT(in);
+    const bool amplitude = bit & INPUT_CYCLE;
     if (s->settling & bit) {
         error->circle = true;
         calc_missing(error, (int)in);
@@ -114,17 +128,14 @@ static bool settle(scene *s, input in, calc_error *error) {
     value v = {0};
     scene_clone(&then, s);
     then.settling |= bit;
-    then.now = NULL;
-    if (bit & INPUT_CYCLE && s->end.cycles > 0) {
-        then.end.steps = program_last_cycle(s->program, s->end);
-        then.end.cycles--;
-        inputs_unset(&then.in, INPUT_CYCLE);
-    } else if (s->end.steps > 1) {
-        then.end = (load_mark){1, 0};
-        inputs_unset(&then.in, INPUT_CYCLE);
-    }
+    go_back(&then, amplitude);
     bool ok = s->evaluate(s->context, &then, s->in.bound[in], &v, error);
     scene_free(&then);
+    if (amplitude && s->before && s->early && !error->circle) {
+        error_clear(error);
+        return calc_fail(error, 0, 0,
+                         "an amplitude that follows is known where its cycle begins, not before");
+    }
     fret_status st = input_status(in, (double)v.v);
     if (!ok || !calc_input_status(error, (int)in, &st))
         return false;
@@ -289,10 +300,10 @@ double scene_time(const scene *s) {
 bool scene_last_cycle(scene *s, load_item *out, calc_error *error) {
     if (!s->program || !s->end.cycles)
         return calc_fail(error, 0, 0, "no cycle has been run yet: use cycle FA=... or the function dW(FA)");
-    if (!resolve(s, INPUT_CYCLE, error))
+    if (!s->before && !resolve(s, INPUT_CYCLE, error))
         return false;
-    size_t i = program_last_cycle(s->program, s->end);
-    *out = program_item(s->program, (load_mark){i, s->end.cycles - 1}, i, &s->in);
+    const size_t i = program_last_cycle(s->program, s->end);
+    *out = program_item(s->program, (load_mark){i, s->end.cycles - 1}, s->before ? NO_CYCLE : i, &s->in);
     return true;
 }
 
@@ -319,11 +330,11 @@ static void reach_step(load_reach *r, const load_step *step, unsigned times) {
 
 bool scene_reach(scene *s, const load_reach **out, calc_error *error) {
     load_reach *r = &s->answers.reach;
-    if (!is_pressed(s, error) || (s->end.cycles && !resolve(s, INPUT_CYCLE, error)))
+    if (!is_pressed(s, error) || (s->end.cycles && !s->before && !resolve(s, INPUT_CYCLE, error)))
         return false;
     if (!s->answers.reach_ready || r->seen.steps > s->end.steps) {
         *r = (load_reach){.seen = {1, 0}, .alike = true, .first = true};
-        r->last_cycle = program_last_cycle(s->program, s->end);
+        r->last_cycle = s->before ? NO_CYCLE : program_last_cycle(s->program, s->end);
         s->answers.reach_ready = true;
     }
     while (r->seen.steps < s->end.steps) {

@@ -65,6 +65,8 @@ struct scene {
     const instant *now; /* or NULL: the end of the program */
     bool trailed;       /* its runs leave a trail: the user's, which is drawn */
     bool sound;         /* of a scratch scene: a copy of one whose program runs to its end */
+    bool before;        /* of one for a definition: the last cycle is still to come, the amplitudes are its */
+    bool early;         /* and so are steps that lead to it */
     answers answers;
     bool automatic; /* the model: the closed form where there is one, else the memory diagram */
     model_id model; /* else this one */
