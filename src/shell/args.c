@@ -27,7 +27,7 @@ bool arg_place(calc_error *error, const arg_value *v) {
 }
 
 void args_drop(const arg_list *list, arg_value v[ARGS]) {
-    for (const arg *a = list->args; a && a->kind; a++) {
+    for (const arg *a = list->args; a->kind; a++) {
         counted_drop(v[a - list->args].live);
         v[a - list->args].live = NULL;
     }
@@ -42,9 +42,9 @@ static bool unknown_argument(lexer *lx, const arg_list *list) {
 
 static const arg *find(const lexer *lx, const arg_list *list, arg_kind kind) {
     const arg *a = list->args;
-    while (a && a->kind && !(a->kind == kind && lex_is(lx, a->name)))
+    while (a->kind && !(a->kind == kind && lex_is(lx, a->name)))
         a++;
-    return a && a->kind ? a : NULL;
+    return a->kind ? a : NULL;
 }
 
 /* Twice the same, or another of its group. */
@@ -131,8 +131,6 @@ static bool read_choice(lexer *lx, const arg *a, arg_value *v) {
 /* What may only come first. */
 static bool read_first(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file) {
     const arg *a = list->args;
-    if (!a)
-        return true;
     arg_value *v = &out[0];
     const bool named = at_argument(lx);
     switch (a->kind) {
@@ -156,15 +154,13 @@ static bool read_first(shell *sh, lexer *lx, const arg_list *list, arg_value out
     }
 }
 
-static bool read_keyword(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file,
-                         bool *found) {
+static bool read_keyword(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], bool *found) {
     const arg *a = list->args;
     *found = false;
-    for (; a && a->kind; a++)
-        if ((a->kind == ARG_COUNT || a->kind == ARG_NUMBER || a->kind == ARG_WORD || a->kind == ARG_TO) &&
-            lex_is(lx, a->name))
+    for (; a->kind; a++)
+        if ((a->kind == ARG_COUNT || a->kind == ARG_NUMBER || a->kind == ARG_WORD) && lex_is(lx, a->name))
             break;
-    if (!a || !a->kind)
+    if (!a->kind)
         return true;
     arg_value *v = &out[a - list->args];
     *found = true;
@@ -181,9 +177,6 @@ static bool read_keyword(shell *sh, lexer *lx, const arg_list *list, arg_value o
     case ARG_NUMBER:
         v->given = read_number(&sh->calc, lx, a, v);
         break;
-    case ARG_TO:
-        v->given = lex_filename(lx, file, ARG_FILE_NAME);
-        break;
     default:
         v->given = true;
         break;
@@ -193,7 +186,7 @@ static bool read_keyword(shell *sh, lexer *lx, const arg_list *list, arg_value o
 }
 
 bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file) {
-    for (const arg *a = list->args; a && a->kind; a++) { /* the rest is for those that are given */
+    for (const arg *a = list->args; a->kind; a++) { /* the rest is for those that are given */
         arg_value *v = &out[a - list->args];
         v->given = v->increment = false;
         v->live = NULL;
@@ -209,7 +202,7 @@ bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[AR
             if (!read_named(sh, lx, list, a, how, &out[a ? a - list->args : 0]))
                 return false;
             found = !(a->flags & ARG_ALONE);
-        } else if (!read_keyword(sh, lx, list, out, file, &found)) {
+        } else if (!read_keyword(sh, lx, list, out, &found)) {
             return false;
         }
     }

@@ -65,7 +65,7 @@ typedef struct arg_list {
     const char *noun;    /* "argument", "parameter" */
 } arg_list;
 
-/* Reads all that the rows allow to the end of the statement. file: of ARG_FILE or ARG_TO, the size of
+/* Reads all that the rows allow to the end of the statement. file: of ARG_FILE, the size of
  * ARG_FILE_NAME, or NULL where there are none. */
 bool args_read(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file);
 /* The same as far as the arguments go. */

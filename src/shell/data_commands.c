@@ -250,7 +250,7 @@ static bool read_loop(lexer *lx, fit_question *q, csv *data) {
         calc_fail(error, at, lx->last - at,
                   "%s has no column %s: a loop needs dx and Fx, and may have FN or dz", name,
                   q->loop.dx ? "Fx" : "dx");
-    return !error->raised;
+    return !error->raised || calc_place(error, at, lx->last - at);
 }
 
 static bool read_fit(shell *sh, lexer *lx, fit_question *q, csv *data, range_names *names) {

@@ -430,9 +430,6 @@ static bool explain_mismatch(shell *sh, lexer *lx) {
     calc_error ignored;
     text_out text;
     error_clear(&ignored);
-    lex_next(lx);
-    if (!at_end(lx))
-        return false;
     if (!text_begin(&text, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
     if (scene_normal(&sh->calc.scene, &normal, &ignored))

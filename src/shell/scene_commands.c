@@ -88,7 +88,9 @@ bool do_material(shell *sh, lexer *lx, const command *self) {
     bool ok = false;
     if (!has(&e, IN_E0) || !has(&e, IN_NU))
         lex_fail(lx, "%s is missing; usage: %s %s", has(&e, IN_E0) ? "nu" : "E0", self->name, self->usage);
-    else if (has(&e, IN_K) && (e.bound[IN_K] || e.v[IN_K] != 0) && !has(&e, IN_C0))
+    else if (e.bound[IN_K] && !has(&e, IN_C0))
+        lex_fail(lx, "c0 is missing: with a k that follows others the depth where E = E0 matters");
+    else if (e.has[IN_K] && e.v[IN_K] != 0 && !has(&e, IN_C0))
         lex_fail(lx, "c0 is missing: with k = %g the depth where E = E0 matters", e.v[IN_K]);
     else
         ok = scene_edit(&sh->calc.scene, apply, &e, lx->error);
