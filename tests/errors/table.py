@@ -8,6 +8,15 @@ import harness
 SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
 
 
+# what entries read, beside them
+FILES = {"gap.csv": "r [mm],f [um]\n0,0\n1,1\n2,4\n", "loop.csv": "dx [um],Fx [N]\n0,0\n0.1,5\n0.2,8\n0.3,11\n",
+         "loss.csv": "F [N],y [uJ]\n5,0.01\n10,0.08\n15,0.25\n", "ambiguous.csv": "F [N],dW [uJ]\n5,0.01\n10,0.08\n",
+         "modulus.csv": "F [N],E0\n1,2\n2,3\n3,4\n", "both.csv": "FN [N],Fx [N],dz [um],dx [um]\n1,0,1,0\n",
+         "unitless.csv": "FN [N],Fx\n100,0\n100,5\n", "dx.csv": "dx,Fx [N]\n0,0\n1,5\n",
+         "zero.csv": "FN [N],Fx [N]\n0,0\n100,5\n", "slide.csv": "FN [N],Fx [N]\n100,0\n100,50\n",
+         "word.csv": "FN [N],Fx [N]\n100,0\n100,xx\n"}
+
+
 def entries(text):
     for block in text.split("\n\n"):
         lines = [line for line in block.splitlines() if not line.startswith("#")]
@@ -50,6 +59,9 @@ def check(tests, statements, out, errors):
 
 
 def run(tests):
+    for name, text in FILES.items():
+        with open(os.path.join(tests.dir, name), "w", encoding="ascii") as f:
+            f.write(text)
     path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "errors.txt")
     with open(path, encoding="utf-8") as f:
         tests.each([lambda e=entry: check(tests, *e) for entry in entries(f.read())])
