@@ -166,8 +166,11 @@ scenes: deps-check
 # Every allocation and every system call of every kind of statement fails once. The table is kept in git.
 faults: deps-check
 	@$(MAKE) --no-print-directory -s $(B)/fret $(B)/tests/faults.so $(B)/tests/calls
-	@python3 tests/fuzz/faults.py $(B)/fret $(B)/tests > $(B)/faults.txt; \
-	  status=$$?; mv $(B)/faults.txt tests/hard/faults.txt; tail -n 2 tests/hard/faults.txt; exit $$status
+	@$(MAKE) --no-print-directory -s B=build/leaks OPT='-O1 -g -fsanitize=leak' build/leaks/fret
+	@mkdir -p build/leaks/tests && $(CC) -DLEAKS -O1 -g -fPIC -shared -o build/leaks/tests/faults.so tests/fuzz/faults.c
+	@(python3 tests/fuzz/faults.py $(B)/fret $(B)/tests; status=$$?; \
+	  python3 tests/fuzz/faults.py --leaks build/leaks/fret build/leaks/tests && exit $$status) > $(B)/faults.txt; \
+	  status=$$?; mv $(B)/faults.txt tests/hard/faults.txt; tail -n 3 tests/hard/faults.txt; exit $$status
 
 # Lines and branches that the tests reach.
 coverage: deps-check

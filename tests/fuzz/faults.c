@@ -1,21 +1,82 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Loaded before the C library: lets one allocation fail. Counting begins when a file named `arm` is closed
  * and ends when one named `disarm` is opened; FAULT=n fails the n-th, and FAULT_COUNT names a file for how
- * many there were. For glibc. */
+ * many there were. For glibc; with LEAKS the next library's functions allocate, which may be a leak detector's. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#ifdef LEAKS
+#include <dlfcn.h>
+
+static _Alignas(16) char early[4096]; /* for dlsym, which allocates */
+static size_t used;
+static int asking;
+static struct {
+    void *(*malloc)(size_t), *(*calloc)(size_t, size_t), *(*realloc)(void *, size_t), *(*aligned)(size_t, size_t);
+    void (*free)(void *);
+} next;
+
+/* All at once: dlsym frees, too. */
+static int ready(void) {
+    static const char *const names[] = {"malloc", "calloc", "realloc", "aligned_alloc", "free"};
+    void *found[5];
+    if (!next.free && !asking) {
+        asking = 1;
+        for (int i = 0; i < 5; i++)
+            found[i] = dlsym(RTLD_NEXT, names[i]);
+        memcpy(&next, found, sizeof next);
+        asking = 0;
+    }
+    return !asking;
+}
+
+static void *begin(size_t size) {
+    void *p = early + used;
+    used += (size + 15) / 16 * 16;
+    return used <= sizeof early ? p : NULL;
+}
+
+static int is_early(const void *p) {
+    return (uintptr_t)p - (uintptr_t)early < sizeof early;
+}
+
+static void *__libc_malloc(size_t size) {
+    return ready() ? next.malloc(size) : begin(size);
+}
+
+static void *__libc_calloc(size_t count, size_t size) {
+    return ready() ? next.calloc(count, size) : begin(count * size);
+}
+
+static void *__libc_realloc(void *old, size_t size) {
+    if (ready() && !is_early(old))
+        return next.realloc(old, size);
+    void *p = __libc_malloc(size);
+    return p && old ? memcpy(p, old, size) : p;
+}
+
+static void *__libc_memalign(size_t alignment, size_t size) {
+    return ready() ? next.aligned(alignment, size) : NULL;
+}
+
+void free(void *p) {
+    if (ready() && !is_early(p))
+        next.free(p);
+}
+#else
 extern void *__libc_malloc(size_t size);
 extern void *__libc_calloc(size_t count, size_t size);
 extern void *__libc_realloc(void *old, size_t size);
 extern void *__libc_memalign(size_t alignment, size_t size);
+#endif
 
 static int armed, arming = -1;
 static long seen, wanted;

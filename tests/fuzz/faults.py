@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What fails once, at every place where it can: memory that runs out, and system calls. A statement then ends with the
 right answer, or with an error that says so and the scene and its files as before. `faults.py FRET TESTS [STATEMENT...]`
-tries them all and prints a table, the tests some; TESTS is the folder with faults.so and calls."""
+tries them all and prints a table, the tests some; TESTS is the folder with faults.so and calls.
+`faults.py --leaks FRET TESTS [STATEMENT...]`: does memory that runs out leave any of it behind? Both built for a leak detector."""
 import difflib
 import errno
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -270,6 +272,43 @@ def attempt(one, kind, most=0):
     return ends, wrong
 
 
+def leaks(one):
+    """[injected, clean, GSL's own], and [(fault, report)] of what is left behind."""
+    right, counts, wrong = one.reference(ALLOCATION), [0, 0, 0], []
+    for fault in [(None, 0, 0), *allocations(right[4])]:
+        report = one.run(fault)[2].partition("LeakSanitizer: ")[2]
+        counts[0] += 1
+        if not report:
+            counts[1] += 1
+        elif all(map(left_by_gsl, re.split(r"(?=^\w+ leak of )", report, flags=re.M)[1:])):
+            counts[2] += 1
+        else:
+            wrong.append((fault, report))
+    return counts, wrong
+
+
+def left_by_gsl(leak):
+    """GSL's constructors leave behind what they had when they can have no more: a matrix its head, a solver its parts."""
+    makers = set(re.findall(r" in (gsl_\w+_c?alloc) ", leak))
+    return (not makers <= {"gsl_%s_%s" % (what, how) for what in ("block", "vector", "matrix") for how in ("alloc", "calloc")}
+            or ("gsl_matrix_alloc" in makers and leak.startswith("Direct leak of 48 byte(s) in 1 object")))
+
+
+def leak_campaign(fret, tests, only):
+    env = {"PATH": os.environ["PATH"], "LC_ALL": "C", "TERM": "dumb", "LSAN_OPTIONS": "fast_unwind_on_malloc=0"}
+    chosen = [one for one in statements(fret, tests, env) if not only or one.statement in only]
+    total, failed = [0, 0, 0], 0
+    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+        for one, (counts, wrong) in zip(chosen, pool.map(leaks, chosen)):
+            total = [a + b for a, b in zip(total, counts)]
+            failed += len(wrong)
+            for fault, report in wrong[:3]:
+                print("FAILED %s: %s: %s" % (one.statement[:60], told(fault), report), file=sys.stderr, flush=True)
+    print("# %d allocations failed under a leak detector: %d left nothing behind, %d what GSL's constructors leave, %d more"
+          % (*total, failed))
+    return 1 if failed else 0
+
+
 def can_filter(tests):
     """May system calls be filtered here?"""
     tool = os.path.join(tests, "calls")
@@ -309,4 +348,6 @@ def campaign(fret, tests, only):
 
 
 if __name__ == "__main__":
+    if sys.argv[1] == "--leaks":
+        sys.exit(leak_campaign(os.path.abspath(sys.argv[2]), os.path.abspath(sys.argv[3]), sys.argv[4:]))
     sys.exit(campaign(os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), sys.argv[3:]))
