@@ -94,7 +94,7 @@ static fret_status slip_zone_make(const fret_contact *c, const fret_loading *pea
         s.outer = press->a - s.start;
         s.inner = fmaxl(peak->c - s.start, 0);
         s.g_outer = fret_gap_profile(&normal->gap, &normal->rule, s.outer).g;
-        s.g_inner = s.inner > 0 ? fret_gap_profile(&normal->gap, &normal->rule, s.inner).g : 0;
+        s.g_inner = s.g_outer * (1 - x); /* near a flat end g grows within less than a digit of the radius */
         s.by_rows = fret_gap_has_rows(&normal->gap) && has_rows(&s);
     }
     *out = s;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Loaded before the C library: lets one allocation fail. Counting begins when a file named `arm` is closed
  * and ends when one named `disarm` is opened; FAULT=n fails the n-th, and FAULT_COUNT names a file for how
- * many there were. For glibc; with LEAKS the next library's functions allocate, which may be a leak detector's. */
+ * many there were. For glibc; with LEAKS the next library's functions allocate, which may be a leak
+ * detector's. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -20,7 +21,8 @@ static _Alignas(16) char early[4096]; /* for dlsym, which allocates */
 static size_t used;
 static int asking;
 static struct {
-    void *(*malloc)(size_t), *(*calloc)(size_t, size_t), *(*realloc)(void *, size_t), *(*aligned)(size_t, size_t);
+    void *(*malloc)(size_t), *(*calloc)(size_t, size_t), *(*realloc)(void *, size_t),
+        *(*aligned)(size_t, size_t);
     void (*free)(void *);
 } next;
 
