@@ -277,30 +277,39 @@ void print_values(const settings *set, FILE *to, const column *columns, const lo
 
 /* ---- tables ------------------------------------------------------------------------------------ */
 
-enum { TABLE_HELD = 200 };
+enum { TABLE_HELD = 2000 };
 
-/* The middle, in decades, of the magnitudes that a column holds; what is 1e-6 of the largest is as good as 0.
- */
-static long double middle(const table *t, size_t i) {
+/* The unit that suits magnitudes: its prefix fits their middle in decades, but one that would leave five
+ * digits before the point of the largest gives way to one that fits that. What is 1e-6 of the largest is as
+ * good as 0. */
+static long double suitable(dim d, const long double *v, size_t count, size_t stride, int digits,
+                            char unit_text[COLUMN_UNIT]) {
     long double most = 0, least = INFINITY;
-    for (int pass = 0; pass < 2; pass++)
-        for (size_t row = 0; row < t->rows; row++) {
-            const long double v = fabsl(t->held[row * (t->count + 1) + i]);
-            if (isfinite(v) && pass == 0)
-                most = fmaxl(most, v);
-            else if (isfinite(v) && v > 1e-6L * most)
-                least = fminl(least, v);
-        }
-    return most > 0 ? sqrtl(least) * sqrtl(most) : 0;
+    for (size_t i = 0; i < count; i++)
+        if (isfinite(v[i * stride]))
+            most = fmaxl(most, fabsl(v[i * stride]));
+    for (size_t i = 0; i < count; i++) {
+        const long double size = fabsl(v[i * stride]);
+        if (isfinite(size) && size > 1e-6L * most)
+            least = fminl(least, size);
+    }
+    const long double middle = most > 0 ? sqrtl(least) * sqrtl(most) : 0;
+    const long double scale = unit_choose(d, middle, digits, unit_text, COLUMN_UNIT);
+    return most < 1e4L * scale ? scale : unit_choose(d, most, digits, unit_text, COLUMN_UNIT);
 }
 
-/* The unit of a text column: the one that was asked for, or one with the prefix that suits what is held. */
+void column_suit(column *c, const long double *v, size_t count, size_t stride, int digits) {
+    if (!c->chosen)
+        c->scale = suitable(c->d, v, count, stride, digits, c->unit);
+}
+
+/* The unit of a text column: the one that was asked for, or one that suits what is held. */
 static void choose_unit(table *t, size_t i, char unit_text[COLUMN_UNIT]) {
     const column *c = &t->columns[i];
     t->scale[i] = c->scale;
     snprintf(unit_text, COLUMN_UNIT, "%s", c->unit);
     if (!c->chosen)
-        t->scale[i] = unit_choose(c->d, middle(t, i), t->set->digits, unit_text, COLUMN_UNIT);
+        t->scale[i] = suitable(c->d, t->held + i, t->rows, t->count + 1, t->set->digits, unit_text);
 }
 
 /* As wide as a number with its digits, or as the name. */

@@ -23,6 +23,8 @@ typedef struct column {
 char *column_name(const char *text, size_t len);
 /* In SI. False: out of memory. */
 bool column_si(column *c, const char *name, dim d);
+/* In text: a unit that suits `count` values, each `stride` after the last; the one asked for stays. */
+void column_suit(column *c, const long double *v, size_t count, size_t stride, int digits);
 /* Names that stand twice are told apart, as `x` and `x (2)`. False: out of memory. */
 bool columns_distinct(column *c, size_t count);
 void columns_free(column *c, size_t count);

@@ -153,16 +153,18 @@ static bool keep_row(void *context, const sweep *s, size_t curve, long double x,
 }
 
 /* One expression: the first name downward, the second across. */
-static bool print_matrix(shell *sh, FILE *to, const matrix *m, size_t i, const column *c) {
+static bool print_matrix(shell *sh, FILE *to, const matrix *m, size_t i, column *c) {
     const size_t rows = m->g->a.steps + 1, across = m->g->b.steps + 1;
     column columns[COLUMNS] = {{.name = NULL}};
     char head[200], number[120];
     bool ok = column_si(&columns[0], m->g->a.var.text, m->g->a.var.d);
+    column_suit(c, m->value + i, rows * across, m->count, sh->set.digits);
     for (size_t j = 0; ok && j < across; j++) {
         format_value(&sh->set, (value){m->b[j], m->g->b.var.d}, number, sizeof number);
         snprintf(head, sizeof head, "%s = %s", m->g->b.var.text, number);
         ok = column_si(&columns[j + 1], head, DIM_NONE);
         columns[j + 1].scale = c->scale;
+        columns[j + 1].chosen = true; /* the heading tells the unit */
     }
     table t = {.set = &sh->set, .to = to, .format = FORMAT_TEXT, .count = across + 1, .columns = columns};
     ok = ok && table_begin(&t);

@@ -156,6 +156,9 @@ def maps(tests):
                 [["x*y"], ["x", "y", "=", "1", "y", "=", "2"], ["1", "1", "2"], ["2", "2", "4"], ["3", "3", "6"], [],
                  ["x+y"], ["x", "y", "=", "1", "y", "=", "2"], ["1", "2", "3"], ["2", "3", "4"], ["3", "4", "5"]],
                 tests.report(done))
+    done = tests.run("-c", SCENE + "table x^4*1e-12*FN*a0 for x = 1 .. 1000 steps 999")
+    tests.check("the prefix suits all rows", done.stdout.split()[:4] == ["x", "x^4*1e-12*FN*a0", "[mJ]", "1"],
+                done.stdout[:200])
     done = tests.run("--format=csv", "-c", SCENE + "table x*y for x = 1 .. 2 steps 1 for y = 1 .. 2 steps 1")
     tests.check("a matrix as CSV is long", done.stdout.endswith("x,y,x*y\n1,1,1\n2,1,2\n1,2,2\n2,2,4\n"), tests.report(done))
     fails(tests, "table x*y for x = 1 .. 2 for y = 1 .. 2 steps 100", "a matrix as text has at most")
