@@ -133,7 +133,10 @@ static bool name_allowed(calc *c, lexer *lx, assignment *a) {
     if (a->q && !quantity_is_input(a->q) && !strcmp(a->q->name, "E"))
         return lex_fail(lx, "E(z) is the modulus at a depth; the input is E0");
     if (a->q && !quantity_is_input(a->q))
-        return lex_fail(lx, "%s is a result: it follows from the inputs and the load", a->q->name);
+        return lex_fail(lx,
+                        quantity_has_value(a->q) ? "%s is a result: it follows from the inputs and the load"
+                                                 : "%s is a function of the scene: %s",
+                        a->q->name, a->q->title);
     if (!a->q && taken)
         return lex_fail(lx, "'%.*s' is %s: it cannot be a variable", LEX_WORD(lx), taken);
     if (a->q && !calc_takes(c, quantity_input(a->q), lx->error)) {

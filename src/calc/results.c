@@ -82,6 +82,9 @@ bool foundation_of(scene *s, fret_foundation *out, calc_error *error) {
 
 bool get_kappa(scene *s, long double *out, calc_error *error) {
     long double n = 0, k = 0;
+    if (s->in.geometry && !s->in.geometry->power)
+        return calc_fail(error, 0, 0, "kappa is the factor of a gap of a single power, not of geometry %s",
+                         s->in.geometry->name);
     if (!scene_get(s, IN_N, &n, error) || !scene_get(s, IN_K, &k, error))
         return false;
     s->used |= USED(MODEL_CLOSED);

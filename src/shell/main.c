@@ -32,7 +32,7 @@ static const char usage[] =
     "  --quiet             no banner\n"
     "  --no-rc             do not read the start-up file\n"
     "  --color=WHEN        auto, always or never\n"
-    "  --version, --help\n\n"
+    "  --version, --help, -h\n\n"
     "  exit status: 0 fine, 1 an error, 2 wrong usage, 130 interrupted\n";
 
 /* ---- signals ----------------------------------------------------------------------------------- */
@@ -195,6 +195,7 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
                *study_library ? ")" : "");
         w->done = true;
         return EXIT_OK;
+    case 'h':
     case OPT_HELP:
         fputs(usage, stdout);
         w->done = true;
@@ -209,7 +210,7 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
 static int read_options(int argc, char **argv, wishes *w, settings *set) {
     int status = EXIT_OK, opt;
     opterr = 0;
-    while (status == EXIT_OK && !w->done && (opt = getopt_long(argc, argv, ":f:c:", options, NULL)) >= 0)
+    while (status == EXIT_OK && !w->done && (opt = getopt_long(argc, argv, ":f:c:h", options, NULL)) >= 0)
         status = take_option(opt, w, set, argv);
     for (int i = optind; i < argc && !w->done && status == EXIT_OK; i++)
         w->jobs[w->count++] = (job){false, argv[i]};

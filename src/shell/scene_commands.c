@@ -330,6 +330,8 @@ static bool put_radii(lexer *lx, edit *e, const arg_value *R1, const arg_value *
 static bool put_angle(lexer *lx, edit *e, const arg_value *angle) {
     if (!(angle->v.v > 0 && angle->v.v < 1.5707963267948966 /* 90 deg as a double */))
         return calc_fail(lx->error, angle->value_at, angle->value_len, "angle must lie between 0 and 90 deg");
+    if (e->has[IN_SLOPE])
+        return calc_fail(lx->error, angle->at, angle->len, "give either slope or angle");
     put(e, IN_SLOPE, fret_sin(angle->v.v) / fret_cos(angle->v.v));
     return true;
 }

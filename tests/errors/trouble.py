@@ -31,6 +31,7 @@ def usage(tests):
         expect(tests, "usage: " + " ".join(args), tests.run(*args), 2, "", err)
     expect(tests, "--version", tests.run("--version"), 0, "fret ")
     expect(tests, "--help", tests.run("--help"), 0, "usage: fret")
+    expect(tests, "-h", tests.run("-h"), 0, "usage: fret")
 
 
 def files(tests):
