@@ -202,17 +202,33 @@ static bool uses_columns(const shell *sh, const fit_question *q) {
     return false;
 }
 
+/* A name that is unknown because something is wrong in its column. */
+static bool read_side(shell *sh, lexer *lx, const csv *data, expr *e) {
+    char name[CSV_NAME];
+    calc_error wrong, *error = lx->error;
+    if (expr_parse_at(&sh->calc, lx, e))
+        return true;
+    error_clear(&wrong);
+    snprintf(name, sizeof name, "%.*s", (int)(error->len < sizeof name ? error->len : 0),
+             lx->text + error->at);
+    if (csv_has(data, name) && !csv_column(data, name, &wrong)) {
+        calc_place(&wrong, error->at, error->len);
+        *error = wrong;
+    }
+    return false;
+}
+
 static bool read_equation(shell *sh, lexer *lx, fit_question *q, csv *data, range_names *names) {
     char name[ARG_FILE_NAME];
     if (!file_ahead(lx, name))
         return lex_fail(lx, "expected EXPR = EXPR to FILE.csv");
     if (!csv_read(name, &shell_stop, data, lx->error) || !read_columns(sh, data, q, names, lx->error) ||
-        !expr_parse_at(&sh->calc, lx, &sh->list[0]))
+        !read_side(sh, lx, data, &sh->list[0]))
         return false;
     if (lx->kind != T_ASSIGN)
         return lex_fail(lx, "expected = EXPR");
     lex_next(lx);
-    if (!expr_parse_at(&sh->calc, lx, &sh->list[1]))
+    if (!read_side(sh, lx, data, &sh->list[1]))
         return false;
     q->left = &sh->list[0];
     q->right = &sh->list[1];

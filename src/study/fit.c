@@ -426,8 +426,8 @@ static int drive(const state *s, gsl_multifit_nlinear_workspace *w) {
         const int step = gsl_multifit_nlinear_iterate(w);
         if (s->q.error->raised)
             return GSL_EFAILED;
-        if (step == GSL_ENOPROG && i == 0) /* later it may have arrived */
-            return GSL_EMAXITER;
+        if (step == GSL_ENOPROG && i == 0) /* later it may have arrived; it began there if nothing is left */
+            return gsl_blas_dnrm2(gsl_multifit_nlinear_residual(w)) > 0 ? GSL_EMAXITER : GSL_SUCCESS;
         status = gsl_multifit_nlinear_test(1e-10, 1e-10, 0, &info, w);
     }
     const bool arrived =

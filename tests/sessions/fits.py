@@ -154,7 +154,113 @@ def many_rows(tests):
     tests.check("fit: many rows", event and abs(values["mu"] - 0.35) < 1e-3 and event["rows"] > 6000, tests.report(done))
 
 
+STRAIGHT = ((1, 2), (2, 4), (3, 6), (4, 8), (5, 10.5))
+
+
+def straight_lines(tests):
+    """Against the normal equations: a slope, and a slope with an offset from 0; and data that are met exactly."""
+    name = write(tests, "line.csv", "u,y [mm]", STRAIGHT)
+    exact = write(tests, "exact.csv", "u,y", STRAIGHT[:4])
+    n, u, y = 5, [row[0] for row in STRAIGHT], [1e-3 * row[1] for row in STRAIGHT]
+    uu, uy = sum(a * a for a in u), sum(a * b for a, b in zip(u, y))
+    slope = uy / uu
+    rest = sum((b - slope * a) ** 2 for a, b in zip(u, y))
+    for start in ("1 mm", "0 mm"):
+        values, event, done = answers(tests, "s = %s; fit s for y = s*u to %s" % (start, name))
+        tests.check("fit: a slope from " + start, event and abs(values["s"] / slope - 1) < 1e-9
+                    and abs(event["deviation"]["s"] / math.sqrt(rest / (n - 1) / uu) - 1) < 1e-6
+                    and abs(event["rms"] / math.sqrt(rest / n) - 1) < 1e-9, tests.report(done))
+    number, _, done = answers(tests, "s = 0; fit s for y = s*u*(1 mm) to " + name)
+    tests.check("fit: a number from 0 for a length", abs(1e-3 * number.get("s", 0) / slope - 1) < 1e-9, tests.report(done))
+    mean = sum(u) / n
+    bent = uu - n * mean * mean
+    with_offset = (uy - mean * sum(y)) / bent
+    values, event, done = answers(tests, "s = 1 mm; off = 0 mm; fit s, off for y = s*u + off to " + name)
+    tests.check("fit: a slope and an offset", event and abs(values["s"] / with_offset - 1) < 1e-8
+                and abs(values["off"] - (sum(y) / n - with_offset * mean)) < 1e-11
+                and abs(event["correlation"]["s,off"] + mean * math.sqrt(n / uu)) < 1e-6, tests.report(done))
+    for way in ("", " robust"):
+        values, event, done = answers(tests, "s = 2; fit s for y = s*u to " + exact + way)
+        tests.check("fit: begun where it ends" + way, event and values["s"] == 2 and event["rms"] == 0
+                    and event["deviation"]["s"] == 0, tests.report(done))
+    done = tests.run("--format=csv", "-c", "s = 1 mm; fit s for y = s*u to " + name)
+    header, row = (done.stdout.splitlines() + ["", ""])[:2]
+    tests.check("fit as CSV", header == "s [m],s deviation [m]" and abs(float(row.partition(",")[0]) / slope - 1) < 1e-9,
+                tests.report(done))
+    done = tests.run("-c", "set timing on; s = 1 mm; fit s for y = s*u to %s robust" % name)
+    tests.check("fit tells its method", "method, weights after Huber" in done.stderr and "evaluations of 5 rows" in done.stderr
+                and "0 of 5 rows are far off" in done.stderr, tests.report(done))
+
+
+def loops_with_loads(tests):
+    """A loop's own load stands for the press: by F_N, and by the depth that it makes."""
+    rows = ((0, 0), (0.1, 4), (0.5, 15), (0.2, 5))
+    bare = write(tests, "bare.csv", "dx [um],Fx [N]", rows)
+    force = write(tests, "force.csv", "dx [um],Fx [N],FN [N]", [row + (100,) for row in rows])
+    steel = "material steel; geometry sphere R=10 mm; friction 0.4; "
+    want, _, done = answers(tests, steel + "press FN=100 N; fit mu along " + bare)
+    deep, _, _ = answers(tests, steel + "press FN=100 N; dz")
+    depth = write(tests, "depth.csv", "dx [um],Fx [N],dz [m]", [row + (deep.get("dz", 0),) for row in rows])
+    same_depth = "press dz=%.17g m; " % deep.get("dz", 0)
+    for what, script in (("F_N", "press FN=50 N; fit mu along " + force), ("F_N, nothing pressed", "fit mu along " + force),
+                         ("depth", "press FN=50 N; fit mu along " + depth), ("a press by depth", same_depth + "fit mu along " + bare)):
+        got, _, other = answers(tests, steel + script)
+        tests.check("fit: a loop with its own " + what, "mu" in want and abs(got.get("mu", 0) / want["mu"] - 1) < 1e-8,
+                    tests.report(done) + tests.report(other))
+
+
+def refusals(tests):
+    files = {"line": ("u,y [mm]", STRAIGHT), "exact": ("u,y", STRAIGHT[:4]), "two": ("u,y", ((1, 2), (2, 4.1))),
+             "zero": ("u,y", ((1, 0), (2, 0), (3, 0))), "neg": ("force [N],depth [um]", ((1, 2), (-3, 6), (4, 8))),
+             "fn": ("FN [mm],y", ((1, 2), (2, 4))), "along": ("dx [N],Fx [N]", ((0, 0), (1, 1))),
+             "no": ("dx [um],W", ((0, 0), (1, 1))), "down": ("dx [um],Fx [N],FN [N]", ((0, 0, 100), (0.1, 4, -3), (1, 2, 1))),
+             "bare": ("dx [um],Fx [N]", ((0, 0), (0.1, 4), (1, 2))), "res": ("dW [uJ],u", ((1, 2), (2, 3)))}
+    path = {name: write(tests, "refused-%s.csv" % name, *text) for name, text in files.items()}
+    path["bad"] = os.path.join(tests.dir, "refused-bad.csv")
+    with open(path["bad"], "w", encoding="ascii") as f:
+        f.write("u,y [mm]\n1,2\n2,x\n3,6\n")
+    scene = SETUP % (210, 0.4) + "; "
+    for script, want in (
+            ("s = 1; fit s for y = s to {line}", "the left side is a length, the right side is a number"),
+            ("s = 1; q = 1; fit s, q for y = s + q*u to {two}", "2 rows cannot determine 2 parameters"),
+            ("s = 1; q = 2; fit s, q for y = s*q*u to {exact}", "the data cannot tell s and q apart"),
+            ("s = 1; fit s for y = 1e-30*s*u to {exact}", "the data do not determine s: nothing in them depends on it"),
+            ("s = -1; fit s for y = log(s*u) to {zero}", "log is not defined there (row 1 of the data)"),
+            ("s = 1; fit s for y = s*u/(u - 2) to {exact}", "division by zero (row 2 of the data)"),
+            ("s = 1; fit s for y/(u - 2) = s to {exact}", "division by zero (row 2 of the data)"),
+            (scene + "fit E0 for depth = dz(force) to {neg}", "FN = -3 N must not be negative (row 2 of the data)"),
+            (scene + "fit mu along {down}", "FN = -3 N must not be negative (row 2 of the data)"),
+            (scene + "fit FN for y = FN/(1 N) to {fn}", "column FN is a length: it needs the unit of a force in the header"),
+            (scene + "fit mu along {along}", "column dx is a force: it needs the unit of a length in the header"),
+            (scene + "fit mu along {no}", "has no column Fx: a loop needs dx and Fx, and may have FN or dz"),
+            (scene + "fit mu along {nowhere}", "cannot read "),
+            (scene + "fit E0 for dW = u*(1 uJ) to {res}", "dW is a result of the scene and a column of the file: rename"),
+            (scene + "fit E0 for u*(1 uJ) = dW to {res}", "dW is a result of the scene and a column of the file: rename"),
+            ("material steel; geometry sphere R=10 mm; friction 0.3; fit mu along {bare}", "there is no load yet: press first"),
+            ("material steel; geometry sphere R=10 mm; press FN=1 N; fit E0 along {bare}", "mu is not set"),
+            ("friction 0.3; fit mu along {bare}", "E0 is not set"),
+            ("s = 1 mm; fit s for y = s*u to {bad}", "refused-bad.csv:3: expected a number as y, not 'x'"),
+            ("s = 1 mm; fit s for s*u = y to {bad}", "refused-bad.csv:3: expected a number as y, not 'x'"),
+            ("s = 1 mm; fit s for s*u = yy to {bad}", "unknown name 'yy'"),
+            ("s = 1; fit s for 3 = 4 to {exact}", "no column of"),
+            ("fit FN for y = u to {exact}", "FN has no value to start from"),
+            ("s := 3; fit s for y = s to {exact}", "s has no value to start from"),
+            ("s = 1; fit s, s for y = s to {exact}", "s is given twice"),
+            ("s = 1; fit s for y to {exact}", "expected = EXPR"), ("s = 1; fit s for y = s {exact}", "expected EXPR = EXPR to FILE.csv"),
+            ("s = 1; fit s to {exact}", "expected for EXPR = EXPR to FILE.csv, or along FILE.csv"),
+            ("s = 1; fit s for y = s to {exact} wobbly", "unexpected 'wobbly'"),
+            ("s = 1; fit s for y = s (3) to {exact}", "expected to FILE.csv"),
+            ("; ".join("n%d = 1" % i for i in range(9)) + "; fit " + ", ".join("n%d" % i for i in range(9)) + " for y = n1 to {exact}",
+             "more than 8 names"), ("fit 3 for y = u to {exact}", "expected a name")):
+        script = script.format(nowhere=os.path.join(tests.dir, "nowhere.csv"), **path)
+        done = tests.run("-c", script)
+        tests.check("fit refuses: " + script, done.returncode == 1 and want in done.stderr, tests.report(done))
+
+
 def run(tests):
+    straight_lines(tests)
+    loops_with_loads(tests)
+    refusals(tests)
     noisy_loops(tests, 20 if tests.sanitized else 100)
     outliers(tests)
     closed_loop(tests)
