@@ -15,7 +15,8 @@ import runner
 import faults
 
 B = "build/coverage"
-SLOW = ("hard", "packaging", "portable", "programs", "fuzz")  # build of their own, or reach nothing more
+# build of their own, or reach nothing more
+SLOW = ("hard", "packaging", "portable", "programs", "fuzz", "house")
 MARK = re.compile(r"/\* unreached: ")
 MARKED_LINE = re.compile(r"\s*/\* unreached: .*\*/$")
 
@@ -33,7 +34,15 @@ def every_fault(tests):
     tests.each([lambda s=s, k=k: one(s, k) for s in faults.statements(tests.fret, folder, env) for k in kinds])
 
 
-ROOMS = {**{name: run for name, run in runner.ROOMS.items() if name not in SLOW}, "faults": every_fault}
+def some_hard(tests):
+    """A few random scenes and histories: what they reach, not what they prove."""
+    program = os.path.join(tests.build, "tests/hard/hard")
+    if os.path.exists(program):
+        runner.counted(tests, "hard", program, "--scenes", "2000", "--steps", "20000", "--jobs", "2")
+        runner.counted(tests, "hard, diagrams", program, "--diagrams", "20000")
+
+
+ROOMS = {**{name: run for name, run in runner.ROOMS.items() if name not in SLOW}, "some hard": some_hard, "faults": every_fault}
 
 
 def build():
