@@ -7,7 +7,7 @@
 FRET_BEGIN
 
 /* The memory diagram in double, for the inner loop of a dynamics code in which normal and tangential motion
- * both change: fret_memory for power laws, twenty times as fast. At constant F_N, where it is four times as
+ * both change: fret_memory for power laws, five times as fast. At constant F_N, where it is four times as
  * fast, fret_masing does better.
  *
  * With the depth y, or the load F_N(y) ~ y^p, as first coordinate and t = int_0^y sigma dy, or

@@ -31,8 +31,10 @@ fret_status fret_memory_make(const fret_normal *normal, double mu, fret_memory *
 }
 
 void fret_memory_free(fret_memory *m) {
-    if (m)
+    if (m) {
         free(m->slices);
+        free(m->near);
+    }
     free(m);
 }
 
@@ -40,6 +42,8 @@ void fret_memory_reset(fret_memory *m) {
     m->edge[DEPTH] = m->edge[LOAD] = m->gap = m->slid = m->last_loss = 0;
     m->W = (fret_sum){0, 0};
     m->count = 0;
+    m->moves = 0;
+    m->pressed_near = false;
     m->direction = 1;
     m->held = FRET_KEEP_DX;
     m->edge_id = 1; /* 0: never computed */
@@ -65,9 +69,13 @@ fret_status fret_memory_copy(fret_memory *to, const fret_memory *from) {
         return st;
     slice *slices = to->slices;
     size_t room = to->room;
+    fret_near *near = to->near;
     *to = *from;
     to->slices = slices;
     to->room = room;
+    to->near = near;
+    if (near)
+        fret_near_move(near, from->normal);
     memcpy(slices, from->slices, from->count * sizeof *slices);
     return fret_ok();
 }
@@ -81,6 +89,18 @@ void fret_memory_forces(const fret_memory *m, fret_state *out) {
         .W = fret_sum_value(&m->W),
         .slices = m->count,
     };
+}
+
+fret_press fret_memory_pressed(const fret_memory *m) {
+    fret_press p = {.F = m->edge[LOAD],
+                    .dz = m->edge[DEPTH],
+                    .a = m->radius,
+                    .F_rest = m->edge_rest[LOAD],
+                    .dz_rest = m->edge_rest[DEPTH]};
+    if (m->pressed_near) /* what was pressed near can be pressed */
+        (void)(m->told_by == FRET_TO_FORCE ? fret_press_by_force(m->normal, m->told, &p)
+                                           : fret_press_by_depth(m->normal, m->told, &p));
+    return p;
 }
 
 /* U = mu^2 eta/2 int v^2 dK with v the sum of sigma from the edge: from the centre outwards, a slice of
@@ -104,7 +124,7 @@ void fret_memory_state(const fret_memory *m, fret_state *out) {
         return;
     const slice *top = &m->slices[m->count - 1];
     out->U = stored(m);
-    out->a = m->radius;
+    out->a = fret_memory_pressed(m).a;
     out->kn = fret_normal_stiffness(m->normal, out->a);
     out->c = out->a;
     if (fabsl(top->sigma) >= 1)
@@ -142,7 +162,7 @@ int fret_memory_segment(const fret_memory *m, size_t i, fret_segment *out) {
 /* The depth of the spring at distance |x|; false where none is in contact. */
 static bool spring_at(const fret_memory *m, fret_real x, fret_real *y) {
     const fret_real r = fabsl(x);
-    if (!m->count || r >= m->radius)
+    if (!m->count || (!m->pressed_near && r >= m->radius))
         return false;
     const fret_real g = fret_normal_profile(m->normal, r);
     *y = g > m->edge[DEPTH] ? m->edge[DEPTH] : g; /* by rounding; NaN stays */

@@ -23,17 +23,25 @@ struct fret_memory {
     fret_real edge[2];            /* delta_z and F_N; 0, 0 when open */
     double edge_rest[2];          /* what does not fit in them */
     fret_real radius;             /* of the edge */
-    fret_real gap;                /* distance of the open bodies, >= 0 */
-    unsigned long edge_id;        /* changes with the edge */
-    fret_real slid;               /* delta_x - mu eta int sigma dy: what gross slip has carried along */
-    int direction;                /* of the last tangential motion */
-    fret_tangential_target held;  /* where it ended: goal is F_x or delta_x exactly; FRET_KEEP_DX: neither */
+    bool pressed_near;            /* by `near`: rest and radius are not known, */
+    fret_normal_target told_by;   /* but follow from what the edge was told by */
+    double told;
+    unsigned moves;  /* of the edge, so far */
+    fret_near *near; /* or NULL; in use after some moves, so that no digit depends on whether it is there */
+    fret_real gap;   /* distance of the open bodies, >= 0 */
+    unsigned long edge_id;       /* changes with the edge */
+    fret_real slid;              /* delta_x - mu eta int sigma dy: what gross slip has carried along */
+    int direction;               /* of the last tangential motion */
+    fret_tangential_target held; /* where it ended: goal is F_x or delta_x exactly; FRET_KEEP_DX: neither */
     double goal;
     fret_sum W;
     fret_real last_loss;
     size_t count, room;
     slice *slices; /* innermost first */
 };
+
+/* The edge with its radius, and all digits. */
+fret_press fret_memory_pressed(const fret_memory *memory);
 
 /* Room for `count` slices. Error: FRET_NO_MEMORY. */
 fret_status fret_memory_reserve(fret_memory *memory, size_t count);

@@ -1,11 +1,41 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One straight step of the memory diagram: slip at constant load, growth, retreat of the edge, and the energy
- * that each dissipates. Touches the slices and sums of its contact alone. */
+ * that each dissipates. Touches the slices and sums of its contact, and the
+ * places of its law, alone. */
 #include <float.h>
+#include <stdlib.h>
 
 #include "contact/check.h"
 #include "contact/memory.h"
 #include "number/quadrature.h"
+
+/* libm's are calls. */
+static inline fret_real greater(fret_real a, fret_real b) {
+    return a > b ? a : b;
+}
+
+/* After so many moves of the edge there will be more: places of the law are kept. */
+enum { MANY_MOVES = 8 };
+
+static fret_near *near_of(const fret_memory *m) {
+    return m->moves >= MANY_MOVES ? m->near : NULL;
+}
+
+/* The other coordinate of a place. */
+static fret_real other_of(const fret_memory *m, coordinate by, fret_real y) {
+    const fret_real v = near_of(m) ? fret_near_value(m->near, by, y) : (fret_real)NAN;
+    return v > 0 ? v : by == DEPTH ? fret_law_force(m->normal, y) : fret_law_depth(m->normal, y);
+}
+
+/* What the edge leaves out. */
+static double edge_rest(const fret_memory *m, coordinate by, fret_real edge) {
+    if (!m->pressed_near)
+        return m->edge_rest[by];
+    if ((m->told_by == FRET_TO_FORCE) == (by == LOAD))
+        return 0; /* it was told so */
+    const fret_press p = fret_memory_pressed(m);
+    return (double)(by == LOAD ? (p.F - edge) + p.F_rest : (p.dz - edge) + p.dz_rest);
+}
 
 static void resum_top(fret_memory *m) {
     slice *top = &m->slices[m->count - 1];
@@ -78,10 +108,10 @@ static void keep_inner(fret_memory *m, coordinate by, fret_real s, double goal, 
     const fret_level edge = {m->edge[DEPTH], m->edge[LOAD]};
     slice *only = &m->slices[0];
     const dd scale = by == LOAD ? dd_of(m->mu) : dd_mul_d(m->normal->wide_foundation.eta, m->mu);
-    const dd bound = dd_mul(scale, dd_from2(m->edge[by], m->edge_rest[by]));
+    const dd bound = dd_mul(scale, dd_from2(m->edge[by], edge_rest(m, by, m->edge[by])));
     const dd at = by == LOAD ? dd_of(goal) : dd_sub(dd_of(goal), dd_from(m->slid));
     const dd left = dd_div(s < 0 ? dd_add(bound, at) : dd_sub(bound, at), scale);
-    const fret_real inner = fmaxl(dd_value(left) / (1 - s * only->sigma), 0);
+    const fret_real inner = greater(dd_value(left) / (1 - s * only->sigma), 0);
     only->thick[by] = inner;
     eaten[by] = m->edge[by] - inner;
     if (by == DEPTH) {
@@ -98,9 +128,9 @@ static void keep_inner(fret_memory *m, coordinate by, fret_real s, double goal, 
 static fret_real core_load(const fret_memory *m, fret_real s, double goal, fret_real edge, fret_real load) {
     if (m->slices[0].sigma * s >= 1 || 8 * load > edge)
         return load;
-    const dd bound = dd_mul_d(dd_from2(edge, m->edge_rest[LOAD]), m->mu);
+    const dd bound = dd_mul_d(dd_from2(edge, edge_rest(m, LOAD, edge)), m->mu);
     const dd left = s < 0 ? dd_add_d(bound, goal) : dd_add_d(bound, -goal);
-    return fmaxl(dd_value(dd_div(left, dd_of(m->mu))) / (1 - s * m->slices[0].sigma), 0);
+    return greater(dd_value(dd_div(left, dd_of(m->mu))) / (1 - s * m->slices[0].sigma), 0);
 }
 
 /* The front of a slip zone of sign s at constant normal load: the zone eats inwards from the edge. */
@@ -199,14 +229,33 @@ static fret_real slip_inwards(fret_memory *m, coordinate by, fret_real drive, do
     return loss;
 }
 
+/* A place of edge or front in a phase; other: in the other coordinate, < 0 where it is not known. */
+typedef struct place {
+    fret_real at, other;
+} place;
+
 /* A phase of the front with the gain 1 - s sigma. */
-static fret_real phase_loss(const fret_memory *m, coordinate by, fret_real gain, fret_real edge0,
-                            fret_real edge1, fret_real front0, fret_real front1) {
-    return gain * fret_phase_loss(&(fret_phase){m->normal, by, edge0, edge1, front0, front1});
+static fret_real phase_loss(const fret_memory *m, coordinate by, fret_real gain, const place edge[2],
+                            const place front[2]) {
+    return gain * fret_phase_loss(&(fret_phase){.normal = m->normal,
+                                                .by = by,
+                                                .edge0 = edge[0].at,
+                                                .edge1 = edge[1].at,
+                                                .front0 = front[0].at,
+                                                .front1 = front[1].at,
+                                                .near = near_of(m),
+                                                .edge_v = {edge[0].other, edge[1].other},
+                                                .front_v = {front[0].other, front[1].other}});
 }
 
-/* After a phase only the coordinate of the step is up to date in the two outermost slices. */
-static void convert_top(fret_memory *m, coordinate by) {
+/* Gross slip while the edge moves. */
+static fret_real gross_force(const fret_memory *m, coordinate by, fret_real from, fret_real to) {
+    return fret_phase_force(&(fret_phase){.normal = m->normal, .by = by, .edge0 = from, .edge1 = to});
+}
+
+/* After a phase only the coordinate of the step is up to date in the two outermost slices. inner: the other
+ * one of the outermost, < 0 where it is not known. */
+static void convert_top(fret_memory *m, coordinate by, fret_real inner) {
     const coordinate other = by == DEPTH ? LOAD : DEPTH;
     fret_real outer = m->edge[other];
     size_t first = m->count > 2 ? m->count - 2 : 0;
@@ -215,9 +264,8 @@ static void convert_top(fret_memory *m, coordinate by) {
         if (i == 0)
             sl->inner[other] = 0;
         else if (i == m->count - 1)
-            sl->inner[other] = by == DEPTH ? fret_law_force(m->normal, sl->inner[by])
-                                           : fret_law_depth(m->normal, sl->inner[by]);
-        sl->thick[other] = fmaxl(outer - sl->inner[other], 0);
+            sl->inner[other] = inner >= 0 ? inner : other_of(m, by, sl->inner[by]);
+        sl->thick[other] = greater(outer - sl->inner[other], 0);
         outer = sl->inner[other];
     }
     size_t count = m->count;
@@ -230,42 +278,48 @@ static void convert_top(fret_memory *m, coordinate by) {
 /* Slip front of sign s moving inwards over `reach` units of drive surplus while the edge grows. */
 static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
                                double goal) {
+    const coordinate other = by == DEPTH ? LOAD : DEPTH;
     fret_real s = drive < 0 ? -1 : 1, growth = edge[by] - m->edge[by];
     fret_real e = fabsl(drive) - growth, surplus = e, old = m->edge[by], loss = 0;
-    fret_real front = old, snap = 1e-17L * edge[by];
+    const fret_real snap = 1e-17L * edge[by];
+    place way[2] = {{old, m->edge[other]}, {edge[by], edge[other]}}, front[2] = {way[0], way[0]};
     while (m->count && e > 0) {
         slice *top = &m->slices[m->count - 1];
-        fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by], before = front, e0 = e;
+        fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by];
+        front[0] = front[1];
         if (cap - e <= snap && cap - e <= 1e-6L * cap) {
             e = cap < e ? e - cap : 0;
-            front = m->count > 1 ? top->inner[by] : 0;
+            front[1] = m->count > 1 ? (place){top->inner[by], top->inner[other]} : (place){0, 0};
             m->count--;
         } else {
             const fret_real part = e / gain;
-            front -= part;
+            front[1].at -= part;
             top->thick[by] -= part;
             if (m->count == 1 && by == LOAD)
-                top->thick[LOAD] = front = core_load(m, s, goal, edge[LOAD], front);
+                top->thick[LOAD] = front[1].at = core_load(m, s, goal, edge[LOAD], front[1].at);
+            front[1].other = other_of(m, by, front[1].at);
             e = 0;
         }
+        way[1] = e > 0 ? (place){old + growth * (surplus - e) / surplus, -1} : (place){edge[by], edge[other]};
         if (gain > 0)
-            loss += phase_loss(m, by, gain, old + growth * (surplus - e0) / surplus,
-                               old + growth * (surplus - e) / surplus, before, front);
+            loss += phase_loss(m, by, gain, way, front);
+        way[0] = way[1];
     }
     if (e > 0 && by == DEPTH) {
         const fret_real from = old + growth * (surplus - e) / surplus;
-        loss += e * fret_phase_force(&(fret_phase){m->normal, by, from, edge[by], 0, 0});
+        loss += e * gross_force(m, by, from, edge[by]);
         m->slid += s * m->mu_eta * e;
     }
     if (!m->count)
-        front = 0;
+        front[1] = (place){0, 0};
     m->edge[DEPTH] = edge[DEPTH];
     m->edge[LOAD] = edge[LOAD];
     fret_real thick[2] = {0, 0}, inner[2] = {0, 0};
-    thick[by] = edge[by] - front;
-    inner[by] = front;
+    thick[by] = edge[by] - front[1].at;
+    inner[by] = front[1].at;
+    const size_t count = m->count;
     push(m, thick, inner, s, 0);
-    convert_top(m, by);
+    convert_top(m, by, m->count > count ? front[1].other : -1);
     return loss;
 }
 
@@ -274,19 +328,25 @@ static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real ed
  * (s rate + 1)/(1 - s sigma); a front slower than the edge is overtaken, and the next slope decides anew. */
 typedef struct retreat {
     coordinate by;
-    fret_real rate;        /* drive per unit of retreat */
-    fret_real z, left, to; /* the edge now, what it has to go, and where to */
-    double goal;           /* F_x at the end, by force */
+    fret_real rate;  /* drive per unit of retreat */
+    place z, to;     /* the edge now, and where to */
+    fret_real left;  /* what it has to go */
+    fret_real front; /* the other coordinate of the front at the end, < 0 where it is not known */
+    double goal;     /* F_x at the end, by force */
 } retreat;
+
+static void retreat_by(retreat *r, fret_real t) {
+    r->left -= t;
+    r->z = r->left > 0 ? (place){r->z.at - t, -1} : r->to;
+}
 
 /* Nothing slips: the slice at the edge gets thinner. */
 static void retreat_in_stick(fret_memory *m, retreat *r) {
     slice *top = &m->slices[m->count - 1];
-    const fret_real t = fminl(r->left, top->thick[r->by]);
+    const fret_real t = -greater(-r->left, -top->thick[r->by]);
     const bool gone = t >= top->thick[r->by];
     top->thick[r->by] -= t;
-    r->left -= t;
-    r->z -= t;
+    retreat_by(r, t);
     if (gone)
         m->count--;
 }
@@ -295,7 +355,8 @@ static void retreat_in_stick(fret_memory *m, retreat *r) {
 static void begin_zone(fret_memory *m, const retreat *r, fret_real s) {
     const slice *top = &m->slices[m->count - 1];
     slice zone = {.inner = {top->inner[0] + top->thick[0], top->inner[1] + top->thick[1]}, .sigma = s};
-    zone.inner[r->by] = r->z;
+    zone.inner[r->by] = r->z.at;
+    zone.inner[r->by == DEPTH ? LOAD : DEPTH] = r->z.other;
     m->slices[m->count++] = zone;
 }
 
@@ -304,20 +365,20 @@ static fret_real retreat_in_slip(fret_memory *m, retreat *r, fret_real s) {
     fret_real loss = 0;
     if (r->by == DEPTH) {
         const fret_real e = (s * r->rate + 1) * r->left;
-        loss = e * fret_phase_force(&(fret_phase){m->normal, r->by, r->z, r->to, 0, 0});
+        loss = e * gross_force(m, r->by, r->z.at, r->to.at);
         m->slid += s * m->mu_eta * e;
     }
     m->slices[0].thick[r->by] -= r->left;
-    r->z = r->to;
-    r->left = 0;
+    retreat_by(r, r->left);
     return loss;
 }
 
 /* The zone has taken in the slice below it, and joins the next one if that is of its own sign. */
 static void take_in(fret_memory *m, const retreat *r, fret_real s) {
     slice *top = &m->slices[m->count - 1], *next = top - 1;
-    top->inner[r->by] = m->count > 2 ? next->inner[r->by] : 0;
-    top->thick[r->by] = r->z - top->inner[r->by];
+    for (coordinate i = DEPTH; i <= LOAD; i++)
+        top->inner[i] = m->count > 2 ? next->inner[i] : 0;
+    top->thick[r->by] = r->z.at - top->inner[r->by];
     next[0] = *top;
     m->count--;
     if (m->count > 1 && next[-1].sigma == s) {
@@ -329,7 +390,7 @@ static void take_in(fret_memory *m, const retreat *r, fret_real s) {
 /* The front goes on inwards until it has taken in the slice below, the edge has overtaken it, or the step
  * ends. */
 static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
-    const coordinate by = r->by;
+    const coordinate by = r->by, other = by == DEPTH ? LOAD : DEPTH;
     slice *top = &m->slices[m->count - 1], *next = top - 1;
     const fret_real gain = 1 - s * next->sigma, speed = (s * r->rate + 1) / gain;
     fret_real t = r->left;
@@ -345,10 +406,15 @@ static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
     }
     const fret_real at = top->inner[by], step = reached ? next->thick[by] : speed * t;
     const bool core = by == LOAD && m->count == 2 && !reached && !overtaken;
-    const fret_real inner = core ? core_load(m, s, r->goal, r->to, at - step) : at - step;
-    const fret_real loss = phase_loss(m, by, gain, r->z, r->z - t, at, inner);
-    r->z -= t;
-    r->left -= t;
+    const fret_real inner = core ? core_load(m, s, r->goal, r->to.at, at - step) : at - step;
+    place edge[2] = {r->z}, front[2] = {{at, top->inner[other]}, {inner, -1}};
+    if (reached)
+        front[1].other = m->count > 2 ? next->inner[other] : 0;
+    else if (!overtaken)
+        front[1].other = r->front = other_of(m, by, inner);
+    retreat_by(r, t);
+    edge[1] = r->z;
+    const fret_real loss = phase_loss(m, by, gain, edge, front);
     if (reached) {
         take_in(m, r, s);
         return loss;
@@ -358,7 +424,8 @@ static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
         m->count--;
     } else {
         top->inner[by] = inner;
-        top->thick[by] = r->z - top->inner[by];
+        top->inner[other] = r->front;
+        top->thick[by] = r->z.at - top->inner[by];
     }
     return loss;
 }
@@ -366,7 +433,8 @@ static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
 static fret_real shrink(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
                         double goal) {
     const fret_real way = m->edge[by] - edge[by];
-    retreat r = {by, drive / way, m->edge[by], way, edge[by], goal};
+    const coordinate other = by == DEPTH ? LOAD : DEPTH;
+    retreat r = {by, drive / way, {m->edge[by], m->edge[other]}, {edge[by], edge[other]}, way, -1, goal};
     fret_real loss = 0;
     while (r.left > 0 && m->count) {
         const slice *top = &m->slices[m->count - 1];
@@ -383,7 +451,7 @@ static fret_real shrink(fret_memory *m, coordinate by, const fret_real edge[2], 
     m->edge[DEPTH] = edge[DEPTH];
     m->edge[LOAD] = edge[LOAD];
     if (m->count)
-        convert_top(m, by);
+        convert_top(m, by, r.front);
     return loss;
 }
 
@@ -414,8 +482,20 @@ static void open_contact(fret_memory *m, fret_real dx) {
     m->slid = dx;
 }
 
-/* The normal state at the end of a step, and the gap between the bodies where they part. */
-static fret_status normal_end(const fret_memory *m, const fret_step *step, fret_press *p, fret_real *gap) {
+/* Pressed by places of the law that are kept; false: press as ever. */
+static bool press_near(const fret_memory *m, const fret_step *step, fret_press *p) {
+    const coordinate by = step->normal_by == FRET_TO_FORCE ? LOAD : DEPTH;
+    if (!near_of(m) || !(step->normal > 0))
+        return false;
+    const fret_real v = fret_near_value(m->near, by, step->normal);
+    *p = by == LOAD ? (fret_press){.F = step->normal, .dz = v} : (fret_press){.F = v, .dz = step->normal};
+    return v > 0;
+}
+
+/* The normal state at the end of a step, and the gap between the bodies where they part. *near: radius and
+ * what does not fit are left out. */
+static fret_status normal_end(const fret_memory *m, const fret_step *step, fret_press *p, fret_real *gap,
+                              bool *near) {
     const fret_press now = {.F = m->edge[LOAD],
                             .dz = m->edge[DEPTH],
                             .a = m->radius,
@@ -424,19 +504,19 @@ static fret_status normal_end(const fret_memory *m, const fret_step *step, fret_
     fret_status st = fret_ok();
     *p = now;
     *gap = m->gap;
-    if (step->normal_by == FRET_TO_FORCE) {
-        st = fret_press_by_force(m->normal, step->normal, p);
-        if (!st.code && p->F == now.F)
-            *p = now;
-        *gap = 0;
-    } else if (step->normal_by == FRET_TO_DEPTH) {
-        if (!isfinite(step->normal))
-            return fret_fail(FRET_NOT_FINITE, "dz", step->normal, 0);
-        *gap = step->normal < 0 ? -step->normal : 0;
-        st = fret_press_by_depth(m->normal, fmax(step->normal, 0), p);
-        if (!st.code && p->dz == now.dz)
-            *p = now;
-    }
+    *near = m->pressed_near;
+    if (step->normal_by == FRET_KEEP_NORMAL)
+        return st;
+    const bool by_force = step->normal_by == FRET_TO_FORCE;
+    if (!by_force && !isfinite(step->normal))
+        return fret_fail(FRET_NOT_FINITE, "dz", step->normal, 0);
+    *gap = !by_force && step->normal < 0 ? -step->normal : 0;
+    if (step->normal == (by_force ? now.F : now.dz))
+        return st;
+    *near = press_near(m, step, p);
+    if (!*near)
+        st = by_force ? fret_press_by_force(m->normal, step->normal, p)
+                      : fret_press_by_depth(m->normal, fmax(step->normal, 0), p);
     return st;
 }
 
@@ -500,10 +580,24 @@ static fret_real step_by_displacement(fret_memory *m, const fret_step *step, con
     return loss;
 }
 
+/* Of a law of which many values are asked. */
+static fret_status keep_places(fret_memory *m, const fret_step *step) {
+    if (m->moves < MANY_MOVES || m->near || step->normal_by == FRET_KEEP_NORMAL || !fret_near_fits(m->normal))
+        return fret_ok();
+    m->near = malloc(sizeof *m->near);
+    if (!m->near)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    fret_near_make(m->normal, m->near);
+    return fret_ok();
+}
+
 fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     fret_press p;
     fret_real gap, load;
-    fret_status st = normal_end(m, step, &p, &gap);
+    bool near;
+    fret_status st = keep_places(m, step);
+    if (!st.code)
+        st = normal_end(m, step, &p, &gap, &near);
     if (!st.code)
         st = fret_step_load(m->mu, step, p.F, &load);
     if (!st.code)
@@ -513,6 +607,13 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     const fret_real edge[2] = {p.dz, p.F};
     m->edge_rest[DEPTH] = p.dz_rest;
     m->edge_rest[LOAD] = p.F_rest;
+    if (near && step->normal_by != FRET_KEEP_NORMAL) {
+        m->told_by = step->normal_by;
+        m->told = step->normal;
+    }
+    m->pressed_near = near;
+    if (step->normal_by != FRET_KEEP_NORMAL && m->moves < MANY_MOVES)
+        m->moves++;
     const fret_real loss = step->tangential_by == FRET_TO_FX ? step_by_force(m, step, edge, load)
                                                              : step_by_displacement(m, step, edge, gap);
     if (step->tangential_by != FRET_KEEP_DX) {

@@ -76,6 +76,7 @@ static fret_real by_halves(const fret_phase *p, fret_real (*loss)(const fret_pha
     fret_phase first = *p, second = *p;
     first.edge1 = second.edge0 = (p->edge0 + p->edge1) / 2;
     first.front1 = second.front0 = (p->front0 + p->front1) / 2;
+    first.edge_v[1] = second.edge_v[0] = first.front_v[1] = second.front_v[0] = -1;
     return loss(&first) + loss(&second);
 }
 
@@ -192,9 +193,129 @@ static fret_real closed_loss(const power_phase *c) {
     return loss > 0.02L * fabsl(c->s * c->sm1) ? c->e * c->v * loss : (fret_real)NAN;
 }
 
+/* ---- the same from the series of the law ------------------------------------------------------- */
+
+enum { EDGE, FRONT };
+
+/* A thin zone that stays near: about the middle c of all, y = c (1+z), the term z^i of the law gives h^2
+ * times the divided difference of z^i at the edge, the front and the front again; the first three as
+ * integrals, the others by Gauss's rule in double. h: thickness, w: front. */
+static fret_real thin_loss(const fret_phase *p, fret_real least, fret_real most) {
+    const fret_near_law *law = &p->near->law[p->by];
+    const fret_real c = (least + most) / 2, per = 1 / c;
+    const fret_real travel = (p->front0 - p->front1) * per, move = (p->edge1 - p->edge0) * per;
+    const fret_real h0 = (p->edge0 - p->front0) * per, h1 = (p->edge1 - p->front1) * per;
+    const fret_real w0 = (p->front0 - c) * per, h = (h0 + h1) / 2, dh = h1 - h0, w = w0 - travel / 2,
+                    dw = -travel;
+    const fret_real dh2 = dh * dh / 12, hdh = h * dh / 6, h2 = h * h + dh2, h3 = h * (h * h + 3 * dh2),
+                    h4 = h * h * (h * h + 6 * dh2) + dh2 * dh2 * 1.8L;
+    const fret_real h2w = w * h2 + dw * hdh,
+                    h2w2 = w * (h2w + dw * hdh) + dw * dw / 12 * (h * h + 1.8L * dh2),
+                    h3w = w * h3 + dw * (h * hdh * 1.5L + dh * dh2 * 0.15L);
+    const fret_real *b = law->leading;
+    const fret_real first = b[2] * h2 + b[3] * (3 * h2w + h3) + b[4] * (6 * h2w2 + 4 * h3w + h4);
+    const double radius = (double)((most - c) * per), way = (double)fmaxl(travel, fabsl(move));
+    const int terms = radius < 0.0166 ? 12 : radius < 0.066 ? 17 : FRET_NEAR_TERMS;
+    const int pairs = way * fmax((double)law->s, 1) < 0.006 ? 2 : 4;
+    const fret_two *node = pairs == 2 ? fret_gauss_4 : fret_gauss_8,
+                   *weight = pairs == 2 ? fret_gauss_4_weight : fret_gauss_8_weight;
+    const double a0 = (double)w0, da = (double)dw, k0 = (double)h0, dk = (double)dh;
+    fret_two sum = {0, 0};
+    for (int k = 0; k < pairs; k += 2) {
+        const fret_two h_1 = k0 + dk * node[k], h_2 = k0 + dk * node[k + 1];
+        const fret_two w_1 = a0 + da * node[k], w_2 = a0 + da * node[k + 1], v_1 = w_1 + h_1, v_2 = w_2 + h_2;
+        fret_two x1 = (fret_two){0, 0} + law->binomial[terms - 1], y1 = x1, z1 = x1, x2 = x1, y2 = x1,
+                 z2 = x1;
+        for (int i = terms - 2; i >= FRET_NEAR_LEADING; i--) {
+            x1 = x1 * w_1 + law->binomial[i];
+            x2 = x2 * w_2 + law->binomial[i];
+            y1 = y1 * w_1 + x1;
+            y2 = y2 * w_2 + x2;
+            z1 = z1 * v_1 + y1;
+            z2 = z2 * v_2 + y2;
+        }
+        for (int i = FRET_NEAR_LEADING - 1; i >= 2; i--) {
+            x1 = x1 * w_1;
+            x2 = x2 * w_2;
+            y1 = y1 * w_1 + x1;
+            y2 = y2 * w_2 + x2;
+            z1 = z1 * v_1 + y1;
+            z2 = z2 * v_2 + y2;
+        }
+        sum += weight[k] * (h_1 * h_1) * z1 + weight[k + 1] * (h_2 * h_2) * z2;
+    }
+    return c * fret_near_value(p->near, p->by, c) * travel * fabsl(first + (sum[0] + sum[1]));
+}
+
+/* Of the way of edge or front: the mean of the law, and how far the ends lie from it. */
+typedef struct span {
+    fret_real mean, off[2];
+    bool far;
+} span;
+
+static span span_of(const fret_phase *p, const fret_real y[2], const fret_real given[2]) {
+    const fret_near_law *law = &p->near->law[p->by];
+    fret_real v[2];
+    for (int i = 0; i < 2; i++)
+        v[i] = given[i] >= 0 ? given[i] : y[i] > 0 ? fret_near_value(p->near, p->by, y[i]) : 0;
+    if (y[0] == y[1])
+        return (span){v[0], {0, 0}, false};
+    const fret_real way = (y[1] - y[0]) / (y[0] + y[1]); /* half of it, of the middle */
+    span out;
+    if (fabsl(way) > 1 / 8.0L) {
+        out.mean = (v[0] + y[1] * ((v[1] - v[0]) / (y[1] - y[0]))) / (law->s + 1);
+        out.far = true;
+        out.off[0] = v[0] - out.mean;
+        out.off[1] = v[1] - out.mean;
+        return out;
+    }
+    const fret_real *a = law->leading, d2 = way * way;
+    const double *b = law->binomial, x = (double)d2, x2 = x * x, x4 = x2 * x2;
+    const double even = ((b[4] + x * b[6]) + x2 * (b[8] + x * b[10])) +
+                        x4 * ((b[12] + x * b[14]) + x2 * (b[16] + x * b[18])),
+                 part = ((b[4] / 5 + x * (b[6] / 7)) + x2 * (b[8] / 9 + x * (b[10] / 11))) +
+                        x4 * ((b[12] / 13 + x * (b[14] / 15)) + x2 * (b[16] / 17 + x * (b[18] / 19))),
+                 odd = ((b[5] + x * b[7]) + x2 * (b[9] + x * b[11])) +
+                       x4 * ((b[13] + x * b[15]) + x2 * (b[17] + x * b[19]));
+    const fret_real rise = d2 * (a[2] + d2 * even), above = d2 * (a[2] / 3 + d2 * part),
+                    middle = (v[0] + v[1]) / 2 / (1 + rise);
+    const fret_real half = middle * (way * (a[1] + d2 * (a[3] + d2 * odd))), lift = middle * (rise - above);
+    return (span){middle + middle * above, {lift - half, lift + half}, false};
+}
+
+static fret_real thick_loss(const fret_phase *p) {
+    const fret_real edge[2] = {p->edge0, p->edge1}, front[2] = {p->front0, p->front1};
+    const fret_real travel = front[0] - front[1];
+    const span e = span_of(p, edge, p->edge_v), f = span_of(p, front, p->front_v);
+    const fret_real ends = (edge[1] - front[1]) * f.off[1] - (edge[0] - front[0]) * f.off[0];
+    const fret_real loss = fabsl(travel * (e.mean - f.mean) + ends), scale = travel * e.mean;
+    if (e.far || f.far)
+        return loss > 0.03L * scale ? loss : (fret_real)NAN;
+    if (loss > 0.06L * scale)
+        return loss;
+    fret_real low[2]; /* little is left: the difference by all bits */
+    const fret_real high = fret_near_parts(p->near, p->by, edge[0], &low[EDGE]) -
+                           fret_near_parts(p->near, p->by, front[0], &low[FRONT]);
+    const fret_real exact =
+        fabsl(travel * (high + ((low[EDGE] - low[FRONT]) - (e.off[0] - f.off[0]))) + ends);
+    return exact > 0.008L * scale ? exact : (fret_real)NAN;
+}
+
+/* NaN where many points do better. */
+static fret_real near_loss(const fret_phase *p) {
+    const fret_real most = fmaxl(p->edge0, p->edge1), least = fminl(fminl(p->edge0, p->edge1), p->front1),
+                    way = fmaxl(p->front0 - p->front1, fabsl(p->edge1 - p->edge0));
+    return most - least <= 0.15L * (most + least) && way * fmaxl(p->near->law[p->by].s, 1) < 0.16L * most
+               ? thin_loss(p, least, most)
+               : thick_loss(p);
+}
+
 static fret_real power_loss(const fret_phase *p) {
     const fret_normal *n = p->normal;
     const fret_real e = fmaxl(p->edge0, p->edge1);
+    const fret_real fast = p->near && p->front0 > p->front1 ? near_loss(p) : (fret_real)NAN;
+    if (fast >= 0)
+        return fast;
     power_phase c = {p, n->p, n->pm1, e, 0};
     if (p->by == LOAD) {
         c.s = n->q;
@@ -204,7 +325,7 @@ static fret_real power_loss(const fret_phase *p) {
         return 0;
     c.v = p->by == DEPTH ? fret_law_force(n, e) : fret_law_depth(n, e);
     const fret_real way = fmaxl(p->front0 - p->front1, fabsl(p->edge1 - p->edge0)) * fmaxl(c.s, 1);
-    if (way < 0.016L * p->front1)
+    if (way < 0.006L * p->front1)
         return (p->front0 - p->front1) * short_rule(power_rate, &c);
     if (is_smooth(p))
         return (p->front0 - p->front1) * fret_integrate_smooth(power_rate, &c);

@@ -4,12 +4,7 @@
 #ifndef FRET_CONTACT_PHASE_H
 #define FRET_CONTACT_PHASE_H
 
-#include "contact/normal.h"
-
-/* Positions and thicknesses are kept in two coordinates. A straight step in (delta_z, delta_x) moves
- * edge and slip front linearly in depth; a straight step in (F_N, F_x) moves them linearly in load,
- * by the same rule: delta_x/(mu eta) = int sigma dy + const and F_x/mu = int sigma dF_N. */
-typedef enum coordinate { DEPTH, LOAD } coordinate;
+#include "contact/near.h"
 
 /* A time in which edge and front move linearly in the coordinate `by`; edge >= front, and front1 <= front0.
  */
@@ -17,6 +12,8 @@ typedef struct fret_phase {
     const fret_normal *normal;
     coordinate by;
     fret_real edge0, edge1, front0, front1;
+    fret_near *near;                 /* or NULL: by rules of many points */
+    fret_real edge_v[2], front_v[2]; /* with `near`: the other coordinate, < 0 where it is not known */
 } fret_phase;
 
 /* With D and d the depths of edge and front, per mu^2 eta and 1 - s sigma:

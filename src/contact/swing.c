@@ -478,7 +478,7 @@ fret_status fret_swing_make(const fret_memory *m, fret_swing **out) {
     c->mu = m->mu;
     c->FN = m->edge[LOAD];
     c->dz = m->edge[DEPTH];
-    c->a = m->radius;
+    c->a = fret_memory_pressed(m).a;
     c->Fx = m->held == FRET_TO_FX ? m->goal : m->mu * fret_memory_total(m, LOAD);
     c->slid = m->slid;
     c->direction = m->direction;

@@ -5,6 +5,7 @@
 
 #include <float.h>
 
+#include "number/quadrature.h"
 #include "number/real.h"
 
 /* Near y = Y the curvature of the law is a polynomial, by interpolation: singular at the centre, it is told
@@ -44,36 +45,21 @@ void fret_double_law_make(double s, double sm1, fret_double_law *law) {
     make_near(law);
 }
 
-typedef double two __attribute__((vector_size(16)));
-/* Gauss's rules of four and eight points on 0..1, a point and its mirror image together: eight for motion
- * over the reach, four for a seventh of it. */
-static const two node_4[2] = {{0x1.1c6490c2719ecp-4, 0x1.dc736de7b1cc3p-1},
-                              {0x1.51ee013116102p-2, 0x1.5708ff6774f7fp-1}},
-                 weight_4[2] = {{0x1.64340f7e7b66bp-3, 0x1.64340f7e7b66bp-3},
-                                {0x1.4de5f840c24cap-2, 0x1.4de5f840c24cap-2}};
-static const two node_8[4] = {{0x1.454e34f533998p-6, 0x1.f5d58e5856633p-1},
-                              {0x1.a06d536d82f88p-4, 0x1.cbf255924fa0fp-1},
-                              {0x1.e5dad4f9af698p-3, 0x1.86894ac19425ap-1},
-                              {0x1.a214dac30e32fp-2, 0x1.2ef5929e78e69p-1}},
-                 weight_8[4] = {{0x1.9ea1d04ca0374p-5, 0x1.9ea1d04ca0374p-5},
-                                {0x1.c76fb531d2b96p-4, 0x1.c76fb531d2b96p-4},
-                                {0x1.413c50a255615p-3, 0x1.413c50a255615p-3},
-                                {0x1.736360b199343p-3, 0x1.736360b199343p-3}};
-
-/* With v and w the places of edge and front, -1 .. 1 over the reach, the power j of the curvature gives
- * (v-w)^2/((j+1)(j+2)) times the divided difference of x^(j+2) at v, w, w: Horner's scheme for w, again for
- * w, and for v, with no difference of large numbers. */
+/* By Gauss's rule, of eight points for motion over the reach, four for a seventh of it. With v and w the
+ * places of edge and front, -1 .. 1 over the reach, the power j of the curvature gives (v-w)^2/((j+1)(j+2))
+ * times the divided difference of x^(j+2) at v, w, w: Horner's scheme for w, again for w, and for v, with no
+ * difference of large numbers. */
 FRET_INLINE double near_rule(const fret_double_law *law, const fret_zone *z, double Y, double V,
-                             const int pairs, const two node[], const two weight[]) {
+                             const int pairs, const fret_two node[], const fret_two weight[]) {
     const double per = 1 / Y, scale = 2 * per * law->per_reach, middle = Y - Y * law->reach / 2;
     const double v0 = (z->edge[0] - middle) * scale, dv = (z->edge[1] - z->edge[0]) * scale,
                  w0 = (z->front[0] - middle) * scale, dw = -z->travel * scale, h0 = z->thick[0] * per,
                  dh = (z->thick[1] - z->thick[0]) * per;
-    two all = {0, 0};
+    fret_two all = {0, 0};
     for (int k = 0; k < pairs; k += 2) {
-        const two v = v0 + dv * node[k], w = w0 + dw * node[k], h = h0 + dh * node[k];
-        const two v2 = v0 + dv * node[k + 1], w2 = w0 + dw * node[k + 1], h2 = h0 + dh * node[k + 1];
-        two a = (two){0, 0} + law->near[FRET_ZONE_TERMS - 1], b = a, c = a, a2 = a, b2 = a, c2 = a;
+        const fret_two v = v0 + dv * node[k], w = w0 + dw * node[k], h = h0 + dh * node[k];
+        const fret_two v2 = v0 + dv * node[k + 1], w2 = w0 + dw * node[k + 1], h2 = h0 + dh * node[k + 1];
+        fret_two a = (fret_two){0, 0} + law->near[FRET_ZONE_TERMS - 1], b = a, c = a, a2 = a, b2 = a, c2 = a;
         for (int j = FRET_ZONE_TERMS - 2; j >= 0; j--) {
             a = a * w + law->near[j];
             a2 = a2 * w2 + law->near[j];
@@ -90,8 +76,8 @@ FRET_INLINE double near_rule(const fret_double_law *law, const fret_zone *z, dou
 static double near_loss(const fret_double_law *law, const fret_zone *z, double Y, double V) {
     const double small = 0.04 * Y;
     return z->travel < small && fabs(z->edge[1] - z->edge[0]) < small
-               ? near_rule(law, z, Y, V, 2, node_4, weight_4)
-               : near_rule(law, z, Y, V, 4, node_8, weight_8);
+               ? near_rule(law, z, Y, V, 2, fret_gauss_4, fret_gauss_4_weight)
+               : near_rule(law, z, Y, V, 4, fret_gauss_8, fret_gauss_8_weight);
 }
 
 /* ---- closed forms ------------------------------------------------------------------------------ */

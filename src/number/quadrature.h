@@ -29,6 +29,10 @@ fret_real fret_integrate_pieces(fret_integrand *f, void *context, fret_real tole
 /* The nodes of the eight points. */
 extern const fret_real fret_gauss_node[8], fret_gauss_weight[8]; /* on 0..1 */
 
+/* Rules of four and eight points in double, a point and its mirror image together. */
+typedef double fret_two __attribute__((vector_size(16)));
+extern const fret_two fret_gauss_4[2], fret_gauss_4_weight[2], fret_gauss_8[4], fret_gauss_8_weight[4];
+
 /* int_0^(node j) f dt from the values of f at the eight nodes. */
 void fret_gauss_running(const fret_real f[8], fret_real sum[8]);
 

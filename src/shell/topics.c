@@ -394,7 +394,7 @@ const char *model_text(size_t id) {
             "               15        213.633        1.66544\n"
             "               20        235.133        1.51316\n",
         [MODEL_DOUBLE] = "The memory diagram of a power-law gap in double: forces, displacements and\n"
-                         "energies to 3e-14 of their largest values so far, two to twenty times as fast.\n"
+                         "energies to 3e-14 of their largest values so far, two to five times as fast.\n"
                          "The library offers it to other programs as fret/diagram.h.\n\n" EXAMPLE
                          "step Fx=20 N; step FN=80 N Fx=10 N\n    fret> set model double\n    fret> W\n"
                          "    W = 477.51 nJ\n",

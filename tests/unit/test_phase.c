@@ -17,6 +17,12 @@ static double small(double most) {
     return pow(10, -most * uniform());
 }
 
+static fret_phase phase_of(const fret_normal *normal, coordinate by, fret_real edge0, fret_real edge1,
+                           fret_real front0, fret_real front1) {
+    return (fret_phase){
+        .normal = normal, .by = by, .edge0 = edge0, .edge1 = edge1, .front0 = front0, .front1 = front1};
+}
+
 /* The rate at a part of the phase by the slices of the law, which keep the digits of thin zones. */
 static fret_real rate(fret_real t, fret_real rest, void *context) {
     const fret_phase *p = context;
@@ -83,16 +89,16 @@ static void random_phases(double n, double k, int count) {
 static void thick_zones(double n, double k) {
     const unit_scene s = unit_make_scene(n, k);
     const fret_normal *normal = unit_make_normal(&s);
-    const fret_phase by_load = {normal, LOAD, 100, 100, 100, 0}; /* the same zone by both */
+    const fret_phase by_load = phase_of(normal, LOAD, 100, 100, 100, 0); /* the same zone by both */
     const fret_real depth = fret_law_depth(normal, 100);
-    const fret_phase by_depth = {normal, DEPTH, depth, depth, depth, 0};
+    const fret_phase by_depth = phase_of(normal, DEPTH, depth, depth, depth, 0);
     CHECK_REL(fret_phase_loss(&by_load), fret_phase_loss(&by_depth), UNIT_TOL(2e-17L, 1e-13L));
     for (int i = 1; i < 40; i++) {
         const fret_real D0 = 1, D1 = 0.5L + i / 16.0L, d0 = 0.5L + i / 100.0L, r = (D1 - D0) / -d0;
         const fret_real F0 = fret_law_force(normal, D0), F1 = fret_law_force(normal, D1),
                         f0 = fret_law_force(normal, d0), p1 = normal->p + 1;
         const fret_real parts[] = {(F1 * D1 - F0 * D0) / (p1 * r), -(r - 2) * f0 * d0 / p1, (D0 - d0) * f0};
-        const fret_phase p = {normal, DEPTH, D0, D1, d0, 0};
+        const fret_phase p = phase_of(normal, DEPTH, D0, D1, d0, 0);
         if (D1 != D0)
             CHECK_ABS(fret_phase_loss(&p), -(parts[0] + parts[1] + parts[2]),
                       fabsl(parts[0]) + fabsl(parts[1]) + parts[2], UNIT_TOL(1e-18L, 1e-15L));
@@ -108,7 +114,7 @@ static void near_centre(double n, double k) {
     for (int i = 0; i < 40; i++) {
         const coordinate by = i % 2 ? LOAD : DEPTH;
         const fret_real scale = by == LOAD ? 100 : fret_law_depth(normal, 100), left = small(12);
-        fret_phase whole = {normal, by, scale, scale * 2 * uniform(), scale, 0}, part;
+        fret_phase whole = phase_of(normal, by, scale, scale * 2 * uniform(), scale, 0), part;
         if (i % 3 == 0) /* thin all the way: its places tell a thickness to 1e-16 */
             whole.edge1 = scale * fmaxl(left, 1e-3L) * (1 + uniform());
         whole.front1 = fminl(scale * left, whole.edge1 / 2);
@@ -135,8 +141,8 @@ static void limits(void) {
     const unit_scene s = unit_make_scene(2, 0);
     const fret_normal *normal = unit_make_normal(&s);
     for (int by = 0; by < 2; by++) {
-        const fret_phase nowhere = {normal, by ? LOAD : DEPTH, 1, 2, 0.5L, 0.5L},
-                         open = {normal, by ? LOAD : DEPTH, 0, 0, 0, 0};
+        const fret_phase nowhere = phase_of(normal, by ? LOAD : DEPTH, 1, 2, 0.5L, 0.5L),
+                         open = phase_of(normal, by ? LOAD : DEPTH, 0, 0, 0, 0);
         CHECK(fret_phase_loss(&nowhere) == 0);
         CHECK(fret_phase_loss(&open) == 0);
     }
@@ -144,7 +150,7 @@ static void limits(void) {
     for (int i = 0; i < 40; i++) {
         const fret_real D0 = i % 2 ? 1e-6L : 1e-6L * small(12),
                         D1 = i % 3 ? 1e-6L * small(12) : D0 * (1 + 0.1L * small(6));
-        const fret_phase p = {normal, DEPTH, D0, D1, 0, 0};
+        const fret_phase p = phase_of(normal, DEPTH, D0, D1, 0, 0);
         const fret_real a = sqrtl(D0), b = sqrtl(D1), /* (b^5-a^5)/(b^2-a^2) */
             mean = (b * b * b * b + b * b * b * a + b * b * a * a + b * a * a * a + a * a * a * a) / (a + b);
         CHECK_REL(fret_phase_force(&p), 0.4L * mean * fret_law_force(normal, 1), UNIT_TOL(1e-17L, 1e-14L));
@@ -152,9 +158,9 @@ static void limits(void) {
     /* two parts of a phase add up to it, whatever rule each takes */
     for (int i = 1; i < 100; i++) {
         const fret_real x = i / 100.0L;
-        const fret_phase whole = {normal, LOAD, 100, 101, 90, 88},
-                         first = {normal, LOAD, 100, 100 + x, 90, 90 - 2 * x},
-                         second = {normal, LOAD, 100 + x, 101, 90 - 2 * x, 88};
+        const fret_phase whole = phase_of(normal, LOAD, 100, 101, 90, 88),
+                         first = phase_of(normal, LOAD, 100, 100 + x, 90, 90 - 2 * x),
+                         second = phase_of(normal, LOAD, 100 + x, 101, 90 - 2 * x, 88);
         CHECK_REL(fret_phase_loss(&first) + fret_phase_loss(&second), fret_phase_loss(&whole),
                   UNIT_TOL(1e-16L, 1e-13L));
     }
