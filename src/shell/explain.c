@@ -179,18 +179,35 @@ static void put_inputs(const page *p, const quantity *q, const influence_study *
     }
 }
 
+/* Does it matter what pushes sideways? */
+static bool is_pushed(const influence_study *study) {
+    const unsigned amplitudes = INPUT_BIT(IN_FA) | INPUT_BIT(IN_DXA);
+    for (size_t i = 0; i < study->count; i++) {
+        const cause *c = &study->cause[i];
+        const bool pushes =
+            c->kind == CAUSE_INPUT ? amplitudes & INPUT_BIT(c->in) : c->kind == CAUSE_STEP && c->tangential;
+        if (pushes && c->influence != INFLUENCE_NONE)
+            return true;
+    }
+    return false;
+}
+
 /* Where the load matters. */
 static void put_load(const page *p, const quantity *q, const influence_study *study) {
     scene *s = p->sh->calc.now;
     const fret_press *press;
+    const fret_state *state;
     calc_error ignored;
     error_clear(&ignored);
     bool matters = study->count == 0;
     for (size_t i = 0; i < study->count; i++)
         matters = matters || (cause_is_load(&study->cause[i]) && study->cause[i].influence != INFLUENCE_NONE);
-    if (matters && q->load && !quantity_is_input(q) && s->end.steps &&
-        had(p, scene_press(s, &press, &ignored), &ignored))
-        put_value(p, "FN now", 6, (value){press->F, DIM_FORCE});
+    if (!matters || !q->load || quantity_is_input(q) || !s->end.steps ||
+        !had(p, scene_press(s, &press, &ignored), &ignored))
+        return;
+    put_value(p, "FN now", 6, (value){press->F, DIM_FORCE});
+    if (is_pushed(study) && strcmp(q->name, "Fx") && had(p, scene_state(s, &state, &ignored), &ignored))
+        put_value(p, "Fx now", 6, (value){state->Fx, DIM_FORCE});
 }
 
 static void put_cause(const page *p, const cause *c) {

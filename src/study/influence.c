@@ -17,12 +17,14 @@ static void add_input(const scene *s, input in, influence_study *out) {
         (cause){.name = q->name, .v = {s->in.v[in], quantity_dim(q, s)}, .kind = CAUSE_INPUT, .in = in};
 }
 
-static void add_step(influence_study *out, const char *name, load_by by, double *step, bool increment) {
+static void add_step(influence_study *out, const char *name, load_by by, double *step, bool tangential,
+                     bool increment) {
     if (*step != 0)
         out->cause[out->count++] = (cause){.name = name,
                                            .v = {*step, by == BY_FORCE ? DIM_FORCE : DIM_LENGTH},
                                            .kind = CAUSE_STEP,
                                            .step = step,
+                                           .tangential = tangential,
                                            .increment = increment};
 }
 
@@ -60,15 +62,15 @@ static void find_causes(const calc *c, const expr *e, program *own, const quanti
     load_step *first = own ? &own->steps[0] : NULL, *last = own ? &own->steps[s->end.steps - 1] : NULL;
     if (own && first->normal != BY_FORCE)
         add_step(out, first->normal == BY_RADIUS ? "a" : "dz", (load_by)first->normal, &first->normal_value,
-                 false);
+                 false, false);
     for (size_t i = 0; i < sizeof of_cycle / sizeof *of_cycle; i++)
         add_input(s, of_cycle[i], out);
     if (own && last->kind == LOAD_STEP && last->normal)
         add_step(out, last->normal == BY_FORCE ? "step FN" : "step dz", (load_by)last->normal,
-                 &last->normal_value, last->relative & RELATIVE_NORMAL);
+                 &last->normal_value, false, last->relative & RELATIVE_NORMAL);
     if (own && last->kind == LOAD_STEP && last->tangential)
         add_step(out, last->tangential == BY_FORCE ? "Fx" : "dx", (load_by)last->tangential,
-                 &last->tangential_value, last->relative & RELATIVE_TANGENTIAL);
+                 &last->tangential_value, true, last->relative & RELATIVE_TANGENTIAL);
     add_names(c, e, out);
     if (call && argument.v != 0)
         out->cause[out->count++] = (cause){.name = call->argument, .v = argument, .kind = CAUSE_ARGUMENT};

@@ -21,11 +21,12 @@ typedef struct cause {
     const char *name;
     value v;
     enum { CAUSE_INPUT, CAUSE_STEP, CAUSE_NAME, CAUSE_ARGUMENT } kind;
-    input in;       /* CAUSE_INPUT */
-    size_t own;     /* CAUSE_NAME: index of the user's name */
-    double *step;   /* CAUSE_STEP: press by dz or a, or target of the last step; for influences() alone */
-    bool increment; /* given by += */
-    bool refused;   /* one neighbour is no valid value: the end of its range */
+    input in;        /* CAUSE_INPUT */
+    size_t own;      /* CAUSE_NAME: index of the user's name */
+    double *step;    /* CAUSE_STEP: press by dz or a, or target of the last step; for influences() alone */
+    bool tangential; /* CAUSE_STEP: a target of F_x or delta_x */
+    bool increment;  /* given by += */
+    bool refused;    /* one neighbour is no valid value: the end of its range */
     long double digit, change;
     influence influence;
 } cause;
