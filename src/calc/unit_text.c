@@ -55,7 +55,9 @@ bool unit_parse(lexer *lx, unit *out) {
             return lx->error->raised ? false : lex_fail(lx, "expected a unit");
         lex_word(lx, word);
         const char *near = unit_suggest(word);
-        return lex_fail(lx, near ? "unknown unit '%s': did you mean %s?" : "unknown unit '%s'; try: help units", word, near);
+        return lex_fail(lx,
+                        near ? "unknown unit '%s': did you mean %s?" : "unknown unit '%s'; try: help units",
+                        word, near);
     }
     while (lx->kind == T_TIMES || lx->kind == T_DIVIDE) {
         lexer before = *lx;

@@ -440,7 +440,7 @@ fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
     if (step->normal_by == FRET_TO_FORCE)
         st = fret_press_by_force(c->normal, step->normal, &p);
     else if (step->normal_by == FRET_TO_DEPTH)
-        st = fret_press_by_depth(c->normal, fmax(step->normal, 0), &p);
+        st = fret_press_by_depth(c->normal, step->normal < 0 ? 0 : step->normal, &p);
     fret_real load = 0;
     if (!st.code)
         st = fret_step_load(c->mu, step, p.F, &load);

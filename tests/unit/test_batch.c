@@ -257,6 +257,15 @@ static void others(void) {
             CHECK_REL(a[i], p.a, 1e-15L);
             CHECK_REL(dz[i], p.dz, 1e-15L);
         }
+        double one[3]; /* each by itself */
+        CHECK_OK(fret_batch_loading(&(fret_contact){c.normal, mu, c.press}, loads, one, NULL, 3));
+        CHECK(same_bits(one, radius, 3));
+        CHECK_OK(fret_batch_loading(&(fret_contact){c.normal, mu, c.press}, loads, NULL, one, 3));
+        CHECK(same_bits(one, dx, 3));
+        CHECK_OK(fret_batch_press(c.normal, F, one, NULL, 3));
+        CHECK(same_bits(one, a, 3));
+        CHECK_OK(fret_batch_press(c.normal, F, NULL, one, 3));
+        CHECK(same_bits(one, dz, 3));
     }
 }
 

@@ -5,6 +5,8 @@
 
 #include "unit.h"
 
+#include "number/double.h"
+
 typedef dd dd_function(dd x);
 
 static dd gamma_of(dd x) {
@@ -98,11 +100,63 @@ static void limits(void) {
     CHECK(fret_log(expl(-11000)) < -10999 && fret_exp(-11000) > 0);
 }
 
+static void far_limits(void) {
+    const fret_real inf = INFINITY;
+    CHECK(fret_log10(0) == -inf && fret_log10(inf) == inf && isnan(fret_log10(-1)));
+    CHECK(isnan(fret_log(NAN)) && isnan(fret_log1p(NAN)) && fret_log1p(inf) == inf);
+    CHECK(isnan(fret_pow(NAN, 2)) && isnan(fret_pow(2, NAN)));
+    CHECK(fret_pow(2, inf) == inf && fret_pow(0.5L, inf) == 0 && fret_pow(2, -inf) == 0);
+    CHECK(fret_pow(0.5L, 1e30L) == 0 && fret_pow(0.5L, -1e30L) == inf && fret_pow(2, -1e30L) == 0);
+    CHECK(fret_pow(-2, -3) == -0.125L && fret_pow(3, 20000) == inf && fret_pow(3, -20000) == 0);
+    CHECK(fret_sin(1e13L) == sinl(1e13L) && fret_cos(1e13L) == cosl(1e13L) && isnan(fret_cos(inf)));
+    CHECK(fret_atan2(inf, 1) == atan2l(inf, 1) && fret_atan2(1, inf) == 0 && isnan(fret_atan2(NAN, 1)));
+    CHECK(isnan(fret_gamma(NAN)) && isnan(fret_gamma(-inf)) && fret_gamma(inf) == inf &&
+          isnan(fret_gamma(-4)));
+    CHECK_REL(fret_gamma(-3.5L), 16 * sqrtl(3.14159265358979323846264338327950288L) / 105, 1e-18L);
+    CHECK(fret_dd_exp_real(dd_of(20000)) == inf && fret_dd_exp_real(dd_of(-20000)) == 0);
+    CHECK(isnan(fret_dd_exp_real(dd_of((double)NAN))));
+    /* Gamma(5)/Gamma(3)^2, the equal ones asked once; Gamma(5)/(Gamma(3) Gamma(3+e)) is another */
+    const dd five = dd_of(5), alike[2] = {{3, 0}, {3, 0}}, apart[2] = {{3, 0}, {3, 1e-16}};
+    const dd_scaled q = fret_dd_gamma_quotient(&five, 1, alike, 2),
+                    r = fret_dd_gamma_quotient(&five, 1, apart, 2);
+    const fret_real one = fret_dd_exp_real(q.log) * dd_value(q.factor),
+                    other = fret_dd_exp_real(r.log) * dd_value(r.factor);
+    CHECK_REL(one, 6, 1e-18L);
+    CHECK_REL(one - other, 6 * 1e-16L * 0.92278433509846713939L, 1e-2L); /* psi(3) */
+}
+
+/* Of one double, against long ones; at the ends of the range as in libm. */
+static void doubles(void) {
+    const double inf = (double)INFINITY, nan = (double)NAN;
+    unsigned long long seed = 5;
+    for (int i = 0; i < 20000; i++) {
+        const double x = unit_random(&seed, -1, 1) * pow(10, unit_random(&seed, -12, 2)), up = fabs(x),
+                     wide = ldexp(unit_random(&seed, 0.5, 1), (int)unit_random(&seed, -1073, 1023));
+        CHECK_REL(fret_double_exp(x), expl(x), 1.1 * DBL_EPSILON);
+        CHECK_REL(fret_double_expm1(x), expm1l(x), 2 * DBL_EPSILON);
+        CHECK_REL(fret_double_log(up), logl(up), DBL_EPSILON);
+        CHECK_REL(fret_double_log(wide), logl(wide), DBL_EPSILON);
+        CHECK_REL(fret_double_log1p(up), log1pl(up), DBL_EPSILON);
+        CHECK_REL(fret_double_log1p(-up / 101), log1pl(-up / 101), DBL_EPSILON);
+    }
+    CHECK(fret_double_exp(800) == inf && fret_double_exp(-800) == 0 && isnan(fret_double_exp(nan)));
+    CHECK(fret_double_expm1(inf) == inf && fret_double_expm1(-inf) == -1 && isnan(fret_double_expm1(nan)));
+    CHECK(fret_double_log(0) == -inf && fret_double_log(inf) == inf && isnan(fret_double_log(-1)) &&
+          isnan(fret_double_log(nan)));
+    CHECK(fret_double_log1p(-1) == -inf && fret_double_log1p(inf) == inf && isnan(fret_double_log1p(-2)) &&
+          isnan(fret_double_log1p(nan)));
+    CHECK_REL(fret_double_log1p(1e300), logl(1e300L), DBL_EPSILON);
+    CHECK(fret_double_power(1e-300, -10) == inf && fret_double_power(1e-300, 10) == 0 &&
+          isnan(fret_double_power(2, nan)));
+}
+
 int main(int argc, char **argv) {
     unit_start("dd", argc, argv);
     reference();
     arithmetic();
     long_double();
     limits();
+    far_limits();
+    doubles();
     return unit_finish();
 }

@@ -43,6 +43,34 @@ static void check_memory(const fret_normal *normal) {
     fret_memory_free(m);
 }
 
+/* Questions to a state: what they had begun is no answer. */
+static void check_questions(const fret_normal *normal, const fret_contact *contact) {
+    fret_memory *m;
+    fret_state before, during, after;
+    fret_real value = 0, step = 0;
+    fret_loading peak;
+    CHECK_OK(fret_loading_by_force(contact, 1, &peak));
+    CHECK_OK(fret_memory_make(normal, 0.4, &m));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 10, 1}));
+    fret_memory_state(m, &before);
+    stop = 1;
+    fret_memory_state(m, &during);
+    CHECK(during.FN == before.FN && during.Fx == before.Fx);
+    CHECK_CODE(fret_traction(m, 1e-5L, &value), FRET_INTERRUPTED);
+    CHECK_CODE(fret_surface_x(m, 1e-5L, &value), FRET_INTERRUPTED);
+    CHECK_CODE(fret_quadrature_loss(contact, &peak, 100, &value), FRET_INTERRUPTED);
+    CHECK_CODE(fret_reference_loss_by_force(contact, 1, &value, &step), FRET_INTERRUPTED);
+    CHECK_CODE(fret_reference_loss_by_displacement(contact, 1e-8, &value, &step), FRET_INTERRUPTED);
+    stop = 0;
+    fret_memory_state(m, &after);
+    CHECK(before.U == after.U && before.W == after.W && before.dx == after.dx);
+    CHECK_OK(fret_traction(m, 1e-5L, &value));
+    CHECK(value > 0);
+    CHECK_OK(fret_quadrature_loss(contact, &peak, 100, &value));
+    CHECK(value > 0);
+    fret_memory_free(m);
+}
+
 static void check_springs(const fret_normal *normal) {
     fret_springs *s = NULL;
     stop = 1;
@@ -79,6 +107,7 @@ int main(int argc, char **argv) {
     CHECK_OK(fret_cycle_loss_by_force(&contact, 1, &loss));
     CHECK(loss > 0);
     check_memory(normal);
+    check_questions(normal, &contact);
     check_springs(normal);
     stop = 1;
     fret_normal_stop(normal, NULL);

@@ -232,9 +232,50 @@ static void refusals(void) {
     CHECK(fret_swing_step(s, &by_dx).code == FRET_OUTSIDE);
     CHECK(fret_swing_step(s, &too_much).code == FRET_GROSS_SLIP);
     CHECK(fret_swing_step(s, &nan).code == FRET_NOT_FINITE);
+    const fret_step below = {FRET_TO_FORCE, FRET_TO_FX, -1, 0},
+                    no_depth = {FRET_TO_DEPTH, FRET_TO_FX, (double)NAN, 0};
+    CHECK(fret_swing_step(s, &below).code == FRET_NEGATIVE);
+    CHECK(fret_swing_step(s, &no_depth).code == FRET_NOT_FINITE);
+    CHECK_OK(fret_swing_copy(s, s));
     fret_swing_state(s, &after);
     CHECK(before.dx == after.dx && before.W == after.W);
     fret_swing_free(s);
+    fret_memory_free(m);
+    fret_swing_free(NULL);
+    /* another shape is no power law */
+    const fret_gap flat = {.kind = FRET_GAP_FLAT_CONE, .b = 1e-3, .slope = 0.05};
+    const unit_scene steel = unit_make_scene(2, 0);
+    s = NULL;
+    CHECK_OK(fret_memory_make(unit_keep_normal(&steel.material, &flat), 0.4, &m));
+    CHECK_CODE(fret_swing_make(m, &s), FRET_OUTSIDE);
+    CHECK(s == NULL);
+    fret_memory_free(m);
+}
+
+/* A step by depth is the one by the force at that depth; one to no depth opens the contact. */
+static void by_depth(void) {
+    load l = {2, 50, 210e9, 0.3, 0.4, 100, 20, 30, 90, 0};
+    fret_memory *m = begin(&l);
+    fret_swing *s = swing_of(m), *t = swing_of(m);
+    fret_state one, two;
+    fret_press p;
+    CHECK_OK(fret_press_by_force(fret_memory_normal(m), 80, &p));
+    CHECK_OK(fret_swing_step(s, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 80, 5}));
+    CHECK_OK(fret_swing_step(t, &(fret_step){FRET_TO_DEPTH, FRET_TO_FX, (double)p.dz, 5}));
+    fret_swing_state(s, &one);
+    fret_swing_state(t, &two);
+    CHECK_REL(two.FN, one.FN, 1e-14L);
+    CHECK_REL(two.dx, one.dx, 1e-13L);
+    CHECK_REL(two.W, one.W, 1e-13L);
+    CHECK_OK(fret_swing_step(t, &(fret_step){FRET_TO_DEPTH, FRET_TO_FX, -1e-6, 0}));
+    fret_swing_state(t, &two);
+    CHECK(two.FN == 0 && two.Fx == 0 && two.a == 0 && two.c == 0 && two.kt == 0);
+    CHECK(two.W > one.W); /* what was stored is lost */
+    CHECK_OK(fret_swing_memory(t, m));
+    fret_memory_state(m, &one);
+    CHECK(one.slices == 0 && one.FN == 0 && one.W == two.W && one.dx == two.dx);
+    fret_swing_free(s);
+    fret_swing_free(t);
     fret_memory_free(m);
 }
 
@@ -244,5 +285,6 @@ int main(int argc, char **argv) {
     against_chords(60);
     against_memory(40);
     refusals();
+    by_depth();
     return unit_finish();
 }
