@@ -316,7 +316,7 @@ static void reach_step(load_reach *r, const load_step *step, unsigned times) {
     r->most = fmax(r->most, size);
     r->end = v;
     r->normal_varies = r->normal_varies || load_moves_normal(step);
-    if (step->normal == BY_FORCE && step->kind == LOAD_CYCLE)
+    if (step->kind == LOAD_CYCLE)
         r->FN_more = fmax(r->FN_more, fabs(step->normal_value));
     else if (step->normal == BY_FORCE && step->relative & RELATIVE_NORMAL)
         r->FN_more += fmax(step->normal_value, 0);
