@@ -595,7 +595,7 @@ static void compare(const fret_normal *n, const fret_press *p) {
 
 /* ---- gaps without a formula --------------------------------------------------------------------- */
 
-enum { GAP_ROWS = 400, GAP_CHORDS = 200 };
+enum { GAP_ROWS = 400, MANY_ROWS = 100000, GAP_CHORDS = 200 };
 
 /* dW at one load after the other, and a chord of a swinging load. */
 static double gap_losses(const fret_normal *n, long count) {
@@ -628,13 +628,14 @@ static double gap_chord(const fret_normal *n, long count) {
     return t;
 }
 
-static void other_gap(const char *name, const fret_gap *of, long few) {
+/* error: of the law, that is borne. */
+static void other_gap(const char *name, const fret_gap *of, double error, long few) {
     char what[80];
     fret_normal *plain, *ready;
     need(fret_normal_make(&material, of, &plain));
     need(fret_normal_make(&material, of, &ready));
     const double t0 = seconds();
-    need(fret_normal_prepare(ready, FN));
+    need(fret_normal_prepare(ready, FN, error));
     const double setting_up = seconds() - t0;
     double loss = INFINITY, chord = INFINITY;
     for (int run = 0; run < 5; run++) {
@@ -652,22 +653,28 @@ static void other_gap(const char *name, const fret_gap *of, long few) {
     fret_normal_free(ready);
 }
 
-static void other_gaps(void) {
-    static double r[GAP_ROWS], f[GAP_ROWS];
-    const fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 10e-3},
-                   rounded = {.kind = FRET_GAP_FLAT_ROUNDED, .b = 0.1e-3, .R = 10e-3};
+static void gap_rows(const char *name, int count, double error) {
+    static double r[MANY_ROWS], f[MANY_ROWS];
     fret_gap table = {.kind = FRET_GAP_TABLE};
     struct fret_table *rows = NULL;
-    for (int i = 0; i < GAP_ROWS; i++) {
-        r[i] = 0.3e-3 * i / (GAP_ROWS - 1);
+    for (int i = 0; i < count; i++) {
+        r[i] = 0.3e-3 * i / (count - 1);
         f[i] = r[i] * r[i] / (10e-3 + sqrt(1e-4 - r[i] * r[i]));
     }
-    need(fret_table_make(r, f, GAP_ROWS, NULL, &rows));
+    need(fret_table_make(r, f, (size_t)count, NULL, &rows));
     table.table = rows;
-    other_gap("exact-sphere", &sphere, 200);
-    other_gap("flat-rounded", &rounded, 200);
-    other_gap("400 rows", &table, 10);
+    other_gap(name, &table, error, 10);
     fret_table_free(rows);
+}
+
+static void other_gaps(void) {
+    const fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 10e-3},
+                   rounded = {.kind = FRET_GAP_FLAT_ROUNDED, .b = 0.1e-3, .R = 10e-3};
+    other_gap("exact-sphere", &sphere, 0, 200);
+    other_gap("flat-rounded", &rounded, 0, 200);
+    gap_rows("400 rows", GAP_ROWS, 0);
+    gap_rows("400 rows, to 1e-8", GAP_ROWS, 1e-8);
+    gap_rows("1e5 rows, to 1e-8", MANY_ROWS, 1e-8);
 }
 
 int main(void) {

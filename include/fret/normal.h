@@ -35,10 +35,15 @@ void fret_normal_stop(fret_normal *normal, fret_stop stop);
 /* For many questions, about loads up to F [N]: the law of a shape other than a power becomes polynomials,
  * piece by piece. To set up takes some 1000 times g(x), of a table some 20 times for each row; then
  * F_N(delta_z), its inverse and what is asked of slices take about 1 us whatever the shape,
- * fret_normal_profile less. A power law needs none. Where no pieces come out, of tables with more than some
- * 2000 rows, or where a question is beyond them, answers come as before: they agree to 1e-15. Not while
- * others use the contact. Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
-fret_status fret_normal_prepare(fret_normal *normal, double F);
+ * fret_normal_profile less. A power law needs none. Where no pieces come out, or where a question is beyond
+ * them, answers come as before: they agree to 1e-15.
+ * error: 0, or what may be left of g(x) and F_N of a table, relative, 1e-8 say. A law that is smooth to that
+ * across rows takes a dozen pieces, some 1500 times g(x), whatever the number of rows; without, a table with
+ * more than some 2000 rows in contact gets none. What is lost near the edge of the contact is farther off by
+ * as much as it is less than the whole; beyond 10 times `error` it is answered as before.
+ * Not while others use the contact. Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE, FRET_NO_MEMORY,
+ * FRET_INTERRUPTED. */
+fret_status fret_normal_prepare(fret_normal *normal, double F, double error);
 
 /* The largest relative error of these polynomials against g(x) and F_N that was found when they were made;
  * NaN: there are none. */

@@ -16,11 +16,13 @@ static void answers_end(answers *a, bool keep) {
         free(a->trail->at);
     free(a->trail);
     fret_normal *normal = a->normal, *k0 = a->k0, *many = a->many;
+    const double borne = a->borne;
     *a = (answers){.normal = NULL};
     if (keep) {
         a->normal = normal;
         a->k0 = k0;
         a->many = many;
+        a->borne = borne;
     } else {
         fret_normal_free(normal);
         fret_normal_free(k0);
@@ -30,6 +32,21 @@ static void answers_end(answers *a, bool keep) {
 
 void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *evaluate, void *context) {
     *s = (scene){.automatic = true, .stop = stop, .evaluate = evaluate, .context = context};
+}
+
+/* Below a hundredth of the last digit shown; nothing else is worth it. */
+static double borne_by(const scene *s) {
+    static const double by_digits[] = {0, 1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+    return (size_t)s->digits < sizeof by_digits / sizeof *by_digits ? by_digits[s->digits] : 0;
+}
+
+/* What was worked out for other digits is worked out anew. */
+void scene_show(scene *s, int digits) {
+    s->digits = digits;
+    if (s->answers.many && s->answers.borne != borne_by(s)) {
+        scene_forget(s, true);
+        s->answers.borne = borne_by(s);
+    }
 }
 
 void scene_forget(scene *s, bool keep) {
@@ -248,7 +265,8 @@ bool scene_many_normal(scene *s, double F, const fret_normal **normal, calc_erro
     if (!s->answers.many && !make_normal(s, false, &s->answers.many, error))
         return false;
     *normal = s->answers.many;
-    fret_status st = fret_normal_prepare(s->answers.many, F);
+    s->answers.borne = borne_by(s);
+    fret_status st = fret_normal_prepare(s->answers.many, F, s->answers.borne);
     return calc_status(error, &st);
 }
 

@@ -32,6 +32,7 @@ typedef struct load_reach {
 typedef struct answers {
     fret_normal *normal, *k0; /* or NULL: not made yet */
     fret_normal *many;        /* of a gap without a formula, prepared for many questions; or NULL */
+    double borne;             /* the error of its law that was allowed */
     bool press_ready, state_ready, reach_ready;
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
@@ -71,8 +72,9 @@ struct scene {
     bool automatic; /* the model: the closed form where there is one, else the memory diagram */
     model_id model; /* else this one */
     unsigned springs;
-    bool many; /* many values of this contact are asked for: a decision of what asks, never of what was asked
-                */
+    bool many;  /* many values of this contact are asked for: a decision of what asks, never of what was asked
+                 */
+    int digits; /* of the values shown; 0: all. The law of a table need not be better than they can tell */
     double pieces_error; /* of the polynomials among them, relative */
     unsigned used;       /* what has answered: raised by whatever does, cleared by whoever wants to know */
     const volatile sig_atomic_t *stop;
@@ -85,6 +87,8 @@ void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *e
 void scene_free(scene *s);
 /* A scratch scene: shares inputs and program, owns its results. Free with scene_free. */
 void scene_clone(scene *to, const scene *from);
+/* Values are shown with so many digits from now on; 0: all. */
+void scene_show(scene *s, int digits);
 /* Forgets what has been computed; keep: the normal contact still stands. */
 void scene_forget(scene *s, bool keep);
 

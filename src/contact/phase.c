@@ -106,7 +106,7 @@ fret_real fret_phase_loss_by_law(const fret_phase *phase) {
     if (comes_near(&p))
         return by_halves(&p, fret_phase_loss_by_law);
     if (fret_gap_has_rows(&p.normal->gap)) /* edge or front may cross rows, where the rate is not smooth */
-        rate = fret_integrate_pieces(law_rate, &p, 1e-15L);
+        rate = fret_integrate_pieces(law_rate, &p, fmaxl(1e-15L, p.normal->borne));
     else
         rate = is_smooth(&p) ? fret_integrate_smooth(law_rate, &p) : fret_integrate(law_rate, &p);
     return (p.front0 - p.front1) * rate;

@@ -12,6 +12,7 @@
 /* ---- polynomials through values ---------------------------------------------------------------- */
 
 enum { FEWER = 14 }; /* of what is smooth across a row of a table */
+enum { NOISE = 5 };  /* terms that tell it */
 
 /* From values at Chebyshev's nodes to polynomials in z, by Chebyshev's polynomials. */
 typedef struct rule {
@@ -35,28 +36,51 @@ static fret_real node_of(const rule *r, int j) {
     return r->wave[2 * j + 1];
 }
 
+/* The factors of Chebyshev's polynomials. */
+static void terms_of(const rule *r, const fret_real *value, fret_real *term) {
+    const int count = r->count;
+    for (int i = 0; i < count; i++) {
+        term[i] = 0;
+        for (int j = 0; j < count; j++)
+            term[i] += r->wave[i * (2 * j + 1) % (4 * count)] * value[j];
+        term[i] *= (i ? 2 : 1) / (fret_real)count;
+    }
+}
+
+/* The first `count` of them as powers. */
+static void powers_of(const rule *r, const fret_real *term, int count, fret_real *c) {
+    for (int j = 0; j < NODES; j++)
+        c[j] = 0;
+    for (int i = 0; i < count; i++)
+        for (int j = i & 1; j <= i; j += 2)
+            c[j] += term[i] * r->power[i][j];
+}
+
 /* Returns how large the last terms are, relative to the largest; infinite where doubles would not do for
  * those that a polynomial keeps in them, smooth as it is asked to be. */
 static fret_real fit(const rule *r, bool smooth, const fret_real *value, fret_real *c) {
     const int count = r->count;
-    fret_real most = 0, last = 0;
-    for (int j = 0; j < NODES; j++)
-        c[j] = 0;
-    for (int i = 0; i < count; i++) {
-        fret_real term = 0;
-        for (int j = 0; j < count; j++)
-            term += r->wave[i * (2 * j + 1) % (4 * count)] * value[j];
-        term *= (i ? 2 : 1) / (fret_real)count;
-        most = fmaxl(most, fabsl(term));
-        if (i >= count - 2)
-            last = fmaxl(last, fabsl(term));
-        for (int j = i & 1; j <= i; j += 2)
-            c[j] += term * r->power[i][j];
-    }
+    fret_real term[NODES], most = 0;
+    terms_of(r, value, term);
+    powers_of(r, term, count, c);
+    for (int i = 0; i < count; i++)
+        most = fmaxl(most, fabsl(term[i]));
     for (int j = HEAD; smooth && j < count; j++)
         if (fabsl(c[j]) > 2e-3L * most)
             return INFINITY;
-    return last / most;
+    return fmaxl(fabsl(term[count - 2]), fabsl(term[count - 1])) / most;
+}
+
+/* Without the terms that are no larger than noise: than the last ones. */
+static void fit_calmly(const rule *r, const fret_real *value, fret_real *c) {
+    fret_real term[NODES], noise = 0;
+    int count = NODES;
+    terms_of(r, value, term);
+    for (int i = NODES - NOISE; i < NODES; i++)
+        noise = fmaxl(noise, fabsl(term[i]));
+    while (count > 2 && fabsl(term[count - 1]) <= 3 * noise)
+        count--;
+    powers_of(r, term, count, c);
 }
 
 /* The integral of a polynomial of NODES terms, 0 at z = -1. */
@@ -73,6 +97,7 @@ typedef struct maker {
     struct fret_pieces *all;
     const fret_normal *normal;
     fret_real start, tolerance;
+    fret_real borne; /* an error of depths, relative, that may be left where rows leave no smooth law */
     rule rule, row_rule;
     size_t spent;    /* profiles asked for */
     fret_level edge; /* outer end of the last piece */
@@ -83,6 +108,8 @@ typedef struct maker {
 } maker;
 
 enum { MOST_PROFILES = 40000 };
+static const fret_real CALM = 1e-3L;   /* of what is borne: not worth a shorter piece */
+static const fret_real FOUND = 1e-15L; /* of depth and load, at the most, where nothing else is borne */
 
 static fret_profile profile(maker *m, fret_real e) {
     m->spent++;
@@ -114,13 +141,22 @@ static fret_real missed_by(maker *m, fret_level found, fret_real e) {
     return fmaxl(fabsl(found.y / at.y - 1), fabsl(found.F / at.F - 1));
 }
 
-static bool make_piece(maker *m, piece *p) {
+/* dg/dz at the nodes. */
+static void slopes_of(maker *m, const piece *p, fret_real *slope) {
+    fret_real rate;
+    for (int j = 0; j < NODES; j++) {
+        const fret_real e = fret_piece_distance(p, node_of(&m->rule, j), &rate);
+        slope[j] = slope_at(m, e) * rate;
+    }
+}
+
+/* slope: dg/dz at the nodes; tolerance: of the last terms; borne: of depth and load. */
+static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tolerance, fret_real borne) {
     const fret_normal *n = m->normal;
-    fret_real slope[NODES], load[NODES], rise[NODES], c[TERMS] = {0}, rate, worst;
+    fret_real load[NODES], rise[NODES], c[TERMS] = {0}, rate, worst;
     for (int j = 0; j < NODES; j++) {
         const fret_real e = fret_piece_distance(p, node_of(&m->rule, j), &rate), x = m->start + e;
         const fret_real K = fret_normal_stiffness(n, x);
-        slope[j] = slope_at(m, e) * rate;
         load[j] = K * slope[j];
         rise[j] = (1 + n->foundation.k) * K / x * rate;
         if (!(slope[j] > 0))
@@ -135,12 +171,12 @@ static bool make_piece(maker *m, piece *p) {
     p->rise[LOADS] = integral(c);
     for (int j = 0; j < NODES; j++)
         load[j] *= fret_polynomial_at(&p->rise[DEPTHS], node_of(&m->rule, j));
-    if (!(fit(&m->rule, !m->by_row, load, c) <= m->tolerance / 10))
+    if (!(fit(&m->rule, !m->by_row, load, c) <= tolerance / 10))
         return false;
     p->work = integral(c);
     for (int i = DEPTHS; i <= LOADS; i++)
         fret_polynomial_quotient(&p->rise[i], 1, &p->from_end[i]);
-    if (!(worst <= m->tolerance))
+    if (!(worst <= tolerance))
         return false;
     worst = 0;
     p->inner = m->edge;
@@ -153,7 +189,7 @@ static bool make_piece(maker *m, piece *p) {
         worst = fmaxl(worst, missed_by(m, level_in(p, z), fret_piece_distance(p, z, &rate)));
     }
     const fret_real rough = fret_piece_make_whole(p);
-    if (!(worst <= 1e-15L && rough <= 1e-12L)) /* in halves 2^-16 of it is left */
+    if (!(worst <= borne && rough <= 1e-12L)) /* in halves 2^-16 of it is left */
         return false;
     p->coarse = rough > 1e-17L;
     fret_real z[GUESS];
@@ -191,7 +227,9 @@ static bool cover(maker *m, fret_real origin, fret_real width, fret_real lo, fre
                .blunt = width > 0 && lo == 0};
     if (fret_stopped(m->normal) || m->spent > MOST_PROFILES)
         return false;
-    if (make_piece(m, &p))
+    fret_real slope[NODES];
+    slopes_of(m, &p, slope);
+    if (make_piece(m, &p, slope, m->tolerance, FOUND))
         return add(m, &p);
     if (halvings == 0)
         return false;
@@ -237,23 +275,97 @@ static bool cover_row(maker *m, fret_real row, fret_real way, fret_real lo, fret
             return false;
         const fret_real error = missed_by(m, m->edge, row + way * hi);
         m->all->error = fmaxl(m->all->error, error);
-        return error <= 1e-15L;
+        return error <= FOUND;
     }
     return halvings > 0 && cover_row(m, row, way, lo, (lo + hi) / 2, halvings - 1) &&
            cover_row(m, row, way, (lo + hi) / 2, hi, halvings - 1);
 }
 
-/* From one row of a table to another: in one piece where that does, else row by row. row: distances. */
-static bool cover_rows(maker *m, const fret_real *row, size_t first, size_t last) {
-    enum { FEW = 8 };
-    if (last - first >= FEW && row[last] < 2 * row[first] &&
-        cover(m, 0, 0, fret_log(row[first]), fret_log(row[last]), 0))
-        return true;
-    if (last - first > 1) {
-        const size_t middle = first + (last - first) / 2;
-        return cover_rows(m, row, first, middle) && cover_rows(m, row, middle, last);
+/* Rows first .. last of a table as they look together: what rounding or a reading leaves of a row is noise
+ * that a shorter stretch is not rid of, and of depths far less than of their slope. */
+typedef struct span {
+    size_t first, last;
+    piece p;                       /* the stretch alone */
+    fret_real slope[NODES], rest;  /* dg/dz at the nodes; how large the last terms are of their polynomial */
+    fret_real depth[NODES], error; /* the polynomial of the depths, and how far it is off between nodes */
+} span;
+
+static span look(maker *m, const fret_real *row, size_t first, size_t last) {
+    const fret_real lo = fret_log(row[first]), hi = fret_log(row[last]);
+    span s = {.first = first, .last = last, .p = {.middle = (lo + hi) / 2, .half = (hi - lo) / 2}};
+    fret_real depth[NODES], rate;
+    for (int j = 0; j < NODES; j++) {
+        const fret_profile at = profile(m, fret_piece_distance(&s.p, node_of(&m->rule, j), &rate));
+        depth[j] = at.g;
+        s.slope[j] = at.slope * rate;
     }
-    return cover_row(m, row[first], row[last] - row[first], 0, 1, 6);
+    s.rest = fit(&m->rule, true, s.slope, s.depth);
+    fit_calmly(&m->rule, depth, s.depth);
+    for (int i = 5; i < NODES; i += 5) {
+        const fret_real z = m->rule.wave[2 * i], g = profile(m, fret_piece_distance(&s.p, z, &rate)).g;
+        fret_real v = 0;
+        for (int j = NODES; j-- > 0;)
+            v = v * z + s.depth[j];
+        s.error = fmaxl(s.error, fabsl(v / g - 1));
+    }
+    return s;
+}
+
+/* As exact as pieces are. */
+static bool add_exact(maker *m, span *s) {
+    return s->rest <= m->tolerance && make_piece(m, &s->p, s->slope, m->tolerance, FOUND) && add(m, &s->p);
+}
+
+/* By the polynomial of the depths, straightened so that it ends where the rows do. */
+static bool add_calm(maker *m, const fret_real *row, span *s) {
+    fret_real slope[NODES], missing = level_at(m, row[s->last]).y - m->edge.y;
+    for (int i = 1; i < NODES; i += 2)
+        missing -= 2 * s->depth[i];
+    for (int j = 0; j < NODES; j++) {
+        slope[j] = 0;
+        for (int i = NODES - 1; i > 0; i--)
+            slope[j] = slope[j] * node_of(&m->rule, j) + s->depth[i] * (fret_real)i;
+        slope[j] += missing / 2;
+    }
+    return s->error <= m->borne && make_piece(m, &s->p, slope, INFINITY, m->borne) && add(m, &s->p);
+}
+
+/* One by one. */
+static bool cover_each(maker *m, const fret_real *row, size_t first, size_t last) {
+    if (m->spent + (last - first) * FEWER > MOST_PROFILES)
+        return false;
+    for (size_t i = first; i < last; i++)
+        if (!cover_row(m, row[i], row[i + 1] - row[i], 0, 1, 6))
+            return false;
+    return true;
+}
+
+/* In one piece, in halves where these are smoother, or row by row. */
+static bool cover_span(maker *m, const fret_real *row, span *s) {
+    enum { FEW = 8 };
+    const size_t first = s->first, last = s->last, middle = first + (last - first) / 2;
+    if (fret_stopped(m->normal) || m->spent > MOST_PROFILES)
+        return false;
+    if (add_exact(m, s) || (s->error <= CALM * m->borne && add_calm(m, row, s)))
+        return true;
+    if (last - first < 2 * FEW)
+        return cover_each(m, row, first, last);
+    span inner = look(m, row, first, middle), outer = look(m, row, middle, last);
+    if (fminl(inner.error, outer.error) <= s->error / 8)
+        return cover_span(m, row, &inner) && cover_span(m, row, &outer);
+    return add_calm(m, row, s) || cover_each(m, row, first, last);
+}
+
+/* From one row of a table to another. row: distances. */
+static bool cover_rows(maker *m, const fret_real *row, size_t first, size_t last) {
+    enum { FEW = 8, WIDE = 4 };
+    const size_t middle = first + (last - first) / 2;
+    if (last - first < FEW)
+        return cover_each(m, row, first, last);
+    if (row[last] >= WIDE * row[first])
+        return cover_rows(m, row, first, middle) && cover_rows(m, row, middle, last);
+    span s = look(m, row, first, last);
+    return cover_span(m, row, &s);
 }
 
 /* Rows between two distances, both ends too. */
@@ -262,8 +374,6 @@ static bool cover_table(maker *m, fret_real from, fret_real to) {
     size_t count = 1;
     for (fret_real e = fret_gap_kink(gap, to); e > from; e = fret_gap_kink(gap, e))
         count++;
-    if (count * FEWER > MOST_PROFILES)
-        return false;
     fret_real *row = malloc((count + 1) * sizeof *row), e = to;
     if (!row) {
         m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
@@ -323,7 +433,7 @@ static bool make_core(maker *m) {
     return isfinite(core.L);
 }
 
-static fret_status make_pieces(const fret_normal *n, fret_real e, struct fret_pieces **out) {
+static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real borne, struct fret_pieces **out) {
     const bool rows = fret_gap_has_rows(&n->gap);
     struct fret_pieces *all = calloc(1, sizeof *all);
     maker *m = calloc(1, sizeof *m);
@@ -333,8 +443,11 @@ static fret_status make_pieces(const fret_normal *n, fret_real e, struct fret_pi
         free(m);
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     }
-    *m = (maker){
-        .all = all, .normal = n, .start = fret_gap_start(&n->gap), .tolerance = rows ? 1e-15L : 2e-17L};
+    *m = (maker){.all = all,
+                 .normal = n,
+                 .start = fret_gap_start(&n->gap),
+                 .tolerance = rows ? 1e-15L : 2e-17L,
+                 .borne = borne};
     make_rule(&m->rule, NODES);
     make_rule(&m->row_rule, FEWER);
     all->normal = n;
@@ -364,22 +477,23 @@ void fret_pieces_free(struct fret_pieces *all) {
 
 /* Up to the next power of two, so that what comes out does not depend on what was asked before; where that is
  * more than the gap carries, up to its end. */
-fret_status fret_normal_prepare(fret_normal *n, double F) {
+fret_status fret_normal_prepare(fret_normal *n, double F, double error) {
     fret_status st = fret_check_positive("FN", F);
     int exponent;
     (void)frexp(F, &exponent);
     const double most = ldexp(1, exponent);
-    if (st.code || fret_normal_closed(n) || most == n->prepared)
+    if (st.code || fret_normal_closed(n) || (most == n->prepared && error == n->borne))
         return st;
     struct fret_pieces *made = NULL;
     fret_pieces_free(n->pieces);
     n->pieces = NULL;
     n->prepared = 0;
+    n->borne = error;
     fret_real e = fret_search_radius(n, true, most);
     if (!isfinite(e) && isfinite(n->end)) /* not where g begins to fall: there it is no inverse */
         e = (n->falls ? 0.99L : 1) * (n->end - fret_gap_start(&n->gap));
     if (isfinite(e))
-        st = make_pieces(n, e, &made);
+        st = make_pieces(n, e, n->borne, &made);
     n->pieces = made;
     if (!st.code)
         n->prepared = most;

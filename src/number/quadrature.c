@@ -66,22 +66,37 @@ static fret_real part_rate(fret_real t, fret_real rest, void *context) {
     return p->f(p->lo * rest + p->hi * t, (1 - p->lo) * rest + (1 - p->hi) * t, p->context);
 }
 
-/* int_lo^hi f by halves until they add up to the whole. tolerance: of the integral. */
+/* Halves of a smooth integrand agree better than the whole with them; where they do not so often, and that is
+ * no more than that, it is noise: rounded rows of a table. */
+enum { PATIENCE = 2 };
+static const fret_real NOISE = 1e-9L;
+
+/* How far the halves of a part are from the whole, of the whole, and how often that has not fallen from part
+ * to half. */
+typedef struct quarrel {
+    fret_real most;
+    int times;
+} quarrel;
+
+/* int_lo^hi f by halves until they add up to the whole, or differ by noise. tolerance: of the integral. */
 static fret_real bisect(fret_integrand *f, void *context, fret_real lo, fret_real hi, fret_real whole,
-                        fret_real tolerance, int depth) {
+                        fret_real tolerance, quarrel before, int depth) {
     const fret_real mid = (lo + hi) / 2;
     part left = {f, context, lo, mid}, right = {f, context, mid, hi};
     fret_real a = (mid - lo) * fret_integrate_smooth(part_rate, &left),
               b = (hi - mid) * fret_integrate_smooth(part_rate, &right);
-    if (depth == 0 || fabsl(a + b - whole) <= tolerance * (a + b))
+    const fret_real off = fabsl(a + b - whole) / (a + b);
+    const quarrel now = {off, off < before.most ? 0 : before.times + 1};
+    if (depth == 0 || off <= tolerance || !(a + b > 0) ||
+        (now.times >= PATIENCE && off <= fmaxl(NOISE, 100 * tolerance)))
         return a + b;
     tolerance *= (a + b) / fmaxl(fmaxl(a, b), LDBL_MIN); /* the smaller half may err by more of itself */
-    return bisect(f, context, lo, mid, a, tolerance, depth - 1) +
-           bisect(f, context, mid, hi, b, tolerance, depth - 1);
+    return bisect(f, context, lo, mid, a, tolerance, now, depth - 1) +
+           bisect(f, context, mid, hi, b, tolerance, now, depth - 1);
 }
 
 fret_real fret_integrate_pieces(fret_integrand *f, void *context, fret_real tolerance) {
-    return bisect(f, context, 0, 1, fret_integrate_smooth(f, context), tolerance, 24);
+    return bisect(f, context, 0, 1, fret_integrate_smooth(f, context), tolerance, (quarrel){INFINITY, 0}, 24);
 }
 
 /* By Legendre polynomials: the integral of P_n over -1..z is (P_(n+1)(z)-P_(n-1)(z))/(2n+1). */

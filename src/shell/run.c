@@ -384,6 +384,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         bool timed = sh->set.timing;
         double start = timed ? seconds() : 0;
         sh->calc.scene.used = 0;
+        scene_show(&sh->calc.scene, sh->set.format == FORMAT_TEXT ? sh->set.digits : 0);
         bool done = shell_statement(sh, text + i, end - i, &error);
         if (!done)
             calc_word(&sh->calc, &error);

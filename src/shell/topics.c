@@ -378,7 +378,9 @@ const char *model_text(size_t id) {
         [MODEL_PIECES] =
             "The law FN(dz) of a gap without a formula as polynomials, piece by piece: made where\n"
             "many values of one contact are asked for, 32 rows of a table or a swinging FN. They\n"
-            "agree with the quadrature to 2e-15; `set timing on` tells how well.\n\n" EXAMPLE
+            "agree with the quadrature to 2e-15; of a table that is smooth to that across its\n"
+            "rows, and is shown as text, to a hundredth of the last digit, which takes the less\n"
+            "time the more rows there are. `set timing on` tells how well.\n\n" EXAMPLE
             "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
             "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"

@@ -278,5 +278,29 @@ def models(tests):
                     tests.report(done))
 
 
+def shown_digits(tests):
+    """The law of a table is as exact as what is shown can tell, whatever was shown before."""
+    where = os.path.join(tests.dir, "sphere.csv")
+    with open(where, "w", encoding="ascii") as f:
+        f.write("r [mm],f [um]\n")
+        for i in range(300):
+            r = 1e-6 * i
+            f.write("%.17g,%.17g\n" % (r * 1e3, r * r / (0.01 + math.sqrt(1e-4 - r * r)) * 1e6))
+    scene = (GRADED % (0.3, "file " + where) + "press FN=50 N; cycle FA=8 N FNA=20 N phase=90 deg steps 20\n")
+    script = "set timing on; dW\nset format json\ndW\nstep FN=45 N Fx=3 N\nset format text; dW\nundo\nset format json; dW"
+    done = tests.run("-c", scene + script)
+    told = [float(v) for v in re.findall(r"polynomials to ([-+.\de]+)", done.stderr)]
+    exact = tests.run("--format=json", "-c", scene + "dW").stdout.splitlines()[-1]
+    lines = done.stdout.splitlines()
+    tests.check("text: a law good to 1e-8, JSON: all digits", len(told) == 5 and
+                all(1e-15 < told[i] <= 1e-8 for i in (0, 3)) and told[1] < 1e-15 > told[4] and
+                [line for line in lines if '"dW"' in line] == [exact] * 2, tests.report(done) + exact)
+    near = float(lines[0].split()[2]) * 1e-6 / json.loads(exact)["value"] - 1
+    tests.check("text: no digit off", abs(near) < 6e-6, lines[0] + exact)
+    done = tests.run("-c", scene + "set timing on; set digits 12; dW")
+    tests.check("12 digits: all of them", re.search(r"polynomials to \d*e-1[6-9]", done.stderr), tests.report(done))
+
+
 def run(tests):
-    tests.each([lambda f=f: f(tests) for f in (orders, loads, other_models, narrow_gaps, forms, pictures, conditioning, models)])
+    tests.each([lambda f=f: f(tests) for f in (orders, loads, other_models, narrow_gaps, forms, pictures, conditioning, models,
+                                                 shown_digits)])
