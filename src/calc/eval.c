@@ -235,35 +235,42 @@ static bool wrong_dim_of_change(machine *m, const expr *e, const knob *p, dim wa
                      LEX_SHOWN(e->len), e->text + e->at);
 }
 
-/* All values are those outside, then all are set. */
-static bool changed_value(machine *m, const expr_node *n, value *out) {
-    const expr_at *at = n->changed;
+/* All values are those outside, then all are set. NULL: an error. */
+static trial *open_changed(machine *m, const expr_at *at) {
     value v[CHANGES];
     for (size_t i = 0; i < at->count; i++) {
         machine outside = *m;
         outside.e = &at->change[i].value;
         if (!run(&outside, &v[i]))
-            return false;
+            return NULL;
         const knob *p = &at->change[i].p;
         const dim want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : v[i].d;
-        if (!dim_equal(v[i].d, want) && !(v[i].v == 0 && dim_equal(v[i].d, DIM_NONE)))
-            return wrong_dim_of_change(m, outside.e, p, want, v[i].d);
+        if (!dim_equal(v[i].d, want) && !(v[i].v == 0 && dim_equal(v[i].d, DIM_NONE))) {
+            wrong_dim_of_change(m, outside.e, p, want, v[i].d);
+            return NULL;
+        }
         v[i].d = want;
     }
     trial *t = trial_open(m->c, m->error);
-    if (!t)
-        return false;
-    bool ok = true;
+    bool ok = t;
     for (size_t i = 0; i < at->count && ok; i++) {
         knob p = at->change[i].p;
         p.d = v[i].d;
         ok = (m->dry && p.is_input) || trial_set(t, &p, v[i].v, m->error) ||
              calc_place(m->error, at->change[i].value.at, at->change[i].value.len);
     }
+    if (t && !ok)
+        trial_close(t);
+    return ok ? t : NULL;
+}
+
+static bool changed_value(machine *m, const expr_node *n, value *out) {
+    trial *t = open_changed(m, n->changed);
     machine inside = *m;
-    inside.e = &at->body;
-    ok = ok && run(&inside, out);
-    trial_close(t);
+    inside.e = &n->changed->body;
+    const bool ok = t && run(&inside, out);
+    if (t)
+        trial_close(t);
     return ok || calc_place(m->error, n->at, n->len);
 }
 
@@ -361,6 +368,18 @@ bool expr_eval(calc *c, const expr *e, value *out, calc_error *error) {
     machine m = {c, e, error, NULL, false};
     const bool ok = run(&m, out);
     return c->scene.stop && *c->scene.stop ? calc_interrupted(error) : ok;
+}
+
+bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_error *error) {
+    const expr_node *root = &e->nodes[e->count - 1];
+    machine m = {c, e, error, NULL, false};
+    *t = NULL;
+    *body = e;
+    if (root->kind != N_AT)
+        return true;
+    *t = open_changed(&m, root->changed);
+    *body = &root->changed->body;
+    return *t || calc_place(error, root->at, root->len);
 }
 
 bool expr_dim(calc *c, const expr *e, dim *d) {

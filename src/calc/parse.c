@@ -167,6 +167,11 @@ static bool parse_at(parser *p, size_t first, size_t begin, size_t *out) {
     p->e->ats = node.changed = at;
     if (!split_tail(p, first, &at->body))
         return false;
+    size_t end = lx->last - strlen("at");
+    while (end > begin && (lx->text[end - 1] == ' ' || lx->text[end - 1] == '\t'))
+        end--;
+    at->body.at = begin;
+    at->body.len = end - begin;
     do {
         if (at->count)
             lex_next(lx);

@@ -30,6 +30,10 @@ bool knob_read(calc *c, lexer *lx, knob *out);
 /* The same, whatever the scene takes now. */
 bool knob_name(calc *c, lexer *lx, knob *out);
 
+/* EXPR at NAME = EXPR, ...: a trial with these changes, to be closed, and what is meant in it; of another
+ * expression NULL and itself. */
+bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_error *error);
+
 /* Which load the states come from. */
 typedef enum along_what { ALONG_PROGRAM, ALONG_CYCLE, ALONG_LOAD } along_what;
 typedef bool along_look(void *context, double time, calc_error *error);

@@ -472,7 +472,7 @@ static const command commands[] = {
      .args = list_args,
      .group = "results",
      .keywords = "formula equation Mindlin",
-     .usage = "QUANTITY",
+     .usage = "EXPR [at NAME=EXPR, ...]",
      .summary = "formula, source, numbers put in, model used",
      .help = "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs\n"
              "that the value depends on, and how it was computed. `conditioning`: by which\n"

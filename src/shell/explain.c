@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "calc/trial.h"
 #include "shell/command.h"
 #include "shell/output.h"
 #include "shell/topics.h"
@@ -431,14 +432,17 @@ static const quantity *bare_name(const lexer *lx) {
     return q && (q->of == OF_INPUT || q->of == OF_FUNCTION) && lex_peek(lx) == T_END ? q : NULL;
 }
 
-static bool read_expression(shell *sh, lexer *lx, expr *e, value *v) {
+/* What is to be explained in the scene as it is, or as `at` changes it: a trial, then. */
+static bool read_expression(shell *sh, lexer *lx, const expr **e, trial **t, value *v) {
     bool call;
     const size_t at = lx->at;
-    if (!expr_parse(&sh->calc, lx, e) || !at_end(lx))
+    expr *whole = &sh->list[0];
+    if (!expr_parse_at(&sh->calc, lx, whole) || !at_end(lx) ||
+        !expr_changed(&sh->calc, whole, t, e, lx->error))
         return false;
-    if (!expr_quantity(meant_by(&sh->calc, e), 0, &call))
-        return calc_fail(lx->error, at, e->len, "explain which quantity? try: explain dW");
-    return expr_eval(&sh->calc, e, v, lx->error) || calc_place(lx->error, at, e->len);
+    if (!expr_quantity(meant_by(&sh->calc, *e), 0, &call))
+        return calc_fail(lx->error, at, whole->len, "explain which quantity? try: explain dW");
+    return expr_eval(&sh->calc, *e, v, lx->error) || calc_place(lx->error, at, whole->len);
 }
 
 /* Not a quantity, but a word of the warning on dissimilar bodies. */
@@ -455,18 +459,8 @@ static bool explain_mismatch(shell *sh, lexer *lx) {
     return text_end(&text, true) || calc_no_memory(lx->error);
 }
 
-bool do_explain(shell *sh, lexer *lx, const command *self) {
-    expr *e = &sh->list[0];
+static bool explain(shell *sh, const quantity *bare, const expr *e, value v, lexer *lx) {
     text_out text;
-    value v = {0};
-    (void)self;
-    if (lex_is(lx, "mismatch") && lex_peek(lx) == T_END)
-        return explain_mismatch(sh, lx);
-    if (no_quantity(sh, lx))
-        return false;
-    const quantity *bare = bare_name(lx);
-    if (!bare && !read_expression(sh, lx, e, &v))
-        return false;
     if (!text_begin(&text, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
     const page p = {sh, text.to, lx->error};
@@ -479,4 +473,20 @@ bool do_explain(shell *sh, lexer *lx, const command *self) {
         ok = explain_expression(&p, e, v, lx->error);
     ok = ok && !lx->error->raised;
     return (text_end(&text, ok) || calc_no_memory(lx->error)) && ok;
+}
+
+bool do_explain(shell *sh, lexer *lx, const command *self) {
+    const expr *e = NULL;
+    trial *changed = NULL;
+    value v = {0};
+    (void)self;
+    if (lex_is(lx, "mismatch") && lex_peek(lx) == T_END)
+        return explain_mismatch(sh, lx);
+    if (no_quantity(sh, lx))
+        return false;
+    const quantity *bare = bare_name(lx);
+    const bool ok = (bare || read_expression(sh, lx, &e, &changed, &v)) && explain(sh, bare, e, v, lx);
+    if (changed)
+        trial_close(changed);
+    return ok;
 }
