@@ -9,11 +9,6 @@
 #include "contact/memory.h"
 #include "number/quadrature.h"
 
-/* libm's are calls. */
-static inline fret_real greater(fret_real a, fret_real b) {
-    return a > b ? a : b;
-}
-
 /* After so many moves of the edge there will be more: places of the law are kept. */
 enum { MANY_MOVES = 8 };
 
@@ -111,7 +106,7 @@ static void keep_inner(fret_memory *m, coordinate by, fret_real s, double goal, 
     const dd bound = dd_mul(scale, dd_from2(m->edge[by], edge_rest(m, by, m->edge[by])));
     const dd at = by == LOAD ? dd_of(goal) : dd_sub(dd_of(goal), dd_from(m->slid));
     const dd left = dd_div(s < 0 ? dd_add(bound, at) : dd_sub(bound, at), scale);
-    const fret_real inner = greater(dd_value(left) / (1 - s * only->sigma), 0);
+    const fret_real inner = fret_greater(dd_value(left) / (1 - s * only->sigma), 0);
     only->thick[by] = inner;
     eaten[by] = m->edge[by] - inner;
     if (by == DEPTH) {
@@ -130,7 +125,7 @@ static fret_real core_load(const fret_memory *m, fret_real s, double goal, fret_
         return load;
     const dd bound = dd_mul_d(dd_from2(edge, edge_rest(m, LOAD, edge)), m->mu);
     const dd left = s < 0 ? dd_add_d(bound, goal) : dd_add_d(bound, -goal);
-    return greater(dd_value(dd_div(left, dd_of(m->mu))) / (1 - s * m->slices[0].sigma), 0);
+    return fret_greater(dd_value(dd_div(left, dd_of(m->mu))) / (1 - s * m->slices[0].sigma), 0);
 }
 
 /* The front of a slip zone of sign s at constant normal load: the zone eats inwards from the edge. */
@@ -265,7 +260,7 @@ static void convert_top(fret_memory *m, coordinate by, fret_real inner) {
             sl->inner[other] = 0;
         else if (i == m->count - 1)
             sl->inner[other] = inner >= 0 ? inner : other_of(m, by, sl->inner[by]);
-        sl->thick[other] = greater(outer - sl->inner[other], 0);
+        sl->thick[other] = fret_greater(outer - sl->inner[other], 0);
         outer = sl->inner[other];
     }
     size_t count = m->count;
@@ -343,7 +338,7 @@ static void retreat_by(retreat *r, fret_real t) {
 /* Nothing slips: the slice at the edge gets thinner. */
 static void retreat_in_stick(fret_memory *m, retreat *r) {
     slice *top = &m->slices[m->count - 1];
-    const fret_real t = -greater(-r->left, -top->thick[r->by]);
+    const fret_real t = fret_lesser(r->left, top->thick[r->by]);
     const bool gone = t >= top->thick[r->by];
     top->thick[r->by] -= t;
     retreat_by(r, t);

@@ -76,6 +76,7 @@ fret_real fret_near_parts(fret_near *near, coordinate by, fret_real y, fret_real
     const double z = (double)x, z2 = z * z, z4 = z2 * z2;
     const double tail = ((b[3] + z * b[4]) + z2 * (b[5] + z * b[6])) +
                         z4 * ((b[7] + z * b[8]) + z2 * (b[9] + z * b[10]) + z4 * (b[11] + z * b[12]));
-    *rest = V * (x * (law->leading[1] + x * (law->leading[2] + x * tail))) + law->place[i].rest;
+    const fret_real Vx = V * x;
+    *rest = Vx * law->leading[1] + (law->place[i].rest + (Vx * x) * (law->leading[2] + x * tail));
     return V;
 }

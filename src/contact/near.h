@@ -30,6 +30,15 @@ typedef struct fret_near {
     fret_near_law law[2];      /* of the coordinate into the other */
 } fret_near;
 
+/* libm's are calls; of a NaN the second. */
+static inline fret_real fret_greater(fret_real a, fret_real b) {
+    return a > b ? a : b;
+}
+
+static inline fret_real fret_lesser(fret_real a, fret_real b) {
+    return a < b ? a : b;
+}
+
 /* Is the law one of those that this does for: a power that is not steep? */
 bool fret_near_fits(const fret_normal *normal);
 void fret_near_make(const fret_normal *normal, fret_near *out);

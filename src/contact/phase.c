@@ -214,9 +214,9 @@ static fret_real thin_loss(const fret_phase *p, fret_real least, fret_real most)
                     h3w = w * h3 + dw * (h * hdh * 1.5L + dh * dh2 * 0.15L);
     const fret_real *b = law->leading;
     const fret_real first = b[2] * h2 + b[3] * (3 * h2w + h3) + b[4] * (6 * h2w2 + 4 * h3w + h4);
-    const double radius = (double)((most - c) * per), way = (double)fmaxl(travel, fabsl(move));
+    const double radius = (double)((most - c) * per), way = (double)fret_greater(travel, fabsl(move));
     const int terms = radius < 0.0166 ? 12 : radius < 0.066 ? 17 : FRET_NEAR_TERMS;
-    const int pairs = way * fmax((double)law->s, 1) < 0.006 ? 2 : 4;
+    const int pairs = way * (double)fret_greater(law->s, 1) < 0.006 ? 2 : 4;
     const fret_two *node = pairs == 2 ? fret_gauss_4 : fret_gauss_8,
                    *weight = pairs == 2 ? fret_gauss_4_weight : fret_gauss_8_weight;
     const double a0 = (double)w0, da = (double)dw, k0 = (double)h0, dk = (double)dh;
@@ -291,7 +291,7 @@ static fret_real thick_loss(const fret_phase *p) {
     const fret_real loss = fabsl(travel * (e.mean - f.mean) + ends), scale = travel * e.mean;
     if (e.far || f.far)
         return loss > 0.03L * scale ? loss : (fret_real)NAN;
-    if (loss > 0.06L * scale)
+    if (loss > 0.02L * scale)
         return loss;
     fret_real low[2]; /* little is left: the difference by all bits */
     const fret_real high = fret_near_parts(p->near, p->by, edge[0], &low[EDGE]) -
@@ -303,16 +303,18 @@ static fret_real thick_loss(const fret_phase *p) {
 
 /* NaN where many points do better. */
 static fret_real near_loss(const fret_phase *p) {
-    const fret_real most = fmaxl(p->edge0, p->edge1), least = fminl(fminl(p->edge0, p->edge1), p->front1),
-                    way = fmaxl(p->front0 - p->front1, fabsl(p->edge1 - p->edge0));
-    return most - least <= 0.15L * (most + least) && way * fmaxl(p->near->law[p->by].s, 1) < 0.16L * most
+    const fret_real most = fret_greater(p->edge0, p->edge1),
+                    least = fret_lesser(fret_lesser(p->edge0, p->edge1), p->front1),
+                    way = fret_greater(p->front0 - p->front1, fabsl(p->edge1 - p->edge0));
+    return most - least <= 0.15L * (most + least) &&
+                   way * fret_greater(p->near->law[p->by].s, 1) < 0.16L * most
                ? thin_loss(p, least, most)
                : thick_loss(p);
 }
 
 static fret_real power_loss(const fret_phase *p) {
     const fret_normal *n = p->normal;
-    const fret_real e = fmaxl(p->edge0, p->edge1);
+    const fret_real e = fret_greater(p->edge0, p->edge1);
     const fret_real fast = p->near && p->front0 > p->front1 ? near_loss(p) : (fret_real)NAN;
     if (fast >= 0)
         return fast;
@@ -324,7 +326,8 @@ static fret_real power_loss(const fret_phase *p) {
     if (e <= 0)
         return 0;
     c.v = p->by == DEPTH ? fret_law_force(n, e) : fret_law_depth(n, e);
-    const fret_real way = fmaxl(p->front0 - p->front1, fabsl(p->edge1 - p->edge0)) * fmaxl(c.s, 1);
+    const fret_real way =
+        fret_greater(p->front0 - p->front1, fabsl(p->edge1 - p->edge0)) * fret_greater(c.s, 1);
     if (way < 0.006L * p->front1)
         return (p->front0 - p->front1) * short_rule(power_rate, &c);
     if (is_smooth(p))
@@ -359,7 +362,7 @@ fret_real fret_phase_force(const fret_phase *phase) {
     if (p.normal->pieces && fret_pieces_mean(p.normal->pieces, p.edge0, p.edge1, &mean))
         return mean;
     const fret_normal *n = p.normal;
-    if (fabsl(p.edge1 - p.edge0) < 0.2L * fmaxl(p.edge0, p.edge1))
+    if (fabsl(p.edge1 - p.edge0) < 0.2L * fret_greater(p.edge0, p.edge1))
         return fret_integrate_smooth(gross_rate, &p);
     if (fret_normal_closed(n))
         return (p.edge1 * fret_law_force(n, p.edge1) - p.edge0 * fret_law_force(n, p.edge0)) /
