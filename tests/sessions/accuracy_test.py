@@ -211,6 +211,22 @@ CONDITIONED = (
      {"E0": 210e9, "nu": 0.3, "mu": 0.3, "FN": 100, "R": 1e-2, "FNA": 20, "FA": 10}),
     ("material E0=%(E0)s Pa nu=%(nu)s; geometry flat-rounded b=%(b)s m R=%(R)s m; friction %(mu)s; press dz=%(dz)s m",
      ("FN", "kn"), {"E0": 210e9, "nu": 0.3, "mu": 0.3, "b": 2e-4, "R": 1e-2, "dz": 1e-6}),
+    # names of one's own, one of them through an input, and steps of every kind
+    ("z = %(z)s; y = %(y)s m; material E0=%(E0)s Pa nu=%(nu)s; geometry sphere R=%(R)s m; mu := z; "
+     "press FN=%(FN)s N; step FN=%(step FN)s N Fx=%(Fx)s N", ("dx", "W", "qx(y)"),
+     {"E0": 210e9, "nu": 0.3, "R": 1e-2, "FN": 100, "step FN": 80, "Fx": 10, "z": 0.4, "y": 1e-4}),
+    ("material E0=%(E0)s Pa nu=%(nu)s; geometry sphere R=%(R)s m; friction %(mu)s; press FN=%(FN)s N; "
+     "step FN+=%(step FN)s N Fx+=%(Fx)s N", ("dx", "U"),
+     {"E0": 210e9, "nu": 0.3, "R": 1e-2, "FN": 100, "step FN": 10, "Fx": 5, "mu": 0.4}),
+    ("material E0=%(E0)s Pa nu=%(nu)s; geometry sphere R=%(R)s m; friction %(mu)s; press dz=%(dz)s m; "
+     "step dz=%(step dz)s m dx=%(dx)s m", ("Fx", "U"),
+     {"E0": 210e9, "nu": 0.3, "R": 1e-2, "dz": 3e-6, "step dz": 2.8e-6, "dx": 1e-7, "mu": 0.4}),
+    ("material E0=%(E0)s Pa nu=%(nu)s; geometry sphere R=%(R)s m; friction %(mu)s; press FN=%(FN)s N; "
+     "step FN=%(step FN)s N dx=%(dx)s m", ("Fx",),
+     {"E0": 210e9, "nu": 0.3, "R": 1e-2, "FN": 100, "step FN": 80, "dx": 1e-7, "mu": 0.4}),
+    ("material E0=%(E0)s Pa nu=%(nu)s; geometry sphere R=%(R)s m; friction %(mu)s; press FN=%(FN)s N; "
+     "step dz=%(step dz)s m Fx=%(Fx)s N", ("dx",),
+     {"E0": 210e9, "nu": 0.3, "R": 1e-2, "FN": 100, "step dz": 3.2e-6, "Fx": 10, "mu": 0.4}),
 )
 
 
@@ -231,7 +247,7 @@ def conditioned(tests, scene, quantities, start):
     told = tests.run("-c", script(start) + "".join("\nexplain " + name for name in quantities)).stdout
     told = re.split(r"^(?=\w+: )", told, flags=re.M)[1:]
     for i, quantity in enumerate(quantities):
-        got = dict(re.findall(r"^    (\w+) = [^ \n]+(?: [^ \n]+)? {2,}\S+ +\S+ +(\S+)$", told[i], re.M))
+        got = dict(re.findall(r"^    ((?:step )?\w+) \+?= [^ \n]+(?: [^ \n]+)? {2,}\S+ +\S+ +(\S+)$", told[i], re.M))
         none = re.search(r"^    no effect: (.*)$", told[i], re.M)
         none = none.group(1).split(", ") if none else []
         listed = re.findall(r"^    (\w+) = ", told[i].partition("model:")[0], re.M)
@@ -260,6 +276,15 @@ def conditioning(tests):
                 "conditioning" in done.stdout, tests.report(done))
     done = tests.run("-c", scene + "cycle FA=25 N; explain W; W; show; explain FN; explain E0")
     again = tests.run("-c", scene + "cycle FA=25 N; W; show; explain FN; explain E0")
+    for script, line in (
+            ("step FN=80 N dx=0.1 um; explain Fx", "path: step FN= dx= goes straight in (delta_z, delta_x)"),
+            ("step dz=3 um Fx=5 N; explain dx", "path: step dz= Fx= goes straight in (F_N, F_x)"),
+            ("cycle FA=10 N FNA=10 N; explain W", "the sine itself, event by event (exact)"),
+            ("cycle dxA=0.1 um FNA=10 N; explain W", "chords a period and fewer, extrapolated)"),
+            ("cycle dxA=0.1 um FNA=10 N; explain kt", "chords a period of the sine"),
+            ("set model springs 100; cycle FA=10 N FNA=10 N; explain W", "model: springs, by")):
+        shown = tests.run("-c", scene + script)
+        tests.check("explain: " + script, line in shown.stdout, tests.report(shown))
     tests.check("explain leaves the scene", done.stdout.endswith(again.stdout), tests.report(done))
 
 
