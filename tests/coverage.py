@@ -3,7 +3,9 @@
 tests/hard/coverage.txt. A comment `unreached: REASON` leaves out its line and what is indented under it; alone on its line,
 the next one."""
 import collections
+import contextlib
 import json
+import math
 import os
 import re
 import subprocess
@@ -13,6 +15,7 @@ import harness
 import runner
 
 import faults
+import latency
 
 B = "build/coverage"
 # build of their own, or reach nothing more
@@ -42,7 +45,30 @@ def some_hard(tests):
         runner.counted(tests, "hard, diagrams", program, "--diagrams", "20000")
 
 
-ROOMS = {**{name: run for name, run in runner.ROOMS.items() if name not in SLOW}, "some hard": some_hard, "faults": every_fault}
+def leaves(terminal):
+    """The end of a terminal of `latency`, which kills: an exit writes the counts."""
+    terminal.send("exit")
+    with contextlib.suppress(OSError):
+        while os.read(terminal.fd, 1 << 16):
+            pass
+    os.waitpid(terminal.pid, 0)
+    os.close(terminal.fd)
+
+
+def interrupts(tests):
+    """What takes long, interrupted after some times: the scene stays."""
+    latency.Terminal.close = leaves
+    env = {**tests.env, "XDG_STATE_HOME": tests.dir, "INPUTRC": "/dev/null"}
+
+    def one(case):
+        took, kept = latency.measure(tests.fret, env, case, (0.02, 0.06, 0.2, 0.5, 1, 2))
+        tests.check("interrupted: " + case[0], kept and all(once[0] < math.inf for once in took), str(took))
+    os.chdir(tests.dir)
+    tests.each([lambda c=case: one(c) for case in latency.cases(tests.dir, 10)])
+    os.chdir(harness.ROOT)
+
+
+ROOMS = {**{name: run for name, run in runner.ROOMS.items() if name not in SLOW}, "some hard": some_hard, "interrupts": interrupts, "faults": every_fault}
 
 
 def build():
