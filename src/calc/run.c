@@ -57,6 +57,14 @@ watch watch_ends(void) {
     return (watch){.next = next_end};
 }
 
+static double next_part(const watch *w, const leg *l, double after) {
+    return l->chord ? 1 : (floor(after * w->points + 1e-9) + 1) / w->points;
+}
+
+watch watch_way(unsigned points) {
+    return (watch){.next = next_part, .points = points};
+}
+
 watch watch_times(double first, double every, size_t last, bool turns) {
     return (watch){.next = next_time, .first = first, .every = every, .last = last, .turns = turns};
 }
@@ -83,6 +91,12 @@ static fret_status look(runner *r, double time, bool turning) {
            w->first + w->every * (double)w->sample <= time + 1e-9 * w->every)
         w->sample++;
     return unless_stopped(r, fine);
+}
+
+/* Does the watch want the run to wait here? */
+static bool must_wait(runner *r) {
+    r->waits = r->watch && r->watch->wait;
+    return r->waits;
 }
 
 /* Where the load is at the part x of a leg, as a part of the way. */
@@ -206,12 +220,12 @@ static double slip_rate(const swing *w, double angle, int sign) {
     return -A * (double)fret_sin(angle) - sign * bound;
 }
 
-enum { NODES = 24, SCAN = 64 };
+enum { SCAN = 64 };
 
 /* Where slip_rate changes its sign: few places, found by a scan and bisection. */
-static size_t find_turns(const swing *w, int sign, double node[NODES], size_t count) {
+static size_t find_turns(const swing *w, int sign, double node[RUN_NODES], size_t count) {
     double before = slip_rate(w, 0, sign);
-    for (int i = 1; i <= SCAN && count < NODES - 2; i++) {
+    for (int i = 1; i <= SCAN && count < RUN_NODES - 2; i++) {
         double lo = 2 * pi * (i - 1) / SCAN, hi = 2 * pi * i / SCAN;
         const double after = slip_rate(w, hi, sign);
         if (before * after < 0) {
@@ -228,7 +242,7 @@ static size_t find_turns(const swing *w, int sign, double node[NODES], size_t co
 
 /* Where F_N, the tangential load, and it + and - its bound turn, in order, 0 and 2 pi among them: between
  * these places the error of chords is clean. */
-static size_t find_nodes(const swing *w, double node[NODES]) {
+static size_t find_nodes(const swing *w, double node[RUN_NODES]) {
     const double phase = w->cycle->extra.phase;
     size_t count = 0;
     node[count++] = 0;
@@ -259,33 +273,42 @@ static double next_look(const runner *r, const leg *period, double from, double 
 
 /* Chords of the harmonic path, from the top of F_x, cut evenly between the nodes and between looks. */
 static fret_status chords_period(runner *r, const load_item *c, long double FN) {
-    double node[NODES];
-    const swing about = {r->load, c, FN};
-    const size_t nodes = find_nodes(&about, node);
-    const double begin = r->time;
+    run_place here = {.nodes = 0}, *k = r->watch ? &r->watch->place : &here;
+    if (!k->nodes) {
+        const swing about = {r->load, c, FN};
+        k->nodes = find_nodes(&about, k->at);
+        k->begin = r->time;
+        k->node = k->chord = 0;
+        k->from = k->at[0];
+    }
     leg l = {.to = {FRET_TO_FORCE, tangential_by(&c->step), 0, 0},
              .chord = true,
              .points = c->step.points ? c->step.points : RUN_CHORDS,
-             .origin = begin};
+             .origin = k->begin};
     fret_status st = fine;
-    for (size_t i = 0; i + 1 < nodes && !st.code; i++) {
-        for (double from = node[i]; from < node[i + 1] && !st.code;) {
-            const double end = next_look(r, &l, from, node[i + 1]), length = end - from;
+    for (; k->node + 1 < k->nodes && !st.code; k->node++) {
+        const double to = k->at[k->node + 1];
+        while (k->from < to && !st.code) {
+            const double end = next_look(r, &l, k->from, to), length = end - k->from;
             const unsigned count = (unsigned)(1 + RUN_CHORDS * length / (2 * pi)) << r->level;
-            for (unsigned j = 1; j <= count && !st.code; j++) {
-                const double angle = from + length * j / count;
-                l.closes = i + 2 == nodes && j == count && end == node[i + 1];
+            while (k->chord < count && !st.code) {
+                if (must_wait(r))
+                    return interrupted;
+                const double angle = k->from + length * ++k->chord / count;
+                l.closes = k->node + 2 == k->nodes && k->chord == count && end == to;
                 l.to.tangential =
                     l.closes ? c->step.tangential_value : c->step.tangential_value * harmonic(angle);
                 l.to.normal =
                     (double)(FN + c->step.normal_value * harmonic((long double)angle + c->extra.phase));
                 l.begin = r->time;
-                l.end = begin + angle / (2 * pi);
+                l.end = k->begin + angle / (2 * pi);
                 st = unless_stopped(r, take(r, &l));
             }
-            from = end;
+            k->from = end;
+            k->chord = 0;
         }
     }
+    k->nodes = 0;
     return st;
 }
 
@@ -328,9 +351,17 @@ static fret_status run_periods(runner *r, const load_item *c, long double FN) {
     unsigned alike = 0;
     fret_status st = fine;
     r->repeated = 0;
-    for (unsigned i = 0; i < times && !st.code; i++) {
-        engine_mark(&r->engine);
+    for (unsigned i = r->watch ? r->watch->place.period : 0; i < times && !st.code; i++) {
+        if (r->watch && !r->watch->place.nodes) {
+            r->watch->place.period = i;
+            if (must_wait(r))
+                return interrupted;
+        }
+        if (!(r->watch && r->watch->place.nodes)) /* else in its midst */
+            engine_mark(&r->engine);
         st = unless_stopped(r, run_period(r, c, FN));
+        if (r->waits)
+            return st;
         close_period(r); /* the sine's, too */
         lap now = {.loss = r->cycle_loss};
         engine_forces(&r->engine, &now.state);
@@ -346,23 +377,34 @@ static fret_status run_periods(runner *r, const load_item *c, long double FN) {
     return st;
 }
 
-static fret_status run_cycle(runner *r, const load_item *c) {
-    fret_state state;
-    engine_forces(&r->engine, &state);
-    const long double FN = state.FN;
-    leg first = {.to = {FRET_KEEP_NORMAL, tangential_by(&c->step), 0, c->step.tangential_value},
-                 .begin = r->time,
-                 .end = r->time + 0.25,
-                 .law = LEG_RISE,
-                 .even = r->watch && r->watch->next == next_point};
+/* From where the load is now to the top of F_x. */
+static fret_status first_leg(runner *r, const load_item *c, long double FN) {
+    leg l = {.to = {FRET_KEEP_NORMAL, tangential_by(&c->step), 0, c->step.tangential_value},
+             .begin = r->time,
+             .end = r->time + 0.25,
+             .law = LEG_RISE,
+             .even = r->watch && r->watch->next == next_point};
     if (c->step.normal_value != 0) {
-        first.to.normal_by = FRET_TO_FORCE;
-        first.to.normal = (double)(FN + c->step.normal_value * harmonic(c->extra.phase));
-        first.law = LEG_STRAIGHT;
+        l.to.normal_by = FRET_TO_FORCE;
+        l.to.normal = (double)(FN + c->step.normal_value * harmonic(c->extra.phase));
+        l.law = LEG_STRAIGHT;
     }
-    fret_status st = take(r, &first);
+    return take(r, &l);
+}
+
+static fret_status run_cycle(runner *r, const load_item *c) {
+    run_place here = {.within = false}, *k = r->watch ? &r->watch->place : &here;
+    fret_status st = fine;
+    if (!k->within) {
+        fret_state state;
+        engine_forces(&r->engine, &state);
+        *k = (run_place){.FN = state.FN};
+        st = first_leg(r, c, k->FN);
+        k->within = !st.code;
+    }
     if (!st.code)
-        st = run_periods(r, c, FN);
+        st = run_periods(r, c, k->FN);
+    k->within = r->waits;
     if (st.code == FRET_GROSS_SLIP && c->step.tangential == BY_FORCE && c->step.normal_value == 0)
         st.quantity = "FA";
     return st;
@@ -459,7 +501,10 @@ fret_status run_to(runner *r, load_mark end) {
     const load_view *load = r->load;
     const bool every = r->watch || !r->engine.kind->last_loss; /* springs round otherwise */
     fret_status st = fine;
+    r->waits = false;
     while (r->at.steps < end.steps) {
+        if (!(r->watch && r->watch->place.within) && must_wait(r))
+            return interrupted;
         const load_step *step = &load->program->steps[r->at.steps];
         const bool passed = !every && on_the_way(load, r->at.steps);
         if (passed) {
@@ -470,6 +515,8 @@ fret_status run_to(runner *r, load_mark end) {
             load_item item = program_item(load->program, r->at, load->last_cycle, load->in);
             st = run_item(r, &item);
         }
+        if (r->waits)
+            break;
         st = unless_stopped(r, st);
         if (st.code)
             break;

@@ -46,6 +46,17 @@ typedef struct trail {
     size_t count, room;
 } trail;
 
+/* Where in a cycle a run waits. */
+enum { RUN_NODES = 24 };
+typedef struct run_place {
+    bool within;                       /* of a cycle, else between two steps */
+    unsigned period;                   /* those done */
+    long double FN;                    /* that it turns about */
+    size_t node, nodes;                /* of a swinging period: 0 nodes: at its beginning */
+    double at[RUN_NODES], begin, from; /* this angle on */
+    unsigned chord;
+} run_place;
+
 /* Who looks on. next: the part of the leg, 0..1, at which to look after the part `after`; beyond 1: not
  * again. see: false ends the run. */
 typedef struct watch watch;
@@ -59,12 +70,17 @@ struct watch {
     bool turns;          /* turning points too */
     bool once;           /* a period that repeats the one before need not be seen again */
     bool limit;          /* of swinging periods it wants the limit of all levels */
+    bool wait;           /* raised by see: the run waits before the next step, period or chord, and goes on
+                            by run_to */
+    run_place place;
 };
 
 /* Every leg in so many parts. */
 watch watch_points(unsigned points);
 /* At the end of every leg and chord. */
 watch watch_ends(void);
+/* The end of every chord, other legs in so many parts evenly in time. */
+watch watch_way(unsigned points);
 /* At the times first + i*every, i = 0..last; turns: at turning points too. */
 watch watch_times(double first, double every, size_t last, bool turns);
 
@@ -93,6 +109,7 @@ struct runner {
     double time;         /* now */
     bool turning;        /* for the watch: the end of a leg */
     bool halted;         /* by the watch */
+    bool waits;          /* because the watch wants it to: goes on by run_to */
     bool area_wanted;
     long double area, Fx, dx; /* int F_x d(delta_x) by the trapezoidal rule, at what the watch sees */
     long double cycle_loss;   /* of the last period run; of a program without one 0 */

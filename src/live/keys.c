@@ -258,7 +258,7 @@ static void compare(live *l, const char *text) {
         live_amount((double)v[i].v, v[i].d, text_of, sizeof text_of);
         l->compared_with[i] = v[i].v;
         snprintf(l->side[i].title, sizeof l->side[i].title, "%s = %s", l->compared.text, text_of);
-        track_free(&l->side[i].path);
+        way_end(&l->side[i].way);
     }
     l->comparing = true;
     live_tell(l, false, "the same hand moves both; :compare off ends it");

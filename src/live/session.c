@@ -42,8 +42,19 @@ static void tell_answer(live *l, const char *line, char *answer, bool ok) {
     free(answer);
 }
 
+static bool say(live *l, const char *line) {
+    char *answer = NULL;
+    const bool ok = l->host->run(l->host->self, line, &answer);
+    if (!ok && *l->host->stop)
+        *l->host->stop = 0; /* the statement was interrupted, not the session */
+    tell_answer(l, line, answer, ok);
+    l->leave = l->leave || *l->host->quit;
+    live_update(l);
+    return ok;
+}
+
 bool live_say(live *l, const char *format, ...) {
-    char line[LIVE_LINE], *answer = NULL;
+    char line[LIVE_LINE];
     va_list args;
     va_start(args, format);
     const int n = vsnprintf(line, sizeof line, format, args);
@@ -53,13 +64,7 @@ bool live_say(live *l, const char *format, ...) {
         return false;
     }
     live_play_end(l);
-    const bool ok = l->host->run(l->host->self, line, &answer);
-    if (!ok && *l->host->stop)
-        *l->host->stop = 0; /* the statement was interrupted, not the session */
-    tell_answer(l, line, answer, ok);
-    l->leave = l->leave || *l->host->quit;
-    live_update(l);
-    return ok;
+    return say(l, line);
 }
 
 double live_nice(double v) {
@@ -77,12 +82,13 @@ void live_amount(double v, dim d, char *text, size_t size) {
 /* ---- what is shown ----------------------------------------------------------------------------- */
 
 const shot *side_shown(const live *l, const side *s) {
-    if (!l->playing || !s->shots)
+    const load_way *w = &s->way;
+    if (!l->playing || !w->shots)
         return &s->now;
     size_t i = 0;
-    while (i + 1 < s->shots && s->play[i + 1].time <= l->play_at)
+    while (i + 1 < w->shots && w->play[i + 1].time <= l->play_at)
         i++;
-    return &s->play[i];
+    return &w->play[i];
 }
 
 static void trouble(live *l, side *s, calc_error *error) {
@@ -90,21 +96,13 @@ static void trouble(live *l, side *s, calc_error *error) {
     snprintf(s->trouble, sizeof s->trouble, "%.*s", LIVE_TEXT - 1, error->text);
 }
 
-/* Of the scene that expressions see; along: the way of the last item too. */
+/* Of the scene that expressions see; along: the last item is to be played. */
 static bool take(live *l, side *s, bool along, calc_error *error) {
     calc *c = l->host->calc;
-    const size_t before = s->shots;
+    const size_t items = c->now->end.steps;
     s->trouble[0] = 0;
-    s->shots = 0;
-    if (!shot_take(c, NULL, &s->now, error))
-        return false;
-    if (along && !s->play)
-        s->play = calloc(PLAY_SHOTS, sizeof *s->play);
-    if (along && s->play && shots_again(&s->path, c, &s->now, s->play, before))
-        s->shots = before;
-    else if (along && s->play && !shots_along(c, s->play, PLAY_SHOTS, &s->shots, error))
-        return false;
-    return track_follow(&s->path, c, &s->now, s->play, s->shots, error);
+    return shot_take(c, NULL, &s->now, error) &&
+           way_follow(&s->way, c, along && items ? items - 1 : NO_ITEM, error);
 }
 
 static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *error) {
@@ -115,32 +113,42 @@ static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *er
     return ok;
 }
 
-static void update(live *l, bool along) {
-    l->stale = false;
-    for (size_t i = 0; i < (l->comparing ? SIDES : 1); i++) {
-        calc_error error;
-        error_clear(&error);
-        side *s = &l->side[i];
-        if (!(l->comparing ? take_compared(l, s, i, along, &error) : take(l, s, along, &error)))
-            trouble(l, s, &error);
-    }
+static size_t sides(const live *l) {
+    return l->comparing ? SIDES : 1;
+}
+
+static void refresh_side(live *l, size_t i) {
+    side *s = &l->side[i];
+    calc_error error;
+    error_clear(&error);
+    if (!(l->comparing ? take_compared(l, s, i, l->follow, &error) : take(l, s, l->follow, &error)))
+        trouble(l, s, &error);
+    s->stale = false;
     l->changed = true;
+    if (i == 0 && !(l->FA > 0) && s->now.slip > 0 && !*s->trouble) /* half of what would slide it */
+        l->FA = live_nice(s->now.slip / 2);
 }
 
 void live_update(live *l) {
-    l->stale = true;
+    for (size_t i = 0; i < SIDES; i++)
+        l->side[i].stale = true;
     l->changed = true;
-    if (l->follow)
-        live_refresh(l);
+}
+
+/* The first that is of an earlier scene; false: none is. */
+static bool refresh_next(live *l) {
+    for (size_t i = 0; i < sides(l); i++)
+        if (l->side[i].stale) {
+            refresh_side(l, i);
+            return true;
+        }
+    l->follow = false;
+    return false;
 }
 
 void live_refresh(live *l) {
-    if (!l->stale)
-        return;
-    update(l, l->follow);
-    const shot *s = &l->side[0].now;
-    if (!(l->FA > 0) && s->slip > 0 && !*l->side[0].trouble) /* half of what would slide it */
-        l->FA = live_nice(s->slip / 2);
+    while (refresh_next(l))
+        ;
 }
 
 void live_begin(live *l) {
@@ -158,70 +166,164 @@ void live_begin(live *l) {
             const size_t n = strlen(line);
             snprintf(line + n, sizeof line - n, "%s%s", n ? "; " : "", first[i].statement);
         }
-    if (*line)
-        live_say(l, "%s", line);
-    else
+    if (!*line) {
         live_update(l);
+    } else if (live_say(l, "%s", line)) { /* what they answer, as with `set timing on`, is no page */
+        free(l->page);
+        l->page = NULL;
+    }
+}
+
+static void walk_side(live *l, side *s, bool (*late)(void)) {
+    calc_error error;
+    error_clear(&error);
+    if (*s->trouble || way_rests(&s->way))
+        return;
+    l->changed = true;
+    if (!way_on(&s->way, l->host->calc, late, &error))
+        trouble(l, s, &error);
+}
+
+void live_walk(live *l, bool (*late)(void)) {
+    for (size_t i = 0; i < sides(l); i++) {
+        if (l->playing)
+            way_pass(&l->side[i].way, l->play_at);
+        walk_side(l, &l->side[i], late);
+    }
 }
 
 /* ---- a cycle that plays ------------------------------------------------------------------------ */
 
 /* From where the last item of the load begins to move. */
 static void start_play(live *l) {
-    const side *s = &l->side[0];
-    if (*s->trouble || !s->shots)
-        return;
-    size_t first = 0; /* what stands still at the beginning, after another cycle, is left out */
-    while (first + 1 < s->shots && s->play[first + 1].Fx == s->play[0].Fx &&
-           s->play[first + 1].a == s->play[0].a)
-        first++;
-    if (first + 1 == s->shots)
-        return;
-    l->play_at = s->play[first].time;
     l->playing = true;
+    l->moves = false;
+    l->play_at = 0;
+}
+
+static void cycle_text(const live *l, double FA, double FNA, double phase, char *text, size_t size) {
+    char force[40], swing[40];
+    live_amount(FA, DIM_FORCE, force, sizeof force);
+    live_amount(FNA, DIM_FORCE, swing, sizeof swing);
+    (void)l;
+    if (FNA > 0)
+        snprintf(text, size, "cycle FA=%s FNA=%s phase=%g deg", force, swing, phase);
+    else
+        snprintf(text, size, "cycle FA=%s", force);
+}
+
+static bool last_cycle(const live *l, load_item *out) {
+    scene *s = &l->host->calc->scene;
+    calc_error ignored;
+    error_clear(&ignored);
+    return s->end.cycles && s->program->steps[s->end.steps - 1].kind == LOAD_CYCLE &&
+           scene_last_cycle(s, out, &ignored);
+}
+
+static bool remember_cycle(live *l) {
+    l->said_changes = l->host->calc->undo.count;
+    return last_cycle(l, &l->said);
+}
+
+/* Is the cycle that is to be played the last that was done? Then it goes on: another one would turn about
+ * where that one ends. */
+static bool goes_on(const live *l) {
+    const load_item *said = &l->said;
+    load_item now;
+    return l->FA == l->said_FA && l->FNA == l->said_FNA && (l->FNA == 0 || l->phase == l->said_phase) &&
+           l->host->calc->undo.count == l->said_changes && last_cycle(l, &now) &&
+           now.extra.times == said->extra.times && now.step.tangential == said->step.tangential &&
+           now.step.tangential_value == said->step.tangential_value &&
+           now.step.normal_value == said->step.normal_value && now.extra.phase == said->extra.phase;
+}
+
+static void one_more(live *l) {
+    char text[LIVE_TEXT];
+    for (size_t i = 0; i < sides(l); i++)
+        if (!*l->side[i].trouble && l->side[i].way.walk.begun)
+            way_more(&l->side[i].way);
+    l->periods++;
+    cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
+    live_tell(l, false, "%s times %u", text, l->periods);
 }
 
 static void start_cycle(live *l) {
-    char FA[40], FNA[80] = "", swing[40];
-    live_amount(l->FA, DIM_FORCE, FA, sizeof FA);
-    if (l->FNA > 0) {
-        live_amount(l->FNA, DIM_FORCE, swing, sizeof swing);
-        snprintf(FNA, sizeof FNA, " FNA=%s phase=%g deg", swing, l->phase);
-    }
+    char text[LIVE_TEXT];
+    cycle_text(l, l->FA, l->FNA, l->phase, text, sizeof text);
+    if (!live_say(l, "%s", text) || !remember_cycle(l))
+        return;
     l->follow = true;
-    const bool ok = live_say(l, "cycle FA=%s%s", FA, FNA);
-    l->follow = false;
-    if (ok)
-        start_play(l);
+    l->said_FA = l->FA;
+    l->said_FNA = l->FNA;
+    l->said_phase = l->phase;
+    l->periods = 1;
+    start_play(l);
 }
 
 void live_play(live *l) {
     l->last_cycle = false;
-    start_cycle(l);
+    live_refresh(l);
+    if (goes_on(l)) {
+        one_more(l);
+        start_play(l);
+    } else {
+        start_cycle(l);
+    }
 }
 
 void live_play_item(live *l) {
     l->last_cycle = true;
-    update(l, true);
+    l->periods = 0;
+    live_update(l);
+    l->follow = true;
     start_play(l);
 }
 
 void live_play_end(live *l) {
+    const bool more = l->playing && l->periods > l->said.extra.times;
+    char text[LIVE_TEXT], line[LIVE_LINE];
     l->playing = false;
     l->changed = true;
+    if (!more)
+        return;
+    cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
+    snprintf(line, sizeof line, "%s times %u", text, l->periods);
+    if (say(l, "undo") && say(l, line))
+        remember_cycle(l);
+}
+
+/* The end of what has been walked. */
+static double ahead(const live *l) {
+    double time = INFINITY;
+    for (size_t i = 0; i < sides(l); i++) {
+        const load_way *w = &l->side[i].way;
+        if (!*l->side[i].trouble && w->shots)
+            time = fmin(time, w->play[w->shots - 1].time);
+    }
+    return time;
 }
 
 void live_play_on(live *l, double seconds) {
-    if (!l->playing)
+    const load_way *w = &l->side[0].way;
+    if (l->playing && *l->side[0].trouble)
+        live_play_end(l);
+    if (!l->playing || l->side[0].stale || (!l->moves && w->shots < 2 && !way_done(w)))
         return;
-    const side *s = &l->side[0];
-    l->play_at += seconds * l->speed;
     l->changed = true;
-    if (s->shots && l->play_at < s->play[s->shots - 1].time)
+    if (!l->moves)
+        l->play_at = w->shots ? w->play[0].time : 0;
+    l->moves = true;
+    l->play_at = fmin(l->play_at + seconds * l->speed, ahead(l));
+    if (!way_done(w) || l->play_at < w->play[w->shots - 1].time)
         return;
-    live_play_end(l);
-    if (!l->last_cycle)
+    if (l->last_cycle) {
+        live_play_end(l);
+    } else if (goes_on(l)) {
+        one_more(l);
+    } else {
+        live_play_end(l);
         start_cycle(l);
+    }
 }
 
 /* ---- the loop ---------------------------------------------------------------------------------- */
@@ -239,10 +341,26 @@ static double worked(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void count_frame(live_work *work, double spent) {
-    work->frames++;
+static void count_work(live_work *work, bool frame, double spent) {
+    work->frames += frame;
     work->total += spent;
     work->worst = fmax(work->worst, spent);
+}
+
+/* Ways are walked a little in each frame. */
+static double walked_from;
+
+static bool late(void) {
+    static const double SLICE = 0.0015;
+    return seconds() - walked_from > SLICE;
+}
+
+/* Is there more to walk? */
+static bool walks(const live *l) {
+    for (size_t i = 0; i < sides(l); i++)
+        if (!*l->side[i].trouble && !way_rests(&l->side[i].way))
+            return true;
+    return false;
 }
 
 static void session(live *l, live_work *work) {
@@ -251,24 +369,32 @@ static void session(live *l, live_work *work) {
     double before = seconds(), filmed = before, last = worked();
     while (!l->leave) {
         double start = seconds();
-        if (l->changed) {
+        walked_from = start;
+        const bool fresh = !refresh_next(l); /* a scene a turn: the other one has its own */
+        if (fresh)
+            live_walk(l, late);
+        const bool draws = fresh && l->changed;
+        if (draws) {
             l->changed = false;
             live_draw(l);
-            const double now = worked();
-            count_frame(work, now - last);
-            last = now;
+        }
+        const double now = worked();
+        count_work(work, draws, now - last);
+        last = now;
+        if (draws) {
             film_frame(&l->film, l->host, l->typing, start - filmed);
             filmed = start;
         }
-        int key = terminal_key(l->playing ? frame : IDLE, l->host->stop);
-        start = seconds();
+        int key = terminal_key(!fresh ? 0 : l->playing || walks(l) ? frame : IDLE, l->host->stop);
+        walked_from = start = seconds();
         for (int many = 1; key != KEY_NONE; many++) { /* held keys: one frame for all that wait */
             live_key(l, key);
-            key = many < MANY && !l->leave ? terminal_key(0, l->host->stop) : KEY_NONE;
+            key = many < MANY && !l->leave && !late() ? terminal_key(0, l->host->stop) : KEY_NONE;
         }
         live_play_on(l, start - before);
         before = start;
     }
+    live_play_end(l);
 }
 
 /* Nobody is there: the script goes on by itself, with time to read. */
@@ -276,6 +402,8 @@ static void play_script(live *l) {
     static const double FRAME = 1.0 / 15, READING = 1.5, READING_SIGN = 0.04;
     double passed = 0;
     while (!l->leave && !*l->host->stop) {
+        live_refresh(l);
+        live_walk(l, NULL);
         live_draw(l);
         film_frame(&l->film, l->host, l->typing, passed);
         if (l->playing) {
@@ -287,15 +415,15 @@ static void play_script(live *l) {
             script_on(l);
         }
     }
+    live_refresh(l);
+    live_walk(l, NULL);
     live_draw(l);
     film_frame(&l->film, l->host, l->typing, passed);
 }
 
 static void end(live *l) {
-    for (size_t i = 0; i < SIDES; i++) {
-        track_free(&l->side[i].path);
-        free(l->side[i].play);
-    }
+    for (size_t i = 0; i < SIDES; i++)
+        way_end(&l->side[i].way);
     for (size_t i = 0; i < l->kept_count; i++)
         free(l->kept[i]);
     free(l->page);

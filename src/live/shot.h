@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is drawn, as plain numbers: the state of a scene at an instant, and the way that led there. Knows no
- * screen. */
+/* What is drawn of a scene at an instant, as plain numbers. Knows no screen. */
 #ifndef LIVE_SHOT_H
 #define LIVE_SHOT_H
 
@@ -24,35 +23,11 @@ typedef struct shot {
     bool known[SHOT_VALUES]; /* the numbers: shot_name */
     long double value[SHOT_VALUES];
     dim d[SHOT_VALUES];
+    int digits; /* that the numbers are known to; 0: all that are printed */
 } shot;
 
 const char *shot_name(size_t i);
 /* Of the scene that expressions see. like: an earlier one, whose bounds may be taken over, or NULL. */
 bool shot_take(calc *c, const shot *like, shot *out, calc_error *error);
-
-/* The way so far: a polyline with every turning point; the oldest part goes where it is long. */
-typedef struct track_point {
-    double time, dx, Fx, W, U;
-} track_point;
-typedef struct track {
-    track_point *point;
-    size_t count, room;
-    double dx, Fx, a, bound, energy; /* the largest magnitudes on the way */
-    /* what it was made for */
-    const program *program;
-    size_t steps;
-    inputs in; /* only to be compared */
-} track;
-
-/* Brings it up to the end of the load of the scene that expressions see; now is that end, and way, if not
- * empty, what shots_along took. */
-bool track_follow(track *t, calc *c, const shot *now, const shot *way, size_t count, calc_error *error);
-void track_free(track *t);
-
-/* States on the way of the last item of the load, evenly in time; false: there is none, or no memory. */
-bool shots_along(calc *c, shot *out, size_t count, size_t *taken, calc_error *error);
-/* Has a cycle more brought the scene, as track_follow saw it last, to `now`, where the same cycle began and
- * ended before? Then its states are those again, later and with more lost. */
-bool shots_again(const track *t, const calc *c, const shot *now, shot *way, size_t count);
 
 #endif

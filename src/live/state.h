@@ -6,18 +6,17 @@
 #include "live/canvas.h"
 #include "live/film.h"
 #include "live/live.h"
-#include "live/shot.h"
+#include "live/way.h"
 
-enum { LIVE_TEXT = 256, LIVE_LINE = 512, PLAY_SHOTS = 76, SIDES = 2, KEPT_LINES = 50 };
+enum { LIVE_TEXT = 256, LIVE_LINE = 512, SIDES = 2, KEPT_LINES = 50 };
 
 /* One scene on the screen: the user's, or the user's with an input changed. */
 typedef struct side {
     char title[LIVE_TEXT];   /* of a comparison, else empty */
     char trouble[LIVE_TEXT]; /* why there is nothing to show; empty: there is */
+    bool stale;              /* what is shown is of an earlier scene */
     shot now;
-    track path;
-    shot *play; /* the way of the cycle that plays */
-    size_t shots;
+    load_way way;
 } side;
 
 /* A script that is stepped through. */
@@ -34,8 +33,15 @@ typedef struct live {
     /* the cycle that space plays */
     double FA, FNA, phase, speed; /* [N], [N], [deg], periods a second */
     bool playing, last_cycle;
-    bool follow;    /* the way of what is said now is wanted */
+    bool follow;    /* what is said now is to be played */
+    bool moves;     /* what plays has begun to move */
     double play_at; /* time of the load */
+    /* the cycle that was said last, and its amplitudes as they were asked for; periods played of it, which
+     * are said when it ends */
+    load_item said;
+    double said_FA, said_FNA, said_phase;
+    size_t said_changes; /* that undo knows of, then */
+    unsigned periods;
     /* two scenes */
     bool comparing;
     knob compared;
@@ -61,7 +67,6 @@ typedef struct live {
     double loop_dx, loop_Fx; /* half its width and height */
     bool dragging;
     film film;
-    bool stale; /* what is shown is of an earlier scene */
     int last_key;
     bool changed; /* something is to be drawn */
 } live;
@@ -92,6 +97,8 @@ void live_play_on(live *l, double seconds);
 void live_play_end(live *l);
 /* The way of the load's last item, step or cycle, once. */
 void live_play_item(live *l);
+/* Walks the ways until it is late; NULL: to their ends. */
+void live_walk(live *l, bool (*late)(void));
 /* The state that is shown: on the way of a cycle, or the present one. */
 const shot *side_shown(const live *l, const side *s);
 

@@ -34,11 +34,12 @@ static scales scales_of(const live *l) {
         const side *s = &l->side[i];
         if (*s->trouble)
             continue;
-        most.a = fmax(most.a, s->path.a);
-        most.bound = fmax(most.bound, s->path.bound);
-        most.dx = fmax(most.dx, fmax(s->path.dx, s->now.bound));
-        most.Fx = fmax(most.Fx, fmax(s->path.Fx, s->now.slip));
-        most.energy = fmax(most.energy, s->path.energy);
+        const extent way = way_extent(&s->way);
+        most.a = fmax(most.a, fmax(way.a, s->now.a));
+        most.bound = fmax(most.bound, fmax(way.bound, s->now.bound));
+        most.dx = fmax(most.dx, fmax(way.dx, s->now.bound));
+        most.Fx = fmax(most.Fx, fmax(way.Fx, s->now.slip));
+        most.energy = fmax(most.energy, way.energy);
     }
     return (scales){roomy(most.a), roomy(most.bound), roomy(most.dx), roomy(most.Fx), roomy(most.energy)};
 }
@@ -165,7 +166,7 @@ static void draw_loop(live *l, const side *sd, const scales *sc, rect at) {
     canvas_line(&c, mx, 0, mx, c.high - 1, INK_FRAME, 4);
     canvas_line(&c, 0, my - ky * s->slip, c.wide - 1, my - ky * s->slip, INK_BOUND, 4);
     canvas_line(&c, 0, my + ky * s->slip, c.wide - 1, my + ky * s->slip, INK_BOUND, 4);
-    const track *t = &sd->path;
+    const track *t = &sd->way.path;
     const double until = s->time + 1e-9;
     for (size_t i = 0; i + 1 < t->count && t->point[i].time <= until; i++) {
         const track_point *p = &t->point[i], *q = p + 1;
@@ -191,7 +192,7 @@ static void draw_loop(live *l, const side *sd, const scales *sc, rect at) {
 
 static void draw_energies(live *l, const side *sd, const scales *sc, rect at) {
     const shot *s = side_shown(l, sd);
-    const track *t = &sd->path;
+    const track *t = &sd->way.path;
     char text[40];
     canvas c;
     if (t->count < 2 || !canvas_make(&c, at, terminal_unicode()))
@@ -224,8 +225,8 @@ static void draw_numbers(live *l, const side *sd, const scales *sc, rect at) {
         put_text(cell, i % rows, INK_CURVE, "%-3s", shot_name((size_t)i));
         cell.left += 4;
         cell.cols -= 4;
-        for (int digits = *l->host->digits; s->known[i] && digits > 0;
-             digits--) { /* as many as there is room for */
+        const int most = s->digits && s->digits < *l->host->digits ? s->digits : *l->host->digits;
+        for (int digits = most; s->known[i] && digits > 0; digits--) { /* as many as there is room for */
             char in[32];
             const long double scale = unit_choose(s->d[i], s->value[i], digits, in, sizeof in);
             if (snprintf(number, sizeof number, "%.*g %s", digits, (double)(s->value[i] / scale), in) <
@@ -402,7 +403,6 @@ static void draw_page(const live *l, rect all) {
 }
 
 void live_draw(live *l) {
-    live_refresh(l);
     const int foot = foot_rows(l);
     rect all = {1, 0, LINES - 1 - foot, COLS};
     erase();

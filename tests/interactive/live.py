@@ -222,6 +222,31 @@ def repeating(tests):
     live.end()
 
 
+def going_on(tests):
+    """A cycle that plays on is one cycle of many periods, about one normal force; after a change it is another one."""
+    live = Live(tests)
+    live.wait(r"a +186\.626 um")
+    live.key("nn]]" + 18 * "a", "phase of FN against Fx: 0 deg")
+    live.key("-----", "FA 10 N")
+    live.key(" ", r"times ([3-9]|\d\d)")
+    live.key("  ", lambda s: "> cycle" not in s.row(0))
+    tests.check("FN swings about where it was", live.value("FN")[0] == "120", live.screen.text())
+    live.key("m", "mu = 0.42")
+    live.key("   ", lambda s: "> cycle" not in s.row(0) and live.value("FN")[0] == "140")
+    live.key("+", "FA 12 N")
+    path = os.path.join(tests.dir, "going-on.fret")
+    live.child.send("s\x15" + path + "\r")
+    live.wait("wrote ")
+    with open(path, encoding="utf-8") as f:
+        text = f.read()
+    tests.check("one cycle a time", re.search(r"cycle FA=10 N FNA=20 N phase=0 deg times [3-9]\ncycle FA=10 N FNA=20 N phase=0 deg\n", text)
+                and "friction 0.42" in text, text)
+    live.key("u", lambda s: live.value("FN")[0] == "120")
+    live.key("u", lambda s: "mu = 0.4 " in s.row(0))
+    tests.check("which undo takes back", live.key("u", lambda s: live.value("FN")[0] == "100"), live.screen.text())
+    live.end()
+
+
 def sizes(tests):
     live = Live(tests)
     live.wait(r"a +186\.626 um")
@@ -461,5 +486,5 @@ def lessons(tests):
 
 
 def run(tests):
-    tests.rooms(beginning, refusals, keys, playing, repeating, sizes, comparing, stepping, mouse, undisturbed, saving, recording,
+    tests.rooms(beginning, refusals, keys, playing, repeating, going_on, sizes, comparing, stepping, mouse, undisturbed, saving, recording,
                 endings, stopping, lessons)

@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The walk of a load, watched: points for the curve, states to play. */
+#include "live/way.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TRACK_POINTS = 20000 };
+
+/* ---- the curve --------------------------------------------------------------------------------- */
+
+static extent larger(extent a, extent b) {
+    return (extent){fmax(a.dx, b.dx), fmax(a.Fx, b.Fx), fmax(a.a, b.a), fmax(a.bound, b.bound),
+                    fmax(a.energy, b.energy)};
+}
+
+static bool add(track *t, track_point p) {
+    if (t->count == TRACK_POINTS) {
+        t->count /= 2;
+        memmove(t->point, t->point + t->count, t->count * sizeof *t->point);
+    }
+    if (t->count == t->room) {
+        const size_t room = t->room ? 2 * t->room : 256;
+        track_point *grown = realloc(t->point, room * sizeof *grown);
+        if (!grown)
+            return false;
+        t->point = grown;
+        t->room = room;
+    }
+    t->point[t->count++] = p;
+    return true;
+}
+
+static void begin_track(track *t) {
+    t->before = larger(t->before, t->most);
+    t->most = (extent){0, 0, 0, 0, 0};
+    t->count = 0;
+}
+
+/* ---- what the walk sees ------------------------------------------------------------------------ */
+
+/* While nothing moves yet the first state is the last one. */
+static bool stands_still(const load_way *w, const fret_state *s) {
+    return w->shots == 1 && (double)s->Fx == w->play[0].Fx && (double)s->a == w->play[0].a;
+}
+
+/* What changes along chords is right to so many digits. */
+enum { CHORD_DIGITS = 4 };
+
+static bool keep_shot(load_way *w) {
+    if (w->shots == PLAY_SHOTS)
+        return true;
+    shot *to = &w->play[w->shots];
+    walk_enter(&w->walk, w->c);
+    const bool ok = shot_take(w->c, w->shots ? to - 1 : NULL, to, w->error);
+    walk_leave(&w->walk, w->c);
+    if (w->walk.run.level)
+        to->digits = CHORD_DIGITS;
+    w->shots += ok;
+    return ok;
+}
+
+/* Of a swinging period's many chords as many as can be told apart: each state takes its time. */
+static bool see(const runner *r, void *context) {
+    static const double APART = 1.0 / 64;
+    load_way *w = context;
+    track *t = &w->path;
+    fret_state s;
+    if (w->late && w->late())
+        w->walk.watch.wait = true;
+    if (!r->turning && t->count && r->time - t->point[t->count - 1].time < APART)
+        return true;
+    engine_state(&r->engine, &s);
+    const track_point p = {r->time, (double)s.dx, (double)s.Fx, (double)s.W, (double)s.U};
+    const extent here = {fabs(p.dx), fabs(p.Fx), (double)s.a, (double)fret_memory_bound(r->engine.self, 0),
+                         fmax(p.W, p.U)};
+    t->most = larger(t->most, here);
+    if (!add(t, p))
+        return calc_no_memory(w->error);
+    if (!w->within || r->time < w->from)
+        return true;
+    if (stands_still(w, &s)) {
+        w->play[0].time = r->time;
+        return true;
+    }
+    if (way_rests(w))
+        w->walk.watch.wait = true;
+    return keep_shot(w);
+}
+
+/* ---- walking ----------------------------------------------------------------------------------- */
+
+bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
+    bool anew;
+    w->item = item;
+    w->from = 0;
+    w->within = false;
+    w->shots = 0;
+    if (!walk_follow(&w->walk, c, &anew, error))
+        return false;
+    /* a state that has been passed comes again only from the beginning */
+    const runner *r = &w->walk.run;
+    if (!anew && (item < r->at.steps || (item == r->at.steps && w->walk.watch.place.within))) {
+        walk_end(&w->walk);
+        if (!walk_follow(&w->walk, c, &anew, error))
+            return false;
+    }
+    if (anew) {
+        begin_track(&w->path);
+        if (!add(&w->path, (track_point){.time = 0}))
+            return calc_no_memory(error);
+    }
+    if (item != NO_ITEM && !w->play) {
+        w->play = calloc(PLAY_SHOTS, sizeof *w->play);
+        if (!w->play)
+            return calc_no_memory(error);
+    }
+    return true;
+}
+
+/* In how many parts each leg is drawn. */
+static unsigned parts_of(const scene *s) {
+    enum { STATES = 1200, FEWEST = 2, MOST = 24 };
+    size_t legs = s->end.steps;
+    for (size_t i = 0; i < s->end.cycles; i++)
+        legs += 2 * (size_t)s->program->cycles[i].times;
+    const size_t parts = STATES / legs;
+    return parts < FEWEST ? FEWEST : parts > MOST ? MOST : (unsigned)parts;
+}
+
+static bool come_to_item(load_way *w) {
+    const walk *k = &w->walk;
+    if (w->within || w->item == NO_ITEM || k->run.at.steps < w->item || k->watch.wait)
+        return true;
+    w->within = true;
+    return k->run.time < w->from || keep_shot(w);
+}
+
+bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
+    enum { PARTS = 38 }; /* of a leg that is played */
+    walk *k = &w->walk;
+    const size_t end = k->scene.end.steps;
+    w->c = c;
+    w->late = late;
+    w->error = error;
+    bool ok = true;
+    k->watch.wait = false;
+    if (k->run.at.steps < w->item)
+        ok = walk_on(k, w->item < end ? w->item : end, parts_of(&k->scene), false, see, w, error);
+    ok = ok && come_to_item(w);
+    if (ok && k->run.at.steps < end && !k->watch.wait)
+        ok = walk_on(k, end, PARTS, true, see, w, error);
+    if (!ok)
+        walk_end(k); /* half a step is nothing to go on from */
+    else if (way_done(w))
+        w->path.before = (extent){0, 0, 0, 0, 0};
+    return ok;
+}
+
+bool way_done(const load_way *w) {
+    return w->walk.begun && w->walk.run.at.steps == w->walk.scene.end.steps;
+}
+
+bool way_rests(const load_way *w) {
+    enum { ROOM = 120 }; /* for what comes before it can wait again */
+    return !w->walk.begun || way_done(w) || (w->within && w->shots + ROOM > PLAY_SHOTS);
+}
+
+void way_more(load_way *w) {
+    static const double LITTLE = 1e-9;
+    const scene *s = &w->walk.scene;
+    if (w->item == NO_ITEM) {
+        w->item = s->end.steps - 1;
+        w->from = program_time(s->program, s->end) - LITTLE;
+    }
+    walk_more(&w->walk);
+}
+
+void way_pass(load_way *w, double time) {
+    size_t i = 0;
+    while (i + 1 < w->shots && w->play[i + 1].time <= time)
+        i++;
+    if (i > PLAY_SHOTS / 4) {
+        w->shots -= i;
+        memmove(w->play, w->play + i, w->shots * sizeof *w->play);
+    }
+}
+
+extent way_extent(const load_way *w) {
+    return larger(w->path.most, w->path.before);
+}
+
+void way_end(load_way *w) {
+    walk_end(&w->walk);
+    free(w->path.point);
+    free(w->play);
+    *w = (load_way){.item = NO_ITEM};
+}
