@@ -107,11 +107,11 @@ static bool read_unit(reader *r, csv_values *column, unit *u, const char *text, 
     calc_error wrong;
     error_clear(&wrong);
     lex_start(&lx, text, len, &wrong);
-    if (lx.kind == T_END) /* of `k []` or `k [-]`: a plain number */
+    if (lx.kind == T_END && !wrong.raised) /* of `k []` or `k [-]`: a plain number */
         return true;
     if (len == 1 && *text == '-')
         return true;
-    if (wrong.raised || !unit_parse(&lx, u) || lx.kind != T_END)
+    if (wrong.raised || !unit_parse(&lx, u) || wrong.raised || lx.kind != T_END)
         return trouble(r, column, "%.200s:%zu: %.200s in the header", r->c->path, r->line,
                        wrong.raised ? wrong.text : "a bad unit");
     column->d = u->d;
