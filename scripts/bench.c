@@ -539,6 +539,18 @@ static double pressure_value(const fret_normal *n, const fret_press *p) {
     return (seconds() - t0) / (count - 1);
 }
 
+/* The surface up to three radii from the centre. */
+static double surface_value(const fret_normal *n, const fret_press *p) {
+    const int count = 200;
+    double t0 = seconds();
+    for (int i = 1; i < count; i++) {
+        fret_real value;
+        need(fret_surface(n, p->a, p->a * (1 + 2.0 * i / count), &value));
+        sink = (double)value;
+    }
+    return (seconds() - t0) / (count - 1);
+}
+
 static const double ns = 1e9, us = 1e6;
 
 static int places(double value, int digits) { /* so that all digits before the point are there */
@@ -746,6 +758,14 @@ int main(void) {
     line("a period of the sine itself", swinging_period(n), 200 * chord, "200 chords", us, "2000 us");
     puts("A local field");
     line("p(r)", least(pressure_value, n, &p), one_power, "one powl", us, "5 us");
+    line("uz(r) outside", least(surface_value, n, &p), one_power, "one powl", us, "5 us");
+    const fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 10e-3};
+    fret_normal *ball;
+    need(fret_normal_make(&material, &sphere, &ball));
+    need(fret_press_by_force(ball, FN, &q));
+    line("exact-sphere: p(r)", least(pressure_value, ball, &q), one_power, "one powl", us, "5 us");
+    line("exact-sphere: uz(r) outside", least(surface_value, ball, &q), one_power, "one powl", us, "5 us");
+    fret_normal_free(ball);
     fret_normal_free(n);
     return EXIT_SUCCESS;
 }

@@ -75,6 +75,10 @@ static fret_real close_part(const inside *c) {
     return (c->b > 0 ? fminl(c->to, c->b) : c->to) / CLOSE;
 }
 
+/* Of a steep power g = G (x/a)^n only the last a/n of the contact counts, where nodes in the radius would be
+ * few. Its integrals are linear in y = g/G. */
+static const double STEEP = 20; /* the least such n */
+
 /* Powers, by series of positive terms: int_r^b x^(n-1) (x^2-r^2)^(m-1) dx with w = 1-(r/b)^2, m = (k+1)/2 and
  * e = (n-2)/2 is b^(n+k-1) w^m/(2m) times
  *   sum (-e)_j/(m+1)_j w^j = (1-w)^(m+e) sum (m+1+e)_j/j! m/(m+j) w^j:
@@ -117,14 +121,20 @@ static fret_real power_integral(fret_real n, fret_real m, fret_real r, fret_real
     return fret_pow(b, n + 2 * m - 2) * near_edge(n, m, 1 - most, most) + far_from_edge(n, m, r, b, 1 - most);
 }
 
-static fret_real pressure_powers(const fret_normal *n, const fret_power *power, int terms, fret_real a,
+/* From one to the next where powers grow by 2: with w = 1-r^2, by parts. */
+static fret_real pressure_powers(const fret_normal *n, const fret_term *term, int terms, fret_real a,
                                  fret_real r) {
     const fret_foundation *f = &n->foundation;
-    const fret_real part = r / a, w = (a - r) / a * ((a + r) / a);
-    fret_real sum = 0;
-    for (int i = 0; i < terms; i++)
-        sum += n->rule.kappa[i] * power[i].h * fret_ratio_pow(a, power[i].r0, power[i].n) * power[i].n *
-               power_integral(power[i].n, (f->k + 1) / 2, part, w);
+    const fret_real part = r / a, w = (a - r) / a * ((a + r) / a), m = (f->k + 1) / 2, rim = fret_pow(w, m);
+    fret_real sum = 0, last = 0, before = 0;
+    for (int i = 0; i < terms; i++) {
+        const fret_real power = term[i].n;
+        last = r <= 0                         ? 1 / (power + 2 * (m - 1))
+               : i > 0 && power == before + 2 ? (rim + before * part * part * last) / (2 * m + before)
+                                              : power_integral(power, m, part, w);
+        sum += term[i].G * power * last;
+        before = power;
+    }
     return f->cN0 / FRET_PI * fret_pow(a / f->c0, f->k) * sum / a;
 }
 
@@ -140,10 +150,10 @@ static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real 
     const bool sharp = r == start && fret_gap_sharp(&n->gap);
     if ((tip && rise <= 0) || sharp)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
-    const fret_power *power;
-    const int terms = fret_gap_powers(&n->gap, &power);
-    if (terms > 0 && r > 0) {
-        *p = pressure_powers(n, power, terms, a, r);
+    fret_term term[FRET_MOST_TERMS];
+    const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
+    if (terms > 0) {
+        *p = pressure_powers(n, term, terms, a, r);
         return isfinite(*p) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     }
     inside c = {n, start, r, 0, a - start, tip ? 1 / rise : 2 / k1}, middle = c, beyond = c;
@@ -194,16 +204,85 @@ static fret_real outside_integral(const fret_normal *n, fret_real r, fret_real d
     return fret_pow(hi, k1) * span / k1 * fret_integrate(outside_part, &c);
 }
 
-/* Of a gap without steep powers, r > a: the integral; the contact is dz deep. */
-static fret_real surface_gentle(const fret_normal *n, fret_real a, fret_real dz, fret_real r) {
-    const fret_real start = fret_gap_start(&n->gap);
-    const fret_real sum = outside_integral(n, r, dz, start, a, false);
-    return start > 0 ? sum + outside_integral(n, r, dz, 0, start, true) : sum;
+/* int_0^a x^k (r^2-x^2)^-m dx, a flat punch's surface but for its depth: with q = (a/r)^2 half the incomplete
+ * beta function B_q(m,1-m), by its series in q, or in 1-q from the edge on. */
+static fret_real surface_flat(fret_real k, fret_real a, fret_real r) {
+    const fret_real m = (k + 1) / 2, q = (a / r) * (a / r), away = (r - a) / r * ((r + a) / r);
+    const bool near = away < 0.5L;
+    const fret_real b = near ? (1 - k) / 2 : m, x = near ? away : q;
+    fret_real sum = 0, term = 1;
+    for (int j = 0; j < 100 && term > 1e-22L; j++) {
+        sum += term / (b + j);
+        term *= x * (b + j) / (j + 1);
+    }
+    sum *= fret_pow(x, b);
+    return (near ? FRET_PI / fret_sin(FRET_PI * fminl(m, 1 - m)) - sum : sum) / 2;
 }
 
-/* Of a steep power g = G (x/a)^n only the last a/n of the contact counts, where nodes in the radius would be
- * few. Its integrals are linear in y = g/G. */
-static const double STEEP = 20; /* the least such n */
+/* What powers leave of that, int_0^a x^k (dz-g) (r^2-x^2)^-m dx, by the same series of the kernel from the
+ * centre, whose terms are positive. */
+static fret_real surface_far(fret_real k, const fret_term *term, int terms, fret_real dz, fret_real q) {
+    const fret_real m = (k + 1) / 2;
+    fret_real sum = 0, rest = dz, c = 1;
+    for (int i = 0; i < terms; i++)
+        rest -= term[i].G;
+    for (int j = 0; j < 200; j++) {
+        const fret_real b = m + j;
+        fret_real part = rest;
+        for (int i = 0; i < terms; i++)
+            part += term[i].G * term[i].n / (2 * b + term[i].n);
+        part *= c / b;
+        sum += part;
+        if (fabsl(part) < 1e-20L * fabsl(sum))
+            break;
+        c *= q * b / (j + 1);
+    }
+    return sum * fret_pow(q, m) / 2;
+}
+
+/* From the edge: the whole, which makes the gap itself, less what is beyond x = a. away: 1-(a/r)^2. */
+static fret_real surface_near(fret_real k, const fret_term *term, int terms, fret_real dz, fret_real a,
+                              fret_real r, fret_real away) {
+    const fret_real m = (k + 1) / 2, whole = FRET_PI / fret_sin(FRET_PI * fminl(m, 1 - m)),
+                    edge = fret_pow(away, 1 - m);
+    fret_real sum = dz * surface_flat(k, a, r);
+    for (int i = 0; i < terms; i++) {
+        const fret_real b = term[i].n / 2 + m;
+        fret_real beyond = 0, c = 1;
+        for (int j = 0; j < 100 && fabsl(c) > 1e-21L * fabsl(beyond); j++) {
+            beyond += c / (1 - m + j);
+            c *= away * (1 - b + j) / (j + 1);
+        }
+        sum -= term[i].G / 2 * fret_pow(r / a, term[i].n) * (whole / term[i].kappa - edge * beyond);
+    }
+    return sum;
+}
+
+/* Neither series serves where the exponents or what is left of the kernel are next to nothing. */
+static bool surface_powers(const fret_normal *n, fret_real a, fret_real dz, fret_real r, fret_real *sum) {
+    static const fret_real NEAR = 0.3L;
+    fret_term term[FRET_MOST_TERMS];
+    const fret_real k = n->foundation.k, away = (r - a) / r * ((r + a) / r);
+    const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
+    for (int i = 0; i < terms; i++)
+        if (term[i].n < 0.01L)
+            return false;
+    if (terms == 0 || (away < NEAR && (1 - fabsl(k) < 1e-3L || term[terms - 1].n > STEEP)))
+        return false;
+    *sum = away < NEAR ? surface_near(k, term, terms, dz, a, r, away)
+                       : surface_far(k, term, terms, dz, (a / r) * (a / r));
+    return true;
+}
+
+/* Of a gap without steep powers, r > a: the integral; the contact is dz deep. */
+static fret_real surface_gentle(const fret_normal *n, fret_real a, fret_real dz, fret_real r) {
+    fret_real sum;
+    if (surface_powers(n, a, dz, r, &sum))
+        return sum;
+    const fret_real start = fret_gap_start(&n->gap);
+    sum = outside_integral(n, r, dz, start, a, false);
+    return start > 0 ? sum + outside_integral(n, r, dz, 0, start, true) : sum;
+}
 
 typedef struct power_field {
     fret_real a, r, n, m; /* m = (k+1)/2 */
@@ -346,21 +425,6 @@ fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_r
         return fret_ok();
     const edge at = edge_at(n, a);
     return pressure_of(n, &at, r, p);
-}
-
-/* int_0^a x^k (r^2-x^2)^-m dx, a flat punch's surface but for its depth: with q = (a/r)^2 half the incomplete
- * beta function B_q(m,1-m), by its series in q, or in 1-q from the edge on. */
-static fret_real surface_flat(fret_real k, fret_real a, fret_real r) {
-    const fret_real m = (k + 1) / 2, q = (a / r) * (a / r), away = (r - a) / r * ((r + a) / r);
-    const bool near = away < 0.5L;
-    const fret_real b = near ? (1 - k) / 2 : m, x = near ? away : q;
-    fret_real sum = 0, term = 1;
-    for (int j = 0; j < 100 && term > 1e-22L; j++) {
-        sum += term / (b + j);
-        term *= x * (b + j) / (j + 1);
-    }
-    sum *= fret_pow(x, b);
-    return (near ? FRET_PI / fret_sin(FRET_PI * fminl(m, 1 - m)) - sum : sum) / 2;
 }
 
 /* What a steep power takes from the surface of a flat punch: int_0^a x^k g (r^2-x^2)^-m dx. */

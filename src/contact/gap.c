@@ -54,6 +54,15 @@ static bool sum_grows(const fret_gap *gap) {
     return true;
 }
 
+static int powers_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term *term) {
+    for (int i = 0; i < gap->terms; i++) {
+        const fret_power *p = &gap->power[i];
+        const fret_real G = rule->kappa[i] * p->h * fret_ratio_pow(a, p->r0, p->n);
+        term[i] = (fret_term){p->n, G, rule->kappa[i]};
+    }
+    return gap->terms;
+}
+
 static fret_real flat_start(const fret_gap *gap) {
     return gap->b;
 }
@@ -110,6 +119,20 @@ static fret_profile sphere_profile(const fret_gap *gap, const fret_rule *rule, f
     return fret_profile_of(k, a, g, slope, I);
 }
 
+static int sphere_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term *term) {
+    const fret_real m = (rule->k + 1) / 2, q = a / gap->R * (a / gap->R);
+    fret_real G = a * a / (2 * m * gap->R), kappa = 1 / m, all = 0;
+    for (int i = 0; i < FRET_MOST_TERMS; i++) {
+        term[i] = (fret_term){2 * i + 2, G, kappa};
+        all += (i + 1) * G;
+        if ((i + 1) * G < 1e-18L * all)
+            return i + 1;
+        G *= q * (i + 0.5L) / (m + 1 + i);
+        kappa *= (i + 2) / (i + 1 + m);
+    }
+    return 0;
+}
+
 static fret_real sphere_end(const fret_gap *gap) {
     return 0.95L * gap->R; /* near the equator g grows without bound, and its series no longer converges */
 }
@@ -151,15 +174,24 @@ typedef struct shape {
     fret_real (*kink)(const fret_gap *, fret_real e), (*ahead)(const fret_gap *, fret_real e);
     fret_real (*bend)(const fret_gap *, const fret_rule *, fret_real kink, fret_real e);
     bool (*grows)(const fret_gap *);
+    int (*series)(const fret_gap *, const fret_rule *, fret_real a, fret_term *);
     bool powers, closed, sharp, rows; /* reads power[]; of gap.h the other three */
     bool b, R, slope;                 /* reads these, which must be positive */
 } shape;
 
 static const shape shapes[] = {
-    [FRET_GAP_POWER] =
-        {.f = powers_f, .profile = powers_profile, .tip = powers_tip, .powers = true, .closed = true},
-    [FRET_GAP_SUM] =
-        {.f = powers_f, .profile = powers_profile, .tip = powers_tip, .grows = sum_grows, .powers = true},
+    [FRET_GAP_POWER] = {.f = powers_f,
+                        .profile = powers_profile,
+                        .tip = powers_tip,
+                        .series = powers_series,
+                        .powers = true,
+                        .closed = true},
+    [FRET_GAP_SUM] = {.f = powers_f,
+                      .profile = powers_profile,
+                      .tip = powers_tip,
+                      .grows = sum_grows,
+                      .series = powers_series,
+                      .powers = true},
     [FRET_GAP_FLAT_CONE] =
         {.f = cone_f, .profile = cone_profile, .start = flat_start, .sharp = true, .b = true, .slope = true},
     [FRET_GAP_FLAT_PARABOLOID] = {.f = paraboloid_f,
@@ -170,8 +202,12 @@ static const shape shapes[] = {
                                   .R = true},
     [FRET_GAP_FLAT_ROUNDED] =
         {.f = rounded_f, .profile = rounded_profile, .start = flat_start, .b = true, .R = true},
-    [FRET_GAP_EXACT_SPHERE] =
-        {.f = sphere_f, .profile = sphere_profile, .end = sphere_end, .ahead = sphere_ahead, .R = true},
+    [FRET_GAP_EXACT_SPHERE] = {.f = sphere_f,
+                               .profile = sphere_profile,
+                               .end = sphere_end,
+                               .ahead = sphere_ahead,
+                               .series = sphere_series,
+                               .R = true},
     [FRET_GAP_TABLE] = {.f = sampled_f,
                         .profile = sampled_profile,
                         .start = sampled_start,
@@ -248,6 +284,12 @@ fret_real fret_gap_reach(const fret_gap *gap, fret_real e) {
 int fret_gap_powers(const fret_gap *gap, const fret_power **power) {
     *power = gap->power;
     return shape_of(gap)->powers ? gap->terms : 0;
+}
+
+int fret_gap_series(const fret_gap *gap, const fret_rule *rule, fret_real a,
+                    fret_term term[FRET_MOST_TERMS]) {
+    const shape *s = shape_of(gap);
+    return s->series ? s->series(gap, rule, a, term) : 0;
 }
 
 bool fret_gap_sharp(const fret_gap *gap) {

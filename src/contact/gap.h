@@ -44,6 +44,14 @@ bool fret_gap_sharp(const fret_gap *gap);
 /* The powers of a gap that is a sum of such, and how many; 0 for other shapes. */
 int fret_gap_powers(const fret_gap *gap, const fret_power **power);
 
+/* The profile within a contact of radius a as powers, g(x) = sum of G (x/a)^n, each of the power G/kappa
+ * (r/a)^n of the gap. How many; 0 where it is none, or of too many for that. */
+enum { FRET_MOST_TERMS = 24 };
+typedef struct fret_term {
+    fret_real n, G, kappa;
+} fret_term;
+int fret_gap_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term term[FRET_MOST_TERMS]);
+
 /* One power: the contact has closed forms. */
 bool fret_gap_closed(const fret_gap *gap);
 

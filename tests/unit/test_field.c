@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Local fields: their integrals are the forces, they agree with the gap inside, and with closed forms. */
 #include "contact/normal.h"
+#include "number/quadrature.h"
 #include "number/real.h"
 #include "unit.h"
 
@@ -252,6 +253,63 @@ static void power_series(void) {
     }
 }
 
+/* The definitions by quadrature, whatever the shape: linear in x^(k+1) outside, in (x^2-r^2)^((k+1)/2)
+ * inside. */
+typedef struct place {
+    const fret_normal *normal;
+    fret_real a, dz, r, k1;
+} place;
+
+static fret_real surface_rate(fret_real t, fret_real rest, void *context) {
+    const place *p = context;
+    const fret_real l = t < 0.5L ? fret_log(t) / p->k1 : fret_log1p(-rest) / p->k1,
+                    below = -p->a * fret_expm1(l), x = l < -1 ? p->a * fret_exp(l) : p->a - below;
+    return (p->dz - fret_normal_profile(p->normal, x)) *
+           fret_pow((p->r - p->a + below) * (p->r + x), -p->k1 / 2);
+}
+
+static fret_real pressure_rate(fret_real t, fret_real rest, void *context) {
+    const place *p = context;
+    const fret_real x = sqrtl(p->r * p->r + (p->a - p->r) * (p->a + p->r) * fret_pow(t, 2 / p->k1));
+    (void)rest;
+    return fret_gap_profile(&p->normal->gap, &p->normal->rule, fminl(x, p->a)).slope / x;
+}
+
+/* Sums of powers and spheres by their series. */
+static void twins(void) {
+    static const double grading[] = {-0.95, -0.6, 0, 0.3, 0.8, 0.99};
+    unsigned long long seed = 11;
+    for (int i = 0; i < 600; i++) {
+        const double k = grading[i % 6], a = 1e-4, far = pow(10, unit_random(&seed, -3, 2));
+        unit_scene s = unit_make_scene(unit_random(&seed, 0.3, 4), k);
+        if (i % 3 == 1)
+            s.gap = (fret_gap){.kind = FRET_GAP_EXACT_SPHERE, .R = a / unit_random(&seed, 0.001, 0.6)};
+        if (i % 3 == 2) {
+            s.gap.kind = FRET_GAP_SUM;
+            s.gap.terms = 3;
+            for (int j = 0; j < 3; j++)
+                s.gap.power[j] =
+                    (fret_power){j * 2 + unit_random(&seed, 0.3, 3), unit_random(&seed, 0, 1e-6), a};
+        }
+        const fret_normal *n = unit_make_normal(&s);
+        const fret_foundation *f = fret_normal_foundation(n);
+        place p = {n, a, fret_normal_profile(n, a), a * (1 + far), 1 + f->k};
+        const fret_real ck = fret_sin(FRET_PI * (1 - fabsl(f->k)) / 2);
+        fret_real got;
+        CHECK_OK(fret_surface(n, a, p.r, &got));
+        CHECK_REL(got, 2 * ck / FRET_PI * fret_pow(a, p.k1) / p.k1 * fret_integrate(surface_rate, &p),
+                  2e-13L);
+        if (k < -0.7) /* there the rule is too coarse for the pressure */
+            continue;
+        p.r = a * unit_random(&seed, 0.3, 1);
+        CHECK_OK(fret_pressure(n, a, p.r, &got));
+        CHECK_REL(got,
+                  f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * fret_pow((p.a - p.r) * (p.a + p.r), p.k1 / 2) /
+                      p.k1 * fret_integrate(pressure_rate, &p),
+                  2e-13L);
+    }
+}
+
 int main(int argc, char **argv) {
     unit_start("field", argc, argv);
     reference();
@@ -261,5 +319,6 @@ int main(int argc, char **argv) {
     closed();
     errors();
     power_series();
+    twins();
     return unit_finish();
 }
