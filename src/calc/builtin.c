@@ -43,8 +43,8 @@ static const builtin builtins[] = {
     {"atan", real_atan, NULL, DIM_TO_ANGLE, "arc tangent"},
     {"abs", fabsl, NULL, DIM_KEPT, "magnitude; keeps the dimension"},
     {"gamma", fret_gamma, NULL, DIM_NUMBER, "gamma function"},
-    {"min", NULL, fminl, DIM_SHARED, "the smaller of two"},
-    {"max", NULL, fmaxl, DIM_SHARED, "the larger of two"},
+    {"min", NULL, fminl, DIM_SHARED, "the smallest of two or more"},
+    {"max", NULL, fmaxl, DIM_SHARED, "the largest of two or more"},
     {"beta", NULL, real_beta, DIM_NUMBER, "beta function B(x,y), x, y > 0"},
 };
 enum { BUILTINS = sizeof builtins / sizeof *builtins };

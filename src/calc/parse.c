@@ -227,8 +227,19 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
         lex_next(lx);
         if (!parse_sum(p, argument[j]))
             return false;
-        if (lx->kind != (j + 1 < count ? T_COMMA : T_CLOSE))
-            return lex_fail(lx, "%s takes %d argument%s", function->name, count, count > 1 ? "s" : "");
+        const bool more = function->d == DIM_SHARED && j + 1 == count && lx->kind == T_COMMA;
+        if (!more && lx->kind != (j + 1 < count ? T_COMMA : T_CLOSE))
+            return lex_fail(lx, "%s takes %d argument%s%s", function->name, count, count > 1 ? "s" : "",
+                            function->d == DIM_SHARED ? " or more" : "");
+        if (!more)
+            continue;
+        size_t first; /* min(a, b, c) is min(min(a, b), c) */
+        expr_node two = node;
+        two.at = p->e->nodes[node.right].at; /* what an error shows of it */
+        if (!add(p, &two, &first))
+            return false;
+        node.left = first;
+        j--;
     }
     lex_next(lx);
     return add(p, &node, out);
