@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pwd.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -109,6 +110,16 @@ static void links(void) {
     CHECK(lstat("link", &info) == 0 && S_ISLNK(info.st_mode));
     unlink("sub/target"); /* a link that leads nowhere */
     CHECK(write_text("link", "again", true, &report) && !report.overwrote && holds("sub/target", "again"));
+    char there[2100], far[400] = "";
+    CHECK(getcwd(there, 2000) != NULL);
+    strcat(there, "/sub/target");
+    CHECK(unlink("link") == 0 && symlink(there, "link") == 0); /* from the root */
+    CHECK(write_text("link", "from the root", true, &report) && holds("sub/target", "from the root"));
+    for (int i = 0; i < 150; i++)
+        strcat(far, "./");
+    strcat(far, "sub/target");
+    CHECK(unlink("link") == 0 && symlink(far, "link") == 0); /* of a long name */
+    CHECK(write_text("link", "a long way", true, &report) && holds("sub/target", "a long way"));
     CHECK(symlink("round", "round") == 0 && !write_text("round", "x", true, NULL));
     CHECK(strstr(error.text, "cannot write round: ") != NULL);
     unlink("round"), unlink("link"), unlink("sub/hop"), unlink("sub/target"), rmdir("sub");
@@ -128,7 +139,9 @@ static void refused(void) {
     CHECK(chmod("kept", 0444) == 0);
     apart(read_only);
     unlink("kept");
-    static const char *const names[] = {".", "", "new/", "no/such/place", "\x01/x"};
+    static const char *const names[] = {".",        "",           "new/",       "no/such/place",
+                                        "\x01/x",   "/dev/fd/1x", "/dev/fd/x1", "/dev/fd/123456",
+                                        "/dev/fd/", "/dev/fd/999"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         CHECK(!write_text(names[i], "x", true, NULL) && strstr(error.text, "cannot write "));
     char long_name[400];
@@ -247,6 +260,15 @@ static void home(void) {
     CHECK(file_in_open(&in, "~/at-home", NULL, fresh()));
     file_in_close(&in);
     unlink("at-home");
+    const struct passwd *user = getpwuid(getuid());
+    for (int unset = 0; user && unset < 2; unset++) { /* the system knows */
+        CHECK((unset ? unsetenv("HOME") : setenv("HOME", "", 1)) == 0);
+        char *name = file_expand("~/x"), *bare = file_expand("~");
+        const size_t n = strlen(user->pw_dir);
+        CHECK(name && !strncmp(name, user->pw_dir, n) && !strcmp(name + n, "/x"));
+        CHECK(bare && !strcmp(bare, user->pw_dir));
+        free(name), free(bare);
+    }
     static const char *const plain[] = {"a~", "~user", "./~", "a/~/b"};
     for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) {
         char *name = file_expand(plain[i]);

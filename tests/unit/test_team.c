@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A team does what one would: in order, also when a worker ends, when something is to stop, and when the system
- * has no process, no memory or no socket for it. */
+/* A team does what one would: in order, also when a worker ends, when something is to stop, and when the
+ * system has no process, no memory or no socket for it. */
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -62,7 +62,8 @@ static errand begin(void) {
 }
 
 static team *team_of(calc *c, errand *e) {
-    return team_begin(&(team_job){.c = c, .in = sizeof(size_t), .out = sizeof(long), .work = work, .context = e});
+    return team_begin(
+        &(team_job){.c = c, .in = sizeof(size_t), .out = sizeof(long), .work = work, .context = e});
 }
 
 static bool run(team *t, errand *e, size_t parts) {
@@ -150,7 +151,8 @@ static void nothing_to_be_had(calc *c) {
     CHECK(t && run(t, &e, PARTS) && e.taken == PARTS);
     team_end(t);
     c->cores = 2;
-    CHECK(team_pays(c, 1, 1, 2) && !team_pays(c, 1, 1, 1) && !team_pays(c, 1e-4, 1, 1e6) && !team_pays(c, 1, 0, 2));
+    CHECK(team_pays(c, 1, 1, 2) && !team_pays(c, 1, 1, 1) && !team_pays(c, 1e-4, 1, 1e6) &&
+          !team_pays(c, 1, 0, 2));
     CHECK(!team_pays(c, 1, 1e6, 1e6 + 1));
 }
 
