@@ -130,7 +130,7 @@ static void next_shape(live *l) {
     size_t i = 0;
     while (g && i < SHAPES && strncmp(shapes[i], g->name, strlen(g->name)))
         i++;
-    live_say(l, "geometry %s", shapes[g ? (i + 1) % SHAPES % SHAPES : 0]);
+    live_say(l, "geometry %s", shapes[g ? (i + 1) % SHAPES : 0]);
 }
 
 /* ---- the cycle --------------------------------------------------------------------------------- */

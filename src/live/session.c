@@ -101,8 +101,11 @@ static bool take(live *l, side *s, bool along, calc_error *error) {
     calc *c = l->host->calc;
     const size_t items = c->now->end.steps;
     s->trouble[0] = 0;
-    return shot_take(c, NULL, &s->now, error) &&
-           way_follow(&s->way, c, along && items ? items - 1 : NO_ITEM, error);
+    if (!shot_take(c, NULL, &s->now, error)) {
+        s->now = (shot){.time = 0}; /* keys must not go on from what is gone */
+        return false;
+    }
+    return way_follow(&s->way, c, along && items ? items - 1 : NO_ITEM, error);
 }
 
 static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *error) {

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -32,6 +33,18 @@ def usage(tests):
     expect(tests, "--version", tests.run("--version"), 0, "fret ")
     expect(tests, "--help", tests.run("--help"), 0, "usage: fret")
     expect(tests, "-h", tests.run("-h"), 0, "usage: fret")
+    for page, parts in (("1", (".TH FRET 1 ", ".SH OPTIONS\n.TP\n.B \\-f FILE\nrun a script (\\- is standard input)\n",
+                               ".SH COMMANDS\n", "\n.B friction MU\n", ".SH SETTINGS\n", ".SH EXIT STATUS\n", "E0 (z/c0)\\(hak")),
+                        ("5", (".TH FRET 5 ", ".SH SCRIPTS AND TRANSCRIPTS\n", ".BR fret (1)\n")),
+                        ("bash", ("complete -F _fret fret\n", " --format=text --format=csv --format=json --keep-going ",
+                                  " --color=auto --color=always --color=never --version --help'\n"))):
+        done = tests.run("--manual=" + page)
+        for part in parts:
+            expect(tests, "--manual=%s: %s" % (page, part.strip()), done, 0, part)
+        tests.check("--manual=%s: no line is a request by chance" % page, page == "bash" or not
+                    re.findall(r"^(?:'|\.(?!TH|SH|PP|TP|BR?|I|nf|fi)).*", done.stdout, re.M) and
+                    done.stdout.count(".nf\n") == done.stdout.count(".fi\n"), done.stdout[-3000:])
+    expect(tests, "--manual=2", tests.run("--manual=2"), 2, "", "--manual is 1, 5 or bash, not 2")
 
 
 def files(tests):

@@ -485,6 +485,147 @@ def lessons(tests):
     live.gone()
 
 
+SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
+
+
+def at_prompt(tests, statements):
+    """The full-screen mode of a scene that was made before."""
+    live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
+    live.wait("fret>")
+    live.child.send(statements + "; live\r")
+    live.wait(lambda s: s.modes.get(1049) and "keys  q quit" in s.text())
+    return live
+
+
+def works(pid):
+    """Waits until it has calculated for a while: it does not wait for keys."""
+    def spent():
+        with open("/proc/%d/stat" % pid, encoding="ascii") as f:
+            return int(f.read().rpartition(")")[2].split()[11]) / os.sysconf("SC_CLK_TCK")
+    before = spent()
+    while spent() < before + 0.5:
+        time.sleep(0.01)
+
+
+# keys, what is said of it at the last row; None: it takes minutes, and is interrupted
+SAID = [("c", r"^c0 = 200 um"), (":undo\r", "^undo"), ("k", r"^k = 0\.05, c0 = 200 um"), ("u", "^undo"), ("b", "^undo"),
+        ("r", "^press FN=100 N"), ("I", r"step FN\+=500 mN"), ("J", r"step FN\+=-500 mN"),
+        ("g", "geometry cone"), ("g", "geometry power n=4"), ("g", "geometry flat-rounded"), ("g", "geometry sphere"),
+        (":geometry sum 2:50 m^-1\r", "geometry sum"), ("g", "geometry cone"), (":geometry sphere R=10 mm\r", "sphere"),
+        (":press a=0.1 mm\r", "press a=0.1 mm"), ("l", r"step Fx\+="), ("r", r"press a=0\.0001"),
+        (":press dz=1 um\r", "press dz=1 um"), ("r", r"press dz=9\.99\d*e-07 m|press dz=1e-06"), ("f", "displacements"), ("f", "forces"),
+        (":reset\r", "^reset"), ("l", "nothing is pressed: r presses again"), ("i", "nothing is pressed"),
+        ("r", "^press FN=100 N"),
+        (":compare\r", "^press FN=100 N"), (":compare k 1\r", "error: compare NAME = v1, v2, or compare off"),
+        (":compare 3\r", "error: expected a name"), (":compare k = 0.1\r", "error: compare NAME = v1, v2: two values"),
+        (":compare k = 0.1, 0.2, 0.3\r", "error: compare NAME = v1, v2: two values"),
+        (":compare k = nix, 0.2\r", "error: unknown name 'nix'"), (":comparex\r", "error: unknown name 'comparex'"),
+        (":  \r", "error: unknown name 'comparex'"), ("\x1bOP", "error: unknown name 'comparex'"), ("x", "error"),
+        (":table x for x = 1 .. 2 steps 100000000 to /dev/null\r", None), ("s\x15/nonexistent/x\r", "error: cannot write"),
+        ("s\x15" + "x" * 600 + "\r", "the line is too long")]
+
+
+def corners(tests):
+    live = at_prompt(tests, SCENE)
+    for i, (keys_sent, says) in enumerate(SAID):
+        live.child.send(keys_sent)
+        if says is None:
+            works(live.child.pid)
+            live.child.send("\x03")
+            says = "interrupted"
+        if not tests.check("what is said, %d: %r" % (i, keys_sent[:60]),
+                           live.wait(lambda s, says=says: re.search(says, live.status())), live.screen.text()):
+            break
+    head = lambda pattern: lambda screen: re.search(pattern, screen.row(0))  # noqa: E731
+    tests.check("the smallest amplitude", live.key("----------", head("FA 2 N")) and live.key("-", None) and
+                live.key("[", head(r"FA 2 N.* 0\.25/s")), live.screen.text())
+    tests.check("FN swings by up to 40 %", live.key("nnnn", head("FNA 40 N")) and live.key("n", "the cycle holds FN"),
+                live.screen.text())
+    tests.check("the phase goes round", live.key("a" * 17, "phase of FN against Fx: 345 deg") and
+                live.key("a", "phase of FN against Fx: 0 deg"), live.screen.text())
+    live.says("quit")
+    tests.check("quit leaves the session too", live.gone() == 0)
+
+
+def typing(tests):
+    live = at_prompt(tests, SCENE)
+    line = lambda want: lambda s: live.status() == want  # noqa: E731
+    for keys_sent, want in ((":so\t", ":so"), ("\x15pr\t", ":press"), ("\x01\x7f\x1b[D", ":press"), ("\x05\x1b[C\x02\x7fssss\x7f\x7f", ":pressss"),
+                            ("\x7f\x01\x1b[C\x1b[Cx\x08\x1bOHy\x1bOF z", ":ypresss z"), ("\x15", ":"), ("zzzz\t", ":zzzz"),
+                            ("\x15geometry para(\x1b[D\t", ":geometry paraboloid ("), ("\x15\x1b[A", ":"), ("\x1b[B", ":")):
+        tests.check("typed: %r" % keys_sent, live.key(keys_sent, line(want)),
+                    "%s\n%s" % (want, live.screen.text()))
+    live.key("1 + 1\r", r"1 \+ 1 = 2")
+    for i in range(51):
+        live.says("%d" % (1000 + i))
+    live.wait("1050 = 1050")
+    live.child.send(":")
+    tests.check("up: the line before", live.key("\x1b[A", line(":1050")), live.screen.text())
+    tests.check("and before", live.key("\x1b[A", line(":1049")), live.screen.text())
+    tests.check("down again, and empty", live.key("\x1b[B\x1b[B\x1b[B", line(":")), live.screen.text())
+    tests.check("fifty are kept", live.key("\x1b[A" * 60, line(":1001")), live.screen.text())
+    tests.check("a line longer than the screen", live.key("\x15" + "x" * 90 + "y", lambda s: live.status().endswith("xy") and
+                len(live.status()) == 79), live.screen.text())
+    tests.check("and than there is room for", live.key("z" * 600 + "\r", "the line is too long|unknown name"), live.screen.text())
+    live.says("show commands")
+    live.wait("any other key: back")
+    top = live.screen.row(1)
+    tests.check("a page on, and back", live.key("\x1b[6~", lambda s: s.row(1) != top) and
+                live.key("\x1b[5~", lambda s: s.row(1) == top) and live.key("\x1b[B", lambda s: s.row(1) != top) and
+                live.key("\x1b[A\x1b[A", lambda s: s.row(1) == top), live.screen.text())
+    live.key("q", "loop: Fx")
+    live.says("quit")
+    live.gone()
+
+
+def scripted(tests):
+    """Scripts at their ends, of other line ends, in characters of four bytes, and the time it all took."""
+    with tests.file("") as path:
+        live = Live(tests, path)
+        tests.check("an empty script", live.wait("the end of the script") and live.key(" ", "cycle FA|error"), live.screen.text())
+        live.end()
+    with tests.file("x = 1 + \\ \r\n 2\r\nx\r\nsystem off\n") as path:
+        live = Live(tests, path)
+        tests.check("lines that go on", live.key(" ", r"x = 3"), live.screen.text())
+        tests.check("back to the beginning", live.key("bb", "back before: x = 1") and
+                    live.key("b", "the beginning of the script"), live.screen.text())
+        live.end()
+    cast = os.path.join(tests.dir, "signs.cast")
+    with tests.file("# \u00b5 \U0001f600 \u2265\nmaterial steel\n") as path:
+        done = tests.run("-c", "record %s; live %s; record off" % (cast, path), env={"LC_ALL": "C.UTF-8"})
+    with open(cast, encoding="utf-8") as f:
+        text = f.read()
+    tests.check("a film of signs", done.returncode == 0 and "\u00b5" in text and "\U0001f600" in text and "\u2265" in text,
+                tests.report(done) + text[:500])
+    live = at_prompt(tests, "set timing on; set report off; " + SCENE)
+    live.key("l", r"Fx +2 N")
+    live.child.send("q")
+    tests.check("the time of a frame is told", live.wait(r"live: \d+ frames?, [\d.]+ ms of work each, [\d.]+ ms the longest"),
+                live.screen.text())
+    live.child.send("\x04")
+    live.gone()
+    for line, status in (("live", 0), ("live " + cast, 0), ("live /nonexistent/x", 1)):
+        with tests.file("fret> %s\nfret> 1\n1 = 1\n" % line, ".txt") as path:
+            done = tests.run("--replay", path)
+            tests.check("replayed: " + line.split("/")[0], done.returncode == status and
+                        ("cannot read /nonexistent/x" in done.stdout) == (status == 1), tests.report(done))
+
+
+def pointing(tests):
+    """The mouse beside the loop, over a page and while a line is typed: nothing moves."""
+    live = Live(tests)
+    live.wait(r"a +186\.626 um")
+    at = lambda button, x, y, end="M": "\x1b[<%d;%d;%d%s" % (button, x + 1, y + 1, end)  # noqa: E731
+    for name, before, after in (("beside the loop", "", ""), ("above it", "", ""), ("over a page", "?", "x"), ("over a line", ":1", "\x1b")):
+        live.child.send(before)
+        x, y = {"beside the loop": (2, 15), "above it": (60, 1)}.get(name, (60, 15))
+        live.child.send(at(0, x, y) + at(32, x + 3, y) + at(0, x + 3, y, "m") + after)
+        live.key("f", "displacements dx and dz")
+        tests.check("the mouse " + name, live.value("dx")[0] == "0" and "step" not in live.status(), live.screen.text())
+        live.key("f", "forces Fx and FN")
+    live.end()
+
+
 def run(tests):
     tests.rooms(beginning, refusals, keys, playing, repeating, going_on, sizes, comparing, stepping, mouse, undisturbed, saving, recording,
-                endings, stopping, lessons)
+                endings, stopping, lessons, corners, typing, scripted, pointing)
