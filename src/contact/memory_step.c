@@ -98,34 +98,58 @@ static fret_real inner_level(const fret_memory *m, slice *sl, fret_real d) {
 }
 
 /* Close to gross slip of sense s the part that sticks is far smaller than the contact. It is told by the
- * distance of F_x from mu F_N, or of delta_x from delta_x,max, taken with all digits; the other follows. */
-static void keep_inner(fret_memory *m, coordinate by, fret_real s, double goal, fret_real eaten[2]) {
-    const fret_level edge = {m->edge[DEPTH], m->edge[LOAD]};
-    slice *only = &m->slices[0];
-    const dd scale = by == LOAD ? dd_of(m->mu) : dd_mul_d(m->normal->wide_foundation.eta, m->mu);
-    const dd bound = dd_mul(scale, dd_from2(m->edge[by], edge_rest(m, by, m->edge[by])));
-    const dd at = by == LOAD ? dd_of(goal) : dd_sub(dd_of(goal), dd_from(m->slid));
-    const dd left = dd_div(s < 0 ? dd_add(bound, at) : dd_sub(bound, at), scale);
-    const fret_real inner = fret_greater(dd_value(left) / (1 - s * only->sigma), 0);
-    only->thick[by] = inner;
-    eaten[by] = m->edge[by] - inner;
-    if (by == DEPTH) {
-        only->thick[LOAD] = fret_law_force(m->normal, inner);
-        eaten[LOAD] = fret_law_load_outside(m->normal, &edge, inner);
-    } else {
-        only->thick[DEPTH] = fret_law_depth(m->normal, inner);
-        eaten[DEPTH] = fret_law_thickness_outside(m->normal, &edge, inner);
-    }
+ * distance of F_x from mu F_N, or of delta_x from delta_x,max, taken with all digits: how thick is the slice
+ * i, where the front ends? */
+static fret_real thick_at_brink(const fret_memory *m, size_t i, coordinate by, fret_real s, dd left) {
+    const slice *end = &m->slices[i];
+    const fret_real inside = i ? end->inner[by] - s * end[-1].sum[by] : 0;
+    return fret_greater((dd_value(left) - inside) / (1 - s * end->sigma), 0);
 }
 
-/* The same where F_N changes too, by force: the load of the part that sticks at the end, where it is small;
- * else the load that the steps of the front have left. */
-static fret_real core_load(const fret_memory *m, fret_real s, double goal, fret_real edge, fret_real load) {
-    if (m->slices[0].sigma * s >= 1 || 8 * load > edge)
-        return load;
+static fret_real inner_of(const fret_memory *m, size_t i, coordinate by) {
+    return i ? m->slices[i].inner[by] : 0;
+}
+
+/* The outermost slice at the end of a step at constant F_N, to `at`; the other coordinate follows. */
+static void keep_inner(fret_memory *m, coordinate by, fret_real s, double goal, fret_real eaten[2],
+                       fret_real at[2]) {
+    const fret_level edge = {m->edge[DEPTH], m->edge[LOAD]};
+    const size_t i = m->count - 1;
+    const coordinate other = by == DEPTH ? LOAD : DEPTH;
+    slice *top = &m->slices[i];
+    const dd scale = by == LOAD ? dd_of(m->mu) : dd_mul_d(m->normal->wide_foundation.eta, m->mu);
+    const dd bound = dd_mul(scale, dd_from2(m->edge[by], edge_rest(m, by, m->edge[by])));
+    const dd to = by == LOAD ? dd_of(goal) : dd_sub(dd_of(goal), dd_from(m->slid));
+    const dd left = dd_div(s < 0 ? dd_add(bound, to) : dd_sub(bound, to), scale);
+    top->thick[by] = thick_at_brink(m, i, by, s, left);
+    at[by] = inner_of(m, i, by) + top->thick[by];
+    eaten[by] = m->edge[by] - at[by];
+    if (by == DEPTH) {
+        at[LOAD] = fret_law_force(m->normal, at[DEPTH]);
+        eaten[LOAD] = fret_law_load_outside(m->normal, &edge, at[DEPTH]);
+    } else {
+        at[DEPTH] = fret_law_depth(m->normal, at[LOAD]);
+        eaten[DEPTH] = fret_law_thickness_outside(m->normal, &edge, at[LOAD]);
+    }
+    const fret_level outer = {at[DEPTH], at[LOAD]};
+    if (2 * inner_of(m, i, by) < at[by])
+        top->thick[other] = at[other] - inner_of(m, i, other);
+    else
+        top->thick[other] = by == DEPTH ? fret_law_load(m->normal, &outer, top->thick[DEPTH])
+                                        : fret_law_thickness(m->normal, &outer, top->thick[LOAD]);
+}
+
+/* The same where F_N changes too, by force: the slice i, in which the front ends, where little is left. The
+ * steps of the front have left `load`. */
+static bool keep_little(fret_memory *m, size_t i, fret_real s, double goal, fret_real edge, fret_real *load) {
+    slice *end = &m->slices[i];
+    if (end->sigma * s >= 1 || 8 * *load > edge)
+        return false;
     const dd bound = dd_mul_d(dd_from2(edge, edge_rest(m, LOAD, edge)), m->mu);
     const dd left = s < 0 ? dd_add_d(bound, goal) : dd_add_d(bound, -goal);
-    return fret_greater(dd_value(dd_div(left, dd_of(m->mu))) / (1 - s * m->slices[0].sigma), 0);
+    end->thick[LOAD] = thick_at_brink(m, i, LOAD, s, dd_div(left, dd_of(m->mu)));
+    *load = inner_of(m, i, LOAD) + end->thick[LOAD];
+    return true;
 }
 
 /* The front of a slip zone of sign s at constant normal load: the zone eats inwards from the edge. */
@@ -150,11 +174,9 @@ static fret_real eat_slice(fret_memory *m, slip_front *f, fret_real cap) {
     return level;
 }
 
-/* All but a small core of the only slice. */
+/* Up to a small core. */
 static fret_real eat_to_core(fret_memory *m, slip_front *f, double goal) {
-    keep_inner(m, f->by, f->s, goal, f->eaten);
-    for (coordinate i = DEPTH; i <= LOAD; i++)
-        f->at[i] = m->slices[0].thick[i];
+    keep_inner(m, f->by, f->s, goal, f->eaten, f->at);
     resum_top(m);
     f->drive = 0;
     return edge_slice(m, f->eaten[DEPTH]).L;
@@ -204,7 +226,7 @@ static fret_real slip_inwards(fret_memory *m, coordinate by, fret_real drive, do
         fret_real next;
         if (cap - f.drive <= snap && cap - f.drive <= 1e-6L * cap)
             next = eat_slice(m, &f, cap);
-        else if (m->count == 1 && 8 * (cap - f.drive) < gain * m->edge[by])
+        else if (8 * (cap - f.drive) < gain * (m->edge[by] - 8 * inner_of(m, m->count - 1, by)))
             next = eat_to_core(m, &f, goal);
         else
             next = eat_part(m, &f, gain);
@@ -289,9 +311,8 @@ static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real ed
         } else {
             const fret_real part = e / gain;
             front[1].at -= part;
-            top->thick[by] -= part;
-            if (m->count == 1 && by == LOAD)
-                top->thick[LOAD] = front[1].at = core_load(m, s, goal, edge[LOAD], front[1].at);
+            if (by == DEPTH || !keep_little(m, m->count - 1, s, goal, edge[LOAD], &front[1].at))
+                top->thick[by] -= part;
             front[1].other = other_of(m, by, front[1].at);
             e = 0;
         }
@@ -400,8 +421,9 @@ static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
         overtaken = true;
     }
     const fret_real at = top->inner[by], step = reached ? next->thick[by] : speed * t;
-    const bool core = by == LOAD && m->count == 2 && !reached && !overtaken;
-    const fret_real inner = core ? core_load(m, s, r->goal, r->to.at, at - step) : at - step;
+    fret_real inner = at - step;
+    const bool core =
+        by == LOAD && !reached && !overtaken && keep_little(m, m->count - 2, s, r->goal, r->to.at, &inner);
     place edge[2] = {r->z}, front[2] = {{at, top->inner[other]}, {inner, -1}};
     if (reached)
         front[1].other = m->count > 2 ? next->inner[other] : 0;
@@ -414,7 +436,8 @@ static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
         take_in(m, r, s);
         return loss;
     }
-    next->thick[by] = core ? inner : next->thick[by] - step;
+    if (!core)
+        next->thick[by] -= step;
     if (overtaken) {
         m->count--;
     } else {

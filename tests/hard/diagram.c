@@ -111,7 +111,7 @@ static fret_step mixed(const state *s) {
 }
 
 /* To gross slip less, or more, 1e-9 to 1e-15 of it, with F_N changing or not; from anywhere, but not from
- * another brink: there a long double knows no more than a double of what sticks. */
+ * another brink, by displacement: there a long double knows no more than a double of what sticks. */
 static fret_step brink(const state *s) {
     if (s->i % 3 == 0)
         return by_depth(s, either(s->r, 0.2, 1), (double)s->now.dx / s->x + (s->now.dx < 0 ? 3 : -3));

@@ -592,6 +592,35 @@ static void brink_on_the_way(double n, double k) {
     }
 }
 
+/* From the brink of gross slip to the other one, with F_N growing, falling or kept: what sticks, F_N -
+ * |F_x|/mu at each, tells where the slopes change. */
+static void nested_brinks(double n, double k) {
+    unit_scene scene = unit_make_scene(n, k);
+    scene.mu = 0.5; /* a quotient without rounding */
+    for (int i = 0; i < 200; i++) {
+        contact c = make(&scene);
+        const double FN[2] = {60.1 + i % 41, i % 3 ? 60.7 + i % 37 : 60.1 + i % 41}, side = i % 2 ? 1 : -1;
+        const double to[2] = {side * c.mu * FN[0] * (1 - ldexp(1, -12 - i % 31)),
+                              -side * c.mu * FN[1] * (1 - ldexp(1, -10 - i % 23))};
+        go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 50.3, 0});
+        fret_real stuck[2];
+        for (int j = 0; j < 2; j++) {
+            go(&c, (fret_step){FRET_TO_FORCE, FRET_TO_FX, FN[j], to[j]});
+            stuck[j] = FN[j] - fabsl(to[j] / (fret_real)c.mu);
+        }
+        const bool within = stuck[1] < stuck[0]; /* the second leaves nothing of the first */
+        const fret_real front = within ? stuck[1] : (stuck[0] + stuck[1]) / 2;
+        const fret_real depth = fret_law_depth(c.normal, front);
+        const fret_real back = fret_law_depth(c.normal, FN[1]) - depth,
+                        forth = within ? 0 : depth - fret_law_depth(c.normal, stuck[0]);
+        const fret_real mu_eta = c.mu * c.normal->foundation.eta;
+        const fret_state end = state_of(&c);
+        CHECK_ABS(end.dx, side * mu_eta * (forth - back), mu_eta * end.dz, UNIT_TOL(4e-19L, 1e-8L));
+        CHECK_REL(end.c, fret_law_radius(c.normal, depth), UNIT_TOL(1e-18L, 1e-3L));
+        fret_memory_free(c.memory);
+    }
+}
+
 static void subdivision(int steps) {
     const fret_real loose = steps == 2048 ? 1 : 1e4L;
     for (int by_force = 0; by_force < 2; by_force++) {
@@ -864,6 +893,10 @@ int main(int argc, char **argv) {
     brink_on_the_way(50, -0.5);
     brink(2, -0.95);
     brink(0.1, 0.5);
+    nested_brinks(2, 0);
+    nested_brinks(0.5, 0.99);
+    nested_brinks(50, -0.5);
+    nested_brinks(0.1, 0.5);
     brink(50, -0.5);
     subdivision(2048);
     subdivision(2000);
