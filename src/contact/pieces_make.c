@@ -18,6 +18,7 @@ enum { NOISE = 5 };  /* terms that tell it */
 typedef struct rule {
     int count;
     fret_real wave[4 * NODES];     /* cos(pi i/(2 count)) */
+    fret_real at[NODES][NODES];    /* T_i at node j */
     fret_real power[NODES][NODES]; /* T_i in powers of z */
 } rule;
 
@@ -25,6 +26,9 @@ static void make_rule(rule *r, int count) {
     r->count = count;
     for (int i = 0; i < 4 * count; i++)
         r->wave[i] = fret_cos(FRET_PI * i / (2 * count));
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++)
+            r->at[i][j] = r->wave[i * (2 * j + 1) % (4 * count)];
     for (int i = 0; i < NODES; i++)
         for (int j = 0; j < NODES; j++)
             r->power[i][j] = i < 2    ? (fret_real)(i == j)
@@ -42,7 +46,7 @@ static void terms_of(const rule *r, const fret_real *value, fret_real *term) {
     for (int i = 0; i < count; i++) {
         term[i] = 0;
         for (int j = 0; j < count; j++)
-            term[i] += r->wave[i * (2 * j + 1) % (4 * count)] * value[j];
+            term[i] += r->at[i][j] * value[j];
         term[i] *= (i ? 2 : 1) / (fret_real)count;
     }
 }

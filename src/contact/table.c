@@ -291,26 +291,51 @@ typedef struct sums {
 
 /* Terms that a block of half-width d needs whose middle is u away from the edge; 0: it is too near. */
 static int far_terms(fret_real d, fret_real u) {
-    fret_real ratio = d / u;
-    int count = 1;
-    if (!(u > 0 && ratio <= 0.25L))
+    if (!(u > 0 && 4 * d <= u))
         return 0;
-    for (fret_real left = 1e21L * ratio; left > 1 && count < TAYLOR; left *= ratio)
+    const double ratio = (double)(d / u);
+    int count = 1;
+    for (double left = 1e21 * ratio; left > 1 && count < TAYLOR; left *= ratio)
         count++;
     return count;
 }
 
-/* u: distance of the middle from the edge. */
+/* u: distance of the middle from the edge. Terms fall at least by 4: of those after the first few a double
+ * keeps all digits that count. */
 static void add_far(sums *all, const block *b, int count, fret_real alpha, fret_real a, fret_real u) {
-    fret_real D = u * (a + b->c), x1 = 2 * b->c * b->d / D, x2 = b->d * b->d / D;
+    enum { LEADING = 7 };
+    const fret_real D = u * (a + b->c), per = b->d / D, x1 = 2 * b->c * per, x2 = b->d * per;
+    const int leading = count < LEADING ? count : LEADING;
     fret_real q = 1, old = 0, slope[3] = {0, 0, 0}, rf2 = 0;
-    for (int n = 0; n < count; n++) {
+    for (int n = 0; n < leading; n++) {
         for (int j = 0; j < 3; j++)
             slope[j] += q * b->slope[n + j];
         rf2 += q * b->rf2[n];
-        fret_real next = (x1 * (n - alpha) * q + x2 * (n - 1 - 2 * alpha) * old) * inverse[n];
+        const fret_real next =
+            x1 * ((n - alpha) * inverse[n]) * q + x2 * ((n - 1 - 2 * alpha) * inverse[n]) * old;
         old = q;
         q = next;
+    }
+    if (count > leading) {
+        const double y1 = (double)x1, y2 = (double)x2, z1 = (double)alpha, z2 = 2 * z1 + 1;
+        double p = (double)q, last = (double)old, s0 = 0, s1 = 0, s2 = 0, r = 0;
+        double m0 = (double)b->slope[LEADING], m1 = (double)b->slope[LEADING + 1];
+        for (int n = LEADING; n < count; n++) {
+            const double m2 = (double)b->slope[n + 2], part = (double)inverse[n];
+            s0 += p * m0;
+            s1 += p * m1;
+            s2 += p * m2;
+            r += p * (double)b->rf2[n];
+            const double next = y1 * ((n - z1) * part) * p + y2 * ((n - z2) * part) * last;
+            last = p;
+            p = next;
+            m0 = m1;
+            m1 = m2;
+        }
+        slope[0] += s0;
+        slope[1] += s1;
+        slope[2] += s2;
+        rf2 += r;
     }
     fret_real K = fret_pow(D / (a * a), alpha) / a, c = b->c / a, d = b->d / a;
     all->g += K * slope[0];
