@@ -36,13 +36,11 @@ plot_extents plot_extent_of(const plot_panel *p) {
         if (s->role == PLOT_MEASURED || (s->role == PLOT_CURVE && !one_way(s)))
             e.x.graph = false;
         for (size_t i = 0; i < s->count; i++) {
-            bool upright = s->role == PLOT_VERTICAL;
             /* of what lies outside the limits along x, nothing is seen */
-            if (!isfinite(s->x[i]) || (!upright && !isfinite(s->y[i])) || !inside(s->x[i], p->xlo, p->xhi))
+            if (!isfinite(s->x[i]) || !isfinite(s->y[i]) || !inside(s->x[i], p->xlo, p->xhi))
                 continue;
             span(&e.x, s->x[i], p->logx);
-            if (!upright)
-                span(&e.y, s->y[i], p->logy);
+            span(&e.y, s->y[i], p->logy);
             if (s->y2)
                 span(&e.y, s->y2[i], p->logy);
         }

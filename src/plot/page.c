@@ -162,11 +162,11 @@ static const char *ink_color(size_t n) {
 }
 
 static bool is_line(const plot_series *s) {
-    return s->role == PLOT_CURVE || s->role == PLOT_BAND || s->role == PLOT_VERTICAL;
+    return s->role == PLOT_CURVE || s->role == PLOT_BAND;
 }
 
 static bool is_helping(const plot_series *s) {
-    return s->thin || s->role == PLOT_BAND || s->role == PLOT_VERTICAL;
+    return s->thin || s->role == PLOT_BAND;
 }
 
 /* Which dots along a line of braille are put down: helping lines are dotted; dashes tell curves apart where
@@ -199,7 +199,6 @@ static void sign_of(const page *g, size_t at, char sign[SIGN], const char **colo
         return;
     }
     const char c = s->role == PLOT_NOW        ? '@'
-                   : s->role == PLOT_VERTICAL ? ':'
                    : s->role == PLOT_MEASURED ? 'O'
                    : is_helping(s)            ? '.'
                                               : chars[place % strlen(chars)];
@@ -222,24 +221,16 @@ static bool locate(const page *g, double x, double y, double at[2]) {
 /* The cells that a series touches. */
 static bool trace(const page *g, size_t at, plot_cells *cells) {
     const plot_series *s = g->panel->series[at];
-    const bool upright = s->role == PLOT_VERTICAL;
-    const size_t count = upright ? 3 * s->count : s->count;
-    double(*point)[2] = malloc((count + 1) * sizeof *point);
+    double(*point)[2] = malloc((s->count + 1) * sizeof *point);
     if (!point || !plot_cells_make(cells, g->x.cells + 1, g->y.cells + 1, g->braille && is_line(s))) {
         free(point);
         return false;
     }
-    const double lo = at_cell(&g->y, 0), hi = at_cell(&g->y, g->y.cells);
-    for (size_t i = 0; i < s->count && upright; i++) {
-        locate(g, s->x[i], lo, point[3 * i]);
-        locate(g, s->x[i], hi, point[3 * i + 1]);
-        locate(g, NAN, NAN, point[3 * i + 2]);
-    }
     for (int edge = 0; edge < 1 + (s->y2 != NULL); edge++) {
         const double *y = edge ? s->y2 : s->y;
-        for (size_t i = 0; i < s->count && !upright; i++)
+        for (size_t i = 0; i < s->count; i++)
             locate(g, s->x[i], y[i], point[i]);
-        plot_cells_draw(cells, (const double(*)[2])point, count, is_line(s), dash_of(g, at));
+        plot_cells_draw(cells, (const double(*)[2])point, s->count, is_line(s), dash_of(g, at));
     }
     free(point);
     return true;
@@ -485,7 +476,7 @@ static void set_key(const page *g, const entry *key, size_t n) {
 
 /* From the lowest: lines above bands, the present point above all. */
 static size_t in_order(const plot_panel *p, size_t at[PLOT_CURVES]) {
-    static const plot_role order[] = {PLOT_BAND, PLOT_VERTICAL, PLOT_CURVE, PLOT_MEASURED, PLOT_NOW};
+    static const plot_role order[] = {PLOT_BAND, PLOT_CURVE, PLOT_MEASURED, PLOT_NOW};
     size_t n = 0;
     for (int thin = 1; thin >= 0; thin--)
         for (size_t o = 0; o < sizeof order / sizeof *order; o++)

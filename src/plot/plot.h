@@ -57,7 +57,6 @@ typedef enum plot_role {
     PLOT_CURVE,    /* a line through the points; a point that is not finite is a gap */
     PLOT_MEASURED, /* marks without a line */
     PLOT_BAND,     /* the area between y and y2 */
-    PLOT_VERTICAL, /* a vertical line at each x */
     PLOT_NOW       /* the present point, above all */
 } plot_role;
 

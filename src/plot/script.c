@@ -73,15 +73,13 @@ void plot_quote(FILE *to, const char *text) {
 static void write_series(FILE *to, const plot_series *s) {
     bool gap = true; /* none before the first point */
     for (size_t i = 0; i < s->count; i++) {
-        bool shown = isfinite(s->x[i]) && (s->role == PLOT_VERTICAL || isfinite(s->y[i])) &&
-                     (!s->y2 || isfinite(s->y2[i]));
+        bool shown = isfinite(s->x[i]) && isfinite(s->y[i]) && (!s->y2 || isfinite(s->y2[i]));
         if (!shown && !gap)
             putc('\n', to);
         gap = !shown;
         if (!shown)
             continue;
-        fprintf(to, s->y2 ? "%.9g %.9g %.9g\n" : "%.9g %.9g\n", s->x[i],
-                s->role == PLOT_VERTICAL ? 0 : s->y[i], s->y2 ? s->y2[i] : 0);
+        fprintf(to, s->y2 ? "%.9g %.9g %.9g\n" : "%.9g %.9g\n", s->x[i], s->y[i], s->y2 ? s->y2[i] : 0);
     }
 }
 
@@ -224,7 +222,7 @@ static size_t key_entries(scribe *s, const plot_panel *p, size_t *longest) {
     size_t entries = 0;
     *longest = 0;
     for (size_t i = 0; i < p->count; i++) {
-        if (!p->series[i]->title || p->series[i]->role == PLOT_VERTICAL)
+        if (!p->series[i]->title)
             continue;
         char *text = plot_text(p->series[i]->title, PLOT_UNICODE);
         size_t n = plot_columns(text ? text : "");
@@ -325,8 +323,6 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
     case PLOT_NOW:
         fprintf(s->to, "points pt 7 ps %.3g lc rgb '#000000'", 2 * s->scale);
         break;
-    case PLOT_VERTICAL: /* an arrow, see set_verticals */
-        break;
     }
     if (!c->title) {
         fputs(" notitle", s->to);
@@ -334,33 +330,6 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
     }
     fputs(" title ", s->to);
     quoted(s, c->title);
-}
-
-/* Is the place right of the middle? Its text then stands on the left, within the frame. */
-static bool is_right(const plot_axis *x, double at) {
-    double t = x->log ? log(at / x->lo) / log(x->hi / x->lo) : (at - x->lo) / (x->hi - x->lo);
-    return (t > 0.5) != x->flip;
-}
-
-static void set_verticals(scribe *s, const plot_panel *p, const plot_axis *x) {
-    for (size_t i = 0; i < p->count; i++) {
-        const plot_series *c = p->series[i];
-        if (c->role != PLOT_VERTICAL)
-            continue;
-        for (size_t j = 0; j < c->count; j++)
-            if (isfinite(c->x[j]))
-                fprintf(
-                    s->to,
-                    "set arrow from first %.9g,graph 0 to first %.9g,graph 1 nohead lw %.3g dt (6,5) lc rgb "
-                    "'#505050'\n",
-                    c->x[j], c->x[j], 0.5 * s->kind->line * s->scale);
-        if (!c->title || !c->count || !isfinite(c->x[0]))
-            continue;
-        fputs("set label ", s->to);
-        quoted(s, c->title);
-        fprintf(s->to, " at first %.9g,graph 0.95 offset character %s front\n", c->x[0],
-                is_right(x, c->x[0]) ? "-0.6,0 right" : "0.6,0 left");
-    }
 }
 
 enum { LAYERS = 4 };
@@ -372,8 +341,6 @@ static int layer(const plot_series *s) {
         return 0;
     case PLOT_NOW:
         return 3;
-    case PLOT_VERTICAL: /* an arrow */
-        return LAYERS;
     default:
         return s->thin ? 1 : 2;
     }
@@ -387,23 +354,7 @@ static void draw_all(scribe *s, const plot_panel *p, bool first, bool deep) {
                 draw_series(s, p, i, deep);
                 first = false;
             }
-    if (first) /* nothing but upright lines */
-        fputs("NaN notitle", s->to);
     putc('\n', s->to);
-}
-
-/* Of maps, where a key has no place beside the scale: titles at the first point. */
-static void set_places(scribe *s, const plot_panel *p, const plot_axis *x) {
-    for (size_t i = 0; i < p->count; i++) {
-        const plot_series *c = p->series[i];
-        if (!c->title || !c->count || c->role == PLOT_VERTICAL || !isfinite(c->x[0]) || !isfinite(c->y[0]))
-            continue;
-        fputs("set label ", s->to);
-        quoted(s, c->title);
-        fprintf(s->to, " at first %.9g,first %.9g offset character %s front%s\n", c->x[0], c->y[0],
-                is_right(x, c->x[0]) ? "-1,0.9 right" : "1,0.9 left",
-                s->kind->form == PLOT_TEX ? "" : " boxed");
-    }
 }
 
 /* Where a value lies along an axis, 0 to 1. */
@@ -491,7 +442,6 @@ static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x, const p
         fprintf(s->to, "set xtics %.9g\n", plot_step((x->hi - x->lo) / 6));
     if (s->panels > 1 || s->kind->form == PLOT_TEX)
         fputs("set ylabel offset -1.5,0\n", s->to);
-    set_places(s, p, x);
     set_values(s, &p->map, x, y, level, n);
     fprintf(s->to, "splot $map%zu_%zu using 1:2:3 with pm3d nocontour notitle", s->frame, s->panel);
     if (n)
@@ -526,7 +476,6 @@ static bool draw_panel(scribe *s, const plot_figure *f, const plot_extents *e, c
     if (!p->map.nx && !x.log && !y.log)
         fputs("set xzeroaxis lt 1 lc rgb '#a0a0a0' lw 1\nset yzeroaxis lt 1 lc rgb '#a0a0a0' lw 1\n", s->to);
     set_key(s, p);
-    set_verticals(s, p, &x);
     if (p->map.nx) {
         draw_map(s, p, &x, &y);
     } else {
