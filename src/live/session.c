@@ -367,8 +367,7 @@ static bool walks(const live *l) {
 }
 
 static void session(live *l, live_work *work) {
-    enum { IDLE = 1000 /* milliseconds */, MANY = 20 };
-    const int frame = terminal_frame();
+    enum { IDLE = 1000, FRAME = 16 /* milliseconds */, MANY = 20 };
     double before = seconds(), filmed = before, last = worked();
     while (!l->leave) {
         double start = seconds();
@@ -376,7 +375,8 @@ static void session(live *l, live_work *work) {
         const bool fresh = !refresh_next(l); /* a scene a turn: the other one has its own */
         if (fresh)
             live_walk(l, late);
-        const bool draws = fresh && l->changed;
+        const int busy = terminal_busy();
+        const bool draws = fresh && l->changed && !busy;
         if (draws) {
             l->changed = false;
             live_draw(l);
@@ -388,7 +388,8 @@ static void session(live *l, live_work *work) {
             film_frame(&l->film, l->host, l->typing, start - filmed);
             filmed = start;
         }
-        int key = terminal_key(!fresh ? 0 : l->playing || walks(l) ? frame : IDLE, l->host->stop);
+        const int pause = !fresh ? 0 : l->playing || walks(l) ? FRAME : l->changed ? busy : IDLE;
+        int key = terminal_key(pause, l->host->stop);
         walked_from = start = seconds();
         for (int many = 1; key != KEY_NONE; many++) { /* held keys: one frame for all that wait */
             live_key(l, key);

@@ -8,12 +8,14 @@
 #include <curses.h>
 #include <langinfo.h>
 #include <locale.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/select.h>
 #include <term.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "calc/file.h"
@@ -26,6 +28,7 @@ static struct {
     FILE *nowhere; /* in place of the terminal */
     int guard;
     bool unicode, mouse;
+    double free_at;     /* when the line has taken all */
     char farewell[256]; /* what the terminal is sent when there is no time for curses */
 } own = {.guard = -1};
 
@@ -209,10 +212,74 @@ bool terminal_unicode(void) {
     return own.unicode;
 }
 
-int terminal_frame(void) {
-    enum { FAST = 19200, FRAME = 16, BITS = 15000 /* of a picture that moves, about */ };
+/* ---- slow lines -------------------------------------------------------------------------------- */
+
+static double seconds(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Bytes that a row takes from one screen to the other, about: signs, moves of the cursor, colours. */
+static int row_bytes(const cchar_t *from, const cchar_t *to) {
+    enum { MOVE = 7, LOOK = 11 };
+    int bytes = 0, at = -1;
+    cchar_t look;
+    for (int x = 0; x < COLS; x++) {
+        if (!memcmp(&from[x], &to[x], sizeof to[x]))
+            continue;
+        const int sign = to[x].chars[0] >= 0x800 ? 3 : 1, gap = at < 0 ? MOVE : x - at;
+        const bool other = at < 0 || look.attr != to[x].attr;
+        bytes += sign + (gap > MOVE ? MOVE : gap) + (other ? LOOK : 0);
+        look = to[x];
+        at = x + 1;
+    }
+    return bytes;
+}
+
+static int bytes_to_send(void) {
+    cchar_t *from = calloc(2 * ((size_t)COLS + 1), sizeof *from), *to = from + COLS + 1;
+    int bytes = 0;
+    for (int y = 0; from && y < LINES; y++) {
+        mvwin_wchnstr(curscr, y, 0, from, COLS);
+        mvwin_wchnstr(newscr, y, 0, to, COLS);
+        bytes += row_bytes(from, to);
+    }
+    free(from);
+    return bytes;
+}
+
+/* Curses keeps a place in what it compares. */
+static int bytes_of_update(void) {
+    int y, x, v, w;
+    getyx(curscr, y, x);
+    getyx(newscr, v, w);
+    const int bytes = bytes_to_send();
+    wmove(curscr, y, x);
+    wmove(newscr, v, w);
+    return bytes;
+}
+
+void terminal_show(void) {
+    enum { SLOW = 57600, BITS = 10 };
     const int rate = baudrate();
-    return rate > 0 && rate <= FAST ? 1000 * BITS / rate : FRAME;
+    wnoutrefresh(stdscr);
+    const bool slow = rate > 0 && rate <= SLOW;
+    const double takes = slow ? (double)BITS * bytes_of_update() / rate : 0, begin = seconds();
+    doupdate();
+    const double now = seconds();
+    /* as long as it says, or as long as it made us wait */
+    own.free_at = fmax(begin + takes, now + (now - begin > 0.05 ? now - begin : 0));
+}
+
+int terminal_busy(void) {
+    int waiting = 0;
+    if (own.nowhere)
+        return 0;
+    const double left = own.free_at - seconds();
+    if (left > 0)
+        return 1 + (int)(1000 * fmin(left, 60));
+    return !ioctl(STDOUT_FILENO, TIOCOUTQ, &waiting) && waiting > 0 ? 1 + waiting / 16 : 0;
 }
 
 /* ---- keys -------------------------------------------------------------------------------------- */

@@ -19,8 +19,10 @@ bool terminal_there(void);
 void terminal_close(void);
 /* Braille and other signs can be shown. */
 bool terminal_unicode(void);
-/* Milliseconds from one moving picture to the next: a slow line must not fall behind. */
-int terminal_frame(void);
+/* Sends what has been drawn. */
+void terminal_show(void);
+/* Milliseconds until the line has taken what was sent last: what is drawn before would only pile up. */
+int terminal_busy(void);
 /* Waits for a key or for the time to pass. */
 int terminal_key(int milliseconds, volatile sig_atomic_t *stop);
 

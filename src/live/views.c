@@ -289,49 +289,6 @@ static void draw_column(live *l, const side *s, const scales *sc, rect all, rect
     }
 }
 
-static void draw_side(live *l, const side *s, const scales *sc, rect all) {
-    const bool narrow = all.cols < 60;
-    const int left = narrow ? all.cols : all.cols * 2 / 5 > 34 ? all.cols * 2 / 5 : 34;
-    if (*s->trouble) {
-        put_text(all, 1, l->host->calc->scene.end.steps ? INK_ERROR : INK_FRAME, "%s%s%s", s->title,
-                 *s->title ? ": " : "", s->trouble);
-        return;
-    }
-    rect column = {all.top, all.left, all.rows, left - 1};
-    draw_column(l, s, sc, all, column, narrow, false);
-    if (!narrow)
-        draw_column(l, s, sc, all, (rect){all.top, all.left + left, all.rows, all.cols - left}, narrow, true);
-}
-
-/* ---- lines around them ------------------------------------------------------------------------- */
-
-static void draw_head(const live *l, rect at) {
-    const scene *s = &l->host->calc->scene;
-    char text[LIVE_LINE] = "";
-    static const input shown[] = {IN_K, IN_C0, IN_MU, IN_RADIUS, IN_SLOPE, IN_N};
-    size_t n = 0;
-    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++) {
-        const quantity *q = quantity_of_input(shown[i]);
-        char text_of[40];
-        if (!s->in.set[shown[i]] || (shown[i] == IN_C0 && s->in.v[IN_K] == 0))
-            continue; /* c0 says nothing of a body without grading */
-        live_amount(s->in.v[shown[i]], quantity_dim(q, s), text_of, sizeof text_of);
-        n += (size_t)snprintf(text + n, sizeof text - n, "%s = %s  ", q->name, text_of);
-    }
-    char FA[40], FNA[40] = "";
-    live_amount(l->FA, DIM_FORCE, FA, sizeof FA);
-    if (l->FNA > 0)
-        live_amount(l->FNA, DIM_FORCE, FNA, sizeof FNA);
-    put_text(at, 0, INK_NONE, "%s  %s", s->in.geometry ? s->in.geometry->name : "", text);
-    char right[120];
-    snprintf(right, sizeof right, "%scycle FA %s%s%s %g/s  %s", l->playing ? "> " : "", FA,
-             *FNA ? " FNA " : "", FNA, l->speed, l->by_displacement ? "[dx dz]" : "[Fx FN]");
-    const int w = (int)strlen(right);
-    put_text((rect){at.top, at.cols - w, 1, w}, 0, INK_CURVE, "%s", right);
-}
-
-enum { NOTE_ROWS = 4 };
-
 /* Columns that bytes of UTF-8 take. */
 static int columns(const char *text, size_t n) {
     int count = 0;
@@ -354,15 +311,74 @@ static size_t row_of(const char *text, int cols) {
     }
 }
 
-/* Rows that a comment of the script takes; drawn where `at` has rows. */
-static int put_note(const char *text, rect at) {
+/* Rows that a text takes, of at most so many; drawn where `at` has rows. */
+static int put_words(const char *text, ink of, rect at, int most) {
     int row = 0;
-    for (; *text && row < NOTE_ROWS; row++) {
+    for (; *text && row < most; row++) {
         const size_t n = row_of(text, at.cols);
-        put_text(at, row, INK_CURVE, "%.*s", (int)n, text);
+        put_text(at, row, of, "%.*s", (int)n, text);
         text += n + strspn(text + n, " ");
     }
     return row;
+}
+
+static void draw_side(live *l, const side *s, const scales *sc, rect all) {
+    const bool narrow = all.cols < 60;
+    const int left = narrow ? all.cols : all.cols * 2 / 5 > 34 ? all.cols * 2 / 5 : 34;
+    if (*s->trouble) {
+        char text[2 * LIVE_TEXT + 4];
+        snprintf(text, sizeof text, "%s%s%s", s->title, *s->title ? ": " : "", s->trouble);
+        put_words(text, l->host->calc->scene.end.steps ? INK_ERROR : INK_FRAME,
+                  (rect){all.top + 1, all.left, all.rows - 1, all.cols}, all.rows - 1);
+        return;
+    }
+    rect column = {all.top, all.left, all.rows, left - 1};
+    draw_column(l, s, sc, all, column, narrow, false);
+    if (!narrow)
+        draw_column(l, s, sc, all, (rect){all.top, all.left + left, all.rows, all.cols - left}, narrow, true);
+}
+
+/* ---- lines around them ------------------------------------------------------------------------- */
+
+/* What is set, the most important first, as much as there is room for; dots where more is left out. */
+static void put_inputs(const live *l, rect at) {
+    static const input shown[] = {IN_K, IN_MU, IN_C0, IN_RADIUS, IN_SLOPE, IN_N};
+    const scene *s = &l->host->calc->scene;
+    char text[LIVE_LINE], one[60], amount_of[40];
+    int n = snprintf(text, sizeof text, "%s", s->in.geometry ? s->in.geometry->name : "");
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++) {
+        const quantity *q = quantity_of_input(shown[i]);
+        if (!s->in.set[shown[i]] || (shown[i] == IN_C0 && s->in.v[IN_K] == 0))
+            continue; /* c0 says nothing of a body without grading */
+        live_amount(s->in.v[shown[i]], quantity_dim(q, s), amount_of, sizeof amount_of);
+        const int more = snprintf(one, sizeof one, "  %s %s", q->name, amount_of);
+        if (n + more > at.cols) {
+            n += n + 3 <= at.cols ? snprintf(text + n, sizeof text - (size_t)n, " ..") : 0;
+            break;
+        }
+        n += snprintf(text + n, sizeof text - (size_t)n, "%s", one);
+    }
+    put_text(at, 0, INK_NONE, "%s", text);
+}
+
+static void draw_head(const live *l, rect at) {
+    char FA[40], FNA[40], swing[120] = "", right[200];
+    live_amount(l->FA, DIM_FORCE, FA, sizeof FA);
+    live_amount(l->FNA, DIM_FORCE, FNA, sizeof FNA);
+    if (l->FNA > 0)
+        snprintf(swing, sizeof swing, " FNA %s %g deg", FNA, l->phase);
+    snprintf(right, sizeof right, "%scycle FA %s%s %g/s %s", l->playing ? "> " : "", FA, swing, l->speed,
+             l->by_displacement ? "[dx dz]" : "[Fx FN]");
+    int w = (int)strlen(right);
+    w = w < at.cols ? w : at.cols;
+    put_text((rect){at.top, at.cols - w, 1, w}, 0, INK_CURVE, "%s", right);
+    put_inputs(l, (rect){at.top, at.left, 1, at.cols - w - 2});
+}
+
+enum { NOTE_ROWS = 4 };
+
+static int put_note(const char *text, rect at) {
+    return put_words(text, INK_CURVE, at, NOTE_ROWS);
 }
 
 static int foot_rows(const live *l) {
@@ -408,7 +424,7 @@ void live_draw(live *l) {
     erase();
     if (LINES < 10 || COLS < 40) {
         put_text((rect){0, 0, LINES, COLS}, 0, INK_ERROR, "the screen is too small: 40 x 10");
-        refresh();
+        terminal_show();
         return;
     }
     draw_head(l, (rect){0, 0, 1, COLS});
@@ -422,5 +438,5 @@ void live_draw(live *l) {
                       (rect){all.top, COLS * i / sides, all.rows, COLS / sides - (sides > 1 ? 1 : 0)});
     }
     draw_foot(l, (rect){LINES - foot, 0, foot, COLS});
-    refresh();
+    terminal_show();
 }
