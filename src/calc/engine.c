@@ -76,10 +76,6 @@ static fret_status diagram_step(void *self, const fret_step *step) {
     return fret_diagram_step(self, step);
 }
 
-static fret_status diagram_copy(void *to, const void *from) {
-    return fret_diagram_copy(to, from);
-}
-
 static void diagram_state(const void *self, fret_state *out) {
     fret_diagram_state(self, out);
 }
@@ -131,7 +127,6 @@ const model_row models[MODELS] = {
                       .power = true,
                       .make = diagram_make,
                       .step = diagram_step,
-                      .copy = diagram_copy,
                       .state = diagram_state,
                       .forces = diagram_forces,
                       .last_loss = diagram_last_loss,

@@ -159,6 +159,9 @@ static void errors(void) {
         CHECK_OK(by[i](n, 0, &p));
         CHECK(p.F == 0 && p.dz == 0 && p.a == 0);
     }
+    CHECK(fret_normal_end(n) == inf_); /* a power goes on for ever, a sphere for 0.95 of its radius */
+    const fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 0.01};
+    CHECK_REL(fret_normal_end(unit_keep_normal(&s.material, &sphere)), 0.0095L, 1e-15L);
     fret_press p = {.F = 7, .dz = 7, .a = 7};
     CHECK_CODE(fret_press_by_depth(n, 1e300, &p), FRET_OVERFLOW);
     CHECK_CODE(fret_press_by_radius(n, 1e200, &p), FRET_OVERFLOW);
