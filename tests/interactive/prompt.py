@@ -198,5 +198,31 @@ def figures(tests):
     s.end()
 
 
+def own(tests):
+    """What only the prompt does: commands of the system, a load too long to show, a start-up file at home."""
+    home = os.path.join(tests.dir, "at-home")
+    os.makedirs(os.path.join(home, ".config", "fret"))
+    with open(os.path.join(home, ".config", "fret", "fretrc"), "w", encoding="ascii") as f:
+        f.write("x = 17\n")
+    s = Session(tests, "--quiet", HOME=home, XDG_CONFIG_HOME="")
+    tests.check("the start-up file at home", s.say("x") == "x = 17")
+    tests.check("a command of the system", s.say("!echo a && echo b") == "a\nb")
+    tests.check("its status is told", s.say("!exit 3") == "the command ended with status 3")
+    tests.check("and by what it was killed", s.say("!kill -9 $$") == "the command ended with status 9")
+    s.say(SCENE + "; press FN=100 N")
+    for i in range(1, 24):
+        s.say("step Fx=%d N" % i)
+    lines = s.say("show").splitlines()
+    tests.check("a long load is shown by its ends", lines[3:13] == ["press FN=100 N"] + ["step Fx=%d N" % i for i in range(1, 10)] and
+                lines[13] == "# ... 4 more steps, not shown" and lines[14:24] == ["step Fx=%d N" % i for i in range(14, 24)],
+                "\n".join(lines))
+    path = os.path.join(home, "long.fret")
+    s.say("save " + path)
+    with open(path, encoding="ascii") as f:
+        tests.check("and saved whole", f.read().count("step Fx=") == 23)
+    s.child.sendline("quit")
+    tests.check("quit", s.end() == 0)
+
+
 def run(tests):
-    tests.rooms(dialogue, interrupts, starting, figures)
+    tests.rooms(dialogue, interrupts, starting, own, figures)
