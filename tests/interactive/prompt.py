@@ -224,5 +224,18 @@ def own(tests):
     tests.check("quit", s.end() == 0)
 
 
+def narrow(tests):
+    """Progress keeps to one row of a terminal that has few columns."""
+    s = Session(tests, "--quiet", dimensions=(24, 20))
+    s.child.sendline("table x for x = 1 .. 2 steps 100000000 to /dev/null")
+    found = s.child.expect([r"\r(table: \d[^\r\n]*)\r", pexpect.TIMEOUT], timeout=120)
+    told = s.child.match.group(1) if not found else ""
+    tests.check("progress in few columns", len(told) == 17, repr(told))
+    s.child.sendintr()
+    s.prompt()
+    s.child.sendline("quit")
+    tests.check("and the session goes on", s.end() == 0)
+
+
 def run(tests):
-    tests.rooms(dialogue, interrupts, starting, own, figures)
+    tests.rooms(dialogue, interrupts, starting, own, narrow, figures)
