@@ -68,7 +68,7 @@ def interrupts(tests):
     os.chdir(harness.ROOT)
 
 
-ROOMS = {**{name: run for name, run in runner.ROOMS.items() if name not in SLOW}, "some hard": some_hard, "interrupts": interrupts, "faults": every_fault}
+ROOMS = {**{name: run for name, run in runner.ROOMS.items() if name not in SLOW}, "some-hard": some_hard, "interrupts": interrupts, "faults": every_fault}
 
 
 def build():
