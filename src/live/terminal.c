@@ -261,7 +261,7 @@ static int bytes_of_update(void) {
 }
 
 void terminal_show(void) {
-    enum { SLOW = 57600, BITS = 10 };
+    enum { SLOW = 19200 /* what pretends to be a line says 38400 */, BITS = 10 };
     const int rate = baudrate();
     wnoutrefresh(stdscr);
     const bool slow = rate > 0 && rate <= SLOW;
