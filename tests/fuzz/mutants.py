@@ -31,7 +31,7 @@ ROOMS = {"number": "unit sessions reference numbers hard accuracy", "contact": "
          "calc": "sessions errors unit scripts reading help keeping reference looks backwards fits smoothing numbers",
          "study": "fits backwards accuracy sessions errors sharing smoothing", "plot": "unit figures looks sessions paper",
          "shell": "sessions errors scripts help readme keeping looks completion figures fits accuracy interactive trouble",
-         "live": "live"}
+         "live": "live casts unit interactive"}
 
 TOKEN = re.compile(r"""(?P<skip>//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|^[ \t]*\#(?:\\\n|[^\n])*)
                      |(?P<number>(?:0x[\da-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)[uUlLfF]*)
