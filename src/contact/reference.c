@@ -94,7 +94,9 @@ static fret_status slip_zone_make(const fret_contact *c, const fret_loading *pea
         s.outer = press->a - s.start;
         s.inner = fmaxl(peak->c - s.start, 0);
         s.g_outer = fret_gap_profile(&normal->gap, &normal->rule, s.outer).g;
-        s.g_inner = s.g_outer * (1 - x); /* near a flat end g grows within less than a digit of the radius */
+        /* beside a flat end g grows within less than the last digit of the radius */
+        s.g_inner = s.inner > s.start / 64 ? fret_gap_profile(&normal->gap, &normal->rule, s.inner).g
+                                           : s.g_outer * (1 - x);
         s.by_rows = fret_gap_has_rows(&normal->gap) && has_rows(&s);
     }
     *out = s;
