@@ -217,24 +217,39 @@ static int side_of(const fret_swing *c, const way *w, fret_real s) {
     return fabsl(above) <= 4 * noise(c) ? 0 : above > 0 ? 1 : -1;
 }
 
-/* Where the sides meet the zone is thin: what an instant of change is missed by counts by its third power in
- * the loss, but the curve ends there. */
-enum { LOOKS = 24, HALVINGS = 64 };
+/* Where one looks for a change of sides, as a part of the way: closer towards its ends, since what is missed
+ * there counts by its third power in the loss. */
+enum { LOOKS = 24, CLOSER = 12, HALVINGS = 64 };
 
-/* Up to when, at most hi, is the way on the side that it is on after lo? */
+static fret_real look(int i) {
+    const fret_real first = 0.5L / LOOKS;
+    if (i < CLOSER)
+        return ldexpl(first, i - CLOSER);
+    if (i >= CLOSER + LOOKS)
+        return 1 - ldexpl(first, CLOSER + LOOKS - 1 - i);
+    return first * (1 + 2 * (i - CLOSER));
+}
+
+/* Up to when, at most hi, is the way on the side that it is on after lo? Where it begins on the curve it has
+ * to leave it first. */
 static int side_until(const fret_swing *c, const way *w, fret_real lo, fret_real *hi) {
-    const fret_real step = (*hi - lo) / LOOKS;
-    const int side = side_of(c, w, lo + step / 2);
-    for (int i = 1; i < LOOKS; i++) {
-        fret_real before = lo + step * (i - 0.5L), after = before + step;
-        if (side_of(c, w, after) == side)
-            continue;
-        for (int j = 0; j < HALVINGS; j++) {
-            const fret_real middle = (before + after) / 2;
-            *(side_of(c, w, middle) == side ? &before : &after) = middle;
+    const fret_real length = *hi - lo;
+    fret_real before = lo;
+    int side = 0;
+    for (int i = 0; i < CLOSER + LOOKS + CLOSER; i++) {
+        fret_real after = lo + length * look(i);
+        const int now = side_of(c, w, after);
+        if (side == 0 && i <= CLOSER / 2)
+            side = now;
+        if (now != side) {
+            for (int j = 0; j < HALVINGS; j++) {
+                const fret_real middle = (before + after) / 2;
+                *(side_of(c, w, middle) == side ? &before : &after) = middle;
+            }
+            *hi = after;
+            break;
         }
-        *hi = after;
-        break;
+        before = after;
     }
     return side;
 }

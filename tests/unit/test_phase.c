@@ -4,12 +4,9 @@
 #include "number/quadrature.h"
 #include "unit.h"
 
-static unsigned long long seed = 88172645463325252ull;
 static double uniform(void) {
-    seed ^= seed << 13;
-    seed ^= seed >> 7;
-    seed ^= seed << 17;
-    return (double)(seed >> 11) * 0x1p-53;
+    static unsigned long long seed = 1;
+    return unit_random(&seed, 0, 1);
 }
 
 /* 10^-most .. 1 */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A load that is walked in parts ends where one ends that is run at once, to the last bit, wherever it waits; a
- * walk follows its scene. */
+/* A load that is walked in parts ends where one ends that is run at once, to the last bit, wherever it waits;
+ * a walk follows its scene. */
 #include "unit.h"
 
 #define unit calc_unit /* names that calc has too */
@@ -40,12 +40,19 @@ static void begin(calc *c, bool swings) {
     inputs_geometry(in, geometry_find("sphere", 6), NULL, NULL);
     inputs_put(in, IN_RADIUS, 0.01);
     push(c, (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = 100}, (cycle_extra){0});
-    push(c, (load_step){.kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 20, .points = 1}, (cycle_extra){0});
-    push(c, (load_step){.kind = LOAD_CYCLE, .tangential = BY_FORCE, .tangential_value = 12, .normal_value = swings ? 30 : 0},
-         (cycle_extra){.times = 3, .phase = 1});
-    push(c, (load_step){.kind = LOAD_STEP, .tangential = BY_DISPLACEMENT, .tangential_value = 1e-7, .points = 1},
+    push(c, (load_step){.kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 20, .points = 1},
          (cycle_extra){0});
-    push(c, (load_step){.kind = LOAD_CYCLE, .tangential = BY_DISPLACEMENT, .tangential_value = 2e-7}, (cycle_extra){.times = 2});
+    push(c,
+         (load_step){.kind = LOAD_CYCLE,
+                     .tangential = BY_FORCE,
+                     .tangential_value = 12,
+                     .normal_value = swings ? 30 : 0},
+         (cycle_extra){.times = 3, .phase = 1});
+    push(c,
+         (load_step){.kind = LOAD_STEP, .tangential = BY_DISPLACEMENT, .tangential_value = 1e-7, .points = 1},
+         (cycle_extra){0});
+    push(c, (load_step){.kind = LOAD_CYCLE, .tangential = BY_DISPLACEMENT, .tangential_value = 2e-7},
+         (cycle_extra){.times = 2});
 }
 
 /* The state at the end, by so many waits; how often it has waited. */
