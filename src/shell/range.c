@@ -154,13 +154,16 @@ static bool accept_log(lexer *lx) {
 }
 
 bool range_read_options(shell *sh, lexer *lx, sweep *s) {
-    for (;;) {
+    for (bool given = false;;) {
         unsigned steps;
-        if (lex_accept(lx, "steps")) {
+        if (given && lex_is(lx, "steps")) {
+            return lex_fail(lx, "steps is given twice");
+        } else if (lex_accept(lx, "steps")) {
             if (!read_count(&sh->calc, lx, "steps", RANGE_STEPS, &steps))
                 return false;
             s->steps = steps;
             s->refine = false;
+            given = true;
         } else if (!s->along && accept_log(lx)) {
             s->log = true;
         } else if (lex_is(lx, "with")) {
