@@ -5,6 +5,8 @@ import json
 import math
 import os
 import random
+import re
+from fractions import Fraction
 
 SPRINGS = 1500
 NU, R, FN = 0.3, 0.01, 100.0
@@ -115,6 +117,18 @@ def closed_loop(tests):
     values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + name)
     tests.check("fit: a closed loop from its midst", event and abs(values["mu"] / mu - 1) < 1e-3 and abs(values["E0"] / E0 - 1) < 1e-3
                 and "run twice" in done.stderr, tests.report(done))
+    start = min(range(len(rows)), key=lambda i: abs(rows[i][1]))
+    name = write(tests, "unloaded.csv", "dx [um],Fx [N]", rows[start:-1] + rows[:start + 1])
+    values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + name)
+    tests.check("fit: a closed loop that begins displaced without a force", event and abs(values["mu"] / mu - 1) < 1e-3
+                and abs(values["E0"] / E0 - 1) < 1e-3 and "run twice" in done.stderr, tests.report(done))
+    path = path_of(0.4e-6, 40)
+    rows = [(d * 1e6, f) for d, f in zip(path, loop(mu, E0, path))][1:80]
+    last = min(range(20, 79), key=lambda i: abs(rows[i][0]))
+    name = write(tests, "rest.csv", "dx [um],Fx [N]", rows[:last + 1])
+    values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + name)
+    tests.check("fit: a loop that begins next to rest, and ends there", event and abs(values["mu"] / mu - 1) < 1e-3
+                and abs(values["E0"] / E0 - 1) < 1e-3 and "twice" not in done.stderr, tests.report(done))
 
 
 def equations(tests):
@@ -192,6 +206,50 @@ def straight_lines(tests):
                 and "0 of 5 rows are far off" in done.stderr, tests.report(done))
 
 
+def least_squares(rows, values):
+    """Parameters, their deviations and correlations by the normal equations, in fractions."""
+    n, m = len(rows), len(rows[0])
+    table = [[sum(Fraction(r[i]) * Fraction(r[j]) for r in rows) for j in range(m)] + [Fraction(i == j) for j in range(m)] for i in range(m)]
+    for i in range(m):  # the inverse, by Gauss and Jordan
+        table[i] = [v / table[i][i] for v in table[i]]
+        for j in set(range(m)) - {i}:
+            table[j] = [a - table[j][i] * b for a, b in zip(table[j], table[i])]
+    inverse = [row[m:] for row in table]
+    right = [sum(Fraction(r[i]) * Fraction(v) for r, v in zip(rows, values)) for i in range(m)]
+    found = [sum(a * b for a, b in zip(row, right)) for row in inverse]
+    rest = sum((v - sum(a * b for a, b in zip(r, found))) ** 2 for r, v in zip(rows, values)) / (n - m)
+    deviation = [math.sqrt(rest * inverse[i][i]) for i in range(m)]
+    return found, deviation, lambda i, j: inverse[i][j] / math.sqrt(inverse[i][i] * inverse[j][j])
+
+
+def parabolas(tests):
+    """What is said of three names, in every order: how sure, how alike, and which the data hardly determine or tell apart."""
+    powers = {"off": "off", "s": "s*u", "q": "q*u^2"}
+    for what, data in (("near", ((-3, "-5.9"), (-2, "-3.8"), (-1, "-2.1"), (0, "0.1"), (1, "1.9"), (2, "4.2"), (3, "5.9"))),
+                       ("far", ((10, "1"), (11, "3"), (12, "3"), (13, "6"), (14, "8")))):
+        name = write(tests, what + ".csv", "u,y", [(u, float(y)) for u, y in data])
+        for order in (("off", "s", "q"), ("s", "q", "off"), ("q", "off", "s")):
+            rows = [[u ** list(powers).index(p) for p in order] for u, _ in data]
+            found, deviation, correlation = least_squares(rows, [Fraction(y) for _, y in data])
+            script = "off = 1; s = 1; q = 1; fit %s for y = %s to %s" % (", ".join(order), " + ".join(powers.values()), name)
+            _, event, done = answers(tests, script)
+            tests.check("fit in JSON: %s, %s" % (what, order), list(event["deviation"]) == list(order)
+                        and all(abs(event["deviation"][p] / d - 1) < 1e-4 for p, d in zip(order, deviation))
+                        and list(event["correlation"]) == ["%s,%s" % (order[i], order[j]) for i, j in ((0, 1), (0, 2), (1, 2))]
+                        and all(abs(event["correlation"]["%s,%s" % (order[i], order[j])] - correlation(i, j)) < 1e-5
+                                for i, j in ((0, 1), (0, 2), (1, 2))), tests.report(done))
+            done = tests.run("-c", script)
+            said = dict(re.findall(r"^(\w+) = (\S+) \+-", done.stdout, re.M))
+            alike = dict(((a, b), float(c)) for a, b, c in re.findall(r"^correlation of (\w+) and (\w+) = (\S+)$", done.stdout, re.M))
+            pairs = [(i, j) for i in range(3) for j in range(i + 1, 3)]
+            tests.check("fit: %s, %s" % (what, order), list(said) == list(order) and list(alike) == [(order[i], order[j]) for i, j in pairs]
+                        and all(abs(float(said[p]) / v - 1) < 1e-4 for p, v in zip(order, found))
+                        and all(abs(alike[order[i], order[j]] - correlation(i, j)) < 0.006 for i, j in pairs), tests.report(done))
+            want = ["tell %s and %s apart" % (order[i], order[j]) for i, j in pairs if abs(correlation(i, j)) > 0.99]
+            want += ["determine " + p for p, v, d in zip(order, found, deviation) if d > abs(v)]
+            tests.check("fit notes: %s, %s" % (what, order), want and re.findall("hardly (.*)", done.stderr) == want, str(want) + tests.report(done))
+
+
 def loops_with_loads(tests):
     """A loop's own load stands for the press: by F_N, and by the depth that it makes."""
     rows = ((0, 0), (0.1, 4), (0.5, 15), (0.2, 5))
@@ -259,6 +317,7 @@ def refusals(tests):
 
 def run(tests):
     straight_lines(tests)
+    parabolas(tests)
     loops_with_loads(tests)
     refusals(tests)
     noisy_loops(tests, 20 if tests.sanitized else 100)

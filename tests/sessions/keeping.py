@@ -127,6 +127,12 @@ def copies(tests):
             done = tests.run("--replay", copy)
         tests.check("a copy that is wrong: " + new.strip(), done.returncode == 1 and " 1 failed" in done.stdout,
                     tests.report(done))
+    for statement, answer, right in (("sigma = 1; sigma", "σ = 1", True), ("sigma1 = 1; sigma1", "σ1 = 1", False),
+                                     ("x2sigma = 1; x2sigma", "x2σ = 1", False), ("sigma_1 = 1; sigma_1", "σ_1 = 1", True)):
+        with tests.file("fret> %s\n%s\n" % (statement, answer), ".txt") as copy:
+            done = tests.run("--replay", copy)
+        tests.check("typeset in a copy: " + answer, done.returncode == (not right) and "1 passed" * right in done.stdout,
+                    tests.report(done))
     script = "fret> friction 0.4\n  fret> x = 1 + \\\n....> 2\nx\nfret>\n....> \n"
     for way, done in (("file", None), ("pipe", tests.run(input=script)), ("-c", tests.run("-c", script))):
         if way == "file":

@@ -48,6 +48,7 @@ static void names(void) {
     LABEL("FN = 20 N, c0 = 1 um", "", "FN = 20 N, c0 = 1 um", "FN = 20 N, c0 = 1 µm", NULL, NULL);
     LABEL("x", "MPa*m^0.5", "x [MPa*m^0.5]", "x [MPa·m^0.5]", "{/:Italic x} [MPa·m^{0.5}]", NULL);
     LABEL("2*3*a^-2", "", "2*3*a^-2", "2·3 a⁻²", NULL, "\\relax $2\\cdot 3\\,a^{-2}$");
+    LABEL("1e-6*x + 2e3", "", "1e-6*x + 2e3", "1e-6 x + 2e3", "1e-6\u2009{/:Italic x} + 2e3", NULL);
     LABEL("phase", "deg", "phase [deg]", "φ [°]", NULL, NULL);
     LABEL("force_max*x1", "", "force_max*x1", "force_max x1", "force\\_max\u2009{/:Italic x}_{1}", NULL);
     LABEL("", "um", "[um]", "[µm]", NULL, NULL);
