@@ -89,9 +89,154 @@ static void parts(bool swings) {
     calc_free(&c);
 }
 
+/* ---- what is the same -------------------------------------------------------------------------- */
+
+static const load_step pressing = {.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = 100};
+static const load_step sliding = {
+    .kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 20, .points = 1};
+static const load_step swaying = {.kind = LOAD_CYCLE, .tangential = BY_FORCE, .tangential_value = 12};
+
+/* A press, a step, `more` where it is one, and a cycle of three periods. */
+static void load_again(calc *c, const load_step *more, const load_step *cycle, cycle_extra extra) {
+    push(c, pressing, (cycle_extra){0});
+    push(c, sliding, (cycle_extra){0});
+    if (more)
+        push(c, *more, (cycle_extra){0});
+    push(c, *cycle, extra);
+}
+
+/* Does the walk begin anew for the scene as it is, and end where that ends? */
+static bool goes_anew(walk *w, calc *c) {
+    looker l = {w, 0, 0};
+    calc_error error;
+    bool anew = false;
+    fret_state got;
+    const fret_state *want;
+    error_clear(&error);
+    CHECK(walk_follow(w, c, &anew, &error));
+    CHECK(walk_on(w, w->scene.end.steps, 5, true, see, &l, &error));
+    engine_state(&w->run.engine, &got);
+    CHECK(scene_state(c->now, &want, &error));
+    const fret_real little = w->scene.answers.reach.swings ? 1e-5L : 1e-15L; /* chords; repeated periods */
+    CHECK(got.FN == want->FN && got.Fx == want->Fx);
+    CHECK_REL(got.dx, want->dx, little);
+    CHECK_REL(got.W, want->W, little);
+    CHECK_REL(got.U, want->U, little);
+    return anew;
+}
+
+static bool assign(calc *c, const char *text) {
+    calc_error error;
+    lexer lx;
+    error_clear(&error);
+    lex_start(&lx, text, strlen(text), &error);
+    return calc_assign(c, &lx);
+}
+
+static void follows(void) {
+    static const cycle_extra three = {.times = 3};
+    calc c;
+    walk w = {.begun = false};
+    calc_error error;
+    bool anew;
+    begin(&c, false);
+    inputs *in = &c.now->in;
+    error_clear(&error);
+    load_again(&c, NULL, &swaying, three);
+    CHECK(goes_anew(&w, &c) && !goes_anew(&w, &c));
+    /* what is appended is run on; what comes before anything that has been run is not */
+    load_step more = sliding;
+    more.tangential_value = 5;
+    push(&c, more, (cycle_extra){0});
+    CHECK(!goes_anew(&w, &c));
+    load_again(&c, NULL, &swaying, three);
+    CHECK(goes_anew(&w, &c));
+    /* another of each value that a step has */
+    load_step other[7];
+    for (int i = 0; i < 7; i++)
+        other[i] = more;
+    other[1].tangential_value = 6;
+    other[2].relative = RELATIVE_TANGENTIAL;
+    other[3].normal = BY_FORCE, other[3].normal_value = 99;
+    other[4].normal = BY_FORCE, other[4].normal_value = 98;
+    other[5].tangential = BY_DISPLACEMENT, other[5].tangential_value = 5e-8;
+    other[6].normal = BY_DISPLACEMENT, other[6].normal_value = 3e-6, other[6].tangential = BY_NONE;
+    for (int i = 0; i < 7; i++) {
+        load_again(&c, &other[i], &swaying, three);
+        CHECK(goes_anew(&w, &c) && !goes_anew(&w, &c));
+    }
+    /* and of each that a cycle has */
+    load_step cycle = swaying;
+    load_again(&c, &more, &cycle, (cycle_extra){.times = 2});
+    CHECK(goes_anew(&w, &c));
+    load_again(&c, &more, &cycle, (cycle_extra){.times = 2, .phase = 1});
+    CHECK(goes_anew(&w, &c));
+    cycle.normal_value = 10;
+    load_again(&c, &more, &cycle, (cycle_extra){.times = 2, .phase = 1});
+    CHECK(goes_anew(&w, &c));
+    load_again(&c, &more, &swaying, three);
+    CHECK(goes_anew(&w, &c));
+    scene_put(c.now, IN_FA, 11); /* amplitudes of the last cycle are inputs */
+    CHECK(goes_anew(&w, &c));
+    scene_put(c.now, IN_FN, 101);
+    CHECK(goes_anew(&w, &c) && !goes_anew(&w, &c));
+    /* other bodies */
+    scene_put(c.now, IN_E0, 200e9);
+    CHECK(goes_anew(&w, &c));
+    scene_put(c.now, IN_MU, 0.5);
+    CHECK(goes_anew(&w, &c));
+    in->second = SECOND_RIGID;
+    scene_forget(c.now, false);
+    CHECK(goes_anew(&w, &c));
+    inputs_geometry(in, geometry_find("cone", 4), NULL, NULL);
+    inputs_put(in, IN_SLOPE, 0.05);
+    scene_forget(c.now, false);
+    CHECK(goes_anew(&w, &c));
+    fret_gap sum = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{.n = 2, .h = 1e-4, .r0 = 1e-3}}};
+    for (int i = 0; i < 3; i++) {
+        if (i == 1)
+            sum.power[0].h = 2e-4;
+        if (i == 2)
+            sum.power[sum.terms++] = (fret_power){.n = 4, .h = 1e-5, .r0 = 1e-3};
+        inputs_geometry(in, geometry_find("sum", 3), &sum, NULL);
+        scene_forget(c.now, false);
+        CHECK(goes_anew(&w, &c) && !goes_anew(&w, &c));
+    }
+    for (int i = 0; i < 2; i++) { /* two tables, the same numbers */
+        enum { ROWS = 40 };
+        double r[ROWS], f[ROWS];
+        struct fret_table *table = NULL;
+        for (int j = 0; j < ROWS; j++) {
+            r[j] = j * 5e-5;
+            f[j] = r[j] * r[j] / 0.02;
+        }
+        CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
+        inputs_geometry(in, geometry_find("file", 4), NULL,
+                        shared_table_make(table, "t", (smoothing){.by = SMOOTH_NOT}));
+        scene_forget(c.now, false);
+        CHECK(goes_anew(&w, &c) && !goes_anew(&w, &c));
+    }
+    /* what follows another value may have changed; what has none is said */
+    CHECK(assign(&c, "FA := 0.1*mu*FN") && goes_anew(&w, &c) && goes_anew(&w, &c));
+    CHECK(assign(&c, "FA = 11 N") && goes_anew(&w, &c) && !goes_anew(&w, &c));
+    CHECK(assign(&c, "y = 11 N") && assign(&c, "FA := y"));
+    c.names.row[0].v.v = -1; /* behind its back */
+    scene_forget(c.now, true);
+    CHECK(!walk_follow(&w, &c, &anew, &error) && error.raised);
+    error_clear(&error);
+    c.names.row[0].v.v = 11;
+    CHECK(assign(&c, "FA = 11 N"));
+    /* a load that there is not */
+    scene_reset(c.now, false);
+    CHECK(!walk_follow(&w, &c, &anew, &error) && error.kind == ERROR_MISSING && error.input == IN_FN);
+    walk_end(&w);
+    calc_free(&c);
+}
+
 int main(int argc, char **argv) {
     unit_start("walk", argc, argv);
     parts(false);
     parts(true);
+    follows();
     return unit_finish();
 }
