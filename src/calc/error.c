@@ -43,6 +43,13 @@ bool calc_interrupted(calc_error *error) {
     return calc_fail(error, 0, 0, "interrupted");
 }
 
+bool calc_stopped(const volatile sig_atomic_t *stop, calc_error *error) {
+    if (!*stop)
+        return false;
+    calc_interrupted(error);
+    return true;
+}
+
 bool calc_missing(calc_error *error, int input) {
     if (first(error, ERROR_MISSING))
         error->input = input;

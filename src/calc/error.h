@@ -3,6 +3,7 @@
 #ifndef CALC_ERROR_H
 #define CALC_ERROR_H
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -34,12 +35,14 @@ typedef struct calc_error {
 /* Ready to be raised; the text of a million good statements need not be cleared. */
 void error_clear(calc_error *error);
 
-/* All of these record the first error only, and return false. */
+/* All of these but calc_stopped record the first error only, and return false. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
 bool calc_fail(calc_error *error, size_t at, size_t len, const char *format, ...);
 bool calc_interrupted(calc_error *error);
+/* Is the flag up? Then the error says so. */
+bool calc_stopped(const volatile sig_atomic_t *stop, calc_error *error);
 bool calc_missing(calc_error *error, int input);
 bool calc_no_memory(calc_error *error);
 /* What the system refused: the words, and its own behind them. */

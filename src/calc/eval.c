@@ -421,7 +421,7 @@ static bool call_block(calc *c, const quantity *q, operand a, dim d, size_t rows
         return true;
     }
     for (size_t i = 0; i < rows; i++)
-        if ((c->now->stop && *c->now->stop) || !q->call(c->now, (value){a.v[i], d}, &out[i], &unused))
+        if (*c->now->stop || !q->call(c->now, (value){a.v[i], d}, &out[i], &unused))
             return false;
     return true;
 }

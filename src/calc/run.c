@@ -18,7 +18,7 @@ static const fret_status interrupted = {FRET_INTERRUPTED, NULL, 0, 0};
 static fret_status unless_stopped(const runner *r, fret_status st) {
     if (r->load->pulse)
         r->load->pulse();
-    return !st.code && r->load->stop && *r->load->stop ? interrupted : st;
+    return !st.code && *r->load->stop ? interrupted : st;
 }
 
 /* ---- looking on -------------------------------------------------------------------------------- */

@@ -16,9 +16,9 @@ typedef struct load_view {
     const inputs *in;
     const fret_normal *normal;
     double mu;
-    const volatile sig_atomic_t *stop; /* or NULL */
-    void (*pulse)(void);               /* or NULL */
-    bool trailed;                      /* the run leaves a trail */
+    const volatile sig_atomic_t *stop;
+    void (*pulse)(void); /* or NULL */
+    bool trailed;        /* the run leaves a trail */
 } load_view;
 
 /* A part of the load without a corner. Time is 0 at the press, 1 more each step, a quarter to the first peak

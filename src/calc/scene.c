@@ -31,7 +31,8 @@ static void answers_end(answers *a, bool keep) {
 }
 
 void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *evaluate, void *context) {
-    *s = (scene){.automatic = true, .stop = stop, .evaluate = evaluate, .context = context};
+    static const volatile sig_atomic_t never;
+    *s = (scene){.automatic = true, .stop = stop ? stop : &never, .evaluate = evaluate, .context = context};
 }
 
 /* Below a hundredth of the last digit shown; nothing else is worth it. */

@@ -77,8 +77,8 @@ struct scene {
     int digits; /* of the values shown; 0: all. The law of a table need not be better than they can tell */
     double pieces_error; /* of the polynomials among them, relative */
     unsigned used;       /* what has answered: raised by whatever does, cleared by whoever wants to know */
-    const volatile sig_atomic_t *stop;
-    void (*pulse)(void); /* called now and then by what takes long; or NULL */
+    const volatile sig_atomic_t *stop; /* never NULL */
+    void (*pulse)(void);               /* called now and then by what takes long; or NULL */
     scene_definition *evaluate;
     void *context;
 };

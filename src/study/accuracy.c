@@ -41,7 +41,7 @@ typedef struct bench {
 } bench;
 
 static bool stopped(const bench *b) {
-    return b->s->stop && *b->s->stop && !calc_interrupted(b->error);
+    return calc_stopped(b->s->stop, b->error);
 }
 
 static void tell(const bench *b, model_family family, unsigned long size) {
@@ -142,7 +142,7 @@ static fret_status step_to(steady *m, double part) {
 static const fret_status interrupted = {FRET_INTERRUPTED, NULL, 0, 0};
 
 static bool wants_stop(const steady *m) {
-    return m->b->s->stop && *m->b->s->stop;
+    return *m->b->s->stop;
 }
 
 /* Down and up again. */

@@ -36,11 +36,8 @@ bool ask_failed(ask *q, const calc_error *error) {
 bool ask_set(ask *q, const double x[]) {
     calc_error error;
     error_clear(&error);
-    if (q->error->raised)
+    if (q->error->raised || calc_stopped(q->c->scene.stop, q->error))
         return false;
-    const volatile sig_atomic_t *stop = q->c->scene.stop;
-    if (stop && *stop)
-        return calc_interrupted(q->error);
     q->evaluations++;
     error_clear(&q->none);
     for (size_t i = 0; i < q->count; i++)

@@ -45,8 +45,7 @@ static double parameter(const state *s, size_t i, double q) {
 }
 
 static bool stopped(state *s) {
-    const volatile sig_atomic_t *stop = s->of->c->scene.stop;
-    return stop && *stop && !calc_interrupted(s->q.error);
+    return calc_stopped(s->of->c->scene.stop, s->q.error);
 }
 
 /* ---- residuals --------------------------------------------------------------------------------- */

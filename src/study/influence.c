@@ -181,16 +181,13 @@ static void find_influence(probe *p, cause *c) {
 }
 
 static bool probe_all(probe *p, influence_study *out) {
-    const scene *s = &p->t->scene;
     const clock_t start = clock();
     for (size_t i = 0; i < out->count; i++) {
         if (clock() - start < INFLUENCE_SECONDS * CLOCKS_PER_SEC)
             find_influence(p, &out->cause[i]);
         else
             out->cause[i].influence = INFLUENCE_LEFT;
-        if (s->stop && *s->stop)
-            return calc_interrupted(p->error);
-        if (p->error->raised)
+        if (p->error->raised || calc_stopped(p->t->scene.stop, p->error))
             return false;
     }
     return true;

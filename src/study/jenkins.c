@@ -23,7 +23,7 @@ typedef struct march {
 } march;
 
 static bool stopped(const march *m) {
-    return m->stop && *m->stop;
+    return *m->stop;
 }
 
 static double loss(march *m, double d) {

@@ -136,8 +136,8 @@ static bool improve(trial *t, const rows *all, bool begin, file_stop stop, calc_
     for (size_t i = 0; i < all->count; i++) {
         const line x = line_at(t, all->row[i].r);
         const double rest = residual(t, &x, all->row[i].f);
-        if (stop && *stop)
-            return calc_interrupted(error);
+        if (calc_stopped(stop, error))
+            return false;
         for (size_t j = 0; j < x.count; j++) {
             *gsl_vector_ptr(t->right, x.at[j]) += x.v[j] * rest;
             for (size_t k = 0; k < x.count && begin; k++)

@@ -30,8 +30,7 @@ typedef struct state {
 } state;
 
 static bool stopped(const state *st) {
-    const volatile sig_atomic_t *stop = st->job->c->scene.stop;
-    return stop && *stop && !calc_interrupted(st->job->error);
+    return calc_stopped(st->job->c->scene.stop, st->job->error);
 }
 
 static void say_value(char *to, size_t size, dim d, long double v) {

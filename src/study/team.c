@@ -187,8 +187,7 @@ void team_end(team *t) {
 }
 
 static bool stopped(const team *t) {
-    const volatile sig_atomic_t *stop = t->job.c->scene.stop;
-    return stop && *stop;
+    return *t->job.c->scene.stop;
 }
 
 /* A process that has ended was short of memory, or was killed: the rest is done here. */
