@@ -591,3 +591,21 @@ const quantity *expr_quantity(const expr *e, size_t i, bool *call) {
     }
     return NULL;
 }
+
+const definition *expr_definition(const calc *c, const expr *e, size_t i) {
+    for (size_t j = 0; j < e->count; j++) {
+        const expr_node *n = &e->nodes[j];
+        const bool own = n->kind == N_NAME || n->kind == N_APPLY;
+        const definition *d = own ? (const definition *)c->names.row[n->index].definition : NULL;
+        if (d && i-- == 0)
+            return d;
+    }
+    return NULL;
+}
+
+const expr *expr_meant(const calc *c, const expr *e) {
+    const definition *d;
+    while (e->count == 1 && (d = expr_definition(c, e, 0)))
+        e = &d->body;
+    return e;
+}

@@ -64,6 +64,10 @@ bool expr_way(const struct calc *c, const expr *e, const char *name, char *way, 
 /* The quantities of an expression in the order of their appearance: i = 0, 1, ... call: as a function. NULL
  * after the last. */
 const quantity *expr_quantity(const expr *e, size_t i, bool *call);
+/* The live definitions and functions that it names, likewise. */
+const definition *expr_definition(const struct calc *c, const expr *e, size_t i);
+/* What it stands for, if it is the name of a live definition and nothing else: down to the last of them. */
+const expr *expr_meant(const struct calc *c, const expr *e);
 
 /* A definition of the text at the cursor to the end of its expression; takes its errors there. NULL on error.
  */

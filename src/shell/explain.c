@@ -20,6 +20,9 @@ typedef struct part {
     size_t argument, argument_len; /* in text, of a call */
 } part;
 
+/* Quantities that one page tells about; of more, some may be told twice. */
+enum { SEEN = 32 };
+
 /* Who explains where to. */
 typedef struct page {
     shell *sh;
@@ -193,6 +196,19 @@ static bool is_pushed(const influence_study *study) {
     return false;
 }
 
+/* Is its formula one of the amplitude? */
+static bool is_of_cycle(const quantity *q) {
+    return q->argument && quantity_find(q->argument, strlen(q->argument));
+}
+
+static void put_cycle(const page *p, const influence_study *study) {
+    for (size_t i = 0; i < study->count; i++) {
+        const cause *c = &study->cause[i];
+        if (c->kind == CAUSE_INPUT && (INPUT_BIT(c->in) & INPUT_CYCLE) && c->influence != INFLUENCE_NONE)
+            put_value(p, c->name, strlen(c->name), c->v);
+    }
+}
+
 /* Where the load matters. */
 static void put_load(const page *p, const quantity *q, const influence_study *study) {
     scene *s = p->sh->calc.now;
@@ -207,7 +223,9 @@ static void put_load(const page *p, const quantity *q, const influence_study *st
         !had(p, scene_press(s, &press, &ignored), &ignored))
         return;
     put_value(p, "FN now", 6, (value){press->F, DIM_FORCE});
-    if (is_pushed(study) && strcmp(q->name, "Fx") && had(p, scene_state(s, &state, &ignored), &ignored))
+    if (is_of_cycle(q))
+        put_cycle(p, study);
+    else if (is_pushed(study) && strcmp(q->name, "Fx") && had(p, scene_state(s, &state, &ignored), &ignored))
         put_value(p, "Fx now", 6, (value){state->Fx, DIM_FORCE});
 }
 
@@ -361,23 +379,6 @@ static bool part_of(const expr *e, size_t i, part *out) {
     return true;
 }
 
-/* A name of the user's stands for its definition. */
-static const expr *meant_by(const calc *c, const expr *e) {
-    bool call;
-    size_t i;
-    if (expr_quantity(e, 0, &call))
-        return e;
-    lexer lx;
-    calc_error ignored;
-    error_clear(&ignored);
-    lex_start(&lx, e->text, e->at + e->len, &ignored);
-    lex_seek(&lx, e->at);
-    if (lx.kind != T_NAME || !names_find(&c->names, lx.text + lx.at, lx.len, &i) ||
-        !c->names.row[i].definition)
-        return e;
-    return &((const definition *)c->names.row[i].definition)->body;
-}
-
 static bool explain_whole(const page *p, const expr *e, value v, calc_error *error) {
     influence_study study;
     if (!influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, error))
@@ -387,19 +388,54 @@ static bool explain_whole(const page *p, const expr *e, value v, calc_error *err
     return true;
 }
 
-/* Each quantity, and at the end the expression, where it is more than one of them. */
-static bool explain_expression(const page *p, const expr *e, value v, calc_error *error) {
-    const expr *of = meant_by(&p->sh->calc, e);
+/* What has been explained. */
+typedef struct seen {
+    const quantity *q[SEEN];
+    bool call[SEEN];
+    size_t count;
+} seen;
+
+static bool is_seen(seen *before, const part *of) {
+    for (size_t i = 0; i < before->count; i++)
+        if (before->q[i] == of->q && before->call[i] == of->call)
+            return true;
+    if (before->count < SEEN) {
+        before->q[before->count] = of->q;
+        before->call[before->count++] = of->call;
+    }
+    return false;
+}
+
+static bool is_whole(const expr *e, const part *of) {
+    return of->len == e->len && !memcmp(of->text, e->text + e->at, e->len);
+}
+
+/* Each quantity, also those of the definitions that are named. asked: what the conditioning belongs to. */
+static bool explain_parts(const page *p, const expr *e, const expr *asked, seen *before, calc_error *error) {
     part one;
-    bool whole = false;
-    for (size_t i = 0; part_of(of, i, &one); i++) {
-        whole = of == e && one.len == e->len && !memcmp(one.text, e->text + e->at, e->len);
+    const definition *d;
+    for (size_t i = 0; part_of(e, i, &one); i++) {
+        if (is_seen(before, &one))
+            continue;
         if (!one.call && is_given(p, one.q))
             explain_input(p, one.q);
-        else if (!explain_part(p, &one, whole, error))
+        else if (!explain_part(p, &one, e == asked && is_whole(e, &one), error))
             return false;
     }
-    return whole || explain_whole(p, e, v, error);
+    for (size_t i = 0; (d = expr_definition(&p->sh->calc, e, i)); i++)
+        if (!explain_parts(p, &d->body, asked, before, error))
+            return false;
+    return true;
+}
+
+/* Its parts, and at the end what was asked for, where it is more than one of them. */
+static bool explain_expression(const page *p, const expr *e, const expr *asked, value v, calc_error *error) {
+    seen before = {.count = 0};
+    part one;
+    bool told = false;
+    for (size_t i = 0; e == asked && !told && part_of(e, i, &one); i++)
+        told = is_whole(e, &one);
+    return explain_parts(p, e, asked, &before, error) && (told || explain_whole(p, asked, v, error));
 }
 
 /* ---- the statement ----------------------------------------------------------------------------- */
@@ -432,15 +468,18 @@ static const quantity *bare_name(const lexer *lx) {
     return q && (q->of == OF_INPUT || q->of == OF_FUNCTION) && lex_peek(lx) == T_END ? q : NULL;
 }
 
-/* What is to be explained in the scene as it is, or as `at` changes it: a trial, then. */
-static bool read_expression(shell *sh, lexer *lx, const expr **e, trial **t, value *v) {
+/* What is to be explained, `e`, in the scene as it is, or as `at` changes it: a trial, then. */
+static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v) {
     bool call;
     const size_t at = lx->at;
     expr *whole = &sh->list[0];
-    if (!expr_parse_at(&sh->calc, lx, whole) || !at_end(lx) ||
-        !expr_changed(&sh->calc, whole, t, e, lx->error))
+    if (!expr_parse_at(&sh->calc, lx, whole) || !at_end(lx))
         return false;
-    if (!expr_quantity(meant_by(&sh->calc, *e), 0, &call))
+    const expr *meant = expr_meant(&sh->calc, whole);
+    if (!expr_changed(&sh->calc, meant, t, e, lx->error))
+        return calc_place(lx->error, at, whole->len);
+    *asked = meant == whole ? *e : whole;
+    if (!expr_quantity(*e, 0, &call) && !expr_definition(&sh->calc, *e, 0))
         return calc_fail(lx->error, at, whole->len, "explain which quantity? try: explain dW");
     return expr_eval(&sh->calc, *e, v, lx->error) || calc_place(lx->error, at, whole->len);
 }
@@ -459,7 +498,7 @@ static bool explain_mismatch(shell *sh, lexer *lx) {
     return text_end(&text, true) || calc_no_memory(lx->error);
 }
 
-static bool explain(shell *sh, const quantity *bare, const expr *e, value v, lexer *lx) {
+static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *asked, value v, lexer *lx) {
     text_out text;
     if (!text_begin(&text, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
@@ -470,13 +509,13 @@ static bool explain(shell *sh, const quantity *bare, const expr *e, value v, lex
     else if (bare)
         explain_function(&p, bare);
     else
-        ok = explain_expression(&p, e, v, lx->error);
+        ok = explain_expression(&p, e, asked, v, lx->error);
     ok = ok && !lx->error->raised;
     return (text_end(&text, ok) || calc_no_memory(lx->error)) && ok;
 }
 
 bool do_explain(shell *sh, lexer *lx, const command *self) {
-    const expr *e = NULL;
+    const expr *e = NULL, *asked = NULL;
     trial *changed = NULL;
     value v = {0};
     (void)self;
@@ -485,7 +524,8 @@ bool do_explain(shell *sh, lexer *lx, const command *self) {
     if (no_quantity(sh, lx))
         return false;
     const quantity *bare = bare_name(lx);
-    const bool ok = (bare || read_expression(sh, lx, &e, &changed, &v)) && explain(sh, bare, e, v, lx);
+    const bool ok =
+        (bare || read_expression(sh, lx, &e, &asked, &changed, &v)) && explain(sh, bare, e, asked, v, lx);
     if (changed)
         trial_close(changed);
     return ok;
