@@ -84,8 +84,8 @@ void fret_memory_forces(const fret_memory *m, fret_state *out) {
     *out = (fret_state){
         .FN = m->edge[LOAD],
         .dz = m->gap > 0 ? -m->gap : m->edge[DEPTH],
-        .Fx = m->mu * fret_memory_total(m, LOAD),
-        .dx = fret_memory_dx(m),
+        .Fx = m->held == FRET_TO_FX ? (fret_real)m->goal : m->mu * fret_memory_total(m, LOAD),
+        .dx = m->held == FRET_TO_DX ? (fret_real)m->goal : fret_memory_dx(m),
         .W = fret_sum_value(&m->W),
         .slices = m->count,
     };
