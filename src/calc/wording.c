@@ -17,10 +17,15 @@ static dim dimension_of(const calc *c, const char *name) {
     return DIM_NONE;
 }
 
-void calc_value_text(dim d, double v, char text[CALC_VALUE_TEXT]) {
+static void value_text(dim d, double v, int digits, char text[CALC_VALUE_TEXT]) {
     char unit_text[128] = "";
-    long double scale = unit_choose(d, v, 6, unit_text, sizeof unit_text);
-    snprintf(text, CALC_VALUE_TEXT, "%.6g%s%s", (double)(v / scale), *unit_text ? " " : "", unit_text);
+    long double scale = unit_choose(d, v, digits, unit_text, sizeof unit_text);
+    snprintf(text, CALC_VALUE_TEXT, "%.*g%s%s", digits, (double)(v / scale), *unit_text ? " " : "",
+             unit_text);
+}
+
+void calc_value_text(dim d, double v, char text[CALC_VALUE_TEXT]) {
+    value_text(d, v, 6, text);
 }
 
 static void word_status(const calc *c, calc_error *error) {
@@ -34,8 +39,12 @@ static void word_status(const calc *c, calc_error *error) {
         return;
     }
     const dim d = dimension_of(c, name);
-    calc_value_text(d, st->value, given);
-    calc_value_text(st->code == FRET_TABLE_SHORT ? DIM_LENGTH : d, st->limit, limit);
+    for (int digits = 6; digits <= 17; digits++) { /* as many as tell them apart */
+        value_text(d, st->value, digits, given);
+        value_text(st->code == FRET_TABLE_SHORT ? DIM_LENGTH : d, st->limit, digits, limit);
+        if (strcmp(given, limit) || st->value == st->limit)
+            break;
+    }
     if (st->code == FRET_GROSS_SLIP)
         snprintf(text, size, "%s = %s exceeds mu*FN = %s: gross slip; %s to slide", name, given, limit,
                  strcmp(name, "FA") ? "step by displacement (dx=...)" : "cycle by displacement (dxA=...)");

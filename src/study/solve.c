@@ -10,8 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Intervals of the scan, and evaluations kept for the method itself. */
-enum { SCAN = 24, METHOD = 14, ROOTS = 8 };
+/* Intervals of the scan, halvings to an edge of what the scene allows, and evaluations kept for the method.
+ */
+enum { SCAN = 24, EDGE = 60, METHOD = 14, ROOTS = 8 };
 
 typedef struct place {
     double x, f; /* f: NaN where there is no value */
@@ -104,6 +105,7 @@ static bool choose_range(search *s, calc_error *error) {
 }
 
 static bool scan(search *s) {
+    bool equal = true;
     for (unsigned i = 0; i <= SCAN; i++) {
         place *p = &s->at[i];
         p->x = s->lo < 0 && s->ratios ? -ask_grid(-s->lo, -s->hi, true, i, SCAN)
@@ -115,17 +117,18 @@ static bool scan(search *s) {
             add_bracket(s, *p, *p);
         else if (i && opposite(p->f, p[-1].f))
             add_bracket(s, p[-1], *p);
+        equal = equal && p->f == 0;
     }
+    if (equal)
+        s->roots = 0; /* it does not depend on the name */
     return true;
 }
 
-/* Between a place without and one with a value: a root may hide there. */
+/* Between a place without and one with a value: a root may hide there, or at the very last number. */
 static bool approach_edge(search *s, place bad, place good) {
-    if (s->q.evaluations + METHOD >= SOLVE_EVALUATIONS)
-        return true;
-    while (s->q.evaluations + METHOD < SOLVE_EVALUATIONS) {
+    for (unsigned i = 0; i < EDGE; i++) {
         place mid = {.x = middle(s, bad.x, good.x)};
-        if (mid.x == bad.x || mid.x == good.x || fabs(mid.x - good.x) < 1e-14 * fabs(good.x))
+        if (mid.x == bad.x || mid.x == good.x)
             break;
         mid.f = difference(s, mid.x);
         if (s->q.error->raised)
@@ -232,8 +235,8 @@ static bool no_root(search *s, calc_error *error) {
         return calc_fail(error, left->at, left->len, "no value anywhere from %s = %s to %s: %s", k->text,
                          from, to, s->q.none.text);
     if (alike)
-        return calc_fail(error, left->at, left->len,
-                         "the two sides differ by the same for every %s from %s to %s", k->text, from, to);
+        return calc_fail(error, left->at, left->len, "the two sides %s for every %s from %s to %s",
+                         best.f == 0 ? "are equal" : "differ by the same", k->text, from, to);
     if (below && above)
         return calc_fail(error, left->at, left->len,
                          "no root from %s = %s to %s: the sides pass each other where they have no value: %s",
