@@ -18,7 +18,8 @@ FRET_BEGIN
  * how many steps there have been: F_x does not drift. While the front d of a zone of slip moves inwards
  * through slope sigma and the edge D moves with it, the step dissipates
  *   dW = mu^2 eta (1 -+ sigma) int [F_N(D) - F_N(d) - (D-d) F_N'(d)] |dd|,
- * in closed form, or by Gauss's rule of a polynomial where that would lose digits.
+ * in closed form, or by Gauss's rule of a polynomial where that would lose digits (by depth, not of Hertz's
+ * law: there it is a sum of positive terms in the roots of D and d).
  *
  * A step costs two powers: two logarithms and two exponentials; square roots where 2p, or 2/p by force, is a
  * whole number up to 8 (sphere, cone at k = 0).
@@ -40,8 +41,7 @@ typedef struct fret_diagram fret_diagram;
 fret_status fret_diagram_make(const fret_normal *normal, double mu, size_t slices, fret_diagram **out);
 void fret_diagram_free(fret_diagram *diagram);
 
-/* Whether steps from here on count the energy that they dissipate: a third of their time, or more. At first
- * they do. */
+/* Whether steps from here on count the energy that they dissipate: half of their time. At first they do. */
 void fret_diagram_count_loss(fret_diagram *diagram, bool on);
 
 /* Back to the open state; keeps its storage. */

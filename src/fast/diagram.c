@@ -28,7 +28,7 @@ struct fret_diagram {
     fret_double_law law[2]; /* of the coordinate into the other */
     double limit[2];        /* beyond, the law wants another place to count from */
     point edge;
-    double gap;    /* distance of the open bodies, >= 0 */
+    double dz;     /* depth of the edge, or < 0: the gap of the open bodies */
     double slid;   /* delta_x - mu eta t: what gross slip has carried along */
     double dx, Fx; /* Fx/mu: t[LOAD], but for rounding */
     int direction; /* of the last tangential motion */
@@ -81,15 +81,13 @@ void fret_diagram_free(fret_diagram *d) {
 
 void fret_diagram_reset(fret_diagram *d) {
     d->edge = (point){{0, 0}, {0, 0}};
-    d->gap = d->slid = d->dx = d->Fx = d->W = d->W_rest = d->last_loss = 0;
+    d->dz = d->slid = d->dx = d->Fx = d->W = d->W_rest = d->last_loss = 0;
     d->limit[DEPTH] = d->limit[LOAD] = 0;
     d->direction = 1;
     d->count = 0;
 }
 
-static fret_status reserve(fret_diagram *d, size_t count) {
-    if (count <= d->room)
-        return fret_ok();
+static fret_status make_room(fret_diagram *d, size_t count) {
     const size_t room = count + count / 2;
     layer *grown = d->bounded ? NULL : realloc(d->layers, room * sizeof *grown);
     if (!grown)
@@ -97,6 +95,10 @@ static fret_status reserve(fret_diagram *d, size_t count) {
     d->layers = grown;
     d->room = room;
     return fret_ok();
+}
+
+FRET_INLINE fret_status reserve(fret_diagram *d, size_t count) {
+    return count <= d->room ? fret_ok() : make_room(d, count);
 }
 
 fret_status fret_diagram_copy(fret_diagram *to, const fret_diagram *from) {
@@ -118,7 +120,7 @@ fret_status fret_diagram_copy(fret_diagram *to, const fret_diagram *from) {
 
 void fret_diagram_forces(const fret_diagram *d, fret_diagram_now *out) {
     *out = (fret_diagram_now){.FN = d->edge.y[LOAD],
-                              .dz = d->gap > 0 ? -d->gap : d->edge.y[DEPTH],
+                              .dz = d->dz,
                               .Fx = d->Fx,
                               .dx = d->dx,
                               .W = d->W + d->W_rest,
@@ -157,13 +159,18 @@ void fret_diagram_state(const fret_diagram *d, fret_state *out) {
 
 /* ---- the law ----------------------------------------------------------------------------------- */
 
-static double other_of(const fret_diagram *d, coordinate by, double y) {
+FRET_INLINE double other_of(const fret_diagram *d, coordinate by, double y) {
     return fret_double_law_value(&d->law[by], y);
 }
 
 /* Powers are taken of the ratio to a place that is never much smaller than the largest so far: there their
  * rounding is least. */
-static void count_from(fret_diagram *d, coordinate by, double y) {
+static fret_status count_from(fret_diagram *d, coordinate by, double y) {
+    fret_press p;
+    const fret_status st =
+        by == LOAD ? fret_press_by_force(d->normal, y, &p) : fret_press_by_depth(d->normal, y, &p);
+    if (st.code)
+        return st;
     const fret_real other = by == DEPTH ? fret_law_force(d->normal, y) : fret_law_depth(d->normal, y);
     const fret_real at[2] = {by == DEPTH ? y : other, by == DEPTH ? other : y};
     const double far = 0.7;
@@ -175,6 +182,7 @@ static void count_from(fret_diagram *d, coordinate by, double y) {
     }
     d->limit[DEPTH] = (double)at[DEPTH] * (1 + far / d->law[DEPTH].s);
     d->limit[LOAD] = (double)at[LOAD] * (1 + far);
+    return st;
 }
 
 /* ---- steps ------------------------------------------------------------------------------------- */
@@ -182,16 +190,13 @@ static void count_from(fret_diagram *d, coordinate by, double y) {
 /* One step, straight in (y, t) of the coordinate `by`, with the contact closed at both ends. */
 typedef struct path {
     fret_diagram *d;
+    const bool counts; /* the loss */
     point to;          /* t[other] is found */
     double grow, turn; /* changes of y and t */
     double Y, V;       /* the larger edge, in both coordinates */
     double loss;       /* per mu^2 eta */
     bool slides;       /* ends in gross slip */
 } path;
-
-FRET_INLINE double inner_level(const layer *l, coordinate by, double s) {
-    return l->inner.y[by] - s * l->inner.t[by];
-}
 
 /* F - Fx/mu with all its digits, which tell a depth near gross slip. */
 static double short_of(const fret_diagram *d, double F, double Fx) {
@@ -216,24 +221,34 @@ typedef struct front {
 
 FRET_INLINE void dissipate(path *p, coordinate by, double gain, const front *a, const front *b,
                            double travel) {
-    if (p->d->lossless)
+    if (!p->counts)
         return;
     const fret_zone z = {{a->edge, b->edge},     {a->at, b->at},    {a->thick, b->thick}, travel,
                          {a->edge_v, b->edge_v}, {a->at_v, b->at_v}};
     p->loss += gain * fret_zone_loss(&p->d->law[by], &z, p->Y, p->V);
 }
 
-/* Ends the step with slip of sign s: cuts the outermost slice where its level is that of the end, and goes
- * straight to the edge. */
-FRET_INLINE void cut(path *p, coordinate by, double s, double level) {
+/* Slip of sign s meets a slice: the drive that a unit of it takes, and how far its inner end is beyond the
+ * level of the end. */
+typedef struct meeting {
+    double gain, rest;
+} meeting;
+
+FRET_INLINE meeting meet(const layer *l, coordinate by, double s, double level) {
+    return (meeting){1 - s * l->sigma, level - (l->inner.y[by] - s * l->inner.t[by])};
+}
+
+/* Ends the step with slip of sign s: cuts the outermost of `count` slices where its level is that of the end,
+ * and goes straight to the edge. */
+FRET_INLINE void cut(path *p, coordinate by, double s, double level, size_t count, meeting at) {
     const coordinate other = by == DEPTH ? LOAD : DEPTH;
     fret_diagram *d = p->d;
-    layer *zone = &d->layers[d->count];
+    layer *zone = &d->layers[count];
     double y = 0, v = 0, t = 0, tv = 0;
-    if (d->count) {
+    if (count) {
         const layer *top = zone - 1;
-        const double inner = top->inner.y[by], gain = 1 - s * top->sigma;
-        y = inner + (level - inner_level(top, by, s)) / gain;
+        const double inner = top->inner.y[by];
+        y = inner + at.rest / at.gain;
         if (y > inner) {
             y = lesser(y, p->to.y[by]);
             v = other_of(d, by, y);
@@ -241,11 +256,11 @@ FRET_INLINE void cut(path *p, coordinate by, double s, double level) {
             tv = top->inner.t[other] + top->sigma * (v - top->inner.y[other]);
         } else { /* all of it */
             zone--;
+            count--;
             y = zone->inner.y[by];
             v = zone->inner.y[other];
             t = zone->inner.t[by];
             tv = zone->inner.t[other];
-            d->count--;
         }
     }
     zone->inner.y[by] = y;
@@ -253,13 +268,19 @@ FRET_INLINE void cut(path *p, coordinate by, double s, double level) {
     zone->inner.t[by] = t;
     zone->inner.t[other] = tv;
     zone->sigma = s;
-    d->count++;
+    d->count = count + 1;
     p->to.t[other] = tv + s * (p->to.y[other] - v);
+}
+
+FRET_INLINE void cut_here(path *p, coordinate by, double s) {
+    const fret_diagram *d = p->d;
+    const double level = end_level(p, by, s);
+    cut(p, by, s, level, d->count, d->count ? meet(&d->layers[d->count - 1], by, s, level) : (meeting){0, 0});
 }
 
 /* No spring sticks: gross slip for `e` of the drive, from the edge at `from` on. */
 FRET_INLINE void slide(path *p, coordinate by, double s, double e, double from, double from_v) {
-    if (by == DEPTH && e > 0 && !p->d->lossless) {
+    if (by == DEPTH && e > 0 && p->counts) {
         const double v = from_v >= 0 ? from_v : other_of(p->d, DEPTH, from);
         p->loss += e * fret_double_law_mean(&p->d->law[DEPTH], from, v, p->to.y[DEPTH], p->to.y[LOAD]);
     }
@@ -274,34 +295,34 @@ FRET_INLINE void slip(path *p, coordinate by, double s) {
     const double drive = s * p->turn - p->grow, level = end_level(p, by, s);
     double left = drive;
     front now = {d->edge.y[by], d->edge.y[by], 0, d->edge.y[other], d->edge.y[other]};
-    while (d->count) {
-        const layer *top = &d->layers[d->count - 1];
-        const double gain = 1 - s * top->sigma, inner = top->inner.y[by], thick = now.at - inner,
-                     rest = level - inner_level(top, by, s);
-        const double same = d->count > 1 ? little * p->Y : 0; /* of the core the least bit counts */
-        if (gain > 0 && rest > 0 && !(rest <= same && rest <= 1e-6 * gain * thick))
+    size_t count = d->count;
+    meeting at = {0, 0};
+    for (; count; count--) {
+        const layer *top = &d->layers[count - 1];
+        const double inner = top->inner.y[by], thick = now.at - inner;
+        const double same = count > 1 ? little * p->Y : 0; /* of the core the least bit counts */
+        at = meet(top, by, s, level);
+        if (at.gain > 0 && at.rest > 0 && !(at.rest <= same && at.rest <= 1e-6 * at.gain * thick))
             break;
-        const double after = greater(left - gain * thick, 0);
+        const double after = greater(left - at.gain * thick, 0);
         front next = {p->to.y[by] - p->grow * (after / drive), inner, 0, -1, top->inner.y[other]};
         if (p->grow == 0)
             next.edge_v = now.edge_v;
         next.thick = now.thick + (next.edge - now.edge) + thick;
-        if (gain > 0)
-            dissipate(p, by, gain, &now, &next, thick);
+        if (at.gain > 0)
+            dissipate(p, by, at.gain, &now, &next, thick);
         left = after;
         now = next;
-        d->count--;
     }
-    const double gain = d->count ? 1 - s * d->layers[d->count - 1].sigma : 0;
-    if (gain <= 0)
+    if (!count)
         slide(p, by, s, left, now.edge, now.edge_v);
-    cut(p, by, s, level);
-    if (gain > 0) {
+    cut(p, by, s, level, count, at);
+    if (count) {
         const point *corner = &d->layers[d->count - 1].inner;
-        const double travel = left / gain, grown = p->to.y[by] - now.edge;
+        const double travel = left / at.gain, grown = p->to.y[by] - now.edge;
         const front end = {p->to.y[by], corner->y[by], now.thick + (grown + travel), p->to.y[other],
                            corner->y[other]};
-        dissipate(p, by, gain, &now, &end, travel);
+        dissipate(p, by, at.gain, &now, &end, travel);
     }
 }
 
@@ -357,7 +378,7 @@ FRET_INLINE void retreat(path *p, coordinate by) {
             next.at = next.edge;
             next.thick = 0;
         } else {
-            cut(p, by, s, end_level(p, by, s));
+            cut_here(p, by, s);
             const point *corner = &d->layers[d->count - 1].inner;
             next = (front){to, corner->y[by], next.thick, p->to.y[other], corner->y[other]};
         }
@@ -375,7 +396,7 @@ FRET_INLINE void retreat(path *p, coordinate by) {
     }
     if (!d->count)
         slide(p, by, s, (1 - s * r) * (now.edge - to), now.edge, now.edge_v);
-    cut(p, by, s, end_level(p, by, s));
+    cut_here(p, by, s);
 }
 
 /* Nothing slips: the curve grows. Slopes that differ by less than rounding merge, else a ramp in many small
@@ -397,24 +418,25 @@ FRET_INLINE void grow(path *p, coordinate by) {
 }
 
 /* v: depth and load at the end, t: of the coordinate `by` there. Returns the loss. */
-FRET_INLINE double advance(fret_diagram *d, coordinate by, const double y[2], double t) {
+FRET_INLINE double advance(fret_diagram *d, coordinate by, const double y[2], double t, bool counts) {
     const coordinate other = by == DEPTH ? LOAD : DEPTH;
-    path p = {.d = d};
+    path p = {.d = d, .counts = counts};
     p.grow = y[by] - d->edge.y[by];
     p.turn = t - d->edge.t[by];
-    if (p.grow == 0 && p.turn == 0)
-        return 0;
     for (coordinate i = DEPTH; i <= LOAD; i++)
         p.to.y[i] = y[i];
     p.to.t[by] = t;
     p.Y = p.grow > 0 ? y[by] : d->edge.y[by];
     p.V = p.grow > 0 ? y[other] : d->edge.y[other];
-    if (fabs(p.turn) > fabs(p.grow) || (p.grow < 0 && fabs(p.turn) == -p.grow))
+    const double aside = fabs(p.turn), along = fabs(p.grow);
+    if (aside > along || (aside == along && p.grow < 0))
         slip(&p, by, p.turn < 0 ? -1 : 1);
     else if (p.grow < 0)
         retreat(&p, by);
-    else
+    else if (p.grow > 0)
         grow(&p, by);
+    else
+        return 0;
     for (coordinate i = DEPTH; i <= LOAD; i++) { /* not as a whole: that waits for its parts to be written */
         d->edge.y[i] = p.to.y[i];
         d->edge.t[i] = p.to.t[i];
@@ -430,64 +452,60 @@ static void open_contact(fret_diagram *d, double dx) {
     d->slid = dx;
 }
 
-/* Depth and load at the end of a step, and the gap between the bodies where they part. */
-static fret_status normal_end(fret_diagram *d, const fret_step *step, double y[2], double *gap) {
+/* Depth and load at the end of a step; dz: depth, or < 0 the gap between the bodies where they part. */
+FRET_INLINE fret_status normal_end(fret_diagram *d, const fret_step *step, double y[2], double *dz) {
     y[DEPTH] = d->edge.y[DEPTH];
     y[LOAD] = d->edge.y[LOAD];
-    *gap = d->gap;
+    *dz = d->dz;
     if (step->normal_by == FRET_KEEP_NORMAL)
         return fret_ok();
-    const coordinate by = step->normal_by == FRET_TO_FORCE ? LOAD : DEPTH;
-    const double target = step->normal;
+    const coordinate by = step->normal_by == FRET_TO_FORCE ? LOAD : DEPTH, other = by == DEPTH ? LOAD : DEPTH;
+    const double target = step->normal, end = greater(target, 0);
     if (!isfinite(target))
         return fret_fail(FRET_NOT_FINITE, by == LOAD ? "FN" : "dz", target, 0);
     if (by == LOAD && target < 0)
         return fret_fail(FRET_NEGATIVE, "FN", target, 0);
-    *gap = target < 0 ? -target : 0;
-    const double end = greater(target, 0);
-    if (end == y[by])
-        return fret_ok();
-    const coordinate other = by == DEPTH ? LOAD : DEPTH;
-    if (end > d->limit[by]) {
-        fret_press p;
-        const fret_status st =
-            by == LOAD ? fret_press_by_force(d->normal, end, &p) : fret_press_by_depth(d->normal, end, &p);
-        if (st.code)
-            return st;
-        count_from(d, by, end);
+    if (end != y[by]) {
+        if (end > d->limit[by]) {
+            const fret_status st = count_from(d, by, end);
+            if (st.code)
+                return st;
+        }
+        y[by] = end;
+        y[other] = other_of(d, by, end);
+        const double v = y[other], product = end * v;
+        if (!(product > 1e-290 && product < 1e290 && v > 1e-290 && v < 1e290) && end > 0)
+            return fret_fail(FRET_OVERFLOW, NULL, target, 1e290);
     }
-    y[by] = end;
-    y[other] = other_of(d, by, end);
-    const double product = y[DEPTH] * y[LOAD];
-    if (end > 0 && !(product > 1e-290 && product < 1e290 && y[other] > 1e-290 && y[other] < 1e290))
-        return fret_fail(FRET_OVERFLOW, NULL, target, 1e290);
+    *dz = target < 0 ? target : y[DEPTH];
     return fret_ok();
 }
 
 static void step_by_force(fret_diagram *d, const fret_step *step, const double y[2], double load) {
     d->Fx = step->tangential;
-    const double loss = advance(d, LOAD, y, load);
+    d->last_loss = d->lossless ? advance(d, LOAD, y, load, false) : advance(d, LOAD, y, load, true);
     if (y[LOAD] <= 0)
         open_contact(d, d->slid); /* no spring is left to be displaced */
     d->dx = d->slid + d->mu_eta * d->edge.t[DEPTH];
-    d->last_loss = loss;
 }
 
 /* While open, the bodies move freely: only the closed part of the path counts. */
-static void step_by_displacement(fret_diagram *d, double target, const double y[2], double gap) {
-    const double old = d->dx, from = d->gap > 0 ? -d->gap : d->edge.y[DEPTH], to = gap > 0 ? -gap : y[DEPTH];
-    double loss = 0, stop = target;
+static void step_by_displacement(fret_diagram *d, double target, const double y[2], double to) {
+    const double old = d->dx, from = d->dz;
+    double stop = target;
     d->dx = target;
+    d->last_loss = 0;
     if (from <= 0 && to > 0)
         open_contact(d, old + (target - old) * (-from / (to - from)));
     else if (from > 0 && to <= 0)
         stop = old + (target - old) * (from / (from - to));
-    if (from > 0 || to > 0)
-        loss = advance(d, DEPTH, y, stop == old ? d->edge.t[DEPTH] : (stop - d->slid) * d->per_mu_eta);
+    if (from > 0 || to > 0) {
+        const double t = stop == old ? d->edge.t[DEPTH] : (stop - d->slid) * d->per_mu_eta;
+        d->last_loss = d->lossless ? advance(d, DEPTH, y, t, false) : advance(d, DEPTH, y, t, true);
+    }
     if (to <= 0)
         open_contact(d, target);
     d->Fx = d->mu * d->edge.t[LOAD];
-    d->last_loss = loss;
 }
 
 static void add_loss(fret_diagram *d) {
@@ -498,11 +516,11 @@ static void add_loss(fret_diagram *d) {
 }
 
 fret_status fret_diagram_step(fret_diagram *d, const fret_step *step) {
-    double y[2], gap, load = 0;
+    double y[2], dz, load = 0;
     if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
         return fret_fail(FRET_NOT_FINITE, step->tangential_by == FRET_TO_FX ? "Fx" : "dx", step->tangential,
                          0);
-    fret_status st = normal_end(d, step, y, &gap);
+    fret_status st = normal_end(d, step, y, &dz);
     if (!st.code && step->tangential_by == FRET_TO_FX) {
         load = step->tangential / d->mu;
         const double limit = d->mu * y[LOAD];
@@ -525,8 +543,9 @@ fret_status fret_diagram_step(fret_diagram *d, const fret_step *step) {
     if (step->tangential_by == FRET_TO_FX)
         step_by_force(d, step, y, load);
     else
-        step_by_displacement(d, target, y, gap);
-    d->gap = gap;
-    add_loss(d);
+        step_by_displacement(d, target, y, dz);
+    d->dz = dz;
+    if (!d->lossless)
+        add_loss(d);
     return st;
 }

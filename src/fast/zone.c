@@ -45,6 +45,15 @@ void fret_double_law_make(double s, double sm1, fret_double_law *law) {
     make_near(law);
 }
 
+double fret_double_law_power(const fret_double_law *law, double x) {
+    if (!law->halves)
+        return fret_double_power(x, law->s);
+    double power = law->halves & 1 ? sqrt(x) : 1;
+    for (int i = law->halves; i > 1; i -= 2)
+        power *= x;
+    return power;
+}
+
 /* By Gauss's rule, of eight points for motion over the reach, four for a seventh of it. With v and w the
  * places of edge and front, -1 .. 1 over the reach, the power j of the curvature gives (v-w)^2/((j+1)(j+2))
  * times the divided difference of x^(j+2) at v, w, w: Horner's scheme for w, again for w, and for v, with no
@@ -188,7 +197,36 @@ static double part_loss(const fret_double_law *law, const fret_zone *z, double Y
     return sum;
 }
 
+/* A place of the zone in roots: of the front, of the edge, and between them. */
+typedef struct roots {
+    double q, p, e;
+} roots;
+
+FRET_INLINE roots roots_of(const fret_double_law *law, const fret_zone *z, int i) {
+    const double p = sqrt(z->edge[i] * law->per_y), q = sqrt(z->front[i] * law->per_y);
+    return (roots){q, p, p > 0 ? z->thick[i] * law->per_y / (p + q) : 0};
+}
+
+/* One end's terms of the sum below. */
+FRET_INLINE double root_terms(const roots *a, const roots *b) {
+    const double q = a->q, r = b->q, q2 = q * q, qr = q * r, r2 = r * r;
+    return (a->e * a->e) * (q2 * (3 * q2 + (9 * qr + 8 * r2)) + (a->e * q) * (5 * q2 + (12 * qr + 8 * r2)) +
+                            b->e * (q * (3 * q2 + 10 * qr) + r * (10 * qr + 2 * r2)));
+}
+
+/* Under v ~ y^(3/2), in p = sqrt(D) and q = sqrt(d): the rate is (p-q)^2 (p+q/2), and its integral a sum of
+ * positive terms in q and e = (D-d)/(p+q), which loses no digits wherever the zone is. */
+static double root_loss(const fret_double_law *law, const fret_zone *z) {
+    const roots a = roots_of(law, z, 0), b = roots_of(law, z, 1);
+    const double c = a.q + b.q, c2 = c * c, qr = a.q * b.q, e2 = a.e * a.e, f2 = b.e * b.e, ef = a.e * b.e;
+    const double sum = (root_terms(&a, &b) + root_terms(&b, &a)) +
+                       (4 * (ef * qr) * (c2 + qr) + 2 * c2 * ((e2 * e2 + f2 * f2) + ef * (e2 + ef + f2)));
+    return z->travel * law->v * sum / (5 * c2 * (a.p + b.p));
+}
+
 double fret_zone_loss(const fret_double_law *law, const fret_zone *zone, double Y, double V) {
     enum { HALVINGS = 5 };
-    return zone->travel > 0 && Y > 0 ? part_loss(law, zone, Y, V, HALVINGS) : 0;
+    if (!(zone->travel > 0 && Y > 0))
+        return 0;
+    return law->halves == 3 ? root_loss(law, zone) : part_loss(law, zone, Y, V, HALVINGS);
 }

@@ -29,17 +29,15 @@ typedef struct fret_double_law {
 /* sm1 = s-1 without cancellation. */
 void fret_double_law_make(double s, double sm1, fret_double_law *out);
 
-/* v(y), y >= 0: 4e-16 (s+1) of the largest v. */
-static inline double fret_double_law_value(const fret_double_law *law, double y) {
+/* x^s, x > 0 */
+double fret_double_law_power(const fret_double_law *law, double x);
+
+/* v(y), y >= 0: 4e-16 (s+1) of the largest v. Hertz's root in a line: a call takes as long. */
+FRET_INLINE double fret_double_law_value(const fret_double_law *law, double y) {
     const double x = y * law->per_y;
     if (!(x > 0))
         return 0;
-    if (!law->halves)
-        return law->v * fret_double_power(x, law->s);
-    double power = law->halves & 1 ? sqrt(x) : 1;
-    for (int i = law->halves; i > 1; i -= 2)
-        power *= x;
-    return law->v * power;
+    return law->v * (law->halves == 3 ? sqrt(x) * x : fret_double_law_power(law, x));
 }
 
 /* While the edge moves from edge[0] to edge[1] the front goes inwards from front[0] to front[1], both evenly;

@@ -4,6 +4,7 @@
 #include "fret/diagram.h"
 #include "unit.h"
 
+#include "contact/phase.h"
 #include "fast/zone.h"
 
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
@@ -273,6 +274,45 @@ static void powers(void) {
     }
 }
 
+/* Under Hertz's law every zone of slip keeps its digits: thin or thick, to the centre, out of nothing and
+ * into nothing. */
+static void zones(void) {
+    const unit_scene s = unit_make_scene(2, 0);
+    const fret_normal *normal = unit_make_normal(&s);
+    const double all = 0x1p40, scale = 0x1p-60; /* differences of whole numbers are exact */
+    unsigned long long seed = 3;
+    fret_double_law law;
+    fret_double_law_make(1.5, 0.5, &law);
+    law.per_y = 1 / (all * scale);
+    law.v = (double)fret_law_force(normal, all * scale);
+    for (int i = 0; i < 20000; i++) {
+        double edge[2], front[2], thick[2];
+        edge[0] = floor(all * unit_random(&seed, 0.3, 1));
+        thick[0] = i % 7 ? floor(edge[0] * exp(unit_random(&seed, -20, 0))) : 0;
+        front[0] = edge[0] - thick[0];
+        front[1] = i % 5 ? floor(front[0] * (1 - exp(unit_random(&seed, -14, 0)))) : 0;
+        thick[1] =
+            i % 11 || i % 7 == 0 ? 1 + floor((all - front[1]) * exp(unit_random(&seed, -20, -1e-9))) : 0;
+        edge[1] = front[1] + thick[1];
+        if (!(front[1] < front[0]))
+            continue;
+        for (int j = 0; j < 2; j++) {
+            edge[j] *= scale;
+            front[j] *= scale;
+            thick[j] *= scale;
+        }
+        const fret_zone zone = {{edge[0], edge[1]},
+                                {front[0], front[1]},
+                                {thick[0], thick[1]},
+                                front[0] - front[1],
+                                {-1, -1},
+                                {-1, -1}};
+        const fret_phase phase = {normal,   DEPTH, edge[0],  edge[1], front[0],
+                                  front[1], NULL,  {-1, -1}, {-1, -1}};
+        CHECK_REL(fret_zone_loss(&law, &zone, all * scale, law.v), fret_phase_loss(&phase), 3e-15L);
+    }
+}
+
 int main(int argc, char **argv) {
     unit_start("diagram", argc, argv);
     static const double n[] = {0.5, 1, 2, 3, 100}, k[] = {-0.99, -0.5, 0, 0.3, 0.99};
@@ -289,5 +329,6 @@ int main(int argc, char **argv) {
     objects();
     parts();
     powers();
+    zones();
     return unit_finish();
 }
