@@ -26,42 +26,40 @@ static bool first(calc_error *error, error_kind kind) {
     return true;
 }
 
-bool calc_fail(calc_error *error, size_t at, size_t len, const char *format, ...) {
+void calc_raise(calc_error *error, size_t at, size_t len, const char *format, ...) {
     if (!first(error, ERROR_WORDS))
-        return false;
+        return;
     va_list args;
     va_start(args, format);
     vsnprintf(error->text, sizeof error->text, format, args);
     va_end(args);
     error->at = at;
     error->len = len;
-    return false;
 }
 
-bool calc_interrupted(calc_error *error) {
+void calc_raise_interrupted(calc_error *error) {
     error->stop = true;
-    return calc_fail(error, 0, 0, "interrupted");
+    calc_raise(error, 0, 0, "interrupted");
 }
 
 bool calc_stopped(const volatile sig_atomic_t *stop, calc_error *error) {
     if (!*stop)
         return false;
-    calc_interrupted(error);
+    calc_raise_interrupted(error);
     return true;
 }
 
-bool calc_missing(calc_error *error, int input) {
+void calc_raise_missing(calc_error *error, int input) {
     if (first(error, ERROR_MISSING))
         error->input = input;
-    return false;
 }
 
-bool calc_no_memory(calc_error *error) {
+void calc_raise_memory(calc_error *error) {
     error->stop = true;
-    return calc_fail(error, 0, 0, "out of memory");
+    calc_raise(error, 0, 0, "out of memory");
 }
 
-bool calc_errno(calc_error *error, int code, const char *format, ...) {
+void calc_raise_errno(calc_error *error, int code, const char *format, ...) {
     char words[CALC_ERROR_TEXT - 64]; /* the reason is never cut off */
     va_list args;
     va_start(args, format);
@@ -69,7 +67,7 @@ bool calc_errno(calc_error *error, int code, const char *format, ...) {
     va_end(args);
     error->stop = error->stop || code == ENOMEM;
     error->refused = true;
-    return calc_fail(error, 0, 0, "%s: %s", words, code == ENOMEM ? "out of memory" : strerror(code));
+    calc_raise(error, 0, 0, "%s: %s", words, code == ENOMEM ? "out of memory" : strerror(code));
 }
 
 bool calc_input_status(calc_error *error, int input, const fret_status *status) {
@@ -88,10 +86,9 @@ bool calc_status(calc_error *error, const fret_status *status) {
     return calc_input_status(error, -1, status);
 }
 
-bool calc_place(calc_error *error, size_t at, size_t len) {
+void calc_put_place(calc_error *error, size_t at, size_t len) {
     if (error->len == 0) {
         error->at = at;
         error->len = len;
     }
-    return false;
 }

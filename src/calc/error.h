@@ -35,28 +35,42 @@ typedef struct calc_error {
 /* Ready to be raised; the text of a million good statements need not be cleared. */
 void error_clear(calc_error *error);
 
-/* All of these but calc_stopped record the first error only, and return false. */
+/* These record the first error only. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
-bool calc_fail(calc_error *error, size_t at, size_t len, const char *format, ...);
-bool calc_interrupted(calc_error *error);
-/* Is the flag up? Then the error says so. */
-bool calc_stopped(const volatile sig_atomic_t *stop, calc_error *error);
-bool calc_missing(calc_error *error, int input);
-bool calc_no_memory(calc_error *error);
+void calc_raise(calc_error *error, size_t at, size_t len, const char *format, ...);
+void calc_raise_interrupted(calc_error *error);
+void calc_raise_missing(calc_error *error, int input);
+void calc_raise_memory(calc_error *error);
 /* What the system refused: the words, and its own behind them. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
-bool calc_errno(calc_error *error, int code, const char *format, ...);
+void calc_raise_errno(calc_error *error, int code, const char *format, ...);
+/* Gives the error a place where it has none. */
+void calc_put_place(calc_error *error, size_t at, size_t len);
+
+/* The same as an answer: false, which compilers see too where `made || calc_no_memory(error)` stands. */
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+static inline bool calc_refused(void) {
+    return false;
+}
+#define calc_fail(...) (calc_raise(__VA_ARGS__), calc_refused())
+#define calc_interrupted(error) (calc_raise_interrupted(error), calc_refused())
+#define calc_missing(error, input) (calc_raise_missing(error, input), calc_refused())
+#define calc_no_memory(error) (calc_raise_memory(error), calc_refused())
+#define calc_errno(...) (calc_raise_errno(__VA_ARGS__), calc_refused())
+#define calc_place(error, at, len) (calc_put_place(error, at, len), calc_refused())
+
+/* Is the flag up? Then the error says so. */
+bool calc_stopped(const volatile sig_atomic_t *stop, calc_error *error);
 
 /* True where the status is fine. */
 bool calc_status(calc_error *error, const fret_status *status);
 /* The same for an input of the scene, which wording.c names. */
 bool calc_input_status(calc_error *error, int input, const fret_status *status);
-
-/* Gives the error a place where it has none; false. */
-bool calc_place(calc_error *error, size_t at, size_t len);
 
 #endif

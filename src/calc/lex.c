@@ -22,15 +22,15 @@ static bool blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-bool lex_fail(lexer *lx, const char *format, ...) {
+void lex_raise(lexer *lx, const char *format, ...) {
     char text[CALC_ERROR_TEXT];
     va_list args;
     if (lx->error->raised)
-        return false;
+        return;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    return calc_fail(lx->error, lx->at, lx->len, "%s", text);
+    calc_raise(lx->error, lx->at, lx->len, "%s", text);
 }
 
 void lex_start(lexer *lx, const char *text, size_t len, calc_error *error) {

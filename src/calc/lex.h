@@ -59,10 +59,11 @@ bool lex_filename(lexer *lx, char *buf, size_t size);
  * fit. */
 double lex_decimal(const char *text, size_t len, int shift);
 
-/* Records an error at the cursor; always returns false. */
+/* Records an error at the cursor. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
-bool lex_fail(lexer *lx, const char *format, ...);
+void lex_raise(lexer *lx, const char *format, ...);
+#define lex_fail(...) (lex_raise(__VA_ARGS__), calc_refused())
 
 #endif

@@ -22,10 +22,6 @@ static bool read_number(calc *c, lexer *lx, const arg *a, arg_value *v) {
                       !strcmp(a->name, "within") ? "seconds" : a->name, a->most));
 }
 
-bool arg_place(calc_error *error, const arg_value *v) {
-    return calc_place(error, v->value_at, v->value_len);
-}
-
 void args_drop(const arg_list *list, arg_value v[ARGS]) {
     for (const arg *a = list->args; a->kind; a++) {
         counted_drop(v[a - list->args].live);

@@ -72,6 +72,6 @@ bool args_read(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], 
 bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file);
 void args_drop(const arg_list *list, arg_value v[ARGS]);
 /* Points the error, where it has no place, at the value of the argument. */
-bool arg_place(calc_error *error, const arg_value *v);
+#define arg_place(error, v) calc_place(error, (v)->value_at, (v)->value_len)
 
 #endif
