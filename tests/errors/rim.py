@@ -517,7 +517,63 @@ def history(tests):
     p.close()
 
 
-ROOM = (lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
+# each input as it depends on s, and one that goes with it
+FOLLOWS = {"E0": "210 GPa*%s", "nu": "0.3*%s", "k": "0.3*%s", "c0": "1 mm*%s", "E0_2": "70 GPa*%s", "mu": "0.4*%s",
+           "FN": "100 N*%s", "FA": "20 N*%s", "dxA": "0.5 um*%s"}
+# geometry, what else is of it and follows; load; model
+NEEDING = (("sphere R=10 mm", {"R": "10 mm*%s"}, "cycle FA=20 N", "auto"),
+           ("sphere R=10 mm", {"R": "10 mm*%s"}, "step Fx=20 N", "memory"),
+           ("sphere R=10 mm", {}, "step FN=80 N Fx=20 N; cycle dxA=0.5 um", "auto"),
+           ("power n=3 A=50 m^-2", {"A": "50 m^-2*%s"}, "cycle FA=20 N", "double"),
+           ("power n=4 h=1 um r0=1 mm", {"n": "4*%s", "h": "1 um*%s", "r0": "1 mm*%s"}, "cycle dxA=0.1 um times 2", "springs 50"),
+           ("flat-rounded b=0.2 mm R=10 mm", {"b": "0.2 mm*%s"}, "cycle FA=20 N", "closed"),
+           ("cone slope=0.05", {"slope": "0.05*%s"}, "cycle FA=12 N FNA=9 N", "auto"),
+           ("file %s", {}, "cycle FA=20 N", "auto"))
+CALLS = {"E": "1 mm", "loss_factor": "10 N", "c": "10 N", "F": "10 N", "d": "0.1 um", "FA": "10 N", "dxA": "0.1 um", "x": "0.1 mm",
+         "r": "0.1 mm"}
+
+
+def needs(tests):
+    """What moves with an input cannot be told where the input cannot be; what does not, is the same there."""
+    listed = tests.run("-c", "help quantities").stdout.partition("Results:")[2].partition("fret>")[0]
+    asked = ["%s(%s)" % (name, CALLS.get(name) or CALLS[argument]) if argument else name
+             for name, argument in re.findall(r"^    (\w+)(?:\((\w+)\))?  ", listed, re.M)]
+    tests.check("quantities that need inputs", len(asked) > 40, listed)
+    with tests.file("r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(51)), ".csv") as path:
+        tests.each([lambda s=scene, n=name: needed(tests, asked, s, n, path) for scene in NEEDING
+                    for name in {**FOLLOWS, **scene[1]} if name not in ("FA", "dxA") or name + "=" in scene[2]])
+
+
+def needed(tests, asked, scene, name, path):
+    geometry, own, load, model = scene
+    told = "%s of %s, %s, %s" % (name, geometry, load, model)
+    lines = ["s = 1; material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; second E0=70 GPa nu=0.2; friction 0.4",
+             "geometry " + (geometry % path if "%" in geometry else geometry), "press FN=100 N; " + load,
+             "%s := %s" % (name, {**FOLLOWS, **own}[name] % "sqrt(s)"), "set model " + model, "set format json"]
+    first = len(lines) + 1
+    for one in asked:
+        lines += [one, "(%s at s=1.001)" % one, "(%s at s=-1)" % one]
+    with tests.file("\n".join(lines) + "\n") as script:
+        done = tests.run("--keep-going", script)
+    failed = {int(line): words for line, words in re.findall(r":(\d+):\d+: error: (.*)", done.stderr)}
+    values = iter(done.stdout.splitlines())
+    value = {line: None if line in failed else next(values, "") for line in range(first, len(lines) + 1)}
+    tests.check(told, not any(line < first for line in failed) and next(values, None) is None, tests.report(done))
+    value = {line: re.sub(r'"name":"[^"]*",', "", text or "") for line, text in value.items()}
+    moved = 0
+    for i, one in enumerate(asked):
+        here, near, there = range(first + 3 * i, first + 3 * i + 3)
+        moves = here not in failed and value[here] != value[near]
+        moved += moves
+        if there in failed:
+            ok = here in failed or "square root of a negative" in failed[there]
+        else:
+            ok = value[here] == value[near] == value[there] and not moves
+        tests.check("%s, %s" % (one, told), ok, "%s\n%s\n%s %s" % (value[here], value[near], value[there], failed.get(there)))
+    tests.check("what moves with " + told, moved > 0, str(moved))
+
+
+ROOM = (needs, lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
 
 
 def run(tests):
