@@ -25,10 +25,10 @@ MARKED_LINE = re.compile(r"\s*/\* unreached: .*\*/$")
 
 
 def every_fault(tests):
-    """Every allocation and every system call fails once, as by `make faults`."""
+    """Every allocation and every system call fails once, and is interrupted, as by `make faults`."""
     folder = os.path.join(os.path.abspath(tests.build), "tests")
     env = {"PATH": os.environ["PATH"], "LC_ALL": "C", "TERM": "dumb"}
-    kinds = (faults.allocations, faults.calls) if faults.can_filter(folder) else (faults.allocations,)
+    kinds = (faults.allocations, faults.interrupts, *((faults.calls,) if faults.can_filter(folder) else ()))
 
     def one(statement, kind):
         ends, wrong = faults.attempt(statement, kind)

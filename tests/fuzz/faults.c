@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Loaded before the C library: lets one allocation fail. Counting begins when a file named `arm` is closed
- * and ends when one named `disarm` is opened; FAULT=n fails the n-th, and FAULT_COUNT names a file for how
- * many there were. For glibc; with LEAKS the next library's functions allocate, which may be a leak
- * detector's. */
+/* Loaded before the C library: lets one allocation fail, or be the moment of an interrupt. Counting begins
+ * when a file named `arm` is closed and ends when one named `disarm` is opened; FAULT=n fails the n-th, with
+ * FAULT_INTERRUPT there is Ctrl-C instead, and FAULT_COUNT names a file for how many there were. For glibc;
+ * with LEAKS the next library's functions allocate, which may be a leak detector's. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -86,6 +87,10 @@ static long seen, wanted;
 static int fails(void) {
     if (!armed || ++seen != wanted)
         return 0;
+    if (getenv("FAULT_INTERRUPT")) {
+        kill(getpid(), SIGINT);
+        return 0;
+    }
     errno = ENOMEM;
     return 1;
 }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What fails once, at every place where it can: memory that runs out, and system calls. A statement then ends with the
-right answer, or with an error that says so and the scene and its files as before. `faults.py FRET TESTS [STATEMENT...]`
+"""What fails once, at every place where it can: memory that runs out, and system calls; and an interrupt at every allocation.
+A statement then ends with the right answer, or with an error that says so and the scene and its files as before. `faults.py FRET TESTS [STATEMENT...]`
 tries them all and prints a table, the tests some; TESTS is the folder with faults.so and calls.
 `faults.py --leaks FRET TESTS [STATEMENT...]`: does memory that runs out leave any of it behind? Both built for a leak detector."""
 import difflib
@@ -70,9 +70,10 @@ FAMILIES = {"openat": "open", "pread64": "read", "writev": "write", "renameat": 
             "unlinkat": "unlink", "rmdir": "unlink", "mkdirat": "mkdir", "clone": "fork", "clone3": "fork",
             "vfork": "fork", "wait4": "wait", "waitid": "wait", "mremap": "mmap", "execve": "exec",
             "dup2": "dup", "dup3": "dup", "pipe2": "pipe", "ppoll": "poll"}
-ALLOCATION = "allocation"
+ALLOCATION, INTERRUPT = "allocation", "interrupt"
 LIVE = ("log.txt", "out.cast")  # written as they go on
 LOST_OUTPUT = "error: cannot write to standard output"
+INTERRUPTED = 130  # the exit status
 AGAIN = 4  # calls in a row that only wait
 
 
@@ -131,8 +132,8 @@ class Faults:
         env = {**self.env, "TMPDIR": tmp, "HOME": tmp, "FRET_FAULTS": "1"}  # read by tests/coverage.c
         argv = [self.fret, *self.arguments(script or self.script)]
         what, number, code = fault or (count, 0, 0)
-        if what == ALLOCATION:
-            env.update(LD_PRELOAD=os.path.join(self.tests, "faults.so"), FAULT=str(number), FAULT_COUNT=told)
+        if what in (ALLOCATION, INTERRUPT):
+            env.update({"FAULT_INTERRUPT": "1"} if what == INTERRUPT else {}, LD_PRELOAD=os.path.join(self.tests, "faults.so"), FAULT=str(number), FAULT_COUNT=told)
         elif what:
             argv = [os.path.join(self.tests, "calls"), told, what, str(number), str(code), *argv]
         try:
@@ -170,6 +171,8 @@ class Faults:
         """"refused", "harmless", "not reached", or what is wrong."""
         what = fault[0]
         status, out, err, left, seen = self.run(fault)
+        if what == INTERRUPT:
+            return self.interrupted(status, out, err, left, right)
         if what != ALLOCATION and "FAILED\n" not in seen:
             return "not reached"
         before, final = right[1].partition("\n1234567 = ")[0], out.rpartition("1234567 = ")[2]
@@ -199,6 +202,17 @@ class Faults:
         changed = self.changed([self.files], left, what)
         return "%s changed\n%s" % (" ".join(changed), err) if changed else "refused"
 
+    def interrupted(self, status, out, err, left, right):
+        """The script ends, if not before, where the next statement would begin."""
+        if status == 0:
+            return "harmless" if out == right[1] else "ends well with another answer\n" + differ(right[1], out)
+        told = re.findall(r"error: (.*)", err)
+        silent = self.statement == "a transcript"
+        if status != INTERRUPTED or not (told or silent) or not all("nterrupted" in line for line in told):
+            return "exit %d\n%s" % (status, err)
+        changed = self.changed([self.files, right[3]], left, INTERRUPT)
+        return "%s changed\n%s" % (" ".join(changed), err) if changed else "refused"
+
     def reference(self, count):
         """The run without a fault; what the scene and the files are before the statement."""
         bare = self.run(None, None, self.script.replace("source arm\n%s\nsource disarm\n" % self.statement, "", 1))
@@ -221,6 +235,8 @@ class ToTheEnd(Faults):
 
     def try_one(self, fault, right):
         status, out, err, left, seen = self.run(fault)
+        if fault[0] == INTERRUPT:
+            return self.interrupted(status, out, err, left, right)
         if fault[0] != ALLOCATION and "FAILED\n" not in seen:
             return "not reached"
         if self.changed([self.files], left, fault[0]):
@@ -245,6 +261,10 @@ def allocations(seen):
     return [(ALLOCATION, number + 1, 0) for number in range(int(seen or 0))]
 
 
+def interrupts(seen):
+    return [(INTERRUPT, number, 0) for _, number, _ in allocations(seen)]
+
+
 def calls(seen):
     """Each call with each code; of those that wait for gnuplot, whose number changes, the first."""
     found, numbers = [], {}
@@ -257,7 +277,7 @@ def calls(seen):
 
 def attempt(one, kind, most=0):
     """{how it ended: faults}, and [(fault, what is wrong)], of at most so many faults, evenly chosen."""
-    right = one.reference(ALLOCATION if kind is allocations else "all")
+    right = one.reference("all" if kind is calls else ALLOCATION)
     if right[0] != 0:
         return {}, [(None, "does not run: " + right[2])]
     every = kind(right[4])
@@ -324,10 +344,11 @@ def told(fault):
 def campaign(fret, tests, only):
     env = {"PATH": os.environ["PATH"], "LC_ALL": "C", "TERM": "dumb"}
     chosen = [one for one in statements(fret, tests, env) if not only or one.statement in only]
-    jobs = [(one, kind) for one in chosen for kind in (allocations, calls)]
-    sums = {kind: [0, 0, 0, 0] for kind in (allocations, calls)}
-    print("# %-52s %27s  %27s" % ("make faults", "allocations", "system calls"))
-    print("# %-52s %9s%9s%9s  %9s%9s%9s" % (("statement",) + 2 * ("injected", "refused", "harmless")))
+    kinds = (allocations, calls, interrupts)
+    jobs = [(one, kind) for one in chosen for kind in kinds]
+    sums = {kind: [0, 0, 0, 0] for kind in kinds}
+    print("# %-52s %27s  %27s  %27s" % ("make faults", "allocations", "system calls", "interrupts"))
+    print("# %-52s %9s%9s%9s  %9s%9s%9s  %9s%9s%9s" % (("statement",) + 3 * ("injected", "refused", "harmless")))
     row, failed = "", 0
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         for (one, kind), (ends, wrong) in zip(jobs, pool.map(lambda job: attempt(*job), jobs)):
@@ -335,14 +356,14 @@ def campaign(fret, tests, only):
             numbers = (refused + harmless + len(wrong), refused, harmless, len(wrong))
             sums[kind] = [a + b for a, b in zip(sums[kind], numbers)]
             row = ("%-54s " % one.statement[:54] if kind is allocations else row + " ") + "%9d%9d%9d" % numbers[:3]
-            if kind is calls:
+            if kind is kinds[-1]:
                 print(row.rstrip(), flush=True)
             failed += len(wrong)
             for fault, what in wrong[:5]:
                 print("FAILED %s: %s: %s" % (one.statement[:60], told(fault), what), file=sys.stderr, flush=True)
             if len(wrong) > 5:
                 print("  and %d more" % (len(wrong) - 5), file=sys.stderr)
-    print("%-54s " % "all" + "  ".join("%9d%9d%9d" % tuple(sums[kind][:3]) for kind in (allocations, calls)))
+    print("%-54s " % "all" + "  ".join("%9d%9d%9d" % tuple(sums[kind][:3]) for kind in kinds))
     print("# %d neither refused nor harmless" % failed)
     return 1 if failed else 0
 
