@@ -644,7 +644,8 @@ static const command commands[] = {
      .usage = "WORD",
      .summary = "find commands and quantities by a word",
      .help = "    fret> apropos stick\n"
-             "    c           stick radius\n"},
+             "    c           stick radius\n"
+             "    plot springs  springs between their bounds\n"},
     {.name = "quit",
      .run = do_quit,
      .group = "the session",

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "shell/command.h"
+#include "shell/figures.h"
 #include "shell/lines.h"
 #include "shell/output.h"
 #include "shell/presets.h"
@@ -175,6 +176,23 @@ static void preset_help(FILE *to, size_t i) {
     }
 }
 
+static entry figure_entry(size_t i) {
+    const figure *f = figure_row(i);
+    return (entry){.command = "plot ", .name = f->name, .summary = f->title, .keywords = f->summary};
+}
+
+static void figure_help(FILE *to, size_t i) {
+    const figure *f = figure_row(i);
+    char text[HELP_TEXT];
+    fprintf(to, "plot %s [looks] [to FILE]\n  %s\n  ", f->name, f->title);
+    help_wrapped(to, f->summary, 2, 2);
+    if (f->statement) {
+        snprintf(text, sizeof text, "as: plot %s", f->statement);
+        fputs("  ", to);
+        help_wrapped(to, text, 2, 6);
+    }
+}
+
 static entry unit_entry(size_t i) {
     return (entry){.name = unit_name(i), .kind = "a unit: ", .summary = unit_meaning(i), .keywords = "unit"};
 }
@@ -218,9 +236,10 @@ static void topic_help(FILE *to, size_t i) {
 typedef struct subject {
     const char *(*name)(size_t i); /* ended by NULL */
     entry (*entry)(size_t i);
-    void (*help)(FILE *to, size_t i); /* NULL: by its word, see do_help */
+    void (*help)(FILE *to, size_t i); /* NULL: by its word, see help_on */
 } subject;
 
+/* clang-format off */
 static const subject subjects[] = {
     {command_name, command_entry, command_help},
     {topic_name, topic_entry, topic_help},
@@ -230,8 +249,10 @@ static const subject subjects[] = {
     {preset_name, preset_entry, preset_help},
     {quantity_name, quantity_entry, quantity_help},
     {builtin_name, builtin_entry, builtin_help},
+    {figure_name, figure_entry, figure_help},
     {unit_name, unit_entry, NULL},
 };
+/* clang-format on */
 enum { SUBJECTS = sizeof subjects / sizeof *subjects };
 
 const char *help_name(size_t i) {
@@ -338,40 +359,7 @@ static size_t help_on(FILE *to, const char *word) {
     return count;
 }
 
-bool do_help(shell *sh, lexer *lx, const command *self) {
-    char word[LEX_NAME] = "";
-    text_out t;
-    (void)self;
-    if (lx->kind != T_END) {
-        raw_word(lx, word);
-        if (command_find(word, strlen(word)) &&
-            lex_peek(lx) != T_END) { /* geometry cone, set model, material steel */
-            lex_next(lx);
-            raw_word(lx, word);
-        }
-        if (!help_on(NULL, word) && strpbrk(word, "(=")) { /* p(r) of a list, FN=100 N of a statement */
-            word[strcspn(word, "(=")] = 0;
-            lx->len = lx->end - lx->at;
-        }
-        if (!help_on(NULL, word)) {
-            const char *near = *word ? suggest(word, help_name) : NULL;
-            return near ? lex_fail(lx, "no help on '%.*s': did you mean %s?", LEX_WORD(lx), near)
-                        : lex_fail(lx, "no help on '%.*s'; try: help", LEX_WORD(lx));
-        }
-        lex_next(lx);
-        if (!at_end(lx))
-            return false;
-    }
-    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
-        return calc_no_memory(lx->error);
-    if (*word)
-        help_on(t.to, word);
-    else
-        overview(t.to);
-    return text_end(&t, true) || calc_no_memory(lx->error);
-}
-
-/* ---- apropos ----------------------------------------------------------------------------------- */
+/* ---- by what it is about ------------------------------------------------------------------------ */
 
 static bool contains(const char *text, const char *word) {
     const size_t n = strlen(word);
@@ -411,10 +399,52 @@ static size_t list_about(FILE *to, const char *word, bool deep) {
 }
 
 const char *help_where(const char *word) {
-    enum { LEAST = 3 }; /* letters: less are in every text */
-    if (help_on(NULL, word))
+    enum { LEAST = 3 };                                          /* letters: less are in every text */
+    if (!figure_find(word, strlen(word)) && help_on(NULL, word)) /* who looks for a figure types `plot` */
         return "help";
     return strlen(word) >= LEAST && list_about(NULL, word, false) ? "apropos" : NULL;
+}
+
+/* ---- the commands ------------------------------------------------------------------------------- */
+
+static bool no_help(lexer *lx, const char *word) {
+    const char *near = *word ? suggest(word, help_name) : NULL;
+    const bool about = help_where(word) != NULL;
+    if (near)
+        return lex_fail(lx, "no help on '%s': did you mean %s?%s%s", word, near,
+                        about ? " Try also: apropos " : "", about ? word : "");
+    return lex_fail(lx, "no help on '%.*s'; try: %s%s", LEX_WORD(lx), about ? "apropos " : "help",
+                    about ? word : "");
+}
+
+bool do_help(shell *sh, lexer *lx, const command *self) {
+    char word[LEX_NAME] = "";
+    text_out t;
+    (void)self;
+    if (lx->kind != T_END) {
+        raw_word(lx, word);
+        if (command_find(word, strlen(word)) &&
+            lex_peek(lx) != T_END) { /* geometry cone, set model, material steel */
+            lex_next(lx);
+            raw_word(lx, word);
+        }
+        if (!help_on(NULL, word) && strpbrk(word, "(=")) { /* p(r) of a list, FN=100 N of a statement */
+            word[strcspn(word, "(=")] = 0;
+            lx->len = lx->end - lx->at;
+        }
+        if (!help_on(NULL, word))
+            return no_help(lx, word);
+        lex_next(lx);
+        if (!at_end(lx))
+            return false;
+    }
+    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
+        return calc_no_memory(lx->error);
+    if (*word)
+        help_on(t.to, word);
+    else
+        overview(t.to);
+    return text_end(&t, true) || calc_no_memory(lx->error);
 }
 
 bool do_apropos(shell *sh, lexer *lx, const command *self) {

@@ -119,15 +119,24 @@ static bool read_end(shell *sh, lexer *lx, unsigned *frames) {
 }
 
 /* Neither a figure nor a range: a figure may have been misspelt. */
-static bool no_figure(lexer *lx) {
-    char word[LEX_NAME];
-    const char *near = NULL;
-    if (lx->kind == T_NAME && !name_taken(lx->text + lx->at, lx->len)) {
+static bool no_figure(const calc *c, lexer *lx) {
+    char word[LEX_NAME], all[CALC_ERROR_TEXT / 2] = "";
+    const token_kind next = lex_peek(lx);
+    size_t own;
+    if (lex_is(lx, "map"))
+        return lex_fail(lx, "expected map EXPR for A = LO .. HI for B = LO .. HI");
+    const bool unknown = lx->kind == T_NAME && !name_taken(lx->text + lx->at, lx->len) &&
+                         !names_find(&c->names, lx->text + lx->at, lx->len, &own);
+    if (unknown)
         lex_word(lx, word);
-        near = suggest(word, figure_name);
-    }
-    return near ? lex_fail(lx, "there is no figure '%s': did you mean %s?", word, near)
-                : lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N");
+    const char *near = unknown ? suggest(word, figure_name) : NULL;
+    if (near)
+        return lex_fail(lx, "there is no figure '%s': did you mean %s?", word, near);
+    if (!unknown || (next != T_END && next != T_BAR))
+        return lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N");
+    for (size_t i = 0; figure_name(i); i++)
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? ", " : "", figure_name(i));
+    return lex_fail(lx, "there is no figure '%s': plot %s, or EXPR, ... for VAR = LO .. HI", word, all);
 }
 
 bool do_plot(shell *sh, lexer *lx, const command *self) {
@@ -140,7 +149,7 @@ bool do_plot(shell *sh, lexer *lx, const command *self) {
         return false;
     plot_figure_init(&f);
     if (!found && !panel_is_named(sh, lx))
-        ok = no_figure(lx);
+        ok = no_figure(&sh->calc, lx);
     ok = ok && find_file(lx, file) && draw_panels(sh, lx, &f, NULL) && read_end(sh, lx, NULL) &&
          draw(sh, lx, &f, *file ? file : NULL);
     plot_figure_free(&f);
