@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The program: options, signals, jobs, exit status. */
 #include <errno.h>
+#include <fcntl.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
@@ -268,6 +269,13 @@ static int run(shell *sh, const wishes *w) {
     return shell_stdin(sh, w->keep_going);
 }
 
+/* What the starter has closed stays so: no file of ours may become a standard stream. */
+static void keep_closed(void) {
+    for (int fd = 0; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0)
+            open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 /* A lost write is an error. */
 static int finish(shell *sh, int status) {
     record_end(sh);
@@ -287,6 +295,7 @@ static int finish(shell *sh, int status) {
 int main(int argc, char **argv) {
     static shell sh;
     static char buffer[1 << 16];
+    keep_closed();
     wishes w = {.color = "auto", .jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
     if (!w.jobs) {
         fprintf(stderr, "error: out of memory\n");

@@ -358,6 +358,20 @@ def inherited(tests):
                           env={**tests.env, **fake_gnuplot(tests, b"broken")},
                           preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
     expect(tests, "and gnuplot's failure is seen", done, 1, None, "broken")
+    where = os.path.join(tests.dir, "closed")
+    os.mkdir(where)
+    with open(os.path.join(where, "h.csv"), "w", encoding="ascii") as f:
+        f.write("FN [N],Fx [N]\n100,0\n100,30\n")
+    kept = []
+    for closed in ((), (0,), (1,), (2,), (0, 1, 2)):
+        subprocess.run([tests.fret, "--keep-going", "-c", SCENE + "follow h.csv\nrecord kept.txt\na, Fx\nfoo\nrecord off"],
+                       cwd=where, env=tests.env, capture_output=True, timeout=60, check=False,
+                       preexec_fn=lambda fds=closed: [os.close(fd) for fd in fds])
+        with open(os.path.join(where, "kept.txt"), encoding="ascii") as f:
+            kept.append(f.read())
+        os.unlink(os.path.join(where, "kept.txt"))
+        tests.check("a file is no standard stream, closed: %s" % (closed,), kept[-1] == kept[0] and "Fx = 30 N\n" in kept[0]
+                    and kept[0].count("error:") == 1, kept[-1])
 
 
 def signals(tests):
