@@ -44,6 +44,15 @@ def usage(tests):
         tests.check("--manual=%s: no line is a request by chance" % page, page == "bash" or not
                     re.findall(r"^(?:'|\.(?!TH|SH|PP|TP|BR?|I|nf|fi)).*", done.stdout, re.M) and
                     done.stdout.count(".nf\n") == done.stdout.count(".fi\n"), done.stdout[-3000:])
+    page = re.sub(r"^\.(PP|nf|fi)\n", "", tests.run("--manual=1").stdout, flags=re.M)
+    for roff, plain in ((r"\-", "-"), (r"\(ha", "^"), (r"\(aq", "'"), (r"\(ga", "`"), (r"\(ti", "~"), (r"\&", ""), (r"\e", "\\")):
+        page = page.replace(roff, plain)
+    for title, topic in (("EXPRESSIONS", "expressions"), ("QUANTITIES", "quantities"), ("UNITS", "units"), ("THE PROMPT", "prompt"),
+                         ("SCRIPTS", "scripts"), ("LIMITS", "limits"), ("SETTINGS", "set")):
+        section, told = page.partition(".SH %s\n" % title)[2].partition("\n.SH ")[0], tests.run("-c", "help " + topic)
+        want = [line for line in told.stdout.split("\n") if line and not (topic == "set" and not line.startswith("    set"))]
+        tests.check("--manual=1: %s are help %s" % (title, topic), len(want) > 5 and all(line in section for line in want),
+                    "\n".join(line for line in want if line not in section))
     expect(tests, "--manual=2", tests.run("--manual=2"), 2, "", "--manual is 1, 5 or bash, not 2")
 
 

@@ -111,6 +111,7 @@ def typed(tests):
     """A session at the prompt: its screen, edited lines, colours, a lesson by keys, a change of size."""
     s = Recorded(tests, "typed.cast", "--color=always", size=(40, 80))
     s.line("set pager off")
+    began = time.monotonic()
     s.line("record " + s.path)
     s.line(SCENE + "\x01\x05", "a = 186")
     s.line("cycle FA=20 N", "dW = ")
@@ -133,7 +134,9 @@ def typed(tests):
     s.line("#" + "µ" * 3000 + "\x01", "µ" * 80)
     s.line("4321", "4321 = 4321")
     cast = Cast(s.path)
-    shown, replayed = lines(s.screen), lines(cast.screen)
+    shown, replayed, elapsed = lines(s.screen), lines(cast.screen), time.monotonic() - began
+    tests.check("its times are within those of the session", 0 <= cast.events[0][0] < cast.events[-1][0] <= elapsed,
+                "%s %s %g" % (cast.events[0], cast.events[-1], elapsed))
     tests.check("a session's cast is sound", cast.sound() and cast.head == {"version": 2, "width": 80, "height": 40},
                 str(cast.head))
     tests.check("it shows what the terminal shows", shown[-28:] == replayed[-28:], "%s\n\n%s" % (s.screen.text(), cast.screen.text()))

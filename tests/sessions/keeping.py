@@ -158,6 +158,12 @@ def recorded(tests):
     with tests.file(text.replace("fret> second rigid\nwarning", "fret> second rigid\n#"), ".txt") as path:
         done = tests.run("--replay", path)
         tests.check("what is warned of later is", "+ warning:" in done.stdout and done.returncode == 1, tests.report(done))
+    steps = "".join("step Fx=%d N\n" % ((-1) ** i * (35 - i)) for i in range(30))
+    for model in ("", "set model springs 100\n"):
+        done = tests.run("-c", model + SCENE + steps + "record long.txt\nW\nrecord off", cwd=where)
+        again = tests.run("--replay", "long.txt", cwd=where)
+        tests.check("a long load is recorded whole" + model, done.returncode == again.returncode == 0 and "W = " in done.stdout
+                    and again.stdout.endswith(" passed, 0 failed\n"), tests.report(done) + tests.report(again))
     done = tests.run("-c", "record r.txt; a = 1 m", cwd=where)
     tests.check("overwriting a transcript is told", "overwriting r.txt" in done.stderr, tests.report(done))
     done = tests.run("-c", "record /nonexistent/r", cwd=where)

@@ -129,6 +129,16 @@ def over(tests):
     tests.check("measured points are named", "measured-1.csv" in text)
     text, series = script(tests, "measured beside", "plot pressure | loop over %s" % path)
     tests.check("a file for the second figure", series[-1:] == [[(0.2, 10), (-0.5, -20)]], str(series[-1:]))
+    for columns, row, want in (("u [um],v [um],force [N]", "1,2,3", (1, 3)), ("force [N],u [um],v [um]", "3,1,2", (1, 3)),
+                               ("F [N],v [um],Fx [N],dx [um]", "1,2,3,4", (4, 3)), ("F [N],t,Fx [N],v [um]", "1,2,3,4", (4, 3)),
+                               ("F [N],u [um],dx [um]", "1,2,3", (3, 1))):
+        with open(path, "w", encoding="ascii") as f:
+            f.write(columns + "\n" + row + "\n")
+        text, series = script(tests, "measured: " + columns, "plot loop over %s" % path)
+        tests.check("columns by their names, then by their units: " + columns, series[-1:] == [[want]], str(series[-1:]))
+    fails(tests, "plot loop over " + path.replace("measured-1", "none"), "cannot read ")
+    with open(path, "w", encoding="ascii") as f:
+        f.write("Fx [kN],dx [nm]\n0.01,200\n-0.02,-500\n")
     fails(tests, "plot pressure over " + path, "no column fits the axis p(r), which is a pressure: there are Fx, dx")
     fails(tests, "plot loop over /nonexistent.csv", "cannot read /nonexistent.csv")
 

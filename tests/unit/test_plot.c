@@ -167,7 +167,7 @@ static void styles(void) {
         char name[16];
         snprintf(name, sizeof name, " title \"c%zu\"", i);
         const char *end = strstr(text, name), *at = end;
-        if (!CHECK(end != NULL))
+        if (!CHECK(end != NULL) || !CHECK(!strstr(end + 1, name)))
             break;
         while (strncmp(at, "dt ", 3) != 0) /* dashes and marks */
             at--;
@@ -185,6 +185,43 @@ static void styles(void) {
     for (size_t i = 1; i < PLOT_PANELS; i++)
         CHECK(plot_panel_add(&f, fresh()));
     CHECK(!plot_panel_add(&f, fresh()) && has(error.text, "more than 6"));
+    plot_figure_free(&f);
+}
+
+/* Drawn once each, from below: bands, thin curves, curves, the present point; what is empty and has no title
+ * is not. */
+static void layers(void) {
+    static const struct {
+        plot_role role;
+        bool thin;
+        const char *name;
+    } rows[] = {{PLOT_NOW, false, "now"},
+                {PLOT_CURVE, false, "curve"},
+                {PLOT_CURVE, true, "thin"},
+                {PLOT_BAND, false, "band"}};
+    static const char *const order[] = {"band", "thin", "curve", "now"};
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_panel *p = f.panel[0];
+    plot_series_add(p, PLOT_CURVE, NULL, fresh());
+    for (size_t i = 0; i < 4; i++) {
+        plot_series *s = plot_series_add(p, rows[i].role, rows[i].name, fresh());
+        s->thin = rows[i].thin;
+        plot_point(s, 0, 1);
+        plot_point(s, 1, 2);
+    }
+    char *text = script_of(&f, ".gp");
+    const char *at = strstr(text, "plot ");
+    int drawn = 0;
+    for (const char *with = at; with && (with = strstr(with, " with ")); with++)
+        drawn++;
+    CHECK(drawn == 4);
+    for (size_t i = 0; i < 4 && CHECK(at != NULL); i++) {
+        char title[24];
+        snprintf(title, sizeof title, " title \"%s\"", order[i]);
+        at = strstr(at, title);
+    }
+    CHECK(at != NULL);
+    free(text);
     plot_figure_free(&f);
 }
 
@@ -631,6 +668,7 @@ int main(int argc, char **argv) {
     quoting();
     scripts();
     styles();
+    layers();
     thins();
     bounded();
     bands();
