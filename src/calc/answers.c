@@ -183,8 +183,7 @@ static bool is_tame(const load_step *step, double mu) {
     if (step->kind != LOAD_STEP || step->relative || step->normal != step->tangential || !(normal >= 1e-30) ||
         !(normal <= 1e30))
         return false;
-    return step->normal == BY_FORCE ? tangential <= mu * normal * (1 - 1e-12)
-                                    : step->normal == BY_DISPLACEMENT && tangential <= 1e30;
+    return step->normal == BY_FORCE ? tangential <= mu * normal * (1 - 1e-12) : tangential <= 1e30;
 }
 
 /* What is always possible waits until a result is asked: to slide to a displacement at constant F_N, and,
@@ -256,10 +255,9 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
         return false;
     if (can_wait(s, step, mu))
         return append_step(s, step, extra, error);
-    const load_reach *reach;
-    if (!catch_up(s, error) || !scene_reach(s, &reach, error))
+    if (!catch_up(s, error))
         return false;
-    const load_reach reached = *reach;
+    const load_reach reached = s->answers.reach;
     const load_mark end = s->end;
     inputs before; /* a cycle changes them */
     if (extra)
@@ -393,19 +391,19 @@ static bool widest(const runner *r, void *context) {
     return true;
 }
 
-bool scene_engine(scene *s, model_id model, unsigned count, engine *out, calc_error *error) {
-    load_view load;
+bool scene_engine(scene *s, const load_view *load, model_id model, unsigned count, engine *out,
+                  calc_error *error) {
     long double a = 0;
     watch w = watch_ends();
     w.see = widest;
     w.once = true;
     w.context = &a;
-    if ((models[model].count && !scene_trace(s, &w, error)) || !scene_load_of(s, &load, error))
+    if (models[model].count && !scene_trace(s, &w, error))
         return false;
-    if (models[model].power && !fret_normal_is_power(load.normal))
+    if (models[model].power && !fret_normal_is_power(load->normal))
         return calc_fail(error, 0, 0, "`%s` is for gaps of a single power: set model auto",
                          models[model].name);
-    fret_status st = engine_make(out, model, load.normal, load.mu, count, (double)(a * (1 + 1e-12L)));
+    fret_status st = engine_make(out, model, load->normal, load->mu, count, (double)(a * (1 + 1e-12L)));
     return calc_status(error, &st);
 }
 
@@ -423,7 +421,7 @@ static bool stepped_state(scene *s, calc_error *error) {
     bool ok = true;
     for (unsigned i = 0; i < levels && ok; i++) {
         run[i] = (runner){.load = &load, .level = i};
-        ok = scene_engine(s, s->model, s->springs, &run[i].engine, error);
+        ok = scene_engine(s, &load, s->model, s->springs, &run[i].engine, error);
         fret_status st = ok ? run_to(&run[i], load.end) : fine;
         ok = ok && calc_status(error, &st);
     }
@@ -438,34 +436,32 @@ static bool stepped_state(scene *s, calc_error *error) {
     return ok;
 }
 
-static bool memory_state(scene *s, calc_error *error) {
-    const runner *run;
+static void memory_state(scene *s, const runner *run) {
     answers *a = &s->answers;
-    if (!present_run(s, &run, error))
-        return false;
+    sight now;
     if (!s->now && a->levels > 1) {
         swinging_state(a, a->run);
-        return true;
+        return;
     }
-    sight now;
     run_sight(run, &now);
     a->state = now.state;
     a->loss = now.loss;
-    return true;
 }
 
 bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     const bool stepped = is_stepped(s);
     const unsigned used = s->used; /* what only checks the load program does not answer */
     if (!s->answers.state_ready) {
-        const runner *run;
+        const runner *run = NULL;
         s->answers.sine_error = 0;
         if (!(by_double(s) && s->end.steps > 0) && !present_run(s, &run, error))
             return false;
         if (!s->automatic && s->model == MODEL_CLOSED)
             return calc_fail(error, 0, 0, "no closed form for this: set model auto");
-        if (!(stepped ? stepped_state : memory_state)(s, error))
+        if (stepped && !stepped_state(s, error))
             return false;
+        if (!stepped)
+            memory_state(s, run);
         s->answers.state_ready = true;
     }
     s->used = used | USED(stepped ? s->model : MODEL_MEMORY);
@@ -528,9 +524,9 @@ bool scene_closed_loss(scene *s) {
 
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
     const fret_press *press;
-    const load_reach *reach;
+    const load_reach *reach = &s->answers.reach;
     fret_contact contact;
-    if (!scene_press(s, &press, error) || !scene_reach(s, &reach, error))
+    if (!scene_press(s, &press, error))
         return false;
     if (!reach->by) {
         *out = (fret_loading){0, 0, press->a, press->dz};

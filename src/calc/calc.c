@@ -386,9 +386,9 @@ static void nothing(inputs *in, void *context) {
 }
 
 static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
-    size_t inputs_count = 0, names_count = 0, which = 0;
+    size_t inputs_count = 0, which = 0;
     for (size_t i = 0; i < count; i++)
-        *(all[i].q ? &inputs_count : &names_count) += 1;
+        inputs_count += all[i].q != NULL;
     if (exponent_alone(c, all, count, &which))
         return calc_fail(lx->error, all[which].at, all[which].len,
                          "A belongs to the n it was given with: set both (n = 3, A = 50 m^-2)");
@@ -408,7 +408,7 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
     assigned job = {c, all, count};
     scene *s = &c->scene;
     if (inputs_count == 0) /* what is bound may have moved with the names */
-        return names_count == 0 || s->in.bindings == 0 || scene_edit(s, nothing, NULL, lx->error);
+        return s->in.bindings == 0 || scene_edit(s, nothing, NULL, lx->error);
     if (inputs_count == 1 && count == 1 && quantity_input(all[0].q) == IN_FN && !s->end.steps && !all[0].d)
         return scene_load(
             s, &(load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = (double)all[0].v.v}, NULL,

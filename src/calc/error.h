@@ -55,7 +55,8 @@ void calc_put_place(calc_error *error, size_t at, size_t len);
 #if defined(__GNUC__)
 __attribute__((always_inline))
 #endif
-static inline bool calc_refused(void) {
+static inline bool
+calc_refused(void) {
     return false;
 }
 #define calc_fail(...) (calc_raise(__VA_ARGS__), calc_refused())

@@ -129,13 +129,17 @@ static bool call_builtin(machine *m, const expr_node *n, value *out) {
     switch (function->d) {
     case DIM_SHARED:
         out->d = a.d;
-        return dim_equal(a.d, b.d) || dims_differ(m, n, "compare", l, a.d, "with", r, b.d);
+        if (!dim_equal(a.d, b.d))
+            return dims_differ(m, n, "compare", l, a.d, "with", r, b.d);
+        return true;
     case DIM_KEPT:
         out->d = a.d;
         return true;
     case DIM_HALVED:
         out->d = dim_power(a.d, 0.5);
-        return a.v >= 0 || isnan(a.v) || bad_value(m, l, "the square root of a negative number is not real");
+        if (a.v < 0)
+            return bad_value(m, l, "the square root of a negative number is not real");
+        return true;
     default:
         break;
     }
@@ -157,10 +161,10 @@ static bool call_builtin(machine *m, const expr_node *n, value *out) {
 /* The chain of live definitions, from the one that comes again. */
 static bool circle(calc *c, const char *label, calc_error *error) {
     char chain[CALC_ERROR_TEXT - 64] = "";
-    size_t from = c->chain_length;
-    while (from > 0 && strcmp(c->chain[from - 1]->label, label))
+    size_t from = c->chain_length - 1;
+    while (from > 0 && strcmp(c->chain[from]->label, label))
         from--;
-    for (size_t i = from ? from - 1 : 0; i < c->chain_length; i++)
+    for (size_t i = from; i < c->chain_length; i++)
         snprintf(chain + strlen(chain), sizeof chain - strlen(chain), "%s := %.80s -> ", c->chain[i]->label,
                  c->chain[i]->text);
     error->circle = true;
@@ -190,7 +194,7 @@ static bool evaluate_definition(calc *c, const definition *d, const value *argum
         circle(c, quantity_of_input((input)mine.input)->name, &mine);
     }
     c->chain_length--;
-    if (!ok && !error->raised) { /* places in the definition mean nothing in the statement */
+    if (!ok) { /* places in the definition mean nothing in the statement */
         *error = mine;
         error->at = error->len = 0;
     }
@@ -416,7 +420,7 @@ static bool call_block(calc *c, const quantity *q, operand a, dim d, size_t rows
             return false;
         for (size_t i = 0; i < rows; i++)
             out[i] = result[i];
-        if (!c->now->in.geometry || c->now->in.geometry->power)
+        if (c->now->in.geometry->power)
             c->now->used |= USED(MODEL_VECTORS);
         return true;
     }

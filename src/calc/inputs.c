@@ -349,9 +349,10 @@ bool inputs_material(const inputs *in, double k, fret_material *m, calc_error *e
         return false;
     m->body[1] = m->body[0];
     m->body[1].rigid = in->second == SECOND_RIGID;
-    if (in->second == SECOND_GIVEN &&
-        (!get_double(in, IN_E0_2, &m->body[1].E0, error) || !get_double(in, IN_NU_2, &m->body[1].nu, error)))
-        return false;
+    if (in->second == SECOND_GIVEN && in->set[IN_E0_2])
+        m->body[1].E0 = in->v[IN_E0_2];
+    if (in->second == SECOND_GIVEN && in->set[IN_NU_2])
+        m->body[1].nu = in->v[IN_NU_2];
     return k == 0 || get_double(in, IN_C0, &m->c0, error);
 }
 

@@ -98,7 +98,7 @@ bool get_W1D(scene *s, long double *out, calc_error *error) {
     const fret_memory *memory;
     const load_reach *reach;
     double mu;
-    if (!scene_friction(s, &mu, error) || !scene_memory(s, &memory, error) || !scene_reach(s, &reach, error))
+    if (!scene_friction(s, &mu, error) || !scene_reach(s, &reach, error) || !scene_memory(s, &memory, error))
         return false;
     if (reach->normal_varies)
         return calc_fail(error, 0, 0, "W1D is defined at constant FN; W is what has been dissipated");

@@ -167,8 +167,10 @@ void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs)
 bool scene_load_of(scene *s, load_view *out, calc_error *error);
 /* Runs the program on a contact of its own, seen by the watch. The watch may have ended it with an error. */
 bool scene_trace(scene *s, watch *w, calc_error *error);
-/* A contact of its own of a model that steps; springs are wide enough for the largest contact of the program.
+/* A contact of its own for this load of a model that steps; springs are wide enough for the largest contact
+ * of the program.
  */
-bool scene_engine(scene *s, model_id model, unsigned count, engine *out, calc_error *error);
+bool scene_engine(scene *s, const load_view *load, model_id model, unsigned count, engine *out,
+                  calc_error *error);
 
 #endif

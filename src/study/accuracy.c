@@ -34,7 +34,7 @@ typedef struct bench {
     scene *s;
     calc_error *error;
     accuracy_study *study;
-    accuracy_progress *progress; /* or NULL */
+    accuracy_progress *progress;
     void *context;
     double budget, end; /* seconds of the processor; when it is spent */
     double enough;      /* seconds, to time one model */
@@ -45,8 +45,7 @@ static bool stopped(const bench *b) {
 }
 
 static void tell(const bench *b, model_family family, unsigned long size) {
-    if (b->progress)
-        b->progress(b->context, &(accuracy_row){.family = family, .size = size});
+    b->progress(b->context, &(accuracy_row){.family = family, .size = size});
 }
 
 /* One cycle of a model; loss NULL: only for the time. */
@@ -362,7 +361,7 @@ static bool open_general(bench *b, general *g, unsigned springs, unsigned first,
         runner *r = &g->run[i];
         *r = (runner){.load = &g->load, .level = first + i, .watch = seen ? &g->watch : NULL};
         fret_status st = fine;
-        if (springs && !scene_engine(b->s, MODEL_SPRINGS, springs, &r->engine, error)) {
+        if (springs && !scene_engine(b->s, &g->load, MODEL_SPRINGS, springs, &r->engine, error)) {
             close_general(g);
             return false;
         }
@@ -524,8 +523,7 @@ static bool measure_general(bench *b) {
 
 /* Of the load program where none is given. */
 static bool choose_amplitude(scene *s, const accuracy_load *given, accuracy_study *out, double mu,
-                             calc_error *error) {
-    const load_reach *reach;
+                             const load_reach *reach, calc_error *error) {
     const fret_state *state;
     load_item cycle;
     out->by_force = given->by_force;
@@ -533,8 +531,6 @@ static bool choose_amplitude(scene *s, const accuracy_load *given, accuracy_stud
     out->from = FROM_USER;
     if (given->given)
         return true;
-    if (!scene_reach(s, &reach, error))
-        return false;
     if (s->end.cycles) {
         if (!scene_last_cycle(s, &cycle, error))
             return false;
@@ -563,7 +559,7 @@ static bool choose_load(scene *s, const accuracy_load *given, accuracy_study *ou
     if (!scene_reach(s, &pressed, error) || !scene_contact(s, &m->contact, error))
         return false;
     out->FN = m->contact.press.F;
-    if (!choose_amplitude(s, given, out, m->contact.mu, error))
+    if (!choose_amplitude(s, given, out, m->contact.mu, pressed, error))
         return false;
     m->by_force = out->by_force;
     m->amplitude = out->amplitude;

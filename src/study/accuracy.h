@@ -68,7 +68,7 @@ typedef struct accuracy_load {
 /* Is told of each row before it is measured: family and size. */
 typedef void accuracy_progress(void *context, const accuracy_row *row);
 
-/* progress may be NULL. Errors: what the scene has not got; FRET_GROSS_SLIP, FRET_NOT_POSITIVE naming FA,
+/* Errors: what the scene has not got; FRET_GROSS_SLIP, FRET_NOT_POSITIVE naming FA,
  * dxA; interrupted. */
 bool accuracy_measure(scene *s, const accuracy_load *load, accuracy_progress *progress, void *context,
                       accuracy_study *out, calc_error *error);
