@@ -53,7 +53,7 @@ void calc_put_place(calc_error *error, size_t at, size_t len);
 
 /* The same as an answer: false, which compilers see too where `made || calc_no_memory(error)` stands. */
 #if defined(__GNUC__)
-__attribute__((always_inline))
+static inline bool calc_refused(void) __attribute__((always_inline));
 #endif
 static inline bool
 calc_refused(void) {

@@ -76,14 +76,15 @@ static void put_inputs(walk *w, const inputs *in) {
 }
 
 static bool begin(walk *w, calc *c, size_t last_cycle, calc_error *error) {
+    program *own = program_make();
     walk_end(w);
+    if (!own)
+        return calc_no_memory(error);
     scene_clone(&w->scene, c->now);
     w->begun = true;
     counted_drop(&w->scene.program->base);
-    w->scene.program = program_make();
+    w->scene.program = own;
     w->scene.end = (load_mark){0, 0};
-    if (!w->scene.program)
-        return calc_no_memory(error);
     return take_items(w, c->now, last_cycle, (load_mark){0, 0}, error);
 }
 

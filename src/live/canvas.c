@@ -2,6 +2,7 @@
 /* Dots, lines and text on the screen of curses. */
 #define _XOPEN_SOURCE 700
 #define NCURSES_WIDECHAR 1
+#define NCURSES_NOMACROS 1
 #include "live/canvas.h"
 
 #include <curses.h>
@@ -18,23 +19,24 @@ typedef struct canvas_cell {
 
 bool canvas_make(canvas *c, rect at, bool braille) {
     *c = (canvas){at, at.cols * (braille ? 2 : 1), at.rows * (braille ? 4 : 2), braille, NULL};
-    if (at.rows <= 0 || at.cols <= 0)
+    if (at.rows <= 0)
         return false;
-    c->cell = calloc((size_t)at.rows * (size_t)at.cols, sizeof *c->cell);
+    c->cell = calloc((size_t)at.rows * (size_t)at.cols + 1, sizeof *c->cell);
+    if (!c->cell)
+        put_text(at, 0, INK_ERROR, "out of memory");
     return c->cell != NULL;
 }
 
-static canvas_cell *cell_of(canvas *c, int x, int y) {
+/* What lies outside goes to a cell behind the last, which is not shown. */
+static canvas_cell *cell_of(const canvas *c, int x, int y) {
     if (x < 0 || y < 0 || x >= c->wide || y >= c->high)
-        return NULL;
+        return &c->cell[c->at.rows * c->at.cols];
     return &c->cell[y / (c->braille ? 4 : 2) * c->at.cols + x / (c->braille ? 2 : 1)];
 }
 
 void canvas_dot(canvas *c, int x, int y, ink of) {
     static const unsigned char bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
     canvas_cell *at = cell_of(c, x, y);
-    if (!at)
-        return;
     at->dots = (unsigned char)(at->dots | (c->braille ? bits[y % 4][x % 2] : 1 << y % 2));
     if (of > at->ink)
         at->ink = (unsigned char)of;
@@ -42,7 +44,7 @@ void canvas_dot(canvas *c, int x, int y, ink of) {
 
 void canvas_line(canvas *c, double x0, double y0, double x1, double y1, ink of, int every) {
     const double longest = fmax(fabs(x1 - x0), fabs(y1 - y0)), most = 8.0 * (c->wide + c->high);
-    if (!isfinite(longest) || longest > most)
+    if (!isfinite(longest) || longest > most) /* unreached: scales hold what is drawn */
         return;
     const int n = (int)ceil(longest);
     for (int i = 0; i <= n; i += every) {
@@ -53,8 +55,6 @@ void canvas_line(canvas *c, double x0, double y0, double x1, double y1, ink of, 
 
 void canvas_sign(canvas *c, int x, int y, char sign, ink of) {
     canvas_cell *at = cell_of(c, x, y);
-    if (!at)
-        return;
     at->sign = sign;
     at->ink = (unsigned char)of;
 }
@@ -94,7 +94,7 @@ void put_text(rect at, int row, ink of, const char *format, ...) {
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    if (row < 0 || row >= at.rows || at.cols <= 0)
+    if (row >= at.rows || at.cols <= 0)
         return;
     wchar_t wide[512];
     const size_t n = mbstowcs(wide, text, sizeof wide / sizeof *wide - 1);

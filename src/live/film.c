@@ -2,6 +2,7 @@
 /* Reads the screen of curses and writes what is another than before. */
 #define _XOPEN_SOURCE 700
 #define NCURSES_WIDECHAR 1
+#define NCURSES_NOMACROS 1
 #include "live/film.h"
 
 #include <curses.h>
@@ -24,13 +25,14 @@ static film_cell cell_of(const cchar_t *from) {
     attr_t attributes = A_NORMAL;
     short pair = 0, back;
     film_cell c = blank;
-    if (getcchar(from, signs, &attributes, &pair, NULL) == ERR || !signs[0])
+    getcchar(from, signs, &attributes, &pair, NULL);
+    if (!signs[0])
         return c;
     c.sign = signs[0];
     c.bold = (attributes & A_BOLD) != 0;
     c.reverse = (attributes & A_REVERSE) != 0;
-    if (pair && pair_content(pair, &c.color, &back) == ERR)
-        c.color = -1;
+    if (pair)
+        pair_content(pair, &c.color, &back);
     return c;
 }
 
@@ -85,50 +87,62 @@ static void put_row(FILE *to, int y, film_cell *before, int cols, const cchar_t 
         put_look(to, &blank);
 }
 
+static void forget(film *f) {
+    free(f->cell);
+    free(f->row);
+    *f = (film){.cell = NULL};
+}
+
 /* An empty screen of this size. False: out of memory. */
 static bool begin(film *f, FILE *to) {
     const bool first = !f->cell;
     const size_t n = (size_t)LINES * (size_t)COLS;
-    film_cell *cell = realloc(f->cell, n * sizeof *cell);
-    if (!cell)
+    film now = {malloc(n * sizeof *now.cell), malloc(((size_t)COLS + 1) * sizeof(cchar_t)), LINES, COLS};
+    if (!now.cell || !now.row) {
+        forget(&now);
         return false;
-    *f = (film){cell, LINES, COLS};
+    }
+    forget(f);
+    *f = now;
     for (size_t i = 0; i < n; i++)
-        cell[i] = blank;
+        f->cell[i] = blank;
     fputs(first ? "\033[?1049h\033[?25l\033[H\033[2J" : "\033[H\033[2J", to);
     return true;
 }
 
 static void put_screen(film *f, FILE *to, bool cursor) {
-    cchar_t *row = calloc((size_t)f->cols + 1, sizeof *row);
     int y, x;
     getyx(stdscr, y, x);
-    for (int i = 0; row && i < f->rows; i++)
-        if (mvin_wchnstr(i, 0, row, f->cols) != ERR)
-            put_row(to, i, f->cell + (size_t)i * (size_t)f->cols, f->cols, row);
+    for (int i = 0; i < f->rows; i++) {
+        mvin_wchnstr(i, 0, f->row, f->cols);
+        put_row(to, i, f->cell + (size_t)i * (size_t)f->cols, f->cols, f->row);
+    }
     move(y, x);
-    free(row);
     if (cursor)
         fprintf(to, "\033[%d;%dH", y + 1, x + 1);
     fputs(cursor ? "\033[?25h" : "\033[?25l", to);
 }
 
-void film_frame(film *f, const live_host *host, bool cursor, double seconds) {
+bool film_frame(film *f, const live_host *host, bool cursor, double seconds) {
     int cols, rows;
     file_text now;
     if (!host->filming(host->self, &cols, &rows)) {
-        free(f->cell);
-        f->cell = NULL;
-        return;
+        forget(f);
+        return true;
     }
     if (!file_text_open(&now))
-        return;
-    if ((f->cell && f->rows == LINES && f->cols == COLS) || begin(f, now.to))
+        return false;
+    const bool ok = (f->cell && f->rows == LINES && f->cols == COLS) || begin(f, now.to);
+    if (ok)
         put_screen(f, now.to, cursor);
-    if (!file_text_close(&now))
-        return;
-    host->film(host->self, now.text, now.size, seconds);
+    if (!file_text_close(&now)) { /* what has not been told is to be told again */
+        forget(f);
+        return false;
+    }
+    if (ok)
+        host->film(host->self, now.text, now.size, seconds);
     free(now.text);
+    return ok;
 }
 
 void film_end(film *f, const live_host *host) {
@@ -136,6 +150,5 @@ void film_end(film *f, const live_host *host) {
     int cols, rows;
     if (f->cell && host->filming(host->self, &cols, &rows))
         host->film(host->self, back, sizeof back - 1, 0);
-    free(f->cell);
-    f->cell = NULL;
+    forget(f);
 }

@@ -9,12 +9,13 @@
 
 typedef struct film {
     struct film_cell *cell; /* as told last; NULL: nothing has been */
+    void *row;              /* room for one of curses */
     int rows, cols;
 } film;
 
 /* What has changed on the screen of curses, as an xterm takes it, whatever the terminal is. After so many
- * seconds. cursor: it is seen. */
-void film_frame(film *f, const live_host *host, bool cursor, double seconds);
+ * seconds. cursor: it is seen. False: out of memory, and nothing is told. */
+bool film_frame(film *f, const live_host *host, bool cursor, double seconds);
 /* The screen is given back. */
 void film_end(film *f, const live_host *host);
 

@@ -351,7 +351,7 @@ static void mouse(live *l) {
         if (to < 0 || e.bstate & (BUTTON1_PRESSED | BUTTON1_RELEASED))
             to = e.x;
     }
-    if (l->dragging && to >= 0 && l->loop.cols > 1)
+    if (l->dragging && to >= 0)
         pull_to(l, to);
     l->dragging = l->dragging && !released;
 }
@@ -403,16 +403,20 @@ enum { KEYS = sizeof keys / sizeof *keys };
 
 static void help(live *l) {
     file_text page;
-    if (!file_text_open(&page))
-        return;
-    for (size_t i = 0; i < KEYS; i++)
+    bool ok = file_text_open(&page);
+    for (size_t i = 0; i < KEYS && ok; i++)
         if (keys[i].keys)
             fprintf(page.to, "  %-12s %s\n", keys[i].keys, keys[i].does);
-    fputs("\nThe mouse drags the point of the loop. All of it is statements: `history`, `save`\n"
-          "and `undo` know them.\n",
-          page.to);
-    if (!file_text_close(&page))
+    if (ok) {
+        fputs("\nThe mouse drags the point of the loop. All of it is statements: `history`, `save`\n"
+              "and `undo` know them.\n",
+              page.to);
+        ok = file_text_close(&page);
+    }
+    if (!ok) {
+        live_tell(l, true, "out of memory");
         return;
+    }
     free(l->page);
     l->page = page.text;
     l->page_from = 0;

@@ -21,7 +21,10 @@ static bool keep(live_script *s, const char *line) {
         return false;
     s->line = grown;
     s->line[s->count] = strdup(line + strspn(line, " \t"));
-    return s->line[s->count] && ++s->count;
+    if (!s->line[s->count])
+        return false;
+    s->count++;
+    return true;
 }
 
 /* Of a transcript the statements alone. */
@@ -58,8 +61,8 @@ bool script_open(live *l, const char *path, calc_error *error) {
     s->undo = calloc(s->count + 1, sizeof *s->undo);
     s->steps = calloc(s->count + 1, sizeof *s->steps);
     if (!ok || !s->undo || !s->steps)
-        calc_no_memory(error);
-    return ok && got == FILE_GOT_END && s->undo && s->steps;
+        return calc_no_memory(error);
+    return got == FILE_GOT_END;
 }
 
 void script_close(live *l) {

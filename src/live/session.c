@@ -28,10 +28,12 @@ static void tell_answer(live *l, const char *line, char *answer, bool ok) {
     size_t n = answer ? strlen(answer) : 0;
     while (n > 0 && answer[n - 1] == '\n')
         answer[--n] = 0;
-    if (!n) {
+    if (!answer) {
+        live_tell(l, true, "out of memory: %s", line);
+    } else if (!n) {
         live_tell(l, !ok, "%s", line);
     } else if (!strchr(answer, '\n')) {
-        live_tell(l, !ok, ok ? "%s" : "%s", answer);
+        live_tell(l, !ok, "%s", answer);
     } else {
         live_tell(l, !ok, "%s", line);
         free(l->page);
@@ -128,7 +130,7 @@ static void refresh_side(live *l, size_t i) {
         trouble(l, s, &error);
     s->stale = false;
     l->changed = true;
-    if (i == 0 && !(l->FA > 0) && s->now.slip > 0 && !*s->trouble) /* half of what would slide it */
+    if (i == 0 && !(l->FA > 0) && s->now.slip > 0) /* half of what would slide it */
         l->FA = live_nice(s->now.slip / 2);
 }
 
@@ -366,6 +368,13 @@ static bool walks(const live *l) {
     return false;
 }
 
+static bool film_now(live *l, double seconds) {
+    const bool ok = film_frame(&l->film, l->host, l->typing, seconds);
+    if (!ok)
+        live_tell(l, true, "out of memory: a frame is not recorded");
+    return ok;
+}
+
 static void session(live *l, live_work *work) {
     enum { IDLE = 1000, FRAME = 16 /* milliseconds */, MANY = 20 };
     double before = seconds(), filmed = before, last = worked();
@@ -385,7 +394,7 @@ static void session(live *l, live_work *work) {
         count_work(work, draws, now - last);
         last = now;
         if (draws) {
-            film_frame(&l->film, l->host, l->typing, start - filmed);
+            film_now(l, start - filmed);
             filmed = start;
         }
         const int pause = !fresh ? 0 : l->playing || walks(l) ? FRAME : l->changed ? busy : IDLE;
@@ -401,15 +410,15 @@ static void session(live *l, live_work *work) {
     live_play_end(l);
 }
 
-/* Nobody is there: the script goes on by itself, with time to read. */
-static void play_script(live *l) {
+/* Nobody is there: the script goes on by itself, with time to read. False: its end is not recorded. */
+static bool play_script(live *l, calc_error *error) {
     static const double FRAME = 1.0 / 15, READING = 1.5, READING_SIGN = 0.04;
     double passed = 0;
     while (!l->leave && !*l->host->stop) {
         live_refresh(l);
         live_walk(l, NULL);
         live_draw(l);
-        film_frame(&l->film, l->host, l->typing, passed);
+        film_now(l, passed);
         if (l->playing) {
             live_play_on(l, passed = FRAME);
         } else {
@@ -422,7 +431,7 @@ static void play_script(live *l) {
     live_refresh(l);
     live_walk(l, NULL);
     live_draw(l);
-    film_frame(&l->film, l->host, l->typing, passed);
+    return film_now(l, passed) || calc_no_memory(error);
 }
 
 static void end(live *l) {
@@ -445,15 +454,15 @@ bool live_run(const live_host *host, const char *script, live_work *work, calc_e
     l->phase = 90;
     int cols, rows;
     const bool unseen = script && !terminal_there() && host->filming(host->self, &cols, &rows);
-    const bool ok = (!script || script_open(l, script, error)) &&
-                    (unseen ? terminal_open_unseen(cols, rows, error) : terminal_open(error));
+    bool ok = (!script || script_open(l, script, error)) &&
+              (unseen ? terminal_open_unseen(cols, rows, error) : terminal_open(error));
     if (ok) {
         if (!script)
             live_begin(l);
         else
             script_on(l);
         if (unseen)
-            play_script(l);
+            ok = play_script(l, error);
         else
             session(l, work);
         film_end(&l->film, host);

@@ -21,7 +21,7 @@ static void take_values(calc *c, shot *out) {
         out->known[i] = q && quantity_get(q, c->now, &out->value[i], &ignored);
         out->d[i] = q ? q->d : DIM_NONE;
         if (!q) { /* c/a, of two that have been read */
-            out->known[i] = out->known[i - 1] && out->known[i - 2] && out->value[i - 2] > 0;
+            out->known[i] = out->known[i - 1] && out->value[i - 2] > 0;
             out->value[i] = out->known[i] ? out->value[i - 1] / out->value[i - 2] : 0;
         }
     }
@@ -37,15 +37,14 @@ static void take_rings(const fret_memory *memory, shot *out) {
     for (size_t i = count > SHOT_RINGS ? count - SHOT_RINGS : 0; i < count; i++) {
         fret_press edge = {.a = 0};
         fret_memory_segment(memory, i, &part);
-        if (part.outer > 0 &&
-            !fret_press_by_depth(fret_memory_normal(memory), (double)part.outer, &edge).code)
+        if (!fret_press_by_depth(fret_memory_normal(memory), (double)part.outer, &edge).code)
             out->ring[out->rings++] = (shot_ring){(double)edge.a, (double)part.sigma};
     }
 }
 
 /* What friction allows depends on F_N alone: taken over from a shot of the same press. */
 static void take_bounds(const fret_memory *memory, const shot *like, shot *out) {
-    if (like && like->a == out->a && like->bound == out->bound) {
+    if (like && like->bound == out->bound) {
         memcpy(out->B, like->B, sizeof out->B);
         return;
     }

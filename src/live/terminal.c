@@ -3,6 +3,7 @@
  * that stop it or change its size wait until nothing is being drawn. */
 #define _XOPEN_SOURCE 700
 #define NCURSES_WIDECHAR 1
+#define NCURSES_NOMACROS 1
 #include "live/terminal.h"
 
 #include <curses.h>
@@ -69,7 +70,7 @@ static void on_crash(int number) {
         if (t->number == number)
             sigaction(number, &t->before, NULL);
     raise(number);
-}
+} /* unreached: it has ended us */
 
 static void take_signals(void) {
     stopped = resized = 0;
@@ -131,12 +132,12 @@ bool terminal_there(void) {
 
 bool terminal_open(calc_error *error) {
     struct termios modes;
-    if (!terminal_there() || tcgetattr(STDIN_FILENO, &modes))
+    if (!isatty(STDOUT_FILENO) || tcgetattr(STDIN_FILENO, &modes))
         return calc_fail(error, 0, 0, "the full-screen mode needs a terminal");
     setlocale(LC_CTYPE, "");
     take_signals();
     own.screen = newterm(NULL, stdout, stdin);
-    if (!own.screen || !tigetstr("cup") || tigetstr("cup") == (char *)-1) {
+    if (!own.screen || !tigetstr("cup")) {
         const char *name = getenv("TERM");
         calc_fail(error, 0, 0, "the full-screen mode cannot be had on this terminal (TERM=%s)",
                   name ? name : "");
@@ -178,7 +179,9 @@ bool terminal_open_unseen(int cols, int rows, calc_error *error) {
     take_signals();
     own.nowhere = fopen("/dev/null", "r+");
     own.screen = own.nowhere ? newterm(name, own.nowhere, own.nowhere) : NULL;
-    if (!own.screen || resizeterm(rows, cols) == ERR) {
+    const bool sized = own.screen && resizeterm(rows, cols) != ERR;
+    if (!sized) {
+        own.screen = NULL; /* curses would free twice what it could not make larger */
         terminal_close();
         return calc_fail(error, 0, 0, "no screen can be had to record");
     }
@@ -274,12 +277,12 @@ void terminal_show(void) {
 
 int terminal_busy(void) {
     int waiting = 0;
-    if (own.nowhere)
-        return 0;
     const double left = own.free_at - seconds();
     if (left > 0)
         return 1 + (int)(1000 * fmin(left, 60));
-    return !ioctl(STDOUT_FILENO, TIOCOUTQ, &waiting) && waiting > 0 ? 1 + waiting / 16 : 0;
+    ioctl(STDOUT_FILENO, TIOCOUTQ, &waiting);
+    return waiting > 0 ? 1 + waiting / 16
+                       : 0; /* unreached: on serial lines something waits, on others nothing */
 }
 
 /* ---- keys -------------------------------------------------------------------------------------- */
@@ -327,9 +330,8 @@ int terminal_key(int milliseconds, volatile sig_atomic_t *stop) {
     FD_ZERO(&in);
     FD_SET(STDIN_FILENO, &in);
     const struct timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000L};
-    const int ready = *stop || stopped || resized ? 0
-                                                  : pselect(STDIN_FILENO + 1, &in, NULL, NULL,
-                                                            milliseconds < 0 ? NULL : &time, &before);
+    const int ready =
+        *stop || stopped || resized ? 0 : pselect(STDIN_FILENO + 1, &in, NULL, NULL, &time, &before);
     sigprocmask(SIG_SETMASK, &before, NULL);
     if (stopped)
         stop_here();
@@ -344,5 +346,5 @@ int terminal_key(int milliseconds, volatile sig_atomic_t *stop) {
     key = ready > 0 ? getch() : ERR;
     if (ready > 0 && key == ERR && !isatty(STDIN_FILENO))
         return KEY_STOP; /* the terminal is gone */
-    return key == ERR ? KEY_NONE : key == KEY_RESIZE ? KEY_AGAIN : key;
+    return key == ERR ? KEY_NONE : key;
 }

@@ -19,7 +19,7 @@ typedef struct scales {
 /* A little above, in steps: the picture must not breathe with every key. */
 static double roomy(double v) {
     static const double steps[] = {1, 1.5, 2, 3, 4, 5, 6, 8, 10};
-    if (!(v > 0) || !isfinite(v))
+    if (!(v > 0))
         return 1;
     const double ten = pow(10, floor(log10(v * 1.02)));
     size_t i = 0;
@@ -64,9 +64,9 @@ static const zone *zone_at(const shot *s, double r) {
     if (r > s->c)
         return &slip;
     size_t i = 0;
-    while (i < s->rings && s->ring[i].radius < r)
+    while (i + 1 < s->rings && s->ring[i].radius < r)
         i++;
-    return i < s->rings && fabs(s->ring[i].sigma) > 0.5 ? &earlier : &stick;
+    return fabs(s->ring[i].sigma) > 0.5 ? &earlier : &stick;
 }
 
 /* Edges of the rings are left out, so that rings side by side are told apart. */
@@ -215,8 +215,7 @@ static void draw_energies(live *l, const side *sd, const scales *sc, rect at) {
 
 static void draw_numbers(live *l, const side *sd, const scales *sc, rect at) {
     const shot *s = side_shown(l, sd);
-    const int columns = at.rows >= SHOT_VALUES || at.cols < 30 ? 1 : 2,
-              rows = (SHOT_VALUES + columns - 1) / columns;
+    const int columns = at.cols < 30 ? 1 : 2, rows = (SHOT_VALUES + columns - 1) / columns;
     (void)sc;
     for (int i = 0; i < SHOT_VALUES; i++) {
         char number[48] = "-";

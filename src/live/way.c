@@ -99,13 +99,6 @@ bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
     w->shots = 0;
     if (!walk_follow(&w->walk, c, &anew, error))
         return false;
-    /* a state that has been passed comes again only from the beginning */
-    const runner *r = &w->walk.run;
-    if (!anew && (item < r->at.steps || (item == r->at.steps && w->walk.watch.place.within))) {
-        walk_end(&w->walk);
-        if (!walk_follow(&w->walk, c, &anew, error))
-            return false;
-    }
     if (anew) {
         begin_track(&w->path);
         if (!add(&w->path, (track_point){.time = 0}))
@@ -159,12 +152,12 @@ bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
 }
 
 bool way_done(const load_way *w) {
-    return w->walk.begun && w->walk.run.at.steps == w->walk.scene.end.steps;
+    return w->walk.run.at.steps == w->walk.scene.end.steps;
 }
 
 bool way_rests(const load_way *w) {
     enum { ROOM = 120 }; /* for what comes before it can wait again */
-    return !w->walk.begun || way_done(w) || (w->within && w->shots + ROOM > PLAY_SHOTS);
+    return way_done(w) || (w->within && w->shots + ROOM > PLAY_SHOTS);
 }
 
 void way_more(load_way *w) {

@@ -5,13 +5,22 @@ tries them all and prints a table, the tests some; TESTS is the folder with faul
 `faults.py --leaks FRET TESTS [STATEMENT...]`: does memory that runs out leave any of it behind? Both built for a leak detector."""
 import difflib
 import errno
+import fcntl
 import os
+import pty
 import re
+import select
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
+import time
 from concurrent.futures import ThreadPoolExecutor
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "interactive"))
+from screen import Screen  # noqa: E402
 
 POWER = "material E0=210 GPa nu=0.3 k=0.5 c0=1 mm; geometry sphere R=10 mm; friction 0.4; x = 3; F(y) := y^2"
 LOADED = POWER + "; press FN=100 N; step Fx=20 N; cycle FA=20 N"
@@ -91,6 +100,7 @@ def prepare(where):
                                                                 for i in range(1, 12)),
              "loop.csv": "dx [um],Fx [N]\n" + "".join("%g,%g\n" % row for row in (
                  (0.1, 3.5), (0.3, 10.2), (0.6, 19.2), (0.3, 9.5), (0, 0), (-0.3, -9.5), (-0.6, -19.2))),
+             "lesson.fret": "# A lesson\nstep Fx=20 N\n",
              "replay.txt": "fret> x = 2\nfret> x + 1\nx + 1 = 3\n", "log.txt": ""}
     for name, text in texts.items():
         with open(os.path.join(where, name), "w", encoding="ascii") as f:
@@ -116,6 +126,7 @@ def differ(want, got):
 class Faults:
     """One statement, run again and again. A fault is (what, number, code), None for none."""
     given = None  # to the program, beside the script; standard input
+    most = 0  # of system calls and interrupts; 0: all
 
     def __init__(self, fret, tests, env, setup, statement):
         self.fret, self.tests, self.env, self.statement = fret, tests, env, statement
@@ -140,7 +151,7 @@ class Faults:
             prepare(where)
             with open(os.path.join(where, "main.fret"), "w", encoding="ascii") as f:
                 f.write(script or self.script)
-            done = subprocess.run(argv, cwd=where, input=self.given, capture_output=True, env=env, timeout=120, check=False)
+            status, out, err = self.start(argv, where, env)
             os.unlink(os.path.join(where, "main.fret"))
             left = files(where)
             seen = ""
@@ -149,7 +160,7 @@ class Faults:
                     seen = f.read()
             if os.listdir(tmp):
                 left["left in TMPDIR"] = os.listdir(tmp)
-            return done.returncode, done.stdout.decode(), done.stderr.decode(), left, seen
+            return status, out, err, left, seen
         finally:
             shutil.rmtree(where)
             shutil.rmtree(tmp, ignore_errors=True)
@@ -158,6 +169,10 @@ class Faults:
 
     def arguments(self, script):
         return ["--keep-going", "-c", script]
+
+    def start(self, argv, where, env):
+        done = subprocess.run(argv, cwd=where, input=self.given, capture_output=True, env=env, timeout=120, check=False)
+        return done.returncode, done.stdout.decode(), done.stderr.decode()
 
     def changed(self, wants, left, what):
         """Files that are none of these, without what a removal that fails leaves behind."""
@@ -252,9 +267,80 @@ class ToTheEnd(Faults):
         return right
 
 
+class OnScreen(Faults):
+    """The full-screen mode, which tells on its screen what is wrong and goes on: a scene that is another one has been told."""
+    film, most = "record out.cast; live lesson.fret; record off", 300
+
+    def __init__(self, fret, tests, env, statement):
+        super().__init__(fret, tests, {**env, "LC_ALL": "C.UTF-8"}, STEEL, statement)
+
+    def try_one(self, fault, right):
+        status, out, err, left, seen = self.run(fault)
+        if fault[0] not in (ALLOCATION, INTERRUPT) and "FAILED\n" not in seen:
+            return "not reached"
+        if status not in ((0, INTERRUPTED) if fault[0] == INTERRUPT else (0, 1)):
+            return "exit %s\n%s" % (status, err)
+        if self.changed([self.files, right[3]], left, fault[0]):
+            return "files changed"
+        if fault[0] == INTERRUPT:  # leaves, as a key
+            return "refused"
+        said = err + (left["out.cast"].decode() if "record" in self.statement else out)
+        told_of = re.search("error: |out of memory", said)
+        if status and not told_of:
+            return "an error without a message"
+        if self.scene(out) == self.scene(right[1]):
+            return "refused" if told_of else "harmless"
+        return "refused" if told_of else "another scene, and not a word\n" + differ(self.scene(right[1]), self.scene(out))
+
+    def scene(self, out):
+        return out.rpartition("1234567 = ")[2]
+
+
+class ByKeys(OnScreen):
+    """The same at a terminal, by these keys; which is as before in the end."""
+    most = 100
+    keys = ("l", "f", ":x = 3\r", "?", "x", ":compare k = 0, 0.2\r", "l", ":compare\r", "u", ":\x1b[A\x15pr\t\x1b",
+            ":table x for x = 1 .. 2 to out.csv\r", "c", "b", "q")
+
+    def __init__(self, fret, tests, env):
+        super().__init__(fret, tests, {**env, "TERM": "xterm-256color"}, "live")
+
+    def start(self, argv, where, env):
+        terminal, ours = pty.openpty()
+        fcntl.ioctl(ours, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+        modes, screen, seen, shown = termios.tcgetattr(ours), Screen(24, 80), "", ""
+
+        def read(seconds):
+            """What comes until nothing does for so long."""
+            text = ""
+            while select.select([terminal], [], [], seconds)[0]:
+                text += os.read(terminal, 1 << 16).decode(errors="replace")
+                seconds = min(seconds, 0.02)
+            screen.feed(text)
+            return text
+        with subprocess.Popen(argv, cwd=where, stdin=ours, stdout=ours, stderr=subprocess.PIPE, env=env, start_new_session=True) as job:
+            end = time.time() + 120
+            while "\x1b[?1049h" not in shown and job.poll() is None and time.time() < end:
+                shown += read(0.05)
+            for key in self.keys if job.poll() is None else ():
+                os.write(terminal, key.encode())
+                shown += read(0.5)
+                seen += screen.text()
+            while job.poll() is None and time.time() < end:
+                shown += read(0.05)
+            job.kill()
+            shown += read(0)
+            err = job.stderr.read().decode()
+        restored = termios.tcgetattr(ours) == modes and shown.rfind("\x1b[?1049l") >= shown.rfind("\x1b[?1049h")
+        os.close(terminal)
+        os.close(ours)
+        return job.returncode if restored else "with another terminal", shown.replace("\r\n", "\n"), err + seen
+
+
 def statements(fret, tests, env):
     return ([Faults(fret, tests, env, setup, statement) for setup, list_ in STATEMENTS for statement in list_] +
-            [ToTheEnd(fret, tests, env, way) for way in ToTheEnd.ways])
+            [ToTheEnd(fret, tests, env, way) for way in ToTheEnd.ways] +
+            [OnScreen(fret, tests, env, OnScreen.film), ByKeys(fret, tests, env)])
 
 
 def allocations(seen):
@@ -280,7 +366,7 @@ def attempt(one, kind, most=0):
     right = one.reference("all" if kind is calls else ALLOCATION)
     if right[0] != 0:
         return {}, [(None, "does not run: " + right[2])]
-    every = kind(right[4])
+    every, most = kind(right[4]), most or (0 if kind is allocations else one.most)
     tried = [every[i * len(every) // most] for i in range(most)] if most and len(every) > most else every
     ends, wrong = {}, []
     for fault in tried:
@@ -316,7 +402,7 @@ def left_by_gsl(leak):
 
 def leak_campaign(fret, tests, only):
     env = {"PATH": os.environ["PATH"], "LC_ALL": "C", "TERM": "dumb", "LSAN_OPTIONS": "fast_unwind_on_malloc=0"}
-    chosen = [one for one in statements(fret, tests, env) if not only or one.statement in only]
+    chosen = [one for one in statements(fret, tests, env) if not isinstance(one, OnScreen) and (not only or one.statement in only)]
     total, failed = [0, 0, 0], 0
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         for one, (counts, wrong) in zip(chosen, pool.map(leaks, chosen)):
