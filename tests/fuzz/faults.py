@@ -26,6 +26,9 @@ POWER = "material E0=210 GPa nu=0.3 k=0.5 c0=1 mm; geometry sphere R=10 mm; fric
 LOADED = POWER + "; press FN=100 N; step Fx=20 N; cycle FA=20 N"
 TABLE = "material steel; friction 0.4; geometry file gap.csv; press FN=10 N; cycle FA=2 N"
 SUM = "material steel; friction 0.4; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=10 N; step Fx=1 N"
+NAMES = "x = 1; y = 2; q = 3; z = 4"
+SWUNG = POWER + "; press FN=100 N; cycle FA=9 N FNA=10 N"
+MOST = 2000  # allocations of a statement that fail
 STEEL = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
 
 # a setup, and statements that are tried after it
@@ -64,6 +67,25 @@ STATEMENTS = (
     (TABLE, ("step Fx=1 N", "dW, a, Fx", "cycle FA=2 N FNA=1 N", "geometry file gap.csv", "k = 0.2, c0 = 1 mm",
              "explain dW", "show", "p(0.01 mm)")),
     (LOADED + "; set model springs 40", ("Fx, W", "dW", "history", "explain W", "cycle FA=10 N")),
+    # searches whose every evaluation allocates, and nothing else does
+    (NAMES, ("minimize ((z-1)^2 at z=x) over x = 0 .. 3", "maximize (z+0*sqrt(1-z) at z=x) over x = 0.2 .. 3",
+             "minimize ((z-1)^2+(y-2)^2+z*y/9 at z=x) over x = 0 .. 3, y = 0 .. 3", "minimize (abs(z-1) at z=x) over x = 0 .. 3",
+             "minimize (z^2 at z=x) over x = 0 .. 3", "minimize (abs(z-1)+abs(y-1) at z=x) over x = 0 .. 3, y = 0 .. 3",
+             "minimize (z+y at z=x) over x = 0 .. 3, y = 0 .. 3",
+             "maximize (z+y+0*sqrt(2-z-y) at z=x) over x = 0.1 .. 3, y = 0.1 .. 3",
+             "solve x for (z^2 at z=x) = 2", "solve x for (sqrt(z-1) at z=x) = 0.05", "solve x for ((z-1)^2 at z=x) = 0",
+             "fit q for depth/(1 um) = (q*z at z=force/(1 N)) to measured.csv",
+             "fit q, y for depth/(1 um) = (q*z^y at z=force/(1 N)) to measured.csv robust",
+             "uncertainty (z^2 at z=x) with x +- 0.1 samples 20", "uncertainty (z^2*y at z=x), y with x +- 0.1, y +- 0.2",
+             "table (z at z=x) for x = 1 .. 3 steps 5", "table (z*y at z=x) for x = 1 .. 3 steps 2 with y = 1, 2",
+             "plot map (z*y at z=x) for x = 1 .. 3 steps 3 for y = 1 .. 2 steps 3 to out.gp")),
+    (SWUNG, ("k = 0.2, c0 = 1 mm", "qx(0.1 mm), W", "accuracy within 0.001", "table Fx, W along cycle steps 4",
+             "table kn, W1D, dW along program steps 4", "explain W")),
+    (SWUNG + "; set model double", ("W", "step Fx=1 N", "p(0 m)")),
+    (SWUNG.replace("FA=", "dxA:=1e-8 m/N*"), ("k = 0.2, c0 = 1 mm", "qx(0.1 mm), W", "accuracy within 0.001",
+                                             "table c, kt along cycle steps 4", "step FN=90 N Fx=1 N")),
+    (TABLE.replace("cycle FA=2 N", "step FN=9 N Fx=1 N; cycle FA=1 N"), ("accuracy within 0.001", "w1D(0 m), qz1D(0 m), W",
+                                                                       "table c(F) for F = 1 N .. 3 N steps 3")),
     (SUM, ("cycle FA=1 N", "W, dW(1 N)", "FN = 20 N", "explain W", "qx(0.01 mm)", "dW(1 N), dx(1 N)")),
 )
 
@@ -126,7 +148,7 @@ def differ(want, got):
 class Faults:
     """One statement, run again and again. A fault is (what, number, code), None for none."""
     given = None  # to the program, beside the script; standard input
-    most = 0  # of system calls and interrupts; 0: all
+    most = 500  # of system calls and interrupts
 
     def __init__(self, fret, tests, env, setup, statement):
         self.fret, self.tests, self.env, self.statement = fret, tests, env, statement
@@ -366,8 +388,8 @@ def attempt(one, kind, most=0):
     right = one.reference("all" if kind is calls else ALLOCATION)
     if right[0] != 0:
         return {}, [(None, "does not run: " + right[2])]
-    every, most = kind(right[4]), most or (0 if kind is allocations else one.most)
-    tried = [every[i * len(every) // most] for i in range(most)] if most and len(every) > most else every
+    every, most = kind(right[4]), most or (MOST if kind is allocations else one.most)
+    tried = [every[i * len(every) // most] for i in range(most)] if len(every) > most else every
     ends, wrong = {}, []
     for fault in tried:
         how = one.try_one(fault, right)
