@@ -53,23 +53,27 @@ static field trimmed(const char *text, size_t len) {
     return (field){text, len};
 }
 
-static bool parts(const reader *r, char c) {
-    return r->separator == ' ' ? is_blank(c) : c == r->separator;
+static bool parts(char separator, char c) {
+    return separator == ' ' ? is_blank(c) : c == separator;
 }
 
 /* The field at *at and the place of the next; false: there is none. Quotation marks and brackets hold
  * separators. */
-static bool next_field(const reader *r, const char *line, size_t len, size_t *at, field *out) {
+static bool next_field(char separator, const char *line, size_t len, size_t *at, field *out) {
     size_t i = *at;
-    while (r->separator == ' ' && i < len && is_blank(line[i]))
+    while (separator == ' ' && i < len && is_blank(line[i]))
         i++;
-    if (i >= len + (r->separator != ' '))
+    if (i >= len + (separator != ' '))
         return false;
     const size_t begin = i;
     bool quoted = false;
     int depth = 0;
-    for (; i < len && (quoted || depth > 0 || !parts(r, line[i])); i++) {
+    for (; i < len; i++) {
         const char c = line[i];
+        if (c >= '0' && c <= '9') /* most of them */
+            continue;
+        if (!quoted && depth == 0 && parts(separator, c))
+            break;
         quoted = c == '"' ? !quoted : quoted;
         depth += quoted ? 0 : c == '[' || c == '(' ? 1 : (c == ']' || c == ')') && depth > 0 ? -1 : 0;
     }
@@ -171,7 +175,7 @@ static bool read_header(reader *r, const char *line, size_t len) {
         return true;
     r->header = true;
     r->separator = separator_of(line, len);
-    while (next_field(r, line, len, &at, &f)) {
+    while (next_field(r->separator, line, len, &at, &f)) {
         if (r->separator == ' ')
             at = unit_behind(line, len, at, &f);
         if (!read_title(r, f))
@@ -186,46 +190,20 @@ static bool read_header(reader *r, const char *line, size_t len) {
 
 /* ---- rows -------------------------------------------------------------------------------------- */
 
-static size_t digits(const char *p, const char *end) {
-    size_t n = 0;
-    while (p + n < end && p[n] >= '0' && p[n] <= '9')
-        n++;
-    return n;
-}
-
 /* A decimal number, with a point or, where it cannot be a separator, with a comma. */
 static bool read_number(field f, const unit *u, bool comma, double *out) {
-    char text[64];
-    if (f.len == 0 || f.len >= sizeof text)
+    const bool minus = f.len && *f.text == '-', sign = minus || (f.len && *f.text == '+'),
+               decimal = u->factor == 1;
+    const char *text = f.text + sign;
+    const size_t len = f.len - sign;
+    const int shift = decimal ? u->exp10 : 0;
+    double v;
+    size_t read = lex_decimal(text, len, '.', shift, &v);
+    if (comma && read < len && text[read] == ',')
+        read = lex_decimal(text, len, ',', shift, &v);
+    if (read == 0 || read < len)
         return false;
-    memcpy(text, f.text, f.len);
-    text[f.len] = 0;
-    char *p = text, *mark = comma && !strchr(text, '.') ? strchr(text, ',') : NULL;
-    const char *end = text + f.len;
-    const bool minus = *p == '-';
-    if (mark)
-        *mark = '.';
-    p += minus || *p == '+';
-    const char *begin = p;
-    size_t n = digits(p, end);
-    p += n;
-    if (*p == '.') {
-        const size_t behind = digits(p + 1, end);
-        n += behind;
-        p += 1 + behind;
-    }
-    if (n == 0)
-        return false;
-    if (*p == 'e' || *p == 'E') {
-        p += 1 + (p[1] == '-' || p[1] == '+');
-        n = digits(p, end);
-        p += n;
-    }
-    if (n == 0 || p != end)
-        return false;
-    const size_t len = (size_t)(end - begin);
-    const double v = u->factor == 1 ? lex_decimal(begin, len, u->exp10)
-                                    : (double)((long double)lex_decimal(begin, len, 0) * unit_scale(u));
+    v = decimal ? v : (double)((long double)v * unit_scale(u));
     *out = minus ? -v : v;
     return isfinite(v);
 }
@@ -250,7 +228,7 @@ static bool make_room(csv *c) {
 
 static bool read_row(reader *r, const char *line, size_t len) {
     csv *c = r->c;
-    reader own = *r;
+    char separator = r->separator;
     size_t at = 0, i = 0, blank = 0;
     field f;
     while (blank < len && (is_blank(line[blank]) || line[blank] == r->separator))
@@ -258,16 +236,16 @@ static bool read_row(reader *r, const char *line, size_t len) {
     if (blank == len) /* spreadsheets write empty rows as separators */
         return true;
     if (c->columns > 1 && !memchr(line, r->separator, len))
-        own.separator = ' '; /* a header with commas over rows with blanks */
+        separator = ' '; /* a header with commas over rows with blanks */
     if (!make_room(c))
         return calc_no_memory(r->error);
-    for (; next_field(&own, line, len, &at, &f); i++) {
+    for (; next_field(separator, line, len, &at, &f); i++) {
         if (i >= c->columns && f.len > 0)
             return calc_fail(r->error, 0, 0, "%s:%zu: more than %zu fields, one for each name of the header",
                              c->path, r->line, c->columns);
         if (i >= c->columns)
             continue;
-        const bool comma = own.separator != ',' || (f.text > line && f.text[-1] == '"');
+        const bool comma = separator != ',' || (f.text > line && f.text[-1] == '"');
         double *v = &c->column[i].v[c->rows];
         if (!read_number(f, &r->unit[i], comma, v)) {
             *v = NAN;

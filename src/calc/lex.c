@@ -38,71 +38,71 @@ void lex_start(lexer *lx, const char *text, size_t len, calc_error *error) {
     lex_seek(lx, 0);
 }
 
-double lex_decimal(const char *text, size_t len, int shift) {
-    unsigned long long digits = 0;
-    size_t i = 0, used = 0;
-    long exponent = shift;
-    for (bool point = false; i < len; i++) {
-        const unsigned d = (unsigned)(text[i] - '0');
-        if (d <= 9) {
-            used += used || d;
-            if (used <= 19)
-                digits = 10 * digits + d;
-            exponent -= point;
-        } else if (text[i] == '.') {
-            point = true;
-        } else { /* e, E */
-            break;
-        }
-    }
-    size_t mantissa = i;
-    long written = 0;
-    if (i < len) {
-        bool minus = text[i + 1] == '-';
-        for (i += minus || text[i + 1] == '+' ? 2 : 1; i < len; i++)
-            if (written < 100000)
-                written = 10 * written + (text[i] - '0');
-        written = minus ? -written : written;
-    }
-    exponent += written;
-#if FLT_EVAL_METHOD == 0
-    /* both factors exact: one rounding, and no need of strtod */
-    static const double ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-    if (used <= 19 && digits <= 1ULL << 53 && exponent >= -22 && exponent <= 22)
-        return exponent < 0 ? (double)digits / ten[-exponent] : (double)digits * ten[exponent];
-#endif
+/* Digits behind those of *number: where they end. */
+static const char *take_digits(const char *p, const char *end, unsigned long long *number) {
+    unsigned long long n = *number;
+    for (; p < end && digit(*p); p++)
+        n = 10 * n + (unsigned)(*p - '0');
+    *number = n;
+    return p;
+}
+
+/* Of a mantissa with so many decimal digits and a decimal exponent, by strtod. */
+static double long_decimal(const char *text, size_t mantissa, char point, long exponent) {
     char small[96], *copy = mantissa + 32 < sizeof small ? small : malloc(mantissa + 32);
     if (!copy)
         return NAN;
-    snprintf(copy, mantissa + 32, "%.*se%ld", (int)mantissa, text, written + shift);
-    double value = strtod(copy, NULL);
+    snprintf(copy, mantissa + 32, "%.*se%ld", (int)mantissa, text, exponent);
+    char *mark = memchr(copy, point, mantissa);
+    if (mark)
+        *mark = '.';
+    const double value = strtod(copy, NULL);
     if (copy != small)
         free(copy);
     return value;
 }
 
+size_t lex_decimal(const char *text, size_t len, char point, int shift, double *out) {
+    const char *end = text + len;
+    unsigned long long number = 0;
+    const char *p = take_digits(text, end, &number);
+    size_t digits = (size_t)(p - text), behind = 0;
+    if (p < end && *p == point && !(p + 1 < end && p[1] == point)) {
+        const char *from = ++p;
+        p = take_digits(from, end, &number);
+        behind = (size_t)(p - from);
+        digits += behind;
+    }
+    if (digits == 0)
+        return 0;
+    const size_t mantissa = (size_t)(p - text);
+    long written = 0;
+    if (p < end && (*p == 'e' || *p == 'E')) {
+        const char *q = p + 1;
+        const bool minus = q < end && *q == '-';
+        q += minus || (q < end && *q == '+');
+        for (; q < end && digit(*q); p = ++q)
+            if (written < 100000)
+                written = 10 * written + (*q - '0');
+        written = minus ? -written : written;
+    }
+#if FLT_EVAL_METHOD == 0
+    /* both factors exact: one rounding, and no need of strtod */
+    static const double ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    const long exponent = shift + written - (long)behind;
+    if (digits <= 19 && number <= 1ULL << 53 && exponent >= -22 && exponent <= 22)
+        *out = exponent < 0 ? (double)number / ten[-exponent] : (double)number * ten[exponent];
+    else
+#endif
+        *out = long_decimal(text, mantissa, point, written + shift);
+    return (size_t)(p - text);
+}
+
 static void read_number(lexer *lx) {
     const char *s = lx->text;
-    size_t i = lx->at;
-    while (i < lx->end && digit(s[i]))
-        i++;
-    if (i < lx->end && s[i] == '.' && !(i + 1 < lx->end && s[i + 1] == '.'))
-        for (i++; i < lx->end && digit(s[i]);)
-            i++;
-    if (i < lx->end && (s[i] == 'e' || s[i] == 'E')) {
-        size_t j = i + 1;
-        if (j < lx->end && (s[j] == '+' || s[j] == '-'))
-            j++;
-        if (j < lx->end && digit(s[j])) {
-            while (j < lx->end && digit(s[j]))
-                j++;
-            i = j;
-        }
-    }
-    lx->len = i - lx->at;
     lx->kind = T_NUMBER;
-    lx->number = lex_decimal(s + lx->at, lx->len, 0);
+    lx->len = lex_decimal(s + lx->at, lx->end - lx->at, '.', 0, &lx->number);
     if (isnan(lx->number)) {
         calc_no_memory(lx->error);
         return;
@@ -110,7 +110,7 @@ static void read_number(lexer *lx) {
     if (isfinite(lx->number) && lx->number != 0) /* most of them */
         return;
     bool zero = true;
-    for (i = lx->at; i < lx->at + lx->len && s[i] != 'e' && s[i] != 'E'; i++)
+    for (size_t i = lx->at; i < lx->at + lx->len && s[i] != 'e' && s[i] != 'E'; i++)
         zero = zero && (s[i] == '0' || s[i] == '.');
     if (lx->number != 0 || !zero)
         lex_fail(lx, "the number is too %s for double precision", lx->number == 0 ? "small" : "large");

@@ -55,9 +55,10 @@ token_kind lex_peek(const lexer *lx);
 /* A file name: a string, or all up to white space. False: none there. */
 bool lex_filename(lexer *lx, char *buf, size_t size);
 
-/* The decimal literal of `len` bytes times 10^shift, rounded once to double: infinite or 0 where it does not
- * fit. */
-double lex_decimal(const char *text, size_t len, int shift);
+/* The decimal number at the beginning of `len` bytes times 10^shift, rounded once to double: infinite or 0
+ * where it does not fit, NaN where memory is out. Returns its length, 0 where there is none: digits with or
+ * without a point, of which two stand for a range, and an exponent. */
+size_t lex_decimal(const char *text, size_t len, char point, int shift, double *out);
 
 /* Records an error at the cursor. */
 #if defined(__GNUC__)

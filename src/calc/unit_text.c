@@ -79,7 +79,8 @@ bool unit_parse(lexer *lx, unit *out) {
 
 /* The decimal scale of the unit goes into the exponent of the literal. */
 long double unit_literal(const lexer *lx, size_t at, size_t len, const unit *u) {
-    if (u->factor == 1)
-        return lex_decimal(lx->text + at, len, u->exp10);
-    return (double)(lex_decimal(lx->text + at, len, 0) * unit_scale(u));
+    const bool decimal = u->factor == 1;
+    double value = 0;
+    lex_decimal(lx->text + at, len, '.', decimal ? u->exp10 : 0, &value);
+    return decimal ? value : (double)(value * unit_scale(u));
 }

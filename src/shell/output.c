@@ -159,7 +159,7 @@ void format_exact(const settings *set, value v, char *buf, size_t size) {
         long double scale = unit_choose(v.d, want, digits, unit_text, sizeof unit_text);
         size_t n = number_text(number, digits, (double)(want / scale));
         bool minus = number[0] == '-';
-        read = lex_decimal(number + minus, n - minus, (int)lroundl(log10l(scale)));
+        lex_decimal(number + minus, n - minus, '.', (int)lroundl(log10l(scale)), &read);
     }
     if (read != fabs(want)) {
         number_text(number, 17, want);
