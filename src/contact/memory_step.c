@@ -16,10 +16,14 @@ static fret_near *near_of(const fret_memory *m) {
     return m->moves >= MANY_MOVES ? m->near : NULL;
 }
 
+static fret_real law_other(const fret_memory *m, coordinate by, const fret_real *y) {
+    return by == DEPTH ? fret_law_force(m->normal, *y) : fret_law_depth(m->normal, *y);
+}
+
 /* The other coordinate of a place. */
-static fret_real other_of(const fret_memory *m, coordinate by, fret_real y) {
-    const fret_real v = near_of(m) ? fret_near_value(m->near, by, y) : (fret_real)NAN;
-    return v > 0 ? v : by == DEPTH ? fret_law_force(m->normal, y) : fret_law_depth(m->normal, y);
+FRET_INLINE fret_real other_of(const fret_memory *m, coordinate by, const fret_real *y) {
+    const fret_real v = near_of(m) ? fret_near_value(m->near, by, *y) : (fret_real)NAN;
+    return v > 0 ? v : law_other(m, by, y);
 }
 
 /* What the edge leaves out. */
@@ -32,10 +36,13 @@ static double edge_rest(const fret_memory *m, coordinate by, fret_real edge) {
     return (double)(by == LOAD ? (p.F - edge) + p.F_rest : (p.dz - edge) + p.dz_rest);
 }
 
-static void resum_top(fret_memory *m) {
-    slice *top = &m->slices[m->count - 1];
+static void resum(slice *s, bool innermost) {
     for (coordinate by = DEPTH; by <= LOAD; by++)
-        top->sum[by] = (m->count > 1 ? top[-1].sum[by] : 0) + top->sigma * top->thick[by];
+        s->sum[by] = s->sigma * s->thick[by] + (innermost ? 0 : s[-1].sum[by]);
+}
+
+static void resum_top(fret_memory *m) {
+    resum(&m->slices[m->count - 1], m->count == 1);
 }
 
 /* Slopes that differ by less than `rounding` merge, else a ramp in many small steps would pile up slices;
@@ -141,14 +148,20 @@ static void keep_inner(fret_memory *m, coordinate by, fret_real s, double goal, 
 
 /* The same where F_N changes too, by force: the slice i, in which the front ends, where little is left. The
  * steps of the front have left `load`. */
-static bool keep_little(fret_memory *m, size_t i, fret_real s, double goal, fret_real edge, fret_real *load) {
+static void keep_core(fret_memory *m, size_t i, fret_real s, double goal, const fret_real *edge,
+                      fret_real *load) {
     slice *end = &m->slices[i];
-    if (end->sigma * s >= 1 || 8 * *load > edge)
-        return false;
-    const dd bound = dd_mul_d(dd_from2(edge, edge_rest(m, LOAD, edge)), m->mu);
+    const dd bound = dd_mul_d(dd_from2(*edge, edge_rest(m, LOAD, *edge)), m->mu);
     const dd left = s < 0 ? dd_add_d(bound, goal) : dd_add_d(bound, -goal);
     end->thick[LOAD] = thick_at_brink(m, i, LOAD, s, dd_div(left, dd_of(m->mu)));
     *load = inner_of(m, i, LOAD) + end->thick[LOAD];
+}
+
+FRET_INLINE bool keep_little(fret_memory *m, size_t i, fret_real s, double goal, const fret_real *edge,
+                             fret_real *load) {
+    if (8 * *load > *edge || m->slices[i].sigma * s >= 1)
+        return false;
+    keep_core(m, i, s, goal, edge, load);
     return true;
 }
 
@@ -246,23 +259,15 @@ static fret_real slip_inwards(fret_memory *m, coordinate by, fret_real drive, do
     return loss;
 }
 
-/* A place of edge or front in a phase; other: in the other coordinate, < 0 where it is not known. */
+/* A place of edge or front; other: in the other coordinate, < 0 where it is not known. */
 typedef struct place {
     fret_real at, other;
 } place;
 
-/* A phase of the front with the gain 1 - s sigma. */
-static fret_real phase_loss(const fret_memory *m, coordinate by, fret_real gain, const place edge[2],
-                            const place front[2]) {
-    return gain * fret_phase_loss(&(fret_phase){.normal = m->normal,
-                                                .by = by,
-                                                .edge0 = edge[0].at,
-                                                .edge1 = edge[1].at,
-                                                .front0 = front[0].at,
-                                                .front1 = front[1].at,
-                                                .near = near_of(m),
-                                                .edge_v = {edge[0].other, edge[1].other},
-                                                .front_v = {front[0].other, front[1].other}});
+/* Not as a whole: that waits for its parts to be written. */
+static inline void put(place *p, fret_real at, fret_real other) {
+    p->at = at;
+    p->other = other;
 }
 
 /* Gross slip while the edge moves. */
@@ -274,22 +279,17 @@ static fret_real gross_force(const fret_memory *m, coordinate by, fret_real from
  * one of the outermost, < 0 where it is not known. */
 static void convert_top(fret_memory *m, coordinate by, fret_real inner) {
     const coordinate other = by == DEPTH ? LOAD : DEPTH;
-    fret_real outer = m->edge[other];
-    size_t first = m->count > 2 ? m->count - 2 : 0;
-    for (size_t i = m->count; i-- > first;) {
-        slice *sl = &m->slices[i];
-        if (i == 0)
-            sl->inner[other] = 0;
-        else if (i == m->count - 1)
-            sl->inner[other] = inner >= 0 ? inner : other_of(m, by, sl->inner[by]);
-        sl->thick[other] = fret_greater(outer - sl->inner[other], 0);
-        outer = sl->inner[other];
+    const size_t count = m->count;
+    slice *top = &m->slices[count - 1], *next = top - 1;
+    top->inner[other] = count == 1 ? 0 : inner >= 0 ? inner : other_of(m, by, &top->inner[by]);
+    top->thick[other] = fret_greater(m->edge[other] - top->inner[other], 0);
+    if (count > 1) {
+        if (count == 2)
+            next->inner[other] = 0;
+        next->thick[other] = fret_greater(top->inner[other] - next->inner[other], 0);
+        resum(next, count == 2);
     }
-    size_t count = m->count;
-    for (size_t i = first; i < count; i++) {
-        m->count = i + 1;
-        resum_top(m);
-    }
+    resum(top, count == 1);
 }
 
 /* Slip front of sign s moving inwards over `reach` units of drive surplus while the edge grows. */
@@ -299,27 +299,33 @@ static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real ed
     fret_real s = drive < 0 ? -1 : 1, growth = edge[by] - m->edge[by];
     fret_real e = fabsl(drive) - growth, surplus = e, old = m->edge[by], loss = 0;
     const fret_real snap = 1e-17L * edge[by];
-    place way[2] = {{old, m->edge[other]}, {edge[by], edge[other]}}, front[2] = {way[0], way[0]};
+    fret_phase p = {.normal = m->normal, .by = by, .near = near_of(m)};
+    p.edge1 = p.front1 = old;
+    p.edge_v[1] = p.front_v[1] = m->edge[other];
     while (m->count && e > 0) {
         slice *top = &m->slices[m->count - 1];
         fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by];
-        front[0] = front[1];
+        p.edge0 = p.edge1;
+        p.front0 = p.front1;
+        p.edge_v[0] = p.edge_v[1];
+        p.front_v[0] = p.front_v[1];
         if (cap - e <= snap && cap - e <= 1e-6L * cap) {
             e = cap < e ? e - cap : 0;
-            front[1] = m->count > 1 ? (place){top->inner[by], top->inner[other]} : (place){0, 0};
+            p.front1 = m->count > 1 ? top->inner[by] : 0;
+            p.front_v[1] = m->count > 1 ? top->inner[other] : 0;
             m->count--;
         } else {
             const fret_real part = e / gain;
-            front[1].at -= part;
-            if (by == DEPTH || !keep_little(m, m->count - 1, s, goal, edge[LOAD], &front[1].at))
+            p.front1 -= part;
+            if (by == DEPTH || !keep_little(m, m->count - 1, s, goal, &edge[LOAD], &p.front1))
                 top->thick[by] -= part;
-            front[1].other = other_of(m, by, front[1].at);
+            p.front_v[1] = other_of(m, by, &p.front1);
             e = 0;
         }
-        way[1] = e > 0 ? (place){old + growth * (surplus - e) / surplus, -1} : (place){edge[by], edge[other]};
+        p.edge1 = e > 0 ? old + growth * (surplus - e) / surplus : edge[by];
+        p.edge_v[1] = e > 0 ? -1 : edge[other];
         if (gain > 0)
-            loss += phase_loss(m, by, gain, way, front);
-        way[0] = way[1];
+            loss += gain * fret_phase_loss(&p);
     }
     if (e > 0 && by == DEPTH) {
         const fret_real from = old + growth * (surplus - e) / surplus;
@@ -327,15 +333,15 @@ static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real ed
         m->slid += s * m->mu_eta * e;
     }
     if (!m->count)
-        front[1] = (place){0, 0};
+        p.front1 = p.front_v[1] = 0;
     m->edge[DEPTH] = edge[DEPTH];
     m->edge[LOAD] = edge[LOAD];
     fret_real thick[2] = {0, 0}, inner[2] = {0, 0};
-    thick[by] = edge[by] - front[1].at;
-    inner[by] = front[1].at;
+    thick[by] = edge[by] - p.front1;
+    inner[by] = p.front1;
     const size_t count = m->count;
     push(m, thick, inner, s, 0);
-    convert_top(m, by, m->count > count ? front[1].other : -1);
+    convert_top(m, by, m->count > count ? p.front_v[1] : -1);
     return loss;
 }
 
@@ -353,7 +359,10 @@ typedef struct retreat {
 
 static void retreat_by(retreat *r, fret_real t) {
     r->left -= t;
-    r->z = r->left > 0 ? (place){r->z.at - t, -1} : r->to;
+    if (r->left > 0)
+        put(&r->z, r->z.at - t, -1);
+    else
+        put(&r->z, r->to.at, r->to.other);
 }
 
 /* Nothing slips: the slice at the edge gets thinner. */
@@ -369,11 +378,12 @@ static void retreat_in_stick(fret_memory *m, retreat *r) {
 
 /* A new slip zone at the edge, of no thickness yet. */
 static void begin_zone(fret_memory *m, const retreat *r, fret_real s) {
-    const slice *top = &m->slices[m->count - 1];
-    slice zone = {.inner = {top->inner[0] + top->thick[0], top->inner[1] + top->thick[1]}, .sigma = s};
-    zone.inner[r->by] = r->z.at;
-    zone.inner[r->by == DEPTH ? LOAD : DEPTH] = r->z.other;
-    m->slices[m->count++] = zone;
+    slice *zone = &m->slices[m->count++];
+    zone->inner[r->by] = r->z.at;
+    zone->inner[r->by == DEPTH ? LOAD : DEPTH] = r->z.other;
+    zone->thick[DEPTH] = zone->thick[LOAD] = 0;
+    zone->sigma = s;
+    zone->edge = 0;
 }
 
 /* The zone is the whole contact, up to the end of the step. */
@@ -391,11 +401,12 @@ static fret_real retreat_in_slip(fret_memory *m, retreat *r, fret_real s) {
 
 /* The zone has taken in the slice below it, and joins the next one if that is of its own sign. */
 static void take_in(fret_memory *m, const retreat *r, fret_real s) {
-    slice *top = &m->slices[m->count - 1], *next = top - 1;
-    for (coordinate i = DEPTH; i <= LOAD; i++)
-        top->inner[i] = m->count > 2 ? next->inner[i] : 0;
-    top->thick[r->by] = r->z.at - top->inner[r->by];
-    next[0] = *top;
+    slice *next = &m->slices[m->count - 2];
+    if (m->count == 2)
+        next->inner[DEPTH] = next->inner[LOAD] = 0;
+    next->thick[r->by] = r->z.at - next->inner[r->by];
+    next->sigma = s;
+    next->edge = 0;
     m->count--;
     if (m->count > 1 && next[-1].sigma == s) {
         next[-1].thick[r->by] += next->thick[r->by];
@@ -423,15 +434,20 @@ static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
     const fret_real at = top->inner[by], step = reached ? next->thick[by] : speed * t;
     fret_real inner = at - step;
     const bool core =
-        by == LOAD && !reached && !overtaken && keep_little(m, m->count - 2, s, r->goal, r->to.at, &inner);
-    place edge[2] = {r->z}, front[2] = {{at, top->inner[other]}, {inner, -1}};
-    if (reached)
-        front[1].other = m->count > 2 ? next->inner[other] : 0;
-    else if (!overtaken)
-        front[1].other = r->front = other_of(m, by, inner);
+        by == LOAD && !reached && !overtaken && keep_little(m, m->count - 2, s, r->goal, &r->to.at, &inner);
+    fret_phase p = {.normal = m->normal, .by = by, .near = near_of(m)};
+    p.edge0 = r->z.at;
+    p.edge_v[0] = r->z.other;
+    p.front0 = at;
+    p.front_v[0] = top->inner[other];
+    p.front1 = inner;
+    p.front_v[1] = reached && m->count <= 2 ? 0 : reached ? next->inner[other] : -1;
+    if (!reached && !overtaken)
+        p.front_v[1] = r->front = other_of(m, by, &inner);
     retreat_by(r, t);
-    edge[1] = r->z;
-    const fret_real loss = phase_loss(m, by, gain, edge, front);
+    p.edge1 = r->z.at;
+    p.edge_v[1] = r->z.other;
+    const fret_real loss = gain * fret_phase_loss(&p);
     if (reached) {
         take_in(m, r, s);
         return loss;
@@ -506,39 +522,44 @@ static bool press_near(const fret_memory *m, const fret_step *step, fret_press *
     if (!near_of(m) || !(step->normal > 0))
         return false;
     const fret_real v = fret_near_value(m->near, by, step->normal);
-    *p = by == LOAD ? (fret_press){.F = step->normal, .dz = v} : (fret_press){.F = v, .dz = step->normal};
+    p->F = by == LOAD ? step->normal : v; /* not as a whole: that waits for its parts to be written */
+    p->dz = by == LOAD ? v : step->normal;
+    p->a = 0;
+    p->F_rest = p->dz_rest = 0;
     return v > 0;
+}
+
+static fret_status stay(const fret_memory *m, fret_press *p) {
+    *p = (fret_press){.F = m->edge[LOAD],
+                      .dz = m->edge[DEPTH],
+                      .a = m->radius,
+                      .F_rest = m->edge_rest[LOAD],
+                      .dz_rest = m->edge_rest[DEPTH]};
+    return fret_ok();
 }
 
 /* The normal state at the end of a step, and the gap between the bodies where they part. *near: radius and
  * what does not fit are left out. */
 static fret_status normal_end(const fret_memory *m, const fret_step *step, fret_press *p, fret_real *gap,
                               bool *near) {
-    const fret_press now = {.F = m->edge[LOAD],
-                            .dz = m->edge[DEPTH],
-                            .a = m->radius,
-                            .F_rest = m->edge_rest[LOAD],
-                            .dz_rest = m->edge_rest[DEPTH]};
-    fret_status st = fret_ok();
-    *p = now;
+    const bool by_force = step->normal_by == FRET_TO_FORCE;
     *gap = m->gap;
     *near = m->pressed_near;
     if (step->normal_by == FRET_KEEP_NORMAL)
-        return st;
-    const bool by_force = step->normal_by == FRET_TO_FORCE;
+        return stay(m, p);
     if (!by_force && !isfinite(step->normal))
         return fret_fail(FRET_NOT_FINITE, "dz", step->normal, 0);
     *gap = !by_force && step->normal < 0 ? -step->normal : 0;
-    if (step->normal == (by_force ? now.F : now.dz))
-        return st;
+    if (step->normal == m->edge[by_force ? LOAD : DEPTH])
+        return stay(m, p);
     *near = press_near(m, step, p);
-    if (!*near)
-        st = by_force ? fret_press_by_force(m->normal, step->normal, p)
-                      : fret_press_by_depth(m->normal, fmax(step->normal, 0), p);
-    return st;
+    if (*near)
+        return fret_ok();
+    return by_force ? fret_press_by_force(m->normal, step->normal, p)
+                    : fret_press_by_depth(m->normal, fmax(step->normal, 0), p);
 }
 
-fret_status fret_step_load(double mu, const fret_step *step, fret_real FN, fret_real *load) {
+FRET_INLINE fret_status step_load(double mu, const fret_step *step, fret_real FN, fret_real *load) {
     const bool by_force = step->tangential_by == FRET_TO_FX;
     *load = 0;
     if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
@@ -551,6 +572,10 @@ fret_status fret_step_load(double mu, const fret_step *step, fret_real FN, fret_
         *load = copysignl(FN, *load); /* mu F_N up to its rounding */
     }
     return fret_ok();
+}
+
+fret_status fret_step_load(double mu, const fret_step *step, fret_real FN, fret_real *load) {
+    return step_load(mu, step, FN, load);
 }
 
 /* To where it is already: the rounding of sums must not pass for a reversal. */
@@ -617,7 +642,7 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     if (!st.code)
         st = normal_end(m, step, &p, &gap, &near);
     if (!st.code)
-        st = fret_step_load(m->mu, step, p.F, &load);
+        st = step_load(m->mu, step, p.F, &load);
     if (!st.code)
         st = fret_memory_reserve(m, m->count + 4);
     if (st.code)

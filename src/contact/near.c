@@ -2,8 +2,6 @@
 /* The binomial series of a power law about places that are kept. Touches nothing else. */
 #include "contact/near.h"
 
-#include "number/bits.h"
-
 static const double steepest = 8; /* the series would want more terms */
 
 bool fret_near_fits(const fret_normal *n) {
@@ -12,11 +10,12 @@ bool fret_near_fits(const fret_normal *n) {
 
 static void make_law(fret_real s, fret_real sm1, fret_near_law *out) {
     fret_real term = s;
-    *out = (fret_near_law){.s = s, .sm1 = sm1, .leading = {1}, .binomial = {1}};
+    *out = (fret_near_law){.s = s, .sm1 = sm1, .leading = {1}, .binomial = {1}, .mean = {1}};
     for (int i = 1; i < FRET_NEAR_TERMS; i++) {
         if (i < FRET_NEAR_LEADING)
             out->leading[i] = term;
         out->binomial[i] = (double)term;
+        out->mean[i] = out->binomial[i] / (double)(i + 1);
         term *= (sm1 - (fret_real)(i - 1)) / (fret_real)(i + 1);
     }
 }
@@ -41,7 +40,7 @@ void fret_near_move(fret_near *near, const fret_normal *n) {
         fret_near_make(n, near);
 }
 
-static void keep_place(fret_near *near, coordinate by, size_t i, double y) {
+void fret_near_keep(fret_near *near, coordinate by, size_t i, double y) {
     const fret_real least = 1e-290L, most = 1e290L;
     fret_press p;
     const fret_status st =
@@ -53,30 +52,4 @@ static void keep_place(fret_near *near, coordinate by, size_t i, double y) {
     law->place[i].per = 1 / (fret_real)y;
     law->place[i].v = inside ? v : (fret_real)NAN;
     law->place[i].rest = by == LOAD ? p.dz_rest : p.F_rest;
-}
-
-fret_real fret_near_value(fret_near *near, coordinate by, fret_real y) {
-    fret_real rest;
-    const fret_real most = fret_near_parts(near, by, y, &rest);
-    return most + rest;
-}
-
-/* Sixteen places in each octave: y = C (1+x), |x| <= 1/32. */
-fret_real fret_near_parts(fret_near *near, coordinate by, fret_real y, fret_real *rest) {
-    fret_near_law *law = &near->law[by];
-    const uint64_t half = UINT64_C(1) << 47, cell = fret_bits((double)y) >> 48;
-    const double C = fret_from_bits(cell << 48 | half);
-    const size_t i = cell % FRET_NEAR_PLACES;
-    if (!(y > 1e-290L && y < 1e290L))
-        return *rest = (fret_real)NAN;
-    if (law->place[i].at != C)
-        keep_place(near, by, i, C);
-    const double *b = law->binomial;
-    const fret_real x = (y - C) * law->place[i].per, V = law->place[i].v;
-    const double z = (double)x, z2 = z * z, z4 = z2 * z2;
-    const double tail = ((b[3] + z * b[4]) + z2 * (b[5] + z * b[6])) +
-                        z4 * ((b[7] + z * b[8]) + z2 * (b[9] + z * b[10]) + z4 * (b[11] + z * b[12]));
-    const fret_real Vx = V * x;
-    *rest = Vx * law->leading[1] + (law->place[i].rest + (Vx * x) * (law->leading[2] + x * tail));
-    return V;
 }

@@ -270,11 +270,11 @@ static span span_of(const fret_phase *p, const fret_real y[2], const fret_real g
         return out;
     }
     const fret_real *a = law->leading, d2 = way * way;
-    const double *b = law->binomial, x = (double)d2, x2 = x * x, x4 = x2 * x2;
+    const double *b = law->binomial, *c = law->mean, x = (double)d2, x2 = x * x, x4 = x2 * x2;
     const double even = ((b[4] + x * b[6]) + x2 * (b[8] + x * b[10])) +
                         x4 * ((b[12] + x * b[14]) + x2 * (b[16] + x * b[18])),
-                 part = ((b[4] / 5 + x * (b[6] / 7)) + x2 * (b[8] / 9 + x * (b[10] / 11))) +
-                        x4 * ((b[12] / 13 + x * (b[14] / 15)) + x2 * (b[16] / 17 + x * (b[18] / 19))),
+                 part = ((c[4] + x * c[6]) + x2 * (c[8] + x * c[10])) +
+                        x4 * ((c[12] + x * c[14]) + x2 * (c[16] + x * c[18])),
                  odd = ((b[5] + x * b[7]) + x2 * (b[9] + x * b[11])) +
                        x4 * ((b[13] + x * b[15]) + x2 * (b[17] + x * b[19]));
     const fret_real rise = d2 * (a[2] + d2 * even), above = d2 * (a[2] / 3 + d2 * part),
