@@ -2,6 +2,7 @@
 """The rim of the program: lines without end, memory that runs out, signals at the prompt, text that would command the
 terminal, small stacks. Nothing is lost, nothing is wrong in silence."""
 import errno
+import json
 import os
 import pty
 import re
@@ -547,12 +548,18 @@ CALLS = {"E": "1 mm", "loss_factor": "10 N", "c": "10 N", "F": "10 N", "d": "0.1
          "r": "0.1 mm"}
 
 
-def needs(tests):
-    """What moves with an input cannot be told where the input cannot be; what does not, is the same there."""
+def quantities(tests):
+    """All there are, called where they are functions."""
     listed = tests.run("-c", "help quantities").stdout.partition("Results:")[2].partition("fret>")[0]
     asked = ["%s(%s)" % (name, CALLS.get(name) or CALLS[argument]) if argument else name
              for name, argument in re.findall(r"^    (\w+)(?:\((\w+)\))?  ", listed, re.M)]
-    tests.check("quantities that need inputs", len(asked) > 40, listed)
+    tests.check("quantities", len(asked) > 40, listed)
+    return asked
+
+
+def needs(tests):
+    """What moves with an input cannot be told where the input cannot be; what does not, is the same there."""
+    asked = quantities(tests)
     with tests.file("r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(51)), ".csv") as path:
         tests.each([lambda s=scene, n=name: needed(tests, asked, s, n, path) for scene in NEEDING
                     for name in {**FOLLOWS, **scene[1]} if name not in ("FA", "dxA") or name + "=" in scene[2]])
@@ -587,7 +594,55 @@ def needed(tests, asked, scene, name, path):
     tests.check("what moves with " + told, moved > 0, str(moved))
 
 
-ROOM = (needs, lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
+# scenes, and the inputs that a table runs through
+TABLED = (("material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N",
+           ("E0 = 100 GPa .. 200 GPa", "nu = 0.1 .. 0.3", "k = -0.2 .. 0.2", "mu = 0.3 .. 0.5", "FN = 80 N .. 120 N", "R = 5 mm .. 9 mm",
+            "FA = 10 N .. 30 N", "FN = 20 N .. 60 N", "nu = 0.4 .. 0.6")),
+          ("material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry sphere R=10 mm; press FN=100 N", ("E0 = 100 GPa .. 200 GPa", "mu = 0.3 .. 0.5")),
+          ("material E0=210 GPa nu=0.3; geometry cone slope=0.1; friction 0.4", ("E0 = 100 GPa .. 200 GPa", "slope = 0.1 .. 0.2")),
+          ("E0 = 210 GPa; friction 0.4", ("E0 = 100 GPa .. 200 GPa", "nu = 0.1 .. 0.3", "mu = 0.1 .. 0.2")),
+          ("material steel; second E0=70 GPa nu=0.2; geometry sphere R=10 mm; friction 0.4; press dz=1 um; step dx=0.1 um",
+           ("E0_2 = 50 GPa .. 90 GPa", "nu_2 = 0.1 .. 0.4", "mu = 0.3 .. 0.5")),
+          ("material steel; second rigid; geometry power n=3 A=50 m^-2; friction 0.4; press FN=9 N; step Fx=-2 N",
+           ("E0 = 100 GPa .. 200 GPa", "mu = 0.3 .. 0.5", "A = 40 m^-2 .. 90 m^-2")),
+          ("material steel; geometry power n=4 h=1 um r0=1 mm; friction 0.4; press FN=9 N; step Fx=2 N; step Fx=0 N",
+           ("E0 = 100 GPa .. 200 GPa", "h = 1 um .. 2 um", "FN = 8 N .. 9 N")),
+          ("material steel; geometry sphere R=10 mm; friction 0.4; press FN=9 N; step Fx=2 N; step FN=8 N", ("R = 5 mm .. 9 mm",)),
+          ("material steel; geometry sphere R=10 mm; friction 0.4; press FN=9 N; cycle dxA=0.1 um; set model memory", ("R = 5 mm .. 9 mm",)),
+          ("material steel; geometry sphere R=10 mm; friction 0.4; press FN=9 N; cycle FA=1 N FNA=1 N", ("R = 5 mm .. 9 mm",)))
+
+
+def tabled(tests):
+    """A column holds, row by row, what is told of the scene with that input: rows of many scenes at once, or none."""
+    asked = quantities(tests) + ["E0", "nu", "k", "c0", "mu", "R", "A", "FN", "FA", "2*a+0 m", "a/a0"]
+    tests.each([lambda s=scene, r=span: columns(tests, asked, s, r) for scene, spans in TABLED for span in spans])
+
+
+def columns(tests, asked, scene, span):
+    name, lo, hi = re.fullmatch(r"(\w+) = (.*) \.\. (.*)", span).groups()
+    places, asked = [lo, "(%s+%s)/2" % (lo, hi), hi], [one for one in asked if one != name]
+    lines = [scene, "set format json"]
+    for one in asked:
+        lines += ["table %s for %s steps 2" % (one, span)] + ["(%s at %s=%s)" % (one, name, place) for place in places]
+    with tests.file("\n".join(lines) + "\n") as script:
+        done = tests.run("--keep-going", script)
+    failed = {int(line) for line in re.findall(r":(\d+):\d+: error: ", done.stderr)}
+    told = [json.loads(line) for line in done.stdout.splitlines()]
+    rows = {}
+    for row in told:
+        rows.setdefault(list(row)[-1], []).append(list(row.values())[-1])
+    values = iter([row["value"] for row in told if "name" in row])
+    for i, one in enumerate(asked):
+        line = 3 + 4 * i
+        got = rows.get(one, [None] * 3)
+        want = [None if line + 1 + j in failed else next(values, None) for j in range(3)]
+        ok = len(got) == 3 and all(a == b or (None not in (a, b) and abs(a - b) <= 1e-13 * abs(b)) for a, b in zip(got, want))
+        tests.check("table %s for %s: %s" % (one, span, scene), ok, "%s\n%s\n%s" % (got, want, done.stderr[-1500:]))
+    tests.check("nothing more for %s: %s" % (span, scene), next(values, None) is None and not {1, 2} & failed,
+                tests.report(done))
+
+
+ROOM = (needs, tabled, lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
 
 
 def run(tests):
