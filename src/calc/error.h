@@ -55,8 +55,7 @@ void calc_put_place(calc_error *error, size_t at, size_t len);
 #if defined(__GNUC__)
 static inline bool calc_refused(void) __attribute__((always_inline));
 #endif
-static inline bool
-calc_refused(void) {
+static inline bool calc_refused(void) {
     return false;
 }
 #define calc_fail(...) (calc_raise(__VA_ARGS__), calc_refused())

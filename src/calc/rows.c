@@ -24,26 +24,16 @@ static bool put_material(scene_rows *r, const inputs *in, size_t i) {
     return true;
 }
 
-static bool get(const inputs *in, input which, double *out) {
-    calc_error unused;
-    long double v;
-    error_clear(&unused);
-    if (!inputs_get(in, which, &v, &unused))
-        return false;
-    *out = (double)v;
-    return true;
-}
-
 /* A single power, pressed by force; 1 where there is nothing. */
-static bool put_load(scene_rows *r, const inputs *in, size_t i) {
+static void put_load(scene_rows *r, const inputs *in, size_t i) {
     fret_gap gap = {.power = {{2, 1, 1}}};
     if (in->geometry)
         in->geometry->gap(in, &gap);
     r->n[i] = gap.power[0].n;
     r->h[i] = gap.power[0].h;
     r->r0[i] = gap.power[0].r0;
-    r->F[i] = r->mu[i] = 1;
-    return (!r->pressed || get(in, IN_FN, &r->F[i])) && (!r->rubs || get(in, IN_MU, &r->mu[i]));
+    r->F[i] = r->pressed ? in->v[IN_FN] : 1;
+    r->mu[i] = r->rubs ? in->v[IN_MU] : 1;
 }
 
 /* What the load program says, which no row changes. */
@@ -86,8 +76,9 @@ bool rows_begin(scene_rows *r, scene *s, input in, const long double x[], size_t
         if (input_status(in, (double)x[i]).code)
             return false;
         inputs_put(&row, in, (double)x[i]);
-        if (!put_material(r, &row, i) || !put_load(r, &row, i))
+        if (!put_material(r, &row, i))
             return false;
+        put_load(r, &row, i);
     }
     const bool alike = row.second == SECOND_SAME;
     r->of = (fret_scenes){.E0 = {r->E0[0], alike ? NULL : r->E0[1]},
