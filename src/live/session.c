@@ -310,9 +310,11 @@ static double ahead(const live *l) {
 
 void live_play_on(live *l, double seconds) {
     const load_way *w = &l->side[0].way;
-    if (l->playing && *l->side[0].trouble)
+    if (!l->playing || l->side[0].stale)
+        return;
+    if (*l->side[0].trouble)
         live_play_end(l);
-    if (!l->playing || l->side[0].stale || (!l->moves && w->shots < 2 && !way_done(w)))
+    if (!l->playing || (!l->moves && w->shots < 2 && !way_done(w)))
         return;
     l->changed = true;
     if (!l->moves)

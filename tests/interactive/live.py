@@ -3,11 +3,14 @@
 import os
 import random
 import re
+import shutil
 import signal
+import subprocess
 import time
 
 import pexpect
 
+from harness import at_work
 from screen import Screen
 
 UTF8 = {"LC_ALL": "C.UTF-8", "TERM": "xterm-256color"}
@@ -645,6 +648,240 @@ def pointing(tests):
     live.end()
 
 
+def released(tests):
+    """Bodies that no longer touch, and none at all: keys have something to go on from."""
+    live = at_prompt(tests, SCENE)
+    live.says("step FN=0 N")
+    tests.check("out of contact", live.wait(lambda s: live.value("FN") == ("0", "N") and live.value("c/a") == ("-", "")) and
+                live.value("a")[0] == "0", live.screen.text())
+    for key, says in (("c", "^c0 = 1 mm"), ("l", "nothing is pressed"), ("r", "^press FN=100 N"), (":reset all\r", "^reset all"),
+                      ("+", None), ("g", "^geometry sphere R=10 mm"), (":reset all\r", "^reset all"), (" ", "error: there is no load yet"),
+                      ("r", "^material E0=210 GPa")):
+        tests.check("then %r" % key, live.key(key, says and (lambda s, says=says: re.search(says, live.status()))), live.screen.text())
+    live.says("quit")
+    live.gone()
+
+
+# said in place of a cycle that has been played and taken back: it is another one, and is not gone on with
+OTHERS = ("cycle FA=15 N FNA=10 N phase=90 deg", "cycle FA=20 N FNA=12 N phase=90 deg", "cycle FA=20 N FNA=10 N phase=60 deg",
+          "cycle FA=20 N FNA=10 N phase=90 deg times 2", "cycle dxA=500 nm", "step Fx=2 N")
+
+
+def gone_on_with(tests):
+    """What space goes on with, and what it begins anew."""
+    live = at_prompt(tests, SCENE + "; cycle FA=5 N")
+    live.key("n]]", "FNA 10 N")
+    done = lambda s: "> cycle" not in s.row(0)  # noqa: E731
+    live.key(" ", r"times 2")
+    live.key("  ", done)
+    tests.check("as many periods as were seen", live.wait(r"times [2-9]"), live.screen.text())
+    periods = int(re.search(r"times (\d+)", live.screen.text()).group(1))
+    live.key(" ", lambda s: "> cycle" in s.row(0))
+    live.key("  ", done)
+    path = os.path.join(tests.dir, "gone-on.fret")
+    live.child.send("s\x15" + path + "\r")
+    live.wait("wrote ")
+    with open(path, encoding="utf-8") as f:
+        cycles = re.findall("^cycle .*", f.read(), re.M)
+    tests.check("as one cycle", len(cycles) == 2 and re.fullmatch(r"cycle FA=20 N FNA=10 N phase=90 deg times \d+", cycles[1]) and
+                int(cycles[1].split()[-1]) > periods, "%d\n%s" % (periods, cycles))
+    live.key("u", "undo")
+    for other in OTHERS:
+        live.key(" ", lambda s: "> cycle" in s.row(0))
+        live.key("  ", done)
+        live.key("u", "undo")
+        live.says(other)
+        live.wait(re.escape(other))
+        live.key(" ", lambda s: "> cycle" in s.row(0))
+        live.key("  ", done)
+        live.child.send("s\x15" + path + "\r")
+        live.wait("wrote ")
+        with open(path, encoding="utf-8") as f:
+            said = re.findall("^(?:cycle|step) .*", f.read(), re.M)
+        tests.check("begun anew after " + other, len(said) == 3 and said[1].startswith(other) and
+                    said[2].startswith("cycle FA=20 N FNA=10 N phase=90 deg"), "\n".join(said))
+        live.key("u", "undo")
+        live.key("u", "undo")
+    live.key(" ", lambda s: "> cycle" in s.row(0))
+    live.key("+", lambda s: "FA 22 N" in s.row(0))
+    tests.check("an amplitude that changes while it plays is the next cycle's", live.wait("cycle FA=22 N FNA=10 N"), live.screen.text())
+    live.wait(r"times [2-9]")
+    live.child.send("q")
+    live.wait(lambda s: not s.modes.get(1049))
+    live.child.send("show\r")
+    tests.check("left while it plays, all that was seen is said", live.wait(r"cycle FA=22 N FNA=10 N phase=90 deg times \d+"), live.raw[-1500:])
+    live.child.send("\x04")
+    live.gone()
+
+
+def odd_terminals(tests):
+    """Terminals of few colours, without mouse, with no name, in another locale; no terminal behind it."""
+    live = Live(tests, command=["/bin/sh", "-c", 'unset TERM; exec "$FRET" --live'], FRET=tests.fret)
+    tests.check("a terminal without a name", live.gone() == 1 and "(TERM=)" in live.raw, live.raw)
+    live = Live(tests, command=["/bin/sh", "-c", '"$FRET" --live > not-a-terminal'], FRET=tests.fret)
+    tests.check("a screen that is a file", live.gone() == 1 and "needs a terminal" in live.raw, live.raw)
+    with tests.file("# 5 \u00b5m\nmaterial steel\n") as path:
+        live = Live(tests, path, LC_ALL="C", TERM="vt100")
+        tests.check("signs that the locale does not know", live.wait(r"5 .*m *\n") and live.end() == 0, live.screen.text())
+    if shutil.which("tic"):
+        with open(os.path.join(tests.dir, "few.ti"), "w", encoding="ascii") as f:
+            f.write("few|few colours,\n  colors#8, pairs#4, kmous@, sgr0=\\E[m$<2>, use=xterm,\n")
+        where = os.path.join(tests.dir, "terminfo")
+        subprocess.run(["tic", "-x", "-o", where, os.path.join(tests.dir, "few.ti")], check=True, capture_output=True)
+        live = Live(tests, TERM="few", TERMINFO=where)
+        tests.check("a terminal with too few colours for all inks has none", live.wait(r"a +186\.626 um") and
+                    not re.search(r"\x1b\[(\d+;)*3\dm", live.raw) and "\x1b[?1002h" not in live.raw, live.screen.text())
+        tests.check("and is left", live.end() == 0)
+    path = os.path.join(tests.dir, "eight.cast")
+    live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"], TERM="xterm")
+    live.wait("fret>")
+    live.child.send("record %s\r%s; live\r" % (path, SCENE))
+    live.wait(lambda s: "keys  q quit" in s.text())
+    live.key("l", r"Fx +2 N")
+    live.screen.resize(24, 100)
+    live.child.setwinsize(24, 100)
+    live.key("l", r"Fx +4 N")
+    live.says("record off; quit")
+    live.gone()
+    with open(path, encoding="utf-8") as f:
+        film = f.read()
+    tests.check("a film of eight colours", re.search(r"\\u001b\[0(;1)?;3[1-7]m", film) and "38;5" not in film and '"100x24"' in film, film[:1500])
+
+
+def hung_up(tests):
+    """A terminal that goes while its end is told to nobody: it leaves by itself."""
+    done = os.path.join(tests.dir, "hung-up")  # the exit status
+    live = Live(tests, command=["/bin/sh", "-c", 'trap "" HUP; "$FRET" --live; echo $? > %s' % done], FRET=tests.fret)
+    live.wait(r"a +186\.626 um")
+    live.child.ptyproc.fileobj.close()  # its own end; nobody closes the number again
+    live.child.ptyproc.closed = live.child.closed = True
+    live.child.child_fd = -1
+    end = time.time() + 60
+    while not (os.path.exists(done) and os.path.getsize(done)) and time.time() < end:
+        time.sleep(0.02)
+    tests.check("a terminal that is gone", os.path.exists(done), "")
+
+
+def long_loads(tests):
+    """More points than the curve keeps, more states than are kept ahead."""
+    live = at_prompt(tests, SCENE)
+    live.says("cycle FA=20 N FNA=10 N times 9000")
+    want = tests.run("-c", SCENE + "; cycle FA=20 N FNA=10 N times 9000; W").stdout.split()
+    tests.check("nine thousand periods", live.wait(lambda s: live.value("W") == (want[2], want[3]), 120), live.screen.text())
+    live.says("quit")
+    live.gone()
+    with tests.file(SCENE + "\ncycle FA=20 N FNA=10 N times 12\n") as path:
+        live = Live(tests, path)
+        live.wait("q quit")
+        live.key("]]]]", " 8/s")
+        live.key(" ", "> cycle")
+        seen, end = set(), time.time() + 60
+        while "> cycle" in live.screen.row(0) and time.time() < end:
+            live.read()
+            seen.add(live.value("W"))
+        want = tests.run("-c", SCENE + "; cycle FA=20 N FNA=10 N times 12; W").stdout.split()
+        tests.check("twelve periods, played to their end", len(seen) > 15 and live.wait(lambda s: live.value("W") == (want[2], want[3])), "%s\n%s" % (want, live.screen.text()))
+        live.end()
+
+
+def in_haste(tests):
+    """Two lines of a script by two keys at once: the second plays, though there was nothing to play on the screen."""
+    with tests.file("# Nothing yet\n" + SCENE + "\nstep Fx=20 N\n") as path:
+        live = Live(tests, path)
+        live.wait("Nothing yet")
+        live.key("[[[", " 0.0625/s")
+        tests.check("a step plays", live.key("  ", "> cycle") and live.value("Fx")[0] != "20", live.screen.text())
+        tests.check("to its end", live.key(" ", lambda s: "> cycle" not in s.row(0) and live.value("Fx") == ("20", "N")), live.screen.text())
+        live.end()
+
+
+def unseen(tests):
+    """A script that is filmed without a terminal: left in its midst, interrupted."""
+    cast = os.path.join(tests.dir, "unseen.cast")
+    with tests.file("press FN=50 N\nstep Fx=2 N; quit\nstep Fx=3 N\n") as path:
+        done = tests.run("-c", "%s; record %s; live %s\n1 + 1" % (SCENE, cast, path))
+    with open(cast, encoding="utf-8") as f:
+        text = f.read()
+    tests.check("quit leaves the script and the program", done.returncode == 0 and done.stdout == "" and "=2 N; quit" in text and
+                "=3 N" not in text.rpartition("quit")[2], tests.report(done) + text[-500:])
+    with tests.file("cycle FA=20 N FNA=10 N times 100000\n") as path:
+        job = subprocess.Popen([tests.fret, "-c", "%s; record %s; live %s\n1 + 1" % (SCENE, cast, path)], stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, env=tests.env, cwd=tests.dir)
+        running = at_work(job)
+        job.send_signal(signal.SIGINT)
+        out, err = job.communicate(timeout=60)
+    tests.check("Ctrl-C stops a film", running and job.returncode == 130 and b"1 + 1" not in out, "%s %s %s" % (job.returncode, out, err))
+
+
+def shapes(tests):
+    """Screens of other shapes, and what there is too little room for."""
+    live = at_prompt(tests, SCENE)
+    for rows, cols in ((24, 70), (20, 70)):  # one of both at a time
+        live.screen.resize(rows, cols)
+        live.child.setwinsize(rows, cols)
+        live.wait(lambda s: "loop: Fx over dx" in s.text() and "arrows push" in s.row(rows - 2))
+    tests.check("a size after the other", live.value("a")[0] == "186.626", live.screen.text())
+    live.child.setwinsize(0, 0)
+    tests.check("a size of nothing is none", live.key("l", r"Fx +2 N"), live.screen.text())
+    for rows, cols in ((12, 44), (24, 30), (4, 60)):
+        live.screen.resize(rows, cols)
+        live.child.setwinsize(rows, cols)
+        if (rows, cols) == (12, 44):
+            live.key("n", lambda s: re.fullmatch("cycle FA 20 N FNA 10 N 90 deg 0.5/s .Fx FN.", s.row(0).strip()))
+            tests.check("the head without room for what is set", "mu" not in live.screen.row(0) and "sphere" not in live.screen.row(0), live.screen.text())
+            live.says("compare mu = 0.3, 0.5")
+            tests.check("numbers in one column", live.wait(lambda s: all(len(re.findall(r"(?m)(?:^|\s)%s +\d" % name, s.text())) == 2
+                                                                         for name in ("FN", "dz", "c"))), live.screen.text())
+            live.says("compare off")
+        else:
+            tests.check("too small: %dx%d" % (rows, cols), live.wait("too small"), live.screen.text())
+    live.key("?", None)
+    live.key(" ", None)
+    live.key(" ", None)
+    live.screen.resize(50, 160)
+    live.child.setwinsize(50, 160)
+    live.key("n" * 4 + "]]", None)
+    live.says("set digits 3")
+    tests.check("energies are drawn as they grow", live.key(" ", lambda s: "> cycle" in s.row(0)) and
+                live.wait(lambda s: "energy" in s.text() and live.value("W")[0] not in ("0", "-") and len(live.value("W")[0]) <= 4), live.screen.text())
+    live.says("quit")
+    live.gone()
+    with tests.file("#\n# One line\n# and another" + " of a long remark" * 14 + ", cut off here\nmaterial steel\n") as path:
+        live = Live(tests, path, size=(12, 44))
+        tests.check("a note of many rows", live.wait("One line and another") and "cut off here" not in live.screen.text(), live.screen.text())
+        live.key("?", "push tangentially")
+        tests.check("a page hides the note", "One line" not in live.screen.text() and live.key("x", "One line"), live.screen.text())
+        live.end()
+
+
+def pages(tests):
+    live = at_prompt(tests, SCENE)
+    live.says("table x for x = 1 .. 100 steps 99")
+    top = lambda number: lambda s: s.row(1).split()[:1] == [number]  # noqa: E731
+    live.wait("any other key: back")
+    tests.check("two pages on and back", live.key(" ", top("21")) and live.key(" ", top("42")) and live.key("\x1b[5~", top("21")) and
+                live.key("\x1b[5~", top("x")), live.screen.text())
+    tests.check("behind the last page is the screen", live.key(" " * 12, "loop: Fx over dx"), live.screen.text())
+    live.says("quit")
+    live.gone()
+
+
+def begun(tests):
+    """What a scene has is not set again, and what it lacks is told."""
+    live = at_prompt(tests, "x = 100 GPa; E0 := 2*x; nu = 0.3; f = 0.2; mu := 2*f")
+    tests.check("what follows a definition stays", live.wait(r"a +\d") and "mu 0.4" in live.screen.row(0), live.screen.text())
+    live.says("E0, nu, mu")
+    tests.check("as it was", live.wait("E0 = 200 GPa") and "mu = 0.4" in live.screen.text(), live.screen.text())
+    live.key("x", "loop: Fx")
+    live.says("quit")
+    live.gone()
+    live = at_prompt(tests, "E0 = 200 GPa")
+    tests.check("what is missing is told", live.wait("nu is not set|nu is missing|needs nu"), live.screen.text())
+    live.says("quit")
+    live.gone()
+
+
 def run(tests):
     tests.rooms(beginning, refusals, keys, playing, repeating, going_on, sizes, comparing, stepping, mouse, slow_line, undisturbed, saving,
-                recording, endings, stopping, lessons, corners, typing, scripted, pointing)
+                recording, endings, stopping, lessons, corners, typing, scripted, pointing,
+                released, gone_on_with, in_haste, odd_terminals, hung_up, long_loads, unseen, shapes, pages, begun)
