@@ -6,8 +6,11 @@
 #include <fcntl.h>
 #include <pwd.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "unit.h"
@@ -139,9 +142,9 @@ static void refused(void) {
     CHECK(chmod("kept", 0444) == 0);
     apart(read_only);
     unlink("kept");
-    static const char *const names[] = {".",        "",           "new/",       "no/such/place",
-                                        "\x01/x",   "/dev/fd/1x", "/dev/fd/x1", "/dev/fd/123456",
-                                        "/dev/fd/", "/dev/fd/999"};
+    static const char *const names[] = {".",         "",           "new/",       "no/such/place",
+                                        "\x01/x",    "/dev/fd/1x", "/dev/fd/x1", "/dev/fd/123456",
+                                        "/dev/fd/:", "/dev/fd/",   "/dev/fd/999"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         CHECK(!write_text(names[i], "x", true, NULL) && strstr(error.text, "cannot write "));
     char long_name[400];
@@ -556,6 +559,50 @@ static bool too_many(void) {
     return n >= 32 && !file_out_open(&out, "one-more", NULL, fresh()) && entries() == 0;
 }
 
+/* Writing waits for someone to read a pipe that has a name; what is no pipe is not waited for. */
+static void waits(void) {
+    static const volatile sig_atomic_t never;
+    const file_stop flags[] = {NULL, &never};
+    for (int i = 0; i < 2; i++) {
+        CHECK(mkfifo("slow", 0600) == 0);
+        const pid_t reader = fork();
+        if (reader == 0) {
+            char got[8] = "";
+            const struct timespec while_ = {.tv_nsec = 100000000};
+            nanosleep(&while_, NULL);
+            const int fd = open("slow", O_RDONLY);
+            _exit(fd >= 0 && read(fd, got, sizeof got) == 4 && !memcmp(got, "late", 4) ? 0 : 1);
+        }
+        file_out out;
+        int status = -1;
+        if (CHECK(file_out_open(&out, "slow", flags[i], fresh()))) {
+            fputs("late", out.to);
+            CHECK(file_out_close(&out, true, NULL, fresh()));
+        }
+        CHECK(waitpid(reader, &status, 0) == reader && status == 0);
+        unlink("slow");
+    }
+    struct sockaddr_un at = {.sun_family = AF_UNIX, .sun_path = "socket"};
+    const int fd = socket(AF_UNIX, SOCK_STREAM, 0);
+    CHECK(fd >= 0 && bind(fd, (struct sockaddr *)&at, sizeof at) == 0);
+    CHECK(!write_text("socket", "x", true, NULL) && strstr(error.text, strerror(ENXIO)));
+    close(fd);
+    unlink("socket");
+    file_out none = {.guard = -1}; /* never opened */
+    CHECK(file_out_close(&none, true, NULL, fresh()) && !error.raised);
+}
+
+/* A user that no list of users knows has no home but $HOME. */
+static bool homeless(void) {
+    unsetenv("HOME");
+    if (geteuid() == 0 && setuid(1999999999))
+        return false;
+    char *name = getpwuid(getuid()) ? strdup("~/x") : file_expand("~/x");
+    const bool ok = name && !strcmp(name, "~/x");
+    free(name);
+    return ok;
+}
+
 int main(int argc, char **argv) {
     unit_start("test_file", argc, argv);
     char dir[] = "/tmp/fret-unit-XXXXXX";
@@ -565,6 +612,8 @@ int main(int argc, char **argv) {
     links();
     refused();
     pipes();
+    waits();
+    apart(homeless);
     full();
     apart(deep);
     home();
