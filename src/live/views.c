@@ -241,17 +241,17 @@ static void draw_numbers(live *l, const side *sd, const scales *sc, rect at) {
 typedef struct view {
     const char *title;
     void (*draw)(live *l, const side *s, const scales *sc, rect at);
-    bool right;     /* in the right column; narrow screens have one column */
-    int share;      /* of the height of its column */
-    int least;      /* rows that it takes where there is little room */
+    bool right; /* in the right column; narrow screens have one column */
+    int share;  /* of the height of its column; 0: it takes these rows */
+    int rows;
     int worth_rows; /* shown from so many rows of the screen on */
 } view;
 
 static const view views[] = {
-    {"contact", draw_disc, false, 5, 7, 0},
-    {"springs: u1D(x) between +-B", draw_springs, true, 4, 6, 0},
-    {"loop: Fx over dx", draw_loop, true, 6, 8, 0},
-    {"energy: W, U (dotted)", draw_energies, false, 4, 8, 40},
+    {"contact", draw_disc, false, 5, 0, 0},
+    {"springs: u1D(x) between +-B", draw_springs, true, 4, 0, 0},
+    {"loop: Fx over dx", draw_loop, true, 6, 0, 0},
+    {"energy: W, U (dotted)", draw_energies, false, 4, 0, 40},
     {"", draw_numbers, false, 0, (SHOT_VALUES + 1) / 2, 0},
 };
 enum { VIEWS = sizeof views / sizeof *views };
@@ -270,14 +270,14 @@ static void draw_column(live *l, const side *s, const scales *sc, rect all, rect
         if (!is_shown(v, all, narrow) || (!narrow && v->right != right))
             continue;
         shares += v->share;
-        room -= v->share ? 0 : v->least;
+        room -= v->rows;
     }
     rect at = column;
     for (size_t i = 0; i < VIEWS; i++) {
         const view *v = &views[i];
         if (!is_shown(v, all, narrow) || (!narrow && v->right != right))
             continue;
-        at.rows = v->share ? room * v->share / shares : v->least;
+        at.rows = v->share ? room * v->share / shares : v->rows;
         shares -= v->share;
         room -= v->share ? at.rows : 0;
         if (*v->title)

@@ -881,7 +881,35 @@ def begun(tests):
     live.gone()
 
 
+def little(tests):
+    """Forces of less than a newton: half of what slides is pulled, and the normal force swings by tenths of itself."""
+    live = Live(tests, command=[tests.fret, "-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=1 N; live"])
+    live.wait(r"FN +1 N")
+    tests.check("FN swings, by little", live.key("n", "the cycle swings FN too"), live.screen.text())
+    for _ in range(3):
+        live.key("n", "the cycle swings FN too")
+    tests.check("and is held again", live.key("n", "the cycle holds FN"), live.screen.text())
+    tests.check("half of what slides", live.key(" ", r"cycle FA=200 mN"), live.screen.text())
+    live.end()
+
+
+def energies(tests):
+    """The scale of the energies stands a little above the most of them; the places of the views."""
+    scene = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=30 N; "
+    rows = tests.run("--format=csv", "-c", scene + "table W, U along program").stdout.split()
+    most = max(float(cell) for row in rows[1:] if row[0].isdigit() for cell in row.split(",")[1:])
+    live = Live(tests, size=(50, 160), command=[tests.fret, "-c", scene + "live"])
+    live.wait(r"Fx +30 N")
+    text = live.screen.text()
+    scale = re.search(r"-- energy.*\n *([\d.]+) uJ", text)
+    tests.check("the scale of the energies", scale and 1.02 * most <= 1e-6 * float(scale.group(1)) <= 1.6 * most, "%g\n%s" % (most, text))
+    row = {name: next(i for i, line in enumerate(text.splitlines()) if re.search(name, line)) for name in ("-- contact", "-- energy", r"^ *FN +100")}
+    high = [row["-- energy"] - row["-- contact"], row[r"^ *FN +100"] - row["-- energy"]]
+    tests.check("the contact has five rows where the energies have four", high[0] == sum(high) * 5 // 9, "%s\n%s" % (high, text))
+    live.end()
+
+
 def run(tests):
     tests.rooms(beginning, refusals, keys, playing, repeating, going_on, sizes, comparing, stepping, mouse, slow_line, undisturbed, saving,
                 recording, endings, stopping, lessons, corners, typing, scripted, pointing,
-                released, gone_on_with, in_haste, odd_terminals, hung_up, long_loads, unseen, shapes, pages, begun)
+                little, energies, released, gone_on_with, in_haste, odd_terminals, hung_up, long_loads, unseen, shapes, pages, begun)

@@ -151,6 +151,9 @@ def maps(tests):
     text, _ = script(tests, "contours and their values", "plot map dW(F) for F = 1 N .. 30 N for mu = 0.4 .. 0.8")
     values = re.findall(r"^set label '(\S+)' at graph (\S+),graph (\S+) ", text, re.M)
     levels = re.search(r"^set cntrparam levels discrete (.*)$", text, re.M).group(1).split(",")
+    there = [float(line.split()[2]) for line in re.search(r"\$map0_0 << END\n(.*?)END", text, re.S).group(1).splitlines() if line]
+    tests.check("contours are of what is there", len(levels) > 2 and [float(v) for v in levels] == sorted(set(map(float, levels))) and
+                min(there) < float(levels[0]) and float(levels[-1]) < max(there), "%s %g %g" % (levels, min(there), max(there)))
     apart = [max(abs(float(a[1]) - float(b[1])) / 0.16, abs(float(a[2]) - float(b[2])) / 0.08)
              for i, a in enumerate(values) for b in values[:i]]
     tests.check("values stand on contours, apart and within the frame", 2 < len(values) <= len(levels) and

@@ -33,12 +33,20 @@ static bool give(void *context, long double part, const long double *values) {
     return ++c->count < ROOM;
 }
 
-static bool run(curve *c, double (*f)(double, int), size_t fail_at) {
+static bool run_steps(curve *c, double (*f)(double, int), size_t fail_at, size_t steps) {
     calc_error error;
-    const refinement r = {.count = COLUMNS, .steps = 100, .evaluate = evaluate, .give = give, .context = c};
+    const refinement r = {.count = COLUMNS, .steps = steps, .evaluate = evaluate, .give = give, .context = c};
     *c = (curve){.f = f, .fail_at = fail_at};
     error_clear(&error);
     return refine(&r, &error);
+}
+
+static bool run(curve *c, double (*f)(double, int), size_t fail_at) {
+    return run_steps(c, f, fail_at, 100);
+}
+
+static double parabola(double x, int column) {
+    return column ? 0 : x * x;
 }
 
 static double line(double x, int column) {
@@ -87,6 +95,10 @@ int main(int argc, char **argv) {
     if (!c)
         return 1;
     CHECK(run(c, line, 0) && c->count == 101 && rising(c));
+    /* the middle of three points lies step^2 off the line, of 0.92 and 0.9 that the bulk spans: 0.43 and 0.69
+     * thousandths */
+    CHECK(run_steps(c, parabola, 0, 50) && c->count == 51 && rising(c));
+    CHECK(run_steps(c, parabola, 0, 40) && c->count == 81 && rising(c));
     CHECK(run(c, bends, 0) && rising(c) && c->count < 400);
     CHECK(off(c, 0) < 2e-3 && off(c, 1) < 1e-3);
     CHECK(c->most <= 256 && c->calls == c->count);
