@@ -275,7 +275,7 @@ static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *err
         return calc_no_memory(error);
     int status = gsl_root_fsolver_set(solver, &f, fmin(a.x, b.x), fmax(a.x, b.x));
     double lo = a.x, hi = b.x;
-    while (!status && s->q.evaluations < SOLVE_EVALUATIONS * (rough ? ROOTS : 1)) {
+    while (!status && s->q.evaluations < SOLVE_EVALUATIONS * (s->roots > 1 ? ROOTS : 1)) {
         const double before = *x;
         status = gsl_root_fsolver_iterate(solver);
         *x = gsl_root_fsolver_root(solver);
@@ -295,26 +295,56 @@ static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *err
 }
 
 /* A change of sign may be a jump. */
-static bool is_root(search *s, unsigned i, double x, calc_error *error) {
-    char there[ASK_TEXT];
-    const double f = difference(s, x), least = fmin(fabs(s->root[i].f), fabs(s->other[i].f));
-    if (s->q.error->raised)
-        return false;
-    ask_text(&s->of->name, x, there);
-    return !(fabs(f) > 1e-3 * least) || calc_fail(error, s->of->left->at, s->of->left->len,
-                                                  "no root: the sides jump past each other at %s", there);
+static bool jumps(search *s, unsigned i, double x) {
+    const double least = fmin(fabs(s->root[i].f), fabs(s->other[i].f));
+    return s->root[i].x != s->other[i].x && fabs(difference(s, x)) > 1e-3 * least;
 }
 
-static bool several(search *s, calc_error *error) {
+static bool only_jumps(search *s, double x, calc_error *error) {
+    char there[ASK_TEXT];
+    ask_text(&s->of->name, x, there);
+    return calc_fail(error, s->of->left->at, s->of->left->len,
+                     "no root: the sides jump past each other at %s", there);
+}
+
+/* The place of a root; *is: there is one, no jump and no gap. Roughly, where that is enough to tell. */
+static bool try_root(search *s, unsigned i, double *x, bool *is, calc_error *error) {
+    *is = false;
+    for (int rough = 1; rough >= 0 && !*is; rough--) {
+        calc_error none;
+        error_clear(&none);
+        const bool found = refine(s, i, rough, x, &none);
+        *is = found && !jumps(s, i, *x);
+        if (none.stop)
+            *error = none;
+        if (error->raised)
+            return false;
+    }
+    return true;
+}
+
+/* Of several changes of sign; jumps among them are no roots, and one that is left is the answer. */
+static bool several(search *s, solve_answer *out, calc_error *error) {
     char list[CALC_ERROR_TEXT / 2] = "";
+    unsigned roots = 0, last = 0;
     for (unsigned i = 0; i < s->roots; i++) {
         char text[CALC_VALUE_TEXT];
-        double x;
-        if (!refine(s, i, true, &x, error))
+        bool is;
+        if (!try_root(s, i, &out->x, &is, error))
             return false;
-        calc_value_text(s->of->name.d, x, text);
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", text);
+        if (!is)
+            continue;
+        calc_value_text(s->of->name.d, out->x, text);
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", roots ? ", " : "", text);
+        roots++;
+        last = i;
     }
+    if (roots == 0)
+        return only_jumps(s, out->x, error);
+    s->root[0] = s->root[last];
+    s->other[0] = s->other[last];
+    if (roots == 1)
+        return refine(s, 0, false, &out->x, error);
     return calc_fail(error, s->of->left->at, s->of->left->len,
                      "several roots, %s = %s: choose by from LO to HI", s->of->name.text, list);
 }
@@ -325,11 +355,15 @@ static bool answer(search *s, solve_answer *out, calc_error *error) {
         return false;
     if (!s->roots)
         return no_root(s, error);
-    if (s->roots > 1)
-        return several(s, error);
-    if (!refine(s, 0, false, &out->x, error) ||
-        (s->root[0].x != s->other[0].x && !is_root(s, 0, out->x, error)))
+    if (s->roots > 1 && !several(s, out, error))
         return false;
+    if (s->roots == 1) {
+        if (!refine(s, 0, false, &out->x, error))
+            return false;
+        const bool jump = jumps(s, 0, out->x);
+        if (s->q.error->raised || jump)
+            return jump && only_jumps(s, out->x, error);
+    }
     out->lo = fmin(s->root[0].x, s->other[0].x);
     out->hi = fmax(s->root[0].x, s->other[0].x);
     out->evaluations = s->q.evaluations;
