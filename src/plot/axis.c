@@ -121,8 +121,8 @@ bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis 
 
 double plot_step(double least) {
     double power = pow(10, floor(log10(least)));
-    static const double steps[] = {1, 2, 5, 10};
-    for (size_t i = 0; i < 4; i++)
+    static const double steps[] = {1, 2, 5};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
         if (steps[i] * power >= least * (1 - same))
             return steps[i] * power;
     return 10 * power;

@@ -153,8 +153,7 @@ void plot_thin(plot_series *s, size_t goal) {
     for (size_t i = 0; i < buckets; i++) {
         size_t begin = s->count / buckets * i + s->count % buckets * i / buckets,
                end = s->count / buckets * (i + 1) + s->count % buckets * (i + 1) / buckets;
-        if (end > begin)
-            to += squeeze(s, begin, end - begin, to, false);
+        to += squeeze(s, begin, end - begin, to, false);
     }
     s->count = to;
 }

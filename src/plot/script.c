@@ -320,7 +320,7 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
         fprintf(s->to, "filledcurves fs solid noborder fc rgb '%s'",
                 c->thin ? "#e4e4e4" : looks[style % LOOKS].tint);
         break;
-    case PLOT_NOW:
+    default: /* the present point */
         fprintf(s->to, "points pt 7 ps %.3g lc rgb '#000000'", 2 * s->scale);
         break;
     }

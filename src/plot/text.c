@@ -124,7 +124,7 @@ static void put_char(writer *w, const char *p, size_t n, unsigned c) {
             putc('\\', w->to);
         fwrite(p, 1, n, w->to);
         break;
-    case PLOT_TEX:
+    default: /* TeX */
         if (n == 1)
             put_tex(w, c);
         else if (s)
@@ -139,8 +139,8 @@ static void put(writer *w, const char *text, size_t n) {
     unsigned c;
     for (size_t i = 0, step; i < n; i += step) {
         step = character(text + i, &c);
-        if (!step || step > n - i || is_hidden(c)) {
-            step = step && step <= n - i ? step : 1;
+        if (!step || is_hidden(c)) {
+            step = step ? step : 1;
             putc('?', w->to);
         } else {
             put_char(w, text + i, step, c);
@@ -333,7 +333,7 @@ static void put_unit(writer *w, const char *p, const char *end) {
         } else {
             unsigned code;
             n = character(p, &code);
-            n = n && n <= (size_t)(end - p) ? n : 1;
+            n = n ? n : 1;
             put(w, p, n);
         }
         p += n;
@@ -402,7 +402,7 @@ static void put_expression(writer *w, const char *p, const char *end) {
         } else {
             unsigned code;
             n = character(p, &code);
-            n = n && n <= (size_t)(end - p) ? n : 1;
+            n = n ? n : 1;
             put(w, p, n);
         }
         after_number = number || (after_number && *p == ' ');

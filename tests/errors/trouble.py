@@ -187,12 +187,23 @@ def gnuplot(tests):
     path = tests.env["PATH"]
     for name, script, err in (("fails", "echo 'something is wrong' >&2; exit 1", "something is wrong"),
                               ("fails in silence", "exit 3", "gnuplot failed"),
-                              ("is killed", "kill -9 $$", "gnuplot failed"), ("draws nothing", "exit 0", "gnuplot")):
+                              ("is killed", "kill -9 $$", "gnuplot failed"), ("draws nothing", "exit 0", "gnuplot drew nothing"),
+                              ("fails with a place", "echo 'some line 7: something is wrong' >&2; exit 1", "something is wrong"),
+                              ("fails at the beginning of a line", "echo 'line 7: \t^ it is wrong' >&2; echo >&2; exit 1", "it is wrong"),
+                              ("fails with words", "echo 'an underline of a line without place' >&2; exit 1", "an underline of a line without place"),
+                              ("fails with words and a colon", "echo 'an outline of: it' >&2; exit 1", "an outline of: it"),
+                              ("fails with bytes", "printf '\\033[31m\\377' >&2; exit 1", "?[31m?")):
         with fake_gnuplot(tests, script) as fake:
             env = {"PATH": fake + ":" + path}
             expect(tests, "gnuplot %s, to a file" % name, tests.run("-c", plot + " to " + png, env=env), 1, "", err)
-            if name != "draws nothing":
-                expect(tests, "gnuplot " + name, tests.run("-c", plot, env=env), 1, "", err)
+            expect(tests, "gnuplot " + name, tests.run("-c", plot, env=env), 1, "", err)
+    for name, script, status, out, err in (
+            ("one page of two", "printf 'a\\n\\f'", 1, "", "gnuplot drew 1 pages of 2"),
+            ("pages of several heights", r"printf '\fa\nb\n\fc\n'", 0, r"^a *c\nb *\n", ""),
+            ("other sequences than colours", r"printf '\fa\033[1Ab\n\f\033cd\n'", 0, "^a\x1b\\[1Ab *\x1bcd *\n", "")):
+        with fake_gnuplot(tests, script) as fake:
+            done = tests.run("-c", SCENE + "step Fx=20 N\nset plot 120x18; plot loop | pressure", env={"PATH": fake + ":" + path})
+            tests.check("gnuplot draws " + name, done.returncode == status and re.search(out, done.stdout) and err in done.stderr, tests.report(done))
     with fake_gnuplot(tests, "echo $$ >'%s/started'\nexec sleep 300\n" % tests.dir) as fake:
         for where in ("", " to " + png):
             started = os.path.join(tests.dir, "started")

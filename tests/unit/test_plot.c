@@ -55,6 +55,22 @@ static void names(void) {
     LABEL("dxmaximal + dWx + EE0", "", "dxmaximal + dWx + EE0", "dxmaximal + dWx + EE0", NULL, NULL);
 }
 
+/* Words, units behind numbers, numbers that break off, signs that nobody shall see. */
+static void odd_names(void) {
+    LABEL("sqrt(gamma(x))*loss_factor", NULL, "sqrt(gamma(x))*loss_factor", "√(Γ(x)) loss factor", NULL,
+          "\\relax $\\mathrm{\\surd }(\\mathrm{\\Gamma }(x))\\,\\mathrm{loss factor}$");
+    LABEL("A = 2 m^-2", "inch", "A = 2 m^-2 [inch]", "A = 2 m⁻² [in]", NULL, NULL);
+    LABEL("A = 2 inch", "", "A = 2 inch", "A = 2 in", NULL, NULL);
+    LABEL("A = 2 m^x + 3 m^", "", "A = 2 m^x + 3 m^", "A = 2 m^x + 3 m^", NULL, NULL);
+    LABEL("A = 2 m^-", "", "A = 2 m^-", "A = 2 m^−", NULL, NULL);
+    LABEL("2E+3*x + 2e+x + 1e", "", "2E+3*x + 2e+x + 1e", "2E+3 x + 2e+x + 1e", NULL, NULL);
+    LABEL("a\u200bb \xff", "m\xff\u2066", "a?b ? [m??]", "a?b ? [m??]", NULL, NULL);
+    TEXT("\u2029a\u2065\u061c\ufeff\u00ad\x7f\u2000\u200f\u202e\u2030\u206f\u2070", PLOT_UNICODE,
+         "?a?????\u2000??\u2030?\u2070");
+    TEXT("\ufff8\ufff9\ufffb\ufffc\U000dffff\U000e0001\U000e1000\xed\xa0\x80\xf4\x90\x80\x80", PLOT_UNICODE,
+         "\ufff8??\ufffc\U000dffff?\U000e1000???????");
+}
+
 static void plain(void) {
     TEXT("a_b^c {d} @e &f ~g \\h", PLOT_ENHANCED, "a\\_b\\^c \\{d\\} \\@e \\&f \\~g \\\\h");
     TEXT("a_b^c {d} #1 $x% &~\\", PLOT_TEX,
@@ -256,6 +272,13 @@ static void thins(void) {
     size_t count = s->count;
     plot_thin(s, 10000); /* few enough already */
     CHECK(s->count == count);
+    for (size_t i = 0; i < 5; i++) /* a stretch that begins with a gap, another axis' gap */
+        *(i % 2 ? &s->x[i] : &s->y[i]) = NAN;
+    s->x[7] = -5;
+    plot_thin(s, 3); /* less than a zigzag keeps: one stretch */
+    extremes(s, after);
+    CHECK(s->count <= 9 && isnan(s->y[0]) && after[0] == -5 && after[1] == 99999 && after[2] == -9 &&
+          after[3] == 7);
     plot_figure_free(&f);
 }
 
@@ -392,6 +415,38 @@ static void axes(void) {
     p->ylo = p->yhi = NAN;
     e = plot_extent_of(p);
     CHECK(plot_axes(p, &e, true, &x, &y, fresh()) && y.lo > 0);
+    p->xlo = 3;
+    CHECK(!plot_axes(p, &e, true, &x, &y, fresh()) &&
+          has(error.text, "nothing lies within the limits of the x axis"));
+    p->xlo = NAN;
+    p->yhi = 0; /* one limit alone */
+    CHECK(!plot_axes(p, &e, true, &x, &y, fresh()) && has(error.text, "above 0"));
+    p->yhi = 5;
+    CHECK(plot_axes(p, &e, true, &x, &y, fresh()) && y.lo > 2.5 && y.lo < 3 && y.hi == 5);
+    plot_figure_free(&f);
+
+    f = figure(PLOT_CURVE, NULL); /* what ends at nothing is shown up to there */
+    p = f.panel[0];
+    plot_point(p->series[0], 1, -3);
+    plot_point(p->series[0], 2, -1e-3);
+    plot_point(p->series[0], 1, -2);
+    e = plot_extent_of(p);
+    CHECK(plot_axes(p, &e, true, &x, &y, fresh()) && y.hi == 0 && y.lo < -3);
+    p->logy = true;
+    e = plot_extent_of(p);
+    CHECK(!plot_axes(p, &e, true, &x, &y, fresh()) &&
+          has(error.text, "there is nothing above 0 to plot on a logarithmic y"));
+    p->logy = false;
+    plot_point(p->series[0], INFINITY, 7); /* seen nowhere */
+    plot_point(p->series[0], 1, 1e-320);
+    e = plot_extent_of(p);
+    CHECK(e.y.hi < 1 && plot_axes(p, &e, true, &x, &y, fresh()));
+    static const double wild[][2] = {{-1, 1e301}, {-1e301, 1}, {1e-310, 1}, {-1, -1e-310}};
+    for (size_t i = 0; i < sizeof wild / sizeof *wild; i++) {
+        p->ylo = wild[i][0];
+        p->yhi = wild[i][1];
+        CHECK(!plot_axes(p, &e, true, &x, &y, fresh()) && has(error.text, "too large or too small"));
+    }
     plot_figure_free(&f);
 
     static const double steps[][2] = {{0.9, 1}, {1, 1},        {1.1, 2},    {3, 5},
@@ -418,6 +473,10 @@ static void levels(void) {
     CHECK(n >= 4 && n <= 9);
     for (size_t i = 1; i < n; i++)
         CHECK(level[i] > level[i - 1] && level[i] < p->map.z[99]);
+    for (int i = 0; i < 100; i++)
+        p->map.z[i] = pow(10, 2.6 * i / 99.0);
+    static const double parts[] = {2, 5, 10, 20, 50, 100, 200};
+    CHECK(plot_levels(&p->map, level, 9) == 7 && !memcmp(level, parts, sizeof parts));
     plot_figure_free(&f);
 }
 
@@ -561,7 +620,17 @@ static void refused(const char *tmp) {
     CHECK(!strcmp(error.text, "interrupted") && access("x.png", F_OK) != 0 && !any_left(tmp));
     CHECK(!plot_draw(&f, &(plot_target){.file = "x.jpg"}, NULL, fresh()));
     CHECK(has(error.text, "use .png, .svg, .pdf, .tex, .html, .gif or .gp"));
-    CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .width = 9000}, NULL, fresh()));
+    static const plot_target sizes[] = {{.file = "x.png", .width = 9000},
+                                        {.file = "x.png", .width = -1},
+                                        {.file = "x.png", .height = 9000},
+                                        {.file = "x.png", .height = -1}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        CHECK(!plot_draw(&f, &sizes[i], NULL, fresh()) && has(error.text, "at most 8000 pixels"));
+    plot_figure none;
+    plot_figure_init(&none);
+    CHECK(!plot_draw(&none, &(plot_target){.file = "x.png"}, NULL, fresh()) &&
+          has(error.text, "there is nothing to plot"));
+    CHECK(!plot_script(&none, ".png", 0, 0, stdout) && !plot_script(&f, ".jpg", 0, 0, stdout));
     CHECK(!plot_check("no/such/x.png", NULL, fresh()) && plot_check("x.png", NULL, fresh()));
     CHECK(access("x.png", F_OK) != 0);
     plot_figure_free(&f);
@@ -614,6 +683,15 @@ static bool fill(void *context, size_t i, size_t frames, plot_figure *f, calc_er
     return s && plot_point(s, 0, 0) && plot_point(s, 1, (double)i);
 }
 
+/* As many figures as the frame has a number. */
+static bool fill_more(void *context, size_t i, size_t frames, plot_figure *f, calc_error *raised) {
+    (void)frames;
+    for (size_t n = *(const size_t *)context; n < i + 1; n++)
+        if (!plot_panel_add(f, raised))
+            return false;
+    return true;
+}
+
 /* Images in a GIF: each has one graphic control extension. */
 static size_t images(const char *file) {
     FILE *f = fopen(file, "r");
@@ -650,6 +728,19 @@ static void animates(const char *tmp) {
     CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()) &&
           has(error.text, "frame 3 of 7"));
     CHECK(!plot_animate(&m, &(plot_target){.file = "a.png"}, NULL, fresh()) && has(error.text, ".gif"));
+    CHECK(!plot_animate(&m, &(plot_target){.file = "gif"}, NULL, fresh()) && has(error.text, ".gif"));
+    m.fill = fill_more;
+    bad = 0;
+    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()) &&
+          has(error.text, "the frames differ"));
+    bad = 1;
+    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()) &&
+          has(error.text, "nothing to plot"));
+    for (m.frames = 0; m.frames <= PLOT_FRAMES + 1; m.frames += PLOT_FRAMES + 1)
+        CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()) &&
+              has(error.text, "1 to 1000 frames"));
+    m.frames = 7;
+    m.fill = fill;
     static volatile sig_atomic_t stop = 1;
     m.context = NULL;
     CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif", .stop = &stop}, NULL, fresh()));
@@ -664,6 +755,7 @@ int main(int argc, char **argv) {
     snprintf(tmp, sizeof tmp, "%s-tmp", dir);
     CHECK(!mkdir(tmp, 0700) && !setenv("TMPDIR", tmp, 1));
     names();
+    odd_names();
     plain();
     quoting();
     scripts();
