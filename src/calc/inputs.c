@@ -234,6 +234,19 @@ void inputs_drop(inputs *in) {
     *in = (inputs){.geometry = NULL};
 }
 
+bool inputs_same(const inputs *a, const inputs *b, unsigned which) {
+    if ((a->bindings | b->bindings) & which || a->geometry != b->geometry || a->table != b->table ||
+        a->second != b->second || a->sum.terms != b->sum.terms)
+        return false;
+    for (int i = 0; i < a->sum.terms; i++)
+        if (memcmp(&a->sum.power[i], &b->sum.power[i], sizeof a->sum.power[i]))
+            return false;
+    for (input in = 0; in < INPUTS; in++)
+        if (which & INPUT_BIT(in) && (a->set[in] != b->set[in] || a->v[in] != b->v[in]))
+            return false;
+    return true;
+}
+
 void input_range(input in, double *lo, double *hi) {
     const bool nu = in == IN_NU || in == IN_NU_2;
     *lo = in == IN_K || nu ? -1 : in == IN_PHASE ? -(double)INFINITY : 0;

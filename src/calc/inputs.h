@@ -89,6 +89,9 @@ struct inputs {
 void inputs_copy(inputs *to, const inputs *from);
 void inputs_drop(inputs *in);
 
+/* Are these inputs the same, the bodies and the shape, and no definitions among them? */
+bool inputs_same(const inputs *a, const inputs *b, unsigned which);
+
 /* Between what an input lies, whatever the rest; may be infinite. Of these ends only nu = 1/2 and FNA = 0
  * belong. */
 void input_range(input in, double *lo, double *hi);

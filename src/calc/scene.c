@@ -56,6 +56,22 @@ void scene_forget(scene *s, bool keep) {
     s->sound = false;
 }
 
+/* The others are of the bodies and of the shape. */
+static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_BIT(IN_FN) | INPUT_CYCLE;
+
+static void pass_contact(answers *to, answers *from) {
+    to->normal = from->normal;
+    to->k0 = from->k0;
+    to->many = from->many;
+    to->borne = from->borne;
+    from->normal = from->k0 = from->many = NULL;
+}
+
+void scene_take_contact(scene *s, scene *from) {
+    if (inputs_same(&s->in, &from->in, ~keeps_contact))
+        pass_contact(&s->answers, &from->answers);
+}
+
 void scene_free(scene *s) {
     scene_forget(s, false);
     inputs_drop(&s->in);
@@ -176,8 +192,6 @@ bool scene_get(scene *s, input in, long double *out, calc_error *error) {
     return resolve(s, INPUT_BIT(in), error) && inputs_get(&s->in, in, out, error);
 }
 
-static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_BIT(IN_FN) | INPUT_CYCLE;
-
 void scene_put(scene *s, input in, double v) {
     inputs_put(&s->in, in, v);
     scene_forget(s, keeps_contact & INPUT_BIT(in));
@@ -218,11 +232,18 @@ bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_er
     error_clear(&mine);
     scene_save(s, &before, true);
     edit(&s->in, context);
+    const bool same = inputs_same(&s->in, &before.in, ~keeps_contact);
+    if (same)
+        pass_contact(&s->answers, &before.answers);
     if (scene_valid(s, &mine)) {
         scene_drop(&before);
         return true;
     }
+    if (same)
+        pass_contact(&before.answers, &s->answers);
     scene_back(s, &before);
+    if (s->answers.many) /* for other loads by now: what has run on it runs again */
+        scene_forget(s, true);
     if (!error->raised)
         *error = mine;
     return false;

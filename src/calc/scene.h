@@ -91,6 +91,8 @@ void scene_clone(scene *to, const scene *from);
 void scene_show(scene *s, int digits);
 /* Forgets what has been computed; keep: the normal contact still stands. */
 void scene_forget(scene *s, bool keep);
+/* Takes the contact of another scene, where it is the same: that one is to be asked nothing any more. */
+void scene_take_contact(scene *s, scene *from);
 
 /* The one way back: inputs and load as they are now. */
 typedef struct scene_mark {

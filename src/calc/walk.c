@@ -16,17 +16,7 @@ void walk_end(walk *w) {
 
 /* Amplitudes and the force of the press are compared with the steps that have them. */
 static bool same_bodies(const inputs *a, const inputs *b) {
-    const unsigned of_load = INPUT_CYCLE | INPUT_BIT(IN_FN);
-    if (a->bindings || b->bindings || a->geometry != b->geometry || a->table != b->table ||
-        a->second != b->second || a->sum.terms != b->sum.terms)
-        return false;
-    for (int i = 0; i < a->sum.terms; i++)
-        if (memcmp(&a->sum.power[i], &b->sum.power[i], sizeof a->sum.power[i]))
-            return false;
-    for (input in = 0; in < INPUTS; in++)
-        if (!(of_load & INPUT_BIT(in)) && (a->set[in] != b->set[in] || a->v[in] != b->v[in]))
-            return false;
-    return true;
+    return !a->bindings && !b->bindings && inputs_same(a, b, ~(INPUT_CYCLE | INPUT_BIT(IN_FN)));
 }
 
 static bool same_item(const load_item *a, const load_item *b) {
@@ -77,14 +67,19 @@ static void put_inputs(walk *w, const inputs *in) {
 
 static bool begin(walk *w, calc *c, size_t last_cycle, calc_error *error) {
     program *own = program_make();
-    walk_end(w);
+    scene before = w->scene;
+    engine_end(&w->run.engine);
+    *w = (walk){.begun = own != NULL};
+    if (own) {
+        scene_clone(&w->scene, c->now);
+        scene_take_contact(&w->scene, &before);
+        counted_drop(&w->scene.program->base);
+        w->scene.program = own;
+        w->scene.end = (load_mark){0, 0};
+    }
+    scene_free(&before);
     if (!own)
         return calc_no_memory(error);
-    scene_clone(&w->scene, c->now);
-    w->begun = true;
-    counted_drop(&w->scene.program->base);
-    w->scene.program = own;
-    w->scene.end = (load_mark){0, 0};
     return take_items(w, c->now, last_cycle, (load_mark){0, 0}, error);
 }
 
