@@ -129,8 +129,7 @@ static bool suffices(march *m, size_t count, jenkins_element *out) {
         return true;
     m->d = zero_of(m, first_kink, 0, m->end);
     for (size_t i = 0;; i++) {
-        if (m->pulse)
-            m->pulse();
+        m->pulse();
         const bool last = i + 1 == count;
         double at = m->end;
         bool done;

@@ -25,7 +25,7 @@ typedef struct jenkins_error {
  * d. It is the one of `count` kinks with the least worst error: the error is +worst at the kinks and -worst
  * between them. Its order in 1/count is 2. amplitude: the largest displacement amplitude [m]; infinite, or
  * beyond gross slip: all, and the slip forces add up to mu F_N. In the order of slipping. pulse: called at
- * times, or NULL. Errors: what the loss says; stopped. */
+ * times. Errors: what the loss says; stopped. */
 bool jenkins(const fret_contact *contact, double amplitude, size_t count, const volatile sig_atomic_t *stop,
              void (*pulse)(void), jenkins_element *out, jenkins_error *quality, calc_error *error);
 

@@ -167,13 +167,6 @@ static bool one_row(state *st, long double x) {
     return gap(st, &error, x);
 }
 
-static void progress(const state *st, size_t row) {
-    const size_t curves = st->s->curves ? st->s->curves : 1;
-    if (st->job->progress)
-        st->job->progress(st->job->context,
-                          ((double)st->curve + (double)row / (double)(st->s->steps + 1)) / (double)curves);
-}
-
 /* Rows that are had together, or else one by one: how many there are before one that ends it. Which way
  * decides on last digits: the ends of a block depend on nothing but the range. */
 static size_t evaluate(state *st, const long double *x, size_t rows, long double *values) {
@@ -322,7 +315,6 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
     const portion *p = in;
     const outcome *o = out;
     const size_t row = sh->first + part * sh->rows;
-    progress(st, row);
     if (!o || !agrees(job, o, (const found *)((const char *)out + found_at())))
         return run_rows(st, row, p->x, p->rows);
     const long double *values = (const long double *)((const char *)out + values_at(job->count));
@@ -370,7 +362,6 @@ static bool run_all(state *st) {
         rows = st->rows - i < most ? st->rows - i : most;
         for (size_t r = 0; r < rows; r++)
             x[r] = place(st, i + r);
-        progress(st, i);
         if (!run_rows(st, i, x, rows))
             return false;
     }

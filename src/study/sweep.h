@@ -55,11 +55,10 @@ typedef struct sweep_job {
     size_t values;      /* that could be had */
     bool part; /* of something larger: no value at all is no error, and missing, values and what follows go on
                   counting */
-    struct team *team;                            /* at work on it, or NULL */
-    bool alone;                                   /* there is none to be had */
-    size_t done, all;                             /* rows */
-    double taken;                                 /* seconds for those, without what became of them */
-    void (*progress)(void *context, double part); /* or NULL */
+    struct team *team; /* at work on it, or NULL */
+    bool alone;        /* there is none to be had */
+    size_t done, all;  /* rows */
+    double taken;      /* seconds for those, without what became of them */
 } sweep_job;
 
 /* False: an error; job->missing tells of gaps, which are none. An interrupt is an error, and so is a sweep
