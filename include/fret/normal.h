@@ -45,6 +45,11 @@ void fret_normal_stop(fret_normal *normal, fret_stop stop);
  * FRET_INTERRUPTED. */
 fret_status fret_normal_prepare(fret_normal *normal, double F, double error);
 
+/* Takes over what was prepared for `from`, a contact of the same gap and k, in some 0.1 ms and to a rounding:
+ * the material may be another, loads go with its stiffness. Of other contacts, and where one has been
+ * prepared and the other has not, nothing. Error: FRET_NO_MEMORY. */
+fret_status fret_normal_share(fret_normal *normal, const fret_normal *from);
+
 /* The largest relative error of these polynomials against g(x) and F_N that was found when they were made;
  * NaN: there are none. */
 double fret_normal_prepared(const fret_normal *normal);

@@ -74,6 +74,8 @@ void scene_take_contact(scene *s, scene *from) {
 
 void scene_free(scene *s) {
     scene_forget(s, false);
+    fret_normal_free(s->like);
+    s->like = NULL;
     inputs_drop(&s->in);
     counted_drop(s->program ? &s->program->base : NULL);
     s->program = NULL;
@@ -84,6 +86,8 @@ void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->answers = (answers){.normal = NULL};
     to->trailed = false;
+    to->many = false;
+    to->like = NULL;
     inputs_copy(&to->in, &from->in);
     counted_hold(to->program ? &to->program->base : NULL);
 }
@@ -284,12 +288,27 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
 }
 
 bool scene_many_normal(scene *s, double F, const fret_normal **normal, calc_error *error) {
+    fret_status st = {.code = FRET_OK};
     if (!s->answers.many && !make_normal(s, false, &s->answers.many, error))
         return false;
     *normal = s->answers.many;
     s->answers.borne = borne_by(s);
-    fret_status st = fret_normal_prepare(s->answers.many, F, s->answers.borne);
+    if (s->like)
+        st = fret_normal_share(s->answers.many, s->like);
+    if (!st.code)
+        st = fret_normal_prepare(s->answers.many, F, s->answers.borne);
     return calc_status(error, &st);
+}
+
+void scene_expect_many(scene *s) {
+    static const double room = 4; /* for loads that are tried */
+    const fret_press *press;
+    calc_error ignored;
+    error_clear(&ignored);
+    s->many = true;
+    scene_show(s, 0);
+    if (scene_press(s, &press, &ignored) && press->F > 0 && make_normal(s, false, &s->like, &ignored))
+        (void)fret_normal_prepare(s->like, room * (double)press->F, borne_by(s)); /* else without */
 }
 
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error) {

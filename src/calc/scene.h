@@ -72,8 +72,10 @@ struct scene {
     bool automatic; /* the model: the closed form where there is one, else the memory diagram */
     model_id model; /* else this one */
     unsigned springs;
-    bool many;  /* many values of this contact are asked for: a decision of what asks, never of what was asked
-                 */
+    bool many; /* many values of this contact are asked for: a decision of what asks, never of what was asked
+                */
+    fret_normal
+        *like;  /* of a scratch scene: what is prepared for its shape and k, whatever the material; or NULL */
     int digits; /* of the values shown; 0: all. The law of a table need not be better than they can tell */
     double pieces_error; /* of the polynomials among them, relative */
     unsigned used;       /* what has answered: raised by whatever does, cleared by whoever wants to know */
@@ -89,6 +91,9 @@ void scene_free(scene *s);
 void scene_clone(scene *to, const scene *from);
 /* Values are shown with so many digits from now on; 0: all. */
 void scene_show(scene *s, int digits);
+/* Of a scratch scene: many values are to be asked for, and compared with one another, of its shape and k; at
+ * loads about that of now, else it takes longer. */
+void scene_expect_many(scene *s);
 /* Forgets what has been computed; keep: the normal contact still stands. */
 void scene_forget(scene *s, bool keep);
 /* Takes the contact of another scene, where it is the same: that one is to be asked nothing any more. */

@@ -26,6 +26,7 @@ struct fret_normal {
     struct fret_pieces *pieces; /* or NULL: of fret_normal_prepare */
     double prepared;            /* the load up to which they were asked for [N]; 0: they were not */
     double borne;               /* and the error that they may have */
+    bool shared;                /* they are those of another contact */
     struct {
         dd p, q, s;                   /* to 100 bits */
         dd ln_r0, ln_depth, ln_force; /* logarithms of r0, and of depth and force at a = r0 [m], [N] */

@@ -36,14 +36,16 @@ typedef struct piece {
     bool blunt, coarse;     /* begins at a kink; wants its integrals in halves */
     stretch whole;
 } piece;
+/* Lengths of runs: powers of two. */
+enum { RUNS = 40 };
 struct fret_pieces {
     const fret_normal *normal; /* borrowed: its owner's */
     size_t count, room;
-    piece *piece;     /* from the centre outwards */
-    fret_real *reach; /* the outer ends: distance, then depth, then load, `count` each */
-    stretch *run[40]; /* run[l][i]: the 2^l pieces from i 2^l on */
-    fret_level least; /* inner end of the first */
-    stretch core;     /* within */
+    piece *piece;       /* from the centre outwards */
+    fret_real *reach;   /* the outer ends: distance, then depth, then load, `count` each */
+    stretch *run[RUNS]; /* run[l][i]: the 2^l pieces from i 2^l on */
+    fret_level least;   /* inner end of the first */
+    stretch core;       /* within */
     fret_real from, error;
 };
 

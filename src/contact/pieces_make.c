@@ -472,7 +472,7 @@ static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real born
 void fret_pieces_free(struct fret_pieces *all) {
     if (!all)
         return;
-    for (int l = 0; l < 40; l++)
+    for (int l = 0; l < RUNS; l++)
         free(all->run[l]);
     free(all->reach);
     free(all->piece);
@@ -486,12 +486,14 @@ fret_status fret_normal_prepare(fret_normal *n, double F, double error) {
     int exponent;
     (void)frexp(F, &exponent);
     const double most = ldexp(1, exponent);
-    if (st.code || fret_normal_closed(n) || (most == n->prepared && error == n->borne))
+    const bool reach = most == n->prepared || (n->shared && F <= n->prepared);
+    if (st.code || fret_normal_closed(n) || (reach && error == n->borne))
         return st;
     struct fret_pieces *made = NULL;
     fret_pieces_free(n->pieces);
     n->pieces = NULL;
     n->prepared = 0;
+    n->shared = false;
     n->borne = error;
     fret_real e = fret_search_radius(n, true, most);
     if (!isfinite(e) && isfinite(n->end)) /* not where g begins to fall: there it is no inverse */

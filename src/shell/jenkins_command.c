@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/trial.h"
 #include "shell/output.h"
 #include "shell/progress.h"
 #include "shell/study_commands.h"
@@ -114,10 +115,11 @@ static bool read_request(shell *sh, lexer *lx, request *r) {
     return (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "FA must be positive")) && at_end(lx);
 }
 
-static bool make_model(shell *sh, const request *r, model *m, calc_error *error) {
+static bool make_model(trial *t, const request *r, model *m, calc_error *error) {
     double amplitude = (double)INFINITY;
     fret_loading first;
-    if (!scene_contact(&sh->calc.scene, &m->contact, error))
+    scene_expect_many(&t->scene);
+    if (!scene_contact(&t->scene, &m->contact, error))
         return false;
     if (r->limited) {
         fret_status st = fret_loading_by_force(&m->contact, r->FA, &first);
@@ -166,8 +168,13 @@ bool do_export(shell *sh, lexer *lx, const command *self) {
     request *r = calloc(1, sizeof *r);
     model m = {.count = 0};
     (void)self;
-    bool ok = (r || calc_no_memory(lx->error)) && read_request(sh, lx, r) &&
-              make_model(sh, r, &m, lx->error) && give_model(sh, lx, r, &m);
+    trial *t = NULL;
+    const bool ok = (r || calc_no_memory(lx->error)) && read_request(sh, lx, r) &&
+                    (t = trial_open(&sh->calc, lx->error)) && make_model(t, r, &m, lx->error) &&
+                    give_model(sh, lx, r, &m);
+    calc_word(&sh->calc, lx->error);
+    if (t)
+        trial_close(t);
     free(m.element);
     free(r);
     return ok;

@@ -259,6 +259,8 @@ bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, 
             return calc_fail(error, 0, 0, "%s has no value", question->name[i].text);
     if (!ask_open(&s.q, question->c, question->name, question->count, error))
         return false;
+    if (ask_keeps_shape(&s.q))
+        scene_expect_many(&s.q.t->scene);
     bool ok = first_order(&s, out, error) && monte_carlo(&s, out, error);
     out->evaluations = s.q.evaluations;
     ask_close(&s.q);
