@@ -154,15 +154,13 @@ static bool read_parameters(lexer *lx, char (*parameter)[LEX_NAME], unsigned *co
         lex_next(lx);
         if (*count == PARAMETERS)
             return lex_fail(lx, "a function takes at most %d arguments", PARAMETERS);
-        const char *taken = lx->kind == T_NAME ? name_taken(lx->text + lx->at, lx->len) : NULL;
+        const char *taken = name_taken(lx->text + lx->at, lx->len);
         if (taken)
             return lex_fail(lx, "'%.*s' is %s: it cannot be an argument's name", LEX_WORD(lx), taken);
         lex_word(lx, parameter[(*count)++]);
         lex_next(lx);
     } while (lx->kind == T_COMMA);
-    if (lx->kind != T_CLOSE)
-        return lex_fail(lx, "expected )");
-    lex_next(lx);
+    lex_next(lx); /* a parenthesis: assign_at has looked */
     return true;
 }
 

@@ -268,10 +268,8 @@ bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *err
             return false;
         *out = member(&foundation, q->at);
         return true;
-    case OF_GETTER:
-        return q->get(s, out, error);
     default:
-        return calc_fail(error, 0, 0, "%s is a function: %s(%s)", q->name, q->name, q->argument);
+        return q->get(s, out, error);
     }
 }
 

@@ -333,8 +333,7 @@ static bool is_pressed(const scene *s, calc_error *error) {
 }
 
 bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
-    program *own =
-        step->kind == LOAD_PRESS || !s->program ? program_make() : program_copy(s->program, s->end);
+    program *own = step->kind == LOAD_PRESS ? program_make() : program_copy(s->program, s->end);
     load_mark end = step->kind == LOAD_PRESS ? (load_mark){0, 0} : s->end;
     if (!own || !program_append(own, &end, step, extra)) {
         counted_drop(own ? &own->base : NULL);
@@ -353,7 +352,7 @@ bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, cal
 double scene_time(const scene *s) {
     if (s->now)
         return s->now->run ? s->now->run->time : s->now->time;
-    return s->program ? program_time(s->program, s->end) : 0;
+    return program_time(s->program, s->end);
 }
 
 bool scene_last_cycle(scene *s, load_item *out, calc_error *error) {

@@ -136,7 +136,7 @@ void scene_reset(scene *s, bool all);
 bool scene_last_cycle(scene *s, load_item *out, calc_error *error);
 /* The reach of the load program; it is pressed. */
 bool scene_reach(scene *s, const load_reach **out, calc_error *error);
-double scene_time(const scene *s);
+double scene_time(const scene *s); /* it is pressed, too */
 
 /* ---- what follows, made ready on demand ---- */
 
