@@ -63,7 +63,7 @@ void candidates_free(candidates *c) {
 }
 
 static void add_all(const place *p, const char *(*name)(size_t i)) {
-    for (size_t i = 0; name && name(i); i++)
+    for (size_t i = 0; name(i); i++)
         add(p, name(i), "");
 }
 

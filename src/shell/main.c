@@ -48,7 +48,7 @@ static void on_end(int number) {
     file_emergency();
     signal(number, SIG_DFL);
     raise(number);
-}
+} /* unreached: it has ended us */
 
 /* What nohup(1), or a shell that starts us in the background, has us ignore stays ignored. */
 static void handle(int number, void (*handler)(int)) {

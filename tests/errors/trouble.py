@@ -27,10 +27,12 @@ def usage(tests):
     for args, err in ((["--bogus"], "unknown option --bogus"), (["-x"], "unknown option -x"),
                       (["-c"], "an argument is missing after -c"), (["--format=xml"], "text, csv or json, not xml"),
                       (["--color=red"], "auto, always or never, not red"), (["--tolerance=x"], "a number, not x"),
-                      (["--tolerance=-1"], "a number, not -1"), (["--tolerance=nan"], "a number, not nan"),
+                      (["--tolerance=-1"], "a number, not -1"), (["--tolerance=nan"], "a number, not nan"), (["--tolerance=inf"], "a number, not inf"), (["--tolerance="], "a number, not "),
+                      (["--tolerance=1x"], "a number, not 1x"), (["--live", "-c", "1"], "--live takes one script"),
                       (["--format"], "an argument is missing after --format")):
         expect(tests, "usage: " + " ".join(args), tests.run(*args), 2, "", err)
     expect(tests, "--version", tests.run("--version"), 0, "fret ")
+    expect(tests, "--version and a file", tests.run("--version", "/nonexistent"), 0, "fret ")
     expect(tests, "--help", tests.run("--help"), 0, "usage: fret")
     expect(tests, "-h", tests.run("-h"), 0, "usage: fret")
     for page, parts in (("1", (".TH FRET 1 ", ".SH OPTIONS\n.TP\n.B \\-f FILE\nrun a script (\\- is standard input)\n",
@@ -72,6 +74,16 @@ def files(tests):
         expect(tests, "replay within tolerance", tests.run("--replay", path, "--tolerance", "1e-2"), 0, "1 passed")
         expect(tests, "replay beyond tolerance", tests.run("--replay", path, "--tolerance", "1e-4"), 1, "1 failed")
     expect(tests, "empty file", tests.run("/dev/null"), 0, "", "")
+    for name, shown in (("a b.csv", '"a b.csv"'), ("a#b;.csv", '"a#b;.csv"')):
+        with open(os.path.join(tests.dir, name), "w", encoding="ascii") as f:
+            f.write("r [mm],f [um]\n0,0\n1,1\n2,4\n")
+        done = tests.run("-c", "geometry file %s; show" % shown)
+        expect(tests, "a file named " + name, done, 0, "geometry file %s\n" % shown, "")
+        expect(tests, "and as it is shown", tests.run("-c", done.stdout + "show"), 0, done.stdout, "")
+    for line in ("x = -30 deg", "x = 0.1234567890123456 rad", "x = -0.7 rad/m", "x = 1e-3 deg"):
+        done = tests.run("-c", line + "; show variables; save angle.fret")
+        again = tests.run("-f", "angle.fret", "-c", "show variables")
+        tests.check("kept: " + line, done.returncode == 0 and done.stdout == again.stdout and done.stdout.startswith("x = "), tests.report(done) + tests.report(again))
     expect(tests, "empty -c", tests.run("-c", ""), 0)
     expect(tests, "empty pipe", tests.run(), 0)
     with tests.file("x = 1\nx") as path:

@@ -41,13 +41,21 @@ OFFERED = (
     ("step ", "Fx= dx= FN= dz= steps", "FA="),
     ("2*wob", "wobble wobbly(", None),
     ("set model ", "auto closed memory springs", "off"),
+    ("2*", "wobble wobbly( breadth a", "zebra"),  # which has been undone
+    ("dW at ", "FN= wobble=", "zebra="),
+    ("dW(3 N) in ", "uJ nJ J", "mm"), ("breadth in ", "um mm", "J"), ("(breadth) in ", "um N", None), ("2*a in ", "um N", None),
+    ("wobbly(2) in ", "um %", None), ("dW, breadth in ", "um mm", "J"), ("dW(3 N)*2 in ", "uJ um", None),
+    ("plot Fx against ", "dx W breadth", "table"), ("geometry file gap1.csv smooth ", "", "smooth"),
+    ("plot loop log x ", "points title", "log"), ('plot loop title "a b" ', "points to", "title"), ("press FN=20k", "kN kgf", "um"),
+    ("?", "press plot theory", "fricti"), ("undo ", "", "to"), ("1 + " * 80 + "breadt", "", None),
 )
 # typed, and the one way that it goes on
 DONE = (
     ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("second ri", "gid "),
     ("step dx=1 u", "m "), ("geometry flat-r", "ounded "), ("record o", "ff "), ("x = 3*kap", "pa "), ("?apr", "opos "),
     ("reset ", "all "), ("geometry file gap1.csv ", "smooth "),
-    ("geometry file gap1.csv smo", "oth "), ("1; fric", "tion "), ("dW at m", "u="), ("wobbl", "e"),
+    ("geometry file gap1.csv smo", "oth "), ("1; fric", "tion "), ("dW at m", "u="), ("wobbl", "e"), ("1;  fric", "tion "),
+    ("?the", "ory "),
 )
 
 
@@ -60,12 +68,12 @@ def offers(tests):
         with open(os.path.join(here, name), "w", encoding="ascii") as f:
             f.write("r [mm],f [um]\n0,0\n")
     s = Session(tests, INPUTRC=os.path.join(tests.dir, "inputrc"), TERM="dumb", cwd=here)
-    for line in (SCENE, "press FN=100 N", "cycle FA=20 N", "wobble = 3", "wobbly(x) = x"):
+    for line in (SCENE, "press FN=100 N", "cycle FA=20 N", "wobble = 3", "wobbly(x) = x", "breadth = 3 mm", "zebra = 3", "undo"):
         s.say(line)
     for i, (typed, words, other) in enumerate(OFFERED):
         s.child.send(typed + "\t\x15%d\r" % (7000 + i))  # what comes after tells that the list is whole
         s.child.expect("%d = %d" % (7000 + i, 7000 + i))
-        listed = clean(s.child.before).partition("\n")[2].split()
+        listed = clean(s.child.before).partition("\n")[2].partition("fret> ")[0].split()
         tests.check("Tab after `%s`" % typed, set(words.split()) <= set(listed) and other not in listed,
                     "%s\n%s" % (words, " ".join(listed)))
         s.prompt()

@@ -2,10 +2,14 @@
 """The prompt in a terminal of its own: editing, history, completion, interrupts."""
 import os
 import re
+import shutil
+import signal
 import stat
 import time
 
 import pexpect
+
+from live import child_of
 
 PROMPT = r"fret> "
 SCENE = "material steel; geometry sphere R=10 mm; friction 0.4"
@@ -237,5 +241,111 @@ def narrow(tests):
     tests.check("and the session goes on", s.end() == 0)
 
 
+def kept_lines(tests):
+    """The file of the history: where it is, what is none, what of it is read; who else may read it."""
+    def session(line=None, **env):
+        s = Session(tests, "--quiet", **env)
+        answer = s.say(line) if line else None
+        s.child.sendline("quit")
+        s.end()
+        return s.banner, answer
+    home = os.path.join(tests.dir, "home-of-history")
+    for name, env in (("at home", {"XDG_STATE_HOME": ""}), ("at home, the state's place is no path", {"XDG_STATE_HOME": "state"})):
+        os.mkdir(home)
+        session("1 + 41", HOME=home, **env)
+        with open(os.path.join(home, ".local/state/fret/history"), encoding="ascii") as f:
+            tests.check(name, f.read() == "1 + 41\nquit\n", name)
+        shutil.rmtree(home)
+    for name, env in (("no home", {"XDG_STATE_HOME": "", "HOME": ""}), ("a long way", {"XDG_STATE_HOME": "/" + 5000 * "x"})):
+        tests.check(name, session("1 + 1", **env)[1] == "1 + 1 = 2")
+    state = os.path.join(tests.dir, "strange-history")
+    path = os.path.join(state, "fret", "history")
+    for name, make in (("a link", lambda: os.symlink("elsewhere", path)), ("a pipe", lambda: os.mkfifo(path)), ("a folder", lambda: os.mkdir(path))):
+        os.makedirs(os.path.dirname(path))
+        make()
+        banner, answer = session("1 + 1", XDG_STATE_HOME=state)
+        tests.check("no history in " + name, answer == "1 + 1 = 2" and ("no history is kept: %s is no plain file" % path in banner) == (name != "a folder") and
+                    not os.path.exists(os.path.join(state, "fret", "elsewhere")), banner)
+        shutil.rmtree(state)
+    os.makedirs(os.path.dirname(path))
+    with open(path, "w", encoding="ascii") as f:
+        f.write("".join("%d + 1\n" % i for i in range(200000, 400000)))
+    os.chmod(path, 0o644)
+    s = Session(tests, "--quiet", XDG_STATE_HOME=state)
+    tests.check("a history that others could read", stat.S_IMODE(os.stat(path).st_mode) == 0o600, oct(os.stat(path).st_mode))
+    s.child.send("\x1b[A\x1b[A\r")
+    tests.check("its last lines", s.child.expect([r"399998 \+ 1 = 399999\r", pexpect.TIMEOUT]) == 0, clean(s.child.before))
+    s.child.send("\x1b<\r")
+    s.child.expect(r"(\d+) \+ 1 = (\d+)\r")
+    first, after = map(int, s.child.match.groups())
+    tests.check("and no part of a line", 200000 < first < 399000 and after == first + 1, "%d %d" % (first, after))
+    s.child.sendline("quit")
+    s.end()
+
+
+def stopped(tests):
+    """Ctrl-Z at the prompt, and on again; a signal that its starter ignores."""
+    shell = pexpect.spawn("/bin/bash", ["--norc", "--noprofile", "-i"], env={**tests.env, "PS1": "shell> ", "TERM": "xterm", "FRET": tests.fret,
+                          "XDG_STATE_HOME": os.path.join(tests.dir, "state-stopped"), "INPUTRC": "/dev/null"}, encoding="utf-8", timeout=60, cwd=tests.dir)
+    shell.expect("shell> ")
+    shell.sendline('stty -a > before; "$FRET" --no-rc --quiet')
+    shell.expect(PROMPT)
+    shell.send("1 + 2")
+    shell.expect(r"1 \+ 2")
+    os.kill(child_of(shell.pid), signal.SIGTSTP)
+    shell.expect("Stopped")
+    shell.sendline("stty -a > after; cmp before after && echo all sa''me")
+    shell.expect("all same")
+    shell.sendline("fg")
+    shell.expect(r"fret> 1 \+ 2")
+    shell.send("00\r")
+    tests.check("the line is there again", shell.expect([r"1 \+ 200 = 201", pexpect.TIMEOUT]) == 0, clean(shell.before))
+    shell.sendline("quit")
+    shell.expect("shell> ")
+    shell.sendline("trap '' TSTP; \"$FRET\" --no-rc --quiet")
+    shell.expect(PROMPT)
+    os.kill(child_of(shell.pid), signal.SIGTSTP)
+    shell.sendline("2 + 3")
+    tests.check("what its starter ignores, it ignores", shell.expect([r"2 \+ 3 = 5", pexpect.TIMEOUT, pexpect.EOF]) == 0, clean(shell.before or ""))
+    shell.sendline("quit")
+    shell.sendline("exit")
+    shell.expect(pexpect.EOF)
+    shell.close()
+
+
+def paging(tests):
+    """Text that is too long for the terminal goes to $PAGER, to less or to more, or stays."""
+    where = os.path.join(tests.dir, "pagers")
+    os.mkdir(where)
+    for tool in ("sh", "cat", "head"):
+        os.symlink(shutil.which(tool), os.path.join(where, tool))
+
+    def shown(pager, *there):
+        for name in ("less", "more"):
+            path = os.path.join(where, name)
+            if name in there:
+                with open(path, "w", encoding="ascii") as f:
+                    f.write("#!/bin/sh\necho by-%s\nhead -n 2\n" % name)
+                os.chmod(path, 0o755)
+            elif os.path.exists(path):
+                os.unlink(path)
+        command = 'PATH=%s; %s; exec "$FRET" --no-rc --quiet' % (where, "unset PAGER" if pager is None else "PAGER='%s'; export PAGER" % pager)
+        child = pexpect.spawn("/bin/sh", ["-c", command], env={**tests.env, "TERM": "xterm", "INPUTRC": "/dev/null", "FRET": tests.fret,
+                              "XDG_STATE_HOME": where}, encoding="utf-8", timeout=60, cwd=tests.dir, dimensions=(12, 80))
+        child.expect(PROMPT)
+        child.sendline("show units")
+        child.expect(PROMPT)
+        text = clean(child.before)
+        child.sendline("quit")
+        child.expect(pexpect.EOF)
+        child.close()
+        return text
+    for name, pager, there, by in (("less", None, ("less", "more"), "by-less"), ("more", None, ("more",), "by-more"), ("none", None, (), None),
+                                   ("what PAGER says", "head -n 1", ("less",), "1"), ("PAGER of nothing", "", ("less",), None), ("cat", "cat", ("less",), None)):
+        text = shown(pager, *there)
+        lines = text.strip().splitlines()
+        tests.check("a pager: " + name, (by in text and len(lines) == 4 if by and by != "1" else len(lines) == 2 if by else len(lines) > 12), text)
+
+
 def run(tests):
-    tests.rooms(dialogue, interrupts, starting, own, narrow, figures)
+    tests.rooms(kept_lines, stopped, paging, dialogue, interrupts, starting, own, narrow, figures)
