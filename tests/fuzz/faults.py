@@ -5,6 +5,7 @@ tries them all and prints a table, the tests some; TESTS is the folder with faul
 `faults.py --leaks FRET TESTS [STATEMENT...]`: does memory that runs out leave any of it behind? Both built for a leak detector."""
 import difflib
 import errno
+import math
 import fcntl
 import os
 import pty
@@ -36,7 +37,8 @@ STATEMENTS = (
     (POWER, ("y = 3 mm, z = x + 1", "z := x^2", "G(u, v) := u + v*x", "k = 0.3", "c0 := 2 mm*x", "undo", "x, x^2 in %",
              "F(3), (x at x=5)", "material steel nu=0.2", "second E0=70 GPa nu=0.33", "second aluminium",
              "geometry cone angle=3 deg", "geometry sum 2:50 m^-1, 4:2e6 m^-3", "geometry power n=3 A=50 m^-2",
-             "geometry file gap.csv", "geometry file gap.csv smooth", "friction 0.3", "press FN=100 N", "press a=0.2 mm", "press dz=1 um", "reset all",
+             "geometry file gap.csv", "geometry file gap.csv smooth",
+             "geometry file rough.csv smooth", "geometry file rough.csv smooth 6", "friction 0.3", "press FN=100 N", "press a=0.2 mm", "press dz=1 um", "reset all",
              "set digits 9", "set format json", "set format json; help press; show commands", "show",
              "show variables", "show units", "show settings",
              "show commands", "show demos", "help", "help press", "help units", "apropos contact", "apropos radius",
@@ -116,6 +118,8 @@ def prepare(where):
     """Files that the statements read, and one that must survive."""
     texts = {"arm": "", "disarm": "", "script.fret": "x\nx + 1; x + 2\n",
              "gap.csv": "r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(40)),
+             "rough.csv": "r [mm],f [um],note\n" + "".join("%g,%g,a word\n" % (i / 50, max(0, i * i / 50 + 8 * math.sin(2 * i)))
+                                                           for i in range(40)),
              "follow.csv": "FN [N],Fx [N],force [N]\n" + "".join("%g,%g,%g\n" % (100 + i, 20 - i, 50 - 2 * i)
                                                                  for i in range(20)),
              "measured.csv": "force [N],depth [um]\n" + "".join("%g,%g\n" % (10 * i, 0.75 * i ** 0.667)
