@@ -70,8 +70,6 @@ static bool next_field(char separator, const char *line, size_t len, size_t *at,
     int depth = 0;
     for (; i < len; i++) {
         const char c = line[i];
-        if (c >= '0' && c <= '9') /* most of them */
-            continue;
         if (!quoted && depth == 0 && parts(separator, c))
             break;
         quoted = c == '"' ? !quoted : quoted;
@@ -190,22 +188,31 @@ static bool read_header(reader *r, const char *line, size_t len) {
 
 /* ---- rows -------------------------------------------------------------------------------------- */
 
-/* A decimal number, with a point or, where it cannot be a separator, with a comma. */
-static bool read_number(field f, const unit *u, bool comma, double *out) {
-    const bool minus = f.len && *f.text == '-', sign = minus || (f.len && *f.text == '+'),
-               decimal = u->factor == 1;
-    const char *text = f.text + sign;
-    const size_t len = f.len - sign;
-    const int shift = decimal ? u->exp10 : 0;
+/* The length of the number at the beginning of a text; 0: there is none. */
+static size_t take_number(const char *text, size_t len, char point, const unit *u, double *out) {
+    const bool minus = len && *text == '-', sign = minus || (len && *text == '+'), decimal = u->factor == 1;
     double v;
-    size_t read = lex_decimal(text, len, '.', shift, &v);
-    if (comma && read < len && text[read] == ',')
-        read = lex_decimal(text, len, ',', shift, &v);
-    if (read == 0 || read < len)
-        return false;
+    const size_t n = lex_decimal(text + sign, len - sign, point, decimal ? u->exp10 : 0, &v);
+    if (n == 0)
+        return 0;
     v = decimal ? v : (double)((long double)v * unit_scale(u));
     *out = minus ? -v : v;
-    return isfinite(v);
+    return isfinite(v) ? n + sign : 0;
+}
+
+/* All of a field, with a point or, where it cannot be a separator, with a comma. */
+static bool read_number(field f, const unit *u, bool comma, double *out) {
+    const char point = comma && !memchr(f.text, '.', f.len) ? ',' : '.';
+    return f.len && take_number(f.text, f.len, point, u, out) == f.len;
+}
+
+/* A field that is a number and nothing else, as most are; else *at stays. */
+static bool take_field(char separator, const char *line, size_t len, size_t *at, const unit *u, double *out) {
+    const size_t n = *at < len ? take_number(line + *at, len - *at, '.', u, out) : 0, end = *at + n;
+    if (n == 0 || (end < len && !parts(separator, line[end])))
+        return false;
+    *at = end + 1;
+    return true;
 }
 
 static bool make_room(csv *c) {
@@ -239,7 +246,11 @@ static bool read_row(reader *r, const char *line, size_t len) {
         separator = ' '; /* a header with commas over rows with blanks */
     if (!make_room(c))
         return calc_no_memory(r->error);
-    for (; next_field(separator, line, len, &at, &f); i++) {
+    for (;; i++) {
+        if (i < c->columns && take_field(separator, line, len, &at, &r->unit[i], &c->column[i].v[c->rows]))
+            continue;
+        if (!next_field(separator, line, len, &at, &f))
+            break;
         if (i >= c->columns && f.len > 0)
             return calc_fail(r->error, 0, 0, "%s:%zu: more than %zu fields, one for each name of the header",
                              c->path, r->line, c->columns);

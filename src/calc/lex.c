@@ -41,8 +41,8 @@ void lex_start(lexer *lx, const char *text, size_t len, calc_error *error) {
 /* Digits behind those of *number: where they end. */
 static const char *take_digits(const char *p, const char *end, unsigned long long *number) {
     unsigned long long n = *number;
-    for (; p < end && digit(*p); p++)
-        n = 10 * n + (unsigned)(*p - '0');
+    for (unsigned d; p < end && (d = (unsigned)(*p - '0')) <= 9; p++)
+        n = 10 * n + d;
     *number = n;
     return p;
 }
@@ -92,7 +92,8 @@ size_t lex_decimal(const char *text, size_t len, char point, int shift, double *
                                  1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     const long exponent = shift + written - (long)behind;
     if (digits <= 19 && number <= 1ULL << 53 && exponent >= -22 && exponent <= 22)
-        *out = exponent < 0 ? (double)number / ten[-exponent] : (double)number * ten[exponent];
+        *out = exponent < 0 ? (double)(long long)number / ten[-exponent]
+                            : (double)(long long)number * ten[exponent];
     else
 #endif
         *out = long_decimal(text, mantissa, point, written + shift);
