@@ -171,6 +171,24 @@ static double distance(double x, void *context) {
 /* The sides come nearest at b, with a and c beside it: they may pass each other twice within, or touch. */
 static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
     static const double touching = 1e-13; /* of the distance at a and c: what rounding leaves */
+    const bool first = fabs(a.f) == fabs(b.f);
+    if (first || fabs(c.f) == fabs(b.f)) { /* two as near as each other: between them, or they are level */
+        const place other = first ? a : c;
+        place mid = {.x = middle(s, b.x, other.x)};
+        mid.f = difference(s, mid.x);
+        if (s->q.error->raised)
+            return false;
+        if (opposite(mid.f, b.f)) {
+            add_bracket(s, b, mid);
+            add_bracket(s, mid, other);
+            return true;
+        }
+        if (fabs(mid.f) < fabs(b.f)) {
+            a = b;
+            b = mid;
+            c = other;
+        }
+    }
     gsl_min_fminimizer *method = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
     gsl_function f = {distance, s};
     if (!method)
