@@ -232,10 +232,12 @@ bool lex_filename(lexer *lx, char *buf, size_t size) {
         n++;
         at++;
     }
-    if (n == 0 || n >= size)
-        return lex_fail(lx, n ? "the file name is too long" : "expected a file name");
-    buf[n] = 0;
+    if (n == 0)
+        return lex_fail(lx, "expected a file name");
     lx->error->raised = false; /* a name need not be made of tokens */
+    if (n >= size)
+        return lex_fail(lx, "the file name is too long");
+    buf[n] = 0;
     lx->len = at + (quoted && at < lx->end) - lx->at;
     lex_next(lx);
     return true;

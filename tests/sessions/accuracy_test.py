@@ -279,6 +279,8 @@ def conditioning(tests):
     for script, line in (
             ("step FN=80 N dx=0.1 um; explain Fx", "path: step FN= dx= goes straight in (delta_z, delta_x)"),
             ("step dz=3 um Fx=5 N; explain dx", "path: step dz= Fx= goes straight in (F_N, F_x)"),
+            ("cycle FA=10 N FNA=10 N; explain Fx", "F_x = mu int sigma dF_N"),
+            ("cycle FA=10 N FNA=10 N; explain dx", "delta_x = mu eta int sigma dy"),
             ("cycle FA=10 N FNA=10 N; explain W", "the sine itself, event by event (exact)"),
             ("cycle dxA=0.1 um FNA=10 N; explain W", "chords a period and fewer, extrapolated)"),
             ("cycle dxA=0.1 um FNA=10 N; explain kt", "chords a period of the sine"),

@@ -99,6 +99,9 @@ def points(tests):
     marks = [line.find("*") for line in rows[1:10]]
     tests.check("a line in the terminal, from the first column to the last", rows[9].startswith(" 0.0 **---") and
                 rows[1].endswith("--**") and marks == sorted(marks, reverse=True) and marks[-1] == 5, done.stdout)
+    rows = tests.run("-c", "set plot 60x12\nplot x^2 for x = 1 .. 1e6 log log xy").stdout.splitlines()
+    tests.check("decades along the axes in the terminal", [rows[i].split()[0] for i in (1, 4, 6, 9)] == ["1e+12", "1e+08", "10000", "1"]
+                and rows[10].split() == ["1", "100", "10000", "1e+06"], "\n".join(rows))
     done = tests.run("-c", SCENE + "plot loop to x.png", cwd=where, env={"TMPDIR": "/nonexistent"})
     tests.check("no folder for gnuplot", done.returncode == 1 and "cannot make a temporary directory in /nonexistent"
                 in done.stderr, tests.report(done))

@@ -133,7 +133,7 @@ def copies(tests):
             done = tests.run("--replay", copy)
         tests.check("typeset in a copy: " + answer, done.returncode == (not right) and "1 passed" * right in done.stdout,
                     tests.report(done))
-    script = "fret> friction 0.4\n  fret> x = 1 + \\\n....> 2\nx\nfret>\n....> \n"
+    script = "fret> friction 0.4\n  fret> x = 1 + \\\n \t ....> 2\nx\nfret>\n....> \n"
     for way, done in (("file", None), ("pipe", tests.run(input=script)), ("-c", tests.run("-c", script))):
         if way == "file":
             with tests.file(script) as path:
@@ -174,6 +174,25 @@ def recorded(tests):
     done = tests.run("--replay", "self.txt", cwd=where)
     tests.check("a transcript of itself ends", "nested more than" in done.stdout and done.returncode == 1,
                 tests.report(done))
+
+
+def quoted(tests):
+    """File names that the language needs quotes for, one that has some, and the longest."""
+    where = os.path.join(tests.dir, "quoted")
+    os.mkdir(where)
+    for name, written in (("a b.csv", '"a b.csv"'), ('a"b.csv', 'a"b.csv')):
+        with open(os.path.join(where, name), "w", encoding="ascii") as f:
+            f.write("r [mm],f [um]\n0,0\n1,50\n")
+        done = tests.run("-c", "geometry file %s\nsave s.fret" % written, cwd=where)
+        again = tests.run("-c", "source s.fret; f(0.5 mm)", cwd=where)
+        tests.check("saved: " + name, done.returncode == again.returncode == 0 and again.stdout.startswith("f(0.5 mm) = "),
+                    tests.report(done) + tests.report(again))
+    with open(os.path.join(where, "ll.fret"), "w", encoding="ascii") as f:
+        f.write("x = 3; x\n")
+    for name, out, err in (("./" * 2044 + "ll.fret", "x = 3\n", ""), ("./" * 2044 + "lll.fret", "", "1:8: error: the file name is too long")):
+        for quote in ("", '"'):
+            done = tests.run("-c", "source " + quote + name + quote, cwd=where)
+            tests.check("a name of %d bytes%s" % (len(name), quote), 4095 <= len(name) <= 4096 and done.stdout == out and err in done.stderr, done.stderr[:200])
 
 
 def saved(tests):
@@ -242,5 +261,5 @@ def targets(tests):
 
 
 def run(tests):
-    for room in (copies, recorded, saved, pure, targets):
+    for room in (copies, recorded, quoted, saved, pure, targets):
         room(tests)

@@ -25,6 +25,7 @@ SAME = {
     "a micro sign alone": b"\xb5 [mm],r [mm],f [um]\n0,0,0\n1,0.5,12.5\n1,1,50\n",
     "a column twice": b"r [mm],r [mm],f [um]\n0,0,0\n0.5,0.7,12.5\n1,2,50\n",
     "a column of notes behind blanks": b"r [mm] f [um] note\n0 0 a\n0.5 12.5 b\n1 50 c\n",
+    "separators within brackets": b"note (a, b),r [mm],f [um]\nx,0,0\ny,0.5,12.5\nz,1,50\n",
     "every form of a number": b"r [mm];f [um]\n0,;-.0\n,5;12,5" + 70 * b"0" + b"E0\n" + 70 * b"0" + b"1;+5e+001\n",
     "a separator named": b"sep=;\nr [mm];f [um]\n0;0\n0,5;12,5\n1;50\n",
 }

@@ -249,6 +249,10 @@ WRONG = (
 
 
 def refused(tests):
+    with tests.file(text_of([(i, i * i) for i in range(900)]), ".csv") as path:
+        done = tests.run("-c", "geometry file %s smooth 200\ngeometry file %s smooth 201" % (path, path))
+        tests.check("200 pieces are the most", "note: smoothed, 200 pieces" in done.stderr and "-c:2:" in done.stderr
+                    and "error: smooth takes a misfit" in done.stderr, tests.report(done))
     for f, how, message in WRONG:
         with tests.file(text_of(profile(f)), ".csv") as path:
             start = "mu = 0.3; geometry sphere R=1 m; geometry file %s " % path

@@ -86,6 +86,39 @@ static void plain(void) {
     TEXT("", PLOT_TEX, "");
 }
 
+/* What turns or hides its neighbours, up to its ends, and none beside it. */
+static void hidden(void) {
+    static const unsigned from[][2] = {{0xad, 0xad},     {0x61c, 0x61c},    {0x200b, 0x200f},
+                                       {0x2028, 0x202e}, {0x2060, 0x206f},  {0xfeff, 0xfeff},
+                                       {0xfff9, 0xfffb}, {0xe0000, 0xe0fff}};
+    for (size_t i = 0; i < sizeof from / sizeof *from; i++)
+        for (int end = 0; end < 4; end++) {
+            const unsigned c = end == 0 ? from[i][0] - 1 : end == 3 ? from[i][1] + 1 : from[i][end - 1];
+            const unsigned lead = c < 0x800 ? 0xc0 | c >> 6 : c < 0x10000 ? 0xe0 | c >> 12 : 0xf0 | c >> 18;
+            char text[5] = {(char)lead}, *at = text + 1;
+            if (c >= 0x10000)
+                *at++ = (char)(0x80 | (c >> 12 & 0x3f));
+            if (c >= 0x800)
+                *at++ = (char)(0x80 | (c >> 6 & 0x3f));
+            *at = (char)(0x80 | (c & 0x3f));
+            TEXT(text, PLOT_UNICODE, end == 1 || end == 2 ? "?" : text);
+        }
+}
+
+static void page_sizes(void) {
+    plot_target t = {.columns = 20, .rows = 5};
+    plot_pages p = plot_pages_for(&t, 1, true);
+    CHECK(p.columns == 30 && p.rows == 8);
+    t = (plot_target){.columns = 90, .rows = 30};
+    p = plot_pages_for(&t, 2, true);
+    CHECK(!p.beside && p.columns == 90 && p.rows == 15);
+    p = plot_pages_for(&t, 2, false);
+    CHECK(!p.beside && p.columns == 90 && p.rows == 30);
+    t.columns = 100;
+    p = plot_pages_for(&t, 2, true);
+    CHECK(p.beside && p.columns == 50 && p.rows == 30);
+}
+
 /* Whatever the bytes: no control character, quote or newline leaves the quoting. */
 static void quoting(void) {
     unsigned long long random = 7;
@@ -757,6 +790,8 @@ int main(int argc, char **argv) {
     names();
     odd_names();
     plain();
+    hidden();
+    page_sizes();
     quoting();
     scripts();
     styles();
