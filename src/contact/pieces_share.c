@@ -13,7 +13,8 @@ static bool same_shape(const fret_normal *a, const fret_normal *b) {
         f->R != g->R || f->slope != g->slope || f->table != g->table)
         return false;
     for (int i = 0; i < f->terms; i++)
-        if (f->power[i].n != g->power[i].n || f->power[i].h != g->power[i].h || f->power[i].r0 != g->power[i].r0)
+        if (f->power[i].n != g->power[i].n || f->power[i].h != g->power[i].h ||
+            f->power[i].r0 != g->power[i].r0)
             return false;
     return true;
 }

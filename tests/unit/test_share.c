@@ -91,7 +91,8 @@ int main(int argc, char **argv) {
         fret_gap wider = shapes[shape];
         wider.R *= 1.5;
         wider.power[0].h *= 1.5;
-        fret_normal *other = make(&wider, k, 210e9, 1e-3), *graded = make(&shapes[shape], k + 0.1, 210e9, 1e-3);
+        fret_normal *other = make(&wider, k, 210e9, 1e-3),
+                    *graded = make(&shapes[shape], k + 0.1, 210e9, 1e-3);
         CHECK_OK(fret_normal_share(graded, from));
         CHECK(isnan(fret_normal_prepared(graded)));
         CHECK_OK(fret_normal_share(other, from));
