@@ -543,7 +543,8 @@ NEEDING = (("sphere R=10 mm", {"R": "10 mm*%s"}, "cycle FA=20 N", "auto"),
            ("power n=4 h=1 um r0=1 mm", {"n": "4*%s", "h": "1 um*%s", "r0": "1 mm*%s"}, "cycle dxA=0.1 um times 2", "springs 50"),
            ("flat-rounded b=0.2 mm R=10 mm", {"b": "0.2 mm*%s"}, "cycle FA=20 N", "closed"),
            ("cone slope=0.05", {"slope": "0.05*%s"}, "cycle FA=12 N FNA=9 N", "auto"),
-           ("file %s", {}, "cycle FA=20 N", "auto"))
+           ("exact-sphere R=10 mm", {"R": "10 mm*%s"}, "step Fx=20 N", "auto"),
+           ("file %s", {}, "cycle FA=20 N", "auto"), ("file %s", {}, "cycle FA=12 N FNA=9 N", "auto"))
 CALLS = {"E": "1 mm", "loss_factor": "10 N", "c": "10 N", "F": "10 N", "d": "0.1 um", "FA": "10 N", "dxA": "0.1 um", "x": "0.1 mm",
          "r": "0.1 mm"}
 
@@ -642,7 +643,35 @@ def columns(tests, asked, scene, span):
                 tests.report(done))
 
 
-ROOM = (needs, tabled, lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
+def along(tests):
+    """At the end of a table along the load every quantity is what it is there."""
+    asked = [one for one in quantities(tests) if one != "time"]
+    loads = ("press FN=100 N", "step Fx=20 N", "step FN=80 N Fx=20 N", "step Fx=20 N; step dx=-0.1 um", "cycle FA=20 N times 2",
+             "cycle dxA=0.3 um; step FN=90 N", "cycle FA=12 N FNA=9 N", "cycle dxA=0.3 um FNA=9 N")
+    with tests.file("r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(51)), ".csv") as path:
+        tests.each([lambda g=shape, l=load: ends(tests, asked, "geometry " + (g % path if "%" in g else g), l)
+                    for shape in ("sphere R=10 mm", "flat-rounded b=0.2 mm R=10 mm", "file %s") for load in loads])
+
+
+def ends(tests, asked, shape, load):
+    lines = ["material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; friction 0.4; %s; press FN=100 N; %s" % (shape, load), "set format json"]
+    for one in asked:
+        lines += ["table %s along program steps 2" % one, one]
+    with tests.file("\n".join(lines) + "\n") as script:
+        done = tests.run("--keep-going", script)
+    failed = {int(line) for line in re.findall(r":(\d+):\d+: error: ", done.stderr)}
+    told = [json.loads(line) for line in done.stdout.splitlines()]
+    rows = {list(row)[-1]: list(row.values())[-1] for row in told if "name" not in row}
+    values = {row["name"]: row["value"] for row in told if "name" in row}
+    tests.check("along " + load, not {1, 2} & failed and len(values) > 40, tests.report(done))
+    for one in asked:
+        a, b = rows.get(one), values.get(one)
+        near = 1e-7 if "FNA" in load else 1e-11  # chords, and the sine itself
+        tests.check("%s along %s, %s" % (one, load, shape), a == b or (None not in (a, b) and abs(a - b) <= near * abs(b)),
+                    "%s, expected %s" % (a, b))
+
+
+ROOM = (needs, tabled, along, lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
 
 
 def run(tests):
