@@ -449,8 +449,9 @@ static bool no_quantity(shell *sh, lexer *lx) {
             lex_fail(lx, "explain which quantity? try: explain dW");
         return lx->kind == T_END;
     }
-    lex_word(lx, word);
-    if (quantity_find(word, lx->len) || lex_is(lx, "ans") || names_find(&sh->calc.names, word, lx->len, &i))
+    lex_word(lx, word); /* as much as is shown */
+    if (quantity_find(lx->text + lx->at, lx->len) || lex_is(lx, "ans") ||
+        names_find(&sh->calc.names, lx->text + lx->at, lx->len, &i))
         return false;
     i = 0;
     for (const char *name; (name = builtin_name(i)); i++)

@@ -152,10 +152,11 @@ void format_value(const settings *set, value v, char *buf, size_t size) {
     snprintf(buf, size, "%s%s%s", number, *unit_text ? " " : "", unit_text);
 }
 
-void format_exact(const settings *set, value v, char *buf, size_t size) {
+void format_exact(value v, char *buf, size_t size) {
+    enum { LEAST = 6 };
     char unit_text[COLUMN_UNIT], number[NUMBER_TEXT];
     double want = (double)v.v, read = NAN;
-    for (int digits = set->digits; digits <= 17 && read != fabs(want); digits++) {
+    for (int digits = LEAST; digits <= 17 && read != fabs(want); digits++) {
         long double scale = unit_choose(v.d, want, digits, unit_text, sizeof unit_text);
         size_t n = number_text(number, digits, (double)(want / scale));
         bool minus = number[0] == '-';

@@ -62,8 +62,8 @@ void print_json_value(FILE *to, const char *name, long double v, dim d);
 size_t number_text(char text[NUMBER_TEXT], int digits, double v);
 /* A value with a unit chosen for it, as text. */
 void format_value(const settings *set, value v, char *buf, size_t size);
-/* The same with as many more digits as reading it back takes. */
-void format_exact(const settings *set, value v, char *buf, size_t size);
+/* The same with as many digits as reading it back takes. */
+void format_exact(value v, char *buf, size_t size);
 /* A text on one line, what does not show escaped: see calc/characters.h. Line ends become blanks. */
 void print_safe(FILE *to, const char *text, size_t len);
 /* The text as a JSON string, quotation marks included; bytes that are no UTF-8 become U+FFFD. */

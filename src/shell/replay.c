@@ -262,8 +262,11 @@ static bool add_part(replay *r, const char *line, size_t n, bool *whole) {
         return false;
     if (!append(&r->statement, line, n))
         return false;
+    size_t end = r->statement.len;
+    while (!*whole && r->statement.p[--end] != '\\')
+        ;
     if (!*whole)
-        *strrchr(r->statement.p, '\\') = ' ';
+        r->statement.p[end] = ' ';
     return true;
 }
 

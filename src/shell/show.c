@@ -49,18 +49,17 @@ static void angle_text(double v, char *buf, size_t size) {
 
 enum { VALUE_TEXT = 160 };
 
-static void value_text(const settings *set, value v, char buf[VALUE_TEXT]) {
+static void value_text(value v, char buf[VALUE_TEXT]) {
     if (v.d.rad != 0 && dim_equal(v.d, DIM_NONE))
         angle_text((double)v.v, buf, VALUE_TEXT);
     else
-        format_exact(set, v, buf, VALUE_TEXT);
+        format_exact(v, buf, VALUE_TEXT);
 }
 
 /* ---- the scene as statements ------------------------------------------------------------------- */
 
 typedef struct writer {
     const calc *c;
-    const settings *set;
     FILE *to;
     bool any; /* something has been written */
 } writer;
@@ -82,7 +81,7 @@ static void begin(writer *w, const char *words) {
 
 static void write_value(writer *w, const char *name, const char *sign, value v) {
     char text[VALUE_TEXT];
-    value_text(w->set, v, text);
+    value_text(v, text);
     fprintf(w->to, "%s%s%s", name, sign, text);
 }
 
@@ -188,7 +187,7 @@ static void write_geometry(writer *w) {
             write_argument(w, quantity_of_input(i)->name, i);
     for (int i = 0; i < in->sum.terms && g->by == PARAMETERS_TERMS; i++) {
         char n[VALUE_TEXT];
-        value_text(w->set, (value){in->sum.power[i].n, DIM_NONE}, n);
+        value_text((value){in->sum.power[i].n, DIM_NONE}, n);
         fprintf(w->to, "%s %s:", i ? "," : "", n);
         write_value(w, "", "", (value){in->sum.power[i].h, {0, 1 - in->sum.power[i].n, 0}});
     }
@@ -323,7 +322,7 @@ static void settle(calc *c) {
 }
 
 bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
-    writer w = {c, set, to, false};
+    writer w = {c, to, false};
     settle(c);
     if (whole && !c->scene.automatic) {
         const setting *row;
@@ -373,7 +372,7 @@ static bool show_commands(shell *sh, FILE *to) {
 }
 
 static bool show_variables(shell *sh, FILE *to) {
-    writer w = {&sh->calc, &sh->set, to, false};
+    writer w = {&sh->calc, to, false};
     if (!write_names(&w))
         return false;
     if (!w.any)

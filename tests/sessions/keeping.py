@@ -133,6 +133,10 @@ def copies(tests):
             done = tests.run("--replay", copy)
         tests.check("typeset in a copy: " + answer, done.returncode == (not right) and "1 passed" * right in done.stdout,
                     tests.report(done))
+    with tests.file("fret> 1 + \\\n....> 1,\0\\\n....> \n3\n", ".txt") as copy:
+        done = tests.run("--replay", copy)
+    tests.check("a copy with a byte 0 before a mark of continuation", done.returncode == 1 and "unexpected byte 0x00" in done.stdout,
+                tests.report(done))
     script = "fret> friction 0.4\n  fret> x = 1 + \\\n \t ....> 2\nx\nfret>\n....> \n"
     for way, done in (("file", None), ("pipe", tests.run(input=script)), ("-c", tests.run("-c", script))):
         if way == "file":
