@@ -371,7 +371,7 @@ static bool run(machine *m, value *out) {
 bool expr_eval(calc *c, const expr *e, value *out, calc_error *error) {
     machine m = {c, e, error, NULL, false};
     const bool ok = run(&m, out);
-    return c->scene.stop && *c->scene.stop ? calc_interrupted(error) : ok;
+    return !calc_stopped(c->scene.stop, error) && ok;
 }
 
 bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_error *error) {

@@ -41,8 +41,8 @@ size_t node_operands(const expr_node *n) {
 
 static bool add(parser *p, const expr_node *node, size_t *index) {
     expr *e = p->e;
-    if (e->count % LOOK == 0 && p->c->scene.stop && *p->c->scene.stop)
-        return calc_interrupted(p->lx->error);
+    if (e->count % LOOK == 0 && calc_stopped(p->c->scene.stop, p->lx->error))
+        return false;
     if (e->count == e->room) {
         void *nodes = e->nodes;
         if (e->count >= NODE_LIMIT)

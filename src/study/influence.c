@@ -9,8 +9,7 @@
 /* ---- what there is to change ------------------------------------------------------------------- */
 
 static void add_input(const scene *s, input in, influence_study *out) {
-    if (!s->in.set[in] || s->in.v[in] == 0 || (s->in.bindings & INPUT_BIT(in)) ||
-        (in == IN_FN && !s->end.steps))
+    if (!s->in.set[in] || s->in.v[in] == 0 || s->in.bindings & INPUT_BIT(in))
         return;
     const quantity *q = quantity_of_input(in);
     out->cause[out->count++] =
