@@ -160,6 +160,19 @@ static plot_figure figure(plot_role role, const char *title) {
     return f;
 }
 
+static char *text_of(const plot_figure *f, plot_target target) {
+    char *text = NULL;
+    size_t room;
+    target.out = open_memstream(&text, &room);
+    if (!target.terminal)
+        target.terminal = PLOT_DUMB;
+    bool ok = plot_draw(f, &target, NULL, fresh());
+    fclose(target.out);
+    if (!CHECK(ok))
+        printf("%s\n", error.text);
+    return text;
+}
+
 static char *script_of(const plot_figure *f, const char *ending) {
     char *text = NULL;
     size_t room;
@@ -270,6 +283,112 @@ static void layers(void) {
         at = strstr(at, title);
     }
     CHECK(at != NULL);
+    free(text);
+    plot_figure_free(&f);
+}
+
+/* What scripts say of thin series, of measured ones, of bands with holes, of axes and maps of several kinds.
+ */
+static void looks_of(void) {
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_panel *p = f.panel[0];
+    plot_series *thin = p->series[0], *measured = plot_series_add(p, PLOT_MEASURED, "one", fresh()),
+                *more = plot_series_add(p, PLOT_MEASURED, "two", fresh()),
+                *band = plot_series_add(p, PLOT_BAND, NULL, fresh()),
+                *empty = plot_series_add(p, PLOT_CURVE, NULL, fresh());
+    thin->thin = band->thin = true;
+    empty->style = 3;
+    for (int i = 0; i < 5; i++) {
+        plot_point(thin, i, 1e6 * i);
+        plot_point(measured, i, 2e6);
+        plot_point(more, i, 3e6);
+        plot_band(band, i, 0, i == 2 ? NAN : 1e6);
+    }
+    p->points = true;
+    char *text = script_of(&f, ".png");
+    CHECK(has(text, "lines lw 0.9 lc rgb '#707070' dt solid notitle") ||
+          has(text, "lc rgb '#707070' dt solid notitle"));
+    CHECK(has(text, "fc rgb '#e4e4e4'") && has(text, "\n1 0 1000000\n\n3 0 1000000\n"));
+    CHECK(has(text, "lc rgb '#000000' title \"one\"") || has(text, "lc rgb '#000000' title 'one'"));
+    CHECK(!has(text, "lc rgb '#000000' title \"two\"") && has(text, "two") && !has(text, "$data0_0_4 using"));
+    CHECK(has(text, "set format y '%h'") && !has(text, "set format x '%h'"));
+    free(text);
+    for (int i = 0; i < 5; i++)
+        thin->x[i] = measured->x[i] = more->x[i] = band->x[i] = 1e-5 * pow(10, i);
+    p->logx = true;
+    text = script_of(&f, ".tex");
+    CHECK(has(text, "set format x '$10^{%T}$'") && !has(text, "set xzeroaxis lt"));
+    free(text);
+    p->logx = false;
+    p->logy = true;
+    text = script_of(&f, ".tex");
+    CHECK(!has(text, "set xzeroaxis lt"));
+    free(text);
+    plot_figure_free(&f);
+}
+
+static void fill_map(plot_map *m, double z(double x, double y)) {
+    for (size_t i = 0; i < m->nx * m->ny; i++) {
+        m->x[i % m->nx] = 1.0 + (double)(i % m->nx);
+        m->y[i / m->nx] = 20.0 - (double)(i / m->nx); /* downwards */
+    }
+    for (size_t i = 0; i < m->nx * m->ny; i++)
+        m->z[i] = z(m->x[i % m->nx], m->y[i / m->nx]);
+}
+
+static double steep(double x, double y) {
+    return pow(10, 0.2 * x) + y;
+}
+
+static double flat(double x, double y) {
+    return 0 * x * y + 7;
+}
+
+static double plane(double x, double y) {
+    return x - y;
+}
+
+static void maps(void) {
+    plot_figure f;
+    plot_figure_init(&f);
+    plot_panel *p = plot_panel_add(&f, fresh());
+    CHECK(plot_map_make(p, 20, 20, fresh()));
+    p->map.label = strdup("z");
+    p->title = strdup("a title");
+    fill_map(&p->map, steep);
+    char *text = script_of(&f, ".tex");
+    CHECK(has(text, "set logscale cb\nset format cb '$10^{%T}$'") && has(text, "set ylabel offset -1.5,0"));
+    free(text);
+    p->flipx = p->flipy = true;
+    text = script_of(&f, ".png");
+    CHECK(has(text, "set logscale cb\nset format cb '10^{%T}'") && !has(text, "set ylabel offset -1.5") &&
+          has(text, "set xrange [20:1]") && has(text, "front boxed"));
+    free(text);
+    fill_map(&p->map, flat);
+    text = script_of(&f, ".png");
+    CHECK(has(text, "levels discrete 0\n") && !has(text, "lines nosurface"));
+    free(text);
+    fill_map(&p->map, plane);
+    p->xlo = -10; /* beside the map there is nothing */
+    p->xhi = 30;
+    text = text_of(&f, (plot_target){.columns = 0, .rows = 0});
+    CHECK(has(text, "contours of z") && has(text, "a title"));
+    free(text);
+    text = text_of(&f, (plot_target){.columns = 70, .rows = 20, .unicode = true, .terminal = PLOT_BLOCK});
+    CHECK(has(text, "contours of z") && !has(text, "\u2812"));
+    free(text);
+    p->xlo = p->xhi = NAN;
+    plot_panel *q = plot_panel_add(&f, fresh());
+    plot_series *s = plot_series_add(q, PLOT_CURVE, "key", fresh());
+    plot_point(s, 0, 0);
+    plot_point(s, 1, 1);
+    text = script_of(&f, ".svg");
+    CHECK(has(text, "set xtics 5\n") && has(text, "set multiplot layout 1,2") &&
+          has(text, "set tmargin 3\n"));
+    free(text);
+    p->logx = true;
+    text = script_of(&f, ".svg");
+    CHECK(!has(text, "set xtics 5\n"));
     free(text);
     plot_figure_free(&f);
 }
@@ -562,19 +681,6 @@ static bool any_left(const char *dir) {
     return system(command) == 0;
 }
 
-static char *text_of(const plot_figure *f, plot_target target) {
-    char *text = NULL;
-    size_t room;
-    target.out = open_memstream(&text, &room);
-    if (!target.terminal)
-        target.terminal = PLOT_DUMB;
-    bool ok = plot_draw(f, &target, NULL, fresh());
-    fclose(target.out);
-    if (!CHECK(ok))
-        printf("%s\n", error.text);
-    return text;
-}
-
 static void pages(void) {
     plot_figure f = figure(PLOT_CURVE, "one");
     plot_panel *p = f.panel[0];
@@ -623,6 +729,52 @@ static void pages(void) {
     text = text_of(
         &f, (plot_target){.columns = 90, .rows = 20, .unicode = true, .color = true, .terminal = PLOT_BLOCK});
     CHECK(has(text, "\u2812\u2812\u2802\u2800 \033[39meight") && has(text, "\u2812 \033[39mmore"));
+    free(text);
+    plot_figure_free(&f);
+}
+
+/* Pages of few rows, of numbers of all sizes, of helping lines. */
+static void odd_pages(void) {
+    plot_figure f = figure(PLOT_CURVE, "thin one");
+    plot_panel *p = f.panel[0];
+    plot_series *s = p->series[0];
+    s->thin = true;
+    plot_series *c = plot_series_add(p, PLOT_CURVE, "the curve", fresh());
+    for (int i = -2; i <= 50; i++) {
+        plot_point(s, i, i);
+        plot_point(c, i, i > 40 ? i : 0.5 * i);
+    }
+    p->logx = p->logy = true;
+    char *text =
+        text_of(&f, (plot_target){.columns = 60, .rows = 20, .unicode = true, .terminal = PLOT_BLOCK});
+    CHECK(has(text, "thin one") && has(text, "\n    1 ") && has(text, " 10 "));
+    free(text);
+    p->logx = p->logy = false;
+    for (size_t i = 0; i < s->count; i++)
+        c->y[i] = s->y[i] = 1e7 + 1e6 * (double)i;
+    text = text_of(&f, (plot_target){.columns = 60, .rows = 20});
+    CHECK(has(text, "e+07 "));
+    free(text);
+    for (size_t i = 0; i < s->count; i++)
+        c->y[i] = s->y[i] = 1e-7 * (double)i;
+    text = text_of(&f, (plot_target){.columns = 60, .rows = 20});
+    CHECK(has(text, "e-06 "));
+    free(text);
+    p->key_off = true;
+    text = text_of(&f, (plot_target){.columns = 60, .rows = 20});
+    CHECK(!has(text, "the curve"));
+    free(text);
+    p->key_off = false;
+    for (int i = 0; i < 30; i++)
+        plot_point(plot_series_add(
+                       p, PLOT_CURVE,
+                       i % 2 ? "more" : "one more of those with long names that take all of a row", fresh()),
+                   1, i);
+    text = text_of(&f, (plot_target){.columns = 60, .rows = 16}); /* a picture is left, and some of the key */
+    CHECK(has(text, "+---") && has(text, "the curve"));
+    free(text);
+    text = text_of(&f, (plot_target){.columns = 300, .rows = 12});
+    CHECK(has(text, "+---"));
     free(text);
     plot_figure_free(&f);
 }
@@ -806,7 +958,10 @@ int main(int argc, char **argv) {
     levels();
     dots();
     pages();
+    odd_pages();
     map_pages();
+    maps();
+    looks_of();
     refused(tmp);
     hostile_names(tmp);
     animates(tmp);
