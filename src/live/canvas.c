@@ -37,7 +37,7 @@ static canvas_cell *cell_of(const canvas *c, int x, int y) {
 void canvas_dot(canvas *c, int x, int y, ink of) {
     static const unsigned char bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
     canvas_cell *at = cell_of(c, x, y);
-    at->dots = (unsigned char)(at->dots | (c->braille ? bits[y % 4][x % 2] : 1 << y % 2));
+    at->dots = (unsigned char)(at->dots | (c->braille ? bits[y & 3][x & 1] : 1 << (y & 1)));
     if (of > at->ink)
         at->ink = (unsigned char)of;
 }
