@@ -32,15 +32,19 @@ void fret_normal_free(fret_normal *normal);
  * or freed. The flag must outlive the contact; NULL, as at first: nothing stops. */
 void fret_normal_stop(fret_normal *normal, fret_stop stop);
 
+/* A table of so many rows that fret_normal_prepare pays for a single question about slip. */
+bool fret_normal_dense(const fret_normal *normal);
+
 /* For many questions, about loads up to F [N]: the law of a shape other than a power becomes polynomials,
  * piece by piece. To set up takes some 1000 times g(x), of a table some 20 times for each row; then
  * F_N(delta_z), its inverse and what is asked of slices take about 1 us whatever the shape,
  * fret_normal_profile less. A power law needs none. Where no pieces come out, or where a question is beyond
  * them, answers come as before: they agree to 1e-15.
- * error: 0, or what may be left of g(x) and F_N of a table, relative, 1e-8 say. A law that is smooth to that
- * across rows takes a dozen pieces, some 1500 times g(x), whatever the number of rows; without, a table with
- * more than some 2000 rows in contact gets none. What is lost near the edge of the contact is farther off by
- * as much as it is less than the whole; beyond 10 times `error` it is answered as before.
+ * error: 0, or what may be left of F_N(delta_z) of a table, relative, 1e-8 say: to be smooth across rows to
+ * that takes a law a few dozen pieces, some 1000 times g(x), whatever the number of rows. To 1e-15, for 0,
+ * rows are taken one by one where they are too few or too rough; of more than 10,000 in contact the error
+ * that there is, up to 1e-8, is left. Of a law made of many rows radii are found by g(x), in some 30 us, and
+ * slices thinner than 1/200 of the contact are answered as before where they want more digits than it has.
  * Not while others use the contact. Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE, FRET_NO_MEMORY,
  * FRET_INTERRUPTED. */
 fret_status fret_normal_prepare(fret_normal *normal, double F, double error);
@@ -50,7 +54,7 @@ fret_status fret_normal_prepare(fret_normal *normal, double F, double error);
  * prepared and the other has not, nothing. Error: FRET_NO_MEMORY. */
 fret_status fret_normal_share(fret_normal *normal, const fret_normal *from);
 
-/* The largest relative error of these polynomials against g(x) and F_N that was found when they were made;
+/* The largest relative error of these polynomials against F_N(delta_z) that was found when they were made;
  * NaN: there are none. */
 double fret_normal_prepared(const fret_normal *normal);
 

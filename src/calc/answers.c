@@ -39,12 +39,13 @@ static bool press_by(scene *s, const fret_normal *normal, fret_press *out, calc_
     return calc_status(error, &st);
 }
 
-/* Chords of a swinging load are many; a power law needs nothing of the kind. */
+/* Chords of a swinging load are many, and so are the rows of some tables; a power law needs nothing of the
+ * kind. */
 static bool normal_of_load(scene *s, const load_reach *reach, const fret_normal **out, calc_error *error) {
     fret_press press;
     if (!scene_normal(s, out, error))
         return false;
-    if (fret_normal_is_power(*out) || !(s->many || reach->swings))
+    if (fret_normal_is_power(*out) || !(s->many || reach->swings || fret_normal_dense(*out)))
         return true;
     return press_by(s, *out, &press, error) &&
            scene_many_normal(s, fmax((double)press.F, reach->FN_most) + reach->FN_more, out, error);
@@ -363,7 +364,8 @@ bool scene_contact(scene *s, fret_contact *out, calc_error *error) {
         !scene_friction(s, &out->mu, error))
         return false;
     out->press = *press;
-    const bool many = s->many && press->F > 0 && !fret_normal_is_power(out->normal);
+    const bool many =
+        (s->many || fret_normal_dense(out->normal)) && press->F > 0 && !fret_normal_is_power(out->normal);
     if (many && !scene_many_normal(s, (double)press->F, &out->normal, error))
         return false;
     if (many && used_pieces(s, out->normal))

@@ -6,15 +6,16 @@
 #include <float.h>
 
 #include "contact/check.h"
-#include "contact/normal.h"
+#include "contact/pieces.h"
 #include "number/real.h"
 
-/* The law for a slice that is the part t of the contact: what is thin shows more of the error of pieces, and
- * where these would leave too few digits, a contact without. */
+/* The law for a slice that is the part t of the contact: where the polynomials are those of many rows
+ * together one of few has a law of its own, and too few digits of theirs. */
+static const fret_real THIN = 5e-3L;
 static const fret_normal *law_of(const fret_contact *c, fret_real t, fret_normal *plain) {
     const fret_normal *n = c->normal;
-    const double error = fret_normal_prepared(n);
-    if (!(error > 1e-15 && error > 10 * n->borne * t))
+    if (!n->pieces || !fret_pieces_rough(n->pieces) || t > THIN ||
+        fret_normal_prepared(n) < 10 * n->borne * t * t)
         return n;
     *plain = *n;
     plain->pieces = NULL;

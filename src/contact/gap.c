@@ -161,6 +161,9 @@ static fret_real sampled_bend(const fret_gap *gap, const fret_rule *rule, fret_r
 static fret_real sampled_tip(const fret_gap *gap) {
     return fret_table_pointed(gap->table) ? 1 : 2;
 }
+static size_t sampled_rows(const fret_gap *gap) {
+    return fret_table_rows(gap->table);
+}
 static bool sampled_grows(const fret_gap *gap) {
     return fret_table_grows(gap->table);
 }
@@ -175,8 +178,9 @@ typedef struct shape {
     fret_real (*bend)(const fret_gap *, const fret_rule *, fret_real kink, fret_real e);
     bool (*grows)(const fret_gap *);
     int (*series)(const fret_gap *, const fret_rule *, fret_real a, fret_term *);
-    bool powers, closed, sharp, rows; /* reads power[]; of gap.h the other three */
-    bool b, R, slope;                 /* reads these, which must be positive */
+    size_t (*rows)(const fret_gap *);
+    bool powers, closed, sharp; /* reads power[]; of gap.h the other two */
+    bool b, R, slope;           /* reads these, which must be positive */
 } shape;
 
 static const shape shapes[] = {
@@ -216,7 +220,7 @@ static const shape shapes[] = {
                         .kink = sampled_kink,
                         .bend = sampled_bend,
                         .grows = sampled_grows,
-                        .rows = true},
+                        .rows = sampled_rows},
 };
 
 static const shape *shape_of(const fret_gap *gap) {
@@ -300,8 +304,9 @@ bool fret_gap_closed(const fret_gap *gap) {
     return shape_of(gap)->closed;
 }
 
-bool fret_gap_has_rows(const fret_gap *gap) {
-    return shape_of(gap)->rows;
+size_t fret_gap_rows(const fret_gap *gap) {
+    const shape *s = shape_of(gap);
+    return s->rows ? s->rows(gap) : 0;
 }
 
 bool fret_gap_grows(const fret_gap *gap) {

@@ -15,21 +15,10 @@ fret_real fret_force_of(const fret_normal *n, const fret_profile *p) {
     return 2 * n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) * p->I;
 }
 
-/* Newton in ln e, where depth and force are nearly powers, kept in a bracket. Returns e; infinity where the
- * gap ends before the target is reached. */
-fret_real fret_search_radius(const fret_normal *n, bool by_force, fret_real target) {
+/* Newton in ln e, from e on, where depth and force are nearly powers, kept in a bracket. */
+static fret_real search_from(const fret_normal *n, bool by_force, fret_real target, fret_real e) {
     fret_real start = fret_gap_start(&n->gap), end = n->end;
-    if (target <= 0)
-        return 0;
-    if (isfinite(end)) {
-        fret_profile p = profile(n, end - start);
-        if ((by_force ? fret_force_of(n, &p) : p.g) < target)
-            return INFINITY;
-    }
-    fret_real lo = 0, hi = isfinite(end) ? end - start : (fret_real)INFINITY,
-              e = isfinite(end) ? end / 16
-                  : start > 0   ? start / 16
-                                : 1e-4L;
+    fret_real lo = 0, hi = isfinite(end) ? end - start : (fret_real)INFINITY;
     for (int i = 0; i < 400; i++) {
         fret_profile p = profile(n, e);
         fret_real value = by_force ? fret_force_of(n, &p) : p.g;
@@ -54,6 +43,19 @@ fret_real fret_search_radius(const fret_normal *n, bool by_force, fret_real targ
     return e;
 }
 
+/* Returns e; infinity where the gap ends before the target is reached. */
+fret_real fret_search_radius(const fret_normal *n, bool by_force, fret_real target) {
+    fret_real start = fret_gap_start(&n->gap), end = n->end;
+    if (target <= 0)
+        return 0;
+    if (isfinite(end)) {
+        fret_profile p = profile(n, end - start);
+        if ((by_force ? fret_force_of(n, &p) : p.g) < target)
+            return INFINITY;
+    }
+    return search_from(n, by_force, target, isfinite(end) ? end / 16 : start > 0 ? start / 16 : 1e-4L);
+}
+
 /* The power law in logarithms. */
 static dd force_of_depth(const fret_normal *n, dd y) {
     return dd_add(n->wide.ln_force, dd_mul(n->wide.p, dd_sub(y, n->wide.ln_depth)));
@@ -74,7 +76,7 @@ static fret_point point_at(const fret_normal *n, bool by_force, fret_real value)
 fret_real fret_law_radius(const fret_normal *n, fret_real y) {
     if (fret_normal_closed(n))
         return y > 0 ? fret_dd_exp_real(radius_of_depth(n, fret_dd_log_real(y))) : 0;
-    return point_at(n, false, y).a;
+    return fret_law_at_depth(n, y).a;
 }
 
 fret_real fret_law_force(const fret_normal *n, fret_real y) {
@@ -104,7 +106,7 @@ static fret_point point_at(const fret_normal *n, bool by_force, fret_real value)
         p.a = fret_law_radius(n, p.y);
         return p;
     }
-    if (fret_law_prepared(n, by_force, value, &p))
+    if (n->pieces && fret_pieces_point(n->pieces, by_force, value, &p))
         return p;
     fret_real e = fret_search_radius(n, by_force, value);
     fret_profile profile_there = profile(n, e);
@@ -115,20 +117,34 @@ static fret_point point_at(const fret_normal *n, bool by_force, fret_real value)
     return p;
 }
 
+/* The radius that the profile has there, where pieces know it but about. */
+static void settle(const fret_normal *n, bool by_force, fret_real value, fret_point *p) {
+    const fret_real start = fret_gap_start(&n->gap);
+    if (value > 0 && n->pieces && fret_pieces_rough(n->pieces))
+        p->a = start + search_from(n, by_force, value, p->a - start);
+}
+
 bool fret_law_prepared(const fret_normal *n, bool by_force, fret_real value, fret_point *out) {
-    return n->pieces && fret_pieces_point(n->pieces, by_force, value, out);
+    if (!n->pieces || !fret_pieces_point(n->pieces, by_force, value, out))
+        return false;
+    settle(n, by_force, value, out);
+    return true;
 }
 
 bool fret_law_prepared_depth(const fret_normal *n, fret_real e, fret_real *depth) {
-    return n->pieces && fret_pieces_depth(n->pieces, e, depth);
+    return n->pieces && !fret_pieces_rough(n->pieces) && fret_pieces_depth(n->pieces, e, depth);
 }
 
 fret_point fret_law_at_depth(const fret_normal *n, fret_real y) {
-    return point_at(n, false, y);
+    fret_point p = point_at(n, false, y);
+    settle(n, false, y, &p);
+    return p;
 }
 
 fret_point fret_law_at_force(const fret_normal *n, fret_real F) {
-    return point_at(n, true, F);
+    fret_point p = point_at(n, true, F);
+    settle(n, true, F, &p);
+    return p;
 }
 
 fret_real fret_law_load_outside(const fret_normal *n, const fret_level *outer, fret_real inner_depth) {

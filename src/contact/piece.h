@@ -46,7 +46,7 @@ struct fret_pieces {
     stretch *run[RUNS]; /* run[l][i]: the 2^l pieces from i 2^l on */
     fret_level least;   /* inner end of the first */
     stretch core;       /* within */
-    fret_real from, error;
+    fret_real from, error, deep;
 };
 
 /* Outer part first. */

@@ -10,6 +10,10 @@
 
 struct fret_pieces;
 
+/* Is the law alone as good as that, made of rows that are not smooth? Then radii, and slices of few rows,
+ * want the profile itself. */
+bool fret_pieces_rough(const struct fret_pieces *pieces);
+
 /* Each of these: false where the pieces do not reach, or would lose digits. */
 
 /* The law at the depth, or the load, `value`. */

@@ -12,7 +12,7 @@
 /* ---- polynomials through values ---------------------------------------------------------------- */
 
 enum { FEWER = 14 }; /* of what is smooth across a row of a table */
-enum { NOISE = 5 };  /* terms that tell it */
+enum { NOISE = 3 };  /* terms that tell it */
 
 /* From values at Chebyshev's nodes to polynomials in z, by Chebyshev's polynomials. */
 typedef struct rule {
@@ -101,7 +101,9 @@ typedef struct maker {
     struct fret_pieces *all;
     const fret_normal *normal;
     fret_real start, tolerance;
-    fret_real borne; /* an error of depths, relative, that may be left where rows leave no smooth law */
+    fret_real borne, at_worst; /* errors of the law, relative, that may be left: as asked for, and where rows
+                                * are too many and too rough for less */
+    size_t each;               /* as many rows may be taken one by one */
     rule rule, row_rule;
     size_t spent;    /* profiles asked for */
     fret_level edge; /* outer end of the last piece */
@@ -111,9 +113,10 @@ typedef struct maker {
     fret_status failed;
 } maker;
 
-enum { MOST_PROFILES = 40000 };
+enum { MOST_PROFILES = 140000 };
 static const fret_real CALM = 1e-3L;   /* of what is borne: not worth a shorter piece */
-static const fret_real FOUND = 1e-15L; /* of depth and load, at the most, where nothing else is borne */
+static const fret_real FOUND = 1e-15L; /* of the law, at the most, where nothing else is borne */
+static const fret_real ROUGH = 1e-8L;  /* the same of many rows, where they leave no less */
 
 static fret_profile profile(maker *m, fret_real e) {
     m->spent++;
@@ -140,9 +143,13 @@ static fret_level level_in(const piece *p, fret_real z) {
                         p->inner.F + fret_polynomial_at(&p->rise[LOADS], z)};
 }
 
-static fret_real missed_by(maker *m, fret_level found, fret_real e) {
+/* How far the law is off there, of F_N or of what it lacks to a straight line, of which all losses come; and
+ * how far the depth alone. */
+static fret_real missed_by(maker *m, fret_level found, fret_real e, bool of_bend, fret_real *deep) {
     const fret_level at = level_at(m, e);
-    return fmaxl(fabsl(found.y / at.y - 1), fabsl(found.F / at.F - 1));
+    const fret_real K = fret_normal_stiffness(m->normal, m->start + e);
+    *deep = fmaxl(*deep, fabsl(found.y / at.y - 1));
+    return fabsl(found.F - at.F - K * (found.y - at.y)) / (of_bend ? fminl(K * at.y - at.F, at.F) : at.F);
 }
 
 /* dg/dz at the nodes. */
@@ -154,7 +161,11 @@ static void slopes_of(maker *m, const piece *p, fret_real *slope) {
     }
 }
 
-/* slope: dg/dz at the nodes; tolerance: of the last terms; borne: of depth and load. */
+/* Where a piece is held against the profile. */
+enum { LOOKS = 5 };
+static const fret_real looks[LOOKS] = {-0.91L, -0.5L, 0.29L, 0.83L, 1};
+
+/* slope: dg/dz at the nodes; tolerance: of the last terms; borne: of the law. */
 static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tolerance, fret_real borne) {
     const fret_normal *n = m->normal;
     fret_real load[NODES], rise[NODES], c[TERMS] = {0}, rate, worst;
@@ -182,18 +193,21 @@ static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tol
         fret_polynomial_quotient(&p->rise[i], 1, &p->from_end[i]);
     if (!(worst <= tolerance))
         return false;
+    fret_real deep = 0;
     worst = 0;
     p->inner = m->edge;
     p->K_inner = fret_normal_stiffness(n, m->start + fret_piece_distance(p, -1, &rate));
     /* from end to end without a jump: differences of sums stay exact; what adds up is held against the
      * profile */
     p->outer = level_in(p, 1);
-    for (int i = 0; i < 2 && !m->by_row; i++) {
-        const fret_real z = i ? 0.29L : 1;
-        worst = fmaxl(worst, missed_by(m, level_in(p, z), fret_piece_distance(p, z, &rate)));
+    for (int i = 0; i < LOOKS && !m->by_row; i++) {
+        const fret_real e = fret_piece_distance(p, looks[i], &rate);
+        worst = fmaxl(worst, missed_by(m, level_in(p, looks[i]), e, isinf(tolerance), &deep));
     }
+    if (!fret_gap_rows(&n->gap)) /* else the law is what counts */
+        worst = fmaxl(worst, deep);
     const fret_real rough = fret_piece_make_whole(p);
-    if (!(worst <= borne && rough <= 1e-12L)) /* in halves 2^-16 of it is left */
+    if (!(worst <= borne && rough <= fmaxl(1e-12L, 100 * borne))) /* in halves 2^-16 of it is left */
         return false;
     p->coarse = rough > 1e-17L;
     fret_real z[GUESS];
@@ -202,6 +216,7 @@ static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tol
     for (int i = DEPTHS; i <= LOADS; i++)
         fret_piece_make_guess(p, i, z);
     m->all->error = fmaxl(m->all->error, worst);
+    m->all->deep = fmaxl(m->all->deep, deep);
     return true;
 }
 
@@ -277,40 +292,60 @@ static bool cover_row(maker *m, fret_real row, fret_real way, fret_real lo, fret
         m->by_row = false;
         if (!ok)
             return false;
-        const fret_real error = missed_by(m, m->edge, row + way * hi);
+        const fret_real error = missed_by(m, m->edge, row + way * hi, false, &m->all->deep);
         m->all->error = fmaxl(m->all->error, error);
-        return error <= FOUND;
+        return error <= 2 * FOUND;
     }
     return halvings > 0 && cover_row(m, row, way, lo, (lo + hi) / 2, halvings - 1) &&
            cover_row(m, row, way, (lo + hi) / 2, hi, halvings - 1);
 }
 
-/* Rows first .. last of a table as they look together: what rounding or a reading leaves of a row is noise
- * that a shorter stretch is not rid of, and of depths far less than of their slope. */
+/* Rows first .. last of a table as they look together. What rounding or a reading leaves of a row is noise
+ * that a shorter stretch is not rid of. The law F_N(delta) of a gap hangs on M = int g dK alone, M = K g -
+ * F_N, to first order, and of M noise leaves far less than of g: so a polynomial M it is, and g what follows.
+ */
 typedef struct span {
     size_t first, last;
-    piece p;                       /* the stretch alone */
-    fret_real slope[NODES], rest;  /* dg/dz at the nodes; how large the last terms are of their polynomial */
-    fret_real depth[NODES], error; /* the polynomial of the depths, and how far it is off between nodes */
+    piece p;                      /* the stretch alone */
+    fret_real slope[NODES], rest; /* dg/dz at the nodes; how large the last terms are of their polynomial */
+    fret_real deficit[NODES], error; /* the polynomial of M, and how far it is off between nodes */
 } span;
+
+/* K g - F_N, and F_N */
+static fret_real deficit(maker *m, fret_real e, fret_profile *at, fret_real *F) {
+    *at = profile(m, e);
+    *F = fret_force_of(m->normal, at);
+    return fret_normal_stiffness(m->normal, m->start + e) * at->g - *F;
+}
+
+static fret_real value_of(const fret_real *c, fret_real z) {
+    fret_real v = 0;
+    for (int i = NODES; i-- > 0;)
+        v = v * z + c[i];
+    return v;
+}
+
+static fret_real rate_of(const fret_real *c, fret_real z) {
+    fret_real v = 0;
+    for (int i = NODES - 1; i > 0; i--)
+        v = v * z + c[i] * (fret_real)i;
+    return v;
+}
 
 static span look(maker *m, const fret_real *row, size_t first, size_t last) {
     const fret_real lo = fret_log(row[first]), hi = fret_log(row[last]);
     span s = {.first = first, .last = last, .p = {.middle = (lo + hi) / 2, .half = (hi - lo) / 2}};
-    fret_real depth[NODES], rate;
+    fret_real value[NODES], rate, F;
+    fret_profile at;
     for (int j = 0; j < NODES; j++) {
-        const fret_profile at = profile(m, fret_piece_distance(&s.p, node_of(&m->rule, j), &rate));
-        depth[j] = at.g;
+        value[j] = deficit(m, fret_piece_distance(&s.p, node_of(&m->rule, j), &rate), &at, &F);
         s.slope[j] = at.slope * rate;
     }
-    s.rest = fit(&m->rule, true, s.slope, s.depth);
-    fit_calmly(&m->rule, depth, s.depth);
+    s.rest = fit(&m->rule, true, s.slope, s.deficit);
+    fit_calmly(&m->rule, value, s.deficit);
     for (int i = 5; i < NODES; i += 5) {
-        const fret_real z = m->rule.wave[2 * i], g = profile(m, fret_piece_distance(&s.p, z, &rate)).g;
-        fret_real v = 0;
-        for (int j = NODES; j-- > 0;)
-            v = v * z + s.depth[j];
-        s.error = fmaxl(s.error, fabsl(v / g - 1));
+        const fret_real z = m->rule.wave[2 * i], M = deficit(m, fret_piece_distance(&s.p, z, &rate), &at, &F);
+        s.error = fmaxl(s.error, fabsl(value_of(s.deficit, z) - M) / fminl(M, F));
     }
     return s;
 }
@@ -320,18 +355,38 @@ static bool add_exact(maker *m, span *s) {
     return s->rest <= m->tolerance && make_piece(m, &s->p, s->slope, m->tolerance, FOUND) && add(m, &s->p);
 }
 
-/* By the polynomial of the depths, straightened so that it ends where the rows do. */
-static bool add_calm(maker *m, const fret_real *row, span *s) {
-    fret_real slope[NODES], missing = level_at(m, row[s->last]).y - m->edge.y;
-    for (int i = 1; i < NODES; i += 2)
-        missing -= 2 * s->depth[i];
+/* dK/dz */
+static fret_real stiffening(maker *m, const piece *p, fret_real z) {
+    fret_real rate;
+    const fret_real x = m->start + fret_piece_distance(p, z, &rate);
+    return (1 + m->normal->foundation.k) * fret_normal_stiffness(m->normal, x) / x * rate;
+}
+
+/* By the polynomial M, led on from the last piece without a jump of g and F_N: by what is 1 at z = -1, or
+ * rises with 1 there, and next to nothing elsewhere. */
+static bool add_calm(maker *m, span *s, fret_real borne) {
+    enum { WAVES = NODES / 4 };
+    static const fret_real fall = (4 * WAVES * WAVES - 1) / 3.0L;
+    if (!(s->error <= borne))
+        return false;
+    fret_real M[NODES], g[NODES], slope[NODES], c[NODES], unused;
+    const fret_real e = fret_piece_distance(&s->p, -1, &unused),
+                    K = fret_normal_stiffness(m->normal, m->start + e);
+    const fret_real jump = K * m->edge.y - m->edge.F - value_of(s->deficit, -1),
+                    bend = stiffening(m, &s->p, -1) * m->edge.y - rate_of(s->deficit, -1);
     for (int j = 0; j < NODES; j++) {
-        slope[j] = 0;
-        for (int i = NODES - 1; i > 0; i--)
-            slope[j] = slope[j] * node_of(&m->rule, j) + s->depth[i] * (fret_real)i;
-        slope[j] += missing / 2;
+        const fret_real z = node_of(&m->rule, j), from = 1 + z,
+                        wave = m->rule.wave[(WAVES * (2 * j + 1) + 3 * NODES) % (4 * NODES)] / (2 * WAVES),
+                        near = 2 * wave * wave / from;
+        M[j] = value_of(s->deficit, z) + near * near * (jump * (1 + fall * from) + bend * from);
     }
-    return s->error <= m->borne && make_piece(m, &s->p, slope, INFINITY, m->borne) && add(m, &s->p);
+    (void)fit(&m->rule, false, M, c);
+    for (int j = 0; j < NODES; j++)
+        g[j] = rate_of(c, node_of(&m->rule, j)) / stiffening(m, &s->p, node_of(&m->rule, j));
+    (void)fit(&m->rule, false, g, c);
+    for (int j = 0; j < NODES; j++)
+        slope[j] = rate_of(c, node_of(&m->rule, j));
+    return make_piece(m, &s->p, slope, INFINITY, borne) && add(m, &s->p);
 }
 
 /* One by one. */
@@ -344,32 +399,45 @@ static bool cover_each(maker *m, const fret_real *row, size_t first, size_t last
     return true;
 }
 
+/* Row by row, or not at all. */
+static bool add_each(maker *m, const fret_real *row, size_t first, size_t last) {
+    const struct fret_pieces before = *m->all;
+    const fret_level edge = m->edge;
+    if (last - first <= m->each && cover_each(m, row, first, last))
+        return true;
+    m->all->count = before.count;
+    m->all->error = before.error;
+    m->all->deep = before.deep;
+    m->edge = edge;
+    return false;
+}
+
 /* In one piece, in halves where these are smoother, or row by row. */
 static bool cover_span(maker *m, const fret_real *row, span *s) {
     enum { FEW = 8 };
     const size_t first = s->first, last = s->last, middle = first + (last - first) / 2;
     if (fret_stopped(m->normal) || m->spent > MOST_PROFILES)
         return false;
-    if (add_exact(m, s) || (s->error <= CALM * m->borne && add_calm(m, row, s)))
+    if (add_exact(m, s) || (s->error <= CALM * m->borne && add_calm(m, s, m->borne)))
         return true;
-    if (last - first < 2 * FEW)
-        return cover_each(m, row, first, last);
-    span inner = look(m, row, first, middle), outer = look(m, row, middle, last);
-    if (fminl(inner.error, outer.error) <= s->error / 8)
-        return cover_span(m, row, &inner) && cover_span(m, row, &outer);
-    return add_calm(m, row, s) || cover_each(m, row, first, last);
+    if (last - first >= 2 * FEW) {
+        span inner = look(m, row, first, middle), outer = look(m, row, middle, last);
+        if (fminl(inner.error, outer.error) <= s->error / 8)
+            return cover_span(m, row, &inner) && cover_span(m, row, &outer);
+    }
+    return add_calm(m, s, m->borne) || add_each(m, row, first, last) || add_calm(m, s, m->at_worst);
 }
 
 /* From one row of a table to another. row: distances. */
 static bool cover_rows(maker *m, const fret_real *row, size_t first, size_t last) {
     enum { FEW = 8, WIDE = 4 };
     const size_t middle = first + (last - first) / 2;
-    if (last - first < FEW)
-        return cover_each(m, row, first, last);
-    if (row[last] >= WIDE * row[first])
+    if (last - first < FEW && add_each(m, row, first, last))
+        return true;
+    if (last - first >= FEW && row[last] >= WIDE * row[first])
         return cover_rows(m, row, first, middle) && cover_rows(m, row, middle, last);
     span s = look(m, row, first, last);
-    return cover_span(m, row, &s);
+    return last - first < FEW ? add_calm(m, &s, m->at_worst) : cover_span(m, row, &s);
 }
 
 /* Rows between two distances, both ends too. */
@@ -386,6 +454,8 @@ static bool cover_table(maker *m, fret_real from, fret_real to) {
     for (size_t i = count; i > 0; i--, e = fret_gap_kink(gap, e))
         row[i] = e;
     row[0] = from;
+    m->each = count > MOST_PROFILES / FEWER ? 64 : count;
+    m->at_worst = count > 1000 ? fmaxl(m->borne, ROUGH) : m->borne;
     const bool ok = cover_smooth(m, from, row[1]) && (count == 1 || cover_rows(m, row + 1, 0, count - 1));
     free(row);
     return ok;
@@ -438,7 +508,7 @@ static bool make_core(maker *m) {
 }
 
 static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real borne, struct fret_pieces **out) {
-    const bool rows = fret_gap_has_rows(&n->gap);
+    const bool rows = fret_gap_rows(&n->gap) > 0;
     struct fret_pieces *all = calloc(1, sizeof *all);
     maker *m = calloc(1, sizeof *m);
     *out = NULL;
@@ -451,7 +521,7 @@ static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real born
                  .normal = n,
                  .start = fret_gap_start(&n->gap),
                  .tolerance = rows ? 1e-15L : 2e-17L,
-                 .borne = borne};
+                 .borne = fmaxl(borne, FOUND)};
     make_rule(&m->rule, NODES);
     make_rule(&m->row_rule, FEWER);
     all->normal = n;
@@ -504,6 +574,10 @@ fret_status fret_normal_prepare(fret_normal *n, double F, double error) {
     if (!st.code)
         n->prepared = most;
     return st;
+}
+
+bool fret_pieces_rough(const struct fret_pieces *all) {
+    return all->deep > FOUND;
 }
 
 double fret_normal_prepared(const fret_normal *n) {

@@ -182,10 +182,11 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
         fret_profile inner = profile(n, lo);
         out.w -= fret_force_of(n, &inner);
     }
+    const fret_real least = 1e-4L * (hi - lo);
     cut s = {.normal = n, .start = start, .y = y, .h = h};
     while (hi > lo && !fret_stopped(n)) {
         fret_real kink = fret_gap_kink(&n->gap, hi), next = fret_gap_kink(&n->gap, kink);
-        while (kink > 0 && hi - next < 1e-3L * (start + hi)) { /* rows as close leave no trace one by one */
+        while (kink > 0 && hi - next < least) { /* rows as close leave no trace one by one */
             kink = next;
             next = fret_gap_kink(&n->gap, kink);
         }

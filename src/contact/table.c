@@ -268,6 +268,10 @@ fret_real fret_table_end(const struct fret_table *t) {
     return t->r[t->count - 1];
 }
 
+size_t fret_table_rows(const struct fret_table *t) {
+    return t->count;
+}
+
 bool fret_table_pointed(const struct fret_table *t) {
     return t->d0[0] > 0;
 }

@@ -192,6 +192,24 @@ static bool press_of(state *s, load_step *out, calc_error *error) {
     return true;
 }
 
+/* Rows are many: the law of a shape without a closed form is prepared, as far as they load. */
+static bool prepare(state *s, const load_step *press, const fret_normal **normal, calc_error *error) {
+    const fit_loop *loop = &s->of->loop;
+    load_step most = *press;
+    fret_press p;
+    if (fret_normal_is_power(*normal))
+        return true;
+    for (size_t i = 0; loop->normal && i < s->of->rows; i++)
+        most.normal_value = fmax(most.normal_value, loop->normal[i]);
+    const fret_status st = most.normal == BY_FORCE ? fret_press_by_force(*normal, most.normal_value, &p)
+                           : most.normal == BY_DISPLACEMENT
+                               ? fret_press_by_depth(*normal, most.normal_value, &p)
+                               : fret_press_by_radius(*normal, most.normal_value, &p);
+    if (st.code || !(p.F > 0))
+        return true; /* the run will say why */
+    return scene_many_normal(&s->q.t->scene, (double)p.F, normal, error);
+}
+
 static fret_status run_rows(state *s, runner *r, double *out) {
     const fit_loop *loop = &s->of->loop;
     fret_status st = {.code = FRET_OK};
@@ -223,7 +241,7 @@ static bool loop_rows(state *s, double *out) {
     error_clear(&error);
     s->bad_row = NO_ROW;
     if (!scene_normal(tried, &view.normal, &error) || !scene_friction(tried, &view.mu, &error) ||
-        !press_of(s, &press.step, &error))
+        !press_of(s, &press.step, &error) || !prepare(s, &press.step, &view.normal, &error))
         return ask_failed(&s->q, &error);
     fret_status st = engine_make(&r.engine, MODEL_MEMORY, view.normal, view.mu, 0, 0);
     if (!st.code)
@@ -516,6 +534,7 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
         return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", n, p);
     if (!ask_open(&s.q, question->c, question->name, p, error))
         return false;
+    scene_show(&s.q.t->scene, 0); /* differences are taken of what comes out */
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &method, n, p);
     gsl_vector *q = gsl_vector_alloc(p);
     s.weight = gsl_vector_alloc(n);

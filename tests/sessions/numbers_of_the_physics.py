@@ -193,6 +193,37 @@ def gap_file(tests):
         tests.check("gap file: f(0)", got.get("f(0 m)") == 0, str(got))
 
 
+def numbers_of(tests, script):
+    done = tests.run("--format=json", "-c", script)
+    if done.returncode or done.stderr:
+        tests.check("numbers: " + script, False, tests.report(done))
+    rows = [json.loads(line) for line in done.stdout.splitlines()]
+    return [(" ".join(map(str, row.values())), name, v) for row in rows if "event" not in row
+            for name, v in row.items() if isinstance(v, float)]
+
+
+def dense_file(tests):
+    """So many rows that the law of the gap is that of all of them together: what follows is that of the formula. Nine
+    digits of f leave less."""
+    statements = """press FN=100 N; dz, a; dW(2 N), dW(10 N), dWd(1 um); step Fx=20 N; c, dx, W
+        step FN=90 N Fx=-12 N; c, dx, W; table dW(F), c(F) for F = 5 N .. 35 N steps 40
+        press FN=100 N; cycle FA=15 N FNA=20 N phase=60 deg; dW"""
+    for digits, close_to, swinging in (17, 1e-12, 1e-9), (9, 1e-5, 1e-6):
+        where = os.path.join(tests.dir, "dense%d.csv" % digits)
+        with open(where, "w", encoding="ascii") as f:
+            f.write("r [mm],f [um]\n")
+            for i in range(12000):
+                f.write("%.17g,%.*g\n" % (i / 24000, digits, 50 * (i / 24000) ** 2))
+        for k in (-0.6, 0.4) if digits == 17 else (0.3,):
+            begin = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; friction 0.4; geometry " % k
+            got = numbers_of(tests, begin + "file %s; " % where + statements)
+            want = numbers_of(tests, begin + "sphere R=10 mm; " + statements)
+            tests.check("dense rows: as many numbers", len(got) == len(want) > 90, "%d, %d" % (len(got), len(want)))
+            for i, (g, w) in enumerate(zip(got, want)):
+                close(tests, "dense rows to %d digits, k = %g: %s of %s" % (digits, k, g[1], g[0]), w[2], g[2],
+                      close_to if i < len(got) - 1 else swinging)
+
+
 class Springs:
     """A plain model: many springs, each slides when its force would exceed mu times its normal force."""
 
@@ -260,4 +291,5 @@ def histories(tests):
 
 
 def run(tests):
-    tests.each([lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests), lambda: gap_file(tests), lambda: histories(tests)])
+    tests.each([lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
+                lambda: gap_file(tests), lambda: dense_file(tests), lambda: histories(tests)])
