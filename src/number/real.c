@@ -126,6 +126,29 @@ static dd reduce(fret_real x, int *quarter) {
     return dd_add_d(d, -n * half_pi_rest);
 }
 
+/* sin(r + rest) and cos(r + rest), |r| <= pi/4, rest no more than a rounding: series, whose last terms need
+ * no more than a double. */
+static fret_real sin_short(fret_real r, fret_real rest) {
+    const fret_real r2 = r * r;
+    const double z = (double)r2, z2 = z * z;
+    const double tail = (1 / 362880.0 - z * (1 / 39916800.0)) +
+                        z2 * ((1 / 6227020800.0 - z * (1 / 1307674368000.0)) +
+                              z2 * (1 / 355687428096000.0 - z * (1 / 121645100408832000.0)));
+    return r + (rest - r * r2 * (1 / 6.0L - r2 * (1 / 120.0L - r2 * (1 / 5040.0L - r2 * tail))));
+}
+
+static fret_real cos_short(fret_real r, fret_real rest) {
+    const fret_real r2 = r * r;
+    const double z = (double)r2, z2 = z * z;
+    const double tail = (1 / 40320.0 - z * (1 / 3628800.0)) +
+                        z2 * ((1 / 479001600.0 - z * (1 / 87178291200.0)) +
+                              z2 * (1 / 20922789888000.0 - z * (1 / 6402373705728000.0)));
+    const fret_real big = 0x1.8p31L, head = (r + big) - big, left = r - head; /* its square is exact */
+    const fret_real half = head * head / 2, most = 1 - half;
+    return most + (((1 - most) - half) - ((left * (r + head) / 2 + r * rest) -
+                                          r2 * r2 * (1 / 24.0L - r2 * (1 / 720.0L - r2 * tail))));
+}
+
 static fret_real sin_of(fret_real x, int ahead) {
     int quarter;
     if (fabsl(x) < negligible)
@@ -134,9 +157,8 @@ static fret_real sin_of(fret_real x, int ahead) {
         return ahead ? cosl(x) : sinl(x);
     dd r = reduce(x, &quarter);
     quarter = (quarter + ahead) & 3;
-    if (quarter & 1)
-        r = dd_sub(half_pi, r.hi < 0 ? dd_neg(r) : r);
-    fret_real s = dd_value(fret_dd_sin(r));
+    const fret_real near = dd_value(r), rest = (r.hi - near) + r.lo;
+    const fret_real s = quarter & 1 ? cos_short(near, rest) : sin_short(near, rest);
     return quarter & 2 ? -s : s;
 }
 
