@@ -14,7 +14,7 @@
 static const fret_real THIN = 5e-3L;
 static const fret_normal *law_of(const fret_contact *c, fret_real t, fret_normal *plain) {
     const fret_normal *n = c->normal;
-    if (!n->pieces || !fret_pieces_rough(n->pieces) || t > THIN ||
+    if (!n->pieces || !fret_pieces_rough(n->pieces, 0) || t > THIN ||
         fret_normal_prepared(n) < 10 * n->borne * t * t)
         return n;
     *plain = *n;

@@ -120,7 +120,7 @@ static fret_point point_at(const fret_normal *n, bool by_force, fret_real value)
 /* The radius that the profile has there, where pieces know it but about. */
 static void settle(const fret_normal *n, bool by_force, fret_real value, fret_point *p) {
     const fret_real start = fret_gap_start(&n->gap);
-    if (value > 0 && n->pieces && fret_pieces_rough(n->pieces))
+    if (value > 0 && n->pieces && fret_pieces_rough(n->pieces, n->borne))
         p->a = start + search_from(n, by_force, value, p->a - start);
 }
 
@@ -132,7 +132,7 @@ bool fret_law_prepared(const fret_normal *n, bool by_force, fret_real value, fre
 }
 
 bool fret_law_prepared_depth(const fret_normal *n, fret_real e, fret_real *depth) {
-    return n->pieces && !fret_pieces_rough(n->pieces) && fret_pieces_depth(n->pieces, e, depth);
+    return n->pieces && !fret_pieces_rough(n->pieces, n->borne) && fret_pieces_depth(n->pieces, e, depth);
 }
 
 fret_point fret_law_at_depth(const fret_normal *n, fret_real y) {

@@ -10,9 +10,9 @@
 
 struct fret_pieces;
 
-/* Is the law alone as good as that, made of rows that are not smooth? Then radii, and slices of few rows,
- * want the profile itself. */
-bool fret_pieces_rough(const struct fret_pieces *pieces);
+/* Is it the law alone that is good, since it is made of rows that are not smooth, and the depth of a radius
+ * off by more than `borne`? Then radii, and for borne = 0 slices of few rows, want the profile itself. */
+bool fret_pieces_rough(const struct fret_pieces *pieces, double borne);
 
 /* Each of these: false where the pieces do not reach, or would lose digits. */
 

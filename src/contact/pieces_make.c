@@ -576,8 +576,8 @@ fret_status fret_normal_prepare(fret_normal *n, double F, double error) {
     return st;
 }
 
-bool fret_pieces_rough(const struct fret_pieces *all) {
-    return all->deep > FOUND;
+bool fret_pieces_rough(const struct fret_pieces *all, double borne) {
+    return all->deep > fmaxl(FOUND, borne);
 }
 
 double fret_normal_prepared(const fret_normal *n) {
