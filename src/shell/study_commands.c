@@ -59,12 +59,15 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
     if (sh->set.format == FORMAT_JSON) {
         fputs("{\"event\":\"solve\",\"method\":\"Brent\"", sh->out);
         fprintf(sh->out, ",\"evaluations\":%u", a->evaluations);
-        fprintf(sh->out, ",\"bracket\":[%.17g,%.17g]%s}\n", a->lo, a->hi,
-                a->touches ? ",\"touches\":true" : "");
+        fprintf(sh->out, ",\"bracket\":[%.17g,%.17g]%s%s}\n", a->lo, a->hi,
+                a->touches ? ",\"touches\":true" : "", a->jumps ? ",\"jumps\":true" : "");
     }
     if (a->touches)
         shell_note(
             sh, "note: the two sides touch there without passing each other, which tells 8 digits at most");
+    if (a->jumps)
+        shell_note(
+            sh, "note: elsewhere the two sides jump past each other; a root close to a jump may be hidden");
     if (!sh->set.timing)
         return;
     calc_value_text(q->name.d, a->lo, lo);

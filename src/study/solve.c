@@ -350,8 +350,10 @@ static bool several(search *s, solve_answer *out, calc_error *error) {
         bool is;
         if (!try_root(s, i, &out->x, &is, error))
             return false;
-        if (!is)
+        if (!is) {
+            out->jumps = true;
             continue;
+        }
         calc_value_text(s->of->name.d, out->x, text);
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", roots ? ", " : "", text);
         roots++;
@@ -391,6 +393,7 @@ static bool answer(search *s, solve_answer *out, calc_error *error) {
 
 bool solve(const solve_question *question, solve_answer *out, calc_error *error) {
     search s = {.of = question, .nearest = {.f = (double)NAN}};
+    *out = (solve_answer){.jumps = false};
     gsl_set_error_handler_off();
     if (!ask_open(&s.q, question->c, &question->name, 1, error))
         return false;

@@ -19,6 +19,7 @@ typedef struct solve_answer {
     double x;
     double lo, hi; /* the bracket that the method began with */
     unsigned evaluations;
+    bool jumps;   /* elsewhere the sides jump past each other: a root beside that may not have been seen */
     bool touches; /* the sides do not pass each other there: half of the digits are lost */
 } solve_answer;
 
