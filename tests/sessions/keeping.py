@@ -127,6 +127,9 @@ def copies(tests):
             done = tests.run("--replay", copy)
         tests.check("a copy that is wrong: " + new.strip(), done.returncode == 1 and " 1 failed" in done.stdout,
                     tests.report(done))
+    with tests.file("  fret> x = 1 + \\\n  ....> 2; x\nx = 3\n", ".txt") as copy:
+        done = tests.run("--replay", copy)
+        tests.check("a copy whose prompts are set in", done.returncode == 0 and ": 1 passed, 0 failed" in done.stdout, tests.report(done))
     for statement, answer, right in (("sigma = 1; sigma", "σ = 1", True), ("sigma1 = 1; sigma1", "σ1 = 1", False),
                                      ("x2sigma = 1; x2sigma", "x2σ = 1", False), ("sigma_1 = 1; sigma_1", "σ_1 = 1", True)):
         with tests.file("fret> %s\n%s\n" % (statement, answer), ".txt") as copy:
