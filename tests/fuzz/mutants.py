@@ -1,23 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Does a test notice? One token of src/ is changed at a time, the program built in a copy of the tree, and the rooms of
-tests run that have to do with it, those first that are likely to notice, until one fails.
+"""Does a test notice? One token of src/ is changed at a time, the program built in a copy of the tree, and parts of rooms
+of tests run that enter its function, those first that promise most for what they cost, until one fails. What each part
+enters is recorded once.
 
-    python3 tests/fuzz/mutants.py [--seed 1] [--count 300] [--only DIRECTORY] [--table FILE] [--work FOLDER]
+    python3 tests/fuzz/mutants.py [--seed 1] [--count 300] [--only DIRECTORY] [--table FILE] [--work FOLDER] [--jobs N]
+                                  [--budget SECONDS]
 
-The table lists what no test noticed, with the judgement that the table of before has of it: write it there by hand.
-`--work` keeps the copy and its log, so that a run that was ended goes on."""
+The table lists what no test noticed, with the judgement that the table of before has of it: write it there by hand, and
+run again. `--work` keeps the copies, the record and the log, so that a run that was ended goes on. With a budget, seconds
+of a processor, parts that go beyond it come when all others have been tried."""
 import argparse
 import collections
+import concurrent.futures
 import glob
 import json
+import math
 import os
 import random
 import re
+import resource
+import select
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -25,13 +33,15 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 OPT = "OPT=-O1 -fno-tree-slp-vectorize"
 LEFT_OUT = ("src/live/none.c", "src/shell/prompt_plain.c", "src/shell/study_none.c", "src/number/constants.h",
             "src/contact/tables.h")
-TIMEOUT = 120  # of a room, in seconds of an idle machine
 ROOMS = {"number": "unit sessions reference numbers hard accuracy", "contact": "unit sessions reference numbers hard accuracy",
          "fast": "unit sessions accuracy numbers hard",
          "calc": "sessions errors unit scripts reading help keeping reference looks backwards fits smoothing numbers",
          "study": "fits backwards accuracy sessions errors sharing smoothing", "plot": "unit figures looks sessions paper",
-         "shell": "sessions errors scripts help readme keeping looks completion figures fits accuracy interactive trouble",
+         "shell": "sessions errors scripts help readme keeping looks completion figures fits accuracy interactive trouble casts",
          "live": "live casts unit interactive"}
+ALL = ("unit sessions errors help readme reference numbers scripts reading keeping looks figures paper completion backwards fits "
+       "smoothing sharing accuracy trouble rim interactive live casts hard").split()
+COUNTED = ("killed", "late", "lives", "so far")  # the others change no code
 
 TOKEN = re.compile(r"""(?P<skip>//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|^[ \t]*\#(?:\\\n|[^\n])*)
                      |(?P<number>(?:0x[\da-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)[uUlLfF]*)
@@ -88,83 +98,88 @@ def places(path, text):
     return found
 
 
-class Copy:
-    """The tree in which mutants are built, and what it was like before."""
+# part of a room: its name, and the number of one of those that it runs side by side
+Part = collections.namedtuple("Part", "room number")
+CHEAP = 20  # seconds of a processor for each mutant that also rooms may take which have less to do with it
+WHOLE, BESIDES = -1, -2  # in place of a number: all of the room; what it does besides those
 
-    def __init__(self, work):
-        self.top, self.good = os.path.join(work, "tree"), os.path.join(work, "good")
-        self.log = os.path.join(work, "log")
-        if not os.path.exists(self.good):
-            shutil.rmtree(self.top, ignore_errors=True)
-            os.makedirs(self.top)
-            names = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\n")
-            for name in filter(None, names):
-                os.makedirs(os.path.dirname(os.path.join(self.top, name)), exist_ok=True)
-                shutil.copy2(os.path.join(ROOT, name), os.path.join(self.top, name), follow_symlinks=False)
-            if self.make("build/fret", "tests") is not None:
-                sys.exit("mutants: the program itself does not build")
-            for room in sorted(set(" ".join(ROOMS.values()).split())):
-                how = self.room(room, 10)
-                if how:  # perhaps for want of time
-                    print("the room %s fails without a mutant (%s) and is left out" % (room, how), flush=True)
-                    open(os.path.join(self.top, "without-" + room), "w").close()
-            shutil.copytree(self.top, self.good, symlinks=True)
+
+class Tree:
+    """A copy of the tree in which mutants are built, beside one as it was."""
+
+    def __init__(self, top, good=None):
+        self.top, self.good = top, good
+
+    def load(self):
+        """The tests, in this process and those that it starts."""
+        sys.path[:0] = [os.path.join(self.top, "tests")]
+        import runner  # noqa: F401
 
     def make(self, *targets):
         """None, or what is wrong."""
-        done = subprocess.run(["make", "--no-print-directory", "-s", OPT, "WARN=-w", *targets], cwd=self.top,
-                              capture_output=True, text=True, errors="replace")
+        done = subprocess.run(["make", "--no-print-directory", "-s", *(() if any("OPT=" in t for t in targets) else (OPT,)),
+                               "WARN=-w", *targets], cwd=self.top, capture_output=True, text=True, errors="replace")
         return None if done.returncode == 0 else done.stderr
 
-    def restore(self):
-        """Files that are not as they were; returns the object files among them."""
-        back = []
+    def differing(self):
+        """[(file as it was, file now)] of what was written since."""
         for folder, _, names in os.walk(self.good):
             for name in names:
                 good = os.path.join(folder, name)
                 now = os.path.join(self.top, os.path.relpath(good, self.good))
                 if not os.path.islink(good) and (not os.path.exists(now) or
                                                  os.stat(good).st_mtime_ns != os.stat(now).st_mtime_ns):
-                    shutil.copy2(good, now)
-                    back.append(now)
-        return back
+                    yield good, now
+
+    def restore(self):
+        for good, now in self.differing():
+            if os.path.exists(now):
+                os.unlink(now)  # it may be running
+            shutil.copy2(good, now)
 
     def changed(self):
         """Does some object differ? Only then can the program."""
-        for folder, _, names in os.walk(os.path.join(self.top, "build")):
-            for name in names:
-                if name.endswith(".o"):
-                    now = os.path.join(folder, name)
-                    with open(now, "rb") as a, open(os.path.join(self.good, os.path.relpath(now, self.top)), "rb") as b:
-                        if a.read() != b.read():
-                            return True
-        return False
+        return any(now.endswith(".o") and open(good, "rb").read() != open(now, "rb").read()
+                   for good, now in self.differing())
 
-    def room(self, name, factor):
-        """How a room of tests ends: None when all passed."""
-        start = time.time()
-        job = subprocess.Popen([sys.executable, os.path.join(self.top, "tests/fuzz/mutants.py"), "--room", name], cwd=self.top,
-                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
+    def run(self, room, numbers, cpu, wall):
+        """How parts of a room end, in a process of their own: (what it wrote last, seconds, seconds of a processor)."""
+        reads, writes = os.pipe()
+        start, pid = time.time(), os.fork()
+        if pid == 0:
+            os.setsid()
+            os.close(reads)
+            os.chdir(self.top)
+            if cpu:
+                resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(cpu), math.ceil(cpu) + 5))
+            run_parts(room, numbers, writes)
+        os.close(writes)
+        ended, said = select.select([reads], [], [], wall)[0], b""
+        if ended:
+            said = os.read(reads, 100)
         try:
-            out, _ = job.communicate(timeout=TIMEOUT * factor)
-            how = None if job.returncode == 0 else out.decode(errors="replace").strip()[-120:] or "ended by %d" % job.returncode
-        except subprocess.TimeoutExpired:
-            how = "no end within %.0f s" % (time.time() - start)
-        try:
-            os.killpg(job.pid, signal.SIGKILL)
+            os.killpg(pid, signal.SIGKILL)
         except ProcessLookupError:
             pass
-        job.wait()
-        return how
+        for name in filter(str.isdigit, os.listdir("/proc")):  # those that have left the group
+            try:
+                if os.readlink("/proc/%s/exe" % name).startswith(self.top + "/build/"):
+                    os.kill(int(name), signal.SIGKILL)
+            except OSError:
+                pass
+        usage = os.wait4(pid, 0)[2]
+        os.close(reads)
+        return said.decode() if ended else "late", time.time() - start, usage.ru_utime + usage.ru_stime
 
 
-def run_room(name):
-    """In the copy: ends at the first failure."""
-    sys.path.insert(0, os.path.join(ROOT, "tests"))
+def run_parts(room, numbers, pipe):
+    """In a process of its own: ends at the first failure. Writes its part; how many the room has when all passed."""
     import harness
     import runner
 
-    class Stops(harness.Tests):
+    class Some(harness.Tests):
+        count, inside, at = 0, False, threading.local()
+
         @property
         def failed(self):
             return 0
@@ -172,88 +187,259 @@ def run_room(name):
         @failed.setter
         def failed(self, value):
             if value:
-                sys.__stdout__.write("noticed\n")
-                sys.__stdout__.flush()
-                shutil.rmtree(self.top, ignore_errors=True)
-                os._exit(1)
+                self.end("%s %d" % ("late" if too_long() else "failed", getattr(self.at, "number", min(numbers))))
 
-    tests = Stops("build", "mutant", False)
-    sys.stdout = open(os.devnull, "w")
+        def end(self, what):
+            shutil.rmtree(self.top, ignore_errors=True)
+            os.write(pipe, what.encode())
+            os._exit(0)
+
+        def each(self, jobs):
+            jobs = list(jobs)
+            if self.inside:
+                return super().each(jobs)
+            first, self.count, self.inside = self.count, self.count + len(jobs), True
+            super().each([lambda n=n, job=job: self.one(n, job) for n, job in enumerate(jobs, first) if n in numbers or WHOLE in numbers])
+            self.inside = False
+            return None
+
+        def one(self, number, job):
+            self.at.number = number
+            job()
+
+    def too_long():
+        used, limit = resource.getrusage(resource.RUSAGE_CHILDREN), resource.getrlimit(resource.RLIMIT_CPU)[0]
+        return limit > 0 and used.ru_utime + used.ru_stime > limit
+    null = os.open(os.devnull, os.O_RDWR)
+    for fd in (0, 1, 2):
+        os.dup2(null, fd)
+    tests = Some("build", "mutant", False)
     try:
-        runner.ROOMS[name](tests)
+        runner.ROOMS[room](tests)
     except BaseException:
         tests.failed = 1
-    tests.close()
-    os._exit(0)
+    tests.end(str(tests.count))
 
 
-def nearest(top, path):
-    """The programs of tests/unit that are about a file."""
-    stem = os.path.basename(path).rpartition(".")[0]
-    names = [stem, stem.partition("_")[0], {"table": "shape", "law": "normal", "zone": "diagram"}.get(stem, path.split("/")[1])]
-    return [name for name in dict.fromkeys("test_" + name for name in names)
-            if os.path.exists(os.path.join(top, "tests/unit", name + ".c"))]
+def functions(text):
+    """[(first line, last line)] of the functions of a source."""
+    found, first = [], 0
+    for n, line in enumerate(text.splitlines(), 1):
+        if re.match(r"[A-Za-z_](?!\w*:$)", line):
+            first = n
+        elif line == "}":
+            found.append((first, n))
+    return found
 
 
-def order(path, first):
-    """Rooms, those first that are likely to notice."""
-    directory = path.split("/")[1]
-    return list(dict.fromkeys(first[path][-3:][::-1] + ROOMS[directory].split()))
+class Reach:
+    """What each part of a room costs, and which functions it enters: recorded once."""
+
+    def __init__(self, work, names):
+        self.file, self.parts, self.lines = os.path.join(work, "reach"), {}, {}
+        pid = os.fork()  # which alone loads the tests of its tree
+        if pid == 0:
+            os._exit(self.record(work, names))
+        if os.waitpid(pid, 0)[1]:
+            sys.exit("mutants: nothing was recorded")
+        for part, known in self.recorded():
+            self.parts[part] = known
+            if known[2] is not None:
+                self.lines[part] = lines = collections.defaultdict(list)
+                for name in known[2]:
+                    path, _, line = name.partition(":")
+                    if line.isdigit():
+                        lines[path].append(int(line))
+
+    def recorded(self):
+        if os.path.exists(self.file):
+            with open(self.file, encoding="utf-8") as f:
+                for line in f:
+                    for room, number, *known in json.loads(line):
+                        yield Part(room, number), known
+
+    def record(self, work, names):
+        rooms = {part.room for part, _ in self.recorded()}
+        top, marks = os.path.join(work, "recording"), os.path.join(work, "marks")
+        tree = Tree(top)
+        if not os.path.exists(os.path.join(top, "build/fret")):
+            for folder in (top, marks):
+                shutil.rmtree(folder, ignore_errors=True)
+            copy_sources(names, top)
+            os.makedirs(marks)
+            subprocess.run(["cc", "-O1", "-DFOLDER=\"%s\"" % marks, "-c", "tests/fuzz/reach.c", "-o", "reach.o"], cwd=top, check=True)
+            wrong = tree.make("OPT=-O1 -fno-tree-slp-vectorize -g -finstrument-functions "
+                              "-finstrument-functions-exclude-file-list=.h,tests/", "LDFLAGS=-no-pie reach.o", "build/fret", "tests")
+            if wrong:
+                print("mutants: the recording build fails: " + wrong)
+                return 1
+        tree.load()
+        for room in ALL:
+            if room in rooms:
+                continue
+            count, _, cpu, _ = self.measured(tree, marks, room, BESIDES)
+            if count and cpu < 5:
+                rows = [[room, n, *self.measured(tree, marks, room, n)[1:]] for n in range(count)]
+            else:
+                rows = [[room, WHOLE, *self.measured(tree, marks, room, WHOLE)[1:]]]
+            for row in rows:
+                print("%-12s %4d %8.2f s %8.2f s %s" % (*row[:4], "fails" if row[4] is None else len(row[4])), flush=True)
+            with open(self.file, "a", encoding="utf-8") as f:
+                f.write(json.dumps(rows) + "\n")
+        return 0
+
+    def measured(self, tree, marks, room, number):
+        """(parts of the room, seconds, seconds of a processor, what it entered or None)."""
+        for name in os.listdir(marks):
+            os.unlink(os.path.join(marks, name))
+        said, wall, cpu = tree.run(room, (number,), 0, 600)
+        return int(said) if said.isdigit() else 0, wall, cpu, self.entered(tree, marks) if said.isdigit() else None
+
+    def least(self, room):
+        """What no part of a room takes less than: what it does besides."""
+        return tuple(min(known[i] for part, known in self.parts.items() if part.room == room) for i in (1, 0))
+
+    known = {}
+
+    def entered(self, tree, marks):
+        """[FILE:LINE] of functions, and the programs of tests that ran."""
+        found = set()
+        for name in os.listdir(marks):
+            path = next(p for p in (os.path.join(tree.top, "build", *way, name) for way in ((), ("tests",), ("tests", "hard")))
+                        if os.path.exists(p))
+            if path not in self.known:
+                symbols = subprocess.run(["nm", path], capture_output=True, text=True, check=True).stdout
+                start = int(re.search(r"^(\w+) \w __executable_start$", symbols, re.M).group(1), 16)
+                wanted = [int(m.group(1), 16) for m in re.finditer(r"^(\w+) [tTwWi] ", symbols, re.M)]
+                lines = subprocess.run(["addr2line", "-e", path], input="\n".join(map(hex, wanted)), capture_output=True,
+                                       text=True, check=True).stdout.split("\n")
+                self.known[path] = {address - start: re.sub(r"^.*?/(src/[^ ]*).*|.*", r"\1", line)
+                                    for address, line in zip(wanted, lines)}
+            with open(os.path.join(marks, name), "rb") as f:
+                found.update(self.known[path].get(mark.start(), "") for mark in re.finditer(b"\1", f.read()))
+            if name != "fret":
+                found.add(os.path.relpath(path, tree.top))
+        return sorted(found - {""})
+
+    def order(self, path, line, first, last, kills):
+        """Parts that enter a function (all, where it is not one), those first that promise most for their cost."""
+        directory = path.split("/")[1]
+        stem = os.path.basename(path).rpartition(".")[0]
+        near = [stem, stem.partition("_")[0], {"table": "shape", "law": "normal", "zone": "diagram"}.get(stem, directory)]
+        found = []
+        for part, (_, cpu, entered) in self.parts.items():
+            if entered is not None and last and not any(first <= n <= last for n in self.lines[part].get(path, ())):
+                continue
+            hope = 0.05 + (part.room in ROOMS[directory]) + kills[directory, part] + 5 * kills[path, part]
+            if entered and any("build/tests/test_" + name in entered for name in near):
+                hope += 5
+            found.append((hope / (cpu + 0.05), part))
+        return [part for _, part in sorted(found, reverse=True)]
 
 
-def attempt(copy, path, at, length, other, first, factor):
-    """(what became of it, where)."""
-    name = os.path.join(copy.top, path)
+def copy_sources(names, top):
+    for name in names:
+        os.makedirs(os.path.dirname(os.path.join(top, name)), exist_ok=True)
+        shutil.copy2(os.path.join(ROOT, name), os.path.join(top, name), follow_symlinks=False)
+
+
+tree = None  # of this process
+
+
+def begin(work, reach):
+    """A process that builds mutants, in a tree of its own."""
+    global tree
+    good = os.path.join(work, "good")
+    for n in range(1000):
+        try:
+            os.mkdir(os.path.join(work, "taken-%d" % n))
+            break
+        except FileExistsError:
+            pass
+    top = os.path.join(work, "tree-%d" % n)
+    if not os.path.exists(top):
+        shutil.copytree(good, top, symlinks=True)
+    tree = Tree(top, good)
+    tree.load()
+    tree.reach = reach
+    tree.restore()
+
+
+def together(parts, reach):
+    """The first of the parts, and others of its room as long as all take little more; their seconds of a processor and of
+    the clock."""
+    room, group = parts[0].room, []
+    cpu, wall = least = reach.least(room)
+    for part in parts:
+        more = [max(0, known - all_) for known, all_ in zip(reach.parts[part][1::-1], least)]
+        if part.room == room and (not group or cpu + more[0] + 0.02 < least[0] + 1.5):
+            group.append(part)
+            cpu, wall = cpu + more[0] + 0.02, wall + more[1]
+    return group, cpu, wall
+
+
+def attempt(path, at, length, other, parts, budget):
+    """(what became of it, where, parts not run for want of time)."""
+    name = os.path.join(tree.top, path)
     with open(name, encoding="utf-8") as f:
         text = f.read()
     with open(name, "w", encoding="utf-8") as f:
         f.write(text[:at] + other + text[at + length:])
     try:
-        if copy.make("build/fret"):
-            return "no program", ""
-        if not copy.changed():
-            return "same code", ""
-        for test in nearest(copy.top, path):
-            if copy.make("build/tests/" + test):
-                return "killed", "build"
-            try:
-                ended = subprocess.run([os.path.join(copy.top, "build/tests", test)], cwd=copy.top, capture_output=True,
-                                       timeout=TIMEOUT * factor, check=False)
-            except subprocess.TimeoutExpired:
-                return "late", test
-            if ended.returncode:
-                return "killed", test
-        if copy.make("tests"):
-            return "killed", "build"
-        for room in order(path, first):
-            if os.path.exists(os.path.join(copy.good, "without-" + room)):
+        if tree.make("build/fret"):
+            return "no program", "", []
+        if not tree.changed():
+            return "same code", "", []
+        spent, known, parts = 0, tree.reach.parts, list(parts)
+        while parts:
+            group, cpu, wall = together(parts, tree.reach)
+            if spent + cpu > CHEAP and group[0].room not in ROOMS[path.split("/")[1]].split():
+                parts = [part for part in parts if part not in group]
                 continue
-            how = copy.room(room, factor)
-            if how:
-                first[path].append(room)
-                return ("late" if how.startswith("no end") else "killed"), room
-        return "lives", ""
+            if budget and spent + cpu > budget:
+                return "so far", "", parts
+            spent += cpu
+            parts = [part for part in parts if part not in group]
+            room, numbers = group[0].room, [part.number for part in group]
+            programs = {name for part in group for name in known[part][2] or ("tests",) if re.match("build/tests/|tests$", name)}
+            if programs and tree.make(*programs):
+                return "killed", "build", []
+            said = tree.run(room, numbers, 20 + 10 * cpu, 120 + 20 * wall)[0]
+            if not said.isdigit():
+                end, _, number = said.partition(" ")
+                return "late" if end == "late" else "killed", "%s %s" % (room, number or numbers[0]), []
+        return "lives", "", []
     finally:
-        copy.restore()
+        tree.restore()
 
 
-def table(out, done, judged, options, head):
+# how a judgement begins
+ALIKE, SINCE = ("equivalent", "speed only"), "killed since"
+
+
+def table(out, done, judged, options):
+    """Counts by room, and what lives with its judgement."""
+    def kind(one):
+        judgement = judged.get(key_of(one), "")
+        if one["end"] != "lives":
+            return one["end"]
+        return "alike" if judgement.startswith(ALIKE) else "since" if judgement.startswith(SINCE) else "lives"
     rows = collections.defaultdict(collections.Counter)
     for one in done:
-        rows[one["path"].split("/")[1]][one["end"]] += 1
-    out.write(head)
-    out.write("# Tokens of src/ changed one at a time: %d at random, seed %d. Killed: a test fails, or (late) does not end.\n"
-              "# Of those that changed the code of some object file.\n" % (len(done), options.seed))
-    out.write("%-10s %7s %6s %5s %6s %8s\n" % ("room", "mutants", "killed", "late", "lives", "killed %"))
-    total = collections.Counter()
-    for room in sorted(rows) + ["all"]:
-        r = rows[room] if room != "all" else total
-        if room != "all":
-            total.update(r)
-        n = r["killed"] + r["late"] + r["lives"]
-        out.write("%-10s %7d %6d %5d %6d %8.1f\n" % (room, n, r["killed"], r["late"], r["lives"],
-                                                     100.0 * (r["killed"] + r["late"]) / max(n, 1)))
-    out.write("\nWhat lives, and why (equivalent, speed only, beyond the tests, hole):\n")
+        for room in (one["path"].split("/")[1], "~"):
+            rows[room][kind(one)] += 1
+    tree = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout.strip()
+    out.write("# make mutants MUTANTS=%d SEED=%d, of the tree %s\n" % (options.count, options.seed, tree))
+    out.write("# Tokens of src/ changed one at a time, of %d at random those that changed the code of some object file.\n"
+              "# Killed: a test fails, or (late) takes ten times as long. Since: killed by a test that was written when it was\n"
+              "# seen to live. Alike: judged to be equivalent, or to change the speed only. %%: killed, of those that are not alike.\n"
+              % len(done))
+    out.write("%-10s %7s %6s %5s %6s %6s %6s %8s\n" % ("room", "mutants", "killed", "late", "since", "lives", "alike", "killed %"))
+    for room in sorted(rows):
+        r = [rows[room][name] for name in ("killed", "late", "since", "lives", "alike")]
+        out.write("%-10s %7d %6d %5d %6d %6d %6d %8.1f\n" % ("all" if room == "~" else room, sum(r), *r,
+                                                           100.0 * sum(r[:3]) / max(sum(r[:4]), 1)))
+    out.write("\nWhat no test noticed then, and why (equivalent, speed only, beyond the tests, hole), or what kills it since:\n")
     for one in done:
         if one["end"] == "lives":
             key = key_of(one)
@@ -285,53 +471,99 @@ def main():
     p.add_argument("--only", default="")
     p.add_argument("--table", default=os.path.join(ROOT, "tests/hard/mutants.txt"))
     p.add_argument("--work", default="")
-    p.add_argument("--factor", type=float, default=4)
-    p.add_argument("--room", default="", help=argparse.SUPPRESS)
+    p.add_argument("--budget", type=float, default=0)
+    p.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     options = p.parse_args()
-    if options.room:
-        run_room(options.room)
     work = os.path.abspath(options.work) if options.work else tempfile.mkdtemp(prefix="fret-mutants-")
-    copy = Copy(work)
-    copy.restore()
-    all_, texts = [], {}
-    for path in sorted(os.path.relpath(name, copy.good) for name in glob.glob(os.path.join(copy.good, "src/*/*.[ch]"))):
+    names = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\n")[:-1]
+    os.makedirs(work, exist_ok=True)
+    for name in glob.glob(os.path.join(work, "taken-*")):
+        os.rmdir(name)
+    good = os.path.join(work, "good")
+    if not os.path.exists(good):
+        shutil.rmtree(good + ".part", ignore_errors=True)
+        copy_sources(names, good + ".part")
+        if Tree(good + ".part").make("build/fret", "tests"):
+            sys.exit("mutants: the program itself does not build")
+        os.rename(good + ".part", good)
+    reach = Reach(work, names)
+    all_, texts, chooser = [], {}, random.Random(options.seed)
+    for path in sorted(os.path.relpath(name, good) for name in glob.glob(os.path.join(good, "src/*/*.[ch]"))):
         if path not in LEFT_OUT:
-            with open(os.path.join(copy.good, path), encoding="utf-8") as f:
+            with open(os.path.join(good, path), encoding="utf-8") as f:
                 texts[path] = f.read()
             all_ += [(path, *place) for place in places(path, texts[path])]
     random.Random(options.seed).shuffle(all_)
-    chooser = random.Random(options.seed)
-    done, first = [], collections.defaultdict(list)
-    if os.path.exists(copy.log):
-        with open(copy.log, encoding="utf-8") as f:
-            done = [json.loads(line) for line in f]
-    known = {(one["path"], one["at"]): one for one in done}
-    done = []
-    for path, at, length, others in all_:
-        other = chooser.choice(others)
-        if not path.startswith("src/" + options.only):
-            continue
-        if sum(one["end"] in ("killed", "late", "lives") for one in done) >= options.count:
-            break
-        if (path, at) in known:
-            one = known[path, at]
-            if one["where"] in ROOMS[path.split("/")[1]].split():
-                first[path].append(one["where"])
-            done.append(one)
-            continue
-        start = time.time()
-        end, where = attempt(copy, path, at, length, other, first, options.factor)
+    all_ = [(path, at, length, chooser.choice(others)) for path, at, length, others in all_]
+    all_ = [one for one in all_ if one[0].startswith("src/" + options.only)]
+    log, ends, kills = os.path.join(work, "log"), {}, collections.Counter()
+
+    def note(one):
+        ends[one["path"], one["at"]] = one
+        room, _, number = one["where"].partition(" ")
+        if number:
+            part = Part(room, int(number))
+            kills[one["path"].split("/")[1], part] += 1
+            kills[one["path"], part] += 1
+    if os.path.exists(log):
+        with open(log, encoding="utf-8") as f:
+            for line in f:
+                note(json.loads(line))
+
+    def done():
+        """What was tried, without gaps, up to the number wanted."""
+        found, count = [], 0
+        for path, at, *_ in all_:
+            one = ends.get((path, at))
+            if one is None or count == options.count:
+                break
+            found.append(one)
+            count += one["end"] in COUNTED
+        return found
+
+    def start(pool, path, at, length, other):
         line = texts[path].count("\n", 0, at) + 1
+        span = next((span for span in functions(texts[path]) if span[0] <= line <= span[1]), (0, 0))
+        if path.endswith(".h"):
+            span = (0, 0)
+        before = ends.get((path, at))
+        parts = [Part(*part) for part in before["left"]] if before else reach.order(path, line, *span, kills)
         one = {"path": path, "at": at, "line": line, "text": texts[path].splitlines()[line - 1].strip()[:90],
-               "old": texts[path][at:at + length], "new": other, "end": end, "where": where}
-        done.append(one)
-        with open(copy.log, "a", encoding="utf-8") as f:
-            f.write(json.dumps(one) + "\n")
-        print("%5.1f s %-10s %-10s %s:%d `%s` -> `%s`" % (time.time() - start, end, where, path, line, one["old"], other),
-              flush=True)
+               "old": texts[path][at:at + length], "new": other}
+        return pool.submit(attempt, path, at, length, other, parts, 0 if before else options.budget), one, time.time()
+
+    with concurrent.futures.ProcessPoolExecutor(options.jobs, initializer=begin, initargs=(work, reach)) as pool:
+        running = []
+
+        def step(most):
+            """Waits until no more than so many are running."""
+            while len(running) > most:
+                concurrent.futures.wait([r[0] for r in running], return_when=concurrent.futures.FIRST_COMPLETED)
+                for r in [r for r in running if r[0].done()]:
+                    running.remove(r)
+                    future, one, began = r
+                    one["end"], one["where"], one["left"] = future.result()
+                    note(one)
+                    with open(log, "a", encoding="utf-8") as f:
+                        f.write(json.dumps(one) + "\n")
+                    print("%5.1f s %-10s %-14s %s:%d `%s` -> `%s`  # %s" % (time.time() - began, one["end"], one["where"], one["path"],
+                                                                 one["line"], one["old"], one["new"], one["text"]), flush=True)
+        for place in all_:
+            if sum(one["end"] in COUNTED for one in done()) >= options.count:
+                break
+            if place[:2] not in ends:
+                running.append(start(pool, *place))
+                step(options.jobs - 1)
+        step(0)
+        tried = {(one["path"], one["at"]) for one in done()}
+        for place in all_:
+            if place[:2] in tried and ends[place[:2]]["end"] == "so far":
+                running.append(start(pool, *place))
+                step(options.jobs - 1)
+        step(0)
     judged = judgements(options.table)
     with open(options.table + ".part", "w", encoding="utf-8") as out:
-        table(out, done, judged, options, "# make mutants MUTANTS=%d SEED=%d\n" % (options.count, options.seed))
+        table(out, done(), judged, options)
     os.rename(options.table + ".part", options.table)
     if not options.work:
         shutil.rmtree(work)
