@@ -32,8 +32,9 @@ void fret_normal_free(fret_normal *normal);
  * or freed. The flag must outlive the contact; NULL, as at first: nothing stops. */
 void fret_normal_stop(fret_normal *normal, fret_stop stop);
 
-/* A table of so many rows that fret_normal_prepare pays for a single question about slip. */
-bool fret_normal_dense(const fret_normal *normal);
+/* A table of so many rows up to the radius a [m] that fret_normal_prepare pays for a single question about
+ * slip. */
+bool fret_normal_dense(const fret_normal *normal, fret_real a);
 
 /* For many questions, about loads up to F [N]: the law of a shape other than a power becomes polynomials,
  * piece by piece. To set up takes some 1000 times g(x), of a table some 20 times for each row; then

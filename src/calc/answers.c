@@ -45,10 +45,12 @@ static bool normal_of_load(scene *s, const load_reach *reach, const fret_normal 
     fret_press press;
     if (!scene_normal(s, out, error))
         return false;
-    if (fret_normal_is_power(*out) || !(s->many || reach->swings || fret_normal_dense(*out)))
+    const bool asked = s->many || reach->swings;
+    if (fret_normal_is_power(*out) || (!asked && !fret_normal_dense(*out, fret_normal_end(*out))))
         return true;
     return press_by(s, *out, &press, error) &&
-           scene_many_normal(s, fmax((double)press.F, reach->FN_most) + reach->FN_more, out, error);
+           ((!asked && !fret_normal_dense(*out, press.a)) ||
+            scene_many_normal(s, fmax((double)press.F, reach->FN_most) + reach->FN_more, out, error));
 }
 
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {
@@ -364,8 +366,8 @@ bool scene_contact(scene *s, fret_contact *out, calc_error *error) {
         !scene_friction(s, &out->mu, error))
         return false;
     out->press = *press;
-    const bool many =
-        (s->many || fret_normal_dense(out->normal)) && press->F > 0 && !fret_normal_is_power(out->normal);
+    const bool many = (s->many || fret_normal_dense(out->normal, press->a)) && press->F > 0 &&
+                      !fret_normal_is_power(out->normal);
     if (many && !scene_many_normal(s, (double)press->F, &out->normal, error))
         return false;
     if (many && used_pieces(s, out->normal))

@@ -161,8 +161,8 @@ static fret_real sampled_bend(const fret_gap *gap, const fret_rule *rule, fret_r
 static fret_real sampled_tip(const fret_gap *gap) {
     return fret_table_pointed(gap->table) ? 1 : 2;
 }
-static size_t sampled_rows(const fret_gap *gap) {
-    return fret_table_rows(gap->table);
+static size_t sampled_rows(const fret_gap *gap, fret_real r) {
+    return fret_table_rows(gap->table, r);
 }
 static bool sampled_grows(const fret_gap *gap) {
     return fret_table_grows(gap->table);
@@ -178,7 +178,7 @@ typedef struct shape {
     fret_real (*bend)(const fret_gap *, const fret_rule *, fret_real kink, fret_real e);
     bool (*grows)(const fret_gap *);
     int (*series)(const fret_gap *, const fret_rule *, fret_real a, fret_term *);
-    size_t (*rows)(const fret_gap *);
+    size_t (*rows)(const fret_gap *, fret_real r);
     bool powers, closed, sharp; /* reads power[]; of gap.h the other two */
     bool b, R, slope;           /* reads these, which must be positive */
 } shape;
@@ -304,9 +304,13 @@ bool fret_gap_closed(const fret_gap *gap) {
     return shape_of(gap)->closed;
 }
 
-size_t fret_gap_rows(const fret_gap *gap) {
+bool fret_gap_sampled(const fret_gap *gap) {
+    return shape_of(gap)->rows;
+}
+
+size_t fret_gap_rows(const fret_gap *gap, fret_real r) {
     const shape *s = shape_of(gap);
-    return s->rows ? s->rows(gap) : 0;
+    return s->rows ? s->rows(gap, r) : 0;
 }
 
 bool fret_gap_grows(const fret_gap *gap) {

@@ -21,7 +21,7 @@ static fret_status find_end(fret_normal *n) {
     n->end = last;
     if (fret_gap_grows(gap))
         return fret_ok();
-    const bool table = fret_gap_rows(gap) > 0;
+    const bool table = fret_gap_sampled(gap);
     for (int i = 1; i <= 400; i++) {
         fret_real x = table ? start + (last - start) * i / 400 : first * fret_pow(1e18L, i / 400.0L);
         if (profile(n, x - start).slope >= 0) {
@@ -120,9 +120,9 @@ bool fret_normal_is_power(const fret_normal *n) {
     return fret_normal_closed(n);
 }
 
-bool fret_normal_dense(const fret_normal *n) {
-    enum { MANY = 10000 };
-    return fret_gap_rows(&n->gap) >= MANY;
+bool fret_normal_dense(const fret_normal *n, fret_real a) {
+    enum { MANY = 10000 }; /* beyond which they are not taken one by one */
+    return fret_gap_rows(&n->gap, a) >= MANY;
 }
 
 fret_real fret_normal_end(const fret_normal *n) {

@@ -88,7 +88,7 @@ static bool by_pieces(const fret_phase *phase, fret_real *loss) {
     if (!fret_pieces_phase(p.normal->pieces, p.by == LOAD, edge, front, &parts, &bound))
         return false;
     *loss = parts;
-    if (bound <= (fret_gap_rows(&p.normal->gap) ? 1e-9L : 1e-12L) * parts) /* rules do not bear rows */
+    if (bound <= (fret_gap_sampled(&p.normal->gap) ? 1e-9L : 1e-12L) * parts) /* rules do not bear rows */
         return true;
     if (bound > 1e-6L * parts || !is_smooth(&p))
         return false;
@@ -105,7 +105,7 @@ fret_real fret_phase_loss_by_law(const fret_phase *phase) {
         return rate;
     if (comes_near(&p))
         return by_halves(&p, fret_phase_loss_by_law);
-    if (fret_gap_rows(&p.normal->gap)) /* edge or front may cross rows, where the rate is not smooth */
+    if (fret_gap_sampled(&p.normal->gap)) /* edge or front may cross rows, where the rate is not smooth */
         rate = fret_integrate_pieces(law_rate, &p, fmaxl(1e-15L, p.normal->borne));
     else
         rate = is_smooth(&p) ? fret_integrate_smooth(law_rate, &p) : fret_integrate(law_rate, &p);

@@ -204,7 +204,7 @@ static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tol
         const fret_real e = fret_piece_distance(p, looks[i], &rate);
         worst = fmaxl(worst, missed_by(m, level_in(p, looks[i]), e, isinf(tolerance), &deep));
     }
-    if (!fret_gap_rows(&n->gap)) /* else the law is what counts */
+    if (!fret_gap_sampled(&n->gap)) /* else the law is what counts */
         worst = fmaxl(worst, deep);
     const fret_real rough = fret_piece_make_whole(p);
     if (!(worst <= borne && rough <= fmaxl(1e-12L, 100 * borne))) /* in halves 2^-16 of it is left */
@@ -508,7 +508,7 @@ static bool make_core(maker *m) {
 }
 
 static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real borne, struct fret_pieces **out) {
-    const bool rows = fret_gap_rows(&n->gap) > 0;
+    const bool rows = fret_gap_sampled(&n->gap);
     struct fret_pieces *all = calloc(1, sizeof *all);
     maker *m = calloc(1, sizeof *m);
     *out = NULL;

@@ -97,7 +97,7 @@ static fret_status slip_zone_make(const fret_contact *c, const fret_loading *pea
         /* beside a flat end g grows within less than the last digit of the radius */
         s.g_inner = s.inner > s.start / 64 ? fret_gap_profile(&normal->gap, &normal->rule, s.inner).g
                                            : s.g_outer * (1 - x);
-        s.by_rows = fret_gap_rows(&normal->gap) && has_rows(&s);
+        s.by_rows = fret_gap_sampled(&normal->gap) && has_rows(&s);
     }
     *out = s;
     return st;
@@ -123,7 +123,8 @@ fret_status fret_quadrature_loss(const fret_contact *c, const fret_loading *peak
 
 static fret_status refine(const fret_contact *c, const fret_loading *peak, fret_real *loss,
                           fret_real *agreement) {
-    const fret_real unit = 4 * LDBL_EPSILON, finest = fret_gap_rows(&c->normal->gap) ? 1 / 64.0L : 1 / 256.0L;
+    const fret_real unit = 4 * LDBL_EPSILON,
+                    finest = fret_gap_sampled(&c->normal->gap) ? 1 / 64.0L : 1 / 256.0L;
     slip_zone s;
     fret_status st = slip_zone_make(c, peak, &s);
     if (st.code)
