@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linked into programs built with -finstrument-functions: marks each function that is entered in a file named like the
- * program, in the folder FOLDER, which all its processes share and which stays whole however they end. */
+/* Linked into programs built with -finstrument-functions: marks each function that is entered in a file named
+ * like the program, in the folder FOLDER, which all its processes share and which stays whole however they
+ * end. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
@@ -24,7 +25,8 @@ __attribute__((constructor)) static void begin(void) {
     if (fd < 0)
         return;
     const size_t size = (size_t)(&etext - &__executable_start);
-    void *map = ftruncate(fd, (off_t)size) ? MAP_FAILED : mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+    void *map =
+        ftruncate(fd, (off_t)size) ? MAP_FAILED : mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     close(fd);
     if (map != MAP_FAILED)
         entered = map;
