@@ -210,12 +210,14 @@ def repeating(tests):
     live.key("------", "FA 8 N")
     live.key("++", "FA 12 N")
     live.child.send(" ")
-    lost, end = [], time.time() + 60
+    lost, digits, end = [], [], time.time() + 60
     while (not lost or lost[-1] < 4e-6 or len(set(lost)) <= 20) and time.time() < end:
         live.read()
         number, unit = live.value("W")
         if number not in ("", "-") and unit:
             lost.append(float(number) * {"J": 1, "uJ": 1e-6, "nJ": 1e-9}[unit])
+            digits.append(len(number.split("e")[0].replace(".", "").lstrip("0")))
+    tests.check("chords are shown to four digits", digits and max(digits) == 4, str(digits))
     live.key("  ", lambda s: "> cycle" not in s.row(0))
     tests.check("losses add up", lost == sorted(lost) and len(set(lost)) > 20 and lost[-1] >= 4e-6, str(lost))
     live.says("dW")

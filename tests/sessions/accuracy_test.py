@@ -122,6 +122,9 @@ def other_models(tests):
                 rows["memory diagram"][0]["error"] <= 1e-10 and last["auto"] == "memory diagram" and
                 "FN swings" in last["advice"], str(last))
     tests.check("accuracy, FN swings: loop area", rows and abs(order(rows["loop area (21)"]) - 2) < 0.1, str(rows))
+    changed, _ = measured(tests, GRADED % (0.3, SPHERE) + "step FN=110 N; cycle FA=12 N", "accuracy within 1")
+    areas = changed.get("loop area (21)", {})
+    tests.check("accuracy, FN has changed: loop area", {10, 100, 1000} <= set(areas) and abs(order(areas) - 2) < 0.1, str(areas))
     tests.check("accuracy, FN swings: springs", rows and order(rows["springs"]) > 1.5, str(rows))
     scene = GRADED % (0.3, SPHERE) + "cycle FA=12 N FNA=20 N phase=90 deg times 2 steps 40\n"
     dW = harness.printed_values(tests.run("--format=json", "-c", scene + "dW").stdout)[0]
