@@ -179,7 +179,8 @@ static bool read_value(calc *c, lexer *lx, assignment *all, size_t count) {
     if (!expr_parse_at(c, lx, &c->scratch) || !expr_eval(c, &c->scratch, &a->v, lx->error))
         return false;
     a->value_len = lx->last - a->value_at;
-    return !a->q ||
+    /* without a shape that of A is not known; that there is none is told by who asked */
+    return !a->q || (quantity_input(a->q) == IN_A && !c->scene.in.geometry) ||
            value_dim(lx, a->q->name, a->value_at, a->value_len, a->v, wanted_dim(c, a->q, all, count));
 }
 
