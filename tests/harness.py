@@ -72,6 +72,13 @@ def at_work(process):
     return False
 
 
+def usual_signals():
+    """nohup and & pass on ignored ones, which programs then ignore too."""
+    for number in (signal.SIGHUP, signal.SIGINT, signal.SIGQUIT, signal.SIGTERM):
+        if signal.getsignal(number) == signal.SIG_IGN:
+            signal.signal(number, signal.SIG_DFL)
+
+
 class Tests:
     """One run of all rooms with one build of the program."""
 
@@ -84,9 +91,7 @@ class Tests:
         self.tmp = os.path.join(self.top, "tmp")  # where the program may keep temporary files
         os.makedirs(os.path.join(self.top, "home"))
         os.mkdir(self.tmp)
-        for number in (signal.SIGHUP, signal.SIGINT, signal.SIGQUIT, signal.SIGTERM):  # nohup and & pass on ignored ones
-            if signal.getsignal(number) == signal.SIG_IGN:
-                signal.signal(number, signal.SIG_DFL)
+        usual_signals()
         self.env = {"PATH": os.environ["PATH"], "HOME": os.path.join(self.top, "home"), "TMPDIR": self.tmp,
                     "LC_ALL": "C", "TERM": "dumb",
                     "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1"}

@@ -481,6 +481,9 @@ def campaign(fret, tests, only):
 
 
 if __name__ == "__main__":
+    sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    import harness
+    harness.usual_signals()
     if sys.argv[1] == "--leaks":
         sys.exit(leak_campaign(os.path.abspath(sys.argv[2]), os.path.abspath(sys.argv[3]), sys.argv[4:]))
     sys.exit(campaign(os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), sys.argv[3:]))
