@@ -72,10 +72,10 @@ struct scene {
     bool automatic; /* the model: the closed form where there is one, else the memory diagram */
     model_id model; /* else this one */
     unsigned springs;
-    bool many; /* many values of this contact are asked for: a decision of what asks, never of what was asked
-                */
-    fret_normal
-        *like;  /* of a scratch scene: what is prepared for its shape and k, whatever the material; or NULL */
+    /* many values of this contact are asked for: a decision of what asks, never of what was asked */
+    bool many;
+    /* of a scratch scene: what is prepared for its shape and k, whatever the material; or NULL */
+    fret_normal *like;
     int digits; /* of the values shown; 0: all. The law of a table need not be better than they can tell */
     double pieces_error; /* of the polynomials among them, relative */
     unsigned used;       /* what has answered: raised by whatever does, cleared by whoever wants to know */
