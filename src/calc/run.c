@@ -405,8 +405,8 @@ static fret_status run_cycle(runner *r, const load_item *c) {
     if (!st.code)
         st = run_periods(r, c, k->FN);
     k->within = r->waits;
-    if (st.code == FRET_GROSS_SLIP && c->step.tangential == BY_FORCE && c->step.normal_value == 0)
-        st.quantity = "FA";
+    if (st.code == FRET_GROSS_SLIP && c->step.tangential == BY_FORCE)
+        st.quantity = c->step.normal_value == 0 ? "FA" : RUN_FX_OF_CYCLE;
     return st;
 }
 

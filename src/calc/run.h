@@ -21,6 +21,8 @@ typedef struct load_view {
     bool trailed;        /* the run leaves a trail */
 } load_view;
 
+#define RUN_FX_OF_CYCLE "Fx within the cycle" /* what slides under a swinging normal force, in errors */
+
 /* A part of the load without a corner. Time is 0 at the press, 1 more each step, a quarter to the first peak
  * of a cycle, 1 more each period. */
 typedef enum leg_law { LEG_STRAIGHT, LEG_RISE, LEG_HALF } leg_law;

@@ -38,7 +38,7 @@ static void word_status(const calc *c, calc_error *error) {
         snprintf(text, size, "%s", rule);
         return;
     }
-    const dim d = dimension_of(c, name);
+    const dim d = dimension_of(c, strcmp(name, RUN_FX_OF_CYCLE) ? name : "Fx");
     for (int digits = 6; digits <= 17; digits++) { /* as many as tell them apart */
         value_text(d, st->value, digits, given);
         value_text(st->code == FRET_TABLE_SHORT ? DIM_LENGTH : d, st->limit, digits, limit);
@@ -47,7 +47,8 @@ static void word_status(const calc *c, calc_error *error) {
     }
     if (st->code == FRET_GROSS_SLIP)
         snprintf(text, size, "%s = %s exceeds mu*FN = %s: gross slip; %s to slide", name, given, limit,
-                 strcmp(name, "FA") ? "step by displacement (dx=...)" : "cycle by displacement (dxA=...)");
+                 strcmp(name, "FA") && strcmp(name, RUN_FX_OF_CYCLE) ? "step by displacement (dx=...)"
+                                                                     : "cycle by displacement (dxA=...)");
     else if (st->code == FRET_TABLE_SHORT)
         snprintf(text, size, "%s = %s cannot be carried: the gap supports contact radii up to %s", name,
                  given, limit);
