@@ -180,7 +180,6 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
         shell_stop = 0;
         char *line = logical_line(&waiting);
         if (shell_stop) { /* Ctrl-C drops the line */
-            fputc('\n', sh->out);
             free(line);
             forget(&waiting);
             prompt_dropped();
@@ -191,10 +190,8 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
             forget(&waiting);
             continue;
         }
-        if (!line) {
-            fputc('\n', sh->out);
+        if (!line)
             break;
-        }
         if (waiting.answers > 0 && !waiting.next) {
             shell_note(sh, PASTED "%zu line%s without a prompt taken for answers", waiting.answers,
                        waiting.answers == 1 ? "" : "s");

@@ -8,7 +8,7 @@
 /* Once, before the first line; sh is what completion looks at, and what tells why no history is kept. */
 void prompt_begin(shell *sh);
 /* What has been typed, without its end, to be freed; NULL at the end of input and after Ctrl-C (shell_stop).
- * A paste may hold several lines. */
+ * A paste may hold several lines. The terminal is at the beginning of a line then. */
 char *prompt_line(const char *text);
 /* Takes a paste of several lines, just accepted, off the terminal again: each is then shown above its answer.
  * False: it stays. */

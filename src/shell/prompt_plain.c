@@ -18,6 +18,7 @@ char *prompt_line(const char *text) {
     ssize_t n = getline(&line, &room, stdin);
     if (n < 0) {
         clearerr(stdin); /* Ctrl-C is no error of the stream */
+        fputc('\n', to);
         free(line);
         return NULL;
     }

@@ -68,9 +68,13 @@ static void act_on_signal(void) {
  * comes after it. */
 static bool pasting;
 static size_t ending; /* bytes of the end that it has got */
+static bool told_stop;
 
 static int nothing_more(void) {
     static const char end[] = "\033[201~";
+    if (shell_stop && !told_stop) /* a copy of the terminal tells that the line was dropped */
+        rl_echo_signal_char(SIGINT);
+    told_stop = true;
     return pasting ? end[ending++ % (sizeof end - 1)] : EOF;
 }
 
@@ -268,9 +272,13 @@ void prompt_begin(shell *sh) {
 
 char *prompt_line(const char *text) {
     rl_outstream = record_terminal();
+    told_stop = false;
     guard();
     at_work = true;
     char *line = readline(text);
+    const char *bracketed = rl_variable_value("enable-bracketed-paste"); /* it ends the line itself then */
+    if (!line && !(bracketed && !strcmp(bracketed, "on")))
+        fputc('\n', rl_outstream);
     at_work = false;
     unguard();
     if (caught) /* came when the line was done: it acts now */

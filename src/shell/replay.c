@@ -176,6 +176,7 @@ typedef struct replay {
     shell sh;
     text statement, want;
     size_t at;      /* line of the statement; 0: none yet */
+    bool waits;     /* to be run until something follows */
     size_t prompts; /* in what it wrote that are still to come in the transcript: a demo shows some */
     char *got;
 } replay;
@@ -221,6 +222,20 @@ static bool run(replay *r) {
     return true;
 }
 
+/* Does it end as a terminal shows a line that Ctrl-C dropped? Such a one waits for what follows. */
+static bool seems_dropped(const replay *r) {
+    static const char end[] = "^C";
+    const size_t n = sizeof end - 1, len = r->statement.len;
+    size_t own;
+    return len >= n && !strcmp(r->statement.p + len - n, end) &&
+           (len == n || !names_find(&r->sh.calc.names, end + 1, 1, &own));
+}
+
+static bool begin(replay *r) {
+    r->waits = seems_dropped(r);
+    return r->waits || run(r);
+}
+
 /* Notes and warnings of a scene that a record begins with may be there or not. */
 static void spare_notes(replay *r) {
     const size_t n = strlen(RECORD_GIVEN), len = r->statement.len;
@@ -237,6 +252,10 @@ static bool judge(replay *r) {
     measure m = {r->tolerance, false};
     if (r->at == 0 || shell_stop) /* what is half done is no answer */
         return true;
+    if (r->waits && is_blank(want))
+        return true;
+    if (r->waits && !run(r))
+        return false;
     spare_notes(r);
     if (compare(want, r->got, &m)) {
         r->passed++;
@@ -279,13 +298,13 @@ static bool take_line(replay *r, const file_in *in, bool *waiting) {
         if (!add_part(r, typed, n, &whole))
             return false;
         *waiting = !whole;
-        return *waiting || run(r);
+        return *waiting || begin(r);
     }
     if (!prompt || r->prompts > 0) {
         r->prompts -= prompt;
         return r->at == 0 || (append(&r->want, in->line, in->length) && append(&r->want, "\n", 1));
     }
-    if ((*waiting && !run(r)) || !judge(r)) /* it was dropped, or is all there is */
+    if ((*waiting && !begin(r)) || !judge(r)) /* it was dropped, or is all there is */
         return false;
     r->at = (size_t)in->number;
     empty(&r->statement);
@@ -293,7 +312,7 @@ static bool take_line(replay *r, const file_in *in, bool *waiting) {
     if (!add_part(r, typed, n, &whole))
         return false;
     *waiting = !whole;
-    return *waiting || run(r);
+    return *waiting || begin(r);
 }
 
 static bool take_lines(replay *r, file_in *in, calc_error *error) {
@@ -302,7 +321,7 @@ static bool take_lines(replay *r, file_in *in, calc_error *error) {
     while (ok && !shell_stop && (got = file_in_line(in, error)) == FILE_GOT_LINE)
         ok = take_line(r, in, &waiting);
     if (ok && waiting && !shell_stop)
-        ok = run(r);
+        ok = begin(r);
     if (ok && got != FILE_GOT_ERROR && !shell_stop)
         ok = judge(r);
     if (!ok)

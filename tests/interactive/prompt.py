@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The prompt in a terminal of its own: editing, history, completion, interrupts."""
+import io
 import os
 import re
 import shutil
@@ -10,6 +11,7 @@ import time
 import pexpect
 
 from live import child_of
+from screen import Screen
 
 PROMPT = r"fret> "
 SCENE = "material steel; geometry sphere R=10 mm; friction 0.4"
@@ -141,6 +143,36 @@ def interrupts(tests):
     tests.check("Ctrl-C at an empty line", s.say("1") == "1 = 1")
     s.child.sendeof()
     tests.check("Ctrl-D leaves after interrupts", s.end() == 0)
+
+
+def dropped(tests):
+    """Lines that Ctrl-C drops show it, each on its line, and a copy of the terminal replays."""
+    for name, term in (("xterm", "xterm"), ("a dumb terminal", "dumb")):
+        s = Session(tests, TERM=term)
+        screen = Screen(30, 100)
+        screen.feed(PROMPT)
+        s.child.logfile_read = shown = io.StringIO()
+        for typed in ("", "x = 3, y = ", "step Fx=20 N; x"):
+            s.child.send(typed)
+            s.child.expect_exact(typed)
+            s.child.sendintr()
+            told = s.prompt()
+            tests.check("%s: dropped: '%s'" % (name, typed), told.endswith("^C\n") and "\n\n" not in told, repr(told))
+        s.child.send("table a(F), \\\r")
+        s.child.expect(r"\.\.\.\.> ")
+        s.child.send("dz(F")
+        s.child.expect_exact("dz(F")
+        s.child.sendintr()
+        s.prompt()
+        s.say("x = 3; x, 2*x")
+        s.say("x")
+        s.child.sendeof()
+        tests.check(name + ": leaves", s.end() == 0)
+        screen.feed(shown.getvalue())
+        with tests.file(screen.text(), ".txt") as copy:
+            done = tests.run("--replay", copy)
+        tests.check(name + ": a copy with dropped lines replays", done.stdout.endswith(": 3 passed, 0 failed\n"),
+                    tests.report(done) + screen.text())
 
 
 def starting(tests):
@@ -348,4 +380,4 @@ def paging(tests):
 
 
 def run(tests):
-    tests.rooms(kept_lines, stopped, paging, dialogue, interrupts, starting, own, narrow, figures)
+    tests.rooms(kept_lines, stopped, paging, dialogue, interrupts, dropped, starting, own, narrow, figures)

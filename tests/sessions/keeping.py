@@ -136,6 +136,13 @@ def copies(tests):
             done = tests.run("--replay", copy)
         tests.check("typeset in a copy: " + answer, done.returncode == (not right) and "1 passed" * right in done.stdout,
                     tests.report(done))
+    dropped = ("fret> x = 3, y = ^C\nfret> step Fx=20 N; x^C\nfret> table a(F), \\\n....> dz(F^C\n\nfret> x^C\nerror: unknown name 'x'\n"
+               "fret> C = 2; x = 3; x^C\nx^C = 9\nfret> y = x^C\nfret> y\ny = 9\nfret> ^C\n")
+    for text, answer in ((dropped, ": 4 passed, 0 failed"), (dropped + "8\n", ": 4 passed, 1 failed"),
+                         (dropped.replace("C = 2", "C = 3"), ": 2 passed, 2 failed")):
+        with tests.file(text, ".txt") as copy:
+            done = tests.run("--replay", copy)
+        tests.check("a copy with lines dropped by Ctrl-C" + answer, done.stdout.endswith(answer + "\n"), tests.report(done))
     with tests.file("fret> 1 + \\\n....> 1,\0\\\n....> \n3\n", ".txt") as copy:
         done = tests.run("--replay", copy)
     tests.check("a copy with a byte 0 before a mark of continuation", done.returncode == 1 and "unexpected byte 0x00" in done.stdout,
