@@ -77,8 +77,6 @@ bool do_replay(shell *sh, lexer *lx, const command *self) {
     if (!args_read(sh, lx, &list, v, name))
         return false;
     const int status = shell_replay(name, 0, &sh->set, sh->out, lx->error);
-    if (status == EXIT_INTERRUPTED)
-        return calc_interrupted(lx->error);
     if (status == EXIT_OK)
         return true;
     if (!lx->error->raised)

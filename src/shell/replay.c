@@ -354,6 +354,8 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
         fprintf(r.out, ": %zu passed, %zu failed\n", r.passed, r.failed);
     }
     ok = text_begun && text_end(&t, true) && ok;
+    if (shell_stop && !error->raised)
+        calc_interrupted(error);
     if (!ok && !error->raised)
         calc_no_memory(error);
     file_in_close(&in);

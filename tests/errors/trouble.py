@@ -271,6 +271,14 @@ def interrupts(tests):
             else:
                 out, err = job.communicate()
                 tests.check("interrupted: " + name, False, "was over before\n" + (out + err)[-500:].decode())
+    with tests.file("fret> " + LONG.replace("\n", "\nfret> ") % "/dev/null") as path:
+        job = subprocess.Popen([tests.fret, "--replay", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=tests.env,
+                               start_new_session=True)
+        running = at_work(job)
+        job.send_signal(signal.SIGINT)
+        out, err = job.communicate()
+        tests.check("an interrupted replay says so", running and job.returncode == 130 and (out, err) == (b"", b"error: interrupted\n"),
+                    "exit %s\n%s%s" % (job.returncode, out.decode(), err.decode()))
     tests.check("an interrupted table leaves no file", not os.path.exists(csv) and not os.path.exists(csv + ".part"))
     out = os.path.join(tests.dir, "long.txt")
     with open(out, "wb") as f:
