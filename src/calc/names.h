@@ -11,6 +11,7 @@ typedef struct own_name {
     value v;
     counted *definition; /* NULL: a value */
     bool known;          /* it has been given, and not taken back */
+    bool woken;          /* it had been taken back: a range knows it for a while */
 } own_name;
 
 typedef struct own_names {

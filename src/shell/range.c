@@ -14,8 +14,7 @@ bool range_wake(shell *sh, const lexer *lx, range_names *out) {
         return true;
     if (!names_add(n, text, lx->len, &i))
         return calc_no_memory(lx->error);
-    if (i < out->count && out->woken_count < sizeof out->woken / sizeof *out->woken)
-        out->woken[out->woken_count++] = i;
+    n->row[i].woken = i < out->count;
     n->row[i].known = true;
     return true;
 }
@@ -39,9 +38,11 @@ bool range_names_find(shell *sh, lexer *lx, range_names *out, bool *found) {
 }
 
 void range_forget(shell *sh, const range_names *names) {
-    names_drop(&sh->calc.names, names->count);
-    for (size_t i = 0; i < names->woken_count; i++)
-        sh->calc.names.row[names->woken[i]].known = false;
+    own_names *n = &sh->calc.names;
+    names_drop(n, names->count);
+    for (size_t i = 0; i < n->count; i++)
+        if (n->row[i].woken)
+            n->row[i].known = n->row[i].woken = false;
 }
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
@@ -125,9 +126,8 @@ static bool read_along(shell *sh, lexer *lx, range *out) {
     return ok;
 }
 
-bool range_read_with(shell *sh, lexer *lx, sweep *s) {
-    if (!lex_accept(lx, "with"))
-        return !lx->error->raised;
+static bool read_with(shell *sh, lexer *lx, sweep *s) {
+    lex_next(lx);
     if (!read_name(&sh->calc, lx, &s->with))
         return false;
     do {
@@ -147,10 +147,10 @@ bool range_read_with(shell *sh, lexer *lx, sweep *s) {
 /* `log x` is of the axes. */
 static bool accept_log(lexer *lx) {
     lexer ahead = *lx;
-    if (!lex_is(lx, "log"))
+    if (!lex_accept(&ahead, "log") || lex_is(&ahead, "x") || lex_is(&ahead, "y") || lex_is(&ahead, "xy"))
         return false;
-    lex_next(&ahead);
-    return !lex_is(&ahead, "x") && !lex_is(&ahead, "y") && !lex_is(&ahead, "xy") && lex_accept(lx, "log");
+    *lx = ahead;
+    return true;
 }
 
 bool range_read_options(shell *sh, lexer *lx, sweep *s) {
@@ -167,7 +167,7 @@ bool range_read_options(shell *sh, lexer *lx, sweep *s) {
         } else if (!s->along && accept_log(lx)) {
             s->log = true;
         } else if (lex_is(lx, "with")) {
-            if (!range_read_with(sh, lx, s))
+            if (!read_with(sh, lx, s))
                 return false;
         } else {
             return !lx->error->raised;

@@ -20,9 +20,7 @@ typedef struct range {
 /* The names of the range, which stand behind the expressions that use them, become known until range_forget.
  */
 typedef struct range_names {
-    size_t count;
-    size_t woken[16]; /* names that had been taken back */
-    size_t woken_count;
+    size_t count; /* of the names before */
 } range_names;
 bool range_names_find(shell *sh, lexer *lx, range_names *out, bool *found);
 /* The name at the cursor does. out begins as {.count = of the names}. */
@@ -35,8 +33,6 @@ bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, 
 bool range_read(shell *sh, lexer *lx, range *out, size_t steps);
 /* `steps N`, `log` and `with ...` at the cursor, as many as stand there. */
 bool range_read_options(shell *sh, lexer *lx, sweep *s);
-/* `with NAME = v1, ...` at the cursor, if it stands there. */
-bool range_read_with(shell *sh, lexer *lx, sweep *s);
 /* Says on standard error why some values of a sweep are missing. */
 void note_missing(shell *sh, const sweep_job *job);
 

@@ -6,7 +6,7 @@
 
 #include "study/ask.h"
 
-enum { FIT_NAMES = 8, FIT_COLUMNS = 16 };
+enum { FIT_NAMES = 8, FIT_COLUMNS = 64 }; /* as many as a file has */
 
 /* A column of the data as a name of the expressions. */
 typedef struct fit_column {
