@@ -60,7 +60,8 @@ static bool derivative(state *s, const double *x, size_t i, double h, long doubl
 static bool first_order(state *s, uncertainty_answer *out, calc_error *error) {
     const uncertainty_question *of = s->of;
     long double v[UNCERTAIN_VALUES], slope[UNCERTAIN_VALUES];
-    double variance[UNCERTAIN_VALUES] = {0};
+    /* squares leave the range of double where what they are of does not */
+    long double variance[UNCERTAIN_VALUES] = {0}, part[UNCERTAIN_VALUES][UNCERTAIN_NAMES];
     if (!all_at(s, out->x, v))
         return no_value(s, error, NULL);
     for (size_t i = 0; i < of->count; i++) {
@@ -70,18 +71,21 @@ static bool first_order(state *s, uncertainty_answer *out, calc_error *error) {
             (error->raised || !derivative(s, out->x, i, 1e-3 * h, slope)))
             return no_value(s, error, of->name[i].text);
         for (size_t k = 0; k < of->expressions; k++) {
-            const double part = (double)slope[k] * of->deviation[i];
-            out->value[k].share[i] = part * part;
-            variance[k] += part * part;
+            const long double moved = slope[k] * of->deviation[i];
+            part[k][i] = moved * moved;
+            variance[k] += part[k][i];
         }
     }
     for (size_t k = 0; k < of->expressions; k++) {
         uncertain *u = &out->value[k];
         u->v = v[k];
         u->d = s->d[k];
-        u->deviation = sqrt(variance[k]);
+        u->deviation = (double)sqrtl(variance[k]);
+        if (isinf(u->deviation))
+            return calc_fail(error, of->e[k].at, of->e[k].len,
+                             "the deviation is too large for double precision");
         for (size_t i = 0; i < of->count; i++)
-            u->share[i] = variance[k] > 0 ? u->share[i] / variance[k] : 0;
+            u->share[i] = variance[k] > 0 ? (double)(part[k][i] / variance[k]) : 0;
     }
     return true;
 }
@@ -89,11 +93,11 @@ static bool first_order(state *s, uncertainty_answer *out, calc_error *error) {
 /* ---- Monte Carlo ------------------------------------------------------------------------------- */
 
 /* Mean and sum of squared distances from it, as they go along (Welford). */
-static void take(uncertain *u, double v, double *squares) {
-    const double off = v - u->mean;
+static void take(uncertain *u, double v, long double *squares) {
+    const long double off = (long double)v - u->mean;
     u->samples++;
-    u->mean += off / u->samples;
-    *squares += off * (v - u->mean);
+    u->mean += (double)(off / u->samples);
+    *squares += off * ((long double)v - u->mean);
 }
 
 static bool differs(const uncertain *u) {
@@ -125,7 +129,7 @@ typedef struct sampling {
     state *s;
     uncertainty_answer *answer;
     gsl_rng *rng;
-    double squares[UNCERTAIN_VALUES];
+    long double squares[UNCERTAIN_VALUES];
     unsigned drawn, counted;
     double taken; /* seconds */
     team *t;
@@ -243,7 +247,8 @@ static bool monte_carlo(state *s, uncertainty_answer *out, calc_error *error) {
     gsl_rng_free(m.rng);
     for (size_t k = 0; k < s->of->expressions; k++) {
         uncertain *u = &out->value[k];
-        u->spread = u->samples > 1 ? sqrt(m.squares[k] / (u->samples - 1)) : 0;
+        u->mean = u->samples > 0 ? u->mean : NAN;
+        u->spread = u->samples > 1 ? (double)sqrtl(m.squares[k] / (u->samples - 1)) : NAN;
         u->differs = differs(u);
     }
     return !error->raised;

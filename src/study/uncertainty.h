@@ -24,7 +24,7 @@ typedef struct uncertain {
     dim d;
     double deviation;              /* first order: sqrt(sum (dv/dx_i s_i)^2) */
     double share[UNCERTAIN_NAMES]; /* of its variance, by input */
-    double mean, spread;           /* of the samples */
+    double mean, spread;           /* of the samples; NaN: of none, and of one */
     unsigned samples;              /* that have a value */
     bool differs; /* the Monte Carlo says something else: by more than 5 % of the deviation, and more than so
                      many samples err by */
