@@ -26,8 +26,7 @@ static double read_back(const char *text) {
         lex_next(&lx);
     const size_t at = lx.at, len = lx.len;
     lex_next(&lx);
-    if (!unit_parse(&lx, &u))
-        return NAN;
+    unit_parse(&lx, &u);
     const double v = (double)unit_literal(&lx, at, len, &u);
     return minus ? -v : v;
 }
@@ -40,11 +39,7 @@ static void angle_text(double v, char *buf, size_t size) {
         if (read_back(buf) == v)
             return;
     }
-    for (int digits = LEAST; digits <= MOST; digits++) {
-        snprintf(buf, size, "%.*g rad", digits, v);
-        if (read_back(buf) == v)
-            return;
-    }
+    snprintf(buf, size, "%.*g rad", MOST, v);
 }
 
 enum { VALUE_TEXT = 160 };
@@ -158,11 +153,12 @@ static void write_second(writer *w) {
 
 /* As the language reads it back; false: it cannot. */
 static bool write_file_name(writer *w, const char *name) {
-    const bool quotes = strchr(name, '"') != NULL;
-    const bool special = strpbrk(name, " \t;#\\\r\n") != NULL;
-    if (strpbrk(name, "\r\n") || (quotes && (special || *name == '"')))
+    const char *form = strchr(name, '"')          ? " %s " /* as it was typed, and no mark at the end */
+                       : strpbrk(name, " \t;#\\") ? " \"%s\""
+                                                  : " %s";
+    if (strpbrk(name, "\r\n"))
         return false;
-    fprintf(w->to, special ? " \"%s\"" : " %s", name);
+    fprintf(w->to, form, name);
     return true;
 }
 
