@@ -16,10 +16,9 @@ static bool read_value(calc *c, lexer *lx, arg_value *v) {
 }
 
 static bool read_number(calc *c, lexer *lx, const arg *a, arg_value *v) {
-    return read_value(c, lx, v) &&
-           ((dim_equal(v->v.d, DIM_NONE) && v->v.v > 0 && v->v.v <= a->most) ||
-            calc_fail(lx->error, v->value_at, v->value_len, "the %s must be a positive number up to %u",
-                      !strcmp(a->name, "within") ? "seconds" : a->name, a->most));
+    return read_value(c, lx, v) && ((dim_equal(v->v.d, DIM_NONE) && v->v.v > 0 && v->v.v <= a->most) ||
+                                    calc_fail(lx->error, v->value_at, v->value_len,
+                                              "the seconds must be a positive number up to %u", a->most));
 }
 
 void args_drop(const arg_list *list, arg_value v[ARGS]) {
@@ -58,31 +57,34 @@ static bool twice(lexer *lx, const arg_list *list, const arg *a, const arg_value
     return false;
 }
 
-static bool not_positive(lexer *lx, const arg *a, const arg_value *v) {
-    char unit_text[128];
-    dim_unit(a->d, unit_text, sizeof unit_text);
-    return calc_fail(lx->error, v->value_at, v->value_len, "%s = %.6Lg%s%s must be positive", a->name, v->v.v,
-                     *unit_text ? " " : "", unit_text);
-}
-
 static bool in_range(lexer *lx, const arg *a, const arg_value *v) {
     fret_status st = {FRET_NOT_POSITIVE, a->name, (double)v->v.v, 0};
-    if (a->flags & ARG_OWN_DIM)
-        return v->v.v > 0 || not_positive(lx, a, v);
+    if (a->flags & ARG_OWN_DIM) {
+        char unit_text[128];
+        dim_unit(a->d, unit_text, sizeof unit_text);
+        return v->v.v > 0 ||
+               calc_fail(lx->error, v->value_at, v->value_len, "%s = %.6Lg%s%s must be positive", a->name,
+                         v->v.v, *unit_text ? " " : "", unit_text);
+    }
     if (a->in && !v->increment) {
         st = input_status((input)(a->in - 1), (double)v->v.v);
         return calc_input_status(lx->error, a->in - 1, &st) || arg_place(lx->error, v);
     }
     if (a->flags & ARG_NONZERO && v->v.v == 0)
         return calc_fail(lx->error, v->value_at, v->value_len, "%s must not be 0", a->name);
-    return !(a->flags & ARG_POSITIVE) || v->v.v > 0 || calc_status(lx->error, &st) || arg_place(lx->error, v);
+    if (!(a->flags & ARG_POSITIVE) || v->v.v > 0)
+        return true;
+    calc_status(lx->error, &st);
+    return arg_place(lx->error, v);
 }
 
 static bool read_named(shell *sh, lexer *lx, const arg_list *list, const arg *a, token_kind how,
                        arg_value *v) {
-    if (!a || (how == T_INCREMENT && !(a->flags & ARG_INCREMENT)) ||
-        (how == T_DEFINE && !(a->flags & ARG_LIVE)))
+    if (!a)
         return unknown_argument(lx, list);
+    if ((how == T_INCREMENT && !(a->flags & ARG_INCREMENT)) || (how == T_DEFINE && !(a->flags & ARG_LIVE)))
+        return calc_fail(lx->error, lx->at, lx->len, "%s does not take %s by %s; usage: %s %s", list->who,
+                         a->name, how == T_DEFINE ? ":=" : "+=", list->command, list->usage);
     const dim d = a->in && !(a->flags & ARG_OWN_DIM) ? quantity_of_input((input)(a->in - 1))->d : a->d;
     v->at = lx->at;
     v->len = lx->len;
@@ -118,8 +120,8 @@ static bool read_choice(lexer *lx, const arg *a, arg_value *v) {
     lx->len = len;
     const char *near = suggest(word, a->words);
     char list[CALC_ERROR_TEXT - 64] = "";
-    for (size_t i = 0; (name = a->words(i)) && i < 7; i++)
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", name);
+    for (size_t i = 0; i < 7; i++)
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", a->words(i));
     return lex_fail(lx, near ? "unknown %s '%s': did you mean %s?" : "unknown %s '%s' (%s)", a->name, word,
                     near ? near : list);
 }

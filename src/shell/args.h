@@ -11,7 +11,7 @@ typedef enum arg_kind {
     ARG_END,
     ARG_VALUE,  /* NAME = EXPR of the dimension d, or of the input's */
     ARG_COUNT,  /* NAME and a whole number from 1 to `most` */
-    ARG_NUMBER, /* NAME and a positive number up to `most` */
+    ARG_NUMBER, /* NAME and a number of seconds up to `most` */
     ARG_WORD,   /* NAME alone */
     ARG_CHOICE, /* first: one of the words of a table */
     ARG_EXPR,   /* first: an expression of the dimension d */
@@ -40,7 +40,7 @@ typedef struct arg {
     unsigned flags;
     int group; /* one of a group, 0: no group */
     unsigned most;
-    const char *(*words)(size_t i); /* of ARG_CHOICE and ARG_NAME, for completion too */
+    const char *(*words)(size_t i); /* of ARG_CHOICE (ten and more) and ARG_NAME, for completion too */
 } arg;
 
 enum { ARGS = 16, ARG_FILE_NAME = 4096 };

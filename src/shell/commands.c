@@ -685,7 +685,7 @@ bool argument_word(const lexer *lx) {
     const command *c;
     for (size_t i = 0; (c = command_row(i)); i++)
         for (const arg *a = c->args; a && a->kind; a++)
-            if (a->kind != ARG_VALUE && a->name && lex_is(lx, a->name))
+            if (a->kind != ARG_VALUE && lex_is(lx, a->name))
                 return true;
     return false;
 }
