@@ -16,6 +16,7 @@ import accuracy_test  # noqa: E402
 import backwards  # noqa: E402
 import casts  # noqa: E402
 import completion  # noqa: E402
+import explaining  # noqa: E402
 import figures  # noqa: E402
 import fits  # noqa: E402
 import fuzzing  # noqa: E402
@@ -238,7 +239,7 @@ def help_examples(tests):
 
 
 ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
-         "reference": reference.run, "scripts": scripts.run, "reading": reading.run, "smoothing": smoothing.run,
+         "reference": reference.run, "scripts": scripts.run, "reading": reading.run, "smoothing": smoothing.run, "explaining": explaining.run,
          "keeping": keeping.run,
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
          "fits": fits.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,

@@ -125,9 +125,8 @@ static void advise(const accuracy_study *study, const char *separator, char *buf
     }
     format_error(row, error, sizeof error);
     format_seconds(row->seconds, t, sizeof t);
-    if (n >= 0 && (size_t)n < size)
-        snprintf(buf + n, size - (size_t)n, "auto picks: %s (%s): error %s in %s", study->automatic,
-                 study->why, error, t);
+    snprintf(buf + n, size - (size_t)n, "auto picks: %s (%s): error %s in %s", study->automatic, study->why,
+             error, t);
 }
 
 /* ---- printing ---------------------------------------------------------------------------------- */

@@ -20,7 +20,7 @@ typedef struct estimate {
 } estimate;
 
 /* `mu = 0.4 +- 0.002`, both in the unit of the value. */
-static void print_estimate(shell *sh, const estimate *e) {
+static void print_estimate(shell *sh, const char *name, const estimate *e) {
     char unit_text[COLUMN_UNIT], value_text[NUMBER_TEXT], deviation[NUMBER_TEXT];
     long double scale = e->c.scale;
     if (e->c.chosen)
@@ -30,9 +30,9 @@ static void print_estimate(shell *sh, const estimate *e) {
     number_text(value_text, sh->set.digits, (double)(e->v / scale));
     number_text(deviation, 3, (double)(e->deviation / scale));
     if (*unit_text)
-        fprintf(sh->out, "%s = %s %s +- %s %s\n", e->c.name, value_text, unit_text, deviation, unit_text);
+        fprintf(sh->out, "%s = %s %s +- %s %s\n", name, value_text, unit_text, deviation, unit_text);
     else
-        fprintf(sh->out, "%s = %s +- %s\n", e->c.name, value_text, deviation);
+        fprintf(sh->out, "%s = %s +- %s\n", name, value_text, deviation);
 }
 
 /* One more column of a row. like: its unit, or NULL. */
@@ -58,7 +58,7 @@ static bool print_row(shell *sh, const estimate *e, size_t count, const uncertai
         ok = add_column(&columns[n++], e[i].c.name, &e[i].c);
         snprintf(name, sizeof name, "%s deviation", e[i].c.name);
         si[n] = e[i].deviation;
-        ok = ok && add_column(&columns[n++], name, &e[i].c);
+        ok &= add_column(&columns[n++], name, &e[i].c);
         for (size_t k = 0; k < shares && ok; k++) {
             snprintf(name, sizeof name, "%s from %s", e[i].c.name, q->name[k].text);
             si[n] = e[i].share[k];
@@ -84,7 +84,7 @@ static bool print_estimates(shell *sh, const estimate *e, size_t count, const un
         if (sh->set.format == FORMAT_JSON)
             print_json_value(sh->out, e[i].c.name, e[i].v, e[i].c.d);
         else
-            print_estimate(sh, &e[i]);
+            print_estimate(sh, e[i].c.name, &e[i]);
     return true;
 }
 
@@ -154,7 +154,8 @@ static const double *column_of(const csv *data, const char *name, dim d, calc_er
 /* Columns as names: of inputs, or free ones. Those that are results, or no names, have no say, and are missed
  * if they are asked for; one that is named in vain is no matter. */
 static bool read_columns(shell *sh, const csv *data, fit_question *q, range_names *names, calc_error *error) {
-    for (size_t i = 0; i < data->columns && q->columns < FIT_COLUMNS; i++) {
+    _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
+    for (size_t i = 0; i < data->columns; i++) {
         const csv_values *of_file = &data->column[i];
         calc_error useless;
         lexer lx;
@@ -339,12 +340,12 @@ static void report_fit(shell *sh, const fit_question *q, const fit_answer *a) {
 static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, calc_error *error) {
     estimate e[FIT_NAMES] = {{.v = 0}};
     bool ok = true;
-    for (size_t i = 0; i < q->count && ok; i++) {
+    for (size_t i = 0; i < q->count; i++) {
         e[i].v = a->value[i];
         e[i].deviation = a->deviation[i];
-        ok = column_si(&e[i].c, q->name[i].text, q->name[i].d) || calc_no_memory(error);
+        ok &= column_si(&e[i].c, q->name[i].text, q->name[i].d);
     }
-    ok = ok && print_estimates(sh, e, q->count, NULL, error);
+    ok = ok ? print_estimates(sh, e, q->count, NULL, error) : calc_no_memory(error);
     if (ok)
         report_fit(sh, q, a);
     for (size_t i = 0; i < q->count; i++)
@@ -453,26 +454,21 @@ static void text_uncertain(shell *sh, const uncertainty_question *q, const uncer
     if (!u->differs)
         return;
     estimate sampled = *e;
-    sampled.c.name = column_name("Monte Carlo", 11);
     fputs("    ", sh->out);
     sampled.v = u->mean;
     sampled.deviation = u->spread;
-    if (sampled.c.name)
-        print_estimate(sh, &sampled);
-    free(sampled.c.name);
+    print_estimate(sh, "Monte Carlo", &sampled);
 }
 
 static bool print_uncertain(shell *sh, const uncertainty_question *q, const uncertainty_answer *a,
                             estimate *e, calc_error *error) {
-    bool ok = true;
-    for (size_t k = 0; k < q->expressions && ok; k++) {
-        ok = column_fits(&q->e[k], &e[k].c, a->value[k].d, error);
+    for (size_t k = 0; k < q->expressions; k++) {
+        if (!column_fits(&q->e[k], &e[k].c, a->value[k].d, error))
+            return false;
         e[k].v = a->value[k].v;
         e[k].deviation = a->value[k].deviation;
         e[k].share = a->value[k].share;
     }
-    if (!ok)
-        return false;
     if (sh->set.format != FORMAT_TEXT && !print_estimates(sh, e, q->expressions, q, error))
         return false;
     if (sh->set.format == FORMAT_JSON)
@@ -480,8 +476,7 @@ static bool print_uncertain(shell *sh, const uncertainty_question *q, const unce
     for (size_t k = 0; k < q->expressions; k++) {
         const uncertain *u = &a->value[k];
         if (sh->set.format == FORMAT_TEXT) {
-            if (!print_estimates(sh, &e[k], 1, q, error))
-                return false;
+            print_estimates(sh, &e[k], 1, q, error); /* text: of no memory */
             text_uncertain(sh, q, u, &e[k]);
         }
         if (u->differs && sh->set.format == FORMAT_CSV) {

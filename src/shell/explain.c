@@ -32,7 +32,7 @@ typedef struct page {
 
 /* What may be missing, unless it is because memory is out or the user has stopped it. */
 static bool had(const page *p, bool ok, const calc_error *why) {
-    if (!ok && why->stop && !p->error->raised)
+    if (!ok && why->stop)
         *p->error = *why;
     return ok;
 }
@@ -67,8 +67,6 @@ static void put_formula(const page *p, const quantity *q, bool call) {
     const formula *f = quantity_formula(q, p->sh->calc.now, call);
     char set[512], line[600];
     fprintf(p->to, "%s: %s\n", q->name, q->title);
-    if (!f)
-        return;
     if (typeset_unicode())
         typeset(f->text, set, sizeof set);
     snprintf(line, sizeof line, "%s%s%s", typeset_unicode() ? set : f->text, f->equation ? "  " : "",
@@ -119,9 +117,8 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
     scene *s = p->sh->calc.now;
     const double error = fmax((double)s->answers.sine_error, 1e-15);
     const int finest = RUN_CHORDS << (model == MODEL_MEMORY ? LEVELS - 1 : 0);
-    const bool sampled = call || !strcmp(q->name, "W1D");
     fprintf(p->to, "    model: %s, ", models[model].title);
-    if (model == MODEL_MEMORY && s->answers.levels == 1 && !sampled)
+    if (model == MODEL_MEMORY && s->answers.levels == 1 && !call)
         fprintf(p->to, "the sine itself, event by event (exact)\n");
     else if (model == MODEL_MEMORY && is_extrapolated(q, call))
         fprintf(p->to, "converged to %.0e (the sine itself, by %d chords a period and fewer, extrapolated)\n",
@@ -130,11 +127,13 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
         fprintf(p->to, "by %d chords a period of the sine\n", finest);
 }
 
+/* Of a scene that has been run. */
 static bool swings(scene *s) {
-    const load_reach *reach;
+    const load_reach *reach = &(load_reach){.swings = false};
     calc_error ignored;
     error_clear(&ignored);
-    return s->end.steps > 0 && scene_reach(s, &reach, &ignored) && reach->swings;
+    scene_reach(s, &reach, &ignored);
+    return reach->swings;
 }
 
 static void put_model(const page *p, const quantity *q, bool call) {
@@ -219,8 +218,7 @@ static void put_load(const page *p, const quantity *q, const influence_study *st
     bool matters = study->count == 0;
     for (size_t i = 0; i < study->count; i++)
         matters = matters || (cause_is_load(&study->cause[i]) && study->cause[i].influence != INFLUENCE_NONE);
-    if (!matters || !q->load || quantity_is_input(q) || !s->end.steps ||
-        !had(p, scene_press(s, &press, &ignored), &ignored))
+    if (!matters || !q->load || quantity_is_input(q) || !had(p, scene_press(s, &press, &ignored), &ignored))
         return;
     put_value(p, "FN now", 6, (value){press->F, DIM_FORCE});
     if (is_of_cycle(q))
@@ -280,7 +278,7 @@ static bool text_value(const page *p, const char *text, size_t len, expr *e, val
     lexer lx;
     error_clear(&ignored);
     lex_start(&lx, text, len, &ignored);
-    return had(p, expr_parse(c, &lx, e) && lx.kind == T_END && expr_eval(c, e, v, &ignored), &ignored);
+    return had(p, expr_parse(c, &lx, e) && expr_eval(c, e, v, &ignored), &ignored);
 }
 
 /* An input, and F_N as it was given: no formula made the number. */
@@ -340,33 +338,28 @@ static bool explain_part(const page *p, const part *of, bool whole, calc_error *
 
 /* ---- the expression ---------------------------------------------------------------------------- */
 
-/* The first call of the quantity in the text. */
-static bool find_call(const expr *e, const quantity *q, part *out) {
+/* The first call of the quantity in the text, where there is one. */
+static part find_call(const expr *e, const quantity *q) {
     calc_error ignored;
     lexer lx;
     error_clear(&ignored);
     lex_start(&lx, e->text, e->at + e->len, &ignored);
     lex_seek(&lx, e->at);
-    while (lx.kind != T_END && !ignored.raised && !(lex_is(&lx, q->name) && lex_peek(&lx) == T_OPEN))
+    while (!lex_is(&lx, q->name) || lex_peek(&lx) != T_OPEN)
         lex_next(&lx);
     const size_t begin = lx.at;
     lex_next(&lx);
     const size_t open = lx.at;
-    int depth = 0;
-    for (; lx.kind != T_END && !ignored.raised; lex_next(&lx)) {
+    for (int depth = 1; depth > 0;) {
+        lex_next(&lx);
         depth += (lx.kind == T_OPEN) - (lx.kind == T_CLOSE);
-        if (depth == 0)
-            break;
     }
-    if (lx.kind != T_CLOSE)
-        return false;
-    *out = (part){.q = q,
+    return (part){.q = q,
                   .call = true,
                   .text = e->text + begin,
                   .len = lx.at + 1 - begin,
                   .argument = open + 1 - begin,
                   .argument_len = lx.at - open - 1};
-    return true;
 }
 
 static bool part_of(const expr *e, size_t i, part *out) {
@@ -374,8 +367,7 @@ static bool part_of(const expr *e, size_t i, part *out) {
     const quantity *q = expr_quantity(e, i, &call);
     if (!q)
         return false;
-    if (!call || !find_call(e, q, out))
-        *out = (part){.q = q, .call = call, .text = q->name, .len = strlen(q->name)};
+    *out = call ? find_call(e, q) : (part){.q = q, .text = q->name, .len = strlen(q->name)};
     return true;
 }
 
@@ -407,7 +399,7 @@ static bool is_seen(seen *before, const part *of) {
 }
 
 static bool is_whole(const expr *e, const part *of) {
-    return of->len == e->len && !memcmp(of->text, e->text + e->at, e->len);
+    return of->len == e->len;
 }
 
 /* Each quantity, also those of the definitions that are named. asked: what the conditioning belongs to. */
@@ -480,7 +472,7 @@ static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **a
     if (!expr_changed(&sh->calc, meant, t, e, lx->error))
         return calc_place(lx->error, at, whole->len);
     *asked = meant == whole ? *e : whole;
-    if (!expr_quantity(*e, 0, &call) && !expr_definition(&sh->calc, *e, 0))
+    if (!expr_quantity(*e, 0, &call) && !expr_definition(&sh->calc, *e, 0) && !(*e)->ats)
         return calc_fail(lx->error, at, whole->len, "explain which quantity? try: explain dW");
     return expr_eval(&sh->calc, *e, v, lx->error) || calc_place(lx->error, at, whole->len);
 }

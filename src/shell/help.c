@@ -169,11 +169,8 @@ static entry preset_entry(size_t i) {
 
 static void preset_help(FILE *to, size_t i) {
     const entry e = preset_entry(i);
-    fprintf(to, "%s%s\n  %s\n", e.command, e.name, e.numbers);
-    if (e.keywords) {
-        fputs("  ", to);
-        help_wrapped(to, e.keywords, 2, 2);
-    }
+    fprintf(to, "%s%s\n  %s\n  ", e.command, e.name, e.numbers);
+    help_wrapped(to, e.keywords, 2, 2);
 }
 
 static entry figure_entry(size_t i) {
@@ -280,7 +277,7 @@ static void group_line(FILE *to, const char *group) {
     char names[HELP_TEXT] = "";
     const command *c;
     for (size_t i = 0; (c = command_row(i)); i++)
-        if (!strcmp(c->group ? c->group : "", group)) {
+        if (!strcmp(c->group, group)) {
             const size_t n = strlen(names);
             snprintf(names + n, sizeof names - n, "%s%s", n ? " " : "", c->name);
         }
@@ -289,11 +286,9 @@ static void group_line(FILE *to, const char *group) {
 }
 
 static bool group_seen(size_t row, const char *group) {
-    for (size_t i = 0; i < row; i++) {
-        const char *other = command_row(i)->group;
-        if (!strcmp(other ? other : "", group))
+    for (size_t i = 0; i < row; i++)
+        if (!strcmp(command_row(i)->group, group))
             return true;
-    }
     return false;
 }
 
@@ -308,8 +303,8 @@ static void overview(FILE *to) {
           "Commands (help COMMAND tells more):\n",
           to);
     for (size_t i = 0; (c = command_row(i)); i++)
-        if (!group_seen(i, c->group ? c->group : ""))
-            group_line(to, c->group ? c->group : "");
+        if (!group_seen(i, c->group))
+            group_line(to, c->group);
     for (size_t i = 0; topic_name(i); i++) {
         const size_t n = strlen(names);
         snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "Topics: ", topic_name(i));

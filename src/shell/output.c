@@ -28,14 +28,13 @@ size_t number_text(char text[NUMBER_TEXT], int digits, double v) {
     frexp(v, &binary);
     /* the decimal exponent, or one less: floor(log10(2^(binary-1))) */
     int e = ((binary - 1) * 30103 + OFFSET * 100000) / 100000 - OFFSET;
-    for (int up = 0; up < 2; up++) {
+    for (;; e++) {
         int shift = digits - 1 - e;
         if (!(x > 0) || !isfinite(v) || shift < -EXACT || shift > EXACT)
             return (size_t)snprintf(text, NUMBER_TEXT, "%.*g", digits, v);
         y = shift < 0 ? x / ten[-shift] : x * ten[shift];
         if (y < ten[digits])
             break;
-        e++;
     }
     long long d = llrintl(y);
     if (0.5L - fabsl(y - (long double)d) <= y * LDBL_EPSILON)
@@ -180,12 +179,12 @@ static void json_number(FILE *to, long double v) {
 /* ---- columns ----------------------------------------------------------------------------------- */
 
 char *column_name(const char *text, size_t len) {
-    char *name = malloc(len + 1);
+    char *name = malloc(len + 1), before = ' ';
     size_t n = 0;
     for (size_t i = 0; name && i < len; i++) {
         const char c = text[i] == '\n' || text[i] == '\r' || text[i] == '\t' ? ' ' : text[i];
-        if (c != ' ' || (n > 0 && name[n - 1] != ' ')) /* a continued line is one */
-            name[n++] = c;
+        if (c != ' ' || before != ' ') /* a continued line is one */
+            name[n++] = before = c;
     }
     if (name)
         name[n] = 0;
@@ -225,14 +224,10 @@ void columns_free(column *c, size_t count) {
 }
 
 static void csv_field(FILE *to, const column *c) {
-    const bool quoted = strpbrk(c->name, ",\"\n") != NULL;
+    const bool quoted = strchr(c->name, ',') != NULL; /* quotes and ends of lines are in no name */
     if (quoted)
         putc('"', to);
-    for (const char *p = c->name; *p; p++) {
-        if (*p == '"')
-            putc('"', to);
-        putc(*p, to);
-    }
+    fputs(c->name, to);
     if (*c->unit)
         fprintf(to, " [%s]", c->unit);
     if (quoted)
@@ -390,7 +385,7 @@ void table_gap(table *t) {
 }
 
 void table_end(table *t, bool ok) {
-    if (ok && t->held && !t->headed)
+    if (ok && t->held)
         release(t);
     free(t->held);
     t->held = NULL;
@@ -454,8 +449,7 @@ static bool make_safe(text_out *t) {
     for (const char *line = t->kept.text; ok && *line;) {
         const size_t n = strcspn(line, "\n");
         print_safe(safe.to, line, n);
-        if (line[n])
-            putc('\n', safe.to);
+        putc('\n', safe.to);
         line += n + (line[n] == '\n');
     }
     free(t->kept.text);

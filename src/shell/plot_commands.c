@@ -15,10 +15,11 @@
 /* ---- where it goes ----------------------------------------------------------------------------- */
 
 static void terminal_size(const shell *sh, int *w, int *h) {
-    struct winsize size;
+    struct winsize size = {0};
     *w = 79, *h = 24;
-    if (shell_on_terminal(sh) && !ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) && size.ws_col >= 20 &&
-        size.ws_row >= 8) {
+    if (shell_on_terminal(sh))
+        ioctl(STDOUT_FILENO, TIOCGWINSZ, &size);
+    if (size.ws_col >= 20 && size.ws_row >= 8) {
         *w = size.ws_col - 1;
         *h = size.ws_row - 2; /* the prompt and the command stay in sight */
     }
@@ -119,37 +120,39 @@ static bool read_end(shell *sh, lexer *lx, unsigned *frames) {
 }
 
 /* Neither a figure nor a range: a figure may have been misspelt. */
-static bool no_figure(const calc *c, lexer *lx) {
+static void fail_figure(const calc *c, lexer *lx) {
     char word[LEX_NAME], all[CALC_ERROR_TEXT / 2] = "";
     const token_kind next = lex_peek(lx);
     size_t own;
-    if (lex_is(lx, "map"))
-        return lex_fail(lx, "expected map EXPR for A = LO .. HI for B = LO .. HI");
     const bool unknown = lx->kind == T_NAME && !name_taken(lx->text + lx->at, lx->len) &&
                          !names_find(&c->names, lx->text + lx->at, lx->len, &own);
-    if (unknown)
-        lex_word(lx, word);
+    lex_word(lx, word);
     const char *near = unknown ? suggest(word, figure_name) : NULL;
-    if (near)
-        return lex_fail(lx, "there is no figure '%s': did you mean %s?", word, near);
-    if (!unknown || (next != T_END && next != T_BAR))
-        return lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N");
-    for (size_t i = 0; figure_name(i); i++)
-        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? ", " : "", figure_name(i));
-    return lex_fail(lx, "there is no figure '%s': plot %s, or EXPR, ... for VAR = LO .. HI", word, all);
+    if (lex_is(lx, "map")) {
+        lex_raise(lx, "expected map EXPR for A = LO .. HI for B = LO .. HI");
+    } else if (near) {
+        lex_raise(lx, "there is no figure '%s': did you mean %s?", word, near);
+    } else if (!unknown || (next != T_END && next != T_BAR)) {
+        lex_raise(lx, "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N");
+    } else {
+        for (size_t i = 0; figure_name(i); i++)
+            snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? ", " : "", figure_name(i));
+        lex_raise(lx, "there is no figure '%s': plot %s, or EXPR, ... for VAR = LO .. HI", word, all);
+    }
 }
 
 bool do_plot(shell *sh, lexer *lx, const command *self) {
     char file[ARG_FILE_NAME];
     plot_figure f;
     range_names used;
-    bool found, ok = true;
+    bool found;
     (void)self;
     if (!range_names_find(sh, lx, &used, &found))
         return false;
     plot_figure_init(&f);
-    if (!found && !panel_is_named(sh, lx))
-        ok = no_figure(&sh->calc, lx);
+    bool ok = found || panel_is_named(sh, lx);
+    if (!ok)
+        fail_figure(&sh->calc, lx);
     ok = ok && find_file(lx, file) && draw_panels(sh, lx, &f, NULL) && read_end(sh, lx, NULL) &&
          draw(sh, lx, &f, *file ? file : NULL);
     plot_figure_free(&f);
@@ -168,13 +171,11 @@ typedef struct movie {
     calc_error *error;
 } movie;
 
-/* The figures at an instant; turning points between the frames are passed by. */
+/* The figures at an instant. */
 static bool take_frame(void *context, double time, calc_error *error) {
     movie *m = context;
     lexer lx = *m->figures;
     (void)error;
-    if (m->done == m->frames)
-        return true;
     lx.error = m->error;
     m->motion.until = time;
     progress_part((double)m->done / (double)m->frames);
@@ -198,8 +199,7 @@ static bool take_frames(movie *m) {
              sweep_try_load(t, &load, &from, m->error);
     }
     m->motion.at = t;
-    if (ok && !trial_along(t, m->motion.what, from, m->frames - 1, false, take_frame, m, m->error))
-        ok = m->error->raised ? false : calc_interrupted(m->error);
+    ok = ok && trial_along(t, m->motion.what, from, m->frames - 1, false, take_frame, m, m->error);
     m->motion.at = NULL;
     for (input in = 0; in < INPUTS; in++)
         counted_drop(load.bound[in]);

@@ -85,7 +85,7 @@ static size_t line_length(const char *line) {
 
 static const char *line_after(const char *line) {
     line += strcspn(line, "\n");
-    return *line ? line + 1 : line;
+    return line + (*line != 0);
 }
 
 typedef struct measure {
@@ -133,7 +133,7 @@ static bool compare(const char *want, const char *got, measure *m) {
                 want = line_after(want);
             got = rest;
         } else if (!*got || !*want) {
-            return is_blank(want) && (is_blank(got) || !*got);
+            return is_blank(want) && is_blank(got);
         } else if (same_lines(want, got, m)) {
             want = line_after(want);
             got = line_after(got);
@@ -281,11 +281,12 @@ static bool add_part(replay *r, const char *line, size_t n, bool *whole) {
         return false;
     if (!append(&r->statement, line, n))
         return false;
-    size_t end = r->statement.len;
-    while (!*whole && r->statement.p[--end] != '\\')
-        ;
-    if (!*whole)
+    if (!*whole) {
+        size_t end = r->statement.len;
+        while (r->statement.p[--end] != '\\')
+            ;
         r->statement.p[end] = ' ';
+    }
     return true;
 }
 
@@ -322,7 +323,7 @@ static bool take_lines(replay *r, file_in *in, calc_error *error) {
         ok = take_line(r, in, &waiting);
     if (ok && waiting && !shell_stop)
         ok = begin(r);
-    if (ok && got != FILE_GOT_ERROR && !shell_stop)
+    if (ok && got != FILE_GOT_ERROR)
         ok = judge(r);
     if (!ok)
         calc_no_memory(error);
@@ -336,28 +337,33 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
     enum { NESTING = 8 };
     file_in in;
     text_out t;
-    if (nesting == NESTING)
+    if (nesting == NESTING) {
         calc_fail(error, 0, 0, "transcripts are nested more than %d deep", NESTING);
-    if (nesting == NESTING || !(strcmp(path, "-") ? file_in_open(&in, path, &shell_stop, error)
-                                                  : file_in_take(&in, 0, "stdin", &shell_stop, error)))
         return EXIT_ERROR;
-    replay r = {.tolerance = tolerance, .path = path};
+    }
+    if (!(strcmp(path, "-") ? file_in_open(&in, path, &shell_stop, error)
+                            : file_in_take(&in, 0, "stdin", &shell_stop, error)))
+        return EXIT_ERROR;
+    if (!text_begin(&t, set, out, TEXT_PICTURE)) {
+        calc_no_memory(error);
+        file_in_close(&in);
+        return EXIT_ERROR;
+    }
+    replay r = {.tolerance = tolerance, .path = path, .out = t.to};
     shell_init(&r.sh, out, out);
     r.sh.replaying = true;
-    const bool text_begun = text_begin(&t, set, out, TEXT_PICTURE);
-    r.out = text_begun ? t.to : out;
     nesting++;
-    bool ok = text_begun && take_lines(&r, &in, error);
+    bool ok = take_lines(&r, &in, error);
     nesting--;
     if (ok && !shell_stop) {
         print_safe(r.out, path, strlen(path));
         fprintf(r.out, ": %zu passed, %zu failed\n", r.passed, r.failed);
     }
-    ok = text_begun && text_end(&t, true) && ok;
-    if (shell_stop && !error->raised)
+    ok &= text_end(&t, true);
+    if (shell_stop)
         calc_interrupted(error);
-    if (!ok && !error->raised)
-        calc_no_memory(error);
+    if (!ok)
+        calc_no_memory(error); /* if nothing else is wrong */
     file_in_close(&in);
     r.sh.out = r.sh.err = out;
     shell_free(&r.sh);

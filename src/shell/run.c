@@ -2,6 +2,7 @@
 /* Statements, lines and streams of them: dispatch, and the one place that reports errors. */
 #include "shell/shell.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -101,16 +102,17 @@ static const double most_radius = 0.3, most_slope = 0.36397023426620236; /* of R
 static void warn_half_space(shell *sh) {
     scene *s = &sh->calc.scene;
     const fret_press *press;
-    long double R = 0, slope = 0;
+    long double R = INFINITY, slope = 0;
     calc_error ignored;
     error_clear(&ignored);
     if (!scene_press(s, &press, &ignored))
         return;
     enum { WIDE = 1, STEEP = 2 };
-    const bool wide =
-        inputs_take(&s->in, IN_RADIUS) && scene_get(s, IN_RADIUS, &R, &ignored) && press->a > most_radius * R;
-    const bool steep =
-        inputs_take(&s->in, IN_SLOPE) && scene_get(s, IN_SLOPE, &slope, &ignored) && slope > most_slope;
+    if (inputs_take(&s->in, IN_RADIUS))
+        scene_get(s, IN_RADIUS, &R, &ignored);
+    if (inputs_take(&s->in, IN_SLOPE))
+        scene_get(s, IN_SLOPE, &slope, &ignored);
+    const bool wide = press->a > most_radius * R, steep = slope > most_slope;
     if (wide && !(sh->no_half_space & WIDE))
         shell_note(sh,
                    "warning: a/R = %.3g: beyond 0.3 the bodies are no half-spaces, and these results are an "
@@ -208,7 +210,7 @@ static bool dispatch(shell *sh, lexer *lx) {
             return run_command(sh, lx, c);
         if (assign_at(lx))
             return assign(sh, lx);
-        if (!c && misspelt(sh, lx))
+        if (misspelt(sh, lx))
             return false;
         const quantity *q = lex_peek(lx) == T_NUMBER ? quantity_find(lx->text + lx->at, lx->len) : NULL;
         if (q && quantity_is_input(q)) { /* mu 0.3 */
@@ -412,7 +414,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
 static size_t mark_of(const char *line, size_t len) {
     size_t at = len;
     if (shell_continues(line, len))
-        while (at > 0 && line[--at] != '\\')
+        while (line[--at] != '\\')
             ;
     return at;
 }

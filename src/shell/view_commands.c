@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Commands that show what follows from the scene as a table, and leave it as it is. */
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,7 +92,8 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     const bool first = !job->begun;
     if (first && !begin(job))
         return false;
-    if (job->blocks && !first && (curve != job->curve || (s->curves && s->value[curve] != job->second)))
+    if (job->blocks && !first &&
+        (curve != job->curve || (s->curves && islessgreater(s->value[curve], job->second))))
         table_gap(&job->t);
     job->curve = curve;
     job->second = s->curves ? s->value[curve] : 0;
@@ -129,7 +131,7 @@ static bool own_columns(table_job *job, const sweep *s, const knob *second) {
 }
 
 void note_missing(shell *sh, const sweep_job *job) {
-    if (job->missing.raised && job->values)
+    if (job->missing.raised)
         shell_note(sh, "note: some values are missing: %s (%s)", job->missing.text, job->where);
 }
 
@@ -249,7 +251,7 @@ static bool run_table(shell *sh, lexer *lx, const sweep *s, const grid *g, colum
                 : g    ? grid_run(g, &sweeping)
                        : sweep_run(s, &sweeping));
     progress_wipe();
-    if (job->begun && !square)
+    if (job->begun)
         table_end(&job->t, sweeping.values > 0);
     if (ok)
         note_missing(sh, &sweeping);

@@ -315,7 +315,63 @@ def refusals(tests):
         tests.check("fit refuses: " + script, done.returncode == 1 and want in done.stderr, tests.report(done))
 
 
+def columns(tests):
+    """All columns of a file are names, whatever they are called; inputs among them are set row by row; names that had been
+    taken back are so again."""
+    wide = ["v%02d" % i for i in range(24)]
+    path = write(tests, "wide.csv", ",".join(wide), [[(r + 1) * (i + 1) for i in range(24)] for r in range(4)])
+    back = "; ".join("%s = 1" % name for name in wide) + "\n" + "undo\n" * 24
+    done = tests.run("--keep-going", "-c", back + "q = 2; fit q for v23 = q*v01 to %s\nv00; v23; show" % path)
+    tests.check("fit: 24 columns", done.stdout.startswith("q = 12 +- ") and done.stdout.endswith("rows\nq = 2\n") and
+                done.stderr.count("unknown name 'v") == 2, tests.report(done))
+    done = tests.run("--keep-going", "-c", back + "plot %s to x.gp\nshow" % " | ".join("%s for %s = 1 .. 2" % (n, n) for n in wide))
+    tests.check("names of a refused plot", "more than 6 figures" in done.stderr and done.stdout == "# nothing is set yet; try: demo, or help\n",
+                tests.report(done))
+    # a column of an input, beside some that are no names of this language
+    path = os.path.join(tests.dir, "rows.csv")
+    depth = tests.run("--format=csv", "-c", SETUP % (190, 0.4) + "\ntable dz for FN = 50 N .. 200 N steps 3").stdout.splitlines()[1:]
+    rows = [line.split(",") for line in depth]
+    with open(path, "w", encoding="ascii") as f:
+        f.write("FN [N],depth [m],sin,5,a'b,dW,k k\n" + "".join("%s,%s,1,2,3,4,5\n" % (FN, dz) for FN, dz in rows))
+    values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit E0 for dz = depth to " + path)
+    tests.check("fit: a column of an input", event and abs(values["E0"] / 190e9 - 1) < 1e-9 and event["rows"] == len(rows) == 4, tests.report(done))
+    values, event, done = answers(tests, SETUP % (210, 0.4) + "; q = 1; fit q for FN = q*(1 N) to " + path)
+    tests.check("fit: an input on the left alone", event and abs(values["q"] / 125 - 1) < 1e-9, tests.report(done))
+
+
+def wide_ranges(tests):
+    """Squares leave the range of double where what they are of does not; what has no value is null in JSON."""
+    def told(script):
+        done = tests.run("--format=json", "-c", script)
+        return [json.loads(line) for line in done.stdout.splitlines() if "event" in line] or [{}], done
+    (event,), done = told("x = 3; uncertainty exp(200*x) with x +- 0.0001 samples 4000")
+    want = 200 * math.exp(600) * 1e-4  # first order
+    tests.check("a deviation beyond 1e154", abs(event["deviation"] / want - 1) < 1e-3 and event["shares"] == {"x": 1} and
+                abs(event["Monte Carlo"]["deviation"] / want - 1) < 0.1, tests.report(done))
+    (event,), done = told("x = 3; uncertainty sqrt(x - 2.999) with x +- 1 samples 1")
+    tests.check("no sample has a value", event["Monte Carlo"] == {"mean": None, "deviation": None, "samples": 0, "differs": False} and
+                "1 of 1 samples have no value" in done.stderr, tests.report(done))
+
+
+def units(tests):
+    """In the unit that is asked for: the value, its deviation, and their columns."""
+    scene = SETUP % (210, 0.4) + "; "
+    plain, asked = (tests.run("-c", scene + "uncertainty a%s with E0 +- 5 %%" % unit).stdout.splitlines() for unit in ("", " in mm"))
+    tests.check("an estimate in mm", plain[0] == "a = 186.626 um +- 3.11 um" and asked[0] == "a = 0.186626 mm +- 0.00311 mm" and plain[1] == asked[1],
+                "%s\n%s" % (plain, asked))
+    done = tests.run("--format=csv", "-c", scene + "uncertainty a in mm, dz with E0 +- 5 %, FN +- 1 N")
+    head, row = done.stdout.splitlines()
+    tests.check("columns in mm", head.split(",") == ["a [mm]", "a deviation [mm]", "a from E0", "a from FN", "dz [m]",
+                                                     "dz deviation [m]", "dz from E0", "dz from FN"] and
+                abs(float(row.split(",")[0]) - 0.186626) < 1e-6 and abs(float(row.split(",")[2]) + float(row.split(",")[3]) - 1) < 1e-12, tests.report(done))
+    done = tests.run("-c", "x = 2; uncertainty x^2, x with x +- 0.1 samples 50; fit x for y = x*u to %s" % write(tests, "units.csv", "u,y", STRAIGHT))
+    tests.check("no load is needed", done.returncode == 0 and done.stdout.startswith("x^2 = 4 +- 0.4\n"), tests.report(done))
+
+
 def run(tests):
+    columns(tests)
+    wide_ranges(tests)
+    units(tests)
     straight_lines(tests)
     parabolas(tests)
     loops_with_loads(tests)

@@ -2,6 +2,9 @@
 """Sessions kept and run again: save, record, replay, copies of a terminal; JSON whatever the command."""
 import json
 import os
+import random
+
+import harness
 
 SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
 
@@ -201,6 +204,21 @@ def quoted(tests):
         again = tests.run("-c", "source s.fret; f(0.5 mm)", cwd=where)
         tests.check("saved: " + name, done.returncode == again.returncode == 0 and again.stdout.startswith("f(0.5 mm) = "),
                     tests.report(done) + tests.report(again))
+    # as a name was typed, so it is written: quotes, marks of comments, of ends and of continuation within
+    for name in ('a"b;c.csv', 'a"#b.csv', 'a"b\\', "a\\", "a;b.csv"):
+        with open(os.path.join(where, name), "w", encoding="ascii") as f:
+            f.write("r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 2, 12.5 * i * i) for i in range(8)))
+        for smooth in ("", " smooth"):
+            written = '"%s"' % name if name == "a;b.csv" else name
+            done = tests.run("-c", "geometry file %s%s \nsave s.fret\nshow" % (written, smooth), cwd=where)
+            again = tests.run("-c", "source s.fret; f(0.5 mm); show", cwd=where)
+            tests.check("saved: %s%s" % (name, smooth), done.returncode == again.returncode == 0 and
+                        again.stdout.partition("\n")[2] == done.stdout and done.stdout.count("\n") == 1, tests.report(done) + tests.report(again))
+    with open(os.path.join(where, "a \nb.csv"), "w", encoding="ascii") as f:
+        f.write("r [mm],f [um]\n0,0\n1,50\n")
+    done = tests.run("-c", 'geometry file "a\\\nb.csv"\nf(1 mm)\nshow', cwd=where)
+    tests.check("a name of two lines", done.stdout == "f(1 mm) = 50 um\ngeometry file # the name of the file cannot be written in a statement\n",
+                tests.report(done))
     with open(os.path.join(where, "ll.fret"), "w", encoding="ascii") as f:
         f.write("x = 3; x\n")
     for name, out, err in (("./" * 2044 + "ll.fret", "x = 3\n", ""), ("./" * 2044 + "lll.fret", "", "1:8: error: the file name is too long")):
@@ -227,6 +245,59 @@ def saved(tests):
     tests.check("overwriting a scene is told", "overwrote %s" % name in done.stderr, tests.report(done))
     done = tests.run("-c", "save history %s" % name)
     tests.check("a script has no history", "a script is its own history" in done.stderr, tests.report(done))
+
+
+def reordered(tests):
+    """What is shown makes the same scene again: names each after those that they use, angles to the last bit, inputs that no
+    command carries, and definitions of several lines."""
+    for script, want in (
+            ("x := 1; y := 2; x := y + 1", "y := 2\nx := y + 1\n"), ("E0 = 210 GPa", "E0 = 210 GPa\n"), ("nu = 0.3", "nu = 0.3\n"),
+            ("z := 1 + \\\n2", "z := 1 +   2\n"), ("z := 1 + \\\r\n2", "z := 1 +   2\n"), ("z := 1 +\r2", "z := 1 + 2\n"),
+            ("z := 3; y := z; x := y; w = 1; z := 2*w", "w = 1\nz := 2*w\ny := z\nx := y\n")):
+        done = tests.run(input=script + "\nshow\n")
+        again = tests.run(input=done.stdout + "show\n")
+        tests.check("shown: " + repr(script), done.stdout == want and again.stdout == done.stdout and done.returncode == again.returncode == 0,
+                    tests.report(done) + tests.report(again))
+    r = random.Random(3)
+    phases = [r.uniform(-7, 7) for _ in range(60)] + [r.random() * 10 ** r.uniform(-300, 0) for _ in range(20)]
+    scene = SCENE + "cycle FA=1 N FNA=1 N phase=%r rad\n"
+    kinds = {"deg": 0, "rad": 0}
+    for phase in phases:
+        shown = tests.run("-c", scene % phase + "show").stdout
+        again = tests.run("--format=json", "-c", shown + "phase")
+        kinds["rad" if " rad" in shown else "deg"] += 1
+        tests.check("a phase of %r" % phase, harness.printed_values(again.stdout) == [phase], shown + again.stdout)
+    tests.check("in degrees where these can say it", min(kinds.values()) > 5, str(kinds))
+
+
+def judged(tests):
+    """What makes a transcript fail and what does not: places of errors, long lines, tables, times, files, an end without answer."""
+    long = "set digits 17; table x, " + ", ".join("x^%d" % i for i in range(2, 12)) + " for x = 1 .. 3 steps 2"
+    table = tests.run("-c", long).stdout
+    accuracy = tests.run("-c", SCENE + "accuracy within 0.001").stdout
+    where = os.path.join(tests.dir, "judged")
+    os.mkdir(where)
+    press = "fret> " + SCENE[:-1]
+    for text, passed, failed in (
+            ("fret> foo\nx.fret:3:1: error: unknown name 'foo'\n", 1, 0), ("fret> foo\nabc: error: unknown name 'foo'\n", 0, 1),
+            ("fret> foo\nx.fret:3: error: unknown name 'foo'\n", 0, 1), ("fret> foo\n: error: unknown name 'foo'\n", 0, 1),
+            ("fret> %s\n%s" % (long, table), 1, 0), ("fret> %s\n%s" % (long, table.replace("x^11", "x^12")), 0, 1),
+            ("fret> 1\n1 = 1%s\n" % (" 1" * 150), 0, 1), ("fret> 1\n\n  \n1 = 1\n", 0, 1), ("fret> 1\n1 = 1\n\n  \n", 1, 0), ("fret> 1\n", 0, 1),
+            ("fret> x = 1\nmore\n", 0, 1), ("fret> 1 + \\\n....> 1 + \\\n....> 1\n1 + 1 + 1 = 3\n", 1, 0),
+            # what nothing continues is run as it stands
+            ("fret> 1 + 1 \\\nfret> 2\n2 = 2\n", 1, 1), ("fret> x = 2\nfret> x + 1 \\\n", 1, 1), ("fret> x = 2\nfret> y = x + 1 \\\n", 2, 0),
+            ("fret> foo \\\nfret> x = 2\n", 1, 1),
+            (press + "\nfret> accuracy within 0.001\n" + accuracy + "fret> 1\n1 = 1\n", 3, 0),
+            (press + "\nfret> accuracy within 0.001\nanything\nfret> 1\n1 = 2\n", 2, 1),
+            (press + "\nfret> cycle FA=20 N\nfret> plot loop to loop.gp\nwrote loop.gp (9 B)\nfret> Fx\nFx = 20 N\n", 4, 0)):
+        done = tests.run("--replay", "-", input=text, cwd=where)
+        tests.check("judged: " + repr(text[:300]), done.stdout.endswith("-: %d passed, %d failed\n" % (passed, failed)) and not done.stderr and
+                    done.returncode == (failed > 0), tests.report(done))
+    tests.check("a replay writes files", os.path.getsize(os.path.join(where, "loop.gp")) > 100)
+    with open(os.path.join(where, "in.txt"), "w", encoding="ascii") as f:
+        f.write("fret> 1\n1 = 1\n")
+    done = tests.run("--format=json", "-c", "replay in.txt; set format text; replay in.txt", cwd=where)
+    tests.check("a replay in JSON", done.stdout == '{"text":"in.txt: 1 passed, 0 failed\\u000a"}\nin.txt: 1 passed, 0 failed\n', tests.report(done))
 
 
 def pure(tests):
@@ -275,5 +346,5 @@ def targets(tests):
 
 
 def run(tests):
-    for room in (copies, recorded, quoted, saved, pure, targets):
+    for room in (copies, recorded, quoted, saved, reordered, judged, pure, targets):
         room(tests)

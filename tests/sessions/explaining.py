@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `explain` tells of parts, definitions, loads and models: each line that must be there, and what must not."""
+import re
+
+STEEL = "material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4\n"
+PRESSED = STEEL + "press FN=100 N\n"
+SUM = "material steel; friction 0.4; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=10 N; cycle FA=1 N FNA=1 N\n"
+# a scene, what is explained, lines that are there (as regular expressions), and those that are not
+TOLD = (
+    (PRESSED, "2*dW(20 N)", ("dW: energy dissipated per cycle", r"    dW\(20 N\) = 1\.90646 uJ", r"    2\*dW\(20 N\) = 3\.81291 uJ"), ()),
+    (PRESSED, "c((10 N)*2)/a", ("c: stick radius", r"    c\(\(10 N\)\*2\) = 148\.125 um|    c\(\(10 N\)\*2\) = ", "a: contact radius"), ()),
+    (PRESSED + "z := a*dz; y := a/dz\n", "z*y", ("a: contact radius", "dz: indentation depth", r"    z\*y = 3\.48291e-08 m\^2"), ()),
+    (PRESSED + "half(x) := dW(x*1 N)/2\n", "half(20)", ("dW: energy dissipated per cycle", "    model: closed form", r"    half\(20\) = 953\.22\d nJ"),
+     (r"    dW\(x",)),
+    (PRESSED, "2*(a at k=0)", (r"    2\*\(a at k=0\) = 373\.251 um", "    no effect: mu"), ("a: contact radius",)),
+    # a load that acts by a definition, a value of 0, and no load at all
+    (STEEL + "c0 = 1 mm; press FN=100 N; k := FN/(1 kN)\n", "kappa", ("    k = 0.1", "    FN = 100 N .*"), ("    FN now",)),
+    (PRESSED, "Fx*dx", ("Fx: tangential force", "    FN now = 100 N", "    Fx = 0 N", "    Fx\\*dx = 0 J"), ()),
+    (STEEL, "dz(0 N)", (r"    dz\(0 N\) = 0 m",), ("    FN now",)),
+    (STEEL, "f(0 m)", (r"    f\(0 m\) = 0 m",), ("    FN now",)),
+    # models
+    (PRESSED + "cycle FA=9 N FNA=10 N\n", "qx(0.1 mm)", ("    model: memory diagram, by 640 chords a period of the sine",), ()),
+    (PRESSED + "cycle FA=9 N FNA=10 N\n", "W", ("    model: memory diagram, the sine itself, event by event \\(exact\\)",), ("    cycle: ",)),
+    (PRESSED + "step FN=150 N; step FN=120 N\n", "a", ("    FN now = 120 N",), ("    mu = ", "    Fx now")),
+    (SUM, "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
+    (SUM + "W\n", "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
+    # what was given before, and is not the geometry's
+    (PRESSED + "c0 = 1 mm; geometry cone slope=0.1\n", "a", ("    slope = 0.1",), ("    c0 = ", "    R = ")),
+    (PRESSED + "cycle FA=9 N FNA=10 N\n", "dW(5 N)", ("    FN now = 110 N", "    FNA = 10 N", "    no effect: .*FA.*"), ("    FA = 9 N",)),
+)
+MANY = ("E0", "nu", "k", "c0", "mu", "R", "FN", "FA", "kappa", "eta", "beta_k", "hN", "hT", "a", "dz", "c", "Fx", "dx", "W", "U", "dW", "a0", "dz0",
+        "dx0max", "dxmax", "kt", "kn", "phase", "time", "nu_2", "E0_2", "Ksec(1 N)", "Kp(1 N)", "loss_factor(1 N)", "cN(1 mm)", "cT(1 mm)",
+        "dW(1 N)", "c(1 N)", "dx(1 N)", "p(0 m)", "uz(1 mm)")
+
+
+def told(tests):
+    for scene, what, there, not_there in TOLD:
+        done = tests.run("-c", scene + "explain " + what)
+        missing = [line for line in there if not re.search("^(?:%s)$" % line, done.stdout, re.M)]
+        wrong = [line for line in not_there if re.search("^%s" % line, done.stdout, re.M)]
+        tests.check("explain " + what, done.returncode == 0 and not missing and not wrong, "%s\n%s\n%s" % (missing, wrong, tests.report(done)))
+        heads = re.findall(r"^(\w+): ", done.stdout, re.M)
+        tests.check("each part of %s once" % what, len(heads) == len(set(heads)), done.stdout)
+
+
+def many(tests):
+    """More quantities than a page remembers, some of them once more by a definition."""
+    known = "c0 = 1 mm; second E0=70 GPa nu=0.3; k = 0.1; cycle FA=9 N\n"
+    names = [name for name in MANY if tests.run("-c", PRESSED + known + name).returncode == 0]
+    done = tests.run("-c", PRESSED + known + "again := a + dz; explain (%s)*again" % "*".join("(1+%s-%s)" % (n, n) if n in ("phase", "time") else
+                                                                                             "(%s/%s)" % (n, n) for n in names))
+    heads = re.findall(r"^(\w+): ", done.stdout, re.M)
+    tests.check("many quantities on a page", done.returncode == 0 and len(names) > 36 and
+                all(name.partition("(")[0] in heads for name in names), "%d\n%s" % (len(names), tests.report(done)))
+
+
+def bare(tests):
+    """Every quantity by its name, in an empty scene and in a whole one."""
+    names = re.findall(r"^    (\w+)(?:\(\w+\))?  ", tests.run("-c", "help quantities").stdout, re.M)
+    for scene in ("", "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; second E0=70 GPa nu=0.2; geometry sphere R=10 mm; friction 0.4\n"
+                  "press FN=100 N; cycle FA=10 N FNA=1 N\n"):
+        done = tests.run("--keep-going", "-c", scene + "\n".join("explain " + name for name in names))
+        heads = re.findall(r"^(\w+): .*\n    \S", done.stdout, re.M)
+        failed = re.findall(r"^  explain (\w+)$", done.stderr, re.M)
+        tests.check("every quantity has its formula", len(names) > 30 and sorted(heads + failed) == sorted(names) and (not scene or len(failed) < 12),
+                    "%s\n%s" % (sorted(set(names) - set(heads)), done.stderr))
+
+
+def typeset(tests):
+    """Where the terminal has the letters."""
+    script = PRESSED + "step FN=90 N dx=0.1 um\nexplain W"
+    for locale, plane in (("C", "(delta_z, delta_x)"), ("C.UTF-8", "(\u03b4_z, \u03b4_x)")):
+        done = tests.run("-c", script, env={"LC_ALL": locale})
+        tests.check("a path in %s" % locale, "    path: step FN= dx= goes straight in %s\n" % plane in done.stdout, tests.report(done))
+
+
+def repeating(tests):
+    """Periods that repeat the last one are told, and count: W grows by dW in each."""
+    swung = PRESSED + "cycle FA=9 N FNA=10 N times %d\nset digits 15\n"
+    W = {times: float(tests.run("--format=csv", "-c", swung % times + "W").stdout.split()[-1]) for times in (4, 5, 1000)}
+    tests.check("repeated periods", abs(W[1000] - W[4] - 996 * (W[5] - W[4])) < 1e-12 * W[1000], str(W))
+    done = tests.run("-c", swung % 1000 + "set timing on\nW\nexplain W")
+    tests.check("are told", re.search(r"^    cycle: 99\d more periods repeat the last one that was run$", done.stdout, re.M) and
+                re.search(r"\(memory diagram, 99\d periods repeat the last one run\)$", done.stderr, re.M), tests.report(done))
+
+
+def mixed(tests):
+    """In JSON a page is one object; `explain mismatch` needs no second body."""
+    done = tests.run("--format=json", "-c", PRESSED + "second E0=70 GPa nu=0.33\nexplain mismatch; explain dW(20 N)")
+    tests.check("pages in JSON", done.returncode == 0 and done.stdout.count('{"text":"') == 2 and "mismatch = " in done.stdout, tests.report(done))
+    done = tests.run("-c", "explain mismatch")
+    tests.check("explain mismatch of no scene", done.returncode == 0 and "mismatch = " not in done.stdout and len(done.stdout) > 100, tests.report(done))
+
+
+def run(tests):
+    tests.rooms(told, many, bare, typeset, repeating, mixed)
