@@ -41,7 +41,7 @@ static bool run_study(shell *sh, const arg_value given[ARGS], accuracy_study *ou
     bool ok = accuracy_measure(sh->calc.now, &load, show_progress, NULL, out, error);
     progress_wipe();
     const char *blamed = error->raised && error->kind == ERROR_STATUS ? error->status.quantity : NULL;
-    if (blamed && v->given && !strcmp(blamed, load.by_force ? "FA" : "dxA"))
+    if (blamed && !strcmp(blamed, "FA")) /* a dxA has no bound */
         arg_place(error, v);
     return ok;
 }

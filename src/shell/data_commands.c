@@ -126,7 +126,7 @@ static bool file_ahead(const lexer *lx, char name[ARG_FILE_NAME]) {
     lexer scan = *lx;
     error_clear(&ignored);
     scan.error = &ignored;
-    while (scan.kind != T_END && !ignored.raised) {
+    while (scan.kind != T_END) {
         if (lex_is(&scan, "to")) {
             lex_next(&scan);
             error_clear(&ignored);
@@ -151,8 +151,8 @@ static const double *column_of(const csv *data, const char *name, dim d, calc_er
     return NULL;
 }
 
-/* Columns as names: of inputs, or free ones. Those that are results, or no names, have no say, and are missed
- * if they are asked for; one that is named in vain is no matter. */
+/* Columns as names: of inputs that the scene takes, or free ones. Those that are results, or no names, have
+ * no say, and are missed if they are asked for; one that is named in vain is no matter. */
 static bool read_columns(shell *sh, const csv *data, fit_question *q, range_names *names, calc_error *error) {
     _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
     for (size_t i = 0; i < data->columns; i++) {
@@ -167,10 +167,10 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, range_name
         const quantity *of = quantity_find(of_file->name, strlen(of_file->name));
         if ((of && !quantity_is_input(of)) || (!of && name_taken(of_file->name, strlen(of_file->name))))
             continue;
-        if (!range_wake(sh, &lx, names) || !knob_read(&sh->calc, &lx, k)) {
-            *error = useless;
-            return false;
-        }
+        if (!range_wake(sh, &lx, names) || !knob_name(&sh->calc, &lx, k))
+            return calc_no_memory(error);
+        if (k->is_input && !calc_takes(&sh->calc, k->in, &useless))
+            continue;
         if (k->is_input && !dim_equal(k->d, of_file->d))
             return column_of(data, of_file->name, k->d, error) != NULL;
         k->d = of_file->d;
@@ -416,7 +416,7 @@ static bool read_uncertain(shell *sh, lexer *lx, uncertainty_question *q) {
 }
 
 static bool read_sampling(shell *sh, lexer *lx, uncertainty_question *q) {
-    while (!lx->error->raised)
+    for (;;)
         if (lex_accept(lx, "samples")) {
             if (!read_count(&sh->calc, lx, "samples", 10000000, &q->samples))
                 return false;
@@ -426,7 +426,6 @@ static bool read_sampling(shell *sh, lexer *lx, uncertainty_question *q) {
         } else {
             return at_end(lx);
         }
-    return false;
 }
 
 static void json_uncertain(shell *sh, const uncertainty_question *q, const uncertainty_answer *a,
@@ -463,7 +462,9 @@ static void text_uncertain(shell *sh, const uncertainty_question *q, const uncer
 static bool print_uncertain(shell *sh, const uncertainty_question *q, const uncertainty_answer *a,
                             estimate *e, calc_error *error) {
     for (size_t k = 0; k < q->expressions; k++) {
-        if (!column_fits(&q->e[k], &e[k].c, a->value[k].d, error))
+        const uncertain *u = &a->value[k];
+        if (!column_fits(&q->e[k], &e[k].c, (value){u->v, u->d}, error) ||
+            !column_fits(&q->e[k], &e[k].c, (value){u->deviation, u->d}, error))
             return false;
         e[k].v = a->value[k].v;
         e[k].deviation = a->value[k].deviation;

@@ -149,7 +149,7 @@ static void put_model(const page *p, const quantity *q, bool call) {
     if (model == MODEL_MEMORY && s->used & USED(MODEL_PIECES))
         fprintf(p->to, "    law of the gap: %s, good to %.0e\n", models[MODEL_PIECES].title, s->pieces_error);
     if (stepped && (q->reads & INPUT_BIT(IN_MU))) {
-        if (s->answers.levels && s->answers.run[0].repeated)
+        if (model == MODEL_MEMORY && s->answers.levels && s->answers.run[0].repeated)
             fprintf(p->to, "    cycle: %u more periods repeat the last one that was run\n",
                     s->answers.run[0].repeated);
         put_paths(p);
@@ -308,14 +308,27 @@ static void explain_function(const page *p, const quantity *q) {
     put_inputs(p, q, &nothing);
 }
 
-/* whole: nothing else is explained, so the conditioning belongs here. */
-static bool explain_part(const page *p, const part *of, bool whole, calc_error *error) {
+/* Does it stand for many values: within a function, of what that is given? */
+static bool is_free(const part *of, const definition *in) {
+    calc_error ignored;
+    lexer lx;
+    bool found = false;
+    error_clear(&ignored);
+    for (lex_start(&lx, of->text, of->len, &ignored); lx.kind != T_END; lex_next(&lx))
+        for (unsigned i = 0; i < in->parameters; i++)
+            found |= lex_is(&lx, in->parameter[i]);
+    return found;
+}
+
+/* in: the definition that it stands in, or NULL. whole: nothing else is explained, so the conditioning
+ * belongs here. */
+static bool explain_part(const page *p, const part *of, const definition *in, bool whole, calc_error *error) {
     calc *c = &p->sh->calc;
     const quantity *q = of->q;
     expr e = {0}, unused = {0};
     influence_study study = {.count = 0};
     value v, argument = {0};
-    bool ok = true, has = text_value(p, of->text, of->len, &e, &v);
+    bool ok = true, has = !(in && is_free(of, in)) && text_value(p, of->text, of->len, &e, &v);
     if (has && of->call)
         text_value(p, of->text + of->argument, of->argument_len, &unused, &argument);
     if (has)
@@ -402,8 +415,10 @@ static bool is_whole(const expr *e, const part *of) {
     return of->len == e->len;
 }
 
-/* Each quantity, also those of the definitions that are named. asked: what the conditioning belongs to. */
-static bool explain_parts(const page *p, const expr *e, const expr *asked, seen *before, calc_error *error) {
+/* Each quantity, also those of the definitions that are named. in: the definition whose body it is, or NULL.
+ * asked: what the conditioning belongs to. */
+static bool explain_parts(const page *p, const expr *e, const definition *in, const expr *asked, seen *before,
+                          calc_error *error) {
     part one;
     const definition *d;
     for (size_t i = 0; part_of(e, i, &one); i++) {
@@ -411,11 +426,11 @@ static bool explain_parts(const page *p, const expr *e, const expr *asked, seen 
             continue;
         if (!one.call && is_given(p, one.q))
             explain_input(p, one.q);
-        else if (!explain_part(p, &one, e == asked && is_whole(e, &one), error))
+        else if (!explain_part(p, &one, in, e == asked && is_whole(e, &one), error))
             return false;
     }
     for (size_t i = 0; (d = expr_definition(&p->sh->calc, e, i)); i++)
-        if (!explain_parts(p, &d->body, asked, before, error))
+        if (!explain_parts(p, &d->body, d, asked, before, error))
             return false;
     return true;
 }
@@ -427,7 +442,7 @@ static bool explain_expression(const page *p, const expr *e, const expr *asked, 
     bool told = false;
     for (size_t i = 0; e == asked && !told && part_of(e, i, &one); i++)
         told = is_whole(e, &one);
-    return explain_parts(p, e, asked, &before, error) && (told || explain_whole(p, asked, v, error));
+    return explain_parts(p, e, NULL, asked, &before, error) && (told || explain_whole(p, asked, v, error));
 }
 
 /* ---- the statement ----------------------------------------------------------------------------- */

@@ -2,6 +2,8 @@
 /* Reading lists of expressions. */
 #include "shell/expressions.h"
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "calc/unit_text.h"
@@ -58,15 +60,18 @@ bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_
     }
 }
 
-bool column_fits(const expr *e, column *c, dim d, calc_error *error) {
-    if (c->chosen && !dim_equal(c->d, d)) {
+bool column_fits(const expr *e, column *c, value v, calc_error *error) {
+    if (c->chosen && !dim_equal(c->d, v.d)) {
         char is[128];
-        dim_describe(d, is, sizeof is);
+        dim_describe(v.d, is, sizeof is);
         error->strange = true;
         return calc_fail(error, e->at, e->len, "%s is %s: it cannot be shown in %s", c->name, is, c->unit);
     }
-    c->d = d;
+    if (c->chosen && fabsl(v.v / c->scale) > DBL_MAX)
+        return calc_fail(error, e->at, e->len, "%s is too large for double precision in %s", c->name,
+                         c->unit);
+    c->d = v.d;
     if (!c->chosen)
-        dim_unit(d, c->unit, sizeof c->unit);
+        dim_unit(v.d, c->unit, sizeof c->unit);
     return true;
 }

@@ -10,7 +10,7 @@
 bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_t *count);
 /* One of them, at place i of the list. */
 bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c);
-/* The value's dimension goes into the column, which may ask for another one. */
-bool column_fits(const expr *e, column *c, dim d, calc_error *error);
+/* Can the value be shown so? Its dimension goes into the column, which may ask for another one. */
+bool column_fits(const expr *e, column *c, value v, calc_error *error);
 
 #endif

@@ -344,9 +344,7 @@ static size_t help_on(FILE *to, const char *word) {
                     subjects[s].help(to, i);
                 count++;
             }
-    if (*word && unit_lookup(word, strlen(word), &u)) {
-        if (to && count > 0)
-            putc('\n', to);
+    if (*word && unit_lookup(word, strlen(word), &u)) { /* a name of nothing else */
         if (to)
             unit_help(to, word, &u);
         count++;

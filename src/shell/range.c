@@ -26,7 +26,7 @@ bool range_names_find(shell *sh, lexer *lx, range_names *out, bool *found) {
     scan.error = &ignored;
     *out = (range_names){.count = sh->calc.names.count};
     *found = false;
-    while (scan.kind != T_END && !ignored.raised) {
+    while (scan.kind != T_END) {
         const bool by_name = lex_is(&scan, "for"), along = lex_is(&scan, "along"),
                    with = lex_is(&scan, "with");
         lex_next(&scan);

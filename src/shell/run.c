@@ -67,7 +67,7 @@ static bool print_statement(shell *sh, lexer *lx) {
     for (size_t i = 0; i < count && ok; i++) {
         value v;
         ok = expr_eval(&sh->calc, &sh->list[i], &v, lx->error) &&
-             column_fits(&sh->list[i], &columns[i], v.d, lx->error);
+             column_fits(&sh->list[i], &columns[i], v, lx->error);
         si[i] = v.v;
         sh->calc.ans = ok ? v : sh->calc.ans;
         sh->calc.has_ans = sh->calc.has_ans || ok;
@@ -147,7 +147,7 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
         undo_scene(&sh->calc, before);
     else if (c->changes)
         undo_unmark(&sh->calc, before);
-    if (ok && c->changes && shell_stop && c->run != do_source) { /* while it told of itself */
+    if (ok && c->changes && shell_stop) { /* while it told of itself */
         undo_pop(&sh->calc, true);
         ok = calc_interrupted(lx->error);
     }
@@ -267,7 +267,7 @@ size_t shell_statement_end(const char *text, size_t i, size_t len) {
 }
 
 bool shell_continues(const char *text, size_t len) {
-    while (len && (text[len - 1] == '\n' || text[len - 1] == '\r'))
+    while (len && text[len - 1] == '\r')
         len--;
     if (!len || text[len - 1] != '\\')
         return false;

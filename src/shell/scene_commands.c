@@ -300,7 +300,7 @@ static bool name_dimension(shell *sh, lexer *lx, arg rows[ARGS]) {
         if (a->in == 1 + IN_A) {
             value n = {0};
             while (scan.kind != T_END && !(lex_is(&scan, "n") && at_argument(&scan)) &&
-                   !(lex_is(&scan, "A") && at_argument(&scan)) && !ignored.raised)
+                   !(lex_is(&scan, "A") && at_argument(&scan)))
                 lex_next(&scan);
             if (lex_is(&scan, "A"))
                 return calc_fail(lx->error, scan.at, scan.len,

@@ -101,7 +101,7 @@ static bool wake_over(shell *sh, const lexer *lx, range_names *names) {
     bool over = false, name = false;
     error_clear(&ignored);
     scan.error = &ignored;
-    while (scan.kind != T_END && !ignored.raised) {
+    while (scan.kind != T_END) {
         if (name && scan.kind == T_NAME && scan.len < LEX_NAME && !range_wake(sh, &scan, names))
             return calc_no_memory(lx->error);
         name = lex_is(&scan, "over") || (over && scan.kind == T_COMMA);
@@ -160,7 +160,7 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
         inner = inner || a->end[i] == END_INNER;
         if (a->end[i] == END_SCENE && !edge)
             shell_note(sh, "note: the scene ends at %s: %s", there, a->why.text);
-        edge = edge || a->end[i] == END_SCENE;
+        edge |= a->end[i] == END_SCENE;
         if (a->end[i] == END_LOW || a->end[i] == END_HIGH)
             shell_note(sh, "note: no inner optimum in %s: %s is the %s end of its range", q->name[i].text,
                        there, a->end[i] == END_LOW ? "lower" : "upper");
@@ -179,7 +179,7 @@ static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {
     long double si[OPTIMISE_NAMES + 1];
     bool ok = wake_over(sh, lx, &names) && read_one_expression(sh, lx, 0, &optimised) &&
               read_over(sh, lx, &q) && at_end(lx) && optimise(&q, &a, lx->error) &&
-              column_fits(q.e, &optimised, a.d, lx->error);
+              column_fits(q.e, &optimised, (value){a.value, a.d}, lx->error);
     for (size_t i = 0; i < q.count && ok; i++) {
         ok = knob_column(&columns[i], &q.name[i], lx->error);
         si[i] = a.x[i];

@@ -211,6 +211,21 @@ def told(tests):
                 and re.search(r"minimize: grid, Brent's method, \d+ evaluations", done.stderr), tests.report(done))
 
 
+    for question, want in (
+            ("maximize sqrt(1-x) + x over x = 0 .. 5", "grid, Brent's method, Newton's method"), ("minimize x over x = -3 .. 3", "grid, Brent's method"),
+            ("minimize (x-1)^2 + y over x = -3 .. 3, y = 0 .. 1", "grid, simplex of Nelder and Mead, Newton's method"),
+            ("minimize x + y over x = -3 .. 3, y = 0 .. 1", "grid, simplex of Nelder and Mead"),
+            ("maximize x + y + 0*sqrt(2-x-y) over x = 0.1 .. 3, y = 0.1 .. 3", "grid, simplex of Nelder and Mead")):
+        done = tests.run("-c", "set timing on; " + question)
+        tests.check("timing of " + question, ": %s, " % want in done.stderr and " evaluations\n" in done.stderr, tests.report(done))
+    for sides, key in (("(x-1)^2 = 0", "touches"), ("1/(x-1) = 3 from 0 to 5", "jumps"), ("x^3 = 8", None)):
+        values, events, done = run_json(tests, "x = 2; solve x for %s\n" % sides)
+        tests.check("solve tells of %s: %s" % (key, sides), [name for name in ("touches", "jumps") if events[0].get(name)] == [key] * bool(key) and
+                    done.stderr.count("note: ") == bool(key), tests.report(done))
+    values, events, done = run_json(tests, "solve unknown for unknown^3 = 8 from 1 to 5\nunknown\n")
+    tests.check("a name is known for its question alone", abs(values[0]["value"] - 2) < 1e-15 and "unknown name 'unknown'" in done.stderr, tests.report(done))
+
+
 def run(tests):
     questions(tests)
     edges(tests)

@@ -12,6 +12,9 @@ TOLD = (
     (PRESSED + "z := a*dz; y := a/dz\n", "z*y", ("a: contact radius", "dz: indentation depth", r"    z\*y = 3\.48291e-08 m\^2"), ()),
     (PRESSED + "half(x) := dW(x*1 N)/2\n", "half(20)", ("dW: energy dissipated per cycle", "    model: closed form", r"    half\(20\) = 953\.22\d nJ"),
      (r"    dW\(x",)),
+    (PRESSED + "x = 5 N; half(y, x) := dW(x)/y\n", "half(2, 20 N)", ("dW: energy dissipated per cycle", r"    half\(2, 20 N\) = 953\.22\d nJ"), (r"    dW\(x",)),
+    (PRESSED + "x = 5 N; half(y) := dW(x)/y\n", "half(2)", ("dW: energy dissipated per cycle", r"    dW\(x\) = 21\.36\d+ nJ"), ()),
+    (PRESSED + "set model springs 50; cycle FA=9 N FNA=10 N times 1000\n", "W", ("    model: springs, by 160 chords a period of the sine|    model: springs, .*",), ("    cycle: ",)),
     (PRESSED, "2*(a at k=0)", (r"    2\*\(a at k=0\) = 373\.251 um", "    no effect: mu"), ("a: contact radius",)),
     # a load that acts by a definition, a value of 0, and no load at all
     (STEEL + "c0 = 1 mm; press FN=100 N; k := FN/(1 kN)\n", "kappa", ("    k = 0.1", "    FN = 100 N .*"), ("    FN now",)),
@@ -22,6 +25,8 @@ TOLD = (
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "qx(0.1 mm)", ("    model: memory diagram, by 640 chords a period of the sine",), ()),
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "W", ("    model: memory diagram, the sine itself, event by event \\(exact\\)",), ("    cycle: ",)),
     (PRESSED + "step FN=150 N; step FN=120 N\n", "a", ("    FN now = 120 N",), ("    mu = ", "    Fx now")),
+    ("material steel; k = 0.3; c0 := a0\n", "p", ("    k = 0.3",), ("    c0 = ",)),
+    ("geometry power n=2 A=50 m^-1\n", "p", ("    n = 2", "    A = 50 .*"), ("    h = ",)),
     (SUM, "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
     (SUM + "W\n", "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
     # what was given before, and is not the geometry's

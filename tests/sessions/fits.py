@@ -339,6 +339,16 @@ def columns(tests):
     tests.check("fit: an input on the left alone", event and abs(values["q"] / 125 - 1) < 1e-9, tests.report(done))
 
 
+    # inputs of other shapes are columns like others
+    rows = [(20, 1.21), (50, 2.28), (80, 3.09), (120, 4.09)]
+    alone = write(tests, "alone.csv", "force [N],depth [um]", rows)
+    beside = write(tests, "beside.csv", "n,A [mm^2],slope,b [mm],h [um],force [N],depth [um]", [(i, 3, 1, 2, 3, *row) for i, row in enumerate(rows)])
+    told = [tests.run("-c", SETUP % (210, 0.4) + "; fit E0 for depth = dz(force) to " + name) for name in (alone, beside)]
+    tests.check("fit: columns named as inputs of other shapes", told[1].returncode == 0 and told[0].stdout == told[1].stdout, tests.report(told[1]))
+    done = tests.run("-c", SETUP % (210, 0.4) + "; fit E0 for depth*slope = dz(force) to " + beside)
+    tests.check("fit: such a one that is asked for", done.returncode == 1 and "slope" in done.stderr, tests.report(done))
+
+
 def wide_ranges(tests):
     """Squares leave the range of double where what they are of does not; what has no value is null in JSON."""
     def told(script):
