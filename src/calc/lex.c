@@ -124,10 +124,9 @@ static void check_name(lexer *lx) {
         unsigned code;
         const size_t n = character_at(s + i, lx->len - i, &code);
         if (n == 0 || !character_shows(code)) {
-            lx->at += i;
-            lx->len = n ? n : 1;
-            lex_fail(lx, n ? "unexpected character U+%04X" : "unexpected byte 0x%02x",
-                     n ? code : (unsigned)(unsigned char)s[i]);
+            calc_raise(lx->error, lx->at + i, n ? n : 1,
+                       n ? "unexpected character U+%04X" : "unexpected byte 0x%02x",
+                       n ? code : (unsigned)(unsigned char)s[i]);
             return;
         }
         i += n;

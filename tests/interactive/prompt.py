@@ -23,6 +23,7 @@ class Session:
         self.state = env.get("XDG_STATE_HOME") or os.path.join(tests.dir, "state-%d" % time.monotonic_ns())
         env = {**tests.env, "TERM": "xterm", "INPUTRC": "/dev/null", "XDG_STATE_HOME": self.state,
                "XDG_CONFIG_HOME": os.path.join(tests.dir, "no-config"), **env}
+        env = {name: value for name, value in env.items() if value is not None}
         self.child = pexpect.spawn(tests.fret, list(args), env=env, encoding="utf-8", timeout=120,
                                    cwd=cwd or tests.dir, dimensions=dimensions, codec_errors="replace")
         self.child.delaybeforesend = 0.02
@@ -234,6 +235,69 @@ def figures(tests):
     s.end()
 
 
+def sizes(tests):
+    """Plots fit the terminal, where that is a size to plot in, and its kind."""
+    for rows, columns, wide, high in ((30, 100, 99, 28), (20, 60, 59, 18), (8, 100, 99, 6), (8, 40, 39, 6), (7, 100, 79, 24), (30, 19, 79, 24)):
+        s = Session(tests, "--quiet", "--color=never", dimensions=(rows, columns))
+        s.say("set pager off")
+        s.child.sendline("plot x for x = 0 .. 1; 77*11")
+        s.child.expect(r"77\*11 = 847\r\n")
+        lines = clean(s.child.before).splitlines()[-high:]
+        tests.check("a plot in %d rows of %d" % (rows, columns), max(map(len, lines)) <= wide and
+                    (max(map(len, lines)) > wide - 10 and "x" in lines[-1] or high < 8), "\n".join(lines))
+        s.child.sendeof()
+        s.end()
+    for term, braille in (("xterm", True), ("linux", False), (None, False)):
+        s = Session(tests, "--quiet", TERM=term, LC_ALL="C.UTF-8")
+        s.child.sendline("plot x^2 for x = 0 .. 1")
+        s.child.expect(PROMPT)
+        tests.check("braille where TERM is %s" % term, bool(re.search("[\u2801-\u28ff]", s.child.before)) == braille, s.child.before)
+        s.child.sendeof()
+        s.end()
+
+
+def tables(tests):
+    """Tables at a terminal: every row, in each form, whole beside what tells how far they are."""
+    s = Session(tests, "--quiet", "--color=never")
+    s.child.sendline("table x for x = 0 .. 2999 steps 2999; 77*11")
+    s.child.expect(r"77\*11 = 847\r\n")
+    rows = re.findall(r"^ +(\d+) +(\d+)$", clean(s.child.before), re.M)
+    s.prompt()
+    tests.check("a long table", [(str(i), str(i)) for i in range(3000)] == rows, clean(s.child.before)[-500:])
+    for form, row in (("csv", "%d,%d"), ("json", '{"x":%d,"x (2)":%d}')):
+        s.say("set format " + form)
+        told = s.say("table x for x = 1 .. 3 steps 2").splitlines()
+        tests.check("a table in " + form, told[-3:] == [row % (i, i) for i in (1, 2, 3)], str(told))
+    s.say("set format text")
+    slow = s.say(SCENE + "; press FN=100 N; cycle FA=9 N FNA=10 N; geometry sum 2:50 m^-1, 4:2e6 m^-3; table W for mu = 0.3 .. 0.4 steps 400")
+    rows = re.findall(r"^ +([\d.]+) +([\d.]+)$", clean(slow).rpartition("W [")[2], re.M)
+    tests.check("a table that takes its time", len(rows) == 401 and float(rows[0][0]) == 0.3 and float(rows[-1][0]) == 0.4, slow[-600:])
+    s.child.sendeof()
+    s.end()
+
+
+def moving(tests):
+    """Frames go in place on the terminal itself; what is recorded holds no going up."""
+    path = os.path.join(tests.dir, "moving.txt")
+    s = Session(tests, "--quiet", TERM="xterm-256color")
+    s.say(SCENE + "; press FN=100 N; cycle FA=20 N; record " + path)
+    s.child.sendline("animate loop frames 3; 77*11")
+    s.child.expect(r"77\*11 = 847\r\n")
+    shown = s.child.before
+    s.child.sendline("record off")
+    s.child.sendeof()
+    s.end()
+    with open(path, encoding="utf-8") as f:
+        kept = f.read()
+    tests.check("an animation that is recorded", "hysteresis loop" in clean(shown) and "\x1b" not in kept and "77*11 = 847" in kept, shown[-800:] + kept[-800:])
+    s = Session(tests, "--quiet", "--format=json", TERM="xterm-256color")
+    s.say(SCENE + "; press FN=100 N; cycle FA=20 N")
+    told = s.say("animate loop frames 3")
+    tests.check("an animation in JSON", told.count('{"text":"') >= 1 and "\x1b" not in told, told[-500:])
+    s.child.sendeof()
+    s.end()
+
+
 def own(tests):
     """What only the prompt does: commands of the system, a load too long to show, a start-up file at home."""
     home = os.path.join(tests.dir, "at-home")
@@ -380,4 +444,4 @@ def paging(tests):
 
 
 def run(tests):
-    tests.rooms(kept_lines, stopped, paging, dialogue, interrupts, dropped, starting, own, narrow, figures)
+    tests.rooms(kept_lines, stopped, paging, dialogue, interrupts, dropped, starting, own, narrow, figures, sizes, tables, moving)

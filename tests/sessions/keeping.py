@@ -316,6 +316,18 @@ def pure(tests):
     tests.check("a replay too", "text" in json.loads(done.stdout) and done.returncode == 0, tests.report(done))
 
 
+def bytes_in_json(tests):
+    """A file name may hold any byte; JSON only characters."""
+    name = b"g\xff\xf0\x9f\x98\x80\x7f.csv"
+    with open(os.path.join(os.fsencode(tests.dir), name), "wb") as f:
+        f.write(b"r [mm],f [um]\n0,0\n1,50\n")
+    done = tests.run("--format=json", input=b"geometry file " + name + b"\nshow\n")
+    tests.check("a name of any bytes in JSON", done.returncode == 0 and json.loads(done.stdout)["text"] == "geometry file g\ufffd\U0001f600\x7f.csv\n" and
+                "\\u007f" in done.stdout, tests.report(done))
+    done = tests.run(input=b"geometry file " + name + b"\nshow\n")
+    tests.check("and as text", done.stdout == "geometry file g\\xff\U0001f600\\x7f.csv\n", tests.report(done))
+
+
 def targets(tests):
     where = os.path.join(tests.dir, "targets")
     os.mkdir(where)
@@ -331,6 +343,16 @@ def targets(tests):
                 text("t.json"))
     tests.check(".txt", "x [mm]" in text("t.txt").splitlines()[0] and text("t.txt").count("\n\n") == 1, text("t.txt"))
     tests.check(".dat", text("t.dat") == text("t.txt"), text("t.dat"))
+    # of two names: a block for each value of the second, upwards and downwards, a value of which may come again
+    for way, second in (("upwards", "1 .. 3"), ("downwards", "3 .. 1"), ("in one place", "2 .. 2")):
+        done = tests.run("-c", "table x*y for x = 1 .. 2 steps 1 for y = %s steps 2 to g.dat" % second, cwd=where)
+        blocks = [[list(map(float, row.split())) for row in block.splitlines()] for block in text("g.dat").partition("\n")[2].split("\n\n")]
+        low, high = map(float, second.split(" .. "))
+        want = [[[x, y, x * y] for x in (1, 2)] for y in (low, (low + high) / 2, high)]
+        tests.check("blocks of a grid " + way, done.returncode == 0 and (blocks == want if low != high else sum(blocks, []) == sum(want, [])),
+                    text("g.dat") + tests.report(done))
+    done = tests.run("-c", "table x for x = 1 .. 2 steps 1 to g.dat", cwd=where)
+    tests.check("one block of a table", "\n\n" not in text("g.dat"), text("g.dat"))
     for name in ("t.xlsx", "t", "t.CSV.old"):
         done = tests.run("-c", table + name, cwd=where)
         tests.check("no table goes to " + name, "cannot tell the form of a table from '%s': use .csv, .json, .txt or .dat"
@@ -346,5 +368,5 @@ def targets(tests):
 
 
 def run(tests):
-    for room in (copies, recorded, quoted, saved, reordered, judged, pure, targets):
+    for room in (copies, recorded, quoted, saved, reordered, judged, pure, bytes_in_json, targets):
         room(tests)
