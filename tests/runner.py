@@ -163,7 +163,7 @@ def command_names(tests):
 APROPOS = {"loop": "cycle, plot, dW", "hysteresis": "cycle, dW", "dissipation": "dW, W", "csv": "history, table, follow",
            "export": "history, table, plot", "stress": "p(r), qx(r)", "steel": "material, material steel",
            "Hertz": "press, geometry sphere, a", "unit": "help units, Pa", "Mindlin": "explain, dW",
-           "undo": "undo", "transcript": "record, replay", "start-up": "help scripts"}
+           "undo": "undo", "Huber": "fit", "Monte": "uncertainty", "transcript": "record, replay", "start-up": "help scripts"}
 HELPED = ("sphere", "springs", "flat-rounded", "format", "pager", "GPa", "cm", "%", "steel", "Ti-6Al-4V", "sin", "memory",
           "expressions", "scripts", "files", "theory", "paper", "limits", "prompt", "set model", "geometry cone",
           "material steel", "p(r)", "dW(20 N)", "FN=100 N", "set format")
@@ -231,6 +231,10 @@ def help_examples(tests):
         done = tests.run("-c", "apropos " + word)
         tests.check("apropos " + word, all(re.search("^%s( |$)" % re.escape(name), done.stdout, re.M)
                                            for name in found.split(", ")), tests.report(done))
+    for word, told in (("deg", "deg: an angle; 1 deg = 0.01745329252 rad\n"), ("rad", "rad: an angle; 1 rad = 1 rad\n"),
+                       ("N/mm", "no help on 'N/mm'; try: help\n"), ("%", "%: a number; 1 % = 0.01\n")):
+        done = tests.run("-c", "help " + word)
+        tests.check("help on " + word, done.stdout == told or told in done.stderr, tests.report(done))
     for name in HELPED:
         done = tests.run("-c", "help " + name)
         tests.check("help on " + name, len(done.stdout) > 10 and not done.stderr, tests.report(done))

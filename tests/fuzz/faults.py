@@ -134,7 +134,7 @@ def prepare(where):
                  (0.1, 3.5), (0.3, 10.2), (0.6, 19.2), (0.3, 9.5), (0, 0), (-0.3, -9.5), (-0.6, -19.2))),
              "lesson.fret": "# A lesson\nstep Fx=20 N\n",
              "replay.txt": "fret> x = 2\nfret> x + \\\n....> 1\nx + 1 = 3\nfret> set format csv\nfret> table y^2 for y = 1 .. 40 steps 39\ny,y^2\n" +
-             "".join("%d,%d\n" % (i, i * i) for i in range(1, 41)) + "fret> 1 + 1 \\\n1 + 1\n2\n", "log.txt": ""}
+             "".join("%d,%d\n" % (i, i * i) for i in range(1, 41)) + "fret> 2^C\nerror: unknown name 'C': did you mean c?\nfret> x = 3 \\\nfret> x\nx\n3\nfret> 1 + 1 \\\n1 + 1\n2\n", "log.txt": ""}
     for name, text in texts.items():
         with open(os.path.join(where, name), "w", encoding="ascii") as f:
             f.write(text)

@@ -25,6 +25,7 @@ TOLD = (
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "qx(0.1 mm)", ("    model: memory diagram, by 640 chords a period of the sine",), ()),
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "W", ("    model: memory diagram, the sine itself, event by event \\(exact\\)",), ("    cycle: ",)),
     (PRESSED + "step FN=150 N; step FN=120 N\n", "a", ("    FN now = 120 N",), ("    mu = ", "    Fx now")),
+    (PRESSED + "step FN=150 N; step FN=120 N\n", "FN*a", ("FN: normal force.*", "    FN = 120 N"), ()),
     ("material steel; k = 0.3; c0 := a0\n", "p", ("    k = 0.3",), ("    c0 = ",)),
     ("geometry power n=2 A=50 m^-1\n", "p", ("    n = 2", "    A = 50 .*"), ("    h = ",)),
     (SUM, "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),

@@ -252,7 +252,7 @@ def reordered(tests):
     command carries, and definitions of several lines."""
     for script, want in (
             ("x := 1; y := 2; x := y + 1", "y := 2\nx := y + 1\n"), ("E0 = 210 GPa", "E0 = 210 GPa\n"), ("nu = 0.3", "nu = 0.3\n"),
-            ("z := 1 + \\\n2", "z := 1 +   2\n"), ("z := 1 + \\\r\n2", "z := 1 +   2\n"), ("z := 1 +\r2", "z := 1 + 2\n"),
+            ("z := 1 + \\\n2", "z := 1 +   2\n"), ("z := 1 + \\\r\n2", "z := 1 +   2\n"), ("z := 1 + \\\r\r\n2", "z := 1 +    2\n"), ("z := 1 +\r2", "z := 1 + 2\n"),
             ("z := 3; y := z; x := y; w = 1; z := 2*w", "w = 1\nz := 2*w\ny := z\nx := y\n")):
         done = tests.run(input=script + "\nshow\n")
         again = tests.run(input=done.stdout + "show\n")
@@ -282,6 +282,7 @@ def judged(tests):
             ("fret> foo\nx.fret:3:1: error: unknown name 'foo'\n", 1, 0), ("fret> foo\nabc: error: unknown name 'foo'\n", 0, 1),
             ("fret> foo\nx.fret:3: error: unknown name 'foo'\n", 0, 1), ("fret> foo\n: error: unknown name 'foo'\n", 0, 1),
             ("fret> %s\n%s" % (long, table), 1, 0), ("fret> %s\n%s" % (long, table.replace("x^11", "x^12")), 0, 1),
+            ("fret> %s\nx\n" % long, 0, 1), ("fret> 1 + \\\r\r\n....> 1\n1 + 1 = 2\n", 1, 0), ("fret> x = 2\n....> x\nx = 2\n", 2, 0),
             ("fret> 1\n1 = 1%s\n" % (" 1" * 150), 0, 1), ("fret> 1\n\n  \n1 = 1\n", 0, 1), ("fret> 1\n1 = 1\n\n  \n", 1, 0), ("fret> 1\n", 0, 1),
             ("fret> x = 1\nmore\n", 0, 1), ("fret> 1 + \\\n....> 1 + \\\n....> 1\n1 + 1 + 1 = 3\n", 1, 0),
             # what nothing continues is run as it stands
