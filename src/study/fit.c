@@ -19,13 +19,14 @@ static const double refused = 1e6;
 /* Tuned to 95 % of the efficiency of least squares on normal noise (Huber 1981). */
 static const double huber = 1.345;
 enum { ITERATIONS = 200, ROUNDS = 30 };
+static const double apart = 1e-5; /* of the two places of a difference, as a part of q */
 #define NO_ROW ((size_t)-1)
 
 typedef struct state {
     const fit_question *of;
     ask q;
     double start[FIT_NAMES], scale[FIT_NAMES];
-    /* parameter i is start exp(q-1), or start + scale (q-1): GSL's differences are parts of q */
+    /* parameter i is start exp(q-1), or start + scale (q-1) */
     bool ratio[FIT_NAMES];
     double unit; /* of the residuals */
     dim d;
@@ -33,7 +34,10 @@ typedef struct state {
     bool twice;
     size_t bad_row; /* the last one without a value; NO_ROW: it was not a row's fault */
     gsl_vector *weight;
-    double *residual;    /* as they are computed */
+    double *residual; /* as they are computed */
+    double *above, *below;
+    gsl_vector *beside;  /* where these are */
+    gsl_matrix *J;       /* used up by what is asked of it */
     double x[FIT_NAMES]; /* of the names, present */
     team *t;
     bool alone;   /* a team is of no use, or cannot be had */
@@ -94,7 +98,6 @@ typedef struct portion {
 
 typedef struct outcome {
     unsigned used;
-    dim d;
     double v[ROWS];
 } outcome;
 
@@ -104,9 +107,9 @@ static bool work(void *context, const void *in, void *out) {
     outcome *o = out;
     error_clear(s->q.error);
     s->q.t->scene.used = 0;
-    const bool ok = ask_set(&s->q, p->x) && equation_rows(s, p->first, p->last, o->v);
+    ask_set(&s->q, p->x); /* as it went with the one who gives; an error that is raised ends the first row */
+    const bool ok = equation_rows(s, p->first, p->last, o->v);
     o->used = s->q.t->scene.used;
-    o->d = s->d;
     return ok;
 }
 
@@ -132,7 +135,7 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
     const portion *p = in;
     const outcome *o = out;
     (void)part;
-    if (!o || !dim_equal(o->d, s->d))
+    if (!o)
         return equation_rows(s, p->first, p->last, sh->out + p->first);
     s->q.t->scene.used |= o->used;
     memcpy(sh->out + p->first, o->v, (p->last - p->first) * sizeof *o->v);
@@ -265,13 +268,47 @@ static bool residuals(state *s, const gsl_vector *q, double *out) {
 
 static int gsl_residuals(const gsl_vector *q, void *context, gsl_vector *f) {
     state *s = context;
-    if (residuals(s, q, s->residual)) { /* f may be a column of a matrix */
+    if (residuals(s, q, s->residual)) {
         for (size_t i = 0; i < s->of->rows; i++)
             gsl_vector_set(f, i, s->residual[i] / s->unit);
         return GSL_SUCCESS;
     }
     gsl_vector_set_all(f, refused);
     return s->q.error->raised ? GSL_EFAILED : GSL_SUCCESS;
+}
+
+/* With one parameter at q. */
+static bool residuals_beside(state *s, size_t i, double q, double *out) {
+    gsl_vector_set(s->beside, i, q);
+    return residuals(s, s->beside, out);
+}
+
+static void no_slope(const state *s, size_t i, double q) {
+    char at[ASK_TEXT];
+    ask_text(&s->of->name[i], parameter(s, i, q), at);
+    calc_fail(s->q.error, 0, 0, "no value close beside %s, for the derivative: %s", at, s->q.none.text);
+}
+
+/* Differences about q; at the end of the scene, where one of the two has no value, from q to the other. */
+static int gsl_jacobian(const gsl_vector *q, void *context, gsl_matrix *J) {
+    state *s = context;
+    for (size_t i = 0; i < s->of->count; i++) {
+        const double at = gsl_vector_get(q, i), h = apart / 2 * (at != 0 ? fabs(at) : 1);
+        double hi = at + h, lo = at - h;
+        gsl_vector_memcpy(s->beside, q);
+        const bool above = residuals_beside(s, i, hi, s->above), below = residuals_beside(s, i, lo, s->below);
+        if (!above && !below)
+            no_slope(s, i, at);
+        if (!above)
+            residuals_beside(s, i, hi = at, s->above);
+        if (!below)
+            residuals_beside(s, i, lo = at, s->below);
+        if (s->q.error->raised)
+            return GSL_EFAILED;
+        for (size_t row = 0; row < s->of->rows; row++)
+            gsl_matrix_set(J, row, i, (s->above[row] - s->below[row]) / s->unit / (hi - lo));
+    }
+    return GSL_SUCCESS;
 }
 
 /* ---- the start --------------------------------------------------------------------------------- */
@@ -298,7 +335,7 @@ static bool begin(state *s, gsl_vector *q, calc_error *error) {
             return calc_fail(error, 0, 0, "%s has no value to start from", k->text);
         if (k->is_input)
             input_range(k->in, &lo, &hi);
-        s->ratio[i] = lo == 0 && !isfinite(hi) && s->start[i] > 0;
+        s->ratio[i] = lo == 0 && s->start[i] > 0;
         s->scale[i] = isfinite(lo) && isfinite(hi) ? 0.1 * (hi - lo) : fabs(s->start[i]);
     }
     gsl_vector_set_all(q, 1);
@@ -325,18 +362,12 @@ static bool begin(state *s, gsl_vector *q, calc_error *error) {
 /* ---- what the data say ------------------------------------------------------------------------- */
 
 /* Without the weights, whose effect the variance holds. */
-static gsl_matrix *jacobian(const state *s, gsl_multifit_nlinear_workspace *w, calc_error *error) {
-    gsl_matrix *J = gsl_matrix_alloc(s->of->rows, s->of->count);
-    if (!J) {
-        calc_no_memory(error);
-        return NULL;
-    }
-    gsl_matrix_memcpy(J, gsl_multifit_nlinear_jac(w));
+static void jacobian(state *s, gsl_multifit_nlinear_workspace *w) {
+    gsl_matrix_memcpy(s->J, gsl_multifit_nlinear_jac(w));
     for (size_t i = 0; i < s->of->rows; i++) {
-        gsl_vector_view row = gsl_matrix_row(J, i);
+        gsl_vector_view row = gsl_matrix_row(s->J, i);
         gsl_vector_scale(&row.vector, 1 / sqrt(gsl_vector_get(s->weight, i)));
     }
-    return J;
 }
 
 /* (J^T J)^-1 from J = U S V^T diag(norm). GSL's own does not look whether it has got its memory. */
@@ -355,13 +386,15 @@ static void covariance(const gsl_matrix *V, const gsl_vector *sv, const double *
 }
 
 /* In plain words, where columns of the Jacobian vanish or depend on each other; else the covariances of a
- * unit variance. J is used up. */
-static bool determined(const state *s, gsl_matrix *J, double C[FIT_NAMES][FIT_NAMES], calc_error *error) {
+ * unit variance. */
+static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT_NAMES][FIT_NAMES],
+                       calc_error *error) {
     const size_t p = s->of->count;
-    gsl_matrix *V = gsl_matrix_alloc(p, p);
+    gsl_matrix *J = s->J, *V = gsl_matrix_alloc(p, p);
     gsl_vector *sv = gsl_vector_alloc(p), *work = gsl_vector_alloc(p);
     double norm[FIT_NAMES], most = 0;
     bool ok = V && sv && work;
+    jacobian(s, w);
     for (size_t i = 0; i < p; i++) {
         const gsl_vector_const_view column = gsl_matrix_const_column(J, i);
         norm[i] = gsl_blas_dnrm2(&column.vector);
@@ -375,7 +408,8 @@ static bool determined(const state *s, gsl_matrix *J, double C[FIT_NAMES][FIT_NA
         else
             gsl_vector_scale(&column.vector, 1 / norm[i]);
     }
-    ok = ok && !gsl_linalg_SV_decomp(J, V, sv, work);
+    if (ok) /* finite columns: it converges */
+        gsl_linalg_SV_decomp(J, V, sv, work);
     if (ok && gsl_vector_get(sv, p - 1) < 1e-5 * gsl_vector_get(sv, 0)) {
         char list[FIT_NAMES * (LEX_NAME + 6)] = "";
         size_t left = 0;
@@ -428,12 +462,10 @@ static bool reweigh(state *s, const gsl_vector *f, double *scale, double *change
 }
 
 /* Most often the data are to blame. */
-static bool unsettled(state *s, gsl_multifit_nlinear_workspace *w, int status, calc_error *error) {
-    gsl_matrix *J = jacobian(s, w, error);
+static bool unsettled(state *s, gsl_multifit_nlinear_workspace *w, calc_error *error) {
     double C[FIT_NAMES][FIT_NAMES];
-    const bool blameless = J && determined(s, J, C, error);
-    gsl_matrix_free(J);
-    return blameless && calc_fail(error, 0, 0, "the fit does not settle: %s", gsl_strerror(status));
+    return determined(s, w, C, error) &&
+           calc_fail(error, 0, 0, "the fit does not settle: %s", gsl_strerror(GSL_EMAXITER));
 }
 
 /* GSL's driver, which goes on to its last iteration whatever the residuals say: an interrupt is to end it. */
@@ -447,14 +479,13 @@ static int drive(const state *s, gsl_multifit_nlinear_workspace *w) {
             return gsl_blas_dnrm2(gsl_multifit_nlinear_residual(w)) > 0 ? GSL_EMAXITER : GSL_SUCCESS;
         status = gsl_multifit_nlinear_test(1e-10, 1e-10, 0, &info, w);
     }
-    const bool arrived =
-        status == GSL_SUCCESS || status == GSL_ETOLF || status == GSL_ETOLX || status == GSL_ETOLG;
-    return arrived ? GSL_SUCCESS : GSL_EMAXITER;
+    return status == GSL_SUCCESS ? GSL_SUCCESS : GSL_EMAXITER;
 }
 
 static bool descend(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
                     calc_error *error) {
-    gsl_multifit_nlinear_fdf fdf = {.f = gsl_residuals, .n = s->of->rows, .p = s->of->count, .params = s};
+    gsl_multifit_nlinear_fdf fdf = {
+        .f = gsl_residuals, .df = gsl_jacobian, .n = s->of->rows, .p = s->of->count, .params = s};
     double change = INFINITY;
     for (int round = 0; round < (s->of->robust ? ROUNDS : 1) && change >= 1e-4; round++) {
         int status = gsl_multifit_nlinear_winit(q, s->weight, &fdf, w);
@@ -464,9 +495,8 @@ static bool descend(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, 
             return false;
         out->iterations += (unsigned)gsl_multifit_nlinear_niter(w);
         gsl_vector_memcpy(q, gsl_multifit_nlinear_position(w));
-        /* no progress is where it should be when the residuals are rounding */
-        if (status && status != GSL_ENOPROG)
-            return unsettled(s, w, status, error);
+        if (status)
+            return unsettled(s, w, error);
         if (s->of->robust && !reweigh(s, gsl_multifit_nlinear_residual(w), &out->scale, &change, error))
             return false;
     }
@@ -490,17 +520,15 @@ static double variance(const state *s, const gsl_vector *f, double scale, fit_an
     const double free = (double)(n - s->of->count);
     out->rms = sqrt(squares / (double)n) * s->unit;
     /* Huber 1981, (6.6.4) without its correction */
-    return s->of->robust && inside > 0 ? psi / free / (inside / (double)n * inside / (double)n)
-                                       : squares / free;
+    return s->of->robust ? psi / free / (inside / (double)n * inside / (double)n) : squares / free;
 }
 
 static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector *q, fit_answer *out,
                   calc_error *error) {
     const size_t p = s->of->count;
     const double v = variance(s, gsl_multifit_nlinear_residual(w), out->scale, out);
-    gsl_matrix *J = jacobian(s, w, error);
     double C[FIT_NAMES][FIT_NAMES];
-    const bool ok = J && determined(s, J, C, error);
+    const bool ok = determined(s, w, C, error);
     for (size_t i = 0; i < p && ok; i++) {
         const double x = parameter(s, i, gsl_vector_get(q, i));
         out->value[i] = x;
@@ -512,24 +540,23 @@ static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector 
     out->d = s->d;
     out->twice = s->twice;
     out->evaluations = s->q.evaluations;
-    gsl_matrix_free(J);
     return ok;
 }
 
 static bool run(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
                 calc_error *error) {
+    s->above = s->residual + s->of->rows;
+    s->below = s->above + s->of->rows;
     gsl_vector_set_all(s->weight, 1);
     return begin(s, q, error) && descend(s, w, q, out, error) && judge(s, w, q, out, error);
 }
 
 bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     const size_t n = question->rows, p = question->count;
-    gsl_multifit_nlinear_parameters method = gsl_multifit_nlinear_default_parameters();
+    const gsl_multifit_nlinear_parameters method = gsl_multifit_nlinear_default_parameters();
     state s = {.of = question, .twice = !question->left && begins_midway(question)};
     *out = (fit_answer){.rms = 0};
     gsl_set_error_handler_off();
-    method.fdtype = GSL_MULTIFIT_NLINEAR_CTRDIFF;
-    method.h_df = 1e-5;
     if (n <= p)
         return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", n, p);
     if (!ask_open(&s.q, question->c, question->name, p, error))
@@ -538,12 +565,17 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &method, n, p);
     gsl_vector *q = gsl_vector_alloc(p);
     s.weight = gsl_vector_alloc(n);
-    s.residual = malloc(n * sizeof *s.residual);
-    bool ok = (w && q && s.weight && s.residual) ? run(&s, w, q, out, error) : calc_no_memory(error);
+    s.beside = gsl_vector_alloc(p);
+    s.J = gsl_matrix_alloc(n, p);
+    s.residual = malloc(3 * n * sizeof *s.residual);
+    bool ok = w && q && s.weight && s.beside && s.J && s.residual;
+    ok = ok ? run(&s, w, q, out, error) : calc_no_memory(error);
     if (w)
         gsl_multifit_nlinear_free(w);
     gsl_vector_free(q);
     gsl_vector_free(s.weight);
+    gsl_vector_free(s.beside);
+    gsl_matrix_free(s.J);
     free(s.residual);
     team_end(s.t);
     ask_close(&s.q);

@@ -267,6 +267,60 @@ def loops_with_loads(tests):
                     tests.report(done) + tests.report(other))
 
 
+def edges(tests):
+    """Begun next to the end of the scene, or at it: there the slope is taken to the side that has values."""
+    E0, path = 180e9, path_of(0.4e-6, 40)
+    rows = [(d * 1e6, f) for d, f in zip(path, loop(0.35, E0, path))]
+    name = write(tests, "edge.csv", "dx [um],Fx [N]", rows)
+    force = SETUP % (180, 0.35) + "; q = %s; FN := %s; fit q along " + name
+    for start, definition, want in (("2.00001", "80 N*sqrt(q - 2)", 3.5625), ("2", "80 N*(1 + sqrt(q - 2))", 2.0625),
+                                    ("1.99999", "80 N*sqrt(2 - q)", 0.4375), ("2", "80 N*(1 + sqrt(2 - q))", 1.9375),
+                                    ("10", "80 N*sqrt(q - 2)", 3.5625)):  # the last one is to overshoot
+        values, event, done = answers(tests, force % (start, definition))
+        tests.check("fit: from %s, FN := %s" % (start, definition), event and abs(values["q"] / want - 1) < 1e-5, tests.report(done))
+    swung = SETUP % (210, 0.4) + "; cycle FA=15 N FNA=%s N phase=60 deg; "
+    values, _, done = answers(tests, swung % 20 + "dW at mu=0.3; dW at mu=0.4; dW at mu=0.5")
+    losses = [json.loads(line)["value"] for line in done.stdout.splitlines() if "name" in line]
+    name = write(tests, "swung.csv", "mu,y [uJ]", [(m, 1e6 * loss) for m, loss in zip((0.3, 0.4, 0.5), losses)])
+    values, event, done = answers(tests, swung % 0 + "fit FNA for y = dW to " + name)
+    tests.check("fit: a swing from none", event and abs(values["FNA"] / 20 - 1) < 1e-6, tests.report(done))
+
+
+def shapes(tests):
+    """A sphere that is a sum, or a table of points, is a sphere; along its own load too, however it was pressed."""
+    mu, E0, path = 0.35, 180e9, path_of(0.4e-6, 40)
+    rows = [(d * 1e6, f) for d, f in zip(path, loop(mu, E0, path))]
+    bare = write(tests, "shape-bare.csv", "dx [um],Fx [N]", rows)
+    loaded = write(tests, "shape-load.csv", "dx [um],Fx [N],FN [N]", [row + (FN,) for row in rows])
+    gap = write(tests, "sphere.csv", "r [mm],f [um]", [(i / 200, 50 * (i / 200) ** 2) for i in range(200)])
+    for shape in ("sum 2:50 m^-1, 4:1e-3 m^-3", "file " + gap):
+        scene = SETUP % (210, 0.4) + "; geometry " + shape
+        done = tests.run("--format=json", "-c", (SETUP % (180, 0.4)) + "; geometry %s; dz; a" % shape)
+        values = [json.loads(line)["value"] for line in done.stdout.splitlines() if "name" in line]
+        by_depth, by_radius = ("; press %s=%.17g m" % pair for pair in zip(("dz", "a"), values))
+        for what, script in (("pressed", "; fit mu, E0 along " + bare), ("loaded", "; fit mu, E0 along " + loaded),
+                             ("pressed by depth", by_depth + "; E0 = 180 GPa; fit mu along " + bare),
+                             ("pressed by radius", by_radius + "; E0 = 180 GPa; fit mu along " + bare)):
+            got, event, done = answers(tests, scene + script)
+            tests.check("fit: %s %s" % (shape.split()[0], what), event and abs(got["mu"] / mu - 1) < 3e-4
+                        and abs(got.get("E0", E0) / E0 - 1) < 3e-4, tests.report(done))
+        for load, want in ((0, "the data do not determine mu"), (-1, "FN = -1 N must not be negative")):
+            idle = write(tests, "shape-idle.csv", "dx [um],Fx [N],FN [N]", [row + (load,) for row in rows])
+            done = tests.run("-c", scene + "; fit mu along " + idle)
+            tests.check("fit: %s under %d N" % (shape.split()[0], load), done.returncode == 1 and want in done.stderr, tests.report(done))
+
+
+def not_closed(tests):
+    """A path that comes back to where its rows begin, with another force, is no closed loop."""
+    mu, E0 = 0.35, 180e9
+    path = [0.6e-6 * i / 20 for i in range(21)] + [0.6e-6 + 1e-6 * i / 30 for i in range(1, 31)] + [1.6e-6 - 1e-6 * i / 30 for i in range(1, 31)]
+    rows = [(d * 1e6, f) for d, f in zip(path, loop(mu, E0, path))][20:]
+    name = write(tests, "half.csv", "dx [um],Fx [N]", rows)
+    values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + name)
+    tests.check("fit: half a loop", event and abs(values["mu"] / mu - 1) < 1e-4 and abs(values["E0"] / E0 - 1) < 1e-4
+                and "twice" not in done.stderr, tests.report(done))
+
+
 def refusals(tests):
     files = {"line": ("u,y [mm]", STRAIGHT), "exact": ("u,y", STRAIGHT[:4]), "two": ("u,y", ((1, 2), (2, 4.1))),
              "zero": ("u,y", ((1, 0), (2, 0), (3, 0))), "neg": ("force [N],depth [um]", ((1, 2), (-3, 6), (4, 8))),
@@ -282,6 +336,11 @@ def refusals(tests):
             ("s = 1; fit s for y = s to {line}", "the left side is a length, the right side is a number"),
             ("s = 1; q = 1; fit s, q for y = s + q*u to {two}", "2 rows cannot determine 2 parameters"),
             ("s = 1; q = 2; fit s, q for y = s*q*u to {exact}", "the data cannot tell s and q apart"),
+            ("s = 1; q = 2; t = 3; fit s, q, t for y + u^2 = s*q*u + s*t*u^2 to {exact}", "the data cannot tell s, q and t apart"),
+            ("s = 1; fit s for y = s*u + sqrt(-(s - 1)^2) to {exact}",
+             "no value close beside s = 1, for the derivative: the square root of a negative number is not real"),
+            # the least is a kink, which no slope tells
+            ("s = 1; fit s for y = 15 + max(s - 1, (1 - s)/10) to {exact}", "the fit does not settle"),
             ("s = 1; fit s for y = 1e-30*s*u to {exact}", "the data do not determine s: nothing in them depends on it"),
             ("s = -1; fit s for y = log(s*u) to {zero}", "log is not defined there (row 1 of the data)"),
             ("s = 1; fit s for y = s*u/(u - 2) to {exact}", "division by zero (row 2 of the data)"),
@@ -385,6 +444,9 @@ def run(tests):
     straight_lines(tests)
     parabolas(tests)
     loops_with_loads(tests)
+    edges(tests)
+    shapes(tests)
+    not_closed(tests)
     refusals(tests)
     noisy_loops(tests, 20 if tests.sanitized else 100)
     outliers(tests)
