@@ -293,7 +293,7 @@ static void no_slope(const state *s, size_t i, double q) {
 static int gsl_jacobian(const gsl_vector *q, void *context, gsl_matrix *J) {
     state *s = context;
     for (size_t i = 0; i < s->of->count; i++) {
-        const double at = gsl_vector_get(q, i), h = apart / 2 * (at != 0 ? fabs(at) : 1);
+        const double at = gsl_vector_get(q, i), h = apart / 2 * fmax(fabs(at), 1);
         double hi = at + h, lo = at - h;
         gsl_vector_memcpy(s->beside, q);
         const bool above = residuals_beside(s, i, hi, s->above), below = residuals_beside(s, i, lo, s->below);

@@ -23,5 +23,5 @@ bool grid_run(const grid *g, sweep_job *job) {
     job->part = true;
     const bool ok = run_sweeps(g, job);
     sweep_end(job);
-    return ok && (job->values > 0 || !job->missing.raised || sweep_nothing(job));
+    return ok && sweep_has_values(job);
 }

@@ -208,15 +208,37 @@ static double gsl_line(double u, void *context) {
     return (double)line_at(context, u);
 }
 
+typedef struct spot {
+    double u, f;
+} spot;
+
+/* An end as good as the place inside: the middle between them comes in, or is the end. */
+static void break_tie(line *l, spot *inside, spot *near, spot *far) {
+    if (near->f != inside->f)
+        return;
+    spot mid = {.u = (inside->u + near->u) / 2};
+    mid.f = (double)line_at(l, mid.u);
+    if (mid.f < inside->f) {
+        *far = *inside;
+        *inside = mid;
+    } else {
+        *near = mid;
+    }
+}
+
 /* A bracket of three, the best inside, made narrow: to this part of what is left on either side. */
 static bool narrow(line *l, double lo, double hi, double part) {
-    const double f = (double)l->f, u = l->u;
+    spot best = {l->u, (double)l->f}, below = {.u = lo}, above = {.u = hi};
     gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
     gsl_function along = {gsl_line, l};
     if (!m)
         return calc_no_memory(l->s->q.error);
-    const double at_lo = (double)line_at(l, lo), at_hi = (double)line_at(l, hi);
-    int status = gsl_min_fminimizer_set_with_values(m, &along, u, f, lo, at_lo, hi, at_hi);
+    below.f = (double)line_at(l, lo);
+    above.f = (double)line_at(l, hi);
+    break_tie(l, &best, &above, &below);
+    break_tie(l, &best, &below, &above);
+    int status =
+        gsl_min_fminimizer_set_with_values(m, &along, best.u, best.f, below.u, below.f, above.u, above.f);
     for (int i = 0; !status && i < 40; i++) {
         status = gsl_min_fminimizer_iterate(m);
         const double now = gsl_min_fminimizer_x_minimum(m);
@@ -246,7 +268,7 @@ static bool leave_end(line *l, double next) {
  */
 static bool approach_edge(line *l, double bad, double other) {
     calc_error why = l->s->why;
-    while (l->evaluations < EDGE_EVALUATIONS && fabs(bad - l->u) > DBL_EPSILON * fabs(bad)) {
+    while (l->evaluations < EDGE_EVALUATIONS) { /* too few of them to come to neighbouring numbers */
         const double good = l->u, mid = bad + (good - bad) / 2;
         const long double f = line_at(l, mid);
         if (l->s->q.error->raised)
@@ -350,7 +372,7 @@ static bool simplex(search *s, size_t free, double step, double size) {
             u[i] = s->fixed[i] ? s->u[i] : sine * sine;
         }
         if (!s->q.error->raised)
-            better(s, u, gsl_multimin_fminimizer_minimum(m) < DBL_MAX ? at(s, u) : (long double)NAN);
+            better(s, u, at(s, u));
     }
     if (m)
         gsl_multimin_fminimizer_free(m);
@@ -383,7 +405,7 @@ static size_t fix_ends(search *s, optimise_end end[N]) {
         for (size_t j = 0; j < N; j++)
             u[j] = s->u[j];
         u[i] = to;
-        if (!s->fixed[i] && fabs(s->u[i] - to) < 1e-3 && (s->u[i] == to || better(s, u, at(s, u)))) {
+        if (fabs(s->u[i] - to) < 1e-3 && (s->u[i] == to || better(s, u, at(s, u)))) {
             /* it may only have begun there */
             u[i] = to > 0 ? 1 - 1e-4 : 1e-4;
             if (better(s, u, at(s, u)))
@@ -460,20 +482,19 @@ static bool newton_step(search *s, const size_t *free, size_t count, gsl_vector 
         if (h[free[a]] < 1e-9)
             return false;
     }
-    if (!differences(s, free, count, h, g, H) || gsl_linalg_cholesky_decomp1(H) ||
-        gsl_linalg_cholesky_solve(H, g, step))
+    if (!differences(s, free, count, h, g, H) || gsl_linalg_cholesky_decomp1(H))
         return false;
+    gsl_linalg_cholesky_solve(H, g, step);
     *length = 0;
     for (size_t k = 0; k < N; k++)
         u[k] = s->u[k];
     for (size_t a = 0; a < count; a++) {
-        u[free[a]] -= gsl_vector_get(step, a);
-        *length = fmax(*length, fabs(gsl_vector_get(step, a)));
-        if (!(u[free[a]] > 0 && u[free[a]] < 1))
+        const double by = gsl_vector_get(step, a), at = u[free[a]];
+        if (!(fabs(by) < fmin(0.1, fmin(at, 1 - at))))
             return false;
+        u[free[a]] -= by;
+        *length = fmax(*length, fabs(by));
     }
-    if (!(*length < 0.1))
-        return false;
     const long double f = at(s, u);
     /* where the value stands still, its slope still tells */
     if (!(f <= s->f + 1e-9L * fabsl(s->f)))
@@ -495,11 +516,11 @@ static bool sharpen(search *s, bool *sharp) {
     gsl_vector *g = gsl_vector_alloc(count), *step = gsl_vector_alloc(count);
     gsl_matrix *H = gsl_matrix_alloc(count, count);
     bool ok = g && step && H;
-    double last = 1, length = 1;
-    for (int i = 0; i < 6 && ok && !*sharp; i++, last = length) {
-        if (!newton_step(s, free, count, g, H, step, &length) || length > last)
+    double length;
+    for (int i = 0; i < 6 && ok && !*sharp; i++) {
+        if (!newton_step(s, free, count, g, H, step, &length))
             break;
-        *sharp = length < 1e-8 || (i > 0 && length * length / last < 1e-15);
+        *sharp = length < 1e-8;
     }
     gsl_vector_free(g);
     gsl_vector_free(step);
@@ -531,7 +552,7 @@ static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     }
     for (size_t i = 0; i < s->of->count; i++)
         free += !s->fixed[i];
-    if (free && !simplex(s, free, 1e-3, 1e-10))
+    if (!simplex(s, free, 1e-3, 1e-10))
         return false;
     if (!end_of_scene(s, out))
         return !s->q.error->raised;

@@ -37,27 +37,24 @@ typedef struct search {
 
 /* left - right. NaN: no value there, or the question has ended. */
 static double difference(search *s, double x) {
-    long double left, right;
+    long double left;
     if (!ask_set(&s->q, &x) || !ask_value(&s->q, s->of->left, &s->d, &s->known, &left))
         return (double)NAN;
-    /* a bare 0 has any dimension */
-    bool known = s->known;
-    dim d = s->d;
     calc_error error;
     value v;
     error_clear(&error);
     if (!expr_eval(s->q.c, s->of->right, &v, &error))
         return ask_failed(&s->q, &error), (double)NAN;
-    right = v.v;
-    if (known && !dim_equal(v.d, d) && !(right == 0 && dim_equal(v.d, DIM_NONE))) {
+    /* a bare 0 has any dimension */
+    if (!dim_equal(v.d, s->d) && !(v.v == 0 && dim_equal(v.d, DIM_NONE))) {
         char is[128], wants[128];
         dim_describe(v.d, is, sizeof is);
-        dim_describe(d, wants, sizeof wants);
+        dim_describe(s->d, wants, sizeof wants);
         calc_fail(s->q.error, s->of->right->at, s->of->right->len,
                   "the left side is %s, the right side is %s", wants, is);
         return (double)NAN;
     }
-    return (double)(left - right);
+    return (double)(left - v.v);
 }
 
 static double middle(const search *s, double a, double b) {
@@ -198,9 +195,6 @@ static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
     int status = gsl_min_fminimizer_set_with_values(method, &f, b.x, fabs(b.f), fmin(a.x, c.x), fabs(a.f),
                                                     fmax(a.x, c.x), fabs(c.f));
     while (!status && s->nearest.f * s->side > 0 && s->q.evaluations + METHOD < SOLVE_EVALUATIONS) {
-        const double lo = gsl_min_fminimizer_x_lower(method), hi = gsl_min_fminimizer_x_upper(method);
-        if (hi - lo < 1e-9 * fabs(s->nearest.x))
-            break;
         status = gsl_min_fminimizer_iterate(method);
         s->nearest.x = gsl_min_fminimizer_x_minimum(method);
         s->nearest.f = s->side * gsl_min_fminimizer_f_minimum(method);
@@ -308,7 +302,7 @@ static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *err
         return false;
     if (status)
         return calc_fail(error, s->of->left->at, s->of->left->len, "no value within the bracket: %s",
-                         s->q.none.raised ? s->q.none.text : gsl_strerror(status));
+                         s->q.none.text);
     return true;
 }
 
@@ -380,9 +374,10 @@ static bool answer(search *s, solve_answer *out, calc_error *error) {
     if (s->roots == 1) {
         if (!refine(s, 0, false, &out->x, error))
             return false;
-        const bool jump = jumps(s, 0, out->x);
-        if (s->q.error->raised || jump)
-            return jump && only_jumps(s, out->x, error);
+        if (jumps(s, 0, out->x))
+            return only_jumps(s, out->x, error);
+        if (s->q.error->raised)
+            return false;
     }
     out->lo = fmin(s->root[0].x, s->other[0].x);
     out->hi = fmax(s->root[0].x, s->other[0].x);

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "calc/rows.h"
 #include "number/real.h"
@@ -69,23 +70,33 @@ static bool gap(state *st, calc_error *error, long double x) {
     return true;
 }
 
-static bool fits(state *st, size_t i, dim d, long double x) {
-    sweep_job *job = st->job;
+/* The first that is found holds for all. */
+static bool is_its_dim(sweep_job *job, size_t i, dim d) {
     if (!job->known[i]) {
         job->known[i] = true;
         job->d[i] = d;
-        return true;
     }
-    if (dim_equal(job->d[i], d))
+    return dim_equal(job->d[i], d);
+}
+
+static void find_dim(sweep_job *job, size_t i) {
+    dim d;
+    if (!job->known[i] && expr_dim(job->c, &job->expressions[i], &d))
+        is_its_dim(job, i, d);
+}
+
+static bool fits(state *st, size_t i, dim d, long double x) {
+    sweep_job *job = st->job;
+    if (is_its_dim(job, i, d))
         return true;
     char is[128], should[128];
     const expr *e = &job->expressions[i];
     dim_describe(d, is, sizeof is);
     dim_unit(job->d[i], should, sizeof should);
     say_where(st, x);
-    return calc_fail(job->error, e->at, e->len, "%.*s is %s: it cannot be shown in %s (%s)",
-                     LEX_SHOWN(e->len), e->text + e->at, is,
-                     job->units && job->units[i] ? job->units[i] : should, job->where);
+    const char *in = job->units && job->units[i] ? job->units[i] : should;
+    return calc_fail(job->error, e->at, e->len, "%.*s is %s: it cannot be shown %s%s (%s)", LEX_SHOWN(e->len),
+                     e->text + e->at, is, *in ? "in " : "as a number", in, job->where);
 }
 
 /* The expressions in the scene as it stands. */
@@ -103,9 +114,9 @@ static bool evaluate_row(state *st, long double x) {
             job->values++;
             continue;
         }
-        if (!gap(st, &error, x) ||
-            (!job->known[i] && expr_dim(job->c, &job->expressions[i], &v.d) && !fits(st, i, v.d, x)))
+        if (!gap(st, &error, x))
             return false;
+        find_dim(job, i);
     }
     return !stopped(st);
 }
@@ -144,8 +155,7 @@ static bool run_block(state *st, const long double *x, size_t rows) {
             return false;
     }
     for (size_t i = 0; i < job->count; i++)
-        if (!eval_block(st, i, x, rows, &d) || (job->known[i] && !dim_equal(job->d[i], d)) ||
-            !fits(st, i, d, x[0]))
+        if (!eval_block(st, i, x, rows, &d) || !is_its_dim(job, i, d))
             return false;
     job->values += rows * job->count;
     return true;
@@ -159,10 +169,8 @@ static bool one_row(state *st, long double x) {
     if (trial_set(st->t, &var, x, &error))
         return evaluate_row(st, x);
     for (size_t i = 0; i < st->job->count; i++) {
-        dim d;
         st->row[i] = (long double)NAN;
-        if (!st->job->known[i] && expr_dim(st->job->c, &st->job->expressions[i], &d) && !fits(st, i, d, x))
-            return false;
+        find_dim(st->job, i);
     }
     return gap(st, &error, x);
 }
@@ -248,12 +256,19 @@ static void open_trial(state *st, calc_error *error) {
         st->t->scene.many = is_many(st);
 }
 
-static bool begin_curve(state *st, long double with, calc_error *error) {
+/* As it went with the one who gives. */
+static void begin_curve(state *st, calc_error *error) {
     knob var = st->s->var;
     var.d = st->range.d;
     open_trial(st, error);
-    return st->t && (!st->s->curves || trial_set(st->t, &st->s->with, with, error)) &&
-           (var.is_input || trial_set(st->t, &var, st->range.lo, error));
+    if (!st->t) /* unreached: memory runs out here alone */
+        _exit(0);
+    if (st->s->curves)
+        trial_set(st->t, &st->s->with, st->with, error);
+    if (!var.is_input)
+        trial_set(st->t, &var, st->range.lo, error);
+    if (error->raised) /* unreached: memory runs out here alone */
+        _exit(0);
 }
 
 /* In a copy, whose state is its own. */
@@ -271,8 +286,7 @@ static bool work(void *context, const void *in, void *out) {
     st->with = p->with;
     if (!same) {
         trial_close(st->t);
-        if (!begin_curve(st, p->with, job->error))
-            _Exit(0);
+        begin_curve(st, job->error);
     }
     st->t->scene.used = 0;
     const bool ok =
@@ -483,7 +497,9 @@ static bool run_curve(state *st) {
     return ok;
 }
 
-bool sweep_nothing(sweep_job *job) {
+bool sweep_has_values(sweep_job *job) {
+    if (job->values > 0)
+        return true;
     *job->error = job->missing;
     calc_append(job->c, job->error, " (%s)", job->where);
     return false;
@@ -512,5 +528,5 @@ bool sweep_run(const sweep *s, sweep_job *job) {
     free(st.scenes);
     if (!job->part)
         sweep_end(job);
-    return ok && (job->part || job->values > 0 || !job->missing.raised || sweep_nothing(job));
+    return ok && (job->part || sweep_has_values(job));
 }

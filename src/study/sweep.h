@@ -70,8 +70,8 @@ long double sweep_value(const sweep *s, const sweep_range *r, long double part);
 /* Around the sweeps that are parts of one job: of so many rows in all. */
 void sweep_begin(sweep_job *job, size_t rows);
 void sweep_end(sweep_job *job);
-/* The error of a sweep without any value; false. */
-bool sweep_nothing(sweep_job *job);
+/* False: not one, which is an error. */
+bool sweep_has_values(sweep_job *job);
 /* Appends the load of a range to the program of a trial; `from` gets where it begins. */
 bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error);
 

@@ -4,8 +4,8 @@
 #include "study/team.h"
 
 #include <errno.h>
+#include <math.h>
 #include <poll.h>
-#include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -35,6 +35,7 @@ struct team {
     int given[2], done[2]; /* the first end is read, by the workers and by the one who gives */
     char *sheet;
     size_t in_at, out_at, size; /* of a place */
+    size_t all;                 /* bytes; the sheet lies behind what it belongs to */
     bool alone;                 /* a worker is gone */
 };
 
@@ -48,8 +49,7 @@ static unsigned cores(const calc *c) {
     static long there; /* asked once: the system reads a file for it */
     if (!there)
         there = sysconf(_SC_NPROCESSORS_ONLN);
-    const long n = c->cores ? (long)c->cores : there;
-    return n < 1 ? 1 : n > WORKERS ? WORKERS : (unsigned)n;
+    return (unsigned)fmin(c->cores ? c->cores : fmax((double)there, 1), WORKERS);
 }
 
 bool team_pays(const calc *c, double taken, double done, double all) {
@@ -92,7 +92,7 @@ static void leave_signals(const sigset_t *before) {
     sigprocmask(SIG_SETMASK, before, NULL);
 }
 
-static void work(team *t, const sigset_t *before, pid_t giver) {
+static void work(const team *t, const sigset_t *before, pid_t giver) {
     unsigned char i;
     leave_signals(before);
 #ifdef __linux__
@@ -102,12 +102,12 @@ static void work(team *t, const sigset_t *before, pid_t giver) {
     close(t->done[0]);
     t->job.c->cores = 1;
     t->job.c->scene.pulse = t->job.c->now->pulse = NULL;
-    while (getppid() == giver && passes(t->given[0], &i, true)) {
+    for (;;) {
+        if (getppid() != giver || !passes(t->given[0], &i, true)) /* unreached: killed with whoever gives */
+            _exit(0); /* what is buffered is the other's to write */
         place_at(t, i)->of_use = t->job.work(t->job.context, in_of(t, i), out_of(t, i));
-        if (!passes(t->done[1], &i, false))
-            break;
+        passes(t->done[1], &i, false);
     }
-    _exit(0); /* what is buffered is the other's to write */
 }
 
 /* ---- the one who gives ------------------------------------------------------------------------- */
@@ -118,16 +118,16 @@ static void close_end(int *fd) {
     *fd = -1;
 }
 
-static bool start(team *t) {
+static bool start(team *t, unsigned wanted) {
     sigset_t all, before;
     const pid_t giver = getpid();
-    const unsigned wanted = cores(t->job.c);
+    const team own = *t; /* a worker's: this one is seen by all */
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, &before);
     while (t->workers < wanted) {
         const pid_t id = fork();
         if (id == 0)
-            work(t, &before, giver);
+            work(&own, &before, giver);
         if (id < 0)
             break;
         t->worker[t->workers++] = id;
@@ -138,26 +138,25 @@ static bool start(team *t) {
     return t->workers > 0;
 }
 
-static bool open_all(team *t, unsigned wanted) {
-    t->places = AHEAD * wanted;
-    t->in_at = aligned(sizeof(place));
-    t->out_at = t->in_at + aligned(t->job.in);
-    t->size = t->out_at + aligned(t->job.out);
-    void *sheet = mmap(NULL, t->places * t->size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (sheet == MAP_FAILED)
-        return false;
-    t->sheet = sheet;
+static bool open_all(team *t) {
     return !socketpair(AF_UNIX, SOCK_STREAM, 0, t->given) && !socketpair(AF_UNIX, SOCK_STREAM, 0, t->done);
 }
 
 team *team_begin(const team_job *job) {
     const unsigned wanted = cores(job->c);
-    team *t = wanted > 1 ? calloc(1, sizeof *t) : NULL;
-    if (!t)
+    team fresh = {.job = *job, .given = {-1, -1}, .done = {-1, -1}, .places = AHEAD * wanted};
+    if (wanted < 2)
         return NULL;
-    t->job = *job;
-    t->given[0] = t->given[1] = t->done[0] = t->done[1] = -1;
-    if (!open_all(t, wanted) || !start(t)) {
+    fresh.in_at = aligned(sizeof(place));
+    fresh.out_at = fresh.in_at + aligned(job->in);
+    fresh.size = fresh.out_at + aligned(job->out);
+    fresh.all = aligned(sizeof fresh) + fresh.places * fresh.size;
+    team *t = mmap(NULL, fresh.all, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (t == MAP_FAILED)
+        return NULL;
+    *t = fresh;
+    t->sheet = (char *)t + aligned(sizeof fresh);
+    if (!open_all(t) || !start(t, wanted)) {
         team_end(t);
         return NULL;
     }
@@ -181,9 +180,7 @@ void team_end(team *t) {
         close_end(&t->given[i]);
         close_end(&t->done[i]);
     }
-    if (t->sheet)
-        munmap(t->sheet, t->places * t->size);
-    free(t);
+    munmap(t, t->all);
 }
 
 static bool stopped(const team *t) {
@@ -192,13 +189,12 @@ static bool stopped(const team *t) {
 
 /* A process that has ended was short of memory, or was killed: the rest is done here. */
 static void look_after(team *t) {
-    for (unsigned i = 0; i < t->workers && !t->alone; i++)
+    for (unsigned i = 0; i < t->workers; i++)
         if (waitpid(t->worker[i], NULL, WNOHANG) == t->worker[i]) {
             t->worker[i] = t->worker[--t->workers];
             t->alone = true;
+            dismiss(t); /* there is no next one then */
         }
-    if (t->alone)
-        dismiss(t);
 }
 
 /* Until one more part is done, the run is to stop, or there are no others any more. */

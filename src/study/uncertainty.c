@@ -119,9 +119,7 @@ typedef struct portion {
 
 typedef struct outcome {
     unsigned used;
-    bool missing; /* a value is */
-    bool known[UNCERTAIN_VALUES];
-    dim d[UNCERTAIN_VALUES];
+    bool missing;                        /* a value is */
     double v[SAMPLES][UNCERTAIN_VALUES]; /* NaN: there is none */
 } outcome;
 
@@ -165,19 +163,7 @@ static bool evaluate(void *context, const void *in, void *out) {
     }
     o->used = s->q.t->scene.used;
     o->missing = missing->raised;
-    for (size_t k = 0; k < s->of->expressions; k++) {
-        o->known[k] = s->known[k];
-        o->d[k] = s->d[k];
-    }
     return !s->q.error->raised;
-}
-
-/* Dimensions are those of the present inputs, where every value is known. */
-static bool agrees(const state *s, const outcome *o) {
-    for (size_t k = 0; k < s->of->expressions; k++)
-        if (!o->known[k] || !dim_equal(o->d[k], s->d[k]))
-            return false;
-    return true;
 }
 
 static bool count(void *context, size_t part, const void *in, const void *out) {
@@ -187,7 +173,7 @@ static bool count(void *context, size_t part, const void *in, const void *out) {
     const outcome *o = out;
     outcome own;
     (void)part;
-    if (!o || !agrees(s, o) || (o->missing && !m->answer->missing.raised)) {
+    if (!o || (o->missing && !m->answer->missing.raised)) {
         const calc_error before = m->answer->missing;
         const unsigned used = s->q.t->scene.used;
         const double began = team_clock();

@@ -57,6 +57,36 @@ def edges(tests):
         tests.check(question + ": tells the edge", scene == ("dW" in question), tests.report(done))
 
 
+# what is found, and where where there is one such place; of an edge and of a kink to 1e-7 of the range
+OPTIMA = (
+    # the best two places of the grid are as good as each other: it lies between them
+    ("minimize (x - 7.5)^4 over x = 0 .. 16", 0, {"x": 7.5}), ("minimize abs(x - 7.5) over x = 0 .. 16", 0, {"x": 7.5}),
+    ("maximize min(x, 15 - x) over x = 0 .. 16", 7.5, {"x": 7.5}),
+    ("minimize sqrt(abs(x - 7.5)) + 3 over x = 0 .. 16", 3, {"x": 7.5}),
+    ("minimize (x - 7)^2*(x - 8)^2 over x = 0 .. 16", 0, {}), ("minimize max(0.1, abs(x - 0.5)) over x = 0 .. 1", 0.1, {}),
+    ("minimize max(3, abs(x - 7.5)) over x = 0 .. 16", 3, {}),
+    # close to an end
+    ("minimize x + 1e-17/x over x = 0 .. 1", 2 * math.sqrt(1e-17), {"x": math.sqrt(1e-17)}),
+    ("minimize (x - 7e-5)^2 + (y - 0.5)^2 over x = 0 .. 1, y = 0 .. 1", 0, {"x": 7e-5, "y": 0.5}),
+    # a well that only a step from the end meets
+    ("minimize x - max(0, 1 - abs(x - 1e-4)*2e5) + (y - 0.5)^2 over x = 0 .. 1, y = 0 .. 1", 1e-4 - 1, {"x": 1e-4, "y": 0.5}),
+    # a valley that is bent, and steep beside it
+    ("minimize (x + 0.95162134640691609)^2 + 30*(y - 1.9999666292938245 - (x + 0.95162134640691609)^2)^2 + "
+     "30*(z - 6.5344410018999959 - (x + 0.95162134640691609)^2)^2 over x = -1 .. -0.9, y = 1 .. 2, z = 0.001 .. 10", 0, {}),
+    # an edge of the scene, and the end of a range on it
+    ("maximize 10*y + x + 0*sqrt(1.5 - x - y) over x = 0 .. 1, y = 0 .. 1", 10.5, {"x": 0.5, "y": 1}),
+    ("maximize 10*x + y + 0*sqrt(1.5 - x - y) over x = 0 .. 1, y = 0 .. 1", 10.5, {"x": 1, "y": 0.5}))
+
+
+def optima(tests):
+    """What is known without a search."""
+    for statement, value, place in OPTIMA:
+        values, _, done = run_json(tests, statement + "\n")
+        got = {v["name"]: v["value"] for v in values}
+        tests.check(statement, values and abs(values[-1]["value"] - value) < 1e-7 * max(1, abs(value))
+                    and all(abs(got[name] - v) < 1e-7 * max(1, abs(v)) for name, v in place.items()), tests.report(done))
+
+
 def damper(tests):
     by = {}
     for row in table("damper.csv"):
@@ -171,6 +201,18 @@ def header(tests):
                 str(model))
 
 
+def bent(tests):
+    """Where nothing stands at first order, or only close to the present value."""
+    for script, deviation, spread in (("x = 0; uncertainty 2*x + 1 with x +- 0.1", 0.2, None),
+                                      ("x = 0; uncertainty x^3 with x +- 0.1", 0, math.sqrt(15) * 1e-3),
+                                      ("x = 1; uncertainty sqrt(x - 0.9995) with x +- 0.1", 0.05 / math.sqrt(0.0005), None)):
+        values, events, done = run_json(tests, script + "\n")
+        events = [e for e in events if e["event"] == "uncertainty"]
+        tests.check(script, events and abs(events[0]["deviation"] - deviation) < 1e-9 * max(deviation, 1e-6)
+                    and (spread is None or (events[0]["Monte Carlo"]["differs"]
+                                            and abs(events[0]["Monte Carlo"]["deviation"] / spread - 1) < 0.05)), tests.report(done))
+
+
 def linear(tests):
     """First order and Monte Carlo agree where nothing bends."""
     values, events, done = run_json(
@@ -229,10 +271,12 @@ def told(tests):
 def run(tests):
     questions(tests)
     edges(tests)
+    optima(tests)
     damper(tests)
     other_shapes(tests)
     jenkins(tests)
     header(tests)
     linear(tests)
+    bent(tests)
     stays(tests)
     told(tests)

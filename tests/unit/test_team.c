@@ -143,8 +143,9 @@ static void nothing_to_be_had(calc *c) {
     close(next);
     limited(c, RLIMIT_NOFILE, (rlim_t)next);     /* no socket */
     limited(c, RLIMIT_NOFILE, (rlim_t)next + 2); /* one pair of two */
-    c->cores = 1;
     errand e = begin();
+    CHECK(team_begin(&(team_job){.c = c, .out = (size_t)1 << 46, .work = work, .context = &e}) == NULL);
+    c->cores = 1;
     CHECK(team_of(c, &e) == NULL && !team_pays(c, 1, 1, 1e6));
     c->cores = 1000; /* as many as there is room for */
     team *t = team_of(c, &e);
