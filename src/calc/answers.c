@@ -39,18 +39,28 @@ static bool press_by(scene *s, const fret_normal *normal, fret_press *out, calc_
     return calc_status(error, &st);
 }
 
-/* Chords of a swinging load are many, and so are the rows of some tables; a power law needs nothing of the
+/* The largest F_N of the load; a gap that does not carry it refuses it where it comes to it. */
+static double force_of_load(const load_reach *reach, const fret_normal *normal, const fret_press *press) {
+    const double dz = fmax((double)press->dz, reach->dz_most) + reach->dz_more;
+    const double FN = fmax((double)press->F, reach->FN_most) + reach->FN_more;
+    fret_press deepest;
+    return dz == (double)press->dz || fret_press_by_depth(normal, dz, &deepest).code
+               ? FN
+               : fmax(FN, (double)deepest.F);
+}
+
+/* Values along an oblique path are many, and so are the rows of some tables; a power law needs nothing of the
  * kind. */
 static bool normal_of_load(scene *s, const load_reach *reach, const fret_normal **out, calc_error *error) {
     fret_press press;
     if (!scene_normal(s, out, error))
         return false;
-    const bool asked = s->many || reach->swings;
+    const bool asked = s->many || reach->oblique;
     if (fret_normal_is_power(*out) || (!asked && !fret_normal_dense(*out, fret_normal_end(*out))))
         return true;
     return press_by(s, *out, &press, error) &&
            ((!asked && !fret_normal_dense(*out, press.a)) ||
-            scene_many_normal(s, fmax((double)press.F, reach->FN_most) + reach->FN_more, out, error));
+            scene_many_normal(s, force_of_load(reach, *out, &press), out, error));
 }
 
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {

@@ -374,12 +374,17 @@ static void reach_step(load_reach *r, const load_step *step, unsigned times) {
     r->most = fmax(r->most, size);
     r->end = v;
     r->normal_varies = r->normal_varies || load_moves_normal(step);
+    r->oblique = r->oblique || (load_moves_normal(step) && r->by);
     if (step->kind == LOAD_CYCLE)
         r->FN_more = fmax(r->FN_more, fabs(step->normal_value));
     else if (step->normal == BY_FORCE && step->relative & RELATIVE_NORMAL)
         r->FN_more += fmax(step->normal_value, 0);
     else if (step->normal == BY_FORCE)
         r->FN_most = fmax(r->FN_most, step->normal_value);
+    else if (step->normal == BY_DISPLACEMENT && step->relative & RELATIVE_NORMAL)
+        r->dz_more += fmax(step->normal_value, 0);
+    else if (step->normal == BY_DISPLACEMENT)
+        r->dz_most = fmax(r->dz_most, step->normal_value);
     if (step->kind == LOAD_CYCLE) { /* a second period is closed whatever came before */
         r->closed = r->first || times > 1;
         r->swings = r->swings || step->normal_value != 0;

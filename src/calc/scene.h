@@ -23,7 +23,9 @@ typedef struct load_reach {
     double end;         /* where it ends */
     bool closed;        /* the last period of the last cycle returned to the state that it began in */
     bool normal_varies; /* some step changes F_N */
+    bool oblique;       /* of a contact that is, or comes to be, under F_x */
     double FN_most, FN_more; /* largest F_N that a step asks for; what steps and swings may add */
+    double dz_most, dz_more; /* the same for delta_z */
     bool swings;             /* a cycle does */
     size_t last_cycle;       /* its index, or NO_CYCLE */
 } load_reach;

@@ -377,11 +377,11 @@ const char *model_text(size_t id) {
             "step Fx=20 N\n    fret> qx(0.1 mm)\n    qx(0.1 mm) = 141.911 MPa\n",
         [MODEL_PIECES] =
             "The law FN(dz) of a gap without a formula as polynomials, piece by piece: made where\n"
-            "many values of one contact are asked for, 32 rows of a table or a swinging FN, and\n"
-            "of 10,000 rows and more in contact. They agree with the quadrature to 2e-15; of rows\n"
-            "that are shown as text, to a hundredth of the last digit; of more than 10,000 rough\n"
-            "rows in contact, FN(dz) to what `set timing on` tells, and the loss of an amplitude\n"
-            "that is a small part s of gross slip to some 10/s^2 of that.\n\n" EXAMPLE
+            "many values of one contact are asked for: by 32 rows of a table, by steps of FN\n"
+            "under Fx, and of 10,000 rows and more in contact. They agree with the quadrature to\n"
+            "2e-15; of rows that are shown as text, to a hundredth of the last digit; of more than\n"
+            "10,000 rough rows in contact, FN(dz) to what `set timing on` tells, and the loss of an\n"
+            "amplitude that is a small part s of gross slip to some 10/s^2 of that.\n\n" EXAMPLE
             "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
             "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"

@@ -5,6 +5,7 @@ import re
 STEEL = "material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4\n"
 PRESSED = STEEL + "press FN=100 N\n"
 SUM = "material steel; friction 0.4; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=10 N; cycle FA=1 N FNA=1 N\n"
+FLAT = "material steel; friction 0.4; geometry flat-rounded b=0.1 mm R=10 mm; press FN=10 N\n"
 # a scene, what is explained, lines that are there (as regular expressions), and those that are not
 TOLD = (
     (PRESSED, "2*dW(20 N)", ("dW: energy dissipated per cycle", r"    dW\(20 N\) = 1\.90646 uJ", r"    2\*dW\(20 N\) = 3\.81291 uJ"), ()),
@@ -30,6 +31,9 @@ TOLD = (
     ("geometry power n=2 A=50 m^-1\n", "p", ("    n = 2", "    A = 50 .*"), ("    h = ",)),
     (SUM, "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
     (SUM + "W\n", "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
+    (FLAT + "step FN=12 N Fx=1 N\n", "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
+    (FLAT + "step Fx=1 N; step dz=2 um\n", "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
+    (FLAT + "step FN=12 N; step Fx=1 N\n", "W", ("    model: memory diagram.*",), ("    law of the gap: ",)),
     # what was given before, and is not the geometry's
     (PRESSED + "c0 = 1 mm; geometry cone slope=0.1\n", "a", ("    slope = 0.1",), ("    c0 = ", "    R = ")),
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "dW(5 N)", ("    FN now = 110 N", "    FNA = 10 N", "    no effect: .*FA.*"), ("    FA = 9 N",)),
