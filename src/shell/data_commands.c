@@ -167,8 +167,9 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, range_name
         const quantity *of = quantity_find(of_file->name, strlen(of_file->name));
         if ((of && !quantity_is_input(of)) || (!of && name_taken(of_file->name, strlen(of_file->name))))
             continue;
-        if (!range_wake(sh, &lx, names) || !knob_name(&sh->calc, &lx, k))
+        if (!range_wake(sh, &lx, names))
             return calc_no_memory(error);
+        knob_name(&sh->calc, &lx, k); /* there is one */
         if (k->is_input && !calc_takes(&sh->calc, k->in, &useless))
             continue;
         if (k->is_input && !dim_equal(k->d, of_file->d))
@@ -195,9 +196,13 @@ static bool ambiguous(const csv *data, const expr *e, calc_error *error) {
 static bool uses_columns(const shell *sh, const fit_question *q) {
     for (size_t i = 0; i < q->columns; i++) {
         const knob *k = &q->column[i].name;
-        const quantity *of = k->is_input ? quantity_of_input(k->in) : NULL;
-        if (expr_mentions(&sh->calc, q->left, of, of ? NULL : k->text) ||
-            expr_mentions(&sh->calc, q->right, of, of ? NULL : k->text))
+        const quantity *of = NULL;
+        const char *own = k->text;
+        if (k->is_input) {
+            of = quantity_of_input(k->in);
+            own = NULL;
+        }
+        if (expr_mentions(&sh->calc, q->left, of, own) || expr_mentions(&sh->calc, q->right, of, own))
             return true;
     }
     return false;
@@ -499,12 +504,11 @@ static bool print_uncertain(shell *sh, const uncertainty_question *q, const unce
 
 /* A swinging normal force takes a thousand times as long. */
 static unsigned usual_samples(shell *sh) {
-    const load_reach *reach;
+    const load_reach *reach = &(load_reach){.swings = false};
     calc_error ignored;
     error_clear(&ignored);
-    return sh->calc.scene.end.steps && scene_reach(&sh->calc.scene, &reach, &ignored) && reach->swings
-               ? 200
-               : 10000;
+    scene_reach(&sh->calc.scene, &reach, &ignored);
+    return reach->swings ? 200 : 10000;
 }
 
 bool do_uncertainty(shell *sh, lexer *lx, const command *self) {

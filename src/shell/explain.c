@@ -176,8 +176,8 @@ static void put_inputs(const page *p, const quantity *q, const influence_study *
         error_clear(&ignored);
         const bool set = s->in.set[in] || (s->in.bindings & INPUT_BIT(in));
         if (set && row != q && (q->reads & ~of_load & INPUT_BIT(in)) &&
-            (in < IN_N || inputs_take(&s->in, in)) && !(in == IN_C0 && s->in.v[IN_K] == 0) &&
-            has_effect(study, in) && had(p, scene_get(s, in, &v.v, &ignored), &ignored))
+            !(in == IN_C0 && s->in.v[IN_K] == 0) && has_effect(study, in) &&
+            had(p, scene_get(s, in, &v.v, &ignored), &ignored))
             put_value(p, row->name, strlen(row->name), v);
     }
 }

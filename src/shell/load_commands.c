@@ -251,10 +251,11 @@ static bool follow_rows(shell *sh, const csv *data, const followed *kind, const 
         bool ok = scene_load(s, &step, NULL, error);
         if (ok && shell_stop)
             ok = calc_interrupted(error);
-        if (!ok && !error->stop)
-            calc_append(&sh->calc, error, " (row %zu of %.200s)", row + 1, data->path);
-        if (!ok)
+        if (!ok) {
+            if (!error->stop)
+                calc_append(&sh->calc, error, " (row %zu of %.200s)", row + 1, data->path);
             return false;
+        }
     }
     progress_part(-1); /* what springs make of it is not known yet */
     return true;

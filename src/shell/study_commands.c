@@ -14,11 +14,10 @@ const char study_library[] = "";
 /* ---- what they share --------------------------------------------------------------------------- */
 
 /* Answers as printed values are, and remembered as `ans`. */
-static bool print_answers(shell *sh, column *columns, const long double *si, size_t count) {
+static void print_answers(shell *sh, column *columns, const long double *si, size_t count) {
     print_values(&sh->set, sh->out, columns, si, count);
     sh->calc.ans = (value){si[count - 1], columns[count - 1].d};
     sh->calc.has_ans = true;
-    return true;
 }
 
 /* A knob where it was found, as a column. */
@@ -83,10 +82,11 @@ bool do_solve(shell *sh, lexer *lx, const command *self) {
     column c = {.name = NULL};
     (void)self;
     bool ok = (lx->kind != T_NAME || range_wake(sh, lx, &names)) && read_solve(sh, lx, &q) &&
-              solve(&q, &a, lx->error) && knob_column(&c, &q.name, lx->error) &&
-              print_answers(sh, &c, &(long double){a.x}, 1);
-    if (ok)
+              solve(&q, &a, lx->error) && knob_column(&c, &q.name, lx->error);
+    if (ok) {
+        print_answers(sh, &c, &(long double){a.x}, 1);
         report_solve(sh, &q, &a);
+    }
     columns_free(&c, 1);
     range_forget(sh, &names);
     return ok;

@@ -24,7 +24,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(
 from screen import Screen  # noqa: E402
 
 POWER = "material E0=210 GPa nu=0.3 k=0.5 c0=1 mm; geometry sphere R=10 mm; friction 0.4; x = 3; F(y) := y^2"
-LOADED = POWER + "; long := x*dW; press FN=100 N; step Fx=20 N; cycle FA=20 N"
+LOADED = POWER + "; long := x*dW" + 40 * " + 0*dW" + "; press FN=100 N; step Fx=20 N; cycle FA=20 N"
 TABLE = "material steel; friction 0.4; geometry file gap.csv; press FN=10 N; cycle FA=2 N"
 SUM = "material steel; friction 0.4; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=10 N; step Fx=1 N"
 NAMES = "x = 1; y = 2; q = 3; z = 4"
@@ -63,7 +63,7 @@ STATEMENTS = (
               "set format json; plot loop", "set format json; animate loop frames 3",
               "plot dW(force) for force = 1 N .. 20 N steps 5 to out.gp", "plot accuracy within 0.001",
               "animate loop along cycle FA=10 N frames 3 to out.gif", "animate Fx/width against dx along program with width = 1 N, 2 N frames 2 to out.gif",
-              "explain long", "set digits 9; set plot 70x20; set pager off; record log.txt",
+              "explain 2*long", "set digits 9; set plot 70x20; set pager off; record log.txt",
               "save out.fret", "record log.txt", "record out.cast", "show", "press FN=50 N", "geometry cone slope=0.1",
               "quit")),
     (STEEL, ("solve FN for a = 0.2 mm", "maximize dWd(0.5 um) over FN = 1 N .. 100 N",

@@ -433,6 +433,10 @@ def units(tests):
     tests.check("columns in mm", head.split(",") == ["a [mm]", "a deviation [mm]", "a from E0", "a from FN", "dz [m]",
                                                      "dz deviation [m]", "dz from E0", "dz from FN"] and
                 abs(float(row.split(",")[0]) - 0.186626) < 1e-6 and abs(float(row.split(",")[2]) + float(row.split(",")[3]) - 1) < 1e-12, tests.report(done))
+    sampled = [tests.run("--format=json", "-c", "x = 2; uncertainty x^2 with x +- 0.1 samples 50" + seed).stdout for seed in ("", " seed 1", " seed 2")]
+    tests.check("a seed tells which samples", sampled[0] == sampled[1] != sampled[2], str(sampled))
+    done = tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=9 N FNA=10 N; set timing on; uncertainty W with mu +- 0.01")
+    tests.check("fewer samples where F_N swings", "differences of sixth order and 200 samples (seed 1)" in done.stderr, tests.report(done))
     done = tests.run("-c", "x = 2; uncertainty x^2, x with x +- 0.1 samples 50; fit x for y = x*u to %s" % write(tests, "units.csv", "u,y", STRAIGHT))
     tests.check("no load is needed", done.returncode == 0 and done.stdout.startswith("x^2 = 4 +- 0.4\n"), tests.report(done))
 
