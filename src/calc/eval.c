@@ -580,7 +580,7 @@ bool expr_way(const calc *c, const expr *e, const char *name, char *way, size_t 
     return mentions(c, e, NULL, name, way, size);
 }
 
-const quantity *expr_quantity(const expr *e, size_t i, bool *call) {
+const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at) {
     for (size_t j = 0; j < e->count; j++) {
         const expr_node *n = &e->nodes[j];
         if (n->kind != N_QUANTITY && n->kind != N_CALL)
@@ -590,6 +590,7 @@ const quantity *expr_quantity(const expr *e, size_t i, bool *call) {
             again = again || (e->nodes[k].q == n->q && e->nodes[k].kind == n->kind);
         if (!again && i-- == 0) {
             *call = n->kind == N_CALL;
+            *at = n->at;
             return n->q;
         }
     }

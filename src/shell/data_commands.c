@@ -184,7 +184,8 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, range_name
 static bool ambiguous(const csv *data, const expr *e, calc_error *error) {
     const quantity *of;
     bool call;
-    for (size_t i = 0; (of = expr_quantity(e, i, &call)); i++)
+    size_t at;
+    for (size_t i = 0; (of = expr_quantity(e, i, &call, &at)); i++)
         if (!call && !quantity_is_input(of) && csv_has(data, of->name)) {
             calc_fail(error, e->at, e->len,
                       "%s is a result of the scene and a column of the file: rename the column", of->name);

@@ -351,16 +351,13 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
 
 /* ---- the expression ---------------------------------------------------------------------------- */
 
-/* The first call of the quantity in the text, where there is one. */
-static part find_call(const expr *e, const quantity *q) {
+/* The call of the quantity at this place. */
+static part call_at(const expr *e, const quantity *q, size_t at) {
     calc_error ignored;
     lexer lx;
     error_clear(&ignored);
     lex_start(&lx, e->text, e->at + e->len, &ignored);
-    lex_seek(&lx, e->at);
-    while (!lex_is(&lx, q->name) || lex_peek(&lx) != T_OPEN)
-        lex_next(&lx);
-    const size_t begin = lx.at;
+    lex_seek(&lx, at);
     lex_next(&lx);
     const size_t open = lx.at;
     for (int depth = 1; depth > 0;) {
@@ -369,18 +366,19 @@ static part find_call(const expr *e, const quantity *q) {
     }
     return (part){.q = q,
                   .call = true,
-                  .text = e->text + begin,
-                  .len = lx.at + 1 - begin,
-                  .argument = open + 1 - begin,
+                  .text = e->text + at,
+                  .len = lx.at + 1 - at,
+                  .argument = open + 1 - at,
                   .argument_len = lx.at - open - 1};
 }
 
 static bool part_of(const expr *e, size_t i, part *out) {
     bool call;
-    const quantity *q = expr_quantity(e, i, &call);
+    size_t at;
+    const quantity *q = expr_quantity(e, i, &call, &at);
     if (!q)
         return false;
-    *out = call ? find_call(e, q) : (part){.q = q, .text = q->name, .len = strlen(q->name)};
+    *out = call ? call_at(e, q, at) : (part){.q = q, .text = q->name, .len = strlen(q->name)};
     return true;
 }
 
@@ -479,6 +477,7 @@ static const quantity *bare_name(const lexer *lx) {
 /* What is to be explained, `e`, in the scene as it is, or as `at` changes it: a trial, then. */
 static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v) {
     bool call;
+    size_t first;
     const size_t at = lx->at;
     expr *whole = &sh->list[0];
     if (!expr_parse_at(&sh->calc, lx, whole) || !at_end(lx))
@@ -487,7 +486,7 @@ static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **a
     if (!expr_changed(&sh->calc, meant, t, e, lx->error))
         return calc_place(lx->error, at, whole->len);
     *asked = meant == whole ? *e : whole;
-    if (!expr_quantity(*e, 0, &call) && !expr_definition(&sh->calc, *e, 0) && !(*e)->ats)
+    if (!expr_quantity(*e, 0, &call, &first) && !expr_definition(&sh->calc, *e, 0) && !(*e)->ats)
         return calc_fail(lx->error, at, whole->len, "explain which quantity? try: explain dW");
     return expr_eval(&sh->calc, *e, v, lx->error) || calc_place(lx->error, at, whole->len);
 }
