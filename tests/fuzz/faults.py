@@ -62,7 +62,7 @@ STATEMENTS = (
               "animate loop frames 3 to out.gif", "animate loop frames 3",
               "set format json; plot loop", "set format json; animate loop frames 3",
               "plot dW(force) for force = 1 N .. 20 N steps 5 to out.gp", "plot accuracy within 0.001",
-              "animate loop along cycle FA=10 N frames 3 to out.gif", "animate Fx/width against dx along program with width = 1 N, 2 N frames 2 to out.gif",
+              "animate loop along cycle FA:=FN/10 frames 3 to out.gif", "animate Fx/width against dx along program with width = 1 N, 2 N frames 2 to out.gif",
               "explain 2*long", "set digits 9; set plot 70x20; set pager off; record log.txt",
               "save out.fret", "record log.txt", "record out.cast", "show", "press FN=50 N", "geometry cone slope=0.1",
               "quit")),
