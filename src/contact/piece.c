@@ -10,6 +10,16 @@ stretch fret_stretch_join(const stretch *a, const stretch *b) {
                      a->L + b->L + b->h * a->G + a->h * (b->h * b->K - b->G)};
 }
 
+void fret_stretch_add_runs(stretch *const run[RUNS], size_t from, size_t to, stretch *sum) {
+    while (from > to) {
+        int l = 0;
+        while (from % ((size_t)2 << l) == 0 && from - ((size_t)2 << l) >= to && from >= (size_t)2 << l)
+            l++;
+        *sum = fret_stretch_join(sum, &run[l][(from >> l) - 1]);
+        from -= (size_t)1 << l;
+    }
+}
+
 /* ---- polynomials ------------------------------------------------------------------------------- */
 
 polynomial fret_polynomial_of(const fret_real *c) {

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One piece of the law of a contact as polynomials, and the object of all of them. Not installed. */
+/* One piece of the law of a contact as polynomials, and the object of all of them, which contacts share. Not
+ * installed. */
 #ifndef FRET_CONTACT_PIECE_H
 #define FRET_CONTACT_PIECE_H
+
+#include <stdatomic.h>
 
 #include "contact/normal.h"
 
@@ -38,19 +41,30 @@ typedef struct piece {
 } piece;
 /* Lengths of runs: powers of two. */
 enum { RUNS = 40 };
-struct fret_pieces {
-    const fret_normal *normal; /* borrowed: its owner's */
+struct fret_rows;
+typedef struct law {
+    atomic_size_t users;
     size_t count, room;
-    piece *piece;       /* from the centre outwards */
-    fret_real *reach;   /* the outer ends: distance, then depth, then load, `count` each */
-    stretch *run[RUNS]; /* run[l][i]: the 2^l pieces from i 2^l on */
-    fret_level least;   /* inner end of the first */
-    stretch core;       /* within */
+    piece *piece;             /* from the centre outwards */
+    fret_real *reach;         /* the outer ends: distance, then depth, then load, `count` each */
+    stretch *run[RUNS];       /* run[l][i]: the 2^l pieces from i 2^l on */
+    struct fret_rows *rows;   /* beyond the pieces; or NULL */
+    fret_level least;         /* inner end of the first */
+    stretch core;             /* within */
+    fret_real start, K_start; /* of the gap, and K there */
     fret_real from, error, deep;
+} law;
+
+/* Loads are those of the law times `scale`. */
+struct fret_pieces {
+    law *law;
+    fret_real scale;
 };
 
 /* Outer part first. */
 stretch fret_stretch_join(const stretch *outer, const stretch *inner);
+/* Adds to `sum` the runs below number `from`, down to and with number `to`. */
+void fret_stretch_add_runs(stretch *const run[RUNS], size_t from, size_t to, stretch *sum);
 
 /* From TERMS powers of z. */
 polynomial fret_polynomial_of(const fret_real *c);

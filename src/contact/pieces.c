@@ -3,12 +3,13 @@
 #include "contact/pieces.h"
 
 #include "contact/piece.h"
+#include "contact/rows.h"
 #include "number/real.h"
 
 enum { BY_DISTANCE, BY_DEPTH, BY_LOAD };
 
 /* The piece that holds a value; false: none does. */
-static bool find(const struct fret_pieces *all, int by, fret_real value, size_t *found) {
+static bool find(const law *all, int by, fret_real value, size_t *found) {
     const fret_real *reach = all->reach + (size_t)by * all->count;
     const fret_real least = by == BY_DISTANCE ? all->from : by == BY_DEPTH ? all->least.y : all->least.F;
     if (!(value > least && value <= reach[all->count - 1]))
@@ -23,39 +24,47 @@ static bool find(const struct fret_pieces *all, int by, fret_real value, size_t 
     return true;
 }
 
-bool fret_pieces_point(const struct fret_pieces *all, bool by_force, fret_real value, fret_point *out) {
+static bool point_of(const law *all, int by, fret_real value, fret_point *out) {
     size_t i;
     fret_real rate;
-    if (!find(all, by_force ? BY_LOAD : BY_DEPTH, value, &i))
+    fret_spot s;
+    if (all->rows && fret_rows_find(all->rows, by == BY_LOAD ? SPOT_LOAD : SPOT_DEPTH, value, &s)) {
+        *out = (fret_point){s.at.y, s.at.F, all->start + s.e, fret_rows_stiffness(all->rows, &s)};
+        return true;
+    }
+    if (!find(all, by, value, &i))
         return false;
     const piece *p = &all->piece[i];
-    const fret_real z = fret_piece_place(p, by_force, value);
-    out->y = by_force ? p->inner.y + fret_polynomial_at(&p->rise[DEPTHS], z) : value;
-    out->F = by_force ? value : p->inner.F + fret_polynomial_at(&p->rise[LOADS], z);
+    const fret_real z = fret_piece_place(p, by == BY_LOAD ? LOADS : DEPTHS, value);
+    out->y = by == BY_LOAD ? p->inner.y + fret_polynomial_at(&p->rise[DEPTHS], z) : value;
+    out->F = by == BY_LOAD ? value : p->inner.F + fret_polynomial_at(&p->rise[LOADS], z);
     out->K = p->K_inner + fret_polynomial_at(&p->K, z);
-    out->a = fret_gap_start(&all->normal->gap) + fret_piece_distance(p, z, &rate);
+    out->a = all->start + fret_piece_distance(p, z, &rate);
     return true;
 }
 
-bool fret_pieces_depth(const struct fret_pieces *all, fret_real e, fret_real *depth) {
+bool fret_pieces_point(const struct fret_pieces *pieces, bool by_force, fret_real value, fret_point *out) {
+    if (!point_of(pieces->law, by_force ? BY_LOAD : BY_DEPTH, by_force ? value / pieces->scale : value, out))
+        return false;
+    out->F = by_force ? value : out->F * pieces->scale;
+    out->K *= pieces->scale;
+    return true;
+}
+
+bool fret_pieces_depth(const struct fret_pieces *pieces, fret_real e, fret_real *depth) {
+    const law *all = pieces->law;
     size_t i;
+    fret_spot s;
+    if (all->rows && fret_rows_find(all->rows, SPOT_DISTANCE, e, &s)) {
+        *depth = s.at.y;
+        return true;
+    }
     if (!find(all, BY_DISTANCE, e, &i))
         return false;
     const piece *p = &all->piece[i];
-    const fret_real s = p->width > 0 ? sqrtl(sqrtl((e - p->origin) / p->width)) : fret_log(e);
-    *depth = p->inner.y + fret_polynomial_at(&p->rise[DEPTHS], (s - p->middle) / p->half);
+    const fret_real at = p->width > 0 ? sqrtl(sqrtl((e - p->origin) / p->width)) : fret_log(e);
+    *depth = p->inner.y + fret_polynomial_at(&p->rise[DEPTHS], (at - p->middle) / p->half);
     return true;
-}
-
-/* Adds to `sum` the whole pieces below piece `from`, down to and with piece `to`. */
-static void add_runs(const struct fret_pieces *all, size_t from, size_t to, stretch *sum) {
-    while (from > to) {
-        int l = 0;
-        while (from % ((size_t)2 << l) == 0 && from - ((size_t)2 << l) >= to && from >= (size_t)2 << l)
-            l++;
-        *sum = fret_stretch_join(sum, &all->run[l][(from >> l) - 1]);
-        from -= (size_t)1 << l;
-    }
 }
 
 /* Where a slice begins and ends: in piece `outer` at z, inwards to `way` before z, or before the outer end of
@@ -70,8 +79,7 @@ static fret_real way_from_end(const piece *p, int by, fret_real drop) {
 }
 
 /* by: that in which whole, of the place, and target are told. */
-static bool find_ends(const struct fret_pieces *all, int by, fret_real whole, fret_real target,
-                      fret_real left, ends *c) {
+static bool find_ends(const law *all, int by, fret_real whole, fret_real target, fret_real left, ends *c) {
     const int table = by == LOADS ? BY_LOAD : BY_DEPTH;
     if (!(target > 0) || !find(all, table, whole, &c->outer))
         return false;
@@ -107,7 +115,7 @@ static bool find_ends(const struct fret_pieces *all, int by, fret_real whole, fr
 }
 
 /* The fall of depth or load over a slice that does not reach the centre. */
-static fret_real fall_of(const struct fret_pieces *all, int by, const ends *c) {
+static fret_real fall_of(const law *all, int by, const ends *c) {
     const piece *p = &all->piece[c->outer], *last = &all->piece[c->inner];
     polynomial q;
     if (c->inner == c->outer) {
@@ -120,56 +128,135 @@ static fret_real fall_of(const struct fret_pieces *all, int by, const ends *c) {
 }
 
 /* The integrals, and K at the inner end. */
-static stretch integrals_of(const struct fret_pieces *all, const ends *c, fret_real *K) {
+static stretch integrals_of(const law *all, const ends *c, fret_real *K) {
     const piece *p = &all->piece[c->outer], *last = &all->piece[c->inner];
     polynomial q;
     fret_polynomial_quotient(&p->rise[DEPTHS], c->z, &q);
     stretch sum = fret_piece_part(p, &q, c->z, c->inner == c->outer ? c->way : 1 + c->z);
     if (c->inner == all->count) {
-        *K = fret_normal_stiffness(all->normal, fret_gap_start(&all->normal->gap));
-        add_runs(all, c->outer, 0, &sum);
+        *K = all->K_start;
+        fret_stretch_add_runs(all->run, c->outer, 0, &sum);
         return fret_stretch_join(&sum, &all->core);
     }
     *K = last->K_inner + fret_polynomial_at(&last->K, (c->inner == c->outer ? c->z : 1) - c->way);
     if (c->inner == c->outer)
         return sum;
-    add_runs(all, c->outer, c->inner + 1, &sum);
+    fret_stretch_add_runs(all->run, c->outer, c->inner + 1, &sum);
     if (!(c->way > 0))
         return sum;
     const stretch rest = fret_piece_part(last, &last->from_end[DEPTHS], 1, c->way);
     return fret_stretch_join(&sum, &rest);
 }
 
-bool fret_pieces_slice(const struct fret_pieces *all, const fret_level *outer, bool by_load, fret_real target,
-                       fret_real left, fret_real *h, fret_slice *out) {
+/* A slice that begins among the rows: its integrals, and K at its inner end, which may lie further in. */
+static bool by_rows(const law *all, int by, fret_real whole, fret_real left, stretch *sum, fret_real *K) {
+    const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
+    fret_spot outer, inner;
+    ends c;
+    if (!all->rows || !fret_rows_find(all->rows, how, whole, &outer))
+        return false;
+    const bool within = fret_rows_find(all->rows, how, left, &inner);
+    if (!within)
+        inner = fret_rows_inner(all->rows);
+    *sum = fret_rows_between(all->rows, &outer, &inner);
+    *K = fret_rows_stiffness(all->rows, &inner);
+    const fret_real base = fret_level_by(&all->piece[all->count - 1].outer, by);
+    if (within || left >= base)
+        return true;
+    if (!find_ends(all, by, base, base - left, left, &c))
+        return false;
+    const stretch rest = integrals_of(all, &c, K);
+    *sum = fret_stretch_join(sum, &rest);
+    return true;
+}
+
+static bool slice_of(const law *all, int by, fret_real whole, fret_real target, fret_real left, fret_real *h,
+                     fret_slice *out) {
     ends c;
     fret_real K;
-    const fret_real whole = by_load ? outer->F : outer->y;
-    if (!find_ends(all, by_load, whole, target, left, &c))
-        return false;
-    const stretch s = integrals_of(all, &c, &K);
-    *h = by_load ? s.h : fminl(target, whole);
-    *out = (fret_slice){.w = by_load ? fminl(target, whole) : s.G + *h * K,
+    stretch s;
+    if (!by_rows(all, by, whole, left, &s, &K)) {
+        if (!find_ends(all, by, whole, target, left, &c))
+            return false;
+        s = integrals_of(all, &c, &K);
+    }
+    *h = by == LOADS ? s.h : fminl(target, whole);
+    *out = (fret_slice){.w = by == LOADS ? fminl(target, whole) : s.G + *h * K,
                         .J = (*h * *h * K + (*h * s.G - s.L)) / 2,
                         .G = s.G,
                         .L = s.L};
     return true;
 }
 
-bool fret_pieces_across(const struct fret_pieces *all, const fret_level *outer, bool by_load,
-                        fret_real target, fret_real *other) {
-    const fret_real whole = by_load ? outer->F : outer->y;
-    ends c;
-    if (!find_ends(all, by_load, whole, target, whole - target, &c))
+bool fret_pieces_slice(const struct fret_pieces *pieces, const fret_level *outer, bool by_load,
+                       fret_real target, fret_real left, fret_real *h, fret_slice *out) {
+    const fret_real scale = pieces->scale, per = by_load ? 1 / scale : 1;
+    if (!slice_of(pieces->law, by_load ? LOADS : DEPTHS, (by_load ? outer->F : outer->y) * per, target * per,
+                  left * per, h, out))
         return false;
-    *other = c.inner == all->count ? (by_load ? outer->y : outer->F) : fall_of(all, !by_load, &c);
+    out->w = by_load ? fminl(target, outer->F) : out->w * scale;
+    out->J *= scale;
+    out->G *= scale;
+    out->L *= scale;
     return true;
 }
+
+/* Of the whole slice where nothing is left: `of_whole`. */
+static bool across_of(const law *all, int by, fret_real whole, fret_real target, fret_real of_whole,
+                      fret_real *other) {
+    const int table = by == LOADS ? BY_LOAD : BY_DEPTH;
+    fret_point outer, inner;
+    fret_spot s;
+    ends c;
+    if (all->rows && fret_rows_find(all->rows, by == LOADS ? SPOT_LOAD : SPOT_DEPTH, whole, &s)) {
+        if (!point_of(all, table, whole, &outer) || !point_of(all, table, whole - target, &inner))
+            return false;
+        *other = by == LOADS ? outer.y - inner.y : outer.F - inner.F;
+        return true;
+    }
+    if (!find_ends(all, by, whole, target, whole - target, &c))
+        return false;
+    *other = c.inner == all->count ? of_whole : fall_of(all, by == LOADS ? DEPTHS : LOADS, &c);
+    return true;
+}
+
+bool fret_pieces_across(const struct fret_pieces *pieces, const fret_level *outer, bool by_load,
+                        fret_real target, fret_real *other) {
+    const fret_real scale = pieces->scale, per = by_load ? 1 / scale : 1;
+    if (!across_of(pieces->law, by_load ? LOADS : DEPTHS, (by_load ? outer->F : outer->y) * per, target * per,
+                   by_load ? outer->y : outer->F / scale, other))
+        return false;
+    *other *= by_load ? 1 : scale;
+    return true;
+}
+
+/* The mean where the outer end lies among the rows. */
+static bool mean_by_rows(const law *all, int by, fret_real from, fret_real to, fret_real end[2],
+                         fret_real *mean) {
+    const fret_real most = fmaxl(from, to), least = fminl(from, to);
+    fret_point p[2];
+    stretch s;
+    fret_real K;
+    if (!by_rows(all, by, most, least, &s, &K))
+        return false;
+    for (int i = 0; i < 2; i++) {
+        if (!point_of(all, by == LOADS ? BY_LOAD : BY_DEPTH, i ? to : from, &p[i]))
+            return false;
+        end[i] = by == LOADS ? p[i].y : p[i].F;
+    }
+    const fret_real w = s.G + s.h * K, J = (s.h * s.h * K + (s.h * s.G - s.L)) / 2;
+    *mean = most == least ? end[0]
+            : by == LOADS ? fmaxl(end[0], end[1]) - J / w
+                          : fminl(end[0], end[1]) + J / s.h;
+    return true;
+}
+
 /* Depth by load, or load by depth, at both ends of a way, and its mean between them. */
-static bool mean_of(const struct fret_pieces *all, int by, fret_real from, fret_real to, fret_real end[2],
-                    fret_real *mean) {
+static bool mean_of(const law *all, int by, fret_real from, fret_real to, fret_real end[2], fret_real *mean) {
     const int other = by == LOADS ? DEPTHS : LOADS;
     fret_real sum[2][2];
+    if (mean_by_rows(all, by, from, to, end, mean))
+        return true;
     for (int i = 0; i < 2; i++) {
         size_t at;
         const fret_real value = i ? to : from;
@@ -186,25 +273,30 @@ static bool mean_of(const struct fret_pieces *all, int by, fret_real from, fret_
     return true;
 }
 
-bool fret_pieces_mean(const struct fret_pieces *all, fret_real from, fret_real to, fret_real *mean) {
+bool fret_pieces_mean(const struct fret_pieces *pieces, fret_real from, fret_real to, fret_real *mean) {
     fret_real end[2];
-    return (from == to || fabsl(from - to) > 1e-3L * fmaxl(from, to)) &&
-           mean_of(all, DEPTHS, from, to, end, mean);
+    if (!(from == to || fabsl(from - to) > 1e-3L * fmaxl(from, to)) ||
+        !mean_of(pieces->law, DEPTHS, from, to, end, mean))
+        return false;
+    *mean *= pieces->scale;
+    return true;
 }
 
 /* With v(e) what the law makes of the coordinate e: the integral of the distance of v at the edge from its
  * tangent at the front, int [v(E)-v(f)-(E-f) v'(f)] df, in parts. */
-bool fret_pieces_phase(const struct fret_pieces *all, bool by_load, const fret_real edge[2],
-                       const fret_real front[2], fret_real *out, fret_real *bound) {
+bool fret_pieces_phase(const struct fret_pieces *pieces, bool by_load, const fret_real edges[2],
+                       const fret_real fronts[2], fret_real *out, fret_real *bound) {
+    const fret_real scale = pieces->scale, per = by_load ? 1 / scale : 1,
+                    edge[2] = {edges[0] * per, edges[1] * per}, front[2] = {fronts[0] * per, fronts[1] * per};
     const fret_real went = front[0] - front[1], moved = edge[0] - edge[1];
     fret_real v[2], at_edge[2], mean, mean_edge;
-    if (!(went > 0) || !mean_of(all, by_load, front[0], front[1], v, &mean) ||
-        !mean_of(all, by_load, edge[0], edge[1], at_edge, &mean_edge))
+    if (!(went > 0) || !mean_of(pieces->law, by_load, front[0], front[1], v, &mean) ||
+        !mean_of(pieces->law, by_load, edge[0], edge[1], at_edge, &mean_edge))
         return false;
     const fret_real bow = (edge[0] - front[0]) * v[0] - (edge[1] - front[1]) * v[1] -
                           (moved - 2 * went) * mean - went * mean_edge;
-    *out = fabsl(bow);
-    *bound = 1e-19L * fmaxl(edge[0] * at_edge[0], edge[1] * at_edge[1]) *
+    *out = fabsl(bow) * scale;
+    *bound = 1e-19L * fmaxl(edge[0] * at_edge[0], edge[1] * at_edge[1]) * scale *
              (1 + fabsl(moved) / went + (moved != 0 ? went / fabsl(moved) : 0));
     return true;
 }

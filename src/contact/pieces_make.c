@@ -7,6 +7,7 @@
 
 #include "contact/check.h"
 #include "contact/piece.h"
+#include "contact/rows.h"
 #include "number/real.h"
 
 /* ---- polynomials through values ---------------------------------------------------------------- */
@@ -98,7 +99,7 @@ static polynomial integral(const fret_real *c) {
 }
 
 typedef struct maker {
-    struct fret_pieces *all;
+    law *all;
     const fret_normal *normal;
     fret_real start, tolerance;
     fret_real borne, at_worst; /* errors of the law, relative, that may be left: as asked for, and where rows
@@ -114,9 +115,10 @@ typedef struct maker {
 } maker;
 
 enum { MOST_PROFILES = 140000 };
-static const fret_real CALM = 1e-3L;   /* of what is borne: not worth a shorter piece */
-static const fret_real FOUND = 1e-15L; /* of the law, at the most, where nothing else is borne */
-static const fret_real ROUGH = 1e-8L;  /* the same of many rows, where they leave no less */
+static const fret_real CALM = 1e-3L;    /* of what is borne: not worth a shorter piece */
+static const fret_real FOUND = 1e-15L;  /* of the law, at the most, where nothing else is borne */
+static const fret_real ENOUGH = 2e-15L; /* what CSV and JSON want */
+static const fret_real ROUGH = 1e-8L;   /* the same of many rows, where they leave no less */
 
 static fret_profile profile(maker *m, fret_real e) {
     m->spent++;
@@ -221,7 +223,7 @@ static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tol
 }
 
 static bool add(maker *m, const piece *p) {
-    struct fret_pieces *all = m->all;
+    law *all = m->all;
     if (all->count == all->room) {
         const size_t room = 2 * all->room + 32;
         piece *grown = realloc(all->piece, room * sizeof *grown);
@@ -401,13 +403,14 @@ static bool cover_each(maker *m, const fret_real *row, size_t first, size_t last
 
 /* Row by row, or not at all. */
 static bool add_each(maker *m, const fret_real *row, size_t first, size_t last) {
-    const struct fret_pieces before = *m->all;
+    const size_t count = m->all->count;
+    const fret_real error = m->all->error, deep = m->all->deep;
     const fret_level edge = m->edge;
     if (last - first <= m->each && cover_each(m, row, first, last))
         return true;
-    m->all->count = before.count;
-    m->all->error = before.error;
-    m->all->deep = before.deep;
+    m->all->count = count;
+    m->all->error = error;
+    m->all->deep = deep;
     m->edge = edge;
     return false;
 }
@@ -440,6 +443,36 @@ static bool cover_rows(maker *m, const fret_real *row, size_t first, size_t last
     return last - first < FEW ? add_calm(m, &s, m->at_worst) : cover_span(m, row, &s);
 }
 
+/* From the first row of a table on: by polynomials, or, where they do not do, row by row. */
+static bool cover_beyond(maker *m, const fret_real *row, size_t count, fret_real to) {
+    law *all = m->all;
+    const size_t base = all->count;
+    const fret_level edge = m->edge;
+    const fret_real error = all->error, deep = all->deep;
+    for (bool again = false;; again = true) {
+        const bool ok = cover_rows(m, row, 0, count - 1);
+        if (m->failed.code || fret_stopped(m->normal) || again ||
+            (ok && all->error <= fmaxl(m->borne, ENOUGH)))
+            return ok;
+        fret_real off = 0;
+        all->count = base;
+        all->error = error;
+        all->deep = deep;
+        m->edge = edge;
+        m->failed = fret_rows_make(m->normal, to, &all->rows, &off);
+        if (m->failed.code)
+            return false;
+        if (all->rows && off <= ENOUGH) {
+            all->error = fmaxl(error, off);
+            return true;
+        }
+        fret_rows_free(all->rows);
+        all->rows = NULL;
+        if (!ok)
+            return false;
+    }
+}
+
 /* Rows between two distances, both ends too. */
 static bool cover_table(maker *m, fret_real from, fret_real to) {
     const fret_gap *gap = &m->normal->gap;
@@ -456,7 +489,7 @@ static bool cover_table(maker *m, fret_real from, fret_real to) {
     row[0] = from;
     m->each = count > MOST_PROFILES / FEWER ? 64 : count;
     m->at_worst = count > 1000 ? fmaxl(m->borne, ROUGH) : m->borne;
-    const bool ok = cover_smooth(m, from, row[1]) && (count == 1 || cover_rows(m, row + 1, 0, count - 1));
+    const bool ok = cover_smooth(m, from, row[1]) && (count == 1 || cover_beyond(m, row + 1, count - 1, to));
     free(row);
     return ok;
 }
@@ -464,7 +497,7 @@ static bool cover_table(maker *m, fret_real from, fret_real to) {
 /* ---- making ------------------------------------------------------------------------------------ */
 
 static bool make_runs(maker *m) {
-    struct fret_pieces *all = m->all;
+    law *all = m->all;
     all->reach = malloc(3 * all->count * sizeof *all->reach);
     bool ok = all->reach != NULL;
     for (int l = 0; ok && all->count >> l; l++) {
@@ -489,13 +522,15 @@ static bool make_runs(maker *m) {
 }
 
 static bool make_core(maker *m) {
-    struct fret_pieces *all = m->all;
+    law *all = m->all;
     const fret_normal *n = m->normal;
     const fret_slice core = fret_law_slice(n, &all->least, all->least.y);
     fret_real K = fret_normal_stiffness(n, m->start + all->from);
     if (m->start > 0) /* it grows from that of the flat end by little */
         K = fret_normal_stiffness(n, m->start) *
             fret_expm1((1 + n->foundation.k) * fret_log1p(all->from / m->start));
+    all->start = m->start;
+    all->K_start = fret_normal_stiffness(n, m->start);
     all->core = (stretch){all->least.y, K, core.G, core.L};
     fret_real sum[2] = {all->least.y * all->least.F - core.J, core.J};
     for (size_t i = 0; i < all->count; i++) {
@@ -507,16 +542,29 @@ static bool make_core(maker *m) {
     return isfinite(core.L);
 }
 
+static void free_law(law *all) {
+    for (int l = 0; l < RUNS; l++)
+        free(all->run[l]);
+    fret_rows_free(all->rows);
+    free(all->reach);
+    free(all->piece);
+    free(all);
+}
+
 static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real borne, struct fret_pieces **out) {
     const bool rows = fret_gap_sampled(&n->gap);
-    struct fret_pieces *all = calloc(1, sizeof *all);
+    struct fret_pieces *pieces = malloc(sizeof *pieces);
+    law *all = calloc(1, sizeof *all);
     maker *m = calloc(1, sizeof *m);
     *out = NULL;
-    if (!all || !m) {
+    if (!pieces || !all || !m) {
+        free(pieces);
         free(all);
         free(m);
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     }
+    atomic_init(&all->users, 1);
+    *pieces = (struct fret_pieces){all, 1};
     *m = (maker){.all = all,
                  .normal = n,
                  .start = fret_gap_start(&n->gap),
@@ -524,7 +572,6 @@ static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real born
                  .borne = fmaxl(borne, FOUND)};
     make_rule(&m->rule, NODES);
     make_rule(&m->row_rule, FEWER);
-    all->normal = n;
     all->from = (m->start > 0 ? 1e-12L : 1e-5L) * e;
     m->edge = all->least = level_at(m, all->from);
     const bool ok = (rows ? cover_table : cover_smooth)(m, all->from, e) && make_core(m) && make_runs(m);
@@ -533,20 +580,16 @@ static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real born
         st = fret_unless_stopped(n, st);
     free(m);
     if (ok && !st.code)
-        *out = all;
+        *out = pieces;
     else
-        fret_pieces_free(all);
+        fret_pieces_free(pieces);
     return st;
 }
 
-void fret_pieces_free(struct fret_pieces *all) {
-    if (!all)
-        return;
-    for (int l = 0; l < RUNS; l++)
-        free(all->run[l]);
-    free(all->reach);
-    free(all->piece);
-    free(all);
+void fret_pieces_free(struct fret_pieces *pieces) {
+    if (pieces && atomic_fetch_sub(&pieces->law->users, 1) == 1)
+        free_law(pieces->law);
+    free(pieces);
 }
 
 /* Up to the next power of two, so that what comes out does not depend on what was asked before; where that is
@@ -576,10 +619,10 @@ fret_status fret_normal_prepare(fret_normal *n, double F, double error) {
     return st;
 }
 
-bool fret_pieces_rough(const struct fret_pieces *all, double borne) {
-    return all->deep > fmaxl(FOUND, borne);
+bool fret_pieces_rough(const struct fret_pieces *pieces, double borne) {
+    return pieces->law->deep > fmaxl(FOUND, borne);
 }
 
 double fret_normal_prepared(const fret_normal *n) {
-    return n->pieces ? (double)n->pieces->error : NAN;
+    return n->pieces ? (double)n->pieces->law->error : NAN;
 }

@@ -304,17 +304,23 @@ static int far_terms(fret_real d, fret_real u) {
     return count;
 }
 
-/* u: distance of the middle from the edge. Terms fall at least by 4: of those after the first few a double
- * keeps all digits that count. */
-static void add_far(sums *all, const block *b, int count, fret_real alpha, fret_real a, fret_real u) {
+/* Moments of f' z^j, j = 0..2, times the kernel ((a-r)(a+r)/D)^alpha over a block, D its value at the middle,
+ * and of r f''. Terms fall at least by 4: of those after the first few a double keeps all digits that count.
+ */
+typedef struct far_sums {
+    fret_real slope[3], rf2;
+} far_sums;
+
+static far_sums sum_far(const block *b, int count, fret_real alpha, fret_real D) {
     enum { LEADING = 7 };
-    const fret_real D = u * (a + b->c), per = b->d / D, x1 = 2 * b->c * per, x2 = b->d * per;
+    const fret_real per = b->d / D, x1 = 2 * b->c * per, x2 = b->d * per;
     const int leading = count < LEADING ? count : LEADING;
-    fret_real q = 1, old = 0, slope[3] = {0, 0, 0}, rf2 = 0;
+    fret_real q = 1, old = 0;
+    far_sums out = {{0, 0, 0}, 0};
     for (int n = 0; n < leading; n++) {
         for (int j = 0; j < 3; j++)
-            slope[j] += q * b->slope[n + j];
-        rf2 += q * b->rf2[n];
+            out.slope[j] += q * b->slope[n + j];
+        out.rf2 += q * b->rf2[n];
         const fret_real next =
             x1 * ((n - alpha) * inverse[n]) * q + x2 * ((n - 1 - 2 * alpha) * inverse[n]) * old;
         old = q;
@@ -336,15 +342,22 @@ static void add_far(sums *all, const block *b, int count, fret_real alpha, fret_
             m0 = m1;
             m1 = m2;
         }
-        slope[0] += s0;
-        slope[1] += s1;
-        slope[2] += s2;
-        rf2 += r;
+        out.slope[0] += s0;
+        out.slope[1] += s1;
+        out.slope[2] += s2;
+        out.rf2 += r;
     }
+    return out;
+}
+
+/* u: distance of the middle from the edge. */
+static void add_far(sums *all, const block *b, int count, fret_real alpha, fret_real a, fret_real u) {
+    const fret_real D = u * (a + b->c);
+    const far_sums of = sum_far(b, count, alpha, D);
     fret_real K = fret_pow(D / (a * a), alpha) / a, c = b->c / a, d = b->d / a;
-    all->g += K * slope[0];
-    all->I += K * (c * c * slope[0] + 2 * c * d * slope[1] + d * d * slope[2]);
-    all->s += K * rf2;
+    all->g += K * of.slope[0];
+    all->I += K * (c * c * of.slope[0] + 2 * c * d * of.slope[1] + d * d * of.slope[2]);
+    all->s += K * of.rf2;
 }
 
 /* A piece near the edge or at it: the kernel's moments between its ends, lo and hi. */
@@ -411,4 +424,85 @@ fret_real fret_table_bend(const struct fret_table *t, const fret_rule *rule, fre
     const fret_real p1 = -(d1 + 2 * v * d2);
     const fret_real g = v * (d1 + v * d2) * m.moment[0] + p1 * m.moment[1] + d2 * m.moment[2];
     return g - p1 * (m.moment[0] - m.moment[1]) - 2 * d2 * (m.moment[1] - m.moment[2]);
+}
+
+/* ---- parts of the sums, for whoever keeps them ------------------------------------------------- */
+
+fret_real fret_table_distance(const struct fret_table *t, size_t row) {
+    return (fret_real)t->r[row] - t->start;
+}
+
+size_t fret_table_row(const struct fret_table *t, fret_real e) {
+    size_t i = table_piece(t, fmaxl(t->start + e, 0));
+    while (i > 0 && fret_table_distance(t, i) > e)
+        i--;
+    return i;
+}
+
+void fret_table_slope(const struct fret_table *t, size_t row, fret_real c[3]) {
+    c[0] = t->d0[row];
+    c[1] = t->d1[row];
+    c[2] = t->d2[row];
+}
+
+void fret_table_jump(const struct fret_table *t, size_t row, fret_real c[3]) {
+    const fret_real h = (fret_real)t->r[row] - t->r[row - 1];
+    c[0] = 0;
+    c[1] = t->d1[row] - (t->d1[row - 1] + 2 * h * t->d2[row - 1]);
+    c[2] = (fret_real)t->d2[row] - t->d2[row - 1];
+}
+
+static void add_block(const block *b, int count, fret_real alpha, fret_real a, fret_real u, fret_real unit,
+                      fret_real out[2]) {
+    const fret_real per = 1 / (a * unit), D = u * (a + b->c);
+    const far_sums of = sum_far(b, count, alpha, D);
+    const fret_real K = fret_exp(alpha * fret_log(D * per));
+    out[0] += K * of.slope[0];
+    out[1] += K * per * (D * of.slope[0] - b->d * (2 * b->c * of.slope[1] + b->d * of.slope[2]));
+}
+
+/* The same of a piece that is near: moments of the kernel. */
+static void add_piece(const struct fret_table *t, const fret_rule *rule, size_t i, fret_real e, fret_real a,
+                      fret_real unit, fret_real out[2]) {
+    const fret_real alpha = (rule->k - 1) / 2, v = (e - fret_table_distance(t, i)) / a;
+    const fret_edge lo = fret_edge_moments(rule, v),
+                    hi = fret_edge_moments(rule, (e - fret_table_distance(t, i + 1)) / a);
+    const fret_real K = a * fret_exp(alpha * fret_log(a / unit)), d1 = t->d1[i] * a, d2 = t->d2[i] * a * a;
+    const fret_real p[3] = {t->d0[i] + v * (d1 + v * d2), -(d1 + 2 * v * d2), d2};
+    fret_real m[FRET_EDGE];
+    for (int j = 0; j < FRET_EDGE; j++)
+        m[j] = lo.moment[j] - hi.moment[j];
+    for (int j = 0; j < 3; j++) {
+        out[0] += K * p[j] * m[j];
+        out[1] += K * (a / unit) * p[j] * (2 * m[j + 1] - m[j + 2]);
+    }
+}
+
+void fret_table_part(const struct fret_table *t, const fret_rule *rule, size_t first, size_t last,
+                     fret_real e, fret_real unit, fret_real out[2]) {
+    const fret_real alpha = (rule->k - 1) / 2, start = t->start, a = start + e;
+    out[0] = out[1] = 0;
+    for (size_t i = 0; i < t->blocks && t->block[i].first < last;) {
+        const block *b = &t->block[i];
+        const bool leaf = b->next == i + 1, within = b->first >= first && b->last <= last;
+        const fret_real middle = (start - b->c) + e;
+        const int terms = within ? far_terms(b->d, middle) : 0;
+        i = leaf || terms || b->last <= first ? b->next : i + 1;
+        if (terms)
+            add_block(b, terms, alpha, a, middle, unit, out);
+        if (terms || !leaf)
+            continue;
+        for (size_t j = b->first > first ? b->first : first; j < b->last && j < last; j++) {
+            block piece;
+            piece.d = ((fret_real)t->r[j + 1] - t->r[j]) / 2;
+            const fret_real away = (start - (t->r[j] + piece.d)) + e;
+            const int count = far_terms(piece.d, away);
+            if (!count) {
+                add_piece(t, rule, j, e, a, unit, out);
+                continue;
+            }
+            piece_moments(t, j, count, &piece);
+            add_block(&piece, count, alpha, a, away, unit, out);
+        }
+    }
 }

@@ -17,4 +17,16 @@ fret_real fret_table_f(const struct fret_table *table, fret_real r);
 fret_real fret_table_bend(const struct fret_table *table, const fret_rule *rule, fret_real kink, fret_real e);
 fret_profile fret_table_profile(const struct fret_table *table, const fret_rule *rule, fret_real e);
 
+/* The distance of a row from the start; the last row at or below a distance e > 0. */
+fret_real fret_table_distance(const struct fret_table *table, size_t row);
+size_t fret_table_row(const struct fret_table *table, fret_real e);
+/* f' from the row to the next one, c0 + c1 t + c2 t^2 at the distance t beyond it; and how that differs from
+ * what the row before goes on with. */
+void fret_table_slope(const struct fret_table *table, size_t row, fret_real c[3]);
+void fret_table_jump(const struct fret_table *table, size_t row, fret_real c[3]);
+/* out[i] = int f' ((a^2-r^2)/(a unit))^((k-1)/2+i) dr between the rows first and last, neither beyond the
+ * radius a = start + e. */
+void fret_table_part(const struct fret_table *table, const fret_rule *rule, size_t first, size_t last,
+                     fret_real e, fret_real unit, fret_real out[2]);
+
 #endif

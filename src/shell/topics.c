@@ -379,9 +379,10 @@ const char *model_text(size_t id) {
             "The law FN(dz) of a gap without a formula as polynomials, piece by piece: made where\n"
             "many values of one contact are asked for: by 32 rows of a table, by steps of FN\n"
             "under Fx, and of 10,000 rows and more in contact. They agree with the quadrature to\n"
-            "2e-15; of rows that are shown as text, to a hundredth of the last digit; of more than\n"
-            "10,000 rough rows in contact, FN(dz) to what `set timing on` tells, and the loss of an\n"
-            "amplitude that is a small part s of gross slip to some 10/s^2 of that.\n\n" EXAMPLE
+            "2e-15; of rows that are shown as text, FN(dz) to a hundredth of the last digit, and\n"
+            "the loss of an amplitude that is a small part s of gross slip to some 10/s^2 of that.\n"
+            "Where rows are too many or too rough for polynomials that good, CSV and JSON have the\n"
+            "law row by row: some 20 us a row to set up, 20 us a value.\n\n" EXAMPLE
             "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
             "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each allocation of the library fails once: the call says so, what it was to change is as it was, nothing
  * leaks. The Makefile links this program so that the library allocates through the functions here. */
+#include "contact/rows.h"
 #include "unit.h"
 
 static int left = -1; /* allocations that succeed before one fails; -1: all do */
@@ -60,6 +61,28 @@ static void tables_and_contacts(void) {
     fret_springs_free(springs);
     fret_memory_free(memory);
     fret_normal_free(normal);
+    fret_table_free(table);
+}
+
+/* The law of a table, by polynomials and row by row: k near -1 wants both. */
+static void laws(void) {
+    struct fret_table *table = NULL;
+    struct fret_rows *rows = NULL;
+    fret_normal *n = NULL, *other = NULL;
+    fret_real error;
+    fret_material m = unit_make_scene(2, -0.99).material;
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
+    CHECK_OK(fret_normal_make(&m, &gap, &n));
+    CHECK_OK(fret_normal_make(&m, &gap, &other));
+    EACH_FAILS(8, fret_rows_make(n, 1e-3L, &rows, &error), rows == NULL);
+    EACH_FAILS(9, fret_normal_prepare(n, 1, 0), isnan(fret_normal_prepared(n)));
+    CHECK(fret_normal_prepared(n) < 1e-15);
+    EACH_FAILS(0, fret_normal_share(other, n), isnan(fret_normal_prepared(other)));
+    CHECK(fret_normal_prepared(other) == fret_normal_prepared(n));
+    fret_rows_free(rows);
+    fret_normal_free(n);
+    fret_normal_free(other);
     fret_table_free(table);
 }
 
@@ -209,6 +232,7 @@ int main(int argc, char **argv) {
     limit = contact.mu * 20;
     slip = (double)fret_gross_slip(&contact);
     tables_and_contacts();
+    laws();
     memories();
     masings();
     springs();

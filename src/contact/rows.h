@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The law of a sampled gap row by row, for rows too many or too rough for polynomials. Not installed. */
+#ifndef FRET_CONTACT_ROWS_H
+#define FRET_CONTACT_ROWS_H
+
+#include "contact/piece.h"
+
+struct fret_rows;
+
+/* From the row after the start of the gap to the first row at or beyond the distance e. error: the largest
+ * relative one of F_N(delta) that was found. NULL in `out` where there is no such row. Errors:
+ * FRET_NO_MEMORY, FRET_INTERRUPTED. */
+fret_status fret_rows_make(const fret_normal *normal, fret_real e, struct fret_rows **out, fret_real *error);
+void fret_rows_free(struct fret_rows *rows);
+
+/* A place: so far beyond a row, its distance from the start, depth and load. */
+typedef struct fret_spot {
+    size_t row;
+    fret_real beyond, e;
+    fret_level at;
+} fret_spot;
+
+/* Where the distance, the depth or the load is `value`; false: not among the rows. */
+typedef enum fret_spot_by { SPOT_DISTANCE, SPOT_DEPTH, SPOT_LOAD } fret_spot_by;
+bool fret_rows_find(const struct fret_rows *rows, fret_spot_by by, fret_real value, fret_spot *out);
+
+/* Both ends. */
+fret_spot fret_rows_inner(const struct fret_rows *rows);
+fret_spot fret_rows_outer(const struct fret_rows *rows);
+
+/* dF_N/dy there. */
+fret_real fret_rows_stiffness(const struct fret_rows *rows, const fret_spot *spot);
+
+/* From one place inwards to another. */
+stretch fret_rows_between(const struct fret_rows *rows, const fret_spot *outer, const fret_spot *inner);
+
+#endif

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The law of a table row by row against its slow twin: g at each radius as the table tells it, and sums of it
+ * over every row. Tables are as rough as a profile that grows allows. */
+#include "contact/rows.h"
+
+#include "contact/pieces.h"
+#include "contact/table.h"
+#include "number/quadrature.h"
+#include "number/real.h"
+#include "unit.h"
+
+enum { MOST_ROWS = 12000 };
+
+static unsigned long long seed = 5;
+static double uniform(double lo, double hi) {
+    return unit_random(&seed, lo, hi);
+}
+
+typedef struct rough {
+    const char *what;
+    int rows;
+    double k, off, uneven, flat; /* noise of f, relative; of the spacing; radius of the flat end */
+    int row;                     /* where slices begin */
+} rough;
+
+static const rough tables[] = {
+    {"even", 60, 0.3, 0, 0, 0, 40},
+    {"k near -1", 60, -0.99, 0, 0, 0, 40},
+    {"k near 1", 60, 0.99, 0, 0.3, 0, 40},
+    {"noise", 60, 0, 1e-3, 0.3, 0, 40},
+    {"noise, k < 0", 100, -0.5, 1e-4, 0.3, 0, 17},
+    {"flat end", 80, 0.2, 1e-4, 0.1, 2e-4, 61},
+    {"flat end, k near -1", 80, -0.97, 0, 0.1, 2e-4, 30},
+    {"many", MOST_ROWS, 0.3, 5e-7, 0.2, 0, 5000},
+    {"many, k < 0", MOST_ROWS, -0.8, 1e-9, 0.2, 0, 300},
+    {"many, flat end", MOST_ROWS, 0.8, 1e-6, 0.2, 1e-3, 11000},
+};
+enum { TABLES = sizeof tables / sizeof *tables };
+static const double wide = 2e-3, R = 1e-2;
+
+static struct fret_table *make_table(const rough *t) {
+    static double r[MOST_ROWS], f[MOST_ROWS];
+    struct fret_table *table = NULL;
+    for (int i = 0; i < t->rows; i++) {
+        r[i] = i ? wide * (i + uniform(-t->uneven, t->uneven)) / t->rows : 0;
+        const double beyond = r[i] > t->flat ? r[i] - t->flat : 0;
+        f[i] = beyond * beyond / (2 * R) * (1 + uniform(-t->off, t->off));
+    }
+    CHECK_OK(fret_table_make(r, f, (size_t)t->rows, NULL, &table));
+    return table;
+}
+
+static fret_level twin_at(const fret_normal *n, fret_real e) {
+    const fret_profile p = fret_table_profile(n->gap.table, &n->rule, e);
+    return (fret_level){p.g, fret_force_of(n, &p)};
+}
+
+/* By eight points in each of a few parts of each row, in fourth roots of the distance from it: exact to 1e-13
+ * of a row. */
+static stretch twin_between(const fret_normal *n, fret_real outer, fret_real inner) {
+    enum { PARTS = 6 };
+    const fret_real k = n->foundation.k, start = fret_gap_start(&n->gap), edge = twin_at(n, outer).y;
+    stretch sum = {edge - twin_at(n, inner).y, 0, 0, 0};
+    for (fret_real hi = outer; hi > inner;) {
+        const fret_real kink = fret_gap_kink(&n->gap, hi), lo = fmaxl(kink, inner);
+        const fret_real from = sqrtl(sqrtl(lo - kink)), way = sqrtl(sqrtl(hi - kink)) - from;
+        for (int i = 0; i < 8 * PARTS; i++) {
+            const fret_real s = from + way * (i / 8 + fret_gauss_node[i % 8]) / PARTS,
+                            e = kink + s * s * s * s, t = edge - twin_at(n, e).y;
+            const fret_real dK = (1 + k) * fret_normal_stiffness(n, start + e) / (start + e) * 4 * s * s * s *
+                                 way * fret_gauss_weight[i % 8] / PARTS;
+            sum.K += dK;
+            sum.G += t * dK;
+            sum.L += t * (sum.h - t) * dK;
+        }
+        hi = lo;
+    }
+    return sum;
+}
+
+static void check_places(const fret_normal *n, const struct fret_rows *rows) {
+    const fret_spot inner = fret_rows_inner(rows), outer = fret_rows_outer(rows);
+    fret_spot s;
+    for (int i = 0; i < 200; i++) {
+        const fret_real e = inner.e + (outer.e - inner.e) * uniform(0, 1);
+        CHECK(fret_rows_find(rows, SPOT_DISTANCE, e, &s) && s.e == e);
+        const fret_level want = twin_at(n, e);
+        CHECK_REL(s.at.y, want.y, UNIT_TOL(2e-16L, 1e-13L));
+        CHECK_REL(s.at.F, want.F, UNIT_TOL(2e-16L, 1e-13L));
+        CHECK(fret_rows_find(rows, SPOT_DEPTH, want.y, &s) && s.at.y == want.y);
+        CHECK_REL(s.at.F, want.F, UNIT_TOL(1e-15L, 1e-13L));
+        CHECK(fret_rows_find(rows, SPOT_LOAD, want.F, &s) && s.at.F == want.F);
+        CHECK_REL(s.at.y, want.y, UNIT_TOL(1e-15L, 1e-13L));
+    }
+    CHECK(!fret_rows_find(rows, SPOT_LOAD, inner.at.F, &s) && !fret_rows_find(rows, SPOT_DEPTH, 0, &s));
+    CHECK(!fret_rows_find(rows, SPOT_DISTANCE, outer.e * 1.001L, &s));
+    CHECK(fret_rows_find(rows, SPOT_DISTANCE, outer.e, &s) && s.at.y == outer.at.y);
+}
+
+/* A slice that begins within a row and ends there, in the next one, or many rows further in. */
+static void check_slices(const rough *t, const fret_normal *n, const struct fret_rows *rows) {
+    const size_t first = fret_rows_inner(rows).row;
+    for (int i = 0; i < 8; i++) {
+        const struct fret_table *table = n->gap.table;
+        const int begin = t->row, end = begin - (i < 2 ? 0 : i < 4 ? 1 : 12);
+        const fret_real e0 = fret_table_distance(table, (size_t)begin),
+                        wide_row = fret_table_distance(table, (size_t)begin + 1) - e0;
+        fret_spot outer, inner;
+        CHECK(end > (int)first);
+        CHECK(fret_rows_find(rows, SPOT_DISTANCE, e0 + (i % 2 ? 1 : uniform(0.6, 1)) * wide_row, &outer));
+        CHECK(fret_rows_find(
+            rows, SPOT_DISTANCE,
+            fret_table_distance(table, (size_t)end) + (i % 2 ? 0 : uniform(0, 0.4)) * wide_row, &inner));
+        const stretch got = fret_rows_between(rows, &outer, &inner), want = twin_between(n, outer.e, inner.e);
+        const fret_real few = (t->rows < MOST_ROWS ? 1e-18L : 1e-17L) * outer.at.y /
+                              want.h; /* depths are known to that of the whole */
+        CHECK_REL(got.h, want.h, UNIT_TOL(1e-13L + few, 1e-9L));
+        CHECK_REL(got.K, want.K, UNIT_TOL(1e-13L, 1e-11L));
+        CHECK_REL(got.G, want.G, UNIT_TOL(1e-12L, 1e-9L));
+        CHECK_REL(got.L, want.L, UNIT_TOL(1e-12L, 1e-9L));
+        CHECK_REL(inner.at.F + got.G + got.h * fret_rows_stiffness(rows, &inner), outer.at.F,
+                  UNIT_TOL(1e-16L, 1e-12L));
+    }
+    const fret_spot inner = fret_rows_inner(rows), outer = fret_rows_outer(rows);
+    const stretch none = fret_rows_between(rows, &inner, &inner),
+                  all = fret_rows_between(rows, &outer, &inner);
+    CHECK(none.h == 0 && none.L == 0);
+    CHECK_REL(all.h, outer.at.y - inner.at.y, UNIT_TOL(1e-17L, 1e-13L));
+}
+
+/* From inside out, as a contact asks: loss and displacement of many rows, against the sums of the twin. */
+static void check_contact(const rough *t, const fret_normal *plain, double F) {
+    fret_contact c = {.mu = 0.3};
+    fret_normal *ready = NULL, *other = NULL;
+    fret_material m = {{{210e9, 0.3, false}, {0, 0, true}}, t->k, 1e-3};
+    const fret_gap *gap = fret_normal_gap(plain);
+    CHECK_OK(fret_normal_make(&m, gap, &ready));
+    CHECK_OK(fret_normal_prepare(ready, F, 0));
+    CHECK(fret_normal_prepared(ready) <= 2e-15);
+    m.body[0].E0 = 70e9;
+    CHECK_OK(fret_normal_make(&m, gap, &other));
+    CHECK_OK(fret_normal_share(other, ready));
+    c.normal = ready;
+    CHECK_OK(fret_press_by_force(ready, F, &c.press));
+    const fret_foundation *f = fret_normal_foundation(ready);
+    const fret_real start = fret_gap_start(gap);
+    for (int i = 0; i < 3; i++) {
+        const double FA = 0.3 * F * (t->rows > 1000 ? 0.004 * (i + 1) : 0.3 * (i + 0.5));
+        fret_loading first;
+        fret_real loss, scaled;
+        CHECK_OK(fret_loading_by_force(&c, FA, &first));
+        CHECK_OK(fret_cycle_loss_by_force(&c, FA, &loss));
+        const stretch want = twin_between(ready, c.press.a - start, first.c - start);
+        CHECK_REL(loss, 4 * 0.3L * 0.3L * f->eta * want.L, UNIT_TOL(1e-12L, 1e-8L));
+        CHECK_REL(first.dx, 0.3L * f->eta * want.h, UNIT_TOL(1e-14L, 1e-10L));
+        fret_contact softer = {.normal = other, .mu = 0.3};
+        CHECK_OK(fret_press_by_force(other, F / 3, &softer.press));
+        CHECK_REL(softer.press.a, c.press.a, UNIT_TOL(1e-15L, 1e-13L));
+        CHECK_REL(softer.press.dz, c.press.dz, UNIT_TOL(1e-15L, 1e-13L));
+        CHECK_OK(fret_cycle_loss_by_force(&softer, FA / 3, &scaled));
+        CHECK_REL(3 * scaled, loss, UNIT_TOL(1e-12L, 1e-9L));
+        const fret_real half = c.press.dz - want.h / 2, mean = fret_law_force(ready, half);
+        CHECK_REL(fret_law_force(other, half) * 3, mean, UNIT_TOL(1e-15L, 1e-13L));
+        CHECK_REL(fret_law_thickness(ready, &(fret_level){c.press.dz, c.press.F}, FA / 0.3), want.h,
+                  UNIT_TOL(1e-14L, 1e-10L));
+        CHECK_REL(fret_law_load(ready, &(fret_level){c.press.dz, c.press.F}, want.h), FA / 0.3,
+                  UNIT_TOL(1e-14L, 1e-10L));
+    }
+    fret_normal_free(ready); /* the other one still has what they share */
+    CHECK_OK(fret_press_by_force(other, F / 3, &c.press));
+    fret_normal_free(other);
+}
+
+static void check_table(const rough *t) {
+    const fret_material m = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, t->k, 1e-3};
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = make_table(t)};
+    fret_normal *n = NULL;
+    struct fret_rows *rows = NULL;
+    fret_real error = 1;
+    const long failed = unit.failed;
+    CHECK_OK(fret_normal_make(&m, &gap, &n));
+    const fret_real reach = 0.9L * (fret_gap_end(&gap) - fret_gap_start(&gap));
+    CHECK_OK(fret_rows_make(n, reach, &rows, &error));
+    CHECK(rows && error < 2e-16L);
+    CHECK(fret_rows_outer(rows).e >= reach && fret_rows_inner(rows).e < reach);
+    check_places(n, rows);
+    check_slices(t, n, rows);
+    if (t->off > 0 || fabs(t->k) > 0.9)
+        check_contact(t, n, (double)fret_rows_outer(rows).at.F * 0.7);
+    if (unit.failed > failed)
+        printf("%s\n", t->what);
+    fret_rows_free(rows);
+    fret_normal_free(n);
+    fret_table_free((struct fret_table *)gap.table);
+}
+
+/* Each row three times as far as the one before, and a row much wider than all before it. */
+static void uneven(void) {
+    double r[12] = {0}, f[12] = {0};
+    struct fret_rows *rows = NULL;
+    struct fret_table *table = NULL;
+    fret_normal *n = NULL;
+    fret_real error = 1;
+    const fret_material m = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
+    for (int i = 1; i < 12; i++) {
+        r[i] = 1e-6 * pow(3, i);
+        f[i] = r[i] * r[i];
+    }
+    CHECK_OK(fret_table_make(r, f, 12, NULL, &table));
+    CHECK_OK(fret_normal_make(&m, &(fret_gap){.kind = FRET_GAP_TABLE, .table = table}, &n));
+    CHECK_OK(fret_rows_make(n, r[10], &rows, &error));
+    CHECK(rows && error < 2e-16L);
+    check_places(n, rows);
+    fret_rows_free(rows);
+    CHECK_OK(fret_rows_make(n, r[1] / 2, &rows, &error)); /* within the first row */
+    CHECK(rows == NULL);
+    fret_normal_free(n);
+    fret_table_free(table);
+}
+
+/* A flag ends it. */
+static void stops(void) {
+    volatile sig_atomic_t stop = 1;
+    struct fret_rows *rows = NULL;
+    fret_real error;
+    const fret_material m = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = make_table(&tables[0])};
+    fret_normal *n = NULL;
+    CHECK_OK(fret_normal_make(&m, &gap, &n));
+    fret_normal_stop(n, &stop);
+    CHECK_CODE(fret_rows_make(n, 1e-3L, &rows, &error), FRET_INTERRUPTED);
+    CHECK(rows == NULL);
+    fret_normal_free(n);
+    fret_table_free((struct fret_table *)gap.table);
+}
+
+int main(int argc, char **argv) {
+    unit_start("rows", argc, argv);
+    for (int i = 0; i < TABLES; i++)
+        check_table(&tables[i]);
+    uneven();
+    stops();
+    return unit_finish();
+}
