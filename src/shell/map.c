@@ -28,8 +28,11 @@ bool grid_range_read(shell *sh, lexer *lx, grid_range *out, size_t steps_a, size
         return lex_fail(lx, "a map goes for A = LO .. HI for B = LO .. HI");
     if (!lex_is(lx, "for"))
         return lex_fail(lx, "expected for VAR2 = LO .. HI");
+    const size_t at = lx->at;
     if (!range_read(sh, lx, &out->b, steps_b))
         return false;
+    if (!strcmp(out->a.sweep.var.text, out->b.sweep.var.text))
+        return calc_fail(lx->error, at, lx->last - at, "%s is given twice", out->b.sweep.var.text);
     out->grid = (grid){out->a.sweep, out->b.sweep};
     return !out->b.sweep.curves || lex_fail(lx, "a map has no curves: `with` does not go with two ranges");
 }

@@ -127,9 +127,14 @@ static bool read_along(shell *sh, lexer *lx, range *out) {
 }
 
 static bool read_with(shell *sh, lexer *lx, sweep *s) {
+    if (s->curves)
+        return lex_fail(lx, "with is given twice");
     lex_next(lx);
+    const size_t at = lx->at, len = lx->len;
     if (!read_name(&sh->calc, lx, &s->with))
         return false;
+    if (!strcmp(s->with.text, s->var.text))
+        return calc_fail(lx->error, at, len, "%s is given twice", s->with.text);
     do {
         if (s->curves == SWEEP_VALUES)
             return lex_fail(lx, "more than %d values", SWEEP_VALUES);
