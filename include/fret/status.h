@@ -20,7 +20,8 @@ typedef enum fret_code {
     FRET_BOTH_RIGID,     /* at least one body must be elastic                               */
     FRET_GROSS_SLIP,     /* tangential force beyond mu F_N                                  */
     FRET_OUTSIDE,        /* a point outside the domain of a function                        */
-    FRET_NOT_MONOTONE,   /* g(x) falls: the contact is not a disc; value: radius            */
+    FRET_NOT_MONOTONE,   /* g(x) falls: the contact is not a disc; value: radius; limit: that
+                            where a table has soon risen above it again, or 0       */
     FRET_TABLE_SHORT,    /* the gap table ends before the load is carried; value: largest a */
     FRET_BAD_TABLE,      /* a gap table that is no function: radii must grow; value: radius */
     FRET_OVERFLOW,       /* the result does not fit in a double                             */

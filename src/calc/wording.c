@@ -54,6 +54,11 @@ static void word_status(const calc *c, calc_error *error) {
                  given, limit);
     else if (st->code == FRET_OUTSIDE && st->limit > 0)
         snprintf(text, size, "%s = %s %s (limit %s)", name, given, rule, limit);
+    else if (st->code == FRET_NOT_MONOTONE && st->limit > 0)
+        snprintf(text, size,
+                 "%s = %s %s; at %s it has risen again: noise and rounding of rows do that, and "
+                 "`geometry file FILE smooth` takes a profile through them",
+                 name, given, rule, limit);
     else
         snprintf(text, size, "%s = %s %s", name, given, rule);
 }

@@ -13,6 +13,17 @@ static fret_profile profile(const fret_normal *n, fret_real e) {
     return fret_gap_profile(&n->gap, &n->rule, e);
 }
 
+/* The radius soon after e, within 1 % of a table, where g is above what it is there; 0: it stays below. */
+static fret_real risen(const fret_normal *n, fret_real e) {
+    const fret_real whole = n->end - fret_gap_start(&n->gap), g = profile(n, e).g;
+    for (int i = 1; i <= 4; i++) {
+        const fret_real next = e + whole * i / 400;
+        if (next <= whole && profile(n, next).g > g)
+            return fret_gap_start(&n->gap) + next;
+    }
+    return 0;
+}
+
 /* Finds the first radius where g falls: the contact is a disc up to there. Sums with a negative term and
  * tables can do so; sampled at 400 radii, then bisected. */
 static fret_status find_end(fret_normal *n) {
@@ -29,7 +40,8 @@ static fret_status find_end(fret_normal *n) {
             continue;
         }
         if (i == 1)
-            return fret_fail(FRET_NOT_MONOTONE, "r", (double)(table ? x : 0), 0);
+            return fret_fail(FRET_NOT_MONOTONE, "r", (double)(table ? x : 0),
+                             table ? (double)risen(n, x - start) : 0);
         fret_real hi = x;
         for (int j = 0; j < 60; j++) {
             fret_real mid = (lo + hi) / 2;
@@ -39,7 +51,7 @@ static fret_status find_end(fret_normal *n) {
                 hi = mid;
         }
         if (table)
-            return fret_fail(FRET_NOT_MONOTONE, "r", (double)lo, 0);
+            return fret_fail(FRET_NOT_MONOTONE, "r", (double)lo, (double)risen(n, lo - start));
         n->end = lo;
         n->falls = true;
         break;
@@ -174,7 +186,7 @@ static fret_status at_radius(const fret_normal *n, const char *name, double valu
                              fret_press *out) {
     if (!isfinite(e))
         return fret_fail(n->falls ? FRET_NOT_MONOTONE : FRET_TABLE_SHORT, n->falls ? "r" : name,
-                         n->falls ? (double)n->end : value, (double)n->end);
+                         n->falls ? (double)n->end : value, n->falls ? 0 : (double)n->end);
     fret_profile p = {0, 0, 0};
     if (e > 0)
         p = profile(n, e);

@@ -158,7 +158,17 @@ def read_tables(tests):
         done = tests.run("-c", SCENE + "geometry file %s; press FN=1 MN" % path)
         tests.check("a table too short", "FN = 1 MN cannot be carried: the gap supports contact radii up to 1 mm"
                     in done.stderr and done.returncode == 1, tests.report(done))
-    for text, message in (("r [mm],f [um]\n0,0\n1,5\n2,1\n3,9\n", "is where g(x) begins to fall"),
+    rounded = "r [mm],f [um]\n" + "".join("%.7g,%.7g\n" % (i / 1e4, (i / 1e4) ** 2 * 100 / 3) for i in range(10001))
+    rippled = SCENE + "c0 = 1 mm; k = -0.9; geometry file %s" # as that of a gap is, but for the rounding of its rows
+    with tests.file(rounded) as path:
+        done = tests.run("-c", rippled % path)
+        tests.check("a profile that ripples", "begins to fall" in done.stderr and "it has risen again" in done.stderr and
+                    "`geometry file FILE smooth`" in done.stderr and done.returncode == 1, tests.report(done))
+        done = tests.run("-c", rippled % path + " smooth; a, dz")
+        exact = tests.run("-c", SCENE + "c0 = 1 mm; k = -0.9; geometry sphere R=15 mm; a, dz")
+        tests.check("a profile that ripples, smooth", done.stdout == exact.stdout and done.stdout.count("=") == 2,
+                    tests.report(done))
+    for text, message in (("r [mm],f [um]\n0,0\n1,5\n2,1\n3,9\n", "is where g(x) begins to fall: the contact would not be a disc\n"),
                           ("r [mm],f [um]\n0,0\n2,5\n1,9\n", "r = 1 mm is out of order"),
                           ("r,f\n0,0\n2,5\n", "r and f are lengths and need units in the header"),
                           ("r [mm],q [um]\n0,0\n", "has no column f: its columns are r, q"),
