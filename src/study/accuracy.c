@@ -19,6 +19,7 @@ const family_row families[FAMILIES] = {
 };
 
 static const long double rounding = 4e-19L; /* no reference is better */
+static const long double nothing = 1e-29L;  /* of what is stored: what rounding leaves where nothing slips */
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
 
 /* Of the processor, so that a busy machine does no harm. */
@@ -129,19 +130,13 @@ static fret_status closed_cycle(void *model, long double *loss) {
 static fret_status quadrature_cycle(void *model, long double *loss) {
     steady *m = model;
     long double unused;
-    fret_status st = find_peak(m);
-    return st.code ? st : fret_quadrature_loss(&m->contact, &m->peak, m->size, loss ? loss : &unused);
+    find_peak(m); /* as the reference has done */
+    return fret_quadrature_loss(&m->contact, &m->peak, m->size, loss ? loss : &unused);
 }
 
 static fret_status step_to(steady *m, double part) {
     const fret_step step = {FRET_KEEP_NORMAL, m->by_force ? FRET_TO_FX : FRET_TO_DX, 0, part * m->reach};
-    return engine_step(&m->engine, &step);
-}
-
-static const fret_status interrupted = {FRET_INTERRUPTED, NULL, 0, 0};
-
-static bool wants_stop(const steady *m) {
-    return *m->b->s->stop;
+    return *m->b->s->stop ? (fret_status){FRET_INTERRUPTED, NULL, 0, 0} : engine_step(&m->engine, &step);
 }
 
 /* Down and up again. */
@@ -151,7 +146,7 @@ static fret_status stepped_cycle(void *model, long double *loss) {
     if (loss)
         engine_mark(&m->engine);
     for (int sign = -1; sign <= 1 && !st.code; sign += 2)
-        st = wants_stop(m) ? interrupted : step_to(m, sign);
+        st = step_to(m, sign);
     if (loss)
         *loss = engine_spent(&m->engine);
     return st;
@@ -166,7 +161,7 @@ static fret_status loop_cycle(void *model, long double *loss) {
     engine_forces(&m->engine, &last);
     for (unsigned i = 1; i <= 2 * m->size; i++) {
         const double part = i == m->size ? -1 : i == 2 * m->size ? 1 : cos(pi * i / m->size);
-        fret_status st = wants_stop(m) ? interrupted : step_to(m, part);
+        fret_status st = step_to(m, part);
         if (st.code)
             return st;
         engine_forces(&m->engine, &now);
@@ -259,7 +254,7 @@ static bool steady_reference(bench *b, steady *m) {
                                                                 &study->agreement)
                                  : fret_reference_loss_by_displacement(&m->contact, m->amplitude,
                                                                        &study->value, &study->agreement);
-    if (!st.code && !isfinite((double)study->value))
+    if (!isfinite((double)study->value)) /* 0 where it failed */
         st = (fret_status){FRET_OVERFLOW, NULL, 0, 0};
     if (!calc_status(b->error, &st))
         return false;
@@ -273,16 +268,18 @@ static bool steady_reference(bench *b, steady *m) {
     return true;
 }
 
+/* What steps asks for many values. */
+static bool prepare(bench *b, steady *m) {
+    if (!scene_many_normal(b->s, (double)m->contact.press.F, &m->contact.normal, b->error))
+        return false;
+    return isnan(fret_normal_prepared(m->contact.normal)) || measure(b, FAMILY_PIECES, 0, closed_cycle, m);
+}
+
 static bool measure_steady(bench *b, steady *m) {
-    const fret_normal *plain = m->contact.normal, *many = plain;
-    bool ok = steady_reference(b, m) && measure(b, FAMILY_CLOSED, 0, closed_cycle, m);
-    if (ok && !fret_normal_is_power(plain)) { /* what steps asks for many values */
-        ok = scene_many_normal(b->s, (double)m->contact.press.F, &many, b->error);
-        m->contact.normal = many;
-        if (ok && !isnan(fret_normal_prepared(many)))
-            ok = measure(b, FAMILY_PIECES, 0, closed_cycle, m);
-    }
-    ok = ok && memory_rows(b, m) && double_row(b, m);
+    const fret_normal *plain = m->contact.normal;
+    bool ok = steady_reference(b, m) && measure(b, FAMILY_CLOSED, 0, closed_cycle, m) &&
+              (fret_normal_is_power(plain) || prepare(b, m)) && memory_rows(b, m) && double_row(b, m);
+    const fret_normal *many = m->contact.normal;
     m->contact.normal = plain;
     for (m->size = 16; ok && m->size <= 128; m->size *= 2)
         ok = measure(b, FAMILY_QUADRATURE, m->size, quadrature_cycle, m);
@@ -352,7 +349,7 @@ static fret_status approach(general *g, runner *r) {
 static bool open_general(bench *b, general *g, unsigned springs, unsigned first, unsigned levels, bool seen) {
     calc_error *error = b->error;
     g->levels = 0;
-    if (!scene_load_of(b->s, &g->load, error))
+    if (!scene_load_of(b->s, &g->load, error)) /* unreached: all of it has been had before */
         return false;
     g->cycle = program_item(g->load.program, (load_mark){g->load.last_cycle, g->load.end.cycles - 1},
                             g->load.last_cycle, g->load.in);
@@ -429,7 +426,7 @@ static bool count_look(const runner *r, void *context) {
 /* Does the scene answer for a swinging load without chords? */
 static bool by_sine(const bench *b) {
     const answers *a = &b->s->answers;
-    return swings(b) && a->levels == 1 && engine_is_sine(&a->run[0].engine);
+    return swings(b) && a->levels == 1;
 }
 
 /* more: is there time for one that is larger? */
@@ -473,9 +470,13 @@ static bool loop_row(bench *b, unsigned level, unsigned parts, bool *more) {
  * `parts`. */
 static bool refined(bench *b, unsigned parts, long double *loss, long double *moved) {
     general g = {.watch = watch_points(parts)};
+    fret_state now;
     if (!open_general(b, &g, 0, parts ? 0 : FINEST - LEVELS + 1, parts ? 1 : LEVELS, parts > 0))
         return false;
     fret_status st = limit_cycle(&g, loss, moved);
+    engine_state(&g.run[0].engine, &now);
+    if (*loss < nothing * now.U)
+        *loss = 0;
     close_general(&g);
     return calc_status(b->error, &st);
 }
@@ -532,8 +533,7 @@ static bool choose_amplitude(scene *s, const accuracy_load *given, accuracy_stud
     if (given->given)
         return true;
     if (s->end.cycles) {
-        if (!scene_last_cycle(s, &cycle, error))
-            return false;
+        scene_last_cycle(s, &cycle, error); /* scene_reach has had it */
         out->by_force = cycle.step.tangential == BY_FORCE;
         out->amplitude = cycle.step.tangential_value;
         out->program = reach->normal_varies;
@@ -565,8 +565,10 @@ static bool choose_load(scene *s, const accuracy_load *given, accuracy_study *ou
     m->amplitude = out->amplitude;
     if (out->program)
         return true;
-    /* the models that take a double all get the same one */
-    fret_status st = fret_press_by_force(m->contact.normal, (double)out->FN, &m->contact.press);
+    /* the models that take a double all get the same one, which the gap carries */
+    const double F = (double)out->FN;
+    fret_status st =
+        fret_press_by_force(m->contact.normal, F > out->FN ? nextafter(F, 0) : F, &m->contact.press);
     if (!st.code)
         st = closed_loss(m, &unused);
     return calc_status(error, &st);

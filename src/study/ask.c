@@ -15,8 +15,6 @@ bool ask_open(ask *q, calc *c, const knob *knobs, size_t count, calc_error *erro
 }
 
 void ask_close(ask *q) {
-    if (!q->t)
-        return;
     calc_word(q->c, q->error);
     trial_close(q->t);
     q->t = NULL;
@@ -24,8 +22,7 @@ void ask_close(ask *q) {
 
 bool ask_failed(ask *q, const calc_error *error) {
     if (error->stop || error->strange || error->circle) {
-        if (!q->error->raised)
-            *q->error = *error;
+        *q->error = *error;
         return false;
     }
     q->none = *error;

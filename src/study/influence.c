@@ -43,7 +43,7 @@ static void add_names(const calc *c, const expr *e, influence_study *out) {
     size_t left = CAUSE_NAMES;
     for (size_t i = 0; i < c->names.count && left > 0; i++) {
         const own_name *row = &c->names.row[i];
-        if (!row->known || row->definition || row->v.v == 0 || !is_mentioned(c, e, row->text))
+        if (row->definition || row->v.v == 0 || !is_mentioned(c, e, row->text))
             continue;
         out->cause[out->count++] = (cause){.name = row->text, .v = row->v, .kind = CAUSE_NAME, .own = i};
         left--;
@@ -197,7 +197,7 @@ bool influences(calc *c, const expr *e, long double result, const quantity *call
     const scene *s = c->now;
     probe p = {.e = e, .result = result, .call = call, .error = error};
     out->count = 0;
-    if (result == 0 || !isfinite(result))
+    if (result == 0)
         return true;
     if (s->end.steps && !(p.own = program_copy(s->program, s->end)))
         return calc_no_memory(error);

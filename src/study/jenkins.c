@@ -9,6 +9,8 @@
  * kink is where the line meets f-e again. The least e whose kinks suffice is looked for by halves. */
 /* The least error is looked for to this part; the one that is stated holds exactly. */
 #define ENOUGH 1e-4
+/* Parts of gross slip whose slope of the loss is rounding. */
+#define TOO_SMALL 1e-10
 
 typedef struct march {
     const fret_contact *contact;
@@ -26,26 +28,24 @@ static bool stopped(const march *m) {
     return *m->stop;
 }
 
-static double loss(march *m, double d) {
-    fret_real out = 0;
-    const fret_status st = fret_cycle_loss_by_displacement(m->contact, d, &out);
+static void note(march *m, fret_status st) {
     if (st.code)
         m->failed = st;
+}
+
+static double loss(march *m, double d) {
+    fret_real out = 0;
+    note(m, fret_cycle_loss_by_displacement(m->contact, d, &out));
     return (double)out;
 }
 
 /* f' = 4 (F_x - d dF_x/d delta_x) on first loading: short of gross slip, where a flat end makes it jump. */
 static double loss_slope(march *m, double d) {
-    fret_loading first;
+    fret_loading first = {.Fx = 0};
     d = fmin(d, (double)fret_gross_slip(m->contact) * (1 - 4 * DBL_EPSILON));
     const fret_normal *normal = m->contact->normal;
-    const fret_status st = fret_loading_by_displacement(m->contact, d, &first);
-    if (st.code) {
-        m->failed = st;
-        return 0;
-    }
-    const fret_real stiffness =
-        first.c > 0 ? fret_normal_stiffness(normal, first.c) / fret_normal_foundation(normal)->eta : 0;
+    note(m, fret_loading_by_displacement(m->contact, d, &first));
+    const fret_real stiffness = fret_normal_stiffness(normal, first.c) / fret_normal_foundation(normal)->eta;
     return (double)(4 * (first.Fx - d * stiffness));
 }
 
@@ -125,8 +125,6 @@ static double kink_after(march *m, double at) {
 /* Do `count` kinks suffice for m->e? The elements, where out is not NULL. */
 static bool suffices(march *m, size_t count, jenkins_element *out) {
     double slope = 0;
-    if (loss(m, m->end) <= m->e)
-        return true;
     m->d = zero_of(m, first_kink, 0, m->end);
     for (size_t i = 0;; i++) {
         m->pulse();
@@ -159,10 +157,11 @@ bool jenkins(const fret_contact *contact, double amplitude, size_t count, const 
     m.end = m.all ? slip : amplitude;
     const double scale = loss(&m, m.end);
     double lo = 0, hi = scale;
+    if (!(m.end > TOO_SMALL * slip) || scale < DBL_MIN)
+        return calc_status(error, &m.failed) &&
+               calc_fail(error, 0, 0, "the load is too small: what slips can hardly be told from nothing");
     while (!m.failed.code && !stopped(&m) && hi - lo > ENOUGH * hi) {
         m.e = lo > 0 ? sqrt(lo) * sqrt(hi) : hi / 16;
-        if (m.e <= lo || m.e >= hi)
-            break;
         if (suffices(&m, count, NULL))
             hi = m.e;
         else

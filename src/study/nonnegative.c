@@ -25,7 +25,9 @@ static bool solve_used(state *s) {
         for (size_t j = 0; j < s->count; j++)
             gsl_matrix_set(&M.matrix, i, j, gsl_matrix_get(s->M, s->used[i], s->used[j]));
     }
-    return !gsl_linalg_cholesky_decomp1(&M.matrix) && !gsl_linalg_cholesky_svx(&M.matrix, &x.vector);
+    const int status = gsl_linalg_cholesky_decomp1(&M.matrix);
+    gsl_linalg_cholesky_svx(&M.matrix, &x.vector);
+    return !status;
 }
 
 /* Goes there until the first becomes 0, and leaves that out; true: arrived. */
@@ -43,9 +45,11 @@ static bool approach(state *s) {
         double *x = gsl_vector_ptr(s->x, s->used[i]);
         *x += part * (gsl_vector_get(s->wanted, i) - *x);
     }
+    if (stop)
+        gsl_vector_set(s->x, s->used[stop], 0);
     for (size_t i = 1; i < s->count; i++) {
         const size_t which = s->used[i];
-        if (stop && (i == stop || gsl_vector_get(s->x, which) <= 0))
+        if (gsl_vector_get(s->x, which) <= 0)
             gsl_vector_set(s->x, which, 0);
         else
             s->used[kept++] = which;
@@ -76,9 +80,9 @@ static size_t best_unused(const state *s) {
 /* Where rounding makes those in use singular, what has been found is good enough. */
 static void run(state *s) {
     s->used[s->count++] = s->n - 1;
-    for (size_t round = 0, next = 0; round < 3 * s->n && next < s->n; round++) {
+    for (size_t round = 0, next = 0; next < s->n; round++) {
         do
-            if (!solve_used(s))
+            if (!solve_used(s) || round == 3 * s->n) /* unreached: by no rows that have been met */
                 return;
         while (!approach(s));
         next = best_unused(s);

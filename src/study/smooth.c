@@ -147,10 +147,11 @@ static bool improve(trial *t, const rows *all, bool begin, file_stop stop, calc_
     if (begin) {
         gsl_matrix_memcpy(t->factor, t->normal);
         gsl_vector_memcpy(t->whole, t->right);
+        if (gsl_linalg_cholesky_decomp1(t->factor)) /* unreached: each piece has four different r */
+            return calc_fail(error, 0, 0, "%zu different r cannot carry %zu pieces: take fewer",
+                             all->distinct, t->pieces);
     }
-    if ((begin && gsl_linalg_cholesky_decomp1(t->factor)) || gsl_linalg_cholesky_svx(t->factor, t->right))
-        return calc_fail(error, 0, 0, "%zu different r cannot carry %zu pieces: take fewer", all->distinct,
-                         t->pieces);
+    gsl_linalg_cholesky_svx(t->factor, t->right);
     gsl_vector_add(t->c, t->right);
     return true;
 }
@@ -212,7 +213,7 @@ static void look_for_fall(trial *t) {
         /* (r f')' is a parabola too */
         const double q1 = 2 * (2 * d1 + 3 * d2 * r0 / h), q2 = 9 * d2, q0 = s0 + 2 * d1 * r0 / h;
         const double vertex = q2 > 0 ? -q1 / (2 * q2) : 0;
-        t->grows = t->grows && q0 >= 0 && q0 + q1 + q2 >= 0 &&
+        t->grows = t->grows && q0 + q1 + q2 >= 0 && /* it begins where the piece before has ended */
                    (!(vertex > 0 && vertex < 1) || q0 + vertex * (q1 + vertex * q2) >= 0);
     }
 }
@@ -255,9 +256,11 @@ static bool noise_alone(const trial *t, const rows *all, double nearest) {
 }
 
 static bool attempt(trial *t, const rows *all, size_t pieces, file_stop stop, calc_error *error) {
-    if (!trial_begin(t, all, pieces, error) || !improve(t, all, true, stop, error) ||
-        !improve(t, all, false, stop, error))
+    if (!trial_begin(t, all, pieces, error))
         return false;
+    for (int pass = 0; pass < 2; pass++)
+        if (!improve(t, all, pass == 0, stop, error))
+            return false;
     judge(t, all);
     look_for_fall(t);
     if (t->grows)

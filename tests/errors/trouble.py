@@ -251,7 +251,10 @@ def finish(tests, name, job):
 
 
 def interrupts(tests):
-    csv = os.path.join(tests.dir, "long.csv")
+    csv, loop = os.path.join(tests.dir, "long.csv"), os.path.join(tests.dir, "loop.csv")
+    with open(loop, "w", encoding="ascii") as f:
+        f.write("dx [um],Fx [N],r [mm],f [um]\n" + "".join("%g,%g,%.9g,%.9g\n" % (i % 9 / 10, i % 7, i / 1e5, i * i / 1e9 + i % 3)
+                                                        for i in range(200000)))
     scripts = {"table": LONG % "/dev/null", "table to a file": LONG % csv,
                "cycle": SCENE + "cycle dxA=0.1 um FNA=30 N times 1000000\n",
                "step": SCENE + "cycle FA=20 N times 1000000 steps 1000000\nhistory to /dev/null\n",
@@ -259,6 +262,9 @@ def interrupts(tests):
                "sweep": SCENE + "cycle FA=20 N FNA=30 N times 20\ntable W for k = 0 .. 0 steps 1000000 to /dev/null\n",
                "uncertainty": SCENE + "uncertainty dWd(1 um) with mu +- 0.01, FN +- 1 N samples 10000000\n",
                "maximize": SCENE + "cycle dxA=0.1 um FNA=30 N times 20\nmaximize W over mu = 0.5 .. 1, E0 = 1 GPa .. 300 GPa\n",
+               "fit": SCENE + "fit mu, E0, nu along %s\n" % loop, "accuracy": SCENE + "accuracy within 60\n",
+               "explain": SCENE + "cycle FA=15 N FNA=20 N phase=60 deg times 300; set model springs 20000; explain dW\n",
+               "smooth": "geometry file %s smooth\n" % loop,
                "export": SCENE + "geometry flat-rounded b=0.1 mm R=10 mm\nexport jenkins 1000 to " + csv + ".h\n"}
     for name, script in scripts.items():
         with tests.file(script) as path:

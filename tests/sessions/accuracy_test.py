@@ -161,6 +161,28 @@ def narrow_gaps(tests):
                     ("diagram in double" in rows) == ("power" in scene), str(rows))
 
 
+def at_the_ends(tests):
+    """Of a table, whose force is no double; of time; and where nothing slips, or nothing is left of the double."""
+    where = os.path.join(tests.dir, "end.csv")
+    for n in (6, 8, 10):
+        with open(where, "w", encoding="ascii") as f:
+            f.write("r [mm],f [um]\n" + "".join("%g,%.17g\n" % (i / 7, (i / 7) ** 2 * 3.3) for i in range(n)))
+        rows, _ = measured(tests, "material steel; friction 0.3; geometry file %s; press a=%g mm" % (where, (n - 1) / 7),
+                           "accuracy within 0.003")
+        tests.check("accuracy of a table of %d rows, to its end" % n, rows and rows["memory diagram"][0]["error"] < 1e-14, str(rows))
+    for load in ("", "; step FN=110 N; cycle FA=12 N"):
+        rows, _ = measured(tests, GRADED % (0.3, SPHERE) + load, "accuracy within %g" % (1 if tests.sanitized else 5))
+        tests.check("accuracy with time" + load, rows and all(row["error"] < 100 / size ** 2 + 1e-15
+                                                              for size, row in rows["springs"].items()), str(rows))
+    rows, _ = measured(tests, (GRADED % (0.3, SPHERE)).replace("FN=100", "FN=1e-200"), "accuracy within 0.003")
+    tests.check("accuracy beyond the double", rows and "diagram in double" not in rows and rows["memory diagram"][0]["error"] < 1e-15,
+                str(rows))
+    for phase in ("0", "180 deg"):
+        done = tests.run("-c", GRADED % (0.3, SPHERE) + "cycle FA=1 N FNA=10 N phase=%s times 2; dW; accuracy within 0.01" % phase)
+        tests.check("accuracy where nothing slips", done.returncode == 1 and done.stdout.endswith("dW = 0 J\n")
+                    and "nothing slips in the last cycle: dW is 0" in done.stderr, tests.report(done))
+
+
 def forms(tests):
     scene = GRADED % (0.3, SPHERE)
     done = tests.run("-c", scene + "accuracy FA=20 N within 0.1")
@@ -263,6 +285,33 @@ def conditioned(tests, scene, quantities, start):
             tests.check("explain %s: inputs, %s" % (quantity, cause), (cause in listed) <= (cause not in none), told[i])
 
 
+def causes(tests):
+    """What is listed as a cause: no name that is 0, unknown or a definition, no step that ends at 0, and some names of many."""
+    scene = GRADED % (0.3, SPHERE)
+    for script, there, absent in (
+            (scene + "x = 0; y = 2; z := 3; table a(u) for u = 1 N .. 2 N; explain a*y + x*(1 m) + z*a", ("y",), ("x", "z", "u")),
+            (scene + "step Fx=20 N; step Fx=0 N; explain dx", ("FN", "mu"), ("Fx",)),
+            (scene + "step Fx=20 N; step FN=110 N; explain W", ("FN",), ("Fx",)),
+            (scene + "explain p(0 m)", ("FN",), ("r",)),
+            (scene + "; ".join("n%d = %d" % (i, i + 1) for i in range(9)) + "; explain a*(" + "+".join("n%d" % i for i in range(9)) + ")",
+             ("n0", "n7"), ("n8",)),
+            (scene + "x = 1; explain a*(1 + 1e10*(x - 1)^2)", ("FN",), ("x",))):
+        done = tests.run("-c", script)
+        found = re.findall(r"^    ((?:step )?\w+) \+?= \S+(?: [^ \n]+)? {2,}\S", done.stdout, re.M)
+        tests.check("explain: causes of " + script.rpartition("; ")[2], done.returncode == 0 and all(name in found for name in there)
+                    and not any(name in found for name in absent), str(found) + tests.report(done))
+
+
+def slow_causes(tests):
+    """What takes too long is left out, and named."""
+    done = tests.run("-c", GRADED % (0, SPHERE) + "cycle FA=15 N FNA=20 N phase=60 deg times 300; set model springs 20000; explain dW")
+    found = re.findall(r"^    (\w+) \+?= \S+(?: [^ \n]+)? {2,}\S", done.stdout, re.M)
+    left = re.findall(r"^    left out after 3 seconds: (.*)$", done.stdout, re.M)
+    named = found + [name for line in left + re.findall(r"^    no effect: (.*)$", done.stdout, re.M) for name in line.split(", ")]
+    tests.check("explain: all causes are named", done.returncode == 0 and "E0" in found
+                and {"E0", "nu", "mu", "FN", "R", "FNA", "phase", "FA"} <= set(named), tests.report(done))
+
+
 def conditioning(tests):
     for case in CONDITIONED:
         conditioned(tests, *case)
@@ -332,5 +381,5 @@ def shown_digits(tests):
 
 
 def run(tests):
-    tests.each([lambda f=f: f(tests) for f in (orders, loads, other_models, narrow_gaps, forms, pictures, conditioning, models,
+    tests.each([lambda f=f: f(tests) for f in (orders, loads, other_models, narrow_gaps, at_the_ends, forms, pictures, causes, slow_causes, conditioning, models,
                                                  shown_digits)])

@@ -182,6 +182,21 @@ def jenkins(tests):
                     "%g %g" % (after - before, loss["value"]))
 
 
+def tiny(tests):
+    """Loads whose loss is hardly a number; short of that the error is the same part of it, as the loss goes with F^3."""
+    setup = "material steel; friction 0.4; geometry sphere R=10 mm; press FN=100 N; "
+    name = os.path.join(tests.dir, "tiny.csv")
+    for load in ("1e-3", "1e-6", "1e-8"):
+        values, events, done = run_json(tests, setup + "export jenkins 4 to %s FA=%s N; dW(%s N)\n" % (name, load, load))
+        tests.check("jenkins up to %s N" % load, len(values) == 3 and abs(values[1]["value"] - 0.008622) < 1e-5
+                    and abs(values[0]["value"] / values[2]["value"] - 0.008622) < 1e-5, tests.report(done))
+        os.remove(name)
+    for load in ("FA=1e-12 N", "FA=1e-110 N", "FA=1e-190 N; "):
+        done = tests.run("-c", setup + ("FN = 1e-189 N; " if load[-2] == ";" else "") + "export jenkins 4 to %s %s" % (name, load))
+        tests.check("jenkins up to %s" % load, done.returncode == 1 and "the load is too small" in done.stderr
+                    and not os.path.exists(name), tests.report(done))
+
+
 def header(tests):
     """The C table compiles and adds up."""
     name = os.path.join(tests.dir, "elements.h")
@@ -275,6 +290,7 @@ def run(tests):
     damper(tests)
     other_shapes(tests)
     jenkins(tests)
+    tiny(tests)
     header(tests)
     linear(tests)
     bent(tests)

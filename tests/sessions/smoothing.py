@@ -113,8 +113,10 @@ def close(a, b, tolerance):
 
 def squares(tests):
     """The nearest spline, by another basis and another method."""
-    rows = profile(sphere)
-    for pieces in 1, 2, 5, 9:
+    hollow = [(i / 100, 13.523 * (i / 100) ** 2 / (1 + (i / 100) ** 2) + 0.1 * (i / 100) ** 4) for i in range(150)]
+    sphere_rows = profile(sphere)
+    # where f is hollow, r f' goes on growing: that is no noise, and stays
+    for rows, pieces in (*((sphere_rows, n) for n in (1, 2, 5, 9)), (hollow, 2), (hollow, 4)):
         event, got = smooth(tests, rows, str(pieces))
         knots = ends(rows, pieces)
         x, left, _ = householder([powers(r, knots) for r, _ in rows], [f for _, f in rows])
@@ -125,6 +127,16 @@ def squares(tests):
         tests.check("and so is their misfit", event.get("pieces") == pieces and close(
             [1e6 * event["rms"], 1e6 * event["worst"], 1e3 * event["at"], 1e6 * event["offset"]],
             [math.sqrt(left / len(rows)), rests[worst], rows[worst][0], x[-1]], 1e-8), str(event))
+
+
+def hollows(tests):
+    """Where r f' falls within a piece it becomes convex, as far as the noise allows."""
+    rows = [(i / 100, 18.688 * (i / 100) ** 2 / (1 + 5 * (i / 100) ** 2) + 20 * (i / 100) ** 4) for i in range(150)]
+    event, got = smooth(tests, rows, "2")
+    slopes = [(b - a) / (s - r) for a, b, r, s in zip(got, got[1:], AT, AT[1:])]
+    _, left, _ = householder([powers(r, ends(rows, 2)) for r, _ in rows], [f for _, f in rows])
+    tests.check("a hollow piece is made convex", all(a <= b for a, b in zip(slopes, slopes[1:]))
+                and 1 < 1e6 * event["rms"] / math.sqrt(left / len(rows)) < 1.1, "%s %s" % (slopes, event))
 
 
 def noise(tests):
@@ -265,10 +277,16 @@ def refused(tests):
         with tests.file(text_of(rows), ".csv") as path:
             done = tests.run("-c", "geometry file %s smooth" % path)
         tests.check("smooth: " + message, message in done.stderr and done.returncode == 1, tests.report(done))
+    # r^2 (1 - r) has its top at 2/3: one cubic is all of it
+    with tests.file(text_of([(i / 40, 50 * (i / 40) ** 2 * (1 - i / 40)) for i in range(41)]), ".csv") as path:
+        for how in ("1", "1 mm"):
+            done = tests.run("-c", "geometry file %s smooth %s" % (path, how))
+            tests.check("smooth: a cubic that falls", "error: the profile of 1 piece falls from r = 666.667 um on, by 7.40741 um, which is "
+                        "no noise" in done.stderr and done.returncode == 1, tests.report(done))
     with tests.file(text_of([(0, 1), (1, 2)]), ".csv") as path:
         done = tests.run("-c", "geometry file %s" % path)
         tests.check("f(0) that is not 0 points to it", "(smooth takes it off)" in done.stderr, tests.report(done))
 
 
 def run(tests):
-    tests.each([lambda room=room: room(tests) for room in (squares, noise, convex, contacts, kept, refused)])
+    tests.each([lambda room=room: room(tests) for room in (squares, hollows, noise, convex, contacts, kept, refused)])

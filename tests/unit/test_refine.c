@@ -70,6 +70,16 @@ static double pole(double x, int column) {
     return column ? 0 : 1 / x;
 }
 
+/* Bends everywhere: it is drawn as it is. */
+static double rough(double x, int column) {
+    return column ? 0 : sin(1e7 * x * x);
+}
+
+/* One column has no value. */
+static double half(double x, int column) {
+    return column ? (double)NAN : fabs(x - 0.3141);
+}
+
 static bool rising(const curve *c) {
     for (size_t i = 1; i < c->count; i++)
         if (!(c->x[i] > c->x[i - 1]))
@@ -113,6 +123,8 @@ int main(int argc, char **argv) {
         at++;
     CHECK(at > 0 && at < c->count && 0.777 - c->x[at - 1] < 2e-5 && 0.777 - c->x[at - 1] >= 0);
     CHECK(run(c, pole, 0) && rising(c) && c->count < 400 && c->y[1][0] > 50);
+    CHECK(run_steps(c, rough, 0, 1000) && rising(c) && c->count < 3000 && c->count > 1000);
+    CHECK(run(c, half, 0) && rising(c) && off(c, 0) < 1e-3);
     CHECK(!run(c, bends, 50) && c->count == 0);
     CHECK(!run(c, bends, 110) && c->count == 0);
     free(c);
