@@ -391,7 +391,7 @@ bool expr_dim(calc *c, const expr *e, dim *d) {
     value v;
     error_clear(&ignored);
     machine m = {c, e, &ignored, NULL, true};
-    if (!run(&m, &v))
+    if (!run(&m, &v) || isnan(v.d.N + v.d.m)) /* a power by what has no value */
         return false;
     *d = v.d;
     return true;

@@ -129,14 +129,13 @@ static const csv_values *column_for(const csv *c, const axis_of *axis, const csv
     return NULL;
 }
 
-static bool no_column(lexer *lx, const looks *l, size_t i, const csv *c, const axis_of *axis) {
+static void no_column(lexer *lx, const looks *l, size_t i, const csv *c, const axis_of *axis) {
     char wants[128], has[CALC_ERROR_TEXT / 2];
     dim_describe(axis->d, wants, sizeof wants);
     csv_names(c, has, sizeof has);
-    return calc_fail(
-        lx->error, l->over_at[i], l->over_len[i],
-        "no column fits the axis %.60s, which is %s: there are %s; their units stand in the header",
-        axis->name, wants, has);
+    calc_fail(lx->error, l->over_at[i], l->over_len[i],
+              "no column fits the axis %.60s, which is %s: there are %s; their units stand in the header",
+              axis->name, wants, has);
 }
 
 static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const axis_of *x, const axis_of *y) {
@@ -149,7 +148,9 @@ static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const a
     const csv_values *of_x = column_for(&c, x, NULL, true), *of_y = column_for(&c, y, of_x, true);
     of_x = of_x ? of_x : column_for(&c, x, of_y, false); /* names first, then the order of the columns */
     of_y = of_y ? of_y : column_for(&c, y, of_x, false);
-    bool ok = (of_y || no_column(lx, l, i, &c, y)) && (of_x || no_column(lx, l, i, &c, x));
+    bool ok = of_x && of_y;
+    if (!ok)
+        no_column(lx, l, i, &c, of_y ? x : y);
     plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, slash ? slash + 1 : l->over[i], lx->error) : NULL;
     for (size_t j = 0; s && ok && j < c.rows; j++)
         ok = plot_point(s, of_x->v[j], of_y->v[j]) || calc_no_memory(lx->error);

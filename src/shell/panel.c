@@ -32,6 +32,7 @@ typedef struct panel_job {
     const column *columns;
     const char *statement;
     calc_error *error;
+    bool lost;                                   /* there was no memory for a point */
     size_t each;                                 /* series of a curve */
     bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series told apart by their bound */
     double last[PLOTTED][2];
@@ -126,25 +127,30 @@ static bool add_curve(panel_job *job, size_t curve) {
     return true;
 }
 
-static bool add_point(panel_job *job, plot_series *s, double x, double y) {
-    return plot_point(s, x, y) || calc_no_memory(job->error);
+static void add_point(panel_job *job, plot_series *s, double x, double y) {
+    job->lost = !plot_point(s, x, y) || job->lost;
 }
 
 /* To the stick or the slip series at j, j+1; the point between is in both, so that they join. */
-static bool add_told_apart(panel_job *job, size_t j, size_t i, double x, const long double *values) {
+static void add_told_apart(panel_job *job, size_t j, size_t i, double x, const long double *values) {
     plot_series *const *s = job->p->series + j;
     const double u = (double)values[i], bound = fabs((double)values[i + 1]);
-    if (!(bound > 1e-12 * fabs(u)) || bound == 0) /* out of contact */
-        return add_point(job, s[0], x, NAN) && add_point(job, s[1], x, NAN) && !(job->begun[j] = false);
+    if (!(bound > 1e-12 * fabs(u))) { /* out of contact */
+        add_point(job, s[0], x, NAN);
+        add_point(job, s[1], x, NAN);
+        job->begun[j] = false;
+        return;
+    }
     const bool slips = fabs(u) >= bound * (1 - 1e-9);
-    bool ok = true;
-    if (job->begun[j] && slips != job->slips[j])
-        ok = add_point(job, s[slips], x, NAN) && add_point(job, s[slips], job->last[i][0], job->last[i][1]);
+    if (job->begun[j] && slips != job->slips[j]) {
+        add_point(job, s[slips], x, NAN);
+        add_point(job, s[slips], job->last[i][0], job->last[i][1]);
+    }
     job->slips[j] = slips;
     job->begun[j] = true;
     job->last[i][0] = x;
     job->last[i][1] = u;
-    return ok && add_point(job, s[slips], x, u);
+    add_point(job, s[slips], x, u);
 }
 
 static size_t series_each(const panel_job *job) {
@@ -174,20 +180,16 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
     for (size_t i = 0, j = at; i < job->count; i++, j++) {
         const char role = role_of(job, i);
         plot_series *to = job->p->series[j];
-        bool ok;
         if (role == 'b')
-            ok = plot_band(to, abscissa, (double)values[i], (double)values[i + 1]) ||
-                 calc_no_memory(job->error);
+            job->lost = !plot_band(to, abscissa, (double)values[i], (double)values[i + 1]) || job->lost;
         else if (role == 's')
-            ok = add_told_apart(job, j, i, abscissa, values);
+            add_told_apart(job, j, i, abscissa, values);
         else
-            ok = add_point(job, to, abscissa, (double)values[i]);
-        if (!ok)
-            return false;
+            add_point(job, to, abscissa, (double)values[i]);
         i += role == 'b';
         j += role == 's';
     }
-    return true;
+    return !job->lost || calc_no_memory(job->error);
 }
 
 /* The last point of every main curve, marked. */
@@ -198,11 +200,10 @@ static bool mark_now(panel_job *job) {
     plot_series *now = add_series(job, PLOT_NOW, NULL, false);
     for (size_t i = 0; now && i < series; i++) {
         const plot_series *s = job->p->series[i];
-        if (s->role == PLOT_CURVE && !s->thin && s->count &&
-            !add_point(job, now, s->x[s->count - 1], s->y[s->count - 1]))
-            return false;
+        if (s->role == PLOT_CURVE && !s->thin && s->count)
+            add_point(job, now, s->x[s->count - 1], s->y[s->count - 1]);
     }
-    return now != NULL;
+    return now && (!job->lost || calc_no_memory(job->error));
 }
 
 /* ---- axes -------------------------------------------------------------------------------------- */
@@ -270,10 +271,13 @@ static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const dim *d,
     char name[40];
     const bool shared = main_count(job) > 1;
     const column *c = job->columns, *x = job->against ? &c[job->count] : NULL;
-    for (size_t i = 1; i < job->count; i++)
-        if (known[i] && known[0] && !dim_equal(d[i], d[0]))
+    size_t first = 0; /* whose dimension is known: there may be no value that tells of it */
+    while (first + 1 < job->count && !known[first])
+        first++;
+    for (size_t i = first + 1; i < job->count; i++)
+        if (known[i] && !dim_equal(d[i], d[first]))
             return calc_fail(job->error, job->sh->list[i].at, job->sh->list[i].len,
-                             "%s and %s cannot share an axis", c[0].name, c[i].name);
+                             "%s and %s cannot share an axis", c[first].name, c[i].name);
     ordinate_name(job, name, sizeof name);
     const axis_of ax = {x          ? x->name
                         : s->along ? "time"
@@ -281,7 +285,7 @@ static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const dim *d,
                         x          ? d[job->count]
                         : s->along ? DIM_NONE
                                    : s->var.d},
-                  ay = {shared ? name : c[0].name, d[0]};
+                  ay = {shared ? name : c[0].name, d[first]};
     job->p->logx = job->p->logx || s->log;
     if (!job->p->title && job->figure)
         job->p->title = strdup(job->figure->title);
@@ -428,8 +432,8 @@ static size_t statement_length(const figure *f, const lexer *lx) {
     if (!lex_is(&next, "along") && !lex_is(&next, "for"))
         return strlen(f->statement);
     const char *own = strstr(f->statement, " along ");
-    own = own ? own : strstr(f->statement, " for ");
-    return own ? (size_t)(own - f->statement) : strlen(f->statement);
+    own = own ? own : strstr(f->statement, " for "); /* each has either */
+    return (size_t)(own - f->statement);
 }
 
 /* A figure of the table: its statement as if it stood here, what follows the name after it. */
@@ -470,8 +474,7 @@ static const figure *figure_at(const shell *sh, const lexer *lx) {
     const figure *f = lx->kind == T_NAME ? figure_find(name, lx->len) : NULL;
     if (!f)
         return NULL;
-    const bool valued = quantity_find(name, lx->len) ||
-                        (names_find(&sh->calc.names, name, lx->len, &own) && sh->calc.names.row[own].known);
+    const bool valued = quantity_find(name, lx->len) || names_find(&sh->calc.names, name, lx->len, &own);
     lexer next = *lx;
     calc_error ignored;
     error_clear(&ignored);

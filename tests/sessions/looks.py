@@ -108,6 +108,30 @@ def looks(tests):
     fails(tests, "plot dissipation key", "expected key off")
 
 
+def parts(tests):
+    """What an axis, a curve and a frame are named and made of where that is not the usual."""
+    text, series = script(tests, "springs of two gradings", "plot springs with k = 0, 0.5")
+    titles = re.findall(r'title "(.*?)"', text.rpartition("plot ")[2])
+    tests.check("stick and slip of each, bounds as lines", [re.sub(r"[{}/:]|Italic ", "", t) for t in titles] ==
+                ["k = 0, stick", "k = 0, slip", "k = 0.5, stick", "k = 0.5, slip"] and len(series) == 8 and "filledcurves" not in text, str(titles))
+    fails(tests, "plot springs with k = " + ", ".join("0.%02d" % i for i in range(19)), "more than 64 curves in a figure")
+    text, _ = script(tests, "names without room", "plot dW(20 N)*1000000000001, dW(20 N)*1000000000002 for mu = 0.4 .. 0.5")
+    tests.check("an axis without room for names has the unit alone", 'set ylabel "[MJ]"' in text, text[:1500])
+    for order in ("(1 m)^sqrt(-1-y), y*1 mm", "y*1 mm, (1 m)^sqrt(-1-y)"):
+        text, series = script(tests, "a dimension that nobody knows, " + order.replace("/", ""), "plot %s for y = 1 .. 2 steps 1" % order)
+        tests.check("the axis is of what is known: " + order, "[mm]\"" in text and [(1, 1), (2, 2)] in series, str(series))
+    fails(tests, "plot (1 m)^sqrt(-1-y), y*1 mm, y*1 N for y = 1 .. 2", "y*1 mm and y*1 N cannot share an axis")
+    fails(tests, "plot loop title \"t\" steps 0", "steps must be a whole number")
+    fails(tests, "plot loop steps 0", "steps must be a whole number")
+    _, series = script(tests, "a name taken back is a figure again", "load = 3; undo; plot load along cycle")
+    tests.check("with its own title and bounds", len(series) == 3, str(len(series)))
+    fails(tests, "plot pressure*2 for y = 1 .. 2", "unknown name 'pressure'")
+    text, _ = script(tests, "two logarithms", "plot y for y = 1 .. 2 log x log y")
+    tests.check("one axis and then the other", re.findall("set logscale (.)", text) == ["x", "y"], text)
+    text, _ = script(tests, "one logarithm twice", "plot y for y = 1 .. 2 log y log y flip x flip x")
+    tests.check("once is enough", "set logscale y\n" in text and "set logscale x" not in text)
+
+
 def ranges(tests):
     """A figure over another range than its own; a name with a value is an expression."""
     _, (whole,) = script(tests, "the loop", "plot loop")
@@ -141,6 +165,10 @@ def over(tests):
         f.write("Fx [kN],dx [nm]\n0.01,200\n-0.02,-500\n")
     fails(tests, "plot pressure over " + path, "no column fits the axis p(r), which is a pressure: there are Fx, dx")
     fails(tests, "plot loop over /nonexistent.csv", "cannot read /nonexistent.csv")
+    for columns, row, axis in (("Fx [N],t", "1,2", "dx, which is a length"), ("dx [um],t", "1,2", "Fx, which is a force")):
+        with open(path, "w", encoding="ascii") as f:
+            f.write(columns + "\n" + row + "\n")
+        fails(tests, "plot loop over " + path, "no column fits the axis " + axis)
 
 
 def maps(tests):
@@ -159,6 +187,18 @@ def maps(tests):
     tests.check("values stand on contours, apart and within the frame", 2 < len(values) <= len(levels) and
                 {float(v[0]) for v in values} <= set(map(float, levels)) and min(apart) >= 1 and
                 all(0.08 <= float(v[1]) <= 0.92 and 0.04 <= float(v[2]) <= 0.96 for v in values), str(values))
+    text, _ = script(tests, "a map in a unit", "plot map -a in mm for k = 0 .. 0.5 for mu = 0.1 .. 0.2 xlabel \"X\" log y")
+    there = [float(line.split()[2]) for line in re.search(r"\$map0_0 << END\n(.*?)END", text, re.S).group(1).splitlines() if line]
+    tests.check("a map's unit, label and axis", 'set cblabel' in text and "[mm]\"" in text and 'set xlabel "X"\n' in text and
+                "set logscale y\n" in text and "set logscale x\n" not in text and abs(min(there) + 0.23) < 0.1, text[-1500:])
+    text, _ = script(tests, "a map along logarithms", "plot map (a/a0) for k = 0.1 .. 0.5 log for mu = 0.1 .. 0.2 log")
+    tests.check("a map's axes are those of its ranges", re.findall("set logscale (.)", text) == ["x", "y"], text)
+    for look in ("log x", "log y"):
+        text, _ = script(tests, "a map with " + look, "plot map 2*a for k = 0.1 .. 0.5 for mu = 0.1 .. 0.2 " + look)
+        tests.check(look + " of a map", re.findall("set logscale (.)", text) == [look[-1]])
+    _, (line,) = script(tests, "a name map", "map = 3; plot map*y for y = 1 .. 2 steps 1")
+    tests.check("is no map", line == [(1, 3), (2, 6)], str(line))
+    fails(tests, "plot map", "expected map EXPR for A = LO .. HI")
     text, _ = script(tests, "panels of one height", "plot springs | loop title \"\" | W1D along program")
     tests.check("panels stand on one line", [len(set(re.findall("^set %s .*" % m, text, re.M)))
                                              for m in ("tmargin", "bmargin")] == [1, 1], text[-3000:])
@@ -192,6 +232,15 @@ def moving(tests):
     done = tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
                      "animate springs | Fx against dx along cycle FA=0.9*mu*FN with k=0 frames 3\nFx")
     tests.check("along a load that is tried", done.returncode == 0 and "Fx = 0 N" in done.stdout, tests.report(done))
+    done = tests.run("-c", SCENE + "animate load frames 3 to " + path)
+    tests.check("a load between its bounds", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
+    done = tests.run("-c", SCENE + "x = 0.05 mm; animate springs along program frames 3 to " + path)
+    tests.check("one spring on its way", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
+    done = tests.run("-c", SCENE + "animate loop | y for y = 0 .. 1 with mu = 0.4, 0.5 | y for y = 0 .. 1 with z = 1, 2 frames 3 to " + path)
+    tests.check("what does not move", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
+    fails(tests, "animate Fx against dx along cycle FA=10 N | Fx along cycle FA=20 N", "the figures of an animation go along one load")
+    done = tests.run("-c", SCENE + "animate Fx against dx along cycle FA=10 N | Fx along cycle FA=10 N frames 3 to " + path)
+    tests.check("one load, said twice", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
     fails(tests, "animate loop | W1D along cycle", "the figures of an animation go along one load")
     fails(tests, "animate loop to x.png", "an animation goes to a .gif file or to the terminal")
     fails(tests, "animate loop frames 1", "an animation takes 2 frames or more")
@@ -255,6 +304,21 @@ def terminals(tests):
     tests.check("no colours in JSON", "\\u001b" not in json.stdout, json.stdout[:300])
 
 
+def formulas(tests):
+    """Signs for words where the locale has them; a transcript of one locale comes out again in another."""
+    done = tests.run("-c", SCENE + "explain W; explain cN", env={"LC_ALL": "C.UTF-8"})
+    plain = tests.run("-c", SCENE + "explain W; explain cN")
+    tests.check("a sum of something is English, a sum is a sign", "W = sum of the friction work of all springs, \u222b |c_T u|" in done.stdout and
+                "W = sum of the friction work of all springs, int |c_T u|" in plain.stdout and "1/c_N0 = \u03a3 (1\u2212\u03bd\u00b2)/" in done.stdout and
+                "1/c_N0 = sum (1-nu^2)/" in plain.stdout, tests.report(done))
+    for one, other, same in (("2 m^3 = 2 m^3", "2 m\u00b3 = 2 m\u00b3", True), ("2 m^2 = 2 m^2", "2 m\u00b2 = 2 m\u00b2", True),
+                             ("2 m^2.5 = 2 m^2.5", "2 m\u00b2.5 = 2 m\u00b2.5", False), ("2 m^-1 = 2 m^-1", "2 m^\u22121 = 2 m^\u22121", True),
+                             ("2 m^4 = 2 m^4", "2 m\u00b3 = 2 m\u00b3", False)):
+        with tests.file("fret> %s\n%s\n" % (one.partition(" =")[0], other), ".txt") as transcript:
+            done = tests.run("--replay", transcript)
+        tests.check("replayed in another locale: " + one, (done.returncode == 0) == same, tests.report(done))
+
+
 def gnuplots(tests):
     """What some versions of gnuplot put around a picture: the cursor sent home, colours that reach over lines."""
     where = os.path.join(tests.dir, "gnuplots")
@@ -292,4 +356,4 @@ def bodies(tests):
 
 
 def run(tests):
-    tests.each([lambda one=one: one(tests) for one in (points, ranges, springs, looks, over, maps, moving, histories, terminals, bodies)])
+    tests.each([lambda one=one: one(tests) for one in (points, parts, ranges, springs, looks, over, maps, moving, histories, terminals, formulas, bodies)])
