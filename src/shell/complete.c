@@ -105,9 +105,9 @@ static void add_units(const place *p, bool any, dim d) {
     static const char *const prefixes[] = {"", "n", "u", "m", "c", "k", "M", "G"};
     enum { PREFIXES = sizeof prefixes / sizeof *prefixes };
     bool none = true;
-    unit u;
+    unit u = {.d = DIM_NONE};
     for (size_t i = 0; unit_name(i) && none && !any; i++)
-        none = !unit_lookup(unit_name(i), strlen(unit_name(i)), &u) || !same_dim(u.d, d);
+        none = (unit_lookup(unit_name(i), strlen(unit_name(i)), &u), !same_dim(u.d, d));
     for (size_t i = 0; unit_name(i); i++)
         for (size_t j = 0; j < PREFIXES; j++) {
             char word[LEX_NAME];
@@ -120,7 +120,7 @@ static void add_units(const place *p, bool any, dim d) {
 /* ---- the statement ----------------------------------------------------------------------------- */
 
 static bool is_word(const place *p, size_t i, const char *word) {
-    return i < p->count && p->token[i].kind == T_NAME && strlen(word) == p->token[i].len &&
+    return p->token[i].kind == T_NAME && strlen(word) == p->token[i].len &&
            !memcmp(p->line + p->token[i].at, word, p->token[i].len);
 }
 
@@ -143,18 +143,21 @@ static bool is_assigned(const place *p, const char *word) {
     return false;
 }
 
-/* The tokens before the word that begins at `start`. */
+/* The tokens before the word that begins at `start`; what is none, as in names of files, is left out. */
 static void read_tokens(place *p, size_t begin, size_t start) {
-    calc_error ignored;
+    calc_error strange;
     lexer lx;
-    error_clear(&ignored);
+    error_clear(&strange);
     p->start = start;
     p->count = 0;
-    for (lex_start(&lx, p->line + begin, start - begin, &ignored); lx.kind != T_END && p->count < TOKENS;
-         lex_next(&lx), p->count++) {
+    for (lex_start(&lx, p->line + begin, start - begin, &strange);
+         (lx.kind != T_END || strange.raised) && p->count < TOKENS; lex_next(&lx)) {
+        error_clear(&strange);
+        if (lx.kind == T_END)
+            continue;
         p->token[p->count].kind = lx.kind;
         p->token[p->count].at = begin + lx.at;
-        p->token[p->count].len = lx.len;
+        p->token[p->count++].len = lx.len;
     }
     const bool assignment = p->count > 1 && assigns(p->token[1].kind);
     p->command = p->count && !assignment ? command_find(p->line + p->token[0].at, p->token[0].len) : NULL;
@@ -182,7 +185,7 @@ static const command *load_along(const place *p) {
 }
 
 static const geometry *shape_of(const place *p) {
-    if (!p->command || p->command->run != do_geometry || p->count < 2)
+    if (!p->command || p->command->run != do_geometry)
         return NULL;
     const char *name = p->line + p->token[1].at;
     return geometry_find(name, strcspn(name, " \t\n;"));
@@ -306,7 +309,7 @@ static void add_parameters(const place *p, const geometry *shape) {
     for (const char *equals = strchr(usage, '='); equals; equals = strchr(equals + 1, '=')) {
         char name[LEX_NAME];
         size_t n = 0;
-        while (equals - n > usage && equals[-1 - (ptrdiff_t)n] != ' ')
+        while (equals[-1 - (ptrdiff_t)n] != ' ') /* the word of the geometry stands first */
             n++;
         snprintf(name, sizeof name, "%.*s", (int)n, equals - n);
         if (!is_assigned(p, name))
