@@ -53,8 +53,9 @@ static void on_end(int number) {
 /* What nohup(1), or a shell that starts us in the background, has us ignore stays ignored. */
 static void handle(int number, void (*handler)(int)) {
     const struct sigaction act = {.sa_handler = handler}; /* no SA_RESTART: a blocked read must return */
-    struct sigaction before;
-    if (sigaction(number, NULL, &before) || before.sa_handler != SIG_IGN || isatty(STDIN_FILENO))
+    struct sigaction before = {.sa_handler = SIG_DFL};
+    sigaction(number, NULL, &before);
+    if (before.sa_handler != SIG_IGN || isatty(STDIN_FILENO))
         sigaction(number, &act, NULL);
 }
 
@@ -110,10 +111,24 @@ static int take_format(settings *set, const char *text) {
 }
 
 static int take_color(wishes *w, const char *text) {
+    static const char *const names[] = {"auto", "always", "never"};
     w->color = text;
-    return !strcmp(text, "auto") || !strcmp(text, "always") || !strcmp(text, "never")
-               ? EXIT_OK
-               : bad_usage("--color is auto, always or never, not", text);
+    for (int i = 0; i < 3; i++)
+        if (!strcmp(names[i], text))
+            return EXIT_OK;
+    return bad_usage("--color is auto, always or never, not", text);
+}
+
+static int out_of_memory(void) {
+    fputs("error: out of memory\n", stderr);
+    return EXIT_ERROR;
+}
+
+static int take_manual(const char *text) {
+    const int status = manual_write(stdout, text, usage, FRET_VERSION);
+    return status == EXIT_USAGE ? bad_usage("--manual is 1, 5 or bash, not", text)
+           : status == EXIT_OK  ? EXIT_OK
+                                : out_of_memory();
 }
 
 enum {
@@ -188,12 +203,9 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
         return take_color(w, optarg);
     case OPT_MANUAL:
         w->done = true;
-        return manual_write(stdout, optarg, usage, FRET_VERSION)
-                   ? EXIT_OK
-                   : bad_usage("--manual is 1, 5 or bash, not", optarg);
+        return take_manual(optarg);
     case OPT_VERSION:
-        printf("fret %s%s%s%s\n", FRET_VERSION, *study_library ? " (" : "", study_library,
-               *study_library ? ")" : "");
+        printf("fret %s%s\n", FRET_VERSION, study_library);
         w->done = true;
         return EXIT_OK;
     case 'h':
@@ -297,10 +309,8 @@ int main(int argc, char **argv) {
     static char buffer[1 << 16];
     keep_closed();
     wishes w = {.color = "auto", .jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
-    if (!w.jobs) {
-        fprintf(stderr, "error: out of memory\n");
-        return EXIT_ERROR;
-    }
+    if (!w.jobs)
+        return out_of_memory();
     if (!isatty(STDOUT_FILENO)) /* musl writes the first line early: an error is forgotten by the end */
         setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     shell_init(&sh, stdout, stderr);

@@ -2,6 +2,7 @@
 /* fret(1), fret(5) and completion for bash. Writes to the stream that it is given. */
 #include "shell/manual.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,10 +12,8 @@
 
 /* ---- text for troff ---------------------------------------------------------------------------- */
 
-/* One line; what troff takes for requests or other signs is escaped. */
+/* One line, which begins with no sign of a request; what troff takes for other signs is escaped. */
 static void put_line(FILE *to, const char *text, size_t n) {
-    if (n > 0 && (*text == '.' || *text == '\''))
-        fputs("\\&", to);
     for (size_t i = 0; i < n; i++)
         if (text[i] == '\\')
             fputs("\\e", to);
@@ -43,40 +42,43 @@ static void put_help(FILE *to, const char *text) {
             fputs(".PP\n.nf\n", to);
         else if (!indented && n > 0 && verbatim)
             fputs(".fi\n.PP\n", to);
-        else if (n == 0 && !verbatim && text[n] && text[n + 1] && text[n + 1] != ' ')
+        else if (n == 0 && !verbatim && text[n + 1] && text[n + 1] != ' ')
             fputs(".PP\n", to);
-        else if (n == 0 && verbatim && text[n + 1] == ' ')
-            putc('\n', to);
-        verbatim = n == 0 ? verbatim : indented;
-        if (n > 0)
+        if (n > 0) {
+            verbatim = indented;
             put_line(to, text, n);
+        }
         text += n + (text[n] == '\n');
     }
     if (verbatim)
         fputs(".fi\n", to);
 }
 
-static void put_printed(FILE *to, void (*print)(FILE *to)) {
+/* False: out of memory. */
+static bool put_printed(FILE *to, void (*print)(FILE *to)) {
     file_text page;
     if (!file_text_open(&page))
-        return;
+        return false;
     print(page.to);
     if (!file_text_close(&page))
-        return;
+        return false;
     put_help(to, page.text);
     free(page.text);
+    return true;
 }
 
-static void put_topic(FILE *to, const char *name) {
+static bool put_topic(FILE *to, const char *name) {
+    bool ok = true;
     const topic *t;
     for (size_t i = 0; (t = topic_row(i)); i++)
         if (!strcmp(t->name, name)) {
             if (t->text)
                 put_help(to, t->text);
             if (t->print)
-                put_printed(to, t->print);
+                ok = put_printed(to, t->print);
             put_help(to, t->example);
         }
+    return ok;
 }
 
 /* ---- pages ------------------------------------------------------------------------------------- */
@@ -88,8 +90,7 @@ static void put_commands(FILE *to) {
         snprintf(line, sizeof line, "%s%s%s", c->name, *c->usage ? " " : "", c->usage);
         fputs(".TP\n.B ", to);
         put_line(to, line, strlen(line));
-        fprintf(to, "%c%s.\n", c->summary[0] - (c->summary[0] >= 'a' && c->summary[0] <= 'z' ? 'a' - 'A' : 0),
-                c->summary + 1);
+        fprintf(to, "%c%s.\n", toupper((unsigned char)c->summary[0]), c->summary + 1);
     }
 }
 
@@ -105,12 +106,12 @@ static void put_options(FILE *to, const char *usage) {
             option++;
         fputs(".TP\n.B ", to);
         put_line(to, line + 2, option - 2);
-        if (n > TEXT)
+        if (option < n)
             put_line(to, line + TEXT, n - TEXT);
     }
 }
 
-static void page_1(FILE *to, const char *usage, const char *version) {
+static bool page_1(FILE *to, const char *usage, const char *version) {
     fprintf(to, ".TH FRET 1 \"\" \"fret %s\" \"User Commands\"\n", version);
     fputs(".SH NAME\nfret \\- partial\\-slip contact of graded elastic solids\n"
           ".SH SYNOPSIS\n.B fret\n[\\fIOPTION\\fR...] [\\fIFILE\\fR...]\n"
@@ -128,17 +129,19 @@ static void page_1(FILE *to, const char *usage, const char *version) {
     static const char *const sections[][2] = {
         {"EXPRESSIONS", "expressions"}, {"QUANTITIES", "quantities"}, {"UNITS", "units"},
         {"THE PROMPT", "prompt"},       {"SCRIPTS", "scripts"},       {"LIMITS", "limits"}};
+    bool ok = true;
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
         fprintf(to, ".SH %s\n", sections[i][0]);
-        put_topic(to, sections[i][1]);
+        ok = put_topic(to, sections[i][1]) && ok;
     }
     fputs(".SH SETTINGS\n", to);
-    put_printed(to, help_settings);
+    ok = put_printed(to, help_settings) && ok;
     fputs(".SH EXIT STATUS\n0 fine, 1 an error, 2 wrong usage, 130 interrupted.\n"
           ".SH ENVIRONMENT\n.TP\n.B PAGER\nshows text that the terminal is too low for\n.TP\n"
           ".BR NO_COLOR \", \" XDG_CONFIG_HOME \", \" XDG_STATE_HOME \", \" HOME\nas usual\n"
           ".SH SEE ALSO\n.BR fret (5),\n.BR libfret (3)\n",
           to);
+    return ok;
 }
 
 static void page_5(FILE *to, const char *version) {
@@ -198,14 +201,14 @@ static void completion_bash(FILE *to, const char *usage) {
           to);
 }
 
-bool manual_write(FILE *to, const char *what, const char *usage, const char *version) {
+int manual_write(FILE *to, const char *what, const char *usage, const char *version) {
     if (!strcmp(what, "1"))
-        page_1(to, usage, version);
-    else if (!strcmp(what, "5"))
+        return page_1(to, usage, version) ? EXIT_OK : EXIT_ERROR;
+    if (!strcmp(what, "5"))
         page_5(to, version);
     else if (!strcmp(what, "bash"))
         completion_bash(to, usage);
     else
-        return false;
-    return true;
+        return EXIT_USAGE;
+    return EXIT_OK;
 }

@@ -4,10 +4,10 @@
 #ifndef SHELL_MANUAL_H
 #define SHELL_MANUAL_H
 
-#include <stdbool.h>
 #include <stdio.h>
 
-/* what: "1", "5" or "bash"; false: there is no such page. usage: the options, as `--help` tells them. */
-bool manual_write(FILE *to, const char *what, const char *usage, const char *version);
+/* what: "1", "5" or "bash". usage: the options, as `--help` tells them. Returns an exit status: EXIT_USAGE
+ * where there is no such page, EXIT_ERROR where there is no memory for all of it. */
+int manual_write(FILE *to, const char *what, const char *usage, const char *version);
 
 #endif

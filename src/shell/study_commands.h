@@ -10,7 +10,7 @@ command_run do_solve, do_maximize, do_minimize, do_fit, do_uncertainty;
 /* jenkins_command.c */
 command_run do_export;
 
-/* What --version says of it; empty: nothing. */
+/* What --version says of it, behind its own; empty: nothing. */
 extern const char study_library[];
 
 #endif

@@ -3,7 +3,7 @@
 #include "shell/study_commands.h"
 #include "study/smooth.h"
 
-const char study_library[] = "without GSL: no solve, maximize, minimize, fit, uncertainty, smooth";
+const char study_library[] = " (without GSL: no solve, maximize, minimize, fit, uncertainty, smooth)";
 
 static bool without(lexer *lx, const command *self) {
     return calc_fail(lx->error, 0, 0, "%s needs GSL, which this program was built without", self->name);

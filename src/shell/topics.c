@@ -116,15 +116,14 @@ static void equation(FILE *to, const char *number, const char *text) {
     for (size_t i = 0; (q = quantity_row(i)); i++)
         if (quotes(q, number)) {
             const size_t n = strlen(names);
-            snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : text ? "in: " : "", q->name);
+            snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "in: ", q->name);
         }
     enum { INDENT = 6 };
-    if (text)
-        help_wrapped(to, text, INDENT, INDENT);
-    if (text && *names)
+    help_wrapped(to, text, INDENT, INDENT);
+    if (*names) {
         fprintf(to, "%*s", INDENT, "");
-    if (*names)
         help_wrapped(to, names, INDENT, INDENT + 4);
+    }
 }
 
 static void paper(FILE *to) {
@@ -403,5 +402,5 @@ const char *model_text(size_t id) {
                          "step Fx=20 N; step FN=80 N Fx=10 N\n    fret> set model double\n    fret> W\n"
                          "    W = 477.51 nJ\n",
     };
-    return id < MODELS ? texts[id] : NULL;
+    return texts[id];
 }

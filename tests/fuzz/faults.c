@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Loaded before the C library: lets one allocation fail, or be the moment of an interrupt. Counting begins
- * when a file named `arm` is closed and ends when one named `disarm` is opened; FAULT=n fails the n-th, with
- * FAULT_INTERRUPT there is Ctrl-C instead, and FAULT_COUNT names a file for how many there were. For glibc;
- * with LEAKS the next library's functions allocate, which may be a leak detector's. What curses allocates is
- * left alone: it crashes where it cannot. */
+ * when a file named `arm` is closed, or with FAULT_EARLY at once, and ends when one named `disarm` is opened;
+ * FAULT=n fails the n-th, with FAULT_INTERRUPT there is Ctrl-C instead, and FAULT_COUNT names a file for how
+ * many there were. For glibc; with LEAKS the next library's functions allocate, which may be a leak
+ * detector's. What curses allocates is left alone: it crashes where it cannot. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -84,6 +84,17 @@ extern void *__libc_memalign(size_t alignment, size_t size);
 static int armed, arming = -1;
 static long seen, wanted;
 
+static void arm(void) {
+    const char *n = getenv("FAULT");
+    wanted = n ? atol(n) : 0;
+    armed = 1;
+}
+
+__attribute__((constructor)) static void begin_early(void) {
+    if (getenv("FAULT_EARLY"))
+        arm();
+}
+
 static int is_curses(void *caller) {
     Dl_info where;
     return dladdr(caller, &where) &&
@@ -144,9 +155,7 @@ int open(const char *path, int flags, ...) {
 
 int close(int fd) {
     if (fd == arming) {
-        const char *n = getenv("FAULT");
-        wanted = n ? atol(n) : 0;
-        armed = 1;
+        arm();
         arming = -1;
     }
     return (int)syscall(SYS_close, fd);
