@@ -129,10 +129,11 @@ void script_back(live *l) {
         live_tell(l, false, "the beginning of the script");
         return;
     }
-    s->at = to - 1;
     l->note[0] = 0;
-    while ((c->undo.count > s->undo[s->at] || c->scene.end.steps > s->steps[s->at]) && live_say(l, "undo"))
-        ;
+    while (c->undo.count > s->undo[to - 1] || c->scene.end.steps > s->steps[to - 1])
+        if (!live_say(l, "undo"))
+            return;
+    s->at = to - 1;
     live_tell(l, false, "back before: %s", s->line[s->at]);
     live_update(l);
 }

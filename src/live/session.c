@@ -314,11 +314,11 @@ void live_play_on(live *l, double seconds) {
         return;
     if (*l->side[0].trouble)
         live_play_end(l);
-    if (!l->playing || (!l->moves && w->shots < 2 && !way_done(w)))
+    if (!l->playing || !w->shots || (!l->moves && w->shots < 2 && !way_done(w)))
         return;
     l->changed = true;
     if (!l->moves)
-        l->play_at = w->shots ? w->play[0].time : 0;
+        l->play_at = w->play[0].time;
     l->moves = true;
     l->play_at = fmin(l->play_at + seconds * l->speed, ahead(l));
     if (!way_done(w) || l->play_at < w->play[w->shots - 1].time)

@@ -97,6 +97,8 @@ bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
     w->from = 0;
     w->within = false;
     w->shots = 0;
+    if (item != NO_ITEM && w->walk.run.at.steps > item) /* for one that was to be taken back, and was not */
+        walk_end(&w->walk);
     if (!walk_follow(&w->walk, c, &anew, error))
         return false;
     if (anew) {

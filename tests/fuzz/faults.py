@@ -55,12 +55,13 @@ STATEMENTS = (
               "table Fx, dx along program steps 10", "table Fx along cycle steps 9 to out.dat",
               "table Fx, W along cycle FA=10 N steps 8", "table Fx along step Fx=25 N steps 4",
               "qx(0.1 mm), ux(0.1 mm), p(0), uz(0.5 mm)", "w1D(0), u1D(0), s1D(0)", "accuracy within 0.001",
-              "set model springs 100", "plot loop to out.gp", "plot traction to out.gp",
+              "set model springs 100", "plot loop to out.gp", "plot traction to out.gp", "plot springs to out.gp",
               "plot dW for FA = 1 N .. 20 N steps 5 to out.gp", "plot loop", "plot loop | pressure to out.svg",
               'plot loop title "%s" to out.gp' % ("long " * 4000), "plot dW for FA = 1 N .. 9 N with k = 0, 0.5",
               "plot map dW for FA = 1 N .. 9 N steps 5 for mu = 0.3 .. 0.5 steps 5 to out.gp",
               "plot FN against Fx along program over follow.csv to out.gp",
-              "animate loop frames 3 to out.gif", "animate loop frames 3",
+              "animate loop frames 3 to out.gif", "animate Fx against dx along cycle FA=5 N frames 2 to out.gif",
+              "animate loop frames 3",
               "set format json; plot loop", "set format json; animate loop frames 3",
               "plot dW(force) for force = 1 N .. 20 N steps 5 to out.gp", "plot accuracy within 0.001",
               "animate loop along cycle FA:=FN/10 frames 3 to out.gif", "animate Fx/width against dx along program with width = 1 N, 2 N frames 2 to out.gif",
@@ -335,11 +336,14 @@ class OnScreen(Faults):
 class ByKeys(OnScreen):
     """The same at a terminal, by these keys; which is as before in the end."""
     most = 100
-    keys = ("l", "f", ":x = 3\r", "?", "x", ":compare k = 0, 0.2\r", "l", ":compare\r", "u", ":\x1b[A\x15pr\t\x1b",
+    keys = ("l", "f", ":x = 3\r", "?", "x", ":compare k = 0, 0.2\r", "l", ":compare\r", "u", ":\x1b[A\x15pr\t\x1b", ":show commands\r", "x",
             ":table x for x = 1 .. 2 to out.csv\r", "c", "b", "q")
 
-    def __init__(self, fret, tests, env):
-        super().__init__(fret, tests, {**env, "TERM": "xterm-256color"}, "live")
+    steps = " ", "b", " ", "q"  # of a script
+
+    def __init__(self, fret, tests, env, statement="live"):
+        super().__init__(fret, tests, {**env, "TERM": "xterm-256color"}, statement)
+        self.keys = self.keys if statement == "live" else self.steps
 
     def start(self, argv, where, env):
         terminal, ours = pty.openpty()
@@ -376,7 +380,8 @@ class ByKeys(OnScreen):
 def statements(fret, tests, env):
     return ([Faults(fret, tests, env, setup, statement) for setup, list_ in STATEMENTS for statement in list_] +
             [ToTheEnd(fret, tests, env, way) for way in ToTheEnd.ways] +
-            [OnScreen(fret, tests, env, OnScreen.film), ByKeys(fret, tests, env)])
+            [OnScreen(fret, tests, env, OnScreen.film), ByKeys(fret, tests, env),
+             ByKeys(fret, tests, env, "live lesson.fret")])
 
 
 def allocations(seen):

@@ -608,7 +608,7 @@ def scripted(tests):
         live = Live(tests, path)
         tests.check("an empty script", live.wait("the end of the script") and live.key(" ", "cycle FA|error"), live.screen.text())
         live.end()
-    with tests.file("x = 1 + \\ \r\n 2\r\nx\r\nsystem off\n") as path:
+    with tests.file("x = 1 + \\ \t\r\n 2\r\nx\r\nsystem off\n") as path:
         live = Live(tests, path)
         tests.check("lines that go on", live.key(" ", r"x = 3"), live.screen.text())
         tests.check("back to the beginning", live.key("bb", "back before: x = 1") and
@@ -911,7 +911,66 @@ def energies(tests):
     live.end()
 
 
+def completed(tests):
+    """What Tab does to a line: nothing where the candidates have nothing in common, no blank where more belongs to a word, and no
+    more than there is room for."""
+    live = at_prompt(tests, SCENE)
+    for keys_sent, want in ((":\t", ":"), ("\x15press F\t", ":press FN="), ("\x15loss_f\t", ":loss_factor("), ("\x15record of\t", ":record off")):
+        tests.check("Tab: %r" % keys_sent, live.key(keys_sent, lambda s, want=want: live.status() == want), live.screen.text())
+    live.key("\x151;" + 500 * " " + "geomet\t", lambda s: live.status().endswith("  geometry"))
+    tests.check("Tab at the end of what a line holds", live.key("xyz\x1b[D", lambda s: live.status().endswith("  geometryxy") or
+                                                                live.status().endswith("  geometry")), live.screen.text())
+    live.key("\x15set report on\r", "set report on")
+    live.child.send("q")
+    live.wait(lambda s: not s.modes.get(1049))
+    live.child.send("show settings\r")
+    tests.check("what is set there stays set", live.wait("set report on"), live.screen.text())
+    live.child.send("\x04")
+    live.gone()
+    with tests.file("press FN=50 N\n") as path:
+        done = tests.run("-c", SCENE + "; set timing on; set report off; record %s; live %s" % (os.path.join(tests.dir, "timed.cast"), path))
+    tests.check("a film has no time of frames", done.returncode == 0 and "live: " not in done.stderr.replace("record", ""), tests.report(done))
+
+
+def dragged(tests):
+    """Events that come together, and beside the loop on every side; a button that is not asked for."""
+    live = Live(tests)
+    live.wait(r"a +186\.626 um")
+    at = lambda button, x, y, end="M": "\x1b[<%d;%d;%d%s" % (button, x + 1, y + 1, end)  # noqa: E731
+    for x, y in ((79, 15), (60, 22), (40, 23)):
+        live.child.send(at(0, 20, y) + at(32, x, y) + at(0, x, y, "m"))
+        live.key("f", "displacements dx and dz")
+        live.key("f", "forces Fx and FN")
+    tests.check("beside it nothing is pulled", live.value("dx")[0] == "0", live.screen.text())
+    live.child.send(at(0, 55, 15) + at(32, 60, 15) + at(0, 66, 15, "m") + at(35, 45, 15))
+    tests.check("pressed, dragged and let go at once", live.wait(lambda s: live.value("dx")[1] == "nm" and float(live.value("dx")[0]) > 500), live.screen.text())
+    live.child.send(at(0, 60, 15))
+    live.wait(lambda s: re.match("step dx=", live.status()) and float(live.value("dx")[0]) < 400)
+    before = live.value("dx")
+    live.child.send(at(2, 50, 15) + at(2, 50, 15, "m"))
+    live.child.send(at(64, 50, 15))
+    live.key("f", "displacements dx and dz")
+    tests.check("other buttons pull nothing", live.value("dx") == before, "%s\n%s" % (before, live.screen.text()))
+    live.child.send(at(0, 60, 15, "m"))
+    live.end()
+
+
+def refused_beside(tests):
+    """A comparison of which one side cannot be."""
+    live = at_prompt(tests, SCENE)
+    live.says("compare nu = 0.3, 0.7")
+    tests.check("a value that no body has", live.wait("nu = 0.7: ") and live.wait(r"a +186\.626 um"), live.screen.text())
+    live.says("cycle FA=20 N")
+    live.key("]]]] ", lambda s: "> cycle" in s.row(0))
+    tests.check("the other plays on", live.key("  ", lambda s: "> cycle" not in s.row(0)) and live.value("Fx")[0] == "20", live.screen.text())
+    live.says("compare off")
+    live.says("mu = 0.1")
+    tests.check("a load that cannot be any more is told", live.wait("error|exceeds"), live.screen.text())
+    live.says("quit")
+    live.gone()
+
+
 def run(tests):
-    tests.rooms(beginning, refusals, keys, playing, repeating, going_on, sizes, comparing, stepping, mouse, slow_line, undisturbed, saving,
+    tests.rooms(completed, dragged, refused_beside, beginning, refusals, keys, playing, repeating, going_on, sizes, comparing, stepping, mouse, slow_line, undisturbed, saving,
                 recording, endings, stopping, lessons, corners, typing, scripted, pointing,
                 little, energies, released, gone_on_with, in_haste, odd_terminals, hung_up, long_loads, unseen, shapes, pages, begun)
