@@ -34,6 +34,7 @@ import prompt  # noqa: E402
 import reading  # noqa: E402
 import reference  # noqa: E402
 import rim  # noqa: E402
+import rough  # noqa: E402
 import scripts  # noqa: E402
 import sharing  # noqa: E402
 import smoothing  # noqa: E402
@@ -248,7 +249,7 @@ ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
          "fits": fits.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,
          "trouble": trouble.run, "rim": rim.run, "programs": programs.run, "typed": typed.run, "fuzz": fuzzing.run,
-         "interactive": prompt.run, "live": live.run, "casts": casts.run, "completion": completion.run, "readme": readme, "help": help_examples,
+         "interactive": prompt.run, "rough": rough.run, "live": live.run, "casts": casts.run, "completion": completion.run, "readme": readme, "help": help_examples,
          "portable": portable.run, "packaging": packaging.run,
          "house": house.run}
 

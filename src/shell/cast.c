@@ -25,7 +25,7 @@ static const double TYPING = 0.04, ANSWERING = 0.25, READING = 0.6, READING_LINE
 
 struct cast {
     file_log log;
-    bool clock, lost;
+    bool clock;
     double began, at;
     int cols, rows;
     size_t lines; /* written since something was typed */
@@ -44,8 +44,7 @@ static double seconds(void) {
 /* ---- events ------------------------------------------------------------------------------------ */
 
 static bool add(cast *c, size_t n, calc_error *error) {
-    c->lost = c->lost || !file_log_add(&c->log, c->event, n, error);
-    return !c->lost;
+    return file_log_add(&c->log, c->event, n, error);
 }
 
 /* In a string of JSON. */
@@ -53,12 +52,12 @@ static char *escape(char *to, const char *text, size_t n) {
     for (size_t i = 0; i < n;) {
         unsigned code;
         const size_t bytes = character_at(text + i, n - i, &code);
-        if (!bytes || code < ' ' || code == 0x7f)
-            to += sprintf(to,
-                          code == '\n' && bytes   ? "\\n"
-                          : code == '\r' && bytes ? "\\r"
-                                                  : "\\u%04x",
-                          bytes ? code : 0xfffd);
+        if (!bytes)
+            to += sprintf(to, "\\ufffd");
+        else if (code == '\n' || code == '\r')
+            to += sprintf(to, "\\%c", code == '\n' ? 'n' : 'r');
+        else if (code < ' ' || code == 0x7f)
+            to += sprintf(to, "\\u%04x", code);
         else if (code == '"' || code == '\\')
             to += sprintf(to, "\\%c", (char)code);
         else
@@ -120,8 +119,8 @@ static bool write_piece(cast *c, const char *bytes, size_t n, calc_error *error)
 
 bool cast_write(cast *c, const char *bytes, size_t n, calc_error *error) {
     char now[32];
-    bool ok = !c->lost;
-    if (ok && n > 0 && find_size(c))
+    bool ok = true;
+    if (find_size(c))
         ok = event(c, 'r', now, (size_t)snprintf(now, sizeof now, "%dx%d", c->cols, c->rows), error);
     enum { MOST = PIECE / 2 - UTF8 };
     for (size_t i = 0, part; ok && i < n; i += part) {
@@ -185,15 +184,11 @@ cast *cast_begin(const char *path, bool clock, bool *overwrote, calc_error *erro
     return NULL;
 }
 
-bool cast_end(cast *c, calc_error *error) {
-    if (!c)
-        return true;
+bool cast_end(cast *c, bool whole, calc_error *error) {
     bool ok = true;
-    if (!c->lost && c->held_count) /* it stays half a character */
-        ok = event(c, 'o', c->held, c->held_count, error);
-    if (!c->lost && !c->clock) { /* the last answer is read, too */
+    if (whole && !c->clock) { /* the last answer is read, too */
         const double reading = READING + READING_LINE * (double)c->lines;
-        ok = ok && event(c, 'o', "fret> ", 6, error);
+        ok = event(c, 'o', "fret> ", 6, error);
         cast_wait(c, reading < LONGEST ? reading : LONGEST);
         ok = ok && event(c, 'o', "\r\n", 2, error);
     }

@@ -23,7 +23,7 @@ void cast_wait(cast *c, double seconds);
 /* The size of the screen. */
 void cast_size(const cast *c, int *cols, int *rows);
 bool cast_has_clock(const cast *c);
-/* NULL is let pass. */
-bool cast_end(cast *c, calc_error *error);
+/* whole: all that came has been written; else nothing more is. */
+bool cast_end(cast *c, bool whole, calc_error *error);
 
 #endif

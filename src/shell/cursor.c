@@ -16,7 +16,7 @@ bool at_argument(const lexer *lx) {
 bool stray_unit(lexer *lx) {
     char word[LEX_NAME];
     unit known;
-    if (lx->kind != T_NAME || !lx->last || lx->text[lx->last - 1] < '0' || lx->text[lx->last - 1] > '9' ||
+    if (lx->kind != T_NAME || lx->text[lx->last - 1] < '0' || lx->text[lx->last - 1] > '9' ||
         argument_word(lx) || at_argument(lx) || quantity_find(lx->text + lx->at, lx->len) ||
         unit_lookup(lx->text + lx->at, lx->len, &known))
         return false;
@@ -28,7 +28,7 @@ bool stray_unit(lexer *lx) {
 }
 
 bool at_end(lexer *lx) {
-    if (lx->error->raised || lx->kind == T_END)
+    if (lx->kind == T_END)
         return !lx->error->raised;
     if (lex_is(lx, "to") || lex_is(lx, "as") || lex_is(lx, "into"))
         return lex_fail(lx, "unexpected '%.*s': units are asked for by `in` (a in mm)", LEX_WORD(lx));

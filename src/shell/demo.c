@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plays scripted sessions: straight through, or a key per step at a terminal. Touches no scene of the user's.
  */
+#include <errno.h>
 #include <string.h>
 #include <termios.h>
 #include <unistd.h>
@@ -95,17 +96,13 @@ static void run(shell *own, const char *line) {
 }
 
 /* A new session, as far as before line `to`, unseen. */
-static void rewind_to(shell *own, const shell *sh, const script *s, size_t to) {
+static void rewind_to(shell *own, const shell *sh, const script *s, size_t to, FILE *nowhere) {
     shell_free(own);
     begin(own, sh);
-    FILE *nowhere = fopen("/dev/null", "w");
-    if (!nowhere)
-        return;
     own->out = own->err = nowhere;
-    for (size_t i = 0; i < to && !shell_stop; i++)
+    for (size_t i = 0; i < to; i++)
         if (!is_comment(s->line[i]))
             run(own, s->line[i]);
-    fclose(nowhere);
     own->out = sh->out;
     own->err = sh->err;
 }
@@ -141,8 +138,11 @@ static bool play_step(shell *own, const shell *sh, const script *s, size_t i, bo
 }
 
 /* False: it could not go on, as has been reported. */
-static bool play(shell *sh, const script *s, bool keys) {
+static bool play(shell *sh, const script *s, bool keys, calc_error *error) {
     shell own;
+    FILE *nowhere = fopen("/dev/null", "w");
+    if (!nowhere)
+        return calc_errno(error, errno, "cannot write /dev/null");
     begin(&own, sh);
     if (sh->set.format == FORMAT_TEXT)
         fprintf(sh->out, "%s\n", s->title);
@@ -150,7 +150,7 @@ static bool play(shell *sh, const script *s, bool keys) {
     while (s->line[i] && play_step(&own, sh, s, i, keys, &next)) {
         if (next == (size_t)-1) {
             i = step_before(s, i);
-            rewind_to(&own, sh, s, i);
+            rewind_to(&own, sh, s, i, nowhere);
         } else {
             i = next;
         }
@@ -158,6 +158,7 @@ static bool play(shell *sh, const script *s, bool keys) {
     sh->calc.scene.used |= own.calc.scene.used;
     const bool ok = !ended(&own);
     shell_free(&own);
+    fclose(nowhere);
     return ok;
 }
 
@@ -180,9 +181,8 @@ bool do_demo(shell *sh, lexer *lx, const command *self) {
         if (!at_end(lx))
             return false;
     }
-    const bool keys = !tour && sh->interactive && sh->set.format == FORMAT_TEXT && isatty(STDIN_FILENO) &&
-                      isatty(STDOUT_FILENO);
-    if (!play(sh, s, keys) || shell_stop)
+    const bool keys = !tour && sh->interactive && sh->set.format == FORMAT_TEXT && isatty(STDOUT_FILENO);
+    if (!play(sh, s, keys, lx->error) || shell_stop)
         return shell_stop ? calc_interrupted(lx->error) : false;
     if (tour && sh->set.format == FORMAT_TEXT)
         fputs("\nLessons, such as `demo pressing`: `show demos` lists them.\n", sh->out);

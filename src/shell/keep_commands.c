@@ -24,7 +24,7 @@ bool do_save(shell *sh, lexer *lx, const command *self) {
     const size_t len = lx->last - at;
     if (history && sh->replaying)
         return true;
-    if (history && !sh->typed)
+    if (history && !sh->typed.to)
         return calc_fail(lx->error, at, len, "nothing has been typed here: a script is its own history");
     if (!file_out_open(&file, name, &shell_stop, lx->error))
         return calc_place(lx->error, at, len);

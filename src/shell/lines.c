@@ -37,10 +37,8 @@ void blank_prompts(char *text, size_t len) {
     }
 }
 
-bool is_continuation(const char *line, size_t len) {
-    while (len > 0 && (*line == ' ' || *line == '\t'))
-        line++, len--;
-    return len > 0 && *line == '.';
+bool is_continuation(const char *line) {
+    return line[strspn(line, " \t")] == '.';
 }
 
 static bool digit(char c) {
@@ -54,8 +52,6 @@ const char *decimal_comma(const char *text, size_t len) {
         const char c = text[i];
         if (c == '"')
             quoted = !quoted;
-        else if (!quoted && c == '#')
-            return NULL;
         else if (!quoted && (c == '(' || c == ')'))
             depth += c == '(' ? 1 : -1;
         else if (!quoted && c == ',' && depth == 0 && i > 0 && i + 1 < len && digit(text[i - 1]) &&

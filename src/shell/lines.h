@@ -14,7 +14,7 @@ const char *strip_prompt(const char *line, size_t *len);
 /* Blanks out the prompts that physical lines of a text begin with: what follows keeps its place. */
 void blank_prompts(char *text, size_t len);
 /* Does the line begin with the prompt of a line that goes on, `....> `? */
-bool is_continuation(const char *line, size_t len);
+bool is_continuation(const char *line);
 
 /* The comma of `1,5 mm`, outside parentheses and quotes: perhaps meant as a decimal point. NULL: none. */
 const char *decimal_comma(const char *text, size_t len);

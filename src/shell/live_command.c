@@ -81,11 +81,10 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
     sh->set.pages = false; /* a pager would take the terminal */
     if (sh->set.report == REPORT_AUTO)
         sh->set.report = REPORT_OFF; /* the screen shows it */
-    progress_hide(true);
+    progress_hide();
     record_away(sh, true);
     const bool ok = live_run(&host, script, &work, error);
     record_away(sh, false);
-    progress_hide(false);
     sh->set.color = before.color;
     sh->set.pages = before.pages;
     if (sh->set.report == REPORT_OFF)

@@ -437,7 +437,7 @@ static void show_text(const text_out *t) {
                       (t->set->pager == PAGER_ON || pager_needed(t->kept.text));
     fflush(t->out);
     if (page && pager_show(t->kept.text))
-        record_aside(t->out, t->kept.text);
+        record_aside(t->kept.text);
     else
         fputs(t->kept.text, t->out);
 }

@@ -14,18 +14,17 @@ static size_t columns(const char *line, size_t n) {
     size_t count = 0;
     for (size_t i = 0; i < n; i++)
         if (line[i] == '\033')
-            while (i + 1 < n && line[i] != 'm')
-                i++;
+            i += strcspn(line + i, "m");
         else
             count += ((unsigned char)line[i] & 0xc0) != 0x80;
     return count;
 }
 
 bool pager_needed(const char *text) {
-    struct winsize size;
+    struct winsize size = {.ws_row = 0};
     size_t rows = 1; /* the prompt */
-    if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) || size.ws_row == 0 ||
-        size.ws_col == 0)
+    ioctl(STDOUT_FILENO, TIOCGWINSZ, &size);
+    if (size.ws_row == 0 || size.ws_col == 0)
         return false;
     while (*text) {
         const size_t n = strcspn(text, "\n"), wide = columns(text, n);

@@ -19,7 +19,6 @@ static struct {
     int terminal; /* is standard error one? Negative: not asked yet: a call of the system at every statement
                      shows */
     bool on;
-    bool hidden; /* the screen is another's */
     const shell *sh;
     char what[WHAT];     /* not ended */
     size_t len;          /* of it */
@@ -40,7 +39,7 @@ void progress_begin(const shell *sh, const char *what, size_t len) {
         return;
     if (now.terminal < 0)
         now.terminal = isatty(STDERR_FILENO);
-    now.on = now.terminal && (sh->err == stderr || record_shows(sh)) && !sh->replaying;
+    now.on = now.terminal && (sh->err == stderr || record_shows(sh));
     if (!now.on)
         return;
     now.sh = sh;
@@ -52,13 +51,14 @@ void progress_begin(const shell *sh, const char *what, size_t len) {
 }
 
 static void find_width(void) {
-    struct winsize size;
-    const bool narrow = !ioctl(STDERR_FILENO, TIOCGWINSZ, &size) && size.ws_col > 4 && size.ws_col < LINE + 3;
+    struct winsize size = {.ws_col = 0};
+    ioctl(STDERR_FILENO, TIOCGWINSZ, &size);
+    const bool narrow = size.ws_col > 4 && size.ws_col < LINE + 3;
     now.width = narrow ? size.ws_col - 3 : LINE - 1;
 }
 
 void progress_words(const char *words) {
-    if (!now.on || now.hidden || now.depth == 0)
+    if (!now.on)
         return;
     if (!now.seen) {
         fflush(now.sh->out);
@@ -69,31 +69,26 @@ void progress_words(const char *words) {
     fflush(stderr);
 }
 
-static int whole(double x) {
-    return x < 1e9 ? (int)lrint(x) : 1000000000;
-}
-
 void progress_pulse(void) {
     char words[LINE + 40], left[24] = "";
-    if (!now.on || now.hidden || now.depth == 0)
+    if (!now.on)
         return;
     const double t = seconds(), taken = t - now.began;
     if (taken < WAIT || t - now.shown < EVERY)
         return;
     now.shown = t;
     if (now.part > 0.01)
-        snprintf(left, sizeof left, ", %d s to go", whole(taken / now.part * (1 - now.part)));
+        snprintf(left, sizeof left, ", %.0f s to go", taken / now.part * (1 - now.part));
     if (now.part >= 0)
-        snprintf(words, sizeof words, "%.*s: %d %%%s (Ctrl-C stops it)", (int)now.len, now.what,
-                 whole(100 * now.part), left);
+        snprintf(words, sizeof words, "%.*s: %.0f %%%s (Ctrl-C stops it)", (int)now.len, now.what,
+                 100 * now.part, left);
     else
-        snprintf(words, sizeof words, "%.*s: %d s (Ctrl-C stops it)", (int)now.len, now.what, whole(taken));
+        snprintf(words, sizeof words, "%.*s: %.0f s (Ctrl-C stops it)", (int)now.len, now.what, taken);
     progress_words(words);
 }
 
-void progress_hide(bool hidden) {
+void progress_hide(void) {
     progress_wipe();
-    now.hidden = hidden;
     now.on = false;
 }
 
@@ -112,5 +107,5 @@ void progress_wipe(void) {
 
 void progress_end(void) {
     if (--now.depth == 0)
-        progress_wipe();
+        progress_hide();
 }

@@ -17,7 +17,7 @@ void progress_pulse(void);
 /* In words, at once. */
 void progress_words(const char *words);
 /* While the screen is the full-screen mode's, nothing is shown, nor of the statement that opened it. */
-void progress_hide(bool hidden);
+void progress_hide(void);
 /* Before anything is written. */
 void progress_wipe(void);
 

@@ -2,6 +2,7 @@
 /* The interactive session: typed and pasted lines become statements. */
 #include "shell/prompt.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -78,12 +79,15 @@ static const char *next_line(typed *t, const char *prompt, bool continued, size_
     }
 }
 
+/* A line to those before it, which may be none. */
 static char *append(char *to, size_t *size, const char *line, size_t len) {
-    char *grown = realloc(to, *size + len + 1);
+    char *grown = realloc(to, *size + len + 2);
     if (!grown) {
         free(to);
         return NULL;
     }
+    if (to)
+        grown[(*size)++] = '\n';
     memcpy(grown + *size, line, len);
     *size += len;
     grown[*size] = 0;
@@ -95,13 +99,12 @@ static char *logical_line(typed *t) {
     size_t len, size = 0;
     const char *line = next_line(t, "fret> ", false, &len);
     char *whole = line ? append(NULL, &size, line, len) : NULL;
-    while (whole && !shell_stop && shell_continues(whole, size)) {
+    while (whole && shell_continues(whole, size)) {
         line = next_line(t, "....> ", true, &len);
         whole[size - 1] = ' ';
         if (!line)
             break;
-        whole = append(whole, &size, "\n", 1);
-        whole = whole ? append(whole, &size, line, len) : NULL;
+        whole = append(whole, &size, line, len);
     }
     t->lost = line && !whole;
     return whole;
@@ -115,13 +118,13 @@ static void hint_comma(shell *sh, const char *text, size_t len) {
         end = shell_statement_end(text, i, len);
         while (i < end && (text[i] == ' ' || text[i] == '\t'))
             i++;
-        size_t word = i;
-        while (word < end && text[word] >= 'a' && text[word] <= 'z')
-            word++;
-        const char *comma = command_find(text + i, word - i) ? NULL : decimal_comma(text + i, end - i);
-        if (comma && shell_aside(sh, sh->err))
+        const size_t word = strspn(text + i, "abcdefghijklmnopqrstuvwxyz");
+        const char *comma = command_find(text + i, word) ? NULL : decimal_comma(text + i, end - i);
+        if (comma) {
+            shell_aside(sh, sh->err);
             shell_note(sh, "the comma in %.3s parts two values: write %c.%c for one", comma - 1, comma[-1],
                        comma[1]);
+        }
         if (end < len && text[end] == '#')
             return;
     }
@@ -132,7 +135,7 @@ static void run_system(shell *sh, const char *line) {
     fflush(sh->out);
     const int status = system(line);
     if (status == -1)
-        shell_note(sh, "the system's shell cannot be started");
+        shell_note(sh, "the system's shell fails: %s", strerror(errno));
     else if (status != 0)
         shell_note(sh, "the command ended with status %d", status > 255 ? status / 256 : status);
 }
@@ -170,9 +173,13 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
     typed waiting = {.text = NULL};
     sh->interactive = true;
     sh->set.pages = isatty(STDOUT_FILENO);
-    prompt_begin(sh);
     if (read_rc)
         read_startup(sh);
+    if (!file_text_open(&sh->typed)) {
+        shell_error(sh, "out of memory");
+        return EXIT_ERROR;
+    }
+    prompt_begin(sh);
     if (!quiet && !sh->quit)
         fputs("fret: partial-slip contact of graded elastic solids; try `demo` or `help`.\n", sh->out);
     while (!sh->quit) {

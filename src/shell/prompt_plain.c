@@ -22,7 +22,8 @@ char *prompt_line(const char *text) {
         free(line);
         return NULL;
     }
-    record_echo(line);
+    if (to != stdout) /* the terminal itself has shown it */
+        record_aside(line);
     if (n > 0 && line[n - 1] == '\n')
         line[n - 1] = 0;
     return line;

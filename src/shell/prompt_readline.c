@@ -149,8 +149,8 @@ static char **matches(const char *text, int start, int end) {
     if ((size_t)start != found.start)
         return NULL;
     if (found.files) {
-        rl_attempted_completion_over = 0; /* readline knows file names */
-        if (start > 0 && rl_line_buffer[start - 1] == '"')
+        rl_attempted_completion_over = 0;     /* readline knows file names */
+        if (rl_line_buffer[start - 1] == '"') /* a command stands before it */
             rl_completion_append_character = '"';
         return NULL;
     }
@@ -198,17 +198,9 @@ static void remember(const char *line) {
 /* The latest lines of the file. */
 static void read_lines(int fd, off_t size) {
     const off_t from = size > HISTORY_READ ? size - HISTORY_READ : 0;
-    const size_t want = (size_t)(size - from);
-    char *text = malloc(want + 1);
-    size_t have = 0;
-    ssize_t n = 1;
-    while (text && have < want && n > 0) {
-        n = pread(fd, text + have, want - have, from + (off_t)have);
-        have += n > 0 ? (size_t)n : 0;
-    }
-    if (!text)
-        return;
-    text[have] = 0;
+    static char text[HISTORY_READ + 1];
+    const ssize_t have = pread(fd, text, (size_t)(size - from), from);
+    text[have > 0 ? have : 0] = 0;
     char *line = text;
     if (from > 0) /* a part of one */
         line += strcspn(line, "\n");
@@ -218,17 +210,16 @@ static void read_lines(int fd, off_t size) {
         if (*line)
             remember(line);
     }
-    free(text);
 }
 
 /* For the user alone, and a plain file: a pipe would block, and a link may lead anywhere. */
 static void open_history(shell *sh) {
     char path[HISTORY_PATH];
-    struct stat st;
+    struct stat st = {.st_mode = 0};
     if (!history_path(path))
         return;
     int fd = open(path, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY, 0600);
-    const bool strange = fd < 0 ? errno == ELOOP : fstat(fd, &st) != 0 || !S_ISREG(st.st_mode);
+    const bool strange = fd < 0 ? errno == ELOOP : (fstat(fd, &st), !S_ISREG(st.st_mode));
     if (strange) {
         shell_note(sh, "no history is kept: %s is no plain file", path);
         if (fd >= 0)
@@ -258,6 +249,7 @@ static void at_exit(void) {
 void prompt_begin(shell *sh) {
     completing = sh;
     atexit(at_exit);
+    at_work = true;
     rl_readline_name = "fret"; /* `$if fret` in inputrc */
     rl_getc_function = read_key;
     rl_bind_keyseq_in_map("\\e[200~", paste, emacs_standard_keymap);
@@ -267,6 +259,7 @@ void prompt_begin(shell *sh) {
     rl_catch_signals = 0;
     using_history();
     stifle_history(HISTORY_LINES);
+    at_work = false;
     open_history(sh);
 }
 
@@ -309,7 +302,7 @@ bool prompt_erase(const char *text) {
     int high, wide;
     const char *up = rl_get_termcap("up"); /* readline knows no capability to clear downwards */
     rl_get_screen_size(&high, &wide);
-    if (!up || !*up || wide < 1 || strchr(text, '\t'))
+    if (!up || strchr(text, '\t'))
         return false;
     const int rows = rows_of(text, wide);
     if (rows >= high) /* a part has left the screen */

@@ -35,9 +35,9 @@ static struct recorder *recording;
 static bool away;
 
 /* What follows is not kept, and this is told at once. */
-static bool check(struct recorder *r, bool ok, const calc_error *error) {
-    if (ok || r->lost)
-        return ok;
+static void check(struct recorder *r, bool ok, const calc_error *error) {
+    if (ok)
+        return;
     shell *sh = r->sh;
     FILE *out = sh->out, *err = sh->err;
     char text[CALC_ERROR_TEXT + 40];
@@ -48,7 +48,6 @@ static bool check(struct recorder *r, bool ok, const calc_error *error) {
     shell_error(sh, text);
     sh->out = out;
     sh->err = err;
-    return false;
 }
 
 static void write_held(struct recorder *r) {
@@ -86,7 +85,7 @@ static void type_line(struct recorder *r, const char *line, size_t n) {
     char shown[sizeof prompt];
     error_clear(&error);
     snprintf(shown, sizeof shown, "%.*s", PROMPT, line);
-    if (!r->lost && n > PROMPT)
+    if (!r->lost)
         check(r, cast_type(r->cast, shown, line + PROMPT, n - PROMPT, &error), &error);
 }
 
@@ -175,7 +174,7 @@ static void free_recorder(struct recorder *r) {
 static void put_statements(struct recorder *r, const char *text) {
     while (*text) {
         const size_t n = strcspn(text, "\n");
-        if (n > 0 && *text != '#') {
+        if (*text != '#') {
             put_text(r, "fret> ");
             for (size_t i = 0; i < n; i++)
                 put(r, text[i]);
@@ -241,7 +240,7 @@ bool record_end(shell *sh) {
     sh->err = r->err;
     sh->record = recording = NULL;
     if (r->cast)
-        check(r, cast_end(r->cast, &error), &error);
+        check(r, cast_end(r->cast, !r->lost, &error), &error);
     else
         write_held(r);
     free_recorder(r);
@@ -252,7 +251,7 @@ bool record_end(shell *sh) {
 void record_line(shell *sh, const char *text, size_t len) {
     struct recorder *r = sh->record;
     file_text typed;
-    if (!r || (r->cast && (away || cast_has_clock(r->cast)))) /* the terminal shows it */
+    if (!r || r->lost || (r->cast && (away || cast_has_clock(r->cast)))) /* the terminal shows it */
         return;
     fflush(sh->out);
     write_line(r);
@@ -271,10 +270,10 @@ void record_line(shell *sh, const char *text, size_t len) {
     check(r, ok, &error);
 }
 
-void record_aside(FILE *out, const char *text) {
-    if (!recording || out != recording->both_out)
+void record_aside(const char *text) {
+    if (!recording)
         return;
-    fflush(out);
+    fflush(recording->both_out);
     keep(recording, text, strlen(text));
 }
 
@@ -285,14 +284,7 @@ bool record_shows(const shell *sh) {
 /* ---- the terminal ------------------------------------------------------------------------------ */
 
 FILE *record_terminal(void) {
-    return recording && recording->cast && recording->out == stdout ? recording->both_out : stdout;
-}
-
-void record_echo(const char *text) {
-    if (!recording || !recording->cast || !cast_has_clock(recording->cast))
-        return;
-    fflush(recording->both_out);
-    put_cast(recording, text, strlen(text));
+    return recording && recording->cast ? recording->both_out : stdout;
 }
 
 void record_streams(const shell *sh, FILE **out, FILE **err) {
@@ -329,48 +321,21 @@ void record_film(shell *sh, const char *bytes, size_t n, double seconds) {
 
 /* ---- what is typed ----------------------------------------------------------------------------- */
 
-struct lines {
-    size_t count, room;
-    char **line;
-    bool lost; /* there was no memory for some */
-};
-
+/* A line that goes on over others does so again. */
 void typed_keep(shell *sh, const char *line) {
-    if (!sh->typed)
-        sh->typed = calloc(1, sizeof *sh->typed);
-    struct lines *t = sh->typed;
-    if (!t)
-        return;
-    if (t->count == t->room) {
-        const size_t room = t->room ? 2 * t->room : 64;
-        char **grown = realloc(t->line, room * sizeof *grown);
-        if (grown) {
-            t->line = grown;
-            t->room = room;
-        }
-    }
-    char *copy = t->count < t->room ? strdup(line) : NULL;
-    if (copy)
-        t->line[t->count++] = copy;
-    else
-        t->lost = true;
+    for (const char *p = line; *p; p++)
+        fputs((const char[]){*p == '\n' ? '\\' : *p, *p == '\n' ? '\n' : 0, 0}, sh->typed.to);
+    putc('\n', sh->typed.to);
 }
 
-/* A line that went on over others does so again. */
 bool typed_write(const shell *sh, FILE *to) {
-    for (size_t i = 0; sh->typed && i < sh->typed->count; i++) {
-        for (const char *p = sh->typed->line[i]; *p; p++)
-            fputs((const char[]){*p == '\n' ? '\\' : *p, *p == '\n' ? '\n' : 0, 0}, to);
-        putc('\n', to);
-    }
-    return !sh->typed || !sh->typed->lost;
+    const file_text *t = &sh->typed;
+    fflush(t->to);
+    fwrite(t->text, 1, t->size, to);
+    return !t->lost;
 }
 
 void typed_forget(shell *sh) {
-    for (size_t i = 0; sh->typed && i < sh->typed->count; i++)
-        free(sh->typed->line[i]);
-    if (sh->typed)
-        free(sh->typed->line);
-    free(sh->typed);
-    sh->typed = NULL;
+    if (sh->typed.to && file_text_close(&sh->typed))
+        free(sh->typed.text);
 }

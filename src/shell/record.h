@@ -16,14 +16,13 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
 bool record_end(shell *sh);
 /* The line that will be run, physical lines and all. */
 void record_line(shell *sh, const char *text, size_t len);
-/* Text that reached the terminal by another way than `out`: if that is a recorder's, it is recorded. */
-void record_aside(FILE *out, const char *text);
+/* Text that reached the terminal by another way than the session's streams. */
+void record_aside(const char *text);
 /* Does the recorder pass on to standard output? */
 bool record_shows(const shell *sh);
 
-/* Where an editor of lines writes to the terminal; and what the terminal itself has shown of a line. */
+/* Where an editor of lines writes to the terminal. */
 FILE *record_terminal(void);
-void record_echo(const char *text);
 /* The session's own streams, below a recorder; and others in place of them. */
 void record_streams(const shell *sh, FILE **out, FILE **err);
 void record_divert(shell *sh, FILE *out, FILE *err);

@@ -293,7 +293,7 @@ static bool add_part(replay *r, const char *line, size_t n, bool *whole) {
 static bool take_line(replay *r, const file_in *in, bool *waiting) {
     size_t n = in->length;
     const char *typed = strip_prompt(in->line, &n);
-    const bool prompt = typed != in->line, more = prompt && is_continuation(in->line, in->length);
+    const bool prompt = typed != in->line, more = prompt && is_continuation(in->line);
     bool whole = true;
     if (more && *waiting) {
         if (!add_part(r, typed, n, &whole))

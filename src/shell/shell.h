@@ -29,7 +29,7 @@ typedef struct shell {
     bool stopped, refused;   /* there was an error of that kind */
     bool replaying;          /* a transcript: see shell_aside */
     struct recorder *record; /* or NULL */
-    struct lines *typed;     /* at the prompt, for `save history`; or NULL */
+    file_text typed;         /* at the prompt, for `save history`; else closed */
     bool dissimilar;         /* the bodies are, and it has been said */
     unsigned no_half_space;  /* likewise: 1 the contact is too wide, 2 the flanks are too steep */
     int nesting;             /* of `source` and `replay` */

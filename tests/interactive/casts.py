@@ -94,6 +94,61 @@ def full(tests):
             tests.check("its lines are whole", Cast(path).sound(), kept)
 
 
+def rough(tests):
+    """Bytes that are no characters, characters of four bytes, lines that go on over nothing; and no room at any moment."""
+    where = os.path.join(tests.dir, "rough")
+    os.mkdir(where)
+    tests.run(input=b"record r.cast\n# \xff \xe2 \x7f \xf0\x9f\x98\x80\n1 + 1 \\\n\n3\n", cwd=where)
+    cast = Cast(os.path.join(where, "r.cast"))
+    told = "".join(e[2] for e in cast.events)
+    tests.check("bytes that are no characters", cast.sound() and "# \ufffd \ufffd \x7f \U0001f600\r\n" in told, told)
+    tests.check("a line that goes on over nothing", "fret> 1 + 1  \\\r\n....> \r\n1 + 1 = 2\r\nfret> 3" in told, told)
+    names = ["\U0001f600%s = %d" % ("\U0001f601" * (i % 7), i) for i in range(7)]
+    for i in range(4):
+        statements = names + ["# " + i * "a", "show variables\n" * 40]
+        tests.run(input="record names.cast\n" + "\n".join(statements), cwd=where)
+        cast = Cast(os.path.join(where, "names.cast"))
+        told = "".join(e[2] for e in cast.events)
+        tests.check("many signs of four bytes, %d" % i, cast.sound() and "\ufffd" not in told and told.count("\U0001f600" + 6 * "\U0001f601") == 41, told[-300:])
+    done = tests.run(input="record r\n" + "1 + 1 # %s\n1%s\n" % ("x" * 1500, "+1" * 60), cwd=where)
+    with open(os.path.join(where, "r"), encoding="ascii") as f:
+        text = f.read()
+    again = tests.run("--replay", "r", cwd=where)
+    tests.check("a transcript of a short name, of long lines", text.startswith("fret> 1 + 1 # %s\n1 + 1 = 2\n" % ("x" * 1500)) and again.returncode == 0,
+                text + tests.report(done))
+    tool = os.path.join(os.path.abspath(tests.build), "tests", "calls")
+    if tests.sanitized or not os.path.exists(tool) or subprocess.run(
+            [tool, os.devnull, "none", "0", "0", "/bin/true"], check=False, stderr=subprocess.DEVNULL).returncode:
+        return
+    for name in ("arm", "disarm"):
+        with open(os.path.join(where, name), "w", encoding="ascii"):
+            pass
+    script = "record full.%s\nsource arm\n1 + 1\nsource disarm\nrecord off\n2\n"
+    for ending, before, says in (("cast", 0, "what follows is not recorded"), ("txt", 0, "what follows is not recorded"), ("cast", 1, "cannot write full.cast")):
+        given, wrong, count, harmless = script % ending, [], 0, set()
+        if before:
+            given = "source arm\nrecord full.cast\n1 + 1\nrecord off\n2\n"
+        elif ending == "cast":
+            given = given.replace("source disarm\n", "")
+        whole = None
+        while whole is None and count < 200:
+            count += 1
+            path = os.path.join(where, "told")
+            done = subprocess.run([tool, path, "write", str(count), "28", tests.fret, "--keep-going"], input=given, capture_output=True, text=True, cwd=where,
+                                  env=tests.env, check=False)
+            with open(os.path.join(where, "full." + ending), encoding="utf-8") as f:
+                text = f.read()
+            with open(path, encoding="ascii") as f:
+                whole = text if "FAILED" not in f.read() else None
+            lost, silent, none = done.stderr.count(says), "cannot write to standard output" in done.stderr, done.returncode == 0
+            if none:
+                harmless.add(text)
+            elif lost + silent < 1 or lost > 1 or not (text.endswith("\n") or not text) or (done.stdout != "1 + 1 = 2\n2 = 2\n" and not silent) or \
+                    (ending == "cast" and text and not Cast(os.path.join(where, "full.cast")).sound()):
+                wrong.append("%d: %s" % (count, tests.report(done) + text[-200:]))
+        tests.check("no room for a .%s, %d" % (ending, before), (12 if ending == "cast" else 2) < count < 200 and not wrong and harmless == {whole}, "%d\n%s" % (count, "\n".join(wrong[:3])))
+
+
 class Recorded(Live):
     def __init__(self, tests, name, *args, **more):
         super().__init__(tests, command=[tests.fret, "--no-rc", "--quiet", *args], **more)
@@ -244,4 +299,4 @@ def kept(tests):
 
 
 def run(tests):
-    tests.rooms(scripted, full, typed, screens, ended, played, kept)
+    tests.rooms(scripted, full, rough, typed, screens, ended, played, kept)

@@ -18,13 +18,16 @@ SCENE = "material steel; geometry sphere R=10 mm; friction 0.4"
 
 
 class Session:
-    def __init__(self, tests, *args, cwd=None, dimensions=(30, 100), **env):
+    """before: a program with arguments that starts it."""
+
+    def __init__(self, tests, *args, cwd=None, dimensions=(30, 100), before=(), **env):
         self.tests = tests
         self.state = env.get("XDG_STATE_HOME") or os.path.join(tests.dir, "state-%d" % time.monotonic_ns())
         env = {**tests.env, "TERM": "xterm", "INPUTRC": "/dev/null", "XDG_STATE_HOME": self.state,
                "XDG_CONFIG_HOME": os.path.join(tests.dir, "no-config"), **env}
         env = {name: value for name, value in env.items() if value is not None}
-        self.child = pexpect.spawn(tests.fret, list(args), env=env, encoding="utf-8", timeout=120,
+        program, *args = [*before, tests.fret, *args]
+        self.child = pexpect.spawn(program, args, env=env, encoding="utf-8", timeout=120,
                                    cwd=cwd or tests.dir, dimensions=dimensions, codec_errors="replace")
         self.child.delaybeforesend = 0.02
         self.banner = self.prompt()
