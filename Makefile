@@ -103,8 +103,8 @@ OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard src/calc/*.c src/study/*.c s
 $(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE)) $(OUTER)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) $(WRAP) -o $@ $< $(OUTER) $(call OBJ,$(CORE)) $(LIBS_GSL) $(LIBS_CORE)
-# the library's allocations pass through the test
-$(B)/tests/test_allocation: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
+# their allocations, and some calls, pass through the test
+$(B)/tests/test_allocation $(B)/tests/test_calc: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
 
 # One file that depends on nothing, to copy to another machine: with musl, where it is at hand.
 STATIC_CC = $(if $(filter default,$(origin CC)),$(shell command -v musl-gcc || echo $(CC)),$(CC))

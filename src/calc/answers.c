@@ -21,11 +21,10 @@ static bool used_pieces(scene *s, const fret_normal *normal) {
 
 /* ---- running the program ----------------------------------------------------------------------- */
 
-/* A press alone can be shown without friction. */
+/* A press alone can be shown without friction; no step goes without. */
 static bool friction_for_program(scene *s, double *mu, calc_error *error) {
     *mu = 1;
-    return (!s->in.set[IN_MU] && !(s->in.bindings & INPUT_BIT(IN_MU)) && s->end.steps <= 1) ||
-           scene_friction(s, mu, error);
+    return !(s->in.set[IN_MU] || s->in.bindings & INPUT_BIT(IN_MU)) || scene_friction(s, mu, error);
 }
 
 static bool press_by(scene *s, const fret_normal *normal, fret_press *out, calc_error *error) {
@@ -100,14 +99,16 @@ static bool takes_sine(const load_view *load) {
     return fret_normal_is_power(load->normal);
 }
 
-/* As many runs as the load wants: those that are new start where the first one is. */
+/* As many runs as the load wants, or none: those that are new start where the first one is. */
 static fret_status raise_levels(answers *a, const load_view *load) {
     const bool sine = a->reach.swings && !a->chords && takes_sine(load);
     const unsigned wanted = a->reach.swings && !sine ? LEVELS : 1;
     fret_status st = fine;
-    if (a->levels && ((engine_is_sine(&a->run[0].engine) && !sine) ||
-                      (!engine_is_sine(&a->run[0].engine) &&
-                       fret_memory_normal(engine_memory(&a->run[0].engine)) != load->normal)))
+    /* more than are wanted: in chords, as a load that was refused would have had them */
+    if (a->levels &&
+        (engine_is_sine(&a->run[0].engine)
+             ? !sine
+             : a->levels > wanted || fret_memory_normal(engine_memory(&a->run[0].engine)) != load->normal))
         drop_runs(a);
     if (a->levels == 0) {
         if (load->trailed && !a->trail)
@@ -118,16 +119,17 @@ static fret_status raise_levels(answers *a, const load_view *load) {
     }
     if (sine && !st.code && !engine_is_sine(&a->run[0].engine))
         st = engine_to_sine(&a->run[0].engine);
-    for (; a->levels < wanted && !st.code; a->levels++) {
+    while (a->levels < wanted && !st.code) {
         runner *r = &a->run[a->levels];
         *r = a->run[0];
         r->level = a->levels;
         r->engine.self = NULL;
         r->trail = NULL;
         st = engine_copy(&r->engine, &a->run[0].engine, load->normal, load->mu);
-        if (st.code)
-            engine_end(&r->engine);
+        a->levels++; /* to be dropped, too, if there is only half of it */
     }
+    if (st.code)
+        drop_runs(a);
     return st;
 }
 
@@ -225,8 +227,7 @@ static bool run_appended(scene *s, bool whole, calc_error *error) {
     if (!scene_load_of(s, &load, error))
         return false;
     fret_status st = raise_levels(a, &load);
-    const unsigned levels = a->levels;
-    const bool spares = whole || levels > 1;
+    const bool spares = whole || a->levels > 1, chords = a->chords;
     const runner before = a->run[0];
     if (!st.code && spares)
         st = keep_spares(a, &load);
@@ -235,12 +236,13 @@ static bool run_appended(scene *s, bool whole, calc_error *error) {
     st = run_levels(a, &load);
     if (!st.code)
         return true;
-    if (spares && a->levels != levels) /* begun anew in chords: to be run again when it is asked for */
+    if (a->chords != chords) /* begun anew: to be run again when it is asked for */
         drop_runs(a);
     else if (spares)
         use_spares(a);
     else
         a->run[0] = before;
+    a->chords = chords;
     return calc_status(error, &st);
 }
 
@@ -429,10 +431,8 @@ static bool is_stepped(const scene *s) {
 static bool stepped_state(scene *s, calc_error *error) {
     load_view load;
     runner run[LEVELS] = {{.load = &load}};
-    if (!scene_load_of(s, &load, error))
-        return false;
+    bool ok = scene_load_of(s, &load, error);
     const unsigned levels = s->answers.reach.swings ? LEVELS : 1;
-    bool ok = true;
     for (unsigned i = 0; i < levels && ok; i++) {
         run[i] = (runner){.load = &load, .level = i};
         ok = scene_engine(s, &load, s->model, s->springs, &run[i].engine, error);
@@ -514,8 +514,7 @@ void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs)
 /* ---- closed forms ------------------------------------------------------------------------------ */
 
 void scene_used_closed(scene *s) {
-    const bool power = !s->in.geometry || s->in.geometry->power;
-    s->used |= USED(power ? MODEL_CLOSED : MODEL_QUADRATURE);
+    s->used |= USED(s->in.geometry->power ? MODEL_CLOSED : MODEL_QUADRATURE);
 }
 
 static const load_reach *closed_reach(scene *s) {

@@ -1,0 +1,472 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The small parts of the language, and what memory that runs out leaves of it: each allocation of a statement
+ * fails once. The Makefile links this program so that the language allocates through the functions here. */
+#include "unit.h"
+
+#define unit calc_unit /* names that calc has too */
+#define value calc_value
+#define quantity calc_quantity
+#include "calc/calc.h"
+#include "calc/characters.h"
+#include "calc/functions.h"
+#include "calc/trial.h"
+#undef unit
+#undef value
+#undef quantity
+
+#include <errno.h>
+#include <sys/time.h>
+
+static int left = -1; /* allocations that succeed before one fails; -1: all do */
+
+static bool fails(void) {
+    return left >= 0 && left-- == 0;
+}
+
+#define WRAPPED(name, parameters, arguments)                                                                 \
+    void *__real_##name parameters;                                                                          \
+    void *__wrap_##name parameters;                                                                          \
+    void *__wrap_##name parameters {                                                                         \
+        return fails() ? NULL : __real_##name arguments;                                                     \
+    }
+WRAPPED(malloc, (size_t size), (size))
+WRAPPED(calloc, (size_t count, size_t size), (count, size))
+WRAPPED(realloc, (void *old, size_t size), (old, size))
+WRAPPED(aligned_alloc, (size_t alignment, size_t size), (alignment, size))
+
+static calc_error error;
+
+static calc_error *fresh(void) {
+    error_clear(&error);
+    return &error;
+}
+
+/* ---- words, characters, units ------------------------------------------------------------------- */
+
+static void words(void) {
+    CHECK(same_but_case("fn", "FN") && same_but_case("Fn", "fN") && same_but_case("x_1", "X_1"));
+    CHECK(!same_but_case("fn", "fnx") && !same_but_case("fnx", "fn") && !same_but_case("fn", "fm"));
+    /* pairs that differ by the same bit and are no letters */
+    CHECK(!same_but_case("@", "`") && !same_but_case("[", "{") && !same_but_case("0", "\x10"));
+    CHECK(one_letter_apart("slope", "slpoe") && one_letter_apart("slope", "slop"));
+    CHECK(one_letter_apart("slope", "sloper") && !one_letter_apart("slope", "lsopr"));
+    static const char lengthy[] = "a word of more letters than are ever compared";
+    CHECK(!one_letter_apart(lengthy, "a word") && !one_letter_apart("a word", lengthy));
+    CHECK(!quantity_name(WORDS) && !builtin_name(WORDS)); /* tables that an index can hold */
+}
+
+static void characters(void) {
+    unsigned code = 7;
+    CHECK(character_at("", 0, &code) == 0 && code == 7);
+    CHECK(character_at("\xe2\x82\xac", 3, &code) == 3 && code == 0x20ac);
+    CHECK(character_at("\xe2\x82\xac", 2, &code) == 0 && character_at("a", 1, NULL) == 1);
+}
+
+static void units(void) {
+    char text[128];
+    dim_unit(DIM_FORCE, text, sizeof text);
+    CHECK(!strcmp(text, "N"));
+    dim_unit(DIM_STIFFNESS, text, 3); /* no more than there is room for */
+    CHECK(!strcmp(text, "N/"));
+    CHECK(unit_choose(DIM_LENGTH, 2.5e-6L, 6, text, sizeof text) == 1e-6L && !strcmp(text, "um"));
+    const long double none[] = {0, (long double)INFINITY, (long double)NAN, 1e-12L, 1e12L};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        CHECK(unit_choose(DIM_LENGTH, none[i], 6, text, sizeof text) == 1 && !strcmp(text, "m"));
+}
+
+static void ranges(void) {
+    static const double never[] = {INFINITY, -INFINITY, NAN};
+    for (input in = 0; in < INPUTS; in++)
+        for (size_t i = 0; i < sizeof never / sizeof *never; i++)
+            CHECK_CODE(input_status(in, never[i]), FRET_NOT_FINITE);
+    CHECK_OK(input_status(IN_NU, 0.5));
+    CHECK_CODE(input_status(IN_NU, -1), FRET_BAD_NU);
+    CHECK_CODE(input_status(IN_K, 1), FRET_BAD_K);
+    CHECK_OK(input_status(IN_FNA, 0));
+    CHECK_CODE(input_status(IN_FNA, -1), FRET_NEGATIVE);
+    CHECK_CODE(input_status(IN_MU, 0), FRET_NOT_POSITIVE);
+    inputs none = {.geometry = NULL};
+    for (input in = 0; in < INPUTS; in++)
+        CHECK(!inputs_take(&none, in));
+}
+
+/* ---- errors ------------------------------------------------------------------------------------- */
+
+/* What is raised first stays. */
+static void first_errors(void) {
+    static const fret_status late = {FRET_NEGATIVE, "FA", -1, 0}, fine = {FRET_OK, NULL, 0, 0};
+    calc_raise(fresh(), 3, 1, "the %s", "first");
+    CHECK(!calc_missing(&error, IN_FN) && !calc_input_status(&error, IN_MU, &late));
+    CHECK(!calc_no_memory(&error) && error.stop && calc_input_status(&error, IN_MU, &fine));
+    CHECK(!calc_errno(&error, EACCES, "cannot %s", "write") && error.refused && error.stop);
+    CHECK(error.kind == ERROR_WORDS && !strcmp(error.text, "the first") && error.at == 3 &&
+          error.input == -1);
+    CHECK(!calc_errno(fresh(), ENOMEM, "cannot %s", "write") && error.stop);
+    CHECK(!strcmp(error.text, "cannot write: out of memory"));
+}
+
+/* Statuses that the library raises and the language does not. */
+static void wordings(void) {
+    static const struct {
+        fret_status status;
+        const char *text;
+    } rows[] = {
+        {{FRET_OUTSIDE, "points", 4, 8}, "points = 4 lies outside the range of the function (limit 8)"},
+        {{FRET_OUTSIDE, "dx", 3e-6, 0}, "dx = 3 um lies outside the range of the function"},
+        {{FRET_NO_MEMORY, NULL, 0, 0}, "out of memory"}};
+    calc c;
+    calc_init(&c, NULL);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        calc_status(fresh(), &rows[i].status);
+        calc_word(&c, &error);
+        if (!CHECK(!strcmp(error.text, rows[i].text)))
+            printf("%s\n", error.text);
+    }
+    calc_free(&c);
+}
+
+/* Functions of many values ask nothing of an empty scene. */
+static void blocks(void) {
+    static quantity_block_function *const all[] = {block_a, block_dz, block_c, block_dx, block_dW};
+    const double F[2] = {1, 2};
+    double out[2];
+    calc c;
+    calc_init(&c, NULL);
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        CHECK(!all[i](c.now, F, out, 2, fresh()) && error.kind == ERROR_MISSING);
+    calc_free(&c);
+}
+
+/* ---- statements --------------------------------------------------------------------------------- */
+
+static bool assign(calc *c, const char *text) {
+    lexer lx;
+    lex_start(&lx, text, strlen(text), fresh());
+    return calc_assign(c, &lx);
+}
+
+static bool evaluate(calc *c, const char *text, calc_value *out) {
+    lexer lx;
+    lex_start(&lx, text, strlen(text), fresh());
+    return expr_value(c, &lx, out);
+}
+
+static double value_of(calc *c, const char *text) {
+    calc_value v;
+    return evaluate(c, text, &v) ? (double)v.v : (double)NAN;
+}
+
+static bool load(calc *c, load_step step, cycle_extra extra) {
+    return scene_load(c->now, &step, step.kind == LOAD_CYCLE ? &extra : NULL, fresh());
+}
+
+static void begin(calc *c) {
+    calc_init(c, NULL);
+    inputs *in = &c->now->in;
+    inputs_put(in, IN_E0, 210e9);
+    inputs_put(in, IN_NU, 0.3);
+    inputs_put(in, IN_MU, 0.4);
+    inputs_geometry(in, geometry_find("sphere", 6), NULL, NULL);
+    inputs_put(in, IN_RADIUS, 0.01);
+    CHECK(
+        load(c, (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = 100}, (cycle_extra){0}));
+}
+
+/* One statement, tried with each of its allocations failing until it succeeds. */
+#define EACH_FAILS(least, call, unchanged)                                                                   \
+    do {                                                                                                     \
+        int n_ = 0;                                                                                          \
+        for (bool ok_ = false; !ok_ && n_ < 2000; n_++) {                                                    \
+            left = n_;                                                                                       \
+            ok_ = (call);                                                                                    \
+            left = -1;                                                                                       \
+            if (!ok_) {                                                                                      \
+                calc_word(&c, &error);                                                                       \
+                CHECK(strstr(error.text, "out of memory"));                                                  \
+                CHECK(unchanged);                                                                            \
+            }                                                                                                \
+        }                                                                                                    \
+        CHECK(n_ > (least) && n_ < 2000);                                                                    \
+    } while (0)
+
+/* Expressions of as many nodes as make room for more at each kind of them. */
+static void expressions(void) {
+    enum { MOST = 40 };
+    static const struct {
+        const char *first, *again, *last;
+        double value[3]; /* of 1, 2 and MOST times */
+    } rows[] = {{"1", "+1", "", {2, 3, 1 + MOST}},
+                {"1", "*1", "", {1, 1, 1}},
+                {"2", "^1", "", {2, 2, 2}},
+                {"1", "*-1", "", {-1, 1, 1}},
+                {"F(1)", "+F(1)", "", {2, 3, 1 + MOST}},
+                {"min(3, 4", ", 2", ")", {2, 2, 2}},
+                {"sqrt(1)", "*x", "", {3, 9, 12157665459056928801.0}},
+                {"(F(x) at x=5)", "+(F(x) at x=1)", "", {26, 27, 25 + MOST}},
+                {"abs(1)", "+1*(x at x=1)", "", {2, 3, 1 + MOST}}};
+    calc c;
+    calc_value v;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (int times = 1; times <= MOST; times++) {
+            char text[1000];
+            strcpy(text, rows[i].first);
+            for (int j = 0; j < times; j++)
+                strcat(text, rows[i].again);
+            strcat(text, rows[i].last);
+            calc_init(&c, NULL); /* no room yet */
+            CHECK(assign(&c, "x = 3") && assign(&c, "F(y) := y^2"));
+            EACH_FAILS(0, (expr_free(&c.scratch), evaluate(&c, text, &v)), value_of(&c, "x") == 3);
+            if (times < 3 || times == MOST)
+                CHECK_REL(v.v, (fret_real)rows[i].value[times < 3 ? times - 1 : 2], 1e-15L);
+            calc_free(&c);
+        }
+}
+
+static void assignments(void) {
+    static const char *const names[] = {"p1", "p2", "p3", "p4", "p5", "p6", "p7", "p8", "p9",
+                                        "q1", "q2", "q3", "q4", "q5", "q6", "q7", "q8", "q9"};
+    calc c;
+    calc_init(&c, NULL);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) { /* of which one needs room for more of them */
+        char text[40];
+        snprintf(text, sizeof text, "%s := 2*1", names[i]);
+        const size_t before = c.undo.count;
+        EACH_FAILS(2, assign(&c, text), c.undo.count == before && isnan(value_of(&c, names[i])));
+        CHECK(value_of(&c, names[i]) == 2);
+    }
+    /* a name that only a sweep gives */
+    for (size_t i = 0; i < 40; i++) {
+        char text[40];
+        knob k;
+        lexer lx;
+        snprintf(text, sizeof text, "s%zu", i);
+        EACH_FAILS(0, (lex_start(&lx, text, strlen(text), fresh()), knob_read(&c, &lx, &k)), !c.note[0]);
+        CHECK(!k.is_input && !strcmp(k.text, text));
+    }
+    calc_free(&c);
+}
+
+/* The state now, and the displacement of the springs in the middle. */
+typedef struct place {
+    fret_state state;
+    fret_real u;
+} place;
+
+static place place_of(calc *c) {
+    const fret_state *state = NULL;
+    const fret_memory *memory = NULL;
+    place out = {.u = (fret_real)NAN};
+    if (CHECK(scene_state(c->now, &state, fresh()) && scene_memory(c->now, &memory, fresh())))
+        out = (place){*state, fret_memory_displacement(memory, 0)};
+    return out;
+}
+
+static bool same(place x, place y) {
+    const fret_state *a = &x.state, *b = &y.state;
+    return a->FN == b->FN && a->dz == b->dz && a->Fx == b->Fx && a->dx == b->dx && a->W == b->W &&
+           a->U == b->U && x.u == y.u;
+}
+
+/* Cycles that swing F_N as a sine, by displacement or to the brink of gross slip in chords: what fails leaves
+ * the state as it was, and what comes after is the same as where nothing has failed. */
+static void loads(bool turned) {
+    static const struct {
+        double FA, FNA, phase;
+        unsigned by;
+    } cycles[] = {{20, 50, 0, BY_FORCE},          {8, 8, 1, BY_FORCE},
+                  {12, 30, 1, BY_FORCE},          {5, 0, 0, BY_FORCE},
+                  {2e-7, 10, 1, BY_DISPLACEMENT}, {3, 9, 2, BY_FORCE}};
+    calc c, whole;
+    begin(&c);
+    begin(&whole);
+    for (int i = 0; turned && i < 30; i++) { /* many slices to be kept */
+        const load_step step = {.kind = LOAD_STEP,
+                                .tangential = BY_FORCE,
+                                .tangential_value = (30 - i) * (i % 2 ? -1 : 1),
+                                .points = 1};
+        CHECK(load(&c, step, (cycle_extra){0}) && load(&whole, step, (cycle_extra){0}));
+    }
+    for (size_t i = turned; i < sizeof cycles / sizeof *cycles; i++) {
+        const load_step cycle = {.kind = LOAD_CYCLE,
+                                 .tangential = (unsigned char)cycles[i].by,
+                                 .tangential_value = cycles[i].FA,
+                                 .normal_value = cycles[i].FNA};
+        const cycle_extra extra = {.times = 2, .phase = cycles[i].phase};
+        const place before = place_of(&c);
+        EACH_FAILS(0, load(&c, cycle, extra), same(place_of(&c), before));
+        CHECK(load(&whole, cycle, extra) && same(place_of(&c), place_of(&whole)));
+    }
+    calc_free(&c);
+    calc_free(&whole);
+}
+
+/* What is refused on the way leaves no other way of reckoning behind. */
+static void refusals(void) {
+    static const load_step
+        sine = {.kind = LOAD_CYCLE, .tangential = BY_FORCE, .tangential_value = 12, .normal_value = 30},
+        refused[] = {{.kind = LOAD_CYCLE,
+                      .tangential = BY_DISPLACEMENT,
+                      .tangential_value = 2e-7,
+                      .normal_value = 200},
+                     {.kind = LOAD_CYCLE, .tangential = BY_FORCE, .tangential_value = 39, .normal_value = 30},
+                     {.kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 1000, .points = 1},
+                     {.kind = LOAD_STEP,
+                      .normal = BY_FORCE,
+                      .normal_value = -1,
+                      .tangential = BY_DISPLACEMENT,
+                      .tangential_value = 1e-7,
+                      .points = 1}};
+    static const cycle_extra twice = {.times = 2, .phase = 1};
+    calc c;
+    begin(&c);
+    for (int swung = 0; swung < 2; swung++) {
+        const place before = place_of(&c);
+        for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
+            CHECK(!load(&c, refused[i], twice) && same(place_of(&c), before));
+        CHECK(swung || load(&c, sine, twice));
+    }
+    calc_free(&c);
+}
+
+/* ---- names -------------------------------------------------------------------------------------- */
+
+/* Names that begin alike stay apart. */
+static void alike_names(void) {
+    enum { NAMES = 300 };
+    char text[NAMES + 1];
+    own_names n = {.row = NULL};
+    size_t at;
+    memset(text, 'q', NAMES);
+    text[NAMES] = 0;
+    for (size_t len = NAMES; len > 0; len--)
+        CHECK(names_add(&n, text, len, &at) && at == NAMES - len && !n.row[at].known);
+    for (size_t len = 1; len <= NAMES; len++) {
+        CHECK(!names_find(&n, text, len, &at) && names_add(&n, text, len, &at) && at == NAMES - len);
+        names_put(&n, at, (calc_value){(long double)len, DIM_NONE}, NULL);
+        CHECK(names_find(&n, text, len, &at) && n.row[at].v.v == len);
+    }
+    names_free(&n);
+}
+
+/* Live definitions as deep as they may be, and one deeper. */
+static void deep_names(void) {
+    calc c;
+    calc_value v;
+    calc_init(&c, NULL);
+    CHECK(assign(&c, "d0 = 1"));
+    for (int i = 1; i <= CHAIN; i++) {
+        char text[40];
+        snprintf(text, sizeof text, "d%d := d%d + 1", i, i - 1);
+        CHECK(assign(&c, text));
+    }
+    CHECK(value_of(&c, "d100") == 101);
+    CHECK(assign(&c, "d101 := d100 + 1") && !evaluate(&c, "d101", &v));
+    CHECK(!strcmp(error.text, "live definitions are nested more than 100 deep"));
+    CHECK(value_of(&c, "d100") == 101);
+    calc_free(&c);
+}
+
+/* ---- the flag that stops ------------------------------------------------------------------------ */
+
+static volatile sig_atomic_t rung;
+
+static void ring(int number) {
+    (void)number;
+    rung = 1;
+}
+
+/* A gap in rows, which takes its time. */
+static shared_table *rows_of_sphere(void) {
+    enum { ROWS = 2000 };
+    static double r[ROWS], f[ROWS];
+    struct fret_table *t = NULL;
+    for (int i = 0; i < ROWS; i++) {
+        r[i] = 1e-3 * i / (ROWS - 1);
+        f[i] = r[i] * r[i] / 0.02;
+    }
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
+    return shared_table_make(t, "rows", (smoothing){0});
+}
+
+/* Interrupted sooner or later: an answer is the one of an undisturbed call, or there is none. */
+static void interrupted(void) {
+    static quantity_call_function *const all[] = {call_Kp, call_loss_factor};
+    calc c;
+    calc_init(&c, &rung);
+    inputs *in = &c.now->in;
+    inputs_put(in, IN_E0, 210e9);
+    inputs_put(in, IN_NU, 0.3);
+    inputs_put(in, IN_MU, 0.4);
+    inputs_geometry(in, geometry_find("file", 4), NULL, rows_of_sphere());
+    CHECK(
+        load(&c, (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = 100}, (cycle_extra){0}));
+    signal(SIGALRM, ring);
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        const calc_value dxA = {5e-7L, DIM_LENGTH};
+        long double want, got = 0;
+        int refused = 0;
+        rung = 0;
+        CHECK(all[i](c.now, dxA, &want, fresh()));
+        for (double wait = 2e-6; refused < 1000; wait *= 1.1, refused++) {
+            const struct itimerval at = {
+                .it_value = {.tv_sec = (time_t)wait, .tv_usec = (suseconds_t)(1e6 * fmod(wait, 1))}};
+            setitimer(ITIMER_REAL, &at, NULL);
+            const bool ok = all[i](c.now, dxA, &got, fresh());
+            setitimer(ITIMER_REAL, &(struct itimerval){.it_value = {0}}, NULL);
+            const bool late = !rung;
+            rung = 0;
+            CHECK(ok ? got == want : error.kind == ERROR_STATUS && error.status.code == FRET_INTERRUPTED);
+            if (late)
+                break;
+        }
+        CHECK(refused > 0 && refused < 1000);
+    }
+    calc_free(&c);
+}
+
+/* ---- the way back ------------------------------------------------------------------------------- */
+
+/* Where the oldest entries have gone, steps since the oldest that is left can still be taken off. */
+static void far_back(void) {
+    static const load_step slide = {
+        .kind = LOAD_STEP, .tangential = BY_DISPLACEMENT, .tangential_value = 1e-7, .points = 1};
+    calc c;
+    begin(&c);
+    size_t taken = 0;
+    for (int i = 0; i < 2001; i++) {
+        char text[20];
+        snprintf(text, sizeof text, "x = %d", i);
+        undo_begin(&c);
+        CHECK(assign(&c, text));
+        undo_end(&c);
+        if (i == 999 || i == 1500)
+            CHECK(load(&c, slide, (cycle_extra){0}));
+    }
+    CHECK(c.now->end.steps == 3 && c.undo.count == 1001);
+    while (calc_undo(&c))
+        taken++;
+    /* 1001 values, and both steps: the first of them came after the last value that is forgotten */
+    CHECK(taken == 1003 && c.now->end.steps == 1 && value_of(&c, "x") == 999);
+    calc_free(&c);
+}
+
+int main(int argc, char **argv) {
+    unit_start("test_calc", argc, argv);
+    words();
+    characters();
+    units();
+    ranges();
+    first_errors();
+    wordings();
+    blocks();
+    expressions();
+    assignments();
+    loads(false);
+    loads(true);
+    refusals();
+    alike_names();
+    deep_names();
+    interrupted();
+    far_back();
+    return unit_finish();
+}
