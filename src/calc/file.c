@@ -196,7 +196,7 @@ bool file_out_open(file_out *out, const char *name, file_stop stop, calc_error *
     if (code)
         return open_error(out, code, error);
     out->existed = !stat(out->real, &info);
-    if (!out->existed && errno != ENOENT && descriptor(out->real) < 0)
+    if (!out->existed && errno != ENOENT)
         return open_error(out, errno, error);
     if (out->existed && S_ISDIR(info.st_mode))
         return open_error(out, EISDIR, error);

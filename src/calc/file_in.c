@@ -125,13 +125,14 @@ static void put_character(file_in *in, unsigned code) {
 /* What has no other half is replaced. */
 static void put_unit(file_in *in, unsigned unit) {
     const bool first = unit >= 0xd800 && unit < 0xdc00, second = unit >= 0xdc00 && unit < 0xe000;
-    if (in->high && !second)
+    const unsigned high = in->high;
+    in->high = first ? unit : 0;
+    if (high && !second)
         put_character(in, REPLACEMENT);
     if (second)
-        put_character(in, in->high ? 0x10000 + ((in->high - 0xd800) << 10) + (unit - 0xdc00) : REPLACEMENT);
+        put_character(in, high ? 0x10000 + ((high - 0xd800) << 10) + (unit - 0xdc00) : REPLACEMENT);
     else if (!first)
         put_character(in, unit);
-    in->high = first ? unit : 0;
 }
 
 static void put_bytes(file_in *in, const char *bytes, size_t n) {
