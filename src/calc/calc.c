@@ -157,7 +157,8 @@ static bool read_parameters(lexer *lx, char (*parameter)[LEX_NAME], unsigned *co
         const char *taken = name_taken(lx->text + lx->at, lx->len);
         if (taken)
             return lex_fail(lx, "'%.*s' is %s: it cannot be an argument's name", LEX_WORD(lx), taken);
-        lex_word(lx, parameter[(*count)++]);
+        if (!lex_whole(lx, "an argument's name", parameter[(*count)++]))
+            return false;
         lex_next(lx);
     } while (lx->kind == T_COMMA);
     lex_next(lx); /* a parenthesis: assign_at has looked */
@@ -197,7 +198,7 @@ static bool read_assignment(calc *c, lexer *lx, assignment *all, size_t count) {
     a->len = lx->len;
     a->value_at = a->value_len = 0;
     if (!name_allowed(c, lx, a)) {
-        if (lx->error->len || !a->q)
+        if (lx->error->len)
             return false;
         useless = *lx->error; /* a wrong value is the deeper error */
         error_clear(lx->error);
@@ -280,7 +281,7 @@ static bool amplitude_is_left(const calc_error *error, const assignment *all, si
     for (size_t i = 0; i < count; i++)
         if (all[i].q && quantity_input(all[i].q) == IN_FA)
             return false;
-    return error->kind == ERROR_STATUS && error->status.code == FRET_GROSS_SLIP && error->status.quantity &&
+    return error->kind == ERROR_STATUS && error->status.code == FRET_GROSS_SLIP &&
            !strcmp(error->status.quantity, "FA");
 }
 
@@ -452,7 +453,7 @@ bool calc_assign(calc *c, lexer *lx) {
              calc_place(lx->error, all[i].value_at, all[i].value_len);
     }
     ok = ok && put_undoable(c, lx, all, count);
-    if (!ok && count > 0)
+    if (!ok)
         calc_place(lx->error, all[count - 1].value_at, all[count - 1].value_len);
     for (size_t i = 0; i < count; i++)
         counted_drop(all[i].d ? &all[i].d->base : NULL);

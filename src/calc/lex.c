@@ -206,6 +206,14 @@ void lex_word(const lexer *lx, char word[LEX_NAME]) {
     snprintf(word, LEX_NAME, "%.*s", LEX_WORD(lx));
 }
 
+bool lex_whole(lexer *lx, const char *what, char word[LEX_NAME]) {
+    if (lx->len >= LEX_NAME)
+        return lex_fail(lx, "%s has at most %d characters", what, LEX_NAME - 1);
+    memcpy(word, lx->text + lx->at, lx->len);
+    word[lx->len] = 0;
+    return true;
+}
+
 token_kind lex_peek(const lexer *lx) {
     size_t i = lx->at + lx->len;
     while (i < lx->end && blank(lx->text[i]))

@@ -50,6 +50,8 @@ bool lex_accept(lexer *lx, const char *word);
 /* The same as a string of its own. */
 enum { LEX_NAME = 64 };
 void lex_word(const lexer *lx, char word[LEX_NAME]);
+/* All of it; an error, which says what it is, where that is longer. */
+bool lex_whole(lexer *lx, const char *what, char word[LEX_NAME]);
 /* The kind of the token after the cursor. */
 token_kind lex_peek(const lexer *lx);
 /* A file name: a string, or all up to white space. False: none there. */

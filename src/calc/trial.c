@@ -16,7 +16,7 @@ trial *trial_open(calc *c, calc_error *error) {
     t->outer = c->now;
     t->names = c->names.count;
     scene_clone(&t->scene, c->now);
-    t->scene.sound = c->now == &c->scene || c->now->sound;
+    t->scene.sound = t->sound = c->now == &c->scene || c->now->sound;
     t->scene.used = 0;
     c->now = &t->scene;
     return t;
@@ -26,7 +26,7 @@ void trial_reset(trial *t) {
     const unsigned used = t->scene.used;
     scene_free(&t->scene);
     scene_clone(&t->scene, t->outer);
-    t->scene.sound = t->outer == &t->c->scene || t->outer->sound;
+    t->scene.sound = t->sound;
     t->scene.used = used;
 }
 
@@ -106,9 +106,10 @@ bool knob_read(calc *c, lexer *lx, knob *out) {
 
 bool knob_name(calc *c, lexer *lx, knob *out) {
     *out = (knob){.is_input = false};
-    if (lx->kind != T_NAME || lx->len >= LEX_NAME)
+    if (lx->kind != T_NAME)
         return lex_fail(lx, "expected a name");
-    lex_word(lx, out->text);
+    if (!lex_whole(lx, "a name that is changed", out->text))
+        return false;
     const quantity *q = quantity_find(out->text, lx->len);
     if (q && !quantity_is_input(q))
         return lex_fail(lx, "%s is a result: only inputs and free names can be swept", out->text);
