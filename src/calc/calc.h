@@ -10,8 +10,7 @@
 typedef struct undo_entry {
     unsigned long group; /* changes of one statement go together */
     scene_mark *before;  /* of the scene; NULL: of a name */
-    program *program;    /* after it: only to be compared */
-    size_t steps;
+    size_t steps;        /* after it: those that come then are taken off one by one */
     size_t name;
     own_name old; /* text is not its own */
 } undo_entry;

@@ -121,6 +121,10 @@ static bool read_unit(reader *r, csv_values *column, unit *u, const char *text, 
     return true;
 }
 
+static char closing_of(char c) {
+    return c == '[' ? ']' : c == '(' ? ')' : 0;
+}
+
 static bool read_title(reader *r, field f) {
     csv *c = r->c;
     if (c->columns == CSV_COLUMNS)
@@ -137,7 +141,7 @@ static bool read_title(reader *r, field f) {
              name.text);
     if (n == f.len)
         return true;
-    const char closing = f.text[n] == '[' ? ']' : f.text[n] == '(' ? ')' : 0;
+    const char closing = closing_of(f.text[n]);
     const char *end = closing ? memchr(f.text + n, closing, f.len - n) : f.text + f.len;
     if (!end)
         return fail(r, "a unit in the header is not closed");
@@ -157,9 +161,8 @@ static size_t unit_behind(const char *line, size_t len, size_t at, field *f) {
     size_t next = at;
     while (next < len && is_blank(line[next]))
         next++;
-    if (next >= len || (line[next] != '[' && line[next] != '('))
-        return at;
-    const char *end = memchr(line + next, line[next] == '[' ? ']' : ')', len - next);
+    const char closing = next < len ? closing_of(line[next]) : 0;
+    const char *end = closing ? memchr(line + next, closing, len - next) : NULL;
     if (!end)
         return at;
     f->len = (size_t)(end + 1 - f->text);
@@ -188,9 +191,9 @@ static bool read_header(reader *r, const char *line, size_t len) {
 
 /* ---- rows -------------------------------------------------------------------------------------- */
 
-/* The length of the number at the beginning of a text; 0: there is none. */
+/* The length of the number at the beginning of a text, which is not empty; 0: there is none. */
 static size_t take_number(const char *text, size_t len, char point, const unit *u, double *out) {
-    const bool minus = len && *text == '-', sign = minus || (len && *text == '+'), decimal = u->factor == 1;
+    const bool minus = *text == '-', sign = minus || *text == '+', decimal = u->factor == 1;
     double v;
     const size_t n = lex_decimal(text + sign, len - sign, point, decimal ? u->exp10 : 0, &v);
     if (n == 0)

@@ -100,17 +100,16 @@ static value side(value x) {
 
 bool call_w1D(scene *s, value x, long double *out, calc_error *error) {
     const fret_press *press;
-    long double g;
+    long double g = 0;
     if (!scene_press(s, &press, error))
         return false;
     const long double a = press->a, dz = press->dz;
     *out = 0;
     if (fabsl(x.v) >= a)
         return true;
-    if (!call_g(s, side(x), &g, error))
-        return false;
+    const bool ok = call_g(s, side(x), &g, error);
     *out = dz - g;
-    return true;
+    return ok;
 }
 
 bool call_u1D(scene *s, value x, long double *out, calc_error *error) {
@@ -125,8 +124,9 @@ bool call_s1D(scene *s, value x, long double *out, calc_error *error) {
     const fret_press *press;
     const fret_memory *memory;
     fret_state now;
-    if (!tangential_memory(s, &memory, error) || !scene_press(s, &press, error))
+    if (!tangential_memory(s, &memory, error))
         return false;
+    scene_press(s, &press, error); /* what has a memory is pressed */
     if (fabsl(x.v) >= press->a)
         return calc_fail(error, 0, 0, "s1D(x) is defined within the contact");
     fret_memory_forces(memory, &now);

@@ -168,7 +168,7 @@ static bool parse_at(parser *p, size_t first, size_t begin, size_t *out) {
     if (!split_tail(p, first, &at->body))
         return false;
     size_t end = lx->last - strlen("at");
-    while (end > begin && (lx->text[end - 1] == ' ' || lx->text[end - 1] == '\t'))
+    while (lx->text[end - 1] == ' ' || lx->text[end - 1] == '\t')
         end--;
     at->body.at = begin;
     at->body.len = end - begin;
@@ -346,7 +346,7 @@ static bool parse_parenthesis(parser *p, size_t *out) {
     if (lex_accept(lx, "at") && !parse_at(p, first, begin, out))
         return false;
     if (lx->kind != T_CLOSE)
-        return lx->error->raised ? false : lex_fail(lx, "expected )");
+        return lex_fail(lx, "expected )");
     lex_next(lx);
     return !lx->error->raised;
 }
@@ -435,7 +435,7 @@ static bool parse_whole(parser *p) {
     e->count = e->argument_count = 0;
     e->text = p->lx->text;
     e->at = p->lx->at;
-    if (!parse_sum(p, &root) || p->lx->error->raised)
+    if (!parse_sum(p, &root))
         return false;
     /* the root is last: a parenthesised expression adds no node of its own, and need not */
     e->len = p->lx->last - e->at;

@@ -60,10 +60,9 @@ void program_to_inputs(const load_step *step, const cycle_extra *extra, inputs *
 /* What the inputs hold of a cycle goes back into the program: another one follows. */
 void program_freeze(program *p, size_t last_cycle, size_t cycle, const inputs *in);
 
-/* Does F_N change in this step? */
+/* Does F_N change in this step or cycle? */
 static inline bool load_moves_normal(const load_step *step) {
-    return step->kind == LOAD_STEP ? step->normal != BY_NONE
-                                   : step->kind == LOAD_CYCLE && step->normal_value != 0;
+    return step->kind == LOAD_STEP ? step->normal != BY_NONE : step->normal_value != 0;
 }
 
 /* A step straight to a displacement, the normal force as it is. */

@@ -285,18 +285,16 @@ static unsigned holds(const quantity *q, scene *s, bool call) {
     calc_error ignored;
     error_clear(&ignored);
     const bool power = !s->in.geometry || s->in.geometry->power;
-    const bool loaded = s->end.steps > 0 && scene_reach(s, &reach, &ignored);
-    const bool varies = loaded && (reach->normal_varies || s->now);
-    unsigned when = power ? WHEN_POWER : WHEN_SHAPE;
+    const unsigned when = power ? WHEN_POWER : WHEN_SHAPE;
     if (call)
         return when | WHEN_CALL | WHEN_FIRST;
-    if (varies)
-        when |= WHEN_HISTORY;
-    else if (loaded && (q->get == get_dW ? scene_closed_loss(s) : reach->first))
-        when |= WHEN_FIRST;
-    else if (loaded && reach->alike)
-        when |= WHEN_LATER;
-    return when;
+    if (!scene_reach(s, &reach, &ignored))
+        return when;
+    if (reach->normal_varies)
+        return when | WHEN_HISTORY;
+    if (q->get == get_dW ? scene_closed_loss(s) : reach->first)
+        return when | WHEN_FIRST;
+    return reach->alike ? when | WHEN_LATER : when;
 }
 
 const formula *quantity_formula(const quantity *q, scene *s, bool call) {

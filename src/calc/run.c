@@ -212,7 +212,7 @@ static double slip_rate(const swing *w, double angle, int sign) {
     if (w->cycle->step.tangential == BY_DISPLACEMENT) {
         fret_press press;
         const double FN = (double)(w->FN + FNA * fret_cos((long double)angle + phase));
-        if (!(FN > 0) || fret_press_by_force(w->load->normal, FN, &press).code || !(press.a > 0))
+        if (!(FN > 0) || fret_press_by_force(w->load->normal, FN, &press).code)
             return NAN;
         bound *= (double)(fret_normal_foundation(w->load->normal)->eta /
                           fret_normal_stiffness(w->load->normal, press.a));
@@ -405,7 +405,7 @@ static fret_status run_cycle(runner *r, const load_item *c) {
     if (!st.code)
         st = run_periods(r, c, k->FN);
     k->within = r->waits;
-    if (st.code == FRET_GROSS_SLIP && c->step.tangential == BY_FORCE)
+    if (st.code == FRET_GROSS_SLIP)
         st.quantity = c->step.normal_value == 0 ? "FA" : RUN_FX_OF_CYCLE;
     return st;
 }

@@ -225,7 +225,7 @@ bool scene_valid(scene *s, calc_error *error) {
             error_clear(error);
         return waits;
     }
-    if (s->in.set[IN_MU] || s->end.steps > 1)
+    if (s->in.set[IN_MU])
         return scene_friction(s, &mu, error) && scene_memory(s, &memory, error);
     return scene_press(s, &press, error);
 }
@@ -248,8 +248,7 @@ bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_er
     scene_back(s, &before);
     if (s->answers.many) /* for other loads by now: what has run on it runs again */
         scene_forget(s, true);
-    if (!error->raised)
-        *error = mine;
+    *error = mine;
     return false;
 }
 
@@ -395,7 +394,7 @@ bool scene_reach(scene *s, const load_reach **out, calc_error *error) {
     load_reach *r = &s->answers.reach;
     if (!is_pressed(s, error) || (s->end.cycles && !s->before && !resolve(s, INPUT_CYCLE, error)))
         return false;
-    if (!s->answers.reach_ready || r->seen.steps > s->end.steps) {
+    if (!s->answers.reach_ready) {
         *r = (load_reach){.seen = {1, 0}, .alike = true, .first = true};
         r->last_cycle = s->before ? NO_CYCLE : program_last_cycle(s->program, s->end);
         s->answers.reach_ready = true;

@@ -59,7 +59,6 @@ static undo_entry *push(calc *c) {
     undo_entry *e = &u->entry[u->count++];
     e->group = u->group; /* one by one: the rest need not be cleared */
     e->before = NULL;
-    e->program = c->scene.program;
     e->steps = c->scene.end.steps;
     return e;
 }
@@ -123,8 +122,7 @@ bool calc_undo(calc *c) {
     undo *u = &c->undo;
     scene *s = &c->scene;
     const undo_entry *top = u->count ? &u->entry[u->count - 1] : NULL;
-    const size_t base = top ? top->steps : u->base_steps;
-    if (s->end.steps > base && (!top || top->program == s->program)) {
+    if (s->end.steps > (top ? top->steps : u->base_steps)) {
         s->end.steps--;
         scene_forget(s, true);
         return true;

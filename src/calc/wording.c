@@ -69,13 +69,10 @@ static void word_missing(const calc *c, calc_error *error) {
     const geometry *g = c->now->in.geometry;
     char *text = error->text;
     const size_t size = sizeof error->text;
-    if ((in == IN_E0_2 || in == IN_NU_2) && c->now->in.second == SECOND_RIGID)
+    if (in == IN_E0_2 || in == IN_NU_2) /* else they are as the first one's */
         snprintf(text, size, "the second body is rigid");
-    else if (in <= IN_NU || in == IN_E0_2 || in == IN_NU_2)
-        snprintf(text, size, "%s is not set: give the material first (material E0=210 GPa nu=0.3)",
-                 in <= IN_NU     ? name
-                 : in == IN_E0_2 ? "E0"
-                                 : "nu");
+    else if (in <= IN_NU)
+        snprintf(text, size, "%s is not set: give the material first (material E0=210 GPa nu=0.3)", name);
     else if (in == IN_MU)
         snprintf(text, size, "mu is not set: give the friction first (friction 0.4)");
     else if (in == IN_C0)

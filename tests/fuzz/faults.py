@@ -128,7 +128,7 @@ def prepare(where):
     """Files that the statements read, and one that must survive."""
     texts = {"arm": "", "disarm": "", "script.fret": "x\nx + 1; x + 2\n",
              "gap.csv": "r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(40)),
-             "rough.csv": "r [mm],f [um],note\n" + "".join("%g,%g,a word\n" % (i / 50, max(0, i * i / 50 + 8 * math.sin(2 * i)))
+             "rough.csv": "r [mm],f [um],note,more\n" + "".join("%g,%g,a word\n" % (i / 50, max(0, i * i / 50 + 8 * math.sin(2 * i)))
                                                            for i in range(40)),
              "follow.csv": "FN [N],Fx [N],force [N]\n" + "".join("%g,%g,%g\n" % (100 + i / 9, 20 - i / 9, 50 - i / 4)
                                                                  for i in range(180)),

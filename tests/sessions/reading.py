@@ -27,6 +27,10 @@ SAME = {
     "a column of notes behind blanks": b"r [mm] f [um] note\n0 0 a\n0.5 12.5 b\n1 50 c\n",
     "separators within brackets": b"note (a, b),r [mm],f [um]\nx,0,0\ny,0.5,12.5\nz,1,50\n",
     "every form of a number": b"r [mm];f [um]\n0,;-.0\n,5;12,5" + 70 * b"0" + b"E0\n" + 70 * b"0" + b"1;+5e+001\n",
+    "a bracket that closes nothing": b"a),r [mm],f [um]\nx,0,0\ny,0.5,12.5\nz,1,50\n",
+    "blanks, and units in parentheses": b"r (mm) f (um)\n0 0\n0.5 12.5\n1 50\n",
+    "a unit that is no power of ten": b"r [mm],f [inch]\n0,0\n0.5,0.00049212598425196850394\n1,0.0019685039370078740157\n",
+    "rows of blanks and separators": b"r [mm];f [um]\n ; \t;\n0;0\n 0.5 ;\t12.5\n;\n \n1;50\n",
     "a separator named": b"sep=;\nr [mm];f [um]\n0;0\n0,5;12,5\n1;50\n",
 }
 WRONG = {
@@ -55,6 +59,10 @@ WRONG = {
     b"0,0\n1,1\n": ":1: the header must name the columns with their units, such as r [mm],f [um]",
     b"r [mm],f [um]\n0,0\n0.5,\"12.5\n": ":3: expected a number as f, not '\"12.5'",
     b"r [mm],f [um]\n0,0\n1e400,5\n": ":3: expected a number as r, not '1e400'",
+    b",,\n0,0\n": ":1: the header must name the columns with their units, such as r [mm],f [um]",
+    b",r [mm],f [um]\n0,0,0\n": ":1: the header must name the columns with their units, such as r [mm],f [um]",
+    b"r [mm f (um)\n0 0\n": ":1: a unit in the header is not closed",
+    ("r [mm]," + ",".join("column%d%s" % (i, 50 * "x") for i in range(60)) + "\n0\n").encode(): "has no column f: its columns are r, column0",
     b"r [mm],f [um\n0,0\n": ":1: a unit in the header is not closed",
     "r [mm],f [um]\n0,0\n".encode("utf-16-le"): ":1: this is no text, or UTF-16 without its mark: save it as UTF-8",
     b"r [mm],f [um]\n0,0\n1,\0\n": ":3: this is no text, or UTF-16 without its mark: save it as UTF-8",
