@@ -146,16 +146,16 @@ static fret_real loss_shape(dd q_wide, dd r_wide, const fraction *f) {
     fret_real l = f->t.hi < tiny ? t : -dd_value(f->l);
     if (l < 3.5L) {
         fret_real alpha = (1 + q) * l / 2, a2 = alpha * alpha, b2 = (r * l / 2) * (r * l / 2);
-        fret_real h = 1, power = 1, factorial = 6, sum = h / factorial;
-        for (int j = 1; j < 40; j++) {
+        fret_real h = 1, power = 1, factorial = 6, sum = h / factorial, old;
+        int j = 1;
+        do { /* positive terms, divided by ever more than they are multiplied by */
             power *= b2;
             h = a2 * h + power;
             factorial *= (2 * j + 2) * (2 * j + 3);
-            fret_real old = sum;
+            old = sum;
             sum += h / factorial;
-            if (sum == old)
-                break;
-        }
+            j++;
+        } while (sum > old);
         return 4 * q * r * l * l * l * fret_exp(-alpha) * sum;
     }
     if (q <= 0.5L) {

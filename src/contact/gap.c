@@ -106,16 +106,16 @@ static fret_real sphere_f(const fret_gap *gap, fret_real r) {
 static fret_profile sphere_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
     fret_real a = e, k = rule->k, m1 = (k + 3) / 2, q = a / gap->R * (a / gap->R),
               term = a / (gap->R * (k + 1));
-    fret_real g = 0, slope = 0, I = 0;
-    for (int n = 0; n < 1000; n++) {
-        fret_real rise = (2 * n + 2) * term;
+    fret_real g = 0, slope = 0, I = 0, rise;
+    int n = 0;
+    do { /* q is at most 0.9 */
+        rise = (2 * n + 2) * term;
         g += term;
         slope += rise;
         I += rise / (2 * n + 3 + k);
-        if (rise < 1e-21L * slope)
-            break;
         term *= q * (n + 0.5L) / (m1 + n);
-    }
+        n++;
+    } while (rise >= 1e-21L * slope);
     return fret_profile_of(k, a, g, slope, I);
 }
 

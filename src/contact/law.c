@@ -148,13 +148,13 @@ fret_point fret_law_at_force(const fret_normal *n, fret_real F) {
 }
 
 fret_real fret_law_load_outside(const fret_normal *n, const fret_level *outer, fret_real inner_depth) {
-    if (fret_normal_closed(n) && inner_depth > 0)
+    if (fret_normal_closed(n))
         return -outer->F * fret_expm1(n->p * fret_log(inner_depth / outer->y));
     return outer->F - fret_law_force(n, inner_depth);
 }
 
 fret_real fret_law_thickness_outside(const fret_normal *n, const fret_level *outer, fret_real inner_load) {
-    if (fret_normal_closed(n) && inner_load > 0)
+    if (fret_normal_closed(n))
         return -outer->y * fret_expm1(n->q * fret_log(inner_load / outer->F));
     return outer->y - fret_law_depth(n, inner_load);
 }

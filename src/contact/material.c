@@ -136,7 +136,7 @@ fret_status fret_foundation_make_wide(const fret_material *m, fret_foundation *o
     f.cN0 = ldexpl(dd_value(wide->cN0), scale);
     f.cT0 = ldexpl(dd_value(dd_div(ck, tangential)), scale);
     f.eta = dd_value(wide->eta);
-    if (!isfinite(f.cN0) || !isfinite(f.cT0) || !isfinite(f.eta))
+    if (!isfinite(f.cN0 + f.cT0 + f.eta)) /* of bodies too far apart */
         return fret_fail(FRET_OVERFLOW, E_name[m->body[0].rigid], m->body[m->body[0].rigid].E0, DBL_MAX);
     bool equal = !m->body[0].rigid && !m->body[1].rigid && m->body[0].E0 == m->body[1].E0 &&
                  m->body[0].nu == m->body[1].nu;

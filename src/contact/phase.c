@@ -41,7 +41,7 @@ static fret_real law_rate(fret_real t, fret_real rest, void *context) {
     const fret_normal *n = p->normal;
     fret_real z = p->edge0 * rest + p->edge1 * t, y = p->front0 * rest + p->front1 * t;
     fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
-    if (d <= 0 || z <= 0 || fret_stopped(n))
+    if (d <= 0 || fret_stopped(n))
         return 0;
     fret_real rate;
     if (pieces_rate(p, z, d, &rate))

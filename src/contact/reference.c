@@ -78,10 +78,7 @@ static bool has_rows(const slip_zone *s) {
     return rows > 1 && rows <= 500;
 }
 
-static fret_status slip_zone_make(const fret_contact *c, const fret_loading *peak, slip_zone *out) {
-    fret_status st = fret_contact_check(c);
-    if (st.code)
-        return st;
+static slip_zone slip_zone_of(const fret_contact *c, const fret_loading *peak) {
     const fret_normal *normal = c->normal;
     const fret_press *press = &c->press;
     const double mu = c->mu;
@@ -99,8 +96,7 @@ static fret_status slip_zone_make(const fret_contact *c, const fret_loading *pea
                                            : s.g_outer * (1 - x);
         s.by_rows = fret_gap_sampled(&normal->gap) && has_rows(&s);
     }
-    *out = s;
-    return st;
+    return s;
 }
 
 /* What gross slip adds. */
@@ -110,12 +106,12 @@ static fret_real sliding(const fret_contact *c, const fret_loading *peak) {
 
 fret_status fret_quadrature_loss(const fret_contact *c, const fret_loading *peak, unsigned points,
                                  fret_real *loss) {
-    slip_zone s;
-    fret_status st = slip_zone_make(c, peak, &s);
+    fret_status st = fret_contact_check(c);
     if (!st.code && (points < 8 || points > 100000))
         st = fret_fail(FRET_OUTSIDE, "points", points, points < 8 ? 8 : 100000);
     if (st.code)
         return st;
+    const slip_zone s = slip_zone_of(c, peak);
     fret_real step = 2 * END / (points - 1);
     *loss = s.scale * step * nodes_sum(&s, -END, step) + sliding(c, peak);
     return fret_unless_stopped(c->normal, fret_ok());
@@ -125,10 +121,7 @@ static fret_status refine(const fret_contact *c, const fret_loading *peak, fret_
                           fret_real *agreement) {
     const fret_real unit = 4 * LDBL_EPSILON,
                     finest = fret_gap_sampled(&c->normal->gap) ? 1 / 64.0L : 1 / 256.0L;
-    slip_zone s;
-    fret_status st = slip_zone_make(c, peak, &s);
-    if (st.code)
-        return st;
+    const slip_zone s = slip_zone_of(c, peak);
     fret_real step = 0.25L, sum = nodes_sum(&s, -END, step), change;
     do {
         fret_real old = step * sum;
@@ -140,7 +133,7 @@ static fret_status refine(const fret_contact *c, const fret_loading *peak, fret_
     /* differences of depths, and of radii near a flat end, keep fewer digits */
     fret_real lost = fret_normal_closed(c->normal) ? 1 : fmaxl(1, s.start / s.outer) / s.X;
     *agreement = sum > 0 ? fmaxl(change / (step * sum), unit * lost) : 0;
-    return fret_unless_stopped(c->normal, st);
+    return fret_unless_stopped(c->normal, fret_ok());
 }
 
 fret_status fret_reference_loss_by_force(const fret_contact *c, double FA, fret_real *loss,

@@ -150,10 +150,7 @@ const fret_variant fret_variants[] = {
 const size_t fret_variant_count = sizeof fret_variants / sizeof *fret_variants;
 
 static const fret_variant *best(void) {
-    const fret_variant *v = fret_variants;
-    while (!v->runs())
-        v++;
-    return v;
+    return &fret_variants[fret_best_variant()];
 }
 
 fret_status fret_batch_loss(const fret_contact *contact, const double FA[], double loss[], size_t count) {

@@ -44,10 +44,7 @@ const fret_scene_variant fret_scene_variants[] = {
 const size_t fret_scene_variant_count = sizeof fret_scene_variants / sizeof *fret_scene_variants;
 
 static const fret_scene_variant *best(void) {
-    const fret_scene_variant *v = fret_scene_variants;
-    while (!v->runs())
-        v++;
-    return v;
+    return &fret_scene_variants[fret_best_variant()];
 }
 
 /* What is left of a block holds numbers that make no trouble. */

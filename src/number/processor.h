@@ -5,6 +5,7 @@
 #define NUMBER_PROCESSOR_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #ifdef __x86_64__
 #define FRET_AVX2 __attribute__((target("avx2")))
@@ -22,6 +23,15 @@ static inline bool fret_runs_avx512(void) {
 
 static inline bool fret_runs_plain(void) {
     return true;
+}
+
+/* Of variants for AVX-512, which comes with AVX2, for AVX2 and for none the first that runs here. */
+static inline size_t fret_best_variant(void) {
+#ifdef __x86_64__
+    return 2U - fret_runs_avx2() - fret_runs_avx512();
+#else
+    return 0;
+#endif
 }
 
 #endif

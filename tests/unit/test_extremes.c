@@ -1,0 +1,664 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Contacts near the ends of what numbers hold, arguments that few will give, and what pieces of a law do at
+ * their ends; beside the law itself, twins without pieces, and results that are known. */
+#include "contact/near.h"
+#include "contact/phase.h"
+#include "contact/piece.h"
+#include "contact/pieces.h"
+#include "fast/batch.h"
+#include "number/dd.h"
+#include "number/real.h"
+#include "unit.h"
+
+static unsigned long long seed = 5;
+static double uniform(double lo, double hi) {
+    return unit_random(&seed, lo, hi);
+}
+
+static const fret_material steel = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1e-3};
+
+/* A homogeneous power gap h (r/r0)^n under bodies of this modulus. */
+static fret_normal *power(double E0, double n, double h, double r0) {
+    const fret_material m = {.body = {{.E0 = E0, .nu = 0.3}, {.E0 = E0, .nu = 0.3}}, .c0 = 1};
+    const fret_gap gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{n, h, r0}}};
+    return unit_keep_normal(&m, &gap);
+}
+
+static struct fret_table *rows(const double *r, const double *f, size_t count) {
+    struct fret_table *t = NULL;
+    CHECK_OK(fret_table_make(r, f, count, NULL, &t));
+    return t;
+}
+
+/* A sphere in rows up to 1 mm. */
+static struct fret_table *sphere_rows(size_t count) {
+    static double r[4000], f[4000];
+    for (size_t i = 0; i < count; i++) {
+        r[i] = 1e-3 * (double)i / (double)(count - 1);
+        f[i] = r[i] * r[i] / 0.02;
+    }
+    return rows(r, f, count);
+}
+
+/* ---- shapes and bodies -------------------------------------------------------------------------- */
+
+static void shapes(void) {
+    fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 0, 1}}}, wrong = sum;
+    const fret_gap one = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{2, 50, 1}}};
+    const fret_normal *n = unit_keep_normal(&steel, &sum), *same = unit_keep_normal(&steel, &one);
+    fret_press a, b;
+    CHECK_OK(fret_press_by_force(n, 10, &a)); /* a term that is none */
+    CHECK_OK(fret_press_by_force(same, 10, &b));
+    CHECK_REL(a.a, b.a, UNIT_TOL(1e-17L, 1e-14L));
+    CHECK_REL(a.dz, b.dz, UNIT_TOL(1e-17L, 1e-14L));
+    CHECK(fret_gap_tip(&sum) == 2);
+    fret_rule rule;
+    fret_gap_rule(&one, 0, &rule);
+    CHECK(fret_gap_kink(&one, 1e-3L) == 0 && fret_gap_bend(&one, &rule, 1e-4L, 1e-3L) == 0);
+    wrong.power[0].n = -1; /* the first of two is told */
+    wrong.power[1].h = INFINITY;
+    CHECK_ERROR(fret_gap_check(&wrong), FRET_NOT_POSITIVE, "n");
+    wrong.power[0].n = 2;
+    CHECK_ERROR(fret_gap_check(&wrong), FRET_NOT_FINITE, "A");
+    sum.power[1] = (fret_power){4, 60, 1};
+    sum.power[0].h = -50; /* falls from the beginning */
+    fret_normal *none = NULL;
+    CHECK_ERROR(fret_normal_make(&steel, &sum, &none), FRET_NOT_MONOTONE, "r");
+    CHECK(!none);
+}
+
+static void tables(void) {
+    static const double r[] = {0, 1e-4, 2e-4, 3e-4, 4e-4}, flat[] = {0, 0, 1e-6, 4e-6, 9e-6},
+                        cone[] = {0, 1e-6, 2e-6, 3e-6, 4e-6};
+    struct fret_table *t[] = {rows(r, flat, 5), rows(r, cone, 5)};
+    fret_real g = -1, slope = -1;
+    for (int i = 0; i < 2; i++) {
+        const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = t[i]};
+        CHECK(fret_gap_tip(&gap) == (i ? 1 : 2));
+        CHECK_ERROR(fret_gap_g(&gap, 0, 5e-4L, &g, &slope), FRET_OUTSIDE, "x");
+        CHECK_ERROR(fret_gap_g(&gap, 0, -5e-4L, &g, NULL), FRET_OUTSIDE, "x");
+        CHECK(g == -1 && slope == -1);
+    }
+    /* g of a cone of slope s is pi s x/2 */
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = t[1]};
+    CHECK_OK(fret_gap_g(&gap, 0, 3e-4L, &g, &slope));
+    CHECK_REL(g, FRET_PI / 2 * 3e-6L, 1e-15L);
+    CHECK_REL(slope, FRET_PI / 2 * 1e-2L, 4e-15L);
+    fret_table_free(t[0]);
+    fret_table_free(t[1]);
+}
+
+static void bodies(void) {
+    /* one so much softer that the other is as rigid, told instead of lost */
+    fret_material m = {.body = {{.E0 = 1e300, .nu = 0.3}, {.E0 = 1e-300, .nu = 0.3}}, .c0 = 1};
+    fret_foundation f;
+    CHECK_ERROR(fret_foundation_make(&m, &f), FRET_OVERFLOW, "E0");
+    m.body[1].E0 = 1e10;
+    CHECK_OK(fret_foundation_make(&m, &f));
+    m.body[0].rigid = true;
+    fret_foundation rigid;
+    CHECK_OK(fret_foundation_make(&m, &rigid));
+    CHECK_REL(f.cN0, rigid.cN0, 1e-15L);
+}
+
+/* ---- the law ------------------------------------------------------------------------------------ */
+
+/* Where a step of the search would leave all numbers, or what is known of the place. */
+static void searches(void) {
+    const fret_gap steep = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{0.01, 1e-6, 1e-3}, {50, 1e-6, 1}}},
+                   plateau = {
+                       .kind = FRET_GAP_SUM, .terms = 2, .power = {{0.005, 1e-6, 1}, {0.01, -0.5e-6, 1}}};
+    const fret_normal *n[] = {unit_keep_normal(&steel, &steep), unit_keep_normal(&steel, &plateau)};
+    const double depth[2][3] = {{1e54, 1e30, 2e-6}, {1e-7, 1.2e-7, 4e-7}};
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 3; j++) {
+            fret_press p;
+            fret_real g, slope;
+            CHECK_OK(fret_press_by_depth(n[i], depth[i][j], &p));
+            CHECK_OK(fret_gap_g(fret_normal_gap(n[i]), 0, p.a, &g, &slope));
+            CHECK_REL(g, (fret_real)depth[i][j], 1e-15L);
+        }
+}
+
+/* What a double does not hold is refused whichever result it is. */
+static void ranges(void) {
+    fret_press p = {0};
+    CHECK_CODE(fret_press_by_force(power(1e-290, 2, 1, 1), 1e300, &p), FRET_OVERFLOW);
+    CHECK_CODE(fret_press_by_force(power(1e290, 2, 1, 1), 1e-300, &p), FRET_OVERFLOW);
+    CHECK_CODE(fret_press_by_depth(power(1e300, 2, 1, 1), 1e10, &p), FRET_OVERFLOW);
+    CHECK_CODE(fret_press_by_depth(power(1e-300, 2, 1, 1), 1e-20, &p), FRET_OVERFLOW);
+    CHECK(p.F == 0 && p.dz == 0 && p.a == 0);
+    CHECK_OK(fret_press_by_depth(power(1e300, 2, 1, 1), 1e-20, &p));
+    CHECK_REL(p.a, 1e-10L * sqrtl(0.5L), 1e-15L);
+}
+
+static void rates(void) {
+    const fret_normal *n = power(210e9, 2, 1e-5, 1e-3);
+    CHECK(fret_phase_rate_by_load(n, 100, 0, 100) == 0 && fret_phase_rate_by_load(n, 100, 100, 0) == 0);
+    /* int of F(y)-F(f)-(y-f)K(f) of a whole zone, by the power: (D^(5/2) terms) against the search */
+    const fret_real edge = 100, front = 40;
+    const fret_point at = fret_law_at_force(n, edge), in = fret_law_at_force(n, front);
+    CHECK_REL(fret_phase_rate_by_load(n, edge, front, edge - front),
+              ((edge - front) - (at.y - in.y) * in.K) / in.K, 1e-15L);
+}
+
+/* ---- places that are kept ------------------------------------------------------------------------ */
+
+/* Lent to contacts whose law differs in the power, in depth or force alone, in the last bit. */
+static void lent(void) {
+    static fret_near near;
+    const fret_normal *all[] = {power(210e9, 2, 1e-5, 1e-3),
+                                power(210e9, 3, 1e-5, 1e-3),
+                                power(210e9, 3, 2e-5, 1e-3),
+                                power(100e9, 3, 2e-5, 1e-3),
+                                power(nextafter(100e9, 0), 3, 2e-5, 1e-3),
+                                power(nextafter(100e9, 0), 3, nextafter(2e-5, 0), 1e-3)};
+    fret_near_make(all[0], &near);
+    for (int turn = 0; turn < 2; turn++)
+        for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+            fret_near_move(&near, all[i]);
+            CHECK(near.normal == all[i]);
+            for (int j = 0; j < 100; j++) {
+                const fret_real F = uniform(50, 150), y = fret_law_depth(all[i], F);
+                CHECK_REL(fret_near_value(&near, LOAD, F), y, UNIT_TOL(1.2e-19L, 4e-16L));
+                CHECK_REL(fret_near_value(&near, DEPTH, y), fret_law_force(all[i], y),
+                          UNIT_TOL(2e-19L, 4e-16L));
+            }
+        }
+}
+
+/* Near the ends of the range nothing is kept: none of depth, load and radius may leave it. */
+static void kept(void) {
+    static fret_near near;
+    const struct {
+        fret_normal *n;
+        coordinate by;
+        double y;
+        bool inside;
+    } all[] = {{power(210e9, 2, 1e-5, 1e-3), LOAD, 1, true},
+               {power(1, 2, 1, 1), DEPTH, 1e200, false},  /* F = 1e300 */
+               {power(1, 2, 1, 1), DEPTH, 1e-199, false}, /* F = 1e-299 */
+               {power(1, 2, 1, 1), LOAD, 1e280, true},
+               {power(1e-200, 2, 1, 1), LOAD, 1e250, false}, /* dz = 1e300 */
+               {power(1e200, 2, 1, 1), LOAD, 1e-250, false}, /* dz = 1e-300 */
+               {power(1, 0.5, 1, 1), DEPTH, 1e146, false},   /* a = 1e292 */
+               {power(1, 0.5, 1, 1), DEPTH, 1e-146, false},  /* a = 1e-292 */
+               {power(1, 0.5, 1, 1), DEPTH, 1e-170, false}}; /* no number at all */
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        fret_near_make(all[i].n, &near);
+        if (!CHECK(isnan(fret_near_value(&near, all[i].by, all[i].y)) == !all[i].inside))
+            printf("contact %zu\n", i);
+    }
+}
+
+/* ---- pieces -------------------------------------------------------------------------------------- */
+
+/* (z+1)^7, (z+1)^3 + 1e-3 (z+1) and 1 - (1-z)^5 + z: from no guess at all, and from wrong ones. */
+static void roots(void) {
+    static const fret_real terms[][8] = {
+        {1, 7, 21, 35, 35, 21, 7, 1}, {1.001L, 3.001L, 3, 1}, {32, 6, -10, 10, -5, 1}, {3, 4, 1}};
+    for (size_t i = 0; i < sizeof terms / sizeof *terms; i++)
+        for (int guess = 0; guess < 5; guess++) {
+            fret_real c[TERMS] = {0};
+            for (int j = 0; j < 8; j++)
+                c[j] = terms[i][j];
+            c[0] = 0; /* 0 at z = -1 */
+            fret_real least = 0;
+            for (int j = 7; j >= 0; j--)
+                least = c[j] - least;
+            c[0] = -least;
+            piece p = {.half = 1};
+            p.rise[DEPTHS] = p.rise[LOADS] = fret_polynomial_of(c);
+            p.outer.y = p.outer.F = fret_polynomial_at(&p.rise[DEPTHS], 1);
+            for (int by = DEPTHS; by <= LOADS; by++)
+                p.guess[by][0] = (double[]){0, -1, 1, 0.5, 7}[guess];
+            p.blunt = guess == 3;
+            for (int j = 0; j <= 16; j++) {
+                const fret_real z = j < 16 ? -1 + ldexpl(1, -j) * 2 : -1,
+                                v = fret_polynomial_at(&p.rise[LOADS], z);
+                const fret_real got = fret_piece_place(&p, LOADS, v);
+                CHECK_ABS(fret_polynomial_at(&p.rise[LOADS], got), v, p.outer.F, 1e-15L);
+                CHECK(got >= -1 && got <= 1);
+                for (int part = 0; part < 4 && z > -1; part++) {
+                    const fret_real drop = v * (fret_real[]){1, 0.999L, 0.3L, 1e-9L}[part];
+                    polynomial q;
+                    fret_polynomial_quotient(&p.rise[LOADS], z, &q);
+                    const fret_real way = fret_piece_way(&p, LOADS, &q, z, v, drop);
+                    CHECK(way >= 0 && way <= 1 + z);
+                    CHECK_ABS(way * fret_polynomial_at(&q, z - way), drop, drop + 1e-8L * p.outer.F, 1e-8L);
+                }
+            }
+        }
+}
+
+/* A contact and its twin, which is prepared. */
+static void make_twins(const fret_gap *gap, double k, fret_normal **plain, fret_normal **ready) {
+    fret_material m = steel;
+    m.k = k;
+    *plain = unit_keep_normal(&m, gap);
+    *ready = unit_keep_normal(&m, gap);
+    CHECK_OK(fret_normal_prepare(*ready, 100, 0));
+    CHECK((*ready)->pieces != NULL);
+}
+
+/* Slices from within a piece that end where others end, one beyond them, and at the centre. */
+static void ends_of_pieces(void) {
+    const fret_gap gap = {.kind = FRET_GAP_EXACT_SPHERE, .R = 0.01};
+    fret_normal *plain, *ready;
+    make_twins(&gap, 0.3, &plain, &ready);
+    const struct fret_pieces *pieces = ready->pieces;
+    const law *all = pieces->law;
+    const fret_real scale = pieces->scale;
+    CHECK(all->count > 4);
+    const fret_level *last = &all->piece[all->count - 1].outer;
+    const fret_real F = fminl(100, scale * last->F), y = fret_law_depth(ready, F);
+    const fret_level outer = {y, F};
+    for (size_t i = 0; i + 1 < all->count; i++)
+        for (int by_load = 0; by_load < 2; by_load++) {
+            const fret_level in_law = all->piece[i].outer, at_end = {in_law.y, scale * in_law.F},
+                             *end = &at_end;
+            const fret_real whole = by_load ? F : y, at = by_load ? end->F : end->y;
+            fret_slice got, want;
+            fret_real h, other;
+            if (at >= whole * (1 - 1e-6L))
+                continue;
+            /* what is left is told: exactly the end of the piece */
+            CHECK(fret_pieces_slice(pieces, &outer, by_load, whole - at, at, &h, &got));
+            want = fret_law_slice(plain, &outer, y - end->y);
+            CHECK_REL(h, y - end->y, 1e-13L);
+            CHECK_REL(got.w, want.w, 1e-12L);
+            CHECK_REL(got.G, want.G, 1e-11L);
+            CHECK_REL(got.J, want.J, 1e-11L);
+            CHECK(fret_pieces_across(pieces, &outer, by_load, whole - at, &other));
+            CHECK_REL(other, by_load ? y - end->y : F - end->F, 1e-13L);
+        }
+    for (int by_load = 0; by_load < 2; by_load++) {
+        const fret_real whole = by_load ? F : y, least = by_load ? scale * all->least.F : all->least.y;
+        fret_slice got;
+        fret_real h, other;
+        CHECK(fret_pieces_across(pieces, &outer, by_load, whole, &other) && other == (by_load ? y : F));
+        CHECK(fret_pieces_slice(pieces, &outer, by_load, whole, 0, &h, &got));
+        const fret_slice want = fret_law_slice(plain, &outer, y);
+        CHECK_REL(got.w, want.w, 1e-14L);
+        CHECK_REL(got.G, want.G, 1e-13L);
+        /* into the core, where there are none: from the first piece, and from far outside */
+        const fret_level first = {(all->least.y + all->piece[0].outer.y) / 2, 0};
+        const fret_level in_first = {first.y, fret_law_force(plain, first.y)};
+        const fret_real there = by_load ? in_first.F : in_first.y;
+        CHECK(!fret_pieces_slice(pieces, &in_first, by_load, there - least / 2, least / 2, &h, &got));
+        CHECK(!fret_pieces_slice(pieces, &outer, by_load, whole - least / 2, least / 2, &h, &got));
+    }
+}
+
+static fret_real load_at(fret_real y, fret_real from_a, fret_real to_b, const void *context) {
+    (void)from_a, (void)to_b;
+    return fret_law_force(context, y);
+}
+
+/* Means of the load over depths, also of none and of too short a way for a difference. */
+static void means(void) {
+    const fret_gap gap = {.kind = FRET_GAP_FLAT_ROUNDED, .b = 2e-4, .R = 0.02};
+    fret_normal *plain, *ready;
+    make_twins(&gap, 0, &plain, &ready);
+    const fret_real y = fret_law_depth(plain, 90);
+    fret_real mean = -1;
+    CHECK(fret_pieces_mean(ready->pieces, y, y, &mean));
+    CHECK_REL(mean, 90, 1e-14L);
+    CHECK(!fret_pieces_mean(ready->pieces, y, y * (1 - 1e-5L), &mean));
+    CHECK(fret_pieces_mean(ready->pieces, y / 2, y, &mean));
+    CHECK_REL(mean, unit_integrate(load_at, plain, y / 2, y) / (y / 2), 1e-13L);
+    CHECK(!fret_pieces_mean(ready->pieces, y, 1e9L, &mean) &&
+          !fret_pieces_mean(ready->pieces, 1e9L, y, &mean));
+}
+
+/* A front that does not go in, edges and fronts beyond the pieces, and an edge that stays. */
+static void fronts(void) {
+    const fret_gap gap = {.kind = FRET_GAP_EXACT_SPHERE, .R = 0.01};
+    fret_normal *plain, *ready;
+    make_twins(&gap, -0.3, &plain, &ready);
+    const fret_real edge[2] = {90, 90}, front[2] = {60, 20}, out[2] = {60, 60}, far[2] = {1e9L, 2e9L},
+                    deep[2] = {60, -1};
+    fret_real loss = -1, bound = -1;
+    CHECK(!fret_pieces_phase(ready->pieces, true, edge, out, &loss, &bound));
+    CHECK(!fret_pieces_phase(ready->pieces, true, edge, deep, &loss, &bound));
+    CHECK(!fret_pieces_phase(ready->pieces, true, far, front, &loss, &bound) && loss == -1);
+    CHECK(fret_pieces_phase(ready->pieces, true, edge, front, &loss, &bound));
+    const fret_phase p = {.normal = plain, .by = LOAD, .edge0 = 90, .edge1 = 90, .front0 = 60, .front1 = 20};
+    CHECK_ABS(loss, fret_phase_loss(&p), loss, 1e-12L);
+    CHECK(bound > 0 && bound < 1e-12L * loss);
+}
+
+/* What is not shared: another exponent, kind, or number of the shape, or nothing to share, or already some.
+ */
+static void unlike(void) {
+    struct fret_table *t[2] = {sphere_rows(30), sphere_rows(40)};
+    const fret_power square = {2, 50, 1}, cubic = {3, 50, 1}, high = {2, 60, 1}, wide = {2, 50, 2},
+                     forth = {4, 2e6, 1};
+    const fret_gap pairs[][2] = {
+        {{.kind = FRET_GAP_SUM, .terms = 2, .power = {square, forth}},
+         {.kind = FRET_GAP_EXACT_SPHERE, .R = 0.01}},
+        {{.kind = FRET_GAP_SUM, .terms = 2, .power = {square, forth}},
+         {.kind = FRET_GAP_SUM, .terms = 3, .power = {square, forth, cubic}}},
+        {{.kind = FRET_GAP_SUM, .terms = 2, .power = {square, forth}},
+         {.kind = FRET_GAP_SUM, .terms = 2, .power = {cubic, forth}}},
+        {{.kind = FRET_GAP_SUM, .terms = 2, .power = {square, forth}},
+         {.kind = FRET_GAP_SUM, .terms = 2, .power = {high, forth}}},
+        {{.kind = FRET_GAP_SUM, .terms = 2, .power = {square, forth}},
+         {.kind = FRET_GAP_SUM, .terms = 2, .power = {wide, forth}}},
+        {{.kind = FRET_GAP_FLAT_ROUNDED, .b = 2e-4, .R = 0.02},
+         {.kind = FRET_GAP_FLAT_ROUNDED, .b = 3e-4, .R = 0.02}},
+        {{.kind = FRET_GAP_FLAT_ROUNDED, .b = 2e-4, .R = 0.02},
+         {.kind = FRET_GAP_FLAT_ROUNDED, .b = 2e-4, .R = 0.03}},
+        {{.kind = FRET_GAP_FLAT_CONE, .b = 2e-4, .slope = 0.02},
+         {.kind = FRET_GAP_FLAT_CONE, .b = 2e-4, .slope = 0.03}},
+        {{.kind = FRET_GAP_TABLE, .table = t[0]}, {.kind = FRET_GAP_TABLE, .table = t[1]}}};
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        fret_normal *from = unit_keep_normal(&steel, &pairs[i][0]),
+                    *like = unit_keep_normal(&steel, &pairs[i][0]),
+                    *other = unit_keep_normal(&steel, &pairs[i][1]);
+        CHECK_OK(fret_normal_prepare(from, 10, 0));
+        CHECK_OK(fret_normal_share(other, from));
+        CHECK(!other->pieces);
+        CHECK_OK(fret_normal_share(like, other)); /* nothing is there */
+        CHECK(!like->pieces);
+        CHECK_OK(fret_normal_share(like, from));
+        const struct fret_pieces *pieces = like->pieces;
+        CHECK(pieces && pieces != from->pieces);
+        CHECK_OK(fret_normal_share(like, from)); /* its own stay */
+        CHECK(like->pieces == pieces);
+    }
+    while (unit.normals) /* before their tables */
+        fret_normal_free(unit.normal[--unit.normals]);
+    fret_table_free(t[0]);
+    fret_table_free(t[1]);
+}
+
+/* ---- the reference ------------------------------------------------------------------------------- */
+
+/* More rows than are taken one by one; and a flag that stops. */
+static void references(void) {
+    static volatile sig_atomic_t stop;
+    struct fret_table *t = sphere_rows(3000);
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = t};
+    fret_contact c = {.normal = unit_keep_normal(&steel, &gap), .mu = 0.4};
+    fret_loading peak;
+    fret_real loss, want, agreement;
+    CHECK_OK(fret_press_by_force(c.normal, 300, &c.press));
+    const double dxA = (double)(1.5L * fret_gross_slip(&c));
+    CHECK_OK(fret_loading_by_displacement(&c, dxA, &peak));
+    CHECK_OK(fret_quadrature_loss(&c, &peak, 2000, &loss));
+    CHECK_OK(fret_cycle_loss_by_displacement(&c, dxA, &want));
+    CHECK_REL(loss, want, 1e-7L);
+    c.mu = -1;
+    CHECK_ERROR(fret_quadrature_loss(&c, &peak, 2000, &loss), FRET_NOT_POSITIVE, "mu");
+    fret_normal *plain = power(210e9, 2, 1e-5, 1e-3);
+    c = (fret_contact){.normal = plain, .mu = 0.4};
+    CHECK_OK(fret_press_by_force(c.normal, 300, &c.press));
+    CHECK_OK(fret_loading_by_force(&c, 50, &peak));
+    fret_normal_stop(plain, &stop);
+    CHECK_OK(fret_reference_loss_by_force(&c, 50, &want, &agreement));
+    CHECK_OK(fret_quadrature_loss(&c, &peak, 100, &loss));
+    CHECK_REL(loss, want, 1e-12L);
+    stop = 1;
+    CHECK_CODE(fret_quadrature_loss(&c, &peak, 100, &loss), FRET_INTERRUPTED);
+    CHECK_CODE(fret_reference_loss_by_force(&c, 50, &loss, &agreement), FRET_INTERRUPTED);
+    stop = 0;
+    while (unit.normals)
+        fret_normal_free(unit.normal[--unit.normals]);
+    fret_table_free(t);
+}
+
+/* ---- arrays -------------------------------------------------------------------------------------- */
+
+enum { MANY = 70 };
+
+/* The same as the functions, one by one; the first that fails tells. */
+static void check_arrays(const fret_contact *c, double least, double most) {
+    double F[MANY], loss[MANY], a[MANY], b[MANY];
+    const double nan_ = (double)NAN;
+    fret_code code = FRET_OK;
+    fret_loading first;
+    fret_press press;
+    fret_real want;
+    for (int i = 0; i < MANY; i++)
+        F[i] = least * pow(most / least, i / (MANY - 1.0));
+    for (int i = 0; i < MANY && !code; i++)
+        code = fret_cycle_loss_by_force(c, F[i], &want).code;
+    CHECK_CODE(fret_batch_loss(c, F, loss, MANY), code);
+    for (int i = 0; i < MANY && !code; i++) {
+        CHECK_OK(fret_cycle_loss_by_force(c, F[i], &want));
+        CHECK(loss[i] == (double)want || fabsl(loss[i] - want) <= 3e-15L * want + DBL_MIN);
+    }
+    for (int which = 1; which < 4; which++) { /* radii, displacements, both */
+        for (int i = 0; i < MANY; i++)
+            a[i] = b[i] = nan_;
+        code = FRET_OK;
+        for (int i = 0; i < MANY && !code; i++)
+            code = fret_loading_by_force(c, F[i], &first).code;
+        CHECK_CODE(fret_batch_loading(c, F, which & 1 ? a : NULL, which & 2 ? b : NULL, MANY), code);
+        for (int i = 0; i < MANY && !code; i++) {
+            CHECK_OK(fret_loading_by_force(c, F[i], &first));
+            CHECK(which & 1 ? fabsl(a[i] - first.c) <= 2e-15L * first.c + DBL_MIN : isnan(a[i]));
+            CHECK(which & 2 ? fabsl(b[i] - first.dx) <= 2e-15L * fabsl(first.dx) + DBL_MIN : isnan(b[i]));
+            a[i] = b[i] = nan_;
+        }
+        code = FRET_OK;
+        for (int i = 0; i < MANY && !code; i++)
+            code = fret_press_by_force(c->normal, F[i], &press).code;
+        CHECK_CODE(fret_batch_press(c->normal, F, which & 1 ? a : NULL, which & 2 ? b : NULL, MANY), code);
+        for (int i = 0; i < MANY && !code; i++) {
+            CHECK_OK(fret_press_by_force(c->normal, F[i], &press));
+            CHECK(which & 1 ? fabsl(a[i] - press.a) <= 2e-15L * press.a : isnan(a[i]));
+            CHECK(which & 2 ? fabsl(b[i] - press.dz) <= 2e-15L * press.dz : isnan(b[i]));
+        }
+    }
+}
+
+static void arrays(void) {
+    static const struct {
+        double E0, n, h, r0, FN;
+    } all[] = {{210e9, 2, 1e-5, 1e-3, 100}, {1e270, 2, 1, 1, 1e275},     {1e-270, 2, 1, 1, 1e-275},
+               {1e250, 2, 1, 1, 1e-30},     {1e-250, 2, 1, 1, 1e30},     {1e130, 2, 1e-150, 1e-30, 1e-150},
+               {1, 2, 1e-280, 1e-3, 1},     {1, 2, 1e280, 1e-3, 1e200},  {1e-10, 1, 1e-275, 1, 1e-280},
+               {1e300, 2, 1e-5, 1e-3, 1},   {1e100, 2, 1e-290, 1e-3, 1}, {1e-300, 2, 1e290, 1, 1}};
+    int used = 0;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        fret_contact c = {.normal = power(all[i].E0, all[i].n, all[i].h, all[i].r0), .mu = 0.4};
+        if (fret_press_by_force(c.normal, all[i].FN, &c.press).code)
+            continue;
+        used++;
+        check_arrays(&c, 1e-6 * all[i].FN, 0.39 * all[i].FN);
+        check_arrays(&c, 1e-3 * all[i].FN, 0.5 * all[i].FN); /* beyond gross slip */
+    }
+    CHECK(used > 6);
+}
+
+/* ---- double precision ---------------------------------------------------------------------------- */
+
+/* By depth over all the range: a step is what the law says, or is refused where it leaves the range. */
+static void diagrams(void) {
+    for (int e = -300; e <= 300; e += 20)
+        for (int d = -300; d <= 300; d += 12) {
+            const fret_normal *n = power(pow(10, e), 2, 1, 1);
+            const double dz = pow(10, d);
+            fret_diagram *g;
+            fret_press p;
+            fret_diagram_now now;
+            CHECK_OK(fret_diagram_make(n, 0.4, 0, &g));
+            const fret_status want = fret_press_by_depth(n, dz, &p),
+                              st = fret_diagram_step(g, &(fret_step){FRET_TO_DEPTH, FRET_KEEP_DX, dz, 0});
+            fret_diagram_forces(g, &now);
+            if (st.code) {
+                CHECK_CODE(st, FRET_OVERFLOW);
+                CHECK(now.FN == 0 && now.dz == 0);
+                CHECK(want.code ||
+                      !(p.F > 1e-289L && p.F < 1e289L && p.F * dz > 1e-289L && p.F * dz < 1e289L));
+            } else if (CHECK(!want.code)) {
+                CHECK_REL(now.FN, p.F, 2e-15L);
+            }
+            fret_diagram_free(g);
+        }
+}
+
+/* Of what does not count its losses the forces are the same. */
+static void lossless(void) {
+    const fret_normal *n = power(210e9, 2, 1e-5, 1e-3);
+    fret_diagram *d[2];
+    fret_diagram_now now[2];
+    for (int i = 0; i < 2; i++) {
+        CHECK_OK(fret_diagram_make(n, 0.4, 0, &d[i]));
+        fret_diagram_count_loss(d[i], i == 0);
+    }
+    for (int j = 0; j < 200; j++) {
+        const double FN = 100 + uniform(-20, 20), part = uniform(-0.99, 0.99);
+        for (int i = 0; i < 2; i++) {
+            CHECK_OK(
+                fret_diagram_step(d[i], j % 3 ? &(fret_step){FRET_TO_FORCE, FRET_TO_FX, FN, 0.4 * FN * part}
+                                              : &(fret_step){FRET_TO_FORCE, FRET_TO_DX, FN, 2e-6 * part}));
+            fret_diagram_forces(d[i], &now[i]);
+        }
+        CHECK(now[0].Fx == now[1].Fx && now[0].dx == now[1].dx && now[0].FN == now[1].FN);
+    }
+    CHECK(now[0].W > 0 && now[1].W == 0);
+    for (int i = 0; i < 2; i++)
+        fret_diagram_free(d[i]);
+}
+
+/* To gross slip by displacement, to the last bit, beside the exact diagram. */
+static void at_gross_slip(void) {
+    const fret_normal *n = power(210e9, 2, 1e-5, 1e-3);
+    const double per = (double)n->foundation.eta;
+    for (int i = 0; i < 400; i++) {
+        const double mu = uniform(0.1, 0.9), dz = 1e-6 * uniform(0.5, 2);
+        double dx = mu * per * dz;
+        for (int j = 0; j < i % 5; j++)
+            dx = nextafter(dx, i % 2 ? 1 : 0);
+        fret_diagram *d;
+        fret_memory *m;
+        fret_diagram_now now;
+        fret_state want;
+        CHECK_OK(fret_diagram_make(n, mu, 0, &d));
+        CHECK_OK(fret_memory_make(n, mu, &m));
+        const fret_step steps[] = {{FRET_TO_DEPTH, FRET_KEEP_DX, dz, 0}, {FRET_TO_DEPTH, FRET_TO_DX, dz, dx}};
+        for (int j = 0; j < 2; j++) {
+            CHECK_OK(fret_diagram_step(d, &steps[j]));
+            CHECK_OK(fret_memory_step(m, &steps[j]));
+        }
+        fret_diagram_forces(d, &now);
+        fret_memory_state(m, &want);
+        CHECK_REL(now.Fx, want.Fx, 1e-15L);
+        CHECK_REL(now.W, want.W, 3e-14L);
+        fret_diagram_free(d);
+        fret_memory_free(m);
+    }
+}
+
+/* Energy, or stiffness, that no double holds. */
+static void masings(void) {
+    static const double all[][2] = {{1e200, 1e200}, {1e-200, 1e-200}, {1e200, 1e-150}};
+    const fret_normal *n = power(210e9, 2, 1e-5, 1e-3);
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        const fret_contact c = {.normal = n, .mu = 0.4, .press = {.F = all[i][0], .dz = all[i][1], .a = 1}};
+        fret_masing *m = NULL;
+        CHECK_CODE(fret_masing_make(&c, &m), FRET_OVERFLOW);
+        CHECK(!m);
+    }
+}
+
+/* ---- springs ------------------------------------------------------------------------------------- */
+
+static fret_state state_of(fret_springs *s) {
+    fret_state out;
+    fret_springs_state(s, &out);
+    return out;
+}
+
+/* Parts of a step that goes straight change nothing; an open contact closes without load. */
+static void springs(void) {
+    const fret_normal *n = power(210e9, 2, 1e-5, 1e-3);
+    fret_press p;
+    fret_springs *s[2];
+    CHECK_OK(fret_press_by_force(n, 200, &p));
+    for (int i = 0; i < 2; i++)
+        CHECK_OK(fret_springs_make(n, 0.4, 1000, (double)p.a, FRET_WEIGHT_CELL, &s[i]));
+    const fret_step steps[] = {{FRET_TO_DEPTH, FRET_KEEP_DX, 2e-6, 0},
+                               {FRET_TO_DEPTH, FRET_TO_DX, 2e-6, 1e-7}, /* the depth that it has */
+                               {FRET_KEEP_NORMAL, FRET_TO_DX, 0, 3e-7},
+                               {FRET_KEEP_NORMAL, FRET_TO_DX, 0, -2e-7},
+                               {FRET_TO_DEPTH, FRET_KEEP_DX, -1e-6, 0},
+                               {FRET_TO_FORCE, FRET_KEEP_DX, 0, 0},
+                               {FRET_TO_FORCE, FRET_KEEP_DX, 50, 0}};
+    for (size_t j = 0; j < sizeof steps / sizeof *steps; j++) {
+        CHECK_OK(fret_springs_step(s[0], &steps[j], 1));
+        CHECK_OK(fret_springs_step(s[1], &steps[j], 8));
+        const fret_state one = state_of(s[0]), many = state_of(s[1]);
+        CHECK_ABS(one.Fx, many.Fx, 100, 1e-14L);
+        CHECK(one.FN == many.FN && one.dz == many.dz && one.dx == many.dx);
+        CHECK(j != 4 || (one.dz == -1e-6 && one.FN == 0));
+        CHECK(j != 5 || (one.dz == 0 && one.FN == 0 && one.Fx == 0));
+    }
+    for (int i = 0; i < 2; i++)
+        fret_springs_free(s[i]);
+}
+
+/* The force that was asked for, of so many springs that rounding adds up. */
+static void many_springs(void) {
+    const fret_normal *n = power(210e9, 2, 1e-5, 1e-3);
+    fret_press p;
+    fret_springs *s;
+    CHECK_OK(fret_press_by_force(n, 200, &p));
+    CHECK_OK(fret_springs_make(n, 0.4, 10000, (double)p.a, FRET_WEIGHT_CELL, &s));
+    CHECK_OK(fret_springs_step(s, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}, 1));
+    for (int i = 0; i < 400; i++) {
+        const double FN = i % 3 ? 100 + 90 * uniform(-1, 1) * (i % 5 ? 0.01 : 1) : 100,
+                     part = i % 7 ? uniform(-1, 1) : copysign(1 - 1e-13, uniform(-1, 1));
+        CHECK_OK(fret_springs_step(s, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, FN, 0.4 * FN * part},
+                                   i % 3 ? 1 : 16));
+        CHECK_ABS(state_of(s).Fx, 0.4L * FN * part, 0.4L * FN, 2e-14L);
+    }
+    fret_springs_free(s);
+}
+
+/* ---- arithmetic ---------------------------------------------------------------------------------- */
+
+static void quotients(void) {
+    /* 4!/(1! 2!), 4!/(2! 2!), and a pair that differs in its low parts alone */
+    const dd five = dd_of(5), under[][2] = {{dd_of(2), dd_of(3)}, {dd_of(3), dd_of(3)}, {{3, 0}, {3, 1e-20}}};
+    const fret_real want[] = {12, 6, 6};
+    for (int i = 0; i < 3; i++) {
+        const dd_scaled q = fret_dd_gamma_quotient(&five, 1, under[i], 2);
+        CHECK_REL(fret_dd_exp_real(q.log) * dd_value(q.factor), want[i], UNIT_TOL(1e-18L, 1e-15L));
+    }
+    /* Gamma(-1/2) = -2 sqrt(pi), Gamma(-3/2) = 4/3 sqrt(pi), Gamma(-5/2) = -8/15 sqrt(pi) */
+    CHECK_REL(fret_gamma(-0.5L), -2 * sqrtl(FRET_PI), 1e-18L);
+    CHECK_REL(fret_gamma(-1.5L), 4 * sqrtl(FRET_PI) / 3, 1e-18L);
+    CHECK_REL(fret_gamma(-2.5L), -8 * sqrtl(FRET_PI) / 15, 1e-18L);
+    CHECK(isnan(fret_gamma(-2)) && isnan(fret_gamma(-3)));
+}
+
+int main(int argc, char **argv) {
+    unit_start("extremes", argc, argv);
+    shapes();
+    tables();
+    bodies();
+    searches();
+    ranges();
+    rates();
+    lent();
+    kept();
+    roots();
+    ends_of_pieces();
+    means();
+    fronts();
+    unlike();
+    references();
+    arrays();
+    diagrams();
+    lossless();
+    at_gross_slip();
+    masings();
+    springs();
+    many_springs();
+    quotients();
+    return unit_finish();
+}
