@@ -299,10 +299,10 @@ static unsigned holds(const quantity *q, scene *s, bool call) {
 
 const formula *quantity_formula(const quantity *q, scene *s, bool call) {
     const unsigned when = holds(q, s, call);
-    for (size_t i = 0; i < FORMULAS && q->formulas[i].text; i++)
-        if ((q->formulas[i].when & ~when) == 0)
-            return &q->formulas[i];
-    return NULL;
+    const formula *f = q->formulas;
+    while (f->when & ~when) /* the last of them holds always */
+        f++;
+    return f;
 }
 
 model_id quantity_model(const quantity *q, scene *s, bool call) {

@@ -204,9 +204,9 @@ bool trial_along(trial *t, along_what what, load_mark from, size_t points, bool 
         a.last = program_time(s->program, (load_mark){cycle + 1, s->end.cycles});
         a.first = a.last - 1;
     }
-    if (a.last <= a.first)
-        points = 0;
-    watch w = watch_times(a.first, points ? (a.last - a.first) / (double)points : 1, points, turns);
+    const bool lasts = a.last > a.first;
+    watch w =
+        watch_times(a.first, lasts ? (a.last - a.first) / (double)points : 1, lasts ? points : 0, turns);
     w.see = see;
     w.context = &a;
     w.limit = true;

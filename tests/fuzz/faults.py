@@ -35,7 +35,7 @@ STEEL = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
 # a setup, and statements that are tried after it
 STATEMENTS = (
     (POWER, ("y = 3 mm, z = x + 1", "z := x^2", "G(u, v) := u + v*x", "k = 0.3", "c0 := 2 mm*x", "undo", "x, x^2 in %",
-             "F(3), (x at x=5)", "material steel nu=0.2", "second E0=70 GPa nu=0.33", "second aluminium",
+             "F(3), (x at x=5), (F(x) at x=5)", "material steel nu=0.2", "second E0=70 GPa nu=0.33", "second aluminium",
              "geometry cone angle=3 deg", "geometry sum 2:50 m^-1, 4:2e6 m^-3", "geometry power n=3 A=50 m^-2",
              "geometry file gap.csv", "geometry file gap.csv smooth",
              "geometry file rough.csv smooth", "geometry file rough.csv smooth 6",
@@ -44,7 +44,7 @@ STATEMENTS = (
              "show variables", "show units", "show settings",
              "show commands", "show demos", "help", "help press", "help units", "apropos contact", "apropos radius",
              "table x^2, y for y = 1 .. 5 steps 4 to out.csv", "table a(y) for y = 1 N .. 9 N steps 300",
-             "table y, x for y = 1 .. 9 steps 600", "demo", "demo pressing", "1" + "+1" * 300, "explain kappa",
+             "table y, x for y = 1 .. 9 steps 600", "save ~/out.fret", "table x for y = 1 .. 2 steps 1 to /dev/stdout", "demo", "demo pressing", "1" + "+1" * 300, "explain kappa",
              "0." + "0" * 120 + "1 + 1", "source script.fret", "explain mismatch", "set format json; explain mismatch", "exit")),
     (LOADED, ("step Fx=5 N", "step Fx+=1 N FN=110 N", "step dx=0.1 um steps 20", "cycle dxA=0.1 um times 2",
               "cycle FA=20 N FNA=10 N phase=90 deg", "cycle FA:=0.5*mu*FN", "follow follow.csv", "FA = 10 N", "mu = 0.3",

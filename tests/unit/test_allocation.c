@@ -86,6 +86,16 @@ static void laws(void) {
     fret_table_free(table);
 }
 
+/* Pieces of a law for another contact of the same shape. */
+static void pieces(void) {
+    const fret_material steel = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1};
+    const fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 2e6, 1}}};
+    fret_normal *from = unit_keep_normal(&steel, &sum), *like = unit_keep_normal(&steel, &sum);
+    EACH_FAILS(3, fret_normal_prepare(from, 10, 0), true);
+    EACH_FAILS(0, fret_normal_share(like, from), !like->pieces && isnan(fret_normal_prepared(like)));
+    CHECK(like->pieces && fret_normal_prepared(like) == fret_normal_prepared(from));
+}
+
 static bool same(const fret_state *a, const fret_state *b) {
     return a->FN == b->FN && a->dz == b->dz && a->Fx == b->Fx && a->dx == b->dx && a->W == b->W &&
            a->U == b->U && a->slices == b->slices;
@@ -170,6 +180,36 @@ static void masings(void) {
     fret_masing_free(open);
 }
 
+static void diagrams(void) {
+    fret_diagram *d[2];
+    fret_diagram_now before, now;
+    int refused = 0;
+    for (int i = 0; i < 2; i++) {
+        CHECK_OK(fret_diagram_make(contact.normal, 0.4, 0, &d[i]));
+        CHECK_OK(fret_diagram_step(d[i], &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
+    }
+    for (int i = 0; i < 200; i++) {
+        const fret_step step = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 0.9 * limit * pow(-0.99, i)};
+        fret_diagram_forces(d[0], &before);
+        left = 0;
+        const fret_status st = fret_diagram_step(d[0], &step);
+        left = -1;
+        if (st.code) {
+            CHECK_CODE(st, FRET_NO_MEMORY);
+            fret_diagram_forces(d[0], &now);
+            CHECK(!memcmp(&before, &now, sizeof now));
+            CHECK_OK(fret_diagram_step(d[0], &step));
+            refused++;
+        }
+        CHECK_OK(fret_diagram_step(d[1], &step));
+    }
+    fret_diagram_forces(d[0], &now);
+    fret_diagram_forces(d[1], &before);
+    CHECK(refused > 1 && !memcmp(&before, &now, sizeof now));
+    for (int i = 0; i < 2; i++)
+        fret_diagram_free(d[i]);
+}
+
 static void springs(void) {
     fret_springs *s, *other;
     fret_state before, now;
@@ -233,7 +273,9 @@ int main(int argc, char **argv) {
     slip = (double)fret_gross_slip(&contact);
     tables_and_contacts();
     laws();
+    pieces();
     memories();
+    diagrams();
     masings();
     springs();
     swings();

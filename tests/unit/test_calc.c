@@ -366,6 +366,85 @@ static void deep_names(void) {
     calc_free(&c);
 }
 
+/* ---- along a load ------------------------------------------------------------------------------- */
+
+typedef struct looks {
+    int left, seen; /* looks that succeed; so far */
+    double last;
+} looks;
+
+static bool look_on(void *context, double time, calc_error *now) {
+    looks *l = context;
+    (void)now;
+    l->seen++;
+    CHECK(l->seen == 1 || time > l->last - 1e-9);
+    l->last = time;
+    return l->left-- != 0;
+}
+
+static bool probed, probe_ends;
+
+static bool probe_on(void *context, double time, calc_error *now) {
+    (void)context, (void)now;
+    probed = true;
+    CHECK(time == 30); /* where the load ends */
+    return !probe_ends;
+}
+
+/* What ends the looking ends it at once, whether or not the instants are known already. */
+static void along(void) {
+    calc c;
+    looks all;
+    bool done;
+    begin(&c);
+    for (int i = 0; i < 30; i++)
+        CHECK(load(
+            &c,
+            (load_step){.kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = i % 7, .points = 1},
+            (cycle_extra){0}));
+    const fret_state *now;
+    CHECK(scene_state(c.now, &now, fresh()));
+    for (int fails_at = -1; fails_at < 3; fails_at++) {
+        trial *t = trial_open(&c, fresh());
+        probed = false;
+        probe_ends = fails_at == 0;
+        all = (looks){.left = fails_at > 0 ? fails_at : -1};
+        CHECK(trial_trail(t, ALONG_PROGRAM, 3, probe_on, look_on, &all, &done, fresh()) == (fails_at < 0) &&
+              probed);
+        CHECK(all.seen == (fails_at < 0 ? 31 : fails_at ? fails_at + 1 : 0) && done == !probe_ends);
+        all = (looks){.left = fails_at};
+        CHECK(trial_along(t, ALONG_PROGRAM, c.now->end, 10, true, look_on, &all, fresh()) == (fails_at < 0));
+        trial_close(t);
+    }
+    trial *t = trial_open(&c, fresh());
+    scene_put(&t->scene, IN_MU, 0.3); /* another scene has left nothing behind */
+    CHECK(trial_trail(t, ALONG_PROGRAM, 3, probe_on, look_on, &all, &done, fresh()) && !done);
+    trial_close(t);
+    /* the last cycle alone, with its turning points, of a load that goes on */
+    CHECK(load(&c, (load_step){.kind = LOAD_CYCLE, .tangential = BY_FORCE, .tangential_value = 12},
+               (cycle_extra){.times = 2}));
+    CHECK(load(&c, (load_step){.kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 3, .points = 1},
+               (cycle_extra){0}));
+    t = trial_open(&c, fresh());
+    all = (looks){.left = -1};
+    CHECK(trial_along(t, ALONG_CYCLE, c.now->end, 5, true, look_on, &all, fresh()));
+    CHECK_REL(all.last, 32.25L, 1e-12L);
+    CHECK(all.seen == 7 || all.seen == 8);
+    trial_close(t);
+    calc_free(&c);
+}
+
+/* Each quantity has a formula that holds always, its last: the search for one needs no other end. */
+static void formulas(void) {
+    for (size_t i = 0; quantity_row(i); i++) {
+        const formula *f = quantity_row(i)->formulas;
+        size_t n = 0;
+        while (n < FORMULAS && f[n].text)
+            n++;
+        CHECK(n > 0 && f[n - 1].when == WHEN_ALWAYS);
+    }
+}
+
 /* ---- the flag that stops ------------------------------------------------------------------------ */
 
 static volatile sig_atomic_t rung;
@@ -377,7 +456,7 @@ static void ring(int number) {
 
 /* A gap in rows, which takes its time. */
 static shared_table *rows_of_sphere(void) {
-    enum { ROWS = 2000 };
+    enum { ROWS = 60 }; /* too few for pieces: they would be fast */
     static double r[ROWS], f[ROWS];
     struct fret_table *t = NULL;
     for (int i = 0; i < ROWS; i++) {
@@ -466,6 +545,8 @@ int main(int argc, char **argv) {
     refusals();
     alike_names();
     deep_names();
+    along();
+    formulas();
     interrupted();
     far_back();
     return unit_finish();
