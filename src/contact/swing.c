@@ -264,7 +264,8 @@ static bool goes_along(const piece *p, int which) {
 static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
     fret_status st = fret_ok();
     const fret_real least = 1e-9L * (hi - lo);
-    size_t left = 0; /* a straight piece that slip has left goes with the next fall: its end is no event */
+    size_t left =
+        0; /* a straight piece that has just been left goes with the next fall: its end is no event */
     while (lo < hi && !st.code) {
         const fret_real crossing = next_crossing(c, c->count - left, w, 1 << M | 1 << P, lo, hi);
         fret_real stop = crossing;
@@ -276,7 +277,7 @@ static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_rea
         } else {
             st = slip_between(c, w, side > 0 ? M : P, lo, stop);
         }
-        left = side != 0 && c->count > 0 && goes_along(&c->pieces[c->count - 1], side > 0 ? P : M);
+        left = c->count > 0 && goes_along(&c->pieces[c->count - 1], side < 0 ? M : P);
         lo = stop;
     }
     return st;

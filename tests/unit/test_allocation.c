@@ -261,6 +261,49 @@ static void swings(void) {
     fret_memory_free(back);
 }
 
+/* Ever smaller periods: each leaves pieces of the curve. What is refused is as it was, or good for a copy. */
+static void smaller_swings(void) {
+    fret_memory *m;
+    fret_swing *w, *before, *small;
+    fret_state then, now;
+    int refused = 0, copies = 0;
+    CHECK_OK(fret_memory_make(contact.normal, 0.4, &m));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
+    CHECK_OK(fret_swing_make(m, &w));
+    CHECK_OK(fret_swing_make(m, &before));
+    for (int i = 0; i < 60; i++) {
+        const double part = pow(0.93, i);
+        const fret_sine sine = {.FN = 20, .FNA = 6 * part, .FA = 3 * part, .phase = 1};
+        const fret_step step = {FRET_TO_FORCE, FRET_TO_FX, (double)(20 + (fret_real)sine.FNA * cosl(1)),
+                                sine.FA};
+        for (int period = 0; period < 2; period++) {
+            CHECK_OK(fret_swing_copy(before, w));
+            left = 0;
+            const fret_status st = period ? fret_swing_period(w, &sine) : fret_swing_step(w, &step);
+            left = -1;
+            if (st.code) {
+                CHECK_CODE(st, FRET_NO_MEMORY);
+                CHECK_OK(fret_swing_copy(w, before));
+                CHECK_OK(period ? fret_swing_period(w, &sine) : fret_swing_step(w, &step));
+                refused++;
+            }
+        }
+        CHECK_OK(fret_swing_make(m, &small));
+        fret_swing_state(small, &then);
+        left = 0;
+        const fret_status st = fret_swing_copy(small, w);
+        left = -1;
+        fret_swing_state(small, &now);
+        CHECK(!st.code || same(&then, &now));
+        copies += st.code == FRET_NO_MEMORY;
+        fret_swing_free(small);
+    }
+    CHECK(refused > 1 && copies > 1);
+    fret_swing_free(w);
+    fret_swing_free(before);
+    fret_memory_free(m);
+}
+
 int main(int argc, char **argv) {
     unit_start("allocation", argc, argv);
     const unit_scene s = unit_make_scene(2, 0.3);
@@ -279,5 +322,6 @@ int main(int argc, char **argv) {
     masings();
     springs();
     swings();
+    smaller_swings();
     return unit_finish();
 }

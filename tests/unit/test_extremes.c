@@ -373,6 +373,151 @@ static void unlike(void) {
     fret_table_free(t[1]);
 }
 
+/* Rows that are closer than leaves a trace are taken together. */
+static void close_rows(void) {
+    double r[104], f[104];
+    size_t count[2] = {0, 0};
+    struct fret_table *t[2];
+    const fret_normal *n[2];
+    for (int which = 0; which < 2; which++) {
+        for (int i = 0; i <= 100; i++) {
+            const double at = 1e-5 * i;
+            for (int j = 0; j < (which && i == 10 ? 4 : 1); j++, count[which]++) {
+                r[count[which]] = at + 1e-10 * j;
+                f[count[which]] = r[count[which]] * r[count[which]] / 0.02;
+            }
+        }
+        t[which] = rows(r, f, count[which]);
+        n[which] = unit_keep_normal(&steel, &(fret_gap){.kind = FRET_GAP_TABLE, .table = t[which]});
+    }
+    const fret_level outer = {fret_law_depth(n[0], 100), 100};
+    for (int i = 1; i <= 10; i++) {
+        const fret_slice a = fret_law_slice(n[0], &outer, outer.y * i / 10),
+                         b = fret_law_slice(n[1], &outer, outer.y * i / 10);
+        CHECK_REL(b.w, a.w, 1e-5L);
+        CHECK_REL(b.G, a.G, 1e-4L);
+        CHECK_REL(b.J, a.J, 1e-4L);
+        CHECK_REL(b.L, a.L, 1e-3L);
+    }
+    const fret_slice none = fret_law_slice(n[0], &outer, 0);
+    CHECK(none.w == 0 && none.J == 0 && none.G == 0 && none.L == 0);
+    CHECK(fret_law_load(n[0], &outer, 0) == 0 && fret_law_thickness(n[0], &outer, 0) == 0);
+    while (unit.normals)
+        fret_normal_free(unit.normal[--unit.normals]);
+    for (int i = 0; i < 2; i++)
+        fret_table_free(t[i]);
+}
+
+/* ---- fields -------------------------------------------------------------------------------------- */
+
+/* u_z outside as it is defined, of g = dz (x/a)^n. */
+typedef struct outside {
+    fret_real n, k, a, r, dz;
+} outside;
+
+static fret_real surface_rate(fret_real x, fret_real from_a, fret_real to_b, const void *context) {
+    const outside *o = context;
+    (void)from_a;
+    return fret_pow(x, o->k) * o->dz * -fret_expm1(o->n * fret_log1p(-to_b / o->a)) *
+           fret_pow((o->r - o->a + to_b) * (o->r + x), -(1 + o->k) / 2);
+}
+
+static void fields(void) {
+    static const struct {
+        double n, k, r;
+    } all[] = {{0.009, 0.2, 1.1}, {0.009, 0.2, 3}, {2, 0.9995, 1.05}, {2, 0.9995, 4}, {15, 0.5, 1.01}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        fret_material m = steel;
+        m.k = all[i].k;
+        const fret_gap gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{all[i].n, 1e-5, 1e-3}}};
+        const fret_normal *n = unit_keep_normal(&m, &gap);
+        const fret_real a = 1e-3L, r = a * all[i].r, k = all[i].k;
+        fret_real dz, slope, got = 0;
+        CHECK_OK(fret_gap_g(&gap, m.k, a, &dz, &slope));
+        CHECK_OK(fret_surface(n, a, r, &got));
+        const outside o = {all[i].n, k, a, r, dz};
+        const fret_real factor = 2 * sinl(FRET_PI * (1 - fabsl(k)) / 2) / FRET_PI;
+        CHECK_REL(got, factor * unit_integrate(surface_rate, &o, 0, a), 1e-12L);
+    }
+    /* next to the centre of a sphere, whose series of powers is too long: as at the centre */
+    fret_material graded = steel;
+    graded.k = 0.9;
+    const fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 1e-3};
+    const fret_normal *n = unit_keep_normal(&graded, &sphere);
+    fret_real p[3];
+    CHECK_OK(fret_pressure(n, 0.9e-3L, 0, &p[0]));
+    CHECK_OK(fret_pressure(n, 0.9e-3L, 1e-60L, &p[1]));
+    CHECK_OK(fret_pressure(n, 0.9e-3L, 1e-12L, &p[2]));
+    CHECK_REL(p[1], p[0], 1e-12L);
+    CHECK_REL(p[2], p[0], 1e-7L);
+    /* a pointed term beside a steep one is singular in the middle */
+    const fret_gap mixed = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{0.5, 1e-5, 1e-3}, {30, 1e-5, 1e-3}}};
+    n = unit_keep_normal(&steel, &mixed);
+    CHECK_ERROR(fret_pressure(n, 1e-3L, 0, &p[0]), FRET_SINGULAR, "r");
+    CHECK_OK(fret_pressure(n, 1e-3L, 5e-4L, &p[0]));
+    /* a steep one alone: at the rim, and where a double can tell the two no more */
+    const fret_gap steep = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{40, 1e-5, 1e-3}}};
+    n = unit_keep_normal(&steel, &steep);
+    for (int i = 0; i < 4; i++) {
+        const fret_real r = (fret_real[]){1e-3L, nextafterl(1e-3L, 0), 1e-3L * (1 - 1e-18L), 2e-3L}[i];
+        CHECK_OK(fret_pressure(n, 1e-3L, r, &p[0]));
+        CHECK(p[0] >= 0 && p[0] < 1e3);
+    }
+    /* not pressed beyond its flat end */
+    const fret_gap flat = {.kind = FRET_GAP_FLAT_CONE, .b = 1e-3, .slope = 0.01};
+    n = unit_keep_normal(&steel, &flat);
+    for (int i = 0; i < 3; i++) {
+        const fret_real r = (fret_real[]){0, 5e-4L, 2e-3L}[i];
+        CHECK_OK(fret_pressure(n, 1e-3L, r, &p[0]));
+        CHECK_OK(fret_surface(n, 1e-3L, r, &p[1]));
+        CHECK(p[0] == 0 && p[1] == 0);
+    }
+    fret_memory *m = NULL;
+    CHECK_OK(fret_memory_make(n, 0.4, &m));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 10, 1}));
+    CHECK_ERROR(fret_traction(m, -1, &p[0]), FRET_NEGATIVE, "r");
+    CHECK_ERROR(fret_surface_x(m, -1, &p[0]), FRET_NEGATIVE, "r");
+    fret_memory_free(m);
+}
+
+/* ---- swings -------------------------------------------------------------------------------------- */
+
+/* A period that is smaller by rounding alone leaves next to nothing of the one before; loads in phase, of
+ * which one part does not move. */
+static void short_pieces(void) {
+    const fret_normal *n = power(210e9, 2, 1e-5, 1e-3);
+    for (int i = 0; i < 12; i++) {
+        const double phase = i % 6 * 0.5, mu = 0.4, FNA = i < 6 ? 6 : 5, FA = i == 6 ? mu * FNA : 2;
+        fret_memory *m, *shown;
+        fret_swing *w = NULL;
+        fret_state now, then;
+        CHECK_OK(fret_memory_make(n, mu, &m));
+        CHECK_OK(fret_memory_make(n, mu, &shown));
+        CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
+        CHECK_OK(fret_swing_make(m, &w));
+        fret_sine sine = {.FN = 20, .FNA = FNA, .FA = FA, .phase = phase};
+        for (int j = 0; j < 4; j++) {
+            const double top = (double)(20 + (fret_real)sine.FNA * fret_cos(sine.phase));
+            CHECK_OK(fret_swing_step(w, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, top, sine.FA}));
+            if (!CHECK(fret_swing_fits(w, &sine)))
+                break;
+            CHECK_OK(fret_swing_period(w, &sine));
+            fret_swing_state(w, &now);
+            CHECK_OK(fret_swing_memory(w, shown));
+            fret_memory_state(shown, &then);
+            CHECK_REL(then.FN, now.FN, 1e-16L);
+            CHECK_ABS(then.Fx, now.Fx, mu * 20, 1e-15L);
+            CHECK_ABS(then.dx, now.dx, fret_law_depth(n, 20), 1e-15L);
+            CHECK_ABS(then.U, now.U, mu * 20 * fret_law_depth(n, 20), 1e-5L);
+            sine.FNA = nextafter(sine.FNA, 0);
+            sine.FA = nextafter(sine.FA, 0);
+        }
+        fret_swing_free(w);
+        fret_memory_free(m);
+        fret_memory_free(shown);
+    }
+}
+
 /* ---- the reference ------------------------------------------------------------------------------- */
 
 /* More rows than are taken one by one; and a flag that stops. */
@@ -651,6 +796,9 @@ int main(int argc, char **argv) {
     means();
     fronts();
     unlike();
+    close_rows();
+    fields();
+    short_pieces();
     references();
     arrays();
     diagrams();
