@@ -100,7 +100,7 @@ static fret_real near_edge(fret_real n, fret_real m, fret_real v, fret_real w) {
 static fret_real far_from_edge(fret_real n, fret_real m, fret_real r, fret_real b, fret_real v) {
     const fret_real rise = n + 2 * m - 2, span = -fret_log(b);
     fret_real sum = 0, c = 1, outer = 1, inner = fret_pow(b, rise);
-    for (int j = 0; j < 100 && c * (inner + outer) > LDBL_EPSILON / 8 * sum; j++) {
+    for (int j = 0; c * (inner + outer) > LDBL_EPSILON / 8 * sum; j++) { /* of r^2 < 0.7, v < 0.3 */
         const fret_real power = rise - 2 * j;
         sum +=
             c * (fabsl(power) * span < 0.5L ? inner * (power != 0 ? fret_expm1(power * span) / power : span)
@@ -138,12 +138,10 @@ static fret_real pressure_powers(const fret_normal *n, const fret_term *term, in
     return f->cN0 / FRET_PI * fret_pow(a / f->c0, f->k) * sum / a;
 }
 
-/* Of a gap without steep powers. */
+/* Of a gap without steep powers, r < a, which lies beyond the flat end. */
 static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
     *p = 0;
     fret_real start = fret_gap_start(&n->gap), k1 = 1 + n->foundation.k;
-    if (r >= a || a <= start)
-        return fret_ok();
     /* the leading power of the gap decides what the tip is like */
     const fret_real rise = fret_gap_tip(&n->gap) + n->foundation.k - 1;
     const bool tip = r == 0 && start == 0;
@@ -154,7 +152,7 @@ static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real 
     const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
     if (terms > 0) {
         *p = pressure_powers(n, term, terms, a, r);
-        return isfinite(*p) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
+        return fret_ok();
     }
     inside c = {n, start, r, 0, a - start, tip ? 1 / rise : 2 / k1}, middle = c, beyond = c;
     middle.power = beyond.power = rise;
@@ -211,7 +209,7 @@ static fret_real surface_flat(fret_real k, fret_real a, fret_real r) {
     const bool near = away < 0.5L;
     const fret_real b = near ? (1 - k) / 2 : m, x = near ? away : q;
     fret_real sum = 0, term = 1;
-    for (int j = 0; j < 100 && term > 1e-22L; j++) {
+    for (int j = 0; term > 1e-22L; j++) { /* x is at most a half */
         sum += term / (b + j);
         term *= x * (b + j) / (j + 1);
     }
@@ -223,20 +221,20 @@ static fret_real surface_flat(fret_real k, fret_real a, fret_real r) {
  * centre, whose terms are positive. */
 static fret_real surface_far(fret_real k, const fret_term *term, int terms, fret_real dz, fret_real q) {
     const fret_real m = (k + 1) / 2;
-    fret_real sum = 0, rest = dz, c = 1;
+    fret_real sum = 0, rest = dz, c = 1, part;
+    int j = 0;
     for (int i = 0; i < terms; i++)
         rest -= term[i].G;
-    for (int j = 0; j < 200; j++) {
+    do { /* q is at most 0.7 */
         const fret_real b = m + j;
-        fret_real part = rest;
+        part = rest;
         for (int i = 0; i < terms; i++)
             part += term[i].G * term[i].n / (2 * b + term[i].n);
         part *= c / b;
         sum += part;
-        if (fabsl(part) < 1e-20L * fabsl(sum))
-            break;
-        c *= q * b / (j + 1);
-    }
+        j++;
+        c *= q * b / j;
+    } while (fabsl(part) > 1e-20L * fabsl(sum));
     return sum * fret_pow(q, m) / 2;
 }
 
@@ -249,7 +247,7 @@ static fret_real surface_near(fret_real k, const fret_term *term, int terms, fre
     for (int i = 0; i < terms; i++) {
         const fret_real b = term[i].n / 2 + m;
         fret_real beyond = 0, c = 1;
-        for (int j = 0; j < 100 && fabsl(c) > 1e-21L * fabsl(beyond); j++) {
+        for (int j = 0; fabsl(c) > 1e-21L * fabsl(beyond); j++) { /* away is less than 0.3 */
             beyond += c / (1 - m + j);
             c *= away * (1 - b + j) / (j + 1);
         }

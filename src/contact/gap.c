@@ -115,7 +115,7 @@ static fret_profile sphere_profile(const fret_gap *gap, const fret_rule *rule, f
         I += rise / (2 * n + 3 + k);
         term *= q * (n + 0.5L) / (m1 + n);
         n++;
-    } while (rise >= 1e-21L * slope);
+    } while (rise > 1e-21L * slope);
     return fret_profile_of(k, a, g, slope, I);
 }
 

@@ -54,8 +54,6 @@ static moments power_moments(fret_real pm1, fret_real x) {
     fret_real p = 1 + pm1;
     if (x >= 1)
         return (moments){1, 1 / (p + 1), 1, pm1 / (p + 1)};
-    if (x <= 0)
-        return (moments){0, 0, 0, 0};
     if (p * x < 0.2L)
         return moments_series(pm1, x);
     /* arranged so that m1 = int t dK and m2 = int t^2 dK keep their factor p-1 */

@@ -52,7 +52,10 @@ static void shapes(void) {
     CHECK_REL(a.a, b.a, UNIT_TOL(1e-17L, 1e-14L));
     CHECK_REL(a.dz, b.dz, UNIT_TOL(1e-17L, 1e-14L));
     CHECK(fret_gap_tip(&sum) == 2);
+    const fret_gap ball = {.kind = FRET_GAP_EXACT_SPHERE, .R = 0.01};
     fret_rule rule;
+    fret_gap_rule(&ball, 0, &rule); /* at its centre its series has no terms */
+    CHECK(fret_gap_profile(&ball, &rule, 0).g == 0 && fret_gap_profile(&ball, &rule, 0).slope == 0);
     fret_gap_rule(&one, 0, &rule);
     CHECK(fret_gap_kink(&one, 1e-3L) == 0 && fret_gap_bend(&one, &rule, 1e-4L, 1e-3L) == 0);
     wrong.power[0].n = -1; /* the first of two is told */
