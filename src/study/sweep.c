@@ -256,6 +256,26 @@ static void open_trial(state *st, calc_error *error) {
         st->t->scene.many = is_many(st);
 }
 
+/* A law that has been prepared serves the next curve, where that is of the same contact. */
+static void close_trial(state *st) {
+    scene *contact = &st->job->contact, *s = &st->t->scene;
+    if (s->many) {
+        scene_free(contact);
+        scene_clone(contact, s);
+        scene_take_contact(contact, s);
+    }
+    trial_close(st->t);
+}
+
+/* Fixes the name of `with`. */
+static bool set_curve(state *st, calc_error *error) {
+    if (st->s->curves && !trial_set(st->t, &st->s->with, st->with, error))
+        return false;
+    if (st->t->scene.many)
+        scene_take_contact(&st->t->scene, &st->job->contact);
+    return true;
+}
+
 /* As it went with the one who gives. */
 static void begin_curve(state *st, calc_error *error) {
     knob var = st->s->var;
@@ -263,8 +283,7 @@ static void begin_curve(state *st, calc_error *error) {
     open_trial(st, error);
     if (!st->t) /* unreached: memory runs out here alone */
         _exit(0);
-    if (st->s->curves)
-        trial_set(st->t, &st->s->with, st->with, error);
+    set_curve(st, error);
     if (!var.is_input)
         trial_set(st->t, &var, st->range.lo, error);
     if (error->raised) /* unreached: memory runs out here alone */
@@ -285,7 +304,7 @@ static bool work(void *context, const void *in, void *out) {
     st->range = p->range;
     st->with = p->with;
     if (!same) {
-        trial_close(st->t);
+        close_trial(st);
         begin_curve(st, job->error);
     }
     st->t->scene.used = 0;
@@ -387,11 +406,13 @@ void sweep_begin(sweep_job *job, size_t rows) {
     job->values = job->done = 0;
     job->all = rows;
     job->taken = 0;
+    scene_init(&job->contact, NULL, NULL, NULL);
 }
 
 void sweep_end(sweep_job *job) {
     team_end(job->team);
     job->team = NULL;
+    scene_free(&job->contact);
 }
 
 /* ---- even rows, or where they are wanted ------------------------------------------------------- */
@@ -485,7 +506,7 @@ static bool run_curve(state *st) {
     const sweep *s = st->s;
     calc_error *error = st->job->error;
     st->with = s->curves ? s->value[st->curve] : 0;
-    if (s->curves && !trial_set(st->t, &s->with, st->with, error))
+    if (!set_curve(st, error))
         return false;
     st->range = (sweep_range){.lo = 0};
     bool ok = s->range(s, &st->range, error);
@@ -521,7 +542,7 @@ bool sweep_run(const sweep *s, sweep_job *job) {
         ok = st.t && run_curve(&st);
         calc_word(job->c, job->error);
         if (st.t)
-            trial_close(st.t);
+            close_trial(&st);
     }
     free(st.values);
     free(st.block);

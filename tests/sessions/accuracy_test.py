@@ -380,6 +380,26 @@ def shown_digits(tests):
     tests.check("12 digits: all of them", re.search(r"polynomials to \d*e-1[6-9]", done.stderr), tests.report(done))
 
 
+def curves(tests):
+    """A law prepared for one curve serves the next one of the same contact, and no other."""
+    where = os.path.join(tests.dir, "rows.csv")
+    with open(where, "w", encoding="ascii") as f:
+        f.write("r [mm],f [um]\n")
+        for i in range(60):
+            f.write("%d,%.17g\n" % (i, 0.1 * i * i / (1 + i / 100)))
+    scene = (GRADED % (0.3, "file " + where) + "press FN=50 N\n")
+    rows = "table dW(F), a for F = 1 N .. 8 N steps 39"
+    for name, values in (("mu", ("0.4", "0.5", "0.6")), ("k", ("0.1", "0.3", "0.1")), ("FN", ("50 N", "90 N", "40 N"))):
+        done = [tests.run("--format=json", "-c", scene + rows + " with %s = %s" % (name, which)) for which in (", ".join(values), *values)]
+        together, *apart = [re.findall(r'^.*"dW.*$', one.stdout, re.M) for one in done]
+        tests.check("curves of one table and of several, " + name, len(apart[0]) == 40 and together == sum(apart, []),
+                    tests.report(done[0]) + "\n".join(sum(apart, [])))
+    matrix = tests.run("--format=csv", "-c", scene + rows.replace(", a", "") + " for mu = 0.4 .. 0.6 steps 2")
+    apart = [tests.run("--format=csv", "-c", scene + "mu = %s; " % mu + rows.replace(", a", "")).stdout.splitlines()[1:] for mu in (0.4, 0.5, 0.6)]
+    tests.check("and the columns of a matrix", len(apart[0]) == 40 and set(matrix.stdout.replace("\n", ",").split(",")) >=
+                {row.split(",")[1] for one in apart for row in one}, tests.report(matrix))
+
+
 def run(tests):
     tests.each([lambda f=f: f(tests) for f in (orders, loads, other_models, narrow_gaps, at_the_ends, forms, pictures, causes, slow_causes, conditioning, models,
-                                                 shown_digits)])
+                                                 shown_digits, curves)])
