@@ -2,6 +2,7 @@
 /* Polynomials of a piece: their values, places, and integrals over parts. Pure arithmetic. */
 #include "contact/piece.h"
 
+#include "number/double.h"
 #include "number/quadrature.h"
 #include "number/real.h"
 
@@ -142,14 +143,20 @@ fret_real fret_piece_make_whole(piece *p) {
 
 /* ---- from values to places --------------------------------------------------------------------- */
 
-/* What a guess is a polynomial of. */
-static double part_of_rise(const piece *p, fret_real part) {
+/* What a guess is a polynomial of: nearly linear in the place where depth and load are nearly powers, or,
+ * beyond a row, linear. */
+static double part_of_rise(const piece *p, int by, fret_real part) {
     const double u = part > 0 ? (double)part : 0;
-    return p->blunt ? sqrt(sqrt(u)) : u;
+    if (p->width > 0) {
+        const double least = (double)(p->middle - p->half) / (double)(p->middle + p->half),
+                     square = least * least, inner = square * square;
+        return sqrt(sqrt(inner + (1 - inner) * u));
+    }
+    return fret_double_log1p(u * (double)(fret_piece_rise(p, by) / fret_level_by(&p->inner, by)));
 }
 
 static double guess_of(const piece *p, int by, fret_real rise) {
-    const double u = part_of_rise(p, rise / fret_piece_rise(p, by)), *c = p->guess[by];
+    const double u = part_of_rise(p, by, rise / fret_piece_rise(p, by)), *c = p->guess[by];
     double z = c[GUESS - 1];
     for (int i = GUESS - 2; i >= 0; i--)
         z = z * u + c[i];
@@ -211,7 +218,7 @@ void fret_piece_make_guess(piece *p, int by, const fret_real z[GUESS]) {
     double u[GUESS], c[GUESS];
     const fret_real whole = fret_polynomial_at(&p->rise[by], 1);
     for (int i = 0; i < GUESS; i++) {
-        u[i] = part_of_rise(p, fret_polynomial_at(&p->rise[by], z[i]) / whole);
+        u[i] = part_of_rise(p, by, fret_polynomial_at(&p->rise[by], z[i]) / whole);
         c[i] = (double)z[i];
     }
     for (int i = 1; i < GUESS; i++) /* divided differences */
