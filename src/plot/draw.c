@@ -56,8 +56,9 @@ static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error 
         fputs(head_html, to);
     for (size_t n; (n = fread(block, 1, sizeof block - 1, from)) > 0 && !ferror(to);) {
         block[n] = 0;
-        const char *from_here = begin && !any ? strstr(block, begin) : NULL;
-        fwrite(from_here ? from_here : block, 1, n - (size_t)(from_here ? from_here - block : 0), to);
+        const char *here = begin && !any ? strstr(block, begin) : NULL;
+        here = here ? here : block;
+        fwrite(here, 1, n - (size_t)(here - block), to);
         any = true;
     }
     int code = errno;
@@ -90,7 +91,7 @@ static bool have_drawn(const plot_run *r, const scripted *s, calc_error *error) 
     if (!script)
         return calc_errno(error, errno, "cannot write a script for gnuplot");
     bool ok = write_script(script, s, error), bad = ferror(script) != 0;
-    if ((fclose(script) || bad) && ok)
+    if (fclose(script) || bad)
         return calc_errno(error, errno, "cannot write a script for gnuplot");
     return ok && plot_run_gnuplot(r, s->target, error);
 }
@@ -156,7 +157,7 @@ static char *read_all(const char *path) {
 static bool sheets_read(sheets *s, const plot_run *r, calc_error *error) {
     *s = (sheets){.text = read_all(r->out)};
     if (!s->text)
-        return calc_errno(error, errno ? errno : ENOMEM, "cannot read what gnuplot drew");
+        return calc_errno(error, errno, "cannot read what gnuplot drew");
     for (const char *p = s->text; *p; p++)
         s->count += *p == '\f';
     s->page = malloc((s->count + 1) * sizeof *s->page);
@@ -307,12 +308,14 @@ static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error 
 
 bool plot_check(const char *file, file_stop stop, calc_error *error) {
     file_out probe;
-    return plot_kind_of(file, error) && file_out_open(&probe, file, stop, error) &&
-           file_out_close(&probe, false, NULL, error);
+    if (!plot_kind_of(file, error) || !file_out_open(&probe, file, stop, error))
+        return false;
+    file_out_close(&probe, false, NULL, error);
+    return true;
 }
 
 bool plot_draw_reel(const plot_reel *reel, const plot_target *t, file_report *report, calc_error *error) {
-    if (!reel->count || !reel->frame[0].count)
+    if (!reel->count)
         return calc_fail(error, 0, 0, "there is nothing to plot");
     if (t->width < 0 || t->height < 0 || t->width > PLOT_PIXELS || t->height > PLOT_PIXELS)
         return calc_fail(error, 0, 0, "a picture has at most %d pixels along an axis", PLOT_PIXELS);

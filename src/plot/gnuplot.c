@@ -79,12 +79,8 @@ static int start(const plot_run *r, char *const argv[], pid_t *pid, int *guard) 
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     sigset_t before, defaults;
-    if (posix_spawn_file_actions_init(&actions))
-        return ENOMEM;
-    if (posix_spawnattr_init(&attributes)) {
-        posix_spawn_file_actions_destroy(&actions);
-        return ENOMEM;
-    }
+    posix_spawn_file_actions_init(&actions); /* neither of them asks for memory */
+    posix_spawnattr_init(&attributes);
     int flags = O_WRONLY | O_CREAT | O_TRUNC;
     int code = posix_spawn_file_actions_addopen(&actions, 0, r->script, O_RDONLY, 0);
     code = code ? code : posix_spawn_file_actions_addopen(&actions, 1, r->out, flags, 0600);

@@ -8,7 +8,7 @@
 
 #include "plot/script.h"
 
-enum { TICS = 24, TIC = 24, LEVELS = 9, LEFT = 40 };
+enum { TICS = 24, TIC = 24, LEVELS = 9 };
 
 size_t plot_columns(const char *text) {
     size_t n = 0;
@@ -50,8 +50,6 @@ static double at_cell(const ruler *r, double cell) {
 }
 
 static void tic(ruler *r, double v, const char *format, int digits) {
-    if (r->count == TICS)
-        return;
     r->at[r->count] = v;
     snprintf(r->text[r->count], TIC, format, digits, v + 0.0);
     size_t n = strlen(r->text[r->count++]);
@@ -92,18 +90,19 @@ static void log_tics(ruler *r, int most) {
 static void make_ruler(ruler *r, const plot_axis *axis, int cells, int gap) {
     *r = (ruler){.axis = *axis, .cells = cells};
     plot_axis *a = &r->axis;
+    const int most = cells / gap < TICS - 2 ? cells / gap : TICS - 2;
     if (a->log) {
-        log_tics(r, cells / gap);
+        log_tics(r, most);
         return;
     }
     if (a->fixed_lo || a->fixed_hi) {
-        linear_tics(r, plot_step((a->hi - a->lo) * gap / cells));
+        linear_tics(r, plot_step(fmax((a->hi - a->lo) * gap / cells, (a->hi - a->lo) / (TICS - 2))));
         return;
     }
     double best = -1, width = a->hi - a->lo;
     for (double step = plot_step(width / cells); step <= 1.0001 * width; step = plot_step(1.5 * step)) {
         double lo = floor(axis->lo / step + 1e-6), hi = ceil(axis->hi / step - 1e-6);
-        int n = (int)(hi - lo), each = n > 0 ? cells / n : 0;
+        int n = (int)(hi - lo), each = cells / n;
         if (each < gap || n > TICS - 1)
             continue;
         /* how much of the page shows points; too few tics are as bad as lost room */
@@ -292,23 +291,25 @@ static void write_ink(const page *g, size_t n) {
     fputs("END\n", g->to);
 }
 
-/* The index i with list[i] <= v <= list[i+1], rising or falling; n where v lies outside. */
-static size_t find(const double *list, size_t n, double v) {
-    for (size_t i = 0; i + 1 < n; i++)
-        if ((list[i] <= v && v <= list[i + 1]) || (list[i] >= v && v >= list[i + 1]))
-            return i;
-    return n;
+/* The index i with list[i] <= v <= list[i+1], rising or falling: v lies within. */
+static size_t find(const double *list, double v) {
+    size_t i = 0;
+    while (!((list[i] <= v && v <= list[i + 1]) || (list[i] >= v && v >= list[i + 1])))
+        i++;
+    return i;
+}
+
+/* The nearest value of a list, rising or falling. */
+static double within(const double *list, size_t n, double v) {
+    const double first = list[0] + 1e-9 * (list[1] - list[0]), last = list[n - 1];
+    return fmin(fmax(v, fmin(first, last)), fmax(first, last));
 }
 
 /* How many levels lie below z at a cell; -1: no value. */
 static int band_at(const page *g, int c, int r) {
     const plot_map *m = &g->panel->map;
-    double x = at_cell(&g->x, c), y = at_cell(&g->y, r), e = 1e-9;
-    x = fmin(fmax(x, m->x[0] + e * (m->x[1] - m->x[0])), m->x[m->nx - 1]);
-    y = fmin(fmax(y, m->y[0] + e * (m->y[1] - m->y[0])), m->y[m->ny - 1]);
-    size_t i = find(m->x, m->nx, x), j = find(m->y, m->ny, y);
-    if (i >= m->nx || j >= m->ny)
-        return -1;
+    const double x = within(m->x, m->nx, at_cell(&g->x, c)), y = within(m->y, m->ny, at_cell(&g->y, r));
+    size_t i = find(m->x, x), j = find(m->y, y);
     double u = (x - m->x[i]) / (m->x[i + 1] - m->x[i]), v = (y - m->y[j]) / (m->y[j + 1] - m->y[j]);
     const double *z = m->z + j * m->nx + i;
     double at = (1 - v) * ((1 - u) * z[0] + u * z[1]) + v * ((1 - u) * z[m->nx] + u * z[m->nx + 1]);
@@ -526,9 +527,9 @@ static void place_frame(page *g, const plot_axis *x, const plot_axis *y, const e
     g->bottom = 2 + g->key_rows;
     int height = g->rows - 1 - g->top - g->bottom;
     make_ruler(&g->y, y, height < 3 ? 3 : height, 2);
-    g->left = (int)(g->y.width < LEFT ? g->y.width : LEFT) + 2;
+    g->left = (int)g->y.width + 2;
     int width = g->columns - 1 - g->left - g->right;
-    for (size_t gap = 6; gap < 40; gap = g->x.width + 2) { /* numbers side by side, with blanks between */
+    for (size_t gap = 6;; gap = g->x.width + 2) { /* numbers side by side, with blanks between */
         make_ruler(&g->x, x, width < 10 ? 10 : width, (int)gap);
         if (g->x.width + 2 <= gap)
             break;

@@ -204,6 +204,9 @@ def gnuplot(tests):
                               ("fails at the beginning of a line", "echo 'line 7: \t^ it is wrong' >&2; echo >&2; exit 1", "it is wrong"),
                               ("fails with words", "echo 'an underline of a line without place' >&2; exit 1", "an underline of a line without place"),
                               ("fails with words and a colon", "echo 'an outline of: it' >&2; exit 1", "an outline of: it"),
+                              ("fails with words of a place", "echo 'a line without place' >&2; exit 1", "gnuplot failed: a line without place"),
+                              ("fails and takes its words away", "rm -f \"$TMPDIR\"/fret-*/err; exit 1", "gnuplot failed: no message"),
+                              ("is found too late", "exit 127", "plots need gnuplot, which is not installed"),
                               ("fails with bytes", "printf '\\033[31m\\377' >&2; exit 1", "?[31m?")):
         with fake_gnuplot(tests, script) as fake:
             env = {"PATH": fake + ":" + path}
@@ -212,10 +215,21 @@ def gnuplot(tests):
     for name, script, status, out, err in (
             ("one page of two", "printf 'a\\n\\f'", 1, "", "gnuplot drew 1 pages of 2"),
             ("pages of several heights", r"printf '\fa\nb\n\fc\n'", 0, r"^a *c\nb *\n", ""),
+            ("a colour of many numbers", r"printf '\fa\n\f\033[38;5;1;2;3;4;5;6;7;8;9;10;11;12;13;14;15mb\n'", 0, "^a *b\n", ""),
             ("other sequences than colours", r"printf '\fa\033[1Ab\n\f\033cd\n'", 0, "^a\x1b\\[1Ab *\x1bcd *\n", "")):
         with fake_gnuplot(tests, script) as fake:
             done = tests.run("-c", SCENE + "step Fx=20 N\nset plot 120x18; plot loop | pressure", env={"PATH": fake + ":" + path})
             tests.check("gnuplot draws " + name, done.returncode == status and re.search(out, done.stdout) and err in done.stderr, tests.report(done))
+    html = os.path.join(tests.dir, "x.html")
+    with fake_gnuplot(tests, "echo hello") as fake:
+        done = tests.run("-c", plot + " to " + html, env={"PATH": fake + ":" + path})
+        with open(html, encoding="utf-8") as f:
+            tests.check("a page without a prologue is kept whole", "<body>\nhello\n</body>" in f.read() and done.returncode == 0, tests.report(done))
+    os.unlink(html)
+    for env in ({"TMPDIR": ""}, {}):
+        bare = {name: value for name, value in tests.env.items() if name != "TMPDIR"}
+        done = subprocess.run([tests.fret, "-c", plot], capture_output=True, text=True, env={**bare, **env}, cwd=tests.dir, timeout=120, check=False)
+        tests.check("a picture without TMPDIR", done.returncode == 0 and "hysteresis loop" in done.stdout, done.stdout + done.stderr)
     with fake_gnuplot(tests, "echo $$ >'%s/started'\nexec sleep 300\n" % tests.dir) as fake:
         for where in ("", " to " + png):
             started = os.path.join(tests.dir, "started")

@@ -355,5 +355,28 @@ def bodies(tests):
                     tests.report(done))
 
 
+def pages(tests):
+    """In the terminal: a map of ranges that fall, tics up to the end of a tall page, lines that leave the frame, limits below 0."""
+    rising, falling = (tests.run("-c", "set plot 60x20; plot map x^2 + 1.37*y + 0.123 for x = %s for y = %s" % ranges).stdout
+                       for ranges in (("1 .. 3", "0 .. 5"), ("3 .. 1", "5 .. 0")))
+    tests.check("a map of falling ranges is that of rising ones", rising == falling and re.search("4.*5.*6", rising), rising + falling)
+    done = tests.run("-c", "set plot 79x200; plot x for x = 0 .. 1 yrange 0 .. 1")
+    tests.check("tics up to the end of a tall page", re.findall(r"^ (\d\.\d+) [+|*]", done.stdout, re.M) ==
+                ["%.2f" % (1 - i / 20) for i in range(21)], done.stdout[:3000])
+    for plot in ("plot x for x = 0 .. 10 yrange 2 .. 5", "plot x - 3 for x = 0 .. 10 yrange -1 .. 2"):
+        done = tests.run("-c", "set plot 60x20; %s xrange 0 .. 10" % plot)
+        lines = [line[line.index("|"):] for line in done.stdout.splitlines() if line.count("|") == 2]
+        width = max(map(len, lines), default=1) - 1
+        places = [line.index("*") / width for line in lines if "*" in line]
+        tests.check("what leaves the frame is cut off: " + plot, len(places) == len(lines) > 10 and 0.19 < min(places) < 0.25
+                    and 0.45 < max(places) < 0.51 and not done.stderr, tests.report(done))
+    done = tests.run("-c", "plot -x - 5 against x for x = 1 .. 2 to below.gp; plot x against x for x = 1 .. 2 xrange 10 .. -1 log x")
+    with open(os.path.join(tests.dir, "below.gp"), encoding="utf-8") as f:
+        text = f.read()
+    tests.check("what lies below 0 has room above", "set yrange [-7.05:-5.95]" in text and
+                "a logarithmic x axis needs limits above 0" in done.stderr, text + done.stderr)
+
+
 def run(tests):
-    tests.each([lambda one=one: one(tests) for one in (points, parts, ranges, springs, looks, over, maps, moving, histories, terminals, formulas, bodies)])
+    tests.each([lambda one=one: one(tests) for one in (points, parts, ranges, springs, looks, over, maps, pages, moving, histories, terminals,
+                                                       formulas, bodies)])

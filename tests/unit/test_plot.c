@@ -427,6 +427,8 @@ static void thins(void) {
     for (size_t i = 0; i < 5; i++) /* a stretch that begins with a gap, another axis' gap */
         *(i % 2 ? &s->x[i] : &s->y[i]) = NAN;
     s->x[7] = -5;
+    for (size_t i = 2000; i < 2200; i++) /* and one of gaps alone */
+        s->y[i] = NAN;
     plot_thin(s, 3); /* less than a zigzag keeps: one stretch */
     extremes(s, after);
     CHECK(s->count <= 9 && isnan(s->y[0]) && after[0] == -5 && after[1] == 99999 && after[2] == -9 &&
@@ -932,6 +934,26 @@ static void animates(const char *tmp) {
     CHECK(!any_left(tmp) && !any_left("."));
 }
 
+/* A gnuplot that hangs is stopped. */
+static void late(void) {
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    file_report report;
+    const char *path = getenv("PATH");
+    char *before = strdup(path ? path : "");
+    FILE *fake = fopen("gnuplot", "w");
+    if (!CHECK(fake && before))
+        return;
+    fputs("#!/bin/sh\nexec /bin/sleep 100\n", fake);
+    CHECK(!fclose(fake) && !chmod("gnuplot", 0700) && !setenv("PATH", ".", 1));
+    plot_point(f.panel[0]->series[0], 0, 0);
+    plot_point(f.panel[0]->series[0], 1, 1);
+    CHECK(!plot_draw(&f, &(plot_target){.file = "late.png", .timeout = 0.2}, &report, fresh()));
+    CHECK(strstr(error.text, "gnuplot gave no picture within 0.2 s and was stopped"));
+    CHECK(!setenv("PATH", before, 1) && !unlink("gnuplot") && access("late.png", F_OK));
+    free(before);
+    plot_figure_free(&f);
+}
+
 int main(int argc, char **argv) {
     unit_start("test_plot", argc, argv);
     char dir[] = "/tmp/fret-unit-XXXXXX", tmp[40];
@@ -965,6 +987,7 @@ int main(int argc, char **argv) {
     refused(tmp);
     hostile_names(tmp);
     animates(tmp);
+    late();
     CHECK(!chdir("/") && !rmdir(dir) && !rmdir(tmp));
     return unit_finish();
 }
