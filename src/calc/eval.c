@@ -561,7 +561,7 @@ static bool mentions(const calc *c, const expr *e, const quantity *q, const char
         const definition *d = (const definition *)row->definition;
         if (name && !strcmp(row->text, name))
             return true;
-        const int used = way && d ? snprintf(way, size, "%s -> ", row->text) : 0;
+        const int used = size > 0 && d ? snprintf(way, size, "%s -> ", row->text) : 0;
         const size_t step = (size_t)used < size ? (size_t)used : size;
         if (d && mentions(c, &d->body, q, name, way ? way + step : NULL, size - step))
             return true;

@@ -363,6 +363,10 @@ static void deep_names(void) {
     CHECK(assign(&c, "d101 := d100 + 1") && !evaluate(&c, "d101", &v));
     CHECK(!strcmp(error.text, "live definitions are nested more than 100 deep"));
     CHECK(value_of(&c, "d100") == 101);
+    /* a circle through all of them: as much of the way as a message bears */
+    CHECK(!assign(&c, "d0 := d100") && strlen(error.text) < sizeof error.text);
+    CHECK(!strncmp(error.text, "a circle of definitions: d0 -> d100 -> d99 -> ", 46));
+    CHECK(value_of(&c, "d100") == 101);
     calc_free(&c);
 }
 
