@@ -5,6 +5,7 @@
 #include <float.h>
 
 #include "contact/check.h"
+#include "contact/field.h"
 #include "contact/normal.h"
 #include "number/quadrature.h"
 #include "number/real.h"
@@ -29,9 +30,9 @@ static fret_real singular(const inside *c, fret_real e) {
 static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
     (void)rest;
     const inside *c = context;
-    fret_real last = c->b + c->to, span = (last - c->r) * (last + c->r);
-    fret_real x = sqrtl(c->r * c->r + span * fret_pow(t, c->power));
-    return slope_at(c, fminl(x - c->b, c->to)) / x;
+    fret_real last = c->b + c->to, way = (last - c->r) * (last + c->r) * fret_pow(t, c->power);
+    fret_real x = sqrtl(c->r * c->r + way);
+    return slope_at(c, fminl((c->r - c->b) + way / (c->r + x), c->to)) / x;
 }
 
 /* r not beyond the flat end: e = to t^(2/(k+1)), where g' may be as singular as the kernel. */
@@ -202,9 +203,9 @@ static fret_real outside_integral(const fret_normal *n, fret_real r, fret_real d
     return fret_pow(hi, k1) * span / k1 * fret_integrate(outside_part, &c);
 }
 
-/* int_0^a x^k (r^2-x^2)^-m dx, a flat punch's surface but for its depth: with q = (a/r)^2 half the incomplete
- * beta function B_q(m,1-m), by its series in q, or in 1-q from the edge on. */
-static fret_real surface_flat(fret_real k, fret_real a, fret_real r) {
+/* With q = (a/r)^2 half the incomplete beta function B_q(m,1-m), by its series in q, or in 1-q from the edge
+ * on. */
+fret_real fret_field_flat(fret_real k, fret_real a, fret_real r) {
     const fret_real m = (k + 1) / 2, q = (a / r) * (a / r), away = (r - a) / r * ((r + a) / r);
     const bool near = away < 0.5L;
     const fret_real b = near ? (1 - k) / 2 : m, x = near ? away : q;
@@ -243,7 +244,7 @@ static fret_real surface_near(fret_real k, const fret_term *term, int terms, fre
                               fret_real r, fret_real away) {
     const fret_real m = (k + 1) / 2, whole = FRET_PI / fret_sin(FRET_PI * fminl(m, 1 - m)),
                     edge = fret_pow(away, 1 - m);
-    fret_real sum = dz * surface_flat(k, a, r);
+    fret_real sum = dz * fret_field_flat(k, a, r);
     for (int i = 0; i < terms; i++) {
         const fret_real b = term[i].n / 2 + m;
         fret_real beyond = 0, c = 1;
@@ -432,6 +433,11 @@ static fret_real surface_steep(const fret_normal *n, const fret_power *g, const 
     return G / g->n * (fret_integrate(steep_centre, &c) + fret_integrate_pieces(steep_rim, &c, 1e-16L));
 }
 
+fret_real fret_field_surface_factor(fret_real k) {
+    const fret_real away = (1 - fabsl(k)) / 2;
+    return 2 / FRET_PI * (fabsl(k) <= 0.5L ? fret_cos(FRET_PI * k / 2) : fret_sin(FRET_PI * away));
+}
+
 static fret_status surface_of(const fret_normal *n, const edge *at, fret_real r, fret_real *w) {
     if (r <= at->a) {
         fret_real f = 0;
@@ -446,11 +452,8 @@ static fret_status surface_of(const fret_normal *n, const edge *at, fret_real r,
     else if (part(n, at, r, surface_steep, &gentle, &steep))
         sum = surface_gentle(&gentle, at->a, at->dz, r) - steep;
     else
-        sum = at->dz * surface_flat(n->foundation.k, at->a, r) - steep;
-    const fret_real k = n->foundation.k;
-    const fret_real ck =
-        fabsl(k) <= 0.5L ? fret_cos(FRET_PI * k / 2) : fret_sin(FRET_PI * (1 - fabsl(k)) / 2);
-    *w = 2 * ck / FRET_PI * sum;
+        sum = at->dz * fret_field_flat(n->foundation.k, at->a, r) - steep;
+    *w = fret_field_surface_factor(n->foundation.k) * sum;
     return fret_ok();
 }
 
@@ -479,12 +482,14 @@ static fret_status superpose(const fret_memory *m, fret_real r, bool traction, f
             break;
         const fret_real a = fret_law_radius(n, s.outer);
         fret_real outer = 0;
-        if (steep && s.outer > 0) { /* the depth tells the edge to more digits than its radius */
-            const edge at = {a, s.outer, fret_law_log_radius(n, s.outer)};
-            st = traction ? pressure_of(n, &at, r, &outer) : surface_of(n, &at, r, &outer);
-        } else {
-            st = traction ? fret_pressure(n, a, r, &outer) : fret_surface(n, a, r, &outer);
-        }
+        /* the depth tells the edge to more digits than its radius, of steep powers and near flat ends */
+        const edge at = {a, s.outer, steep && s.outer > 0 ? fret_law_log_radius(n, s.outer) : (dd){0, 0}};
+        if (!traction && s.outer > 0)
+            st = surface_of(n, &at, r, &outer);
+        else if (traction && steep && s.outer > 0)
+            st = pressure_of(n, &at, r, &outer);
+        else if (traction)
+            st = fret_pressure(n, a, r, &outer);
         sum += s.sigma * (outer - inner);
         inner = outer;
     }
