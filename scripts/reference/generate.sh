@@ -3,7 +3,7 @@
 # Makes every table in tests/reference anew; needs Python 3 with mpmath (and numpy for --check). Same bytes every time.
 set -eu
 cd "$(dirname "$0")"
-for script in dd material kappa loss slice scene history shape field corners \
+for script in dd material kappa loss slice scene history shape field rim corners \
     figures spring_model swinging backwards damper; do
     PYTHONDONTWRITEBYTECODE=1 "${PYTHON:-python3}" "$script.py" "$@"
 done

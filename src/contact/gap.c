@@ -161,6 +161,21 @@ static fret_real sampled_bend(const fret_gap *gap, const fret_rule *rule, fret_r
 static fret_real sampled_tip(const fret_gap *gap) {
     return fret_table_pointed(gap->table) ? 1 : 2;
 }
+/* Within the first row. Powers that grow by 2 follow one another. */
+static int sampled_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term *term) {
+    static const int powers[] = {2, 1, 3};
+    fret_real factor[3];
+    int terms = 0;
+    if (!fret_table_tip(gap->table, a, factor))
+        return 0;
+    for (int i = 0; i < 3; i++) {
+        const int n = powers[i];
+        const fret_real f = factor[n - 1] * (n == 1 ? a : n == 2 ? a * a : a * a * a);
+        if (f != 0)
+            term[terms++] = (fret_term){n, rule->kappa[n - 1] * f, rule->kappa[n - 1]};
+    }
+    return terms;
+}
 static size_t sampled_rows(const fret_gap *gap, fret_real r) {
     return fret_table_rows(gap->table, r);
 }
@@ -220,6 +235,7 @@ static const shape shapes[] = {
                         .kink = sampled_kink,
                         .bend = sampled_bend,
                         .grows = sampled_grows,
+                        .series = sampled_series,
                         .rows = sampled_rows},
 };
 
@@ -333,6 +349,8 @@ void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule) {
         fret_rule_series(rule, k);
     for (int i = 0; shape_of(gap)->powers && i < gap->terms; i++)
         rule->kappa[i] = fret_kappa(gap->power[i].n, k);
+    for (int i = 0; shape_of(gap)->rows && i < 3; i++) /* of r, r^2, r^3 */
+        rule->kappa[i] = fret_kappa(i + 1, k);
 }
 
 fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {

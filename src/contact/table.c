@@ -276,6 +276,15 @@ bool fret_table_pointed(const struct fret_table *t) {
     return t->d0[0] > 0;
 }
 
+bool fret_table_tip(const struct fret_table *t, fret_real r, fret_real factor[3]) {
+    if (t->start > 0 || r > t->r[1])
+        return false;
+    factor[0] = t->d0[0];
+    factor[1] = t->d1[0] / 2;
+    factor[2] = t->d2[0] / 3;
+    return true;
+}
+
 bool fret_table_grows(const struct fret_table *t) {
     return t->grows;
 }

@@ -9,7 +9,9 @@
 
 fret_real fret_table_start(const struct fret_table *table);
 fret_real fret_table_end(const struct fret_table *table);
-bool fret_table_pointed(const struct fret_table *table);             /* begins with a slope, like a cone */
+bool fret_table_pointed(const struct fret_table *table); /* begins with a slope, like a cone */
+/* f as a sum of factors by r, r^2, r^3 up to r; false: it is none. */
+bool fret_table_tip(const struct fret_table *table, fret_real r, fret_real factor[3]);
 size_t fret_table_rows(const struct fret_table *table, fret_real r); /* up to r */
 bool fret_table_grows(const struct fret_table *table);               /* as fret_gap_grows */
 fret_real fret_table_kink(const struct fret_table *table, fret_real e);

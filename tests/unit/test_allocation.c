@@ -304,6 +304,31 @@ static void smaller_swings(void) {
     fret_memory_free(m);
 }
 
+/* What a field wants is kept, or nothing is. */
+static void fields(void) {
+    const unit_scene s = unit_make_scene(2, 0.3);
+    fret_gap gap = {.kind = FRET_GAP_TABLE};
+    struct fret_table *table = NULL;
+    fret_normal *normal = NULL;
+    fret_memory *m = NULL;
+    fret_fields *many = NULL;
+    fret_real q = 0, again = 0;
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
+    gap.table = table;
+    CHECK_OK(fret_normal_make(&s.material, &gap, &normal));
+    CHECK_OK(fret_memory_make(normal, 0.4, &m));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 5}));
+    EACH_FAILS(1, fret_fields_make(normal, &many), many == NULL);
+    EACH_FAILS(4, fret_fields_traction(many, m, 1e-5L, &q), isnan(fret_fields_error(many)));
+    CHECK_OK(fret_fields_traction(many, m, 1e-5L, &again));
+    CHECK(q > 0 && q == again && fret_fields_error(many) < 1e-14);
+    fret_fields_free(many);
+    fret_memory_free(m);
+    fret_normal_free(normal);
+    fret_table_free(table);
+}
+
 int main(int argc, char **argv) {
     unit_start("allocation", argc, argv);
     const unit_scene s = unit_make_scene(2, 0.3);
@@ -323,5 +348,6 @@ int main(int argc, char **argv) {
     springs();
     swings();
     smaller_swings();
+    fields();
     return unit_finish();
 }

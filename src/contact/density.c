@@ -1,0 +1,654 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Integrals of the profile against (x^2-r^2)^(m-1) and (r^2-x^2)^-m: in s = x^2 these are powers of a
+ * distance, so polynomials in s have closed forms near r, and Taylor's series of the kernel serves for what
+ * is far, in blocks. Allocates, and frees what it allocated. */
+#include "contact/density.h"
+
+#include <float.h>
+#include <stdlib.h>
+
+#include "contact/check.h"
+#include "number/double.h"
+#include "number/real.h"
+
+/* ---- powers against the kernels ---------------------------------------------------------------- */
+
+enum { MOST = 20, SERIES = 120 };
+
+/* y^q times the powers y^j, y in 0..1, with what their integrals need of q and m. */
+typedef struct powers {
+    fret_real q;
+    int of_m, whole;              /* q = of_m m + whole */
+    fret_real over[MOST + 1];     /* 1/(q+j+1) */
+    fret_real with[MOST + 1];     /* 1/(q+j+1+m) */
+    fret_real edge[SERIES];       /* ratios of terms: (n-q)/(m+1+n) */
+    fret_real below[SERIES];      /* (1-m+n)/(q+2+n) */
+    fret_real top[SERIES];        /* the same with q+MOST for q */
+    fret_real span[SERIES];       /* 1/(q+m-n) */
+    fret_real twice;              /* 2^(q+m) */
+    fret_real from_one, from_nil; /* int_1^2 t^q (t-1)^(m-1) dt, int_0^2 t^q (t+1)^(m-1) dt */
+    fret_real whole_beta;         /* int_0^1 t^(q+MOST) (1-t)^-m dt */
+} powers;
+
+/* 1 + r0 z + r0 r1 z^2 + ... */
+static fret_real series(const fret_real *ratio, fret_real z) {
+    fret_real sum = 1, term = 1;
+    for (int n = 0; n < SERIES; n++) {
+        term *= ratio[n] * z;
+        sum += term;
+        if (fabsl(term) < LDBL_EPSILON / 8 * sum)
+            break;
+    }
+    return sum;
+}
+
+static void make_power(powers *p, int of_m, int whole, fret_real m) {
+    const fret_real q = of_m * m + whole;
+    *p = (powers){.q = q, .of_m = of_m, .whole = whole};
+    for (int j = 0; j <= MOST; j++) {
+        p->over[j] = 1 / (q + j + 1);
+        p->with[j] = 1 / (q + j + 1 + m);
+    }
+    for (int n = 0; n < SERIES; n++) {
+        p->edge[n] = (n - q) / (m + 1 + n);
+        p->below[n] = (1 - m + n) / (q + 2 + n);
+        p->top[n] = (1 - m + n) / (q + MOST + 2 + n);
+        p->span[n] = 1 / (q + m - n);
+    }
+    p->twice = fret_pow(2, q + m);
+    p->from_one = fret_pow(2, q) / m * series(p->edge, 0.5L);
+    p->from_nil = fret_pow(2, q + 1) * fret_pow(3, m - 1) * p->over[0] * series(p->below, 2 / 3.0L);
+    p->whole_beta = fret_beta(q + MOST + 1, 1 - m);
+}
+
+/* What integrals from d to x, or up to x, have in common, whatever q is: d >= 0 the distance of r, rest that
+ * of x from r; what takes time, where it is wanted. */
+typedef struct reach {
+    fret_real m, d, x, rest;
+    fret_real rim, x_m, d_m, span; /* rest^m or rest^(1-m), x^m, d^m, ln(x/2d) */
+} reach;
+
+static fret_real to_q(const powers *p, fret_real x, fret_real x_m) {
+    const fret_real v = p->of_m ? x_m : 1;
+    return p->whole == 0 ? v : p->whole > 0 ? v * x : v / x;
+}
+
+/* int_(2d)^x y^q (y-sign d)^(m-1) dy, 2d < x: the kernel in powers of d/y. */
+static fret_real far_part(const powers *p, const reach *c, fret_real sign, fret_real d_power) {
+    const fret_real t = p->q + c->m, u = c->d / c->x, step = sign * u, half = sign / 2;
+    fret_real outer = to_q(p, c->x, c->x_m) * c->x_m, inner = p->twice * d_power, sum = 0, b = 1;
+    const fret_real enough = LDBL_EPSILON / 8 * (outer + inner);
+    for (int n = 0; n < SERIES && b * (fabsl(outer) + fabsl(inner)) > enough; n++) {
+        const fret_real power = t - n;
+        sum += b * (fabsl(power) * c->span < 0.5L
+                        ? inner * (power != 0 ? fret_expm1(power * c->span) / power : c->span)
+                        : (outer - inner) * p->span[n]);
+        b *= (1 - c->m + n) / (1 + n);
+        outer *= step;
+        inner *= half;
+    }
+    return sum;
+}
+
+/* I[j] = int y^(q+j) (y-d)^(m-1) dy from d to x. */
+static void above(const powers *p, const reach *c, int count, fret_real *I) {
+    fret_real xq = to_q(p, c->x, c->x_m);
+    if (2 * c->d < c->x) {
+        const fret_real d_power = to_q(p, c->d, c->d_m) * c->d_m;
+        I[0] = p->from_one * d_power + far_part(p, c, 1, d_power);
+    } else {
+        I[0] = c->rim * xq / c->m * series(p->edge, c->rest / c->x);
+    }
+    for (int j = 0; j + 1 < count; j++) {
+        xq *= c->x;
+        I[j + 1] = (xq * c->rim + (p->q + (j + 1)) * c->d * I[j]) * p->with[j];
+    }
+}
+
+/* The same from 0 to x with y+d for y-d. */
+static void below(const powers *p, const reach *c, int count, fret_real *I) {
+    const fret_real d = c->d, x = c->x;
+    fret_real xq = to_q(p, x, c->x_m);
+    if (d < x) {
+        if (d <= 0) {
+            I[0] = xq * c->rim / (p->q + c->m);
+        } else if (2 * d < x) {
+            const fret_real d_power = to_q(p, d, c->d_m) * c->d_m;
+            I[0] = p->from_nil * d_power + far_part(p, c, -1, d_power);
+        } else {
+            I[0] = x * xq * c->rim / c->rest * p->over[0] * series(p->below, x / c->rest);
+        }
+        for (int j = 0; j + 1 < count; j++) {
+            xq *= x;
+            I[j + 1] = (xq * c->rim - (p->q + (j + 1)) * d * I[j]) * p->with[j];
+        }
+        return;
+    }
+    /* downwards from the last, which is small */
+    fret_real edge[MOST + 1];
+    const fret_real down = 1 / d;
+    for (int j = 0; j <= MOST; j++) {
+        xq *= x;
+        edge[j] = xq * c->rim;
+    }
+    fret_real now = edge[MOST] / c->rest * p->over[MOST] * series(p->top, x / c->rest);
+    for (int j = MOST; j-- > 0;) {
+        now = (edge[j] - now * (p->q + (j + 1) + c->m)) * p->over[j] * down;
+        if (j < count)
+            I[j] = now;
+    }
+}
+
+/* I[j] = int_0^x y^(q+j) (d-y)^-m dy, d >= x. */
+static void beyond(const powers *p, const reach *c, int count, fret_real *I) {
+    static const fret_real near = 0.4L;
+    const fret_real q = p->q + MOST, m = c->m, out = c->rest / c->d, down = 1 / c->d;
+    fret_real edge[MOST], xq = to_q(p, c->x, c->x_m), sum = 0, term = 1, now;
+    for (int j = 0; j < MOST; j++) {
+        xq *= c->x;
+        edge[j] = xq * c->rim;
+    }
+    if (out > near) {
+        const fret_real z = c->x / c->d;
+        for (int n = 0; n < SERIES && term > LDBL_EPSILON / 8 * (1 - z); n++) {
+            sum += term / (q + 1 + n);
+            term *= z * (m + n) / (1 + n);
+        }
+        now = xq * c->x * sum / c->d_m;
+    } else {
+        for (int n = 0; n < SERIES && fabsl(term) > LDBL_EPSILON / 8; n++) {
+            sum += term / (1 - m + n);
+            term *= out * (n - q) / (1 + n);
+        }
+        fret_real whole = p->whole_beta * to_q(p, c->d, c->d_m) * c->d / c->d_m;
+        for (int j = 0; j < MOST; j++)
+            whole *= c->d;
+        /* out^(1-m) d^(q+1-m) = rest^(1-m) d^q */
+        fret_real part = c->rim * sum * to_q(p, c->d, c->d_m);
+        for (int j = 0; j < MOST; j++)
+            part *= c->d;
+        now = whole - part;
+    }
+    for (int j = MOST; j-- > 0;) {
+        now = ((p->q + (j + 2) - m) * now + edge[j]) * p->over[j] * down;
+        if (j < count)
+            I[j] = now;
+    }
+}
+
+/* ---- stretches and blocks ---------------------------------------------------------------------- */
+
+/* s = lo^2 + width y. What varies is smooth + y^q kink, polynomials in y. */
+typedef struct curve {
+    int smooth, kink; /* terms */
+    fret_real c[2][MOST];
+} curve;
+
+enum { SLOPE, DEPTH, KINDS };
+
+typedef struct stretch {
+    fret_real lo, hi, width;
+    curve of[KINDS];        /* g' dx/dy, and with q+1 x^k g dx/dy */
+    fret_real scale[KINDS]; /* width^(m-1), width^-m */
+} stretch;
+
+/* Stretches first .. last-1 from afar: the moments of the kernel's series about the middle. A block precedes
+ * its two halves. */
+enum { TAYLOR = 56 };
+typedef struct block {
+    size_t first, last, next;
+    fret_real lo, hi, half;
+    double moment[KINDS][TAYLOR];
+} block;
+
+enum { ONE, SLOPES, DEPTHS, POWERS };
+
+struct fret_density {
+    fret_real m, from, from_depth, unit, error;
+    powers power[POWERS]; /* q = 0, that of the slope, and of the depth */
+    double far_scale[KINDS];
+    size_t count, room, blocks;
+    stretch *stretch;
+    block *block;
+};
+
+/* The distance of squares, with all digits. */
+static fret_real square_distance(fret_real x, fret_real y) {
+    return (x - y) * (x + y);
+}
+
+static fret_real sum_of(const curve *c, const fret_real *smooth, const fret_real *kink) {
+    fret_real sum = 0;
+    for (int j = 0; j < c->smooth; j++)
+        sum += c->c[0][j] * smooth[j];
+    for (int j = 0; j < c->kink; j++)
+        sum += c->c[1][j] * kink[j];
+    return sum;
+}
+
+/* Of one stretch up to the radius a. */
+static fret_real near_integral(const struct fret_density *d, const stretch *p, int kind, fret_real a,
+                               fret_real r) {
+    const curve *of = &p->of[kind];
+    const powers *kink = &d->power[kind == SLOPE ? SLOPES : DEPTHS];
+    const fret_real at = square_distance(r, p->lo) / p->width, rest = square_distance(a, r) / p->width;
+    reach c = {.m = d->m,
+               .d = fabsl(at),
+               .x = a >= p->hi ? 1 : square_distance(a, p->lo) / p->width,
+               .rest = fabsl(rest),
+               .x_m = 1,
+               .d_m = 1};
+    if (kind == SLOPE && rest <= 0)
+        return 0;
+    void (*integrals)(const powers *, const reach *, int, fret_real *) = kind == DEPTH ? beyond
+                                                                         : at > 0      ? above
+                                                                                       : below;
+    if (c.x != 1)
+        c.x_m = fret_pow(c.x, d->m);
+    if (rest != 0)
+        c.rim = fret_pow(c.rest, kind == DEPTH ? 1 - d->m : d->m);
+    if (c.d > 0 && (kind == DEPTH || 2 * c.d < c.x)) {
+        c.d_m = fret_pow(c.d, d->m);
+        c.span = kind == DEPTH ? 0 : fret_log(c.x / (2 * c.d));
+    }
+    fret_real I[2][MOST];
+    if (of->smooth)
+        integrals(&d->power[ONE], &c, of->smooth, I[0]);
+    if (of->kink)
+        integrals(kink, &c, of->kink, I[1]);
+    return p->scale[kind] * sum_of(of, I[0], I[1]);
+}
+
+/* What terms fall to 2^-56 by such a ratio. */
+static int terms_of(double ratio) {
+    int count = 4;
+    for (double left = 0x1p56 * ratio * ratio * ratio * ratio; left > 1 && count < TAYLOR; left *= ratio)
+        count++;
+    return count;
+}
+
+/* Is the block far enough? Its integral. */
+static bool far_integral(const struct fret_density *d, const block *b, int kind, fret_real r,
+                         fret_real *sum) {
+    const fret_real away =
+        kind == SLOPE ? square_distance(b->lo, r) + b->half : square_distance(r, b->hi) + b->half;
+    if (!(away >= 2 * b->half))
+        return false;
+    const double ratio = (double)(b->half / away), x2 = ratio * ratio, *c = b->moment[kind];
+    const int count = terms_of(ratio) & ~1;
+    double even = 0, odd = 0;
+    for (int n = count - 2; n >= 0; n -= 2) {
+        even = even * x2 + c[n];
+        odd = odd * x2 + c[n + 1];
+    }
+    const double power = kind == SLOPE ? (double)d->m - 1 : -(double)d->m;
+    *sum = d->far_scale[kind] * fret_double_exp(power * fret_double_log((double)(away / d->unit))) *
+           (even + ratio * odd);
+    return true;
+}
+
+static fret_real integral(const struct fret_density *d, int kind, const fret_cut *cut, size_t count,
+                          fret_real r) {
+    fret_real sum = 0, far;
+    size_t now = 0; /* the cut that ends the part which holds the start of a block */
+    for (size_t i = 0; i < d->blocks;) {
+        const block *b = &d->block[i];
+        const bool leaf = b->next == i + 1;
+        if (kind == SLOPE && b->hi <= r) {
+            i = b->next;
+            continue;
+        }
+        while (now < count && cut[now].a <= b->lo)
+            now++;
+        if (now == count)
+            break;
+        if (b->hi <= cut[now].a && far_integral(d, b, kind, r, &far)) {
+            sum += cut[now].weight * far;
+            i = b->next;
+            continue;
+        }
+        i++;
+        if (!leaf)
+            continue;
+        bool more = true;
+        for (size_t j = now; j < count && more; j++) {
+            more = cut[j].a < b->hi;
+            const fret_real weight = cut[j].weight - (more && j + 1 < count ? cut[j + 1].weight : 0);
+            if (weight != 0)
+                sum += weight * near_integral(d, &d->stretch[b->first], kind, fminl(cut[j].a, b->hi), r);
+        }
+    }
+    return sum;
+}
+
+fret_real fret_density_pressure(const struct fret_density *d, const fret_cut *cut, size_t count,
+                                fret_real r) {
+    return integral(d, SLOPE, cut, count, r);
+}
+
+fret_real fret_density_surface(const struct fret_density *d, const fret_cut *cut, size_t count, fret_real r) {
+    return integral(d, DEPTH, cut, count, r);
+}
+
+fret_real fret_density_error(const struct fret_density *d) {
+    return d->error;
+}
+
+fret_real fret_density_from(const struct fret_density *d) {
+    return d->from;
+}
+
+fret_real fret_density_from_depth(const struct fret_density *d) {
+    return d->from_depth;
+}
+
+/* ---- making ------------------------------------------------------------------------------------ */
+
+typedef struct maker {
+    struct fret_density *d;
+    const fret_normal *normal;
+    int nodes;                              /* Chebyshev's, of a stretch */
+    fret_real start, depth;                 /* depth: g at the end of the last stretch */
+    fret_real wave[4 * MOST];               /* cos(pi i/(2 nodes)) */
+    fret_real power[MOST][MOST];            /* Chebyshev's polynomials of 2y-1 in powers of y */
+    fret_real moment[POWERS][MOST][TAYLOR]; /* int_0^1 y^(q+j) (2y-1)^n dy */
+    fret_status failed;
+} maker;
+
+enum { ROW_NODES = 14, MOST_PROFILES = 30000, HALVINGS = 12 };
+static const fret_real TOLERANCE =
+                           2e-15L, /* of the last terms, of the whole: less is left between the nodes */
+    FOUND = 1e-15L;                /* of g' there */
+
+static void make_rule(maker *m) {
+    for (int i = 0; i < 4 * m->nodes; i++)
+        m->wave[i] = fret_cos(FRET_PI * i / (2 * m->nodes));
+    for (int i = 0; i < MOST; i++)
+        for (int j = 0; j < MOST; j++)
+            m->power[i][j] =
+                i == 0   ? (fret_real)(j == 0)
+                : i == 1 ? (fret_real)(j == 0   ? -1
+                                       : j == 1 ? 2
+                                                : 0)
+                         : (j ? 4 * m->power[i - 1][j - 1] : 0) - 2 * m->power[i - 1][j] - m->power[i - 2][j];
+    for (int p = 0; p < POWERS; p++)
+        for (int j = 0; j < MOST; j++) {
+            const fret_real q = m->d->power[p].q + j + 1;
+            m->moment[p][j][0] = 1 / q;
+            for (int n = 1; n < TAYLOR; n++)
+                m->moment[p][j][n] = (1 - n * m->moment[p][j][n - 1]) / (q + n);
+        }
+}
+
+static fret_real node_of(const maker *m, int j) {
+    return (1 + m->wave[2 * j + 1]) / 2;
+}
+
+static fret_real largest(const fret_real *v, int count) {
+    fret_real most = 0;
+    for (int i = 0; i < count; i++)
+        most = fmaxl(most, fabsl(v[i]));
+    return most;
+}
+
+/* Powers of y through values at the nodes, no more than count; false: they do not fall to next to nothing of
+ * the whole. */
+static bool fit(const maker *m, const fret_real *value, fret_real whole, fret_real *c, int *count) {
+    const int nodes = m->nodes;
+    fret_real term[MOST] = {0};
+    for (int i = 0; i < nodes; i++) {
+        for (int j = 0; j < nodes; j++)
+            term[i] += m->wave[i * (2 * j + 1) % (4 * nodes)] * value[j];
+        term[i] *= (i ? 2 : 1) / (fret_real)nodes;
+    }
+    if (!(fmaxl(fabsl(term[nodes - 1]), fabsl(term[nodes - 2])) <= TOLERANCE * whole))
+        return false;
+    *count = nodes;
+    while (*count > 0 && fabsl(term[*count - 1]) <= 1e-20L * whole)
+        --*count;
+    for (int j = 0; j < *count; j++) {
+        c[j] = 0;
+        for (int i = j; i < *count; i++)
+            c[j] += term[i] * m->power[i][j];
+    }
+    return true;
+}
+
+/* The integral from 0 to y of y^q times a polynomial, over y^q y. */
+static fret_real risen(const powers *p, const fret_real *c, int count, fret_real y) {
+    fret_real v = 0;
+    while (count-- > 0)
+        v = v * y + c[count] * p->over[count];
+    return v;
+}
+
+static fret_real value_of(const fret_real *c, int count, fret_real y) {
+    fret_real v = 0;
+    while (count-- > 0)
+        v = v * y + c[count];
+    return v;
+}
+
+/* g' dx/dy at y, and what of it is not smooth at the lower end. */
+static fret_real slope_at(const maker *m, const stretch *p, bool kink, fret_real y, fret_real *x,
+                          fret_real *bend) {
+    const fret_normal *n = m->normal;
+    *x = sqrtl(p->lo * p->lo + p->width * y);
+    const fret_real e = (p->lo - m->start) + p->width * y / (p->lo + *x), rate = p->width / (2 * *x),
+                    slope = rate * fret_gap_profile(&n->gap, &n->rule, e).slope;
+    *bend = !kink               ? 0
+            : p->lo == m->start ? slope
+                                : rate * fret_gap_bend(&n->gap, &n->rule, p->lo - m->start, e);
+    return slope;
+}
+
+static bool make_stretch(maker *m, stretch *p, bool kink) {
+    struct fret_density *d = m->d;
+    const fret_real k = m->normal->foundation.k, q = d->power[SLOPES].q;
+    fret_real smooth[MOST], sharp[MOST], slopes[MOST], whole[MOST], x[MOST], bend;
+    curve *slope = &p->of[SLOPE], *depth = &p->of[DEPTH];
+    for (int j = 0; j < m->nodes; j++) {
+        const fret_real y = node_of(m, j);
+        slopes[j] = slope_at(m, p, kink, y, &x[j], &bend);
+        smooth[j] = slopes[j] - bend;
+        sharp[j] = bend != 0 ? bend / fret_pow(y, q) : 0;
+    }
+    const fret_real most = largest(p->lo == m->start ? sharp : slopes, m->nodes);
+    if (!fit(m, smooth, most, slope->c[0], &slope->smooth) || !fit(m, sharp, most, slope->c[1], &slope->kink))
+        return false;
+    for (int j = 0; j < m->nodes; j++) {
+        const fret_real y = node_of(m, j), rate = p->width / 2 * fret_pow(x[j], k - 1);
+        smooth[j] = rate * (m->depth + y * risen(&d->power[ONE], slope->c[0], slope->smooth, y));
+        sharp[j] = rate * risen(&d->power[SLOPES], slope->c[1], slope->kink, y);
+        whole[j] = smooth[j] + y * fret_pow(y, q) * sharp[j];
+    }
+    const fret_real deep = largest(whole, m->nodes);
+    if (!fit(m, smooth, deep, depth->c[0], &depth->smooth) || !fit(m, sharp, deep, depth->c[1], &depth->kink))
+        return false;
+    static const fret_real look = 0.41L;
+    const fret_real want = slope_at(m, p, kink, look, &x[0], &bend);
+    const fret_real got = value_of(slope->c[0], slope->smooth, look) +
+                          (slope->kink ? fret_pow(look, q) * value_of(slope->c[1], slope->kink, look) : 0);
+    const fret_real error = fabsl(got - want) / fmaxl(largest(slopes, m->nodes), fabsl(want));
+    if (!(error <= FOUND))
+        return false;
+    d->error = fmaxl(d->error, error);
+    p->scale[SLOPE] = fret_pow(p->width, d->m - 1);
+    p->scale[DEPTH] = fret_pow(p->width, -d->m);
+    m->depth += risen(&d->power[ONE], slope->c[0], slope->smooth, 1) +
+                risen(&d->power[SLOPES], slope->c[1], slope->kink, 1);
+    return true;
+}
+
+static bool add(maker *m, const stretch *p) {
+    struct fret_density *d = m->d;
+    if (d->count == d->room) {
+        const size_t room = 2 * d->room + 16;
+        stretch *grown = realloc(d->stretch, room * sizeof *grown);
+        if (!grown) {
+            m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+            return false;
+        }
+        d->stretch = grown;
+        d->room = room;
+    }
+    d->stretch[d->count++] = *p;
+    return true;
+}
+
+/* From the radius lo to hi, in halves where one stretch does not do; kink: not smooth at lo. */
+static bool cover(maker *m, fret_real lo, fret_real hi, bool kink, int halvings) {
+    stretch p = {.lo = lo, .hi = hi, .width = square_distance(hi, lo)};
+    if (fret_stopped(m->normal))
+        return false;
+    if (make_stretch(m, &p, kink))
+        return add(m, &p);
+    const fret_real middle = sqrtl((lo * lo + hi * hi) / 2);
+    return halvings > 0 && !m->failed.code && cover(m, lo, middle, kink, halvings - 1) &&
+           cover(m, middle, hi, false, halvings - 1);
+}
+
+/* Beyond a flat end. */
+static bool cover_smooth(maker *m, fret_real a) {
+    static const fret_real step = 1.3L;
+    for (fret_real lo = m->start; lo < a; lo *= step)
+        if (!cover(m, lo, lo * step, lo == m->start, HALVINGS))
+            return false;
+    return true;
+}
+
+/* From row to row of a table; within the first one it is told by powers where there is no flat end. */
+static bool cover_rows(maker *m, fret_real a) {
+    const fret_gap *gap = &m->normal->gap;
+    const size_t count = fret_gap_rows(gap, a) - fret_gap_rows(gap, m->start) + 1;
+    if (count > MOST_PROFILES / ROW_NODES)
+        return false;
+    fret_real *row = malloc((count + 1) * sizeof *row);
+    if (!row) {
+        m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        return false;
+    }
+    size_t i = count + 1;
+    row[--i] = a - m->start;
+    while (i > 0 && row[i] > 0) {
+        row[i - 1] = fret_gap_kink(gap, row[i]);
+        i--;
+    }
+    if (m->start <= 0)
+        i++;
+    bool ok = i < count;
+    m->d->from = m->start + row[i];
+    if (ok && m->start <= 0)
+        m->d->from_depth = m->depth = fret_gap_profile(gap, &m->normal->rule, row[i]).g;
+    for (; ok && i < count; i++)
+        ok = cover(m, m->start + row[i], m->start + row[i + 1], true, HALVINGS);
+    free(row);
+    return ok;
+}
+
+static void moments_of(const maker *m, const stretch *p, fret_real moment[KINDS][TAYLOR]) {
+    for (int kind = 0; kind < KINDS; kind++) {
+        const curve *c = &p->of[kind];
+        for (int n = 0; n < TAYLOR; n++) {
+            moment[kind][n] = 0;
+            for (int j = 0; j < c->smooth; j++)
+                moment[kind][n] += c->c[0][j] * m->moment[ONE][j][n];
+            for (int j = 0; j < c->kink; j++)
+                moment[kind][n] += c->c[1][j] * m->moment[kind == SLOPE ? SLOPES : DEPTHS][j][n];
+        }
+    }
+}
+
+/* Adds the moments of a half, moved to the middle of the whole: shift and ratio in half-widths of that. */
+static void add_moved(fret_real whole[KINDS][TAYLOR], fret_real part[KINDS][TAYLOR], fret_real shift,
+                      fret_real ratio) {
+    for (int kind = 0; kind < KINDS; kind++) {
+        fret_real power = 1;
+        for (int n = 0; n < TAYLOR; n++) {
+            part[kind][n] *= power;
+            power *= ratio;
+        }
+        for (int pass = 1; pass < TAYLOR; pass++) /* binomials */
+            for (int n = TAYLOR - 1; n >= pass; n--)
+                part[kind][n] += shift * part[kind][n - 1];
+        for (int n = 0; n < TAYLOR; n++)
+            whole[kind][n] += part[kind][n];
+    }
+}
+
+static void make_block(maker *m, size_t first, size_t last, fret_real moment[KINDS][TAYLOR]) {
+    struct fret_density *d = m->d;
+    block *b = &d->block[d->blocks++];
+    const fret_real lo = d->stretch[first].lo, hi = d->stretch[last - 1].hi;
+    *b = (block){.first = first, .last = last, .lo = lo, .hi = hi, .half = square_distance(hi, lo) / 2};
+    if (last - first > 1) {
+        const size_t middle = first + (last - first) / 2;
+        const fret_real between = d->stretch[middle].lo;
+        fret_real part[KINDS][TAYLOR];
+        for (int n = 0; n < TAYLOR; n++)
+            moment[SLOPE][n] = moment[DEPTH][n] = 0;
+        make_block(m, first, middle, part);
+        add_moved(moment, part, -square_distance(hi, between) / (2 * b->half),
+                  square_distance(between, lo) / (2 * b->half));
+        make_block(m, middle, last, part);
+        add_moved(moment, part, square_distance(between, lo) / (2 * b->half),
+                  square_distance(hi, between) / (2 * b->half));
+    } else {
+        moments_of(m, &d->stretch[first], moment);
+    }
+    fret_real factor[KINDS] = {1, 1};
+    for (int n = 0; n < TAYLOR; n++) {
+        for (int kind = 0; kind < KINDS; kind++)
+            b->moment[kind][n] = (double)(factor[kind] * moment[kind][n]);
+        factor[SLOPE] *= (d->m - 1 - n) / (n + 1);
+        factor[DEPTH] *= (d->m + n) / (n + 1);
+    }
+    b->next = d->blocks;
+}
+
+fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_density **out) {
+    struct fret_density *d = calloc(1, sizeof *d);
+    maker *m = calloc(1, sizeof *m);
+    const bool rows = fret_gap_sampled(&n->gap);
+    const fret_real half = (n->foundation.k + 1) / 2;
+    fret_status st = fret_ok();
+    bool ok = d && m;
+    *out = NULL;
+    if (!ok)
+        st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    if (ok) {
+        *d = (struct fret_density){.m = half, .from = fret_gap_start(&n->gap), .unit = a * a};
+        *m = (maker){.d = d, .normal = n, .nodes = rows ? ROW_NODES : MOST, .start = d->from};
+        const int sharp = fret_gap_sharp(&n->gap);
+        make_power(&d->power[ONE], 0, 0, half);
+        make_power(&d->power[SLOPES], 1, -sharp, half);
+        make_power(&d->power[DEPTHS], 1, 1 - sharp, half);
+        d->far_scale[SLOPE] = (double)fret_pow(d->unit, half - 1);
+        d->far_scale[DEPTH] = (double)fret_pow(d->unit, -half);
+        make_rule(m);
+        ok = (rows ? cover_rows : cover_smooth)(m, a);
+        st = fret_unless_stopped(n, m->failed);
+    }
+    if (ok && !st.code) {
+        fret_real moment[KINDS][TAYLOR];
+        d->block = malloc((2 * d->count - 1) * sizeof *d->block);
+        if (d->block)
+            make_block(m, 0, d->count, moment);
+        else
+            st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    }
+    free(m);
+    if (ok && !st.code)
+        *out = d;
+    else
+        fret_density_free(d);
+    return st;
+}
+
+void fret_density_free(struct fret_density *d) {
+    if (d) {
+        free(d->block);
+        free(d->stretch);
+    }
+    free(d);
+}

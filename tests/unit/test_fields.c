@@ -1,0 +1,423 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fields at many places against slow twins: the definitions, integrated from kink to kink, and the quadrature
+ * of one place after the other. Random contacts, histories and places, with corners. FRET_FIELDS=N asks N
+ * times as much and prints the worst errors. */
+#include "contact/normal.h"
+#include "fret/field.h"
+#include "number/quadrature.h"
+#include "number/real.h"
+#include "unit.h"
+
+static unsigned long long seed = 5;
+static double uniform(double lo, double hi) {
+    return unit_random(&seed, lo, hi);
+}
+
+/* 10^-most .. 1 */
+static double small(double most) {
+    return pow(10, uniform(-most, 0));
+}
+
+typedef enum shape {
+    FLAT_CONE,
+    FLAT_PARABOLOID,
+    FLAT_ROUNDED,
+    ROUND_TABLE,
+    POINTED_TABLE,
+    FLAT_TABLE,
+    SHAPES
+} shape;
+typedef enum what { PRESSURE, SURFACE, TRACTION, SURFACE_X, WHATS } what;
+static const char *const shape_name[] = {"flat-cone", "flat-paraboloid", "flat-rounded",
+                                         "table",     "pointed table",   "flat table"};
+static const char *const what_name[] = {"p", "uz", "qx", "ux"};
+static fret_real worst[SHAPES][WHATS];
+static long asked[SHAPES];
+static double grading_now;
+
+static void compare(shape which, what w, fret_real got, fret_real want, fret_real scale) {
+    const fret_real error = got == want ? 0 : fabsl(got - want) / scale;
+    asked[which]++;
+    worst[which][w] = fmaxl(worst[which][w], error);
+    if (unit_count(error <= UNIT_TOL(1e-13L, 1e-9L), __FILE__, __LINE__))
+        printf("%s, %s, k = %g: %.21Lg, expected %.21Lg, error %.2Le\n", shape_name[which], what_name[w],
+               grading_now, got, want, error);
+}
+
+/* Rows of uneven width, rough in the last two digits that count. */
+static struct fret_table *make_table(shape which, int rows) {
+    double r[64], f[64];
+    struct fret_table *t = NULL;
+    for (int i = 0; i < rows; i++) {
+        r[i] = i ? r[i - 1] + 2e-3 / rows * uniform(0.3, 1.7) : 0;
+        const double x = which == FLAT_TABLE ? fmax(r[i] - 4e-4, 0) : r[i];
+        f[i] = (which == POINTED_TABLE ? 0.01 * x : x * x / 0.02) * uniform(0.999, 1.001);
+    }
+    CHECK_OK(fret_table_make(r, f, (size_t)rows, NULL, &t));
+    return t;
+}
+
+/* ---- the definitions, for distances e from the start of the gap --------------------------------- */
+
+typedef struct stretch {
+    const fret_normal *normal;
+    fret_real r, dz, lo, beyond, width, power; /* beyond: from r to lo */
+} stretch;
+
+static fret_real start_of(const stretch *c) {
+    return fret_gap_start(&c->normal->gap);
+}
+
+/* g' (x^2-r^2)^((k-1)/2) at e = lo + way */
+static fret_real pressure_rate(const stretch *c, fret_real way) {
+    const fret_real away = c->beyond + way, e = c->lo + way, k = c->normal->foundation.k;
+    return e > 0 && away > 0 ? fret_gap_profile(&c->normal->gap, &c->normal->rule, e).slope *
+                                   fret_pow(away * (start_of(c) + e + c->r), (k - 1) / 2)
+                             : 0;
+}
+
+/* The near part: e = lo + width t^power. */
+static fret_real near_rate(fret_real t, fret_real rest, void *context) {
+    const stretch *c = context;
+    const fret_real way = c->width * fret_pow(t, c->power);
+    (void)rest;
+    return c->power * way / t * pressure_rate(c, way);
+}
+
+/* Farther: e = lo + width power^(t-1). */
+static fret_real other_rate(fret_real t, fret_real rest, void *context) {
+    const stretch *c = context;
+    const fret_real span = fret_log(c->power), way = c->width * fret_exp(-span * rest);
+    (void)t;
+    return span * way * pressure_rate(c, way);
+}
+
+/* Of a contact that reaches to the distance a. */
+static fret_real pressure_of(const fret_normal *n, fret_real a, fret_real r) {
+    const fret_gap *gap = &n->gap;
+    const fret_real inner = fmaxl(r - fret_gap_start(gap), 0);
+    fret_real sum = 0;
+    for (fret_real hi = a, lo; hi > inner; hi = lo) {
+        const fret_real kink = fret_gap_kink(gap, hi);
+        lo = fmaxl(kink, inner);
+        const fret_real beyond = fmaxl(lo - (r - fret_gap_start(gap)), 0);
+        const fret_real scale = lo > kink ? lo - kink : beyond > 0 ? beyond : hi - lo;
+        const fret_real part = fminl(hi - lo, scale) / 64;
+        stretch c = {n, r, 0, lo, beyond, part, 2 / (1 + n->foundation.k)};
+        sum += fret_integrate(near_rate, &c);
+        for (fret_real way = part; way < hi - lo; way *= 16) {
+            c.width = fminl(16 * way, hi - lo);
+            c.power = c.width / way;
+            sum += fret_integrate(other_rate, &c);
+        }
+    }
+    return n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI * sum;
+}
+
+/* x^k (dz-g) (r^2-x^2)^-((k+1)/2), x = lo + width t from the centre on. */
+static fret_real surface_rate(fret_real t, fret_real rest, void *context) {
+    const stretch *c = context;
+    const fret_real x = c->lo + c->width * t, e = (c->lo - start_of(c)) + c->width * t;
+    const fret_real away = (c->r - (c->lo + c->width)) + c->width * rest, k = c->normal->foundation.k;
+    const fret_real g = e > 0 ? fret_gap_profile(&c->normal->gap, &c->normal->rule, e).g : 0;
+    return x > 0 ? c->width * fret_pow(x, k) * (c->dz - g) * fret_pow(away * (c->r + x), -(k + 1) / 2) : 0;
+}
+
+static fret_real surface_of(const fret_normal *n, fret_real a, fret_real dz, fret_real r) {
+    const fret_real start = fret_gap_start(&n->gap), k = n->foundation.k;
+    fret_real sum = 0;
+    for (fret_real hi = a; hi > 0;) {
+        const fret_real lo = hi > start ? start + fret_gap_kink(&n->gap, hi - start) : 0;
+        stretch c = {.normal = n, .r = r, .dz = dz, .lo = lo, .width = hi - lo};
+        sum += fret_integrate(surface_rate, &c);
+        hi = lo;
+    }
+    return 2 * fret_cos(FRET_PI * k / 2) / FRET_PI * sum;
+}
+
+/* ---- questions --------------------------------------------------------------------------------- */
+
+typedef struct asking {
+    shape which;
+    const fret_normal *normal;
+    fret_fields *fields;
+    const fret_memory *memory;
+    fret_state now;
+} asking;
+
+static fret_real slow_pressure(const asking *q, fret_real a, fret_real r) {
+    return a > r ? pressure_of(q->normal, a - fret_gap_start(&q->normal->gap), r) : 0;
+}
+
+/* Of a smooth gap the quadrature does. */
+static fret_real slow_surface(const asking *q, fret_real a, fret_real dz, fret_real r) {
+    fret_real w = 0, f = 0;
+    if (r <= a) { /* the depth tells the edge to more digits than the radius of a flat end */
+        CHECK_OK(fret_gap_f(&q->normal->gap, r, &f));
+        return dz - f;
+    }
+    if (q->which >= ROUND_TABLE)
+        return surface_of(q->normal, a, dz, r);
+    CHECK_OK(fret_surface(q->normal, a, r, &w));
+    return w;
+}
+
+static void ask_inside(const asking *q, fret_real r) {
+    const fret_real scale = slow_pressure(q, q->now.a, r), mu = fret_memory_friction(q->memory);
+    fret_real got = 0, want = 0, inner = 0;
+    fret_segment s;
+    CHECK_OK(fret_fields_pressure(q->fields, q->now.a, r, &got));
+    compare(q->which, PRESSURE, got, scale, scale);
+    for (size_t i = 0; fret_memory_segment(q->memory, i, &s); i++) {
+        const fret_real outer = slow_pressure(q, fret_law_radius(q->normal, s.outer), r);
+        want += mu * s.sigma * (outer - inner);
+        inner = outer;
+    }
+    CHECK_OK(fret_fields_traction(q->fields, q->memory, r, &got));
+    compare(q->which, TRACTION, got, want, mu * scale);
+}
+
+static void ask_anywhere(const asking *q, fret_real r) {
+    const fret_real factor = fret_memory_friction(q->memory) * q->normal->foundation.eta, dz = q->now.dz;
+    fret_real got = 0, want = 0, inner = 0;
+    fret_segment s;
+    CHECK_OK(fret_fields_surface(q->fields, q->now.a, r, &got));
+    compare(q->which, SURFACE, got, slow_surface(q, q->now.a, dz, r), dz);
+    if (q->which < ROUND_TABLE)
+        CHECK_OK(fret_surface_x(q->memory, r, &want));
+    for (size_t i = 0; q->which >= ROUND_TABLE && fret_memory_segment(q->memory, i, &s); i++) {
+        const fret_real outer = slow_surface(q, fret_law_radius(q->normal, s.outer), s.outer, r);
+        want += factor * s.sigma * (outer - inner);
+        inner = outer;
+    }
+    CHECK_OK(fret_fields_surface_x(q->fields, q->memory, r, &got));
+    compare(q->which, SURFACE_X, got, want, factor * dz);
+}
+
+/* Near the centre, the flat end, rows, the edges of slices, the edge of the contact, and anywhere. */
+static fret_real place_of(const asking *q, bool inside) {
+    const fret_real a = q->now.a, start = fret_gap_start(&q->normal->gap);
+    const fret_real off = small(q->which >= ROUND_TABLE ? 2 : 10) * (uniform(0, 1) < 0.5 ? -1 : 1);
+    fret_segment s;
+    size_t count = 0;
+    while (fret_memory_segment(q->memory, count, &s))
+        count++;
+    (void)fret_memory_segment(q->memory, (size_t)uniform(0, (double)count * 0.999), &s);
+    switch ((int)uniform(0, 6)) {
+    case 0:
+        return a * small(5);
+    case 1:
+        return start > 0 ? start * (1 + off) : a * uniform(0, 1);
+    case 2: /* at a row, or beside one: not where the definitions do not resolve that */
+        if (q->which >= ROUND_TABLE && grading_now < -0.5)
+            return a * uniform(0, 1);
+        return start + fret_gap_kink(&q->normal->gap, a - start) + (uniform(0, 1) < 0.5 ? 0 : a * off / 100);
+    case 3:
+        return fret_law_radius(q->normal, s.outer) * (1 + off);
+    case 4:
+        return inside ? a * (1 - fabsl(off) / 2) : a * (1 + fabsl(off));
+    default:
+        return inside ? a * uniform(0, 1) : a / small(3);
+    }
+}
+
+static fret_gap gap_of(shape which) {
+    static const fret_gap_kind kinds[] = {FRET_GAP_FLAT_CONE, FRET_GAP_FLAT_PARABOLOID,
+                                          FRET_GAP_FLAT_ROUNDED};
+    fret_gap gap = {.kind = FRET_GAP_TABLE, .b = 4e-4, .R = 0.01, .slope = 0.01};
+    if (which < ROUND_TABLE)
+        gap.kind = kinds[which];
+    else
+        gap.table = make_table(which, (int)uniform(5, 12));
+    return gap;
+}
+
+static void history(shape which, double k, int places) {
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
+    const fret_gap gap = gap_of(which);
+    const double mu = 0.3;
+    fret_normal *normal = NULL;
+    fret_memory *m = NULL;
+    fret_press top;
+    asking q = {.which = which};
+    grading_now = k;
+    if (fret_normal_make(&material, &gap, &normal).code) { /* too rough for this k */
+        fret_table_free((struct fret_table *)gap.table);
+        return;
+    }
+    CHECK_OK(fret_memory_make(normal, mu, &m));
+    CHECK_OK(fret_fields_make(normal, &q.fields));
+    q.normal = normal;
+    q.memory = m;
+    const fret_real end = fminl(fret_normal_end(normal), 1.8e-3L), start = fret_gap_start(&gap);
+    CHECK_OK(fret_press_by_radius(normal, (double)(start + (end - start) * uniform(0.02, 0.95)), &top));
+    const int steps = 1 + (int)uniform(0, 5);
+    for (int i = 0; i <= steps; i++) {
+        const double FN = (double)top.F * (i ? uniform(0.3, 1) : 1);
+        const double part = uniform(0, 1) < 0.3 ? 1 - small(9) : uniform(0, 1);
+        const fret_step s = {FRET_TO_FORCE, FRET_TO_FX, FN,
+                             i ? mu * FN * part * (uniform(0, 1) < 0.5 ? -1 : 1) : 0};
+        CHECK_OK(fret_memory_step(m, &s));
+    }
+    fret_memory_state(m, &q.now);
+    for (int i = 0; i < places; i++) {
+        const fret_real r = place_of(&q, true), far = fabsl(place_of(&q, false));
+        const bool weak = which >= ROUND_TABLE && fabs(k) > 0.7; /* the definitions are, outside */
+        if (r < q.now.a && r > 0 && !(r == start && which <= FLAT_PARABOLOID))
+            ask_inside(&q, r);
+        if (!weak && q.now.a > start) /* else the radius does not tell the contact */
+            ask_anywhere(&q, far);
+    }
+    CHECK(which >= ROUND_TABLE || fret_fields_error(q.fields) < 2e-15);
+    fret_fields_free(q.fields);
+    fret_memory_free(m);
+    fret_normal_free(normal);
+    fret_table_free((struct fret_table *)gap.table);
+}
+
+/* Next to a flat end, against the reference. */
+static void rim(void) {
+    unit_table t;
+    if (!unit_open(&t, "rim.csv"))
+        return;
+    while (unit_row(&t)) {
+        unit_scene s = unit_make_scene(2, unit_input(&t, 4));
+        fret_fields *f = NULL;
+        fret_real p = 0;
+        s.gap.kind = (fret_gap_kind)atoi(t.cell[0]);
+        s.gap.b = unit_input(&t, 1);
+        s.gap.R = unit_input(&t, 2);
+        s.gap.slope = unit_input(&t, 3);
+        CHECK_OK(fret_fields_make(unit_make_normal(&s), &f));
+        CHECK_OK(fret_fields_pressure(f, unit_input(&t, 5), unit_input(&t, 6), &p));
+        CHECK_REL(p, unit_result(&t, 7), UNIT_TOL(1e-15L, 1e-9L));
+        fret_fields_free(f);
+    }
+}
+
+/* What has a formula, or is infinite, or is nowhere, is answered as for one place; and what was asked before
+ * leaves no trace. */
+static void alike(void) {
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
+    const fret_gap power = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{2, 0.005, 0.01}}};
+    const fret_gap flat = gap_of(FLAT_CONE);
+    const fret_normal *normal = unit_keep_normal(&material, &power);
+    fret_fields *f = NULL, *g = NULL;
+    fret_memory *m = NULL;
+    fret_real one = 0, many = -1;
+    CHECK_OK(fret_fields_make(normal, &f));
+    CHECK_OK(fret_pressure(normal, 1e-4L, 3e-5L, &one));
+    CHECK_OK(fret_fields_pressure(f, 1e-4L, 3e-5L, &many));
+    CHECK(one == many && isnan(fret_fields_error(f)));
+    fret_fields_free(f);
+    normal = unit_keep_normal(&material, &flat);
+    CHECK_OK(fret_memory_make(normal, 0.3, &m));
+    CHECK_OK(fret_fields_make(normal, &f));
+    CHECK_OK(fret_fields_make(normal, &g));
+    CHECK_OK(fret_fields_traction(f, m, 1e-4L, &many));
+    CHECK(many == 0);
+    CHECK_OK(fret_fields_surface_x(f, m, 1e-4L, &many));
+    CHECK(many == 0);
+    CHECK_ERROR(fret_fields_pressure(f, 1e-3L, -1, &many), FRET_NEGATIVE, "r");
+    CHECK_ERROR(fret_fields_surface(f, 1e-3L, -1, &many), FRET_NEGATIVE, "r");
+    CHECK_ERROR(fret_fields_pressure(f, 1e-3L, 4e-4, &many), FRET_SINGULAR, "r");
+    CHECK_OK(fret_fields_pressure(f, 1e-3L, 1e-3L, &many));
+    CHECK(many == 0);
+    CHECK_OK(fret_fields_pressure(f, 4e-4L, 1e-4L, &many));
+    CHECK(many == 0);
+    CHECK_OK(fret_fields_pressure(f, 5e-3L, 1e-4L, &many));
+    CHECK_OK(fret_fields_pressure(f, 6e-4L, 1e-4L, &many));
+    CHECK_OK(fret_fields_pressure(g, 6e-4L, 1e-4L, &one));
+    CHECK(one == many && fret_fields_error(f) == fret_fields_error(g));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}));
+    CHECK_ERROR(fret_fields_traction(f, m, -1, &many), FRET_NEGATIVE, "r");
+    CHECK_ERROR(fret_fields_surface_x(f, m, -1, &many), FRET_NEGATIVE, "r");
+    fret_fields_free(f);
+    fret_fields_free(g);
+    fret_fields_free(NULL);
+    fret_memory_free(m);
+}
+
+/* So many rows, or so near k = 1 that a series of the first one does not do: the quadrature answers. */
+static void declines(void) {
+    enum { ROWS = 3000 };
+    static double r[ROWS], f[ROWS];
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
+    struct fret_table *t = NULL;
+    fret_fields *fields = NULL;
+    fret_normal *normal = NULL;
+    fret_real one = 0, many = -1;
+    for (int i = 0; i < ROWS; i++) {
+        r[i] = 1e-3 * i / (ROWS - 1);
+        f[i] = r[i] * r[i] / 0.02;
+    }
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = t};
+    CHECK_OK(fret_normal_make(&material, &gap, &normal));
+    CHECK_OK(fret_fields_make(normal, &fields));
+    CHECK_OK(fret_pressure(normal, 9e-4L, 3e-4L, &one));
+    CHECK_OK(fret_fields_pressure(fields, 9e-4L, 3e-4L, &many));
+    CHECK(one == many && isnan(fret_fields_error(fields)));
+    CHECK_OK(fret_fields_pressure(fields, 2e-4L, 1e-4L, &many)); /* few enough rows */
+    CHECK_OK(fret_pressure(normal, 2e-4L, 1e-4L, &one));
+    CHECK(!isnan(fret_fields_error(fields)));
+    CHECK_REL(many, one, 1e-6L);
+    CHECK_OK(fret_fields_pressure(fields, 3e-7L, 1e-7L, &many)); /* none at all */
+    CHECK_OK(fret_pressure(normal, 3e-7L, 1e-7L, &one));
+    CHECK(many == one);
+    fret_fields_free(fields);
+    fret_normal_free(normal);
+    fret_table_free(t);
+}
+
+static void stops(void) {
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
+    const fret_gap flat = gap_of(FLAT_ROUNDED);
+    volatile sig_atomic_t stop = 0;
+    fret_normal *normal = NULL;
+    fret_fields *f = NULL;
+    fret_memory *m = NULL;
+    fret_real out = 0;
+    CHECK_OK(fret_normal_make(&material, &flat, &normal));
+    fret_normal_stop(normal, &stop);
+    CHECK_OK(fret_memory_make(normal, 0.3, &m));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 10}));
+    CHECK_OK(fret_fields_make(normal, &f));
+    stop = 1;
+    CHECK_CODE(fret_fields_pressure(f, 6e-4L, 1e-4L, &out), FRET_INTERRUPTED);
+    CHECK_CODE(fret_fields_surface(f, 6e-4L, 1e-3L, &out), FRET_INTERRUPTED);
+    CHECK_CODE(fret_fields_traction(f, m, 1e-4L, &out), FRET_INTERRUPTED);
+    CHECK_CODE(fret_fields_surface_x(f, m, 1e-4L, &out), FRET_INTERRUPTED);
+    CHECK(isnan(fret_fields_error(f)));
+    stop = 0;
+    CHECK_OK(fret_fields_traction(f, m, 1e-4L, &out));
+    CHECK(out > 0 && fret_fields_error(f) < 2e-15);
+    fret_fields_free(f);
+    fret_memory_free(m);
+    fret_normal_free(normal);
+}
+
+int main(int argc, char **argv) {
+    static const double grading[] = {-0.99, -0.7, -0.3, 0, 0.3, 0.7, 0.99};
+    unit_start("fields", argc, argv);
+    const char *many = getenv("FRET_FIELDS");
+    const int times = many ? atoi(many) : 1;
+    for (int i = 0; i < times; i++)
+        for (shape which = 0; which < SHAPES; which++)
+            for (size_t j = 0; j < sizeof grading / sizeof *grading; j++)
+                history(which, grading[j], which >= ROUND_TABLE ? 2 : 10);
+    rim();
+    alike();
+    declines();
+    stops();
+    if (many) {
+        for (shape which = 0; which < SHAPES; which++) {
+            printf("%-16s", shape_name[which]);
+            for (what w = 0; w < WHATS; w++)
+                printf("%4s %8.1Le", what_name[w], worst[which][w]);
+            printf("%10ld\n", asked[which]);
+        }
+    }
+    return unit_finish();
+}
