@@ -45,24 +45,39 @@ bool call_g(scene *s, value x, long double *out, calc_error *error) {
 
 /* ---- local fields ------------------------------------------------------------------------------ */
 
-static bool normal_field(scene *s, value r,
-                         fret_status (*field)(const fret_normal *, fret_real, fret_real, fret_real *),
-                         long double *out, calc_error *error) {
+typedef fret_status one_place(const fret_normal *, fret_real a, fret_real r, fret_real *out);
+typedef fret_status of_places(fret_fields *, fret_real a, fret_real r, fret_real *out);
+
+/* What has answered. */
+static void used_fields(scene *s, const fret_fields *fields) {
+    const double error = fields ? fret_fields_error(fields) : (double)NAN;
+    if (isnan(error)) {
+        s->used |= USED(MODEL_QUADRATURE);
+        return;
+    }
+    s->pieces_error = s->used & USED(MODEL_PIECES) ? fmax(s->pieces_error, error) : error;
+    s->used |= USED(MODEL_PIECES);
+}
+
+static bool normal_field(scene *s, value r, one_place *one, of_places *many, long double *out,
+                         calc_error *error) {
     const fret_normal *normal;
     const fret_press *press;
-    if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error))
+    fret_fields *fields;
+    if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error) ||
+        !scene_fields(s, &fields, error))
         return false;
-    s->used |= USED(MODEL_QUADRATURE);
-    fret_status st = field(normal, press->a, r.v, out);
+    fret_status st = fields ? many(fields, press->a, r.v, out) : one(normal, press->a, r.v, out);
+    used_fields(s, fields);
     return calc_status(error, &st);
 }
 
 bool call_p(scene *s, value r, long double *out, calc_error *error) {
-    return normal_field(s, r, fret_pressure, out, error);
+    return normal_field(s, r, fret_pressure, fret_fields_pressure, out, error);
 }
 
 bool call_uz(scene *s, value r, long double *out, calc_error *error) {
-    return normal_field(s, r, fret_surface, out, error);
+    return normal_field(s, r, fret_surface, fret_fields_surface, out, error);
 }
 
 /* The memory of a scene with friction. */
@@ -73,22 +88,24 @@ static bool tangential_memory(scene *s, const fret_memory **memory, calc_error *
 }
 
 static bool tangential_field(scene *s, value r,
-                             fret_status (*field)(const fret_memory *, fret_real, fret_real *),
+                             fret_status (*one)(const fret_memory *, fret_real, fret_real *),
+                             fret_status (*many)(fret_fields *, const fret_memory *, fret_real, fret_real *),
                              long double *out, calc_error *error) {
     const fret_memory *memory;
-    if (!tangential_memory(s, &memory, error))
+    fret_fields *fields;
+    if (!tangential_memory(s, &memory, error) || !scene_fields(s, &fields, error))
         return false;
-    s->used |= USED(MODEL_QUADRATURE);
-    fret_status st = field(memory, r.v, out);
+    fret_status st = fields ? many(fields, memory, r.v, out) : one(memory, r.v, out);
+    used_fields(s, fields);
     return calc_status(error, &st);
 }
 
 bool call_qx(scene *s, value r, long double *out, calc_error *error) {
-    return tangential_field(s, r, fret_traction, out, error);
+    return tangential_field(s, r, fret_traction, fret_fields_traction, out, error);
 }
 
 bool call_ux(scene *s, value r, long double *out, calc_error *error) {
-    return tangential_field(s, r, fret_surface_x, out, error);
+    return tangential_field(s, r, fret_surface_x, fret_fields_surface_x, out, error);
 }
 
 /* ---- the one-dimensional model ----------------------------------------------------------------- */

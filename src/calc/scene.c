@@ -16,6 +16,7 @@ static void answers_end(answers *a, bool keep) {
         free(a->trail->at);
     free(a->trail);
     fret_normal *normal = a->normal, *k0 = a->k0, *many = a->many;
+    fret_fields *fields = a->fields;
     const double borne = a->borne;
     *a = (answers){.normal = NULL};
     if (keep) {
@@ -23,7 +24,9 @@ static void answers_end(answers *a, bool keep) {
         a->k0 = k0;
         a->many = many;
         a->borne = borne;
+        a->fields = fields;
     } else {
+        fret_fields_free(fields);
         fret_normal_free(normal);
         fret_normal_free(k0);
         fret_normal_free(many);
@@ -46,6 +49,8 @@ void scene_show(scene *s, int digits) {
     s->digits = digits;
     if (s->answers.many && s->answers.borne != borne_by(s)) {
         scene_forget(s, true);
+        fret_fields_free(s->answers.fields);
+        s->answers.fields = NULL;
         s->answers.borne = borne_by(s);
     }
 }
@@ -64,7 +69,9 @@ static void pass_contact(answers *to, answers *from) {
     to->k0 = from->k0;
     to->many = from->many;
     to->borne = from->borne;
+    to->fields = from->fields;
     from->normal = from->k0 = from->many = NULL;
+    from->fields = NULL;
 }
 
 void scene_take_contact(scene *s, scene *from) {
@@ -308,6 +315,21 @@ void scene_expect_many(scene *s) {
     scene_show(s, 0);
     if (scene_press(s, &press, &ignored) && press->F > 0 && make_normal(s, false, &s->like, &ignored))
         (void)fret_normal_prepare(s->like, room * (double)press->F, borne_by(s)); /* else without */
+}
+
+/* Of a table one place alone would want all of its rows: they are worked out for all places at once. */
+bool scene_fields(scene *s, fret_fields **fields, calc_error *error) {
+    const fret_normal *normal;
+    *fields = NULL;
+    if (!scene_normal(s, &normal, error))
+        return false;
+    if (!s->many && !fret_normal_gap(normal)->table)
+        return true;
+    fret_status st = {.code = FRET_OK};
+    if (!s->answers.fields)
+        st = fret_fields_make(normal, &s->answers.fields);
+    *fields = s->answers.fields;
+    return calc_status(error, &st);
 }
 
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error) {

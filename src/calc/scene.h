@@ -35,6 +35,7 @@ typedef struct answers {
     fret_normal *normal, *k0; /* or NULL: not made yet */
     fret_normal *many;        /* of a gap without a formula, prepared for many questions; or NULL */
     double borne;             /* the error of its law that was allowed */
+    fret_fields *fields;      /* of `normal`, for many places; or NULL */
     bool press_ready, state_ready, reach_ready;
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
@@ -149,6 +150,8 @@ bool scene_gap(scene *s, fret_gap *out, calc_error *error);
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
 /* The one for many questions, prepared for loads up to F. */
 bool scene_many_normal(scene *s, double F, const fret_normal **normal, calc_error *error);
+/* Fields of the contact at many places; *fields is NULL where each is asked for by itself. */
+bool scene_fields(scene *s, fret_fields **fields, calc_error *error);
 /* The same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);
 bool scene_friction(scene *s, double *mu, calc_error *error);
