@@ -665,18 +665,21 @@ static void other_gap(const char *name, const fret_gap *of, double error, long f
     fret_normal_free(ready);
 }
 
-static void gap_rows(const char *name, int count, double error) {
+static struct fret_table *sphere_rows(int count) {
     static double r[MANY_ROWS], f[MANY_ROWS];
-    fret_gap table = {.kind = FRET_GAP_TABLE};
     struct fret_table *rows = NULL;
     for (int i = 0; i < count; i++) {
         r[i] = 0.3e-3 * i / (count - 1);
         f[i] = r[i] * r[i] / (10e-3 + sqrt(1e-4 - r[i] * r[i]));
     }
     need(fret_table_make(r, f, (size_t)count, NULL, &rows));
-    table.table = rows;
+    return rows;
+}
+
+static void gap_rows(const char *name, int count, double error) {
+    const fret_gap table = {.kind = FRET_GAP_TABLE, .table = sphere_rows(count)};
     other_gap(name, &table, error, count > 1000 ? 2 : 10);
-    fret_table_free(rows);
+    fret_table_free((struct fret_table *)table.table);
 }
 
 static void other_gaps(void) {
@@ -688,6 +691,78 @@ static void other_gaps(void) {
     gap_rows("400 rows, to 1e-8", GAP_ROWS, 1e-8);
     gap_rows("1e5 rows", MANY_ROWS, 0);
     gap_rows("1e5 rows, to 1e-8", MANY_ROWS, 1e-8);
+}
+
+/* Fields of a state of three slices: inside up to the edge, outside up to three radii. */
+enum field { FIELD_P, FIELD_QX, FIELD_UZ, FIELD_UX, FIELDS };
+
+static double field_values(enum field what, fret_fields *many, const fret_normal *n, const fret_memory *m,
+                           int count) {
+    fret_state now;
+    fret_memory_state(m, &now);
+    const double t0 = seconds();
+    for (int i = 1; i <= count; i++) {
+        const fret_real part = (i - 0.5L) / count, in = now.a * part, out = now.a * (1 + 2 * part);
+        fret_real value = 0;
+        if (what == FIELD_P)
+            need(many ? fret_fields_pressure(many, now.a, in, &value) : fret_pressure(n, now.a, in, &value));
+        else if (what == FIELD_QX)
+            need(many ? fret_fields_traction(many, m, in, &value) : fret_traction(m, in, &value));
+        else if (what == FIELD_UZ)
+            need(many ? fret_fields_surface(many, now.a, out, &value) : fret_surface(n, now.a, out, &value));
+        else
+            need(many ? fret_fields_surface_x(many, m, out, &value) : fret_surface_x(m, out, &value));
+        sink = (double)value;
+    }
+    return (seconds() - t0) / count;
+}
+
+static void gap_fields(const char *name, const fret_gap *of) {
+    static const char *const words[] = {"p(r)", "qx(r)", "uz(r) outside", "ux(r) outside"};
+    const double push[] = {0.6, 0.1};
+    fret_normal *n;
+    fret_memory *m;
+    fret_fields *many;
+    fret_real value;
+    char what[80];
+    need(fret_normal_make(&material, of, &n));
+    need(fret_memory_make(n, mu, &m));
+    need(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
+    for (int i = 0; i < 2; i++)
+        need(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, push[i] * mu * FN}));
+    need(fret_fields_make(n, &many));
+    fret_state now;
+    fret_memory_state(m, &now);
+    const double t0 = seconds();
+    need(fret_fields_traction(many, m, now.a / 2, &value));
+    const double setting_up = seconds() - t0, one = field_values(FIELD_P, NULL, n, m, 10);
+    for (enum field f = FIELD_P; f < FIELDS; f++) {
+        double best = INFINITY;
+        for (int run = 0; run < 5; run++)
+            best = fmin(best, field_values(f, many, n, m, 200));
+        snprintf(what, sizeof what, "%s: %s", name, words[f]);
+        line(what, best, field_values(f, NULL, n, m, 10), "one place by quadrature", us, "5 us");
+    }
+    snprintf(what, sizeof what, "%s: to set up", name);
+    line(what, setting_up, one, "one p(r)", us, "");
+    fret_fields_free(many);
+    fret_memory_free(m);
+    fret_normal_free(n);
+}
+
+static void fields_of_gaps(void) {
+    const fret_gap cone = {.kind = FRET_GAP_FLAT_CONE, .b = 0.1e-3, .slope = 0.02},
+                   paraboloid = {.kind = FRET_GAP_FLAT_PARABOLOID, .b = 0.1e-3, .R = 10e-3},
+                   rounded = {.kind = FRET_GAP_FLAT_ROUNDED, .b = 0.1e-3, .R = 10e-3};
+    fret_gap few = {.kind = FRET_GAP_TABLE, .table = sphere_rows(GAP_ROWS)},
+             many = {.kind = FRET_GAP_TABLE, .table = sphere_rows(MANY_ROWS)};
+    gap_fields("flat-cone", &cone);
+    gap_fields("flat-paraboloid", &paraboloid);
+    gap_fields("flat-rounded", &rounded);
+    gap_fields("400 rows", &few);
+    gap_fields("1e5 rows", &many);
+    fret_table_free((struct fret_table *)few.table);
+    fret_table_free((struct fret_table *)many.table);
 }
 
 int main(void) {
@@ -766,6 +841,7 @@ int main(void) {
     need(fret_press_by_force(ball, FN, &q));
     line("exact-sphere: p(r)", least(pressure_value, ball, &q), one_power, "one powl", us, "5 us");
     line("exact-sphere: uz(r) outside", least(surface_value, ball, &q), one_power, "one powl", us, "5 us");
+    fields_of_gaps();
     fret_normal_free(ball);
     fret_normal_free(n);
     return EXIT_SUCCESS;
