@@ -54,30 +54,23 @@ static fret_real stuck(const fret_contact *contact) {
 typedef struct branch {
     const peak *of;
     fret_real end; /* phi of 1; that of 0 is 0 */
-    fret_status failed;
 } branch;
 
 static fret_real branch_at(fret_real t, fret_real rest, void *context) {
-    branch *b = context;
+    const branch *b = context;
     const fret_real sine = t < rest ? fret_sin(b->end * t) : fret_cos((FRET_PI / 2 - b->end) + b->end * rest);
-    fret_loading first;
-    const fret_status st =
-        fret_loading_by_displacement(&b->of->contact, (double)(b->of->dxA * sine * sine), &first);
-    if (st.code) {
-        b->failed = st;
-        return 0;
-    }
+    fret_loading first = {0, 0, 0, 0};
+    /* as far as dxA it does not fail, if it has not failed there */
+    (void)fret_loading_by_displacement(&b->of->contact, (double)(b->of->dxA * sine * sine), &first);
     return first.Fx * (1 - 2 * sine * sine);
 }
 
 /* First loading is singular in its slope where it slides: an end of the interval, for the rule to bear. */
-static bool harmonic_stiffness(const peak *p, fret_real *out, calc_error *error) {
+static fret_real harmonic_stiffness(const peak *p) {
     branch b = {.of = p, .end = FRET_PI / 2};
     fret_real flat = 0;
-    if (p->dxA <= 0) {
-        *out = stuck(&p->contact);
-        return true;
-    }
+    if (p->dxA <= 0)
+        return stuck(&p->contact);
     const fret_real slides = fret_gross_slip(&p->contact) / p->dxA; /* sin^2 phi there */
     if (slides < 1) {
         const fret_real rest = 1 - slides;
@@ -85,8 +78,7 @@ static bool harmonic_stiffness(const peak *p, fret_real *out, calc_error *error)
         flat = -p->contact.mu * p->contact.press.F * sqrtl(slides * rest);
     }
     const fret_real part = b.end * fret_integrate(branch_at, &b);
-    *out = -8 / (FRET_PI * p->dxA) * (part + flat);
-    return calc_status(error, &b.failed);
+    return -8 / (FRET_PI * p->dxA) * (part + flat);
 }
 
 /* ---- functions --------------------------------------------------------------------------------- */
@@ -102,7 +94,10 @@ bool call_Ksec(scene *s, value amplitude, long double *out, calc_error *error) {
 bool call_Kp(scene *s, value dxA, long double *out, calc_error *error) {
     peak p;
     dxA.d = DIM_LENGTH;
-    return peak_of(s, dxA, &p, error) && harmonic_stiffness(&p, out, error);
+    if (!peak_of(s, dxA, &p, error))
+        return false;
+    *out = harmonic_stiffness(&p);
+    return true;
 }
 
 bool call_Kpp(scene *s, value dxA, long double *out, calc_error *error) {
@@ -116,9 +111,8 @@ bool call_Kpp(scene *s, value dxA, long double *out, calc_error *error) {
 
 bool call_loss_factor(scene *s, value amplitude, long double *out, calc_error *error) {
     peak p;
-    fret_real stiffness;
-    if (!peak_of(s, amplitude, &p, error) || !harmonic_stiffness(&p, &stiffness, error))
+    if (!peak_of(s, amplitude, &p, error))
         return false;
-    *out = p.dx > 0 ? p.loss / (FRET_PI * p.dx * p.dx) / stiffness : 0;
+    *out = p.dx > 0 ? p.loss / (FRET_PI * p.dx * p.dx) / harmonic_stiffness(&p) : 0;
     return true;
 }
