@@ -665,19 +665,23 @@ static void other_gap(const char *name, const fret_gap *of, double error, long f
     fret_normal_free(ready);
 }
 
-static struct fret_table *sphere_rows(int count) {
+/* As a file of so many digits has them. */
+static struct fret_table *sphere_rows(int count, int digits) {
     static double r[MANY_ROWS], f[MANY_ROWS];
     struct fret_table *rows = NULL;
     for (int i = 0; i < count; i++) {
         r[i] = 0.3e-3 * i / (count - 1);
         f[i] = r[i] * r[i] / (10e-3 + sqrt(1e-4 - r[i] * r[i]));
+        char text[40];
+        snprintf(text, sizeof text, "%.*g", digits, f[i]);
+        f[i] = strtod(text, NULL);
     }
     need(fret_table_make(r, f, (size_t)count, NULL, &rows));
     return rows;
 }
 
-static void gap_rows(const char *name, int count, double error) {
-    const fret_gap table = {.kind = FRET_GAP_TABLE, .table = sphere_rows(count)};
+static void gap_rows(const char *name, int count, int digits, double error) {
+    const fret_gap table = {.kind = FRET_GAP_TABLE, .table = sphere_rows(count, digits)};
     other_gap(name, &table, error, count > 1000 ? 2 : 10);
     fret_table_free((struct fret_table *)table.table);
 }
@@ -687,10 +691,11 @@ static void other_gaps(void) {
                    rounded = {.kind = FRET_GAP_FLAT_ROUNDED, .b = 0.1e-3, .R = 10e-3};
     other_gap("exact-sphere", &sphere, 0, 200);
     other_gap("flat-rounded", &rounded, 0, 200);
-    gap_rows("400 rows", GAP_ROWS, 0);
-    gap_rows("400 rows, to 1e-8", GAP_ROWS, 1e-8);
-    gap_rows("1e5 rows", MANY_ROWS, 0);
-    gap_rows("1e5 rows, to 1e-8", MANY_ROWS, 1e-8);
+    gap_rows("400 rows", GAP_ROWS, 17, 0);
+    gap_rows("400 rows, to 1e-8", GAP_ROWS, 17, 1e-8);
+    gap_rows("1e5 rows", MANY_ROWS, 17, 0);
+    gap_rows("1e5 rows, to 1e-8", MANY_ROWS, 17, 1e-8);
+    gap_rows("1e5 rows of nine digits", MANY_ROWS, 9, 0);
 }
 
 /* Fields of a state of three slices: inside up to the edge, outside up to three radii. */
@@ -754,8 +759,8 @@ static void fields_of_gaps(void) {
     const fret_gap cone = {.kind = FRET_GAP_FLAT_CONE, .b = 0.1e-3, .slope = 0.02},
                    paraboloid = {.kind = FRET_GAP_FLAT_PARABOLOID, .b = 0.1e-3, .R = 10e-3},
                    rounded = {.kind = FRET_GAP_FLAT_ROUNDED, .b = 0.1e-3, .R = 10e-3};
-    fret_gap few = {.kind = FRET_GAP_TABLE, .table = sphere_rows(GAP_ROWS)},
-             many = {.kind = FRET_GAP_TABLE, .table = sphere_rows(MANY_ROWS)};
+    fret_gap few = {.kind = FRET_GAP_TABLE, .table = sphere_rows(GAP_ROWS, 17)},
+             many = {.kind = FRET_GAP_TABLE, .table = sphere_rows(MANY_ROWS, 17)};
     gap_fields("flat-cone", &cone);
     gap_fields("flat-paraboloid", &paraboloid);
     gap_fields("flat-rounded", &rounded);
