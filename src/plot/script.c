@@ -242,7 +242,7 @@ static int key_columns(const scribe *s, size_t longest) {
 /* Outside the frame, so that it covers nothing: beside it where entries are many and short, else below. */
 static void set_key(scribe *s, const plot_panel *p) {
     size_t longest, entries = key_entries(s, p, &longest);
-    if (!entries || p->map.nx)
+    if (!entries)
         fputs("unset key\n", s->to);
     else if (s->panels == 1 && longest <= 12 && entries > 3)
         fputs("set key outside right center vertical Left reverse samplen 3.5 spacing 1.15\n", s->to);

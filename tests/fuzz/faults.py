@@ -58,6 +58,8 @@ STATEMENTS = (
               "set model springs 100", "plot loop to out.gp", "plot traction to out.gp", "plot springs to out.gp",
               "plot dW for FA = 1 N .. 20 N steps 5 to out.gp", "plot loop", "plot loop | pressure to out.svg",
               'plot loop title "%s" to out.gp' % ("long " * 4000), "plot dW for FA = 1 N .. 9 N with k = 0, 0.5",
+              "set plot terminal block; plot loop",
+              "plot map dW for FA = 1 N .. 9 N steps 5 for mu = 0.3 .. 0.5 steps 5",
               "plot map dW for FA = 1 N .. 9 N steps 5 for mu = 0.3 .. 0.5 steps 5 to out.gp",
               "plot FN against Fx along program over follow.csv to out.gp",
               "animate loop frames 3 to out.gif", "animate Fx against dx along cycle FA=5 N frames 2 to out.gif",

@@ -373,6 +373,12 @@ def pages(tests):
     done = tests.run("-c", "plot -x - 5 against x for x = 1 .. 2 to below.gp; plot x against x for x = 1 .. 2 xrange 10 .. -1 log x")
     with open(os.path.join(tests.dir, "below.gp"), encoding="utf-8") as f:
         text = f.read()
+    other = tests.run("-c", 'plot x*1e-5 for x = 0 .. 9 | x for x = 1 .. 2 title "Two" to small.gp; plot x for x = 1 .. 2 xrange 5 .. 6 to no.gp')
+    with open(os.path.join(tests.dir, "small.gp"), encoding="utf-8") as f:
+        small = f.read()
+    tests.check("numbers far from 1 have their powers of ten, and titles their room", small.count("set format y '%h'") == 1
+                and small.count("set tmargin 3") == 2 and not os.path.exists(os.path.join(tests.dir, "no.gp"))
+                and "there is nothing to plot along y" in other.stderr, small[-900:] + other.stderr)
     tests.check("what lies below 0 has room above", "set yrange [-7.05:-5.95]" in text and
                 "a logarithmic x axis needs limits above 0" in done.stderr, text + done.stderr)
 

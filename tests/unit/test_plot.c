@@ -934,6 +934,24 @@ static void animates(const char *tmp) {
     CHECK(!any_left(tmp) && !any_left("."));
 }
 
+/* Pictures of a size that was asked for; what has nothing to show has no script. */
+static void sizes(void) {
+    plot_figure f = figure(PLOT_CURVE, NULL), none = {.count = 0};
+    char text[4000] = "";
+    FILE *to = tmpfile();
+    if (!CHECK(to != NULL))
+        return;
+    plot_point(f.panel[0]->series[0], 0, 0);
+    plot_point(f.panel[0]->series[0], 1, 1);
+    CHECK(plot_script(&f, "a.svg", 300, 200, to) && !plot_script(&none, "a.svg", 0, 0, to) &&
+          !plot_script(&f, "a.xyz", 0, 0, to));
+    rewind(to);
+    text[fread(text, 1, sizeof text - 1, to)] = 0;
+    CHECK(strstr(text, "size 300,200"));
+    fclose(to);
+    plot_figure_free(&f);
+}
+
 /* A gnuplot that hangs is stopped. */
 static void late(void) {
     plot_figure f = figure(PLOT_CURVE, NULL);
@@ -987,6 +1005,7 @@ int main(int argc, char **argv) {
     refused(tmp);
     hostile_names(tmp);
     animates(tmp);
+    sizes();
     late();
     CHECK(!chdir("/") && !rmdir(dir) && !rmdir(tmp));
     return unit_finish();
