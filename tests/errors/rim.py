@@ -296,7 +296,7 @@ class Prompt:
 
     def read(self, seconds=60, end=b"fret> "):
         text, limit = b"", time.monotonic() + seconds
-        while end not in text and select.select([self.main], [], [], max(0, limit - time.monotonic()))[0]:
+        while end not in text and b"virtual memory" not in text and select.select([self.main], [], [], max(0, limit - time.monotonic()))[0]:
             try:
                 text += os.read(self.main, 65536)
             except OSError:

@@ -149,6 +149,47 @@ def rough(tests):
         tests.check("no room for a .%s, %d" % (ending, before), (12 if ending == "cast" else 2) < count < 200 and not wrong and harmless == {whole}, "%d\n%s" % (count, "\n".join(wrong[:3])))
 
 
+def unmade(tests):
+    """A film of a script: where there is no memory for a part of it, it says so, and is not another film; where there is no screen,
+    the message stands at the statement."""
+    where = os.path.join(tests.dir, "unmade")
+    os.mkdir(where)
+    for name, text in (("arm", ""), ("disarm", ""), ("s.fret", "step Fx=20 N\n")):
+        with open(os.path.join(where, name), "w", encoding="ascii") as f:
+            f.write(text)
+    script = SCENE + "\nrecord s.cast\nsource arm\nlive s.fret\nsource disarm\nrecord off\nFx\n"
+    shim, tool = (os.path.join(os.path.abspath(tests.build), "tests", name) for name in ("faults.so", "calls"))
+    if tests.sanitized or not os.path.exists(shim):
+        return
+
+    def filmed(number):
+        here = os.path.join(where, str(number))
+        os.mkdir(here)
+        for name in ("arm", "disarm", "s.fret"):
+            os.link(os.path.join(where, name), os.path.join(here, name))
+        done = tests.run("--keep-going", "-c", script, cwd=here, env={"LD_PRELOAD": shim, "FAULT": str(number), "FRET_FAULTS": "1",
+                                                                     "FAULT_COUNT": os.path.join(here, "count")})
+        with open(os.path.join(here, "s.cast"), encoding="utf-8") as f:
+            return done, "".join(json.loads(line)[2] for line in f.read().split("\n")[1:-1])
+    right, whole = filmed(0)
+    with open(os.path.join(where, "0", "count"), encoding="ascii") as f:
+        count = int(f.read())
+    results = []
+    tests.each([lambda n=n: results.append((n, *filmed(n))) for n in range(1, count + 1)])
+    wrong = ["%d: %s%s" % (n, tests.report(done), text[-300:]) for n, done, text in results
+             if done.returncode not in (0, 1) or not re.search("memory|no screen", done.stderr + text) and (text != whole or done.stdout != right.stdout)]
+    tests.check("a film without memory for all of it", right.returncode == 0 and right.stdout.endswith("Fx = 20 N\n") and count > 50 and not wrong,
+                "%d of %d\n%s" % (len(wrong), count, "\n".join(wrong[:3])))
+    if not os.path.exists(tool) or subprocess.run([tool, os.devnull, "none", "0", "0", "/bin/true"], check=False, stderr=subprocess.DEVNULL).returncode:
+        return
+    told = []
+    for number in range(1, 9):
+        done = subprocess.run([tool, os.path.join(where, "told"), "openat", str(number), "24", tests.fret, "-c", script], cwd=where, env=tests.env,
+                              capture_output=True, text=True, check=False)
+        told += re.findall(r"(.*): error: no screen can be had to record\n  (.*)\n  (.*)", done.stderr)
+    tests.check("no screen for a film", told and set(told) == {("-c:4:1", "live s.fret", "^~~~~~~~~~~")}, str(told))
+
+
 class Recorded(Live):
     def __init__(self, tests, name, *args, **more):
         super().__init__(tests, command=[tests.fret, "--no-rc", "--quiet", *args], **more)
@@ -299,4 +340,4 @@ def kept(tests):
 
 
 def run(tests):
-    tests.rooms(scripted, full, rough, typed, screens, ended, played, kept)
+    tests.rooms(scripted, full, rough, unmade, typed, screens, ended, played, kept)
