@@ -14,8 +14,7 @@ static bool used_pieces(scene *s, const fret_normal *normal) {
     const double error = fret_normal_prepared(normal);
     if (isnan(error))
         return false;
-    s->used |= USED(MODEL_PIECES);
-    s->pieces_error = error;
+    scene_also_used(s, (scene_use){USED(MODEL_PIECES), error});
     return true;
 }
 

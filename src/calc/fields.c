@@ -55,8 +55,7 @@ static void used_fields(scene *s, const fret_fields *fields) {
         s->used |= USED(MODEL_QUADRATURE);
         return;
     }
-    s->pieces_error = s->used & USED(MODEL_PIECES) ? fmax(s->pieces_error, error) : error;
-    s->used |= USED(MODEL_PIECES);
+    scene_also_used(s, (scene_use){USED(MODEL_PIECES), error});
 }
 
 static bool normal_field(scene *s, value r, one_place *one, of_places *many, long double *out,

@@ -55,6 +55,17 @@ void scene_show(scene *s, int digits) {
     }
 }
 
+scene_use scene_answered_by(const scene *s) {
+    return (scene_use){s->used, s->pieces_error};
+}
+
+void scene_also_used(scene *s, scene_use also) {
+    if (also.models & USED(MODEL_PIECES))
+        s->pieces_error =
+            s->used & USED(MODEL_PIECES) ? fmax(s->pieces_error, also.pieces_error) : also.pieces_error;
+    s->used |= also.models;
+}
+
 void scene_forget(scene *s, bool keep) {
     answers_end(&s->answers, keep);
     s->settled = 0;

@@ -61,6 +61,12 @@ typedef struct instant {
     bool *lacking;      /* raised where more than that is wanted */
 } instant;
 
+/* The models that have answered (bits USED), and the relative error of polynomials among them. */
+typedef struct scene_use {
+    unsigned models;
+    double pieces_error;
+} scene_use;
+
 struct scene {
     inputs in;
     unsigned settled, settling; /* inputs whose definitions have been, are being evaluated */
@@ -94,6 +100,9 @@ void scene_free(scene *s);
 void scene_clone(scene *to, const scene *from);
 /* Values are shown with so many digits from now on; 0: all. */
 void scene_show(scene *s, int digits);
+scene_use scene_answered_by(const scene *s);
+/* These have answered too. */
+void scene_also_used(scene *s, scene_use also);
 /* Of a scratch scene: many values are to be asked for, and compared with one another, of its shape and k; at
  * loads about that of now, else it takes longer. */
 void scene_expect_many(scene *s);

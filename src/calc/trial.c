@@ -23,17 +23,17 @@ trial *trial_open(calc *c, calc_error *error) {
 }
 
 void trial_reset(trial *t) {
-    const unsigned used = t->scene.used;
+    const scene_use before = scene_answered_by(&t->scene);
     scene_free(&t->scene);
     scene_clone(&t->scene, t->outer);
     t->scene.sound = t->sound;
-    t->scene.used = used;
+    t->scene.used = 0;
+    scene_also_used(&t->scene, before);
 }
 
 void trial_close(trial *t) {
     calc *c = t->c;
-    t->outer->used |= t->scene.used;
-    t->outer->pieces_error = t->scene.pieces_error;
+    scene_also_used(t->outer, scene_answered_by(&t->scene));
     c->now = t->outer;
     scene_free(&t->scene);
     while (t->hidden_count > 0) {

@@ -155,7 +155,7 @@ static bool play(shell *sh, const script *s, bool keys, calc_error *error) {
             i = next;
         }
     }
-    sh->calc.scene.used |= own.calc.scene.used;
+    scene_also_used(&sh->calc.scene, scene_answered_by(&own.calc.scene));
     const bool ok = !ended(&own);
     shell_free(&own);
     fclose(nowhere);

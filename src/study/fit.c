@@ -97,7 +97,7 @@ typedef struct portion {
 } portion;
 
 typedef struct outcome {
-    unsigned used;
+    scene_use used;
     double v[ROWS];
 } outcome;
 
@@ -109,7 +109,7 @@ static bool work(void *context, const void *in, void *out) {
     s->q.t->scene.used = 0;
     ask_set(&s->q, p->x); /* as it went with the one who gives; an error that is raised ends the first row */
     const bool ok = equation_rows(s, p->first, p->last, o->v);
-    o->used = s->q.t->scene.used;
+    o->used = scene_answered_by(&s->q.t->scene);
     return ok;
 }
 
@@ -137,7 +137,7 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
     (void)part;
     if (!o)
         return equation_rows(s, p->first, p->last, sh->out + p->first);
-    s->q.t->scene.used |= o->used;
+    scene_also_used(&s->q.t->scene, o->used);
     memcpy(sh->out + p->first, o->v, (p->last - p->first) * sizeof *o->v);
     return true;
 }

@@ -87,7 +87,7 @@ typedef struct places {
 typedef struct outcome {
     long double v;
     dim d;
-    unsigned used;
+    scene_use used;
 } outcome;
 
 static bool work(void *context, const void *in, void *out) {
@@ -97,7 +97,7 @@ static bool work(void *context, const void *in, void *out) {
     s->q.t->scene.used = 0;
     const bool ok = value_at(s, in, &o->v);
     o->d = s->d;
-    o->used = s->q.t->scene.used;
+    o->used = scene_answered_by(&s->q.t->scene);
     return ok;
 }
 
@@ -115,7 +115,7 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
     p->f[p->first + part] = of_use ? seen(s, o->v) : at(s, in);
     if (of_use) {
         s->q.evaluations++;
-        s->q.t->scene.used |= o->used;
+        scene_also_used(&s->q.t->scene, o->used);
     }
     return !s->q.error->raised;
 }

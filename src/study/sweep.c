@@ -221,7 +221,7 @@ typedef struct portion {
 
 /* What comes of them; behind it a found for each expression, and the values, row by row. */
 typedef struct outcome {
-    unsigned used;
+    scene_use used;
     bool missing; /* a value is */
     size_t values;
 } outcome;
@@ -310,7 +310,7 @@ static bool work(void *context, const void *in, void *out) {
     st->t->scene.used = 0;
     const bool ok =
         evaluate(st, p->x, p->rows, (long double *)((char *)out + values_at(job->count))) == p->rows;
-    *o = (outcome){st->t->scene.used, job->missing.raised, job->values};
+    *o = (outcome){scene_answered_by(&st->t->scene), job->missing.raised, job->values};
     for (size_t i = 0; i < job->count; i++)
         f[i] = (found){job->d[i], job->known[i]};
     return ok;
@@ -352,7 +352,7 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
         return run_rows(st, row, p->x, p->rows);
     const long double *values = (const long double *)((const char *)out + values_at(job->count));
     job->values += o->values;
-    st->t->scene.used |= o->used;
+    scene_also_used(&st->t->scene, o->used);
     return give_rows(st, row, p->x, values, p->rows);
 }
 

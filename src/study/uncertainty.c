@@ -118,7 +118,7 @@ typedef struct portion {
 } portion;
 
 typedef struct outcome {
-    unsigned used;
+    scene_use used;
     bool missing;                        /* a value is */
     double v[SAMPLES][UNCERTAIN_VALUES]; /* NaN: there is none */
 } outcome;
@@ -161,7 +161,7 @@ static bool evaluate(void *context, const void *in, void *out) {
                 *missing = s->q.none;
         }
     }
-    o->used = s->q.t->scene.used;
+    o->used = scene_answered_by(&s->q.t->scene);
     o->missing = missing->raised;
     return !s->q.error->raised;
 }
@@ -175,11 +175,11 @@ static bool count(void *context, size_t part, const void *in, const void *out) {
     (void)part;
     if (!o || (o->missing && !m->answer->missing.raised)) {
         const calc_error before = m->answer->missing;
-        const unsigned used = s->q.t->scene.used;
+        const scene_use used = scene_answered_by(&s->q.t->scene);
         const double began = team_clock();
         const bool ok = evaluate(m, p, &own);
         m->taken += team_clock() - began;
-        s->q.t->scene.used |= used;
+        scene_also_used(&s->q.t->scene, used);
         if (before.raised)
             m->answer->missing = before;
         if (!ok)
@@ -187,7 +187,7 @@ static bool count(void *context, size_t part, const void *in, const void *out) {
         o = &own;
     } else {
         s->q.evaluations += p->samples;
-        s->q.t->scene.used |= o->used;
+        scene_also_used(&s->q.t->scene, o->used);
     }
     for (unsigned n = 0; n < p->samples; n++)
         for (size_t k = 0; k < s->of->expressions; k++)
