@@ -628,10 +628,7 @@ static void ring(int number) {
 
 /* The flag goes up while the first line of UTF-16 is waited for. */
 static void stops(void) {
-    static const char *const begun[] = {"", "\xff\xfe",
-                                        "\xff\xfe"
-                                        "a",
-                                        "a"};
+    static const char *const begun[] = {"", "\xff\xfe", "\xff\xfe\x61", "a"};
     for (size_t i = 0; i < sizeof begun / sizeof *begun; i++) {
         int ends[2];
         file_in in;
