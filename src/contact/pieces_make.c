@@ -489,7 +489,7 @@ static bool cover_table(maker *m, fret_real from, fret_real to) {
     row[0] = from;
     m->each = count > MOST_PROFILES / FEWER ? 64 : count;
     m->at_worst = count > 1000 ? fmaxl(m->borne, ROUGH) : m->borne;
-    const bool ok = cover_smooth(m, from, row[1]) && (count == 1 || cover_beyond(m, row + 1, count - 1, to));
+    const bool ok = cover_smooth(m, from, row[1]) && (count == 1 || cover_beyond(m, row + 1, count, to));
     free(row);
     return ok;
 }

@@ -2,6 +2,7 @@
 /* A prepared contact against its slow twin, which answers by searches and quadrature: random contacts of all
  * shapes, random questions and histories. FRET_PIECES=N asks N times as much and prints the worst errors. */
 #include "contact/phase.h"
+#include "contact/pieces.h"
 #include "unit.h"
 
 static unsigned long long seed = 7;
@@ -303,7 +304,9 @@ static void contact(shape which, double k, int times) {
         || (dense && k != -0.99 && k != -0.4 && k != 0.7)) /* the slow twin is */
         return;
     if (make_twins(which, k, &t)) {
+        fret_point unused;
         told_now = fret_normal_prepared(t.ready);
+        CHECK(fret_pieces_point(t.ready->pieces, true, t.F, &unused));
         for (int i = 0; i < times * (dense ? 1 : slow ? 3 : 24); i++) {
             places(which, &t);
             losses(which, &t);
