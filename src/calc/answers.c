@@ -20,10 +20,11 @@ static bool used_pieces(scene *s, const fret_normal *normal) {
 
 /* ---- running the program ----------------------------------------------------------------------- */
 
-/* A press alone can be shown without friction; no step goes without. */
+/* A press alone can be shown without friction. */
 static bool friction_for_program(scene *s, double *mu, calc_error *error) {
     *mu = 1;
-    return !(s->in.set[IN_MU] || s->in.bindings & INPUT_BIT(IN_MU)) || scene_friction(s, mu, error);
+    return (!s->in.set[IN_MU] && !(s->in.bindings & INPUT_BIT(IN_MU)) && s->end.steps <= 1) ||
+           scene_friction(s, mu, error);
 }
 
 static bool press_by(scene *s, const fret_normal *normal, fret_press *out, calc_error *error) {

@@ -140,9 +140,8 @@ bool call_s1D(scene *s, value x, long double *out, calc_error *error) {
     const fret_press *press;
     const fret_memory *memory;
     fret_state now;
-    if (!tangential_memory(s, &memory, error))
+    if (!tangential_memory(s, &memory, error) || !scene_press(s, &press, error))
         return false;
-    scene_press(s, &press, error); /* what has a memory is pressed */
     if (fabsl(x.v) >= press->a)
         return calc_fail(error, 0, 0, "s1D(x) is defined within the contact");
     fret_memory_forces(memory, &now);

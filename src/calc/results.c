@@ -12,9 +12,10 @@ bool get_dW(scene *s, long double *out, calc_error *error) {
 
 bool get_kn(scene *s, long double *out, calc_error *error) {
     const fret_press *press;
-    if (!scene_press(s, &press, error))
+    const fret_normal *normal;
+    if (!scene_press(s, &press, error) || !scene_normal(s, &normal, error))
         return false;
-    *out = press->a > 0 ? fret_normal_stiffness(s->answers.normal, press->a) : 0;
+    *out = press->a > 0 ? fret_normal_stiffness(normal, press->a) : 0;
     return true;
 }
 

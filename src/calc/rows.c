@@ -39,7 +39,7 @@ static void put_load(scene_rows *r, const inputs *in, size_t i) {
 /* What the load program says, which no row changes. */
 static bool look_at_load(scene_rows *r) {
     scene *s = r->s;
-    const load_reach *reach = &s->answers.reach;
+    const load_reach *reach;
     calc_error unused;
     load_item cycle;
     double mu;
@@ -49,8 +49,7 @@ static bool look_at_load(scene_rows *r) {
     r->cycles = r->pushed = false;
     if (!r->pressed)
         return true;
-    scene_reach(s, &reach, &unused); /* nothing is bound: it cannot fail */
-    if (s->program->steps[0].normal != BY_FORCE || reach->normal_varies)
+    if (s->program->steps[0].normal != BY_FORCE || !scene_reach(s, &reach, &unused) || reach->normal_varies)
         return false;
     if (INPUT_BIT(r->in) & INPUT_CYCLE || !r->rubs)
         return true;
@@ -70,7 +69,7 @@ bool rows_begin(scene_rows *r, scene *s, input in, const long double x[], size_t
     r->x = x;
     for (int i = 0; i < ROWS_KINDS; i++)
         r->values[i].ready = false;
-    if (s->in.bindings || (s->in.geometry && (!s->in.geometry->power)) || !look_at_load(r))
+    if (s->in.bindings || s->now || (s->in.geometry && (!s->in.geometry->power)) || !look_at_load(r))
         return false;
     inputs row = s->in; /* nothing is bound: no one counts */
     for (size_t i = 0; i < count; i++) {

@@ -243,7 +243,7 @@ bool scene_valid(scene *s, calc_error *error) {
             error_clear(error);
         return waits;
     }
-    if (s->in.set[IN_MU])
+    if (s->in.set[IN_MU] || s->end.steps > 1)
         return scene_friction(s, &mu, error) && scene_memory(s, &memory, error);
     return scene_press(s, &press, error);
 }
@@ -427,7 +427,7 @@ bool scene_reach(scene *s, const load_reach **out, calc_error *error) {
     load_reach *r = &s->answers.reach;
     if (!is_pressed(s, error) || (s->end.cycles && !s->before && !resolve(s, INPUT_CYCLE, error)))
         return false;
-    if (!s->answers.reach_ready) {
+    if (!s->answers.reach_ready || r->seen.steps > s->end.steps) {
         *r = (load_reach){.seen = {1, 0}, .alike = true, .first = true};
         r->last_cycle = s->before ? NO_CYCLE : program_last_cycle(s->program, s->end);
         s->answers.reach_ready = true;

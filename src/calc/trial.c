@@ -78,6 +78,10 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
             scene_forget(s, false);
         return true;
     }
+    if (s->now) /* what has been run belongs to the scene as it is */
+        return calc_fail(error, 0, 0,
+                         "%s cannot be changed at an instant of a load: try along ... with %s = ...", p->text,
+                         p->text);
     fret_status st = input_status(p->in, (double)v);
     if (!calc_input_status(error, (int)p->in, &st))
         return false;
