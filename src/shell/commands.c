@@ -460,8 +460,9 @@ static const command commands[] = {
      .summary = "the contact as parallel Jenkins elements, for a dynamics code",
      .help = "Springs in line with sliders, chosen to minimise the worst error of the energy\n"
              "per cycle over all amplitudes, at this normal force; with FA, over those up to\n"
-             "it. The answer is that error, and its part of the energy at gross slip (at FA).\n"
-             "FILE.h is a C table to compile in.\n\n"
+             "it, and one of the N is the spring of what then still sticks. The answer is that\n"
+             "error, and its part of the energy at gross slip (at FA). FILE.h is a C table to\n"
+             "compile in.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> export jenkins 4 to damper.h\n"
              "    wrote damper.h (733 B)\n"

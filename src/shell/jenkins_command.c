@@ -112,7 +112,10 @@ static bool read_request(shell *sh, lexer *lx, request *r) {
     if (!expr_value(&sh->calc, lx, &v) || !value_dim(lx, "FA", at, lx->last - at, v, force))
         return false;
     r->FA = (double)v.v;
-    return (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "FA must be positive")) && at_end(lx);
+    return (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "FA must be positive")) &&
+           (r->count > 1 || calc_fail(lx->error, at, lx->last - at,
+                                      "up to FA one of the elements only sticks: take 2 or more")) &&
+           at_end(lx);
 }
 
 static bool make_model(trial *t, const request *r, model *m, calc_error *error) {

@@ -150,11 +150,23 @@ static bool suffices(march *m, size_t count, jenkins_element *out) {
     }
 }
 
+/* What sticks up to the amplitude loses nothing, but carries most: one spring more, which makes F_x there
+ * right. */
+static jenkins_element stuck(march *m, const jenkins_element *slipping, size_t count) {
+    fret_loading first = {.Fx = 0};
+    double slip = 0;
+    for (size_t i = 0; i < count; i++)
+        slip += slipping[i].s;
+    note(m, fret_loading_by_displacement(m->contact, m->end, &first));
+    return (jenkins_element){.k = ((double)first.Fx - slip) / m->end, .s = sliding_slope(m) / 4 - slip};
+}
+
 bool jenkins(const fret_contact *contact, double amplitude, size_t count, const volatile sig_atomic_t *stop,
              void (*pulse)(void), jenkins_element *out, jenkins_error *quality, calc_error *error) {
     const double slip = (double)fret_gross_slip(contact);
     march m = {.contact = contact, .stop = stop, .pulse = pulse, .all = !(amplitude < slip)};
     m.end = m.all ? slip : amplitude;
+    const size_t slipping = m.all ? count : count - 1;
     const double scale = loss(&m, m.end);
     double lo = 0, hi = scale;
     if (!(m.end > TOO_SMALL * slip) || scale < DBL_MIN)
@@ -162,7 +174,7 @@ bool jenkins(const fret_contact *contact, double amplitude, size_t count, const 
                calc_fail(error, 0, 0, "the load is too small: what slips can hardly be told from nothing");
     while (!m.failed.code && !stopped(&m) && hi - lo > ENOUGH * hi) {
         m.e = lo > 0 ? sqrt(lo) * sqrt(hi) : hi / 16;
-        if (suffices(&m, count, NULL))
+        if (suffices(&m, slipping, NULL))
             hi = m.e;
         else
             lo = m.e;
@@ -172,7 +184,9 @@ bool jenkins(const fret_contact *contact, double amplitude, size_t count, const 
     for (size_t i = 0; i < count; i++)
         out[i] = (jenkins_element){0, 0};
     m.e = hi;
-    suffices(&m, count, out);
+    suffices(&m, slipping, out);
+    if (!m.all)
+        out[slipping] = stuck(&m, out, slipping);
     *quality = (jenkins_error){.worst = hi, .scale = scale, .most = m.end};
     return calc_status(error, &m.failed);
 }

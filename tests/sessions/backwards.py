@@ -182,12 +182,41 @@ def jenkins(tests):
                     "%g %g" % (after - before, loss["value"]))
 
 
+def to_an_amplitude(tests):
+    """Up to FA the energy errs as stated, the force by no more than follows from that, and not at all at FA; the last only sticks."""
+    name = os.path.join(tests.dir, "amplitude.csv")
+    for shape in SHAPES:
+        setup = "material steel; friction 0.4; %s; press FN=100 N" % shape
+        for load in ("1 N", "20 N", "39.9 N"):
+            for count in (2, 5, 12):
+                values, _, done = run_json(tests, "%s; export jenkins %d to %s FA=%s; dx(%s)\n" % (setup, count, name, load, load))
+                title = "jenkins: %d elements up to %s (%s): " % (count, load, shape)
+                if not tests.check(title + "runs", len(values) == 3, tests.report(done)):
+                    return
+                stated, most = values[0]["value"], values[2]["value"]
+                with open(name, encoding="utf-8") as f:
+                    elements = [tuple(map(float, line.split(","))) for line in f if line[0] not in "#k"]
+                tests.check(title + "they slide at mu FN", len(elements) == count and abs(sum(s for _, s in elements) - 40) < 1e-9
+                            and min(k for k, _ in elements) > 0 and elements[-1][1] / elements[-1][0] >= most, str(elements))
+                amplitudes = [most * i / 40 for i in range(1, 41)]
+                values, _, done = run_json(tests, setup + "\n" + "\n".join("dWd(%r m); Fx(%r m)" % (d, d) for d in amplitudes) + "\n")
+                answers = [v["value"] for v in values]
+                energy = force = 0.0
+                for i, d in enumerate(amplitudes):
+                    energy = max(energy, abs(sum(4 * s * max(d - s / k, 0) for k, s in elements) - answers[2 * i]))
+                    off = abs(sum(min(k * d, s) for k, s in elements) - answers[2 * i + 1])
+                    force = max(force, off * 2 * d)
+                tests.check(title + "energy", 0.5 * stated < energy <= stated * (1 + 1e-9), "%g, stated %g" % (energy, stated))
+                tests.check(title + "force", force <= stated * (1 + 1e-9), "%g, of %g" % (force, stated))
+                tests.check(title + "force at FA", off < 1e-12 * 40, "%g" % off)
+
+
 def tiny(tests):
     """Loads whose loss is hardly a number; short of that the error is the same part of it, as the loss goes with F^3."""
     setup = "material steel; friction 0.4; geometry sphere R=10 mm; press FN=100 N; "
     name = os.path.join(tests.dir, "tiny.csv")
     for load in ("1e-3", "1e-6", "1e-8"):
-        values, events, done = run_json(tests, setup + "export jenkins 4 to %s FA=%s N; dW(%s N)\n" % (name, load, load))
+        values, events, done = run_json(tests, setup + "export jenkins 5 to %s FA=%s N; dW(%s N)\n" % (name, load, load))
         tests.check("jenkins up to %s N" % load, len(values) == 3 and abs(values[1]["value"] - 0.008622) < 1e-5
                     and abs(values[0]["value"] / values[2]["value"] - 0.008622) < 1e-5, tests.report(done))
         os.remove(name)
@@ -212,7 +241,7 @@ def header(tests):
     tests.check("jenkins: the C table", done.returncode == 0 and ran == "40.000000", done.stderr + ran)
     with open(name + ".json", encoding="utf-8") as f:
         model = json.load(f)
-    tests.check("jenkins: JSON up to an amplitude", len(model["elements"]) == 5 and sum(e["slip"] for e in model["elements"]) < 20,
+    tests.check("jenkins: JSON up to an amplitude", len(model["elements"]) == 5 and abs(sum(e["slip"] for e in model["elements"]) - 40) < 1e-9,
                 str(model))
 
 
@@ -290,6 +319,7 @@ def run(tests):
     damper(tests)
     other_shapes(tests)
     jenkins(tests)
+    to_an_amplitude(tests)
     tiny(tests)
     header(tests)
     linear(tests)
