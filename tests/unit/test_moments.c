@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* An interrupt at any moment of what takes long: the call says so, leaves nothing half done behind, and gives
+ * afterwards what it gives where nothing interrupts. The Makefile links this program so that functions of
+ * numbers, which everything asks again and again, pass through here: each call is a moment. */
+#include "contact/normal.h"
+#include "contact/rows.h"
+#include "contact/table.h"
+#include "number/real.h"
+#include "unit.h"
+
+#include <limits.h>
+
+static volatile sig_atomic_t stop;
+static long left = -1; /* moments until there is an interrupt; -1: none comes */
+
+static void moment(void) {
+    if (left >= 0 && left-- == 0)
+        stop = 1;
+}
+
+#define WRAPPED(type, name, parameters, arguments)                                                           \
+    type __real_##name parameters;                                                                           \
+    type __wrap_##name parameters;                                                                           \
+    type __wrap_##name parameters {                                                                          \
+        moment();                                                                                            \
+        return __real_##name arguments;                                                                      \
+    }
+WRAPPED(fret_real, fret_exp, (fret_real x), (x))
+WRAPPED(fret_real, fret_log, (fret_real x), (x))
+WRAPPED(fret_real, fret_pow, (fret_real x, fret_real y), (x, y))
+WRAPPED(fret_real, fret_table_distance, (const struct fret_table *t, size_t row), (t, row))
+WRAPPED(fret_profile, fret_gap_profile, (const fret_gap *gap, const fret_rule *rule, fret_real e),
+        (gap, rule, e))
+
+/* A call whose result is `good` to the last digit, interrupted at so many of its moments, spread over all of
+ * them, the first ones too. What is not there after an interrupt is to be `gone`. */
+#define EACH_MOMENT(tries, least, call, gone, good)                                                          \
+    do {                                                                                                     \
+        left = LONG_MAX;                                                                                     \
+        CHECK_OK(call);                                                                                      \
+        const long all_ = LONG_MAX - left;                                                                   \
+        long ended_ = 0;                                                                                     \
+        left = -1;                                                                                           \
+        CHECK(all_ > 0 && (good));                                                                           \
+        for (long n_ = 0; n_ < (tries); n_++) {                                                              \
+            left = n_ < 8 ? n_ : all_ * (n_ - 7) / ((tries)-7);                                              \
+            const fret_status st_ = (call);                                                                  \
+            left = -1;                                                                                       \
+            stop = 0;                                                                                        \
+            CHECK(st_.code == FRET_INTERRUPTED ? (gone) : !st_.code && (good));                              \
+            ended_ += st_.code != FRET_OK;                                                                   \
+            CHECK_OK(call);                                                                                  \
+            CHECK(good);                                                                                     \
+        }                                                                                                    \
+        CHECK(ended_ > (least));                                                                             \
+    } while (0)
+
+static unsigned long long seed = 11;
+
+/* A ball, or one with a flat end, sampled: even, or of uneven and noisy rows. */
+static struct fret_table *sampled(int rows, double flat, double noise) {
+    double *r = malloc((size_t)rows * sizeof *r), *f = malloc((size_t)rows * sizeof *f);
+    struct fret_table *t = NULL;
+    for (int i = 0; i < rows; i++) {
+        r[i] = 1e-3 * (i + (i && noise > 0 ? unit_random(&seed, -0.3, 0.3) : 0)) / (rows - 1);
+        const double x = fmax(r[i] - flat, 0);
+        f[i] = x * x / 0.02 * (1 + unit_random(&seed, -noise, noise));
+    }
+    CHECK_OK(fret_table_make(r, f, (size_t)rows, NULL, &t));
+    free(r);
+    free(f);
+    return t;
+}
+
+static fret_normal *normal_of(double k, const fret_gap *gap) {
+    const fret_material m = {
+        .body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .k = k, .c0 = 1e-3};
+    fret_normal *n = unit_keep_normal(&m, gap);
+    fret_normal_stop(n, &stop);
+    return n;
+}
+
+/* Prepared anew. */
+static fret_status prepare(fret_normal *n, double error) {
+    fret_pieces_free(n->pieces);
+    n->pieces = NULL;
+    n->prepared = 0;
+    return fret_normal_prepare(n, 10, error);
+}
+
+static void laws(const fret_gap *gap, double k, double error, long tries) {
+    fret_normal *n = normal_of(k, gap);
+    fret_press p = {0};
+    CHECK_OK(prepare(n, error));
+    CHECK_OK(fret_press_by_force(n, 7, &p));
+    const fret_real dz = p.dz;
+    const double off = fret_normal_prepared(n);
+    EACH_MOMENT(tries, tries / 2, prepare(n, error), isnan(fret_normal_prepared(n)),
+                (fret_normal_prepared(n) == off || (isnan(off) && !n->pieces)) &&
+                    !fret_press_by_force(n, 7, &p).code && p.dz == dz);
+}
+
+static fret_status rows_again(const fret_normal *n, struct fret_rows **rows, fret_real *error) {
+    fret_rows_free(*rows);
+    return fret_rows_make(n, 9e-4L, rows, error);
+}
+
+static void rows(const fret_gap *gap, double k) {
+    fret_normal *n = normal_of(k, gap);
+    struct fret_rows *made = NULL;
+    fret_real error = 0;
+    CHECK_OK(rows_again(n, &made, &error));
+    const fret_real off = error, y = fret_rows_outer(made).at.y;
+    EACH_MOMENT(40, 20, rows_again(n, &made, &error), !made, error == off && fret_rows_outer(made).at.y == y);
+    fret_rows_free(made);
+}
+
+/* Oblique loading, then ever smaller turns: slices of all kinds. */
+static void begin(fret_memory *m) {
+    static const fret_step steps[] = {
+        {FRET_TO_FORCE, FRET_TO_FX, 5, 1},    {FRET_TO_FORCE, FRET_TO_FX, 8, -1},
+        {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 2}, {FRET_TO_FORCE, FRET_TO_FX, 6, 1.5},
+        {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 1}, {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 1.2}};
+    fret_memory_reset(m);
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        CHECK_OK(fret_memory_step(m, &steps[i]));
+}
+
+static fret_status step_from(fret_memory *m, const fret_memory *begun, const fret_step *step) {
+    CHECK_OK(fret_memory_copy(m, begun));
+    return fret_memory_step(m, step);
+}
+
+typedef enum what { PRESSURE, SURFACE, TRACTION, SURFACE_X } what;
+
+static fret_status ask(const fret_normal *n, const fret_memory *m, what w, fret_real r, fret_real *v) {
+    const fret_real a = 2e-4L;
+    fret_fields *f;
+    CHECK_OK(fret_fields_make(n, &f));
+    const fret_status st = w == PRESSURE   ? fret_fields_pressure(f, a, r, v)
+                           : w == SURFACE  ? fret_fields_surface(f, a, r, v)
+                           : w == TRACTION ? fret_fields_traction(f, m, r, v)
+                                           : fret_fields_surface_x(f, m, r, v);
+    fret_fields_free(f);
+    return st;
+}
+
+/* Steps of a history, questions to it and its fields. */
+static void memories(const fret_gap *gap, double k, size_t count) {
+    static const fret_step steps[] = {{FRET_KEEP_NORMAL, FRET_TO_FX, 0, -1.9},
+                                      {FRET_TO_FORCE, FRET_KEEP_DX, 5.5, 0},
+                                      {FRET_TO_FORCE, FRET_KEEP_DX, 9, 0}};
+    static const struct {
+        what w;
+        fret_real r;
+    } places[] = {{PRESSURE, 1.2e-4L}, {SURFACE, 3.2e-4L},   {TRACTION, 0.4e-4L},
+                  {TRACTION, 1.2e-4L}, {SURFACE_X, 0.4e-4L}, {SURFACE_X, 3.2e-4L}};
+    fret_normal *n = normal_of(k, gap);
+    fret_memory *m, *begun;
+    fret_state now = {0};
+    CHECK_OK(fret_memory_make(n, 0.4, &m));
+    CHECK_OK(fret_memory_make(n, 0.4, &begun));
+    begin(begun);
+    for (size_t i = 0; i < count; i++) {
+        CHECK_OK(step_from(m, begun, &steps[i]));
+        fret_memory_state(m, &now);
+        const fret_state want = now;
+        EACH_MOMENT(12, 6, step_from(m, begun, &steps[i]), true,
+                    (fret_memory_state(m, &now), now.W == want.W && now.dx == want.dx && now.U == want.U));
+    }
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const what w = places[i].w;
+        const fret_real r = places[i].r;
+        fret_real v = 0;
+        CHECK_OK(ask(n, m, w, r, &v));
+        const fret_real want = v;
+        EACH_MOMENT(12, 5, ask(n, m, w, r, &v), true, v == want);
+    }
+    fret_memory_free(m);
+    fret_memory_free(begun);
+}
+
+static void losses(const fret_gap *gap, double k) {
+    fret_contact c = {.normal = normal_of(k, gap), .mu = 0.4};
+    fret_real loss = 0, step = 0;
+    fret_loading peak;
+    CHECK_OK(fret_press_by_force(c.normal, 8, &c.press));
+    CHECK_OK(fret_loading_by_force(&c, 2, &peak));
+    CHECK_OK(fret_reference_loss_by_force(&c, 2, &loss, &step));
+    const fret_real want = loss;
+    EACH_MOMENT(20, 10, fret_reference_loss_by_force(&c, 2, &loss, &step), true, loss == want);
+    CHECK_OK(fret_quadrature_loss(&c, &peak, 100, &loss));
+    const fret_real coarse = loss;
+    EACH_MOMENT(12, 6, fret_quadrature_loss(&c, &peak, 100, &loss), true, loss == coarse);
+}
+
+int main(int argc, char **argv) {
+    unit_start("moments", argc, argv);
+    const fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 2e6, 1}}};
+    struct fret_table *few = sampled(16, 0, 0), *rough = sampled(100, 0, 5e-5), *flat = sampled(20, 2e-4, 0);
+    const fret_gap of_few = {.kind = FRET_GAP_TABLE, .table = few},
+                   of_rough = {.kind = FRET_GAP_TABLE, .table = rough},
+                   of_flat = {.kind = FRET_GAP_TABLE, .table = flat};
+    laws(&sum, 0.3, 0, 20);
+    laws(&of_few, -0.99, 0, 20);
+    laws(&of_flat, 0.2, 0, 20);
+    laws(&of_rough, 0.3, 0, 20);
+    laws(&of_rough, 0.3, 1e-6, 20);
+    rows(&of_few, -0.99);
+    rows(&of_rough, 0.3);
+    memories(&of_few, 0.3, 3);
+    memories(&of_flat, -0.5, 1); /* the next takes long */
+    losses(&sum, 0.3);
+    losses(&of_few, -0.2);
+    const int status = unit_finish();
+    fret_table_free(few);
+    fret_table_free(rough);
+    fret_table_free(flat);
+    return status;
+}
