@@ -1,271 +1,181 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Row by row: what lies far from a few rows as polynomials over them, the kinks near by in closed form; of
- * every row its integrals, and of runs of rows. Allocates them, and frees them. */
+/* Row by row: depth and load above the beginning of a row as polynomials, and what its kink adds; of every
+ * row its integrals, and of runs of rows. Allocates them, and frees them. */
 #include "contact/rows.h"
 
 #include <float.h>
 #include <stdlib.h>
 
 #include "contact/check.h"
+#include "contact/leaves.h"
 #include "contact/table.h"
 #include "number/quadrature.h"
 #include "number/real.h"
 
-/* With alpha = (k-1)/2, u = unit, x the radius, V[i] = int f' ((x^2-r^2)/(x u))^(alpha+i) dr is
- *   g = x^((1-k)/2) u^alpha V[0], F_N = K g - C (u x)^(alpha+1) V[1], K = C x^(1+k).
- * Over a leaf, a few rows, all of f' before `near` counts by a polynomial, since it is at least as far away
- * as the leaf is wide; the quadratic f' of `near` goes on to x, and each kink after that adds what it bends.
- */
-enum { WAVES = 20, LEAF_ROWS = 4, GOING_ON = 16, SERIES = 64, MANY = 10000 };
-#define LANES 2
-#include "number/lanes.h"
+/* Within a row y = 0..1 is linear in the square of the radius x. Depth and load are smooth there but for the
+ * kink where the row begins: they rise by y (P(y) + y^m Q(y)), m = (k+1)/2, with polynomials P and Q. A part
+ * is a row, or as much of it as is no longer than it is far from the kink before: there 20 nodes do. */
+enum { WAVES = 20, FEWER = 8, BINOMIALS = 12, MOST_POINTS = 32 };
 
-typedef struct leaf {
-    size_t near;
-    bool goes_on, more;     /* the next leaf covers more of the same row */
-    fret_real middle, half; /* distances from the start */
-    fret_real root;         /* x^((1-k)/2) in the middle */
-    fret_real c[2][WAVES];
-} leaf;
-
-typedef struct kink {
-    fret_real at;
-    double bend[2]; /* jumps of the second and the third derivative */
-} kink;
+typedef struct part {
+    fret_real x, width, rate;  /* radius of its inner end; its length in x^2; dK/dy at the inner end */
+    size_t term;               /* P and Q of the depth, then of the load */
+    unsigned char count[2][2]; /* how many */
+} part;
 
 struct fret_rows {
-    const struct fret_table *table;
-    const fret_rule *rule;
-    fret_real start, unit, unit_alpha, alpha, C;
-    fret_real series[2][3][SERIES]; /* of the bends: [i][j] of V[i] by the power t^j of f' */
-    double short_series[2][2][SERIES];
-    bool many;
-    fret_real near_unit, near_factor[2]; /* of kinks in double */
-    kink *kink;                          /* of every row of the table up to the end */
-    size_t first, count;                 /* pieces of the table: first, ... */
-    size_t leaves, *leaf_of;             /* of each row */
-    leaf *leaf;
-    fret_real *reach[3]; /* where each row begins, and the last one ends: distance, depth, load */
-    stretch *run[RUNS];  /* as those of pieces */
+    fret_real start, m, C;
+    size_t count, room, terms, most_terms;
+    part *part;
+    fret_real *term;
+    fret_real *reach[3];           /* where each part begins, and the last one ends: distance, depth, load */
+    stretch *run[RUNS];            /* as those of pieces */
+    fret_real binomial[BINOMIALS]; /* of (1+z)^(m-1) */
+    fret_real node[2][MOST_POINTS], weight[2][MOST_POINTS], power[2][MOST_POINTS]; /* y, dy, y^m */
 };
 
-/* ---- the law at a place ------------------------------------------------------------------------ */
+/* ---- within a part ----------------------------------------------------------------------------- */
 
-/* Of V the first `count` of f' = c0 + c1 t + c2 t^2 from the distance u before x on. */
-static void add_bend(const struct fret_rows *all, const fret_real c[3], fret_real u, fret_real x, int count,
-                     fret_real *V) {
-    const fret_real q = u / (2 * x), size = 2 * u / all->unit;
-    const fret_real power = fret_exp(all->alpha * fret_log(size)) * u;
-    const fret_real c0 = c[0], c1 = c[1] * u, c2 = 2 * c[2] * u * u;
-    int terms = 1;
-    for (fret_real left = 1e21L * q; left > 1 && terms < SERIES; left *= q)
-        terms++;
-    for (int i = 0; i < count; i++) {
-        const fret_real *a0 = all->series[i][0], *a1 = all->series[i][1], *a2 = all->series[i][2];
-        fret_real sum = 0;
-        for (int n = terms; n-- > 0;)
-            sum = sum * q + (c0 * a0[n] + c1 * a1[n] + c2 * a2[n]);
-        V[i] += sum * power * (i ? size : 1);
-    }
+static fret_real sum_of(const fret_real *c, size_t count, fret_real y) {
+    fret_real sum = 0;
+    while (count-- > 0)
+        sum = sum * y + c[count];
+    return sum;
 }
 
-static void make_series(struct fret_rows *all) {
-    for (int i = 0; i < 2; i++) {
-        const fret_real p = all->alpha + (fret_real)i;
-        fret_real c = 1;
-        for (int n = 0; n < SERIES; n++) { /* (1-q)^p */
-            all->series[i][0][n] = c / (p + (fret_real)(n + 1));
-            all->series[i][1][n] = all->series[i][0][n] / (p + (fret_real)(n + 2));
-            all->series[i][2][n] = all->series[i][1][n] / (p + (fret_real)(n + 3));
-            c *= ((fret_real)n - p) / (fret_real)(n + 1);
-            all->short_series[i][0][n] = (double)all->series[i][1][n];
-            all->short_series[i][1][n] = (double)all->series[i][2][n];
-        }
-        all->near_factor[i] = fret_pow(all->near_unit / all->unit, p);
-    }
-    for (size_t i = 0; i < all->first + all->count; i++) {
-        fret_real c[3] = {0, 0, 0};
-        if (i > 0)
-            fret_table_jump(all->table, i, c);
-        all->kink[i] = (kink){fret_table_distance(all->table, i), {(double)c[1], (double)(2 * c[2])}};
-    }
+/* The rise from the beginning of the part to y, ym = y^m; at its end what is kept, so that what parts add up
+ * to is exact. */
+static fret_real rise_of(const struct fret_rows *all, size_t i, int by, fret_real y, fret_real ym) {
+    const part *p = &all->part[i];
+    const fret_real *reach = all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH] + i;
+    if (y >= 1)
+        return reach[1] - reach[0];
+    const fret_real *c = all->term + p->term + (by == LOADS ? p->count[DEPTHS][0] + p->count[DEPTHS][1] : 0);
+    const size_t smooth = p->count[by][0], bent = p->count[by][1];
+    return y * (sum_of(c, smooth, y) + ym * sum_of(c + smooth, bent, y));
 }
 
-static fret_real value_of(const fret_real *c, fret_real z) {
-    const fret_real z2 = z * z;
-    fret_real even = c[WAVES - 2], odd = c[WAVES - 1];
-    for (int i = WAVES - 4; i >= 0; i -= 2) {
-        even = even * z2 + c[i];
-        odd = odd * z2 + c[i + 1];
-    }
-    return even + z * odd;
+static fret_real to_m(const struct fret_rows *all, fret_real y) {
+    return y > 0 ? fret_exp(all->m * fret_log(y)) : 0;
 }
 
-/* Two kinks in double: of many rows each bends little. */
-static void add_two(const struct fret_rows *all, const kink *first, fret_real e, int count, double V[2][2]) {
-    const fret_real u0 = e - first[0].at, u1 = e - first[1].at;
-    const double half = (double)(0.5L / (all->start + e)), per = (double)(2 / all->near_unit);
-    const lanes2_numbers u = {(double)u0, u1 > 0 ? (double)u1 : 1e-300}, size = u * per, q = u * half;
-    const lanes2_numbers c1 = {first[0].bend[0], u1 > 0 ? first[1].bend[0] : 0},
-                         c2 = {first[0].bend[1], u1 > 0 ? first[1].bend[1] : 0}, zero = {0, 0};
-    lanes2_numbers m, power, exponent, factor, log;
-    lanes2_reduce(&size, &m, &exponent, &factor);
-    m -= 1.0;
-    lanes2_log_of(&m, &zero, &exponent, &log);
-    log *= (double)all->alpha;
-    lanes2_exp_times(&u, &log, &zero, &power);
-    int terms = 1;
-    for (double left = 1e17 * q[0]; left > 1 && terms < SERIES; left *= q[0])
-        terms++;
-    for (int i = 0; i < count; i++) {
-        const double *a1 = all->short_series[i][0], *a2 = all->short_series[i][1];
-        lanes2_numbers s1 = zero, s2 = zero;
-        for (int n = terms; n-- > 0;) {
-            s1 = s1 * q + a1[n];
-            s2 = s2 * q + a2[n];
-        }
-        s1 = u * (c1 * s1 + u * (c2 * s2)) * power;
-        if (i > 0)
-            s1 *= size;
-        V[i][0] += s1[0];
-        V[i][1] += s1[1];
-    }
+/* (1+z)^(m-1) */
+static fret_real near_one(const struct fret_rows *all, fret_real z) {
+    if (z > 0.02L)
+        return fret_exp((all->m - 1) * fret_log1p(z));
+    return sum_of(all->binomial, z < 1e-3L ? 7 : BINOMIALS, z);
 }
 
-/* Adds to the first `count` of V what the kinks after row `from` bend, up to row `to`. */
-static void add_bends(const struct fret_rows *all, size_t from, size_t to, fret_real e, int count,
-                      fret_real V[2]) {
-    fret_real c[3];
-    if (!all->many) {
-        for (size_t i = from + 1; i <= to && e > all->kink[i].at; i++) {
-            fret_table_jump(all->table, i, c);
-            add_bend(all, c, e - all->kink[i].at, all->start + e, count, V);
-        }
-        return;
-    }
-    double two[2][2] = {{0, 0}, {0, 0}};
-    for (size_t i = from + 1; i <= to && e > all->kink[i].at; i += 2) {
-        const kink last[2] = {all->kink[i], {(fret_real)INFINITY, {0, 0}}};
-        add_two(all, i < to ? &all->kink[i] : last, e, count, two);
-    }
-    for (int i = 0; i < count; i++)
-        V[i] += all->near_factor[i] * (two[i][0] + two[i][1]);
+/* Is the part as wide as it is far from the centre? Then it wants more nodes. */
+static bool is_wide(const part *p) {
+    return p->width > 0.2L * p->x * p->x;
 }
 
-/* At the distance e in a row, on demand the load too. */
-static fret_level value_at(const struct fret_rows *all, size_t row, fret_real e, bool load) {
-    const leaf *l = &all->leaf[all->leaf_of[row - all->first]];
-    while (l->more && e > l->middle + l->half)
-        l++;
-    const fret_real z = (e - l->middle) / l->half, x = all->start + e;
-    fret_real V[2] = {value_of(l->c[0], z), load ? value_of(l->c[1], z) : 0};
-    add_bends(all, l->near, row, e, load ? 2 : 1, V);
-    const fret_real root =
-        l->root * fret_exp(-all->alpha * fret_log1p((e - l->middle) / (all->start + l->middle)));
-    const fret_real g = root * all->unit_alpha * V[0], edge = x / root;
-    return (fret_level){g, load ? all->C * edge * (edge * g - all->unit_alpha * all->unit * V[1]) : 0};
+static void add_node(stretch *sum, fret_real t, fret_real dK) {
+    sum->K += dK;
+    sum->G += t * dK;
+    sum->L += t * (sum->h - t) * dK;
 }
 
-static fret_level level_at(const struct fret_rows *all, size_t row, fret_real e) {
-    return value_at(all, row, e, true);
-}
-
-/* So far beyond the row; at both ends what is kept, so that what rows add up to is exact. */
-static fret_real depth_at(const struct fret_rows *all, size_t row, fret_real beyond) {
-    const fret_real *e = all->reach[SPOT_DISTANCE] + (row - all->first),
-                    *y = all->reach[SPOT_DEPTH] + (row - all->first);
-    return beyond <= 0 ? y[0] : beyond >= e[1] - e[0] ? y[1] : value_at(all, row, e[0] + beyond, false).y;
-}
-
-static fret_real stiffness_at(const struct fret_rows *all, fret_real x) {
-    return all->C * fret_pow(x, 2 * (all->alpha + 1));
-}
-
-/* ---- one row ----------------------------------------------------------------------------------- */
-
-/* Within a row from the distance `from` beyond it inwards to `to`, in parts of the third root of that, in
- * which the kinks are smooth enough. */
-static stretch part_of(const struct fret_rows *all, size_t row, fret_real from, fret_real to) {
-    const fret_real begin = fret_table_distance(all->table, row), x0 = all->start + begin,
-                    k = 2 * all->alpha + 1;
-    const fret_real away = begin / (fret_table_distance(all->table, row + 1) - begin);
-    const int parts = away < 0.1L ? 16 : away < 1 ? 8 : away < 4 ? 4 : 2;
-    const fret_real s0 = fret_exp(fret_log(from) / 3), way = (to > 0 ? fret_exp(fret_log(to) / 3) : 0) - s0;
-    const fret_real edge = depth_at(all, row, from), rate = (1 + k) * stiffness_at(all, x0) / x0;
-    stretch out = {edge - depth_at(all, row, to), 0, 0, 0};
-    for (int j = 0; j < 8 * parts; j++) {
-        const fret_real s = s0 + way * ((fret_real)(j / 8) + fret_gauss_node[j % 8]) / (fret_real)parts,
-                        u = s * s * s, t = edge - depth_at(all, row, u);
-        const fret_real dK = rate * fret_exp(k * fret_log1p(u / x0)) * 3 * s * s * -way *
-                             fret_gauss_weight[j % 8] / (fret_real)parts;
-        out.K += dK;
-        out.G += t * dK;
-        out.L += t * (out.h - t) * dK;
+/* From y inwards to the beginning of the part: in third roots, in which the kink is smooth enough. */
+static stretch part_below(const struct fret_rows *all, size_t i, fret_real from) {
+    const part *p = &all->part[i];
+    const int wide = is_wide(p), nodes = MOST_POINTS / (wide ? 1 : 2);
+    const fret_real from_m = from < 1 ? to_m(all, from) : 1, bend = p->width / (p->x * p->x),
+                    edge = rise_of(all, i, DEPTHS, from, from_m);
+    stretch out = {edge, 0, 0, 0};
+    for (int j = 0; j < nodes; j++) {
+        const fret_real y = from * all->node[wide][j],
+                        t = edge - rise_of(all, i, DEPTHS, y, from_m * all->power[wide][j]);
+        add_node(&out, t, p->rate * near_one(all, bend * y) * from * all->weight[wide][j]);
     }
     return out;
 }
 
+/* From y inwards to another one. */
+static stretch part_of(const struct fret_rows *all, size_t i, fret_real from, fret_real to) {
+    if (to <= 0)
+        return part_below(all, i, from);
+    const part *p = &all->part[i];
+    const int parts = is_wide(p) ? 4 : 2;
+    const fret_real s0 = fret_exp(fret_log(from) / 3), way = fret_exp(fret_log(to) / 3) - s0,
+                    bend = p->width / (p->x * p->x), edge = rise_of(all, i, DEPTHS, from, to_m(all, from));
+    stretch out = {edge - rise_of(all, i, DEPTHS, to, to_m(all, to)), 0, 0, 0};
+    for (int j = 0; j < 8 * parts; j++) {
+        const fret_real s = s0 + way * ((fret_real)(j / 8) + fret_gauss_node[j % 8]) / (fret_real)parts,
+                        y = s * s * s, t = edge - rise_of(all, i, DEPTHS, y, to_m(all, y));
+        add_node(&out, t,
+                 p->rate * near_one(all, bend * y) * 3 * s * s * -way * fret_gauss_weight[j % 8] /
+                     (fret_real)parts);
+    }
+    return out;
+}
+
+/* From the end of the part to y, by what there is below. */
+static stretch part_above(const struct fret_rows *all, size_t i, fret_real to) {
+    const stretch whole = all->run[0][i], below = part_below(all, i, to);
+    const fret_real h = whole.h - below.h, K = whole.K - below.K, G = whole.G - below.G - h * below.K;
+    return (stretch){h, K, G, whole.L - below.L - below.h * G - h * (below.h * below.K - below.G)};
+}
+
 /* ---- places ------------------------------------------------------------------------------------ */
 
-static fret_real by_of(fret_spot_by by, const fret_spot *s) {
-    return by == SPOT_DISTANCE ? s->e : by == SPOT_DEPTH ? s->at.y : s->at.F;
+static fret_real distance_at(const struct fret_rows *all, size_t i, fret_real y) {
+    const part *p = &all->part[i];
+    return all->reach[SPOT_DISTANCE][i] + p->width * y / (p->x + sqrtl(p->x * p->x + p->width * y));
 }
 
-static fret_spot spot_in(const struct fret_rows *all, size_t row, fret_real beyond) {
-    fret_spot s = {row, beyond, fret_table_distance(all->table, row) + beyond, {0, 0}};
-    s.at = level_at(all, row, s.e);
-    return s;
-}
-
-/* By chords, each within what the ones before have left. */
-static fret_spot search(const struct fret_rows *all, size_t row, fret_spot_by by, fret_real value) {
-    const fret_real *reach = all->reach[by] + (row - all->first),
-                    *e = all->reach[SPOT_DISTANCE] + (row - all->first);
-    fret_real lo = 0, hi = e[1] - e[0], below = reach[0] - value, above = reach[1] - value;
-    fret_spot s = {0};
-    for (int i = 0, side = 0; i < 40; i++) {
-        const fret_real way = above / (above - below) * (hi - lo), next = hi - way;
-        s = spot_in(all, row, next > lo && next < hi ? next : (lo + hi) / 2);
-        const fret_real miss = by_of(by, &s) - value;
-        if (fabsl(miss) <= 3 * LDBL_EPSILON * value || !(hi - lo > LDBL_EPSILON * s.e))
+/* y where a level is so far above the beginning of the part: by chords, each within what the ones before have
+ * left. */
+static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real value) {
+    const fret_real *reach = all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH] + i, target = value - reach[0];
+    fret_real lo = 0, hi = 1, below = -target, above = reach[1] - value, y = 1;
+    for (int j = 0, side = 0; j < 40; j++) {
+        const fret_real next = hi - above / (above - below) * (hi - lo);
+        y = next > lo && next < hi ? next : (lo + hi) / 2;
+        const fret_real miss = rise_of(all, i, by, y, to_m(all, y)) - target;
+        if (fabsl(miss) <= LDBL_EPSILON * value || !(hi - lo > LDBL_EPSILON * hi))
             break;
         if (miss < 0) { /* an end that stays counts half */
-            lo = s.beyond;
+            lo = y;
             below = miss;
             above /= side == -1 ? 2 : 1;
             side = -1;
         } else {
-            hi = s.beyond;
+            hi = y;
             above = miss;
             below /= side == 1 ? 2 : 1;
             side = 1;
         }
     }
-    return s;
+    return y;
 }
 
 bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
     const fret_real *reach = all->reach[by];
     if (!(value > reach[0] && value <= reach[all->count]))
         return false;
-    size_t lo = 0, hi = all->count; /* reach[lo] < value <= reach[hi] */
-    while (hi - lo > 1) {
-        const size_t middle = lo + (hi - lo) / 2;
-        *(reach[middle] < value ? &lo : &hi) = middle;
+    size_t lo = 0, count = all->count; /* the first whose end is not before the value */
+    while (count > 1) {
+        const size_t half = count / 2;
+        lo += reach[lo + half] < value ? half : 0;
+        count -= half;
     }
-    const size_t row = all->first + lo;
-    *out = by == SPOT_DISTANCE ? spot_in(all, row, value - reach[lo]) : search(all, row, by, value);
-    out->at = by == SPOT_DEPTH  ? (fret_level){value, out->at.F}
-              : by == SPOT_LOAD ? (fret_level){out->at.y, value}
-                                : out->at;
+    const part *p = &all->part[lo];
+    const fret_real beyond = value - reach[lo],
+                    y = value >= reach[lo + 1] ? 1
+                        : by == SPOT_DISTANCE  ? fminl(beyond * (2 * p->x + beyond) / p->width, 1)
+                                               : search(all, lo, by == SPOT_LOAD ? LOADS : DEPTHS, value);
+    const fret_real ym = to_m(all, y);
+    *out = (fret_spot){.part = lo, .along = y, .e = by == SPOT_DISTANCE ? value : distance_at(all, lo, y)};
+    out->at.y = by == SPOT_DEPTH ? value : all->reach[SPOT_DEPTH][lo] + rise_of(all, lo, DEPTHS, y, ym);
+    out->at.F = by == SPOT_LOAD ? value : all->reach[SPOT_LOAD][lo] + rise_of(all, lo, LOADS, y, ym);
     return true;
 }
 
 static fret_spot beginning(const struct fret_rows *all, size_t i) {
-    return (fret_spot){all->first + i,
-                       0,
-                       all->reach[SPOT_DISTANCE][i],
-                       {all->reach[SPOT_DEPTH][i], all->reach[SPOT_LOAD][i]}};
+    return (fret_spot){
+        i, 0, all->reach[SPOT_DISTANCE][i], {all->reach[SPOT_DEPTH][i], all->reach[SPOT_LOAD][i]}};
 }
 
 fret_spot fret_rows_inner(const struct fret_rows *all) {
@@ -277,22 +187,23 @@ fret_spot fret_rows_outer(const struct fret_rows *all) {
 }
 
 fret_real fret_rows_stiffness(const struct fret_rows *all, const fret_spot *s) {
-    return stiffness_at(all, all->start + s->e);
+    return all->C * fret_pow(all->start + s->e, 2 * all->m);
 }
 
 stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, const fret_spot *inner) {
-    if (outer->row == inner->row && outer->beyond > inner->beyond)
-        return part_of(all, outer->row, outer->beyond, inner->beyond);
+    enum { MANY = 4 }; /* of which a part that is a difference keeps its digits */
+    if (outer->part == inner->part && outer->along > inner->along)
+        return part_of(all, outer->part, outer->along, inner->along);
     stretch sum = {0, 0, 0, 0};
     if (outer->e <= inner->e)
         return sum;
-    if (outer->beyond > 0)
-        sum = part_of(all, outer->row, outer->beyond, 0);
-    const size_t next = inner->row - all->first + (inner->beyond > 0);
-    fret_stretch_add_runs(all->run, outer->row - all->first, next, &sum);
-    if (inner->beyond > 0) {
-        const fret_real end = all->reach[SPOT_DISTANCE][next] - all->reach[SPOT_DISTANCE][next - 1];
-        const stretch rest = part_of(all, inner->row, end, inner->beyond);
+    if (outer->along > 0)
+        sum = part_below(all, outer->part, outer->along);
+    const size_t next = inner->part + (inner->along > 0);
+    fret_stretch_add_runs(all->run, outer->part, next, &sum);
+    if (inner->along > 0) {
+        const stretch rest = outer->part - next >= MANY ? part_above(all, inner->part, inner->along)
+                                                        : part_of(all, inner->part, 1, inner->along);
         sum = fret_stretch_join(&sum, &rest);
     }
     return sum;
@@ -300,122 +211,178 @@ stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, c
 
 /* ---- making ------------------------------------------------------------------------------------ */
 
+/* Chebyshev's polynomials of 2y-1 and their nodes. */
+typedef struct rule {
+    int nodes;
+    fret_real y[WAVES], ym[WAVES], wave[4 * WAVES], power[WAVES][WAVES];
+} rule;
+
 typedef struct maker {
     struct fret_rows *all;
     const fret_normal *normal;
-    fret_real wave[WAVES], at[WAVES][WAVES], power[WAVES][WAVES]; /* T_i at node j, and in powers */
+    struct fret_leaves *leaves;
+    rule many, few;
+    struct beginning {
+        fret_real e;
+        fret_level at;
+    } * begin; /* of each part, and the end of the last one */
     size_t room;
     fret_status failed;
 } maker;
 
-static const fret_real MOST_WIDE = 1.01L; /* of the distance from the start: beyond, waves are too coarse */
-
-static void make_waves(maker *m) {
-    for (int j = 0; j < WAVES; j++)
-        m->wave[j] = fret_cos(FRET_PI * (fret_real)(2 * j + 1) / (2 * WAVES));
-    for (int i = 0; i < WAVES; i++)
-        for (int j = 0; j < WAVES; j++) {
-            m->at[i][j] = i == 0   ? 1
-                          : i == 1 ? m->wave[j]
-                                   : 2 * m->wave[j] * m->at[i - 1][j] - m->at[i - 2][j];
-            m->power[i][j] = i < 2    ? (fret_real)(i == j)
-                             : j == 0 ? -m->power[i - 2][0]
-                                      : 2 * m->power[i - 1][j - 1] - m->power[i - 2][j];
-        }
+static void make_rule(rule *r, int nodes, fret_real m) {
+    r->nodes = nodes;
+    for (int i = 0; i < 4 * nodes; i++)
+        r->wave[i] = fret_cos(FRET_PI * (fret_real)i / (fret_real)(2 * nodes));
+    for (int j = 0; j < nodes; j++) {
+        r->y[j] = (1 + r->wave[2 * j + 1]) / 2;
+        r->ym[j] = fret_pow(r->y[j], m);
+    }
+    for (int i = 0; i < nodes; i++)
+        for (int j = 0; j < nodes; j++)
+            r->power[i][j] =
+                i == 0   ? (fret_real)(j == 0)
+                : i == 1 ? (fret_real)(j == 0   ? -1
+                                       : j == 1 ? 2
+                                                : 0)
+                         : (j ? 4 * r->power[i - 1][j - 1] : 0) - 2 * r->power[i - 1][j] - r->power[i - 2][j];
 }
 
-static void fit(const maker *m, const fret_real *value, fret_real *c) {
-    for (int j = 0; j < WAVES; j++)
+/* Powers of y, as many as there is something of. */
+static int fit(const rule *r, const fret_real *value, fret_real little, fret_real *c) {
+    fret_real term[WAVES];
+    const int n = r->nodes;
+    int count = n;
+    for (int i = 0; i < n; i++) {
+        term[i] = 0;
+        for (int j = 0; j < n; j++)
+            term[i] += r->wave[i * (2 * j + 1) % (4 * n)] * value[j];
+        term[i] *= (i ? 2 : 1) / (fret_real)n;
+    }
+    while (count > 0 && fabsl(term[count - 1]) <= little)
+        count--;
+    for (int j = 0; j < count; j++) {
         c[j] = 0;
-    for (int i = 0; i < WAVES; i++) {
-        fret_real term = 0;
-        for (int j = 0; j < WAVES; j++)
-            term += m->at[i][j] * value[j];
-        term *= (i ? 2 : 1) / (fret_real)WAVES;
-        for (int j = i & 1; j <= i; j += 2)
-            c[j] += term * m->power[i][j];
+        for (int i = j; i < count; i++)
+            c[j] += term[i] * r->power[i][j];
+    }
+    return count;
+}
+
+static void make_nodes(struct fret_rows *all) {
+    for (int wide = 0; wide < 2; wide++)
+        for (int j = 0; j < MOST_POINTS / (wide ? 1 : 2); j++) {
+            const fret_real parts = 2 << wide, s = ((fret_real)(j / 8) + fret_gauss_node[j % 8]) / parts;
+            all->node[wide][j] = s * s * s;
+            all->weight[wide][j] = 3 * s * s * fret_gauss_weight[j % 8] / parts;
+            all->power[wide][j] = to_m(all, s * s * s);
+        }
+    fret_real c = 1;
+    for (int j = 0; j < BINOMIALS; j++) {
+        all->binomial[j] = c;
+        c *= (all->m - 1 - (fret_real)j) / (fret_real)(j + 1);
     }
 }
 
-/* Between the distances lo and hi what is before `near`, of that what is before `above->near` from there. Few
- * rows go on with the quadratic of `near`. */
-static void make_field(maker *m, fret_real lo, fret_real hi, bool few, const leaf *above, leaf *out) {
-    const struct fret_rows *all = m->all;
-    fret_real value[2][WAVES], more[2], c[3];
-    *out = (leaf){.middle = (lo + hi) / 2, .half = (hi - lo) / 2, .goes_on = few};
-    out->near = lo - (hi - lo) > -all->start ? fret_table_row(all->table, lo - (hi - lo)) : 0;
-    for (int j = 0; j < WAVES; j++) {
-        const fret_real e = out->middle + out->half * m->wave[j], z = (e - above->middle) / above->half;
-        more[0] = more[1] = 0;
-        if (above->goes_on)
-            add_bends(all, above->near, out->near, e, 2, more);
-        else
-            fret_table_part(all->table, all->rule, above->near, out->near, e, all->unit, more);
-        if (out->goes_on && !above->goes_on) {
-            fret_table_slope(all->table, out->near, c);
-            add_bend(all, c, e - fret_table_distance(all->table, out->near), all->start + e, 2, more);
-        }
-        for (int i = 0; i < 2; i++)
-            value[i][j] = (above->near || above->goes_on ? value_of(above->c[i], z) : 0) + more[i];
+/* Twice as much, where there is no room for one more of `size`. */
+static bool grow(maker *m, void **data, size_t count, size_t more, size_t *room, size_t size) {
+    if (count + more <= *room)
+        return true;
+    const size_t wanted = 2 * *room + more + 64;
+    void *grown = realloc(*data, wanted * size);
+    if (!grown) {
+        m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        return false;
     }
-    for (int i = 0; i < 2; i++)
-        fit(m, value[i], out->c[i]);
-}
-
-static bool add_leaf(maker *m, leaf *l) {
-    struct fret_rows *all = m->all;
-    if (all->leaves == m->room) {
-        const size_t room = 2 * m->room + 64;
-        leaf *grown = realloc(all->leaf, room * sizeof *grown);
-        if (!grown) {
-            m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-            return false;
-        }
-        all->leaf = grown;
-        m->room = room;
-    }
-    l->root = fret_pow(all->start + l->middle, -all->alpha);
-    all->leaf[all->leaves++] = *l;
+    *data = grown;
+    *room = wanted;
     return true;
 }
 
-/* A row that is wider than it is far from the start: in parts that are not. */
-static bool add_wide(maker *m, fret_real lo, fret_real hi, const leaf *above) {
-    leaf here;
-    bool ok = true;
-    while (ok && lo < hi) {
-        const fret_real end = hi < 2 * lo * MOST_WIDE ? hi : 2 * lo;
-        make_field(m, lo, end, true, above, &here);
-        here.more = end < hi;
-        ok = add_leaf(m, &here);
-        lo = end;
-    }
-    return ok;
+static void take(fret_real into[2], const fret_level *l) {
+    into[DEPTHS] = l->y;
+    into[LOADS] = l->F;
 }
 
-static bool descend(maker *m, size_t first, size_t last, const leaf *above) {
+static fret_level level_at(const maker *m, size_t row, fret_real e) {
+    const fret_level before = fret_leaves_before(m->leaves, row, e),
+                     more = fret_leaves_bend(m->leaves, row, e);
+    return (fret_level){before.y + more.y, before.F + more.F};
+}
+
+/* From the distance e on, so far in the square of the radius. */
+static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool kink) {
+    static const fret_real LITTLE = 2e-19L;
     struct fret_rows *all = m->all;
-    const fret_real lo = fret_table_distance(all->table, first), hi = fret_table_distance(all->table, last);
-    const bool wide = hi - lo > MOST_WIDE * lo;
+    fret_real smooth[2][WAVES], bent[2][WAVES], base[2], c[WAVES], top[2], v[2];
+    void *parts = all->part, *terms = all->term, *begin = m->begin;
+    const bool room = grow(m, &parts, all->count, 1, &all->room, sizeof *all->part) &&
+                      grow(m, &terms, all->terms, 4 * WAVES, &all->most_terms, sizeof *all->term) &&
+                      grow(m, &begin, all->count, 2, &m->room, sizeof *m->begin);
+    all->part = parts;
+    all->term = terms;
+    m->begin = begin;
+    if (!room)
+        return false;
+    const fret_real x = all->start + e, bend = width / (x * x);
+    const fret_level at_e = level_at(m, row, e);
+    m->begin[all->count] = (struct beginning){e, at_e};
+    const rule *few = bend < 0.01L ? &m->few : &m->many;
+    part *p = &all->part[all->count++];
+    *p = (part){.x = x, .width = width, .term = all->terms};
+    p->rate = all->C * all->m * width * fret_pow(x, 2 * (all->m - 1));
+    take(base, &at_e);
+    for (int j = 0; j < WAVES; j++) {
+        const fret_real at = e + width * m->many.y[j] / (x + sqrtl(x * x + width * m->many.y[j]));
+        const fret_level l = kink ? fret_leaves_before(m->leaves, row, at) : level_at(m, row, at);
+        take(v, &l);
+        for (int by = 0; by < 2; by++)
+            smooth[by][j] = v[by] - base[by];
+        if (j == 0) /* the outermost */
+            take(top, &l);
+    }
+    for (int j = 0; kink && j < few->nodes; j++) {
+        const fret_real y = few->y[j], at = e + width * y / (x + sqrtl(x * x + width * y));
+        const fret_level l = fret_leaves_bend(m->leaves, row, at);
+        take(v, &l);
+        for (int by = 0; by < 2; by++)
+            bent[by][j] = v[by] / (y * few->ym[j]);
+    }
+    for (int by = 0; by < 2; by++) {
+        int count = fit(&m->many, smooth[by], LITTLE * top[by], c) - 1;
+        for (int j = 0; j < count; j++) /* the first is nothing */
+            all->term[all->terms++] = c[j + 1];
+        p->count[by][0] = (unsigned char)(count > 0 ? count : 0);
+        count = kink ? fit(few, bent[by], LITTLE * top[by], c) : 0;
+        for (int j = 0; j < count; j++)
+            all->term[all->terms++] = c[j];
+        p->count[by][1] = (unsigned char)count;
+    }
+    return true;
+}
+
+/* A row in parts, the first as long as the kink before is away. */
+static bool add_row(maker *m, size_t row) {
+    const struct fret_table *t = m->normal->gap.table;
+    const fret_real start = m->all->start, from = fret_table_distance(t, row),
+                    end = fret_table_distance(t, row + 1), before = fret_table_distance(t, row - 1),
+                    x = start + from, whole = (end - from) * (start + end + x),
+                    away = (from - before) * (start + before + x);
+    const fret_real enough = whole < 1e-3L * from * (start + x) ? 1.6L : 1.1L; /* where it rises by little */
     if (fret_stopped(m->normal))
         return false;
-    leaf here = *above; /* as long as it is wide, of no use */
-    if (!wide)
-        make_field(m, lo, hi, last - first <= GOING_ON, above, &here);
-    if (last - first > 1 && (wide || last - first > LEAF_ROWS)) {
-        const size_t middle = first + (last - first) / 2;
-        return descend(m, first, middle, &here) && descend(m, middle, last, &here);
+    for (fret_real at = 0, width = away; at < whole; at += width, width = at) {
+        if (whole - at < enough * width)
+            width = whole - at;
+        if (!add_part(m, row, from + at / (x + sqrtl(x * x + at)), width, at <= 0))
+            return false;
     }
-    for (size_t i = first; i < last; i++)
-        all->leaf_of[i - all->first] = all->leaves;
-    return wide ? add_wide(m, lo, hi, above) : add_leaf(m, &here);
+    return true;
 }
 
 static bool allocate(struct fret_rows *all) {
     const size_t n = all->count;
-    all->leaf_of = malloc(n * sizeof *all->leaf_of);
-    all->kink = malloc((all->first + n) * sizeof *all->kink);
-    bool ok = all->leaf_of && all->kink;
+    bool ok = true;
     for (int i = 0; i < 3; i++) {
         all->reach[i] = malloc((n + 1) * sizeof *all->reach[i]);
         ok = ok && all->reach[i];
@@ -427,88 +394,92 @@ static bool allocate(struct fret_rows *all) {
     return ok;
 }
 
-/* Beginnings and integrals of the rows. */
-static void make_rows(maker *m) {
+/* Beginnings and integrals of the parts. */
+static void make_runs(maker *m) {
     struct fret_rows *all = m->all;
-    for (size_t i = 0; i <= all->count && !fret_stopped(m->normal); i++) {
-        const size_t row = all->first + i - (i == all->count);
-        const fret_real e = fret_table_distance(all->table, all->first + i);
-        const fret_level at = level_at(all, row, e);
-        all->reach[SPOT_DISTANCE][i] = e;
-        all->reach[SPOT_DEPTH][i] = at.y;
-        all->reach[SPOT_LOAD][i] = at.F;
+    for (size_t i = 0; i <= all->count; i++) {
+        all->reach[SPOT_DISTANCE][i] = m->begin[i].e;
+        all->reach[SPOT_DEPTH][i] = m->begin[i].at.y;
+        all->reach[SPOT_LOAD][i] = m->begin[i].at.F;
     }
     for (size_t i = 0; i < all->count && !fret_stopped(m->normal); i++)
-        all->run[0][i] =
-            part_of(all, all->first + i, all->reach[SPOT_DISTANCE][i + 1] - all->reach[SPOT_DISTANCE][i], 0);
+        all->run[0][i] = part_below(all, i, 1);
     for (int l = 1; all->count >> l; l++)
         for (size_t i = 0; i < all->count >> l; i++)
             all->run[l][i] = fret_stretch_join(&all->run[l - 1][2 * i + 1], &all->run[l - 1][2 * i]);
 }
 
-/* Against the profile here and there, and the load of all against the sum of what the rows carry. */
-static fret_real error_of(maker *m) {
+/* Against the profile here and there, and the load of all against the sum of what the parts carry. */
+static fret_real error_of(const maker *m) {
     enum { LOOKS = 32 };
     const struct fret_rows *all = m->all;
+    const fret_normal *n = m->normal;
     const fret_spot outer = fret_rows_outer(all), inner = fret_rows_inner(all);
     const stretch sum = fret_rows_between(all, &outer, &inner);
     fret_real worst =
         fabsl(inner.at.F + sum.G + sum.h * fret_rows_stiffness(all, &inner) - outer.at.F) / outer.at.F;
     for (int i = 0; i < LOOKS; i++) {
-        const size_t row = (size_t)((double)all->count * (i + 0.5) / LOOKS);
-        const fret_real *e = all->reach[SPOT_DISTANCE] + row, place = e[0] + (e[1] - e[0]) * (i % 5 + 1) / 6;
-        const fret_profile p = fret_table_profile(all->table, all->rule, place);
-        const fret_level at = level_at(all, all->first + row, place);
-        worst = fmaxl(worst, fabsl(at.y / p.g - 1));
-        worst = fmaxl(worst, fabsl(at.F / fret_force_of(m->normal, &p) - 1));
+        const size_t j = (size_t)((double)all->count * (i + 0.5) / LOOKS);
+        const fret_real *e = all->reach[SPOT_DISTANCE] + j, place = e[0] + (e[1] - e[0]) * (i % 5 + 1) / 6;
+        const fret_profile p = fret_table_profile(n->gap.table, &n->rule, place);
+        fret_spot at;
+        (void)fret_rows_find(all, SPOT_DISTANCE, place, &at);
+        worst = fmaxl(worst, fabsl(at.at.y / p.g - 1));
+        worst = fmaxl(worst, fabsl(at.at.F / fret_force_of(n, &p) - 1));
     }
     return worst;
 }
 
+/* The rows, first .. first+count-1. */
+static bool add_rows(maker *m, size_t first, size_t count, fret_real e) {
+    struct fret_rows *all = m->all;
+    const struct fret_table *t = m->normal->gap.table;
+    m->failed = fret_leaves_make(m->normal, first, count, e, &m->leaves);
+    if (m->failed.code)
+        return false;
+    make_rule(&m->many, WAVES, all->m);
+    make_rule(&m->few, FEWER, all->m);
+    make_nodes(all);
+    for (size_t i = first; i < first + count; i++)
+        if (!add_row(m, i))
+            return false;
+    const fret_real end = fret_table_distance(t, first + count);
+    m->begin[all->count] = (struct beginning){end, level_at(m, first + count - 1, end)};
+    if (!allocate(all)) {
+        m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        return false;
+    }
+    make_runs(m);
+    return true;
+}
+
 fret_status fret_rows_make(const fret_normal *n, fret_real e, struct fret_rows **out, fret_real *error) {
+    const struct fret_table *t = n->gap.table;
+    const size_t first = fret_table_row(t, 0) + 1;
+    size_t last = fret_table_row(t, e) + 1;
+    last -= last > first && fret_table_distance(t, last - 1) >= e;
+    *out = NULL;
+    if (last <= first)
+        return fret_ok();
     struct fret_rows *all = calloc(1, sizeof *all);
     maker *m = calloc(1, sizeof *m);
-    *out = NULL;
-    fret_status st = all && m ? fret_ok() : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    bool ok = !st.code;
-    if (ok) {
-        const struct fret_table *t = n->gap.table;
+    fret_status st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    if (all && m) {
+        *all = (struct fret_rows){
+            .start = fret_table_start(t), .m = (n->rule.k + 1) / 2, .C = fret_normal_stiffness(n, 1)};
         *m = (maker){.all = all, .normal = n};
-        all->table = t;
-        all->rule = &n->rule;
-        all->start = fret_table_start(t);
-        all->first = fret_table_row(t, 0) + 1;
-        all->count = fret_table_row(t, e) + 1;
-        all->count -= all->count > all->first && fret_table_distance(t, all->count - 1) >= e;
-        ok = all->count > all->first;
-        all->count -= all->first;
+        const bool ok = add_rows(m, first, last - first, e);
+        st = fret_unless_stopped(n, m->failed);
+        if (ok && !st.code)
+            *error = error_of(m);
+        fret_leaves_free(m->leaves);
+        free(m->begin);
     }
-    if (ok && !allocate(all))
-        st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    ok = ok && !st.code;
-    if (ok) {
-        all->alpha = (n->rule.k - 1) / 2;
-        all->unit = e / sqrtl((fret_real)all->count);
-        all->near_unit = e / (fret_real)all->count;
-        all->many = all->count >= MANY;
-        all->unit_alpha = fret_pow(all->unit, all->alpha);
-        all->C = fret_normal_stiffness(n, 1);
-        make_series(all);
-        make_waves(m);
-        const leaf none = {.near = 0, .half = 1};
-        ok = descend(m, all->first, all->first + all->count, &none);
-        st = m->failed;
-    }
-    if (ok) {
-        make_rows(m);
-        *error = fret_stopped(n) ? 0 : error_of(m);
-    }
-    st = fret_unless_stopped(n, st);
     free(m);
-    if (ok && !st.code)
-        *out = all;
-    else
+    if (st.code)
         fret_rows_free(all);
+    else
+        *out = all;
     return st;
 }
 
@@ -519,8 +490,7 @@ void fret_rows_free(struct fret_rows *all) {
         free(all->run[l]);
     for (int i = 0; i < 3; i++)
         free(all->reach[i]);
-    free(all->kink);
-    free(all->leaf_of);
-    free(all->leaf);
+    free(all->part);
+    free(all->term);
     free(all);
 }

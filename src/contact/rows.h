@@ -13,10 +13,10 @@ struct fret_rows;
 fret_status fret_rows_make(const fret_normal *normal, fret_real e, struct fret_rows **out, fret_real *error);
 void fret_rows_free(struct fret_rows *rows);
 
-/* A place: so far beyond a row, its distance from the start, depth and load. */
+/* A place: so much of a part of a row, its distance from the start, depth and load. */
 typedef struct fret_spot {
-    size_t row;
-    fret_real beyond, e;
+    size_t part;
+    fret_real along, e;
     fret_level at;
 } fret_spot;
 

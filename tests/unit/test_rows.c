@@ -99,7 +99,7 @@ static void check_places(const fret_normal *n, const struct fret_rows *rows) {
 
 /* A slice that begins within a row and ends there, in the next one, or many rows further in. */
 static void check_slices(const rough *t, const fret_normal *n, const struct fret_rows *rows) {
-    const size_t first = fret_rows_inner(rows).row;
+    const size_t first = fret_table_row(n->gap.table, fret_rows_inner(rows).e);
     for (int i = 0; i < 8; i++) {
         const struct fret_table *table = n->gap.table;
         const int begin = t->row, end = begin - (i < 2 ? 0 : i < 4 ? 1 : 12);
