@@ -22,6 +22,7 @@ import fits  # noqa: E402
 import fuzzing  # noqa: E402
 import harness  # noqa: E402
 import house  # noqa: E402
+import instants  # noqa: E402
 import keeping  # noqa: E402
 import live  # noqa: E402
 import looks  # noqa: E402
@@ -245,6 +246,7 @@ def help_examples(tests):
 
 ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of_the_physics.run,
          "reference": reference.run, "scripts": scripts.run, "reading": reading.run, "smoothing": smoothing.run, "explaining": explaining.run,
+         "instants": instants.run,
          "keeping": keeping.run,
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
          "fits": fits.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,

@@ -53,6 +53,13 @@ typedef struct knob {
     char text[LEX_NAME];
 } knob;
 
+/* What `at` makes of it, and how many of them it takes. */
+enum { CHANGES = 8 };
+typedef struct knob_value {
+    knob p;
+    long double v;
+} knob_value;
+
 /* `NAME = EXPR, ...`, `NAME := EXPR` and `NAME(X, ...) := EXPR`. Is the cursor on an assignment? */
 bool assign_at(const lexer *lx);
 bool calc_assign(calc *c, lexer *lx);

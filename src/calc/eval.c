@@ -241,28 +241,30 @@ static bool wrong_dim_of_change(machine *m, const expr *e, const knob *p, dim wa
 
 /* All values are those outside, then all are set. NULL: an error. */
 static trial *open_changed(machine *m, const expr_at *at) {
-    value v[CHANGES];
+    knob_value by[CHANGES];
+    size_t count = 0, wrong;
     for (size_t i = 0; i < at->count; i++) {
         machine outside = *m;
         outside.e = &at->change[i].value;
-        if (!run(&outside, &v[i]))
+        value v;
+        if (!run(&outside, &v))
             return NULL;
         const knob *p = &at->change[i].p;
-        const dim want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : v[i].d;
-        if (!dim_equal(v[i].d, want) && !(v[i].v == 0 && dim_equal(v[i].d, DIM_NONE))) {
-            wrong_dim_of_change(m, outside.e, p, want, v[i].d);
+        const dim want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : v.d;
+        if (!dim_equal(v.d, want) && !(v.v == 0 && dim_equal(v.d, DIM_NONE))) {
+            wrong_dim_of_change(m, outside.e, p, want, v.d);
             return NULL;
         }
-        v[i].d = want;
+        if (m->dry && p->is_input)
+            continue;
+        by[count] = (knob_value){*p, v.v};
+        by[count++].p.d = want;
     }
     trial *t = trial_open(m->c, m->error);
-    bool ok = t;
-    for (size_t i = 0; i < at->count && ok; i++) {
-        knob p = at->change[i].p;
-        p.d = v[i].d;
-        ok = (m->dry && p.is_input) || trial_set(t, &p, v[i].v, m->error) ||
-             calc_place(m->error, at->change[i].value.at, at->change[i].value.len);
-    }
+    bool ok =
+        t &&
+        (trial_change(t, by, count, &wrong, m->error) ||
+         (wrong < count && calc_place(m->error, at->change[wrong].value.at, at->change[wrong].value.len)));
     if (t && !ok)
         trial_close(t);
     return ok ? t : NULL;

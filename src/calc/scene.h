@@ -56,9 +56,10 @@ typedef bool scene_definition(void *context, scene *s, counted *definition, valu
 /* An instant on the way of a load: the run as it stands there, or what it has left behind. */
 typedef struct instant {
     const runner *run;
-    const double *kept; /* TRAILED; NULL: there is the run */
-    double time;        /* of it */
-    bool *lacking;      /* raised where more than that is wanted */
+    const double *kept;    /* TRAILED; NULL: there is the run */
+    double time;           /* of it */
+    bool *lacking;         /* raised where more than that is wanted */
+    struct beside *beside; /* the same instant in other scenes (beside.h); NULL: it cannot be had */
 } instant;
 
 /* The models that have answered (bits USED), and the relative error of polynomials among them. */

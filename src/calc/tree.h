@@ -35,7 +35,6 @@ struct expr_node {
 };
 
 /* EXPR at NAME = EXPR, ... */
-enum { CHANGES = 8 };
 struct expr_at {
     expr_at *next; /* of the expression that it is a part of */
     expr body;

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/beside.h"
+
 trial *trial_open(calc *c, calc_error *error) {
     trial *t = calloc(1, sizeof *t);
     if (!t) {
@@ -33,7 +35,7 @@ void trial_reset(trial *t) {
 
 void trial_close(trial *t) {
     calc *c = t->c;
-    scene_also_used(t->outer, scene_answered_by(&t->scene));
+    scene_also_used(t->outer, scene_answered_by(c->now)); /* perhaps one beside it */
     c->now = t->outer;
     scene_free(&t->scene);
     while (t->hidden_count > 0) {
@@ -68,7 +70,7 @@ static bool hide(trial *t, size_t name, calc_error *error) {
     return true;
 }
 
-bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
+static bool set(trial *t, const knob *p, long double v, calc_error *error) {
     scene *s = &t->scene;
     if (!p->is_input) {
         if (!hide(t, p->name, error))
@@ -78,10 +80,6 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
             scene_forget(s, false);
         return true;
     }
-    if (s->now) /* what has been run belongs to the scene as it is */
-        return calc_fail(error, 0, 0,
-                         "%s cannot be changed at an instant of a load: try along ... with %s = ...", p->text,
-                         p->text);
     fret_status st = input_status(p->in, (double)v);
     if (!calc_input_status(error, (int)p->in, &st))
         return false;
@@ -98,6 +96,43 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
     }
     scene_put(s, p->in, (double)v);
     return true;
+}
+
+/* Does what has been run depend on it? */
+static bool runs_on(const trial *t, const knob *p) {
+    const inputs *in = &t->scene.in;
+    bool found = p->is_input;
+    for (input i = 0; i < INPUTS && !found; i++)
+        found = in->bound[i] && expr_mentions(t->c, &((const definition *)in->bound[i])->body, NULL, p->text);
+    return found;
+}
+
+static bool cannot_run(const knob *p, calc_error *error) {
+    return calc_fail(error, 0, 0, "%s cannot be changed at an instant of a load: try along ... with %s = ...",
+                     p->text, p->text);
+}
+
+bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
+    return t->scene.now && runs_on(t, p) ? cannot_run(p, error) : set(t, p, v, error);
+}
+
+bool trial_change(trial *t, const knob_value by[], size_t count, size_t *wrong, calc_error *error) {
+    const instant *now = t->scene.now;
+    size_t run = count;
+    for (*wrong = 0; *wrong < count; ++*wrong) {
+        if (!set(t, &by[*wrong].p, by[*wrong].v, error))
+            return false;
+        if (run == count && runs_on(t, &by[*wrong].p))
+            run = *wrong;
+    }
+    if (!now || run == count)
+        return true;
+    if (now->kept)
+        *now->lacking = true;
+    if (!now->beside)
+        return cannot_run(&by[run].p, error);
+    t->scene.many = t->outer->many;
+    return beside_scene(now->beside, &t->scene, by, count, scene_time(t->outer), &t->c->now, error);
 }
 
 /* ---- what is changed by name ------------------------------------------------------------------- */
@@ -140,6 +175,7 @@ bool knob_name(calc *c, lexer *lx, knob *out) {
 typedef struct along {
     trial *t;
     instant now;
+    beside beside;
     along_look *look;
     void *context;
     calc_error *error;
@@ -151,7 +187,7 @@ static bool see(const runner *r, void *context) {
     scene *s = &a->t->scene;
     if (r->time < a->first - 1e-9 || r->time > a->last + 1e-9)
         return true;
-    a->now.run = r;
+    a->now = (instant){.run = r, .beside = &a->beside};
     s->now = &a->now;
     s->answers.state_ready = s->answers.press_ready = false;
     bool ok = a->look(a->context, r->time, a->error);
@@ -211,8 +247,11 @@ bool trial_along(trial *t, along_what what, load_mark from, size_t points, bool 
     const bool lasts = a.last > a.first;
     watch w =
         watch_times(a.first, lasts ? (a.last - a.first) / (double)points : 1, lasts ? points : 0, turns);
+    a.beside.looks = w;
     w.see = see;
     w.context = &a;
     w.limit = true;
-    return scene_trace(s, &w, error);
+    const bool ok = scene_trace(s, &w, error);
+    beside_end(&a.beside);
+    return ok;
 }

@@ -21,6 +21,9 @@ typedef struct trial {
 trial *trial_open(calc *c, calc_error *error);
 /* Sets an input or a name; checks the input's range, runs nothing. */
 bool trial_set(trial *t, const knob *p, long double v, calc_error *error);
+/* Sets all of them; at an instant on the way of a load expressions see the same instant of the changed scene.
+ * wrong: which of them cannot be, or `count`. */
+bool trial_change(trial *t, const knob_value by[], size_t count, size_t *wrong, calc_error *error);
 /* Back to the scene as it was opened; names keep their values. */
 void trial_reset(trial *t);
 void trial_close(trial *t);

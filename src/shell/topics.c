@@ -153,7 +153,8 @@ static const char expressions_text[] =
     "    NAME := EXPR           a live definition: evaluated wherever NAME is used\n"
     "    NAME(X, ...) := EXPR   a function of your own\n"
     "    EXPR in UNIT           the value in that unit\n"
-    "    EXPR at NAME = EXPR    the value in the scene with that input changed\n"
+    "    EXPR at NAME = EXPR    the value in the scene with that input changed;\n"
+    "                           along a load, at the same instant of it\n"
     "    ans                    the last value printed\n\n"
     "Several statements on a line: `;`. A comment: `#`. A line goes on after `\\`.\n\n";
 

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inputs changed at an instant of a load, `(W at k=0)` along it: the value of the changed scene at the same instant. Against
+the same load run in that scene, and against that scene at the end of a load that is cut there."""
+import json
+import random
+
+import harness  # noqa: F401
+
+MATERIALS = ("material E0=200 GPa nu=0.3; c0 = 1 mm", "material E0=200 GPa nu=0.3 k=0.2 c0=1 mm", "material E0=200 GPa nu=0.3 k=-0.4 c0=1 mm")
+# A geometry, and what it may have instead.
+GEOMETRIES = (("sphere R=10 mm", "R=12 mm"), ("cone slope=0.02", "slope=0.03"), ("exact-sphere R=10 mm", "R=8 mm"),
+              ("flat-paraboloid b=0.2 mm R=10 mm", "b=0.1 mm"), ("power n=3 A=50 m^-2", "A=40 m^-2"),
+              ("sum 2:50 m^-1, 4:2e6 m^-3", "nu=0.2"))
+PRESSES = ("press FN=100 N", "press FN=100 N", "press dz=3 um", "press a=0.3 mm", "press FN=100 N; c0 := a0")
+STEPS = ("step dx=0.3 um", "step dx+=0.2 um", "step FN=120 N dx=0.2 um", "step FN+=10 N", "step dz+=0.1 um", "step dx=-0.2 um",
+         "cycle dxA=0.4 um", "cycle dxA=0.4 um times 3")
+BY_FORCE = ("step Fx=20 N", "step FN=130 N Fx=10 N", "cycle FA=20 N times 2", "cycle FA=20 N FNA=15 N phase=70 deg",
+            "cycle FA=15 N FNA=10 N times 2")
+LOADS = ("program", "program", "step dx=0.7 um", "cycle dxA=0.5 um")
+LOADS_BY_FORCE = ("cycle", "cycle FA=12 N FNA=20 N phase=90 deg", "step FN=90 N Fx=10 N")
+CHANGES = ("k=0.1", "mu=0.5", "mu=0.35", "E0=150 GPa", "nu=0.2")
+ASKED = ("Fx", "dx", "W", "a", "c", "U", "dW", "FN", "dz", "kt", "kn", "p(0 m)", "qx(0.1 mm)", "u1D(0.1 mm)", "Fx/(mu*FN)", "c(5 N)",
+         "W1D", "dxmax", "time")
+
+
+def rows(tests, script):
+    """The rows of the table that the script ends with, and what went wrong; time is rounded."""
+    done = tests.run("--format=json", "-c", script)
+    found = [json.loads(line) for line in done.stdout.splitlines()]
+    found = [list(row.values()) for row in found if "time" in row and "event" not in row]
+    for row in found:
+        row[0] = round(row[0], 9)
+    return found, done
+
+
+def changed(rng):
+    """A scene with a load, a load to look at, how to change the scene."""
+    geometry, other = rng.choice(GEOMETRIES)
+    press = rng.choice(PRESSES)
+    force = "FN=" in press
+    steps = rng.choices(STEPS + (BY_FORCE if force else ()), k=rng.randrange(5))
+    load = rng.choice(LOADS + (LOADS_BY_FORCE if force else ()))
+    changes = CHANGES + (other, other) + (("FN=110 N",) if force else ())
+    if load in ("program", "cycle") and any("FA=" in step for step in steps[-1:]):
+        changes += ("FA=10 N", "FNA=5 N", "phase=10 deg")
+    setup = "; ".join([rng.choice(MATERIALS), "geometry " + geometry, "friction 0.4", press, *steps])
+    return setup, load, rng.choice(changes), rng.choice(changes)
+
+
+def against_with(tests):
+    """The column of `at` is that of the curve of `with`, to the last digit; nested, and by a definition, too."""
+    rng = random.Random(20)
+    compared = []
+
+    def one(setup, load, change, further, x, steps):
+        head = "%s; table " % setup
+        tail = " along %s steps %d" % (load, steps)
+        want, as_with = rows(tests, head + x + tail + " with " + change)
+        got, as_at = rows(tests, head + "(%s at %s)" % (x, change) + tail)
+        name = setup + ": (%s at %s)%s" % (x, change, tail)
+        if as_with.returncode:  # nothing there; where the load of the scene itself cannot be either, no table
+            tests.check(name + " is refused", as_at.returncode and not any(row[1] is not None for row in got), tests.report(as_at))
+            return
+        compared.append(name)
+        tests.check(name, [(row[0], row[2]) for row in want] == [(row[0], row[1]) for row in got], "%s\n%s" % (want, got))
+        if further.partition("=")[0] == change.partition("=")[0]:
+            return
+        got, done = rows(tests, "%s; Y := (%s at %s); table (%s at %s, %s), ((%s at %s) at %s), (Y at %s), (%s at %s)%s" % (
+            setup, x, change, x, change, further, x, change, further, further, x, further, tail))
+        tests.check(name + " nested", bool(got) == (not done.returncode) and all(row[1] == row[2] == row[3] for row in got), tests.report(done))
+
+    count = 40 if tests.sanitized else 150
+    tests.each([lambda a=changed(rng), x=rng.choice(ASKED), n=rng.choice((1, 3, 7, 10, 40)): one(*a, x, n) for _ in range(count)])
+    tests.check("most of them are compared", len(compared) > count / 2, str(len(compared)))
+
+
+def against_cut(tests):
+    """At the end of each step the state is that of a program that ends there."""
+    steps = ["step Fx=20 N", "step FN=130 N Fx=10 N", "step dx+=0.2 um", "step Fx=-15 N", "step FN=90 N"]
+    for change in ("k=0", "mu=0.5, k=-0.3", "R=20 mm", "FN=115 N"):
+        for setup in ("material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N",
+                      "material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N; c0 := a0"):
+            asked = ["Fx", "dx", "W", "a", "c", "kt"]
+            got, done = rows(tests, "; ".join([setup, *steps, "step dx=0 um", "undo", "table %s along program steps 5" % ", ".join(
+                "(%s at %s)" % (x, change) for x in asked)]))
+            for i, row in enumerate(got):
+                cut = tests.run("--format=json", "-c", "; ".join([setup, *steps[:i], *("%s at %s" % (x, change) for x in asked)]))
+                want = [json.loads(line)["value"] for line in cut.stdout.splitlines()[-len(asked):]]
+                tests.check("%s at %s after %d steps" % (setup, change, i),
+                            row[0] == i and all(abs(a - b) <= 4e-16 * abs(b) for a, b in zip(row[1:], want)), "%s\n%s" % (row, want))
+            tests.check("%s at %s: rows" % (setup, change), len(got) == 6, tests.report(done))
+
+
+def many(tests):
+    """More instants, and more changed scenes, than are kept at a time; a value that is another one at each."""
+    scene = "material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N; step Fx=20 N; cycle FA=30 N"
+    swings = scene + "; cycle FA=15 N FNA=20 N phase=60 deg"
+    for setup, steps in ((scene, 20000), (swings, 1500)):
+        want, _ = rows(tests, setup + "; table W, c along program steps %d with mu=0.5" % steps)
+        got, done = rows(tests, setup + "; table (W at mu=0.5), (c at mu=0.5) along program steps %d" % steps)
+        tests.check("%d instants" % steps, len(got) > steps and [row[0:1] + row[2:] for row in want] == got, tests.report(done))
+    got, done = rows(tests, swings + "; table W, (W at mu=0.4 + time/50) along program steps 30")
+    want = []
+    for part in (got[:16], got[16:]):
+        values = ", ".join("%.17g" % (0.4 + row[0] / 50) for row in part)
+        want += rows(tests, swings + "; table W along program steps 30 with mu=" + values)[0]
+    each = {(round(row[1], 9), row[0]): row[2] for row in want}
+    tests.check("another friction at each instant", len(got) == 31 and len({row[2] - row[1] for row in got}) > 20 and all(
+        abs(row[2] - each[round(0.4 + row[0] / 50, 9), row[0]]) <= 1e-7 * row[1] for row in got), tests.report(done))
+    mus = ["%g" % (0.41 + 0.01 * i) for i in range(25)]
+    want = [row for part in (mus[:13], mus[13:]) for row in rows(tests, swings + "; table dx along program steps 7 with mu=" + ", ".join(part))[0]]
+    got = [rows(tests, swings + "; Y(q) := (dx at mu=q); table %s along program steps 7" % ", ".join("Y(%s)" % m for m in part))[0]
+           for part in (mus[:13], mus[13:])]
+    told = [a[1:] + b[1:] for a, b in zip(*got)]
+    each = {(row[1], row[0]): row[2] for row in want}
+    tests.check("scenes by the arguments of a function", len(told) == 8 and told == [
+        [each[float(m), row[0]] for m in mus] for row in got[0]], str(told))
+
+
+def run(tests):
+    tests.rooms(against_with, against_cut, many)
