@@ -222,7 +222,7 @@ fret_status fret_table_sloped(const double *r, const double *f, const double *sl
     hermite_pieces(t);
     make_block(t, 0, count - 1);
     t->grows = grows(t);
-    for (size_t i = 1; i + 1 < count && f[i] <= 0; i++)
+    for (size_t i = 1; i + 1 < count && f[i] == 0; i++)
         t->start = r[i];
     if (stopped(t)) {
         fret_table_free(t);

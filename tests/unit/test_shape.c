@@ -431,6 +431,36 @@ static void bad_tables(void) {
     fret_table_free(t);
 }
 
+/* Where a table begins to fall, and where it has soon risen again. */
+static void falling_tables(void) {
+    enum { ROWS = 401 };
+    static const double end = 2e-3;
+    unit_scene s = unit_make_scene(1, 0.3);
+    s.gap.kind = FRET_GAP_TABLE;
+    for (int i = 0; i < 4; i++) {
+        double r[ROWS], f[ROWS];
+        struct fret_table *t = NULL;
+        fret_normal *none = NULL;
+        for (int j = 0; j < ROWS; j++) {
+            r[j] = end * j / (ROWS - 1);
+            f[j] = r[j] * r[j] / 0.02 * (i == 0 ? -1 : 1);
+        }
+        if (i > 0) /* else all of it: a notch in the first, a later or the last row */
+            f[i == 1 ? 1 : i == 2 ? ROWS / 2 : ROWS - 1] -= i == 1 ? 2e-8 : 1e-6;
+        CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
+        s.gap.table = t;
+        const fret_status st = fret_normal_make(&s.material, &s.gap, &none);
+        CHECK_CODE(st, FRET_NOT_MONOTONE);
+        CHECK(none == NULL);
+        CHECK(i == 0   ? fabs(st.value - end / 400) < 1e-20
+              : i == 1 ? st.value > 0 && st.value <= end / 200
+              : i == 2 ? st.value > 0.49 * end && st.value < 0.51 * end
+                       : st.value > 0.99 * end && st.value < end);
+        CHECK(i == 0 || i == 3 ? st.limit == 0 : st.limit > st.value && st.limit < st.value + 0.0101 * end);
+        fret_table_free(t);
+    }
+}
+
 /* The interpolation keeps straight lines and parabolas; elsewhere its error falls with a power of the
  * spacing, measured from 50 to 400 points. A flat end between two samples costs one order. */
 static void table_order(void) {
@@ -558,6 +588,7 @@ int main(int argc, char **argv) {
     one_term();
     limits();
     bad_tables();
+    falling_tables();
     sloped();
     table_order();
     long_table();
