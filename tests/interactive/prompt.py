@@ -297,6 +297,12 @@ def moving(tests):
     s.say(SCENE + "; press FN=100 N; cycle FA=20 N")
     told = s.say("animate loop frames 3")
     tests.check("an animation in JSON", told.count('{"text":"') >= 1 and "\x1b" not in told, told[-500:])
+    s.say("set format text")
+    s.child.sendline("animate loop frames 300")
+    s.child.expect("\x1b\\[[0-9]+A")
+    s.child.sendintr()
+    told = s.prompt()
+    tests.check("Ctrl-C stops an animation", "interrupted" in told and told.count("hysteresis loop") < 299 and s.say("FN, Fx") == "FN = 100 N\nFx = 20 N", told[-500:])
     s.child.sendeof()
     s.end()
 

@@ -155,6 +155,31 @@ static void other_law(void) {
         fret_memory_free(m[i]);
 }
 
+/* Where a depth, a load or a radius nears the ends of the range nothing is kept, and none of it is told. */
+static void ends_of_range(void) {
+    static const struct {
+        double n, r0, y; /* y: a depth that is no such end itself */
+        bool kept;
+    } rows[] = {{2, 1e-3, 1e-6, true},
+                {8, 5e-291, 1e-5, false},
+                {8, 1e292, 1e-15, false},
+                {2, 1e-3, 1e-280, false},
+                {2, 1e-3, 1e250, false}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        unit_scene s = unit_make_scene(rows[i].n, 0);
+        s.gap.power[0].r0 = rows[i].r0;
+        const fret_normal *n = unit_make_normal(&s);
+        fret_near near;
+        CHECK(fret_near_fits(n));
+        fret_near_make(n, &near);
+        const fret_real v = fret_near_value(&near, DEPTH, rows[i].y);
+        if (rows[i].kept)
+            CHECK_REL(v, slow_value(n, DEPTH, rows[i].y), UNIT_TOL(1.2e-19L, 4e-16L));
+        else
+            CHECK(isnan(v));
+    }
+}
+
 /* Of the brink of gross slip every digit counts: what the places leave out is found again. */
 static void brink(void) {
     const unit_scene scene = unit_make_scene(2, 0.3);
@@ -201,5 +226,6 @@ int main(int argc, char **argv) {
     CHECK(!fret_near_fits(unit_make_normal(&steep)));
     other_law();
     brink();
+    ends_of_range();
     return unit_finish();
 }

@@ -171,6 +171,15 @@ static void check_contact(const rough *t, const fret_normal *plain, double F) {
     fret_normal_free(other);
 }
 
+/* A row holds what is as far as it or farther, to the last digit of the distance. */
+static void check_numbers(const struct fret_table *table, int rows) {
+    for (size_t i = fret_table_row(table, 0) + 1; i + 1 < (size_t)rows; i++) {
+        const fret_real e = fret_table_distance(table, i);
+        CHECK(fret_table_row(table, e) == i && fret_table_row(table, nextafterl(e, 1)) == i);
+        CHECK(fret_table_row(table, nextafterl(e, 0)) == i - 1);
+    }
+}
+
 static void check_table(const rough *t) {
     const fret_material m = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, t->k, 1e-3};
     const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = make_table(t)};
@@ -183,6 +192,7 @@ static void check_table(const rough *t) {
     CHECK_OK(fret_rows_make(n, reach, &rows, &error));
     CHECK(rows && error < 2e-16L);
     CHECK(fret_rows_outer(rows).e >= reach && fret_rows_inner(rows).e < reach);
+    check_numbers(gap.table, t->rows);
     check_places(n, rows);
     check_slices(t, n, rows);
     if (t->off > 0 || fabs(t->k) > 0.9)
