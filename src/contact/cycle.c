@@ -39,9 +39,10 @@ static fraction fraction_from(dd t, dd s) {
     return f;
 }
 
-/* F of limit */
-static fraction fraction_of(double F, dd limit) {
-    fraction f = fraction_from(dd_div(dd_of(F), limit), dd_div(dd_add_d(limit, -F), limit));
+/* F of limit; the logarithm is for a power law alone. */
+static fraction fraction_of(const fret_contact *c, double F, dd limit) {
+    const dd t = dd_div(dd_of(F), limit), s = dd_div(dd_add_d(limit, -F), limit);
+    fraction f = fret_normal_closed(c->normal) ? fraction_from(t, s) : (fraction){t, s, s, dd_value(t)};
     if (f.t.hi < tiny)
         f.t_wide = F / dd_value(limit);
     return f;
@@ -49,7 +50,7 @@ static fraction fraction_of(double F, dd limit) {
 
 /* 0.3 times 100 N is not 30 N in binary: F equal to mu F_N up to its rounding is gross slip, no more. */
 static fraction force_fraction(const fret_contact *c, double F) {
-    fraction f = fraction_of(F, dd_mul_d(dd_from2(c->press.F, c->press.F_rest), c->mu));
+    fraction f = fraction_of(c, F, dd_mul_d(dd_from2(c->press.F, c->press.F_rest), c->mu));
     return fabs(f.s.hi) <= DBL_EPSILON ? fraction_from(dd_of(1), dd_of(0)) : f;
 }
 
@@ -105,7 +106,7 @@ fret_status fret_loading_by_force(const fret_contact *c, double Fx, fret_loading
 /* The same by displacement: t = dx/delta_x,max, s = 1-t. */
 static fraction depth_fraction(const fret_contact *c, double dx) {
     dd max = dd_mul(dd_mul_d(c->normal->wide_foundation.eta, c->mu), dd_from2(c->press.dz, c->press.dz_rest));
-    return fraction_of(dx, max);
+    return fraction_of(c, dx, max);
 }
 
 fret_status fret_loading_by_displacement(const fret_contact *c, double dx, fret_loading *out) {

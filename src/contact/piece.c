@@ -6,9 +6,18 @@
 #include "number/quadrature.h"
 #include "number/real.h"
 
+/* Two numbers at a time, on every processor. */
+typedef double pair __attribute__((vector_size(16)));
+
 stretch fret_stretch_join(const stretch *a, const stretch *b) {
     return (stretch){a->h + b->h, a->K + b->K, a->G + b->G + a->h * b->K,
                      a->L + b->L + b->h * a->G + a->h * (b->h * b->K - b->G)};
+}
+
+stretch fret_stretch_less(const stretch *whole, const stretch *inner) {
+    const fret_real h = whole->h - inner->h, G = whole->G - inner->G - h * inner->K;
+    return (stretch){h, whole->K - inner->K, G,
+                     whole->L - inner->L - inner->h * G - h * (inner->h * inner->K - inner->G)};
 }
 
 void fret_stretch_add_runs(stretch *const run[RUNS], size_t from, size_t to, stretch *sum) {
@@ -34,6 +43,12 @@ polynomial fret_polynomial_of(const fret_real *c) {
 }
 
 /* Even and odd powers apart: half as long a chain of operations that wait for each other. */
+static inline fret_real with_tail(const polynomial *c, fret_real z, fret_real z2, double tail) {
+    const fret_real *h = c->head;
+    return (h[0] + z2 * (h[2] + z2 * (h[4] + z2 * h[6]))) +
+           z * (h[1] + z2 * (h[3] + z2 * (h[5] + z2 * tail)));
+}
+
 fret_real fret_polynomial_at(const polynomial *c, fret_real z) {
     const double x = (double)z, x2 = x * x;
     double even = c->tail[TAIL - 2], odd = c->tail[TAIL - 1];
@@ -41,9 +56,7 @@ fret_real fret_polynomial_at(const polynomial *c, fret_real z) {
         even = even * x2 + c->tail[i];
         odd = odd * x2 + c->tail[i + 1];
     }
-    const fret_real z2 = z * z, *h = c->head;
-    return (h[0] + z2 * (h[2] + z2 * (h[4] + z2 * h[6]))) +
-           z * (h[1] + z2 * (h[3] + z2 * (h[5] + z2 * (even + x * odd))));
+    return with_tail(c, z, z * z, even + x * odd);
 }
 
 /* First and half of the second derivative, for corrections. */
@@ -86,8 +99,6 @@ fret_real fret_piece_distance(const piece *p, fret_real z, fret_real *rate) {
     return e;
 }
 
-/* Two numbers at a time, on every processor. */
-typedef double pair __attribute__((vector_size(16)));
 enum { PAIRS = 4 };
 
 /* The part from z to z-way of one piece by one rule; q: quotient of the depth at z. */
@@ -135,32 +146,63 @@ stretch fret_piece_part(const piece *p, const polynomial *q, fret_real z, fret_r
     return p->coarse && way > 0.4L ? in_halves(p, q, z, way) : by_rule(p, q, z, way);
 }
 
+stretch fret_piece_within(const piece *p, fret_real z) {
+    const polynomial *y = &p->rise[DEPTHS], *K = &p->K, *G = &p->G, *L = &p->L;
+    const double x = (double)z, x2 = x * x;
+    pair even[2] = {{y->tail[TAIL - 2], K->tail[TAIL - 2]}, {G->tail[TAIL - 2], L->tail[TAIL - 2]}},
+         odd[2] = {{y->tail[TAIL - 1], K->tail[TAIL - 1]}, {G->tail[TAIL - 1], L->tail[TAIL - 1]}};
+    for (int i = TAIL - 4; i >= 0; i -= 2) {
+        even[0] = even[0] * x2 + (pair){y->tail[i], K->tail[i]};
+        odd[0] = odd[0] * x2 + (pair){y->tail[i + 1], K->tail[i + 1]};
+        even[1] = even[1] * x2 + (pair){G->tail[i], L->tail[i]};
+        odd[1] = odd[1] * x2 + (pair){G->tail[i + 1], L->tail[i + 1]};
+    }
+    for (int i = 0; i < 2; i++)
+        even[i] += x * odd[i];
+    const fret_real z2 = z * z;
+    return (stretch){with_tail(y, z, z2, even[0][0]), with_tail(K, z, z2, even[0][1]),
+                     with_tail(G, z, z2, even[1][0]), with_tail(L, z, z2, even[1][1])};
+}
+
 fret_real fret_piece_make_whole(piece *p) {
-    const stretch once = by_rule(p, &p->from_end[DEPTHS], 1, 2);
-    p->whole = in_halves(p, &p->from_end[DEPTHS], 1, 2);
+    polynomial q;
+    fret_polynomial_quotient(&p->rise[DEPTHS], 1, &q);
+    const stretch once = by_rule(p, &q, 1, 2);
+    p->whole = fret_piece_within(p, 1);
     return fabsl(once.L / p->whole.L - 1);
 }
 
 /* ---- from values to places --------------------------------------------------------------------- */
 
 /* What a guess is a polynomial of: nearly linear in the place where depth and load are nearly powers, or,
- * beyond a row, linear. */
-static double part_of_rise(const piece *p, int by, fret_real part) {
-    const double u = part > 0 ? (double)part : 0;
+ * beyond a row, linear; and its derivative by the rise. */
+static double bent_rise(const piece *p, int by, fret_real rise, double *rate) {
+    const double up = rise > 0 ? (double)rise : 0;
     if (p->width > 0) {
         const double least = (double)(p->middle - p->half) / (double)(p->middle + p->half),
-                     square = least * least, inner = square * square;
-        return sqrt(sqrt(inner + (1 - inner) * u));
+                     square = least * least, inner = square * square,
+                     per = (1 - inner) / (double)fret_piece_rise(p, by), root = sqrt(inner + per * up),
+                     u = sqrt(root);
+        *rate = per / (4 * root * u);
+        return u;
     }
-    return fret_double_log1p(u * (double)(fret_piece_rise(p, by) / fret_level_by(&p->inner, by)));
+    const double inner = (double)fret_level_by(&p->inner, by);
+    *rate = 1 / (inner + up);
+    return fret_double_log1p(up / inner);
 }
 
-static double guess_of(const piece *p, int by, fret_real rise) {
-    const double u = part_of_rise(p, by, rise / fret_piece_rise(p, by)), *c = p->guess[by];
-    double z = c[GUESS - 1];
-    for (int i = GUESS - 2; i >= 0; i--)
-        z = z * u + c[i];
-    return z;
+static double guess_of(const piece *p, int by, fret_real rise, double *rate) {
+    const guide *g = &p->guess[by];
+    const double v = (bent_rise(p, by, rise, rate) - g->middle) * g->scale, v2 = v * v;
+    pair even = {g->term[GUESS - 2][0], g->term[GUESS - 2][1]},
+         odd = {g->term[GUESS - 1][0], g->term[GUESS - 1][1]};
+    for (int i = GUESS - 4; i >= 0; i -= 2) {
+        even = even * v2 + (pair){g->term[i][0], g->term[i][1]};
+        odd = odd * v2 + (pair){g->term[i + 1][0], g->term[i + 1][1]};
+    }
+    even += v * odd;
+    *rate *= g->scale * even[1];
+    return even[0];
 }
 
 /* A step of third order; what is left of an error of 1e-7 is below 1e-20. */
@@ -170,10 +212,15 @@ static fret_real correction(fret_real missing, double slope, double bend) {
 }
 static const fret_real close_enough = 1e-7L;
 
-fret_real fret_piece_place(const piece *p, int by, fret_real value) {
-    const fret_real rise = value - fret_level_by(&p->inner, by);
+static const double close_guess = 1e-9;
+
+fret_real fret_piece_place(const piece *p, int by, fret_real rise) {
     const polynomial *c = &p->rise[by];
-    fret_real lo = -1, hi = 1, z = fmin(fmax(guess_of(p, by, rise), -1), 1);
+    double rate;
+    fret_real lo = -1, hi = 1, z = fmin(fmax(guess_of(p, by, rise, &rate), -1), 1);
+    const fret_real off = rise - fret_polynomial_at(c, z), near = z + off * rate;
+    if (fabsl(off) <= close_guess * fret_piece_rise(p, by) && fabsl(near - z) <= close_guess)
+        return near > 1 ? 1 : near > -1 ? near : -1;
     for (int i = 0; i < 60; i++) {
         double bend;
         const fret_real missing = rise - fret_polynomial_at(c, z);
@@ -192,9 +239,10 @@ fret_real fret_piece_place(const piece *p, int by, fret_real value) {
 fret_real fret_piece_way(const piece *p, int by, const polynomial *q, fret_real z0, fret_real have,
                          fret_real drop) {
     const fret_real most = 1 + z0;
+    double unused;
     fret_real lo = 0, hi = most,
-              way =
-                  drop < 1e-3L * have ? drop / fret_polynomial_at(q, z0) : z0 - guess_of(p, by, have - drop);
+              way = drop < 1e-3L * have ? drop / fret_polynomial_at(q, z0)
+                                        : z0 - guess_of(p, by, have - drop, &unused);
     way = way > 0 && way < most ? way : most / 2;
     for (int i = 0; i < 60; i++) {
         double bend;
@@ -215,25 +263,32 @@ fret_real fret_piece_way(const piece *p, int by, const polynomial *q, fret_real 
 
 /* By the divided differences of the inverse. */
 void fret_piece_make_guess(piece *p, int by, const fret_real z[GUESS]) {
-    double u[GUESS], c[GUESS];
-    const fret_real whole = fret_polynomial_at(&p->rise[by], 1);
+    double v[GUESS], c[GUESS], unused;
+    guide *g = &p->guess[by];
+    const double lo = bent_rise(p, by, 0, &unused), hi = bent_rise(p, by, fret_piece_rise(p, by), &unused);
+    g->middle = (lo + hi) / 2;
+    g->scale = 2 / (hi - lo);
     for (int i = 0; i < GUESS; i++) {
-        u[i] = part_of_rise(p, by, fret_polynomial_at(&p->rise[by], z[i]) / whole);
+        v[i] = (bent_rise(p, by, fret_polynomial_at(&p->rise[by], z[i]), &unused) - g->middle) * g->scale;
         c[i] = (double)z[i];
     }
     for (int i = 1; i < GUESS; i++) /* divided differences */
         for (int j = GUESS - 1; j >= i; j--)
-            c[j] = (c[j] - c[j - 1]) / (u[j] - u[j - i]);
+            c[j] = (c[j] - c[j - 1]) / (v[j] - v[j - i]);
     for (int i = GUESS - 2; i >= 0; i--) /* to powers */
         for (int j = i; j < GUESS - 1; j++)
-            c[j] -= u[i] * c[j + 1];
-    for (int i = 0; i < GUESS; i++)
-        p->guess[by][i] = c[i];
+            c[j] -= v[i] * c[j + 1];
+    for (int i = 0; i < GUESS; i++) {
+        g->term[i][0] = c[i];
+        g->term[i][1] = i < GUESS - 1 ? (i + 1) * c[i + 1] : 0;
+    }
 }
 
-void fret_piece_add_work(const piece *p, fret_real z, fret_real sum[2]) {
-    const fret_real y = fret_polynomial_at(&p->rise[DEPTHS], z), F = fret_polynomial_at(&p->rise[LOADS], z),
-                    work = fret_polynomial_at(&p->work, z);
-    sum[DEPTHS] += p->inner.y * F + work;
-    sum[LOADS] += p->inner.F * y + (y * F - work);
+/* Half of what G and L tell, beside that of a straight line. */
+fret_level fret_piece_work(const piece *p, fret_real z, fret_real work[2]) {
+    const stretch s = fret_piece_within(p, z);
+    const fret_level rise = {s.h, p->K_inner * s.h + s.G};
+    work[DEPTHS] = (p->K_inner * s.h * s.h + (s.L + s.h * s.G)) / 2;
+    work[LOADS] = rise.y * rise.F - work[DEPTHS];
+    return rise;
 }

@@ -26,18 +26,25 @@ typedef struct stretch {
     fret_real h, K, G, L;
 } stretch;
 
-enum { DEPTHS, LOADS, GUESS = 8 };
+/* The place of a rise, about: z, and dz/dv, by powers of v, -1..1. */
+enum { GUESS = 12 };
+typedef struct guide {
+    double middle, scale; /* of what v is linear in */
+    double term[GUESS][2];
+} guide;
+
+enum { DEPTHS, LOADS };
 typedef struct piece {
     fret_real origin, width, middle, half; /* width 0: e = exp(s) */
     fret_level inner, outer;               /* depth and load at the ends */
-    polynomial rise[2], from_end[2];       /* depth and load above the inner end; quotients at z = 1 */
-    polynomial K, dK;                      /* dF/dy above the inner end, and its derivative */
-    polynomial work;                       /* int (y-y_inner) dF from the inner end */
-    fret_real sum[2];                      /* int y dF, int F dy from the centre to the inner end */
-    fret_real K_inner;
-    double guess[2][GUESS]; /* z from the part of the rise, about */
-    bool blunt, coarse;     /* begins at a kink; wants its integrals in halves */
+    fret_real K_inner;                     /* dF/dy */
+    guide guess[2];
+    polynomial rise[2]; /* depth and load above the inner end */
+    polynomial K, G, L; /* of the stretch from there to the inner end */
+    polynomial dK;      /* the derivative of K */
+    bool blunt, coarse; /* begins at a kink; wants its integrals in halves */
     stretch whole;
+    fret_real sum[2]; /* int y dF, int F dy from the centre to the inner end */
 } piece;
 /* Lengths of runs: powers of two. */
 enum { RUNS = 40 };
@@ -63,6 +70,8 @@ struct fret_pieces {
 
 /* Outer part first. */
 stretch fret_stretch_join(const stretch *outer, const stretch *inner);
+/* The outer part of a stretch, which loses digits where that is small. */
+stretch fret_stretch_less(const stretch *whole, const stretch *inner);
 /* Adds to `sum` the runs below number `from`, down to and with number `to`. */
 void fret_stretch_add_runs(stretch *const run[RUNS], size_t from, size_t to, stretch *sum);
 
@@ -83,14 +92,16 @@ static inline fret_real fret_piece_rise(const piece *p, int by) {
 }
 /* The part from z to z-way; q: quotient of the depth at z. */
 stretch fret_piece_part(const piece *p, const polynomial *q, fret_real z, fret_real way);
-/* z where the depth, or the load, is `value`. */
-fret_real fret_piece_place(const piece *p, int by, fret_real value);
+/* The part from z to the inner end: to a part of the whole, not of itself. */
+stretch fret_piece_within(const piece *p, fret_real z);
+/* z where the depth, or the load, is so far above that of the inner end. */
+fret_real fret_piece_place(const piece *p, int by, fret_real rise);
 /* The way inwards from z0 in which the depth, or the load, falls by `drop`, with all digits; q: the quotient
  * at z0, have: the rise from the inner end to there. */
 fret_real fret_piece_way(const piece *p, int by, const polynomial *q, fret_real z0, fret_real have,
                          fret_real drop);
-/* Adds int y dF and int F dy from the inner end to z. */
-void fret_piece_add_work(const piece *p, fret_real z, fret_real sum[2]);
+/* int (y-y_inner) dF and int (F-F_inner) dy from the inner end to z, and how far depth and load rise. */
+fret_level fret_piece_work(const piece *p, fret_real z, fret_real work[2]);
 
 /* While it is made: guesses of places, through those of z; the whole, and how far one rule for it is off. */
 void fret_piece_make_guess(piece *p, int by, const fret_real z[GUESS]);

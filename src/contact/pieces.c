@@ -24,6 +24,10 @@ static bool find(const law *all, int by, fret_real value, size_t *found) {
     return true;
 }
 
+static fret_real place_of(const piece *p, int by, fret_real value) {
+    return fret_piece_place(p, by, value - fret_level_by(&p->inner, by));
+}
+
 static bool point_of(const law *all, int by, fret_real value, fret_point *out) {
     size_t i;
     fret_real rate;
@@ -35,7 +39,7 @@ static bool point_of(const law *all, int by, fret_real value, fret_point *out) {
     if (!find(all, by, value, &i))
         return false;
     const piece *p = &all->piece[i];
-    const fret_real z = fret_piece_place(p, by == BY_LOAD ? LOADS : DEPTHS, value);
+    const fret_real z = place_of(p, by == BY_LOAD ? LOADS : DEPTHS, value);
     out->y = by == BY_LOAD ? p->inner.y + fret_polynomial_at(&p->rise[DEPTHS], z) : value;
     out->F = by == BY_LOAD ? value : p->inner.F + fret_polynomial_at(&p->rise[LOADS], z);
     out->K = p->K_inner + fret_polynomial_at(&p->K, z);
@@ -67,15 +71,37 @@ bool fret_pieces_depth(const struct fret_pieces *pieces, fret_real e, fret_real 
     return true;
 }
 
-/* Where a slice begins and ends: in piece `outer` at z, inwards to `way` before z, or before the outer end of
- * piece `inner` where that is another; inner = count: at the centre. */
+/* Where a slice begins and ends: in piece `outer` at z, inwards in piece `inner`, so much of depth or load,
+ * `drop`, below z or the outer end of that piece where it is another; inner = count: at the centre.
+ * far: at z = `place`, where the slice is thick enough for differences of whole pieces; else `way` before z
+ * or the outer end. */
 typedef struct ends {
     size_t outer, inner;
-    fret_real z, way;
+    bool far;
+    fret_real z, have, drop, place, way;
 } ends;
 
+/* Of a piece: a slice is thick, in depth or load or as an integral, where it has no less of it. */
+static const fret_real THICK = 0.2L, WORTH = 0.02L;
+
 static fret_real way_from_end(const piece *p, int by, fret_real drop) {
-    return drop > 0 ? fret_piece_way(p, by, &p->from_end[by], 1, fret_piece_rise(p, by), drop) : 0;
+    polynomial q;
+    if (!(drop > 0))
+        return 0;
+    fret_polynomial_quotient(&p->rise[by], 1, &q);
+    return fret_piece_way(p, by, &q, 1, fret_piece_rise(p, by), drop);
+}
+
+static void find_way(const law *all, int by, ends *c) {
+    const piece *p = &all->piece[c->outer];
+    polynomial q;
+    c->far = false;
+    if (c->inner != c->outer) {
+        c->way = way_from_end(&all->piece[c->inner], by, c->drop);
+        return;
+    }
+    fret_polynomial_quotient(&p->rise[by], c->z, &q);
+    c->way = fret_piece_way(p, by, &q, c->z, c->have, c->drop);
 }
 
 /* by: that in which whole, of the place, and target are told. */
@@ -83,34 +109,38 @@ static bool find_ends(const law *all, int by, fret_real whole, fret_real target,
     const int table = by == LOADS ? BY_LOAD : BY_DEPTH;
     if (!(target > 0) || !find(all, table, whole, &c->outer))
         return false;
-    const piece *p = &all->piece[c->outer];
-    c->z = fret_piece_place(p, by, whole);
+    const piece *p = &all->piece[c->outer], *next = p;
+    const fret_real rise = fret_piece_rise(p, by);
+    c->have = whole - fret_level_by(&p->inner, by);
+    c->z = fret_piece_place(p, by, c->have);
     c->inner = c->outer;
-    const fret_real have = fret_polynomial_at(&p->rise[by], c->z);
     /* close to a kink a piece is as steep as a third power: thin slices there are not for it */
-    if (p->blunt && c->z < -0.6L && target < fret_piece_rise(p, by))
+    if (p->blunt && c->z < -0.6L && target < rise)
         return false;
-    if (target <= have) {
-        polynomial q;
-        fret_polynomial_quotient(&p->rise[by], c->z, &q);
-        c->way = fret_piece_way(p, by, &q, c->z, have, target);
-        return true;
-    }
-    if (left <= 0) {
-        c->inner = all->count;
-        return true;
-    }
-    if (c->outer == 0)
-        return false;
-    fret_real drop = target - have;
-    const piece *next = &all->piece[--c->inner];
-    if (drop > fret_piece_rise(next, by)) {
-        if (!find(all, table, left, &c->inner))
+    c->drop = target;
+    if (target > c->have) {
+        c->far = true;
+        if (left <= 0) {
+            c->inner = all->count;
+            return true;
+        }
+        if (c->outer == 0)
             return false;
-        next = &all->piece[c->inner];
-        drop = fret_level_by(&next->outer, by) - left;
+        c->drop = target - c->have;
+        next = &all->piece[--c->inner];
+        if (c->drop > fret_piece_rise(next, by)) {
+            if (!find(all, table, left, &c->inner))
+                return false;
+            next = &all->piece[c->inner];
+            c->drop = fret_level_by(&next->outer, by) - left;
+        }
     }
-    c->way = way_from_end(next, by, drop);
+    const fret_real rest = next == p ? c->have : fret_piece_rise(next, by);
+    c->far = target >= THICK * rise && target >= THICK * fret_piece_rise(next, by);
+    if (c->far)
+        c->place = fret_piece_place(next, by, rest - c->drop);
+    else
+        find_way(all, by, c);
     return true;
 }
 
@@ -118,21 +148,50 @@ static bool find_ends(const law *all, int by, fret_real whole, fret_real target,
 static fret_real fall_of(const law *all, int by, const ends *c) {
     const piece *p = &all->piece[c->outer], *last = &all->piece[c->inner];
     polynomial q;
-    if (c->inner == c->outer) {
-        fret_polynomial_quotient(&p->rise[by], c->z, &q);
+    const fret_real have = fret_polynomial_at(&p->rise[by], c->z);
+    if (c->far)
+        return (have - fret_polynomial_at(&last->rise[by], c->place)) +
+               (fret_level_by(&p->inner, by) - fret_level_by(&last->inner, by));
+    fret_polynomial_quotient(&last->rise[by], c->inner == c->outer ? c->z : 1, &q);
+    if (c->inner == c->outer)
         return c->way * fret_polynomial_at(&q, c->z - c->way);
+    return have + (fret_level_by(&p->inner, by) - fret_level_by(&last->outer, by)) +
+           c->way * fret_polynomial_at(&q, 1 - c->way);
+}
+
+/* The integrals of a thick slice, and K at the inner end; false: it is not thick enough for that. */
+static bool far_integrals(const law *all, const ends *c, stretch *sum, fret_real *K) {
+    const piece *p = &all->piece[c->outer], *last = &all->piece[c->inner];
+    *sum = fret_piece_within(p, c->z);
+    if (c->inner == all->count) {
+        *K = all->K_start;
+        fret_stretch_add_runs(all->run, c->outer, 0, sum);
+        *sum = fret_stretch_join(sum, &all->core);
+        return sum->L >= WORTH * p->whole.L;
     }
-    return fret_polynomial_at(&p->rise[by], c->z) +
-           (fret_level_by(&p->inner, by) - fret_level_by(&last->outer, by)) +
-           c->way * fret_polynomial_at(&last->from_end[by], 1 - c->way);
+    const stretch rest = fret_piece_within(last, c->place);
+    *K = last->K_inner + rest.K;
+    if (c->inner == c->outer) {
+        *sum = fret_stretch_less(sum, &rest);
+    } else {
+        const stretch part = fret_stretch_less(&last->whole, &rest);
+        fret_stretch_add_runs(all->run, c->outer, c->inner + 1, sum);
+        *sum = fret_stretch_join(sum, &part);
+    }
+    return sum->L >= WORTH * (p->whole.L + last->whole.L);
 }
 
 /* The integrals, and K at the inner end. */
-static stretch integrals_of(const law *all, const ends *c, fret_real *K) {
+static stretch integrals_of(const law *all, int by, ends *c, fret_real *K) {
     const piece *p = &all->piece[c->outer], *last = &all->piece[c->inner];
     polynomial q;
+    stretch sum;
+    if (c->far && far_integrals(all, c, &sum, K))
+        return sum;
+    if (c->far && c->inner != all->count)
+        find_way(all, by, c);
     fret_polynomial_quotient(&p->rise[DEPTHS], c->z, &q);
-    stretch sum = fret_piece_part(p, &q, c->z, c->inner == c->outer ? c->way : 1 + c->z);
+    sum = fret_piece_part(p, &q, c->z, c->inner == c->outer ? c->way : 1 + c->z);
     if (c->inner == all->count) {
         *K = all->K_start;
         fret_stretch_add_runs(all->run, c->outer, 0, &sum);
@@ -144,7 +203,8 @@ static stretch integrals_of(const law *all, const ends *c, fret_real *K) {
     fret_stretch_add_runs(all->run, c->outer, c->inner + 1, &sum);
     if (!(c->way > 0))
         return sum;
-    const stretch rest = fret_piece_part(last, &last->from_end[DEPTHS], 1, c->way);
+    fret_polynomial_quotient(&last->rise[DEPTHS], 1, &q);
+    const stretch rest = fret_piece_part(last, &q, 1, c->way);
     return fret_stretch_join(&sum, &rest);
 }
 
@@ -165,7 +225,7 @@ static bool by_rows(const law *all, int by, fret_real whole, fret_real left, str
         return true;
     if (!find_ends(all, by, base, base - left, left, &c))
         return false;
-    const stretch rest = integrals_of(all, &c, K);
+    const stretch rest = integrals_of(all, by, &c, K);
     *sum = fret_stretch_join(sum, &rest);
     return true;
 }
@@ -178,7 +238,7 @@ static bool slice_of(const law *all, int by, fret_real whole, fret_real target, 
     if (!by_rows(all, by, whole, left, &s, &K)) {
         if (!find_ends(all, by, whole, target, left, &c))
             return false;
-        s = integrals_of(all, &c, &K);
+        s = integrals_of(all, by, &c, &K);
     }
     *h = by == LOADS ? s.h : fminl(target, whole);
     *out = (fret_slice){.w = by == LOADS ? fminl(target, whole) : s.G + *h * K,
@@ -254,22 +314,26 @@ static bool mean_by_rows(const law *all, int by, fret_real from, fret_real to, f
 /* Depth by load, or load by depth, at both ends of a way, and its mean between them. */
 static bool mean_of(const law *all, int by, fret_real from, fret_real to, fret_real end[2], fret_real *mean) {
     const int other = by == LOADS ? DEPTHS : LOADS;
-    fret_real sum[2][2];
+    fret_real sum[2], base = 0;
+    size_t at[2];
     if (mean_by_rows(all, by, from, to, end, mean))
         return true;
-    for (int i = 0; i < 2; i++) {
-        size_t at;
-        const fret_real value = i ? to : from;
-        if (!find(all, by == LOADS ? BY_LOAD : BY_DEPTH, value, &at))
+    for (int i = 0; i < 2; i++)
+        if (!find(all, by == LOADS ? BY_LOAD : BY_DEPTH, i ? to : from, &at[i]))
             return false;
-        const piece *p = &all->piece[at];
-        const fret_real z = fret_piece_place(p, by, value);
-        end[i] = fret_level_by(&p->inner, other) + fret_polynomial_at(&p->rise[other], z);
-        sum[i][DEPTHS] = p->sum[DEPTHS];
-        sum[i][LOADS] = p->sum[LOADS];
-        fret_piece_add_work(p, z, sum[i]);
+    for (int i = 0; i < 2; i++) {
+        const piece *p = &all->piece[at[i]];
+        fret_real work[2];
+        const fret_level rise = fret_piece_work(p, place_of(p, by, i ? to : from), work);
+        const fret_real inner = fret_level_by(&p->inner, other);
+        end[i] = inner + fret_level_by(&rise, other);
+        sum[i] = work[other];
+        if (at[0] == at[1])
+            base = inner;
+        else
+            sum[i] += p->sum[other] + inner * fret_level_by(&rise, by);
     }
-    *mean = from == to ? end[0] : (sum[0][other] - sum[1][other]) / (from - to);
+    *mean = from == to ? end[0] : base + (sum[0] - sum[1]) / (from - to);
     return true;
 }
 

@@ -163,6 +163,17 @@ static void slopes_of(maker *m, const piece *p, fret_real *slope) {
     }
 }
 
+/* F = K y + G, above the inner end. */
+static polynomial load_of(const piece *p) {
+    const polynomial *y = &p->rise[DEPTHS];
+    polynomial F;
+    for (int i = 0; i < HEAD; i++)
+        F.head[i] = p->K_inner * y->head[i] + p->G.head[i];
+    for (int i = 0; i < TAIL; i++)
+        F.tail[i] = (double)p->K_inner * y->tail[i] + p->G.tail[i];
+    return F;
+}
+
 /* Where a piece is held against the profile. */
 enum { LOOKS = 5 };
 static const fret_real looks[LOOKS] = {-0.91L, -0.5L, 0.29L, 0.83L, 1};
@@ -170,11 +181,10 @@ static const fret_real looks[LOOKS] = {-0.91L, -0.5L, 0.29L, 0.83L, 1};
 /* slope: dg/dz at the nodes; tolerance: of the last terms; borne: of the law. */
 static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tolerance, fret_real borne) {
     const fret_normal *n = m->normal;
-    fret_real load[NODES], rise[NODES], c[TERMS] = {0}, rate, worst;
+    fret_real rise[NODES], bow[NODES], moment[NODES], c[TERMS] = {0}, rate, worst;
     for (int j = 0; j < NODES; j++) {
         const fret_real e = fret_piece_distance(p, node_of(&m->rule, j), &rate), x = m->start + e;
         const fret_real K = fret_normal_stiffness(n, x);
-        load[j] = K * slope[j];
         rise[j] = (1 + n->foundation.k) * K / x * rate;
         if (!(slope[j] > 0))
             return false;
@@ -184,15 +194,18 @@ static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tol
     p->K = integral(c);
     worst = fmaxl(worst, fit(&m->rule, !m->by_row, slope, c));
     p->rise[DEPTHS] = integral(c);
-    worst = fmaxl(worst, fit(&m->rule, !m->by_row, load, c));
-    p->rise[LOADS] = integral(c);
     for (int j = 0; j < NODES; j++)
-        load[j] *= fret_polynomial_at(&p->rise[DEPTHS], node_of(&m->rule, j));
-    if (!(fit(&m->rule, !m->by_row, load, c) <= tolerance / 10))
+        bow[j] = slope[j] * fret_polynomial_at(&p->K, node_of(&m->rule, j));
+    worst = fmaxl(worst, fit(&m->rule, !m->by_row, bow, c));
+    p->G = integral(c);
+    for (int j = 0; j < NODES; j++) {
+        const fret_real z = node_of(&m->rule, j);
+        moment[j] = slope[j] * (fret_polynomial_at(&p->rise[DEPTHS], z) * fret_polynomial_at(&p->K, z) -
+                                fret_polynomial_at(&p->G, z));
+    }
+    if (!(fit(&m->rule, !m->by_row, moment, c) <= tolerance / 10))
         return false;
-    p->work = integral(c);
-    for (int i = DEPTHS; i <= LOADS; i++)
-        fret_polynomial_quotient(&p->rise[i], 1, &p->from_end[i]);
+    p->L = integral(c);
     if (!(worst <= tolerance))
         return false;
     fret_real deep = 0;
@@ -201,6 +214,7 @@ static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tol
     p->K_inner = fret_normal_stiffness(n, m->start + fret_piece_distance(p, -1, &rate));
     /* from end to end without a jump: differences of sums stay exact; what adds up is held against the
      * profile */
+    p->rise[LOADS] = load_of(p);
     p->outer = level_in(p, 1);
     for (int i = 0; i < LOOKS && !m->by_row; i++) {
         const fret_real e = fret_piece_distance(p, looks[i], &rate);
@@ -537,7 +551,10 @@ static bool make_core(maker *m) {
         piece *p = &all->piece[i];
         for (int by = DEPTHS; by <= LOADS; by++)
             p->sum[by] = sum[by];
-        fret_piece_add_work(p, 1, sum);
+        fret_real work[2];
+        const fret_level rise = fret_piece_work(p, 1, work);
+        sum[DEPTHS] += p->inner.y * rise.F + work[DEPTHS];
+        sum[LOADS] += p->inner.F * rise.y + work[LOADS];
     }
     return isfinite(core.L);
 }

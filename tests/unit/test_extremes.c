@@ -214,7 +214,7 @@ static void roots(void) {
             p.rise[DEPTHS] = p.rise[LOADS] = fret_polynomial_of(c);
             p.outer.y = p.outer.F = fret_polynomial_at(&p.rise[DEPTHS], 1);
             for (int by = DEPTHS; by <= LOADS; by++)
-                p.guess[by][0] = (double[]){0, -1, 1, 0.5, 7}[guess];
+                p.guess[by].term[0][0] = (double[]){0, -1, 1, 0.5, 7}[guess];
             p.blunt = guess == 3;
             for (int j = 0; j <= 16; j++) {
                 const fret_real z = j < 16 ? -1 + ldexpl(1, -j) * 2 : -1,
