@@ -8,12 +8,23 @@
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
+/* What a definition is made of may have become another quantity since. */
+static bool keeps_dim(scene *s, input in, const value *v, calc_error *error) {
+    const quantity *q = quantity_of_input(in);
+    long double n;
+    lexer none = {.error = error};
+    if (in == IN_A && s->in.bindings & INPUT_BIT(IN_N) && !scene_get(s, IN_N, &n, error))
+        return false;
+    error->strange = !value_dim(&none, q->name, 0, 0, *v, quantity_dim(q, s));
+    return !error->strange;
+}
+
 /* A scene asks for the value of what an input is bound to. */
-static bool evaluate(void *context, scene *s, counted *d, value *out, calc_error *error) {
+static bool evaluate(void *context, scene *s, input in, counted *d, value *out, calc_error *error) {
     calc *c = context;
     scene *outer = c->now;
     c->now = s;
-    bool ok = definition_value(c, (definition *)d, out, error);
+    bool ok = definition_value(c, (definition *)d, out, error) && keeps_dim(s, in, out, error);
     c->now = outer;
     return ok;
 }
@@ -77,6 +88,8 @@ bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim 
     if (plain)
         return calc_fail(lx->error, at, len, "%s needs a unit: it is %s%s%s", name, want,
                          strstr(want, unit_text) ? "" : ", in ", strstr(want, unit_text) ? "" : unit_text);
+    if (len == 0) /* of a definition, which stands elsewhere */
+        return calc_fail(lx->error, at, len, "%s is %s, not %s", name, want, got);
     return calc_fail(lx->error, at, len, "%s is %s, not %s (%.*s)", name, want, got, LEX_SHOWN(len),
                      lx->text + at);
 }
@@ -297,18 +310,19 @@ static bool definition_fails(calc *c, lexer *lx, const assignment *a, calc_error
 
 static bool binding_holds(calc *c, lexer *lx, const assignment *a) {
     const input in = quantity_input(a->q);
-    calc_error error;
+    calc_error error, again;
     long double unused;
     value v;
     scene probe, *outer = c->now;
     error_clear(&error);
+    error_clear(&again);
     scene_clone(&probe, &c->scene);
     inputs_bind(&probe.in, in, counted_hold(&a->d->base));
     c->now = &probe;
-    bool ok = scene_get(&probe, in, &unused, &error);
+    const bool ok = scene_get(&probe, in, &unused, &error) || error.strange;
     c->now = outer;
-    if (ok && definition_value(c, a->d, &v, &error))
-        ok = value_dim(lx, a->q->name, a->value_at, a->value_len, v, quantity_dim(a->q, &c->scene));
+    if (ok && definition_value(c, a->d, &v, &again))
+        (void)value_dim(lx, a->q->name, a->value_at, a->value_len, v, quantity_dim(a->q, &c->scene));
     scene_free(&probe);
     return !lx->error->raised && !definition_fails(c, lx, a, &error);
 }

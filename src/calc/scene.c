@@ -185,7 +185,7 @@ static bool settle(scene *s, input in, calc_error *error) {
     scene_clone(&then, s);
     then.settling |= bit;
     go_back(&then, amplitude);
-    bool ok = s->evaluate(s->context, &then, s->in.bound[in], &v, error);
+    bool ok = s->evaluate(s->context, &then, in, s->in.bound[in], &v, error);
     scene_free(&then);
     if (amplitude && s->before && s->early && !error->circle) {
         error_clear(error);

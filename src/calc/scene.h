@@ -50,8 +50,9 @@ typedef struct answers {
 
 typedef struct scene scene;
 
-/* Evaluates a live definition in a scene. */
-typedef bool scene_definition(void *context, scene *s, counted *definition, value *out, calc_error *error);
+/* Evaluates the live definition of an input in a scene: the value is of its dimension. */
+typedef bool scene_definition(void *context, scene *s, input in, counted *definition, value *out,
+                              calc_error *error);
 
 /* An instant on the way of a load: the run as it stands there, or what it has left behind. */
 typedef struct instant {
