@@ -247,6 +247,26 @@ bool record_end(shell *sh) {
     return true;
 }
 
+/* The part of a line before its `record off`: what comes behind is answered elsewhere. */
+static size_t until_off(const char *text, size_t len) {
+    size_t kept = 0, end;
+    for (size_t i = 0; i < len; i = end + 1) {
+        char first[8], second[8], third[2];
+        end = shell_statement_end(text, i, len);
+        char *statement = strndup(text + i, end - i);
+        const bool off = statement && sscanf(statement, "%7s %7s %1s", first, second, third) == 2 &&
+                         !strcmp(first, "record") && !strcmp(second, "off");
+        free(statement);
+        if (off) {
+            while (kept && text[kept - 1] == ' ')
+                kept--;
+            return kept;
+        }
+        kept = end;
+    }
+    return len;
+}
+
 /* `fret> ` and `....> ` before its physical lines, whose marks have become blanks. */
 void record_line(shell *sh, const char *text, size_t len) {
     struct recorder *r = sh->record;
@@ -255,6 +275,9 @@ void record_line(shell *sh, const char *text, size_t len) {
         return;
     fflush(sh->out);
     write_line(r);
+    len = r->cast ? len : until_off(text, len);
+    if (!len)
+        return;
     bool ok = file_text_open(&typed);
     for (size_t i = 0, n; ok && i <= len; i += n + 1) {
         const char *end = i < len ? memchr(text + i, '\n', len - i) : NULL;

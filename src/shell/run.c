@@ -385,6 +385,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         calc_error error;
         bool timed = sh->set.timing;
         double start = timed ? seconds() : 0;
+        const struct recorder *recorder = sh->record;
         sh->calc.scene.used = 0;
         scene_show(&sh->calc.scene, sh->set.format == FORMAT_TEXT ? sh->set.digits : 0);
         bool done = shell_statement(sh, text + i, end - i, &error);
@@ -404,6 +405,10 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
             report_time(sh, seconds() - start);
         }
         i = end < len && text[end] == ';' ? end + 1 : len;
+        while (i < len && text[i] == ' ')
+            i++;
+        if (sh->record && sh->record != recorder && i < len) /* which was not there when the line began */
+            record_line(sh, text + i, len - i);
     }
     return ok;
 }

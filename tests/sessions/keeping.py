@@ -181,6 +181,12 @@ def recorded(tests):
         again = tests.run("--replay", "long.txt", cwd=where)
         tests.check("a long load is recorded whole" + model, done.returncode == again.returncode == 0 and "W = " in done.stdout
                     and again.stdout.endswith(" passed, 0 failed\n"), tests.report(done) + tests.report(again))
+    done = tests.run("-c", 'friction 0.2; record line.txt; friction 0.3; 2*mu ; record  off ; 3\nmu', cwd=where)
+    with open(os.path.join(where, "line.txt"), encoding="utf-8") as f:
+        text = f.read()
+    again = tests.run("--replay", "line.txt", cwd=where)
+    tests.check("a line that begins and ends a transcript", done.stdout.endswith("3 = 3\nmu = 0.3\n") and again.returncode == 0
+                and text == "fret> friction 0.2 # as it was\nfret> friction 0.3; 2*mu\n2*mu = 0.6\n", text + tests.report(again))
     done = tests.run("-c", "record r.txt; a = 1 m", cwd=where)
     tests.check("overwriting a transcript is told", "overwriting r.txt" in done.stderr, tests.report(done))
     done = tests.run("-c", "record /nonexistent/r", cwd=where)
