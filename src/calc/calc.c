@@ -337,12 +337,14 @@ static bool bindings_hold(calc *c, lexer *lx, const assignment *all, size_t coun
 /* A name that looks like an input was perhaps meant to be one. */
 static void note_new_name(calc *c, const char *text, size_t len) {
     static const char *const other_names[][2] = {{"angle", "slope"}, {"Fn", "FN"},    {"F", "FN"},
-                                                 {"P", "FN"},        {"radius", "R"}, {"v", "nu"}};
-    char plain[LEX_NAME] = "";
+                                                 {"P", "FN"},        {"radius", "R"}, {"v", "nu"},
+                                                 {"E02", "E0_2"},    {"nu2", "nu_2"}};
+    char letters[PLAIN_WORD], plain[PLAIN_WORD];
     size_t n = 0;
-    for (size_t i = 0; i < len && n + 1 < sizeof plain; i++)
-        if (text[i] != '_')
-            plain[n++] = text[i];
+    plain_letters(text, len, letters);
+    for (size_t i = 0; letters[i]; i++)
+        if (letters[i] != '_')
+            plain[n++] = letters[i];
     plain[n] = 0;
     const char *near = NULL;
     for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++)

@@ -114,8 +114,9 @@ static bool read_unit(reader *r, csv_values *column, unit *u, const char *text, 
     if (len == 1 && *text == '-')
         return true;
     if (wrong.raised || !unit_parse(&lx, u) || wrong.raised || lx.kind != T_END)
-        return trouble(r, column, "%.200s:%zu: %.200s in the header", r->c->path, r->line,
-                       wrong.raised ? wrong.text : "a bad unit");
+        return trouble(r, column, "%.200s:%zu: %.200s%.*s%s in the header", r->c->path, r->line,
+                       wrong.raised ? wrong.text : "a bad unit '", wrong.raised ? 0 : LEX_SHOWN(len), text,
+                       wrong.raised ? "" : "'");
     column->d = u->d;
     column->has_unit = true;
     return true;
@@ -357,7 +358,8 @@ const csv_values *csv_column(const csv *c, const char *name, calc_error *error) 
     const csv_values *column = find(c, name);
     csv_names(c, names, sizeof names);
     if (!column)
-        calc_fail(error, 0, 0, "%.200s has no column %s: its columns are %s", c->path, name, names);
+        calc_fail(error, 0, 0, "%.200s has no column %s: its columns are %s, by its first line", c->path,
+                  name, names);
     else if (column->trouble)
         calc_fail(error, 0, 0, "%s", column->trouble);
     return column && !column->trouble ? column : NULL;

@@ -150,7 +150,7 @@ static bool call_builtin(machine *m, const expr_node *n, value *out) {
         return dim_wrong(m, r, b.d, wants);
     if (function->d == DIM_TO_ANGLE)
         out->d = DIM_ANGLE;
-    if (isnan(out->v))
+    if (isnan(out->v) || (a.v == 0 && isinf(out->v)))
         return function->f2 ? bad_value(m, n, "beta needs two positive arguments in range")
                             : bad_value(m, n, "%s is not defined there", function->name);
     return true;

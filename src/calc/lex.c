@@ -117,6 +117,36 @@ static void read_number(lexer *lx) {
         lex_fail(lx, "the number is too %s for double precision", lx->number == 0 ? "small" : "large");
 }
 
+/* What texts have in place of plain characters, and how it is written here. */
+static const char *plain_of(unsigned code) {
+    static const struct {
+        unsigned first, last;
+        const char *plain;
+    } rows[] = {{0xa0, 0xa0, "an ordinary blank"},
+                {0xab, 0xab, "\""},
+                {0xb0, 0xb0, "deg"},
+                {0xb1, 0xb1, "+-"},
+                {0xb2, 0xb2, "^2"},
+                {0xb3, 0xb3, "^3"},
+                {0xb7, 0xb7, "*"},
+                {0xbb, 0xbb, "\""},
+                {0xd7, 0xd7, "*"},
+                {0xf7, 0xf7, "/"},
+                {0x2000, 0x200a, "an ordinary blank"},
+                {0x2010, 0x2015, "-"},
+                {0x201c, 0x201f, "\""},
+                {0x2026, 0x2026, ".."},
+                {0x202f, 0x202f, "an ordinary blank"},
+                {0x2212, 0x2212, "-"},
+                {0x2215, 0x2215, "/"},
+                {0x221a, 0x221a, "sqrt( )"},
+                {0x22c5, 0x22c5, "*"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (code >= rows[i].first && code <= rows[i].last)
+            return rows[i].plain;
+    return NULL;
+}
+
 /* Names hold letters of any script, and nothing that does not show. */
 static void check_name(lexer *lx) {
     const char *s = lx->text + lx->at;
@@ -127,6 +157,12 @@ static void check_name(lexer *lx) {
             calc_raise(lx->error, lx->at + i, n ? n : 1,
                        n ? "unexpected character U+%04X" : "unexpected byte 0x%02x",
                        n ? code : (unsigned)(unsigned char)s[i]);
+            return;
+        }
+        const char *plain = plain_of(code);
+        if (plain) {
+            calc_raise(lx->error, lx->at + i, n, "'%.*s' (U+%04X) is no character of the language: write %s",
+                       (int)n, s + i, code, plain);
             return;
         }
         i += n;

@@ -313,6 +313,19 @@ static bool parse_name(parser *p, size_t *out) {
 
 /* ---- operators --------------------------------------------------------------------------------- */
 
+/* A value right behind a number, and no keyword or argument of a command. */
+static bool at_factor(const parser *p) {
+    const lexer *lx = p->lx;
+    const char *word = lx->text + lx->at;
+    const token_kind next = lex_peek(lx);
+    size_t i;
+    if (next == T_ASSIGN || next == T_DEFINE || next == T_INCREMENT || next == T_NUMBER)
+        return false;
+    if (builtin_find(word, lx->len, &i))
+        return !builtin_row(i) || next == T_OPEN;
+    return quantity_find(word, lx->len) || (next != T_NAME && names_find(&p->c->names, word, lx->len, &i));
+}
+
 static bool parse_number(parser *p, size_t *out) {
     lexer *lx = p->lx;
     size_t at = lx->at, len = lx->len;
@@ -333,7 +346,11 @@ static bool parse_number(parser *p, size_t *out) {
         if (!isfinite((double)node.v.v))
             return calc_fail(lx->error, at, lx->last - at, "the number is too large for double precision");
     }
-    return !lx->error->raised && add(p, &node, out);
+    if (lx->error->raised)
+        return false;
+    if (lx->kind == T_OPEN || (lx->kind == T_NAME && at_factor(p)))
+        return lex_fail(lx, "unexpected '%.*s': a product needs *, a list commas", LEX_WORD(lx));
+    return add(p, &node, out);
 }
 
 static bool parse_parenthesis(parser *p, size_t *out) {

@@ -68,7 +68,29 @@ bool one_letter_apart(const char *a, const char *b) {
     return distance(a, b) <= 2;
 }
 
-const char *suggest(const char *word, const char *(*name)(size_t i)) {
+void plain_letters(const char *word, size_t len, char plain[PLAIN_WORD]) {
+    static const char *const greek[][2] = {{"μ", "mu"},  {"µ", "mu"},    {"ν", "nu"},
+                                           {"η", "eta"}, {"κ", "kappa"}, {"β", "beta_k"},
+                                           {"δ", "d"},   {"Δ", "d"},     {"π", "pi"}};
+    size_t n = 0;
+    for (size_t i = 0; i < len;) {
+        const char *as = NULL;
+        for (size_t j = 0; !as && j < sizeof greek / sizeof *greek && i + 1 < len; j++)
+            if (!memcmp(word + i, greek[j][0], 2))
+                as = greek[j][1];
+        const size_t taken = as ? strlen(as) : 1;
+        if (n + taken >= PLAIN_WORD)
+            break;
+        memcpy(plain + n, as ? as : word + i, taken);
+        n += taken;
+        i += as ? 2 : 1;
+    }
+    plain[n] = 0;
+}
+
+const char *suggest(const char *typed, const char *(*name)(size_t i)) {
+    char word[PLAIN_WORD];
+    plain_letters(typed, strlen(typed), word);
     const char *best = NULL;
     size_t least = strlen(word) <= 2 ? 2 : strlen(word) <= 5 ? 3 : 5;
     const char *candidate;

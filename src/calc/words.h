@@ -16,8 +16,12 @@ typedef struct word_index {
 } word_index;
 bool word_find(word_index *x, const char *word, size_t len, size_t *row);
 
-/* Nearest of count names to word within a third of its length, or NULL. name(i) lists them. */
-const char *suggest(const char *word, const char *(*name)(size_t i));
+/* Greek letters as names here write them: mu for its sign, d for a delta. */
+enum { PLAIN_WORD = 64 };
+void plain_letters(const char *word, size_t len, char plain[PLAIN_WORD]);
+
+/* Nearest of count names to what was typed, within a third of its length, or NULL. name(i) lists them. */
+const char *suggest(const char *typed, const char *(*name)(size_t i));
 
 bool same_but_case(const char *a, const char *b);
 /* One letter changed, missing or too many, or two swapped. */

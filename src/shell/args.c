@@ -122,6 +122,8 @@ static bool read_choice(lexer *lx, const arg *a, arg_value *v) {
     char list[CALC_ERROR_TEXT - 64] = "";
     for (size_t i = 0; i < 7; i++)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", a->words(i));
+    if (a->words(7))
+        snprintf(list + strlen(list), sizeof list - strlen(list), ", ...");
     return lex_fail(lx, near ? "unknown %s '%s': did you mean %s?" : "unknown %s '%s' (%s)", a->name, word,
                     near ? near : list);
 }
@@ -207,6 +209,20 @@ bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[AR
     return !lx->error->raised;
 }
 
+bool args_end(lexer *lx, const arg_list *list) {
+    char word[LEX_NAME];
+    if (lx->kind == T_COMMA)
+        return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", list->command);
+    if (lx->kind != T_NAME)
+        return at_end(lx);
+    lex_word(lx, word);
+    for (const arg *a = list->args; a->kind; a++)
+        if ((a->kind == ARG_COUNT || a->kind == ARG_NUMBER || a->kind == ARG_WORD) &&
+            one_letter_apart(word, a->name))
+            return lex_fail(lx, "unexpected '%s': did you mean %s?", word, a->name);
+    return at_end(lx);
+}
+
 bool args_read(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file) {
-    return (args_read_some(sh, lx, list, out, file) && at_end(lx)) || (args_drop(list, out), false);
+    return (args_read_some(sh, lx, list, out, file) && args_end(lx, list)) || (args_drop(list, out), false);
 }

@@ -68,8 +68,9 @@ typedef struct arg_list {
 /* Reads all that the rows allow to the end of the statement. file: of ARG_FILE, the size of
  * ARG_FILE_NAME, or NULL where there are none. */
 bool args_read(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file);
-/* The same as far as the arguments go. */
+/* The same as far as the arguments go, and the end behind them: no comma, no keyword misspelt. */
 bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file);
+bool args_end(lexer *lx, const arg_list *list);
 void args_drop(const arg_list *list, arg_value v[ARGS]);
 /* Points the error, where it has no place, at the value of the argument. */
 #define arg_place(error, v) calc_place(error, (v)->value_at, (v)->value_len)

@@ -45,6 +45,8 @@ size_t word_at(const lexer *lx) {
 bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, unsigned *out) {
     value v;
     size_t at = lx->at;
+    if (lx->kind == T_END)
+        return lex_fail(lx, "expected %s: a whole number from 1 to %u", what, limit);
     if (!expr_value(c, lx, &v))
         return false;
     if (!dim_equal(v.d, DIM_NONE) || !(v.v >= 1 && v.v <= limit) || v.v != (long double)(unsigned)v.v)

@@ -494,7 +494,8 @@ static bool print_uncertain(shell *sh, const uncertainty_question *q, const unce
                        e[k].c.name, mean, spread);
         }
         if (u->samples < q->samples)
-            shell_note(sh, "note: %u of %u samples have no value: %s", q->samples - u->samples, q->samples,
+            shell_note(sh, "note: %u of %u samples of %s %s no value: %s", q->samples - u->samples,
+                       q->samples, e[k].c.name, q->samples - u->samples > 1 ? "have" : "has",
                        a->missing.text);
     }
     if (sh->set.timing)

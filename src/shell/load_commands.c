@@ -161,7 +161,8 @@ bool do_step(shell *sh, lexer *lx, const command *self) {
     load_step step;
     cycle_extra extra;
     const arg_value *last;
-    if (!read_targets(sh, lx, self, v, &step, &extra, &last) || !at_end(lx))
+    const arg_list list = command_args(self);
+    if (!read_targets(sh, lx, self, v, &step, &extra, &last) || !args_end(lx, &list))
         return false;
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error))
         return arg_place(lx->error, last);
@@ -194,8 +195,8 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
         return false;
     scene_mark before;
     scene_save(&sh->calc.scene, &before, false);
-    bool ok =
-        at_end(lx) && (scene_load(&sh->calc.scene, &step, &extra, lx->error) || arg_place(lx->error, last));
+    bool ok = args_end(lx, &list) &&
+              (scene_load(&sh->calc.scene, &step, &extra, lx->error) || arg_place(lx->error, last));
     const bool loaded = ok;
     for (const arg *a = self->args; ok && a->kind; a++)
         if (v[a - self->args].live) {

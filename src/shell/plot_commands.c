@@ -130,6 +130,9 @@ static void fail_figure(const calc *c, lexer *lx) {
     const char *near = unknown ? suggest(word, figure_name) : NULL;
     if (lex_is(lx, "map")) {
         lex_raise(lx, "expected map EXPR for A = LO .. HI for B = LO .. HI");
+    } else if (near && !strcmp(near, word)) {
+        lex_next(lx);
+        lex_raise(lx, "unexpected '%.*s': %s is a figure; | puts another beside it", LEX_WORD(lx), near);
     } else if (near) {
         lex_raise(lx, "there is no figure '%s': did you mean %s?", word, near);
     } else if (!unknown || (next != T_END && next != T_BAR)) {

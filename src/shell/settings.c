@@ -36,8 +36,8 @@ static bool parse_plot(calc *c, settings *set, lexer *lx) {
         snprintf(text, sizeof text, "%.*s", (int)(left < SIZE ? left : SIZE), lx->text + lx->at);
         if (sscanf(text, "%4dx%4d%n", &width, &height, &used) != 2 || width < LEAST_WIDTH ||
             height < LEAST_HEIGHT)
-            return lex_fail(lx, "expected a size such as 80x24 (at least %dx%d), or auto", LEAST_WIDTH,
-                            LEAST_HEIGHT);
+            return lex_fail(lx, "expected a size such as 80x24 (at least %dx%d), auto or terminal",
+                            LEAST_WIDTH, LEAST_HEIGHT);
         lx->len = (size_t)used;
         lex_next(lx);
     }
@@ -177,7 +177,7 @@ static const setting rows[] = {
      .words = reports,
      .at = offsetof(settings, pager)},
     {.name = "model",
-     .usage = "auto|closed|memory|springs N",
+     .usage = "auto|closed|memory|double|springs N",
      .summary = "what answers for tangential loads; auto: the cheapest that is exact",
      .example =
          "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N\n"

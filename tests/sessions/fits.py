@@ -419,7 +419,7 @@ def wide_ranges(tests):
                 abs(event["Monte Carlo"]["deviation"] / want - 1) < 0.1, tests.report(done))
     (event,), done = told("x = 3; uncertainty sqrt(x - 2.999) with x +- 1 samples 1")
     tests.check("no sample has a value", event["Monte Carlo"] == {"mean": None, "deviation": None, "samples": 0, "differs": False} and
-                "1 of 1 samples have no value" in done.stderr, tests.report(done))
+                "1 of 1 samples of sqrt(x - 2.999) has no value" in done.stderr, tests.report(done))
 
 
 def units(tests):
