@@ -248,6 +248,7 @@ def sizes(tests):
         lines = clean(s.child.before).splitlines()[-high:]
         tests.check("a plot in %d rows of %d" % (rows, columns), max(map(len, lines)) <= wide and
                     (max(map(len, lines)) > wide - 10 and "x" in lines[-1] or high < 8), "\n".join(lines))
+        s.prompt()  # a Ctrl-D before the editor has the terminal is lost
         s.child.sendeof()
         s.end()
     for term, braille in (("xterm", True), ("linux", False), (None, False)):
