@@ -8,11 +8,12 @@
 #include <gsl/gsl_roots.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* Intervals of the scan, halvings to an edge of what the scene allows, and evaluations kept for the method.
- */
-enum { SCAN = 24, EDGE = 60, METHOD = 14, ROOTS = 8 };
+/* Intervals of the scan, and of the one where sides that jump want more of them; halvings to an edge of what
+ * the scene allows; evaluations to come nearer, and of the method. */
+enum { SCAN = 24, FINE = 8 * SCAN, EDGE = 60, NEARER = 21, METHOD = 60, ROOTS = 48, LISTED = 12 };
 
 typedef struct place {
     double x, f; /* f: NaN where there is no value */
@@ -24,7 +25,8 @@ typedef struct search {
     dim d;
     bool known, ratios;
     double lo, hi; /* searched */
-    place at[SCAN + 1];
+    unsigned places;
+    place at[FINE + 1];
     place root[ROOTS], other[ROOTS]; /* brackets: a change of sign between them */
     unsigned roots;
     bool edged;     /* the edge of what the scene allows has been met */
@@ -33,6 +35,8 @@ typedef struct search {
     place nearest;  /* between places of the scan, without passing: NaN where that was not asked */
     double side;    /* of the left side there: 1 above, -1 below */
     bool touches;
+    bool pole;   /* a place of the scan alone has no value */
+    double jump; /* where the sides jump past each other, one such place */
 } search;
 
 /* left - right. NaN: no value there, or the question has ended. */
@@ -103,10 +107,10 @@ static bool choose_range(search *s, calc_error *error) {
 
 static bool scan(search *s) {
     bool equal = true;
-    for (unsigned i = 0; i <= SCAN; i++) {
+    for (unsigned i = 0; i <= s->places; i++) {
         place *p = &s->at[i];
-        p->x = s->lo < 0 && s->ratios ? -ask_grid(-s->lo, -s->hi, true, i, SCAN)
-                                      : ask_grid(s->lo, s->hi, s->ratios, i, SCAN);
+        p->x = s->lo < 0 && s->ratios ? -ask_grid(-s->lo, -s->hi, true, i, s->places)
+                                      : ask_grid(s->lo, s->hi, s->ratios, i, s->places);
         p->f = difference(s, p->x);
         if (s->q.error->raised)
             return false;
@@ -115,6 +119,7 @@ static bool scan(search *s) {
         else if (i && opposite(p->f, p[-1].f))
             add_bracket(s, p[-1], *p);
         equal = equal && p->f == 0;
+        s->pole = s->pole || (i > 1 && isnan(p[-1].f) && !isnan(p[-2].f) && !isnan(p->f));
     }
     if (equal)
         s->roots = 0; /* it does not depend on the name */
@@ -149,8 +154,9 @@ static bool approach_edge(search *s, place bad, place good) {
     return true;
 }
 
+/* Where there are roots already, they are looked for at poles alone: it takes long. */
 static bool search_edges(search *s) {
-    for (unsigned i = 0; i < SCAN && !s->roots; i++) {
+    for (unsigned i = 0; i < s->places && (!s->roots || s->places == FINE); i++) {
         const place a = s->at[i], b = s->at[i + 1];
         if (isnan(a.f) != isnan(b.f) && !(isnan(a.f) ? approach_edge(s, a, b) : approach_edge(s, b, a)))
             return false;
@@ -165,11 +171,20 @@ static double distance(double x, void *context) {
     return s->side * difference(s, x);
 }
 
+/* Are the sides further apart at a than at b, on the same side of each other, or as far, but for rounding? */
+static bool further(place a, place b) {
+    return a.f * b.f > 0 && fabs(a.f) - fabs(b.f) > 1e-9 * fabs(b.f);
+}
+
+static bool as_far(place a, place b) {
+    return fabs(a.f - b.f) <= 1e-9 * fabs(b.f);
+}
+
 /* The sides come nearest at b, with a and c beside it: they may pass each other twice within, or touch. */
 static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
     static const double touching = 1e-13; /* of the distance at a and c: what rounding leaves */
-    const bool first = fabs(a.f) == fabs(b.f);
-    if (first || fabs(c.f) == fabs(b.f)) { /* two as near as each other: between them, or they are level */
+    const bool first = as_far(a, b);
+    if (first || as_far(c, b)) { /* two as near as each other: between them, or they are level */
         const place other = first ? a : c;
         place mid = {.x = middle(s, b.x, other.x)};
         mid.f = difference(s, mid.x);
@@ -191,39 +206,67 @@ static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
     if (!method)
         return calc_no_memory(error);
     s->side = b.f > 0 ? 1 : -1;
-    s->nearest = b;
+    const unsigned begun = s->q.evaluations;
     int status = gsl_min_fminimizer_set_with_values(method, &f, b.x, fabs(b.f), fmin(a.x, c.x), fabs(a.f),
                                                     fmax(a.x, c.x), fabs(c.f));
-    while (!status && s->nearest.f * s->side > 0 && s->q.evaluations + METHOD < SOLVE_EVALUATIONS) {
+    while (!status && b.f * s->side > 0 && s->q.evaluations - begun < NEARER) {
         status = gsl_min_fminimizer_iterate(method);
-        s->nearest.x = gsl_min_fminimizer_x_minimum(method);
-        s->nearest.f = s->side * gsl_min_fminimizer_f_minimum(method);
+        b.x = gsl_min_fminimizer_x_minimum(method);
+        b.f = s->side * gsl_min_fminimizer_f_minimum(method);
     }
     gsl_min_fminimizer_free(method);
     if (s->q.error->raised)
         return false;
-    const double left = s->nearest.f * s->side; /* not NaN: it is the least that has been met */
+    const double left = b.f * s->side; /* not NaN: it is the least that has been met */
     if (left < 0) {
-        add_bracket(s, a, s->nearest);
-        add_bracket(s, s->nearest, c);
+        add_bracket(s, a, b);
+        add_bracket(s, b, c);
     } else if (left <= touching * fmin(fabs(a.f), fabs(c.f))) {
         s->touches = true;
-        add_bracket(s, s->nearest, s->nearest);
+        add_bracket(s, b, b);
     }
+    if (!(fabs(s->nearest.f) <= left))
+        s->nearest = b;
     return true;
 }
 
-/* Where the sides come near each other without passing at any two places of the scan. */
-static bool search_dips(search *s, calc_error *error) {
-    unsigned best = 0;
-    for (unsigned i = 1; i < SCAN; i++) {
-        const double f = fabs(s->at[i].f);
-        const bool dip = f <= fabs(s->at[i - 1].f) && f <= fabs(s->at[i + 1].f) &&
-                         (f < fabs(s->at[i - 1].f) || f < fabs(s->at[i + 1].f));
-        if (dip && (!best || f < fabs(s->at[best].f)))
-            best = i;
+/* At an end of the range: do they come nearer at once? */
+static bool search_end(search *s, place end, place next, calc_error *error) {
+    if (!further(next, end))
+        return true;
+    place p = {.x = end.x + 1e-3 * (next.x - end.x)};
+    p.f = difference(s, p.x);
+    if (s->q.error->raised)
+        return false;
+    if (opposite(p.f, end.f)) {
+        add_bracket(s, end, p);
+        add_bracket(s, p, next);
+        return true;
     }
-    return !best || go_nearer(s, s->at[best - 1], s->at[best], s->at[best + 1], error);
+    return !(fabs(p.f) < fabs(end.f)) || go_nearer(s, end, p, next, error);
+}
+
+/* Where the sides come near each other without passing at any two places of the scan: a pole may hide a root,
+ * too. */
+static bool search_dips(search *s, calc_error *error) {
+    const place *at = s->at;
+    const unsigned last = s->places;
+    bool level = false;
+    for (unsigned i = 1; i < last; i++) {
+        const place *a = &at[i - 1], *b = &at[i], *c = &at[i + 1];
+        const bool before = further(*a, *b), after = further(*c, *b);
+        if (((before && (after || as_far(*b, *c))) || (after && as_far(*b, *a) && !level)) &&
+            !go_nearer(s, *a, *b, *c, error))
+            return false;
+        level = before && as_far(*b, *c);
+    }
+    return search_end(s, at[0], at[1], error) && search_end(s, at[last], at[last - 1], error);
+}
+
+static bool look(search *s, unsigned places, calc_error *error) {
+    s->places = places;
+    s->roots = 0;
+    return scan(s) && search_edges(s) && search_dips(s, error);
 }
 
 /* ---- no root ----------------------------------------------------------------------------------- */
@@ -234,7 +277,7 @@ static bool no_root(search *s, calc_error *error) {
     place best = {.f = (double)NAN};
     char from[CALC_VALUE_TEXT], to[CALC_VALUE_TEXT], off[CALC_VALUE_TEXT], there[ASK_TEXT];
     bool alike = true, below = false, above = false;
-    for (unsigned i = 0; i <= SCAN; i++) {
+    for (unsigned i = 0; i <= s->places; i++) {
         if (!isnan(s->at[i].f) && !(fabs(s->at[i].f) >= fabs(best.f)))
             best = s->at[i];
         alike = alike && s->at[i].f == s->at[0].f;
@@ -287,7 +330,8 @@ static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *err
         return calc_no_memory(error);
     int status = gsl_root_fsolver_set(solver, &f, fmin(a.x, b.x), fmax(a.x, b.x));
     double lo = a.x, hi = b.x;
-    while (!status && s->q.evaluations < SOLVE_EVALUATIONS * (s->roots > 1 ? ROOTS : 1)) {
+    const unsigned begun = s->q.evaluations;
+    while (!status && s->q.evaluations - begun < METHOD) {
         const double before = *x;
         status = gsl_root_fsolver_iterate(solver);
         *x = gsl_root_fsolver_root(solver);
@@ -335,50 +379,74 @@ static bool try_root(search *s, unsigned i, double *x, bool *is, calc_error *err
     return true;
 }
 
+static int in_order(const void *a, const void *b) {
+    const double x = ((const place *)a)->x, y = ((const place *)b)->x;
+    return (x > y) - (x < y);
+}
+
 /* Of several changes of sign; jumps among them are no roots, and one that is left is the answer. */
-static bool several(search *s, solve_answer *out, calc_error *error) {
-    char list[CALC_ERROR_TEXT / 2] = "";
+static bool sift(search *s, solve_answer *out, calc_error *error) {
+    place found[ROOTS];
     unsigned roots = 0, last = 0;
     for (unsigned i = 0; i < s->roots; i++) {
-        char text[CALC_VALUE_TEXT];
         bool is;
         if (!try_root(s, i, &out->x, &is, error))
             return false;
-        if (!is) {
+        if (is) {
+            found[roots++].x = out->x;
+            last = i;
+        } else {
             out->jumps = true;
-            continue;
         }
-        calc_value_text(s->of->name.d, out->x, text);
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", roots ? ", " : "", text);
-        roots++;
-        last = i;
     }
-    if (roots == 0)
-        return only_jumps(s, out->x, error);
+    s->jump = out->x;
     s->root[0] = s->root[last];
     s->other[0] = s->other[last];
+    s->roots = roots;
     if (roots == 1)
         return refine(s, 0, false, &out->x, error);
+    qsort(found, roots, sizeof *found, in_order);
+    memcpy(s->root, found, roots * sizeof *found);
+    return true;
+}
+
+static bool several(search *s, calc_error *error) {
+    char list[CALC_ERROR_TEXT / 2] = "", text[CALC_VALUE_TEXT];
+    for (unsigned i = 0; i < s->roots && i <= LISTED; i++) {
+        calc_value_text(s->of->name.d, s->root[i].x, text);
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "",
+                 i == LISTED ? "..." : text);
+    }
     return calc_fail(error, s->of->left->at, s->of->left->len,
                      "several roots, %s = %s: choose by from LO to HI", s->of->name.text, list);
 }
 
+/* One root, where it does not turn out to be a jump. */
+static bool single(search *s, solve_answer *out, calc_error *error) {
+    calc_error none;
+    error_clear(&none);
+    out->jumps = !refine(s, 0, false, &out->x, &none) || jumps(s, 0, out->x);
+    if (none.stop)
+        *error = none;
+    s->jump = out->x;
+    s->roots = !out->jumps;
+    return !error->raised;
+}
+
 static bool answer(search *s, solve_answer *out, calc_error *error) {
-    if (!choose_range(s, error) || !scan(s) || (!s->roots && !search_edges(s)) ||
-        (!s->roots && !search_dips(s, error)))
+    if (!choose_range(s, error))
         return false;
-    if (!s->roots)
-        return no_root(s, error);
-    if (s->roots > 1 && !several(s, out, error))
-        return false;
-    if (s->roots == 1) {
-        if (!refine(s, 0, false, &out->x, error))
+    for (unsigned places = SCAN; places <= FINE && (places == SCAN || out->jumps || s->pole);
+         places += FINE - SCAN) {
+        if (!look(s, places, error))
             return false;
-        if (jumps(s, 0, out->x))
-            return only_jumps(s, out->x, error);
-        if (s->q.error->raised)
+        if (s->roots && !(s->roots > 1 || out->jumps ? sift : single)(s, out, error))
             return false;
     }
+    if (!s->roots)
+        return out->jumps ? only_jumps(s, s->jump, error) : no_root(s, error);
+    if (s->roots > 1)
+        return several(s, error);
     out->lo = fmin(s->root[0].x, s->other[0].x);
     out->hi = fmax(s->root[0].x, s->other[0].x);
     out->evaluations = s->q.evaluations;

@@ -5,8 +5,6 @@
 
 #include "study/ask.h"
 
-enum { SOLVE_EVALUATIONS = 60 };
-
 typedef struct solve_question {
     calc *c;
     knob name;
@@ -24,10 +22,10 @@ typedef struct solve_answer {
 } solve_answer;
 
 /* Without a range: the range of an input that has two ends, else three decades on either side of the present
- * value. Where the scan sees no change of sign, the sides may still meet where they come nearest: looked for
- * by Brent's method for minima. Errors: no root, with the place that comes closest and the edge of what the
- * scene allows; several roots; a jump instead of a root. The answer is good to the last digits that the
- * expressions carry.
+ * value. Between places where the sides come nearest without passing they may still meet, or a pole may hide
+ * that they do: looked for by Brent's method for minima. Where they jump the scan is repeated, finer. Errors:
+ * no root, with the place that comes closest and the edge of what the scene allows; several roots; a jump
+ * instead of a root. The answer is good to the last digits that the expressions carry.
  */
 bool solve(const solve_question *question, solve_answer *out, calc_error *error);
 

@@ -312,8 +312,34 @@ def told(tests):
     tests.check("a name is known for its question alone", abs(values[0]["value"] - 2) < 1e-15 and "unknown name 'unknown'" in done.stderr, tests.report(done))
 
 
+def poles(tests):
+    """All roots beside poles, in order, and no pole among them; and pairs of roots between places of the scan."""
+    def tangent(L, lo, hi):
+        return [x for x in (math.atan(L) + n * math.pi for n in range(20)) if lo < x < hi]
+    asked = [("tan(x) = %r from %r to %r" % at, tangent(*at)) for at in
+             ((10, 1, 8), (100, 1, 8), (10, 1.4, 8), (10, 1, 30), (-30, 2, 9), (1e4, 1, 11), (0.5, 0.1, 16))]
+    for pole, strength, L in ((2, 1, 50), (2, 1, -50), (2.3, 1e-3, 1), (2, 1e-4, -3), (2, -5, 8), (3.97, 0.1, 20)):
+        asked += [("%r/(x-%r) = %r from %r to %r" % (strength, pole, L, lo, hi), [pole + strength / L])
+                  for lo, hi in ((0, 4), (0.1, 4))]
+    asked += [("sin(x) = 0.99 from 0 to 20", [x + 2 * n * math.pi for n in range(3) for x in (math.asin(0.99), math.pi - math.asin(0.99))]),
+              ("(x-1)*(x-1.01)*(x-2) = 0 from 0.1 to 3", [1, 1.01, 2]), ("1/(x-2)^2 = 50 from 0.1 to 4", [2 - 50**-0.5, 2 + 50**-0.5]),
+              # the cubic (x-1)(x-2)(x-3) = 1/1000
+              ("1/((x-1)*(x-2)*(x-3)) = 1000 from 0 to 4", [1.000500375703, 1.998999998999994, 3.000499625297]),
+              ("abs(x-1)/(x-1) = 0.5 from 0.1 to 3", []), ("tan(x) = 0 from 1 to 2", [])]
+    for sides, want in asked:
+        values, _, done = run_json(tests, "solve x for %s\n" % sides)
+        listed = re.search(r"several roots, x = (.*): choose", done.stderr)
+        got = [float(x) for x in listed.group(1).split(", ")] if listed else [v["value"] for v in values]
+        tests.check("solve x for " + sides, len(got) == len(want) and all(abs(a - b) <= 1e-5 * abs(b) for a, b in zip(got, want)),
+                    "%s\n%s" % (want, tests.report(done)))
+    done = tests.run("-c", "solve x for sin(x) = 0 from 20 to 80")
+    tests.check("no more roots are listed than one can read", done.stderr.count("...: choose by") == 1 and done.stderr.count(", ") == 12,
+                tests.report(done))
+
+
 def run(tests):
     questions(tests)
+    poles(tests)
     edges(tests)
     optima(tests)
     damper(tests)
