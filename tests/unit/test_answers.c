@@ -1,0 +1,442 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What follows from a scene, asked anew where memory runs out at each allocation, where it is interrupted at
+ * once, and where a live definition has no value any more: it is refused, and the next time answered to the
+ * last digit as ever. The Makefile links this program so that the language allocates through the functions
+ * here. */
+#include "unit.h"
+
+#define unit calc_unit /* names that calc has too */
+#define value calc_value
+#define quantity calc_quantity
+#include "calc/calc.h"
+#undef unit
+#undef value
+#undef quantity
+
+static int left = -1; /* allocations that succeed before one fails; -1: all do */
+
+static bool fails(void) {
+    return left >= 0 && left-- == 0;
+}
+
+#define WRAPPED(name, parameters, arguments)                                                                 \
+    void *__real_##name parameters;                                                                          \
+    void *__wrap_##name parameters;                                                                          \
+    void *__wrap_##name parameters {                                                                         \
+        return fails() ? NULL : __real_##name arguments;                                                     \
+    }
+WRAPPED(malloc, (size_t size), (size))
+WRAPPED(calloc, (size_t count, size_t size), (count, size))
+WRAPPED(realloc, (void *old, size_t size), (old, size))
+WRAPPED(aligned_alloc, (size_t alignment, size_t size), (alignment, size))
+
+static volatile sig_atomic_t stop;
+static calc_error error;
+
+static calc_error *fresh(void) {
+    error_clear(&error);
+    return &error;
+}
+
+/* ---- questions ---------------------------------------------------------------------------------- */
+
+enum { VALUES = 4 };
+
+static bool ask_press(scene *s, double v[VALUES]) {
+    const fret_press *p;
+    if (!scene_press(s, &p, fresh()))
+        return false;
+    v[0] = (double)p->F;
+    v[1] = (double)p->dz;
+    v[2] = (double)p->a;
+    return true;
+}
+
+static bool ask_FN(scene *s, double v[VALUES]) {
+    long double FN;
+    if (!scene_FN(s, &FN, fresh()))
+        return false;
+    v[0] = (double)FN;
+    return true;
+}
+
+static bool ask_contact(scene *s, double v[VALUES]) {
+    fret_contact c;
+    fret_real loss = 0;
+    if (!scene_contact(s, &c, fresh()))
+        return false;
+    if (c.press.F > 0) {
+        fret_status st = fret_cycle_loss_by_force(&c, 1, &loss);
+        if (!calc_status(&error, &st))
+            return false;
+    }
+    v[0] = (double)c.mu;
+    v[1] = (double)c.press.a;
+    v[2] = (double)loss;
+    return true;
+}
+
+static bool take(const fret_state *state, double v[VALUES]) {
+    v[0] = (double)state->FN;
+    v[1] = (double)state->Fx;
+    v[2] = (double)state->dx;
+    v[3] = (double)state->W;
+    return true;
+}
+
+static bool ask_state(scene *s, double v[VALUES]) {
+    const fret_state *state;
+    return scene_state(s, &state, fresh()) && take(state, v);
+}
+
+static bool ask_forces(scene *s, double v[VALUES]) {
+    const fret_state *state;
+    return scene_forces(s, &state, fresh()) && take(state, v);
+}
+
+static bool ask_memory(scene *s, double v[VALUES]) {
+    const fret_memory *m;
+    if (!scene_memory(s, &m, fresh()))
+        return false;
+    v[0] = (double)fret_memory_displacement(m, 0);
+    return true;
+}
+
+static bool ask_first(scene *s, double v[VALUES]) {
+    fret_loading l;
+    if (!scene_closed_state(s))
+        return calc_fail(fresh(), 0, 0, "not closed");
+    if (!scene_first_loading(s, &l, fresh()))
+        return false;
+    v[0] = (double)l.Fx;
+    v[1] = (double)l.dx;
+    v[2] = (double)l.c;
+    return true;
+}
+
+static bool ask_loss(scene *s, double v[VALUES]) {
+    long double loss;
+    if (!scene_cycle_loss(s, &loss, fresh()))
+        return false;
+    v[0] = (double)loss;
+    return true;
+}
+
+static bool seen(const runner *r, void *context) {
+    double *v = context;
+    sight now;
+    run_sight(r, &now);
+    v[0] += (double)now.state.dx * r->time;
+    v[1] += (double)now.state.W;
+    v[2]++;
+    return true;
+}
+
+static bool ask_trace(scene *s, double v[VALUES]) {
+    watch w = watch_points(100);
+    w.see = seen;
+    w.context = v;
+    w.limit = true;
+    return scene_trace(s, &w, fresh());
+}
+
+/* Of a copy of a scene whose program is known to run to its end. */
+static bool ask_sound(scene *s, double v[VALUES]) {
+    s->sound = true;
+    const bool ok = ask_trace(s, v);
+    s->sound = false;
+    return ok;
+}
+
+enum { CONTACT = 2, STATE = 3, FORCES = 4, LOSS = 7 }; /* of these */
+static const struct {
+    const char *what;
+    bool (*ask)(scene *s, double v[VALUES]);
+} questions[] = {{"press", ask_press}, {"FN", ask_FN},         {"contact", ask_contact},
+                 {"state", ask_state}, {"forces", ask_forces}, {"memory", ask_memory},
+                 {"first", ask_first}, {"loss", ask_loss},     {"trace", ask_trace},
+                 {"sound", ask_sound}};
+
+/* ---- scenes ------------------------------------------------------------------------------------- */
+
+typedef struct scened {
+    const char *what, *geometry; /* geometry: NULL: rows */
+    load_step then;              /* after the press */
+    double phase;
+    bool automatic;
+    model_id model;
+    bool many;
+    bool open; /* and lifted off at last */
+} scened;
+
+#define FORCE(kind, Fx, FN)                                                                                  \
+    { kind, .tangential = BY_FORCE, .tangential_value = Fx, .normal_value = FN, .points = 1 }
+static const scened scenes[] = {
+    {.what = "press", .geometry = "sphere", .automatic = true},
+    {.what = "step", .geometry = "sphere", .then = FORCE(LOAD_STEP, 20, 0), .automatic = true},
+    {.what = "cycle", .geometry = "sphere", .then = FORCE(LOAD_CYCLE, 20, 0), .automatic = true},
+    {.what = "sine", .geometry = "sphere", .then = FORCE(LOAD_CYCLE, 12, 30), .automatic = true},
+    {.what = "chords",
+     .geometry = "sphere",
+     .then = {LOAD_CYCLE, .tangential = BY_DISPLACEMENT, .tangential_value = 2e-7, .normal_value = 10},
+     .phase = 1,
+     .automatic = true},
+    {.what = "by memory", .geometry = "sphere", .then = FORCE(LOAD_CYCLE, 20, 0), .model = MODEL_MEMORY},
+    {.what = "by double", .geometry = "sphere", .then = FORCE(LOAD_CYCLE, 20, 0), .model = MODEL_DOUBLE},
+    {.what = "by double, swinging",
+     .geometry = "sphere",
+     .then = FORCE(LOAD_CYCLE, 12, 30),
+     .model = MODEL_DOUBLE},
+    {.what = "by springs", .geometry = "sphere", .then = FORCE(LOAD_CYCLE, 12, 0), .model = MODEL_SPRINGS},
+    {.what = "by springs, swinging",
+     .geometry = "sphere",
+     .then = FORCE(LOAD_CYCLE, 12, 30),
+     .model = MODEL_SPRINGS},
+    {.what = "by closed forms",
+     .geometry = "sphere",
+     .then = FORCE(LOAD_CYCLE, 12, 30),
+     .model = MODEL_CLOSED},
+    {.what = "rows", .then = FORCE(LOAD_STEP, 20, 0), .automatic = true},
+    {.what = "many of rows", .then = FORCE(LOAD_STEP, 20, 0), .automatic = true, .many = true},
+    {.what = "many, open", .then = FORCE(LOAD_STEP, 20, 0), .automatic = true, .many = true, .open = true},
+};
+
+static shared_table *rows_of_sphere(void) {
+    enum { ROWS = 12 };
+    double r[ROWS], f[ROWS];
+    struct fret_table *t = NULL;
+    for (int i = 0; i < ROWS; i++) {
+        r[i] = 1e-3 * i / (ROWS - 1);
+        f[i] = r[i] * r[i] / 0.02;
+    }
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
+    return shared_table_make(t, "rows", (smoothing){0});
+}
+
+static bool assign(calc *c, const char *text) {
+    lexer lx;
+    lex_start(&lx, text, strlen(text), fresh());
+    return calc_assign(c, &lx);
+}
+
+static bool load(calc *c, const load_step *step, double phase) {
+    const cycle_extra extra = {.times = 1, .phase = phase};
+    return scene_load(c->now, step, step->kind == LOAD_CYCLE ? &extra : NULL, fresh());
+}
+
+static void begin(calc *c, const scened *of) {
+    static const load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = 100},
+                           lift = {.kind = LOAD_STEP, .normal = BY_FORCE, .points = 1};
+    calc_init(c, &stop);
+    inputs *in = &c->now->in;
+    inputs_put(in, IN_E0, 210e9);
+    inputs_put(in, IN_NU, 0.3);
+    inputs_put(in, IN_MU, 0.4);
+    if (of->geometry) {
+        inputs_geometry(in, geometry_find(of->geometry, strlen(of->geometry)), NULL, NULL);
+        inputs_put(in, IN_RADIUS, 0.01);
+    } else {
+        inputs_geometry(in, geometry_find("file", 4), NULL, rows_of_sphere());
+    }
+    CHECK(load(c, &press, 0));
+    if (of->then.kind != LOAD_PRESS)
+        CHECK(load(c, &of->then, of->phase));
+    if (of->open)
+        CHECK(load(c, &lift, 0));
+    CHECK(assign(c, "x = 100 N") && assign(c, "FN := x") && assign(c, "y = 0.4") && assign(c, "mu := y"));
+    if (of->then.kind == LOAD_CYCLE && of->then.tangential == BY_FORCE)
+        CHECK(assign(c, of->then.tangential_value == 20 ? "z = 20 N" : "z = 12 N") && assign(c, "FA := z"));
+    else
+        CHECK(assign(c, "z = 1"));
+    c->now->many = of->many;
+    scene_set_model(c->now, of->automatic, of->model, 40);
+}
+
+/* ---- trouble ------------------------------------------------------------------------------------ */
+
+static bool again(scene *s, size_t i, double v[VALUES]) {
+    scene_forget(s, false);
+    for (int j = 0; j < VALUES; j++)
+        v[j] = 0;
+    return questions[i].ask(s, v);
+}
+
+static bool as_ever(scene *s, size_t i, const double want[VALUES]) {
+    double v[VALUES];
+    return again(s, i, v) && !memcmp(v, want, sizeof v);
+}
+
+/* Some does without what it could not have. */
+static void out_of_memory(calc *c, size_t i, const double want[VALUES]) {
+    bool failed = true;
+    for (int n = 0; failed && n < 1000; n++) {
+        double v[VALUES];
+        left = n;
+        const bool ok = again(c->now, i, v);
+        failed = left < 0;
+        left = -1;
+        if (!ok)
+            calc_word(c, &error);
+        CHECK(ok ? !memcmp(v, want, sizeof v) : failed && strstr(error.text, "out of memory"));
+        CHECK(as_ever(c->now, i, want));
+    }
+    CHECK(!failed);
+}
+
+/* Closed forms do not look. */
+static void interrupt(calc *c, size_t i, const double want[VALUES]) {
+    double v[VALUES];
+    stop = 1;
+    const bool ok = again(c->now, i, v);
+    stop = 0;
+    CHECK(ok ? !memcmp(v, want, sizeof v)
+             : error.kind == ERROR_STATUS && error.status.code == FRET_INTERRUPTED);
+    CHECK(as_ever(c->now, i, want));
+}
+
+/* A name that a definition is made of; some answers do not hang on it. */
+static void lose(calc *c, const char *name, size_t i, const double want[VALUES]) {
+    size_t at = 0;
+    double v[VALUES];
+    CHECK(names_find(&c->names, name, strlen(name), &at));
+    const calc_value before = c->names.row[at].v;
+    c->names.row[at].v.v = -1;
+    if (!again(c->now, i, v)) {
+        calc_word(c, &error);
+        CHECK(strstr(error.text, "must be positive") || !strcmp(error.text, "not closed"));
+    }
+    c->names.row[at].v = before;
+    CHECK(as_ever(c->now, i, want));
+}
+
+/* ---- loads -------------------------------------------------------------------------------------- */
+
+/* A scene that knows nothing yet of what follows; which is the same after what is refused. */
+static void loads(const scened *of, const load_step *then, bool lost) {
+    double before[VALUES], want[VALUES], v[VALUES];
+    bool failed = true;
+    calc whole;
+    begin(&whole, of);
+    CHECK(again(whole.now, STATE, before) && load(&whole, then, 0));
+    CHECK(ask_state(whole.now, want));
+    calc_free(&whole);
+    for (int n = 0; failed && n < 1000; n++) {
+        size_t at = 0;
+        calc c;
+        begin(&c, of);
+        scene_forget(c.now, false);
+        CHECK(names_find(&c.names, n % 2 ? "x" : "y", 1, &at));
+        const calc_value good = c.names.row[at].v;
+        if (lost)
+            c.names.row[at].v.v = -1;
+        else
+            left = n;
+        const bool ok = load(&c, then, 0);
+        failed = lost ? n < 1 : left < 0;
+        left = -1;
+        c.names.row[at].v = good;
+        if (!ok)
+            calc_word(&c, &error);
+        CHECK(ok || strstr(error.text, lost ? "must be positive" : "out of memory"));
+        CHECK(ok ? ask_state(c.now, v) && !memcmp(v, want, sizeof v) : as_ever(c.now, STATE, before));
+        calc_free(&c);
+    }
+    CHECK(!failed);
+}
+
+static void more_loads(const scened *of) {
+    static const load_step then[] = {FORCE(LOAD_STEP, 5, 0),
+                                     FORCE(LOAD_CYCLE, 10, 0),
+                                     {LOAD_STEP, .normal = BY_FORCE, .normal_value = 90,
+                                      .tangential = BY_FORCE, .tangential_value = 5, .points = 1},
+                                     {LOAD_PRESS, .normal = BY_FORCE, .normal_value = 90}};
+    for (size_t i = 0; i < sizeof then / sizeof *then; i++) {
+        loads(of, &then[i], false);
+        if (then[i].kind != LOAD_PRESS)
+            loads(of, &then[i], true);
+    }
+}
+
+/* A step deeper than rows reach, and sideways, for which they are prepared as far as they do. */
+static void too_deep(void) {
+    static const load_step deep = {LOAD_STEP,
+                                   .normal = BY_DISPLACEMENT,
+                                   .normal_value = 1e-3,
+                                   .tangential = BY_DISPLACEMENT,
+                                   .tangential_value = 1e-7,
+                                   .points = 1};
+    double before[VALUES];
+    calc c;
+    begin(&c, &(scened){.automatic = true});
+    CHECK(again(c.now, STATE, before) && !load(&c, &deep, 0));
+    calc_word(&c, &error);
+    CHECK(strstr(error.text, "cannot be carried") && as_ever(c.now, STATE, before));
+    calc_free(&c);
+}
+
+/* Of a profile that is too steep for polynomials many values are asked of itself. */
+static void too_steep(void) {
+    const fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {100, 1e-6, 1e-4}}};
+    double one[VALUES], many[VALUES];
+    fret_contact contact;
+    calc c;
+    begin(&c, &(scened){.geometry = "sphere", .automatic = true});
+    inputs_geometry(&c.now->in, geometry_find("sum", 3), &sum, NULL);
+    CHECK(again(c.now, CONTACT, one));
+    c.now->many = true;
+    CHECK(again(c.now, CONTACT, many) && !memcmp(one, many, sizeof one));
+    CHECK(scene_contact(c.now, &contact, fresh()) && isnan(fret_normal_prepared(contact.normal)));
+    CHECK(c.now->used & USED(MODEL_QUADRATURE) && !(c.now->used & USED(MODEL_PIECES)));
+    calc_free(&c);
+}
+
+/* Steps want friction; of an instant that has left forces behind they alone are known. */
+static void lacking(void) {
+    const double kept[TRAILED] = {[TRAIL_FN] = 90, [TRAIL_FX] = 7, [TRAIL_DX] = 1e-7, [TRAIL_W] = 1e-9};
+    bool lacks = false;
+    const instant then = {.kept = kept, .time = 1, .lacking = &lacks};
+    double want[VALUES], v[VALUES];
+    calc c;
+    begin(&c, &scenes[2]);
+    CHECK(again(c.now, STATE, want));
+    c.now->now = &then;
+    CHECK(again(c.now, FORCES, v) && v[0] == 90 && v[1] == 7 && v[2] == 1e-7 && v[3] == 1e-9 && !lacks);
+    CHECK(!again(c.now, LOSS, v) && lacks);
+    c.now->now = NULL;
+    CHECK(as_ever(c.now, STATE, want));
+    scene_forget(c.now, false);
+    inputs_unset(&c.now->in, INPUT_BIT(IN_MU));
+    CHECK(!ask_state(c.now, v) && error.kind == ERROR_MISSING && error.input == IN_MU);
+    calc_free(&c);
+}
+
+int main(int argc, char **argv) {
+    unit_start("test_answers", argc, argv);
+    int answered = 0;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+        for (size_t j = 0; j < sizeof questions / sizeof *questions; j++) {
+            double want[VALUES];
+            calc c;
+            const long failed = unit.failed;
+            begin(&c, &scenes[i]);
+            if (again(c.now, j, want)) { /* not all is asked of all: no loss without a cycle */
+                answered++;
+                out_of_memory(&c, j, want);
+                interrupt(&c, j, want);
+                lose(&c, "x", j, want);
+                lose(&c, "y", j, want);
+                lose(&c, "z", j, want);
+            }
+            calc_free(&c);
+            if (unit.failed > failed)
+                printf("%s: %s\n", scenes[i].what, questions[j].what);
+        }
+    CHECK(answered > 80);
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+        if (scenes[i].automatic && !scenes[i].open)
+            more_loads(&scenes[i]);
+    too_deep();
+    too_steep();
+    lacking();
+    return unit_finish();
+}
