@@ -26,6 +26,7 @@ import instants  # noqa: E402
 import keeping  # noqa: E402
 import live  # noqa: E402
 import looks  # noqa: E402
+import moving  # noqa: E402
 import numbers_of_the_physics  # noqa: E402
 import packaging  # noqa: E402
 import paper  # noqa: E402
@@ -251,7 +252,7 @@ ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
          "fits": fits.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,
          "trouble": trouble.run, "rim": rim.run, "programs": programs.run, "typed": typed.run, "fuzz": fuzzing.run,
-         "interactive": prompt.run, "rough": rough.run, "live": live.run, "casts": casts.run, "completion": completion.run, "readme": readme, "help": help_examples,
+         "interactive": prompt.run, "rough": rough.run, "live": live.run, "moving": moving.run, "casts": casts.run, "completion": completion.run, "readme": readme, "help": help_examples,
          "portable": portable.run, "packaging": packaging.run,
          "house": house.run}
 

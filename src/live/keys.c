@@ -227,6 +227,7 @@ static void compare(live *l, const char *text) {
     lexer lx;
     value v[SIDES];
     knob by;
+    live_play_end(l);
     error_clear(&error);
     lex_start(&lx, text, strlen(text), &error);
     if (lex_is(&lx, "off") || lx.kind == T_END) {

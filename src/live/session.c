@@ -65,6 +65,10 @@ bool live_say(live *l, const char *format, ...) {
         live_tell(l, true, "the line is too long");
         return false;
     }
+    return live_say_line(l, line);
+}
+
+bool live_say_line(live *l, const char *line) {
     live_play_end(l);
     return say(l, line);
 }
@@ -85,8 +89,10 @@ void live_amount(double v, dim d, char *text, size_t size) {
 
 const shot *side_shown(const live *l, const side *s) {
     const load_way *w = &s->way;
-    if (!l->playing || !w->shots)
+    if (!l->playing)
         return &s->now;
+    if (!w->shots)
+        return &s->before;
     size_t i = 0;
     while (i + 1 < w->shots && w->play[i + 1].time <= l->play_at)
         i++;
@@ -103,6 +109,8 @@ static bool take(live *l, side *s, bool along, calc_error *error) {
     calc *c = l->host->calc;
     const size_t items = c->now->end.steps;
     s->trouble[0] = 0;
+    if (along)
+        s->before = s->now;
     if (!shot_take(c, NULL, &s->now, error)) {
         s->now = (shot){.time = 0}; /* keys must not go on from what is gone */
         return false;
@@ -221,13 +229,14 @@ static bool last_cycle(const live *l, load_item *out) {
     scene *s = &l->host->calc->scene;
     calc_error ignored;
     error_clear(&ignored);
-    return s->end.cycles && s->program->steps[s->end.steps - 1].kind == LOAD_CYCLE &&
-           scene_last_cycle(s, out, &ignored);
+    if (!s->end.cycles || s->program->steps[s->end.steps - 1].kind != LOAD_CYCLE)
+        return false;
+    return scene_last_cycle(s, out, &ignored);
 }
 
-static bool remember_cycle(live *l) {
+static void remember_cycle(live *l) {
     l->said_changes = l->host->calc->undo.count;
-    return last_cycle(l, &l->said);
+    last_cycle(l, &l->said);
 }
 
 /* Is the cycle that is to be played the last that was done? Then it goes on: another one would turn about
@@ -245,7 +254,7 @@ static bool goes_on(const live *l) {
 static void one_more(live *l) {
     char text[LIVE_TEXT];
     for (size_t i = 0; i < sides(l); i++)
-        if (!*l->side[i].trouble && l->side[i].way.walk.begun)
+        if (!*l->side[i].trouble)
             way_more(&l->side[i].way);
     l->periods++;
     cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
@@ -255,8 +264,9 @@ static void one_more(live *l) {
 static void start_cycle(live *l) {
     char text[LIVE_TEXT];
     cycle_text(l, l->FA, l->FNA, l->phase, text, sizeof text);
-    if (!live_say(l, "%s", text) || !remember_cycle(l))
+    if (!live_say(l, "%s", text))
         return;
+    remember_cycle(l);
     l->follow = true;
     l->said_FA = l->FA;
     l->said_FNA = l->FNA;
@@ -284,17 +294,28 @@ void live_play_item(live *l) {
     start_play(l);
 }
 
-void live_play_end(live *l) {
-    const bool more = l->playing && l->periods > l->said.extra.times;
-    char text[LIVE_TEXT], line[LIVE_LINE];
-    l->playing = false;
-    l->changed = true;
-    if (!more)
-        return;
+/* In place of the cycle that has been taken back. */
+static void say_periods(live *l) {
+    char text[LIVE_TEXT], line[LIVE_LINE], why[LIVE_LINE];
     cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
     snprintf(line, sizeof line, "%s times %u", text, l->periods);
-    if (say(l, "undo") && say(l, line))
-        remember_cycle(l);
+    if (!say(l, line)) { /* interrupted, perhaps: nothing that has been said is lost */
+        memcpy(why, l->status, sizeof why);
+        snprintf(line, sizeof line, "%s times %u", text, l->said.extra.times);
+        say(l, line);
+        live_tell(l, true, "%s", why);
+    }
+    remember_cycle(l);
+}
+
+void live_play_end(live *l) {
+    const bool more = l->playing && l->periods > l->said.extra.times;
+    l->playing = false;
+    l->changed = true;
+    for (size_t i = 0; i < sides(l); i++)
+        way_unwatch(&l->side[i].way);
+    if (more && say(l, "undo"))
+        say_periods(l);
 }
 
 /* The end of what has been walked. */
@@ -302,20 +323,30 @@ static double ahead(const live *l) {
     double time = INFINITY;
     for (size_t i = 0; i < sides(l); i++) {
         const load_way *w = &l->side[i].way;
-        if (!*l->side[i].trouble && w->shots)
+        if (!*l->side[i].trouble)
             time = fmin(time, w->play[w->shots - 1].time);
     }
     return time;
 }
 
+/* Has each scene come to what moves, or moves nothing? One hand moves both. */
+static bool ready(const live *l) {
+    for (size_t i = 0; i < sides(l); i++) {
+        const side *s = &l->side[i];
+        if (s->stale || (!*s->trouble && s->way.shots + way_done(&s->way) < 2))
+            return false;
+    }
+    return true;
+}
+
 void live_play_on(live *l, double seconds) {
     const load_way *w = &l->side[0].way;
-    if (!l->playing || l->side[0].stale)
+    if (!l->playing || (!l->moves && !ready(l)))
         return;
-    if (*l->side[0].trouble)
+    if (*l->side[0].trouble) {
         live_play_end(l);
-    if (!l->playing || !w->shots || (!l->moves && w->shots < 2 && !way_done(w)))
         return;
+    }
     l->changed = true;
     if (!l->moves)
         l->play_at = w->play[0].time;
@@ -402,10 +433,14 @@ static void session(live *l, live_work *work) {
         const int pause = !fresh ? 0 : l->playing || walks(l) ? FRAME : l->changed ? busy : IDLE;
         int key = terminal_key(pause, l->host->stop);
         walked_from = start = seconds();
+        bool away = false;
         for (int many = 1; key != KEY_NONE; many++) { /* held keys: one frame for all that wait */
+            away = away || key == KEY_AGAIN;
             live_key(l, key);
             key = many < MANY && !l->leave && !late() ? terminal_key(0, l->host->stop) : KEY_NONE;
         }
+        if (away) /* stopped, perhaps: nothing has been seen since */
+            before = start = seconds();
         live_play_on(l, start - before);
         before = start;
     }

@@ -37,8 +37,8 @@ static void take_rings(const fret_memory *memory, shot *out) {
     for (size_t i = count > SHOT_RINGS ? count - SHOT_RINGS : 0; i < count; i++) {
         fret_press edge = {.a = 0};
         fret_memory_segment(memory, i, &part);
-        if (!fret_press_by_depth(fret_memory_normal(memory), (double)part.outer, &edge).code)
-            out->ring[out->rings++] = (shot_ring){(double)edge.a, (double)part.sigma};
+        fret_press_by_depth(fret_memory_normal(memory), (double)part.outer, &edge);
+        out->ring[out->rings++] = (shot_ring){(double)edge.a, (double)part.sigma};
     }
 }
 
@@ -58,12 +58,12 @@ static void take_displacements(const fret_memory *memory, double dz, shot *out) 
     const double rise = dz > 0 ? out->bound / dz : 0; /* mu eta */
     fret_segment part;
     size_t slice = 0;
-    bool any = fret_memory_segment(memory, 0, &part);
     for (int i = 0; i <= SHOT_SAMPLES; i++) {
         const double y = rise > 0 ? dz - out->B[i] / rise : 0;
-        while (any && y > (double)part.outer && fret_memory_segment(memory, slice + 1, &part))
+        bool within;
+        while ((within = fret_memory_segment(memory, slice, &part)) && y > (double)part.outer)
             slice++;
-        out->u[i] = any ? (double)part.u - rise * (double)part.sigma * (y - (double)part.inner) : 0;
+        out->u[i] = within ? (double)part.u - rise * (double)part.sigma * (y - (double)part.inner) : 0;
     }
 }
 

@@ -15,7 +15,7 @@ typedef struct side {
     char title[LIVE_TEXT];   /* of a comparison, else empty */
     char trouble[LIVE_TEXT]; /* why there is nothing to show; empty: there is */
     bool stale;              /* what is shown is of an earlier scene */
-    shot now;
+    shot now, before;        /* before: of what is to be played */
     load_way way;
 } side;
 
@@ -78,6 +78,7 @@ typedef struct live {
 __attribute__((format(printf, 2, 3)))
 #endif
 bool live_say(live *l, const char *format, ...);
+bool live_say_line(live *l, const char *line);
 /* 1, 2 or 5 times a power of ten, near v. */
 double live_nice(double v);
 /* A number for a statement, in a unit that suits it. */

@@ -113,8 +113,9 @@ static void set_colors(void) {
     static const short many[INKS] = {
         [INK_FRAME] = 250, [INK_BOUND] = 179, [INK_MEMORY] = 133, [INK_STICK] = 71, [INK_SLIP] = 203,
         [INK_CURVE] = 80,  [INK_OTHER] = 179, [INK_POINT] = 231,  [INK_ERROR] = 203};
-    if (!has_colors() || start_color() == ERR)
+    if (!has_colors())
         return;
+    start_color();
     use_default_colors();
     for (short i = INK_FRAME; i < INKS && i < COLOR_PAIRS; i++)
         init_pair(i, COLORS >= 256 ? many[i] : basic[i], -1);
@@ -179,9 +180,9 @@ bool terminal_open_unseen(int cols, int rows, calc_error *error) {
     take_signals();
     own.nowhere = fopen("/dev/null", "r+");
     own.screen = own.nowhere ? newterm(name, own.nowhere, own.nowhere) : NULL;
-    const bool sized = own.screen && resizeterm(rows, cols) != ERR;
-    if (!sized) {
-        own.screen = NULL; /* curses would free twice what it could not make larger */
+    if (own.screen && resizeterm(rows, cols) == ERR) /* unreached: curses without memory crashes, mostly */
+        own.screen = NULL;                           /* it would free twice what it could not make larger */
+    if (!own.screen) {
         terminal_close();
         return calc_fail(error, 0, 0, "no screen can be had to record");
     }
@@ -224,31 +225,29 @@ static double seconds(void) {
 }
 
 /* Bytes that a row takes from one screen to the other, about: signs, moves of the cursor, colours. */
-static int row_bytes(const cchar_t *from, const cchar_t *to) {
+static int row_bytes(int y) {
     enum { MOVE = 7, LOOK = 11 };
     int bytes = 0, at = -1;
     cchar_t look;
     for (int x = 0; x < COLS; x++) {
-        if (!memcmp(&from[x], &to[x], sizeof to[x]))
+        cchar_t from, to;
+        mvwin_wch(curscr, y, x, &from);
+        mvwin_wch(newscr, y, x, &to);
+        if (!memcmp(&from, &to, sizeof to))
             continue;
-        const int sign = to[x].chars[0] >= 0x800 ? 3 : 1, gap = at < 0 ? MOVE : x - at;
-        const bool other = at < 0 || look.attr != to[x].attr;
+        const int sign = to.chars[0] >= 0x800 ? 3 : 1, gap = at < 0 ? MOVE : x - at;
+        const bool other = at < 0 || look.attr != to.attr;
         bytes += sign + (gap > MOVE ? MOVE : gap) + (other ? LOOK : 0);
-        look = to[x];
+        look = to;
         at = x + 1;
     }
     return bytes;
 }
 
 static int bytes_to_send(void) {
-    cchar_t *from = calloc(2 * ((size_t)COLS + 1), sizeof *from), *to = from + COLS + 1;
     int bytes = 0;
-    for (int y = 0; from && y < LINES; y++) {
-        mvwin_wchnstr(curscr, y, 0, from, COLS);
-        mvwin_wchnstr(newscr, y, 0, to, COLS);
-        bytes += row_bytes(from, to);
-    }
-    free(from);
+    for (int y = 0; y < LINES; y++)
+        bytes += row_bytes(y);
     return bytes;
 }
 

@@ -195,7 +195,7 @@ static void draw_energies(live *l, const side *sd, const scales *sc, rect at) {
     const track *t = &sd->way.path;
     char text[40];
     canvas c;
-    if (t->count < 2 || !canvas_make(&c, at, terminal_unicode()))
+    if (!canvas_make(&c, at, terminal_unicode()))
         return;
     (void)l;
     const double begin = t->point[0].time, end = fmax(t->point[t->count - 1].time, begin + 1);

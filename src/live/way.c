@@ -49,8 +49,12 @@ static bool stands_still(const load_way *w, const fret_state *s) {
 enum { CHORD_DIGITS = 4 };
 
 static bool keep_shot(load_way *w) {
-    if (w->shots == PLAY_SHOTS)
+    if (w->shots == PLAY_SHOTS) /* unreached: no step or period has as many as ROOM */
         return true;
+    if (!w->play)
+        w->play = calloc(PLAY_SHOTS, sizeof *w->play);
+    if (!w->play)
+        return calc_no_memory(w->error);
     shot *to = &w->play[w->shots];
     walk_enter(&w->walk, w->c);
     const bool ok = shot_take(w->c, w->shots ? to - 1 : NULL, to, w->error);
@@ -61,23 +65,28 @@ static bool keep_shot(load_way *w) {
     return ok;
 }
 
+static bool keep_point(load_way *w, const runner *r, fret_state *s) {
+    track *t = &w->path;
+    engine_state(&r->engine, s);
+    const track_point p = {r->time, (double)s->dx, (double)s->Fx, (double)s->W, (double)s->U};
+    const extent here = {fabs(p.dx), fabs(p.Fx), (double)s->a, (double)fret_memory_bound(r->engine.self, 0),
+                         fmax(p.W, p.U)};
+    t->most = larger(t->most, here);
+    return add(t, p) || calc_no_memory(w->error);
+}
+
 /* Of a swinging period's many chords as many as can be told apart: each state takes its time. */
 static bool see(const runner *r, void *context) {
     static const double APART = 1.0 / 64;
     load_way *w = context;
-    track *t = &w->path;
+    const track *t = &w->path;
     fret_state s;
     if (w->late && w->late())
         w->walk.watch.wait = true;
     if (!r->turning && t->count && r->time - t->point[t->count - 1].time < APART)
         return true;
-    engine_state(&r->engine, &s);
-    const track_point p = {r->time, (double)s.dx, (double)s.Fx, (double)s.W, (double)s.U};
-    const extent here = {fabs(p.dx), fabs(p.Fx), (double)s.a, (double)fret_memory_bound(r->engine.self, 0),
-                         fmax(p.W, p.U)};
-    t->most = larger(t->most, here);
-    if (!add(t, p))
-        return calc_no_memory(w->error);
+    if (!keep_point(w, r, &s))
+        return false;
     if (!w->within || r->time < w->from)
         return true;
     if (stands_still(w, &s)) {
@@ -91,25 +100,27 @@ static bool see(const runner *r, void *context) {
 
 /* ---- walking ----------------------------------------------------------------------------------- */
 
-bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
-    bool anew;
-    w->item = item;
+void way_unwatch(load_way *w) {
+    w->item = NO_ITEM;
     w->from = 0;
     w->within = false;
     w->shots = 0;
+}
+
+bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
+    bool anew;
+    way_unwatch(w);
+    w->item = item;
     if (item != NO_ITEM && w->walk.run.at.steps > item) /* for one that was to be taken back, and was not */
         walk_end(&w->walk);
     if (!walk_follow(&w->walk, c, &anew, error))
         return false;
     if (anew) {
         begin_track(&w->path);
-        if (!add(&w->path, (track_point){.time = 0}))
+        if (!add(&w->path, (track_point){.time = 0})) {
+            walk_end(&w->walk);
             return calc_no_memory(error);
-    }
-    if (item != NO_ITEM && !w->play) {
-        w->play = calloc(PLAY_SHOTS, sizeof *w->play);
-        if (!w->play)
-            return calc_no_memory(error);
+        }
     }
     return true;
 }
@@ -126,10 +137,17 @@ static unsigned parts_of(const scene *s) {
 
 static bool come_to_item(load_way *w) {
     const walk *k = &w->walk;
-    if (w->within || w->item == NO_ITEM || k->run.at.steps < w->item || k->watch.wait)
+    if (w->within || k->run.at.steps < w->item) /* NO_ITEM is never come to */
         return true;
     w->within = true;
     return k->run.time < w->from || keep_shot(w);
+}
+
+/* Behind periods that repeat those before, and were not seen. */
+static bool see_end(load_way *w) {
+    fret_state s;
+    const track *t = &w->path;
+    return t->point[t->count - 1].time == w->walk.run.time || keep_point(w, &w->walk.run, &s);
 }
 
 bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
@@ -146,6 +164,7 @@ bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
     ok = ok && come_to_item(w);
     if (ok && k->run.at.steps < end && !k->watch.wait)
         ok = walk_on(k, end, PARTS, true, see, w, error);
+    ok = ok && (!way_done(w) || see_end(w));
     if (!ok)
         walk_end(k); /* half a step is nothing to go on from */
     else if (way_done(w))

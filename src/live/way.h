@@ -48,6 +48,8 @@ bool way_done(const load_way *w);
 bool way_rests(const load_way *w);
 /* One more period of the cycle that it ends with; its states are wanted. */
 void way_more(load_way *w);
+/* No states are wanted any more: there is no end to wait for. */
+void way_unwatch(load_way *w);
 /* The states before this time are no longer wanted, but for the last of them. */
 void way_pass(load_way *w, double time);
 extent way_extent(const load_way *w);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Loaded before the C library: lets one allocation fail, or be the moment of an interrupt. Counting begins
  * when a file named `arm` is closed, or with FAULT_EARLY at once, and ends when one named `disarm` is opened;
- * FAULT=n fails the n-th, with FAULT_INTERRUPT there is Ctrl-C instead, and FAULT_COUNT names a file for how
- * many there were. For glibc; with LEAKS the next library's functions allocate, which may be a leak
- * detector's. What curses allocates is left alone: it crashes where it cannot. */
+ * FAULT=n fails the n-th (with FAULT_SIZE of those of so many bytes), with FAULT_INTERRUPT there is Ctrl-C
+ * instead, and FAULT_COUNT names a file for how many there were. For glibc; with LEAKS the next library's
+ * functions allocate, which may be a leak detector's. What curses allocates is left alone: it crashes where
+ * it cannot. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -83,10 +84,12 @@ extern void *__libc_memalign(size_t alignment, size_t size);
 
 static int armed, arming = -1;
 static long seen, wanted;
+static size_t just;
 
 static void arm(void) {
-    const char *n = getenv("FAULT");
+    const char *n = getenv("FAULT"), *size = getenv("FAULT_SIZE");
     wanted = n ? atol(n) : 0;
+    just = size ? (size_t)atol(size) : 0;
     armed = 1;
 }
 
@@ -101,8 +104,8 @@ static int is_curses(void *caller) {
            (strstr(where.dli_fname, "libncurses") || strstr(where.dli_fname, "libtinfo"));
 }
 
-static int fails(void *caller) {
-    if (!armed || is_curses(caller) || ++seen != wanted)
+static int fails(void *caller, size_t size) {
+    if (!armed || (just && size != just) || is_curses(caller) || ++seen != wanted)
         return 0;
     if (getenv("FAULT_INTERRUPT")) {
         kill(getpid(), SIGINT);
@@ -113,25 +116,25 @@ static int fails(void *caller) {
 }
 
 void *malloc(size_t size) {
-    return fails(__builtin_return_address(0)) ? NULL : __libc_malloc(size);
+    return fails(__builtin_return_address(0), size) ? NULL : __libc_malloc(size);
 }
 
 void *calloc(size_t count, size_t size) {
-    return fails(__builtin_return_address(0)) ? NULL : __libc_calloc(count, size);
+    return fails(__builtin_return_address(0), count * size) ? NULL : __libc_calloc(count, size);
 }
 
 void *realloc(void *old, size_t size) {
-    return fails(__builtin_return_address(0)) ? NULL : __libc_realloc(old, size);
+    return fails(__builtin_return_address(0), size) ? NULL : __libc_realloc(old, size);
 }
 
 void *aligned_alloc(size_t alignment, size_t size) {
-    return fails(__builtin_return_address(0)) ? NULL : __libc_memalign(alignment, size);
+    return fails(__builtin_return_address(0), size) ? NULL : __libc_memalign(alignment, size);
 }
 
 /* the C library's own would hide who calls */
 char *strdup(const char *text) {
     const size_t size = strlen(text) + 1;
-    char *copy = fails(__builtin_return_address(0)) ? NULL : __libc_malloc(size);
+    char *copy = fails(__builtin_return_address(0), size) ? NULL : __libc_malloc(size);
     return copy ? memcpy(copy, text, size) : NULL;
 }
 
