@@ -5,6 +5,7 @@
 #define LIVE_LIVE_H
 
 #include "calc/calc.h"
+#include "calc/file.h"
 
 /* What the program around the language does for it. */
 typedef struct live_host {
@@ -16,6 +17,9 @@ typedef struct live_host {
     /* Runs a line of statements. What it says, errors too, goes into answer (to be freed, or NULL); false: an
      * error. */
     bool (*run)(void *self, const char *line, char **answer);
+    /* As scripts are read: the mark of a line that goes on, and its prompts made blanks. */
+    file_mark *mark;
+    void (*blank_prompts)(char *text, size_t len);
     /* The line with the word before the cursor completed as far as it is the same for all candidates; the
      * cursor moves. */
     void (*complete)(void *self, char *line, size_t size, size_t *cursor);

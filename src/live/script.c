@@ -6,39 +6,36 @@
 #include "calc/file.h"
 #include "live/state.h"
 
-static const char prompt[] = "fret> ";
-
-static size_t continuation(const char *line, size_t length) {
-    size_t n = length;
-    while (n > 0 && (line[n - 1] == ' ' || line[n - 1] == '\t' || line[n - 1] == '\r'))
-        n--;
-    return n > 0 && line[n - 1] == '\\' ? n - 1 : length;
-}
-
-static bool keep(live_script *s, const char *line) {
+/* In one line, however many it had. */
+static bool keep(live *l, const char *line) {
+    live_script *s = &l->script;
     char **grown = realloc(s->line, (s->count + 1) * sizeof *grown);
     if (!grown)
         return false;
     s->line = grown;
-    s->line[s->count] = strdup(line + strspn(line, " \t"));
-    if (!s->line[s->count])
+    char *kept = s->line[s->count] = strdup(line + strspn(line, " \t"));
+    if (!kept)
         return false;
     s->count++;
+    l->host->blank_prompts(kept, strlen(kept));
+    for (char *end = kept; (end = strchr(end, '\n')) != NULL;)
+        *end = ' ';
     return true;
 }
 
-/* Of a transcript the statements alone. */
+/* Of a transcript the statements alone: blanks are where prompts were, and no other line begins with one. */
 static void statements_only(live_script *s) {
     size_t kept = 0;
     bool transcript = false;
     for (size_t i = 0; i < s->count; i++)
-        transcript = transcript || !strncmp(s->line[i], prompt, sizeof prompt - 1);
+        transcript = transcript || *s->line[i] == ' ';
     for (size_t i = 0; transcript && i < s->count; i++) {
         char *line = s->line[i];
-        if (strncmp(line, prompt, sizeof prompt - 1)) {
+        if (*line != ' ') {
             free(line);
         } else {
-            memmove(line, line + sizeof prompt - 1, strlen(line) - sizeof prompt + 2);
+            const size_t blanks = strspn(line, " ");
+            memmove(line, line + blanks, strlen(line) - blanks + 1);
             s->line[kept++] = line;
         }
     }
@@ -52,9 +49,9 @@ bool script_open(live *l, const char *path, calc_error *error) {
         return false;
     file_got got = FILE_GOT_LINE;
     bool ok = true;
-    while (ok && (got = file_in_logical(&in, continuation, error)) == FILE_GOT_LINE) {
-        in.line[strcspn(in.line, "\r")] = 0;
-        ok = keep(s, in.line);
+    while (ok && (got = file_in_logical(&in, l->host->mark, error)) == FILE_GOT_LINE) {
+        in.line[l->host->mark(in.line, in.length)] = 0; /* nothing continues the last line */
+        ok = keep(l, in.line);
     }
     file_in_close(&in);
     statements_only(s);
@@ -111,7 +108,7 @@ void script_on(live *l) {
     s->undo[s->at] = c->undo.count;
     const char *line = s->line[s->at++];
     take_note(l);
-    if (live_say(l, "%s", line) && c->scene.end.steps > 1 && c->scene.end.steps > steps)
+    if (live_say_line(l, line) && c->scene.end.steps > 1 && c->scene.end.steps > steps)
         live_play_item(l);
 }
 

@@ -7,6 +7,7 @@
 #include "live/live.h"
 #include "shell/command.h"
 #include "shell/complete.h"
+#include "shell/lines.h"
 #include "shell/progress.h"
 #include "shell/record.h"
 #include "shell/show.h"
@@ -72,6 +73,8 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
                             .quit = &sh->quit,
                             .stop = &shell_stop,
                             .run = run,
+                            .mark = shell_mark,
+                            .blank_prompts = blank_prompts,
                             .complete = complete_line,
                             .filming = filming,
                             .film = film_on};

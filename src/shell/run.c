@@ -417,8 +417,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
 
 /* ---- streams ----------------------------------------------------------------------------------- */
 
-/* The place of a continuation mark. */
-static size_t mark_of(const char *line, size_t len) {
+size_t shell_mark(const char *line, size_t len) {
     size_t at = len;
     if (shell_continues(line, len))
         while (line[--at] != '\\')
@@ -433,8 +432,8 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
     file_got got = FILE_GOT_END;
     bool ok = true, last = true; /* all statements so far; those of the last line */
     while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || keep_going) &&
-           (got = file_in_logical(in, mark_of, &error)) == FILE_GOT_LINE) {
-        const size_t open = mark_of(in->line, in->length); /* nothing continues the last line */
+           (got = file_in_logical(in, shell_mark, &error)) == FILE_GOT_LINE) {
+        const size_t open = shell_mark(in->line, in->length); /* nothing continues the last line */
         if (open < in->length)
             in->line[open] = ' ';
         blank_prompts(in->line, in->length);

@@ -57,6 +57,8 @@ int shell_text(shell *sh, const char *text, const char *name, bool keep_going);
 int shell_stdin(shell *sh, bool keep_going);
 /* Does the line end in a continuation mark? */
 bool shell_continues(const char *text, size_t len);
+/* Where the mark is, or the length of the line. */
+size_t shell_mark(const char *line, size_t len);
 /* End of the statement that begins at i: a `;`, a comment or the end of the line. */
 size_t shell_statement_end(const char *text, size_t i, size_t len);
 

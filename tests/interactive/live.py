@@ -608,7 +608,7 @@ def scripted(tests):
         live = Live(tests, path)
         tests.check("an empty script", live.wait("the end of the script") and live.key(" ", "cycle FA|error"), live.screen.text())
         live.end()
-    with tests.file("x = 1 + \\ \t\r\n 2\r\nx\r\nsystem off\n") as path:
+    with tests.file("x = 1 + \\\r\n 2\r\nx\r\nsystem off\n") as path:
         live = Live(tests, path)
         tests.check("lines that go on", live.key(" ", r"x = 3"), live.screen.text())
         tests.check("back to the beginning", live.key("bb", "back before: x = 1") and

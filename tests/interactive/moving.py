@@ -196,6 +196,17 @@ def begins_anew(tests):
         live.end()
 
 
+def read_alike(tests):
+    """A script is read as by `fret FILE`: marks within comments, prompts of lines that go on, long lines, an end that goes on."""
+    for name, text in (("a comment's mark", "# C:\\\nx = 1 + \\\n 2\ny = x\n"), ("a transcript", "A title\nfret> x = 1 + \\\n....> 2\nx = 3\nfret>\nfret> y = x\n"),
+                       ("a long line", "x = 3%s\ny = x\n" % (" + 0" * 200)), ("its end", "x = 3\r\ny = 2 \\\r\n + 1 \\"), ("a form feed", "x = 3 \x0c\ny = 3\n")):
+        with tests.file(text) as path:
+            done = tests.run("--keep-going", "-c", "record %s.cast; live %s; record off\nx, y" % (path, path))
+            alike = tests.run("--keep-going", "-c", "source %s\nx, y" % path) if not text.startswith("A title") else None
+        tests.check("read alike: " + name, done.stdout == ("x = 3\ny = 3\n" if alike is None else alike.stdout), tests.report(done) + (tests.report(alike) if alike else ""))
+        os.unlink(path + ".cast")
+
+
 def signals(tests):
     """Sizes and stops that come while a statement runs wait for its end; a terminal that goes while it is stopped."""
     live = Live(tests, command=["/bin/bash", "--norc", "--noprofile", "-i"], PS1="shell> ", FRET=tests.fret, TERM="vt100", LC_ALL="C")
@@ -354,4 +365,4 @@ def memory(tests):
 
 
 def run(tests):
-    tests.rooms(stopped, digits, long_ways, energies, compared, begins_anew, signals, halves, mice, little_room, descriptions, memory)
+    tests.rooms(stopped, digits, long_ways, energies, compared, begins_anew, read_alike, signals, halves, mice, little_room, descriptions, memory)
