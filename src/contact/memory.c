@@ -39,7 +39,8 @@ void fret_memory_free(fret_memory *m) {
 }
 
 void fret_memory_reset(fret_memory *m) {
-    m->edge[DEPTH] = m->edge[LOAD] = m->gap = m->slid = m->last_loss = 0;
+    m->edge[DEPTH] = m->edge[LOAD] = m->slid = m->last_loss = 0;
+    m->gap = 0;
     m->W = (fret_sum){0, 0};
     m->count = 0;
     m->moves = 0;

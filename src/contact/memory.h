@@ -28,7 +28,7 @@ struct fret_memory {
     double told;
     unsigned moves;  /* of the edge, so far */
     fret_near *near; /* or NULL; in use after some moves, so that no digit depends on whether it is there */
-    fret_real gap;   /* distance of the open bodies, >= 0 */
+    double gap;      /* distance of the open bodies, >= 0 */
     unsigned long edge_id;       /* changes with the edge */
     fret_real slid;              /* delta_x - mu eta int sigma dy: what gross slip has carried along */
     int direction;               /* of the last tangential motion */

@@ -57,8 +57,13 @@ static void push(fret_memory *m, const fret_real thick[2], const fret_real inner
         top->thick[DEPTH] += thick[DEPTH];
         top->thick[LOAD] = both;
     } else {
-        m->slices[m->count++] = (slice){
-            .thick = {thick[DEPTH], thick[LOAD]}, .inner = {inner[DEPTH], inner[LOAD]}, .sigma = sigma};
+        slice *added = &m->slices[m->count++];
+        for (coordinate i = DEPTH; i <= LOAD; i++) {
+            added->thick[i] = thick[i];
+            added->inner[i] = inner[i];
+        }
+        added->sigma = sigma;
+        added->edge = 0;
     }
     resum_top(m);
 }
@@ -277,29 +282,47 @@ static fret_real gross_force(const fret_memory *m, coordinate by, fret_real from
 
 /* After a phase only the coordinate of the step is up to date in the two outermost slices. inner: the other
  * one of the outermost, < 0 where it is not known. */
-static void convert_top(fret_memory *m, coordinate by, fret_real inner) {
+FRET_INLINE void convert_top(fret_memory *m, coordinate by, fret_real inner) {
     const coordinate other = by == DEPTH ? LOAD : DEPTH;
     const size_t count = m->count;
     slice *top = &m->slices[count - 1], *next = top - 1;
-    top->inner[other] = count == 1 ? 0 : inner >= 0 ? inner : other_of(m, by, &top->inner[by]);
-    top->thick[other] = fret_greater(m->edge[other] - top->inner[other], 0);
-    if (count > 1) {
+    fret_real below[2] = {0, 0};
+    if (count == 1) {
+        inner = 0;
+    } else {
+        if (!(inner >= 0))
+            inner = other_of(m, by, &top->inner[by]);
         if (count == 2)
             next->inner[other] = 0;
-        next->thick[other] = fret_greater(top->inner[other] - next->inner[other], 0);
-        resum(next, count == 2);
+        const fret_real thick = fret_greater(inner - next->inner[other], 0), sigma = next->sigma;
+        next->thick[other] = thick;
+        below[other] = sigma * thick;
+        below[by] = sigma * next->thick[by];
+        if (count > 2) {
+            below[DEPTH] += next[-1].sum[DEPTH];
+            below[LOAD] += next[-1].sum[LOAD];
+        }
+        next->sum[DEPTH] = below[DEPTH];
+        next->sum[LOAD] = below[LOAD];
     }
-    resum(top, count == 1);
+    const fret_real thick = fret_greater(m->edge[other] - inner, 0), sigma = top->sigma;
+    top->inner[other] = inner;
+    top->thick[other] = thick;
+    top->sum[other] = below[other] + sigma * thick;
+    top->sum[by] = below[by] + sigma * top->thick[by];
 }
 
 /* Slip front of sign s moving inwards over `reach` units of drive surplus while the edge grows. */
-static fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
-                               double goal) {
+FRET_INLINE fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
+                                    double goal) {
     const coordinate other = by == DEPTH ? LOAD : DEPTH;
     fret_real s = drive < 0 ? -1 : 1, growth = edge[by] - m->edge[by];
     fret_real e = fabsl(drive) - growth, surplus = e, old = m->edge[by], loss = 0;
     const fret_real snap = 1e-17L * edge[by];
-    fret_phase p = {.normal = m->normal, .by = by, .near = near_of(m)};
+    fret_phase p; /* not as a whole: that would write it all, and again */
+    p.normal = m->normal;
+    p.by = by;
+    p.near = near_of(m);
     p.edge1 = p.front1 = old;
     p.edge_v[1] = p.front_v[1] = m->edge[other];
     while (m->count && e > 0) {
@@ -357,7 +380,7 @@ typedef struct retreat {
     double goal;     /* F_x at the end, by force */
 } retreat;
 
-static void retreat_by(retreat *r, fret_real t) {
+FRET_INLINE void retreat_by(retreat *r, fret_real t) {
     r->left -= t;
     if (r->left > 0)
         put(&r->z, r->z.at - t, -1);
@@ -366,7 +389,7 @@ static void retreat_by(retreat *r, fret_real t) {
 }
 
 /* Nothing slips: the slice at the edge gets thinner. */
-static void retreat_in_stick(fret_memory *m, retreat *r) {
+FRET_INLINE void retreat_in_stick(fret_memory *m, retreat *r) {
     slice *top = &m->slices[m->count - 1];
     const fret_real t = fret_lesser(r->left, top->thick[r->by]);
     const bool gone = t >= top->thick[r->by];
@@ -377,7 +400,7 @@ static void retreat_in_stick(fret_memory *m, retreat *r) {
 }
 
 /* A new slip zone at the edge, of no thickness yet. */
-static void begin_zone(fret_memory *m, const retreat *r, fret_real s) {
+FRET_INLINE void begin_zone(fret_memory *m, const retreat *r, fret_real s) {
     slice *zone = &m->slices[m->count++];
     zone->inner[r->by] = r->z.at;
     zone->inner[r->by == DEPTH ? LOAD : DEPTH] = r->z.other;
@@ -387,7 +410,7 @@ static void begin_zone(fret_memory *m, const retreat *r, fret_real s) {
 }
 
 /* The zone is the whole contact, up to the end of the step. */
-static fret_real retreat_in_slip(fret_memory *m, retreat *r, fret_real s) {
+FRET_INLINE fret_real retreat_in_slip(fret_memory *m, retreat *r, fret_real s) {
     fret_real loss = 0;
     if (r->by == DEPTH) {
         const fret_real e = (s * r->rate + 1) * r->left;
@@ -400,7 +423,7 @@ static fret_real retreat_in_slip(fret_memory *m, retreat *r, fret_real s) {
 }
 
 /* The zone has taken in the slice below it, and joins the next one if that is of its own sign. */
-static void take_in(fret_memory *m, const retreat *r, fret_real s) {
+FRET_INLINE void take_in(fret_memory *m, const retreat *r, fret_real s) {
     slice *next = &m->slices[m->count - 2];
     if (m->count == 2)
         next->inner[DEPTH] = next->inner[LOAD] = 0;
@@ -416,7 +439,7 @@ static void take_in(fret_memory *m, const retreat *r, fret_real s) {
 
 /* The front goes on inwards until it has taken in the slice below, the edge has overtaken it, or the step
  * ends. */
-static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
+FRET_INLINE fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
     const coordinate by = r->by, other = by == DEPTH ? LOAD : DEPTH;
     slice *top = &m->slices[m->count - 1], *next = top - 1;
     const fret_real gain = 1 - s * next->sigma, speed = (s * r->rate + 1) / gain;
@@ -435,7 +458,10 @@ static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
     fret_real inner = at - step;
     const bool core =
         by == LOAD && !reached && !overtaken && keep_little(m, m->count - 2, s, r->goal, &r->to.at, &inner);
-    fret_phase p = {.normal = m->normal, .by = by, .near = near_of(m)};
+    fret_phase p;
+    p.normal = m->normal;
+    p.by = by;
+    p.near = near_of(m);
     p.edge0 = r->z.at;
     p.edge_v[0] = r->z.other;
     p.front0 = at;
@@ -464,8 +490,8 @@ static fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
     return loss;
 }
 
-static fret_real shrink(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
-                        double goal) {
+FRET_INLINE fret_real shrink(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
+                             double goal) {
     const fret_real way = m->edge[by] - edge[by];
     const coordinate other = by == DEPTH ? LOAD : DEPTH;
     retreat r = {by, drive / way, {m->edge[by], m->edge[other]}, {edge[by], edge[other]}, way, -1, goal};
@@ -490,8 +516,8 @@ static fret_real shrink(fret_memory *m, coordinate by, const fret_real edge[2], 
 }
 
 /* A straight piece with the contact closed at both ends; drive = change of delta_x/(mu eta) or F_x/mu. */
-static fret_real advance(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
-                         double goal) {
+FRET_INLINE fret_real advance(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
+                              double goal) {
     fret_real growth = edge[by] - m->edge[by];
     if (growth == 0)
         return drive == 0 ? 0 : slip_inwards(m, by, drive, goal);
@@ -516,47 +542,63 @@ static void open_contact(fret_memory *m, fret_real dx) {
     m->slid = dx;
 }
 
-/* Pressed by places of the law that are kept; false: press as ever. */
-static bool press_near(const fret_memory *m, const fret_step *step, fret_press *p) {
-    const coordinate by = step->normal_by == FRET_TO_FORCE ? LOAD : DEPTH;
-    if (!near_of(m) || !(step->normal > 0))
-        return false;
-    const fret_real v = fret_near_value(m->near, by, step->normal);
-    p->F = by == LOAD ? step->normal : v; /* not as a whole: that waits for its parts to be written */
-    p->dz = by == LOAD ? v : step->normal;
-    p->a = 0;
-    p->F_rest = p->dz_rest = 0;
-    return v > 0;
-}
+/* The normal state at the end of a step. */
+typedef enum moved { STAYS, PRESSED, PRESSED_NEAR } moved; /* by places of the law that are kept */
+typedef struct normal_end {
+    moved how;
+    fret_real edge[2];
+    double gap;   /* between the bodies where they part */
+    fret_press p; /* PRESSED: with radius and what does not fit */
+} normal_end;
 
-static fret_status stay(const fret_memory *m, fret_press *p) {
-    *p = (fret_press){.F = m->edge[LOAD],
-                      .dz = m->edge[DEPTH],
-                      .a = m->radius,
-                      .F_rest = m->edge_rest[LOAD],
-                      .dz_rest = m->edge_rest[DEPTH]};
-    return fret_ok();
-}
-
-/* The normal state at the end of a step, and the gap between the bodies where they part. *near: radius and
- * what does not fit are left out. */
-static fret_status normal_end(const fret_memory *m, const fret_step *step, fret_press *p, fret_real *gap,
-                              bool *near) {
+FRET_INLINE fret_status find_normal_end(const fret_memory *m, const fret_step *step, normal_end *to) {
     const bool by_force = step->normal_by == FRET_TO_FORCE;
-    *gap = m->gap;
-    *near = m->pressed_near;
+    to->how = STAYS;
+    to->gap = m->gap;
+    to->edge[DEPTH] = m->edge[DEPTH];
+    to->edge[LOAD] = m->edge[LOAD];
     if (step->normal_by == FRET_KEEP_NORMAL)
-        return stay(m, p);
+        return fret_ok();
     if (!by_force && !isfinite(step->normal))
         return fret_fail(FRET_NOT_FINITE, "dz", step->normal, 0);
-    *gap = !by_force && step->normal < 0 ? -step->normal : 0;
-    if (step->normal == m->edge[by_force ? LOAD : DEPTH])
-        return stay(m, p);
-    *near = press_near(m, step, p);
-    if (*near)
+    to->gap = !by_force && step->normal < 0 ? -step->normal : 0;
+    if (step->normal == to->edge[by_force ? LOAD : DEPTH])
         return fret_ok();
-    return by_force ? fret_press_by_force(m->normal, step->normal, p)
-                    : fret_press_by_depth(m->normal, fmax(step->normal, 0), p);
+    if (near_of(m) && step->normal > 0) {
+        const fret_real v = fret_near_value(m->near, by_force ? LOAD : DEPTH, step->normal);
+        if (v > 0) {
+            to->how = PRESSED_NEAR;
+            to->edge[DEPTH] = by_force ? v : step->normal;
+            to->edge[LOAD] = by_force ? step->normal : v;
+            return fret_ok();
+        }
+    }
+    const fret_status st = by_force ? fret_press_by_force(m->normal, step->normal, &to->p)
+                                    : fret_press_by_depth(m->normal, fmax(step->normal, 0), &to->p);
+    to->how = PRESSED;
+    to->edge[DEPTH] = to->p.dz;
+    to->edge[LOAD] = to->p.F;
+    return st;
+}
+
+/* What the edge leaves out, and how it can be told. */
+FRET_INLINE void keep_normal_end(fret_memory *m, const fret_step *step, const normal_end *to) {
+    if (step->normal_by == FRET_KEEP_NORMAL)
+        return;
+    if (to->how != STAYS) {
+        const bool near = to->how == PRESSED_NEAR;
+        m->pressed_near = near;
+        m->edge_rest[DEPTH] = near ? 0 : to->p.dz_rest;
+        m->edge_rest[LOAD] = near ? 0 : to->p.F_rest;
+        if (!near)
+            m->radius = to->p.a;
+    }
+    if (m->pressed_near) {
+        m->told_by = step->normal_by;
+        m->told = step->normal;
+    }
+    if (m->moves < MANY_MOVES)
+        m->moves++;
 }
 
 FRET_INLINE fret_status step_load(double mu, const fret_step *step, fret_real FN, fret_real *load) {
@@ -599,7 +641,7 @@ static fret_real step_by_force(fret_memory *m, const fret_step *step, const fret
 /* To delta_x, straight in (delta_z, delta_x). While open, the bodies move freely: only the closed part of the
  * path counts. */
 static fret_real step_by_displacement(fret_memory *m, const fret_step *step, const fret_real edge[2],
-                                      fret_real gap) {
+                                      double gap) {
     const fret_real old_dx = fret_memory_dx(m);
     const fret_real target =
         step->tangential_by == FRET_TO_DX && !stays(m, step) ? (fret_real)step->tangential : old_dx;
@@ -635,39 +677,29 @@ static fret_status keep_places(fret_memory *m, const fret_step *step) {
 }
 
 fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
-    fret_press p;
-    fret_real gap, load;
-    bool near;
+    normal_end to;
+    fret_real load;
     fret_status st = keep_places(m, step);
     if (!st.code)
-        st = normal_end(m, step, &p, &gap, &near);
+        st = find_normal_end(m, step, &to);
     if (!st.code)
-        st = step_load(m->mu, step, p.F, &load);
+        st = step_load(m->mu, step, to.edge[LOAD], &load);
     if (!st.code)
         st = fret_memory_reserve(m, m->count + 4);
     if (st.code)
         return st;
-    const fret_real edge[2] = {p.dz, p.F};
-    m->edge_rest[DEPTH] = p.dz_rest;
-    m->edge_rest[LOAD] = p.F_rest;
-    if (near && step->normal_by != FRET_KEEP_NORMAL) {
-        m->told_by = step->normal_by;
-        m->told = step->normal;
-    }
-    m->pressed_near = near;
-    if (step->normal_by != FRET_KEEP_NORMAL && m->moves < MANY_MOVES)
-        m->moves++;
-    const fret_real loss = step->tangential_by == FRET_TO_FX ? step_by_force(m, step, edge, load)
-                                                             : step_by_displacement(m, step, edge, gap);
+    keep_normal_end(m, step, &to);
+    const fret_real loss = step->tangential_by == FRET_TO_FX ? step_by_force(m, step, to.edge, load)
+                                                             : step_by_displacement(m, step, to.edge, to.gap);
     if (step->tangential_by != FRET_KEEP_DX) {
         m->held = step->tangential_by;
         m->goal = step->tangential;
     } else if (m->held == FRET_TO_FX && step->normal_by != FRET_KEEP_NORMAL) {
         m->held = FRET_KEEP_DX;
     }
-    m->gap = gap;
-    m->radius = p.a;
-    m->last_loss = loss > 0 ? loss * m->loss_scale : 0;
-    fret_sum_add(&m->W, m->last_loss);
+    m->gap = to.gap;
+    const fret_real lost = loss > 0 ? loss * m->loss_scale : 0;
+    m->last_loss = lost;
+    fret_sum_add(&m->W, lost);
     return fret_unless_stopped(m->normal, fret_ok());
 }

@@ -8,16 +8,37 @@ bool fret_near_fits(const fret_normal *n) {
     return fret_normal_closed(n) && n->p <= steepest;
 }
 
+/* Both are quotients of series, by the even part of the binomial one. */
+static void make_way(fret_near_law *law) {
+    double sag[FRET_NEAR_WAY + 2] = {0}, lean[FRET_NEAR_WAY + 2] = {(double)law->s};
+    for (int i = 1; i <= FRET_NEAR_WAY + 1; i++) {
+        const double even = law->binomial[2 * i];
+        sag[i] = even * (2 * i) / (2 * i + 1);
+        lean[i] = law->binomial[2 * i + 1] - even * lean[0];
+        for (int j = 1; j < i; j++) {
+            sag[i] -= law->binomial[2 * j] * sag[i - j];
+            lean[i] -= law->binomial[2 * j] * lean[i - j];
+        }
+    }
+    for (int i = 0; i < FRET_NEAR_WAY; i++) {
+        law->sag[i] = sag[i + 2];
+        law->lean[i] = lean[i + 2];
+    }
+    law->most_square = fmin(1 / 64.0, 0.025 / (double)(law->s * law->s)); /* both series have ended there */
+    law->first_sag = law->leading[2] * 2 / 3;
+    law->first_lean = law->leading[3] - law->leading[2] * law->s;
+}
+
 static void make_law(fret_real s, fret_real sm1, fret_near_law *out) {
     fret_real term = s;
-    *out = (fret_near_law){.s = s, .sm1 = sm1, .leading = {1}, .binomial = {1}, .mean = {1}};
+    *out = (fret_near_law){.s = s, .sm1 = sm1, .leading = {1}, .binomial = {1}};
     for (int i = 1; i < FRET_NEAR_TERMS; i++) {
         if (i < FRET_NEAR_LEADING)
             out->leading[i] = term;
         out->binomial[i] = (double)term;
-        out->mean[i] = out->binomial[i] / (double)(i + 1);
         term *= (sm1 - (fret_real)(i - 1)) / (fret_real)(i + 1);
     }
+    make_way(out);
 }
 
 void fret_near_make(const fret_normal *n, fret_near *out) {

@@ -14,11 +14,16 @@ typedef enum coordinate { DEPTH, LOAD } coordinate;
 
 /* v ~ y^s: load by depth or depth by load. (1+z)^s = 1 + s z + ... = sum of binomial[i] z^i; the first of
  * them to all bits. */
-enum { FRET_NEAR_LEADING = 5, FRET_NEAR_TERMS = 24, FRET_NEAR_PLACES = 32 };
+enum { FRET_NEAR_LEADING = 5, FRET_NEAR_TERMS = 24, FRET_NEAR_WAY = 8, FRET_NEAR_PLACES = 32 };
 typedef struct fret_near_law {
     fret_real s, sm1; /* sm1 = s-1 without cancellation */
     fret_real leading[FRET_NEAR_LEADING];
-    double binomial[FRET_NEAR_TERMS], mean[FRET_NEAR_TERMS]; /* mean: binomial[i]/(i+1) */
+    double binomial[FRET_NEAR_TERMS];
+    /* Of a way from C(1-w) to C(1+w), x = w^2 up to most_square: the mean of the law is that of both ends
+     * less x (first_sag + x (sag[0] + ...)) of it, half their difference w (s + x (first_lean + x (lean[0] +
+     * ...))) of it. */
+    fret_real first_sag, first_lean;
+    double sag[FRET_NEAR_WAY], lean[FRET_NEAR_WAY], most_square;
     struct {
         double at, rest;  /* 0: none yet; rest: what v leaves out */
         fret_real v, per; /* v: NaN near the ends of the range; 1/at */

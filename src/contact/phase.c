@@ -195,31 +195,20 @@ static fret_real closed_loss(const power_phase *c) {
 
 /* ---- the same from the series of the law ------------------------------------------------------- */
 
-enum { EDGE, FRONT };
+/* h^2 times the terms 2 to 4 of the divided difference of the law at the edge, the front and the front again,
+ * y = c (1+z). h: thickness, w: front. */
+FRET_INLINE fret_real leading_terms(const fret_real *b, fret_real h, fret_real w) {
+    return h * h * (b[2] + (b[3] * (3 * w + h) + b[4] * (w * (6 * w + 4 * h) + h * h)));
+}
 
-/* A thin zone that stays near: about the middle c of all, y = c (1+z), the term z^i of the law gives h^2
- * times the divided difference of z^i at the edge, the front and the front again; the first three as
- * integrals, the others by Gauss's rule in double. h: thickness, w: front. */
-static fret_real thin_loss(const fret_phase *p, fret_real least, fret_real most) {
-    const fret_near_law *law = &p->near->law[p->by];
-    const fret_real c = (least + most) / 2, per = 1 / c;
-    const fret_real travel = (p->front0 - p->front1) * per, move = (p->edge1 - p->edge0) * per;
-    const fret_real h0 = (p->edge0 - p->front0) * per, h1 = (p->edge1 - p->front1) * per;
-    const fret_real w0 = (p->front0 - c) * per, h = (h0 + h1) / 2, dh = h1 - h0, w = w0 - travel / 2,
-                    dw = -travel;
-    const fret_real dh2 = dh * dh / 12, hdh = h * dh / 6, h2 = h * h + dh2, h3 = h * (h * h + 3 * dh2),
-                    h4 = h * h * (h * h + 6 * dh2) + dh2 * dh2 * 1.8L;
-    const fret_real h2w = w * h2 + dw * hdh,
-                    h2w2 = w * (h2w + dw * hdh) + dw * dw / 12 * (h * h + 1.8L * dh2),
-                    h3w = w * h3 + dw * (h * hdh * 1.5L + dh * dh2 * 0.15L);
-    const fret_real *b = law->leading;
-    const fret_real first = b[2] * h2 + b[3] * (3 * h2w + h3) + b[4] * (6 * h2w2 + 4 * h3w + h4);
-    const double radius = (double)((most - c) * per), way = (double)fret_greater(travel, fabsl(move));
+/* The other terms, in double: means over the phase by Gauss's rule. */
+static double other_terms(const fret_near_law *law, double h0, double h1, double w0, double w1, double radius,
+                          double way) {
     const int terms = radius < 0.0166 ? 12 : radius < 0.066 ? 17 : FRET_NEAR_TERMS;
-    const int pairs = way * (double)fret_greater(law->s, 1) < 0.006 ? 2 : 4;
+    const int pairs = way < 0.006 && way * (double)law->s < 0.006 ? 2 : 4;
     const fret_two *node = pairs == 2 ? fret_gauss_4 : fret_gauss_8,
                    *weight = pairs == 2 ? fret_gauss_4_weight : fret_gauss_8_weight;
-    const double a0 = (double)w0, da = (double)dw, k0 = (double)h0, dk = (double)dh;
+    const double a0 = w0, da = w1 - w0, k0 = h0, dk = h1 - h0;
     fret_two sum = {0, 0};
     for (int k = 0; k < pairs; k += 2) {
         const fret_two h_1 = k0 + dk * node[k], h_2 = k0 + dk * node[k + 1];
@@ -244,80 +233,103 @@ static fret_real thin_loss(const fret_phase *p, fret_real least, fret_real most)
         }
         sum += weight[k] * (h_1 * h_1) * z1 + weight[k + 1] * (h_2 * h_2) * z2;
     }
-    return c * fret_near_value(p->near, p->by, c) * travel * fabsl(first + (sum[0] + sum[1]));
+    return sum[0] + sum[1];
 }
 
-/* Of the way of edge or front: the mean of the law, and how far the ends lie from it. */
+/* A thin zone that stays near, about the middle c of all: the leading terms by a rule of three points, which
+ * is exact for them. */
+static fret_real thin_loss(const fret_phase *p, fret_real least, fret_real most) {
+    const fret_near_law *law = &p->near->law[p->by];
+    const fret_real c = (least + most) / 2, per = 1 / c;
+    const fret_real h0 = (p->edge0 - p->front0) * per, h1 = (p->edge1 - p->front1) * per;
+    const fret_real w0 = (p->front0 - c) * per, w1 = (p->front1 - c) * per;
+    const double travel = (double)(w0 - w1), move = fabs((double)(h1 - h0) - travel);
+    const double others = other_terms(law, (double)h0, (double)h1, (double)w0, (double)w1,
+                                      (double)((most - c) * per), travel > move ? travel : move);
+    const fret_real part = 0.3872983346207416885179265399782400L; /* sqrt(3/5)/2 */
+    const fret_real h = (h0 + h1) / 2, dh = (h1 - h0) * part, w = (w0 + w1) / 2, dw = (w1 - w0) * part;
+    const fret_real first =
+        (5 * (leading_terms(law->leading, h - dh, w - dw) + leading_terms(law->leading, h + dh, w + dw)) +
+         8 * leading_terms(law->leading, h, w)) /
+        18;
+    return fret_near_value(p->near, p->by, c) * (p->front0 - p->front1) * fabsl(first + others);
+}
+
+/* Of the way of edge or front: the mean of the law, that of both ends less it, and half their difference. */
 typedef struct span {
-    fret_real mean, off[2];
+    fret_real mean, lift, half;
     bool far;
 } span;
 
-static span span_of(const fret_phase *p, const fret_real y[2], const fret_real given[2]) {
-    const fret_near_law *law = &p->near->law[p->by];
-    fret_real v[2];
-    for (int i = 0; i < 2; i++)
-        v[i] = given[i] >= 0 ? given[i] : y[i] > 0 ? fret_near_value(p->near, p->by, y[i]) : 0;
-    if (y[0] == y[1])
-        return (span){v[0], {0, 0}, false};
-    const fret_real way = (y[1] - y[0]) / (y[0] + y[1]); /* half of it, of the middle */
-    span out;
-    if (fabsl(way) > 1 / 8.0L) {
-        out.mean = (v[0] + y[1] * ((v[1] - v[0]) / (y[1] - y[0]))) / (law->s + 1);
-        out.far = true;
-        out.off[0] = v[0] - out.mean;
-        out.off[1] = v[1] - out.mean;
-        return out;
-    }
-    const fret_real *a = law->leading, d2 = way * way;
-    const double *b = law->binomial, *c = law->mean, x = (double)d2, x2 = x * x, x4 = x2 * x2;
-    const double even = ((b[4] + x * b[6]) + x2 * (b[8] + x * b[10])) +
-                        x4 * ((b[12] + x * b[14]) + x2 * (b[16] + x * b[18])),
-                 part = ((c[4] + x * c[6]) + x2 * (c[8] + x * c[10])) +
-                        x4 * ((c[12] + x * c[14]) + x2 * (c[16] + x * c[18])),
-                 odd = ((b[5] + x * b[7]) + x2 * (b[9] + x * b[11])) +
-                       x4 * ((b[13] + x * b[15]) + x2 * (b[17] + x * b[19]));
-    const fret_real rise = d2 * (a[2] + d2 * even), above = d2 * (a[2] / 3 + d2 * part),
-                    middle = (v[0] + v[1]) / 2 / (1 + rise);
-    const fret_real half = middle * (way * (a[1] + d2 * (a[3] + d2 * odd))), lift = middle * (rise - above);
-    return (span){middle + middle * above, {lift - half, lift + half}, false};
+/* c[0] + c[1] x + ... */
+FRET_INLINE double way_series(const double c[FRET_NEAR_WAY], double x) {
+    const double x2 = x * x, x4 = x2 * x2;
+    return ((c[0] + x * c[1]) + x2 * (c[2] + x * c[3])) + x4 * ((c[4] + x * c[5]) + x2 * (c[6] + x * c[7]));
 }
 
+FRET_INLINE fret_real value_of(const fret_phase *p, fret_real y, fret_real given) {
+    return given >= 0 ? given : y > 0 ? fret_near_value(p->near, p->by, y) : 0;
+}
+
+/* way: from y0 to y1 */
+FRET_INLINE void find_span(const fret_near_law *law, fret_real y0, fret_real y1, fret_real way, fret_real v0,
+                           fret_real v1, span *out) {
+    const fret_real part = way / (y0 + y1), square = part * part, both = (v0 + v1) / 2;
+    const double x = (double)square;
+    out->far = x > law->most_square;
+    if (out->far) {
+        out->mean = (v0 + y1 * ((v1 - v0) / way)) / (law->s + 1);
+        out->lift = both - out->mean;
+        out->half = (v1 - v0) / 2;
+    } else {
+        out->lift = both * (square * (law->first_sag + x * way_series(law->sag, x)));
+        out->mean = both - out->lift;
+        out->half = both * part * (law->s + square * (law->first_lean + x * way_series(law->lean, x)));
+    }
+}
+
+/* NaN where many points do better. */
 static fret_real thick_loss(const fret_phase *p) {
-    const fret_real edge[2] = {p->edge0, p->edge1}, front[2] = {p->front0, p->front1};
-    const fret_real travel = front[0] - front[1];
-    const span e = span_of(p, edge, p->edge_v), f = span_of(p, front, p->front_v);
-    const fret_real ends = (edge[1] - front[1]) * f.off[1] - (edge[0] - front[0]) * f.off[0];
+    const fret_near_law *law = &p->near->law[p->by];
+    const fret_real travel = p->front0 - p->front1, move = p->edge1 - p->edge0;
+    span e, f;
+    find_span(law, p->front0, p->front1, -travel, value_of(p, p->front0, p->front_v[0]),
+              value_of(p, p->front1, p->front_v[1]), &f);
+    const fret_real ends =
+        (move + travel) * f.lift + ((p->edge0 - p->front0) + (p->edge1 - p->front1)) * f.half;
+    find_span(law, p->edge0, p->edge1, move, value_of(p, p->edge0, p->edge_v[0]),
+              value_of(p, p->edge1, p->edge_v[1]), &e);
     const fret_real loss = fabsl(travel * (e.mean - f.mean) + ends), scale = travel * e.mean;
     if (e.far || f.far)
-        return loss > 0.03L * scale ? loss : (fret_real)NAN;
-    if (loss > 0.02L * scale)
+        return loss > 0.03 * scale ? loss : (fret_real)NAN;
+    if (loss > 0.02 * scale)
         return loss;
-    fret_real low[2]; /* little is left: the difference by all bits */
-    const fret_real high = fret_near_parts(p->near, p->by, edge[0], &low[EDGE]) -
-                           fret_near_parts(p->near, p->by, front[0], &low[FRONT]);
-    const fret_real exact =
-        fabsl(travel * (high + ((low[EDGE] - low[FRONT]) - (e.off[0] - f.off[0]))) + ends);
-    return exact > 0.008L * scale ? exact : (fret_real)NAN;
+    fret_real low_e, low_f; /* little is left: the difference by all bits */
+    const fret_real high = fret_near_parts(p->near, p->by, p->edge0, &low_e) -
+                           fret_near_parts(p->near, p->by, p->front0, &low_f);
+    const fret_real off = (e.lift - e.half) - (f.lift - f.half);
+    const fret_real exact = fabsl(travel * (high + ((low_e - low_f) - off)) + ends);
+    return exact > 0.008 * scale ? exact : (fret_real)NAN;
 }
 
 /* NaN where many points do better. */
 static fret_real near_loss(const fret_phase *p) {
     const fret_real most = fret_greater(p->edge0, p->edge1),
-                    least = fret_lesser(fret_lesser(p->edge0, p->edge1), p->front1),
-                    way = fret_greater(p->front0 - p->front1, fabsl(p->edge1 - p->edge0));
-    return most - least <= 0.15L * (most + least) &&
-                   way * fret_greater(p->near->law[p->by].s, 1) < 0.16L * most
+                    least = fret_lesser(fret_lesser(p->edge0, p->edge1), p->front1);
+    const fret_real way = fret_greater(p->front0 - p->front1, fabsl(p->edge1 - p->edge0));
+    return most - least <= 0.15 * (most + least) && way * fret_greater(p->near->law[p->by].s, 1) < 0.16 * most
                ? thin_loss(p, least, most)
                : thick_loss(p);
 }
 
 static fret_real power_loss(const fret_phase *p) {
     const fret_normal *n = p->normal;
+    if (p->near && p->front0 > p->front1) {
+        const fret_real fast = near_loss(p);
+        if (fast >= 0)
+            return fast;
+    }
     const fret_real e = fret_greater(p->edge0, p->edge1);
-    const fret_real fast = p->near && p->front0 > p->front1 ? near_loss(p) : (fret_real)NAN;
-    if (fast >= 0)
-        return fast;
     power_phase c = {p, n->p, n->pm1, e, 0};
     if (p->by == LOAD) {
         c.s = n->q;
