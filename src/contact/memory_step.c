@@ -21,9 +21,12 @@ static fret_real law_other(const fret_memory *m, coordinate by, const fret_real 
 }
 
 /* The other coordinate of a place. */
-FRET_INLINE fret_real other_of(const fret_memory *m, coordinate by, const fret_real *y) {
-    const fret_real v = near_of(m) ? fret_near_value(m->near, by, *y) : (fret_real)NAN;
-    return v > 0 ? v : law_other(m, by, y);
+FRET_INLINE fret_real other_of(const fret_memory *m, coordinate by, fret_real y) {
+    const fret_real v = near_of(m) ? fret_near_value(m->near, by, y) : (fret_real)NAN;
+    if (v > 0)
+        return v;
+    const fret_real at = y; /* its address is given away here alone */
+    return law_other(m, by, &at);
 }
 
 /* What the edge leaves out. */
@@ -152,22 +155,13 @@ static void keep_inner(fret_memory *m, coordinate by, fret_real s, double goal, 
 }
 
 /* The same where F_N changes too, by force: the slice i, in which the front ends, where little is left. The
- * steps of the front have left `load`. */
-static void keep_core(fret_memory *m, size_t i, fret_real s, double goal, const fret_real *edge,
-                      fret_real *load) {
+ * steps of the front are not asked. Returns the load. */
+static fret_real keep_core(fret_memory *m, size_t i, fret_real s, double goal, const fret_real *edge) {
     slice *end = &m->slices[i];
     const dd bound = dd_mul_d(dd_from2(*edge, edge_rest(m, LOAD, *edge)), m->mu);
     const dd left = s < 0 ? dd_add_d(bound, goal) : dd_add_d(bound, -goal);
     end->thick[LOAD] = thick_at_brink(m, i, LOAD, s, dd_div(left, dd_of(m->mu)));
-    *load = inner_of(m, i, LOAD) + end->thick[LOAD];
-}
-
-FRET_INLINE bool keep_little(fret_memory *m, size_t i, fret_real s, double goal, const fret_real *edge,
-                             fret_real *load) {
-    if (8 * *load > *edge || m->slices[i].sigma * s >= 1)
-        return false;
-    keep_core(m, i, s, goal, edge, load);
-    return true;
+    return inner_of(m, i, LOAD) + end->thick[LOAD];
 }
 
 /* The front of a slip zone of sign s at constant normal load: the zone eats inwards from the edge. */
@@ -291,7 +285,7 @@ FRET_INLINE void convert_top(fret_memory *m, coordinate by, fret_real inner) {
         inner = 0;
     } else {
         if (!(inner >= 0))
-            inner = other_of(m, by, &top->inner[by]);
+            inner = other_of(m, by, top->inner[by]);
         if (count == 2)
             next->inner[other] = 0;
         const fret_real thick = fret_greater(inner - next->inner[other], 0), sigma = next->sigma;
@@ -312,60 +306,138 @@ FRET_INLINE void convert_top(fret_memory *m, coordinate by, fret_real inner) {
     top->sum[by] = below[by] + sigma * top->thick[by];
 }
 
-/* Slip front of sign s moving inwards over `reach` units of drive surplus while the edge grows. */
-FRET_INLINE fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
-                                    double goal) {
+/* The end of a step: the zone of sign s, whose front is at `front`, goes on inwards by `part` of the slice
+ * below it, while the edge comes to its end from where it is. What it dissipates is asked last: a call leaves
+ * no number in a register. */
+FRET_INLINE fret_real finish(fret_memory *m, coordinate by, fret_real s, fret_real gain, fret_real part,
+                             const place *z, const place *front, const fret_real edge[2], double goal) {
     const coordinate other = by == DEPTH ? LOAD : DEPTH;
-    fret_real s = drive < 0 ? -1 : 1, growth = edge[by] - m->edge[by];
-    fret_real e = fabsl(drive) - growth, surplus = e, old = m->edge[by], loss = 0;
-    const fret_real snap = 1e-17L * edge[by];
+    slice *zone = &m->slices[m->count - 1], *next = zone - 1;
+    fret_real inner = front->at - part;
+    if (by == LOAD && 8 * inner <= edge[LOAD])
+        inner = keep_core(m, m->count - 2, s, goal, &edge[LOAD]);
+    else
+        next->thick[by] -= part;
+    const fret_real v = other_of(m, by, inner);
     fret_phase p; /* not as a whole: that would write it all, and again */
     p.normal = m->normal;
     p.by = by;
     p.near = near_of(m);
-    p.edge1 = p.front1 = old;
-    p.edge_v[1] = p.front_v[1] = m->edge[other];
-    while (m->count && e > 0) {
-        slice *top = &m->slices[m->count - 1];
-        fret_real gain = 1 - s * top->sigma, cap = gain * top->thick[by];
-        p.edge0 = p.edge1;
-        p.front0 = p.front1;
-        p.edge_v[0] = p.edge_v[1];
-        p.front_v[0] = p.front_v[1];
-        if (cap - e <= snap && cap - e <= 1e-6L * cap) {
-            e = cap < e ? e - cap : 0;
-            p.front1 = m->count > 1 ? top->inner[by] : 0;
-            p.front_v[1] = m->count > 1 ? top->inner[other] : 0;
-            m->count--;
-        } else {
-            const fret_real part = e / gain;
-            p.front1 -= part;
-            if (by == DEPTH || !keep_little(m, m->count - 1, s, goal, &edge[LOAD], &p.front1))
-                top->thick[by] -= part;
-            p.front_v[1] = other_of(m, by, &p.front1);
-            e = 0;
-        }
-        p.edge1 = e > 0 ? old + growth * (surplus - e) / surplus : edge[by];
-        p.edge_v[1] = e > 0 ? -1 : edge[other];
+    p.edge0 = z->at;
+    p.edge_v[0] = z->other;
+    p.front0 = front->at;
+    p.front_v[0] = front->other;
+    p.edge1 = edge[by];
+    p.edge_v[1] = edge[other];
+    p.front1 = inner;
+    p.front_v[1] = v;
+    zone->inner[by] = inner;
+    zone->thick[by] = edge[by] - inner;
+    m->edge[DEPTH] = edge[DEPTH];
+    m->edge[LOAD] = edge[LOAD];
+    convert_top(m, by, v);
+    return gain * fret_phase_loss(&p);
+}
+
+/* Growth with a slip front of sign s: edge and front, and what of the drive is left. */
+typedef struct widening {
+    coordinate by;
+    fret_real s, from, way, surplus, left;
+    place z, front;
+} widening;
+
+FRET_INLINE bool takes_whole(const widening *g, fret_real cap, fret_real end) {
+    return cap - g->left <= 1e-17 * end && cap - g->left <= 1e-6 * cap;
+}
+
+/* The front takes in whole slices, until the drive ends within one. */
+static fret_real take_whole(fret_memory *m, widening *g, const fret_real edge[2]) {
+    const coordinate by = g->by, other = by == DEPTH ? LOAD : DEPTH;
+    fret_real loss = 0;
+    while (m->count && g->left > 0) {
+        const slice *top = &m->slices[m->count - 1];
+        const fret_real gain = 1 - g->s * top->sigma, cap = gain * top->thick[by];
+        if (!takes_whole(g, cap, edge[by]))
+            break;
+        fret_phase p = {.normal = m->normal,
+                        .by = by,
+                        .edge0 = g->z.at,
+                        .front0 = g->front.at,
+                        .near = near_of(m),
+                        .edge_v = {g->z.other},
+                        .front_v = {g->front.other}};
+        g->left = cap < g->left ? g->left - cap : 0;
+        put(&g->front, m->count > 1 ? top->inner[by] : 0, m->count > 1 ? top->inner[other] : 0);
+        m->count--;
+        if (g->left > 0)
+            put(&g->z, g->from + g->way * (g->surplus - g->left) / g->surplus, -1);
+        else
+            put(&g->z, edge[by], edge[other]);
+        p.edge1 = g->z.at;
+        p.edge_v[1] = g->z.other;
+        p.front1 = g->front.at;
+        p.front_v[1] = g->front.other;
         if (gain > 0)
             loss += gain * fret_phase_loss(&p);
     }
-    if (e > 0 && by == DEPTH) {
-        const fret_real from = old + growth * (surplus - e) / surplus;
-        loss += e * gross_force(m, by, from, edge[by]);
-        m->slid += s * m->mu_eta * e;
+    return loss;
+}
+
+/* The front has come to the end of a slice, or to the centre. */
+static fret_real grow_whole(fret_memory *m, const widening *g, const fret_real edge[2]) {
+    const coordinate by = g->by;
+    fret_real loss = 0, thick[2] = {0, 0}, inner[2] = {0, 0};
+    if (g->left > 0 && by == DEPTH) {
+        loss = g->left * gross_force(m, by, g->z.at, edge[by]);
+        m->slid += g->s * m->mu_eta * g->left;
     }
-    if (!m->count)
-        p.front1 = p.front_v[1] = 0;
+    inner[by] = m->count ? g->front.at : 0;
+    thick[by] = edge[by] - inner[by];
     m->edge[DEPTH] = edge[DEPTH];
     m->edge[LOAD] = edge[LOAD];
-    fret_real thick[2] = {0, 0}, inner[2] = {0, 0};
-    thick[by] = edge[by] - p.front1;
-    inner[by] = p.front1;
     const size_t count = m->count;
-    push(m, thick, inner, s, 0);
-    convert_top(m, by, m->count > count ? p.front_v[1] : -1);
+    push(m, thick, inner, g->s, 0);
+    convert_top(m, by, m->count > count ? g->front.other : -1);
     return loss;
+}
+
+/* The edge grows, and the drive is larger. */
+FRET_INLINE fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
+                                    double goal) {
+    const coordinate other = by == DEPTH ? LOAD : DEPTH;
+    const fret_real s = drive < 0 ? -1 : 1;
+    widening g;
+    fret_real loss = 0, gain = 0, cap = 0;
+    g.by = by;
+    g.s = s;
+    g.from = m->edge[by];
+    g.way = edge[by] - g.from;
+    g.surplus = g.left = fabsl(drive) - g.way;
+    put(&g.z, g.from, m->edge[other]);
+    put(&g.front, g.from, m->edge[other]);
+    const slice *top = &m->slices[m->count - 1];
+    if (m->count > 1 && s * top->sigma == 1) { /* it goes on: that takes no drive */
+        put(&g.front, top->inner[by], top->inner[other]);
+        m->count--;
+        top--;
+    }
+    if (m->count) {
+        gain = 1 - s * top->sigma;
+        cap = gain * top->thick[by];
+    }
+    if (takes_whole(&g, cap, edge[by])) {
+        widening slow = g;
+        loss = take_whole(m, &slow, edge);
+        if (!m->count || slow.left <= 0)
+            return loss + grow_whole(m, &slow, edge);
+        g = slow;
+        gain = 1 - s * m->slices[m->count - 1].sigma;
+    }
+    slice *zone = &m->slices[m->count++];
+    zone->sigma = s;
+    zone->edge = 0;
+    const fret_real last = finish(m, by, s, gain, g.left / gain, &g.z, &g.front, edge, goal);
+    return loss + last;
 }
 
 /* Unloading: the edge moves inwards while the drive acts, both linearly. At the edge, a slope sigma means a
@@ -373,14 +445,12 @@ FRET_INLINE fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_re
  * (s rate + 1)/(1 - s sigma); a front slower than the edge is overtaken, and the next slope decides anew. */
 typedef struct retreat {
     coordinate by;
-    fret_real rate;  /* drive per unit of retreat */
-    place z, to;     /* the edge now, and where to */
-    fret_real left;  /* what it has to go */
-    fret_real front; /* the other coordinate of the front at the end, < 0 where it is not known */
-    double goal;     /* F_x at the end, by force */
+    fret_real rate; /* drive per unit of retreat */
+    fret_real left; /* what the edge has to go */
+    place z, to;    /* the edge now, and where to */
 } retreat;
 
-FRET_INLINE void retreat_by(retreat *r, fret_real t) {
+static void retreat_by(retreat *r, fret_real t) {
     r->left -= t;
     if (r->left > 0)
         put(&r->z, r->z.at - t, -1);
@@ -389,7 +459,7 @@ FRET_INLINE void retreat_by(retreat *r, fret_real t) {
 }
 
 /* Nothing slips: the slice at the edge gets thinner. */
-FRET_INLINE void retreat_in_stick(fret_memory *m, retreat *r) {
+static void retreat_in_stick(fret_memory *m, retreat *r) {
     slice *top = &m->slices[m->count - 1];
     const fret_real t = fret_lesser(r->left, top->thick[r->by]);
     const bool gone = t >= top->thick[r->by];
@@ -400,7 +470,7 @@ FRET_INLINE void retreat_in_stick(fret_memory *m, retreat *r) {
 }
 
 /* A new slip zone at the edge, of no thickness yet. */
-FRET_INLINE void begin_zone(fret_memory *m, const retreat *r, fret_real s) {
+static void begin_zone(fret_memory *m, const retreat *r, fret_real s) {
     slice *zone = &m->slices[m->count++];
     zone->inner[r->by] = r->z.at;
     zone->inner[r->by == DEPTH ? LOAD : DEPTH] = r->z.other;
@@ -410,7 +480,7 @@ FRET_INLINE void begin_zone(fret_memory *m, const retreat *r, fret_real s) {
 }
 
 /* The zone is the whole contact, up to the end of the step. */
-FRET_INLINE fret_real retreat_in_slip(fret_memory *m, retreat *r, fret_real s) {
+static fret_real retreat_in_slip(fret_memory *m, retreat *r, fret_real s) {
     fret_real loss = 0;
     if (r->by == DEPTH) {
         const fret_real e = (s * r->rate + 1) * r->left;
@@ -423,7 +493,7 @@ FRET_INLINE fret_real retreat_in_slip(fret_memory *m, retreat *r, fret_real s) {
 }
 
 /* The zone has taken in the slice below it, and joins the next one if that is of its own sign. */
-FRET_INLINE void take_in(fret_memory *m, const retreat *r, fret_real s) {
+static void take_in(fret_memory *m, const retreat *r, fret_real s) {
     slice *next = &m->slices[m->count - 2];
     if (m->count == 2)
         next->inner[DEPTH] = next->inner[LOAD] = 0;
@@ -437,82 +507,124 @@ FRET_INLINE void take_in(fret_memory *m, const retreat *r, fret_real s) {
     }
 }
 
-/* The front goes on inwards until it has taken in the slice below, the edge has overtaken it, or the step
- * ends. */
-FRET_INLINE fret_real retreat_with_zone(fret_memory *m, retreat *r, fret_real s) {
+/* The outermost slice is a zone that goes on inwards: its sign, the gain of the slice below, how fast the
+ * front is beside the edge. */
+typedef struct pursuit {
+    fret_real s, gain, speed;
+    bool ends; /* with the step: the front comes to no slice, the edge not to the front */
+} pursuit;
+
+FRET_INLINE pursuit pursue(const fret_memory *m, coordinate by, fret_real rate, fret_real left) {
+    const slice *top = &m->slices[m->count - 1], *next = top - 1;
+    pursuit f;
+    f.s = top->sigma;
+    f.gain = 1 - f.s * next->sigma;
+    f.speed = (f.s * rate + 1) / f.gain;
+    f.ends = next->thick[by] > f.speed * left && (f.speed >= 1 || top->thick[by] > (1 - f.speed) * left);
+    return f;
+}
+
+/* Is the outermost slice a zone that the step keeps in motion? */
+FRET_INLINE bool goes_on(const fret_memory *m, fret_real rate) {
+    if (m->count < 2)
+        return false;
+    const fret_real sigma = m->slices[m->count - 1].sigma;
+    return fabsl(sigma) == 1 && sigma * rate + 1 > 4 * LDBL_EPSILON;
+}
+
+/* Until the front has taken in the slice below, or the edge has overtaken it. */
+static fret_real retreat_with_zone(fret_memory *m, retreat *r, const pursuit *f) {
     const coordinate by = r->by, other = by == DEPTH ? LOAD : DEPTH;
     slice *top = &m->slices[m->count - 1], *next = top - 1;
-    const fret_real gain = 1 - s * next->sigma, speed = (s * r->rate + 1) / gain;
     fret_real t = r->left;
-    bool reached = false, overtaken = false;
-    if (next->thick[by] <= speed * t) {
-        t = next->thick[by] / speed;
-        reached = true;
-    }
-    if (speed < 1 && top->thick[by] <= (1 - speed) * t) {
-        t = top->thick[by] / (1 - speed);
-        reached = false;
+    bool overtaken = false;
+    if (next->thick[by] <= f->speed * t)
+        t = next->thick[by] / f->speed;
+    if (f->speed < 1 && top->thick[by] <= (1 - f->speed) * t) {
+        t = top->thick[by] / (1 - f->speed);
         overtaken = true;
     }
-    const fret_real at = top->inner[by], step = reached ? next->thick[by] : speed * t;
-    fret_real inner = at - step;
-    const bool core =
-        by == LOAD && !reached && !overtaken && keep_little(m, m->count - 2, s, r->goal, &r->to.at, &inner);
-    fret_phase p;
-    p.normal = m->normal;
-    p.by = by;
-    p.near = near_of(m);
-    p.edge0 = r->z.at;
-    p.edge_v[0] = r->z.other;
-    p.front0 = at;
-    p.front_v[0] = top->inner[other];
-    p.front1 = inner;
-    p.front_v[1] = reached && m->count <= 2 ? 0 : reached ? next->inner[other] : -1;
-    if (!reached && !overtaken)
-        p.front_v[1] = r->front = other_of(m, by, &inner);
+    const fret_real at = top->inner[by], step = overtaken ? f->speed * t : next->thick[by];
+    fret_phase p = {.normal = m->normal,
+                    .by = by,
+                    .edge0 = r->z.at,
+                    .front0 = at,
+                    .front1 = at - step,
+                    .near = near_of(m),
+                    .edge_v = {r->z.other},
+                    .front_v = {top->inner[other], overtaken       ? -1
+                                                   : m->count <= 2 ? 0
+                                                                   : next->inner[other]}};
     retreat_by(r, t);
     p.edge1 = r->z.at;
     p.edge_v[1] = r->z.other;
-    const fret_real loss = gain * fret_phase_loss(&p);
-    if (reached) {
-        take_in(m, r, s);
-        return loss;
-    }
-    if (!core)
-        next->thick[by] -= step;
+    const fret_real loss = f->gain * fret_phase_loss(&p);
     if (overtaken) {
+        next->thick[by] -= step;
         m->count--;
     } else {
-        top->inner[by] = inner;
-        top->inner[other] = r->front;
-        top->thick[by] = r->z.at - top->inner[by];
+        take_in(m, r, f->s);
+    }
+    return loss;
+}
+
+/* Up to the last part, which a zone ends, or to the end. */
+static fret_real retreat_to_last(fret_memory *m, retreat *r) {
+    fret_real loss = 0;
+    while (r->left > 0 && m->count) {
+        const slice *top = &m->slices[m->count - 1];
+        const fret_real surplus = r->rate + top->sigma, s = surplus < 0 ? -1 : 1;
+        if (fabsl(surplus) <= 4 * LDBL_EPSILON * fabsl(top->sigma) ||
+            (top->thick[r->by] <= 0 && m->count > 1 && fabsl(top->sigma) < 1)) {
+            retreat_in_stick(m, r);
+            continue;
+        }
+        if (s * top->sigma < 1)
+            begin_zone(m, r, s);
+        if (m->count == 1) {
+            loss += retreat_in_slip(m, r, s);
+            continue;
+        }
+        const pursuit f = pursue(m, r->by, r->rate, r->left);
+        if (f.ends)
+            break;
+        loss += retreat_with_zone(m, r, &f);
     }
     return loss;
 }
 
 FRET_INLINE fret_real shrink(fret_memory *m, coordinate by, const fret_real edge[2], fret_real drive,
                              double goal) {
-    const fret_real way = m->edge[by] - edge[by];
     const coordinate other = by == DEPTH ? LOAD : DEPTH;
-    retreat r = {by, drive / way, {m->edge[by], m->edge[other]}, {edge[by], edge[other]}, way, -1, goal};
+    retreat r;
+    pursuit f;
     fret_real loss = 0;
-    while (r.left > 0 && m->count) {
-        const slice *top = &m->slices[m->count - 1];
-        const fret_real surplus = r.rate + top->sigma, s = surplus < 0 ? -1 : 1;
-        if (fabsl(surplus) <= 4 * LDBL_EPSILON * fabsl(top->sigma) ||
-            (top->thick[by] <= 0 && m->count > 1 && fabsl(top->sigma) < 1)) {
-            retreat_in_stick(m, &r);
-            continue;
+    r.by = by;
+    r.left = m->edge[by] - edge[by];
+    r.rate = drive / r.left;
+    put(&r.z, m->edge[by], m->edge[other]);
+    put(&r.to, edge[by], edge[other]);
+    f.ends = goes_on(m, r.rate);
+    if (f.ends)
+        f = pursue(m, by, r.rate, r.left);
+    if (!f.ends) {
+        retreat slow = r;
+        loss = retreat_to_last(m, &slow);
+        if (!(slow.left > 0 && m->count)) {
+            m->edge[DEPTH] = edge[DEPTH];
+            m->edge[LOAD] = edge[LOAD];
+            if (m->count)
+                convert_top(m, by, -1);
+            return loss;
         }
-        if (s * top->sigma < 1)
-            begin_zone(m, &r, s);
-        loss += m->count == 1 ? retreat_in_slip(m, &r, s) : retreat_with_zone(m, &r, s);
+        r = slow;
+        f = pursue(m, by, r.rate, r.left);
     }
-    m->edge[DEPTH] = edge[DEPTH];
-    m->edge[LOAD] = edge[LOAD];
-    if (m->count)
-        convert_top(m, by, r.front);
-    return loss;
+    const slice *top = &m->slices[m->count - 1];
+    place front;
+    put(&front, top->inner[by], top->inner[other]);
+    const fret_real last = finish(m, by, f.s, f.gain, f.speed * r.left, &r.z, &front, edge, goal);
+    return loss + last;
 }
 
 /* A straight piece with the contact closed at both ends; drive = change of delta_x/(mu eta) or F_x/mu. */
@@ -551,30 +663,37 @@ typedef struct normal_end {
     fret_press p; /* PRESSED: with radius and what does not fit */
 } normal_end;
 
-FRET_INLINE fret_status find_normal_end(const fret_memory *m, const fret_step *step, normal_end *to) {
-    const bool by_force = step->normal_by == FRET_TO_FORCE;
+FRET_INLINE void stay(const fret_memory *m, normal_end *to) {
     to->how = STAYS;
-    to->gap = m->gap;
     to->edge[DEPTH] = m->edge[DEPTH];
     to->edge[LOAD] = m->edge[LOAD];
-    if (step->normal_by == FRET_KEEP_NORMAL)
-        return fret_ok();
+}
+
+FRET_INLINE fret_status find_normal_end(const fret_memory *m, const fret_step *step, normal_end *to) {
+    const bool by_force = step->normal_by == FRET_TO_FORCE;
+    fret_status st = fret_ok();
+    if (step->normal_by == FRET_KEEP_NORMAL) {
+        to->gap = m->gap;
+        stay(m, to);
+        return st;
+    }
     if (!by_force && !isfinite(step->normal))
         return fret_fail(FRET_NOT_FINITE, "dz", step->normal, 0);
     to->gap = !by_force && step->normal < 0 ? -step->normal : 0;
-    if (step->normal == to->edge[by_force ? LOAD : DEPTH])
-        return fret_ok();
-    if (near_of(m) && step->normal > 0) {
-        const fret_real v = fret_near_value(m->near, by_force ? LOAD : DEPTH, step->normal);
-        if (v > 0) {
-            to->how = PRESSED_NEAR;
-            to->edge[DEPTH] = by_force ? v : step->normal;
-            to->edge[LOAD] = by_force ? step->normal : v;
-            return fret_ok();
-        }
+    if (step->normal == m->edge[by_force ? LOAD : DEPTH]) {
+        stay(m, to);
+        return st;
     }
-    const fret_status st = by_force ? fret_press_by_force(m->normal, step->normal, &to->p)
-                                    : fret_press_by_depth(m->normal, fmax(step->normal, 0), &to->p);
+    const bool near = near_of(m) && step->normal > 0;
+    const fret_real v = near ? fret_near_value(m->near, by_force ? LOAD : DEPTH, step->normal) : 0;
+    if (v > 0) {
+        to->how = PRESSED_NEAR;
+        to->edge[DEPTH] = by_force ? v : step->normal;
+        to->edge[LOAD] = by_force ? step->normal : v;
+        return st;
+    }
+    st = by_force ? fret_press_by_force(m->normal, step->normal, &to->p)
+                  : fret_press_by_depth(m->normal, fmax(step->normal, 0), &to->p);
     to->how = PRESSED;
     to->edge[DEPTH] = to->p.dz;
     to->edge[LOAD] = to->p.F;

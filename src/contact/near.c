@@ -36,6 +36,7 @@ static void make_law(fret_real s, fret_real sm1, fret_near_law *out) {
         if (i < FRET_NEAR_LEADING)
             out->leading[i] = term;
         out->binomial[i] = (double)term;
+        out->rest[i] = i < FRET_NEAR_LEADING ? (double)(term - out->binomial[i]) : out->binomial[i];
         term *= (sm1 - (fret_real)(i - 1)) / (fret_real)(i + 1);
     }
     make_way(out);

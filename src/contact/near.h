@@ -18,7 +18,7 @@ enum { FRET_NEAR_LEADING = 5, FRET_NEAR_TERMS = 24, FRET_NEAR_WAY = 8, FRET_NEAR
 typedef struct fret_near_law {
     fret_real s, sm1; /* sm1 = s-1 without cancellation */
     fret_real leading[FRET_NEAR_LEADING];
-    double binomial[FRET_NEAR_TERMS];
+    double binomial[FRET_NEAR_TERMS], rest[FRET_NEAR_TERMS]; /* rest: of the leading what double leaves out */
     /* Of a way from C(1-w) to C(1+w), x = w^2 up to most_square: the mean of the law is that of both ends
      * less x (first_sag + x (sag[0] + ...)) of it, half their difference w (s + x (first_lean + x (lean[0] +
      * ...))) of it. */

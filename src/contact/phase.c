@@ -197,11 +197,11 @@ static fret_real closed_loss(const power_phase *c) {
 
 /* h^2 times the terms 2 to 4 of the divided difference of the law at the edge, the front and the front again,
  * y = c (1+z). h: thickness, w: front. */
-FRET_INLINE fret_real leading_terms(const fret_real *b, fret_real h, fret_real w) {
+FRET_INLINE fret_real leading_terms(const double *b, fret_real h, fret_real w) {
     return h * h * (b[2] + (b[3] * (3 * w + h) + b[4] * (w * (6 * w + 4 * h) + h * h)));
 }
 
-/* The other terms, in double: means over the phase by Gauss's rule. */
+/* The other terms, and what is left of those, in double: means over the phase by Gauss's rule. */
 static double other_terms(const fret_near_law *law, double h0, double h1, double w0, double w1, double radius,
                           double way) {
     const int terms = radius < 0.0166 ? 12 : radius < 0.066 ? 17 : FRET_NEAR_TERMS;
@@ -213,19 +213,10 @@ static double other_terms(const fret_near_law *law, double h0, double h1, double
     for (int k = 0; k < pairs; k += 2) {
         const fret_two h_1 = k0 + dk * node[k], h_2 = k0 + dk * node[k + 1];
         const fret_two w_1 = a0 + da * node[k], w_2 = a0 + da * node[k + 1], v_1 = w_1 + h_1, v_2 = w_2 + h_2;
-        fret_two x1 = (fret_two){0, 0} + law->binomial[terms - 1], y1 = x1, z1 = x1, x2 = x1, y2 = x1,
-                 z2 = x1;
-        for (int i = terms - 2; i >= FRET_NEAR_LEADING; i--) {
-            x1 = x1 * w_1 + law->binomial[i];
-            x2 = x2 * w_2 + law->binomial[i];
-            y1 = y1 * w_1 + x1;
-            y2 = y2 * w_2 + x2;
-            z1 = z1 * v_1 + y1;
-            z2 = z2 * v_2 + y2;
-        }
-        for (int i = FRET_NEAR_LEADING - 1; i >= 2; i--) {
-            x1 = x1 * w_1;
-            x2 = x2 * w_2;
+        fret_two x1 = (fret_two){0, 0} + law->rest[terms - 1], y1 = x1, z1 = x1, x2 = x1, y2 = x1, z2 = x1;
+        for (int i = terms - 2; i >= 2; i--) {
+            x1 = x1 * w_1 + law->rest[i];
+            x2 = x2 * w_2 + law->rest[i];
             y1 = y1 * w_1 + x1;
             y2 = y2 * w_2 + x2;
             z1 = z1 * v_1 + y1;
@@ -249,8 +240,8 @@ static fret_real thin_loss(const fret_phase *p, fret_real least, fret_real most)
     const fret_real part = 0.3872983346207416885179265399782400L; /* sqrt(3/5)/2 */
     const fret_real h = (h0 + h1) / 2, dh = (h1 - h0) * part, w = (w0 + w1) / 2, dw = (w1 - w0) * part;
     const fret_real first =
-        (5 * (leading_terms(law->leading, h - dh, w - dw) + leading_terms(law->leading, h + dh, w + dw)) +
-         8 * leading_terms(law->leading, h, w)) /
+        (5 * (leading_terms(law->binomial, h - dh, w - dw) + leading_terms(law->binomial, h + dh, w + dw)) +
+         8 * leading_terms(law->binomial, h, w)) /
         18;
     return fret_near_value(p->near, p->by, c) * (p->front0 - p->front1) * fabsl(first + others);
 }
