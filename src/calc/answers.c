@@ -147,10 +147,11 @@ static fret_status run_levels(answers *a, const load_view *load) {
     return st.code ? st : run_levels(a, load);
 }
 
-/* Brings the memory up to the end of the program. */
-static bool catch_up(scene *s, calc_error *error) {
+/* Brings the memory up to the end of the program, or to the step at which it fails. */
+static bool run_up(scene *s, size_t *steps, calc_error *error) {
     answers *a = &s->answers;
     load_view load;
+    *steps = s->end.steps;
     if (a->levels && a->run[a->levels - 1].at.steps == s->end.steps)
         return true;
     if (!scene_load_of(s, &load, error))
@@ -160,9 +161,17 @@ static bool catch_up(scene *s, calc_error *error) {
     fret_status st = raise_levels(a, &load);
     if (!st.code)
         st = run_levels(a, &load);
-    if (st.code)
+    if (st.code) {
+        for (unsigned i = 0; i < a->levels; i++)
+            *steps = a->run[i].at.steps < *steps ? a->run[i].at.steps : *steps;
         drop_runs(a); /* half-run: not to be used */
+    }
     return calc_status(error, &st);
+}
+
+static bool catch_up(scene *s, calc_error *error) {
+    size_t steps;
+    return run_up(s, &steps, error);
 }
 
 /* Keeps the contacts as they are; the storage is used again. */
@@ -291,6 +300,30 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
     if (extra)
         inputs_drop(&before);
     return ok;
+}
+
+bool scene_load_rows(scene *s, load_step step, const double *normal, const double *tangential, size_t count,
+                     size_t *row, calc_error *error) {
+    const size_t first = s->end.steps;
+    double mu;
+    *row = 0;
+    if (!scene_friction(s, &mu, error) || (!s->answers.levels && !catch_up(s, error)))
+        return false;
+    bool wait = true;
+    for (size_t i = 0; i < count; i++) {
+        step.normal_value = normal[i];
+        step.tangential_value = tangential[i];
+        wait = wait && can_wait(s, &step, mu);
+        if (!append_step(s, &step, NULL, error)) {
+            *row = i;
+            return false;
+        }
+    }
+    size_t steps;
+    if (wait || run_up(s, &steps, error))
+        return true;
+    *row = steps > first ? steps - first : 0;
+    return false;
 }
 
 /* The run that has come to the end of the program, or to now. */

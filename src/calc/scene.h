@@ -142,6 +142,10 @@ bool scene_valid(scene *s, calc_error *error);
 
 /* Appends and runs; on error nothing has changed. A press begins a new program. */
 bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error);
+/* Many steps by the same targets, run together. Of a failure *row tells where; the scene is to be brought
+ * back then: the steps are there. */
+bool scene_load_rows(scene *s, load_step step, const double *normal, const double *tangential, size_t count,
+                     size_t *row, calc_error *error);
 /* Appends to a scratch scene, whose program becomes its own; runs nothing. */
 bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error);
 /* Forgets the load; all: the inputs too. */

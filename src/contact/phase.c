@@ -204,7 +204,10 @@ FRET_INLINE fret_real leading_terms(const double *b, fret_real h, fret_real w) {
 /* The other terms, and what is left of those, in double: means over the phase by Gauss's rule. */
 static double other_terms(const fret_near_law *law, double h0, double h1, double w0, double w1, double radius,
                           double way) {
-    const int terms = radius < 0.0166 ? 12 : radius < 0.066 ? 17 : FRET_NEAR_TERMS;
+    const int terms = radius < 0.0166  ? radius < 0.006 ? 10 : 12
+                      : radius < 0.066 ? radius < 0.033 ? 14 : 17
+                      : radius < 0.103 ? 20
+                                       : FRET_NEAR_TERMS;
     const int pairs = way < 0.006 && way * (double)law->s < 0.006 ? 2 : 4;
     const fret_two *node = pairs == 2 ? fret_gauss_4 : fret_gauss_8,
                    *weight = pairs == 2 ? fret_gauss_4_weight : fret_gauss_8_weight;

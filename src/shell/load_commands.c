@@ -228,6 +228,8 @@ typedef struct followed {
 static const followed kinds[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0, 0}, "FN [N],Fx [N]"},
                                  {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1, 0}, "dz [um],dx [um]"}};
 
+enum { AT_ONCE = 4096 }; /* rows; then it is told how far it has come */
+
 /* Rows become steps; the first one presses where nothing is pressed yet. */
 static bool follow_rows(shell *sh, const csv *data, const followed *kind, const double *normal,
                         const double *tangential, calc_error *error) {
@@ -245,16 +247,16 @@ static bool follow_rows(shell *sh, const csv *data, const followed *kind, const 
             return false;
         row = 1;
     }
-    for (; row < data->rows; row++) {
-        step.normal_value = normal[row];
-        step.tangential_value = tangential[row];
+    for (size_t count; row < data->rows; row += count) {
+        size_t bad;
+        count = data->rows - row < AT_ONCE ? data->rows - row : AT_ONCE;
         progress_part((double)row / (double)data->rows);
-        bool ok = scene_load(s, &step, NULL, error);
+        bool ok = scene_load_rows(s, step, normal + row, tangential + row, count, &bad, error);
         if (ok && shell_stop)
             ok = calc_interrupted(error);
         if (!ok) {
             if (!error->stop)
-                calc_append(&sh->calc, error, " (row %zu of %.200s)", row + 1, data->path);
+                calc_append(&sh->calc, error, " (row %zu of %.200s)", row + bad + 1, data->path);
             return false;
         }
     }
