@@ -3,6 +3,7 @@
 import csv
 import glob
 import json
+import math
 import os
 import re
 import shutil
@@ -190,6 +191,21 @@ def read_tables(tests):
         done = tests.run("--keep-going", "-c", SCENE + "follow %s\nFN, Fx" % path)
         tests.check("follow all or nothing", done.stdout == "FN = 100 N\nFx = 0 N\n" and "(row 2 of " in done.stderr,
                     tests.report(done))
+    # more rows than are taken together, against steps one by one
+    rows = ["%.6f,%.6f" % (100 + 10*math.sin(0.013*i), 15*math.sin(0.37*i) + 8*math.sin(0.0113*i)) for i in range(9000)]
+    steps = "\n".join("step FN=%s N Fx=%s N" % tuple(row.split(",")) for row in rows)
+    with tests.file("FN [N],Fx [N]\n" + "\n".join(rows)) as path:
+        for model in "auto", "double":
+            script = SCENE + "set digits 17; set model %s\n%s\nFN, dz, Fx, dx, W, c\n"
+            with tests.file(script % (model, steps)) as one, tests.file(script % (model, "follow " + path)) as many:
+                done = tests.run(many)
+                tests.check("follow many rows, %s" % model, done.stdout == tests.run(one).stdout and
+                            done.stdout.count("=") == 6, tests.report(done))
+    for bad in 4096, 4097, 8999:
+        with tests.file("FN [N],Fx [N]\n" + "\n".join(rows[:bad - 1] + ["100,50"] + rows[bad:])) as path:
+            done = tests.run("--keep-going", "-c", SCENE + "step Fx=3 N; follow %s\nFN, Fx" % path)
+            tests.check("follow many rows, a bad one", done.stdout == "FN = 100 N\nFx = 3 N\n" and
+                        "gross slip" in done.stderr and "(row %d of " % bad in done.stderr, tests.report(done))
     bare = SCENE.rsplit(";", 1)[0]
     with tests.file("FN [N],Fx [N]\n100,0\n80,10\n") as path:
         says(tests, "follow presses", tests.run("-c", bare + "\nfollow %s; FN, Fx" % path), "FN = 80 N\nFx = 10 N")
