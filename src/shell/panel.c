@@ -208,17 +208,34 @@ static bool mark_now(panel_job *job) {
 
 /* ---- axes -------------------------------------------------------------------------------------- */
 
-static double largest(const plot_panel *p, bool x_axis, const limits *given) {
-    double most = 0;
-    if (given->given)
-        return fmax(fabs((double)given->end[0].v), fabs((double)given->end[1].v));
-    for (size_t i = 0; i < p->count; i++)
+/* What the unit of an axis is to fit: the largest value, on a logarithmic axis the middle. */
+static double typical(const plot_panel *p, bool x_axis, const limits *given) {
+    const bool log = x_axis ? p->logx : p->logy;
+    double most = 0, least = INFINITY;
+    for (size_t i = 0; i < p->count && !given->given; i++)
         for (size_t j = 0; j < p->series[i]->count; j++) {
-            const double v = fabs(x_axis ? p->series[i]->x[j] : p->series[i]->y[j]);
+            const double v = x_axis ? p->series[i]->x[j] : p->series[i]->y[j];
             if (isfinite(v))
-                most = fmax(most, v);
+                most = fmax(most, fabs(v));
+            if (v > 0)
+                least = fmin(least, v);
         }
-    return most;
+    if (given->given) {
+        const double lo = fabs((double)given->end[0].v), hi = fabs((double)given->end[1].v);
+        most = fmax(lo, hi);
+        least = fmin(lo, hi);
+    }
+    return log && least > 0 && least < most ? sqrt(least) * sqrt(most) : most;
+}
+
+/* Points without a place on their axes are gaps, too. */
+static void note_logarithms(shell *sh, const plot_panel *p) {
+    bool lost = false;
+    for (size_t i = 0; i < p->count && !lost; i++)
+        for (size_t j = 0; j < p->series[i]->count && !lost; j++)
+            lost = (p->logx && p->series[i]->x[j] <= 0) || (p->logy && p->series[i]->y[j] <= 0);
+    if (lost)
+        shell_note(sh, "note: a logarithmic axis has no place for what is not above 0");
 }
 
 static void divide(plot_panel *p, bool x_axis, long double scale) {
@@ -257,7 +274,7 @@ static bool scale_axis(panel_job *job, lexer *lx, const looks *l, bool x_axis, c
         snprintf(u->text, sizeof u->text, "%s", c->unit);
     } else if (!job->m || !job->m->at) {
         u->scale =
-            unit_choose(axis->d, largest(job->p, x_axis, x_axis ? &l->x : &l->y), 6, u->text, sizeof u->text);
+            unit_choose(axis->d, typical(job->p, x_axis, x_axis ? &l->x : &l->y), 6, u->text, sizeof u->text);
     }
     divide(job->p, x_axis, u->scale);
     char **label = x_axis ? &job->p->xlabel : &job->p->ylabel;
@@ -376,8 +393,10 @@ static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
                           .error = lx->error};
     if (!run_sweep(job, lx, &sweeping, s) || !finish_axes(job, lx, l, d, known))
         return false;
-    if (!job->m || !job->m->at)
+    if (!job->m || !job->m->at) {
         note_missing(job->sh, &sweeping);
+        note_logarithms(job->sh, job->p);
+    }
     return true;
 }
 

@@ -90,6 +90,13 @@ def looks(tests):
     tests.check("log xy", "set logscale x" in text and "set logscale y" in text, text[-1500:])
     text, _ = script(tests, "an axis of a sweep", "plot x^2 for x = 1 .. 100 log")
     tests.check("a logarithmic sweep", "set logscale x" in text and "set logscale y" not in text, text[-1500:])
+    text, _ = script(tests, "a unit by decades", "plot a, dz for FN = 1 N .. 1000 N log")
+    tests.check("a logarithmic axis in the unit of its middle", "F}_{N} [N]" in text, text[-1500:])
+    for plot, lost in (("plot sin(x) for x = 1 .. 10 log y", True), ("plot x for x = 0 .. 1 log x", True),
+                       ("plot sin(x) for x = 1 .. 10 log x", False), ("plot exp(x) for x = -1 .. 1 log y", False)):
+        done = tests.run("-c", plot + " to " + os.path.join(tests.dir, "lost.gp"))
+        tests.check("what a logarithmic axis loses: " + plot, ("no place for what is not above 0" in done.stderr) == lost,
+                    tests.report(done))
     text, series = script(tests, "several", "plot loop | traction | x^2 for x = 0 .. 1 | E with k=-0.5,0.5")
     tests.check("several side by side", text.count("\nplot ") == 4 and "layout 1,4" in text, text[-1500:])
     text, _ = script(tests, "units", "plot dx in nm, dz in nm against Fx in kN along program")
