@@ -300,6 +300,7 @@ static void json_fit(shell *sh, const fit_question *q, const fit_answer *a) {
     fprintf(sh->out, "{\"event\":\"fit\",\"rows\":%zu,\"evaluations\":%u,\"iterations\":%u", q->rows,
             a->evaluations, a->iterations);
     json_number_of(sh, false, "rms", a->rms);
+    json_number_of(sh, false, "neighbours", a->together);
     fputs(",\"deviation\":{", sh->out);
     for (size_t i = 0; i < q->count; i++)
         json_number_of(sh, i == 0, q->name[i].text, a->deviation[i]);
@@ -333,6 +334,12 @@ static void report_fit(shell *sh, const fit_question *q, const fit_answer *a) {
     for (size_t i = 0; i < q->count; i++)
         if (a->deviation[i] > fabs(a->value[i]))
             shell_note(sh, "note: the data hardly determine %s", q->name[i].text);
+    if (a->drifts)
+        shell_note(
+            sh,
+            "note: residuals go together from row to row (correlation %.2f): a drift, an offset or a model "
+            "that does not fit; the standard errors are too small",
+            a->together);
     if (a->twice)
         shell_note(
             sh, "note: the loop is closed and does not begin at rest: run twice, the second time compared");

@@ -19,7 +19,8 @@ static const double refused = 1e6;
 /* Tuned to 95 % of the efficiency of least squares on normal noise (Huber 1981). */
 static const double huber = 1.345;
 enum { ITERATIONS = 200, ROUNDS = 30 };
-static const double apart = 1e-5; /* of the two places of a difference, as a part of q */
+static const double apart = 1e-5;   /* of the two places of a difference, as a part of q */
+static const double visible = 1e-6; /* residuals of a loop, as a part of it */
 #define NO_ROW ((size_t)-1)
 
 typedef struct state {
@@ -521,11 +522,28 @@ static double variance(const state *s, const gsl_vector *f, double scale, fit_an
     return s->of->robust ? psi / free / (inside / (double)n * inside / (double)n) : squares / free;
 }
 
+/* A drift, an offset or a model that does not fit leaves residuals that go together from row to row. */
+static void look_for_drift(const state *s, const gsl_vector *f, fit_answer *out) {
+    const size_t n = s->of->rows;
+    const double *measured = s->of->left ? NULL : s->of->loop.Fx;
+    double squares = 0, products = 0, before = 0, size = 0;
+    for (size_t i = 0; i < n; i++) {
+        size = measured ? fmax(size, fabs(measured[i])) : INFINITY;
+        const double r = gsl_vector_get(f, i) / sqrt(gsl_vector_get(s->weight, i));
+        squares += r * r;
+        products += r * before;
+        before = r;
+    }
+    out->together = squares > 0 ? products / squares : 0;
+    out->drifts = out->rms > visible * size && out->together > 0.5 && out->together > 4 / sqrt((double)n);
+}
+
 static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector *q, fit_answer *out,
                   calc_error *error) {
     const size_t p = s->of->count;
     const double v = variance(s, gsl_multifit_nlinear_residual(w), out->scale, out);
     double C[FIT_NAMES][FIT_NAMES];
+    look_for_drift(s, gsl_multifit_nlinear_residual(w), out);
     const bool ok = determined(s, w, C, error);
     for (size_t i = 0; i < p && ok; i++) {
         const double x = parameter(s, i, gsl_vector_get(q, i));

@@ -39,6 +39,8 @@ typedef struct fit_answer {
     double deviation[FIT_NAMES]; /* standard error, from the scatter of the residuals */
     double correlation[FIT_NAMES][FIT_NAMES];
     double rms;           /* of all residuals */
+    double together;      /* correlation of each residual with the next: of noise it is near 0 */
+    bool drifts;          /* of a loop: it is not by chance, and the deviations are too small */
     dim d;                /* of them */
     double scale;         /* robust: of the residuals, 1.4826 times the median magnitude */
     size_t far;           /* robust: rows beyond three times that */

@@ -107,6 +107,22 @@ def outliers(tests):
                 "%s\n%s" % (off, tests.report(done)))
 
 
+def drifting(tests):
+    """Residuals that are no noise are told of: an offset, a drift; noise and what is exact are not."""
+    mu, E0 = 0.35, 200e9
+    path = path_of(0.8e-6, 25)
+    clean = loop(mu, E0, path)
+    noise = random.Random(5)
+    for what, d0, slope, f0, spread in (("noise", 0, 0, 0, 0.3), ("nothing", 0, 0, 0, 0), ("an offset of the force", 0, 0, 3, 0.3),
+                                        ("an offset of the displacement", 0.1, 0, 0, 0.3), ("a drift", 0, 0.004, 0, 0.3)):
+        rows = [(d * 1e6 + d0 + slope * i, f + f0 + noise.gauss(0, spread)) for i, (d, f) in enumerate(zip(path, clean))]
+        name = write(tests, "drift.csv", "dx [um],Fx [N]", rows)
+        _, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + name)
+        wrong = what.startswith("a")
+        tests.check("fit: residuals with " + what, event and ("residuals go together" in done.stderr) == wrong
+                    and (what == "nothing" or (event["neighbours"] > 0.5) == wrong), tests.report(done))
+
+
 def closed_loop(tests):
     """A loop that begins in its midst."""
     mu, E0 = 0.35, 200e9
@@ -454,6 +470,7 @@ def run(tests):
     refusals(tests)
     noisy_loops(tests, 20 if tests.sanitized else 100)
     outliers(tests)
+    drifting(tests)
     closed_loop(tests)
     equations(tests)
     many_rows(tests)
