@@ -202,6 +202,22 @@ static bool columns_of(const csv *data, const csv_values **r, const csv_values *
                             data->path));
 }
 
+/* Where the rows of a gap are none. */
+static void out_of_order(const csv *data, const double *r, calc_error *error) {
+    char text[CALC_VALUE_TEXT];
+    size_t i = 0;
+    if (data->rows == 1) {
+        calc_fail(error, 0, 0, "%s has one row: a gap needs two or more", data->path);
+        return;
+    }
+    while (i + 1 < data->rows && (i ? r[i] > r[i - 1] : r[0] == 0))
+        i++;
+    calc_value_text(DIM_LENGTH, r[i], text);
+    calc_fail(error, 0, 0,
+              "%s:%zu: r = %s is out of order: radii must start at 0 and grow (smooth takes any order)",
+              data->path, data->line[i], text);
+}
+
 static struct fret_table *table_of(const csv *data, smoothing how, smooth_answer *smoothed,
                                    calc_error *error) {
     struct fret_table *gap = NULL;
@@ -223,6 +239,10 @@ static struct fret_table *table_of(const csv *data, smoothing how, smooth_answer
         return NULL;
     } else {
         st = fret_table_make(r->v, f->v, data->rows, &shell_stop, &gap);
+        if (st.code == FRET_BAD_TABLE) {
+            out_of_order(data, r->v, error);
+            return NULL;
+        }
     }
     return calc_status(error, &st) ? gap : NULL;
 }
