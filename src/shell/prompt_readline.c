@@ -72,8 +72,11 @@ static bool told_stop;
 
 static int nothing_more(void) {
     static const char end[] = "\033[201~";
-    if (shell_stop && !told_stop) /* a copy of the terminal tells that the line was dropped */
+    if (shell_stop && !told_stop) { /* a copy of the terminal tells that the line was dropped */
+        rl_point = rl_end;          /* the next prompt is to stand below all of its rows */
+        rl_redisplay();
         rl_echo_signal_char(SIGINT);
+    }
     told_stop = true;
     return pasting ? end[ending++ % (sizeof end - 1)] : EOF;
 }

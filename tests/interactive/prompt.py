@@ -179,6 +179,25 @@ def dropped(tests):
                     tests.report(done) + screen.text())
 
 
+def dropped_tall(tests):
+    """A dropped line of two rows, the cursor in its first: the next prompt stands below both."""
+    s = Session(tests, dimensions=(30, 100))
+    screen = Screen(30, 100)
+    s.child.logfile_read = shown = io.StringIO()
+    s.child.send("x = 4; " * 20 + "9\x01")
+    s.child.expect("9")
+    s.child.send("\x05\x01")
+    s.child.sendintr()
+    s.child.expect_exact("^C")
+    s.prompt()
+    screen.feed(PROMPT + shown.getvalue())
+    rows = [line.rstrip() for line in screen.text().rstrip().split("\n") if line.strip()]
+    tests.check("a dropped line of two rows", rows[-1] == "fret>" and rows[-2].endswith("9^C") and rows[-3].startswith("fret> x = 4"),
+                "\n".join(rows[-5:]))
+    s.child.sendeof()
+    s.end()
+
+
 def starting(tests):
     s = Session(tests, "--quiet")
     tests.check("--quiet", s.banner.strip() == "", s.banner)
@@ -454,4 +473,4 @@ def paging(tests):
 
 
 def run(tests):
-    tests.rooms(kept_lines, stopped, paging, dialogue, interrupts, dropped, starting, own, narrow, figures, sizes, tables, moving)
+    tests.rooms(kept_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, narrow, figures, sizes, tables, moving)
