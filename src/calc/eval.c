@@ -588,7 +588,7 @@ const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at) {
         if (n->kind != N_QUANTITY && n->kind != N_CALL)
             continue;
         bool again = false;
-        for (size_t k = 0; k < j; k++)
+        for (size_t k = 0; k < j && n->kind == N_QUANTITY; k++)
             again = again || (e->nodes[k].q == n->q && e->nodes[k].kind == n->kind);
         if (!again && i-- == 0) {
             *call = n->kind == N_CALL;

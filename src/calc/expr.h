@@ -61,8 +61,8 @@ bool expr_value(struct calc *c, lexer *lx, value *out);
 bool expr_mentions(const struct calc *c, const expr *e, const quantity *q, const char *name);
 /* Does it depend on this name? way: the live definitions that lead there, as "b -> c -> ". */
 bool expr_way(const struct calc *c, const expr *e, const char *name, char *way, size_t size);
-/* The quantities of an expression in the order of their appearance: i = 0, 1, ... call: as a function; at:
- * where first. NULL after the last. */
+/* The quantities of an expression in the order of their appearance, and each call of one: i = 0, 1, ... call:
+ * as a function; at: where, first. NULL after the last. */
 const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at);
 /* The live definitions and functions that it names, likewise. */
 const definition *expr_definition(const struct calc *c, const expr *e, size_t i);

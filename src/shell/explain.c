@@ -393,20 +393,37 @@ static bool explain_whole(const page *p, const expr *e, value v, calc_error *err
 
 /* What has been explained. */
 typedef struct seen {
-    const quantity *q[SEEN];
-    bool call[SEEN];
+    part of[SEEN];
     size_t count;
 } seen;
 
+static bool is_told(const seen *before, const part *of) {
+    bool told = false;
+    for (size_t i = 0; i < before->count && !told; i++)
+        told = before->of[i].q == of->q && before->of[i].call == of->call;
+    return told;
+}
+
 static bool is_seen(seen *before, const part *of) {
     for (size_t i = 0; i < before->count; i++)
-        if (before->q[i] == of->q && before->call[i] == of->call)
+        if (before->of[i].q == of->q && before->of[i].len == of->len &&
+            !strncmp(before->of[i].text, of->text, of->len))
             return true;
-    if (before->count < SEEN) {
-        before->q[before->count] = of->q;
-        before->call[before->count++] = of->call;
-    }
+    if (before->count < SEEN)
+        before->of[before->count++] = *of;
     return false;
+}
+
+/* The value of a call whose formula has been told. */
+static void explain_call(const page *p, const part *of, const definition *in, bool title) {
+    expr e = {0};
+    value v;
+    if (!(in && is_free(of, in)) && text_value(p, of->text, of->len, &e, &v)) {
+        if (title)
+            fprintf(p->to, "%s: %s\n", of->q->name, of->q->title);
+        put_value(p, of->text, of->len, v);
+    }
+    expr_free(&e);
 }
 
 static bool is_whole(const expr *e, const part *of) {
@@ -417,15 +434,24 @@ static bool is_whole(const expr *e, const part *of) {
  * asked: what the conditioning belongs to. */
 static bool explain_parts(const page *p, const expr *e, const definition *in, const expr *asked, seen *before,
                           calc_error *error) {
-    part one;
+    part one, other;
     const definition *d;
     for (size_t i = 0; part_of(e, i, &one); i++) {
+        const bool told = is_told(before, &one);
         if (is_seen(before, &one))
             continue;
-        if (!one.call && is_given(p, one.q))
+        if (told && e == asked && is_whole(e, &one))
+            continue; /* to be told at the end */
+        if (told)
+            explain_call(p, &one, in, true);
+        else if (!one.call && is_given(p, one.q))
             explain_input(p, one.q);
         else if (!explain_part(p, &one, in, e == asked && is_whole(e, &one), error))
             return false;
+        for (size_t j = i + 1; one.call && part_of(e, j, &other); j++)
+            if (other.call && other.q == one.q && !(e == asked && is_whole(e, &other)) &&
+                !is_seen(before, &other))
+                explain_call(p, &other, in, false);
     }
     for (size_t i = 0; (d = expr_definition(&p->sh->calc, e, i)); i++)
         if (!explain_parts(p, &d->body, d, asked, before, error))
@@ -438,8 +464,11 @@ static bool explain_expression(const page *p, const expr *e, const expr *asked, 
     seen before = {.count = 0};
     part one;
     bool told = false;
-    for (size_t i = 0; e == asked && !told && part_of(e, i, &one); i++)
-        told = is_whole(e, &one);
+    seen all = {.count = 0};
+    for (size_t i = 0; e == asked && !told && part_of(e, i, &one); i++) {
+        told = is_whole(e, &one) && !is_told(&all, &one); /* else its formula belongs to a call within */
+        is_seen(&all, &one);
+    }
     return explain_parts(p, e, NULL, asked, &before, error) && (told || explain_whole(p, asked, v, error));
 }
 
