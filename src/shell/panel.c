@@ -444,15 +444,31 @@ static size_t figure_end(const lexer *lx) {
     return scan.kind == T_END ? lx->end : scan.at;
 }
 
+/* Of a homogeneous body that is not compared with others. */
+static const char *statement_of(const shell *sh, const figure *f, const lexer *lx, size_t rest) {
+    const inputs *in = &sh->calc.now->in;
+    bool graded = !in->set[IN_E0] || in->v[IN_K] != 0 || in->set[IN_C0];
+    graded = graded || in->bindings & (INPUT_BIT(IN_K) | INPUT_BIT(IN_C0));
+    lexer scan = *lx;
+    calc_error ignored;
+    error_clear(&ignored);
+    scan.error = &ignored;
+    while (f->without_c0 && !graded && scan.kind != T_END && scan.at < rest) {
+        lex_next(&scan);
+        graded = lex_is(&scan, "with");
+    }
+    return f->without_c0 && !graded ? f->without_c0 : f->statement;
+}
+
 /* What follows the name of a figure may be another range. */
-static size_t statement_length(const figure *f, const lexer *lx) {
+static size_t statement_length(const char *statement, const lexer *lx) {
     lexer next = *lx;
     lex_next(&next);
     if (!lex_is(&next, "along") && !lex_is(&next, "for"))
-        return strlen(f->statement);
-    const char *own = strstr(f->statement, " along ");
-    own = own ? own : strstr(f->statement, " for "); /* each has either */
-    return (size_t)(own - f->statement);
+        return strlen(statement);
+    const char *own = strstr(statement, " along ");
+    own = own ? own : strstr(statement, " for "); /* each has either */
+    return (size_t)(own - statement);
 }
 
 /* A figure of the table: its statement as if it stood here, what follows the name after it. */
@@ -461,12 +477,14 @@ static bool draw_named(shell *sh, lexer *lx, const figure *f, plot_panel *p, siz
         lex_next(lx);
         return f->build(sh, lx, p);
     }
-    const size_t from = lx->at + lx->len, rest = figure_end(lx), length = statement_length(f, lx);
+    const size_t from = lx->at + lx->len, rest = figure_end(lx);
+    const char *statement = statement_of(sh, f, lx, rest);
+    const size_t length = statement_length(statement, lx);
     const size_t room = length + (rest - from) + 1;
     char *text = malloc(room);
     if (!text)
         return calc_no_memory(lx->error);
-    snprintf(text, room, "%.*s%.*s", (int)length, f->statement, (int)(rest - from), lx->text + from);
+    snprintf(text, room, "%.*s%.*s", (int)length, statement, (int)(rest - from), lx->text + from);
     lexer own;
     lex_start(&own, text, strlen(text), lx->error);
     range_names used;

@@ -45,6 +45,12 @@ def points(tests):
     tests.check("rounding is not refined", len(noise) == 101, str(len(noise)))
     text, (jump,) = script(tests, "a pole", "plot 1/(x-1/3) for x = 0 .. 1")
     tests.check("a pole is not run after", len(jump) < 600 and max(abs(y) for _, y in jump) < 1e4, str(len(jump)))
+    text, (plain,) = script(tests, "a homogeneous body", "plot E", "material E0=70 GPa nu=0.3; geometry sphere R=10 mm; ")
+    tests.check("its modulus is the same at every depth", len(plain) > 50 and {x for x, _ in plain} == {1} and plain[0][1] == 0, str(plain))
+    text, (graded,) = script(tests, "a depth that is given", "plot E", "material E0=70 GPa nu=0.3; c0 = 1 mm; ")
+    tests.check("it is drawn over the depth that is given", max(z for _, z in graded) == 2, str(graded))
+    for kind in ("k = 0.5; plot E", "plot E with k=0, 0.5", "k := 0; plot E"):
+        fails(tests, kind, "c0 is not set", "material E0=70 GPa nu=0.3; ")
     text, (p,) = script(tests, "an edge", "plot p(r) for r = 0 m .. 1.25*a")
     peak = 3 * 100 / (2 * math.pi * A ** 2)
     hertz = lambda r: peak * math.sqrt(max(0.0, 1 - (r / A) ** 2))
