@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "contact/check.h"
+#include "contact/rows.h"
 #include "number/double.h"
 #include "number/real.h"
 
@@ -176,7 +177,7 @@ static void beyond(const powers *p, const reach *c, int count, fret_real *I) {
     }
 }
 
-/* ---- stretches and blocks ---------------------------------------------------------------------- */
+/* ---- rings and blocks ---------------------------------------------------------------------- */
 
 /* s = lo^2 + width y. What varies is smooth + y^q kink, polynomials in y. */
 typedef struct curve {
@@ -186,14 +187,14 @@ typedef struct curve {
 
 enum { SLOPE, DEPTH, KINDS };
 
-typedef struct stretch {
+typedef struct ring {
     fret_real lo, hi, width;
     curve of[KINDS];        /* g' dx/dy, and with q+1 x^k g dx/dy */
     fret_real scale[KINDS]; /* width^(m-1), width^-m */
-} stretch;
+} ring;
 
 /* Stretches first .. last-1 from afar: the moments of the kernel's series about the middle. A block precedes
- * its two halves. */
+ * its two halves, unless it is a leaf. */
 enum { TAYLOR = 56 };
 typedef struct block {
     size_t first, last, next;
@@ -201,15 +202,26 @@ typedef struct block {
     double moment[KINDS][TAYLOR];
 } block;
 
-enum { ONE, SLOPES, DEPTHS, POWERS };
+enum { OF_ONE, OF_SLOPE, OF_DEPTH, POWERS };
 
+/* Chebyshev's rule. */
+typedef struct rule {
+    fret_real wave[4 * MOST];    /* cos(pi i/(2 MOST)) */
+    fret_real power[MOST][MOST]; /* Chebyshev's polynomials of 2y-1 in powers of y */
+} rule;
+
+/* Those of a table are made of its rows, when they are wanted where they are many. */
 struct fret_density {
     fret_real m, from, from_depth, unit, error;
     powers power[POWERS]; /* q = 0, that of the slope, and of the depth */
     double far_scale[KINDS];
-    size_t count, room, blocks;
-    stretch *stretch;
+    size_t count, kept, room, blocks, leaf; /* rings, those kept; how many a leaf has */
+    size_t heads;                           /* rings before the rows */
+    ring *ring;
     block *block;
+    struct fret_rows *rows; /* or NULL */
+    rule rule;
+    fret_real node_q[MOST]; /* y^q of the slope at its nodes */
 };
 
 /* The distance of squares, with all digits. */
@@ -226,11 +238,112 @@ static fret_real sum_of(const curve *c, const fret_real *smooth, const fret_real
     return sum;
 }
 
-/* Of one stretch up to the radius a. */
-static fret_real near_integral(const struct fret_density *d, const stretch *p, int kind, fret_real a,
+/* ---- rings from values and from rows -------------------------------------------------------- */
+
+static fret_real node_of(const rule *r, int j) {
+    return (1 + r->wave[2 * j + 1]) / 2;
+}
+
+static fret_real largest(const fret_real *v) {
+    fret_real most = 0;
+    for (int i = 0; i < MOST; i++)
+        most = fmaxl(most, fabsl(v[i]));
+    return most;
+}
+
+/* Powers of y through values at the nodes. Returns how large the last terms are, of the whole. */
+static fret_real fit(const rule *r, const fret_real *value, fret_real whole, fret_real *c, int *count) {
+    fret_real term[MOST] = {0};
+    for (int i = 0; i < MOST; i++) {
+        for (int j = 0; j < MOST; j++)
+            term[i] += r->wave[i * (2 * j + 1) % (4 * MOST)] * value[j];
+        term[i] *= (i ? 2 : 1) / (fret_real)MOST;
+    }
+    *count = MOST;
+    while (*count > 0 && fabsl(term[*count - 1]) <= 1e-20L * whole)
+        --*count;
+    for (int j = 0; j < *count; j++) {
+        c[j] = 0;
+        for (int i = j; i < *count; i++)
+            c[j] += term[i] * r->power[i][j];
+    }
+    return whole > 0 ? fmaxl(fabsl(term[MOST - 1]), fabsl(term[MOST - 2])) / whole : 0;
+}
+
+static fret_real value_of(const fret_real *c, int count, fret_real y) {
+    fret_real v = 0;
+    while (count-- > 0)
+        v = v * y + c[count];
+    return v;
+}
+
+/* What is left of the last terms of x^k g dx/dy, from rises over y of g, smooth and of the kink. */
+static fret_real fit_depth(const struct fret_density *d, ring *p, fret_real depth, const fret_real *smooth,
+                           const fret_real *sharp) {
+    fret_real value[2][MOST], whole[MOST];
+    curve *of = &p->of[DEPTH];
+    for (int j = 0; j < MOST; j++) {
+        const fret_real y = node_of(&d->rule, j),
+                        rate = p->width / 2 * fret_pow(p->lo * p->lo + p->width * y, d->m - 1);
+        value[0][j] = rate * (depth + y * smooth[j]);
+        value[1][j] = rate * sharp[j];
+        whole[j] = value[0][j] + y * d->node_q[j] * value[1][j];
+    }
+    const fret_real deep = largest(whole);
+    return fmaxl(fit(&d->rule, value[0], deep, of->c[0], &of->smooth),
+                 fit(&d->rule, value[1], deep, of->c[1], &of->kink));
+}
+
+static void scale_ring(const struct fret_density *d, int kind, ring *p) {
+    p->scale[kind] = fret_pow(p->width, kind == SLOPE ? d->m - 1 : -d->m);
+}
+
+static void take_slope(const fret_row_part *row, ring *p) {
+    curve *of = &p->of[SLOPE];
+    of->smooth = row->slopes[0];
+    of->kink = row->slopes[1];
+    for (int j = 0; j < of->smooth; j++)
+        of->c[0][j] = row->S[j];
+    for (int j = 0; j < of->kink; j++)
+        of->c[1][j] = row->B[j];
+}
+
+static void take_depth(const struct fret_density *d, const fret_row_part *row, ring *p) {
+    fret_real smooth[MOST], sharp[MOST];
+    for (int j = 0; j < MOST; j++) {
+        const fret_real y = node_of(&d->rule, j);
+        smooth[j] = value_of(row->P, row->depths[0], y);
+        sharp[j] = value_of(row->Q, row->depths[1], y);
+    }
+    (void)fit_depth(d, p, row->depth, smooth, sharp);
+}
+
+static void take_row(const struct fret_density *d, size_t i, int kind, ring *out) {
+    const fret_row_part row = fret_rows_part(d->rows, i - d->heads);
+    out->lo = row.inner;
+    out->hi = row.outer;
+    out->width = row.width;
+    if (kind == SLOPE)
+        take_slope(&row, out);
+    else
+        take_depth(d, &row, out);
+    scale_ring(d, kind, out);
+}
+
+static const ring *ring_at(const struct fret_density *d, size_t i, int kind, ring *room) {
+    if (i < d->kept)
+        return &d->ring[i];
+    take_row(d, i, kind, room);
+    return room;
+}
+
+/* ---- integrals --------------------------------------------------------------------------------- */
+
+/* Of one ring up to the radius a. */
+static fret_real near_integral(const struct fret_density *d, const ring *p, int kind, fret_real a,
                                fret_real r) {
     const curve *of = &p->of[kind];
-    const powers *kink = &d->power[kind == SLOPE ? SLOPES : DEPTHS];
+    const powers *kink = &d->power[kind == SLOPE ? OF_SLOPE : OF_DEPTH];
     const fret_real at = square_distance(r, p->lo) / p->width, rest = square_distance(a, r) / p->width;
     reach c = {.m = d->m,
                .d = fabsl(at),
@@ -253,7 +366,7 @@ static fret_real near_integral(const struct fret_density *d, const stretch *p, i
     }
     fret_real I[2][MOST];
     if (of->smooth)
-        integrals(&d->power[ONE], &c, of->smooth, I[0]);
+        integrals(&d->power[OF_ONE], &c, of->smooth, I[0]);
     if (of->kink)
         integrals(kink, &c, of->kink, I[1]);
     return p->scale[kind] * sum_of(of, I[0], I[1]);
@@ -287,13 +400,30 @@ static bool far_integral(const struct fret_density *d, const block *b, int kind,
     return true;
 }
 
+/* Of one ring by the cuts from `now` on. */
+static fret_real near_by_cuts(const struct fret_density *d, size_t i, int kind, const fret_cut *cut,
+                              size_t count, size_t now, fret_real r) {
+    ring made;
+    const ring *p = ring_at(d, i, kind, &made);
+    fret_real sum = 0;
+    bool more = true;
+    if (kind == SLOPE && p->hi <= r)
+        return 0;
+    for (size_t j = now; j < count && more; j++) {
+        more = cut[j].a < p->hi;
+        const fret_real weight = cut[j].weight - (more && j + 1 < count ? cut[j + 1].weight : 0);
+        if (weight != 0 && cut[j].a > p->lo)
+            sum += weight * near_integral(d, p, kind, fminl(cut[j].a, p->hi), r);
+    }
+    return sum;
+}
+
 static fret_real integral(const struct fret_density *d, int kind, const fret_cut *cut, size_t count,
                           fret_real r) {
     fret_real sum = 0, far;
     size_t now = 0; /* the cut that ends the part which holds the start of a block */
     for (size_t i = 0; i < d->blocks;) {
         const block *b = &d->block[i];
-        const bool leaf = b->next == i + 1;
         if (kind == SLOPE && b->hi <= r) {
             i = b->next;
             continue;
@@ -307,16 +437,9 @@ static fret_real integral(const struct fret_density *d, int kind, const fret_cut
             i = b->next;
             continue;
         }
-        i++;
-        if (!leaf)
-            continue;
-        bool more = true;
-        for (size_t j = now; j < count && more; j++) {
-            more = cut[j].a < b->hi;
-            const fret_real weight = cut[j].weight - (more && j + 1 < count ? cut[j + 1].weight : 0);
-            if (weight != 0)
-                sum += weight * near_integral(d, &d->stretch[b->first], kind, fminl(cut[j].a, b->hi), r);
-        }
+        if (b->next == ++i)
+            for (size_t j = b->first; j < b->last; j++)
+                sum += near_by_cuts(d, j, kind, cut, count, now, r);
     }
     return sum;
 }
@@ -347,71 +470,40 @@ fret_real fret_density_from_depth(const struct fret_density *d) {
 typedef struct maker {
     struct fret_density *d;
     const fret_normal *normal;
-    int nodes;                              /* Chebyshev's, of a stretch */
-    fret_real start, depth;                 /* depth: g at the end of the last stretch */
-    fret_real wave[4 * MOST];               /* cos(pi i/(2 nodes)) */
-    fret_real power[MOST][MOST];            /* Chebyshev's polynomials of 2y-1 in powers of y */
+    fret_real start, depth;                 /* depth: g at the end of the last ring */
     fret_real moment[POWERS][MOST][TAYLOR]; /* int_0^1 y^(q+j) (2y-1)^n dy */
+    double small[POWERS][MOST][TAYLOR];     /* the same */
     fret_status failed;
 } maker;
 
-enum { ROW_NODES = 14, MOST_PROFILES = 30000, HALVINGS = 12 };
+enum { HALVINGS = 12, KEPT = 2000, LEAF = 8, LOOKS = 32 };
 static const fret_real TOLERANCE =
                            2e-15L, /* of the last terms, of the whole: less is left between the nodes */
     FOUND = 1e-15L;                /* of g' there */
 
 static void make_rule(maker *m) {
-    for (int i = 0; i < 4 * m->nodes; i++)
-        m->wave[i] = fret_cos(FRET_PI * i / (2 * m->nodes));
+    rule *r = &m->d->rule;
+    for (int i = 0; i < 4 * MOST; i++)
+        r->wave[i] = fret_cos(FRET_PI * i / (2 * MOST));
     for (int i = 0; i < MOST; i++)
         for (int j = 0; j < MOST; j++)
-            m->power[i][j] =
+            r->power[i][j] =
                 i == 0   ? (fret_real)(j == 0)
                 : i == 1 ? (fret_real)(j == 0   ? -1
                                        : j == 1 ? 2
                                                 : 0)
-                         : (j ? 4 * m->power[i - 1][j - 1] : 0) - 2 * m->power[i - 1][j] - m->power[i - 2][j];
+                         : (j ? 4 * r->power[i - 1][j - 1] : 0) - 2 * r->power[i - 1][j] - r->power[i - 2][j];
+    for (int j = 0; j < MOST; j++)
+        m->d->node_q[j] = fret_pow(node_of(r, j), m->d->power[OF_SLOPE].q);
     for (int p = 0; p < POWERS; p++)
         for (int j = 0; j < MOST; j++) {
             const fret_real q = m->d->power[p].q + j + 1;
             m->moment[p][j][0] = 1 / q;
             for (int n = 1; n < TAYLOR; n++)
                 m->moment[p][j][n] = (1 - n * m->moment[p][j][n - 1]) / (q + n);
+            for (int n = 0; n < TAYLOR; n++)
+                m->small[p][j][n] = (double)m->moment[p][j][n];
         }
-}
-
-static fret_real node_of(const maker *m, int j) {
-    return (1 + m->wave[2 * j + 1]) / 2;
-}
-
-static fret_real largest(const fret_real *v, int count) {
-    fret_real most = 0;
-    for (int i = 0; i < count; i++)
-        most = fmaxl(most, fabsl(v[i]));
-    return most;
-}
-
-/* Powers of y through values at the nodes, no more than count; false: they do not fall to next to nothing of
- * the whole. */
-static bool fit(const maker *m, const fret_real *value, fret_real whole, fret_real *c, int *count) {
-    const int nodes = m->nodes;
-    fret_real term[MOST] = {0};
-    for (int i = 0; i < nodes; i++) {
-        for (int j = 0; j < nodes; j++)
-            term[i] += m->wave[i * (2 * j + 1) % (4 * nodes)] * value[j];
-        term[i] *= (i ? 2 : 1) / (fret_real)nodes;
-    }
-    if (!(fmaxl(fabsl(term[nodes - 1]), fabsl(term[nodes - 2])) <= TOLERANCE * whole))
-        return false;
-    *count = nodes;
-    while (*count > 0 && fabsl(term[*count - 1]) <= 1e-20L * whole)
-        --*count;
-    for (int j = 0; j < *count; j++) {
-        c[j] = 0;
-        for (int i = j; i < *count; i++)
-            c[j] += term[i] * m->power[i][j];
-    }
-    return true;
 }
 
 /* The integral from 0 to y of y^q times a polynomial, over y^q y. */
@@ -422,139 +514,133 @@ static fret_real risen(const powers *p, const fret_real *c, int count, fret_real
     return v;
 }
 
-static fret_real value_of(const fret_real *c, int count, fret_real y) {
-    fret_real v = 0;
-    while (count-- > 0)
-        v = v * y + c[count];
-    return v;
-}
-
-/* g' dx/dy at y, and what of it is not smooth at the lower end. */
-static fret_real slope_at(const maker *m, const stretch *p, bool kink, fret_real y, fret_real *x,
-                          fret_real *bend) {
+/* g' dx/dy at y. */
+static fret_real slope_at(const maker *m, const ring *p, fret_real y) {
     const fret_normal *n = m->normal;
-    *x = sqrtl(p->lo * p->lo + p->width * y);
-    const fret_real e = (p->lo - m->start) + p->width * y / (p->lo + *x), rate = p->width / (2 * *x),
-                    slope = rate * fret_gap_profile(&n->gap, &n->rule, e).slope;
-    *bend = !kink               ? 0
-            : p->lo == m->start ? slope
-                                : rate * fret_gap_bend(&n->gap, &n->rule, p->lo - m->start, e);
-    return slope;
+    const fret_real x = sqrtl(p->lo * p->lo + p->width * y),
+                    e = (p->lo - m->start) + p->width * y / (p->lo + x);
+    return p->width / (2 * x) * fret_gap_profile(&n->gap, &n->rule, e).slope;
 }
 
-static bool make_stretch(maker *m, stretch *p, bool kink) {
-    struct fret_density *d = m->d;
-    const fret_real k = m->normal->foundation.k, q = d->power[SLOPES].q;
-    fret_real smooth[MOST], sharp[MOST], slopes[MOST], whole[MOST], x[MOST], bend;
-    curve *slope = &p->of[SLOPE], *depth = &p->of[DEPTH];
-    for (int j = 0; j < m->nodes; j++) {
-        const fret_real y = node_of(m, j);
-        slopes[j] = slope_at(m, p, kink, y, &x[j], &bend);
-        smooth[j] = slopes[j] - bend;
-        sharp[j] = bend != 0 ? bend / fret_pow(y, q) : 0;
-    }
-    const fret_real most = largest(p->lo == m->start ? sharp : slopes, m->nodes);
-    if (!fit(m, smooth, most, slope->c[0], &slope->smooth) || !fit(m, sharp, most, slope->c[1], &slope->kink))
-        return false;
-    for (int j = 0; j < m->nodes; j++) {
-        const fret_real y = node_of(m, j), rate = p->width / 2 * fret_pow(x[j], k - 1);
-        smooth[j] = rate * (m->depth + y * risen(&d->power[ONE], slope->c[0], slope->smooth, y));
-        sharp[j] = rate * risen(&d->power[SLOPES], slope->c[1], slope->kink, y);
-        whole[j] = smooth[j] + y * fret_pow(y, q) * sharp[j];
-    }
-    const fret_real deep = largest(whole, m->nodes);
-    if (!fit(m, smooth, deep, depth->c[0], &depth->smooth) || !fit(m, sharp, deep, depth->c[1], &depth->kink))
-        return false;
+/* How far g' is off in its middle, of the largest. */
+static fret_real error_of(const maker *m, const ring *p, fret_real largest_slope) {
     static const fret_real look = 0.41L;
-    const fret_real want = slope_at(m, p, kink, look, &x[0], &bend);
-    const fret_real got = value_of(slope->c[0], slope->smooth, look) +
-                          (slope->kink ? fret_pow(look, q) * value_of(slope->c[1], slope->kink, look) : 0);
-    const fret_real error = fabsl(got - want) / fmaxl(largest(slopes, m->nodes), fabsl(want));
+    const curve *of = &p->of[SLOPE];
+    const fret_real want = slope_at(m, p, look), q = m->d->power[OF_SLOPE].q;
+    const fret_real got = value_of(of->c[0], of->smooth, look) +
+                          (of->kink ? fret_pow(look, q) * value_of(of->c[1], of->kink, look) : 0);
+    return fabsl(got - want) / fmaxl(largest_slope, fabsl(want));
+}
+
+/* sharp: begins at the start of the gap, and is all a kink there. */
+static bool make_ring(maker *m, ring *p, bool sharp) {
+    struct fret_density *d = m->d;
+    fret_real slope[MOST], rise[2][MOST], none[MOST] = {0}, most = 0;
+    const powers *q = &d->power[sharp ? OF_SLOPE : OF_ONE];
+    curve *of = &p->of[SLOPE];
+    int *count = sharp ? &of->kink : &of->smooth;
+    for (int j = 0; j < MOST; j++) {
+        slope[j] = slope_at(m, p, node_of(&d->rule, j));
+        most = fmaxl(most, fabsl(slope[j]));
+        slope[j] /= sharp ? d->node_q[j] : 1;
+    }
+    of->smooth = of->kink = 0;
+    if (!(fit(&d->rule, slope, largest(slope), of->c[sharp], count) <= TOLERANCE))
+        return false;
+    for (int j = 0; j < MOST; j++)
+        rise[0][j] = risen(q, of->c[sharp], *count, node_of(&d->rule, j));
+    if (!(fit_depth(d, p, m->depth, sharp ? none : rise[0], sharp ? rise[0] : none) <= TOLERANCE))
+        return false;
+    const fret_real error = error_of(m, p, most);
     if (!(error <= FOUND))
         return false;
     d->error = fmaxl(d->error, error);
-    p->scale[SLOPE] = fret_pow(p->width, d->m - 1);
-    p->scale[DEPTH] = fret_pow(p->width, -d->m);
-    m->depth += risen(&d->power[ONE], slope->c[0], slope->smooth, 1) +
-                risen(&d->power[SLOPES], slope->c[1], slope->kink, 1);
+    scale_ring(d, SLOPE, p);
+    scale_ring(d, DEPTH, p);
+    m->depth += risen(q, of->c[sharp], *count, 1);
     return true;
 }
 
-static bool add(maker *m, const stretch *p) {
+static bool reserve(maker *m, size_t room) {
     struct fret_density *d = m->d;
-    if (d->count == d->room) {
-        const size_t room = 2 * d->room + 16;
-        stretch *grown = realloc(d->stretch, room * sizeof *grown);
-        if (!grown) {
-            m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-            return false;
-        }
-        d->stretch = grown;
-        d->room = room;
+    ring *grown = room > d->room ? realloc(d->ring, room * sizeof *grown) : d->ring;
+    if (room > 0 && !grown) {
+        m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        return false;
     }
-    d->stretch[d->count++] = *p;
+    d->ring = grown;
+    d->room = room > d->room ? room : d->room;
     return true;
 }
 
-/* From the radius lo to hi, in halves where one stretch does not do; kink: not smooth at lo. */
-static bool cover(maker *m, fret_real lo, fret_real hi, bool kink, int halvings) {
-    stretch p = {.lo = lo, .hi = hi, .width = square_distance(hi, lo)};
+/* From the radius lo to hi, in halves where one ring does not do; sharp: from the start of the gap. */
+static bool cover(maker *m, fret_real lo, fret_real hi, bool sharp, int halvings) {
+    struct fret_density *d = m->d;
+    ring p = {.lo = lo, .hi = hi, .width = square_distance(hi, lo)};
     if (fret_stopped(m->normal))
         return false;
-    if (make_stretch(m, &p, kink))
-        return add(m, &p);
+    if (make_ring(m, &p, sharp)) {
+        if (d->count == d->room && !reserve(m, 2 * d->room + 16))
+            return false;
+        d->ring[d->count++] = p;
+        return true;
+    }
     const fret_real middle = sqrtl((lo * lo + hi * hi) / 2);
-    return halvings > 0 && !m->failed.code && cover(m, lo, middle, kink, halvings - 1) &&
+    return halvings > 0 && !m->failed.code && cover(m, lo, middle, sharp, halvings - 1) &&
            cover(m, middle, hi, false, halvings - 1);
 }
 
 /* Beyond a flat end. */
 static bool cover_smooth(maker *m, fret_real a) {
     static const fret_real step = 1.3L;
+    m->d->leaf = 1;
     for (fret_real lo = m->start; lo < a; lo *= step)
         if (!cover(m, lo, lo * step, lo == m->start, HALVINGS))
             return false;
+    m->d->kept = m->d->count;
     return true;
 }
 
 /* From row to row of a table; within the first one it is told by powers where there is no flat end. */
 static bool cover_rows(maker *m, fret_real a) {
-    const fret_gap *gap = &m->normal->gap;
-    const size_t count = fret_gap_rows(gap, a) - fret_gap_rows(gap, m->start) + 1;
-    if (count > MOST_PROFILES / ROW_NODES)
+    struct fret_density *d = m->d;
+    m->failed = fret_rows_make_slopes(m->normal, a - m->start, &d->rows);
+    if (m->failed.code || !d->rows)
         return false;
-    fret_real *row = malloc((count + 1) * sizeof *row);
-    if (!row) {
-        m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    const fret_row_part first = fret_rows_part(d->rows, 0);
+    if (m->start > 0 && !cover(m, m->start, first.inner, true, HALVINGS))
         return false;
+    const size_t count = fret_rows_parts(d->rows);
+    d->from = m->start > 0 ? m->start : first.inner;
+    d->from_depth = first.depth;
+    d->heads = d->kept = d->count;
+    d->count += count;
+    d->leaf = count <= KEPT ? 1 : LEAF;
+    if (count <= KEPT && !reserve(m, d->count))
+        return false;
+    for (size_t i = d->heads; i < d->count && count <= KEPT; i++) {
+        take_row(d, i, SLOPE, &d->ring[i]);
+        take_row(d, i, DEPTH, &d->ring[i]);
     }
-    size_t i = count + 1;
-    row[--i] = a - m->start;
-    while (i > 0 && row[i] > 0) {
-        row[i - 1] = fret_gap_kink(gap, row[i]);
-        i--;
+    d->kept = count <= KEPT ? d->count : d->heads;
+    for (size_t i = 0; i < LOOKS; i++) {
+        ring made;
+        const ring *p =
+            ring_at(d, d->heads + (size_t)((double)count * ((double)i + 0.5) / LOOKS), SLOPE, &made);
+        d->error = fmaxl(d->error, error_of(m, p, 0));
     }
-    if (m->start <= 0)
-        i++;
-    bool ok = i < count;
-    m->d->from = m->start + row[i];
-    if (ok && m->start <= 0)
-        m->d->from_depth = m->depth = fret_gap_profile(gap, &m->normal->rule, row[i]).g;
-    for (; ok && i < count; i++)
-        ok = cover(m, m->start + row[i], m->start + row[i + 1], true, HALVINGS);
-    free(row);
-    return ok;
+    return !fret_stopped(m->normal);
 }
 
-static void moments_of(const maker *m, const stretch *p, fret_real moment[KINDS][TAYLOR]) {
+static void moments_of(const maker *m, const ring *p, fret_real moment[KINDS][TAYLOR]) {
     for (int kind = 0; kind < KINDS; kind++) {
         const curve *c = &p->of[kind];
         for (int n = 0; n < TAYLOR; n++) {
             moment[kind][n] = 0;
             for (int j = 0; j < c->smooth; j++)
-                moment[kind][n] += c->c[0][j] * m->moment[ONE][j][n];
+                moment[kind][n] += c->c[0][j] * m->moment[OF_ONE][j][n];
             for (int j = 0; j < c->kink; j++)
-                moment[kind][n] += c->c[1][j] * m->moment[kind == SLOPE ? SLOPES : DEPTHS][j][n];
+                moment[kind][n] += c->c[1][j] * m->moment[kind == SLOPE ? OF_SLOPE : OF_DEPTH][j][n];
         }
     }
 }
@@ -576,25 +662,78 @@ static void add_moved(fret_real whole[KINDS][TAYLOR], fret_real part[KINDS][TAYL
     }
 }
 
+/* Adds those of a part from one radius to another. */
+static void add_part(const block *b, fret_real lo, fret_real hi, fret_real whole[KINDS][TAYLOR],
+                     fret_real part[KINDS][TAYLOR]) {
+    add_moved(whole, part, (square_distance(lo, b->lo) - square_distance(b->hi, hi)) / (2 * b->half),
+              square_distance(hi, lo) / (2 * b->half));
+}
+
+/* The same of a ring that is no more than a fifth of the block: few of its moments count, to those digits
+ * that are kept. */
+static bool add_small(const maker *m, const block *b, const ring *p, fret_real whole[KINDS][TAYLOR]) {
+    enum { SMALL = 24 };
+    const double shift = (double)((square_distance(p->lo, b->lo) - square_distance(b->hi, p->hi)) /
+                                  (2 * b->half)),
+                 ratio = (double)(p->width / (2 * b->half));
+    if (ratio > 0.2)
+        return false;
+    for (int kind = 0; kind < KINDS; kind++) {
+        const curve *c = &p->of[kind];
+        const int kink = kind == SLOPE ? OF_SLOPE : OF_DEPTH;
+        double part[TAYLOR] = {0}, power = 1;
+        for (int j = 0; j < c->smooth; j++)
+            for (int n = 0; n < SMALL; n++)
+                part[n] += (double)c->c[0][j] * m->small[OF_ONE][j][n];
+        for (int j = 0; j < c->kink; j++)
+            for (int n = 0; n < SMALL; n++)
+                part[n] += (double)c->c[1][j] * m->small[kink][j][n];
+        for (int n = 0; n < SMALL; n++) {
+            part[n] *= power;
+            power *= ratio;
+        }
+        for (int pass = 1; pass < TAYLOR; pass++)
+            for (int n = TAYLOR - 1; n >= pass; n--)
+                part[n] += shift * part[n - 1];
+        for (int n = 0; n < TAYLOR; n++)
+            whole[kind][n] += part[n];
+    }
+    return true;
+}
+
+static const ring *both_at(const struct fret_density *d, size_t i, ring *room) {
+    const ring *p = ring_at(d, i, SLOPE, room);
+    return p == room ? ring_at(d, i, DEPTH, room) : p;
+}
+
 static void make_block(maker *m, size_t first, size_t last, fret_real moment[KINDS][TAYLOR]) {
     struct fret_density *d = m->d;
     block *b = &d->block[d->blocks++];
-    const fret_real lo = d->stretch[first].lo, hi = d->stretch[last - 1].hi;
-    *b = (block){.first = first, .last = last, .lo = lo, .hi = hi, .half = square_distance(hi, lo) / 2};
-    if (last - first > 1) {
+    ring made;
+    fret_real part[KINDS][TAYLOR];
+    *b = (block){.first = first, .last = last};
+    b->lo = ring_at(d, first, SLOPE, &made)->lo;
+    b->hi = ring_at(d, last - 1, SLOPE, &made)->hi;
+    b->half = square_distance(b->hi, b->lo) / 2;
+    for (int n = 0; n < TAYLOR; n++)
+        moment[SLOPE][n] = moment[DEPTH][n] = 0;
+    if (last - first > d->leaf) {
         const size_t middle = first + (last - first) / 2;
-        const fret_real between = d->stretch[middle].lo;
-        fret_real part[KINDS][TAYLOR];
-        for (int n = 0; n < TAYLOR; n++)
-            moment[SLOPE][n] = moment[DEPTH][n] = 0;
+        const fret_real between = ring_at(d, middle, SLOPE, &made)->lo;
         make_block(m, first, middle, part);
-        add_moved(moment, part, -square_distance(hi, between) / (2 * b->half),
-                  square_distance(between, lo) / (2 * b->half));
+        add_part(b, b->lo, between, moment, part);
         make_block(m, middle, last, part);
-        add_moved(moment, part, square_distance(between, lo) / (2 * b->half),
-                  square_distance(hi, between) / (2 * b->half));
+        add_part(b, between, b->hi, moment, part);
+    } else if (last - first == 1) {
+        moments_of(m, both_at(d, first, &made), moment);
     } else {
-        moments_of(m, &d->stretch[first], moment);
+        for (size_t i = first; i < last; i++) {
+            const ring *p = both_at(d, i, &made);
+            if (add_small(m, b, p, moment))
+                continue;
+            moments_of(m, p, part);
+            add_part(b, p->lo, p->hi, moment, part);
+        }
     }
     fret_real factor[KINDS] = {1, 1};
     for (int n = 0; n < TAYLOR; n++) {
@@ -618,11 +757,11 @@ fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_den
         st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     if (ok) {
         *d = (struct fret_density){.m = half, .from = fret_gap_start(&n->gap), .unit = a * a};
-        *m = (maker){.d = d, .normal = n, .nodes = rows ? ROW_NODES : MOST, .start = d->from};
+        *m = (maker){.d = d, .normal = n, .start = d->from};
         const int sharp = fret_gap_sharp(&n->gap);
-        make_power(&d->power[ONE], 0, 0, half);
-        make_power(&d->power[SLOPES], 1, -sharp, half);
-        make_power(&d->power[DEPTHS], 1, 1 - sharp, half);
+        make_power(&d->power[OF_ONE], 0, 0, half);
+        make_power(&d->power[OF_SLOPE], 1, -sharp, half);
+        make_power(&d->power[OF_DEPTH], 1, 1 - sharp, half);
         d->far_scale[SLOPE] = (double)fret_pow(d->unit, half - 1);
         d->far_scale[DEPTH] = (double)fret_pow(d->unit, -half);
         make_rule(m);
@@ -631,7 +770,7 @@ fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_den
     }
     if (ok && !st.code) {
         fret_real moment[KINDS][TAYLOR];
-        d->block = malloc((2 * d->count - 1) * sizeof *d->block);
+        d->block = malloc((d->leaf > 1 ? 4 * d->count / d->leaf + 1 : 2 * d->count - 1) * sizeof *d->block);
         if (d->block)
             make_block(m, 0, d->count, moment);
         else
@@ -647,8 +786,9 @@ fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_den
 
 void fret_density_free(struct fret_density *d) {
     if (d) {
+        fret_rows_free(d->rows);
         free(d->block);
-        free(d->stretch);
+        free(d->ring);
     }
     free(d);
 }

@@ -11,7 +11,8 @@
 #include "number/real.h"
 
 /* With alpha = (k-1)/2, u = unit, x the radius, V[i] = int f' ((x^2-r^2)/(x u))^(alpha+i) dr is
- *   g = x^((1-k)/2) u^alpha V[0], F_N = K g - C (u x)^(alpha+1) V[1], K = C x^(1+k).
+ *   g = x^((1-k)/2) u^alpha V[0], F_N = K g - C (u x)^(alpha+1) V[1], K = C x^(1+k);
+ * or, where slopes are wanted, V[1] is V[0] of f' + r f'', and g' = x^((1-k)/2) u^alpha V[1]/x.
  * Over a leaf, a few rows, all of f' before `near` counts by a polynomial, since it is at least as far away
  * as the leaf is wide; the quadratic f' of `near` goes on to x, and each kink after that adds what it bends.
  */
@@ -37,8 +38,8 @@ struct fret_leaves {
     const fret_rule *rule;
     fret_real start, unit, unit_alpha, alpha, C;
     fret_real series[2][3][SERIES]; /* of the bends: [i][j] of V[i] by the power t^j of f' */
-    double short_series[2][2][SERIES];
-    bool many;
+    double short_series[2][3][SERIES];
+    bool many, slopes;
     fret_real near_unit, near_factor[2]; /* of kinks in double */
     kink *kink;                          /* of every row of the table up to the end */
     size_t first, count;                 /* pieces of the table: first, ... */
@@ -48,35 +49,36 @@ struct fret_leaves {
 
 /* ---- the law at a place ------------------------------------------------------------------------ */
 
-/* Of V the first `count` of f' = c0 + c1 t + c2 t^2 from the distance u before x on. */
-static void add_bend(const struct fret_leaves *all, const fret_real c[3], fret_real u, fret_real x, int count,
-                     fret_real *V) {
-    const fret_real q = u / (2 * x), size = 2 * u / all->unit;
+/* Adds to V that of f' = c0 + c1 t + c2 t^2 from the distance u before x on. */
+static void add_bend(const struct fret_leaves *all, const fret_real c[3], fret_real u, fret_real x,
+                     fret_real V[2]) {
+    const fret_real q = u / (2 * x), size = 2 * u / all->unit, r = x - u;
     const fret_real power = fret_exp(all->alpha * fret_log(size)) * u;
-    const fret_real c0 = c[0], c1 = c[1] * u, c2 = 2 * c[2] * u * u;
+    const fret_real rising[3] = {c[0] + r * c[1], 2 * (c[1] + r * c[2]), 3 * c[2]}; /* f' + r f'' */
     int terms = 1;
     for (fret_real left = 1e21L * q; left > 1 && terms < SERIES; left *= q)
         terms++;
-    for (int i = 0; i < count; i++) {
-        const fret_real *a0 = all->series[i][0], *a1 = all->series[i][1], *a2 = all->series[i][2];
+    for (int i = 0; i < 2; i++) {
+        const fret_real *a0 = all->series[i][0], *a1 = all->series[i][1], *a2 = all->series[i][2],
+                        *of = i && all->slopes ? rising : c, c1 = of[1] * u, c2 = 2 * of[2] * u * u;
         fret_real sum = 0;
         for (int n = terms; n-- > 0;)
-            sum = sum * q + (c0 * a0[n] + c1 * a1[n] + c2 * a2[n]);
-        V[i] += sum * power * (i ? size : 1);
+            sum = sum * q + (of[0] * a0[n] + c1 * a1[n] + c2 * a2[n]);
+        V[i] += sum * power * (i && !all->slopes ? size : 1);
     }
 }
 
 static void make_series(struct fret_leaves *all) {
     for (int i = 0; i < 2; i++) {
-        const fret_real p = all->alpha + (fret_real)i;
+        const fret_real p = all->alpha + (i && !all->slopes ? 1 : 0);
         fret_real c = 1;
         for (int n = 0; n < SERIES; n++) { /* (1-q)^p */
             all->series[i][0][n] = c / (p + (fret_real)(n + 1));
             all->series[i][1][n] = all->series[i][0][n] / (p + (fret_real)(n + 2));
             all->series[i][2][n] = all->series[i][1][n] / (p + (fret_real)(n + 3));
             c *= ((fret_real)n - p) / (fret_real)(n + 1);
-            all->short_series[i][0][n] = (double)all->series[i][1][n];
-            all->short_series[i][1][n] = (double)all->series[i][2][n];
+            for (int j = 0; j < 3; j++)
+                all->short_series[i][j][n] = (double)all->series[i][j][n];
         }
         all->near_factor[i] = fret_pow(all->near_unit / all->unit, p);
     }
@@ -99,8 +101,7 @@ static fret_real value_of(const fret_real *c, fret_real z) {
 }
 
 /* Two kinks in double: of many rows each bends little. */
-static void add_two(const struct fret_leaves *all, const kink *first, fret_real e, int count,
-                    double V[2][2]) {
+static void add_two(const struct fret_leaves *all, const kink *first, fret_real e, double V[2][2]) {
     const fret_real u0 = e - first[0].at, u1 = e - first[1].at;
     const double half = (double)(0.5L / (all->start + e)), per = (double)(2 / all->near_unit);
     const lanes2_numbers u = {(double)u0, u1 > 0 ? (double)u1 : 1e-300}, size = u * per, q = u * half;
@@ -115,38 +116,47 @@ static void add_two(const struct fret_leaves *all, const kink *first, fret_real 
     int terms = 1;
     for (double left = 1e17 * q[0]; left > 1 && terms < SERIES; left *= q[0])
         terms++;
-    for (int i = 0; i < count; i++) {
-        const double *a1 = all->short_series[i][0], *a2 = all->short_series[i][1];
-        lanes2_numbers s1 = zero, s2 = zero;
+    for (int i = 0; i < 2; i++) {
+        const double *a0 = all->short_series[i][0], *a1 = all->short_series[i][1],
+                     *a2 = all->short_series[i][2];
+        const bool rising = i && all->slopes;
+        lanes2_numbers s0 = zero, s1 = zero, s2 = zero;
         for (int n = terms; n-- > 0;) {
             s1 = s1 * q + a1[n];
             s2 = s2 * q + a2[n];
         }
-        s1 = u * (c1 * s1 + u * (c2 * s2)) * power;
-        if (i > 0)
+        for (int n = rising ? terms : 0; n-- > 0;)
+            s0 = s0 * q + a0[n];
+        if (rising) { /* as in add_bend */
+            const lanes2_numbers r = (double)(all->start + e) - u;
+            s1 = r * c1 * s0 + u * ((2.0 * c1 + r * c2) * s1 + u * (3.0 * c2 * s2));
+        } else {
+            s1 = u * (c1 * s1 + u * (c2 * s2));
+        }
+        s1 *= power;
+        if (i && !rising)
             s1 *= size;
         V[i][0] += s1[0];
         V[i][1] += s1[1];
     }
 }
 
-/* Adds to the first `count` of V what the kinks after row `from` bend, up to row `to`. */
-static void add_bends(const struct fret_leaves *all, size_t from, size_t to, fret_real e, int count,
-                      fret_real V[2]) {
+/* Adds to V what the kinks after row `from` bend, up to row `to`. */
+static void add_bends(const struct fret_leaves *all, size_t from, size_t to, fret_real e, fret_real V[2]) {
     fret_real c[3];
     if (!all->many) {
         for (size_t i = from + 1; i <= to && e > all->kink[i].at; i++) {
             fret_table_jump(all->table, i, c);
-            add_bend(all, c, e - all->kink[i].at, all->start + e, count, V);
+            add_bend(all, c, e - all->kink[i].at, all->start + e, V);
         }
         return;
     }
     double two[2][2] = {{0, 0}, {0, 0}};
     for (size_t i = from + 1; i <= to && e > all->kink[i].at; i += 2) {
         const kink last[2] = {all->kink[i], {(fret_real)INFINITY, {0, 0}}};
-        add_two(all, i < to ? &all->kink[i] : last, e, count, two);
+        add_two(all, i < to ? &all->kink[i] : last, e, two);
     }
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < 2; i++)
         V[i] += all->near_factor[i] * (two[i][0] + two[i][1]);
 }
 
@@ -155,7 +165,8 @@ static fret_level level_of(const struct fret_leaves *all, const leaf *l, fret_re
     const fret_real x = all->start + e, away = (e - l->middle) / (all->start + l->middle);
     const fret_real root = l->root * fret_exp(-all->alpha * fret_log1p(away));
     const fret_real g = root * all->unit_alpha * V[0], edge = x / root;
-    return (fret_level){g, all->C * edge * (edge * g - all->unit_alpha * all->unit * V[1])};
+    return (fret_level){g, all->slopes ? root * all->unit_alpha * V[1] / x
+                                       : all->C * edge * (edge * g - all->unit_alpha * all->unit * V[1])};
 }
 
 static const leaf *leaf_at(const struct fret_leaves *all, size_t row, fret_real e) {
@@ -169,7 +180,7 @@ fret_level fret_leaves_before(const struct fret_leaves *all, size_t row, fret_re
     const leaf *l = leaf_at(all, row, e);
     const fret_real z = (e - l->middle) / l->half;
     fret_real V[2] = {value_of(l->c[0], z), value_of(l->c[1], z)};
-    add_bends(all, l->near, row - 1, e, 2, V);
+    add_bends(all, l->near, row - 1, e, V);
     return level_of(all, l, e, V);
 }
 
@@ -177,7 +188,7 @@ fret_level fret_leaves_bend(const struct fret_leaves *all, size_t row, fret_real
     const leaf *l = leaf_at(all, row, e);
     fret_real V[2] = {0, 0};
     if (l->near < row)
-        add_bends(all, row - 1, row, e, 2, V);
+        add_bends(all, row - 1, row, e, V);
     return level_of(all, l, e, V);
 }
 
@@ -224,19 +235,21 @@ static void fit(const maker *m, const fret_real *value, fret_real *c) {
  * rows go on with the quadratic of `near`. */
 static void make_field(maker *m, fret_real lo, fret_real hi, bool few, const leaf *above, leaf *out) {
     const struct fret_leaves *all = m->all;
-    fret_real value[2][WAVES], more[2], c[3];
+    fret_real value[2][WAVES], more[3], c[3];
     *out = (leaf){.middle = (lo + hi) / 2, .half = (hi - lo) / 2, .goes_on = few};
     out->near = lo - (hi - lo) > -all->start ? fret_table_row(all->table, lo - (hi - lo)) : 0;
     for (int j = 0; j < WAVES; j++) {
         const fret_real e = out->middle + out->half * m->wave[j], z = (e - above->middle) / above->half;
         more[0] = more[1] = 0;
-        if (above->goes_on)
-            add_bends(all, above->near, out->near, e, 2, more);
-        else
+        if (above->goes_on) {
+            add_bends(all, above->near, out->near, e, more);
+        } else {
             fret_table_part(all->table, all->rule, above->near, out->near, e, all->unit, more);
+            more[1] = all->slopes ? more[2] : more[1];
+        }
         if (out->goes_on && !above->goes_on) {
             fret_table_slope(all->table, out->near, c);
-            add_bend(all, c, e - fret_table_distance(all->table, out->near), all->start + e, 2, more);
+            add_bend(all, c, e - fret_table_distance(all->table, out->near), all->start + e, more);
         }
         for (int i = 0; i < 2; i++)
             value[i][j] = (above->near || above->goes_on ? value_of(above->c[i], z) : 0) + more[i];
@@ -294,7 +307,7 @@ static bool descend(maker *m, size_t first, size_t last, const leaf *above) {
     return wide ? add_wide(m, lo, hi, above) : add_leaf(m, &here);
 }
 
-fret_status fret_leaves_make(const fret_normal *n, size_t first, size_t count, fret_real e,
+fret_status fret_leaves_make(const fret_normal *n, size_t first, size_t count, fret_real e, bool slopes,
                              struct fret_leaves **out) {
     struct fret_leaves *all = calloc(1, sizeof *all);
     maker *m = calloc(1, sizeof *m);
@@ -310,6 +323,7 @@ fret_status fret_leaves_make(const fret_normal *n, size_t first, size_t count, f
                                     .unit = e / sqrtl((fret_real)count),
                                     .near_unit = e / (fret_real)count,
                                     .many = count >= MANY,
+                                    .slopes = slopes,
                                     .C = fret_normal_stiffness(n, 1)};
         all->unit_alpha = fret_pow(all->unit, all->alpha);
         all->leaf_of = malloc(count * sizeof *all->leaf_of);

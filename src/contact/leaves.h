@@ -8,9 +8,9 @@
 
 struct fret_leaves;
 
-/* Of the rows first .. first+count-1, which begin beyond the start of the gap; e: where they end. Errors:
- * FRET_NO_MEMORY, FRET_INTERRUPTED. */
-fret_status fret_leaves_make(const fret_normal *normal, size_t first, size_t count, fret_real e,
+/* Of the rows first .. first+count-1, which begin beyond the start of the gap; e: where they end. slopes: g'
+ * in place of each load. Errors: FRET_NO_MEMORY, FRET_INTERRUPTED. */
+fret_status fret_leaves_make(const fret_normal *normal, size_t first, size_t count, fret_real e, bool slopes,
                              struct fret_leaves **out);
 void fret_leaves_free(struct fret_leaves *leaves);
 

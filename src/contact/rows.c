@@ -190,6 +190,25 @@ fret_real fret_rows_stiffness(const struct fret_rows *all, const fret_spot *s) {
     return all->C * fret_pow(all->start + s->e, 2 * all->m);
 }
 
+size_t fret_rows_parts(const struct fret_rows *all) {
+    return all->count;
+}
+
+fret_row_part fret_rows_part(const struct fret_rows *all, size_t i) {
+    const part *p = &all->part[i];
+    const fret_real *P = all->term + p->term;
+    return (fret_row_part){.inner = p->x,
+                           .outer = all->start + all->reach[SPOT_DISTANCE][i + 1],
+                           .width = p->width,
+                           .depth = all->reach[SPOT_DEPTH][i],
+                           .P = P,
+                           .Q = P + p->count[DEPTHS][0],
+                           .S = P + p->count[DEPTHS][0] + p->count[DEPTHS][1],
+                           .B = P + p->count[DEPTHS][0] + p->count[DEPTHS][1] + p->count[LOADS][0],
+                           .depths = {p->count[DEPTHS][0], p->count[DEPTHS][1]},
+                           .slopes = {p->count[LOADS][0], p->count[LOADS][1]}};
+}
+
 stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, const fret_spot *inner) {
     enum { MANY = 4 }; /* of which a part that is a difference keeps its digits */
     if (outer->part == inner->part && outer->along > inner->along)
@@ -227,6 +246,7 @@ typedef struct maker {
         fret_level at;
     } * begin; /* of each part, and the end of the last one */
     size_t room;
+    bool slopes; /* g' dx/dy in place of loads */
     fret_status failed;
 } maker;
 
@@ -328,30 +348,33 @@ static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool ki
     const fret_level at_e = level_at(m, row, e);
     m->begin[all->count] = (struct beginning){e, at_e};
     const rule *few = bend < 0.01L ? &m->few : &m->many;
+    const bool slopes = m->slopes;
     part *p = &all->part[all->count++];
     *p = (part){.x = x, .width = width, .term = all->terms};
     p->rate = all->C * all->m * width * fret_pow(x, 2 * (all->m - 1));
     take(base, &at_e);
+    base[LOADS] = slopes ? 0 : base[LOADS];
     for (int j = 0; j < WAVES; j++) {
-        const fret_real at = e + width * m->many.y[j] / (x + sqrtl(x * x + width * m->many.y[j]));
+        const fret_real to = sqrtl(x * x + width * m->many.y[j]), at = e + width * m->many.y[j] / (x + to);
         const fret_level l = kink ? fret_leaves_before(m->leaves, row, at) : level_at(m, row, at);
         take(v, &l);
+        v[LOADS] *= slopes ? width / (2 * to) : 1;
         for (int by = 0; by < 2; by++)
             smooth[by][j] = v[by] - base[by];
         if (j == 0) /* the outermost */
-            take(top, &l);
+            take(top, &(fret_level){v[DEPTHS], v[LOADS]});
     }
     for (int j = 0; kink && j < few->nodes; j++) {
-        const fret_real y = few->y[j], at = e + width * y / (x + sqrtl(x * x + width * y));
+        const fret_real y = few->y[j], to = sqrtl(x * x + width * y), at = e + width * y / (x + to);
         const fret_level l = fret_leaves_bend(m->leaves, row, at);
-        take(v, &l);
-        for (int by = 0; by < 2; by++)
-            bent[by][j] = v[by] / (y * few->ym[j]);
+        bent[DEPTHS][j] = l.y / (y * few->ym[j]);
+        bent[LOADS][j] = l.F / few->ym[j] * (slopes ? width / (2 * to) : 1 / y);
     }
     for (int by = 0; by < 2; by++) {
-        int count = fit(&m->many, smooth[by], LITTLE * top[by], c) - 1;
-        for (int j = 0; j < count; j++) /* the first is nothing */
-            all->term[all->terms++] = c[j + 1];
+        const int nothing = by == DEPTHS || !slopes; /* is the first, of a rise */
+        int count = fit(&m->many, smooth[by], LITTLE * top[by], c) - nothing;
+        for (int j = 0; j < count; j++)
+            all->term[all->terms++] = c[j + nothing];
         p->count[by][0] = (unsigned char)(count > 0 ? count : 0);
         count = kink ? fit(few, bent[by], LITTLE * top[by], c) : 0;
         for (int j = 0; j < count; j++)
@@ -368,7 +391,8 @@ static bool add_row(maker *m, size_t row) {
                     end = fret_table_distance(t, row + 1), before = fret_table_distance(t, row - 1),
                     x = start + from, whole = (end - from) * (start + end + x),
                     away = (from - before) * (start + before + x);
-    const fret_real enough = whole < 1e-3L * from * (start + x) ? 1.6L : 1.1L; /* where it rises by little */
+    const fret_real enough =
+        !m->slopes && whole < 1e-3L * from * (start + x) ? 1.6L : 1.1L; /* where it rises by little */
     if (fret_stopped(m->normal))
         return false;
     for (fret_real at = 0, width = away; at < whole; at += width, width = at) {
@@ -380,14 +404,14 @@ static bool add_row(maker *m, size_t row) {
     return true;
 }
 
-static bool allocate(struct fret_rows *all) {
+static bool allocate(struct fret_rows *all, bool runs) {
     const size_t n = all->count;
     bool ok = true;
     for (int i = 0; i < 3; i++) {
         all->reach[i] = malloc((n + 1) * sizeof *all->reach[i]);
         ok = ok && all->reach[i];
     }
-    for (int l = 0; n >> l; l++) {
+    for (int l = 0; runs && n >> l; l++) {
         all->run[l] = malloc((n >> l) * sizeof *all->run[l]);
         ok = ok && all->run[l];
     }
@@ -402,9 +426,9 @@ static void make_runs(maker *m) {
         all->reach[SPOT_DEPTH][i] = m->begin[i].at.y;
         all->reach[SPOT_LOAD][i] = m->begin[i].at.F;
     }
-    for (size_t i = 0; i < all->count && !fret_stopped(m->normal); i++)
+    for (size_t i = 0; i < all->count && !m->slopes && !fret_stopped(m->normal); i++)
         all->run[0][i] = part_below(all, i, 1);
-    for (int l = 1; all->count >> l; l++)
+    for (int l = 1; all->count >> l && !m->slopes; l++)
         for (size_t i = 0; i < all->count >> l; i++)
             all->run[l][i] = fret_stretch_join(&all->run[l - 1][2 * i + 1], &all->run[l - 1][2 * i]);
 }
@@ -434,7 +458,7 @@ static fret_real error_of(const maker *m) {
 static bool add_rows(maker *m, size_t first, size_t count, fret_real e) {
     struct fret_rows *all = m->all;
     const struct fret_table *t = m->normal->gap.table;
-    m->failed = fret_leaves_make(m->normal, first, count, e, &m->leaves);
+    m->failed = fret_leaves_make(m->normal, first, count, e, m->slopes, &m->leaves);
     if (m->failed.code)
         return false;
     make_rule(&m->many, WAVES, all->m);
@@ -445,7 +469,7 @@ static bool add_rows(maker *m, size_t first, size_t count, fret_real e) {
             return false;
     const fret_real end = fret_table_distance(t, first + count);
     m->begin[all->count] = (struct beginning){end, level_at(m, first + count - 1, end)};
-    if (!allocate(all)) {
+    if (!allocate(all, !m->slopes)) {
         m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
         return false;
     }
@@ -453,7 +477,8 @@ static bool add_rows(maker *m, size_t first, size_t count, fret_real e) {
     return true;
 }
 
-fret_status fret_rows_make(const fret_normal *n, fret_real e, struct fret_rows **out, fret_real *error) {
+static fret_status make_rows(const fret_normal *n, fret_real e, bool slopes, struct fret_rows **out,
+                             fret_real *error) {
     const struct fret_table *t = n->gap.table;
     const size_t first = fret_table_row(t, 0) + 1;
     size_t last = fret_table_row(t, e) + 1;
@@ -467,10 +492,10 @@ fret_status fret_rows_make(const fret_normal *n, fret_real e, struct fret_rows *
     if (all && m) {
         *all = (struct fret_rows){
             .start = fret_table_start(t), .m = (n->rule.k + 1) / 2, .C = fret_normal_stiffness(n, 1)};
-        *m = (maker){.all = all, .normal = n};
+        *m = (maker){.all = all, .normal = n, .slopes = slopes};
         const bool ok = add_rows(m, first, last - first, e);
         st = fret_unless_stopped(n, m->failed);
-        if (ok && !st.code)
+        if (ok && !st.code && !slopes)
             *error = error_of(m);
         fret_leaves_free(m->leaves);
         free(m->begin);
@@ -481,6 +506,14 @@ fret_status fret_rows_make(const fret_normal *n, fret_real e, struct fret_rows *
     else
         *out = all;
     return st;
+}
+
+fret_status fret_rows_make(const fret_normal *n, fret_real e, struct fret_rows **out, fret_real *error) {
+    return make_rows(n, e, false, out, error);
+}
+
+fret_status fret_rows_make_slopes(const fret_normal *n, fret_real e, struct fret_rows **out) {
+    return make_rows(n, e, true, out, NULL);
 }
 
 void fret_rows_free(struct fret_rows *all) {

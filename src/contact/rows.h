@@ -31,6 +31,18 @@ fret_spot fret_rows_outer(const struct fret_rows *rows);
 /* dF_N/dy there. */
 fret_real fret_rows_stiffness(const struct fret_rows *rows, const fret_spot *spot);
 
+/* The same for fields: of parts with slopes in place of loads, to be asked for them alone. Part i of count:
+ * from one radius to another, y = 0..1 linear in the square of the radius x, which grows by width, the depth
+ * is depth + y (P(y) + y^m Q(y)), m = (k+1)/2, and g' dx/dy is S(y) + y^m B(y). */
+typedef struct fret_row_part {
+    fret_real inner, outer, width, depth;
+    const fret_real *P, *Q, *S, *B;
+    int depths[2], slopes[2]; /* how many powers they have */
+} fret_row_part;
+fret_status fret_rows_make_slopes(const fret_normal *normal, fret_real e, struct fret_rows **out);
+size_t fret_rows_parts(const struct fret_rows *rows);
+fret_row_part fret_rows_part(const struct fret_rows *rows, size_t i);
+
 /* From one place inwards to another. */
 stretch fret_rows_between(const struct fret_rows *rows, const fret_spot *outer, const fret_spot *inner);
 

@@ -462,17 +462,18 @@ void fret_table_jump(const struct fret_table *t, size_t row, fret_real c[3]) {
 }
 
 static void add_block(const block *b, int count, fret_real alpha, fret_real a, fret_real u, fret_real unit,
-                      fret_real out[2]) {
+                      fret_real out[3]) {
     const fret_real per = 1 / (a * unit), D = u * (a + b->c);
     const far_sums of = sum_far(b, count, alpha, D);
     const fret_real K = fret_exp(alpha * fret_log(D * per));
     out[0] += K * of.slope[0];
     out[1] += K * per * (D * of.slope[0] - b->d * (2 * b->c * of.slope[1] + b->d * of.slope[2]));
+    out[2] += K * (of.slope[0] + of.rf2);
 }
 
 /* The same of a piece that is near: moments of the kernel. */
 static void add_piece(const struct fret_table *t, const fret_rule *rule, size_t i, fret_real e, fret_real a,
-                      fret_real unit, fret_real out[2]) {
+                      fret_real unit, fret_real out[3]) {
     const fret_real alpha = (rule->k - 1) / 2, v = (e - fret_table_distance(t, i)) / a;
     const fret_edge lo = fret_edge_moments(rule, v),
                     hi = fret_edge_moments(rule, (e - fret_table_distance(t, i + 1)) / a);
@@ -484,13 +485,15 @@ static void add_piece(const struct fret_table *t, const fret_rule *rule, size_t 
     for (int j = 0; j < 3; j++) {
         out[0] += K * p[j] * m[j];
         out[1] += K * (a / unit) * p[j] * (2 * m[j + 1] - m[j + 2]);
+        out[2] += K * p[j] * m[j];
     }
+    out[2] -= K * (p[1] * (m[0] - m[1]) + 2 * p[2] * (m[1] - m[2]));
 }
 
 void fret_table_part(const struct fret_table *t, const fret_rule *rule, size_t first, size_t last,
-                     fret_real e, fret_real unit, fret_real out[2]) {
+                     fret_real e, fret_real unit, fret_real out[3]) {
     const fret_real alpha = (rule->k - 1) / 2, start = t->start, a = start + e;
-    out[0] = out[1] = 0;
+    out[0] = out[1] = out[2] = 0;
     for (size_t i = 0; i < t->blocks && t->block[i].first < last;) {
         const block *b = &t->block[i];
         const bool leaf = b->next == i + 1, within = b->first >= first && b->last <= last;

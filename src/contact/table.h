@@ -26,9 +26,9 @@ size_t fret_table_row(const struct fret_table *table, fret_real e);
  * what the row before goes on with. */
 void fret_table_slope(const struct fret_table *table, size_t row, fret_real c[3]);
 void fret_table_jump(const struct fret_table *table, size_t row, fret_real c[3]);
-/* out[i] = int f' ((a^2-r^2)/(a unit))^((k-1)/2+i) dr between the rows first and last, neither beyond the
- * radius a = start + e. */
+/* out[i] = int f' ((a^2-r^2)/(a unit))^((k-1)/2+i) dr, i = 0, 1, and [2] that of f' + r f'' with i = 0,
+ * between the rows first and last, neither beyond the radius a = start + e. */
 void fret_table_part(const struct fret_table *table, const fret_rule *rule, size_t first, size_t last,
-                     fret_real e, fret_real unit, fret_real out[2]);
+                     fret_real e, fret_real unit, fret_real out[3]);
 
 #endif
