@@ -398,7 +398,7 @@ static bool read_deviation(shell *sh, lexer *lx, const knob *k, double *out) {
         return false;
     if (lx->text[lx->last - 1] == '%') {
         if (!ask_present(&sh->calc, k, &now))
-            return calc_fail(lx->error, at, lx->last - at, "%s has no value", k->text);
+            return ask_lacks(&sh->calc, k, "", "", lx->error) || calc_place(lx->error, at, lx->last - at);
         v = (value){v.v * fabs(now), k->d};
     }
     *out = (double)v.v;

@@ -94,6 +94,16 @@ bool ask_present(calc *c, const knob *k, double *v) {
     return true;
 }
 
+bool ask_lacks(const calc *c, const knob *k, const char *what_for, const char *advice, calc_error *error) {
+    const definition *d = k->is_input ? NULL : (const definition *)c->names.row[k->name].definition;
+    if (!d)
+        return calc_fail(error, 0, 0, "%s has no value%s%s", k->text, what_for, advice);
+    if (d->parameters)
+        return calc_fail(error, 0, 0, "%s is a function: it has no value%s%s", k->text, what_for, advice);
+    return calc_fail(error, 0, 0, "%s has no value of its own%s (it follows %s := %.*s)%s", k->text, what_for,
+                     k->text, LEX_SHOWN(strlen(d->text)), d->text, advice);
+}
+
 double ask_grid(double lo, double hi, bool log, unsigned i, unsigned last) {
     const long double part = (long double)i / last;
     if (i == 0 || i == last)

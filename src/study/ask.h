@@ -35,6 +35,9 @@ bool ask_repeats(const knob *knobs, size_t count);
 
 /* The value of the knob now, if it has one. */
 bool ask_present(calc *c, const knob *k, double *v);
+/* It has none, `to start from`: the error says so, why, where a live definition stands for it, and what to
+ * do. */
+bool ask_lacks(const calc *c, const knob *k, const char *what_for, const char *advice, calc_error *error);
 
 /* Place i of 0..last from lo to hi, evenly or in ratios. */
 double ask_grid(double lo, double hi, bool log, unsigned i, unsigned last);

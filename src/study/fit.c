@@ -331,7 +331,7 @@ static bool begin(state *s, gsl_vector *q, calc_error *error) {
         const knob *k = &of->name[i];
         double lo = -(double)INFINITY, hi = (double)INFINITY;
         if (!ask_present(of->c, k, &s->start[i]))
-            return calc_fail(error, 0, 0, "%s has no value to start from", k->text);
+            return ask_lacks(of->c, k, " to start from", "", error);
         if (k->is_input)
             input_range(k->in, &lo, &hi);
         s->ratio[i] = lo == 0 && s->start[i] > 0;

@@ -97,8 +97,9 @@ static bool choose_range(search *s, calc_error *error) {
             s->lo = now / 1e3;
             s->hi = now * 1e3;
         } else {
-            return calc_fail(error, 0, 0, "%s has no value to search around: solve %s for ... from LO to HI",
-                             k->text, k->text);
+            char advice[LEX_NAME + 60];
+            snprintf(advice, sizeof advice, ": solve %s for ... from LO to HI", k->text);
+            return ask_lacks(s->of->c, k, " to search around", advice, error);
         }
     }
     s->ratios = ask_in_ratios(s->lo, s->hi) || ask_in_ratios(-s->lo, -s->hi);

@@ -247,7 +247,7 @@ bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, 
     gsl_set_error_handler_off();
     for (size_t i = 0; i < question->count; i++)
         if (!ask_present(question->c, &question->name[i], &out->x[i]))
-            return calc_fail(error, 0, 0, "%s has no value", question->name[i].text);
+            return ask_lacks(question->c, &question->name[i], "", "", error);
     if (!ask_open(&s.q, question->c, question->name, question->count, error))
         return false;
     if (ask_keeps_shape(&s.q))

@@ -377,7 +377,7 @@ def refusals(tests):
             ("s = 1 mm; fit s for s*u = yy to {bad}", "unknown name 'yy'"),
             ("s = 1; fit s for 3 = 4 to {exact}", "no column of"),
             ("fit FN for y = u to {exact}", "FN has no value to start from"),
-            ("s := 3; fit s for y = s to {exact}", "s has no value to start from"),
+            ("s := 3; fit s for y = s to {exact}", "s has no value of its own to start from (it follows s := 3)"),
             ("s = 1; fit s, s for y = s to {exact}", "s is given twice"),
             ("s = 1; fit s for y to {exact}", "expected = EXPR"), ("s = 1; fit s for y = s {exact}", "expected EXPR = EXPR to FILE.csv"),
             ("s = 1; fit s to {exact}", "expected for EXPR = EXPR to FILE.csv, or along FILE.csv"),
