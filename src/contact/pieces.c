@@ -208,8 +208,10 @@ static stretch integrals_of(const law *all, int by, ends *c, fret_real *K) {
     return fret_stretch_join(&sum, &rest);
 }
 
-/* A slice that begins among the rows: its integrals, and K at its inner end, which may lie further in. */
-static bool by_rows(const law *all, int by, fret_real whole, fret_real left, stretch *sum, fret_real *K) {
+/* A slice that begins among the rows: its integrals, K at its inner end, which may lie further in, and both
+ * ends, the inner one NaN where it does. */
+static bool by_rows(const law *all, int by, fret_real whole, fret_real left, stretch *sum, fret_real *K,
+                    fret_level at[2]) {
     const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
     fret_spot outer, inner;
     ends c;
@@ -218,6 +220,8 @@ static bool by_rows(const law *all, int by, fret_real whole, fret_real left, str
     const bool within = fret_rows_find(all->rows, how, left, &inner);
     if (!within)
         inner = fret_rows_inner(all->rows);
+    at[0] = outer.at;
+    at[1] = within ? inner.at : (fret_level){(fret_real)NAN, (fret_real)NAN};
     *sum = fret_rows_between(all->rows, &outer, &inner);
     *K = fret_rows_stiffness(all->rows, &inner);
     const fret_real base = fret_level_by(&all->piece[all->count - 1].outer, by);
@@ -235,7 +239,8 @@ static bool slice_of(const law *all, int by, fret_real whole, fret_real target, 
     ends c;
     fret_real K;
     stretch s;
-    if (!by_rows(all, by, whole, left, &s, &K)) {
+    fret_level unused[2];
+    if (!by_rows(all, by, whole, left, &s, &K, unused)) {
         if (!find_ends(all, by, whole, target, left, &c))
             return false;
         s = integrals_of(all, by, &c, &K);
@@ -294,16 +299,19 @@ bool fret_pieces_across(const struct fret_pieces *pieces, const fret_level *oute
 static bool mean_by_rows(const law *all, int by, fret_real from, fret_real to, fret_real end[2],
                          fret_real *mean) {
     const fret_real most = fmaxl(from, to), least = fminl(from, to);
-    fret_point p[2];
+    fret_point p;
+    fret_level at[2];
     stretch s;
     fret_real K;
-    if (!by_rows(all, by, most, least, &s, &K))
+    if (!by_rows(all, by, most, least, &s, &K, at))
         return false;
-    for (int i = 0; i < 2; i++) {
-        if (!point_of(all, by == LOADS ? BY_LOAD : BY_DEPTH, i ? to : from, &p[i]))
+    if (isnan(at[1].y)) {
+        if (!point_of(all, by == LOADS ? BY_LOAD : BY_DEPTH, least, &p))
             return false;
-        end[i] = by == LOADS ? p[i].y : p[i].F;
+        at[1] = (fret_level){p.y, p.F};
     }
+    for (int i = 0; i < 2; i++)
+        end[i] = fret_level_by(&at[(i ? to : from) < most], by == LOADS ? DEPTHS : LOADS);
     const fret_real w = s.G + s.h * K, J = (s.h * s.h * K + (s.h * s.G - s.L)) / 2;
     *mean = most == least ? end[0]
             : by == LOADS ? fmaxl(end[0], end[1]) - J / w

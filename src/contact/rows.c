@@ -9,18 +9,24 @@
 #include "contact/check.h"
 #include "contact/leaves.h"
 #include "contact/table.h"
+#include "number/double.h"
 #include "number/quadrature.h"
 #include "number/real.h"
 
 /* Within a row y = 0..1 is linear in the square of the radius x. Depth and load are smooth there but for the
  * kink where the row begins: they rise by y (P(y) + y^m Q(y)), m = (k+1)/2, with polynomials P and Q. A part
- * is a row, or as much of it as is no longer than it is far from the kink before: there 20 nodes do. */
-enum { WAVES = 20, FEWER = 8, BINOMIALS = 12, MOST_POINTS = 32 };
+ * is a row, or as much of it as is no longer than it is far from the kink before: there 20 nodes do.
+ * Of what lies below y, G = y^2 (P + y^m Q) and L = y^3 (P + y^m Q + y^2m R), and dF/dy rises by y P. */
+enum { WAVES = 20, FEWER = 8, BINOMIALS = 12 };
+
+/* Polynomials of the integrals. */
+enum { SUM_K, SUM_G, SUM_L = SUM_G + 2, SUMS = SUM_L + 3 };
 
 typedef struct part {
     fret_real x, width, rate;  /* radius of its inner end; its length in x^2; dK/dy at the inner end */
-    size_t term;               /* P and Q of the depth, then of the load */
+    size_t term;               /* P and Q of the depth, then of the load, then those of `sum` */
     unsigned char count[2][2]; /* how many */
+    unsigned char sum[SUMS];
 } part;
 
 struct fret_rows {
@@ -31,7 +37,6 @@ struct fret_rows {
     fret_real *reach[3];           /* where each part begins, and the last one ends: distance, depth, load */
     stretch *run[RUNS];            /* as those of pieces */
     fret_real binomial[BINOMIALS]; /* of (1+z)^(m-1) */
-    fret_real node[2][MOST_POINTS], weight[2][MOST_POINTS], power[2][MOST_POINTS]; /* y, dy, y^m */
 };
 
 /* ---- within a part ----------------------------------------------------------------------------- */
@@ -77,25 +82,23 @@ static void add_node(stretch *sum, fret_real t, fret_real dK) {
     sum->L += t * (sum->h - t) * dK;
 }
 
-/* From y inwards to the beginning of the part: in third roots, in which the kink is smooth enough. */
-static stretch part_below(const struct fret_rows *all, size_t i, fret_real from) {
+/* From y inwards to the beginning of the part. */
+static stretch part_below(const struct fret_rows *all, size_t i, fret_real y, fret_real ym) {
     const part *p = &all->part[i];
-    const int wide = is_wide(p), nodes = MOST_POINTS / (wide ? 1 : 2);
-    const fret_real from_m = from < 1 ? to_m(all, from) : 1, bend = p->width / (p->x * p->x),
-                    edge = rise_of(all, i, DEPTHS, from, from_m);
-    stretch out = {edge, 0, 0, 0};
-    for (int j = 0; j < nodes; j++) {
-        const fret_real y = from * all->node[wide][j],
-                        t = edge - rise_of(all, i, DEPTHS, y, from_m * all->power[wide][j]);
-        add_node(&out, t, p->rate * near_one(all, bend * y) * from * all->weight[wide][j]);
+    const fret_real *c = all->term + p->term;
+    fret_real of[SUMS];
+    c += p->count[DEPTHS][0] + p->count[DEPTHS][1] + p->count[LOADS][0] + p->count[LOADS][1];
+    for (int j = 0; j < SUMS; j++) {
+        of[j] = sum_of(c, p->sum[j], y);
+        c += p->sum[j];
     }
-    return out;
+    const fret_real y2 = y * y;
+    return (stretch){rise_of(all, i, DEPTHS, y, ym), y * of[SUM_K], y2 * (of[SUM_G] + ym * of[SUM_G + 1]),
+                     y2 * y * (of[SUM_L] + ym * (of[SUM_L + 1] + ym * of[SUM_L + 2]))};
 }
 
-/* From y inwards to another one. */
+/* From y inwards to another one, thin ones too: in third roots, in which the kink is smooth enough. */
 static stretch part_of(const struct fret_rows *all, size_t i, fret_real from, fret_real to) {
-    if (to <= 0)
-        return part_below(all, i, from);
     const part *p = &all->part[i];
     const int parts = is_wide(p) ? 4 : 2;
     const fret_real s0 = fret_exp(fret_log(from) / 3), way = fret_exp(fret_log(to) / 3) - s0,
@@ -111,13 +114,6 @@ static stretch part_of(const struct fret_rows *all, size_t i, fret_real from, fr
     return out;
 }
 
-/* From the end of the part to y, by what there is below. */
-static stretch part_above(const struct fret_rows *all, size_t i, fret_real to) {
-    const stretch whole = all->run[0][i], below = part_below(all, i, to);
-    const fret_real h = whole.h - below.h, K = whole.K - below.K, G = whole.G - below.G - h * below.K;
-    return (stretch){h, K, G, whole.L - below.L - below.h * G - h * (below.h * below.K - below.G)};
-}
-
 /* ---- places ------------------------------------------------------------------------------------ */
 
 static fret_real distance_at(const struct fret_rows *all, size_t i, fret_real y) {
@@ -125,29 +121,54 @@ static fret_real distance_at(const struct fret_rows *all, size_t i, fret_real y)
     return all->reach[SPOT_DISTANCE][i] + p->width * y / (p->x + sqrtl(p->x * p->x + p->width * y));
 }
 
-/* y where a level is so far above the beginning of the part: by chords, each within what the ones before have
- * left. */
-static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real value) {
-    const fret_real *reach = all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH] + i, target = value - reach[0];
-    fret_real lo = 0, hi = 1, below = -target, above = reach[1] - value, y = 1;
-    for (int j = 0, side = 0; j < 40; j++) {
-        const fret_real next = hi - above / (above - below) * (hi - lo);
-        y = next > lo && next < hi ? next : (lo + hi) / 2;
-        const fret_real miss = rise_of(all, i, by, y, to_m(all, y)) - target;
-        if (fabsl(miss) <= LDBL_EPSILON * value || !(hi - lo > LDBL_EPSILON * hi))
-            break;
-        if (miss < 0) { /* an end that stays counts half */
-            lo = y;
-            below = miss;
-            above /= side == -1 ? 2 : 1;
-            side = -1;
-        } else {
-            hi = y;
-            above = miss;
-            below /= side == 1 ? 2 : 1;
-            side = 1;
-        }
+/* Of a rise its derivative by y, and it itself, about. */
+static double rate_of(const struct fret_rows *all, size_t i, int by, double y, double ym, double *rise) {
+    const part *p = &all->part[i];
+    const fret_real *c = all->term + p->term + (by == LOADS ? p->count[DEPTHS][0] + p->count[DEPTHS][1] : 0);
+    double P = 0, Q = 0, P1 = 0, Q1 = 0;
+    for (int j = p->count[by][0]; j-- > 0;) {
+        P1 = P1 * y + P;
+        P = P * y + (double)c[j];
     }
+    c += p->count[by][0];
+    for (int j = p->count[by][1]; j-- > 0;) {
+        Q1 = Q1 * y + Q;
+        Q = Q * y + (double)c[j];
+    }
+    *rise = y * (P + ym * Q);
+    return P + y * P1 + ym * ((1 + (double)all->m) * Q + y * Q1);
+}
+
+/* Within 1e-9 or so: two of Newton's steps in double, from a straight line on. */
+static double guess_of(const struct fret_rows *all, size_t i, int by, double target, double whole) {
+    double y = target / whole, rise;
+    for (int j = 0; j < 2 && y > 0 && y < 1; j++) {
+        const double rate =
+            rate_of(all, i, by, y, fret_double_exp((double)all->m * fret_double_log(y)), &rise);
+        y += (target - rise) / rate;
+    }
+    return y > 0 && y < 1 ? y : target / whole;
+}
+
+/* y where a level is so far above the beginning of the part: by Newton's steps, within what the ones before
+ * have left. */
+static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real value, fret_real *power) {
+    const fret_real *reach = all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH] + i, target = value - reach[0];
+    fret_real lo = 0, hi = 1, y = guess_of(all, i, by, (double)target, (double)(reach[1] - reach[0]));
+    for (int j = 0; j < 80; j++) {
+        const fret_real ym = to_m(all, y), miss = target - rise_of(all, i, by, y, ym);
+        double rise;
+        const fret_real step = miss / rate_of(all, i, by, (double)y, (double)ym, &rise), share = step / y;
+        *(miss > 0 ? &lo : &hi) = y;
+        const fret_real next = y + step;
+        if (fabsl(share) <= 1e-9L || fabsl(miss) <= LDBL_EPSILON * value) {
+            *power = fabsl(share) <= 1e-9L ? ym * (1 + share * all->m * (1 + share * (all->m - 1) / 2))
+                                           : to_m(all, next);
+            return fminl(fmaxl(next, 0), 1);
+        }
+        y = next > lo && next < hi ? next : (lo + hi) / 2;
+    }
+    *power = to_m(all, y);
     return y;
 }
 
@@ -163,11 +184,13 @@ bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real valu
     }
     const part *p = &all->part[lo];
     const fret_real beyond = value - reach[lo],
-                    y = value >= reach[lo + 1] ? 1
-                        : by == SPOT_DISTANCE  ? fminl(beyond * (2 * p->x + beyond) / p->width, 1)
-                                               : search(all, lo, by == SPOT_LOAD ? LOADS : DEPTHS, value);
-    const fret_real ym = to_m(all, y);
-    *out = (fret_spot){.part = lo, .along = y, .e = by == SPOT_DISTANCE ? value : distance_at(all, lo, y)};
+                    direct = value >= reach[lo + 1] ? 1 : fminl(beyond * (2 * p->x + beyond) / p->width, 1);
+    const bool known = by == SPOT_DISTANCE || value >= reach[lo + 1];
+    fret_real ym = 1, y = known ? direct : search(all, lo, by == SPOT_LOAD ? LOADS : DEPTHS, value, &ym);
+    if (known)
+        ym = y < 1 ? to_m(all, y) : 1;
+    *out = (fret_spot){
+        .part = lo, .along = y, .power = ym, .e = by == SPOT_DISTANCE ? value : distance_at(all, lo, y)};
     out->at.y = by == SPOT_DEPTH ? value : all->reach[SPOT_DEPTH][lo] + rise_of(all, lo, DEPTHS, y, ym);
     out->at.F = by == SPOT_LOAD ? value : all->reach[SPOT_LOAD][lo] + rise_of(all, lo, LOADS, y, ym);
     return true;
@@ -175,7 +198,7 @@ bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real valu
 
 static fret_spot beginning(const struct fret_rows *all, size_t i) {
     return (fret_spot){
-        i, 0, all->reach[SPOT_DISTANCE][i], {all->reach[SPOT_DEPTH][i], all->reach[SPOT_LOAD][i]}};
+        i, 0, 0, all->reach[SPOT_DISTANCE][i], {all->reach[SPOT_DEPTH][i], all->reach[SPOT_LOAD][i]}};
 }
 
 fret_spot fret_rows_inner(const struct fret_rows *all) {
@@ -210,19 +233,26 @@ fret_row_part fret_rows_part(const struct fret_rows *all, size_t i) {
 }
 
 stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, const fret_spot *inner) {
-    enum { MANY = 4 }; /* of which a part that is a difference keeps its digits */
-    if (outer->part == inner->part && outer->along > inner->along)
-        return part_of(all, outer->part, outer->along, inner->along);
-    stretch sum = {0, 0, 0, 0};
+    static const fret_real WORTH = 0.02L; /* of a part, where a difference keeps its digits */
+    const size_t next = inner->part + (inner->along > 0);
+    stretch sum = {0, 0, 0, 0}, below = sum, rest = sum;
     if (outer->e <= inner->e)
         return sum;
+    if (inner->along > 0)
+        below = part_below(all, inner->part, inner->along, inner->power);
     if (outer->along > 0)
-        sum = part_below(all, outer->part, outer->along);
-    const size_t next = inner->part + (inner->along > 0);
+        sum = part_below(all, outer->part, outer->along, outer->power);
+    if (outer->part == inner->part && inner->along > 0) {
+        const fret_real whole = sum.L;
+        sum = fret_stretch_less(&sum, &below);
+        return sum.L >= WORTH * whole ? sum : part_of(all, outer->part, outer->along, inner->along);
+    }
     fret_stretch_add_runs(all->run, outer->part, next, &sum);
     if (inner->along > 0) {
-        const stretch rest = outer->part - next >= MANY ? part_above(all, inner->part, inner->along)
-                                                        : part_of(all, inner->part, 1, inner->along);
+        const stretch *whole = &all->run[0][inner->part];
+        rest = fret_stretch_less(whole, &below);
+        if (!(fmaxl(rest.L, sum.L) >= WORTH * whole->L))
+            rest = part_of(all, inner->part, 1, inner->along);
         sum = fret_stretch_join(&sum, &rest);
     }
     return sum;
@@ -233,7 +263,7 @@ stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, c
 /* Chebyshev's polynomials of 2y-1 and their nodes. */
 typedef struct rule {
     int nodes;
-    fret_real y[WAVES], ym[WAVES], wave[4 * WAVES], power[WAVES][WAVES];
+    fret_real y[WAVES], ym[WAVES], at[WAVES][WAVES], power[WAVES][WAVES]; /* T_i at node j, and in powers */
 } rule;
 
 typedef struct maker {
@@ -252,10 +282,13 @@ typedef struct maker {
 
 static void make_rule(rule *r, int nodes, fret_real m) {
     r->nodes = nodes;
+    fret_real wave[4 * WAVES];
     for (int i = 0; i < 4 * nodes; i++)
-        r->wave[i] = fret_cos(FRET_PI * (fret_real)i / (fret_real)(2 * nodes));
+        wave[i] = fret_cos(FRET_PI * (fret_real)i / (fret_real)(2 * nodes));
     for (int j = 0; j < nodes; j++) {
-        r->y[j] = (1 + r->wave[2 * j + 1]) / 2;
+        for (int i = 0; i < nodes; i++)
+            r->at[i][j] = wave[i * (2 * j + 1) % (4 * nodes)];
+        r->y[j] = (1 + wave[2 * j + 1]) / 2;
         r->ym[j] = fret_pow(r->y[j], m);
     }
     for (int i = 0; i < nodes; i++)
@@ -276,7 +309,7 @@ static int fit(const rule *r, const fret_real *value, fret_real little, fret_rea
     for (int i = 0; i < n; i++) {
         term[i] = 0;
         for (int j = 0; j < n; j++)
-            term[i] += r->wave[i * (2 * j + 1) % (4 * n)] * value[j];
+            term[i] += r->at[i][j] * value[j];
         term[i] *= (i ? 2 : 1) / (fret_real)n;
     }
     while (count > 0 && fabsl(term[count - 1]) <= little)
@@ -289,14 +322,7 @@ static int fit(const rule *r, const fret_real *value, fret_real little, fret_rea
     return count;
 }
 
-static void make_nodes(struct fret_rows *all) {
-    for (int wide = 0; wide < 2; wide++)
-        for (int j = 0; j < MOST_POINTS / (wide ? 1 : 2); j++) {
-            const fret_real parts = 2 << wide, s = ((fret_real)(j / 8) + fret_gauss_node[j % 8]) / parts;
-            all->node[wide][j] = s * s * s;
-            all->weight[wide][j] = 3 * s * s * fret_gauss_weight[j % 8] / parts;
-            all->power[wide][j] = to_m(all, s * s * s);
-        }
+static void make_binomials(struct fret_rows *all) {
     fret_real c = 1;
     for (int j = 0; j < BINOMIALS; j++) {
         all->binomial[j] = c;
@@ -330,6 +356,70 @@ static fret_level level_at(const maker *m, size_t row, fret_real e) {
     return (fret_level){before.y + more.y, before.F + more.F};
 }
 
+/* ((1+z)^m-1)/(m z), the mean of (1+z)^(m-1) */
+static fret_real mean_near_one(const struct fret_rows *all, fret_real z) {
+    if (z > 0.02L)
+        return fret_expm1(all->m * fret_log1p(z)) / (all->m * z);
+    fret_real sum = 0;
+    for (int j = BINOMIALS; j-- > 0;)
+        sum = sum * z + all->binomial[j] / (fret_real)(j + 1);
+    return sum;
+}
+
+/* The derivative of y^(1+by) times a polynomial, over y^by. */
+static fret_real rate_at(const fret_real *c, int count, fret_real by, fret_real y) {
+    fret_real sum = 0;
+    for (int j = count; j-- > 0;)
+        sum = sum * y + ((fret_real)(j + 1) + by) * c[j];
+    return sum;
+}
+
+/* Of a product of polynomials, by its values at the nodes, its integral over y^(power-1); power 0: itself. */
+static void add_product(maker *m, int which, const fret_real *value, fret_real little, fret_real power) {
+    part *p = &m->all->part[m->all->count - 1];
+    fret_real *c = m->all->term + m->all->terms;
+    const int count = fit(&m->many, value, little, c);
+    for (int j = 0; j < count && power > 0; j++)
+        c[j] /= (fret_real)j + power;
+    p->sum[which] = (unsigned char)count;
+    m->all->terms += (size_t)count;
+}
+
+/* The integrals of the last part: dF/dy = y K, G = int y K dh and L = int (h y K - G) dh of its rise h. */
+static void add_sums(maker *m, fret_real little) {
+    const struct fret_rows *all = m->all;
+    const part *p = &all->part[all->count - 1];
+    const fret_real *c = all->term + p->term, *sum = all->term + all->terms, bend = p->width / (p->x * p->x);
+    const int count[2] = {p->count[DEPTHS][0], p->count[DEPTHS][1]};
+    fret_real K[WAVES], rise[2][WAVES], rate[2][WAVES], M[2][WAVES], value[WAVES];
+    for (int j = 0; j < WAVES; j++) {
+        const fret_real y = m->many.y[j];
+        K[j] = p->rate * mean_near_one(all, bend * y);
+        for (int i = 0; i < 2; i++) {
+            rise[i][j] = sum_of(c + (i ? count[0] : 0), (size_t)count[i], y);
+            rate[i][j] = rate_at(c + (i ? count[0] : 0), count[i], i ? all->m : 0, y);
+        }
+    }
+    const fret_real size = K[0] * rise[0][0];
+    add_product(m, SUM_K, K, little * K[0], 0);
+    sum += p->sum[SUM_K];
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < WAVES; j++)
+            value[j] = K[j] * rate[i][j];
+        add_product(m, SUM_G + i, value, little * size, i ? 2 + all->m : 2);
+        for (int j = 0; j < WAVES; j++)
+            M[i][j] = rise[i][j] * K[j] - sum_of(sum, p->sum[SUM_G + i], m->many.y[j]);
+        sum += p->sum[SUM_G + i];
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < WAVES; j++)
+            value[j] = i == 0   ? rate[0][j] * M[0][j]
+                       : i == 1 ? rate[0][j] * M[1][j] + rate[1][j] * M[0][j]
+                                : rate[1][j] * M[1][j];
+        add_product(m, SUM_L + i, value, little * size * rise[0][0], 3 + (fret_real)i * all->m);
+    }
+}
+
 /* From the distance e on, so far in the square of the radius. */
 static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool kink) {
     static const fret_real LITTLE = 2e-19L;
@@ -337,7 +427,7 @@ static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool ki
     fret_real smooth[2][WAVES], bent[2][WAVES], base[2], c[WAVES], top[2], v[2];
     void *parts = all->part, *terms = all->term, *begin = m->begin;
     const bool room = grow(m, &parts, all->count, 1, &all->room, sizeof *all->part) &&
-                      grow(m, &terms, all->terms, 4 * WAVES, &all->most_terms, sizeof *all->term) &&
+                      grow(m, &terms, all->terms, (4 + SUMS) * WAVES, &all->most_terms, sizeof *all->term) &&
                       grow(m, &begin, all->count, 2, &m->room, sizeof *m->begin);
     all->part = parts;
     all->term = terms;
@@ -381,6 +471,8 @@ static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool ki
             all->term[all->terms++] = c[j];
         p->count[by][1] = (unsigned char)count;
     }
+    if (!slopes)
+        add_sums(m, LITTLE);
     return true;
 }
 
@@ -427,7 +519,7 @@ static void make_runs(maker *m) {
         all->reach[SPOT_LOAD][i] = m->begin[i].at.F;
     }
     for (size_t i = 0; i < all->count && !m->slopes && !fret_stopped(m->normal); i++)
-        all->run[0][i] = part_below(all, i, 1);
+        all->run[0][i] = part_below(all, i, 1, 1);
     for (int l = 1; all->count >> l && !m->slopes; l++)
         for (size_t i = 0; i < all->count >> l; i++)
             all->run[l][i] = fret_stretch_join(&all->run[l - 1][2 * i + 1], &all->run[l - 1][2 * i]);
@@ -463,7 +555,7 @@ static bool add_rows(maker *m, size_t first, size_t count, fret_real e) {
         return false;
     make_rule(&m->many, WAVES, all->m);
     make_rule(&m->few, FEWER, all->m);
-    make_nodes(all);
+    make_binomials(all);
     for (size_t i = first; i < first + count; i++)
         if (!add_row(m, i))
             return false;

@@ -13,10 +13,11 @@ struct fret_rows;
 fret_status fret_rows_make(const fret_normal *normal, fret_real e, struct fret_rows **out, fret_real *error);
 void fret_rows_free(struct fret_rows *rows);
 
-/* A place: so much of a part of a row, its distance from the start, depth and load. */
+/* A place: so much of a part of a row, that to the power of its kink, its distance from the start, depth and
+ * load. */
 typedef struct fret_spot {
     size_t part;
-    fret_real along, e;
+    fret_real along, power, e;
     fret_level at;
 } fret_spot;
 
