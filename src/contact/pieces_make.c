@@ -4,16 +4,20 @@
 #include "contact/pieces.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "contact/check.h"
+#include "contact/leaves.h"
 #include "contact/piece.h"
 #include "contact/rows.h"
+#include "contact/table.h"
 #include "number/real.h"
 
 /* ---- polynomials through values ---------------------------------------------------------------- */
 
-enum { FEWER = 14 }; /* of what is smooth across a row of a table */
-enum { NOISE = 3 };  /* terms that tell it */
+enum { FEWER = 14 };   /* of what is smooth across a row of a table */
+enum { HALVINGS = 8 }; /* of a row */
+enum { NOISE = 3 };    /* terms that tell it */
 
 /* From values at Chebyshev's nodes to polynomials in z, by Chebyshev's polynomials. */
 typedef struct rule {
@@ -43,11 +47,16 @@ static fret_real node_of(const rule *r, int j) {
 
 /* The factors of Chebyshev's polynomials. */
 static void terms_of(const rule *r, const fret_real *value, fret_real *term) {
-    const int count = r->count;
+    const int count = r->count, half = count / 2;
+    fret_real fold[2][NODES]; /* even and odd parts */
+    for (int j = 0; j < half; j++) {
+        fold[0][j] = value[j] + value[count - 1 - j];
+        fold[1][j] = value[j] - value[count - 1 - j];
+    }
     for (int i = 0; i < count; i++) {
         term[i] = 0;
-        for (int j = 0; j < count; j++)
-            term[i] += r->at[i][j] * value[j];
+        for (int j = 0; j < half; j++)
+            term[i] += r->at[i][j] * fold[i & 1][j];
         term[i] *= (i ? 2 : 1) / (fret_real)count;
     }
 }
@@ -110,11 +119,14 @@ typedef struct maker {
     fret_level edge; /* outer end of the last piece */
     /* from one row of a table to the next: g' less its bend at the first, a polynomial in -1..1 of a part */
     bool by_row;
+    struct fret_leaves *slopes;        /* of the rows that are covered one by one; or NULL: they are few */
+    size_t index;                      /* in the table */
+    unsigned char vain[2 << HALVINGS]; /* for how many rows not to try a part that was too long */
     fret_real row, middle, half, smooth[NODES]; /* FEWER terms */
     fret_status failed;
 } maker;
 
-enum { MOST_PROFILES = 140000 };
+enum { MOST_PROFILES = 140000, AGAIN = 8 };
 static const fret_real CALM = 1e-3L;    /* of what is borne: not worth a shorter piece */
 static const fret_real FOUND = 1e-15L;  /* of the law, at the most, where nothing else is borne */
 static const fret_real ENOUGH = 2e-15L; /* what CSV and JSON want */
@@ -125,6 +137,19 @@ static fret_profile profile(maker *m, fret_real e) {
     return fret_gap_profile(&m->normal->gap, &m->normal->rule, e);
 }
 
+/* Of g' at e in a row what the kink at that row bends, and the others. */
+static fret_real bend_at(const maker *m, fret_real e) {
+    return m->slopes ? fret_leaves_bend(m->slopes, m->index, e).F
+                     : fret_gap_bend(&m->normal->gap, &m->normal->rule, m->row, e);
+}
+
+static fret_real smooth_at(maker *m, fret_real e) {
+    if (!m->slopes)
+        return profile(m, e).slope - bend_at(m, e);
+    m->spent++;
+    return fret_leaves_before(m->slopes, m->index, e).F;
+}
+
 static fret_real slope_at(maker *m, fret_real e) {
     if (!m->by_row)
         return profile(m, e).slope;
@@ -132,7 +157,7 @@ static fret_real slope_at(maker *m, fret_real e) {
     fret_real v = m->smooth[FEWER - 1];
     for (int i = FEWER - 1; i-- > 0;)
         v = v * z + m->smooth[i];
-    return v + fret_gap_bend(&m->normal->gap, &m->normal->rule, m->row, e);
+    return v + bend_at(m, e);
 }
 
 static fret_level level_at(maker *m, fret_real e) {
@@ -253,8 +278,9 @@ static bool add(maker *m, const piece *p) {
     return true;
 }
 
-/* From s = lo to hi of a map, in halves where one piece does not do. */
-static bool cover(maker *m, fret_real origin, fret_real width, fret_real lo, fret_real hi, int halvings) {
+/* From s = lo to hi of a map, in halves where one piece does not do; part 1 has halves 2 and 3, and so on. */
+static bool cover(maker *m, fret_real origin, fret_real width, fret_real lo, fret_real hi, int halvings,
+                  size_t part) {
     piece p = {.origin = origin,
                .width = width,
                .middle = (lo + hi) / 2,
@@ -262,14 +288,16 @@ static bool cover(maker *m, fret_real origin, fret_real width, fret_real lo, fre
                .blunt = width > 0 && lo == 0};
     if (fret_stopped(m->normal) || m->spent > MOST_PROFILES)
         return false;
-    fret_real slope[NODES];
-    slopes_of(m, &p, slope);
-    if (make_piece(m, &p, slope, m->tolerance, FOUND))
-        return add(m, &p);
-    if (halvings == 0)
-        return false;
-    return cover(m, origin, width, lo, p.middle, halvings - 1) &&
-           cover(m, origin, width, p.middle, hi, halvings - 1);
+    if (halvings == 0 || m->vain[part] == 0) {
+        fret_real slope[NODES];
+        slopes_of(m, &p, slope);
+        if (make_piece(m, &p, slope, m->tolerance, FOUND))
+            return add(m, &p);
+        m->vain[part] = AGAIN;
+    }
+    m->vain[part]--;
+    return halvings > 0 && cover(m, origin, width, lo, p.middle, halvings - 1, 2 * part) &&
+           cover(m, origin, width, p.middle, hi, halvings - 1, 2 * part + 1);
 }
 
 /* Each piece twice as long as the last, as far as that does. */
@@ -278,7 +306,7 @@ static bool cover_smooth(maker *m, fret_real from, fret_real to) {
     const fret_real hi = fret_log(to);
     while (lo < hi) {
         const fret_real end = hi - lo < 1.3L * length ? hi : lo + length;
-        if (cover(m, 0, 0, lo, end, 0)) {
+        if (cover(m, 0, 0, lo, end, 0, 1)) {
             lo = end;
             length = fminl(2 * length, most);
         } else if (length > 0.01L) {
@@ -299,12 +327,12 @@ static bool cover_row(maker *m, fret_real row, fret_real way, fret_real lo, fret
     m->half = way * (hi - lo) / 2;
     for (int j = 0; j < FEWER; j++) {
         const fret_real e = row + (m->middle + m->half * node_of(&m->row_rule, j));
-        value[j] = profile(m, e).slope - fret_gap_bend(&m->normal->gap, &m->normal->rule, row, e);
+        value[j] = smooth_at(m, e);
     }
     const fret_real last = fit(&m->row_rule, false, value, m->smooth);
     if (last <= 20 * m->tolerance) { /* of thin slices; of y less by the way to e */
         m->by_row = true;
-        bool ok = cover(m, row, way, sqrtl(sqrtl(lo)), sqrtl(sqrtl(hi)), 8);
+        bool ok = cover(m, row, way, sqrtl(sqrtl(lo)), sqrtl(sqrtl(hi)), HALVINGS, 1);
         m->by_row = false;
         if (!ok)
             return false;
@@ -407,12 +435,24 @@ static bool add_calm(maker *m, span *s, fret_real borne) {
 
 /* One by one. */
 static bool cover_each(maker *m, const fret_real *row, size_t first, size_t last) {
+    enum { FEW = 4 };
     if (m->spent + (last - first) * FEWER > MOST_PROFILES)
         return false;
-    for (size_t i = first; i < last; i++)
-        if (!cover_row(m, row[i], row[i + 1] - row[i], 0, 1, 6))
-            return false;
-    return true;
+    const struct fret_table *t = m->normal->gap.table;
+    const size_t index = fret_table_row(t, row[first]), end = fret_table_row(t, row[last]);
+    if (last - first >= FEW)
+        m->failed =
+            fret_leaves_make(m->normal, index, end - index + (fret_table_distance(t, end) < row[last]),
+                             row[last], true, &m->slopes);
+    bool ok = !m->failed.code;
+    memset(m->vain, 0, sizeof m->vain);
+    for (size_t i = first; ok && i < last; i++) {
+        m->index = index + (i - first);
+        ok = cover_row(m, row[i], row[i + 1] - row[i], 0, 1, 6);
+    }
+    fret_leaves_free(m->slopes);
+    m->slopes = NULL;
+    return ok;
 }
 
 /* Row by row, or not at all. */
