@@ -230,7 +230,7 @@ fret_real fret_piece_place(const piece *p, int by, fret_real rise) {
             return fminl(fmaxl(next, -1), 1);
         *(missing > 0 ? &lo : &hi) = z;
         if (!(next > lo && next < hi))
-            next = next >= hi && hi == 1 && z < 1 ? 1 : next <= lo && lo == -1 && z > -1 ? -1 : (lo + hi) / 2;
+            next = (lo + hi) / 2;
         z = next;
     }
     return z;
@@ -255,7 +255,7 @@ fret_real fret_piece_way(const piece *p, int by, const polynomial *q, fret_real 
             return fminl(next, most);
         *(missing > 0 ? &lo : &hi) = way;
         if (!(next > lo && next < hi))
-            next = next >= hi && hi == most && way < most ? most : (lo + hi) / 2;
+            next = (lo + hi) / 2;
         way = next;
     }
     return way;
