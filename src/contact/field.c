@@ -17,8 +17,9 @@ typedef struct inside {
     fret_real b, r, from, to, power; /* e from .. to */
 } inside;
 
+/* e > 0: at 0 none of the integrands asks. */
 static fret_real slope_at(const inside *c, fret_real e) {
-    return e > 0 ? fret_gap_profile(&c->normal->gap, &c->normal->rule, e).slope : 0;
+    return fret_gap_profile(&c->normal->gap, &c->normal->rule, e).slope;
 }
 
 /* (x^2-r^2)^((k-1)/2) */
@@ -57,12 +58,14 @@ static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
     return weight * e * slope_at(c, e) * singular(c, e);
 }
 
-/* At the tip: x = a t^(1/(n+k-1)), n the leading power of the gap. */
+/* At the tip: x = a t^(1/(n+k-1)), n the leading power of the gap; so deep in it that x may underflow the
+ * integrand is constant. */
 static fret_real pressure_tip(fret_real t, fret_real rest, void *context) {
     (void)rest;
+    static const fret_real deep = 1e-100L;
     const inside *c = context;
-    fret_real x = c->to * fret_pow(t, c->power);
-    return x > 0 ? slope_at(c, x) * fret_pow(x, c->normal->rule.k) / t : 0;
+    const fret_real part = fmaxl(fret_pow(t, c->power), deep), x = c->to * part;
+    return slope_at(c, x) * fret_pow(x, c->normal->rule.k) / fmaxl(t, fret_pow(deep, 1 / c->power));
 }
 
 /* A large exponent makes a step at t = 1 of all else that varies with x, and steep where that is singular not
@@ -294,12 +297,14 @@ static fret_real steep_kernel(const power_field *c, fret_real z) {
     return fret_pow(c->r * c->r * fret_expm1(2 * z / c->n), c->m - 1);
 }
 
-/* Near r, where the kernel is singular: z = c->z t^(1/m). */
+/* Near r, where the kernel is singular: z = c->z t^(1/m), which takes z^m = c->z^m t of it away. */
 static fret_real steep_near(fret_real t, fret_real rest, void *context) {
     const power_field *c = context;
     (void)rest;
-    const fret_real z = c->z * fret_exp(fret_log(t) / c->m);
-    return z > 0 ? fret_exp(z - c->wide) * z / (c->m * t) * steep_kernel(c, z) : 0;
+    const fret_real z = c->z * fret_exp(fret_log(t) / c->m), u = 2 * z / c->n,
+                    bend = u > 0 ? fret_expm1(u) / u : 1;
+    return fret_exp(z - c->wide) * fret_pow(c->z, c->m) * fret_pow(2 * c->r * c->r / c->n * bend, c->m - 1) /
+           c->m;
 }
 
 /* The rest, from there to the edge: z = c->z .. wide. */
@@ -482,14 +487,13 @@ static fret_status superpose(const fret_memory *m, fret_real r, bool traction, f
             break;
         const fret_real a = fret_law_radius(n, s.outer);
         fret_real outer = 0;
-        /* the depth tells the edge to more digits than its radius, of steep powers and near flat ends */
-        const edge at = {a, s.outer, steep && s.outer > 0 ? fret_law_log_radius(n, s.outer) : (dd){0, 0}};
-        if (!traction && s.outer > 0)
-            st = surface_of(n, &at, r, &outer);
-        else if (traction && steep && s.outer > 0)
-            st = pressure_of(n, &at, r, &outer);
-        else if (traction)
+        if (traction && !steep) {
             st = fret_pressure(n, a, r, &outer);
+        } else if (s.outer > 0) {
+            /* the depth tells the edge to more digits than its radius, of steep powers and near flat ends */
+            const edge at = {a, s.outer, steep ? fret_law_log_radius(n, s.outer) : (dd){0, 0}};
+            st = traction ? pressure_of(n, &at, r, &outer) : surface_of(n, &at, r, &outer);
+        }
         sum += s.sigma * (outer - inner);
         inner = outer;
     }

@@ -310,6 +310,54 @@ static void twins(void) {
     }
 }
 
+/* Near k = -1 all of the kernel stands at x = r: p = cN0 c0^-k/pi g'(r)/(2 r m), m = (k+1)/2. And a steep
+ * profile just inside the edge, where a radius has no digits left. */
+static void near_winkler(void) {
+    for (double n = 2; n < 400; n *= 3) {
+        const unit_scene s = unit_make_scene(n, -0.99999);
+        const fret_contact c = unit_make_contact(&s, 10);
+        const fret_foundation *f = &c.normal->foundation;
+        const fret_real m = (f->k + 1) / 2, a = c.press.a;
+        for (int i = 0; i < 4; i++) {
+            const fret_real r = a * (1 - 0.1L * (i + 0.5L) / (fret_real)n);
+            const fret_profile g = fret_gap_profile(&c.normal->gap, &c.normal->rule, r);
+            fret_real p = 0;
+            CHECK_OK(fret_pressure(c.normal, a, r, &p));
+            CHECK_REL(p, f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * g.slope / (2 * r * m), 2e-3L);
+        }
+        for (int i = 1; i < 40; i++) {
+            fret_real p = -1, deeper = 0, r = a;
+            for (int j = 0; j < i; j++)
+                r = nextafterl(r, 0);
+            CHECK_OK(fret_pressure(c.normal, a, r, &p));
+            CHECK_OK(fret_pressure(c.normal, a, r * (1 - 1e-9L), &deeper));
+            CHECK(p >= 0 && p <= 1.001L * deeper);
+        }
+    }
+}
+
+/* The tip of a cone that is told by rows: next to k = 0 the pressure there is all but infinite. */
+static void tips(void) {
+    static const double k[] = {1e-6, 1e-5, 1e-4, 1e-3, 0.1};
+    double r[9], f[9];
+    struct fret_table *t = NULL;
+    for (int i = 0; i < 9; i++) {
+        r[i] = 1e-3 * i / 8;
+        f[i] = 0.01 * r[i];
+    }
+    CHECK_OK(fret_table_make(r, f, 9, NULL, &t));
+    for (size_t i = 0; i < sizeof k / sizeof *k; i++) {
+        unit_scene cone = unit_make_scene(1, k[i]), rows = cone;
+        cone.gap.power[0] = (fret_power){1, 0.01, 1};
+        rows.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = t};
+        fret_real p = 0, q = 0;
+        CHECK_OK(fret_pressure(unit_make_normal(&cone), 7e-4L, 0, &p));
+        CHECK_OK(fret_pressure(unit_make_normal(&rows), 7e-4L, 0, &q));
+        CHECK_REL(q, p, UNIT_TOL(1e-13L, 1e-11L));
+    }
+    fret_table_free(t);
+}
+
 int main(int argc, char **argv) {
     unit_start("field", argc, argv);
     reference();
@@ -320,5 +368,7 @@ int main(int argc, char **argv) {
     errors();
     power_series();
     twins();
+    near_winkler();
+    tips();
     return unit_finish();
 }
