@@ -28,10 +28,9 @@ static bool run(void *self, const char *line, char **answer) {
     sh->interactive = interactive;
     record_divert(sh, out, err); /* a recording may have begun or ended */
     sh->failed = failed;         /* it has been told there */
-    if (!file_text_close(&said))
-        return false;
-    *answer = said.text;
-    return ok;
+    if (file_text_close(&said))
+        *answer = said.text;
+    return ok && *answer;
 }
 
 static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
