@@ -308,7 +308,31 @@ static void take_slope(const fret_row_part *row, ring *p) {
         of->c[1][j] = row->B[j];
 }
 
+/* The same of a narrow row: what it is known by times the few powers of x^(k-1) that count. */
+static bool multiply_depth(const struct fret_density *d, const fret_row_part *row, ring *p) {
+    enum { FACTORS = 6 };
+    static const fret_real narrow = 1e-3L;
+    const fret_real bend = p->width / (p->lo * p->lo);
+    const int smooth = row->depths[0] + 1, bent = row->depths[1];
+    curve *of = &p->of[DEPTH];
+    if (!(bend <= narrow) || smooth + FACTORS > MOST + 1 || bent + FACTORS > MOST + 1)
+        return false;
+    fret_real factor = p->width / 2 * fret_pow(p->lo, 2 * (d->m - 1));
+    *of = (curve){.smooth = smooth + FACTORS - 1, .kink = bent > 0 ? bent + FACTORS - 1 : 0};
+    for (int n = 0; n < FACTORS; n++) {
+        of->c[0][n] += factor * row->depth;
+        for (int j = 1; j < smooth; j++)
+            of->c[0][n + j] += factor * row->P[j - 1];
+        for (int j = 0; j < bent; j++)
+            of->c[1][n + j] += factor * row->Q[j];
+        factor *= bend * (d->m - 1 - n) / (n + 1);
+    }
+    return true;
+}
+
 static void take_depth(const struct fret_density *d, const fret_row_part *row, ring *p) {
+    if (multiply_depth(d, row, p))
+        return;
     fret_real smooth[MOST], sharp[MOST];
     for (int j = 0; j < MOST; j++) {
         const fret_real y = node_of(&d->rule, j);
