@@ -21,7 +21,7 @@ static void take_values(calc *c, shot *out) {
         out->known[i] = q && quantity_get(q, c->now, &out->value[i], &ignored);
         out->d[i] = q ? q->d : DIM_NONE;
         if (!q) { /* c/a, of two that have been read */
-            out->known[i] = out->known[i - 1] && out->value[i - 2] > 0;
+            out->known[i] = out->known[i - 1] & (out->value[i - 2] > 0);
             out->value[i] = out->known[i] ? out->value[i - 1] / out->value[i - 2] : 0;
         }
     }

@@ -65,28 +65,28 @@ static bool keep_shot(load_way *w) {
     return ok;
 }
 
-static bool keep_point(load_way *w, const runner *r, fret_state *s) {
-    track *t = &w->path;
+/* Of the curve, which it makes no smaller. */
+static track_point point_of(track *t, const runner *r, fret_state *s) {
     engine_state(&r->engine, s);
     const track_point p = {r->time, (double)s->dx, (double)s->Fx, (double)s->W, (double)s->U};
     const extent here = {fabs(p.dx), fabs(p.Fx), (double)s->a, (double)fret_memory_bound(r->engine.self, 0),
                          fmax(p.W, p.U)};
     t->most = larger(t->most, here);
-    return add(t, p) || calc_no_memory(w->error);
+    return p;
 }
 
 /* Of a swinging period's many chords as many as can be told apart: each state takes its time. */
 static bool see(const runner *r, void *context) {
     static const double APART = 1.0 / 64;
     load_way *w = context;
-    const track *t = &w->path;
+    track *t = &w->path;
     fret_state s;
     if (w->late && w->late())
         w->walk.watch.wait = true;
-    if (!r->turning && t->count && r->time - t->point[t->count - 1].time < APART)
+    if (!r->turning && r->time - t->point[t->count - 1].time < APART)
         return true;
-    if (!keep_point(w, r, &s))
-        return false;
+    if (!add(t, point_of(t, r, &s)))
+        return calc_no_memory(w->error);
     if (!w->within || r->time < w->from)
         return true;
     if (stands_still(w, &s)) {
@@ -143,11 +143,11 @@ static bool come_to_item(load_way *w) {
     return k->run.time < w->from || keep_shot(w);
 }
 
-/* Behind periods that repeat those before, and were not seen. */
-static bool see_end(load_way *w) {
+/* Periods that repeat those before are not seen: the last point is at their end. */
+static void see_end(load_way *w) {
+    track *t = &w->path;
     fret_state s;
-    const track *t = &w->path;
-    return t->point[t->count - 1].time == w->walk.run.time || keep_point(w, &w->walk.run, &s);
+    t->point[t->count - 1] = point_of(t, &w->walk.run, &s);
 }
 
 bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
@@ -164,11 +164,12 @@ bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
     ok = ok && come_to_item(w);
     if (ok && k->run.at.steps < end && !k->watch.wait)
         ok = walk_on(k, end, PARTS, true, see, w, error);
-    ok = ok && (!way_done(w) || see_end(w));
-    if (!ok)
+    if (!ok) {
         walk_end(k); /* half a step is nothing to go on from */
-    else if (way_done(w))
+    } else if (way_done(w)) {
+        see_end(w);
         w->path.before = (extent){0, 0, 0, 0, 0};
+    }
     return ok;
 }
 
