@@ -123,15 +123,32 @@ static fret_status step_to_end(runner *r, const leg *l) {
     return st;
 }
 
+/* Points on the way lie where the step goes: to a displacement straight in (delta_z, delta_x), to a force in
+ * (F_N, F_x), whatever the normal target is given by. */
+static fret_step as_it_goes(const runner *r, const fret_step *to) {
+    fret_step step = *to;
+    fret_press press;
+    if (to->tangential_by == FRET_TO_DX && to->normal_by == FRET_TO_FORCE && to->normal > 0 &&
+        !fret_press_by_force(r->load->normal, to->normal, &press).code) {
+        step.normal_by = FRET_TO_DEPTH;
+        step.normal = (double)press.dz;
+    } else if (to->tangential_by == FRET_TO_FX && to->normal_by == FRET_TO_DEPTH && to->normal > 0 &&
+               !fret_press_by_depth(r->load->normal, to->normal, &press).code) {
+        step.normal_by = FRET_TO_FORCE;
+        step.normal = (double)press.F;
+    }
+    return step;
+}
+
 static fret_status take_watched(runner *r, const leg *l) {
     fret_state from;
     fret_status st = fine;
+    double x = r->watch->next(r->watch, l, 0);
     engine_forces(&r->engine, &from);
-    const fret_step *to = &l->to;
+    const fret_step way_to = x < 1 ? as_it_goes(r, &l->to) : l->to, *to = &way_to;
     /* in double, as targets are: what was asked for is where it begins, and half of the way back is 0 */
     const double n0 = (double)(to->normal_by == FRET_TO_FORCE ? from.FN : from.dz);
     const double t0 = (double)(to->tangential_by == FRET_TO_FX ? from.Fx : from.dx);
-    double x = r->watch->next(r->watch, l, 0);
     for (; x < 1; x = r->watch->next(r->watch, l, x)) {
         const long double part = (long double)way(l, x);
         fret_step step = *to;

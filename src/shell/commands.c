@@ -220,7 +220,8 @@ static const command commands[] = {
      .usage = "Fx=20 N | dx=0.5 um | FN=120 N | dz=1 um, += for an increment [steps 50]",
      .summary = "a straight step of the load",
      .help = "A tangential target, a normal target, or both for a straight ramp; += adds to\n"
-             "what is there now. A normal step alone holds dx. Force cannot go beyond mu*FN;\n"
+             "what is there now. A normal step alone holds dx. Both together go straight in FN\n"
+             "and Fx, or to a dx straight in dz and dx. Force cannot go beyond mu*FN;\n"
              "displacement can, and then the contact slides. `steps` records points on the\n"
              "way for `history`.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"

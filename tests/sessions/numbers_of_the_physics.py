@@ -290,6 +290,34 @@ def histories(tests):
             close(tests, name + "dx", x * 1e-6, got.get("dx"), 1e-14)
 
 
+RAMPS = ("FN=180 N dx=-0.3 um", "dz=2 um Fx=8 N", "FN=60 N dx+=0.5 um", "dz=6 um Fx=-20 N", "FN=90 N Fx=10 N", "dz=3 um dx=0.1 um",
+         "FN=50 N")
+
+
+def on_the_way(tests):
+    """Points on the way change no end, and between them F_x does the work that is stored and dissipated."""
+    scene = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry %s; friction 0.35; press FN=100 N\n"
+    for shape in ("sphere R=10 mm", "exact-sphere R=10 mm", "flat-rounded b=0.1 mm R=10 mm"):
+        before = scene % shape
+        for ramp in RAMPS:
+            name = "%s, %s: " % (shape, ramp)
+            want = values(tests, before + "step %s; FN, dz, Fx, dx, W, U" % ramp)
+            start = values(tests, before + "W, U")
+            for model in ("auto", "double"):
+                done = tests.run("--format=json", "-c", "set model %s\n%stable FN, dz, Fx, dx, W, U along step %s steps 500"
+                                 % (model, before, ramp))
+                rows = [json.loads(line) for line in done.stdout.splitlines() if '"time"' in line]
+                if not want or not start or not tests.check(name + model, len(rows) == 501, tests.report(done)):
+                    return
+                off = max(abs(rows[-1][n] - want[n]) / (abs(want[n]) + 1e-3 * abs(want["W"] + want["U"])) for n in want)
+                tests.check(name + "the end, " + model, off < 1e-11, "%g" % off)
+                work = math.fsum((a["Fx"] + b["Fx"]) / 2 * (b["dx"] - a["dx"]) for a, b in zip(rows, rows[1:]))
+                close(tests, name + "the work, " + model, want["W"] + want["U"] - start["W"] - start["U"], work,
+                      2e-5 if "dx" in ramp or "Fx" in ramp else 1)
+            before += "step %s\n" % ramp
+
+
 def run(tests):
     tests.each([lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
-                lambda: gap_file(tests), lambda: dense_file(tests), lambda: histories(tests)])
+                lambda: gap_file(tests), lambda: dense_file(tests), lambda: histories(tests),
+                lambda: on_the_way(tests)])
