@@ -541,6 +541,20 @@ static bool end_of_scene(search *s, optimise_answer *out) {
     return found;
 }
 
+/* New simplices, each from where the one before got stuck, as it does in a steep valley with a kink. */
+static bool go_on(search *s, size_t free) {
+    enum { AGAIN = 40, IDLE = 3 };
+    static const double steps[IDLE] = {1e-3, 1e-2, 1e-4};
+    int idle = 0;
+    for (int i = 0; i < AGAIN && idle < IDLE; i++) {
+        const long double before = s->f;
+        if (!simplex(s, free, steps[i % IDLE], 1e-10))
+            return false;
+        idle = s->f < before - 1e-9L * fabsl(before) ? 0 : idle + 1;
+    }
+    return true;
+}
+
 /* Without Newton's method: one name to what its values tell; several first by a new simplex, then, where the
  * scene ends, name within name. */
 static bool stay_blunt(search *s, line *l, optimise_answer *out) {
@@ -552,7 +566,7 @@ static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     }
     for (size_t i = 0; i < s->of->count; i++)
         free += !s->fixed[i];
-    if (!simplex(s, free, 1e-3, 1e-10))
+    if (!go_on(s, free))
         return false;
     if (!end_of_scene(s, out))
         return !s->q.error->raised;

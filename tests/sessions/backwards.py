@@ -312,6 +312,16 @@ def told(tests):
     tests.check("a name is known for its question alone", abs(values[0]["value"] - 2) < 1e-15 and "unknown name 'unknown'" in done.stderr, tests.report(done))
 
 
+def valleys(tests):
+    """Along the kinked bottom of a valley that bends, to its lowest place."""
+    for steep, x_range, y_range in ((100, "-1.3 .. 3.1", "-2.2 .. 6.3"), (10, "-0.7 .. 2.9", "-1.1 .. 8.4"), (3, "0.2 .. 2.3", "-1.4 .. 5.7")):
+        question = "minimize abs(x-1.2345) + %d*abs(y-x^2) over x = %s, y = %s" % (steep, x_range, y_range)
+        values, _, done = run_json(tests, question + "\n")
+        tests.check(question, abs(values[0]["value"] - 1.2345) < 1e-6 and abs(values[1]["value"] - 1.2345**2) < 1e-6, tests.report(done))
+    values, _, done = run_json(tests, "minimize abs(x-1.2345) + 100*abs(y-x^2) + 10*abs(z-y) over x = 0 .. 3, y = 0 .. 4, z = 0 .. 4\n")
+    tests.check("a valley in three names", all(abs(v["value"] - w) < 1e-6 for v, w in zip(values, (1.2345, 1.2345**2, 1.2345**2))), tests.report(done))
+
+
 def poles(tests):
     """All roots beside poles, in order, and no pole among them; and pairs of roots between places of the scan."""
     def tangent(L, lo, hi):
@@ -340,6 +350,7 @@ def poles(tests):
 def run(tests):
     questions(tests)
     poles(tests)
+    valleys(tests)
     edges(tests)
     optima(tests)
     damper(tests)
