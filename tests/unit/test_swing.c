@@ -277,6 +277,50 @@ static void by_depth(void) {
     fret_memory_free(m);
 }
 
+/* Steps of all sizes, down to the last digit, and to the brink of gross slip, beside the memory diagram.
+ * There a force, known to 512 roundings, moves displacement and loss by its power n/(n+k+1). */
+static void tiny_steps(void) {
+    unsigned long long seed = 7;
+    const double mu = 0.4;
+    for (int run = 0; run < 40; run++) {
+        const unit_scene s =
+            unit_make_scene(run % 3 ? 2 : unit_random(&seed, 1, 4), unit_random(&seed, -0.9, 0.9));
+        const fret_normal *n = unit_make_normal(&s);
+        double F = 10, T = 0;
+        fret_memory *m;
+        fret_swing *w;
+        fret_press p;
+        fret_state a, b;
+        CHECK_OK(fret_press_by_force(n, F, &p));
+        const fret_real slip = mu * n->foundation.eta * p.dz, known = 4 * powl(512 * LDBL_EPSILON, n->q);
+        CHECK_OK(fret_memory_make(n, mu, &m));
+        CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, F, T}));
+        CHECK_OK(fret_swing_make(m, &w));
+        for (int i = 0; i < 150; i++) {
+            const double size = pow(10, unit_random(&seed, -17, -0.5));
+            const int kind = (int)unit_random(&seed, 0, 4);
+            const double FN = kind ? F * (1 + unit_random(&seed, -size, size)) : F,
+                         Fx = kind == 3   ? mu * FN * (unit_random(&seed, 0, 1) < 0.5 ? 1 : -1)
+                              : kind == 1 ? T
+                                          : T + mu * F * unit_random(&seed, -size, size);
+            const fret_step step = {FRET_TO_FORCE, FRET_TO_FX, FN, Fx};
+            if (fabs(Fx) > mu * FN)
+                continue;
+            CHECK_OK(fret_memory_step(m, &step));
+            CHECK_OK(fret_swing_step(w, &step));
+            F = FN;
+            T = Fx;
+            fret_memory_state(m, &a);
+            fret_swing_state(w, &b);
+            CHECK_ABS(b.dx, a.dx, slip, known);
+            CHECK_ABS(b.U, a.U, mu * 10 * slip, UNIT_TOL(1e-12L, 1e-9L));
+            CHECK_ABS(b.W, a.W, mu * 10 * slip, 20 * known); /* of all steps */
+        }
+        fret_swing_free(w);
+        fret_memory_free(m);
+    }
+}
+
 int main(int argc, char **argv) {
     unit_start("swing", argc, argv);
     references();
@@ -284,5 +328,6 @@ int main(int argc, char **argv) {
     against_memory(200);
     refusals();
     by_depth();
+    tiny_steps();
     return unit_finish();
 }
