@@ -50,8 +50,9 @@ fret_real fret_search_radius(const fret_normal *n, bool by_force, fret_real targ
         return 0;
     if (isfinite(end)) {
         fret_profile p = profile(n, end - start);
-        if ((by_force ? fret_force_of(n, &p) : p.g) < target)
-            return INFINITY;
+        const fret_real most = by_force ? fret_force_of(n, &p) : p.g;
+        if (most < target)
+            return fret_law_reaches(most, target) ? end - start : (fret_real)INFINITY;
     }
     return search_from(n, by_force, target, isfinite(end) ? end / 16 : start > 0 ? start / 16 : 1e-4L);
 }

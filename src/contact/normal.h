@@ -3,6 +3,8 @@
 #ifndef FRET_CONTACT_NORMAL_H
 #define FRET_CONTACT_NORMAL_H
 
+#include <float.h>
+
 #include "contact/gap.h"
 #include "contact/material.h"
 #include "fret/normal.h"
@@ -50,6 +52,12 @@ static inline fret_status fret_unless_stopped(const fret_normal *n, fret_status 
 
 /* mu and F_N must be positive: FRET_NOT_POSITIVE, FRET_NOT_FINITE. */
 fret_status fret_contact_check(const fret_contact *contact);
+
+/* Does a law that ends at `most` know `value`? A double's rounding beyond it counts as its end: what a
+ * contact that reaches the end of its gap answers must be carried when it is given back. */
+static inline bool fret_law_reaches(fret_real most, fret_real value) {
+    return value <= most * (1 + 4 * DBL_EPSILON);
+}
 
 /* F_N [N] of a contact whose profile is known. */
 fret_real fret_force_of(const fret_normal *normal, const fret_profile *profile);

@@ -65,6 +65,16 @@ static bool is_smooth(const fret_phase *p) {
     return p->front1 > 0.8L * p->front0 && p->edge1 > 0.8L * p->edge0 && p->edge0 > 0.8L * p->edge1;
 }
 
+/* To what the rate can be had where edge or front cross rows. Row by row a slice begins and ends at places of
+ * their own, which the last bits of a depth or load tell: halves of the integral agree no better. */
+static fret_real tolerance_of(const fret_phase *p) {
+    const fret_normal *n = p->normal;
+    const fret_real edge = fmaxl(p->edge0, p->edge1),
+                    thick = fmaxl(p->edge0 - p->front0, p->edge1 - p->front1),
+                    bits = n->pieces && fret_pieces_by_rows(n->pieces) ? 16 * LDBL_EPSILON * edge / thick : 0;
+    return fmaxl(fmaxl(1e-15L, n->borne), bits);
+}
+
 /* Does edge or front come near the centre without reaching it? A rate is singular there, just beyond an end,
  * where no rule expects it: by halves, then. */
 static bool comes_near(const fret_phase *p) {
@@ -106,7 +116,7 @@ fret_real fret_phase_loss_by_law(const fret_phase *phase) {
     if (comes_near(&p))
         return by_halves(&p, fret_phase_loss_by_law);
     if (fret_gap_sampled(&p.normal->gap)) /* edge or front may cross rows, where the rate is not smooth */
-        rate = fret_integrate_pieces(law_rate, &p, fmaxl(1e-15L, p.normal->borne));
+        rate = fret_integrate_pieces(law_rate, &p, tolerance_of(&p));
     else
         rate = is_smooth(&p) ? fret_integrate_smooth(law_rate, &p) : fret_integrate(law_rate, &p);
     return (p.front0 - p.front1) * rate;

@@ -12,7 +12,7 @@ enum { BY_DISTANCE, BY_DEPTH, BY_LOAD };
 static bool find(const law *all, int by, fret_real value, size_t *found) {
     const fret_real *reach = all->reach + (size_t)by * all->count;
     const fret_real least = by == BY_DISTANCE ? all->from : by == BY_DEPTH ? all->least.y : all->least.F;
-    if (!(value > least && value <= reach[all->count - 1]))
+    if (!(value > least && fret_law_reaches(reach[all->count - 1], value)))
         return false;
     size_t lo = 0, count = all->count; /* the first whose end is not before the value */
     while (count > 1) {
@@ -45,6 +45,10 @@ static bool point_of(const law *all, int by, fret_real value, fret_point *out) {
     out->K = p->K_inner + fret_polynomial_at(&p->K, z);
     out->a = all->start + fret_piece_distance(p, z, &rate);
     return true;
+}
+
+bool fret_pieces_by_rows(const struct fret_pieces *pieces) {
+    return pieces->law->rows;
 }
 
 bool fret_pieces_point(const struct fret_pieces *pieces, bool by_force, fret_real value, fret_point *out) {

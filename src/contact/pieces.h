@@ -14,6 +14,9 @@ struct fret_pieces;
  * off by more than `borne`? Then radii, and for borne = 0 slices of few rows, want the profile itself. */
 bool fret_pieces_rough(const struct fret_pieces *pieces, double borne);
 
+/* Does it go on row by row beyond the polynomials? */
+bool fret_pieces_by_rows(const struct fret_pieces *pieces);
+
 /* Each of these: false where the pieces do not reach, or would lose digits. */
 
 /* The law at the depth, or the load, `value`. */

@@ -174,7 +174,7 @@ static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real
 
 bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
     const fret_real *reach = all->reach[by];
-    if (!(value > reach[0] && value <= reach[all->count]))
+    if (!(value > reach[0] && fret_law_reaches(reach[all->count], value)))
         return false;
     size_t lo = 0, count = all->count; /* the first whose end is not before the value */
     while (count > 1) {

@@ -199,7 +199,7 @@ def numbers_of(tests, script):
         tests.check("numbers: " + script, False, tests.report(done))
     rows = [json.loads(line) for line in done.stdout.splitlines()]
     return [(" ".join(map(str, row.values())), name, v) for row in rows if "event" not in row
-            for name, v in row.items() if isinstance(v, float)]
+            for name, v in row.items() if isinstance(v, (int, float))]
 
 
 def dense_file(tests):
@@ -222,6 +222,37 @@ def dense_file(tests):
             for i, (g, w) in enumerate(zip(got, want)):
                 close(tests, "dense rows to %d digits, k = %g: %s of %s" % (digits, k, g[1], g[0]), w[2], g[2],
                       close_to if i < len(got) - 1 else swinging)
+
+
+def whole_gap(tests):
+    """A contact that reaches the last row of its gap is carried when its own depth or load is given back."""
+    where = os.path.join(tests.dir, "whole.csv")
+    with open(where, "w", encoding="ascii") as f:
+        f.write("r [mm],f [um]\n" + "".join("%.17g,%.17g\n" % (i / 7, 50 * (i / 7) ** 2) for i in range(8)))
+    statements = """press a=1 mm; dz, FN; step FN=0.8*FN; step FN=FN/0.8 Fx=0.1*mu*FN; a, Fx, dx, U
+        press a=1 mm; cycle FA=0.3*mu*FN; dW, a, c; press a=1 mm; cycle dxA=1.5*dxmax; dW, a
+        press a=1 mm; table dW(F), dx(F) for F = FN/100 .. mu*FN/2 steps 20; a; step FN=0.8*FN; cycle FNA=FN/4 FA=FN/100; dW"""
+    for k in (-0.4, 0.0, 0.3):
+        begin = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; friction 0.4; geometry " % k
+        got = numbers_of(tests, begin + "file %s; " % where + statements)
+        want = numbers_of(tests, begin + "sphere R=10 mm; " + statements)
+        tests.check("whole gap: as many numbers", len(got) == len(want) > 70, "%d, %d" % (len(got), len(want)))
+        for i, (g, w) in enumerate(zip(got, want)):
+            close(tests, "whole gap, k = %g: %s of %s" % (k, g[1], g[0]), w[2], g[2], 1e-12 if i < len(got) - 1 else 1e-9)
+
+
+def swinging_rows(tests):
+    """Rows of six digits under forces that both swing, by little: what slips is thinner than the digits of a load.
+    The power law that they are rounded from is not far."""
+    where = os.path.join(tests.dir, "rounded.csv")
+    with open(where, "w", encoding="ascii") as f:
+        f.write("r [mm],f [um]\n" + "".join("%.6g,%.6g\n" % (i / 25, 30 * (i / 25) ** 1.5) for i in range(51)))
+    for little in (0.1, 1e-5, 1e-10):
+        load = "press a=1.8 mm; step FN=0.8*FN; cycle FNA=%g*FN FA=%g*mu*FN; dW" % (little, little)
+        begin = "material E0=210 GPa nu=0.3 k=-0.4 c0=1 mm; friction 0.4; geometry "
+        got = values(tests, begin + "file %s; " % where + load)
+        want = values(tests, begin + "power n=1.5 h=30 um r0=1 mm; " + load)
+        close(tests, "swinging rows, %g" % little, want.get("dW"), got.get("dW"), 1e-2)
 
 
 class Springs:
@@ -319,5 +350,5 @@ def on_the_way(tests):
 
 def run(tests):
     tests.each([lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
-                lambda: gap_file(tests), lambda: dense_file(tests), lambda: histories(tests),
-                lambda: on_the_way(tests)])
+                lambda: gap_file(tests), lambda: dense_file(tests), lambda: whole_gap(tests),
+                lambda: swinging_rows(tests), lambda: histories(tests), lambda: on_the_way(tests)])
