@@ -382,9 +382,11 @@ const char *model_text(size_t id) {
             "2e-15; of rows that are shown as text, FN(dz) to a hundredth of the last digit, and\n"
             "the loss of an amplitude that is a small part s of gross slip to some 10/s^2 of that.\n"
             "Where rows are too many or too rough for polynomials that good, CSV and JSON have the\n"
-            "law row by row: some 20 us a row to set up, 20 us a value. Local fields take the\n"
-            "profile of a flat-ended gap, from 32 places on, and of a table from polynomials of\n"
-            "each row too: some 60 us a row to set up, and good to 1e-15 of the largest value.\n\n" EXAMPLE
+            "law row by row: some 40 us a row to set up, 5 us a value. A single question of fewer\n"
+            "rough rows is left to the quadrature, whose loss of a thin slip can be off by 1e-9.\n"
+            "Local fields take the profile of a flat-ended gap, from 32 places on, and of a table\n"
+            "from polynomials of each row too: some 60 us a row to set up, and good to 1e-15 of\n"
+            "the largest value.\n\n" EXAMPLE
             "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
             "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
