@@ -741,6 +741,8 @@ static void make_block(maker *m, size_t first, size_t last, fret_real moment[KIN
     b->half = square_distance(b->hi, b->lo) / 2;
     for (int n = 0; n < TAYLOR; n++)
         moment[SLOPE][n] = moment[DEPTH][n] = 0;
+    if (fret_stopped(m->normal))
+        return;
     if (last - first > d->leaf) {
         const size_t middle = first + (last - first) / 2;
         const fret_real between = ring_at(d, middle, SLOPE, &made)->lo;
@@ -799,6 +801,7 @@ fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_den
             make_block(m, 0, d->count, moment);
         else
             st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        st = fret_unless_stopped(n, st);
     }
     free(m);
     if (ok && !st.code)
