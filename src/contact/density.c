@@ -9,12 +9,13 @@
 
 #include "contact/check.h"
 #include "contact/rows.h"
+#include "number/chebyshev.h"
 #include "number/double.h"
 #include "number/real.h"
 
 /* ---- powers against the kernels ---------------------------------------------------------------- */
 
-enum { MOST = 20, SERIES = 120 };
+enum { MOST = FRET_CHEBYSHEV, SERIES = 120 };
 
 /* y^q times the powers y^j, y in 0..1, with what their integrals need of q and m. */
 typedef struct powers {
@@ -204,12 +205,6 @@ typedef struct block {
 
 enum { OF_ONE, OF_SLOPE, OF_DEPTH, POWERS };
 
-/* Chebyshev's rule. */
-typedef struct rule {
-    fret_real wave[4 * MOST];    /* cos(pi i/(2 MOST)) */
-    fret_real power[MOST][MOST]; /* Chebyshev's polynomials of 2y-1 in powers of y */
-} rule;
-
 /* Those of a table are made of its rows, when they are wanted where they are many. */
 struct fret_density {
     fret_real m, from, from_depth, unit, error;
@@ -220,7 +215,7 @@ struct fret_density {
     ring *ring;
     block *block;
     struct fret_rows *rows; /* or NULL */
-    rule rule;
+    fret_chebyshev rule;    /* of y */
     fret_real node_q[MOST]; /* y^q of the slope at its nodes */
 };
 
@@ -240,10 +235,6 @@ static fret_real sum_of(const curve *c, const fret_real *smooth, const fret_real
 
 /* ---- rings from values and from rows -------------------------------------------------------- */
 
-static fret_real node_of(const rule *r, int j) {
-    return (1 + r->wave[2 * j + 1]) / 2;
-}
-
 static fret_real largest(const fret_real *v) {
     fret_real most = 0;
     for (int i = 0; i < MOST; i++)
@@ -252,21 +243,14 @@ static fret_real largest(const fret_real *v) {
 }
 
 /* Powers of y through values at the nodes. Returns how large the last terms are, of the whole. */
-static fret_real fit(const rule *r, const fret_real *value, fret_real whole, fret_real *c, int *count) {
-    fret_real term[MOST] = {0};
-    for (int i = 0; i < MOST; i++) {
-        for (int j = 0; j < MOST; j++)
-            term[i] += r->wave[i * (2 * j + 1) % (4 * MOST)] * value[j];
-        term[i] *= (i ? 2 : 1) / (fret_real)MOST;
-    }
+static fret_real fit(const fret_chebyshev *r, const fret_real *value, fret_real whole, fret_real *c,
+                     int *count) {
+    fret_real term[MOST];
+    fret_chebyshev_terms(r, value, term);
     *count = MOST;
     while (*count > 0 && fabsl(term[*count - 1]) <= 1e-20L * whole)
         --*count;
-    for (int j = 0; j < *count; j++) {
-        c[j] = 0;
-        for (int i = j; i < *count; i++)
-            c[j] += term[i] * r->power[i][j];
-    }
+    fret_chebyshev_powers(r, term, *count, c);
     return whole > 0 ? fmaxl(fabsl(term[MOST - 1]), fabsl(term[MOST - 2])) / whole : 0;
 }
 
@@ -283,7 +267,7 @@ static fret_real fit_depth(const struct fret_density *d, ring *p, fret_real dept
     fret_real value[2][MOST], whole[MOST];
     curve *of = &p->of[DEPTH];
     for (int j = 0; j < MOST; j++) {
-        const fret_real y = node_of(&d->rule, j),
+        const fret_real y = d->rule.node[j],
                         rate = p->width / 2 * fret_pow(p->lo * p->lo + p->width * y, d->m - 1);
         value[0][j] = rate * (depth + y * smooth[j]);
         value[1][j] = rate * sharp[j];
@@ -335,7 +319,7 @@ static void take_depth(const struct fret_density *d, const fret_row_part *row, r
         return;
     fret_real smooth[MOST], sharp[MOST];
     for (int j = 0; j < MOST; j++) {
-        const fret_real y = node_of(&d->rule, j);
+        const fret_real y = d->rule.node[j];
         smooth[j] = value_of(row->P, row->depths[0], y);
         sharp[j] = value_of(row->Q, row->depths[1], y);
     }
@@ -506,19 +490,9 @@ static const fret_real TOLERANCE =
     FOUND = 1e-15L;                /* of g' there */
 
 static void make_rule(maker *m) {
-    rule *r = &m->d->rule;
-    for (int i = 0; i < 4 * MOST; i++)
-        r->wave[i] = fret_cos(FRET_PI * i / (2 * MOST));
-    for (int i = 0; i < MOST; i++)
-        for (int j = 0; j < MOST; j++)
-            r->power[i][j] =
-                i == 0   ? (fret_real)(j == 0)
-                : i == 1 ? (fret_real)(j == 0   ? -1
-                                       : j == 1 ? 2
-                                                : 0)
-                         : (j ? 4 * r->power[i - 1][j - 1] : 0) - 2 * r->power[i - 1][j] - r->power[i - 2][j];
+    fret_chebyshev_make(&m->d->rule, MOST, true);
     for (int j = 0; j < MOST; j++)
-        m->d->node_q[j] = fret_pow(node_of(r, j), m->d->power[OF_SLOPE].q);
+        m->d->node_q[j] = fret_pow(m->d->rule.node[j], m->d->power[OF_SLOPE].q);
     for (int p = 0; p < POWERS; p++)
         for (int j = 0; j < MOST; j++) {
             const fret_real q = m->d->power[p].q + j + 1;
@@ -564,7 +538,7 @@ static bool make_ring(maker *m, ring *p, bool sharp) {
     curve *of = &p->of[SLOPE];
     int *count = sharp ? &of->kink : &of->smooth;
     for (int j = 0; j < MOST; j++) {
-        slope[j] = slope_at(m, p, node_of(&d->rule, j));
+        slope[j] = slope_at(m, p, d->rule.node[j]);
         most = fmaxl(most, fabsl(slope[j]));
         slope[j] /= sharp ? d->node_q[j] : 1;
     }
@@ -572,7 +546,7 @@ static bool make_ring(maker *m, ring *p, bool sharp) {
     if (!(fit(&d->rule, slope, largest(slope), of->c[sharp], count) <= TOLERANCE))
         return false;
     for (int j = 0; j < MOST; j++)
-        rise[0][j] = risen(q, of->c[sharp], *count, node_of(&d->rule, j));
+        rise[0][j] = risen(q, of->c[sharp], *count, d->rule.node[j]);
     if (!(fit_depth(d, p, m->depth, sharp ? none : rise[0], sharp ? rise[0] : none) <= TOLERANCE))
         return false;
     const fret_real error = error_of(m, p, most);

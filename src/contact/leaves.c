@@ -8,6 +8,7 @@
 
 #include "contact/check.h"
 #include "contact/table.h"
+#include "number/chebyshev.h"
 #include "number/real.h"
 
 /* With alpha = (k-1)/2, u = unit, x the radius, V[i] = int f' ((x^2-r^2)/(x u))^(alpha+i) dr is
@@ -16,7 +17,7 @@
  * Over a leaf, a few rows, all of f' before `near` counts by a polynomial, since it is at least as far away
  * as the leaf is wide; the quadratic f' of `near` goes on to x, and each kink after that adds what it bends.
  */
-enum { WAVES = 20, LEAF_ROWS = 4, GOING_ON = 16, SERIES = 64, MANY = 10000 };
+enum { WAVES = FRET_CHEBYSHEV, LEAF_ROWS = 4, GOING_ON = 16, SERIES = 64, MANY = 10000 };
 #define LANES 2
 #include "number/lanes.h"
 
@@ -197,39 +198,12 @@ fret_level fret_leaves_bend(const struct fret_leaves *all, size_t row, fret_real
 typedef struct maker {
     struct fret_leaves *all;
     const fret_normal *normal;
-    fret_real wave[WAVES], at[WAVES][WAVES], power[WAVES][WAVES]; /* T_i at node j, and in powers */
+    fret_chebyshev rule;
     size_t room;
     fret_status failed;
 } maker;
 
 static const fret_real MOST_WIDE = 1.01L; /* of the distance from the start: beyond, waves are too coarse */
-
-static void make_waves(maker *m) {
-    for (int j = 0; j < WAVES; j++)
-        m->wave[j] = fret_cos(FRET_PI * (fret_real)(2 * j + 1) / (2 * WAVES));
-    for (int i = 0; i < WAVES; i++)
-        for (int j = 0; j < WAVES; j++) {
-            m->at[i][j] = i == 0   ? 1
-                          : i == 1 ? m->wave[j]
-                                   : 2 * m->wave[j] * m->at[i - 1][j] - m->at[i - 2][j];
-            m->power[i][j] = i < 2    ? (fret_real)(i == j)
-                             : j == 0 ? -m->power[i - 2][0]
-                                      : 2 * m->power[i - 1][j - 1] - m->power[i - 2][j];
-        }
-}
-
-static void fit(const maker *m, const fret_real *value, fret_real *c) {
-    for (int j = 0; j < WAVES; j++)
-        c[j] = 0;
-    for (int i = 0; i < WAVES; i++) {
-        fret_real term = 0;
-        for (int j = 0; j < WAVES; j++)
-            term += m->at[i][j] * value[j];
-        term *= (i ? 2 : 1) / (fret_real)WAVES;
-        for (int j = i & 1; j <= i; j += 2)
-            c[j] += term * m->power[i][j];
-    }
-}
 
 /* Between the distances lo and hi what is before `near`, of that what is before `above->near` from there. Few
  * rows go on with the quadratic of `near`. */
@@ -239,7 +213,7 @@ static void make_field(maker *m, fret_real lo, fret_real hi, bool few, const lea
     *out = (leaf){.middle = (lo + hi) / 2, .half = (hi - lo) / 2, .goes_on = few};
     out->near = lo - (hi - lo) > -all->start ? fret_table_row(all->table, lo - (hi - lo)) : 0;
     for (int j = 0; j < WAVES; j++) {
-        const fret_real e = out->middle + out->half * m->wave[j], z = (e - above->middle) / above->half;
+        const fret_real e = out->middle + out->half * m->rule.node[j], z = (e - above->middle) / above->half;
         more[0] = more[1] = 0;
         if (above->goes_on) {
             add_bends(all, above->near, out->near, e, more);
@@ -254,8 +228,11 @@ static void make_field(maker *m, fret_real lo, fret_real hi, bool few, const lea
         for (int i = 0; i < 2; i++)
             value[i][j] = (above->near || above->goes_on ? value_of(above->c[i], z) : 0) + more[i];
     }
-    for (int i = 0; i < 2; i++)
-        fit(m, value[i], out->c[i]);
+    for (int i = 0; i < 2; i++) {
+        fret_real term[WAVES];
+        fret_chebyshev_terms(&m->rule, value[i], term);
+        fret_chebyshev_powers(&m->rule, term, WAVES, out->c[i]);
+    }
 }
 
 static bool add_leaf(maker *m, leaf *l) {
@@ -334,7 +311,7 @@ fret_status fret_leaves_make(const fret_normal *n, size_t first, size_t count, f
         const leaf none = {.near = 0, .half = 1};
         *m = (maker){.all = all, .normal = n};
         make_series(all);
-        make_waves(m);
+        fret_chebyshev_make(&m->rule, WAVES, false);
         (void)descend(m, first, first + count, &none);
         st = fret_unless_stopped(n, m->failed);
     } else {

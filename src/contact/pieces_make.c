@@ -11,6 +11,7 @@
 #include "contact/piece.h"
 #include "contact/rows.h"
 #include "contact/table.h"
+#include "number/chebyshev.h"
 #include "number/real.h"
 
 /* ---- polynomials through values ---------------------------------------------------------------- */
@@ -19,64 +20,13 @@ enum { FEWER = 14 };   /* of what is smooth across a row of a table */
 enum { HALVINGS = 8 }; /* of a row */
 enum { NOISE = 3 };    /* terms that tell it */
 
-/* From values at Chebyshev's nodes to polynomials in z, by Chebyshev's polynomials. */
-typedef struct rule {
-    int count;
-    fret_real wave[4 * NODES];     /* cos(pi i/(2 count)) */
-    fret_real at[NODES][NODES];    /* T_i at node j */
-    fret_real power[NODES][NODES]; /* T_i in powers of z */
-} rule;
-
-static void make_rule(rule *r, int count) {
-    r->count = count;
-    for (int i = 0; i < 4 * count; i++)
-        r->wave[i] = fret_cos(FRET_PI * i / (2 * count));
-    for (int i = 0; i < count; i++)
-        for (int j = 0; j < count; j++)
-            r->at[i][j] = r->wave[i * (2 * j + 1) % (4 * count)];
-    for (int i = 0; i < NODES; i++)
-        for (int j = 0; j < NODES; j++)
-            r->power[i][j] = i < 2    ? (fret_real)(i == j)
-                             : j == 0 ? -r->power[i - 2][0]
-                                      : 2 * r->power[i - 1][j - 1] - r->power[i - 2][j];
-}
-
-static fret_real node_of(const rule *r, int j) {
-    return r->wave[2 * j + 1];
-}
-
-/* The factors of Chebyshev's polynomials. */
-static void terms_of(const rule *r, const fret_real *value, fret_real *term) {
-    const int count = r->count, half = count / 2;
-    fret_real fold[2][NODES]; /* even and odd parts */
-    for (int j = 0; j < half; j++) {
-        fold[0][j] = value[j] + value[count - 1 - j];
-        fold[1][j] = value[j] - value[count - 1 - j];
-    }
-    for (int i = 0; i < count; i++) {
-        term[i] = 0;
-        for (int j = 0; j < half; j++)
-            term[i] += r->at[i][j] * fold[i & 1][j];
-        term[i] *= (i ? 2 : 1) / (fret_real)count;
-    }
-}
-
-/* The first `count` of them as powers. */
-static void powers_of(const rule *r, const fret_real *term, int count, fret_real *c) {
-    for (int j = 0; j < NODES; j++)
-        c[j] = 0;
-    for (int i = 0; i < count; i++)
-        for (int j = i & 1; j <= i; j += 2)
-            c[j] += term[i] * r->power[i][j];
-}
-
 /* Returns how large the last terms are, relative to the largest; infinite where doubles would not do for
  * those that a polynomial keeps in them, smooth as it is asked to be. */
-static fret_real fit(const rule *r, bool smooth, const fret_real *value, fret_real *c) {
+static fret_real fit(const fret_chebyshev *r, bool smooth, const fret_real *value, fret_real *c) {
     const int count = r->count;
     fret_real term[NODES], most = 0;
-    terms_of(r, value, term);
-    powers_of(r, term, count, c);
+    fret_chebyshev_terms(r, value, term);
+    fret_chebyshev_powers(r, term, count, c);
     for (int i = 0; i < count; i++)
         most = fmaxl(most, fabsl(term[i]));
     for (int j = HEAD; smooth && j < count; j++)
@@ -86,15 +36,15 @@ static fret_real fit(const rule *r, bool smooth, const fret_real *value, fret_re
 }
 
 /* Without the terms that are no larger than noise: than the last ones. */
-static void fit_calmly(const rule *r, const fret_real *value, fret_real *c) {
+static void fit_calmly(const fret_chebyshev *r, const fret_real *value, fret_real *c) {
     fret_real term[NODES], noise = 0;
     int count = NODES;
-    terms_of(r, value, term);
+    fret_chebyshev_terms(r, value, term);
     for (int i = NODES - NOISE; i < NODES; i++)
         noise = fmaxl(noise, fabsl(term[i]));
     while (count > 2 && fabsl(term[count - 1]) <= 3 * noise)
         count--;
-    powers_of(r, term, count, c);
+    fret_chebyshev_powers(r, term, count, c);
 }
 
 /* The integral of a polynomial of NODES terms, 0 at z = -1. */
@@ -114,7 +64,7 @@ typedef struct maker {
     fret_real borne, at_worst; /* errors of the law, relative, that may be left: as asked for, and where rows
                                 * are too many and too rough for less */
     size_t each;               /* as many rows may be taken one by one */
-    rule rule, row_rule;
+    fret_chebyshev rule, row_rule;
     size_t spent;    /* profiles asked for */
     fret_level edge; /* outer end of the last piece */
     /* from one row of a table to the next: g' less its bend at the first, a polynomial in -1..1 of a part */
@@ -183,7 +133,7 @@ static fret_real missed_by(maker *m, fret_level found, fret_real e, bool of_bend
 static void slopes_of(maker *m, const piece *p, fret_real *slope) {
     fret_real rate;
     for (int j = 0; j < NODES; j++) {
-        const fret_real e = fret_piece_distance(p, node_of(&m->rule, j), &rate);
+        const fret_real e = fret_piece_distance(p, m->rule.node[j], &rate);
         slope[j] = slope_at(m, e) * rate;
     }
 }
@@ -208,7 +158,7 @@ static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tol
     const fret_normal *n = m->normal;
     fret_real rise[NODES], bow[NODES], moment[NODES], c[TERMS] = {0}, rate, worst;
     for (int j = 0; j < NODES; j++) {
-        const fret_real e = fret_piece_distance(p, node_of(&m->rule, j), &rate), x = m->start + e;
+        const fret_real e = fret_piece_distance(p, m->rule.node[j], &rate), x = m->start + e;
         const fret_real K = fret_normal_stiffness(n, x);
         rise[j] = (1 + n->foundation.k) * K / x * rate;
         if (!(slope[j] > 0))
@@ -220,11 +170,11 @@ static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tol
     worst = fmaxl(worst, fit(&m->rule, !m->by_row, slope, c));
     p->rise[DEPTHS] = integral(c);
     for (int j = 0; j < NODES; j++)
-        bow[j] = slope[j] * fret_polynomial_at(&p->K, node_of(&m->rule, j));
+        bow[j] = slope[j] * fret_polynomial_at(&p->K, m->rule.node[j]);
     worst = fmaxl(worst, fit(&m->rule, !m->by_row, bow, c));
     p->G = integral(c);
     for (int j = 0; j < NODES; j++) {
-        const fret_real z = node_of(&m->rule, j);
+        const fret_real z = m->rule.node[j];
         moment[j] = slope[j] * (fret_polynomial_at(&p->rise[DEPTHS], z) * fret_polynomial_at(&p->K, z) -
                                 fret_polynomial_at(&p->G, z));
     }
@@ -253,7 +203,7 @@ static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tol
     p->coarse = rough > 1e-17L;
     fret_real z[GUESS];
     for (int i = 0; i < GUESS; i++)
-        z[i] = node_of(&m->rule, (2 * i + 1) * NODES / (2 * GUESS));
+        z[i] = m->rule.node[(2 * i + 1) * NODES / (2 * GUESS)];
     for (int i = DEPTHS; i <= LOADS; i++)
         fret_piece_make_guess(p, i, z);
     m->all->error = fmaxl(m->all->error, worst);
@@ -326,7 +276,7 @@ static bool cover_row(maker *m, fret_real row, fret_real way, fret_real lo, fret
     m->middle = way * (lo + hi) / 2;
     m->half = way * (hi - lo) / 2;
     for (int j = 0; j < FEWER; j++) {
-        const fret_real e = row + (m->middle + m->half * node_of(&m->row_rule, j));
+        const fret_real e = row + (m->middle + m->half * m->row_rule.node[j]);
         value[j] = smooth_at(m, e);
     }
     const fret_real last = fit(&m->row_rule, false, value, m->smooth);
@@ -382,7 +332,7 @@ static span look(maker *m, const fret_real *row, size_t first, size_t last) {
     fret_real value[NODES], rate, F;
     fret_profile at;
     for (int j = 0; j < NODES; j++) {
-        value[j] = deficit(m, fret_piece_distance(&s.p, node_of(&m->rule, j), &rate), &at, &F);
+        value[j] = deficit(m, fret_piece_distance(&s.p, m->rule.node[j], &rate), &at, &F);
         s.slope[j] = at.slope * rate;
     }
     s.rest = fit(&m->rule, true, s.slope, s.deficit);
@@ -419,17 +369,17 @@ static bool add_calm(maker *m, span *s, fret_real borne) {
     const fret_real jump = K * m->edge.y - m->edge.F - value_of(s->deficit, -1),
                     bend = stiffening(m, &s->p, -1) * m->edge.y - rate_of(s->deficit, -1);
     for (int j = 0; j < NODES; j++) {
-        const fret_real z = node_of(&m->rule, j), from = 1 + z,
+        const fret_real z = m->rule.node[j], from = 1 + z,
                         wave = m->rule.wave[(WAVES * (2 * j + 1) + 3 * NODES) % (4 * NODES)] / (2 * WAVES),
                         near = 2 * wave * wave / from;
         M[j] = value_of(s->deficit, z) + near * near * (jump * (1 + fall * from) + bend * from);
     }
     (void)fit(&m->rule, false, M, c);
     for (int j = 0; j < NODES; j++)
-        g[j] = rate_of(c, node_of(&m->rule, j)) / stiffening(m, &s->p, node_of(&m->rule, j));
+        g[j] = rate_of(c, m->rule.node[j]) / stiffening(m, &s->p, m->rule.node[j]);
     (void)fit(&m->rule, false, g, c);
     for (int j = 0; j < NODES; j++)
-        slope[j] = rate_of(c, node_of(&m->rule, j));
+        slope[j] = rate_of(c, m->rule.node[j]);
     return make_piece(m, &s->p, slope, INFINITY, borne) && add(m, &s->p);
 }
 
@@ -627,8 +577,8 @@ static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real born
                  .start = fret_gap_start(&n->gap),
                  .tolerance = rows ? 1e-15L : 2e-17L,
                  .borne = fmaxl(borne, FOUND)};
-    make_rule(&m->rule, NODES);
-    make_rule(&m->row_rule, FEWER);
+    fret_chebyshev_make(&m->rule, NODES, false);
+    fret_chebyshev_make(&m->row_rule, FEWER, false);
     all->from = (m->start > 0 ? 1e-12L : 1e-5L) * e;
     m->edge = all->least = level_at(m, all->from);
     const bool ok = (rows ? cover_table : cover_smooth)(m, all->from, e) && make_core(m) && make_runs(m);

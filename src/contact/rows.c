@@ -9,6 +9,7 @@
 #include "contact/check.h"
 #include "contact/leaves.h"
 #include "contact/table.h"
+#include "number/chebyshev.h"
 #include "number/double.h"
 #include "number/quadrature.h"
 #include "number/real.h"
@@ -17,7 +18,7 @@
  * kink where the row begins: they rise by y (P(y) + y^m Q(y)), m = (k+1)/2, with polynomials P and Q. A part
  * is a row, or as much of it as is no longer than it is far from the kink before: there 20 nodes do.
  * Of what lies below y, G = y^2 (P + y^m Q) and L = y^3 (P + y^m Q + y^2m R), and dF/dy rises by y P. */
-enum { WAVES = 20, FEWER = 8, BINOMIALS = 12 };
+enum { WAVES = FRET_CHEBYSHEV, FEWER = 8, BINOMIALS = 12 };
 
 /* Polynomials of the integrals. */
 enum { SUM_K, SUM_G, SUM_L = SUM_G + 2, SUMS = SUM_L + 3 };
@@ -260,10 +261,10 @@ stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, c
 
 /* ---- making ------------------------------------------------------------------------------------ */
 
-/* Chebyshev's polynomials of 2y-1 and their nodes. */
+/* Nodes in 0..1 and their powers with m. */
 typedef struct rule {
-    int nodes;
-    fret_real y[WAVES], ym[WAVES], at[WAVES][WAVES], power[WAVES][WAVES]; /* T_i at node j, and in powers */
+    fret_chebyshev of;
+    fret_real ym[WAVES];
 } rule;
 
 typedef struct maker {
@@ -281,44 +282,19 @@ typedef struct maker {
 } maker;
 
 static void make_rule(rule *r, int nodes, fret_real m) {
-    r->nodes = nodes;
-    fret_real wave[4 * WAVES];
-    for (int i = 0; i < 4 * nodes; i++)
-        wave[i] = fret_cos(FRET_PI * (fret_real)i / (fret_real)(2 * nodes));
-    for (int j = 0; j < nodes; j++) {
-        for (int i = 0; i < nodes; i++)
-            r->at[i][j] = wave[i * (2 * j + 1) % (4 * nodes)];
-        r->y[j] = (1 + wave[2 * j + 1]) / 2;
-        r->ym[j] = fret_pow(r->y[j], m);
-    }
-    for (int i = 0; i < nodes; i++)
-        for (int j = 0; j < nodes; j++)
-            r->power[i][j] =
-                i == 0   ? (fret_real)(j == 0)
-                : i == 1 ? (fret_real)(j == 0   ? -1
-                                       : j == 1 ? 2
-                                                : 0)
-                         : (j ? 4 * r->power[i - 1][j - 1] : 0) - 2 * r->power[i - 1][j] - r->power[i - 2][j];
+    fret_chebyshev_make(&r->of, nodes, true);
+    for (int j = 0; j < nodes; j++)
+        r->ym[j] = fret_pow(r->of.node[j], m);
 }
 
 /* Powers of y, as many as there is something of. */
 static int fit(const rule *r, const fret_real *value, fret_real little, fret_real *c) {
     fret_real term[WAVES];
-    const int n = r->nodes;
-    int count = n;
-    for (int i = 0; i < n; i++) {
-        term[i] = 0;
-        for (int j = 0; j < n; j++)
-            term[i] += r->at[i][j] * value[j];
-        term[i] *= (i ? 2 : 1) / (fret_real)n;
-    }
+    int count = r->of.count;
+    fret_chebyshev_terms(&r->of, value, term);
     while (count > 0 && fabsl(term[count - 1]) <= little)
         count--;
-    for (int j = 0; j < count; j++) {
-        c[j] = 0;
-        for (int i = j; i < count; i++)
-            c[j] += term[i] * r->power[i][j];
-    }
+    fret_chebyshev_powers(&r->of, term, count, c);
     return count;
 }
 
@@ -393,7 +369,7 @@ static void add_sums(maker *m, fret_real little) {
     const int count[2] = {p->count[DEPTHS][0], p->count[DEPTHS][1]};
     fret_real K[WAVES], rise[2][WAVES], rate[2][WAVES], M[2][WAVES], value[WAVES];
     for (int j = 0; j < WAVES; j++) {
-        const fret_real y = m->many.y[j];
+        const fret_real y = m->many.of.node[j];
         K[j] = p->rate * mean_near_one(all, bend * y);
         for (int i = 0; i < 2; i++) {
             rise[i][j] = sum_of(c + (i ? count[0] : 0), (size_t)count[i], y);
@@ -408,7 +384,7 @@ static void add_sums(maker *m, fret_real little) {
             value[j] = K[j] * rate[i][j];
         add_product(m, SUM_G + i, value, little * size, i ? 2 + all->m : 2);
         for (int j = 0; j < WAVES; j++)
-            M[i][j] = rise[i][j] * K[j] - sum_of(sum, p->sum[SUM_G + i], m->many.y[j]);
+            M[i][j] = rise[i][j] * K[j] - sum_of(sum, p->sum[SUM_G + i], m->many.of.node[j]);
         sum += p->sum[SUM_G + i];
     }
     for (int i = 0; i < 3; i++) {
@@ -445,7 +421,8 @@ static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool ki
     take(base, &at_e);
     base[LOADS] = slopes ? 0 : base[LOADS];
     for (int j = 0; j < WAVES; j++) {
-        const fret_real to = sqrtl(x * x + width * m->many.y[j]), at = e + width * m->many.y[j] / (x + to);
+        const fret_real to = sqrtl(x * x + width * m->many.of.node[j]),
+                        at = e + width * m->many.of.node[j] / (x + to);
         const fret_level l = kink ? fret_leaves_before(m->leaves, row, at) : level_at(m, row, at);
         take(v, &l);
         v[LOADS] *= slopes ? width / (2 * to) : 1;
@@ -454,8 +431,8 @@ static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool ki
         if (j == 0) /* the outermost */
             take(top, &(fret_level){v[DEPTHS], v[LOADS]});
     }
-    for (int j = 0; kink && j < few->nodes; j++) {
-        const fret_real y = few->y[j], to = sqrtl(x * x + width * y), at = e + width * y / (x + to);
+    for (int j = 0; kink && j < few->of.count; j++) {
+        const fret_real y = few->of.node[j], to = sqrtl(x * x + width * y), at = e + width * y / (x + to);
         const fret_level l = fret_leaves_bend(m->leaves, row, at);
         bent[DEPTHS][j] = l.y / (y * few->ym[j]);
         bent[LOADS][j] = l.F / few->ym[j] * (slopes ? width / (2 * to) : 1 / y);

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The sums of chebyshev.h. Pure arithmetic. */
+#include "number/chebyshev.h"
+
+#include "number/real.h"
+
+/* T_i from the two before: z T_(i-1) doubled, z being 2y-1 where the powers are those of y. */
+static void make_powers(fret_chebyshev *c) {
+    for (int i = 0; i < c->count; i++)
+        for (int j = 0; j < c->count; j++) {
+            const fret_real lower = i > 0 && j > 0 ? c->power[i - 1][j - 1] : 0,
+                            same = i > 0 ? c->power[i - 1][j] : 0, z = c->from_nil ? 2 * lower - same : lower;
+            c->power[i][j] = i == 0 ? (fret_real)(j == 0) : i == 1 ? z : 2 * z - c->power[i - 2][j];
+        }
+}
+
+void fret_chebyshev_make(fret_chebyshev *c, int count, bool from_nil) {
+    c->count = count;
+    c->from_nil = from_nil;
+    for (int i = 0; i < 4 * count; i++)
+        c->wave[i] = fret_cos(FRET_PI * (fret_real)i / (fret_real)(2 * count));
+    for (int j = 0; j < count; j++) {
+        const fret_real z = c->wave[2 * j + 1];
+        c->node[j] = from_nil ? (1 + z) / 2 : z;
+        for (int i = 0; i < count; i++)
+            c->at[i][j] = c->wave[i * (2 * j + 1) % (4 * count)];
+    }
+    make_powers(c);
+}
+
+void fret_chebyshev_terms(const fret_chebyshev *c, const fret_real *value, fret_real *term) {
+    const int count = c->count, half = count / 2;
+    fret_real fold[2][FRET_CHEBYSHEV / 2]; /* even and odd parts */
+    for (int j = 0; j < half; j++) {
+        fold[0][j] = value[j] + value[count - 1 - j];
+        fold[1][j] = value[j] - value[count - 1 - j];
+    }
+    for (int i = 0; i < count; i++) {
+        term[i] = 0;
+        for (int j = 0; j < half; j++)
+            term[i] += c->at[i][j] * fold[i & 1][j];
+        term[i] *= (i ? 2 : 1) / (fret_real)count;
+    }
+}
+
+void fret_chebyshev_powers(const fret_chebyshev *c, const fret_real *term, int count, fret_real *power) {
+    const int step = c->from_nil ? 1 : 2; /* of z, even and odd ones stay apart */
+    for (int j = 0; j < FRET_CHEBYSHEV; j++) {
+        power[j] = 0;
+        for (int i = j; i < count; i += step)
+            power[j] += term[i] * c->power[i][j];
+    }
+}
