@@ -323,7 +323,11 @@ static bool at_factor(const parser *p) {
         return false;
     if (builtin_find(word, lx->len, &i))
         return !builtin_row(i) || next == T_OPEN;
-    return quantity_find(word, lx->len) || (next != T_NAME && names_find(&p->c->names, word, lx->len, &i));
+    if (quantity_find(word, lx->len))
+        return true;
+    /* a name of the user's may be a word of the command, too: `to /FILE`, `points` */
+    return (next == T_PLUS || next == T_TIMES || next == T_POWER || next == T_CLOSE) &&
+           names_find(&p->c->names, word, lx->len, &i);
 }
 
 static bool parse_number(parser *p, size_t *out) {

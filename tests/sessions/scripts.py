@@ -433,7 +433,20 @@ def lessons_aside(tests):
                 tests.report(done))
 
 
+def own_words(tests):
+    """A word of a command stays one behind a number where it is a variable, too."""
+    where = os.path.join(tests.dir, "own words.csv")
+    for word, statement, row in (("to", 'table x^2 for x = 1 .. 2 steps 1 to "%s"' % where, "2,4"),
+                                 ("with", 'table x^2 for x = 1 .. 2 steps 1 with y = 1 to "%s"' % where, "2,1,4"),
+                                 ("to", 'table x^2 for x = 1 .. 2 steps 1 to %s' % where.replace(" ", "-"), "2,4")):
+        done = tests.run("-c", "%s = 3; %s; 2*%s" % (word, statement, word))
+        path = where if '"' in statement else where.replace(" ", "-")
+        with open(path, encoding="ascii") as f:
+            tests.check("own word " + word, f.read().endswith(row + "\n") and done.stdout.endswith("= 6\n") and
+                        not done.returncode, tests.report(done))
+
+
 def run(tests):
     tests.each([lambda room=room: room(tests) for room in
                 (jobs, written, long_tables, gaps_in_tables, failing_tables, digits, shown_scenes, waiting_steps, taken_back, many_variables,
-                 read_tables, pictures, demos)])
+                 read_tables, pictures, own_words, demos)])
