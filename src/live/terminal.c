@@ -7,6 +7,7 @@
 #include "live/terminal.h"
 
 #include <curses.h>
+#include <errno.h>
 #include <langinfo.h>
 #include <locale.h>
 #include <math.h>
@@ -31,6 +32,7 @@ static struct {
     bool unicode, mouse;
     double free_at;     /* when the line has taken all */
     char farewell[256]; /* what the terminal is sent when there is no time for curses */
+    int deaf;           /* how often in a row there was no waiting for keys */
 } own = {.guard = -1};
 
 /* ---- signals ----------------------------------------------------------------------------------- */
@@ -316,6 +318,7 @@ static void take_size(void) {
 }
 
 int terminal_key(int milliseconds, volatile sig_atomic_t *stop) {
+    enum { DEAF = 20 };
     int key = getch(); /* what curses holds back, and all that came with it */
     if (key != ERR)
         return key == KEY_RESIZE ? KEY_AGAIN : key;
@@ -331,6 +334,7 @@ int terminal_key(int milliseconds, volatile sig_atomic_t *stop) {
     const struct timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000L};
     const int ready =
         *stop || stopped || resized ? 0 : pselect(STDIN_FILENO + 1, &in, NULL, NULL, &time, &before);
+    own.deaf = ready < 0 && errno != EINTR ? own.deaf + 1 : 0;
     sigprocmask(SIG_SETMASK, &before, NULL);
     if (stopped)
         stop_here();
@@ -340,6 +344,10 @@ int terminal_key(int milliseconds, volatile sig_atomic_t *stop) {
     }
     if (*stop) {
         *stop = 0;
+        return KEY_STOP;
+    }
+    if (own.deaf > DEAF) { /* no key will come any more */
+        own.deaf = 0;
         return KEY_STOP;
     }
     key = ready > 0 ? getch() : ERR;
