@@ -139,10 +139,10 @@ static bool at_change(const lexer *lx) {
 
 static bool parse_change(parser *p, expr_at *at) {
     lexer *lx = p->lx;
-    knob *q = &at->change[at->count].p;
     size_t name;
     if (at->count == CHANGES)
         return lex_fail(lx, "at most %d changes", CHANGES);
+    knob *q = &at->change[at->count].p;
     if (!at_change(lx))
         return lex_fail(lx, "expected NAME = EXPR after `at`");
     if (!quantity_find(lx->text + lx->at, lx->len) &&

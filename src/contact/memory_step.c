@@ -415,13 +415,12 @@ FRET_INLINE fret_real grow_and_slip(fret_memory *m, coordinate by, const fret_re
     g.surplus = g.left = fabsl(drive) - g.way;
     put(&g.z, g.from, m->edge[other]);
     put(&g.front, g.from, m->edge[other]);
-    const slice *top = &m->slices[m->count - 1];
-    if (m->count > 1 && s * top->sigma == 1) { /* it goes on: that takes no drive */
-        put(&g.front, top->inner[by], top->inner[other]);
+    if (m->count > 1 && s * m->slices[m->count - 1].sigma == 1) { /* it goes on: that takes no drive */
         m->count--;
-        top--;
+        put(&g.front, m->slices[m->count].inner[by], m->slices[m->count].inner[other]);
     }
     if (m->count) {
+        const slice *top = &m->slices[m->count - 1];
         gain = 1 - s * top->sigma;
         cap = gain * top->thick[by];
     }

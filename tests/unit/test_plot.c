@@ -129,7 +129,7 @@ static void quoting(void) {
             static const char nasty[] = "'\"`\\@$#\n%{}()|;_^&~\001\002\003";
             double u = unit_random(&random, 0, 1);
             raw[i] = u < 0.6 ? nasty[(size_t)unit_random(&random, 0, sizeof nasty - 1)]
-                             : (char)unit_random(&random, 1, 256);
+                             : (char)(unsigned char)unit_random(&random, 1, 256);
         }
         raw[sizeof raw - 1] = 0;
         for (int form = PLOT_ASCII; form <= PLOT_TEX; form++) {
