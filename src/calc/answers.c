@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "number/array.h"
+
 #include "calc/scene.h"
 
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
@@ -625,17 +627,14 @@ typedef struct looks {
 
 static bool keep_look(const runner *r, void *context) {
     looks *l = context;
-    if (l->level == 0 && l->count == l->room) {
-        const size_t room = l->room ? 2 * l->room : 64;
-        void *grown = realloc(l->at, room * sizeof *l->at);
+    if (l->level == 0) {
+        void *grown = fret_array_for(l->at, &l->room, l->count + 1, sizeof *l->at);
         l->no_memory = !grown;
         if (!grown)
             return false;
         l->at = grown;
-        l->room = room;
-    }
-    if (l->level == 0)
         l->count++;
+    }
     if (l->next < l->count)
         run_sight(r, &l->at[l->next++][l->level]);
     return true;

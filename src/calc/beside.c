@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/array.h"
+#include "number/array.h"
 
 /* The state at an instant. */
 typedef struct stop {
@@ -119,11 +119,11 @@ static bool keep(const runner *r, void *context) {
     s->full = s->held >= s->budget;
     if (s->full)
         return false;
-    void *grown = s->stop;
-    s->no_memory = !array_room(&grown, &s->room, s->stops, sizeof *s->stop);
-    s->stop = grown;
-    if (s->no_memory)
+    stop *grown = fret_array_for(s->stop, &s->room, s->stops + 1, sizeof *grown);
+    s->no_memory = !grown;
+    if (!grown)
         return false;
+    s->stop = grown;
     if (s->stops == s->made)
         s->stop[s->made++].run.engine = (engine){.self = NULL};
     fret_state now;

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/array.h"
 #include "calc/tree.h"
 #include "calc/trial.h"
 #include "calc/unit_text.h"
+#include "number/array.h"
 
 enum {
     DEPTH_LIMIT = 200,    /* of nesting: the parser recurses */
@@ -44,14 +44,13 @@ static bool add(parser *p, const expr_node *node, size_t *index) {
     if (e->count % LOOK == 0 && calc_stopped(p->c->scene.stop, p->lx->error))
         return false;
     if (e->count == e->room) {
-        void *nodes = e->nodes;
         if (e->count >= NODE_LIMIT)
             return lex_fail(p->lx, "the expression has more than %d numbers, names and operators",
                             NODE_LIMIT);
-        bool ok = array_room(&nodes, &e->room, e->count, sizeof *e->nodes);
-        e->nodes = nodes;
-        if (!ok)
+        expr_node *nodes = fret_array_for(e->nodes, &e->room, e->count + 1, sizeof *nodes);
+        if (!nodes)
             return calc_no_memory(p->lx->error);
+        e->nodes = nodes;
     }
     *index = e->count;
     e->nodes[e->count] = *node;
@@ -262,11 +261,11 @@ static bool parse_arguments(parser *p, const definition *d, expr_node *node) {
     node->left = e->argument_count;
     node->right = d->parameters;
     for (unsigned j = 0; j < d->parameters; j++) {
-        void *arguments = e->arguments;
-        bool ok = array_room(&arguments, &e->argument_room, e->argument_count, sizeof *e->arguments);
-        e->arguments = arguments;
-        if (!ok)
+        size_t *arguments =
+            fret_array_for(e->arguments, &e->argument_room, e->argument_count + 1, sizeof *arguments);
+        if (!arguments)
             return calc_no_memory(lx->error);
+        e->arguments = arguments;
         e->arguments[e->argument_count++] = root[j];
     }
     return true;

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "calc/array.h"
+#include "number/array.h"
 
 static void end(counted *self) {
     program *p = (program *)self;
@@ -21,16 +21,18 @@ program *program_make(void) {
 }
 
 bool program_append(program *p, load_mark *mark, const load_step *step, const cycle_extra *extra) {
-    void *steps = p->steps, *cycles = p->cycles;
-    bool ok = array_room(&steps, &p->room, mark->steps, sizeof *p->steps);
-    p->steps = steps;
-    ok = ok && (!extra || array_room(&cycles, &p->cycle_room, mark->cycles, sizeof *p->cycles));
-    p->cycles = cycles;
-    if (!ok)
+    load_step *steps = fret_array_for(p->steps, &p->room, mark->steps + 1, sizeof *steps);
+    if (!steps)
         return false;
-    p->steps[mark->steps++] = *step;
-    if (extra)
+    p->steps = steps;
+    if (extra) {
+        cycle_extra *cycles = fret_array_for(p->cycles, &p->cycle_room, mark->cycles + 1, sizeof *cycles);
+        if (!cycles)
+            return false;
+        p->cycles = cycles;
         p->cycles[mark->cycles++] = *extra;
+    }
+    p->steps[mark->steps++] = *step;
     p->count = mark->steps;
     p->cycle_count = mark->cycles;
     return true;

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "number/array.h"
 #include "number/real.h"
 
 static const double pi = 3.14159265358979323846;
@@ -496,14 +497,10 @@ static void keep_trail(const runner *r, size_t i) {
     fret_state now;
     if (!t || i > t->count)
         return;
-    if (i == t->room) {
-        const size_t room = t->room ? 2 * t->room : 64;
-        double(*grown)[TRAILED] = realloc(t->at, room * sizeof *grown);
-        if (!grown)
-            return;
-        t->at = grown;
-        t->room = room;
-    }
+    double(*grown)[TRAILED] = fret_array_for(t->at, &t->room, i + 1, sizeof *grown);
+    if (!grown)
+        return;
+    t->at = grown;
     engine_forces(&r->engine, &now);
     const double kept[TRAILED] = {[TRAIL_FN] = (double)now.FN,
                                   [TRAIL_DZ] = (double)now.dz,

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "number/array.h"
+
 #include "calc/calc.h"
 
 enum { UNDO_LEVELS = 1000 }; /* at least */
@@ -33,16 +35,10 @@ void undo_end(calc *c) {
 
 /* Room for one more entry beside those that have been promised. */
 static bool reserve(undo *u) {
-    const size_t need = u->count + u->promised + 1;
-    if (need <= u->room)
-        return true;
-    const size_t room = need < 8 ? 8 : 2 * need;
-    undo_entry *grown = realloc(u->entry, room * sizeof *grown);
-    if (grown) {
+    undo_entry *grown = fret_array_for(u->entry, &u->room, u->count + u->promised + 1, sizeof *grown);
+    if (grown)
         u->entry = grown;
-        u->room = room;
-    }
-    return grown != NULL;
+    return grown;
 }
 
 /* The entry to fill, which has been reserved, with the oldest gone where there are too many. */

@@ -9,6 +9,7 @@
 
 #include "contact/check.h"
 #include "contact/rows.h"
+#include "number/array.h"
 #include "number/chebyshev.h"
 #include "number/double.h"
 #include "number/real.h"
@@ -559,16 +560,14 @@ static bool make_ring(maker *m, ring *p, bool sharp) {
     return true;
 }
 
-static bool reserve(maker *m, size_t room) {
+static bool reserve(maker *m, size_t count) {
     struct fret_density *d = m->d;
-    ring *grown = room > d->room ? realloc(d->ring, room * sizeof *grown) : d->ring;
-    if (room > 0 && !grown) {
+    ring *grown = fret_array_for(d->ring, &d->room, count, sizeof *grown);
+    if (grown)
+        d->ring = grown;
+    else
         m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-        return false;
-    }
-    d->ring = grown;
-    d->room = room > d->room ? room : d->room;
-    return true;
+    return grown;
 }
 
 /* From the radius lo to hi, in halves where one ring does not do; sharp: from the start of the gap. */
@@ -578,7 +577,7 @@ static bool cover(maker *m, fret_real lo, fret_real hi, bool sharp, int halvings
     if (fret_stopped(m->normal))
         return false;
     if (make_ring(m, &p, sharp)) {
-        if (d->count == d->room && !reserve(m, 2 * d->room + 16))
+        if (!reserve(m, d->count + 1))
             return false;
         d->ring[d->count++] = p;
         return true;
@@ -614,7 +613,7 @@ static bool cover_rows(maker *m, fret_real a) {
     d->heads = d->kept = d->count;
     d->count += count;
     d->leaf = count <= KEPT ? 1 : LEAF;
-    if (count <= KEPT && !reserve(m, d->count))
+    if (count <= KEPT && !reserve(m, d->count + 1))
         return false;
     for (size_t i = d->heads; i < d->count && count <= KEPT; i++) {
         take_row(d, i, SLOPE, &d->ring[i]);

@@ -8,6 +8,7 @@
 
 #include "contact/check.h"
 #include "contact/table.h"
+#include "number/array.h"
 #include "number/chebyshev.h"
 #include "number/real.h"
 
@@ -237,16 +238,12 @@ static void make_field(maker *m, fret_real lo, fret_real hi, bool few, const lea
 
 static bool add_leaf(maker *m, leaf *l) {
     struct fret_leaves *all = m->all;
-    if (all->leaves == m->room) {
-        const size_t room = 2 * m->room + 64;
-        leaf *grown = realloc(all->leaf, room * sizeof *grown);
-        if (!grown) {
-            m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-            return false;
-        }
-        all->leaf = grown;
-        m->room = room;
+    leaf *grown = fret_array_for(all->leaf, &m->room, all->leaves + 1, sizeof *grown);
+    if (!grown) {
+        m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        return false;
     }
+    all->leaf = grown;
     l->root = fret_pow(all->start + l->middle, -all->alpha);
     all->leaf[all->leaves++] = *l;
     return true;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "contact/check.h"
+#include "number/array.h"
 
 fret_status fret_memory_make(const fret_normal *normal, double mu, fret_memory **out) {
     fret_status st = fret_check_positive("mu", mu);
@@ -53,12 +54,10 @@ void fret_memory_reset(fret_memory *m) {
 fret_status fret_memory_reserve(fret_memory *m, size_t count) {
     if (count <= m->room)
         return fret_ok();
-    size_t room = count + count / 2;
-    slice *grown = realloc(m->slices, room * sizeof *grown);
+    slice *grown = fret_array_for(m->slices, &m->room, count, sizeof *grown);
     if (!grown)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     m->slices = grown;
-    m->room = room;
     return fret_ok();
 }
 

@@ -11,6 +11,7 @@
 #include "contact/piece.h"
 #include "contact/rows.h"
 #include "contact/table.h"
+#include "number/array.h"
 #include "number/chebyshev.h"
 #include "number/real.h"
 
@@ -213,16 +214,12 @@ static bool make_piece(maker *m, piece *p, const fret_real *slope, fret_real tol
 
 static bool add(maker *m, const piece *p) {
     law *all = m->all;
-    if (all->count == all->room) {
-        const size_t room = 2 * all->room + 32;
-        piece *grown = realloc(all->piece, room * sizeof *grown);
-        if (!grown) {
-            m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-            return false;
-        }
-        all->piece = grown;
-        all->room = room;
+    piece *grown = fret_array_for(all->piece, &all->room, all->count + 1, sizeof *grown);
+    if (!grown) {
+        m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        return false;
     }
+    all->piece = grown;
     all->piece[all->count++] = *p;
     m->edge = p->outer;
     return true;

@@ -9,6 +9,7 @@
 #include "contact/check.h"
 #include "contact/leaves.h"
 #include "contact/table.h"
+#include "number/array.h"
 #include "number/chebyshev.h"
 #include "number/double.h"
 #include "number/quadrature.h"
@@ -306,19 +307,21 @@ static void make_binomials(struct fret_rows *all) {
     }
 }
 
-/* Twice as much, where there is no room for one more of `size`. */
-static bool grow(maker *m, void **data, size_t count, size_t more, size_t *room, size_t size) {
-    if (count + more <= *room)
-        return true;
-    const size_t wanted = 2 * *room + more + 64;
-    void *grown = realloc(*data, wanted * size);
-    if (!grown) {
+/* For one more part, with what it may have of terms. */
+static bool make_room(maker *m) {
+    struct fret_rows *all = m->all;
+    part *parts = fret_array_for(all->part, &all->room, all->count + 1, sizeof *parts);
+    all->part = parts ? parts : all->part;
+    fret_real *terms =
+        parts ? fret_array_for(all->term, &all->most_terms, all->terms + (4 + SUMS) * WAVES, sizeof *terms)
+              : NULL;
+    all->term = terms ? terms : all->term;
+    struct beginning *begin =
+        terms ? fret_array_for(m->begin, &m->room, all->count + 2, sizeof *begin) : NULL;
+    m->begin = begin ? begin : m->begin;
+    if (!begin)
         m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-        return false;
-    }
-    *data = grown;
-    *room = wanted;
-    return true;
+    return begin;
 }
 
 static void take(fret_real into[2], const fret_level *l) {
@@ -401,14 +404,7 @@ static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool ki
     static const fret_real LITTLE = 2e-19L;
     struct fret_rows *all = m->all;
     fret_real smooth[2][WAVES], bent[2][WAVES], base[2], c[WAVES], top[2], v[2];
-    void *parts = all->part, *terms = all->term, *begin = m->begin;
-    const bool room = grow(m, &parts, all->count, 1, &all->room, sizeof *all->part) &&
-                      grow(m, &terms, all->terms, (4 + SUMS) * WAVES, &all->most_terms, sizeof *all->term) &&
-                      grow(m, &begin, all->count, 2, &m->room, sizeof *m->begin);
-    all->part = parts;
-    all->term = terms;
-    m->begin = begin;
-    if (!room)
+    if (!make_room(m))
         return false;
     const fret_real x = all->start + e, bend = width / (x * x);
     const fret_level at_e = level_at(m, row, e);

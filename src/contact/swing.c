@@ -9,6 +9,7 @@
 #include "contact/check.h"
 #include "contact/memory.h"
 #include "contact/phase.h"
+#include "number/array.h"
 #include "number/quadrature.h"
 #include "number/real.h"
 
@@ -82,12 +83,10 @@ static fret_real way_when(const way *w, int which, fret_real level, fret_real lo
 static fret_status reserve(fret_swing *c, size_t count) {
     if (count <= c->room)
         return fret_ok();
-    const size_t room = count + count / 2 + 8;
-    piece *grown = realloc(c->pieces, room * sizeof *grown);
+    piece *grown = fret_array_for(c->pieces, &c->room, count, sizeof *grown);
     if (!grown)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     c->pieces = grown;
-    c->room = room;
     return fret_ok();
 }
 

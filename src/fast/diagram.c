@@ -10,6 +10,7 @@
 #include "contact/normal.h"
 #include "contact/phase.h"
 #include "fast/zone.h"
+#include "number/array.h"
 
 /* A point of the curve in both coordinates: y is depth and load, t int sigma dy and int sigma dF_N. */
 typedef struct point {
@@ -88,12 +89,10 @@ void fret_diagram_reset(fret_diagram *d) {
 }
 
 static fret_status make_room(fret_diagram *d, size_t count) {
-    const size_t room = count + count / 2;
-    layer *grown = d->bounded ? NULL : realloc(d->layers, room * sizeof *grown);
+    layer *grown = d->bounded ? NULL : fret_array_for(d->layers, &d->room, count, sizeof *grown);
     if (!grown)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     d->layers = grown;
-    d->room = room;
     return fret_ok();
 }
 

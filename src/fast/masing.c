@@ -9,6 +9,7 @@
 #include "contact/check.h"
 #include "contact/normal.h"
 #include "fast/batch.h"
+#include "number/array.h"
 #include "number/double.h"
 
 /* The elementary functions of a step, in one place. */
@@ -125,12 +126,10 @@ void fret_masing_reset(fret_masing *m) {
 static fret_status reserve(fret_masing *m, size_t count) {
     if (count <= m->room)
         return fret_ok();
-    const size_t room = count + count / 2;
-    turn *grown = realloc(m->turns, room * sizeof *grown);
+    turn *grown = fret_array_for(m->turns, &m->room, count, sizeof *grown);
     if (!grown)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     m->turns = grown;
-    m->room = room;
     return fret_ok();
 }
 

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "number/array.h"
+
 enum { TRACK_POINTS = 20000 };
 
 /* ---- the curve --------------------------------------------------------------------------------- */
@@ -20,14 +22,10 @@ static bool add(track *t, track_point p) {
         t->count /= 2;
         memmove(t->point, t->point + t->count, t->count * sizeof *t->point);
     }
-    if (t->count == t->room) {
-        const size_t room = t->room ? 2 * t->room : 256;
-        track_point *grown = realloc(t->point, room * sizeof *grown);
-        if (!grown)
-            return false;
-        t->point = grown;
-        t->room = room;
-    }
+    track_point *grown = fret_array_for(t->point, &t->room, t->count + 1, sizeof *grown);
+    if (!grown)
+        return false;
+    t->point = grown;
     t->point[t->count++] = p;
     return true;
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "number/array.h"
 #include "shell/command.h"
 #include "shell/help.h"
 #include "shell/looks.h"
@@ -34,14 +35,10 @@ static void add(const place *p, const char *word, const char *ending) {
     const size_t typed = p->cursor - p->start, n = strlen(word), m = strlen(ending);
     if (n < typed || memcmp(word, p->line + p->start, typed) != 0)
         return;
-    if (out->count == out->room) {
-        const size_t room = out->room ? 2 * out->room : 64;
-        char **grown = realloc(out->word, room * sizeof *grown);
-        if (!grown)
-            return;
-        out->word = grown;
-        out->room = room;
-    }
+    char **grown = fret_array_for(out->word, &out->room, out->count + 1, sizeof *grown);
+    if (!grown)
+        return;
+    out->word = grown;
     char *whole = malloc(n + m + 1);
     if (!whole)
         return;
