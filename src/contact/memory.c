@@ -103,6 +103,15 @@ fret_press fret_memory_pressed(const fret_memory *m) {
     return p;
 }
 
+double fret_memory_edge_rest(const fret_memory *m, coordinate by, fret_real edge) {
+    if (!m->pressed_near)
+        return m->edge_rest[by];
+    if ((m->told_by == FRET_TO_FORCE) == (by == LOAD))
+        return 0; /* it was told so */
+    const fret_press p = fret_memory_pressed(m);
+    return (double)(by == LOAD ? (p.F - edge) + p.F_rest : (p.dz - edge) + p.dz_rest);
+}
+
 /* U = mu^2 eta/2 int v^2 dK with v the sum of sigma from the edge: from the centre outwards, a slice of
  * thickness h adds sigma h T + sigma^2 J to the half integral, T the sum of sigma dF_N inside it. */
 static fret_real stored(const fret_memory *m) {

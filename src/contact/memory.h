@@ -43,6 +43,9 @@ struct fret_memory {
 /* The edge with its radius, and all digits. */
 fret_press fret_memory_pressed(const fret_memory *memory);
 
+/* What `edge`, the edge in this coordinate, leaves out. */
+double fret_memory_edge_rest(const fret_memory *memory, coordinate by, fret_real edge);
+
 /* Room for `count` slices. Error: FRET_NO_MEMORY. */
 fret_status fret_memory_reserve(fret_memory *memory, size_t count);
 
