@@ -72,6 +72,14 @@ def at_work(process):
     return False
 
 
+def links(compiler, flags, source="int main(void) { return 0; }"):
+    """Is it there, with the libraries that these flags take?"""
+    with tempfile.TemporaryDirectory(prefix="fret-links-") as folder:
+        return shutil.which(compiler) and subprocess.run(
+            [compiler, *flags.split(), "-x", "c", "-", "-o", os.path.join(folder, "out")], input=source, text=True,
+            capture_output=True, check=False).returncode == 0
+
+
 def usual_signals():
     """nohup and & pass on ignored ones, which programs then ignore too."""
     for number in (signal.SIGHUP, signal.SIGINT, signal.SIGQUIT, signal.SIGTERM):

@@ -263,10 +263,12 @@ def main():
         if name not in ROOMS:
             sys.exit("tests/run: no room '%s': %s" % (name, " ".join(ROOMS)))
     passed = failed = 0
-    clang = ["CC=clang"] if shutil.which("clang") else []  # its sanitizers see more than those of gcc
-    variants = [("build", "plain", []), ("build/asan", "sanitized", ["B=build/asan", "OPT=" + SANITIZE] + clang)]
-    if clang:
-        if make("B=build/clang", *clang, "all", "tests"):
+    sanitized = ["B=build/asan", "OPT=" + SANITIZE]
+    if harness.links("clang", SANITIZE):  # sees more than gcc's
+        sanitized.append("CC=clang")
+    variants = [("build", "plain", []), ("build/asan", "sanitized", sanitized)]
+    if shutil.which("clang"):
+        if make("B=build/clang", "CC=clang", "all", "tests"):
             passed += 1
         else:
             failed += 1

@@ -4,6 +4,7 @@ keeps new inputs in build/fuzz/corpus and writes tests/hard/fuzz.txt; the tests 
 what the corpus and build/fuzz/corpus reach between them into the corpus, in few inputs."""
 import glob
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -14,6 +15,8 @@ from concurrent.futures import ThreadPoolExecutor
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(ROOT, "tests"))
+import harness  # noqa: E402
+
 TARGETS = ("statements", "json", "gap", "follow", "table", "replay")
 LONGEST = {"statements": 1200, "json": 1200, "gap": 2000, "follow": 2000, "table": 2000, "replay": 2000}
 OPTIONS = ("-timeout=30", "-rss_limit_mb=3000", "-use_value_profile=0", "-print_final_stats=1", "-verbosity=1")
@@ -31,7 +34,6 @@ def environment(target, tmp):
 
 def seeds(target):
     """Text to begin with, from what the tests have."""
-    import harness
     for path in sorted(glob.glob(os.path.join(ROOT, "tests/sessions/*.txt")) + glob.glob(os.path.join(ROOT, "scripts/demos/*.txt")) +
                        glob.glob(os.path.join(ROOT, "scripts/paper/*.txt"))):
         with open(path, encoding="utf-8") as f:
@@ -98,7 +100,8 @@ def fuzz(program, target, seconds, folder, seed):
             os.makedirs(kept, exist_ok=True)
             for name in inputs:
                 shutil.copy(os.path.join(tmp, name), os.path.join(kept, target + "-" + name))
-            wrong = "ends with %s, %s\n%s" % (status, " ".join(inputs), "\n".join(
+            given = [pathlib.Path(tmp, name).read_bytes() for name in inputs]
+            wrong = "ends with %s, given %s\n%s" % (status, " and ".join(map(repr, given)), "\n".join(
                 line for line in text.splitlines() if not re.match(r"#\d+\s+(NEW|REDUCE|pulse|RELOAD)", line))[-4000:])
         runs = re.findall(r"stat::number_of_executed_units: (\d+)", text) or re.findall(r"^#(\d+)\s", text, re.M) or ["0"]
         reached = re.findall(r"cov: (\d+) ft: (\d+) corp: (\d+)", text) or [("0", "0", "0")]
@@ -110,11 +113,9 @@ def run(tests):
     program = os.path.join(ROOT, "build/fuzz/fuzz")
     if tests.sanitized:
         return
-    with tests.file("int LLVMFuzzerTestOneInput(void); int LLVMFuzzerTestOneInput(void) { return 0; }", ".c") as source:
-        if not shutil.which("clang") or subprocess.run(["clang", "-fsanitize=fuzzer", "-o", source + ".out", source],
-                                                       capture_output=True, check=False).returncode:
-            print("fuzz: not run, clang with libFuzzer is not installed")
-            return
+    if not harness.links("clang", "-fsanitize=fuzzer", "int LLVMFuzzerTestOneInput(void); int LLVMFuzzerTestOneInput(void) { return 0; }"):
+        print("fuzz: not run, clang with libFuzzer is not installed")
+        return
     done = subprocess.run(["make", "--no-print-directory", "-s", "-j%d" % (os.cpu_count() or 1), "fuzz-build"], cwd=ROOT,
                           capture_output=True, text=True, check=False)
     if not tests.check("the targets build", done.returncode == 0, done.stdout[-1000:] + done.stderr[-2000:]):
