@@ -2,44 +2,22 @@
 /* Each allocation of the library fails once: the call says so, what it was to change is as it was, nothing
  * leaks. The Makefile links this program so that the library allocates through the functions here. */
 #include "contact/rows.h"
+#include "failing.h"
 #include "unit.h"
-
-static int left = -1; /* allocations that succeed before one fails; -1: all do */
-
-static bool fails(void) {
-    return left >= 0 && left-- == 0;
-}
-
-#define WRAPPED(type, name, parameters, arguments)                                                           \
-    type __real_##name parameters;                                                                           \
-    type __wrap_##name parameters;                                                                           \
-    type __wrap_##name parameters {                                                                          \
-        return fails() ? NULL : __real_##name arguments;                                                     \
-    }
-WRAPPED(void *, malloc, (size_t size), (size))
-WRAPPED(void *, calloc, (size_t count, size_t size), (count, size))
-WRAPPED(void *, realloc, (void *old, size_t size), (old, size))
-WRAPPED(void *, aligned_alloc, (size_t alignment, size_t size), (alignment, size))
 
 enum { ROWS = 40 };
 static double r[ROWS], f[ROWS];
 static fret_contact contact;
 static double limit, slip;
 
-/* One call, tried with each of its allocations failing: more than so many tries until it succeeds. */
-#define EACH_FAILS(least, call, unchanged)                                                                   \
-    do {                                                                                                     \
-        int n_ = 0;                                                                                          \
-        for (fret_code code_ = FRET_NO_MEMORY; code_ && n_ < 100; n_++) {                                    \
-            left = n_;                                                                                       \
-            const fret_status st_ = (call);                                                                  \
-            left = -1;                                                                                       \
-            code_ = st_.code;                                                                                \
-            CHECK(code_ == FRET_OK || code_ == FRET_NO_MEMORY);                                              \
-            CHECK(code_ == FRET_OK || (unchanged));                                                          \
-        }                                                                                                    \
-        CHECK(n_ > (least));                                                                                 \
-    } while (0)
+static fret_status last;
+
+static bool fine(fret_status st) {
+    last = st;
+    return !st.code;
+}
+
+#define EACH(least, call, unchanged) EACH_FAILS(least, fine(call), last.code == FRET_NO_MEMORY && (unchanged))
 
 static void tables_and_contacts(void) {
     struct fret_table *table = NULL;
@@ -49,13 +27,12 @@ static void tables_and_contacts(void) {
     fret_masing *masing = NULL;
     fret_swing *swing = NULL;
     const unit_scene s = unit_make_scene(2, 0.3);
-    EACH_FAILS(3, fret_table_make(r, f, ROWS, NULL, &table), table == NULL);
-    EACH_FAILS(1, fret_normal_make(&s.material, &s.gap, &normal), normal == NULL);
-    EACH_FAILS(2, fret_memory_make(contact.normal, 0.4, &memory), memory == NULL);
-    EACH_FAILS(3, fret_springs_make(contact.normal, 0.4, 100, 1e-3, FRET_WEIGHT_CELL, &springs),
-               springs == NULL);
-    EACH_FAILS(2, fret_masing_make(&contact, &masing), masing == NULL);
-    EACH_FAILS(2, fret_swing_make(memory, &swing), swing == NULL);
+    EACH(3, fret_table_make(r, f, ROWS, NULL, &table), table == NULL);
+    EACH(1, fret_normal_make(&s.material, &s.gap, &normal), normal == NULL);
+    EACH(2, fret_memory_make(contact.normal, 0.4, &memory), memory == NULL);
+    EACH(3, fret_springs_make(contact.normal, 0.4, 100, 1e-3, FRET_WEIGHT_CELL, &springs), springs == NULL);
+    EACH(2, fret_masing_make(&contact, &masing), masing == NULL);
+    EACH(2, fret_swing_make(memory, &swing), swing == NULL);
     fret_swing_free(swing);
     fret_masing_free(masing);
     fret_springs_free(springs);
@@ -75,10 +52,10 @@ static void laws(void) {
     const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
     CHECK_OK(fret_normal_make(&m, &gap, &n));
     CHECK_OK(fret_normal_make(&m, &gap, &other));
-    EACH_FAILS(8, fret_rows_make(n, 1e-3L, &rows, &error), rows == NULL);
-    EACH_FAILS(9, fret_normal_prepare(n, 1, 0), isnan(fret_normal_prepared(n)));
+    EACH(8, fret_rows_make(n, 1e-3L, &rows, &error), rows == NULL);
+    EACH(9, fret_normal_prepare(n, 1, 0), isnan(fret_normal_prepared(n)));
     CHECK(fret_normal_prepared(n) < 1e-15);
-    EACH_FAILS(0, fret_normal_share(other, n), isnan(fret_normal_prepared(other)));
+    EACH(0, fret_normal_share(other, n), isnan(fret_normal_prepared(other)));
     CHECK(fret_normal_prepared(other) == fret_normal_prepared(n));
     fret_rows_free(rows);
     fret_normal_free(n);
@@ -91,8 +68,8 @@ static void pieces(void) {
     const fret_material steel = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1};
     const fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 2e6, 1}}};
     fret_normal *from = unit_keep_normal(&steel, &sum), *like = unit_keep_normal(&steel, &sum);
-    EACH_FAILS(3, fret_normal_prepare(from, 10, 0), true);
-    EACH_FAILS(0, fret_normal_share(like, from), !like->pieces && isnan(fret_normal_prepared(like)));
+    EACH(3, fret_normal_prepare(from, 10, 0), true);
+    EACH(0, fret_normal_share(like, from), !like->pieces && isnan(fret_normal_prepared(like)));
     CHECK(like->pieces && fret_normal_prepared(like) == fret_normal_prepared(from));
 }
 
@@ -130,7 +107,7 @@ static void memories(void) {
     fret_memory_state(whole, &before);
     CHECK(refused > 3 && same(&before, &now));
     fret_memory_state(copy, &before);
-    EACH_FAILS(1, fret_memory_copy(copy, m), (fret_memory_state(copy, &now), same(&before, &now)));
+    EACH(1, fret_memory_copy(copy, m), (fret_memory_state(copy, &now), same(&before, &now)));
     fret_memory_state(m, &before);
     fret_memory_state(copy, &now);
     CHECK(same(&before, &now));
@@ -172,7 +149,7 @@ static void masings(void) {
                        : fret_masing_to_dx(whole, 0.6 * slip * part, &out));
     }
     CHECK(refused > 2 && alike(m, whole));
-    EACH_FAILS(1, fret_masing_copy(copy, m), alike(copy, open));
+    EACH(1, fret_masing_copy(copy, m), alike(copy, open));
     CHECK(alike(copy, m));
     fret_masing_free(m);
     fret_masing_free(copy);
@@ -222,7 +199,7 @@ static void springs(void) {
         CHECK_OK(fret_springs_step(other, &steps[i], 1));
     }
     fret_springs_state(other, &before);
-    EACH_FAILS(2, fret_springs_copy(other, s), (fret_springs_state(other, &now), same(&before, &now)));
+    EACH(2, fret_springs_copy(other, s), (fret_springs_state(other, &now), same(&before, &now)));
     fret_springs_state(s, &before);
     fret_springs_state(other, &now);
     CHECK(same(&before, &now));
@@ -247,14 +224,14 @@ static void swings(void) {
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
     CHECK_OK(fret_swing_make(m, &w));
     CHECK_OK(fret_swing_make(m, &copy));
-    EACH_FAILS(0, period_of(w, copy, &sine), true);
+    EACH(0, period_of(w, copy, &sine), true);
     fret_swing_state(copy, &before);
-    EACH_FAILS(0, fret_swing_copy(copy, w), (fret_swing_state(copy, &now), same(&before, &now)));
+    EACH(0, fret_swing_copy(copy, w), (fret_swing_state(copy, &now), same(&before, &now)));
     fret_swing_state(w, &before);
     fret_swing_state(copy, &now);
     CHECK(same(&before, &now));
     fret_memory_state(back, &before);
-    EACH_FAILS(0, fret_swing_memory(w, back), (fret_memory_state(back, &now), same(&before, &now)));
+    EACH(0, fret_swing_memory(w, back), (fret_memory_state(back, &now), same(&before, &now)));
     fret_swing_free(w);
     fret_swing_free(copy);
     fret_memory_free(m);
@@ -319,8 +296,8 @@ static void fields(void) {
     CHECK_OK(fret_memory_make(normal, 0.4, &m));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 5}));
-    EACH_FAILS(1, fret_fields_make(normal, &many), many == NULL);
-    EACH_FAILS(4, fret_fields_traction(many, m, 1e-5L, &q), isnan(fret_fields_error(many)));
+    EACH(1, fret_fields_make(normal, &many), many == NULL);
+    EACH(4, fret_fields_traction(many, m, 1e-5L, &q), isnan(fret_fields_error(many)));
     CHECK_OK(fret_fields_traction(many, m, 1e-5L, &again));
     CHECK(q > 0 && q == again && fret_fields_error(many) < 1e-14);
     fret_fields_free(many);

@@ -3,40 +3,10 @@
  * once, and where a live definition has no value any more: it is refused, and the next time answered to the
  * last digit as ever. The Makefile links this program so that the language allocates through the functions
  * here. */
-#include "unit.h"
-
-#define unit calc_unit /* names that calc has too */
-#define value calc_value
-#define quantity calc_quantity
-#include "calc/calc.h"
-#undef unit
-#undef value
-#undef quantity
-
-static int left = -1; /* allocations that succeed before one fails; -1: all do */
-
-static bool fails(void) {
-    return left >= 0 && left-- == 0;
-}
-
-#define WRAPPED(name, parameters, arguments)                                                                 \
-    void *__real_##name parameters;                                                                          \
-    void *__wrap_##name parameters;                                                                          \
-    void *__wrap_##name parameters {                                                                         \
-        return fails() ? NULL : __real_##name arguments;                                                     \
-    }
-WRAPPED(malloc, (size_t size), (size))
-WRAPPED(calloc, (size_t count, size_t size), (count, size))
-WRAPPED(realloc, (void *old, size_t size), (old, size))
-WRAPPED(aligned_alloc, (size_t alignment, size_t size), (alignment, size))
+#include "failing.h"
+#include "language.h"
 
 static volatile sig_atomic_t stop;
-static calc_error error;
-
-static calc_error *fresh(void) {
-    error_clear(&error);
-    return &error;
-}
 
 /* ---- questions ---------------------------------------------------------------------------------- */
 
@@ -160,8 +130,9 @@ static const struct {
 /* ---- scenes ------------------------------------------------------------------------------------- */
 
 typedef struct scened {
-    const char *what, *geometry; /* geometry: NULL: rows */
-    load_step then;              /* after the press */
+    const char *what;
+    bool rows;      /* instead of the sphere */
+    load_step then; /* after the press */
     double phase;
     bool automatic;
     model_id model;
@@ -172,77 +143,41 @@ typedef struct scened {
 #define FORCE(kind, Fx, FN)                                                                                  \
     { kind, .tangential = BY_FORCE, .tangential_value = Fx, .normal_value = FN, .points = 1 }
 static const scened scenes[] = {
-    {.what = "press", .geometry = "sphere", .automatic = true},
-    {.what = "step", .geometry = "sphere", .then = FORCE(LOAD_STEP, 20, 0), .automatic = true},
-    {.what = "cycle", .geometry = "sphere", .then = FORCE(LOAD_CYCLE, 20, 0), .automatic = true},
-    {.what = "sine", .geometry = "sphere", .then = FORCE(LOAD_CYCLE, 12, 30), .automatic = true},
+    {.what = "press", .automatic = true},
+    {.what = "step", .then = FORCE(LOAD_STEP, 20, 0), .automatic = true},
+    {.what = "cycle", .then = FORCE(LOAD_CYCLE, 20, 0), .automatic = true},
+    {.what = "sine", .then = FORCE(LOAD_CYCLE, 12, 30), .automatic = true},
     {.what = "chords",
-     .geometry = "sphere",
      .then = {LOAD_CYCLE, .tangential = BY_DISPLACEMENT, .tangential_value = 2e-7, .normal_value = 10},
      .phase = 1,
      .automatic = true},
-    {.what = "by memory", .geometry = "sphere", .then = FORCE(LOAD_CYCLE, 20, 0), .model = MODEL_MEMORY},
-    {.what = "by double", .geometry = "sphere", .then = FORCE(LOAD_CYCLE, 20, 0), .model = MODEL_DOUBLE},
-    {.what = "by double, swinging",
-     .geometry = "sphere",
-     .then = FORCE(LOAD_CYCLE, 12, 30),
-     .model = MODEL_DOUBLE},
-    {.what = "by springs", .geometry = "sphere", .then = FORCE(LOAD_CYCLE, 12, 0), .model = MODEL_SPRINGS},
-    {.what = "by springs, swinging",
-     .geometry = "sphere",
-     .then = FORCE(LOAD_CYCLE, 12, 30),
-     .model = MODEL_SPRINGS},
-    {.what = "by closed forms",
-     .geometry = "sphere",
-     .then = FORCE(LOAD_CYCLE, 12, 30),
-     .model = MODEL_CLOSED},
-    {.what = "rows", .then = FORCE(LOAD_STEP, 20, 0), .automatic = true},
-    {.what = "many of rows", .then = FORCE(LOAD_STEP, 20, 0), .automatic = true, .many = true},
-    {.what = "many, open", .then = FORCE(LOAD_STEP, 20, 0), .automatic = true, .many = true, .open = true},
+    {.what = "by memory", .then = FORCE(LOAD_CYCLE, 20, 0), .model = MODEL_MEMORY},
+    {.what = "by double", .then = FORCE(LOAD_CYCLE, 20, 0), .model = MODEL_DOUBLE},
+    {.what = "by double, swinging", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_DOUBLE},
+    {.what = "by springs", .then = FORCE(LOAD_CYCLE, 12, 0), .model = MODEL_SPRINGS},
+    {.what = "by springs, swinging", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_SPRINGS},
+    {.what = "by closed forms", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_CLOSED},
+    {.what = "rows", .rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true},
+    {.what = "many of rows", .rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true, .many = true},
+    {.what = "many, open",
+     .rows = true,
+     .then = FORCE(LOAD_STEP, 20, 0),
+     .automatic = true,
+     .many = true,
+     .open = true},
 };
 
-static shared_table *rows_of_sphere(void) {
-    enum { ROWS = 12 };
-    double r[ROWS], f[ROWS];
-    struct fret_table *t = NULL;
-    for (int i = 0; i < ROWS; i++) {
-        r[i] = 1e-3 * i / (ROWS - 1);
-        f[i] = r[i] * r[i] / 0.02;
-    }
-    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
-    return shared_table_make(t, "rows", (smoothing){0});
-}
-
-static bool assign(calc *c, const char *text) {
-    lexer lx;
-    lex_start(&lx, text, strlen(text), fresh());
-    return calc_assign(c, &lx);
-}
-
-static bool load(calc *c, const load_step *step, double phase) {
-    const cycle_extra extra = {.times = 1, .phase = phase};
-    return scene_load(c->now, step, step->kind == LOAD_CYCLE ? &extra : NULL, fresh());
+static bool loaded(calc *c, const load_step *step, double phase) {
+    return load(c, *step, (cycle_extra){.times = 1, .phase = phase});
 }
 
 static void begin(calc *c, const scened *of) {
-    static const load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = 100},
-                           lift = {.kind = LOAD_STEP, .normal = BY_FORCE, .points = 1};
-    calc_init(c, &stop);
-    inputs *in = &c->now->in;
-    inputs_put(in, IN_E0, 210e9);
-    inputs_put(in, IN_NU, 0.3);
-    inputs_put(in, IN_MU, 0.4);
-    if (of->geometry) {
-        inputs_geometry(in, geometry_find(of->geometry, strlen(of->geometry)), NULL, NULL);
-        inputs_put(in, IN_RADIUS, 0.01);
-    } else {
-        inputs_geometry(in, geometry_find("file", 4), NULL, rows_of_sphere());
-    }
-    CHECK(load(c, &press, 0));
+    static const load_step lift = {.kind = LOAD_STEP, .normal = BY_FORCE, .points = 1};
+    press_steel(c, &stop, of->rows ? 12 : 0);
     if (of->then.kind != LOAD_PRESS)
-        CHECK(load(c, &of->then, of->phase));
+        CHECK(loaded(c, &of->then, of->phase));
     if (of->open)
-        CHECK(load(c, &lift, 0));
+        CHECK(loaded(c, &lift, 0));
     CHECK(assign(c, "x = 100 N") && assign(c, "FN := x") && assign(c, "y = 0.4") && assign(c, "mu := y"));
     if (of->then.kind == LOAD_CYCLE && of->then.tangential == BY_FORCE)
         CHECK(assign(c, of->then.tangential_value == 20 ? "z = 20 N" : "z = 12 N") && assign(c, "FA := z"));
@@ -267,7 +202,7 @@ static bool as_ever(scene *s, size_t i, const double want[VALUES]) {
 }
 
 /* Some does without what it could not have. */
-static void out_of_memory(calc *c, size_t i, const double want[VALUES]) {
+static void starve(calc *c, size_t i, const double want[VALUES]) {
     bool failed = true;
     for (int n = 0; failed && n < 1000; n++) {
         double v[VALUES];
@@ -275,9 +210,7 @@ static void out_of_memory(calc *c, size_t i, const double want[VALUES]) {
         const bool ok = again(c->now, i, v);
         failed = left < 0;
         left = -1;
-        if (!ok)
-            calc_word(c, &error);
-        CHECK(ok ? !memcmp(v, want, sizeof v) : failed && strstr(error.text, "out of memory"));
+        CHECK(ok ? !memcmp(v, want, sizeof v) : failed && out_of_memory(c));
         CHECK(as_ever(c->now, i, want));
     }
     CHECK(!failed);
@@ -317,7 +250,7 @@ static void loads(const scened *of, const load_step *then, bool lost) {
     bool failed = true;
     calc whole;
     begin(&whole, of);
-    CHECK(again(whole.now, STATE, before) && load(&whole, then, 0));
+    CHECK(again(whole.now, STATE, before) && loaded(&whole, then, 0));
     CHECK(ask_state(whole.now, want));
     calc_free(&whole);
     for (int n = 0; failed && n < 1000; n++) {
@@ -331,7 +264,7 @@ static void loads(const scened *of, const load_step *then, bool lost) {
             c.names.row[at].v.v = -1;
         else
             left = n;
-        const bool ok = load(&c, then, 0);
+        const bool ok = loaded(&c, then, 0);
         failed = lost ? n < 1 : left < 0;
         left = -1;
         c.names.row[at].v = good;
@@ -357,6 +290,47 @@ static void more_loads(const scened *of) {
     }
 }
 
+/* Many steps at once, of which whoever asks takes back what is refused. */
+static void rows_of_loads(bool forgotten) {
+    static const double FN[] = {90, 95, 80}, Fx[] = {10, -5, 12};
+    static const load_step step = {.kind = LOAD_STEP, .normal = BY_FORCE, .tangential = BY_FORCE};
+    const scened *of = &scenes[1];
+    double want[VALUES], v[VALUES];
+    bool failed = true;
+    calc c;
+    size_t row;
+    begin(&c, of);
+    for (int i = 0; i < 3; i++) {
+        load_step one = step;
+        one.normal_value = FN[i];
+        one.tangential_value = Fx[i];
+        one.points = 1;
+        CHECK(loaded(&c, &one, 0));
+    }
+    CHECK(ask_state(c.now, want));
+    calc_free(&c);
+    for (int n = 0; failed && n < 1000; n++) {
+        begin(&c, of);
+        if (forgotten)
+            scene_forget(c.now, false);
+        left = n;
+        const bool ok = scene_load_rows(c.now, step, FN, Fx, 3, &row, fresh());
+        failed = left < 0;
+        left = -1;
+        CHECK(ok ? ask_state(c.now, v) && !memcmp(v, want, sizeof v) : out_of_memory(&c) && row < 3);
+        calc_free(&c);
+    }
+    CHECK(!failed);
+    begin(&c, of);
+    CHECK(assign(&c, "mu := y") && names_find(&c.names, "y", 1, &row));
+    c.names.row[row].v.v = -1;
+    scene_forget(c.now, false);
+    CHECK(!scene_load_rows(c.now, step, FN, Fx, 3, &row, fresh()) && row == 0);
+    calc_word(&c, &error);
+    CHECK(strstr(error.text, "must be positive"));
+    calc_free(&c);
+}
+
 /* A step deeper than rows reach, and sideways, for which they are prepared as far as they do. */
 static void too_deep(void) {
     static const load_step deep = {LOAD_STEP,
@@ -367,8 +341,8 @@ static void too_deep(void) {
                                    .points = 1};
     double before[VALUES];
     calc c;
-    begin(&c, &(scened){.automatic = true});
-    CHECK(again(c.now, STATE, before) && !load(&c, &deep, 0));
+    begin(&c, &(scened){.rows = true, .automatic = true});
+    CHECK(again(c.now, STATE, before) && !loaded(&c, &deep, 0));
     calc_word(&c, &error);
     CHECK(strstr(error.text, "cannot be carried") && as_ever(c.now, STATE, before));
     calc_free(&c);
@@ -380,7 +354,7 @@ static void too_steep(void) {
     double one[VALUES], many[VALUES];
     fret_contact contact;
     calc c;
-    begin(&c, &(scened){.geometry = "sphere", .automatic = true});
+    begin(&c, &(scened){.automatic = true});
     inputs_geometry(&c.now->in, geometry_find("sum", 3), &sum, NULL);
     CHECK(again(c.now, CONTACT, one));
     c.now->many = true;
@@ -421,7 +395,7 @@ int main(int argc, char **argv) {
             begin(&c, &scenes[i]);
             if (again(c.now, j, want)) { /* not all is asked of all: no loss without a cycle */
                 answered++;
-                out_of_memory(&c, j, want);
+                starve(&c, j, want);
                 interrupt(&c, j, want);
                 lose(&c, "x", j, want);
                 lose(&c, "y", j, want);
@@ -435,6 +409,8 @@ int main(int argc, char **argv) {
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
         if (scenes[i].automatic && !scenes[i].open)
             more_loads(&scenes[i]);
+    rows_of_loads(false);
+    rows_of_loads(true);
     too_deep();
     too_steep();
     lacking();

@@ -1,45 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The small parts of the language, and what memory that runs out leaves of it: each allocation of a statement
  * fails once. The Makefile links this program so that the language allocates through the functions here. */
-#include "unit.h"
-
-#define unit calc_unit /* names that calc has too */
-#define value calc_value
-#define quantity calc_quantity
-#include "calc/calc.h"
-#include "calc/characters.h"
-#include "calc/functions.h"
-#include "calc/trial.h"
-#undef unit
-#undef value
-#undef quantity
-
 #include <errno.h>
 #include <sys/time.h>
 
-static int left = -1; /* allocations that succeed before one fails; -1: all do */
-
-static bool fails(void) {
-    return left >= 0 && left-- == 0;
-}
-
-#define WRAPPED(name, parameters, arguments)                                                                 \
-    void *__real_##name parameters;                                                                          \
-    void *__wrap_##name parameters;                                                                          \
-    void *__wrap_##name parameters {                                                                         \
-        return fails() ? NULL : __real_##name arguments;                                                     \
-    }
-WRAPPED(malloc, (size_t size), (size))
-WRAPPED(calloc, (size_t count, size_t size), (count, size))
-WRAPPED(realloc, (void *old, size_t size), (old, size))
-WRAPPED(aligned_alloc, (size_t alignment, size_t size), (alignment, size))
-
-static calc_error error;
-
-static calc_error *fresh(void) {
-    error_clear(&error);
-    return &error;
-}
+#include "failing.h"
+#include "language.h"
 
 /* ---- words, characters, units ------------------------------------------------------------------- */
 
@@ -139,12 +105,6 @@ static void blocks(void) {
 
 /* ---- statements --------------------------------------------------------------------------------- */
 
-static bool assign(calc *c, const char *text) {
-    lexer lx;
-    lex_start(&lx, text, strlen(text), fresh());
-    return calc_assign(c, &lx);
-}
-
 static bool evaluate(calc *c, const char *text, calc_value *out) {
     lexer lx;
     lex_start(&lx, text, strlen(text), fresh());
@@ -155,39 +115,6 @@ static double value_of(calc *c, const char *text) {
     calc_value v;
     return evaluate(c, text, &v) ? (double)v.v : (double)NAN;
 }
-
-static bool load(calc *c, load_step step, cycle_extra extra) {
-    return scene_load(c->now, &step, step.kind == LOAD_CYCLE ? &extra : NULL, fresh());
-}
-
-static void begin(calc *c) {
-    calc_init(c, NULL);
-    inputs *in = &c->now->in;
-    inputs_put(in, IN_E0, 210e9);
-    inputs_put(in, IN_NU, 0.3);
-    inputs_put(in, IN_MU, 0.4);
-    inputs_geometry(in, geometry_find("sphere", 6), NULL, NULL);
-    inputs_put(in, IN_RADIUS, 0.01);
-    CHECK(
-        load(c, (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = 100}, (cycle_extra){0}));
-}
-
-/* One statement, tried with each of its allocations failing until it succeeds. */
-#define EACH_FAILS(least, call, unchanged)                                                                   \
-    do {                                                                                                     \
-        int n_ = 0;                                                                                          \
-        for (bool ok_ = false; !ok_ && n_ < 2000; n_++) {                                                    \
-            left = n_;                                                                                       \
-            ok_ = (call);                                                                                    \
-            left = -1;                                                                                       \
-            if (!ok_) {                                                                                      \
-                calc_word(&c, &error);                                                                       \
-                CHECK(strstr(error.text, "out of memory"));                                                  \
-                CHECK(unchanged);                                                                            \
-            }                                                                                                \
-        }                                                                                                    \
-        CHECK(n_ > (least) && n_ < 2000);                                                                    \
-    } while (0)
 
 /* Expressions of as many nodes as make room for more at each kind of them. */
 static void expressions(void) {
@@ -215,7 +142,8 @@ static void expressions(void) {
             strcat(text, rows[i].last);
             calc_init(&c, NULL); /* no room yet */
             CHECK(assign(&c, "x = 3") && assign(&c, "F(y) := y^2"));
-            EACH_FAILS(0, (expr_free(&c.scratch), evaluate(&c, text, &v)), value_of(&c, "x") == 3);
+            EACH_FAILS(0, (expr_free(&c.scratch), evaluate(&c, text, &v)),
+                       out_of_memory(&c) && value_of(&c, "x") == 3);
             if (times < 3 || times == MOST)
                 CHECK_REL(v.v, (fret_real)rows[i].value[times < 3 ? times - 1 : 2], 1e-15L);
             calc_free(&c);
@@ -231,7 +159,8 @@ static void assignments(void) {
         char text[40];
         snprintf(text, sizeof text, "%s := 2*1", names[i]);
         const size_t before = c.undo.count;
-        EACH_FAILS(2, assign(&c, text), c.undo.count == before && isnan(value_of(&c, names[i])));
+        EACH_FAILS(2, assign(&c, text),
+                   out_of_memory(&c) && c.undo.count == before && isnan(value_of(&c, names[i])));
         CHECK(value_of(&c, names[i]) == 2);
     }
     /* a name that only a sweep gives */
@@ -240,7 +169,8 @@ static void assignments(void) {
         knob k;
         lexer lx;
         snprintf(text, sizeof text, "s%zu", i);
-        EACH_FAILS(0, (lex_start(&lx, text, strlen(text), fresh()), knob_read(&c, &lx, &k)), !c.note[0]);
+        EACH_FAILS(0, (lex_start(&lx, text, strlen(text), fresh()), knob_read(&c, &lx, &k)),
+                   out_of_memory(&c) && !c.note[0]);
         CHECK(!k.is_input && !strcmp(k.text, text));
     }
     calc_free(&c);
@@ -277,8 +207,8 @@ static void loads(bool turned) {
                   {12, 30, 1, BY_FORCE},          {5, 0, 0, BY_FORCE},
                   {2e-7, 10, 1, BY_DISPLACEMENT}, {3, 9, 2, BY_FORCE}};
     calc c, whole;
-    begin(&c);
-    begin(&whole);
+    press_steel(&c, NULL, 0);
+    press_steel(&whole, NULL, 0);
     for (int i = 0; turned && i < 30; i++) { /* many slices to be kept */
         const load_step step = {.kind = LOAD_STEP,
                                 .tangential = BY_FORCE,
@@ -293,7 +223,7 @@ static void loads(bool turned) {
                                  .normal_value = cycles[i].FNA};
         const cycle_extra extra = {.times = 2, .phase = cycles[i].phase};
         const place before = place_of(&c);
-        EACH_FAILS(0, load(&c, cycle, extra), same(place_of(&c), before));
+        EACH_FAILS(0, load(&c, cycle, extra), out_of_memory(&c) && same(place_of(&c), before));
         CHECK(load(&whole, cycle, extra) && same(place_of(&c), place_of(&whole)));
     }
     calc_free(&c);
@@ -318,7 +248,7 @@ static void refusals(void) {
                       .points = 1}};
     static const cycle_extra twice = {.times = 2, .phase = 1};
     calc c;
-    begin(&c);
+    press_steel(&c, NULL, 0);
     for (int swung = 0; swung < 2; swung++) {
         const place before = place_of(&c);
         for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
@@ -400,7 +330,7 @@ static void along(void) {
     calc c;
     looks all;
     bool done;
-    begin(&c);
+    press_steel(&c, NULL, 0);
     for (int i = 0; i < 30; i++)
         CHECK(load(
             &c,
@@ -458,31 +388,11 @@ static void ring(int number) {
     rung = 1;
 }
 
-/* A gap in rows, which takes its time. */
-static shared_table *rows_of_sphere(void) {
-    enum { ROWS = 60 }; /* too few for pieces: they would be fast */
-    static double r[ROWS], f[ROWS];
-    struct fret_table *t = NULL;
-    for (int i = 0; i < ROWS; i++) {
-        r[i] = 1e-3 * i / (ROWS - 1);
-        f[i] = r[i] * r[i] / 0.02;
-    }
-    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
-    return shared_table_make(t, "rows", (smoothing){0});
-}
-
 /* Interrupted sooner or later: an answer is the one of an undisturbed call, or there is none. */
 static void interrupted(void) {
     static quantity_call_function *const all[] = {call_Kp, call_loss_factor};
     calc c;
-    calc_init(&c, &rung);
-    inputs *in = &c.now->in;
-    inputs_put(in, IN_E0, 210e9);
-    inputs_put(in, IN_NU, 0.3);
-    inputs_put(in, IN_MU, 0.4);
-    inputs_geometry(in, geometry_find("file", 4), NULL, rows_of_sphere());
-    CHECK(
-        load(&c, (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = 100}, (cycle_extra){0}));
+    press_steel(&c, &rung, 60); /* rows, too few for pieces, which would be fast */
     signal(SIGALRM, ring);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         const calc_value dxA = {5e-7L, DIM_LENGTH};
@@ -514,7 +424,7 @@ static void far_back(void) {
     static const load_step slide = {
         .kind = LOAD_STEP, .tangential = BY_DISPLACEMENT, .tangential_value = 1e-7, .points = 1};
     calc c;
-    begin(&c);
+    press_steel(&c, NULL, 0);
     size_t taken = 0;
     for (int i = 0; i < 2001; i++) {
         char text[20];

@@ -1,15 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A load that is walked in parts ends where one ends that is run at once, to the last bit, wherever it waits;
  * a walk follows its scene. */
-#include "unit.h"
-
-#define unit calc_unit /* names that calc has too */
-#define value calc_value
-#define quantity calc_quantity
-#include "calc/walk.h"
-#undef unit
-#undef value
-#undef quantity
+#include "language.h"
 
 typedef struct looker {
     walk *walk;
@@ -26,20 +18,11 @@ static bool see(const runner *r, void *context) {
 }
 
 static void push(calc *c, load_step step, cycle_extra extra) {
-    calc_error error;
-    error_clear(&error);
-    CHECK(scene_load(c->now, &step, step.kind == LOAD_CYCLE ? &extra : NULL, &error));
+    CHECK(load(c, step, extra));
 }
 
 static void begin(calc *c, bool swings) {
-    calc_init(c, NULL);
-    inputs *in = &c->now->in;
-    inputs_put(in, IN_E0, 210e9);
-    inputs_put(in, IN_NU, 0.3);
-    inputs_put(in, IN_MU, 0.4);
-    inputs_geometry(in, geometry_find("sphere", 6), NULL, NULL);
-    inputs_put(in, IN_RADIUS, 0.01);
-    push(c, (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = 100}, (cycle_extra){0});
+    press_steel(c, NULL, 0);
     push(c, (load_step){.kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 20, .points = 1},
          (cycle_extra){0});
     push(c,
@@ -59,11 +42,9 @@ static void begin(calc *c, bool swings) {
 static unsigned walk_all(calc *c, unsigned every, fret_state *out) {
     walk w = {.begun = false};
     looker l = {&w, every, 0};
-    calc_error error;
     bool anew = false;
     unsigned waits = 0;
-    error_clear(&error);
-    CHECK(walk_follow(&w, c, &anew, &error) && anew);
+    CHECK(walk_follow(&w, c, &anew, fresh()) && anew);
     while (w.run.at.steps < w.scene.end.steps && waits < 1000000) {
         CHECK(walk_on(&w, w.scene.end.steps, 5, true, see, &l, &error));
         waits += w.run.at.steps < w.scene.end.steps;
@@ -108,7 +89,6 @@ static void load_again(calc *c, const load_step *more, const load_step *cycle, c
 /* Does the walk begin anew for the scene as it is, and end where that ends? */
 static bool goes_anew(walk *w, calc *c) {
     looker l = {w, 0, 0};
-    calc_error error;
     bool anew = false;
     fret_state got;
     const fret_state *want;
@@ -125,19 +105,10 @@ static bool goes_anew(walk *w, calc *c) {
     return anew;
 }
 
-static bool assign(calc *c, const char *text) {
-    calc_error error;
-    lexer lx;
-    error_clear(&error);
-    lex_start(&lx, text, strlen(text), &error);
-    return calc_assign(c, &lx);
-}
-
 static void follows(void) {
     static const cycle_extra three = {.times = 3};
     calc c;
     walk w = {.begun = false};
-    calc_error error;
     bool anew;
     begin(&c, false);
     inputs *in = &c.now->in;
@@ -203,16 +174,7 @@ static void follows(void) {
         CHECK(goes_anew(&w, &c) && !goes_anew(&w, &c));
     }
     for (int i = 0; i < 2; i++) { /* two tables, the same numbers */
-        enum { ROWS = 40 };
-        double r[ROWS], f[ROWS];
-        struct fret_table *table = NULL;
-        for (int j = 0; j < ROWS; j++) {
-            r[j] = j * 5e-5;
-            f[j] = r[j] * r[j] / 0.02;
-        }
-        CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
-        inputs_geometry(in, geometry_find("file", 4), NULL,
-                        shared_table_make(table, "t", (smoothing){.by = SMOOTH_NOT}));
+        inputs_geometry(in, geometry_find("file", 4), NULL, rows_of_sphere(40));
         scene_forget(c.now, false);
         CHECK(goes_anew(&w, &c) && !goes_anew(&w, &c));
     }
