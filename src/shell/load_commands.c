@@ -282,8 +282,8 @@ static bool follow(shell *sh, const csv *data, calc_error *error) {
     if (!dim_equal(normal->d, kind->d) || !dim_equal(tangential->d, kind->d))
         return calc_fail(error, 0, 0, "%s: the columns need units in the header, such as %s", data->path,
                          kind->example);
-    if (!scene_friction(&sh->calc.scene, &mu, error))
-        return false;
+    if (!sh->calc.scene.in.bound[IN_MU] && !scene_friction(&sh->calc.scene, &mu, error))
+        return false; /* a live one may depend on the press that is to come */
     scene_save(&sh->calc.scene, &before, false);
     if (!follow_rows(sh, data, kind, normal->v, tangential->v, error)) {
         scene_back(&sh->calc.scene, &before);

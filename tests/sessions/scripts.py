@@ -210,6 +210,8 @@ def read_tables(tests):
     bare = SCENE.rsplit(";", 1)[0]
     with tests.file("FN [N],Fx [N]\n100,0\n80,10\n") as path:
         says(tests, "follow presses", tests.run("-c", bare + "\nfollow %s; FN, Fx" % path), "FN = 80 N\nFx = 10 N")
+        says(tests, "follow presses, which tells the friction",
+             tests.run("-c", bare + "\nmu := 0.4 - FN/(1 kN); follow %s; mu; W/(W at mu=0.3)" % path), "mu = 0.3\nW/(W at mu=0.3) = 1")
     with tests.file("FN [N],Fx [N]\n100,0\n80,60\n") as path:
         done = tests.run("--keep-going", "-c", bare + "\nfollow %s\na" % path)
         tests.check("follow from nothing, all or nothing", "there is no load yet" in done.stderr and not done.stdout,
