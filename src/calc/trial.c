@@ -70,7 +70,7 @@ static bool hide(trial *t, size_t name, calc_error *error) {
     return true;
 }
 
-static bool set(trial *t, const knob *p, long double v, calc_error *error) {
+bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
     scene *s = &t->scene;
     if (!p->is_input) {
         if (!hide(t, p->name, error))
@@ -107,20 +107,11 @@ static bool runs_on(const trial *t, const knob *p) {
     return found;
 }
 
-static bool cannot_run(const knob *p, calc_error *error) {
-    return calc_fail(error, 0, 0, "%s cannot be changed at an instant of a load: try along ... with %s = ...",
-                     p->text, p->text);
-}
-
-bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
-    return t->scene.now && runs_on(t, p) ? cannot_run(p, error) : set(t, p, v, error);
-}
-
 bool trial_change(trial *t, const knob_value by[], size_t count, size_t *wrong, calc_error *error) {
     const instant *now = t->scene.now;
     size_t run = count;
     for (*wrong = 0; *wrong < count; ++*wrong) {
-        if (!set(t, &by[*wrong].p, by[*wrong].v, error))
+        if (!trial_set(t, &by[*wrong].p, by[*wrong].v, error))
             return false;
         if (run == count && runs_on(t, &by[*wrong].p))
             run = *wrong;
@@ -130,7 +121,9 @@ bool trial_change(trial *t, const knob_value by[], size_t count, size_t *wrong, 
     if (now->kept)
         *now->lacking = true;
     if (!now->beside)
-        return cannot_run(&by[run].p, error);
+        return calc_fail(error, 0, 0,
+                         "%s cannot be changed at an instant of a load: try along ... with %s = ...",
+                         by[run].p.text, by[run].p.text);
     t->scene.many = t->outer->many;
     return beside_scene(now->beside, &t->scene, by, count, scene_time(t->outer), &t->c->now, error);
 }

@@ -2,7 +2,10 @@
 """Inputs changed at an instant of a load, `(W at k=0)` along it: the value of the changed scene at the same instant. Against
 the same load run in that scene, and against that scene at the end of a load that is cut there."""
 import json
+import math
+import os
 import random
+import re
 
 import harness  # noqa: F401
 
@@ -117,5 +120,42 @@ def many(tests):
         [each[float(m), row[0]] for m in mus] for row in got[0]], str(told))
 
 
+def curves(tests, script, name):
+    """The curves that a plot of the script's last statement draws: [[(x, y)]]."""
+    done = tests.run("-c", script + " to %s.gp" % name)
+    if not tests.check("drawn: " + name, done.returncode == 0, tests.report(done)):
+        return []
+    with open(os.path.join(tests.dir, name + ".gp"), encoding="utf-8") as f:
+        return [[tuple(map(float, row.split())) for row in block.splitlines()]
+                for block in re.findall(r"^\$data\S+ << END\n(.*?)^END$", f.read(), re.S | re.M)]
+
+
+def turning_points(tests):
+    """A figure has the turning points of the load, where another scene may not turn: there it is asked, too."""
+    press = "material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
+    drawn = curves(tests, press + "; cycle FA=20 N FNA=15 N phase=70 deg; plot W, (W at FNA=0 N) along program steps 4", "turns")
+    between = [(x, y) for x, y in (drawn[1] if len(drawn) == 2 else ()) if x % 0.3125 > 1e-9]
+    tests.check("turning points drawn", len(between) > 0 and len(drawn[0]) == len(drawn[1]), str(drawn))
+    for x, y in between:
+        turned = "step Fx=20 N; step Fx=-20 N; " if x > 0.75 else "step Fx=20 N; " if x > 0.25 else ""
+        done = tests.run("--format=json", "-c", "%s; %sstep Fx=20 N*%s; W in uJ" % (press, turned, "sin(2*pi*%.17g)" % x))
+        want = json.loads(done.stdout.splitlines()[-1])["value"]
+        tests.check("W at the turn at %g" % x, abs(1e-6 * y - want) <= 1e-8 * want, "%g %g" % (y, want))
+
+
+def kept_instants(tests):
+    """Of a load with many steps a figure takes what has been kept of each, unless it asks for more than forces."""
+    with tests.file("FN [N],Fx [N]\n" + "".join("%.17g,%.17g\n" % (100 + i % 3, 15 * math.sin(0.37 * i)) for i in range(400)), ".csv") as path:
+        followed = "material steel; geometry sphere R=10 mm; friction %s; press FN=100 N; follow " + path + "; plot %s along program steps 20"
+        both = curves(tests, followed % ("0.4", "W, (W at mu=0.5)"), "both")
+        each = curves(tests, followed % ("0.4", "W, U"), "kept") + curves(tests, followed % ("0.5", "W, U"), "other")
+    tests.check("many steps, two frictions", len(both) == 2 and len(each) == 4 and all(len(curve) > 390 for curve in both + each),
+                str([len(curve) for curve in both + each]))
+    for one, other in zip(both, each[::2]):
+        other = dict(other)
+        tests.check("many steps: the same curve", all(abs(y - other.get(x, -1)) <= 1e-8 * max(map(abs, other.values())) for x, y in one),
+                    "%s\n%s" % (one[:9], list(other.items())[:9]))
+
+
 def run(tests):
-    tests.rooms(against_with, against_cut, many)
+    tests.rooms(against_with, against_cut, many, turning_points, kept_instants)
