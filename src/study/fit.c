@@ -21,6 +21,7 @@ static const double huber = 1.345;
 enum { ITERATIONS = 200, ROUNDS = 30 };
 static const double apart = 1e-5;   /* of the two places of a difference, as a part of q */
 static const double visible = 1e-6; /* residuals of a loop, as a part of it */
+static const double rounding = 1e-12; /* and what is none */
 #define NO_ROW ((size_t)-1)
 
 typedef struct state {
@@ -441,17 +442,29 @@ static double residual_size(const state *s, const gsl_vector *f, size_t i) {
     return fabs(gsl_vector_get(f, i)) / sqrt(gsl_vector_get(s->weight, i));
 }
 
+/* Of a measured loop. */
+static double largest_force(const state *s) {
+    double largest = 0;
+    for (size_t i = 0; i < s->of->rows; i++)
+        largest = fmax(largest, fabs(s->of->loop.Fx[i]));
+    return largest;
+}
+
 /* Weights after Huber from the residuals; *change is the largest. */
 static bool reweigh(state *s, const gsl_vector *f, double *scale, double *change, calc_error *error) {
+    static const double least = 1e-9; /* of the largest: most rows may be met exactly */
     const size_t n = s->of->rows;
-    double *sorted = malloc(n * sizeof *sorted);
-    if (!sorted)
+    double *size = malloc(n * sizeof *size);
+    if (!size)
         return calc_no_memory(error);
     *change = 0;
     for (size_t i = 0; i < n; i++)
-        sorted[i] = residual_size(s, f, i);
-    *scale = 1.4826 * gsl_stats_median(sorted, 1, n);
-    free(sorted);
+        size[i] = residual_size(s, f, i);
+    const double largest = gsl_stats_max(size, 1, n);
+    *scale = fmax(1.4826 * gsl_stats_median(size, 1, n), least * largest);
+    if (!s->of->left)
+        *scale = fmax(*scale, rounding * largest_force(s) / s->unit);
+    free(size);
     for (size_t i = 0; i < n; i++) {
         const double r = residual_size(s, f, i), w = r > huber * *scale ? huber * *scale / r : 1;
         *change = fmax(*change, fabs(w - gsl_vector_get(s->weight, i)));
@@ -460,11 +473,28 @@ static bool reweigh(state *s, const gsl_vector *f, double *scale, double *change
     return true;
 }
 
-/* Most often the data are to blame. */
-static bool unsettled(state *s, gsl_multifit_nlinear_workspace *w, calc_error *error) {
-    double C[FIT_NAMES][FIT_NAMES];
-    return determined(s, w, C, error) &&
-           calc_fail(error, 0, 0, "the fit does not settle: %s", gsl_strerror(GSL_EMAXITER));
+/* No progress is none to be made where the step to the least squares is small beside the standard errors, or
+ * beside the name itself. Else, most often, the data are to blame. */
+static bool arrived(state *s, gsl_multifit_nlinear_workspace *w, calc_error *error) {
+    const gsl_vector *f = gsl_multifit_nlinear_residual(w);
+    const gsl_matrix *J = gsl_multifit_nlinear_jac(w);
+    const size_t n = s->of->rows, p = s->of->count;
+    double C[FIT_NAMES][FIT_NAMES], pull[FIT_NAMES];
+    if (!determined(s, w, C, error))
+        return false;
+    for (size_t i = 0; i < p; i++) {
+        const gsl_vector_const_view column = gsl_matrix_const_column(J, i);
+        gsl_blas_ddot(&column.vector, f, &pull[i]);
+    }
+    const double v = pow(gsl_blas_dnrm2(f), 2) / (double)(n - p);
+    for (size_t i = 0; i < p; i++) {
+        double step = 0;
+        for (size_t j = 0; j < p; j++)
+            step += C[i][j] * pull[j];
+        if (!(fabs(step) < fmax(1e-6 * sqrt(C[i][i] * v), 1e-10)))
+            return calc_fail(error, 0, 0, "the fit does not settle: %s", gsl_strerror(GSL_EMAXITER));
+    }
+    return true;
 }
 
 /* GSL's driver, which goes on to its last iteration whatever the residuals say: an interrupt is to end it. */
@@ -474,8 +504,8 @@ static int drive(const state *s, gsl_multifit_nlinear_workspace *w) {
         const int step = gsl_multifit_nlinear_iterate(w);
         if (s->q.error->raised)
             return GSL_EFAILED;
-        if (step == GSL_ENOPROG && i == 0) /* later it may have arrived; it began there if nothing is left */
-            return gsl_blas_dnrm2(gsl_multifit_nlinear_residual(w)) > 0 ? GSL_EMAXITER : GSL_SUCCESS;
+        if (step == GSL_ENOPROG && i == 0) /* it may have begun there; later it may have arrived */
+            return GSL_EMAXITER;
         status = gsl_multifit_nlinear_test(1e-10, 1e-10, 0, &info, w);
     }
     return status == GSL_SUCCESS ? GSL_SUCCESS : GSL_EMAXITER;
@@ -494,8 +524,8 @@ static bool descend(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, 
             return false;
         out->iterations += (unsigned)gsl_multifit_nlinear_niter(w);
         gsl_vector_memcpy(q, gsl_multifit_nlinear_position(w));
-        if (status)
-            return unsettled(s, w, error);
+        if (status && !arrived(s, w, error))
+            return false;
         if (s->of->robust && !reweigh(s, gsl_multifit_nlinear_residual(w), &out->scale, &change, error))
             return false;
     }
@@ -525,10 +555,9 @@ static double variance(const state *s, const gsl_vector *f, double scale, fit_an
 /* A drift, an offset or a model that does not fit leaves residuals that go together from row to row. */
 static void look_for_drift(const state *s, const gsl_vector *f, fit_answer *out) {
     const size_t n = s->of->rows;
-    const double *measured = s->of->left ? NULL : s->of->loop.Fx;
-    double squares = 0, products = 0, before = 0, size = 0;
+    const double size = s->of->left ? INFINITY : largest_force(s);
+    double squares = 0, products = 0, before = 0;
     for (size_t i = 0; i < n; i++) {
-        size = measured ? fmax(size, fabs(measured[i])) : INFINITY;
         const double r = gsl_vector_get(f, i) / sqrt(gsl_vector_get(s->weight, i));
         squares += r * r;
         products += r * before;

@@ -222,6 +222,33 @@ def straight_lines(tests):
                 and "0 of 5 rows are far off" in done.stderr, tests.report(done))
 
 
+def begun_at_the_end(tests):
+    """What is left of data that the program wrote is rounding, and a fit of noisy ones ends where it begins."""
+    name = os.path.join(tests.dir, "own-loop.csv")
+    scene = SETUP % (210, 0.4) + "; "
+    tests.run("-c", scene + "table dx in um, Fx along cycle FA=30 N steps 60 to " + name)
+    for start in ("", "mu = 0.5; E0 = 100 GPa; "):
+        for way in ("", " robust"):
+            values, event, done = answers(tests, scene + start + "fit mu, E0 along " + name + way)
+            tests.check("fit: nothing left but rounding, from '%s'%s" % (start, way),
+                        event and abs(values["mu"] / 0.4 - 1) < 1e-13 and abs(values["E0"] / 210e9 - 1) < 1e-13
+                        and event["rms"] < 1e-13 and " far off" not in done.stderr.replace("note: 0 of 61 rows are far off", ""),
+                        tests.report(done))
+    noisy = write(tests, "again.csv", "u,y", [(u, 2 * u + 0.1 * math.sin(7.0 * u)) for u in range(1, 9)])
+    slope = sum(u * (2 * u + 0.1 * math.sin(7.0 * u)) for u in range(1, 9)) / sum(u * u for u in range(1, 9))
+    for way in ("", " robust"):
+        first, _, _ = answers(tests, "s = 1; fit s for y = s*u to " + noisy + way)
+        again, event, done = answers(tests, "s = %.17g; fit s for y = s*u to %s" % (first.get("s", 0), noisy + way))
+        tests.check("fit: begun at its own answer" + way, event and abs(again["s"] / first["s"] - 1) < 1e-7
+                    and (way or abs(again["s"] / slope - 1) < 1e-9), tests.report(done))
+    # half of the rows and more met exactly
+    off = write(tests, "one-off.csv", "u,y", [(1, 2), (2, 4), (3, 6), (4, 8), (5, 10), (6, 17)])
+    for start in (1, 2, 3):
+        values, event, done = answers(tests, "s = %d; fit s for y = s*u to %s robust" % (start, off))
+        tests.check("fit: all rows but one met, from %d" % start, event and abs(values["s"] - 2) < 1e-3 and "1 of 6 rows" in done.stderr,
+                    tests.report(done))
+
+
 def least_squares(rows, values):
     """Parameters, their deviations and correlations by the normal equations, in fractions."""
     n, m = len(rows), len(rows[0])
@@ -462,6 +489,7 @@ def run(tests):
     wide_ranges(tests)
     units(tests)
     straight_lines(tests)
+    begun_at_the_end(tests)
     parabolas(tests)
     loops_with_loads(tests)
     edges(tests)
