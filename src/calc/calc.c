@@ -172,6 +172,9 @@ static bool read_parameters(lexer *lx, char (*parameter)[LEX_NAME], unsigned *co
             return lex_fail(lx, "'%.*s' is %s: it cannot be an argument's name", LEX_WORD(lx), taken);
         if (!lex_whole(lx, "an argument's name", parameter[(*count)++]))
             return false;
+        for (unsigned i = 0; i + 1 < *count; i++)
+            if (lex_is(lx, parameter[i]))
+                return lex_fail(lx, "%s is given twice", parameter[i]);
         lex_next(lx);
     } while (lx->kind == T_COMMA);
     lex_next(lx); /* a parenthesis: assign_at has looked */

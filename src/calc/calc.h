@@ -39,6 +39,7 @@ typedef struct calc {
     expr scratch;                   /* storage of expr_value */
     const definition *chain[CHAIN]; /* being evaluated */
     size_t chain_length;
+    bool (*keyword)(const lexer *lx); /* a word that may follow a number; NULL: any may */
 } calc;
 
 void calc_init(calc *c, const volatile sig_atomic_t *stop);

@@ -115,6 +115,8 @@ static bool binary(machine *m, const expr_node *n, value *out) {
         out->d = dim_power(a.d, (double)b.v);
         if (a.v < 0 && b.v != floorl(b.v))
             return bad_value(m, n, "a negative number has no real power %Lg", b.v);
+        if (a.v == 0 && b.v < 0)
+            return bad_value(m, l, "division by zero");
         break;
     }
     return true;
@@ -257,6 +259,10 @@ static trial *open_changed(machine *m, const expr_at *at) {
         }
         if (m->dry && p->is_input)
             continue;
+        if (p->is_input && !calc_takes(m->c, p->in, m->error)) {
+            calc_place(m->error, at->change[i].at, strlen(p->text));
+            return NULL;
+        }
         by[count] = (knob_value){*p, v.v};
         by[count++].p.d = want;
     }

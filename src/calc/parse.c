@@ -146,8 +146,9 @@ static bool parse_change(parser *p, expr_at *at) {
         return lex_fail(lx, "expected NAME = EXPR after `at`");
     if (!quantity_find(lx->text + lx->at, lx->len) &&
         !names_find(&p->c->names, lx->text + lx->at, lx->len, &name))
-        return unknown_name(p);                            /* nothing before it could have meant it */
-    if (!(p->within ? knob_name : knob_read)(p->c, lx, q)) /* a definition may wait for the load it needs */
+        return unknown_name(p); /* nothing before it could have meant it */
+    at->change[at->count].at = lx->at;
+    if (!knob_name(p->c, lx, q)) /* it may wait for the load it needs */
         return false;
     lex_next(lx);
     parser inner = {
@@ -286,17 +287,26 @@ static bool parse_own(parser *p, size_t index, size_t *out) {
     return parse_arguments(p, d, &node) && add(p, &node, out);
 }
 
+/* An argument of the function that is defined. */
+static bool find_parameter(const parser *p, unsigned *j) {
+    const unsigned count = p->within ? p->within->parameters : 0;
+    *j = 0;
+    while (*j < count && !lex_is(p->lx, p->within->parameter[*j]))
+        ++*j;
+    return *j < count;
+}
+
 static bool parse_name(parser *p, size_t *out) {
     lexer *lx = p->lx;
     const char *word = lx->text + lx->at;
     const size_t len = lx->len;
     size_t i;
-    for (unsigned j = 0; p->within && j < p->within->parameters; j++)
-        if (lex_is(lx, p->within->parameter[j])) {
-            expr_node node = {.kind = N_PARAMETER, .at = lx->at, .index = j};
-            lex_next(lx);
-            return add(p, &node, out);
-        }
+    unsigned j;
+    if (find_parameter(p, &j)) {
+        expr_node node = {.kind = N_PARAMETER, .at = lx->at, .index = j};
+        lex_next(lx);
+        return add(p, &node, out);
+    }
     const quantity *q = quantity_find(word, len);
     if (q)
         return parse_quantity(p, q, out);
@@ -312,21 +322,23 @@ static bool parse_name(parser *p, size_t *out) {
 
 /* ---- operators --------------------------------------------------------------------------------- */
 
-/* A value right behind a number, and no keyword or argument of a command. */
+/* A value or a unit right behind a number, and no keyword or argument of a command. */
 static bool at_factor(const parser *p) {
     const lexer *lx = p->lx;
     const char *word = lx->text + lx->at;
     const token_kind next = lex_peek(lx);
     size_t i;
+    unsigned j;
     if (next == T_ASSIGN || next == T_DEFINE || next == T_INCREMENT || next == T_NUMBER)
         return false;
     if (builtin_find(word, lx->len, &i))
         return !builtin_row(i) || next == T_OPEN;
-    if (quantity_find(word, lx->len))
+    if (quantity_find(word, lx->len) || unit_at(lx) || find_parameter(p, &j))
         return true;
     /* a name of the user's may be a word of the command, too: `to /FILE`, `points` */
-    return (next == T_PLUS || next == T_TIMES || next == T_POWER || next == T_CLOSE) &&
-           names_find(&p->c->names, word, lx->len, &i);
+    return names_find(&p->c->names, word, lx->len, &i) &&
+           (next == T_PLUS || next == T_TIMES || next == T_POWER || next == T_CLOSE ||
+            (p->c->keyword && !p->c->keyword(lx)));
 }
 
 static bool parse_number(parser *p, size_t *out) {
@@ -368,7 +380,15 @@ static bool parse_parenthesis(parser *p, size_t *out) {
     if (lx->kind != T_CLOSE)
         return lex_fail(lx, "expected )");
     lex_next(lx);
-    return !lx->error->raised;
+    return true;
+}
+
+/* Behind a value that is no number. */
+static bool no_unit(lexer *lx) {
+    if (lx->error->raised)
+        return false;
+    return lx->kind != T_NAME || !unit_at(lx) ||
+           lex_fail(lx, "'%.*s' is a unit: it must follow a number, or `in`", LEX_WORD(lx));
 }
 
 static bool parse_primary(parser *p, size_t *out) {
@@ -379,9 +399,9 @@ static bool parse_primary(parser *p, size_t *out) {
     case T_NUMBER:
         return parse_number(p, out);
     case T_OPEN:
-        return parse_parenthesis(p, out);
+        return parse_parenthesis(p, out) && no_unit(lx);
     case T_NAME:
-        return parse_name(p, out) && !lx->error->raised;
+        return parse_name(p, out) && no_unit(lx);
     case T_END:
         return lex_fail(lx, "expected a value here");
     default:

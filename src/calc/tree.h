@@ -40,6 +40,7 @@ struct expr_at {
     expr body;
     size_t count;
     struct {
+        size_t at; /* of its name */
         knob p;
         expr value;
     } change[CHANGES];

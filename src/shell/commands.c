@@ -7,6 +7,7 @@
 #include "shell/accuracy_command.h"
 #include "shell/figures.h"
 #include "shell/help.h"
+#include "shell/looks.h"
 #include "shell/presets.h"
 #include "shell/range.h"
 #include "shell/scripts.h"
@@ -680,10 +681,13 @@ const command *command_find(const char *name, size_t len) {
 
 /* Words that may follow a number: those that rows of the table of commands name, and those of ranges. */
 bool argument_word(const lexer *lx) {
-    static const char *const others[] = {"to",   "for",  "in",   "at",    "log",
-                                         "with", "from", "over", "along", "against"};
+    static const char *const others[] = {"to",   "for",   "in",      "at",     "with",    "from",
+                                         "over", "along", "against", "frames", "samples", "seed"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (lex_is(lx, others[i]))
+            return true;
+    for (size_t i = 0; looks_word(i); i++)
+        if (lex_is(lx, looks_word(i)))
             return true;
     const command *c;
     for (size_t i = 0; (c = command_row(i)); i++)

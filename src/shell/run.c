@@ -11,6 +11,7 @@
 
 #include "calc/characters.h"
 #include "shell/command.h"
+#include "shell/cursor.h"
 #include "shell/expressions.h"
 #include "shell/help.h"
 #include "shell/lines.h"
@@ -22,6 +23,7 @@ volatile sig_atomic_t shell_stop;
 void shell_init(shell *sh, FILE *out, FILE *err) {
     *sh = (shell){.out = out, .err = err, .set = settings_initial};
     calc_init(&sh->calc, &shell_stop);
+    sh->calc.keyword = argument_word;
     sh->calc.scene.pulse = progress_pulse;
 }
 

@@ -19,8 +19,8 @@ static const double refused = 1e6;
 /* Tuned to 95 % of the efficiency of least squares on normal noise (Huber 1981). */
 static const double huber = 1.345;
 enum { ITERATIONS = 200, ROUNDS = 30 };
-static const double apart = 1e-5;   /* of the two places of a difference, as a part of q */
-static const double visible = 1e-6; /* residuals of a loop, as a part of it */
+static const double apart = 1e-5;     /* of the two places of a difference, as a part of q */
+static const double visible = 1e-6;   /* residuals of a loop, as a part of it */
 static const double rounding = 1e-12; /* and what is none */
 #define NO_ROW ((size_t)-1)
 

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Intervals of the scan, and of the one where sides that jump want more of them; halvings to an edge of what
- * the scene allows; evaluations to come nearer, and of the method. */
+/* Intervals of the scan, and of the one where sides that jump or swing want more of them; halvings to an edge
+ * of what the scene allows; evaluations to come nearer, and of the method. */
 enum { SCAN = 24, FINE = 8 * SCAN, EDGE = 60, NEARER = 21, METHOD = 60, ROOTS = 48, LISTED = 12 };
 
 typedef struct place {
@@ -36,6 +36,7 @@ typedef struct search {
     double side;    /* of the left side there: 1 above, -1 below */
     bool touches;
     bool pole;   /* a place of the scan alone has no value */
+    bool swings; /* the sides come nearer and go apart again and again */
     double jump; /* where the sides jump past each other, one such place */
 } search;
 
@@ -107,7 +108,9 @@ static bool choose_range(search *s, calc_error *error) {
 }
 
 static bool scan(search *s) {
+    enum { TURNS = 3 }; /* more than those of a cubic */
     bool equal = true;
+    unsigned turns = 0;
     for (unsigned i = 0; i <= s->places; i++) {
         place *p = &s->at[i];
         p->x = s->lo < 0 && s->ratios ? -ask_grid(-s->lo, -s->hi, true, i, s->places)
@@ -120,8 +123,10 @@ static bool scan(search *s) {
         else if (i && opposite(p->f, p[-1].f))
             add_bracket(s, p[-1], *p);
         equal = equal && p->f == 0;
+        turns += i > 1 && opposite(p->f - p[-1].f, p[-1].f - p[-2].f);
         s->pole = s->pole || (i > 1 && isnan(p[-1].f) && !isnan(p[-2].f) && !isnan(p->f));
     }
+    s->swings = turns >= TURNS;
     if (equal)
         s->roots = 0; /* it does not depend on the name */
     return true;
@@ -437,7 +442,7 @@ static bool single(search *s, solve_answer *out, calc_error *error) {
 static bool answer(search *s, solve_answer *out, calc_error *error) {
     if (!choose_range(s, error))
         return false;
-    for (unsigned places = SCAN; places <= FINE && (places == SCAN || out->jumps || s->pole);
+    for (unsigned places = SCAN; places <= FINE && (places == SCAN || out->jumps || s->pole || s->swings);
          places += FINE - SCAN) {
         if (!look(s, places, error))
             return false;

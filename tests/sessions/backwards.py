@@ -331,10 +331,13 @@ def poles(tests):
     for pole, strength, L in ((2, 1, 50), (2, 1, -50), (2.3, 1e-3, 1), (2, 1e-4, -3), (2, -5, 8), (3.97, 0.1, 20)):
         asked += [("%r/(x-%r) = %r from %r to %r" % (strength, pole, L, lo, hi), [pole + strength / L])
                   for lo, hi in ((0, 4), (0.1, 4))]
+    half = [2.991456, 6.620579, 8.960238, 13.293424, 14.869697]
+    swinging = [-x for x in reversed(half)] + [0] + half
     asked += [("sin(x) = 0.99 from 0 to 20", [x + 2 * n * math.pi for n in range(3) for x in (math.asin(0.99), math.pi - math.asin(0.99))]),
               ("(x-1)*(x-1.01)*(x-2) = 0 from 0.1 to 3", [1, 1.01, 2]), ("1/(x-2)^2 = 50 from 0.1 to 4", [2 - 50**-0.5, 2 + 50**-0.5]),
               # the cubic (x-1)(x-2)(x-3) = 1/1000
               ("1/((x-1)*(x-2)*(x-3)) = 1000 from 0 to 4", [1.000500375703, 1.998999998999994, 3.000499625297]),
+              ("sin(x) = 0 from 1 to 37", [n * math.pi for n in range(1, 12)]), ("sin(x) = x/20 from -30 to 30", swinging),
               ("abs(x-1)/(x-1) = 0.5 from 0.1 to 3", []), ("tan(x) = 0 from 1 to 2", [])]
     for sides, want in asked:
         values, _, done = run_json(tests, "solve x for %s\n" % sides)
