@@ -18,7 +18,8 @@ typedef enum arg_kind {
     ARG_FILE,   /* first: a file to read */
     ARG_TO,     /* NAME and a file to write */
     ARG_NAME,   /* first: one of the words, any other too: the command reads it itself */
-    ARG_LIST    /* first: expressions; the command reads them itself */
+    ARG_LIST,   /* first: expressions; the command reads them itself */
+    ARG_KNOB    /* first: names that are changed; so it does these */
 } arg_kind;
 
 /* Flags of a row. */

@@ -78,7 +78,8 @@ static const arg save_args[] = {
 
 static const arg to_args[] = {{.kind = ARG_TO, .name = "to"}, {.kind = ARG_END}};
 
-static const arg list_args[] = {{.kind = ARG_LIST, .name = "quantity"}, {.kind = ARG_END}};
+static const arg explain_args[] = {
+    {.kind = ARG_LIST, .name = "quantity"}, {.kind = ARG_WORD, .name = "at"}, {.kind = ARG_END}};
 
 static const arg table_args[] = {{.kind = ARG_LIST, .name = "expression"},
                                  {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
@@ -110,17 +111,29 @@ static const arg export_args[] = {{.kind = ARG_COUNT, .name = "jenkins", .most =
                                   {.kind = ARG_VALUE, .name = "FA", .d = {1, 0, 0}, .flags = ARG_POSITIVE},
                                   {.kind = ARG_END}};
 
-static const arg solve_args[] = {{.kind = ARG_LIST, .name = "input"}, {.kind = ARG_END}};
+static const arg solve_args[] = {{.kind = ARG_KNOB, .name = "input"},
+                                 {.kind = ARG_WORD, .name = "for"},
+                                 {.kind = ARG_WORD, .name = "from"},
+                                 {.kind = ARG_WORD, .name = "to"},
+                                 {.kind = ARG_END}};
 
-static const arg fit_args[] = {
-    {.kind = ARG_LIST, .name = "input"}, {.kind = ARG_WORD, .name = "robust"}, {.kind = ARG_END}};
+static const arg fit_args[] = {{.kind = ARG_KNOB, .name = "input"},  {.kind = ARG_WORD, .name = "for"},
+                               {.kind = ARG_TO, .name = "to"},       {.kind = ARG_TO, .name = "along"},
+                               {.kind = ARG_WORD, .name = "robust"}, {.kind = ARG_END}};
 
 static const arg uncertainty_args[] = {{.kind = ARG_LIST, .name = "expression"},
+                                       {.kind = ARG_WORD, .name = "in"},
+                                       {.kind = ARG_WORD, .name = "at"},
+                                       {.kind = ARG_WORD, .name = "with"},
                                        {.kind = ARG_COUNT, .name = "samples", .most = 10000000},
                                        {.kind = ARG_COUNT, .name = "seed", .most = 1000000000},
                                        {.kind = ARG_END}};
 
-static const arg optimise_args[] = {{.kind = ARG_LIST, .name = "expression"}, {.kind = ARG_END}};
+static const arg optimise_args[] = {{.kind = ARG_LIST, .name = "expression"},
+                                    {.kind = ARG_WORD, .name = "in"},
+                                    {.kind = ARG_WORD, .name = "at"},
+                                    {.kind = ARG_WORD, .name = "over"},
+                                    {.kind = ARG_END}};
 
 static void presets_list(FILE *to) {
     const preset *p;
@@ -473,7 +486,7 @@ static const command commands[] = {
              "    relative = 0.0147451\n"},
     {.name = "explain",
      .run = do_explain,
-     .args = list_args,
+     .args = explain_args,
      .group = "results",
      .keywords = "formula equation Mindlin",
      .usage = "EXPR [at NAME=EXPR, ...]",

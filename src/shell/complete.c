@@ -81,16 +81,16 @@ static void add_values(const place *p) {
 }
 
 /* Inputs that the scene takes, and names of the user's. */
-static void add_knobs(const place *p) {
+static void add_knobs(const place *p, const char *end) {
     for (input in = 0; in < INPUTS; in++) {
         calc_error ignored;
         error_clear(&ignored);
         if (calc_takes(p->c, in, &ignored))
-            add(p, quantity_of_input(in)->name, "=");
+            add(p, quantity_of_input(in)->name, end);
     }
     for (size_t i = 0; i < p->c->names.count; i++)
         if (p->c->names.row[i].known && !p->c->names.row[i].definition)
-            add(p, p->c->names.row[i].text, "=");
+            add(p, p->c->names.row[i].text, end);
 }
 
 static bool same_dim(dim a, dim b) {
@@ -169,8 +169,7 @@ static const arg *row_of_kind(const command *c, arg_kind kind) {
 
 /* Does it take `for`, `along` and what belongs to them? */
 static bool has_range(const command *c) {
-    const arg *a = row_of_kind(c, ARG_LIST) ? row_of_kind(c, ARG_COUNT) : NULL;
-    return a != NULL;
+    return row_of_kind(c, ARG_LIST) && row_of_kind(c, ARG_TO);
 }
 
 /* `along cycle ...`: its arguments may follow. */
@@ -190,18 +189,30 @@ static const geometry *shape_of(const place *p) {
 
 /* ---- words that something follows -------------------------------------------------------------- */
 
-typedef enum follows { FOLLOWS_KNOB, FOLLOWS_LOAD, FOLLOWS_VALUE, FOLLOWS_FILE, FOLLOWS_UNIT } follows;
+typedef enum follows {
+    FOLLOWS_KNOB,
+    FOLLOWS_NAME, /* of one, without its value */
+    FOLLOWS_LOAD,
+    FOLLOWS_VALUE,
+    FOLLOWS_FILE,
+    FOLLOWS_UNIT
+} follows;
 
-/* Words of expressions and ranges; those of commands are rows of their arguments. */
+/* Words of expressions and ranges; those of commands are rows of their arguments. alone: what follows in a
+ * command without a range. */
 static const struct {
     const char *word;
-    follows what;
+    follows what, alone;
     bool of_range, of_figure, of_value;
 } words[] = {
-    {"in", FOLLOWS_UNIT, true, true, true},     {"at", FOLLOWS_KNOB, true, true, true},
-    {"for", FOLLOWS_KNOB, true, true, false},   {"along", FOLLOWS_LOAD, true, true, false},
-    {"with", FOLLOWS_KNOB, true, true, false},  {"against", FOLLOWS_VALUE, false, true, false},
-    {"over", FOLLOWS_FILE, false, true, false},
+    {"in", FOLLOWS_UNIT, FOLLOWS_UNIT, true, true, true},
+    {"at", FOLLOWS_KNOB, FOLLOWS_KNOB, true, true, true},
+    {"for", FOLLOWS_KNOB, FOLLOWS_VALUE, true, true, false},
+    {"along", FOLLOWS_LOAD, FOLLOWS_FILE, true, true, false},
+    {"with", FOLLOWS_KNOB, FOLLOWS_NAME, true, true, false},
+    {"against", FOLLOWS_VALUE, FOLLOWS_VALUE, false, true, false},
+    {"over", FOLLOWS_FILE, FOLLOWS_KNOB, false, true, false},
+    {"from", FOLLOWS_VALUE, FOLLOWS_VALUE, false, false, false},
 };
 enum { WORD_ROWS = sizeof words / sizeof *words };
 
@@ -237,7 +248,8 @@ static bool add_following(const place *p, follows what) {
     dim d = DIM_NONE;
     switch (what) {
     case FOLLOWS_KNOB:
-        add_knobs(p);
+    case FOLLOWS_NAME:
+        add_knobs(p, what == FOLLOWS_KNOB ? "=" : "");
         return true;
     case FOLLOWS_LOAD:
         add(p, "program", "");
@@ -271,7 +283,7 @@ static void add_arguments(const place *p, const command *c, bool first) {
     for (const arg *a = c->args; a && a->kind; a++)
         if (a->flags & ARG_ALONE && is_assigned(p, a->name))
             return;
-    const bool list = row_of_kind(c, ARG_LIST) != NULL;
+    const bool list = row_of_kind(c, ARG_LIST) || row_of_kind(c, ARG_KNOB);
     for (const arg *a = c->args; a && a->kind; a++)
         switch (a->kind) {
         case ARG_VALUE:
@@ -294,6 +306,10 @@ static void add_arguments(const place *p, const command *c, bool first) {
         case ARG_LIST:
             if (first)
                 add_values(p);
+            break;
+        case ARG_KNOB:
+            if (first)
+                add_knobs(p, "");
             break;
         default:
             break;
@@ -414,13 +430,15 @@ static void complete_word(const place *p) {
         return;
     }
     const token_kind last = p->token[p->count - 1].kind;
+    const bool ranges = !p->command || has_range(p->command);
     dim d = DIM_NONE;
     if (p->count == 1 && p->command) {
         add_arguments(p, p->command, true);
         return;
     }
     for (size_t i = 0; i < WORD_ROWS; i++)
-        if (is_word(p, p->count - 1, words[i].word) && add_following(p, words[i].what))
+        if (is_word(p, p->count - 1, words[i].word) &&
+            add_following(p, ranges ? words[i].what : words[i].alone))
             return;
     if (last == T_NUMBER) {
         const bool known = wanted_dim(p, &d);

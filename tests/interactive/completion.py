@@ -52,12 +52,19 @@ OFFERED = (
     ("1 + 1; ", "press plot breadth", None), ("undo 3 ", "um N", None), ("table 3 ", "um N", None), ("press FN=100 N; ", "step cycle", None), ("2 \u00b5", "", "um"), ("x over ", "", "gap1.csv"), ("reset all ", "", "press"),
     ("?set fo", "format", "fricti"), ("a + breadth in ", "um N", None), ("table a, breadth in ", "um mm", "J"), ("table breadth in ", "um mm", "J"),
     ("plot a for FN = 1 N .. 2 N log x ", "points title", None),
+    ("uncertainty breadth ", "with in at samples seed", "along"), ("uncertainty breadth in ", "um mm", "J"),
+    ("uncertainty a with ", "FN mu wobble", "dW"), ("solve ", "FN mu wobble", "dW"), ("solve mu ", "for", "steps"),
+    ("solve mu for ", "dW a breadth", "FN="), ("solve mu for breadth = 3 mm ", "from", "with"),
+    ("solve mu for breadth = 3 mm from ", "a breadth", "to"), ("maximize dWd(", "a breadth", "over"),
+    ("maximize breadth ", "over in at", "for"), ("maximize breadth over ", "FN= wobble=", "gap1.csv"),
+    ("fit mu ", "for along to robust", "steps"), ("fit mu for ", "a breadth", "FN="),
+    ("fit mu along gap", "gap1.csv gap2.csv", None), ("fit mu for breadth = 2*a to gap", "gap1.csv gap2.csv", None),
 )
 # typed, and nothing goes on there
 ENDED = ("geometry file gap1.csv smooth ", "undo ", "reset all ", "x over ", "friction 0.4 zebr", "2 \u00b5", "# FN", "set digits 3 f")
 # typed, and the one way that it goes on
 DONE = (
-    ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("1 + " * 140 + "breadt", "h "), ("geometry file gap1.csv s", "mooth "), ("second ri", "gid "),
+    ("explain a ", "at "), ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("1 + " * 140 + "breadt", "h "), ("geometry file gap1.csv s", "mooth "), ("second ri", "gid "),
     ("step dx=1 u", "m "), ("geometry flat-r", "ounded "), ("record o", "ff "), ("x = 3*kap", "pa "), ("?apr", "opos "),
     ("reset ", "all "), ("geometry file gap1.csv ", "smooth "),
     ("geometry file gap1.csv smo", "oth "), ("1; fric", "tion "), ("dW at m", "u="), ("wobbl", "e"), ("1;  fric", "tion "),
