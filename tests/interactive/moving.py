@@ -391,7 +391,10 @@ def memory(tests):
     tests.check("memory for a picture", live.wait(r"-- energy.*\nout of memory") and live.key("f", "displacements dx and dz") and
                 live.wait(lambda s: "out of memory" not in s.text()), live.screen.text())
     live.end()
-    grown = str(2 * 256 * 40)  # points of a way
+    points = 0
+    while points < 500:
+        points += points + 1 + 16  # as arrays grow
+    grown = str(points * 40)  # points of a way
     live = Live(tests, FAULT_SIZE=grown, FAULT="1", **fault)
     live.wait(r"a +186\.626 um")
     live.says("source arm; follow " + measured(tests, 200))
