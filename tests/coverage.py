@@ -8,6 +8,7 @@ import json
 import math
 import os
 import re
+import struct
 import subprocess
 import sys
 
@@ -76,7 +77,7 @@ def build():
     flush, program = B + "/tests/coverage.o", os.path.join(harness.ROOT, B, "fret")
     if os.path.exists(program):  # linked in another way, perhaps
         os.unlink(program)
-    wrapped = "LDFLAGS=--coverage -Wl,--wrap=_exit,--wrap=raise,--wrap=kill,--wrap=fork " + flush
+    wrapped = "LDFLAGS=--coverage -Wl,--wrap=_exit,--wrap=raise,--wrap=kill,--wrap=fork,--wrap=__gcov_exit " + flush
     apart = "OPT=-O1 -g -fno-inline --coverage '-DFRET_INLINE=static inline'"  # each function counted once
     return runner.make("B=" + B, "WERROR=", "OPT=-O1 -g -fPIC", flush) and \
         runner.make("B=" + B, "WERROR=", apart, wrapped, "all", "tests")
@@ -100,12 +101,23 @@ def put_back(kept):
             f.write(data)
 
 
+def whole(data):
+    """A file of counts: its records fill it up to the mark of its end."""
+    at = 16
+    while data[:4] in (b"adcg", b"gcda") and at + 8 <= len(data):
+        tag, length = struct.unpack("=Ii", data[at:at + 8])
+        at += 8 + max(length, 0)  # no more than its length where all are 0
+        if not tag:
+            break
+    return data[at:] == bytes(4)
+
+
 def run_room(tests, room):
     """A process that is killed while it writes its counts leaves a file that no other can add to: all over again then."""
     kept, before = counts(), (tests.passed, tests.failed)
     for _ in range(5):
         tests.room(room, ROOMS.get(room) or runner.ROOMS[room])
-        if all(data[:4] in (b"adcg", b"gcda") for data in counts().values()):
+        if all(whole(data) for data in counts().values()):
             return
         print("%s: counts broke off" % room, flush=True)
         put_back(kept)
