@@ -24,8 +24,8 @@ WRAPPED(calloc, (size_t count, size_t size), (count, size))
 WRAPPED(realloc, (void *old, size_t size), (old, size))
 WRAPPED(aligned_alloc, (size_t alignment, size_t size), (alignment, size))
 
-/* A call, tried until none of its allocations is left to fail, which takes more than `least` tries: each time it
- * is refused, as is checked, or does without. */
+/* A call, tried until none of its allocations is left to fail, which takes more than `least` tries: each time
+ * it is refused, as is checked, or does without. */
 #define EACH_FAILS(least, call, refused)                                                                     \
     do {                                                                                                     \
         int n_ = 0;                                                                                          \
