@@ -45,7 +45,7 @@ static bool look_at_load(scene_rows *r) {
     double mu;
     error_clear(&unused);
     r->pressed = s->end.steps > 0 && s->in.geometry;
-    r->rubs = scene_friction(s, &mu, &unused) || r->in == IN_MU;
+    r->rubs = scene_friction(s, &mu, &unused); /* mu of a row is set, too */
     r->cycles = r->pushed = false;
     if (!r->pressed)
         return true;
@@ -55,7 +55,8 @@ static bool look_at_load(scene_rows *r) {
         return true;
     r->pushed = scene_closed_state(s) && reach->by == BY_FORCE && reach->end != 0;
     r->end = reach->end;
-    if (scene_closed_loss(s) && scene_last_cycle(s, &cycle, &unused)) {
+    if (scene_closed_loss(s)) { /* of a cycle, which nothing follows */
+        scene_last_cycle(s, &cycle, &unused);
         r->cycles = cycle.step.tangential == BY_FORCE;
         r->amplitude = cycle.step.tangential_value;
     }
@@ -69,7 +70,7 @@ bool rows_begin(scene_rows *r, scene *s, input in, const long double x[], size_t
     r->x = x;
     for (int i = 0; i < ROWS_KINDS; i++)
         r->values[i].ready = false;
-    if (s->in.bindings || s->now || (s->in.geometry && (!s->in.geometry->power)) || !look_at_load(r))
+    if (s->in.bindings || (s->in.geometry && !s->in.geometry->power) || !look_at_load(r))
         return false;
     inputs row = s->in; /* nothing is bound: no one counts */
     for (size_t i = 0; i < count; i++) {

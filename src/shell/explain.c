@@ -150,8 +150,8 @@ static void put_model(const page *p, const quantity *q, bool call) {
         fprintf(p->to, "    law of the gap: %s, good to %.0e\n", models[MODEL_PIECES].title, s->pieces_error);
     if (stepped && (q->reads & INPUT_BIT(IN_MU))) {
         if (model == MODEL_MEMORY && s->answers.levels && s->answers.run[0].repeated)
-            fprintf(p->to, "    cycle: %u more periods repeat the last one that was run\n",
-                    s->answers.run[0].repeated);
+            fprintf(p->to, "    cycle: %u more period%s the last one that was run\n",
+                    s->answers.run[0].repeated, s->answers.run[0].repeated == 1 ? " repeats" : "s repeat");
         put_paths(p);
     }
 }

@@ -376,7 +376,8 @@ static void report_time(shell *sh, double t) {
         }
     const answers *a = &sh->calc.scene.answers;
     if (sh->calc.scene.used & USED(MODEL_MEMORY) && a->levels && a->run[0].repeated)
-        fprintf(sh->err, ", %u periods repeat the last one run", a->run[0].repeated);
+        fprintf(sh->err, ", %u period%s the last one run", a->run[0].repeated,
+                a->run[0].repeated == 1 ? " repeats" : "s repeat");
     fputs(*before == ',' ? ")\n" : "\n", sh->err);
 }
 

@@ -94,6 +94,10 @@ def repeating(tests):
     done = tests.run("-c", swung % 1000 + "set timing on\nW\nexplain W")
     tests.check("are told", re.search(r"^    cycle: 99\d more periods repeat the last one that was run$", done.stdout, re.M) and
                 re.search(r"\(memory diagram, 99\d periods repeat the last one run\)$", done.stderr, re.M), tests.report(done))
+    told = [tests.run("-c", swung % times + "set timing on\nW\nexplain W") for times in range(3, 9)]
+    told = [sorted(set(re.findall(r"[12] (?:more )?periods? repeats? the last one", done.stdout + done.stderr))) for done in told]
+    tests.check("one, and two", ["1 more period repeats the last one", "1 period repeats the last one"] in told and
+                ["2 more periods repeat the last one", "2 periods repeat the last one"] in told, str(told))
 
 
 def mixed(tests):

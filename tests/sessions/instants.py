@@ -148,6 +148,7 @@ def kept_instants(tests):
     with tests.file("FN [N],Fx [N]\n" + "".join("%.17g,%.17g\n" % (100 + i % 3, 15 * math.sin(0.37 * i)) for i in range(400)), ".csv") as path:
         followed = "material steel; geometry sphere R=10 mm; friction %s; press FN=100 N; follow " + path + "; plot %s along program steps 20"
         both = curves(tests, followed % ("0.4", "W, (W at mu=0.5)"), "both")
+        times = curves(tests, followed % ("0.4", "W*time"), "times")
         each = curves(tests, followed % ("0.4", "W, U"), "kept") + curves(tests, followed % ("0.5", "W, U"), "other")
     tests.check("many steps, two frictions", len(both) == 2 and len(each) == 4 and all(len(curve) > 390 for curve in both + each),
                 str([len(curve) for curve in both + each]))
@@ -155,7 +156,17 @@ def kept_instants(tests):
         other = dict(other)
         tests.check("many steps: the same curve", all(abs(y - other.get(x, -1)) <= 1e-8 * max(map(abs, other.values())) for x, y in one),
                     "%s\n%s" % (one[:9], list(other.items())[:9]))
+    tests.check("many steps: their times", [len(curve) for curve in times] == [len(each[0])] and all(
+        x == at and abs(y / times[0][-1][1] - W * at / math.prod(each[0][-1])) <= 1e-8
+        for (x, y), (at, W) in zip(times[0], each[0])), str(times)[:300])
+
+
+def same_but_for_a_dimension(tests):
+    """Scenes that differ by a name of the same number, of another kind: each has its own."""
+    got, done = rows(tests, "x = 1; material steel; geometry sphere R=10 mm; press FN=100 N; mu := 0.4 + 0.1*atan(x/x - 1 + (x - x)/x); step Fx=10 N; "
+                     "step Fx=-5 N; table (W at x=3), (x at x=3 N)/(1 N), (W at x=3 N), W along program steps 4")
+    tests.check("3 and 3 N", len(got) == 5 and all(row[1] == row[3] == row[4] and row[2] == 3 for row in got), tests.report(done))
 
 
 def run(tests):
-    tests.rooms(against_with, against_cut, many, turning_points, kept_instants)
+    tests.rooms(same_but_for_a_dimension, against_with, against_cut, many, turning_points, kept_instants)

@@ -154,6 +154,20 @@ def histories(tests):
                         "%s\n%s" % (want, then))
 
 
+def past_a_range(tests):
+    """A table that goes on beyond the range of an input, in blocks of many rows: as far as it goes it is the one that ends there."""
+    ends, far = [], []
+    for end, steps, to in (("0.5", 3000, ends), ("0.6", 6000, far)):
+        done = tests.run("--format=csv", "-c", GRADED.partition("; cycle")[0] + "; table a, dz for nu = 0.4 .. %s steps %d" % (end, steps))
+        to += [line.split(",") for line in done.stdout.splitlines() if not line.startswith("nu")]
+    values = [(float(row[0]), row[1:]) for row in far]
+    tests.check("a table past the range of nu", len(ends) > 2900 and len(values) == 6001 and all(row == ["", ""] for nu, row in values if nu > 0.5000001) and
+                all("" not in row for nu, row in values if nu < 0.4999999) and "nu = 0.5" in done.stderr, tests.report(done))
+    want = {round(float(row[0]), 9): list(map(float, row[1:])) for row in ends[-3001:]}
+    off = max((abs(float(a) / b - 1) for nu, row in values if nu < 0.4999999 for a, b in zip(row, want.get(round(nu, 9), [1, 1]))), default=1)
+    tests.check("and the same values", off < 1e-14, "%g" % off)
+
+
 def shown(done):
     """All but times."""
     return done.stdout, re.sub(r"(?m)^time: .*?ms", "", done.stderr), done.returncode
@@ -255,6 +269,7 @@ def settings(tests):
 def run(tests):
     vectors(tests)
     histories(tests)
+    past_a_range(tests)
     data(tests)
     settings(tests)
     same(tests)
