@@ -267,15 +267,19 @@ typedef struct assigned {
     size_t count;
 } assigned;
 
-/* n alone would make another gap of A. */
-static bool exponent_alone(const calc *c, const assignment *all, size_t count, size_t *which) {
-    bool n = false, A = false;
-    for (size_t i = 0; i < count; i++)
-        if (all[i].q && quantity_input(all[i].q) == IN_N)
-            n = true, *which = i;
-        else if (all[i].q && quantity_input(all[i].q) == IN_A)
-            A = true;
-    return n && !A && c->scene.in.set[IN_A];
+/* n alone would make another gap of A, and A belongs to no h and r0. */
+static bool power_holds(const calc *c, lexer *lx, const assignment *all, size_t count) {
+    const assignment *n = NULL, *A = NULL, *h = NULL;
+    for (size_t i = 0; i < count; i++) {
+        const input in = all[i].q ? quantity_input(all[i].q) : INPUTS;
+        n = in == IN_N ? &all[i] : n;
+        A = in == IN_A ? &all[i] : A;
+        h = in == IN_H || in == IN_R0 ? &all[i] : h;
+    }
+    if (n && !A && c->scene.in.set[IN_A])
+        return calc_fail(lx->error, n->at, n->len,
+                         "A belongs to the n it was given with: set both (n = 3, A = 50 m^-2)");
+    return !A || !h || calc_fail(lx->error, h->at, h->len, "give either A or both h and r0");
 }
 
 static void put_inputs(inputs *in, void *context) {
@@ -405,12 +409,11 @@ static void nothing(inputs *in, void *context) {
 }
 
 static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
-    size_t inputs_count = 0, which = 0;
+    size_t inputs_count = 0;
     for (size_t i = 0; i < count; i++)
         inputs_count += all[i].q != NULL;
-    if (exponent_alone(c, all, count, &which))
-        return calc_fail(lx->error, all[which].at, all[which].len,
-                         "A belongs to the n it was given with: set both (n = 3, A = 50 m^-2)");
+    if (!power_holds(c, lx, all, count))
+        return false;
     for (size_t i = 0; i < count; i++) { /* += of an input */
         long double old;
         if (!all[i].increment || !all[i].q)

@@ -274,24 +274,32 @@ void inputs_unset(inputs *in, unsigned set) {
         }
 }
 
+/* What does not go with an input that is given: A and h (r/r0)^n are two ways to say the same, and a modulus
+ * makes a body of its own. */
+static void leave_others(inputs *in, input which) {
+    if ((which == IN_E0_2 || which == IN_NU_2) && in->second != SECOND_GIVEN) {
+        inputs_unset(in, INPUT_BIT(which == IN_E0_2 ? IN_NU_2 : IN_E0_2));
+        in->second = SECOND_GIVEN;
+    }
+    if (which == IN_A)
+        inputs_unset(in, INPUT_BIT(IN_H) | INPUT_BIT(IN_R0));
+    else if (which == IN_H || which == IN_R0)
+        inputs_unset(in, INPUT_BIT(IN_A));
+}
+
 void inputs_bind(inputs *in, input which, counted *to) {
     counted_drop(in->bound[which]);
     in->bound[which] = to;
     in->bindings = to ? in->bindings | INPUT_BIT(which) : in->bindings & ~INPUT_BIT(which);
+    if (to)
+        leave_others(in, which);
 }
 
 void inputs_put(inputs *in, input which, double v) {
     inputs_bind(in, which, NULL);
     in->v[which] = v;
     in->set[which] = true;
-    if ((which == IN_E0_2 || which == IN_NU_2) && in->second != SECOND_GIVEN) {
-        inputs_unset(in, INPUT_BIT(which == IN_E0_2 ? IN_NU_2 : IN_E0_2));
-        in->second = SECOND_GIVEN;
-    }
-    if (which == IN_A) /* A and h (r/r0)^n are two ways to say the same */
-        inputs_unset(in, INPUT_BIT(IN_H) | INPUT_BIT(IN_R0));
-    else if (which == IN_H || which == IN_R0)
-        inputs_unset(in, INPUT_BIT(IN_A));
+    leave_others(in, which);
 }
 
 void inputs_geometry(inputs *in, const geometry *g, const fret_gap *terms, shared_table *table) {

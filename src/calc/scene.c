@@ -210,8 +210,16 @@ static bool resolve(scene *s, unsigned set, calc_error *error) {
     return true;
 }
 
+/* What stands for others where these are not given. */
+static unsigned rests_on(input in) {
+    return in == IN_A      ? INPUT_GEOMETRY
+           : in == IN_E0_2 ? INPUT_BIT(IN_E0_2) | INPUT_BIT(IN_E0)
+           : in == IN_NU_2 ? INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_NU)
+                           : INPUT_BIT(in);
+}
+
 bool scene_get(scene *s, input in, long double *out, calc_error *error) {
-    return resolve(s, INPUT_BIT(in), error) && inputs_get(&s->in, in, out, error);
+    return resolve(s, rests_on(in), error) && inputs_get(&s->in, in, out, error);
 }
 
 void scene_put(scene *s, input in, double v) {

@@ -369,7 +369,7 @@ static bool read_parameters(lexer *lx, const geometry *g, edit *e, const arg_lis
     for (input in = IN_N; in < INPUTS; in++)
         if (g->required & INPUT_BIT(in) && !has(e, in))
             return lex_fail(lx, "a parameter is missing; usage: %s %s", list->command, list->usage);
-    if (g->allowed & INPUT_BIT(IN_A) && has(e, IN_A) == (has(e, IN_H) && has(e, IN_R0)))
+    if (g->allowed & INPUT_BIT(IN_A) && (has(e, IN_A) == has(e, IN_H) || has(e, IN_H) != has(e, IN_R0)))
         return lex_fail(lx, "give either A or both h and r0; usage: %s %s", list->command, list->usage);
     return true;
 }
