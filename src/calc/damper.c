@@ -54,23 +54,26 @@ static fret_real stuck(const fret_contact *contact) {
 typedef struct branch {
     const peak *of;
     fret_real end; /* phi of 1; that of 0 is 0 */
+    fret_status failed;
 } branch;
 
 static fret_real branch_at(fret_real t, fret_real rest, void *context) {
-    const branch *b = context;
+    branch *b = context;
     const fret_real sine = t < rest ? fret_sin(b->end * t) : fret_cos((FRET_PI / 2 - b->end) + b->end * rest);
     fret_loading first = {0, 0, 0, 0};
-    /* as far as dxA it does not fail, if it has not failed there */
-    (void)fret_loading_by_displacement(&b->of->contact, (double)(b->of->dxA * sine * sine), &first);
+    if (!b->failed.code) /* as far as dxA it does, if it did there, unless it is interrupted */
+        b->failed = fret_loading_by_displacement(&b->of->contact, (double)(b->of->dxA * sine * sine), &first);
     return first.Fx * (1 - 2 * sine * sine);
 }
 
 /* First loading is singular in its slope where it slides: an end of the interval, for the rule to bear. */
-static fret_real harmonic_stiffness(const peak *p) {
+static bool harmonic_stiffness(const peak *p, long double *out, calc_error *error) {
     branch b = {.of = p, .end = FRET_PI / 2};
     fret_real flat = 0;
-    if (p->dxA <= 0)
-        return stuck(&p->contact);
+    if (p->dxA <= 0) {
+        *out = stuck(&p->contact);
+        return true;
+    }
     const fret_real slides = fret_gross_slip(&p->contact) / p->dxA; /* sin^2 phi there */
     if (slides < 1) {
         const fret_real rest = 1 - slides;
@@ -78,7 +81,8 @@ static fret_real harmonic_stiffness(const peak *p) {
         flat = -p->contact.mu * p->contact.press.F * sqrtl(slides * rest);
     }
     const fret_real part = b.end * fret_integrate(branch_at, &b);
-    return -8 / (FRET_PI * p->dxA) * (part + flat);
+    *out = -8 / (FRET_PI * p->dxA) * (part + flat);
+    return calc_status(error, &b.failed);
 }
 
 /* ---- functions --------------------------------------------------------------------------------- */
@@ -94,10 +98,7 @@ bool call_Ksec(scene *s, value amplitude, long double *out, calc_error *error) {
 bool call_Kp(scene *s, value dxA, long double *out, calc_error *error) {
     peak p;
     dxA.d = DIM_LENGTH;
-    if (!peak_of(s, dxA, &p, error))
-        return false;
-    *out = harmonic_stiffness(&p);
-    return true;
+    return peak_of(s, dxA, &p, error) && harmonic_stiffness(&p, out, error);
 }
 
 bool call_Kpp(scene *s, value dxA, long double *out, calc_error *error) {
@@ -111,8 +112,9 @@ bool call_Kpp(scene *s, value dxA, long double *out, calc_error *error) {
 
 bool call_loss_factor(scene *s, value amplitude, long double *out, calc_error *error) {
     peak p;
-    if (!peak_of(s, amplitude, &p, error))
+    long double Kp = 1;
+    if (!peak_of(s, amplitude, &p, error) || (p.dx > 0 && !harmonic_stiffness(&p, &Kp, error)))
         return false;
-    *out = p.dx > 0 ? p.loss / (FRET_PI * p.dx * p.dx) / harmonic_stiffness(&p) : 0;
+    *out = p.dx > 0 ? p.loss / (FRET_PI * p.dx * p.dx) / Kp : 0;
     return true;
 }

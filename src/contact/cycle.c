@@ -100,7 +100,7 @@ fret_status fret_loading_by_force(const fret_contact *c, double Fx, fret_loading
     }
     out->Fx = Fx;
     out->dx = copysignl(fret_gross_slip(c) * x, Fx);
-    return fret_ok();
+    return fret_unless_stopped(c->normal, fret_ok());
 }
 
 /* The same by displacement: t = dx/delta_x,max, s = 1-t. */
@@ -134,7 +134,7 @@ fret_status fret_loading_by_displacement(const fret_contact *c, double dx, fret_
                             dx);
         out->c = fret_law_radius(c->normal, out->yc);
     }
-    return fret_ok();
+    return fret_unless_stopped(c->normal, fret_ok());
 }
 
 /* Small L: series without cancellation. Otherwise the closed form, arranged for q <= 1/2 and > 1/2. */

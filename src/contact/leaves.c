@@ -143,10 +143,17 @@ static void add_two(const struct fret_leaves *all, const kink *first, fret_real 
     }
 }
 
+/* Do kinks from that row on bend so little that doubles will do? Slopes, and what lies near, they bend more.
+ */
+static bool bend_little(const struct fret_leaves *all, size_t row, fret_real e) {
+    static const fret_real NEAR = 1 / 512.0L;
+    return all->many || (!all->slopes && row < all->first + all->count && e - all->kink[row].at < NEAR * e);
+}
+
 /* Adds to V what the kinks after row `from` bend, up to row `to`. */
 static void add_bends(const struct fret_leaves *all, size_t from, size_t to, fret_real e, fret_real V[2]) {
     fret_real c[3];
-    if (!all->many) {
+    if (!bend_little(all, from + 1, e)) {
         for (size_t i = from + 1; i <= to && e > all->kink[i].at; i++) {
             fret_table_jump(all->table, i, c);
             add_bend(all, c, e - all->kink[i].at, all->start + e, V);

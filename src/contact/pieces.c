@@ -212,16 +212,24 @@ static stretch integrals_of(const law *all, int by, ends *c, fret_real *K) {
     return fret_stretch_join(&sum, &rest);
 }
 
+/* Where a slice ends that begins among the rows: `target` below `outer`, where `left` is left; false: further
+ * in. */
+static bool end_among_rows(const law *all, fret_spot_by how, const fret_spot *outer, fret_real target,
+                           fret_real left, fret_spot *inner) {
+    return left < target ? fret_rows_find(all->rows, how, left, inner)
+                         : fret_rows_drop(all->rows, how, outer, target, inner);
+}
+
 /* A slice that begins among the rows: its integrals, K at its inner end, which may lie further in, and both
  * ends, the inner one NaN where it does. */
-static bool by_rows(const law *all, int by, fret_real whole, fret_real left, stretch *sum, fret_real *K,
-                    fret_level at[2]) {
+static bool by_rows(const law *all, int by, fret_real whole, fret_real target, fret_real left, stretch *sum,
+                    fret_real *K, fret_level at[2]) {
     const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
     fret_spot outer, inner;
     ends c;
     if (!all->rows || !fret_rows_find(all->rows, how, whole, &outer))
         return false;
-    const bool within = fret_rows_find(all->rows, how, left, &inner);
+    const bool within = end_among_rows(all, how, &outer, target, left, &inner);
     if (!within)
         inner = fret_rows_inner(all->rows);
     at[0] = outer.at;
@@ -244,7 +252,7 @@ static bool slice_of(const law *all, int by, fret_real whole, fret_real target, 
     fret_real K;
     stretch s;
     fret_level unused[2];
-    if (!by_rows(all, by, whole, left, &s, &K, unused)) {
+    if (!by_rows(all, by, whole, target, left, &s, &K, unused)) {
         if (!find_ends(all, by, whole, target, left, &c))
             return false;
         s = integrals_of(all, by, &c, &K);
@@ -274,13 +282,18 @@ bool fret_pieces_slice(const struct fret_pieces *pieces, const fret_level *outer
 static bool across_of(const law *all, int by, fret_real whole, fret_real target, fret_real of_whole,
                       fret_real *other) {
     const int table = by == LOADS ? BY_LOAD : BY_DEPTH;
-    fret_point outer, inner;
-    fret_spot s;
+    const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
+    fret_point at;
+    fret_spot outer, inner;
     ends c;
-    if (all->rows && fret_rows_find(all->rows, by == LOADS ? SPOT_LOAD : SPOT_DEPTH, whole, &s)) {
-        if (!point_of(all, table, whole, &outer) || !point_of(all, table, whole - target, &inner))
+    if (all->rows && fret_rows_find(all->rows, how, whole, &outer)) {
+        const int wanted = by == LOADS ? DEPTHS : LOADS;
+        if (end_among_rows(all, how, &outer, target, whole - target, &inner))
+            *other = fret_rows_fall(all->rows, wanted, &outer, &inner);
+        else if (point_of(all, table, whole - target, &at))
+            *other = fret_level_by(&outer.at, wanted) - (by == LOADS ? at.y : at.F);
+        else
             return false;
-        *other = by == LOADS ? outer.y - inner.y : outer.F - inner.F;
         return true;
     }
     if (!find_ends(all, by, whole, target, whole - target, &c))
@@ -307,7 +320,7 @@ static bool mean_by_rows(const law *all, int by, fret_real from, fret_real to, f
     fret_level at[2];
     stretch s;
     fret_real K;
-    if (!by_rows(all, by, most, least, &s, &K, at))
+    if (!by_rows(all, by, most, most - least, least, &s, &K, at))
         return false;
     if (isnan(at[1].y)) {
         if (!point_of(all, by == LOADS ? BY_LOAD : BY_DEPTH, least, &p))

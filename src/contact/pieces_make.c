@@ -77,7 +77,7 @@ typedef struct maker {
     fret_status failed;
 } maker;
 
-enum { MOST_PROFILES = 140000, AGAIN = 8 };
+enum { MOST_PROFILES = 140000, AGAIN = 8, MOST_ROWS = 10000 };
 static const fret_real CALM = 1e-3L;    /* of what is borne: not worth a shorter piece */
 static const fret_real FOUND = 1e-15L;  /* of the law, at the most, where nothing else is borne */
 static const fret_real ENOUGH = 2e-15L; /* what CSV and JSON want */
@@ -444,34 +444,40 @@ static bool cover_rows(maker *m, const fret_real *row, size_t first, size_t last
     return last - first < FEW ? add_calm(m, &s, m->at_worst) : cover_span(m, row, &s);
 }
 
-/* From the first row of a table on: by polynomials, or, where they do not do, row by row. */
+/* Row by row, beyond the pieces there are; false: not good enough. */
+static bool by_rows(maker *m, fret_real to) {
+    law *all = m->all;
+    fret_real off = 0;
+    m->failed = fret_rows_make(m->normal, 0, to, &all->rows, &off);
+    if (!m->failed.code && all->rows && off <= ENOUGH) {
+        all->error = fmaxl(all->error, off);
+        return true;
+    }
+    fret_rows_free(all->rows);
+    all->rows = NULL;
+    return false;
+}
+
+/* From the first row of a table on: exactly row by row where they are not too many for that, else by
+ * polynomials, or where these do not do. */
 static bool cover_beyond(maker *m, const fret_real *row, size_t count, fret_real to) {
     law *all = m->all;
     const size_t base = all->count;
     const fret_level edge = m->edge;
     const fret_real error = all->error, deep = all->deep;
-    for (bool again = false;; again = true) {
-        const bool ok = cover_rows(m, row, 0, count - 1);
-        if (m->failed.code || fret_stopped(m->normal) || again ||
-            (ok && all->error <= fmaxl(m->borne, ENOUGH)))
-            return ok;
-        fret_real off = 0;
-        all->count = base;
-        all->error = error;
-        all->deep = deep;
-        m->edge = edge;
-        m->failed = fret_rows_make(m->normal, to, &all->rows, &off);
-        if (m->failed.code)
-            return false;
-        if (all->rows && off <= ENOUGH) {
-            all->error = fmaxl(error, off);
-            return true;
-        }
-        fret_rows_free(all->rows);
-        all->rows = NULL;
-        if (!ok)
-            return false;
-    }
+    const bool exact = m->borne <= ENOUGH, at_once = exact && count <= MOST_ROWS;
+    if (at_once && by_rows(m, to))
+        return true;
+    if (m->failed.code)
+        return false;
+    const bool ok = cover_rows(m, row, 0, count - 1);
+    if (m->failed.code || fret_stopped(m->normal) || at_once || (ok && all->error <= fmaxl(m->borne, ENOUGH)))
+        return ok;
+    all->count = base;
+    all->error = error;
+    all->deep = deep;
+    m->edge = edge;
+    return by_rows(m, to) || (!m->failed.code && cover_rows(m, row, 0, count - 1));
 }
 
 /* Rows between two distances, both ends too. */

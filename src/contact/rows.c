@@ -17,9 +17,11 @@
 
 /* Within a row y = 0..1 is linear in the square of the radius x. Depth and load are smooth there but for the
  * kink where the row begins: they rise by y (P(y) + y^m Q(y)), m = (k+1)/2, with polynomials P and Q. A part
- * is a row, or as much of it as is no longer than it is far from the kink before: there 20 nodes do.
- * Of what lies below y, G = y^2 (P + y^m Q) and L = y^3 (P + y^m Q + y^2m R), and dF/dy rises by y P. */
-enum { WAVES = FRET_CHEBYSHEV, FEWER = 8, BINOMIALS = 12 };
+ * is a row, or as much of it as is no longer than it is far from the kink before: there 20 nodes do, and
+ * fewer where rows bend little. Of what lies below y, G = y^2 (P + y^m Q) and L = y^3 (P + y^m Q + y^2m R),
+ * and dF/dy rises by y P. */
+enum { WAVES = FRET_CHEBYSHEV, RULES = 3, BINOMIALS = 12 };
+static const int nodes_of[RULES] = {8, 12, WAVES};
 
 /* Polynomials of the integrals. */
 enum { SUM_K, SUM_G, SUM_L = SUM_G + 2, SUMS = SUM_L + 3 };
@@ -152,10 +154,11 @@ static double guess_of(const struct fret_rows *all, size_t i, int by, double tar
     return y > 0 && y < 1 ? y : target / whole;
 }
 
-/* y where a level is so far above the beginning of the part: by Newton's steps, within what the ones before
- * have left. */
-static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real value, fret_real *power) {
-    const fret_real *reach = all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH] + i, target = value - reach[0];
+/* y where a level is so far, `target`, above the beginning of the part, to `little` of it: by Newton's steps,
+ * within what the ones before have left. */
+static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real target, fret_real little,
+                        fret_real *power) {
+    const fret_real *reach = all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH] + i;
     fret_real lo = 0, hi = 1, y = guess_of(all, i, by, (double)target, (double)(reach[1] - reach[0]));
     for (int j = 0; j < 80; j++) {
         const fret_real ym = to_m(all, y), miss = target - rise_of(all, i, by, y, ym);
@@ -163,7 +166,7 @@ static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real
         const fret_real step = miss / rate_of(all, i, by, (double)y, (double)ym, &rise), share = step / y;
         *(miss > 0 ? &lo : &hi) = y;
         const fret_real next = y + step;
-        if (fabsl(share) <= 1e-9L || fabsl(miss) <= LDBL_EPSILON * value) {
+        if (fabsl(share) <= 1e-9L || fabsl(miss) <= little) {
             *power = fabsl(share) <= 1e-9L ? ym * (1 + share * all->m * (1 + share * (all->m - 1) / 2))
                                            : to_m(all, next);
             return fminl(fmaxl(next, 0), 1);
@@ -174,27 +177,42 @@ static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real
     return y;
 }
 
-bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
-    const fret_real *reach = all->reach[by];
-    if (!(value > reach[0] && fret_law_reaches(reach[all->count], value)))
-        return false;
-    size_t lo = 0, count = all->count; /* the first whose end is not before the value */
+/* The part that begins before the value and ends at it or beyond; among the first `count`. */
+static size_t part_at(const fret_real *reach, size_t count, fret_real value) {
+    size_t lo = 0;
     while (count > 1) {
         const size_t half = count / 2;
         lo += reach[lo + half] < value ? half : 0;
         count -= half;
     }
-    const part *p = &all->part[lo];
-    const fret_real beyond = value - reach[lo],
-                    direct = value >= reach[lo + 1] ? 1 : fminl(beyond * (2 * p->x + beyond) / p->width, 1);
-    const bool known = by == SPOT_DISTANCE || value >= reach[lo + 1];
-    fret_real ym = 1, y = known ? direct : search(all, lo, by == SPOT_LOAD ? LOADS : DEPTHS, value, &ym);
+    return lo;
+}
+
+static fret_spot spot_in(const struct fret_rows *all, size_t i, fret_real y, fret_real ym) {
+    return (fret_spot){i,
+                       y,
+                       ym,
+                       distance_at(all, i, y),
+                       {all->reach[SPOT_DEPTH][i] + rise_of(all, i, DEPTHS, y, ym),
+                        all->reach[SPOT_LOAD][i] + rise_of(all, i, LOADS, y, ym)}};
+}
+
+bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
+    const fret_real *reach = all->reach[by];
+    if (!(value > reach[0] && fret_law_reaches(reach[all->count], value)))
+        return false;
+    const size_t i = part_at(reach, all->count, value);
+    const part *p = &all->part[i];
+    const fret_real beyond = value - reach[i],
+                    direct = value >= reach[i + 1] ? 1 : fminl(beyond * (2 * p->x + beyond) / p->width, 1);
+    const bool known = by == SPOT_DISTANCE || value >= reach[i + 1];
+    fret_real ym = 1,
+              y = known ? direct
+                        : search(all, i, by == SPOT_LOAD ? LOADS : DEPTHS, beyond, LDBL_EPSILON * value, &ym);
     if (known)
         ym = y < 1 ? to_m(all, y) : 1;
-    *out = (fret_spot){
-        .part = lo, .along = y, .power = ym, .e = by == SPOT_DISTANCE ? value : distance_at(all, lo, y)};
-    out->at.y = by == SPOT_DEPTH ? value : all->reach[SPOT_DEPTH][lo] + rise_of(all, lo, DEPTHS, y, ym);
-    out->at.F = by == SPOT_LOAD ? value : all->reach[SPOT_LOAD][lo] + rise_of(all, lo, LOADS, y, ym);
+    *out = spot_in(all, i, y, ym);
+    *(by == SPOT_DISTANCE ? &out->e : by == SPOT_DEPTH ? &out->at.y : &out->at.F) = value;
     return true;
 }
 
@@ -209,6 +227,42 @@ fret_spot fret_rows_inner(const struct fret_rows *all) {
 
 fret_spot fret_rows_outer(const struct fret_rows *all) {
     return beginning(all, all->count);
+}
+
+/* Above the beginning of its part. */
+static fret_real rise_at(const struct fret_rows *all, int by, const fret_spot *s) {
+    return s->along > 0 ? rise_of(all, s->part, by, s->along, s->power) : 0;
+}
+
+/* Within a part levels are told from its beginning: what is little of the whole is much of it. */
+bool fret_rows_drop(const struct fret_rows *all, fret_spot_by by, const fret_spot *outer, fret_real drop,
+                    fret_spot *out) {
+    const int of = by == SPOT_LOAD ? LOADS : DEPTHS;
+    const fret_real *reach = all->reach[by];
+    size_t i = outer->part;
+    fret_real rise = rise_at(all, of, outer), ym;
+    if (drop > rise) {
+        drop -= rise;
+        if (i == 0 || !(reach[i] - drop >= reach[0]))
+            return false;
+        const size_t end = i;
+        i = part_at(reach, i, reach[i] - drop);
+        drop = fmaxl(drop - (reach[end] - reach[i + 1]), 0);
+        rise = reach[i + 1] - reach[i];
+    }
+    if (!(drop < rise)) {
+        *out = beginning(all, i);
+        return true;
+    }
+    const fret_real y = search(all, i, of, rise - drop, LDBL_EPSILON * (rise - drop), &ym);
+    *out = spot_in(all, i, y, ym);
+    return true;
+}
+
+fret_real fret_rows_fall(const struct fret_rows *all, int by, const fret_spot *outer,
+                         const fret_spot *inner) {
+    const fret_real *reach = all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH];
+    return rise_at(all, by, outer) - rise_at(all, by, inner) + (reach[outer->part] - reach[inner->part]);
 }
 
 fret_real fret_rows_stiffness(const struct fret_rows *all, const fret_spot *s) {
@@ -272,7 +326,8 @@ typedef struct maker {
     struct fret_rows *all;
     const fret_normal *normal;
     struct fret_leaves *leaves;
-    rule many, few;
+    rule rule[RULES];
+    int likely, calm, vain; /* which of them parts want; since a shorter one was tried; wanted more */
     struct beginning {
         fret_real e;
         fret_level at;
@@ -288,11 +343,12 @@ static void make_rule(rule *r, int nodes, fret_real m) {
         r->ym[j] = fret_pow(r->of.node[j], m);
 }
 
-/* Powers of y, as many as there is something of. */
-static int fit(const rule *r, const fret_real *value, fret_real little, fret_real *c) {
+/* Powers of y, as many as there is something of; *more: the last terms tell that there is more of them. */
+static int fit(const rule *r, const fret_real *value, fret_real little, bool *more, fret_real *c) {
     fret_real term[WAVES];
     int count = r->of.count;
     fret_chebyshev_terms(&r->of, value, term);
+    *more = *more || fmaxl(fabsl(term[count - 2]), fabsl(term[count - 1])) > 3 * little; /* beyond noise */
     while (count > 0 && fabsl(term[count - 1]) <= little)
         count--;
     fret_chebyshev_powers(&r->of, term, count, c);
@@ -354,25 +410,26 @@ static fret_real rate_at(const fret_real *c, int count, fret_real by, fret_real 
 }
 
 /* Of a product of polynomials, by its values at the nodes, its integral over y^(power-1); power 0: itself. */
-static void add_product(maker *m, int which, const fret_real *value, fret_real little, fret_real power) {
-    part *p = &m->all->part[m->all->count - 1];
+static void add_product(maker *m, const rule *r, int which, const fret_real *value, fret_real little,
+                        fret_real power, bool *more) {
+    part *p = &m->all->part[m->all->count];
     fret_real *c = m->all->term + m->all->terms;
-    const int count = fit(&m->many, value, little, c);
+    const int count = fit(r, value, little, more, c);
     for (int j = 0; j < count && power > 0; j++)
         c[j] /= (fret_real)j + power;
     p->sum[which] = (unsigned char)count;
     m->all->terms += (size_t)count;
 }
 
-/* The integrals of the last part: dF/dy = y K, G = int y K dh and L = int (h y K - G) dh of its rise h. */
-static void add_sums(maker *m, fret_real little) {
+/* The integrals of a part: dF/dy = y K, G = int y K dh and L = int (h y K - G) dh of its rise h. */
+static void add_sums(maker *m, const rule *r, fret_real little, bool *more) {
     const struct fret_rows *all = m->all;
-    const part *p = &all->part[all->count - 1];
+    const part *p = &all->part[all->count];
     const fret_real *c = all->term + p->term, *sum = all->term + all->terms, bend = p->width / (p->x * p->x);
-    const int count[2] = {p->count[DEPTHS][0], p->count[DEPTHS][1]};
+    const int count[2] = {p->count[DEPTHS][0], p->count[DEPTHS][1]}, nodes = r->of.count;
     fret_real K[WAVES], rise[2][WAVES], rate[2][WAVES], M[2][WAVES], value[WAVES];
-    for (int j = 0; j < WAVES; j++) {
-        const fret_real y = m->many.of.node[j];
+    for (int j = 0; j < nodes; j++) {
+        const fret_real y = r->of.node[j];
         K[j] = p->rate * mean_near_one(all, bend * y);
         for (int i = 0; i < 2; i++) {
             rise[i][j] = sum_of(c + (i ? count[0] : 0), (size_t)count[i], y);
@@ -380,45 +437,42 @@ static void add_sums(maker *m, fret_real little) {
         }
     }
     const fret_real size = K[0] * rise[0][0];
-    add_product(m, SUM_K, K, little * K[0], 0);
+    add_product(m, r, SUM_K, K, little * K[0], 0, more);
     sum += p->sum[SUM_K];
     for (int i = 0; i < 2; i++) {
-        for (int j = 0; j < WAVES; j++)
+        for (int j = 0; j < nodes; j++)
             value[j] = K[j] * rate[i][j];
-        add_product(m, SUM_G + i, value, little * size, i ? 2 + all->m : 2);
-        for (int j = 0; j < WAVES; j++)
-            M[i][j] = rise[i][j] * K[j] - sum_of(sum, p->sum[SUM_G + i], m->many.of.node[j]);
+        add_product(m, r, SUM_G + i, value, little * size, i ? 2 + all->m : 2, more);
+        for (int j = 0; j < nodes; j++)
+            M[i][j] = rise[i][j] * K[j] - sum_of(sum, p->sum[SUM_G + i], r->of.node[j]);
         sum += p->sum[SUM_G + i];
     }
     for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < WAVES; j++)
+        for (int j = 0; j < nodes; j++)
             value[j] = i == 0   ? rate[0][j] * M[0][j]
                        : i == 1 ? rate[0][j] * M[1][j] + rate[1][j] * M[0][j]
                                 : rate[1][j] * M[1][j];
-        add_product(m, SUM_L + i, value, little * size * rise[0][0], 3 + (fret_real)i * all->m);
+        add_product(m, r, SUM_L + i, value, little * size * rise[0][0], 3 + (fret_real)i * all->m, more);
     }
 }
 
-/* From the distance e on, so far in the square of the radius. */
-static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool kink) {
+/* From the distance e on, so far in the square of the radius, by one rule; false: it is too short. */
+static bool set_part(maker *m, const rule *r, size_t row, fret_real e, fret_real width, bool kink) {
     static const fret_real LITTLE = 2e-19L;
     struct fret_rows *all = m->all;
     fret_real smooth[2][WAVES], bent[2][WAVES], base[2], c[WAVES], top[2], v[2];
-    if (!make_room(m))
-        return false;
     const fret_real x = all->start + e, bend = width / (x * x);
     const fret_level at_e = level_at(m, row, e);
     m->begin[all->count] = (struct beginning){e, at_e};
-    const rule *few = bend < 0.01L ? &m->few : &m->many;
+    const rule *few = &m->rule[bend < 0.01L ? 0 : RULES - 1];
     const bool slopes = m->slopes;
-    part *p = &all->part[all->count++];
+    part *p = &all->part[all->count];
     *p = (part){.x = x, .width = width, .term = all->terms};
     p->rate = all->C * all->m * width * fret_pow(x, 2 * (all->m - 1));
     take(base, &at_e);
     base[LOADS] = slopes ? 0 : base[LOADS];
-    for (int j = 0; j < WAVES; j++) {
-        const fret_real to = sqrtl(x * x + width * m->many.of.node[j]),
-                        at = e + width * m->many.of.node[j] / (x + to);
+    for (int j = 0; j < r->of.count; j++) {
+        const fret_real to = sqrtl(x * x + width * r->of.node[j]), at = e + width * r->of.node[j] / (x + to);
         const fret_level l = kink ? fret_leaves_before(m->leaves, row, at) : level_at(m, row, at);
         take(v, &l);
         v[LOADS] *= slopes ? width / (2 * to) : 1;
@@ -433,19 +487,43 @@ static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool ki
         bent[DEPTHS][j] = l.y / (y * few->ym[j]);
         bent[LOADS][j] = l.F / few->ym[j] * (slopes ? width / (2 * to) : 1 / y);
     }
+    bool more = false, unused = false;
     for (int by = 0; by < 2; by++) {
         const int nothing = by == DEPTHS || !slopes; /* is the first, of a rise */
-        int count = fit(&m->many, smooth[by], LITTLE * top[by], c) - nothing;
+        int count = fit(r, smooth[by], LITTLE * top[by], &more, c) - nothing;
         for (int j = 0; j < count; j++)
             all->term[all->terms++] = c[j + nothing];
         p->count[by][0] = (unsigned char)(count > 0 ? count : 0);
-        count = kink ? fit(few, bent[by], LITTLE * top[by], c) : 0;
+        count = kink ? fit(few, bent[by], LITTLE * top[by], &unused, c) : 0;
         for (int j = 0; j < count; j++)
             all->term[all->terms++] = c[j];
         p->count[by][1] = (unsigned char)count;
     }
     if (!slopes)
-        add_sums(m, LITTLE);
+        add_sums(m, r, LITTLE, &more);
+    return !more;
+}
+
+/* By the shortest rule that does: most often that of the parts before. */
+static bool add_part(maker *m, size_t row, fret_real e, fret_real width, bool kink) {
+    enum { AGAIN = 16, TWICE = 2 };
+    if (!make_room(m))
+        return false;
+    const size_t terms = m->all->terms;
+    const bool shorter = m->likely > 0 && ++m->calm >= AGAIN;
+    int i = m->likely - shorter;
+    while (!set_part(m, &m->rule[i], row, e, width, kink) && i + 1 < RULES) {
+        m->all->terms = terms;
+        i++;
+    }
+    if (shorter)
+        m->calm = 0;
+    m->vain = i > m->likely ? m->vain + 1 : 0;
+    if (i < m->likely || m->vain == TWICE) {
+        m->likely = i;
+        m->calm = m->vain = 0;
+    }
+    m->all->count++;
     return true;
 }
 
@@ -526,8 +604,8 @@ static bool add_rows(maker *m, size_t first, size_t count, fret_real e) {
     m->failed = fret_leaves_make(m->normal, first, count, e, m->slopes, &m->leaves);
     if (m->failed.code)
         return false;
-    make_rule(&m->many, WAVES, all->m);
-    make_rule(&m->few, FEWER, all->m);
+    for (int i = 0; i < RULES; i++)
+        make_rule(&m->rule[i], nodes_of[i], all->m);
     make_binomials(all);
     for (size_t i = first; i < first + count; i++)
         if (!add_row(m, i))
@@ -542,10 +620,11 @@ static bool add_rows(maker *m, size_t first, size_t count, fret_real e) {
     return true;
 }
 
-static fret_status make_rows(const fret_normal *n, fret_real e, bool slopes, struct fret_rows **out,
-                             fret_real *error) {
+static fret_status make_rows(const fret_normal *n, fret_real from, fret_real e, bool slopes,
+                             struct fret_rows **out, fret_real *error) {
     const struct fret_table *t = n->gap.table;
-    const size_t first = fret_table_row(t, 0) + 1;
+    const size_t least = fret_table_row(t, 0) + 1, row = fret_table_row(t, from),
+                 first = row > least ? row : least;
     size_t last = fret_table_row(t, e) + 1;
     last -= last > first && fret_table_distance(t, last - 1) >= e;
     *out = NULL;
@@ -560,7 +639,7 @@ static fret_status make_rows(const fret_normal *n, fret_real e, bool slopes, str
         *m = (maker){.all = all, .normal = n, .slopes = slopes};
         const bool ok = add_rows(m, first, last - first, e);
         st = fret_unless_stopped(n, m->failed);
-        if (ok && !st.code && !slopes)
+        if (ok && !st.code && error)
             *error = error_of(m);
         fret_leaves_free(m->leaves);
         free(m->begin);
@@ -573,12 +652,13 @@ static fret_status make_rows(const fret_normal *n, fret_real e, bool slopes, str
     return st;
 }
 
-fret_status fret_rows_make(const fret_normal *n, fret_real e, struct fret_rows **out, fret_real *error) {
-    return make_rows(n, e, false, out, error);
+fret_status fret_rows_make(const fret_normal *n, fret_real from, fret_real e, struct fret_rows **out,
+                           fret_real *error) {
+    return make_rows(n, from, e, false, out, error);
 }
 
 fret_status fret_rows_make_slopes(const fret_normal *n, fret_real e, struct fret_rows **out) {
-    return make_rows(n, e, true, out, NULL);
+    return make_rows(n, 0, e, true, out, NULL);
 }
 
 void fret_rows_free(struct fret_rows *all) {

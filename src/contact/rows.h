@@ -7,10 +7,11 @@
 
 struct fret_rows;
 
-/* From the row after the start of the gap to the first row at or beyond the distance e. error: the largest
- * relative one of F_N(delta) that was found. NULL in `out` where there is no such row. Errors:
- * FRET_NO_MEMORY, FRET_INTERRUPTED. */
-fret_status fret_rows_make(const fret_normal *normal, fret_real e, struct fret_rows **out, fret_real *error);
+/* From the row that holds the distance `from`, beyond the first one, to the first row at or beyond the
+ * distance e. error: or NULL, the largest relative one of F_N(delta) that was found. NULL in `out` where
+ * there is no such row. Errors: FRET_NO_MEMORY, FRET_INTERRUPTED. */
+fret_status fret_rows_make(const fret_normal *normal, fret_real from, fret_real e, struct fret_rows **out,
+                           fret_real *error);
 void fret_rows_free(struct fret_rows *rows);
 
 /* A place: so much of a part of a row, that to the power of its kink, its distance from the start, depth and
@@ -24,6 +25,15 @@ typedef struct fret_spot {
 /* Where the distance, the depth or the load is `value`; false: not among the rows. */
 typedef enum fret_spot_by { SPOT_DISTANCE, SPOT_DEPTH, SPOT_LOAD } fret_spot_by;
 bool fret_rows_find(const struct fret_rows *rows, fret_spot_by by, fret_real value, fret_spot *out);
+
+/* Where depth or load are less than at `outer` by `drop`, with all digits where that is little; false: not
+ * among the rows. */
+bool fret_rows_drop(const struct fret_rows *rows, fret_spot_by by, const fret_spot *outer, fret_real drop,
+                    fret_spot *out);
+
+/* DEPTHS or LOADS: how far the one is above the other, with the same digits. */
+fret_real fret_rows_fall(const struct fret_rows *rows, int by, const fret_spot *outer,
+                         const fret_spot *inner);
 
 /* Both ends. */
 fret_spot fret_rows_inner(const struct fret_rows *rows);

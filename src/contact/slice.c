@@ -5,6 +5,8 @@
 
 #include <float.h>
 
+#include "contact/piece.h"
+#include "contact/rows.h"
 #include "number/quadrature.h"
 #include "number/real.h"
 
@@ -107,17 +109,18 @@ static bool thin_slice(const fret_normal *n, fret_real outer, bool by_load, fret
     return true;
 }
 
-/* The others: t = y-g(x); G = int t dK, L = int t (h-t) dK, int t^2 dK. */
+/* The others: t = y-g(x). */
 typedef struct cut {
     const fret_normal *normal;
-    fret_real start, y, h, G, L, t2;
+    fret_real start, y;
+    stretch sum; /* of the thickness h */
 } cut;
 
 static void cut_add(cut *s, fret_real e, fret_real dK) {
     fret_real t = s->y - (e > 0 ? profile(s->normal, e).g : 0);
-    s->G += t * dK;
-    s->L += t * (s->h - t) * dK;
-    s->t2 += t * t * dK;
+    s->sum.K += dK;
+    s->sum.G += t * dK;
+    s->sum.L += t * (s->sum.h - t) * dK;
 }
 
 /* Gauss's rule between distances lo and hi of the kink: linear in the fourth root of the distance, which
@@ -159,6 +162,62 @@ static void cut_at_centre(cut *s, fret_real lo, fret_real hi) {
     }
 }
 
+/* The rows of a table between two distances, for one slice from depth or load `outer` of a thickness `target`
+ * of the same; false: it does not begin among rows beyond the first. The caller frees them. */
+typedef struct among {
+    struct fret_rows *rows;
+    fret_spot outer, inner;
+    bool ends; /* there too: else `inner` is where they begin */
+} among;
+
+static bool find_rows(const fret_normal *n, bool by_load, fret_real outer, fret_real target, fret_real lo,
+                      fret_real hi, among *out) {
+    const fret_spot_by how = by_load ? SPOT_LOAD : SPOT_DEPTH;
+    if (!fret_gap_sampled(&n->gap) || fret_rows_make(n, lo, hi, &out->rows, NULL).code || !out->rows)
+        return false;
+    if (!fret_rows_find(out->rows, how, outer, &out->outer)) {
+        fret_rows_free(out->rows);
+        return false;
+    }
+    out->ends = fret_rows_drop(out->rows, how, &out->outer, target, &out->inner);
+    if (!out->ends)
+        out->inner = fret_rows_inner(out->rows);
+    return true;
+}
+
+/* Of a slice of a table what lies among its rows, in their own law: its sums, and where it ends. */
+static fret_real cut_rows(const fret_normal *n, fret_real y, fret_real h, fret_real lo, fret_real hi,
+                          stretch *sum) {
+    among a;
+    if (!find_rows(n, false, y, h, lo, hi, &a))
+        return hi;
+    *sum = fret_rows_between(a.rows, &a.outer, &a.inner);
+    fret_rows_free(a.rows);
+    return a.ends ? lo : a.inner.e;
+}
+
+/* The slice that goes from one distance to another, by quadrature from kink to kink. */
+static stretch cut_at_kinks(const fret_normal *n, fret_real y, fret_real h, fret_real lo, fret_real hi) {
+    const fret_real least = 1e-4L * (hi - lo);
+    cut s = {.normal = n, .start = fret_gap_start(&n->gap), .y = y, .sum.h = h};
+    while (hi > lo && !fret_stopped(n)) {
+        fret_real kink = fret_gap_kink(&n->gap, hi), next = fret_gap_kink(&n->gap, kink);
+        while (kink > 0 && hi - next < least) { /* rows as close leave no trace one by one */
+            kink = next;
+            next = fret_gap_kink(&n->gap, kink);
+        }
+        fret_real end = fmaxl(kink, lo);
+        if (kink > 0 || end > 0.8L * hi)
+            cut_by_roots(&s, kink, end - kink, hi - kink);
+        else if (s.start > 0)
+            cut_at_flat(&s, end, hi);
+        else
+            cut_at_centre(&s, end, hi);
+        hi = end;
+    }
+    return s.sum;
+}
+
 fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_real h) {
     fret_real y = outer->y, start = fret_gap_start(&n->gap);
     fret_slice out = {0, 0, 0, 0};
@@ -174,33 +233,22 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
     fret_real hi = fret_search_radius(n, false, y), lo = 0;
     if (thin_slice(n, hi, false, h, &h, &out))
         return out;
+    stretch sum = {0, 0, 0, 0};
     out.w = outer->F;
     if (h < y) {
         lo = fret_search_radius(n, false, y - h);
         fret_profile inner = profile(n, lo);
         out.w -= fret_force_of(n, &inner);
     }
-    const fret_real least = 1e-4L * (hi - lo);
-    cut s = {.normal = n, .start = start, .y = y, .h = h};
-    while (hi > lo && !fret_stopped(n)) {
-        fret_real kink = fret_gap_kink(&n->gap, hi), next = fret_gap_kink(&n->gap, kink);
-        while (kink > 0 && hi - next < least) { /* rows as close leave no trace one by one */
-            kink = next;
-            next = fret_gap_kink(&n->gap, kink);
-        }
-        fret_real end = fmaxl(kink, lo);
-        if (kink > 0 || end > 0.8L * hi)
-            cut_by_roots(&s, kink, end - kink, hi - kink);
-        else if (start > 0)
-            cut_at_flat(&s, end, hi);
-        else
-            cut_at_centre(&s, end, hi);
-        hi = end;
+    hi = cut_rows(n, y, h, lo, hi, &sum);
+    if (hi > lo) {
+        const stretch rest = cut_at_kinks(n, y - sum.h, h - sum.h, lo, hi);
+        sum = fret_stretch_join(&sum, &rest);
     }
-    fret_real K = fret_normal_stiffness(n, start + lo);
-    out.J = (h * h * K + s.t2) / 2;
-    out.G = s.G;
-    out.L = s.L;
+    const fret_real K = fret_normal_stiffness(n, start + lo);
+    out.J = (h * h * K + (h * sum.G - sum.L)) / 2;
+    out.G = sum.G;
+    out.L = sum.L;
     return out;
 }
 
@@ -213,32 +261,50 @@ fret_slice fret_law_slice_to(const fret_normal *n, const fret_level *outer, bool
     return fret_law_slice(n, outer, by_load ? fret_law_thickness(n, outer, target) : target);
 }
 
-fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real h) {
-    fret_real y = outer->y;
+/* Of a slice its load from its thickness, or its thickness from its load, where levels would differ by too
+ * few digits. */
+static bool thin_across(const fret_normal *n, const fret_level *outer, bool by_load, fret_real target,
+                        fret_real *other) {
+    const fret_real whole = by_load ? outer->F : outer->y, hi = fret_search_radius(n, by_load, whole);
     fret_slice thin;
+    fret_real h;
+    among a;
+    if (thin_slice(n, hi, by_load, target, &h, &thin)) {
+        *other = by_load ? h : thin.w;
+        return true;
+    }
+    if (target > 0.01L * whole ||
+        !find_rows(n, by_load, whole, target, fret_search_radius(n, by_load, whole - target), hi, &a))
+        return false;
+    *other = fret_rows_fall(a.rows, by_load ? DEPTHS : LOADS, &a.outer, &a.inner);
+    fret_rows_free(a.rows);
+    return a.ends;
+}
+
+fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real h) {
+    fret_real y = outer->y, w;
     if (h >= y)
         return outer->F;
     if (fret_normal_closed(n))
         return -outer->F * fret_expm1(n->p * fret_log1p(-h / y));
     if (h <= 0)
         return 0;
-    if (n->pieces && fret_pieces_across(n->pieces, outer, false, h, &thin.w))
-        return thin.w;
-    if (thin_slice(n, fret_search_radius(n, false, y), false, h, &h, &thin))
-        return thin.w;
+    if ((n->pieces && fret_pieces_across(n->pieces, outer, false, h, &w)) ||
+        thin_across(n, outer, false, h, &w))
+        return w;
     return outer->F - fret_law_force(n, y - h);
 }
 
 fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret_real w) {
-    fret_real y = outer->y, F = outer->F, h = 0;
-    fret_slice thin;
+    fret_real y = outer->y, F = outer->F, h;
     if (w >= F)
         return y;
     if (fret_normal_closed(n))
         return -y * fret_expm1(n->q * fret_log1p(-w / F));
-    if (w > 0 && n->pieces && fret_pieces_across(n->pieces, outer, true, w, &h))
-        return h;
-    if (w <= 0 || thin_slice(n, fret_search_radius(n, true, F), true, w, &h, &thin))
+    if (w <= 0)
+        return 0;
+    if ((n->pieces && fret_pieces_across(n->pieces, outer, true, w, &h)) ||
+        thin_across(n, outer, true, w, &h))
         return h;
     return y - fret_law_depth(n, F - w);
 }

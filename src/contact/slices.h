@@ -20,7 +20,7 @@ static inline void resum_top(fret_memory *m) {
 /* Slopes that differ by less than `rounding` merge, else a ramp in many small steps would pile up slices;
  * the mean keeps F_x. */
 static inline void push(fret_memory *m, const fret_real thick[2], const fret_real inner[2], fret_real sigma,
-                 fret_real rounding) {
+                        fret_real rounding) {
     slice *top = m->count ? &m->slices[m->count - 1] : NULL;
     if (top && fabsl(top->sigma - sigma) <= rounding && (fabsl(sigma) < 1) == (fabsl(top->sigma) < 1)) {
         fret_real both = top->thick[LOAD] + thick[LOAD];
@@ -53,7 +53,8 @@ static inline fret_real inner_of(const fret_memory *m, size_t i, coordinate by) 
     return i ? m->slices[i].inner[by] : 0;
 }
 
-/* Tangential step at constant normal load, to F_x or delta_x = goal. Returns what it dissipates, per mu^2 eta. */
+/* Tangential step at constant normal load, to F_x or delta_x = goal. Returns what it dissipates, per mu^2
+ * eta. */
 fret_real fret_memory_slip(fret_memory *memory, coordinate by, fret_real drive, double goal);
 
 #endif

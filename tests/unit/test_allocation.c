@@ -52,7 +52,7 @@ static void laws(void) {
     const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
     CHECK_OK(fret_normal_make(&m, &gap, &n));
     CHECK_OK(fret_normal_make(&m, &gap, &other));
-    EACH(8, fret_rows_make(n, 1e-3L, &rows, &error), rows == NULL);
+    EACH(8, fret_rows_make(n, 0, 1e-3L, &rows, &error), rows == NULL);
     EACH(9, fret_normal_prepare(n, 1, 0), isnan(fret_normal_prepared(n)));
     CHECK(fret_normal_prepared(n) < 1e-15);
     EACH(0, fret_normal_share(other, n), isnan(fret_normal_prepared(other)));

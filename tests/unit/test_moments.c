@@ -102,7 +102,7 @@ static void laws(const fret_gap *gap, double k, double error, long tries) {
 
 static fret_status rows_again(const fret_normal *n, struct fret_rows **rows, fret_real *error) {
     fret_rows_free(*rows);
-    return fret_rows_make(n, 9e-4L, rows, error);
+    return fret_rows_make(n, 0, 9e-4L, rows, error);
 }
 
 static void rows(const fret_gap *gap, double k) {

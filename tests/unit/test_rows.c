@@ -128,12 +128,29 @@ static void check_slices(const rough *t, const fret_normal *n, const struct fret
     CHECK_REL(all.h, outer.at.y - inner.at.y, UNIT_TOL(1e-17L, 1e-13L));
 }
 
+/* A single question has the rows of its slip alone. */
+static void check_single(const fret_contact *c, double FA, fret_real loss, const fret_loading *first) {
+    const fret_real few = 1e-18L * c->press.dz / (c->press.dz - first->yc); /* depths are known to that */
+    fret_loading got;
+    fret_real single;
+    CHECK_OK(fret_cycle_loss_by_force(c, FA, &single));
+    CHECK_REL(single, loss, UNIT_TOL(2e-15L + few, 1e-8L));
+    CHECK_OK(fret_cycle_loss_by_displacement(c, (double)first->dx, &single));
+    CHECK_REL(single, loss, UNIT_TOL(2e-15L + few, 1e-8L));
+    CHECK_OK(fret_loading_by_force(c, FA, &got));
+    CHECK_REL(got.dx, first->dx, UNIT_TOL(1e-15L, 1e-10L));
+    CHECK_REL(got.c, first->c, UNIT_TOL(1e-15L, 1e-10L));
+    CHECK_OK(fret_loading_by_displacement(c, (double)first->dx, &got));
+    CHECK_REL(got.Fx, FA, UNIT_TOL(1e-15L, 1e-10L));
+}
+
 /* From inside out, as a contact asks: loss and displacement of many rows, against the sums of the twin. */
 static void check_contact(const rough *t, const fret_normal *plain, double F) {
     fret_contact c = {.mu = 0.3};
-    fret_normal *ready = NULL, *other = NULL;
+    fret_normal *ready = NULL, *other = NULL, *alone = NULL;
     fret_material m = {{{210e9, 0.3, false}, {0, 0, true}}, t->k, 1e-3};
     const fret_gap *gap = fret_normal_gap(plain);
+    CHECK_OK(fret_normal_make(&m, gap, &alone));
     CHECK_OK(fret_normal_make(&m, gap, &ready));
     CHECK_OK(fret_normal_prepare(ready, F, 0));
     CHECK(fret_normal_prepared(ready) <= 2e-15);
@@ -153,6 +170,7 @@ static void check_contact(const rough *t, const fret_normal *plain, double F) {
         const stretch want = twin_between(ready, c.press.a - start, first.c - start);
         CHECK_REL(loss, 4 * 0.3L * 0.3L * f->eta * want.L, UNIT_TOL(1e-12L, 1e-8L));
         CHECK_REL(first.dx, 0.3L * f->eta * want.h, UNIT_TOL(1e-14L, 1e-10L));
+        check_single(&(fret_contact){.normal = alone, .press = c.press, .mu = 0.3}, FA, loss, &first);
         fret_contact softer = {.normal = other, .mu = 0.3};
         CHECK_OK(fret_press_by_force(other, F / 3, &softer.press));
         CHECK_REL(softer.press.a, c.press.a, UNIT_TOL(1e-15L, 1e-13L));
@@ -166,6 +184,7 @@ static void check_contact(const rough *t, const fret_normal *plain, double F) {
         CHECK_REL(fret_law_load(ready, &(fret_level){c.press.dz, c.press.F}, want.h), FA / 0.3,
                   UNIT_TOL(1e-14L, 1e-10L));
     }
+    fret_normal_free(alone);
     fret_normal_free(ready); /* the other one still has what they share */
     CHECK_OK(fret_press_by_force(other, F / 3, &c.press));
     fret_normal_free(other);
@@ -189,7 +208,7 @@ static void check_table(const rough *t) {
     const long failed = unit.failed;
     CHECK_OK(fret_normal_make(&m, &gap, &n));
     const fret_real reach = 0.9L * (fret_gap_end(&gap) - fret_gap_start(&gap));
-    CHECK_OK(fret_rows_make(n, reach, &rows, &error));
+    CHECK_OK(fret_rows_make(n, 0, reach, &rows, &error));
     CHECK(rows && error < 2e-16L);
     CHECK(fret_rows_outer(rows).e >= reach && fret_rows_inner(rows).e < reach);
     check_numbers(gap.table, t->rows);
@@ -218,11 +237,11 @@ static void uneven(void) {
     }
     CHECK_OK(fret_table_make(r, f, 12, NULL, &table));
     CHECK_OK(fret_normal_make(&m, &(fret_gap){.kind = FRET_GAP_TABLE, .table = table}, &n));
-    CHECK_OK(fret_rows_make(n, r[10], &rows, &error));
+    CHECK_OK(fret_rows_make(n, 0, r[10], &rows, &error));
     CHECK(rows && error < 2e-16L);
     check_places(n, rows);
     fret_rows_free(rows);
-    CHECK_OK(fret_rows_make(n, r[1] / 2, &rows, &error)); /* within the first row */
+    CHECK_OK(fret_rows_make(n, 0, r[1] / 2, &rows, &error)); /* within the first row */
     CHECK(rows == NULL);
     fret_normal_free(n);
     fret_table_free(table);
@@ -238,7 +257,7 @@ static void stops(void) {
     fret_normal *n = NULL;
     CHECK_OK(fret_normal_make(&m, &gap, &n));
     fret_normal_stop(n, &stop);
-    CHECK_CODE(fret_rows_make(n, 1e-3L, &rows, &error), FRET_INTERRUPTED);
+    CHECK_CODE(fret_rows_make(n, 0, 1e-3L, &rows, &error), FRET_INTERRUPTED);
     CHECK(rows == NULL);
     fret_normal_free(n);
     fret_table_free((struct fret_table *)gap.table);
