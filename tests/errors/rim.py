@@ -91,6 +91,16 @@ def once(tests):
                [lambda s=s: one(s, faults.calls) for s in filtered])
 
 
+def waiting_rows(tests):
+    """Rows of a history that wait until a result is asked, interrupted at each allocation: all or nothing."""
+    folder = os.path.join(os.path.abspath(tests.build), "tests")
+    if tests.sanitized or not os.path.exists(os.path.join(folder, "faults.so")):
+        return
+    env = {name: tests.env[name] for name in ("PATH", "LC_ALL", "TERM")}
+    ends, wrong = faults.attempt(faults.Faults(tests.fret, folder, env, SCENE + "set model double\nFx", "follow follow.csv"), faults.interrupts)
+    tests.check("rows that wait, interrupted", not wrong and ends, "%s\n%s" % (ends, wrong))
+
+
 def lost_reads(tests):
     """A picture that cannot be read back is an error, not a shorter picture."""
     tool = os.path.join(os.path.abspath(tests.build), "tests", "calls")
@@ -671,7 +681,7 @@ def ends(tests, asked, shape, load):
                     "%s, expected %s" % (a, b))
 
 
-ROOM = (needs, tabled, along, lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
+ROOM = (waiting_rows, needs, tabled, along, lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
 
 
 def run(tests):

@@ -920,6 +920,8 @@ def completed(tests):
     live.key("\x151;" + 500 * " " + "geomet\t", lambda s: live.status().endswith("  geometry"))
     tests.check("Tab at the end of what a line holds", live.key("xyz\x1b[D", lambda s: live.status().endswith("  geometryxy") or
                                                                 live.status().endswith("  geometry")), live.screen.text())
+    live.key("\x151;" + 501 * " " + "geomet\t", lambda s: live.status().endswith("  geometry"))
+    tests.check("Tab beyond it", live.key("\x7f", lambda s: live.status().endswith("  geometr")), live.screen.text())
     live.key("\x15set report on\r", "set report on")
     live.child.send("q")
     live.wait(lambda s: not s.modes.get(1049))
