@@ -210,6 +210,12 @@ static bool read_number(field f, const unit *u, bool comma, double *out) {
     return f.len && take_number(f.text, f.len, point, u, out) == f.len;
 }
 
+/* A number with a comment behind it. */
+static bool read_commented(field f, const unit *u, bool comma, double *out) {
+    const char *hash = memchr(f.text, '#', f.len);
+    return hash && read_number(trimmed(f.text, (size_t)(hash - f.text)), u, comma, out);
+}
+
 /* A field that is a number and nothing else, as most are; else *at stays. */
 static bool take_field(char separator, const char *line, size_t len, size_t *at, const unit *u, double *out) {
     const size_t n = *at < len ? take_number(line + *at, len - *at, '.', u, out) : 0, end = *at + n;
@@ -255,6 +261,8 @@ static bool read_row(reader *r, const char *line, size_t len) {
             continue;
         if (!next_field(separator, line, len, &at, &f))
             break;
+        if (i >= c->columns && f.len > 0 && *f.text == '#')
+            break;
         if (i >= c->columns && f.len > 0)
             return calc_fail(r->error, 0, 0, "%s:%zu: more than %zu fields, one for each name of the header",
                              c->path, r->line, c->columns);
@@ -262,6 +270,10 @@ static bool read_row(reader *r, const char *line, size_t len) {
             continue;
         const bool comma = separator != ',' || (f.text > line && f.text[-1] == '"');
         double *v = &c->column[i].v[c->rows];
+        if (i + 1 == c->columns && read_commented(f, &r->unit[i], comma, v)) {
+            i++;
+            break;
+        }
         if (!read_number(f, &r->unit[i], comma, v)) {
             *v = NAN;
             if (!trouble(r, &c->column[i], "%.200s:%zu: expected a number as %s, not '%.*s'", c->path,

@@ -25,8 +25,9 @@ static bool one_way(const plot_series *s) {
     return up || down;
 }
 
+/* lo > hi: an axis from right to left. */
 static bool inside(double v, double lo, double hi) {
-    return !(v < lo) && !(v > hi);
+    return lo > hi ? inside(v, hi, lo) : !(v < lo) && !(v > hi);
 }
 
 plot_extents plot_extent_of(const plot_panel *p) {

@@ -264,6 +264,19 @@ static bool follow_rows(shell *sh, const csv *data, const followed *kind, const 
     return true;
 }
 
+static bool of_dimension(const csv *data, const csv_values *read, const followed *kind, calc_error *error) {
+    char wants[128], is[128];
+    if (dim_equal(read->d, kind->d))
+        return true;
+    if (!read->has_unit)
+        return calc_fail(error, 0, 0, "%s: the columns need units in the header, such as %s", data->path,
+                         kind->example);
+    dim_describe(kind->d, wants, sizeof wants);
+    dim_describe(read->d, is, sizeof is);
+    return calc_fail(error, 0, 0, "%s: column %s is %s, not %s, by the unit in the header", data->path,
+                     read->name, is, wants);
+}
+
 static bool follow(shell *sh, const csv *data, calc_error *error) {
     const followed *kind =
         csv_has(data, kinds[1].name[0]) && csv_has(data, kinds[1].name[1]) ? &kinds[1] : &kinds[0];
@@ -279,9 +292,8 @@ static bool follow(shell *sh, const csv *data, calc_error *error) {
                      *tangential = normal ? csv_column(data, kind->name[1], error) : NULL;
     if (!tangential)
         return false;
-    if (!dim_equal(normal->d, kind->d) || !dim_equal(tangential->d, kind->d))
-        return calc_fail(error, 0, 0, "%s: the columns need units in the header, such as %s", data->path,
-                         kind->example);
+    if (!of_dimension(data, normal, kind, error) || !of_dimension(data, tangential, kind, error))
+        return false;
     if (!sh->calc.scene.in.bound[IN_MU] && !scene_friction(&sh->calc.scene, &mu, error))
         return false; /* a live one may depend on the press that is to come */
     scene_save(&sh->calc.scene, &before, false);

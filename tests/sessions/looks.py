@@ -394,6 +394,13 @@ def pages(tests):
                 and "there is nothing to plot along y" in other.stderr, small[-900:] + other.stderr)
     tests.check("what lies below 0 has room above", "set yrange [-7.05:-5.95]" in text and
                 "a logarithmic x axis needs limits above 0" in done.stderr, text + done.stderr)
+    turned = {}
+    for name, look in ("left", "xrange 4 .. 2"), ("flip", "xrange 2 .. 4 flip x"):
+        done = tests.run("-c", "plot x^2 for x = 1 .. 9 steps 8 %s to %s.gp" % (look, name))
+        with open(os.path.join(tests.dir, name + ".gp"), encoding="utf-8") as f:
+            turned[name] = f.read()
+    tests.check("limits from right to left", turned["left"].replace("left.gp", "flip.gp") == turned["flip"] and "set xrange [4:2]" in turned["left"],
+                turned["left"][-600:] + turned["flip"][-600:])
 
 
 def run(tests):

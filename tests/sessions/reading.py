@@ -31,12 +31,18 @@ SAME = {
     "blanks, and units in parentheses": b"r (mm) f (um)\n0 0\n0.5 12.5\n1 50\n",
     "a unit that is no power of ten": b"r [mm],f [inch]\n0,0\n0.5,0.00049212598425196850394\n1,0.0019685039370078740157\n",
     "rows of blanks and separators": b"r [mm];f [um]\n ; \t;\n0;0\n 0.5 ;\t12.5\n;\n \n1;50\n",
+    "comments behind rows": b"r [mm],f [um] # where\n0,0 # here\n0.5,12.5#0.1, 2\n1,50,# and, so on\n",
+    "comments behind rows of blanks": b"r [mm] f [um]\n0 0 # here, 1 2\n0.5 12.5 #\n1 50# end\n",
+    "numbers of notes": b"note,r [mm],f [um]\n1#,0,0\n2 #3,0.5,12.5\n3#,1,50\n",
     "a separator named": b"sep=;\nr [mm];f [um]\n0;0\n0,5;12,5\n1;50\n",
 }
 WRONG = {
     b"r [mm],f [um]\n0,0\n0.5,12,5\n": ":3: more than 2 fields, one for each name of the header",
     b"r [mm];f [um]\n0;0\n1.234,5;12\n": ":3: expected a number as r, not '1.234,5'",
     b"r [mm],f [um]\n0,0\n0.5,12x\n": ":3: expected a number as f, not '12x'",
+    b"r [mm],f [um]\n0,0\n0.5#,12\n": ":3: expected a number as r, not '0.5#'",
+    b"r [mm],f [um]\n0,0\n0.5,12x # 3\n": ":3: expected a number as f, not '12x # 3'",
+    b"r [mm],f [um]\n0,0\n0.5 # 3,12\n": ":3: expected a number as r, not '0.5 # 3'",
     b"r [mm],f [um]\n0,0\n1e,12\n": ":3: expected a number as r, not '1e'",
     b"r [mm],f [um]\n0,0\n1e+,12\n": ":3: expected a number as r, not '1e+'",
     b"r [mm],f [um]\n0,0\n1..,12\n": ":3: expected a number as r, not '1..'",

@@ -221,7 +221,10 @@ def read_tables(tests):
         tests.check("follow must begin with a press", "begin with a row that presses (FN > 0, Fx = 0)" in done.stderr,
                     tests.report(done))
     for text, message in (("a,b\n1,2\n", "the columns must be FN,Fx or dz,dx, not a, b"),
-                          ("FN,Fx\n1,2\n", "the columns need units in the header")):
+                          ("FN,Fx\n1,2\n", "the columns need units in the header"),
+                          ("FN [N],Fx [mm]\n1,2\n", "column Fx is a length, not a force, by the unit in the header"),
+                          ("dz [N],dx [um]\n1,2\n", "column dz is a force, not a length, by the unit in the header"),
+                          ("dz [um],dx []\n1,2\n", "the columns need units in the header, such as dz [um],dx [um]")):
         with tests.file(text) as path:
             done = tests.run("-c", SCENE + "follow %s" % path)
             tests.check("follow: " + message, message in done.stderr and done.returncode == 1, tests.report(done))
