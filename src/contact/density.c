@@ -34,11 +34,11 @@ static fret_real near_integral(const struct fret_density *d, const ring *p, int 
                                                                          : at > 0      ? fret_kernel_above
                                                                                        : fret_kernel_below;
     if (c.x != 1)
-        c.x_m = fret_pow(c.x, d->m);
+        c.x_m = fret_exp(d->m * fret_log(c.x));
     if (rest != 0)
-        c.rim = fret_pow(c.rest, kind == DEPTH ? 1 - d->m : d->m);
+        c.rim = fret_exp((kind == DEPTH ? 1 - d->m : d->m) * fret_log(c.rest));
     if (c.d > 0 && (kind == DEPTH || 2 * c.d < c.x)) {
-        c.d_m = fret_pow(c.d, d->m);
+        c.d_m = fret_exp(d->m * fret_log(c.d));
         c.span = kind == DEPTH ? 0 : fret_log(c.x / (2 * c.d));
     }
     fret_real I[2][MOST];
@@ -49,47 +49,45 @@ static fret_real near_integral(const struct fret_density *d, const ring *p, int 
     return p->scale[kind] * sum_of(of, I[0], I[1]);
 }
 
-/* What terms fall to 2^-56 by such a ratio. */
-static int terms_of(double ratio) {
-    int count = 4;
-    for (double left = 0x1p56 * ratio * ratio * ratio * ratio; left > 1 && count < TAYLOR; left *= ratio)
-        count++;
-    return count;
-}
-
-/* Is the block far enough? Its integral. */
+/* Is the block far enough? Its integral: so many terms that what is left is 2^-56 of it. */
 static bool far_integral(const struct fret_density *d, const block *b, int kind, fret_real r,
                          fret_real *sum) {
     const fret_real away =
         kind == SLOPE ? square_distance(b->lo, r) + b->half : square_distance(r, b->hi) + b->half;
     if (!(away >= 2 * b->half))
         return false;
-    const double ratio = (double)(b->half / away), x2 = ratio * ratio, *c = b->moment[kind];
-    const int count = terms_of(ratio) & ~1;
-    double even = 0, odd = 0;
-    for (int n = count - 2; n >= 0; n -= 2) {
-        even = even * x2 + c[n];
-        odd = odd * x2 + c[n + 1];
+    const double ratio = (double)(b->half / away), x2 = ratio * ratio, x4 = x2 * x2, *c = b->moment[kind];
+    const double log_away = fret_double_log((double)(away / d->unit));
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+    for (int n = (int)(38.8 / (log_away - b->log_half)) & ~3; n >= 0; n -= 4) {
+        s0 = s0 * x4 + c[n];
+        s1 = s1 * x4 + c[n + 1];
+        s2 = s2 * x4 + c[n + 2];
+        s3 = s3 * x4 + c[n + 3];
     }
     const double power = kind == SLOPE ? (double)d->m - 1 : -(double)d->m;
-    *sum = d->far_scale[kind] * fret_double_exp(power * fret_double_log((double)(away / d->unit))) *
-           (even + ratio * odd);
+    *sum =
+        d->far_scale[kind] * fret_double_exp(power * log_away) * ((s0 + ratio * s1) + x2 * (s2 + ratio * s3));
     return true;
 }
 
 /* Of one ring by the cuts from `now` on. */
-static fret_real near_by_cuts(const struct fret_density *d, size_t i, int kind, const fret_cut *cut,
-                              size_t count, size_t now, fret_real r) {
+static fret_real near_by_cuts(const struct fret_density *d, const block *b, size_t i, int kind,
+                              const fret_cut *cut, size_t count, size_t now, fret_real r) {
     ring made;
     const ring *p = fret_ring_at(d, i, kind, &made);
-    fret_real sum = 0;
+    fret_real sum = 0, far;
     bool more = true;
     if (kind == SLOPE && p->hi <= r)
         return 0;
     for (size_t j = now; j < count && more; j++) {
         more = cut[j].a < p->hi;
         const fret_real weight = cut[j].weight - (more && j + 1 < count ? cut[j + 1].weight : 0);
-        if (weight != 0 && cut[j].a > p->lo)
+        if (weight == 0 || cut[j].a <= p->lo)
+            continue;
+        if (!more && b->last - b->first == 1 && far_integral(d, b, kind, r, &far))
+            sum += weight * far;
+        else
             sum += weight * near_integral(d, p, kind, fminl(cut[j].a, p->hi), r);
     }
     return sum;
@@ -116,7 +114,7 @@ static fret_real integral(const struct fret_density *d, int kind, const fret_cut
         }
         if (b->next == ++i)
             for (size_t j = b->first; j < b->last; j++)
-                sum += near_by_cuts(d, j, kind, cut, count, now, r);
+                sum += near_by_cuts(d, b, j, kind, cut, count, now, r);
     }
     return sum;
 }
@@ -128,6 +126,10 @@ fret_real fret_density_pressure(const struct fret_density *d, const fret_cut *cu
 
 fret_real fret_density_surface(const struct fret_density *d, const fret_cut *cut, size_t count, fret_real r) {
     return integral(d, DEPTH, cut, count, r);
+}
+
+fret_real fret_density_flat(const struct fret_density *d, fret_real a, fret_real r) {
+    return fret_kernel_flat(&d->flat, a, r);
 }
 
 fret_real fret_density_error(const struct fret_density *d) {

@@ -20,6 +20,9 @@ fret_real fret_density_from(const struct fret_density *density);
 /* g there. */
 fret_real fret_density_from_depth(const struct fret_density *density);
 
+/* A flat punch's surface but for its depth: int_0^a x^k (r^2-x^2)^-m dx, r > a. */
+fret_real fret_density_flat(const struct fret_density *density, fret_real a, fret_real r);
+
 /* Contacts one within the other, radii rising; weight: of what lies between the last one and this. */
 typedef struct fret_cut {
     fret_real a, weight;

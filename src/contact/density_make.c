@@ -8,6 +8,7 @@
 #include "contact/check.h"
 #include "contact/ring.h"
 #include "number/array.h"
+#include "number/double.h"
 #include "number/real.h"
 
 typedef struct maker {
@@ -246,6 +247,7 @@ static void make_block(maker *m, size_t first, size_t last, fret_real moment[KIN
     b->lo = fret_ring_at(d, first, SLOPE, &made)->lo;
     b->hi = fret_ring_at(d, last - 1, SLOPE, &made)->hi;
     b->half = square_distance(b->hi, b->lo) / 2;
+    b->log_half = fret_double_log((double)(b->half / d->unit));
     for (int n = 0; n < TAYLOR; n++)
         moment[SLOPE][n] = moment[DEPTH][n] = 0;
     if (fret_stopped(m->normal))
@@ -297,6 +299,7 @@ fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_den
         fret_kernel_power(&d->power[OF_DEPTH], 1, 1 - sharp, half);
         d->far_scale[SLOPE] = (double)fret_pow(d->unit, half - 1);
         d->far_scale[DEPTH] = (double)fret_pow(d->unit, -half);
+        fret_kernel_flat_make(&d->flat, half);
         make_rule(m);
         ok = (rows ? cover_rows : cover_smooth)(m, a);
         st = fret_unless_stopped(n, m->failed);

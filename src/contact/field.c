@@ -208,7 +208,7 @@ static fret_real outside_integral(const fret_normal *n, fret_real r, fret_real d
 
 /* With q = (a/r)^2 half the incomplete beta function B_q(m,1-m), by its series in q, or in 1-q from the edge
  * on. */
-fret_real fret_field_flat(fret_real k, fret_real a, fret_real r) {
+static fret_real flat_outside(fret_real k, fret_real a, fret_real r) {
     const fret_real m = (k + 1) / 2, q = (a / r) * (a / r), away = (r - a) / r * ((r + a) / r);
     const bool near = away < 0.5L;
     const fret_real b = near ? (1 - k) / 2 : m, x = near ? away : q;
@@ -247,7 +247,7 @@ static fret_real surface_near(fret_real k, const fret_term *term, int terms, fre
                               fret_real r, fret_real away) {
     const fret_real m = (k + 1) / 2, whole = FRET_PI / fret_sin(FRET_PI * fminl(m, 1 - m)),
                     edge = fret_pow(away, 1 - m);
-    fret_real sum = dz * fret_field_flat(k, a, r);
+    fret_real sum = dz * flat_outside(k, a, r);
     for (int i = 0; i < terms; i++) {
         const fret_real b = term[i].n / 2 + m;
         fret_real beyond = 0, c = 1;
@@ -457,9 +457,14 @@ static fret_status surface_of(const fret_normal *n, const edge *at, fret_real r,
     else if (part(n, at, r, surface_steep, &gentle, &steep))
         sum = surface_gentle(&gentle, at->a, at->dz, r) - steep;
     else
-        sum = at->dz * fret_field_flat(n->foundation.k, at->a, r) - steep;
+        sum = at->dz * flat_outside(n->foundation.k, at->a, r) - steep;
     *w = fret_field_surface_factor(n->foundation.k) * sum;
     return fret_ok();
+}
+
+fret_status fret_field_surface(const fret_normal *n, fret_real a, fret_real dz, fret_real r, fret_real *w) {
+    const edge at = {a, dz, {0, 0}};
+    return surface_of(n, &at, r, w);
 }
 
 fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_real *w) {

@@ -3,10 +3,11 @@
 #ifndef FRET_CONTACT_FIELD_H
 #define FRET_CONTACT_FIELD_H
 
-#include "fret/base.h"
+#include "contact/normal.h"
 
-/* int_0^a x^k (r^2-x^2)^-(k+1)/2 dx, r > a: a flat punch's surface but for its depth. */
-fret_real fret_field_flat(fret_real k, fret_real a, fret_real r);
+/* As fret_surface where a > start and no power is steep; the contact is dz deep. */
+fret_status fret_field_surface(const fret_normal *normal, fret_real a, fret_real dz, fret_real r,
+                               fret_real *w);
 
 /* What becomes of such integrals by 2 cos(pi k/2)/pi: a surface. */
 fret_real fret_field_surface_factor(fret_real k);

@@ -10,7 +10,8 @@
 #include "number/real.h"
 
 struct fret_fields {
-    const fret_normal *normal; /* borrowed */
+    const fret_normal *normal;         /* borrowed */
+    fret_real of_pressure, of_surface; /* what fields are of their integrals */
     struct fret_density *density;
     fret_real reach;    /* the radius that was asked for; 0: none was */
     fret_real a, dz;    /* the contact asked last, and its depth */
@@ -24,6 +25,8 @@ fret_status fret_fields_make(const fret_normal *n, fret_fields **out) {
     if (!*out)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     (*out)->normal = n;
+    (*out)->of_pressure = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI;
+    (*out)->of_surface = fret_field_surface_factor(n->foundation.k);
     return fret_ok();
 }
 
@@ -73,8 +76,7 @@ static bool is_special(const fret_normal *n, fret_real a, fret_real r) {
 
 /* The pressure from where the polynomials begin. */
 static fret_real pressure_beyond(const fret_fields *f, const fret_cut *cut, size_t count, fret_real r) {
-    const fret_foundation *of = &f->normal->foundation;
-    return of->cN0 * fret_pow(of->c0, -of->k) / FRET_PI * fret_density_pressure(f->density, cut, count, r);
+    return f->of_pressure * fret_density_pressure(f->density, cut, count, r);
 }
 
 fret_status fret_fields_pressure(fret_fields *f, fret_real a, fret_real r, fret_real *p) {
@@ -97,7 +99,7 @@ fret_status fret_fields_pressure(fret_fields *f, fret_real a, fret_real r, fret_
 static fret_status surface_but(const fret_fields *f, fret_real a, fret_real y, fret_real r, fret_real weight,
                                fret_real *head, fret_real *w) {
     const fret_normal *n = f->normal;
-    const fret_real from = fret_density_from(f->density), factor = fret_field_surface_factor(n->foundation.k);
+    const fret_real from = fret_density_from(f->density), factor = f->of_surface;
     const bool flat = fret_gap_start(&n->gap) > 0;
     fret_status st = fret_ok();
     if (!flat && a <= from) {
@@ -109,10 +111,11 @@ static fret_status surface_but(const fret_fields *f, fret_real a, fret_real y, f
     if (flat) {
         *head = 0;
     } else if (isnan(*head)) {
-        st = fret_surface(n, from, r, head);
-        *head -= factor * fret_density_from_depth(f->density) * fret_field_flat(n->foundation.k, from, r);
+        const fret_real depth = fret_density_from_depth(f->density);
+        st = fret_field_surface(n, from, depth, r, head);
+        *head -= factor * depth * fret_density_flat(f->density, from, r);
     }
-    *w += weight * (factor * y * fret_field_flat(n->foundation.k, a, r) + *head);
+    *w += weight * (factor * y * fret_density_flat(f->density, a, r) + *head);
     return st;
 }
 
@@ -131,7 +134,7 @@ fret_status fret_fields_surface(fret_fields *f, fret_real a, fret_real r, fret_r
     }
     fret_real head = NAN;
     st = surface_but(f, a, f->dz, r, 1, &head, w);
-    *w -= fret_field_surface_factor(f->normal->foundation.k) * fret_density_surface(f->density, &cut, 1, r);
+    *w -= f->of_surface * fret_density_surface(f->density, &cut, 1, r);
     return st;
 }
 
@@ -221,8 +224,7 @@ fret_status fret_fields_surface_x(fret_fields *f, const fret_memory *m, fret_rea
     if (outside > 0) {
         for (size_t i = 0; i < outside; i++)
             f->cut[i].weight -= rest;
-        sum -= fret_field_surface_factor(f->normal->foundation.k) *
-               fret_density_surface(f->density, f->cut, outside, r);
+        sum -= f->of_surface * fret_density_surface(f->density, f->cut, outside, r);
         for (size_t i = 0; i < outside; i++)
             f->cut[i].weight += rest;
     }

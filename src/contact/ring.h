@@ -28,6 +28,7 @@ enum { TAYLOR = 56 };
 typedef struct block {
     size_t first, last, next;
     fret_real lo, hi, half;
+    double log_half; /* of half in units */
     double moment[KINDS][TAYLOR];
 } block;
 
@@ -37,6 +38,7 @@ enum { OF_ONE, OF_SLOPE, OF_DEPTH, POWERS };
 struct fret_density {
     fret_real m, from, from_depth, unit, error;
     powers power[POWERS]; /* q = 0, that of the slope, and of the depth */
+    flat_field flat;
     double far_scale[KINDS];
     size_t count, kept, room, blocks, leaf; /* rings, those kept; how many a leaf has */
     size_t heads;                           /* rings before the rows */
