@@ -119,21 +119,29 @@ static fret_status surface_but(const fret_fields *f, fret_real a, fret_real y, f
     return st;
 }
 
-fret_status fret_fields_surface(fret_fields *f, fret_real a, fret_real r, fret_real *w) {
-    const fret_cut cut = {a, 1};
-    bool there = false;
-    *w = 0;
-    fret_status st = r > a && a > fret_gap_start(&f->normal->gap) ? prepare(f, a, &there) : fret_ok();
-    if (st.code)
-        return st;
-    if (!there)
-        return fret_surface(f->normal, a, r, w);
+/* The depth of a contact, which places have in common. */
+static fret_real depth_of(fret_fields *f, fret_real a) {
     if (a != f->a) {
         f->a = a;
         f->dz = fret_normal_profile(f->normal, a);
     }
+    return f->dz;
+}
+
+fret_status fret_fields_surface(fret_fields *f, fret_real a, fret_real r, fret_real *w) {
+    const fret_normal *n = f->normal;
+    const fret_cut cut = {a, 1};
+    bool there = false;
+    *w = 0;
+    if (r >= 0 && r <= a && a > fret_gap_start(&n->gap) && a <= n->end && fret_gap_sampled(&n->gap))
+        return fret_field_surface(n, a, depth_of(f, a), r, w);
+    fret_status st = r > a && a > fret_gap_start(&n->gap) ? prepare(f, a, &there) : fret_ok();
+    if (st.code)
+        return st;
+    if (!there)
+        return fret_surface(n, a, r, w);
     fret_real head = NAN;
-    st = surface_but(f, a, f->dz, r, 1, &head, w);
+    st = surface_but(f, a, depth_of(f, a), r, 1, &head, w);
     *w -= f->of_surface * fret_density_surface(f->density, &cut, 1, r);
     return st;
 }
@@ -182,6 +190,8 @@ fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real
     fret_status st = prepare_slices(f, m, &there);
     if (st.code)
         return st;
+    if (f->count > 0 && r >= f->cut[f->count - 1].a)
+        return fret_ok();
     if (!there || is_special(f->normal, f->cut[f->count - 1].a, r))
         return fret_traction(m, r, q);
     const fret_real from = fret_density_from(f->density);

@@ -330,6 +330,8 @@ static void alike(void) {
     CHECK_OK(fret_fields_pressure(g, 6e-4L, 1e-4L, &one));
     CHECK(one == many && fret_fields_error(f) == fret_fields_error(g));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}));
+    CHECK_OK(fret_fields_traction(f, m, 2e-3L, &many));
+    CHECK(many == 0);
     CHECK_ERROR(fret_fields_traction(f, m, -1, &many), FRET_NEGATIVE, "r");
     CHECK_ERROR(fret_fields_surface_x(f, m, -1, &many), FRET_NEGATIVE, "r");
     fret_fields_free(f);
