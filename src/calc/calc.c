@@ -265,6 +265,7 @@ typedef struct assigned {
     calc *c;
     const assignment *all;
     size_t count;
+    const assignment *but; /* not this one */
 } assigned;
 
 /* n alone would make another gap of A, and A belongs to no h and r0. */
@@ -286,7 +287,7 @@ static void put_inputs(inputs *in, void *context) {
     const assigned *job = context;
     for (size_t i = 0; i < job->count; i++) {
         const assignment *a = &job->all[i];
-        if (!a->q)
+        if (!a->q || a == job->but)
             continue;
         const input which = quantity_input(a->q);
         if (a->d)
@@ -294,6 +295,30 @@ static void put_inputs(inputs *in, void *context) {
         else
             inputs_put(in, which, (double)a->v.v);
     }
+}
+
+/* The last one of an input; NULL: there is none. */
+static const assignment *of_input(const assignment *all, size_t count, input in) {
+    const assignment *of = NULL;
+    for (size_t i = 0; i < count; i++)
+        if (all[i].q && quantity_input(all[i].q) == in)
+            of = &all[i];
+    return of;
+}
+
+/* Where nothing is pressed yet F_N presses, and what else is given goes before. */
+static bool press_with(scene *s, assigned job, const assignment *FN, calc_error *error) {
+    const load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = (double)FN->v.v};
+    scene_mark before;
+    job.but = FN;
+    scene_save(s, &before, false);
+    const bool ok =
+        (job.count == 1 || scene_edit(s, put_inputs, &job, error)) && scene_load(s, &press, NULL, error);
+    if (ok)
+        scene_drop(&before);
+    else
+        scene_back(s, &before);
+    return ok;
 }
 
 /* Would the cycle slip because its amplitude stays while others change? */
@@ -427,14 +452,13 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (!all[i].q && !put_name(c, lx, &all[i]))
             return false;
-    assigned job = {c, all, count};
+    assigned job = {c, all, count, NULL};
     scene *s = &c->scene;
     if (inputs_count == 0) /* what is bound may have moved with the names */
         return s->in.bindings == 0 || scene_edit(s, nothing, NULL, lx->error);
-    if (inputs_count == 1 && count == 1 && quantity_input(all[0].q) == IN_FN && !s->end.steps && !all[0].d)
-        return scene_load(
-            s, &(load_step){.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = (double)all[0].v.v}, NULL,
-            lx->error);
+    const assignment *FN = s->end.steps ? NULL : of_input(all, count, IN_FN);
+    if (FN && !FN->d)
+        return press_with(s, job, FN, lx->error);
     if (scene_edit(s, put_inputs, &job, lx->error))
         return true;
     if (amplitude_is_left(lx->error, all, count))
