@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Slip at constant normal load: a zone eats inwards from the edge. Touches the slices of its contact alone.
- */
+/* Slip at constant normal load: a zone eats inwards from the edge. Touches the slices of its contact. */
 #include "contact/slices.h"
 
 #include "contact/check.h"
