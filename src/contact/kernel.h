@@ -24,8 +24,8 @@ typedef struct powers {
     fret_real top[SERIES];                  /* (Q+1) int_0^1 (1-t)^Q (1-z t)^(m-1) dt */
     fret_real within[SERIES];               /* int_0^1 t^Q (1-z t)^-m dt */
     fret_real rim[SERIES];                  /* int_0^1 t^-m (1-z t)^Q dt */
-    fret_real far[SERIES];                  /* int_1^oo t^(q+m-1) (1-z/t)^(m-1) dt, but for the next */
-    int nearest;                            /* the term of far whose 1/(n-q-m) is the largest */
+    fret_real far[SERIES];                  /* int_1^oo t^(q+m-1) (1-z/t)^(m-1) dt, without the nearest */
+    int nearest;                            /* of far the term n whose 1/(n-q-m) is the largest */
     fret_real away, nearest_b, nearest_two; /* q+m-n; what it is a multiple of; 2^(q+m-n) */
     fret_real above_nil, below_nil;         /* the rest of far, of d^(q+m) */
     fret_real whole_beta;                   /* int_0^1 t^Q (1-t)^-m dt */
