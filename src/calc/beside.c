@@ -188,7 +188,7 @@ bool beside_scene(beside *b, const scene *changed, const knob_value by[], size_t
             return false;
         at = stop_at(s, time);
     }
-    if (!at)
+    if (!at) /* unreached: one load, run in any scene, passes the same times */
         return calc_fail(error, 0, 0, "there is no such instant in the changed scene");
     if (at->run.coarse)
         at->run.coarse = at->coarse;

@@ -11,6 +11,8 @@ SAME = {
     "the letter mu": "r [mm],f [\u03bcm]\n0,0\n0.5,12.5\n1,50\n".encode(),
     "other columns, another order, empty rows": "time [s];f (\u00b5m);r/mm;note\n0;0;0;a\n1;12,5;0,5;b 1\n2;50;1;\n;;;\n"
                                                 .encode(),
+    "blanks, and a stray carriage return": b"r [mm]\r f [um]\r\n0 0\n0.5 12.5\n1 50\n",
+    "two carriage returns at each end": b"r [mm],f [um]\r\r\n0,0\r\r\n0.5,12.5\r\r\n1,50\r\r\n",
     "blanks": b"# measured\nr [mm] f [um]\n0 0\n0.5 12.5\n\n1 50\n",
     "tabs": b"r [mm]\tf [um]\n0\t0\n5e-1\t12,5\n1\t+50\n",
     "commas above, blanks below": b"r [mm], f [um]\n0 0\n0.5 12.5\n1 50\n",
