@@ -71,7 +71,7 @@ static fret_status prepare(fret_fields *f, fret_real a, bool *there) {
 /* Places where the field is asked for as ever: outside, or where it may be infinite. */
 static bool is_special(const fret_normal *n, fret_real a, fret_real r) {
     const fret_real start = fret_gap_start(&n->gap);
-    return !(r >= 0) || r >= a || a <= start || (r == start && (start <= 0 || fret_gap_sharp(&n->gap)));
+    return !(r >= 0) || r >= a || a <= start || (r == start && fret_gap_sharp(&n->gap));
 }
 
 /* The pressure from where the polynomials begin. */

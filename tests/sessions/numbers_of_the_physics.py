@@ -224,6 +224,37 @@ def dense_file(tests):
                       close_to if i < len(got) - 1 else swinging)
 
 
+def dense_fields(tests):
+    """The same for what is told of places, of a gap whose kinks are some: a sum of two powers."""
+    where = os.path.join(tests.dir, "dense-sum.csv")
+    with open(where, "w", encoding="ascii") as f:
+        f.write("r [m],f [m]\n")
+        for i in range(12001):
+            r = 1e-3 * i / 12000
+            f.write("%.17g,%.17g\n" % (r, 50 * r ** 2 + 2e6 * r ** 4))
+    asked = """press a=0.95 mm; step Fx=0.2*mu*FN; FN; p(0 mm), p(0.2 mm), p(0.9 mm), qx(0.3 mm), qx(0.94 mm), uz(0 mm), uz(0.4 mm), uz(2 mm), ux(0.4 mm)
+        g(0.2 mm), w1D(0.3 mm), u1D(0.9 mm), qz1D(0.5 mm), qx1D(0.5 mm)"""
+    for k in (-0.4, 0.5):
+        begin = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; friction 0.4; geometry " % k
+        got = numbers_of(tests, begin + "file %s; " % where + asked)
+        want = numbers_of(tests, begin + "sum 2:50 m^-1, 4:2e6 m^-3; " + asked)
+        tests.check("dense fields: as many numbers", len(got) == len(want) == 15, "%d, %d" % (len(got), len(want)))
+        for g, w in zip(got, want):
+            close(tests, "fields of dense rows, k = %g: %s" % (k, g[1:] + g[:1]), w[2], g[2], 1e-9)
+
+
+def tip_in_rows(tests):
+    """The middle of a contact, where rows of a table meet: as of the cone whose rows they are."""
+    where = os.path.join(tests.dir, "tip.csv")
+    with open(where, "w", encoding="ascii") as f:
+        f.write("r [m],f [m]\n" + "".join("%.17g,%.17g\n" % (i * 1e-5, i * 2e-7) for i in range(60)))
+    asked = "press a=0.3 mm; p(0 mm); step Fx=0.1*mu*FN; qx(0 mm)"
+    for k in (0.3, 0.8):
+        begin = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; friction 0.4; geometry " % k
+        for g, w in zip(numbers_of(tests, begin + "file %s; " % where + asked), numbers_of(tests, begin + "cone slope=0.02; " + asked)):
+            close(tests, "at the tip, k = %g: %s" % (k, g[1:] + g[:1]), w[2], g[2], 1e-12)
+
+
 def whole_gap(tests):
     """A contact that reaches the last row of its gap is carried when its own depth or load is given back."""
     where = os.path.join(tests.dir, "whole.csv")
@@ -350,5 +381,5 @@ def on_the_way(tests):
 
 def run(tests):
     tests.each([lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
-                lambda: gap_file(tests), lambda: dense_file(tests), lambda: whole_gap(tests),
+                lambda: gap_file(tests), lambda: dense_file(tests), lambda: dense_fields(tests), lambda: tip_in_rows(tests), lambda: whole_gap(tests),
                 lambda: swinging_rows(tests), lambda: histories(tests), lambda: on_the_way(tests)])
