@@ -43,11 +43,11 @@ bool fret_normal_dense(const fret_normal *normal, fret_real a);
  * them, answers come as before: they agree to 1e-15.
  * error: 0, or what may be left of F_N(delta_z) of a table, relative, 1e-8 say: to be smooth across rows to
  * that takes a law a few dozen pieces, some 1000 times g(x), whatever the number of rows. To 1e-15, for 0,
- * polynomials take the rows one by one where they are few; where they are too many or too rough for them, the
- * law is kept row by row: some 20 us a row to set up, 0.5 kB, and then 20 us a question. Of polynomials made
- * of many rows together radii are found by g(x), in some 30 us, and slices thinner than 1/200 of the contact
- * are answered as before where they want more digits than it has. Not while others use the contact. Errors:
- * FRET_NOT_POSITIVE, FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
+ * the law of up to 2000 rows is kept row by row, and that of more where they are too rough for polynomials:
+ * some 30 to 60 us a row to set up, 0.5 kB, and then 5 us a question. Of polynomials made of many rows
+ * together radii are found by g(x), in some 30 us, and slices too thin for the digits they have are answered
+ * row by row, in blocks of rows that are set up when they are first asked for. Not while others use the
+ * contact. Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
 fret_status fret_normal_prepare(fret_normal *normal, double F, double error);
 
 /* Shares what was prepared for `from`, a contact of the same gap and k, at once and to a rounding: the

@@ -6,21 +6,8 @@
 #include <float.h>
 
 #include "contact/check.h"
-#include "contact/pieces.h"
+#include "contact/normal.h"
 #include "number/real.h"
-
-/* The law for a slice that is the part t of the contact: where the polynomials are those of many rows
- * together one of few has a law of its own, and too few digits of theirs. */
-static const fret_real THIN = 5e-3L;
-static const fret_normal *law_of(const fret_contact *c, fret_real t, fret_normal *plain) {
-    const fret_normal *n = c->normal;
-    if (!n->pieces || !fret_pieces_rough(n->pieces, 0) || t > THIN ||
-        fret_normal_prepared(n) < 10 * n->borne * t * t)
-        return n;
-    *plain = *n;
-    plain->pieces = NULL;
-    return plain;
-}
 
 /* t, its complement s = 1-t to full relative accuracy (near gross slip the rounding of the product mu F_N
  * matters), and ln s, which stays finite where s itself is too small for a double. */
@@ -89,11 +76,10 @@ fret_status fret_loading_by_force(const fret_contact *c, double Fx, fret_loading
         out->c = c->press.a * kept(&f, dd_div(dd_of(1), c->normal->wide.s));
         out->yc = c->press.dz * kept(&f, c->normal->wide.q);
     } else {
-        fret_normal plain;
-        const fret_normal *law = law_of(c, f.t_wide, &plain);
         const fret_real s = dd_value(f.s);
         fret_real w = f.t.hi <= 0.5 ? dd_value(f.t) * c->press.F : c->press.F - s * c->press.F;
-        x = s > 0 ? fret_law_thickness(law, &(fret_level){c->press.dz, c->press.F}, w) / c->press.dz : 1;
+        x = s > 0 ? fret_law_thickness(c->normal, &(fret_level){c->press.dz, c->press.F}, w) / c->press.dz
+                  : 1;
         const fret_point inner = fret_law_at_force(c->normal, s * c->press.F);
         out->yc = s > 0 ? inner.y : 0;
         out->c = s > 0 ? inner.a : 0;
@@ -128,10 +114,8 @@ fret_status fret_loading_by_displacement(const fret_contact *c, double dx, fret_
         out->Fx = copysignl(c->mu * c->press.F * lost(&f, c->normal->wide.p), dx);
         out->c = c->press.a * kept(&f, dd_div(dd_of(1), dd_of(c->normal->gap.power[0].n)));
     } else {
-        fret_normal plain;
-        out->Fx = copysignl(c->mu * fret_law_load(law_of(c, x, &plain),
-                                                  &(fret_level){c->press.dz, c->press.F}, x * c->press.dz),
-                            dx);
+        out->Fx = copysignl(
+            c->mu * fret_law_load(c->normal, &(fret_level){c->press.dz, c->press.F}, x * c->press.dz), dx);
         out->c = fret_law_radius(c->normal, out->yc);
     }
     return fret_unless_stopped(c->normal, fret_ok());
@@ -181,11 +165,10 @@ static fret_real loss_of_power(const fret_normal *normal, const fraction *f) {
 /* The general loop by Masing: 4 times the dissipation of first loading, counted from the edge:
  * int_0^d [F(y)-F(y-t)-tK(y-t)] dt = L. f: of the load, or of the depth. */
 static fret_real general_loss(const fret_contact *c, bool by_load, const fraction *f) {
-    fret_normal plain;
     const fret_level edge = {c->press.dz, c->press.F};
     const fret_real whole = by_load ? edge.F : edge.y, s = dd_value(f->s), t = fminl(f->t_wide, 1);
     return 4 * c->mu * (c->mu * c->normal->foundation.eta) *
-           fret_law_slice_to(law_of(c, t, &plain), &edge, by_load, t * whole, s * whole).L;
+           fret_law_slice_to(c->normal, &edge, by_load, t * whole, s * whole).L;
 }
 
 static fret_real loss_of(const fret_contact *c, const fraction *f) {

@@ -33,6 +33,7 @@ typedef struct leaf {
 typedef struct kink {
     fret_real at;
     double bend[2]; /* jumps of the second and the third derivative */
+    bool little;    /* doubles do for what it bends */
 } kink;
 
 struct fret_leaves {
@@ -70,6 +71,15 @@ static void add_bend(const struct fret_leaves *all, const fret_real c[3], fret_r
     }
 }
 
+/* Of f' next to nothing over the rows beside it; slopes it would bend more. */
+static bool is_little(const struct fret_leaves *all, size_t row, const fret_real jump[3]) {
+    const fret_real wide =
+        fret_table_distance(all->table, row + 1) - fret_table_distance(all->table, row - 1);
+    fret_real c[3];
+    fret_table_slope(all->table, row, c);
+    return (fabsl(jump[1]) + fabsl(jump[2]) * wide) * wide <= 1e-5L * c[0];
+}
+
 static void make_series(struct fret_leaves *all) {
     for (int i = 0; i < 2; i++) {
         const fret_real p = all->alpha + (i && !all->slopes ? 1 : 0);
@@ -88,7 +98,9 @@ static void make_series(struct fret_leaves *all) {
         fret_real c[3] = {0, 0, 0};
         if (i > 0)
             fret_table_jump(all->table, i, c);
-        all->kink[i] = (kink){fret_table_distance(all->table, i), {(double)c[1], (double)(2 * c[2])}};
+        all->kink[i] =
+            (kink){.at = fret_table_distance(all->table, i), .bend = {(double)c[1], (double)(2 * c[2])}};
+        all->kink[i].little = all->many || (i > 0 && !all->slopes && is_little(all, i, c));
     }
 }
 
@@ -143,27 +155,20 @@ static void add_two(const struct fret_leaves *all, const kink *first, fret_real 
     }
 }
 
-/* Do kinks from that row on bend so little that doubles will do? Slopes, and what lies near, they bend more.
- */
-static bool bend_little(const struct fret_leaves *all, size_t row, fret_real e) {
-    static const fret_real NEAR = 1 / 512.0L;
-    return all->many || (!all->slopes && row < all->first + all->count && e - all->kink[row].at < NEAR * e);
-}
-
 /* Adds to V what the kinks after row `from` bend, up to row `to`. */
 static void add_bends(const struct fret_leaves *all, size_t from, size_t to, fret_real e, fret_real V[2]) {
+    double two[2][2] = {{0, 0}, {0, 0}};
     fret_real c[3];
-    if (!bend_little(all, from + 1, e)) {
-        for (size_t i = from + 1; i <= to && e > all->kink[i].at; i++) {
+    for (size_t i = from + 1; i <= to && e > all->kink[i].at; i++) {
+        if (!all->kink[i].little) {
             fret_table_jump(all->table, i, c);
             add_bend(all, c, e - all->kink[i].at, all->start + e, V);
+            continue;
         }
-        return;
-    }
-    double two[2][2] = {{0, 0}, {0, 0}};
-    for (size_t i = from + 1; i <= to && e > all->kink[i].at; i += 2) {
-        const kink last[2] = {all->kink[i], {(fret_real)INFINITY, {0, 0}}};
-        add_two(all, i < to ? &all->kink[i] : last, e, two);
+        const bool both = i < to && all->kink[i + 1].little;
+        const kink last[2] = {all->kink[i], {.at = (fret_real)INFINITY}};
+        add_two(all, both ? &all->kink[i] : last, e, two);
+        i += both;
     }
     for (int i = 0; i < 2; i++)
         V[i] += all->near_factor[i] * (two[i][0] + two[i][1]);

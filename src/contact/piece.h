@@ -49,6 +49,7 @@ typedef struct piece {
 /* Lengths of runs: powers of two. */
 enum { RUNS = 40 };
 struct fret_rows;
+struct fret_blocks;
 typedef struct law {
     atomic_size_t users;
     size_t count, room;
@@ -56,6 +57,8 @@ typedef struct law {
     fret_real *reach;         /* the outer ends: distance, then depth, then load, `count` each */
     stretch *run[RUNS];       /* run[l][i]: the 2^l pieces from i 2^l on */
     struct fret_rows *rows;   /* beyond the pieces; or NULL */
+    struct fret_blocks *thin; /* of rows, for slices of a smaller part than `enough`; or NULL */
+    fret_real enough;
     fret_level least;         /* inner end of the first */
     stretch core;             /* within */
     fret_real start, K_start; /* of the gap, and K there */

@@ -2,6 +2,7 @@
 /* Reading the law from its pieces. Pure. */
 #include "contact/pieces.h"
 
+#include "contact/blocks.h"
 #include "contact/piece.h"
 #include "contact/rows.h"
 #include "number/real.h"
@@ -246,13 +247,25 @@ static bool by_rows(const law *all, int by, fret_real whole, fret_real target, f
     return true;
 }
 
+/* A slice too thin for polynomials of many rows together; the thinnest ones are for the table itself. */
+static const fret_real THINNEST = 1e-6L;
+static bool by_blocks(const law *all, int by, fret_real whole, fret_real target, stretch *sum, fret_real *K,
+                      fret_real *other) {
+    return all->thin && target < all->enough * whole &&
+           fret_blocks_slice(all->thin, by == LOADS, whole, target, sum, K, other);
+}
+
 static bool slice_of(const law *all, int by, fret_real whole, fret_real target, fret_real left, fret_real *h,
                      fret_slice *out) {
     ends c;
     fret_real K;
     stretch s;
     fret_level unused[2];
-    if (!by_rows(all, by, whole, target, left, &s, &K, unused)) {
+    fret_real other;
+    if (all->thin && target < THINNEST * whole)
+        return false;
+    if (!by_rows(all, by, whole, target, left, &s, &K, unused) &&
+        !by_blocks(all, by, whole, target, &s, &K, &other)) {
         if (!find_ends(all, by, whole, target, left, &c))
             return false;
         s = integrals_of(all, by, &c, &K);
@@ -285,6 +298,8 @@ static bool across_of(const law *all, int by, fret_real whole, fret_real target,
     const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
     fret_point at;
     fret_spot outer, inner;
+    fret_real K;
+    stretch sum;
     ends c;
     if (all->rows && fret_rows_find(all->rows, how, whole, &outer)) {
         const int wanted = by == LOADS ? DEPTHS : LOADS;
@@ -296,6 +311,10 @@ static bool across_of(const law *all, int by, fret_real whole, fret_real target,
             return false;
         return true;
     }
+    if (all->thin && target < THINNEST * whole)
+        return false;
+    if (by_blocks(all, by, whole, target, &sum, &K, other))
+        return true;
     if (!find_ends(all, by, whole, target, whole - target, &c))
         return false;
     *other = c.inner == all->count ? of_whole : fall_of(all, by == LOADS ? DEPTHS : LOADS, &c);

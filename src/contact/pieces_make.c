@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "contact/blocks.h"
 #include "contact/check.h"
 #include "contact/leaves.h"
 #include "contact/piece.h"
@@ -66,8 +67,8 @@ typedef struct maker {
                                 * are too many and too rough for less */
     size_t each;               /* as many rows may be taken one by one */
     fret_chebyshev rule, row_rule;
-    size_t spent;    /* profiles asked for */
-    fret_level edge; /* outer end of the last piece */
+    size_t spent, most; /* profiles asked for */
+    fret_level edge;    /* outer end of the last piece */
     /* from one row of a table to the next: g' less its bend at the first, a polynomial in -1..1 of a part */
     bool by_row;
     struct fret_leaves *slopes;        /* of the rows that are covered one by one; or NULL: they are few */
@@ -77,7 +78,7 @@ typedef struct maker {
     fret_status failed;
 } maker;
 
-enum { MOST_PROFILES = 140000, AGAIN = 8, MOST_ROWS = 10000 };
+enum { MOST_PROFILES = 140000, AGAIN = 8, MOST_ROWS = 2000, FEW_PROFILES = 12000 };
 static const fret_real CALM = 1e-3L;    /* of what is borne: not worth a shorter piece */
 static const fret_real FOUND = 1e-15L;  /* of the law, at the most, where nothing else is borne */
 static const fret_real ENOUGH = 2e-15L; /* what CSV and JSON want */
@@ -233,7 +234,7 @@ static bool cover(maker *m, fret_real origin, fret_real width, fret_real lo, fre
                .middle = (lo + hi) / 2,
                .half = (hi - lo) / 2,
                .blunt = width > 0 && lo == 0};
-    if (fret_stopped(m->normal) || m->spent > MOST_PROFILES)
+    if (fret_stopped(m->normal) || m->spent > m->most)
         return false;
     if (halvings == 0 || m->vain[part] == 0) {
         fret_real slope[NODES];
@@ -383,7 +384,7 @@ static bool add_calm(maker *m, span *s, fret_real borne) {
 /* One by one. */
 static bool cover_each(maker *m, const fret_real *row, size_t first, size_t last) {
     enum { FEW = 4 };
-    if (m->spent + (last - first) * FEWER > MOST_PROFILES)
+    if (m->spent + (last - first) * FEWER > m->most)
         return false;
     const struct fret_table *t = m->normal->gap.table;
     const size_t index = fret_table_row(t, row[first]), end = fret_table_row(t, row[last]);
@@ -420,7 +421,7 @@ static bool add_each(maker *m, const fret_real *row, size_t first, size_t last) 
 static bool cover_span(maker *m, const fret_real *row, span *s) {
     enum { FEW = 8 };
     const size_t first = s->first, last = s->last, middle = first + (last - first) / 2;
-    if (fret_stopped(m->normal) || m->spent > MOST_PROFILES)
+    if (fret_stopped(m->normal) || m->spent > m->most)
         return false;
     if (add_exact(m, s) || (s->error <= CALM * m->borne && add_calm(m, s, m->borne)))
         return true;
@@ -495,6 +496,7 @@ static bool cover_table(maker *m, fret_real from, fret_real to) {
         row[i] = e;
     row[0] = from;
     m->each = count > MOST_PROFILES / FEWER ? 64 : count;
+    m->most = m->borne <= ENOUGH && count > MOST_ROWS ? FEW_PROFILES : MOST_PROFILES;
     m->at_worst = count > 1000 ? fmaxl(m->borne, ROUGH) : m->borne;
     const bool ok = cover_smooth(m, from, row[1]) && (count == 1 || cover_beyond(m, row + 1, count, to));
     free(row);
@@ -556,9 +558,22 @@ static void free_law(law *all) {
     for (int l = 0; l < RUNS; l++)
         free(all->run[l]);
     fret_rows_free(all->rows);
+    fret_blocks_free(all->thin);
     free(all->reach);
     free(all->piece);
     free(all);
+}
+
+/* An error of the law of the whole is as much more of a slice as the square of its part. */
+static bool make_thin(maker *m, fret_real e) {
+    static const fret_real THIN = 5e-3L; /* as text thicker ones have digits enough */
+    law *all = m->all;
+    const bool exact = m->borne <= ENOUGH;
+    if (!fret_gap_sampled(&m->normal->gap) || all->rows || all->deep <= FOUND)
+        return true;
+    all->enough = exact ? sqrtl(all->error / ENOUGH) : fminl(THIN, sqrtl(all->error / (10 * m->borne)));
+    m->failed = fret_blocks_make(m->normal, e, &all->thin);
+    return !m->failed.code;
 }
 
 static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real borne, struct fret_pieces **out) {
@@ -579,12 +594,14 @@ static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real born
                  .normal = n,
                  .start = fret_gap_start(&n->gap),
                  .tolerance = rows ? 1e-15L : 2e-17L,
+                 .most = MOST_PROFILES,
                  .borne = fmaxl(borne, FOUND)};
     fret_chebyshev_make(&m->rule, NODES, false);
     fret_chebyshev_make(&m->row_rule, FEWER, false);
     all->from = (m->start > 0 ? 1e-12L : 1e-5L) * e;
     m->edge = all->least = level_at(m, all->from);
-    const bool ok = (rows ? cover_table : cover_smooth)(m, all->from, e) && make_core(m) && make_runs(m);
+    const bool ok = (rows ? cover_table : cover_smooth)(m, all->from, e) && make_core(m) && make_runs(m) &&
+                    make_thin(m, e);
     fret_status st = m->failed;
     if (!st.code)
         st = fret_unless_stopped(n, st);

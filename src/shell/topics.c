@@ -381,9 +381,9 @@ const char *model_text(size_t id) {
             "under Fx, and of 10,000 rows and more in contact. They agree with the quadrature to\n"
             "2e-15; of rows that are shown as text, FN(dz) to a hundredth of the last digit, and\n"
             "the loss of an amplitude that is a small part s of gross slip to some 10/s^2 of that.\n"
-            "Where rows are too many or too rough for polynomials that good, CSV and JSON have the\n"
-            "law row by row: some 40 us a row to set up, 5 us a value. A single question of fewer\n"
-            "rows takes the law of those alone that slip: both agree to 2e-15.\n"
+            "CSV and JSON have the law row by row where polynomials do not have the digits: 30 to\n"
+            "60 us a row to set up, 5 us a value. A single question of fewer than 10,000 rows takes\n"
+            "the law of those alone that slip: both agree to 2e-15, of s above 1e-3.\n"
             "Local fields take the profile of a flat-ended gap, from 32 places on, and of a table\n"
             "from polynomials of each row too: some 60 us a row to set up, and good to 1e-15 of\n"
             "the largest value.\n\n" EXAMPLE

@@ -380,6 +380,55 @@ static void bears_an_error(void) {
     fret_table_free((struct fret_table *)gap.table);
 }
 
+/* Slices too thin for the polynomials of many rows are those of the rows that a single question takes, also
+ * across blocks of them, and of a contact that shares them. */
+static void thin_slices_of_many(void) {
+    fret_material m = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = make_table(1e-2, 3e-4, DENSE_ROWS, 0)};
+    fret_normal *plain = NULL, *ready = NULL, *other = NULL;
+    fret_contact a = {.mu = 0.3}, b = a;
+    CHECK_OK(fret_normal_make(&m, &gap, &plain));
+    CHECK_OK(fret_press_by_radius(plain, 2.8e-4, &a.press));
+    CHECK_OK(fret_normal_make(&m, &gap, &ready));
+    CHECK_OK(fret_normal_prepare(ready, (double)a.press.F, 0));
+    CHECK(!fret_pieces_by_rows(ready->pieces) && fret_pieces_rough(ready->pieces, 0));
+    m.body[0].E0 = 100e9;
+    CHECK_OK(fret_normal_make(&m, &gap, &other));
+    CHECK_OK(fret_normal_share(other, ready));
+    const fret_real softer = fret_normal_stiffness(other, 1) / fret_normal_stiffness(ready, 1),
+                    give = other->foundation.eta / ready->foundation.eta;
+    a.normal = plain;
+    b = a;
+    const double most = (double)a.press.F;
+    for (double F = most; F > 0.3 * most; F *= 0.6)
+        for (double t = 1e-3; t < 0.5; t *= 5) {
+            const fret_real few = 2e-15L + 5e-18L / t;
+            fret_real want, got;
+            fret_loading first, same;
+            CHECK_OK(fret_press_by_force(plain, F, &a.press));
+            CHECK_OK(fret_cycle_loss_by_force(&a, 0.3 * F * t, &want));
+            CHECK_OK(fret_loading_by_force(&a, 0.3 * F * t, &first));
+            b.press = a.press;
+            b.normal = ready;
+            CHECK_OK(fret_cycle_loss_by_force(&b, 0.3 * F * t, &got));
+            CHECK_REL(got, want, UNIT_TOL(few, 1e-8L));
+            CHECK_OK(fret_loading_by_force(&b, 0.3 * F * t, &same));
+            CHECK_REL(same.dx, first.dx, UNIT_TOL(few, 1e-9L));
+            CHECK_OK(fret_cycle_loss_by_displacement(&b, (double)first.dx, &got));
+            CHECK_REL(got, want, UNIT_TOL(few, 1e-8L));
+            CHECK_OK(fret_loading_by_displacement(&b, (double)first.dx, &same));
+            CHECK_REL(same.Fx, first.Fx, UNIT_TOL(few, 1e-9L));
+            b.normal = other;
+            b.press.F *= softer;
+            CHECK_OK(fret_cycle_loss_by_displacement(&b, (double)(first.dx * give), &got));
+            CHECK_REL(got, want * softer * give, UNIT_TOL(1e-14L, 1e-8L));
+        }
+    fret_normal_free(ready);
+    fret_normal_free(other);
+    fret_normal_free(plain);
+    fret_table_free((struct fret_table *)gap.table);
+}
+
 /* Of the work that it takes to set up nothing is left over when it is stopped. */
 static void stops(void) {
     volatile sig_atomic_t stop = 1;
@@ -420,6 +469,7 @@ int main(int argc, char **argv) {
                 contact(which, grading[j], 1);
     prepares_alike();
     bears_an_error();
+    thin_slices_of_many();
     stops();
     if (many)
         print_table(times);
