@@ -141,6 +141,13 @@ def turning_points(tests):
         done = tests.run("--format=json", "-c", "%s; %sstep Fx=20 N*%s; W in uJ" % (press, turned, "sin(2*pi*%.17g)" % x))
         want = json.loads(done.stdout.splitlines()[-1])["value"]
         tests.check("W at the turn at %g" % x, abs(1e-6 * y - want) <= 1e-8 * want, "%g %g" % (y, want))
+    load = press + "; cycle FA=20 N; plot W, (W at FNA=10 N, phase=70 deg) along program steps 4"
+    drawn = curves(tests, load, "chords")  # chords, which do not turn
+    want, done = rows(tests, press + "; cycle FA=20 N FNA=10 N phase=70 deg; table W along program steps 5")
+    want = {at: W for at, W in want}
+    found = [(x, y) for x, y in (drawn[1] if len(drawn) == 2 else ()) if x in (0.25, 0.75)]
+    tests.check("turns among chords", len(found) == 2 and all(abs(1e-6 * y - want[x]) <= 1e-7 * want[x] for x, y in found),
+                "%s %s" % (found, want))
 
 
 def kept_instants(tests):
