@@ -29,6 +29,7 @@ struct fret_normal {
     double prepared;            /* the load up to which they were asked for [N]; 0: they were not */
     double borne;               /* and the error that they may have */
     bool shared;                /* they are those of another contact */
+    bool thin;                  /* with all digits of thin slices: of a copy that asks at constant F_N */
     struct {
         dd p, q, s;                   /* to 100 bits */
         dd ln_r0, ln_depth, ln_force; /* logarithms of r0, and of depth and force at a = r0 [m], [N] */

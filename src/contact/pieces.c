@@ -255,17 +255,17 @@ static bool by_blocks(const law *all, int by, fret_real whole, fret_real target,
            fret_blocks_slice(all->thin, by == LOADS, whole, target, sum, K, other);
 }
 
-static bool slice_of(const law *all, int by, fret_real whole, fret_real target, fret_real left, fret_real *h,
-                     fret_slice *out) {
+static bool slice_of(const law *all, int by, bool thin, fret_real whole, fret_real target, fret_real left,
+                     fret_real *h, fret_slice *out) {
     ends c;
     fret_real K;
     stretch s;
     fret_level unused[2];
     fret_real other;
-    if (all->thin && target < THINNEST * whole)
+    if (thin && all->thin && target < THINNEST * whole)
         return false;
     if (!by_rows(all, by, whole, target, left, &s, &K, unused) &&
-        !by_blocks(all, by, whole, target, &s, &K, &other)) {
+        !(thin && by_blocks(all, by, whole, target, &s, &K, &other))) {
         if (!find_ends(all, by, whole, target, left, &c))
             return false;
         s = integrals_of(all, by, &c, &K);
@@ -278,11 +278,11 @@ static bool slice_of(const law *all, int by, fret_real whole, fret_real target, 
     return true;
 }
 
-bool fret_pieces_slice(const struct fret_pieces *pieces, const fret_level *outer, bool by_load,
+bool fret_pieces_slice(const struct fret_pieces *pieces, const fret_level *outer, bool by_load, bool thin,
                        fret_real target, fret_real left, fret_real *h, fret_slice *out) {
     const fret_real scale = pieces->scale, per = by_load ? 1 / scale : 1;
-    if (!slice_of(pieces->law, by_load ? LOADS : DEPTHS, (by_load ? outer->F : outer->y) * per, target * per,
-                  left * per, h, out))
+    if (!slice_of(pieces->law, by_load ? LOADS : DEPTHS, thin, (by_load ? outer->F : outer->y) * per,
+                  target * per, left * per, h, out))
         return false;
     out->w = by_load ? fminl(target, outer->F) : out->w * scale;
     out->J *= scale;
@@ -292,8 +292,8 @@ bool fret_pieces_slice(const struct fret_pieces *pieces, const fret_level *outer
 }
 
 /* Of the whole slice where nothing is left: `of_whole`. */
-static bool across_of(const law *all, int by, fret_real whole, fret_real target, fret_real of_whole,
-                      fret_real *other) {
+static bool across_of(const law *all, int by, bool thin, fret_real whole, fret_real target,
+                      fret_real of_whole, fret_real *other) {
     const int table = by == LOADS ? BY_LOAD : BY_DEPTH;
     const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
     fret_point at;
@@ -311,9 +311,9 @@ static bool across_of(const law *all, int by, fret_real whole, fret_real target,
             return false;
         return true;
     }
-    if (all->thin && target < THINNEST * whole)
+    if (thin && all->thin && target < THINNEST * whole)
         return false;
-    if (by_blocks(all, by, whole, target, &sum, &K, other))
+    if (thin && by_blocks(all, by, whole, target, &sum, &K, other))
         return true;
     if (!find_ends(all, by, whole, target, whole - target, &c))
         return false;
@@ -321,11 +321,11 @@ static bool across_of(const law *all, int by, fret_real whole, fret_real target,
     return true;
 }
 
-bool fret_pieces_across(const struct fret_pieces *pieces, const fret_level *outer, bool by_load,
+bool fret_pieces_across(const struct fret_pieces *pieces, const fret_level *outer, bool by_load, bool thin,
                         fret_real target, fret_real *other) {
     const fret_real scale = pieces->scale, per = by_load ? 1 / scale : 1;
-    if (!across_of(pieces->law, by_load ? LOADS : DEPTHS, (by_load ? outer->F : outer->y) * per, target * per,
-                   by_load ? outer->y : outer->F / scale, other))
+    if (!across_of(pieces->law, by_load ? LOADS : DEPTHS, thin, (by_load ? outer->F : outer->y) * per,
+                   target * per, by_load ? outer->y : outer->F / scale, other))
         return false;
     *other *= by_load ? 1 : scale;
     return true;

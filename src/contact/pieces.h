@@ -24,12 +24,13 @@ bool fret_pieces_point(const struct fret_pieces *pieces, bool by_force, fret_rea
 /* g at the distance e from the start of the gap. */
 bool fret_pieces_depth(const struct fret_pieces *pieces, fret_real e, fret_real *depth);
 /* The slice inwards from `outer` whose thickness, or load, is `target`, beyond which `left` is left: its
- * thickness and its integrals. */
-bool fret_pieces_slice(const struct fret_pieces *pieces, const fret_level *outer, bool by_load,
+ * thickness and its integrals. thin: with all digits of thin ones, which may take making rows; not for rates
+ * that are integrated, smooth as polynomials are. */
+bool fret_pieces_slice(const struct fret_pieces *pieces, const fret_level *outer, bool by_load, bool thin,
                        fret_real target, fret_real left, fret_real *h, fret_slice *out);
 
 /* Of the same slice its load from its thickness, or its thickness from its load. */
-bool fret_pieces_across(const struct fret_pieces *pieces, const fret_level *outer, bool by_load,
+bool fret_pieces_across(const struct fret_pieces *pieces, const fret_level *outer, bool by_load, bool thin,
                         fret_real target, fret_real *other);
 
 /* The mean of F_N over depths. */

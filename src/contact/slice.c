@@ -228,7 +228,7 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
         fret_real F = outer->F, Fy = F * y;
         return (fret_slice){F * m.w, Fy * m.J, F * m.m1, Fy * m.L};
     }
-    if (n->pieces && fret_pieces_slice(n->pieces, outer, false, h, y - h, &h, &out))
+    if (n->pieces && fret_pieces_slice(n->pieces, outer, false, n->thin, h, y - h, &h, &out))
         return out;
     fret_real hi = fret_search_radius(n, false, y), lo = 0;
     if (thin_slice(n, hi, false, h, &h, &out))
@@ -256,7 +256,7 @@ fret_slice fret_law_slice_to(const fret_normal *n, const fret_level *outer, bool
                              fret_real left) {
     fret_slice out;
     fret_real h;
-    if (n->pieces && fret_pieces_slice(n->pieces, outer, by_load, target, left, &h, &out))
+    if (n->pieces && fret_pieces_slice(n->pieces, outer, by_load, n->thin, target, left, &h, &out))
         return out;
     return fret_law_slice(n, outer, by_load ? fret_law_thickness(n, outer, target) : target);
 }
@@ -289,7 +289,7 @@ fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real
         return -outer->F * fret_expm1(n->p * fret_log1p(-h / y));
     if (h <= 0)
         return 0;
-    if ((n->pieces && fret_pieces_across(n->pieces, outer, false, h, &w)) ||
+    if ((n->pieces && fret_pieces_across(n->pieces, outer, false, n->thin, h, &w)) ||
         thin_across(n, outer, false, h, &w))
         return w;
     return outer->F - fret_law_force(n, y - h);
@@ -303,7 +303,7 @@ fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret
         return -y * fret_expm1(n->q * fret_log1p(-w / F));
     if (w <= 0)
         return 0;
-    if ((n->pieces && fret_pieces_across(n->pieces, outer, true, w, &h)) ||
+    if ((n->pieces && fret_pieces_across(n->pieces, outer, true, n->thin, w, &h)) ||
         thin_across(n, outer, true, w, &h))
         return h;
     return y - fret_law_depth(n, F - w);

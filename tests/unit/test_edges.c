@@ -31,19 +31,19 @@ static void slice(const twins *t, const fret_level *outer, const fret_level *inn
     if (h < 1e-3L * outer->y)
         return;
     const fret_slice want = fret_law_slice(t->plain, outer, h);
-    if (fret_pieces_slice(pieces, outer, false, h, inner->y, &thick, &got)) {
+    if (fret_pieces_slice(pieces, outer, false, true, h, inner->y, &thick, &got)) {
         CHECK_REL(got.w, want.w, few);
         CHECK_REL(got.J, want.J, few);
         CHECK_REL(got.G, want.G, few);
         CHECK_REL(got.L, want.L, few);
     }
-    if (fret_pieces_slice(pieces, outer, true, w, inner->F, &thick, &got)) {
+    if (fret_pieces_slice(pieces, outer, true, true, w, inner->F, &thick, &got)) {
         CHECK_REL(thick, h, few);
         CHECK_REL(got.J, want.J, few);
     }
-    if (fret_pieces_across(pieces, outer, false, h, &thick))
+    if (fret_pieces_across(pieces, outer, false, true, h, &thick))
         CHECK_REL(thick, want.w, few);
-    if (fret_pieces_across(pieces, outer, true, w, &thick))
+    if (fret_pieces_across(pieces, outer, true, true, w, &thick))
         CHECK_REL(thick, h, few);
 }
 

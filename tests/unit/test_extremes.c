@@ -266,21 +266,21 @@ static void ends_of_pieces(void) {
             if (at >= whole * (1 - 1e-6L))
                 continue;
             /* what is left is told: exactly the end of the piece */
-            CHECK(fret_pieces_slice(pieces, &outer, by_load, whole - at, at, &h, &got));
+            CHECK(fret_pieces_slice(pieces, &outer, by_load, true, whole - at, at, &h, &got));
             want = fret_law_slice(plain, &outer, y - end->y);
             CHECK_REL(h, y - end->y, 1e-13L);
             CHECK_REL(got.w, want.w, 1e-12L);
             CHECK_REL(got.G, want.G, 1e-11L);
             CHECK_REL(got.J, want.J, 1e-11L);
-            CHECK(fret_pieces_across(pieces, &outer, by_load, whole - at, &other));
+            CHECK(fret_pieces_across(pieces, &outer, by_load, true, whole - at, &other));
             CHECK_REL(other, by_load ? y - end->y : F - end->F, 1e-13L);
         }
     for (int by_load = 0; by_load < 2; by_load++) {
         const fret_real whole = by_load ? F : y, least = by_load ? scale * all->least.F : all->least.y;
         fret_slice got;
         fret_real h, other;
-        CHECK(fret_pieces_across(pieces, &outer, by_load, whole, &other) && other == (by_load ? y : F));
-        CHECK(fret_pieces_slice(pieces, &outer, by_load, whole, 0, &h, &got));
+        CHECK(fret_pieces_across(pieces, &outer, by_load, true, whole, &other) && other == (by_load ? y : F));
+        CHECK(fret_pieces_slice(pieces, &outer, by_load, true, whole, 0, &h, &got));
         const fret_slice want = fret_law_slice(plain, &outer, y);
         CHECK_REL(got.w, want.w, 1e-14L);
         CHECK_REL(got.G, want.G, 1e-13L);
@@ -288,8 +288,8 @@ static void ends_of_pieces(void) {
         const fret_level first = {(all->least.y + all->piece[0].outer.y) / 2, 0};
         const fret_level in_first = {first.y, fret_law_force(plain, first.y)};
         const fret_real there = by_load ? in_first.F : in_first.y;
-        CHECK(!fret_pieces_slice(pieces, &in_first, by_load, there - least / 2, least / 2, &h, &got));
-        CHECK(!fret_pieces_slice(pieces, &outer, by_load, whole - least / 2, least / 2, &h, &got));
+        CHECK(!fret_pieces_slice(pieces, &in_first, by_load, true, there - least / 2, least / 2, &h, &got));
+        CHECK(!fret_pieces_slice(pieces, &outer, by_load, true, whole - least / 2, least / 2, &h, &got));
     }
 }
 
