@@ -19,6 +19,7 @@ import completion  # noqa: E402
 import explaining  # noqa: E402
 import figures  # noqa: E402
 import fits  # noqa: E402
+import following  # noqa: E402
 import fuzzing  # noqa: E402
 import harness  # noqa: E402
 import house  # noqa: E402
@@ -250,7 +251,7 @@ ROOMS = {"unit": unit, "hard": hard, "sessions": sessions, "numbers": numbers_of
          "instants": instants.run,
          "keeping": keeping.run,
          "figures": figures.run, "looks": looks.run, "paper": paper.run, "accuracy": accuracy_test.run,
-         "fits": fits.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,
+         "fits": fits.run, "following": following.run, "sharing": sharing.run, "backwards": backwards.run, "errors": table.run,
          "trouble": trouble.run, "rim": rim.run, "programs": programs.run, "typed": typed.run, "fuzz": fuzzing.run,
          "interactive": prompt.run, "rough": rough.run, "live": live.run, "moving": moving.run, "casts": casts.run, "completion": completion.run, "readme": readme, "help": help_examples,
          "portable": portable.run, "packaging": packaging.run,

@@ -66,14 +66,15 @@ void scene_also_used(scene *s, scene_use also) {
     s->used |= also.models;
 }
 
+/* The others are of the bodies and of the shape. */
+static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_BIT(IN_FN) | INPUT_CYCLE;
+
+/* Bodies and shape that follow definitions may follow these. */
 void scene_forget(scene *s, bool keep) {
-    answers_end(&s->answers, keep);
+    answers_end(&s->answers, keep && !(s->in.bindings & ~keeps_contact));
     s->settled = 0;
     s->sound = false;
 }
-
-/* The others are of the bodies and of the shape. */
-static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_BIT(IN_FN) | INPUT_CYCLE;
 
 static void pass_contact(answers *to, answers *from) {
     to->normal = from->normal;
