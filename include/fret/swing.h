@@ -43,13 +43,17 @@ int fret_swing_fits(const fret_swing *swing, const fret_sine *sine);
 /* One period that fits. Error: FRET_NO_MEMORY, the contact unusable but for fret_swing_copy and _free. */
 fret_status fret_swing_period(fret_swing *swing, const fret_sine *sine);
 
+/* The part from `from`, where it is, to `to` of a period that fits: 0 <= from < to <= 1 of its time. Parts of
+ * a whole end as the period does, to rounding. Errors: those of a period. */
+fret_status fret_swing_part(fret_swing *swing, const fret_sine *sine, double from, double to);
+
 /* A step by force, or by depth with F_x (FRET_KEEP_DX is no such step: FRET_OUTSIDE). Errors otherwise those
  * of fret_memory_step; the contact as before it, but for FRET_NO_MEMORY as above. */
 fret_status fret_swing_step(fret_swing *swing, const fret_step *step);
 
 /* As of a memory. */
 void fret_swing_state(const fret_swing *swing, fret_state *out);
-fret_real fret_swing_last_loss(const fret_swing *swing); /* of the last period or step [J] */
+fret_real fret_swing_last_loss(const fret_swing *swing); /* of the last period, part or step [J] */
 
 /* The state as a memory: curved pieces in 160 straight ones each. Error: FRET_NO_MEMORY. */
 fret_status fret_swing_memory(const fret_swing *swing, fret_memory *out);

@@ -646,11 +646,14 @@ static bool look_deeper(const runner *r, void *context) {
     return l->for_whom->see(r, l->for_whom->context);
 }
 
-static fret_status trace_level(const load_view *load, unsigned level, watch *w, looks *before, bool *halted) {
+static fret_status trace_level(const load_view *load, unsigned level, bool sine, watch *w, looks *before,
+                               bool *halted) {
     runner r = {.load = load, .watch = w, .level = level};
     if (before)
         before->finest = &r;
     fret_status st = engine_make(&r.engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
+    if (sine && !st.code)
+        st = engine_to_sine(&r.engine);
     if (!st.code)
         st = run_to(&r, load->end);
     engine_end(&r.engine);
@@ -667,7 +670,7 @@ static fret_status trace_limit(const load_view *load, watch *w, bool *halted, bo
         at.see = l.level < LEVELS - 1 ? keep_look : look_deeper;
         at.context = &l;
         l.next = 0;
-        st = trace_level(load, l.level, &at, &l, halted);
+        st = trace_level(load, l.level, false, &at, &l, halted);
     }
     *no_memory = l.no_memory;
     free(l.at);
@@ -678,13 +681,17 @@ bool scene_trace(scene *s, watch *w, calc_error *error) {
     load_view load;
     const runner *unused;
     bool halted, no_memory = false;
-    /* a load that cannot be is refused before anything of it is seen */
-    if ((!s->sound && !present_run(s, &unused, error)) || !scene_load_of(s, &load, error))
+    if (!scene_load_of(s, &load, error))
+        return false;
+    const bool swings = s->answers.reach.swings, may_be_sine = swings && w->limit && takes_sine(&load);
+    /* a load that cannot be is refused before anything of it is seen, and none is taken in two ways */
+    if (!(s->sound && !may_be_sine) && (!present_run(s, &unused, error) || !scene_load_of(s, &load, error)))
         return false;
     s->used |= USED(MODEL_MEMORY);
-    const bool swings = s->answers.reach.swings;
-    const fret_status st = swings && w->limit ? trace_limit(&load, w, &halted, &no_memory)
-                                              : trace_level(&load, swings ? LEVELS - 1 : 0, w, NULL, &halted);
+    const bool sine = may_be_sine && engine_is_sine(&s->answers.run[0].engine);
+    const fret_status st = swings && w->limit && !sine
+                               ? trace_limit(&load, w, &halted, &no_memory)
+                               : trace_level(&load, swings && !sine ? LEVELS - 1 : 0, sine, w, NULL, &halted);
     if (no_memory)
         return calc_no_memory(error);
     if (halted && error->raised)

@@ -222,7 +222,7 @@ fret_status engine_to_sine(engine *e) {
     return (fret_status){FRET_OK, NULL, 0, 0};
 }
 
-fret_status engine_swing(engine *e, const fret_sine *load, bool *taken) {
+fret_status engine_swing(engine *e, const fret_sine *load, double from, double to, bool *taken) {
     fret_status st = {FRET_OK, NULL, 0, 0};
     *taken = false;
     if (!engine_is_sine(e))
@@ -230,9 +230,9 @@ fret_status engine_swing(engine *e, const fret_sine *load, bool *taken) {
     sine *s = e->self;
     if (!s->swing)
         st = fret_swing_make(s->memory, &s->swing);
-    if (st.code || !fret_swing_fits(s->swing, load))
+    if (st.code || (from == 0 && !fret_swing_fits(s->swing, load)))
         return st;
-    st = fret_swing_period(s->swing, load);
+    st = fret_swing_part(s->swing, load, from, to);
     s->shown = false;
     *taken = !st.code;
     e->spent += fret_swing_last_loss(s->swing);

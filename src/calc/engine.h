@@ -65,8 +65,9 @@ void engine_repeat(engine *e, unsigned times, long double loss);
 /* Makes of a memory one that takes a swinging load as it is, without chords. */
 fret_status engine_to_sine(engine *e);
 bool engine_is_sine(const engine *e);
-/* A period of it; taken: false where it cannot, nothing has changed. */
-fret_status engine_swing(engine *e, const fret_sine *sine, bool *taken);
+/* A period of it, or the part from one of its times, 0..1, to another; taken: false where it cannot, nothing
+ * has changed. */
+fret_status engine_swing(engine *e, const fret_sine *sine, double from, double to, bool *taken);
 /* The state as a memory: what curves, in chords. NULL: out of memory. */
 const fret_memory *engine_memory(const engine *e);
 /* From here on engine_spent counts. */

@@ -330,16 +330,43 @@ static fret_status chords_period(runner *r, const load_item *c, long double FN) 
     return st;
 }
 
+/* The sine itself, as far as whoever looks on looks next. */
+static fret_status sine_parts(runner *r, const load_item *c, const fret_sine *load, bool *taken) {
+    leg l = {.chord = true, .points = c->step.points ? c->step.points : RUN_CHORDS, .origin = r->time};
+    double from = 0;
+    fret_status st = fine;
+    for (*taken = true; from < 2 * pi && !st.code && *taken;) {
+        const double end = next_look(r, &l, from, 2 * pi);
+        l.begin = r->time;
+        l.end = l.origin + end / (2 * pi);
+        st = engine_swing(&r->engine, load, from / (2 * pi), end / (2 * pi), taken);
+        if (st.code || !*taken)
+            return st;
+        if (end == 2 * pi)
+            close_period(r);
+        r->time = l.end;
+        if (r->watch->next(r->watch, &l, 0) <= 1)
+            st = look(r, l.end, false);
+        from = end;
+    }
+    return unless_stopped(r, st);
+}
+
 static fret_status swinging_period(runner *r, const load_item *c, long double FN) {
     const fret_sine load = {c->step.tangential_value, c->step.normal_value, c->extra.phase, FN};
-    bool taken;
-    const fret_status st = engine_swing(&r->engine, &load, &taken);
+    const bool sine = engine_is_sine(&r->engine);
+    bool taken = false;
+    fret_status st = fine;
+    if (sine && r->watch)
+        return sine_parts(r, c, &load, &taken);
+    if (sine)
+        st = engine_swing(&r->engine, &load, 0, 1, &taken);
     if (taken)
         r->time++;
     if (taken || st.code)
         return st;
-    r->chorded = engine_is_sine(&r->engine); /* this run ends: it must be run in chords from its beginning */
-    return r->chorded ? interrupted : chords_period(r, c, FN);
+    r->chorded = sine; /* this run ends: it must be run in chords from its beginning */
+    return sine ? interrupted : chords_period(r, c, FN);
 }
 
 fret_status run_period(runner *r, const load_item *c, long double FN) {

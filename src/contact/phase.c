@@ -29,8 +29,8 @@ static bool pieces_rate(const fret_phase *p, fret_real edge, fret_real zone, fre
     const fret_normal *n = p->normal;
     fret_slice s;
     fret_real h;
-    if (!n->pieces ||
-        !fret_pieces_slice(n->pieces, &(fret_level){edge, edge}, p->by == LOAD, false, zone, edge - zone, &h, &s))
+    if (!n->pieces || !fret_pieces_slice(n->pieces, &(fret_level){edge, edge}, p->by == LOAD, false, zone,
+                                         edge - zone, &h, &s))
         return false;
     *rate = p->by == DEPTH ? s.G : s.w > s.G ? s.G * h / (s.w - s.G) : 0; /* G/K there */
     return true;

@@ -30,6 +30,8 @@ typedef struct piece {
     bool curved;
     way way;
     fret_real lo, hi;
+    bool known; /* of one that is curved: its sums, once they have been asked for */
+    fret_real sum[2];
 } piece;
 
 struct fret_swing {
@@ -78,6 +80,12 @@ static fret_real way_when(const way *w, int which, fret_real level, fret_real lo
     return fminl(fmaxl(s, lo), hi);
 }
 
+/* Of two that are harmonic. */
+static bool same_way(const way *a, const way *b) {
+    return a->mean == b->mean && a->size[M] == b->size[M] && a->size[P] == b->size[P] &&
+           a->lag[M] == b->lag[M] && a->lag[P] == b->lag[P];
+}
+
 /* ---- the curve --------------------------------------------------------------------------------- */
 
 static fret_status reserve(fret_swing *c, size_t count) {
@@ -120,6 +128,29 @@ static fret_status append(fret_swing *c, const piece *p) {
     return st;
 }
 
+/* Are two straight pieces one, to the rounding of targets? Not where a curve in the smallest steps would pass
+ * for straight. */
+static bool in_line(const fret_swing *c, const piece *a, const piece *b) {
+    const fret_real rounding = 4 * DBL_EPSILON * c->scale, least = 1e-7L * c->scale;
+    const fret_real m = b->last[M] - a->first[M], p = b->last[P] - a->first[P];
+    const fret_real off = m * (a->last[P] - a->first[P]) - p * (a->last[M] - a->first[M]);
+    return fabsl(off) <= rounding * fmaxl(m, p) &&
+           fmaxl(b->last[M] - b->first[M], b->last[P] - b->first[P]) > least;
+}
+
+/* Parts of one way are one piece. */
+static fret_status grow(fret_swing *c, const piece *p) {
+    piece *top = c->count ? &c->pieces[c->count - 1] : NULL;
+    if (!top || top->curved != p->curved || fabsl(top->last[M] - p->first[M]) > noise(c) ||
+        fabsl(top->last[P] - p->first[P]) > noise(c) ||
+        !(p->curved ? top->hi == p->lo && same_way(&top->way, &p->way) : in_line(c, top, p)))
+        return append(c, p);
+    memcpy(top->last, p->last, sizeof top->last);
+    top->hi = p->hi;
+    top->known = false;
+    return fret_ok();
+}
+
 /* Cut at the level of `which`, then straight to the end. */
 static fret_status cut(fret_swing *c, int which, fret_real level, const fret_real end[2]) {
     while (c->count && c->pieces[c->count - 1].last[which] > level &&
@@ -133,6 +164,7 @@ static fret_status cut(fret_swing *c, int which, fret_real level, const fret_rea
             top->last[which] = level;
             if (top->curved)
                 top->hi = way_when(&top->way, which, level, top->lo, top->hi);
+            top->known = false;
         }
         memcpy(corner, top->last, sizeof corner);
     }
@@ -202,7 +234,7 @@ static fret_status slip_between(fret_swing *c, const way *w, int which, fret_rea
     slip l = {.curve = c, .way = w, .which = which, .lo = lo};
     while (l.lo < hi) {
         l.hi = part_end(w, which, l.lo, next_crossing(c, c->count, w, 1 << which, l.lo, hi));
-        const fret_real loss = (l.hi - l.lo) * fret_integrate(slip_rate, &l);
+        const fret_real loss = (l.hi - l.lo) * fret_integrate_short(slip_rate, &l);
         c->last_loss += loss > 0 ? loss : 0;
         l.lo = l.hi;
     }
@@ -303,7 +335,7 @@ static fret_status go_between(fret_swing *c, const way *w, fret_real lo, fret_re
                          .way = *w,
                          .lo = lo,
                          .hi = hi};
-    return append(c, &grown);
+    return grow(c, &grown);
 }
 
 /* ---- along the curve --------------------------------------------------------------------------- */
@@ -328,10 +360,12 @@ static fret_real along_rate(fret_real t, fret_real rest, void *context) {
 static fret_real sum_along(const fret_swing *c, bool energy) {
     fret_real sum = 0;
     for (size_t i = 0; i < c->count; i++) {
-        const piece *p = &c->pieces[i];
-        along l = {c, p, energy};
+        piece *p = &c->pieces[i];
         if (p->curved) {
-            sum += (p->hi - p->lo) * fret_integrate(along_rate, &l);
+            for (int which = 0; which < 2 && !p->known; which++)
+                p->sum[which] = (p->hi - p->lo) * fret_integrate_short(along_rate, &(along){c, p, which});
+            p->known = true;
+            sum += p->sum[energy];
             continue;
         }
         const fret_real N0 = (p->first[M] + p->first[P]) / 2, N1 = (p->last[M] + p->last[P]) / 2;
@@ -413,7 +447,18 @@ static void add_loss(fret_swing *c) {
 }
 
 fret_status fret_swing_period(fret_swing *c, const fret_sine *sine) {
-    fret_real turn[8] = {0};
+    return fret_swing_part(c, sine, 0, 1);
+}
+
+/* Where it passes through its mean, to the rounding of the time. */
+static fret_real harmonic(fret_real angle) {
+    const fret_real v = fret_cos(angle);
+    return fabsl(v) < 4 * DBL_EPSILON ? 0 : v;
+}
+
+fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, double to) {
+    const fret_real lo = 2 * FRET_PI * from, hi = 2 * FRET_PI * to, last = to < 1 ? hi : 0;
+    fret_real turn[8] = {lo};
     size_t turns = 1;
     fret_press p;
     way w;
@@ -421,7 +466,7 @@ fret_status fret_swing_period(fret_swing *c, const fret_sine *sine) {
     for (int i = M; i <= P; i++)
         for (int half = -2; half <= 3; half++) {
             const fret_real s = w.lag[i] + half * FRET_PI;
-            if (w.size[i] > 0 && s > 0 && s < 2 * FRET_PI)
+            if (w.size[i] > 0 && s > lo && s < hi)
                 turn[turns++] = s;
         }
     for (size_t i = 1; i < turns; i++) /* few */
@@ -430,7 +475,7 @@ fret_status fret_swing_period(fret_swing *c, const fret_sine *sine) {
             turn[j] = turn[j - 1];
             turn[j - 1] = s;
         }
-    turn[turns++] = 2 * FRET_PI;
+    turn[turns++] = hi;
     c->scale = fmaxl(c->scale, w.mean + fmaxl(w.size[M], w.size[P]));
     c->last_loss = 0;
     fret_status st = fret_ok();
@@ -438,12 +483,13 @@ fret_status fret_swing_period(fret_swing *c, const fret_sine *sine) {
         if (turn[i] - turn[i - 1] > CLOSE * LDBL_EPSILON * 2 * FRET_PI)
             st = go_between(c, &w, turn[i - 1], turn[i]);
     if (!st.code)
-        st = fret_press_by_force(c->normal, (double)(sine->FN + sine->FNA * fret_cos(sine->phase)), &p);
+        st =
+            fret_press_by_force(c->normal, (double)(sine->FN + sine->FNA * harmonic(last + sine->phase)), &p);
     if (st.code)
         return st;
     add_loss(c);
-    set_edge(c, &p, sine->FA);
-    c->direction = 1;
+    set_edge(c, &p, sine->FA * harmonic(last));
+    c->direction = to > 0.5 ? 1 : -1;
     return st;
 }
 

@@ -66,6 +66,15 @@ static fret_real part_rate(fret_real t, fret_real rest, void *context) {
     return p->f(p->lo * rest + p->hi * t, (1 - p->lo) * rest + (1 - p->hi) * t, p->context);
 }
 
+fret_real fret_integrate_short(fret_integrand *f, void *context) {
+    static const fret_real agree = 1e-17L;
+    part left = {f, context, 0, 0.5L}, right = {f, context, 0.5L, 1};
+    const fret_real whole = fret_integrate_smooth(f, context);
+    const fret_real halves =
+        (fret_integrate_smooth(part_rate, &left) + fret_integrate_smooth(part_rate, &right)) / 2;
+    return fabsl(halves - whole) <= agree * fabsl(halves) ? halves : fret_integrate(f, context);
+}
+
 /* Halves of a smooth integrand agree better than the whole with them; where they do not so often, and that is
  * no more than that, it is noise: rounded rows of a table. */
 enum { PATIENCE = 2 };

@@ -175,5 +175,28 @@ def same_but_for_a_dimension(tests):
     tests.check("3 and 3 N", len(got) == 5 and all(row[1] == row[3] == row[4] and row[2] == 3 for row in got), tests.report(done))
 
 
+def periods(tests):
+    """Of a power law under a swinging load: at the end of each period the table has what the load has that ends there."""
+    asked = "Fx, dx, W, U, dW, c, kt, FN, dz, a, u1D(0.05 mm), qx(0.12 mm)"
+    rng = random.Random(11)
+
+    def one(setup, cycle, steps):
+        got, done = rows(tests, "%s; %s times 3; table %s along program steps %d" % (setup, cycle, asked, steps))
+        end = got[-1][0] if got else 0
+        for times in (1, 2, 3):
+            plain = tests.run("--format=json", "-c", "%s; %s times %d; %s" % (setup, cycle, times, asked))
+            want = [line["value"] for line in map(json.loads, plain.stdout.splitlines()) if "value" in line]
+            row = [row[1:] for row in got if abs(row[0] - (end - 3 + times)) < 1e-9]
+            tests.check("period %d of %s; %s" % (times, setup, cycle), len(row) == 1 and len(want) == 12 and all(
+                abs(x - y) <= 1e-12 * max(abs(y), want[2] if i == 4 else 0) for i, (x, y) in enumerate(zip(row[0], want))), "%s\n%s\n%s" % (row, want, tests.report(done)))
+    jobs = []
+    for _ in range(16):
+        setup = "%s; geometry %s; friction 0.4; press FN=100 N; step Fx=2 N" % (
+            rng.choice(MATERIALS), rng.choice(("sphere R=10 mm", "cone slope=0.02", "power n=3 A=50 m^-2")))
+        cycle = "cycle FA=%d N FNA=%d N phase=%d deg" % (rng.randint(2, 12), rng.randint(5, 60), rng.choice((0, 40, 90, 200)))
+        jobs.append(lambda s=setup, c=cycle, n=17 * rng.choice((2, 4, 8)): one(s, c, n))
+    tests.each(jobs)
+
+
 def run(tests):
-    tests.rooms(same_but_for_a_dimension, against_with, against_cut, many, turning_points, kept_instants)
+    tests.rooms(periods, same_but_for_a_dimension, against_with, against_cut, many, turning_points, kept_instants)

@@ -178,6 +178,63 @@ static void against_chords(int count) {
     }
 }
 
+/* Parts of a period come to where one part does, on the sine, and to where chords come near; all of them to
+ * where the period ends. */
+static void in_parts(int count) {
+    enum { CHORDS = 2000 };
+    for (int i = 0; i < count; i++) {
+        const load l = random_load();
+        const fret_sine w = sine_of(&l);
+        fret_memory *m = begin(&l);
+        fret_swing *whole = swing_of(m), *once = swing_of(m), *parts = swing_of(m);
+        fret_state a, b;
+        fret_real loss = 0;
+        const double middle = i % 4 ? uniform() : 0.25 * (1 + i / 4 % 3);
+        double at = 0;
+        while (at < 1) {
+            double to = at + 0.3 * uniform();
+            to = at < middle && to > middle ? middle : to > 1 ? 1 : to;
+            CHECK_OK(fret_swing_part(parts, &w, at, to));
+            loss += fret_swing_last_loss(parts);
+            at = to;
+            if (to != middle)
+                continue;
+            CHECK_OK(fret_swing_part(once, &w, 0, to));
+            fret_swing_state(once, &a);
+            fret_swing_state(parts, &b);
+            const fret_real angle = 2 * acosl(-1) * to, reach = l.mu * m->normal->foundation.eta * a.dz;
+            CHECK_ABS(a.Fx, w.FA * cosl(angle), w.FA, 1e-15L);
+            CHECK_REL(a.FN, w.FN + w.FNA * cosl(angle + w.phase), 1e-15L);
+            CHECK_ABS(b.dx, a.dx, reach, 1e-13L);
+            CHECK_ABS(b.U, a.U, a.FN * reach, 1e-13L);
+            CHECK_REL(b.W, a.W, 1e-13L);
+            CHECK(b.FN == a.FN && b.Fx == a.Fx && b.dz == a.dz && b.a == a.a);
+            CHECK_REL(b.c, a.c, 1e-6L);
+            for (int j = 1; j <= CHORDS; j++) {
+                const fret_real s = angle * j / CHORDS;
+                CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX,
+                                                          (double)(w.FN + w.FNA * cosl(s + w.phase)),
+                                                          (double)(w.FA * cosl(s))}));
+            }
+            fret_memory_state(m, &b);
+            CHECK_ABS(a.dx, b.dx, reach, 1e-5L);
+            CHECK_ABS(a.W, b.W, a.W, 1e-4L);
+        }
+        CHECK_OK(fret_swing_period(whole, &w));
+        fret_swing_state(whole, &a);
+        fret_swing_state(parts, &b);
+        CHECK_REL(b.W, a.W, 1e-13L);
+        CHECK_ABS(loss, fret_swing_last_loss(whole), a.W, 1e-13L);
+        CHECK_ABS(b.dx, a.dx, l.mu * m->normal->foundation.eta * a.dz, 1e-13L);
+        CHECK(b.FN == a.FN && b.Fx == a.Fx && b.dz == a.dz);
+        CHECK(b.slices < 40);
+        fret_swing_free(whole);
+        fret_swing_free(once);
+        fret_swing_free(parts);
+        fret_memory_free(m);
+    }
+}
+
 /* Straight steps, as the memory takes them. */
 static void against_memory(int count) {
     for (int i = 0; i < count; i++) {
@@ -325,6 +382,7 @@ int main(int argc, char **argv) {
     unit_start("swing", argc, argv);
     references();
     against_chords(100);
+    in_parts(100);
     against_memory(200);
     refusals();
     by_depth();
