@@ -55,7 +55,7 @@ fret_status fret_swing_step(fret_swing *swing, const fret_step *step);
 void fret_swing_state(const fret_swing *swing, fret_state *out);
 fret_real fret_swing_last_loss(const fret_swing *swing); /* of the last period, part or step [J] */
 
-/* The state as a memory: curved pieces in 160 straight ones each. Error: FRET_NO_MEMORY. */
+/* The state as a memory: curved pieces in 640 straight ones each. Error: FRET_NO_MEMORY. */
 fret_status fret_swing_memory(const fret_swing *swing, fret_memory *out);
 
 FRET_END

@@ -579,7 +579,7 @@ fret_status fret_swing_copy(fret_swing *to, const fret_swing *from) {
     return st;
 }
 
-enum { SAMPLES = 160 };
+enum { SAMPLES = 640 };
 
 /* A straight slice of the memory between two places. */
 static void put_slice(fret_memory *m, const fret_real from[2], const fret_real to[2]) {

@@ -170,7 +170,7 @@ static void against_chords(int count) {
         fret_memory_state(coarse, &a);
         CHECK_REL(a.dx, now.dx, 1e-15L);
         CHECK_ABS(a.Fx, now.Fx, l.mu * now.FN, 1e-15L);
-        CHECK_REL(a.U, now.U, 1e-3L);
+        CHECK_REL(a.U, now.U, 1e-5L);
         CHECK(a.W == now.W && a.FN == now.FN);
         fret_swing_free(s);
         fret_memory_free(coarse);
