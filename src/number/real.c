@@ -170,10 +170,11 @@ fret_real fret_cos(fret_real x) {
     return sin_of(x, 1);
 }
 
-/* One Newton step from the double result: its error is the square of that one's. */
+/* One step from a result to 24 bits, in which C libraries do not differ: its error is the cube of that one's.
+ */
 fret_real fret_atan2(fret_real y, fret_real x) {
-    fret_real about = atan2((double)y, (double)x);
-    if (!(isfinite(x) && isfinite(y)) || about == 0)
+    const fret_real about = (float)atan2((double)y, (double)x);
+    if (!(isfinite(x) && isfinite(y)) || fabsl(about) < 1e-30L)
         return atan2l(y, x);
     fret_real s = fret_sin(about), c = fret_cos(about);
     dd Y = dd_from(y), X = dd_from(x), S = dd_from(s), C = dd_from(c);
