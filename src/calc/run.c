@@ -358,10 +358,10 @@ static fret_status swinging_period(runner *r, const load_item *c, long double FN
     bool taken = false;
     fret_status st = fine;
     if (sine && r->watch)
-        return sine_parts(r, c, &load, &taken);
-    if (sine)
+        st = sine_parts(r, c, &load, &taken);
+    else if (sine)
         st = engine_swing(&r->engine, &load, 0, 1, &taken);
-    if (taken)
+    if (taken && !r->watch)
         r->time++;
     if (taken || st.code)
         return st;
