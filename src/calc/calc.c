@@ -306,14 +306,22 @@ static const assignment *of_input(const assignment *all, size_t count, input in)
     return of;
 }
 
-/* Where nothing is pressed yet F_N presses, and what else is given goes before. */
+/* Where nothing is pressed yet F_N presses, and what else is given goes before. A definition of F_N has its
+ * value by then, and outlives the press. */
 static bool press_with(scene *s, assigned job, const assignment *FN, calc_error *error) {
-    const load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = (double)FN->v.v};
+    load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE};
+    long double force = FN->v.v;
     scene_mark before;
-    job.but = FN;
+    job.but = FN->d ? NULL : FN;
     scene_save(s, &before, false);
-    const bool ok =
-        (job.count == 1 || scene_edit(s, put_inputs, &job, error)) && scene_load(s, &press, NULL, error);
+    bool ok = ((job.count == 1 && job.but) || scene_edit(s, put_inputs, &job, error)) &&
+              (!FN->d || scene_get(s, IN_FN, &force, error));
+    press.normal_value = (double)force;
+    ok = ok && scene_load(s, &press, NULL, error);
+    if (ok && FN->d) {
+        job = (assigned){job.c, FN, 1, NULL};
+        ok = scene_edit(s, put_inputs, &job, error);
+    }
     if (ok)
         scene_drop(&before);
     else
@@ -457,7 +465,7 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
     if (inputs_count == 0) /* what is bound may have moved with the names */
         return s->in.bindings == 0 || scene_edit(s, nothing, NULL, lx->error);
     const assignment *FN = s->end.steps ? NULL : of_input(all, count, IN_FN);
-    if (FN && !FN->d)
+    if (FN)
         return press_with(s, job, FN, lx->error);
     if (scene_edit(s, put_inputs, &job, lx->error))
         return true;
