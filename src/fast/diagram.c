@@ -452,14 +452,9 @@ static void open_contact(fret_diagram *d, double dx) {
 }
 
 /* Depth and load at the end of a step; dz: depth, or < 0 the gap between the bodies where they part. */
-FRET_INLINE fret_status normal_end(fret_diagram *d, const fret_step *step, double y[2], double *dz) {
-    y[DEPTH] = d->edge.y[DEPTH];
-    y[LOAD] = d->edge.y[LOAD];
-    *dz = d->dz;
-    if (step->normal_by == FRET_KEEP_NORMAL)
-        return fret_ok();
-    const coordinate by = step->normal_by == FRET_TO_FORCE ? LOAD : DEPTH, other = by == DEPTH ? LOAD : DEPTH;
-    const double target = step->normal, end = greater(target, 0);
+FRET_INLINE fret_status press_to(fret_diagram *d, coordinate by, double target, double y[2], double *dz) {
+    const coordinate other = by == DEPTH ? LOAD : DEPTH;
+    const double end = greater(target, 0);
     if (!isfinite(target))
         return fret_fail(FRET_NOT_FINITE, by == LOAD ? "FN" : "dz", target, 0);
     if (by == LOAD && target < 0)
@@ -478,6 +473,15 @@ FRET_INLINE fret_status normal_end(fret_diagram *d, const fret_step *step, doubl
     }
     *dz = target < 0 ? target : y[DEPTH];
     return fret_ok();
+}
+
+FRET_INLINE fret_status normal_end(fret_diagram *d, const fret_step *step, double y[2], double *dz) {
+    y[DEPTH] = d->edge.y[DEPTH];
+    y[LOAD] = d->edge.y[LOAD];
+    *dz = d->dz;
+    return step->normal_by == FRET_KEEP_NORMAL ? fret_ok()
+           : step->normal_by == FRET_TO_FORCE  ? press_to(d, LOAD, step->normal, y, dz)
+                                               : press_to(d, DEPTH, step->normal, y, dz);
 }
 
 static void step_by_force(fret_diagram *d, const fret_step *step, const double y[2], double load) {
