@@ -96,6 +96,7 @@ fret_real fret_law_depth(const fret_normal *n, fret_real F) {
     return point_at(n, true, F).y;
 }
 
+/* Pieces leave out K. */
 static fret_point point_at(const fret_normal *n, bool by_force, fret_real value) {
     fret_point p = {0, 0, fret_gap_start(&n->gap), 0};
     if (value <= 0)
@@ -132,20 +133,33 @@ bool fret_law_prepared(const fret_normal *n, bool by_force, fret_real value, fre
     return true;
 }
 
+bool fret_law_unplaced(const fret_normal *n, bool by_force, fret_real value, fret_real *other) {
+    fret_point p;
+    if (!n->pieces || !fret_pieces_rough(n->pieces, n->borne) ||
+        !fret_pieces_point(n->pieces, by_force, value, &p))
+        return false;
+    *other = by_force ? p.y : p.F;
+    return *other >= DBL_MIN && *other <= DBL_MAX && p.a >= DBL_MIN;
+}
+
 bool fret_law_prepared_depth(const fret_normal *n, fret_real e, fret_real *depth) {
     return n->pieces && !fret_pieces_rough(n->pieces, n->borne) && fret_pieces_depth(n->pieces, e, depth);
 }
 
-fret_point fret_law_at_depth(const fret_normal *n, fret_real y) {
-    fret_point p = point_at(n, false, y);
-    settle(n, false, y, &p);
+static fret_point whole_point_at(const fret_normal *n, bool by_force, fret_real value) {
+    fret_point p = point_at(n, by_force, value);
+    if (value > 0 && n->pieces)
+        p.K = fret_normal_stiffness(n, p.a);
+    settle(n, by_force, value, &p);
     return p;
 }
 
+fret_point fret_law_at_depth(const fret_normal *n, fret_real y) {
+    return whole_point_at(n, false, y);
+}
+
 fret_point fret_law_at_force(const fret_normal *n, fret_real F) {
-    fret_point p = point_at(n, true, F);
-    settle(n, true, F, &p);
-    return p;
+    return whole_point_at(n, true, F);
 }
 
 fret_real fret_law_load_outside(const fret_normal *n, const fret_level *outer, fret_real inner_depth) {

@@ -45,7 +45,7 @@ void fret_memory_reset(fret_memory *m) {
     m->W = (fret_sum){0, 0};
     m->count = 0;
     m->moves = 0;
-    m->pressed_near = false;
+    m->pressed_near = m->unplaced = false;
     m->direction = 1;
     m->held = FRET_KEEP_DX;
     m->edge_id = 1; /* 0: never computed */
@@ -97,7 +97,7 @@ fret_press fret_memory_pressed(const fret_memory *m) {
                     .a = m->radius,
                     .F_rest = m->edge_rest[LOAD],
                     .dz_rest = m->edge_rest[DEPTH]};
-    if (m->pressed_near) /* what was pressed near can be pressed */
+    if (m->pressed_near || m->unplaced) /* what was pressed near can be pressed */
         (void)(m->told_by == FRET_TO_FORCE ? fret_press_by_force(m->normal, m->told, &p)
                                            : fret_press_by_depth(m->normal, m->told, &p));
     return p;
@@ -171,7 +171,7 @@ int fret_memory_segment(const fret_memory *m, size_t i, fret_segment *out) {
 /* The depth of the spring at distance |x|; false where none is in contact. */
 static bool spring_at(const fret_memory *m, fret_real x, fret_real *y) {
     const fret_real r = fabsl(x);
-    if (!m->count || (!m->pressed_near && r >= m->radius))
+    if (!m->count || (!m->pressed_near && !m->unplaced && r >= m->radius))
         return false;
     const fret_real g = fret_normal_profile(m->normal, r);
     *y = g > m->edge[DEPTH] ? m->edge[DEPTH] : g; /* by rounding; NaN stays */

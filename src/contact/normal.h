@@ -79,6 +79,8 @@ typedef struct fret_point {
 /* The same where pieces know it; else false. Depth g at the distance e from the start of the gap. */
 bool fret_law_prepared(const fret_normal *normal, bool by_force, fret_real value, fret_point *out);
 bool fret_law_prepared_depth(const fret_normal *normal, fret_real e, fret_real *depth);
+/* Depth by load, or load by depth, where they know it but no radius that would do. */
+bool fret_law_unplaced(const fret_normal *normal, bool by_force, fret_real value, fret_real *other);
 fret_point fret_law_at_depth(const fret_normal *normal, fret_real y);
 fret_point fret_law_at_force(const fret_normal *normal, fret_real F);
 

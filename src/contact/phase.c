@@ -94,11 +94,12 @@ static fret_real by_halves(const fret_phase *p, fret_real (*loss)(const fret_pha
 static bool by_pieces(const fret_phase *phase, fret_real *loss) {
     fret_phase p = *phase;
     const fret_real edge[2] = {p.edge0, p.edge1}, front[2] = {p.front0, p.front1};
+    const fret_real enough = fret_gap_sampled(&p.normal->gap) ? 1e-9L : 1e-12L; /* rules do not bear rows */
     fret_real parts, bound;
-    if (!fret_pieces_phase(p.normal->pieces, p.by == LOAD, edge, front, &parts, &bound))
+    if (!fret_pieces_phase(p.normal->pieces, p.by == LOAD, edge, front, enough, &parts, &bound))
         return false;
     *loss = parts;
-    if (bound <= (fret_gap_sampled(&p.normal->gap) ? 1e-9L : 1e-12L) * parts) /* rules do not bear rows */
+    if (bound <= enough * parts)
         return true;
     if (bound > 1e-6L * parts || !is_smooth(&p))
         return false;

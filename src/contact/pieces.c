@@ -29,12 +29,13 @@ static fret_real place_of(const piece *p, int by, fret_real value) {
     return fret_piece_place(p, by, value - fret_level_by(&p->inner, by));
 }
 
+/* All but K. */
 static bool point_of(const law *all, int by, fret_real value, fret_point *out) {
     size_t i;
     fret_real rate;
     fret_spot s;
     if (all->rows && fret_rows_find(all->rows, by == BY_LOAD ? SPOT_LOAD : SPOT_DEPTH, value, &s)) {
-        *out = (fret_point){s.at.y, s.at.F, all->start + s.e, fret_rows_stiffness(all->rows, &s)};
+        *out = (fret_point){.y = s.at.y, .F = s.at.F, .a = all->start + s.e};
         return true;
     }
     if (!find(all, by, value, &i))
@@ -43,7 +44,6 @@ static bool point_of(const law *all, int by, fret_real value, fret_point *out) {
     const fret_real z = place_of(p, by == BY_LOAD ? LOADS : DEPTHS, value);
     out->y = by == BY_LOAD ? p->inner.y + fret_polynomial_at(&p->rise[DEPTHS], z) : value;
     out->F = by == BY_LOAD ? value : p->inner.F + fret_polynomial_at(&p->rise[LOADS], z);
-    out->K = p->K_inner + fret_polynomial_at(&p->K, z);
     out->a = all->start + fret_piece_distance(p, z, &rate);
     return true;
 }
@@ -56,7 +56,6 @@ bool fret_pieces_point(const struct fret_pieces *pieces, bool by_force, fret_rea
     if (!point_of(pieces->law, by_force ? BY_LOAD : BY_DEPTH, by_force ? value / pieces->scale : value, out))
         return false;
     out->F = by_force ? value : out->F * pieces->scale;
-    out->K *= pieces->scale;
     return true;
 }
 
@@ -390,21 +389,125 @@ bool fret_pieces_mean(const struct fret_pieces *pieces, fret_real from, fret_rea
     return true;
 }
 
-/* With v(e) what the law makes of the coordinate e: the integral of the distance of v at the edge from its
- * tangent at the front, int [v(E)-v(f)-(E-f) v'(f)] df, in parts. */
-bool fret_pieces_phase(const struct fret_pieces *pieces, bool by_load, const fret_real edges[2],
-                       const fret_real fronts[2], fret_real *out, fret_real *bound) {
-    const fret_real scale = pieces->scale, per = by_load ? 1 / scale : 1,
-                    edge[2] = {edges[0] * per, edges[1] * per}, front[2] = {fronts[0] * per, fronts[1] * per};
+/* ---- phases ------------------------------------------------------------------------------------ */
+
+/* With v(e) what the law makes of the coordinate e: the loss is the integral of the distance of v at the edge
+ * from its tangent at the front, int [v(E)-v(f)-(E-f) v'(f)] df, in parts: less a straight line, which counts
+ * for nothing, of v at the front's ends and of the means of v over both ways. moved: of the edge. */
+static fret_real bow_of(const fret_real edge[2], const fret_real front[2], const fret_real v[2],
+                        fret_real mean, fret_real mean_edge) {
+    const fret_real went = front[0] - front[1], moved = edge[0] - edge[1];
+    return fabsl((edge[0] - front[0]) * v[0] - (edge[1] - front[1]) * v[1] - (moved - 2 * went) * mean -
+                 went * mean_edge);
+}
+
+static bool bow_of_whole(const law *all, int by, const fret_real edge[2], const fret_real front[2],
+                         fret_real *out, fret_real *bound) {
     const fret_real went = front[0] - front[1], moved = edge[0] - edge[1];
     fret_real v[2], at_edge[2], mean, mean_edge;
-    if (!(went > 0) || !mean_of(pieces->law, by_load, front[0], front[1], v, &mean) ||
-        !mean_of(pieces->law, by_load, edge[0], edge[1], at_edge, &mean_edge))
+    if (!mean_of(all, by, front[0], front[1], v, &mean) ||
+        !mean_of(all, by, edge[0], edge[1], at_edge, &mean_edge))
         return false;
-    const fret_real bow = (edge[0] - front[0]) * v[0] - (edge[1] - front[1]) * v[1] -
-                          (moved - 2 * went) * mean - went * mean_edge;
-    *out = fabsl(bow) * scale;
-    *bound = 1e-19L * fmaxl(edge[0] * at_edge[0], edge[1] * at_edge[1]) * scale *
+    *out = bow_of(edge, front, v, mean, mean_edge);
+    *bound = 1e-19L * fmaxl(edge[0] * at_edge[0], edge[1] * at_edge[1]) *
              (1 + fabsl(moved) / went + (moved != 0 ? went / fabsl(moved) : 0));
+    return true;
+}
+
+/* From each of four places inwards to the one before, and K at the first; those next to each other may be
+ * one.
+ */
+typedef struct ways {
+    stretch part[3];
+    fret_real K;
+} ways;
+
+static bool ways_by_rows(const law *all, int by, const fret_real place[4], ways *out) {
+    const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
+    fret_spot spot[4];
+    for (int i = 0; i < 4; i++)
+        if (i > 0 && place[i] == place[i - 1])
+            spot[i] = spot[i - 1];
+        else if (!fret_rows_place(all->rows, how, place[i], &spot[i]))
+            return false;
+    for (int i = 0; i < 3; i++)
+        out->part[i] = fret_rows_between(all->rows, &spot[i + 1], &spot[i]);
+    out->K = fret_rows_stiffness(all->rows, &spot[0]);
+    return true;
+}
+
+static bool find_ways(const law *all, int by, const fret_real place[4], ways *out) {
+    if (all->rows && ways_by_rows(all, by, place, out))
+        return true;
+    fret_real K;
+    out->K = (fret_real)NAN;
+    for (int i = 0; i < 3; i++) {
+        const fret_real outer = place[i + 1], inner = place[i];
+        fret_level unused[2];
+        ends c;
+        out->part[i] = (stretch){0, 0, 0, 0};
+        if (outer == inner)
+            continue;
+        if (!by_rows(all, by, outer, outer - inner, inner, &out->part[i], &K, unused)) {
+            if (!find_ends(all, by, outer, outer - inner, inner, &c))
+                return false;
+            out->part[i] = integrals_of(all, by, &c, &K);
+        }
+        if (isnan(out->K))
+            out->K = K;
+    }
+    return true;
+}
+
+/* q, the distance of v from its tangent at a place where dF/dy is K, from there over the stretches `below`
+ * and s: its integral over s. All of it is positive. */
+static fret_real area_of(int by, const stretch *below, const stretch *s, fret_real K) {
+    const fret_real rise = below->K * s->h + s->G,
+                    area = (below->G + below->K * s->h / 2) * s->h + (s->h * s->G - s->L) / 2;
+    return by == LOADS ? area + rise * (below->G + rise / 2) / K : area;
+}
+
+/* The same with v less its tangent where the front ends: what lies within that has no part in it. */
+static bool bow_beyond(const law *all, int by, const fret_real edge[2], const fret_real front[2],
+                       fret_real *out, fret_real *bound) {
+    static const stretch nothing;
+    const fret_real lo = fminl(edge[0], edge[1]), hi = fmaxl(edge[0], edge[1]),
+                    place[4] = {front[1], fminl(front[0], lo), fmaxl(front[0], lo), hi};
+    stretch whole[3];
+    ways w;
+    if (!find_ways(all, by, place, &w) || (by == LOADS && !(w.K > 0)))
+        return false;
+    for (int i = 0; i < 3; i++)
+        whole[i] = i ? fret_stretch_join(&w.part[i], &whole[i - 1]) : w.part[0];
+    const bool passed = lo < front[0]; /* the edge comes to where the front was */
+    const stretch *to_front = &whole[passed], *to_edge = &whole[!passed],
+                  way = passed ? fret_stretch_join(&w.part[2], &w.part[1]) : w.part[2];
+    const fret_real moved = edge[0] - edge[1], K = w.K, per = by == LOADS ? 1 / K : 1,
+                    v[2] = {to_front->G * per, 0},
+                    mean = area_of(by, &nothing, to_front, K) / (front[0] - front[1]),
+                    mean_edge = hi > lo ? area_of(by, to_edge, &way, K) / (hi - lo) : whole[2].G * per;
+    *out = bow_of(edge, front, v, mean, mean_edge);
+    *bound = 1e-17L * ((edge[0] - front[0]) * v[0] + (fabsl(moved) + 2 * (front[0] - front[1])) * mean +
+                       (front[0] - front[1]) * mean_edge);
+    return true;
+}
+
+bool fret_pieces_phase(const struct fret_pieces *pieces, bool by_load, const fret_real edges[2],
+                       const fret_real fronts[2], fret_real enough, fret_real *out, fret_real *bound) {
+    typedef bool how(const law *, int, const fret_real *, const fret_real *, fret_real *, fret_real *);
+    const law *all = pieces->law;
+    const fret_real scale = pieces->scale, per = by_load ? 1 / scale : 1,
+                    edge[2] = {edges[0] * per, edges[1] * per}, front[2] = {fronts[0] * per, fronts[1] * per};
+    how *const by[2] = {all->rows ? bow_beyond : bow_of_whole, all->rows ? bow_of_whole : bow_beyond};
+    fret_real parts = 0, off = (fret_real)INFINITY, other[2];
+    for (int i = 0; i < 2 && front[0] > front[1] && !(off <= enough * parts); i++)
+        if (by[i](all, by_load ? LOADS : DEPTHS, edge, front, &other[0], &other[1]) && other[1] < off) {
+            parts = other[0];
+            off = other[1];
+        }
+    if (isinf(off))
+        return false;
+    *out = parts * scale;
+    *bound = off * scale;
     return true;
 }

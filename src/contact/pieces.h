@@ -19,7 +19,7 @@ bool fret_pieces_by_rows(const struct fret_pieces *pieces);
 
 /* Each of these: false where the pieces do not reach, or would lose digits. */
 
-/* The law at the depth, or the load, `value`. */
+/* The law at the depth, or the load, `value`, all but K. */
 bool fret_pieces_point(const struct fret_pieces *pieces, bool by_force, fret_real value, fret_point *out);
 /* g at the distance e from the start of the gap. */
 bool fret_pieces_depth(const struct fret_pieces *pieces, fret_real e, fret_real *depth);
@@ -36,8 +36,8 @@ bool fret_pieces_across(const struct fret_pieces *pieces, const fret_level *oute
 /* The mean of F_N over depths. */
 bool fret_pieces_mean(const struct fret_pieces *pieces, fret_real from, fret_real to, fret_real *mean);
 /* What fret_phase_loss is to give, [0] where the phase begins, [1] where it ends, and how far it may be off:
- * it is a difference of what the whole contact has. */
+ * more than `enough` of it where it is a small difference. */
 bool fret_pieces_phase(const struct fret_pieces *pieces, bool by_load, const fret_real edge[2],
-                       const fret_real front[2], fret_real *out, fret_real *bound);
+                       const fret_real front[2], fret_real enough, fret_real *out, fret_real *bound);
 
 #endif

@@ -70,9 +70,15 @@ static fret_real to_m(const struct fret_rows *all, fret_real y) {
 
 /* (1+z)^(m-1) */
 static fret_real near_one(const struct fret_rows *all, fret_real z) {
-    if (z > 0.02L)
+    if (fabsl(z) > 0.02L)
         return fret_exp((all->m - 1) * fret_log1p(z));
-    return sum_of(all->binomial, z < 1e-3L ? 7 : BINOMIALS, z);
+    return sum_of(all->binomial, fabsl(z) < 1e-3L ? 7 : BINOMIALS, z);
+}
+
+/* y^m from that of a place near by. */
+static fret_real to_m_near(const struct fret_rows *all, fret_real at, fret_real power, fret_real y) {
+    const fret_real z = (y - at) / at;
+    return power * (1 + z) * near_one(all, z);
 }
 
 /* Is the part as wide as it is far from the centre? Then it wants more nodes. */
@@ -101,18 +107,22 @@ static stretch part_below(const struct fret_rows *all, size_t i, fret_real y, fr
                      y2 * y * (of[SUM_L] + ym * (of[SUM_L + 1] + ym * of[SUM_L + 2]))};
 }
 
-/* From y inwards to another one, thin ones too: in third roots, in which the kink is smooth enough. */
-static stretch part_of(const struct fret_rows *all, size_t i, fret_real from, fret_real to) {
+/* From y inwards to another one, thin ones too: in third roots, in which the kink is smooth enough, or far
+ * from it as it is. */
+static stretch part_of(const struct fret_rows *all, size_t i, fret_real from, fret_real power, fret_real to) {
     const part *p = &all->part[i];
-    const int parts = is_wide(p) ? 4 : 2;
-    const fret_real s0 = fret_exp(fret_log(from) / 3), way = fret_exp(fret_log(to) / 3) - s0,
-                    bend = p->width / (p->x * p->x), edge = rise_of(all, i, DEPTHS, from, to_m(all, from));
-    stretch out = {edge - rise_of(all, i, DEPTHS, to, to_m(all, to)), 0, 0, 0};
+    const bool far = to > from / 2;
+    const int parts = (far ? 1 : 2) * (is_wide(p) ? 2 : 1);
+    const fret_real s0 = far ? from : fret_exp(fret_log(from) / 3),
+                    way = (far ? to : fret_exp(fret_log(to) / 3)) - s0, bend = p->width / (p->x * p->x),
+                    edge = rise_of(all, i, DEPTHS, from, power);
+    stretch out = {edge - rise_of(all, i, DEPTHS, to, to_m_near(all, from, power, to)), 0, 0, 0};
     for (int j = 0; j < 8 * parts; j++) {
         const fret_real s = s0 + way * ((fret_real)(j / 8) + fret_gauss_node[j % 8]) / (fret_real)parts,
-                        y = s * s * s, t = edge - rise_of(all, i, DEPTHS, y, to_m(all, y));
+                        y = far ? s : s * s * s,
+                        t = edge - rise_of(all, i, DEPTHS, y, to_m_near(all, from, power, y));
         add_node(&out, t,
-                 p->rate * near_one(all, bend * y) * 3 * s * s * -way * fret_gauss_weight[j % 8] /
+                 p->rate * near_one(all, bend * y) * (far ? 1 : 3 * s * s) * -way * fret_gauss_weight[j % 8] /
                      (fret_real)parts);
     }
     return out;
@@ -145,13 +155,15 @@ static double rate_of(const struct fret_rows *all, size_t i, int by, double y, d
 
 /* Within 1e-9 or so: two of Newton's steps in double, from a straight line on. */
 static double guess_of(const struct fret_rows *all, size_t i, int by, double target, double whole) {
-    double y = target / whole, rise;
-    for (int j = 0; j < 2 && y > 0 && y < 1; j++) {
-        const double rate =
-            rate_of(all, i, by, y, fret_double_exp((double)all->m * fret_double_log(y)), &rise);
-        y += (target - rise) / rate;
+    const double m = (double)all->m, first = target / whole;
+    double y = first, z = 0, ym = fret_double_exp(m * fret_double_log(y)), rise;
+    for (int j = 0; j < 2 && y > 0 && y < 1 && fabs(z) < 0.02; j++) {
+        const double near = 1 + m * z * (1 + (m - 1) / 2 * z * (1 + (m - 2) / 3 * z * (1 + (m - 3) / 4 * z))),
+                     rate = rate_of(all, i, by, y, ym * near, &rise), step = (target - rise) / rate;
+        z = step / y;
+        y += step;
     }
-    return y > 0 && y < 1 ? y : target / whole;
+    return y > 0 && y < 1 ? y : first;
 }
 
 /* y where a level is so far, `target`, above the beginning of the part, to `little` of it: by Newton's steps,
@@ -197,7 +209,7 @@ static fret_spot spot_in(const struct fret_rows *all, size_t i, fret_real y, fre
                         all->reach[SPOT_LOAD][i] + rise_of(all, i, LOADS, y, ym)}};
 }
 
-bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
+bool fret_rows_place(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
     const fret_real *reach = all->reach[by];
     if (!(value > reach[0] && fret_law_reaches(reach[all->count], value)))
         return false;
@@ -211,7 +223,16 @@ bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real valu
                         : search(all, i, by == SPOT_LOAD ? LOADS : DEPTHS, beyond, LDBL_EPSILON * value, &ym);
     if (known)
         ym = y < 1 ? to_m(all, y) : 1;
-    *out = spot_in(all, i, y, ym);
+    out->part = i;
+    out->along = y;
+    out->power = ym;
+    return true;
+}
+
+bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
+    if (!fret_rows_place(all, by, value, out))
+        return false;
+    *out = spot_in(all, out->part, out->along, out->power);
     *(by == SPOT_DISTANCE ? &out->e : by == SPOT_DEPTH ? &out->at.y : &out->at.F) = value;
     return true;
 }
@@ -266,7 +287,10 @@ fret_real fret_rows_fall(const struct fret_rows *all, int by, const fret_spot *o
 }
 
 fret_real fret_rows_stiffness(const struct fret_rows *all, const fret_spot *s) {
-    return all->C * fret_pow(all->start + s->e, 2 * all->m);
+    if (!(s->along > 0))
+        return all->C * fret_pow(all->start + all->reach[SPOT_DISTANCE][s->part], 2 * all->m);
+    const part *p = &all->part[s->part];
+    return all->C * fret_pow(p->x * p->x + p->width * s->along, all->m);
 }
 
 size_t fret_rows_parts(const struct fret_rows *all) {
@@ -289,10 +313,10 @@ fret_row_part fret_rows_part(const struct fret_rows *all, size_t i) {
 }
 
 stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, const fret_spot *inner) {
-    static const fret_real WORTH = 0.02L; /* of a part, where a difference keeps its digits */
+    static const fret_real WORTH = 0.005L; /* of a part, where a difference keeps its digits */
     const size_t next = inner->part + (inner->along > 0);
     stretch sum = {0, 0, 0, 0}, below = sum, rest = sum;
-    if (outer->e <= inner->e)
+    if (outer->part < inner->part || (outer->part == inner->part && outer->along <= inner->along))
         return sum;
     if (inner->along > 0)
         below = part_below(all, inner->part, inner->along, inner->power);
@@ -301,14 +325,15 @@ stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, c
     if (outer->part == inner->part && inner->along > 0) {
         const fret_real whole = sum.L;
         sum = fret_stretch_less(&sum, &below);
-        return sum.L >= WORTH * whole ? sum : part_of(all, outer->part, outer->along, inner->along);
+        return sum.L >= WORTH * whole ? sum
+                                      : part_of(all, outer->part, outer->along, outer->power, inner->along);
     }
     fret_stretch_add_runs(all->run, outer->part, next, &sum);
     if (inner->along > 0) {
         const stretch *whole = &all->run[0][inner->part];
         rest = fret_stretch_less(whole, &below);
         if (!(fmaxl(rest.L, sum.L) >= WORTH * whole->L))
-            rest = part_of(all, inner->part, 1, inner->along);
+            rest = part_of(all, inner->part, 1, 1, inner->along);
         sum = fret_stretch_join(&sum, &rest);
     }
     return sum;

@@ -320,15 +320,46 @@ static void fronts(void) {
     fret_normal *plain, *ready;
     make_twins(&gap, -0.3, &plain, &ready);
     const fret_real edge[2] = {90, 90}, front[2] = {60, 20}, out[2] = {60, 60}, far[2] = {1e9L, 2e9L},
-                    deep[2] = {60, -1};
+                    enough = 1e-12L, deep[2] = {60, -1};
     fret_real loss = -1, bound = -1;
-    CHECK(!fret_pieces_phase(ready->pieces, true, edge, out, &loss, &bound));
-    CHECK(!fret_pieces_phase(ready->pieces, true, edge, deep, &loss, &bound));
-    CHECK(!fret_pieces_phase(ready->pieces, true, far, front, &loss, &bound) && loss == -1);
-    CHECK(fret_pieces_phase(ready->pieces, true, edge, front, &loss, &bound));
+    CHECK(!fret_pieces_phase(ready->pieces, true, edge, out, enough, &loss, &bound));
+    CHECK(!fret_pieces_phase(ready->pieces, true, edge, deep, enough, &loss, &bound));
+    CHECK(!fret_pieces_phase(ready->pieces, true, far, front, enough, &loss, &bound) && loss == -1);
+    CHECK(fret_pieces_phase(ready->pieces, true, edge, front, enough, &loss, &bound));
     const fret_phase p = {.normal = plain, .by = LOAD, .edge0 = 90, .edge1 = 90, .front0 = 60, .front1 = 20};
     CHECK_ABS(loss, fret_phase_loss(&p), loss, 1e-12L);
     CHECK(bound > 0 && bound < 1e-12L * loss);
+}
+
+/* Thin zones among rows, of an edge that stays, grows, or moves in, also beyond where the front was: by
+ * quadrature of exact slices. */
+static void thin_zones(void) {
+    static const struct {
+        double edge[2], front[2];
+    } ways[] = {
+        {{1, 1}, {0.999, 0.99}},      {{0.98, 0.99}, {0.97, 0.965}},  {{1, 0.98}, {0.995, 0.97}},
+        {{1, 0.98}, {1, 0.978}},      {{0.98, 0.99}, {0.98, 0.975}},  {{0.95, 0.949}, {0.9495, 0.948}},
+        {{0.9, 0.89}, {0.895, 0.89}}, {{0.9, 0.9001}, {0.88, 0.879}}, {{0.7, 0.65}, {0.6, 0.4}}};
+    for (int k = -1; k <= 1; k++) {
+        const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = sphere_rows(k ? 40 : 61)};
+        fret_normal *plain, *ready;
+        make_twins(&gap, 0.4 * k, &plain, &ready);
+        CHECK(fret_pieces_by_rows(ready->pieces));
+        for (size_t i = 0; i < 2 * sizeof ways / sizeof *ways; i++) {
+            const double *edge = ways[i / 2].edge, *front = ways[i / 2].front;
+            const fret_real whole = i % 2 ? 90 : fret_law_depth(plain, 90);
+            fret_phase p = {.normal = plain,
+                            .by = i % 2 ? LOAD : DEPTH,
+                            .edge0 = whole * edge[0],
+                            .edge1 = whole * edge[1],
+                            .front0 = whole * front[0],
+                            .front1 = whole * front[1]};
+            const fret_real want = fret_phase_loss(&p);
+            p.normal = ready;
+            CHECK_REL(fret_phase_loss(&p), want, UNIT_TOL(1e-12L, 1e-9L));
+        }
+        fret_table_free((struct fret_table *)gap.table);
+    }
 }
 
 /* What is not shared: another exponent, kind, or number of the shape, or nothing to share, or already some.
@@ -798,6 +829,7 @@ int main(int argc, char **argv) {
     ends_of_pieces();
     means();
     fronts();
+    thin_zones();
     unlike();
     close_rows();
     fields();
