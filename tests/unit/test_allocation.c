@@ -281,6 +281,47 @@ static void smaller_swings(void) {
     fret_memory_free(m);
 }
 
+/* Periods whose first piece, or a later one, finds no room: from copies, which have less of it. */
+static void periods_without_room(void) {
+    fret_memory *m;
+    fret_swing *w, *before, *small;
+    fret_state whole, now;
+    int refused = 0;
+    CHECK_OK(fret_memory_make(contact.normal, 0.4, &m));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
+    for (double phase = 0.25; phase < 6.2; phase += 0.5) {
+        CHECK_OK(fret_swing_make(m, &w));
+        CHECK_OK(fret_swing_make(m, &before));
+        for (int i = 0; i < 20; i++) {
+            const double part = pow(0.93, i);
+            const fret_sine sine = {.FN = 20, .FNA = 6 * part, .FA = 3 * part, .phase = phase};
+            CHECK_OK(
+                fret_swing_step(w, &(fret_step){FRET_TO_FORCE, FRET_TO_FX,
+                                                (double)(20 + (fret_real)sine.FNA * cosl(phase)), sine.FA}));
+            CHECK_OK(fret_swing_make(m, &small));
+            CHECK_OK(fret_swing_copy(small, w));
+            CHECK_OK(fret_swing_copy(before, w));
+            CHECK_OK(fret_swing_period(w, &sine));
+            left = 0;
+            fret_status st = fret_swing_period(small, &sine);
+            left = -1;
+            if (st.code) {
+                CHECK_CODE(st, FRET_NO_MEMORY);
+                CHECK_OK(period_of(small, before, &sine));
+                refused++;
+            }
+            fret_swing_state(w, &whole);
+            fret_swing_state(small, &now);
+            CHECK(same(&whole, &now));
+            fret_swing_free(small);
+        }
+        fret_swing_free(w);
+        fret_swing_free(before);
+    }
+    CHECK(refused > 3);
+    fret_memory_free(m);
+}
+
 /* What a field wants is kept, or nothing is. */
 static void fields(void) {
     const unit_scene s = unit_make_scene(2, 0.3);
@@ -325,6 +366,7 @@ int main(int argc, char **argv) {
     springs();
     swings();
     smaller_swings();
+    periods_without_room();
     fields();
     return unit_finish();
 }
