@@ -80,10 +80,9 @@ static fret_real way_when(const way *w, int which, fret_real level, fret_real lo
     return fminl(fmaxl(s, lo), hi);
 }
 
-/* Of two that are harmonic. */
+/* Of two that are harmonic, and meet where both rise: then their lags are the same, too. */
 static bool same_way(const way *a, const way *b) {
-    return a->mean == b->mean && a->size[M] == b->size[M] && a->size[P] == b->size[P] &&
-           a->lag[M] == b->lag[M] && a->lag[P] == b->lag[P];
+    return a->mean == b->mean && a->size[M] == b->size[M] && a->size[P] == b->size[P];
 }
 
 /* ---- the curve --------------------------------------------------------------------------------- */
@@ -140,8 +139,10 @@ static bool in_line(const fret_swing *c, const piece *a, const piece *b) {
 
 /* Parts of one way are one piece. */
 static fret_status grow(fret_swing *c, const piece *p) {
-    piece *top = c->count ? &c->pieces[c->count - 1] : NULL;
-    if (!top || top->curved != p->curved || fabsl(top->last[M] - p->first[M]) > noise(c) ||
+    if (!c->count)
+        return append(c, p);
+    piece *top = &c->pieces[c->count - 1];
+    if (top->curved != p->curved || fabsl(top->last[M] - p->first[M]) > noise(c) ||
         fabsl(top->last[P] - p->first[P]) > noise(c) ||
         !(p->curved ? top->hi == p->lo && same_way(&top->way, &p->way) : in_line(c, top, p)))
         return append(c, p);
@@ -354,7 +355,7 @@ static fret_real along_rate(fret_real t, fret_real rest, void *context) {
     const fret_real N = (m + up) / 2, T = (up - m) / 2;
     const fret_real dT = (way_fall(&p->way, M, s) - way_fall(&p->way, P, s)) / 2;
     const fret_normal *n = l->curve->normal;
-    return N > 0 ? (l->energy ? T : 1) * dT * n->q * fret_law_depth(n, N) / N : 0;
+    return (l->energy ? T : 1) * dT * n->q * fret_law_depth(n, N) / N;
 }
 
 static fret_real sum_along(const fret_swing *c, bool energy) {
@@ -489,7 +490,8 @@ fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, d
         return st;
     add_loss(c);
     set_edge(c, &p, sine->FA * harmonic(last));
-    c->direction = to > 0.5 ? 1 : -1;
+    if (sine->FA != 0)
+        c->direction = (to > 0.5) == (sine->FA > 0) ? 1 : -1;
     return st;
 }
 

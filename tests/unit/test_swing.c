@@ -337,11 +337,15 @@ static void by_depth(void) {
 /* Steps of all sizes, down to the last digit, and to the brink of gross slip, beside the memory diagram.
  * There a force, known to 512 roundings, moves displacement and loss by its power n/(n+k+1). */
 static void tiny_steps(void) {
-    unsigned long long seed = 7;
+    enum { RUNS = 40 };
+    unsigned long long seed = 0;
     const double mu = 0.4;
-    for (int run = 0; run < 40; run++) {
+    for (int run = 0; run < 2 * RUNS; run++) { /* and the same to the other side */
+        const double side = run < RUNS ? 1 : -1;
+        if (run % RUNS == 0)
+            seed = 7;
         const unit_scene s =
-            unit_make_scene(run % 3 ? 2 : unit_random(&seed, 1, 4), unit_random(&seed, -0.9, 0.9));
+            unit_make_scene(run % RUNS % 3 ? 2 : unit_random(&seed, 1, 4), unit_random(&seed, -0.9, 0.9));
         const fret_normal *n = unit_make_normal(&s);
         double F = 10, T = 0;
         fret_memory *m;
@@ -360,7 +364,7 @@ static void tiny_steps(void) {
                          Fx = kind == 3   ? mu * FN * (unit_random(&seed, 0, 1) < 0.5 ? 1 : -1)
                               : kind == 1 ? T
                                           : T + mu * F * unit_random(&seed, -size, size);
-            const fret_step step = {FRET_TO_FORCE, FRET_TO_FX, FN, Fx};
+            const fret_step step = {FRET_TO_FORCE, FRET_TO_FX, FN, side * Fx};
             if (fabs(Fx) > mu * FN)
                 continue;
             CHECK_OK(fret_memory_step(m, &step));
@@ -378,6 +382,145 @@ static void tiny_steps(void) {
     }
 }
 
+/* A period and steps with every F_x turned round: the same, with every displacement turned round. */
+static void mirrored(int count) {
+    for (int i = 0; i < count; i++) {
+        load l = random_load();
+        l.FA *= i % 8 != 0;
+        load turned = l;
+        turned.FA = -l.FA;
+        turned.lead = -l.lead;
+        const fret_sine w = sine_of(&l), v = sine_of(&turned);
+        fret_memory *m[2] = {begin(&l), begin(&turned)};
+        fret_swing *s[2] = {swing_of(m[0]), swing_of(m[1])};
+        fret_state a, b;
+        const fret_real reach = l.mu * m[0]->normal->foundation.eta * m[0]->edge[DEPTH];
+        for (int j = 0; j < 20; j++) {
+            if (j % 4 == 0) {
+                const fret_real FN = l.FN + w.FNA * cosl(w.phase);
+                for (int side = 0; side < 2; side++)
+                    CHECK_OK(fret_swing_step(
+                        s[side], &(fret_step){FRET_TO_FORCE, FRET_TO_FX, (double)FN, side ? -l.FA : l.FA}));
+                CHECK_OK(fret_swing_period(s[0], &w));
+                CHECK_OK(fret_swing_period(s[1], &v));
+            } else {
+                const double FN = 100 * uniform(), Fx = l.mu * FN * (2 * uniform() - 1);
+                for (int side = 0; side < 2; side++)
+                    CHECK_OK(fret_swing_step(s[side],
+                                             &(fret_step){FRET_TO_FORCE, FRET_TO_FX, FN, side ? -Fx : Fx}));
+            }
+            fret_swing_state(s[0], &a);
+            fret_swing_state(s[1], &b);
+            CHECK(a.Fx == -b.Fx && a.FN == b.FN && a.dz == b.dz);
+            CHECK_REL(b.W, a.W, 1e-15L);
+            CHECK_ABS(b.dx, -a.dx, reach, 1e-15L);
+            CHECK_ABS(b.U, a.U, a.FN * reach, 1e-15L);
+            if (j % 4 || fmod(l.degrees, 180) != 0) { /* on the brink of slip any will do */
+                CHECK_REL(b.c, a.c, 1e-9L);
+                CHECK_REL(b.kt, a.kt, 1e-9L);
+            }
+        }
+        for (int side = 0; side < 2; side++) {
+            fret_swing_free(s[side]);
+            fret_memory_free(m[side]);
+        }
+    }
+}
+
+/* F_N in phase with F_x/mu and as large: on a straight line, which just sticks once it has been gone along.
+ */
+static void one_stays(void) {
+    for (int turned = 0; turned < 2; turned++) {
+        const load l = {2, 50, 210e9, 0.3, 0.5, 100, turned ? -20 : 20, 40, 0, 0};
+        const fret_sine w = sine_of(&l);
+        fret_memory *m = begin(&l);
+        fret_swing *s = swing_of(m);
+        fret_state now, straight, after;
+        for (int half = 0; half < 2; half++) {
+            const fret_step step = {FRET_TO_FORCE, FRET_TO_FX, half ? 140 : 60, half ? l.FA : -l.FA};
+            CHECK_OK(fret_swing_part(s, &w, 0.5 * half, 0.5 * (half + 1)));
+            CHECK_OK(fret_memory_step(m, &step));
+            fret_swing_state(s, &now);
+            fret_memory_state(m, &straight);
+            CHECK(now.FN == straight.FN && now.Fx == straight.Fx && now.W > 0);
+            CHECK_REL(now.W, straight.W, 1e-15L);
+            CHECK_REL(now.dx, straight.dx, 1e-15L);
+            CHECK_REL(now.U, straight.U, 1e-15L);
+        }
+        CHECK_OK(fret_swing_period(s, &w));
+        fret_swing_state(s, &after);
+        CHECK(after.W == now.W && after.FN == now.FN && after.Fx == now.Fx);
+        CHECK_REL(after.dx, now.dx, 1e-17L);
+        CHECK_REL(after.U, now.U, 1e-17L);
+        fret_swing_free(s);
+        fret_memory_free(m);
+    }
+}
+
+/* What has been opened is pressed as if new, but for what it has lost. */
+static void opened_and_closed(void) {
+    const load l = {2, 50, 210e9, 0.3, 0.4, 100, 20, 30, 90, 0.7};
+    fret_memory *m = begin(&l), *fresh;
+    fret_swing *s = swing_of(m), *t;
+    fret_state open, a, b;
+    const fret_step lifted = {FRET_TO_FORCE, FRET_TO_FX, 0, 0}, pressed = {FRET_TO_FORCE, FRET_TO_FX, 80, 10},
+                    pushed = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 25};
+    CHECK_OK(fret_swing_step(s, &lifted));
+    fret_swing_state(s, &open);
+    CHECK(open.FN == 0 && open.slices == 0 && open.W > 0);
+    CHECK_OK(fret_swing_step(s, &pressed));
+    CHECK_OK(fret_swing_step(s, &pushed));
+    CHECK_OK(fret_memory_make(fret_memory_normal(m), l.mu, &fresh));
+    CHECK_OK(fret_memory_step(fresh, &pressed));
+    t = swing_of(fresh);
+    CHECK_OK(fret_swing_step(t, &pushed));
+    fret_swing_state(s, &a);
+    fret_swing_state(t, &b);
+    CHECK_REL(a.W - open.W, b.W, 1e-15L);
+    CHECK_REL(a.dx - open.dx, b.dx, 1e-15L);
+    CHECK_REL(a.U, b.U, 1e-17L);
+    CHECK(a.slices == b.slices && a.c == b.c && a.kt == b.kt);
+    fret_swing_free(s);
+    fret_swing_free(t);
+    fret_memory_free(m);
+    fret_memory_free(fresh);
+}
+
+/* From one sine to another where they meet and F_N - F_x/mu and F_N + F_x/mu both rise: what follows falls
+ * along the one and then along the other. */
+static void from_one_way_to_another(void) {
+    enum { CHORDS = 4000 };
+    const load l = {2, 50, 210e9, 0.3, 0.5, 100, 5, 30, 180, 0};
+    const double lower = half_turn + asin(10 / 24.0); /* by as much as the sine is above its mean there */
+    const fret_sine first = sine_of(&l), second[] = {{8, 30, half_turn, 100},
+                                                     {8, 24, half_turn, 100}, /* the same F_N - F_x/mu */
+                                                     {5, 24, lower, 90}};
+    for (size_t i = 0; i < sizeof second / sizeof *second; i++) {
+        fret_memory *m = begin(&l);
+        fret_swing *s = swing_of(m);
+        fret_state a, b;
+        for (int quarter = 0; quarter < 4; quarter++) {
+            const fret_sine *w = quarter ? &second[i] : &first;
+            CHECK_OK(fret_swing_part(s, w, 0.25 * quarter, 0.25 * (quarter + 1)));
+            for (int j = 1; j <= CHORDS; j++) {
+                const fret_real angle = acosl(-1) / 2 * (quarter + (fret_real)j / CHORDS);
+                CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX,
+                                                          (double)(w->FN + w->FNA * cosl(angle + w->phase)),
+                                                          (double)(w->FA * cosl(angle))}));
+            }
+            fret_swing_state(s, &a);
+            fret_memory_state(m, &b);
+            CHECK_REL(a.FN, b.FN, 1e-15L);
+            CHECK_REL(a.dx, b.dx, 1e-6L);
+            CHECK_REL(a.U, b.U, 1e-6L);
+            CHECK_ABS(a.W, b.W, a.U, 1e-7L);
+        }
+        CHECK(a.W > 1e-3L * a.U);
+        fret_swing_free(s);
+        fret_memory_free(m);
+    }
+}
+
 int main(int argc, char **argv) {
     unit_start("swing", argc, argv);
     references();
@@ -387,5 +530,9 @@ int main(int argc, char **argv) {
     refusals();
     by_depth();
     tiny_steps();
+    mirrored(60);
+    one_stays();
+    opened_and_closed();
+    from_one_way_to_another();
     return unit_finish();
 }
