@@ -19,7 +19,7 @@ fret_real fret_ring_fit(const fret_chebyshev *r, const fret_real *value, fret_re
     while (*count > 0 && fabsl(term[*count - 1]) <= 1e-20L * whole)
         --*count;
     fret_chebyshev_powers(r, term, *count, c);
-    return whole > 0 ? fmaxl(fabsl(term[MOST - 1]), fabsl(term[MOST - 2])) / whole : 0;
+    return fmaxl(fabsl(term[MOST - 1]), fabsl(term[MOST - 2])) / whole;
 }
 
 fret_real fret_ring_fit_depth(const struct fret_density *d, ring *p, fret_real depth, const fret_real *smooth,

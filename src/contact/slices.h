@@ -21,8 +21,8 @@ static inline void resum_top(fret_memory *m) {
  * the mean keeps F_x. */
 static inline void push(fret_memory *m, const fret_real thick[2], const fret_real inner[2], fret_real sigma,
                         fret_real rounding) {
-    slice *top = m->count ? &m->slices[m->count - 1] : NULL;
-    if (top && fabsl(top->sigma - sigma) <= rounding && (fabsl(sigma) < 1) == (fabsl(top->sigma) < 1)) {
+    slice *top = &m->slices[m->count ? m->count - 1 : 0];
+    if (m->count && fabsl(top->sigma - sigma) <= rounding && (fabsl(sigma) < 1) == (fabsl(top->sigma) < 1)) {
         fret_real both = top->thick[LOAD] + thick[LOAD];
         if (both > 0 && fabsl(sigma) < 1)
             top->sigma = (top->sigma * top->thick[LOAD] + sigma * thick[LOAD]) / both;

@@ -63,6 +63,41 @@ static void laws(void) {
     fret_table_free(table);
 }
 
+/* A slice of a table whose rows find no room is had from kink to kink, over those that are too close at once.
+ */
+static void slices(void) {
+    enum { MANY = 60000 };
+    static double x[MANY], depth[MANY];
+    const unit_scene s = unit_make_scene(2, 0.3);
+    struct fret_table *table = NULL;
+    fret_normal *n = NULL;
+    fret_press p;
+    for (int i = 0; i < MANY; i++) {
+        x[i] = 1e-3 * i / MANY;
+        depth[i] = x[i] * x[i] / 0.02;
+    }
+    for (int rows = MANY; rows; rows = rows == MANY ? ROWS : 0) {
+        CHECK_OK(fret_table_make(rows == MANY ? x : r, rows == MANY ? depth : f, (size_t)rows, NULL, &table));
+        const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
+        CHECK_OK(fret_normal_make(&s.material, &gap, &n));
+        CHECK_OK(fret_press_by_radius(n, 0.9e-3, &p));
+        for (int i = 1; i < 10; i += 4) {
+            const fret_level outer = {p.dz, p.F};
+            const fret_slice want = fret_law_slice(n, &outer, p.dz * i / 10);
+            left = 0;
+            const fret_slice got = fret_law_slice(n, &outer, p.dz * i / 10);
+            CHECK(left < 0);
+            left = -1;
+            CHECK_REL(got.w, want.w, 1e-14L);
+            CHECK_REL(got.J, want.J, 1e-14L);
+            CHECK_REL(got.G, want.G, 1e-14L);
+            CHECK_REL(got.L, want.L, 1e-14L);
+        }
+        fret_normal_free(n);
+        fret_table_free(table);
+    }
+}
+
 /* Pieces of a law for another contact of the same shape. */
 static void pieces(void) {
     const fret_material steel = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1};
@@ -359,6 +394,7 @@ int main(int argc, char **argv) {
     slip = (double)fret_gross_slip(&contact);
     tables_and_contacts();
     laws();
+    slices();
     pieces();
     memories();
     diagrams();

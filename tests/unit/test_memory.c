@@ -544,6 +544,26 @@ static void standing(void) {
     fret_memory_free(c.memory);
 }
 
+/* Within the contact, up to the last digit of its radius, the bound of a spring is never below 0, nor its
+ * displacement beyond it. */
+static void rim(void) {
+    unsigned long long seed = 11;
+    int rounded = 0;
+    for (int i = 0; i < 400; i++) {
+        contact c = make_plain(unit_random(&seed, 0.5, 5), unit_random(&seed, -0.9, 0.9));
+        go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, unit_random(&seed, 1, 100), 0});
+        fret_state s = state_of(&c);
+        go(&c, to_fx(0.5 * c.mu * (double)s.FN));
+        const fret_real inside = nextafterl(s.a, 0), bound = fret_memory_bound(c.memory, inside),
+                        u = fret_memory_displacement(c.memory, inside);
+        CHECK(bound >= 0 && u >= 0 && u <= bound);
+        CHECK(bound <= 1e-12L * fret_memory_bound(c.memory, 0));
+        rounded += fret_normal_profile(c.normal, inside) > s.dz;
+        fret_memory_free(c.memory);
+    }
+    CHECK(rounded > 0);
+}
+
 /* The last millionth before gross slip, in one step and in a thousand: the stick zone, the displacement and
  * what is dissipated are those of the closed forms, which know 1-t exactly. Near the centre K is singular. */
 static void brink(double n, double k) {
@@ -887,6 +907,7 @@ int main(int argc, char **argv) {
     separation();
     gross_slip();
     standing();
+    rim();
     brink(2, 0);
     brink_on_the_way(2, 0);
     brink_on_the_way(0.5, 0.99);

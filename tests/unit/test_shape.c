@@ -378,6 +378,47 @@ static void limits(void) {
     }
 }
 
+/* A contact that reaches the end of its gap answers what it can be pressed by again, rounded up too; a little
+ * more is refused. */
+static void ends_of(const fret_normal *n) {
+    const fret_profile p = fret_gap_profile(&n->gap, &n->rule, n->end - fret_gap_start(&n->gap));
+    fret_press at = {.F = 0};
+    const double F = (double)fret_force_of(n, &p), dz = (double)p.g;
+    for (int i = -2; i <= 2; i++) {
+        CHECK_OK(fret_press_by_force(n, F * (1 + i * DBL_EPSILON), &at));
+        CHECK_REL(at.a, n->end, 1e-7L);
+        CHECK(at.a <= n->end);
+        CHECK_OK(fret_press_by_depth(n, dz * (1 + i * DBL_EPSILON), &at));
+        CHECK_REL(at.a, n->end, 1e-7L);
+        CHECK(at.a <= n->end);
+    }
+    CHECK(fret_press_by_force(n, F * (1 + 1e-14), &at).code != FRET_OK);
+    CHECK(fret_press_by_depth(n, dz * (1 + 1e-14), &at).code != FRET_OK);
+}
+
+static void ends(void) {
+    enum { ROWS = 30 };
+    double r[ROWS], f[ROWS];
+    struct fret_table *table = NULL;
+    for (int i = 0; i < ROWS; i++) {
+        r[i] = 1e-3 * i / (ROWS - 1);
+        f[i] = r[i] * r[i] / 0.03 + r[i] / 70;
+    }
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
+    for (int j = 0; j < GRADINGS; j++) {
+        unit_scene s = of_kind(FRET_GAP_SUM, gradings[j]);
+        ends_of(unit_make_normal(&s));
+        s = of_kind(FRET_GAP_EXACT_SPHERE, gradings[j]);
+        ends_of(unit_make_normal(&s));
+        s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = table};
+        fret_normal *n = NULL;
+        CHECK_OK(fret_normal_make(&s.material, &s.gap, &n));
+        ends_of(n);
+        fret_normal_free(n);
+    }
+    fret_table_free(table);
+}
+
 /* ---- tables ------------------------------------------------------------------------------------ */
 
 static void bad_tables(void) {
@@ -587,6 +628,7 @@ int main(int argc, char **argv) {
     vanishing_flat();
     one_term();
     limits();
+    ends();
     bad_tables();
     falling_tables();
     sloped();
