@@ -475,7 +475,7 @@ static bool bow_beyond(const law *all, int by, const fret_real edge[2], const fr
                     place[4] = {front[1], fminl(front[0], lo), fmaxl(front[0], lo), hi};
     stretch whole[3];
     ways w;
-    if (!find_ways(all, by, place, &w) || (by == LOADS && !(w.K > 0)))
+    if (!(front[1] > 0) || !find_ways(all, by, place, &w))
         return false;
     for (int i = 0; i < 3; i++)
         whole[i] = i ? fret_stretch_join(&w.part[i], &whole[i - 1]) : w.part[0];

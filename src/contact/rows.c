@@ -313,7 +313,7 @@ fret_row_part fret_rows_part(const struct fret_rows *all, size_t i) {
 }
 
 stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, const fret_spot *inner) {
-    static const fret_real WORTH = 0.005L; /* of a part, where a difference keeps its digits */
+    static const fret_real WORTH = 0.01L; /* of a part, where a difference keeps its digits */
     const size_t next = inner->part + (inner->along > 0);
     stretch sum = {0, 0, 0, 0}, below = sum, rest = sum;
     if (outer->part < inner->part || (outer->part == inner->part && outer->along <= inner->along))
