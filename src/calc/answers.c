@@ -429,7 +429,7 @@ static void swinging_state(answers *a, const runner run[LEVELS]) {
     sight at[LEVELS], limit;
     for (unsigned i = 0; i < LEVELS; i++)
         run_sight(&run[i], &at[i]);
-    sight_limit(at, &limit, &a->sine_error);
+    sight_limit(at, &limit);
     a->state = limit.state;
     a->loss = limit.loss;
 }
@@ -502,7 +502,6 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     const unsigned used = s->used; /* what only checks the load program does not answer */
     if (!s->answers.state_ready) {
         const runner *run = NULL;
-        s->answers.sine_error = 0;
         if (!(by_double(s) && s->end.steps > 0) && !present_run(s, &run, error))
             return false;
         if (!s->automatic && s->model == MODEL_CLOSED)

@@ -580,46 +580,56 @@ double program_time(const program *p, load_mark end) {
     return time;
 }
 
-long double run_limit(const long double at[LEVELS], long double least, long double *error) {
-    const long double first = at[1] + (at[1] - at[0]) / 3, last = at[2] + (at[2] - at[1]) / 3;
-    const long double step = (last - first) / 15, scale = fmaxl(least, fmaxl(fabsl(last), fabsl(at[2])));
-    *error = scale > 0 ? 2 * fabsl(step) / scale : 0;
+static long double once(long double coarse, long double fine_one) {
+    return fine_one + (fine_one - coarse) / 3;
+}
+
+static long double part_of(long double moved, const long double at[LEVELS]) {
+    const long double scale = fmaxl(fabsl(once(at[1], at[2])), fabsl(at[2]));
+    return scale > 0 ? moved / scale : 0;
+}
+
+long double run_limit(const long double at[LEVELS], long double *moved) {
+    const long double first = once(at[0], at[1]), last = once(at[1], at[2]), step = (last - first) / 15;
+    *moved = part_of(2 * fabsl(step), at);
     return last + step;
+}
+
+long double run_unsure(const long double at[LEVELS]) {
+    const long double change = once(at[1], at[2]) - once(at[0], at[1]);
+    return part_of(fmaxl(2 * fabsl(change), fabsl(at[2] - at[1]) / 256), at);
 }
 
 /* A member of the states of all levels, and its limit. Where they differ by rounding of `scale` alone it was
  * asked for: so it stays, 0 above all. */
-static void to_limit(const sight at[LEVELS], size_t member, long double scale, fret_state *out,
-                     long double *error) {
-    long double v[LEVELS];
+static void to_limit(const sight at[LEVELS], size_t member, long double scale, fret_state *out) {
+    long double v[LEVELS], unused;
     for (unsigned i = 0; i < LEVELS; i++)
         memcpy(&v[i], (const char *)&at[i].state + member, sizeof v[i]);
-    v[0] = run_limit(v, 0, error);
+    v[0] = run_limit(v, &unused);
     if (fabsl(v[LEVELS - 1] - v[LEVELS - 2]) <= 16 * LDBL_EPSILON * scale)
         return;
     memcpy((char *)out + member, &v[0], sizeof v[0]);
 }
 
-void sight_limit(const sight at[LEVELS], sight *out, long double *error) {
+void sight_limit(const sight at[LEVELS], sight *out) {
     const long double loss[LEVELS] = {at[0].loss, at[1].loss, at[2].loss};
-    long double errors[2], unused;
+    long double unused;
     out->state = at[LEVELS - 1].state;
-    to_limit(at, offsetof(fret_state, W), 0, &out->state, &errors[0]);
-    to_limit(at, offsetof(fret_state, U), 0, &out->state, &unused);
-    to_limit(at, offsetof(fret_state, Fx), out->state.FN, &out->state, &unused);
-    to_limit(at, offsetof(fret_state, dx), out->state.dz, &out->state, &unused);
-    out->loss = run_limit(loss, LDBL_EPSILON * out->state.W, &errors[1]); /* rounding leaves no more of W */
-    *error = fmaxl(errors[0], errors[1]);
+    to_limit(at, offsetof(fret_state, W), 0, &out->state);
+    to_limit(at, offsetof(fret_state, U), 0, &out->state);
+    to_limit(at, offsetof(fret_state, Fx), out->state.FN, &out->state);
+    to_limit(at, offsetof(fret_state, dx), out->state.dz, &out->state);
+    out->loss = run_limit(loss, &unused);
 }
 
 void run_sight(const runner *r, sight *out) {
     sight at[LEVELS] = {{.loss = r->cycle_loss}};
-    long double unused;
     engine_state(&r->engine, &at[0].state);
     *out = at[0];
     if (!r->coarse)
         return;
     at[LEVELS - 1] = *out;
     memcpy(at, r->coarse, (LEVELS - 1) * sizeof *at);
-    sight_limit(at, out, &unused);
+    sight_limit(at, out);
 }

@@ -87,12 +87,14 @@ watch watch_way(unsigned points);
 watch watch_times(double first, double every, size_t last, bool turns);
 
 /* A swinging normal force is run at several numbers of chords, each double the last. Their error goes with
- * the square of the length of a chord, then with its fourth power: the limit, extrapolated twice. error gets
- * twice how far the last extrapolation moved it, relative to the value, or to `least` where that is larger;
- * of the losses in tests/reference/swinging.csv it is a bound, also where the contact is nearly lost and the
- * orders are not clean. */
+ * the square of the length of a chord, then with its fourth power: the limit, extrapolated twice. moved:
+ * twice how far the last extrapolation moved it, relative to the value; of the losses in
+ * tests/reference/swinging.csv it is a bound. */
 enum { RUN_CHORDS = 160, LEVELS = 3 };
-long double run_limit(const long double at[LEVELS], long double least, long double *error);
+long double run_limit(const long double at[LEVELS], long double *moved);
+/* What the limit is good to, relative, also where a slip front ends within a chord and the orders are not
+ * clean: twice how far the first extrapolation moves between levels, and 1/256 of how far the value does. */
+long double run_unsure(const long double at[LEVELS]);
 
 /* What a run shows: the state, and the loss of the last period. */
 typedef struct sight {
@@ -123,7 +125,7 @@ struct runner {
 /* Now; its limit, where `coarse` is there. */
 void run_sight(const runner *r, sight *out);
 /* Of the same instant at all levels; what lies at the end of the path needs no limit. */
-void sight_limit(const sight at[LEVELS], sight *out, long double *error);
+void sight_limit(const sight at[LEVELS], sight *out);
 
 /* Runs to the end of the load. The stop flag is looked at between steps and chords. */
 fret_status run_to(runner *r, load_mark end);

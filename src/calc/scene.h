@@ -44,8 +44,7 @@ typedef struct answers {
     load_reach reach;
     trail *trail; /* of run[0], or NULL */
     fret_state state;
-    long double loss;       /* of the last period */
-    long double sine_error; /* relative, what the limit of chords is good to; 0: there are none */
+    long double loss; /* of the last period */
 } answers;
 
 typedef struct scene scene;

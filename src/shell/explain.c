@@ -113,18 +113,49 @@ static double round_up(double v) {
     return ceil(v / place * (1 - 1e-9)) * place;
 }
 
-static void put_sine(const page *p, const quantity *q, bool call, model_id model) {
+/* The value after each number of chords. */
+static bool by_chords(const page *p, const expr *e, long double at[LEVELS]) {
     scene *s = p->sh->calc.now;
-    const double error = fmax((double)s->answers.sine_error, 1e-15);
-    const int finest = RUN_CHORDS << (model == MODEL_MEMORY ? LEVELS - 1 : 0);
+    answers *a = &s->answers;
+    bool ok = true;
+    for (unsigned i = 0; i < LEVELS && ok; i++) {
+        const instant now = {.run = &a->run[i], .time = a->run[i].time};
+        calc_error ignored;
+        value v = {0, DIM_NONE};
+        error_clear(&ignored);
+        s->now = &now;
+        a->state_ready = a->press_ready = false;
+        ok = had(p, expr_eval(&p->sh->calc, e, &v, &ignored), &ignored);
+        at[i] = v.v;
+    }
+    s->now = NULL;
+    a->state_ready = a->press_ready = false;
+    return ok;
+}
+
+/* e: what is explained; NULL: it has no value. */
+static void put_sine(const page *p, const quantity *q, bool call, model_id model, const expr *e) {
+    const answers *a = &p->sh->calc.now->answers;
+    const int finest = RUN_CHORDS << (LEVELS - 1);
+    const bool limit = is_extrapolated(q, call);
+    long double at[LEVELS];
     fprintf(p->to, "    model: %s, ", models[model].title);
-    if (model == MODEL_MEMORY && s->answers.levels == 1 && !call)
-        fprintf(p->to, "the sine itself, event by event (exact)\n");
-    else if (model == MODEL_MEMORY && is_extrapolated(q, call))
+    if (model == MODEL_MEMORY && a->levels == 1 && !call) {
+        fputs("the sine itself, event by event (exact)\n", p->to);
+        return;
+    }
+    if (model != MODEL_MEMORY || a->levels < LEVELS || !e || !by_chords(p, e, at)) {
+        fprintf(p->to, "by %d chords a period of the sine%s\n", finest,
+                limit ? " and fewer, extrapolated" : "");
+        return;
+    }
+    const long double last = fabsl(at[LEVELS - 1]), change = fabsl(at[LEVELS - 1] - at[LEVELS - 2]);
+    if (limit)
         fprintf(p->to, "converged to %.0e (the sine itself, by %d chords a period and fewer, extrapolated)\n",
-                round_up(error), finest);
+                round_up(fmax((double)run_unsure(at), 1e-15)), finest);
     else
-        fprintf(p->to, "by %d chords a period of the sine\n", finest);
+        fprintf(p->to, "by %d chords a period of the sine, good to %.0e\n", finest,
+                round_up(last > 0 ? fmax((double)(2 * change / last), 1e-15) : 1e-15));
 }
 
 /* Of a scene that has been run. */
@@ -136,12 +167,12 @@ static bool swings(scene *s) {
     return reach->swings;
 }
 
-static void put_model(const page *p, const quantity *q, bool call) {
+static void put_model(const page *p, const quantity *q, bool call, const expr *e) {
     scene *s = p->sh->calc.now;
     const model_id model = quantity_model(q, s, call);
     const bool stepped = models[model].make;
     if (stepped && (q->reads & INPUT_BIT(IN_MU)) && swings(s))
-        put_sine(p, q, call, model);
+        put_sine(p, q, call, model, e);
     else if (model == MODEL_QUADRATURE && q->by != MODEL_QUADRATURE)
         fprintf(p->to, "    model: %s, with quadrature over the gap\n", models[MODEL_CLOSED].title);
     else
@@ -338,7 +369,7 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
         put_inputs(p, q, &study);
         if (has)
             put_load(p, q, &study);
-        put_model(p, q, of->call);
+        put_model(p, q, of->call, has ? &e : NULL);
     }
     if (ok && has)
         put_value(p, of->text, of->len, v);

@@ -391,7 +391,7 @@ static fret_status limit_cycle(general *g, long double *loss, long double *moved
     for (unsigned i = 0; i < g->levels && !st.code; i++)
         st = period_loss(g, &g->run[i], &at[i]);
     *moved = 0;
-    *loss = g->levels > 1 ? run_limit(at, 0, moved) : at[0];
+    *loss = g->levels > 1 ? run_limit(at, moved) : at[0];
     return st;
 }
 
