@@ -25,7 +25,9 @@ static fret_level level_of(const twins *t, const fret_level *of) {
 static void slice(const twins *t, const fret_level *outer, const fret_level *inner) {
     const struct fret_pieces *pieces = t->ready->pieces;
     const fret_real h = outer->y - inner->y, w = outer->F - inner->F,
-                    few = t->exact + 1e-17L * outer->y / h; /* depths are known to that of the whole */
+                    lost =
+                        inner->y > 0 ? 1e-18L * outer->y / inner->y : 0, /* by h, which the plain one has */
+        few = t->exact + 1e-17L * outer->y / h + lost; /* depths are known to that of the whole */
     fret_slice got;
     fret_real thick;
     if (h < 1e-3L * outer->y)
@@ -65,6 +67,16 @@ static void mean(const twins *t, fret_real from, fret_real to) {
     CHECK_REL(got, sum, 1e-9L);
 }
 
+/* The profile by a piece of the law, where such tell it. */
+static void depth(const twins *t, const piece *p) {
+    fret_real got, unused;
+    for (int i = 0; i < 3; i++) {
+        const fret_real e = fret_piece_distance(p, i ? (fret_real)uniform(-1, 1) : -1, &unused);
+        if (fret_pieces_depth(t->ready->pieces, e, &got))
+            CHECK_REL(got, fret_gap_profile(&t->plain->gap, &t->plain->rule, e).g, t->exact);
+    }
+}
+
 static void edges(const twins *t, double F) {
     const struct fret_pieces *pieces = t->ready->pieces;
     const law *all = pieces->law;
@@ -72,6 +84,7 @@ static void edges(const twins *t, double F) {
     const size_t each = all->count / 5 + 1;
     fret_level inner[3], outer[3];
     for (size_t i = 0; i < all->count; i += each) {
+        depth(t, &all->piece[i]);
         inner[0] = level_of(t, &all->piece[i].outer);
         inner[1] = level_of(t, &all->piece[i].inner);
         inner[2] = none;
@@ -123,7 +136,7 @@ static void edges(const twins *t, double F) {
 }
 
 /* Of a table where `rows`, each off by that part; off < 0: each so many times as far as the one before. */
-static void contact(fret_gap gap, int rows, double off, double k, fret_real exact) {
+static void contact(fret_gap gap, int rows, double off, double k, fret_real exact, double borne) {
     static double r[100], f[100];
     const fret_material m = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
     const double wide = 1e-3;
@@ -141,7 +154,7 @@ static void contact(fret_gap gap, int rows, double off, double k, fret_real exac
     CHECK_OK(fret_normal_make(&m, &gap, &t.plain));
     CHECK_OK(fret_normal_make(&m, &gap, &t.ready));
     CHECK_OK(fret_press_by_radius(t.plain, (double)fret_gap_start(&gap) + 0.9 * wide, &p));
-    CHECK_OK(fret_normal_prepare(t.ready, (double)p.F, 0));
+    CHECK_OK(fret_normal_prepare(t.ready, (double)p.F, borne));
     const long failed = unit.failed;
     if (CHECK(t.ready->pieces))
         edges(&t, (double)p.F);
@@ -158,18 +171,22 @@ int main(int argc, char **argv) {
     for (size_t i = 0; i < sizeof grading / sizeof *grading; i++) {
         const double k = grading[i];
         contact((fret_gap){.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 2e6, 1}}}, 0, 0, k,
-                1e-10L);
+                1e-10L, 0);
         /* hardly more than one power: long pieces */
         contact((fret_gap){.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 1e-3, 1}}}, 0, 0, k,
-                1e-10L);
+                1e-10L, 0);
         contact((fret_gap){.kind = FRET_GAP_SUM, .terms = 2, .power = {{1, 0.05, 1}, {2, 1e-6, 1}}}, 0, 0, k,
-                1e-10L);
-        contact((fret_gap){.kind = FRET_GAP_EXACT_SPHERE, .R = 1e-2}, 0, 0, k, 1e-10L);
-        contact((fret_gap){.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 0.02}, 0, 0, k, 1e-10L);
-        contact((fret_gap){0}, 60, 0, k, 1e-9L);
-        contact((fret_gap){0}, 60, 1e-4, k, 1e-9L);
-        contact((fret_gap){0}, 8, -3, k, 1e-9L);
-        contact((fret_gap){0}, 5, -10, k, 1e-9L);
+                1e-10L, 0);
+        contact((fret_gap){.kind = FRET_GAP_EXACT_SPHERE, .R = 1e-2}, 0, 0, k, 1e-10L, 0);
+        contact((fret_gap){.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 0.02}, 0, 0, k, 1e-10L, 0);
+        contact((fret_gap){0}, 60, 0, k, 1e-9L, 0);
+        contact((fret_gap){0}, 60, 1e-4, k, 1e-9L, 0);
+        contact((fret_gap){0}, 8, -3, k, 1e-9L, 0);
+        contact((fret_gap){0}, 5, -10, k, 1e-9L, 0);
+        contact((fret_gap){0}, 5, 1e-3, k, 1e-9L, 1e-9);
+        contact((fret_gap){0}, 8, -3, k, 1e-9L, 1e-9);
+        contact((fret_gap){0}, 5, -10, k, 1e-9L, 1e-9);
+        contact((fret_gap){0}, 4, -50, k, 1e-9L, 1e-9);
     }
     return unit_finish();
 }
