@@ -55,6 +55,12 @@ fret_status fret_swing_step(fret_swing *swing, const fret_step *step);
 void fret_swing_state(const fret_swing *swing, fret_state *out);
 fret_real fret_swing_last_loss(const fret_swing *swing); /* of the last period, part or step [J] */
 
+/* Traction [Pa] and surface displacement [m], as of a memory (fret/field.h), and the displacement u(x) [m] of
+ * the spring at x: along the curves themselves. Accuracy 1e-13 of the largest value. */
+fret_status fret_swing_traction(const fret_swing *swing, fret_real r, fret_real *q);
+fret_status fret_swing_surface_x(const fret_swing *swing, fret_real r, fret_real *u);
+fret_real fret_swing_displacement(const fret_swing *swing, fret_real x);
+
 /* The state as a memory: curved pieces in 640 straight ones each. Error: FRET_NO_MEMORY. */
 fret_status fret_swing_memory(const fret_swing *swing, fret_memory *out);
 

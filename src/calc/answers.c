@@ -353,6 +353,14 @@ bool scene_memory(scene *s, const fret_memory **memory, calc_error *error) {
     return *memory || calc_no_memory(error);
 }
 
+bool scene_curve(scene *s, const fret_swing **curve, calc_error *error) {
+    const runner *run;
+    if (!present_run(s, &run, error))
+        return false;
+    *curve = engine_curve(&run->engine);
+    return true;
+}
+
 /* ---- the normal contact now -------------------------------------------------------------------- */
 
 static bool press_of_program(scene *s, calc_error *error) {

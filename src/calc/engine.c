@@ -239,6 +239,11 @@ fret_status engine_swing(engine *e, const fret_sine *load, double from, double t
     return st;
 }
 
+const fret_swing *engine_curve(const engine *e) {
+    const sine *s = engine_is_sine(e) ? e->self : NULL;
+    return s ? s->swing : NULL;
+}
+
 const fret_memory *engine_memory(const engine *e) {
     if (!engine_is_sine(e))
         return e->self;

@@ -177,6 +177,8 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error);
 /* Of it only F_N, dz, F_x, dx and W: at an instant on the way of a load far cheaper. */
 bool scene_forces(scene *s, const fret_state **state, calc_error *error);
 bool scene_memory(scene *s, const fret_memory **memory, calc_error *error);
+/* The same without chords, after a swinging load; NULL: there is no such curve, the memory is exact. */
+bool scene_curve(scene *s, const fret_swing **curve, calc_error *error);
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error);
 bool scene_cycle_loss(scene *s, long double *loss, calc_error *error);
 

@@ -206,10 +206,8 @@ static fret_real outside_integral(const fret_normal *n, fret_real r, fret_real d
     return fret_pow(hi, k1) * span / k1 * fret_integrate(outside_part, &c);
 }
 
-/* With q = (a/r)^2 half the incomplete beta function B_q(m,1-m), by its series in q, or in 1-q from the edge
- * on. */
-static fret_real flat_outside(fret_real k, fret_real a, fret_real r) {
-    const fret_real m = (k + 1) / 2, q = (a / r) * (a / r), away = (r - a) / r * ((r + a) / r);
+fret_real fret_field_flat(fret_real k, fret_real q, fret_real away) {
+    const fret_real m = (k + 1) / 2;
     const bool near = away < 0.5L;
     const fret_real b = near ? (1 - k) / 2 : m, x = near ? away : q;
     fret_real sum = 0, term = 1;
@@ -219,6 +217,10 @@ static fret_real flat_outside(fret_real k, fret_real a, fret_real r) {
     }
     sum *= fret_pow(x, b);
     return (near ? FRET_PI / fret_sin(FRET_PI * fminl(m, 1 - m)) - sum : sum) / 2;
+}
+
+static fret_real flat_outside(fret_real k, fret_real a, fret_real r) {
+    return fret_field_flat(k, (a / r) * (a / r), (r - a) / r * ((r + a) / r));
 }
 
 /* What powers leave of that, int_0^a x^k (dz-g) (r^2-x^2)^-m dx, by the same series of the kernel from the
@@ -478,27 +480,29 @@ fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_re
     return surface_of(n, &at, r, w);
 }
 
+fret_status fret_field_of(const fret_normal *n, fret_real y, fret_real r, bool traction, fret_real *out) {
+    const bool steep = fret_normal_closed(n) && is_steep(n);
+    const fret_real a = fret_law_radius(n, y);
+    *out = 0;
+    if (traction && !steep)
+        return fret_pressure(n, a, r, out);
+    if (!(y > 0))
+        return fret_ok();
+    /* the depth tells the edge to more digits than its radius, of steep powers and near flat ends */
+    const edge at = {a, y, steep ? fret_law_log_radius(n, y) : (dd){0, 0}};
+    return traction ? pressure_of(n, &at, r, out) : surface_of(n, &at, r, out);
+}
+
 /* Sum over the slices of weight sigma times the difference of the field at their two ends. */
 static fret_status superpose(const fret_memory *m, fret_real r, bool traction, fret_real *out) {
     const fret_normal *n = fret_memory_normal(m);
     fret_segment s;
-    const bool steep = fret_normal_closed(n) && is_steep(n);
     fret_real inner = 0, sum = 0;
     fret_status st = fret_check_not_negative("r", (double)r);
     *out = 0;
     for (size_t i = 0; !st.code && fret_memory_segment(m, i, &s); i++) {
-        st = fret_unless_stopped(n, st);
-        if (st.code)
-            break;
-        const fret_real a = fret_law_radius(n, s.outer);
-        fret_real outer = 0;
-        if (traction && !steep) {
-            st = fret_pressure(n, a, r, &outer);
-        } else if (s.outer > 0) {
-            /* the depth tells the edge to more digits than its radius, of steep powers and near flat ends */
-            const edge at = {a, s.outer, steep ? fret_law_log_radius(n, s.outer) : (dd){0, 0}};
-            st = traction ? pressure_of(n, &at, r, &outer) : surface_of(n, &at, r, &outer);
-        }
+        fret_real outer;
+        st = fret_unless_stopped(n, fret_field_of(n, s.outer, r, traction, &outer));
         sum += s.sigma * (outer - inner);
         inner = outer;
     }

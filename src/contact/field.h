@@ -9,6 +9,15 @@
 fret_status fret_field_surface(const fret_normal *normal, fret_real a, fret_real dz, fret_real r,
                                fret_real *w);
 
+/* p or w at r of the contact that is y deep. */
+fret_status fret_field_of(const fret_normal *normal, fret_real y, fret_real r, bool traction, fret_real *out);
+
+/* A flat punch's surface but for its depth and factor, int_0^a x^k (r^2-x^2)^-m dx, r > a, m = (k+1)/2: half
+ * the incomplete beta function B_q(m,1-m), q = (a/r)^2, by its series in q, or in away = 1-q from the edge
+ * on.
+ */
+fret_real fret_field_flat(fret_real k, fret_real q, fret_real away);
+
 /* What becomes of such integrals by 2 cos(pi k/2)/pi: a surface. */
 fret_real fret_field_surface_factor(fret_real k);
 

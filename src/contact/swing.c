@@ -9,76 +9,10 @@
 #include "contact/check.h"
 #include "contact/memory.h"
 #include "contact/phase.h"
+#include "contact/swing.h"
 #include "number/array.h"
 #include "number/quadrature.h"
 #include "number/real.h"
-
-/* Two coordinates of a place on the curve or on the way of the load. */
-enum { M, P };
-
-/* A way of the load over s: straight over 0..1, or harmonic, each coordinate mean + size cos(s - lag). */
-typedef struct way {
-    bool harmonic;
-    fret_real start[2], span[2];
-    fret_real mean, size[2], lag[2];
-} way;
-
-/* A part of the curve from the place first to the place last: straight, or the way itself between two
- * instants. */
-typedef struct piece {
-    fret_real first[2], last[2];
-    bool curved;
-    way way;
-    fret_real lo, hi;
-    bool known; /* of one that is curved: its sums, once they have been asked for */
-    fret_real sum[2];
-} piece;
-
-struct fret_swing {
-    const fret_normal *normal;
-    double mu;
-    fret_real FN, Fx; /* now; the end of the curve is their M, P */
-    fret_real dz, a;  /* the edge */
-    fret_real slid;   /* delta_x - mu eta int sigma dy */
-    int direction;
-    fret_sum W;
-    fret_real last_loss, scale; /* scale: the largest of M and P so far */
-    size_t count, room;
-    piece *pieces; /* innermost first */
-};
-
-/* ---- ways -------------------------------------------------------------------------------------- */
-
-static fret_real way_at(const way *w, int which, fret_real s) {
-    return w->harmonic ? w->mean + w->size[which] * fret_cos(s - w->lag[which])
-                       : w->start[which] + w->span[which] * s;
-}
-
-/* -d/ds of a coordinate */
-static fret_real way_fall(const way *w, int which, fret_real s) {
-    return w->harmonic ? w->size[which] * fret_sin(s - w->lag[which]) : -w->span[which];
-}
-
-/* The angle less whole turns, within pi of `middle`. */
-static fret_real turned_to(fret_real angle, fret_real middle) {
-    const fret_real turn = 2 * FRET_PI;
-    return angle - turn * floorl((angle - middle) / turn + 0.5L);
-}
-
-/* When a coordinate, monotone between lo and hi, has the level. */
-static fret_real way_when(const way *w, int which, fret_real level, fret_real lo, fret_real hi) {
-    fret_real s;
-    if (w->harmonic) {
-        const fret_real c = fmaxl(-1, fminl(1, (level - w->mean) / w->size[which]));
-        const fret_real angle = fret_atan2(sqrtl((1 - c) * (1 + c)), c), middle = (lo + hi) / 2;
-        const fret_real one = turned_to(w->lag[which] + angle, middle),
-                        two = turned_to(w->lag[which] - angle, middle);
-        s = fabsl(one - middle) < fabsl(two - middle) ? one : two;
-    } else {
-        s = (level - w->start[which]) / w->span[which];
-    }
-    return fminl(fmaxl(s, lo), hi);
-}
 
 /* Of two that are harmonic, and meet where both rise: then their lags are the same, too. */
 static bool same_way(const way *a, const way *b) {

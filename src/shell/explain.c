@@ -98,13 +98,23 @@ static void put_paths(const page *p) {
 
 /* ---- the model --------------------------------------------------------------------------------- */
 
-/* Of the results, those that are taken to the limit of chords. */
-static bool is_extrapolated(const quantity *q, bool call) {
-    static const char *const names[] = {"Fx", "dx", "W", "U", "dW"};
-    for (size_t i = 0; !call && i < sizeof names / sizeof *names; i++)
+static bool is_among(const quantity *q, const char *const *names, size_t count) {
+    for (size_t i = 0; i < count; i++)
         if (!strcmp(q->name, names[i]))
             return true;
     return false;
+}
+
+/* Of the results, those that are taken to the limit of chords. */
+static bool is_extrapolated(const quantity *q, bool call) {
+    static const char *const names[] = {"Fx", "dx", "W", "U", "dW"};
+    return !call && is_among(q, names, sizeof names / sizeof *names);
+}
+
+/* Of the functions, those of the state now. */
+static bool is_local(const quantity *q) {
+    static const char *const names[] = {"qx", "ux", "u1D", "s1D", "qx1D"};
+    return is_among(q, names, sizeof names / sizeof *names);
 }
 
 /* Rounded up to one digit. */
@@ -140,7 +150,7 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
     const bool limit = is_extrapolated(q, call);
     long double at[LEVELS];
     fprintf(p->to, "    model: %s, ", models[model].title);
-    if (model == MODEL_MEMORY && a->levels == 1 && !call) {
+    if (model == MODEL_MEMORY && a->levels == 1 && (!call || is_local(q))) {
         fputs("the sine itself, event by event (exact)\n", p->to);
         return;
     }

@@ -27,7 +27,7 @@ TOLD = (
     (STEEL, "dz(0 N)", (r"    dz\(0 N\) = 0 m",), ("    FN now",)),
     (STEEL, "f(0 m)", (r"    f\(0 m\) = 0 m",), ("    FN now",)),
     # models
-    (PRESSED + "cycle FA=9 N FNA=10 N\n", "qx(0.1 mm)", ("    model: memory diagram, by 640 chords a period of the sine",), ()),
+    (PRESSED + "cycle FA=9 N FNA=10 N\n", "qx(0.1 mm)", ("    model: memory diagram, the sine itself, event by event \\(exact\\)",), ()),
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "W", ("    model: memory diagram, the sine itself, event by event \\(exact\\)",), ("    cycle: ",)),
     (PRESSED + "step FN=150 N; step FN=120 N\n", "a", ("    FN now = 120 N",), ("    mu = ", "    Fx now")),
     (PRESSED + "step FN=150 N; step FN=120 N\n", "FN*a", ("FN: normal force.*", "    FN = 120 N"), ()),

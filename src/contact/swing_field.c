@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fields of a memory curve: straight pieces as differences of two contacts; of curved ones the field of what
+ * each contact adds to the one within it, which has a formula, along the way itself. Allocates nothing. */
+#include "contact/check.h"
+#include "contact/field.h"
+#include "contact/swing.h"
+#include "number/quadrature.h"
+
+/* What a place asks of a curved piece: int weight sigma dy along it. The normal and the tangential load are
+ * the coordinates M and P of `of`; instants count from `from`, where the load is `beyond` more than N. */
+typedef enum weight { PRESSED, OUTSIDE, INSIDE } weight;
+typedef struct bend {
+    const fret_normal *normal;
+    way of;
+    fret_real r, N; /* the place, and the load of a contact that ends there */
+    fret_real from, beyond;
+    weight weight;
+    fret_real lo, hi, power, sign; /* sign: of the slope */
+} bend;
+
+/* Sum (M) or difference (P) of half the coordinates. */
+static void make_loads(const way *w, way *out) {
+    *out = (way){.harmonic = true, .mean = w->mean};
+    for (int i = M; i <= P; i++) {
+        fret_real x = 0, y = 0;
+        for (int j = M; j <= P; j++) {
+            const fret_real half = (i == P && j == M ? -1 : 1) * w->size[j] / 2;
+            x += half * fret_cos(w->lag[j]);
+            y += half * fret_sin(w->lag[j]);
+        }
+        out->size[i] = sqrtl(x * x + y * y);
+        out->lag[i] = fret_atan2(y, x);
+    }
+}
+
+/* How far the load at the time w is above N, with all digits where that is little. */
+static fret_real rise_at(const bend *b, fret_real w) {
+    return b->beyond - 2 * b->of.size[M] * fret_sin(b->from + w / 2 - b->of.lag[M]) * fret_sin(w / 2);
+}
+
+/* a^2/r^2 - 1 of the contact that has so much more load; its radius is a. */
+static fret_real square_rise(const bend *b, fret_real rise, fret_real a) {
+    const fret_real ratio = rise / b->N;
+    if (b->N > 0 && isfinite(ratio))
+        return fret_expm1(2 / b->normal->s * fret_log1p(ratio));
+    return (a - b->r) / b->r * ((a + b->r) / b->r);
+}
+
+/* sigma dy/dt */
+static fret_real depth_rate(const bend *b, fret_real w, fret_real y, fret_real N) {
+    return -way_fall(&b->of, P, b->from + w) * b->normal->q * y / N;
+}
+
+/* At the time w; a kernel that is singular at w = 0 but for |w|^(1-power). */
+static fret_real rate_at(const bend *b, fret_real w, bool but) {
+    const fret_real k = b->normal->foundation.k, N = way_at(&b->of, M, b->from + w),
+                    y = fret_law_depth(b->normal, N), sum = depth_rate(b, w, y, N);
+    if (b->weight == INSIDE)
+        return sum;
+    const fret_real a = fret_law_radius(b->normal, y), rise = rise_at(b, w);
+    if (b->weight == PRESSED) {
+        const fret_real way2 = b->r > 0 ? b->r * b->r * square_rise(b, rise, a) : a * a;
+        return way2 > 0 ? sum * fret_pow(but ? way2 / w : way2, (k - 1) / 2) : 0;
+    }
+    const fret_real away = fminl(fmaxl(-square_rise(b, rise, a), 0), 1);
+    return sum * fret_field_flat(k, 1 - away, away);
+}
+
+/* From `from` on, t to the power of what takes the singularity away. */
+static fret_real touching_rate(fret_real t, fret_real rest, void *context) {
+    static const fret_real deep = 1e-100L;
+    const bend *b = context;
+    const fret_real w = b->hi * fmaxl(fret_pow(t, b->power), deep);
+    (void)rest;
+    return rate_at(b, w, b->weight == PRESSED);
+}
+
+static fret_real other_rate(fret_real t, fret_real rest, void *context) {
+    const bend *b = context;
+    return b->sign * rate_at(b, b->lo * rest + b->hi * t, false);
+}
+
+/* Between the times lo and hi. */
+static fret_real sum_between(bend *b, fret_real lo, fret_real hi) {
+    static const fret_real little = 1e-16L;
+    fret_real sum = 0;
+    for (fret_real end; hi - lo > little; lo = end) { /* where it does, the sign changes */
+        fret_real turn = turned_to(b->of.lag[P], b->from + lo) - b->from;
+        while (turn <= lo + little)
+            turn += FRET_PI;
+        end = fminl(turn, hi);
+        b->lo = lo;
+        b->hi = end;
+        b->sign = way_fall(&b->of, P, b->from + (lo + end) / 2) > 0 ? -1 : 1;
+        sum += b->sign * (end - lo) * fret_integrate_pieces(other_rate, b, 1e-14L);
+    }
+    return sum;
+}
+
+/* As long as nothing else is singular in the plane of complex times: the load that is nothing, and the
+ * instant before the load turned at which it was the same. */
+static fret_real alone(const bend *b) {
+    const fret_real angle = turned_to(b->from - b->of.lag[M], -FRET_PI / 2);
+    const fret_real opens = sqrtl(2 * b->N / b->of.size[M]), again = 2 * (angle + FRET_PI);
+    return again > 1e-6L ? fminl(opens, again) : opens;
+}
+
+/* Between the times lo and hi, of which one may be where the contact ends at r. */
+static fret_real integral(bend *b, fret_real lo, fret_real hi) {
+    fret_real sum = 0;
+    if (b->weight == INSIDE || b->beyond != 0 || (lo != 0 && hi != 0))
+        return sum_between(b, lo, hi);
+    const fret_real part = fminl(hi - lo, alone(b)), m = (b->normal->foundation.k + 1) / 2;
+    b->power = b->weight == PRESSED ? 1 / m : 1;
+    b->hi = lo != 0 ? -part : part;
+    sum = (b->weight == PRESSED ? fret_pow(part, m) / m : part) * fret_integrate(touching_rate, b);
+    return sum + (lo != 0 ? sum_between(b, lo, -part) : sum_between(b, part, hi));
+}
+
+/* The parts of a curved piece within and beyond the load N. */
+static fret_real sum_of(bend *b, const piece *p, weight outside, weight inside, fret_real factor) {
+    fret_real sum = 0;
+    make_loads(&p->way, &b->of);
+    const fret_real first = way_at(&b->of, M, p->lo) - b->N, last = way_at(&b->of, M, p->hi) - b->N;
+    b->from = first >= 0 ? p->lo : last <= 0 ? p->hi : way_when(&b->of, M, b->N, p->lo, p->hi);
+    b->beyond = first >= 0 ? first : last <= 0 ? last : 0;
+    b->weight = outside;
+    if (outside != PRESSED && b->from > p->lo)
+        sum += factor * integral(b, p->lo - b->from, 0);
+    b->weight = inside;
+    if (b->from < p->hi)
+        sum += integral(b, 0, p->hi - b->from);
+    return sum;
+}
+
+static fret_status begin(const fret_swing *c, fret_real r, bend *b) {
+    const fret_status st = fret_check_not_negative("r", (double)r);
+    const fret_normal *n = c->normal;
+    *b = (bend){.normal = n, .r = r};
+    if (!st.code && r > 0) {
+        const fret_profile p = fret_gap_profile(&n->gap, &n->rule, r);
+        b->N = fret_force_of(n, &p);
+    }
+    return st;
+}
+
+static fret_real depth_at(const fret_swing *c, const fret_real at[2]) {
+    const fret_real N = (at[M] + at[P]) / 2;
+    return N > 0 ? fret_law_depth(c->normal, N) : 0;
+}
+
+/* (dP-dM)/(dP+dM) */
+static fret_real slope_of(const piece *p) {
+    const fret_real m = p->last[M] - p->first[M], up = p->last[P] - p->first[P];
+    return m + up > 0 ? (up - m) / (m + up) : 0;
+}
+
+fret_status fret_swing_traction(const fret_swing *c, fret_real r, fret_real *q) {
+    const fret_foundation *f = &c->normal->foundation;
+    bend b;
+    fret_real sum = 0, curved = 0;
+    fret_status st = begin(c, r, &b);
+    *q = 0;
+    for (size_t i = 0; i < c->count && !st.code && r < c->a; i++) {
+        const piece *p = &c->pieces[i];
+        if (p->curved) {
+            curved += sum_of(&b, p, PRESSED, PRESSED, 0);
+            continue;
+        }
+        const fret_real sigma = slope_of(p);
+        fret_real inner = 0, outer = 0;
+        if (sigma != 0)
+            st = fret_field_of(c->normal, depth_at(c, p->first), r, true, &inner);
+        if (sigma != 0 && !st.code)
+            st = fret_field_of(c->normal, depth_at(c, p->last), r, true, &outer);
+        sum += sigma * (outer - inner);
+    }
+    if (!st.code)
+        *q = c->mu * (sum + f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * curved);
+    return st;
+}
+
+fret_status fret_swing_surface_x(const fret_swing *c, fret_real r, fret_real *u) {
+    const fret_real factor = fret_field_surface_factor(c->normal->foundation.k);
+    bend b;
+    fret_real sum = 0;
+    fret_status st = begin(c, r, &b);
+    *u = 0;
+    for (size_t i = 0; i < c->count && !st.code; i++) {
+        const piece *p = &c->pieces[i];
+        if (p->curved) {
+            sum += sum_of(&b, p, OUTSIDE, INSIDE, factor);
+            continue;
+        }
+        fret_real inner = 0, outer = 0;
+        st = fret_field_of(c->normal, depth_at(c, p->first), r, false, &inner);
+        if (!st.code)
+            st = fret_field_of(c->normal, depth_at(c, p->last), r, false, &outer);
+        sum += slope_of(p) * (outer - inner);
+    }
+    if (!st.code)
+        *u = c->mu * c->normal->foundation.eta * sum;
+    return st;
+}
+
+fret_real fret_swing_displacement(const fret_swing *c, fret_real x) {
+    bend b;
+    fret_real sum = 0;
+    if (begin(c, fabsl(x), &b).code || !(b.r < c->a))
+        return 0;
+    const fret_real y = fret_normal_profile(c->normal, b.r);
+    for (size_t i = c->count; i-- > 0;) {
+        const piece *p = &c->pieces[i];
+        if (p->curved)
+            sum += sum_of(&b, p, PRESSED, INSIDE, 0);
+        else
+            sum += slope_of(p) * fmaxl(depth_at(c, p->last) - fmaxl(depth_at(c, p->first), y), 0);
+    }
+    return c->mu * c->normal->foundation.eta * sum;
+}
