@@ -324,10 +324,13 @@ static bool eval(machine *m, const expr_node *n, value *out) {
         return true;
     case N_QUANTITY:
         *out = (value){1, quantity_dim(n->q, m->c->now)};
-        return m->dry || quantity_get(n->q, m->c->now, &out->v, m->error) ||
-               calc_place(m->error, n->at, n->len);
+        if (!m->dry && !quantity_get(n->q, m->c->now, &out->v, m->error))
+            return calc_place(m->error, n->at, n->len);
+        break;
     case N_CALL:
-        return call_quantity(m, n, out);
+        if (!call_quantity(m, n, out))
+            return false;
+        break;
     case N_APPLY:
         return apply(m, n, out);
     case N_AT:
@@ -433,7 +436,8 @@ static bool call_block(calc *c, const quantity *q, operand a, dim d, size_t rows
         return true;
     }
     for (size_t i = 0; i < rows; i++)
-        if (*c->now->stop || !q->call(c->now, (value){a.v[i], d}, &out[i], &unused))
+        if (*c->now->stop || !q->call(c->now, (value){a.v[i], d}, &out[i], &unused) ||
+            !isfinite((double)out[i]))
             return false;
     return true;
 }

@@ -357,9 +357,11 @@ static bool parse_number(parser *p, size_t *out) {
     if (unit_at(lx)) {
         if (!unit_parse(lx, &u))
             return false;
+        const bool zero = node.v.v == 0;
         node.v = (value){unit_literal(lx, at, len, &u), u.d};
-        if (!isfinite((double)node.v.v))
-            return calc_fail(lx->error, at, lx->last - at, "the number is too large for double precision");
+        if (!isfinite((double)node.v.v) || (node.v.v == 0 && !zero))
+            return calc_fail(lx->error, at, lx->last - at, "the number is too %s for double precision",
+                             node.v.v == 0 ? "small" : "large");
     }
     if (lx->error->raised)
         return false;

@@ -180,7 +180,7 @@ static bool to_long(const scene_rows *r, const double *v, long double out[]) {
     bool all = true;
     for (size_t i = 0; i < r->count; i++) {
         out[i] = v[i];
-        all = all && !isnan(v[i]);
+        all = all && isfinite(v[i]);
     }
     return all;
 }
