@@ -161,10 +161,8 @@ static bool run_ahead(side *s, double time, bool once, calc_error *error) {
     return ok;
 }
 
-/* The one that is nearest to the time, from the last one that was asked for; or NULL. */
+/* The one at the time, from the last one that was asked for on; or NULL. */
 static stop *stop_at(side *s, double time) {
-    if (time < s->from)
-        return NULL;
     while (s->next + 1 < s->stops &&
            fabs(s->stop[s->next + 1].run.time - time) < fabs(s->stop[s->next].run.time - time))
         s->next++;

@@ -230,7 +230,7 @@ static double slip_rate(const swing *w, double angle, int sign) {
     if (w->cycle->step.tangential == BY_DISPLACEMENT) {
         fret_press press;
         const double FN = (double)(w->FN + FNA * fret_cos((long double)angle + phase));
-        if (!(FN > 0) || fret_press_by_force(w->load->normal, FN, &press).code || !(press.a > 0))
+        if (!(FN > 0) || fret_press_by_force(w->load->normal, FN, &press).code)
             return NAN;
         bound *= (double)(fret_normal_foundation(w->load->normal)->eta /
                           fret_normal_stiffness(w->load->normal, press.a));

@@ -198,5 +198,26 @@ def periods(tests):
     tests.each(jobs)
 
 
+def told_apart(tests):
+    """Values of the same number that are changed at one instant: told apart by their names and units."""
+    got, done = rows(tests, "%s; geometry sphere R=10 mm; friction 0.4; press FN=100 N; x = 1 m; y = 2 m; cycle FA=10 N; table W, (W*x at x=3 m), "
+                     "(W*x at x=3 N), (W*y at y=3 m), (W*x at y=3 m), (W*x at mu=0.5), (W*x at x=0.5 m) along program steps 5" % MATERIALS[0])
+    wrong = [row for row in got if not all(math.isclose(v, by * row[1], rel_tol=1e-15) for v, by in zip(row[2:6], (3, 3, 3, 1))) or
+             not math.isclose(row[7], 0.5 * row[1]) or row[6] > row[1] or (row[1] > 0) != (row[6] > 0)]
+    tests.check("changed names and units are told apart", len(got) > 5 and got[-1][1] > 0 and not wrong, tests.report(done))
+
+
+def beyond(tests):
+    """Along a load that leaves the table: refused at once, or where it does; the scene stays."""
+    path = os.path.join(tests.dir, "short.csv")
+    with open(path, "w", encoding="ascii") as f:
+        f.write("r [mm],f [um]\n" + "".join("%g,%g\n" % (0.02 * i, 0.02 * i * i) for i in range(26)))
+    setup = "material steel; geometry file %s; friction 0.4; press a=0.499 mm; step Fx=1 N; " % path
+    for load in ("step FN=1 MN dx=1 um", "step dz=1 mm Fx=2 N", "cycle dxA=0.1 um FNA=50 N", "cycle FA=1 N FNA=50 N", "step dz=1 mm dx=1 um"):
+        done = tests.run("--keep-going", "-c", setup + "table W along %s steps 3\nFx, a" % load)
+        tests.check("along a load that leaves the table: " + load, done.returncode == 1 and done.stdout == "Fx = 1 N\na = 499 um\n" and
+                    done.stderr.count("error:") == 1 and "cannot be carried: the gap supports contact radii up to 500 um" in done.stderr, tests.report(done))
+
+
 def run(tests):
-    tests.rooms(periods, same_but_for_a_dimension, against_with, against_cut, many, turning_points, kept_instants)
+    tests.rooms(periods, same_but_for_a_dimension, against_with, against_cut, many, turning_points, kept_instants, told_apart, beyond)
