@@ -35,19 +35,24 @@ void fret_chebyshev_terms(const fret_chebyshev *c, const fret_real *value, fret_
         fold[0][j] = value[j] + value[count - 1 - j];
         fold[1][j] = value[j] - value[count - 1 - j];
     }
-    for (int i = 0; i < count; i++) {
-        term[i] = 0;
-        for (int j = 0; j < half; j++)
-            term[i] += c->at[i][j] * fold[i & 1][j];
-        term[i] *= (i ? 2 : 1) / (fret_real)count;
+    for (int i = 0; i < count; i += 2) { /* two sums at a time, not in memory */
+        const fret_real *at = c->at[i], *next = c->at[i + 1];
+        fret_real even = 0, odd = 0;
+        for (int j = 0; j < half; j++) {
+            even += at[j] * fold[0][j];
+            odd += next[j] * fold[1][j];
+        }
+        term[i] = even * ((i ? 2 : 1) / (fret_real)count);
+        term[i + 1] = odd * (2 / (fret_real)count);
     }
 }
 
 void fret_chebyshev_powers(const fret_chebyshev *c, const fret_real *term, int count, fret_real *power) {
     const int step = c->from_nil ? 1 : 2; /* of z, even and odd ones stay apart */
     for (int j = 0; j < FRET_CHEBYSHEV; j++) {
-        power[j] = 0;
+        fret_real sum = 0;
         for (int i = j; i < count; i += step)
-            power[j] += term[i] * c->power[i][j];
+            sum += term[i] * c->power[i][j];
+        power[j] = sum;
     }
 }
