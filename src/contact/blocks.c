@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "contact/check.h"
-#include "contact/rows.h"
 #include "contact/table.h"
 
 enum { BLOCK = 512 };
@@ -14,63 +13,174 @@ enum { BLOCK = 512 };
 struct fret_blocks {
     fret_normal normal; /* of its own: who asks may have another stiffness */
     size_t count;
+    bool checked;
+    fret_real enough;
     fret_real *reach[3];               /* where each begins, and the last one ends, as of rows */
     _Atomic(struct fret_rows *) *made; /* or NULL */
+    _Atomic(stretch *) *run[RUNS];     /* as those of pieces, or NULL */
 };
 
-static const struct fret_rows *block_at(struct fret_blocks *all, size_t i) {
-    struct fret_rows *rows = atomic_load(&all->made[i]), *none = NULL;
+static fret_status make_block(struct fret_blocks *all, fret_stop stop, size_t i, fret_real *error) {
+    struct fret_rows *rows, *none = NULL;
     const fret_real *e = all->reach[SPOT_DISTANCE] + i;
-    if (rows || fret_rows_make(&all->normal, e[0], e[1], &rows, NULL).code)
+    fret_normal n = all->normal;
+    n.stop = stop;
+    const fret_status st = fret_rows_make(&n, e[0], e[1], &rows, error);
+    if (st.code)
+        return st;
+    const bool good = rows && !(error && *error > all->enough);
+    if (!good || !atomic_compare_exchange_strong(&all->made[i], &none, rows))
+        fret_rows_free(rows); /* also where another thread was faster */
+    return st;
+}
+
+static const struct fret_rows *block_at(struct fret_blocks *all, fret_stop stop, size_t i) {
+    const struct fret_rows *rows = atomic_load(&all->made[i]);
+    fret_real error = 0;
+    if (rows || make_block(all, stop, i, all->checked ? &error : NULL).code)
         return rows;
-    if (!atomic_compare_exchange_strong(&all->made[i], &none, rows)) { /* another thread was faster */
-        fret_rows_free(rows);
-        rows = none;
-    }
-    return rows;
+    return atomic_load(&all->made[i]);
 }
 
-/* The block and the place where a slice begins: at an end of blocks rounding decides. */
-static const struct fret_rows *begin(struct fret_blocks *all, fret_spot_by how, fret_real outer, size_t *i,
-                                     fret_spot *at) {
-    const fret_real *reach = all->reach[how];
-    for (*i = all->count; *i > 0 && reach[*i - 1] >= outer;)
-        --*i;
-    for (int tries = 0; tries < 2 && *i > 0; tries++) {
-        const struct fret_rows *rows = block_at(all, --*i);
-        if (!rows || fret_rows_find(rows, how, outer, at))
-            return rows;
-    }
-    return NULL;
-}
+/* ---- places ------------------------------------------------------------------------------------ */
 
-bool fret_blocks_slice(struct fret_blocks *all, bool by_load, fret_real outer, fret_real drop, stretch *sum,
-                       fret_real *K, fret_real *other) {
-    const fret_spot_by how = by_load ? SPOT_LOAD : SPOT_DEPTH;
-    fret_spot from, to;
-    size_t i;
-    if (!(outer - drop > all->reach[how][0]) || !fret_law_reaches(all->reach[how][all->count], outer))
+/* The block of a value, and its rows: at an end of blocks rounding decides. */
+bool fret_blocks_place(struct fret_blocks *all, fret_stop stop, fret_spot_by by, fret_real value,
+                       fret_place *out) {
+    const fret_real *reach = all->reach[by];
+    if (!(value > reach[0] && fret_law_reaches(reach[all->count], value)))
         return false;
-    const struct fret_rows *rows = begin(all, how, outer, &i, &from);
-    *sum = (stretch){0, 0, 0, 0};
-    *other = 0;
-    while (rows) {
-        const bool ends = fret_rows_drop(rows, how, &from, drop, &to);
-        if (!ends)
-            to = fret_rows_inner(rows);
-        const stretch part = fret_rows_between(rows, &from, &to);
-        *sum = fret_stretch_join(sum, &part);
-        *other += fret_rows_fall(rows, by_load ? DEPTHS : LOADS, &from, &to);
-        *K = fret_rows_stiffness(rows, &to);
-        if (ends)
+    size_t i = 0;
+    for (size_t count = all->count; count > 1;) { /* the last that begins before the value */
+        const size_t half = count / 2;
+        i += reach[i + half] < value ? half : 0;
+        count -= half;
+    }
+    for (int tries = 0; tries < 2; tries++) {
+        out->block = i;
+        out->rows = block_at(all, stop, i);
+        if (!out->rows)
+            return false;
+        if (fret_rows_place(out->rows, by, value, &out->spot))
             return true;
-        drop -= fret_rows_fall(rows, by_load ? LOADS : DEPTHS, &from, &to);
-        rows = i > 0 ? block_at(all, --i) : NULL;
-        if (rows)
-            from = fret_rows_outer(rows);
+        if (i-- == 0)
+            return false;
     }
     return false;
 }
+
+bool fret_blocks_find(struct fret_blocks *all, fret_stop stop, fret_spot_by by, fret_real value,
+                      fret_place *out) {
+    if (!fret_blocks_place(all, stop, by, value, out))
+        return false;
+    fret_rows_complete(out->rows, by, value, &out->spot);
+    return true;
+}
+
+fret_real fret_blocks_begin(const struct fret_blocks *all, fret_spot_by by) {
+    return all->reach[by][0];
+}
+
+bool fret_blocks_inner(struct fret_blocks *all, fret_stop stop, fret_place *out) {
+    out->block = 0;
+    out->rows = block_at(all, stop, 0);
+    if (out->rows)
+        out->spot = fret_rows_inner(out->rows);
+    return out->rows;
+}
+
+bool fret_blocks_drop(struct fret_blocks *all, fret_stop stop, fret_spot_by by, const fret_place *outer,
+                      fret_real drop, fret_place *out) {
+    const fret_real *reach = all->reach[by];
+    fret_place from = *outer;
+    while (!fret_rows_drop(from.rows, by, &from.spot, drop, &out->spot)) {
+        const fret_spot end = fret_rows_inner(from.rows);
+        drop -= fret_rows_fall(from.rows, by == SPOT_LOAD ? LOADS : DEPTHS, &from.spot, &end);
+        for (; from.block > 1 && drop > reach[from.block] - reach[from.block - 1]; from.block--)
+            drop -= reach[from.block] - reach[from.block - 1]; /* none of these is asked for */
+        from.rows = from.block > 0 ? block_at(all, stop, --from.block) : NULL;
+        if (!from.rows)
+            return false;
+        from.spot = fret_rows_outer(from.rows);
+        drop = fmaxl(drop, 0);
+    }
+    out->block = from.block;
+    out->rows = from.rows;
+    return true;
+}
+
+/* ---- from place to place ----------------------------------------------------------------------- */
+
+fret_real fret_blocks_fall(const struct fret_blocks *all, int by, const fret_place *outer,
+                           const fret_place *inner) {
+    if (outer->rows == inner->rows)
+        return fret_rows_fall(outer->rows, by, &outer->spot, &inner->spot);
+    const fret_real *reach = all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH];
+    const fret_spot end = fret_rows_inner(outer->rows), begin = fret_rows_outer(inner->rows);
+    return fret_rows_fall(outer->rows, by, &outer->spot, &end) +
+           (reach[outer->block] - reach[inner->block + 1]) +
+           fret_rows_fall(inner->rows, by, &begin, &inner->spot);
+}
+
+/* The 2^l blocks from i 2^l on; each run is the sum of both its halves, whether it has been kept or not. */
+static bool find_run(struct fret_blocks *all, fret_stop stop, int l, size_t i, stretch *sum) {
+    stretch *kept = atomic_load(&all->run[l][i]), *none = NULL, half[2];
+    if (kept) {
+        *sum = *kept;
+        return true;
+    }
+    if (l > 0) {
+        for (size_t j = 0; j < 2; j++)
+            if (!find_run(all, stop, l - 1, 2 * i + j, &half[j]))
+                return false;
+        *sum = fret_stretch_join(&half[1], &half[0]);
+    } else {
+        const struct fret_rows *rows = block_at(all, stop, i);
+        if (!rows)
+            return false;
+        const fret_spot outer = fret_rows_outer(rows), inner = fret_rows_inner(rows);
+        *sum = fret_rows_between(rows, &outer, &inner);
+    }
+    kept = malloc(sizeof *kept);
+    if (kept) {
+        *kept = *sum;
+        if (!atomic_compare_exchange_strong(&all->run[l][i], &none, kept))
+            free(kept);
+    }
+    return true;
+}
+
+/* As fret_stretch_add_runs. */
+static bool add_runs(struct fret_blocks *all, fret_stop stop, size_t from, size_t to, stretch *sum) {
+    while (from > to) {
+        int l = 0;
+        stretch run;
+        while (from % ((size_t)2 << l) == 0 && from - to >= (size_t)2 << l)
+            l++;
+        if (!find_run(all, stop, l, (from >> l) - 1, &run))
+            return false;
+        *sum = fret_stretch_join(sum, &run);
+        from -= (size_t)1 << l;
+    }
+    return true;
+}
+
+bool fret_blocks_between(struct fret_blocks *all, fret_stop stop, const fret_place *outer,
+                         const fret_place *inner, stretch *sum) {
+    if (outer->rows == inner->rows) {
+        *sum = fret_rows_between(outer->rows, &outer->spot, &inner->spot);
+        return true;
+    }
+    const fret_spot end = fret_rows_inner(outer->rows), begin = fret_rows_outer(inner->rows);
+    *sum = fret_rows_between(outer->rows, &outer->spot, &end);
+    if (!add_runs(all, stop, outer->block, inner->block + 1, sum))
+        return false;
+    const stretch rest = fret_rows_between(inner->rows, &begin, &inner->spot);
+    *sum = fret_stretch_join(sum, &rest);
+    return true;
+}
+
+/* ---- making ------------------------------------------------------------------------------------ */
 
 static bool allocate(struct fret_blocks *all) {
     bool ok = true;
@@ -81,10 +191,41 @@ static bool allocate(struct fret_blocks *all) {
     all->made = malloc(all->count * sizeof *all->made);
     for (size_t i = 0; all->made && i < all->count; i++)
         atomic_init(&all->made[i], NULL);
+    for (int l = 0; all->count >> l; l++) {
+        all->run[l] = malloc((all->count >> l) * sizeof *all->run[l]);
+        for (size_t i = 0; all->run[l] && i < all->count >> l; i++)
+            atomic_init(&all->run[l][i], NULL);
+        ok = ok && all->run[l];
+    }
     return ok && all->made;
 }
 
-fret_status fret_blocks_make(const fret_normal *n, fret_real e, struct fret_blocks **out) {
+/* The ends of blocks by the profile; of a single block by its own rows. */
+static fret_status set_reach(struct fret_blocks *all, const fret_normal *n, size_t first, size_t end) {
+    const struct fret_table *t = n->gap.table;
+    for (size_t i = 0; i <= all->count && !fret_stopped(n); i++) {
+        const size_t row = first + i * BLOCK;
+        const fret_real at = fret_table_distance(t, i < all->count ? row : end);
+        const fret_profile p = fret_table_profile(t, &n->rule, at);
+        all->reach[SPOT_DISTANCE][i] = at;
+        all->reach[SPOT_DEPTH][i] = p.g;
+        all->reach[SPOT_LOAD][i] = fret_force_of(n, &p);
+    }
+    return fret_unless_stopped(n, fret_ok());
+}
+
+static void take_reach(struct fret_blocks *all) {
+    const struct fret_rows *rows = atomic_load(&all->made[0]);
+    for (size_t i = 0; i < 2 && rows; i++) {
+        const fret_spot at = i ? fret_rows_outer(rows) : fret_rows_inner(rows);
+        all->reach[SPOT_DISTANCE][i] = at.e;
+        all->reach[SPOT_DEPTH][i] = at.at.y;
+        all->reach[SPOT_LOAD][i] = at.at.F;
+    }
+}
+
+fret_status fret_blocks_make(const fret_normal *n, fret_real e, bool at_once, fret_real enough,
+                             struct fret_blocks **out, fret_real *error) {
     const struct fret_table *t = n->gap.table;
     const size_t first = fret_table_row(t, 0) + 1;
     size_t end = fret_table_row(t, e);
@@ -96,23 +237,23 @@ fret_status fret_blocks_make(const fret_normal *n, fret_real e, struct fret_bloc
     if (all) {
         all->normal = *n;
         all->normal.pieces = NULL;
-        all->normal.stop = NULL; /* one takes but 20 ms */
-        all->count = (end - first + BLOCK - 1) / BLOCK;
+        all->count = at_once ? 1 : (end - first + BLOCK - 1) / BLOCK;
+        all->checked = error;
+        all->enough = enough;
     }
-    if (!all || !allocate(all)) {
+    fret_status st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    if (all && allocate(all))
+        st = set_reach(all, n, first, end);
+    if (!st.code && error)
+        st = make_block(all, n->stop, all->count / 2, error);
+    if (st.code) {
         fret_blocks_free(all);
-        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        return st;
     }
-    for (size_t i = 0; i <= all->count; i++) {
-        const size_t row = first + i * BLOCK;
-        const fret_real at = fret_table_distance(t, row < end ? row : end);
-        const fret_profile p = fret_table_profile(t, &n->rule, at);
-        all->reach[SPOT_DISTANCE][i] = at;
-        all->reach[SPOT_DEPTH][i] = p.g;
-        all->reach[SPOT_LOAD][i] = fret_force_of(n, &p);
-    }
+    if (at_once)
+        take_reach(all);
     *out = all;
-    return fret_ok();
+    return st;
 }
 
 void fret_blocks_free(struct fret_blocks *all) {
@@ -120,6 +261,11 @@ void fret_blocks_free(struct fret_blocks *all) {
         return;
     for (size_t i = 0; all->made && i < all->count; i++)
         fret_rows_free(atomic_load(&all->made[i]));
+    for (int l = 0; l < RUNS; l++) {
+        for (size_t i = 0; all->run[l] && i < all->count >> l; i++)
+            free(atomic_load(&all->run[l][i]));
+        free(all->run[l]);
+    }
     for (int i = 0; i < 3; i++)
         free(all->reach[i]);
     free(all->made);

@@ -118,6 +118,8 @@ void fret_normal_free(fret_normal *n) {
 
 void fret_normal_stop(fret_normal *n, fret_stop stop) {
     n->stop = stop;
+    if (n->pieces)
+        fret_pieces_stop(n->pieces, stop);
 }
 
 const fret_foundation *fret_normal_foundation(const fret_normal *n) {

@@ -12,6 +12,7 @@
 /* Of fret_normal_prepare, see pieces.h. */
 struct fret_pieces;
 void fret_pieces_free(struct fret_pieces *pieces);
+void fret_pieces_stop(struct fret_pieces *pieces, fret_stop stop); /* for what they make when asked */
 
 struct fret_normal {
     fret_foundation foundation;

@@ -48,7 +48,6 @@ typedef struct piece {
 } piece;
 /* Lengths of runs: powers of two. */
 enum { RUNS = 40 };
-struct fret_rows;
 struct fret_blocks;
 typedef struct law {
     atomic_size_t users;
@@ -56,8 +55,8 @@ typedef struct law {
     piece *piece;             /* from the centre outwards */
     fret_real *reach;         /* the outer ends: distance, then depth, then load, `count` each */
     stretch *run[RUNS];       /* run[l][i]: the 2^l pieces from i 2^l on */
-    struct fret_rows *rows;   /* beyond the pieces; or NULL */
-    struct fret_blocks *thin; /* of rows, for slices of a smaller part than `enough`; or NULL */
+    struct fret_blocks *rows; /* beyond the pieces; or NULL */
+    struct fret_blocks *thin; /* the same for slices of a smaller part than `enough` alone; or NULL */
     fret_real enough;
     fret_level least;         /* inner end of the first */
     stretch core;             /* within */
@@ -65,10 +64,11 @@ typedef struct law {
     fret_real from, error, deep;
 } law;
 
-/* Loads are those of the law times `scale`. */
+/* Loads are those of the law times `scale`. stop: that of the contact. */
 struct fret_pieces {
     law *law;
     fret_real scale;
+    fret_stop stop;
 };
 
 /* Outer part first. */

@@ -2,9 +2,9 @@
 /* Reading the law from its pieces. Pure. */
 #include "contact/pieces.h"
 
+#include <float.h>
+
 #include "contact/blocks.h"
-#include "contact/piece.h"
-#include "contact/rows.h"
 #include "number/real.h"
 
 enum { BY_DISTANCE, BY_DEPTH, BY_LOAD };
@@ -30,12 +30,14 @@ static fret_real place_of(const piece *p, int by, fret_real value) {
 }
 
 /* All but K. */
-static bool point_of(const law *all, int by, fret_real value, fret_point *out) {
+static bool point_of(const struct fret_pieces *of, int by, fret_real value, fret_point *out) {
+    const law *all = of->law;
+    const fret_spot_by how = by == BY_LOAD ? SPOT_LOAD : SPOT_DEPTH;
     size_t i;
     fret_real rate;
-    fret_spot s;
-    if (all->rows && fret_rows_find(all->rows, by == BY_LOAD ? SPOT_LOAD : SPOT_DEPTH, value, &s)) {
-        *out = (fret_point){.y = s.at.y, .F = s.at.F, .a = all->start + s.e};
+    fret_place at;
+    if (all->rows && fret_blocks_find(all->rows, of->stop, how, value, &at)) {
+        *out = (fret_point){.y = at.spot.at.y, .F = at.spot.at.F, .a = all->start + at.spot.e};
         return true;
     }
     if (!find(all, by, value, &i))
@@ -53,7 +55,7 @@ bool fret_pieces_by_rows(const struct fret_pieces *pieces) {
 }
 
 bool fret_pieces_point(const struct fret_pieces *pieces, bool by_force, fret_real value, fret_point *out) {
-    if (!point_of(pieces->law, by_force ? BY_LOAD : BY_DEPTH, by_force ? value / pieces->scale : value, out))
+    if (!point_of(pieces, by_force ? BY_LOAD : BY_DEPTH, by_force ? value / pieces->scale : value, out))
         return false;
     out->F = by_force ? value : out->F * pieces->scale;
     return true;
@@ -62,9 +64,9 @@ bool fret_pieces_point(const struct fret_pieces *pieces, bool by_force, fret_rea
 bool fret_pieces_depth(const struct fret_pieces *pieces, fret_real e, fret_real *depth) {
     const law *all = pieces->law;
     size_t i;
-    fret_spot s;
-    if (all->rows && fret_rows_find(all->rows, SPOT_DISTANCE, e, &s)) {
-        *depth = s.at.y;
+    fret_place at_e;
+    if (all->rows && fret_blocks_find(all->rows, pieces->stop, SPOT_DISTANCE, e, &at_e)) {
+        *depth = at_e.spot.at.y;
         return true;
     }
     if (!find(all, BY_DISTANCE, e, &i))
@@ -212,32 +214,36 @@ static stretch integrals_of(const law *all, int by, ends *c, fret_real *K) {
     return fret_stretch_join(&sum, &rest);
 }
 
-/* Where a slice ends that begins among the rows: `target` below `outer`, where `left` is left; false: further
- * in. */
-static bool end_among_rows(const law *all, fret_spot_by how, const fret_spot *outer, fret_real target,
-                           fret_real left, fret_spot *inner) {
-    return left < target ? fret_rows_find(all->rows, how, left, inner)
-                         : fret_rows_drop(all->rows, how, outer, target, inner);
+/* Where a slice ends that begins among rows: `target` below `outer`, where `left` is left. */
+typedef enum ending { WITHIN, FURTHER_IN, NOT_KNOWN } ending;
+static ending end_among_rows(const struct fret_pieces *of, struct fret_blocks *rows, fret_spot_by how,
+                             const fret_place *outer, fret_real target, fret_real left, fret_place *inner) {
+    if (left < target ? fret_blocks_find(rows, of->stop, how, left, inner)
+                      : fret_blocks_drop(rows, of->stop, how, outer, target, inner))
+        return WITHIN;
+    const fret_real rounding = 16 * LDBL_EPSILON * (left + target);
+    return left - fret_blocks_begin(rows, how) > rounding ? NOT_KNOWN : FURTHER_IN;
 }
 
 /* A slice that begins among the rows: its integrals, K at its inner end, which may lie further in, and both
  * ends, the inner one NaN where it does. */
-static bool by_rows(const law *all, int by, fret_real whole, fret_real target, fret_real left, stretch *sum,
-                    fret_real *K, fret_level at[2]) {
+static bool by_rows(const struct fret_pieces *of, int by, fret_real whole, fret_real target, fret_real left,
+                    stretch *sum, fret_real *K, fret_level at[2]) {
+    const law *all = of->law;
     const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
-    fret_spot outer, inner;
+    fret_place outer, inner;
     ends c;
-    if (!all->rows || !fret_rows_find(all->rows, how, whole, &outer))
+    if (!all->rows || !fret_blocks_find(all->rows, of->stop, how, whole, &outer))
         return false;
-    const bool within = end_among_rows(all, how, &outer, target, left, &inner);
-    if (!within)
-        inner = fret_rows_inner(all->rows);
-    at[0] = outer.at;
-    at[1] = within ? inner.at : (fret_level){(fret_real)NAN, (fret_real)NAN};
-    *sum = fret_rows_between(all->rows, &outer, &inner);
-    *K = fret_rows_stiffness(all->rows, &inner);
+    const ending ends_in = end_among_rows(of, all->rows, how, &outer, target, left, &inner);
+    if (ends_in == NOT_KNOWN || (ends_in == FURTHER_IN && !fret_blocks_inner(all->rows, of->stop, &inner)) ||
+        !fret_blocks_between(all->rows, of->stop, &outer, &inner, sum))
+        return false;
+    at[0] = outer.spot.at;
+    at[1] = ends_in == WITHIN ? inner.spot.at : (fret_level){(fret_real)NAN, (fret_real)NAN};
+    *K = fret_rows_stiffness(inner.rows, &inner.spot);
     const fret_real base = fret_level_by(&all->piece[all->count - 1].outer, by);
-    if (within || left >= base)
+    if (ends_in == WITHIN || left >= base)
         return true;
     if (!find_ends(all, by, base, base - left, left, &c))
         return false;
@@ -248,23 +254,35 @@ static bool by_rows(const law *all, int by, fret_real whole, fret_real target, f
 
 /* A slice too thin for polynomials of many rows together; the thinnest ones are for the table itself. */
 static const fret_real THINNEST = 1e-6L;
-static bool by_blocks(const law *all, int by, fret_real whole, fret_real target, stretch *sum, fret_real *K,
-                      fret_real *other) {
-    return all->thin && target < all->enough * whole &&
-           fret_blocks_slice(all->thin, by == LOADS, whole, target, sum, K, other);
+static bool find_thin(const struct fret_pieces *of, int by, fret_real whole, fret_real target,
+                      fret_place *outer, fret_place *inner) {
+    const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
+    struct fret_blocks *rows = of->law->thin;
+    return rows && target < of->law->enough * whole && fret_blocks_place(rows, of->stop, how, whole, outer) &&
+           fret_blocks_drop(rows, of->stop, how, outer, target, inner);
 }
 
-static bool slice_of(const law *all, int by, bool thin, fret_real whole, fret_real target, fret_real left,
-                     fret_real *h, fret_slice *out) {
+static bool by_blocks(const struct fret_pieces *of, int by, fret_real whole, fret_real target, stretch *sum,
+                      fret_real *K) {
+    fret_place outer, inner;
+    if (!find_thin(of, by, whole, target, &outer, &inner) ||
+        !fret_blocks_between(of->law->thin, of->stop, &outer, &inner, sum))
+        return false;
+    *K = fret_rows_stiffness(inner.rows, &inner.spot);
+    return true;
+}
+
+static bool slice_of(const struct fret_pieces *of, int by, bool thin, fret_real whole, fret_real target,
+                     fret_real left, fret_real *h, fret_slice *out) {
+    const law *all = of->law;
     ends c;
     fret_real K;
     stretch s;
     fret_level unused[2];
-    fret_real other;
     if (thin && all->thin && target < THINNEST * whole)
         return false;
-    if (!by_rows(all, by, whole, target, left, &s, &K, unused) &&
-        !(thin && by_blocks(all, by, whole, target, &s, &K, &other))) {
+    if (!by_rows(of, by, whole, target, left, &s, &K, unused) &&
+        !(thin && by_blocks(of, by, whole, target, &s, &K))) {
         if (!find_ends(all, by, whole, target, left, &c))
             return false;
         s = integrals_of(all, by, &c, &K);
@@ -280,8 +298,8 @@ static bool slice_of(const law *all, int by, bool thin, fret_real whole, fret_re
 bool fret_pieces_slice(const struct fret_pieces *pieces, const fret_level *outer, bool by_load, bool thin,
                        fret_real target, fret_real left, fret_real *h, fret_slice *out) {
     const fret_real scale = pieces->scale, per = by_load ? 1 / scale : 1;
-    if (!slice_of(pieces->law, by_load ? LOADS : DEPTHS, thin, (by_load ? outer->F : outer->y) * per,
-                  target * per, left * per, h, out))
+    if (!slice_of(pieces, by_load ? LOADS : DEPTHS, thin, (by_load ? outer->F : outer->y) * per, target * per,
+                  left * per, h, out))
         return false;
     out->w = by_load ? fminl(target, outer->F) : out->w * scale;
     out->J *= scale;
@@ -291,39 +309,40 @@ bool fret_pieces_slice(const struct fret_pieces *pieces, const fret_level *outer
 }
 
 /* Of the whole slice where nothing is left: `of_whole`. */
-static bool across_of(const law *all, int by, bool thin, fret_real whole, fret_real target,
+static bool across_of(const struct fret_pieces *of, int by, bool thin, fret_real whole, fret_real target,
                       fret_real of_whole, fret_real *other) {
-    const int table = by == LOADS ? BY_LOAD : BY_DEPTH;
+    const law *all = of->law;
+    const int table = by == LOADS ? BY_LOAD : BY_DEPTH, wanted = by == LOADS ? DEPTHS : LOADS;
     const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
     fret_point at;
-    fret_spot outer, inner;
-    fret_real K;
-    stretch sum;
+    fret_place outer, inner;
     ends c;
-    if (all->rows && fret_rows_find(all->rows, how, whole, &outer)) {
-        const int wanted = by == LOADS ? DEPTHS : LOADS;
-        if (end_among_rows(all, how, &outer, target, whole - target, &inner))
-            *other = fret_rows_fall(all->rows, wanted, &outer, &inner);
-        else if (point_of(all, table, whole - target, &at))
-            *other = fret_level_by(&outer.at, wanted) - (by == LOADS ? at.y : at.F);
+    if (all->rows && fret_blocks_find(all->rows, of->stop, how, whole, &outer)) {
+        const ending ends_in = end_among_rows(of, all->rows, how, &outer, target, whole - target, &inner);
+        if (ends_in == WITHIN)
+            *other = fret_blocks_fall(all->rows, wanted, &outer, &inner);
+        else if (ends_in == FURTHER_IN && point_of(of, table, whole - target, &at))
+            *other = fret_level_by(&outer.spot.at, wanted) - (by == LOADS ? at.y : at.F);
         else
             return false;
         return true;
     }
     if (thin && all->thin && target < THINNEST * whole)
         return false;
-    if (thin && by_blocks(all, by, whole, target, &sum, &K, other))
+    if (thin && find_thin(of, by, whole, target, &outer, &inner)) {
+        *other = fret_blocks_fall(all->thin, wanted, &outer, &inner);
         return true;
+    }
     if (!find_ends(all, by, whole, target, whole - target, &c))
         return false;
-    *other = c.inner == all->count ? of_whole : fall_of(all, by == LOADS ? DEPTHS : LOADS, &c);
+    *other = c.inner == all->count ? of_whole : fall_of(all, wanted, &c);
     return true;
 }
 
 bool fret_pieces_across(const struct fret_pieces *pieces, const fret_level *outer, bool by_load, bool thin,
                         fret_real target, fret_real *other) {
     const fret_real scale = pieces->scale, per = by_load ? 1 / scale : 1;
-    if (!across_of(pieces->law, by_load ? LOADS : DEPTHS, thin, (by_load ? outer->F : outer->y) * per,
+    if (!across_of(pieces, by_load ? LOADS : DEPTHS, thin, (by_load ? outer->F : outer->y) * per,
                    target * per, by_load ? outer->y : outer->F / scale, other))
         return false;
     *other *= by_load ? 1 : scale;
@@ -331,17 +350,17 @@ bool fret_pieces_across(const struct fret_pieces *pieces, const fret_level *oute
 }
 
 /* The mean where the outer end lies among the rows. */
-static bool mean_by_rows(const law *all, int by, fret_real from, fret_real to, fret_real end[2],
+static bool mean_by_rows(const struct fret_pieces *of, int by, fret_real from, fret_real to, fret_real end[2],
                          fret_real *mean) {
     const fret_real most = fmaxl(from, to), least = fminl(from, to);
     fret_point p;
     fret_level at[2];
     stretch s;
     fret_real K;
-    if (!by_rows(all, by, most, most - least, least, &s, &K, at))
+    if (!by_rows(of, by, most, most - least, least, &s, &K, at))
         return false;
     if (isnan(at[1].y)) {
-        if (!point_of(all, by == LOADS ? BY_LOAD : BY_DEPTH, least, &p))
+        if (!point_of(of, by == LOADS ? BY_LOAD : BY_DEPTH, least, &p))
             return false;
         at[1] = (fret_level){p.y, p.F};
     }
@@ -355,11 +374,13 @@ static bool mean_by_rows(const law *all, int by, fret_real from, fret_real to, f
 }
 
 /* Depth by load, or load by depth, at both ends of a way, and its mean between them. */
-static bool mean_of(const law *all, int by, fret_real from, fret_real to, fret_real end[2], fret_real *mean) {
+static bool mean_of(const struct fret_pieces *of, int by, fret_real from, fret_real to, fret_real end[2],
+                    fret_real *mean) {
+    const law *all = of->law;
     const int other = by == LOADS ? DEPTHS : LOADS;
     fret_real sum[2], base = 0;
     size_t at[2];
-    if (mean_by_rows(all, by, from, to, end, mean))
+    if (mean_by_rows(of, by, from, to, end, mean))
         return true;
     for (int i = 0; i < 2; i++)
         if (!find(all, by == LOADS ? BY_LOAD : BY_DEPTH, i ? to : from, &at[i]))
@@ -383,7 +404,7 @@ static bool mean_of(const law *all, int by, fret_real from, fret_real to, fret_r
 bool fret_pieces_mean(const struct fret_pieces *pieces, fret_real from, fret_real to, fret_real *mean) {
     fret_real end[2];
     if (!(from == to || fabsl(from - to) > 1e-3L * fmaxl(from, to)) ||
-        !mean_of(pieces->law, DEPTHS, from, to, end, mean))
+        !mean_of(pieces, DEPTHS, from, to, end, mean))
         return false;
     *mean *= pieces->scale;
     return true;
@@ -401,12 +422,12 @@ static fret_real bow_of(const fret_real edge[2], const fret_real front[2], const
                  went * mean_edge);
 }
 
-static bool bow_of_whole(const law *all, int by, const fret_real edge[2], const fret_real front[2],
-                         fret_real *out, fret_real *bound) {
+static bool bow_of_whole(const struct fret_pieces *of, int by, const fret_real edge[2],
+                         const fret_real front[2], fret_real *out, fret_real *bound) {
     const fret_real went = front[0] - front[1], moved = edge[0] - edge[1];
     fret_real v[2], at_edge[2], mean, mean_edge;
-    if (!mean_of(all, by, front[0], front[1], v, &mean) ||
-        !mean_of(all, by, edge[0], edge[1], at_edge, &mean_edge))
+    if (!mean_of(of, by, front[0], front[1], v, &mean) ||
+        !mean_of(of, by, edge[0], edge[1], at_edge, &mean_edge))
         return false;
     *out = bow_of(edge, front, v, mean, mean_edge);
     *bound = 1e-19L * fmaxl(edge[0] * at_edge[0], edge[1] * at_edge[1]) *
@@ -422,22 +443,25 @@ typedef struct ways {
     fret_real K;
 } ways;
 
-static bool ways_by_rows(const law *all, int by, const fret_real place[4], ways *out) {
+static bool ways_by_rows(const struct fret_pieces *of, int by, const fret_real place[4], ways *out) {
     const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
-    fret_spot spot[4];
+    struct fret_blocks *rows = of->law->rows;
+    fret_place at[4];
     for (int i = 0; i < 4; i++)
         if (i > 0 && place[i] == place[i - 1])
-            spot[i] = spot[i - 1];
-        else if (!fret_rows_place(all->rows, how, place[i], &spot[i]))
+            at[i] = at[i - 1];
+        else if (!fret_blocks_place(rows, of->stop, how, place[i], &at[i]))
             return false;
     for (int i = 0; i < 3; i++)
-        out->part[i] = fret_rows_between(all->rows, &spot[i + 1], &spot[i]);
-    out->K = fret_rows_stiffness(all->rows, &spot[0]);
+        if (!fret_blocks_between(rows, of->stop, &at[i + 1], &at[i], &out->part[i]))
+            return false;
+    out->K = fret_rows_stiffness(at[0].rows, &at[0].spot);
     return true;
 }
 
-static bool find_ways(const law *all, int by, const fret_real place[4], ways *out) {
-    if (all->rows && ways_by_rows(all, by, place, out))
+static bool find_ways(const struct fret_pieces *of, int by, const fret_real place[4], ways *out) {
+    const law *all = of->law;
+    if (all->rows && ways_by_rows(of, by, place, out))
         return true;
     fret_real K;
     out->K = (fret_real)NAN;
@@ -448,7 +472,7 @@ static bool find_ways(const law *all, int by, const fret_real place[4], ways *ou
         out->part[i] = (stretch){0, 0, 0, 0};
         if (outer == inner)
             continue;
-        if (!by_rows(all, by, outer, outer - inner, inner, &out->part[i], &K, unused)) {
+        if (!by_rows(of, by, outer, outer - inner, inner, &out->part[i], &K, unused)) {
             if (!find_ends(all, by, outer, outer - inner, inner, &c))
                 return false;
             out->part[i] = integrals_of(all, by, &c, &K);
@@ -468,14 +492,14 @@ static fret_real area_of(int by, const stretch *below, const stretch *s, fret_re
 }
 
 /* The same with v less its tangent where the front ends: what lies within that has no part in it. */
-static bool bow_beyond(const law *all, int by, const fret_real edge[2], const fret_real front[2],
-                       fret_real *out, fret_real *bound) {
+static bool bow_beyond(const struct fret_pieces *of, int by, const fret_real edge[2],
+                       const fret_real front[2], fret_real *out, fret_real *bound) {
     static const stretch nothing;
     const fret_real lo = fminl(edge[0], edge[1]), hi = fmaxl(edge[0], edge[1]),
                     place[4] = {front[1], fminl(front[0], lo), fmaxl(front[0], lo), hi};
     stretch whole[3];
     ways w;
-    if (!(front[1] > 0) || !find_ways(all, by, place, &w))
+    if (!(front[1] > 0) || !find_ways(of, by, place, &w))
         return false;
     for (int i = 0; i < 3; i++)
         whole[i] = i ? fret_stretch_join(&w.part[i], &whole[i - 1]) : w.part[0];
@@ -494,14 +518,15 @@ static bool bow_beyond(const law *all, int by, const fret_real edge[2], const fr
 
 bool fret_pieces_phase(const struct fret_pieces *pieces, bool by_load, const fret_real edges[2],
                        const fret_real fronts[2], fret_real enough, fret_real *out, fret_real *bound) {
-    typedef bool how(const law *, int, const fret_real *, const fret_real *, fret_real *, fret_real *);
+    typedef bool how(const struct fret_pieces *, int, const fret_real *, const fret_real *, fret_real *,
+                     fret_real *);
     const law *all = pieces->law;
     const fret_real scale = pieces->scale, per = by_load ? 1 / scale : 1,
                     edge[2] = {edges[0] * per, edges[1] * per}, front[2] = {fronts[0] * per, fronts[1] * per};
     how *const by[2] = {all->rows ? bow_beyond : bow_of_whole, all->rows ? bow_of_whole : bow_beyond};
     fret_real parts = 0, off = (fret_real)INFINITY, other[2];
     for (int i = 0; i < 2 && front[0] > front[1] && !(off <= enough * parts); i++)
-        if (by[i](all, by_load ? LOADS : DEPTHS, edge, front, &other[0], &other[1]) && other[1] < off) {
+        if (by[i](pieces, by_load ? LOADS : DEPTHS, edge, front, &other[0], &other[1]) && other[1] < off) {
             parts = other[0];
             off = other[1];
         }

@@ -10,7 +10,6 @@
 #include "contact/check.h"
 #include "contact/leaves.h"
 #include "contact/piece.h"
-#include "contact/rows.h"
 #include "contact/table.h"
 #include "number/array.h"
 #include "number/chebyshev.h"
@@ -446,15 +445,15 @@ static bool cover_rows(maker *m, const fret_real *row, size_t first, size_t last
 }
 
 /* Row by row, beyond the pieces there are; false: not good enough. */
-static bool by_rows(maker *m, fret_real to) {
+static bool by_rows(maker *m, fret_real to, bool at_once) {
     law *all = m->all;
     fret_real off = 0;
-    m->failed = fret_rows_make(m->normal, 0, to, &all->rows, &off);
+    m->failed = fret_blocks_make(m->normal, to, at_once, ENOUGH, &all->rows, &off);
     if (!m->failed.code && all->rows && off <= ENOUGH) {
         all->error = fmaxl(all->error, off);
         return true;
     }
-    fret_rows_free(all->rows);
+    fret_blocks_free(all->rows);
     all->rows = NULL;
     return false;
 }
@@ -467,7 +466,7 @@ static bool cover_beyond(maker *m, const fret_real *row, size_t count, fret_real
     const fret_level edge = m->edge;
     const fret_real error = all->error, deep = all->deep;
     const bool exact = m->borne <= ENOUGH, at_once = exact && count <= MOST_ROWS;
-    if (at_once && by_rows(m, to))
+    if (at_once && by_rows(m, to, true))
         return true;
     if (m->failed.code)
         return false;
@@ -478,7 +477,7 @@ static bool cover_beyond(maker *m, const fret_real *row, size_t count, fret_real
     all->error = error;
     all->deep = deep;
     m->edge = edge;
-    return by_rows(m, to) || (!m->failed.code && cover_rows(m, row, 0, count - 1));
+    return by_rows(m, to, false) || (!m->failed.code && cover_rows(m, row, 0, count - 1));
 }
 
 /* Rows between two distances, both ends too. */
@@ -557,7 +556,7 @@ static bool make_core(maker *m) {
 static void free_law(law *all) {
     for (int l = 0; l < RUNS; l++)
         free(all->run[l]);
-    fret_rows_free(all->rows);
+    fret_blocks_free(all->rows);
     fret_blocks_free(all->thin);
     free(all->reach);
     free(all->piece);
@@ -572,7 +571,7 @@ static bool make_thin(maker *m, fret_real e) {
     if (!fret_gap_sampled(&m->normal->gap) || all->rows || all->deep <= FOUND)
         return true;
     all->enough = exact ? sqrtl(all->error / ENOUGH) : fminl(THIN, sqrtl(all->error / (10 * m->borne)));
-    m->failed = fret_blocks_make(m->normal, e, &all->thin);
+    m->failed = fret_blocks_make(m->normal, e, false, 0, &all->thin, NULL);
     return !m->failed.code;
 }
 
@@ -589,7 +588,7 @@ static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real born
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     }
     atomic_init(&all->users, 1);
-    *pieces = (struct fret_pieces){all, 1};
+    *pieces = (struct fret_pieces){all, 1, n->stop};
     *m = (maker){.all = all,
                  .normal = n,
                  .start = fret_gap_start(&n->gap),
@@ -611,6 +610,10 @@ static fret_status make_pieces(const fret_normal *n, fret_real e, fret_real born
     else
         fret_pieces_free(pieces);
     return st;
+}
+
+void fret_pieces_stop(struct fret_pieces *pieces, fret_stop stop) {
+    pieces->stop = stop;
 }
 
 void fret_pieces_free(struct fret_pieces *pieces) {

@@ -25,7 +25,7 @@ fret_status fret_normal_share(fret_normal *n, const fret_normal *from) {
     if (!pieces)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     const fret_real by = fret_normal_stiffness(n, 1) / fret_normal_stiffness(from, 1);
-    *pieces = (struct fret_pieces){from->pieces->law, from->pieces->scale * by};
+    *pieces = (struct fret_pieces){from->pieces->law, from->pieces->scale * by, n->stop};
     atomic_fetch_add(&pieces->law->users, 1);
     n->pieces = pieces;
     n->prepared = (double)(from->prepared * by);

@@ -229,11 +229,15 @@ bool fret_rows_place(const struct fret_rows *all, fret_spot_by by, fret_real val
     return true;
 }
 
+void fret_rows_complete(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
+    *out = spot_in(all, out->part, out->along, out->power);
+    *(by == SPOT_DISTANCE ? &out->e : by == SPOT_DEPTH ? &out->at.y : &out->at.F) = value;
+}
+
 bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
     if (!fret_rows_place(all, by, value, out))
         return false;
-    *out = spot_in(all, out->part, out->along, out->power);
-    *(by == SPOT_DISTANCE ? &out->e : by == SPOT_DEPTH ? &out->at.y : &out->at.F) = value;
+    fret_rows_complete(all, by, value, out);
     return true;
 }
 

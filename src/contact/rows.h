@@ -25,6 +25,7 @@ typedef struct fret_spot {
 /* Where the distance, the depth or the load is `value`; false: not among the rows. */
 typedef enum fret_spot_by { SPOT_DISTANCE, SPOT_DEPTH, SPOT_LOAD } fret_spot_by;
 bool fret_rows_place(const struct fret_rows *rows, fret_spot_by by, fret_real value, fret_spot *out);
+void fret_rows_complete(const struct fret_rows *rows, fret_spot_by by, fret_real value, fret_spot *out);
 /* The same with distance, depth and load. */
 bool fret_rows_find(const struct fret_rows *rows, fret_spot_by by, fret_real value, fret_spot *out);
 

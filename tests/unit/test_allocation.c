@@ -98,6 +98,40 @@ static void slices(void) {
     }
 }
 
+/* Rows that are made when they are asked for: where they find no room the question is answered without. */
+static void rows_on_demand(void) {
+    enum { MANY = 3000 };
+    static double x[MANY], depth[MANY];
+    const unit_scene s = unit_make_scene(2, 0.3);
+    struct fret_table *table = NULL;
+    fret_normal *n = NULL, *other = NULL;
+    for (int i = 0; i < MANY; i++) {
+        x[i] = 1e-3 * i / MANY;
+        depth[i] = x[i] * x[i] / 0.02 * (1 + 1e-6 * (i * 7919 % 101) / 101.0);
+    }
+    CHECK_OK(fret_table_make(x, depth, MANY, NULL, &table));
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
+    CHECK_OK(fret_normal_make(&s.material, &gap, &n));
+    fret_press p;
+    CHECK_OK(fret_press_by_radius(n, 0.95e-3, &p));
+    CHECK_OK(fret_normal_make(&s.material, &gap, &other));
+    CHECK_OK(fret_normal_prepare(other, (double)p.F, 0));
+    EACH(9, fret_normal_prepare(n, (double)p.F, 0), isnan(fret_normal_prepared(n)));
+    for (int i = 0; i < 40; i++) {
+        const fret_level outer = {p.dz * (0.3L + 0.0175L * i), 0};
+        const fret_real h = outer.y * (i % 4 + 1) / 100;
+        left = i;
+        const fret_slice got = fret_law_slice(n, &outer, h);
+        left = -1;
+        const fret_slice want = fret_law_slice(other, &outer, h);
+        CHECK_REL(got.G, want.G, UNIT_TOL(1e-13L, 1e-9L));
+        CHECK_REL(got.L, want.L, UNIT_TOL(1e-13L, 1e-9L));
+    }
+    fret_normal_free(n);
+    fret_normal_free(other);
+    fret_table_free(table);
+}
+
 /* Pieces of a law for another contact of the same shape. */
 static void pieces(void) {
     const fret_material steel = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1};
@@ -395,6 +429,7 @@ int main(int argc, char **argv) {
     tables_and_contacts();
     laws();
     slices();
+    rows_on_demand();
     pieces();
     memories();
     diagrams();

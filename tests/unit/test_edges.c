@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Slices and means that begin or end just where a piece of the law does, where rows begin, or at the centre,
  * each against the contact without pieces. */
+#include "contact/blocks.h"
 #include "contact/piece.h"
 #include "contact/pieces.h"
-#include "contact/rows.h"
 #include "number/quadrature.h"
 #include "unit.h"
 
@@ -120,7 +120,9 @@ static void edges(const twins *t, double F) {
     }
     if (!all->rows)
         return;
-    const fret_level begin = fret_rows_inner(all->rows).at, base = level_of(t, &begin);
+    const fret_level begin = {fret_blocks_begin(all->rows, SPOT_DEPTH),
+                              fret_blocks_begin(all->rows, SPOT_LOAD)},
+                     base = level_of(t, &begin);
     for (int i = 0; i < 4; i++) {
         const fret_real load = base.F + (F - base.F) * (i ? uniform(0, 1) : 1);
         const fret_level top = {fret_law_depth(t->plain, load), load}, low = {base.y * uniform(0.05, 1), 0};

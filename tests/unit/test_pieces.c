@@ -429,6 +429,55 @@ static void thin_slices_of_many(void) {
     fret_table_free((struct fret_table *)gap.table);
 }
 
+/* Rows too rough for polynomials are made block by block when they are asked for: a slip is what a single
+ * question says, its digits do not hang on what was asked before, nor on who stopped it. */
+static void rough_rows_on_demand(void) {
+    enum { LOADS_ASKED = 7, CONTACTS = 3 };
+    const fret_material m = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = make_table(1e-2, 3e-4, DENSE_ROWS, 1e-6)};
+    volatile sig_atomic_t stop = 0;
+    fret_contact c[CONTACTS];
+    fret_normal *n[CONTACTS], *plain;
+    fret_real loss[CONTACTS][LOADS_ASKED], dx[CONTACTS][LOADS_ASKED], single;
+    fret_press press;
+    CHECK_OK(fret_normal_make(&m, &gap, &plain));
+    CHECK_OK(fret_press_by_radius(plain, 2.9e-4, &press));
+    for (int i = 0; i < CONTACTS; i++) {
+        CHECK_OK(fret_normal_make(&m, &gap, &n[i]));
+        CHECK_OK(fret_normal_prepare(n[i], (double)press.F, 0));
+        CHECK(fret_pieces_by_rows(n[i]->pieces) && fret_normal_prepared(n[i]) <= 2e-15);
+        c[i] = (fret_contact){.normal = n[i], .mu = 0.3};
+        CHECK_OK(fret_press_by_force(n[i], (double)press.F, &c[i].press));
+    }
+    fret_normal_stop(n[2], &stop);
+    for (int j = 0; j < LOADS_ASKED; j++)
+        for (int i = 0; i < CONTACTS; i++) {
+            const int k = i == 1 ? LOADS_ASKED - 1 - j : j;
+            const double FA = 0.3 * (double)press.F * (k == 0 ? 1e-4 : 0.16 * k);
+            fret_loading first;
+            stop = i == 2;
+            if (stop)
+                CHECK_CODE(fret_cycle_loss_by_force(&c[i], FA, &loss[i][k]), FRET_INTERRUPTED);
+            stop = 0;
+            CHECK_OK(fret_cycle_loss_by_force(&c[i], FA, &loss[i][k]));
+            CHECK_OK(fret_loading_by_force(&c[i], FA, &first));
+            dx[i][k] = first.dx;
+        }
+    for (int j = 0; j < LOADS_ASKED; j++)
+        for (int i = 1; i < CONTACTS; i++)
+            CHECK(loss[i][j] == loss[0][j] && dx[i][j] == dx[0][j]);
+    const fret_contact alone = {.normal = plain, .mu = 0.3, .press = press};
+    for (int j = 0; j < LOADS_ASKED; j += 2) {
+        CHECK_OK(
+            fret_cycle_loss_by_force(&alone, 0.3 * (double)press.F * (j == 0 ? 1e-4 : 0.16 * j), &single));
+        CHECK_REL(loss[0][j], single, UNIT_TOL(j ? 2e-15L : 1e-13L, 1e-8L));
+    }
+    for (int i = 0; i < CONTACTS; i++)
+        fret_normal_free(n[i]);
+    fret_normal_free(plain);
+    fret_table_free((struct fret_table *)gap.table);
+}
+
 /* Of the work that it takes to set up nothing is left over when it is stopped. */
 static void stops(void) {
     volatile sig_atomic_t stop = 1;
@@ -470,6 +519,7 @@ int main(int argc, char **argv) {
     prepares_alike();
     bears_an_error();
     thin_slices_of_many();
+    rough_rows_on_demand();
     stops();
     if (many)
         print_table(times);
