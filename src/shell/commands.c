@@ -255,7 +255,8 @@ static const command commands[] = {
      .summary = "close tangential cycles",
      .help = "Goes to +FA, then through whole cycles +FA, -FA, +FA; dW is the energy that\n"
              "the last one dissipated. With FNA the normal force swings too,\n"
-             "FN + FNA sin(w t + phase) against FA sin(w t), in `steps` chords.\n\n"
+             "FN + FNA sin(w t + phase) against FA sin(w t): the sine itself, whatever the\n"
+             "`steps`, which are points to record for `history`.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> press FN=100 N\n"
              "    fret> cycle FA=20 N\n"
