@@ -172,6 +172,7 @@ bool do_step(shell *sh, lexer *lx, const command *self) {
         calc_undo(&sh->calc);
         return calc_interrupted(lx->error);
     }
+    shell_pressed(sh, &step);
     return true;
 }
 

@@ -129,7 +129,37 @@ static void warn_half_space(shell *sh) {
     sh->no_half_space = (wide ? WIDE : 0u) | (steep ? STEEP : 0u);
 }
 
+/* The press from which on the contact is too wide. */
+static void find_widest(shell *sh) {
+    scene *s = &sh->calc.scene;
+    const fret_normal *normal;
+    long double R = INFINITY;
+    calc_error ignored;
+    error_clear(&ignored);
+    sh->widest = (fret_press){.F = INFINITY, .dz = INFINITY};
+    if (!inputs_take(&s->in, IN_RADIUS))
+        return;
+    if (!scene_get(s, IN_RADIUS, &R, &ignored) || !scene_normal(s, &normal, &ignored) ||
+        fret_press_by_radius(normal, most_radius * (double)R, &sh->widest).code)
+        sh->widest = (fret_press){.F = 0, .dz = 0};
+}
+
+void shell_pressed(shell *sh, const load_step *step) {
+    const scene *s = &sh->calc.scene;
+    if (step->normal == BY_NONE || sh->no_half_space)
+        return;
+    if (!sh->widest_known)
+        find_widest(sh);
+    sh->widest_known = true;
+    const fret_real most = step->normal == BY_FORCE ? sh->widest.F : sh->widest.dz;
+    const bool cheap = s->automatic || s->model != MODEL_DOUBLE; /* to ask where it is now */
+    if (step->relative & RELATIVE_NORMAL ? step->normal_value > 0 && most < INFINITY && cheap
+                                         : step->normal_value > most)
+        warn_half_space(sh);
+}
+
 static void warn(shell *sh) {
+    sh->widest_known = false;
     if (!sh->calc.scene.end.steps)
         return;
     warn_dissimilar(sh);

@@ -32,8 +32,10 @@ typedef struct shell {
     file_text typed;         /* at the prompt, for `save history`; else closed */
     bool dissimilar;         /* the bodies are, and it has been said */
     unsigned no_half_space;  /* likewise: 1 the contact is too wide, 2 the flanks are too steep */
-    int nesting;             /* of `source` and `replay` */
-    expr list[EXPRESSIONS];  /* of a print, table or plot statement, reused */
+    bool widest_known;       /* the press from which on it is too wide: */
+    fret_press widest;
+    int nesting;            /* of `source` and `replay` */
+    expr list[EXPRESSIONS]; /* of a print, table or plot statement, reused */
 } shell;
 
 /* Set by the SIGINT handler. */
@@ -44,6 +46,9 @@ void shell_free(shell *sh);
 
 /* Runs one statement; the error is filled in on failure. */
 bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error);
+
+/* A step has been taken: where it makes the contact too wide for a half-space, says so. */
+void shell_pressed(shell *sh, const load_step *step);
 
 /* Runs a logical line of several statements, reporting errors; false if one failed. `line` is the number
  * of its first physical line. */
