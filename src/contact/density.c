@@ -71,10 +71,56 @@ static bool far_integral(const struct fret_density *d, const block *b, int kind,
     return true;
 }
 
+/* The same of one row that is far from r, if it is; its moments are found here. */
+static bool far_row(const struct fret_density *d, const fret_row_part *row, int kind, fret_real r,
+                    fret_real *sum) {
+    const fret_real half = row->width / 2,
+                    away = (kind == SLOPE ? square_distance(row->inner, r) : square_distance(r, row->outer)) +
+                           half;
+    ring made;
+    if (!(away >= 2 * half) || !fret_ring_take_about(d, row, kind, &made))
+        return false;
+    const curve *c = &made.of[kind];
+    const double(*kinks)[TAYLOR] = d->moment[kind == SLOPE ? OF_SLOPE : OF_DEPTH],
+          ratio = (double)(half / away);
+    const double log_away = fret_double_log((double)(away / d->unit));
+    const int terms = (int)(38.8 / -fret_double_log(ratio)) + 1;
+    double of[TAYLOR] = {0}, all = 0;
+    for (int j = 0; j < c->smooth; j++)
+        for (int n = 0; n < terms; n++)
+            of[n] += (double)c->c[0][j] * d->moment[OF_ONE][j][n];
+    for (int j = 0; j < c->kink; j++)
+        for (int n = 0; n < terms; n++)
+            of[n] += (double)c->c[1][j] * kinks[j][n];
+    for (int n = terms; n-- > 0;)
+        all = all * ratio + of[n] * d->binomial[kind][n];
+    const double power = kind == SLOPE ? (double)d->m - 1 : -(double)d->m;
+    *sum = d->far_scale[kind] * fret_double_exp(power * log_away) * all;
+    return true;
+}
+
+/* Of one row by the cuts from `now` on: within one of them, and far from r? */
+static bool far_by_cuts(const struct fret_density *d, size_t i, int kind, const fret_cut *cut, size_t count,
+                        size_t now, fret_real r, fret_real *sum) {
+    const fret_row_part row = fret_rows_part(d->rows, i - d->heads);
+    *sum = 0;
+    if (kind == SLOPE && row.outer <= r)
+        return true;
+    while (now < count && cut[now].a <= row.inner)
+        now++;
+    if (now < count && (cut[now].a < row.outer || !far_row(d, &row, kind, r, sum)))
+        return false;
+    *sum *= now < count ? cut[now].weight : 0;
+    return true;
+}
+
 /* Of one ring by the cuts from `now` on. */
 static fret_real near_by_cuts(const struct fret_density *d, const block *b, size_t i, int kind,
                               const fret_cut *cut, size_t count, size_t now, fret_real r) {
     ring made;
+    fret_real whole;
+    if (i >= d->kept && far_by_cuts(d, i, kind, cut, count, now, r, &whole))
+        return whole;
     const ring *p = fret_ring_at(d, i, kind, &made);
     fret_real sum = 0, far;
     bool more = true;

@@ -16,7 +16,6 @@ typedef struct maker {
     const fret_normal *normal;
     fret_real start, depth;                 /* depth: g at the end of the last ring */
     fret_real moment[POWERS][MOST][TAYLOR]; /* int_0^1 y^(q+j) (2y-1)^n dy */
-    double small[POWERS][MOST][TAYLOR];     /* the same */
     fret_status failed;
 } maker;
 
@@ -36,8 +35,15 @@ static void make_rule(maker *m) {
             for (int n = 1; n < TAYLOR; n++)
                 m->moment[p][j][n] = (1 - n * m->moment[p][j][n - 1]) / (q + n);
             for (int n = 0; n < TAYLOR; n++)
-                m->small[p][j][n] = (double)m->moment[p][j][n];
+                m->d->moment[p][j][n] = (double)m->moment[p][j][n];
         }
+    fret_real factor[KINDS] = {1, 1};
+    for (int n = 0; n < TAYLOR; n++) {
+        for (int kind = 0; kind < KINDS; kind++)
+            m->d->binomial[kind][n] = (double)factor[kind];
+        factor[SLOPE] *= (m->d->m - 1 - n) / (n + 1);
+        factor[DEPTH] *= (m->d->m + n) / (n + 1);
+    }
 }
 
 /* The integral from 0 to y of y^q times a polynomial, over y^q y. */
@@ -216,10 +222,10 @@ static bool add_small(const maker *m, const block *b, const ring *p, fret_real w
         double part[TAYLOR] = {0}, power = 1;
         for (int j = 0; j < c->smooth; j++)
             for (int n = 0; n < SMALL; n++)
-                part[n] += (double)c->c[0][j] * m->small[OF_ONE][j][n];
+                part[n] += (double)c->c[0][j] * m->d->moment[OF_ONE][j][n];
         for (int j = 0; j < c->kink; j++)
             for (int n = 0; n < SMALL; n++)
-                part[n] += (double)c->c[1][j] * m->small[kink][j][n];
+                part[n] += (double)c->c[1][j] * m->d->moment[kink][j][n];
         for (int n = 0; n < SMALL; n++) {
             part[n] *= power;
             power *= ratio;
@@ -297,6 +303,8 @@ fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_den
         fret_kernel_power(&d->power[OF_ONE], 0, 0, half);
         fret_kernel_power(&d->power[OF_SLOPE], 1, -sharp, half);
         fret_kernel_power(&d->power[OF_DEPTH], 1, 1 - sharp, half);
+        d->reach = a;
+        d->reach_power = fret_pow(a, 2 * (half - 1));
         d->far_scale[SLOPE] = (double)fret_pow(d->unit, half - 1);
         d->far_scale[DEPTH] = (double)fret_pow(d->unit, -half);
         fret_kernel_flat_make(&d->flat, half);

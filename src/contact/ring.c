@@ -2,6 +2,7 @@
 /* Rings from values at Chebyshev's nodes and from rows of a table. Allocates nothing. */
 #include "contact/ring.h"
 
+#include "number/double.h"
 #include "number/real.h"
 
 fret_real fret_ring_largest(const fret_real *v) {
@@ -53,7 +54,7 @@ static void take_slope(const fret_row_part *row, ring *p) {
 }
 
 /* The same of a narrow row: what it is known by times the few powers of x^(k-1) that count. */
-static bool multiply_depth(const struct fret_density *d, const fret_row_part *row, ring *p) {
+static bool multiply_depth(const struct fret_density *d, const fret_row_part *row, bool about, ring *p) {
     enum { FACTORS = 6 };
     static const fret_real narrow = 1e-3L;
     const fret_real bend = p->width / (p->lo * p->lo);
@@ -61,7 +62,10 @@ static bool multiply_depth(const struct fret_density *d, const fret_row_part *ro
     curve *of = &p->of[DEPTH];
     if (!(bend <= narrow) || smooth + FACTORS > MOST + 1 || bent + FACTORS > MOST + 1)
         return false;
-    fret_real factor = p->width / 2 * fret_pow(p->lo, 2 * (d->m - 1));
+    const fret_real power =
+        about ? fret_double_exp((double)(2 * (d->m - 1)) * fret_double_log((double)(p->lo / d->reach)))
+              : fret_pow(p->lo, 2 * (d->m - 1));
+    fret_real factor = p->width / 2 * power * (about ? d->reach_power : 1);
     *of = (curve){.smooth = smooth + FACTORS - 1, .kink = bent > 0 ? bent + FACTORS - 1 : 0};
     for (int n = 0; n < FACTORS; n++) {
         of->c[0][n] += factor * row->depth;
@@ -75,7 +79,7 @@ static bool multiply_depth(const struct fret_density *d, const fret_row_part *ro
 }
 
 static void take_depth(const struct fret_density *d, const fret_row_part *row, ring *p) {
-    if (multiply_depth(d, row, p))
+    if (multiply_depth(d, row, false, p))
         return;
     fret_real smooth[MOST], sharp[MOST];
     for (int j = 0; j < MOST; j++) {
@@ -84,6 +88,16 @@ static void take_depth(const struct fret_density *d, const fret_row_part *row, r
         sharp[j] = fret_ring_value(row->Q, row->depths[1], y);
     }
     (void)fret_ring_fit_depth(d, p, row->depth, smooth, sharp);
+}
+
+bool fret_ring_take_about(const struct fret_density *d, const fret_row_part *row, int kind, ring *out) {
+    out->lo = row->inner;
+    out->hi = row->outer;
+    out->width = row->width;
+    if (kind != SLOPE)
+        return multiply_depth(d, row, true, out);
+    take_slope(row, out);
+    return true;
 }
 
 void fret_ring_take(const struct fret_density *d, size_t i, int kind, ring *out) {

@@ -40,6 +40,9 @@ struct fret_density {
     powers power[POWERS]; /* q = 0, that of the slope, and of the depth */
     flat_field flat;
     double far_scale[KINDS];
+    fret_real reach, reach_power;           /* the radius up to which it goes, that to the power of 2(m-1) */
+    double moment[POWERS][MOST][TAYLOR];    /* int_0^1 y^(q+j) (2y-1)^n dy */
+    double binomial[KINDS][TAYLOR];         /* of the kernel's series */
     size_t count, kept, room, blocks, leaf; /* rings, those kept; how many a leaf has */
     size_t heads;                           /* rings before the rows */
     ring *ring;
@@ -74,7 +77,9 @@ void fret_ring_scale(const struct fret_density *d, int kind, ring *p);
 
 /* Ring i from its row. */
 void fret_ring_take(const struct fret_density *d, size_t i, int kind, ring *out);
-/* The same, or the one that is kept. */
+/* The same of a row to a double's digits, for one that is far; false: the row is wide. */
+bool fret_ring_take_about(const struct fret_density *d, const fret_row_part *row, int kind, ring *out);
+/* Ring i, or the one that is kept. */
 static inline const ring *fret_ring_at(const struct fret_density *d, size_t i, int kind, ring *room) {
     if (i < d->kept)
         return &d->ring[i];
