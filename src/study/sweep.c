@@ -242,12 +242,19 @@ static size_t values_at(size_t count) {
 /* Are the values of a curve so many, of one contact, that its law is worth preparing? Then for all of them: a
  * row has the same digits wherever it is worked out. */
 static bool is_many(const state *st) {
-    enum { MANY = 32, OF_LOADS = 1000 }; /* the law is prepared anew each time that F_N doubles */
+    /* of rows one value costs as much as it takes to prepare a few; F_N prepares anew each time it doubles */
+    enum { OF_ROWS = 8, MANY = 32, OF_LOADS = 1000 };
     const sweep *s = st->s;
+    const fret_normal *normal;
+    calc_error ignored;
+    error_clear(&ignored);
     if (!s->along && s->var.is_input && s->var.in != IN_MU && s->var.in != IN_FN)
         return false;
-    return s->steps + 1 >= (!s->along && s->var.is_input && s->var.in == IN_FN ? OF_LOADS : MANY) &&
-           !st->t->scene.in.bindings;
+    if (!s->along && s->var.is_input && s->var.in == IN_FN)
+        return s->steps + 1 >= OF_LOADS && !st->t->scene.in.bindings;
+    return s->steps + 1 >= OF_ROWS && !st->t->scene.in.bindings &&
+           (s->steps + 1 >= MANY ||
+            (scene_normal(&st->t->scene, &normal, &ignored) && fret_normal_gap(normal)->table));
 }
 
 static void open_trial(state *st, calc_error *error) {
