@@ -54,8 +54,13 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
         if (!s->in.geometry)
             return calc_fail(error, 0, 0,
                              "there is no geometry yet: give one first (geometry sphere R=10 mm)");
-        return inputs_take(&s->in, in) || calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s)",
-                                                    q->name, s->in.geometry->name, s->in.geometry->usage);
+        const geometry *g = s->in.geometry;
+        if (inputs_take(&s->in, in))
+            return true;
+        if (g->allowed & INPUT_BIT(in)) /* h and r0 */
+            return calc_fail(error, 0, 0, "geometry %s was given by A, not by %s (%s)", g->name, q->name,
+                             g->usage);
+        return calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s)", q->name, g->name, g->usage);
     }
     if (in == IN_FN)
         return !s->end.steps || s->program->steps[0].normal == BY_FORCE ||
