@@ -796,6 +796,53 @@ static bool cut_logs(void) {
     return setrlimit(RLIMIT_FSIZE, &limit) == 0 && ok && unlink("log") == 0;
 }
 
+static int tapped = -1;       /* end of a pipe that is read late; -1: never */
+static size_t drained, ticks; /* bytes so far */
+
+/* A signal comes twice in vain; then someone reads, or the flag goes up. */
+static void tick(int number) {
+    static char bytes[1 << 16];
+    (void)number;
+    if (++ticks < 3)
+        return;
+    rung = 1;
+    for (ssize_t n; tapped >= 0 && (n = read(tapped, bytes, sizeof bytes)) > 0;)
+        drained += (size_t)n;
+}
+
+/* What a full pipe has not taken yet is written when signals have passed, unless the flag says to stop. */
+static void interrupted_logs(void) {
+    enum { BYTES = 400000 };
+    static char text[BYTES];
+    static const volatile sig_atomic_t never;
+    static const file_stop flags[] = {NULL, &never, &rung};
+    const struct sigaction wakes = {.sa_handler = tick};
+    struct sigaction before;
+    CHECK(sigaction(SIGALRM, &wakes, &before) == 0);
+    for (int i = 0; i < 3; i++) {
+        file_log log;
+        bool over;
+        rung = 0;
+        drained = ticks = 0;
+        CHECK(mkfifo("slow", 0600) == 0);
+        const int end = open("slow", O_RDONLY | O_NONBLOCK);
+        tapped = flags[i] == &rung ? -1 : end;
+        CHECK(end >= 0 && file_log_open(&log, "slow", flags[i], &over, fresh()) && !over);
+        const struct itimerval often = {{0, 5000}, {0, 5000}}, off = {{0, 0}, {0, 0}};
+        CHECK(setitimer(ITIMER_REAL, &often, NULL) == 0);
+        const bool ok = file_log_add(&log, text, BYTES, fresh());
+        CHECK(setitimer(ITIMER_REAL, &off, NULL) == 0);
+        CHECK(rung && ok == (i < 2));
+        CHECK(ok || strstr(error.text, strerror(EINTR)));
+        tick(0);
+        CHECK(!ok || drained == BYTES);
+        file_log_close(&log);
+        close(end);
+        unlink("slow");
+    }
+    CHECK(sigaction(SIGALRM, &before, NULL) == 0);
+}
+
 int main(int argc, char **argv) {
     unit_start("test_file", argc, argv);
     char dir[] = "/tmp/fret-unit-XXXXXX";
@@ -808,6 +855,7 @@ int main(int argc, char **argv) {
     waits();
     failing_calls();
     apart(cut_logs);
+    interrupted_logs();
     full();
     apart(deep);
     home();
