@@ -46,7 +46,7 @@ static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
         char rest[256];
         snprintf(rest, sizeof rest, "%.255s", line + *cursor);
         const char last = same ? found.word[0][same - 1] : 0;
-        const bool blank = found.count == 1 && last != '=' && last != '(' && last != ' ';
+        const bool blank = found.count == 1 && last != '=' && last != '(';
         snprintf(line + found.start, size - found.start, "%.*s%s%s", (int)same, found.word[0],
                  blank ? " " : "", rest);
         *cursor = found.start + same + (blank ? 1 : 0);

@@ -3,6 +3,7 @@
  */
 #include "fret/fret.h"
 
+#include "study/jenkins.h"
 #include "unit.h"
 
 enum { ROWS = 2000 };
@@ -113,6 +114,42 @@ static void check_springs(const fret_normal *normal) {
     fret_springs_free(s);
 }
 
+static int pulses;
+
+static void pulse(void) {
+    stop = pulses-- == 0;
+}
+
+/* Elements that stand for a contact, stopped at any moment: none, or those that come out undisturbed. */
+static void check_elements(const fret_material *material) {
+    enum { ELEMENTS = 3 };
+    const fret_gap gap = {.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 0.02};
+    fret_normal *normal = unit_keep_normal(material, &gap);
+    fret_press p;
+    CHECK_OK(fret_press_by_force(normal, 10, &p));
+    fret_normal_stop(normal, &stop);
+    const fret_contact contact = {normal, 0.4, p};
+    const double part = 0.5 * (double)fret_gross_slip(&contact);
+    jenkins_element whole[ELEMENTS], out[ELEMENTS];
+    jenkins_error quality, unused;
+    calc_error error;
+    error_clear(&error);
+    pulses = -1;
+    stop = 0;
+    CHECK(jenkins(&contact, part, ELEMENTS, &stop, pulse, whole, &quality, &error) && quality.worst > 0);
+    stop = 1;
+    CHECK(!jenkins(&contact, part, ELEMENTS, &stop, pulse, out, &unused, &error) && error.stop);
+    bool done = false;
+    for (int n = 0; !done && CHECK(n < 1000); n++) {
+        error_clear(&error);
+        pulses = n;
+        stop = 0;
+        done = jenkins(&contact, part, ELEMENTS, &stop, pulse, out, &unused, &error);
+        CHECK(done ? unused.worst == quality.worst && !memcmp(out, whole, sizeof out) : error.stop);
+    }
+    stop = 0;
+}
+
 int main(int argc, char **argv) {
     unit_start("stop", argc, argv);
     const fret_material steel = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1};
@@ -135,6 +172,7 @@ int main(int argc, char **argv) {
     check_thin(normal);
     check_questions(normal, &contact);
     check_springs(normal);
+    check_elements(&steel);
     stop = 1;
     fret_normal_stop(normal, NULL);
     CHECK_OK(fret_press_by_force(normal, 10, &press));
