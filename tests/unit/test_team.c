@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A team does what one would: in order, also when a worker ends, when something is to stop, and when the
  * system has no process, no memory or no socket for it. */
+#include <errno.h>
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "unit.h"
@@ -111,6 +114,28 @@ static void it_stops(calc *c) {
     stop = 0;
 }
 
+static void nothing(int number) {
+    (void)number;
+}
+
+/* Signals that interrupt every call change nothing, and leave no worker behind. */
+static void in_a_storm(calc *c) {
+    const struct sigaction wakes = {.sa_handler = nothing};
+    const struct itimerval often = {{0, 1000}, {0, 1000}}, off = {{0, 0}, {0, 0}};
+    struct sigaction before;
+    CHECK(sigaction(SIGALRM, &wakes, &before) == 0 && setitimer(ITIMER_REAL, &often, NULL) == 0);
+    for (int i = 0; i < 60; i++) {
+        errand e = begin();
+        team *t = team_of(c, &e);
+        if (!CHECK(t != NULL))
+            break;
+        CHECK(run(t, &e, PARTS) && e.taken == PARTS && e.alone == (PARTS + 6) / 7);
+        team_end(t);
+        CHECK(waitpid(-1, NULL, WNOHANG) < 0 && errno == ECHILD);
+    }
+    CHECK(setitimer(ITIMER_REAL, &off, NULL) == 0 && sigaction(SIGALRM, &before, NULL) == 0);
+}
+
 /* While one waits, what is called now and then is called. */
 static void it_pulses(calc *c) {
     errand e = begin();
@@ -165,6 +190,7 @@ int main(int argc, char **argv) {
     in_order(&c);
     a_worker_ends(&c);
     it_stops(&c);
+    in_a_storm(&c);
     it_pulses(&c);
     nothing_to_be_had(&c);
     calc_free(&c);
