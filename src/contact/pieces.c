@@ -262,6 +262,12 @@ static bool find_thin(const struct fret_pieces *of, int by, fret_real whole, fre
            fret_blocks_drop(rows, of->stop, how, outer, target, inner);
 }
 
+/* Is it one that its rows were for, which could not be made? Then it is for the table itself, too. */
+static bool wants_rows(const law *all, int by, fret_real whole, fret_real target) {
+    const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
+    return all->thin && target < all->enough * whole && whole - target > fret_blocks_begin(all->thin, how);
+}
+
 static bool by_blocks(const struct fret_pieces *of, int by, fret_real whole, fret_real target, stretch *sum,
                       fret_real *K) {
     fret_place outer, inner;
@@ -283,7 +289,7 @@ static bool slice_of(const struct fret_pieces *of, int by, bool thin, fret_real 
         return false;
     if (!by_rows(of, by, whole, target, left, &s, &K, unused) &&
         !(thin && by_blocks(of, by, whole, target, &s, &K))) {
-        if (!find_ends(all, by, whole, target, left, &c))
+        if ((thin && wants_rows(all, by, whole, target)) || !find_ends(all, by, whole, target, left, &c))
             return false;
         s = integrals_of(all, by, &c, &K);
     }
@@ -333,7 +339,8 @@ static bool across_of(const struct fret_pieces *of, int by, bool thin, fret_real
         *other = fret_blocks_fall(all->thin, wanted, &outer, &inner);
         return true;
     }
-    if (!find_ends(all, by, whole, target, whole - target, &c))
+    if ((thin && wants_rows(all, by, whole, target)) ||
+        !find_ends(all, by, whole, target, whole - target, &c))
         return false;
     *other = c.inner == all->count ? of_whole : fall_of(all, wanted, &c);
     return true;
