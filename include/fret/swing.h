@@ -6,7 +6,8 @@
 
 FRET_BEGIN
 
-/* The memory diagram under harmonic forces, event by event: no chords, no step error. Power laws, by force.
+/* The memory diagram under harmonic forces, event by event: no chords, no step error. By force; of any gap
+ * but a table, whose rows are kinks of the law.
  *
  * With P = F_N + F_x/mu and M = F_N - F_x/mu the memory of a contact is a curve that rises in both from (0,
  * 0) to the present (M, P); its slice at the load N = (M+P)/2 has the slope sigma = (dP-dM)/(dP+dM). When
@@ -28,8 +29,11 @@ typedef struct fret_sine {
     fret_real FN;          /* [N] */
 } fret_sine;
 
-/* Goes on from the state of a memory of a power law, closed. Borrows its normal contact, not the memory.
- * Errors: FRET_OUTSIDE (no power law), FRET_NO_MEMORY. */
+/* Is it a contact that the sine can be taken of? Not one of a table. */
+int fret_swing_takes(const fret_normal *normal);
+
+/* Goes on from the state of a memory, closed. Borrows its normal contact, not the memory.
+ * Errors: FRET_OUTSIDE (a table), FRET_NO_MEMORY. */
 fret_status fret_swing_make(const fret_memory *memory, fret_swing **out);
 void fret_swing_free(fret_swing *swing);
 
@@ -56,7 +60,8 @@ void fret_swing_state(const fret_swing *swing, fret_state *out);
 fret_real fret_swing_last_loss(const fret_swing *swing); /* of the last period, part or step [J] */
 
 /* Traction [Pa] and surface displacement [m], as of a memory (fret/field.h), and the displacement u(x) [m] of
- * the spring at x: along the curves themselves. Accuracy 1e-13 of the largest value. */
+ * the spring at x: along the curves themselves. Accuracy 1e-13 of the largest value. Error: FRET_OUTSIDE
+ * (no power law; 0 then, of u), for which there is fret_swing_memory. */
 fret_status fret_swing_traction(const fret_swing *swing, fret_real r, fret_real *q);
 fret_status fret_swing_surface_x(const fret_swing *swing, fret_real r, fret_real *u);
 fret_real fret_swing_displacement(const fret_swing *swing, fret_real x);

@@ -88,7 +88,7 @@ static void drop_runs(answers *a) {
     a->levels = 0;
 }
 
-/* Can a swinging load be taken as it is? By force, from the first such cycle on, on a power law. */
+/* Can a swinging load be taken as it is? By force, from the first such cycle on, on no table of rows. */
 static bool takes_sine(const load_view *load) {
     bool swings = false;
     for (load_mark at = {0, 0}; at.steps < load->end.steps; at.steps++) {
@@ -98,7 +98,7 @@ static bool takes_sine(const load_view *load) {
             return false;
         at.cycles += item.step.kind == LOAD_CYCLE;
     }
-    return fret_normal_is_power(load->normal);
+    return fret_swing_takes(load->normal);
 }
 
 /* As many runs as the load wants, or none: those that are new start where the first one is. */
@@ -107,10 +107,8 @@ static fret_status raise_levels(answers *a, const load_view *load) {
     const unsigned wanted = a->reach.swings && !sine ? LEVELS : 1;
     fret_status st = fine;
     /* more than are wanted: in chords, as a load that was refused would have had them */
-    if (a->levels &&
-        (engine_is_sine(&a->run[0].engine)
-             ? !sine
-             : a->levels > wanted || fret_memory_normal(engine_memory(&a->run[0].engine)) != load->normal))
+    if (a->levels && ((engine_is_sine(&a->run[0].engine) ? !sine : a->levels > wanted) ||
+                      engine_normal(&a->run[0].engine) != load->normal))
         drop_runs(a);
     if (a->levels == 0) {
         if (load->trailed && !a->trail)
@@ -521,8 +519,8 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
         s->answers.state_ready = true;
     }
     s->used = used | USED(stepped ? s->model : MODEL_MEMORY);
-    if (!stepped && s->answers.levels && !engine_is_sine(&s->answers.run[0].engine))
-        used_pieces(s, fret_memory_normal(engine_memory(&s->answers.run[0].engine)));
+    if (!stepped && s->answers.levels)
+        used_pieces(s, engine_normal(&s->answers.run[0].engine));
     *state = &s->answers.state;
     return true;
 }

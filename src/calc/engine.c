@@ -239,8 +239,12 @@ fret_status engine_swing(engine *e, const fret_sine *load, double from, double t
     return st;
 }
 
+const fret_normal *engine_normal(const engine *e) {
+    return fret_memory_normal(engine_is_sine(e) ? ((const sine *)e->self)->memory : e->self);
+}
+
 const fret_swing *engine_curve(const engine *e) {
-    const sine *s = engine_is_sine(e) ? e->self : NULL;
+    const sine *s = engine_is_sine(e) && fret_normal_is_power(engine_normal(e)) ? e->self : NULL;
     return s ? s->swing : NULL;
 }
 

@@ -93,7 +93,7 @@ static bool make_run(walk *w, calc_error *error) {
 
 /* A swinging load may want another contact than the one before it. */
 static bool stands(const walk *w) {
-    return w->run.engine.self && fret_memory_normal(engine_memory(&w->run.engine)) == w->load.normal;
+    return w->run.engine.self && engine_normal(&w->run.engine) == w->load.normal;
 }
 
 bool walk_follow(walk *w, calc *c, bool *anew, calc_error *error) {

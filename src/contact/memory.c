@@ -3,6 +3,7 @@
  * its slices. */
 #include "contact/memory.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -127,17 +128,27 @@ static fret_real stored(const fret_memory *m) {
     return m->loss_scale * sum;
 }
 
+/* The slice that tells c: slip that a load has come back to, but for its rounding, is not hidden by what that
+ * leaves at the edge. */
+static const slice *outermost(const fret_memory *m) {
+    const fret_real rounding = 4 * DBL_EPSILON * m->edge[LOAD];
+    const slice *top = &m->slices[m->count - 1], *below = top;
+    while (below > m->slices && below->thick[LOAD] <= rounding)
+        below--;
+    return fabsl(below->sigma) >= 1 ? below : top;
+}
+
 void fret_memory_state(const fret_memory *m, fret_state *out) {
     fret_memory_forces(m, out);
     if (!m->count)
         return;
-    const slice *top = &m->slices[m->count - 1];
+    const slice *top = outermost(m);
     out->U = stored(m);
     out->a = fret_memory_pressed(m).a;
     out->kn = fret_normal_stiffness(m->normal, out->a);
     out->c = out->a;
     if (fabsl(top->sigma) >= 1)
-        out->c = m->count == 1
+        out->c = top == m->slices
                      ? 0
                      : fret_law_level_radius(m->normal, &(fret_level){top->inner[DEPTH], top->inner[LOAD]});
     bool goes_on = top->sigma * m->direction >= 1;

@@ -121,13 +121,25 @@ typedef struct slip {
     fret_real lo, hi;
 } slip;
 
-/* [F(D)-F(d)-(D-d) F'(d)]/F'(d) times the fall of the level. */
+/* Rules of few points are to agree to what the law is good to. */
+static fret_real integrate(const fret_swing *c, fret_integrand *f, void *context) {
+    return fret_integrate_short(f, context, fret_normal_closed(c->normal) ? 1e-17L : 1e-13L);
+}
+
+/* [F(D)-F(d)-(D-d) F'(d)]/F'(d) of the depths D and d of two loads, `zone` their difference by itself. */
+static fret_real rate_by_load(const fret_normal *n, fret_real edge, fret_real front, fret_real zone) {
+    if (fret_normal_closed(n))
+        return fret_phase_rate_by_load(n, edge, front, zone);
+    const fret_level outer = {fret_law_depth(n, edge), edge};
+    return fret_law_slice(n, &outer, fret_law_thickness(n, &outer, zone)).G / fret_law_at_force(n, front).K;
+}
+
+/* The same times the fall of the level. */
 static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
     const slip *l = context;
     const fret_real s = l->lo * rest + l->hi * t, level = way_at(l->way, l->which, s);
     const fret_real other = way_at(l->way, 1 - l->which, s), inner = curve_other(l->curve, l->which, level);
-    return fret_phase_rate_by_load(l->curve->normal, (level + other) / 2, (level + inner) / 2,
-                                   (other - inner) / 2) *
+    return rate_by_load(l->curve->normal, (level + other) / 2, (level + inner) / 2, (other - inner) / 2) *
            way_fall(l->way, l->which, s);
 }
 
@@ -169,7 +181,7 @@ static fret_status slip_between(fret_swing *c, const way *w, int which, fret_rea
     slip l = {.curve = c, .way = w, .which = which, .lo = lo};
     while (l.lo < hi) {
         l.hi = part_end(w, which, l.lo, next_crossing(c, c->count, w, 1 << which, l.lo, hi));
-        const fret_real loss = (l.hi - l.lo) * fret_integrate_short(slip_rate, &l);
+        const fret_real loss = (l.hi - l.lo) * integrate(c, slip_rate, &l);
         c->last_loss += loss > 0 ? loss : 0;
         l.lo = l.hi;
     }
@@ -289,7 +301,9 @@ static fret_real along_rate(fret_real t, fret_real rest, void *context) {
     const fret_real N = (m + up) / 2, T = (up - m) / 2;
     const fret_real dT = (way_fall(&p->way, M, s) - way_fall(&p->way, P, s)) / 2;
     const fret_normal *n = l->curve->normal;
-    return (l->energy ? T : 1) * dT * n->q * fret_law_depth(n, N) / N;
+    const fret_real compliance =
+        fret_normal_closed(n) ? n->q * fret_law_depth(n, N) / N : 1 / fret_law_at_force(n, N).K;
+    return (l->energy ? T : 1) * dT * compliance;
 }
 
 static fret_real sum_along(const fret_swing *c, bool energy) {
@@ -298,7 +312,7 @@ static fret_real sum_along(const fret_swing *c, bool energy) {
         piece *p = &c->pieces[i];
         if (p->curved) {
             for (int which = 0; which < 2 && !p->known; which++)
-                p->sum[which] = (p->hi - p->lo) * fret_integrate_short(along_rate, &(along){c, p, which});
+                p->sum[which] = (p->hi - p->lo) * integrate(c, along_rate, &(along){c, p, which});
             p->known = true;
             sum += p->sum[energy];
             continue;
@@ -312,6 +326,26 @@ static fret_real sum_along(const fret_swing *c, bool energy) {
         sum += energy ? sigma * (h * T0 + sigma * fret_law_slice(c->normal, &outer, h).J) : sigma * h;
     }
     return sum;
+}
+
+/* What both ends of a piece are known to where the forces that it was made by are rounded. */
+static fret_real rounding(const fret_swing *c) {
+    return 16 * DBL_EPSILON * c->scale;
+}
+
+/* A zone of slip, straight along one coordinate. */
+static bool is_zone(const fret_swing *c, const piece *p, int which) {
+    return !p->curved && fabsl(p->last[1 - which] - p->first[1 - which]) <= rounding(c) &&
+           p->last[which] - p->first[which] > rounding(c);
+}
+
+/* The piece that tells the radius of stick, as of a memory. */
+static const piece *outermost(const fret_swing *c) {
+    const piece *top = &c->pieces[c->count - 1], *below = top;
+    while (below > c->pieces &&
+           below->last[M] - below->first[M] + below->last[P] - below->first[P] <= rounding(c))
+        below--;
+    return is_zone(c, below, M) || is_zone(c, below, P) ? below : top;
 }
 
 void fret_swing_state(const fret_swing *c, fret_state *out) {
@@ -328,8 +362,9 @@ void fret_swing_state(const fret_swing *c, fret_state *out) {
                         .slices = c->count};
     fret_real inner = c->a;
     if (c->count) {
-        const piece *top = &c->pieces[c->count - 1];
-        const bool forward = top->first[M] == top->last[M], backward = top->first[P] == top->last[P];
+        const piece *top = outermost(c);
+        const bool forward = is_zone(c, top, P) || top->first[M] == top->last[M],
+                   backward = is_zone(c, top, M) || top->first[P] == top->last[P];
         const fret_real N = (top->first[M] + top->first[P]) / 2;
         if (forward || backward)
             out->c =
@@ -360,6 +395,9 @@ int fret_swing_fits(const fret_swing *c, const fret_sine *sine) {
     way w;
     make_harmonic(c, sine, &w);
     const fret_real little = 4 * DBL_EPSILON * sine->FN;
+    fret_press most;
+    if (fret_press_by_force(c->normal, (double)sine->FN + fabs(sine->FNA), &most).code)
+        return 0;
     const fret_real begin[2] = {c->FN - c->Fx / c->mu, c->FN + c->Fx / c->mu};
     for (int i = M; i <= P; i++)
         if (!(w.size[i] < w.mean * (1 - 1e-12L)) || !(fabsl(way_at(&w, i, 0) - begin[i]) <= little))
@@ -462,8 +500,12 @@ fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
+int fret_swing_takes(const fret_normal *normal) {
+    return !fret_gap_sampled(&normal->gap);
+}
+
 fret_status fret_swing_make(const fret_memory *m, fret_swing **out) {
-    if (!fret_normal_closed(m->normal))
+    if (!fret_swing_takes(m->normal))
         return fret_fail(FRET_OUTSIDE, "gap", 0, 0);
     fret_swing *c = calloc(1, sizeof *c);
     fret_status st = c ? reserve(c, m->count + 8) : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);

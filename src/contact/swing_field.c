@@ -137,6 +137,8 @@ static fret_status begin(const fret_swing *c, fret_real r, bend *b) {
     const fret_status st = fret_check_not_negative("r", (double)r);
     const fret_normal *n = c->normal;
     *b = (bend){.normal = n, .r = r};
+    if (!st.code && !fret_normal_closed(n))
+        return fret_fail(FRET_OUTSIDE, "gap", 0, 0);
     if (!st.code && r > 0) {
         const fret_profile p = fret_gap_profile(&n->gap, &n->rule, r);
         b->N = fret_force_of(n, &p);

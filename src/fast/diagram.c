@@ -139,6 +139,15 @@ static fret_real stored(const fret_diagram *d) {
     return (fret_real)d->loss_scale * sum;
 }
 
+/* The one that tells c, as of the exact memory. */
+static const layer *outermost(const fret_diagram *d) {
+    const double rounding = little * d->edge.y[LOAD];
+    const layer *top = &d->layers[d->count - 1], *below = top;
+    while (below > d->layers && d->edge.y[LOAD] - below->inner.y[LOAD] <= rounding)
+        below--;
+    return fabs(below->sigma) >= 1 ? below : top;
+}
+
 void fret_diagram_state(const fret_diagram *d, fret_state *out) {
     fret_diagram_now now;
     fret_diagram_forces(d, &now);
@@ -146,7 +155,7 @@ void fret_diagram_state(const fret_diagram *d, fret_state *out) {
         (fret_state){.FN = now.FN, .dz = now.dz, .Fx = now.Fx, .dx = now.dx, .W = now.W, .slices = d->count};
     if (!d->count)
         return;
-    const layer *top = &d->layers[d->count - 1];
+    const layer *top = outermost(d);
     const fret_level front = {top->inner.y[DEPTH], top->inner.y[LOAD]};
     out->U = stored(d);
     out->a = fret_law_radius(d->normal, d->edge.y[DEPTH]);

@@ -66,8 +66,7 @@ static fret_real part_rate(fret_real t, fret_real rest, void *context) {
     return p->f(p->lo * rest + p->hi * t, (1 - p->lo) * rest + (1 - p->hi) * t, p->context);
 }
 
-fret_real fret_integrate_short(fret_integrand *f, void *context) {
-    static const fret_real agree = 1e-17L;
+fret_real fret_integrate_short(fret_integrand *f, void *context, fret_real agree) {
     part left = {f, context, 0, 0.5L}, right = {f, context, 0.5L, 1};
     const fret_real whole = fret_integrate_smooth(f, context);
     const fret_real halves =

@@ -22,9 +22,9 @@ fret_node fret_exponential_node(int i);
  */
 fret_real fret_integrate_smooth(fret_integrand *f, void *context);
 
-/* The same by eight points in either half where they add up to those of the whole to 1e-17 of it, as between
+/* The same by eight points in either half where they add up to those of the whole to `agree` of it, as between
  * places that are close; else as fret_integrate. */
-fret_real fret_integrate_short(fret_integrand *f, void *context);
+fret_real fret_integrate_short(fret_integrand *f, void *context, fret_real agree);
 
 /* The same by halves, and halves of these, until they add up to `tolerance` of the integral, for integrands
  * that are smooth but for kinks; at most 2^24 of them. */

@@ -7,14 +7,29 @@ static const double half_turn = 3.14159265358979323846;
 
 typedef struct load {
     double n, A, E0, k, mu, FN, FA, FNA, degrees;
-    double lead; /* Fx that is gone to first, in units of mu FN */
+    double lead;         /* Fx that is gone to first, in units of mu FN */
+    const fret_gap *gap; /* or NULL: n and A */
 } load;
 
 static const fret_normal *normal_of(const load *l) {
     const fret_material material = {{{l->E0, 0.3, false}, {l->E0, 0.3, false}}, l->k, 1e-3};
     const fret_gap gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{l->n, l->A, 1}}};
-    const unit_scene s = {.material = material, .gap = gap, .mu = l->mu};
-    return unit_make_normal(&s);
+    const unit_scene s = {.material = material, .gap = l->gap ? *l->gap : gap, .mu = l->mu};
+    fret_normal *n = unit_make_normal(&s);
+    if (l->gap)
+        CHECK_OK(fret_normal_prepare(n, 200, 0));
+    return n;
+}
+
+/* Of a loss: what is less than the rounding of thin slips is none. A power law has no such. */
+static fret_real loss_of(const load *l, const fret_memory *m, fret_real W) {
+    const fret_real reach = l->mu * m->normal->foundation.eta * fret_law_depth(m->normal, l->FN);
+    return W + (l->gap ? 1e-10L * l->mu * l->FN * reach : 0);
+}
+
+/* What numbers are good to: 1e-15 for powers. */
+static fret_real known(const load *l) {
+    return l->gap ? 1e-13L : 1e-15L;
 }
 
 static fret_sine sine_of(const load *l) {
@@ -127,13 +142,27 @@ static double pick(const double *from, size_t count) {
     return from[(size_t)(uniform() * (double)count)];
 }
 
+static const fret_gap shapes[] = {
+    {.kind = FRET_GAP_EXACT_SPHERE, .R = 10e-3},
+    {.kind = FRET_GAP_FLAT_CONE, .b = 0.2e-3, .slope = 0.01},
+    {.kind = FRET_GAP_FLAT_PARABOLOID, .b = 0.1e-3, .R = 10e-3},
+    {.kind = FRET_GAP_FLAT_ROUNDED, .b = 0.3e-3, .R = 5e-3},
+    {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 1e10, 1}}},
+    {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {3, 1e-14, 1}}}, /* the sphere, another way */
+};
+
+static bool shaped; /* of one of these */
+
 static load random_load(void) {
     static const double n[] = {0.5, 1, 2, 4, 100}, k[] = {-0.99, -0.4, 0, 0.5, 0.99},
                         angle[] = {0, 90, 180, 270};
-    load l = {pick(n, 5), 0.05, 210e9, pick(k, 5), 0.4, 100, 0, 0, 0, 1.8 * uniform() - 0.9};
+    load l = {pick(n, 5), 0.05, 210e9, pick(k, 5), 0.4, 100, 0, 0, 0, 1.8 * uniform() - 0.9, NULL};
     l.FNA = 90 * uniform();
     l.FA = 0.95 * uniform() * l.mu * (l.FN - l.FNA);
     l.degrees = uniform() < 0.3 ? pick(angle, 4) : 360 * uniform();
+    if (shaped && l.k < -0.9) /* where a flat end takes long */
+        l.k = -0.8;
+    l.gap = shaped ? &shapes[(size_t)(uniform() * (sizeof shapes / sizeof *shapes))] : NULL;
     return l;
 }
 
@@ -155,20 +184,21 @@ static void against_chords(int count) {
         fret_memory_state(coarse, &a);
         fret_memory_state(fine, &b);
         fret_swing_state(s, &now);
-        CHECK_ABS(fret_swing_last_loss(s), loss[1] + (loss[1] - loss[0]) / 3, now.W, 1e-8L);
-        CHECK_REL(now.W, b.W + (b.W - a.W) / 3, 1e-8L);
+        CHECK_ABS(fret_swing_last_loss(s), loss[1] + (loss[1] - loss[0]) / 3, loss_of(&l, fine, now.W),
+                  1e-8L);
+        CHECK_ABS(now.W, b.W + (b.W - a.W) / 3, loss_of(&l, fine, now.W), 1e-8L);
         CHECK_REL(now.U, b.U + (b.U - a.U) / 3, 1e-8L);
         CHECK_REL(now.dx, b.dx + (b.dx - a.dx) / 3, 1e-8L);
-        const fret_real rounded = 1e-15L * (l.FN + l.FNA) / b.FN; /* of the sum that is FN */
+        const fret_real rounded = known(&l) * (l.FN + l.FNA) / b.FN; /* of the sum that is FN */
         CHECK_REL(now.FN, b.FN, rounded);
         CHECK_REL(now.dz, b.dz, rounded);
-        CHECK_REL(now.a, b.a, 2e-14L);
+        CHECK_REL(now.a, b.a, l.gap ? 1e-12L : 2e-14L);
         if (fmod(l.degrees, 180) != 0) /* where it ends on the brink of slip, any will do */
             CHECK_REL(now.c, b.c, 1e-3L);
         /* as a memory it carries on from there */
         CHECK_OK(fret_swing_memory(s, coarse));
         fret_memory_state(coarse, &a);
-        CHECK_REL(a.dx, now.dx, 1e-15L);
+        CHECK_REL(a.dx, now.dx, known(&l));
         CHECK_ABS(a.Fx, now.Fx, l.mu * now.FN, 1e-15L);
         CHECK_REL(a.U, now.U, 1e-5L);
         CHECK(a.W == now.W && a.FN == now.FN);
@@ -205,9 +235,9 @@ static void in_parts(int count) {
             const fret_real angle = 2 * acosl(-1) * to, reach = l.mu * m->normal->foundation.eta * a.dz;
             CHECK_ABS(a.Fx, w.FA * cosl(angle), w.FA, 1e-15L);
             CHECK_REL(a.FN, w.FN + w.FNA * cosl(angle + w.phase), 1e-15L);
-            CHECK_ABS(b.dx, a.dx, reach, 1e-13L);
-            CHECK_ABS(b.U, a.U, a.FN * reach, 1e-13L);
-            CHECK_REL(b.W, a.W, 1e-13L);
+            CHECK_ABS(b.dx, a.dx, reach, 100 * known(&l));
+            CHECK_ABS(b.U, a.U, a.FN * reach, 100 * known(&l));
+            CHECK_ABS(b.W, a.W, loss_of(&l, m, a.W), 100 * known(&l));
             CHECK(b.FN == a.FN && b.Fx == a.Fx && b.dz == a.dz && b.a == a.a);
             CHECK_REL(b.c, a.c, 1e-6L);
             for (int j = 1; j <= CHORDS; j++) {
@@ -218,14 +248,14 @@ static void in_parts(int count) {
             }
             fret_memory_state(m, &b);
             CHECK_ABS(a.dx, b.dx, reach, 1e-5L);
-            CHECK_ABS(a.W, b.W, a.W, 1e-4L);
+            CHECK_ABS(a.W, b.W, loss_of(&l, m, a.W), 1e-4L);
         }
         CHECK_OK(fret_swing_period(whole, &w));
         fret_swing_state(whole, &a);
         fret_swing_state(parts, &b);
-        CHECK_REL(b.W, a.W, 1e-13L);
-        CHECK_ABS(loss, fret_swing_last_loss(whole), a.W, 1e-13L);
-        CHECK_ABS(b.dx, a.dx, l.mu * m->normal->foundation.eta * a.dz, 1e-13L);
+        CHECK_ABS(b.W, a.W, loss_of(&l, m, a.W), 100 * known(&l));
+        CHECK_ABS(loss, fret_swing_last_loss(whole), loss_of(&l, m, a.W), 100 * known(&l));
+        CHECK_ABS(b.dx, a.dx, l.mu * m->normal->foundation.eta * a.dz, 100 * known(&l));
         CHECK(b.FN == a.FN && b.Fx == a.Fx && b.dz == a.dz);
         CHECK(b.slices < 40);
         fret_swing_free(whole);
@@ -254,10 +284,10 @@ static void against_memory(int count) {
             fret_swing_state(s, &b);
             const fret_real size =
                 l.mu * l.mu * m->normal->foundation.eta * 100 * fret_law_depth(m->normal, 100);
-            CHECK_REL(b.W, a.W, 1e-13L);
-            CHECK_ABS(fret_swing_last_loss(s), fret_memory_last_loss(m), size, 1e-14L);
-            CHECK_ABS(b.U, a.U, size, 1e-15L);
-            CHECK_ABS(b.dx, a.dx, l.mu * m->normal->foundation.eta * a.dz, 1e-14L);
+            CHECK_ABS(b.W, a.W, a.W + (l.gap ? 1e-4L * size : 0), 100 * known(&l));
+            CHECK_ABS(fret_swing_last_loss(s), fret_memory_last_loss(m), size, 10 * known(&l));
+            CHECK_ABS(b.U, a.U, size, known(&l));
+            CHECK_ABS(b.dx, a.dx, l.mu * m->normal->foundation.eta * a.dz, 10 * known(&l));
             CHECK(b.FN == a.FN && b.dz == fret_memory_pressed(m).dz && b.a == a.a);
             CHECK(fabsl(b.dz - a.dz) <= LDBL_EPSILON * a.dz);
             CHECK_REL(b.c, a.c, 1e-9L);
@@ -273,8 +303,39 @@ static void against_memory(int count) {
     }
 }
 
+/* In phase the load goes to and fro on a straight line, which the memory takes in two steps: any shape, to
+ * the radius of stick on the brink of slip. */
+static void in_phase(int count) {
+    for (int i = 0; i < count; i++) {
+        load l = random_load();
+        l.degrees = i % 2 ? 180 : 0;
+        const fret_sine w = sine_of(&l);
+        const double along = i % 2 ? -l.FNA : l.FNA;
+        fret_memory *m = begin(&l);
+        fret_swing *s = swing_of(m);
+        fret_state a, b;
+        for (int period = 0; period < 2; period++) {
+            CHECK_OK(fret_swing_period(s, &w));
+            CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, l.FN - along, -l.FA}));
+            CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, l.FN + along, l.FA}));
+        }
+        fret_memory_state(m, &a);
+        fret_swing_state(s, &b);
+        const fret_real reach = l.mu * m->normal->foundation.eta * a.dz, size = l.mu * 200 * reach;
+        CHECK_ABS(b.dx, a.dx, reach, 100 * known(&l));
+        CHECK_ABS(b.U, a.U, size, 100 * known(&l));
+        CHECK_ABS(b.W, a.W, size, 100 * known(&l));
+        if (l.FA < l.mu * l.FNA) { /* it comes back to the slip that was before; else a front meets that */
+            CHECK_REL(b.c, a.c, 1e-9L);
+            CHECK_REL(b.kt, a.kt, 1e-9L);
+        }
+        fret_swing_free(s);
+        fret_memory_free(m);
+    }
+}
+
 static void refusals(void) {
-    load l = {2, 50, 210e9, 0, 0.4, 100, 20, 30, 90, 0};
+    load l = {2, 50, 210e9, 0, 0.4, 100, 20, 30, 90, 0, NULL};
     fret_memory *m = begin(&l);
     fret_swing *s = swing_of(m);
     fret_state before, after;
@@ -297,19 +358,55 @@ static void refusals(void) {
     fret_swing_free(s);
     fret_memory_free(m);
     fret_swing_free(NULL);
-    /* another shape is no power law */
-    const fret_gap flat = {.kind = FRET_GAP_FLAT_CONE, .b = 1e-3, .slope = 0.05};
+    /* rows are kinks of the law */
+    const double r[] = {0, 1e-3, 2e-3}, f[] = {0, 5e-5, 2e-4};
+    struct fret_table *rows = NULL;
+    CHECK_OK(fret_table_make(r, f, 3, NULL, &rows));
+    const fret_gap sampled = {.kind = FRET_GAP_TABLE, .table = rows};
     const unit_scene steel = unit_make_scene(2, 0);
     s = NULL;
-    CHECK_OK(fret_memory_make(unit_keep_normal(&steel.material, &flat), 0.4, &m));
+    CHECK_OK(fret_memory_make(unit_keep_normal(&steel.material, &sampled), 0.4, &m));
+    CHECK(!fret_swing_takes(fret_memory_normal(m)));
     CHECK_CODE(fret_swing_make(m, &s), FRET_OUTSIDE);
     CHECK(s == NULL);
+    fret_memory_free(m);
+    fret_table_free(rows);
+}
+
+/* A sphere that does not carry the top of a swing; and of no shape but powers are fields had along the curve.
+ */
+static void too_small(void) {
+    const unit_scene steel = unit_make_scene(2, 0);
+    const double top = 180;
+    fret_normal *n = NULL;
+    fret_press p;
+    for (double R = 1e-5; R < 1e-2 && !n; R *= 1.1) {
+        const fret_gap ball = {.kind = FRET_GAP_EXACT_SPHERE, .R = R};
+        n = unit_keep_normal(&steel.material, &ball);
+        if (fret_press_by_force(n, 120, &p).code)
+            n = NULL;
+    }
+    CHECK_CODE(fret_press_by_force(n, top, &p), FRET_TABLE_SHORT);
+    fret_memory *m = NULL;
+    fret_real q;
+    CHECK_OK(fret_memory_make(n, 0.4, &m));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 110, 1}));
+    fret_swing *s = swing_of(m);
+    CHECK(fret_swing_fits(s, &(fret_sine){1, 10, 0, 100}));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 20, 1}));
+    fret_swing_free(s);
+    s = swing_of(m);
+    CHECK(!fret_swing_fits(s, &(fret_sine){1, top - 100, acos(-1), 100}));
+    CHECK_CODE(fret_swing_traction(s, 1e-6, &q), FRET_OUTSIDE);
+    CHECK_CODE(fret_swing_surface_x(s, 1e-6, &q), FRET_OUTSIDE);
+    CHECK(fret_swing_displacement(s, 1e-6) == 0);
+    fret_swing_free(s);
     fret_memory_free(m);
 }
 
 /* A step by depth is the one by the force at that depth; one to no depth opens the contact. */
 static void by_depth(void) {
-    load l = {2, 50, 210e9, 0.3, 0.4, 100, 20, 30, 90, 0};
+    load l = {2, 50, 210e9, 0.3, 0.4, 100, 20, 30, 90, 0, NULL};
     fret_memory *m = begin(&l);
     fret_swing *s = swing_of(m), *t = swing_of(m);
     fret_state one, two;
@@ -431,7 +528,7 @@ static void mirrored(int count) {
  */
 static void one_stays(void) {
     for (int turned = 0; turned < 2; turned++) {
-        const load l = {2, 50, 210e9, 0.3, 0.5, 100, turned ? -20 : 20, 40, 0, 0};
+        const load l = {2, 50, 210e9, 0.3, 0.5, 100, turned ? -20 : 20, 40, 0, 0, NULL};
         const fret_sine w = sine_of(&l);
         fret_memory *m = begin(&l);
         fret_swing *s = swing_of(m);
@@ -459,7 +556,7 @@ static void one_stays(void) {
 
 /* What has been opened is pressed as if new, but for what it has lost. */
 static void opened_and_closed(void) {
-    const load l = {2, 50, 210e9, 0.3, 0.4, 100, 20, 30, 90, 0.7};
+    const load l = {2, 50, 210e9, 0.3, 0.4, 100, 20, 30, 90, 0.7, NULL};
     fret_memory *m = begin(&l), *fresh;
     fret_swing *s = swing_of(m), *t;
     fret_state open, a, b;
@@ -490,7 +587,7 @@ static void opened_and_closed(void) {
  * along the one and then along the other. */
 static void from_one_way_to_another(void) {
     enum { CHORDS = 4000 };
-    const load l = {2, 50, 210e9, 0.3, 0.5, 100, 5, 30, 180, 0};
+    const load l = {2, 50, 210e9, 0.3, 0.5, 100, 5, 30, 180, 0, NULL};
     const double lower = half_turn + asin(10 / 24.0); /* by as much as the sine is above its mean there */
     const fret_sine first = sine_of(&l), second[] = {{8, 30, half_turn, 100},
                                                      {8, 24, half_turn, 100}, /* the same F_N - F_x/mu */
@@ -524,10 +621,15 @@ static void from_one_way_to_another(void) {
 int main(int argc, char **argv) {
     unit_start("swing", argc, argv);
     references();
-    against_chords(100);
-    in_parts(100);
-    against_memory(200);
+    for (int i = 0; i < 2; i++) {
+        shaped = i;
+        against_chords(shaped ? 20 : 100);
+        in_parts(shaped ? 20 : 100);
+        against_memory(shaped ? 50 : 200);
+        in_phase(shaped ? 50 : 100);
+    }
     refusals();
+    too_small();
     by_depth();
     tiny_steps();
     mirrored(60);
