@@ -131,6 +131,10 @@ static void random_load(bool far) {
     }
     CHECK_OK(fret_swing_surface_x(s, 0, &got)); /* the centre goes as far as its spring */
     CHECK_ABS(got, fret_swing_displacement(s, 0), mu * s->normal->foundation.eta * now.dz, 1e-15L);
+    fret_real beyond = 0; /* as of a point load, where no number holds the force of a contact so large */
+    CHECK_OK(fret_swing_surface_x(s, 1e300L * now.a, &got));
+    CHECK_OK(fret_swing_surface_x(s, 1e100L * now.a, &beyond));
+    CHECK_REL(got, beyond * powl(1e-200L, 1 + grading), 1e-12L);
     fret_swing_free(s);
     fret_memory_free(m);
 }
