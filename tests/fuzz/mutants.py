@@ -306,7 +306,7 @@ class Reach:
         found = set()
         for name in os.listdir(marks):
             path = next(p for p in (os.path.join(tree.top, "build", *way, name) for way in ((), ("tests",), ("tests", "hard")))
-                        if os.path.exists(p))
+                        if os.path.isfile(p))
             if path not in self.known:
                 symbols = subprocess.run(["nm", path], capture_output=True, text=True, check=True).stdout
                 start = int(re.search(r"^(\w+) \w __executable_start$", symbols, re.M).group(1), 16)
