@@ -94,7 +94,6 @@ static side *side_find(beside *b, const scene *changed, const knob_value by[], s
 /* ---- running ahead ----------------------------------------------------------------------------- */
 
 static bool keep_runner(side *s, stop *to, const runner *r) {
-    const fret_memory *m = engine_memory(&r->engine);
     engine kept = to->run.engine;
     to->run = *r;
     to->run.engine = kept;
@@ -103,7 +102,7 @@ static bool keep_runner(side *s, stop *to, const runner *r) {
     if (r->coarse)
         memcpy(to->coarse, r->coarse, sizeof to->coarse);
     const fret_status st =
-        engine_copy(&to->run.engine, &r->engine, fret_memory_normal(m), fret_memory_friction(m));
+        engine_copy(&to->run.engine, &r->engine, engine_normal(&r->engine), engine_friction(&r->engine));
     s->no_memory = st.code;
     return !st.code;
 }

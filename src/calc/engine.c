@@ -239,8 +239,17 @@ fret_status engine_swing(engine *e, const fret_sine *load, double from, double t
     return st;
 }
 
+/* As it was when it was last shown. */
+static const fret_memory *old_memory(const engine *e) {
+    return engine_is_sine(e) ? ((const sine *)e->self)->memory : e->self;
+}
+
 const fret_normal *engine_normal(const engine *e) {
-    return fret_memory_normal(engine_is_sine(e) ? ((const sine *)e->self)->memory : e->self);
+    return fret_memory_normal(old_memory(e));
+}
+
+double engine_friction(const engine *e) {
+    return fret_memory_friction(old_memory(e));
 }
 
 const fret_swing *engine_curve(const engine *e) {

@@ -70,8 +70,9 @@ bool engine_is_sine(const engine *e);
 fret_status engine_swing(engine *e, const fret_sine *sine, double from, double to, bool *taken);
 /* The state of one of a power law that has taken a swinging load; NULL: a memory tells it. */
 const fret_swing *engine_curve(const engine *e);
-/* The contact of a memory, or of the sine. */
+/* The contact of a memory, or of the sine, and its friction. */
 const fret_normal *engine_normal(const engine *e);
+double engine_friction(const engine *e);
 /* The state as a memory: what curves, in chords. NULL: out of memory. */
 const fret_memory *engine_memory(const engine *e);
 /* From here on engine_spent counts. */

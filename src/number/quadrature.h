@@ -22,8 +22,8 @@ fret_node fret_exponential_node(int i);
  */
 fret_real fret_integrate_smooth(fret_integrand *f, void *context);
 
-/* The same by eight points in either half where they add up to those of the whole to `agree` of it, as between
- * places that are close; else as fret_integrate. */
+/* The same by eight points in either half where they add up to those of the whole to `agree` of it, as
+ * between places that are close; else as fret_integrate. */
 fret_real fret_integrate_short(fret_integrand *f, void *context, fret_real agree);
 
 /* The same by halves, and halves of these, until they add up to `tolerance` of the integral, for integrands

@@ -230,6 +230,54 @@ static void loads(bool turned) {
     calc_free(&whole);
 }
 
+/* W of the scene with another friction at each instant, the last of them. */
+typedef struct beside_look {
+    calc *c;
+    double W;
+} beside_look;
+
+static bool look_beside(void *context, double time, calc_error *why) {
+    beside_look *b = context;
+    calc_value v;
+    (void)time;
+    if (!evaluate(b->c, "(W at mu=0.5)", &v)) {
+        *why = error;
+        return false;
+    }
+    b->W = (double)v.v;
+    return true;
+}
+
+static bool along_beside(calc *c, double *W) {
+    beside_look b = {.c = c};
+    calc_error why;
+    error_clear(&why);
+    error_clear(&error);
+    trial *t = trial_open(c, &why);
+    const bool ok = t && trial_along(t, ALONG_CYCLE, c->now->end, 4, false, look_beside, &b, &why);
+    if (t)
+        trial_close(t);
+    if (!ok)
+        error = why;
+    *W = b.W;
+    return ok;
+}
+
+/* Another scene along a swinging load, whatever allocation fails. */
+static void scenes_beside(void) {
+    const load_step cycle = {
+        .kind = LOAD_CYCLE, .tangential = BY_FORCE, .tangential_value = 9, .normal_value = 10};
+    calc c;
+    double want, W;
+    press_steel(&c, NULL, 0);
+    CHECK(load(&c, cycle, (cycle_extra){.times = 1}));
+    const place before = place_of(&c);
+    CHECK(along_beside(&c, &want) && want > 0);
+    EACH_FAILS(20, along_beside(&c, &W), out_of_memory(&c) && same(place_of(&c), before));
+    CHECK(W == want);
+    calc_free(&c);
+}
+
 /* What is refused on the way leaves no other way of reckoning behind. */
 static void refusals(void) {
     static const load_step
@@ -456,6 +504,7 @@ int main(int argc, char **argv) {
     assignments();
     loads(false);
     loads(true);
+    scenes_beside();
     refusals();
     alike_names();
     deep_names();
