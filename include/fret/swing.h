@@ -60,8 +60,7 @@ void fret_swing_state(const fret_swing *swing, fret_state *out);
 fret_real fret_swing_last_loss(const fret_swing *swing); /* of the last period, part or step [J] */
 
 /* Traction [Pa] and surface displacement [m], as of a memory (fret/field.h), and the displacement u(x) [m] of
- * the spring at x: along the curves themselves. Accuracy 1e-13 of the largest value. Error: FRET_OUTSIDE
- * (no power law; 0 then, of u), for which there is fret_swing_memory. */
+ * the spring at x: along the curves themselves. Accuracy 1e-13 of the largest value. */
 fret_status fret_swing_traction(const fret_swing *swing, fret_real r, fret_real *q);
 fret_status fret_swing_surface_x(const fret_swing *swing, fret_real r, fret_real *u);
 fret_real fret_swing_displacement(const fret_swing *swing, fret_real x);

@@ -253,7 +253,7 @@ double engine_friction(const engine *e) {
 }
 
 const fret_swing *engine_curve(const engine *e) {
-    const sine *s = engine_is_sine(e) && fret_normal_is_power(engine_normal(e)) ? e->self : NULL;
+    const sine *s = engine_is_sine(e) ? e->self : NULL;
     return s ? s->swing : NULL;
 }
 

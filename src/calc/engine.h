@@ -68,7 +68,7 @@ bool engine_is_sine(const engine *e);
 /* A period of it, or the part from one of its times, 0..1, to another; taken: false where it cannot, nothing
  * has changed. */
 fret_status engine_swing(engine *e, const fret_sine *sine, double from, double to, bool *taken);
-/* The state of one of a power law that has taken a swinging load; NULL: a memory tells it. */
+/* The state of one that has taken a swinging load; NULL: a memory tells it. */
 const fret_swing *engine_curve(const engine *e);
 /* The contact of a memory, or of the sine, and its friction. */
 const fret_normal *engine_normal(const engine *e);

@@ -13,6 +13,8 @@ typedef struct bend {
     const fret_normal *normal;
     way of;
     fret_real r, N; /* the place, and the load of a contact that ends there */
+    fret_real steep,
+        bent; /* but of powers: its radius grows by steep x (1 + bent x) with so much more load x */
     fret_real from, beyond;
     weight weight;
     fret_real lo, hi, power, sign; /* sign: of the slope */
@@ -38,26 +40,32 @@ static fret_real rise_at(const bend *b, fret_real w) {
     return b->beyond - 2 * b->of.size[M] * fret_sin(b->from + w / 2 - b->of.lag[M]) * fret_sin(w / 2);
 }
 
+/* Below so much of N a radius is told by its growth. */
+static const fret_real NEAR = 1e-6L;
+
 /* a^2/r^2 - 1 of the contact that has so much more load; its radius is a. */
 static fret_real square_rise(const bend *b, fret_real rise, fret_real a) {
     const fret_real ratio = rise / b->N;
-    if (b->N > 0 && isfinite(ratio))
+    const bool known = b->N > 0 && isfinite(ratio);
+    if (known && fret_normal_closed(b->normal))
         return fret_expm1(2 / b->normal->s * fret_log1p(ratio));
-    return (a - b->r) / b->r * ((a + b->r) / b->r);
+    const fret_real e = known && fabsl(ratio) <= NEAR ? b->steep * rise * (1 + b->bent * rise) : a - b->r;
+    return e / b->r * (2 + e / b->r);
 }
 
-/* sigma dy/dt */
-static fret_real depth_rate(const bend *b, fret_real w, fret_real y, fret_real N) {
-    return -way_fall(&b->of, P, b->from + w) * b->normal->q * y / N;
+/* sigma dy/dt, y and its stiffness those of N */
+static fret_real depth_rate(const bend *b, fret_real w, const fret_point *at) {
+    const fret_real turn = -way_fall(&b->of, P, b->from + w);
+    return fret_normal_closed(b->normal) ? turn * b->normal->q * at->y / at->F : turn / at->K;
 }
 
 /* At the time w; a kernel that is singular at w = 0 but for |w|^(1-power). */
 static fret_real rate_at(const bend *b, fret_real w, bool but) {
-    const fret_real k = b->normal->foundation.k, N = way_at(&b->of, M, b->from + w),
-                    y = fret_law_depth(b->normal, N), sum = depth_rate(b, w, y, N);
+    const fret_point at = fret_law_at_force(b->normal, way_at(&b->of, M, b->from + w));
+    const fret_real k = b->normal->foundation.k, sum = depth_rate(b, w, &at);
     if (b->weight == INSIDE)
         return sum;
-    const fret_real a = fret_law_radius(b->normal, y), rise = rise_at(b, w);
+    const fret_real a = at.a, rise = rise_at(b, w);
     if (b->weight == PRESSED) {
         const fret_real way2 = b->r > 0 ? b->r * b->r * square_rise(b, rise, a) : a * a;
         return way2 > 0 ? sum * fret_pow(but ? way2 / w : way2, (k - 1) / 2) : 0;
@@ -136,12 +144,18 @@ static fret_real sum_of(bend *b, const piece *p, weight outside, weight inside, 
 static fret_status begin(const fret_swing *c, fret_real r, bend *b) {
     const fret_status st = fret_check_not_negative("r", (double)r);
     const fret_normal *n = c->normal;
+    const fret_real e = r - fret_gap_start(&n->gap);
     *b = (bend){.normal = n, .r = r};
-    if (!st.code && !fret_normal_closed(n))
-        return fret_fail(FRET_OUTSIDE, "gap", 0, 0);
-    if (!st.code && r > 0) {
-        const fret_profile p = fret_gap_profile(&n->gap, &n->rule, r);
+    if (!(r < n->end))
+        b->N = (fret_real)INFINITY;
+    else if (!st.code && e > 0) {
+        const fret_profile p = fret_gap_profile(&n->gap, &n->rule, e);
         b->N = fret_force_of(n, &p);
+        if (!fret_normal_closed(n)) {
+            const fret_real less = 1e-4L * b->N, inner = fret_law_at_force(n, b->N - less).a;
+            b->steep = 1 / (p.slope * fret_normal_stiffness(n, r));
+            b->bent = (1 - (r - inner) / (b->steep * less)) / less;
+        }
     }
     return st;
 }

@@ -151,10 +151,7 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
     long double at[LEVELS];
     fprintf(p->to, "    model: %s, ", models[model].title);
     if (model == MODEL_MEMORY && a->levels == 1 && (!call || is_local(q))) {
-        fputs(call && !engine_curve(&a->run[0].engine)
-                  ? "the sine itself, what it leaves curved in 640 straight parts\n"
-                  : "the sine itself, event by event (exact)\n",
-              p->to);
+        fputs("the sine itself, event by event (exact)\n", p->to);
         return;
     }
     if (model != MODEL_MEMORY || a->levels < LEVELS || !e || !by_chords(p, e, at)) {

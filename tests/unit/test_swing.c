@@ -397,9 +397,8 @@ static void too_small(void) {
     fret_swing_free(s);
     s = swing_of(m);
     CHECK(!fret_swing_fits(s, &(fret_sine){1, top - 100, acos(-1), 100}));
-    CHECK_CODE(fret_swing_traction(s, 1e-6, &q), FRET_OUTSIDE);
-    CHECK_CODE(fret_swing_surface_x(s, 1e-6, &q), FRET_OUTSIDE);
-    CHECK(fret_swing_displacement(s, 1e-6) == 0);
+    CHECK_OK(fret_swing_surface_x(s, 1e-2, &q)); /* beyond the sphere, too */
+    CHECK(q > 0);
     fret_swing_free(s);
     fret_memory_free(m);
 }
