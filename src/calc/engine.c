@@ -225,8 +225,6 @@ fret_status engine_to_sine(engine *e) {
 fret_status engine_swing(engine *e, const fret_sine *load, double from, double to, bool *taken) {
     fret_status st = {FRET_OK, NULL, 0, 0};
     *taken = false;
-    if (!engine_is_sine(e))
-        return st;
     sine *s = e->self;
     if (!s->swing)
         st = fret_swing_make(s->memory, &s->swing);

@@ -185,8 +185,8 @@ static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real
         }
         y = next > lo && next < hi ? next : (lo + hi) / 2;
     }
-    *power = to_m(all, y);
-    return y;
+    *power = to_m(all, y); /* unreached: halves alone are at the last digit by then */
+    return y;              /* unreached: the loop has returned */
 }
 
 /* The part that begins before the value and ends at it or beyond; among the first `count`. */

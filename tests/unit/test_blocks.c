@@ -26,16 +26,20 @@ static void sample(void) {
     CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
 }
 
-static fret_contact prepared(void) {
+static fret_contact prepared_to(double error) {
     const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
     fret_normal *n = NULL;
     fret_contact c = {.mu = 0.4};
     CHECK_OK(fret_normal_make(&steel, &gap, &n));
     CHECK_OK(fret_press_by_radius(n, 0.9e-3, &c.press));
-    CHECK_OK(fret_normal_prepare(n, (double)c.press.F, borne));
+    CHECK_OK(fret_normal_prepare(n, (double)c.press.F, error));
     CHECK(fret_normal_prepared(n) <= 1e-8);
     c.normal = n;
     return c;
+}
+
+static fret_contact prepared(void) {
+    return prepared_to(borne);
 }
 
 static void end(fret_contact *c) {
@@ -65,6 +69,29 @@ static void *ask_all(void *context) {
         a->ok = !ask(a->contact, i, &a->loss[i]).code && a->ok;
     }
     return NULL;
+}
+
+/* A slice over many rows, which are all made for it: where one of them finds no memory the table answers. */
+static void thick_slices(void) {
+    fret_contact c = prepared_to(0);
+    fret_real want, got;
+    int failed = 0;
+    CHECK_OK(fret_cycle_loss_by_force(&c, 0.6 * c.mu * (double)c.press.F, &want));
+    end(&c);
+    for (int k = 0; k < 400; k += k < 8 ? 1 : 29) {
+        c = prepared_to(0);
+        left = k;
+        const fret_status st = fret_cycle_loss_by_force(&c, 0.6 * c.mu * (double)c.press.F, &got);
+        failed += left < 0;
+        left = -1;
+        CHECK(st.code == FRET_NO_MEMORY || !st.code);
+        if (!st.code)
+            CHECK_REL(got, want, 1e-12L);
+        CHECK_OK(fret_cycle_loss_by_force(&c, 0.6 * c.mu * (double)c.press.F, &got));
+        CHECK(got == want);
+        end(&c);
+    }
+    CHECK(failed > 3);
 }
 
 int main(int argc, char **argv) {
@@ -139,6 +166,7 @@ int main(int argc, char **argv) {
     }
     CHECK(failed > 3);
     end(&c);
+    thick_slices();
     fret_table_free(table);
     return unit_finish();
 }

@@ -549,7 +549,7 @@ static void standing(void) {
 static void rim(void) {
     unsigned long long seed = 11;
     int rounded = 0;
-    for (int i = 0; i < 400; i++) {
+    for (int i = 0; i < 4000; i++) {
         contact c = make_plain(unit_random(&seed, 0.5, 5), unit_random(&seed, -0.9, 0.9));
         go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, unit_random(&seed, 1, 100), 0});
         fret_state s = state_of(&c);
