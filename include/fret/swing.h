@@ -17,8 +17,8 @@ FRET_BEGIN
  *   dW = -dM mu^2 eta [F_N(D) - F_N(d) - (D-d) F_N'(d)]/F_N'(d),   backward slip the same with dP.
  * A swinging load keeps pieces of its own way as pieces of the curve.
  *
- * Accuracy, against 64-digit references: W and the loss of a period 1e-15 of W; 1e-13 after steps that end
- * within a thousandth of gross slip.
+ * Accuracy of a power law, against 64-digit references: W and the loss of a period 1e-15 of W; 1e-13 after
+ * steps that end within a thousandth of gross slip. Of other shapes, prepared, 1e-13.
  *
  * Thread-compatible: distinct objects may be used by distinct threads. */
 typedef struct fret_swing fret_swing;
@@ -60,7 +60,8 @@ void fret_swing_state(const fret_swing *swing, fret_state *out);
 fret_real fret_swing_last_loss(const fret_swing *swing); /* of the last period, part or step [J] */
 
 /* Traction [Pa] and surface displacement [m], as of a memory (fret/field.h), and the displacement u(x) [m] of
- * the spring at x: along the curves themselves. Accuracy 1e-13 of the largest value. */
+ * the spring at x: along the curves themselves. Accuracy 1e-13 of the largest value, of other shapes 1e-12.
+ */
 fret_status fret_swing_traction(const fret_swing *swing, fret_real r, fret_real *q);
 fret_status fret_swing_surface_x(const fret_swing *swing, fret_real r, fret_real *u);
 fret_real fret_swing_displacement(const fret_swing *swing, fret_real x);

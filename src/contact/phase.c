@@ -36,14 +36,12 @@ static bool pieces_rate(const fret_phase *p, fret_real edge, fret_real zone, fre
     return true;
 }
 
-static fret_real law_rate(fret_real t, fret_real rest, void *context) {
-    const fret_phase *p = context;
+/* z, y: edge and front; d: how far they are apart, with its digits. */
+static fret_real rate_between(const fret_phase *p, fret_real z, fret_real y, fret_real d) {
     const fret_normal *n = p->normal;
-    fret_real z = p->edge0 * rest + p->edge1 * t, y = p->front0 * rest + p->front1 * t;
-    fret_real d = (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t;
+    fret_real rate;
     if (d <= 0 || fret_stopped(n))
         return 0;
-    fret_real rate;
     if (pieces_rate(p, z, d, &rate))
         return rate;
     fret_point edge = p->by == DEPTH ? fret_law_at_depth(n, z) : fret_law_at_force(n, z),
@@ -58,6 +56,12 @@ static fret_real law_rate(fret_real t, fret_real rest, void *context) {
     if (p->by == DEPTH)
         return G;
     return front.K > 0 ? G / front.K : 0; /* dy = dF/K; the end point itself has no weight */
+}
+
+static fret_real law_rate(fret_real t, fret_real rest, void *context) {
+    const fret_phase *p = context;
+    return rate_between(p, p->edge0 * rest + p->edge1 * t, p->front0 * rest + p->front1 * t,
+                        (p->edge0 - p->front0) * rest + (p->edge1 - p->front1) * t);
 }
 
 /* Is the rate smooth: a small step, far from the centre? */
@@ -359,6 +363,8 @@ static fret_real power_loss(const fret_phase *p) {
 
 fret_real fret_phase_rate_by_load(const fret_normal *n, fret_real edge, fret_real front, fret_real zone) {
     const power_phase c = {.s = n->q, .sm1 = -n->pm1 * n->q};
+    if (!fret_normal_closed(n))
+        return rate_between(&(fret_phase){.normal = n, .by = LOAD}, edge, front, zone);
     return zone > 0 && front > 0 ? fret_law_depth(n, edge) * bow(&c, zone / edge, front / edge) : 0;
 }
 

@@ -25,8 +25,8 @@ fret_real fret_phase_loss(const fret_phase *phase);
 /* The same by quadrature of the law at both ends, as for shapes without a closed form. */
 fret_real fret_phase_loss_by_law(const fret_phase *phase);
 
-/* [F_N(D)-F_N(d)-(D-d) K(d)]/K(d) [m] of a power law: D the depth of the load `edge`, d that of `front` >= 0,
- * `zone` the difference of the loads by itself. */
+/* [F_N(D)-F_N(d)-(D-d) K(d)]/K(d) [m]: D the depth of the load `edge`, d that of `front` >= 0, `zone` the
+ * difference of the loads by itself. */
 fret_real fret_phase_rate_by_load(const fret_normal *normal, fret_real edge, fret_real front, fret_real zone);
 
 /* Gross slip while the edge moves from edge0 to edge1, by depth: the mean of F_N [N]. */

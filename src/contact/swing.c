@@ -126,20 +126,13 @@ static fret_real integrate(const fret_swing *c, fret_integrand *f, void *context
     return fret_integrate_short(f, context, fret_normal_closed(c->normal) ? 1e-17L : 1e-13L);
 }
 
-/* [F(D)-F(d)-(D-d) F'(d)]/F'(d) of the depths D and d of two loads, `zone` their difference by itself. */
-static fret_real rate_by_load(const fret_normal *n, fret_real edge, fret_real front, fret_real zone) {
-    if (fret_normal_closed(n))
-        return fret_phase_rate_by_load(n, edge, front, zone);
-    const fret_level outer = {fret_law_depth(n, edge), edge};
-    return fret_law_slice(n, &outer, fret_law_thickness(n, &outer, zone)).G / fret_law_at_force(n, front).K;
-}
-
-/* The same times the fall of the level. */
+/* [F(D)-F(d)-(D-d) F'(d)]/F'(d) times the fall of the level. */
 static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
     const slip *l = context;
     const fret_real s = l->lo * rest + l->hi * t, level = way_at(l->way, l->which, s);
     const fret_real other = way_at(l->way, 1 - l->which, s), inner = curve_other(l->curve, l->which, level);
-    return rate_by_load(l->curve->normal, (level + other) / 2, (level + inner) / 2, (other - inner) / 2) *
+    return fret_phase_rate_by_load(l->curve->normal, (level + other) / 2, (level + inner) / 2,
+                                   (other - inner) / 2) *
            way_fall(l->way, l->which, s);
 }
 
