@@ -28,6 +28,7 @@ struct fret_diagram {
     double mu, mu_eta, per_mu_eta, loss_scale;
     fret_double_law law[2]; /* of the coordinate into the other */
     double limit[2];        /* beyond, the law wants another place to count from */
+    double sure[2];         /* from here to there all numbers are within their range */
     point edge;
     double dz;     /* depth of the edge, or < 0: the gap of the open bodies */
     double slid;   /* delta_x - mu eta t: what gross slip has carried along */
@@ -171,6 +172,12 @@ FRET_INLINE double other_of(const fret_diagram *d, coordinate by, double y) {
     return fret_double_law_value(&d->law[by], y);
 }
 
+/* Depth and load, or load and depth, whose product is an energy: numbers to go on with? */
+FRET_INLINE bool shown(double y, double v) {
+    const double product = y * v;
+    return product > 1e-290 && product < 1e290 && v > 1e-290 && v < 1e290;
+}
+
 /* Powers are taken of the ratio to a place that is never much smaller than the largest so far: there their
  * rounding is least. */
 static fret_status count_from(fret_diagram *d, coordinate by, double y) {
@@ -190,6 +197,11 @@ static fret_status count_from(fret_diagram *d, coordinate by, double y) {
     }
     d->limit[DEPTH] = (double)at[DEPTH] * (1 + far / d->law[DEPTH].s);
     d->limit[LOAD] = (double)at[LOAD] * (1 + far);
+    for (coordinate i = DEPTH; i <= LOAD; i++) {
+        const double most = d->limit[i], least = 1e-3 * most;
+        const bool both = shown(most, other_of(d, i, most)) && shown(least, other_of(d, i, least));
+        d->sure[i] = both ? least : INFINITY;
+    }
     return st;
 }
 
@@ -425,8 +437,9 @@ FRET_INLINE void grow(path *p, coordinate by) {
     p->to.t[other] = top->inner.t[other] + top->sigma * (p->to.y[other] - top->inner.y[other]);
 }
 
-/* v: depth and load at the end, t: of the coordinate `by` there. Returns the loss. */
-FRET_INLINE double advance(fret_diagram *d, coordinate by, const double y[2], double t, bool counts) {
+/* Depth and load at the end, t: of the coordinate `by` there. Returns the loss. */
+FRET_INLINE double advance(fret_diagram *d, coordinate by, double depth, double load, double t, bool counts) {
+    const double y[2] = {depth, load};
     const coordinate other = by == DEPTH ? LOAD : DEPTH;
     path p = {.d = d, .counts = counts};
     p.grow = y[by] - d->edge.y[by];
@@ -454,6 +467,21 @@ FRET_INLINE double advance(fret_diagram *d, coordinate by, const double y[2], do
     return p.loss;
 }
 
+/* Each by itself: as parts of one function they would keep in memory what fits into registers. */
+#define APART static __attribute__((noinline))
+APART double by_load(fret_diagram *d, double depth, double load, double t) {
+    return advance(d, LOAD, depth, load, t, false);
+}
+APART double by_load_with_loss(fret_diagram *d, double depth, double load, double t) {
+    return advance(d, LOAD, depth, load, t, true);
+}
+APART double by_depth(fret_diagram *d, double depth, double load, double t) {
+    return advance(d, DEPTH, depth, load, t, false);
+}
+APART double by_depth_with_loss(fret_diagram *d, double depth, double load, double t) {
+    return advance(d, DEPTH, depth, load, t, true);
+}
+
 static void open_contact(fret_diagram *d, double dx) {
     d->edge = (point){{0, 0}, {0, 0}};
     d->count = 0;
@@ -476,8 +504,7 @@ FRET_INLINE fret_status press_to(fret_diagram *d, coordinate by, double target, 
         }
         y[by] = end;
         y[other] = other_of(d, by, end);
-        const double v = y[other], product = end * v;
-        if (!(product > 1e-290 && product < 1e290 && v > 1e-290 && v < 1e290) && end > 0)
+        if (end < d->sure[by] && end > 0 && !shown(end, y[other]))
             return fret_fail(FRET_OVERFLOW, NULL, target, 1e290);
     }
     *dz = target < 0 ? target : y[DEPTH];
@@ -495,7 +522,8 @@ FRET_INLINE fret_status normal_end(fret_diagram *d, const fret_step *step, doubl
 
 static void step_by_force(fret_diagram *d, const fret_step *step, const double y[2], double load) {
     d->Fx = step->tangential;
-    d->last_loss = d->lossless ? advance(d, LOAD, y, load, false) : advance(d, LOAD, y, load, true);
+    d->last_loss =
+        d->lossless ? by_load(d, y[DEPTH], y[LOAD], load) : by_load_with_loss(d, y[DEPTH], y[LOAD], load);
     if (y[LOAD] <= 0)
         open_contact(d, d->slid); /* no spring is left to be displaced */
     d->dx = d->slid + d->mu_eta * d->edge.t[DEPTH];
@@ -513,7 +541,8 @@ static void step_by_displacement(fret_diagram *d, double target, const double y[
         stop = old + (target - old) * (from / (from - to));
     if (from > 0 || to > 0) {
         const double t = stop == old ? d->edge.t[DEPTH] : (stop - d->slid) * d->per_mu_eta;
-        d->last_loss = d->lossless ? advance(d, DEPTH, y, t, false) : advance(d, DEPTH, y, t, true);
+        d->last_loss =
+            d->lossless ? by_depth(d, y[DEPTH], y[LOAD], t) : by_depth_with_loss(d, y[DEPTH], y[LOAD], t);
     }
     if (to <= 0)
         open_contact(d, target);

@@ -146,6 +146,31 @@ static void brink(double n, double k) {
     }
 }
 
+/* Refused are just the depths at which load, or energy, leave their range, whatever came before. */
+static void at_the_ends_of_the_range(const fret_normal *normal) {
+    int inside = 0, outside = 0;
+    for (int first = -300; first <= 300; first += 6) {
+        fret_diagram *d = make(normal, 0.4, 0);
+        for (int i = 0; i < 20; i++) {
+            const double dz = pow(10, first - i * i / 2.0);
+            fret_press p = {0};
+            if (dz < 1e-306 || fret_press_by_depth(normal, dz, &p).code)
+                continue;
+            const fret_real most = fmaxl(fabsl(log10l(p.F)), fabsl(log10l(p.F * dz)));
+            const fret_status st = fret_diagram_step(d, &(fret_step){FRET_TO_DEPTH, FRET_TO_DX, dz, 0});
+            if (most < 289.9L)
+                inside += st.code == FRET_OK;
+            else if (most > 290.1L)
+                outside += st.code == FRET_OVERFLOW;
+            CHECK(st.code == FRET_OK || st.code == FRET_OVERFLOW);
+            CHECK(most > 289.9L || st.code == FRET_OK);
+            CHECK(most < 290.1L || st.code == FRET_OVERFLOW);
+        }
+        fret_diagram_free(d);
+    }
+    CHECK(inside > 300 && outside > 300);
+}
+
 static void objects(void) {
     const unit_scene s = unit_make_scene(2, 0.3);
     const fret_normal *normal = unit_make_normal(&s);
@@ -185,6 +210,7 @@ static void objects(void) {
         fret_diagram_forces(d, &now);
         CHECK(memcmp(&now, &before, sizeof now) == 0);
     }
+    at_the_ends_of_the_range(normal);
     /* nested turning points: room for so many, and no more; a copy goes on alike */
     go(few, FRET_TO_FORCE, 10, FRET_KEEP_DX, 0);
     go(d, FRET_TO_FORCE, 10, FRET_KEEP_DX, 0);
