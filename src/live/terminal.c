@@ -158,7 +158,10 @@ bool terminal_open(calc_error *error) {
     append(own.farewell, sizeof own.farewell, "cnorm");
     append(own.farewell, sizeof own.farewell, "rmcup");
     own.guard = file_guard_terminal(STDIN_FILENO, &modes, own.farewell);
-    cbreak();
+    if (cbreak() == ERR) {
+        terminal_close();
+        return calc_fail(error, 0, 0, "the full-screen mode cannot have each key of this terminal");
+    }
     noecho();
     nonl();
     keypad(stdscr, TRUE);
