@@ -17,7 +17,7 @@ typedef struct bend {
         bent; /* but of powers: its radius grows by steep x (1 + bent x) with so much more load x */
     fret_real from, beyond;
     weight weight;
-    fret_real lo, hi, power, sign; /* sign: of the slope */
+    fret_real lo, hi, near, side, power, sign; /* sign: of the slope */
 } bend;
 
 /* Sum (M) or difference (P) of half the coordinates. */
@@ -83,46 +83,78 @@ static fret_real touching_rate(fret_real t, fret_real rest, void *context) {
     return rate_at(b, w, b->weight == PRESSED);
 }
 
+/* Between lo and hi, evenly in the logarithm of the time to what is singular, `near` before the time 0. */
 static fret_real other_rate(fret_real t, fret_real rest, void *context) {
     const bend *b = context;
-    return b->sign * rate_at(b, b->lo * rest + b->hi * t, false);
+    const fret_real off = b->near + b->lo, span = fret_log1p((b->hi - b->lo) / off),
+                    w = b->lo + off * fret_expm1(span * t);
+    (void)rest;
+    return b->sign * span * (b->near + w) * rate_at(b, b->side * w, false);
 }
 
-/* Between the times lo and hi. */
+/* From lo to hi, both times after 0 or, on the other side, before it. */
 static fret_real sum_between(bend *b, fret_real lo, fret_real hi) {
     static const fret_real little = 1e-16L;
+    const fret_real turned = b->side * (b->of.lag[P] - b->from);
     fret_real sum = 0;
     for (fret_real end; hi - lo > little; lo = end) { /* where it does, the sign changes */
-        fret_real turn = turned_to(b->of.lag[P], b->from + lo) - b->from;
+        fret_real turn = turned_to(turned, lo);
         while (turn <= lo + little)
             turn += FRET_PI;
         end = fminl(turn, hi);
         b->lo = lo;
         b->hi = end;
-        b->sign = way_fall(&b->of, P, b->from + (lo + end) / 2) > 0 ? -1 : 1;
-        sum += b->sign * (end - lo) * fret_integrate_pieces(other_rate, b, 1e-14L);
+        b->sign = way_fall(&b->of, P, b->from + b->side * (lo + end) / 2) > 0 ? -1 : 1;
+        sum += b->sign * fret_integrate_pieces(other_rate, b, 1e-14L);
     }
     return sum;
 }
 
-/* As long as nothing else is singular in the plane of complex times: the load that is nothing, and the
- * instant before the load turned at which it was the same. */
+/* How far from the time 0 the load is nothing, or was N before it turned: in the plane of complex times what
+ * is singular but there. */
 static fret_real alone(const bend *b) {
     const fret_real angle = turned_to(b->from - b->of.lag[M], -FRET_PI / 2);
-    const fret_real opens = sqrtl(2 * b->N / b->of.size[M]), again = 2 * (angle + FRET_PI);
-    return again > 1e-6L ? fminl(opens, again) : opens;
+    return fminl(sqrtl(2 * b->N / b->of.size[M]), 2 * (angle + FRET_PI));
 }
 
-/* Between the times lo and hi, of which one may be where the contact ends at r. */
-static fret_real integral(bend *b, fret_real lo, fret_real hi) {
+/* The same where the load at the time 0 is more than N, or less; far is a turn. */
+static fret_real near_to(const bend *b) {
+    static const fret_real least = 1e-15L, most = 2 * FRET_PI;
+    const fret_real off = fabsl(b->beyond) / b->of.size[M],
+                    near = fminl(sqrtl(off), off / fabsl(fret_sin(b->from - b->of.lag[M])));
+    return b->weight == INSIDE ? most : fminl(fmaxl(near, least), most);
+}
+
+/* The same by a rule for each doubling, however far down: what is little there need not agree. */
+static fret_real sum_doubling(bend *b, fret_real lo, fret_real hi) {
     fret_real sum = 0;
-    if (b->weight == INSIDE || b->beyond != 0 || (lo != 0 && hi != 0))
-        return sum_between(b, lo, hi);
-    const fret_real part = fminl(hi - lo, alone(b)), m = (b->normal->foundation.k + 1) / 2;
-    b->power = b->weight == PRESSED ? 1 / m : 1;
-    b->hi = lo != 0 ? -part : part;
-    sum = (b->weight == PRESSED ? fret_pow(part, m) / m : part) * fret_integrate(touching_rate, b);
-    return sum + (lo != 0 ? sum_between(b, lo, -part) : sum_between(b, part, hi));
+    b->sign = 1;
+    for (b->lo = lo; b->lo < hi; b->lo = b->hi) {
+        b->hi = fminl(2 * b->lo + b->near, hi);
+        sum += fret_integrate_smooth(other_rate, b);
+    }
+    return sum;
+}
+
+/* From the time 0 to `end`, before it or after it. */
+static fret_real integral(bend *b, fret_real end) {
+    static const fret_real least = 1e-15L;
+    const fret_real whole = fabsl(end), m = (b->normal->foundation.k + 1) / 2;
+    fret_real sum = 0, from = 0, clear = whole / 8;
+    b->side = end < 0 ? -1 : 1;
+    b->near = near_to(b);
+    if (b->weight != INSIDE && b->beyond == 0) {
+        from = fminl(whole, fmaxl(alone(b), least));
+        b->near = 0;
+        b->power = b->weight == PRESSED ? 1 / m : 1;
+        b->hi = b->side * from;
+        sum = (b->weight == PRESSED ? fret_pow(from, m) / m : from) * fret_integrate(touching_rate, b);
+    }
+    if (from + b->near < clear) {
+        sum += sum_doubling(b, from, clear);
+        from = clear;
+    }
+    return sum + sum_between(b, from, whole);
 }
 
 /* The parts of a curved piece within and beyond the load N. */
@@ -134,10 +166,10 @@ static fret_real sum_of(bend *b, const piece *p, weight outside, weight inside, 
     b->beyond = first >= 0 ? first : last <= 0 ? last : 0;
     b->weight = outside;
     if (outside != PRESSED && b->from > p->lo)
-        sum += factor * integral(b, p->lo - b->from, 0);
+        sum += factor * integral(b, p->lo - b->from);
     b->weight = inside;
     if (b->from < p->hi)
-        sum += integral(b, 0, p->hi - b->from);
+        sum += integral(b, p->hi - b->from);
     return sum;
 }
 
@@ -171,6 +203,20 @@ static fret_real slope_of(const piece *p) {
     return m + up > 0 ? (up - m) / (m + up) : 0;
 }
 
+/* The field of a straight piece is added. */
+static fret_status add_straight(const fret_swing *c, const piece *p, fret_real r, bool traction,
+                                fret_real *sum) {
+    const fret_real sigma = slope_of(p);
+    fret_real inner = 0, outer = 0;
+    if (sigma == 0)
+        return fret_ok();
+    fret_status st = fret_field_of(c->normal, depth_at(c, p->first), r, traction, &inner);
+    if (!st.code)
+        st = fret_field_of(c->normal, depth_at(c, p->last), r, traction, &outer);
+    *sum += sigma * (outer - inner);
+    return st;
+}
+
 fret_status fret_swing_traction(const fret_swing *c, fret_real r, fret_real *q) {
     const fret_foundation *f = &c->normal->foundation;
     bend b;
@@ -179,17 +225,10 @@ fret_status fret_swing_traction(const fret_swing *c, fret_real r, fret_real *q) 
     *q = 0;
     for (size_t i = 0; i < c->count && !st.code && r < c->a; i++) {
         const piece *p = &c->pieces[i];
-        if (p->curved) {
+        if (p->curved)
             curved += sum_of(&b, p, PRESSED, PRESSED, 0);
-            continue;
-        }
-        const fret_real sigma = slope_of(p);
-        fret_real inner = 0, outer = 0;
-        if (sigma != 0)
-            st = fret_field_of(c->normal, depth_at(c, p->first), r, true, &inner);
-        if (sigma != 0 && !st.code)
-            st = fret_field_of(c->normal, depth_at(c, p->last), r, true, &outer);
-        sum += sigma * (outer - inner);
+        else
+            st = add_straight(c, p, r, true, &sum);
     }
     if (!st.code)
         *q = c->mu * (sum + f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * curved);
@@ -204,15 +243,10 @@ fret_status fret_swing_surface_x(const fret_swing *c, fret_real r, fret_real *u)
     *u = 0;
     for (size_t i = 0; i < c->count && !st.code; i++) {
         const piece *p = &c->pieces[i];
-        if (p->curved) {
+        if (p->curved)
             sum += sum_of(&b, p, OUTSIDE, INSIDE, factor);
-            continue;
-        }
-        fret_real inner = 0, outer = 0;
-        st = fret_field_of(c->normal, depth_at(c, p->first), r, false, &inner);
-        if (!st.code)
-            st = fret_field_of(c->normal, depth_at(c, p->last), r, false, &outer);
-        sum += slope_of(p) * (outer - inner);
+        else
+            st = add_straight(c, p, r, false, &sum);
     }
     if (!st.code)
         *u = c->mu * c->normal->foundation.eta * sum;

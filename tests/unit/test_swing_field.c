@@ -45,6 +45,12 @@ static fret_swing *swing_of(const unit_scene *scene, double FN, double FA, doubl
     return s;
 }
 
+typedef struct hand {
+    const fret_swing *s;
+    const piece *p;
+    fret_real r, from, lo, hi;
+} hand;
+
 /* Between the ends of two pieces, where fields have kinks. */
 typedef struct part {
     const fret_swing *s;
@@ -71,6 +77,10 @@ static fret_real outwards(fret_real t, fret_real rest, void *context) {
                           : 0;
 }
 
+static fret_real radius_at(const fret_swing *s, const fret_real at[2]) {
+    return fret_law_radius(s->normal, fret_law_depth(s->normal, (at[M] + at[P]) / 2));
+}
+
 static size_t kinks_of(const fret_swing *s, fret_real *kink) {
     const fret_real flat = fret_gap_start(&s->normal->gap);
     size_t count = 1;
@@ -79,8 +89,7 @@ static size_t kinks_of(const fret_swing *s, fret_real *kink) {
         kink[count++] = flat;
     for (size_t i = 0; i < s->count; i++) {
         const piece *p = &s->pieces[i];
-        const fret_real a =
-            fret_law_radius(s->normal, fret_law_depth(s->normal, (p->last[M] + p->last[P]) / 2));
+        const fret_real a = radius_at(s, p->last);
         if (a > kink[count - 1] * (1 + 1e-9L))
             kink[count++] = a;
     }
@@ -161,8 +170,194 @@ static void random_load(bool far, const fret_gap *shape) {
     fret_memory_free(m);
 }
 
+/* What the rounding of a radius makes of a traction that goes with a root of the distance from a kink. */
+static fret_real felt(fret_real r, fret_real kink, fret_real k) {
+    return 16 * LDBL_EPSILON * powl(fabsl(r / kink - 1) + LDBL_EPSILON, (k - 1) / 2);
+}
+
+/* In phase the load goes to and fro on a straight line, which a memory takes in steps: the curve that follows
+ * it has the same fields, to the radius where it turned and as close to it as numbers come. */
+static void straight_line(const fret_gap *gap, double grading) {
+    const double FN = 100, FNA = 40, mu = 0.4, FA = 0.6 * mu * FNA;
+    unit_scene scene = {.material = {{{210e9, 0.3, false}, {210e9, 0.3, false}}, grading, 1e-3},
+                        .gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{2, 5e-5, 1e-3}}},
+                        .mu = mu};
+    if (gap)
+        scene.gap = *gap;
+    fret_memory *m = NULL;
+    fret_swing *s = swing_of(&scene, FN, FA, FNA, 0, 1, &m);
+    const double least = FN - FNA;
+    fret_press turned, whole;
+    fret_real scale;
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, least, -FA}));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, FN + FNA, FA}));
+    CHECK(s->count > 1 && s->pieces[s->count - 1].curved);
+    CHECK_OK(fret_press_by_force(s->normal, least, &turned));
+    CHECK_OK(fret_press_by_force(s->normal, FN + FNA, &whole));
+    CHECK_OK(fret_pressure(s->normal, whole.a, 0.9L * whole.a, &scale));
+    const fret_real known = fret_normal_is_power(s->normal) ? 1e-13L : 1e-12L;
+    for (int i = -30; i <= 30; i++) {
+        const fret_real r = turned.a + (i < 0 ? -1 : i > 0) * ldexpl(turned.a / 4, -2 * (30 - abs(i)));
+        fret_real got = 0, want = 0;
+        CHECK_OK(fret_swing_traction(s, r, &got));
+        CHECK_OK(fret_traction(m, r, &want));
+        compare(0, got, want, mu * scale, known + felt(r / turned.a, 1, grading));
+        CHECK_OK(fret_swing_surface_x(s, r, &got));
+        CHECK_OK(fret_surface_x(m, r, &want));
+        compare(1, got, want, mu * s->normal->foundation.eta * whole.dz, known);
+        CHECK_ABS(fret_swing_displacement(s, r), fret_memory_displacement(m, r),
+                  mu * s->normal->foundation.eta * whole.dz, known);
+    }
+    fret_swing_free(s);
+    fret_memory_free(m);
+}
+
+/* The slow twin of the traction of a power law: along each curved piece in parts that shrink towards where it
+ * begins, beyond r. */
+static fret_real rate_by_hand(fret_real t, fret_real rest, void *context) {
+    const hand *h = context;
+    const way *w = &h->p->way;
+    const fret_real at = h->from + h->lo * rest + h->hi * t;
+    const fret_point x = fret_law_at_force(h->s->normal, (way_at(w, M, at) + way_at(w, P, at)) / 2);
+    const fret_real rise = (way_fall(w, M, at) - way_fall(w, P, at)) / 2 / x.K,
+                    power = (h->s->normal->foundation.k - 1) / 2;
+    return x.a > h->r ? rise * powl((x.a - h->r) * (x.a + h->r), power) : 0;
+}
+
+static fret_real traction_by_hand(const fret_swing *s, fret_real r) {
+    const fret_normal *n = s->normal;
+    const fret_foundation *f = &n->foundation;
+    fret_real sum = 0;
+    for (size_t i = 0; i < s->count; i++) {
+        const piece *p = &s->pieces[i];
+        const fret_real m = p->last[M] - p->first[M], up = p->last[P] - p->first[P];
+        fret_real inner = 0, outer = 0;
+        CHECK_OK(fret_pressure(n, radius_at(s, p->first), r, &inner));
+        CHECK_OK(fret_pressure(n, radius_at(s, p->last), r, &outer));
+        if (!p->curved && m + up > 0)
+            sum += (up - m) / (up + m) * (outer - inner);
+        if (!p->curved || outer == 0)
+            continue;
+        hand h = {.s = s, .p = p, .r = r, .from = p->lo};
+        for (h.hi = p->hi - h.from; h.hi > LDBL_EPSILON; h.hi = h.lo) {
+            h.lo = h.hi / 2;
+            sum += f->cN0 * powl(f->c0, -f->k) / pi * (h.hi - h.lo) * fret_integrate(rate_by_hand, &h);
+        }
+    }
+    return s->mu * sum;
+}
+
+/* Close to where a piece begins its contacts all end close to the place. Nothing is said of the last digits
+ * of a radius. */
+static void near_kinks(double phase, double grading) {
+    unit_scene scene = unit_make_scene(2, grading);
+    fret_memory *m = NULL;
+    fret_swing *s = swing_of(&scene, 100, 10, 40, phase, 1.7, &m);
+    fret_real kink[64], scale, q;
+    const size_t count = kinks_of(s, kink);
+    CHECK_OK(fret_pressure(s->normal, s->a, 0.9L * s->a, &scale));
+    CHECK(count > 3);
+    for (size_t j = 1; j < count; j++)
+        for (int i = -12; i <= 12; i++) {
+            const fret_real r = kink[j] * (1 + (i < 0 ? -1 : 1) * powl(10, -(fret_real)abs(i)));
+            fret_real near = 1; /* how close the closest kink is */
+            for (size_t l = 1; l < count; l++)
+                near = fminl(near, fabsl(r / kink[l] - 1));
+            bool within = i == 0 || r >= s->a;
+            for (size_t l = 0; l < s->count; l++)
+                within |= s->pieces[l].curved && r > radius_at(s, s->pieces[l].first) &&
+                          r < radius_at(s, s->pieces[l].last);
+            if (within)
+                continue;
+            CHECK_OK(fret_swing_traction(s, r, &q));
+            compare(0, q, traction_by_hand(s, r), scene.mu * scale, 1e-13L + felt(1 + near, 1, grading));
+        }
+    fret_swing_free(s);
+    fret_memory_free(m);
+}
+
+static void agree(fret_status one, fret_status two, fret_real got, fret_real want) {
+    CHECK(one.code == two.code);
+    CHECK_ABS(got, want, fabsl(want), 1e-13L);
+}
+
+/* The centre, where traction comes to what it is next to it; what is no radius; and the edge of a flat end,
+ * where it is infinite, as of a memory. */
+static void special_places(void) {
+    unit_scene scene = unit_make_scene(2, 0.3);
+    fret_memory *m = NULL;
+    fret_swing *s = swing_of(&scene, 100, 15, 40, 1, 1.7, &m);
+    fret_real centre = 0, close = 0, q = 0, want = 0;
+    CHECK_OK(fret_swing_traction(s, 0, &centre));
+    CHECK_OK(fret_swing_traction(s, 1e-9L * s->a, &close));
+    CHECK(centre != 0);
+    CHECK_REL(centre, close, 1e-11L);
+    CHECK_OK(fret_swing_memory(s, m));
+    CHECK_OK(fret_traction(m, 0, &want));
+    CHECK_REL(centre, want, 1e-5L);
+    CHECK_ERROR(fret_swing_traction(s, -1e-9L, &q), FRET_NEGATIVE, "r");
+    CHECK_ERROR(fret_swing_surface_x(s, -1e-9L, &q), FRET_NEGATIVE, "r");
+    CHECK_ERROR(fret_swing_traction(s, (fret_real)NAN, &q), FRET_NOT_FINITE, "r");
+    CHECK_ERROR(fret_swing_surface_x(s, (fret_real)INFINITY, &q), FRET_NOT_FINITE, "r");
+    CHECK(fret_swing_displacement(s, (fret_real)INFINITY) == 0);
+    fret_swing_free(s);
+    fret_memory_free(m);
+
+    scene.gap = shapes[1];
+    for (int gripped = 0; gripped < 2; gripped++) { /* no slip of the innermost slice; or all along */
+        CHECK_OK(fret_memory_make(unit_make_normal(&scene), scene.mu, &m));
+        if (gripped)
+            CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 50, 0}));
+        CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 100, 10}));
+        if (!CHECK(fret_swing_make(m, &s).code == FRET_OK))
+            exit(unit_finish());
+        for (double r = 0.5; r < 2; r += 0.5) {
+            const fret_real x = r * fret_gap_start(&s->normal->gap);
+            q = want = 0;
+            const fret_status one = fret_swing_traction(s, x, &q), two = fret_traction(m, x, &want);
+            CHECK((one.code == FRET_SINGULAR) == (r == 1));
+            agree(one, two, q, want);
+        }
+        fret_swing_free(s);
+        fret_memory_free(m);
+    }
+}
+
+/* A piece of no length, of no slope, has no part in a field. */
+static void empty_piece(void) {
+    const unit_scene scene = unit_make_scene(2, 0);
+    fret_memory *m = NULL;
+    fret_swing *s = swing_of(&scene, 100, 15, 40, 1, 0.7, &m);
+    fret_real before[3], after[3];
+    const fret_real r = 0.6L * s->a;
+    for (int i = 0; i < 2; i++) {
+        fret_real *out = i ? after : before;
+        CHECK_OK(fret_swing_traction(s, r, &out[0]));
+        CHECK_OK(fret_swing_surface_x(s, r, &out[1]));
+        out[2] = fret_swing_displacement(s, r);
+        const piece *top = &s->pieces[s->count - 1];
+        const piece none = {.first = {top->last[M], top->last[P]}, .last = {top->last[M], top->last[P]}};
+        if (!i && CHECK(s->count < s->room))
+            s->pieces[s->count++] = none;
+    }
+    for (int i = 0; i < 3; i++)
+        CHECK(before[i] != 0 && after[i] == before[i]);
+    fret_swing_free(s);
+    fret_memory_free(m);
+}
+
 int main(int argc, char **argv) {
     unit_start("swing_field", argc, argv);
+    straight_line(NULL, 0);
+    straight_line(NULL, -0.5);
+    straight_line(NULL, 0.7);
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
+        straight_line(&shapes[i], 0.3);
+    near_kinks(1.5, 0);
+    near_kinks(1.5, -0.5);
+    near_kinks(0.3, 0.5);
+    special_places();
+    empty_piece();
     const char *many = getenv("FRET_FIELDS");
     for (int i = 0; i < 12 * (many ? atoi(many) : 1); i++)
         random_load(i % 3 == 2, NULL);
