@@ -18,7 +18,7 @@
  * Over a leaf, a few rows, all of f' before `near` counts by a polynomial, since it is at least as far away
  * as the leaf is wide; the quadratic f' of `near` goes on to x, and each kink after that adds what it bends.
  */
-enum { WAVES = FRET_CHEBYSHEV, LEAF_ROWS = 4, GOING_ON = 16, SERIES = 64, MANY = 10000 };
+enum { WAVES = FRET_CHEBYSHEV, LEAF_ROWS = 4, GOING_ON = 16, SERIES = 64, MANY = 10000, BINOMIALS = 7 };
 #define LANES 2
 #include "number/lanes.h"
 
@@ -32,8 +32,8 @@ typedef struct leaf {
 
 typedef struct kink {
     fret_real at;
-    double bend[2]; /* jumps of the second and the third derivative */
-    bool little;    /* doubles do for what it bends */
+    double bend[2];   /* jumps of the second and the third derivative */
+    fret_real little; /* so far doubles do for what it bends */
 } kink;
 
 struct fret_leaves {
@@ -42,9 +42,11 @@ struct fret_leaves {
     fret_real start, unit, unit_alpha, alpha, C;
     fret_real series[2][3][SERIES]; /* of the bends: [i][j] of V[i] by the power t^j of f' */
     double short_series[2][3][SERIES];
+    fret_real binomial[BINOMIALS]; /* of (1+z)^-alpha */
     bool many, slopes;
     fret_real near_unit, near_factor[2]; /* of kinks in double */
-    kink *kink;                          /* of every row of the table up to the end */
+    size_t from;                         /* the first row whose kink may be near */
+    kink *kink;                          /* of every row from there up to the end */
     size_t first, count;                 /* pieces of the table: first, ... */
     size_t leaves, *leaf_of;             /* of each row */
     leaf *leaf;
@@ -71,13 +73,14 @@ static void add_bend(const struct fret_leaves *all, const fret_real c[3], fret_r
     }
 }
 
-/* Of f' next to nothing over the rows beside it; slopes it would bend more. */
-static bool is_little(const struct fret_leaves *all, size_t row, const fret_real jump[3]) {
-    const fret_real wide =
-        fret_table_distance(all->table, row + 1) - fret_table_distance(all->table, row - 1);
-    fret_real c[3];
-    fret_table_slope(all->table, row, c);
-    return (fabsl(jump[1]) + fabsl(jump[2]) * wide) * wide <= 1e-5L * c[0];
+/* So far it bends so little of the whole, as f/e tells it, that doubles leave it all digits. */
+static fret_real little_to(const struct fret_leaves *all, size_t row, const fret_real jump[3]) {
+    const fret_real at = fret_table_distance(all->table, row),
+                    wide = GOING_ON * (fret_table_distance(all->table, row + 1) -
+                                       fret_table_distance(all->table, row - 1)),
+                    part = at > wide ? fret_pow(wide / at, all->alpha + 1) : 1,
+                    little = 5e-4L * fret_table_f(all->table, all->start + at) / (at * part);
+    return little > 0 ? fminl(little / (fabsl(jump[1]) + sqrtl(fabsl(jump[2]) * little)), wide) : 0;
 }
 
 static void make_series(struct fret_leaves *all) {
@@ -94,13 +97,24 @@ static void make_series(struct fret_leaves *all) {
         }
         all->near_factor[i] = fret_pow(all->near_unit / all->unit, p);
     }
-    for (size_t i = 0; i < all->first + all->count; i++) {
+    fret_real c = 1;
+    for (int n = 0; n < BINOMIALS; n++) {
+        all->binomial[n] = c;
+        c *= (-all->alpha - (fret_real)n) / (fret_real)(n + 1);
+    }
+}
+
+static void make_kinks(struct fret_leaves *all) {
+    for (size_t i = all->from; i < all->first + all->count; i++) {
+        kink *k = &all->kink[i - all->from];
         fret_real c[3] = {0, 0, 0};
         if (i > 0)
             fret_table_jump(all->table, i, c);
-        all->kink[i] =
-            (kink){.at = fret_table_distance(all->table, i), .bend = {(double)c[1], (double)(2 * c[2])}};
-        all->kink[i].little = all->many || (i > 0 && !all->slopes && is_little(all, i, c));
+        *k = (kink){.at = fret_table_distance(all->table, i), .bend = {(double)c[1], (double)(2 * c[2])}};
+        if (i > 0 && !all->slopes) /* these it would bend more */
+            k->little = little_to(all, i, c);
+        if (all->many)
+            k->little = INFINITY;
     }
 }
 
@@ -159,25 +173,36 @@ static void add_two(const struct fret_leaves *all, const kink *first, fret_real 
 static void add_bends(const struct fret_leaves *all, size_t from, size_t to, fret_real e, fret_real V[2]) {
     double two[2][2] = {{0, 0}, {0, 0}};
     fret_real c[3];
-    for (size_t i = from + 1; i <= to && e > all->kink[i].at; i++) {
-        if (!all->kink[i].little) {
+    for (size_t i = from + 1; i <= to && e > all->kink[i - all->from].at; i++) {
+        const kink *k = &all->kink[i - all->from];
+        if (!(e - k->at <= k->little)) {
             fret_table_jump(all->table, i, c);
-            add_bend(all, c, e - all->kink[i].at, all->start + e, V);
+            add_bend(all, c, e - k->at, all->start + e, V);
             continue;
         }
-        const bool both = i < to && all->kink[i + 1].little;
-        const kink last[2] = {all->kink[i], {.at = (fret_real)INFINITY}};
-        add_two(all, both ? &all->kink[i] : last, e, two);
+        const bool both = i < to && e - k[1].at <= k[1].little;
+        const kink last[2] = {*k, {.at = (fret_real)INFINITY}};
+        add_two(all, both ? k : last, e, two);
         i += both;
     }
     for (int i = 0; i < 2; i++)
         V[i] += all->near_factor[i] * (two[i][0] + two[i][1]);
 }
 
+/* (1+z)^-alpha */
+static fret_real near_one(const struct fret_leaves *all, fret_real z) {
+    if (fabsl(z) > 1e-3L)
+        return fret_exp(-all->alpha * fret_log1p(z));
+    fret_real sum = 0;
+    for (int j = BINOMIALS; j-- > 0;)
+        sum = sum * z + all->binomial[j];
+    return sum;
+}
+
 /* From V at the radius x = start + e. */
 static fret_level level_of(const struct fret_leaves *all, const leaf *l, fret_real e, const fret_real V[2]) {
     const fret_real x = all->start + e, away = (e - l->middle) / (all->start + l->middle);
-    const fret_real root = l->root * fret_exp(-all->alpha * fret_log1p(away));
+    const fret_real root = l->root * near_one(all, away);
     const fret_real g = root * all->unit_alpha * V[0], edge = x / root;
     return (fret_level){g, all->slopes ? root * all->unit_alpha * V[1] / x
                                        : all->C * edge * (edge * g - all->unit_alpha * all->unit * V[1])};
@@ -218,13 +243,29 @@ typedef struct maker {
 
 static const fret_real MOST_WIDE = 1.01L; /* of the distance from the start: beyond, waves are too coarse */
 
+/* What is near begins here. */
+static size_t near_of(const struct fret_leaves *all, fret_real lo, fret_real hi) {
+    return lo - (hi - lo) > -all->start ? fret_table_row(all->table, lo - (hi - lo)) : 0;
+}
+
+/* That of as many rows as go on, wherever they begin, and of parts of a row. */
+static size_t least_near(const struct fret_leaves *all, size_t first, size_t last) {
+    fret_real least = INFINITY;
+    for (size_t i = first; i < last; i++) {
+        const fret_real lo = fret_table_distance(all->table, i),
+                        hi = fret_table_distance(all->table, last - i > GOING_ON ? i + GOING_ON : last);
+        least = fminl(least, lo - (hi - lo));
+    }
+    return near_of(all, least, least);
+}
+
 /* Between the distances lo and hi what is before `near`, of that what is before `above->near` from there. Few
  * rows go on with the quadratic of `near`. */
 static void make_field(maker *m, fret_real lo, fret_real hi, bool few, const leaf *above, leaf *out) {
     const struct fret_leaves *all = m->all;
     fret_real value[2][WAVES], more[3], c[3];
     *out = (leaf){.middle = (lo + hi) / 2, .half = (hi - lo) / 2, .goes_on = few};
-    out->near = lo - (hi - lo) > -all->start ? fret_table_row(all->table, lo - (hi - lo)) : 0;
+    out->near = near_of(all, lo, hi);
     for (int j = 0; j < WAVES; j++) {
         const fret_real e = out->middle + out->half * m->rule.node[j], z = (e - above->middle) / above->half;
         more[0] = more[1] = 0;
@@ -312,14 +353,16 @@ fret_status fret_leaves_make(const fret_normal *n, size_t first, size_t count, f
                                     .slopes = slopes,
                                     .C = fret_normal_stiffness(n, 1)};
         all->unit_alpha = fret_pow(all->unit, all->alpha);
+        all->from = least_near(all, first, first + count);
         all->leaf_of = malloc(count * sizeof *all->leaf_of);
-        all->kink = malloc((first + count) * sizeof *all->kink);
+        all->kink = malloc((first + count - all->from) * sizeof *all->kink);
     }
     fret_status st = fret_ok();
     if (m && all && all->leaf_of && all->kink) {
         const leaf none = {.near = 0, .half = 1};
         *m = (maker){.all = all, .normal = n};
         make_series(all);
+        make_kinks(all);
         fret_chebyshev_make(&m->rule, WAVES, false);
         (void)descend(m, first, first + count, &none);
         st = fret_unless_stopped(n, m->failed);

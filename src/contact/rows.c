@@ -20,8 +20,8 @@
  * is a row, or as much of it as is no longer than it is far from the kink before: there 20 nodes do, and
  * fewer where rows bend little. Of what lies below y, G = y^2 (P + y^m Q) and L = y^3 (P + y^m Q + y^2m R),
  * and dF/dy rises by y P. */
-enum { WAVES = FRET_CHEBYSHEV, RULES = 3, BINOMIALS = 12 };
-static const int nodes_of[RULES] = {8, 12, WAVES};
+enum { WAVES = FRET_CHEBYSHEV, RULES = 4, BINOMIALS = 12 };
+static const int nodes_of[RULES] = {8, 12, 16, WAVES};
 
 /* Polynomials of the integrals. */
 enum { SUM_K, SUM_G, SUM_L = SUM_G + 2, SUMS = SUM_L + 3 };
