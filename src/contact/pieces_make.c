@@ -465,13 +465,17 @@ static bool cover_beyond(maker *m, const fret_real *row, size_t count, fret_real
     const size_t base = all->count;
     const fret_level edge = m->edge;
     const fret_real error = all->error, deep = all->deep;
+    const fret_real at_worst = m->at_worst;
     const bool exact = m->borne <= ENOUGH, at_once = exact && count <= MOST_ROWS;
     if (at_once && by_rows(m, to, true))
         return true;
     if (m->failed.code)
         return false;
+    if (!at_once) /* where more would be left, rows are better */
+        m->at_worst = fminl(at_worst, fmaxl(m->borne, ENOUGH));
     const bool ok = cover_rows(m, row, 0, count - 1);
-    if (m->failed.code || fret_stopped(m->normal) || at_once || (ok && all->error <= fmaxl(m->borne, ENOUGH)))
+    m->at_worst = at_worst;
+    if (m->failed.code || fret_stopped(m->normal) || at_once || ok)
         return ok;
     all->count = base;
     all->error = error;
@@ -482,18 +486,18 @@ static bool cover_beyond(maker *m, const fret_real *row, size_t count, fret_real
 
 /* Rows between two distances, both ends too. */
 static bool cover_table(maker *m, fret_real from, fret_real to) {
-    const fret_gap *gap = &m->normal->gap;
-    size_t count = 1;
-    for (fret_real e = fret_gap_kink(gap, to); e > from; e = fret_gap_kink(gap, e))
-        count++;
-    fret_real *row = malloc((count + 1) * sizeof *row), e = to;
+    const struct fret_table *t = m->normal->gap.table;
+    const size_t first = fret_table_row(t, from) + 1, last = fret_table_row(t, to),
+                 count = last - first + 1 + (fret_table_distance(t, last) < to);
+    fret_real *row = malloc((count + 1) * sizeof *row);
     if (!row) {
         m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
         return false;
     }
-    for (size_t i = count; i > 0; i--, e = fret_gap_kink(gap, e))
-        row[i] = e;
     row[0] = from;
+    for (size_t i = 1; i < count; i++)
+        row[i] = fret_table_distance(t, first + i - 1);
+    row[count] = to;
     m->each = count > MOST_PROFILES / FEWER ? 64 : count;
     m->most = m->borne <= ENOUGH && count > MOST_ROWS ? FEW_PROFILES : MOST_PROFILES;
     m->at_worst = count > 1000 ? fmaxl(m->borne, ROUGH) : m->borne;
