@@ -139,7 +139,7 @@ bool fret_law_unplaced(const fret_normal *n, bool by_force, fret_real value, fre
         !fret_pieces_point(n->pieces, by_force, value, &p))
         return false;
     *other = by_force ? p.y : p.F;
-    return *other >= DBL_MIN && *other <= DBL_MAX && p.a >= DBL_MIN;
+    return fret_press_held(&(fret_press){.F = p.F, .dz = p.y, .a = p.a});
 }
 
 bool fret_law_prepared_depth(const fret_normal *n, fret_real e, fret_real *depth) {

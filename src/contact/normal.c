@@ -166,11 +166,21 @@ fret_real fret_normal_stiffness(const fret_normal *n, fret_real a) {
                  : 0; /* k < 0: not 0 times infinity */
 }
 
+static bool too_large(const fret_press *p) {
+    return !(p->F <= DBL_MAX && p->dz <= DBL_MAX && p->a <= DBL_MAX);
+}
+
+static bool too_small(const fret_press *p) {
+    return !(p->F >= DBL_MIN && p->dz >= DBL_MIN && p->a >= DBL_MIN) && (p->F != 0 || p->dz != 0);
+}
+
+bool fret_press_held(const fret_press *p) {
+    return !too_large(p) && !too_small(p);
+}
+
 static fret_status finish(const fret_press *p, fret_press *out) {
-    if (!(p->F <= DBL_MAX && p->dz <= DBL_MAX && p->a <= DBL_MAX))
-        return fret_fail(FRET_OVERFLOW, NULL, (double)p->F, DBL_MAX);
-    if (!(p->F >= DBL_MIN && p->dz >= DBL_MIN && p->a >= DBL_MIN) && (p->F != 0 || p->dz != 0))
-        return fret_fail(FRET_OVERFLOW, NULL, (double)p->F, DBL_MIN);
+    if (!fret_press_held(p))
+        return fret_fail(FRET_OVERFLOW, NULL, (double)p->F, too_large(p) ? DBL_MAX : DBL_MIN);
     *out = *p;
     return fret_ok();
 }

@@ -61,6 +61,9 @@ static inline bool fret_law_reaches(fret_real most, fret_real value) {
     return value <= most * (1 + 4 * DBL_EPSILON);
 }
 
+/* Can doubles hold what it is pressed to? */
+bool fret_press_held(const fret_press *press);
+
 /* F_N [N] of a contact whose profile is known. */
 fret_real fret_force_of(const fret_normal *normal, const fret_profile *profile);
 

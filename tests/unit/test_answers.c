@@ -3,6 +3,7 @@
  * once, and where a live definition has no value any more: it is refused, and the next time answered to the
  * last digit as ever. The Makefile links this program so that the language allocates through the functions
  * here. */
+#include "calc/engine.h"
 #include "failing.h"
 #include "language.h"
 
@@ -384,6 +385,47 @@ static void lacking(void) {
     calc_free(&c);
 }
 
+static bool as(const engine *e, const fret_state *want) {
+    fret_state now;
+    engine_state(e, &now);
+    return now.FN == want->FN && now.Fx == want->Fx && now.dx == want->dx && now.W == want->W;
+}
+
+static bool copied(engine *to, const engine *from) {
+    engine_end(to); /* from nothing: each of its parts is had anew */
+    return !engine_copy(to, from, engine_normal(from), engine_friction(from)).code;
+}
+
+/* A model with as many slices as are kept, before something swings and after: it is copied and shown, or it
+ * is not and stays what it was. */
+static void sine_without_memory(void) {
+    const fret_material m = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1e-3};
+    const fret_gap gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{2, 5e-5, 1e-3}}};
+    const fret_sine load = {.FA = 5, .FNA = 20, .phase = 1, .FN = 100};
+    engine e, copy = {.self = NULL};
+    fret_state now;
+    bool taken = false;
+    CHECK_OK(engine_make(&e, MODEL_MEMORY, unit_keep_normal(&m, &gap), 0.4, 0, 0));
+    for (int i = 0; i < 60; i++) /* oblique, each steeper than the last: a slice each */
+        CHECK_OK(engine_step(&e, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 1 + i, 1e-3 * i * i}));
+    CHECK_OK(engine_step(&e, &(fret_step){FRET_TO_FORCE, FRET_TO_FX,
+                                          (double)(load.FN + (fret_real)load.FNA * cosl(1)), load.FA}));
+    CHECK_OK(engine_to_sine(&e));
+    for (int swung = 0; swung < 2; swung++) {
+        engine_state(&e, &now);
+        EACH_FAILS(2, copied(&copy, &e), as(&e, &now));
+        CHECK(as(&copy, &now));
+        if (!swung) {
+            CHECK_OK(engine_swing(&e, &load, 0, 0.5, &taken));
+            CHECK(taken);
+        }
+    }
+    EACH_FAILS(0, engine_memory(&copy) != NULL, as(&copy, &now));
+    CHECK_REL(fret_memory_friction(engine_memory(&copy)), 0.4, 0);
+    engine_end(&e);
+    engine_end(&copy);
+}
+
 int main(int argc, char **argv) {
     unit_start("test_answers", argc, argv);
     int answered = 0;
@@ -414,5 +456,6 @@ int main(int argc, char **argv) {
     too_deep();
     too_steep();
     lacking();
+    sine_without_memory();
     return unit_finish();
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "contact/normal.h"
+#include "contact/slices.h"
 #include "unit.h"
 
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
@@ -892,6 +892,26 @@ static void spring_model(double n, double k) {
     fret_memory_free(c.memory);
 }
 
+/* Slices of one slope are one slice, of the mean slope; where neither bears a load, there is no mean to take.
+ */
+static void merged(void) {
+    contact c = make_plain(2, 0);
+    fret_memory *m = c.memory;
+    const fret_real none[2] = {1e-9L, 0}, some[2] = {1e-9L, 3}, at[2] = {0, 0};
+    CHECK_OK(fret_memory_reserve(m, 4));
+    push(m, none, at, 0.5L, 1e-9L);
+    push(m, none, at, 0.5L + 1e-10L, 1e-9L);
+    CHECK(m->count == 1 && m->slices->sigma == 0.5L && m->slices->sum[LOAD] == 0);
+    CHECK(m->slices->thick[DEPTH] == 2e-9L && m->slices->thick[LOAD] == 0);
+    push(m, some, at, 0.25L, 1e-9L);
+    push(m, some, at, 0.25L + 4e-10L, 1e-9L);
+    CHECK(m->count == 2 && m->slices[1].thick[LOAD] == 6);
+    CHECK_REL(m->slices[1].sigma, 0.25L + 2e-10L, 1e-18L);
+    push(m, some, at, 1, 1);
+    CHECK(m->count == 3); /* sticks no more */
+    fret_memory_free(m);
+}
+
 int main(int argc, char **argv) {
     unit_start("memory", argc, argv);
     history_reference("history.csv", false);
@@ -905,6 +925,7 @@ int main(int argc, char **argv) {
     stiffness();
     targets();
     separation();
+    merged();
     gross_slip();
     standing();
     rim();

@@ -26,6 +26,48 @@ static struct fret_table *random_table(void) {
     return t;
 }
 
+static int unplaced;
+
+/* A memory that is pressed to a depth finds the load and the radius, asked for at last, as a search does;
+ * so does one that is pressed by a force the depth. */
+static void press_memory(const fret_normal *plain, const fret_normal *ready, double dz, fret_real error) {
+    fret_memory *m = NULL;
+    fret_state now;
+    fret_press want = {0};
+    CHECK_OK(fret_memory_make(ready, 0.3, &m));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_DEPTH, FRET_KEEP_DX, dz, 0}));
+    fret_memory_state(m, &now);
+    CHECK_OK(fret_press_by_depth(plain, dz, &want));
+    CHECK(now.dz == dz);
+    CHECK_REL(now.FN, want.F, error);
+    CHECK_REL(now.a, want.a, error + 1e-9L);
+    const double half = (double)want.F / 2;
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, half, 0}));
+    fret_memory_state(m, &now);
+    CHECK(now.FN == half);
+    CHECK_REL(now.dz, fret_law_depth(plain, half), error);
+    fret_memory_free(m);
+}
+
+/* What is had without a radius is had as a search has it, and never beyond what numbers hold. */
+static void compare_unplaced(const fret_normal *plain, const fret_normal *ready, double dz, fret_real F,
+                             fret_real error) {
+    static const double none[] = {1e-307, 1e-250, 1e300};
+    fret_real other = 0;
+    if (fret_law_unplaced(ready, false, dz, &other)) {
+        CHECK_REL(other, fret_law_force(plain, dz), error);
+        unplaced++;
+    }
+    if (fret_law_unplaced(ready, true, F, &other)) {
+        CHECK_REL(other, fret_law_depth(plain, F), error);
+        unplaced++;
+    }
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        for (int by_force = 0; by_force < 2; by_force++)
+            CHECK(!fret_law_unplaced(ready, by_force, none[i], &other) ||
+                  (other >= DBL_MIN && other <= DBL_MAX));
+}
+
 static void compare(const fret_normal *plain, const fret_normal *ready, const fret_press *p, double borne) {
     const double off = fret_normal_prepared(ready),
                  error = isnan(off) ? 1e-15 : 1e-13 + 2 * fmax(borne, off); /* of the law */
@@ -37,6 +79,8 @@ static void compare(const fret_normal *plain, const fret_normal *ready, const fr
         CHECK_REL(at.F, fret_law_force(plain, dz), UNIT_TOL((fret_real)error, 1e-8L));
         CHECK_OK(fret_press_by_force(ready, (double)p->F * (dz / (double)p->dz), &at));
         CHECK_REL(at.dz, fret_law_depth(plain, at.F), UNIT_TOL((fret_real)error, 1e-8L));
+        compare_unplaced(plain, ready, dz, at.F, UNIT_TOL((fret_real)error, 1e-8L));
+        press_memory(plain, ready, dz, UNIT_TOL((fret_real)error, 1e-8L));
         /* nearly all of the contact, and a part */
         const fret_real h = p->dz * (i < 3 ? 1 - powl(10, -4 * (i + 1)) : uniform(0.1, 0.9));
         CHECK_REL(fret_law_load(ready, &whole, h), fret_law_load(plain, &whole, h),
@@ -78,6 +122,6 @@ int main(int argc, char **argv) {
         fret_normal_free(ready);
         fret_table_free(t);
     }
-    CHECK(compared > 80 && without < compared / 2);
+    CHECK(compared > 80 && without < compared / 2 && unplaced > 10);
     return unit_finish();
 }
