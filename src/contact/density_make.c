@@ -16,6 +16,8 @@ typedef struct maker {
     const fret_normal *normal;
     fret_real start, depth;                 /* depth: g at the end of the last ring */
     fret_real moment[POWERS][MOST][TAYLOR]; /* int_0^1 y^(q+j) (2y-1)^n dy */
+    fret_ring_cover *others;                /* makes all rings */
+    void *context;
     fret_status failed;
 } maker;
 
@@ -101,14 +103,23 @@ static bool make_ring(maker *m, ring *p, bool sharp) {
     return true;
 }
 
-static bool reserve(maker *m, size_t count) {
-    struct fret_density *d = m->d;
+static bool reserve(struct fret_density *d, size_t count) {
     ring *grown = fret_array_for(d->ring, &d->room, count, sizeof *grown);
     if (grown)
         d->ring = grown;
-    else
-        m->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     return grown;
+}
+
+bool fret_ring_add(struct fret_density *d, const ring *p) {
+    if (!reserve(d, d->count + 1))
+        return false;
+    d->ring[d->count++] = *p;
+    d->kept = d->count;
+    return true;
+}
+
+static fret_status no_memory(void) {
+    return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
 }
 
 /* From the radius lo to hi, in halves where one ring does not do; sharp: from the start of the gap. */
@@ -118,10 +129,9 @@ static bool cover(maker *m, fret_real lo, fret_real hi, bool sharp, int halvings
     if (fret_stopped(m->normal))
         return false;
     if (make_ring(m, &p, sharp)) {
-        if (!reserve(m, d->count + 1))
-            return false;
-        d->ring[d->count++] = p;
-        return true;
+        if (!fret_ring_add(d, &p))
+            m->failed = no_memory();
+        return !m->failed.code;
     }
     const fret_real middle = sqrtl((lo * lo + hi * hi) / 2);
     return halvings > 0 && !m->failed.code && cover(m, lo, middle, sharp, halvings - 1) &&
@@ -135,8 +145,15 @@ static bool cover_smooth(maker *m, fret_real a) {
     for (fret_real lo = m->start; lo < a; lo *= step)
         if (!cover(m, lo, lo * step, lo == m->start, HALVINGS))
             return false;
-    m->d->kept = m->d->count;
     return true;
+}
+
+static bool cover_otherwise(maker *m, fret_real a) {
+    (void)a;
+    m->d->leaf = 1;
+    if (!m->others(m->d, m->context))
+        m->failed = no_memory();
+    return !m->failed.code;
 }
 
 /* From row to row of a table; within the first one it is told by powers where there is no flat end. */
@@ -154,8 +171,10 @@ static bool cover_rows(maker *m, fret_real a) {
     d->heads = d->kept = d->count;
     d->count += count;
     d->leaf = count <= KEPT ? 1 : LEAF;
-    if (count <= KEPT && !reserve(m, d->count + 1))
+    if (count <= KEPT && !reserve(d, d->count + 1)) {
+        m->failed = no_memory();
         return false;
+    }
     for (size_t i = d->heads; i < d->count && count <= KEPT; i++) {
         fret_ring_take(d, i, SLOPE, &d->ring[i]);
         fret_ring_take(d, i, DEPTH, &d->ring[i]);
@@ -286,19 +305,19 @@ static void make_block(maker *m, size_t first, size_t last, fret_real moment[KIN
     b->next = d->blocks;
 }
 
-fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_density **out) {
+static fret_status make(const fret_normal *n, fret_real from, fret_real a, bool (*covers)(maker *, fret_real),
+                        fret_ring_cover *others, void *context, struct fret_density **out) {
     struct fret_density *d = calloc(1, sizeof *d);
     maker *m = calloc(1, sizeof *m);
-    const bool rows = fret_gap_sampled(&n->gap);
     const fret_real half = (n->foundation.k + 1) / 2;
     fret_status st = fret_ok();
     bool ok = d && m;
     *out = NULL;
     if (!ok)
-        st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        st = no_memory();
     if (ok) {
-        *d = (struct fret_density){.m = half, .from = fret_gap_start(&n->gap), .unit = a * a};
-        *m = (maker){.d = d, .normal = n, .start = d->from};
+        *d = (struct fret_density){.m = half, .from = from, .unit = a * a};
+        *m = (maker){.d = d, .normal = n, .start = from, .others = others, .context = context};
         const int sharp = fret_gap_sharp(&n->gap);
         fret_kernel_power(&d->power[OF_ONE], 0, 0, half);
         fret_kernel_power(&d->power[OF_SLOPE], 1, -sharp, half);
@@ -309,7 +328,7 @@ fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_den
         d->far_scale[DEPTH] = (double)fret_pow(d->unit, -half);
         fret_kernel_flat_make(&d->flat, half);
         make_rule(m);
-        ok = (rows ? cover_rows : cover_smooth)(m, a);
+        ok = covers(m, a);
         st = fret_unless_stopped(n, m->failed);
     }
     if (ok && !st.code) {
@@ -318,7 +337,7 @@ fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_den
         if (d->block)
             make_block(m, 0, d->count, moment);
         else
-            st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+            st = no_memory();
         st = fret_unless_stopped(n, st);
     }
     free(m);
@@ -327,6 +346,16 @@ fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_den
     else
         fret_density_free(d);
     return st;
+}
+
+fret_status fret_density_make(const fret_normal *n, fret_real a, struct fret_density **out) {
+    return make(n, fret_gap_start(&n->gap), a, fret_gap_sampled(&n->gap) ? cover_rows : cover_smooth, NULL,
+                NULL, out);
+}
+
+fret_status fret_density_of_rings(const fret_normal *n, fret_real from, fret_real to, fret_ring_cover *others,
+                                  void *context, struct fret_density **out) {
+    return make(n, from, to, cover_otherwise, others, context, out);
 }
 
 void fret_density_free(struct fret_density *d) {

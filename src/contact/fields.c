@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fields at many places: all slices of a state at once by the profile as polynomials, made when they are
- * first asked for. Allocates them. */
+/* Fields at many places: all slices of a state at once by the profile as polynomials, or by the rows of a
+ * table of many, and what lies beyond the edges; made when they are first asked for. Allocates them. */
 #include <stdlib.h>
 
+#include "contact/beyond.h"
 #include "contact/check.h"
 #include "contact/density.h"
 #include "contact/field.h"
+#include "contact/ripple.h"
 #include "fret/field.h"
 #include "number/real.h"
+
+enum { MANY = 2000, EDGES = 32 };
 
 struct fret_fields {
     const fret_normal *normal;         /* borrowed */
@@ -18,6 +22,10 @@ struct fret_fields {
     size_t count, room; /* slices, those asked last */
     fret_cut *cut;      /* their radii and slopes */
     fret_real *depth;   /* and depths */
+    /* of a table of many rows, for pressures */
+    fret_ripple *ripple;
+    struct fret_beyond *beyond[EDGES]; /* of the contacts that were asked */
+    size_t edges;
 };
 
 fret_status fret_fields_make(const fret_normal *n, fret_fields **out) {
@@ -30,9 +38,16 @@ fret_status fret_fields_make(const fret_normal *n, fret_fields **out) {
     return fret_ok();
 }
 
+static void forget_edges(fret_fields *f) {
+    while (f->edges > 0)
+        fret_beyond_free(f->beyond[--f->edges]);
+}
+
 void fret_fields_free(fret_fields *f) {
     if (f) {
         fret_density_free(f->density);
+        forget_edges(f);
+        free(f->ripple);
         free(f->cut);
         free(f->depth);
     }
@@ -41,7 +56,10 @@ void fret_fields_free(fret_fields *f) {
 
 double fret_fields_error(const fret_fields *f) {
     static const double rounding = 1e-15;
-    return f->density ? (double)fret_density_error(f->density) + rounding : NAN;
+    fret_real worst = f->density ? fret_density_error(f->density) : 0;
+    for (size_t i = 0; i < f->edges; i++)
+        worst = fmaxl(worst, fret_beyond_error(f->beyond[i]));
+    return f->density || f->edges > 0 ? (double)worst + rounding : NAN;
 }
 
 /* Are there polynomials for a contact of radius a? Up to the next power of two, so that what comes out does
@@ -68,10 +86,59 @@ static fret_status prepare(fret_fields *f, fret_real a, bool *there) {
     return fret_ok();
 }
 
+/* Of many rows the pressure is told without what they are as polynomials: not of many slices, and not where
+ * the two parts that it is of are far larger than it is. */
+static bool takes_ripples(const fret_fields *f, size_t count, fret_real a) {
+    const fret_normal *n = f->normal;
+    static const fret_real most = 0.97L;
+    return count < EDGES && fret_gap_rows(&n->gap, a) > MANY && n->foundation.k < most;
+}
+
+static fret_status find_beyond(fret_fields *f, fret_real a, const struct fret_beyond **out) {
+    for (size_t i = 0; i < f->edges; i++)
+        if (fret_beyond_radius(f->beyond[i]) == a) {
+            *out = f->beyond[i];
+            return fret_ok();
+        }
+    if (f->edges == EDGES)
+        forget_edges(f);
+    const fret_status st = fret_beyond_make(f->normal, a, &f->beyond[f->edges]);
+    if (!st.code)
+        *out = f->beyond[f->edges++];
+    return st;
+}
+
+/* Contacts that end inside of r press there no more; the rest of them as if they had no end, less what lies
+ * beyond that. */
+static fret_status pressure_by_ripples(fret_fields *f, const fret_cut *cut, size_t count, fret_real r,
+                                       fret_real *p) {
+    size_t first = 0;
+    if (!f->ripple) {
+        f->ripple = malloc(sizeof *f->ripple);
+        if (!f->ripple)
+            return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        fret_ripple_make(f->ripple, f->normal->foundation.k);
+    }
+    while (first < count && (cut[first].a <= r || cut[first].a <= fret_gap_start(&f->normal->gap)))
+        first++;
+    fret_real sum = fret_ripple_sum(f->ripple, f->normal->gap.table, cut + first, count - first, r);
+    for (size_t i = first; i < count; i++) {
+        const struct fret_beyond *beyond;
+        const fret_real weight = cut[i].weight - (i + 1 < count ? cut[i + 1].weight : 0);
+        const fret_status st = find_beyond(f, cut[i].a, &beyond);
+        if (st.code)
+            return st;
+        sum -= weight * fret_beyond_integral(beyond, r);
+    }
+    *p = f->of_pressure * sum;
+    return fret_ok();
+}
+
 /* Places where the field is asked for as ever: outside, or where it may be infinite. */
 static bool is_special(const fret_normal *n, fret_real a, fret_real r) {
     const fret_real start = fret_gap_start(&n->gap);
-    return !(r >= 0) || r >= a || a <= start || (r == start && fret_gap_sharp(&n->gap));
+    return !(r >= 0) || r >= a || a <= start || (r == start && fret_gap_sharp(&n->gap)) ||
+           (r == 0 && start == 0 && fret_gap_tip(&n->gap) + n->foundation.k <= 1);
 }
 
 /* The pressure from where the polynomials begin. */
@@ -83,7 +150,10 @@ fret_status fret_fields_pressure(fret_fields *f, fret_real a, fret_real r, fret_
     const fret_cut cut = {a, 1};
     bool there = false;
     *p = 0;
-    fret_status st = is_special(f->normal, a, r) ? fret_ok() : prepare(f, a, &there);
+    const bool special = is_special(f->normal, a, r);
+    if (!special && takes_ripples(f, 1, a))
+        return pressure_by_ripples(f, &cut, 1, r, p);
+    fret_status st = special ? fret_ok() : prepare(f, a, &there);
     if (st.code)
         return st;
     if (!there)
@@ -185,15 +255,24 @@ static fret_status prepare_slices(fret_fields *f, const fret_memory *m, bool *th
 }
 
 fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real r, fret_real *q) {
-    bool there;
+    bool there = false;
     *q = 0;
-    fret_status st = prepare_slices(f, m, &there);
+    fret_status st = take_slices(f, m);
+    const fret_real a = f->count > 0 ? f->cut[f->count - 1].a : 0;
+    const bool ripples = f->count > 0 && takes_ripples(f, f->count, a);
+    if (!st.code && f->count > 0 && !ripples)
+        st = prepare(f, a, &there);
     if (st.code)
         return st;
-    if (f->count > 0 && r >= f->cut[f->count - 1].a)
+    if (f->count > 0 && r >= a)
         return fret_ok();
-    if (!there || is_special(f->normal, f->cut[f->count - 1].a, r))
+    if ((!there && !ripples) || is_special(f->normal, a, r))
         return fret_traction(m, r, q);
+    if (ripples) {
+        st = pressure_by_ripples(f, f->cut, f->count, r, q);
+        *q *= fret_memory_friction(m);
+        return st;
+    }
     const fret_real from = fret_density_from(f->density);
     if (r < from && fret_gap_start(&f->normal->gap) <= 0) {
         fret_real inner = 0, outer = 0;

@@ -75,6 +75,13 @@ fret_real fret_ring_fit_depth(const struct fret_density *d, ring *p, fret_real d
                               const fret_real *sharp);
 void fret_ring_scale(const struct fret_density *d, int kind, ring *p);
 
+/* A density of the rings that `cover` adds from one radius to another, of which g' alone counts. cover: false
+ * where it is stopped or there is no memory. */
+typedef bool fret_ring_cover(struct fret_density *d, void *context);
+fret_status fret_density_of_rings(const fret_normal *normal, fret_real from, fret_real to,
+                                  fret_ring_cover *cover, void *context, struct fret_density **out);
+bool fret_ring_add(struct fret_density *d, const ring *p);
+
 /* Ring i from its row. */
 void fret_ring_take(const struct fret_density *d, size_t i, int kind, ring *out);
 /* The same of a row to a double's digits, for one that is far; false: the row is wide. */

@@ -24,7 +24,7 @@ struct fret_table {
 
 /* Pieces far from the edge are summed in blocks, by Taylor's series of the kernel about the middle c of the
  * block: f' and r f'' count through their moments over x = (r-c)/d. A block precedes its two halves. */
-enum { TAYLOR = 32, LEAF = 8 };
+enum { TAYLOR = FRET_TABLE_MOMENTS, LEAF = 8 };
 typedef struct block {
     size_t first, last, next;                 /* pieces; the first block that is no part of this one */
     fret_real c, d;                           /* middle and half-width */
@@ -471,14 +471,32 @@ static void add_block(const block *b, int count, fret_real alpha, fret_real a, f
     out[2] += K * (of.slope[0] + of.rf2);
 }
 
-/* The same of a piece that is near: moments of the kernel. */
-static void add_piece(const struct fret_table *t, const fret_rule *rule, size_t i, fret_real e, fret_real a,
-                      fret_real unit, fret_real out[3]) {
-    const fret_real alpha = (rule->k - 1) / 2, v = (e - fret_table_distance(t, i)) / a;
-    const fret_edge lo = fret_edge_moments(rule, v),
-                    hi = fret_edge_moments(rule, (e - fret_table_distance(t, i + 1)) / a);
-    const fret_real K = a * fret_exp(alpha * fret_log(a / unit)), d1 = t->d1[i] * a, d2 = t->d2[i] * a * a;
-    const fret_real p[3] = {t->d0[i] + v * (d1 + v * d2), -(d1 + 2 * v * d2), d2};
+/* Of a part of a row that is far, where the quadratic about the edge would lose its digits. */
+static void add_points(const struct fret_table *t, fret_real alpha, size_t row, fret_real far, fret_real near,
+                       fret_real e, fret_real unit, fret_real out[3]) {
+    const fret_real a = t->start + e, begin = e - fret_table_distance(t, row);
+    for (int j = 0; j < 8; j++) {
+        const fret_real back = near + (far - near) * fret_gauss_node[j], x = begin - back,
+                        D = back * (2 * a - back) / (a * unit),
+                        K = (far - near) * fret_gauss_weight[j] * fret_exp(alpha * fret_log(D)),
+                        f1 = f1_of(t, row, x);
+        out[0] += K * f1;
+        out[1] += K * D * f1;
+        out[2] += K * (f1 + (a - back) * f2_of(t, row, x));
+    }
+}
+
+void fret_table_within(const struct fret_table *t, const fret_rule *rule, size_t row, fret_real far,
+                       fret_real near, fret_real e, fret_real unit, fret_real out[3]) {
+    const fret_real a = t->start + e, alpha = (rule->k - 1) / 2, v = (e - fret_table_distance(t, row)) / a;
+    if (near > 4 * (far - near)) {
+        add_points(t, alpha, row, far, near, e, unit, out);
+        return;
+    }
+    const fret_edge lo = fret_edge_moments(rule, far / a), hi = fret_edge_moments(rule, near / a);
+    const fret_real K = a * fret_exp(alpha * fret_log(a / unit)), d1 = t->d1[row] * a,
+                    d2 = t->d2[row] * a * a;
+    const fret_real p[3] = {t->d0[row] + v * (d1 + v * d2), -(d1 + 2 * v * d2), d2};
     fret_real m[FRET_EDGE];
     for (int j = 0; j < FRET_EDGE; j++)
         m[j] = lo.moment[j] - hi.moment[j];
@@ -488,6 +506,14 @@ static void add_piece(const struct fret_table *t, const fret_rule *rule, size_t 
         out[2] += K * p[j] * m[j];
     }
     out[2] -= K * (p[1] * (m[0] - m[1]) + 2 * p[2] * (m[1] - m[2]));
+}
+
+bool fret_table_block(const struct fret_table *t, size_t i, fret_table_stretch *out) {
+    if (i >= t->blocks)
+        return false;
+    const block *b = &t->block[i];
+    *out = (fret_table_stretch){b->first, b->last, b->next, b->c, b->d, b->slope, b->rf2};
+    return true;
 }
 
 void fret_table_part(const struct fret_table *t, const fret_rule *rule, size_t first, size_t last,
@@ -510,7 +536,8 @@ void fret_table_part(const struct fret_table *t, const fret_rule *rule, size_t f
             const fret_real away = (start - (t->r[j] + piece.d)) + e;
             const int count = far_terms(piece.d, away);
             if (!count) {
-                add_piece(t, rule, j, e, a, unit, out);
+                fret_table_within(t, rule, j, e - fret_table_distance(t, j),
+                                  e - fret_table_distance(t, j + 1), e, unit, out);
                 continue;
             }
             piece_moments(t, j, count, &piece);

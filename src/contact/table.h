@@ -30,5 +30,18 @@ void fret_table_jump(const struct fret_table *table, size_t row, fret_real c[3])
  * between the rows first and last, neither beyond the radius a = start + e. */
 void fret_table_part(const struct fret_table *table, const fret_rule *rule, size_t first, size_t last,
                      fret_real e, fret_real unit, fret_real out[3]);
+/* Adds the same of the quadratic of one row, which goes on, from so far before e to so near before it. */
+void fret_table_within(const struct fret_table *table, const fret_rule *rule, size_t row, fret_real far,
+                       fret_real near, fret_real e, fret_real unit, fret_real out[3]);
+
+/* Stretch i, which is followed by its two halves unless next = i + 1: the pieces first .. last-1, moments
+ * int f' x^n dr and int r f'' x^n dr, x = (r-c)/d. false: there are no more. */
+enum { FRET_TABLE_MOMENTS = 32 };
+typedef struct fret_table_stretch {
+    size_t first, last, next;
+    fret_real c, d;
+    const fret_real *slope, *rf2;
+} fret_table_stretch;
+bool fret_table_block(const struct fret_table *table, size_t i, fret_table_stretch *out);
 
 #endif

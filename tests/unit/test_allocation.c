@@ -416,6 +416,29 @@ static void fields(void) {
     fret_table_free(table);
 }
 
+static void pressure_of_many_rows(void) {
+    enum { MANY = 2400 };
+    static double x[MANY], depth[MANY];
+    const unit_scene s = unit_make_scene(2, 0.3);
+    struct fret_table *table = NULL;
+    fret_normal *rough = NULL;
+    fret_fields *many = NULL;
+    fret_real q = 0, again = 0;
+    for (int i = 0; i < MANY; i++) {
+        x[i] = 1e-3 * i / MANY;
+        depth[i] = x[i] * x[i] / 0.02;
+    }
+    CHECK_OK(fret_table_make(x, depth, MANY, NULL, &table));
+    CHECK_OK(fret_normal_make(&s.material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = table}, &rough));
+    CHECK_OK(fret_fields_make(rough, &many));
+    EACH(5, fret_fields_pressure(many, 9e-4L, 1e-4L, &q), isnan(fret_fields_error(many)));
+    CHECK_OK(fret_fields_pressure(many, 9e-4L, 1e-4L, &again));
+    CHECK(q > 0 && q == again);
+    fret_fields_free(many);
+    fret_normal_free(rough);
+    fret_table_free(table);
+}
+
 int main(int argc, char **argv) {
     unit_start("allocation", argc, argv);
     const unit_scene s = unit_make_scene(2, 0.3);
@@ -439,5 +462,6 @@ int main(int argc, char **argv) {
     smaller_swings();
     periods_without_room();
     fields();
+    pressure_of_many_rows();
     return unit_finish();
 }

@@ -2,7 +2,7 @@
 /* Fields at many places against slow twins: the definitions, integrated from kink to kink, and the quadrature
  * of one place after the other. Random contacts, histories and places, with corners. FRET_FIELDS=N asks N
  * times as much and prints the worst errors. */
-#include "contact/normal.h"
+#include "contact/density.h"
 #include "fret/field.h"
 #include "number/quadrature.h"
 #include "number/real.h"
@@ -434,6 +434,124 @@ static void many_rows(double k, double off, fret_real part) {
     fret_table_free(t);
 }
 
+/* Many rows: what the pressure is of them one after the other, as if g' had no end, against polynomials of
+ * all of them. Near the centre and the edge, at rows, within the first ones and inside of all slices. */
+static void ripples(shape which, double k, double off) {
+    enum { ROWS = 2600 };
+    static double r[ROWS], f[ROWS];
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
+    struct fret_table *t = NULL;
+    struct fret_density *twin = NULL;
+    fret_fields *fields = NULL;
+    fret_normal *n = NULL;
+    fret_memory *m = NULL;
+    fret_press top;
+    fret_state now;
+    fret_segment s[3] = {{0}};
+    for (int i = 1; i < ROWS; i++) {
+        r[i] = 1e-3 * (i + uniform(-0.2, 0.2)) / ROWS;
+        const double x = which == FLAT_TABLE ? fmax(r[i] - r[20], 0) : r[i];
+        f[i] = (which == POINTED_TABLE ? 0.01 * x * (1 + x / 1e-3) : x * x / 0.02) * (1 + uniform(-off, off));
+    }
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
+    CHECK_OK(fret_normal_make(&material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = t}, &n));
+    CHECK_OK(fret_fields_make(n, &fields));
+    CHECK_OK(fret_memory_make(n, 1, &m));
+    CHECK_OK(fret_press_by_radius(n, 0.93e-3, &top));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, (double)top.F, 0}));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 0.6 * (double)top.F}));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, -0.1 * (double)top.F}));
+    fret_memory_state(m, &now);
+    fret_cut cut[4] = {{0}}, whole = {now.a, 1};
+    size_t count = 0;
+    for (; count < 3 && fret_memory_segment(m, count, &s[count]); count++)
+        cut[count] = (fret_cut){fret_law_radius(n, s[count].outer), s[count].sigma};
+    CHECK_OK(fret_density_make(n, now.a, &twin));
+    const fret_real from = fret_density_from(twin),
+                    size = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI,
+                    place[] = {0,
+                               r[1] * 1e-4L,
+                               r[1] * 0.3L,
+                               r[1],
+                               r[1] * 1.3L,
+                               r[7],
+                               r[20],
+                               r[20] * 1.001L,
+                               r[130] * (1 + 1e-9L),
+                               now.a * 0.35L,
+                               cut[0].a,
+                               cut[1].a * 0.9999L,
+                               now.a * 0.999L,
+                               now.a * (1 - 1e-6L)};
+    fret_real largest = 0;
+    grading_now = k;
+    for (size_t i = 0; i < sizeof place / sizeof *place; i++) {
+        fret_real p = 0, q = 0, inner = 0, last = 0, outer = 0;
+        if (i == 0 && which != FLAT_TABLE && !(k > (which == POINTED_TABLE ? 0 : -1))) {
+            CHECK_ERROR(fret_fields_pressure(fields, now.a, 0, &p), FRET_SINGULAR, "r");
+            CHECK_ERROR(fret_fields_traction(fields, m, 0, &p), FRET_SINGULAR, "r");
+            continue;
+        }
+        if (place[i] < from && which != FLAT_TABLE)
+            CHECK_OK(fret_pressure(n, from, place[i], &inner));
+        const fret_real want = inner + size * fret_density_pressure(twin, &whole, 1, place[i]);
+        CHECK_OK(fret_fields_pressure(fields, now.a, place[i], &p));
+        const fret_real scale = place[i] > now.a * 0.9999L ? largest : want; /* next to the edge */
+        largest = fmaxl(largest, want);
+        compare(which, PRESSURE, p, want, scale);
+        for (size_t j = 0; j < count; j++) {
+            outer = 0;
+            const fret_cut one = {cut[j].a, 1};
+            if (place[i] < cut[j].a)
+                outer = inner + size * fret_density_pressure(twin, &one, 1, place[i]);
+            q += cut[j].weight * (outer - last);
+            last = outer;
+        }
+        CHECK_OK(fret_fields_traction(fields, m, place[i], &p));
+        compare(which, TRACTION, p, q, scale);
+    }
+    CHECK(fret_fields_error(fields) < 3e-15);
+    fret_density_free(twin);
+    fret_fields_free(fields);
+    fret_memory_free(m);
+    fret_normal_free(n);
+    fret_table_free(t);
+}
+
+/* Of many rows, from the first question on. */
+static void many_stop(void) {
+    enum { ROWS = 2600 };
+    static double r[ROWS], f[ROWS];
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
+    volatile sig_atomic_t stop = 0;
+    struct fret_table *t = NULL;
+    fret_normal *n = NULL;
+    fret_fields *fields = NULL;
+    fret_real p = 0;
+    for (int i = 1; i < ROWS; i++) {
+        r[i] = 1e-3 * i / ROWS;
+        f[i] = r[i] * r[i] / 0.02;
+    }
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
+    CHECK_OK(fret_normal_make(&material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = t}, &n));
+    fret_normal_stop(n, &stop);
+    CHECK_OK(fret_fields_make(n, &fields));
+    stop = 1;
+    CHECK_CODE(fret_fields_pressure(fields, 9e-4L, 1e-4L, &p), FRET_INTERRUPTED);
+    CHECK(isnan(fret_fields_error(fields)));
+    stop = 0;
+    for (int i = 0; i < 40; i++) { /* of more contacts than are kept */
+        fret_real again = 0;
+        CHECK_OK(fret_fields_pressure(fields, 9e-4L + 1e-6L * (i % 36), 1e-4L, &again));
+        CHECK(i != 36 || again == p);
+        p = i == 0 ? again : p;
+    }
+    CHECK(p > 0 && fret_fields_error(fields) < 2e-15);
+    fret_fields_free(fields);
+    fret_normal_free(n);
+    fret_table_free(t);
+}
+
 static void stops(void) {
     const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
     const fret_gap flat = gap_of(FLAT_ROUNDED);
@@ -476,6 +594,15 @@ int main(int argc, char **argv) {
     many_rows(0, 2e-6, 0.4L);
     many_rows(0.5, 0, 0.97L);
     many_rows(-0.5, 1e-7, 0.02L);
+    ripples(ROUND_TABLE, 0, 0);
+    ripples(ROUND_TABLE, -0.9, 1e-8);
+    ripples(ROUND_TABLE, 0.9, 1e-7);
+    ripples(ROUND_TABLE, 0.98, 0); /* without */
+    ripples(POINTED_TABLE, 0.3, 1e-7);
+    ripples(POINTED_TABLE, -0.04, 1e-8);
+    ripples(FLAT_TABLE, 1e-7, 0);
+    ripples(FLAT_TABLE, -0.3, 1e-8);
+    many_stop();
     stops();
     if (many) {
         for (shape which = 0; which < SHAPES; which++) {
