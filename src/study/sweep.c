@@ -369,11 +369,33 @@ static size_t block_rows(const state *st) {
     return rows < least ? least : rows < EXPR_BLOCK ? rows : EXPR_BLOCK;
 }
 
+/* A gap of rows has what they tell worked out when it is first asked for: here, so that not everyone does it
+ * anew. The first value has asked for its own; of both ends one asks for most. F_N prepares anew instead. */
+static void ask_ahead(state *st) {
+    scene *s = &st->t->scene;
+    const unsigned used = s->used;
+    const fret_normal *normal;
+    calc_error ignored;
+    value v;
+    knob var = st->s->var;
+    var.d = st->range.d;
+    error_clear(&ignored);
+    if (!s->many || (var.is_input && var.in == IN_FN) || !scene_normal(s, &normal, &ignored) ||
+        !fret_normal_gap(normal)->table || !trial_set(st->t, &var, place(st, st->rows - 1), &ignored))
+        return;
+    for (size_t i = 0; i < st->job->count; i++) {
+        error_clear(&ignored);
+        expr_eval(st->job->c, &st->job->expressions[i], &v, &ignored);
+    }
+    s->used = used;
+}
+
 /* Has it come to be worth while? */
 static bool shared(state *st) {
     sweep_job *job = st->job;
     if (job->team || job->alone || !team_pays(job->c, job->taken, (double)job->done, (double)job->all))
         return job->team;
+    ask_ahead(st);
     const size_t out = values_at(job->count) + EXPR_BLOCK * job->count * sizeof *st->values;
     job->team =
         team_begin(&(team_job){.c = job->c, .in = sizeof(portion), .out = out, .work = work, .context = st});

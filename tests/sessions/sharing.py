@@ -20,6 +20,7 @@ STEEL = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
 OBLIQUE = STEEL + "; cycle FA=15 N FNA=20 N phase=60 deg; set model springs 300"
 SLOW = STEEL + "; cycle FA=15 N FNA=20 N phase=60 deg times 50; set model springs 3000"
 ROWS = "material steel; geometry file rows.csv; friction 0.4; press FN=100 N"
+ROUGH = "material steel; geometry file rough.csv; friction 0.4; press FN=100 N"
 HISTORY = "; step Fx=20 N; step FN=90 N Fx=5 N; step FN=110 N Fx=20 N"
 
 # What takes long enough to be shared; a table of gaps, one whose dimension changes on its way, a map, a fit and samples
@@ -34,6 +35,8 @@ STATEMENTS = (
     (GRADED, "q = 2; y(x) := q*x*a; table y(x), y(2*x) at k=x for x = 0.1 .. 0.9 steps 3000; q; k"),
     (STEEL + HISTORY, "table qx(r), ux(r) for r = 0 mm .. 0.2 mm steps 300"),
     (ROWS + HISTORY, "table uz(r) for r = 0 mm .. 1.5 mm steps 1000"),
+    (ROUGH, "table dW(F), c(F) for F = 1 N .. 39 N steps 500"),
+    (ROUGH, "table dW(F), a for F = 39 N .. 41 N steps 500"),
     (STEEL + HISTORY, "table W for mu = 0.1 .. 0.9 steps 4000"),
     (OBLIQUE, "table dW for phase = 0 deg .. 60 deg steps 11"),
     (OBLIQUE, "maximize dW/FN over phase = 1 deg .. 170 deg"),
@@ -182,6 +185,9 @@ def children(pid):
 def data(tests):
     with open(os.path.join(tests.dir, "rows.csv"), "w", encoding="ascii") as f:
         f.write("r [mm],f [um]\n" + "".join("%.17g,%.17g\n" % (x, 50 * x * x + 3 * x ** 3) for x in (i / 200 for i in range(600))))
+    with open(os.path.join(tests.dir, "rough.csv"), "w", encoding="ascii") as f:
+        f.write("r [mm],f [um]\n" + "".join("%.17g,%.17g\n" % (i / 8000, 50 * (i / 8000) ** 2 * (1 + 1e-7 * (i * i % 13 - 6)))
+                                            for i in range(5000)))
     with open(os.path.join(tests.dir, "indent.csv"), "w", encoding="ascii") as f:
         f.write("depth [um],force [N]\n")
         for i in range(1, 4001):
