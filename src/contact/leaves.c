@@ -111,10 +111,10 @@ static void make_kinks(struct fret_leaves *all) {
         if (i > 0)
             fret_table_jump(all->table, i, c);
         *k = (kink){.at = fret_table_distance(all->table, i), .bend = {(double)c[1], (double)(2 * c[2])}};
-        if (i > 0 && !all->slopes) /* these it would bend more */
-            k->little = little_to(all, i, c);
         if (all->many)
             k->little = INFINITY;
+        else if (i > 0 && !all->slopes) /* these it would bend more */
+            k->little = little_to(all, i, c);
     }
 }
 

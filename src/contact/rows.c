@@ -657,8 +657,8 @@ static fret_status make_rows(const fret_normal *n, fret_real from, fret_real e, 
     size_t last = fret_table_row(t, e) + 1;
     last -= last > first && fret_table_distance(t, last - 1) >= e;
     *out = NULL;
-    if (last <= first)
-        return fret_ok();
+    if (last <= first || fret_stopped(n))
+        return fret_unless_stopped(n, fret_ok());
     struct fret_rows *all = calloc(1, sizeof *all);
     maker *m = calloc(1, sizeof *m);
     fret_status st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
