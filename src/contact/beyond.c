@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Beyond the edge, in rings each half as wide as all before, up to twice the radius; from there on in powers of
+/* Beyond the edge, in rings each as wide as all before, up to twice the radius; from there on in powers of
  * 1/x^2. Allocates them, and frees them. */
 #include "contact/beyond.h"
 
@@ -62,14 +62,12 @@ static fret_real ending(const trail *t, fret_real x, fret_real e) {
 static fret_real ring_value(const trail *t, const ring *p, bool first, bool kink, fret_real y) {
     const fret_real x = sqrtl(p->lo * p->lo + p->width * y), way = p->width * y / (p->lo + x),
                     e = (p->lo - t->a) + t->e + way;
-    return p->width / (2 * x) *
-           (kink    ? -too_much(t, x, way)
-            : first ? going_on(t, x, e)
-                    : ending(t, x, e));
+    return p->width / (2 * x) * (kink ? -too_much(t, x, way) : first ? going_on(t, x, e) : ending(t, x, e));
 }
 
 static bool add_ring(const trail *t, struct fret_density *d, fret_real lo, fret_real hi) {
-    static const fret_real look = 0.41L,
+    static const fret_real
+        look = 0.41L,
         narrow = 1e-7L; /* less, next to a row, is as uncertain as the radius, and counts no more */
     ring p = {.lo = lo, .hi = hi, .width = square_distance(hi, lo)};
     curve *of = &p.of[SLOPE];
@@ -83,8 +81,11 @@ static bool add_ring(const trail *t, struct fret_density *d, fret_real lo, fret_
     (void)fret_ring_fit(&d->rule, value[0], largest, of->c[0], &of->smooth);
     if (first)
         (void)fret_ring_fit(&d->rule, value[1], largest, of->c[1], &of->kink);
-    const fret_real want = ring_value(t, &p, first, false, look) + (first ? ring_value(t, &p, first, true, look) : 0),
-                    kink = first ? fret_pow(look, d->power[OF_SLOPE].q) * fret_ring_value(of->c[1], of->kink, look) : 0,
+    const fret_real want = ring_value(t, &p, first, false, look) +
+                           (first ? ring_value(t, &p, first, true, look) : 0),
+                    kink = first ? fret_pow(look, d->power[OF_SLOPE].q) *
+                                       fret_ring_value(of->c[1], of->kink, look)
+                                 : 0,
                     got = fret_ring_value(of->c[0], of->smooth, look) + kink;
     if (p.width > narrow * t->a * t->a)
         d->error = fmaxl(d->error, fabsl(got - want) / largest);
@@ -109,8 +110,8 @@ static bool cover(struct fret_density *d, void *context) {
     return true;
 }
 
-/* From X = 2a on, with w = (X/x)^2 and x^-k H = P(w)/x, it is X^(2m-2)/2 int_0^1 w^-m P (1-w (r/X)^2)^(m-1) dw.
- */
+/* From X = 2a on, with w = (X/x)^2 and x^-k H = P(w)/x:
+ * X^(2m-2)/2 int_0^1 w^-m P (1-w (r/X)^2)^(m-1) dw. */
 static void make_far(struct fret_beyond *b, const trail *t) {
     const struct fret_density *d = b->rings;
     const fret_real X = 2 * b->a, m = d->m;

@@ -27,7 +27,8 @@ void fret_ripple_make(fret_ripple *p, fret_real k) {
     static const fret_real little = 0.05L;
     const fret_real m = (k + 1) / 2, b = 1 - k, half = fret_gamma(1 - k / 2);
     *p = (fret_ripple){.k = k, .m = m, .whole = FRET_PI / (2 * fret_sin(FRET_PI * fminl(m, 1 - m)))};
-    const fret_real size = p->whole * fret_pow(2, -k) * half * half / (FRET_PI * fret_gamma(1 - k)), L = k * log_ratio(k);
+    const fret_real size = p->whole * fret_pow(2, -k) * half * half / (FRET_PI * fret_gamma(1 - k)),
+                    L = k * log_ratio(k);
     p->bent[0] = -size;
     if (fabsl(k) <= little) {
         p->smooth[0] = size * (k != 0 ? fret_expm1(L) / k : log_ratio(k));
@@ -46,8 +47,11 @@ void fret_ripple_make(fret_ripple *p, fret_real k) {
               (2 * s - 1 + b) * before + 4 * (s + 1) * p->bent[n + 1]) /
             (2 * (s + 1) * (s + 1 - k));
     }
-    for (int n = 0; n < FRET_RIPPLE; n++)
-        p->over[n] = 1 / ((fret_real)(n + 1) * (fret_real)(n + 2));
+    for (int n = 0; n < FRET_RIPPLE; n++) {
+        p->one[n] = 1 / (fret_real)(n + 1);
+        p->with[n] = 1 / (n + 1 + k);
+        p->over[n] = p->one[n] / (fret_real)(n + 2);
+    }
     p->centre[0] = 1;
     for (int n = 0; n + 1 < 3 * FRET_RIPPLE; n++)
         p->centre[n + 1] = p->centre[n] * ((1 - m + n) / (1 + n)) * ((1 - m + n) / (1 + n));
@@ -104,12 +108,15 @@ typedef struct bow {
 static fret_real near_to(const fret_ripple *p, const bow *h, fret_real t) {
     if (t == 0)
         return 0;
-    const fret_real u = t / h->r, S = bend_of(p, fabsl(u)), c0 = h->c[0], c1 = h->c[1] * h->r, c2 = h->c[2] * h->r * h->r;
+    const fret_real u = t / h->r, S = bend_of(p, fabsl(u)), c0 = h->c[0], c1 = h->c[1] * h->r,
+                    c2 = h->c[2] * h->r * h->r;
     fret_real sum = 0;
     for (int n = terms_of(fabsl(u)); n-- > 0;) {
-        const fret_real smooth = c0 * p->smooth[n] + (n > 0 ? c1 * p->smooth[n - 1] : 0) + (n > 1 ? c2 * p->smooth[n - 2] : 0),
-                        bent = c0 * p->bent[n] + (n > 0 ? c1 * p->bent[n - 1] : 0) + (n > 1 ? c2 * p->bent[n - 2] : 0),
-                        over = 1 / (fret_real)(n + 1), with = 1 / (n + 1 + p->k);
+        const fret_real smooth = c0 * p->smooth[n] + (n > 0 ? c1 * p->smooth[n - 1] : 0) +
+                                 (n > 1 ? c2 * p->smooth[n - 2] : 0),
+                        bent = c0 * p->bent[n] + (n > 0 ? c1 * p->bent[n - 1] : 0) +
+                               (n > 1 ? c2 * p->bent[n - 2] : 0),
+                        over = p->one[n], with = p->with[n];
         sum = sum * u + (smooth * over + bent * with * (S - over));
     }
     return sum * t;
@@ -186,8 +193,9 @@ static fret_real sum_block(const fret_ripple *p, const fret_table_stretch *b, fr
     for (int n = LEADING - 1; n + 1 < terms; n++) {
         rest += y2 * (double)(b->slope[n + 1] + b->rf2[n + 1]);
         const double s = n, over = (double)p->over[n];
-        const double then = over * ((s + 1) * (p1 * s + q0)) * y2 +
-                            over * ((s * (p2 * (s - 1) + q1) + r0) * y1 + ((s - 1) * (p3 * (s - 2) + q2) + r1) * y0);
+        const double then =
+            over * ((s + 1) * (p1 * s + q0)) * y2 +
+            over * ((s * (p2 * (s - 1) + q1) + r0) * y1 + ((s - 1) * (p3 * (s - 2) + q2) + r1) * y0);
         y0 = y1;
         y1 = y2;
         y2 = then;
@@ -222,8 +230,8 @@ static fret_real sum_row(const fret_ripple *p, const struct fret_table *t, size_
 }
 
 /* In the centre, the first row, over r^(k-1). */
-static fret_real sum_centre(const fret_ripple *p, const struct fret_table *t, const fret_cut *cut, size_t count,
-                            fret_real r) {
+static fret_real sum_centre(const fret_ripple *p, const struct fret_table *t, const fret_cut *cut,
+                            size_t count, fret_real r) {
     const bow h = bow_of(t, 0, 0);
     const fret_real end = fret_table_start(t) + fret_table_distance(t, 1);
     fret_real sum = 0;

@@ -15,15 +15,15 @@ enum { FRET_RIPPLE = 40 };
 typedef struct fret_ripple {
     fret_real k, m, whole; /* whole = B(m,1-m)/2 */
     fret_real smooth[FRET_RIPPLE], bent[FRET_RIPPLE], centre[FRET_RIPPLE * 3];
-    fret_real over[FRET_RIPPLE]; /* 1/((n+1)(n+2)) */
+    fret_real one[FRET_RIPPLE], with[FRET_RIPPLE], over[FRET_RIPPLE]; /* 1/(n+1), 1/(n+1+k), 1/((n+1)(n+2)) */
 } fret_ripple;
 
 void fret_ripple_make(fret_ripple *ripple, fret_real k);
 /* Y and Y' at y >= 0, y != 1; u = y-1. */
 void fret_ripple_at(const fret_ripple *ripple, fret_real y, fret_real u, fret_real out[2]);
 
-/* The weighted integrals of h K over the rows between cuts, r >= 0; radii of cuts rise, all of them beyond the
- * start of the gap. Infinite where it is. */
+/* The weighted integrals of h K over the rows between cuts, r >= 0; radii of cuts rise, all of them beyond
+ * the start of the gap. Infinite where it is. */
 fret_real fret_ripple_sum(const fret_ripple *ripple, const struct fret_table *table, const fret_cut *cut,
                           size_t count, fret_real r);
 
