@@ -90,7 +90,7 @@ static bool tangential_state(scene *s, slid *out, calc_error *error) {
     double mu;
     s->used |= USED(MODEL_MEMORY);
     return scene_friction(s, &mu, error) && scene_curve(s, &out->curve, error) &&
-           (out->curve || scene_memory(s, &out->memory, error));
+           (out->curve || scene_memory(s, &out->memory, error)); /* unreached: without a curve it is there */
 }
 
 static fret_real displacement_at(const slid *state, value x) {

@@ -111,12 +111,6 @@ static bool is_extrapolated(const quantity *q, bool call) {
     return !call && is_among(q, names, sizeof names / sizeof *names);
 }
 
-/* Of the functions, those of the state now. */
-static bool is_local(const quantity *q) {
-    static const char *const names[] = {"qx", "ux", "u1D", "s1D", "qx1D"};
-    return is_among(q, names, sizeof names / sizeof *names);
-}
-
 /* Rounded up to one digit. */
 static double round_up(double v) {
     const double place = pow(10, floor(log10(v)));
@@ -150,7 +144,7 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
     const bool limit = is_extrapolated(q, call);
     long double at[LEVELS];
     fprintf(p->to, "    model: %s, ", models[model].title);
-    if (model == MODEL_MEMORY && a->levels == 1 && (!call || is_local(q))) {
+    if (model == MODEL_MEMORY && a->levels == 1) { /* all that it answers: no function of another load */
         fputs("the sine itself, event by event (exact)\n", p->to);
         return;
     }

@@ -443,6 +443,19 @@ def child_of(pid):
     return int(found[0]) if found else 0
 
 
+def rests(pid):
+    """Waits until it has spent no time for a while: it waits for keys."""
+    def now():
+        with open("/proc/%d/stat" % pid, encoding="ascii") as f:
+            row = f.read().rpartition(")")[2].split()
+        return row[0], row[11], row[12]
+    before, alike, end = None, 0, time.time() + 60
+    while alike < 10 and time.time() < end:
+        time.sleep(0.01)
+        before, last = now(), before
+        alike = alike + 1 if before[0] == "S" and before == last else 0
+
+
 ENDS = [("q", None), ("\x03", None), ("", signal.SIGINT), ("", signal.SIGTERM), ("", signal.SIGHUP), ("", signal.SIGQUIT),
         ("", signal.SIGSEGV), ("", signal.SIGABRT), ("", signal.SIGBUS)]
 
@@ -457,6 +470,7 @@ def endings(tests):
                     ASAN_OPTIONS=tests.env["ASAN_OPTIONS"] + ":handle_segv=0:handle_abort=0:handle_sigbus=0")
         tests.check("it begins before " + name, live.wait(r"a +186\.626 um"), live.screen.text())
         before = dict(live.screen.modes)
+        rests(child_of(live.child.pid))
         if number:
             os.kill(child_of(live.child.pid), number)
         else:

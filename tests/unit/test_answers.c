@@ -119,6 +119,52 @@ static bool ask_sound(scene *s, double v[VALUES]) {
     return ok;
 }
 
+static bool ask_places(scene *s, double v[VALUES]) {
+    static const calc_value r = {1e-6L, {0, 1, 0}};
+    long double slip, shift, traction, pressure;
+    if (!call_s1D(s, r, &slip, fresh()) || !call_u1D(s, r, &shift, &error) ||
+        !call_qx(s, r, &traction, &error) || !call_p(s, r, &pressure, &error))
+        return false;
+    CHECK(fabsl(traction) <= (s->in.v[IN_MU] + 1e-9L) * pressure);
+    v[0] = (double)slip;
+    v[1] = (double)shift;
+    v[2] = (double)traction;
+    v[3] = (double)pressure;
+    return true;
+}
+
+typedef struct stiffening {
+    scene *s;
+    double *v;
+} stiffening;
+
+/* dF_N/d delta_z at an instant: of a sphere 3 F_N/(2 delta_z). */
+static bool stiff(const runner *r, void *context) {
+    const stiffening *at = context;
+    const instant now = {.run = r, .time = r->time};
+    scene *s = at->s;
+    const fret_state *state;
+    long double kn = 0;
+    s->now = &now;
+    s->answers.state_ready = s->answers.press_ready = false;
+    const bool ok = get_kn(s, &kn, &error) && scene_forces(s, &state, &error);
+    if (ok && s->in.geometry == geometry_find("sphere", 6) && state->dz > 0)
+        CHECK_REL(kn, 1.5L * state->FN / state->dz, 1e-15L);
+    s->now = NULL;
+    s->answers.state_ready = s->answers.press_ready = false;
+    at->v[0] += (double)kn * (1 + r->time);
+    at->v[1]++;
+    return ok;
+}
+
+static bool ask_stiffness(scene *s, double v[VALUES]) {
+    stiffening at = {s, v};
+    watch w = watch_points(3);
+    w.see = stiff;
+    w.context = &at;
+    return scene_trace(s, &w, fresh());
+}
+
 enum { CONTACT = 2, STATE = 3, FORCES = 4, LOSS = 7 }; /* of these */
 static const struct {
     const char *what;
@@ -126,7 +172,7 @@ static const struct {
 } questions[] = {{"press", ask_press}, {"FN", ask_FN},         {"contact", ask_contact},
                  {"state", ask_state}, {"forces", ask_forces}, {"memory", ask_memory},
                  {"first", ask_first}, {"loss", ask_loss},     {"trace", ask_trace},
-                 {"sound", ask_sound}};
+                 {"sound", ask_sound}, {"places", ask_places}, {"stiffness", ask_stiffness}};
 
 /* ---- scenes ------------------------------------------------------------------------------------- */
 
@@ -385,6 +431,55 @@ static void lacking(void) {
     calc_free(&c);
 }
 
+typedef struct last_look {
+    fret_state state;
+    int looks;
+} last_look;
+
+static bool looks_on(const runner *r, void *context) {
+    last_look *l = context;
+    engine_state(&r->engine, &l->state);
+    l->looks++;
+    return true;
+}
+
+/* A step that nobody has run before it is looked at on its way. */
+static bool watched(calc *c, const load_step *step, last_look *l) {
+    watch w = watch_points(4);
+    *l = (last_look){.looks = 0};
+    w.see = looks_on;
+    w.context = l;
+    CHECK(scene_append(c->now, step, NULL, fresh()));
+    c->now->sound = true;
+    return scene_trace(c->now, &w, fresh());
+}
+
+/* On the way to a force by a displacement, and the other way round: into the open, and farther than rows
+ * reach. */
+static void on_the_way(void) {
+    static const load_step open[] = {{LOAD_STEP, .normal = BY_FORCE, .normal_value = 0,
+                                      .tangential = BY_DISPLACEMENT, .tangential_value = 1e-7, .points = 4},
+                                     {LOAD_STEP, .normal = BY_DISPLACEMENT, .normal_value = 0,
+                                      .tangential = BY_FORCE, .tangential_value = 0, .points = 4}},
+                           deep[] = {{LOAD_STEP, .normal = BY_FORCE, .normal_value = 1e6,
+                                      .tangential = BY_DISPLACEMENT, .tangential_value = 1e-7, .points = 4},
+                                     {LOAD_STEP, .normal = BY_DISPLACEMENT, .normal_value = 1e-3,
+                                      .tangential = BY_FORCE, .tangential_value = 5, .points = 4}};
+    last_look l;
+    calc c;
+    for (int i = 0; i < 2; i++) {
+        begin(&c, &(scened){.rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true});
+        CHECK(watched(&c, &open[i], &l) && l.looks >= 6);
+        CHECK(l.state.FN == 0 && l.state.Fx == 0 && l.state.a == 0 && l.state.W > 0);
+        calc_free(&c);
+        begin(&c, &(scened){.rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true});
+        CHECK(!watched(&c, &deep[i], &l));
+        calc_word(&c, &error);
+        CHECK(strstr(error.text, "cannot be carried"));
+        calc_free(&c);
+    }
+}
+
 static bool as(const engine *e, const fret_state *want) {
     fret_state now;
     engine_state(e, &now);
@@ -456,6 +551,7 @@ int main(int argc, char **argv) {
     too_deep();
     too_steep();
     lacking();
+    on_the_way();
     sine_without_memory();
     return unit_finish();
 }
