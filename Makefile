@@ -106,6 +106,7 @@ $(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE)) $(OUTER)
 # their allocations, and some calls, pass through the test
 $(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_blocks $(B)/tests/test_calc: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
 $(B)/tests/test_blocks: WRAP += -pthread
+$(B)/tests/test_gnuplot: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc waitpid)
 $(B)/tests/test_moments: WRAP = $(addprefix -Wl$(COMMA)--wrap=,fret_exp fret_log fret_pow fret_table_distance fret_gap_profile)
 $(B)/tests/test_file: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc realloc strdup getpwuid open fdopen fcntl stat fstat ftruncate)
 

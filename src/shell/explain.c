@@ -2,9 +2,11 @@
 /* The command `explain`: what the quantities of an expression are made of, and how far the last digit of each
  * input moves it. Changes nothing. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "calc/trial.h"
+#include "number/array.h"
 #include "shell/command.h"
 #include "shell/output.h"
 #include "shell/topics.h"
@@ -19,9 +21,6 @@ typedef struct part {
     size_t len;
     size_t argument, argument_len; /* in text, of a call */
 } part;
-
-/* Quantities that one page tells about; of more, some may be told twice. */
-enum { SEEN = 32 };
 
 /* Who explains where to. */
 typedef struct page {
@@ -142,13 +141,14 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
     const answers *a = &p->sh->calc.now->answers;
     const int finest = RUN_CHORDS << (LEVELS - 1);
     const bool limit = is_extrapolated(q, call);
+    const unsigned runs = model == MODEL_MEMORY ? a->levels : 0;
     long double at[LEVELS];
     fprintf(p->to, "    model: %s, ", models[model].title);
-    if (model == MODEL_MEMORY && a->levels == 1) { /* all that it answers: no function of another load */
+    if (runs == 1) { /* all that it answers: no function of another load */
         fputs("the sine itself, event by event (exact)\n", p->to);
         return;
     }
-    if (model != MODEL_MEMORY || a->levels < LEVELS || !e || !by_chords(p, e, at)) {
+    if (runs < LEVELS || !e || !by_chords(p, e, at)) {
         fprintf(p->to, "by %d chords a period of the sine%s\n", finest,
                 limit ? " and fewer, extrapolated" : "");
         return;
@@ -428,8 +428,8 @@ static bool explain_whole(const page *p, const expr *e, value v, calc_error *err
 
 /* What has been explained. */
 typedef struct seen {
-    part of[SEEN];
-    size_t count;
+    part *of;
+    size_t count, room;
 } seen;
 
 static bool is_told(const seen *before, const part *of) {
@@ -439,13 +439,17 @@ static bool is_told(const seen *before, const part *of) {
     return told;
 }
 
-static bool is_seen(seen *before, const part *of) {
+/* Enters it where it is not. */
+static bool is_seen(const page *p, seen *before, const part *of) {
     for (size_t i = 0; i < before->count; i++)
         if (before->of[i].q == of->q && before->of[i].len == of->len &&
             !strncmp(before->of[i].text, of->text, of->len))
             return true;
-    if (before->count < SEEN)
-        before->of[before->count++] = *of;
+    part *grown = fret_array_for(before->of, &before->room, before->count + 1, sizeof *grown);
+    if (!grown)
+        return !calc_no_memory(p->error);
+    before->of = grown;
+    before->of[before->count++] = *of;
     return false;
 }
 
@@ -473,10 +477,10 @@ static bool explain_parts(const page *p, const expr *e, const definition *in, co
     const definition *d;
     for (size_t i = 0; part_of(e, i, &one); i++) {
         const bool told = is_told(before, &one);
-        if (is_seen(before, &one))
+        if (is_seen(p, before, &one))
             continue;
-        if (told && e == asked && is_whole(e, &one))
-            continue; /* to be told at the end */
+        if (told && e == asked)
+            continue; /* the whole, which is told at the end: all others came with the first of their kind */
         if (told)
             explain_call(p, &one, in, true);
         else if (!one.call && is_given(p, one.q))
@@ -485,7 +489,7 @@ static bool explain_parts(const page *p, const expr *e, const definition *in, co
             return false;
         for (size_t j = i + 1; one.call && part_of(e, j, &other); j++)
             if (other.call && other.q == one.q && !(e == asked && is_whole(e, &other)) &&
-                !is_seen(before, &other))
+                !is_seen(p, before, &other))
                 explain_call(p, &other, in, false);
     }
     for (size_t i = 0; (d = expr_definition(&p->sh->calc, e, i)); i++)
@@ -502,9 +506,13 @@ static bool explain_expression(const page *p, const expr *e, const expr *asked, 
     seen all = {.count = 0};
     for (size_t i = 0; e == asked && !told && part_of(e, i, &one); i++) {
         told = is_whole(e, &one) && !is_told(&all, &one); /* else its formula belongs to a call within */
-        is_seen(&all, &one);
+        is_seen(p, &all, &one);
     }
-    return explain_parts(p, e, NULL, asked, &before, error) && (told || explain_whole(p, asked, v, error));
+    const bool ok =
+        explain_parts(p, e, NULL, asked, &before, error) && (told || explain_whole(p, asked, v, error));
+    free(before.of);
+    free(all.of);
+    return ok;
 }
 
 /* ---- the statement ----------------------------------------------------------------------------- */

@@ -29,6 +29,9 @@ TOLD = (
     (STEEL, "f(0 m)", (r"    f\(0 m\) = 0 m",), ("    FN now",)),
     # models
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "qx(0.1 mm)", ("    model: memory diagram, the sine itself, event by event \\(exact\\)",), ()),
+    (PRESSED + "cycle dxA=0.3 um FNA=10 N phase=30 deg; at(r) := qx(r*1 mm)*1\n", "at(0.1)",
+     ("qx: tangential traction", "    model: memory diagram, by 640 chords a period of the sine"), (r"    qx\(r",)),
+    (PRESSED + "set model double; cycle FA=9 N FNA=10 N\n", "W", ("    model: memory diagram in double, .*by 640 chords a period of the sine and fewer, extrapolated",), ()),
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "W", ("    model: memory diagram, the sine itself, event by event \\(exact\\)",), ("    cycle: ",)),
     (PRESSED + "step FN=150 N; step FN=120 N\n", "a", ("    FN now = 120 N",), ("    mu = ", "    Fx now")),
     (PRESSED + "step FN=150 N; step FN=120 N\n", "FN*a", ("FN: normal force.*", "    FN = 120 N"), ()),
@@ -89,6 +92,15 @@ def typeset(tests):
         tests.check("a path in %s" % locale, "    path: step FN= dx= goes straight in %s\n" % plane in done.stdout, tests.report(done))
 
 
+def at_length(tests):
+    """Many calls of one function: the formula once, and each value."""
+    calls = ["dW(%d N)" % i for i in range(1, 40)]
+    done = tests.run("-c", PRESSED + "explain %s + FN*a + c(1 N)*(1 N)" % " + ".join(calls))
+    told_of = re.findall(r"^    (\w+\([^()]*\)) = ", done.stdout, re.M)
+    tests.check("each of many calls once", done.returncode == 0 and told_of == calls + ["c(1 N)"] and
+                re.findall(r"^(\w+): ", done.stdout, re.M) == ["dW", "FN", "a", "c"], tests.report(done))
+
+
 def repeating(tests):
     """Periods that repeat the last one are told, and count: W grows by dW in each."""
     swung = PRESSED + "cycle FA=9 N FNA=10 N times %d\nset digits 15\n"
@@ -144,4 +156,4 @@ def swung(tests):
 
 
 def run(tests):
-    tests.rooms(told, many, bare, typeset, repeating, mixed, swung)
+    tests.rooms(told, many, bare, typeset, at_length, repeating, mixed, swung)
