@@ -493,18 +493,21 @@ fret_status fret_field_of(const fret_normal *n, fret_real y, fret_real r, bool t
     return traction ? pressure_of(n, &at, r, out) : surface_of(n, &at, r, out);
 }
 
-/* Sum over the slices of weight sigma times the difference of the field at their two ends. */
+/* Sum over the slices of weight sigma times the difference of the field at their two ends: the field where
+ * the slope changes, which is what nothing displaced has nowhere. */
 static fret_status superpose(const fret_memory *m, fret_real r, bool traction, fret_real *out) {
     const fret_normal *n = fret_memory_normal(m);
     fret_segment s;
-    fret_real inner = 0, sum = 0;
+    fret_real sum = 0;
     fret_status st = fret_check_not_negative("r", (double)r);
     *out = 0;
     for (size_t i = 0; !st.code && fret_memory_segment(m, i, &s); i++) {
-        fret_real outer;
-        st = fret_unless_stopped(n, fret_field_of(n, s.outer, r, traction, &outer));
-        sum += s.sigma * (outer - inner);
-        inner = outer;
+        fret_segment next = {.sigma = 0};
+        fret_real outer = 0;
+        (void)fret_memory_segment(m, i + 1, &next); /* beyond the last there is no slope */
+        if (s.sigma != next.sigma)
+            st = fret_unless_stopped(n, fret_field_of(n, s.outer, r, traction, &outer));
+        sum += (s.sigma - next.sigma) * outer;
     }
     if (!st.code)
         *out = sum;

@@ -247,11 +247,19 @@ static fret_status take_slices(fret_fields *f, const fret_memory *m) {
     return fret_ok();
 }
 
+/* No slice has a slope: nothing has been displaced. */
+static bool undisplaced(const fret_fields *f) {
+    size_t i = 0;
+    while (i < f->count && f->cut[i].weight == 0)
+        i++;
+    return i == f->count;
+}
+
 /* Slices, and polynomials for all of them? */
 static fret_status prepare_slices(fret_fields *f, const fret_memory *m, bool *there) {
     *there = false;
     const fret_status st = take_slices(f, m);
-    return st.code || f->count == 0 ? st : prepare(f, f->cut[f->count - 1].a, there);
+    return st.code || undisplaced(f) ? st : prepare(f, f->cut[f->count - 1].a, there);
 }
 
 fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real r, fret_real *q) {
@@ -259,8 +267,8 @@ fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real
     *q = 0;
     fret_status st = take_slices(f, m);
     const fret_real a = f->count > 0 ? f->cut[f->count - 1].a : 0;
-    const bool ripples = f->count > 0 && takes_ripples(f, f->count, a);
-    if (!st.code && f->count > 0 && !ripples)
+    const bool still = undisplaced(f), ripples = !still && takes_ripples(f, f->count, a);
+    if (!st.code && !still && !ripples)
         st = prepare(f, a, &there);
     if (st.code)
         return st;

@@ -552,6 +552,39 @@ static void many_stop(void) {
     fret_table_free(t);
 }
 
+/* What only presses has no traction and moves nothing sideways, even where the pressure is infinite; nothing
+ * is made to say so. */
+static void undisplaced(void) {
+    static const fret_real place[] = {0, 1e-4L, 1e-3L};
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0, 1e-3};
+    for (shape which = 0; which < SHAPES; which++) {
+        const fret_gap gap = gap_of(which);
+        fret_normal *normal = NULL;
+        fret_fields *f = NULL;
+        fret_memory *m = NULL;
+        CHECK_OK(fret_normal_make(&material, &gap, &normal));
+        CHECK_OK(fret_memory_make(normal, 0.3, &m));
+        CHECK_OK(fret_fields_make(normal, &f));
+        CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 10, 0}));
+        for (int i = 0; i < 3; i++) {
+            fret_real q = 1, u = 1, plain[2] = {1, 1};
+            CHECK_OK(fret_fields_traction(f, m, place[i], &q));
+            CHECK_OK(fret_fields_surface_x(f, m, place[i], &u));
+            CHECK_OK(fret_traction(m, place[i], &plain[0]));
+            CHECK_OK(fret_surface_x(m, place[i], &plain[1]));
+            CHECK(q == 0 && u == 0 && plain[0] == 0 && plain[1] == 0);
+        }
+        CHECK(isnan(fret_fields_error(f)));
+        fret_real out;
+        CHECK_CODE(fret_fields_traction(f, m, -1, &out), FRET_NEGATIVE);
+        CHECK_CODE(fret_fields_surface_x(f, m, -1, &out), FRET_NEGATIVE);
+        fret_fields_free(f);
+        fret_memory_free(m);
+        fret_normal_free(normal);
+        fret_table_free((struct fret_table *)gap.table);
+    }
+}
+
 static void stops(void) {
     const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
     const fret_gap flat = gap_of(FLAT_ROUNDED);
@@ -603,6 +636,7 @@ int main(int argc, char **argv) {
     ripples(FLAT_TABLE, 1e-7, 0);
     ripples(FLAT_TABLE, -0.3, 1e-8);
     many_stop();
+    undisplaced();
     stops();
     if (many) {
         for (shape which = 0; which < SHAPES; which++) {
