@@ -335,7 +335,7 @@ static fret_status sine_parts(runner *r, const load_item *c, const fret_sine *lo
     leg l = {.chord = true, .points = c->step.points ? c->step.points : RUN_CHORDS, .origin = r->time};
     double from = 0;
     fret_status st = fine;
-    for (*taken = true; from < 2 * pi && !st.code && *taken;) {
+    while (from < 2 * pi && !st.code) {
         const double end = next_look(r, &l, from, 2 * pi);
         l.begin = r->time;
         l.end = l.origin + end / (2 * pi);

@@ -117,15 +117,15 @@ void undo_pop(calc *c, bool back) {
 bool calc_undo(calc *c) {
     undo *u = &c->undo;
     scene *s = &c->scene;
-    const undo_entry *top = u->count ? &u->entry[u->count - 1] : NULL;
-    if (s->end.steps > (top ? top->steps : u->base_steps)) {
+    const size_t steps = u->count ? u->entry[u->count - 1].steps : u->base_steps;
+    if (s->end.steps > steps) {
         s->end.steps--;
         scene_forget(s, true);
         return true;
     }
-    if (!top)
+    if (!u->count)
         return false;
-    const unsigned long group = top->group;
+    const unsigned long group = u->entry[u->count - 1].group;
     while (u->count > 0 && u->entry[u->count - 1].group == group)
         take_back(c, &u->entry[--u->count]);
     return true;

@@ -168,6 +168,13 @@ def kept_instants(tests):
         for (x, y), (at, W) in zip(times[0], each[0])), str(times)[:300])
 
 
+def by_definitions(tests):
+    """What an input is made of, changed at an instant: as the input itself is."""
+    got, done = rows(tests, "material steel; geometry sphere R=10 mm; press FN=100 N; y = 0.4; mu := y; step FN=90 N Fx=10 N; cycle FA=10 N; "
+                     "table W, (W at y=0.5), (W at mu=0.5) along program steps 6")
+    tests.check("what mu is made of", len(got) == 7 and all(row[2] == row[3] for row in got) and got[-1][1] > got[-1][2] > 0, tests.report(done))
+
+
 def same_but_for_a_dimension(tests):
     """Scenes that differ by a name of the same number, of another kind: each has its own."""
     got, done = rows(tests, "x = 1; material steel; geometry sphere R=10 mm; press FN=100 N; mu := 0.4 + 0.1*atan(x/x - 1 + (x - x)/x); step Fx=10 N; "
@@ -220,4 +227,4 @@ def beyond(tests):
 
 
 def run(tests):
-    tests.rooms(periods, same_but_for_a_dimension, against_with, against_cut, many, turning_points, kept_instants, told_apart, beyond)
+    tests.rooms(periods, same_but_for_a_dimension, by_definitions, against_with, against_cut, many, turning_points, kept_instants, told_apart, beyond)

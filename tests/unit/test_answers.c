@@ -395,6 +395,21 @@ static void too_deep(void) {
     calc_free(&c);
 }
 
+/* A displacement that sways while F_N swings farther than rows reach: its turns cannot be had there. */
+static void swings_too_far(void) {
+    static const load_step press = {LOAD_STEP, .normal = BY_FORCE, .normal_value = 9000, .points = 1},
+                           cycle = {LOAD_CYCLE, .tangential = BY_DISPLACEMENT, .tangential_value = 1e-7,
+                                    .normal_value = 8000};
+    double before[VALUES];
+    calc c;
+    begin(&c, &(scened){.rows = true, .automatic = true});
+    CHECK(loaded(&c, &press, 0) && again(c.now, STATE, before));
+    CHECK(!loaded(&c, &cycle, 1.5));
+    calc_word(&c, &error);
+    CHECK(strstr(error.text, "cannot be carried") && as_ever(c.now, STATE, before));
+    calc_free(&c);
+}
+
 /* Of a profile that is too steep for polynomials many values are asked of itself. */
 static void too_steep(void) {
     const fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {100, 1e-6, 1e-4}}};
@@ -549,6 +564,7 @@ int main(int argc, char **argv) {
     rows_of_loads(false);
     rows_of_loads(true);
     too_deep();
+    swings_too_far();
     too_steep();
     lacking();
     on_the_way();

@@ -416,6 +416,35 @@ static void along(void) {
     calc_free(&c);
 }
 
+/* Without steps that have left something behind, and of a cycle alone, the instants are run again; an input
+ * that the shape has not is refused. */
+static void trials(void) {
+    static const load_step slide = {
+        .kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 5, .points = 1};
+    looks all = {.left = -1};
+    bool done = true;
+    calc c;
+    press_steel(&c, NULL, 0);
+    trial *t = trial_open(&c, fresh());
+    CHECK(!c.now->answers.trail);
+    CHECK(trial_trail(t, ALONG_PROGRAM, 0, probe_on, look_on, &all, &done, fresh()) && !done);
+    trial_close(t);
+    for (int i = 0; i < 30; i++)
+        CHECK(load(&c, slide, (cycle_extra){0}));
+    const fret_state *now;
+    CHECK(scene_state(c.now, &now, fresh()));
+    t = trial_open(&c, fresh());
+    done = true;
+    CHECK(trial_trail(t, ALONG_CYCLE, 3, probe_on, look_on, &all, &done, fresh()) && !done && !all.seen);
+    const knob slope = {.is_input = true, .in = IN_SLOPE, .text = "slope"};
+    CHECK(!trial_set(t, &slope, 0.1L, fresh()));
+    calc_word(&c, &error);
+    CHECK(strstr(error.text, "slope is no parameter of geometry sphere"));
+    CHECK(!t->scene.in.set[IN_SLOPE] && c.now == &t->scene);
+    trial_close(t);
+    calc_free(&c);
+}
+
 /* Each quantity has a formula that holds always, its last: the search for one needs no other end. */
 static void formulas(void) {
     for (size_t i = 0; quantity_row(i); i++) {
@@ -509,6 +538,7 @@ int main(int argc, char **argv) {
     alike_names();
     deep_names();
     along();
+    trials();
     formulas();
     interrupted();
     far_back();
