@@ -378,24 +378,33 @@ static fret_real many_surface(const fret_normal *n, fret_real a, fret_real dz, f
     return 2 * fret_cos(FRET_PI * k / 2) / FRET_PI * sum;
 }
 
+/* So many that they are summed in leaves and blocks, at the radii r; off: how rough, relative. */
+enum { ROWS = 2600 };
+static struct fret_table *rows_of(shape which, double off, double r[ROWS]) {
+    static double f[ROWS];
+    const double start = which == FLAT_TABLE ? 1e-3 * 20 / ROWS : 0;
+    struct fret_table *t = NULL;
+    for (int i = 1; i < ROWS; i++) {
+        r[i] = 1e-3 * (i + uniform(-0.2, 0.2)) / ROWS;
+        const double x = fmax(r[i] - start, 0);
+        f[i] = (which == POINTED_TABLE ? 0.01 * x * (1 + x / 1e-3) : x * x / 0.02) * (1 + uniform(-off, off));
+    }
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
+    return t;
+}
+
 /* Rows in leaves: of all of a history of two slices, whose ends lie within them. */
 static void many_rows(double k, double off, fret_real part) {
-    enum { ROWS = 2600 };
-    static double r[ROWS], f[ROWS];
     const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
     const double mu = 0.3;
-    struct fret_table *t = NULL;
+    static double r[ROWS];
+    struct fret_table *t = rows_of(ROUND_TABLE, off, r);
     fret_fields *fields = NULL;
     fret_normal *normal = NULL;
     fret_memory *m = NULL;
     fret_press top;
     fret_state now;
     fret_segment s;
-    for (int i = 1; i < ROWS; i++) {
-        r[i] = 1e-3 * (i + uniform(-0.2, 0.2)) / ROWS;
-        f[i] = r[i] * r[i] / 0.02 * (1 + uniform(-off, off));
-    }
-    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
     CHECK_OK(fret_normal_make(&material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = t}, &normal));
     CHECK_OK(fret_fields_make(normal, &fields));
     CHECK_OK(fret_memory_make(normal, mu, &m));
@@ -437,10 +446,9 @@ static void many_rows(double k, double off, fret_real part) {
 /* Many rows: what the pressure is of them one after the other, as if g' had no end, against polynomials of
  * all of them. Near the centre and the edge, at rows, within the first ones and inside of all slices. */
 static void ripples(shape which, double k, double off) {
-    enum { ROWS = 2600 };
-    static double r[ROWS], f[ROWS];
     const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
-    struct fret_table *t = NULL;
+    static double r[ROWS];
+    struct fret_table *t = rows_of(which, off, r);
     struct fret_density *twin = NULL;
     fret_fields *fields = NULL;
     fret_normal *n = NULL;
@@ -448,12 +456,6 @@ static void ripples(shape which, double k, double off) {
     fret_press top;
     fret_state now;
     fret_segment s[3] = {{0}};
-    for (int i = 1; i < ROWS; i++) {
-        r[i] = 1e-3 * (i + uniform(-0.2, 0.2)) / ROWS;
-        const double x = which == FLAT_TABLE ? fmax(r[i] - r[20], 0) : r[i];
-        f[i] = (which == POINTED_TABLE ? 0.01 * x * (1 + x / 1e-3) : x * x / 0.02) * (1 + uniform(-off, off));
-    }
-    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
     CHECK_OK(fret_normal_make(&material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = t}, &n));
     CHECK_OK(fret_fields_make(n, &fields));
     CHECK_OK(fret_memory_make(n, 1, &m));
@@ -520,7 +522,6 @@ static void ripples(shape which, double k, double off) {
 
 /* Of many rows, from the first question on. */
 static void many_stop(void) {
-    enum { ROWS = 2600 };
     static double r[ROWS], f[ROWS];
     const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
     volatile sig_atomic_t stop = 0;
