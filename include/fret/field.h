@@ -11,7 +11,8 @@ FRET_BEGIN
  * meaningful in this theory, and there is no function for it.
  *
  * Arguments r >= 0 [m] else FRET_NEGATIVE. FRET_SINGULAR where the field is infinite: at the sharp edge of a
- * flat-ended gap, and at the tip where n + k <= 1. Accuracy 1e-14 relative; 2e-13 nearer
+ * flat-ended gap where k <= 0, and at the tip where n + k <= 1; the traction there only where the innermost
+ * slice has a slope. Accuracy 1e-14 relative; 2e-13 nearer
  * than 1e-3 a outside the edge and nearer than 1e-6 a to the centre, 1e-8 next to a flat end where k nears
  * -1. The pressure of a table has a kink at every row: 1e-6 for 400 smooth rows, 1e-2 for rough ones;
  * fret_fields resolve them. Powers up to n = 1e6: 1e-13, for the radii as given. */

@@ -71,7 +71,7 @@ for kind in (shape.CONE, shape.PARABOLOID, shape.ROUNDED):
         cN0 = oracle.foundation(*BODIES, k)[0]
         b, R, slope, a = 1e-3, 0.01, 0.05, 1.6e-3
         flat, e1 = Flat((kind, b, R, slope, 1, 0, 1, 0, 1, 0), k), mpf(a) - mpf(b)
-        rim = [b] if kind == shape.ROUNDED else []  # elsewhere infinite
+        rim = [b] if kind == shape.ROUNDED else []  # the others: sharp.csv
         for r in [0.0, 0.5e-3, 0.99e-3, *rim, 1.01e-3, 1.3e-3, 1.59e-3, 1.7e-3]:
             with mp.workdps(40):
                 rows.append(((kind, b, R, slope, 1.0, k, a, r), [
@@ -92,3 +92,36 @@ for n in (0.5, 1.0, 2.0, 4.0, 10.0):
                 scene.g(a) - mpf(H) * (mpf(r) / mpf(R0))**n if within else outside(scene, a, mpf(r))]))
 oracle.write("field.csv", "field.py", "fields of f = h (r/r0)^n, kind 0, and of flat ends",
              ["kind", "b", "R", "slope", "n", "k", "a", "r"], ["p", "w"], rows)
+
+
+def ring(rate, inner, outer, power):
+    """What a ring presses where each contact is singular: linear in the logarithm of the distance e from that. rate:
+    g' times the kernel; inner 0: the whole contact, rate goes as e^(power-1) to 1e-40 of its width."""
+    low = inner or outer * mpf(10)**-40
+    ends, last = [mp.log(low)], mp.log(outer)
+    while ends[-1] + 1 < last:
+        ends.append(ends[-1] + 1)
+    with mp.workdps(40):
+        sums = mp.quad(lambda t: rate(mp.exp(t)) * mp.exp(t), ends + [last])
+    return sums + (0 if inner else rate(low) * low / power)
+
+
+rows = []
+for kind in (shape.CONE, shape.PARABOLOID):
+    for k in (-0.9, -0.3, 0.0, 0.02, 0.3, 0.9):
+        for inner in (0.0, 1.000001e-3, 1.2e-3, 1.5999e-3):
+            if inner == 0 and k <= 0:
+                continue  # infinite
+            b, R, slope, a = 1e-3, 0.01, 0.05, 1.6e-3
+            flat = Flat((kind, b, R, slope, 1, 0, 1, 0, 1, 0), k)
+            p = ring(lambda e: flat.steepness(e) * (e * (2 * flat.b + e))**(flat.m - 1),
+                     mpf(inner) - mpf(b) if inner else 0, mpf(a) - mpf(b), flat.k)
+            rows.append(((kind, b, R, slope, 1.0, k, inner, a, b), [
+                oracle.foundation(*BODIES, k)[0] * mpf(C0)**-flat.k / mp.pi * p]))
+for n, k in ((0.5, 0.3), (0.5, 0.5), (1.0, 0.0), (1.0, -0.7), (1.0, -1e-9), (1.5, -0.9)):
+    for inner in (1e-9, 3e-4, 0.9999e-3):
+        scene = oracle.Scene(*BODIES, k, C0, n, H, R0, MU)
+        p = ring(lambda x: scene.n * scene.g(x) * x**(scene.k - 2), mpf(inner), mpf(A), 0)
+        rows.append(((0, 0.0, 0.0, 0.0, n, k, inner, A, 0.0), [scene.cN0 * scene.c0**-scene.k / mp.pi * p]))
+oracle.write("sharp.csv", "field.py", "pressures at sharp edges and tips, of contacts, or of rings where they are infinite",
+             ["kind", "b", "R", "slope", "n", "k", "inner", "a", "r"], ["p"], rows)

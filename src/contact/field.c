@@ -58,14 +58,14 @@ static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
     return weight * e * slope_at(c, e) * singular(c, e);
 }
 
-/* At the tip: x = a t^(1/(n+k-1)), n the leading power of the gap; so deep in it that x may underflow the
- * integrand is constant. */
+/* At the tip and at a sharp edge: e = to t^power; so deep in it that e may underflow the integrand is
+ * constant. */
 static fret_real pressure_tip(fret_real t, fret_real rest, void *context) {
     (void)rest;
     static const fret_real deep = 1e-100L;
     const inside *c = context;
-    const fret_real part = fmaxl(fret_pow(t, c->power), deep), x = c->to * part;
-    return slope_at(c, x) * fret_pow(x, c->normal->rule.k) / fmaxl(t, fret_pow(deep, 1 / c->power));
+    const fret_real e = c->to * fmaxl(fret_pow(t, c->power), deep);
+    return slope_at(c, e) * singular(c, e) * e / fmaxl(t, fret_pow(deep, 1 / c->power));
 }
 
 /* A large exponent makes a step at t = 1 of all else that varies with x, and steep where that is singular not
@@ -142,15 +142,25 @@ static fret_real pressure_powers(const fret_normal *n, const fret_term *term, in
     return f->cN0 / FRET_PI * fret_pow(a / f->c0, f->k) * sum / a;
 }
 
+/* As which power of the radius, or of the distance from a sharp edge, the pressure falls inwards: the least
+ * power of g' times the kernel, and 1; NAN: at r there is neither. */
+static fret_real rise_at(const fret_normal *n, fret_real r) {
+    const fret_real start = fret_gap_start(&n->gap), k = n->foundation.k;
+    if (r == 0 && start == 0)
+        return fret_gap_tip(&n->gap) + k - 1;
+    return r == start && fret_gap_sharp(&n->gap) ? k : NAN;
+}
+
+bool fret_field_infinite(const fret_normal *n, fret_real r) {
+    return rise_at(n, r) <= 0;
+}
+
 /* Of a gap without steep powers, r < a, which lies beyond the flat end. */
 static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
     *p = 0;
-    fret_real start = fret_gap_start(&n->gap), k1 = 1 + n->foundation.k;
-    /* the leading power of the gap decides what the tip is like */
-    const fret_real rise = fret_gap_tip(&n->gap) + n->foundation.k - 1;
-    const bool tip = r == 0 && start == 0;
-    const bool sharp = r == start && fret_gap_sharp(&n->gap);
-    if ((tip && rise <= 0) || sharp)
+    const fret_real start = fret_gap_start(&n->gap), k1 = 1 + n->foundation.k, rise = rise_at(n, r);
+    const bool tip = !isnan(rise);
+    if (rise <= 0)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     fret_term term[FRET_MOST_TERMS];
     const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
@@ -159,12 +169,14 @@ static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real 
         return fret_ok();
     }
     inside c = {n, start, r, 0, a - start, tip ? 1 / rise : 2 / k1}, middle = c, beyond = c;
-    middle.power = beyond.power = rise;
+    middle.power = beyond.power = fret_gap_tip(&n->gap) + n->foundation.k - 1;
     /* the first part reaches no farther than what is singular on the other side: x = b, -r, or r below b */
     if (r > start)
         middle.to = fminl(c.to, sqrtl(r * r + (r - start) * (r + start)) - start);
     else if (r < start)
         middle.to = fminl(c.to, start - r);
+    else if (tip && start > 0)
+        middle.to = fminl(c.to, start);
     beyond.from = c.to = middle.to;
     if (c.power > WIDE)
         c.to = close_part(&c);
@@ -493,6 +505,39 @@ fret_status fret_field_of(const fret_normal *n, fret_real y, fret_real r, bool t
     return traction ? pressure_of(n, &at, r, out) : surface_of(n, &at, r, out);
 }
 
+/* What a ring from b to a presses within it, at the tip or at a sharp edge. */
+static fret_real ring_pressure(const fret_normal *n, fret_real b, fret_real a, fret_real r) {
+    const fret_foundation *f = &n->foundation;
+    const fret_real start = fret_gap_start(&n->gap);
+    inside c = {n, start, r, b - start, a - start, 0};
+    fret_term term[FRET_MOST_TERMS];
+    const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
+    fret_real sum = 0;
+    for (int i = 0; i < terms; i++) {
+        const fret_real by = term[i].n + f->k - 1, l = fret_log(b / a);
+        sum -= term[i].G * term[i].n * (by != 0 ? fret_expm1(by * l) / by : l);
+    }
+    sum *= fret_pow(a, f->k - 1);
+    if (terms == 0 && b < a)
+        sum = fret_integrate_pieces(pressure_beyond, &c, 1e-17L);
+    return f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * sum;
+}
+
+fret_status fret_field_between(const fret_normal *n, fret_real inner, fret_real outer, fret_real r,
+                               bool traction, fret_real *out) {
+    fret_real within = 0;
+    *out = 0;
+    if (traction && inner > 0 && fret_field_infinite(n, r)) {
+        *out = ring_pressure(n, fret_law_radius(n, inner), fret_law_radius(n, outer), r);
+        return fret_ok();
+    }
+    fret_status st = fret_field_of(n, inner, r, traction, &within);
+    if (!st.code)
+        st = fret_field_of(n, outer, r, traction, out);
+    *out -= within;
+    return st;
+}
+
 /* Sum over the slices of weight sigma times the difference of the field at their two ends: the field where
  * the slope changes, which is what nothing displaced has nowhere. */
 static fret_status superpose(const fret_memory *m, fret_real r, bool traction, fret_real *out) {
@@ -500,14 +545,17 @@ static fret_status superpose(const fret_memory *m, fret_real r, bool traction, f
     fret_segment s;
     fret_real sum = 0;
     fret_status st = fret_check_not_negative("r", (double)r);
+    const bool rings = traction && fret_field_infinite(n, r);
     *out = 0;
     for (size_t i = 0; !st.code && fret_memory_segment(m, i, &s); i++) {
         fret_segment next = {.sigma = 0};
-        fret_real outer = 0;
+        fret_real part = 0;
         (void)fret_memory_segment(m, i + 1, &next); /* beyond the last there is no slope */
-        if (s.sigma != next.sigma)
-            st = fret_unless_stopped(n, fret_field_of(n, s.outer, r, traction, &outer));
-        sum += (s.sigma - next.sigma) * outer;
+        const fret_real weight = rings ? s.sigma : s.sigma - next.sigma;
+        if (weight != 0)
+            st = fret_unless_stopped(n, rings ? fret_field_between(n, s.inner, s.outer, r, true, &part)
+                                              : fret_field_of(n, s.outer, r, traction, &part));
+        sum += weight * part;
     }
     if (!st.code)
         *out = sum;

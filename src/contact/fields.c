@@ -134,11 +134,11 @@ static fret_status pressure_by_ripples(fret_fields *f, const fret_cut *cut, size
     return fret_ok();
 }
 
-/* Places where the field is asked for as ever: outside, or where it may be infinite. */
+/* Places where the field is asked for as ever: outside, at a sharp edge, or where it may be infinite. */
 static bool is_special(const fret_normal *n, fret_real a, fret_real r) {
     const fret_real start = fret_gap_start(&n->gap);
     return !(r >= 0) || r >= a || a <= start || (r == start && fret_gap_sharp(&n->gap)) ||
-           (r == 0 && start == 0 && fret_gap_tip(&n->gap) + n->foundation.k <= 1);
+           fret_field_infinite(n, r);
 }
 
 /* The pressure from where the polynomials begin. */
@@ -255,6 +255,15 @@ static bool undisplaced(const fret_fields *f) {
     return i == f->count;
 }
 
+/* Is r a tip that the traction takes no part of: within a core without a slope, which is more than the first
+ * row? */
+static bool is_spared(const fret_fields *f, fret_real r) {
+    const fret_normal *n = f->normal;
+    fret_term term[FRET_MOST_TERMS];
+    return r == 0 && fret_gap_start(&n->gap) <= 0 && f->count > 0 && f->cut[0].weight == 0 &&
+           fret_gap_series(&n->gap, &n->rule, f->cut[0].a, term) == 0;
+}
+
 /* Slices, and polynomials for all of them? */
 static fret_status prepare_slices(fret_fields *f, const fret_memory *m, bool *there) {
     *there = false;
@@ -274,7 +283,8 @@ fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real
         return st;
     if (f->count > 0 && r >= a)
         return fret_ok();
-    if ((!there && !ripples) || is_special(f->normal, a, r))
+    const bool spared = is_spared(f, r);
+    if ((!there && !ripples) || (!spared && is_special(f->normal, a, r)))
         return fret_traction(m, r, q);
     if (ripples) {
         st = pressure_by_ripples(f, f->cut, f->count, r, q);
@@ -282,7 +292,7 @@ fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real
         return st;
     }
     const fret_real from = fret_density_from(f->density);
-    if (r < from && fret_gap_start(&f->normal->gap) <= 0) {
+    if (!spared && r < from && fret_gap_start(&f->normal->gap) <= 0) {
         fret_real inner = 0, outer = 0;
         for (size_t i = 0; i < f->count && !st.code && (i == 0 || f->cut[i - 1].a < from); i++) {
             st = fret_pressure(f->normal, fminl(f->cut[i].a, from), r, &outer);

@@ -239,7 +239,7 @@ static fret_real sum_centre(const fret_ripple *p, const struct fret_table *t, co
         const fret_real last = i > 0 ? fminl(cut[i - 1].a, end) : 0, s = fminl(cut[i].a, end);
         for (int j = 0; j < 3 && last < s; j++) {
             const fret_real by = j + p->k;
-            if (h.c[j] != 0)
+            if (h.c[j] != 0 && cut[i].weight != 0)
                 sum += cut[i].weight * h.c[j] * (fret_pow(s, by) - (last > 0 ? fret_pow(last, by) : 0)) / by;
         }
     }

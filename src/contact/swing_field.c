@@ -207,13 +207,12 @@ static fret_real slope_of(const piece *p) {
 static fret_status add_straight(const fret_swing *c, const piece *p, fret_real r, bool traction,
                                 fret_real *sum) {
     const fret_real sigma = slope_of(p);
-    fret_real inner = 0, outer = 0;
+    fret_real part = 0;
     if (sigma == 0)
         return fret_ok();
-    fret_status st = fret_field_of(c->normal, depth_at(c, p->first), r, traction, &inner);
-    if (!st.code)
-        st = fret_field_of(c->normal, depth_at(c, p->last), r, traction, &outer);
-    *sum += sigma * (outer - inner);
+    const fret_status st =
+        fret_field_between(c->normal, depth_at(c, p->first), depth_at(c, p->last), r, traction, &part);
+    *sum += sigma * part;
     return st;
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Local fields: their integrals are the forces, they agree with the gap inside, and with closed forms. */
+#include "contact/field.h"
 #include "contact/normal.h"
 #include "number/quadrature.h"
 #include "number/real.h"
@@ -27,6 +28,33 @@ static void reference(void) {
         else
             CHECK(p == 0);
         CHECK_REL(w, unit_result(&t, 9), 5e-14L);
+    }
+}
+
+/* Sharp edges and tips: contacts whose pressure is finite there, and rings of those whose is not. */
+static void sharp(void) {
+    unit_table t;
+    if (!unit_open(&t, "sharp.csv"))
+        return;
+    while (unit_row(&t)) {
+        unit_scene s = unit_make_scene(unit_input(&t, 4), unit_input(&t, 5));
+        const double inner = unit_input(&t, 6), a = unit_input(&t, 7), r = unit_input(&t, 8);
+        s.gap.kind = (fret_gap_kind)atoi(t.cell[0]);
+        s.gap.b = unit_input(&t, 1);
+        s.gap.R = unit_input(&t, 2);
+        s.gap.slope = unit_input(&t, 3);
+        fret_real p = -1, size = 0;
+        const fret_normal *normal = unit_make_normal(&s);
+        const fret_real within = fret_normal_profile(normal, inner), all = fret_normal_profile(normal, a);
+        if (fret_field_infinite(normal, r)) {
+            CHECK(inner > 0 && fret_pressure(normal, a, r, &p).code == FRET_SINGULAR);
+            CHECK_ERROR(fret_field_between(normal, 0, all, r, true, &p), FRET_SINGULAR, "r");
+            CHECK(p == 0);
+        } else {
+            CHECK_OK(fret_pressure(normal, a, r, &size));
+        }
+        CHECK_OK(fret_field_between(normal, within, all, r, true, &p));
+        CHECK_ABS(p, unit_result(&t, 9), fmaxl(p, size), 5e-14L);
     }
 }
 
@@ -226,7 +254,7 @@ static void errors(void) {
     CHECK(fret_surface(normal, 1e-4L, -1, &out).code == FRET_NEGATIVE);
     gap = gap_of(5);
     normal = unit_keep_normal(&material, &gap);
-    CHECK(fret_pressure(normal, 2e-4L, gap.b, &out).code == FRET_SINGULAR);
+    CHECK_ERROR(fret_pressure(normal, 2e-4L, gap.b, &out), FRET_SINGULAR, "r");
     fret_memory *m = NULL;
     CHECK_OK(fret_memory_make(normal, 0.3, &m));
     CHECK_OK(fret_traction(m, 1, &out));
@@ -361,6 +389,7 @@ static void tips(void) {
 int main(int argc, char **argv) {
     unit_start("field", argc, argv);
     reference();
+    sharp();
     steep();
     sums();
     forces();

@@ -298,7 +298,7 @@ static void rim(void) {
 /* What has a formula, or is infinite, or is nowhere, is answered as for one place; and what was asked before
  * leaves no trace. */
 static void alike(void) {
-    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, -0.3, 1e-3};
     const fret_gap power = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{2, 0.005, 0.01}}};
     const fret_gap flat = gap_of(FLAT_CONE);
     const fret_normal *normal = unit_keep_normal(&material, &power);
@@ -443,6 +443,46 @@ static void many_rows(double k, double off, fret_real part) {
     fret_table_free(t);
 }
 
+/* At the tip of a sampled cone, whose rows are exact: the traction of slices around a core without a slope is
+ * that of the cone. Of few rows and of many; where the core ends within the first row; and where it has a
+ * slope. */
+static void sampled_tip(double k, size_t rows, double part, bool gripped) {
+    static double r[4000], f[4000];
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
+    const fret_gap cone = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{1, 0x1p-5, 1}}};
+    struct fret_table *t = NULL;
+    fret_fields *fields = NULL;
+    fret_normal *n[2] = {NULL, NULL};
+    fret_real q[2] = {0, 0};
+    fret_status st[2];
+    for (size_t i = 0; i < rows; i++) {
+        r[i] = (double)i * 0x1p-22;
+        f[i] = r[i] * 0x1p-5;
+    }
+    CHECK_OK(fret_table_make(r, f, rows, NULL, &t));
+    CHECK_OK(fret_normal_make(&material, &cone, &n[0]));
+    CHECK_OK(fret_normal_make(&material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = t}, &n[1]));
+    CHECK_OK(fret_fields_make(n[1], &fields));
+    for (int i = 0; i < 2; i++) {
+        fret_memory *m = NULL;
+        fret_press press;
+        CHECK_OK(fret_press_by_radius(n[0], r[rows - 1] * 0.97, &press));
+        CHECK_OK(fret_memory_make(n[i], 0.5, &m));
+        if (gripped)
+            CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, (double)press.F / 64, 0}));
+        CHECK_OK(fret_memory_step(
+            m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, (double)press.F, 0.5 * part * (double)press.F}));
+        st[i] = i ? fret_fields_traction(fields, m, 0, &q[i]) : fret_traction(m, 0, &q[i]);
+        fret_memory_free(m);
+    }
+    CHECK(st[0].code == st[1].code && st[0].code == (gripped ? FRET_OK : FRET_SINGULAR));
+    CHECK_REL(q[1], q[0], 1e-14L);
+    fret_fields_free(fields);
+    fret_normal_free(n[0]);
+    fret_normal_free(n[1]);
+    fret_table_free(t);
+}
+
 /* Many rows: what the pressure is of them one after the other, as if g' had no end, against polynomials of
  * all of them. Near the centre and the edge, at rows, within the first ones and inside of all slices. */
 static void ripples(shape which, double k, double off) {
@@ -491,7 +531,10 @@ static void ripples(shape which, double k, double off) {
         fret_real p = 0, q = 0, inner = 0, last = 0, outer = 0;
         if (i == 0 && which != FLAT_TABLE && !(k > (which == POINTED_TABLE ? 0 : -1))) {
             CHECK_ERROR(fret_fields_pressure(fields, now.a, 0, &p), FRET_SINGULAR, "r");
-            CHECK_ERROR(fret_fields_traction(fields, m, 0, &p), FRET_SINGULAR, "r");
+            CHECK_OK(fret_fields_traction(fields, m, 0, &p)); /* the innermost slice has no slope */
+            CHECK_OK(fret_fields_traction(fields, m, 1e-8L * cut[0].a, &q));
+            CHECK_OK(fret_fields_pressure(fields, now.a, 1e-8L * cut[0].a, &outer));
+            CHECK_ABS(p, q, outer, 1e-14L);
             continue;
         }
         if (place[i] < from && which != FLAT_TABLE)
@@ -636,6 +679,14 @@ int main(int argc, char **argv) {
     ripples(POINTED_TABLE, -0.04, 1e-8);
     ripples(FLAT_TABLE, 1e-7, 0);
     ripples(FLAT_TABLE, -0.3, 1e-8);
+    for (int i = 0; i < 3; i++) {
+        static const double ks[] = {0, -0.3, -0.9};
+        sampled_tip(ks[i], 100, 0.5, true);
+        sampled_tip(ks[i], 4000, 0.5, true);
+        sampled_tip(ks[i], 40, 0.999999, true);
+        sampled_tip(ks[i], 100, 0.5, false);
+        sampled_tip(ks[i], 4000, 0.5, false);
+    }
     many_stop();
     undisplaced();
     stops();
