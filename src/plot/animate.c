@@ -37,7 +37,7 @@ bool plot_animate(const plot_movie *m, const plot_target *t, file_report *report
         if (m->progress)
             m->progress(m->context, i, m->frames);
         ok = fill_frame(m, i, &frame[i], extent, frame[0].count, error);
-        if (ok && t->stop && *t->stop)
+        if (ok && plot_stopped(t))
             ok = calc_interrupted(error);
     }
     if (ok && m->progress)

@@ -82,7 +82,7 @@ typedef struct scripted {
 
 static bool write_script(FILE *to, const scripted *s, calc_error *error) {
     return s->pages ? plot_write_pages(to, s->reel, s->target, s->pages, error)
-                    : plot_write_picture(to, s->reel, s->kind, s->target->width, s->target->height, error);
+                    : plot_write_picture(to, s->reel, s->kind, s->target, error);
 }
 
 /* Writes the script into the run's folder and has it drawn. */
@@ -261,7 +261,7 @@ static bool play(const sheets *s, const scripted *w, size_t panels, calc_error *
         if (fflush(t->out))
             return calc_errno(error, errno, "cannot write");
         for (int ms = (int)(1000 * w->reel->seconds); ms > 0 && n + 1 < frames; ms -= 10) {
-            if (t->stop && *t->stop)
+            if (plot_stopped(t))
                 return calc_interrupted(error);
             poll(NULL, 0, ms < 10 ? ms : 10);
         }

@@ -116,10 +116,7 @@ static end wait_for(pid_t pid, int guard, const plot_target *target, double time
     for (;;) {
         const pid_t done = waitpid(pid, status, WNOHANG);
         const bool lost = done < 0 && errno != EINTR;
-        const end how = target->stop && *target->stop ? STOPPED
-                        : seconds() > limit           ? LATE
-                        : lost                        ? LOST
-                                                      : ENDED;
+        const end how = plot_stopped(target) ? STOPPED : seconds() > limit ? LATE : lost ? LOST : ENDED;
         if (done != pid && how == ENDED) {
             poll(NULL, 0, PAUSE);
             continue;

@@ -581,7 +581,9 @@ static bool write_page(page *g, const plot_extents *e, calc_error *error) {
 
 bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
                       calc_error *error) {
-    for (size_t n = 0; n < reel->count; n++)
+    for (size_t n = 0; n < reel->count; n++) {
+        if (plot_stopped(target))
+            return calc_interrupted(error);
         for (size_t i = 0; i < reel->frame[n].count; i++) {
             page g = {.to = to,
                       .target = target,
@@ -595,5 +597,6 @@ bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target
             if (!write_page(&g, &reel->extent[i], error))
                 return false;
         }
+    }
     return true;
 }

@@ -146,8 +146,8 @@ static bool write_fewer(FILE *to, const plot_panel *p, size_t at, const plot_pap
     return ok;
 }
 
-static void write_map(FILE *to, const plot_map *m) {
-    for (size_t j = 0; j < m->ny; j++) {
+static void write_map(FILE *to, const plot_map *m, const plot_target *t) {
+    for (size_t j = 0; j < m->ny && !plot_stopped(t); j++) {
         for (size_t i = 0; i < m->nx; i++) {
             double z = m->z[j * m->nx + i];
             fprintf(to, isfinite(z) ? "%.9g %.9g %.9g\n" : "%.9g %.9g NaN\n", m->x[i], m->y[j], z);
@@ -156,9 +156,10 @@ static void write_map(FILE *to, const plot_map *m) {
     }
 }
 
-static bool write_data(FILE *to, const plot_reel *reel, const plot_kind *kind) {
+/* Unfinished where it is stopped. */
+static bool write_data(FILE *to, const plot_reel *reel, const plot_kind *kind, const plot_target *t) {
     bool ok = true;
-    for (size_t n = 0; n < reel->count; n++)
+    for (size_t n = 0; n < reel->count && !plot_stopped(t); n++)
         for (size_t i = 0; i < reel->frame[n].count; i++) {
             const plot_panel *p = reel->frame[n].panel[i];
             const plot_paper paper = paper_of(p, &reel->extent[i], kind);
@@ -174,7 +175,7 @@ static bool write_data(FILE *to, const plot_reel *reel, const plot_kind *kind) {
             }
             if (p->map.nx) {
                 fprintf(to, "$map%zu_%zu << END\n", n, i);
-                write_map(to, &p->map);
+                write_map(to, &p->map, t);
                 fputs("END\n", to);
             }
         }
@@ -485,16 +486,23 @@ static bool draw_panel(scribe *s, const plot_figure *f, const plot_extents *e, c
     return !s->lost || calc_no_memory(error);
 }
 
-bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, int width, int height,
+bool plot_stopped(const plot_target *t) {
+    return t->stop && *t->stop;
+}
+
+bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, const plot_target *t,
                         calc_error *error) {
     size_t panels = reel->frame[0].count;
-    double w = width ? width : panels > 1 ? (double)panels * BESIDE : WIDTH, h = height ? height : HEIGHT;
+    double w = t->width     ? t->width
+               : panels > 1 ? (double)panels * BESIDE
+                            : WIDTH,
+           h = t->height ? t->height : HEIGHT;
     /* texts keep their part of a panel */
     double scale = fmin(w / (double)panels / (panels > 1 ? BESIDE : WIDTH), h / HEIGHT);
     scale = fmax(scale, 0.5);
     double points = kind->font * scale * (panels > 1 ? 0.9 : 1);
     fputs("# made by fret; to see it: gnuplot -p FILE\n", to);
-    if (!write_data(to, reel, kind))
+    if (!write_data(to, reel, kind, t))
         return calc_no_memory(error);
     if (kind->terminal) {
         fputs("set terminal ", to);
@@ -504,6 +512,8 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
     }
     for (size_t n = 0; n < reel->count; n++) {
         const plot_figure *f = &reel->frame[n];
+        if (plot_stopped(t))
+            return calc_interrupted(error);
         if (f->count > 1)
             fprintf(to, "set multiplot layout 1,%zu\n", f->count);
         for (size_t i = 0; i < f->count; i++) {
@@ -525,5 +535,6 @@ bool plot_script(const plot_figure *f, const char *ending, int width, int height
         extent[i] = plot_extent_of(f->panel[i]);
     const plot_kind *kind = plot_kind_of(ending, &error);
     return kind && f->count &&
-           plot_write_picture(to, &(plot_reel){f, 1, extent, 0}, kind, width, height, &error);
+           plot_write_picture(to, &(plot_reel){f, 1, extent, 0}, kind,
+                              &(plot_target){.width = width, .height = height}, &error);
 }

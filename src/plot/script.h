@@ -67,10 +67,11 @@ typedef struct plot_reel {
     double seconds;             /* a frame */
 } plot_reel;
 
-/* The whole script for a picture; `pixels` wide and high, 0 for the usual. False with the error when there is
- * nothing to show. Writing is checked by the caller. */
-bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, int width, int height,
+/* The whole script for a picture. False with the error when there is nothing to show, or it is stopped.
+ * Writing is checked by the caller. */
+bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, const plot_target *target,
                         calc_error *error);
+bool plot_stopped(const plot_target *target);
 
 /* ---- dots.c: lines on text ----------------------------------------------------------------------- */
 

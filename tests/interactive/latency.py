@@ -131,23 +131,30 @@ def busy(pid):
         return int(f.read().split()[0]) * 1e-9
 
 
+def stolen():
+    """Seconds that each processor of a virtual machine was not there for it, to 10 ms."""
+    with open("/proc/stat", encoding="ascii") as f:
+        return [int(line.split()[8]) / os.sysconf("SC_CLK_TCK") for line in f if line[:3] == "cpu" and line[3].isdigit()]
+
+
 def interrupted(terminal, statement, delay):
-    """Seconds from Ctrl-C to the prompt, and of these on a processor; None: the statement was faster, infinity: it did
-    not end."""
+    """Seconds from Ctrl-C to the prompt, of these on a processor, and of these taken by other machines; None: the
+    statement was faster, infinity: it did not end."""
     terminal.send(statement)
     answer = terminal.read(delay)
     if answer is not None:
         return None
-    start, before = time.monotonic(), busy(terminal.pid)
+    start, before, away = time.monotonic(), busy(terminal.pid), stolen()
     os.write(terminal.fd, termios.tcgetattr(terminal.fd)[6][termios.VINTR])
     answer = terminal.read(PATIENCE)
     if answer is None:
-        return math.inf, math.inf
-    return (time.monotonic() - start, busy(terminal.pid) - before) if "interrupted" in answer else None
+        return math.inf, math.inf, 0
+    took = time.monotonic() - start, busy(terminal.pid) - before, max(now - then for now, then in zip(stolen(), away))
+    return took if "interrupted" in answer else None
 
 
 def measure(fret, env, case, delays):
-    """[(seconds, seconds on a processor)] of interrupts after these delays, and whether the scene stayed."""
+    """[(seconds, seconds on a processor, seconds stolen)] of interrupts after these delays, and whether the scene stayed."""
     _, before, statement = case
     terminal = Terminal(fret, env)
     try:
@@ -191,15 +198,17 @@ def main():
     try:
         print("# make latency INTERRUPTS=%d LONGEST=%g: Ctrl-C to the next prompt, so many interrupts at random moments "
               "of the first so many seconds [ms]" % (INTERRUPTS, LONGEST))
-        print("# %-38s %8s %8s %20s" % ("", "p50", "p100", "p100 on a processor"))
+        print("# there: but for what other machines took of the processors of this one, to 10 ms")
+        print("# %-38s %8s %8s %11s %20s" % ("", "p50", "p100", "p100 there", "p100 on a processor"))
         for case in cases(where, 1):
             if len(sys.argv) > 2 and case[0] not in sys.argv[2:]:
                 continue
             last = lasts(fret, env, case)
             took, kept = measure(fret, env, case, sorted(rnd.uniform(0.01, last) for _ in range(INTERRUPTS)))
-            wall, own = sorted(one[0] for one in took), max([one[1] for one in took] or [0])
-            text = ("%8.0f %8.0f %20.0f" % (1e3 * wall[len(wall) // 2], 1e3 * wall[-1], 1e3 * own) if wall and
-                    wall[-1] < math.inf else "   never" if wall else "   done before")
+            wall = sorted(one[0] for one in took)
+            there, own = (max(of(one) for one in took or [(0, 0, 0)]) for of in (lambda x: x[0] - x[2], lambda x: x[1]))
+            text = ("%8.0f %8.0f %11.0f %20.0f" % (1e3 * wall[len(wall) // 2], 1e3 * wall[-1], 1e3 * there, 1e3 * own)
+                    if wall and wall[-1] < math.inf else "   never" if wall else "   done before")
             print("%-40s %s%s" % (case[0], text, "" if kept else "  scene changed"), flush=True)
     finally:
         shutil.rmtree(where, ignore_errors=True)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures: the forms of texts, what reaches gnuplot, thinning, limits, pages, pictures. */
+#define _GNU_SOURCE /* fopencookie */
 #include "plot/plot.h"
 
 #include <sys/stat.h>
@@ -934,6 +935,55 @@ static void animates(const char *tmp) {
     CHECK(!any_left(tmp) && !any_left("."));
 }
 
+/* Ctrl-C at the first bytes of a script: no more of it than a row of a map, or a frame. */
+static volatile sig_atomic_t stop_now;
+
+static ssize_t stop_at_once(void *cookie, const char *text, size_t size) {
+    (void)text;
+    *(size_t *)cookie += size;
+    stop_now = 1;
+    return (ssize_t)size;
+}
+
+static size_t written_after(const plot_reel *reel, const plot_pages *pages) {
+    const plot_target t = {.stop = &stop_now, .columns = 60, .rows = 20};
+    size_t size = 0;
+    FILE *to = fopencookie(&size, "w", (cookie_io_functions_t){.write = stop_at_once});
+    stop_now = 0;
+    CHECK(!(pages ? plot_write_pages(to, reel, &t, pages, fresh())
+                  : plot_write_picture(to, reel, plot_kind_of("a.png", &error), &t, fresh())));
+    CHECK(error.stop && has(error.text, "interrupted"));
+    fclose(to);
+    return size;
+}
+
+static void stopped(void) {
+    enum { FRAMES = 30, POINTS = 900 };
+    const plot_pages pages = {.columns = 60, .rows = 20};
+    plot_extents extent[PLOT_PANELS];
+    plot_figure map, frame[FRAMES];
+    plot_figure_init(&map);
+    plot_panel *p = plot_panel_add(&map, fresh());
+    CHECK(plot_map_make(p, 200, 200, fresh()));
+    fill_map(&p->map, steep);
+    extent[0] = plot_extent_of(p);
+    CHECK(written_after(&(plot_reel){&map, 1, extent, 0}, NULL) < 20000); /* all of it: 1 MB */
+    for (size_t i = 0; i < FRAMES; i++) {
+        plot_figure_init(&frame[i]);
+        p = plot_panel_add(&frame[i], fresh());
+        plot_series *s = plot_series_add(p, PLOT_CURVE, NULL, fresh());
+        for (size_t j = 0; j < POINTS; j++)
+            CHECK(plot_point(s, (double)j, sin(1.1 * (double)j)));
+        extent[0] = i ? plot_extent_join(extent[0], plot_extent_of(p)) : plot_extent_of(p);
+    }
+    const plot_reel reel = {frame, FRAMES, extent, 0.1};
+    CHECK(written_after(&reel, NULL) < 60000);
+    CHECK(written_after(&reel, &pages) < 60000);
+    plot_figure_free(&map);
+    for (size_t i = 0; i < FRAMES; i++)
+        plot_figure_free(&frame[i]);
+}
+
 /* Pictures of a size that was asked for; what has nothing to show has no script. */
 static void sizes(void) {
     plot_figure f = figure(PLOT_CURVE, NULL), none = {.count = 0};
@@ -1005,6 +1055,7 @@ int main(int argc, char **argv) {
     refused(tmp);
     hostile_names(tmp);
     animates(tmp);
+    stopped();
     sizes();
     late();
     CHECK(!chdir("/") && !rmdir(dir) && !rmdir(tmp));
