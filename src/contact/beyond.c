@@ -137,7 +137,7 @@ fret_status fret_beyond_make(const fret_normal *n, fret_real a, struct fret_beyo
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     const fret_real e = a - fret_gap_start(&n->gap);
     trail t = {n, a, e, fret_pow(e, (n->foundation.k - 1) / 2), fret_table_row(n->gap.table, e)};
-    t.row -= t.row > 0 && fret_table_distance(n->gap.table, t.row) >= e;
+    t.row -= fret_table_distance(n->gap.table, t.row) >= e;
     b->a = a;
     const fret_status st = fret_density_of_rings(n, a, 2 * a, cover, &t, &b->rings);
     if (st.code) {
@@ -150,8 +150,7 @@ fret_status fret_beyond_make(const fret_normal *n, fret_real a, struct fret_beyo
 }
 
 void fret_beyond_free(struct fret_beyond *b) {
-    if (b)
-        fret_density_free(b->rings);
+    fret_density_free(b->rings);
     free(b);
 }
 

@@ -44,6 +44,13 @@ static const struct fret_rows *block_at(struct fret_blocks *all, fret_stop stop,
 
 /* ---- places ------------------------------------------------------------------------------------ */
 
+static bool place_in(struct fret_blocks *all, fret_stop stop, size_t i, fret_spot_by by, fret_real value,
+                     fret_place *out) {
+    out->block = i;
+    out->rows = block_at(all, stop, i);
+    return out->rows && fret_rows_place(out->rows, by, value, &out->spot);
+}
+
 /* The block of a value, and its rows: at an end of blocks rounding decides. */
 bool fret_blocks_place(struct fret_blocks *all, fret_stop stop, fret_spot_by by, fret_real value,
                        fret_place *out) {
@@ -56,17 +63,7 @@ bool fret_blocks_place(struct fret_blocks *all, fret_stop stop, fret_spot_by by,
         i += reach[i + half] < value ? half : 0;
         count -= half;
     }
-    for (int tries = 0; tries < 2; tries++) {
-        out->block = i;
-        out->rows = block_at(all, stop, i);
-        if (!out->rows)
-            return false;
-        if (fret_rows_place(out->rows, by, value, &out->spot))
-            return true;
-        if (i-- == 0)
-            return false;
-    }
-    return false;
+    return place_in(all, stop, i, by, value, out) || (i > 0 && place_in(all, stop, i - 1, by, value, out));
 }
 
 bool fret_blocks_find(struct fret_blocks *all, fret_stop stop, fret_spot_by by, fret_real value,
@@ -145,7 +142,7 @@ static bool find_run(struct fret_blocks *all, fret_stop stop, int l, size_t i, s
     if (kept) {
         *kept = *sum;
         if (!atomic_compare_exchange_strong(&all->run[l][i], &none, kept))
-            free(kept);
+            free(kept); /* unreached: another thread must be faster */
     }
     return true;
 }

@@ -19,7 +19,7 @@ typedef struct fret_ripple {
 } fret_ripple;
 
 void fret_ripple_make(fret_ripple *ripple, fret_real k);
-/* Y and Y' at y >= 0, y != 1; u = y-1. */
+/* Y and Y' at y > 0, y != 1; u = y-1. */
 void fret_ripple_at(const fret_ripple *ripple, fret_real y, fret_real u, fret_real out[2]);
 
 /* The weighted integrals of h K over the rows between cuts, r >= 0; radii of cuts rise, all of them beyond

@@ -508,7 +508,7 @@ static void ripples(shape which, double k, double off) {
     size_t count = 0;
     for (; count < 3 && fret_memory_segment(m, count, &s[count]); count++)
         cut[count] = (fret_cut){fret_law_radius(n, s[count].outer), s[count].sigma};
-    CHECK_OK(fret_density_make(n, now.a, &twin));
+    CHECK_OK(fret_density_make(n, r[ROWS - 1], &twin));
     const fret_real from = fret_density_from(twin),
                     size = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI,
                     place[] = {0,
@@ -554,6 +554,15 @@ static void ripples(shape which, double k, double off) {
         }
         CHECK_OK(fret_fields_traction(fields, m, place[i], &p));
         compare(which, TRACTION, p, q, scale);
+    }
+    for (int i = 0; i < 2; i++) { /* a contact that ends on a row, and one that takes all of them */
+        const fret_cut end = {i ? r[ROWS - 1] : r[ROWS - 100], 1};
+        fret_real p = 0, inner = 0;
+        if (r[7] < from && which != FLAT_TABLE)
+            CHECK_OK(fret_pressure(n, from, r[7], &inner));
+        CHECK_OK(fret_fields_pressure(fields, end.a, r[7], &p));
+        const fret_real want = inner + size * fret_density_pressure(twin, &end, 1, r[7]);
+        compare(which, PRESSURE, p, want, want);
     }
     CHECK(fret_fields_error(fields) < 3e-15);
     fret_density_free(twin);
