@@ -110,18 +110,20 @@ rows = []
 for kind in (shape.CONE, shape.PARABOLOID):
     for k in (-0.9, -0.3, 0.0, 0.02, 0.3, 0.9):
         for inner in (0.0, 1.000001e-3, 1.2e-3, 1.5999e-3):
-            if inner == 0 and k <= 0:
-                continue  # infinite
             b, R, slope, a = 1e-3, 0.01, 0.05, 1.6e-3
-            flat = Flat((kind, b, R, slope, 1, 0, 1, 0, 1, 0), k)
-            p = ring(lambda e: flat.steepness(e) * (e * (2 * flat.b + e))**(flat.m - 1),
-                     mpf(inner) - mpf(b) if inner else 0, mpf(a) - mpf(b), flat.k)
-            rows.append(((kind, b, R, slope, 1.0, k, inner, a, b), [
-                oracle.foundation(*BODIES, k)[0] * mpf(C0)**-flat.k / mp.pi * p]))
+            for r in (b, 0.999999999999e-3, 1.00000001e-3):
+                if inner == 0 and (k <= 0 or r != b):
+                    continue  # infinite, or not a case of this
+                flat = Flat((kind, b, R, slope, 1, 0, 1, 0, 1, 0), k)
+                off = mpf(b) - mpf(r)
+                p = ring(lambda e: flat.steepness(e) * ((off + e) * (flat.b + e + mpf(r)))**(flat.m - 1),
+                         mpf(inner) - mpf(b) if inner else 0, mpf(a) - mpf(b), flat.k)
+                rows.append(((kind, b, R, slope, 1.0, k, inner, a, r), [
+                    oracle.foundation(*BODIES, k)[0] * mpf(C0)**-flat.k / mp.pi * p]))
 for n, k in ((0.5, 0.3), (0.5, 0.5), (1.0, 0.0), (1.0, -0.7), (1.0, -1e-9), (1.5, -0.9)):
     for inner in (1e-9, 3e-4, 0.9999e-3):
         scene = oracle.Scene(*BODIES, k, C0, n, H, R0, MU)
         p = ring(lambda x: scene.n * scene.g(x) * x**(scene.k - 2), mpf(inner), mpf(A), 0)
         rows.append(((0, 0.0, 0.0, 0.0, n, k, inner, A, 0.0), [scene.cN0 * scene.c0**-scene.k / mp.pi * p]))
-oracle.write("sharp.csv", "field.py", "pressures at sharp edges and tips, of contacts, or of rings where they are infinite",
+oracle.write("sharp.csv", "field.py", "pressures at sharp edges, next to them and at tips, of contacts and of rings",
              ["kind", "b", "R", "slope", "n", "k", "inner", "a", "r"], ["p"], rows)

@@ -505,7 +505,13 @@ fret_status fret_field_of(const fret_normal *n, fret_real y, fret_real r, bool t
     return traction ? pressure_of(n, &at, r, out) : surface_of(n, &at, r, out);
 }
 
-/* What a ring from b to a presses within it, at the tip or at a sharp edge. */
+bool fret_field_deep(const fret_normal *n, fret_real y, fret_real r) {
+    const fret_real start = fret_gap_start(&n->gap);
+    return y > 0 && (fret_field_infinite(n, r) ||
+                     (fret_gap_sharp(&n->gap) && 4 * fabsl(r - start) < fret_law_radius(n, y) - start));
+}
+
+/* What a ring from b to a presses deep within it. */
 static fret_real ring_pressure(const fret_normal *n, fret_real b, fret_real a, fret_real r) {
     const fret_foundation *f = &n->foundation;
     const fret_real start = fret_gap_start(&n->gap);
@@ -527,7 +533,7 @@ fret_status fret_field_between(const fret_normal *n, fret_real inner, fret_real 
                                bool traction, fret_real *out) {
     fret_real within = 0;
     *out = 0;
-    if (traction && inner > 0 && fret_field_infinite(n, r)) {
+    if (traction && fret_field_deep(n, inner, r)) {
         *out = ring_pressure(n, fret_law_radius(n, inner), fret_law_radius(n, outer), r);
         return fret_ok();
     }
@@ -545,7 +551,8 @@ static fret_status superpose(const fret_memory *m, fret_real r, bool traction, f
     fret_segment s;
     fret_real sum = 0;
     fret_status st = fret_check_not_negative("r", (double)r);
-    const bool rings = traction && fret_field_infinite(n, r);
+    const bool rings =
+        traction && fret_memory_segment(m, 0, &s) && s.sigma == 0 && fret_field_deep(n, s.outer, r);
     *out = 0;
     for (size_t i = 0; !st.code && fret_memory_segment(m, i, &s); i++) {
         fret_segment next = {.sigma = 0};

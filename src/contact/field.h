@@ -9,14 +9,16 @@
 fret_status fret_field_surface(const fret_normal *normal, fret_real a, fret_real dz, fret_real r,
                                fret_real *w);
 
-/* p or w at r of the contact that is y deep; and how much more that is than of one `inner` deep, which also
- * where p is infinite is not. */
+/* p or w at r of the contact that is y deep; and how much more that is than of one `inner` deep, with its
+ * digits also where p is infinite, or goes there. */
 fret_status fret_field_of(const fret_normal *normal, fret_real y, fret_real r, bool traction, fret_real *out);
 fret_status fret_field_between(const fret_normal *normal, fret_real inner, fret_real outer, fret_real r,
                                bool traction, fret_real *out);
 
 /* Does every contact that holds r press infinitely there? */
 bool fret_field_infinite(const fret_normal *normal, fret_real r);
+/* Is r there, or next to a sharp edge, but far from the edge of a contact that is y deep? */
+bool fret_field_deep(const fret_normal *normal, fret_real y, fret_real r);
 
 /* A flat punch's surface but for its depth and factor, int_0^a x^k (r^2-x^2)^-m dx, r > a, m = (k+1)/2: half
  * the incomplete beta function B_q(m,1-m), q = (a/r)^2, by its series in q, or in away = 1-q from the edge
