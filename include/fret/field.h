@@ -30,11 +30,12 @@ fret_status fret_surface_x(const fret_memory *memory, fret_real r, fret_real *u)
 
 /* The same at many places: what a gap without a formula needs for them is worked out when it is first asked
  * for, again where the contact grows or shrinks by a factor of 2, and kept: 0.3 ms for a flat-ended gap, 0.1
- * ms for each row of a table, and then some 5 us a value, 20 of more than 2000 rows. For p and q_x of more
- * than 2000 rows it is 10 ms for each contact or slice instead, and then some 40 us a value (k < 0.97, up to
- * 31 slices). Where all that is of no use, they answer as above. Agrees to 1e-15 with the definition, of
- * tables to 1e-15 of the largest value. The memory is one of the same contact, though it may have a normal of
- * its own. FRET_NO_MEMORY; FRET_INTERRUPTED. Free with fret_fields_free before the normal. */
+ * ms for each row of a table, and then some 5 us a value, 20 of more than 2000 rows. Of these and up to 31
+ * slices, p and q_x want 10 ms for each contact or slice instead (k < 0.97), w and u_x nothing, and then it
+ * is some 40 us a value, of u_x outside for each slice. Where all that is of no use, they answer as above.
+ * Agrees to 1e-15 with the definition, of tables to 1e-15 of the largest value. The memory is one of the same
+ * contact, though it may have a normal of its own. FRET_NO_MEMORY; FRET_INTERRUPTED. Free with
+ * fret_fields_free before the normal. */
 typedef struct fret_fields fret_fields;
 fret_status fret_fields_make(const fret_normal *normal, fret_fields **fields);
 void fret_fields_free(fret_fields *fields);
@@ -43,7 +44,7 @@ fret_status fret_fields_surface(fret_fields *fields, fret_real a, fret_real r, f
 fret_status fret_fields_traction(fret_fields *fields, const fret_memory *memory, fret_real r, fret_real *q);
 fret_status fret_fields_surface_x(fret_fields *fields, const fret_memory *memory, fret_real r, fret_real *u);
 
-/* How far the fields are off, of their largest values [1]; NAN where nothing is kept. */
+/* How far the fields are off, of their largest values [1]; NAN where all were answered as above. */
 double fret_fields_error(const fret_fields *fields);
 
 FRET_END

@@ -7,6 +7,7 @@
 #include "contact/check.h"
 #include "contact/density.h"
 #include "contact/field.h"
+#include "contact/outside.h"
 #include "contact/ripple.h"
 #include "fret/field.h"
 #include "number/real.h"
@@ -17,12 +18,14 @@ struct fret_fields {
     const fret_normal *normal;         /* borrowed */
     fret_real of_pressure, of_surface; /* what fields are of their integrals */
     struct fret_density *density;
-    fret_real reach;    /* the radius that was asked for; 0: none was */
-    fret_real a, dz;    /* the contact asked last, and its depth */
-    size_t count, room; /* slices, those asked last */
-    fret_cut *cut;      /* their radii and slopes */
-    fret_real *depth;   /* and depths */
-    /* of a table of many rows, for pressures */
+    fret_real reach;      /* the radius that was asked for; 0: none was */
+    fret_real a, dz;      /* the contact asked last, and its depth */
+    size_t count, room;   /* slices, those asked last */
+    fret_cut *cut;        /* their radii and slopes */
+    fret_real *depth;     /* and depths */
+    fret_outside outside; /* of a table of many rows, for surfaces; once it is asked for */
+    bool has_outside;
+    /* of the same for pressures */
     fret_ripple *ripple;
     struct fret_beyond *beyond[EDGES]; /* of the contacts that were asked */
     size_t edges;
@@ -59,7 +62,7 @@ double fret_fields_error(const fret_fields *f) {
     fret_real worst = f->density ? fret_density_error(f->density) : 0;
     for (size_t i = 0; i < f->edges; i++)
         worst = fmaxl(worst, fret_beyond_error(f->beyond[i]));
-    return f->density || f->edges > 0 ? (double)worst + rounding : NAN;
+    return f->density || f->edges > 0 || f->has_outside ? (double)worst + rounding : NAN;
 }
 
 /* Are there polynomials for a contact of radius a? Up to the next power of two, so that what comes out does
@@ -70,28 +73,31 @@ static fret_status prepare(fret_fields *f, fret_real a, bool *there) {
     fret_term term[FRET_MOST_TERMS];
     int exponent;
     (void)frexpl(a, &exponent);
-    const fret_real reach = fminl(ldexpl(1, exponent), last);
+    const fret_real end = fminl(ldexpl(1, exponent), last);
     *there = false;
-    if (a > reach || fret_gap_series(&n->gap, &n->rule, a, term) > 0)
+    if (a > end || fret_gap_series(&n->gap, &n->rule, a, term) > 0)
         return fret_ok();
-    if (reach != f->reach) {
+    if (end != f->reach) {
         fret_density_free(f->density);
         f->reach = 0;
-        const fret_status st = fret_density_make(n, reach, &f->density);
+        const fret_status st = fret_density_make(n, end, &f->density);
         if (st.code)
             return st;
-        f->reach = reach;
+        f->reach = end;
     }
     *there = f->density != NULL;
     return fret_ok();
 }
 
-/* Of many rows the pressure is told without what they are as polynomials: not of many slices, and not where
- * the two parts that it is of are far larger than it is. */
+/* Of many rows fields are told without what these are as polynomials, unless there are many slices. */
+static bool takes_rows(const fret_fields *f, size_t count, fret_real a) {
+    return count < EDGES && a <= f->normal->end && fret_gap_rows(&f->normal->gap, a) > MANY;
+}
+
+/* Not the pressure where the two parts that it is of are far larger than it is. */
 static bool takes_ripples(const fret_fields *f, size_t count, fret_real a) {
-    const fret_normal *n = f->normal;
     static const fret_real most = 0.97L;
-    return count < EDGES && fret_gap_rows(&n->gap, a) > MANY && n->foundation.k < most;
+    return takes_rows(f, count, a) && f->normal->foundation.k < most;
 }
 
 static fret_status find_beyond(fret_fields *f, fret_real a, const struct fret_beyond **out) {
@@ -189,6 +195,15 @@ static fret_status surface_but(const fret_fields *f, fret_real a, fret_real y, f
     return st;
 }
 
+/* Of r > a, the contact y deep. */
+static fret_real surface_by_rows(fret_fields *f, fret_real a, fret_real y, fret_real r) {
+    const fret_normal *n = f->normal;
+    if (!f->has_outside)
+        fret_outside_make(&f->outside, n->foundation.k);
+    f->has_outside = true;
+    return f->of_surface * fret_outside_surface(&f->outside, n->gap.table, y, a, r);
+}
+
 /* The depth of a contact, which places have in common. */
 static fret_real depth_of(fret_fields *f, fret_real a) {
     if (a != f->a) {
@@ -205,7 +220,12 @@ fret_status fret_fields_surface(fret_fields *f, fret_real a, fret_real r, fret_r
     *w = 0;
     if (r >= 0 && r <= a && a > fret_gap_start(&n->gap) && a <= n->end && fret_gap_sampled(&n->gap))
         return fret_field_surface(n, a, depth_of(f, a), r, w);
-    fret_status st = r > a && a > fret_gap_start(&n->gap) ? prepare(f, a, &there) : fret_ok();
+    const bool outside = r > a && a > fret_gap_start(&n->gap);
+    if (outside && takes_rows(f, 1, a)) {
+        *w = surface_by_rows(f, a, depth_of(f, a), r);
+        return fret_ok();
+    }
+    fret_status st = outside ? prepare(f, a, &there) : fret_ok();
     if (st.code)
         return st;
     if (!there)
@@ -264,23 +284,26 @@ static bool is_spared(const fret_fields *f, fret_real r) {
            fret_gap_series(&n->gap, &n->rule, f->cut[0].a, term) == 0;
 }
 
-/* Slices, and polynomials for all of them? */
-static fret_status prepare_slices(fret_fields *f, const fret_memory *m, bool *there) {
-    *there = false;
+/* Slices: are they told by rows, or are there polynomials for all of them? */
+static fret_status prepare_slices(fret_fields *f, const fret_memory *m,
+                                  bool (*takes)(const fret_fields *, size_t, fret_real), bool *rows,
+                                  bool *there) {
+    *rows = *there = false;
     const fret_status st = take_slices(f, m);
-    return st.code || undisplaced(f) ? st : prepare(f, f->cut[f->count - 1].a, there);
+    if (st.code || undisplaced(f))
+        return st;
+    const fret_real a = f->cut[f->count - 1].a;
+    *rows = takes(f, f->count, a);
+    return *rows ? st : prepare(f, a, there);
 }
 
 fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real r, fret_real *q) {
-    bool there = false;
+    bool ripples, there;
     *q = 0;
-    fret_status st = take_slices(f, m);
-    const fret_real a = f->count > 0 ? f->cut[f->count - 1].a : 0;
-    const bool still = undisplaced(f), ripples = !still && takes_ripples(f, f->count, a);
-    if (!st.code && !still && !ripples)
-        st = prepare(f, a, &there);
+    fret_status st = prepare_slices(f, m, takes_ripples, &ripples, &there);
     if (st.code)
         return st;
+    const fret_real a = f->count > 0 ? f->cut[f->count - 1].a : 0;
     if (f->count > 0 && r >= a)
         return fret_ok();
     const bool spared = is_spared(f, r);
@@ -304,37 +327,59 @@ fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real
     return st;
 }
 
+/* Of the slices that end inside of r, by the rows. */
+static fret_real surface_x_by_rows(fret_fields *f, size_t outside, fret_real r) {
+    fret_real sum = 0;
+    for (size_t i = 0; i < outside; i++) {
+        const fret_cut *cut = &f->cut[i];
+        const fret_real weight = cut->weight - (i + 1 < f->count ? cut[1].weight : 0);
+        sum += weight * surface_by_rows(f, cut->a, f->depth[i], r);
+    }
+    return sum;
+}
+
+/* The same from polynomials; rest: the slope beyond them. */
+static fret_status surface_x_from_density(const fret_fields *f, size_t outside, fret_real rest, fret_real r,
+                                          fret_real *sum) {
+    fret_real head = NAN;
+    fret_status st = fret_ok();
+    for (size_t i = 0; i < outside && !st.code; i++) {
+        const fret_real next = i + 1 < f->count ? f->cut[i + 1].weight : 0;
+        st = surface_but(f, f->cut[i].a, f->depth[i], r, f->cut[i].weight - next, &head, sum);
+    }
+    for (size_t i = 0; i < outside; i++)
+        f->cut[i].weight -= rest;
+    if (outside > 0)
+        *sum -= f->of_surface * fret_density_surface(f->density, f->cut, outside, r);
+    for (size_t i = 0; i < outside; i++)
+        f->cut[i].weight += rest;
+    return st;
+}
+
 /* Slices that reach beyond r have the gap there, which all of them share. */
 fret_status fret_fields_surface_x(fret_fields *f, const fret_memory *m, fret_real r, fret_real *u) {
-    bool there;
+    bool rows, there;
     *u = 0;
-    fret_status st = prepare_slices(f, m, &there);
+    fret_status st = prepare_slices(f, m, takes_rows, &rows, &there);
     if (st.code)
         return st;
-    if (!there || !(r >= 0))
+    if ((!there && !rows) || !(r >= 0))
         return fret_surface_x(m, r, u);
     size_t outside = 0;
     while (outside < f->count && f->cut[outside].a < r)
         outside++;
-    fret_real sum = 0, gap = 0, rest = 0, head = NAN;
+    fret_real sum = 0, gap = 0, rest = 0;
     if (outside < f->count) {
         rest = f->cut[outside].weight;
-        st = fret_gap_f(&f->normal->gap, r, &gap);
+        (void)fret_gap_f(&f->normal->gap, r, &gap); /* which there is within the contact */
         sum = rest * (f->depth[outside] - gap);
     }
     for (size_t i = outside + 1; i < f->count; i++)
         sum += f->cut[i].weight * (f->depth[i] - f->depth[i - 1]);
-    for (size_t i = 0; i < outside && !st.code; i++) {
-        const fret_real next = i + 1 < f->count ? f->cut[i + 1].weight : 0;
-        st = surface_but(f, f->cut[i].a, f->depth[i], r, f->cut[i].weight - next, &head, &sum);
-    }
-    if (outside > 0) {
-        for (size_t i = 0; i < outside; i++)
-            f->cut[i].weight -= rest;
-        sum -= f->of_surface * fret_density_surface(f->density, f->cut, outside, r);
-        for (size_t i = 0; i < outside; i++)
-            f->cut[i].weight += rest;
-    }
+    if (rows)
+        sum += surface_x_by_rows(f, outside, r);
+    else
+        st = surface_x_from_density(f, outside, rest, r, &sum);
     *u = fret_memory_friction(m) * fret_memory_normal(m)->foundation.eta * sum;
     return st;
 }

@@ -81,11 +81,14 @@ void fret_kernel_flat_make(flat_field *f, fret_real m) {
     make_series(1 - m, 1 - m, f->edge);
 }
 
-fret_real fret_kernel_flat(const flat_field *f, fret_real a, fret_real r) {
-    const fret_real q = (a / r) * (a / r), away = (r - a) / r * ((r + a) / r);
+fret_real fret_kernel_flat_of(const flat_field *f, fret_real q, fret_real away) {
     if (away < 0.5L)
         return (f->whole - series(f->edge, away) * fret_pow(away, 1 - f->m)) / 2;
     return series(f->centre, q) * fret_pow(q, f->m) / 2;
+}
+
+fret_real fret_kernel_flat(const flat_field *f, fret_real a, fret_real r) {
+    return fret_kernel_flat_of(f, (a / r) * (a / r), (r - a) / r * ((r + a) / r));
 }
 
 static fret_real to_q(const powers *p, fret_real x, fret_real x_m) {

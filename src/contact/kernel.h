@@ -47,6 +47,8 @@ typedef struct flat_field {
 
 void fret_kernel_flat_make(flat_field *f, fret_real m);
 fret_real fret_kernel_flat(const flat_field *f, fret_real a, fret_real r);
+/* With q = (a/r)^2 and away = 1-q. */
+fret_real fret_kernel_flat_of(const flat_field *f, fret_real q, fret_real away);
 
 /* For q = of_m m + whole. */
 void fret_kernel_power(powers *p, int of_m, int whole, fret_real m);

@@ -3,6 +3,7 @@
  * of one place after the other. Random contacts, histories and places, with corners. FRET_FIELDS=N asks N
  * times as much and prints the worst errors. */
 #include "contact/density.h"
+#include "contact/field.h"
 #include "fret/field.h"
 #include "number/quadrature.h"
 #include "number/real.h"
@@ -483,8 +484,27 @@ static void sampled_tip(double k, size_t rows, double part, bool gripped) {
     fret_table_free(t);
 }
 
-/* Many rows: what the pressure is of them one after the other, as if g' had no end, against polynomials of
- * all of them. Near the centre and the edge, at rows, within the first ones and inside of all slices. */
+/* Of a contact dz deep. */
+static fret_real twin_surface(const struct fret_density *twin, const fret_normal *n, fret_real a,
+                              fret_real dz, fret_real r) {
+    const fret_real from = fret_density_from(twin), depth = fret_density_from_depth(twin),
+                    factor = fret_field_surface_factor(n->foundation.k);
+    const fret_cut cut = {a, 1};
+    fret_real head = 0, f = 0;
+    if (r <= a) {
+        CHECK_OK(fret_gap_f(&n->gap, r, &f));
+        return dz - f;
+    }
+    if (fret_gap_start(&n->gap) <= 0) {
+        CHECK_OK(fret_field_surface(n, from, depth, r, &head));
+        head -= factor * depth * fret_density_flat(twin, from, r);
+    }
+    return factor * (dz * fret_density_flat(twin, a, r) - fret_density_surface(twin, &cut, 1, r)) + head;
+}
+
+/* Many rows: what fields are of them one after the other, the pressure as if g' had no end, against
+ * polynomials of all of them. Near the centre and the edge, at rows, within the first ones and inside of all
+ * slices; outside of them. */
 static void ripples(shape which, double k, double off) {
     const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
     static double r[ROWS];
@@ -564,8 +584,148 @@ static void ripples(shape which, double k, double off) {
         const fret_real want = inner + size * fret_density_pressure(twin, &end, 1, r[7]);
         compare(which, PRESSURE, p, want, want);
     }
+    const fret_real away[] = {
+        cut[0].a * 1.001L, cut[1].a * (1 + 1e-9L), now.a * (1 + 1e-12L), now.a * 1.01L, now.a * 2,
+        now.a * 1e3L};
+    for (size_t i = 0; i < sizeof away / sizeof *away; i++) {
+        fret_real w = 0, u = 0, got = 0, last = 0;
+        CHECK_OK(fret_fields_surface(fields, now.a, away[i], &got));
+        compare(which, SURFACE, got, twin_surface(twin, n, now.a, now.dz, away[i]), now.dz);
+        for (size_t j = 0; j < count; j++) {
+            w = twin_surface(twin, n, cut[j].a, s[j].outer, away[i]);
+            u += n->foundation.eta * cut[j].weight * (w - last);
+            last = w;
+        }
+        CHECK_OK(fret_fields_surface_x(fields, m, away[i], &got));
+        compare(which, SURFACE_X, got, u, n->foundation.eta * now.dz);
+    }
     CHECK(fret_fields_error(fields) < 3e-15);
     fret_density_free(twin);
+    fret_fields_free(fields);
+    fret_memory_free(m);
+    fret_normal_free(n);
+    fret_table_free(t);
+}
+
+/* What many rows leave of a flat punch outside: int f (-phi') ds over the contact, phi' as in outside.h,
+ * between the rows and, where these are wide, in parts that are the narrower the nearer they are to the edge.
+ */
+typedef struct rows_outside {
+    const fret_normal *normal;
+    fret_real a, r, m, width;
+} rows_outside;
+
+static fret_real outside_rate_at(const rows_outside *c, fret_real e) {
+    const fret_real D = (c->r - c->a) * (c->r + c->a), v = e * (2 * c->a - e);
+    fret_real f = 0;
+    (void)fret_gap_f(&c->normal->gap, c->a - e, &f);
+    return f * (c->a - e) / (v + D) * fret_pow(D / v, 1 - c->m);
+}
+
+/* e = width t^(1/m) */
+static fret_real outside_edge(fret_real t, fret_real rest, void *context) {
+    const rows_outside *c = context;
+    const fret_real e = c->width * fret_pow(t, 1 / c->m);
+    (void)rest;
+    return e > 0 ? e / (c->m * t) * outside_rate_at(c, e) : 0;
+}
+
+/* row: the last one at or below a. */
+static fret_real rows_surface(const fret_normal *n, const double *row, size_t i, fret_real a, fret_real dz,
+                              fret_real r) {
+    const fret_real k = n->foundation.k, end = a - fret_gap_start(&n->gap);
+    rows_outside c = {n, a, r, (k + 1) / 2, fminl(a > row[i] ? a - row[i] : a - row[i - 1], r - a) / 16};
+    fret_real sum = fret_integrate(outside_edge, &c);
+    for (fret_real lo = c.width, to; lo < end; lo = to) {
+        while (a - row[i] <= lo)
+            i--;
+        to = fminl(lo * 1.25L, a - row[i]);
+        for (int j = 0; j < 8; j++)
+            sum +=
+                (to - lo) * fret_gauss_weight[j] * outside_rate_at(&c, lo + (to - lo) * fret_gauss_node[j]);
+    }
+    return fret_field_surface_factor(k) *
+           (dz * fret_field_flat(k, (a / r) * (a / r), (r - a) / r * ((r + a) / r)) - sum);
+}
+
+/* Rows that crowd towards the end, that are few where the contact ends, and a flat start. */
+typedef enum spread { CROWDED, SPARSE, LATE, SPREADS } spread;
+
+static struct fret_table *spread_rows(spread how, double r[ROWS]) {
+    static double f[ROWS];
+    struct fret_table *t = NULL;
+    const int flat = how == LATE ? ROWS - 300 : 0, dense = ROWS - 40;
+    for (int i = 1; i < ROWS; i++) {
+        const double x = (i + uniform(-0.2, 0.2)) / ROWS;
+        r[i] = how == CROWDED ? 1e-3 * (1 - pow(2, -20 * x))
+               : how == LATE  ? 1e-3 * x
+               : i < dense    ? 1e-5 * x
+                              : 1e-5 * pow(100, (i - dense) / 39.0);
+    }
+    for (int i = 1; i < ROWS; i++)
+        f[i] = i > flat ? (r[i] - r[flat]) * (r[i] - r[flat]) / 0.02 : 0;
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
+    return t;
+}
+
+/* Past a row by so much of the next one, everywhere outside. */
+static void outside_rows(spread how, double k, double past) {
+    static const fret_real off[] = {1e-15L, 1e-9L, 3e-4L, 0.2L, 1e3L, 1e6L};
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
+    static double r[ROWS];
+    struct fret_table *t = spread_rows(how, r);
+    fret_fields *fields = NULL;
+    fret_normal *n = NULL;
+    CHECK_OK(fret_normal_make(&material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = t}, &n));
+    CHECK_OK(fret_fields_make(n, &fields));
+    CHECK(isnan(fret_fields_error(fields)));
+    const fret_real a = r[ROWS - 9] + past * ((fret_real)r[ROWS - 8] - r[ROWS - 9]),
+                    dz = fret_normal_profile(n, a);
+    for (size_t i = 0; i < sizeof off / sizeof *off; i++) {
+        const fret_real place = a * (1 + off[i]), want = rows_surface(n, r, ROWS - 9, a, dz, place);
+        fret_real got = 0;
+        CHECK_OK(fret_fields_surface(fields, a, place, &got));
+        CHECK_ABS(got, want, dz, UNIT_TOL(1e-15L, 1e-9L));
+        CHECK_REL(got, want, UNIT_TOL(1e-13L, 1e-7L));
+    }
+    CHECK(fret_fields_error(fields) < 2e-15);
+    fret_fields_free(fields);
+    fret_normal_free(n);
+    fret_table_free(t);
+}
+
+/* Of more slices than rows are asked for one after the other. */
+static void many_slices(void) {
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, 0.3, 1e-3};
+    static double r[ROWS];
+    struct fret_table *t = rows_of(ROUND_TABLE, 1e-8, r);
+    fret_fields *fields = NULL;
+    fret_normal *n = NULL;
+    fret_memory *m = NULL;
+    fret_press top;
+    fret_segment s, next;
+    CHECK_OK(fret_normal_make(&material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = t}, &n));
+    CHECK_OK(fret_fields_make(n, &fields));
+    CHECK_OK(fret_memory_make(n, 1, &m));
+    CHECK_OK(fret_press_by_radius(n, 0.93e-3, &top));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, (double)top.F, 0}));
+    for (int i = 0; i < 36; i++) {
+        const double Fx = (double)top.F * 0.9 * (1 - i / 40.0) * (i % 2 ? -1 : 1);
+        CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, Fx}));
+    }
+    fret_real want = 0, got = 0;
+    const fret_real place = top.a * 1.1L;
+    size_t i = 0;
+    for (; fret_memory_segment(m, i, &s); i++) {
+        fret_real w = 0;
+        CHECK_OK(fret_fields_surface(fields, fret_law_radius(n, s.outer), place, &w));
+        next.sigma = 0;
+        (void)fret_memory_segment(m, i + 1, &next);
+        want += n->foundation.eta * (s.sigma - next.sigma) * w;
+    }
+    CHECK(i > 32);
+    CHECK_OK(fret_fields_surface_x(fields, m, place, &got));
+    CHECK_ABS(got, want, n->foundation.eta * top.dz, UNIT_TOL(1e-14L, 1e-8L));
     fret_fields_free(fields);
     fret_memory_free(m);
     fret_normal_free(n);
@@ -600,6 +760,10 @@ static void many_stop(void) {
         p = i == 0 ? again : p;
     }
     CHECK(p > 0 && fret_fields_error(fields) < 2e-15);
+    fret_real beyond = 0; /* where there are no more rows */
+    CHECK_OK(fret_fields_surface(fields, 1.01e-3L, 2e-3L, &p));
+    CHECK_OK(fret_surface(n, 1.01e-3L, 2e-3L, &beyond));
+    CHECK(p == beyond);
     fret_fields_free(fields);
     fret_normal_free(n);
     fret_table_free(t);
@@ -696,6 +860,11 @@ int main(int argc, char **argv) {
         sampled_tip(ks[i], 100, 0.5, false);
         sampled_tip(ks[i], 4000, 0.5, false);
     }
+    for (spread how = 0; how < SPREADS; how++)
+        for (size_t i = 0; i < 5; i++)
+            outside_rows(how, (double[]){-0.97, -0.5, 0, 0.3, 0.9}[i],
+                         (double[]){1e-12, 0.5, 0, 1 - 1e-6, 1e-3}[(i + how) % 5]);
+    many_slices();
     many_stop();
     undisplaced();
     stops();
