@@ -135,7 +135,7 @@ enum { BLOCK = 64 };
     }
 
 #ifdef __x86_64__
-VARIANT(avx512, lanes8, FRET_AVX512)
+VARIANT(avx512, lanes8, FRET_AVX512) /* unreached: not every processor has it */
 VARIANT(avx2, lanes4, FRET_AVX2)
 #endif
 

@@ -29,7 +29,7 @@
     { #set, fret_runs_##set, set##_run }
 
 #ifdef __x86_64__
-VARIANT(avx512, lanes8, FRET_AVX512)
+VARIANT(avx512, lanes8, FRET_AVX512) /* unreached: not every processor has it */
 VARIANT(avx2, lanes4, FRET_AVX2)
 #endif
 

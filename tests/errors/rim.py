@@ -133,6 +133,35 @@ def lost_reads(tests):
     shutil.rmtree(where)
 
 
+def no_more_keys(tests):
+    """Where no key can be waited for any more the full-screen mode ends, and leaves the screen."""
+    tool = os.path.join(os.path.abspath(tests.build), "tests", "calls")
+    if tests.sanitized or not faults.can_filter(os.path.dirname(tool)):
+        return
+    where, text, end = os.path.join(tests.dir, "no-more-keys"), b"", time.monotonic() + 60
+    os.mkdir(where)
+    with open(os.path.join(where, "arm"), "w", encoding="ascii"):
+        pass
+    pid, fd = pty.fork()
+    if pid == 0:
+        os.chdir(where)
+        os.execve(tool, [tool, "told", "pselect6", "1+", str(errno.EBADF), tests.fret, "-c", SCENE + "source arm; live; 1 + 1"],
+                  {**tests.env, "TERM": "xterm-256color"})
+    while time.monotonic() < end and select.select([fd], [], [], end - time.monotonic())[0]:
+        try:
+            text += os.read(fd, 1 << 16)
+        except OSError:  # it has ended
+            break
+    else:
+        os.killpg(pid, signal.SIGKILL)
+    os.close(fd)
+    status = os.waitpid(pid, 0)[1]
+    with open(os.path.join(where, "told"), encoding="ascii") as f:
+        failed = f.read().count("FAILED")
+    tests.check("a terminal that gives no keys", status == 0 and failed > 1 and re.search(rb"\x1b\[\?1049h.*\x1b\[\?1049l.*1 \+ 1 = 2\r?\n", text, re.S),
+                "%d, %d calls failed: %r" % (status, failed, text[-500:]))
+
+
 def transcripts(tests):
     """What is lost of a transcript is told when it is lost, and at the end."""
     for name, script, out in (("at once", "record /dev/full\nx = 1\nx\n", ""), ("at the end", "record /dev/full\n", None),
@@ -681,7 +710,7 @@ def ends(tests, asked, shape, load):
                     "%s, expected %s" % (a, b))
 
 
-ROOM = (waiting_rows, needs, tabled, along, lines_without_end, once, lost_reads, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
+ROOM = (waiting_rows, needs, tabled, along, lines_without_end, once, lost_reads, no_more_keys, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
 
 
 def run(tests):

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs a program and lets one of its system calls fail: `calls REPORT CALL NUMBER CODE PROGRAM ARG...`.
  * Counting begins when a file named `arm` has been read and closed, and ends when one named `disarm` is
- * opened; of the calls with this name, the one with this number fails with this code of errno(3), without
- * being made. REPORT gets the names of the calls, a line each, in their order, and FAILED behind that one.
- * What the program starts is counted until it is another program. For Linux: a filter (seccomp) hands the
- * calls to us before they are made. */
+ * opened; of the calls with this name, the one with this number (`3+`: and all from there on) fails with this
+ * code of errno(3), without being made. REPORT gets the names of the calls, a line each, in their order, and
+ * FAILED behind that one. What the program starts is counted until it is another program. For Linux: a filter
+ * (seccomp) hands the calls to us before they are made. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <limits.h>
@@ -115,6 +115,7 @@ typedef struct watch {
     enum { ASLEEP, ARMING, ARMED, DONE } state;
     const char *call;
     long seen, wanted; /* of calls with that name */
+    bool on;           /* those that follow fail too */
     int code;
     FILE *report;
 } watch;
@@ -156,7 +157,9 @@ static int judge(watch *w, const struct seccomp_notif *asked) {
             return 0;
         }
         const char *name = name_of(asked->data.nr);
-        const bool fails = !strcmp(name, w->call) && ++w->seen == w->wanted;
+        const bool named = !strcmp(name, w->call);
+        w->seen += named;
+        const bool fails = named && (w->on ? w->seen >= w->wanted : w->seen == w->wanted);
         fprintf(w->report, fails ? "%s\nFAILED\n" : "%s\n", name);
         return fails ? w->code : 0;
     }
@@ -188,6 +191,7 @@ int main(int argc, char **argv) {
     static watch w;
     w.call = argv[2];
     w.wanted = atol(argv[3]);
+    w.on = strchr(argv[3], '+') != NULL;
     w.code = atoi(argv[4]);
     w.report = fopen(argv[1], "w");
     if (!w.report || !realpath(argv[5], w.program) ||

@@ -414,6 +414,14 @@ static void fields(void) {
     fret_memory_free(m);
     fret_normal_free(normal);
     fret_table_free(table);
+    gap = (fret_gap){.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-4, .R = 1e-2};
+    CHECK_OK(fret_normal_make(&s.material, &gap, &normal));
+    CHECK_OK(fret_fields_make(normal, &many));
+    EACH(2, fret_fields_pressure(many, 3e-4L, 1.5e-4L, &q), isnan(fret_fields_error(many)));
+    CHECK_OK(fret_fields_pressure(many, 3e-4L, 1.5e-4L, &again));
+    CHECK(q > 0 && q == again && fret_fields_error(many) < 1e-14);
+    fret_fields_free(many);
+    fret_normal_free(normal);
 }
 
 static void pressure_of_many_rows(void) {
