@@ -444,6 +444,36 @@ static void many_rows(double k, double off, fret_real part) {
     fret_table_free(t);
 }
 
+/* So many rows that leaves take their kinks in double: polynomials of them against their sums. */
+static void leaves_of_many(double k, double off) {
+    enum { LEAVES = 12000 };
+    static double r[LEAVES], f[LEAVES];
+    const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
+    struct fret_table *t = NULL;
+    struct fret_density *d = NULL;
+    fret_fields *fields = NULL;
+    fret_normal *n = NULL;
+    for (int i = 1; i < LEAVES; i++) {
+        r[i] = 1e-3 * (i + uniform(-0.2, 0.2)) / LEAVES;
+        f[i] = r[i] * r[i] / 0.02 * (1 + uniform(-off, off));
+    }
+    CHECK_OK(fret_table_make(r, f, LEAVES, NULL, &t));
+    CHECK_OK(fret_normal_make(&material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = t}, &n));
+    CHECK_OK(fret_fields_make(n, &fields));
+    const fret_cut whole = {0.93e-3L, 1};
+    CHECK_OK(fret_density_make(n, whole.a, &d));
+    const fret_real size = n->foundation.cN0 * fret_pow(n->foundation.c0, -k) / FRET_PI;
+    for (fret_real part = 0.05L; part < 1; part += 0.1L) {
+        fret_real p = 0;
+        CHECK_OK(fret_fields_pressure(fields, whole.a, part * whole.a, &p));
+        CHECK_REL(size * fret_density_pressure(d, &whole, 1, part * whole.a), p, 3e-15L);
+    }
+    fret_density_free(d);
+    fret_fields_free(fields);
+    fret_normal_free(n);
+    fret_table_free(t);
+}
+
 /* At the tip of a sampled cone, whose rows are exact: the traction of slices around a core without a slope is
  * that of the cone. Of few rows and of many; where the core ends within the first row; and where it has a
  * slope. */
@@ -852,6 +882,8 @@ int main(int argc, char **argv) {
     ripples(POINTED_TABLE, -0.04, 1e-8);
     ripples(FLAT_TABLE, 1e-7, 0);
     ripples(FLAT_TABLE, -0.3, 1e-8);
+    leaves_of_many(0.3, 0);
+    leaves_of_many(-0.5, 1e-9);
     for (int i = 0; i < 3; i++) {
         static const double ks[] = {0, -0.3, -0.9};
         sampled_tip(ks[i], 100, 0.5, true);
