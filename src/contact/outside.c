@@ -26,17 +26,6 @@ typedef struct place {
     fret_real a, e, r, beyond, D, m;
 } place;
 
-/* How many terms what is `half` wide to both sides wants, so far from the edge; 0: it is too near. */
-static int terms_of(fret_real half, fret_real away) {
-    if (!(4 * half <= away))
-        return 0;
-    const double ratio = (double)(half / away);
-    int terms = 2;
-    for (double left = 1e19 * ratio; left > 1 && terms < TERMS; left *= ratio)
-        terms++;
-    return terms;
-}
-
 /* About the middle c, `away` from the edge, against moments of f' over x = (s-c)/d: with p = (a^2-s^2)^(m-1)
  * and q = p/(r^2-s^2), of which all terms are positive, phi' is -s q. */
 static fret_real by_moments(const place *at, fret_real away, fret_real d, const fret_real *moment,
@@ -82,7 +71,7 @@ static fret_real by_middle(const place *at, const row *b, fret_real far, fret_re
     const fret_real d = (far - near) / 2, away = near + d, t = b->begin - away, *over = at->of->over,
                     c0 = 2 * d * (b->c[0] + t * (b->c[1] + t * b->c[2])),
                     c1 = 2 * d * d * (b->c[1] + 2 * t * b->c[2]), c2 = 2 * d * d * d * b->c[2];
-    const int terms = terms_of(d, away);
+    const int terms = fret_table_terms(d, away);
     fret_real moment[TERMS];
     for (int n = 0; n < terms; n++)
         moment[n] = n % 2 ? c1 * over[n + 1] : c0 * over[n] + c2 * over[n + 2];
@@ -114,12 +103,12 @@ static fret_real by_edge(const place *at, const row *b, fret_real E) {
 }
 
 static fret_real by_row(const place *at, size_t i) {
-    static const fret_real wider = 1.6L; /* than it is far: terms_of's limit is 5/3 */
+    static const fret_real wider = 1.6L; /* than it is far: fret_table_terms' limit is 5/3 */
     const fret_real E = fminl(at->beyond, at->a) / 4, far = at->e - fret_table_distance(at->table, i),
                     near = fmaxl(at->e - fret_table_distance(at->table, i + 1), 0);
     row b = {.begin = far, .far = far, .near = near};
     fret_table_slope(at->table, i, b.c);
-    if (terms_of((far - near) / 2, near + (far - near) / 2) > 0)
+    if (fret_table_terms((far - near) / 2, near + (far - near) / 2) > 0)
         return by_middle(at, &b, far, near);
     fret_real sum = near < E ? by_edge(at, &b, E) : 0;
     for (fret_real from = fmaxl(near, E), to; from < far; from = to) {
@@ -137,7 +126,7 @@ fret_real fret_outside_surface(const fret_outside *o, const struct fret_table *t
     fret_real sum = 0;
     for (size_t i = 0; fret_table_block(t, i, &b);) {
         const fret_real away = (start - b.c) + e;
-        const int terms = terms_of(b.d, away);
+        const int terms = fret_table_terms(b.d, away);
         if (terms > 0)
             sum += by_moments(&at, away, b.d, b.slope, terms);
         else if (b.next == i + 1)

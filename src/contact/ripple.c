@@ -201,18 +201,6 @@ static fret_real sum_block(const fret_ripple *p, const fret_table_stretch *b, fr
     return sum + rest;
 }
 
-/* How many terms a block wants that is far enough from r; 0: it is not. */
-static int far_terms(const fret_table_stretch *b, fret_real r) {
-    const fret_real away = fabsl(b->c - r);
-    if (!(4 * b->d <= away))
-        return 0;
-    const double ratio = (double)(b->d / away);
-    int terms = 2;
-    for (double left = 1e19 * ratio; left > 1 && terms < FRET_TABLE_MOMENTS; left *= ratio)
-        terms++;
-    return terms;
-}
-
 /* One row by the cuts from `now` on. */
 static fret_real sum_row(const fret_ripple *p, const struct fret_table *t, size_t row, const fret_cut *cut,
                          size_t count, size_t now, fret_real r) {
@@ -258,7 +246,7 @@ fret_real fret_ripple_sum(const fret_ripple *p, const struct fret_table *t, cons
             now++;
         if (now == count)
             break;
-        const int terms = hi <= cut[now].a ? far_terms(&b, r) : 0;
+        const int terms = hi <= cut[now].a ? fret_table_terms(b.d, fabsl(b.c - r)) : 0;
         if (terms > 0)
             sum += cut[now].weight * sum_block(p, &b, r, terms);
         else if (b.next == i + 1)

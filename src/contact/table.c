@@ -302,11 +302,10 @@ typedef struct sums {
     fret_real g, I, s;
 } sums;
 
-/* Terms that a block of half-width d needs whose middle is u away from the edge; 0: it is too near. */
-static int far_terms(fret_real d, fret_real u) {
-    if (!(u > 0 && 4 * d <= u))
+int fret_table_terms(fret_real half, fret_real away) {
+    if (!(4 * half <= away))
         return 0;
-    const double ratio = (double)(d / u);
+    const double ratio = (double)(half / away);
     int count = 1;
     for (double left = 1e21 * ratio; left > 1 && count < TAYLOR; left *= ratio)
         count++;
@@ -391,7 +390,7 @@ fret_profile fret_table_profile(const struct fret_table *t, const fret_rule *rul
         const block *b = &t->block[i];
         fret_real middle = (start - b->c) + e;
         bool leaf = b->next == i + 1;
-        int terms = far_terms(b->d, middle);
+        int terms = fret_table_terms(b->d, middle);
         i = leaf || terms || middle <= -b->d ? b->next : i + 1;
         if (terms)
             add_far(&all, b, terms, alpha, a, middle);
@@ -403,7 +402,7 @@ fret_profile fret_table_profile(const struct fret_table *t, const fret_rule *rul
             block piece;
             piece.d = ((fret_real)t->r[j + 1] - t->r[j]) / 2;
             middle = (start - (t->r[j] + piece.d)) + e;
-            terms = far_terms(piece.d, middle);
+            terms = fret_table_terms(piece.d, middle);
             if (terms) {
                 piece_moments(t, j, terms, &piece);
                 add_far(&all, &piece, terms, alpha, a, middle);
@@ -524,7 +523,7 @@ void fret_table_part(const struct fret_table *t, const fret_rule *rule, size_t f
         const block *b = &t->block[i];
         const bool leaf = b->next == i + 1, within = b->first >= first && b->last <= last;
         const fret_real middle = (start - b->c) + e;
-        const int terms = within ? far_terms(b->d, middle) : 0;
+        const int terms = within ? fret_table_terms(b->d, middle) : 0;
         i = leaf || terms || b->last <= first ? b->next : i + 1;
         if (terms)
             add_block(b, terms, alpha, a, middle, unit, out);
@@ -534,7 +533,7 @@ void fret_table_part(const struct fret_table *t, const fret_rule *rule, size_t f
             block piece;
             piece.d = ((fret_real)t->r[j + 1] - t->r[j]) / 2;
             const fret_real away = (start - (t->r[j] + piece.d)) + e;
-            const int count = far_terms(piece.d, away);
+            const int count = fret_table_terms(piece.d, away);
             if (!count) {
                 fret_table_within(t, rule, j, e - fret_table_distance(t, j),
                                   e - fret_table_distance(t, j + 1), e, unit, out);

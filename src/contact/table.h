@@ -43,5 +43,8 @@ typedef struct fret_table_stretch {
     const fret_real *slope, *rf2;
 } fret_table_stretch;
 bool fret_table_block(const struct fret_table *table, size_t i, fret_table_stretch *out);
+/* How many terms count of Taylor's series about the middle of what is `half` wide to both sides, `away` from
+ * what is singular; 0: it is too near. */
+int fret_table_terms(fret_real half, fret_real away);
 
 #endif
