@@ -26,7 +26,7 @@ static const char usage[] =
     "  -f FILE             run a script (- is standard input)\n"
     "  -c STATEMENTS       run these statements\n"
     "  --live              the full-screen mode; FILE: a script to step through\n"
-    "  --replay FILE       run a transcript and compare; exit 1 where it differs\n"
+    "  --replay FILE...    run transcripts and compare; exit 1 where one differs\n"
     "  --tolerance X       relative tolerance of numbers in a replay\n"
     "  --format=FORMAT     text, csv or json\n"
     "  --keep-going        go on after an error\n"
@@ -78,8 +78,8 @@ typedef struct job {
 
 /* What the command line asks for. */
 typedef struct wishes {
-    bool keep_going, quiet, no_rc, live, done;
-    const char *replay, *color;
+    bool keep_going, quiet, no_rc, live, replay, done;
+    const char *color;
     double tolerance;
     job *jobs;
     size_t count;
@@ -132,6 +132,7 @@ static int take_manual(const char *text) {
 }
 
 enum {
+    IN_ORDER = 1, /* a FILE: getopt gives it where it stands, as it does -f and -c */
     OPT_REPLAY = 256,
     OPT_LIVE,
     OPT_TOLERANCE,
@@ -176,12 +177,14 @@ static const char *option_word(char **argv) {
 
 static int take_option(int opt, wishes *w, settings *set, char **argv) {
     switch (opt) {
+    case IN_ORDER:
     case 'f':
     case 'c':
         w->jobs[w->count++] = (job){opt == 'c', optarg};
         return EXIT_OK;
     case OPT_REPLAY:
-        w->replay = optarg;
+        w->replay = true;
+        w->jobs[w->count++] = (job){false, optarg};
         return EXIT_OK;
     case OPT_LIVE:
         w->live = true;
@@ -223,9 +226,9 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
 static int read_options(int argc, char **argv, wishes *w, settings *set) {
     int status = EXIT_OK, opt;
     opterr = 0;
-    while (status == EXIT_OK && !w->done && (opt = getopt_long(argc, argv, ":f:c:h", options, NULL)) >= 0)
+    while (status == EXIT_OK && !w->done && (opt = getopt_long(argc, argv, "-:f:c:h", options, NULL)) >= 0)
         status = take_option(opt, w, set, argv);
-    for (int i = optind; i < argc && !w->done && status == EXIT_OK; i++)
+    for (int i = optind; i < argc && !w->done && status == EXIT_OK; i++) /* behind -- */
         w->jobs[w->count++] = (job){false, argv[i]};
     const char *no = getenv("NO_COLOR");
     const bool always = !strcmp(w->color, "always"), may = !strcmp(w->color, "auto") && !(no && *no);
@@ -263,17 +266,29 @@ static int run_live(shell *sh, const wishes *w) {
     return EXIT_ERROR;
 }
 
+/* Each in a session of its own; all of them, whatever one says. */
+static int run_replays(shell *sh, const wishes *w) {
+    int status = EXIT_OK;
+    for (size_t i = 0; i < w->count; i++)
+        if (w->jobs[i].statements)
+            return bad_usage("--replay takes transcripts, not -c", NULL);
+    for (size_t i = 0; i < w->count && status != EXIT_INTERRUPTED; i++) {
+        calc_error error;
+        error_clear(&error);
+        const int one = shell_replay(w->jobs[i].text, w->tolerance, &sh->set, stdout, &error);
+        if (error.raised)
+            shell_error(sh, error.text);
+        if (one != EXIT_OK)
+            status = one;
+    }
+    return status;
+}
+
 static int run(shell *sh, const wishes *w) {
     if (w->live)
         return run_live(sh, w);
-    if (w->replay) {
-        calc_error error;
-        error_clear(&error);
-        const int status = shell_replay(w->replay, w->tolerance, &sh->set, stdout, &error);
-        if (error.raised)
-            shell_error(sh, error.text);
-        return status;
-    }
+    if (w->replay)
+        return run_replays(sh, w);
     if (w->count)
         return run_jobs(sh, w);
     if (isatty(STDIN_FILENO))

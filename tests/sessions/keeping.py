@@ -305,6 +305,15 @@ def judged(tests):
         f.write("fret> 1\n1 = 1\n")
     done = tests.run("--format=json", "-c", "replay in.txt; set format text; replay in.txt", cwd=where)
     tests.check("a replay in JSON", done.stdout == '{"text":"in.txt: 1 passed, 0 failed\\u000a"}\nin.txt: 1 passed, 0 failed\n', tests.report(done))
+    with open(os.path.join(where, "out.txt"), "w", encoding="ascii") as f:
+        f.write("fret> 2\n2 = 3\n")
+    right, wrong = "in.txt: 1 passed, 0 failed\n", "out.txt:1: fret> 2\n- 2 = 3\n+ 2 = 2\nout.txt: 0 passed, 1 failed\n"
+    for files, out, status in ((("in.txt", "in.txt"), right + right, 0), (("in.txt", "out.txt"), right + wrong, 1),
+                               (("out.txt", "in.txt"), wrong + right, 1), (("none.txt", "in.txt"), right, 1)):
+        done = tests.run("--replay", *files, cwd=where)
+        tests.check("several transcripts: %s, %s" % files, (done.stdout, done.returncode) == (out, status), tests.report(done))
+    done = tests.run("--replay", "in.txt", "-c", "1", cwd=where)
+    tests.check("a transcript and statements", done.returncode == 2 and "not -c" in done.stderr and not done.stdout, tests.report(done))
 
 
 def pure(tests):

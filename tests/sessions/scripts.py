@@ -25,6 +25,8 @@ def jobs(tests):
         says(tests, "files share a scene", tests.run(a, b), "x + 1 = 2")
         says(tests, "-f, -c and - in their order", tests.run("-f", a, "-c", "x = x + 1", "-c", "x", "-", input="x*2"),
              "x = 2\nx*2 = 4")
+        says(tests, "FILE and -c in their order", tests.run(a, "-c", "x = x + 1", b, "-c", "x", "--", b),
+             "x + 1 = 3\nx = 2\nx + 1 = 3")
         says(tests, "- is standard input", tests.run("-", input="3"), "3 = 3")
         says(tests, "source", tests.run("-c", "source %s; x" % a), "x = 1")
         says(tests, "source with quotation marks", tests.run("-c", 'source "%s" # a comment\nx' % a), "x = 1")
