@@ -381,9 +381,9 @@ static bool bindings_hold(calc *c, lexer *lx, const assignment *all, size_t coun
 
 /* A name that looks like an input was perhaps meant to be one. */
 static void note_new_name(calc *c, const char *text, size_t len) {
-    static const char *const other_names[][2] = {{"angle", "slope"}, {"Fn", "FN"},    {"F", "FN"},
-                                                 {"P", "FN"},        {"radius", "R"}, {"v", "nu"},
-                                                 {"E02", "E0_2"},    {"nu2", "nu_2"}};
+    static const char *const other_names[][2] = {
+        {"angle", "slope"}, {"Fn", "FN"}, {"F", "FN"},  {"P", "FN"},    {"radius", "R"}, {"v", "nu"},
+        {"R1", "R"},        {"R2", "R"},  {"E1", "E0"}, {"E2", "E0_2"}, {"E02", "E0_2"}, {"nu2", "nu_2"}};
     char letters[PLAIN_WORD], plain[PLAIN_WORD];
     size_t n = 0;
     plain_letters(text, len, letters);
@@ -395,6 +395,8 @@ static void note_new_name(calc *c, const char *text, size_t len) {
     for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++)
         if (!strcmp(plain, other_names[i][0]))
             near = other_names[i][1];
+    if (near && *near == 'R' && !inputs_take(&c->scene.in, IN_RADIUS))
+        near = NULL; /* R1, to give a sphere with */
     for (input in = 0; in < INPUTS && !near; in++) {
         const char *name = quantity_of_input(in)->name;
         if (same_but_case(plain, name) || (n > 2 && one_letter_apart(plain, name)))

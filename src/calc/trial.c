@@ -144,7 +144,7 @@ bool knob_name(calc *c, lexer *lx, knob *out) {
         return false;
     const quantity *q = quantity_find(out->text, lx->len);
     if (q && !quantity_is_input(q))
-        return lex_fail(lx, "%s is a result: only inputs and free names can be swept", out->text);
+        return lex_fail(lx, "%s is a result: only inputs and free names can be varied", out->text);
     if (q) {
         out->is_input = true;
         out->in = quantity_input(q);
@@ -152,7 +152,7 @@ bool knob_name(calc *c, lexer *lx, knob *out) {
     } else {
         const char *taken = name_taken(out->text, lx->len);
         if (taken)
-            return lex_fail(lx, "'%s' is %s: it cannot be swept", out->text, taken);
+            return lex_fail(lx, "'%s' is %s: it cannot be varied", out->text, taken);
         if (!names_add(&c->names, out->text, lx->len, &out->name))
             return calc_no_memory(lx->error);
         if (c->names.row[out->name].known)

@@ -88,6 +88,14 @@ static const char *prefixed_name(size_t i) {
 }
 
 const char *unit_suggest(const char *word) {
+    static const char *const other_names[][2] = {
+        {"in", "inch"},  {"newton", "N"},     {"pascal", "Pa"},  {"metre", "m"},    {"meter", "m"},
+        {"joule", "J"},  {"micron", "um"},    {"degree", "deg"}, {"radian", "rad"}, {"percent", "%"},
+        {"kg", "kgf"},   {"lb", "lbf"},       {"kpsi", "ksi"},   {"Nm", "N*m"},     {"kNm", "kN*m"},
+        {"Nmm", "N*mm"}, {"millimetre", "mm"}};
+    for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++)
+        if (same_but_case(word, other_names[i][0]))
+            return other_names[i][1];
     return suggest(word, prefixed_name);
 }
 

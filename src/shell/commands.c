@@ -178,11 +178,11 @@ static const command commands[] = {
      .group = "the bodies",
      .keywords = "other body",
      .changes = true,
-     .usage = "E0=70 GPa nu=0.33 | rigid | same",
+     .usage = "E0=70 GPa nu=0.33 | aluminium | rigid | same",
      .summary = "the other body, where it differs",
      .help = "The second body shares k and c0 with the first; by default it is the same.\n"
              "Bodies that are not elastically similar couple normal and tangential contact,\n"
-             "which is left out here: a warning says so.\n\n"
+             "which is left out here: a warning says so. `help material` lists materials.\n\n"
              "    fret> material steel; second rigid; friction 0.3\n"
              "    fret> geometry sphere R=10 mm; press FN=100 N\n"
              "    warning: the bodies are elastically dissimilar (mismatch 0.286): normal and tangential "

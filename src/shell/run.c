@@ -166,10 +166,19 @@ static void warn(shell *sh) {
     warn_half_space(sh);
 }
 
+/* A command word alone misses more than its first argument. */
+static void add_usage(const command *c, calc_error *error) {
+    static const char missing[] = "expected ";
+    const size_t n = strlen(error->text);
+    if (error->raised && error->kind == ERROR_WORDS && !strncmp(error->text, missing, sizeof missing - 1))
+        snprintf(error->text + n, sizeof error->text - n, "; usage: %s %s", c->name, c->usage);
+}
+
 static bool run_command(shell *sh, lexer *lx, const command *c) {
     const size_t at = lx->at, len = lx->len;
     scene_mark *before = NULL;
     lex_next(lx);
+    const bool bare = lx->kind == T_END;
     if (lx->error->raised && !(c->args && c->args->kind == ARG_FILE))
         return false;
     if (c->changes && !(before = undo_mark(&sh->calc)))
@@ -185,13 +194,16 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
     }
     if (ok && (c->changes || c->run == do_undo))
         warn(sh);
+    if (bare)
+        add_usage(c, lx->error);
     return ok || calc_place(lx->error, at, lx->end > at + len ? lx->end - at : len);
 }
 
 static bool assign(shell *sh, lexer *lx) {
     if (command_find(lx->text + lx->at, lx->len)) {
         const command *c = command_find(lx->text + lx->at, lx->len);
-        return lex_fail(lx, "'%s' is a command, no variable: %s %s", c->name, c->name, c->usage);
+        return lex_fail(lx, "'%s' is a command, no variable: %s%s%s", c->name, c->name, *c->usage ? " " : "",
+                        c->usage);
     }
     bool ok = calc_assign(&sh->calc, lx);
     if (*sh->calc.note) {

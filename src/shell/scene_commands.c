@@ -122,7 +122,7 @@ bool do_second(shell *sh, lexer *lx, const command *self) {
     }
     bool ok = e.second != SECOND_GIVEN || has(&e, IN_E0_2) || has(&e, IN_NU_2)
                   ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
-                  : lex_fail(lx, "expected E0=... nu=..., rigid or same");
+                  : lex_fail(lx, "expected E0=... nu=..., a material, rigid or same");
     args_drop(&list, v);
     return ok;
 }
