@@ -47,27 +47,45 @@ void range_forget(shell *sh, const range_names *names) {
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
-static bool read_bound(calc *c, lexer *lx, const knob *var, bool first, dim *d, long double *out) {
+/* What the ends of a range, or the values of a list, have in common. A bare 0 is of any dimension. */
+typedef struct bounds {
+    dim d;
+    bool known; /* the dimension: of an input, or of a value before that is no bare 0 */
+    value v;    /* that one */
+    size_t at, len;
+} bounds;
+
+static bool is_plain(dim d) {
+    return dim_equal(d, DIM_NONE) && d.rad == 0;
+}
+
+static bool read_bound(calc *c, lexer *lx, const knob *var, bounds *b, long double *out) {
     value v;
     const size_t at = lx->at;
     if (!expr_value(c, lx, &v))
         return false;
-    if (first)
-        *d = var->is_input ? quantity_dim(quantity_of_input(var->in), c->now) : v.d;
-    if (!first && !var->is_input && dim_equal(*d, DIM_NONE))
-        *d = v.d; /* 0 .. 3 mm */
+    const size_t len = lx->last - at;
     *out = v.v;
-    return value_dim(lx, var->text, at, lx->last - at, v, *d);
+    if (var->is_input)
+        b->d = quantity_dim(quantity_of_input(var->in), c->now);
+    else if (b->known && is_plain(b->d) && !is_plain(v.d))
+        return value_dim(lx, var->text, b->at, b->len, b->v, v.d); /* 1 .. 3 mm */
+    else if (!b->known)
+        *b = (bounds){v.d, v.v != 0 || !is_plain(v.d), v, at, len};
+    return value_dim(lx, var->text, at, len, v, b->d);
 }
 
 bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out) {
-    if (!read_bound(c, lx, var, true, &out->d, &out->lo))
+    bounds b = {.known = false};
+    if (!read_bound(c, lx, var, &b, &out->lo))
         return false;
     if (word ? !lex_is(lx, word) : lx->kind != T_RANGE)
         return word ? lex_fail(lx, "expected %s and the other end of the range", word)
                     : lex_fail(lx, "expected .. between the two ends of the sweep");
     lex_next(lx);
-    return read_bound(c, lx, var, false, &out->d, &out->hi);
+    const bool ok = read_bound(c, lx, var, &b, &out->hi);
+    out->d = b.d;
+    return ok;
 }
 
 /* The range where a curve sees it. */
@@ -135,14 +153,16 @@ static bool read_with(shell *sh, lexer *lx, sweep *s) {
         return false;
     if (!strcmp(s->with.text, s->var.text))
         return calc_fail(lx->error, at, len, "%s is given twice", s->with.text);
+    bounds b = {.known = false};
     do {
         if (s->curves == SWEEP_VALUES)
             return lex_fail(lx, "more than %d values", SWEEP_VALUES);
         if (s->curves)
             lex_next(lx);
         s->value_at[s->curves] = lx->at;
-        if (!read_bound(&sh->calc, lx, &s->with, s->curves == 0, &s->with.d, &s->value[s->curves]))
+        if (!read_bound(&sh->calc, lx, &s->with, &b, &s->value[s->curves]))
             return false;
+        s->with.d = b.d;
         s->value_len[s->curves] = lx->last - s->value_at[s->curves];
         s->curves++;
     } while (lx->kind == T_COMMA);
