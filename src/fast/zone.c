@@ -207,21 +207,24 @@ FRET_INLINE roots roots_of(const fret_double_law *law, const fret_zone *z, int i
     return (roots){q, p, p > 0 ? z->thick[i] * law->per_y / (p + q) : 0};
 }
 
-/* One end's terms of the sum below. */
+/* One end's terms of the sum below: what hangs on e, which comes last, in few operations after it. */
 FRET_INLINE double root_terms(const roots *a, const roots *b) {
-    const double q = a->q, r = b->q, q2 = q * q, qr = q * r, r2 = r * r;
-    return (a->e * a->e) * (q2 * (3 * q2 + (9 * qr + 8 * r2)) + (a->e * q) * (5 * q2 + (12 * qr + 8 * r2)) +
-                            b->e * (q * (3 * q2 + 10 * qr) + r * (10 * qr + 2 * r2)));
+    const double q = a->q, r = b->q, q2 = q * q, qr = q * r, r2 = r * r,
+                 none = q2 * (3 * q2 + (9 * qr + 8 * r2)), own = q * (5 * q2 + (12 * qr + 8 * r2)),
+                 other = q * (3 * q2 + 10 * qr) + r * (10 * qr + 2 * r2);
+    return (a->e * a->e) * ((none + a->e * own) + b->e * other);
 }
 
 /* Under v ~ y^(3/2), in p = sqrt(D) and q = sqrt(d): the rate is (p-q)^2 (p+q/2), and its integral a sum of
  * positive terms in q and e = (D-d)/(p+q), which loses no digits wherever the zone is. */
 static double root_loss(const fret_double_law *law, const fret_zone *z) {
     const roots a = roots_of(law, z, 0), b = roots_of(law, z, 1);
-    const double c = a.q + b.q, c2 = c * c, qr = a.q * b.q, e2 = a.e * a.e, f2 = b.e * b.e, ef = a.e * b.e;
+    const double c = a.q + b.q, c2 = c * c, qr = a.q * b.q,
+                 scale = z->travel * law->v / (5 * c2 * (a.p + b.p)), e2 = a.e * a.e, f2 = b.e * b.e,
+                 ef = a.e * b.e;
     const double sum = (root_terms(&a, &b) + root_terms(&b, &a)) +
-                       (4 * (ef * qr) * (c2 + qr) + 2 * c2 * ((e2 * e2 + f2 * f2) + ef * (e2 + ef + f2)));
-    return z->travel * law->v * sum / (5 * c2 * (a.p + b.p));
+                       (ef * (4 * qr * (c2 + qr)) + 2 * c2 * ((e2 * e2 + f2 * f2) + ef * (e2 + ef + f2)));
+    return scale * sum;
 }
 
 double fret_zone_loss(const fret_double_law *law, const fret_zone *zone, double Y, double V) {
