@@ -530,7 +530,7 @@ static void step_by_force(fret_diagram *d, const fret_step *step, const double y
 }
 
 /* While open, the bodies move freely: only the closed part of the path counts. */
-static void step_by_displacement(fret_diagram *d, double target, const double y[2], double to) {
+FRET_INLINE void step_by_displacement(fret_diagram *d, double target, const double y[2], double to) {
     const double old = d->dx, from = d->dz;
     double stop = target;
     d->dx = target;
@@ -549,14 +549,24 @@ static void step_by_displacement(fret_diagram *d, double target, const double y[
     d->Fx = d->mu * d->edge.t[LOAD];
 }
 
-static void add_loss(fret_diagram *d) {
+/* The end of every step. */
+FRET_INLINE void end_step(fret_diagram *d, double dz) {
+    d->dz = dz;
+    if (d->lossless)
+        return;
     const double x = d->last_loss > 0 ? d->last_loss * d->loss_scale : 0, t = d->W + x;
     d->W_rest += d->W >= x ? (d->W - t) + x : (x - t) + d->W;
     d->W = t;
     d->last_loss = x;
 }
 
-fret_status fret_diagram_step(fret_diagram *d, const fret_step *step) {
+FRET_INLINE void face(fret_diagram *d, double before, double target) {
+    if (target != before)
+        d->direction = target < before ? -1 : 1;
+}
+
+/* With all that may have to be refused, made or opened. */
+APART fret_status any_step(fret_diagram *d, const fret_step *step) {
     double y[2], dz, load = 0;
     if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
         return fret_fail(FRET_NOT_FINITE, step->tangential_by == FRET_TO_FX ? "Fx" : "dx", step->tangential,
@@ -579,14 +589,29 @@ fret_status fret_diagram_step(fret_diagram *d, const fret_step *step) {
         return st;
     const double before = step->tangential_by == FRET_TO_FX ? d->Fx : d->dx;
     const double target = step->tangential_by == FRET_KEEP_DX ? d->dx : step->tangential;
-    if (target != before)
-        d->direction = target < before ? -1 : 1;
+    face(d, before, target);
     if (step->tangential_by == FRET_TO_FX)
         step_by_force(d, step, y, load);
     else
         step_by_displacement(d, target, y, dz);
-    d->dz = dz;
-    if (!d->lossless)
-        add_loss(d);
+    end_step(d, dz);
     return st;
+}
+
+/* Contact stays closed, and there is nothing to refuse and nothing to make: what most steps are. */
+FRET_INLINE bool is_plain(const fret_diagram *d, const fret_step *step) {
+    return step->normal_by == FRET_TO_DEPTH && step->tangential_by == FRET_TO_DX && d->dz > 0 &&
+           step->normal > 0 && step->normal >= d->sure[DEPTH] && step->normal <= d->limit[DEPTH] &&
+           fabs(step->tangential) <= DBL_MAX && d->count + 2 <= d->room;
+}
+
+fret_status fret_diagram_step(fret_diagram *d, const fret_step *step) {
+    if (!is_plain(d, step))
+        return any_step(d, step);
+    const double y[2] = {step->normal, step->normal == d->edge.y[DEPTH] ? d->edge.y[LOAD]
+                                                                        : other_of(d, DEPTH, step->normal)};
+    face(d, d->dx, step->tangential);
+    step_by_displacement(d, step->tangential, y, y[DEPTH]);
+    end_step(d, y[DEPTH]);
+    return fret_ok();
 }

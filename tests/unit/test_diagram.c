@@ -108,6 +108,22 @@ static void ledger(double n, double k, bool by_force) {
     fret_diagram_free(half);
 }
 
+/* A depth that is the one there is moves nothing, whatever rounding makes of its load. */
+static void kept_depth(double n, double k) {
+    const unit_scene s = unit_make_scene(n, k);
+    const fret_contact c = unit_make_contact(&s, 20);
+    const double slip = (double)fret_gross_slip(&c);
+    fret_diagram *d = make(c.normal, c.mu, 0);
+    for (int i = 1; i < 100; i++) {
+        fret_diagram_reset(d);
+        const fret_diagram_now first = go(d, FRET_TO_FORCE, 20.0 * i / 99, FRET_TO_DX, 0);
+        const fret_diagram_now then = go(d, FRET_TO_DEPTH, first.dz, FRET_TO_DX, slip * i / 300);
+        CHECK(then.FN == first.FN);
+        CHECK(then.dz == first.dz);
+    }
+    fret_diagram_free(d);
+}
+
 /* Contact lost and regained: open, it has no force and moves freely. */
 static void separation(void) {
     const unit_scene s = unit_make_scene(2, 0.3);
@@ -351,6 +367,8 @@ int main(int argc, char **argv) {
     ledger(2, 0.3, true);
     ledger(1, -0.5, false);
     ledger(1, -0.5, true);
+    kept_depth(2, 0);
+    kept_depth(2, 0.3);
     separation();
     objects();
     parts();
