@@ -273,8 +273,9 @@ static const command commands[] = {
      .summary = "load along a table of FN,Fx or dz,dx",
      .help = "The header gives the columns and their units. Every row is a straight step; one\n"
              "that cannot be carried leaves the scene as before the command. Where nothing is\n"
-             "pressed yet the first row presses, and must have Fx or dx = 0. `help files`\n"
-             "tells what else such a file may hold.\n\n"
+             "pressed yet the first row presses, and must have Fx or dx = 0. A file of\n"
+             "`history to` has both pairs, and W: it is followed where they agree in this\n"
+             "scene. `help files` tells what else such a file may hold.\n\n"
              "    $ cat load.csv\n"
              "    FN [N],Fx [N]\n"
              "    100,0\n"

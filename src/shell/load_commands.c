@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Commands of the load program: press, step, cycle, follow, and the ways back. Each reads everything, then
  * changes everything or nothing. */
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "calc/csv.h"
@@ -228,31 +230,45 @@ typedef struct followed {
 
 static const followed kinds[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0, 0}, "FN [N],Fx [N]"},
                                  {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1, 0}, "dz [um],dx [um]"}};
+enum { KINDS = sizeof kinds / sizeof *kinds };
 
 enum { AT_ONCE = 4096 }; /* rows; then it is told how far it has come */
 
-/* Rows become steps; the first one presses where nothing is pressed yet. */
-static bool follow_rows(shell *sh, const csv *data, const followed *kind, const double *normal,
-                        const double *tangential, calc_error *error) {
-    scene *s = &sh->calc.scene;
-    load_step step = {.kind = LOAD_STEP, .normal = kind->by, .tangential = kind->by};
-    size_t row = 0;
-    if (!s->end.steps) {
-        const load_step press = {.kind = LOAD_PRESS, .normal = kind->by, .normal_value = normal[0]};
-        if (!(normal[0] > 0) || tangential[0] != 0)
-            return calc_fail(
-                error, 0, 0,
-                "%s: there is no load yet: press first, or begin with a row that presses (%s > 0, %s = 0)",
-                data->path, kind->name[0], kind->name[1]);
-        if (!scene_load(s, &press, NULL, error))
-            return false;
-        row = 1;
-    }
+/* Rows as they are followed. Of those that have both pairs: loss, their W, and driver, by which pair each is;
+ * NULL: all by `kind`. */
+typedef struct rows {
+    const csv *data;
+    const followed *kind;
+    const double *normal[KINDS], *tangential[KINDS]; /* by kind */
+    const double *loss;
+    const unsigned char *driver;
+} rows;
+
+static bool follow_press(shell *sh, const rows *w, calc_error *error) {
+    const followed *kind = w->kind;
+    const size_t k = (size_t)(kind - kinds);
+    const load_step press = {.kind = LOAD_PRESS, .normal = kind->by, .normal_value = w->normal[k][0]};
+    if (!(press.normal_value > 0) || w->tangential[k][0] != 0)
+        return calc_fail(
+            error, 0, 0,
+            "%s: there is no load yet: press first, or begin with a row that presses (%s > 0, %s = 0)",
+            w->data->path, kind->name[0], kind->name[1]);
+    return scene_load(&sh->calc.scene, &press, NULL, error);
+}
+
+/* Rows become steps. */
+static bool follow_rows(shell *sh, const rows *w, size_t row, calc_error *error) {
+    const csv *data = w->data;
     for (size_t count; row < data->rows; row += count) {
+        const size_t k = w->driver ? w->driver[row] : (size_t)(w->kind - kinds);
+        const load_step step = {.kind = LOAD_STEP, .normal = kinds[k].by, .tangential = kinds[k].by};
         size_t bad;
-        count = data->rows - row < AT_ONCE ? data->rows - row : AT_ONCE;
+        for (count = 1; count < AT_ONCE && row + count < data->rows; count++)
+            if (w->driver && w->driver[row + count] != k)
+                break;
         progress_part((double)row / (double)data->rows);
-        bool ok = scene_load_rows(s, step, normal + row, tangential + row, count, &bad, error);
+        bool ok = scene_load_rows(&sh->calc.scene, step, w->normal[k] + row, w->tangential[k] + row, count,
+                                  &bad, error);
         if (ok && shell_stop)
             ok = calc_interrupted(error);
         if (!ok) {
@@ -263,6 +279,104 @@ static bool follow_rows(shell *sh, const csv *data, const followed *kind, const 
     }
     progress_part(-1); /* what springs make of it is not known yet */
     return true;
+}
+
+/* ---- of both pairs, as `history` writes them ---- */
+
+enum { NAMED = 2 * KINDS + 1 };
+#define SAME 1e-4L /* what the digits of a table as text may move */
+
+/* The largest of FN, Fx, dz, dx and W. */
+typedef struct sizes {
+    double of[NAMED];
+} sizes;
+
+/* How far the state is from what the row names, as a part of the largest values. Ways by force and by
+ * displacement may end in the same state: the energy tells them apart. */
+static long double distance(const fret_memory *m, const rows *w, size_t row, fret_real loss,
+                            const sizes *most) {
+    fret_state now;
+    fret_memory_forces(m, &now);
+    const double lost = row ? w->loss[row] - w->loss[row - 1] : 0;
+    const long double off[NAMED] = {(long double)now.FN - w->normal[0][row],
+                                    (long double)now.Fx - w->tangential[0][row],
+                                    (long double)now.dz - w->normal[1][row],
+                                    (long double)now.dx - w->tangential[1][row], (long double)loss - lost};
+    long double worst = 0;
+    for (size_t i = 0; i < NAMED; i++)
+        if (off[i] != 0)
+            worst = fmaxl(worst, fabsl(off[i]) / most->of[i]);
+    return worst;
+}
+
+/* Of the last, the state before, makes that behind the row: by the pair that comes nearer to what it names.
+ */
+static bool choose_driver(fret_memory *m[KINDS + 1], const rows *w, size_t row, const sizes *most,
+                          unsigned char *driver, fret_status *st) {
+    static const fret_normal_target normal[KINDS] = {FRET_TO_FORCE, FRET_TO_DEPTH};
+    static const fret_tangential_target tangential[KINDS] = {FRET_TO_FX, FRET_TO_DX};
+    long double least = INFINITY;
+    for (unsigned char k = 0; k < KINDS; k++) {
+        const fret_step step = {normal[k], tangential[k], w->normal[k][row], w->tangential[k][row]};
+        *st = fret_memory_copy(m[k], m[KINDS]);
+        if (st->code)
+            return false;
+        const fret_status taken = fret_memory_step(m[k], &step);
+        if (taken.code == FRET_NO_MEMORY)
+            *st = taken;
+        if (st->code)
+            return false;
+        const long double off =
+            taken.code ? INFINITY : distance(m[k], w, row, fret_memory_last_loss(m[k]), most);
+        if (off < least) {
+            least = off;
+            *driver = k;
+        }
+    }
+    if (!(least <= SAME))
+        return false;
+    fret_memory *now = m[*driver];
+    m[*driver] = m[KINDS];
+    m[KINDS] = now;
+    return true;
+}
+
+static double largest_of(const double *v, size_t n) {
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fabs(v[i]));
+    return most;
+}
+
+static bool choose_drivers(shell *sh, const rows *w, size_t row, unsigned char *driver, calc_error *error) {
+    const size_t n = w->data->rows;
+    const sizes most = {{largest_of(w->normal[0], n), largest_of(w->tangential[0], n),
+                         largest_of(w->normal[1], n), largest_of(w->tangential[1], n),
+                         largest_of(w->loss, n)}};
+    const fret_memory *now;
+    fret_memory *m[KINDS + 1] = {NULL};
+    fret_status st = {.code = FRET_OK};
+    if (!scene_memory(&sh->calc.scene, &now, error))
+        return false;
+    for (size_t k = 0; k <= KINDS && !st.code; k++)
+        st = fret_memory_make(fret_memory_normal(now), fret_memory_friction(now), &m[k]);
+    if (!st.code)
+        st = fret_memory_copy(m[KINDS], now);
+    bool ok = !st.code && (row == 0 || distance(m[KINDS], w, 0, 0, &most) <= SAME);
+    size_t i = ok ? row : 0;
+    while (ok && i < n && !shell_stop) {
+        if (i % AT_ONCE == 0)
+            progress_part(0.5 * (double)i / (double)n);
+        ok = choose_driver(m, w, i, &most, &driver[i], &st);
+        i += ok;
+    }
+    for (size_t k = 0; k <= KINDS; k++)
+        fret_memory_free(m[k]);
+    if (shell_stop)
+        return calc_interrupted(error);
+    return ok || !calc_status(error, &st) ||
+           calc_fail(error, 0, 0, "%s: FN,Fx and dz,dx do not agree in this scene (row %zu): leave one pair",
+                     w->data->path, i + 1);
 }
 
 static bool of_dimension(const csv *data, const csv_values *read, const followed *kind, calc_error *error) {
@@ -278,27 +392,66 @@ static bool of_dimension(const csv *data, const csv_values *read, const followed
                      read->name, is, wants);
 }
 
+static bool has_pair(const csv *data, const followed *kind) {
+    return csv_has(data, kind->name[0]) && csv_has(data, kind->name[1]);
+}
+
+static bool read_pair(const csv *data, const followed *kind, rows *w, calc_error *error) {
+    const size_t k = (size_t)(kind - kinds);
+    const csv_values *normal = csv_column(data, kind->name[0], error),
+                     *tangential = normal ? csv_column(data, kind->name[1], error) : NULL;
+    if (!tangential || !of_dimension(data, normal, kind, error) ||
+        !of_dimension(data, tangential, kind, error))
+        return false;
+    w->normal[k] = normal->v;
+    w->tangential[k] = tangential->v;
+    return true;
+}
+
+static bool read_loss(const csv *data, rows *w, calc_error *error) {
+    static const followed energy = {.d = {1, 1, 0}, .example = "W [J]"};
+    const csv_values *loss = csv_column(data, "W", error);
+    if (!loss || !of_dimension(data, loss, &energy, error))
+        return false;
+    w->loss = loss->v;
+    return true;
+}
+
+static bool follow_all(shell *sh, rows *w, bool both, calc_error *error) {
+    unsigned char *driver = NULL;
+    size_t row = 0;
+    if (!sh->calc.scene.end.steps) {
+        if (!follow_press(sh, w, error))
+            return false;
+        row = 1;
+    }
+    if (both && !(driver = malloc(w->data->rows)))
+        return calc_no_memory(error);
+    w->driver = driver;
+    const bool ok = (!both || choose_drivers(sh, w, row, driver, error)) && follow_rows(sh, w, row, error);
+    free(driver);
+    return ok;
+}
+
 static bool follow(shell *sh, const csv *data, calc_error *error) {
-    const followed *kind =
-        csv_has(data, kinds[1].name[0]) && csv_has(data, kinds[1].name[1]) ? &kinds[1] : &kinds[0];
+    const bool forces = has_pair(data, &kinds[0]), places = has_pair(data, &kinds[1]);
+    rows w = {.data = data, .kind = places && !forces ? &kinds[1] : &kinds[0]};
     char names[CALC_ERROR_TEXT / 2];
     scene_mark before;
     double mu;
     csv_names(data, names, sizeof names);
-    if (!csv_has(data, kind->name[0]) || !csv_has(data, kind->name[1]))
+    if (!forces && !places)
         return calc_fail(error, 0, 0, "%s: the columns must be FN,Fx or dz,dx, not %s", data->path, names);
-    if (kind == &kinds[1] && csv_has(data, "FN") && csv_has(data, "Fx"))
-        return calc_fail(error, 0, 0, "%s has FN,Fx and dz,dx: leave one pair", data->path);
-    const csv_values *normal = csv_column(data, kind->name[0], error),
-                     *tangential = normal ? csv_column(data, kind->name[1], error) : NULL;
-    if (!tangential)
-        return false;
-    if (!of_dimension(data, normal, kind, error) || !of_dimension(data, tangential, kind, error))
+    if (forces && places && !csv_has(data, "W"))
+        return calc_fail(error, 0, 0, "%s has FN,Fx and dz,dx, but no W: leave one pair", data->path);
+    if ((forces && !read_pair(data, &kinds[0], &w, error)) ||
+        (places && !read_pair(data, &kinds[1], &w, error)) ||
+        (forces && places && !read_loss(data, &w, error)))
         return false;
     if (!sh->calc.scene.in.bound[IN_MU] && !scene_friction(&sh->calc.scene, &mu, error))
         return false; /* a live one may depend on the press that is to come */
     scene_save(&sh->calc.scene, &before, false);
-    if (!follow_rows(sh, data, kind, normal->v, tangential->v, error)) {
+    if (!follow_all(sh, &w, forces && places, error)) {
         scene_back(&sh->calc.scene, &before);
         return false;
     }

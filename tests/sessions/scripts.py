@@ -225,11 +225,45 @@ def read_tables(tests):
     for text, message in (("a,b\n1,2\n", "the columns must be FN,Fx or dz,dx, not a, b"),
                           ("FN,Fx\n1,2\n", "the columns need units in the header"),
                           ("FN [N],Fx [mm]\n1,2\n", "column Fx is a length, not a force, by the unit in the header"),
+                          ("FN [N],Fx [N],dz [um],dx [um],W [N]\n1,2,3,4,5\n", "column W is a force, not an energy"),
+                          ("FN [N],Fx [N],dz [um],dx [um],W\n1,2,3,4,5\n", "the columns need units in the header, such as W [J]"),
                           ("dz [N],dx [um]\n1,2\n", "column dz is a force, not a length, by the unit in the header"),
                           ("dz [um],dx []\n1,2\n", "the columns need units in the header, such as dz [um],dx [um]")):
         with tests.file(text) as path:
             done = tests.run("-c", SCENE + "follow %s" % path)
             tests.check("follow: " + message, message in done.stderr and done.returncode == 1, tests.report(done))
+
+
+def histories(tests):
+    """What `history` writes has both pairs of columns. It is followed where both mean the same, each step by whichever leads there."""
+    where = os.path.join(tests.dir, "histories")
+    os.makedirs(where)
+    bare = SCENE.rsplit(";", 1)[0]
+    asked = "FN, dz, Fx, dx, W, U"
+    loads = ("press FN=100 N; step Fx=20 N; step FN=80 N Fx=10 N; step dx=5 um; step FN=50 N; cycle FA=3 N times 2; step dz=-1 um; "
+             "step FN=30 N; step dx+=-1 um", "press FN=100 N", "press a=0.2 mm; cycle dxA=2 um steps 30; step dz+=0.1 um dx=0.3 um",
+             "press dz=3 um; step Fx=10 N; step FN+=20 N; step FN+=-40 N; step Fx=0")
+    scenes = ("", "; c0=1 mm; k=0.4", "; geometry exact-sphere R=10 mm", "; geometry flat-cone b=0.1 mm slope=0.01; c0=1 mm; k=-0.3")
+
+    def one(scene, load, form):
+        path = os.path.join(where, "%d-%d.%s" % (scenes.index(scene), loads.index(load), form))
+        begin = "%s%s; %s" % (bare, scene, "set report off")
+        done = tests.run("--format=json", "-c", "%s; %s; %s; history to %s; reset; follow %s; %s" % (begin, load, asked, path, path, asked))
+        found = harness.printed_values(done.stdout)
+        first, again = found[:6], found[6:]
+        near = len(again) == 6 and all(abs(x - y) <= (1e-9 if form == "csv" else 1e-3) * max(abs(x), small)
+                                       for x, y, small in zip(first, again, (1, 1e-6, 1, 1e-6, 1e-6, 1e-6)))
+        tests.check("history followed: %s; %s, %s" % (scene, load, form), near, "%s\n%s\n%s" % (first, again, tests.report(done)))
+        if ";" not in load:
+            return
+        done = tests.run("--keep-going", "-c", "%s; press FN=3 N; mu = 0.39; E0 = 200 GPa; follow %s; FN" % (begin, path))
+        tests.check("a history of another scene: %s; %s" % (scene, load), "FN,Fx and dz,dx do not agree in this scene (row 1): leave one pair" in
+                    done.stderr and done.stdout == "FN = 3 N\n", tests.report(done))
+    tests.each([lambda s=s, l=l, f=f: one(s, l, f) for s in scenes for l in loads for f in ("csv", "txt")])
+    with tests.file("FN [N],Fx [N],dz [um],dx [um],W [J]\n100,0,3.4829098839413082,0,0\n100,50,3.4829098839413082,1,0\n") as path:
+        done = tests.run("-c", bare + "\nfollow %s" % path)
+        tests.check("a row that no step leads to", "(row 2): leave one pair" in done.stderr, tests.report(done))
+
 
 
 def table_rows(done):
@@ -456,4 +490,4 @@ def own_words(tests):
 def run(tests):
     tests.each([lambda room=room: room(tests) for room in
                 (jobs, written, long_tables, gaps_in_tables, failing_tables, digits, shown_scenes, waiting_steps, taken_back, many_variables,
-                 read_tables, pictures, own_words, demos)])
+                 read_tables, histories, pictures, own_words, demos)])
