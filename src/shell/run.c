@@ -101,25 +101,48 @@ static void warn_dissimilar(shell *sh) {
 /* Beyond these the bodies are no half-spaces, which the theory takes them for. */
 static const double most_radius = 0.3, most_slope = 0.36397023426620236; /* of R; tan 20 deg */
 
+/* Where contact is widest: now, or within the cycle that ends here. */
+static bool find_wide(scene *s, fret_press *wide, bool *within, calc_error *error) {
+    const fret_press *now;
+    const fret_normal *normal;
+    fret_press top;
+    *within = false;
+    if (!scene_press(s, &now, error) || !scene_normal(s, &normal, error))
+        return false;
+    *wide = *now;
+    if (program_last_cycle(s->program, s->end) + 1 != s->end.steps)
+        return true;
+    long double FNA, phase;
+    if (!scene_get(s, IN_FNA, &FNA, error) || !scene_get(s, IN_PHASE, &phase, error))
+        return false;
+    const fret_real most = now->F + fabsl(FNA) - FNA * cosl(phase); /* it ends at FN + FNA cos(phase) */
+    if (most > now->F && !fret_press_by_force(normal, (double)most, &top).code) {
+        *wide = top;
+        *within = true;
+    }
+    return true;
+}
+
 static void warn_half_space(shell *sh) {
     scene *s = &sh->calc.scene;
-    const fret_press *press;
+    fret_press press;
+    bool within;
     long double R = INFINITY, slope = 0;
     calc_error ignored;
     error_clear(&ignored);
-    if (!scene_press(s, &press, &ignored))
+    if (!find_wide(s, &press, &within, &ignored))
         return;
     enum { WIDE = 1, STEEP = 2 };
     if (inputs_take(&s->in, IN_RADIUS))
         scene_get(s, IN_RADIUS, &R, &ignored);
     if (inputs_take(&s->in, IN_SLOPE))
         scene_get(s, IN_SLOPE, &slope, &ignored);
-    const bool wide = press->a > most_radius * R, steep = slope > most_slope;
+    const bool wide = press.a > most_radius * R, steep = slope > most_slope;
     if (wide && !(sh->no_half_space & WIDE))
         shell_note(sh,
-                   "warning: a/R = %.3g: beyond 0.3 the bodies are no half-spaces, and these results are an "
-                   "approximation",
-                   (double)(press->a / R));
+                   "warning: a/R = %.3g%s: beyond 0.3 the bodies are no half-spaces, and these results are "
+                   "an approximation",
+                   (double)(press.a / R), within ? " within the cycle" : "");
     if (steep && !(sh->no_half_space & STEEP))
         shell_note(sh,
                    "warning: slope = %.3g: flanks steeper than 20 deg leave the half-space, and these "
