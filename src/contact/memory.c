@@ -128,14 +128,25 @@ static fret_real stored(const fret_memory *m) {
     return m->loss_scale * sum;
 }
 
-/* The slice that tells c: slip that a load has come back to, but for its rounding, is not hidden by what that
- * leaves at the edge. */
-static const slice *outermost(const fret_memory *m) {
+/* Inwards from a slice, past those that are as thin as the rounding of loads. */
+static const slice *past_rounding(const fret_memory *m, const slice *from) {
     const fret_real rounding = 4 * DBL_EPSILON * m->edge[LOAD];
-    const slice *top = &m->slices[m->count - 1], *below = top;
-    while (below > m->slices && below->thick[LOAD] <= rounding)
-        below--;
-    return fabsl(below->sigma) >= 1 ? below : top;
+    while (from > m->slices && from->thick[LOAD] <= rounding)
+        from--;
+    return from;
+}
+
+/* The slice that tells c: slip that a load has come back to, but for its rounding, is not hidden by what that
+ * leaves at the edge, or where the present slip meets it. */
+static const slice *outermost(const fret_memory *m) {
+    const slice *top = &m->slices[m->count - 1], *zone = past_rounding(m, top), *next = zone;
+    if (fabsl(zone->sigma) < 1)
+        return top;
+    while (next > m->slices && next->sigma == zone->sigma) {
+        zone = next;
+        next = past_rounding(m, next - 1);
+    }
+    return next->sigma == zone->sigma ? next : zone;
 }
 
 void fret_memory_state(const fret_memory *m, fret_state *out) {

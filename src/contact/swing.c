@@ -332,13 +332,24 @@ static bool is_zone(const fret_swing *c, const piece *p, int which) {
            p->last[which] - p->first[which] > rounding(c);
 }
 
+/* Inwards from a piece, past those that are as small as rounding. */
+static const piece *past_rounding(const fret_swing *c, const piece *from) {
+    while (from > c->pieces && from->last[M] - from->first[M] + from->last[P] - from->first[P] <= rounding(c))
+        from--;
+    return from;
+}
+
 /* The piece that tells the radius of stick, as of a memory. */
 static const piece *outermost(const fret_swing *c) {
-    const piece *top = &c->pieces[c->count - 1], *below = top;
-    while (below > c->pieces &&
-           below->last[M] - below->first[M] + below->last[P] - below->first[P] <= rounding(c))
-        below--;
-    return is_zone(c, below, M) || is_zone(c, below, P) ? below : top;
+    const piece *top = &c->pieces[c->count - 1], *zone = past_rounding(c, top), *next = zone;
+    const int which = is_zone(c, zone, P) ? P : M;
+    if (!is_zone(c, zone, which))
+        return top;
+    while (next > c->pieces && is_zone(c, next, which)) {
+        zone = next;
+        next = past_rounding(c, next - 1);
+    }
+    return is_zone(c, next, which) ? next : zone;
 }
 
 void fret_swing_state(const fret_swing *c, fret_state *out) {

@@ -140,13 +140,25 @@ static fret_real stored(const fret_diagram *d) {
     return (fret_real)d->loss_scale * sum;
 }
 
+/* Inwards from a layer, past those that are as thin as rounding. */
+static const layer *past_rounding(const fret_diagram *d, const layer *from) {
+    const layer *top = &d->layers[d->count - 1];
+    const double outer = from == top ? d->edge.y[LOAD] : from[1].inner.y[LOAD];
+    while (from > d->layers && outer - from->inner.y[LOAD] <= little * d->edge.y[LOAD])
+        from--;
+    return from;
+}
+
 /* The one that tells c, as of the exact memory. */
 static const layer *outermost(const fret_diagram *d) {
-    const double rounding = little * d->edge.y[LOAD];
-    const layer *top = &d->layers[d->count - 1], *below = top;
-    while (below > d->layers && d->edge.y[LOAD] - below->inner.y[LOAD] <= rounding)
-        below--;
-    return fabs(below->sigma) >= 1 ? below : top;
+    const layer *top = &d->layers[d->count - 1], *zone = past_rounding(d, top), *next = zone;
+    if (fabs(zone->sigma) < 1)
+        return top;
+    while (next > d->layers && next->sigma == zone->sigma) {
+        zone = next;
+        next = past_rounding(d, next - 1);
+    }
+    return next->sigma == zone->sigma ? next : zone;
 }
 
 void fret_diagram_state(const fret_diagram *d, fret_state *out) {
