@@ -92,7 +92,7 @@ static bool limits(const char *name, plot_axis *a, plot_extent e, double lo, dou
     if (a->log && ((a->fixed_lo && lo <= 0) || (a->fixed_hi && hi <= 0)))
         return calc_fail(error, 0, 0, "a logarithmic %s axis needs limits above 0", name);
     if (a->fixed_lo && a->fixed_hi && lo == hi)
-        return calc_fail(error, 0, 0, "the limits of the %s axis are one", name);
+        return calc_fail(error, 0, 0, "the limits of the %s axis are the same", name);
     if (a->fixed_lo && a->fixed_hi && lo > hi) { /* from right to left */
         a->lo = hi;
         a->hi = lo;

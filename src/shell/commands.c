@@ -87,14 +87,14 @@ static const arg table_args[] = {{.kind = ARG_LIST, .name = "expression"},
                                  {.kind = ARG_TO, .name = "to"},
                                  {.kind = ARG_END}};
 
-static const arg plot_args[] = {{.kind = ARG_NAME, .name = "figure", .words = figure_name},
+static const arg plot_args[] = {{.kind = ARG_NAME, .name = "figure", .words = figure_word},
                                 {.kind = ARG_LIST, .name = "expression"},
                                 {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
                                 {.kind = ARG_WORD, .name = "log"},
                                 {.kind = ARG_TO, .name = "to"},
                                 {.kind = ARG_END}};
 
-static const arg animate_args[] = {{.kind = ARG_NAME, .name = "figure", .words = figure_name},
+static const arg animate_args[] = {{.kind = ARG_NAME, .name = "figure", .words = figure_word},
                                    {.kind = ARG_LIST, .name = "expression"},
                                    {.kind = ARG_COUNT, .name = "frames", .most = PLOT_FRAMES},
                                    {.kind = ARG_TO, .name = "to"},

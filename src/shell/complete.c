@@ -121,8 +121,17 @@ static bool is_word(const place *p, size_t i, const char *word) {
            !memcmp(p->line + p->token[i].at, word, p->token[i].len);
 }
 
+/* The `|` before the figure at the cursor, or 0. */
+static size_t figure_begins(const place *p) {
+    size_t i = p->count;
+    while (i-- > 1)
+        if (p->token[i].kind == T_BAR)
+            return i;
+    return 0;
+}
+
 static bool is_given(const place *p, const char *word) {
-    for (size_t i = 1; i < p->count; i++)
+    for (size_t i = figure_begins(p) + 1; i < p->count; i++)
         if (is_word(p, i, word))
             return true;
     return false;
@@ -174,7 +183,7 @@ static bool has_range(const command *c) {
 
 /* `along cycle ...`: its arguments may follow. */
 static const command *load_along(const place *p) {
-    for (size_t i = 2; i < p->count; i++)
+    for (size_t i = figure_begins(p) + 2; i < p->count; i++)
         if (is_word(p, i - 1, "along"))
             return command_find(p->line + p->token[i].at, p->token[i].len);
     return NULL;
@@ -432,7 +441,7 @@ static void complete_word(const place *p) {
     const token_kind last = p->token[p->count - 1].kind;
     const bool ranges = !p->command || has_range(p->command);
     dim d = DIM_NONE;
-    if (p->count == 1 && p->command) {
+    if (p->command && (p->count == 1 || last == T_BAR)) {
         add_arguments(p, p->command, true);
         return;
     }

@@ -136,6 +136,13 @@ static bool by_chords(const page *p, const expr *e, long double at[LEVELS]) {
     return ok;
 }
 
+static void put_title(const page *p, model_id model, const char *then) {
+    if (model == MODEL_SPRINGS)
+        fprintf(p->to, "    model: %u %s%s", p->sh->calc.now->springs, models[model].title, then);
+    else
+        fprintf(p->to, "    model: %s%s", models[model].title, then);
+}
+
 /* e: what is explained; NULL: it has no value. */
 static void put_sine(const page *p, const quantity *q, bool call, model_id model, const expr *e) {
     const answers *a = &p->sh->calc.now->answers;
@@ -143,7 +150,7 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
     const bool limit = is_extrapolated(q, call);
     const unsigned runs = model == MODEL_MEMORY ? a->levels : 0;
     long double at[LEVELS];
-    fprintf(p->to, "    model: %s, ", models[model].title);
+    put_title(p, model, ", ");
     if (runs == 1) { /* all that it answers: no function of another load */
         fputs("the sine itself, event by event (exact)\n", p->to);
         return;
@@ -180,7 +187,7 @@ static void put_model(const page *p, const quantity *q, bool call, const expr *e
     else if (model == MODEL_QUADRATURE && q->by != MODEL_QUADRATURE)
         fprintf(p->to, "    model: %s, with quadrature over the gap\n", models[MODEL_CLOSED].title);
     else
-        fprintf(p->to, "    model: %s%s\n", models[model].title, model == MODEL_MEMORY ? " (exact)" : "");
+        put_title(p, model, model == MODEL_MEMORY ? " (exact)\n" : "\n");
     if (model == MODEL_MEMORY && s->used & USED(MODEL_PIECES))
         fprintf(p->to, "    law of the gap: %s, good to %.0e\n", models[MODEL_PIECES].title, s->pieces_error);
     if (stepped && (q->reads & INPUT_BIT(IN_MU))) {

@@ -60,6 +60,10 @@ const char *figure_name(size_t i) {
     return i < FIGURES ? figures[i].name : NULL;
 }
 
+const char *figure_word(size_t i) {
+    return i == FIGURES ? "map" : figure_name(i);
+}
+
 const figure *figure_find(const char *name, size_t len) {
     for (size_t i = 0; i < FIGURES; i++)
         if (strlen(figures[i].name) == len && !memcmp(figures[i].name, name, len))

@@ -21,6 +21,7 @@ typedef struct figure {
 
 const figure *figure_row(size_t i); /* NULL after the last */
 const char *figure_name(size_t i);
+const char *figure_word(size_t i); /* what a figure may begin with: these, and map */
 const figure *figure_find(const char *name, size_t len);
 
 /* figures that are no sweep */

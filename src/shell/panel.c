@@ -471,12 +471,28 @@ static size_t statement_length(const char *statement, const lexer *lx) {
     return (size_t)(own - statement);
 }
 
+/* Along a load a figure over a place would need a place of the user's. */
+static bool goes_along(const shell *sh, lexer *lx, const figure *f) {
+    const char *of = strstr(f->statement, " for ");
+    lexer next = *lx;
+    size_t own;
+    lex_next(&next);
+    if (!of || !lex_is(&next, "along"))
+        return true;
+    of += strlen(" for ");
+    return names_find(&sh->calc.names, of, strcspn(of, " "), &own) ||
+           lex_fail(&next, "%s goes over %.*s, not along a load: animate %s | loop along ...", f->name,
+                    (int)strcspn(of, " "), of, f->name);
+}
+
 /* A figure of the table: its statement as if it stood here, what follows the name after it. */
 static bool draw_named(shell *sh, lexer *lx, const figure *f, plot_panel *p, size_t index, motion *m) {
     if (f->build) {
         lex_next(lx);
         return f->build(sh, lx, p);
     }
+    if (!goes_along(sh, lx, f))
+        return false;
     const size_t from = lx->at + lx->len, rest = figure_end(lx);
     const char *statement = statement_of(sh, f, lx, rest);
     const size_t length = statement_length(statement, lx);

@@ -18,6 +18,8 @@ $endif
 # typed, then the words that must be offered, then one that must not (or None)
 OFFERED = (
     ("plot l", "loop load", "length"),
+    ("plot m", "map max min mu", "material"), ("plot loop | ", "pressure map breadth", "for"),
+    ("plot a for FN = 1 N .. 2 N log x | dz ", "for along log title", "Fx"), ("plot Fx along cycle FA=2 N | dz for ", "FN= mu=", "steps"),
     ("material s", "steel silicon-nitride", "sphere"),
     ("cycle FA=2 N ", "times steps FNA= phase=", "dxA="),
     ("second r", "rigid rubber", "reset"),

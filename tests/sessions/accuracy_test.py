@@ -336,7 +336,7 @@ def conditioning(tests):
             ("cycle FA=10 N FNA=10 N; explain W", "the sine itself, event by event (exact)"),
             ("cycle dxA=0.1 um FNA=10 N; explain W", "chords a period and fewer, extrapolated)"),
             ("cycle dxA=0.1 um FNA=10 N; explain kt", "chords a period of the sine"),
-            ("set model springs 100; cycle FA=10 N FNA=10 N; explain W", "model: springs, by")):
+            ("set model springs 100; cycle FA=10 N FNA=10 N; explain W", "model: 100 springs, by")):
         shown = tests.run("-c", scene + script)
         tests.check("explain: " + script, line in shown.stdout, tests.report(shown))
     tests.check("explain leaves the scene", done.stdout.endswith(again.stdout), tests.report(done))

@@ -117,7 +117,7 @@ def looks(tests):
     fails(tests, "plot loop log z", "expected log x, log y or log xy")
     fails(tests, "plot loop title hello", 'expected title "TEXT"')
     fails(tests, "plot x for x = 0 .. 1 for y = 0 .. 1", "two ranges make a map")
-    fails(tests, "plot loop xrange 1 um .. 1 um", "the limits of the x axis are one")
+    fails(tests, "plot loop xrange 1 um .. 1 um", "the limits of the x axis are the same")
     fails(tests, "plot dissipation key", "expected key off")
 
 
