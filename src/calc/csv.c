@@ -114,7 +114,7 @@ static bool read_unit(reader *r, csv_values *column, unit *u, const char *text, 
     if (len == 1 && *text == '-')
         return true;
     if (wrong.raised || !unit_parse(&lx, u) || wrong.raised || lx.kind != T_END)
-        return trouble(r, column, "%.200s:%zu: %.200s%.*s%s in the header", r->c->path, r->line,
+        return trouble(r, column, "%.200s:%zu: column %s: %.200s%.*s%s", r->c->path, r->line, column->name,
                        wrong.raised ? wrong.text : "a bad unit '", wrong.raised ? 0 : LEX_SHOWN(len), text,
                        wrong.raised ? "" : "'");
     column->d = u->d;

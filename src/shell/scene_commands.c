@@ -196,10 +196,20 @@ static bool read_smoothing(shell *sh, lexer *lx, smoothing *how) {
 static bool columns_of(const csv *data, const csv_values **r, const csv_values **f, calc_error *error) {
     *r = csv_column(data, "r", error);
     *f = *r ? csv_column(data, "f", error) : NULL;
-    return *f && ((dim_equal((*r)->d, DIM_LENGTH) && dim_equal((*f)->d, DIM_LENGTH)) ||
-                  calc_fail(error, 0, 0,
-                            "%s: r and f are lengths and need units in the header, such as r [mm],f [um]",
-                            data->path));
+    if (!*f)
+        return false;
+    if (!(*r)->has_unit || !(*f)->has_unit)
+        return calc_fail(error, 0, 0,
+                         "%s: r and f are lengths and need units in the header, such as r [mm],f [um]",
+                         data->path);
+    const csv_values *wrong = !dim_equal((*r)->d, DIM_LENGTH)   ? *r
+                              : !dim_equal((*f)->d, DIM_LENGTH) ? *f
+                                                                : NULL;
+    char is[128];
+    if (wrong)
+        dim_describe(wrong->d, is, sizeof is);
+    return !wrong || calc_fail(error, 0, 0, "%s: column %s is %s, not a length, by the unit in the header",
+                               data->path, wrong->name, is);
 }
 
 /* Where the rows of a gap are none. */
@@ -231,11 +241,12 @@ static struct fret_table *table_of(const csv *data, smoothing how, smooth_answer
         st = fret_table_sloped(smoothed->r, smoothed->f, smoothed->slope, smoothed->pieces + 1, &shell_stop,
                                &gap);
     } else if (r->v[0] == 0 && f->v[0] != 0) {
-        calc_fail(
-            error, 0, 0,
-            "%s:%zu: f(0) = %.6g m must be 0: the bodies touch at r = 0 before they are pressed (smooth "
-            "takes it off)",
-            data->path, data->line[0], f->v[0]);
+        char text[CALC_VALUE_TEXT];
+        calc_value_text(DIM_LENGTH, f->v[0], text);
+        calc_fail(error, 0, 0,
+                  "%s:%zu: f(0) = %s must be 0: the bodies touch at r = 0 before they are pressed (smooth "
+                  "takes it off)",
+                  data->path, data->line[0], text);
         return NULL;
     } else {
         st = fret_table_make(r->v, f->v, data->rows, &shell_stop, &gap);

@@ -27,18 +27,35 @@ static bool knob_column(column *c, const knob *k, calc_error *error) {
 
 /* ---- solve ------------------------------------------------------------------------------------- */
 
+/* A side of the equation. What no scene moves has no use for `at`, which the other side was meant to have. */
+static bool read_side(shell *sh, lexer *lx, expr *e) {
+    bool call;
+    size_t at;
+    if (!expr_parse(&sh->calc, lx, e))
+        return false;
+    if (!lex_is(lx, "at"))
+        return !lx->error->raised;
+    lexer next = *lx;
+    lex_next(&next);
+    const quantity *q = quantity_find(next.text + next.at, next.len);
+    if (q && !expr_quantity(e, 0, &call, &at) && !expr_definition(&sh->calc, e, 0))
+        return lex_fail(lx, "%.*s is the same at any %s: `at` goes with the side before it",
+                        LEX_SHOWN(e->len), e->text + e->at, q->name);
+    return expr_read_at(&sh->calc, lx, e);
+}
+
 static bool read_solve(shell *sh, lexer *lx, solve_question *q) {
     sweep_range ends = {.lo = 0};
     if (!knob_read(&sh->calc, lx, &q->name))
         return false;
     if (!lex_accept(lx, "for"))
         return lex_fail(lx, "expected for EXPR = EXPR");
-    if (!expr_parse_at(&sh->calc, lx, &sh->list[0]))
+    if (!read_side(sh, lx, &sh->list[0]))
         return false;
     if (lx->kind != T_ASSIGN)
         return lex_fail(lx, "expected = EXPR: what should it be equal to?");
     lex_next(lx);
-    if (!expr_parse_at(&sh->calc, lx, &sh->list[1]))
+    if (!read_side(sh, lx, &sh->list[1]))
         return false;
     q->c = &sh->calc;
     q->left = &sh->list[0];
