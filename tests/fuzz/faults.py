@@ -424,10 +424,8 @@ def attempt(one, kind, most=0):
     right = one.reference("all" if kind is calls else ALLOCATION)
     if right[0] != 0:
         return {}, [(None, "does not run: " + right[2])]
-    every, most = kind(right[4]), most or (MOST if kind is allocations else one.most)
-    tried = [every[i * len(every) // most] for i in range(most)] if len(every) > most else every
     ends, wrong = {}, []
-    for fault in tried:
+    for fault in spread(kind(right[4]), most or (MOST if kind is allocations else one.most)):
         how = one.try_one(fault, right)
         if how in ("refused", "harmless", "not reached"):
             ends[how] = ends.get(how, 0) + 1
@@ -436,10 +434,15 @@ def attempt(one, kind, most=0):
     return ends, wrong
 
 
+def spread(every, most):
+    """No more than so many of them."""
+    return [every[i * len(every) // most] for i in range(most)] if len(every) > most else every
+
+
 def leaks(one):
     """[injected, clean, GSL's own], and [(fault, report)] of what is left behind."""
     right, counts, wrong = one.reference(ALLOCATION), [0, 0, 0], []
-    for fault in [(None, 0, 0), *allocations(right[4])]:
+    for fault in [(None, 0, 0), *spread(allocations(right[4]), MOST)]:
         status, _, told_of = one.run(fault)[:3]
         report = told_of if status == HUNG else told_of.partition("LeakSanitizer: ")[2]
         counts[0] += 1
