@@ -26,13 +26,13 @@ fret_real fret_gross_slip(const fret_contact *contact);
  * By displacement: F_x stays at +-mu F_N beyond delta_x,max.
  * Accuracy, power law: within 1 unit in the last place of a double; by displacement, where delta_x,max itself
  * is known to 2^-96, this ends at |1-dx/delta_x,max| = 1e-9.
- * Other errors: FRET_NOT_POSITIVE (mu), FRET_NOT_FINITE. */
+ * Other errors: FRET_NOT_POSITIVE (mu, FN), FRET_NOT_FINITE. */
 fret_status fret_loading_by_force(const fret_contact *contact, double Fx, fret_loading *out);
 fret_status fret_loading_by_displacement(const fret_contact *contact, double dx, fret_loading *out);
 
 /* Energy [J], >= 0, dissipated in a closed cycle F_x = -FA .. FA at constant F_N:
  *   8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx; power law: w(t) mu F_N delta_x,max (27),
- *   t = FA/(mu F_N). Range 0 <= FA <= mu F_N, else FRET_NEGATIVE, FRET_GROSS_SLIP.
+ *   t = FA/(mu F_N). Range 0 <= FA <= mu F_N, else FRET_NEGATIVE, FRET_GROSS_SLIP; other errors as above.
  * Accuracy, power law: within 1 unit in the last place of a double; other shapes: 1e-14, tables of up to
  * 1000 rows. Positive, where (26),(27) are printed negative. */
 fret_status fret_cycle_loss_by_force(const fret_contact *contact, double FA, fret_real *loss);

@@ -10,14 +10,15 @@ FRET_BEGIN
  * of slope sigma are differences of contacts that end at their two ends. The local slip is not
  * meaningful in this theory, and there is no function for it.
  *
- * Arguments r >= 0 [m] else FRET_NEGATIVE. FRET_SINGULAR where the field is infinite: at the sharp edge of a
- * flat-ended gap where k <= 0, and at the tip where n + k <= 1; the traction there only where the innermost
- * slice has a slope. Accuracy 1e-14 relative; 2e-13 nearer
- * than 1e-3 a outside the edge and nearer than 1e-6 a to the centre, 1e-8 next to a flat end where k nears
- * -1. The pressure of a table has a kink at every row: 1e-6 for 400 smooth rows, 1e-2 for rough ones;
- * fret_fields resolve them. Powers up to n = 1e6: 1e-13, for the radii as given. */
+ * Arguments r >= 0 [m] else FRET_NEGATIVE, FRET_NOT_FINITE. FRET_SINGULAR where the field is infinite: at the
+ * sharp edge of a flat-ended gap where k <= 0, and at the tip where n + k <= 1; the traction there only where
+ * the innermost slice has a slope. Accuracy 1e-14 relative; 2e-13 nearer than 1e-3 a outside the edge and
+ * nearer than 1e-6 a to the centre, 1e-8 next to a flat end where k nears -1. The pressure of a table has a
+ * kink at every row: 1e-6 for 400 smooth rows, 1e-2 for rough ones; fret_fields resolve them. Powers up to n
+ * = 1e6: 1e-13, for the radii as given. */
 
-/* p(r) = (cN0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx [Pa]; 0 outside. The contact radius is a [m]. */
+/* p(r) = (cN0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx [Pa]; 0 outside. The contact radius is a [m],
+ * here and below: a >= 0 else FRET_NEGATIVE, a <= fret_normal_end else FRET_OUTSIDE. */
 fret_status fret_pressure(const fret_normal *normal, fret_real a, fret_real r, fret_real *p);
 
 /* w(r) = (2 cos(pi k/2)/pi) int_0^a x^k (delta_z-g(x)) (r^2-x^2)^(-(1+k)/2) dx for r > a [m], both bodies

@@ -44,13 +44,16 @@ typedef struct fret_gap {
  * Range n > 0, -1 < k < 1. Accuracy 1e-19 relative for n <= 1e6; no overflow at large n. */
 fret_real fret_kappa(double n, double k);
 
-/* Checks the parameters of a gap. Errors: FRET_NOT_FINITE, FRET_NOT_POSITIVE naming the parameter. */
+/* Checks the parameters of a gap. Errors: FRET_NOT_FINITE, FRET_NOT_POSITIVE naming the parameter;
+ * FRET_OUTSIDE (no such kind, terms beyond those of the kind, no table). The functions below take one that
+ * has passed. */
 fret_status fret_gap_check(const fret_gap *gap);
 
-/* f(r) [m], r >= 0 [m]. Errors: FRET_NEGATIVE, FRET_OUTSIDE (beyond a sphere or a table). */
+/* f(r) [m], r >= 0 [m]. Errors: FRET_NEGATIVE, FRET_OUTSIDE (beyond a sphere or a table), FRET_NOT_FINITE
+ * (NaN). */
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f);
 
-/* g(x) [m] and, where slope is not NULL, g'(x), for |x| [m]. Errors as above.
+/* g(x) [m] and, where slope is not NULL, g'(x), for |x| [m], -1 < k < 1. Errors as above, and FRET_BAD_K.
  * Accuracy 1e-17 relative; tables 2e-16, the rounding of their slopes. A table costs the logarithm of its
  * rows. */
 fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g, fret_real *slope);

@@ -53,7 +53,7 @@ typedef struct fret_step {
 
 /* One straight step. Errors, the contact as before it: FRET_GROSS_SLIP (|F_x| > mu F_N by more
  * than 2.2e-16; limit mu F_N), FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW, FRET_TABLE_SHORT,
- * FRET_NO_MEMORY. */
+ * FRET_NOT_MONOTONE, FRET_NO_MEMORY; FRET_INTERRUPTED, of which fret_normal_stop tells. */
 fret_status fret_memory_step(fret_memory *memory, const fret_step *step);
 
 /* The state now. */

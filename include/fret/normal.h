@@ -47,7 +47,7 @@ bool fret_normal_dense(const fret_normal *normal, fret_real a);
  * some 30 to 60 us a row to set up, 0.5 kB, and then 5 us a question. Of polynomials made of many rows
  * together radii are found by g(x), in some 30 us, and slices too thin for the digits they have are answered
  * row by row, in blocks of rows that are set up when they are first asked for. Not while others use the
- * contact. Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
+ * contact. Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE (F), FRET_NO_MEMORY, FRET_INTERRUPTED. */
 fret_status fret_normal_prepare(fret_normal *normal, double F, double error);
 
 /* Shares what was prepared for `from`, a contact of the same gap and k, at once and to a rounding: the
@@ -76,8 +76,9 @@ fret_real fret_normal_profile(const fret_normal *normal, fret_real x);
 
 /* delta_z = g(a), F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx (10)-(13); power law:
  *   F_N = 2 cN0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1)).
- * Arguments >= 0. Errors: FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW, FRET_TABLE_SHORT.
- * Accuracy: 1e-19 relative for power laws with n 1e-6..1e6, 1e-17 for other shapes, 2e-16 for tables. */
+ * Arguments >= 0. Errors: FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW; beyond fret_normal_end
+ * FRET_TABLE_SHORT, or FRET_NOT_MONOTONE where g begins to fall there. Accuracy: 1e-19 relative for power
+ * laws with n 1e-6..1e6, 1e-17 for other shapes, 2e-16 for tables. */
 fret_status fret_press_by_force(const fret_normal *normal, double F, fret_press *out);
 fret_status fret_press_by_depth(const fret_normal *normal, double dz, fret_press *out);
 fret_status fret_press_by_radius(const fret_normal *normal, double a, fret_press *out);

@@ -22,7 +22,7 @@ typedef enum fret_code {
     FRET_OUTSIDE,        /* a point outside the domain of a function                        */
     FRET_NOT_MONOTONE,   /* g(x) falls: the contact is not a disc; value: radius; limit: that
                             where a table has soon risen above it again, or 0       */
-    FRET_TABLE_SHORT,    /* the gap table ends before the load is carried; value: largest a */
+    FRET_TABLE_SHORT,    /* the gap ends before the load is carried; limit: largest a       */
     FRET_BAD_TABLE,      /* a gap table that is no function: radii must grow; value: radius */
     FRET_OVERFLOW,       /* the result does not fit in a double                             */
     FRET_NO_MEMORY = 14, /* allocation failed; the object is as before                      */
@@ -35,7 +35,7 @@ typedef enum fret_category {
     FRET_CAT_NONE,    /* success */
     FRET_CAT_INPUT,   /* an argument is out of range */
     FRET_CAT_STATE,   /* the contact cannot do this now */
-    FRET_CAT_NUMERIC, /* overflow or no convergence */
+    FRET_CAT_NUMERIC, /* overflow */
     FRET_CAT_SYSTEM   /* memory, interrupt */
 } fret_category;
 
@@ -56,7 +56,8 @@ fret_category fret_status_category(fret_code code);
 /* The rule that was broken, e.g. "must lie in -1 < k < 1": static text. */
 const char *fret_status_rule(fret_code code);
 
-/* Writes "quantity = value rule" into buf, always terminated; returns the length it needs. */
+/* Writes "quantity = value rule" into buf, or the rule alone where no argument is to blame; always
+ * terminated; returns the length it needs. */
 int fret_status_text(const fret_status *status, char *buf, size_t size);
 
 FRET_END

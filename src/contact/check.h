@@ -17,6 +17,8 @@ static inline fret_status fret_fail(fret_code code, const char *quantity, double
 
 /* NOT_FINITE, NOT_POSITIVE or OK. */
 fret_status fret_check_positive(const char *quantity, double value);
+/* NOT_FINITE, BAD_K or OK. */
+fret_status fret_check_k(double k);
 /* NOT_FINITE, NEGATIVE or OK. */
 fret_status fret_check_not_negative(const char *quantity, double value);
 

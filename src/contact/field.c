@@ -434,15 +434,24 @@ static fret_status pressure_of(const fret_normal *n, const edge *at, fret_real r
     return fret_ok();
 }
 
-fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
-    const fret_status st = fret_check_not_negative("r", (double)r);
-    if (st.code)
-        return st;
+fret_status fret_field_check(const fret_normal *n, fret_real a, fret_real r) {
+    fret_status st = fret_check_not_negative("r", (double)r);
+    if (!st.code)
+        st = fret_check_not_negative("a", (double)a);
+    return st.code || a <= n->end ? st : fret_fail(FRET_OUTSIDE, "a", (double)a, (double)n->end);
+}
+
+static fret_status pressure_at(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
     *p = 0;
     if (r >= a || a <= fret_gap_start(&n->gap))
         return fret_ok();
     const edge at = edge_at(n, a);
     return pressure_of(n, &at, r, p);
+}
+
+fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
+    const fret_status st = fret_field_check(n, a, r);
+    return st.code ? st : pressure_at(n, a, r, p);
 }
 
 /* What a steep power takes from the surface of a flat punch: int_0^a x^k g (r^2-x^2)^-m dx. */
@@ -482,7 +491,7 @@ fret_status fret_field_surface(const fret_normal *n, fret_real a, fret_real dz, 
 }
 
 fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_real *w) {
-    const fret_status st = fret_check_not_negative("r", (double)r);
+    const fret_status st = fret_field_check(n, a, r);
     if (st.code)
         return st;
     *w = 0;
@@ -497,7 +506,7 @@ fret_status fret_field_of(const fret_normal *n, fret_real y, fret_real r, bool t
     const fret_real a = fret_law_radius(n, y);
     *out = 0;
     if (traction && !steep)
-        return fret_pressure(n, a, r, out);
+        return pressure_at(n, a, r, out);
     if (!(y > 0))
         return fret_ok();
     /* the depth tells the edge to more digits than its radius, of steep powers and near flat ends */

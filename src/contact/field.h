@@ -5,6 +5,10 @@
 
 #include "contact/normal.h"
 
+/* Of a contact of radius a, at r: FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OUTSIDE (a beyond the gap) or FRET_OK.
+ */
+fret_status fret_field_check(const fret_normal *normal, fret_real a, fret_real r);
+
 /* As fret_surface where a > start and no power is steep; the contact is dz deep. */
 fret_status fret_field_surface(const fret_normal *normal, fret_real a, fret_real dz, fret_real r,
                                fret_real *w);

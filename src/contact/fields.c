@@ -155,11 +155,14 @@ static fret_real pressure_beyond(const fret_fields *f, const fret_cut *cut, size
 fret_status fret_fields_pressure(fret_fields *f, fret_real a, fret_real r, fret_real *p) {
     const fret_cut cut = {a, 1};
     bool there = false;
+    fret_status st = fret_field_check(f->normal, a, r);
+    if (st.code)
+        return st;
     *p = 0;
     const bool special = is_special(f->normal, a, r);
     if (!special && takes_ripples(f, 1, a))
         return pressure_by_ripples(f, &cut, 1, r, p);
-    fret_status st = special ? fret_ok() : prepare(f, a, &there);
+    st = special ? fret_ok() : prepare(f, a, &there);
     if (st.code)
         return st;
     if (!there)
@@ -217,15 +220,18 @@ fret_status fret_fields_surface(fret_fields *f, fret_real a, fret_real r, fret_r
     const fret_normal *n = f->normal;
     const fret_cut cut = {a, 1};
     bool there = false;
+    fret_status st = fret_field_check(n, a, r);
+    if (st.code)
+        return st;
     *w = 0;
-    if (r >= 0 && r <= a && a > fret_gap_start(&n->gap) && a <= n->end && fret_gap_sampled(&n->gap))
+    if (r <= a && a > fret_gap_start(&n->gap) && fret_gap_sampled(&n->gap))
         return fret_field_surface(n, a, depth_of(f, a), r, w);
     const bool outside = r > a && a > fret_gap_start(&n->gap);
     if (outside && takes_rows(f, 1, a)) {
         *w = surface_by_rows(f, a, depth_of(f, a), r);
         return fret_ok();
     }
-    fret_status st = outside ? prepare(f, a, &there) : fret_ok();
+    st = outside ? prepare(f, a, &there) : fret_ok();
     if (st.code)
         return st;
     if (!there)

@@ -258,9 +258,23 @@ static fret_status check_powers(const fret_gap *gap) {
     return st;
 }
 
-fret_status fret_gap_check(const fret_gap *gap) {
+/* What a caller has left out, before anything is looked up by it. */
+static fret_status check_kind(const fret_gap *gap) {
+    if ((unsigned)gap->kind > FRET_GAP_TABLE)
+        return fret_fail(FRET_OUTSIDE, "kind", (double)gap->kind, FRET_GAP_TABLE);
     const shape *s = shape_of(gap);
-    fret_status st = s->powers ? check_powers(gap) : fret_ok();
+    const int most = s->closed ? 1 : FRET_GAP_TERMS;
+    if (s->powers && (gap->terms < 1 || gap->terms > most))
+        return fret_fail(FRET_OUTSIDE, "terms", gap->terms, most);
+    return s->rows && !gap->table ? fret_fail(FRET_OUTSIDE, "table", 0, 0) : fret_ok();
+}
+
+fret_status fret_gap_check(const fret_gap *gap) {
+    fret_status st = check_kind(gap);
+    if (st.code)
+        return st;
+    const shape *s = shape_of(gap);
+    st = s->powers ? check_powers(gap) : fret_ok();
     if (!st.code && s->b)
         st = fret_check_positive("b", gap->b);
     if (!st.code && s->R)
@@ -335,6 +349,8 @@ bool fret_gap_grows(const fret_gap *gap) {
 }
 
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
+    if (isnan(r))
+        return fret_fail(FRET_NOT_FINITE, "r", (double)r, 0);
     if (r < 0)
         return fret_fail(FRET_NEGATIVE, "r", (double)r, 0);
     if (r > fret_gap_end(gap))
@@ -358,7 +374,12 @@ fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_r
 }
 
 fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g, fret_real *slope) {
+    const fret_status st = fret_check_k(k);
+    if (st.code)
+        return st;
     x = fabsl(x);
+    if (isnan(x))
+        return fret_fail(FRET_NOT_FINITE, "x", (double)x, 0);
     if (x > fret_gap_end(gap))
         return fret_fail(FRET_OUTSIDE, "x", (double)x, (double)fret_gap_end(gap));
     fret_profile out = {0, 0, 0};

@@ -47,14 +47,6 @@ static fret_real hT_of(const parts *r, double nu) {
     return dd_value(dd_div(r->ck, tangential_part(r, nu)));
 }
 
-static fret_status check_k(double k) {
-    if (!isfinite(k))
-        return fret_fail(FRET_NOT_FINITE, "k", k, 0);
-    if (k <= -1 || k >= 1)
-        return fret_fail(FRET_BAD_K, "k", k, k < 0 ? -1 : 1);
-    return fret_ok();
-}
-
 static fret_status check_nu(const char *name, double nu) {
     if (!isfinite(nu))
         return fret_fail(FRET_NOT_FINITE, name, nu, 0);
@@ -64,7 +56,7 @@ static fret_status check_nu(const char *name, double nu) {
 }
 
 fret_status fret_half_space(double k, double nu, fret_real *hN, fret_real *hT, fret_real *beta) {
-    fret_status st = check_k(k);
+    fret_status st = fret_check_k(k);
     if (!st.code)
         st = check_nu("nu", nu);
     if (st.code)
@@ -85,7 +77,7 @@ fret_status fret_foundation_make(const fret_material *material, fret_foundation 
 
 /* Both bodies, those that are not rigid. */
 static fret_status check_bodies(const fret_material *m) {
-    fret_status st = check_k(m->k);
+    fret_status st = fret_check_k(m->k);
     for (int i = 0; i < 2 && !st.code; i++) {
         if (m->body[i].rigid)
             continue;

@@ -45,7 +45,8 @@ const char *fret_status_rule(fret_code code) {
 int fret_status_text(const fret_status *status, char *buf, size_t size) {
     if (!status->quantity)
         return snprintf(buf, size, "%s", fret_status_rule(status->code));
-    return snprintf(buf, size, "%s = %.6g %s", status->quantity, status->value,
+    const bool sentence = fret_status_category(status->code) >= FRET_CAT_NUMERIC; /* of its own */
+    return snprintf(buf, size, "%s = %.6g%s %s", status->quantity, status->value, sentence ? ":" : "",
                     fret_status_rule(status->code));
 }
 
@@ -54,6 +55,14 @@ fret_status fret_check_positive(const char *quantity, double value) {
         return fret_fail(FRET_NOT_FINITE, quantity, value, 0);
     if (value <= 0)
         return fret_fail(FRET_NOT_POSITIVE, quantity, value, 0);
+    return fret_ok();
+}
+
+fret_status fret_check_k(double k) {
+    if (!isfinite(k))
+        return fret_fail(FRET_NOT_FINITE, "k", k, 0);
+    if (k <= -1 || k >= 1)
+        return fret_fail(FRET_BAD_K, "k", k, k < 0 ? -1 : 1);
     return fret_ok();
 }
 

@@ -790,10 +790,14 @@ static void many_stop(void) {
         p = i == 0 ? again : p;
     }
     CHECK(p > 0 && fret_fields_error(fields) < 2e-15);
-    fret_real beyond = 0; /* where there are no more rows */
-    CHECK_OK(fret_fields_surface(fields, 1.01e-3L, 2e-3L, &p));
-    CHECK_OK(fret_surface(n, 1.01e-3L, 2e-3L, &beyond));
-    CHECK(p == beyond);
+    const fret_real bad[] = {1.01e-3L, -1e-4L, (fret_real)NAN, (fret_real)INFINITY};
+    const fret_code code[] = {FRET_OUTSIDE, FRET_NEGATIVE, FRET_NOT_FINITE, FRET_NOT_FINITE};
+    for (int i = 0; i < 4; i++) { /* no contact of this gap */
+        CHECK_ERROR(fret_fields_surface(fields, bad[i], 2e-3L, &p), code[i], "a");
+        CHECK_ERROR(fret_surface(n, bad[i], 2e-3L, &p), code[i], "a");
+        CHECK_ERROR(fret_fields_pressure(fields, bad[i], 1e-4L, &p), code[i], "a");
+        CHECK_ERROR(fret_pressure(n, bad[i], 1e-4L, &p), code[i], "a");
+    }
     fret_fields_free(fields);
     fret_normal_free(n);
     fret_table_free(t);

@@ -105,7 +105,25 @@ static void errors(void) {
     fret_real f = 7;
     gap = power_gap(2, 1e-5, 1e-3);
     CHECK_ERROR(fret_gap_f(&gap, -1e-3L, &f), FRET_NEGATIVE, "r");
+    CHECK_ERROR(fret_gap_f(&gap, (fret_real)NAN, &f), FRET_NOT_FINITE, "r");
+    CHECK_ERROR(fret_gap_g(&gap, 0, (fret_real)NAN, &f, NULL), FRET_NOT_FINITE, "x");
+    CHECK_ERROR(fret_gap_g(&gap, 1, 1e-3L, &f, NULL), FRET_BAD_K, "k");
+    CHECK_ERROR(fret_gap_g(&gap, nan_, 1e-3L, &f, NULL), FRET_NOT_FINITE, "k");
     CHECK(f == 7); /* untouched */
+    for (int terms = -1; terms <= FRET_GAP_TERMS + 1; terms++)
+        for (int sum = 0; sum <= 1; sum++) {
+            gap = (fret_gap){.kind = sum ? FRET_GAP_SUM : FRET_GAP_POWER, .terms = terms};
+            for (int i = 0; i < FRET_GAP_TERMS; i++)
+                gap.power[i] = (fret_power){2, 1e-5, 1e-3};
+            if (terms >= 1 && terms <= (sum ? FRET_GAP_TERMS : 1))
+                CHECK_OK(fret_gap_check(&gap));
+            else
+                CHECK_ERROR(fret_gap_check(&gap), FRET_OUTSIDE, "terms");
+        }
+    gap = (fret_gap){.kind = FRET_GAP_TABLE};
+    CHECK_ERROR(fret_gap_check(&gap), FRET_OUTSIDE, "table");
+    gap.kind = (fret_gap_kind)(FRET_GAP_TABLE + 1);
+    CHECK_ERROR(fret_gap_check(&gap), FRET_OUTSIDE, "kind");
 }
 
 int main(int argc, char **argv) {

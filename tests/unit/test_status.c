@@ -55,6 +55,9 @@ static void text(void) {
     CHECK(fret_status_text(&st, NULL, 0) == length);
     part[1] = 'x';
     CHECK(fret_status_text(&st, part, 1) == length && part[0] == 0 && part[1] == 'x');
+    st = (fret_status){FRET_OVERFLOW, "E0", 1e300, 0}; /* a rule that is a sentence */
+    CHECK(fret_status_text(&st, whole, sizeof whole) == (int)strlen(whole));
+    CHECK(strncmp(whole, "E0 = 1e+300: ", 13) == 0);
     for (int i = 0; i < FRET_CODES; i++) { /* no quantity */
         st = (fret_status){(fret_code)i, NULL, 0, 0};
         CHECK(fret_status_text(&st, whole, sizeof whole) == (int)strlen(whole) && *whole);

@@ -163,7 +163,7 @@ static void follows(void) {
     inputs_put(in, IN_SLOPE, 0.05);
     scene_forget(c.now, false);
     CHECK(goes_anew(&w, &c));
-    fret_gap sum = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{.n = 2, .h = 1e-4, .r0 = 1e-3}}};
+    fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 1, .power = {{.n = 2, .h = 1e-4, .r0 = 1e-3}}};
     for (int i = 0; i < 3; i++) {
         if (i == 1)
             sum.power[0].h = 2e-4;
