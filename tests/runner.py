@@ -219,7 +219,8 @@ def help_examples(tests):
     settings, geometries = words("show settings", r"^set (\w+)"), words("help geometry", r"^    geometry ([\w-]+)")
     tests.check("what has an example", len(topics) >= 9 and len(settings) >= 8 and len(geometries) >= 10,
                 "%s\n%s\n%s" % (topics, settings, geometries))
-    shown = {*command_names(tests), *topics, *settings, *geometries, "closed", "memory", "springs", "quadrature"}
+    shown = {*command_names(tests), *topics, *settings, *geometries, "closed", "memory", "springs", "quadrature", "double",
+             "polynomials", "vectors"}
     text = tests.run("-c", "help quantities").stdout
     quantities = re.findall(r"^    (\w+)(?:\(\w+\))?  ", text, re.M)
     tests.each([lambda t=t: one(t) for t in sorted(shown | set(quantities))])

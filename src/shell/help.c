@@ -7,6 +7,7 @@
 #include "shell/command.h"
 #include "shell/figures.h"
 #include "shell/lines.h"
+#include "shell/looks.h"
 #include "shell/output.h"
 #include "shell/presets.h"
 #include "shell/topics.h"
@@ -400,7 +401,31 @@ const char *help_where(const char *word) {
 
 /* ---- the commands ------------------------------------------------------------------------------- */
 
+/* The help that tells of a word within statements, or NULL. */
+static const char *told_in(const char *word) {
+    static const char *const words[][2] = {
+        {"at", "expressions"}, {"in", "expressions"}, {"ans", "expressions"}, {"for", "table"},
+        {"with", "table"},     {"along", "plot"},     {"against", "plot"},    {"map", "plot"},
+        {"over", "plot"},      {"to", "files"},       {"smooth", "files"},    {"rigid", "second"},
+        {"same", "second"}};
+    const command *c;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (!strcmp(word, words[i][0]))
+            return words[i][1];
+    for (size_t i = 0; looks_word(i); i++)
+        if (!strcmp(word, looks_word(i)))
+            return "plot";
+    for (size_t i = 0; (c = command_row(i)); i++)
+        for (const arg *a = c->args; a && a->kind; a++)
+            if ((a->kind == ARG_COUNT || a->kind == ARG_NUMBER || a->kind == ARG_WORD) &&
+                !strcmp(word, a->name))
+                return c->name;
+    return NULL;
+}
+
 static bool no_help(lexer *lx, const char *word) {
+    if (told_in(word))
+        return lex_fail(lx, "no help on '%s' alone; try: help %s", word, told_in(word));
     const char *near = *word ? suggest(word, help_name) : NULL;
     const bool about = help_where(word) != NULL;
     if (near)

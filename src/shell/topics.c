@@ -375,24 +375,24 @@ const char *model_text(size_t id) {
         [MODEL_QUADRATURE] =
             "Integrals over the gap, for shapes without a formula and for local fields.\n\n" EXAMPLE
             "step Fx=20 N\n    fret> qx(0.1 mm)\n    qx(0.1 mm) = 141.911 MPa\n",
-        [MODEL_PIECES] =
-            "The law FN(dz) of a gap without a formula as polynomials, piece by piece: made where\n"
-            "many values of one contact are asked for: by 32 rows of a table, by steps of FN\n"
-            "under Fx, and of 10,000 rows and more in contact. They agree with the quadrature to\n"
-            "2e-15; of rows that are shown as text, FN(dz) to a hundredth of the last digit, and\n"
-            "the loss of an amplitude that is a small part s of gross slip to some 10/s^2 of that.\n"
-            "CSV and JSON have the law row by row where polynomials do not have the digits: 30 to\n"
-            "60 us a row to set up, 5 us a value. A single question of fewer than 10,000 rows takes\n"
-            "the law of those alone that slip: both agree to 2e-15, of s above 1e-3.\n"
-            "Local fields take the profile of a flat-ended gap, from 32 places on, and of a table\n"
-            "from polynomials of each row too: some 60 us a row to set up, and good to 1e-15 of\n"
-            "the largest value. Of more than 2000 rows all are summed for each place: some 40 us,\n"
-            "and 10 ms before the first p or qx.\n\n" EXAMPLE
-            "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
-            "    dW = 2.53755 uJ\n",
+        [MODEL_PIECES] = "The law FN(dz) of a gap without a formula as polynomials, piece by piece: made\n"
+                         "where many values of one contact are asked for: by 32 rows of a table, by steps\n"
+                         "of FN under Fx, and of 10,000 rows and more in contact. They agree with the\n"
+                         "quadrature to 2e-15; of rows that are shown as text, FN(dz) to a hundredth of\n"
+                         "the last digit, and the loss of an amplitude that is a small part s of gross\n"
+                         "slip to some 10/s^2 of that. CSV and JSON have the law row by row where\n"
+                         "polynomials do not have the digits: 30 to 60 us a row to set up, 5 us a value. A\n"
+                         "single question of fewer than 10,000 rows takes the law of those alone that\n"
+                         "slip: both agree to 2e-15, of s above 1e-3.\n"
+                         "Local fields take the profile of a flat-ended gap, from 32 places on, and of a\n"
+                         "table from polynomials of each row too: some 60 us a row to set up, and good to\n"
+                         "1e-15 of the largest value. Of more than 2000 rows all are summed for each\n"
+                         "place: some 40 us, and 10 ms before the first p or qx.\n\n" EXAMPLE
+                         "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
+                         "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
                           "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
-                          "    fret> set model springs 100\n    fret> dW\n    dW = 1.9 uJ\n",
+                          "    fret> set model springs 100\n    fret> dW\n    dW = 1.90687 uJ\n",
         [MODEL_VECTORS] =
             "The formulas in double, for many rows of a table or a curve at once: of a force\n"
             "or amplitude, or of an input of a power-law gap at constant FN. Good to 2e-15.\n"
