@@ -232,13 +232,12 @@ static bool apply(machine *m, const expr_node *n, value *out) {
            calc_place(m->error, n->at, n->len);
 }
 
-static bool wrong_dim_of_change(machine *m, const expr *e, const knob *p, dim want, dim got) {
-    char wanted[128], given[128];
-    dim_describe(want, wanted, sizeof wanted);
-    dim_describe(got, given, sizeof given);
+static bool dim_fits(machine *m, const expr *e, const knob *p, value v, dim want) {
+    lexer at = {.text = e->text, .error = m->error};
+    if (value_dim(&at, p->text, e->at, e->len, v, want))
+        return true;
     m->error->strange = true;
-    return calc_fail(m->error, e->at, e->len, "%s is %s, not %s (%.*s)", p->text, wanted, given,
-                     LEX_SHOWN(e->len), e->text + e->at);
+    return false;
 }
 
 /* All values are those outside, then all are set. NULL: an error. */
@@ -253,10 +252,8 @@ static trial *open_changed(machine *m, const expr_at *at) {
             return NULL;
         const knob *p = &at->change[i].p;
         const dim want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : v.d;
-        if (!dim_equal(v.d, want) && !(v.v == 0 && dim_equal(v.d, DIM_NONE))) {
-            wrong_dim_of_change(m, outside.e, p, want, v.d);
+        if (!dim_fits(m, outside.e, p, v, want))
             return NULL;
-        }
         if (m->dry && p->is_input)
             continue;
         if (p->is_input && !calc_takes(m->c, p->in, m->error)) {

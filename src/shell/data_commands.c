@@ -137,13 +137,18 @@ static bool file_ahead(const lexer *lx, char name[ARG_FILE_NAME]) {
     return false;
 }
 
+/* An angle needs its unit as lengths do. */
+static bool same_dim(dim a, dim b) {
+    return dim_equal(a, b) && (a.rad != 0) == (b.rad != 0);
+}
+
 /* Column `name` of this dimension; NULL: there is none, or with an error it is not of it. */
 static const double *column_of(const csv *data, const char *name, dim d, calc_error *error) {
     char wants[128], is[128];
     if (!csv_has(data, name))
         return NULL;
     const csv_values *of_file = csv_column(data, name, error);
-    if (!of_file || dim_equal(of_file->d, d))
+    if (!of_file || same_dim(of_file->d, d))
         return of_file ? of_file->v : NULL;
     dim_describe(d, wants, sizeof wants);
     dim_describe(of_file->d, is, sizeof is);
@@ -172,7 +177,7 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, range_name
         knob_name(&sh->calc, &lx, k); /* there is one */
         if (k->is_input && !calc_takes(&sh->calc, k->in, &useless))
             continue;
-        if (k->is_input && !dim_equal(k->d, of_file->d))
+        if (k->is_input && !same_dim(k->d, of_file->d))
             return column_of(data, of_file->name, k->d, error) != NULL;
         k->d = of_file->d;
         q->column[q->columns++].v = of_file->v;

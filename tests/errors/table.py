@@ -17,7 +17,7 @@ FILES = {"gap.csv": "r [mm],f [um]\n0,0\n1,1\n2,4\n", "loop.csv": "dx [um],Fx [N
          "word.csv": "FN [N],Fx [N]\n100,0\n100,xx\n", "words.csv": "FN [N],Fx [N]\n100,0\nx,5\n",
          "far.csv": "r [mm],f [um]\n0.1,1\n1,50\n", "half.csv": "dz [um],Fx [N]\n1,0\n", "lone.csv": "FN [N],dx [um]\n1,0\n",
          "three.csv": "FN [N],dz [um],dx [um]\n1,2,0\n2,3,0.1\n", "sine.csv": "sin,x [N],y [um]\n1,2,3\n2,3,4\n",
-         "p.csv": "p,y\n1,2\n2,3\n", "deep.csv": "FN [N],Fx [N]\n1e9,0\n"}
+         "phase.csv": "phase,y [uJ]\n0,2.1\n45,2.4\n90,2.5\n", "p.csv": "p,y\n1,2\n2,3\n", "deep.csv": "FN [N],Fx [N]\n1e9,0\n"}
 
 
 def entries(text):
