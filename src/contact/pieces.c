@@ -516,7 +516,9 @@ static bool bow_beyond(const struct fret_pieces *of, int by, const fret_real edg
     const fret_real moved = edge[0] - edge[1], K = w.K, per = by == LOADS ? 1 / K : 1,
                     v[2] = {to_front->G * per, 0},
                     mean = area_of(by, &nothing, to_front, K) / (front[0] - front[1]),
-                    mean_edge = hi > lo ? area_of(by, to_edge, &way, K) / (hi - lo) : whole[2].G * per;
+                    /* over the way as it is known: of a short one hi - lo has other digits */
+        over = by == LOADS ? (K + to_edge->K) * way.h + way.G : way.h,
+                    mean_edge = over > 0 ? area_of(by, to_edge, &way, K) / over : whole[2].G * per;
     *out = bow_of(edge, front, v, mean, mean_edge);
     *bound = 1e-17L * ((edge[0] - front[0]) * v[0] + (fabsl(moved) + 2 * (front[0] - front[1])) * mean +
                        (front[0] - front[1]) * mean_edge);

@@ -286,6 +286,21 @@ def swinging_rows(tests):
         close(tests, "swinging rows, %g" % little, want.get("dW"), got.get("dW"), 1e-2)
 
 
+def hardly_moved_rows(tests):
+    """An edge that moves by little more than the digits of its place dissipates as one that stays."""
+    where = os.path.join(tests.dir, "hardly.csv")
+    with open(where, "w", encoding="ascii") as f:
+        f.write("r [m],f [m]\n0,0\n1e-4,1e-8\n2e-4,7e-8\n5e-4,6e-7\n")
+    for k in (-0.8, 0.5):
+        begin = "material E0=210 GPa nu=0.3 k=%g c0=0.1 mm; geometry file %s; friction 0.5; press a=0.2 mm; P = FN\n" % (k, where)
+        for end in ("FN=P%s Fx=0.45*mu*P", "dz=dz%s dx=0.45*dxmax"):
+            want = values(tests, begin + "press FN=P; step %s; W" % (end % "").split()[-1])
+            for moved in ("3e-16", "1e-14", "1e-13"):
+                for sign in "+-":
+                    got = values(tests, begin + "press FN=P; step %s; W" % end % ("*(1 %s %s)" % (sign, moved)).replace(" ", ""))
+                    close(tests, "hardly moved rows, k = %g: %s, %s%s" % (k, end, sign, moved), want.get("W"), got.get("W"), 3e-11)
+
+
 class Springs:
     """A plain model: many springs, each slides when its force would exceed mu times its normal force."""
 
@@ -382,4 +397,5 @@ def on_the_way(tests):
 def run(tests):
     tests.each([lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
                 lambda: gap_file(tests), lambda: dense_file(tests), lambda: dense_fields(tests), lambda: tip_in_rows(tests), lambda: whole_gap(tests),
-                lambda: swinging_rows(tests), lambda: histories(tests), lambda: on_the_way(tests)])
+                lambda: swinging_rows(tests), lambda: hardly_moved_rows(tests),
+                lambda: histories(tests), lambda: on_the_way(tests)])
