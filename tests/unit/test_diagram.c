@@ -124,6 +124,39 @@ static void kept_depth(double n, double k) {
     fret_diagram_free(d);
 }
 
+/* Loads that come back to where they have been, but for rounding: stick ends where the exact memory has it.
+ */
+static void returning(double n, double k, bool by_force) {
+    const unit_scene s = unit_make_scene(n, k);
+    const fret_contact c = unit_make_contact(&s, 100);
+    const double slip = (double)fret_gross_slip(&c);
+    fret_diagram *d = make(c.normal, c.mu, 0);
+    fret_memory *m = NULL;
+    if (!CHECK(fret_memory_make(c.normal, c.mu, &m).code == FRET_OK))
+        exit(unit_finish());
+    for (int i = 0; i < 162; i++) {
+        const double part = 0.07 + 0.05 * (i / 9), side = i % 2 ? -1 : 1;
+        fret_diagram_now now;
+        fret_state exact;
+        if (i % 9 == 0) {
+            fret_memory_reset(m);
+            fret_diagram_reset(d);
+            go(d, FRET_TO_FORCE, 100, FRET_KEEP_DX, 0);
+            CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}));
+        }
+        const fret_step back = {FRET_TO_FORCE, by_force ? FRET_TO_FX : FRET_TO_DX, 100 * (1 - 0.3 * side),
+                                (by_force ? c.mu * 60 : slip) * part * side};
+        CHECK_OK(fret_memory_step(m, &back));
+        now = go(d, back.normal_by, back.normal, back.tangential_by, back.tangential);
+        fret_memory_state(m, &exact);
+        CHECK_ABS(now.Fx, exact.Fx, c.mu * 100, 1e-14L);
+        CHECK_ABS(state_of(d).c, exact.c, exact.a, 1e-9L);
+        CHECK_REL(state_of(d).kt, exact.kt, 1e-9L);
+    }
+    fret_memory_free(m);
+    fret_diagram_free(d);
+}
+
 /* Contact lost and regained: open, it has no force and moves freely. */
 static void separation(void) {
     const unit_scene s = unit_make_scene(2, 0.3);
@@ -148,15 +181,15 @@ static void brink(double n, double k) {
     const unit_scene s = unit_make_scene(n, k);
     for (int i = 0; i < 45; i++) {
         const fret_contact c = unit_make_contact(&s, 7 + i);
-        const double to = c.mu * (7 + i) * (1 - ldexp(1, -i));
+        const double to = c.mu * (7 + i) * (1 - ldexp(1, -i)), side = i % 3 ? 1 : -1;
         fret_diagram *d = make(c.normal, c.mu, 0);
         fret_loading f = {0, 0, 0, 0};
         CHECK_OK(fret_loading_by_force(&c, to, &f));
         go(d, FRET_TO_FORCE, i % 2 ? 5 : 60, FRET_KEEP_DX, 0);
-        go(d, FRET_TO_FORCE, 7 + i, FRET_TO_FX, to);
-        CHECK_REL(state_of(d).dx, f.dx, 1e-14L);
+        go(d, FRET_TO_FORCE, 7 + i, FRET_TO_FX, side * to);
+        CHECK_REL(state_of(d).dx, side * f.dx, 1e-14L);
         CHECK_REL(state_of(d).c, f.c, 1e-14L);
-        CHECK_OK(fret_diagram_step(d, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, c.mu * (7 + i)}));
+        CHECK_OK(fret_diagram_step(d, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, side * c.mu * (7 + i)}));
         CHECK(state_of(d).slices == 1);
         fret_diagram_free(d);
     }
@@ -206,22 +239,25 @@ static void objects(void) {
     const struct {
         fret_step step;
         fret_code code;
+        const char *quantity; /* NULL: not told */
     } refused[] = {
-        {{FRET_TO_FORCE, FRET_TO_FX, 12, 5}, FRET_GROSS_SLIP},
-        {{FRET_TO_FORCE, FRET_KEEP_DX, 1, 0}, FRET_OK},
-        {{FRET_TO_FORCE, FRET_TO_DX, -1, 0}, FRET_NEGATIVE},
-        {{FRET_TO_FORCE, FRET_TO_DX, nan_, 0}, FRET_NOT_FINITE},
-        {{FRET_TO_DEPTH, FRET_TO_DX, inf_, 0}, FRET_NOT_FINITE},
-        {{FRET_KEEP_NORMAL, FRET_TO_DX, 0, nan_}, FRET_NOT_FINITE},
-        {{FRET_KEEP_NORMAL, FRET_TO_FX, 0, inf_}, FRET_NOT_FINITE},
-        {{FRET_TO_DEPTH, FRET_TO_DX, 1e300, 0}, FRET_OVERFLOW},
-        {{FRET_TO_DEPTH, FRET_TO_DX, 1e-300, 0}, FRET_OVERFLOW},
-        {{FRET_TO_FORCE, FRET_TO_DX, 1e300, 0}, FRET_OVERFLOW},
+        {{FRET_TO_FORCE, FRET_TO_FX, 12, 5}, FRET_GROSS_SLIP, "Fx"},
+        {{FRET_TO_FORCE, FRET_TO_FX, 12, -5}, FRET_GROSS_SLIP, "Fx"},
+        {{FRET_TO_FORCE, FRET_TO_DX, -1, 0}, FRET_NEGATIVE, "FN"},
+        {{FRET_TO_FORCE, FRET_TO_DX, nan_, 0}, FRET_NOT_FINITE, "FN"},
+        {{FRET_TO_DEPTH, FRET_TO_DX, inf_, 0}, FRET_NOT_FINITE, "dz"},
+        {{FRET_KEEP_NORMAL, FRET_TO_DX, 0, nan_}, FRET_NOT_FINITE, "dx"},
+        {{FRET_TO_DEPTH, FRET_TO_DX, 1e-6, inf_}, FRET_NOT_FINITE, "dx"},
+        {{FRET_KEEP_NORMAL, FRET_TO_FX, 0, inf_}, FRET_NOT_FINITE, "Fx"},
+        {{FRET_TO_DEPTH, FRET_TO_DX, 1e300, 0}, FRET_OVERFLOW, NULL},
+        {{FRET_TO_DEPTH, FRET_TO_DX, 1e-300, 0}, FRET_OVERFLOW, NULL},
+        {{FRET_TO_FORCE, FRET_TO_DX, 1e300, 0}, FRET_OVERFLOW, NULL},
     };
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
-        if (!refused[i].code)
-            continue;
-        CHECK_CODE(fret_diagram_step(d, &refused[i].step), refused[i].code);
+        const fret_status st = fret_diagram_step(d, &refused[i].step);
+        CHECK_CODE(st, refused[i].code);
+        if (refused[i].quantity)
+            CHECK(st.quantity && strcmp(st.quantity, refused[i].quantity) == 0);
         fret_diagram_now now;
         fret_diagram_forces(d, &now);
         CHECK(memcmp(&now, &before, sizeof now) == 0);
@@ -369,6 +405,8 @@ int main(int argc, char **argv) {
     ledger(1, -0.5, true);
     kept_depth(2, 0);
     kept_depth(2, 0.3);
+    for (int i = 0; i < 8; i++)
+        returning(i & 1 ? 2 : 1, i & 2 ? 0.3 : 0, i & 4);
     separation();
     objects();
     parts();
