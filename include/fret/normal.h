@@ -47,7 +47,8 @@ bool fret_normal_dense(const fret_normal *normal, fret_real a);
  * some 30 to 60 us a row to set up, 0.5 kB, and then 5 us a question. Of polynomials made of many rows
  * together radii are found by g(x), in some 30 us, and slices too thin for the digits they have are answered
  * row by row, in blocks of rows that are set up when they are first asked for. Not while others use the
- * contact. Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE (F), FRET_NO_MEMORY, FRET_INTERRUPTED. */
+ * contact. Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE (FN), FRET_NEGATIVE, FRET_NOT_FINITE (error),
+ * FRET_NO_MEMORY, FRET_INTERRUPTED. */
 fret_status fret_normal_prepare(fret_normal *normal, double F, double error);
 
 /* Shares what was prepared for `from`, a contact of the same gap and k, at once and to a rounding: the

@@ -630,6 +630,8 @@ void fret_pieces_free(struct fret_pieces *pieces) {
  * more than the gap carries, up to its end. */
 fret_status fret_normal_prepare(fret_normal *n, double F, double error) {
     fret_status st = fret_check_positive("FN", F);
+    if (!st.code)
+        st = fret_check_not_negative("error", error);
     int exponent;
     (void)frexp(F, &exponent);
     const double most = ldexp(1, exponent);

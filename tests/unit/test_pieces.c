@@ -345,6 +345,8 @@ static void prepares_alike(void) {
         CHECK(p.dz == q.dz && p.a == q.a);
     }
     CHECK_ERROR(fret_normal_prepare(a, -1, 0), FRET_NOT_POSITIVE, "FN");
+    CHECK_ERROR(fret_normal_prepare(a, 1, -1e-8), FRET_NEGATIVE, "error");
+    CHECK_ERROR(fret_normal_prepare(a, 1, (double)NAN), FRET_NOT_FINITE, "error");
     CHECK_OK(fret_normal_prepare(a, 1e300, 0)); /* more than the sphere carries */
     CHECK_OK(fret_press_by_force(a, 100, &p));
     CHECK_OK(fret_press_by_force(b, 100, &q));
