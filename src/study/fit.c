@@ -391,9 +391,9 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT
                        calc_error *error) {
     const size_t p = s->of->count;
     gsl_matrix *J = s->J, *V = gsl_matrix_alloc(p, p);
-    gsl_vector *sv = gsl_vector_alloc(p), *work = gsl_vector_alloc(p);
+    gsl_vector *sv = gsl_vector_alloc(p);
     double norm[FIT_NAMES], most = 0;
-    bool ok = V && sv && work;
+    bool ok = V && sv;
     jacobian(s, w);
     for (size_t i = 0; i < p; i++) {
         const gsl_vector_const_view column = gsl_matrix_const_column(J, i);
@@ -408,8 +408,8 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT
         else
             gsl_vector_scale(&column.vector, 1 / norm[i]);
     }
-    if (ok) /* finite columns: it converges */
-        gsl_linalg_SV_decomp(J, V, sv, work);
+    if (ok) /* finite columns: it converges; unlike others it allocates nothing, which it would not check */
+        gsl_linalg_SV_decomp_jacobi(J, V, sv);
     if (ok && gsl_vector_get(sv, p - 1) < 1e-5 * gsl_vector_get(sv, 0)) {
         char list[FIT_NAMES * (LEX_NAME + 6)] = "";
         size_t left = 0;
@@ -431,7 +431,6 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT
         covariance(V, sv, norm, C);
     gsl_matrix_free(V);
     gsl_vector_free(sv);
-    gsl_vector_free(work);
     return ok || error->raised ? ok : calc_no_memory(error);
 }
 

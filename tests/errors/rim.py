@@ -78,7 +78,8 @@ def once(tests):
     if tests.sanitized or not os.path.exists(os.path.join(folder, "faults.so")):
         return
     env = {name: tests.env[name] for name in ("PATH", "LC_ALL", "TERM")}
-    whole = {faults.allocations: ("demo", "plot loop", "save out.fret", "record log.txt"),
+    whole = {faults.allocations: ("demo", "plot loop", "save out.fret", "record log.txt",
+                                  "fit q, y for depth/(1 um) = q*(force/(1 N))^y to measured.csv"),
              faults.calls: ("save out.fret", "record log.txt", "history to out.csv")}
 
     def one(statement, kind):
