@@ -374,9 +374,10 @@ static bool choose_drivers(shell *sh, const rows *w, size_t row, unsigned char *
         fret_memory_free(m[k]);
     if (shell_stop)
         return calc_interrupted(error);
-    return ok || !calc_status(error, &st) ||
-           calc_fail(error, 0, 0, "%s: FN,Fx and dz,dx do not agree in this scene (row %zu): leave one pair",
-                     w->data->path, i + 1);
+    return ok ||
+           (calc_status(error, &st) &&
+            calc_fail(error, 0, 0, "%s: FN,Fx and dz,dx do not agree in this scene (row %zu): leave one pair",
+                      w->data->path, i + 1));
 }
 
 static bool of_dimension(const csv *data, const csv_values *read, const followed *kind, calc_error *error) {

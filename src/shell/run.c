@@ -112,9 +112,9 @@ static bool find_wide(scene *s, fret_press *wide, bool *within, calc_error *erro
     *wide = *now;
     if (program_last_cycle(s->program, s->end) + 1 != s->end.steps)
         return true;
-    long double FNA, phase;
-    if (!scene_get(s, IN_FNA, &FNA, error) || !scene_get(s, IN_PHASE, &phase, error))
-        return false;
+    long double FNA = 0, phase = 0;
+    scene_get(s, IN_FNA, &FNA, error);
+    scene_get(s, IN_PHASE, &phase, error);
     const fret_real most = now->F + fabsl(FNA) - FNA * cosl(phase); /* it ends at FN + FNA cos(phase) */
     if (most > now->F && !fret_press_by_force(normal, (double)most, &top).code) {
         *wide = top;

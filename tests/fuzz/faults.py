@@ -29,6 +29,7 @@ POWER = "material E0=210 GPa nu=0.3 k=0.5 c0=1 mm; geometry sphere R=10 mm; fric
 LOADED = POWER + "; long := x*dW" + 40 * " + 0*dW" + "; press FN=100 N; step Fx=20 N; cycle FA=20 N"
 TABLE = "material steel; friction 0.4; geometry file gap.csv; press FN=10 N; cycle FA=2 N"
 SUM = "material steel; friction 0.4; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=10 N; step Fx=1 N"
+NESTED = POWER + "; press FN=100 N" + "".join("; step Fx=%d N" % ((-1) ** i * (20 - 2 * i)) for i in range(10))
 NAMES = "x = 1; y = 2; q = 3; z = 4"
 SWUNG = POWER + "; press FN=100 N; cycle FA=9 N FNA=10 N"
 MOST = 2000  # allocations of a statement that fail
@@ -72,6 +73,7 @@ STATEMENTS = (
               "explain 2*long", "set digits 9; set plot 70x20; set pager off; record log.txt",
               "save out.fret", "record log.txt", "record out.cast", "show", "press FN=50 N", "geometry cone slope=0.1",
               "quit")),
+    (NESTED + "; set format csv; history to both.csv; set format text; reset", ("follow both.csv",)),
     (STEEL, ("solve FN for a = 0.2 mm", "maximize dWd(0.5 um) over FN = 1 N .. 100 N",
              "minimize dz over FN = 20 N .. 100 N", "fit E0 for depth = dz(force) to measured.csv",
              "fit E0 for depth = dz(force) to measured.csv robust", "fit mu along loop.csv", "uncertainty a, dWd(1 um) with mu +- 0.02, E0 +- 5 % samples 20",
