@@ -42,7 +42,7 @@ def table_of(plot, steps):
     """The plot as a table of its abscissa and its ordinate, and the values of its curves."""
     if plot.startswith("plot E with"):
         plot = plot.replace("plot E", "plot z/c0 against E(z)/E0 for z = 0 m .. 2*c0")
-    found = re.match(r"plot (.*?)(?: against (.*?))? (for|along) (.*?)(?: with (\w+)=(.*))?$", plot)
+    found = re.match(r"plot (.*?)(?: against (.*?))? (for|along) (.*?)(?: with (\w+)=(.*?))?(?: xlabel .*)?$", plot)
     y, x, word, over, name, values = found.groups()
     x = x or "time"
     return ("table %s, %s %s %s steps %d%s" % (x, y, word, over, steps, " with %s=%s" % (name, values) if name else ""),
