@@ -9,6 +9,8 @@
 #include "contact/check.h"
 #include "number/quadrature.h"
 #include "number/real.h"
+#define LANES 2
+#include "number/lanes.h"
 
 /* Cubic Hermite pieces, with Steffen's slopes where none are given: monotone data give a monotone gap, f' is
  * continuous, and the error falls with the third power of the spacing. Per piece f' = d0 + d1 t + d2 t^2, t =
@@ -24,11 +26,11 @@ struct fret_table {
 
 /* Pieces far from the edge are summed in blocks, by Taylor's series of the kernel about the middle c of the
  * block: f' and r f'' count through their moments over x = (r-c)/d. A block precedes its two halves. */
-enum { TAYLOR = FRET_TABLE_MOMENTS, LEAF = 8 };
+enum { TAYLOR = FRET_TABLE_MOMENTS, MOMENTS = TAYLOR + 2, EXACT = FRET_TABLE_EXACT, LEAF = 8 };
 typedef struct block {
-    size_t first, last, next;                 /* pieces; the first block that is no part of this one */
-    fret_real c, d;                           /* middle and half-width */
-    fret_real slope[TAYLOR + 2], rf2[TAYLOR]; /* int f' x^n dr, int r f'' x^n dr */
+    size_t first, last, next;               /* pieces; the first block that is no part of this one */
+    fret_real c, d;                         /* middle and half-width */
+    fret_real slope[MOMENTS], rf2[MOMENTS]; /* int f' x^n dr, int r f'' x^n dr */
 } block;
 
 static fret_real f1_of(const struct fret_table *t, size_t i, fret_real x) {
@@ -59,40 +61,102 @@ static void piece_moments(const struct fret_table *t, size_t i, int count, block
     }
 }
 
-/* A part of a block, no wider than half of it, by Gauss's rule: the series of the kernel converges fast. */
-static void add_part(block *b, const struct fret_table *t, size_t i, fret_real lo, fret_real h) {
-    for (int j = 0; j < 8; j++) {
-        fret_real x = lo + h * fret_gauss_node[j], r = t->r[i] + x, z = (r - b->c) / b->d;
-        fret_real w = h * fret_gauss_weight[j], f1 = w * f1_of(t, i, x), rf2 = w * r * f2_of(t, i, x);
-        for (int n = 0; n < TAYLOR + 2; n++) {
-            b->slope[n] += f1;
-            f1 *= z;
-            if (n < TAYLOR)
-                b->rf2[n] += rf2;
-            rf2 *= z;
-        }
+/* What f' and r f'' weigh at places x of a leaf. */
+enum { PLACES = LEAF * 2 * 8 };
+typedef struct weights {
+    int count;
+    fret_real x[PLACES], of[2][PLACES];
+} weights;
+
+/* A part of a leaf, no wider than half of it, by Gauss's rule: the series of the kernel converges fast. */
+static void add_places(weights *w, const block *b, const struct fret_table *t, size_t i, fret_real lo,
+                       fret_real h) {
+    for (int j = 0; j < 8; j++, w->count++) {
+        const fret_real x = lo + h * fret_gauss_node[j], r = t->r[i] + x, width = h * fret_gauss_weight[j];
+        w->x[w->count] = (r - b->c) / b->d;
+        w->of[0][w->count] = width * f1_of(t, i, x);
+        w->of[1][w->count] = width * r * f2_of(t, i, x);
     }
 }
 
-/* Adds the moments of a half, moved to the middle of the whole. */
+/* The first moments; three at a time stay in registers. Leaves the weights of the next ones. */
+static void first_moments(weights *w, int which, fret_real *moment) {
+    fret_real *of = w->of[which];
+    for (int n = 0; n < EXACT; n += 3) {
+        fret_real sum[3] = {0, 0, 0};
+        for (int j = 0; j < w->count; j++) {
+            const fret_real once = of[j] * w->x[j], twice = once * w->x[j];
+            sum[0] += of[j];
+            sum[1] += once;
+            sum[2] += twice;
+            of[j] = twice * w->x[j];
+        }
+        for (int i = 0; i < 3; i++)
+            moment[n + i] = sum[i];
+    }
+}
+
+/* The others, to a double's digits. */
+static void last_moments(const weights *w, block *b) {
+    lanes2_numbers x[PLACES], of[PLACES];
+    for (int j = 0; j < w->count; j++) {
+        const double at = (double)w->x[j];
+        x[j] = (lanes2_numbers){at, at};
+        of[j] = (lanes2_numbers){(double)w->of[0][j], (double)w->of[1][j]};
+    }
+    for (int n = EXACT; n < MOMENTS; n++) {
+        lanes2_numbers even = {0, 0}, odd = {0, 0};
+        for (int j = 0; j < w->count; j += 2) {
+            even += of[j];
+            odd += of[j + 1];
+            of[j] *= x[j];
+            of[j + 1] *= x[j + 1];
+        }
+        even += odd;
+        b->slope[n] = even[0];
+        b->rf2[n] = even[1];
+    }
+}
+
+static void leaf_moments(const struct fret_table *t, block *b) {
+    weights w;
+    w.count = 0; /* the rest need not be set */
+    for (size_t i = b->first; i < b->last; i++) {
+        const fret_real h = (fret_real)t->r[i + 1] - t->r[i];
+        const int parts = h > b->d ? 2 : 1;
+        for (int j = 0; j < parts; j++)
+            add_places(&w, b, t, i, h * j / parts, h / parts);
+    }
+    first_moments(&w, 0, b->slope);
+    first_moments(&w, 1, b->rf2);
+    last_moments(&w, b);
+}
+
+/* Adds the moments of a half, moved to the middle of the whole: by binomials. */
 static void add_moved(block *whole, const block *part) {
-    fret_real shift = (part->c - whole->c) / whole->d, ratio = part->d / whole->d, power = 1;
-    fret_real slope[TAYLOR + 2], rf2[TAYLOR + 2] = {0};
-    for (int n = 0; n < TAYLOR + 2; n++) {
-        slope[n] = part->slope[n] * power;
-        if (n < TAYLOR)
-            rf2[n] = part->rf2[n] * power;
+    const fret_real shift = (part->c - whole->c) / whole->d, ratio = part->d / whole->d;
+    const double step = (double)shift;
+    fret_real power = 1, first[2][EXACT];
+    lanes2_numbers all[MOMENTS];
+    for (int n = 0; n < MOMENTS; n++) {
+        const fret_real slope = part->slope[n] * power, rf2 = part->rf2[n] * power;
+        if (n < EXACT) {
+            first[0][n] = slope;
+            first[1][n] = rf2;
+        }
+        all[n] = (lanes2_numbers){(double)slope, (double)rf2};
         power *= ratio;
     }
-    for (int pass = 1; pass < TAYLOR + 2; pass++) /* binomials */
-        for (int n = TAYLOR + 1; n >= pass; n--) {
-            slope[n] += shift * slope[n - 1];
-            rf2[n] += shift * rf2[n - 1];
-        }
-    for (int n = 0; n < TAYLOR + 2; n++) {
-        whole->slope[n] += slope[n];
-        if (n < TAYLOR)
-            whole->rf2[n] += rf2[n];
+    for (int pass = 1; pass < EXACT; pass++)
+        for (int n = EXACT - 1; n >= pass; n--)
+            for (int i = 0; i < 2; i++)
+                first[i][n] += shift * first[i][n - 1];
+    for (int pass = 1; pass < MOMENTS; pass++)
+        for (int n = MOMENTS - 1; n >= pass; n--)
+            all[n] += step * all[n - 1];
+    for (int n = 0; n < MOMENTS; n++) {
+        whole->slope[n] += n < EXACT ? first[0][n] : all[n][0];
+        whole->rf2[n] += n < EXACT ? first[1][n] : all[n][1];
     }
 }
 
@@ -116,12 +180,7 @@ static const block *make_block(struct fret_table *t, size_t first, size_t last) 
         add_moved(b, make_block(t, first, middle));
         add_moved(b, make_block(t, middle, last));
     } else {
-        for (size_t i = first; i < last; i++) {
-            fret_real h = (fret_real)t->r[i + 1] - t->r[i];
-            int parts = h > b->d ? 2 : 1;
-            for (int j = 0; j < parts; j++)
-                add_part(b, t, i, h * j / parts, h / parts);
-        }
+        leaf_moments(t, b);
     }
     b->next = t->blocks;
     return b;

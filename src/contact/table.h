@@ -35,8 +35,9 @@ void fret_table_within(const struct fret_table *table, const fret_rule *rule, si
                        fret_real near, fret_real e, fret_real unit, fret_real out[3]);
 
 /* Stretch i, which is followed by its two halves unless next = i + 1: the pieces first .. last-1, moments
- * int f' x^n dr and int r f'' x^n dr, x = (r-c)/d. false: there are no more. */
-enum { FRET_TABLE_MOMENTS = 32 };
+ * int f' x^n dr and int r f'' x^n dr, x = (r-c)/d, the first of them
+ * exact, the rest to a double's digits, which are all that count of them. false: there are no more. */
+enum { FRET_TABLE_MOMENTS = 32, FRET_TABLE_EXACT = 9 };
 typedef struct fret_table_stretch {
     size_t first, last, next;
     fret_real c, d;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every gap but the single power: formulas, engine and tables against each other and the references. */
 #include "contact/normal.h"
+#include "contact/table.h"
+#include "number/quadrature.h"
 #include "unit.h"
 
 static const char *const kinds[] = {"power",        "sum",          "flat-cone", "flat-paraboloid",
@@ -159,6 +161,45 @@ static struct fret_table *sample(const fret_gap *gap, int count, double end, boo
     CHECK_OK(fret_table_make(r, f, (size_t)count, NULL, &t));
     free(r);
     return t;
+}
+
+/* Those of one row, each quarter of it by Gauss's rule; and what there would be if nothing had a sign. */
+static void add_moments(const struct fret_table *t, size_t row, const fret_table_stretch *b,
+                        fret_real moment[2][FRET_TABLE_MOMENTS], fret_real size[2]) {
+    const fret_real from = fret_table_distance(t, row),
+                    quarter = (fret_table_distance(t, row + 1) - from) / 4;
+    fret_real c[3];
+    fret_table_slope(t, row, c);
+    for (int j = 0; j < 4 * 8; j++) {
+        const fret_real at = quarter * (j / 8 + fret_gauss_node[j % 8]), r = from + at,
+                        weight = quarter * fret_gauss_weight[j % 8], x = (r - b->c) / b->d;
+        fret_real of[2] = {weight * (c[0] + at * (c[1] + at * c[2])), weight * r * (c[1] + 2 * at * c[2])};
+        for (int i = 0; i < 2; i++) {
+            size[i] += fabsl(of[i]);
+            for (int n = 0; n < FRET_TABLE_MOMENTS; n++, of[i] *= x)
+                moment[i][n] += of[i];
+        }
+    }
+}
+
+/* Of each stretch of a table from its rows, as exactly as they count: the kernel's terms fall by four. */
+static void moments(void) {
+    const fret_gap smooth = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {3, 2e4, 1}}};
+    struct fret_table *t = sample(&smooth, 700, 2e-3, true);
+    fret_table_stretch b;
+    size_t seen = 0;
+    for (; t && fret_table_block(t, seen, &b); seen++) {
+        fret_real want[2][FRET_TABLE_MOMENTS] = {{0}, {0}}, size[2] = {0, 0};
+        for (size_t row = b.first; row < b.last; row++)
+            add_moments(t, row, &b, want, size);
+        fret_real part = 1;
+        for (int n = 0; n < FRET_TABLE_MOMENTS; n++, part /= 4) {
+            CHECK_ABS(b.slope[n] * part, want[0][n] * part, size[0], UNIT_TOL(5e-18L, 1e-15L));
+            CHECK_ABS(b.rf2[n] * part, want[1][n] * part, size[1], UNIT_TOL(5e-18L, 1e-15L));
+        }
+    }
+    CHECK(seen > 150);
+    fret_table_free(t);
 }
 
 /* With its slopes given, a cubic comes back from two rows, one of which is within. */
@@ -632,6 +673,7 @@ int main(int argc, char **argv) {
     bad_tables();
     falling_tables();
     sloped();
+    moments();
     table_order();
     long_table();
     coarse_steps();
