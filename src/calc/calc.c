@@ -255,8 +255,10 @@ static bool read_assignments(calc *c, lexer *lx, assignment *all, size_t *count)
             return lex_fail(lx, lx->kind == T_NUMBER
                                     ? "expected NAME = EXPR after the comma; a decimal comma is a point here"
                                     : "expected NAME = EXPR after the comma");
-        const size_t i = (*count)++;
-        if (!read_assignment(c, lx, all, i))
+        for (size_t i = 0; i < *count; i++) /* they are set together: none is the last */
+            if (all[i].len == lx->len && !memcmp(lx->text + all[i].at, lx->text + lx->at, lx->len))
+                return lex_fail(lx, "%.*s is given twice", LEX_WORD(lx));
+        if (!read_assignment(c, lx, all, (*count)++))
             return false;
         if (lx->kind != T_COMMA)
             return !lx->error->raised;
@@ -302,7 +304,7 @@ static void put_inputs(inputs *in, void *context) {
     }
 }
 
-/* The last one of an input; NULL: there is none. */
+/* That of an input; NULL: there is none. */
 static const assignment *of_input(const assignment *all, size_t count, input in) {
     const assignment *of = NULL;
     for (size_t i = 0; i < count; i++)

@@ -150,6 +150,10 @@ static bool parse_change(parser *p, expr_at *at) {
     at->change[at->count].at = lx->at;
     if (!knob_name(p->c, lx, q)) /* it may wait for the load it needs */
         return false;
+    for (size_t i = 0; i < at->count; i++)
+        if (!strcmp(at->change[i].p.text, q->text))
+            return calc_fail(lx->error, at->change[at->count].at, strlen(q->text), "%s is given twice",
+                             q->text);
     lex_next(lx);
     parser inner = {
         .c = p->c, .lx = lx, .e = &at->change[at->count++].value, .within = p->within, .depth = p->depth};

@@ -28,6 +28,13 @@ void args_drop(const arg_list *list, arg_value v[ARGS]) {
     }
 }
 
+void args_note_idle(shell *sh, const arg_list *list, const arg_value v[ARGS]) {
+    for (const arg *a = list->args; a->kind; a++)
+        for (const arg *other = list->args; a->beside && other->kind; other++)
+            if (!strcmp(other->name, a->beside) && v[a - list->args].given && !v[other - list->args].given)
+                shell_note(sh, "note: %s does nothing without %s", a->name, a->beside);
+}
+
 /* ---- NAME = EXPR ------------------------------------------------------------------------------- */
 
 static bool unknown_argument(lexer *lx, const arg_list *list) {
@@ -45,8 +52,7 @@ static const arg *find(const lexer *lx, const arg_list *list, arg_kind kind) {
 /* Twice the same, or another of its group. */
 static bool twice(lexer *lx, const arg_list *list, const arg *a, const arg_value out[ARGS]) {
     if (out[a - list->args].given) {
-        calc_fail(lx->error, lx->at, lx->len, a->group ? "two targets in one direction" : "%s is given twice",
-                  a->name);
+        calc_fail(lx->error, lx->at, lx->len, "%s is given twice", a->name);
         return true;
     }
     for (const arg *other = list->args; a->group && other->kind; other++)
@@ -197,11 +203,10 @@ bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[AR
         const token_kind how = lex_peek(lx);
         if (how == T_ASSIGN || how == T_INCREMENT || how == T_DEFINE) {
             const arg *a = find(lx, list, ARG_VALUE);
-            if (a && how != T_DEFINE && twice(lx, list, a, out))
+            if (a && twice(lx, list, a, out))
                 return false;
             if (!read_named(sh, lx, list, a, how, &out[a ? a - list->args : 0]))
                 return false;
-            found = !(a->flags & ARG_ALONE);
         } else if (!read_keyword(sh, lx, list, out, &found)) {
             return false;
         }

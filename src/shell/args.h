@@ -28,9 +28,8 @@ enum {
     ARG_LIVE = 2,      /* NAME := EXPR too */
     ARG_POSITIVE = 4,
     ARG_OPTIONAL = 8,
-    ARG_ALONE = 16,   /* nothing else beside it */
-    ARG_OWN_DIM = 32, /* of the input, but with the dimension d */
-    ARG_NONZERO = 64
+    ARG_OWN_DIM = 16, /* of the input, but with the dimension d */
+    ARG_NONZERO = 32
 };
 
 typedef struct arg {
@@ -41,6 +40,7 @@ typedef struct arg {
     unsigned flags;
     int group; /* one of a group, 0: no group */
     unsigned most;
+    const char *beside;             /* the argument without which it does nothing; NULL: none */
     const char *(*words)(size_t i); /* of ARG_CHOICE (ten and more) and ARG_NAME, for completion too */
 } arg;
 
@@ -72,6 +72,8 @@ bool args_read(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], 
 /* The same as far as the arguments go, and the end behind them: no comma, no keyword misspelt. */
 bool args_read_some(shell *sh, lexer *lx, const arg_list *list, arg_value out[ARGS], char *file);
 bool args_end(lexer *lx, const arg_list *list);
+/* Says which of them do nothing. */
+void args_note_idle(shell *sh, const arg_list *list, const arg_value v[ARGS]);
 void args_drop(const arg_list *list, arg_value v[ARGS]);
 /* Points the error, where it has no place, at the value of the argument. */
 #define arg_place(error, v) calc_place(error, (v)->value_at, (v)->value_len)

@@ -35,9 +35,9 @@ static const arg second_args[] = {{.kind = ARG_CHOICE, .name = "material", .word
 static const arg friction_args[] = {{.kind = ARG_EXPR, .name = "mu", INPUT(IN_MU)}, {.kind = ARG_END}};
 
 static const arg press_args[] = {
-    {.kind = ARG_VALUE, .name = "FN", INPUT(IN_FN), .flags = ARG_ALONE},
-    {.kind = ARG_VALUE, .name = "dz", .d = {0, 1, 0}, .flags = ARG_ALONE | ARG_POSITIVE},
-    {.kind = ARG_VALUE, .name = "a", .d = {0, 1, 0}, .flags = ARG_ALONE | ARG_POSITIVE},
+    {.kind = ARG_VALUE, .name = "FN", INPUT(IN_FN), .group = GROUP_NORMAL},
+    {.kind = ARG_VALUE, .name = "dz", .d = {0, 1, 0}, .flags = ARG_POSITIVE, .group = GROUP_NORMAL},
+    {.kind = ARG_VALUE, .name = "a", .d = {0, 1, 0}, .flags = ARG_POSITIVE, .group = GROUP_NORMAL},
     {.kind = ARG_END}};
 
 static const arg step_args[] = {
@@ -52,7 +52,7 @@ static const arg cycle_args[] = {
     {.kind = ARG_VALUE, .name = "FA", INPUT(IN_FA), .flags = ARG_LIVE, .group = GROUP_TANGENTIAL},
     {.kind = ARG_VALUE, .name = "dxA", INPUT(IN_DXA), .flags = ARG_LIVE, .group = GROUP_TANGENTIAL},
     {.kind = ARG_VALUE, .name = "FNA", INPUT(IN_FNA), .flags = ARG_LIVE},
-    {.kind = ARG_VALUE, .name = "phase", INPUT(IN_PHASE), .flags = ARG_LIVE},
+    {.kind = ARG_VALUE, .name = "phase", INPUT(IN_PHASE), .flags = ARG_LIVE, .beside = "FNA"},
     {.kind = ARG_COUNT, .name = "times", .most = 1000000},
     {.kind = ARG_COUNT, .name = "steps", .most = 1000000},
     {.kind = ARG_END}};

@@ -289,9 +289,6 @@ static bool group_given(const place *p, const arg *args, int group) {
 
 /* The rows of a command that may still come. first: right after its word. */
 static void add_arguments(const place *p, const command *c, bool first) {
-    for (const arg *a = c->args; a && a->kind; a++)
-        if (a->flags & ARG_ALONE && is_assigned(p, a->name))
-            return;
     const bool list = row_of_kind(c, ARG_LIST) || row_of_kind(c, ARG_KNOB);
     for (const arg *a = c->args; a && a->kind; a++)
         switch (a->kind) {

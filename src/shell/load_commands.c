@@ -212,6 +212,8 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
         scene_back(&sh->calc.scene, &before);
     else
         scene_drop(&before);
+    if (ok)
+        args_note_idle(sh, &list, v);
     args_drop(&list, v);
     if (ok)
         report_event(sh, "cycle", names);

@@ -260,10 +260,10 @@ static void write_cycle(writer *w, const load_item *item) {
     const load_step *step = &item->step;
     const bool force = step->tangential == BY_FORCE;
     write_target(w, force ? "FA" : "dxA", false, step->tangential_value, force ? DIM_FORCE : DIM_LENGTH);
-    if (step->normal_value != 0)
+    if (step->normal_value != 0 || item->extra.phase != 0) { /* the phase for an FNA to come */
         write_target(w, "FNA", false, step->normal_value, DIM_FORCE);
-    if (step->normal_value != 0 || item->extra.phase != 0) /* for an FNA to come */
         write_target(w, "phase", false, item->extra.phase, DIM_ANGLE);
+    }
     if (item->extra.times > 1)
         fprintf(w->to, " times %u", item->extra.times);
 }
