@@ -259,13 +259,16 @@ static size_t least_near(const struct fret_leaves *all, size_t first, size_t las
     return near_of(all, least, least);
 }
 
-/* Between the distances lo and hi what is before `near`, of that what is before `above->near` from there. Few
- * rows go on with the quadratic of `near`. */
-static void make_field(maker *m, fret_real lo, fret_real hi, bool few, const leaf *above, leaf *out) {
+/* Between the distances lo and hi, of `row` and those after it, what is before `near`, of that what is before
+ * `above->near` from there. Few rows go on with the quadratic of `near`. */
+static void make_field(maker *m, size_t row, fret_real lo, fret_real hi, bool few, const leaf *above,
+                       leaf *out) {
     const struct fret_leaves *all = m->all;
     fret_real value[2][WAVES], more[3], c[3];
     *out = (leaf){.middle = (lo + hi) / 2, .half = (hi - lo) / 2, .goes_on = few};
     out->near = near_of(all, lo, hi);
+    if (out->near == row) /* a later part of it: its kink stays apart */
+        out->near--;
     for (int j = 0; j < WAVES; j++) {
         const fret_real e = out->middle + out->half * m->rule.node[j], z = (e - above->middle) / above->half;
         more[0] = more[1] = 0;
@@ -303,12 +306,12 @@ static bool add_leaf(maker *m, leaf *l) {
 }
 
 /* A row that is wider than it is far from the start: in parts that are not. */
-static bool add_wide(maker *m, fret_real lo, fret_real hi, const leaf *above) {
+static bool add_wide(maker *m, size_t row, fret_real lo, fret_real hi, const leaf *above) {
     leaf here;
     bool ok = true;
     while (ok && lo < hi) {
         const fret_real end = hi < 2 * lo * MOST_WIDE ? hi : 2 * lo;
-        make_field(m, lo, end, true, above, &here);
+        make_field(m, row, lo, end, true, above, &here);
         here.more = end < hi;
         ok = add_leaf(m, &here);
         lo = end;
@@ -324,14 +327,14 @@ static bool descend(maker *m, size_t first, size_t last, const leaf *above) {
         return false;
     leaf here = *above; /* as long as it is wide, of no use */
     if (!wide)
-        make_field(m, lo, hi, last - first <= GOING_ON, above, &here);
+        make_field(m, first, lo, hi, last - first <= GOING_ON, above, &here);
     if (last - first > 1 && (wide || last - first > LEAF_ROWS)) {
         const size_t middle = first + (last - first) / 2;
         return descend(m, first, middle, &here) && descend(m, middle, last, &here);
     }
     for (size_t i = first; i < last; i++)
         all->leaf_of[i - all->first] = all->leaves;
-    return wide ? add_wide(m, lo, hi, above) : add_leaf(m, &here);
+    return wide ? add_wide(m, first, lo, hi, above) : add_leaf(m, &here);
 }
 
 fret_status fret_leaves_make(const fret_normal *n, size_t first, size_t count, fret_real e, bool slopes,

@@ -263,11 +263,67 @@ static void stops(void) {
     fret_table_free((struct fret_table *)gap.table);
 }
 
+/* g' dx/dy of each part, in the first rows. */
+static void check_parts(const fret_normal *n, const struct fret_rows *rows) {
+    const fret_real start = fret_gap_start(&n->gap), m = (n->foundation.k + 1) / 2;
+    for (size_t i = 0; i < fret_rows_parts(rows); i++) {
+        const fret_row_part p = fret_rows_part(rows, i);
+        fret_real largest = 0, worst = 0;
+        for (int j = 1; j < 20; j++) { /* at its end the next row may begin by rounding */
+            const fret_real y = j / 20.0L, x = sqrtl(p.inner * p.inner + p.width * y),
+                            e = (p.inner - start) + p.width * y / (p.inner + x),
+                            want = p.width / (2 * x) * fret_table_profile(n->gap.table, &n->rule, e).slope;
+            fret_real smooth = 0, bent = 0;
+            for (int c = p.slopes[0]; c-- > 0;)
+                smooth = smooth * y + p.S[c];
+            for (int c = p.slopes[1]; c-- > 0;)
+                bent = bent * y + p.B[c];
+            largest = fmaxl(largest, fabsl(want));
+            worst = fmaxl(worst, fabsl(smooth + fret_pow(y, m) * bent - want));
+        }
+        CHECK_ABS(worst, 0, largest, UNIT_TOL(1e-15L, 1e-12L));
+    }
+}
+
+/* The second row in all widths beside the first one, with a bend between them that outweighs all before. */
+static void second_row(double flat, double k) {
+    static const double widths[] = {0.3, 0.95, 1.005, 1.02, 1.05, 1.08, 1.12, 1.55, 1.7, 2.05, 3, 4.2, 30};
+    const fret_material steel = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, k, 1e-3};
+    for (size_t i = 0; i < sizeof widths / sizeof *widths; i++) {
+        enum { FEW = 9 };
+        const double d = 1e-5;
+        const size_t skip = flat > 0 ? 0 : 1;
+        double r[FEW] = {0, flat}, f[FEW] = {0}, slope[FEW] = {0};
+        struct fret_table *table = NULL;
+        struct fret_rows *rows = NULL;
+        fret_normal *n = NULL;
+        for (int j = 2; j < FEW; j++) { /* parabolas */
+            const double e = d * (j == 2 ? 1 : 1 + widths[i] * (j - 2));
+            r[j] = flat + e;
+            slope[j] = 2 * e * (j == 2 ? 1e-3 : 1);
+            f[j] = f[j - 1] + (r[j] - r[j - 1]) * (slope[j] + slope[j - 1]) / 2;
+        }
+        CHECK_OK(fret_table_sloped(r + skip, f + skip, slope + skip, FEW - skip, NULL, &table));
+        const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
+        CHECK_OK(fret_normal_make(&steel, &gap, &n));
+        CHECK_OK(fret_rows_make(n, 0, fret_table_distance(table, FEW - 1 - skip), &rows, NULL));
+        check_places(n, rows);
+        fret_rows_free(rows);
+        CHECK_OK(fret_rows_make_slopes(n, fret_table_distance(table, FEW - 1 - skip), &rows));
+        check_parts(n, rows);
+        fret_rows_free(rows);
+        fret_normal_free(n);
+        fret_table_free(table);
+    }
+}
+
 int main(int argc, char **argv) {
     unit_start("rows", argc, argv);
     for (int i = 0; i < TABLES; i++)
         check_table(&tables[i]);
     uneven();
+    for (int i = 0; i < 9; i++)
+        second_row((double[]){0, 3e-5, 4e-4}[i % 3], (double[]){-0.9, -0.3, 0.5}[i / 3]);
     stops();
     return unit_finish();
 }
