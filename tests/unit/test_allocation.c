@@ -66,7 +66,7 @@ static void laws(void) {
 /* A slice of a table whose rows find no room is had from kink to kink, over those that are too close at once.
  */
 static void slices(void) {
-    enum { MANY = 60000 };
+    enum { MANY = 40000 };
     static double x[MANY], depth[MANY];
     const unit_scene s = unit_make_scene(2, 0.3);
     struct fret_table *table = NULL;
@@ -81,7 +81,7 @@ static void slices(void) {
         const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
         CHECK_OK(fret_normal_make(&s.material, &gap, &n));
         CHECK_OK(fret_press_by_radius(n, 0.9e-3, &p));
-        for (int i = 1; i < 10; i += 4) {
+        for (int i = 1; i < 10; i += 8) {
             const fret_level outer = {p.dz, p.F};
             const fret_slice want = fret_law_slice(n, &outer, p.dz * i / 10);
             left = 0;
@@ -100,7 +100,7 @@ static void slices(void) {
 
 /* Rows that are made when they are asked for: where they find no room the question is answered without. */
 static void rows_on_demand(void) {
-    enum { MANY = 3000 };
+    enum { MANY = 2300 };
     static double x[MANY], depth[MANY];
     const unit_scene s = unit_make_scene(2, 0.3);
     struct fret_table *table = NULL;
