@@ -25,6 +25,11 @@ fret_status fret_pressure(const fret_normal *normal, fret_real a, fret_real r, f
  * together; delta_z - f(r) inside. */
 fret_status fret_surface(const fret_normal *normal, fret_real a, fret_real r, fret_real *w);
 
+/* The same of a contact as fret_press_by_... tell it: right next to a flat end a radius that is rounded
+ * hardly knows how far the contact reaches beyond that, but its depth does. */
+fret_status fret_pressure_of(const fret_normal *normal, const fret_press *press, fret_real r, fret_real *p);
+fret_status fret_surface_of(const fret_normal *normal, const fret_press *press, fret_real r, fret_real *w);
+
 /* q_x(r) [Pa] and u_x(r) [m] in the present state of a history: the same with -u'(x) and c_T, and u(x). */
 fret_status fret_traction(const fret_memory *memory, fret_real r, fret_real *q);
 fret_status fret_surface_x(const fret_memory *memory, fret_real r, fret_real *u);
@@ -42,6 +47,8 @@ fret_status fret_fields_make(const fret_normal *normal, fret_fields **fields);
 void fret_fields_free(fret_fields *fields);
 fret_status fret_fields_pressure(fret_fields *fields, fret_real a, fret_real r, fret_real *p);
 fret_status fret_fields_surface(fret_fields *fields, fret_real a, fret_real r, fret_real *w);
+fret_status fret_fields_pressure_of(fret_fields *fields, const fret_press *press, fret_real r, fret_real *p);
+fret_status fret_fields_surface_of(fret_fields *fields, const fret_press *press, fret_real r, fret_real *w);
 fret_status fret_fields_traction(fret_fields *fields, const fret_memory *memory, fret_real r, fret_real *q);
 fret_status fret_fields_surface_x(fret_fields *fields, const fret_memory *memory, fret_real r, fret_real *u);
 

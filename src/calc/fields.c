@@ -46,8 +46,8 @@ bool call_g(scene *s, value x, long double *out, calc_error *error) {
 
 /* ---- local fields ------------------------------------------------------------------------------ */
 
-typedef fret_status one_place(const fret_normal *, fret_real a, fret_real r, fret_real *out);
-typedef fret_status of_places(fret_fields *, fret_real a, fret_real r, fret_real *out);
+typedef fret_status one_place(const fret_normal *, const fret_press *, fret_real r, fret_real *out);
+typedef fret_status of_places(fret_fields *, const fret_press *, fret_real r, fret_real *out);
 
 /* What has answered. */
 static void used_fields(scene *s, const fret_fields *fields) {
@@ -67,17 +67,17 @@ static bool normal_field(scene *s, value r, one_place *one, of_places *many, lon
     if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error) ||
         !scene_fields(s, &fields, error))
         return false;
-    fret_status st = fields ? many(fields, press->a, r.v, out) : one(normal, press->a, r.v, out);
+    fret_status st = fields ? many(fields, press, r.v, out) : one(normal, press, r.v, out);
     used_fields(s, fields);
     return calc_status(error, &st);
 }
 
 bool call_p(scene *s, value r, long double *out, calc_error *error) {
-    return normal_field(s, r, fret_pressure, fret_fields_pressure, out, error);
+    return normal_field(s, r, fret_pressure_of, fret_fields_pressure_of, out, error);
 }
 
 bool call_uz(scene *s, value r, long double *out, calc_error *error) {
-    return normal_field(s, r, fret_surface, fret_fields_surface, out, error);
+    return normal_field(s, r, fret_surface_of, fret_fields_surface_of, out, error);
 }
 
 /* The state of a scene with friction: a curve, or else a memory. */

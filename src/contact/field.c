@@ -31,7 +31,7 @@ static fret_real singular(const inside *c, fret_real e) {
 static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
     (void)rest;
     const inside *c = context;
-    fret_real last = c->b + c->to, way = (last - c->r) * (last + c->r) * fret_pow(t, c->power);
+    const fret_real to = c->to - (c->r - c->b), way = to * (c->b + c->to + c->r) * fret_pow(t, c->power);
     fret_real x = sqrtl(c->r * c->r + way);
     return slope_at(c, fminl((c->r - c->b) + way / (c->r + x), c->to)) / x;
 }
@@ -73,7 +73,7 @@ static fret_real pressure_tip(fret_real t, fret_real rest, void *context) {
 enum { WIDE = 16, CLOSE = 64 };
 static fret_real close_part(const inside *c) {
     if (c->r > c->b) {
-        const fret_real last = c->b + c->to, span = (last - c->r) * (last + c->r) / CLOSE;
+        const fret_real to = c->to - (c->r - c->b), span = to * (c->b + c->to + c->r) / CLOSE;
         return (c->r - c->b) + span / (c->r + sqrtl(c->r * c->r + span));
     }
     return (c->b > 0 ? fminl(c->to, c->b) : c->to) / CLOSE;
@@ -155,25 +155,33 @@ bool fret_field_infinite(const fret_normal *n, fret_real r) {
     return rise_at(n, r) <= 0;
 }
 
+/* A contact: of radius a, by e beyond the flat end, dz deep; the logarithm of a to 100 bits, where a power
+ * makes much of it. */
+typedef struct rim {
+    fret_real a, e, dz;
+    dd ln_a;
+} rim;
+
 /* Of a gap without steep powers, r < a, which lies beyond the flat end. */
-static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real r, fret_real *p) {
+static fret_status pressure_gentle(const fret_normal *n, const rim *at, fret_real r, fret_real *p) {
     *p = 0;
     const fret_real start = fret_gap_start(&n->gap), k1 = 1 + n->foundation.k, rise = rise_at(n, r);
     const bool tip = !isnan(rise);
     if (rise <= 0)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     fret_term term[FRET_MOST_TERMS];
-    const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
+    const int terms = fret_gap_series(&n->gap, &n->rule, at->a, term);
     if (terms > 0) {
-        *p = pressure_powers(n, term, terms, a, r);
+        *p = pressure_powers(n, term, terms, at->a, r);
         return fret_ok();
     }
-    inside c = {n, start, r, 0, a - start, tip ? 1 / rise : 2 / k1}, middle = c, beyond = c;
+    inside c = {n, start, r, 0, at->e, tip ? 1 / rise : 2 / k1}, middle = c, beyond = c;
     middle.power = beyond.power = fret_gap_tip(&n->gap) + n->foundation.k - 1;
     /* the first part reaches no farther than what is singular on the other side: x = b, -r, or r below b */
-    if (r > start)
-        middle.to = fminl(c.to, sqrtl(r * r + (r - start) * (r + start)) - start);
-    else if (r < start)
+    if (r > start) {
+        const fret_real way = (r - start) * (r + start);
+        middle.to = fminl(c.to, (r - start) + way / (r + sqrtl(r * r + way)));
+    } else if (r < start)
         middle.to = fminl(c.to, start - r);
     else if (tip && start > 0)
         middle.to = fminl(c.to, start);
@@ -182,9 +190,10 @@ static fret_status pressure_gentle(const fret_normal *n, fret_real a, fret_real 
         c.to = close_part(&c);
     middle.from = c.to;
     const fret_real last = start + c.to;
-    *p = tip         ? fret_integrate(pressure_tip, &c) / rise
-         : r > start ? fret_pow((last - r) * (last + r), k1 / 2) * fret_integrate(pressure_inside, &c) / k1
-                     : 2 * fret_integrate(pressure_below, &c) / k1;
+    *p = tip ? fret_integrate(pressure_tip, &c) / rise
+         : r > start
+             ? fret_pow((c.to - (r - start)) * (last + r), k1 / 2) * fret_integrate(pressure_inside, &c) / k1
+             : 2 * fret_integrate(pressure_below, &c) / k1;
     if (middle.from < middle.to)
         *p += fret_integrate(pressure_beyond, &middle);
     if (beyond.from < beyond.to)
@@ -356,14 +365,8 @@ static fret_real steep_rim(fret_real t, fret_real rest, void *context) {
     return steep_outside(c, fret_log1p(-away) / c->n) * power * away / t;
 }
 
-/* A contact of radius a and depth dz; the logarithm of a to 100 bits, where a power makes much of it. */
-typedef struct edge {
-    fret_real a, dz;
-    dd ln_a;
-} edge;
-
 /* int_r^a g' (x^2-r^2)^(m-1) dx of a power of depth G at the edge. */
-static fret_real pressure_steep(const fret_normal *n, const fret_power *g, const edge *at, fret_real G,
+static fret_real pressure_steep(const fret_normal *n, const fret_power *g, const rim *at, fret_real G,
                                 fret_real r) {
     const fret_real m = (n->foundation.k + 1) / 2;
     if (r <= 0)
@@ -380,10 +383,9 @@ static fret_real pressure_steep(const fret_normal *n, const fret_power *g, const
 
 /* Calls `steep` for each steep power of the gap and adds up. The rest of the gap goes to `gentle`; returns
  * whether there is one. */
-typedef fret_real steep_field(const fret_normal *, const fret_power *, const edge *, fret_real G,
-                              fret_real r);
+typedef fret_real steep_field(const fret_normal *, const fret_power *, const rim *, fret_real G, fret_real r);
 
-static bool part(const fret_normal *n, const edge *at, fret_real r, steep_field *steep, fret_normal *gentle,
+static bool part(const fret_normal *n, const rim *at, fret_real r, steep_field *steep, fret_normal *gentle,
                  fret_real *sum) {
     const fret_power *power;
     const int terms = fret_gap_powers(&n->gap, &power);
@@ -413,20 +415,21 @@ static bool is_steep(const fret_normal *n) {
 }
 
 /* Depth and logarithm of a contact given by its radius, beyond the flat end. */
-static edge edge_at(const fret_normal *n, fret_real a) {
-    return (edge){a, fret_gap_profile(&n->gap, &n->rule, a - fret_gap_start(&n->gap)).g, fret_dd_log_real(a)};
+static rim rim_at(const fret_normal *n, fret_real a) {
+    const fret_real e = a - fret_gap_start(&n->gap);
+    return (rim){a, e, fret_gap_profile(&n->gap, &n->rule, e).g, fret_dd_log_real(a)};
 }
 
-static fret_status pressure_of(const fret_normal *n, const edge *at, fret_real r, fret_real *p) {
+static fret_status pressure_of(const fret_normal *n, const rim *at, fret_real r, fret_real *p) {
     fret_normal gentle;
     fret_real sum = 0, rest = 0;
     if (!is_steep(n))
-        return pressure_gentle(n, at->a, r, p);
+        return pressure_gentle(n, at, r, p);
     *p = 0;
     if (r >= at->a)
         return fret_ok();
     if (part(n, at, r, pressure_steep, &gentle, &sum)) {
-        const fret_status st = pressure_gentle(&gentle, at->a, r, &rest);
+        const fret_status st = pressure_gentle(&gentle, at, r, &rest);
         if (st.code)
             return st;
     }
@@ -445,7 +448,7 @@ static fret_status pressure_at(const fret_normal *n, fret_real a, fret_real r, f
     *p = 0;
     if (r >= a || a <= fret_gap_start(&n->gap))
         return fret_ok();
-    const edge at = edge_at(n, a);
+    const rim at = rim_at(n, a);
     return pressure_of(n, &at, r, p);
 }
 
@@ -454,8 +457,28 @@ fret_status fret_pressure(const fret_normal *n, fret_real a, fret_real r, fret_r
     return st.code ? st : pressure_at(n, a, r, p);
 }
 
+bool fret_field_light(const fret_normal *n, fret_real a) {
+    static const fret_real part = 0x1p-14L; /* an edge further away keeps 50 bits */
+    const fret_real start = fret_gap_start(&n->gap);
+    return a - start < part * start &&
+           (!fret_gap_sampled(&n->gap) || fret_gap_rows(&n->gap, a) <= fret_gap_rows(&n->gap, start) + 1);
+}
+
+/* How far the contact of radius a, which is y deep, reaches beyond the flat end. */
+static fret_real reach_of(const fret_normal *n, fret_real a, fret_real y) {
+    return fret_field_light(n, a) ? fret_search_radius(n, false, y) : a - fret_gap_start(&n->gap);
+}
+
+fret_status fret_pressure_of(const fret_normal *n, const fret_press *at, fret_real r, fret_real *p) {
+    if (!fret_field_light(n, at->a))
+        return fret_pressure(n, at->a, r, p);
+    const fret_status st = fret_field_check(n, at->a, r);
+    *p = 0;
+    return st.code ? st : fret_field_of(n, at->dz, r, true, p);
+}
+
 /* What a steep power takes from the surface of a flat punch: int_0^a x^k g (r^2-x^2)^-m dx. */
-static fret_real surface_steep(const fret_normal *n, const fret_power *g, const edge *at, fret_real G,
+static fret_real surface_steep(const fret_normal *n, const fret_power *g, const rim *at, fret_real G,
                                fret_real r) {
     power_field c = {.a = at->a, .r = r, .n = g->n, .m = (n->foundation.k + 1) / 2};
     return G / g->n * (fret_integrate(steep_centre, &c) + fret_integrate_pieces(steep_rim, &c, 1e-16L));
@@ -466,7 +489,7 @@ fret_real fret_field_surface_factor(fret_real k) {
     return 2 / FRET_PI * (fabsl(k) <= 0.5L ? fret_cos(FRET_PI * k / 2) : fret_sin(FRET_PI * away));
 }
 
-static fret_status surface_of(const fret_normal *n, const edge *at, fret_real r, fret_real *w) {
+static fret_status surface_of(const fret_normal *n, const rim *at, fret_real r, fret_real *w) {
     if (r <= at->a) {
         fret_real f = 0;
         const fret_status st = fret_gap_f(&n->gap, r, &f);
@@ -486,7 +509,7 @@ static fret_status surface_of(const fret_normal *n, const edge *at, fret_real r,
 }
 
 fret_status fret_field_surface(const fret_normal *n, fret_real a, fret_real dz, fret_real r, fret_real *w) {
-    const edge at = {a, dz, {0, 0}};
+    const rim at = {a, a - fret_gap_start(&n->gap), dz, {0, 0}};
     return surface_of(n, &at, r, w);
 }
 
@@ -497,34 +520,47 @@ fret_status fret_surface(const fret_normal *n, fret_real a, fret_real r, fret_re
     *w = 0;
     if (a <= fret_gap_start(&n->gap))
         return fret_ok();
-    const edge at = edge_at(n, a);
+    const rim at = rim_at(n, a);
     return surface_of(n, &at, r, w);
+}
+
+fret_status fret_surface_of(const fret_normal *n, const fret_press *at, fret_real r, fret_real *w) {
+    if (!fret_field_light(n, at->a))
+        return fret_surface(n, at->a, r, w);
+    const fret_status st = fret_field_check(n, at->a, r);
+    *w = 0;
+    return st.code ? st : fret_field_of(n, at->dz, r, false, w);
 }
 
 fret_status fret_field_of(const fret_normal *n, fret_real y, fret_real r, bool traction, fret_real *out) {
     const bool steep = fret_normal_closed(n) && is_steep(n);
     const fret_real a = fret_law_radius(n, y);
     *out = 0;
-    if (traction && !steep)
-        return pressure_at(n, a, r, out);
     if (!(y > 0))
         return fret_ok();
-    /* the depth tells the edge to more digits than its radius, of steep powers and near flat ends */
-    const edge at = {a, y, steep ? fret_law_log_radius(n, y) : (dd){0, 0}};
-    return traction ? pressure_of(n, &at, r, out) : surface_of(n, &at, r, out);
+    if (!traction) {
+        /* the depth tells the edge to more digits than its radius, of steep powers and near flat ends */
+        const rim at = {a, a - fret_gap_start(&n->gap), y, steep ? fret_law_log_radius(n, y) : (dd){0, 0}};
+        return surface_of(n, &at, r, out);
+    }
+    if (!steep && !fret_field_light(n, a))
+        return pressure_at(n, a, r, out);
+    const rim at = {a, reach_of(n, a, y), y, steep ? fret_law_log_radius(n, y) : (dd){0, 0}};
+    return steep || r - fret_gap_start(&n->gap) < at.e ? pressure_of(n, &at, r, out) : fret_ok();
 }
 
 bool fret_field_deep(const fret_normal *n, fret_real y, fret_real r) {
     const fret_real start = fret_gap_start(&n->gap);
-    return y > 0 && (fret_field_infinite(n, r) ||
-                     (fret_gap_sharp(&n->gap) && 4 * fabsl(r - start) < fret_law_radius(n, y) - start));
+    return y > 0 &&
+           (fret_field_infinite(n, r) ||
+            (fret_gap_sharp(&n->gap) && 4 * fabsl(r - start) < reach_of(n, fret_law_radius(n, y), y)));
 }
 
-/* What a ring from b to a presses deep within it. */
-static fret_real ring_pressure(const fret_normal *n, fret_real b, fret_real a, fret_real r) {
+/* What a ring between two depths presses deep within it. */
+static fret_real ring_pressure(const fret_normal *n, fret_real inner, fret_real outer, fret_real r) {
     const fret_foundation *f = &n->foundation;
-    const fret_real start = fret_gap_start(&n->gap);
-    inside c = {n, start, r, b - start, a - start, 0};
+    const fret_real b = fret_law_radius(n, inner), a = fret_law_radius(n, outer);
+    inside c = {n, fret_gap_start(&n->gap), r, reach_of(n, b, inner), reach_of(n, a, outer), 0};
     fret_term term[FRET_MOST_TERMS];
     const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
     fret_real sum = 0;
@@ -533,7 +569,7 @@ static fret_real ring_pressure(const fret_normal *n, fret_real b, fret_real a, f
         sum -= term[i].G * term[i].n * (by != 0 ? fret_expm1(by * l) / by : l);
     }
     sum *= fret_pow(a, f->k - 1);
-    if (terms == 0 && b < a)
+    if (terms == 0 && c.from < c.to)
         sum = fret_integrate_pieces(pressure_beyond, &c, 1e-17L);
     return f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * sum;
 }
@@ -543,7 +579,7 @@ fret_status fret_field_between(const fret_normal *n, fret_real inner, fret_real 
     fret_real within = 0;
     *out = 0;
     if (traction && fret_field_deep(n, inner, r)) {
-        *out = ring_pressure(n, fret_law_radius(n, inner), fret_law_radius(n, outer), r);
+        *out = ring_pressure(n, inner, outer, r);
         return fret_ok();
     }
     fret_status st = fret_field_of(n, inner, r, traction, &within);

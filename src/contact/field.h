@@ -9,6 +9,9 @@
  */
 fret_status fret_field_check(const fret_normal *normal, fret_real a, fret_real r);
 
+/* Does a contact of radius a end so near to a flat end that its depth tells its edge better? */
+bool fret_field_light(const fret_normal *normal, fret_real a);
+
 /* As fret_surface where a > start and no power is steep; the contact is dz deep. */
 fret_status fret_field_surface(const fret_normal *normal, fret_real a, fret_real dz, fret_real r,
                                fret_real *w);

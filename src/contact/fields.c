@@ -242,6 +242,16 @@ fret_status fret_fields_surface(fret_fields *f, fret_real a, fret_real r, fret_r
     return st;
 }
 
+fret_status fret_fields_pressure_of(fret_fields *f, const fret_press *at, fret_real r, fret_real *p) {
+    return fret_field_light(f->normal, at->a) ? fret_pressure_of(f->normal, at, r, p)
+                                              : fret_fields_pressure(f, at->a, r, p);
+}
+
+fret_status fret_fields_surface_of(fret_fields *f, const fret_press *at, fret_real r, fret_real *w) {
+    return fret_field_light(f->normal, at->a) ? fret_surface_of(f->normal, at, r, w)
+                                              : fret_fields_surface(f, at->a, r, w);
+}
+
 /* The slices of a state: what was known of them is kept where they are the same. */
 static fret_status take_slices(fret_fields *f, const fret_memory *m) {
     const fret_normal *law = fret_memory_normal(m);
@@ -273,6 +283,17 @@ static fret_status take_slices(fret_fields *f, const fret_memory *m) {
     return fret_ok();
 }
 
+/* A slice that counts ends right next to a flat end, where its depth tells more than its radius. Of a table,
+ * where depth begins as a higher power there, such a slice counts where there is nothing else. */
+static bool any_light(const fret_fields *f) {
+    if (fret_gap_sampled(&f->normal->gap))
+        return f->count > 0 && fret_field_light(f->normal, f->cut[f->count - 1].a);
+    for (size_t i = 0; i < f->count && fret_field_light(f->normal, f->cut[i].a); i++)
+        if (f->cut[i].weight != (i + 1 < f->count ? f->cut[i + 1].weight : 0))
+            return true;
+    return false;
+}
+
 /* No slice has a slope: nothing has been displaced. */
 static bool undisplaced(const fret_fields *f) {
     size_t i = 0;
@@ -296,7 +317,7 @@ static fret_status prepare_slices(fret_fields *f, const fret_memory *m,
                                   bool *there) {
     *rows = *there = false;
     const fret_status st = take_slices(f, m);
-    if (st.code || undisplaced(f))
+    if (st.code || undisplaced(f) || any_light(f))
         return st;
     const fret_real a = f->cut[f->count - 1].a;
     *rows = takes(f, f->count, a);

@@ -385,6 +385,80 @@ static void tips(void) {
     fret_table_free(t);
 }
 
+static void pressed_lightly(const fret_normal *normal, double F) {
+    const fret_foundation *f = &normal->foundation;
+    const fret_real b = fret_gap_start(&normal->gap), k1 = 1 + f->k, mu = 0.3L;
+    fret_press at;
+    fret_memory *m = NULL;
+    fret_fields *many = NULL;
+    CHECK_OK(fret_press_by_force(normal, F, &at));
+    CHECK_OK(fret_fields_make(normal, &many));
+    CHECK_OK(fret_memory_make(normal, (double)mu, &m));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, F, 0}));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 0.12 * F}));
+    const fret_real wide = (at.a - b) / b + 1e-16L;
+    CHECK_REL(at.dz * 2 * f->cN0 * fret_pow(b / f->c0, f->k) * b / k1, F, wide + 1e-16L);
+    for (int i = 0; i < 4; i++) {
+        static const double part[] = {0, 0.3, 0.8, 0.999};
+        const fret_real r = part[i] * b,
+                        punch = f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * at.dz *
+                                fret_pow((b - r) * (b + r), (f->k - 1) / 2),
+                        away = 5 * wide / (1 - (r / b) * (r / b)) + 2e-14L;
+        fret_real p = 0, w = 0, q = 0, u = 0;
+        CHECK_OK(fret_pressure_of(normal, &at, r, &p));
+        CHECK_OK(fret_surface_of(normal, &at, r, &w));
+        CHECK(p <= punch * (1 + 2e-14L) && p >= punch * (1 - away));
+        CHECK_REL(w, at.dz, 1e-15L);
+        CHECK_OK(fret_traction(m, r, &q));
+        CHECK(q > 0 && q <= 0.41L * mu * punch && (wide > 1e-9L || q >= 0.39L * mu * punch));
+        CHECK_OK(fret_fields_pressure_of(many, &at, r, &p));
+        CHECK_OK(fret_fields_surface_of(many, &at, r, &w));
+        CHECK(p <= punch * (1 + 2e-14L) && p >= punch * (1 - away));
+        CHECK_REL(w, at.dz, 1e-15L);
+        CHECK_OK(fret_fields_traction(many, m, r, &u));
+        CHECK_REL(u, q, 1e-14L);
+        CHECK_OK(fret_fields_surface_x(many, m, r, &u));
+        CHECK_OK(fret_surface_x(m, r, &q));
+        CHECK_REL(u, q, 1e-17L);
+    }
+    fret_memory_free(m);
+    fret_fields_free(many);
+}
+
+/* Next to a flat end a radius hardly tells the contact, or not at all, but its depth does: a flat punch's
+ * pressure from below, and at a radius that doubles hold what that radius says. */
+static void light(void) {
+    static const fret_gap_kind kind[] = {FRET_GAP_FLAT_CONE, FRET_GAP_FLAT_PARABOLOID, FRET_GAP_FLAT_ROUNDED,
+                                         FRET_GAP_TABLE};
+    static const double k[] = {-0.9, -0.4, 0, 0.5}, row[] = {0, 0x1p-12, 0x1p-11, 0x3p-12, 0x1p-10},
+                        height[] = {0, 0, 0, 1e-6, 4e-6};
+    struct fret_table *t = NULL;
+    CHECK_OK(fret_table_make(row, height, 5, NULL, &t));
+    for (int i = 0; i < 16; i++) {
+        unit_scene s = unit_make_scene(2, k[i % 4]);
+        s.gap = (fret_gap){.kind = kind[i / 4], .b = 0x1p-11, .R = 0.01, .slope = 0.05, .table = t};
+        const fret_normal *normal = unit_make_normal(&s);
+        for (double F = 1; F > 1e-15; F *= 1e-3)
+            pressed_lightly(normal, F);
+        for (int j = 8; j <= 50; j += 6) {
+            const double e = ldexp(1, -11 - j), a = 0x1p-11 + e;
+            fret_press at;
+            CHECK_OK(fret_press_by_radius(normal, a, &at));
+            for (int l = 0; l < 4; l++) {
+                static const double part[] = {-0.9, -1, 0.5, 0.96875};
+                const fret_real r = 0x1p-11L + (fret_real)part[l] * (l > 0 ? e : 0x1p-11);
+                fret_real p = 0, q = 0;
+                CHECK_OK(fret_pressure(normal, a, r, &q));
+                CHECK_OK(fret_pressure_of(normal, &at, r, &p));
+                CHECK_REL(p, q, 1e-15L);
+                CHECK_OK(fret_field_of(normal, at.dz, r, true, &p));
+                CHECK_REL(p, q, 1e-15L);
+            }
+        }
+    }
+    fret_table_free(t);
+}
+
 int main(int argc, char **argv) {
     unit_start("field", argc, argv);
     reference();
@@ -398,5 +472,6 @@ int main(int argc, char **argv) {
     twins();
     near_winkler();
     tips();
+    light();
     return unit_finish();
 }

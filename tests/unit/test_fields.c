@@ -151,6 +151,13 @@ static fret_real slow_pressure(const asking *q, fret_real a, fret_real r) {
     return a > r ? pressure_of(q->normal, a - fret_gap_start(&q->normal->gap), r) : 0;
 }
 
+/* Of the contact y deep, whose radius, rounded, may be that of a flat end. */
+static fret_real pressure_of_depth(const asking *q, fret_real a, fret_real y, fret_real r) {
+    if (q->which < ROUND_TABLE && fret_field_light(q->normal, a))
+        return pressure_of(q->normal, fret_search_radius(q->normal, false, y), r);
+    return slow_pressure(q, a, r);
+}
+
 /* Of a smooth gap the quadrature does. */
 static fret_real slow_surface(const asking *q, fret_real a, fret_real dz, fret_real r) {
     fret_real w = 0, f = 0;
@@ -165,13 +172,14 @@ static fret_real slow_surface(const asking *q, fret_real a, fret_real dz, fret_r
 }
 
 static void ask_inside(const asking *q, fret_real r) {
-    const fret_real scale = slow_pressure(q, q->now.a, r), mu = fret_memory_friction(q->memory);
+    const fret_press press = {.F = q->now.FN, .dz = q->now.dz, .a = q->now.a};
+    const fret_real scale = pressure_of_depth(q, press.a, press.dz, r), mu = fret_memory_friction(q->memory);
     fret_real got = 0, want = 0, inner = 0;
     fret_segment s;
-    CHECK_OK(fret_fields_pressure(q->fields, q->now.a, r, &got));
+    CHECK_OK(fret_fields_pressure_of(q->fields, &press, r, &got));
     compare(q->which, PRESSURE, got, scale, scale);
     for (size_t i = 0; fret_memory_segment(q->memory, i, &s); i++) {
-        const fret_real outer = slow_pressure(q, fret_law_radius(q->normal, s.outer), r);
+        const fret_real a = fret_law_radius(q->normal, s.outer), outer = pressure_of_depth(q, a, s.outer, r);
         want += mu * s.sigma * (outer - inner);
         inner = outer;
     }
@@ -270,7 +278,7 @@ static void history(shape which, double k, int places) {
         if (!weak && q.now.a > start) /* else the radius does not tell the contact */
             ask_anywhere(&q, far);
     }
-    CHECK(which >= ROUND_TABLE || fret_fields_error(q.fields) < 2e-15);
+    CHECK(which >= ROUND_TABLE || fret_fields_error(q.fields) < 2e-15 || fret_field_light(normal, q.now.a));
     fret_fields_free(q.fields);
     fret_memory_free(m);
     fret_normal_free(normal);
