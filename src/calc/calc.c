@@ -78,11 +78,11 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
 }
 
 bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d) {
-    if (v.d.N == d.N && v.d.m == d.m && d.rad == 0) /* the common case */
+    if (v.d.N == d.N && v.d.m == d.m && d.rad == 0 && v.d.rad == 0) /* the common case */
         return true;
     const bool plain = dim_equal(v.d, DIM_NONE) && v.d.rad == 0;
-    const bool angle = d.rad != 0;
-    if ((dim_equal(v.d, d) && (!angle || v.d.rad != 0)) || (v.v == 0 && plain))
+    const bool angle = d.rad != 0, both = angle == (v.d.rad != 0); /* a length may have come of an angle */
+    if ((dim_equal(v.d, d) && (both || !(angle || dim_equal(d, DIM_NONE)))) || (v.v == 0 && plain))
         return true;
     if (angle && plain)
         return calc_fail(lx->error, at, len, "%s needs a unit: it is an angle, in deg or rad", name);

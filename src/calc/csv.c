@@ -140,6 +140,9 @@ static bool read_title(reader *r, field f) {
     const field name = trimmed(f.text, n);
     snprintf(column->name, sizeof column->name, "%.*s", (int)(name.len < CSV_NAME ? name.len : CSV_NAME - 1),
              name.text);
+    for (csv_values *other = c->column; *column->name && other < column; other++)
+        if (!strcmp(other->name, column->name))
+            other->twice = column->twice = true;
     if (n == f.len)
         return true;
     const char closing = closing_of(f.text[n]);
@@ -372,7 +375,9 @@ const csv_values *csv_column(const csv *c, const char *name, calc_error *error) 
     if (!column)
         calc_fail(error, 0, 0, "%.200s has no column %s: its columns are %s, by its first line", c->path,
                   name, names);
+    else if (column->twice)
+        calc_fail(error, 0, 0, "%.200s has two columns %s: rename one", c->path, name);
     else if (column->trouble)
         calc_fail(error, 0, 0, "%s", column->trouble);
-    return column && !column->trouble ? column : NULL;
+    return column && !column->twice && !column->trouble ? column : NULL;
 }

@@ -15,6 +15,7 @@ typedef struct csv_values {
     char name[CSV_NAME];
     dim d;
     bool has_unit;
+    bool twice;    /* another has its name: it cannot be asked for by it */
     double *v;     /* SI; rows of them */
     char *trouble; /* the first thing wrong, or NULL */
 } csv_values;
@@ -34,7 +35,7 @@ typedef struct csv {
 bool csv_read(const char *path, file_stop stop, csv *out, calc_error *error);
 void csv_free(csv *c);
 
-/* The column of this name, whole and of numbers; NULL with an error. */
+/* The one column of this name, whole and of numbers; NULL with an error. */
 const csv_values *csv_column(const csv *c, const char *name, calc_error *error);
 /* Is there one? */
 bool csv_has(const csv *c, const char *name);

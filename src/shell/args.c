@@ -42,6 +42,11 @@ static bool unknown_argument(lexer *lx, const arg_list *list) {
                      LEX_WORD(lx), list->command, list->usage);
 }
 
+static bool not_taken(lexer *lx, const arg_list *list, const arg *a, token_kind how) {
+    return calc_fail(lx->error, lx->at, lx->len, "%s does not take %s by %s; usage: %s %s", list->who,
+                     a->name, how == T_DEFINE ? ":=" : "+=", list->command, list->usage);
+}
+
 static const arg *find(const lexer *lx, const arg_list *list, arg_kind kind) {
     const arg *a = list->args;
     while (a->kind && !(a->kind == kind && lex_is(lx, a->name)))
@@ -89,8 +94,7 @@ static bool read_named(shell *sh, lexer *lx, const arg_list *list, const arg *a,
     if (!a)
         return unknown_argument(lx, list);
     if ((how == T_INCREMENT && !(a->flags & ARG_INCREMENT)) || (how == T_DEFINE && !(a->flags & ARG_LIVE)))
-        return calc_fail(lx->error, lx->at, lx->len, "%s does not take %s by %s; usage: %s %s", list->who,
-                         a->name, how == T_DEFINE ? ":=" : "+=", list->command, list->usage);
+        return not_taken(lx, list, a, how);
     const dim d = a->in && !(a->flags & ARG_OWN_DIM) ? quantity_of_input((input)(a->in - 1))->d : a->d;
     v->at = lx->at;
     v->len = lx->len;
@@ -114,7 +118,7 @@ static bool read_named(shell *sh, lexer *lx, const arg_list *list, const arg *a,
 static bool read_choice(lexer *lx, const arg *a, arg_value *v) {
     char word[LEX_NAME];
     const char *name;
-    const size_t len = word_at(lx);
+    const size_t len = choice_at(lx);
     snprintf(word, sizeof word, "%.*s", LEX_SHOWN(len), lx->text + lx->at);
     for (v->choice = 0; (name = a->words(v->choice)); v->choice++)
         if (!strcmp(name, word)) {
@@ -144,6 +148,8 @@ static bool read_first(shell *sh, lexer *lx, const arg_list *list, arg_value out
         return lx->kind != T_NAME || named || read_choice(lx, a, v);
     case ARG_EXPR:
         if (named && lex_is(lx, a->name)) {
+            if (lex_peek(lx) != T_ASSIGN)
+                return not_taken(lx, list, a, lex_peek(lx));
             lex_next(lx);
             lex_next(lx);
         }

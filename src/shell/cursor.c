@@ -42,6 +42,12 @@ size_t word_at(const lexer *lx) {
     return end - lx->at;
 }
 
+size_t choice_at(const lexer *lx) {
+    const size_t len = word_at(lx);
+    const char *comma = memchr(lx->text + lx->at, ',', len);
+    return comma ? (size_t)(comma - lx->text) - lx->at : len;
+}
+
 bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, unsigned *out) {
     value v;
     size_t at = lx->at;

@@ -167,7 +167,8 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, range_name
         knob *k = &q->column[q->columns].name;
         error_clear(&useless);
         lex_start(&lx, of_file->name, strlen(of_file->name), &useless);
-        if (useless.raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble)
+        if (useless.raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble ||
+            of_file->twice)
             continue;
         const quantity *of = quantity_find(of_file->name, strlen(of_file->name));
         if ((of && !quantity_is_input(of)) || (!of && name_taken(of_file->name, strlen(of_file->name))))
@@ -259,6 +260,14 @@ static bool read_equation(shell *sh, lexer *lx, fit_question *q, csv *data, rang
     return lex_filename(lx, name, sizeof name);
 }
 
+static void no_loop(const csv *data, const char *misses, calc_error *error) {
+    char names[CALC_ERROR_TEXT / 2];
+    csv_names(data, names, sizeof names);
+    calc_fail(error, 0, 0,
+              "%.200s has no column %s: a loop needs dx and Fx, and may have FN or dz; its columns are %s",
+              data->path, misses, names);
+}
+
 static bool read_loop(lexer *lx, fit_question *q, csv *data) {
     char name[ARG_FILE_NAME];
     const size_t at = lx->at;
@@ -275,9 +284,7 @@ static bool read_loop(lexer *lx, fit_question *q, csv *data) {
         q->loop.normal_by = BY_DISPLACEMENT;
     }
     if (!error->raised && (!q->loop.dx || !q->loop.Fx))
-        calc_fail(error, at, lx->last - at,
-                  "%s has no column %s: a loop needs dx and Fx, and may have FN or dz", name,
-                  q->loop.dx ? "Fx" : "dx");
+        no_loop(data, q->loop.dx ? "Fx" : "dx", error);
     return !error->raised || calc_place(error, at, lx->last - at);
 }
 

@@ -98,6 +98,27 @@ bool do_material(shell *sh, lexer *lx, const command *self) {
     return ok;
 }
 
+/* E0 and E0_2 are the same here, as nu and nu_2 are; a rigid body has neither. */
+static bool second_holds(lexer *lx, const arg_list *list, const arg_value v[ARGS]) {
+    const arg_value *of[INPUTS] = {NULL};
+    const bool rigid = v[0].given && v[0].choice == SECOND_WORDS - 1;
+    for (const arg *a = list->args; a->kind; a++) {
+        const arg_value *x = &v[a - list->args];
+        if (!a->in || !x->given)
+            continue;
+        const input in = a->in == 1 + IN_E0 ? IN_E0_2 : a->in == 1 + IN_NU ? IN_NU_2 : (input)(a->in - 1);
+        if (rigid)
+            return calc_fail(lx->error, x->at, x->len, "a rigid body has no %s", a->name);
+        const arg_value *later = of[in] && of[in]->at > x->at ? of[in] : x;
+        if (of[in])
+            return calc_fail(lx->error, later->at, later->len,
+                             "%s is given twice: here it is that of the second body",
+                             quantity_of_input(in)->name);
+        of[in] = x;
+    }
+    return true;
+}
+
 bool do_second(shell *sh, lexer *lx, const command *self) {
     const arg_list list = command_args(self);
     arg_value v[ARGS];
@@ -105,6 +126,10 @@ bool do_second(shell *sh, lexer *lx, const command *self) {
     if (!args_read(sh, lx, &list, v, NULL))
         return false;
     gather(&e, &list, v);
+    if (!second_holds(lx, &list, v)) {
+        args_drop(&list, v);
+        return false;
+    }
     if (v[0].given && v[0].choice < SECOND_WORDS) {
         e.second = v[0].choice ? SECOND_RIGID : SECOND_SAME;
     } else if (v[0].given) {
@@ -387,7 +412,7 @@ static bool read_parameters(lexer *lx, const geometry *g, edit *e, const arg_lis
 
 /* The name of a geometry under the cursor. */
 static const geometry *read_shape(lexer *lx) {
-    const size_t begin = lx->at, len = word_at(lx);
+    const size_t begin = lx->at, len = choice_at(lx);
     const geometry *g = geometry_find(lx->text + begin, len);
     char word[LEX_NAME];
     if (g) {

@@ -13,7 +13,7 @@ FILES = {"gap.csv": "r [mm],f [um]\n0,0\n1,1\n2,4\n", "loop.csv": "dx [um],Fx [N
          "loss.csv": "F [N],y [uJ]\n5,0.01\n10,0.08\n15,0.25\n", "ambiguous.csv": "F [N],dW [uJ]\n5,0.01\n10,0.08\n",
          "modulus.csv": "F [N],E0\n1,2\n2,3\n3,4\n", "both.csv": "FN [N],Fx [N],dz [um],dx [um]\n1,0,1,0\n",
          "unitless.csv": "FN [N],Fx\n100,0\n100,5\n", "dx.csv": "dx,Fx [N]\n0,0\n1,5\n",
-         "zero.csv": "FN [N],Fx [N]\n0,0\n100,5\n", "slide.csv": "FN [N],Fx [N]\n100,0\n100,50\n",
+         "twice.csv": "dx [um],dx [mm],Fx [N],Fx [kN]\n0,0,0,0\n1,1,5,5\n", "double.csv": "u [um],v,u [mm]\n0,1,0\n1,2,5\n", "zero.csv": "FN [N],Fx [N]\n0,0\n100,5\n", "slide.csv": "FN [N],Fx [N]\n100,0\n100,50\n",
          "word.csv": "FN [N],Fx [N]\n100,0\n100,xx\n", "words.csv": "FN [N],Fx [N]\n100,0\nx,5\n",
          "far.csv": "r [mm],f [um]\n0.1,1\n1,50\n", "half.csv": "dz [um],Fx [N]\n1,0\n", "lone.csv": "FN [N],dx [um]\n1,0\n",
          "three.csv": "FN [N],dz [um],dx [um]\n1,2,0\n2,3,0.1\n", "sine.csv": "sin,x [N],y [um]\n1,2,3\n2,3,4\n",

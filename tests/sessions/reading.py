@@ -25,7 +25,7 @@ SAME = {
     "columns of numbers": b"k [-],m [],r [mm],f [um]\n1,2,0,0\n1,2,0.5,12.5\n1,2,1,50\n",
     "many blanks": b"r   [mm]   f   [um]\n0   0\n0.5   12.5\n1 50   \n",
     "a micro sign alone": b"\xb5 [mm],r [mm],f [um]\n0,0,0\n1,0.5,12.5\n1,1,50\n",
-    "a column twice": b"r [mm],r [mm],f [um]\n0,0,0\n0.5,0.7,12.5\n1,2,50\n",
+    "a column twice that is not asked for": b"n,r [mm],n,f [um]\n0,0,0,0\n1,0.5,7,12.5\n2,1,5,50\n",
     "a column of notes behind blanks": b"r [mm] f [um] note\n0 0 a\n0.5 12.5 b\n1 50 c\n",
     "separators within brackets": b"note (a, b),r [mm],f [um]\nx,0,0\ny,0.5,12.5\nz,1,50\n",
     "every form of a number": b"r [mm];f [um]\n0,;-.0\n,5;12,5" + 70 * b"0" + b"E0\n" + 70 * b"0" + b"1;+5e+001\n",
@@ -76,6 +76,7 @@ WRONG = {
     b"r [mm],f [um\n0,0\n": ":1: a unit in the header is not closed",
     "r [mm],f [um]\n0,0\n".encode("utf-16-le"): ":1: this is no text, or UTF-16 without its mark: save it as UTF-8",
     b"r [mm],f [um]\n0,0\n1,\0\n": ":3: this is no text, or UTF-16 without its mark: save it as UTF-8",
+    b"r [mm],r [mm],f [um]\n0,0,0\n0.5,0.7,12.5\n1,2,50\n": " has two columns r: rename one",
     b"r [mm],f [um]\n0,1\n1,2\n": ":2: f(0) = 1 um must be 0",
 }
 

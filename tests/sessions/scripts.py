@@ -179,7 +179,8 @@ def read_tables(tests):
                           ("r [mm],f [um]\n0,0\n1,nan\n", ":3: expected a number as f, not 'nan'"),
                           ("r [mm],f [um]\n0,0,7\n", ":2: more than 2 fields"),
                           ("r [mm],f [furlong]\n0,0\n", "unknown unit 'furlong'"),
-                          ("r [mm],f [um],f/um,f/um\n0,1,1,1\n", "f(0) = 1 um must be 0"),
+                          ("r [mm],f [um],f/um\n0,1,1\n", " has two columns f: rename one"),
+                          ("r [mm],f [um],g/um,g/um\n0,1,1,1\n", "f(0) = 1 um must be 0"),
                           ("12\n", ":1: the header must name the columns"),
                           ("r [mm],f [um]\n", "holds no rows of numbers")):
         with tests.file(text) as path:
