@@ -160,15 +160,26 @@ static bool call_builtin(machine *m, const expr_node *n, value *out) {
 
 /* ---- names and changed scenes ------------------------------------------------------------------ */
 
+/* A step more of a way of definitions, or, for want of room, the last with dots. Returns the room it took. */
+static size_t add_step(char *way, size_t size, const char *name, const char *text) {
+    static const char dots[] = "... -> ";
+    if (size < sizeof dots)
+        return 0;
+    const int used = snprintf(way, size, text ? "%s := %.80s -> " : "%s -> ", name, text);
+    if (used >= 0 && (size_t)used + sizeof dots <= size)
+        return (size_t)used;
+    memcpy(way, dots, sizeof dots);
+    return size;
+}
+
 /* The chain of live definitions, from the one that comes again. */
 static bool circle(calc *c, const char *label, calc_error *error) {
-    char chain[CALC_ERROR_TEXT - 64] = "";
-    size_t from = c->chain_length - 1;
+    char chain[CALC_ERROR_TEXT - 96] = ""; /* the name that closes it is never cut off */
+    size_t from = c->chain_length - 1, n = 0;
     while (from > 0 && strcmp(c->chain[from]->label, label))
         from--;
     for (size_t i = from; i < c->chain_length; i++)
-        snprintf(chain + strlen(chain), sizeof chain - strlen(chain), "%s := %.80s -> ", c->chain[i]->label,
-                 c->chain[i]->text);
+        n += add_step(chain + n, sizeof chain - n, c->chain[i]->label, c->chain[i]->text);
     error->circle = true;
     return calc_fail(error, 0, 0, "a circle of definitions: %s%s", chain, label);
 }
@@ -570,11 +581,10 @@ static bool mentions(const calc *c, const expr *e, const quantity *q, const char
         const definition *d = (const definition *)row->definition;
         if (name && !strcmp(row->text, name))
             return true;
-        const int used = size > 0 && d ? snprintf(way, size, "%s -> ", row->text) : 0;
-        const size_t step = (size_t)used < size ? (size_t)used : size;
+        const size_t step = d ? add_step(way, size, row->text, NULL) : 0;
         if (d && mentions(c, &d->body, q, name, way ? way + step : NULL, size - step))
             return true;
-        if (used)
+        if (step)
             way[0] = 0;
     }
     return false;

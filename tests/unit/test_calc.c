@@ -344,6 +344,7 @@ static void deep_names(void) {
     /* a circle through all of them: as much of the way as a message bears */
     CHECK(!assign(&c, "d0 := d100") && strlen(error.text) < sizeof error.text);
     CHECK(!strncmp(error.text, "a circle of definitions: d0 -> d100 -> d99 -> ", 46));
+    CHECK(strstr(error.text, " -> d66 -> ... -> d0") && !strstr(error.text, "d65"));
     CHECK(value_of(&c, "d100") == 101);
     calc_free(&c);
 }
