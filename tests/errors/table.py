@@ -30,18 +30,22 @@ def entries(text):
                    [line for line in lines if line and line[0] not in ">|"])
 
 
-def carets(messages):
-    """Each placed message is followed by its line and a caret below the column (counted in bytes)."""
-    lines = messages.splitlines()
+def carets(messages, lasts):
+    """Each placed message is followed by its line and a caret below the column (counted in bytes); marks go on to the last
+    column, where that is known."""
+    lines, lasts = messages.splitlines(), list(lasts)
     for i, line in enumerate(lines):
         found = re.match(r"\S+:\d+:(\d+): error: ", line)
         if not found:
             continue
+        last = lasts.pop(0) if lasts else None
         if i + 2 >= len(lines) or "^" not in lines[i + 2]:
             return False
         shown, caret = lines[i + 1], lines[i + 2].index("^")
         if "..." not in shown and len(shown[2:caret].encode()) != int(found.group(1)) - 1 and \
                 len(shown[2:caret]) != int(found.group(1)) - 1:
+            return False
+        if last and lines[i + 2].count("~") != int(last) - int(found.group(1)):
             return False
     return True
 
@@ -49,13 +53,15 @@ def carets(messages):
 def check(tests, statements, out, errors):
     script = "\n".join(statements) + "\n"
     status = 1 if any("error:" in line for line in errors) else 0
+    lasts = [found.group(2) for found in (re.match(r"\d+:\d+(-(\d+))?: error:", line) for line in errors) if found]
+    errors = [re.sub(r"^(\d+:\d+)-\d+: error:", r"\1: error:", line) for line in errors]
     with tests.file(script) as path:
         runs = {path: tests.run(path), "-c": tests.run("-c", script), "stdin": tests.run(input=script)}
     for name, done in runs.items():
         messages = [line for line in done.stderr.splitlines() if "error:" in line or line.startswith(("warning:", "note:"))]
         want = [line if line.startswith(("warning:", "note:")) else name + ":" + line for line in errors]
         ok = (messages == want and harness.same_text("\n".join(out), done.stdout) and done.returncode == status
-              and carets(done.stderr))
+              and carets(done.stderr, lasts))
         way = "file" if name == path else name
         tests.check("errors, %s: %s" % (way, " \\n ".join(statements)), ok,
                     harness.diff("\n".join(out + want), done.stdout + done.stderr) + "\nexit %d" % done.returncode)

@@ -369,7 +369,8 @@ def refusals(tests):
              "zero": ("u,y", ((1, 0), (2, 0), (3, 0))), "neg": ("force [N],depth [um]", ((1, 2), (-3, 6), (4, 8))),
              "fn": ("FN [mm],y", ((1, 2), (2, 4))), "along": ("dx [N],Fx [N]", ((0, 0), (1, 1))),
              "no": ("dx [um],W", ((0, 0), (1, 1))), "down": ("dx [um],Fx [N],FN [N]", ((0, 0, 100), (0.1, 4, -3), (1, 2, 1))),
-             "bare": ("dx [um],Fx [N]", ((0, 0), (0.1, 4), (1, 2))), "res": ("dW [uJ],u", ((1, 2), (2, 3)))}
+             "bare": ("dx [um],Fx [N]", ((0, 0), (0.1, 4), (1, 2))), "res": ("dW [uJ],u", ((1, 2), (2, 3))),
+             "waves": ("u,y", tuple((u, 10 + u % 2) for u in range(1, 17)))}
     path = {name: write(tests, "refused-%s.csv" % name, *text) for name, text in files.items()}
     path["bad"] = os.path.join(tests.dir, "refused-bad.csv")
     with open(path["bad"], "w", encoding="ascii") as f:
@@ -384,6 +385,10 @@ def refusals(tests):
              "no value close beside s = 1, for the derivative: the square root of a negative number is not real"),
             # the least is a kink, which no slope tells
             ("s = 1; fit s for y = 15 + max(s - 1, (1 - s)/10) to {exact}", "the fit does not settle"),
+            # as many names as there may be
+            ("; ".join(["s = 1", "w = 22.5 deg"] + ["x%d = 1" % i for i in range(1, 8)]) + "; fit s, x1, x2, x3, x4, x5, x6, x7 "
+             "for y = 15 + max(s - 1, (1 - s)/10) + x1*sin(u*w) + x2*cos(u*w) + x3*sin(2*u*w) + x4*cos(2*u*w) + x5*sin(3*u*w) "
+             "+ x6*cos(3*u*w) + x7*sin(4*u*w) to {waves}", "the fit does not settle"),
             ("s = 1; fit s for y = 1e-30*s*u to {exact}", "the data do not determine s: nothing in them depends on it"),
             ("s = -1; fit s for y = log(s*u) to {zero}", "log is not defined there (row 1 of the data)"),
             ("s = 1; fit s for y = s*u/(u - 2) to {exact}", "division by zero (row 2 of the data)"),

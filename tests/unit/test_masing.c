@@ -155,6 +155,13 @@ static void force_to_gross_slip(void) {
             CHECK_REL(now(&p).W, (1 + 2 * j) * loss / 4, 1e-14L);
             CHECK(now(&p).turns == 0 && (parts[i / 30] < 1 || now(&p).kt == 0));
         }
+        for (int sign = -1; sign <= 1; sign += 2) { /* what differs from mu F_N in the last bit is it */
+            double dx;
+            restart(&p);
+            CHECK_OK(fret_masing_to_force(p.masing, sign * nextafter(p.limit, i % 2 ? 0 : inf_), &dx));
+            CHECK(now(&p).Fx == sign * p.limit && now(&p).kt == 0);
+            CHECK_REL(dx, sign * p.slip, 1e-15L);
+        }
         drop(&p);
     }
 }

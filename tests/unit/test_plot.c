@@ -435,6 +435,17 @@ static void thins(void) {
     CHECK(s->count <= 9 && isnan(s->y[0]) && after[0] == -5 && after[1] == 99999 && after[2] == -9 &&
           after[3] == 7);
     plot_figure_free(&f);
+    f = figure(PLOT_CURVE, NULL); /* stretches that are not all as long */
+    s = f.panel[0]->series[0];
+    for (int i = 0; i < 1099; i++)
+        plot_point(s, i, i);
+    plot_thin(s, 400);
+    CHECK(s->count == 200 && s->x[0] == 0 && s->x[199] == 1098);
+    for (size_t i = 1; i < s->count; i++) {
+        const double on = s->x[i] - s->x[i - 1];
+        CHECK(i % 2 ? on == 9 || on == 10 : on == 1);
+    }
+    plot_figure_free(&f);
 }
 
 /* A series without end: bounded, its extremes kept, spread evenly. */
@@ -756,7 +767,8 @@ static void odd_pages(void) {
     for (size_t i = 0; i < s->count; i++)
         c->y[i] = s->y[i] = 1e7 + 1e6 * (double)i;
     text = text_of(&f, (plot_target){.columns = 60, .rows = 20});
-    CHECK(has(text, "e+07 "));
+    CHECK(has(text, "e+07 ") && has(text, "* the curve") && has(text, ". thin one"));
+    CHECK(strchr(text, '.') == strrchr(text, '.')); /* the curve covers the helping line, all of the way */
     free(text);
     for (size_t i = 0; i < s->count; i++)
         c->y[i] = s->y[i] = 1e-7 * (double)i;
