@@ -58,7 +58,9 @@ int fret_springs_use(fret_springs *springs, unsigned width);
 fret_status fret_springs_step(fret_springs *springs, const fret_step *step, unsigned substeps);
 
 /* The state now, SI as in fret_state, in time ~ count; a is that of the continuum, c a cell boundary
- * (or a), slices the number of springs in contact. */
+ * (or a), slices the number of springs in contact. For c and kt a spring slips that is at its bound to within
+ * what rounding may have moved it by: less than 5 units in the last place of the largest bound each step, and
+ * what the sum of all springs, 1e-14 mu F_N, makes of displacement. */
 void fret_springs_state(const fret_springs *springs, fret_state *out);
 
 FRET_END

@@ -539,9 +539,9 @@ static bool stays(const fret_memory *m, const fret_step *step) {
 /* To F_x = mu load, straight in (F_N, F_x). */
 static fret_real step_by_force(fret_memory *m, const fret_step *step, const fret_real edge[2],
                                fret_real load) {
-    const fret_real drive =
-        stays(m, step) && edge[LOAD] == m->edge[LOAD] ? 0 : load - fret_memory_total(m, LOAD);
-    if (drive != 0)
+    const bool same = stays(m, step);
+    const fret_real drive = same && edge[LOAD] == m->edge[LOAD] ? 0 : load - fret_memory_total(m, LOAD);
+    if (drive != 0 && !same)
         m->direction = drive < 0 ? -1 : 1;
     const fret_real loss = advance(m, LOAD, edge, drive, step->tangential);
     if (edge[LOAD] <= 0)

@@ -99,7 +99,10 @@ struct fret_springs {
     fret_real *w_sum; /* [i]: stiffness of springs 0..i-1 */
     fret_real *touch; /* [i]: F_N where spring i touches */
     fret_real dz, FN, dx, Fx;
-    int direction; /* of the last tangential motion */
+    fret_real goal;   /* F_x as it was asked for, or as it came out of a displacement */
+    int direction;    /* of the last tangential motion */
+    fret_real astray; /* how far rounding may have moved a spring since all of them slipped */
+    fret_real missed; /* by how much steps by force have missed theirs since then, at most */
     fret_sum W;
 };
 
@@ -221,7 +224,7 @@ int fret_springs_use(fret_springs *s, unsigned width) {
 void fret_springs_reset(fret_springs *s) {
     for (size_t i = 0; i < s->padded; i++)
         s->cells.b[i] = s->cells.u[i] = 0;
-    s->dz = s->FN = s->dx = s->Fx = 0;
+    s->dz = s->FN = s->dx = s->Fx = s->goal = s->astray = s->missed = 0;
     s->closed = 0;
     s->direction = 1;
     s->W = (fret_sum){0, 0};
@@ -295,6 +298,17 @@ static size_t groups(size_t springs) { /* up to whole SUMS */
     return (springs + SUMS - 1) / SUMS * SUMS;
 }
 
+/* A step by ddx below the depth z rounds ddx, touched, moved, trial and the bounds: together less than 10
+ * half units in the last place of the largest bound, as springs that keep their memory do not move farther
+ * than twice that. A step that takes all springs to their bounds ends all memory. */
+static void go_astray(fret_springs *s, double z, double ddx) {
+    const double bound = s->cells.mu_eta * z;
+    if (!(fabs(ddx) < 2 * bound))
+        s->astray = s->missed = 0;
+    else
+        s->astray += 5 * DBL_EPSILON * bound;
+}
+
 /* A straight step of all springs that it touches. */
 static void advance(fret_springs *s, fret_real dz, fret_real dx) {
     const double z0 = (double)s->dz, z1 = (double)dz, ddx = (double)(dx - s->dx);
@@ -306,6 +320,7 @@ static void advance(fret_springs *s, fret_real dz, fret_real dx) {
         const straight path = {z1, ddx, most(z0, z1), 1 / fabs(z1 - z0)};
         s->run->deform(&s->cells, end, &path, &sums);
     }
+    go_astray(s, most(z0, z1), ddx);
     s->Fx = total(sums.force, sums.force_rest) * s->compliance;
     fret_sum_add(&s->W, total(sums.loss, sums.loss_rest) * s->compliance);
     if (dz != s->dz)
@@ -322,11 +337,13 @@ static void turn(fret_springs *s, fret_real before, fret_real after) {
 /* The same at constant depth: most steps are of this kind, and what goes round the loop over springs would
  * cost as much as 200 of them. */
 static void step_at_depth(fret_springs *s, fret_real dx) {
+    const double ddx = (double)(dx - s->dx);
     partial_sums sums;
-    s->run->shift(&s->cells, groups(s->closed), (double)(dx - s->dx), &sums);
+    s->run->shift(&s->cells, groups(s->closed), ddx, &sums);
+    go_astray(s, (double)s->dz, ddx);
     turn(s, s->dx, dx);
     s->dx = dx;
-    s->Fx = total(sums.force, sums.force_rest) * s->compliance;
+    s->Fx = s->goal = total(sums.force, sums.force_rest) * s->compliance;
     fret_sum_add(&s->W, total(sums.loss, sums.loss_rest) * s->compliance);
 }
 
@@ -380,8 +397,12 @@ static void walk_forces(fret_springs *s, fret_real FN, fret_real dz, fret_real F
             depth = s->dz; /* rounding must not make it breathe */
         const fret_real limit = s->mu * load, force = fminl(fmaxl(Fx0 * rest + Fx * t, -limit), limit);
         advance(s, depth, s->dx + displacement_of_front(s, depth, force));
-        if (fabsl(force - s->Fx) > 1e-14L * limit) /* the rounding of many springs */
+        const fret_real miss = fabsl(force - s->Fx);
+        s->missed = fmaxl(s->missed, miss); /* also where it is to go back by that */
+        if (miss > 1e-14L * limit) {        /* the rounding of many springs */
             advance(s, depth, s->dx + displacement_of_front(s, depth, force));
+            s->missed = fmaxl(s->missed, fabsl(force - s->Fx));
+        }
     }
 }
 
@@ -439,30 +460,42 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
     if (by_force && fabs(step->tangential) > s->mu * FN)
         return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(s->mu * FN));
     if (by_force) {
-        turn(s, s->Fx, step->tangential);
+        turn(s, s->goal, step->tangential); /* which rounding must not make a reversal */
         walk_forces(s, FN, dz, step->tangential, substeps);
+        s->goal = step->tangential;
     } else {
         const fret_real dx = step->tangential_by == FRET_TO_DX ? (fret_real)step->tangential : s->dx;
         turn(s, s->dx, dx);
         walk_displacements(s, dz, dx, substeps);
+        s->goal = s->Fx;
     }
     s->dz = dz;
     s->FN = FN;
     return fret_unless_stopped(s->normal, fret_ok());
 }
 
+/* How far all springs together may be from where a load makes them come back to, as a force: that by which
+ * two visits missed it, or what rounds the sum of the springs, in lanes of STRIDE/SUMS. */
+static double force_astray(const fret_springs *s) {
+    const fret_real rounding = (fret_real)DBL_EPSILON / 2 * (STRIDE / SUMS) * s->mu * s->FN;
+    return (double)(2 * s->normal->foundation.eta * (s->missed + rounding));
+}
+
 void fret_springs_state(const fret_springs *s, fret_state *out) {
     const fret_real eta = s->normal->foundation.eta;
     const size_t closed = s->closed;
+    const double astray = (double)s->astray, force = force_astray(s);
     fret_real stored = 0, going = 0;
     size_t slipping = 0; /* outermost run of them */
     bool run = true;
     for (size_t i = closed; i-- > 0 && (i % LOOK || !fret_stopped(s->normal));) {
         double bound = s->cells.b[i], u = s->cells.u[i], w = s->cells.w[i];
-        run = run && fabs(u) >= bound;
+        /* as long as those outside slip, the force moves this one and those within */
+        const double held = (double)s->w_sum[i + 1], slack = held * astray + force;
+        run = run && held * (bound - fabs(u)) <= slack;
         slipping += run;
         stored += (fret_real)w * u * u;
-        going += s->direction * u >= bound ? 0 : w;
+        going += held * (bound - s->direction * u) <= slack ? 0 : w;
     }
     *out = (fret_state){
         .FN = s->FN,

@@ -325,6 +325,60 @@ static void test_stick(void) {
     drop(&p);
 }
 
+/* Loads that come back to where they were close the loop that they opened, whatever rounding does to springs
+ * on the way: stick radius and stiffness of the diagram, to within two cells. */
+static void loops_close(double n, double k, size_t count, bool oblique) {
+    enum { PLACES = 5, STEPS = 60 };
+    pair p = make(n, k);
+    unsigned long long seed = 23;
+    double place[PLACES][2];
+    springs_of(&p, count, p.radius, FRET_WEIGHT_CELL);
+    go(&p, press_only(p.FN), 1);
+    for (int i = 0; i < PLACES; i++) {
+        place[i][0] = oblique ? p.FN * unit_random(&seed, 0.3, 1) : p.FN;
+        place[i][1] = p.mu * place[i][0] * unit_random(&seed, -0.95, 0.95);
+    }
+    for (int i = 0; i < STEPS; i++) {
+        const double *at = place[(int)unit_random(&seed, 0, PLACES)];
+        fret_state m, s;
+        go(&p, oblique ? to_force(at[0], at[1]) : to_fx(at[1]), oblique ? 64 : 1);
+        fret_memory_state(p.memory, &m);
+        fret_springs_state(p.springs, &s);
+        const fret_real cell = (fret_real)p.radius / (fret_real)count;
+        CHECK_ABS(s.c, m.c, cell, 2);
+        CHECK_ABS(s.kt, m.kt, fret_normal_stiffness(p.normal, p.radius), 0.02L);
+    }
+    drop(&p);
+}
+
+static void test_loops_close(void) {
+    for (int oblique = 0; oblique < 2; oblique++) {
+        loops_close(2, 0, 500, oblique);
+        loops_close(1, 0.7, 300, oblique);
+        loops_close(8, -0.4, 500, oblique);
+    }
+    loops_close(0.5, 0, 20000, false);
+}
+
+/* To the F_x that there is: no reversal. */
+static void test_no_reversal(void) {
+    pair p = make(2, 0.3);
+    unsigned long long seed = 29;
+    springs_of(&p, 1000, p.radius, FRET_WEIGHT_CELL);
+    for (int i = 0; i < 50; i++) {
+        const double Fx = 0.8 * p.mu * p.FN * unit_random(&seed, -1, 1);
+        fret_state before, after;
+        restart(&p);
+        go(&p, press_only(p.FN), 1);
+        go(&p, to_fx(Fx), 1);
+        fret_springs_state(p.springs, &before);
+        go(&p, to_fx(Fx), 1);
+        fret_springs_state(p.springs, &after);
+        CHECK(after.kt == before.kt && after.c == before.c && after.kt < after.kn);
+    }
+    drop(&p);
+}
+
 /* A flat-ended pad, where springs under the flat touch together. */
 static void test_pad(void) {
     const unit_scene steel = unit_make_scene(2, 0.1);
@@ -563,6 +617,8 @@ int main(int argc, char **argv) {
     test_many();
     test_weights();
     test_stick();
+    test_loops_close();
+    test_no_reversal();
     test_pad();
     test_copy();
     test_widths();
