@@ -227,6 +227,10 @@ def help_examples(tests):
     quantities = re.findall(r"^    (\w+)(?:\(\w+\))?  ", text, re.M)
     tests.each([lambda t=t: one(t) for t in sorted(shown | set(quantities))])
     tests.check("help lists the quantities", len(quantities) > 30, text)
+    inputs, _, rest = text.partition("Results:\n")
+    results, _, functions = rest.partition("Functions of the scene:\n")
+    tests.check("functions alone have an argument", "(null)" not in text and not re.findall(r"^    \w+\(", inputs + results, re.M) and
+                not re.findall(r"^    \w+ ", functions.partition("\n\n")[0], re.M), text)
     presets = words("help material", r"^    (\S+) +E0=\S+ GPa nu=")
     tests.check("help material lists them", {"steel", "Ti-6Al-4V", "Inconel", "bronze", "tungsten-carbide", "silicon-nitride",
                                              "PTFE"} <= set(presets), str(presets))

@@ -199,11 +199,9 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
         }
         if (!line)
             break;
-        if (waiting.answers > 0 && !waiting.next) {
+        if (waiting.answers > 0 && !waiting.next)
             shell_note(sh, PASTED "%zu line%s without a prompt taken for answers", waiting.answers,
                        waiting.answers == 1 ? "" : "s");
-            waiting.answers = 0;
-        }
         run_line(sh, line);
         free(line);
         if (shell_stop) /* what was pasted behind it is dropped too */

@@ -31,7 +31,7 @@ OFFERED = (
     ("follow gap", "gap1.csv gap2.csv", None),
     ("history to gap", "gap1.csv gap2.csv", None),
     ("source \"gap", "gap1.csv gap2.csv", None),
-    ("table a for ", "FN= k= wobble=", "n="),
+    ("table a ", "for along with at in", "against"), ("plot a ", "for along with at in against", "dW"), ("table a for ", "FN= k= wobble=", "n="),
     ("table a for FN = 1 N .. 2 ", "N kN lbf steps log with", "mm"),
     ("table a for k = 0 .. 1 with ", "FN= mu=", "n="),
     ("plot a for FN = 1 N .. 2 N over gap", "gap1.csv gap2.csv", None),

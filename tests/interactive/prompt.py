@@ -355,15 +355,16 @@ def own(tests):
 
 def narrow(tests):
     """Progress keeps to one row of a terminal that has few columns."""
-    s = Session(tests, "--quiet", dimensions=(24, 20))
-    s.child.sendline("table x for x = 1 .. 2 steps 100000000 to /dev/null")
-    found = s.child.expect([r"\r(table: \d[^\r\n]*)\r", pexpect.TIMEOUT], timeout=120)
-    told = s.child.match.group(1) if not found else ""
-    tests.check("progress in few columns", len(told) == 17, repr(told))
-    s.child.sendintr()
-    s.prompt()
-    s.child.sendline("quit")
-    tests.check("and the session goes on", s.end() == 0)
+    for columns in (20, 58):
+        s = Session(tests, "--quiet", dimensions=(24, columns))
+        s.child.sendline("table x for x = 1 .. 2 steps 100000000 to /dev/null")
+        found = s.child.expect([r"\r(table: \d[^\r\n]*)\r", pexpect.TIMEOUT], timeout=120)
+        told = s.child.match.group(1) if not found else ""
+        tests.check("progress in %d columns" % columns, len(told) == columns - 3, repr(told))
+        s.child.sendintr()
+        s.prompt()
+        s.child.sendline("quit")
+        tests.check("and the session goes on", s.end() == 0)
 
 
 def kept_lines(tests):
@@ -383,6 +384,9 @@ def kept_lines(tests):
         shutil.rmtree(home)
     for name, env in (("no home", {"XDG_STATE_HOME": "", "HOME": ""}), ("a long way", {"XDG_STATE_HOME": "/" + 5000 * "x"})):
         tests.check(name, session("1 + 1", **env)[1] == "1 + 1 = 2")
+    nowhere = os.path.join(tests.dir, "no-home-of-history")
+    tests.check("a home that is not there is not made", session("1 + 1", XDG_STATE_HOME="", HOME=nowhere)[1] == "1 + 1 = 2" and
+                not os.path.exists(nowhere), nowhere)
     state = os.path.join(tests.dir, "strange-history")
     path = os.path.join(state, "fret", "history")
     for name, make in (("a link", lambda: os.symlink("elsewhere", path)), ("a pipe", lambda: os.mkfifo(path)), ("a folder", lambda: os.mkdir(path))):

@@ -122,6 +122,9 @@ def other_models(tests):
                 rows["memory diagram"][0]["error"] <= 1e-10 and last["auto"] == "memory diagram" and
                 "FN swings" in last["advice"], str(last))
     tests.check("accuracy, FN swings: loop area", rows and abs(order(rows["loop area (21)"]) - 2) < 0.1, str(rows))
+    chords = sorted(rows.get("loop area (21)", ()))
+    tests.check("each of four times the chords of the last", len(chords) > 1 and all(4 * m == n for m, n in zip(chords, chords[1:])),
+                str(chords))
     changed, _ = measured(tests, GRADED % (0.3, SPHERE) + "step FN=110 N; cycle FA=12 N", "accuracy within 1")
     areas = changed.get("loop area (21)", {})
     tests.check("accuracy, FN has changed: loop area", {10, 100, 1000} <= set(areas) and abs(order(areas) - 2) < 0.1, str(areas))
@@ -145,6 +148,20 @@ def other_models(tests):
                     rows["memory diagram"][0]["error"] < 1e-14 and rows["quadrature"][64]["error"] < 1e-14 and
                     rows["polynomials"][0]["error"] < 2e-15 and last["auto"].startswith("closed form, with quadrature") and
                     abs(order(rows["springs"]) - 2) < 0.6, str(rows))
+
+
+def advice(tests):
+    """The first springs that err by a millionth at most, and their time beside that of auto's choice."""
+    for shape, load in ((SPHERE, "FA=28 N"), (SPHERE, "FA=18 N"), (SPHERE, "FA=12 N"), ("flat-rounded b=0.2 mm R=10 mm", "FA=10 N")):
+        rows, last = measured(tests, GRADED % (0.3, shape), "accuracy %s within 0.3" % load)
+        springs = rows.get("springs", {})
+        good = next((n for n in sorted(springs) if springs[n]["error"] <= 1e-6), min(springs, key=lambda n: springs[n]["error"], default=0))
+        told = re.match(r"(\d+) springs: error (\S+) in .*, (\S+) times as (long|fast) as auto", last.get("advice", ""))
+        if not tests.check("accuracy, %s, %s: advice" % (shape, load), told and int(told.group(1)) == good, str(last) + str(springs)):
+            continue
+        ratio = springs[good]["seconds"] / rows["closed form"][0]["seconds"]
+        tests.check("how many times as long or fast", abs(float(told.group(3)) / max(ratio, 1 / ratio) - 1) < 0.02 and
+                    (told.group(4) == "long") == (ratio >= 1), str(last) + str(ratio))
 
 
 def narrow_gaps(tests):
@@ -401,5 +418,5 @@ def curves(tests):
 
 
 def run(tests):
-    tests.each([lambda f=f: f(tests) for f in (orders, loads, other_models, narrow_gaps, at_the_ends, forms, pictures, causes, slow_causes, conditioning, models,
+    tests.each([lambda f=f: f(tests) for f in (orders, loads, other_models, advice, narrow_gaps, at_the_ends, forms, pictures, causes, slow_causes, conditioning, models,
                                                  shown_digits, curves)])

@@ -127,6 +127,8 @@ def parts(tests):
     titles = re.findall(r'title "(.*?)"', text.rpartition("plot ")[2])
     tests.check("stick and slip of each, bounds as lines", [re.sub(r"[{}/:]|Italic ", "", t) for t in titles] ==
                 ["k = 0, stick", "k = 0, slip", "k = 0.5, stick", "k = 0.5, slip"] and len(series) == 8 and "filledcurves" not in text, str(titles))
+    curves = re.findall(r'with (lines .*?) title "', text.rpartition("plot ")[2])
+    tests.check("each of its own look", len(set(curves)) == 4, str(curves))
     fails(tests, "plot springs with k = " + ", ".join("0.%02d" % i for i in range(19)), "more than 64 curves in a figure")
     text, _ = script(tests, "names without room", "plot dW(20 N)*1000000000001, dW(20 N)*1000000000002 for mu = 0.4 .. 0.5")
     tests.check("an axis without room for names has the unit alone", 'set ylabel "[MJ]"' in text, text[:1500])
@@ -200,6 +202,9 @@ def maps(tests):
     tests.check("values stand on contours, apart and within the frame", 2 < len(values) <= len(levels) and
                 {float(v[0]) for v in values} <= set(map(float, levels)) and min(apart) >= 1 and
                 all(0.08 <= float(v[1]) <= 0.92 and 0.04 <= float(v[2]) <= 0.96 for v in values), str(values))
+    text, _ = script(tests, "values on contours", "plot map y + 2*z for y = 0 .. 1 for z = 0 .. 1")
+    values = [list(map(float, v)) for v in re.findall(r"^set label '(\S+)' at graph (\S+),graph (\S+) ", text, re.M)]
+    tests.check("where the contours are", len(values) > 2 and all(abs(y + 2 * z - v) < 2e-3 for v, y, z in values), str(values))
     text, _ = script(tests, "a map in a unit", "plot map -a in mm for k = 0 .. 0.5 for mu = 0.1 .. 0.2 xlabel \"X\" log y")
     there = [float(line.split()[2]) for line in re.search(r"\$map0_0 << END\n(.*?)END", text, re.S).group(1).splitlines() if line]
     tests.check("a map's unit, label and axis", 'set cblabel' in text and "[mm]\"" in text and 'set xlabel "X"\n' in text and

@@ -459,6 +459,8 @@ def lesson(tests, path, row):
     tests.check("demo " + name, done.returncode == 0 and [harness.PROMPT + s for s in statements] == shown,
                 tests.report(done))
     lines = (done.stdout + done.stderr).splitlines()
+    tests.check("demo %s shows its remarks, and no statement without a prompt" % name, "(null)" not in lines and
+                [line for line in lines if line.startswith("#")] == remarks and not set(statements) & set(lines), tests.report(done))
     missing = [line for s, out in steps if not harness.draws(s) for line in out
                if not any(harness.same_line(line, got) for got in lines)]
     tests.check("demo %s answers as its transcript" % name, not missing, "\n".join(missing))

@@ -79,6 +79,12 @@ static void plain(void) {
     TEXT("[l]x", PLOT_TEX, "\\relax [l]x");
     TEXT("dx um mu", PLOT_UNICODE, "dx um mu"); /* words stay words */
     TEXT("µ δ é", PLOT_ASCII, "u d ?");
+    TEXT("°²³µ·×ΓΔαβγδεηθκλμνπρστφω\u2009′″−√…", PLOT_ASCII,
+         "deg^2^3u*xGammadalphabetagammadepsilonetathetakappalambdaunupirhosigmatauphiomega '''-sqrt...");
+    TEXT("°²³µ·×ΓΔαβγδεηθκλμνπρστφω\u2009′″−√…", PLOT_TEX,
+         "\\relax $^\\circ$$^2$$^3$$\\mu$$\\cdot $$\\times $$\\Gamma $$\\Delta $$\\alpha $$\\beta $$\\gamma $"
+         "$\\delta $$\\varepsilon $$\\eta $$\\theta $$\\kappa $$\\lambda $$\\mu $$\\nu $$\\pi $"
+         "$\\rho $$\\sigma $$\\tau $$\\varphi $$\\omega $$\\,$$'$$''$$-$$\\surd $$\\ldots $");
     /* controls, escapes, bidirectional and invisible characters, and what is no UTF-8 */
     TEXT("a\x1b[31m\nb\x7f\u202e\u200b\xc2\x85", PLOT_UNICODE, "a?[31m?b????");
     TEXT("\xff\xc0\xaf\xed\xa0\x80\xe2\x82", PLOT_ENHANCED, "????????");
@@ -769,6 +775,11 @@ static void odd_pages(void) {
     text = text_of(&f, (plot_target){.columns = 60, .rows = 20});
     CHECK(has(text, "e+07 ") && has(text, "* the curve") && has(text, ". thin one"));
     CHECK(strchr(text, '.') == strrchr(text, '.')); /* the curve covers the helping line, all of the way */
+    free(text);
+    for (size_t i = 0; i < s->count; i++)
+        c->y[i] = s->y[i] = 1e7 + (double)i; /* numbers that the first digits do not tell apart */
+    text = text_of(&f, (plot_target){.columns = 60, .rows = 20});
+    CHECK(has(text, "1.000002e+07 ") && has(text, "1.000004e+07 "));
     free(text);
     for (size_t i = 0; i < s->count; i++)
         c->y[i] = s->y[i] = 1e-7 * (double)i;
