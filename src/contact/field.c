@@ -10,11 +10,20 @@
 #include "number/quadrature.h"
 #include "number/real.h"
 
+/* A contact: of radius a, by e beyond the flat end, dz deep; the logarithm of a to 100 bits, where a power
+ * makes much of it. */
+typedef struct rim {
+    fret_real a, e, dz;
+    dd ln_a;
+} rim;
+
 /* The pressure as one or two integrals over a variable t in 0..1 that takes the singular factor of the kernel
  * away. Distances e = x-b from the flat end or the centre. */
 typedef struct inside {
     const fret_normal *normal;
     fret_real b, r, from, to, power; /* e from .. to */
+    fret_real (*part)(const struct inside *, fret_real s, fret_real t);
+    fret_real least; /* that part at s = 0 */
 } inside;
 
 /* e > 0: at 0 none of the integrands asks. */
@@ -27,21 +36,42 @@ static fret_real singular(const inside *c, fret_real e) {
     return fret_pow(((c->b - c->r) + e) * (c->b + e + c->r), (c->normal->rule.k - 1) / 2);
 }
 
-/* r beyond the flat end: x^2 = r^2 + (to^2-r^2) t^(2/(k+1)). */
-static fret_real pressure_inside(fret_real t, fret_real rest, void *context) {
-    (void)rest;
-    const inside *c = context;
-    const fret_real to = c->to - (c->r - c->b), way = to * (c->b + c->to + c->r) * fret_pow(t, c->power);
+/* Up to the singularity, of s = t^power: r beyond the flat end, x^2 = r^2 + (to^2-r^2) s. */
+static fret_real pressure_inside(const inside *c, fret_real s, fret_real t) {
+    (void)t;
+    const fret_real to = c->to - (c->r - c->b), way = to * (c->b + c->to + c->r) * s;
     fret_real x = sqrtl(c->r * c->r + way);
     return slope_at(c, fminl((c->r - c->b) + way / (c->r + x), c->to)) / x;
 }
 
-/* r not beyond the flat end: e = to t^(2/(k+1)), where g' may be as singular as the kernel. */
-static fret_real pressure_below(fret_real t, fret_real rest, void *context) {
+/* The same at the flat end or below it, and at the tip: e = to s, where g' may be as singular as the kernel.
+ */
+static fret_real pressure_below(const inside *c, fret_real s, fret_real t) {
+    const fret_real e = c->to * s;
+    return slope_at(c, e) * singular(c, e) * e / t;
+}
+
+static fret_real near_part(fret_real t, fret_real rest, void *context) {
     (void)rest;
     const inside *c = context;
-    fret_real e = c->to * fret_pow(t, c->power);
-    return e > 0 ? slope_at(c, e) * singular(c, e) * e / t : 0;
+    return c->part(c, fret_pow(t, c->power), t);
+}
+
+/* A large power makes a step at t = 1 of all that varies with s, and s would underflow: by s itself, what the
+ * part has more than at s = 0. */
+static fret_real near_change(fret_real s, fret_real rest, void *context) {
+    (void)rest;
+    const inside *c = context;
+    const fret_real t = fret_pow(s, 1 / c->power);
+    return (c->part(c, s, t) - c->least) * t / s;
+}
+
+static fret_real near_integral(inside *c) {
+    static const fret_real wide = 16, zero = 1e-100L;
+    if (c->power <= wide)
+        return fret_integrate(near_part, c);
+    c->least = c->part(c, zero, fret_pow(zero, 1 / c->power));
+    return c->least + fret_integrate(near_change, c) / c->power;
 }
 
 /* Away from the singularity: linear in ln e, since near a tip the field is a power; of a steep one only the
@@ -56,27 +86,6 @@ static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
     }
     fret_real e = fminl(c->from * fret_exp(l), c->to);
     return weight * e * slope_at(c, e) * singular(c, e);
-}
-
-/* At the tip and at a sharp edge: e = to t^power; so deep in it that e may underflow the integrand is
- * constant. */
-static fret_real pressure_tip(fret_real t, fret_real rest, void *context) {
-    (void)rest;
-    static const fret_real deep = 1e-100L;
-    const inside *c = context;
-    const fret_real e = c->to * fmaxl(fret_pow(t, c->power), deep);
-    return slope_at(c, e) * singular(c, e) * e / fmaxl(t, fret_pow(deep, 1 / c->power));
-}
-
-/* A large exponent makes a step at t = 1 of all else that varies with x, and steep where that is singular not
- * far beyond: then these three take this part of the way only. */
-enum { WIDE = 16, CLOSE = 64 };
-static fret_real close_part(const inside *c) {
-    if (c->r > c->b) {
-        const fret_real to = c->to - (c->r - c->b), span = to * (c->b + c->to + c->r) / CLOSE;
-        return (c->r - c->b) + span / (c->r + sqrtl(c->r * c->r + span));
-    }
-    return (c->b > 0 ? fminl(c->to, c->b) : c->to) / CLOSE;
 }
 
 /* Of a steep power g = G (x/a)^n only the last a/n of the contact counts, where nodes in the radius would be
@@ -129,12 +138,12 @@ static fret_real power_integral(fret_real n, fret_real m, fret_real r, fret_real
 static fret_real pressure_powers(const fret_normal *n, const fret_term *term, int terms, fret_real a,
                                  fret_real r) {
     const fret_foundation *f = &n->foundation;
-    const fret_real part = r / a, w = (a - r) / a * ((a + r) / a), m = (f->k + 1) / 2, rim = fret_pow(w, m);
+    const fret_real part = r / a, w = (a - r) / a * ((a + r) / a), m = (f->k + 1) / 2, outer = fret_pow(w, m);
     fret_real sum = 0, last = 0, before = 0;
     for (int i = 0; i < terms; i++) {
         const fret_real power = term[i].n;
         last = r <= 0                         ? 1 / (power + 2 * (m - 1))
-               : i > 0 && power == before + 2 ? (rim + before * part * part * last) / (2 * m + before)
+               : i > 0 && power == before + 2 ? (outer + before * part * part * last) / (2 * m + before)
                                               : power_integral(power, m, part, w);
         sum += term[i].G * power * last;
         before = power;
@@ -142,31 +151,29 @@ static fret_real pressure_powers(const fret_normal *n, const fret_term *term, in
     return f->cN0 / FRET_PI * fret_pow(a / f->c0, f->k) * sum / a;
 }
 
-/* As which power of the radius, or of the distance from a sharp edge, the pressure falls inwards: the least
- * power of g' times the kernel, and 1; NAN: at r there is neither. */
+/* As which power of the radius, or of the distance from the flat end, the pressure falls inwards: the least
+ * power of g' times the kernel, and 1; NAN: r is elsewhere. */
 static fret_real rise_at(const fret_normal *n, fret_real r) {
     const fret_real start = fret_gap_start(&n->gap), k = n->foundation.k;
     if (r == 0 && start == 0)
         return fret_gap_tip(&n->gap) + k - 1;
-    return r == start && fret_gap_sharp(&n->gap) ? k : NAN;
+    return r != start ? NAN : fret_gap_sharp(&n->gap) ? k : 1 + k;
 }
 
 bool fret_field_infinite(const fret_normal *n, fret_real r) {
     return rise_at(n, r) <= 0;
 }
 
-/* A contact: of radius a, by e beyond the flat end, dz deep; the logarithm of a to 100 bits, where a power
- * makes much of it. */
-typedef struct rim {
-    fret_real a, e, dz;
-    dd ln_a;
-} rim;
+static fret_real in_pascal(const fret_normal *n, fret_real p) {
+    return n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI * p;
+}
 
 /* Of a gap without steep powers, r < a, which lies beyond the flat end. */
 static fret_status pressure_gentle(const fret_normal *n, const rim *at, fret_real r, fret_real *p) {
     *p = 0;
-    const fret_real start = fret_gap_start(&n->gap), k1 = 1 + n->foundation.k, rise = rise_at(n, r);
-    const bool tip = !isnan(rise);
+    const fret_real start = fret_gap_start(&n->gap), k1 = 1 + n->foundation.k, at_tip = rise_at(n, r);
+    const bool tip = !isnan(at_tip);
+    const fret_real rise = tip ? at_tip : k1 / 2;
     if (rise <= 0)
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     fret_term term[FRET_MOST_TERMS];
@@ -175,30 +182,26 @@ static fret_status pressure_gentle(const fret_normal *n, const rim *at, fret_rea
         *p = pressure_powers(n, term, terms, at->a, r);
         return fret_ok();
     }
-    inside c = {n, start, r, 0, at->e, tip ? 1 / rise : 2 / k1}, middle = c, beyond = c;
-    middle.power = beyond.power = fret_gap_tip(&n->gap) + n->foundation.k - 1;
+    inside c = {n, start, r, 0, at->e, 1 / rise, r > start ? pressure_inside : pressure_below, 0}, beyond = c;
+    beyond.power = fret_gap_tip(&n->gap) + n->foundation.k - 1;
+    if (c.to <= 0) { /* a flat punch */
+        *p = in_pascal(n, at->dz * singular(&c, 0));
+        return fret_ok();
+    }
     /* the first part reaches no farther than what is singular on the other side: x = b, -r, or r below b */
     if (r > start) {
         const fret_real way = (r - start) * (r + start);
-        middle.to = fminl(c.to, (r - start) + way / (r + sqrtl(r * r + way)));
+        c.to = fminl(c.to, (r - start) + way / (r + sqrtl(r * r + way)));
     } else if (r < start)
-        middle.to = fminl(c.to, start - r);
+        c.to = fminl(c.to, start - r);
     else if (tip && start > 0)
-        middle.to = fminl(c.to, start);
-    beyond.from = c.to = middle.to;
-    if (c.power > WIDE)
-        c.to = close_part(&c);
-    middle.from = c.to;
-    const fret_real last = start + c.to;
-    *p = tip ? fret_integrate(pressure_tip, &c) / rise
-         : r > start
-             ? fret_pow((c.to - (r - start)) * (last + r), k1 / 2) * fret_integrate(pressure_inside, &c) / k1
-             : 2 * fret_integrate(pressure_below, &c) / k1;
-    if (middle.from < middle.to)
-        *p += fret_integrate(pressure_beyond, &middle);
+        c.to = fminl(c.to, start);
+    beyond.from = c.to;
+    const fret_real part = near_integral(&c);
+    *p = r > start ? fret_pow((c.to - (r - start)) * (start + c.to + r), rise) * part / k1 : part / rise;
     if (beyond.from < beyond.to)
         *p += fret_integrate(pressure_beyond, &beyond);
-    *p *= n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI;
+    *p = in_pascal(n, *p);
     return isfinite(*p) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
 }
 
@@ -560,7 +563,7 @@ bool fret_field_deep(const fret_normal *n, fret_real y, fret_real r) {
 static fret_real ring_pressure(const fret_normal *n, fret_real inner, fret_real outer, fret_real r) {
     const fret_foundation *f = &n->foundation;
     const fret_real b = fret_law_radius(n, inner), a = fret_law_radius(n, outer);
-    inside c = {n, fret_gap_start(&n->gap), r, reach_of(n, b, inner), reach_of(n, a, outer), 0};
+    inside c = {n, fret_gap_start(&n->gap), r, reach_of(n, b, inner), reach_of(n, a, outer), 0, NULL, 0};
     fret_term term[FRET_MOST_TERMS];
     const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
     fret_real sum = 0;
@@ -569,6 +572,8 @@ static fret_real ring_pressure(const fret_normal *n, fret_real inner, fret_real 
         sum -= term[i].G * term[i].n * (by != 0 ? fret_expm1(by * l) / by : l);
     }
     sum *= fret_pow(a, f->k - 1);
+    if (terms == 0 && c.from <= 0)
+        return (fret_real)INFINITY;
     if (terms == 0 && c.from < c.to)
         sum = fret_integrate_pieces(pressure_beyond, &c, 1e-17L);
     return f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * sum;
@@ -580,7 +585,7 @@ fret_status fret_field_between(const fret_normal *n, fret_real inner, fret_real 
     *out = 0;
     if (traction && fret_field_deep(n, inner, r)) {
         *out = ring_pressure(n, inner, outer, r);
-        return fret_ok();
+        return isfinite(*out) ? fret_ok() : fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     }
     fret_status st = fret_field_of(n, inner, r, traction, &within);
     if (!st.code)

@@ -15,10 +15,16 @@ fret_real fret_force_of(const fret_normal *n, const fret_profile *p) {
     return 2 * n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) * p->I;
 }
 
+/* A contact that reaches less than this part of a flat end beyond it is a flat punch's to every digit, and
+ * what it loses is less than doubles hold. Near k = -1, where depth begins as the power (k+1)/2 of the reach,
+ * the reach of most contacts would underflow. */
+static const fret_real least_reach = 0x1p-1100L;
+
 /* Newton in ln e, from e on, where depth and force are nearly powers, kept in a bracket. */
 static fret_real search_from(const fret_normal *n, bool by_force, fret_real target, fret_real e) {
     fret_real start = fret_gap_start(&n->gap), end = n->end;
     fret_real lo = 0, hi = isfinite(end) ? end - start : (fret_real)INFINITY;
+    const fret_real least = least_reach * start;
     for (int i = 0; i < 400; i++) {
         fret_profile p = profile(n, e);
         fret_real value = by_force ? fret_force_of(n, &p) : p.g;
@@ -28,8 +34,12 @@ static fret_real search_from(const fret_normal *n, bool by_force, fret_real targ
             hi = e;
         fret_real slope = e * p.slope * (by_force ? fret_normal_stiffness(n, start + e) : 1) / value;
         fret_real next = e * fret_exp(fret_log(target / value) / slope);
+        if (hi <= least)
+            return 0;
         if (fabsl(next - e) <= 1e-11L * e) /* quadratic: the next step would be 1e-22 */
             return next;
+        if (next < least && lo < least)
+            next = least;
         if (!(next > lo && next < hi)) {
             if (!isfinite(hi))
                 next = 4 * e;
@@ -43,7 +53,7 @@ static fret_real search_from(const fret_normal *n, bool by_force, fret_real targ
     return e;
 }
 
-/* Returns e; infinity where the gap ends before the target is reached. */
+/* Returns e; 0 below the least reach, infinity where the gap ends before the target is reached. */
 fret_real fret_search_radius(const fret_normal *n, bool by_force, fret_real target) {
     fret_real start = fret_gap_start(&n->gap), end = n->end;
     if (target <= 0)
@@ -55,6 +65,15 @@ fret_real fret_search_radius(const fret_normal *n, bool by_force, fret_real targ
             return fret_law_reaches(most, target) ? end - start : (fret_real)INFINITY;
     }
     return search_from(n, by_force, target, isfinite(end) ? end / 16 : start > 0 ? start / 16 : 1e-4L);
+}
+
+fret_real fret_law_other(const fret_normal *n, bool by_force, fret_real value, fret_real e) {
+    if (e > 0) {
+        const fret_profile there = profile(n, e);
+        return by_force ? there.g : fret_force_of(n, &there);
+    }
+    const fret_real K = fret_normal_stiffness(n, fret_gap_start(&n->gap));
+    return !by_force ? K * value : K > 0 ? value / K : 0;
 }
 
 /* The power law in logarithms. */
@@ -110,10 +129,9 @@ static fret_point point_at(const fret_normal *n, bool by_force, fret_real value)
     }
     if (n->pieces && fret_pieces_point(n->pieces, by_force, value, &p))
         return p;
-    fret_real e = fret_search_radius(n, by_force, value);
-    fret_profile profile_there = profile(n, e);
-    p.y = by_force ? profile_there.g : value;
-    p.F = by_force ? value : fret_force_of(n, &profile_there);
+    const fret_real e = fret_search_radius(n, by_force, value), other = fret_law_other(n, by_force, value, e);
+    p.y = by_force ? other : value;
+    p.F = by_force ? value : other;
     p.a += e;
     p.K = fret_normal_stiffness(n, p.a);
     return p;

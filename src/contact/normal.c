@@ -193,30 +193,33 @@ static bool by_pieces(const fret_normal *n, bool by_force, double value, fret_pr
     return true;
 }
 
-/* Completes a state at distance e from the start of the gap. */
-static fret_status at_radius(const fret_normal *n, const char *name, double value, fret_real e, fret_press *s,
-                             fret_press *out) {
+static fret_status beyond_end(const fret_normal *n, const char *name, double value) {
+    return fret_fail(n->falls ? FRET_NOT_MONOTONE : FRET_TABLE_SHORT, n->falls ? "r" : name,
+                     n->falls ? (double)n->end : value, n->falls ? 0 : (double)n->end);
+}
+
+static fret_status finish_unless_stopped(const fret_normal *n, const fret_press *p, fret_press *out) {
+    return fret_stopped(n) ? fret_unless_stopped(n, fret_ok()) : finish(p, out);
+}
+
+/* By force or depth, without a closed form. */
+static fret_status by_search(const fret_normal *n, bool by_force, double value, fret_press *out) {
+    const fret_real e = fret_search_radius(n, by_force, value);
     if (!isfinite(e))
-        return fret_fail(n->falls ? FRET_NOT_MONOTONE : FRET_TABLE_SHORT, n->falls ? "r" : name,
-                         n->falls ? (double)n->end : value, n->falls ? 0 : (double)n->end);
-    fret_profile p = {0, 0, 0};
-    if (e > 0)
-        p = profile(n, e);
-    if (fret_stopped(n))
-        return fret_unless_stopped(n, fret_ok());
-    s->a = fret_gap_start(&n->gap) + e;
-    if (s->F < 0)
-        s->F = fret_force_of(n, &p);
-    if (s->dz < 0)
-        s->dz = p.g;
-    return finish(s, out);
+        return beyond_end(n, by_force ? "FN" : "dz", value);
+    const fret_real other = fret_law_other(n, by_force, value, e);
+    return finish_unless_stopped(n,
+                                 &(fret_press){.F = by_force ? value : other,
+                                               .dz = by_force ? other : value,
+                                               .a = fret_gap_start(&n->gap) + e},
+                                 out);
 }
 
 fret_status fret_press_by_force(const fret_normal *n, double F, fret_press *out) {
     fret_status st = fret_check_not_negative("FN", F);
     if (st.code)
         return st;
-    fret_press s = {.F = F, .dz = -1};
+    fret_press s = {.F = F};
     if (F > 0 && fret_normal_closed(n)) {
         dd l = dd_sub(fret_dd_log(dd_of(F)), n->wide.ln_force);
         dd dz = fret_dd_exp(dd_add(n->wide.ln_depth, dd_mul(n->wide.q, l)));
@@ -227,14 +230,14 @@ fret_status fret_press_by_force(const fret_normal *n, double F, fret_press *out)
     }
     if (by_pieces(n, true, F, &s))
         return finish(&s, out);
-    return at_radius(n, "FN", F, fret_search_radius(n, true, F), &s, out);
+    return by_search(n, true, F, out);
 }
 
 fret_status fret_press_by_depth(const fret_normal *n, double dz, fret_press *out) {
     fret_status st = fret_check_not_negative("dz", dz);
     if (st.code)
         return st;
-    fret_press s = {.F = -1, .dz = dz};
+    fret_press s = {.dz = dz};
     if (dz > 0 && fret_normal_closed(n)) {
         dd l = dd_sub(fret_dd_log(dd_of(dz)), n->wide.ln_depth);
         dd F = fret_dd_exp(dd_add(n->wide.ln_force, dd_mul(n->wide.p, l)));
@@ -245,14 +248,14 @@ fret_status fret_press_by_depth(const fret_normal *n, double dz, fret_press *out
     }
     if (by_pieces(n, false, dz, &s))
         return finish(&s, out);
-    return at_radius(n, "dz", dz, fret_search_radius(n, false, dz), &s, out);
+    return by_search(n, false, dz, out);
 }
 
 fret_status fret_press_by_radius(const fret_normal *n, double a, fret_press *out) {
     fret_status st = fret_check_not_negative("a", a);
     if (st.code)
         return st;
-    fret_press s = {.F = -1, .dz = -1, .a = a};
+    fret_press s = {.a = a};
     if (a > 0 && fret_normal_closed(n)) {
         dd l = dd_sub(fret_dd_log(dd_of(a)), n->wide.ln_r0);
         dd F = fret_dd_exp(dd_add(n->wide.ln_force, dd_mul(n->wide.s, l)));
@@ -260,7 +263,15 @@ fret_status fret_press_by_radius(const fret_normal *n, double a, fret_press *out
         s = (fret_press){dd_value(F), dd_value(dz), a, dd_rest(F), dd_rest(dz)};
         return finish(&s, out);
     }
-    if (a < fret_gap_start(&n->gap))
+    const fret_real e = a - fret_gap_start(&n->gap);
+    if (e < 0)
         return fret_fail(FRET_OUTSIDE, "a", a, (double)fret_gap_start(&n->gap));
-    return at_radius(n, "a", a, a > n->end ? (fret_real)INFINITY : a - fret_gap_start(&n->gap), &s, out);
+    if (a > n->end)
+        return beyond_end(n, "a", a);
+    if (e > 0) {
+        const fret_profile p = profile(n, e);
+        s.F = fret_force_of(n, &p);
+        s.dz = p.g;
+    }
+    return finish_unless_stopped(n, &s, out);
 }

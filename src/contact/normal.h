@@ -68,8 +68,11 @@ bool fret_press_held(const fret_press *press);
 fret_real fret_force_of(const fret_normal *normal, const fret_profile *profile);
 
 /* Distance from the start of the gap to the radius of the depth, or the load, `target`; infinity where the
- * gap ends before it is reached. By a search: for gaps without a closed form. */
+ * gap ends before it is reached, 0 where it lies so close to a flat end that no digit shows it. By a search:
+ * for gaps without a closed form. */
 fret_real fret_search_radius(const fret_normal *normal, bool by_force, fret_real target);
+/* The depth of the load `value`, or the load of that depth, which that search found at e. */
+fret_real fret_law_other(const fret_normal *normal, bool by_force, fret_real value, fret_real e);
 
 /* The law as the tangential problem sees it, for the depth y of an inner contact, 0 <= y. */
 fret_real fret_law_radius(const fret_normal *normal, fret_real y); /* a(y) [m] */

@@ -231,14 +231,17 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
     if (n->pieces && fret_pieces_slice(n->pieces, outer, false, n->thin, h, y - h, &h, &out))
         return out;
     fret_real hi = fret_search_radius(n, false, y), lo = 0;
+    if (hi <= 0) {
+        const fret_real K = fret_normal_stiffness(n, start);
+        return (fret_slice){K * h, K * h * h / 2, 0, 0};
+    }
     if (thin_slice(n, hi, false, h, &h, &out))
         return out;
     stretch sum = {0, 0, 0, 0};
     out.w = outer->F;
     if (h < y) {
         lo = fret_search_radius(n, false, y - h);
-        fret_profile inner = profile(n, lo);
-        out.w -= fret_force_of(n, &inner);
+        out.w -= fret_law_other(n, false, y - h, lo);
     }
     hi = cut_rows(n, y, h, lo, hi, &sum);
     if (hi > lo) {
@@ -269,6 +272,10 @@ static bool thin_across(const fret_normal *n, const fret_level *outer, bool by_l
     fret_slice thin;
     fret_real h;
     among a;
+    if (hi <= 0) {
+        *other = fret_law_other(n, by_load, target, 0);
+        return true;
+    }
     if (thin_slice(n, hi, by_load, target, &h, &thin)) {
         *other = by_load ? h : thin.w;
         return true;

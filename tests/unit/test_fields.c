@@ -151,11 +151,17 @@ static fret_real slow_pressure(const asking *q, fret_real a, fret_real r) {
     return a > r ? pressure_of(q->normal, a - fret_gap_start(&q->normal->gap), r) : 0;
 }
 
-/* Of the contact y deep, whose radius, rounded, may be that of a flat end. */
+/* Of the contact y deep, whose radius, rounded, may be that of a flat end, or which may be but a flat punch.
+ */
 static fret_real pressure_of_depth(const asking *q, fret_real a, fret_real y, fret_real r) {
-    if (q->which < ROUND_TABLE && fret_field_light(q->normal, a))
-        return pressure_of(q->normal, fret_search_radius(q->normal, false, y), r);
-    return slow_pressure(q, a, r);
+    if (q->which >= ROUND_TABLE || !fret_field_light(q->normal, a))
+        return slow_pressure(q, a, r);
+    const fret_foundation *f = &q->normal->foundation;
+    const fret_real e = fret_search_radius(q->normal, false, y), b = fret_gap_start(&q->normal->gap);
+    if (e > 0)
+        return pressure_of(q->normal, e, r);
+    return r < b ? f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * y * fret_pow((b - r) * (b + r), (f->k - 1) / 2)
+                 : 0;
 }
 
 /* Of a smooth gap the quadrature does. */
