@@ -30,22 +30,33 @@ def entries(text):
                    [line for line in lines if line and line[0] not in ">|"])
 
 
-def carets(messages, lasts):
+def part_of(source, column, shown, caret):
+    """Of a long line a part is shown, with dots where it goes on."""
+    before, after = shown.startswith("  ..."), shown.endswith("...") and not source.endswith("...")
+    text, begin = shown[5 if before else 2:-3 if after else None], column - 1 - caret + (5 if before else 2)
+    return (source[begin:begin + len(text)] == text and len(text) <= 100 and before == (begin > 0) and
+            after == (begin + len(text) < len(source)))
+
+
+def carets(messages, lasts, script):
     """Each placed message is followed by its line and a caret below the column (counted in bytes); marks go on to the last
     column, where that is known."""
-    lines, lasts = messages.splitlines(), list(lasts)
+    lines, lasts, script = messages.splitlines(), list(lasts), script.splitlines()
     for i, line in enumerate(lines):
-        found = re.match(r"\S+:\d+:(\d+): error: ", line)
+        found = re.match(r"\S+:(\d+):(\d+): error: ", line)
         if not found:
             continue
         last = lasts.pop(0) if lasts else None
         if i + 2 >= len(lines) or "^" not in lines[i + 2]:
             return False
         shown, caret = lines[i + 1], lines[i + 2].index("^")
-        if "..." not in shown and len(shown[2:caret].encode()) != int(found.group(1)) - 1 and \
-                len(shown[2:caret]) != int(found.group(1)) - 1:
+        if "..." not in shown and len(shown[2:caret].encode()) != int(found.group(2)) - 1 and \
+                len(shown[2:caret]) != int(found.group(2)) - 1:
             return False
-        if last and lines[i + 2].count("~") != int(last) - int(found.group(1)):
+        source = script[int(found.group(1)) - 1]
+        if len(source) > 100 and source.isascii() and not part_of(source, int(found.group(2)), shown, caret):
+            return False
+        if last and lines[i + 2].count("~") != int(last) - int(found.group(2)):
             return False
     return True
 
@@ -61,7 +72,7 @@ def check(tests, statements, out, errors):
         messages = [line for line in done.stderr.splitlines() if "error:" in line or line.startswith(("warning:", "note:"))]
         want = [line if line.startswith(("warning:", "note:")) else name + ":" + line for line in errors]
         ok = (messages == want and harness.same_text("\n".join(out), done.stdout) and done.returncode == status
-              and carets(done.stderr, lasts))
+              and carets(done.stderr, lasts, script))
         way = "file" if name == path else name
         tests.check("errors, %s: %s" % (way, " \\n ".join(statements)), ok,
                     harness.diff("\n".join(out + want), done.stdout + done.stderr) + "\nexit %d" % done.returncode)

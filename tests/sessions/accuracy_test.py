@@ -362,7 +362,8 @@ def conditioning(tests):
 def models(tests):
     """`set timing on` names what answered."""
     scene = GRADED % (0.3, SPHERE) + "set timing on\n"
-    for script, names in (("a", " (closed form)"), ("step Fx=10 N; W", " (memory diagram)"), ("1+1", ""),
+    for script, names in (("a", " (closed form)"), ("friction 0.2", " (closed form)"),
+                          ("step Fx=10 N; friction 0.2", " (closed form, memory diagram)"), ("step Fx=10 N; W", " (memory diagram)"), ("1+1", ""),
                           ("cycle FA=10 N; dW", " (closed form)"), ("p(0 m)", " (closed form, quadrature)"),
                           ("cycle FA=10 N; set model springs 100; dW", " (springs)"),
                           ("table dW(F) for F = 1 N .. 2 N steps 1", " (closed form, vectors to 2e-15)"),

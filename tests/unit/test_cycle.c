@@ -154,6 +154,18 @@ static void gross_slip(void) {
     fret_status st = fret_loading_by_force(&k, 32 * (1 + 5e-16), &f);
     CHECK_ERROR(st, FRET_GROSS_SLIP, "Fx");
     CHECK(st.limit == 32 && st.value > 32);
+    unit_scene sum = unit_make_scene(2, 0.4); /* where no closed form holds */
+    sum.gap.kind = FRET_GAP_SUM;
+    sum.gap.terms = 2;
+    sum.gap.power[1] = (fret_power){4, 1e-5, 1e-3};
+    sum.mu = 0.5;
+    const fret_contact of_sum = unit_make_contact(&sum, 64);
+    CHECK(!fret_normal_closed(of_sum.normal));
+    for (int sign = -1; sign <= 1; sign += 2) {
+        CHECK_OK(fret_loading_by_force(&of_sum, sign * 32, &f));
+        CHECK(f.c == 0 && f.yc == 0);
+        CHECK_REL(f.dx, sign * fret_gross_slip(&of_sum), UNIT_TOL(1e-18L, 1e-15L));
+    }
     CHECK_CODE(fret_loading_by_force(&k, -32.5, &f), FRET_GROSS_SLIP);
     CHECK_OK(fret_loading_by_displacement(&k, 3 * (double)max, &f));
     CHECK(f.Fx == 32 && f.c == 0 && f.dx == 3 * (double)max);

@@ -224,6 +224,17 @@ static void refused(void) {
     s.Fx[3] = 1.001 * s.mu[3] * s.F[3];
     run(&s);
     CHECK(isnan(s.out[SCENE_LOSS][3]) && isnan(s.out[SCENE_C][3]));
+    for (int body = 0; body < 2; body++) { /* what is less than a tenth of a per cent too much */
+        draw(&s);
+        s.second = TWO;
+        for (int j = 0; j < ROWS; j++)
+            s.k[j] = 0.3;
+        s.nu[body][5] = 0.5004;
+        s.nu[body][6] = 0.5;
+        s.nu[body][7] = -1;
+        run(&s);
+        CHECK(isnan(s.out[SCENE_A][5]) && !isnan(s.out[SCENE_A][6]) && isnan(s.out[SCENE_A][7]));
+    }
 }
 
 int main(int argc, char **argv) {

@@ -438,26 +438,32 @@ static void ends_of(const fret_normal *n) {
 }
 
 static void ends(void) {
-    enum { ROWS = 30 };
+    enum { ROWS = 30, FLAT = 9 };
     double r[ROWS], f[ROWS];
-    struct fret_table *table = NULL;
-    for (int i = 0; i < ROWS; i++) {
-        r[i] = 1e-3 * i / (ROWS - 1);
-        f[i] = r[i] * r[i] / 0.03 + r[i] / 70;
+    struct fret_table *table[2] = {NULL}; /* the second with a flat end */
+    for (int flat = 0; flat < 2; flat++) {
+        for (int i = 0; i < ROWS; i++) {
+            const double from = flat ? 1e-3 * FLAT / (ROWS - 1) : 0,
+                         x = fmax((r[i] = 1e-3 * i / (ROWS - 1)) - from, 0);
+            f[i] = x * x / 0.03 + (flat ? 0 : x / 70);
+        }
+        CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table[flat]));
     }
-    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
     for (int j = 0; j < GRADINGS; j++) {
         unit_scene s = of_kind(FRET_GAP_SUM, gradings[j]);
         ends_of(unit_make_normal(&s));
         s = of_kind(FRET_GAP_EXACT_SPHERE, gradings[j]);
         ends_of(unit_make_normal(&s));
-        s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = table};
-        fret_normal *n = NULL;
-        CHECK_OK(fret_normal_make(&s.material, &s.gap, &n));
-        ends_of(n);
-        fret_normal_free(n);
+        for (int flat = 0; flat < 2; flat++) {
+            s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = table[flat]};
+            fret_normal *n = NULL;
+            CHECK_OK(fret_normal_make(&s.material, &s.gap, &n));
+            ends_of(n);
+            fret_normal_free(n);
+        }
     }
-    fret_table_free(table);
+    fret_table_free(table[0]);
+    fret_table_free(table[1]);
 }
 
 /* ---- tables ------------------------------------------------------------------------------------ */
