@@ -469,26 +469,39 @@ static bool is_stepped(const scene *s) {
     return !s->automatic && s->model != MODEL_MEMORY && models[s->model].make && !s->now;
 }
 
-static bool stepped_state(scene *s, calc_error *error) {
-    load_view load;
-    runner run[LEVELS] = {{.load = &load}};
-    bool ok = scene_load_of(s, &load, error);
+bool scene_runs(scene *s, runs *out, calc_error *error) {
+    *out = (runs){.levels = 0};
+    bool ok = scene_load_of(s, &out->load, error);
     const unsigned levels = s->answers.reach.swings ? LEVELS : 1;
-    for (unsigned i = 0; i < levels && ok; i++) {
-        run[i] = (runner){.load = &load, .level = i};
-        ok = scene_engine(s, &load, s->model, s->springs, &run[i].engine, error);
-        fret_status st = ok ? run_to(&run[i], load.end) : fine;
+    while (out->levels < levels && ok) {
+        runner *r = &out->run[out->levels];
+        *r = (runner){.load = &out->load, .level = out->levels++};
+        ok = scene_engine(s, &out->load, s->model, s->springs, &r->engine, error);
+        fret_status st = ok ? run_to(r, out->load.end) : fine;
         ok = ok && calc_status(error, &st);
     }
-    if (ok && levels > 1) {
-        swinging_state(&s->answers, run);
-    } else if (ok) {
-        engine_state(&run[0].engine, &s->answers.state);
-        s->answers.loss = run[0].cycle_loss;
-    }
-    for (unsigned i = 0; i < levels; i++)
-        engine_end(&run[i].engine);
+    if (!ok)
+        runs_end(out);
     return ok;
+}
+
+void runs_end(runs *r) {
+    while (r->levels)
+        engine_end(&r->run[--r->levels].engine);
+}
+
+static bool stepped_state(scene *s, calc_error *error) {
+    runs all;
+    if (!scene_runs(s, &all, error))
+        return false;
+    if (all.levels > 1) {
+        swinging_state(&s->answers, all.run);
+    } else {
+        engine_state(&all.run[0].engine, &s->answers.state);
+        s->answers.loss = all.run[0].cycle_loss;
+    }
+    runs_end(&all);
+    return true;
 }
 
 static void memory_state(scene *s, const runner *run) {

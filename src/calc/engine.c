@@ -125,6 +125,7 @@ const model_row models[MODELS] = {
                       .title = "memory diagram in double, to 3e-14",
                       .chosen = true,
                       .power = true,
+                      .rounding = 3e-14,
                       .make = diagram_make,
                       .step = diagram_step,
                       .state = diagram_state,

@@ -28,6 +28,7 @@ typedef struct model_row {
     const char *count; /* what its number means, as in `springs N`; NULL: it has none */
     bool chosen;       /* `set model` can ask for it */
     bool power;        /* for gaps of a single power only */
+    double rounding;   /* what its values are good to, relative; 0: not known, or exact */
     /* stepping; NULL where the model has a formula only */
     fret_status (*make)(const fret_normal *normal, double mu, unsigned count, double radius, void **out);
     fret_status (*step)(void *self, const fret_step *step);

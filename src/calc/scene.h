@@ -200,5 +200,14 @@ bool scene_trace(scene *s, watch *w, calc_error *error);
  */
 bool scene_engine(scene *s, const load_view *load, model_id model, unsigned count, engine *out,
                   calc_error *error);
+/* The load run by the model that was asked for, one that steps, at all levels that it wants: they look at the
+ * load beside them. To be ended where they are made. */
+typedef struct runs {
+    load_view load;
+    runner run[LEVELS];
+    unsigned levels;
+} runs;
+bool scene_runs(scene *s, runs *out, calc_error *error);
+void runs_end(runs *r);
 
 #endif

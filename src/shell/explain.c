@@ -116,13 +116,13 @@ static double round_up(double v) {
     return ceil(v / place * (1 - 1e-9)) * place;
 }
 
-/* The value after each number of chords. */
-static bool by_chords(const page *p, const expr *e, long double at[LEVELS]) {
+/* The value after each of the runs. */
+static bool by_runs(const page *p, const expr *e, const runner run[LEVELS], long double at[LEVELS]) {
     scene *s = p->sh->calc.now;
     answers *a = &s->answers;
     bool ok = true;
     for (unsigned i = 0; i < LEVELS && ok; i++) {
-        const instant now = {.run = &a->run[i], .time = a->run[i].time};
+        const instant now = {.run = &run[i], .time = run[i].time};
         calc_error ignored;
         value v = {0, DIM_NONE};
         error_clear(&ignored);
@@ -133,6 +133,23 @@ static bool by_chords(const page *p, const expr *e, long double at[LEVELS]) {
     }
     s->now = NULL;
     a->state_ready = a->press_ready = false;
+    return ok;
+}
+
+/* The value after each number of chords, where that tells all that it is good to. */
+static bool by_chords(const page *p, model_id model, const expr *e, long double at[LEVELS]) {
+    scene *s = p->sh->calc.now;
+    calc_error ignored;
+    runs all;
+    error_clear(&ignored);
+    if (!e || (model != MODEL_MEMORY && models[model].rounding == 0))
+        return false;
+    if (model == MODEL_MEMORY)
+        return s->answers.levels == LEVELS && by_runs(p, e, s->answers.run, at);
+    if (!had(p, scene_runs(s, &all, &ignored), &ignored))
+        return false;
+    const bool ok = by_runs(p, e, all.run, at);
+    runs_end(&all);
     return ok;
 }
 
@@ -148,14 +165,14 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
     const answers *a = &p->sh->calc.now->answers;
     const int finest = RUN_CHORDS << (LEVELS - 1);
     const bool limit = is_extrapolated(q, call);
-    const unsigned runs = model == MODEL_MEMORY ? a->levels : 0;
+    const double least = fmax(models[model].rounding, 1e-15);
     long double at[LEVELS];
     put_title(p, model, ", ");
-    if (runs == 1) { /* all that it answers: no function of another load */
+    if (model == MODEL_MEMORY && a->levels == 1) { /* all that it answers: no function of another load */
         fputs("the sine itself, event by event (exact)\n", p->to);
         return;
     }
-    if (runs < LEVELS || !e || !by_chords(p, e, at)) {
+    if (!by_chords(p, model, e, at)) {
         fprintf(p->to, "by %d chords a period of the sine%s\n", finest,
                 limit ? " and fewer, extrapolated" : "");
         return;
@@ -163,10 +180,10 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
     const long double last = fabsl(at[LEVELS - 1]), change = fabsl(at[LEVELS - 1] - at[LEVELS - 2]);
     if (limit)
         fprintf(p->to, "converged to %.0e (the sine itself, by %d chords a period and fewer, extrapolated)\n",
-                round_up(fmax((double)run_unsure(at), 1e-15)), finest);
+                round_up(fmax((double)run_unsure(at), least)), finest);
     else
         fprintf(p->to, "by %d chords a period of the sine, good to %.0e\n", finest,
-                round_up(last > 0 ? fmax((double)(2 * change / last), 1e-15) : 1e-15));
+                round_up(last > 0 ? fmax((double)(2 * change / last), least) : least));
 }
 
 /* Of a scene that has been run. */
