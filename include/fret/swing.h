@@ -6,8 +6,8 @@
 
 FRET_BEGIN
 
-/* The memory diagram under harmonic forces, event by event: no chords, no step error. By force; of any gap
- * but a table, whose rows are kinks of the law.
+/* The memory diagram under harmonic forces, event by event: no chords, no step error. By force, or to
+ * delta_x at constant F_N; of any gap but a table, whose rows are kinks of the law.
  *
  * With P = F_N + F_x/mu and M = F_N - F_x/mu the memory of a contact is a curve that rises in both from (0,
  * 0) to the present (M, P); its slice at the load N = (M+P)/2 has the slope sigma = (dP-dM)/(dP+dM). When
@@ -51,8 +51,9 @@ fret_status fret_swing_period(fret_swing *swing, const fret_sine *sine);
  * a whole end as the period does, to rounding. Errors: those of a period. */
 fret_status fret_swing_part(fret_swing *swing, const fret_sine *sine, double from, double to);
 
-/* A step by force, or by depth with F_x (FRET_KEEP_DX is no such step: FRET_OUTSIDE). Errors otherwise those
- * of fret_memory_step; the contact as before it, but for FRET_NO_MEMORY as above. */
+/* A step by force, by depth with F_x, or to delta_x at constant F_N; one to delta_x, or that keeps it, along
+ * a normal motion is no such step: FRET_OUTSIDE. Errors otherwise those of fret_memory_step; the contact as
+ * before it, but for FRET_NO_MEMORY as above. */
 fret_status fret_swing_step(fret_swing *swing, const fret_step *step);
 
 /* As of a memory. */

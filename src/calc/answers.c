@@ -88,13 +88,18 @@ static void drop_runs(answers *a) {
     a->levels = 0;
 }
 
-/* Can a swinging load be taken as it is? By force, from the first such cycle on, on no table of rows. */
+/* From the first swinging cycle on: by force, or to a displacement at constant F_N. */
+static bool goes_with_sine(const load_step *step) {
+    return step->tangential == BY_FORCE || (step->tangential == BY_DISPLACEMENT && !load_moves_normal(step));
+}
+
+/* Can a swinging load be taken as it is? On no table of rows. */
 static bool takes_sine(const load_view *load) {
     bool swings = false;
     for (load_mark at = {0, 0}; at.steps < load->end.steps; at.steps++) {
         const load_item item = program_item(load->program, at, load->last_cycle, load->in);
         swings = swings || (item.step.kind == LOAD_CYCLE && load_moves_normal(&item.step));
-        if (swings && item.step.tangential != BY_FORCE)
+        if (swings && !goes_with_sine(&item.step))
             return false;
         at.cycles += item.step.kind == LOAD_CYCLE;
     }

@@ -118,7 +118,7 @@ typedef struct slip {
     const fret_swing *curve;
     const way *way;
     int which;
-    fret_real lo, hi;
+    fret_real lo, hi, end; /* end: the level at hi */
 } slip;
 
 /* Rules of few points are to agree to what the law is good to. */
@@ -129,7 +129,10 @@ static fret_real integrate(const fret_swing *c, fret_integrand *f, void *context
 /* [F(D)-F(d)-(D-d) F'(d)]/F'(d) times the fall of the level. */
 static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
     const slip *l = context;
-    const fret_real s = l->lo * rest + l->hi * t, level = way_at(l->way, l->which, s);
+    const fret_real s = l->lo * rest + l->hi * t;
+    /* from the end, where it may be 0 and the rate infinite */
+    const fret_real level = l->way->harmonic ? way_at(l->way, l->which, s)
+                                             : l->end - l->way->span[l->which] * ((l->hi - l->lo) * rest);
     const fret_real other = way_at(l->way, 1 - l->which, s), inner = curve_other(l->curve, l->which, level);
     return fret_phase_rate_by_load(l->curve->normal, (level + other) / 2, (level + inner) / 2,
                                    (other - inner) / 2) *
@@ -174,6 +177,7 @@ static fret_status slip_between(fret_swing *c, const way *w, int which, fret_rea
     slip l = {.curve = c, .way = w, .which = which, .lo = lo};
     while (l.lo < hi) {
         l.hi = part_end(w, which, l.lo, next_crossing(c, c->count, w, 1 << which, l.lo, hi));
+        l.end = way_at(w, which, l.hi);
         const fret_real loss = (l.hi - l.lo) * integrate(c, slip_rate, &l);
         c->last_loss += loss > 0 ? loss : 0;
         l.lo = l.hi;
@@ -287,16 +291,18 @@ typedef struct along {
     bool energy;
 } along;
 
+/* dy/dN */
+static fret_real compliance(const fret_normal *n, fret_real N) {
+    return fret_normal_closed(n) ? n->q * fret_law_depth(n, N) / N : 1 / fret_law_at_force(n, N).K;
+}
+
 static fret_real along_rate(fret_real t, fret_real rest, void *context) {
     const along *l = context;
     const piece *p = l->piece;
     const fret_real s = p->lo * rest + p->hi * t, m = way_at(&p->way, M, s), up = way_at(&p->way, P, s);
     const fret_real N = (m + up) / 2, T = (up - m) / 2;
     const fret_real dT = (way_fall(&p->way, M, s) - way_fall(&p->way, P, s)) / 2;
-    const fret_normal *n = l->curve->normal;
-    const fret_real compliance =
-        fret_normal_closed(n) ? n->q * fret_law_depth(n, N) / N : 1 / fret_law_at_force(n, N).K;
-    return (l->energy ? T : 1) * dT * compliance;
+    return (l->energy ? T : 1) * dT * compliance(l->curve->normal, N);
 }
 
 static fret_real sum_along(const fret_swing *c, bool energy) {
@@ -319,6 +325,67 @@ static fret_real sum_along(const fret_swing *c, bool energy) {
         sum += energy ? sigma * (h * T0 + sigma * fret_law_slice(c->normal, &outer, h).J) : sigma * h;
     }
     return sum;
+}
+
+/* ---- by displacement --------------------------------------------------------------------------- */
+
+/* A front of slip that goes inwards along `which` at constant F_N moves delta_x by mu eta int dw/K over what
+ * it passes: w the coordinate, 1/K the compliance at the load. */
+typedef struct passing {
+    const fret_swing *curve;
+    const piece *piece;
+    int which;
+    fret_real from;
+} passing;
+
+static fret_real passing_rate(fret_real t, fret_real rest, void *context) {
+    const passing *l = context;
+    const piece *p = l->piece;
+    const fret_real s = l->from * rest + p->hi * t, N = (way_at(&p->way, M, s) + way_at(&p->way, P, s)) / 2;
+    return -way_fall(&p->way, l->which, s) * compliance(l->curve->normal, N);
+}
+
+static fret_real passed(const fret_swing *c, const piece *p, int which, fret_real from) {
+    return (p->hi - from) * integrate(c, passing_rate, &(passing){c, p, which, from});
+}
+
+/* The level at which the front has passed `rest` of a curved piece, `whole` of which would be all. */
+static fret_real curved_front(const fret_swing *c, const piece *p, int which, fret_real rest,
+                              fret_real whole) {
+    fret_real lo = p->lo, hi = p->hi, s = hi - (hi - lo) * sqrtl(rest / whole);
+    for (int i = 0; i < HALVINGS; i++) {
+        const fret_real more = passed(c, p, which, s) - rest;
+        *(more > 0 ? &lo : &hi) = s;
+        const fret_real rate = passing_rate(0, 1, &(passing){c, p, which, s}), next = s + more / rate;
+        const fret_real last = s;
+        s = next > lo && next < hi ? next : (lo + hi) / 2;
+        if (fabsl(s - last) <= LDBL_EPSILON * hi)
+            break;
+    }
+    return way_at(&p->way, which, s);
+}
+
+/* The level that the front comes to; of what is left there all slides. */
+static fret_real front_after(const fret_swing *c, int which, fret_real *left) {
+    for (size_t i = c->count; i-- > 0;) {
+        const piece *p = &c->pieces[i];
+        const fret_real span = p->last[which] - p->first[which];
+        const fret_real N0 = (p->first[M] + p->first[P]) / 2, N1 = (p->last[M] + p->last[P]) / 2;
+        if (!(span > 0))
+            continue;
+        const fret_level outer = {fret_law_depth(c->normal, N1), N1};
+        const fret_real steep = span / (N1 - N0);
+        const fret_real whole =
+            p->curved ? passed(c, p, which, p->lo) : steep * fret_law_thickness(c->normal, &outer, N1 - N0);
+        if (*left < whole) {
+            const fret_real rest = *left;
+            *left = 0;
+            return p->curved ? curved_front(c, p, which, rest, whole)
+                             : p->last[which] - steep * fret_law_load(c->normal, &outer, rest / steep);
+        }
+        *left -= whole;
+    }
+    return 0;
 }
 
 /* What both ends of a piece are known to where the forces that it was made by are rounded. */
@@ -352,13 +419,17 @@ static const piece *outermost(const fret_swing *c) {
     return is_zone(c, next, which) ? next : zone;
 }
 
+static fret_real displacement(const fret_swing *c) {
+    return c->slid + c->mu * c->normal->foundation.eta * sum_along(c, false);
+}
+
 void fret_swing_state(const fret_swing *c, fret_state *out) {
     const fret_real mu_eta = c->mu * c->normal->foundation.eta;
     *out = (fret_state){.FN = c->FN,
                         .dz = c->dz,
                         .a = c->a,
                         .Fx = c->Fx,
-                        .dx = c->slid + mu_eta * sum_along(c, false),
+                        .dx = c->held ? (fret_real)c->goal : displacement(c),
                         .c = c->a,
                         .W = fret_sum_value(&c->W),
                         .U = c->mu * mu_eta * sum_along(c, true),
@@ -455,6 +526,7 @@ fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, d
     turn[turns++] = hi;
     c->scale = fmaxl(c->scale, w.mean + fmaxl(w.size[M], w.size[P]));
     c->last_loss = 0;
+    c->held = false;
     fret_status st = fret_ok();
     for (size_t i = 1; i < turns && !st.code; i++)
         if (turn[i] - turn[i - 1] > CLOSE * LDBL_EPSILON * 2 * FRET_PI)
@@ -471,9 +543,50 @@ fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, d
     return st;
 }
 
+/* Straight between forces, to F_x = mu load. */
+static fret_status go_straight(fret_swing *c, const fret_press *p, fret_real load) {
+    way w = {.harmonic = false};
+    const fret_real old = c->Fx / c->mu, begin[2] = {c->FN - old, c->FN + old},
+                    end[2] = {p->F - load, p->F + load};
+    for (int i = M; i <= P; i++) {
+        w.start[i] = begin[i];
+        w.span[i] = end[i] - begin[i];
+        c->scale = fmaxl(c->scale, end[i]);
+    }
+    return go_between(c, &w, 0, 1);
+}
+
+/* At constant F_N to delta_x: beyond gross slip all of it slides. */
+static fret_status slide(fret_swing *c, double dx) {
+    if (!isfinite(dx))
+        return fret_fail(FRET_NOT_FINITE, "dx", dx, 0);
+    c->last_loss = 0;
+    if (c->held && c->goal == dx)
+        return fret_ok();
+    const fret_real mu_eta = c->mu * c->normal->foundation.eta,
+                    drive = ((fret_real)dx - displacement(c)) / mu_eta;
+    const int sign = drive < 0 ? -1 : 1;
+    fret_real left = fabsl(drive);
+    const fret_press here = {.F = c->FN, .dz = c->dz, .a = c->a};
+    const fret_real level = front_after(c, sign > 0 ? M : P, &left), load = sign * (c->FN - level);
+    const fret_status st = go_straight(c, &here, load);
+    if (st.code)
+        return st;
+    c->last_loss += c->FN * left;
+    c->slid += sign * mu_eta * left;
+    add_loss(c);
+    c->Fx = c->mu * load;
+    c->direction = sign;
+    c->held = true;
+    c->goal = dx;
+    return st;
+}
+
 fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
     fret_press p = {.F = c->FN, .dz = c->dz, .a = c->a};
     fret_status st = fret_ok();
+    if (step->tangential_by == FRET_TO_DX && step->normal_by == FRET_KEEP_NORMAL)
+        return slide(c, step->tangential);
     if (step->tangential_by != FRET_TO_FX)
         return fret_fail(FRET_OUTSIDE, "dx", step->tangential, 0);
     if (step->normal_by == FRET_TO_FORCE)
@@ -485,19 +598,12 @@ fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
         st = fret_step_load(c->mu, step, p.F, &load);
     if (st.code)
         return st;
-    way w = {.harmonic = false};
-    const fret_real old = c->Fx / c->mu, begin[2] = {c->FN - old, c->FN + old},
-                    end[2] = {p.F - load, p.F + load};
-    for (int i = M; i <= P; i++) {
-        w.start[i] = begin[i];
-        w.span[i] = end[i] - begin[i];
-        c->scale = fmaxl(c->scale, end[i]);
-    }
     c->last_loss = 0;
-    st = go_between(c, &w, 0, 1);
+    st = go_straight(c, &p, load);
     if (st.code)
         return st;
     add_loss(c);
+    c->held = false;
     set_edge(c, &p, step->tangential);
     return st;
 }
@@ -524,6 +630,8 @@ fret_status fret_swing_make(const fret_memory *m, fret_swing **out) {
     c->a = fret_memory_pressed(m).a;
     c->Fx = m->held == FRET_TO_FX ? m->goal : m->mu * fret_memory_total(m, LOAD);
     c->slid = m->slid;
+    c->held = m->held == FRET_TO_DX;
+    c->goal = m->goal;
     c->direction = m->direction;
     c->W = m->W;
     fret_real at[2] = {0, 0};
@@ -601,8 +709,8 @@ fret_status fret_swing_memory(const fret_swing *c, fret_memory *m) {
     m->radius = c->a;
     m->slid = now.dx - m->mu_eta * fret_memory_total(m, DEPTH);
     m->direction = c->direction;
-    m->held = FRET_TO_FX;
-    m->goal = (double)c->Fx;
+    m->held = c->held ? FRET_TO_DX : FRET_TO_FX;
+    m->goal = c->held ? c->goal : (double)c->Fx;
     m->W = c->W;
     m->last_loss = c->last_loss;
     return st;

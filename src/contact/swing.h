@@ -35,6 +35,8 @@ struct fret_swing {
     fret_real FN, Fx; /* now; the end of the curve is their M, P */
     fret_real dz, a;  /* the edge */
     fret_real slid;   /* delta_x - mu eta int sigma dy */
+    bool held;        /* the last motion ended at delta_x = goal exactly */
+    double goal;
     int direction;
     fret_sum W;
     fret_real last_loss, scale; /* scale: the largest of M and P so far */

@@ -33,6 +33,7 @@ TOLD = (
      ("qx: tangential traction", "    model: memory diagram, by 640 chords a period of the sine"), (r"    qx\(r",)),
     (PRESSED + "set model double; cycle FA=9 N FNA=10 N phase=40 deg\n", "W", ("    model: memory diagram in double, to 3e-14, converged to [1-9]e-[0-9]+ .the sine itself, by 640 chords a period and fewer, extrapolated.",), ()),
     (PRESSED + "set model double; cycle FA=9 N FNA=10 N phase=40 deg\n", "kt", ("    model: memory diagram in double, to 3e-14, by 640 chords a period of the sine, good to [1-9]e-.*",), ()),
+    (PRESSED + "cycle FA=9 N FNA=10 N; step dx=0.1 um\n", "c", ("    model: memory diagram, the sine itself, event by event .exact.",), ()),
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "W", ("    model: memory diagram, the sine itself, event by event \\(exact\\)",), ("    cycle: ",)),
     (PRESSED + "step FN=150 N; step FN=120 N\n", "a", ("    FN now = 120 N",), ("    mu = ", "    Fx now")),
     (PRESSED + "step FN=150 N; step FN=120 N\n", "FN*a", ("FN: normal force.*", "    FN = 120 N"), ()),

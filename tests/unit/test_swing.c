@@ -334,6 +334,80 @@ static void in_phase(int count) {
     }
 }
 
+/* To where a step by force has gone, from the state that two periods and a few steps have left: the same
+ * state, but for the rounding of the displacement. */
+static void by_displacement(int count) {
+    for (int i = 0; i < count; i++) {
+        load l = random_load();
+        const fret_sine w = sine_of(&l);
+        fret_memory *m = begin(&l);
+        fret_swing *s = swing_of(m), *t = swing_of(m);
+        for (int period = 0; period < 2; period++)
+            CHECK_OK(fret_swing_period(s, &w));
+        for (int step = 0; step < 4; step++) {
+            fret_state before, a, b;
+            fret_swing_state(s, &before);
+            const double limit = l.mu * (double)before.FN,
+                         little = step == 3 ? 1e-7 * limit : 2 * limit, /* a step as small */
+                Fx = fmin(0.95 * limit, fmax(-0.95 * limit, (double)before.Fx + little * (uniform() - 0.5)));
+            const fret_real reach = l.mu * m->normal->foundation.eta * before.dz, size = limit * reach;
+            CHECK_OK(fret_swing_copy(t, s));
+            CHECK_OK(fret_swing_step(t, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, Fx}));
+            fret_swing_state(t, &a);
+            CHECK_OK(fret_swing_step(s, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, (double)a.dx}));
+            fret_swing_state(s, &b);
+            CHECK(b.dx == (double)a.dx);
+            /* what the displacement is rounded by, at most, as a force */
+            const fret_real rounded = DBL_EPSILON * fabsl(a.dx) * a.kn / m->normal->foundation.eta;
+            CHECK_ABS(b.Fx, a.Fx, limit, 100 * known(&l) + rounded / limit);
+            CHECK_ABS(b.U, a.U, size, 100 * known(&l) + 2 * rounded / limit);
+            CHECK_ABS(b.W, a.W, size, 100 * known(&l) + 2 * rounded / limit);
+            if (fabsl(a.Fx - before.Fx) > 1e-9L * limit)
+                CHECK_ABS(b.c, a.c, a.a, 1e-5L);
+        }
+        fret_swing_free(s);
+        fret_swing_free(t);
+        fret_memory_free(m);
+    }
+}
+
+/* By displacement through slip throughout, and back: the memory of the same contact, once all that a swing
+ * has left is gone. */
+static void through_slip(void) {
+    load l = {2, 50, 210e9, 0.3, 0.4, 100, 20, 30, 60, 0.3, NULL};
+    const fret_sine w = sine_of(&l);
+    fret_memory *m = begin(&l);
+    fret_swing *s = swing_of(m);
+    fret_state before, a, b;
+    CHECK_OK(fret_swing_period(s, &w));
+    fret_swing_state(s, &before);
+    CHECK_OK(fret_swing_memory(s, m));
+    const fret_real reach = l.mu * m->normal->foundation.eta * before.dz, limit = l.mu * before.FN;
+    const double to[] = {-2, -2.5, -2.5, -1.7, 0, 3, 2.9, 3};
+    for (size_t i = 0; i < sizeof to / sizeof *to; i++) {
+        const fret_step step = {FRET_KEEP_NORMAL, FRET_TO_DX, 0, to[i] * (double)reach};
+        CHECK_OK(fret_memory_step(m, &step));
+        CHECK_OK(fret_swing_step(s, &step));
+        fret_memory_state(m, &a);
+        fret_swing_state(s, &b);
+        CHECK(b.dx == step.tangential && a.dx == step.tangential);
+        CHECK_ABS(b.Fx, a.Fx, limit, 1e-15L);
+        CHECK_ABS(b.U, a.U, limit * reach, 1e-15L);
+        /* the first step goes over what curves, which the memory has in chords */
+        CHECK_ABS(b.W, a.W, limit * reach, 1e-6L);
+        CHECK_ABS(fret_swing_last_loss(s), fret_memory_last_loss(m), limit * reach, i ? 1e-15L : 1e-6L);
+        CHECK_ABS(b.c, a.c, a.a, 1e-9L);
+        CHECK_ABS(b.kt, a.kt, a.kn, 1e-9L);
+    }
+    /* an open contact moves freely */
+    CHECK_OK(fret_swing_step(s, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 0, 0}));
+    CHECK_OK(fret_swing_step(s, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, 1e-6}));
+    fret_swing_state(s, &a);
+    CHECK(a.dx == 1e-6 && a.Fx == 0 && a.FN == 0 && fret_swing_last_loss(s) == 0);
+    fret_swing_free(s);
+    fret_memory_free(m);
+}
+
 static void refusals(void) {
     load l = {2, 50, 210e9, 0, 0.4, 100, 20, 30, 90, 0, NULL};
     fret_memory *m = begin(&l);
@@ -342,10 +416,14 @@ static void refusals(void) {
     fret_swing_state(s, &before);
     const fret_sine slides = {39, 30, 1, 100}, elsewhere = {20, 30, 1, 100}, opens = {0, 100, 0, 100};
     CHECK(!fret_swing_fits(s, &slides) && !fret_swing_fits(s, &elsewhere) && !fret_swing_fits(s, &opens));
-    const fret_step by_dx = {FRET_KEEP_NORMAL, FRET_TO_DX, 0, 1e-7},
+    const fret_step by_dx = {FRET_TO_FORCE, FRET_TO_DX, 90, 1e-7},
+                    held = {FRET_TO_FORCE, FRET_KEEP_DX, 90, 0},
+                    no_dx = {FRET_KEEP_NORMAL, FRET_TO_DX, 0, (double)NAN},
                     too_much = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 50},
                     nan = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, (double)NAN};
     CHECK(fret_swing_step(s, &by_dx).code == FRET_OUTSIDE);
+    CHECK(fret_swing_step(s, &held).code == FRET_OUTSIDE);
+    CHECK(fret_swing_step(s, &no_dx).code == FRET_NOT_FINITE);
     CHECK(fret_swing_step(s, &too_much).code == FRET_GROSS_SLIP);
     CHECK(fret_swing_step(s, &nan).code == FRET_NOT_FINITE);
     const fret_step below = {FRET_TO_FORCE, FRET_TO_FX, -1, 0},
@@ -635,5 +713,10 @@ int main(int argc, char **argv) {
     one_stays();
     opened_and_closed();
     from_one_way_to_another();
+    through_slip();
+    for (int i = 0; i < 2; i++) {
+        shaped = i;
+        by_displacement(shaped ? 50 : 200);
+    }
     return unit_finish();
 }
