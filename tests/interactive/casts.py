@@ -307,7 +307,7 @@ def played(tests):
     where = os.path.join(tests.dir, "played")
     os.mkdir(where)
     with open(os.path.join(where, "s.fret"), "w", encoding="utf-8") as f:
-        f.write("# What will slip?\n" + SCENE + "\nstep Fx=20 N\n# The loop\ncycle FA=30 N\nstep Fx=50 N\n# The end\n")
+        f.write("# What will slip: \u07ff \u0800 \uffe6 \U00010000?\n" + SCENE + "\nstep Fx=20 N\n# The loop\ncycle FA=30 N\nstep Fx=50 N\n# The end\n")
     texts = []
     for name in ("a.cast", "b.cast"):
         done = tests.run("-c", "record %s\nlive s.fret\ndW\n" % name, cwd=where, env={**tests.env, "LC_ALL": "C.UTF-8"})
@@ -315,6 +315,7 @@ def played(tests):
             texts.append(f.read())
     tests.check("it plays", done.returncode == 0 and done.stdout == "dW = 9.01533 uJ\n", tests.report(done))
     tests.check("the same again", texts[0] == texts[1])
+    tests.check("signs of two, three and four bytes", any("slip: \u07ff \u0800 \uffe6 \U00010000?" in e[2] for e in Cast(os.path.join(where, "a.cast")).events), texts[0][:2000])
     cast = Cast(os.path.join(where, "a.cast"))
     moving = {found for e in cast.events[3:60:4]
               for found in re.findall(r"Fx +(-?[0-9]\S* \S+)", Cast(os.path.join(where, "a.cast"), e[0]).screen.text())}

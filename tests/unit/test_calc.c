@@ -521,6 +521,19 @@ static void far_back(void) {
     calc_free(&c);
 }
 
+/* Levels whose error goes with the square of a chord, or with its fourth power, have the limit that they come
+ * to; how far it may be off is no less than what the header says. */
+static void limits(void) {
+    const long double square[LEVELS] = {2.64L, 2.16L, 2.04L}, fourth[LEVELS] = {4.56L, 2.16L, 2.01L};
+    long double moved;
+    CHECK_REL(run_limit(square, &moved), 2, UNIT_TOL(1e-18L, 1e-15L));
+    CHECK(moved < 1e-15L);
+    CHECK_REL(run_unsure(square), 0.12L / 256 / 2.04L, UNIT_TOL(1e-14L, 1e-12L));
+    CHECK_REL(run_limit(fourth, &moved), 2, UNIT_TOL(1e-18L, 1e-15L));
+    CHECK_REL(moved, 0.08L / 2.01L, UNIT_TOL(1e-16L, 1e-13L));
+    CHECK_REL(run_unsure(fourth), 1.2L / 2.01L, UNIT_TOL(1e-16L, 1e-13L));
+}
+
 int main(int argc, char **argv) {
     unit_start("test_calc", argc, argv);
     words();
@@ -543,5 +556,6 @@ int main(int argc, char **argv) {
     formulas();
     interrupted();
     far_back();
+    limits();
     return unit_finish();
 }
