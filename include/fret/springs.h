@@ -20,7 +20,8 @@ FRET_BEGIN
  *
  * Accuracy, with N springs inside the contact: order min(2, n+k+1) in 1/N at gaps ~ r^n by FRET_WEIGHT_CELL;
  * order 1+k at k < 0 by FRET_WEIGHT_MIDPOINT. A path straight in (delta_z, delta_x) adds no step error;
- * one straight in (F_N, F_x) adds an error of order 2 in 1/substeps, none at constant F_N.
+ * one straight in (F_N, F_x) adds an error of order 2 in 1/substeps, none at constant F_N. To no load it goes
+ * in more parts, ever smaller: until a single spring is left.
  *
  * Thread-compatible: distinct objects may be used by distinct threads. */
 typedef struct fret_springs fret_springs;

@@ -387,23 +387,49 @@ static double displacement_of_front(const fret_springs *s, fret_real z, fret_rea
     return sign * left;
 }
 
+/* To a load, at its depth, and a force. */
+static void follow(fret_springs *s, fret_real load, fret_real depth, fret_real force) {
+    const fret_real limit = s->mu * load, to = fminl(fmaxl(force, -limit), limit);
+    advance(s, depth, s->dx + displacement_of_front(s, depth, to));
+    const fret_real miss = fabsl(to - s->Fx);
+    s->missed = fmaxl(s->missed, miss); /* also where it is to go back by that */
+    if (miss > 1e-14L * limit) {        /* the rounding of many springs */
+        advance(s, depth, s->dx + displacement_of_front(s, depth, to));
+        s->missed = fmaxl(s->missed, fabsl(to - s->Fx));
+    }
+}
+
+/* The last part of a way to no load, where displacements go with a power of it: in parts ever smaller, down
+ * to a single spring, which parts where its force ends. */
+static void let_go(fret_springs *s, fret_real load, fret_real force, unsigned parts) {
+    const fret_real least = load * 1e-20L;
+    while (s->closed > 1 && load > least && !fret_stopped(s->normal)) {
+        for (unsigned j = parts - 1; j >= 1; j--) {
+            const fret_real t = (fret_real)j / parts;
+            follow(s, load * t, depth_of_force(s, load * t), force * t);
+        }
+        load /= parts;
+        force /= parts;
+    }
+    if (s->closed > 0)
+        advance(s, s->cells.g[0], s->dx - s->cells.u[0]);
+    advance(s, 0, s->dx);
+}
+
 static void walk_forces(fret_springs *s, fret_real FN, fret_real dz, fret_real Fx, unsigned substeps) {
+    enum { FEWEST = 8 };
     const fret_real FN0 = s->FN, Fx0 = s->Fx;
+    const bool opens = FN == 0 && FN0 > 0;
     s->dz = fmaxl(s->dz, 0); /* an open contact closes without load */
-    for (unsigned j = 1; j <= substeps && !fret_stopped(s->normal); j++) {
+    for (unsigned j = 1; j < substeps + !opens && !fret_stopped(s->normal); j++) {
         fret_real t = (fret_real)j / substeps, rest = (fret_real)(substeps - j) / substeps;
         fret_real load = FN0 * rest + FN * t, depth = j == substeps ? fmaxl(dz, 0) : depth_of_force(s, load);
         if (FN == FN0)
             depth = s->dz; /* rounding must not make it breathe */
-        const fret_real limit = s->mu * load, force = fminl(fmaxl(Fx0 * rest + Fx * t, -limit), limit);
-        advance(s, depth, s->dx + displacement_of_front(s, depth, force));
-        const fret_real miss = fabsl(force - s->Fx);
-        s->missed = fmaxl(s->missed, miss); /* also where it is to go back by that */
-        if (miss > 1e-14L * limit) {        /* the rounding of many springs */
-            advance(s, depth, s->dx + displacement_of_front(s, depth, force));
-            s->missed = fmaxl(s->missed, fabsl(force - s->Fx));
-        }
+        follow(s, load, depth, Fx0 * rest + Fx * t);
     }
+    if (opens)
+        let_go(s, FN0 / substeps, Fx0 / substeps, substeps > FEWEST ? substeps : FEWEST);
 }
 
 static void walk_displacements(fret_springs *s, fret_real dz, fret_real dx, unsigned substeps) {

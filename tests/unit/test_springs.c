@@ -360,6 +360,27 @@ static void test_loops_close(void) {
     loops_close(0.5, 0, 20000, false);
 }
 
+/* Let go by force, they are left where the diagram is. */
+static void test_let_go(void) {
+    static const double exponents[] = {1, 2, 3};
+    for (size_t i = 0; i < sizeof exponents / sizeof *exponents; i++)
+        for (unsigned substeps = 1; substeps <= 64; substeps *= 64) {
+            pair p = make(exponents[i], 0.2);
+            springs_of(&p, 2000, p.radius, FRET_WEIGHT_CELL);
+            for (int side = -1; side <= 1; side += 2) {
+                restart(&p);
+                go(&p, press_only(p.FN), 1);
+                go(&p, to_fx(0.7 * side * p.mu * p.FN), 1);
+                go(&p, to_fx(0.3 * side * p.mu * p.FN), 1);
+                go(&p, to_force(0, 0), substeps);
+                CHECK_ABS(distance(&p), 0, 1, substeps == 1 ? 1e-1L : 1e-3L);
+                go(&p, to_force(p.FN, 0.2 * p.mu * p.FN), substeps);
+                CHECK_ABS(distance(&p), 0, 1, substeps == 1 ? 1e-1L : 1e-3L);
+            }
+            drop(&p);
+        }
+}
+
 /* To the F_x that there is: no reversal. */
 static void test_no_reversal(void) {
     pair p = make(2, 0.3);
@@ -619,6 +640,7 @@ int main(int argc, char **argv) {
     test_stick();
     test_loops_close();
     test_no_reversal();
+    test_let_go();
     test_pad();
     test_copy();
     test_widths();
