@@ -51,8 +51,9 @@ static fret_real rate_between(const fret_phase *p, fret_real z, fret_real y, fre
         front = p->by == DEPTH ? fret_law_at_depth(n, y) : fret_law_at_force(n, y);
     if (p->by == LOAD) /* of a thin zone the depths would differ by too few digits */
         d = d < 1e-3L * z ? fret_law_thickness(n, &outer, d) : edge.y - front.y;
-    fret_real G = fret_normal_closed(n) || d < 1e-3L * edge.y ? fret_law_slice(n, &outer, d).G
-                                                              : fmaxl(edge.F - front.F - d * front.K, 0);
+    fret_real G = edge.F - front.F - d * front.K;
+    if (fret_normal_closed(n) || d < 1e-3L * edge.y || G < 1e-4L * edge.F) /* a difference loses digits */
+        G = fret_law_slice(n, &outer, d).G;
     if (p->by == DEPTH)
         return G;
     return front.K > 0 ? G / front.K : 0; /* dy = dF/K; the end point itself has no weight */
@@ -123,7 +124,8 @@ fret_real fret_phase_loss_by_law(const fret_phase *phase) {
     if (fret_gap_sampled(&p.normal->gap)) /* edge or front may cross rows, where the rate is not smooth */
         rate = fret_integrate_pieces(law_rate, &p, tolerance_of(&p));
     else
-        rate = is_smooth(&p) ? fret_integrate_smooth(law_rate, &p) : fret_integrate(law_rate, &p);
+        rate = is_smooth(&p) ? fret_integrate_short_closely(law_rate, &p, 1e-14L)
+                             : fret_integrate_closely(law_rate, &p);
     return (p.front0 - p.front1) * rate;
 }
 
@@ -385,10 +387,12 @@ fret_real fret_phase_force(const fret_phase *phase) {
     if (p.normal->pieces && fret_pieces_mean(p.normal->pieces, p.edge0, p.edge1, &mean))
         return mean;
     const fret_normal *n = p.normal;
+    const bool closed = fret_normal_closed(n);
     if (fabsl(p.edge1 - p.edge0) < 0.2L * fret_greater(p.edge0, p.edge1))
-        return fret_integrate_smooth(gross_rate, &p);
-    if (fret_normal_closed(n))
+        return closed ? fret_integrate_smooth(gross_rate, &p)
+                      : fret_integrate_short_closely(gross_rate, &p, 1e-15L);
+    if (closed)
         return (p.edge1 * fret_law_force(n, p.edge1) - p.edge0 * fret_law_force(n, p.edge0)) /
                ((n->p + 1) * (p.edge1 - p.edge0));
-    return fret_integrate(gross_rate, &p);
+    return fret_integrate_closely(gross_rate, &p);
 }

@@ -4,6 +4,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 #include "number/constants.h"
@@ -23,6 +24,82 @@ fret_real fret_integrate(fret_integrand *f, void *context) {
         fret_sum_add(&sum, node.weight * f(node.t, node.rest, context));
     }
     return fret_sum_value(&sum);
+}
+
+/* A part of 0..1. */
+typedef struct part {
+    fret_integrand *f;
+    void *context;
+    fret_real lo, hi;
+} part;
+
+static fret_real part_at(const part *p, fret_real t, fret_real rest) {
+    return p->f(p->lo * rest + p->hi * t, (1 - p->lo) * rest + (1 - p->hi) * t, p->context);
+}
+
+static fret_real part_rate(fret_real t, fret_real rest, void *context) {
+    return part_at(context, t, rest);
+}
+
+/* By the rule; how far it may be off; with |f| for f. */
+typedef struct estimate {
+    fret_real sum, error, size;
+} estimate;
+
+/* Every other node is off by d/q where all are by d, and every fourth by d/q^(3/2) (q < 1), as digits double.
+ * A singularity that is close, but touches little, makes q larger. */
+static fret_real error_of(fret_real all, fret_real other, fret_real fourth) {
+    const fret_real near = fabsl(all - other), far = fmaxl(fabsl(other - fourth), near);
+    const fret_real q = far > 0 ? near / far : 0;
+    return near * q * sqrtl(q); /* not q^2: both may be small by chance */
+}
+
+static estimate by_rule(const part *p) {
+    enum { MIDDLE = FRET_EXPONENTIAL / 2 };
+    fret_sum every[3] = {{0, 0}, {0, 0}, {0, 0}}, size = {0, 0}; /* fourth, other second, other */
+    const fret_real width = p->hi - p->lo;
+    for (int i = FRET_EXPONENTIAL; i-- > 0;) {
+        const fret_node node = fret_exponential_node(i);
+        const fret_real v = width * node.weight * part_at(p, node.t, node.rest);
+        const int from = abs(i - MIDDLE) % 4;
+        fret_sum_add(&every[from == 0 ? 0 : from == 2 ? 1 : 2], v);
+        fret_sum_add(&size, fabsl(v));
+    }
+    const fret_real fourth = fret_sum_value(&every[0]), other = fourth + fret_sum_value(&every[1]),
+                    all = other + fret_sum_value(&every[2]);
+    return (estimate){all, error_of(all, 2 * other, 4 * fourth), fret_sum_value(&size)};
+}
+
+enum { PATIENCE = 2 };
+static const fret_real NOISY = 1e-10L;
+
+/* How far the halves of a part are from the whole, of the whole, and how often that has not fallen from part
+ * to half. */
+typedef struct quarrel {
+    fret_real most;
+    int times;
+} quarrel;
+
+/* In halves until these add up to the whole, to 1e-15 of the size of all. */
+static fret_real in_halves(const part *p, const estimate *whole, fret_real size, quarrel before, int *parts) {
+    const fret_real mid = (p->lo + p->hi) / 2;
+    const part left = {p->f, p->context, p->lo, mid}, right = {p->f, p->context, mid, p->hi};
+    *parts -= 2;
+    const estimate a = by_rule(&left), b = by_rule(&right);
+    const fret_real error = fabsl(a.sum + b.sum - whole->sum), off = error / whole->size;
+    const quarrel now = {off, off < before.most ? 0 : before.times + 1};
+    if (*parts <= 0 || !(error > 1e-15L * size) || (now.times >= PATIENCE && off < NOISY))
+        return a.sum + b.sum;
+    return in_halves(&left, &a, size, now, parts) + in_halves(&right, &b, size, now, parts);
+}
+
+fret_real fret_integrate_closely(fret_integrand *f, void *context) {
+    const part all = {f, context, 0, 1};
+    const estimate whole = by_rule(&all);
+    int parts = 200;
+    return whole.error > 1e-15L * whole.size
+               ? in_halves(&all, &whole, whole.size, (quarrel){INFINITY, 0}, &parts)
+               : whole.sum;
 }
 
 const fret_real fret_gauss_node[8] = {0.0198550717512318841582195657153L, 0.101666761293186630204223031762L,
@@ -54,37 +131,29 @@ fret_real fret_integrate_smooth(fret_integrand *f, void *context) {
     return sum;
 }
 
-/* A part of 0..1. */
-typedef struct part {
-    fret_integrand *f;
-    void *context;
-    fret_real lo, hi;
-} part;
-
-static fret_real part_rate(fret_real t, fret_real rest, void *context) {
-    const part *p = context;
-    return p->f(p->lo * rest + p->hi * t, (1 - p->lo) * rest + (1 - p->hi) * t, p->context);
-}
-
-fret_real fret_integrate_short(fret_integrand *f, void *context, fret_real agree) {
+/* By eight points, if their halves agree. */
+static bool by_few(fret_integrand *f, void *context, fret_real agree, fret_real *sum) {
     part left = {f, context, 0, 0.5L}, right = {f, context, 0.5L, 1};
     const fret_real whole = fret_integrate_smooth(f, context);
     const fret_real halves =
         (fret_integrate_smooth(part_rate, &left) + fret_integrate_smooth(part_rate, &right)) / 2;
-    return fabsl(halves - whole) <= agree * fabsl(halves) ? halves : fret_integrate(f, context);
+    *sum = halves;
+    return fabsl(halves - whole) <= agree * fabsl(halves);
+}
+
+fret_real fret_integrate_short(fret_integrand *f, void *context, fret_real agree) {
+    fret_real sum;
+    return by_few(f, context, agree, &sum) ? sum : fret_integrate(f, context);
+}
+
+fret_real fret_integrate_short_closely(fret_integrand *f, void *context, fret_real agree) {
+    fret_real sum;
+    return by_few(f, context, agree, &sum) ? sum : fret_integrate_closely(f, context);
 }
 
 /* Halves of a smooth integrand agree better than the whole with them; where they do not so often, and that is
  * no more than that, it is noise: rounded rows of a table. */
-enum { PATIENCE = 2 };
 static const fret_real NOISE = 1e-9L;
-
-/* How far the halves of a part are from the whole, of the whole, and how often that has not fallen from part
- * to half. */
-typedef struct quarrel {
-    fret_real most;
-    int times;
-} quarrel;
 
 /* int_lo^hi f by halves until they add up to the whole, or differ by noise. tolerance: of the integral. */
 static fret_real bisect(fret_integrand *f, void *context, fret_real lo, fret_real hi, fret_real whole,

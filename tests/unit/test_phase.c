@@ -134,6 +134,60 @@ static void near_centre(double n, double k) {
     }
 }
 
+/* Laws with a turn that is sharp, or close to the centre, as where one power of a sum takes over from another
+ * or where the slope beyond a flat end tells: short parts add up to the whole. */
+static void sharp_turns(void) {
+    static const fret_gap gaps[] = {
+        {.kind = FRET_GAP_SUM, .terms = 2, .power = {{0.5, 1e-6, 1e-3}, {30, 3e-6, 1e-3}}},
+        {.kind = FRET_GAP_SUM, .terms = 2, .power = {{0.5, 1e-6, 1e-3}, {5, 4.22e-4, 1e-3}}},
+        {.kind = FRET_GAP_SUM, .terms = 2, .power = {{1, 1e-6, 1e-3}, {100, 1e-5, 1e-3}}},
+        {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 1e-6, 1e-3}, {6, 1e-6, 1e-3}}},
+        {.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 2e-4},
+        {.kind = FRET_GAP_FLAT_PARABOLOID, .b = 1e-6, .R = 0.2},
+        {.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-4, .R = 0.2}};
+    static const double gradings[] = {0, -0.5, -0.99, 0.9};
+    enum { PARTS = 16 };
+    for (size_t i = 0; i < sizeof gaps / sizeof *gaps * 4; i++) {
+        const fret_material material = {{{100e9, 0.3, false}, {100e9, 0.3, false}}, gradings[i % 4], 1e-3};
+        const fret_normal *normal = unit_keep_normal(&material, &gaps[i / 4]);
+        fret_press press;
+        CHECK_OK(fret_press_by_radius(normal, 1e-3, &press));
+        for (int j = 0; j < 4; j++) {
+            const coordinate by = j == 3 ? LOAD : DEPTH;
+            const fret_real full = by == LOAD ? press.F : press.dz, edge = full * (0.3L + uniform());
+            const fret_phase whole =
+                phase_of(normal, by, full, edge, full, j % 2 ? fminl(full, edge) * uniform() : 0);
+            fret_real sum = 0, gross = 0;
+            for (int m = 0; m < PARTS; m++) {
+                const fret_real t = (fret_real)m / PARTS, u = (fret_real)(m + 1) / PARTS;
+                const fret_phase part =
+                    phase_of(normal, by, full + (edge - full) * t, full + (edge - full) * u,
+                             full + (whole.front1 - full) * t, full + (whole.front1 - full) * u);
+                sum += fret_phase_loss(&part);
+                gross += by == DEPTH ? fret_phase_force(&part) / PARTS : 0;
+            }
+            CHECK_REL(fret_phase_loss(&whole), sum, 1e-12L);
+            if (by == DEPTH)
+                CHECK_REL(fret_phase_force(&whole), gross, 1e-14L);
+        }
+    }
+}
+
+/* 1/((t-m)^2+d^2), which a rule of few nodes cannot see, close to an end or not. */
+static fret_real peak(fret_real t, fret_real rest, void *context) {
+    const fret_real *at = context;
+    (void)rest;
+    return at[1] / ((t - at[0]) * (t - at[0]) + at[1] * at[1]);
+}
+
+static void peaks(void) {
+    for (int i = 0; i < 200; i++) {
+        fret_real at[2] = {i % 2 ? small(5) : uniform(), small(4)};
+        const fret_real want = atan2l(1 - at[0], at[1]) + atan2l(at[0], at[1]);
+        CHECK_REL(fret_integrate_closely(peak, at), want, 1e-13L);
+    }
+}
+
 static void limits(void) {
     const unit_scene s = unit_make_scene(2, 0);
     const fret_normal *normal = unit_make_normal(&s);
@@ -172,6 +226,8 @@ int main(int argc, char **argv) {
             thick_zones(n[i], k[j]);
             near_centre(n[i], k[j]);
         }
+    sharp_turns();
+    peaks();
     limits();
     return unit_finish();
 }
