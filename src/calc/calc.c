@@ -2,6 +2,7 @@
 /* The session: its life, and assignments. */
 #include "calc/calc.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -77,12 +78,25 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
     return true;
 }
 
+/* Is a unit of angles written there? What atan() answers counts as a number too, in radians. */
+static bool says_angle(const char *text, size_t len) {
+    for (size_t i = 0, n; i < len; i += n + !n) {
+        for (n = 0; i + n < len && isalpha((unsigned char)text[i + n]); n++)
+            ;
+        unit u;
+        if (n && unit_lookup(text + i, n, &u) && u.d.rad != 0)
+            return true;
+    }
+    return false;
+}
+
 bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d) {
     if (v.d.N == d.N && v.d.m == d.m && d.rad == 0 && v.d.rad == 0) /* the common case */
         return true;
     const bool plain = dim_equal(v.d, DIM_NONE) && v.d.rad == 0;
     const bool angle = d.rad != 0, both = angle == (v.d.rad != 0); /* a length may have come of an angle */
-    if ((dim_equal(v.d, d) && (both || !(angle || dim_equal(d, DIM_NONE)))) || (v.v == 0 && plain))
+    const bool apart = angle || (dim_equal(d, DIM_NONE) && len && says_angle(lx->text + at, len));
+    if ((dim_equal(v.d, d) && (both || !apart)) || (v.v == 0 && plain))
         return true;
     if (angle && plain)
         return calc_fail(lx->error, at, len, "%s needs a unit: it is an angle, in deg or rad", name);
