@@ -131,6 +131,28 @@ def other_shapes(tests):
             tests.check("Kp: " + shape, abs(v[-1] / want - 1) < 1e-12, "%r %r" % (v[-1], want))
 
 
+# Gauss's rule of six points
+GAUSS = [(0.5 + side * x / 2, w / 2) for x, w in ((0.2386191860831969, 0.467913934572691), (0.6612093864662645, 0.3607615730481386),
+                                                  (0.932469514203152, 0.1713244923791703)) for side in (-1, 1)]
+
+
+def sharp_turns(tests):
+    """Kp at the amplitude of gross slip of laws that turn sharply: short parts towards both ends and the turns."""
+    rows = "r [mm],f [um]\n" + "".join("%g,%g\n" % (0.1 * i, 10 * max(0, 0.1 * i - 0.25) ** 1.5) for i in range(11))
+    with tests.file(rows, ".csv") as path:
+        for k, shape, a in ((0.2, "sum 1:0.01, 20:1e55 m^-19", 1), (-0.8, "flat-cone b=0.5 mm slope=0.01", 1), (-0.5, "file " + path, 0.95)):
+            setup = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; friction 0.4; geometry %s; press a=%g mm\n" % (k, shape, a)
+            [d] = [value["value"] for value in run_json(tests, setup + "dxmax\n")[0]]
+            cuts = sorted({x for i in range(30) for x in (0.5 * 2.0 ** -i, 1 - 0.5 * 2.0 ** -i, i / 30)} | {0.0, 1.0})
+            nodes = [(lo + (hi - lo) * (j + t) / 3, w * (hi - lo) / 3) for lo, hi in zip(cuts, cuts[1:]) for j in range(3) for t, w in GAUSS]
+            script = setup + "\n".join("Fx(%r m)" % (d * math.sin(math.pi / 2 * x) ** 2) for x, _ in nodes) + "\nKp(%r m)\n" % d
+            values, _, done = run_json(tests, script)
+            v = [value["value"] for value in values]
+            if tests.check("damper: " + shape, len(v) == len(nodes) + 1, tests.report(done)):
+                want = -4 / d * math.fsum(f * math.cos(math.pi * x) * w for f, (x, w) in zip(v, nodes))
+                tests.check("Kp: " + shape, abs(v[-1] / want - 1) < 1e-10, "%r %r" % (v[-1], want))
+
+
 SHAPES = ("geometry sphere R=10 mm", "geometry flat-cone b=0.1 mm slope=0.01", "geometry cone slope=0.05; k = 0.5, c0 = 1 mm")
 
 
@@ -358,6 +380,7 @@ def run(tests):
     optima(tests)
     damper(tests)
     other_shapes(tests)
+    sharp_turns(tests)
     jenkins(tests)
     to_an_amplitude(tests)
     tiny(tests)
