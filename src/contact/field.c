@@ -549,7 +549,8 @@ fret_status fret_field_of(const fret_normal *n, fret_real y, fret_real r, bool t
     if (!steep && !fret_field_light(n, a))
         return pressure_at(n, a, r, out);
     const rim at = {a, reach_of(n, a, y), y, steep ? fret_law_log_radius(n, y) : (dd){0, 0}};
-    return steep || r - fret_gap_start(&n->gap) < at.e ? pressure_of(n, &at, r, out) : fret_ok();
+    const bool within = r - fret_gap_start(&n->gap) < at.e || fret_field_infinite(n, r);
+    return steep || within ? pressure_of(n, &at, r, out) : fret_ok();
 }
 
 bool fret_field_deep(const fret_normal *n, fret_real y, fret_real r) {
