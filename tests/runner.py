@@ -78,9 +78,14 @@ def counted(tests, name, *command):
             print("FAILED (%s) %s\n%s" % (tests.label, name, done.stdout[-24000:] + done.stderr[-3000:]))
 
 
+# these take longest, and begin
+LONG = ("test_pieces", "test_fields", "test_allocation", "test_swing", "test_swing_field", "test_answers", "test_edges")
+
+
 def unit(tests):
     names = [os.path.basename(path)[:-2] for path in
              sorted(glob.glob(os.path.join(harness.ROOT, "tests/unit/test_*.c")))]
+    names.sort(key=lambda name: name not in LONG)
     tests.env["FRET_UNIT_FEW"] = "1" if tests.sanitized else ""
     tests.each([lambda n=name: counted(tests, "unit " + n, os.path.join(tests.build, "tests", n)) for name in names])
 
