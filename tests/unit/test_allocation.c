@@ -307,6 +307,40 @@ static void swings(void) {
     fret_memory_free(back);
 }
 
+/* Ever smaller ways back and forth: each leaves a piece. What is refused is tried again from a copy. */
+static void smaller_slides(void) {
+    fret_memory *m;
+    fret_swing *w, *before;
+    fret_state exact, now;
+    int refused = 0;
+    CHECK_OK(fret_memory_make(contact.normal, 0.4, &m));
+    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
+    CHECK_OK(fret_swing_make(m, &w));
+    CHECK_OK(fret_swing_make(m, &before));
+    for (int i = 0; i < 60; i++) {
+        const fret_step step = {FRET_KEEP_NORMAL, FRET_TO_DX, 0, 0.9 * slip * pow(-0.93, i)};
+        CHECK_OK(fret_swing_copy(before, w));
+        left = 0;
+        const fret_status st = fret_swing_step(w, &step);
+        left = -1;
+        if (st.code) {
+            CHECK_CODE(st, FRET_NO_MEMORY);
+            CHECK_OK(fret_swing_copy(w, before));
+            CHECK_OK(fret_swing_step(w, &step));
+            refused++;
+        }
+        CHECK_OK(fret_memory_step(m, &step));
+    }
+    fret_memory_state(m, &exact);
+    fret_swing_state(w, &now);
+    CHECK(refused > 0 && now.dx == exact.dx);
+    CHECK_REL(now.Fx, exact.Fx, 1e-12L);
+    CHECK_REL(now.W, exact.W, 1e-12L);
+    fret_swing_free(w);
+    fret_swing_free(before);
+    fret_memory_free(m);
+}
+
 /* Ever smaller periods: each leaves pieces of the curve. What is refused is as it was, or good for a copy. */
 static void smaller_swings(void) {
     fret_memory *m;
@@ -467,6 +501,7 @@ int main(int argc, char **argv) {
     masings();
     springs();
     swings();
+    smaller_slides();
     smaller_swings();
     periods_without_room();
     fields();
