@@ -113,7 +113,7 @@ static int read_key(FILE *in) {
             act_on_signal();
             continue;
         }
-        if (ready <= 0)
+        if (ready <= 0) /* unreached: a signal of nobody's, just then */
             continue;
         const ssize_t n = read(fd, &c, 1);
         if (n == 1)
