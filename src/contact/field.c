@@ -436,7 +436,7 @@ static fret_status pressure_of(const fret_normal *n, const rim *at, fret_real r,
         if (st.code)
             return st;
     }
-    *p = n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI * sum + rest;
+    *p = in_pascal(n, sum) + rest;
     return fret_ok();
 }
 
@@ -562,22 +562,22 @@ bool fret_field_deep(const fret_normal *n, fret_real y, fret_real r) {
 
 /* What a ring between two depths presses deep within it. */
 static fret_real ring_pressure(const fret_normal *n, fret_real inner, fret_real outer, fret_real r) {
-    const fret_foundation *f = &n->foundation;
+    const fret_real k = n->foundation.k;
     const fret_real b = fret_law_radius(n, inner), a = fret_law_radius(n, outer);
     inside c = {n, fret_gap_start(&n->gap), r, reach_of(n, b, inner), reach_of(n, a, outer), 0, NULL, 0};
     fret_term term[FRET_MOST_TERMS];
     const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
     fret_real sum = 0;
     for (int i = 0; i < terms; i++) {
-        const fret_real by = term[i].n + f->k - 1, l = fret_log(b / a);
+        const fret_real by = term[i].n + k - 1, l = fret_log(b / a);
         sum -= term[i].G * term[i].n * (by != 0 ? fret_expm1(by * l) / by : l);
     }
-    sum *= fret_pow(a, f->k - 1);
+    sum *= fret_pow(a, k - 1);
     if (terms == 0 && c.from <= 0)
         return (fret_real)INFINITY;
     if (terms == 0 && c.from < c.to)
         sum = fret_integrate_pieces(pressure_beyond, &c, 1e-17L);
-    return f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * sum;
+    return in_pascal(n, sum);
 }
 
 fret_status fret_field_between(const fret_normal *n, fret_real inner, fret_real outer, fret_real r,
