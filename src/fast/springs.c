@@ -10,6 +10,7 @@
 
 #include "contact/check.h"
 #include "contact/normal.h"
+#include "number/bits.h"
 #include "number/processor.h"
 #include "number/real.h"
 #include "number/sum.h"
@@ -40,6 +41,7 @@ typedef struct partial_sums {
 #include <immintrin.h>
 #define LEAST _mm_min_pd
 #define MOST _mm_max_pd
+#define ANY(mask) _mm_movemask_pd((__m128d)(mask))
 #endif
 #define LANES 2
 #define NAME(x) x##_2
@@ -49,6 +51,7 @@ typedef struct partial_sums {
 #ifdef __x86_64__
 #define LEAST _mm256_min_pd
 #define MOST _mm256_max_pd
+#define ANY(mask) _mm256_movemask_pd((__m256d)(mask))
 #define LANES 4
 #define NAME(x) x##_4
 #define TARGET FRET_AVX2
@@ -56,6 +59,7 @@ typedef struct partial_sums {
 
 #define LEAST _mm512_min_pd
 #define MOST _mm512_max_pd
+#define ANY(mask) _mm512_movepi64_mask((__m512i)(mask))
 #define LANES 8
 #define NAME(x) x##_8
 #define TARGET FRET_AVX512
@@ -352,6 +356,34 @@ static fret_real load_inside(const fret_springs *s, size_t end, fret_real z) {
     return end ? s->touch[end - 1] + s->w_sum[end] * (z - s->cells.g[end - 1]) : 0;
 }
 
+/* How far a spring goes to the side `sign` until it slips at depth z. */
+static inline double room_of(const cells *c, size_t i, double z, double sign) {
+    return c->mu_eta * (z - c->g[i]) - sign * c->u[i];
+}
+
+/* From the first `inside` springs inwards, groups of them that all slip before the sum is what is wanted:
+ * what is left, their force in *slipping, and the room of the last of them. */
+static size_t slip_groups(const fret_springs *s, size_t inside, double z, double sign, double want,
+                          double *slipping, double *left) {
+    enum { GROUP = 8 };
+    const cells *c = &s->cells;
+    while (inside >= GROUP && !fret_stopped(s->normal)) {
+        const size_t first = inside - GROUP;
+        double force[GROUP];
+        for (size_t i = 0; i < GROUP; i++)
+            force[i] = c->w[first + i] * room_of(c, first + i, z, sign);
+        const double room = room_of(c, first, z, sign),
+                     sum = ((force[0] + force[1]) + (force[2] + force[3])) +
+                           ((force[4] + force[5]) + (force[6] + force[7]));
+        if (*slipping + sum + (double)s->w_sum[first] * room >= want)
+            break;
+        *slipping += sum;
+        *left = room;
+        inside = first;
+    }
+    return inside;
+}
+
 /* The change of delta_x that brings F_x on the way to depth z, up to rounding. No history makes u steeper in
  * g than the bound is, so springs begin to slip one after the other from the edge inwards, all to one side,
  * and the front is found in one pass over those that slip. Sums are of w u. */
@@ -377,9 +409,10 @@ static double displacement_of_front(const fret_springs *s, fret_real z, fret_rea
         return x;
     const double sign = (deeper > 0 ? x : u + x) < 0 ? -1 : 1, want = sign * (double)missing;
     slipping = touching * (c->mu_eta * (double)deeper);
-    for (size_t i = inside; i-- > 0 && (i % LOOK || !fret_stopped(s->normal));) {
+    size_t i = slip_groups(s, inside, (double)z1, sign, want, &slipping, &left);
+    while (i-- > 0) {
         const double sticks = (double)s->w_sum[i + 1];
-        left = c->mu_eta * ((double)z1 - c->g[i]) - sign * c->u[i];
+        left = room_of(c, i, (double)z1, sign);
         if (slipping + sticks * left >= want)
             return sign * (want - slipping) / sticks;
         slipping += c->w[i] * left;

@@ -26,6 +26,7 @@ TARGET static inline NAME(vec) NAME(most)(NAME(vec) a, NAME(vec) b) {
 }
 #define LEAST NAME(least)
 #define MOST NAME(most)
+#define ANY(mask) fret_any(&(mask), LANES)
 #endif
 
 /* Adds x to sum + rest without rounding (two-sum). */
@@ -84,15 +85,18 @@ TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, p
                 NAME(vec) touched = MOST(LEAST((p->hi - g) * p->inverse, one), zero);
                 NAME(vec) moved = touched * p->ddx, trial = AT(u_) + moved;
                 NAME(vec) v = MOST(LEAST(trial, b1), -b1), excess = trial - v;
+                force[k] += w * v;
+                AT(u_) = v;
+                AT(b_) = b1;
+                NAME(mask) slips = excess != zero;
+                if (!ANY(slips)) /* most stick, and a division takes as long as all the rest */
+                    continue;
                 NAME(vec)
                 slip = MOST(excess, -excess), along = NAME(choose)(excess < zero, -moved, moved);
                 /* slip at a steady rate since its onset, while the bound went linearly to b1 */
                 NAME(vec) whole = MOST(MOST(along + (b0 - b1), slip), tiny);
                 NAME(vec) bound = b1 + 0.5 * (b0 - b1) * (slip / whole);
-                force[k] += w * v;
                 loss[k] += w * bound * slip;
-                AT(u_) = v;
-                AT(b_) = b1;
             }
         }
         EACH_PART {
@@ -106,6 +110,7 @@ TARGET static void NAME(deform)(const cells *c, size_t end, const straight *p, p
 #undef AT
 #undef LEAST
 #undef MOST
+#undef ANY
 #undef NAME
 #undef LANES
 #undef TARGET
