@@ -7,8 +7,8 @@
 FRET_BEGIN
 
 /* The memory diagram in double, for the inner loop of a dynamics code in which normal and tangential motion
- * both change: fret_memory for power laws, five times as fast. At constant F_N, where it is four times as
- * fast, fret_masing does better.
+ * both change: fret_memory for power laws, nine times as fast, four times where the loss counts. At constant
+ * F_N fret_masing does better.
  *
  * With the depth y, or the load F_N(y) ~ y^p, as first coordinate and t = int_0^y sigma dy, or
  * int_0^y sigma dF_N, as second, the memory of a contact is a curve from (0, 0) to the present
@@ -21,8 +21,8 @@ FRET_BEGIN
  * in closed form, or by Gauss's rule of a polynomial where that would lose digits (by depth, not of Hertz's
  * law: there it is a sum of positive terms in the roots of D and d).
  *
- * A step costs two powers: two logarithms and two exponentials; square roots where 2p, or 2/p by force, is a
- * whole number up to 8 (sphere, cone at k = 0).
+ * A step costs two powers: each a place of a table and a series for p up to 6, else a logarithm and an
+ * exponential; square roots where 2p, or 2/p by force, is a whole number up to 8 (sphere, cone at k = 0).
  *
  * Accuracy for p <= 5 against fret_memory, worst of random histories with contact lost and regained, up to
  * gross slip, within 1e-15 of it and beyond (make hard-diagram, tests/hard/diagram.txt): F_x to 3e-14 of mu

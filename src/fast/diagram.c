@@ -541,8 +541,18 @@ static void step_by_force(fret_diagram *d, const fret_step *step, const double y
     d->dx = d->slid + d->mu_eta * d->edge.t[DEPTH];
 }
 
+/* With the contact closed. t: int sigma dy at the end. */
+FRET_INLINE void move(fret_diagram *d, const double y[2], double t) {
+    d->last_loss =
+        d->lossless ? by_depth(d, y[DEPTH], y[LOAD], t) : by_depth_with_loss(d, y[DEPTH], y[LOAD], t);
+}
+
+FRET_INLINE double turned(const fret_diagram *d, double to, double from) {
+    return to == from ? d->edge.t[DEPTH] : (to - d->slid) * d->per_mu_eta;
+}
+
 /* While open, the bodies move freely: only the closed part of the path counts. */
-FRET_INLINE void step_by_displacement(fret_diagram *d, double target, const double y[2], double to) {
+static void step_by_displacement(fret_diagram *d, double target, const double y[2], double to) {
     const double old = d->dx, from = d->dz;
     double stop = target;
     d->dx = target;
@@ -551,11 +561,8 @@ FRET_INLINE void step_by_displacement(fret_diagram *d, double target, const doub
         open_contact(d, old + (target - old) * (-from / (to - from)));
     else if (from > 0 && to <= 0)
         stop = old + (target - old) * (from / (from - to));
-    if (from > 0 || to > 0) {
-        const double t = stop == old ? d->edge.t[DEPTH] : (stop - d->slid) * d->per_mu_eta;
-        d->last_loss =
-            d->lossless ? by_depth(d, y[DEPTH], y[LOAD], t) : by_depth_with_loss(d, y[DEPTH], y[LOAD], t);
-    }
+    if (from > 0 || to > 0)
+        move(d, y, turned(d, stop, old));
     if (to <= 0)
         open_contact(d, target);
     d->Fx = d->mu * d->edge.t[LOAD];
@@ -622,8 +629,11 @@ fret_status fret_diagram_step(fret_diagram *d, const fret_step *step) {
         return any_step(d, step);
     const double y[2] = {step->normal, step->normal == d->edge.y[DEPTH] ? d->edge.y[LOAD]
                                                                         : other_of(d, DEPTH, step->normal)};
+    const double t = turned(d, step->tangential, d->dx);
     face(d, d->dx, step->tangential);
-    step_by_displacement(d, step->tangential, y, y[DEPTH]);
+    d->dx = step->tangential;
+    move(d, y, t);
+    d->Fx = d->mu * d->edge.t[LOAD];
     end_step(d, y[DEPTH]);
     return fret_ok();
 }

@@ -352,6 +352,29 @@ static void powers(void) {
     }
 }
 
+/* The table of powers, also where its cells and octaves meet, and beyond it. */
+static void cells(void) {
+    unsigned long long seed = 2;
+    for (int i = 0; i < 40; i++) {
+        const double s = i ? unit_random(&seed, 0.01, 6) : 6;
+        fret_double_law law;
+        fret_double_law_make(s, s - 1, &law);
+        CHECK(law.by_cells && !law.halves);
+        for (int j = 0; j < 4000; j++) {
+            const double corner = (1 + floor(unit_random(&seed, 0, FRET_CELLS)) / FRET_CELLS) *
+                                  ldexp(1, (int)floor(unit_random(&seed, -34, 3)));
+            const double x = j % 4 == 0   ? corner
+                             : j % 4 == 1 ? corner * (1 - DBL_EPSILON / 2)
+                             : j % 4 == 2 ? unit_random(&seed, 0.5, 2)
+                                          : exp(unit_random(&seed, -24, 1.4));
+            const fret_real tolerance = x >= 0.5 && x < 2       ? 1.25e-16L
+                                        : x >= 0x1p-30 && x < 4 ? 4e-16L
+                                                                : 5e-14L;
+            CHECK_REL(fret_double_law_power(&law, x), powl(x, s), UNIT_TOL(tolerance, 1e-13L));
+        }
+    }
+}
+
 /* Under Hertz's law every zone of slip keeps its digits: thin or thick, to the centre, out of nothing and
  * into nothing. */
 static void zones(void) {
@@ -411,6 +434,7 @@ int main(int argc, char **argv) {
     objects();
     parts();
     powers();
+    cells();
     zones();
     return unit_finish();
 }
