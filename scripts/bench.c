@@ -102,7 +102,7 @@ static double memory_diagram(const fret_normal *n, const fret_press *p, bool los
  * loss or without. */
 typedef enum diagram { EXACT, DOUBLE, DOUBLE_LOSS } diagram;
 static double moving(const fret_normal *n, const fret_press *p, bool by_force, diagram kind) {
-    enum { STEPS = 200 };
+    enum { STEPS = 200, ROUNDS = 10 };
     const double pi = acos(-1), normal = by_force ? FN : (double)p->dz,
                  tangential = by_force ? mu * FN : (double)fret_gross_slip(&(fret_contact){n, mu, *p});
     static fret_step load[STEPS];
@@ -116,22 +116,24 @@ static double moving(const fret_normal *n, const fret_press *p, bool by_force, d
         load[i] = (fret_step){by_force ? FRET_TO_FORCE : FRET_TO_DEPTH, by_force ? FRET_TO_FX : FRET_TO_DX,
                               normal * (0.7 + 0.2 * sin(2 * pi * i / STEPS)),
                               tangential * 0.4 * cos(2 * pi * i / STEPS)};
-    for (int run = 0; run < 200; run++) {
+    for (int run = 0; run < 40; run++) {
         double t0 = seconds();
-        for (int i = 0; i < STEPS; i++) {
-            if (kind == EXACT) {
-                fret_state st;
-                need(fret_memory_step(exact, &load[i]));
-                fret_memory_forces(exact, &st);
-                sink = (double)st.Fx;
-            } else {
-                fret_diagram_now now;
-                need(fret_diagram_step(fast, &load[i]));
-                fret_diagram_forces(fast, &now);
-                sink = now.Fx;
+        for (int round = 0; round < ROUNDS; round++)
+            for (const fret_step *to = load; to < load + STEPS; to++) {
+                if (kind == EXACT) {
+                    fret_state st;
+                    need(fret_memory_step(exact, to));
+                    fret_memory_forces(exact, &st);
+                    sink = (double)st.Fx;
+                } else {
+                    fret_diagram_now now;
+                    if (fret_diagram_step(fast, to).code)
+                        exit(EXIT_FAILURE);
+                    fret_diagram_forces(fast, &now);
+                    sink = now.Fx;
+                }
             }
-        }
-        best = fmin(best, (seconds() - t0) / STEPS);
+        best = fmin(best, (seconds() - t0) / (ROUNDS * STEPS));
     }
     fret_memory_free(exact);
     fret_diagram_free(fast);
@@ -497,11 +499,12 @@ static double swinging_chord(const fret_normal *n, bool in_phase) {
     need(fret_memory_make(n, mu, &m));
     for (int run = 0; run < 20; run++) {
         double t0 = seconds();
-        for (int i = 0; i < 200; i++) {
-            need(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, load[i][0], load[i][1]}));
+        for (int i = 0; i < 10 * 200; i++) {
+            const double *to = load[i % 200];
+            need(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, to[0], to[1]}));
             sink = (double)fret_memory_last_loss(m);
         }
-        best = fmin(best, (seconds() - t0) / 200);
+        best = fmin(best, (seconds() - t0) / (10 * 200));
     }
     fret_memory_free(m);
     return best;
@@ -640,7 +643,8 @@ static double gap_chord(const fret_normal *n, long count) {
     return t;
 }
 
-/* error: of the law, that is borne. */
+/* error: of the law, that is borne. few: values for the baseline; of few < 10, where a chord without pieces
+ * takes a minute, one dW is that of a chord too. */
 static void other_gap(const char *name, const fret_gap *of, double error, long few) {
     char what[80];
     fret_normal *plain, *ready;
@@ -658,7 +662,10 @@ static void other_gap(const char *name, const fret_gap *of, double error, long f
     snprintf(what, sizeof what, "%s: dW", name);
     line(what, loss, one, "searches and quadrature", us, of->table ? "2 us" : "1 us");
     snprintf(what, sizeof what, "%s: a swinging chord", name);
-    line(what, chord, gap_chord(plain, few / 10 + 2), "searches and quadrature", us, "5 us");
+    if (few < 10)
+        line(what, chord, one, "one dW by searches", us, "5 us");
+    else
+        line(what, chord, gap_chord(plain, few / 10 + 2), "searches and quadrature", us, "5 us");
     snprintf(what, sizeof what, "%s: to set up", name);
     line(what, setting_up, one, "one dW", us, of->table ? "50 ms" : "5 ms");
     fret_normal_free(plain);
