@@ -48,12 +48,12 @@ static bool place_in(struct fret_blocks *all, fret_stop stop, size_t i, fret_spo
                      fret_place *out) {
     out->block = i;
     out->rows = block_at(all, stop, i);
-    return out->rows && fret_rows_place(out->rows, by, value, &out->spot);
+    return out->rows && fret_rows_find(out->rows, by, value, &out->spot);
 }
 
 /* The block of a value, and its rows: at an end of blocks rounding decides. */
-bool fret_blocks_place(struct fret_blocks *all, fret_stop stop, fret_spot_by by, fret_real value,
-                       fret_place *out) {
+bool fret_blocks_find(struct fret_blocks *all, fret_stop stop, fret_spot_by by, fret_real value,
+                      fret_place *out) {
     const fret_real *reach = all->reach[by];
     if (!(value > reach[0] && fret_law_reaches(reach[all->count], value)))
         return false;
@@ -66,14 +66,6 @@ bool fret_blocks_place(struct fret_blocks *all, fret_stop stop, fret_spot_by by,
     return place_in(all, stop, i, by, value, out) || (i > 0 && place_in(all, stop, i - 1, by, value, out));
 }
 
-bool fret_blocks_find(struct fret_blocks *all, fret_stop stop, fret_spot_by by, fret_real value,
-                      fret_place *out) {
-    if (!fret_blocks_place(all, stop, by, value, out))
-        return false;
-    fret_rows_complete(out->rows, by, value, &out->spot);
-    return true;
-}
-
 fret_real fret_blocks_begin(const struct fret_blocks *all, fret_spot_by by) {
     return all->reach[by][0];
 }
@@ -82,7 +74,7 @@ bool fret_blocks_inner(struct fret_blocks *all, fret_stop stop, fret_place *out)
     out->block = 0;
     out->rows = block_at(all, stop, 0);
     if (out->rows)
-        out->spot = fret_rows_inner(out->rows);
+        out->spot = fret_rows_inner();
     return out->rows;
 }
 
@@ -91,7 +83,7 @@ bool fret_blocks_drop(struct fret_blocks *all, fret_stop stop, fret_spot_by by, 
     const fret_real *reach = all->reach[by];
     fret_place from = *outer;
     while (!fret_rows_drop(from.rows, by, &from.spot, drop, &out->spot)) {
-        const fret_spot end = fret_rows_inner(from.rows);
+        const fret_spot end = fret_rows_inner();
         drop -= fret_rows_fall(from.rows, by == SPOT_LOAD ? LOADS : DEPTHS, &from.spot, &end);
         for (; from.block > 1 && drop > reach[from.block] - reach[from.block - 1]; from.block--)
             drop -= reach[from.block] - reach[from.block - 1]; /* none of these is asked for */
@@ -113,7 +105,7 @@ fret_real fret_blocks_fall(const struct fret_blocks *all, int by, const fret_pla
     if (outer->rows == inner->rows)
         return fret_rows_fall(outer->rows, by, &outer->spot, &inner->spot);
     const fret_real *reach = all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH];
-    const fret_spot end = fret_rows_inner(outer->rows), begin = fret_rows_outer(inner->rows);
+    const fret_spot end = fret_rows_inner(), begin = fret_rows_outer(inner->rows);
     return fret_rows_fall(outer->rows, by, &outer->spot, &end) +
            (reach[outer->block] - reach[inner->block + 1]) +
            fret_rows_fall(inner->rows, by, &begin, &inner->spot);
@@ -135,7 +127,7 @@ static bool find_run(struct fret_blocks *all, fret_stop stop, int l, size_t i, s
         const struct fret_rows *rows = block_at(all, stop, i);
         if (!rows)
             return false;
-        const fret_spot outer = fret_rows_outer(rows), inner = fret_rows_inner(rows);
+        const fret_spot outer = fret_rows_outer(rows), inner = fret_rows_inner();
         *sum = fret_rows_between(rows, &outer, &inner);
     }
     kept = malloc(sizeof *kept);
@@ -168,7 +160,7 @@ bool fret_blocks_between(struct fret_blocks *all, fret_stop stop, const fret_pla
         *sum = fret_rows_between(outer->rows, &outer->spot, &inner->spot);
         return true;
     }
-    const fret_spot end = fret_rows_inner(outer->rows), begin = fret_rows_outer(inner->rows);
+    const fret_spot end = fret_rows_inner(), begin = fret_rows_outer(inner->rows);
     *sum = fret_rows_between(outer->rows, &outer->spot, &end);
     if (!add_runs(all, stop, outer->block, inner->block + 1, sum))
         return false;
@@ -214,10 +206,10 @@ static fret_status set_reach(struct fret_blocks *all, const fret_normal *n, size
 static void take_reach(struct fret_blocks *all) {
     const struct fret_rows *rows = atomic_load(&all->made[0]);
     for (size_t i = 0; i < 2 && rows; i++) {
-        const fret_spot at = i ? fret_rows_outer(rows) : fret_rows_inner(rows);
-        all->reach[SPOT_DISTANCE][i] = at.e;
-        all->reach[SPOT_DEPTH][i] = at.at.y;
-        all->reach[SPOT_LOAD][i] = at.at.F;
+        const fret_spot at = i ? fret_rows_outer(rows) : fret_rows_inner();
+        all->reach[SPOT_DISTANCE][i] = fret_rows_distance(rows, &at);
+        all->reach[SPOT_DEPTH][i] = fret_rows_level(rows, DEPTHS, &at);
+        all->reach[SPOT_LOAD][i] = fret_rows_level(rows, LOADS, &at);
     }
 }
 

@@ -24,11 +24,9 @@ typedef struct fret_place {
     fret_spot spot;
 } fret_place;
 
-/* As fret_rows_find and, without its levels, fret_rows_place. */
+/* As fret_rows_find. */
 bool fret_blocks_find(struct fret_blocks *blocks, fret_stop stop, fret_spot_by by, fret_real value,
                       fret_place *out);
-bool fret_blocks_place(struct fret_blocks *blocks, fret_stop stop, fret_spot_by by, fret_real value,
-                       fret_place *out);
 bool fret_blocks_inner(struct fret_blocks *blocks, fret_stop stop, fret_place *out);
 
 /* As fret_rows_drop. */

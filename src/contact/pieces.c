@@ -37,7 +37,9 @@ static bool point_of(const struct fret_pieces *of, int by, fret_real value, fret
     fret_real rate;
     fret_place at;
     if (all->rows && fret_blocks_find(all->rows, of->stop, how, value, &at)) {
-        *out = (fret_point){.y = at.spot.at.y, .F = at.spot.at.F, .a = all->start + at.spot.e};
+        *out = (fret_point){.y = by == BY_LOAD ? fret_rows_level(at.rows, DEPTHS, &at.spot) : value,
+                            .F = by == BY_LOAD ? value : fret_rows_level(at.rows, LOADS, &at.spot),
+                            .a = all->start + fret_rows_distance(at.rows, &at.spot)};
         return true;
     }
     if (!find(all, by, value, &i))
@@ -66,7 +68,7 @@ bool fret_pieces_depth(const struct fret_pieces *pieces, fret_real e, fret_real 
     size_t i;
     fret_place at_e;
     if (all->rows && fret_blocks_find(all->rows, pieces->stop, SPOT_DISTANCE, e, &at_e)) {
-        *depth = at_e.spot.at.y;
+        *depth = fret_rows_level(at_e.rows, DEPTHS, &at_e.spot);
         return true;
     }
     if (!find(all, BY_DISTANCE, e, &i))
@@ -225,10 +227,10 @@ static ending end_among_rows(const struct fret_pieces *of, struct fret_blocks *r
     return left - fret_blocks_begin(rows, how) > rounding ? NOT_KNOWN : FURTHER_IN;
 }
 
-/* A slice that begins among the rows: its integrals, K at its inner end, which may lie further in, and both
- * ends, the inner one NaN where it does. */
+/* A slice that begins among the rows: its integrals, K at its inner end, which may lie further in, and the
+ * other level at both ends where it is asked for, NaN at an inner one that does. */
 static bool by_rows(const struct fret_pieces *of, int by, fret_real whole, fret_real target, fret_real left,
-                    stretch *sum, fret_real *K, fret_level at[2]) {
+                    stretch *sum, fret_real *K, fret_real other[2]) {
     const law *all = of->law;
     const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
     fret_place outer, inner;
@@ -239,8 +241,11 @@ static bool by_rows(const struct fret_pieces *of, int by, fret_real whole, fret_
     if (ends_in == NOT_KNOWN || (ends_in == FURTHER_IN && !fret_blocks_inner(all->rows, of->stop, &inner)) ||
         !fret_blocks_between(all->rows, of->stop, &outer, &inner, sum))
         return false;
-    at[0] = outer.spot.at;
-    at[1] = ends_in == WITHIN ? inner.spot.at : (fret_level){(fret_real)NAN, (fret_real)NAN};
+    if (other) {
+        const int wanted = by == LOADS ? DEPTHS : LOADS;
+        other[0] = fret_rows_level(outer.rows, wanted, &outer.spot);
+        other[1] = ends_in == WITHIN ? fret_rows_level(inner.rows, wanted, &inner.spot) : (fret_real)NAN;
+    }
     *K = fret_rows_stiffness(inner.rows, &inner.spot);
     const fret_real base = fret_level_by(&all->piece[all->count - 1].outer, by);
     if (ends_in == WITHIN || left >= base)
@@ -258,7 +263,7 @@ static bool find_thin(const struct fret_pieces *of, int by, fret_real whole, fre
                       fret_place *outer, fret_place *inner) {
     const fret_spot_by how = by == LOADS ? SPOT_LOAD : SPOT_DEPTH;
     struct fret_blocks *rows = of->law->thin;
-    return rows && target < of->law->enough * whole && fret_blocks_place(rows, of->stop, how, whole, outer) &&
+    return rows && target < of->law->enough * whole && fret_blocks_find(rows, of->stop, how, whole, outer) &&
            fret_blocks_drop(rows, of->stop, how, outer, target, inner);
 }
 
@@ -284,10 +289,9 @@ static bool slice_of(const struct fret_pieces *of, int by, bool thin, fret_real 
     ends c;
     fret_real K;
     stretch s;
-    fret_level unused[2];
     if (thin && all->thin && target < THINNEST * whole)
         return false;
-    if (!by_rows(of, by, whole, target, left, &s, &K, unused) &&
+    if (!by_rows(of, by, whole, target, left, &s, &K, NULL) &&
         !(thin && by_blocks(of, by, whole, target, &s, &K))) {
         if ((thin && wants_rows(all, by, whole, target)) || !find_ends(all, by, whole, target, left, &c))
             return false;
@@ -328,7 +332,7 @@ static bool across_of(const struct fret_pieces *of, int by, bool thin, fret_real
         if (ends_in == WITHIN)
             *other = fret_blocks_fall(all->rows, wanted, &outer, &inner);
         else if (ends_in == FURTHER_IN && point_of(of, table, whole - target, &at))
-            *other = fret_level_by(&outer.spot.at, wanted) - (by == LOADS ? at.y : at.F);
+            *other = fret_rows_level(outer.rows, wanted, &outer.spot) - (by == LOADS ? at.y : at.F);
         else
             return false;
         return true;
@@ -361,18 +365,18 @@ static bool mean_by_rows(const struct fret_pieces *of, int by, fret_real from, f
                          fret_real *mean) {
     const fret_real most = fmaxl(from, to), least = fminl(from, to);
     fret_point p;
-    fret_level at[2];
+    fret_real at[2];
     stretch s;
     fret_real K;
     if (!by_rows(of, by, most, most - least, least, &s, &K, at))
         return false;
-    if (isnan(at[1].y)) {
+    if (isnan(at[1])) {
         if (!point_of(of, by == LOADS ? BY_LOAD : BY_DEPTH, least, &p))
             return false;
-        at[1] = (fret_level){p.y, p.F};
+        at[1] = by == LOADS ? p.y : p.F;
     }
     for (int i = 0; i < 2; i++)
-        end[i] = fret_level_by(&at[(i ? to : from) < most], by == LOADS ? DEPTHS : LOADS);
+        end[i] = at[(i ? to : from) < most];
     const fret_real w = s.G + s.h * K, J = (s.h * s.h * K + (s.h * s.G - s.L)) / 2;
     *mean = most == least ? end[0]
             : by == LOADS ? fmaxl(end[0], end[1]) - J / w
@@ -457,7 +461,7 @@ static bool ways_by_rows(const struct fret_pieces *of, int by, const fret_real p
     for (int i = 0; i < 4; i++)
         if (i > 0 && place[i] == place[i - 1])
             at[i] = at[i - 1];
-        else if (!fret_blocks_place(rows, of->stop, how, place[i], &at[i]))
+        else if (!fret_blocks_find(rows, of->stop, how, place[i], &at[i]))
             return false;
     for (int i = 0; i < 3; i++)
         if (!fret_blocks_between(rows, of->stop, &at[i + 1], &at[i], &out->part[i]))
@@ -474,12 +478,11 @@ static bool find_ways(const struct fret_pieces *of, int by, const fret_real plac
     out->K = (fret_real)NAN;
     for (int i = 0; i < 3; i++) {
         const fret_real outer = place[i + 1], inner = place[i];
-        fret_level unused[2];
         ends c;
         out->part[i] = (stretch){0, 0, 0, 0};
         if (outer == inner)
             continue;
-        if (!by_rows(of, by, outer, outer - inner, inner, &out->part[i], &K, unused)) {
+        if (!by_rows(of, by, outer, outer - inner, inner, &out->part[i], &K, NULL)) {
             if (!find_ends(all, by, outer, outer - inner, inner, &c))
                 return false;
             out->part[i] = integrals_of(all, by, &c, &K);

@@ -11,7 +11,7 @@
 #include "contact/table.h"
 #include "number/array.h"
 #include "number/chebyshev.h"
-#include "number/double.h"
+#include "number/powers.h"
 #include "number/quadrature.h"
 #include "number/real.h"
 
@@ -41,6 +41,7 @@ struct fret_rows {
     fret_real *reach[3];           /* where each part begins, and the last one ends: distance, depth, load */
     stretch *run[RUNS];            /* as those of pieces */
     fret_real binomial[BINOMIALS]; /* of (1+z)^(m-1) */
+    fret_powers powers;            /* with m */
 };
 
 /* ---- within a part ----------------------------------------------------------------------------- */
@@ -65,7 +66,7 @@ static fret_real rise_of(const struct fret_rows *all, size_t i, int by, fret_rea
 }
 
 static fret_real to_m(const struct fret_rows *all, fret_real y) {
-    return y > 0 ? fret_exp(all->m * fret_log(y)) : 0;
+    return y > 0 ? fret_power_of(&all->powers, y) : 0;
 }
 
 /* (1+z)^(m-1) */
@@ -78,7 +79,7 @@ static fret_real near_one(const struct fret_rows *all, fret_real z) {
 /* y^m from that of a place near by. */
 static fret_real to_m_near(const struct fret_rows *all, fret_real at, fret_real power, fret_real y) {
     const fret_real z = (y - at) / at;
-    return power * (1 + z) * near_one(all, z);
+    return fabsl(z) > 1e-3L ? to_m(all, y) : power * (1 + z) * near_one(all, z);
 }
 
 /* Is the part as wide as it is far from the centre? Then it wants more nodes. */
@@ -93,7 +94,7 @@ static void add_node(stretch *sum, fret_real t, fret_real dK) {
 }
 
 /* From y inwards to the beginning of the part. */
-static stretch part_below(const struct fret_rows *all, size_t i, fret_real y, fret_real ym) {
+static stretch part_below(const struct fret_rows *all, size_t i, fret_real y, fret_real ym, fret_real rise) {
     const part *p = &all->part[i];
     const fret_real *c = all->term + p->term;
     fret_real of[SUMS];
@@ -103,7 +104,7 @@ static stretch part_below(const struct fret_rows *all, size_t i, fret_real y, fr
         c += p->sum[j];
     }
     const fret_real y2 = y * y;
-    return (stretch){rise_of(all, i, DEPTHS, y, ym), y * of[SUM_K], y2 * (of[SUM_G] + ym * of[SUM_G + 1]),
+    return (stretch){rise, y * of[SUM_K], y2 * (of[SUM_G] + ym * of[SUM_G + 1]),
                      y2 * y * (of[SUM_L] + ym * (of[SUM_L + 1] + ym * of[SUM_L + 2]))};
 }
 
@@ -130,9 +131,10 @@ static stretch part_of(const struct fret_rows *all, size_t i, fret_real from, fr
 
 /* ---- places ------------------------------------------------------------------------------------ */
 
-static fret_real distance_at(const struct fret_rows *all, size_t i, fret_real y) {
-    const part *p = &all->part[i];
-    return all->reach[SPOT_DISTANCE][i] + p->width * y / (p->x + sqrtl(p->x * p->x + p->width * y));
+static const fret_real unknown = (fret_real)NAN;
+
+static fret_spot spot_in(size_t i, fret_real y, fret_real ym) {
+    return (fret_spot){i, y, ym, {unknown, unknown}};
 }
 
 /* Of a rise its derivative by y, and it itself, about. */
@@ -153,17 +155,23 @@ static double rate_of(const struct fret_rows *all, size_t i, int by, double y, d
     return P + y * P1 + ym * ((1 + (double)all->m) * Q + y * Q1);
 }
 
-/* Within 1e-9 or so: two of Newton's steps in double, from a straight line on. */
-static double guess_of(const struct fret_rows *all, size_t i, int by, double target, double whole) {
+/* Within 1e-9 or so: two of Newton's steps in double, from a straight line on. The derivative is the one of
+ * the last of them, a step of so much of y before. */
+typedef struct guess {
+    double y, rate, step;
+} guess;
+
+static guess guess_of(const struct fret_rows *all, size_t i, int by, double target, double whole) {
     const double m = (double)all->m, first = target / whole;
-    double y = first, z = 0, ym = fret_double_exp(m * fret_double_log(y)), rise;
+    double y = first, z = 0, ym = (double)to_m(all, y), rate = 0, rise;
     for (int j = 0; j < 2 && y > 0 && y < 1 && fabs(z) < 0.02; j++) {
-        const double near = 1 + m * z * (1 + (m - 1) / 2 * z * (1 + (m - 2) / 3 * z * (1 + (m - 3) / 4 * z))),
-                     rate = rate_of(all, i, by, y, ym * near, &rise), step = (target - rise) / rate;
+        const double near = 1 + m * z * (1 + (m - 1) / 2 * z * (1 + (m - 2) / 3 * z * (1 + (m - 3) / 4 * z)));
+        rate = rate_of(all, i, by, y, ym * near, &rise);
+        const double step = (target - rise) / rate;
         z = step / y;
         y += step;
     }
-    return y > 0 && y < 1 ? y : first;
+    return y > 0 && y < 1 ? (guess){y, rate, z} : (guess){first, rate, 1};
 }
 
 /* y where a level is so far, `target`, above the beginning of the part, to `little` of it: by Newton's steps,
@@ -171,13 +179,17 @@ static double guess_of(const struct fret_rows *all, size_t i, int by, double tar
 static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real target, fret_real little,
                         fret_real *power) {
     const fret_real *reach = all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH] + i;
-    fret_real lo = 0, hi = 1, y = guess_of(all, i, by, (double)target, (double)(reach[1] - reach[0]));
+    const guess from = guess_of(all, i, by, (double)target, (double)(reach[1] - reach[0]));
+    fret_real lo = 0, hi = 1, y = from.y;
+    double rate = from.rate, off = fabs(from.step), rise; /* off: how far the rate may be, of itself */
     for (int j = 0; j < 80; j++) {
         const fret_real ym = to_m(all, y), miss = target - rise_of(all, i, by, y, ym);
-        double rise;
-        const fret_real step = miss / rate_of(all, i, by, (double)y, (double)ym, &rise), share = step / y;
+        if (!(off * fabs((double)miss) <= 1e-20 * rate * (double)y))
+            rate = rate_of(all, i, by, (double)y, (double)ym, &rise);
+        const fret_real step = miss / rate, share = step / y;
         *(miss > 0 ? &lo : &hi) = y;
         const fret_real next = y + step;
+        off = INFINITY;
         if (fabsl(share) <= 1e-9L || fabsl(miss) <= little) {
             *power = fabsl(share) <= 1e-9L ? ym * (1 + share * all->m * (1 + share * (all->m - 1) / 2))
                                            : to_m(all, next);
@@ -200,16 +212,7 @@ static size_t part_at(const fret_real *reach, size_t count, fret_real value) {
     return lo;
 }
 
-static fret_spot spot_in(const struct fret_rows *all, size_t i, fret_real y, fret_real ym) {
-    return (fret_spot){i,
-                       y,
-                       ym,
-                       distance_at(all, i, y),
-                       {all->reach[SPOT_DEPTH][i] + rise_of(all, i, DEPTHS, y, ym),
-                        all->reach[SPOT_LOAD][i] + rise_of(all, i, LOADS, y, ym)}};
-}
-
-bool fret_rows_place(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
+bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
     const fret_real *reach = all->reach[by];
     if (!(value > reach[0] && fret_law_reaches(reach[all->count], value)))
         return false;
@@ -223,40 +226,39 @@ bool fret_rows_place(const struct fret_rows *all, fret_spot_by by, fret_real val
                         : search(all, i, by == SPOT_LOAD ? LOADS : DEPTHS, beyond, LDBL_EPSILON * value, &ym);
     if (known)
         ym = y < 1 ? to_m(all, y) : 1;
-    out->part = i;
-    out->along = y;
-    out->power = ym;
+    *out = spot_in(i, y, ym);
+    if (!known)
+        out->rise[by == SPOT_LOAD ? LOADS : DEPTHS] = beyond;
     return true;
 }
 
-void fret_rows_complete(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
-    *out = spot_in(all, out->part, out->along, out->power);
-    *(by == SPOT_DISTANCE ? &out->e : by == SPOT_DEPTH ? &out->at.y : &out->at.F) = value;
+static fret_spot beginning(size_t i) {
+    return (fret_spot){i, 0, 0, {0, 0}};
 }
 
-bool fret_rows_find(const struct fret_rows *all, fret_spot_by by, fret_real value, fret_spot *out) {
-    if (!fret_rows_place(all, by, value, out))
-        return false;
-    fret_rows_complete(all, by, value, out);
-    return true;
-}
-
-static fret_spot beginning(const struct fret_rows *all, size_t i) {
-    return (fret_spot){
-        i, 0, 0, all->reach[SPOT_DISTANCE][i], {all->reach[SPOT_DEPTH][i], all->reach[SPOT_LOAD][i]}};
-}
-
-fret_spot fret_rows_inner(const struct fret_rows *all) {
-    return beginning(all, 0);
+fret_spot fret_rows_inner(void) {
+    return beginning(0);
 }
 
 fret_spot fret_rows_outer(const struct fret_rows *all) {
-    return beginning(all, all->count);
+    return beginning(all->count);
 }
 
 /* Above the beginning of its part. */
 static fret_real rise_at(const struct fret_rows *all, int by, const fret_spot *s) {
-    return s->along > 0 ? rise_of(all, s->part, by, s->along, s->power) : 0;
+    return isnan(s->rise[by]) ? rise_of(all, s->part, by, s->along, s->power) : s->rise[by];
+}
+
+fret_real fret_rows_level(const struct fret_rows *all, int by, const fret_spot *s) {
+    return all->reach[by == LOADS ? SPOT_LOAD : SPOT_DEPTH][s->part] + rise_at(all, by, s);
+}
+
+fret_real fret_rows_distance(const struct fret_rows *all, const fret_spot *s) {
+    const fret_real inner = all->reach[SPOT_DISTANCE][s->part];
+    if (!(s->along > 0))
+        return inner;
+    const part *p = &all->part[s->part];
+    return inner + p->width * s->along / (p->x + sqrtl(p->x * p->x + p->width * s->along));
 }
 
 /* Within a part levels are told from its beginning: what is little of the whole is much of it. */
@@ -276,11 +278,12 @@ bool fret_rows_drop(const struct fret_rows *all, fret_spot_by by, const fret_spo
         rise = reach[i + 1] - reach[i];
     }
     if (!(drop < rise)) {
-        *out = beginning(all, i);
+        *out = beginning(i);
         return true;
     }
-    const fret_real y = search(all, i, of, rise - drop, LDBL_EPSILON * (rise - drop), &ym);
-    *out = spot_in(all, i, y, ym);
+    const fret_real left = rise - drop, y = search(all, i, of, left, LDBL_EPSILON * left, &ym);
+    *out = spot_in(i, y, ym);
+    out->rise[of] = left;
     return true;
 }
 
@@ -316,6 +319,10 @@ fret_row_part fret_rows_part(const struct fret_rows *all, size_t i) {
                            .slopes = {p->count[LOADS][0], p->count[LOADS][1]}};
 }
 
+static stretch below_spot(const struct fret_rows *all, const fret_spot *s) {
+    return part_below(all, s->part, s->along, s->power, rise_at(all, DEPTHS, s));
+}
+
 stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, const fret_spot *inner) {
     static const fret_real WORTH = 0.01L; /* of a part, where a difference keeps its digits */
     const size_t next = inner->part + (inner->along > 0);
@@ -323,9 +330,9 @@ stretch fret_rows_between(const struct fret_rows *all, const fret_spot *outer, c
     if (outer->part < inner->part || (outer->part == inner->part && outer->along <= inner->along))
         return sum;
     if (inner->along > 0)
-        below = part_below(all, inner->part, inner->along, inner->power);
+        below = below_spot(all, inner);
     if (outer->along > 0)
-        sum = part_below(all, outer->part, outer->along, outer->power);
+        sum = below_spot(all, outer);
     if (outer->part == inner->part && inner->along > 0) {
         const fret_real whole = sum.L;
         sum = fret_stretch_less(&sum, &below);
@@ -599,7 +606,7 @@ static void make_runs(maker *m) {
         all->reach[SPOT_LOAD][i] = m->begin[i].at.F;
     }
     for (size_t i = 0; i < all->count && !m->slopes && !fret_stopped(m->normal); i++)
-        all->run[0][i] = part_below(all, i, 1, 1);
+        all->run[0][i] = part_below(all, i, 1, 1, rise_of(all, i, DEPTHS, 1, 1));
     for (int l = 1; all->count >> l && !m->slopes; l++)
         for (size_t i = 0; i < all->count >> l; i++)
             all->run[l][i] = fret_stretch_join(&all->run[l - 1][2 * i + 1], &all->run[l - 1][2 * i]);
@@ -610,18 +617,19 @@ static fret_real error_of(const maker *m) {
     enum { LOOKS = 32 };
     const struct fret_rows *all = m->all;
     const fret_normal *n = m->normal;
-    const fret_spot outer = fret_rows_outer(all), inner = fret_rows_inner(all);
+    const fret_spot outer = fret_rows_outer(all), inner = fret_rows_inner();
     const stretch sum = fret_rows_between(all, &outer, &inner);
-    fret_real worst =
-        fabsl(inner.at.F + sum.G + sum.h * fret_rows_stiffness(all, &inner) - outer.at.F) / outer.at.F;
+    const fret_real most = fret_rows_level(all, LOADS, &outer),
+                    carried = sum.G + sum.h * fret_rows_stiffness(all, &inner);
+    fret_real worst = fabsl(fret_rows_level(all, LOADS, &inner) + carried - most) / most;
     for (int i = 0; i < LOOKS; i++) {
         const size_t j = (size_t)((double)all->count * (i + 0.5) / LOOKS);
         const fret_real *e = all->reach[SPOT_DISTANCE] + j, place = e[0] + (e[1] - e[0]) * (i % 5 + 1) / 6;
         const fret_profile p = fret_table_profile(n->gap.table, &n->rule, place);
         fret_spot at;
         (void)fret_rows_find(all, SPOT_DISTANCE, place, &at);
-        worst = fmaxl(worst, fabsl(at.at.y / p.g - 1));
-        worst = fmaxl(worst, fabsl(at.at.F / fret_force_of(n, &p) - 1));
+        worst = fmaxl(worst, fabsl(fret_rows_level(all, DEPTHS, &at) / p.g - 1));
+        worst = fmaxl(worst, fabsl(fret_rows_level(all, LOADS, &at) / fret_force_of(n, &p) - 1));
     }
     return worst;
 }
@@ -665,6 +673,7 @@ static fret_status make_rows(const fret_normal *n, fret_real from, fret_real e, 
     if (all && m) {
         *all = (struct fret_rows){
             .start = fret_table_start(t), .m = (n->rule.k + 1) / 2, .C = fret_normal_stiffness(n, 1)};
+        fret_powers_make(all->m, &all->powers);
         *m = (maker){.all = all, .normal = n, .slopes = slopes};
         const bool ok = add_rows(m, first, last - first, e);
         st = fret_unless_stopped(n, m->failed);

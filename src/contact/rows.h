@@ -14,20 +14,20 @@ fret_status fret_rows_make(const fret_normal *normal, fret_real from, fret_real 
                            fret_real *error);
 void fret_rows_free(struct fret_rows *rows);
 
-/* A place: so much of a part of a row, that to the power of its kink, its distance from the start, depth and
- * load. */
+/* A place: so much of a part of a row, that to the power of its kink; how far depth and load are above the
+ * beginning of the part, by DEPTHS and LOADS, NaN where that has not been asked for. */
 typedef struct fret_spot {
     size_t part;
-    fret_real along, power, e;
-    fret_level at;
+    fret_real along, power, rise[2];
 } fret_spot;
 
 /* Where the distance, the depth or the load is `value`; false: not among the rows. */
 typedef enum fret_spot_by { SPOT_DISTANCE, SPOT_DEPTH, SPOT_LOAD } fret_spot_by;
-bool fret_rows_place(const struct fret_rows *rows, fret_spot_by by, fret_real value, fret_spot *out);
-void fret_rows_complete(const struct fret_rows *rows, fret_spot_by by, fret_real value, fret_spot *out);
-/* The same with distance, depth and load. */
 bool fret_rows_find(const struct fret_rows *rows, fret_spot_by by, fret_real value, fret_spot *out);
+
+/* Depth or load there, by DEPTHS or LOADS, and the distance. */
+fret_real fret_rows_level(const struct fret_rows *rows, int by, const fret_spot *spot);
+fret_real fret_rows_distance(const struct fret_rows *rows, const fret_spot *spot);
 
 /* Where depth or load are less than at `outer` by `drop`, with all digits where that is little; false: not
  * among the rows. */
@@ -39,7 +39,7 @@ fret_real fret_rows_fall(const struct fret_rows *rows, int by, const fret_spot *
                          const fret_spot *inner);
 
 /* Both ends. */
-fret_spot fret_rows_inner(const struct fret_rows *rows);
+fret_spot fret_rows_inner(void);
 fret_spot fret_rows_outer(const struct fret_rows *rows);
 
 /* dF_N/dy there. */

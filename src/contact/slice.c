@@ -181,7 +181,7 @@ static bool find_rows(const fret_normal *n, bool by_load, fret_real outer, fret_
     }
     out->ends = fret_rows_drop(out->rows, how, &out->outer, target, &out->inner);
     if (!out->ends)
-        out->inner = fret_rows_inner(out->rows);
+        out->inner = fret_rows_inner();
     return true;
 }
 
@@ -192,8 +192,9 @@ static fret_real cut_rows(const fret_normal *n, fret_real y, fret_real h, fret_r
     if (!find_rows(n, false, y, h, lo, hi, &a))
         return hi;
     *sum = fret_rows_between(a.rows, &a.outer, &a.inner);
+    const fret_real end = a.ends ? lo : fret_rows_distance(a.rows, &a.inner);
     fret_rows_free(a.rows);
-    return a.ends ? lo : a.inner.e;
+    return end;
 }
 
 /* The slice that goes from one distance to another, by quadrature from kink to kink. */

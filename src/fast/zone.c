@@ -8,8 +8,6 @@
 #include "number/quadrature.h"
 #include "number/real.h"
 
-enum { LOWEST_OCTAVE = 30 };
-
 /* Near y = Y the curvature of the law is a polynomial, by interpolation: singular at the centre, it is told
  * to 2e-15 by 14 terms over the outer 0.3 of the way there, or over as much less as a steeper law takes. */
 static void make_near(fret_double_law *law) {
@@ -38,73 +36,21 @@ static void make_near(fret_double_law *law) {
         law->near[j] = (double)(sum[j] / (fret_real)((j + 1) * (j + 2)));
 }
 
-/* (1+f)^s - 1, |f| < 1/64 */
-static fret_real rise_of(fret_real s, fret_real f) {
-    fret_real sum = 0, term = 1;
-    for (int j = 0; j < 11; j++) {
-        term *= (s - j) / (j + 1) * f;
-        sum += term;
-    }
-    return sum;
-}
-
-static void make_cells(double s, fret_cells *out) {
-    const fret_real two = fret_pow(2, s);
-    fret_real last = 1, power = 1;
-    for (int i = 0; i < FRET_CELLS; i++) {
-        const fret_real middle = 1 + (i + 0.5L) / FRET_CELLS;
-        power += power * rise_of(s, (middle - last) / last);
-        last = middle;
-        for (int octave = 0; octave < 2; octave++) {
-            const fret_real value = octave ? power : power / two;
-            const double main = (double)value;
-            out->cell[octave * FRET_CELLS + i].power = main;
-            out->cell[octave * FRET_CELLS + i].tail = (double)((value - main) / value);
-        }
-        out->per_middle[i] = (double)(1 / middle);
-    }
-    fret_real scale = 1 / two;
-    for (int e = LOWEST_OCTAVE - 2; e >= 0; e--, scale /= two)
-        out->octave[e] = (double)(scale / two);
-    out->octave[LOWEST_OCTAVE - 1] = out->octave[LOWEST_OCTAVE] = 1;
-    out->octave[LOWEST_OCTAVE + 1] = (double)two;
-    fret_real term = 1;
-    for (int j = 0; j < FRET_CELL_TERMS; j++) {
-        term *= ((fret_real)s - j) / (j + 1);
-        out->series[j] = (double)term;
-    }
-}
-
-static inline double power_by_cells(const fret_double_law *law, double x) {
-    const fret_cells *c = &law->cells;
-    const uint64_t bits = fret_bits(x), octave = (bits >> 52) - (1023 - LOWEST_OCTAVE),
-                   mantissa = bits & 0x000fffffffffffff, cell = mantissa >> 45;
-    if (octave >= FRET_OCTAVES)
-        return fret_double_power(x, law->s);
-    const uint64_t from = octave == LOWEST_OCTAVE - 1 ? 0 : FRET_CELLS;
-    const double m = fret_from_bits(mantissa | 0x3ff0000000000000),
-                 middle = fret_from_bits(cell << 45 | 0x3ff0100000000000);
-    const double f = (m - middle) * c->per_middle[cell], f2 = f * f, *b = c->series;
-    const double base = c->cell[from + cell].power * c->octave[octave];
-    const double rise = f * ((b[0] + b[1] * f) + f2 * ((b[2] + b[3] * f) + f2 * (b[4] + b[5] * f)));
-    return base + base * (rise + c->cell[from + cell].tail);
-}
-
 void fret_double_law_make(double s, double sm1, fret_double_law *law) {
     *law = (fret_double_law){.s = s, .sm1 = sm1, .bend = fabs(s * sm1), .reach = s > 8 ? 0.3 * 8 / s : 0.3};
     law->per_reach = 1 / law->reach;
     const double twice = 2 * s;
     if (twice == floor(twice) && twice <= FRET_ZONE_HALVES)
         law->halves = (int)twice;
-    law->by_cells = !law->halves && s <= 6;
-    if (law->by_cells)
-        make_cells(s, &law->cells);
+    law->by_table = !law->halves && s <= 6;
+    if (law->by_table)
+        fret_double_powers_make(s, &law->powers);
     make_near(law);
 }
 
 double fret_double_law_power(const fret_double_law *law, double x) {
-    if (law->by_cells)
-        return power_by_cells(law, x);
+    if (law->by_table)
+        return fret_double_power_of(&law->powers, x);
     if (!law->halves)
         return fret_double_power(x, law->s);
     double power = law->halves & 1 ? sqrt(x) : 1;

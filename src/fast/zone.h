@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "number/double.h"
+#include "number/powers.h"
 
 /* libm's are calls. */
 static inline double lesser(double a, double b) {
@@ -21,27 +21,14 @@ static inline double greater(double a, double b) {
 #define FRET_ZONE_STRAIGHT 0.2
 enum { FRET_ZONE_TERMS = 14, FRET_ZONE_HALVES = 8 };
 
-/* x^s for 2^-30 <= x < 4, s <= 6: a table of C^s in the middles C of cells, 128 in each of 1/2..1 and 1..2,
- * and a series in between, 2^(es) for other octaves. To 0.6 ulp in 1/2..2, else 2; in half the latency of a
- * logarithm and an exponential. */
-enum { FRET_CELLS = 128, FRET_OCTAVES = 32, FRET_CELL_TERMS = 6 };
-typedef struct fret_cells {
-    struct {
-        double power, tail; /* C^s = power (1 + tail) */
-    } cell[2 * FRET_CELLS];
-    double per_middle[FRET_CELLS]; /* 1/C in 1..2 */
-    double octave[FRET_OCTAVES];
-    double series[FRET_CELL_TERMS]; /* of ((1+f)^s - 1)/f */
-} fret_cells;
-
 typedef struct fret_double_law {
     double s, sm1, bend; /* sm1 = s-1, bend = |s (s-1)| */
     int halves;          /* 2s where powers go by square roots, else 0 */
-    bool by_cells;
+    bool by_table;
     double y, per_y, v;           /* v of y, near the largest so far */
     double reach, per_reach;      /* the polynomial is good for 1-reach .. 1 */
     double near[FRET_ZONE_TERMS]; /* of (y/Y)^(s-2) in 1 - 2 (1-y/Y)/reach, over (j+1)(j+2) */
-    fret_cells cells;
+    fret_double_powers powers;    /* where there are no halves, s <= 6 */
 } fret_double_law;
 
 /* sm1 = s-1 without cancellation. */

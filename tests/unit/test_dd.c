@@ -6,6 +6,7 @@
 #include "unit.h"
 
 #include "number/double.h"
+#include "number/powers.h"
 
 typedef dd dd_function(dd x);
 
@@ -150,6 +151,39 @@ static void doubles(void) {
           isnan(fret_double_power(2, nan)));
 }
 
+/* Powers by tables, also where their cells and octaves meet, and beyond them. */
+static void powers(void) {
+    unsigned long long seed = 2;
+    for (int i = 0; i < 40; i++) {
+        const double s = i ? unit_random(&seed, 0.01, 6) : 6;
+        fret_double_powers shorter;
+        fret_powers longer;
+        fret_double_powers_make(s, &shorter);
+        fret_powers_make(s, &longer);
+        for (int j = 0; j < 4000; j++) {
+            const double corner = (1 + floor(unit_random(&seed, 0, FRET_CELLS)) / FRET_CELLS) *
+                                  ldexp(1, (int)floor(unit_random(&seed, -34, 3)));
+            const double x = j % 4 == 0   ? corner
+                             : j % 4 == 1 ? corner * (1 - DBL_EPSILON / 2)
+                             : j % 4 == 2 ? unit_random(&seed, 0.5, 2)
+                                          : exp(unit_random(&seed, -24, 1.4));
+            const bool in_table = x >= 0.5 && x < 2, in_octaves = x >= 0x1p-30 && x < 4;
+            const fret_real want = fret_pow(x, s), wide = x * (1 + 0.3L * DBL_EPSILON);
+            CHECK_REL(fret_double_power_of(&shorter, x), want,
+                      UNIT_TOL(in_table     ? 1.25e-16L
+                               : in_octaves ? 4e-16L
+                                            : 5e-14L,
+                               1e-13L));
+            CHECK_REL(fret_power_of(&longer, x), want, UNIT_TOL(in_octaves ? 4e-19L : 3e-17L, 1e-13L));
+            CHECK_REL(fret_power_of(&longer, wide), fret_pow(wide, s),
+                      UNIT_TOL(in_octaves ? 4e-19L : 3e-17L, 1e-13L));
+        }
+    }
+    fret_powers half;
+    fret_powers_make(0.5L, &half);
+    CHECK_REL(fret_power_of(&half, 1e-3000L * 1e-1000L), fret_pow(1e-4000L, 0.5L), UNIT_TOL(1e-15L, 1));
+}
+
 int main(int argc, char **argv) {
     unit_start("dd", argc, argv);
     reference();
@@ -158,5 +192,6 @@ int main(int argc, char **argv) {
     limits();
     far_limits();
     doubles();
+    powers();
     return unit_finish();
 }

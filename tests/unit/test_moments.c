@@ -105,13 +105,18 @@ static fret_status rows_again(const fret_normal *n, struct fret_rows **rows, fre
     return fret_rows_make(n, 0, 9e-4L, rows, error);
 }
 
+static fret_real depth_of(const struct fret_rows *rows) {
+    const fret_spot end = fret_rows_outer(rows);
+    return fret_rows_level(rows, DEPTHS, &end);
+}
+
 static void rows(const fret_gap *gap, double k) {
     fret_normal *n = normal_of(k, gap);
     struct fret_rows *made = NULL;
     fret_real error = 0;
     CHECK_OK(rows_again(n, &made, &error));
-    const fret_real off = error, y = fret_rows_outer(made).at.y;
-    EACH_MOMENT(40, 20, rows_again(n, &made, &error), !made, error == off && fret_rows_outer(made).at.y == y);
+    const fret_real off = error, y = depth_of(made);
+    EACH_MOMENT(40, 20, rows_again(n, &made, &error), !made, error == off && depth_of(made) == y);
     fret_rows_free(made);
 }
 

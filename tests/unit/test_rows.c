@@ -78,28 +78,49 @@ static stretch twin_between(const fret_normal *n, fret_real outer, fret_real inn
     return sum;
 }
 
+static fret_real depth_of(const struct fret_rows *rows, fret_spot s) {
+    return fret_rows_level(rows, DEPTHS, &s);
+}
+
+static fret_real load_of(const struct fret_rows *rows, fret_spot s) {
+    return fret_rows_level(rows, LOADS, &s);
+}
+
+static fret_real distance_of(const struct fret_rows *rows, fret_spot s) {
+    return fret_rows_distance(rows, &s);
+}
+
 static void check_places(const fret_normal *n, const struct fret_rows *rows) {
-    const fret_spot inner = fret_rows_inner(rows), outer = fret_rows_outer(rows);
+    const fret_spot inner = fret_rows_inner(), outer = fret_rows_outer(rows);
+    const fret_real begin = distance_of(rows, inner), end = distance_of(rows, outer);
     fret_spot s;
     for (int i = 0; i < 200; i++) {
-        const fret_real e = inner.e + (outer.e - inner.e) * uniform(0, 1);
-        CHECK(fret_rows_find(rows, SPOT_DISTANCE, e, &s) && s.e == e);
+        const fret_real e = begin + (end - begin) * uniform(0, 1);
+        CHECK(fret_rows_find(rows, SPOT_DISTANCE, e, &s));
+        CHECK_REL(distance_of(rows, s), e, UNIT_TOL(1e-18L, 1e-14L));
         const fret_level want = twin_at(n, e);
-        CHECK_REL(s.at.y, want.y, UNIT_TOL(2e-16L, 1e-13L));
-        CHECK_REL(s.at.F, want.F, UNIT_TOL(2e-16L, 1e-13L));
-        CHECK(fret_rows_find(rows, SPOT_DEPTH, want.y, &s) && s.at.y == want.y);
-        CHECK_REL(s.at.F, want.F, UNIT_TOL(1e-15L, 1e-13L));
-        CHECK(fret_rows_find(rows, SPOT_LOAD, want.F, &s) && s.at.F == want.F);
-        CHECK_REL(s.at.y, want.y, UNIT_TOL(1e-15L, 1e-13L));
+        CHECK_REL(depth_of(rows, s), want.y, UNIT_TOL(2e-16L, 1e-13L));
+        CHECK_REL(load_of(rows, s), want.F, UNIT_TOL(2e-16L, 1e-13L));
+        for (int by = DEPTHS; by <= LOADS; by++) {
+            CHECK(fret_rows_find(rows, by == LOADS ? SPOT_LOAD : SPOT_DEPTH, by == LOADS ? want.F : want.y,
+                                 &s));
+            const fret_real y = depth_of(rows, s), F = load_of(rows, s);
+            CHECK_REL(y, want.y, UNIT_TOL(by == LOADS ? 1e-15L : 2e-19L, 1e-13L));
+            CHECK_REL(F, want.F, UNIT_TOL(by == LOADS ? 2e-19L : 1e-15L, 1e-13L));
+            s.rise[DEPTHS] = s.rise[LOADS] = (fret_real)NAN; /* as its place tells */
+            CHECK_REL(depth_of(rows, s), y, UNIT_TOL(2e-18L, 1e-15L));
+            CHECK_REL(load_of(rows, s), F, UNIT_TOL(2e-18L, 1e-15L));
+        }
     }
-    CHECK(!fret_rows_find(rows, SPOT_LOAD, inner.at.F, &s) && !fret_rows_find(rows, SPOT_DEPTH, 0, &s));
-    CHECK(!fret_rows_find(rows, SPOT_DISTANCE, outer.e * 1.001L, &s));
-    CHECK(fret_rows_find(rows, SPOT_DISTANCE, outer.e, &s) && s.at.y == outer.at.y);
+    CHECK(!fret_rows_find(rows, SPOT_LOAD, load_of(rows, inner), &s) &&
+          !fret_rows_find(rows, SPOT_DEPTH, 0, &s));
+    CHECK(!fret_rows_find(rows, SPOT_DISTANCE, end * 1.001L, &s));
+    CHECK(fret_rows_find(rows, SPOT_DISTANCE, end, &s) && depth_of(rows, s) == depth_of(rows, outer));
 }
 
 /* A slice that begins within a row and ends there, in the next one, or many rows further in. */
 static void check_slices(const rough *t, const fret_normal *n, const struct fret_rows *rows) {
-    const size_t first = fret_table_row(n->gap.table, fret_rows_inner(rows).e);
+    const size_t first = fret_table_row(n->gap.table, distance_of(rows, fret_rows_inner()));
     for (int i = 0; i < 8; i++) {
         const struct fret_table *table = n->gap.table;
         const int begin = t->row, end = begin - (i < 2 ? 0 : i < 4 ? 1 : 12);
@@ -111,21 +132,22 @@ static void check_slices(const rough *t, const fret_normal *n, const struct fret
         CHECK(fret_rows_find(
             rows, SPOT_DISTANCE,
             fret_table_distance(table, (size_t)end) + (i % 2 ? 0 : uniform(0, 0.4)) * wide_row, &inner));
-        const stretch got = fret_rows_between(rows, &outer, &inner), want = twin_between(n, outer.e, inner.e);
-        const fret_real few = (t->rows < MOST_ROWS ? 1e-18L : 1e-17L) * outer.at.y /
+        const stretch got = fret_rows_between(rows, &outer, &inner),
+                      want = twin_between(n, distance_of(rows, outer), distance_of(rows, inner));
+        const fret_real few = (t->rows < MOST_ROWS ? 1e-18L : 1e-17L) * depth_of(rows, outer) /
                               want.h; /* depths are known to that of the whole */
         CHECK_REL(got.h, want.h, UNIT_TOL(1e-13L + few, 1e-9L));
         CHECK_REL(got.K, want.K, UNIT_TOL(1e-13L, 1e-11L));
         CHECK_REL(got.G, want.G, UNIT_TOL(1e-12L, 1e-9L));
         CHECK_REL(got.L, want.L, UNIT_TOL(1e-12L, 1e-9L));
-        CHECK_REL(inner.at.F + got.G + got.h * fret_rows_stiffness(rows, &inner), outer.at.F,
-                  UNIT_TOL(1e-16L, 1e-12L));
+        CHECK_REL(load_of(rows, inner) + got.G + got.h * fret_rows_stiffness(rows, &inner),
+                  load_of(rows, outer), UNIT_TOL(1e-16L, 1e-12L));
     }
-    const fret_spot inner = fret_rows_inner(rows), outer = fret_rows_outer(rows);
+    const fret_spot inner = fret_rows_inner(), outer = fret_rows_outer(rows);
     const stretch none = fret_rows_between(rows, &inner, &inner),
                   all = fret_rows_between(rows, &outer, &inner);
     CHECK(none.h == 0 && none.L == 0);
-    CHECK_REL(all.h, outer.at.y - inner.at.y, UNIT_TOL(1e-17L, 1e-13L));
+    CHECK_REL(all.h, depth_of(rows, outer) - depth_of(rows, inner), UNIT_TOL(1e-17L, 1e-13L));
 }
 
 /* A single question has the rows of its slip alone. */
@@ -210,12 +232,12 @@ static void check_table(const rough *t) {
     const fret_real reach = 0.9L * (fret_gap_end(&gap) - fret_gap_start(&gap));
     CHECK_OK(fret_rows_make(n, 0, reach, &rows, &error));
     CHECK(rows && error < 2e-16L);
-    CHECK(fret_rows_outer(rows).e >= reach && fret_rows_inner(rows).e < reach);
+    CHECK(distance_of(rows, fret_rows_outer(rows)) >= reach && distance_of(rows, fret_rows_inner()) < reach);
     check_numbers(gap.table, t->rows);
     check_places(n, rows);
     check_slices(t, n, rows);
     if (t->off > 0 || fabs(t->k) > 0.9)
-        check_contact(t, n, (double)fret_rows_outer(rows).at.F * 0.7);
+        check_contact(t, n, (double)load_of(rows, fret_rows_outer(rows)) * 0.7);
     if (unit.failed > failed)
         printf("%s\n", t->what);
     fret_rows_free(rows);
