@@ -52,8 +52,10 @@ static fret_real rate_between(const fret_phase *p, fret_real z, fret_real y, fre
     if (p->by == LOAD) /* of a thin zone the depths would differ by too few digits */
         d = d < 1e-3L * z ? fret_law_thickness(n, &outer, d) : edge.y - front.y;
     fret_real G = edge.F - front.F - d * front.K;
-    if (fret_normal_closed(n) || d < 1e-3L * edge.y || G < 1e-4L * edge.F) /* a difference loses digits */
-        G = fret_law_slice(n, &outer, d).G;
+    const bool slow = fret_gap_sampled(&n->gap); /* slices row by row take as long as 100 laws */
+    if (fret_normal_closed(n) || d < 1e-3L * edge.y || (G < 1e-4L * edge.F && !slow))
+        G = fret_law_slice(n, &outer, d).G; /* where a difference loses digits */
+    G = fmaxl(G, 0);
     if (p->by == DEPTH)
         return G;
     return front.K > 0 ? G / front.K : 0; /* dy = dF/K; the end point itself has no weight */

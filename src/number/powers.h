@@ -9,7 +9,13 @@
 #include "number/real.h"
 
 /* Octaves from 2^-30 to 4. */
-enum { FRET_CELLS = 128, FRET_LOWEST_OCTAVE = 30, FRET_OCTAVES = 32, FRET_POWERS = 8, FRET_DOUBLE_POWERS = 6 };
+enum {
+    FRET_CELLS = 128,
+    FRET_LOWEST_OCTAVE = 30,
+    FRET_OCTAVES = 32,
+    FRET_POWERS = 8,
+    FRET_DOUBLE_POWERS = 6
+};
 
 /* For x of any size, to 4e-19; beyond the octaves as an exponential of a logarithm. */
 typedef struct fret_powers {
@@ -26,8 +32,7 @@ typedef struct fret_cell {
 } fret_cell;
 
 FRET_INLINE fret_cell fret_cell_of(uint64_t bits) {
-    const uint64_t octave = (bits >> 52) - (1023 - FRET_LOWEST_OCTAVE),
-                   part = bits >> 45 & (FRET_CELLS - 1);
+    const uint64_t octave = (bits >> 52) - (1023 - FRET_LOWEST_OCTAVE), part = bits >> 45 & (FRET_CELLS - 1);
     return (fret_cell){octave, part, part + (octave == FRET_LOWEST_OCTAVE - 1 ? 0 : FRET_CELLS)};
 }
 
@@ -41,8 +46,8 @@ static inline fret_real fret_power_of(const fret_powers *p, fret_real x) {
                  per_octave = fret_from_bits(0x7fe0000000000000 - (bits & 0x7ff0000000000000));
     const fret_real f = (x - middle) * per_octave * p->per_middle[in.part], f2 = f * f, *b = p->series;
     const fret_real base = p->power[in.at] * p->octave[in.octave];
-    const fret_real rise = ((b[0] + b[1] * f) + f2 * (b[2] + b[3] * f)) +
-                           f2 * f2 * ((b[4] + b[5] * f) + f2 * (b[6] + b[7] * f));
+    const fret_real rise =
+        ((b[0] + b[1] * f) + f2 * (b[2] + b[3] * f)) + f2 * f2 * ((b[4] + b[5] * f) + f2 * (b[6] + b[7] * f));
     return base + base * (f * rise);
 }
 
