@@ -4,24 +4,31 @@
 
 #include "number/sum.h"
 
-/* (1+f)^s - 1, |f| < 1/64 */
-static fret_real rise_of(fret_real s, fret_real f) {
-    fret_real sum = 0, term = 1;
-    for (int j = 0; j < 11; j++) {
-        term *= (s - j) / (j + 1) * f;
-        sum += term;
-    }
+/* So many terms of (1+f)^s do for |f| < 1/64. */
+enum { BINOMIALS = 12 };
+
+static fret_real binomial_sum(const fret_real c[BINOMIALS], fret_real f) {
+    fret_real sum = 0;
+    for (int j = BINOMIALS; j-- > 0;)
+        sum = sum * f + c[j];
     return sum;
 }
 
 void fret_powers_make(fret_real s, fret_powers *out) {
     const fret_real two = fret_pow(2, s);
-    fret_real last = 1, term = 1;
+    fret_real last = 1, term = 1, binomial[BINOMIALS]; /* of ((1+f)^s - 1)/f */
     fret_sum sum = {1, 0};
     out->s = s;
+    for (int j = 0; j < BINOMIALS; j++) {
+        term *= (s - j) / (j + 1);
+        binomial[j] = term;
+    }
+    for (int j = 0; j < FRET_POWERS; j++)
+        out->series[j] = binomial[j];
     for (int i = 0; i < FRET_CELLS; i++) {
         const fret_real middle = 1 + (i + 0.5L) / FRET_CELLS;
-        fret_sum_add(&sum, fret_sum_value(&sum) * rise_of(s, (middle - last) / last));
+        const fret_real f = (middle - last) / last;
+        fret_sum_add(&sum, fret_sum_value(&sum) * (f * binomial_sum(binomial, f)));
         const fret_real power = fret_sum_value(&sum);
         last = middle;
         out->power[i] = power / two;
@@ -32,10 +39,6 @@ void fret_powers_make(fret_real s, fret_powers *out) {
         out->octave[e] = fret_pow(fret_from_bits((uint64_t)(e + 1023 - FRET_LOWEST_OCTAVE) << 52), s);
     out->octave[FRET_LOWEST_OCTAVE - 1] = out->octave[FRET_LOWEST_OCTAVE] = 1; /* both are in the table */
     out->octave[FRET_LOWEST_OCTAVE + 1] = two;
-    for (int j = 0; j < FRET_POWERS; j++) {
-        term *= (s - j) / (j + 1);
-        out->series[j] = term;
-    }
 }
 
 void fret_double_powers_make(double s, fret_double_powers *out) {
