@@ -184,7 +184,7 @@ static fret_real search(const struct fret_rows *all, size_t i, int by, fret_real
     double rate = from.rate, off = fabs(from.step), rise; /* off: how far the rate may be, of itself */
     for (int j = 0; j < 80; j++) {
         const fret_real ym = to_m(all, y), miss = target - rise_of(all, i, by, y, ym);
-        if (!(off * fabs((double)miss) <= 1e-20 * rate * (double)y))
+        if (!(rate > 0 && off * fabs((double)miss) <= 1e-20 * rate * (double)y))
             rate = rate_of(all, i, by, (double)y, (double)ym, &rise);
         const fret_real step = miss / rate, share = step / y;
         *(miss > 0 ? &lo : &hi) = y;
