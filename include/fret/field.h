@@ -38,7 +38,7 @@ fret_status fret_surface_x(const fret_memory *memory, fret_real r, fret_real *u)
  * for, again where the contact grows or shrinks by a factor of 2, and kept: 0.3 ms for a flat-ended gap, 0.1
  * ms for each row of a table, and then some 5 us a value, 20 of more than 2000 rows. Of these and up to 31
  * slices, p and q_x want 10 ms for each contact or slice instead (k < 0.97), w and u_x nothing, and then it
- * is some 40 us a value, of u_x outside for each slice. Where all that is of no use, they answer as above.
+ * is 30 to 110 us a value, of u_x outside for each slice. Where all that is of no use, they answer as above.
  * Agrees to 1e-15 with the definition, of tables to 1e-15 of the largest value. The memory is one of the same
  * contact, though it may have a normal of its own. FRET_NO_MEMORY; FRET_INTERRUPTED. Free with
  * fret_fields_free before the normal. */

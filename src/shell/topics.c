@@ -387,7 +387,7 @@ const char *model_text(size_t id) {
                          "Local fields take the profile of a flat-ended gap, from 32 places on, and of a\n"
                          "table from polynomials of each row too: some 60 us a row to set up, and good to\n"
                          "1e-15 of the largest value. Of more than 2000 rows all are summed for each\n"
-                         "place: some 40 us, and 10 ms before the first p or qx.\n\n" EXAMPLE
+                         "place: 30 to 110 us, and 10 ms before the first p or qx.\n\n" EXAMPLE
                          "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
                          "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
