@@ -410,7 +410,7 @@ static double displacement_of_front(const fret_springs *s, fret_real z, fret_rea
     const double sign = (deeper > 0 ? x : u + x) < 0 ? -1 : 1, want = sign * (double)missing;
     slipping = touching * (c->mu_eta * (double)deeper);
     size_t i = slip_groups(s, inside, (double)z1, sign, want, &slipping, &left);
-    while (i-- > 0) {
+    while (i-- > 0 && (i % LOOK || !fret_stopped(s->normal))) {
         const double sticks = (double)s->w_sum[i + 1];
         left = room_of(c, i, (double)z1, sign);
         if (slipping + sticks * left >= want)
