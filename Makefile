@@ -104,7 +104,7 @@ $(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE)) $(OUTER)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) $(WRAP) -o $@ $< $(OUTER) $(call OBJ,$(CORE)) $(LIBS_GSL) $(LIBS_CORE)
 # their allocations, and some calls, pass through the test
-$(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_blocks $(B)/tests/test_calc: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
+$(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_blocks $(B)/tests/test_calc $(B)/tests/test_long_load: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
 $(B)/tests/test_blocks: WRAP += -pthread
 $(B)/tests/test_gnuplot: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc waitpid)
 $(B)/tests/test_moments: WRAP = $(addprefix -Wl$(COMMA)--wrap=,fret_exp fret_log fret_pow fret_table_distance fret_gap_profile)

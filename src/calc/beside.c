@@ -147,7 +147,7 @@ static bool run_ahead(side *s, double time, bool once, calc_error *error) {
     s->stops = s->next = s->held = 0;
     s->full = s->no_memory = false;
     s->scene.now = NULL;
-    s->scene.answers.state_ready = s->scene.answers.press_ready = false;
+    scene_moved(&s->scene);
     bool ok = scene_trace(&s->scene, &w, &mine);
     if (s->no_memory)
         return calc_no_memory(error);
@@ -191,7 +191,7 @@ bool beside_scene(beside *b, const scene *changed, const knob_value by[], size_t
         at->run.coarse = at->coarse;
     s->now = (instant){.run = &at->run, .beside = &s->beside};
     s->scene.now = &s->now;
-    s->scene.answers.state_ready = s->scene.answers.press_ready = false;
+    scene_moved(&s->scene);
     s->scene.used = 0;
     *out = &s->scene;
     return true;

@@ -33,7 +33,6 @@ static bool evaluate(void *context, scene *s, input in, counted *d, value *out, 
 void calc_init(calc *c, const volatile sig_atomic_t *stop) {
     *c = (calc){.now = &c->scene};
     scene_init(&c->scene, stop, evaluate, c);
-    c->scene.trailed = true;
 }
 
 void calc_free(calc *c) {

@@ -518,6 +518,14 @@ static bool on_the_way(const load_view *load, size_t i) {
     return here == next || (last < here && here < next) || (last > here && here > next);
 }
 
+void trail_put(const fret_state *now, double out[TRAILED]) {
+    out[TRAIL_FN] = (double)now->FN;
+    out[TRAIL_DZ] = (double)now->dz;
+    out[TRAIL_FX] = (double)now->Fx;
+    out[TRAIL_DX] = (double)now->dx;
+    out[TRAIL_W] = (double)now->W;
+}
+
 /* Out of memory the trail ends here. */
 static void keep_trail(const runner *r, size_t i) {
     trail *t = r->trail;
@@ -529,18 +537,13 @@ static void keep_trail(const runner *r, size_t i) {
         return;
     t->at = grown;
     engine_forces(&r->engine, &now);
-    const double kept[TRAILED] = {[TRAIL_FN] = (double)now.FN,
-                                  [TRAIL_DZ] = (double)now.dz,
-                                  [TRAIL_FX] = (double)now.Fx,
-                                  [TRAIL_DX] = (double)now.dx,
-                                  [TRAIL_W] = (double)now.W};
-    memcpy(t->at[i], kept, sizeof kept);
+    trail_put(&now, t->at[i]);
     t->count = i + 1;
 }
 
 fret_status run_to(runner *r, load_mark end) {
     const load_view *load = r->load;
-    const bool every = r->watch || !r->engine.kind->last_loss; /* springs round otherwise */
+    const bool every = r->watch || r->trail || !r->engine.kind->last_loss; /* springs round otherwise */
     fret_status st = fine;
     r->waits = false;
     while (r->at.steps < end.steps) {
@@ -561,8 +564,7 @@ fret_status run_to(runner *r, load_mark end) {
         st = unless_stopped(r, st);
         if (st.code)
             break;
-        if (!passed)
-            keep_trail(r, r->at.steps);
+        keep_trail(r, r->at.steps);
         r->at.steps++;
         r->at.cycles += step->kind == LOAD_CYCLE;
     }

@@ -18,7 +18,6 @@ typedef struct load_view {
     double mu;
     const volatile sig_atomic_t *stop;
     void (*pulse)(void); /* or NULL */
-    bool trailed;        /* the run leaves a trail */
 } load_view;
 
 #define RUN_FX_OF_CYCLE "Fx within the cycle" /* what slides under a swinging normal force, in errors */
@@ -39,14 +38,14 @@ typedef struct leg {
 
 typedef struct runner runner;
 
-/* What each step left behind, in double, so that a long history can be drawn without running it again: 40
- * bytes a step. The first `count` steps are there; steps that were never taken are missing, with all after
- * them. */
+/* What each step left behind, in double, so that a long history can be drawn again and again: 40 bytes a
+ * step. The first `count` steps are there. */
 enum { TRAIL_FN, TRAIL_DZ, TRAIL_FX, TRAIL_DX, TRAIL_W, TRAILED };
 typedef struct trail {
     double (*at)[TRAILED];
     size_t count, room;
 } trail;
+void trail_put(const fret_state *now, double out[TRAILED]);
 
 /* Where in a cycle a run waits. */
 enum { RUN_NODES = 24 };

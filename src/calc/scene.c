@@ -39,20 +39,27 @@ void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *e
 }
 
 /* Below a hundredth of the last digit shown; nothing else is worth it. */
-static double borne_by(const scene *s) {
+double scene_borne(const scene *s) {
     static const double by_digits[] = {0, 1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
     return (size_t)s->digits < sizeof by_digits / sizeof *by_digits ? by_digits[s->digits] : 0;
 }
 
 /* What was worked out for other digits is worked out anew. */
 void scene_show(scene *s, int digits) {
+    if (s->digits != digits && s->answers.known == KNOWN_FORCES)
+        scene_moved(s);
     s->digits = digits;
-    if (s->answers.many && s->answers.borne != borne_by(s)) {
+    if (s->answers.many && s->answers.borne != scene_borne(s)) {
         scene_forget(s, true);
         fret_fields_free(s->answers.fields);
         s->answers.fields = NULL;
-        s->answers.borne = borne_by(s);
+        s->answers.borne = scene_borne(s);
     }
+}
+
+void scene_moved(scene *s) {
+    s->answers.press_ready = false;
+    s->answers.known = KNOWN_NOTHING;
 }
 
 scene_use scene_answered_by(const scene *s) {
@@ -104,7 +111,6 @@ void scene_free(scene *s) {
 void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->answers = (answers){.normal = NULL};
-    to->trailed = false;
     to->many = false;
     to->like = NULL;
     inputs_copy(&to->in, &from->in);
@@ -318,7 +324,7 @@ bool scene_many_normal(scene *s, double F, const fret_normal **normal, calc_erro
     if (!s->answers.many && !make_normal(s, false, &s->answers.many, error))
         return false;
     *normal = s->answers.many;
-    s->answers.borne = borne_by(s);
+    s->answers.borne = scene_borne(s);
     if (s->like)
         st = fret_normal_share(s->answers.many, s->like);
     if (!st.code)
@@ -334,7 +340,7 @@ void scene_expect_many(scene *s) {
     s->many = true;
     scene_show(s, 0);
     if (scene_press(s, &press, &ignored) && press->F > 0 && make_normal(s, false, &s->like, &ignored))
-        (void)fret_normal_prepare(s->like, room * (double)press->F, borne_by(s)); /* else without */
+        (void)fret_normal_prepare(s->like, room * (double)press->F, scene_borne(s)); /* else without */
 }
 
 /* Of a table one place alone would want all of its rows: they are worked out for all places at once. */

@@ -30,13 +30,16 @@ typedef struct load_reach {
     size_t last_cycle;       /* its index, or NO_CYCLE */
 } load_reach;
 
+typedef enum scene_known { KNOWN_NOTHING, KNOWN_FORCES, KNOWN_STATE } scene_known;
+
 /* What follows, valid as far as the flags say. */
 typedef struct answers {
     fret_normal *normal, *k0; /* or NULL: not made yet */
     fret_normal *many;        /* of a gap without a formula, prepared for many questions; or NULL */
     double borne;             /* the error of its law that was allowed */
     fret_fields *fields;      /* of `normal`, for many places; or NULL */
-    bool press_ready, state_ready, reach_ready;
+    bool press_ready, reach_ready;
+    scene_known known; /* of state */
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
     unsigned levels, spares;
@@ -74,7 +77,6 @@ struct scene {
     program *program;           /* or NULL: nothing is pressed */
     load_mark end;
     const instant *now; /* or NULL: the end of the program */
-    bool trailed;       /* its runs leave a trail: the user's, which is drawn */
     bool sound;         /* of a scratch scene: a copy of one whose program runs to its end */
     bool before;        /* of one for a definition: the last cycle is still to come, the amplitudes are its */
     bool early;         /* and so are steps that lead to it */
@@ -101,12 +103,16 @@ void scene_free(scene *s);
 void scene_clone(scene *to, const scene *from);
 /* Values are shown with so many digits from now on; 0: all. */
 void scene_show(scene *s, int digits);
+/* The relative error that those do not tell; 0: they are all. */
+double scene_borne(const scene *s);
 scene_use scene_answered_by(const scene *s);
 /* These have answered too. */
 void scene_also_used(scene *s, scene_use also);
 /* Of a scratch scene: many values are to be asked for, and compared with one another, of its shape and k; at
  * loads about that of now, else it takes longer. */
 void scene_expect_many(scene *s);
+/* Another instant: press and state are found anew. */
+void scene_moved(scene *s);
 /* Forgets what has been computed; keep: the normal contact still stands. */
 void scene_forget(scene *s, bool keep);
 /* Takes the contact of another scene, where it is the same: that one is to be asked nothing any more. */
@@ -177,6 +183,9 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error);
 /* Of it only F_N, dz, F_x, dx and W: at an instant on the way of a load far cheaper. */
 bool scene_forces(scene *s, const fret_state **state, calc_error *error);
 bool scene_memory(scene *s, const fret_memory **memory, calc_error *error);
+/* What each step of the load has left behind, which is run for that at first; *out is NULL where there is no
+ * memory for it. */
+bool scene_trail(scene *s, const trail **out, calc_error *error);
 /* The same without chords, after a swinging load; NULL: there is no such curve, the memory is exact. */
 bool scene_curve(scene *s, const fret_swing **curve, calc_error *error);
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error);

@@ -182,42 +182,62 @@ static bool see(const runner *r, void *context) {
         return true;
     a->now = (instant){.run = r, .beside = &a->beside};
     s->now = &a->now;
-    s->answers.state_ready = s->answers.press_ready = false;
+    scene_moved(s);
     bool ok = a->look(a->context, r->time, a->error);
     s->now = NULL;
-    s->answers.state_ready = s->answers.press_ready = false;
+    scene_moved(s);
     return ok;
 }
 
 /* At an instant that is known by its forces. */
-static bool see_kept(trial *t, const trail *kept, size_t i, bool *lacking, along_look *look, void *context,
-                     calc_error *error) {
-    const instant now = {.kept = kept->at[i], .time = (double)i, .lacking = lacking};
+static bool see_kept(trial *t, const double kept[TRAILED], size_t i, bool *lacking, along_look *look,
+                     void *context, calc_error *error) {
+    const instant now = {.kept = kept, .time = (double)i, .lacking = lacking};
     scene *s = &t->scene;
     s->now = &now;
-    s->answers.state_ready = s->answers.press_ready = false;
+    scene_moved(s);
     const bool ok = look(context, now.time, error);
     s->now = NULL;
-    s->answers.state_ready = s->answers.press_ready = false;
+    scene_moved(s);
     return ok;
+}
+
+/* Not of springs, which take their time. */
+static bool forces_at_end(scene *s, double out[TRAILED], calc_error *error) {
+    const fret_memory *memory;
+    fret_state exact;
+    const fret_state *now = &exact;
+    if (s->automatic ? !scene_forces(s, &now, error) : !scene_memory(s, &memory, error))
+        return false;
+    if (!s->automatic)
+        fret_memory_forces(memory, &exact);
+    trail_put(now, out);
+    return true;
 }
 
 bool trial_trail(trial *t, along_what what, size_t points, along_look *probe, along_look *look, void *context,
                  bool *done, calc_error *error) {
     enum { MANY = 10 }; /* steps for each point */
     const size_t steps = t->scene.end.steps;
-    const trail *kept = t->outer->answers.trail;
+    const trail *kept;
+    double last[TRAILED];
     bool lacking = false;
     *done = false;
-    if (what != ALONG_PROGRAM || !kept || !t->scene.sound || t->outer != &t->c->scene ||
-        t->scene.end.cycles || kept->count < steps || steps < MANY * points)
+    if (what != ALONG_PROGRAM || !t->scene.sound || t->outer != &t->c->scene || t->scene.end.cycles ||
+        steps < MANY * points)
         return true;
-    if (!see_kept(t, kept, steps - 1, &lacking, probe, context, error))
+    if (!forces_at_end(t->outer, last, error))
         return false;
-    *done = !lacking;
+    if (!see_kept(t, last, steps - 1, &lacking, probe, context, error))
+        return false;
+    if (lacking)
+        return true;
+    if (!scene_trail(t->outer, &kept, error))
+        return false;
+    *done = kept && kept->count >= steps;
     bool ok = true;
     for (size_t i = 0; i < steps && *done && ok; i++)
-        ok = see_kept(t, kept, i, &lacking, look, context, error);
+        ok = see_kept(t, kept->at[i], i, &lacking, look, context, error);
     return ok;
 }
 

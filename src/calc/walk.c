@@ -112,7 +112,6 @@ bool walk_follow(walk *w, calc *c, bool *anew, calc_error *error) {
     if (!scene_load_of(&w->scene, &w->load, error))
         return false;
     w->load.last_cycle = NO_CYCLE;
-    w->load.trailed = false;
     if (!*anew && !stands(w))
         *anew = true;
     if (*anew && !make_run(w, error))
@@ -152,11 +151,11 @@ void walk_enter(walk *w, calc *c) {
     w->outer = c->now;
     c->now = &w->scene;
     w->scene.now = &w->now;
-    w->scene.answers.state_ready = w->scene.answers.press_ready = false;
+    scene_moved(&w->scene);
 }
 
 void walk_leave(walk *w, calc *c) {
     c->now = w->outer;
     w->scene.now = NULL;
-    w->scene.answers.state_ready = w->scene.answers.press_ready = false;
+    scene_moved(&w->scene);
 }

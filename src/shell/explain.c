@@ -119,7 +119,6 @@ static double round_up(double v) {
 /* The value after each of the runs. */
 static bool by_runs(const page *p, const expr *e, const runner run[LEVELS], long double at[LEVELS]) {
     scene *s = p->sh->calc.now;
-    answers *a = &s->answers;
     bool ok = true;
     for (unsigned i = 0; i < LEVELS && ok; i++) {
         const instant now = {.run = &run[i], .time = run[i].time};
@@ -127,12 +126,12 @@ static bool by_runs(const page *p, const expr *e, const runner run[LEVELS], long
         value v = {0, DIM_NONE};
         error_clear(&ignored);
         s->now = &now;
-        a->state_ready = a->press_ready = false;
+        scene_moved(s);
         ok = had(p, expr_eval(&p->sh->calc, e, &v, &ignored), &ignored);
         at[i] = v.v;
     }
     s->now = NULL;
-    a->state_ready = a->press_ready = false;
+    scene_moved(s);
     return ok;
 }
 
@@ -195,9 +194,11 @@ static bool swings(scene *s) {
     return reach->swings;
 }
 
-static void put_model(const page *p, const quantity *q, bool call, const expr *e) {
+/* in_double: so the forces were had that it is made of. */
+static void put_model(const page *p, const quantity *q, bool call, const expr *e, bool in_double) {
     scene *s = p->sh->calc.now;
-    const model_id model = quantity_model(q, s, call);
+    const model_id exact = quantity_model(q, s, call),
+                   model = in_double && exact == MODEL_MEMORY ? MODEL_DOUBLE : exact;
     const bool stepped = models[model].make;
     if (stepped && (q->reads & INPUT_BIT(IN_MU)) && swings(s))
         put_sine(p, q, call, model, e);
@@ -388,6 +389,7 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
     influence_study study = {.count = 0};
     value v, argument = {0};
     bool ok = true, has = !(in && is_free(of, in)) && text_value(p, of->text, of->len, &e, &v);
+    const bool in_double = has && c->now->answers.known == KNOWN_FORCES;
     if (has && of->call)
         text_value(p, of->text + of->argument, of->argument_len, &unused, &argument);
     if (has)
@@ -397,7 +399,7 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
         put_inputs(p, q, &study);
         if (has)
             put_load(p, q, &study);
-        put_model(p, q, of->call, has ? &e : NULL);
+        put_model(p, q, of->call, has ? &e : NULL, in_double);
     }
     if (ok && has)
         put_value(p, of->text, of->len, v);

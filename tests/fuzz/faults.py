@@ -74,6 +74,7 @@ STATEMENTS = (
               "save out.fret", "record log.txt", "record out.cast", "show", "press FN=50 N", "geometry cone slope=0.1",
               "quit")),
     (NESTED + "; set format csv; history to both.csv; set format text; reset", ("follow both.csv",)),
+    (NESTED + "; set report off; follow long.csv", ("W, a", "plot Fx along program to out.gp")),
     (STEEL, ("solve FN for a = 0.2 mm", "maximize dWd(0.5 um) over FN = 1 N .. 100 N",
              "minimize dz over FN = 20 N .. 100 N", "fit E0 for depth = dz(force) to measured.csv",
              "fit E0 for depth = dz(force) to measured.csv robust", "fit mu along loop.csv", "uncertainty a, dWd(1 um) with mu +- 0.02, E0 +- 5 % samples 20",
@@ -144,6 +145,7 @@ def prepare(where):
                                                            for i in range(40)),
              "follow.csv": "FN [N],Fx [N],force [N]\n" + "".join("%g,%g,%g\n" % (100 + i / 9, 20 - i / 9, 50 - i / 4)
                                                                  for i in range(180)),
+             "long.csv": "FN [N],Fx [N]\n" + "".join("%.9g,%.9g\n" % (100 + 10 * math.sin(i / 7), 20 * math.sin(i / 3)) for i in range(4500)),
              "measured.csv": "force [N],depth [um]\n" + "".join("%g,%g\n" % (10 * i, 0.75 * i ** 0.667)
                                                                 for i in range(1, 12)),
              "loop.csv": "dx [um],Fx [N]\n" + "".join("%g,%g\n" % row for row in (

@@ -146,12 +146,12 @@ static bool stiff(const runner *r, void *context) {
     const fret_state *state;
     long double kn = 0;
     s->now = &now;
-    s->answers.state_ready = s->answers.press_ready = false;
+    scene_moved(s);
     const bool ok = get_kn(s, &kn, &error) && scene_forces(s, &state, &error);
     if (ok && s->in.geometry == geometry_find("sphere", 6) && state->dz > 0)
         CHECK_REL(kn, 1.5L * state->FN / state->dz, 1e-15L);
     s->now = NULL;
-    s->answers.state_ready = s->answers.press_ready = false;
+    scene_moved(s);
     at->v[0] += (double)kn * (1 + r->time);
     at->v[1]++;
     return ok;

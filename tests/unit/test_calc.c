@@ -417,8 +417,36 @@ static void along(void) {
     calc_free(&c);
 }
 
-/* Without steps that have left something behind, and of a cycle alone, the instants are run again; an input
- * that the shape has not is refused. */
+/* Where there is no memory for what steps leave behind, or not for all of it, they are to be run again. */
+static void trail_without_memory(void) {
+    static const load_step slide = {
+        .kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 5, .points = 1};
+    bool failed = true, refused = false, without = false;
+    calc c;
+    press_steel(&c, NULL, 0);
+    for (int i = 0; i < 30; i++)
+        CHECK(load(&c, slide, (cycle_extra){0}));
+    for (int n = 0; failed && n < 100; n++) {
+        looks all = {.left = -1};
+        bool done = false;
+        scene_forget(c.now, false);
+        scene_set_model(c.now, n % 2, MODEL_SPRINGS, 1000);
+        trial *t = trial_open(&c, fresh());
+        left = n;
+        const bool ok = trial_trail(t, ALONG_PROGRAM, 3, probe_on, look_on, &all, &done, fresh());
+        failed = left < 0;
+        left = -1;
+        CHECK(ok ? all.seen == (done ? 31 : 0) : !done && out_of_memory(&c));
+        refused = refused || !ok;
+        without = without || (ok && !done);
+        trial_close(t);
+    }
+    CHECK(!failed && refused && without);
+    calc_free(&c);
+}
+
+/* Of few steps, and of a cycle alone, the instants are run again; an input that the shape has not is refused.
+ */
 static void trials(void) {
     static const load_step slide = {
         .kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 5, .points = 1};
@@ -427,8 +455,8 @@ static void trials(void) {
     calc c;
     press_steel(&c, NULL, 0);
     trial *t = trial_open(&c, fresh());
+    CHECK(trial_trail(t, ALONG_PROGRAM, 1, probe_on, look_on, &all, &done, fresh()) && !done);
     CHECK(!c.now->answers.trail);
-    CHECK(trial_trail(t, ALONG_PROGRAM, 0, probe_on, look_on, &all, &done, fresh()) && !done);
     trial_close(t);
     for (int i = 0; i < 30; i++)
         CHECK(load(&c, slide, (cycle_extra){0}));
@@ -552,6 +580,7 @@ int main(int argc, char **argv) {
     alike_names();
     deep_names();
     along();
+    trail_without_memory();
     trials();
     formulas();
     interrupted();
