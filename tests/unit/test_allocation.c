@@ -117,8 +117,8 @@ static void rows_on_demand(void) {
     CHECK_OK(fret_normal_make(&s.material, &gap, &other));
     CHECK_OK(fret_normal_prepare(other, (double)p.F, 0));
     EACH(9, fret_normal_prepare(n, (double)p.F, 0), isnan(fret_normal_prepared(n)));
-    for (int i = 0; i < 40; i++) {
-        const fret_level outer = {p.dz * (0.3L + 0.0175L * i), 0};
+    for (int i = 0; i < 16; i++) {
+        const fret_level outer = {p.dz * (0.3L + 0.043L * i), 0};
         const fret_real h = outer.y * (i % 4 + 1) / 100;
         left = i;
         const fret_slice got = fret_law_slice(n, &outer, h);
