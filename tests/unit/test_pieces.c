@@ -221,7 +221,8 @@ static void slices(shape which, const twins *t) {
     compare(which, THIN, fret_law_thickness(t->ready, &outer, want.w), h, h * weak);
 }
 
-/* The quadrature of the slow twin does not resolve the rows of a rough table: of parts it is better. */
+/* The quadrature of the slow twin takes the sharp kinks of a table near k = -1 for noise: of parts it is
+ * better. */
 static fret_real loss_in_parts(const fret_phase *whole, int parts) {
     fret_real sum = 0;
     for (int i = 0; i < parts; i++) {
@@ -244,7 +245,7 @@ static void phases(shape which, const twins *t) {
     p.edge1 = fminl(p.edge0 * (1 + uniform(-1, 1) * small(3)), edge);
     p.front0 = fminl(p.edge0, p.edge1) * (1 - small(3));
     p.front1 = p.front0 * (1 - small(3));
-    const fret_real want = loss_in_parts(&p, which == ROUGH_TABLE ? 256 : 1);
+    const fret_real want = loss_in_parts(&p, which >= TABLE && !is_dense(which) ? 256 : 1);
     p.normal = t->ready;
     const fret_real got = fret_phase_loss(&p);
     const fret_real all =
@@ -314,7 +315,7 @@ static void contact(shape which, double k, int times) {
                 slices(which, &t);
         }
         const bool moves = which <= DENSE_TABLE && !(is_flat(which) && k < -0.5); /* else the slow twin is */
-        for (int i = 0; i < times * (dense || which == ROUGH_TABLE ? 1 : slow ? 2 : 12) && moves; i++)
+        for (int i = 0; i < times * (slow ? 1 : 12) && moves; i++)
             phases(which, &t);
         if (fabs(k) < 0.9 && moves)
             history(which, &t, times * (dense ? 1 : slow ? 2 : 8));
