@@ -5,6 +5,7 @@
 
 #include "contact/normal.h"
 #include "fret/swing.h"
+#include "number/quadrature.h"
 #include "number/real.h"
 #include "number/sum.h"
 
@@ -43,6 +44,18 @@ struct fret_swing {
     size_t count, room;
     piece *pieces; /* innermost first */
 };
+
+/* ---- along the curve --------------------------------------------------------------------------- */
+
+/* Rules of few points are to agree to what the law is good to. */
+static inline fret_real fret_swing_integral(const fret_swing *c, fret_integrand *f, void *context) {
+    return fret_integrate_short(f, context, fret_normal_closed(c->normal) ? 1e-17L : 1e-13L);
+}
+
+fret_real fret_swing_dx(const fret_swing *c);
+/* Where a front of slip that goes inwards along `which` at constant F_N comes to, for so much of delta_x per
+ * mu eta; what is left of it all slides. */
+fret_real fret_swing_front(const fret_swing *c, int which, fret_real *left);
 
 /* ---- ways -------------------------------------------------------------------------------------- */
 
