@@ -100,7 +100,7 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
             a->press = (fret_press){.F = now->FN, .dz = now->dz, .a = now->a};
         } else if (forces_by_double(s)) {
             const fret_status st = fret_press_by_force(a->normal, (double)a->state.FN, &a->press);
-            if (!calc_status(error, &st)) /* unreached: it was pressed so to be judged */
+            if (!calc_status(error, &st)) /* unreached: as much has been pressed before */
                 return false;
         } else if (!load_run(s, &run, error)) {
             return false;
