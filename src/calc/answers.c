@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What follows from a scene, made ready on demand: the cheapest model answers that is exact, or that no digit
  * shown tells from it. */
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include "number/array.h"
 
 #include "calc/load.h"
+#include "number/array.h"
 
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
 

@@ -28,10 +28,10 @@ struct fret_rows {
     size_t count, room, terms, most_terms;
     part *part;
     fret_real *term;
-    fret_real *reach[3];           /* where each part begins, and the last one ends: distance, depth, load */
-    stretch *run[RUNS];            /* as those of pieces */
+    fret_real *reach[3]; /* where each part begins, and the last one ends: distance, depth, load */
+    stretch *run[RUNS];  /* as those of pieces */
     fret_real binomial[ROW_BINOMIALS]; /* of (1+z)^(m-1) */
-    fret_powers powers;            /* with m */
+    fret_powers powers;                /* with m */
 };
 
 /* The powers of y. */

@@ -4,7 +4,6 @@
 
 #include <float.h>
 
-#include "contact/check.h"
 #include "contact/row_parts.h"
 #include "number/quadrature.h"
 #include "number/real.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes rows: depth and load above the beginning of a row as polynomials, and what its kink adds; of every row
- * its integrals, and of runs of rows. Allocates them, and frees them. */
+/* Makes rows: depth and load above the beginning of a row as polynomials, and what its kink adds; of every
+ * row its integrals, and of runs of rows. Allocates them, and frees them. */
 #include <stdlib.h>
 
 #include "contact/check.h"

@@ -12,7 +12,6 @@
 #include "contact/phase.h"
 #include "contact/swing.h"
 #include "number/array.h"
-#include "number/quadrature.h"
 #include "number/real.h"
 
 /* Of two that are harmonic, and meet where both rise: then their lags are the same, too. */

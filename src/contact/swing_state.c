@@ -6,7 +6,6 @@
 
 #include "contact/memory.h"
 #include "contact/swing.h"
-#include "number/quadrature.h"
 #include "number/real.h"
 
 /* ---- along the curve --------------------------------------------------------------------------- */
