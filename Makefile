@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# make run: install what is missing, build, play the demo.   make check: install, build, run every test.
+# make run: install what is missing, build, play the demo.   make check: install, build, test.
 VERSION := 0.1.0
 PREFIX  ?= /usr/local
 LIBDIR  ?= $(PREFIX)/lib
@@ -100,9 +100,8 @@ $(B)/fret.pc: FORCE
 
 # Tests see what is not public too; those of rooms above the mechanics take these objects one by one.
 OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard src/calc/*.c src/study/*.c src/plot/*.c)))
-$(B)/tests/%: tests/unit/%.c $(call OBJ,$(CORE)) $(OUTER)
-	@mkdir -p $(@D)
-	$(CC) $(CFLAGS_ALL) $(LDFLAGS) $(WRAP) -o $@ $< $(OUTER) $(call OBJ,$(CORE)) $(LIBS_GSL) $(LIBS_CORE)
+$(B)/tests/%: $(B)/tests/unit/%.o $(call OBJ,$(CORE)) $(OUTER)
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(LIBS_GSL) $(LIBS_CORE)
 # their allocations, and some calls, pass through the test
 $(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_blocks $(B)/tests/test_calc $(B)/tests/test_long_load: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
 $(B)/tests/test_blocks: WRAP += -pthread
@@ -142,8 +141,12 @@ run: deps
 	@echo
 	@echo 'Now type  $(B)/fret  for a prompt of your own, and  help  there; Ctrl-D leaves.'
 
+# ROOMS: some of the rooms of tests
 check: deps-check
-	@sh tests/run
+	@sh tests/run $(ROOMS)
+
+check-all: check
+	@sh tests/run --rest $(ROOMS)
 
 # Minutes to an hour. The table of worst errors is kept in git; its head says how it was made.
 HARD_SCENES ?= 10000000
@@ -261,8 +264,11 @@ deb:
 
 FORCE:
 
+# objects of tests are kept, though no rule names them
+.SECONDARY:
+
 clean:
 	rm -rf build
 
-.PHONY: coverage mutants fuzz fuzz-build all figures manual uninstall deb static tests deps deps-check run check hard hard-diagram scenes faults pieces latency bench format install clean FORCE
+.PHONY: coverage mutants fuzz fuzz-build all figures manual uninstall deb static tests deps deps-check run check check-all hard hard-diagram scenes faults pieces latency bench format install clean FORCE
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

@@ -4,6 +4,7 @@ tests/hard/coverage.txt. A comment `unreached: REASON` leaves out its line and w
 the next one."""
 import collections
 import contextlib
+import copy
 import json
 import math
 import os
@@ -14,6 +15,7 @@ import sys
 
 import harness
 import runner
+import units
 
 import faults
 import latency
@@ -42,8 +44,8 @@ def some_hard(tests):
     """A few random scenes and histories: what they reach, not what they prove."""
     program = os.path.join(tests.build, "tests/hard/hard")
     if os.path.exists(program):
-        runner.counted(tests, "hard", program, "--scenes", "2000", "--steps", "20000", "--jobs", "2")
-        runner.counted(tests, "hard, diagrams", program, "--diagrams", "20000")
+        units.counted(tests, "hard", program, "--scenes", "2000", "--steps", "20000", "--jobs", "2")
+        units.counted(tests, "hard, diagrams", program, "--diagrams", "20000")
 
 
 def leaves(terminal):
@@ -114,14 +116,14 @@ def whole(data):
 
 def run_room(tests, room):
     """A process that is killed while it writes its counts leaves a file that no other can add to: all over again then."""
-    kept, before = counts(), (tests.passed, tests.failed)
+    kept, before = counts(), copy.deepcopy(tests.cases)
     for _ in range(5):
         tests.room(room, ROOMS.get(room) or runner.ROOMS[room])
         if all(whole(data) for data in counts().values()):
             return
         print("%s: counts broke off" % room, flush=True)
         put_back(kept)
-        tests.passed, tests.failed = before
+        tests.cases = before
 
 
 def main():

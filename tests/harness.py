@@ -87,21 +87,29 @@ def usual_signals():
             signal.signal(number, signal.SIG_DFL)
 
 
-class Tests:
-    """One run of all rooms with one build of the program."""
+class Case:
+    """What has a name; a loop that draws a million scenes is one."""
 
-    def __init__(self, build, label, sanitized):
+    def __init__(self):
+        self.ok, self.draws, self.seconds = True, 0, 0.0
+
+
+class Tests:
+    """One run of rooms with one build of the program. `few`: there is no time for many draws of what is drawn at random."""
+
+    def __init__(self, build, label, sanitized, few=False):
         self.fret = os.path.join(ROOT, build, "fret")
-        self.build, self.label, self.sanitized = build, label, sanitized
-        self.passed = self.failed = 0
+        self.build, self.label, self.sanitized, self.few = build, label, sanitized, few
+        self.cases = {}
         self.lock = threading.Lock()
+        self.since = threading.local()  # when this thread recorded its last case, or began
         self.top = self.dir = tempfile.mkdtemp(prefix="fret-tests-")
         self.tmp = os.path.join(self.top, "tmp")  # where the program may keep temporary files
         os.makedirs(os.path.join(self.top, "home"))
         os.mkdir(self.tmp)
         usual_signals()
         self.env = {"PATH": os.environ["PATH"], "HOME": os.path.join(self.top, "home"), "TMPDIR": self.tmp,
-                    "LC_ALL": "C", "TERM": "dumb",
+                    "LC_ALL": "C", "TERM": "dumb", "FRET_FEW": "1" if few else "",
                     "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1"}
         for name in ("LD_LIBRARY_PATH", "FRET_REFERENCE"):
             if name in os.environ:
@@ -110,16 +118,22 @@ class Tests:
     def close(self):
         shutil.rmtree(self.top, ignore_errors=True)
 
+    @property
+    def passed(self):
+        return sum(case.ok for case in self.cases.values())
+
+    @property
+    def failed(self):
+        return len(self.cases) - self.passed
+
     def room(self, name, run):
         """Runs a room of tests in a directory of its own."""
-        start, before = time.time(), (self.passed, self.failed)
         self.dir = tempfile.mkdtemp(prefix=name + "-", dir=self.top)
         self.guarded(name, run)
-        print("%-10s %-12s %5d passed %3d failed  %5.1f s" % (self.label, name, self.passed - before[0],
-                                                              self.failed - before[1], time.time() - start), flush=True)
 
     def guarded(self, name, run):
         """A test that breaks off has failed."""
+        self.since.time = time.monotonic()
         try:
             run(self)
         except Exception as error:
@@ -138,14 +152,21 @@ class Tests:
         done.stderr = done.stderr.decode("utf-8", "replace")
         return done
 
-    def check(self, name, ok, detail=""):
+    def record(self, name, ok, draws=1, seconds=None, detail=""):
+        """A case, or a further draw of one. Its seconds: since this thread recorded the one before."""
+        now = time.monotonic()
         with self.lock:
-            if ok:
-                self.passed += 1
-            else:
-                self.failed += 1
+            case = self.cases.setdefault(name, Case())
+            case.ok = case.ok and bool(ok)
+            case.draws += draws
+            case.seconds += now - getattr(self.since, "time", now) if seconds is None else seconds
+            if not ok:
                 print("FAILED (%s) %s\n%s" % (self.label, name, detail), flush=True)
+        self.since.time = now
         return ok
+
+    def check(self, name, ok, detail=""):
+        return self.record(name, ok, detail=detail)
 
     def same(self, name, want, got):
         return self.check(name, same_text(want, got), diff(want, got))
@@ -155,9 +176,13 @@ class Tests:
 
     def each(self, jobs):
         """Runs callables side by side."""
+        def timed(job):
+            self.since.time = time.monotonic()
+            job()
         with ThreadPoolExecutor(max_workers=2 * (os.cpu_count() or 1)) as pool:
-            for future in [pool.submit(job) for job in jobs]:
+            for future in [pool.submit(timed, job) for job in jobs]:
                 future.result()
+        self.since.time = time.monotonic()
 
     def rooms(self, *runs):
         """Parts of a room, side by side."""
@@ -194,7 +219,7 @@ def draws(statement):
 
 
 def replay(tests, name, steps, cwd=None):
-    """The transcript by --replay, plots left out; each statement counts as one check."""
+    """The transcript by --replay, plots left out."""
     text = ""
     for statement, out in steps:
         if not (draws(statement) and not any("error:" in line for line in out)):
@@ -203,14 +228,9 @@ def replay(tests, name, steps, cwd=None):
         done = tests.run("--replay", path, "--tolerance", "1e-12", cwd=cwd)
     last = done.stdout.splitlines()[-1] if done.stdout else ""
     found = re.match(r".*: (\d+) passed, (\d+) failed$", last)
-    if not found or (done.returncode != 0) != (int(found.group(2)) > 0) or done.stderr:
-        tests.check(name + " by replay", False, tests.report(done))
-        return
-    with tests.lock:
-        tests.passed += int(found.group(1))
-        tests.failed += int(found.group(2))
-        if int(found.group(2)):
-            print("FAILED (%s) %s\n%s" % (tests.label, name, done.stdout.replace(path, name)), flush=True)
+    told = found and (done.returncode != 0) == (int(found.group(2)) > 0) and not done.stderr
+    tests.record(name + " by replay", told and done.returncode == 0, len(steps),
+                 detail=done.stdout.replace(path, name) if told else tests.report(done))
 
 
 def is_message(line):

@@ -217,7 +217,7 @@ def run_parts(room, numbers, pipe):
     try:
         runner.ROOMS[room](tests)
     except BaseException:
-        tests.failed = 1
+        tests.check("it breaks off", False)
     tests.end(str(tests.count))
 
 

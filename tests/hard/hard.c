@@ -14,6 +14,23 @@
 
 enum { FIELDS = 5 /* F, Fx, dz, a, dx */, CONTACT_FIELDS = 12, SHOWN = 40 };
 
+enum { CASES = 400 };
+
+static struct {
+    char name[80];
+    unsigned long checked;
+    bool failed;
+} cases[CASES];
+static int case_count;
+
+void hard_case(const char *kind, const char *name, unsigned long passed, unsigned long failed) {
+    if (case_count == CASES)
+        abort();
+    snprintf(cases[case_count].name, sizeof cases->name, "%s, %s", kind, name);
+    cases[case_count].checked = passed + failed;
+    cases[case_count++].failed = failed > 0 || !passed;
+}
+
 hard_random hard_seed(uint64_t seed) {
     return (hard_random){seed};
 }
@@ -490,12 +507,13 @@ static bool read_row(char *line, hard_scene *s, char *results[ORACLE_COUNT]) {
 }
 
 /* The oracle against the table, which has 36 digits of an independent computation, and the library. */
-static void run_table(const char *path, unsigned long *passed, unsigned long *failed) {
+static void run_table(const char *path) {
     static const double agreed = 1e-33;
     FILE *file = fopen(path, "r");
+    unsigned long passed = 0, failed = 0;
     if (!file) {
         printf("hard: cannot open %s\n", path);
-        ++*failed;
+        hard_case("oracle", "against the table", 0, 1);
         return;
     }
     oracle *o = oracle_new();
@@ -511,7 +529,7 @@ static void run_table(const char *path, unsigned long *passed, unsigned long *fa
             continue;
         if (!read_row(line, &s, results)) {
             printf("%s:%lu: not a row\n", path, number);
-            ++*failed;
+            failed++;
             continue;
         }
         solve(o, &s);
@@ -522,8 +540,8 @@ static void run_table(const char *path, unsigned long *passed, unsigned long *fa
                 mpfr_div(error, error, want, MPFR_RNDN);
             double relative = fabs(mpfr_get_d(error, MPFR_RNDN));
             if (relative <= agreed) {
-                ++*passed;
-            } else if (++*failed <= SHOWN) {
+                passed++;
+            } else if (++failed <= SHOWN) {
                 mpfr_printf("%s:%lu: %s: oracle %.36Rg, table %s: %.1e\n", path, number, oracle_names[i],
                             oracle_value(o, i), results[i], relative);
             }
@@ -537,8 +555,8 @@ static void run_table(const char *path, unsigned long *passed, unsigned long *fa
     oracle_free(o);
     printf("oracle against %s: %.1e\n\n", path, worst);
     report(&tally, "corners");
-    *passed += tally.passed;
-    *failed += tally.failed;
+    hard_case("oracle", "against the table", passed, failed);
+    hard_case("scenes", "corners", tally.passed, tally.failed);
 }
 
 /* Inputs, ours and exact; the results are in the oracle. */
@@ -586,13 +604,18 @@ static void show_corner(const char *path, unsigned long number) {
         fclose(file);
 }
 
-static int finish(unsigned long passed, unsigned long failed) {
-    printf("hard: %lu passed, %lu failed\n", passed, failed);
+static int finish(void) {
+    int failed = 0;
+    for (int i = 0; i < case_count; i++) {
+        printf("  %s: %s, %lu checked\n", cases[i].name, cases[i].failed ? "FAILED" : "ok", cases[i].checked);
+        failed += cases[i].failed;
+    }
+    printf("hard: %d passed, %d failed\n", case_count - failed, failed);
     return failed ? EXIT_FAILURE : EXIT_SUCCESS;
 }
 
 int main(int argc, char **argv) {
-    unsigned long scenes = 2000, steps = 20000, jobs = 1, passed = 0, failed = 0;
+    unsigned long scenes = 2000, steps = 20000, jobs = 1;
     const char *table = "tests/reference/corners.csv";
     for (int i = 1; i + 1 < argc; i += 2) {
         unsigned long number = strtoul(argv[i + 1], NULL, 10);
@@ -605,8 +628,8 @@ int main(int argc, char **argv) {
             return EXIT_SUCCESS;
         }
         if (strcmp(argv[i], "--diagrams") == 0) {
-            hard_diagrams(number, &passed, &failed);
-            return finish(passed, failed);
+            hard_diagrams(number);
+            return finish();
         }
         if (strcmp(argv[i], "--scenes") == 0)
             scenes = number;
@@ -627,12 +650,11 @@ int main(int argc, char **argv) {
     for (int region = 0; region < HARD_REGION_COUNT; region++)
         printf("%-8s %s\n", headings[region], meanings[region]);
     printf("\n");
-    run_table(table, &passed, &failed);
+    run_table(table);
     hard_tally *parts = start_jobs(scenes, jobs);
-    hard_histories(steps, &passed, &failed);
+    hard_histories(steps);
     hard_tally sum = finish_jobs(parts, jobs);
     report(&sum, "random scenes");
-    passed += sum.passed;
-    failed += sum.failed;
-    return finish(passed, failed);
+    hard_case("scenes", "random", sum.passed, sum.failed);
+    return finish();
 }

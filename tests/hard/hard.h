@@ -69,11 +69,14 @@ double hard_uniform(hard_random *r);                    /* [0, 1) */
 double hard_scale(hard_random *r, int least, int most); /* 2^least .. 2^most, all scales alike */
 unsigned hard_choice(hard_random *r, unsigned count);
 
+/* A case of the tests has been judged; its line is printed at the end. */
+void hard_case(const char *kind, const char *name, unsigned long passed, unsigned long failed);
+
 /* Histories: closed loops must come back to the same state, and W must be the sum of the loops. `steps`:
- * length of the longest. Prints its own table; counts its results into passed and failed. */
-void hard_histories(unsigned long steps, unsigned long *passed, unsigned long *failed);
+ * length of the longest. Prints its own table; a row is a case. */
+void hard_histories(unsigned long steps);
 
 /* The memory diagram in double against the exact one, to what fret/diagram.h promises. Likewise. */
-void hard_diagrams(unsigned long steps, unsigned long *passed, unsigned long *failed);
+void hard_diagrams(unsigned long steps);
 
 #endif

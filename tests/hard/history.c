@@ -116,24 +116,22 @@ typedef struct outcome {
     size_t slices;
 } outcome;
 
-typedef struct totals {
-    unsigned long *passed, *failed;
-} totals;
-
 static void keep(outcome *out, int column, double got, mpfr_srcptr exact) {
     double ulps = oracle_ulps(got, exact);
     if (!(ulps <= out->ulps[column]))
         out->ulps[column] = isnan(ulps) ? INFINITY : ulps;
 }
 
-static void row(const char *contact, const char *name, const outcome *out, totals sum) {
+static void row(const char *contact, const char *name, const outcome *out) {
+    unsigned long good[2] = {0, 0};
     printf("%-10s %-26s %9lu", contact, name, out->steps);
     for (int i = 0; i < COLUMNS; i++) {
         printf(out->ulps[i] < 100 ? " %8.3f" : " %8.1e", out->ulps[i]);
         if (i != LAST) /* of a step far smaller than the load the loss is lost in the rounding of the load */
-            ++*(out->ulps[i] <= HARD_ULPS ? sum.passed : sum.failed);
+            good[out->ulps[i] <= HARD_ULPS]++;
     }
     printf(" %7zu\n", out->slices);
+    hard_case(contact, name, good[1], good[0]);
 }
 
 /* --- histories at constant F_N --- */
@@ -227,7 +225,7 @@ static double place(const history *h, unsigned long i, double outer, double inne
     return i % 2 == 0 ? outer : h->inner > 0 ? outer - 2 * inner : -outer;
 }
 
-static void run_history(const fixture *f, const history *h, unsigned long steps, totals sum) {
+static void run_history(const fixture *f, const history *h, unsigned long steps) {
     double limit =
         h->by_force ? f->specimen->mu * f->F : mpfr_get_d(oracle_value(f->o, ORACLE_DX_MAX), MPFR_RNDN);
     double outer = h->outer == 1 ? limit : on_grid(h->outer * limit, limit);
@@ -269,7 +267,7 @@ static void run_history(const fixture *f, const history *h, unsigned long steps,
     }
     if (refused)
         out.ulps[HELD] = INFINITY;
-    row(f->specimen->name, h->name, &out, sum);
+    row(f->specimen->name, h->name, &out);
     fret_memory_free(m);
     masing_free(exact);
     free(exact);
@@ -279,7 +277,7 @@ static void run_history(const fixture *f, const history *h, unsigned long steps,
 /* A swinging normal force has no closed form: the loop has settled after its second round, and then every
  * round must bring the same state and add the same loss. Compared where F_x is largest: nothing cancels in
  * dx. */
-static void run_swing(const fixture *f, unsigned long steps, totals sum) {
+static void run_swing(const fixture *f, unsigned long steps) {
     static const double turn[4][2] = {{0.8, 0}, {0.6, -0.2}, {0.9, 0}, {1, 0.3}}; /* FN/F, Fx/(mu F) */
     enum { SETTLED = 4 };
     fret_memory *m = pressed(f);
@@ -321,14 +319,13 @@ static void run_swing(const fixture *f, unsigned long steps, totals sum) {
     }
     if (refused)
         out.ulps[HELD] = INFINITY;
-    row(f->specimen->name, "FN and Fx swing", &out, sum);
+    row(f->specimen->name, "FN and Fx swing", &out);
     mpfr_clears(want, loss, (mpfr_ptr)0);
     fret_memory_free(m);
 }
 
-void hard_histories(unsigned long steps, unsigned long *passed, unsigned long *failed) {
+void hard_histories(unsigned long steps) {
     enum { LEAST = 200, MOST_RANDOM = 100000 };
-    totals sum = {passed, failed};
     printf("%-10s %-26s %9s %8s %8s %8s %8s %8s %7s\n", "contact", "history, worst ulp of", "steps", "held",
            "other", "c", "W", "last dW", "slices");
     for (size_t i = 0; i < sizeof specimens / sizeof *specimens; i++) {
@@ -337,10 +334,10 @@ void hard_histories(unsigned long steps, unsigned long *passed, unsigned long *f
             unsigned long count = steps / specimens[i].shorter / histories[j].shorter / 64 * 64;
             if (histories[j].random && count > MOST_RANDOM)
                 count = MOST_RANDOM / 64 * 64;
-            run_history(&f, &histories[j], count > LEAST ? count : 256, sum);
+            run_history(&f, &histories[j], count > LEAST ? count : 256);
         }
         unsigned long count = steps / specimens[i].shorter / 100;
-        run_swing(&f, count > LEAST ? count : LEAST, sum);
+        run_swing(&f, count > LEAST ? count : LEAST);
         oracle_free(f.o);
         fret_normal_free(f.normal);
     }

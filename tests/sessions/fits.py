@@ -501,7 +501,7 @@ def run(tests):
     shapes(tests)
     not_closed(tests)
     refusals(tests)
-    noisy_loops(tests, 20 if tests.sanitized else 100)
+    noisy_loops(tests, 20 if tests.few else 100)
     outliers(tests)
     drifting(tests)
     closed_loop(tests)

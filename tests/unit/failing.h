@@ -29,7 +29,7 @@ WRAPPED(aligned_alloc, (size_t alignment, size_t size), (alignment, size))
 #define EACH_FAILS(least, call, refused)                                                                     \
     do {                                                                                                     \
         int n_ = 0;                                                                                          \
-        for (bool whole_ = false; !whole_ && n_ < 2000; n_++) {                                              \
+        for (bool whole_ = false; !whole_ && n_ < 2000; n_ = unit_next(n_)) {                                \
             left = n_;                                                                                       \
             const bool ok_ = (call);                                                                         \
             whole_ = left >= 0;                                                                              \

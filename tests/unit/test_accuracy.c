@@ -77,9 +77,9 @@ int main(int argc, char **argv) {
                                        .normal_value = 30},
                            chords = {LOAD_CYCLE, .tangential = BY_DISPLACEMENT, .tangential_value = 3e-7,
                                      .normal_value = 10};
-    interrupted(0, constant, (cycle_extra){.times = 1});
-    interrupted(12, constant, (cycle_extra){.times = 1});
-    interrupted(0, swinging, (cycle_extra){.times = 1, .phase = 1});
-    interrupted(0, chords, (cycle_extra){.times = 1, .phase = 1});
+    CASE(interrupted(0, constant, (cycle_extra){.times = 1}));
+    CASE(interrupted(12, constant, (cycle_extra){.times = 1}));
+    CASE(interrupted(0, swinging, (cycle_extra){.times = 1, .phase = 1}));
+    CASE(interrupted(0, chords, (cycle_extra){.times = 1, .phase = 1}));
     return unit_finish();
 }

@@ -76,7 +76,7 @@ static void slices(void) {
         x[i] = 1e-3 * i / MANY;
         depth[i] = x[i] * x[i] / 0.02;
     }
-    for (int rows = MANY; rows; rows = rows == MANY ? ROWS : 0) {
+    for (int rows = unit_skips(1) ? ROWS : MANY; rows; rows = rows == MANY ? ROWS : 0) {
         CHECK_OK(fret_table_make(rows == MANY ? x : r, rows == MANY ? depth : f, (size_t)rows, NULL, &table));
         const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
         CHECK_OK(fret_normal_make(&s.material, &gap, &n));
@@ -491,20 +491,20 @@ int main(int argc, char **argv) {
     contact = unit_make_contact(&s, 20);
     limit = contact.mu * 20;
     slip = (double)fret_gross_slip(&contact);
-    tables_and_contacts();
-    laws();
-    slices();
-    rows_on_demand();
-    pieces();
-    memories();
-    diagrams();
-    masings();
-    springs();
-    swings();
-    smaller_slides();
-    smaller_swings();
-    periods_without_room();
-    fields();
-    pressure_of_many_rows();
+    CASE(tables_and_contacts());
+    CASE(laws());
+    CASE(slices());
+    CASE(rows_on_demand());
+    CASE(pieces());
+    CASE(memories());
+    CASE(diagrams());
+    CASE(masings());
+    CASE(springs());
+    CASE(swings());
+    CASE(smaller_slides());
+    CASE(smaller_swings());
+    CASE(periods_without_room());
+    CASE(fields());
+    CASE(pressure_of_many_rows());
     return unit_finish();
 }

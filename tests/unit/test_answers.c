@@ -251,7 +251,7 @@ static bool as_ever(scene *s, size_t i, const double want[VALUES]) {
 /* Some does without what it could not have. */
 static void starve(calc *c, size_t i, const double want[VALUES]) {
     bool failed = true;
-    for (int n = 0; failed && n < 1000; n++) {
+    for (int n = 0; failed && n < 1000; n = unit_next(n)) {
         double v[VALUES];
         left = n;
         const bool ok = again(c->now, i, v);
@@ -300,7 +300,7 @@ static void loads(const scened *of, const load_step *then, bool lost) {
     CHECK(again(whole.now, STATE, before) && loaded(&whole, then, 0));
     CHECK(ask_state(whole.now, want));
     calc_free(&whole);
-    for (int n = 0; failed && n < 1000; n++) {
+    for (int n = 0; failed && n < 1000; n = unit_next(n)) {
         size_t at = 0;
         calc c;
         begin(&c, of);
@@ -544,14 +544,14 @@ int main(int argc, char **argv) {
             double want[VALUES];
             calc c;
             const long failed = unit.failed;
-            begin(&c, &scenes[i]);
+            CASE(begin(&c, &scenes[i]));
             if (again(c.now, j, want)) { /* not all is asked of all: no loss without a cycle */
                 answered++;
-                starve(&c, j, want);
-                interrupt(&c, j, want);
-                lose(&c, "x", j, want);
-                lose(&c, "y", j, want);
-                lose(&c, "z", j, want);
+                CASE(starve(&c, j, want));
+                CASE(interrupt(&c, j, want));
+                CASE(lose(&c, "x", j, want));
+                CASE(lose(&c, "y", j, want));
+                CASE(lose(&c, "z", j, want));
             }
             calc_free(&c);
             if (unit.failed > failed)
@@ -560,14 +560,14 @@ int main(int argc, char **argv) {
     CHECK(answered > 80);
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
         if (scenes[i].automatic && !scenes[i].open)
-            more_loads(&scenes[i]);
-    rows_of_loads(false);
-    rows_of_loads(true);
-    too_deep();
-    swings_too_far();
-    too_steep();
-    lacking();
-    on_the_way();
-    sine_without_memory();
+            CASE(more_loads(&scenes[i]));
+    CASE(rows_of_loads(false));
+    CASE(rows_of_loads(true));
+    CASE(too_deep());
+    CASE(swings_too_far());
+    CASE(too_steep());
+    CASE(lacking());
+    CASE(on_the_way());
+    CASE(sine_without_memory());
     return unit_finish();
 }

@@ -337,11 +337,11 @@ static void errors(void) {
 
 int main(int argc, char **argv) {
     unit_start("batch", argc, argv);
-    kernels();
-    accuracy();
-    bits();
-    gross_slip();
-    others();
-    errors();
+    CASE(kernels());
+    CASE(accuracy());
+    CASE(bits());
+    CASE(gross_slip());
+    CASE(others());
+    CASE(errors());
     return unit_finish();
 }

@@ -78,7 +78,7 @@ static void thick_slices(void) {
     int failed = 0;
     CHECK_OK(fret_cycle_loss_by_force(&c, 0.6 * c.mu * (double)c.press.F, &want));
     end(&c);
-    for (int k = 0; k < 400; k += k < 8 ? 1 : 29) {
+    for (int k = 0; k < 400; k += unit_skips(1) ? 97 : k < 8 ? 1 : 29) {
         c = prepared_to(0);
         left = k;
         const fret_status st = fret_cycle_loss_by_force(&c, 0.6 * c.mu * (double)c.press.F, &got);
@@ -91,13 +91,13 @@ static void thick_slices(void) {
         CHECK(got == want);
         end(&c);
     }
-    CHECK(failed > 3);
+    CHECK(failed > (unit_skips(1) ? 0 : 3));
 }
 
 int main(int argc, char **argv) {
     unit_start("blocks", argc, argv);
     fret_real want[QUESTIONS], got;
-    sample();
+    CASE(sample());
     fret_contact c = prepared(), plain = c;
     for (int i = 0; i < QUESTIONS; i++)
         CHECK_OK(ask(&c, i, &want[i]));
@@ -105,7 +105,7 @@ int main(int argc, char **argv) {
         CHECK_OK(ask(&c, i, &got));
         CHECK(got == want[i]);
     }
-    end(&c);
+    CASE(end(&c));
 
     /* without pieces, row by row */
     const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
@@ -124,7 +124,7 @@ int main(int argc, char **argv) {
         CHECK_OK(ask(&c, i, &got));
         CHECK(got == want[i]);
     }
-    end(&c);
+    CASE(end(&c));
 
     /* at the same moments */
     pthread_barrier_t together;
@@ -143,7 +143,7 @@ int main(int argc, char **argv) {
             CHECK(asks[i].loss[j] == want[j]);
     }
     pthread_barrier_destroy(&together);
-    end(&c);
+    CASE(end(&c));
 
     /* where there is no memory: refused, or had in another way; with memory again as ever */
     int failed = 0;
@@ -165,8 +165,8 @@ int main(int argc, char **argv) {
         CHECK(got == want[i]);
     }
     CHECK(failed > 3);
-    end(&c);
-    thick_slices();
+    CASE(end(&c));
+    CASE(thick_slices());
     fret_table_free(table);
     return unit_finish();
 }

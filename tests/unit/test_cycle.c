@@ -232,11 +232,11 @@ static void errors(void) {
 
 int main(int argc, char **argv) {
     unit_start("cycle", argc, argv);
-    reference();
-    loss_shape();
-    definition();
-    published();
-    gross_slip();
-    errors();
+    CASE(reference());
+    CASE(loss_shape());
+    CASE(definition());
+    CASE(published());
+    CASE(gross_slip());
+    CASE(errors());
     return unit_finish();
 }

@@ -186,12 +186,12 @@ static void powers(void) {
 
 int main(int argc, char **argv) {
     unit_start("dd", argc, argv);
-    reference();
-    arithmetic();
-    long_double();
-    limits();
-    far_limits();
-    doubles();
-    powers();
+    CASE(reference());
+    CASE(arithmetic());
+    CASE(long_double());
+    CASE(limits());
+    CASE(far_limits());
+    CASE(doubles());
+    CASE(powers());
     return unit_finish();
 }

@@ -333,7 +333,7 @@ static void parts(void) {
 /* The powers of the law, by square roots and by logarithms. */
 static void powers(void) {
     unsigned long long seed = 1;
-    for (int i = 0; i < 20000; i++) {
+    for (int i = 0; i < unit_draws(20000); i++) {
         const double x = exp(unit_random(&seed, -30, 1)), y = unit_random(&seed, 0.01, 12);
         CHECK_REL(fret_double_power(x, y), powl(x, y), UNIT_TOL(4e-16L * (1 + fabsl(y * logl(x))), 1e-13L));
     }
@@ -371,7 +371,7 @@ static void zones(void) {
     fret_double_law_make(1.5, 0.5, &law);
     law.per_y = 1 / (all * scale);
     law.v = (double)fret_law_force(normal, all * scale);
-    for (int i = 0; i < 20000; i++) {
+    for (int i = 0; i < unit_draws(20000); i++) {
         double edge[2], front[2], thick[2];
         edge[0] = floor(all * unit_random(&seed, 0.3, 1));
         thick[0] = i % 7 ? floor(edge[0] * exp(unit_random(&seed, -20, 0))) : 0;
@@ -404,21 +404,21 @@ int main(int argc, char **argv) {
     static const double n[] = {0.5, 1, 2, 3, 100}, k[] = {-0.99, -0.5, 0, 0.3, 0.99};
     for (size_t i = 0; i < sizeof n / sizeof *n; i++)
         for (size_t j = 0; j < sizeof k / sizeof *k; j++) {
-            cycles(n[i], k[j]);
-            brink(n[i], k[j]);
+            CASE(cycles(n[i], k[j]));
+            CASE(brink(n[i], k[j]));
         }
-    ledger(2, 0.3, false);
-    ledger(2, 0.3, true);
-    ledger(1, -0.5, false);
-    ledger(1, -0.5, true);
-    kept_depth(2, 0);
-    kept_depth(2, 0.3);
+    CASE(ledger(2, 0.3, false));
+    CASE(ledger(2, 0.3, true));
+    CASE(ledger(1, -0.5, false));
+    CASE(ledger(1, -0.5, true));
+    CASE(kept_depth(2, 0));
+    CASE(kept_depth(2, 0.3));
     for (int i = 0; i < 8; i++)
-        returning(i & 1 ? 2 : 1, i & 2 ? 0.3 : 0, i & 4);
-    separation();
-    objects();
-    parts();
-    powers();
-    zones();
+        CASE(returning(i & 1 ? 2 : 1, i & 2 ? 0.3 : 0, i & 4));
+    CASE(separation());
+    CASE(objects());
+    CASE(parts());
+    CASE(powers());
+    CASE(zones());
     return unit_finish();
 }

@@ -172,25 +172,28 @@ int main(int argc, char **argv) {
     static const double grading[] = {-0.8, 0, 0.7};
     for (size_t i = 0; i < sizeof grading / sizeof *grading; i++) {
         const double k = grading[i];
-        if (unit_skips(i))
+        const bool few = unit_skips(1);
+        if (few && k != 0)
             continue;
-        contact((fret_gap){.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 2e6, 1}}}, 0, 0, k,
-                1e-10L, 0);
+        CASE(contact((fret_gap){.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 2e6, 1}}}, 0, 0,
+                     k, 1e-10L, 0));
         /* hardly more than one power: long pieces */
-        contact((fret_gap){.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 1e-3, 1}}}, 0, 0, k,
-                1e-10L, 0);
-        contact((fret_gap){.kind = FRET_GAP_SUM, .terms = 2, .power = {{1, 0.05, 1}, {2, 1e-6, 1}}}, 0, 0, k,
-                1e-10L, 0);
-        contact((fret_gap){.kind = FRET_GAP_EXACT_SPHERE, .R = 1e-2}, 0, 0, k, 1e-10L, 0);
-        contact((fret_gap){.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 0.02}, 0, 0, k, 1e-10L, 0);
-        contact((fret_gap){0}, 60, 0, k, 1e-9L, 0);
-        contact((fret_gap){0}, 60, 1e-4, k, 1e-9L, 0);
-        contact((fret_gap){0}, 8, -3, k, 1e-9L, 0);
-        contact((fret_gap){0}, 5, -10, k, 1e-9L, 0);
-        contact((fret_gap){0}, 5, 1e-3, k, 1e-9L, 1e-9);
-        contact((fret_gap){0}, 8, -3, k, 1e-9L, 1e-9);
-        contact((fret_gap){0}, 5, -10, k, 1e-9L, 1e-9);
-        contact((fret_gap){0}, 4, -50, k, 1e-9L, 1e-9);
+        CASE(contact((fret_gap){.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 1e-3, 1}}}, 0, 0,
+                     k, 1e-10L, 0));
+        CASE(contact((fret_gap){.kind = FRET_GAP_SUM, .terms = 2, .power = {{1, 0.05, 1}, {2, 1e-6, 1}}}, 0,
+                     0, k, 1e-10L, 0));
+        if (few)
+            continue;
+        CASE(contact((fret_gap){.kind = FRET_GAP_EXACT_SPHERE, .R = 1e-2}, 0, 0, k, 1e-10L, 0));
+        CASE(contact((fret_gap){.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 0.02}, 0, 0, k, 1e-10L, 0));
+        CASE(contact((fret_gap){0}, 60, 0, k, 1e-9L, 0));
+        CASE(contact((fret_gap){0}, 60, 1e-4, k, 1e-9L, 0));
+        CASE(contact((fret_gap){0}, 8, -3, k, 1e-9L, 0));
+        CASE(contact((fret_gap){0}, 5, -10, k, 1e-9L, 0));
+        CASE(contact((fret_gap){0}, 5, 1e-3, k, 1e-9L, 1e-9));
+        CASE(contact((fret_gap){0}, 8, -3, k, 1e-9L, 1e-9));
+        CASE(contact((fret_gap){0}, 5, -10, k, 1e-9L, 1e-9));
+        CASE(contact((fret_gap){0}, 4, -50, k, 1e-9L, 1e-9));
     }
     return unit_finish();
 }

@@ -848,26 +848,26 @@ int main(int argc, char **argv) {
     char dir[] = "/tmp/fret-unit-XXXXXX";
     if (!CHECK(mkdtemp(dir) && !chdir(dir)))
         return unit_finish();
-    replaces();
-    links();
-    refused();
-    pipes();
-    waits();
-    failing_calls();
-    apart(cut_logs);
-    interrupted_logs();
-    full();
-    apart(deep);
-    home();
-    sizes();
-    faults(); /* before memory is kept that a long line has freed */
-    lines();
-    encodings();
-    limits();
-    texts();
-    stops();
-    apart(emergency);
-    apart(too_many);
+    CASE(replaces());
+    CASE(links());
+    CASE(refused());
+    CASE(pipes());
+    CASE(waits());
+    CASE(failing_calls());
+    CASE(apart(cut_logs));
+    CASE(interrupted_logs());
+    CASE(full());
+    CASE(apart(deep));
+    CASE(home());
+    CASE(sizes());
+    CASE(faults()); /* before memory is kept that a long line has freed */
+    CASE(lines());
+    CASE(encodings());
+    CASE(limits());
+    CASE(texts());
+    CASE(stops());
+    CASE(apart(emergency));
+    CASE(apart(too_many));
     CHECK(entries() == 0);
     CHECK(!chdir("/") && !rmdir(dir));
     return unit_finish();

@@ -128,8 +128,8 @@ static void errors(void) {
 
 int main(int argc, char **argv) {
     unit_start("gap", argc, argv);
-    kappa_reference();
-    power();
-    errors();
+    CASE(kappa_reference());
+    CASE(power());
+    CASE(errors());
     return unit_finish();
 }

@@ -87,8 +87,8 @@ int main(int argc, char **argv) {
     if (CHECK(plot_run_open(&r, &error))) {
         FILE *script = fopen(r.script, "w");
         CHECK(script && !fclose(script));
-        lost(&r);
-        wordless(&r);
+        CASE(lost(&r));
+        CASE(wordless(&r));
         plot_run_close(&r);
     }
     CHECK(!unlink("gnuplot") && !chdir("/") && !rmdir(dir));

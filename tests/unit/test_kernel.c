@@ -117,6 +117,7 @@ int main(int argc, char **argv) {
     static const fret_real grading[] = {-0.8L, -0.5L, -1e-9L, 0, 0.02L, 1 / 3.0L, 0.5L, 0.8L};
     unit_start("kernel", argc, argv);
     for (size_t i = 0; i < sizeof grading / sizeof *grading; i++)
-        powers_of(grading[i]);
+        if (!unit_skips(i))
+            CASE(powers_of(grading[i]));
     return unit_finish();
 }

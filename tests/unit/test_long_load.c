@@ -281,11 +281,11 @@ static void trouble(void) {
 
 int main(int argc, char **argv) {
     unit_start("test_long_load", argc, argv);
-    small_values();
-    few_rows();
-    goes_on();
-    never();
-    steep();
-    trouble();
+    CASE(small_values());
+    CASE(few_rows());
+    CASE(goes_on());
+    CASE(never());
+    CASE(steep());
+    CASE(trouble());
     return unit_finish();
 }

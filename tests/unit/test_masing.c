@@ -359,14 +359,14 @@ static void objects(void) {
 
 int main(int argc, char **argv) {
     unit_start("masing", argc, argv);
-    random_displacements();
-    random_forces();
-    force_to_gross_slip();
-    loops();
-    gross_slip();
-    deep();
-    drift();
-    other_shapes();
-    objects();
+    CASE(random_displacements());
+    CASE(random_forces());
+    CASE(force_to_gross_slip());
+    CASE(loops());
+    CASE(gross_slip());
+    CASE(deep());
+    CASE(drift());
+    CASE(other_shapes());
+    CASE(objects());
     return unit_finish();
 }

@@ -180,11 +180,11 @@ static void foundation_errors(void) {
 
 int main(int argc, char **argv) {
     unit_start("material", argc, argv);
-    half_space_reference();
-    half_space_identities();
-    half_space_errors();
-    foundation_reference();
-    similarity();
-    foundation_errors();
+    CASE(half_space_reference());
+    CASE(half_space_identities());
+    CASE(half_space_errors());
+    CASE(foundation_reference());
+    CASE(similarity());
+    CASE(foundation_errors());
     return unit_finish();
 }

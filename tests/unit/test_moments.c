@@ -206,17 +206,19 @@ int main(int argc, char **argv) {
     const fret_gap of_few = {.kind = FRET_GAP_TABLE, .table = few},
                    of_rough = {.kind = FRET_GAP_TABLE, .table = rough},
                    of_flat = {.kind = FRET_GAP_TABLE, .table = flat};
-    laws(&sum, 0.3, 0, 20);
-    laws(&of_few, -0.99, 0, 20);
-    laws(&of_flat, 0.2, 0, 20);
-    laws(&of_rough, 0.3, 0, 20);
-    laws(&of_rough, 0.3, 1e-6, 20);
-    rows(&of_few, -0.99);
-    rows(&of_rough, 0.3);
-    memories(&of_few, 0.3, 3);
-    memories(&of_flat, -0.5, 1); /* the next takes long */
-    losses(&sum, 0.3);
-    losses(&of_few, -0.2);
+    CASE(laws(&sum, 0.3, 0, 20));
+    CASE(laws(&of_rough, 0.3, 1e-6, 20));
+    CASE(rows(&of_few, -0.99));
+    if (!unit_skips(1)) {
+        CASE(laws(&of_few, -0.99, 0, 20));
+        CASE(laws(&of_flat, 0.2, 0, 20));
+        CASE(laws(&of_rough, 0.3, 0, 20));
+        CASE(rows(&of_rough, 0.3));
+        CASE(memories(&of_few, 0.3, 3));
+    }
+    CASE(memories(&of_flat, -0.5, 1)); /* the next takes long */
+    CASE(losses(&sum, 0.3));
+    CASE(losses(&of_few, -0.2));
     const int status = unit_finish();
     fret_table_free(few);
     fret_table_free(rough);

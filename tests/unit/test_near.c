@@ -218,14 +218,14 @@ int main(int argc, char **argv) {
             fret_near near;
             CHECK(fret_near_fits(normal));
             fret_near_make(normal, &near);
-            values(normal, &near);
-            phases(normal, &near);
-            histories(normal, 2000);
+            CASE(values(normal, &near));
+            CASE(phases(normal, &near));
+            CASE(histories(normal, unit_draws(2000)));
         }
     const unit_scene steep = unit_make_scene(0.1, 0.5);
     CHECK(!fret_near_fits(unit_make_normal(&steep)));
-    other_law();
-    brink();
-    ends_of_range();
+    CASE(other_law());
+    CASE(brink());
+    CASE(ends_of_range());
     return unit_finish();
 }

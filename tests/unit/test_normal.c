@@ -216,12 +216,12 @@ static void places(void) {
 
 int main(int argc, char **argv) {
     unit_start("normal", argc, argv);
-    reference();
-    law();
-    slices();
-    hertz();
-    scales();
-    places();
-    errors();
+    CASE(reference());
+    CASE(law());
+    CASE(slices());
+    CASE(hertz());
+    CASE(scales());
+    CASE(places());
+    CASE(errors());
     return unit_finish();
 }

@@ -311,10 +311,10 @@ static void test_rollback(void) {
 
 int main(int argc, char **argv) {
     unit_start("oscillator", argc, argv);
-    test_ledger();
-    test_varying_load();
-    test_agree();
-    test_no_allocation();
-    test_rollback();
+    CASE(test_ledger());
+    CASE(test_varying_load());
+    CASE(test_agree());
+    CASE(test_no_allocation());
+    CASE(test_rollback());
     return unit_finish();
 }

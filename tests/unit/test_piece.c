@@ -70,7 +70,7 @@ int main(int argc, char **argv) {
         for (size_t j = 0; j < all->count; j += 1 + all->count / 12)
             for (size_t g = 0; g < sizeof guesses / sizeof *guesses; g++)
                 if (guesses[g] >= -0.9 || !all->piece[j].blunt) /* it is flat there */
-                    search(&all->piece[j], guesses[g]);
+                    CASE(search(&all->piece[j], guesses[g]));
     }
     const int status = unit_finish();
     fret_table_free(t);

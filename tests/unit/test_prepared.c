@@ -111,7 +111,7 @@ int main(int argc, char **argv) {
             if (!fret_press_by_radius(plain, 9e-4 * uniform(0.3, 1), &p).code && p.F > 0) {
                 CHECK_OK(fret_normal_prepare(ready, (double)p.F, borne));
                 const long failed = unit.failed;
-                compare(plain, ready, &p, borne);
+                CASE(compare(plain, ready, &p, borne));
                 if (unit.failed > failed)
                     printf("table %d, k = %g, prepared to %g\n", i, m.k, fret_normal_prepared(ready));
                 compared++;

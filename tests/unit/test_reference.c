@@ -136,10 +136,10 @@ static void sampled(void) {
 
 int main(int argc, char **argv) {
     unit_start("reference", argc, argv);
-    scenes();
-    shapes();
-    flat_ends();
-    amplitudes();
-    sampled();
+    CASE(scenes());
+    CASE(shapes());
+    CASE(flat_ends());
+    CASE(amplitudes());
+    CASE(sampled());
     return unit_finish();
 }

@@ -342,10 +342,11 @@ static void second_row(double flat, double k) {
 int main(int argc, char **argv) {
     unit_start("rows", argc, argv);
     for (int i = 0; i < TABLES; i++)
-        check_table(&tables[i]);
-    uneven();
+        if (!unit_skips((size_t)i))
+            CASE(check_table(&tables[i]));
+    CASE(uneven());
     for (int i = 0; i < 9; i++)
-        second_row((double[]){0, 3e-5, 4e-4}[i % 3], (double[]){-0.9, -0.3, 0.5}[i / 3]);
-    stops();
+        CASE(second_row((double[]){0, 3e-5, 4e-4}[i % 3], (double[]){-0.9, -0.3, 0.5}[i / 3]));
+    CASE(stops());
     return unit_finish();
 }

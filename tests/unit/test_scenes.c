@@ -243,12 +243,12 @@ static void refused(void) {
 
 int main(int argc, char **argv) {
     if (argc > 2 && !strcmp(argv[1], "--worst")) {
-        accuracy(atol(argv[2]), true);
+        CASE(accuracy(atol(argv[2]), true));
         return unit.failed ? EXIT_FAILURE : EXIT_SUCCESS;
     }
     unit_start("scenes", argc, argv);
-    accuracy(60, false);
-    bits();
-    refused();
+    CASE(accuracy(60, false));
+    CASE(bits());
+    CASE(refused());
     return unit_finish();
 }

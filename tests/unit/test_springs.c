@@ -115,7 +115,7 @@ static double order_in_count(double n, double k, fret_weight rule, bool by_force
 static void test_order_in_count(void) {
     static const double ks[] = {-0.9, -0.7, -0.5, -0.2, 0, 0.3, 0.6, 0.9};
     for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
-        for (int by_force = 0; by_force < 2; by_force++) {
+        for (int by_force = 0; by_force < 2 && !unit_skips(i); by_force++) {
             CHECK_ABS(order_in_count(2, ks[i], FRET_WEIGHT_CELL, by_force), 2, 1, 0.15L);
             CHECK_ABS(order_in_count(3, ks[i], FRET_WEIGHT_CELL, by_force), 2, 1, 0.15L);
             /* a cone is not smooth at its tip, where k < 0 puts much of the stiffness */
@@ -630,22 +630,22 @@ static void test_errors(void) {
 
 int main(int argc, char **argv) {
     unit_start("springs", argc, argv);
-    test_order_in_count();
-    test_order_in_substeps();
-    test_straight_steps();
-    test_force_control();
-    test_front_on_the_way();
-    test_many();
-    test_weights();
-    test_stick();
-    test_loops_close();
-    test_no_reversal();
-    test_let_go();
-    test_pad();
-    test_copy();
-    test_widths();
-    test_reset();
-    test_constant_depth();
-    test_errors();
+    CASE(test_order_in_count());
+    CASE(test_order_in_substeps());
+    CASE(test_straight_steps());
+    CASE(test_force_control());
+    CASE(test_front_on_the_way());
+    CASE(test_many());
+    CASE(test_weights());
+    CASE(test_stick());
+    CASE(test_loops_close());
+    CASE(test_no_reversal());
+    CASE(test_let_go());
+    CASE(test_pad());
+    CASE(test_copy());
+    CASE(test_widths());
+    CASE(test_reset());
+    CASE(test_constant_depth());
+    CASE(test_errors());
     return unit_finish();
 }

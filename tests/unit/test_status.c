@@ -67,9 +67,9 @@ static void text(void) {
 
 int main(int argc, char **argv) {
     unit_start("status", argc, argv);
-    numbers();
-    categories();
-    rules();
-    text();
+    CASE(numbers());
+    CASE(categories());
+    CASE(rules());
+    CASE(text());
     return unit_finish();
 }

@@ -168,11 +168,11 @@ int main(int argc, char **argv) {
     stop = 0;
     CHECK_OK(fret_cycle_loss_by_force(&contact, 1, &loss));
     CHECK(loss > 0);
-    check_memory(normal);
-    check_thin(normal);
-    check_questions(normal, &contact);
-    check_springs(normal);
-    check_elements(&steel);
+    CASE(check_memory(normal));
+    CASE(check_thin(normal));
+    CASE(check_questions(normal, &contact));
+    CASE(check_springs(normal));
+    CASE(check_elements(&steel));
     stop = 1;
     fret_normal_stop(normal, NULL);
     CHECK_OK(fret_press_by_force(normal, 10, &press));

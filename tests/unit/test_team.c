@@ -187,12 +187,12 @@ int main(int argc, char **argv) {
     static calc c;
     calc_init(&c, &stop);
     c.cores = 2;
-    in_order(&c);
-    a_worker_ends(&c);
-    it_stops(&c);
-    in_a_storm(&c);
-    it_pulses(&c);
-    nothing_to_be_had(&c);
+    CASE(in_order(&c));
+    CASE(a_worker_ends(&c));
+    CASE(it_stops(&c));
+    CASE(in_a_storm(&c));
+    CASE(it_pulses(&c));
+    CASE(nothing_to_be_had(&c));
     calc_free(&c);
     return unit_finish();
 }

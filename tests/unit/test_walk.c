@@ -206,8 +206,8 @@ static void follows(void) {
 
 int main(int argc, char **argv) {
     unit_start("walk", argc, argv);
-    parts(false);
-    parts(true);
-    follows();
+    CASE(parts(false));
+    CASE(parts(true));
+    CASE(follows());
     return unit_finish();
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A test program: checks that count and go on, tables of references, one summary line at the end.
- * FRET_UNIT_VERBOSE=1 prints the worst error of every CHECK_REL and CHECK_ABS. */
+/* A test program: cases of checks that count and go on, tables of references, a line a case and one for all
+ * at the end. FRET_UNIT_VERBOSE=1 prints the worst error of every CHECK_REL and CHECK_ABS. */
 #ifndef UNIT_H
 #define UNIT_H
 
@@ -10,13 +10,21 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "fret/fret.h"
 
 /* Where long double carries guard digits the references test them; else what a double can hold. */
 #define UNIT_TOL(guarded, plain) (LDBL_MANT_DIG >= 64 ? (guarded) : (plain))
 
-enum { UNIT_COLUMNS = 32, UNIT_LINE = 4096, UNIT_SHOWN = 40 };
+enum { UNIT_COLUMNS = 32, UNIT_LINE = 4096, UNIT_SHOWN = 40, UNIT_CASES = 100 };
+
+/* What has a name of its own; a loop that draws a million scenes is one. */
+typedef struct unit_case {
+    const char *name;
+    long checks, failed;
+    clock_t time;
+} unit_case;
 
 typedef struct unit_site {
     const char *what, *file;
@@ -37,27 +45,66 @@ typedef struct unit_table {
 
 static struct {
     const char *name, *reference;
-    long passed, failed;
+    long failed; /* checks, of all cases */
+    unit_case all[UNIT_CASES], *now;
+    int cases;
     unit_site *sites;
     const unit_table *table; /* the row at hand, for messages */
     fret_normal **normal;    /* to be freed */
     size_t normals, normal_room;
 } unit;
 
+/* A case with this name begins, or goes on. */
+static inline unit_case *unit_enter(const char *name) {
+    const size_t n = strcspn(name, "(");
+    for (int i = 0; i < unit.cases; i++)
+        if (strcspn(unit.all[i].name, "(") == n && !strncmp(unit.all[i].name, name, n))
+            return &unit.all[i];
+    if (unit.cases == UNIT_CASES) {
+        printf("%s: more than %d cases\n", unit.name, UNIT_CASES);
+        exit(EXIT_FAILURE);
+    }
+    unit.all[unit.cases].name = name;
+    return &unit.all[unit.cases++];
+}
+
 static inline void unit_start(const char *name, int argc, char **argv) {
     unit.name = name;
     unit.reference = argc > 1 ? argv[1] : getenv("FRET_REFERENCE");
     if (!unit.reference)
         unit.reference = "tests/reference";
+    unit.now = unit_enter("main");
 }
 
-/* Sanitizers are slow, and see what they look for in a few of many like cases: is case i left out? */
+/* `CASE(call(arguments))` is the case `call`; what is checked outside of all belongs to `main`. */
+#define CASE(call)                                                                                           \
+    do {                                                                                                     \
+        unit_case *const outer_ = unit.now;                                                                  \
+        const clock_t start_ = clock();                                                                      \
+        unit.now = unit_enter(#call);                                                                        \
+        call;                                                                                                \
+        unit.now->time += clock() - start_;                                                                  \
+        unit.now = outer_;                                                                                   \
+    } while (0)
+
+/* A few of many like cases, where there is no time for all: is number i left out? */
 static inline bool unit_skips(size_t i) {
-    const char *few = getenv("FRET_UNIT_FEW");
+    const char *few = getenv("FRET_FEW");
     return few && *few && i % 4 > 0;
 }
 
+/* The number to try after n: each, or ever fewer. */
+static inline int unit_next(int n) {
+    return n + 1 + unit_skips(1) * n / 4;
+}
+
+/* How many of `many` random things are drawn. */
+static inline int unit_draws(int many) {
+    return unit_skips(1) ? (many + 7) / 8 : many;
+}
+
 static inline int unit_finish(void) {
+    int passed = 0, failed = 0;
     while (unit.normals)
         fret_normal_free(unit.normal[--unit.normals]);
     free(unit.normal);
@@ -65,16 +112,23 @@ static inline int unit_finish(void) {
         for (const unit_site *s = unit.sites; s; s = s->next)
             printf("%s:%d: worst %.2Le of %.2Le%s%s: %s\n", s->file, s->line, s->worst, s->tolerance,
                    *s->row ? " at " : "", s->row, s->what);
-    printf("%s: %ld passed, %ld failed\n", unit.name, unit.passed, unit.failed);
-    return unit.failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    for (const unit_case *c = unit.all; c < unit.all + unit.cases; c++) {
+        if (!c->checks)
+            continue;
+        printf("  %.*s: %s, %ld checked, %.2f s\n", (int)strcspn(c->name, "("), c->name,
+               c->failed ? "FAILED" : "ok", c->checks, (double)c->time / CLOCKS_PER_SEC);
+        ++*(c->failed ? &failed : &passed);
+    }
+    printf("%s: %d passed, %d failed\n", unit.name, passed, failed);
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
 }
 
 /* Counts; true when the failure is to be described. */
 static inline bool unit_count(bool ok, const char *file, int line) {
-    if (ok) {
-        unit.passed++;
+    unit.now->checks++;
+    if (ok)
         return false;
-    }
+    unit.now->failed++;
     if (unit.failed++ >= UNIT_SHOWN)
         return false;
     printf("%s:%d: ", file, line);
@@ -150,10 +204,8 @@ static inline bool unit_open(unit_table *t, const char *name) {
     *t = (unit_table){.name = name};
     snprintf(path, sizeof path, "%s/%s", unit.reference, name);
     t->file = fopen(path, "r");
-    if (!t->file) {
-        unit.failed++;
-        printf("%s: cannot open %s\n", unit.name, path);
-    }
+    if (!t->file && unit_count(false, __FILE__, __LINE__))
+        printf("cannot open %s\n", path);
     return t->file != NULL;
 }
 

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `help` and `apropos` say: each text's example must come out as printed."""
+import os
+import re
+import subprocess
+
+import harness
+import transcripts
+
+# what apropos must find
+APROPOS = {"loop": "cycle, plot, dW", "hysteresis": "cycle, dW", "dissipation": "dW, W", "csv": "history, table, follow",
+           "export": "history, table, plot", "stress": "p(r), qx(r)", "steel": "material, material steel",
+           "Hertz": "press, geometry sphere, a", "unit": "help units, Pa", "Mindlin": "explain, dW",
+           "undo": "undo", "Huber": "fit", "Monte": "uncertainty", "transcript": "record, replay", "start-up": "help scripts"}
+HELPED = ("sphere", "springs", "flat-rounded", "format", "pager", "GPa", "cm", "%", "steel", "Ti-6Al-4V", "sin", "memory",
+          "expressions", "scripts", "files", "theory", "paper", "limits", "prompt", "set model", "geometry cone",
+          "material steel", "p(r)", "dW(20 N)", "FN=100 N", "set format")
+
+
+def examples(tests, topic, lines):
+    """The files that a help text shows by `$ cat`, its calls of the program and its transcript; how many answers."""
+    where, files, calls, session, into = os.path.join(tests.dir, "help " + topic), {}, [], [], None
+    for line in lines:
+        if line.startswith("$ cat "):
+            into = files.setdefault(line[6:], [])
+        elif line.startswith("$ fret "):
+            into = [line[2:]]
+            calls.append(into)
+        elif line.startswith(harness.PROMPT) or into is None:
+            into = session
+            session.append(line)
+        else:
+            into.append(line)
+    os.mkdir(where)
+    for name, text in files.items():
+        with open(os.path.join(where, name), "w", encoding="utf-8") as f:
+            f.write("".join((line[4:] if text[0].startswith("    ") else line) + "\n" for line in text))
+    steps = harness.read_transcript("\n".join(session))
+    if steps:
+        harness.replay(tests, "help " + topic, steps, cwd=where)
+    path = os.path.dirname(tests.fret) + ":" + tests.env["PATH"]
+    for command, *want in calls:
+        done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, cwd=where, env={**tests.env, "PATH": path})
+        got = (done.stdout + done.stderr).splitlines()[:len(want)]
+        tests.same("help %s: %s" % (topic, command), "\n".join(want), "\n".join(got))
+    return len(steps) + len(calls)
+
+
+def run(tests):
+    """Each help text of a command, a topic, a setting, a geometry or a model ends with an example; it must come out so."""
+    def one(topic):
+        done = tests.run("-c", "help " + topic)
+        tests.check("help " + topic, done.returncode == 0 and done.stdout and not done.stderr, tests.report(done))
+        wide = [line for line in done.stdout.splitlines()[1:] if len(line) > 80 and not line.startswith("    ")]
+        tests.check("help %s fits a terminal" % topic, not wide, "\n".join(wide))
+        lines = [line[4:] for line in done.stdout.splitlines() if line.startswith("    ")]
+        count = examples(tests, topic, lines)
+        tests.check("help %s has an example" % topic, count > 0 or topic not in shown, done.stdout)
+
+    def words(statement, pattern):
+        return re.findall(pattern, tests.run("-c", statement).stdout, re.M)
+    topics = " ".join(words("help", r"^Topics: (.*)\n +(.*)$")[0]).replace(",", "").split()
+    settings, geometries = words("show settings", r"^set (\w+)"), words("help geometry", r"^    geometry ([\w-]+)")
+    tests.check("what has an example", len(topics) >= 9 and len(settings) >= 8 and len(geometries) >= 10,
+                "%s\n%s\n%s" % (topics, settings, geometries))
+    shown = {*transcripts.command_names(tests), *topics, *settings, *geometries, "closed", "memory", "springs", "quadrature", "double",
+             "polynomials", "vectors"}
+    text = tests.run("-c", "help quantities").stdout
+    quantities = re.findall(r"^    (\w+)(?:\(\w+\))?  ", text, re.M)
+    tests.each([lambda t=t: one(t) for t in sorted(shown | set(quantities))])
+    tests.check("help lists the quantities", len(quantities) > 30, text)
+    inputs, _, rest = text.partition("Results:\n")
+    results, _, functions = rest.partition("Functions of the scene:\n")
+    tests.check("functions alone have an argument", "(null)" not in text and not re.findall(r"^    \w+\(", inputs + results, re.M) and
+                not re.findall(r"^    \w+ ", functions.partition("\n\n")[0], re.M), text)
+    presets = words("help material", r"^    (\S+) +E0=\S+ GPa nu=")
+    tests.check("help material lists them", {"steel", "Ti-6Al-4V", "Inconel", "bronze", "tungsten-carbide", "silicon-nitride",
+                                             "PTFE"} <= set(presets), str(presets))
+    for name in presets:
+        done = tests.run("-c", "help %s; second %s; material %s" % (name, name, name))
+        tests.check("help %s names its source" % name, done.returncode == 0 and re.search(
+            r"\n  (EN |Callister|makers|incompressible)", done.stdout), tests.report(done))
+    for word, found in APROPOS.items():
+        done = tests.run("-c", "apropos " + word)
+        tests.check("apropos " + word, all(re.search("^%s( |$)" % re.escape(name), done.stdout, re.M)
+                                           for name in found.split(", ")), tests.report(done))
+    for word, told in (("deg", "deg: an angle; 1 deg = 0.01745329252 rad\n"), ("rad", "rad: an angle; 1 rad = 1 rad\n"),
+                       ("N/mm", "no help on 'N/mm'; try: help\n"), ("%", "%: a number; 1 % = 0.01\n")):
+        done = tests.run("-c", "help " + word)
+        tests.check("help on " + word, done.stdout == told or told in done.stderr, tests.report(done))
+    for name in HELPED:
+        done = tests.run("-c", "help " + name)
+        tests.check("help on " + name, len(done.stdout) > 10 and not done.stderr, tests.report(done))
+    done = tests.run("-c", "help")
+    tests.check("help fits a screen", len(done.stdout.splitlines()) <= 24, done.stdout)

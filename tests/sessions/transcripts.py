@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The transcripts of tests/sessions, run in every way that there is, and those of README."""
+import glob
+import os
+import re
+import shutil
+import subprocess
+
+import harness
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def plots_of(tests, name, steps):
+    """A transcript's plots: the picture must come last and bear its axis labels."""
+    for i, (statement, out) in enumerate(steps):
+        if not harness.draws(statement) or any("error:" in line for line in out):
+            continue
+        script = "\n".join(s for s, _ in steps[:i + 1] if s == statement or not harness.draws(s))
+        done = tests.run("--keep-going", "-c", script)
+        label = "dx [" if statement.startswith("plot loop") else \
+            re.search(r"\bfor (\w+)", statement).group(1)
+        tail = done.stdout.splitlines()[-20:]
+        tests.check("%s: %s" % (name, statement),
+                    any(label in line for line in tail) and any("+----" in line for line in tail), tests.report(done))
+
+
+def run(tests):
+    jobs = []
+    for path in sorted(glob.glob(os.path.join(HERE, "*.txt"))):
+        name = os.path.relpath(path, harness.ROOT)
+        with open(path, encoding="utf-8") as f:
+            steps = harness.read_transcript(f.read())
+        still = [s for s in steps if not harness.draws(s[0]) or s[1]]
+        jobs.append(lambda n=name, s=steps: harness.replay(tests, n, s))
+        jobs.append(lambda n=name, s=still: harness.batch(tests, n, s))
+        jobs.append(lambda n=name, s=steps: plots_of(tests, n, s))
+    tests.each(jobs)
+    others = subprocess.run(["locale", "-a"], capture_output=True, text=True).stdout.split() \
+        if shutil.which("locale") else []
+    comma = [name for name in others if name.lower().startswith(("de_", "fr_")) and "utf" in name.lower()]
+    if comma:
+        with open(os.path.join(HERE, "contract.txt"), encoding="utf-8") as f:
+            steps = [s for s in harness.read_transcript(f.read()) if not harness.draws(s[0])]
+        kept, tests.env = tests.env, {**tests.env, "LC_ALL": comma[0]}
+        harness.batch(tests, "contract.txt in " + comma[0], steps)
+        tests.env = kept
+
+
+def fenced(text):
+    """The fenced blocks of a Markdown text."""
+    return re.findall(r"^```[a-z]*\n(.*?)^```$", text, re.S | re.M)
+
+
+def command_names(tests):
+    done = tests.run("-c", "show commands")
+    return sorted({line.split()[0] for line in done.stdout.splitlines() if line and not line.startswith(" ")})
+
+
+def readme(tests):
+    with open(os.path.join(harness.ROOT, "README.md"), encoding="utf-8") as f:
+        blocks = fenced(f.read())
+    for i, block in enumerate(blocks):
+        name = "README.md, block %d" % (i + 1)
+        if block.startswith(harness.PROMPT):
+            steps = harness.read_transcript(block)
+            harness.replay(tests, name, steps)
+            plots_of(tests, name, steps)
+        elif block.startswith("$ "):
+            path = os.path.dirname(tests.fret) + ":" + tests.env["PATH"]
+            for part in re.split(r"^\$ ", block, flags=re.M)[1:]:
+                command, _, want = part.partition("\n")
+                done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, cwd=tests.dir,
+                                      env={**tests.env, "PATH": path}, timeout=60)
+                tests.same("%s: %s" % (name, command), want, done.stdout + done.stderr)
+    with open(os.path.join(harness.ROOT, "README.md"), encoding="utf-8") as f:
+        listed = set(re.findall(r"`(\w+)`", f.read().partition("## Commands")[2].partition("\n## ")[0]))
+    for command in command_names(tests):
+        tests.check("README.md names " + command, command in listed or command == "exit", str(sorted(listed)))
