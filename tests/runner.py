@@ -62,7 +62,7 @@ ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.ru
          "smoothing": smoothing.run, "following": following.run, "readme": transcripts.readme, "fuzz": fuzzing.run,
          "portable": portable.run, "moving": moving.run, "completion": completion.run, "rough": rough.run, "typed": typed.run,
          "live": live.run, "interactive": prompt.run, "casts": casts.run}
-DRAWING = ("unit", "hard", "accuracy", "fits", "instants", "programs", "typed", "rim", "sharing", "explaining")
+DRAWING = ("unit", "hard", "numbers", "errors", "fits", "instants", "accuracy", "programs", "typed", "rim", "sharing", "explaining", "completion", "moving")
 PLAIN = ("house", "packaging")  # the sanitized program has the same sources
 OTHER = ("fuzz", "portable")  # builds of their own, in check-all alone
 WAITING = ("moving", "completion", "rough", "typed", "live", "interactive", "casts")  # for a terminal, most of the time

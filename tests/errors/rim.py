@@ -83,7 +83,7 @@ def once(tests):
              faults.calls: ("save out.fret", "record log.txt", "history to out.csv")}
 
     def one(statement, kind):
-        ends, wrong = faults.attempt(statement, kind, 0 if statement.statement in whole[kind] else 4)
+        ends, wrong = faults.attempt(statement, kind, 1 if tests.few else 0 if statement.statement in whole[kind] else 4)
         tests.check("%s that fail in: %s" % (kind.__name__, statement.statement[:60]), not wrong and (ends or statement.statement in ("exit", "quit")),
                     "\n".join("%s: %s" % (faults.told(fault), what) for fault, what in wrong) or "nothing was counted")
     statements = faults.statements(tests.fret, folder, env)
@@ -118,7 +118,7 @@ def lost_reads(tests):
             if entry.startswith("x."):
                 os.unlink(os.path.join(where, entry))
         refused = 0
-        for number in range(1, 40):
+        for number in tests.some(range(1, 40), 6):
             done = subprocess.run([tool, "told", "read", str(number), str(errno.EIO), tests.fret, "-c", script],
                                   capture_output=True, text=True, cwd=where, env=tests.env, timeout=60, check=False)
             with open(os.path.join(where, "told"), encoding="ascii") as f:
@@ -195,7 +195,7 @@ def hostile(tests):
     """Bytes from outside reach the terminal escaped, and JSON as UTF-8."""
     where = os.path.join(tests.dir, "hostile")
     os.mkdir(where)
-    for i, escape in enumerate(ESCAPES):
+    for i, escape in enumerate(tests.some(ESCAPES, 3)):
         bad = "a%sb" % escape
         name = os.path.join(where, "gap%s.csv" % escape)
         with open(name, "w", encoding="utf-8") as f:
@@ -454,7 +454,7 @@ def prompt_memory(tests):
         return
     with open(os.path.join(tests.dir, "arm"), "w", encoding="ascii"):
         pass
-    for number in range(1, 62, 12):
+    for number in tests.some(range(1, 62, 12)):
         p = Prompt(tests, LD_PRELOAD=shim, FAULT=str(number))
         text = p.say("source arm")
         for line in ("x = 5", "x", "x + 1", "\x04"):
@@ -477,7 +477,7 @@ def ended_at_work(tests):
     with open(os.path.join(tests.dir, "fake-gnuplot", "gnuplot"), "w", encoding="ascii") as f:
         f.write("#!/bin/sh\n[ \"$1\" = --version ] && { echo gnuplot 5.4; exit 0; }\necho $$ >%s/pid\nexec sleep 60\n"
                 % where)
-    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+    for number in tests.some((signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)):
         for name, statement, begun in (
                 ("a table", "table x for x = 1 .. 2 steps 100000000 to out.csv", lambda: len(os.listdir(where)) > 1),
                 ("a plot", "plot x for x = 1 .. 2 to out.png", lambda: os.path.exists(where + "/pid"))):
@@ -521,7 +521,7 @@ def interrupts(tests):
     os.mkdir(where)
     env = {**tests.env, "TERM": "dumb", "INPUTRC": "/dev/null", "XDG_STATE_HOME": where}
     size = 50 if tests.sanitized else 10
-    for case in latency.cases(where, size):
+    for case in tests.some(latency.cases(where, size), 3):
         took, kept = latency.measure(tests.fret, env, case, (0.05, 0.4))
         tests.check("Ctrl-C: " + case[0], kept and all(one[0] < 2 for one in took), "%s, scene kept: %s" % (took, kept))
     p = Prompt(tests)
@@ -602,7 +602,7 @@ def needs(tests):
     """What moves with an input cannot be told where the input cannot be; what does not, is the same there."""
     asked = quantities(tests)
     with tests.file("r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(51)), ".csv") as path:
-        tests.each([lambda s=scene, n=name: needed(tests, asked, s, n, path) for scene in NEEDING
+        tests.each([lambda s=scene, n=name: needed(tests, asked, s, n, path) for scene in tests.some(NEEDING, 3)
                     for name in {**FOLLOWS, **scene[1]} if name not in ("FA", "dxA") or name + "=" in scene[2]])
 
 
@@ -656,7 +656,7 @@ TABLED = (("material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry sphere R=10 mm; f
 def tabled(tests):
     """A column holds, row by row, what is told of the scene with that input: rows of many scenes at once, or none."""
     asked = quantities(tests) + ["E0", "nu", "k", "c0", "mu", "R", "A", "FN", "FA", "2*a+0 m", "a/a0"]
-    tests.each([lambda s=scene, r=span: columns(tests, asked, s, r) for scene, spans in TABLED for span in spans])
+    tests.each([lambda s=scene, r=span: columns(tests, asked, s, r) for scene, spans in tests.some(TABLED, 3) for span in spans])
 
 
 def columns(tests, asked, scene, span):
@@ -690,7 +690,7 @@ def along(tests):
              "cycle dxA=0.3 um; step FN=90 N", "cycle FA=12 N FNA=9 N", "cycle dxA=0.3 um FNA=9 N")
     with tests.file("r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(51)), ".csv") as path:
         tests.each([lambda g=shape, l=load: ends(tests, asked, "geometry " + (g % path if "%" in g else g), l)
-                    for shape in ("sphere R=10 mm", "flat-rounded b=0.2 mm R=10 mm", "file %s") for load in loads])
+                    for shape in tests.some(("sphere R=10 mm", "flat-rounded b=0.2 mm R=10 mm", "file %s"), 2) for load in tests.some(loads, 3)])
 
 
 def ends(tests, asked, shape, load):

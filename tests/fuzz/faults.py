@@ -444,7 +444,7 @@ def attempt(one, kind, most=0):
 
 def spread(every, most):
     """No more than so many of them."""
-    return [every[i * len(every) // most] for i in range(most)] if len(every) > most else every
+    return [every[(2 * i + 1) * len(every) // (2 * most)] for i in range(most)] if len(every) > most else every
 
 
 def leaks(one):

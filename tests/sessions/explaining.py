@@ -154,7 +154,7 @@ def swung(tests):
             known = 1e-13 if "(" not in name else 2e-5  # the exact one's fields
             tests.check("%s of %s is as good as is said" % (name, load), abs(x - y) <= max(good, known) * abs(x) and good < 0.05,
                         "%.17g, not %.17g; said %.0e" % (y, x, good))
-    tests.each([lambda row=row: one(*row) for row in SWUNG])
+    tests.each([lambda row=row: one(*row) for row in tests.some(SWUNG)])
 
 
 def run(tests):
