@@ -23,7 +23,35 @@ OPTIONS = ("-timeout=30", "-rss_limit_mb=3000", "-use_value_profile=0", "-print_
 
 
 def corpus(target):
-    return os.path.join(HERE, "corpus", target)
+    return os.path.join(HERE, "corpus", target + ".txt")
+
+
+# A paragraph an input: its lines, bytes that are no printable text as \xNN, an empty line as a backslash alone.
+def written(data):
+    text = re.sub(r"[\\\x00-\x09\x0b-\x1f\x7f\x80-\x9f\u2028\u2029\ud800-\udfff]", lambda found: "\\\\" if found.group() == "\\" else
+                  "".join("\\x%02x" % byte for byte in found.group().encode("utf-8", "surrogateescape")), data.decode("utf-8", "surrogateescape"))
+    return "\n".join(line or "\\" for line in text.split("\n"))
+
+
+def given(paragraph):
+    text = "\n".join("" if line == "\\" else line for line in paragraph.split("\n")).encode()
+    return re.sub(rb"\\(\\|x[0-9a-f]{2})", lambda found: b"\\" if found.group(1) == b"\\" else bytes([int(found.group(1)[1:], 16)]), text)
+
+
+def inputs(target):
+    """Those in git."""
+    if not os.path.exists(corpus(target)):
+        return []
+    with open(corpus(target), encoding="utf-8", newline="\n") as f:
+        return [given(paragraph) for paragraph in f.read().rstrip("\n").split("\n\n")]
+
+
+def unpack(target, folder):
+    """A file an input, as libFuzzer wants them."""
+    os.makedirs(folder)
+    for i, data in enumerate(inputs(target)):
+        pathlib.Path(folder, "%04d" % i).write_bytes(data)
+    return folder
 
 
 def environment(target, tmp):
@@ -64,8 +92,8 @@ FILES = ("r [mm],f [um]\n0,0\n0.1,0.5\n0.2,2\n0.4,8\n0.8,32\n1.6,128\n", "r,f\n0
 
 def start(target, folder):
     """Seeds of a new corpus."""
-    given = FILES if target in ("gap", "follow", "table") else seeds(target)
-    for i, text in enumerate(given):
+    texts = FILES if target in ("gap", "follow", "table") else seeds(target)
+    for i, text in enumerate(texts):
         with open(os.path.join(folder, "seed-%d" % i), "w", encoding="utf-8", newline="") as f:
             f.write(text[:LONGEST[target]])
 
@@ -84,9 +112,9 @@ def fuzz(program, target, seconds, folder, seed):
     """(executions, coverage, features, inputs, what went wrong)"""
     with tempfile.TemporaryDirectory(prefix="fret-fuzzing-") as tmp:
         dictionary(os.path.join(tmp, "words"))
-        known = [corpus(target)] if os.path.isdir(corpus(target)) else []
+        known = unpack(target, os.path.join(tmp, "known"))
         try:
-            done = subprocess.run([program, folder, *known, "-max_total_time=%d" % seconds, "-seed=%d" % seed,
+            done = subprocess.run([program, folder, known, "-max_total_time=%d" % seconds, "-seed=%d" % seed,
                                    "-max_len=%d" % LONGEST[target], "-dict=" + os.path.join(tmp, "words"),
                                    "-artifact_prefix=%s/" % tmp, *OPTIONS], capture_output=True, cwd=tmp,
                                   env=environment(target, tmp), timeout=20 * seconds + 600, check=False)
@@ -95,13 +123,13 @@ def fuzz(program, target, seconds, folder, seed):
             text, status = (error.stderr or b"").decode(errors="replace"), "no end"
         wrong = None
         if status != 0:
-            inputs = [name for name in os.listdir(tmp) if re.match("(crash|leak|timeout|oom)-", name)]
+            found = [name for name in os.listdir(tmp) if re.match("(crash|leak|timeout|oom)-", name)]
             kept = os.path.join(ROOT, "build", "fuzz", "found")
             os.makedirs(kept, exist_ok=True)
-            for name in inputs:
+            for name in found:
                 shutil.copy(os.path.join(tmp, name), os.path.join(kept, target + "-" + name))
-            given = [pathlib.Path(tmp, name).read_bytes() for name in inputs]
-            wrong = "ends with %s, given %s\n%s" % (status, " and ".join(map(repr, given)), "\n".join(
+            blame = [pathlib.Path(tmp, name).read_bytes() for name in found]
+            wrong = "ends with %s, given %s\n%s" % (status, " and ".join(map(repr, blame)), "\n".join(
                 line for line in text.splitlines() if not re.match(r"#\d+\s+(NEW|REDUCE|pulse|RELOAD)", line))[-4000:])
         runs = re.findall(r"stat::number_of_executed_units: (\d+)", text) or re.findall(r"^#(\d+)\s", text, re.M) or ["0"]
         reached = re.findall(r"cov: (\d+) ft: (\d+) corp: (\d+)", text) or [("0", "0", "0")]
@@ -122,7 +150,7 @@ def run(tests):
     def one(target):
         with tempfile.TemporaryDirectory(prefix="corpus-", dir=tests.dir) as folder:
             runs, *_, wrong = fuzz(program, target, 10, folder, 1)
-        tests.check("fuzz: " + target, not wrong and runs > len(os.listdir(corpus(target))), wrong or "%d runs" % runs)
+        tests.check("fuzz: " + target, not wrong and runs > len(inputs(target)), wrong or "%d runs" % runs)
     tests.each([lambda target=target: one(target) for target in TARGETS])
 
 
@@ -132,13 +160,13 @@ def minimise(program):
         with tempfile.TemporaryDirectory(prefix="fret-fuzzing-") as tmp:
             new = os.path.join(tmp, "new")
             os.mkdir(new)
-            folders = [folder for folder in (corpus(target), found) if os.path.isdir(folder)]
+            folders = [unpack(target, os.path.join(tmp, "known")), *([found] if os.path.isdir(found) else [])]
             subprocess.run([program, "-merge=1", "-use_counters=0", "-max_len=%d" % LONGEST[target], new, *folders, "-timeout=30", "-rss_limit_mb=3000"],
                            cwd=tmp, env=environment(target, tmp), capture_output=True, check=False)
-            shutil.rmtree(corpus(target), ignore_errors=True)
-            shutil.copytree(new, corpus(target))
-            size = sum(os.path.getsize(os.path.join(new, name)) for name in os.listdir(new))
-            print("%s: %d inputs, %d bytes" % (target, len(os.listdir(new)), size), flush=True)
+            text = "\n\n".join(sorted(written(path.read_bytes()) for path in pathlib.Path(new).iterdir())) + "\n"
+            with open(corpus(target), "w", encoding="utf-8", newline="\n") as f:
+                f.write(text)
+            print("%s: %d inputs, %d bytes" % (target, len(inputs(target)), len(text)), flush=True)
 
 
 def main():
@@ -151,14 +179,14 @@ def main():
     def one(target):
         folder = os.path.join(ROOT, "build/fuzz/corpus", target)
         os.makedirs(folder, exist_ok=True)
-        if not os.path.isdir(corpus(target)) and not os.listdir(folder):
+        if not inputs(target) and not os.listdir(folder):
             start(target, folder)
         return fuzz(program, target, seconds, folder, int.from_bytes(os.urandom(3), "big") + 1)
     text = "# make fuzz FUZZ=%d: each target for so many seconds, ASan and UBSan\n%-12s %12s %10s %10s %8s\n" % (
         seconds, "target", "executions", "edges", "features", "inputs")
     with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        for target, (runs, edges, features, inputs, wrong) in zip(chosen, pool.map(one, chosen)):
-            text += "%-12s %12d %10d %10d %8d\n" % (target, runs, edges, features, inputs)
+        for target, (runs, edges, features, kept, wrong) in zip(chosen, pool.map(one, chosen)):
+            text += "%-12s %12d %10d %10d %8d\n" % (target, runs, edges, features, kept)
             if wrong:
                 print("FAILED %s: %s" % (target, wrong), flush=True)
                 failed += 1
