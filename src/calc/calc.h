@@ -85,6 +85,8 @@ void undo_unmark(calc *c, scene_mark *m);
 bool undo_name(calc *c, size_t name);
 /* Forgets the last entry; back: its name gets its old value. */
 void undo_pop(calc *c, bool back);
+/* Takes back all that has been done since the group was c->undo.group, within one statement. */
+void undo_since(calc *c, unsigned long group);
 /* Takes back the last change; false: there is none. */
 bool calc_undo(calc *c);
 

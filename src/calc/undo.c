@@ -114,6 +114,11 @@ void undo_pop(calc *c, bool back) {
         entry_end(e);
 }
 
+void undo_since(calc *c, unsigned long group) {
+    while (c->undo.count > 0 && c->undo.entry[c->undo.count - 1].group > group)
+        undo_pop(c, true);
+}
+
 bool calc_undo(calc *c) {
     undo *u = &c->undo;
     scene *s = &c->scene;

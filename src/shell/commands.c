@@ -306,7 +306,7 @@ static const command commands[] = {
      .usage = "",
      .summary = "take back the last change of the scene",
      .help = "Of the inputs, the load or a name; again for the one before. A script run by\n"
-             "`source`, or a file that was followed, is one change.\n\n"
+             "`source`, a lesson, or a file that was followed, is one change.\n\n"
              "    fret> friction 0.4; friction 0.3\n"
              "    fret> undo\n"
              "    fret> mu\n"
@@ -642,9 +642,10 @@ static const command commands[] = {
      .keywords = "tour lesson teach figure paper",
      .usage = "[NAME]",
      .summary = "play a lesson, or a tour of the program",
-     .help = "A lesson asks, then shows each statement and its answer, in a scene of its own.\n"
-             "At the prompt a key leads on, `b` back, `q` out; in a script it plays through.\n"
-             "`show demos` lists them. Without a name: the tour.\n\n"
+     .help = "A lesson asks, then shows each statement and its answer. At the prompt a key leads\n"
+             "on, `b` back, `q` out; in a script it plays through. It begins without a scene;\n"
+             "that which it makes stays, to go on with, and `undo` brings back the one before.\n"
+             "`show demos` lists the lessons. Without a name: the tour.\n\n"
              "    fret> demo pressin\n"
              "    error: there is no demo 'pressin': did you mean pressing?\n"},
     {.name = "help",

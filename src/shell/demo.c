@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Plays scripted sessions: straight through, or a key per step at a terminal. Touches no scene of the user's.
- */
+/* Plays scripted sessions: straight through, or a key per step at a terminal. A scene that one makes stays;
+ * it is one change, for undo. */
 #include <errno.h>
 #include <string.h>
 #include <termios.h>
@@ -8,6 +8,8 @@
 
 #include "calc/file.h"
 #include "shell/command.h"
+#include "shell/progress.h"
+#include "shell/record.h"
 #include "shell/scripts.h"
 #include "shell/show.h"
 
@@ -52,18 +54,36 @@ static wish key(void) {
     return n != 1 || c == 'q' || c == 'Q' || c == CTRL_D ? LEAVE : c == 'b' || c == 'B' ? BACK : ON;
 }
 
-static wish ask(shell *sh) {
+/* A transcript does without the question. */
+static wish ask(const shell *sh) {
     static const char question[] = "(any key: go on, b: back, q: leave)";
-    fputs(question, sh->out);
     fflush(sh->out);
+    FILE *terminal = record_terminal();
+    fputs(question, terminal);
+    fflush(terminal);
     const wish w = key();
-    fprintf(sh->out, "\r%*s\r", (int)sizeof question - 1, "");
+    fprintf(terminal, "\r%*s\r", (int)sizeof question - 1, "");
+    fflush(terminal);
     if (w == BACK)
         fputs("(back)\n", sh->out);
     return shell_stop ? LEAVE : w;
 }
 
 /* ---- playing ----------------------------------------------------------------------------------- */
+
+/* In the user's session, whose settings come back when it ends. */
+typedef struct lesson {
+    shell *sh;
+    const script *s;
+    bool keys;
+    settings set; /* the user's, and the model */
+    bool automatic;
+    model_id model;
+    unsigned springs;
+    unsigned long group; /* of what was done before, for undo */
+    scene_mark *before;  /* the user's scene; NULL: nothing has been run */
+    calc_error *error;
+} lesson;
 
 static bool is_comment(const char *line) {
     return *line == '#' || !*line;
@@ -83,28 +103,33 @@ static size_t end_of(const script *s, size_t i) {
     return i;
 }
 
-static void begin(shell *own, const shell *sh) {
-    shell_init(own, sh->out, sh->err);
-    own->set = sh->set;
-    own->set.report = REPORT_OFF;
-    own->replaying = sh->replaying;
-}
-
-static void run(shell *own, const char *line) {
+static void run(lesson *l, const char *line) {
     static const source from = {NULL, true}; /* an error may be what the lesson is about */
-    shell_line(own, &from, line, strlen(line), 1);
+    shell_line(l->sh, &from, line, strlen(line), 1);
 }
 
-/* A new session, as far as before line `to`, unseen. */
-static void rewind_to(shell *own, const shell *sh, const script *s, size_t to, FILE *nowhere) {
-    shell_free(own);
-    begin(own, sh);
-    own->out = own->err = nowhere;
+/* From an empty scene. */
+static void begin(lesson *l) {
+    l->sh->set = l->set;
+    l->sh->set.report = REPORT_OFF;
+    scene_set_model(&l->sh->calc.scene, true, MODEL_CLOSED, 0);
+    run(l, "reset all");
+}
+
+/* Again from the beginning as far as before line `to`, unseen. */
+static bool rewind_to(lesson *l, size_t to) {
+    FILE *out = l->sh->out, *err = l->sh->err, *nowhere = fopen("/dev/null", "w");
+    if (!nowhere)
+        return calc_errno(l->error, errno, "cannot write /dev/null");
+    l->sh->out = l->sh->err = nowhere;
+    begin(l);
     for (size_t i = 0; i < to; i++)
-        if (!is_comment(s->line[i]))
-            run(own, s->line[i]);
-    own->out = sh->out;
-    own->err = sh->err;
+        if (!is_comment(l->s->line[i]))
+            run(l, l->s->line[i]);
+    l->sh->out = out;
+    l->sh->err = err;
+    fclose(nowhere);
+    return true;
 }
 
 static size_t step_before(const script *s, size_t to) {
@@ -115,57 +140,74 @@ static size_t step_before(const script *s, size_t to) {
 }
 
 /* Is there something wrong that no lesson is about? */
-static bool ended(const shell *own) {
-    return own->stopped || own->refused;
+static bool ended(const lesson *l) {
+    return l->sh->stopped || l->sh->refused || l->error->raised || shell_stop;
 }
 
-/* False: the user leaves. Goes back to an earlier step by *next. */
-static bool play_step(shell *own, const shell *sh, const script *s, size_t i, bool keys, size_t *next) {
-    const bool shown = sh->set.format == FORMAT_TEXT;
-    const size_t statements = statements_of(s, i);
-    *next = end_of(s, i);
-    if (shown && i < statements)
-        fputc('\n', sh->out);
-    for (; shown && i < statements; i++)
-        fprintf(sh->out, "%s\n", s->line[i]);
-    const wish w = keys && s->line[statements] ? ask(own) : ON;
-    for (i = statements; w == ON && i < *next && !shell_stop && !ended(own); i++) {
-        if (shown)
-            fprintf(sh->out, "fret> %s\n", s->line[i]);
-        run(own, s->line[i]);
-    }
-    return w != LEAVE && !shell_stop && !ended(own) && (w == ON || (*next = (size_t)-1));
-}
-
-/* False: it could not go on, as has been reported. */
-static bool play(shell *sh, const script *s, bool keys, calc_error *error) {
-    shell own;
-    FILE *nowhere = fopen("/dev/null", "w");
-    if (!nowhere)
-        return calc_errno(error, errno, "cannot write /dev/null");
-    begin(&own, sh);
-    if (sh->set.format == FORMAT_TEXT)
-        fprintf(sh->out, "%s\n", s->title);
-    size_t i = 0, next;
-    while (s->line[i] && play_step(&own, sh, s, i, keys, &next)) {
-        if (next == (size_t)-1) {
-            i = step_before(s, i);
-            rewind_to(&own, sh, s, i, nowhere);
-        } else {
-            i = next;
+static void run_step(lesson *l, size_t i, size_t end, bool shown) {
+    if (!l->before && i < end) {
+        if (!(l->before = undo_mark(&l->sh->calc))) {
+            calc_raise_memory(l->error);
+            return;
         }
+        begin(l);
     }
-    scene_also_used(&sh->calc.scene, scene_answered_by(&own.calc.scene));
-    const bool ok = !ended(&own);
-    shell_free(&own);
-    fclose(nowhere);
+    for (; i < end && !ended(l); i++) {
+        if (shown)
+            fprintf(l->sh->out, "fret> %s\n", l->s->line[i]);
+        run(l, l->s->line[i]);
+    }
+}
+
+/* False: it is over. *i: on to the next step, or back to one before. */
+static bool play_step(lesson *l, size_t *i) {
+    const bool shown = l->set.format == FORMAT_TEXT;
+    const script *s = l->s;
+    const size_t statements = statements_of(s, *i), end = end_of(s, *i);
+    FILE *out = l->sh->out;
+    if (shown && *i < statements)
+        fputc('\n', out);
+    for (size_t j = *i; shown && j < statements; j++)
+        fprintf(out, "%s\n", s->line[j]);
+    const wish w = l->keys && s->line[statements] ? ask(l->sh) : ON;
+    if (w == ON) {
+        run_step(l, statements, end, shown);
+        *i = end;
+    } else if (w == BACK && l->before) {
+        *i = step_before(s, *i);
+        rewind_to(l, *i);
+    }
+    return w != LEAVE && !ended(l);
+}
+
+/* False: it could not go on, as has been reported where there is no error; the scene is as before it. */
+static bool play(lesson *l) {
+    shell *sh = l->sh;
+    const bool stopped = sh->stopped, refused = sh->refused, interactive = sh->interactive;
+    const int depth = progress_apart();
+    sh->stopped = sh->refused = sh->interactive = false; /* an error is one line */
+    if (l->set.format == FORMAT_TEXT)
+        fprintf(sh->out, "%s\n", l->s->title);
+    for (size_t i = 0; l->s->line[i] && play_step(l, &i);)
+        ;
+    const bool ok = !ended(l);
+    sh->set = l->set;
+    scene_set_model(&sh->calc.scene, l->automatic, l->model, l->springs);
+    sh->stopped |= stopped;
+    sh->refused |= refused;
+    sh->interactive = interactive;
+    progress_together(depth);
+    if (l->before)
+        undo_scene(&sh->calc, l->before);
+    if (!ok)
+        undo_since(&sh->calc, l->group);
     return ok;
 }
 
-/* In a session of its own: the user's stays as it is. */
 bool do_demo(shell *sh, lexer *lx, const command *self) {
-    const bool tour = lx->kind == T_END;
+    const bool tour = lx->kind == T_END, text = sh->set.format == FORMAT_TEXT;
     const script *s = tour ? script_find("tour", 4) : script_find(lx->text + lx->at, word_at(lx));
+    const scene *now = &sh->calc.scene;
     (void)self;
     if (!s) {
         char word[LEX_NAME];
@@ -181,10 +223,20 @@ bool do_demo(shell *sh, lexer *lx, const command *self) {
         if (!at_end(lx))
             return false;
     }
-    const bool keys = !tour && sh->interactive && sh->set.format == FORMAT_TEXT && isatty(STDOUT_FILENO);
-    if (!play(sh, s, keys, lx->error) || shell_stop)
+    lesson l = {.sh = sh,
+                .s = s,
+                .keys = sh->interactive && text && isatty(STDOUT_FILENO),
+                .set = sh->set,
+                .automatic = now->automatic,
+                .model = now->model,
+                .springs = now->springs,
+                .group = sh->calc.undo.group,
+                .error = lx->error};
+    if (!play(&l))
         return shell_stop ? calc_interrupted(lx->error) : false;
-    if (tour && sh->set.format == FORMAT_TEXT)
+    if (text && l.before && shell_aside(sh, sh->out))
+        fputs("The scene is the lesson's now: go on with it. `undo` brings back yours.\n", sh->out);
+    if (tour && text)
         fputs("\nLessons, such as `demo pressing`: `show demos` lists them.\n", sh->out);
     return true;
 }

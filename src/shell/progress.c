@@ -105,7 +105,21 @@ void progress_wipe(void) {
     fflush(stderr);
 }
 
+/* What a statement is answered, an error perhaps, comes behind it. */
 void progress_end(void) {
+    progress_wipe();
     if (--now.depth == 0)
-        progress_hide();
+        now.on = false;
+}
+
+int progress_apart(void) {
+    const int depth = now.depth;
+    progress_hide();
+    now.depth = 0;
+    return depth;
+}
+
+void progress_together(int depth) {
+    progress_hide();
+    now.depth = depth;
 }

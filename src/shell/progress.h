@@ -10,6 +10,11 @@
 void progress_begin(const shell *sh, const char *what, size_t len);
 void progress_end(void);
 
+/* Until `together`, which takes what `apart` returns, the statements within the one that runs are told of
+ * each by itself: it waits for a reader between them, which is no work. */
+int progress_apart(void);
+void progress_together(int depth);
+
 /* How far it is, 0..1; negative: nobody knows. */
 void progress_part(double part);
 /* It is still at work; for scenes. */

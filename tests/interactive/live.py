@@ -518,7 +518,9 @@ def lessons(tests):
     live.wait(lambda s: "c/a = 0.793701" in live.raw)
     live.child.send("q")
     live.child.send("mu\r")
-    tests.check("q leaves, the scene is the user's", live.wait(r"mu = 0\.123"), live.raw)
+    tests.check("q leaves, its scene stays", live.wait(r"mu = 0\.4\n"), live.raw)
+    live.child.send("undo; mu\r")
+    tests.check("undo brings back the user's", live.wait(r"mu = 0\.123"), live.raw)
     live.child.send("\x04")
     live.gone()
 

@@ -74,8 +74,11 @@ def dialogue(tests):
     report = s.say("plot loop")
     lines = report.splitlines()
     tests.check("a plot in the terminal", "dx [nm]" in report and len(lines) <= 30 and max(map(len, lines)) <= 100, report)
-    tests.check("demo", "fret> plot loop" in s_demo(s), "")
-    tests.check("demo leaves the scene", s.say("Fx") == "Fx = 20 N")
+    tour = play(s, "demo")
+    tests.check("demo is a tour that waits", tour[0] > 5 and "fret> plot loop" in tour[1] and
+                tour[1].index("The scene is the lesson's now") < tour[1].index("Lessons, such as"), str(tour))
+    tests.check("its scene stays", s.say("c0, FA") == "c0 = 1 mm\nFA = 39 N")
+    tests.check("till undo", s.say("undo; Fx") == "Fx = 20 N")
     tests.check("help", "Commands" in s.say("help"))
     s.child.sendline("quit")
     tests.check("quit", s.end() == 0)
@@ -94,14 +97,18 @@ def dialogue(tests):
     tests.check("Ctrl-D leaves", s.end() == 0)
 
 
-def s_demo(s):
-    """The demo shows prompts of its own: wait for a line typed after it."""
-    s.child.sendline("demo")
-    s.child.sendline("1234 + 1")
-    s.child.expect(r"1234 \+ 1 = 1235")
-    text = clean(s.child.before)
-    s.prompt()
-    return text
+ASKS = re.escape("(any key: go on, b: back, q: leave)")
+
+
+def play(s, statement, key=" "):
+    """A lesson to its end; how often it has asked, and what it said."""
+    text, asked = "", 0
+    s.child.sendline(statement)
+    while s.child.expect([ASKS, r"2004hfret> $"]) == 0:
+        text += s.child.before
+        s.child.send(key)
+        asked += 1
+    return asked, clean(text + s.child.before)
 
 
 def interrupts(tests):

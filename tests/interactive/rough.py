@@ -18,7 +18,7 @@ import time
 import pexpect
 
 from live import Live, child_of
-from prompt import PROMPT, SCENE, Session, clean
+from prompt import ASKS, PROMPT, SCENE, Session, clean, play
 
 
 def started(tests, name, text):
@@ -440,7 +440,7 @@ def elsewhere(tests):
 def lessons(tests):
     """By keys to the end, back over what had been done, and all the ways to leave; without keys in JSON."""
     s = Session(tests, "--quiet", "--color=never")
-    ask = re.escape("(any key: go on, b: back, q: leave)")
+    ask = ASKS
     text, keys = "", 0
     s.child.sendline("demo pressing")
     while s.child.expect([ask, r"2004hfret> $"]) == 0:
@@ -458,16 +458,23 @@ def lessons(tests):
         want = [line for line in f.read().splitlines() if re.match(r"(?:a|dz|a/R|k|FN).* = ", line)]
     tests.check("a lesson to its end, steps gone back to said alike", keys > 4 and set(said) == set(want) and len(said) > len(want),
                 "%s\n%s" % (said, want))
-    s.child.sendline("demo shapes")
-    while s.child.expect([ask, r"2004hfret> $"]) == 0:
-        s.child.send("\r")
-    tests.check("a lesson that ends in words", re.search(r"(?m)^.*The paper: .*\s*$", clean(s.child.before)), clean(s.child.before)[-500:])
+    said = play(s, "demo shapes", "\r")[1]
+    tests.check("a lesson that ends in words", re.search(r"(?m)^.*The paper: .*\s*The scene is the lesson's now: .*`undo`.*$", said), said[-500:])
+    s.say("reset all; mu = 0.2; exponent = 7")
     for name, key in (("Q", "Q"), ("Ctrl-D", "\x04"), ("Ctrl-C", "\x03")):
-        s.child.sendline("demo pressing")
-        s.child.expect(ask)
-        s.child.send(key)
-        answer = s.prompt()
-        tests.check("a lesson is left by " + name, ("interrupted" in answer) == (key == "\x03") and s.say("1 + 1") == "1 + 1 = 2", answer)
+        for steps in (0, 2):
+            s.child.sendline("demo energy")
+            for _ in range(steps):
+                s.child.expect(ask)
+                s.child.send(" ")
+            s.child.expect(ask)
+            s.child.send(key)
+            answer = s.prompt()
+            stays = steps > 0 and key != "\x03"
+            tests.check("a lesson is left by %s after %d steps" % (name, steps), ("interrupted" in answer) == (key == "\x03") and
+                        ("the lesson's now" in answer) == stays and s.say("mu") == "mu = " + ("0.4" if stays else "0.2"), answer)
+            tests.check("what was there comes back, %s after %d" % (name, steps), s.say("undo; mu, exponent" if stays else "mu, exponent") ==
+                        "mu = 0.2\nexponent = 7", clean(s.child.before))
     s.say("set format json")
     s.child.sendline("demo pressing")
     s.child.sendline("1234 + 1")
@@ -497,5 +504,29 @@ def wiped(tests):
     live.gone()
 
 
+def thought(tests):
+    """The time that a reader takes over a lesson is no work: nothing tells of it, and nothing is written behind it."""
+    live = Live(tests, command=[tests.fret, "--no-rc", "--quiet", "--color=never"])
+    live.wait("fret>")
+    live.child.send("demo sliding\r")
+    live.wait("q: leave")
+    time.sleep(0.7)  # longer than progress waits
+    live.key(" ", "slide\n")
+    told = "error: Fx = 50 N exceeds mu*FN = 40 N: gross slip; step by displacement (dx=...) to slide"
+    tests.check("a lesson that was thought about", "Ctrl-C stops it" not in live.raw and told in live.screen.text().replace("\n", "") and
+                re.search(r"(?m)^fret> step Fx=50 N$", live.screen.text()), live.screen.text())
+    live.child.send("q\x04")
+    live.gone()
+    path = os.path.join(tests.dir, "lesson.txt")
+    s = Session(tests, "--quiet")
+    s.say("record " + path)
+    play(s, "demo sticking")
+    s.say("c, mu; undo; show")
+    s.say("record off")
+    done = tests.run("--replay", path)
+    tests.check("a lesson played by keys replays", done.returncode == 0 and done.stdout.endswith(": 2 passed, 0 failed\n"), tests.report(done))
+    leaves(s)
+
+
 def run(tests):
-    tests.rooms(failing, memory, moments, gone, pastes, histories, colors, elsewhere, lessons, wiped)
+    tests.rooms(failing, memory, moments, gone, pastes, histories, colors, elsewhere, lessons, wiped, thought)

@@ -58,9 +58,9 @@ def jobs(tests):
     out = tests.run("-c", "demo").stdout
     tests.check("demo", "a = 300.925 um" in out and "dW = 6.5235 uJ" in out and "dx [um]" in out, out)
     tests.check("the loop in the terminal names its ordinate", "Fx [N]" in out, out)
-    done = tests.run("-c", "c0 = 3 mm; k = 0.1; demo; k, c0; mu")
-    tests.check("demo has a scene of its own", done.stdout.endswith("k = 0.1\nc0 = 3 mm\n") and
-                "mu is not set" in done.stderr, tests.report(done))
+    done = tests.run("-c", "c0 = 3 mm; k = 0.1; demo; k, c0; undo; k, c0; mu")
+    tests.check("the tour begins anew, and undo brings back what was there", done.stdout.endswith(
+        "k = 0.5\nc0 = 1 mm\nk = 0.1\nc0 = 3 mm\n") and "mu is not set" in done.stderr, tests.report(done))
 
 
 def written(tests):
@@ -443,7 +443,7 @@ def many_variables(tests):
 
 
 def demos(tests):
-    """Each lesson is a transcript; `demo` plays it, drawings included, and leaves the user's scene alone."""
+    """Each lesson is a transcript; `demo` plays it, drawings included; its scene stays, the settings and names are the user's."""
     paths = sorted(glob.glob(os.path.join(harness.ROOT, "scripts", "demos", "*.txt")))
     tests.check("there are demos", len(paths) > 10)
     listed = tests.run("-c", "show demos").stdout.splitlines()
@@ -480,10 +480,17 @@ def lesson(tests, path, row):
 
 
 def lessons_aside(tests):
-    scene = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; step Fx=20 N; x = 3; "
-    done = tests.run("-c", scene + "demo sliding; Fx, x; undo; Fx")
-    tests.check("a lesson is no change", done.returncode == 0 and
-                done.stdout.endswith("Fx = 20 N\nx = 3\nFx = 20 N\n"), tests.report(done))
+    scene = "material steel; geometry sphere R=10 mm; friction 0.3; press FN=100 N; step Fx=20 N; x = 3; "
+    done = tests.run("-c", scene + "demo sliding; mu, Fx, x; step dx=1 um; undo; undo; Fx, mu; undo; step Fx=25 N; Fx")
+    tests.check("a lesson's scene stays, and is one change", done.returncode == 0 and
+                done.stdout.endswith("mu = 0.4\nFx = 40 N\nx = 3\nFx = 20 N\nmu = 0.3\nFx = 25 N\n") and
+                "the lesson's now" not in done.stdout + done.stderr, tests.report(done))
+    done = tests.run("-c", scene + "set model springs 50; set digits 4; exponent = 7; demo energy; exponent(4 N); show settings; undo; exponent, Fx")
+    tests.check("a lesson's names stay till then; settings do not", done.returncode == 0 and re.search(
+        r"(?s)exponent\(4 N\) = 3\.072\nset format.*set digits 4\n.*set model springs 50\n.*exponent = 7\nFx = 20 N\n$", done.stdout), tests.report(done))
+    done = tests.run("-c", "demo accuracy; show settings; pi; mu")
+    tests.check("nor those of its own", done.returncode == 0 and "set digits 6\n" in done.stdout and "set model auto\n" in done.stdout and
+                done.stdout.endswith("pi = 3.14159\nmu = 0.4\n"), tests.report(done))
     done = tests.run("--format=json", "-c", "demo loop")
     rows = [json.loads(line) for line in done.stdout.splitlines()]
     tests.check("a lesson in JSON", done.returncode == 0 and any(row.get("name") == "dW" for row in rows),
