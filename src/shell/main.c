@@ -303,13 +303,18 @@ static void keep_closed(void) {
             open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-/* A lost write is an error. */
+/* A lost write is an error; where nobody reads on it ends us as it ends others. */
 static int finish(shell *sh, int status) {
     record_end(sh);
     status = status == EXIT_OK && sh->lost ? EXIT_ERROR : status;
     errno = 0;
-    bool bad = ferror(sh->out) != 0;
-    if (fflush(sh->out) || bad || fclose(sh->out)) {
+    const bool bad = fflush(sh->out) || ferror(sh->out);
+    if (bad && shell_unread()) {
+        shell_free(sh);
+        signal(SIGPIPE, SIG_DFL);
+        raise(SIGPIPE);
+    } /* unreached: it has ended us */
+    if (bad || fclose(sh->out)) {
         if (status == EXIT_OK) { /* else the write has been reported, or something before it */
             fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno ? errno : EIO));
             status = EXIT_ERROR;

@@ -3,6 +3,7 @@
 #include "shell/shell.h"
 
 #include <math.h>
+#include <poll.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -396,9 +397,16 @@ void shell_error(shell *sh, const char *text) {
     sh->failed = true;
 }
 
+bool shell_unread(void) {
+    struct pollfd out = {.fd = STDOUT_FILENO};
+    return ferror(stdout) && poll(&out, 1, 0) > 0 && out.revents & (POLLERR | POLLHUP);
+}
+
 static void report_error(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
                          const calc_error *error) {
     fflush(sh->out);
+    if (shell_unread()) /* that is why */
+        return;
     /* the physical line within a continued one */
     size_t begin = 0;
     for (size_t i = 0; i < at && i < len; i++)

@@ -69,6 +69,8 @@ size_t shell_statement_end(const char *text, size_t i, size_t len);
 
 /* Reports an error that has no place in a statement. */
 void shell_error(shell *sh, const char *text);
+/* Has whoever read standard output gone, as `head` does? That is no error to be told of. */
+bool shell_unread(void);
 /* Something to be told that is no error, on standard error. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
