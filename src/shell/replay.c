@@ -181,15 +181,23 @@ typedef struct replay {
     char *got;
 } replay;
 
-static void show(FILE *out, char mark, const char *line) {
+static void show(FILE *out, char mark, const char *line, bool asides) {
     for (; *line; line = line_after(line)) {
-        const bool marked = *line == MARK_ASIDE || *line == MARK_DRAWING;
-        if (marked)
+        if (*line == MARK_DRAWING || (*line == MARK_ASIDE && !asides))
             continue;
+        line += *line == MARK_ASIDE;
         fprintf(out, "%c ", mark);
         print_safe(out, line, strcspn(line, "\n"));
         putc('\n', out);
     }
+}
+
+/* Those that a transcript cannot be without. */
+static size_t count_lines(const char *line) {
+    size_t count = 0;
+    for (; *line; line = line_after(line))
+        count += *line != MARK_ASIDE && *line != MARK_DRAWING && line_length(line) > 0 && !is_passing(line);
+    return count;
 }
 
 static size_t count_prompts(const char *line) {
@@ -265,8 +273,8 @@ static bool judge(replay *r) {
         fprintf(r->out, ":%zu: fret> ", r->at);
         print_safe(r->out, r->statement.p, r->statement.len);
         putc('\n', r->out);
-        show(r->out, '-', want);
-        show(r->out, '+', r->got);
+        show(r->out, '-', want, false);
+        show(r->out, '+', r->got, count_lines(want) > count_lines(r->got)); /* it has asides, then */
     }
     return !m.lost;
 }

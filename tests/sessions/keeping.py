@@ -276,6 +276,9 @@ def reordered(tests):
     tests.check("in degrees where these can say it", min(kinds.values()) > 5, str(kinds))
 
 
+PRESSED = "+   FN = 100 N, a = 186.626 um, dz = 3.48291 um"
+
+
 def judged(tests):
     """What makes a transcript fail and what does not: places of errors, long lines, tables, times, files, an end without answer."""
     long = "set digits 17; table x, " + ", ".join("x^%d" % i for i in range(2, 12)) + " for x = 1 .. 3 steps 2"
@@ -305,6 +308,19 @@ def judged(tests):
         f.write("fret> 1\n1 = 1\n")
     done = tests.run("--format=json", "-c", "replay in.txt; set format text; replay in.txt", cwd=where)
     tests.check("a replay in JSON", done.stdout == '{"text":"in.txt: 1 passed, 0 failed\\u000a"}\nin.txt: 1 passed, 0 failed\n', tests.report(done))
+    scene = "fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+    for lines, now in (  # reports of a terminal have their line beside them; a transcript that has none is not told of them
+            ("fret> press FN=100 N\n  FN = 100 N, a = 188 um, dz = 3.48291 um\n", [PRESSED]),
+            ("fret> press FN=100 N; cycle FA=20 N\n" + PRESSED[2:] + "\n  dW = 3 uJ, dx = 625.995 nm, c = 148.125 um\n",
+             [PRESSED, "+   dW = 1.90646 uJ, Fx = 20 N, dx = 625.995 nm, c = 148.125 um"]),
+            ("fret> press FN=100 N; a\n" + PRESSED[2:] + "\na = 188 um\n", [PRESSED, "+ a = 186.626 um"]),
+            ("fret> press FN=100 N; a\na = 188 um\n", ["+ a = 186.626 um"]),
+            ("fret> press FN=-100 N\nerror: FN is negative\n", ["+ error: FN = -100 N must be positive"]),
+            ("fret> press FN=-100 N\nerror: FN is negative\n  press FN=-100 N\n           ^~~~~~\n",
+             ["+ error: FN = -100 N must be positive", "+   press FN=-100 N", "+            ^~~~~~"])):
+        done = tests.run("--replay", "-", input=scene + lines, cwd=where)
+        told = [line for line in done.stdout.splitlines() if line.startswith("+")]
+        tests.check("what comes now in place of " + lines, told == now and done.returncode == 1 and "\x01" not in done.stdout, tests.report(done))
     with open(os.path.join(where, "out.txt"), "w", encoding="ascii") as f:
         f.write("fret> 2\n2 = 3\n")
     right, wrong = "in.txt: 1 passed, 0 failed\n", "out.txt:1: fret> 2\n- 2 = 3\n+ 2 = 2\nout.txt: 0 passed, 1 failed\n"
