@@ -78,8 +78,10 @@ static const arg save_args[] = {
 
 static const arg to_args[] = {{.kind = ARG_TO, .name = "to"}, {.kind = ARG_END}};
 
-static const arg explain_args[] = {
-    {.kind = ARG_LIST, .name = "quantity"}, {.kind = ARG_WORD, .name = "at"}, {.kind = ARG_END}};
+static const arg explain_args[] = {{.kind = ARG_LIST, .name = "quantity"},
+                                   {.kind = ARG_WORD, .name = "at"},
+                                   {.kind = ARG_WORD, .name = "conditioning"},
+                                   {.kind = ARG_END}};
 
 static const arg table_args[] = {{.kind = ARG_LIST, .name = "expression"},
                                  {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
@@ -491,21 +493,22 @@ static const command commands[] = {
      .args = explain_args,
      .group = "results",
      .keywords = "formula equation Mindlin",
-     .usage = "EXPR [at NAME=EXPR, ...]",
-     .summary = "formula, source, numbers put in, model used",
+     .usage = "EXPR [at NAME=EXPR, ...] [conditioning]",
+     .summary = "formula, source, numbers put in, model used, error",
      .help = "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs\n"
-             "that the value depends on, and how it was computed. `conditioning`: by which\n"
-             "part of itself the last binary digit of each input, of the press and of the\n"
-             "last load moves the value, and the ratio of the two. Large numbers, as close\n"
-             "to gross slip, mean that the value cannot be better than its inputs, whatever\n"
-             "the model.\n\n"
+             "that the value depends on, how it was computed, and the error of the numbers\n"
+             "alone. With `conditioning`, too: by which part of itself the last binary digit\n"
+             "of each input, of the press and of the last load moves the value, and the ratio\n"
+             "of the two. Large numbers, as close to gross slip, mean that the value cannot be\n"
+             "better than its inputs, whatever the model.\n\n"
              "    fret> material E0=210 GPa nu=0.3\n"
-             "    fret> explain eta\n"
+             "    fret> explain eta conditioning\n"
              "    eta: stiffness ratio\n"
              "        eta = c_N/c_T  (4),(5)\n"
              "        nu = 0.3\n"
              "        model: closed form\n"
              "        eta = 1.21429\n"
+             "        error: below 3e-16 of the value\n"
              "        conditioning          last digit    moves eta by  condition number\n"
              "        nu = 0.3                 1.9e-16         4.7e-17              0.25\n"
              "        no effect: E0\n"},
@@ -642,9 +645,9 @@ static const command commands[] = {
      .keywords = "tour lesson teach figure paper",
      .usage = "[NAME]",
      .summary = "play a lesson, or a tour of the program",
-     .help = "A lesson asks, then shows each statement and its answer. At the prompt a key leads\n"
-             "on, `b` back, `q` out; in a script it plays through. It begins without a scene;\n"
-             "that which it makes stays, to go on with, and `undo` brings back the one before.\n"
+     .help = "A lesson asks, then shows each statement and its answer. At the prompt a key\n"
+             "leads on, `b` back, `q` out; in a script it plays through. It begins without a\n"
+             "scene; its own stays, to go on with, and `undo` brings back the one before.\n"
              "`show demos` lists the lessons. Without a name: the tour.\n\n"
              "    fret> demo pressin\n"
              "    error: there is no demo 'pressin': did you mean pressing?\n"},

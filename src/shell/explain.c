@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command `explain`: what the quantities of an expression are made of, and how far the last digit of each
- * input moves it. Changes nothing. */
+/* The command `explain`: what the quantities of an expression are made of, what their values are good to, and
+ * on request how far the last digit of each input moves it. Changes nothing. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,7 @@ typedef struct part {
 typedef struct page {
     shell *sh;
     FILE *to;
+    bool conditioning; /* it is wanted */
     calc_error *error; /* raised: the page is not to be shown */
 } page;
 
@@ -159,8 +161,8 @@ static void put_title(const page *p, model_id model, const char *then) {
         fprintf(p->to, "    model: %s%s", models[model].title, then);
 }
 
-/* e: what is explained; NULL: it has no value. */
-static void put_sine(const page *p, const quantity *q, bool call, model_id model, const expr *e) {
+/* e: what is explained; NULL: it has no value. What that is good to; 0: nobody knows. */
+static double put_sine(const page *p, const quantity *q, bool call, model_id model, const expr *e) {
     const answers *a = &p->sh->calc.now->answers;
     const int finest = RUN_CHORDS << (LEVELS - 1);
     const bool limit = is_extrapolated(q, call);
@@ -169,20 +171,24 @@ static void put_sine(const page *p, const quantity *q, bool call, model_id model
     put_title(p, model, ", ");
     if (model == MODEL_MEMORY && a->levels == 1) { /* all that it answers: no function of another load */
         fputs("the sine itself, event by event (exact)\n", p->to);
-        return;
+        return least;
     }
     if (!by_chords(p, model, e, at)) {
         fprintf(p->to, "by %d chords a period of the sine%s\n", finest,
                 limit ? " and fewer, extrapolated" : "");
-        return;
+        return 0;
     }
     const long double last = fabsl(at[LEVELS - 1]), change = fabsl(at[LEVELS - 1] - at[LEVELS - 2]);
+    const double unsure = (double)(limit      ? run_unsure(at)
+                                   : last > 0 ? 2 * change / last
+                                              : 0),
+                 good = round_up(fmax(unsure, least));
     if (limit)
         fprintf(p->to, "converged to %.0e (the sine itself, by %d chords a period and fewer, extrapolated)\n",
-                round_up(fmax((double)run_unsure(at), least)), finest);
+                good, finest);
     else
-        fprintf(p->to, "by %d chords a period of the sine, good to %.0e\n", finest,
-                round_up(last > 0 ? fmax((double)(2 * change / last), least) : least));
+        fprintf(p->to, "by %d chords a period of the sine, good to %.0e\n", finest, good);
+    return good;
 }
 
 /* Of a scene that has been run. */
@@ -194,14 +200,17 @@ static bool swings(scene *s) {
     return reach->swings;
 }
 
-/* in_double: so the forces were had that it is made of. */
-static void put_model(const page *p, const quantity *q, bool call, const expr *e, bool in_double) {
+/* Of a load that swings *sine tells what that is good to; 0: nobody knows. in_double: so the forces were had
+ * that it is made of. */
+static model_id put_model(const page *p, const quantity *q, bool call, const expr *e, bool in_double,
+                          double *sine) {
     scene *s = p->sh->calc.now;
     const model_id exact = quantity_model(q, s, call),
                    model = in_double && exact == MODEL_MEMORY ? MODEL_DOUBLE : exact;
     const bool stepped = models[model].make;
+    *sine = 0;
     if (stepped && (q->reads & INPUT_BIT(IN_MU)) && swings(s))
-        put_sine(p, q, call, model, e);
+        *sine = put_sine(p, q, call, model, e);
     else if (model == MODEL_QUADRATURE && q->by != MODEL_QUADRATURE)
         fprintf(p->to, "    model: %s, with quadrature over the gap\n", models[MODEL_CLOSED].title);
     else
@@ -214,6 +223,55 @@ static void put_model(const page *p, const quantity *q, bool call, const expr *e
                     s->answers.run[0].repeated, s->answers.run[0].repeated == 1 ? " repeats" : "s repeat");
         put_paths(p);
     }
+    return model;
+}
+
+/* ---- the error --------------------------------------------------------------------------------- */
+
+/* A value at a place under a load: near the rim a small one is a difference of larger ones. */
+static bool is_local(const quantity *q, bool call) {
+    return call && q->load && (*q->argument == 'x' || *q->argument == 'r');
+}
+
+/* The value of e by the model that is exact for the scene. */
+static bool exact_value(const page *p, const expr *e, value *v) {
+    calc_error ignored;
+    error_clear(&ignored);
+    trial *t = trial_open(&p->sh->calc, &ignored);
+    if (t)
+        scene_set_model(&t->scene, true, MODEL_CLOSED, 0);
+    const bool ok = t && expr_eval(&p->sh->calc, e, v, &ignored);
+    if (t) {
+        t->scene.used = 0; /* it has not answered */
+        trial_close(t);
+    }
+    return had(p, ok, &ignored);
+}
+
+/* Of springs, which are an approximation. */
+static void put_difference(const page *p, const expr *e, value v) {
+    char text[160];
+    value exact;
+    if (!exact_value(p, e, &exact))
+        return;
+    const long double off = fabsl(v.v - exact.v);
+    format_value(&p->sh->set, (value){off, v.d}, text, sizeof text);
+    if (off > 0 && exact.v != 0)
+        fprintf(p->to, "    error: %.1Le of the value, beside the exact one\n", off / fabsl(exact.v));
+    else
+        fprintf(p->to, "    error: %s, beside the exact value\n", text);
+}
+
+/* What the value is good to, as README says under `How exact`. */
+static void put_error(const page *p, const quantity *q, bool call, model_id model, double sine) {
+    const scene *s = p->sh->calc.now;
+    const bool power = !s->in.geometry || s->in.geometry->power, local = is_local(q, call);
+    const char *of = local ? "largest value" : models[model].make ? "largest value so far" : "value";
+    double good = sine > 0 && local ? 1e-12 : sine > 0 || q->by || !power ? 1e-13 : DBL_EPSILON;
+    good = fmax(good, fmax(models[model].rounding, sine));
+    if (s->used & USED(MODEL_PIECES))
+        good = fmax(good, s->pieces_error);
+    fprintf(p->to, "    error: below %.0e of the %s\n", round_up(good), of);
 }
 
 /* ---- inputs and conditioning ------------------------------------------------------------------- */
@@ -395,15 +453,20 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
     if (has)
         ok = influences(c, &e, v.v, of->call ? q : NULL, argument, &study, error);
     if (ok) {
+        double sine;
         put_formula(p, q, of->call);
         put_inputs(p, q, &study);
         if (has)
             put_load(p, q, &study);
-        put_model(p, q, of->call, has ? &e : NULL, in_double);
+        const model_id model = put_model(p, q, of->call, has ? &e : NULL, in_double, &sine);
+        if (has)
+            put_value(p, of->text, of->len, v);
+        if (has && model == MODEL_SPRINGS)
+            put_difference(p, &e, v);
+        else if (has)
+            put_error(p, q, of->call, model, sine);
     }
-    if (ok && has)
-        put_value(p, of->text, of->len, v);
-    if (ok && whole)
+    if (ok && whole && p->conditioning)
         put_conditioning(p, q->name, &study);
     expr_free(&e);
     expr_free(&unused);
@@ -445,10 +508,11 @@ static bool part_of(const expr *e, size_t i, part *out) {
 
 static bool explain_whole(const page *p, const expr *e, value v, calc_error *error) {
     influence_study study;
-    if (!influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, error))
+    if (p->conditioning && !influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, error))
         return false;
     put_value(p, e->text + e->at, e->len, v);
-    put_conditioning(p, "it", &study);
+    if (p->conditioning)
+        put_conditioning(p, "it", &study);
     return true;
 }
 
@@ -573,12 +637,16 @@ static const quantity *bare_name(const lexer *lx) {
 }
 
 /* What is to be explained, `e`, in the scene as it is, or as `at` changes it: a trial, then. */
-static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v) {
+static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v,
+                            bool *conditioning) {
     bool call;
     size_t first;
     const size_t at = lx->at;
     expr *whole = &sh->list[0];
-    if (!expr_parse_at(&sh->calc, lx, whole) || !at_end(lx))
+    if (!expr_parse_at(&sh->calc, lx, whole))
+        return false;
+    *conditioning = lex_accept(lx, "conditioning");
+    if (!at_end(lx))
         return false;
     const expr *meant = expr_meant(&sh->calc, whole);
     if (!expr_changed(&sh->calc, meant, t, e, lx->error))
@@ -603,11 +671,12 @@ static bool explain_mismatch(shell *sh, lexer *lx) {
     return text_end(&text, true) || calc_no_memory(lx->error);
 }
 
-static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *asked, value v, lexer *lx) {
+static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *asked, value v,
+                    bool conditioning, lexer *lx) {
     text_out text;
     if (!text_begin(&text, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
-    const page p = {sh, text.to, lx->error};
+    const page p = {sh, text.to, conditioning, lx->error};
     bool ok = true;
     if (bare && bare->of == OF_INPUT)
         explain_input(&p, bare);
@@ -623,14 +692,15 @@ bool do_explain(shell *sh, lexer *lx, const command *self) {
     const expr *e = NULL, *asked = NULL;
     trial *changed = NULL;
     value v = {0};
+    bool conditioning = false;
     (void)self;
     if (lex_is(lx, "mismatch") && lex_peek(lx) == T_END)
         return explain_mismatch(sh, lx);
     if (no_quantity(sh, lx))
         return false;
     const quantity *bare = bare_name(lx);
-    const bool ok =
-        (bare || read_expression(sh, lx, &e, &asked, &changed, &v)) && explain(sh, bare, e, asked, v, lx);
+    const bool ok = (bare || read_expression(sh, lx, &e, &asked, &changed, &v, &conditioning)) &&
+                    explain(sh, bare, e, asked, v, conditioning, lx);
     if (changed)
         trial_close(changed);
     return ok;

@@ -232,8 +232,9 @@ static const char limits_text[] =
     "    the contact is a disc: g(x) must not fall\n"
     "    quasi-static, no adhesion, one coefficient of friction\n"
     "    the place where energy is lost inside the annulus is no result here\n\n"
-    "`accuracy` tells the numerical error of every model in your scene, and `explain`\n"
-    "what the last digit of each input does.\n";
+    "`accuracy` tells the numerical error of every model in your scene, `explain`\n"
+    "that of an answer, and `explain EXPR conditioning` what the last digit of each\n"
+    "input does to it.\n";
 
 static const char prompt_text[] =
     "    Tab            completes: commands, arguments, units, names, files\n"

@@ -66,7 +66,7 @@ OFFERED = (
 ENDED = ("geometry file gap1.csv smooth ", "undo ", "reset all ", "x over ", "friction 0.4 zebr", "2 \u00b5", "# FN", "set digits 3 f")
 # typed, and the one way that it goes on
 DONE = (
-    ("explain a ", "at "), ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("1 + " * 140 + "breadt", "h "), ("geometry file gap1.csv s", "mooth "), ("second ri", "gid "),
+    ("explain a a", "t "), ("explain a at k=0 c", "onditioning "), ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("1 + " * 140 + "breadt", "h "), ("geometry file gap1.csv s", "mooth "), ("second ri", "gid "),
     ("step dx=1 u", "m "), ("geometry flat-r", "ounded "), ("record o", "ff "), ("x = 3*kap", "pa "), ("?apr", "opos "),
     ("reset ", "all "), ("geometry file gap1.csv ", "smooth "),
     ("geometry file gap1.csv smo", "oth "), ("1; fric", "tion "), ("dW at m", "u="), ("wobbl", "e"), ("1;  fric", "tion "),

@@ -21,9 +21,9 @@ TOLD = (
     (PRESSED + "set model springs 50; cycle FA=9 N FNA=10 N times 1000\n", "W", ("    model: 50 springs, by 640 chords a period of the sine and fewer, extrapolated",), ("    cycle: ",)),
     (PRESSED + "c0 = 1 mm\n", "(dW(5 N) at k=0.2)/dW(20 N)", (r"    dW\(20 N\) = 1\.90646 uJ",), (r"    dW\(5 N\) = ",)),
     (PRESSED + "y := 1 + dW((dW(2 N)/dW(2 N))*20 N)/(1 J)\n", "y", (r"    dW\(2 N\) = .*",), ()),
-    (PRESSED, "2*(a at k=0)", (r"    2\*\(a at k=0\) = 373\.251 um", "    no effect: mu"), ("a: contact radius",)),
+    (PRESSED, "2*(a at k=0) conditioning", (r"    2\*\(a at k=0\) = 373\.251 um", "    no effect: mu"), ("a: contact radius",)),
     # a load that acts by a definition, a value of 0, and no load at all
-    (STEEL + "c0 = 1 mm; press FN=100 N; k := FN/(1 kN)\n", "kappa", ("    k = 0.1", "    FN = 100 N .*"), ("    FN now",)),
+    (STEEL + "c0 = 1 mm; press FN=100 N; k := FN/(1 kN)\n", "kappa conditioning", ("    k = 0.1", "    FN = 100 N .*"), ("    FN now",)),
     (PRESSED, "Fx*dx", ("Fx: tangential force", "    FN now = 100 N", "    Fx = 0 N", "    Fx\\*dx = 0 J"), ()),
     (STEEL, "dz(0 N)", (r"    dz\(0 N\) = 0 m",), ("    FN now",)),
     (STEEL, "f(0 m)", (r"    f\(0 m\) = 0 m",), ("    FN now",)),
@@ -44,9 +44,23 @@ TOLD = (
     (FLAT + "step FN=12 N Fx=1 N\n", "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
     (FLAT + "step Fx=1 N; step dz=2 um\n", "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
     (FLAT + "step FN=12 N; step Fx=1 N\n", "W", ("    model: memory diagram.*",), ("    law of the gap: ",)),
+    # what the answer is good to, always; conditioning on request
+    (PRESSED, "dW(20 N)", ("    error: below 3e-16 of the value",), ("    conditioning", "    no effect")),
+    (PRESSED, "dW(20 N) conditioning", ("    error: below 3e-16 of the value", "    conditioning .*", "    argument FA = 20 N .*"), ()),
+    (PRESSED, "2*dW(20 N)/dW(10 N)", ("    error: below 3e-16 of the value",), ("    conditioning", "    no effect")),
+    (PRESSED, "2*dW(20 N) at mu=0.5 conditioning", ("    mu = 0.5 .*  \\S+", "    conditioning .*"), ()),
+    (PRESSED, "mu", ("    mu = 0.4",), ("    error: ",)),
+    (PRESSED, "u1D(0.1 mm)", ("    error: below 1e-13 of the largest value",), ()),
+    (PRESSED, "E(1 mm)", ("    error: below 3e-16 of the value",), ()),
+    (PRESSED + "step Fx=10 N; step Fx=-5 N\n", "W", ("    error: below 3e-16 of the largest value so far",), ()),
+    (PRESSED + "step Fx=10 N; set model double\n", "W", ("    error: below 3e-14 of the largest value so far",), ()),
+    (PRESSED + "cycle FA=9 N FNA=10 N\n", "qx(0.1 mm)", ("    error: below 1e-12 of the largest value",), ()),
+    (PRESSED + "geometry exact-sphere R=10 mm\n", "a", ("    error: below 1e-13 of the value",), ()),
+    (SUM, "W", ("    error: below 1e-13 of the largest value so far",), ()),
+    (PRESSED + "set model springs 50\n", "W", ("    error: 0 J, beside the exact value",), ()),
     # what was given before, and is not the geometry's
     (PRESSED + "c0 = 1 mm; geometry cone slope=0.1\n", "a", ("    slope = 0.1",), ("    c0 = ", "    R = ")),
-    (PRESSED + "cycle FA=9 N FNA=10 N\n", "dW(5 N)", ("    FN now = 110 N", "    FNA = 10 N", "    no effect: .*FA.*"), ("    FA = 9 N",)),
+    (PRESSED + "cycle FA=9 N FNA=10 N\n", "dW(5 N) conditioning", ("    FN now = 110 N", "    FNA = 10 N", "    no effect: .*FA.*"), ("    FA = 9 N",)),
 )
 MANY = ("E0", "nu", "k", "c0", "mu", "R", "FN", "FA", "kappa", "eta", "beta_k", "hN", "hT", "a", "dz", "c", "Fx", "dx", "W", "U", "dW", "a0", "dz0",
         "dx0max", "dxmax", "kt", "kn", "phase", "time", "nu_2", "E0_2", "Ksec(1 N)", "Kp(1 N)", "loss_factor(1 N)", "cN(1 mm)", "cT(1 mm)",
@@ -125,6 +139,19 @@ def mixed(tests):
     tests.check("explain mismatch of no scene", done.returncode == 0 and "mismatch = " not in done.stdout and len(done.stdout) > 100, tests.report(done))
 
 
+def springs(tests):
+    """What springs make of a value, beside the exact one: as large as it is said to be."""
+    for count, load, name in ((50, "cycle FA=20 N", "dW"), (1000, "cycle FA=20 N", "c"), (80, "step Fx=20 N; step FN=90 N dx=0.3 um", "Fx"),
+                              (300, "cycle FA=9 N FNA=10 N", "dW"), (50, "k = 0.2, c0 = 1 mm; step Fx=-10 N", "dx")):
+        scene = PRESSED + load + "\n"
+        done = tests.run("--format=json", "-c", scene + "%s; set model springs %d; %s" % (name, count, name))
+        exact, got = harness.printed_values(done.stdout)
+        page = tests.run("-c", scene + "set model springs %d; explain %s" % (count, name))
+        told = re.findall(r"^    error: (\S+) of the value, beside the exact one$", page.stdout, re.M)
+        tests.check("the error of %d springs, %s of %s" % (count, name, load), got != exact and len(told) == 1 and
+                    abs(float(told[0]) / abs(got / exact - 1) - 1) < 0.06, tests.report(done) + tests.report(page))
+
+
 SWUNG = (  # k, the load
     ("0", "cycle FA=8 N FNA=39 N phase=280 deg; step FN=85 N Fx=1 N"),
     ("0", "cycle FA=19 N FNA=5 N phase=195 deg times 3"),
@@ -150,6 +177,8 @@ def swung(tests):
         stated = [float(text) for text in re.findall(r"^    model: memory diagram, .*(?:converged|good) to (\S+)", pages.stdout, re.M)]
         if not tests.check("every value of %s says how good it is" % load, len(stated) == len(got) == len(exact) == len(SWINGS), tests.report(pages)):
             return
+        told = [float(text) for text in re.findall(r"^    error: below (\S+) of ", pages.stdout, re.M)]
+        tests.check("and its error is no less: " + load, len(told) == len(stated) and all(map(float.__ge__, told, stated)), "%s\n%s" % (told, stated))
         for name, x, y, good in zip(SWINGS, exact, got, stated):
             known = 1e-13 if "(" not in name else 2e-5  # the exact one's fields
             tests.check("%s of %s is as good as is said" % (name, load), abs(x - y) <= max(good, known) * abs(x) and good < 0.05,
@@ -158,4 +187,4 @@ def swung(tests):
 
 
 def run(tests):
-    tests.rooms(told, many, bare, typeset, at_length, repeating, mixed, swung)
+    tests.rooms(told, many, bare, typeset, at_length, repeating, mixed, springs, swung)

@@ -43,12 +43,13 @@ Sets mu, Coulomb's coefficient. `mu = 0.4` does the same.
     fret> friction 0.4
     fret> mu
     mu = 0.4
-fret> explain eta
+fret> explain eta conditioning
 eta: stiffness ratio
     \u03b7 = c_N/c_T  (4),(5)
     nu = 0.3
     model: closed form
     eta = 1.21429
+    error: below 3e-16 of the value
     conditioning          last digit    moves eta by  condition number
     nu = 0.3                 1.9e-16         4.7e-17              0.25
     no effect: E0, mu, FN, R, Fx
