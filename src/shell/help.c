@@ -53,6 +53,22 @@ static void when_text(const formula *f, bool others, char *buf, size_t size) {
         snprintf(buf, size, "else");
 }
 
+/* Is the formula that of an earlier row, too? */
+static bool is_repeated(const quantity *q, size_t row) {
+    for (size_t i = 0; i < row; i++)
+        if (!strcmp(q->formulas[i].text, q->formulas[row].text))
+            return true;
+    return false;
+}
+
+/* Does it hold whatever the scene is: where its row says so, and elsewhere? */
+static bool holds_else(const quantity *q, size_t row) {
+    for (size_t i = row + 1; i < FORMULAS && q->formulas[i].text; i++)
+        if (q->formulas[i].when == WHEN_ALWAYS && !strcmp(q->formulas[i].text, q->formulas[row].text))
+            return true;
+    return false;
+}
+
 /* What values it takes, where they have a unit. */
 static void dim_line(FILE *to, const char *what, dim d) {
     char unit_text[128], described[128];
@@ -72,7 +88,11 @@ static void quantity_help(FILE *to, size_t row) {
     fprintf(to, "%s: %s\n", q->name, q->title);
     for (size_t i = 0; i < FORMULAS && q->formulas[i].text; i++) {
         const formula *f = &q->formulas[i];
+        if (is_repeated(q, i))
+            continue;
         when_text(f, i > 0, when, sizeof when);
+        if (holds_else(q, i))
+            *when = 0;
         snprintf(text, sizeof text, "%s%s%s%s%s%s", f->text, f->equation ? "  " : "",
                  f->equation ? f->equation : "", *when ? "  [" : "", when, *when ? "]" : "");
         fputs("    ", to);
