@@ -142,7 +142,10 @@ bool terminal_open(calc_error *error) {
     own.screen = newterm(NULL, stdout, stdin);
     if (!own.screen || !tigetstr("cup")) {
         const char *name = getenv("TERM");
-        calc_fail(error, 0, 0, "the full-screen mode cannot be had on this terminal (TERM=%s)",
+        calc_fail(error, 0, 0,
+                  own.screen ? "the full-screen mode cannot be had on this terminal (TERM=%s)"
+                             : "the full-screen mode does not know this terminal (TERM=%s); most are of the "
+                               "kind of xterm, try: TERM=xterm-256color fret --live",
                   name ? name : "");
         terminal_close();
         return false;

@@ -111,7 +111,7 @@ def refusals(tests):
                 tests.report(done))
     done = tests.run("--live", "a", "b")
     tests.check("two scripts", done.returncode == 2, tests.report(done))
-    for args, env, says in ((["--live"], {"TERM": "dumb"}, "TERM=dumb"), (["--live"], {"TERM": "none-such"}, "TERM=none"),
+    for args, env, says in ((["--live"], {"TERM": "dumb"}, "TERM=dumb"), (["--live"], {"TERM": "none-such"}, "not know this terminal (TERM=none-such); most are of the kind of xterm, try: TERM=xterm-256color fret --live"),
                             (["--live", "/nonexistent"], {}, "cannot read /nonexistent")):
         live = Live(tests, command=[tests.fret, *args], **env)
         status = live.gone()
@@ -735,7 +735,7 @@ def gone_on_with(tests):
 def odd_terminals(tests):
     """Terminals of few colours, without mouse, with no name, in another locale; no terminal behind it."""
     live = Live(tests, command=["/bin/sh", "-c", 'unset TERM; exec "$FRET" --live'], FRET=tests.fret)
-    tests.check("a terminal without a name", live.gone() == 1 and "(TERM=)" in live.raw, live.raw)
+    tests.check("a terminal without a name", live.gone() == 1 and "(TERM=)" in live.raw and "try: TERM=xterm" in live.raw, live.raw)
     live = Live(tests, command=["/bin/sh", "-c", '"$FRET" --live > not-a-terminal'], FRET=tests.fret)
     tests.check("a screen that is a file", live.gone() == 1 and "needs a terminal" in live.raw, live.raw)
     with tests.file("# 5 \u00b5m\nmaterial steel\n") as path:

@@ -146,9 +146,9 @@ def losses(tests, found):
 
 
 def demos(tests, found):
-    """Each plays from inside the program, in any folder, and leaves the scene alone."""
+    """Each plays from inside the program, in any folder; undo brings back the scene before it."""
     def one(name):
-        done = tests.run("-c", "mu = 0.123\ndemo %s\nmu" % name, cwd=tests.dir)
+        done = tests.run("-c", "mu = 0.123\ndemo %s\nundo; mu" % name, cwd=tests.dir)
         drawn = found[name][-1].startswith("animate") or "+--" in done.stdout
         tests.check("demo " + name, done.returncode == 0 and drawn and done.stdout.endswith("mu = 0.123\n") and
                     "fret> " + found[name][-1] in done.stdout, tests.report(done))
