@@ -154,6 +154,20 @@ bool assign_at(const lexer *lx) {
     return next == T_ASSIGN || next == T_INCREMENT || next == T_DEFINE;
 }
 
+/* What has been typed, as the command that does it. */
+static bool is_result(lexer *lx, const quantity *q) {
+    const char *text = lx->text + lx->at, *comma = memchr(text, ',', lx->end - lx->at);
+    size_t len = comma ? (size_t)(comma - text) : lx->end - lx->at;
+    while (len > 0 && text[len - 1] == ' ')
+        len--;
+    if (!quantity_has_value(q))
+        return lex_fail(lx, "%s is a function of the scene: %s", q->name, q->title);
+    if (!q->imposed || memchr(text, ':', len))
+        return lex_fail(lx, "%s is a result: it follows from the inputs and the load", q->name);
+    return lex_fail(lx, "%s is a result: it follows from the inputs and the load; try: %s %.*s", q->name,
+                    q->imposed, LEX_SHOWN(len), text);
+}
+
 static bool name_allowed(calc *c, lexer *lx, assignment *a) {
     const char *text = lx->text + lx->at;
     a->known = names_find(&c->names, text, lx->len, &a->own);
@@ -164,10 +178,7 @@ static bool name_allowed(calc *c, lexer *lx, assignment *a) {
     if (a->q && !quantity_is_input(a->q) && !strcmp(a->q->name, "E"))
         return lex_fail(lx, "E(z) is the modulus at a depth; the input is E0");
     if (a->q && !quantity_is_input(a->q))
-        return lex_fail(lx,
-                        quantity_has_value(a->q) ? "%s is a result: it follows from the inputs and the load"
-                                                 : "%s is a function of the scene: %s",
-                        a->q->name, a->q->title);
+        return is_result(lx, a->q);
     if (!a->q && taken)
         return lex_fail(lx, "'%.*s' is %s: it cannot be a variable", LEX_WORD(lx), taken);
     if (a->q && !calc_takes(c, quantity_input(a->q), lx->error)) {

@@ -90,6 +90,12 @@ void undo_since(calc *c, unsigned long group);
 /* Takes back the last change; false: there is none. */
 bool calc_undo(calc *c);
 
+/* Words that mean something elsewhere in the field, and what leads on from them here, as "p(r) tells it". Row
+ * i of them, for help; of a word, NULL where there is none. */
+const char *lead_name(size_t i); /* NULL after the last */
+const char *lead_text(size_t i);
+const char *lead_from(const char *word);
+
 /* "3 um", with no more digits than a message bears. */
 enum { CALC_VALUE_TEXT = 160 };
 void calc_value_text(dim d, double v, char text[CALC_VALUE_TEXT]);

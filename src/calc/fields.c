@@ -164,7 +164,7 @@ bool call_s1D(scene *s, value x, long double *out, calc_error *error) {
     if (!tangential_state(s, &at, error) || !scene_press(s, &press, error))
         return false;
     if (fabsl(x.v) >= press->a)
-        return calc_fail(error, 0, 0, "s1D(x) is defined within the contact");
+        return calc_fail(error, 0, 0, "s1D(x) is defined within the contact, where |x| < a: try s1D(0.99*a)");
     if (at.curve)
         fret_swing_state(at.curve, &now);
     else

@@ -78,9 +78,10 @@ typedef struct quantity {
     bool (*block)(scene *s, const double arg[], double out[], size_t count, calc_error *error);
     row_source rows;
     row_argument rows_by;
-    size_t at_row;  /* member of fret_scene_values */
-    unsigned reads; /* inputs that it can depend on */
-    bool load;      /* it depends on the load program too */
+    size_t at_row;       /* member of fret_scene_values */
+    unsigned reads;      /* inputs that it can depend on */
+    bool load;           /* it depends on the load program too */
+    const char *imposed; /* the command whose target it may be, or NULL */
     formula formulas[FORMULAS];
 } quantity;
 

@@ -6,6 +6,39 @@
 
 #include "calc/calc.h"
 
+/* What newcomers ask for by other names than it has here, or what is not to be had. */
+static const struct {
+    const char *word, *answer;
+} leads[] = {
+    {"load", "press, step, cycle and follow do it; `plot load` draws the path"},
+    {"unload", "step FN=... goes back to a smaller force"},
+    {"pressure", "p(r) tells it, `plot pressure` draws it"},
+    {"traction", "qx(r) tells it, `plot traction` draws it"},
+    {"p0", "p(0 m) is the largest pressure, of a smooth shape"},
+    {"pmean", "FN/(pi*a^2) is the mean pressure"},
+    {"stress", "p(r) and qx(r) on the surface; inside the body none is computed"},
+    {"wear", "no wear law is here; dW and W are the friction work that drives it"},
+    {"cylinder", "it touches along a line, contacts here are discs; try: help geometry"},
+    {"torsion", "no twist is computed: the load is FN and Fx"},
+    {"adhesion", "none is computed; try: help limits"},
+};
+enum { LEADS = sizeof leads / sizeof *leads };
+
+const char *lead_name(size_t i) {
+    return i < LEADS ? leads[i].word : NULL;
+}
+
+const char *lead_text(size_t i) {
+    return leads[i].answer;
+}
+
+const char *lead_from(const char *word) {
+    for (size_t i = 0; i < LEADS; i++)
+        if (!strcmp(word, leads[i].word))
+            return leads[i].answer;
+    return NULL;
+}
+
 /* Arguments of functions and of commands are no quantities, but have a dimension too. */
 static dim dimension_of(const calc *c, const char *name) {
     const quantity *q = quantity_find(name, strlen(name));

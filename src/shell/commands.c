@@ -664,11 +664,14 @@ static const command commands[] = {
      .run = do_apropos,
      .group = "the session",
      .keywords = "search",
-     .usage = "WORD",
-     .summary = "find commands and quantities by a word",
-     .help = "    fret> apropos stick\n"
+     .usage = "WORD ...",
+     .summary = "find commands and quantities by a word, or several",
+     .help = "Several words must all be there, in any order.\n\n"
+             "    fret> apropos stick\n"
              "    c           stick radius\n"
-             "    plot springs  springs between their bounds\n"},
+             "    plot springs  springs between their bounds\n"
+             "    fret> apropos contact radius\n"
+             "    a           contact radius\n"},
     {.name = "quit",
      .run = do_quit,
      .group = "the session",

@@ -624,8 +624,11 @@ static bool no_quantity(shell *sh, lexer *lx) {
     for (const char *name; (name = builtin_name(i)); i++)
         if (lex_is(lx, name))
             return false;
-    const char *near = suggest(word, quantity_name);
-    lex_fail(lx, near ? "'%s' is no quantity: did you mean %s?" : "'%s' is no quantity; try: explain dW",
+    const char *answer = lead_from(word), *near = answer ? answer : suggest(word, quantity_name);
+    lex_fail(lx,
+             answer ? "'%s' is no quantity: %s"
+             : near ? "'%s' is no quantity: did you mean %s?"
+                    : "'%s' is no quantity; try: explain dW",
              word, near);
     return true;
 }

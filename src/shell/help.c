@@ -234,6 +234,14 @@ static void builtin_help(FILE *to, size_t i) {
     fprintf(to, "%s: %s\n", builtin_name(i), builtin_summary(i));
 }
 
+static entry lead_entry(size_t i) {
+    return (entry){.name = lead_name(i), .summary = lead_text(i)};
+}
+
+static void lead_help(FILE *to, size_t i) {
+    fprintf(to, "%s: %s\n", lead_name(i), lead_text(i));
+}
+
 static entry topic_entry(size_t i) {
     const topic *t = topic_row(i);
     return (entry){
@@ -268,6 +276,7 @@ static const subject subjects[] = {
     {quantity_name, quantity_entry, quantity_help},
     {builtin_name, builtin_entry, builtin_help},
     {figure_name, figure_entry, figure_help},
+    {lead_name, lead_entry, lead_help},
     {unit_name, unit_entry, NULL},
 };
 /* clang-format on */
@@ -392,15 +401,22 @@ static bool is_about(const entry *e, const char *word, bool deep) {
            contains(e->summary, word) || contains(e->keywords, word) || (deep && contains(e->text, word));
 }
 
+/* About each of the words, ended by an empty one. */
+static bool is_about_all(const entry *e, char (*words)[LEX_NAME], bool deep) {
+    while (**words && is_about(e, *words, deep))
+        words++;
+    return !**words;
+}
+
 /* One line each; deep: by their texts too. */
-static size_t list_about(FILE *to, const char *word, bool deep) {
+static size_t list_about(FILE *to, char (*words)[LEX_NAME], bool deep) {
     enum { LABELS = 10 };
     size_t count = 0;
     for (size_t s = 0; s < SUBJECTS; s++)
         for (size_t i = 0; subjects[s].name(i); i++) {
             const entry e = subjects[s].entry(i);
             char label[LINE_LABEL];
-            if (!is_about(&e, word, deep))
+            if (!is_about_all(&e, words, deep))
                 continue;
             snprintf(label, sizeof label, "%s%s%s%s%s", e.command ? e.command : "", e.name,
                      e.argument ? "(" : "", e.argument ? e.argument : "", e.argument ? ")" : "");
@@ -413,10 +429,12 @@ static size_t list_about(FILE *to, const char *word, bool deep) {
 }
 
 const char *help_where(const char *word) {
-    enum { LEAST = 3 };                                          /* letters: less are in every text */
+    enum { LEAST = 3 }; /* letters: less are in every text */
+    char words[2][LEX_NAME] = {"", ""};
+    snprintf(words[0], LEX_NAME, "%s", word);
     if (!figure_find(word, strlen(word)) && help_on(NULL, word)) /* who looks for a figure types `plot` */
         return "help";
-    return strlen(word) >= LEAST && list_about(NULL, word, false) ? "apropos" : NULL;
+    return strlen(word) >= LEAST && list_about(NULL, words, false) ? "apropos" : NULL;
 }
 
 /* ---- the commands ------------------------------------------------------------------------------- */
@@ -486,19 +504,26 @@ bool do_help(shell *sh, lexer *lx, const command *self) {
 }
 
 bool do_apropos(shell *sh, lexer *lx, const command *self) {
-    char word[LEX_NAME];
+    enum { SOUGHT = 8 };
+    char words[SOUGHT + 1][LEX_NAME] = {""};
+    size_t count = 0, len = 0;
+    bool known = true; /* no word is longer than any name */
     text_out t;
     (void)self;
     if (lx->kind == T_END)
         return lex_fail(lx, "apropos what? such as: apropos radius");
-    raw_word(lx, word);
-    const size_t at = lx->at, len = lx->len;
-    lex_next(lx);
+    const char *text = lx->text + lx->at;
+    for (; lx->kind != T_END && count < SOUGHT; count++) {
+        raw_word(lx, words[count]);
+        known = known && *words[count];
+        len = (size_t)(lx->text + lx->at + lx->len - text);
+        lex_next(lx);
+    }
     if (!at_end(lx))
         return false;
     if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
-    if (!*word || (!list_about(t.to, word, false) && !list_about(t.to, word, true)))
-        fprintf(t.to, "nothing on '%.*s'\n", LEX_SHOWN(len), lx->text + at);
+    if (!known || (!list_about(t.to, words, false) && !list_about(t.to, words, true)))
+        fprintf(t.to, "nothing on '%.*s'%s\n", LEX_SHOWN(len), text, count > 1 ? "; try one word" : "");
     return text_end(&t, true) || calc_no_memory(lx->error);
 }

@@ -133,6 +133,8 @@ static void fail_figure(const calc *c, lexer *lx) {
     } else if (near && !strcmp(near, word)) {
         lex_next(lx);
         lex_raise(lx, "unexpected '%.*s': %s is a figure; | puts another beside it", LEX_WORD(lx), near);
+    } else if (unknown && lead_from(word)) {
+        lex_raise(lx, "there is no figure '%s': %s", word, lead_from(word));
     } else if (near) {
         lex_raise(lx, "there is no figure '%s': did you mean %s?", word, near);
     } else if (!unknown || (next != T_END && next != T_BAR)) {

@@ -261,6 +261,8 @@ static bool misspelt(shell *sh, lexer *lx) {
     if (names_find(&sh->calc.names, lx->text + lx->at, lx->len, &i) || name_taken(lx->text + lx->at, lx->len))
         return false;
     lex_word(lx, word);
+    if (lead_from(word)) /* whoever looks for the name tells */
+        return false;
     const token_kind after = lex_peek(lx);
     const char *near = suggest(word, command_name);
     if ((after != T_NAME && after != T_NUMBER && after != T_END) || !near ||

@@ -424,9 +424,11 @@ static const geometry *read_shape(lexer *lx) {
         lex_fail(lx, "which geometry? try: help geometry");
         return NULL;
     }
-    const char *near = suggest(word, geometry_name);
+    const char *answer = lead_from(word), *near = answer ? answer : suggest(word, geometry_name);
     calc_fail(lx->error, begin, len,
-              near ? "unknown geometry '%s': did you mean %s?" : "unknown geometry '%s'; try: help geometry",
+              answer ? "unknown geometry '%s': %s"
+              : near ? "unknown geometry '%s': did you mean %s?"
+                     : "unknown geometry '%s'; try: help geometry",
               word, near);
     return NULL;
 }
