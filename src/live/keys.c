@@ -384,7 +384,7 @@ static const key_row keys[] = {
     {'m', 0, mu_up, "m, M", "friction mu up, down"},
     {'M', 0, mu_down, NULL, NULL},
     {'g', 0, next_shape, "g", "the next shape"},
-    {' ', 0, play, "space", "a cycle plays; again: the last one, its end; a script: next line"},
+    {' ', 0, play, "space", "a cycle plays; again: the last one, its end; script: next line"},
     {'+', '=', FA_up, "+, -", "amplitude FA of the cycle"},
     {'-', 0, FA_down, NULL, NULL},
     {']', 0, faster, "], [", "its speed"},
@@ -394,7 +394,7 @@ static const key_row keys[] = {
     {'u', 0, undo_last, "u", "undo"},
     {'b', 0, back, "b", "back: a line of the script, else undo"},
     {'r', 0, reset, "r", "as pressed at first: nothing pushed"},
-    {':', 0, statement, ":", "a statement of the language; Tab completes; compare k = -0.5, 0.5"},
+    {':', 0, statement, ":", "any statement; Tab completes; compare k = -0.5, 0.5"},
     {'s', 0, save, "s", "save the scene as a script"},
     {'p', 0, picture, "p", "springs, loop and traction as a picture"},
     {'?', KEY_F(1), help, "?", "this help"},
@@ -402,13 +402,17 @@ static const key_row keys[] = {
 };
 enum { KEYS = sizeof keys / sizeof *keys };
 
+void live_keys(FILE *to) {
+    for (size_t i = 0; i < KEYS; i++)
+        if (keys[i].keys)
+            fprintf(to, "    %-12s %s\n", keys[i].keys, keys[i].does);
+}
+
 static void help(live *l) {
     file_text page;
     bool ok = file_text_open(&page);
-    for (size_t i = 0; i < KEYS && ok; i++)
-        if (keys[i].keys)
-            fprintf(page.to, "  %-12s %s\n", keys[i].keys, keys[i].does);
     if (ok) {
+        live_keys(page.to);
         fputs("\nThe mouse drags the point of the loop. All of it is statements: `history`, `save`\n"
               "and `undo` know them.\n",
               page.to);

@@ -40,4 +40,7 @@ typedef struct live_work {
  * cannot be read. */
 bool live_run(const live_host *host, const char *script, live_work *work, calc_error *error);
 
+/* Its keys and what they do, for help. */
+void live_keys(FILE *to);
+
 #endif

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "live/live.h"
 #include "shell/accuracy_command.h"
 #include "shell/figures.h"
 #include "shell/help.h"
@@ -369,8 +370,21 @@ static const command commands[] = {
              "it is drawn there: dumb in plain characters, block in braille (auto takes it\n"
              "where it can), sixel as a picture.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
-             "    fret> plot loop\n"
-             "    error: there is no load yet: press first (press FN=100 N)\n"},
+             "    fret> press FN=100 N; cycle FA=38 N\n"
+             "    fret> plot loop | springs to both.svg\n"
+             "    wrote both.svg (58 kB)\n"
+             "    fret> set plot 50x12\n"
+             "    fret> plot p(r) for r = 0 um .. 250 um\n"
+             "     p(r) [GPa]\n"
+             "     1.5 +---------------------------------------+\n"
+             "         ******************      +       +       |\n"
+             "     1.0 |-+              *******              +-|\n"
+             "         |                      *****            |\n"
+             "     0.5 |-+                        ***        +-|\n"
+             "         |       +       +       +    ** +       |\n"
+             "     0.0 +-----------------------------********--+\n"
+             "         0      50      100     150     200     250\n"
+             "                          r [um]\n"},
     {.name = "animate",
      .run = do_animate,
      .args = animate_args,
@@ -382,9 +396,10 @@ static const command commands[] = {
              "to a moving instant; `springs`, `pressure`, `traction` and what else goes over a\n"
              "place show the state then. Without a figure along a load it is the program.\n"
              "Ctrl-C stops.\n\n"
-             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
-             "    fret> animate springs | loop | W1D along program\n"
-             "    error: there is no load yet: press first (press FN=100 N)\n"},
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> cycle FA=30 N\n"
+             "    fret> animate springs | loop frames 8 to cycle.gif\n"
+             "    wrote cycle.gif (174 kB)\n"},
     {.name = "solve",
      .run = do_solve,
      .args = solve_args,
@@ -519,19 +534,33 @@ static const command commands[] = {
      .keywords = "error speed",
      .usage = "[FA=20 N | dxA=0.5 um] [within 3]",
      .summary = "error against time of every model, for this scene",
-     .help =
-         "A table of the models that can answer for dW: value, relative error, time of a\n"
-         "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
-         "marks one that is below what it can tell. Without an argument the amplitude is\n"
-         "that of the last cycle, else of Fx now, else half of mu*FN. Where FN swings or\n"
-         "has changed, the load program is run as it is and errors refer to a refined\n"
-         "memory diagram. Springs with `midpoint` weights x^k h converge with order 1+k\n"
-         "where k < 0. The end says what `set model auto` picks, and which springs come\n"
-         "close. Larger models are left out where all would take more than 3 seconds;\n"
-         "`within 20` allows more, `within 0.3` less. `plot accuracy` draws the table.\n\n"
-         "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-         "    fret> accuracy FA=50 N\n"
-         "    error: FA = 50 N exceeds mu*FN = 40 N: gross slip; cycle by displacement (dxA=...) to slide\n"},
+     .help = "A table of the models that can answer for dW: value, relative error, time of a\n"
+             "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
+             "marks one that is below what it can tell. Without an argument the amplitude is\n"
+             "that of the last cycle, else of Fx now, else half of mu*FN. Where FN swings or\n"
+             "has changed, the load program is run as it is and errors refer to a refined\n"
+             "memory diagram. Springs with `midpoint` weights x^k h converge with order 1+k\n"
+             "where k < 0. The end says what `set model auto` picks, and which springs come\n"
+             "close. Larger models are left out where all would take more than 3 seconds;\n"
+             "`within 20` allows more, `within 0.3` less. `plot accuracy` draws the table.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> set digits 5; accuracy FA=20 N within 0.001\n"
+             "    FA = 20 N at FN = 100 N\n"
+             "    reference: quadrature in long double, 1.9065 uJ, good to 5e-19\n"
+             "    model                 parameter      dW [uJ]     error time/cycle  x fastest\n"
+             "    closed form                           1.9065    <5e-19     ... ns        ...\n"
+             "    memory diagram                        1.9065    <5e-19     ... ns        ...\n"
+             "    loop area (21)           M = 10       1.8755   1.6e-02     ... us        ...\n"
+             "    loop area (21)          M = 100       1.9061   1.6e-04     ... us        ...\n"
+             "    diagram in double                     1.9065   1.5e-16     ... ns        ...\n"
+             "    quadrature               N = 16       1.9042   1.2e-03     ... us        ...\n"
+             "    quadrature               N = 32       1.9065   6.7e-11     ... us        ...\n"
+             "    quadrature               N = 64       1.9065    <5e-19     ... us        ...\n"
+             "    quadrature              N = 128       1.9065    <5e-19     ... us        ...\n"
+             "    springs                 N = 100       1.9069   2.2e-04     ... ns        ...\n"
+             "    springs                N = 1000       1.9065   5.5e-06     ... us        ...\n"
+             "    1000 springs: error 5.5e-06 in ... us, ... times as long as auto\n"
+             "    auto picks: closed form (constant FN): error <5e-19 in ... ns\n"},
     {.name = "show",
      .run = do_show,
      .args = show_args,
@@ -632,12 +661,17 @@ static const command commands[] = {
      .keywords = "full-screen teach demonstration tui animate",
      .usage = "[FILE]",
      .summary = "press, push and pull by hand, everything drawn: the full-screen mode",
-     .help = "Arrows push and press, space plays a cycle, `:` takes a statement, `?` lists the\n"
-             "keys, `q` leaves. What is done there are statements: undo takes them back. FILE\n"
-             "is a script to step through, space by space. It needs a terminal, or a cast that\n"
-             "records it: `record FILE.cast`.\n\n"
-             "    $ fret -c 'live'\n"
-             "    -c:1:1: error: the full-screen mode needs a terminal\n"},
+     .print = live_keys,
+     .help = "The mouse drags the point of the loop. What is done there are statements: undo\n"
+             "takes them back. FILE is a script to step through, space by space. It needs a\n"
+             "terminal, or a cast that records it: `record FILE.cast`. A transcript has after\n"
+             "the keys right, space and q:\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> live\n"
+             "    fret> step Fx+=2 N\n"
+             "    fret> cycle FA=20 N\n"
+             "    fret> dW\n"
+             "    dW = 1.90646 uJ\n"},
     {.name = "demo",
      .run = do_demo,
      .args = demo_args,
@@ -649,8 +683,11 @@ static const command commands[] = {
              "leads on, `b` back, `q` out; in a script it plays through. It begins without a\n"
              "scene; its own stays, to go on with, and `undo` brings back the one before.\n"
              "`show demos` lists the lessons. Without a name: the tour.\n\n"
-             "    fret> demo pressin\n"
-             "    error: there is no demo 'pressin': did you mean pressing?\n"},
+             "    $ fret -c 'demo sticking' | head -n 4\n"
+             "    Stick and slip: Cattaneo and Mindlin push the sphere sideways\n"
+             "    \n"
+             "    # 100 N press, friction 0.4: 40 N make the sphere slide. We push with 20 N.\n"
+             "    # Does all of the contact stick? Where will it slip first?\n"},
     {.name = "help",
      .run = do_help,
      .args = help_args,

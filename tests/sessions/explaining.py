@@ -93,7 +93,7 @@ def bare(tests):
     names = re.findall(r"^    (\w+)(?:\(\w+\))?  ", tests.run("-c", "help quantities").stdout, re.M)
     for page in re.split(r"^(?=\w+: )", tests.run("-c", "\n".join("help " + name for name in names)).stdout, flags=re.M):
         formulas = [re.sub(r"  [(\[].*", "", text) for text in re.findall(r"^    (\S.*)", page, re.M)]
-        tests.check("help gives a formula once", len(formulas) == len(set(formulas)), page)
+        tests.check("help gives a formula once: " + page[:20].partition(":")[0], len(formulas) == len(set(formulas)), page)
     for scene in ("", "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; second E0=70 GPa nu=0.2; geometry sphere R=10 mm; friction 0.4\n"
                   "press FN=100 N; cycle FA=10 N FNA=1 N\n"):
         done = tests.run("--keep-going", "-c", scene + "\n".join("explain " + name for name in names))

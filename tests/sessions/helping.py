@@ -46,6 +46,29 @@ def examples(tests, topic, lines):
     return len(steps) + len(calls)
 
 
+ERRS = ("reset",)  # whose example is about an error
+
+
+def is_at_work(lines):
+    """Does an example say anything but errors, where it says something?"""
+    begin = next((i for i, line in enumerate(lines) if line.startswith((harness.PROMPT, "$ fret "))), len(lines))
+    said = [line for line in lines[begin:] if line.strip() and not line.startswith((harness.PROMPT, "$ ", "  "))]
+    return not said or not all("error:" in line for line in said)
+
+
+def pictures(tests):
+    """What a replay spares, a drawing and times, is as it comes but for the characters and the times."""
+    scene = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\nset digits 5; set plot 50x12\n"
+    plot, accuracy = (tests.run("-c", "help " + topic).stdout for topic in ("plot", "accuracy"))
+    statement, *shown = plot.partition("set plot 50x12\n")[2].partition("\n\n")[0].splitlines()
+    drawn = tests.run("-c", scene + statement.strip()[len(harness.PROMPT):]).stdout.splitlines()
+    tests.check("help plot shows a plot", len(shown) == len(drawn) and [shown[i][4:] for i in (0, -2, -1)] == [drawn[i] for i in (0, -2, -1)],
+                "\n".join(drawn))
+    row = re.compile(r"^ *(\S.*?\S) +([\d.]+ +<?\d\S*e-\d+) +\S+ [a-z]+ +\S+$", re.M)
+    told, came = (dict(row.findall(text)) for text in (accuracy, tests.run("-c", scene + "accuracy FA=20 N within 0.3").stdout))
+    tests.check("help accuracy shows its table", len(told) > 10 and told.items() <= came.items(), "%s\n%s" % (told, came))
+
+
 def run(tests):
     """Each help text of a command, a topic, a setting, a geometry or a model ends with an example; it must come out so."""
     def one(topic):
@@ -56,6 +79,7 @@ def run(tests):
         lines = [line[4:] for line in done.stdout.splitlines() if line.startswith("    ")]
         count = examples(tests, topic, lines)
         tests.check("help %s has an example" % topic, count > 0 or topic not in shown, done.stdout)
+        tests.check("the example of %s is at work" % topic, is_at_work(lines) or topic in ERRS, done.stdout)
 
     def words(statement, pattern):
         return re.findall(pattern, tests.run("-c", statement).stdout, re.M)
@@ -91,5 +115,6 @@ def run(tests):
     for name in HELPED:
         done = tests.run("-c", "help " + name)
         tests.check("help on " + name, len(done.stdout) > 10 and not done.stderr, tests.report(done))
+    pictures(tests)
     done = tests.run("-c", "help")
     tests.check("help fits a screen", len(done.stdout.splitlines()) <= 24, done.stdout)
