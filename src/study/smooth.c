@@ -9,12 +9,30 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_poly.h>
+#include <gsl/gsl_version.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "calc/calc.h"
 #include "study/nonnegative.h"
+
+#if GSL_MAJOR_VERSION == 2 && GSL_MINOR_VERSION < 8 /* which have other names for these */
+static int gsl_bspline_init_augment(const gsl_vector *ends, gsl_bspline_workspace *w) {
+    return gsl_bspline_knots(ends, w);
+}
+
+static int gsl_bspline_basis(double x, gsl_vector *basis, size_t *first, gsl_bspline_workspace *w) {
+    size_t last;
+    return gsl_bspline_eval_nonzero(x, basis, first, &last, w);
+}
+
+static int gsl_bspline_basis_deriv(double x, size_t order, gsl_matrix *basis, size_t *first,
+                                   gsl_bspline_workspace *w) {
+    size_t last;
+    return gsl_bspline_deriv_eval_nonzero(x, order, basis, first, &last, w);
+}
+#endif
 
 /* The two first functions of the basis carry f(0) and f'(0), and are left out. */
 enum { ORDER = 4, FIXED = 2 };
@@ -100,7 +118,7 @@ static bool trial_begin(trial *t, const rows *all, size_t pieces, calc_error *er
         return calc_no_memory(error);
     for (size_t i = 0; i <= pieces; i++)
         gsl_vector_set(t->ends, i, i ? all->at[i * (all->distinct - 1) / pieces] : 0);
-    gsl_bspline_knots(t->ends, t->spline);
+    gsl_bspline_init_augment(t->ends, t->spline);
     return true;
 }
 
@@ -112,9 +130,9 @@ typedef struct line {
 
 static line line_at(const trial *t, double r) {
     line out = {.count = 0};
-    size_t first, last;
-    gsl_bspline_eval_nonzero(r, t->basis, &first, &last, t->spline);
-    for (size_t j = first; j <= last; j++)
+    size_t first;
+    gsl_bspline_basis(r, t->basis, &first, t->spline);
+    for (size_t j = first; j < first + ORDER; j++)
         if (j >= FIXED) {
             out.v[out.count] = gsl_vector_get(t->basis, j - first);
             out.at[out.count++] = j - FIXED;
@@ -173,10 +191,10 @@ static void judge(trial *t, const rows *all) {
 
 /* f and f' at the end of a piece. */
 static void end_of(const trial *t, size_t i, double *f, double *slope) {
-    size_t first, last;
-    gsl_bspline_deriv_eval_nonzero(gsl_vector_get(t->ends, i), 1, t->slopes, &first, &last, t->spline);
+    size_t first;
+    gsl_bspline_basis_deriv(gsl_vector_get(t->ends, i), 1, t->slopes, &first, t->spline);
     *f = *slope = 0;
-    for (size_t j = first; j <= last && i > 0; j++)
+    for (size_t j = first; j < first + ORDER && i > 0; j++)
         if (j >= FIXED) {
             const double c = gsl_vector_get(t->c, j - FIXED);
             *f += c * gsl_matrix_get(t->slopes, j - first, 0);
