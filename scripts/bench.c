@@ -43,7 +43,7 @@ static double spring_scheme(const fret_normal *n, const fret_press *p, long step
     double k1 = 1 + (double)f->k, a = (double)p->a, dx = (double)(mu * f->eta * p->dz);
     double cT = 2 * (double)(f->cT0 * powl(f->c0, -f->k));
     for (int i = 0; i < SPRINGS; i++) {
-        double lo = a * i / SPRINGS, hi = a * (i + 1) / SPRINGS, mid = (lo + hi) / 2;
+        double lo = a * i / (double)SPRINGS, hi = a * (i + 1) / (double)SPRINGS, mid = (lo + hi) / 2;
         weight[i] = cT * (pow(hi, k1) - pow(lo, k1)) / k1;
         bound[i] = dx * (1 - mid * mid / (a * a));
         u[i] = 0;

@@ -244,7 +244,7 @@ enum { SCAN = 64 };
 static size_t find_turns(const swing *w, int sign, double node[RUN_NODES], size_t count) {
     double before = slip_rate(w, 0, sign);
     for (int i = 1; i <= SCAN && count < RUN_NODES - 2; i++) {
-        double lo = 2 * pi * (i - 1) / SCAN, hi = 2 * pi * i / SCAN;
+        double lo = 2 * pi * (i - 1) / (double)SCAN, hi = 2 * pi * i / (double)SCAN;
         const double after = slip_rate(w, hi, sign);
         if (before * after < 0) {
             for (int j = 0; j < 50; j++) {
@@ -308,7 +308,7 @@ static fret_status chords_period(runner *r, const load_item *c, long double FN) 
         const double to = k->at[k->node + 1];
         while (k->from < to && !st.code) {
             const double end = next_look(r, &l, k->from, to), length = end - k->from;
-            const unsigned count = (unsigned)(1 + RUN_CHORDS * length / (2 * pi)) << r->level;
+            const unsigned count = (unsigned)(1 + (double)RUN_CHORDS * length / (2 * pi)) << r->level;
             while (k->chord < count && !st.code) {
                 if (must_wait(r))
                     return interrupted;

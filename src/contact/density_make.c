@@ -182,8 +182,8 @@ static bool cover_rows(maker *m, fret_real a) {
     d->kept = count <= KEPT ? d->count : d->heads;
     for (size_t i = 0; i < LOOKS; i++) {
         ring made;
-        const ring *p =
-            fret_ring_at(d, d->heads + (size_t)((double)count * ((double)i + 0.5) / LOOKS), SLOPE, &made);
+        const ring *p = fret_ring_at(
+            d, d->heads + (size_t)((double)count * ((double)i + 0.5) / (double)LOOKS), SLOPE, &made);
         d->error = fmaxl(d->error, error_of(m, p, 0));
     }
     return !fret_stopped(m->normal);

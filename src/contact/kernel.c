@@ -57,8 +57,8 @@ static void make_far(powers *p, fret_real m) {
 }
 
 void fret_kernel_power(powers *p, int of_m, int whole, fret_real m) {
-    const fret_real q = of_m * m + whole;
-    *p = (powers){.q = q, .of_m = of_m, .whole = whole, .last = 1 / (q + MOST + 1)};
+    const fret_real q = of_m * m + whole, Q = q + (fret_real)MOST;
+    *p = (powers){.q = q, .of_m = of_m, .whole = whole, .last = 1 / (Q + 1)};
     for (int j = 0; j < MOST; j++) {
         p->over[j] = 1 / (q + j + 1);
         p->with[j] = 1 / (q + j + 1 + m);
@@ -68,11 +68,11 @@ void fret_kernel_power(powers *p, int of_m, int whole, fret_real m) {
     }
     make_gauss(-q, m + 1, p->edge);
     make_gauss(1 - m, q + 2, p->below);
-    make_gauss(1 - m, q + MOST + 2, p->top);
-    make_series(m, q + MOST + 1, p->within);
-    make_series(-q - MOST, 1 - m, p->rim);
+    make_gauss(1 - m, Q + 2, p->top);
+    make_series(m, Q + 1, p->within);
+    make_series(-Q, 1 - m, p->rim);
     make_far(p, m);
-    p->whole_beta = fret_beta(q + MOST + 1, 1 - m);
+    p->whole_beta = fret_beta(Q + 1, 1 - m);
 }
 
 void fret_kernel_flat_make(flat_field *f, fret_real m) {

@@ -76,8 +76,8 @@ static void add_bend(const struct fret_leaves *all, const fret_real c[3], fret_r
 /* So far it bends so little of the whole, as f/e tells it, that doubles leave it all digits. */
 static fret_real little_to(const struct fret_leaves *all, size_t row, const fret_real jump[3]) {
     const fret_real at = fret_table_distance(all->table, row),
-                    wide = GOING_ON * (fret_table_distance(all->table, row + 1) -
-                                       fret_table_distance(all->table, row - 1)),
+                    wide = (fret_real)GOING_ON * (fret_table_distance(all->table, row + 1) -
+                                                  fret_table_distance(all->table, row - 1)),
                     part = at > wide ? fret_pow(wide / at, all->alpha + 1) : 1,
                     little = 5e-4L * fret_table_f(all->table, all->start + at) / (at * part);
     return little > 0 ? fminl(little / (fabsl(jump[1]) + sqrtl(fabsl(jump[2]) * little)), wide) : 0;

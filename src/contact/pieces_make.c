@@ -434,11 +434,12 @@ static bool cover_span(maker *m, const fret_real *row, span *s) {
 
 /* From one row of a table to another. row: distances. */
 static bool cover_rows(maker *m, const fret_real *row, size_t first, size_t last) {
-    enum { FEW = 8, WIDE = 4 };
+    enum { FEW = 8 };
+    const fret_real wide = 4;
     const size_t middle = first + (last - first) / 2;
     if (last - first < FEW && add_each(m, row, first, last))
         return true;
-    if (last - first >= FEW && row[last] >= WIDE * row[first])
+    if (last - first >= FEW && row[last] >= wide * row[first])
         return cover_rows(m, row, first, middle) && cover_rows(m, row, middle, last);
     span s = look(m, row, first, last);
     return last - first < FEW ? add_calm(m, &s, m->at_worst) : cover_span(m, row, &s);

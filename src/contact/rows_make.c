@@ -286,7 +286,7 @@ static fret_real error_of(const maker *m) {
                     carried = sum.G + sum.h * fret_rows_stiffness(all, &inner);
     fret_real worst = fabsl(fret_rows_level(all, LOADS, &inner) + carried - most) / most;
     for (int i = 0; i < LOOKS; i++) {
-        const size_t j = (size_t)((double)all->count * (i + 0.5) / LOOKS);
+        const size_t j = (size_t)((double)all->count * (i + 0.5) / (double)LOOKS);
         const fret_real *e = all->reach[SPOT_DISTANCE] + j, place = e[0] + (e[1] - e[0]) * (i % 5 + 1) / 6;
         const fret_profile p = fret_table_profile(n->gap.table, &n->rule, place);
         fret_spot at;

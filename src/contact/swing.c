@@ -134,13 +134,14 @@ static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
            way_fall(l->way, l->which, s);
 }
 
-enum { CLOSE = 16 }; /* instants closer than so many roundings are one */
+/* instants closer than so much, of the greatest, are one */
+static const fret_real CLOSE = 16 * LDBL_EPSILON;
 
 /* The first instant after lo at which a falling coordinate (bits: 1 M, 2 P) meets an end of a piece, of
  * `count`, or hi. */
 static fret_real next_crossing(const fret_swing *c, size_t count, const way *w, int coordinates, fret_real lo,
                                fret_real hi) {
-    const fret_real close = CLOSE * LDBL_EPSILON * fmaxl(1, fabsl(hi));
+    const fret_real close = CLOSE * fmaxl(1, fabsl(hi));
     fret_real next = hi;
     for (int which = M; which <= P; which++) {
         const fret_real from = way_at(w, which, lo), to = way_at(w, which, hi);
@@ -192,7 +193,7 @@ static int side_of(const fret_swing *c, const way *w, fret_real s) {
 enum { LOOKS = 24, CLOSER = 12, HALVINGS = 64 };
 
 static fret_real look(int i) {
-    const fret_real first = 0.5L / LOOKS;
+    const fret_real first = 0.5L / (fret_real)LOOKS;
     if (i < CLOSER)
         return ldexpl(first, i - CLOSER);
     if (i >= CLOSER + LOOKS)
@@ -352,7 +353,7 @@ fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, d
     c->held = false;
     fret_status st = fret_ok();
     for (size_t i = 1; i < turns && !st.code; i++)
-        if (turn[i] - turn[i - 1] > CLOSE * LDBL_EPSILON * 2 * FRET_PI)
+        if (turn[i] - turn[i - 1] > CLOSE * 2 * FRET_PI)
             st = go_between(c, &w, turn[i - 1], turn[i]);
     if (!st.code)
         st =

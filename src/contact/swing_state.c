@@ -209,7 +209,7 @@ fret_status fret_swing_memory(const fret_swing *c, fret_memory *m) {
         const piece *p = &c->pieces[i];
         fret_real from[2] = {p->first[M], p->first[P]}, to[2];
         for (int j = 1; p->curved && j < SAMPLES; j++) {
-            const fret_real s = p->lo + (p->hi - p->lo) * j / SAMPLES;
+            const fret_real s = p->lo + (p->hi - p->lo) * j / (fret_real)SAMPLES;
             to[M] = way_at(&p->way, M, s);
             to[P] = way_at(&p->way, P, s);
             put_slice(m, from, to);

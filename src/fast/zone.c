@@ -15,10 +15,10 @@ static void make_near(fret_double_law *law) {
     const fret_real radius = law->reach / 2;
     fret_real series[N] = {0}, now[N] = {0}, last[N] = {0}, sum[N] = {0};
     for (int i = 0; i < N; i++) {
-        const fret_real angle = FRET_PI * (i + 0.5L) / N,
+        const fret_real angle = FRET_PI * (i + 0.5L) / (fret_real)N,
                         value = fret_pow(1 - radius + radius * fret_cos(angle), law->sm1 - 1.0L);
         for (int j = 0; j < N; j++)
-            series[j] += (j ? 2.0L : 1.0L) / N * value * fret_cos(j * angle);
+            series[j] += (j ? 2.0L : 1.0L) / (fret_real)N * value * fret_cos(j * angle);
     }
     now[0] = 1; /* Chebyshev's polynomials as powers */
     for (int j = 0; j < N; j++) {
@@ -40,7 +40,7 @@ void fret_double_law_make(double s, double sm1, fret_double_law *law) {
     *law = (fret_double_law){.s = s, .sm1 = sm1, .bend = fabs(s * sm1), .reach = s > 8 ? 0.3 * 8 / s : 0.3};
     law->per_reach = 1 / law->reach;
     const double twice = 2 * s;
-    if (twice == floor(twice) && twice <= FRET_ZONE_HALVES)
+    if (twice == floor(twice) && twice <= (double)FRET_ZONE_HALVES)
         law->halves = (int)twice;
     law->by_table = !law->halves && s <= 6;
     if (law->by_table)

@@ -24,7 +24,7 @@ static double number(const live *l, const char *name, double otherwise) {
     return otherwise;
 }
 
-enum { PARTS = 25, FINE = 10 };
+static const double parts = 25, fine = 1 / 10.0;
 
 /* By a part of the whole. */
 static void step_by(live *l, const char *name, double whole, double way) {
@@ -33,7 +33,7 @@ static void step_by(live *l, const char *name, double whole, double way) {
         live_tell(l, true, "nothing is pressed: r presses again");
         return;
     }
-    live_amount(live_nice(whole / PARTS) * way, l->by_displacement ? DIM_LENGTH : DIM_FORCE, by, sizeof by);
+    live_amount(live_nice(whole / parts) * way, l->by_displacement ? DIM_LENGTH : DIM_FORCE, by, sizeof by);
     live_say(l, "step %s+=%s", name, by);
 }
 
@@ -53,10 +53,10 @@ static void left(live *l) {
     push(l, -1);
 }
 static void right_fine(live *l) {
-    push(l, 1.0 / FINE);
+    push(l, fine);
 }
 static void left_fine(live *l) {
-    push(l, -1.0 / FINE);
+    push(l, -fine);
 }
 static void up(live *l) {
     press(l, 1);
@@ -65,10 +65,10 @@ static void down(live *l) {
     press(l, -1);
 }
 static void up_fine(live *l) {
-    press(l, 1.0 / FINE);
+    press(l, fine);
 }
 static void down_fine(live *l) {
-    press(l, -1.0 / FINE);
+    press(l, -fine);
 }
 
 static void drive(live *l) {
@@ -149,7 +149,7 @@ static void play(live *l) {
 }
 
 static void wider(live *l, double way) {
-    const double by = live_nice(now(l)->slip > 0 ? now(l)->slip / PARTS : 1) * way, FA = l->FA + by;
+    const double by = live_nice(now(l)->slip > 0 ? now(l)->slip / parts : 1) * way, FA = l->FA + by;
     l->FA = FA > 0.5 * fabs(by) ? FA : l->FA;
     l->changed = true;
 }

@@ -49,7 +49,7 @@ static void take_bounds(const fret_memory *memory, const shot *like, shot *out) 
         return;
     }
     for (int i = 0; i <= SHOT_SAMPLES; i++)
-        out->B[i] = (double)fret_memory_bound(memory, out->a * (fret_real)i / SHOT_SAMPLES);
+        out->B[i] = (double)fret_memory_bound(memory, out->a * (fret_real)i / (fret_real)SHOT_SAMPLES);
 }
 
 /* u is straight in the depth, and so in the bound B = mu eta (dz - y), on each slice:

@@ -130,11 +130,11 @@ static void draw_springs(live *l, const side *sd, const scales *sc, rect at) {
     canvas_line(&c, 0, my, c.wide - 1, my, INK_FRAME, 4);
     for (int way = -1; way <= 1; way += 2)
         for (int i = 0; i < SHOT_SAMPLES; i++) {
-            const double x0 = mx + way * kx * s->a * i / SHOT_SAMPLES,
-                         x1 = x0 + way * kx * s->a / SHOT_SAMPLES;
+            const double x0 = mx + way * kx * s->a * i / (double)SHOT_SAMPLES,
+                         x1 = x0 + way * kx * s->a / (double)SHOT_SAMPLES;
             canvas_line(&c, x0, my - ky * s->B[i], x1, my - ky * s->B[i + 1], INK_BOUND, 2);
             canvas_line(&c, x0, my + ky * s->B[i], x1, my + ky * s->B[i + 1], INK_BOUND, 2);
-            const bool slips = s->a * (i + 0.5) / SHOT_SAMPLES > s->c;
+            const bool slips = s->a * (i + 0.5) / (double)SHOT_SAMPLES > s->c;
             canvas_line(&c, x0, my - ky * s->u[i], x1, my - ky * s->u[i + 1], slips ? INK_SLIP : INK_STICK,
                         1);
         }

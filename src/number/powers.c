@@ -26,7 +26,7 @@ void fret_powers_make(fret_real s, fret_powers *out) {
     for (int j = 0; j < FRET_POWERS; j++)
         out->series[j] = binomial[j];
     for (int i = 0; i < FRET_CELLS; i++) {
-        const fret_real middle = 1 + (i + 0.5L) / FRET_CELLS;
+        const fret_real middle = 1 + (i + 0.5L) / (fret_real)FRET_CELLS;
         const fret_real f = (middle - last) / last;
         fret_sum_add(&sum, fret_sum_value(&sum) * (f * binomial_sum(binomial, f)));
         const fret_real power = fret_sum_value(&sum);

@@ -15,8 +15,9 @@ enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
 static const plot_kind kinds[] = {
     {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3},
     {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19, 3},
-    {".pdf", PLOT_ENHANCED, "pdfcairo size %.4gcm,%.4gcm font 'Sans,%.3g' enhanced", 12.0 / WIDTH, 9.5, 2.2},
-    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / WIDTH, 10, 2},
+    {".pdf", PLOT_ENHANCED, "pdfcairo size %.4gcm,%.4gcm font 'Sans,%.3g' enhanced", 12.0 / (double)WIDTH,
+     9.5, 2.2},
+    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2},
     {".html", PLOT_ENHANCED,
      "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3},
     {".gif", PLOT_ENHANCED, "gif size %.0f,%.0f font 'Sans,%.3g' enhanced animate delay %.0f loop 0", 1, 15,
@@ -494,11 +495,11 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
                         calc_error *error) {
     size_t panels = reel->frame[0].count;
     double w = t->width     ? t->width
-               : panels > 1 ? (double)panels * BESIDE
-                            : WIDTH,
+               : panels > 1 ? (double)panels * (double)BESIDE
+                            : (double)WIDTH,
            h = t->height ? t->height : HEIGHT;
     /* texts keep their part of a panel */
-    double scale = fmin(w / (double)panels / (panels > 1 ? BESIDE : WIDTH), h / HEIGHT);
+    double scale = fmin(w / (double)panels / (panels > 1 ? BESIDE : WIDTH), h / (double)HEIGHT);
     scale = fmax(scale, 0.5);
     double points = kind->font * scale * (panels > 1 ? 0.9 : 1);
     fputs("# made by fret; to see it: gnuplot -p FILE\n", to);

@@ -210,7 +210,8 @@ static bool read_smoothing(shell *sh, lexer *lx, smoothing *how) {
     if (!expr_value(&sh->calc, lx, &v) || stray_unit(lx) || !at_end(lx))
         return false;
     const bool within = dim_equal(v.d, DIM_LENGTH), number = dim_equal(v.d, DIM_NONE);
-    if (!(within && v.v > 0) && !(number && v.v >= 1 && v.v <= SMOOTH_PIECES_MOST && v.v == floorl(v.v)))
+    if (!(within && v.v > 0) &&
+        !(number && v.v >= 1 && v.v <= (long double)SMOOTH_PIECES_MOST && v.v == floorl(v.v)))
         return calc_fail(lx->error, at, lx->last - at,
                          "smooth takes a misfit (smooth 0.1 um) or a number of pieces (smooth 8)");
     *how = (smoothing){within ? SMOOTH_WITHIN : SMOOTH_PIECES, within ? 0 : (size_t)v.v, (double)v.v};

@@ -288,24 +288,25 @@ static bool approach_edge(line *l, double bad, double other) {
 }
 
 static bool search_line(line *l) {
+    const double apart = 1 / (double)LINE;
     long double f[LINE + 1];
     int best = -1;
     places all = {.s = l->s, .count = LINE + 1};
     const bool nested = l->nested && l->axis + 1 < l->s->of->count;
     for (int i = 0; i <= LINE; i++)
-        line_place(l, (double)i / LINE, all.u[i]);
+        line_place(l, i * apart, all.u[i]);
     if (!nested && !at_all(&all))
         return false;
     for (int i = 0; i <= LINE; i++) {
-        f[i] = nested ? line_at(l, (double)i / LINE) : line_take(l, (double)i / LINE, all.u[i], all.f[i]);
+        f[i] = nested ? line_at(l, i * apart) : line_take(l, i * apart, all.u[i], all.f[i]);
         if (l->s->q.error->raised)
             return false;
-        if (!isnan(f[i]) && l->u == (double)i / LINE)
+        if (!isnan(f[i]) && l->u == i * apart)
             best = i;
     }
     if (best < 0)
         return true;
-    const double u = l->u, before = (double)(best - 1) / LINE, after = (double)(best + 1) / LINE;
+    const double u = l->u, before = (best - 1) * apart, after = (best + 1) * apart;
     if (best > 0 && isnan(f[best - 1]))
         return approach_edge(l, before, best < LINE ? after : u);
     if (best < LINE && isnan(f[best + 1]))

@@ -73,7 +73,7 @@ static void slices(void) {
     fret_normal *n = NULL;
     fret_press p;
     for (int i = 0; i < MANY; i++) {
-        x[i] = 1e-3 * i / MANY;
+        x[i] = 1e-3 * i / (double)MANY;
         depth[i] = x[i] * x[i] / 0.02;
     }
     for (int rows = unit_skips(1) ? ROWS : MANY; rows; rows = rows == MANY ? ROWS : 0) {
@@ -106,7 +106,7 @@ static void rows_on_demand(void) {
     struct fret_table *table = NULL;
     fret_normal *n = NULL, *other = NULL;
     for (int i = 0; i < MANY; i++) {
-        x[i] = 1e-3 * i / MANY;
+        x[i] = 1e-3 * i / (double)MANY;
         depth[i] = x[i] * x[i] / 0.02 * (1 + 1e-6 * (i * 7919 % 101) / 101.0);
     }
     CHECK_OK(fret_table_make(x, depth, MANY, NULL, &table));
@@ -467,7 +467,7 @@ static void pressure_of_many_rows(void) {
     fret_fields *many = NULL;
     fret_real q = 0, again = 0;
     for (int i = 0; i < MANY; i++) {
-        x[i] = 1e-3 * i / MANY;
+        x[i] = 1e-3 * i / (double)MANY;
         depth[i] = x[i] * x[i] / 0.02;
     }
     CHECK_OK(fret_table_make(x, depth, MANY, NULL, &table));

@@ -161,7 +161,7 @@ static void powers(void) {
         fret_double_powers_make(s, &shorter);
         fret_powers_make(s, &longer);
         for (int j = 0; j < 4000; j++) {
-            const double corner = (1 + floor(unit_random(&seed, 0, FRET_CELLS)) / FRET_CELLS) *
+            const double corner = (1 + floor(unit_random(&seed, 0, FRET_CELLS)) / (double)FRET_CELLS) *
                                   ldexp(1, (int)floor(unit_random(&seed, -34, 3)));
             const double x = j % 4 == 0   ? corner
                              : j % 4 == 1 ? corner * (1 - DBL_EPSILON / 2)

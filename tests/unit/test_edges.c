@@ -61,8 +61,9 @@ static void mean(const twins *t, fret_real from, fret_real to) {
         return;
     }
     for (int i = 0; i < 8 * PARTS; i++) {
-        const fret_real s = (i / 8 + fret_gauss_node[i % 8]) / PARTS;
-        sum += fret_law_force(t->plain, lo + way * s * s) * 2 * s * fret_gauss_weight[i % 8] / PARTS;
+        const fret_real s = (i / 8 + fret_gauss_node[i % 8]) / (fret_real)PARTS;
+        sum +=
+            fret_law_force(t->plain, lo + way * s * s) * 2 * s * fret_gauss_weight[i % 8] / (fret_real)PARTS;
     }
     CHECK_REL(got, sum, 1e-9L);
 }

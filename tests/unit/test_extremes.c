@@ -601,7 +601,7 @@ static void check_arrays(const fret_contact *c, double least, double most) {
     fret_press press;
     fret_real want;
     for (int i = 0; i < MANY; i++)
-        F[i] = least * pow(most / least, i / (MANY - 1.0));
+        F[i] = least * pow(most / least, i / ((double)MANY - 1.0));
     for (int i = 0; i < MANY && !code; i++)
         code = fret_cycle_loss_by_force(c, F[i], &want).code;
     CHECK_CODE(fret_batch_loss(c, F, loss, MANY), code);

@@ -398,10 +398,10 @@ static fret_real many_surface(const fret_normal *n, fret_real a, fret_real dz, f
 enum { ROWS = 2600 };
 static struct fret_table *rows_of(shape which, double off, double r[ROWS]) {
     static double f[ROWS];
-    const double start = which == FLAT_TABLE ? 1e-3 * 20 / ROWS : 0;
+    const double start = which == FLAT_TABLE ? 1e-3 * 20 / (double)ROWS : 0;
     struct fret_table *t = NULL;
     for (int i = 1; i < ROWS; i++) {
-        r[i] = 1e-3 * (i + uniform(-0.2, 0.2)) / ROWS;
+        r[i] = 1e-3 * (i + uniform(-0.2, 0.2)) / (double)ROWS;
         const double x = fmax(r[i] - start, 0);
         f[i] = (which == POINTED_TABLE ? 0.01 * x * (1 + x / 1e-3) : x * x / 0.02) * (1 + uniform(-off, off));
     }
@@ -469,7 +469,7 @@ static void leaves_of_many(double k, double off) {
     fret_fields *fields = NULL;
     fret_normal *n = NULL;
     for (int i = 1; i < LEAVES; i++) {
-        r[i] = 1e-3 * (i + uniform(-0.2, 0.2)) / LEAVES;
+        r[i] = 1e-3 * (i + uniform(-0.2, 0.2)) / (double)LEAVES;
         f[i] = r[i] * r[i] / 0.02 * (1 + uniform(-off, off));
     }
     CHECK_OK(fret_table_make(r, f, LEAVES, NULL, &t));
@@ -701,7 +701,7 @@ static struct fret_table *spread_rows(spread how, double r[ROWS]) {
     struct fret_table *t = NULL;
     const int flat = how == LATE ? ROWS - 300 : 0, dense = ROWS - 40;
     for (int i = 1; i < ROWS; i++) {
-        const double x = (i + uniform(-0.2, 0.2)) / ROWS;
+        const double x = (i + uniform(-0.2, 0.2)) / (double)ROWS;
         r[i] = how == CROWDED ? 1e-3 * (1 - pow(2, -20 * x))
                : how == LATE  ? 1e-3 * x
                : i < dense    ? 1e-5 * x
@@ -787,7 +787,7 @@ static void many_stop(void) {
     fret_fields *fields = NULL;
     fret_real p = 0;
     for (int i = 1; i < ROWS; i++) {
-        r[i] = 1e-3 * i / ROWS;
+        r[i] = 1e-3 * i / (double)ROWS;
         f[i] = r[i] * r[i] / 0.02;
     }
     CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));

@@ -267,7 +267,7 @@ static void drift(void) {
         for (int j = 0; j < 6; j++)
             fret_masing_to_dx(p.masing, path[j] * p.slip, &Fx);
     CHECK(Fx == first);
-    CHECK_REL(fret_masing_loss(p.masing) - start, ROUNDS * round, 2e-15L);
+    CHECK_REL(fret_masing_loss(p.masing) - start, (fret_real)ROUNDS * round, 2e-15L);
     drop(&p);
 }
 

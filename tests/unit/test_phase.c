@@ -161,12 +161,13 @@ static void sharp_turns(void) {
                 phase_of(normal, by, full, edge, full, j % 2 ? fminl(full, edge) * uniform() : 0);
             fret_real sum = 0, gross = 0;
             for (int m = 0; m < PARTS; m++) {
-                const fret_real t = (fret_real)m / PARTS, u = (fret_real)(m + 1) / PARTS;
+                const fret_real t = (fret_real)m / (fret_real)PARTS,
+                                u = (fret_real)(m + 1) / (fret_real)PARTS;
                 const fret_phase part =
                     phase_of(normal, by, full + (edge - full) * t, full + (edge - full) * u,
                              full + (whole.front1 - full) * t, full + (whole.front1 - full) * u);
                 sum += fret_phase_loss(&part);
-                gross += by == DEPTH ? fret_phase_force(&part) / PARTS : 0;
+                gross += by == DEPTH ? fret_phase_force(&part) / (fret_real)PARTS : 0;
             }
             CHECK_REL(fret_phase_loss(&whole), sum, 1e-12L);
             if (by == DEPTH)

@@ -65,10 +65,10 @@ static stretch twin_between(const fret_normal *n, fret_real outer, fret_real inn
         const fret_real kink = fret_gap_kink(&n->gap, hi), lo = fmaxl(kink, inner);
         const fret_real from = sqrtl(sqrtl(lo - kink)), way = sqrtl(sqrtl(hi - kink)) - from;
         for (int i = 0; i < 8 * PARTS; i++) {
-            const fret_real s = from + way * (i / 8 + fret_gauss_node[i % 8]) / PARTS,
+            const fret_real s = from + way * (i / 8 + fret_gauss_node[i % 8]) / (fret_real)PARTS,
                             e = kink + s * s * s * s, t = edge - twin_at(n, e).y;
             const fret_real dK = (1 + k) * fret_normal_stiffness(n, start + e) / (start + e) * 4 * s * s * s *
-                                 way * fret_gauss_weight[i % 8] / PARTS;
+                                 way * fret_gauss_weight[i % 8] / (fret_real)PARTS;
             sum.K += dK;
             sum.G += t * dK;
             sum.L += t * (sum.h - t) * dK;

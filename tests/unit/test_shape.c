@@ -443,7 +443,7 @@ static void ends(void) {
     struct fret_table *table[2] = {NULL}; /* the second with a flat end */
     for (int flat = 0; flat < 2; flat++) {
         for (int i = 0; i < ROWS; i++) {
-            const double from = flat ? 1e-3 * FLAT / (ROWS - 1) : 0,
+            const double from = flat ? 1e-3 * (double)FLAT / (ROWS - 1) : 0,
                          x = fmax((r[i] = 1e-3 * i / (ROWS - 1)) - from, 0);
             f[i] = x * x / 0.03 + (flat ? 0 : x / 70);
         }

@@ -80,7 +80,7 @@ static void springs(void) {
         CHECK_OK(fret_press_by_force(c.normal, 20, &c.press));
         fret_memory *m = pressed(c.normal, mu, 20);
         const fret_real slip = fret_gross_slip(&c), eta = fret_normal_foundation(c.normal)->eta;
-        const fret_real cell = c.press.a / SPRINGS;
+        const fret_real cell = c.press.a / (fret_real)SPRINGS;
         const double order = fmin(2, fret_normal_gap(c.normal)->power[0].n + gradings[i / POWERS] + 1);
         const fret_real error = 4 * pow(SPRINGS, -order); /* of the cells */
         double dx = 0;
@@ -126,7 +126,8 @@ static void cells(void) {
         const fret_real eta = fret_normal_foundation(n)->eta, slip = mu * eta * s.dz;
         fret_real work = 0, scale = 0, Fx = 0, last = 0;
         for (int j = 0; j < CELLS; j++) {
-            const fret_real x = s.a * (j + 0.5L) / CELLS, K = fret_normal_stiffness(n, s.a * (j + 1) / CELLS);
+            const fret_real x = s.a * (j + 0.5L) / (fret_real)CELLS,
+                            K = fret_normal_stiffness(n, s.a * (j + 1) / (fret_real)CELLS);
             const fret_real u = fret_memory_displacement(m, x), bound = fret_memory_bound(m, x);
             CHECK(fabsl(u) <= bound + 1e-17L * slip);
             work -= (K - last) * fabsl(u * (s.dx - u)) / eta;

@@ -86,7 +86,7 @@ static fret_real constant_load_error(pair *p, size_t count, fret_weight rule, bo
     enum { CUTS = 16 };
     fret_real sum = 0;
     for (int cut = 0; cut < CUTS; cut++) {
-        springs_of(p, count, p->radius * (1 + (cut + 0.5) / CUTS / (double)count), rule);
+        springs_of(p, count, p->radius * (1 + (cut + 0.5) / (double)CUTS / (double)count), rule);
         fret_memory_reset(p->memory);
         go(p, press_only(p->FN), 1);
         for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) {
@@ -95,7 +95,7 @@ static fret_real constant_load_error(pair *p, size_t count, fret_weight rule, bo
             sum += d * d;
         }
     }
-    return sqrtl(sum / CUTS);
+    return sqrtl(sum / (fret_real)CUTS);
 }
 
 static double order_in_count(double n, double k, fret_weight rule, bool by_force) {
@@ -137,7 +137,7 @@ static fret_real oblique_error(pair *p, unsigned substeps) {
         fret_real d = distance(p);
         sum += d * d;
     }
-    return sqrtl(sum / STEPS);
+    return sqrtl(sum / (fret_real)STEPS);
 }
 
 static void test_order_in_substeps(void) {
@@ -553,7 +553,7 @@ static void test_constant_depth(void) {
     const fret_step press_down = to_depth(dz, 0);
     CHECK_OK(fret_springs_step(p.springs, &press_down, 1));
     const fret_foundation *f = fret_normal_foundation(p.normal);
-    const double cell = p.radius * (1 + 1e-9) / COUNT, eta = (double)f->eta, k1 = 1 + (double)f->k,
+    const double cell = p.radius * (1 + 1e-9) / (double)COUNT, eta = (double)f->eta, k1 = 1 + (double)f->k,
                  scale = (double)(2 * f->cN0 * powl(f->c0, -f->k)) * pow(cell, k1) / k1;
     static double u[COUNT];
     double W = 0, old = 0;

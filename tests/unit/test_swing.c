@@ -241,7 +241,7 @@ static void in_parts(int count) {
             CHECK(b.FN == a.FN && b.Fx == a.Fx && b.dz == a.dz && b.a == a.a);
             CHECK_REL(b.c, a.c, 1e-6L);
             for (int j = 1; j <= CHORDS; j++) {
-                const fret_real s = angle * j / CHORDS;
+                const fret_real s = angle * j / (fret_real)CHORDS;
                 CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX,
                                                           (double)(w.FN + w.FNA * cosl(s + w.phase)),
                                                           (double)(w.FA * cosl(s))}));
@@ -679,7 +679,7 @@ static void from_one_way_to_another(void) {
             const fret_sine *w = quarter ? &second[i] : &first;
             CHECK_OK(fret_swing_part(s, w, 0.25 * quarter, 0.25 * (quarter + 1)));
             for (int j = 1; j <= CHORDS; j++) {
-                const fret_real angle = acosl(-1) / 2 * (quarter + (fret_real)j / CHORDS);
+                const fret_real angle = acosl(-1) / 2 * (quarter + (fret_real)j / (fret_real)CHORDS);
                 CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX,
                                                           (double)(w->FN + w->FNA * cosl(angle + w->phase)),
                                                           (double)(w->FA * cosl(angle))}));

@@ -101,7 +101,7 @@ static fret_real surface_of(const fret_swing *s, const fret_real *kink, size_t c
     const fret_real k = s->normal->foundation.k;
     fret_real sum = 0;
     for (size_t i = 1; i < count && kink[i - 1] < r; i++) {
-        const fret_real lo = kink[i - 1], wide = (fminl(kink[i], r) - lo) / PARTS;
+        const fret_real lo = kink[i - 1], wide = (fminl(kink[i], r) - lo) / (fret_real)PARTS;
         for (int j = 0; j < PARTS; j++) /* what is singular at r is close to others, too */
             sum +=
                 fret_integrate(outwards, &(part){s, lo + wide * j,
