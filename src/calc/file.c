@@ -201,6 +201,10 @@ bool file_out_open(file_out *out, const char *name, file_stop stop, calc_error *
     if (out->existed && S_ISDIR(info.st_mode))
         return open_error(out, EISDIR, error);
     bool direct = descriptor(out->real) >= 0 || (out->existed && !S_ISREG(info.st_mode));
+    if (out->existed && !direct && file_kept(&info)) {
+        out_free(out);
+        return file_kept_error(name, error);
+    }
     int fd = direct ? open_direct(out->real, stop) : open_part(out, out->existed ? &info : NULL);
     out->to = fd < 0 ? NULL : fdopen(fd, "w");
     if (out->to)

@@ -41,8 +41,8 @@ typedef struct file_out {
     bool existed;
 } file_out;
 
-/* Refuses directories and targets without permission to write. False with the error, and nothing left behind.
- */
+/* Refuses directories, targets without permission to write, and what the session writes to as it goes on.
+ * False with the error, and nothing left behind. */
 bool file_out_open(file_out *out, const char *name, file_stop stop, calc_error *error);
 
 /* Puts the file in its place, or gives it up when `keep` is false: the target is then as it was. False with
@@ -79,6 +79,15 @@ bool file_log_open(file_log *log, const char *name, file_stop stop, bool *overwr
 /* Whole or not at all. */
 bool file_log_add(file_log *log, const char *bytes, size_t n, calc_error *error);
 void file_log_close(file_log *log);
+
+/* A descriptor that the session writes to as it goes on, besides standard output and standard error; or not
+ * any more. A file that took the place of such a one would be lost, or what is still written would be. */
+void file_keep(int fd, bool open);
+struct stat;
+/* Is it behind one of these? */
+bool file_kept(const struct stat *info);
+/* "cannot write NAME: ...", for such a one; false. */
+bool file_kept_error(const char *name, calc_error *error);
 
 /* ---- input -------------------------------------------------------------------------------------- */
 

@@ -9,28 +9,61 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-bool file_log_open(file_log *log, const char *name, file_stop stop, bool *overwrote, calc_error *error) {
+/* Of this, free where negative. */
+static int kept[8] = {STDOUT_FILENO, STDERR_FILENO, -1, -1, -1, -1, -1, -1};
+enum { KEPT = sizeof kept / sizeof *kept };
+
+void file_keep(int fd, bool open) {
+    int i = 0;
+    while (i < KEPT && kept[i] != (open ? -1 : fd))
+        i++;
+    if (i < KEPT)
+        kept[i] = open ? fd : -1;
+}
+
+bool file_kept(const struct stat *info) {
+    struct stat other;
+    for (int i = 0; i < KEPT; i++)
+        if (kept[i] >= 0 && !fstat(kept[i], &other) && other.st_dev == info->st_dev &&
+            other.st_ino == info->st_ino)
+            return true;
+    return false;
+}
+
+bool file_kept_error(const char *name, calc_error *error) {
+    return calc_fail(error, 0, 0, "cannot write %s: this session writes to it", name);
+}
+
+enum { IN_USE = -1 };
+
+/* Empties it, where it is a file. 0, an error number, or IN_USE. */
+static int begin(file_log *log, bool *overwrote) {
     struct stat info;
+    if (fstat(log->fd, &info) || fcntl(log->fd, F_SETFL, O_WRONLY | O_APPEND) < 0)
+        return errno;
+    log->regular = S_ISREG(info.st_mode);
+    *overwrote = log->regular && info.st_size > 0;
+    if (log->regular && file_kept(&info))
+        return IN_USE;
+    return log->regular && ftruncate(log->fd, 0) ? errno : 0;
+}
+
+bool file_log_open(file_log *log, const char *name, file_stop stop, bool *overwrote, calc_error *error) {
     char *real = file_expand(name);
     *log = (file_log){.fd = -1, .stop = stop, .name = strdup(name)};
     *overwrote = false;
     int code = real && log->name ? 0 : ENOMEM;
-    if (!code) {
-        *overwrote = !stat(real, &info) && S_ISREG(info.st_mode) && info.st_size > 0;
-        /* a pipe that nobody reads is refused, not waited for */
-        log->fd =
-            open(real, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
-        code = log->fd < 0 ? errno : 0;
-    }
+    if (!code) /* a pipe that nobody reads is refused, not waited for */
+        log->fd = open(real, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
+    if (!code)
+        code = log->fd < 0 ? errno : begin(log, overwrote);
     free(real);
-    if (!code && (fstat(log->fd, &info) || fcntl(log->fd, F_SETFL, O_WRONLY | O_APPEND) < 0))
-        code = errno;
     if (!code) {
-        log->regular = S_ISREG(info.st_mode);
+        file_keep(log->fd, true);
         return true;
     }
     file_log_close(log);
-    return calc_errno(error, code, "cannot write %s", name);
+    return code == IN_USE ? file_kept_error(name, error) : calc_errno(error, code, "cannot write %s", name);
 }
 
 bool file_log_add(file_log *log, const char *bytes, size_t n, calc_error *error) {
@@ -50,8 +83,10 @@ bool file_log_add(file_log *log, const char *bytes, size_t n, calc_error *error)
 }
 
 void file_log_close(file_log *log) {
-    if (log->fd >= 0)
+    if (log->fd >= 0) {
+        file_keep(log->fd, false);
         close(log->fd);
+    }
     free(log->name);
     *log = (file_log){.fd = -1};
 }

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "calc/characters.h"
-#include "calc/file.h"
 
 enum {
     COLS = 80,
@@ -24,7 +23,7 @@ enum {
 static const double TYPING = 0.04, ANSWERING = 0.25, READING = 0.6, READING_LINE = 0.3, LONGEST = 3;
 
 struct cast {
-    file_log log;
+    file_log *log;
     bool clock;
     double began, at;
     int cols, rows;
@@ -44,7 +43,7 @@ static double seconds(void) {
 /* ---- events ------------------------------------------------------------------------------------ */
 
 static bool add(cast *c, size_t n, calc_error *error) {
-    return file_log_add(&c->log, c->event, n, error);
+    return file_log_add(c->log, c->event, n, error);
 }
 
 /* In a string of JSON. */
@@ -162,24 +161,19 @@ bool cast_has_clock(const cast *c) {
 
 /* ---- beginning and end ------------------------------------------------------------------------- */
 
-cast *cast_begin(const char *path, bool clock, bool *overwrote, calc_error *error) {
+cast *cast_begin(file_log *log, bool clock, calc_error *error) {
     cast *c = malloc(sizeof *c);
     if (!c) {
         calc_no_memory(error);
         return NULL;
     }
-    *c = (cast){.clock = clock, .cols = COLS, .rows = ROWS};
-    if (!file_log_open(&c->log, path, NULL, overwrote, error)) {
-        free(c);
-        return NULL;
-    }
+    *c = (cast){.log = log, .clock = clock, .cols = COLS, .rows = ROWS};
     if (clock)
         c->began = seconds();
     find_size(c);
     if (add(c, (size_t)sprintf(c->event, "{\"version\":2,\"width\":%d,\"height\":%d}\n", c->cols, c->rows),
             error))
         return c;
-    file_log_close(&c->log);
     free(c);
     return NULL;
 }
@@ -192,7 +186,6 @@ bool cast_end(cast *c, bool whole, calc_error *error) {
         cast_wait(c, reading < LONGEST ? reading : LONGEST);
         ok = ok && event(c, 'o', "\r\n", 2, error);
     }
-    file_log_close(&c->log);
     free(c);
     return ok;
 }

@@ -6,13 +6,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "calc/error.h"
+#include "calc/file.h"
 
 typedef struct cast cast;
 
-/* clock: times are those of the clock, the size is the terminal's. Else a script's: typed at an even pace,
- * with time to read, the same in every run. NULL with the error. */
-cast *cast_begin(const char *path, bool clock, bool *overwrote, calc_error *error);
+/* Into the log, which stays the caller's. clock: times are those of the clock, the size is the terminal's.
+ * Else a script's: typed at an even pace, with time to read, the same in every run. NULL with the error. */
+cast *cast_begin(file_log *log, bool clock, calc_error *error);
 /* What the program writes: the ends of lines are `\n`, as for a terminal. False: it could not be kept, the
  * error says why; nothing is from then on. */
 bool cast_write(cast *c, const char *bytes, size_t n, calc_error *error);

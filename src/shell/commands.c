@@ -635,7 +635,8 @@ static const command commands[] = {
              "    fret> record session.txt\n"
              "    fret> friction 0.3; 2*mu\n"
              "    2*mu = 0.6\n"
-             "    fret> record off\n"},
+             "    fret> record off\n"
+             "    wrote session.txt (36 B)\n"},
     {.name = "replay",
      .run = do_replay,
      .args = file_args,

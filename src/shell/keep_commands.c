@@ -58,7 +58,7 @@ bool do_record(shell *sh, lexer *lx, const command *self) {
     char name[ARG_FILE_NAME];
     (void)self;
     if (word_at(lx) == lx->len && lex_accept(lx, "off"))
-        return at_end(lx) && (record_end(sh) || lex_fail(lx, "nothing is being recorded"));
+        return at_end(lx) && (record_end(sh, true) || lex_fail(lx, "nothing is being recorded"));
     const size_t at = lx->at;
     if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
         return false;

@@ -305,7 +305,7 @@ static void keep_closed(void) {
 
 /* A lost write is an error; where nobody reads on it ends us as it ends others. */
 static int finish(shell *sh, int status) {
-    record_end(sh);
+    record_end(sh, false);
     status = status == EXIT_OK && sh->lost ? EXIT_ERROR : status;
     errno = 0;
     const bool bad = fflush(sh->out) || ferror(sh->out);

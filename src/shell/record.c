@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "shell/cast.h"
+#include "shell/target.h"
 
 /* ---- two places -------------------------------------------------------------------------------- */
 
@@ -17,8 +18,8 @@ enum { HELD = 1024 };
 
 struct recorder {
     shell *sh;
-    cast *cast; /* or NULL: a transcript, to the log */
     file_log log;
+    cast *cast;                /* that is written there; NULL: a transcript is */
     FILE *out, *err;           /* of the session */
     FILE *both_out, *both_err; /* with the file */
     char *line;                /* that is to be written before anything follows, or NULL */
@@ -195,27 +196,25 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     bool over = false;
     if (sh->replaying)
         return true;
-    record_end(sh);
     struct recorder *r = calloc(1, sizeof *r);
     if (!r) {
         return calc_no_memory(error);
     }
     r->sh = sh;
     r->log.fd = -1;
-    r->out = sh->out;
-    r->err = sh->err;
     const bool as_cast = ends(path, ".cast");
     open_both(r); /* before the file is emptied */
     if (!r->both_out || !r->both_err)
         calc_no_memory(error);
-    else if (as_cast)
-        r->cast = cast_begin(path, sh->interactive || away, &over, error);
-    else
-        file_log_open(&r->log, path, &shell_stop, &over, error);
+    else if (file_log_open(&r->log, path, as_cast ? NULL : &shell_stop, &over, error) && as_cast)
+        r->cast = cast_begin(&r->log, sh->interactive || away, error);
     if (error->raised) {
         free_recorder(r);
         return false;
     }
+    record_end(sh, true);
+    r->out = sh->out;
+    r->err = sh->err;
     setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
     setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
     if (over)
@@ -228,7 +227,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     return true;
 }
 
-bool record_end(shell *sh) {
+bool record_end(shell *sh, bool tells) {
     calc_error error;
     error_clear(&error);
     struct recorder *r = sh->record;
@@ -243,6 +242,9 @@ bool record_end(shell *sh) {
         check(r, cast_end(r->cast, !r->lost, &error), &error);
     else
         write_held(r);
+    const file_report report = {.direct = !r->log.regular, .size = (unsigned long long)r->log.length};
+    if (tells && !r->lost)
+        target_report(sh, r->log.name, &report);
     free_recorder(r);
     return true;
 }

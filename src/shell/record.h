@@ -7,13 +7,13 @@
 #include "shell/shell.h"
 
 /* Begins a transcript: these statements, for a replay begins without a scene, then whatever comes; or, where
- * the name ends in `.cast`, a cast. Nothing is recorded in a replay. What cannot be written any more is told
- * at once, and the session goes on. The statements end in a mark: what is noted or warned of there was said
- * before. */
+ * the name ends in `.cast`, a cast; what has been recorded so far ends. Nothing is recorded in a replay. What
+ * cannot be written any more is told at once, and the session goes on. The statements end in a mark: what is
+ * noted or warned of there was said before. */
 #define RECORD_GIVEN " # as it was"
 bool record_begin(shell *sh, const char *path, const char *beginning, calc_error *error);
-/* Ends it; false: there was none. */
-bool record_end(shell *sh);
+/* Ends it, and tells what it wrote; false: there was none. */
+bool record_end(shell *sh, bool tells);
 /* The line that will be run, physical lines and all. */
 void record_line(shell *sh, const char *text, size_t len);
 /* Text that reached the terminal by another way than the session's streams. */

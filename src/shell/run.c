@@ -29,7 +29,7 @@ void shell_init(shell *sh, FILE *out, FILE *err) {
 }
 
 void shell_free(shell *sh) {
-    record_end(sh);
+    record_end(sh, false);
     typed_forget(sh);
     calc_free(&sh->calc);
     for (size_t i = 0; i < EXPRESSIONS; i++)

@@ -3,6 +3,8 @@
 import json
 import os
 import random
+import re
+import subprocess
 
 import harness
 
@@ -400,6 +402,51 @@ def targets(tests):
     tests.check("a gap at home", done.stdout == "f(1 mm) = 50 um\n", tests.report(done))
 
 
+def in_use(tests):
+    """What is open for writing is no target, by whatever name: the file of a recording, and standard output."""
+    where = os.path.join(tests.dir, "in-use")
+    os.mkdir(where)
+    data = "FN [N],Fx [N]\n100,0\n100,10\n"
+    with open(os.path.join(where, "h.csv"), "w", encoding="ascii") as f:
+        f.write(data)
+    for kept in ("rs.txt", "rs.csv", "rs.svg", "rs.gif", "rs.cast"):
+        os.symlink(kept, os.path.join(where, "link" + kept[2:]))
+    scene = SCENE + "cycle FA=20 N\n"
+    for kept, statement in (
+            ("rs.txt", "save %s"), ("rs.txt", "table x for x = 1 .. 2 to %s"), ("rs.csv", "history to %s"), ("rs.csv", "table Fx along cycle to %s"),
+            ("rs.svg", "plot loop to %s"), ("rs.gif", "animate loop frames 2 to %s"), ("rs.csv", "export jenkins 3 to %s"),
+            ("rs.txt", "record %s"), ("rs.cast", "record %s"), ("rs.cast", "save %s")):
+        for name in (kept, "link" + kept[2:], "../in-use/" + kept):
+            said = statement % name
+            done = tests.run("--keep-going", "-c", "record %s\n1+1\n%s%s\n77+1\nrecord off" % (kept, scene, said), cwd=where)
+            with open(os.path.join(where, kept), encoding="utf-8") as f:
+                text = f.read()
+            tests.check("recorded, no target: " + said, "error: cannot write %s: this session writes to it\n" % name in done.stderr and done.returncode == 1 and
+                        "1+1 = 2" in text and "77+1 = 78" in text, tests.report(done) + text[-300:])
+    done = tests.run("-c", "record a.txt; 1\nrecord b.txt\n2\nrecord off\ntable x for x = 1 .. 2 to a.txt", cwd=where)
+    tests.check("recorded no more, a target again", done.returncode == 0 and "\noverwrote a.txt (" in done.stderr, tests.report(done))
+    done = tests.run("--keep-going", "-c", "record a.txt\n1\nrecord /nonexistent/x\n2\nrecord off", cwd=where)
+    with open(os.path.join(where, "a.txt"), encoding="utf-8") as f:
+        text = f.read()
+    tests.check("a recording that cannot begin ends none", done.returncode == 1 and text.endswith("fret> 2\n2 = 2\n"), tests.report(done) + text)
+    done = tests.run("-c", "record one.txt\n1\nrecord one.cast\n2\nrecord off", cwd=where)
+    told = re.findall(r"^wrote (.*) \((\d+) B\)$", done.stderr, re.M)
+    sizes = [(name, str(os.path.getsize(os.path.join(where, name)))) for name in ("one.txt", "one.cast")]
+    tests.check("the end of a recording tells what it wrote", told == sizes and done.returncode == 0, tests.report(done))
+    done = tests.run("-c", "set report off; record one.txt; 1; record off", cwd=where)
+    tests.check("not where reports are off", done.returncode == 0 and "wrote one" not in done.stderr, tests.report(done))
+    for statement in ("save out.csv", "table x for x = 1 .. 2 to out.csv", "record out.csv", "record /dev/stdout"):
+        with open(os.path.join(where, "out.csv"), "wb") as out:
+            done = subprocess.run([tests.fret, "--keep-going", "-c", "mu = 0.3; 1+1\n%s\n77+1" % statement], stdout=out, stderr=subprocess.PIPE, env=tests.env, cwd=where,
+                                  timeout=60, check=False)
+        with open(os.path.join(where, "out.csv"), encoding="utf-8") as f:
+            text = f.read()
+        tests.check("standard output, no target: " + statement, done.returncode == 1 and b": this session writes to it\n" in done.stderr and
+                    text == "1+1 = 2\n77+1 = 78\n", "%s%s" % (done.stderr, text))
+    done = tests.run("-c", "record /dev/null\ntable x for x = 1 .. 2 to /dev/null\nrecord off\ntable x for x = 1 .. 2 to /dev/stdout")
+    tests.check("a device is one for all", done.returncode == 0 and done.stdout.count("\n") == 22 and not done.stderr, tests.report(done))
+
+
 def run(tests):
-    for room in (copies, recorded, quoted, saved, reordered, judged, pure, bytes_in_json, targets):
+    for room in (copies, recorded, in_use, quoted, saved, reordered, judged, pure, bytes_in_json, targets):
         room(tests)
