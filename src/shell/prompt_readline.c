@@ -2,6 +2,8 @@
 /* Lines by readline: editing, history, completion. */
 #include <errno.h>
 #include <fcntl.h>
+#include <langinfo.h>
+#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/select.h>
@@ -121,6 +123,19 @@ static int read_key(FILE *in) {
         if (n == 0 || (errno != EINTR && errno != EAGAIN))
             return nothing_more();
     }
+}
+
+/* What is typed is UTF-8 whatever the locale says. Where that has another code, readline takes the first byte
+ * of a character for a Meta key, and moves by bytes: it asks for the locale when it begins and again before
+ * every line, and calls this behind it. Where C.UTF-8 is not installed the cursor moves by bytes all the
+ * same. */
+static int take_utf8(void) {
+    rl_variable_bind("convert-meta", "off");
+    rl_variable_bind("input-meta", "on");
+    rl_variable_bind("output-meta", "on");
+    if (strcmp(nl_langinfo(CODESET), "UTF-8") != 0)
+        setlocale(LC_CTYPE, "C.UTF-8");
+    return 0;
 }
 
 /* ---- completion -------------------------------------------------------------------------------- */
@@ -255,6 +270,7 @@ void prompt_begin(shell *sh) {
     at_work = true;
     rl_readline_name = "fret"; /* `$if fret` in inputrc */
     rl_getc_function = read_key;
+    rl_startup_hook = take_utf8;
     rl_bind_keyseq_in_map("\\e[200~", paste, emacs_standard_keymap);
     rl_bind_keyseq_in_map("\\e[200~", paste, vi_insertion_keymap);
     rl_attempted_completion_function = matches;

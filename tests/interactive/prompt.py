@@ -483,5 +483,22 @@ def paging(tests):
         tests.check("a pager: " + name, (by in text and len(lines) == 4 if by and by != "1" else len(lines) == 2 if by else len(lines) > 12), text)
 
 
+def letters(tests):
+    """Characters that are not ASCII, from the first of a line on, and the cursor over them, whatever the locale says."""
+    for name, env in (("C", {}), ("POSIX", {"LC_ALL": "POSIX"}), ("none", {"LC_ALL": None}), ("none that is there", {"LC_ALL": "xx_YY.ISO-8859-1"}),
+                      ("of the characters alone", {"LC_ALL": None, "LANG": "C.UTF-8", "LC_CTYPE": "C"}), ("UTF-8", {"LC_ALL": "C.UTF-8"})):
+        s = Session(tests, "--quiet", TERM="xterm", **env)
+        for again in ("first", "second"):  # readline asks for the locale before every line
+            told = s.say("\u2212 3")
+            tests.check("locale %s: a minus sign, %s" % (name, again), "error: '\u2212' (U+2212) is no character of the language" in told, told)
+        told = s.say("\u00fc = 4")
+        tests.check("locale %s: an assignment" % name, told == "" and s.say("\u00fc*1").endswith("\u00fc*1 = 4"), told)
+        # back over two, one more, the last away
+        told = s.say("\u00e4\u20ac\u00fc\x02\x02x\x05\x7f = 6")
+        tests.check("locale %s: editing" % name, told == "" and s.say("\u00e4x\u20ac*1").endswith("\u00e4x\u20ac*1 = 6"), told)
+        s.child.sendeof()
+        tests.check("locale %s: it ends" % name, s.end() == 0)
+
+
 def run(tests):
-    tests.rooms(kept_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, narrow, figures, sizes, tables, moving)
+    tests.rooms(letters, kept_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, narrow, figures, sizes, tables, moving)
