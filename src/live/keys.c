@@ -471,11 +471,21 @@ static void insert(live *l, int key) {
     l->line[l->cursor++] = (char)key;
 }
 
+/* The character before or behind the cursor, which has more than a byte where it is not ASCII. */
+static size_t neighbour(const live *l, int way) {
+    size_t at = l->cursor;
+    const size_t end = way < 0 ? 0 : strlen(l->line);
+    if (at != end)
+        at += (size_t)way;
+    while (at != end && ((unsigned char)l->line[at] & 0xc0) == 0x80)
+        at += (size_t)way;
+    return at;
+}
+
 static void erase_one(live *l) {
-    if (l->cursor == 0)
-        return;
-    memmove(l->line + l->cursor - 1, l->line + l->cursor, strlen(l->line) - l->cursor + 1);
-    l->cursor--;
+    const size_t at = neighbour(l, -1);
+    memmove(l->line + at, l->line + l->cursor, strlen(l->line) - l->cursor + 1);
+    l->cursor = at;
 }
 
 static void typing_key(live *l, int key) {
@@ -490,9 +500,9 @@ static void typing_key(live *l, int key) {
     } else if (key == KEY_BACKSPACE || key == DELETE || key == '\b') {
         erase_one(l);
     } else if (key == KEY_LEFT) {
-        l->cursor -= l->cursor > 0;
+        l->cursor = neighbour(l, -1);
     } else if (key == KEY_RIGHT) {
-        l->cursor += l->cursor < strlen(l->line);
+        l->cursor = neighbour(l, 1);
     } else if (key == KEY_UP || key == KEY_DOWN) {
         recall(l, key == KEY_UP);
     } else if (key == CTRL_U) {

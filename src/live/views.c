@@ -399,9 +399,11 @@ static void draw_foot(const live *l, rect at) {
         return;
     }
     const int width = at.cols - (int)strlen(l->prompt) - 1;
-    const size_t from = l->cursor > (size_t)width ? l->cursor - (size_t)width : 0;
+    size_t from = l->cursor > (size_t)width ? l->cursor - (size_t)width : 0;
+    while (((unsigned char)l->line[from] & 0xc0) == 0x80)
+        from++;
     put_text(at, last, INK_NONE, "%s%s", l->prompt, l->line + from);
-    move(at.top + last, at.left + (int)(strlen(l->prompt) + l->cursor - from));
+    move(at.top + last, at.left + (int)strlen(l->prompt) + columns(l->line + from, l->cursor - from));
     curs_set(1);
 }
 

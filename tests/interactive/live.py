@@ -592,7 +592,8 @@ def typing(tests):
     line = lambda want: lambda s: live.status() == want  # noqa: E731
     for keys_sent, want in ((":so\t", ":so"), ("\x15pr\t", ":press"), ("\x01\x7f\x1b[D", ":press"), ("\x05\x1b[C\x02\x7fssss\x7f\x7f", ":pressss"),
                             ("\x7f\x01\x1b[C\x1b[Cx\x08\x1bOHy\x1bOF z", ":ypresss z"), ("\x15", ":"), ("zzzz\t", ":zzzz"),
-                            ("\x15geometry para(\x1b[D\t", ":geometry paraboloid ("), ("\x15\x1b[A", ":"), ("\x1b[B", ":")):
+                            ("\x15geometry para(\x1b[D\t", ":geometry paraboloid ("), ("\x15\x1b[A", ":"), ("\x1b[B", ":"),
+                            ("\u00e4\u20ac\u00fc\x1b[D\x1b[Dx\x1b[C\x7f", ":\u00e4x\u00fc"), ("\x05\x7f\x7f\x7f", ":")):
         tests.check("typed: %r" % keys_sent, live.key(keys_sent, line(want)),
                     "%s\n%s" % (want, live.screen.text()))
     live.key("1 + 1\r", r"1 \+ 1 = 2")
