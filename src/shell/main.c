@@ -231,7 +231,8 @@ static int read_options(int argc, char **argv, wishes *w, settings *set) {
     for (int i = optind; i < argc && !w->done && status == EXIT_OK; i++) /* behind -- */
         w->jobs[w->count++] = (job){false, argv[i]};
     const char *no = getenv("NO_COLOR");
-    const bool always = !strcmp(w->color, "always"), may = !strcmp(w->color, "auto") && !(no && *no);
+    const bool always = !strcmp(w->color, "always"),
+               may = !strcmp(w->color, "auto") && !(no && *no) && shell_escapes();
     set->color = always || (may && isatty(STDERR_FILENO));
     set->color_out = always || (may && isatty(STDOUT_FILENO));
     return status;

@@ -44,7 +44,8 @@ static bool begin_target(shell *sh, const char *file, text_kind kind, text_out *
                         .terminal = terminal_kind(sh, !json && shell_on_terminal(sh)),
                         .color = sh->set.color_out && !json,
                         .unicode = typeset_unicode(),
-                        .moving = kind == TEXT_MOTION && !json && sh->out == stdout && shell_on_terminal(sh),
+                        .moving = kind == TEXT_MOTION && !json && sh->out == stdout &&
+                                  shell_on_terminal(sh) && shell_escapes(),
                         .columns = sh->set.plot_width,
                         .rows = sh->set.plot_height,
                         .timeout = sh->set.plot_timeout,

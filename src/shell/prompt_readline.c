@@ -319,9 +319,11 @@ static int rows_of(const char *text, int columns) {
 
 bool prompt_erase(const char *text) {
     int high, wide;
-    const char *up = rl_get_termcap("up"); /* readline knows no capability to clear downwards */
+    const char *up = rl_get_termcap("up"), *wipe = rl_get_termcap("ce");
     rl_get_screen_size(&high, &wide);
-    if (!up || strchr(text, '\t'))
+    /* readline knows no capability to clear downwards: where a line is cleared as in ECMA-48, so is the rest
+     */
+    if (!up || !wipe || strncmp(wipe, "\033[K", 3) != 0 || strchr(text, '\t'))
         return false;
     const int rows = rows_of(text, wide);
     if (rows >= high) /* a part has left the screen */

@@ -60,6 +60,11 @@ bool shell_on_terminal(const shell *sh) {
     return (sh->out == stdout || record_shows(sh)) && isatty(STDOUT_FILENO);
 }
 
+bool shell_escapes(void) {
+    const char *term = getenv("TERM");
+    return term && *term && strcmp(term, "dumb") != 0 && strcmp(term, "unknown") != 0;
+}
+
 /* ---- statements -------------------------------------------------------------------------------- */
 
 static bool print_statement(shell *sh, lexer *lx) {

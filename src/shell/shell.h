@@ -86,6 +86,8 @@ enum { MARK_ASIDE = 1, MARK_DRAWING };
 #define PASTED "pasted: "
 /* Is standard output a terminal that shows what the session writes? */
 bool shell_on_terminal(const shell *sh);
+/* Does the terminal obey escapes, as those of colours? Not a dumb one, nor one that nobody names. */
+bool shell_escapes(void);
 
 /* prompt.c: the interactive session. */
 int shell_prompt(shell *sh, bool quiet, bool read_rc);

@@ -239,6 +239,30 @@ def starting(tests):
     s.end()
 
 
+def plain(tests):
+    """A terminal that obeys no escapes is sent none."""
+    for name in ("dumb", "unknown", "", None):
+        s = Session(tests, TERM=name, LC_ALL="C.UTF-8")
+        s.child.logfile_read = shown = io.StringIO()
+        s.say("foo")
+        s.say(SCENE + "; press FN=100 N; cycle FA=20 N")
+        told = s.say("plot loop")
+        moved = s.say("animate loop frames 3")
+        tests.check("no escapes where TERM is %s" % name, "\x1b" not in shown.getvalue() and "error: unknown name 'foo'" in shown.getvalue() and
+                    "hysteresis loop" in told and moved.count("hysteresis loop") == 1, repr(shown.getvalue()[-3000:]))
+        s.child.logfile_read = None
+        s.child.sendeof()
+        s.end()
+    for name, wipes in (("vt52", False), ("vt100", True), ("dumb", False)):  # what goes up need not clear as others do
+        s = Session(tests, "--quiet", TERM=name)
+        s.child.send("\x1b[200~x = 1\ny = 2\nx + y\x1b[201~\r")
+        s.child.expect(r"x \+ y = 3\r")
+        tests.check("lines pasted at a " + name, ("\x1b[J" in s.child.before) == wipes, repr(s.child.before))
+        s.prompt()
+        s.child.sendeof()
+        s.end()
+
+
 def figures(tests):
     """Colours and braille where the terminal has them, and frames in place."""
     s = Session(tests, LC_ALL="C.UTF-8", TERM="xterm-256color")
@@ -501,4 +525,4 @@ def letters(tests):
 
 
 def run(tests):
-    tests.rooms(letters, kept_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, narrow, figures, sizes, tables, moving)
+    tests.rooms(letters, plain, kept_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, narrow, figures, sizes, tables, moving)
