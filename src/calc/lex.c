@@ -216,6 +216,8 @@ void lex_seek(lexer *lx, size_t at) {
         lx->kind = (token_kind)c;
     } else if (c == '=' || c == '<' || c == '>' || c == '!') {
         lex_fail(lx, "there are no comparisons: '%c' is not an operator here", c);
+    } else if (c == '#') {
+        lex_fail(lx, "'#' within a word begins no comment: put a blank before it");
     } else if ((unsigned char)c < 0x20 || c == 0x7f) {
         lex_fail(lx, "unexpected byte 0x%02x", (unsigned)(unsigned char)c);
     } else {
@@ -275,13 +277,18 @@ bool lex_filename(lexer *lx, char *buf, size_t size) {
         n++;
         at++;
     }
+    if (quoted && at == lx->end) {
+        lx->len = at - lx->at;
+        lx->error->raised = false; /* which the lexer may have said */
+        return lex_fail(lx, "the quotation mark is not closed");
+    }
     if (n == 0)
         return lex_fail(lx, "expected a file name");
     lx->error->raised = false; /* a name need not be made of tokens */
     if (n >= size)
         return lex_fail(lx, "the file name is too long");
     buf[n] = 0;
-    lx->len = at + (quoted && at < lx->end) - lx->at;
+    lx->len = at + quoted - lx->at;
     lex_next(lx);
     return true;
 }

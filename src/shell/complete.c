@@ -461,15 +461,12 @@ static void complete_word(const place *p) {
 static bool find_statement(const char *line, size_t cursor, size_t *begin, size_t *quote) {
     *begin = 0;
     *quote = cursor;
-    for (size_t i = 0; i < cursor; i++) {
-        const bool open = *quote < cursor;
-        if (line[i] == '"')
-            *quote = open ? cursor : i;
-        else if (!open && line[i] == '#')
+    for (size_t end; (end = shell_statement_end(line, *begin, cursor)) < cursor; *begin = end + 1)
+        if (line[end] == '#')
             return false;
-        else if (!open && line[i] == ';')
-            *begin = i + 1;
-    }
+    for (size_t i = *begin; i < cursor; i++)
+        if (line[i] == '"')
+            *quote = *quote < cursor ? cursor : i;
     while (*begin < cursor && strchr(" \t\n", line[*begin]))
         ++*begin;
     return true;

@@ -325,6 +325,12 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
 
 /* ---- lines ------------------------------------------------------------------------------------- */
 
+/* A `#` that belongs to a word, as in a#b.csv. */
+static bool within_word(const char *text, size_t i, size_t len) {
+    static const char ends[] = " \t\r\n;\"#"; /* and a byte 0 */
+    return i > 0 && i + 1 < len && !strchr(ends, text[i - 1]) && !strchr(ends, text[i + 1]);
+}
+
 /* End of the statement that begins at i: a `;`, a comment or the end of the line. */
 size_t shell_statement_end(const char *text, size_t i, size_t len) {
     static const bool special[256] = {['"'] = true, ['\n'] = true, [';'] = true, ['#'] = true};
@@ -337,7 +343,7 @@ size_t shell_statement_end(const char *text, size_t i, size_t len) {
             quoted = !quoted;
         else if (c == '\n')
             quoted = false;
-        else if (!quoted)
+        else if (!quoted && (c != '#' || !within_word(text, i, len)))
             break;
     }
     return i;

@@ -156,7 +156,8 @@ static const char expressions_text[] =
     "    EXPR at NAME = EXPR    the value in the scene with that input changed;\n"
     "                           along a load, at the same instant of it\n"
     "    ans                    the last value printed\n\n"
-    "Several statements on a line: `;`. A comment: `#`. A line goes on after `\\`.\n\n";
+    "`;` parts the statements of a line. `#` begins a comment, but not within a word\n"
+    "such as a#b.csv. A line goes on after `\\`.\n\n";
 
 static const char scripts_text[] =
     "    fret FILE ...          runs scripts; so do fret -f FILE and a pipe\n"

@@ -223,6 +223,8 @@ def quoted(tests):
             again = tests.run("-c", "source s.fret; f(0.5 mm); show", cwd=where)
             tests.check("saved: %s%s" % (name, smooth), done.returncode == again.returncode == 0 and
                         again.stdout.partition("\n")[2] == done.stdout and done.stdout.count("\n") == 1, tests.report(done) + tests.report(again))
+    done = tests.run("-c", "mu = 0.3; save a#b.fret; save c# a comment; mu = 0.4\nsource a#b.fret; mu", cwd=where)
+    tests.check("a name with a mark of comments within", done.stdout == "mu = 0.3\n" and {"a#b.fret", "c"} <= set(os.listdir(where)), tests.report(done))
     with open(os.path.join(where, "a \nb.csv"), "w", encoding="ascii") as f:
         f.write("r [mm],f [um]\n0,0\n1,50\n")
     done = tests.run("-c", 'geometry file "a\\\nb.csv"\nf(1 mm)\nshow', cwd=where)
