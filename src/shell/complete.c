@@ -448,8 +448,12 @@ static void complete_word(const place *p) {
             return;
     if (last == T_NUMBER) {
         const bool known = wanted_dim(p, &d);
+        const bool begun = p->cursor > p->start;
         add_units(p, !known, d);
-        add_continuation(p);
+        if (!begun && p->out->count == 1) /* the number stays what it is */
+            free(p->out->word[--p->out->count]);
+        if (begun || p->token[p->count - 1].at + p->token[p->count - 1].len < p->start)
+            add_continuation(p);
     } else if (last == T_NAME || last == T_CLOSE || last == T_PERCENT || last == T_STRING) {
         add_continuation(p);
     } else {
@@ -477,6 +481,13 @@ static bool word_byte(char c) {
            (unsigned char)c >= 0x80;
 }
 
+/* Behind the last of these bytes. */
+static size_t word_start(const char *line, size_t begin, size_t cursor, const char *parting) {
+    while (cursor > begin && !strchr(parting, line[cursor - 1]))
+        cursor--;
+    return cursor;
+}
+
 void complete(const calc *c, const char *line, size_t cursor, candidates *out) {
     place p = {.c = c, .line = line, .cursor = cursor, .out = out};
     size_t begin, quote, start = cursor;
@@ -485,11 +496,10 @@ void complete(const calc *c, const char *line, size_t cursor, candidates *out) {
         return;
     const bool quoted = quote < cursor;
     /* names of files and of some tables hold what elsewhere parts words */
-    while (start > begin && !strchr(" \t\n;,=", line[start - 1]))
-        start--;
-    if (quoted)
-        start = quote;
+    start = quoted ? quote : word_start(line, begin, cursor, " \t\n");
     read_tokens(&p, begin, start);
+    if (!quoted && !wants_file(&p))
+        read_tokens(&p, begin, start = word_start(line, begin, cursor, " \t\n,="));
     p.start = out->start = start + quoted;
     out->files = wants_file(&p);
     if (out->files && !quoted)

@@ -161,15 +161,27 @@ static char *next_match(const char *text, int state) {
     return next < found.count ? strdup(found.word[next++]) : NULL;
 }
 
+/* A name that wants quotation marks, in them. The last is readline's where the first was typed; a directory
+ * goes on. One that holds a mark cannot stand in them. */
+static char *quote_name(char *name, int how_many, char *typed) {
+    struct stat st = {.st_mode = 0};
+    const size_t room = strlen(name) + 3;
+    char *quoted = strchr(name, '"') ? NULL : malloc(room), *path = file_expand(name);
+    const bool ends = how_many == SINGLE_MATCH && !*typed && path && !stat(path, &st) && !S_ISDIR(st.st_mode);
+    free(path);
+    if (!quoted)
+        return strdup(name);
+    snprintf(quoted, room, "\"%s%s", name, ends ? "\"" : "");
+    return quoted;
+}
+
 static char **matches(const char *text, int start, int end) {
     (void)end;
     rl_attempted_completion_over = 1;
     if ((size_t)start != found.start)
         return NULL;
     if (found.files) {
-        rl_attempted_completion_over = 0;     /* readline knows file names */
-        if (rl_line_buffer[start - 1] == '"') /* a command stands before it */
-            rl_completion_append_character = '"';
+        rl_attempted_completion_over = 0; /* readline knows file names */
         return NULL;
     }
     if (found.count == 1) {
@@ -275,6 +287,9 @@ void prompt_begin(shell *sh) {
     rl_bind_keyseq_in_map("\\e[200~", paste, vi_insertion_keymap);
     rl_attempted_completion_function = matches;
     rl_completion_word_break_hook = word_breaks;
+    rl_completer_quote_characters = "\"";
+    rl_filename_quote_characters = " \t\n;#";
+    rl_filename_quoting_function = quote_name;
     rl_catch_signals = 0;
     using_history();
     stifle_history(HISTORY_LINES);

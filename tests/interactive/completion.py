@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What Tab offers, by position; pasting; the history of sessions side by side; recording at the prompt."""
 import os
+import re
 import time
 
 import pexpect
@@ -48,7 +49,7 @@ OFFERED = (
     ("dW(3 N) in ", "uJ nJ J", "mm"), ("breadth in ", "um mm", "J"), ("(breadth) in ", "um N", None), ("2*a in ", "um N", None),
     ("wobbly(2) in ", "um %", None), ("dW, breadth in ", "um mm", "J"), ("dW(3 N)*2 in ", "uJ um", None),
     ("plot Fx against ", "dx W breadth", "table"), 
-    ("plot loop log x ", "points title", "log"), ('plot loop title "a b" ', "points to", "title"), ("press FN=20k", "kN kgf", "um"),
+    ("plot loop log x ", "points title", "log"), ('plot loop title "a b" ', "points to", "title"), ("press FN=20k", "kN kgf", "um"), ("press FN=20", "N kN kgf", "um"), ("press FN=20", "lbf", "steps"),
     ("?", "press plot theory", "fricti"), ("undo ", "", "to"), 
     ("friction 0.4 ", "", "mm"), ("nix in ", "um N", None), ("F_A*breadth in ", "um N", None), ("a, 2*breadth, breadth in ", "um mm", "J"),
     ("1 + 1; ", "press plot breadth", None), ("undo 3 ", "um N", None), ("table 3 ", "um N", None), ("press FN=100 N; ", "step cycle", None), ("2 \u00b5", "", "um"), ("x over ", "", "gap1.csv"), ("reset all ", "", "press"),
@@ -63,7 +64,7 @@ OFFERED = (
     ("fit mu along gap", "gap1.csv gap2.csv", None), ("fit mu for breadth = 2*a to gap", "gap1.csv gap2.csv", None),
 )
 # typed, and nothing goes on there
-ENDED = ("geometry file gap1.csv smooth ", "undo ", "reset all ", "x over ", "friction 0.4 zebr", "2 \u00b5", "# FN", "set digits 3 f")
+ENDED = ("friction 0.4", "friction 0.4 ", "nu = 0.3", "nu = 0.3 ", "set digits 3", "geometry file gap1.csv smooth ", "undo ", "reset all ", "x over ", "friction 0.4 zebr", "2 \u00b5", "# FN", "set digits 3 f")
 # typed, and the one way that it goes on
 DONE = (
     ("explain a a", "t "), ("explain a at k=0 c", "onditioning "), ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("1 + " * 140 + "breadt", "h "), ("geometry file gap1.csv s", "mooth "), ("second ri", "gid "),
@@ -110,6 +111,29 @@ def offers(tests):
         s.prompt()
     s.child.sendeof()
     tests.check("completion leaves", s.end() == 0)
+
+
+# typed, with Tabs, and the script that it names: names that want quotation marks get them
+QUOTED = (("source pl\t", "plain.fret"), ("source sp\t", "sp ace.fret"), ("source \"sp\t", "sp ace.fret"), ("source ha\t", "ha#sh.fret"),
+          ("source ha#s\t", "ha#sh.fret"), ("source se\t", "se;mi.fret"), ("source my\tin\t", "my dir/in ner.fret"), ("source my\tpl\t", "my dir/plain.fret"),
+          ("source \"my dir/in\t", "my dir/in ner.fret"), ("source tw\t1\t", "two x1.fret"), ("source \"tw\t2\t", "two x2.fret"), ("source ./sp\t", "sp ace.fret"),
+          ("1; source sp\t; 2", "sp ace.fret"), ("source eq=\t", "eq=1,2.fret"), ("source eq=1,\t", "eq=1,2.fret"))
+
+
+def quotes(tests):
+    here = os.path.join(tests.dir, "quotes")
+    os.makedirs(os.path.join(here, "my dir"))
+    names = sorted({name for _, name in QUOTED})
+    for i, name in enumerate(names):
+        with open(os.path.join(here, name), "w", encoding="ascii") as f:
+            f.write("1 + %d000\n" % (i + 1))
+    for term in ("dumb", "xterm"):
+        s = Session(tests, "--quiet", TERM=term, cwd=here)
+        for typed, name in QUOTED:
+            told = s.say(typed)
+            tests.check("Tab quotes: `%s` in %s" % (typed, term), re.search(r"^1 \+ %d000 = " % (names.index(name) + 1), told, re.M) and "error" not in told, told)
+        s.child.sendeof()
+        s.end()
 
 
 def paste(s, text):
@@ -292,4 +316,4 @@ def screens(tests):
 
 
 def run(tests):
-    tests.rooms(offers, pasting, histories, recorded, screens)
+    tests.rooms(offers, quotes, pasting, histories, recorded, screens)
