@@ -15,7 +15,7 @@ char *prompt_line(const char *text);
 bool prompt_erase(const char *text);
 /* Ctrl-C has dropped the line: clears what the editor holds of it. */
 void prompt_dropped(void);
-/* Remembers a line for the user to recall; one that holds line ends as one line. */
+/* Remembers a line for the user to recall, unless it is very long; one that holds line ends as one line. */
 void prompt_keep(const char *line);
 
 #endif

@@ -193,7 +193,7 @@ static char **matches(const char *text, int start, int end) {
 
 /* ---- history ----------------------------------------------------------------------------------- */
 
-enum { HISTORY_PATH = 4096, HISTORY_READ = 1 << 20, HISTORY_LINES = 10000 };
+enum { HISTORY_PATH = 4096, HISTORY_READ = 16 << 20, HISTORY_LINES = 10000, HISTORY_LINE = 1 << 16 };
 
 /* The directories of the path from byte `from` on; what lies before must be there. */
 static void make_directories(char *path, size_t from) {
@@ -225,43 +225,59 @@ static void remember(const char *line) {
     at_work = false;
 }
 
-/* The latest lines of the file. */
+/* The latest lines of the file, without bytes 0 and without lines that are too long to be kept. */
 static void read_lines(int fd, off_t size) {
     const off_t from = size > HISTORY_READ ? size - HISTORY_READ : 0;
-    static char text[HISTORY_READ + 1];
+    char *text = malloc((size_t)(size - from) + 1);
+    if (!text)
+        return;
     const ssize_t have = pread(fd, text, (size_t)(size - from), from);
-    text[have > 0 ? have : 0] = 0;
-    char *line = text;
-    if (from > 0) /* a part of one */
-        line += strcspn(line, "\n");
-    for (char *end; *line; line = end) {
-        end = line + strcspn(line, "\n");
-        end += *end ? (*end = 0, 1) : 0;
-        if (*line)
+    char *end = text + (have > 0 ? have : 0), *line = end;
+    for (int lines = 0; line > text && (lines += line[-1] == '\n') <= HISTORY_LINES;)
+        line--;
+    if (from > 0 && line == text) /* a part of one */
+        line = memchr(text, '\n', (size_t)(end - text));
+    for (char *next; line && line < end; line = next + 1) {
+        next = memchr(line, '\n', (size_t)(end - line));
+        next = next ? next : end;
+        size_t n = 0;
+        for (const char *c = line; c < next; c++)
+            if (*c)
+                line[n++] = *c;
+        line[n] = 0;
+        if (n > 0 && n <= HISTORY_LINE)
             remember(line);
     }
+    free(text);
 }
 
-/* For the user alone, and a plain file: a pipe would block, and a link may lead anywhere. */
+/* For the user alone, and a plain file: a pipe would block, and a link may lead anywhere. One that cannot be
+ * written is read. */
 static void open_history(shell *sh) {
+    enum { FLAGS = O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY };
     char path[HISTORY_PATH];
     struct stat st = {.st_mode = 0};
     if (!history_path(path))
         return;
-    int fd = open(path, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY, 0600);
-    const bool strange = fd < 0 ? errno == ELOOP : (fstat(fd, &st), !S_ISREG(st.st_mode));
-    if (strange) {
+    int fd = open(path, O_RDWR | O_CREAT | FLAGS, 0600);
+    const int code = fd < 0 ? errno : 0;
+    if (code == EACCES || code == EPERM || code == EROFS)
+        fd = open(path, O_RDONLY | FLAGS);
+    const bool strange = fd < 0 ? code == ELOOP : (fstat(fd, &st), !S_ISREG(st.st_mode));
+    if (strange)
         shell_note(sh, "no history is kept: %s is no plain file", path);
-        if (fd >= 0)
-            close(fd);
-        return;
-    }
-    if (fd < 0)
-        return;
-    if ((st.st_mode & 077) != 0 && st.st_nlink == 1 && fchmod(fd, 0600) != 0)
+    else if (code)
+        shell_note(sh, "no history is kept: cannot write %s: %s", path, strerror(code));
+    else if ((st.st_mode & 077) != 0 && st.st_nlink == 1 && fchmod(fd, 0600) != 0)
         shell_note(sh, "others can read %s", path);
-    read_lines(fd, st.st_size);
-    history_file = fd;
+    if (fd >= 0 && !strange)
+        read_lines(fd, st.st_size);
+    if (fd >= 0 && (strange || code)) {
+        close(fd);
+    } else if (fd >= 0) {
+        history_file = fd;
+        file_keep(fd, true);
+    }
 }
 
 /* ---- what the session calls -------------------------------------------------------------------- */
@@ -357,7 +373,7 @@ void prompt_dropped(void) {
 /* One write at the end of the file: two sessions do not mix. */
 void prompt_keep(const char *line) {
     const size_t n = strlen(line);
-    char *copy = malloc(n + 2);
+    char *copy = n <= HISTORY_LINE ? malloc(n + 2) : NULL;
     if (!copy)
         return;
     for (size_t i = 0; i < n; i++)
@@ -367,6 +383,7 @@ void prompt_keep(const char *line) {
     copy[n] = '\n';
     if (history_file >= 0 && write(history_file, copy, n + 1) < 0) { /* full, or gone */
         shell_note(completing, "no history is kept any more: %s", strerror(errno));
+        file_keep(history_file, false);
         close(history_file);
         history_file = -1;
     }

@@ -413,6 +413,8 @@ def kept_lines(tests):
         with open(os.path.join(home, ".local/state/fret/history"), encoding="ascii") as f:
             tests.check(name, f.read() == "1 + 41\nquit\n", name)
         shutil.rmtree(home)
+    banner, answer = session("1 + 1", XDG_STATE_HOME="/dev/null")
+    tests.check("where none can be made", answer == "1 + 1 = 2" and "no history is kept: cannot write /dev/null/fret/history: Not a directory" in banner, banner)
     for name, env in (("no home", {"XDG_STATE_HOME": "", "HOME": ""}), ("a long way", {"XDG_STATE_HOME": "/" + 5000 * "x"})):
         tests.check(name, session("1 + 1", **env)[1] == "1 + 1 = 2")
     nowhere = os.path.join(tests.dir, "no-home-of-history")
@@ -441,6 +443,31 @@ def kept_lines(tests):
     tests.check("and no part of a line", 200000 < first < 399000 and after == first + 1, "%d %d" % (first, after))
     s.child.sendline("quit")
     s.end()
+
+
+def odd_lines(tests):
+    """A history with bytes 0, as a crash leaves them, and with a line longer than anybody types; none such is kept."""
+    state = os.path.join(tests.dir, "odd-history")
+    path = os.path.join(state, "fret", "history")
+    os.makedirs(os.path.dirname(path))
+    with open(path, "wb") as f:
+        f.write(b"1 + 11\n\0\0\0002 + 22\n3 +\0 33\n" + b"1" + 2250000 * b"+1" + b"\n4 + 44\n")
+    s = Session(tests, "--quiet", XDG_STATE_HOME=state)
+    for i in range(4):
+        told = s.say("\x1b[A" * 4)
+        tests.check("an odd history, line %d" % i, told == "%d + %d = %d" % (i + 1, 11 * (i + 1), 12 * (i + 1)), told)
+    s.child.send("\x1b[200~5 + 55; x = 1%s\x1b[201~\r" % (40000 * "+1"))
+    s.child.expect(r"5 \+ 55 = 60\r")
+    s.prompt()
+    tests.check("a long line is not recalled", s.say("\x1b[A").endswith("4 + 44 = 48"))
+    told = s.say("save " + path)
+    tests.check("the history is no target", "error: cannot write %s: this session writes to it" % path in told, told)
+    s.say("x")
+    s.child.sendline("quit")
+    s.end()
+    with open(path, "rb") as f:
+        lines = f.read().decode().splitlines()
+    tests.check("nor kept", lines[-2:] == ["x", "quit"] and [line for line in lines if len(line) > 1000] == [lines[3]], str([line[:80] for line in lines]))
 
 
 def stopped(tests):
@@ -525,4 +552,4 @@ def letters(tests):
 
 
 def run(tests):
-    tests.rooms(letters, plain, kept_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, narrow, figures, sizes, tables, moving)
+    tests.rooms(letters, plain, kept_lines, odd_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, narrow, figures, sizes, tables, moving)

@@ -88,9 +88,12 @@ def failing(tests):
     # the history, opened behind a start-up file that arms
     config, found = started(tests, "arming", "source arm\n"), []
     for call, code, says in (("fstat", errno.EIO, "no history is kept: .*history is no plain file"), ("newfstatat", errno.EIO, "no history is kept: .*history is no plain file"),
-                             ("fchmod", errno.EPERM, "others can read .*history"), ("pread64", errno.EIO, "^ *$")):
-        state, kept = history_of(tests, "kept-" + call, "123 + 1\n", 0o644)
+                             ("fchmod", errno.EPERM, "others can read .*history"),
+                             ("openat", errno.EACCES, "no history is kept: cannot write .*history: Permission denied"), ("openat", errno.EROFS, "no history is kept: cannot write .*history: Read-only"), ("pread64", errno.EIO, "^ *$")):
+        state, kept = history_of(tests, "kept-%s-%d" % (call, code), "123 + 1\n", 0o644)
         path, s = session(call, 1, code, XDG_STATE_HOME=state, XDG_CONFIG_HOME=config)
+        if call == "openat":  # what cannot be written can be read
+            tests.check("a history to read alone", s.say("\x1b[A").endswith("123 + 1 = 124"))
         answer = s.say("\x1b[A\x15\x1b[A4 + 1" if call in ("fstat", "newfstatat", "pread64") else "4 + 1")
         ended = leaves(s)
         with open(kept, encoding="ascii") as f:
@@ -99,7 +102,7 @@ def failing(tests):
             found.append(call)
             tests.check("a history where %s fails" % call, re.search(says, s.banner) and answer.endswith("4 + 1 = 5") and ended == 0 and
                         lines == ["123 + 1"] + ([] if "no history" in says else ["4 + 1"]), "%s\n%s\n%s" % (s.banner, answer, lines))
-    tests.check("a history's calls fail", set(found) >= {"fchmod", "pread64"} and {"fstat", "newfstatat"} & set(found), str(found))
+    tests.check("a history's calls fail", set(found) >= {"fchmod", "pread64", "openat"} and {"fstat", "newfstatat"} & set(found), str(found))
     # other programs cannot be started
     for line, says in (("!true", r"^the system's shell fails: No child processes"), ("help pi", "^pi: ")):
         seen = []
