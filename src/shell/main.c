@@ -304,6 +304,14 @@ static void keep_closed(void) {
             open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
+/* A home that is relative is none: what lies in the current directory may be a stranger's. readline reads
+ * settings at home, too, as other programs do that we start. */
+static void check_home(void) {
+    const char *home = getenv("HOME");
+    if (home && *home != '/')
+        unsetenv("HOME");
+}
+
 /* A lost write is an error; where nobody reads on it ends us as it ends others. */
 static int finish(shell *sh, int status) {
     record_end(sh, false);
@@ -329,6 +337,7 @@ int main(int argc, char **argv) {
     static shell sh;
     static char buffer[1 << 16];
     keep_closed();
+    check_home();
     wishes w = {.color = "auto", .jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
     if (!w.jobs)
         return out_of_memory();

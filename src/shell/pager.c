@@ -56,10 +56,9 @@ bool pager_show(const char *text) {
     fflush(stdout);
     sigaction(SIGINT, &ignore, &before); /* Ctrl-C is the pager's, which asks for its own */
     FILE *to = popen(name, "w");
-    if (to) {
+    if (to)
         fputs(text, to);
-        pclose(to);
-    }
+    const bool shown = to && pclose(to) == 0;
     sigaction(SIGINT, &before, NULL);
-    return to != NULL;
+    return shown;
 }

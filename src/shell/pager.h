@@ -7,7 +7,7 @@
 
 /* Does the text have more lines than the terminal of standard output? False where that is none. */
 bool pager_needed(const char *text);
-/* Shows it; false: there is no pager, and nothing has been shown. */
+/* Shows it; false: there is no pager, or it failed. */
 bool pager_show(const char *text);
 
 #endif

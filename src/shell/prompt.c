@@ -11,14 +11,17 @@
 #include "shell/lines.h"
 #include "shell/record.h"
 
+/* A relative path is none, as the XDG specification has it: what lies in the current directory may be a
+ * stranger's. Nothing is said of a file that is not there. */
 static void read_startup(shell *sh) {
     const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
-    char path[4096] = "";
-    if (config && *config)
-        snprintf(path, sizeof path, "%s/fret/fretrc", config);
-    else if (home && *home)
-        snprintf(path, sizeof path, "%s/.config/fret/fretrc", home);
-    if (*path && !access(path, R_OK))
+    char path[4096];
+    int n = 0;
+    if (config && *config == '/')
+        n = snprintf(path, sizeof path, "%s/fret/fretrc", config);
+    else if (home)
+        n = snprintf(path, sizeof path, "%s/.config/fret/fretrc", home);
+    if (n > 0 && n < (int)sizeof path && (!access(path, F_OK) || (errno != ENOENT && errno != ENOTDIR)))
         shell_file(sh, path, true);
 }
 

@@ -211,7 +211,7 @@ static bool history_path(char path[HISTORY_PATH]) {
     int n = 0;
     if (given)
         n = snprintf(path, HISTORY_PATH, "%s/fret/history", state);
-    else if (home && *home)
+    else if (home)
         n = snprintf(path, HISTORY_PATH, "%s/.local/state/fret/history", home);
     if (n <= 0 || n >= HISTORY_PATH)
         return false;

@@ -384,6 +384,33 @@ def own(tests):
     tests.check("quit", s.end() == 0)
 
 
+def strangers(tests):
+    """Nothing of the current directory is read at the start: paths of the environment that are relative are none."""
+    where, home = os.path.join(tests.dir, "stranger"), os.path.join(tests.dir, "stranger-home")
+    for at, x in ((os.path.join(where, "fret"), 1), (os.path.join(where, ".config", "fret"), 2), (os.path.join(where, "config", "fret"), 3), (os.path.join(home, ".config", "fret"), 17)):
+        os.makedirs(at)
+        with open(os.path.join(at, "fretrc"), "w", encoding="ascii") as f:
+            f.write("x = %d\n" % x)
+    with open(os.path.join(where, ".inputrc"), "w", encoding="ascii") as f:
+        f.write('"x": "666"\n')
+    files = sorted(os.listdir(where))
+    none = "error: unknown name 'x'"
+    for env, answer in (({"XDG_CONFIG_HOME": "."}, "x = 17"), ({"XDG_CONFIG_HOME": "config"}, "x = 17"), ({"XDG_CONFIG_HOME": ""}, "x = 17"),
+                        ({"XDG_CONFIG_HOME": "", "HOME": "."}, none), ({"XDG_CONFIG_HOME": "", "HOME": ""}, none), ({"XDG_CONFIG_HOME": ".", "HOME": ".."}, none),
+                        ({"XDG_CONFIG_HOME": "", "HOME": "./"}, none), ({"XDG_CONFIG_HOME": "", "HOME": "../stranger"}, none)):
+        s = Session(tests, "--quiet", cwd=where, **{"HOME": home, "XDG_STATE_HOME": "state", "INPUTRC": None, **env})
+        told = s.say("x")
+        tests.check("a stranger's settings: %s" % env, told == answer and sorted(os.listdir(where)) == files, told)
+        s.child.sendeof()
+        s.end()
+    os.unlink(os.path.join(home, ".config", "fret", "fretrc"))
+    os.symlink("fretrc", os.path.join(home, ".config", "fret", "fretrc"))
+    s = Session(tests, "--quiet", HOME=home, XDG_CONFIG_HOME="")
+    tests.check("a start-up file that cannot be read is told", "error: cannot read %s/.config/fret/fretrc: Too many levels" % home in s.banner, s.banner)
+    s.child.sendeof()
+    s.end()
+
+
 def narrow(tests):
     """Progress keeps to one row of a terminal that has few columns."""
     for columns in (20, 58):
@@ -528,7 +555,9 @@ def paging(tests):
         child.close()
         return text
     for name, pager, there, by in (("less", None, ("less", "more"), "by-less"), ("more", None, ("more",), "by-more"), ("none", None, (), None),
-                                   ("what PAGER says", "head -n 1", ("less",), "1"), ("PAGER of nothing", "", ("less",), None), ("cat", "cat", ("less",), None)):
+                                   ("what PAGER says", "head -n 1", ("less",), "1"), ("PAGER of nothing", "", ("less",), None), ("cat", "cat", ("less",), None),
+                                   ("one that is not there", "nothing-there -x", ("less",), None), ("one that cannot be run", where, ("less",), None),
+                                   ("one that fails", "exit 1 #", ("less",), None), ("one that is killed", "kill -9 $$ #", ("less",), None)):
         text = shown(pager, *there)
         lines = text.strip().splitlines()
         tests.check("a pager: " + name, (by in text and len(lines) == 4 if by and by != "1" else len(lines) == 2 if by else len(lines) > 12), text)
@@ -552,4 +581,4 @@ def letters(tests):
 
 
 def run(tests):
-    tests.rooms(letters, plain, kept_lines, odd_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, narrow, figures, sizes, tables, moving)
+    tests.rooms(letters, plain, kept_lines, odd_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, strangers, narrow, figures, sizes, tables, moving)
