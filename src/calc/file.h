@@ -41,7 +41,7 @@ typedef struct file_out {
     bool existed;
 } file_out;
 
-/* Refuses directories, targets without permission to write, and what the session writes to as it goes on.
+/* Refuses directories, targets without permission to write, and what the session is using (file_keep).
  * False with the error, and nothing left behind. */
 bool file_out_open(file_out *out, const char *name, file_stop stop, calc_error *error);
 
@@ -80,8 +80,9 @@ bool file_log_open(file_log *log, const char *name, file_stop stop, bool *overwr
 bool file_log_add(file_log *log, const char *bytes, size_t n, calc_error *error);
 void file_log_close(file_log *log);
 
-/* A descriptor that the session writes to as it goes on, besides standard output and standard error; or not
- * any more. A file that took the place of such a one would be lost, or what is still written would be. */
+/* What is open as long as the session goes on, besides standard output and standard error: a recording, the
+ * history, a transcript that is replayed; or not any more. Another file in its
+ * place would lose what has been written there, or is going to be. */
 void file_keep(int fd, bool open);
 struct stat;
 /* Is it behind one of these? */

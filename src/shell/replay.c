@@ -361,7 +361,9 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
     shell_init(&r.sh, out, out);
     r.sh.replaying = true;
     nesting++;
+    file_keep(in.fd, true);
     bool ok = take_lines(&r, &in, error);
+    file_keep(in.fd, false);
     nesting--;
     if (ok && !shell_stop) {
         print_safe(r.out, path, strlen(path));

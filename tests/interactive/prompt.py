@@ -488,7 +488,7 @@ def odd_lines(tests):
     s.prompt()
     tests.check("a long line is not recalled", s.say("\x1b[A").endswith("4 + 44 = 48"))
     told = s.say("save " + path)
-    tests.check("the history is no target", "error: cannot write %s: this session writes to it" % path in told, told)
+    tests.check("the history is no target", "error: cannot write %s: this session is using it" % path in told, told)
     s.say("x")
     s.child.sendline("quit")
     s.end()

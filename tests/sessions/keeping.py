@@ -423,7 +423,7 @@ def in_use(tests):
             done = tests.run("--keep-going", "-c", "record %s\n1+1\n%s%s\n77+1\nrecord off" % (kept, scene, said), cwd=where)
             with open(os.path.join(where, kept), encoding="utf-8") as f:
                 text = f.read()
-            tests.check("recorded, no target: " + said, "error: cannot write %s: this session writes to it\n" % name in done.stderr and done.returncode == 1 and
+            tests.check("recorded, no target: " + said, "error: cannot write %s: this session is using it\n" % name in done.stderr and done.returncode == 1 and
                         "1+1 = 2" in text and "77+1 = 78" in text, tests.report(done) + text[-300:])
     done = tests.run("-c", "record a.txt; 1\nrecord b.txt\n2\nrecord off\ntable x for x = 1 .. 2 to a.txt", cwd=where)
     tests.check("recorded no more, a target again", done.returncode == 0 and "\noverwrote a.txt (" in done.stderr, tests.report(done))
@@ -437,13 +437,21 @@ def in_use(tests):
     tests.check("the end of a recording tells what it wrote", told == sizes and done.returncode == 0, tests.report(done))
     done = tests.run("-c", "set report off; record one.txt; 1; record off", cwd=where)
     tests.check("not where reports are off", done.returncode == 0 and "wrote one" not in done.stderr, tests.report(done))
+    tests.run("--keep-going", "-c", "record again.txt\nmu = 0.3\nsave again.txt\nmu\nrecord off", cwd=where)
+    with open(os.path.join(where, "again.txt"), encoding="utf-8") as f:
+        text = f.read()
+    for way in (("--replay", "again.txt"), ("-c", "replay again.txt")):
+        done = tests.run(*way, cwd=where)
+        with open(os.path.join(where, "again.txt"), encoding="utf-8") as f:
+            tests.check("a transcript that is replayed is no target: %s %s" % way, f.read() == text, text)
+        tests.check("and comes out again: %s %s" % way, done.stdout.endswith(": 3 passed, 0 failed\n"), tests.report(done))
     for statement in ("save out.csv", "table x for x = 1 .. 2 to out.csv", "record out.csv", "record /dev/stdout"):
         with open(os.path.join(where, "out.csv"), "wb") as out:
             done = subprocess.run([tests.fret, "--keep-going", "-c", "mu = 0.3; 1+1\n%s\n77+1" % statement], stdout=out, stderr=subprocess.PIPE, env=tests.env, cwd=where,
                                   timeout=60, check=False)
         with open(os.path.join(where, "out.csv"), encoding="utf-8") as f:
             text = f.read()
-        tests.check("standard output, no target: " + statement, done.returncode == 1 and b": this session writes to it\n" in done.stderr and
+        tests.check("standard output, no target: " + statement, done.returncode == 1 and b": this session is using it\n" in done.stderr and
                     text == "1+1 = 2\n77+1 = 78\n", "%s%s" % (done.stderr, text))
     done = tests.run("-c", "record /dev/null\ntable x for x = 1 .. 2 to /dev/null\nrecord off\ntable x for x = 1 .. 2 to /dev/stdout")
     tests.check("a device is one for all", done.returncode == 0 and done.stdout.count("\n") == 22 and not done.stderr, tests.report(done))
