@@ -11,13 +11,23 @@
 
 #include "calc/unit_text.h"
 
+enum { POINT, COMMA, MARKS };
+static const char marks[MARKS] = {'.', ','};
+enum { THOUSANDS = sizeof "-123.456" };
+
 typedef struct reader {
     csv *c;
     calc_error *error;
     char separator; /* ' ': blanks and tabs */
     bool header;    /* has been read */
     size_t line;
+    size_t marked[MARKS]; /* the first line with such a number; 0: none */
     unit unit[CSV_COLUMNS];
+    /* the first number of each column whose mark may part thousands instead */
+    struct {
+        size_t line; /* 0: none */
+        char text[THOUSANDS];
+    } thousands[CSV_COLUMNS][MARKS];
 } reader;
 
 void csv_free(csv *c) {
@@ -207,23 +217,78 @@ static size_t take_number(const char *text, size_t len, char point, const unit *
     return isfinite(v) ? n + sign : 0;
 }
 
+/* Does the mark stand where one of thousands would: `1.500`, `-12,345`, not `0.500`? */
+static bool like_thousands(field f, char mark) {
+    const size_t sign = *f.text == '-' || *f.text == '+';
+    if (f.len < sign + 5 || f.len >= THOUSANDS || f.text[sign] == '0' || f.text[f.len - 4] != mark)
+        return false;
+    for (size_t i = sign; i < f.len; i++)
+        if (i != f.len - 4 && (f.text[i] < '0' || f.text[i] > '9'))
+            return false;
+    return true;
+}
+
+/* What a number says of the marks in this file. */
+static void see_marks(reader *r, size_t column, field f) {
+    for (int m = 0; m < MARKS; m++) {
+        if (!memchr(f.text, marks[m], f.len))
+            continue;
+        if (!r->marked[m])
+            r->marked[m] = r->line;
+        if (!r->thousands[column][m].line && like_thousands(f, marks[m])) {
+            r->thousands[column][m].line = r->line;
+            memcpy(r->thousands[column][m].text, f.text, f.len);
+        }
+    }
+}
+
+/* One mark parts thousands where the other begins decimals, and who wrote the file knows which: a number that
+ * may be meant either way is not guessed at. */
+static bool judge_marks(reader *r) {
+    for (size_t i = 0; i < r->c->columns; i++)
+        for (int m = 0; m < MARKS; m++) {
+            const char *text = r->thousands[i][m].text;
+            const size_t other = r->marked[m == POINT ? COMMA : POINT];
+            char whole[THOUSANDS] = "";
+            if (!r->thousands[i][m].line || !other)
+                continue;
+            const size_t before = strlen(text) - 4;
+            memcpy(whole, text, before);
+            memcpy(whole + before, text + before + 1, 3);
+            if (!trouble(r, &r->c->column[i],
+                         "%.200s:%zu: %s = %s may be %.6g or %s, since line %zu has a decimal %s: write it "
+                         "without its %s, or with a %s",
+                         r->c->path, r->thousands[i][m].line, r->c->column[i].name, text, atof(whole) / 1000,
+                         whole, other, m == POINT ? "comma" : "point", m == POINT ? "point" : "comma",
+                         m == POINT ? "comma" : "point"))
+                return false;
+        }
+    return true;
+}
+
 /* All of a field, with a point or, where it cannot be a separator, with a comma. */
-static bool read_number(field f, const unit *u, bool comma, double *out) {
+static bool read_number(reader *r, size_t column, field f, bool comma, double *out) {
     const char point = comma && !memchr(f.text, '.', f.len) ? ',' : '.';
-    return f.len && take_number(f.text, f.len, point, u, out) == f.len;
+    if (!f.len || take_number(f.text, f.len, point, &r->unit[column], out) != f.len)
+        return false;
+    see_marks(r, column, f);
+    return true;
 }
 
 /* A number with a comment behind it. */
-static bool read_commented(field f, const unit *u, bool comma, double *out) {
+static bool read_commented(reader *r, size_t column, field f, bool comma, double *out) {
     const char *hash = memchr(f.text, '#', f.len);
-    return hash && read_number(trimmed(f.text, (size_t)(hash - f.text)), u, comma, out);
+    return hash && read_number(r, column, trimmed(f.text, (size_t)(hash - f.text)), comma, out);
 }
 
 /* A field that is a number and nothing else, as most are; else *at stays. */
-static bool take_field(char separator, const char *line, size_t len, size_t *at, const unit *u, double *out) {
-    const size_t n = *at < len ? take_number(line + *at, len - *at, '.', u, out) : 0, end = *at + n;
+static bool take_field(reader *r, size_t column, char separator, const char *line, size_t len, size_t *at,
+                       double *out) {
+    const size_t n = *at < len ? take_number(line + *at, len - *at, '.', &r->unit[column], out) : 0,
+                 end = *at + n;
     if (n == 0 || (end < len && !parts(separator, line[end])))
         return false;
+    see_marks(r, column, (field){line + *at, n});
     *at = end + 1;
     return true;
 }
@@ -260,7 +325,7 @@ static bool read_row(reader *r, const char *line, size_t len) {
     if (!make_room(c))
         return calc_no_memory(r->error);
     for (;; i++) {
-        if (i < c->columns && take_field(separator, line, len, &at, &r->unit[i], &c->column[i].v[c->rows]))
+        if (i < c->columns && take_field(r, i, separator, line, len, &at, &c->column[i].v[c->rows]))
             continue;
         if (!next_field(separator, line, len, &at, &f))
             break;
@@ -273,11 +338,11 @@ static bool read_row(reader *r, const char *line, size_t len) {
             continue;
         const bool comma = separator != ',' || (f.text > line && f.text[-1] == '"');
         double *v = &c->column[i].v[c->rows];
-        if (i + 1 == c->columns && read_commented(f, &r->unit[i], comma, v)) {
+        if (i + 1 == c->columns && read_commented(r, i, f, comma, v)) {
             i++;
             break;
         }
-        if (!read_number(f, &r->unit[i], comma, v)) {
+        if (!read_number(r, i, f, comma, v)) {
             *v = NAN;
             if (!trouble(r, &c->column[i], "%.200s:%zu: expected a number as %s, not '%.*s'", c->path,
                          r->line, c->column[i].name, LEX_SHOWN(f.len), f.text))
@@ -344,7 +409,7 @@ bool csv_read(const char *path, file_stop stop, csv *c, calc_error *error) {
     file_in_close(&in);
     if (ok && got == FILE_GOT_STOP)
         ok = calc_interrupted(error);
-    return ok && got != FILE_GOT_ERROR &&
+    return ok && judge_marks(&r) && got != FILE_GOT_ERROR &&
            (c->rows > 0 || calc_fail(error, 0, 0, "%s holds no rows of numbers", path));
 }
 

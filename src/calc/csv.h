@@ -29,9 +29,10 @@ typedef struct csv {
 
 /* The header is `name [unit]`, `name (unit)`, `name/unit` or a bare name, for each column. Columns are parted
  * by semicolons, tabs, commas or blanks, whichever the header has first in this order; where it is no comma,
- * a comma within a number is a decimal one. Fields may stand in quotation marks, `#` begins a comment, on a
- * line of its own or behind the last number, and the micro sign may be that of Latin-1. Reading stops when
- * `stop` is set. Errors name file and line. Free with csv_free whatever comes. */
+ * a comma within a number is a decimal one. A number that may have a mark of thousands, as `1.500` in a file
+ * with `950,5`, is wrong. Fields may stand in quotation marks, `#` begins a comment, on a line of its own or
+ * behind the last number, and the micro sign may be that of Latin-1. Reading stops when `stop` is set. Errors
+ * name file and line. Free with csv_free whatever comes. */
 bool csv_read(const char *path, file_stop stop, csv *out, calc_error *error);
 void csv_free(csv *c);
 
