@@ -2,6 +2,7 @@
 /* The table of looks, and measured points from files. Touches the panel only. */
 #include "shell/looks.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -119,38 +120,100 @@ bool looks_read(shell *sh, lexer *lx, plot_panel *p, looks *out, bool *found) {
 
 /* ---- measured points --------------------------------------------------------------------------- */
 
-/* The first column of an axis' dimension, of its name where that is wanted; NULL: there is none. */
-static const csv_values *column_for(const csv *c, const axis_of *axis, const csv_values *but, bool by_name) {
-    for (size_t i = 0; i < c->columns; i++) {
-        const csv_values *v = &c->column[i];
-        if (v != but && !v->trouble && dim_equal(v->d, axis->d) && (!by_name || !strcmp(v->name, axis->name)))
-            return v;
+/* Does the column bear a name of the axis: `dW` of dW(F), `c` of a, c? */
+static bool is_named(const csv_values *v, const axis_of *axis) {
+    const size_t n = strlen(v->name);
+    const char *next;
+    for (const char *at = axis->name; n && at; at = next ? next + 2 : NULL) {
+        const char *end = at + n;
+        next = strstr(at, ", ");
+        if (strncmp(at, v->name, n))
+            continue;
+        if (*end == '(')
+            end += strcspn(end, ")") + 1;
+        if (!*end || *end == ',')
+            return true;
     }
+    return false;
+}
+
+static const csv_values *column_named(const csv *c, const axis_of *axis) {
+    for (size_t i = 0; i < c->columns; i++)
+        if (is_named(&c->column[i], axis))
+            return &c->column[i];
     return NULL;
 }
 
-static void no_column(lexer *lx, const looks *l, size_t i, const csv *c, const axis_of *axis) {
-    char wants[128], has[CALC_ERROR_TEXT / 2];
+static bool is_quantity(const csv_values *v) {
+    return quantity_find(v->name, strlen(v->name)) != NULL;
+}
+
+/* The only column but one of the axis' dimension that is not called after something else. */
+static const csv_values *column_for(const csv *c, const axis_of *axis, const csv_values *but,
+                                    calc_error *error) {
+    const csv_values *one = NULL, *other = NULL;
+    char wants[128], names[CALC_ERROR_TEXT / 2] = "";
+    size_t n = 0, fit = 0;
+    for (size_t i = 0; i < c->columns; i++) {
+        const csv_values *v = &c->column[i];
+        if (v == but || !dim_equal(v->d, axis->d) || (v->trouble && !v->has_unit))
+            continue;
+        if (is_quantity(v)) {
+            other = v;
+            continue;
+        }
+        one = v;
+        if (n < sizeof names)
+            n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", fit ? ", " : "", v->name);
+        fit++;
+    }
+    if (fit == 1)
+        return one;
     dim_describe(axis->d, wants, sizeof wants);
-    csv_names(c, has, sizeof has);
-    calc_fail(lx->error, l->over_at[i], l->over_len[i],
-              "no column fits the axis %.60s, which is %s: there are %s; their units stand in the header",
-              axis->name, wants, has);
+    if (fit) {
+        calc_fail(error, 0, 0,
+                  "several columns fit the axis %.60s, which is %s: %s; give one of them its name",
+                  axis->name, wants, names);
+        return NULL;
+    }
+    csv_names(c, names, sizeof names);
+    calc_fail(
+        error, 0, 0,
+        "no column fits the axis %.60s, which is %s: there are %s; their units stand in the header%s%s%s",
+        axis->name, wants, names, other ? ", and " : "", other ? other->name : "",
+        other ? " is the name of another quantity" : "");
+    return NULL;
+}
+
+/* Is it whole, and of the axis' dimension? */
+static bool is_fit(const csv *c, const csv_values *v, const axis_of *axis, calc_error *error) {
+    char wants[128], is[128];
+    if (!v || !csv_column(c, v->name, error) || dim_equal(v->d, axis->d))
+        return !error->raised;
+    dim_describe(axis->d, wants, sizeof wants);
+    dim_describe(v->d, is, sizeof is);
+    return calc_fail(error, 0, 0, "column %s is %s: it needs the unit of %s in the header", v->name, is,
+                     wants);
+}
+
+/* Names come first. */
+static bool find_columns(const csv *c, const axis_of *x, const axis_of *y, const csv_values **of_x,
+                         const csv_values **of_y, calc_error *error) {
+    *of_x = column_named(c, x);
+    *of_y = column_named(c, y);
+    *of_x = *of_x ? *of_x : column_for(c, x, *of_y, error);
+    *of_y = *of_y || !*of_x ? *of_y : column_for(c, y, *of_x, error);
+    return !error->raised && is_fit(c, *of_x, x, error) && is_fit(c, *of_y, y, error);
 }
 
 static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const axis_of *x, const axis_of *y) {
     csv c;
+    const csv_values *of_x, *of_y;
     const char *slash = strrchr(l->over[i], '/');
-    if (!csv_read(l->over[i], &shell_stop, &c, lx->error)) {
-        csv_free(&c);
-        return calc_place(lx->error, l->over_at[i], l->over_len[i]);
-    }
-    const csv_values *of_x = column_for(&c, x, NULL, true), *of_y = column_for(&c, y, of_x, true);
-    of_x = of_x ? of_x : column_for(&c, x, of_y, false); /* names first, then the order of the columns */
-    of_y = of_y ? of_y : column_for(&c, y, of_x, false);
-    bool ok = of_x && of_y;
+    bool ok =
+        csv_read(l->over[i], &shell_stop, &c, lx->error) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
     if (!ok)
-        no_column(lx, l, i, &c, of_y ? x : y);
+        calc_place(lx->error, l->over_at[i], l->over_len[i]);
     plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, slash ? slash + 1 : l->over[i], lx->error) : NULL;
     for (size_t j = 0; s && ok && j < c.rows; j++)
         ok = plot_point(s, of_x->v[j], of_y->v[j]) || calc_no_memory(lx->error);

@@ -199,8 +199,9 @@ static const char files_text[] =
     "kind of picture. A file is written whole or not at all; that one was there\n"
     "before is said. ~ is the home directory; a name with blanks goes into quotation\n"
     "marks.\n\n"
-    "`plot ... over FILE.csv` lays points on top: columns with the names or the\n"
-    "dimensions of the axes. `animate ... to FILE.gif` writes a moving picture.\n\n"
+    "`plot ... over FILE.csv` lays points on top: columns with the names of the axes,\n"
+    "else the only one of the dimension without the name of another quantity.\n"
+    "`animate ... to FILE.gif` writes a moving picture.\n\n"
     "What is typed at the prompt is kept in $XDG_STATE_HOME/fret/history, else in\n"
     "~/.local/state/fret/history, for you alone to read.\n";
 

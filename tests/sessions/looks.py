@@ -168,7 +168,8 @@ def over(tests):
     tests.check("measured points are named", "measured-1.csv" in text)
     text, series = script(tests, "measured beside", "plot pressure | loop over %s" % path)
     tests.check("a file for the second figure", series[-1:] == [[(0.2, 10), (-0.5, -20)]], str(series[-1:]))
-    for columns, row, want in (("u [um],v [um],force [N]", "1,2,3", (1, 3)), ("force [N],u [um],v [um]", "3,1,2", (1, 3)),
+    for columns, row, want in (("u [um],t,force [N]", "1,2,3", (1, 3)), ("force [N],t,u [um]", "3,2,1", (1, 3)),
+                               ("FN [N],dx [um],Ft [N]", "1,2,3", (2, 3)), ("Fx [N],a [um],u [um]", "1,2,3", (3, 1)),
                                ("F [N],v [um],Fx [N],dx [um]", "1,2,3,4", (4, 3)), ("F [N],t,Fx [N],v [um]", "1,2,3,4", (4, 3)),
                                ("F [N],u [um],dx [um]", "1,2,3", (3, 1))):
         with open(path, "w", encoding="ascii") as f:
@@ -178,12 +179,41 @@ def over(tests):
     fails(tests, "plot loop over " + path.replace("measured-1", "none"), "cannot read ")
     with open(path, "w", encoding="ascii") as f:
         f.write("Fx [kN],dx [nm]\n0.01,200\n-0.02,-500\n")
-    fails(tests, "plot pressure over " + path, "no column fits the axis p(r), which is a pressure: there are Fx, dx")
+    fails(tests, "plot pressure over " + path, "no column fits the axis r, which is a length: there are Fx, dx; their units stand in "
+          "the header, and dx is the name of another quantity")
+    with open(path, "w", encoding="ascii") as f:
+        f.write("Fx [kN],u [nm]\n0.01,200\n-0.02,-500\n")
+    fails(tests, "plot pressure over " + path, "no column fits the axis p(r), which is a pressure: there are Fx, u; their units")
     fails(tests, "plot loop over /nonexistent.csv", "cannot read /nonexistent.csv")
     for columns, row, axis in (("Fx [N],t", "1,2", "dx, which is a length"), ("dx [um],t", "1,2", "Fx, which is a force")):
         with open(path, "w", encoding="ascii") as f:
             f.write(columns + "\n" + row + "\n")
         fails(tests, "plot loop over " + path, "no column fits the axis " + axis)
+    for columns, row, message in (
+            ("u [um],v [um],Fx [N]", "1,2,3", "several columns fit the axis dx, which is a length: u, v; give one of them its name"),
+            ("Ft [N],F [N],w [N],dx [um]", "1,2,3,4", "several columns fit the axis Fx, which is a force: Ft, F, w; give one of them its name"),
+            ("dz [um],FN [N]", "1,2", "no column fits the axis dx, which is a length: there are dz, FN; their units stand in the header, "
+             "and dz is the name of another quantity"),
+            ("FN [N],dx [um]", "1,2", "no column fits the axis Fx, which is a force: there are FN, dx; their units stand in the header, "
+             "and FN is the name of another quantity"),
+            ("FN [N],dx [um],Fx", "1,2,3", "column Fx is a number: it needs the unit of a force in the header"),
+            ("Ft [N],dx [um],Fx [N]", "1,2,none", "expected a number as Fx, not 'none'"),
+            ("dx [um],dx [mm],Fx [N]", "1,2,3", " has two columns dx: rename one")):
+        with open(path, "w", encoding="ascii") as f:
+            f.write(columns + "\n" + row + "\n")
+        fails(tests, "plot loop over " + path, message)
+    for axes, columns, row, want in (("dW(F) for F = 10 N .. 20 N", "F [N],dW [uJ],W [uJ]", "1,2,3", (1, 2)),
+                                     ("a against dz for FN = 1 N .. 2 N", "u [um],dz [um]", "1,2", (2, 1)),
+                                     ("dz against a for FN = 1 N .. 2 N", "u [um],dz [um]", "1,2", (1, 2)),
+                                     ("pressure", "r [um],p [GPa],x [um]", "1,2,3", (1, 2))):
+        with open(path, "w", encoding="ascii") as f:
+            f.write(columns + "\n" + row + "\n")
+        _, series = script(tests, "measured: " + columns, "plot %s over %s" % (axes, path))
+        tests.check("measured, %s: %s" % (axes, columns), series[-1:] == [[want]], str(series[-1:]))
+    with open(path, "w", encoding="ascii") as f:
+        f.write("u [um],v [um]\n1,2\n")
+    fails(tests, "plot a against dz for FN = 1 N .. 2 N over " + path,
+          "several columns fit the axis dz, which is a length: u, v; give one of them its name")
 
 
 def maps(tests):
