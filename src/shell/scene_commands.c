@@ -238,6 +238,21 @@ static bool columns_of(const csv *data, const csv_values **r, const csv_values *
                                data->path, wrong->name, is);
 }
 
+/* The bodies touch at r = 0 before they are pressed, and nowhere overlap. */
+static bool is_open(const csv *data, const double *f, calc_error *error) {
+    char text[CALC_VALUE_TEXT];
+    size_t i = 0;
+    while (i < data->rows && f[i] >= 0)
+        i++;
+    if (i == data->rows)
+        return true;
+    calc_value_text(DIM_LENGTH, f[i], text);
+    return calc_fail(error, 0, 0,
+                     "%s:%zu: f = %s is below f(0) = 0: f is the gap and grows outward; the sign or the apex "
+                     "may be the cause",
+                     data->path, data->line[i], text);
+}
+
 /* Where the rows of a gap are none. */
 static void out_of_order(const csv *data, const double *r, calc_error *error) {
     char text[CALC_VALUE_TEXT];
@@ -273,6 +288,8 @@ static struct fret_table *table_of(const csv *data, smoothing how, smooth_answer
                   "%s:%zu: f(0) = %s must be 0: the bodies touch at r = 0 before they are pressed (smooth "
                   "takes it off)",
                   data->path, data->line[0], text);
+        return NULL;
+    } else if (!is_open(data, f->v, error)) {
         return NULL;
     } else {
         st = fret_table_make(r->v, f->v, data->rows, &shell_stop, &gap);

@@ -299,15 +299,23 @@ static bool attempt(trial *t, const rows *all, size_t pieces, file_stop stop, ca
 
 /* ---- how many pieces --------------------------------------------------------------------------- */
 
+/* A profile that falls from the beginning, or far below it, is no gap whose rim was measured too. */
+static const char *advice(const trial *t) {
+    double end, slope;
+    end_of(t, t->pieces, &end, &slope);
+    if (t->falls == 0 || end < -t->drop / 2)
+        return "f is the gap and grows outward; the sign or the apex may be the cause";
+    return t->pieces == 1 ? "leave out what lies beyond" : "leave out what lies beyond, or take fewer pieces";
+}
+
 static bool rises(const trial *t, const rows *all, calc_error *error) {
     char where[CALC_VALUE_TEXT], drop[CALC_VALUE_TEXT];
     calc_value_text(DIM_LENGTH, t->falls * all->r, where);
     calc_value_text(DIM_LENGTH, t->drop * all->f, drop);
     return t->drop == 0 ||
            calc_fail(error, 0, 0,
-                     "the profile of %zu piece%s falls from r = %s on, by %s, which is no noise: "
-                     "leave out what lies beyond, or take fewer pieces",
-                     t->pieces, t->pieces == 1 ? "" : "s", where, drop);
+                     "the profile of %zu piece%s falls from r = %s on, by %s, which is no noise: %s",
+                     t->pieces, t->pieces == 1 ? "" : "s", where, drop, advice(t));
 }
 
 /* By rows: each piece is to have some. */

@@ -256,7 +256,12 @@ WRONG = (
     (sphere, "smooth 1 nm", "no profile of up to 50 pieces comes within 1 nm (rms): the nearest is 4"),
     (lambda r: 50 * r ** 2 - 30 * r ** 4, "smooth", "falls from r = 91"),
     (lambda r: 50 * r ** 2 - 30 * r ** 4, "smooth 6", " nm, which is no noise: leave out what lies beyond, or take fewer"),
-    (lambda r: -50 * r ** 2, "smooth 3", "the profile of 3 pieces falls from r = 0 m on"),
+    (lambda r: -50 * r ** 2, "smooth 3", "the profile of 3 pieces falls from r = 0 m on, by ",
+     " um, which is no noise: f is the gap and grows outward; the sign or the apex may be the cause\n"),
+    (lambda r: 50 - 50 * (r - 0.2) ** 2, "smooth", " um, which is no noise: f is the gap and grows outward; the sign or the apex may"),
+    (lambda r: 50 * (r - 0.6) ** 2, "smooth", "falls from r = 0 m on, by ", " um, which is no noise: f is the gap and grows outward; the sign or the apex"),
+    (lambda r: -50 * r ** 2, "smooth 1 um", "the profile of 1 piece falls from r = 0 m on, by ",
+     " um, which is no noise: f is the gap and grows outward; the sign or the apex may be the cause\n"),
 )
 
 
@@ -265,12 +270,13 @@ def refused(tests):
         done = tests.run("-c", "geometry file %s smooth 200\ngeometry file %s smooth 201" % (path, path))
         tests.check("200 pieces are the most", "note: smoothed, 200 pieces" in done.stderr and "-c:2:" in done.stderr
                     and "error: smooth takes a misfit" in done.stderr, tests.report(done))
-    for f, how, message in WRONG:
+    for f, how, message, *more in WRONG:
         with tests.file(text_of(profile(f)), ".csv") as path:
             start = "mu = 0.3; geometry sphere R=1 m; geometry file %s " % path
             done = tests.run("--keep-going", "-c", start + how + "\nshow")
             message = message % (1 + len(start)) if "%" in message else message
-        tests.check("smooth: " + message, message in done.stderr and "sphere R=1 m" in done.stdout and done.returncode == 1,
+        tests.check("smooth: " + message + "".join(more), all(text in done.stderr for text in (message, *more)) and
+                    "sphere R=1 m" in done.stdout and done.returncode == 1,
                     tests.report(done))
     for rows, message in (([(0, 0), (1, 1), (2, 4)], "3 different r are too few to smooth"),
                           ([(0, 0)] * 9, "the rows are all at r = 0"), ([(i, 0) for i in range(9)], "the rows are all at f = 0")):
@@ -282,10 +288,14 @@ def refused(tests):
         for how in ("1", "1 mm"):
             done = tests.run("-c", "geometry file %s smooth %s" % (path, how))
             tests.check("smooth: a cubic that falls", "error: the profile of 1 piece falls from r = 666.667 um on, by 7.40741 um, which is "
-                        "no noise" in done.stderr and done.returncode == 1, tests.report(done))
+                        "no noise: leave out what lies beyond\n" in done.stderr and done.returncode == 1, tests.report(done))
     with tests.file(text_of([(0, 1), (1, 2)]), ".csv") as path:
         done = tests.run("-c", "geometry file %s" % path)
         tests.check("f(0) that is not 0 points to it", "(smooth takes it off)" in done.stderr, tests.report(done))
+    with tests.file(text_of([(0, 0), (1, 1), (2, -1)]), ".csv") as path:
+        done = tests.run("-c", "geometry file %s" % path)
+        tests.check("a gap below 0", path + ":4: f = -1 um is below f(0) = 0: f is the gap and grows outward; the sign or the apex may be "
+                    "the cause\n" in done.stderr and done.returncode == 1, tests.report(done))
 
 
 def run(tests):
