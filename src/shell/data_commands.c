@@ -186,17 +186,25 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, range_name
     return true;
 }
 
-/* A result in the equation that is also a column: one of them was meant. */
-static bool ambiguous(const csv *data, const expr *e, calc_error *error) {
+/* A quantity in the equation that is also a column, whose rows it does not take: one of them was meant. */
+static bool ambiguous(const shell *sh, const csv *data, const expr *e, calc_error *error) {
     const quantity *of;
     bool call;
     size_t at;
-    for (size_t i = 0; (of = expr_quantity(e, i, &call, &at)); i++)
-        if (!call && !quantity_is_input(of) && csv_has(data, of->name)) {
-            calc_fail(error, e->at, e->len,
-                      "%s is a result of the scene and a column of the file: rename the column", of->name);
-            return true;
-        }
+    for (size_t i = 0; (of = expr_quantity(e, i, &call, &at)); i++) {
+        calc_error useless;
+        error_clear(&useless);
+        const bool is_input = quantity_is_input(of);
+        if (call || !csv_has(data, of->name) ||
+            (is_input && calc_takes(&sh->calc, quantity_input(of), &useless)))
+            continue;
+        calc_fail(error, e->at, e->len,
+                  is_input ? "%s is an input that this scene does not take, and a column of the file: rename "
+                             "the column"
+                           : "%s is a result of the scene and a column of the file: rename the column",
+                  of->name);
+        return true;
+    }
     return false;
 }
 
@@ -227,6 +235,10 @@ static bool read_side(shell *sh, lexer *lx, const csv *data, expr *e) {
     if (csv_has(data, name) && !csv_column(data, name, &wrong)) {
         calc_place(&wrong, error->at, error->len);
         *error = wrong;
+    } else if (!strncmp(error->text, "unknown name", 12)) {
+        char names[CALC_ERROR_TEXT / 2];
+        csv_names(data, names, sizeof names);
+        calc_append(&sh->calc, error, " (the columns of %.100s are %s)", data->path, names);
     }
     return false;
 }
@@ -248,7 +260,7 @@ static bool read_equation(shell *sh, lexer *lx, fit_question *q, csv *data, rang
     q->rows = data->rows;
     if (!lex_is(lx, "to"))
         return lex_fail(lx, "expected to FILE.csv");
-    if (ambiguous(data, q->left, lx->error) || ambiguous(data, q->right, lx->error))
+    if (ambiguous(sh, data, q->left, lx->error) || ambiguous(sh, data, q->right, lx->error))
         return false;
     if (!uses_columns(sh, q)) {
         char columns[CALC_ERROR_TEXT / 2];

@@ -370,7 +370,7 @@ def refusals(tests):
              "fn": ("FN [mm],y", ((1, 2), (2, 4))), "along": ("dx [N],Fx [N]", ((0, 0), (1, 1))),
              "no": ("dx [um],W", ((0, 0), (1, 1))), "down": ("dx [um],Fx [N],FN [N]", ((0, 0, 100), (0.1, 4, -3), (1, 2, 1))),
              "bare": ("dx [um],Fx [N]", ((0, 0), (0.1, 4), (1, 2))), "res": ("dW [uJ],u", ((1, 2), (2, 3))),
-             "waves": ("u,y", tuple((u, 10 + u % 2) for u in range(1, 17)))}
+             "hF": ("h [nm],F [nN]", ((1, 2), (2, 4))), "waves": ("u,y", tuple((u, 10 + u % 2) for u in range(1, 17)))}
     path = {name: write(tests, "refused-%s.csv" % name, *text) for name, text in files.items()}
     path["bad"] = os.path.join(tests.dir, "refused-bad.csv")
     with open(path["bad"], "w", encoding="ascii") as f:
@@ -406,7 +406,12 @@ def refusals(tests):
             ("friction 0.3; fit mu along {bare}", "E0 is not set"),
             ("s = 1 mm; fit s for y = s*u to {bad}", "refused-bad.csv:3: expected a number as y, not 'x'"),
             ("s = 1 mm; fit s for s*u = y to {bad}", "refused-bad.csv:3: expected a number as y, not 'x'"),
-            ("s = 1 mm; fit s for s*u = yy to {bad}", "unknown name 'yy'"),
+            ("s = 1 mm; fit s for s*u = yy to {bad}", "unknown name 'yy' (the columns of {bad} are u, y)\n"),
+            ("s = 1 mm; fit s for s*uu = y to {two}", "unknown name 'uu' (the columns of {two} are u, y)\n"),
+            ("s = 1; slope_of_it = 2; fit s for y = s*slope_of_ix to {two}", "unknown name 'slope_of_ix': did you mean slope_of_it? (the columns of {two} are u, y)\n"),
+            ("s = 1; fit s for y = s*(u + ) to {two}", "expected a value, not ')'\n"),
+            ("s = 1; fit s for F = s*h to {hF}", "h is an input that this scene does not take, and a column of the file: rename the column\n"),
+            (scene + "s = 1; fit s for s*h = F to {hF}", "h is an input that this scene does not take, and a column of the file: rename the column\n"),
             ("s = 1; fit s for 3 = 4 to {exact}", "no column of"),
             ("fit FN for y = u to {exact}", "FN has no value to start from"),
             ("s := 3; fit s for y = s to {exact}", "s has no value of its own to start from (it follows s := 3)"),
@@ -418,6 +423,7 @@ def refusals(tests):
             ("; ".join("n%d = 1" % i for i in range(9)) + "; fit " + ", ".join("n%d" % i for i in range(9)) + " for y = n1 to {exact}",
              "more than 8 names"), ("fit 3 for y = u to {exact}", "expected a name")):
         script = script.format(nowhere=os.path.join(tests.dir, "nowhere.csv"), **path)
+        want = want.format(**path)
         done = tests.run("-c", script)
         tests.check("fit refuses: " + script, done.returncode == 1 and want in done.stderr, tests.report(done))
 
