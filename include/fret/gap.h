@@ -41,7 +41,7 @@ typedef struct fret_gap {
 } fret_gap;
 
 /* kappa(n,k) = (n/2) B(n/2,(k+1)/2) (6)-(8): the profile of r^n is kappa x^n.
- * Range n > 0, -1 < k < 1. Accuracy 1e-19 relative for n <= 1e6; no overflow at large n. */
+ * Range n > 0, -1 < k < 1, else NaN. Accuracy 1e-19 relative for n <= 1e6; no overflow at large n. */
 fret_real fret_kappa(double n, double k);
 
 /* Checks the parameters of a gap. Errors: FRET_NOT_FINITE, FRET_NOT_POSITIVE naming the parameter;
@@ -49,8 +49,7 @@ fret_real fret_kappa(double n, double k);
  * has passed. */
 fret_status fret_gap_check(const fret_gap *gap);
 
-/* f(r) [m], r >= 0 [m]. Errors: FRET_NEGATIVE, FRET_OUTSIDE (beyond a sphere or a table), FRET_NOT_FINITE
- * (NaN). */
+/* f(r) [m], r >= 0 [m]. Errors: FRET_NEGATIVE, FRET_OUTSIDE (beyond a sphere or a table), FRET_NOT_FINITE. */
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f);
 
 /* g(x) [m] and, where slope is not NULL, g'(x), for |x| [m], -1 < k < 1. Errors as above, and FRET_BAD_K.

@@ -16,6 +16,8 @@ dd_scaled fret_kappa_parts(double n, double k) {
 }
 
 fret_real fret_kappa(double n, double k) {
+    if (fret_check_positive("n", n).code || fret_check_k(k).code)
+        return (fret_real)NAN;
     dd_scaled q = fret_kappa_parts(n, k);
     return dd_value(dd_mul(q.factor, fret_dd_exp(q.log)));
 }
@@ -349,7 +351,7 @@ bool fret_gap_grows(const fret_gap *gap) {
 }
 
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
-    if (isnan(r))
+    if (!isfinite(r))
         return fret_fail(FRET_NOT_FINITE, "r", (double)r, 0);
     if (r < 0)
         return fret_fail(FRET_NEGATIVE, "r", (double)r, 0);
@@ -378,7 +380,7 @@ fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g,
     if (st.code)
         return st;
     x = fabsl(x);
-    if (isnan(x))
+    if (!isfinite(x))
         return fret_fail(FRET_NOT_FINITE, "x", (double)x, 0);
     if (x > fret_gap_end(gap))
         return fret_fail(FRET_OUTSIDE, "x", (double)x, (double)fret_gap_end(gap));

@@ -145,7 +145,7 @@ fret_real fret_normal_end(const fret_normal *n) {
 
 fret_real fret_normal_profile(const fret_normal *n, fret_real x) {
     const fret_real e = fabsl(x) - fret_gap_start(&n->gap);
-    if (!(fabsl(x) <= n->end))
+    if (!(fabsl(x) <= n->end && isfinite(x)))
         return (fret_real)NAN;
     fret_real depth;
     if (fret_law_prepared_depth(n, e, &depth))

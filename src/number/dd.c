@@ -3,6 +3,7 @@
  * libm but for the ends of the range. */
 #include "number/dd.h"
 
+#include <float.h>
 #include <stdlib.h>
 
 #include "number/bits.h"
@@ -71,8 +72,8 @@ static int normalise(dd *m, int e) { /* from 0.5 .. 1 */
 
 dd fret_dd_exp(dd x) {
     int e;
-    if (x.hi > 745 || x.hi < -745)
-        return dd_of(x.hi > 0 ? INFINITY : 0);
+    if (!(fabs(x.hi) <= 745))
+        return dd_of(x.hi > 0 ? INFINITY : x.hi < 0 ? 0 : NAN);
     dd m = exp_core(x, &e);
     double half = fret_two_to(e / 2), other = fret_two_to(e - e / 2); /* 2^e may leave the range */
     return (dd){m.hi * half * other, m.lo * half * other};
@@ -87,6 +88,8 @@ dd fret_dd_log(dd x) {
 }
 
 dd fret_dd_log_scaled(dd x, int scale) {
+    if (!(x.hi > 0 && x.hi <= DBL_MAX))
+        return dd_of(log(x.hi));
     int e = fret_exponent(x.hi);
     dd m;
     if (abs(e) <= FRET_PLAIN)
@@ -170,6 +173,8 @@ fret_real fret_dd_exp_real(dd x) {
 
 dd fret_dd_log_real(fret_real x) {
     int e;
+    if (!(x > 0 && x <= LDBL_MAX))
+        return dd_of(log((double)x));
     dd m = dd_from(fret_mantissa(x, &e));
     e = normalise(&m, e);
     return log_core(m, e);

@@ -115,7 +115,11 @@ static void far_limits(void) {
           isnan(fret_gamma(-4)));
     CHECK_REL(fret_gamma(-3.5L), 16 * sqrtl(3.14159265358979323846264338327950288L) / 105, 1e-18L);
     CHECK(fret_dd_exp_real(dd_of(20000)) == inf && fret_dd_exp_real(dd_of(-20000)) == 0);
-    CHECK(isnan(fret_dd_exp_real(dd_of((double)NAN))));
+    CHECK(isnan(fret_dd_exp_real(dd_of((double)NAN))) && isnan(fret_dd_exp(dd_of((double)NAN)).hi));
+    CHECK(fret_dd_log(dd_of(0)).hi == -inf && fret_dd_log(dd_of((double)INFINITY)).hi == inf);
+    CHECK(isnan(fret_dd_log(dd_of(-1)).hi) && isnan(fret_dd_log(dd_of((double)NAN)).hi));
+    CHECK(fret_dd_log_real(inf).hi == inf && isnan(fret_dd_log_real(-1).hi) &&
+          isnan(fret_dd_log_real(NAN).hi));
     /* Gamma(5)/Gamma(3)^2, the equal ones asked once; Gamma(5)/(Gamma(3) Gamma(3+e)) is another */
     const dd five = dd_of(5), alike[2] = {{3, 0}, {3, 0}}, apart[2] = {{3, 0}, {3, 1e-16}};
     const dd_scaled q = fret_dd_gamma_quotient(&five, 1, alike, 2),

@@ -105,8 +105,12 @@ static void errors(void) {
     fret_real f = 7;
     gap = power_gap(2, 1e-5, 1e-3);
     CHECK_ERROR(fret_gap_f(&gap, -1e-3L, &f), FRET_NEGATIVE, "r");
-    CHECK_ERROR(fret_gap_f(&gap, (fret_real)NAN, &f), FRET_NOT_FINITE, "r");
-    CHECK_ERROR(fret_gap_g(&gap, 0, (fret_real)NAN, &f, NULL), FRET_NOT_FINITE, "x");
+    for (int i = 0; i < 3; i++) {
+        CHECK_ERROR(fret_gap_f(&gap, wild[i], &f), FRET_NOT_FINITE, "r");
+        CHECK_ERROR(fret_gap_g(&gap, 0.3, wild[i], &f, NULL), FRET_NOT_FINITE, "x");
+        CHECK(isnan(fret_kappa(wild[i], 0)) && isnan(fret_kappa(2, wild[i])));
+    }
+    CHECK(isnan(fret_kappa(0, 0)) && isnan(fret_kappa(2, -1)) && isnan(fret_kappa(2, 1)));
     CHECK_ERROR(fret_gap_g(&gap, 1, 1e-3L, &f, NULL), FRET_BAD_K, "k");
     CHECK_ERROR(fret_gap_g(&gap, nan_, 1e-3L, &f, NULL), FRET_NOT_FINITE, "k");
     CHECK(f == 7); /* untouched */

@@ -162,6 +162,8 @@ static void errors(void) {
     CHECK(fret_normal_end(n) == inf_); /* a power goes on for ever, a sphere for 0.95 of its radius */
     const fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 0.01};
     CHECK_REL(fret_normal_end(unit_keep_normal(&s.material, &sphere)), 0.0095L, 1e-15L);
+    for (int i = 0; i < 3; i++)
+        CHECK(isnan(fret_normal_profile(n, wild[i])));
     fret_press p = {.F = 7, .dz = 7, .a = 7};
     CHECK_CODE(fret_press_by_depth(n, 1e300, &p), FRET_OVERFLOW);
     CHECK_CODE(fret_press_by_radius(n, 1e200, &p), FRET_OVERFLOW);
