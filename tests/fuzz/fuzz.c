@@ -26,6 +26,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include "library.h"
 #include "shell/output.h"
 #include "shell/shell.h"
 #include "shell/show.h"
@@ -434,17 +435,28 @@ static void replay(const char *text, size_t size) {
     }
 }
 
+/* The functions of the library themselves. */
+static void library(const char *text, size_t size) {
+    (void)size;
+    patience(300000);
+    library_calls(text, &shell_stop);
+    patience(0);
+    shell_stop = 0;
+}
+
 /* ---- targets ----------------------------------------------------------------------------------- */
 
 static const struct target {
     const char *name;
     void (*run)(const char *text, size_t size);
-} targets[] = {{"statements", statements}, {"json", json},     {"gap", gap},
-               {"follow", follow},         {"table", columns}, {"replay", replay}};
+} targets[] = {{"statements", statements}, {"json", json},     {"gap", gap},        {"follow", follow},
+               {"table", columns},         {"replay", replay}, {"library", library}};
 
 static const struct target *chosen;
 
 static void leave(void) {
+    if (chdir(folder)) /* not where it was started: all files go */
+        return;
     prepare();
     static const char *const given[] = {"given.csv",       "given-loads.csv", "given-data.csv",
                                         "given.fret",      "given-gap.csv",   "given-follow.csv",
@@ -465,7 +477,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv) {
             chosen = &targets[i];
     nowhere = fopen("/dev/null", "w");
     if (!chosen || !nowhere || !mkdtemp(folder)) {
-        fprintf(stderr, "FRET_FUZZ must be statements, json, gap, follow, table or replay\n");
+        fprintf(stderr, "FRET_FUZZ must be statements, json, gap, follow, table, replay or library\n");
         exit(2);
     }
     setenv("HOME", folder, 1);

@@ -118,6 +118,16 @@ def declared(files):
     return found
 
 
+def uncalled(names, rows):
+    """Functions that the fuzz target of the library does not call, and calls of none."""
+    called = re.findall(r"^ *ROW\((\w+)\)", rows, re.M)
+    for name in sorted(names ^ set(called)):
+        yield name
+    for name in sorted(set(called)):
+        if called.count(name) > 1:
+            yield name + " twice"
+
+
 def exported(path):
     dynamic = ["-D"] if path.endswith(".so") else []
     done = subprocess.run(["nm", "-g", "--defined-only", *dynamic, path], capture_output=True, text=True, cwd=harness.ROOT)
@@ -191,6 +201,8 @@ def selftest(tests):
     tests.check("missing comments are seen", len(list(unsaid(bad))) == 3, str(list(unsaid(bad))))
     marks = {"number/i.c": "x(); /* unreached */\ny(); /* unreached: who knows */\nz(); /* unreached: no double is that small */\n"}
     tests.check("marks without a reason are seen", len(list(unreasoned(marks))) == 2, str(list(unreasoned(marks))))
+    tests.check("functions without a row are seen", list(uncalled({"f", "g", "h"}, "    ROW(g),\n    ROW(h),\n    ROW(h),\n    ROW(i),\n")) ==
+                ["f", "i", "h twice"])
     tests.check("shapes are seen", list(told_apart(bad)) == ["number/g.c: FRET_GAP_POWER"])
 
 
@@ -203,5 +215,8 @@ def run(tests):
         found = list(rule(files))
         tests.check(what, not found, "\n".join(found))
     by_header = declared(files)
-    library(tests, {name for names in by_header.values() for name in names})
+    names = {name for names in by_header.values() for name in names}
+    library(tests, names)
+    found = list(uncalled(names, read(os.path.join(harness.ROOT, "tests/fuzz/library.h"))))
+    tests.check("each function of the library has a row in tests/fuzz/library.h", not found, "\n".join(found))
     headers(tests, by_header)
