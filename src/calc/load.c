@@ -248,7 +248,12 @@ static bool run_appended(scene *s, bool whole, calc_error *error) {
     return calc_status(error, &st);
 }
 
+/* From further away nothing of a contact would have digits on the way back. */
+static const double DEEPEST = 1e8;
+
 static bool append_step(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    if (step->normal == BY_DISPLACEMENT && !(fabs(step->normal_value) < DEEPEST))
+        return calc_fail(error, 0, 0, "dz = %.6g m: a step goes less than 1e8 m deep", step->normal_value);
     if (extra && s->end.cycles)
         program_freeze(s->program, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
     if (!program_append(s->program, &s->end, step, extra))

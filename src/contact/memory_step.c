@@ -426,6 +426,34 @@ FRET_INLINE fret_real advance(fret_memory *m, coordinate by, const fret_real edg
     return 0;
 }
 
+/* Thicknesses and places are kept apart, and the rounding of a load is felt by what is a 1e19th of it. After
+ * a step from far away, order is more than digits that are lost: places rise from the centre to the edge, and
+ * what is not as thick as they say, to their rounding, is so again. True: slice i was in order. */
+static bool keep_order_of(fret_memory *m, size_t i, coordinate by) {
+    slice *sl = &m->slices[i];
+    const fret_real outer = i + 1 < m->count ? sl[1].inner[by] : m->edge[by],
+                    floor = i ? inner_of(m, i - 1, by) : 0, least = inner_of(m, i, by),
+                    inner = fret_lesser(fret_greater(least, floor), outer), thick = outer - inner,
+                    have = sl->thick[by];
+    if (inner == least && have >= 0 && fabsl(have - thick) <= 8 * LDBL_EPSILON * outer)
+        return true;
+    sl->inner[by] = inner;
+    sl->thick[by] = thick;
+    return false;
+}
+
+/* A step leaves two slices that are not as before. */
+static void keep_order(fret_memory *m) {
+    size_t i = m->count, lowest = m->count;
+    for (bool kept = true; i > 0 && (!kept || i + 2 > m->count);) {
+        i--;
+        kept = (int)keep_order_of(m, i, DEPTH) & (int)keep_order_of(m, i, LOAD);
+        lowest = kept ? lowest : i;
+    }
+    for (; lowest < m->count; lowest++)
+        resum(&m->slices[lowest], lowest == 0);
+}
+
 static void open_contact(fret_memory *m, fret_real dx) {
     m->edge[DEPTH] = m->edge[LOAD] = 0;
     m->edge_id++;
@@ -602,6 +630,7 @@ fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     keep_normal_end(m, step, &to);
     const fret_real loss = step->tangential_by == FRET_TO_FX ? step_by_force(m, step, to.edge, load)
                                                              : step_by_displacement(m, step, to.edge, to.gap);
+    keep_order(m);
     if (step->tangential_by != FRET_KEEP_DX) {
         m->held = step->tangential_by;
         m->goal = step->tangential;

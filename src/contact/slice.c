@@ -24,7 +24,7 @@ typedef struct moments {
  * series of (1-t)^(p-2) under the integral has terms a falling at least as fast as p x. Integrated twice it
  * is the one of (1-t)^p, of terms -a/((i+1)(i+2)). */
 static moments moments_series(fret_real pm1, fret_real x) {
-    enum { LEADING = 6 }; /* all further terms together are below 2^-13: double will do */
+    enum { LEADING = 6, MOST = 60 }; /* all terms after the leading ones are below 2^-13: double will do */
     static const fret_real inv[LEADING + 2] = {1.0L / 1, 1.0L / 2, 1.0L / 3, 1.0L / 4,
                                                1.0L / 5, 1.0L / 6, 1.0L / 7, 1.0L / 8};
     fret_real p = 1 + pm1, a = p * pm1 * x * x, slope = pm1 * x, w = 0, J = 0, m1 = 0, L = 0;
@@ -39,7 +39,7 @@ static moments moments_series(fret_real pm1, fret_real x) {
     }
     double term = (double)a, wt = 0, Jt = 0, m1t = 0, Lt = 0;
     double first = 1.0 / (LEADING + 1), second = 1.0 / (LEADING + 2);
-    for (int i = LEADING; fabs(term) > small; i++) {
+    for (int i = LEADING; i < MOST && fabs(term) > small; i++) {
         const double c = term * second, third = 1.0 / (i + 3);
         wt += c * first;
         Jt += term * first * third;

@@ -549,7 +549,7 @@ static void standing(void) {
 static void rim(void) {
     unsigned long long seed = 11;
     int rounded = 0;
-    for (int i = 0; i < 4000; i++) {
+    for (int i = 0; i < 1000; i++) {
         contact c = make_plain(unit_random(&seed, 0.5, 5), unit_random(&seed, -0.9, 0.9));
         go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, unit_random(&seed, 1, 100), 0});
         fret_state s = state_of(&c);
@@ -912,6 +912,73 @@ static void merged(void) {
     fret_memory_free(m);
 }
 
+/* Places rise from the centre to the edge, slopes are slopes, no slice is thicker than it is. */
+static bool in_order(const fret_memory *m) {
+    fret_segment s;
+    fret_real last = 0;
+    const fret_real slack = 8 * LDBL_EPSILON;
+    for (size_t i = 0; fret_memory_segment(m, i, &s); i++, last = s.outer) {
+        const slice *sl = &m->slices[i];
+        for (coordinate by = DEPTH; by <= LOAD; by++) {
+            const fret_real outer = i + 1 < m->count ? sl[1].inner[by] : m->edge[by],
+                            inner = inner_of(m, i, by);
+            if (!(sl->thick[by] >= 0 && sl->thick[by] <= outer - inner + slack * outer))
+                return false;
+        }
+        if (!(s.inner >= 0 && s.outer >= s.inner && (i == 0 || s.inner == last) && fabsl(s.sigma) <= 1))
+            return false;
+    }
+    return last <= m->edge[DEPTH];
+}
+
+/* Loads of any size one after the other: a contact may be pressed by 1e20 of what is left of it then. */
+static void unequal(void) {
+    unsigned long long seed = 1;
+    for (int i = 0; i < 1000; i++) {
+        unit_scene s =
+            unit_make_scene(unit_random(&seed, 0.2, 8), i % 3 ? unit_random(&seed, -0.95, 0.95) : 0);
+        contact c = make(&s);
+        for (int j = 0; j < 12; j++) {
+            const fret_state now = state_of(&c);
+            const double size = pow(10, unit_random(&seed, -14, 10)), bound = c.mu * 1e8 * size,
+                         part = unit_random(&seed, -1.2, 1.2);
+            fret_step step = {(fret_normal_target)unit_random(&seed, 0, 3),
+                              (fret_tangential_target)unit_random(&seed, 0, 3), 0, 0};
+            step.normal = step.normal_by == FRET_TO_DEPTH ? size : 1e8 * size;
+            step.tangential = step.tangential_by == FRET_TO_FX
+                                  ? part * (step.normal_by == FRET_TO_FORCE ? bound : c.mu * (double)now.FN)
+                                  : part * pow(10, unit_random(&seed, -14, 10));
+            if (fret_memory_step(c.memory, &step).code)
+                continue;
+            CHECK(in_order(c.memory));
+        }
+        fret_memory_free(c.memory);
+        fret_normal_free(unit.normal[--unit.normals]);
+    }
+}
+
+/* A depth of 6e11 m, and the 4e-8 m that are left of it: the thickness of what slips there was what rounding
+ * left of the one before, and grew beyond the contact. */
+static void from_far(void) {
+    const fret_material material = {{{300999177057.67145, 0.3, false}, {1, 0.3, true}}, 0, 1};
+    const fret_gap gap = {.kind = FRET_GAP_POWER,
+                          .terms = 1,
+                          .power = {{5.8191091357016242, 2.6918748266644205e-05, 0.0051140926825317999}}};
+    contact c = {.normal = unit_keep_normal(&material, &gap), .mu = 0.4};
+    CHECK_OK(fret_memory_make(c.normal, c.mu, &c.memory));
+    const fret_step steps[] = {to_force(31.600412869186258, -4.1945459287254589),
+                               {FRET_TO_DEPTH, FRET_KEEP_DX, 631885072763.47363, 0},
+                               {FRET_TO_FORCE, FRET_TO_DX, 29.405160495167841, 4.7407009394257462e-08},
+                               to_fx(0.14639967359409328),
+                               to_dx(-1.3693087783822631e-50)};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        go(&c, steps[i]);
+        CHECK(in_order(c.memory));
+        check_state(&c);
+    }
+    fret_memory_free(c.memory);
+}
+
 int main(int argc, char **argv) {
     unit_start("memory", argc, argv);
     CASE(history_reference("history.csv", false));
@@ -926,6 +993,7 @@ int main(int argc, char **argv) {
     CASE(targets());
     CASE(separation());
     CASE(merged());
+    CASE(unequal());
     CASE(gross_slip());
     CASE(standing());
     CASE(rim());
