@@ -648,7 +648,8 @@ fret_status fret_normal_prepare(fret_normal *n, double F, double error) {
     fret_real e = fret_search_radius(n, true, most);
     if (!isfinite(e) && isfinite(n->end)) /* not where g begins to fall: there it is no inverse */
         e = (n->falls ? 0.99L : 1) * (n->end - fret_gap_start(&n->gap));
-    if (isfinite(e))
+    if (isfinite(e) &&
+        1e-12L * e > 0) /* not where it does not reach beyond a flat end: no piece begins there */
         st = make_pieces(n, e, n->borne, &made);
     n->pieces = made;
     if (!st.code)

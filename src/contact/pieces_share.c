@@ -8,12 +8,13 @@
 
 static bool same_shape(const fret_normal *a, const fret_normal *b) {
     const fret_gap *f = &a->gap, *g = &b->gap;
-    if (a->foundation.k != b->foundation.k || f->kind != g->kind || f->terms != g->terms || f->b != g->b ||
-        f->R != g->R || f->slope != g->slope || f->table != g->table)
+    const fret_power *p, *q;
+    const int terms = fret_gap_powers(f, &p);
+    if (a->foundation.k != b->foundation.k || f->kind != g->kind || terms != fret_gap_powers(g, &q) ||
+        f->b != g->b || f->R != g->R || f->slope != g->slope || f->table != g->table)
         return false;
-    for (int i = 0; i < f->terms; i++)
-        if (f->power[i].n != g->power[i].n || f->power[i].h != g->power[i].h ||
-            f->power[i].r0 != g->power[i].r0)
+    for (int i = 0; i < terms; i++)
+        if (p[i].n != q[i].n || p[i].h != q[i].h || p[i].r0 != q[i].r0)
             return false;
     return true;
 }

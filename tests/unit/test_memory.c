@@ -993,6 +993,7 @@ int main(int argc, char **argv) {
     CASE(targets());
     CASE(separation());
     CASE(merged());
+    CASE(from_far());
     CASE(unequal());
     CASE(gross_slip());
     CASE(standing());

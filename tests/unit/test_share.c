@@ -53,6 +53,17 @@ static void compare(const fret_normal *shared, const fret_normal *plain, double 
     }
 }
 
+/* What a shape does not read may be anything. */
+static void unread(void) {
+    fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 0.01, .terms = 1 << 28};
+    fret_normal *from = make(&sphere, 0.2, 210e9, 1e-3), *to = make(&sphere, 0.2, 100e9, 1e-3);
+    CHECK_OK(fret_normal_prepare(from, 100, 0));
+    CHECK_OK(fret_normal_share(to, from));
+    CHECK(!isnan(fret_normal_prepared(to)));
+    fret_normal_free(to);
+    fret_normal_free(from);
+}
+
 int main(int argc, char **argv) {
     unit_start("share", argc, argv);
     struct fret_table *table = make_table();
@@ -103,5 +114,6 @@ int main(int argc, char **argv) {
         fret_normal_free(from);
     }
     fret_table_free(table);
+    unread();
     return unit_finish();
 }
