@@ -44,16 +44,17 @@ fret_status fret_swing_copy(fret_swing *to, const fret_swing *from);
  */
 int fret_swing_fits(const fret_swing *swing, const fret_sine *sine);
 
-/* One period that fits. Error: FRET_NO_MEMORY, the contact unusable but for fret_swing_copy and _free. */
+/* One period that fits. Errors: FRET_NO_MEMORY, FRET_INTERRUPTED (fret_normal_stop), the contact unusable but
+ * for fret_swing_copy and _free. */
 fret_status fret_swing_period(fret_swing *swing, const fret_sine *sine);
 
-/* The part from `from`, where it is, to `to` of a period that fits: 0 <= from < to <= 1 of its time. Parts of
- * a whole end as the period does, to rounding. Errors: those of a period. */
+/* The part from `from`, where it is, to `to` of a period that fits: 0 <= from < to <= 1 of its time, else
+ * FRET_OUTSIDE. Parts of a whole end as the period does, to rounding. Other errors: those of a period. */
 fret_status fret_swing_part(fret_swing *swing, const fret_sine *sine, double from, double to);
 
 /* A step by force, by depth with F_x, or to delta_x at constant F_N; one to delta_x, or that keeps it, along
  * a normal motion is no such step: FRET_OUTSIDE. Errors otherwise those of fret_memory_step; the contact as
- * before it, but for FRET_NO_MEMORY as above. */
+ * before it, but for FRET_NO_MEMORY and FRET_INTERRUPTED as above. */
 fret_status fret_swing_step(fret_swing *swing, const fret_step *step);
 
 /* As of a memory. */

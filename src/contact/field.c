@@ -28,7 +28,7 @@ typedef struct inside {
 
 /* e > 0: at 0 none of the integrands asks. */
 static fret_real slope_at(const inside *c, fret_real e) {
-    return fret_gap_profile(&c->normal->gap, &c->normal->rule, e).slope;
+    return fret_stopped(c->normal) ? 0 : fret_gap_profile(&c->normal->gap, &c->normal->rule, e).slope;
 }
 
 /* (x^2-r^2)^((k-1)/2) */
@@ -218,7 +218,7 @@ static fret_real outside_part(fret_real t, fret_real rest, void *context) {
     fret_real k1 = 1 + c->normal->rule.k, l = fret_log1p(-c->span * rest) / k1;
     fret_real below = -c->hi * fret_expm1(l), x = l < -1 ? c->hi * fret_exp(l) : c->hi - below,
               g = 0; /* hi-x keeps its digits near the edge, x near the centre */
-    if (!c->flat && x > c->lo)
+    if (!c->flat && x > c->lo && !fret_stopped(c->normal))
         g = fret_gap_profile(&c->normal->gap, &c->normal->rule, x - c->lo).g;
     return (c->dz - g) * fret_pow((c->r - c->hi + below) * (c->r + x), -k1 / 2);
 }
@@ -313,6 +313,7 @@ static fret_real surface_gentle(const fret_normal *n, fret_real a, fret_real dz,
 }
 
 typedef struct power_field {
+    const fret_normal *normal;
     fret_real a, r, n, m; /* m = (k+1)/2 */
     fret_real wide;       /* n ln(a/r): y = e^(z-wide), x = r e^(z/n), 0 <= z <= wide */
     fret_real z;          /* where the part near r ends */
@@ -337,7 +338,7 @@ static fret_real steep_near(fret_real t, fret_real rest, void *context) {
 static fret_real steep_far(fret_real t, fret_real rest, void *context) {
     const power_field *c = context;
     const fret_real span = c->wide - c->z;
-    return span * fret_exp(-span * rest) * steep_kernel(c, c->z + span * t);
+    return fret_stopped(c->normal) ? 0 : span * fret_exp(-span * rest) * steep_kernel(c, c->z + span * t);
 }
 
 /* The whole where r lies so deep that what is near it has no weight: linear in y = 0 .. 1. */
@@ -365,7 +366,7 @@ static fret_real steep_rim(fret_real t, fret_real rest, void *context) {
     const power_field *c = context;
     const fret_real power = 1 / (1 - c->m), away = fret_pow(t, power) / 2;
     (void)rest;
-    return steep_outside(c, fret_log1p(-away) / c->n) * power * away / t;
+    return fret_stopped(c->normal) ? 0 : steep_outside(c, fret_log1p(-away) / c->n) * power * away / t;
 }
 
 /* int_r^a g' (x^2-r^2)^(m-1) dx of a power of depth G at the edge. */
@@ -375,7 +376,7 @@ static fret_real pressure_steep(const fret_normal *n, const fret_power *g, const
     if (r <= 0)
         return G * g->n / (g->n + 2 * (m - 1)) * fret_pow(at->a, 2 * (m - 1));
     const fret_real wide = dd_value(dd_mul_d(dd_sub(at->ln_a, fret_dd_log_real(r)), g->n));
-    power_field c = {at->a, r, g->n, m, wide, fminl(wide, 1)};
+    power_field c = {n, at->a, r, g->n, m, wide, fminl(wide, 1)};
     if (wide <= 0)
         return 0;
     if (wide > 60)
@@ -427,7 +428,7 @@ static fret_status pressure_of(const fret_normal *n, const rim *at, fret_real r,
     fret_normal gentle;
     fret_real sum = 0, rest = 0;
     if (!is_steep(n))
-        return pressure_gentle(n, at, r, p);
+        return fret_unless_stopped(n, pressure_gentle(n, at, r, p));
     *p = 0;
     if (r >= at->a)
         return fret_ok();
@@ -437,7 +438,7 @@ static fret_status pressure_of(const fret_normal *n, const rim *at, fret_real r,
             return st;
     }
     *p = in_pascal(n, sum) + rest;
-    return fret_ok();
+    return fret_unless_stopped(n, fret_ok());
 }
 
 fret_status fret_field_check(const fret_normal *n, fret_real a, fret_real r) {
@@ -483,7 +484,7 @@ fret_status fret_pressure_of(const fret_normal *n, const fret_press *at, fret_re
 /* What a steep power takes from the surface of a flat punch: int_0^a x^k g (r^2-x^2)^-m dx. */
 static fret_real surface_steep(const fret_normal *n, const fret_power *g, const rim *at, fret_real G,
                                fret_real r) {
-    power_field c = {.a = at->a, .r = r, .n = g->n, .m = (n->foundation.k + 1) / 2};
+    power_field c = {.normal = n, .a = at->a, .r = r, .n = g->n, .m = (n->foundation.k + 1) / 2};
     return G / g->n * (fret_integrate(steep_centre, &c) + fret_integrate_pieces(steep_rim, &c, 1e-16L));
 }
 
@@ -508,7 +509,7 @@ static fret_status surface_of(const fret_normal *n, const rim *at, fret_real r, 
     else
         sum = at->dz * flat_outside(n->foundation.k, at->a, r) - steep;
     *w = fret_field_surface_factor(n->foundation.k) * sum;
-    return fret_ok();
+    return fret_unless_stopped(n, fret_ok());
 }
 
 fret_status fret_field_surface(const fret_normal *n, fret_real a, fret_real dz, fret_real r, fret_real *w) {

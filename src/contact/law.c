@@ -25,7 +25,7 @@ static fret_real search_from(const fret_normal *n, bool by_force, fret_real targ
     fret_real start = fret_gap_start(&n->gap), end = n->end;
     fret_real lo = 0, hi = isfinite(end) ? end - start : (fret_real)INFINITY;
     const fret_real least = least_reach * start;
-    for (int i = 0; i < 400; i++) {
+    for (int i = 0; i < 400 && !fret_stopped(n); i++) {
         fret_profile p = profile(n, e);
         fret_real value = by_force ? fret_force_of(n, &p) : p.g;
         if (value < target)

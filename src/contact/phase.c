@@ -380,7 +380,7 @@ fret_real fret_phase_loss(const fret_phase *phase) {
 
 static fret_real gross_rate(fret_real t, fret_real rest, void *context) {
     const fret_phase *p = context;
-    return fret_law_force(p->normal, p->edge0 * rest + p->edge1 * t);
+    return fret_stopped(p->normal) ? 0 : fret_law_force(p->normal, p->edge0 * rest + p->edge1 * t);
 }
 
 fret_real fret_phase_force(const fret_phase *phase) {

@@ -237,7 +237,7 @@ static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_rea
     const fret_real least = 1e-9L * (hi - lo);
     size_t left =
         0; /* a straight piece that has just been left goes with the next fall: its end is no event */
-    while (lo < hi && !st.code) {
+    while (lo < hi && !st.code && !fret_stopped(c->normal)) {
         const fret_real crossing = next_crossing(c, c->count - left, w, 1 << M | 1 << P, lo, hi);
         fret_real stop = crossing;
         const int side = side_until(c, w, lo, &stop);
@@ -318,6 +318,12 @@ static void add_loss(fret_swing *c) {
     fret_sum_add(&c->W, c->last_loss);
 }
 
+/* The end of a motion. */
+static fret_status known(fret_swing *c) {
+    fret_swing_know(c);
+    return fret_unless_stopped(c->normal, fret_ok());
+}
+
 fret_status fret_swing_period(fret_swing *c, const fret_sine *sine) {
     return fret_swing_part(c, sine, 0, 1);
 }
@@ -334,6 +340,9 @@ fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, d
     size_t turns = 1;
     fret_press p;
     way w;
+    if (!(from >= 0 && from < to && to <= 1))
+        return fret_fail(FRET_OUTSIDE, from >= 0 && from < 1 ? "to" : "from",
+                         from >= 0 && from < 1 ? to : from, 1);
     make_harmonic(c, sine, &w);
     for (int i = M; i <= P; i++)
         for (int half = -2; half <= 3; half++) {
@@ -364,7 +373,7 @@ fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, d
     set_edge(c, &p, sine->FA * harmonic(last));
     if (sine->FA != 0)
         c->direction = (to > 0.5) == (sine->FA > 0) ? 1 : -1;
-    return st;
+    return known(c);
 }
 
 /* Straight between forces, to F_x = mu load. */
@@ -403,7 +412,7 @@ static fret_status slide(fret_swing *c, double dx) {
     c->direction = sign;
     c->held = true;
     c->goal = dx;
-    return st;
+    return known(c);
 }
 
 fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
@@ -429,7 +438,7 @@ fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
     add_loss(c);
     c->held = false;
     set_edge(c, &p, step->tangential);
-    return st;
+    return known(c);
 }
 
 /* ---- life -------------------------------------------------------------------------------------- */

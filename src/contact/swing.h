@@ -26,7 +26,7 @@ typedef struct piece {
     bool curved;
     way way;
     fret_real lo, hi;
-    bool known; /* of one that is curved: its sums, once they have been asked for */
+    bool known; /* of one that is curved: its sums, from the end of the motion that has changed it on */
     fret_real sum[2];
 } piece;
 
@@ -52,6 +52,8 @@ static inline fret_real fret_swing_integral(const fret_swing *c, fret_integrand 
     return fret_integrate_short(f, context, fret_normal_closed(c->normal) ? 1e-17L : 1e-13L);
 }
 
+/* The sums of pieces that have changed: a question only reads. */
+void fret_swing_know(fret_swing *c);
 fret_real fret_swing_dx(const fret_swing *c);
 /* Where a front of slip that goes inwards along `which` at constant F_N comes to, for so much of delta_x per
  * mu eta; what is left of it all slides. */

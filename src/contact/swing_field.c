@@ -61,6 +61,8 @@ static fret_real depth_rate(const bend *b, fret_real w, const fret_point *at) {
 
 /* At the time w; a kernel that is singular at w = 0 but for |w|^(1-power). */
 static fret_real rate_at(const bend *b, fret_real w, bool but) {
+    if (fret_stopped(b->normal))
+        return 0;
     const fret_point at = fret_law_at_force(b->normal, way_at(&b->of, M, b->from + w));
     const fret_real k = b->normal->foundation.k, sum = depth_rate(b, w, &at);
     if (b->weight == INSIDE)
@@ -231,7 +233,7 @@ fret_status fret_swing_traction(const fret_swing *c, fret_real r, fret_real *q) 
     }
     if (!st.code)
         *q = c->mu * (sum + f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * curved);
-    return st;
+    return fret_unless_stopped(c->normal, st);
 }
 
 fret_status fret_swing_surface_x(const fret_swing *c, fret_real r, fret_real *u) {
@@ -249,7 +251,7 @@ fret_status fret_swing_surface_x(const fret_swing *c, fret_real r, fret_real *u)
     }
     if (!st.code)
         *u = c->mu * c->normal->foundation.eta * sum;
-    return st;
+    return fret_unless_stopped(c->normal, st);
 }
 
 fret_real fret_swing_displacement(const fret_swing *c, fret_real x) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a memory curve holds: sums along it, how far a front of slip goes, the state, all of it as a memory.
- * Keeps sums with the pieces. */
+ */
 #include <float.h>
 #include <string.h>
 
@@ -19,6 +19,8 @@ typedef struct along {
 
 /* dy/dN */
 static fret_real compliance(const fret_normal *n, fret_real N) {
+    if (fret_stopped(n))
+        return 0;
     return fret_normal_closed(n) ? n->q * fret_law_depth(n, N) / N : 1 / fret_law_at_force(n, N).K;
 }
 
@@ -31,14 +33,20 @@ static fret_real along_rate(fret_real t, fret_real rest, void *context) {
     return (l->energy ? T : 1) * dT * compliance(l->curve->normal, N);
 }
 
+void fret_swing_know(fret_swing *c) {
+    for (size_t i = 0; i < c->count; i++) {
+        piece *p = &c->pieces[i];
+        for (int which = 0; which < 2 && p->curved && !p->known; which++)
+            p->sum[which] = (p->hi - p->lo) * fret_swing_integral(c, along_rate, &(along){c, p, which});
+        p->known = true;
+    }
+}
+
 static fret_real sum_along(const fret_swing *c, bool energy) {
     fret_real sum = 0;
     for (size_t i = 0; i < c->count; i++) {
-        piece *p = &c->pieces[i];
+        const piece *p = &c->pieces[i];
         if (p->curved) {
-            for (int which = 0; which < 2 && !p->known; which++)
-                p->sum[which] = (p->hi - p->lo) * fret_swing_integral(c, along_rate, &(along){c, p, which});
-            p->known = true;
             sum += p->sum[energy];
             continue;
         }

@@ -120,6 +120,53 @@ static void pulse(void) {
     stop = pulses-- == 0;
 }
 
+/* What takes seconds where numbers are wild: thirteen powers, k next to 1, gross slip through a kink. */
+static void check_wild(struct fret_table *rows) {
+    fret_material graded = {
+        .body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .k = 1 - 1e-6, .c0 = 1e-3};
+    fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 13};
+    for (int i = 0; i < 13; i++)
+        sum.power[i] = (fret_power){2 + 5 * i, 1e-6, 1e-3};
+    const fret_gap gaps[] = {
+        {.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 0.05}, sum, {.kind = FRET_GAP_TABLE, .table = rows}};
+    for (int i = 0; i < 3; i++) {
+        fret_normal *n = unit_keep_normal(&graded, &gaps[i]);
+        fret_press p, none;
+        fret_real value;
+        fret_memory *m;
+        fret_swing *s;
+        CHECK_OK(fret_press_by_radius(n, 2e-4, &p));
+        fret_normal_stop(n, &stop);
+        CHECK_OK(fret_memory_make(n, 0.4, &m));
+        stop = 1;
+        CHECK_CODE(fret_press_by_force(n, (double)p.F, &none), FRET_INTERRUPTED);
+        CHECK_CODE(fret_pressure(n, p.a, p.a / 2, &value), FRET_INTERRUPTED);
+        CHECK_CODE(fret_surface(n, p.a, 1.1L * p.a, &value), FRET_INTERRUPTED);
+        CHECK_CODE(fret_pressure_of(n, &p, p.a / 2, &value), FRET_INTERRUPTED);
+        CHECK_CODE(fret_surface_of(n, &p, 1.1L * p.a, &value), FRET_INTERRUPTED);
+        stop = 0;
+        CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_DEPTH, FRET_KEEP_DX, (double)p.dz / 2, 0}));
+        stop = 1; /* gross slip while the edge moves */
+        CHECK_CODE(fret_memory_step(m, &(fret_step){FRET_TO_DEPTH, FRET_TO_DX, (double)p.dz, 1}),
+                   FRET_INTERRUPTED);
+        stop = 0;
+        fret_memory_reset(m);
+        CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, (double)p.F / 2, 0}));
+        if (fret_swing_takes(n)) {
+            const double F = (double)p.F;
+            CHECK_OK(fret_swing_make(m, &s));
+            stop = 1;
+            CHECK_CODE(fret_swing_step(s, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 0.1 * F}),
+                       FRET_INTERRUPTED);
+            CHECK_CODE(fret_swing_traction(s, p.a / 9, &value), FRET_INTERRUPTED);
+            CHECK_CODE(fret_swing_surface_x(s, p.a, &value), FRET_INTERRUPTED);
+            stop = 0;
+            fret_swing_free(s);
+        }
+        fret_memory_free(m);
+    }
+}
+
 /* Elements that stand for a contact, stopped at any moment: none, or those that come out undisturbed. */
 static void check_elements(const fret_material *material) {
     enum { ELEMENTS = 3 };
@@ -173,6 +220,7 @@ int main(int argc, char **argv) {
     CASE(check_questions(normal, &contact));
     CASE(check_springs(normal));
     CASE(check_elements(&steel));
+    CASE(check_wild(table));
     stop = 1;
     fret_normal_stop(normal, NULL);
     CHECK_OK(fret_press_by_force(normal, 10, &press));

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Harmonic forces event by event: against exact references, and against chords of the same memory. */
+#include <pthread.h>
+
 #include "contact/memory.h"
+#include "contact/swing.h"
 #include "unit.h"
 
 static const double half_turn = 3.14159265358979323846;
@@ -430,6 +433,11 @@ static void refusals(void) {
                     no_depth = {FRET_TO_DEPTH, FRET_TO_FX, (double)NAN, 0};
     CHECK(fret_swing_step(s, &below).code == FRET_NEGATIVE);
     CHECK(fret_swing_step(s, &no_depth).code == FRET_NOT_FINITE);
+    const double times[][2] = {{-0.1, 1},   {0.5, 0.5},       {0.5, 0.4},      {0, 1.1},
+                               {-100, 100}, {0, (double)NAN}, {(double)NAN, 1}};
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++)
+        CHECK(fret_swing_part(s, &(fret_sine){20, 30, half_turn / 2, 100}, times[i][0], times[i][1]).code ==
+              FRET_OUTSIDE);
     CHECK_OK(fret_swing_copy(s, s));
     fret_swing_state(s, &after);
     CHECK(before.dx == after.dx && before.W == after.W);
@@ -697,6 +705,56 @@ static void from_one_way_to_another(void) {
     }
 }
 
+typedef struct question {
+    const fret_swing *of;
+    fret_state state;
+    fret_real q, u;
+    bool failed;
+    pthread_barrier_t *together;
+} question;
+
+static void *ask(void *context) {
+    question *a = context;
+    pthread_barrier_wait(a->together);
+    fret_swing_state(a->of, &a->state);
+    a->failed =
+        fret_swing_traction(a->of, 5e-5L, &a->q).code || fret_swing_surface_x(a->of, 5e-4L, &a->u).code;
+    return NULL;
+}
+
+/* Questions only read: two threads may ask the same curve, also one that nobody has asked yet. */
+static void asked_by_two(void) {
+    load l = {2, 50, 210e9, 0.3, 0.4, 100, 20, 30, 60, 0, NULL};
+    const fret_sine w = sine_of(&l);
+    fret_memory *m = begin(&l);
+    bool curved = false;
+    for (int i = 1; i <= 10; i++) {
+        fret_swing *s = swing_of(m);
+        CHECK_OK(fret_swing_part(s, &w, 0, i / 10.0));
+        for (size_t j = 0; j < s->count; j++)
+            curved = curved || s->pieces[j].curved;
+        pthread_barrier_t together;
+        pthread_t other;
+        CHECK(pthread_barrier_init(&together, NULL, 2) == 0);
+        question a = {.of = s, .together = &together}, b = a;
+        const size_t size = s->count * sizeof *s->pieces;
+        char *before = malloc(size);
+        if (!before || pthread_create(&other, NULL, ask, &b))
+            exit(unit_finish());
+        memcpy(before, s->pieces, size);
+        ask(&a);
+        CHECK(pthread_join(other, NULL) == 0);
+        CHECK(!memcmp(before, s->pieces, size));
+        CHECK(!a.failed && !b.failed && a.state.dx == b.state.dx && a.state.U == b.state.U && a.q == b.q &&
+              a.u == b.u && a.state.U > 0);
+        pthread_barrier_destroy(&together);
+        free(before);
+        fret_swing_free(s);
+    }
+    CHECK(curved);
+    fret_memory_free(m);
+}
+
 int main(int argc, char **argv) {
     unit_start("swing", argc, argv);
     CASE(references());
@@ -716,6 +774,7 @@ int main(int argc, char **argv) {
     CASE(opened_and_closed());
     CASE(from_one_way_to_another());
     CASE(through_slip());
+    CASE(asked_by_two());
     for (int i = 0; i < 2; i++) {
         shaped = i;
         CASE(by_displacement(unit_draws(shaped ? 50 : 200)));
