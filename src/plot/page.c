@@ -168,17 +168,17 @@ static bool is_helping(const plot_series *s) {
     return s->thin || s->role == PLOT_BAND;
 }
 
-/* Which dots along a line of braille are put down: helping lines are dotted; dashes tell curves apart where
- * there are no colours, or none left. */
+/* Which dots along a line of braille are put down: helping lines are dotted; dashes tell curves apart in a
+ * copy without colours, and others of the same colour. */
 static const char *dash_of(const page *g, size_t at) {
-    static const char *const dashes[] = {"1",    "11111000", "1000", "11111001000", "111111111100",
+    static const char *const dashes[] = {"1",    "11111000", "1000", "11111001000", "1110",
                                          "1100", "10"};
     if (!g->braille)
         return "1";
     if (is_helping(g->panel->series[at]))
         return "10";
-    const size_t style = plot_style_of(g->panel, at), colored = style / (sizeof colors / sizeof *colors);
-    return dashes[(g->target->color ? colored : style) % (sizeof dashes / sizeof *dashes)];
+    const size_t style = plot_style_of(g->panel, at), round = style / (sizeof colors / sizeof *colors);
+    return dashes[(style + round) % (sizeof dashes / sizeof *dashes)];
 }
 
 /* In the key: a stretch of the line, or its character. */
