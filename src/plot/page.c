@@ -171,8 +171,7 @@ static bool is_helping(const plot_series *s) {
 /* Which dots along a line of braille are put down: helping lines are dotted; dashes tell curves apart in a
  * copy without colours, and others of the same colour. */
 static const char *dash_of(const page *g, size_t at) {
-    static const char *const dashes[] = {"1",    "11111000", "1000", "11111001000", "1110",
-                                         "1100", "10"};
+    static const char *const dashes[] = {"1", "11111000", "1000", "11111001000", "1110", "1100", "10"};
     if (!g->braille)
         return "1";
     if (is_helping(g->panel->series[at]))
@@ -475,16 +474,27 @@ static void set_key(const page *g, const entry *key, size_t n) {
     }
 }
 
-/* From the lowest: lines above bands, the present point above all. */
 static size_t in_order(const plot_panel *p, size_t at[PLOT_CURVES]) {
-    static const plot_role order[] = {PLOT_BAND, PLOT_CURVE, PLOT_MEASURED, PLOT_NOW};
     size_t n = 0;
-    for (int thin = 1; thin >= 0; thin--)
-        for (size_t o = 0; o < sizeof order / sizeof *order; o++)
-            for (size_t i = 0; i < p->count; i++)
-                if (p->series[i]->role == order[o] && p->series[i]->thin == (thin == 1))
-                    at[n++] = i;
+    for (int l = 0; l < PLOT_LAYERS; l++)
+        for (size_t i = 0; i < p->count; i++)
+            if (plot_layer(p->series[i]) == l)
+                at[n++] = i;
     return n;
+}
+
+/* Lines of braille are ink, crowds lie below it, and all else above. */
+static void draw_series(const page *g, const size_t *order, size_t count, bool crowds) {
+    for (size_t i = 0; i < count; i++) {
+        char sign[SIGN];
+        const char *color;
+        const plot_series *s = g->panel->series[order[i]];
+        if (g->braille && (is_line(s) || plot_is_crowd(s) != crowds))
+            continue;
+        sign_of(g, order[i], sign, &color);
+        fprintf(g->to, ", \\\n  $data%zu_%zu_%zu with points pt '%s' lc rgb '%s'", g->frame, g->index,
+                order[i], sign, color);
+    }
 }
 
 static void draw(const page *g, const size_t *order, size_t count) {
@@ -492,18 +502,12 @@ static void draw(const page *g, const size_t *order, size_t count) {
     for (size_t k = 0; k < g->levels; k++)
         fprintf(g->to, ", \\\n  $level%zu_%zu_%zu with points pt '%zu' lc rgb '%s'", g->frame, g->index, k,
                 k + 1, colors[k % 7]);
+    if (g->braille)
+        draw_series(g, order, count, true);
     for (size_t n = 0; g->braille && ink_color(n); n++)
         fprintf(g->to, ", \\\n  $ink%zu_%zu_%zu using 1:2:3 with labels tc rgb '%s' notitle", g->frame,
                 g->index, n, ink_color(n));
-    for (size_t i = 0; i < count; i++) {
-        char sign[SIGN];
-        const char *color;
-        if (g->braille && is_line(g->panel->series[order[i]]))
-            continue;
-        sign_of(g, order[i], sign, &color);
-        fprintf(g->to, ", \\\n  $data%zu_%zu_%zu with points pt '%s' lc rgb '%s'", g->frame, g->index,
-                order[i], sign, color);
-    }
+    draw_series(g, order, count, false);
     putc('\n', g->to);
 }
 

@@ -94,6 +94,24 @@ size_t plot_style_of(const plot_panel *p, size_t at) {
     return n;
 }
 
+bool plot_is_crowd(const plot_series *s) {
+    enum { FEW = 100 };
+    return s->role == PLOT_MEASURED && s->count > FEW;
+}
+
+int plot_layer(const plot_series *s) {
+    switch (s->role) {
+    case PLOT_BAND:
+        return 0;
+    case PLOT_CURVE:
+        return s->thin ? 1 : 3;
+    case PLOT_MEASURED:
+        return plot_is_crowd(s) ? 2 : 4;
+    default: /* the present point */
+        return 5;
+    }
+}
+
 /* Curves beyond the looks have marks on their lines, where not every point is one. */
 static bool is_marked(const plot_panel *p, size_t at) {
     const plot_series *s = p->series[at];
@@ -315,7 +333,8 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
             with_curve(s, p, at, p->points && !c->thin ? "linespoints" : "lines");
         break;
     case PLOT_MEASURED:
-        fprintf(s->to, "points pt %d ps %.3g lw %.3g lc rgb '%s'", marks[(style + 5) % MARKS], 1.3 * s->scale,
+        fprintf(s->to, "points pt %d ps %.3g lw %.3g lc rgb '%s'",
+                plot_is_crowd(c) ? 7 : marks[(style + 5) % MARKS], (plot_is_crowd(c) ? 0.4 : 1.3) * s->scale,
                 0.6 * s->kind->line * s->scale, style ? looks[style % LOOKS].color : "#000000");
         break;
     case PLOT_BAND:
@@ -334,24 +353,10 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
     quoted(s, c->title);
 }
 
-enum { LAYERS = 4 };
-
-/* Bands lie below the lines, thin ones below the others, the present point above. */
-static int layer(const plot_series *s) {
-    switch (s->role) {
-    case PLOT_BAND:
-        return 0;
-    case PLOT_NOW:
-        return 3;
-    default:
-        return s->thin ? 1 : 2;
-    }
-}
-
 static void draw_all(scribe *s, const plot_panel *p, bool first, bool deep) {
-    for (int l = 0; l < LAYERS; l++)
+    for (int l = 0; l < PLOT_LAYERS; l++)
         for (size_t i = 0; i < p->count; i++)
-            if (layer(p->series[i]) == l && (p->series[i]->count || p->series[i]->title)) {
+            if (plot_layer(p->series[i]) == l && (p->series[i]->count || p->series[i]->title)) {
                 fputs(first ? "" : ", \\\n  ", s->to);
                 draw_series(s, p, i, deep);
                 first = false;

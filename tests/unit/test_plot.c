@@ -294,6 +294,39 @@ static void layers(void) {
     plot_figure_free(&f);
 }
 
+/* Measured points lie on the curve, as rings; a crowd of them, as dots, below it. */
+static void crowds(void) {
+    plot_figure f = figure(PLOT_CURVE, "curve");
+    plot_panel *p = f.panel[0];
+    plot_series *few = plot_series_add(p, PLOT_MEASURED, "few", fresh()),
+                *many = plot_series_add(p, PLOT_MEASURED, "many", fresh());
+    for (int i = 0; i <= 800; i++) {
+        plot_point(p->series[0], i, i);
+        plot_point(many, i, i);
+        if (i % 40 == 0)
+            plot_point(few, i, i);
+    }
+    char *text = script_of(&f, ".gp");
+    const char *of_many = strstr(text, "title \"many\""), *curve = strstr(text, "title \"curve\""),
+               *of_few = strstr(text, "title \"few\"");
+    CHECK(of_many && curve && of_few && of_many < curve && curve < of_few);
+    CHECK(has(text, "pt 7 ps 0.4") && has(text, "pt 6 ps 1.3"));
+    free(text);
+    text = text_of(&f, (plot_target){.columns = 60, .rows = 20});
+    size_t of_curve = 0;
+    for (const char *at = text; *at; at++)
+        of_curve += *at == '*';
+    CHECK(of_curve > 10);
+    free(text);
+    text = text_of(&f, (plot_target){.columns = 60, .rows = 20, .terminal = PLOT_BLOCK});
+    of_curve = 0;
+    for (const char *at = text; *at; at++)
+        of_curve += (*at & 0xff) == 0xe2; /* begins a character of braille */
+    CHECK(of_curve > 30);
+    free(text);
+    plot_figure_free(&f);
+}
+
 /* What scripts say of thin series, of measured ones, of bands with holes, of axes and maps of several kinds.
  */
 static void looks_of(void) {
@@ -1084,6 +1117,7 @@ int main(int argc, char **argv) {
     CASE(stopped());
     CASE(sizes());
     CASE(late());
+    CASE(crowds());
     CHECK(!chdir("/") && !rmdir(dir) && !rmdir(tmp));
     return unit_finish();
 }
