@@ -270,7 +270,7 @@ static bool play(const sheets *s, const scripted *w, size_t panels, calc_error *
 }
 
 static const plot_kind sixel = {
-    "", PLOT_ENHANCED, "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor", 1, 14, 3};
+    "", PLOT_ENHANCED, "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor", 1, 14, 3, PLOT_STRAIGHT};
 
 static bool to_terminal_as(const scripted *s, size_t panels, calc_error *error) {
     plot_run r;

@@ -11,18 +11,22 @@ enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
 
 /* ---- kinds -------------------------------------------------------------------------------------- */
 
+/* A tenth of a pixel at the usual size. */
+#define SEEN (1.0 / 6000)
+
 /* Lengths: 900 pixels are 12 cm of a page. */
 static const plot_kind kinds[] = {
-    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3},
-    {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19, 3},
+    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3, SEEN},
+    {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19, 3,
+     SEEN},
     {".pdf", PLOT_ENHANCED, "pdfcairo size %.4gcm,%.4gcm font 'Sans,%.3g' enhanced", 12.0 / (double)WIDTH,
-     9.5, 2.2},
-    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2},
+     9.5, 2.2, SEEN},
+    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2, SEEN},
     {".html", PLOT_ENHANCED,
-     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3},
+     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3, SEEN},
     {".gif", PLOT_ENHANCED, "gif size %.0f,%.0f font 'Sans,%.3g' enhanced animate delay %.0f loop 0", 1, 15,
-     3},
-    {".gp", PLOT_ENHANCED, NULL, 1, 16, 3}};
+     3, PLOT_STRAIGHT},
+    {".gp", PLOT_ENHANCED, NULL, 1, 16, 3, 0}};
 
 const plot_kind *plot_kind_of(const char *file, calc_error *error) {
     const char *slash = strrchr(file, '/'), *dot = strrchr(slash ? slash : file, '.');
@@ -55,9 +59,6 @@ enum { LOOKS = sizeof looks / sizeof *looks };
 
 static const int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12};
 enum { MARKS = sizeof marks / sizeof *marks };
-
-/* Of a picture: a tenth of a pixel at the usual size. */
-static const double SEEN = 1.0 / 6000;
 
 /* Between double quotes, all but the harmless as octal codes: between single quotes a doubled quote stands
  * for one, but two of them in a row end the text, and what follows is a command. */
@@ -132,7 +133,7 @@ static plot_paper paper_of(const plot_panel *p, const plot_extents *e, const plo
                  ylo = isfinite(p->ylo) ? p->ylo : e->y.lo, yhi = isfinite(p->yhi) ? p->yhi : e->y.hi;
     return (plot_paper){.width = fabs(p->logx ? log10(xhi / xlo) : xhi - xlo),
                         .height = fabs(p->logy ? log10(yhi / ylo) : yhi - ylo),
-                        .least = kind->terminal ? SEEN : 0,
+                        .least = kind->seen,
                         .logx = p->logx,
                         .logy = p->logy};
 }

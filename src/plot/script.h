@@ -40,6 +40,10 @@ size_t plot_levels(const plot_map *m, double *level, size_t room);
 
 /* ---- script.c: pictures ------------------------------------------------------------------------- */
 
+/* Points are left out only where a line is straight: on terminals whose lines end on whole pixels, a curve of
+ * long ones has kinks. */
+#define PLOT_STRAIGHT 1e-6
+
 /* A kind of picture. */
 typedef struct plot_kind {
     const char *ending;
@@ -48,6 +52,7 @@ typedef struct plot_kind {
     double per_pixel;     /* of the terminal's unit of length */
     double font;          /* at the usual size, in its own unit */
     double line;          /* width of a curve */
+    double seen;          /* how far off a line a point must lie to be drawn, of the picture; 0: all are */
 } plot_kind;
 
 /* The kind by a file's ending; NULL with the error. */

@@ -15,8 +15,8 @@
 enum {
     PLOTTED = 8,
     EVENLY = 100,
-    ALONG = 1000,
-    MOVING = 300
+    MOVING = 300, /* frames take a curve as it is sampled */
+    ALONG = 1000
 }; /* expressions of a panel, points of its curves to begin with */
 
 /* A panel on its way: expressions of a sweep become curves. */
@@ -378,7 +378,7 @@ static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
     job->each = series_each(job);
     s->turns = true;
     s->refine = !s->along && !s->steps;
-    s->steps = s->steps ? s->steps : !s->along ? EVENLY : job->m ? MOVING : ALONG;
+    s->steps = s->steps ? s->steps : s->along ? ALONG : job->m ? MOVING : EVENLY;
     for (size_t i = 0; i < count; i++) {
         known[i] = job->columns[i].chosen;
         d[i] = job->columns[i].d;

@@ -592,6 +592,28 @@ static void straightens_parts(void) {
     plot_figure_free(&f);
 }
 
+/* Where lines end on whole pixels, a curve keeps its points, and a straight line its ends. */
+static void whole_pixels(void) {
+    static const char *const endings[] = {".svg", ".gif"};
+    plot_figure f = figure(PLOT_CURVE, NULL);
+    plot_series *line = plot_series_add(f.panel[0], PLOT_CURVE, NULL, fresh());
+    for (int i = 0; i <= 200; i++) {
+        plot_point(f.panel[0]->series[0], i, i * i);
+        plot_point(line, i, i);
+    }
+    for (int gif = 0; gif < 2; gif++) {
+        char *text = script_of(&f, endings[gif]);
+        size_t lines[2] = {0, 0};
+        const char *at = strstr(text, "<< END\n");
+        for (int s = 0; s < 2 && CHECK(at != NULL); s++, at = strstr(at, "<< END\n"))
+            for (at += 7; strncmp(at, "END\n", 4) != 0; at = strchr(at, '\n') + 1)
+                lines[s]++;
+        CHECK(lines[1] == 2 && (gif ? lines[0] == 201 : lines[0] < 60));
+        free(text);
+    }
+    plot_figure_free(&f);
+}
+
 /* ---- axes --------------------------------------------------------------------------------------- */
 
 static void axes(void) {
@@ -1118,6 +1140,7 @@ int main(int argc, char **argv) {
     CASE(sizes());
     CASE(late());
     CASE(crowds());
+    CASE(whole_pixels());
     CHECK(!chdir("/") && !rmdir(dir) && !rmdir(tmp));
     return unit_finish();
 }
