@@ -427,29 +427,51 @@ static void set_values(const scribe *s, const plot_map *m, const plot_axis *x, c
     }
 }
 
+/* Columns of the widest number beside an axis with tics a step apart, or at powers of ten. */
+static int tic_columns(const plot_axis *a, double step) {
+    enum { TICS = 60, POWER_OF_TEN = 5, MORE = 4 /* of 1x10^-5 than of 1e-05 */ };
+    const double first = ceil(a->lo / step);
+    int widest = a->log ? POWER_OF_TEN : 1;
+    for (int i = 0; i < TICS && !a->log && (first + i) * step <= a->hi; i++) {
+        char text[32];
+        int n = snprintf(text, sizeof text, "%g", (first + i) * step);
+        n += strchr(text, 'e') ? MORE : 0;
+        widest = n > widest ? n : widest;
+    }
+    return widest;
+}
+
 /* Contours on a light ground, with their values on them. */
 static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x, const plot_axis *y) {
     double level[LEVELS], part = 1.0 / (double)s->panels, from = (double)s->panel * part;
+    const bool narrow = s->panels > 1 || s->kind->form == PLOT_TEX;
+    const double step = plot_step((y->hi - y->lo) / 10), column = narrow ? 0.016 : 0.0127, /* of the panel */
+        left = fmax(0.15, column * (5.5 + tic_columns(y, step)));
     size_t n = plot_levels(&p->map, level, LEVELS);
+    plot_axis z = {.lo = n ? level[0] : 0, .hi = n ? level[n - 1] : 0};
+    z.log = z.lo > 0 && z.hi / z.lo > 50;
+    const double right = (s->panels > 1 ? 0.72 : 0.77) -
+                         column * fmax(0, tic_columns(&z, n > 1 ? level[1] - level[0] : 1) - 6);
     fprintf(s->to,
             "set lmargin at screen %.4g\nset rmargin at screen %.4g\nset bmargin at screen 0.15\n"
             "set tmargin at screen 0.92\nset view map\nset palette defined (0 '#ffffff', 1 '#8fc1e3')\n"
             "set colorbox\nset style textbox opaque noborder margins 0.5,0.5\nset contour base\n"
             "set cntrlabel onecolor\n"
             "set cntrparam levels discrete ",
-            from + 0.15 * part, from + (s->panels > 1 ? 0.72 : 0.77) * part);
+            from + left * part, from + right * part);
     for (size_t i = 0; i < n; i++)
         fprintf(s->to, "%s%.9g", i ? "," : "", level[i]);
     fputs(n ? "\n" : "0\n", s->to);
-    if (n && level[0] > 0 && level[n - 1] / level[0] > 50)
+    if (z.log)
         fputs(s->kind->form == PLOT_TEX ? "set logscale cb\nset format cb '$10^{%T}$'\n"
                                         : "set logscale cb\nset format cb '10^{%T}'\n",
               s->to);
     set_text(s, "cblabel offset 1.6,0", p->map.label);
     if (s->panels > 1 && !x->log) /* narrow */
         fprintf(s->to, "set xtics %.9g\n", plot_step((x->hi - x->lo) / 6));
-    if (s->panels > 1 || s->kind->form == PLOT_TEX)
-        fputs("set ylabel offset -1.5,0\n", s->to);
+    if (!y->log)
+        fprintf(s->to, "set ytics %.9g\n", step);
+    fputs("set ylabel offset -1.5,0\n", s->to); /* numbers are wider than gnuplot thinks */
     set_values(s, &p->map, x, y, level, n);
     fprintf(s->to, "splot $map%zu_%zu using 1:2:3 with pm3d nocontour notitle", s->frame, s->panel);
     if (n)

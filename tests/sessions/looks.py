@@ -265,6 +265,28 @@ def maps(tests):
     fails(tests, "table x*y for x = 1 .. 2 for y = 1 .. 2 steps 100", "a matrix as text has at most")
 
 
+def beside_numbers(tests):
+    """The label of a map's y stands beside its numbers, whatever their width, and within the picture."""
+    number = re.compile(r'translate\(([\d.]+),[\d.]+\)"[^>]*font-size="([\d.]+)"\s+text-anchor="end">\s*<text>(.*?)</text>')
+    label = re.compile(r'translate\(([\d.]+),[\d.]+\) rotate\(270[.0]*\)"[^>]*font-size="([\d.]+)"')
+    path = os.path.join(tests.dir, "map.svg")
+    for statement, panels in (("x*y for x = 0 .. 1 for y = 0 .. 2", 1), ("x*y for x = 0 .. 1 for y = 1 .. 200", 1),
+                              ("x*y for x = 0 .. 1 for y = -1e4 .. 5e4", 1), ("x*y for x = 0 .. 1 for y = 1e-11 .. 3e-11", 1),
+                              ("x*y for x = 0 .. 1 for y = 0.999 .. 1.001", 1), ("x*y for x = 0 .. 1 for y = 1e-9 .. 1 log y", 1),
+                              ("x*y for x = 0 .. 1 for y = 0.001 .. 0.002 log y", 1), ("x*y for x = 0 .. 1 for y = 0.999 .. 1.001 | x for x = 0 .. 1", 2)):
+        done = tests.run("-c", "plot map %s to %s" % (statement, path))
+        with open(path, encoding="utf-8") as f:
+            text = f.read()
+        if not tests.check("there is a label of y: " + statement, label.search(text), tests.report(done)):
+            continue
+        left, size = map(float, label.search(text).groups())
+        ends = [(float(x), sum(0.64 * (float(re.search(r'font-size="([\d.]+)"', span[0]).group(1)) if "size" in span[0] else float(font)) * len(span[1])
+                               for span in re.findall(r"<tspan([^>]*)>([^<]*)</tspan>", shown))) for x, font, shown in number.findall(text[:label.search(text).start()])]
+        room = min(x - width for x, width in ends) - left
+        tests.check("the label of y beside its numbers: " + statement, ends and 0.3 * size < room < 3 * size and left > 0.75 * size,
+                    "%g at %g, %s" % (room, left, ends))
+
+
 def frames_of(path):
     with open(path, "rb") as f:
         return f.read().count(b"\x00\x21\xf9\x04")
@@ -439,5 +461,5 @@ def pages(tests):
 
 
 def run(tests):
-    tests.each([lambda one=one: one(tests) for one in (points, parts, ranges, springs, looks, over, maps, pages, moving, histories, terminals,
+    tests.each([lambda one=one: one(tests) for one in (points, parts, ranges, springs, looks, over, maps, beside_numbers, pages, moving, histories, terminals,
                                                        formulas, bodies)])
