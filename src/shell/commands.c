@@ -365,7 +365,7 @@ static const command commands[] = {
              "`along step ...`, `along cycle ...` for a load that is only tried. LOOKS:\n"
              "title \"...\", xlabel \"...\", ylabel \"...\", xrange LO .. HI,\n"
              "yrange LO .. HI, log x|y|xy, flip x|y, key off, points, and over FILE.csv,\n"
-             "which lays measured points on top. FILE.gp is the gnuplot script\n"
+             "which adds measured points. FILE.gp is the gnuplot script\n"
              "itself. `set plot 80x24` fixes the size in the terminal, `set plot terminal` how\n"
              "it is drawn there: dumb in plain characters, block in braille (auto takes it\n"
              "where it can), sixel as a picture.\n\n"
@@ -393,9 +393,9 @@ static const command commands[] = {
      .usage = "FIGURE [| FIGURE ...] [frames N] [to FILE.gif]",
      .summary = "figures in motion along a load",
      .help = "Figures as of `plot`. Those `along` a load, all along the same one, are drawn up\n"
-             "to a moving instant; `springs`, `pressure`, `traction` and what else goes over a\n"
-             "place show the state then. Without a figure along a load it is the program.\n"
-             "Ctrl-C stops.\n\n"
+             "to a moving instant; `springs`, `pressure`, `traction` and what else goes over\n"
+             "a place show the state then, as `animate springs along cycle FA=30 N` does. The\n"
+             "load is the program where none is said. Ctrl-C stops.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> cycle FA=30 N\n"
              "    fret> animate springs | loop frames 8 to cycle.gif\n"

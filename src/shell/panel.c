@@ -461,28 +461,32 @@ static const char *statement_of(const shell *sh, const figure *f, const lexer *l
 }
 
 /* What follows the name of a figure may be another range. */
-static size_t statement_length(const char *statement, const lexer *lx) {
-    lexer next = *lx;
-    lex_next(&next);
-    if (!lex_is(&next, "along") && !lex_is(&next, "for"))
+static size_t statement_length(const char *statement, const lexer *next) {
+    if (!lex_is(next, "along") && !lex_is(next, "for"))
         return strlen(statement);
     const char *own = strstr(statement, " along ");
     own = own ? own : strstr(statement, " for "); /* each has either */
     return (size_t)(own - statement);
 }
 
-/* Along a load a figure over a place would need a place of the user's. */
-static bool goes_along(const shell *sh, lexer *lx, const figure *f) {
+/* Does a figure over a place stand before `along`? For a place of the user's it goes along as any other. */
+static bool goes_over_place(const shell *sh, const lexer *next, const figure *f) {
     const char *of = strstr(f->statement, " for ");
-    lexer next = *lx;
     size_t own;
-    lex_next(&next);
-    if (!of || !lex_is(&next, "along"))
-        return true;
+    if (!of || !lex_is(next, "along"))
+        return false;
     of += strlen(" for ");
-    return names_find(&sh->calc.names, of, strcspn(of, " "), &own) ||
-           lex_fail(&next, "%s goes over %.*s, not along a load: animate %s | loop along ...", f->name,
-                    (int)strcspn(of, " "), of, f->name);
+    return !names_find(&sh->calc.names, of, strcspn(of, " "), &own);
+}
+
+/* It moves with that load. */
+static bool take_load(shell *sh, lexer *next, const figure *f, motion *m) {
+    const char *of = strstr(f->statement, " for ") + strlen(" for ");
+    range r;
+    if (!m)
+        return lex_fail(next, "%s goes over %.*s, not along a load: animate %s along ... shows it move",
+                        f->name, (int)strcspn(of, " "), of, f->name);
+    return range_read_along(sh, next, &r) && follow(m, next, &r, next->last);
 }
 
 /* A figure of the table: its statement as if it stood here, what follows the name after it. */
@@ -491,11 +495,17 @@ static bool draw_named(shell *sh, lexer *lx, const figure *f, plot_panel *p, siz
         lex_next(lx);
         return f->build(sh, lx, p);
     }
-    if (!goes_along(sh, lx, f))
-        return false;
-    const size_t from = lx->at + lx->len, rest = figure_end(lx);
+    lexer next = *lx;
+    lex_next(&next);
+    size_t from = lx->at + lx->len;
+    const size_t rest = figure_end(lx);
     const char *statement = statement_of(sh, f, lx, rest);
-    const size_t length = statement_length(statement, lx);
+    if (goes_over_place(sh, &next, f)) {
+        if (!take_load(sh, &next, f, m))
+            return false;
+        from = next.last;
+    }
+    const size_t length = statement_length(statement, &next);
     const size_t room = length + (rest - from) + 1;
     char *text = malloc(room);
     if (!text)

@@ -108,9 +108,16 @@ static bool read_name(calc *c, lexer *lx, knob *out) {
     return true;
 }
 
-static bool read_along(shell *sh, lexer *lx, range *out) {
+static void begin(shell *sh, const lexer *lx, range *out) {
+    *out = (range){.sweep = {.range = evaluate_range}, .sh = sh, .statement = lx};
+    out->sweep.context = out;
+}
+
+bool range_read_along(shell *sh, lexer *lx, range *out) {
     sweep *s = &out->sweep;
     sweep_range load = {.lo = 0};
+    begin(sh, lx, out);
+    lex_next(lx);
     s->along = true;
     out->at = lx->at;
     if (lex_accept(lx, "program")) {
@@ -203,10 +210,13 @@ bool range_read_options(shell *sh, lexer *lx, sweep *s) {
 bool range_read(shell *sh, lexer *lx, range *out, size_t steps) {
     sweep *s = &out->sweep;
     sweep_range ends = {.lo = 0};
-    *out = (range){.sweep = {.steps = steps, .range = evaluate_range}, .sh = sh, .statement = lx};
-    s->context = out;
-    if (lex_accept(lx, "along"))
-        return read_along(sh, lx, out) && range_read_options(sh, lx, s);
+    if (lex_is(lx, "along")) {
+        const bool ok = range_read_along(sh, lx, out);
+        s->steps = s->steps ? s->steps : steps;
+        return ok && range_read_options(sh, lx, s);
+    }
+    begin(sh, lx, out);
+    s->steps = steps;
     if (!lex_accept(lx, "for"))
         return lex_fail(lx, "expected for VAR = LO .. HI");
     if (!read_name(&sh->calc, lx, &s->var))

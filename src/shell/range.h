@@ -29,6 +29,8 @@ void range_forget(shell *sh, const range_names *names);
 
 /* LO .. HI of var at the cursor; word: what stands between them instead of `..`, or NULL. */
 bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out);
+/* At `along`, as far as the load goes. */
+bool range_read_along(shell *sh, lexer *lx, range *out);
 /* At `for` or `along`; steps: where none are given. The lexer must outlive the range. */
 bool range_read(shell *sh, lexer *lx, range *out, size_t steps);
 /* `steps N`, `log` and `with ...` at the cursor, as many as stand there. */

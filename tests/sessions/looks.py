@@ -302,6 +302,18 @@ def moving(tests):
     done = tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
                      "animate springs | Fx against dx along cycle FA=0.9*mu*FN with k=0 frames 3\nFx")
     tests.check("along a load that is tried", done.returncode == 0 and "Fx = 0 N" in done.stdout, tests.report(done))
+    pressed = "material steel; c0 = 1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+    for load in ("springs along cycle FA=36 N", "springs along step Fx=20 N", "traction along cycle FA=0.9*mu*FN title \"t\" steps 20",
+                 "springs along cycle FA=9 N | loop along cycle FA=9 N", "Fx along cycle FA=9 N | pressure along cycle FA=9 N"):
+        done = tests.run("-c", pressed + "animate %s frames 3 to %s\nFx" % (load, path))
+        tests.check("figures over a place, along a load: " + load, done.returncode == 0 and frames_of(path) in (2, 3) and
+                    done.stdout.endswith("Fx = 0 N\n"), tests.report(done))
+    fails(tests, "animate springs along cycle FA=9 N | loop along cycle FA=8 N", "the figures of an animation go along one load", pressed)
+    fails(tests, "animate springs along FA=9 N", "along what? program, cycle, step ... or cycle ...", pressed)
+    fails(tests, "plot springs along cycle FA=9 N", "springs goes over x, not along a load: animate springs along ... shows it move", pressed)
+    still, moved = (tests.run("-c", pressed + "%sanimate springs %sframes 3" % (before, along)).stdout
+                    for before, along in (("cycle FA=36 N; ", ""), ("", "along cycle FA=36 N ")))
+    tests.check("as along the same load of the program", still == moved and "stick" in moved, still + moved)
     done = tests.run("-c", SCENE + "animate load frames 3 to " + path)
     tests.check("a load between its bounds", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
     done = tests.run("-c", SCENE + "x = 0.05 mm; animate springs along program frames 3 to " + path)
