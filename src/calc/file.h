@@ -137,6 +137,11 @@ void file_in_close(file_in *in);
 
 /* ---- what must not stay behind ------------------------------------------------------------------ */
 
+/* The signals that end a program at which nothing is done about them, but for Ctrl-C and crashes. Numbers are
+ * 1 to FILE_SIGNALS - 1. */
+#define FILE_SIGNALS NSIG
+bool file_signal_ends(int number);
+
 /* The calls between hold the signals that end the program back: what is made is then listed, or not made. */
 void file_signals_hold(sigset_t *before);
 void file_signals_release(const sigset_t *before);

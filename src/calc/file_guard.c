@@ -90,13 +90,26 @@ void file_emergency(void) {
             rmdir(guards[i].path);
 }
 
+bool file_signal_ends(int number) {
+    static const int others[] = {
+#ifdef SIGINFO
+        SIGINFO,
+#endif
+        SIGINT,   SIGKILL, SIGSTOP, SIGTSTP, SIGTTIN, SIGTTOU, SIGCONT, SIGCHLD, SIGURG,
+        SIGWINCH, SIGPIPE, SIGXFSZ, SIGSEGV, SIGBUS,  SIGFPE,  SIGILL,  SIGABRT};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (number == others[i])
+            return false;
+    return true;
+}
+
 void file_signals_hold(sigset_t *before) {
     sigset_t ending;
     sigemptyset(&ending);
     sigaddset(&ending, SIGINT);
-    sigaddset(&ending, SIGTERM);
-    sigaddset(&ending, SIGHUP);
-    sigaddset(&ending, SIGQUIT);
+    for (int n = 1; n < FILE_SIGNALS; n++)
+        if (file_signal_ends(n))
+            sigaddset(&ending, n);
     sigprocmask(SIG_BLOCK, &ending, before);
 }
 

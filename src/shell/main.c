@@ -60,10 +60,10 @@ static void handle(int number, void (*handler)(int)) {
 }
 
 static void set_signals(void) {
-    static const int ends[] = {SIGTERM, SIGHUP, SIGQUIT};
     handle(SIGINT, on_interrupt);
-    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
-        handle(ends[i], on_end);
+    for (int n = 1; n < FILE_SIGNALS; n++)
+        if (file_signal_ends(n))
+            handle(n, on_end);
     signal(SIGCHLD, SIG_DFL); /* whoever started us may not have waited for children, but we do */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN); /* a write that fails is an error like any other */

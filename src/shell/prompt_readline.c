@@ -26,12 +26,11 @@ static int history_file = -1; /* open for appending; -1: none is kept */
 
 /* While a line is edited the terminal is not as the user left it: it is put right before any of these acts.
  */
-static struct {
-    int number;
-    struct sigaction before;
-} guarded[] = {
-    {.number = SIGTERM}, {.number = SIGHUP}, {.number = SIGQUIT}, {.number = SIGTSTP}, {.number = SIGCONT}};
-enum { GUARDED = sizeof guarded / sizeof *guarded };
+static bool is_guarded(int number) {
+    return file_signal_ends(number) || number == SIGTSTP || number == SIGCONT;
+}
+
+static struct sigaction before_guard[FILE_SIGNALS];
 
 static volatile sig_atomic_t caught;
 
@@ -40,17 +39,16 @@ static void on_signal(int number) {
 }
 
 static void guard(void) {
-    for (size_t i = 0; i < GUARDED; i++) {
-        struct sigaction act = {.sa_handler = on_signal};
-        sigaction(guarded[i].number, &act, &guarded[i].before);
-        if (guarded[i].before.sa_handler == SIG_IGN)
-            sigaction(guarded[i].number, &guarded[i].before, NULL);
-    }
+    const struct sigaction act = {.sa_handler = on_signal};
+    for (int n = 1; n < FILE_SIGNALS; n++)
+        if (is_guarded(n) && !sigaction(n, NULL, &before_guard[n]) && before_guard[n].sa_handler != SIG_IGN)
+            sigaction(n, &act, NULL);
 }
 
 static void unguard(void) {
-    for (size_t i = 0; i < GUARDED; i++)
-        sigaction(guarded[i].number, &guarded[i].before, NULL);
+    for (int n = 1; n < FILE_SIGNALS; n++)
+        if (is_guarded(n))
+            sigaction(n, &before_guard[n], NULL);
 }
 
 /* Lets the signal do what it would have done; whoever stopped us may have changed the terminal. */
@@ -99,8 +97,9 @@ static int read_key(FILE *in) {
     sigset_t ours, before;
     sigemptyset(&ours);
     sigaddset(&ours, SIGINT);
-    for (size_t i = 0; i < GUARDED; i++)
-        sigaddset(&ours, guarded[i].number);
+    for (int n = 1; n < FILE_SIGNALS; n++)
+        if (is_guarded(n))
+            sigaddset(&ours, n);
     for (;;) {
         fd_set set;
         FD_ZERO(&set);

@@ -15,6 +15,8 @@
 #include <sys/prctl.h>
 #endif
 
+#include "calc/file.h"
+
 enum {
     WORKERS = 64,
     AHEAD = 3,  /* places for each of them: what is slow does not keep the others waiting */
@@ -85,10 +87,10 @@ static bool passes(int fd, unsigned char *i, bool reads) {
 /* Signals are blocked. The terminal's interrupt is for the one who gives; what else there was to be done at a
  * signal is not a worker's to do. */
 static void leave_signals(const sigset_t *before) {
-    static const int plain[] = {SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH, SIGALRM, SIGCHLD};
     signal(SIGINT, SIG_IGN);
-    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
-        signal(plain[i], SIG_DFL);
+    for (int n = 1; n < FILE_SIGNALS; n++)
+        if (file_signal_ends(n) || n == SIGTSTP || n == SIGCONT || n == SIGWINCH || n == SIGCHLD)
+            signal(n, SIG_DFL);
     sigprocmask(SIG_SETMASK, before, NULL);
 }
 

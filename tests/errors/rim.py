@@ -416,7 +416,7 @@ def inherited(tests):
 
 
 def signals(tests):
-    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGUSR1):
         p = Prompt(tests)
         os.write(p.main, b"1 + 1")
         p.read(0.5, b"1 + 1")

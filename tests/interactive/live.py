@@ -457,7 +457,7 @@ def rests(pid):
 
 
 ENDS = [("q", None), ("\x03", None), ("", signal.SIGINT), ("", signal.SIGTERM), ("", signal.SIGHUP), ("", signal.SIGQUIT),
-        ("", signal.SIGSEGV), ("", signal.SIGABRT), ("", signal.SIGBUS)]
+        ("", signal.SIGALRM), ("", signal.SIGUSR1), ("", signal.SIGRTMAX), ("", signal.SIGSEGV), ("", signal.SIGABRT), ("", signal.SIGBUS)]
 
 
 def endings(tests):
