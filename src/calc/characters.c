@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Characters of UTF-8 and which of them show. */
+/* Characters of UTF-8, which of them show, and how wide. */
+#define _XOPEN_SOURCE 700 /* wcwidth */
 #include "calc/characters.h"
 
+#include <locale.h>
 #include <stdio.h>
 #include <string.h>
+#include <wchar.h>
 
 size_t character_at(const char *text, size_t left, unsigned *code) {
     const unsigned char *p = (const unsigned char *)text;
@@ -44,6 +47,38 @@ bool character_shows(unsigned c) {
         if (c >= hidden[i].first && c <= hidden[i].last)
             return false;
     return true;
+}
+
+size_t character_count(const char *text, size_t len) {
+    size_t count = 0;
+    for (size_t i = 0, n; i < len; i += n ? n : 1, count++)
+        n = character_at(text + i, len - i, NULL);
+    return count;
+}
+
+/* The system's table, which terminals go by too, whatever the locale of the program. */
+static size_t columns_of(unsigned code) {
+    static locale_t utf8; /* made once */
+    if (code < 0x300)
+        return 1;
+    if (!utf8)
+        utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", (locale_t)0);
+    if (!utf8)
+        return 1;
+    const locale_t before = uselocale(utf8);
+    const int n = wcwidth((wchar_t)code);
+    uselocale(before);
+    return n < 0 ? 1 : (size_t)n;
+}
+
+size_t text_columns(const char *text, size_t len) {
+    size_t count = 0;
+    for (size_t i = 0, n; i < len; i += n ? n : 1) {
+        unsigned code;
+        n = character_at(text + i, len - i, &code);
+        count += n && character_shows(code) ? columns_of(code) : 1;
+    }
+    return count;
 }
 
 size_t character_shown(const char *text, size_t left, char shown[CHARACTER_SHOWN]) {

@@ -13,6 +13,12 @@ size_t character_at(const char *text, size_t left, unsigned *code);
 /* No control character, and none that turns the direction of writing or takes no place. */
 bool character_shows(unsigned code);
 
+/* Characters that the bytes are; one that is no UTF-8 counts as one. */
+size_t character_count(const char *text, size_t len);
+/* Columns that they take: 2 for a wide one, as of Chinese, none for one that is put onto the one before it, 1
+ * for what does not show. */
+size_t text_columns(const char *text, size_t len);
+
 /* A character that does not show is written in this way, as \x1b or \u202e; a byte that is no UTF-8 too.
  * Returns the bytes taken from text; shown holds a text of at most 10 bytes. */
 enum { CHARACTER_SHOWN = 12 };

@@ -128,9 +128,11 @@ static bool unknown_name(parser *p) {
     const char *near = suggest(word, quantity_name);
     if (!near)
         near = suggest(word, builtin_name);
+    size_t same = strlen(word) - 1; /* all letters but the last */
+    while (same > 0 && ((unsigned char)word[same] & 0xc0) == 0x80)
+        same--;
     for (size_t i = 0; !near && i < p->c->names.count; i++)
-        if (p->c->names.row[i].known && strlen(word) > 2 &&
-            !strncmp(p->c->names.row[i].text, word, strlen(word) - 1))
+        if (p->c->names.row[i].known && same > 1 && !strncmp(p->c->names.row[i].text, word, same))
             near = p->c->names.row[i].text;
     return lex_fail(lx, near ? "unknown name '%s': did you mean %s?" : "unknown name '%s'", word, near);
 }

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "calc/characters.h"
 #include "live/state.h"
 #include "live/terminal.h"
 
@@ -288,21 +289,13 @@ static void draw_column(live *l, const side *s, const scales *sc, rect all, rect
     }
 }
 
-/* Columns that bytes of UTF-8 take. */
-static int columns(const char *text, size_t n) {
-    int count = 0;
-    for (size_t i = 0; i < n; i++)
-        count += ((unsigned char)text[i] & 0xc0) != 0x80;
-    return count;
-}
-
 /* As much of the text as goes into a row, broken between words. */
 static size_t row_of(const char *text, int cols) {
     size_t whole = 0;
     for (size_t i = 0;; i++) {
         if (text[i] && text[i] != ' ')
             continue;
-        if (whole > 0 && columns(text, i) > cols)
+        if (whole > 0 && text_columns(text, i) > (size_t)cols)
             return whole;
         whole = i;
         if (!text[i])

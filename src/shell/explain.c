@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/characters.h"
 #include "calc/trial.h"
 #include "number/array.h"
 #include "shell/command.h"
@@ -46,15 +47,13 @@ static void put_value(const page *p, const char *name, size_t len, value v) {
     fprintf(p->to, "    %.*s = %s\n", (int)len, name, text);
 }
 
-/* Broken at spaces, further lines indented more; a character of UTF-8 is one wide. */
+/* Broken at spaces, further lines indented more. */
 static void put_wrapped(FILE *to, const char *text) {
     enum { LINE = 79, INDENT = 4 };
     size_t used = 0;
     while (*text) {
         const size_t gap = strspn(text, " "), len = strcspn(text + gap, " ");
-        size_t width = 0;
-        for (size_t i = gap; i < gap + len; i++)
-            width += ((unsigned char)text[i] & 0xC0) != 0x80;
+        const size_t width = text_columns(text + gap, len);
         const bool breaks = used > 0 && used + gap + width > LINE;
         const size_t space = used == 0 ? INDENT : breaks ? (size_t)2 * INDENT : gap;
         fprintf(to, "%s%*s%.*s", breaks ? "\n" : "", (int)space, "", (int)len, text + gap);

@@ -314,7 +314,8 @@ static void text_head(table *t) {
         char unit_text[COLUMN_UNIT];
         const column *c = &t->columns[i];
         choose_unit(t, i, unit_text);
-        const size_t head = strlen(c->name) + (*unit_text ? strlen(unit_text) + 3 : 0);
+        const size_t unit_width = text_columns(unit_text, strlen(unit_text)),
+                     head = text_columns(c->name, strlen(c->name)) + (*unit_text ? unit_width + 3 : 0);
         const size_t number = (size_t)t->set->digits + 7;
         t->width[i] = (int)(head > number ? head : number);
         fprintf(t->to, "%s%*s", i ? "  " : "", t->width[i] - (int)head, "");

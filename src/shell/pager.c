@@ -9,14 +9,15 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-/* Columns that a line takes: characters, without colours. */
+#include "calc/characters.h"
+
+/* Columns that a line takes, without colours. */
 static size_t columns(const char *line, size_t n) {
     size_t count = 0;
-    for (size_t i = 0; i < n; i++)
-        if (line[i] == '\033')
-            i += strcspn(line + i, "m");
-        else
-            count += ((unsigned char)line[i] & 0xc0) != 0x80;
+    for (size_t i = 0, plain; i < n; i += plain) {
+        plain = line[i] == '\033' ? strcspn(line + i, "m") + 1 : strcspn(line + i, "\033\n");
+        count += line[i] == '\033' ? 0 : text_columns(line + i, plain);
+    }
     return count;
 }
 

@@ -13,6 +13,7 @@
 #include <readline/history.h>
 #include <readline/readline.h>
 
+#include "calc/characters.h"
 #include "shell/complete.h"
 #include "shell/prompt.h"
 #include "shell/record.h"
@@ -334,10 +335,9 @@ static int rows_of(const char *text, int columns) {
     enum { PROMPT = 6 };
     int rows = 0, width = PROMPT;
     for (;; text++) {
-        if (*text && *text != '\n') {
-            width += ((unsigned char)*text & 0xc0) != 0x80;
-            continue;
-        }
+        const size_t n = strcspn(text, "\n");
+        width += (int)text_columns(text, n);
+        text += n;
         if (!*text && width == 0 && rows > 0) /* an empty last one is not gone past */
             return rows;
         rows += 1 + (width > 0 ? (width - 1) / columns : 0);

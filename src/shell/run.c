@@ -360,21 +360,40 @@ bool shell_continues(const char *text, size_t len) {
     return end == len; /* not within a comment */
 }
 
-enum { SHOWN = 100 }; /* of a long line, around the place */
+enum { SHOWN = 100 }; /* columns of a long line, around the place */
+
+/* Bytes of the character there, or of what is none, and its columns. */
+static size_t next_character(const char *text, size_t left, size_t *columns) {
+    const size_t n = character_at(text, left, NULL);
+    *columns = text_columns(text, n ? n : 1);
+    return n ? n : 1;
+}
+
+/* The part of a line that is shown: `before` columns of it lie before the place. */
+static void find_part(const char *text, size_t len, size_t at, size_t *begin, size_t *end, size_t *before) {
+    size_t columns, room = SHOWN;
+    *begin = 0;
+    *end = len;
+    *before = text_columns(text, at);
+    if (text_columns(text, len) <= SHOWN)
+        return;
+    for (; *before > SHOWN / 2; *before -= columns)
+        *begin += next_character(text + *begin, len - *begin, &columns);
+    for (*end = *begin; *end < len; room -= columns) {
+        const size_t n = next_character(text + *end, len - *end, &columns);
+        if (columns > room)
+            break;
+        *end += n;
+    }
+}
 
 static void show_place(const shell *sh, bool aside, const char *text, size_t len, size_t at, size_t width) {
     FILE *to = sh->err;
-    size_t begin = 0, end = len;
-    if (len > SHOWN) {
-        begin = at > SHOWN / 2 ? at - SHOWN / 2 : 0;
-        end = begin + SHOWN < len ? begin + SHOWN : len;
-    }
-    while (begin < at && ((unsigned char)text[begin] & 0xc0) == 0x80)
-        begin++;
+    size_t begin, end, before;
+    find_part(text, len, at, &begin, &end, &before);
     if (aside)
         shell_aside(sh, to);
     fprintf(to, "  %s", begin ? "..." : "");
-    size_t blanks = 0, marks = 0;
     for (size_t i = begin; i < end;) {
         unsigned code;
         const size_t n = character_at(text + i, end - i, &code);
@@ -382,15 +401,14 @@ static void show_place(const shell *sh, bool aside, const char *text, size_t len
             fwrite(text + i, 1, n, to);
         else
             putc(n && code == '\t' ? ' ' : '?', to);
-        blanks += i < at;
-        marks += i > at && i < at + width;
         i += n ? n : 1;
     }
     fprintf(to, "%s\n", end < len ? "..." : "");
     if (aside)
         shell_aside(sh, to);
-    fprintf(to, "  %s%*s^", begin ? "   " : "", (int)blanks, "");
-    while (marks-- > 0)
+    fprintf(to, "  %s%*s^", begin ? "   " : "", (int)before, "");
+    const size_t last = at + width < end ? at + width : end;
+    for (size_t marks = last > at ? text_columns(text + at, last - at) : 0; marks > 1; marks--)
         putc('~', to);
     putc('\n', to);
 }
@@ -432,7 +450,7 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
         end++;
     if (from->name) {
         print_safe(sh->err, from->name, strlen(from->name));
-        fprintf(sh->err, ":%zu:%zu: ", line, at - begin + 1);
+        fprintf(sh->err, ":%zu:%zu: ", line, character_count(text + begin, at - begin) + 1);
     }
     print_error(sh, error->text);
     const size_t width = error->len ? error->len : 1;

@@ -3,6 +3,7 @@
 the column says."""
 import os
 import re
+import unicodedata
 
 import harness
 
@@ -31,33 +32,39 @@ def entries(text):
                    [line for line in lines if line and line[0] not in ">|"])
 
 
+def wide(text):
+    """Columns of a terminal."""
+    return sum(0 if unicodedata.combining(c) else 2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in text)
+
+
 def part_of(source, column, shown, caret):
-    """Of a long line a part is shown, with dots where it goes on."""
+    """Of a long line a part is shown, with dots where it goes on; the caret stands below the column."""
     before, after = shown.startswith("  ..."), shown.endswith("...") and not source.endswith("...")
-    text, begin = shown[5 if before else 2:-3 if after else None], column - 1 - caret + (5 if before else 2)
-    return (source[begin:begin + len(text)] == text and len(text) <= 100 and before == (begin > 0) and
-            after == (begin + len(text) < len(source)))
+    text, behind = shown[5 if before else 2:-3 if after else None], source[column - 1:]
+    left = next((n for n in range(len(text) + 1) if wide(text[:n]) == caret - (5 if before else 2)), None)
+    begin = column - 1 - left if left is not None else -1
+    return (begin >= 0 and source[begin:begin + len(text)] == text and wide(text) <= 100 and before == (begin > 0) and
+            after == (begin + len(text) < len(source)) and behind.startswith(text[left:]))
 
 
 def carets(messages, lasts, script):
-    """Each placed message is followed by its line and a caret below the column (counted in bytes); marks go on to the last
-    column, where that is known."""
+    """Each placed message is followed by its line and a caret below the column, which counts characters; marks go on
+    to the last column, where that is known."""
     lines, lasts, script = messages.splitlines(), list(lasts), script.splitlines()
     for i, line in enumerate(lines):
         found = re.match(r"\S+:(\d+):(\d+): error: ", line)
         if not found:
             continue
-        last = lasts.pop(0) if lasts else None
+        last, column = lasts.pop(0) if lasts else None, int(found.group(2))
         if i + 2 >= len(lines) or "^" not in lines[i + 2]:
             return False
-        shown, caret = lines[i + 1], lines[i + 2].index("^")
-        if "..." not in shown and len(shown[2:caret].encode()) != int(found.group(2)) - 1 and \
-                len(shown[2:caret]) != int(found.group(2)) - 1:
+        source, shown, caret = script[int(found.group(1)) - 1], lines[i + 1], lines[i + 2].index("^")
+        plain = source.isprintable()  # what is not is shown in another way
+        if "..." not in shown and (wide(source[:column - 1]) if plain else column - 1) != caret - 2:
             return False
-        source = script[int(found.group(1)) - 1]
-        if len(source) > 100 and source.isascii() and not part_of(source, int(found.group(2)), shown, caret):
+        if wide(source) > 100 and plain and not part_of(source, column, shown, caret):
             return False
-        if last and lines[i + 2].count("~") != int(last) - int(found.group(2)):
+        if last and lines[i + 2].count("~") != wide(source[column - 1:int(last)]) - 1:
             return False
     return True
 

@@ -26,6 +26,21 @@ static void characters(void) {
     CHECK(character_at("", 0, &code) == 0 && code == 7);
     CHECK(character_at("\xe2\x82\xac", 3, &code) == 3 && code == 0x20ac);
     CHECK(character_at("\xe2\x82\xac", 2, &code) == 0 && character_at("a", 1, NULL) == 1);
+    static const struct {
+        const char *text;
+        size_t count, columns;
+    } rows[] = {{"", 0, 0},
+                {"ab", 2, 2},
+                {"\xce\xbcm", 2, 2},
+                {"\xe5\xa5\xb3\xef\xbc\x91", 2, 4}, /* of East Asia */
+                {"e\xcc\x81", 2, 1},                /* an accent of its own */
+                {"\xf0\x9f\x98\x80", 1, 2},
+                {"\xff\xe5\xa5", 3, 3},      /* no UTF-8 */
+                {"\x1b\xe2\x80\xae", 2, 2}}; /* shown in another way */
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        CHECK(character_count(rows[i].text, strlen(rows[i].text)) == rows[i].count);
+        CHECK(text_columns(rows[i].text, strlen(rows[i].text)) == rows[i].columns);
+    }
 }
 
 static void units(void) {
