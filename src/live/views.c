@@ -396,7 +396,8 @@ static void draw_foot(const live *l, rect at) {
     while (((unsigned char)l->line[from] & 0xc0) == 0x80)
         from++;
     put_text(at, last, INK_NONE, "%s%s", l->prompt, l->line + from);
-    move(at.top + last, at.left + (int)strlen(l->prompt) + columns(l->line + from, l->cursor - from));
+    move(at.top + last,
+         at.left + (int)strlen(l->prompt) + (int)text_columns(l->line + from, l->cursor - from));
     curs_set(1);
 }
 
