@@ -258,6 +258,12 @@ uninstall:
 		$(SHARE)/bash-completion/completions/fret $(addprefix $(DESTDIR)$(PREFIX)/,$(HEADERS))
 	if [ -d $(DESTDIR)$(PREFIX)/include/fret ]; then rmdir $(DESTDIR)$(PREFIX)/include/fret; fi
 
+# Both commands of the head, and every compiler, in clean systems of the Debians that README names. For root, with
+# debootstrap: an hour.
+CHROOTS ?= $(B)/chroots
+chroots:
+	@sh scripts/chroots $(CHROOTS)
+
 # Debian packages, in build/deb.
 deb:
 	@sh scripts/deb $(VERSION)
@@ -270,5 +276,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: coverage mutants fuzz fuzz-build all figures manual uninstall deb static tests deps deps-check run check check-all hard hard-diagram scenes faults pieces latency bench format install clean FORCE
--include $(shell find $(B) -name '*.d' 2>/dev/null)
+.PHONY: coverage mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram scenes faults pieces latency bench format install clean FORCE
+-include $(shell find $(B) -name chroots -prune -o -name '*.d' -print 2>/dev/null)

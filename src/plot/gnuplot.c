@@ -93,6 +93,8 @@ static int start(const plot_run *r, char *const argv[], pid_t *pid, int *guard) 
     sigaddset(&defaults, SIGPIPE);
     sigaddset(&defaults, SIGXFSZ);
     posix_spawnattr_setsigdefault(&attributes, &defaults);
+    /* gnuplot begins with the terminal that it names, and ends where that is none of its own */
+    unsetenv("GNUTERM");
     file_signals_hold(&before);
     posix_spawnattr_setsigmask(&attributes, &before);
     code = code ? code : posix_spawnp(pid, "gnuplot", &actions, &attributes, argv, environ);

@@ -213,5 +213,13 @@ def messages(tests):
                 not re.search("[\033\007\u202e]", done.stderr), tests.report(done))
 
 
+def foreign_terminal(tests):
+    """A terminal of the user's for gnuplot, which may not even be there, is not what a plot is drawn with."""
+    want = tests.run("-c", SCENE + "plot loop")
+    for terminal in ("qt", "nonsense", "png"):
+        done = tests.run("-c", SCENE + "plot loop", env={"GNUTERM": terminal})
+        tests.check("GNUTERM=" + terminal, done.returncode == 0 and done.stdout == want.stdout and len(done.stdout) > 500, tests.report(done))
+
+
 def run(tests):
-    tests.each([lambda one=one: one(tests) for one in (forms, points, names, targets, stopped, messages)])
+    tests.each([lambda one=one: one(tests) for one in (forms, points, names, targets, stopped, messages, foreign_terminal)])
