@@ -179,9 +179,9 @@ faults: deps-check
 	  python3 tests/fuzz/faults.py --leaks build/leaks/fret build/leaks/tests && exit $$status) > $(B)/faults.txt; \
 	  status=$$?; mv $(B)/faults.txt tests/hard/faults.txt; tail -n 3 tests/hard/faults.txt; exit $$status
 
-# Lines and branches that the tests reach.
-coverage: deps-check
-	@PYTHONDONTWRITEBYTECODE=1 nice python3 tests/coverage.py $(ROOMS)
+# Lines and branches that the tests reach; coverage-short: those of make check.
+coverage coverage-short: deps-check
+	@PYTHONDONTWRITEBYTECODE=1 nice python3 tests/coverage.py $(if $(findstring short,$@),--short) $(ROOMS)
 
 # MUTANTS tokens of the sources changed one at a time: which of them does no test notice? Hours.
 MUTANTS ?= 300
@@ -276,5 +276,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: coverage mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram scenes faults pieces latency bench format install clean FORCE
+.PHONY: coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram scenes faults pieces latency bench format install clean FORCE
 -include $(shell find $(B) -name chroots -prune -o -name '*.d' -print 2>/dev/null)

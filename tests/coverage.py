@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Lines and branches of src/ that the rooms of tests and the faults reach, by gcov, and those that they do not:
-tests/hard/coverage.txt. A comment `unreached: REASON` leaves out its line and what is indented under it; alone on its line,
+tests/hard/coverage.txt; `--short`: those that `make check` runs, and what these reach. A comment `unreached: REASON` leaves out its line and what is indented under it; alone on its line,
 the next one."""
 import collections
 import contextlib
@@ -130,8 +130,9 @@ def main():
     if not build():
         return 1
     put_back({})
-    tests = harness.Tests(B, "coverage", False)
-    rooms = sys.argv[1:] or list(ROOMS)
+    short, rooms = sys.argv[1:] == ["--short"], [room for room in sys.argv[1:] if room != "--short"]
+    rooms = rooms or [name for name in (runner.ROOMS if short else ROOMS) if not short or name not in runner.OTHER + runner.PLAIN]
+    tests = harness.Tests(B, "coverage", False, short)
     for room in rooms:
         run_room(tests, room)
     tests.close()

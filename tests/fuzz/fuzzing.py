@@ -5,6 +5,7 @@ what the corpus and build/fuzz/corpus reach between them into the corpus, in few
 import glob
 import os
 import pathlib
+import random
 import re
 import shutil
 import subprocess
@@ -17,8 +18,8 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(ROOT, "tests"))
 import harness  # noqa: E402
 
-TARGETS = ("statements", "json", "gap", "follow", "table", "replay")
-LONGEST = {"statements": 1200, "json": 1200, "gap": 2000, "follow": 2000, "table": 2000, "replay": 2000}
+TARGETS = ("statements", "json", "gap", "follow", "table", "replay", "library")
+LONGEST = {"statements": 1200, "json": 1200, "gap": 2000, "follow": 2000, "table": 2000, "replay": 2000, "library": 1000}
 OPTIONS = ("-timeout=30", "-rss_limit_mb=3000", "-use_value_profile=0", "-print_final_stats=1", "-verbosity=1")
 
 
@@ -90,28 +91,43 @@ FILES = ("r [mm],f [um]\n0,0\n0.1,0.5\n0.2,2\n0.4,8\n0.8,32\n1.6,128\n", "r,f\n0
          "# a note\nx [N],y [um]\n1,0.1\n\n2,0.2\n3,\n", "\ufeffr [mm],f [um]\r\n0,0\r\n1,50\r\n", "\"r [mm]\",\"f [um]\"\n\"0\",\"0\"\n\"1\",\"2\"\n")
 
 
+def rows():
+    """The functions of the library that its target calls."""
+    with open(os.path.join(HERE, "library.h"), encoding="utf-8") as f:
+        return re.findall(r"ROW\((fret_\w+)\)", f.read())
+
+
+def calls():
+    """All of them, in some orders, with usual numbers and others."""
+    r = random.Random(1)
+    for _ in range(60):
+        names = r.sample(rows(), 30)
+        yield "\n".join(" ".join([name, *(r.choice(("1", "0.3", "2", "100", "1e-3", "0", "-1", "inf", "nan", "1e300", "5e-324")) for _ in range(6))])
+                        for name in names)
+
+
 def start(target, folder):
     """Seeds of a new corpus."""
-    texts = FILES if target in ("gap", "follow", "table") else seeds(target)
+    texts = FILES if target in ("gap", "follow", "table") else calls() if target == "library" else seeds(target)
     for i, text in enumerate(texts):
         with open(os.path.join(folder, "seed-%d" % i), "w", encoding="utf-8", newline="") as f:
             f.write(text[:LONGEST[target]])
 
 
-def dictionary(path):
-    """Words of the language, from the program's sources."""
-    words = set()
-    for name in glob.glob(os.path.join(ROOT, "src/calc/*.c")) + glob.glob(os.path.join(ROOT, "src/shell/commands.c")):
+def dictionary(target, path):
+    """Words of the language, from the program's sources, or of the library."""
+    words = set(rows() if target == "library" else ())
+    for name in () if words else glob.glob(os.path.join(ROOT, "src/calc/*.c")) + [os.path.join(ROOT, "src/shell/commands.c")]:
         with open(name, encoding="utf-8") as f:
             words |= set(re.findall(r'"([A-Za-z][\w.-]{0,14})"', f.read()))
     with open(path, "w", encoding="utf-8") as f:
-        f.writelines('"%s"\n' % word for word in sorted(words | {":=", "+=", "..", " at ", " in ", " along ", "FN=100 N"}))
+        f.writelines('"%s"\n' % word for word in sorted(words if target == "library" else words | {":=", "+=", "..", " at ", " in ", " along ", "FN=100 N"}))
 
 
 def fuzz(program, target, seconds, folder, seed):
     """(executions, coverage, features, inputs, what went wrong)"""
     with tempfile.TemporaryDirectory(prefix="fret-fuzzing-") as tmp:
-        dictionary(os.path.join(tmp, "words"))
+        dictionary(target, os.path.join(tmp, "words"))
         known = unpack(target, os.path.join(tmp, "known"))
         try:
             done = subprocess.run([program, folder, known, "-max_total_time=%d" % seconds, "-seed=%d" % seed,
