@@ -98,7 +98,9 @@ def failing(tests):
         ended = leaves(s)
         with open(kept, encoding="ascii") as f:
             lines = f.read().splitlines()
-        if failed(path):
+        if call in ("fstat", "newfstatat") and not re.search(says, s.banner):  # a C library asks for a file by one of them, for others by the other
+            tests.check("a start where %s fails for another file" % call, answer.endswith("4 + 1 = 5") and ended == 0, "%s\n%s" % (s.banner, answer))
+        elif failed(path):
             found.append(call)
             tests.check("a history where %s fails" % call, re.search(says, s.banner) and answer.endswith("4 + 1 = 5") and ended == 0 and
                         lines == ["123 + 1"] + ([] if "no history" in says else ["4 + 1"]), "%s\n%s\n%s" % (s.banner, answer, lines))
