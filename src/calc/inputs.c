@@ -291,6 +291,8 @@ void inputs_bind(inputs *in, input which, counted *to) {
     counted_drop(in->bound[which]);
     in->bound[which] = to;
     in->bindings = to ? in->bindings | INPUT_BIT(which) : in->bindings & ~INPUT_BIT(which);
+    if (which == IN_RADIUS)
+        in->radii[0] = in->radii[1] = 0;
     if (to)
         leave_others(in, which);
 }

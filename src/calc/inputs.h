@@ -81,6 +81,7 @@ struct inputs {
     unsigned bindings;      /* which are bound */
     second_body second;
     const geometry *geometry;
+    double radii[2];     /* R1 and R2 [m], of which R has been made; 0: R was given */
     fret_gap sum;        /* terms of `geometry sum` */
     shared_table *table; /* of `geometry file` */
 };

@@ -129,26 +129,40 @@ static bool find_wide(scene *s, fret_press *wide, bool *within, calc_error *erro
     return true;
 }
 
+/* The smallest radius of curvature of a body; infinite where there is none. Two that fit closely are together
+ * far flatter than each of them. */
+static long double least_radius(scene *s, const char **name) {
+    const double *R = s->in.radii;
+    long double of_both = INFINITY;
+    calc_error ignored;
+    error_clear(&ignored);
+    *name = "R";
+    if (!inputs_take(&s->in, IN_RADIUS) || !scene_get(s, IN_RADIUS, &of_both, &ignored) || R[0] == 0)
+        return of_both;
+    *name = fabs(R[0]) <= fabs(R[1]) ? "R1" : "R2";
+    return fmin(fabs(R[0]), fabs(R[1]));
+}
+
 static void warn_half_space(shell *sh) {
     scene *s = &sh->calc.scene;
     fret_press press;
     bool within;
-    long double R = INFINITY, slope = 0;
+    const char *name;
+    long double slope = 0;
     calc_error ignored;
     error_clear(&ignored);
     if (!find_wide(s, &press, &within, &ignored))
         return;
     enum { WIDE = 1, STEEP = 2 };
-    if (inputs_take(&s->in, IN_RADIUS))
-        scene_get(s, IN_RADIUS, &R, &ignored);
+    const long double R = least_radius(s, &name);
     if (inputs_take(&s->in, IN_SLOPE))
         scene_get(s, IN_SLOPE, &slope, &ignored);
     const bool wide = press.a > most_radius * R, steep = slope > most_slope;
     if (wide && !(sh->no_half_space & WIDE))
         shell_note(sh,
-                   "warning: a/R = %.3g%s: beyond 0.3 the bodies are no half-spaces, and these results are "
+                   "warning: a/%s = %.3g%s: beyond 0.3 the bodies are no half-spaces, and these results are "
                    "an approximation",
-                   (double)(press.a / R), within ? " within the cycle" : "");
+                   name, (double)(press.a / R), within ? " within the cycle" : "");
     if (steep && !(sh->no_half_space & STEEP))
         shell_note(sh,
                    "warning: slope = %.3g: flanks steeper than 20 deg leave the half-space, and these "
@@ -162,13 +176,14 @@ static void warn_half_space(shell *sh) {
 static void find_widest(shell *sh) {
     scene *s = &sh->calc.scene;
     const fret_normal *normal;
-    long double R = INFINITY;
+    const char *name;
     calc_error ignored;
     error_clear(&ignored);
     sh->widest = (fret_press){.F = INFINITY, .dz = INFINITY};
-    if (!inputs_take(&s->in, IN_RADIUS))
+    const long double R = least_radius(s, &name);
+    if (isinf(R))
         return;
-    if (!scene_get(s, IN_RADIUS, &R, &ignored) || !scene_normal(s, &normal, &ignored) ||
+    if (!scene_normal(s, &normal, &ignored) ||
         fret_press_by_radius(normal, most_radius * (double)R, &sh->widest).code)
         sh->widest = (fret_press){.F = 0, .dz = 0};
 }
@@ -189,8 +204,10 @@ void shell_pressed(shell *sh, const load_step *step) {
 
 static void warn(shell *sh) {
     sh->widest_known = false;
-    if (!sh->calc.scene.end.steps)
+    if (!sh->calc.scene.end.steps) {
+        sh->no_half_space = 0;
         return;
+    }
     warn_dissimilar(sh);
     warn_half_space(sh);
 }

@@ -22,6 +22,7 @@ typedef struct edit {
     bool clear_material, clear_second;
     second_body second;
     const geometry *geometry;
+    double radii[2];
     const fret_gap *sum;
     shared_table *table;
 } edit;
@@ -49,6 +50,8 @@ static void apply(inputs *in, void *context) {
             inputs_put(in, i, in->v[i]);
             inputs_bind(in, i, counted_hold(e->bound[i]));
         }
+    for (int i = 0; i < 2 && e->radii[i] != 0; i++)
+        in->radii[i] = e->radii[i];
 }
 
 static bool has(const edit *e, input in) {
@@ -394,7 +397,9 @@ static bool put_radii(lexer *lx, edit *e, const arg_value *R1, const arg_value *
         return lex_fail(lx, "give both R1 and R2, or R");
     if (e->has[IN_RADIUS])
         return calc_fail(lx->error, R1->at, R1->len, "give either R or R1 and R2");
-    const long double curvature = 1 / R1->v.v + 1 / R2->v.v;
+    e->radii[0] = (double)R1->v.v;
+    e->radii[1] = (double)R2->v.v;
+    const long double curvature = 1 / (long double)e->radii[0] + 1 / (long double)e->radii[1];
     if (!(curvature > 0))
         return calc_fail(lx->error, R1->at, lx->last - R1->at, "1/R1 + 1/R2 must be positive");
     put(e, IN_RADIUS, 1 / curvature);

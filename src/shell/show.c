@@ -171,6 +171,11 @@ static void write_smoothing(writer *w, const smoothing *how) {
         write_value(w, " ", "", (value){(long double)how->within, DIM_LENGTH});
 }
 
+static void write_radii(writer *w, const double R[2]) {
+    write_value(w, " R1", "=", (value){(long double)R[0], DIM_LENGTH});
+    write_value(w, " R2", "=", (value){(long double)R[1], DIM_LENGTH});
+}
+
 static void write_geometry(writer *w) {
     const inputs *in = &w->c->scene.in;
     const geometry *g = in->geometry;
@@ -179,7 +184,9 @@ static void write_geometry(writer *w) {
     begin(w, "geometry ");
     fputs(g->name, w->to);
     for (input i = IN_N; i < INPUTS && g->by == PARAMETERS_NAMED; i++)
-        if (in->set[i])
+        if (i == IN_RADIUS && in->radii[0] != 0)
+            write_radii(w, in->radii);
+        else if (in->set[i])
             write_argument(w, quantity_of_input(i)->name, i);
     for (int i = 0; i < in->sum.terms && g->by == PARAMETERS_TERMS; i++) {
         char n[VALUE_TEXT];
