@@ -134,6 +134,7 @@ bool scene_contact(scene *s, fret_contact *out, calc_error *error) {
         !scene_friction(s, &out->mu, error))
         return false;
     out->press = *press;
+    s->used |= ASKED_TANGENTIAL;
     const bool many = (s->many || fret_normal_dense(out->normal, press->a)) && press->F > 0 &&
                       !fret_normal_is_power(out->normal);
     if (many && !scene_many_normal(s, (double)press->F, &out->normal, error))

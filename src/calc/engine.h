@@ -21,6 +21,8 @@ typedef enum model_id {
 
 /* What has answered: bits of scene.used. */
 #define USED(id) (1u << (id))
+/* Another one: something that friction is a part of was asked for. */
+#define ASKED_TANGENTIAL USED(MODELS)
 
 typedef struct model_row {
     const char *name;  /* after `set model`, and where it is named */

@@ -296,6 +296,12 @@ static bool changed_value(machine *m, const expr_node *n, value *out) {
 
 /* ---- nodes ------------------------------------------------------------------------------------- */
 
+/* What the scene is asked for may be an approximation, by its row. */
+static void ask(const calc *c, const quantity *q) {
+    if (q->reads & INPUT_BIT(IN_MU) && !quantity_is_input(q))
+        c->now->used |= ASKED_TANGENTIAL;
+}
+
 static bool takes(const quantity *q, dim d) {
     return dim_equal(d, q->argument_d) ||
            (!dim_equal(q->argument_or, DIM_NONE) && dim_equal(d, q->argument_or));
@@ -311,6 +317,8 @@ static bool call_quantity(machine *m, const expr_node *n, value *out) {
         return dim_wrong(m, a, arg.d, wants);
     }
     *out = (value){1, n->q->d};
+    if (!m->dry)
+        ask(m->c, n->q);
     return m->dry || n->q->call(m->c->now, arg, &out->v, m->error) || calc_place(m->error, n->at, n->len);
 }
 
@@ -332,6 +340,8 @@ static bool eval(machine *m, const expr_node *n, value *out) {
         return true;
     case N_QUANTITY:
         *out = (value){1, quantity_dim(n->q, m->c->now)};
+        if (!m->dry)
+            ask(m->c, n->q);
         if (!m->dry && !quantity_get(n->q, m->c->now, &out->v, m->error))
             return calc_place(m->error, n->at, n->len);
         break;
@@ -431,6 +441,7 @@ typedef struct operand {
 static bool call_block(calc *c, const quantity *q, operand a, dim d, size_t rows, long double *out) {
     calc_error unused;
     error_clear(&unused);
+    ask(c, q);
     if (q->block) {
         double argument[EXPR_BLOCK], result[EXPR_BLOCK];
         for (size_t i = 0; i < rows; i++)
@@ -498,6 +509,7 @@ static bool run_block(calc *c, const expr *e, scene_rows *r, const long double x
             continue;
         }
         if (r && (n->kind == N_QUANTITY || n->kind == N_CALL)) {
+            ask(c, n->q);
             if (!(n->kind == N_CALL ? rows_call(r, n->q, left.v, left.stride, to)
                                     : rows_quantity(r, n->q, to)))
                 return false;

@@ -185,14 +185,16 @@ static const command commands[] = {
      .summary = "the other body, where it differs",
      .help = "The second body shares k and c0 with the first; by default it is the same.\n"
              "Bodies that are not elastically similar couple normal and tangential contact,\n"
-             "which is left out here: a warning says so. `help material` lists materials.\n\n"
+             "which is left out here: a warning says so where something tangential is asked.\n"
+             "`help material` lists materials.\n\n"
              "    fret> material steel; second rigid; friction 0.3\n"
-             "    fret> geometry sphere R=10 mm; press FN=100 N\n"
+             "    fret> geometry sphere R=10 mm; press FN=100 N; a\n"
+             "    a = 148.125 um\n"
+             "    fret> dW(20 N)\n"
+             "    dW(20 N) = 1.96943 uJ\n"
              "    warning: the bodies are elastically dissimilar (mismatch 0.286): normal and tangential "
              "contact are "
-             "coupled, and these results are an approximation\n"
-             "    fret> a\n"
-             "    a = 148.125 um\n"},
+             "coupled, and these results are an approximation\n"},
     {.name = "geometry",
      .run = do_geometry,
      .args = geometry_args,

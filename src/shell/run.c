@@ -87,21 +87,25 @@ static bool print_statement(shell *sh, lexer *lx) {
     return ok;
 }
 
-/* The theory leaves coupling out: said whenever bodies become dissimilar. */
+/* The theory leaves coupling out, which is exact for a normal load without friction: said of what is
+ * tangential, a load or a question. */
 static void warn_dissimilar(shell *sh) {
+    scene *s = &sh->calc.scene;
     const fret_normal *normal;
+    const load_reach *reach;
     calc_error ignored;
     error_clear(&ignored);
-    if (!scene_normal(&sh->calc.scene, &normal, &ignored))
+    if (!scene_normal(s, &normal, &ignored))
         return;
     const fret_foundation *f = fret_normal_foundation(normal);
-    if (!f->similar && !sh->dissimilar)
+    const bool tangential = s->used & ASKED_TANGENTIAL || (scene_reach(s, &reach, &ignored) && reach->by);
+    if (!f->similar && !sh->dissimilar && tangential)
         shell_note(
             sh,
             "warning: the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
             "are coupled, and these results are an approximation",
             (double)f->mismatch);
-    sh->dissimilar = !f->similar;
+    sh->dissimilar = !f->similar && (sh->dissimilar || tangential);
 }
 
 /* Beyond these the bodies are no half-spaces, which the theory takes them for. */
@@ -190,6 +194,8 @@ static void find_widest(shell *sh) {
 
 void shell_pressed(shell *sh, const load_step *step) {
     const scene *s = &sh->calc.scene;
+    if (step->tangential && !sh->dissimilar)
+        warn_dissimilar(sh);
     if (step->normal == BY_NONE || sh->no_half_space)
         return;
     if (!sh->widest_known)
@@ -206,6 +212,7 @@ static void warn(shell *sh) {
     sh->widest_known = false;
     if (!sh->calc.scene.end.steps) {
         sh->no_half_space = 0;
+        sh->dissimilar = false;
         return;
     }
     warn_dissimilar(sh);
@@ -329,6 +336,8 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     progress_begin(sh, text + lx.at, len - lx.at);
     bool ok = dispatch(sh, &lx);
     progress_end();
+    if (ok && sh->calc.scene.used & ASKED_TANGENTIAL)
+        warn_dissimilar(sh);
     undo_end(&sh->calc);
     if (shell_stop) { /* what has been half computed must answer nothing, whatever it seemed to say */
         scene_forget(&sh->calc.scene, false);

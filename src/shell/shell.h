@@ -47,7 +47,8 @@ void shell_free(shell *sh);
 /* Runs one statement; the error is filled in on failure. */
 bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error);
 
-/* A step has been taken: where it makes the contact too wide for a half-space, says so. */
+/* A step has been taken: says what no press has said, of bodies that are dissimilar, of a contact too wide.
+ */
 void shell_pressed(shell *sh, const load_step *step);
 
 /* Runs a logical line of several statements, reporting errors; false if one failed. `line` is the number

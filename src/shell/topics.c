@@ -220,12 +220,13 @@ static const char theory_text[] =
 
 const char coupling_text[] =
     "The theory neglects what couples normal and tangential contact. That is exact\n"
-    "for equal bodies, and for nu = 1/(2+k). Else a warning tells the mismatch: how\n"
-    "far a pressure displaces the two surfaces sideways against each other, as a part\n"
-    "of how far it presses them in; 0: not at all; for k = 0 it is Dundurs' second\n"
-    "constant. What it costs, for steel on aluminium (0.117, k = 0): a coupled\n"
-    "solution gave 1.39, 1.05, 1.03, 1.02 and 1.01 times the dW of here in the first\n"
-    "five cycles: the first is badly off, then the contact shakes down.\n";
+    "for equal bodies, for nu = 1/(2+k), and without friction. Else a warning, where\n"
+    "something tangential is asked, tells the mismatch: how far a pressure displaces\n"
+    "the two surfaces sideways against each other, as a part of how far it presses\n"
+    "them in; 0: not at all; for k = 0 it is Dundurs' second constant. What it costs,\n"
+    "for steel on aluminium (0.117, k = 0): a coupled solution gave 1.39, 1.05, 1.03,\n"
+    "1.02 and 1.01 times the dW of here in the first five cycles: the first is badly\n"
+    "off, then the contact shakes down.\n";
 
 static const char limits_text[] =
     "\nSlip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"
@@ -351,7 +352,7 @@ static const topic topics[] = {
      .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",
      .print = limits,
      .example = "    fret> material steel; second aluminium; geometry sphere R=10 mm; friction 0.4\n"
-                "    fret> press FN=100 N\n"
+                "    fret> press FN=100 N; step Fx=10 N\n"
                 "    warning: the bodies are elastically dissimilar (mismatch 0.117): normal and tangential "
                 "contact are coupled, and these results are an approximation\n"},
 };

@@ -243,6 +243,7 @@ static bool loop_rows(state *s, double *out) {
     calc_error error;
     error_clear(&error);
     s->bad_row = NO_ROW;
+    tried->used |= ASKED_TANGENTIAL;
     if (!scene_normal(tried, &view.normal, &error) || !scene_friction(tried, &view.mu, &error) ||
         !press_of(s, &press.step, &error) || !prepare(s, &press.step, &view.normal, &error))
         return ask_failed(&s->q, &error);

@@ -308,6 +308,8 @@ def loops_with_loads(tests):
         got, _, other = answers(tests, steel + script)
         tests.check("fit: a loop with its own " + what, "mu" in want and abs(got.get("mu", 0) / want["mu"] - 1) < 1e-8,
                     tests.report(done) + tests.report(other))
+        other = tests.run("-c", steel + "second aluminium; " + script)
+        tests.check("fit: a loop of dissimilar bodies, " + what, other.stderr.count("elastically dissimilar") == 1, tests.report(other))
 
 
 def edges(tests):

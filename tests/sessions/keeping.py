@@ -169,7 +169,7 @@ def recorded(tests):
     tests.check("a script is recorded", done.returncode == 1 and "k = 0" in done.stdout, tests.report(done))
     done = tests.run("--replay", "r.txt", cwd=where)
     tests.check("and replays", done.returncode == 0 and done.stdout.endswith("r.txt: 8 passed, 0 failed\n"), tests.report(done))
-    done = tests.run("-c", "material steel; second rigid; geometry sphere R=1 mm; friction 0.3; press FN=9 N\nrecord d.txt\n"
+    done = tests.run("-c", "material steel; second rigid; geometry sphere R=1 mm; friction 0.3; press FN=9 N; step Fx=1 N\nrecord d.txt\n"
                      "a\nsecond same\nsecond rigid\nrecord off", cwd=where)
     done = tests.run("--replay", "d.txt", cwd=where)
     tests.check("what was warned of before is not missed", done.returncode == 0, tests.report(done))
