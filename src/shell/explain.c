@@ -356,7 +356,7 @@ static void put_cause(const page *p, const cause *c) {
 static void put_conditioning(const page *p, const char *name, const influence_study *study) {
     static const char *const not_shown[] = {"no effect", "condition number below 0.01",
                                             "not smooth here, or hidden by rounding",
-                                            "left out after 3 seconds"};
+                                            "left out after 3 seconds", "0 has no last digit"};
     char moves[100];
     snprintf(moves, sizeof moves, "moves %s by", name);
     bool headed = false;

@@ -104,6 +104,10 @@ bool ask_lacks(const calc *c, const knob *k, const char *what_for, const char *a
                      k->text, LEX_SHOWN(strlen(d->text)), d->text, advice);
 }
 
+double ask_step(double part, double x, double scale) {
+    return part * fmax(fabs(x), scale);
+}
+
 double ask_grid(double lo, double hi, bool log, unsigned i, unsigned last) {
     const long double part = (long double)i / last;
     if (i == 0 || i == last)

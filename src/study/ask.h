@@ -39,6 +39,11 @@ bool ask_present(calc *c, const knob *k, double *v);
  * do. */
 bool ask_lacks(const calc *c, const knob *k, const char *what_for, const char *advice, calc_error *error);
 
+/* The step of a difference quotient at x: this part of the size of the name there. That is |x|, and where it
+ * is less the scale, without which the step would come to nothing at 0: what else tells how far the name
+ * goes, be it its deviation, the range that is searched or what the data show. */
+double ask_step(double part, double x, double scale);
+
 /* Place i of 0..last from lo to hi, evenly or in ratios. */
 double ask_grid(double lo, double hi, bool log, unsigned i, unsigned last);
 /* Is a range searched in ratios? */

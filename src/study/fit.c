@@ -18,7 +18,7 @@
 static const double refused = 1e6;
 /* Tuned to 95 % of the efficiency of least squares on normal noise (Huber 1981). */
 static const double huber = 1.345;
-enum { ITERATIONS = 200, ROUNDS = 30 };
+enum { ITERATIONS = 200, ROUNDS = 30, BEGINNINGS = 4 };
 static const double apart = 1e-5;     /* of the two places of a difference, as a part of q */
 static const double visible = 1e-6;   /* residuals of a loop, as a part of it */
 static const double rounding = 1e-12; /* and what is none */
@@ -29,8 +29,10 @@ typedef struct state {
     ask q;
     double start[FIT_NAMES], scale[FIT_NAMES];
     /* parameter i is start exp(q-1), or start + scale (q-1) */
-    bool ratio[FIT_NAMES];
-    double unit; /* of the residuals */
+    bool ratio[FIT_NAMES], bounded[FIT_NAMES];
+    double unit;    /* of the residuals */
+    double largest; /* side of the equations computed so far */
+    double size;    /* of the sides at the present values; of a loop, of F_x */
     dim d;
     bool known;
     bool twice;
@@ -77,6 +79,7 @@ static bool equation_row(state *s, size_t row, double *out) {
                          "the left side is %s, the right side is %s", wants, is);
     }
     *out = (double)(left - right.v);
+    s->largest = fmax(s->largest, (double)fmaxl(fabsl(left), fabsl(right.v)));
     return true;
 }
 
@@ -294,7 +297,7 @@ static void no_slope(const state *s, size_t i, double q) {
 static int gsl_jacobian(const gsl_vector *q, void *context, gsl_matrix *J) {
     state *s = context;
     for (size_t i = 0; i < s->of->count; i++) {
-        const double at = gsl_vector_get(q, i), h = apart / 2 * fmax(fabs(at), 1);
+        const double at = gsl_vector_get(q, i), h = ask_step(apart / 2, at, 1);
         double hi = at + h, lo = at - h;
         gsl_vector_memcpy(s->beside, q);
         const bool above = residuals_beside(s, i, hi, s->above), below = residuals_beside(s, i, lo, s->below);
@@ -327,6 +330,64 @@ static bool begins_midway(const fit_question *of) {
     return !at_rest && fabs(l->dx[last] - l->dx[0]) < 0.1 * dx && fabs(l->Fx[last] - l->Fx[0]) < 0.2 * Fx;
 }
 
+/* Of a measured loop. */
+static double largest_force(const state *s) {
+    double largest = 0;
+    for (size_t i = 0; i < s->of->rows; i++)
+        largest = fmax(largest, fabs(s->of->loop.Fx[i]));
+    return largest;
+}
+
+/* How far the sides move when a name does, as a part of their size, to where they have values. */
+static double effect(state *s, size_t i, double by) {
+    double most = 0;
+    s->scale[i] = by; /* so that it stands there at 2 and 0 */
+    if (!residuals_beside(s, i, 2, s->above) && !residuals_beside(s, i, 0, s->above))
+        most = (double)INFINITY;
+    for (size_t row = 0; row < s->of->rows && isfinite(most); row++)
+        most = fmax(most, fabs(s->above[row] - s->residual[row]));
+    gsl_vector_set(s->beside, i, 1);
+    return most / s->size;
+}
+
+/* The size of a name is its own value, where that shows in the sides. At 0, or next to it, the value says
+ * nothing of it, and its unit neither: the data alone know how far the name is to go to be seen. So it is
+ * looked for by decades, and is taken to be what would move the sides by a tenth. */
+static double scale_of(state *s, size_t i) {
+    static const double clear = 1e-3, visible_part = 1e-6, decades = 64;
+    const double own = fabs(s->start[i]);
+    double lo = -decades, hi = decades;
+    if (!(s->size > 0) || (own > 0 && effect(s, i, own) >= clear))
+        return own > 0 ? own : 1;
+    while (hi - lo > 0.2) {
+        const double mid = (lo + hi) / 2;
+        if (effect(s, i, pow(10, mid)) < visible_part)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    if (hi == decades) /* nothing shows: which will be said */
+        return own > 0 ? own : 1;
+    const double by = pow(10, hi), part = effect(s, i, by);
+    return isfinite(part) ? 0.1 * by / part : by;
+}
+
+/* At the present values; a name that is a ratio, or has a range, has its scale. */
+static void choose_scales(state *s) {
+    gsl_vector_set_all(s->beside, 1);
+    s->size = s->of->left ? s->largest : largest_force(s);
+    for (size_t i = 0; i < s->of->count; i++)
+        if (!s->ratio[i] && !s->bounded[i])
+            s->scale[i] = scale_of(s, i);
+}
+
+static void choose_unit(state *s) {
+    const gsl_vector_const_view f = gsl_vector_const_view_array(s->residual, s->of->rows);
+    s->unit = gsl_blas_dnrm2(&f.vector) / sqrt((double)s->of->rows);
+    if (!(s->unit > 0))
+        s->unit = 1;
+}
+
 static bool begin(state *s, gsl_vector *q, calc_error *error) {
     const fit_question *of = s->of;
     for (size_t i = 0; i < of->count; i++) {
@@ -337,7 +398,8 @@ static bool begin(state *s, gsl_vector *q, calc_error *error) {
         if (k->is_input)
             input_range(k->in, &lo, &hi);
         s->ratio[i] = lo == 0 && s->start[i] > 0;
-        s->scale[i] = isfinite(lo) && isfinite(hi) ? 0.1 * (hi - lo) : fabs(s->start[i]);
+        s->bounded[i] = isfinite(lo) && isfinite(hi);
+        s->scale[i] = s->bounded[i] ? 0.1 * (hi - lo) : 1;
     }
     gsl_vector_set_all(q, 1);
     if (!residuals(s, q, s->residual)) {
@@ -348,16 +410,34 @@ static bool begin(state *s, gsl_vector *q, calc_error *error) {
         }
         return false;
     }
-    const gsl_vector_const_view f = gsl_vector_const_view_array(s->residual, of->rows);
-    s->unit = gsl_blas_dnrm2(&f.vector) / sqrt((double)of->rows);
-    if (!(s->unit > 0))
-        s->unit = 1;
-    /* names that begin at 0, such as an offset: of the size of the residuals where they have their dimension
-     */
-    for (size_t i = 0; i < of->count; i++)
-        if (s->scale[i] == 0)
-            s->scale[i] = dim_equal(of->name[i].d, s->d) ? s->unit : 1;
-    return true;
+    choose_unit(s);
+    choose_scales(s);
+    return !error->raised;
+}
+
+/* Where another name is 0, nothing may depend on one, which has its scale from nowhere then: scales are taken
+ * anew where the fit has come to, and it begins again where they are quite others. */
+static bool begin_again(state *s, gsl_vector *q, bool *again, calc_error *error) {
+    const state before = *s;
+    *again = false;
+    for (size_t i = 0; i < s->of->count; i++)
+        s->x[i] = s->start[i] = parameter(s, i, gsl_vector_get(q, i));
+    s->largest = 0;
+    if (!ask_set(&s->q, s->x) ||
+        !(s->of->left ? equation_rows(s, 0, s->of->rows, s->residual) : loop_rows(s, s->residual)))
+        return false; /* unreached: it has been computed */
+    choose_scales(s);
+    for (size_t i = 0; i < s->of->count; i++)
+        *again = *again || fabs(log10(s->scale[i] / before.scale[i])) > 2;
+    if (*again) {
+        gsl_vector_set_all(q, 1);
+        choose_unit(s);
+    }
+    for (size_t i = 0; i < s->of->count && !*again; i++) {
+        s->start[i] = before.start[i];
+        s->scale[i] = before.scale[i];
+    }
+    return !error->raised;
 }
 
 /* ---- what the data say ------------------------------------------------------------------------- */
@@ -440,14 +520,6 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT
 /* GSL's residuals carry the root of their weight. */
 static double residual_size(const state *s, const gsl_vector *f, size_t i) {
     return fabs(gsl_vector_get(f, i)) / sqrt(gsl_vector_get(s->weight, i));
-}
-
-/* Of a measured loop. */
-static double largest_force(const state *s) {
-    double largest = 0;
-    for (size_t i = 0; i < s->of->rows; i++)
-        largest = fmax(largest, fabs(s->of->loop.Fx[i]));
-    return largest;
 }
 
 /* Weights after Huber from the residuals; *change is the largest. */
@@ -593,7 +665,13 @@ static bool run(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_
     s->above = s->residual + s->of->rows;
     s->below = s->above + s->of->rows;
     gsl_vector_set_all(s->weight, 1);
-    return begin(s, q, error) && descend(s, w, q, out, error) && judge(s, w, q, out, error);
+    bool again = true;
+    if (!begin(s, q, error))
+        return false;
+    for (int i = 0; i < BEGINNINGS && again; i++)
+        if (!descend(s, w, q, out, error) || !begin_again(s, q, &again, error))
+            return false;
+    return judge(s, w, q, out, error);
 }
 
 bool fit(const fit_question *question, fit_answer *out, calc_error *error) {

@@ -43,9 +43,13 @@ static void add_names(const calc *c, const expr *e, influence_study *out) {
     size_t left = CAUSE_NAMES;
     for (size_t i = 0; i < c->names.count && left > 0; i++) {
         const own_name *row = &c->names.row[i];
-        if (row->definition || row->v.v == 0 || !is_mentioned(c, e, row->text))
+        if (row->definition || !is_mentioned(c, e, row->text))
             continue;
-        out->cause[out->count++] = (cause){.name = row->text, .v = row->v, .kind = CAUSE_NAME, .own = i};
+        out->cause[out->count++] = (cause){.name = row->text,
+                                           .v = row->v,
+                                           .kind = CAUSE_NAME,
+                                           .own = i,
+                                           .influence = row->v.v == 0 ? INFLUENCE_ZERO : INFLUENCE_NONE};
         left--;
     }
 }
@@ -147,7 +151,8 @@ static int differences(probe *p, const cause *c, double h, long double *change, 
     return valid;
 }
 
-/* Close to a singularity only neighbouring numbers tell the slope; elsewhere a wider step stands out from the
+/* The step is no choice: what the last digit does is asked, and a whole number of them is changed. Close to a
+ * singularity only neighbouring numbers tell the slope; elsewhere a wider step stands out from the
  * rounding of what has passed through a double. Of three steps the least uncertain counts. */
 static void find_influence(probe *p, cause *c) {
     const double x = fabs((double)c->v.v), ulp = nextafter(x, INFINITY) - x;
@@ -182,6 +187,8 @@ static void find_influence(probe *p, cause *c) {
 static bool probe_all(probe *p, influence_study *out) {
     const clock_t start = clock();
     for (size_t i = 0; i < out->count; i++) {
+        if (out->cause[i].influence == INFLUENCE_ZERO)
+            continue;
         if (clock() - start < INFLUENCE_SECONDS * CLOCKS_PER_SEC)
             find_influence(p, &out->cause[i]);
         else

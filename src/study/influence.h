@@ -12,6 +12,7 @@ typedef enum influence {
     INFLUENCE_SMALL,  /* condition number below 0.01 */
     INFLUENCE_HIDDEN, /* not smooth here, or hidden by rounding */
     INFLUENCE_LEFT,   /* not looked for: it takes too long */
+    INFLUENCE_ZERO,   /* nor here: a name at 0 has no last digit, and no change of it is relative */
     INFLUENCE_SHOWN
 } influence;
 

@@ -479,7 +479,7 @@ static bool newton_step(search *s, const size_t *free, size_t count, gsl_vector 
     double h[N] = {0}, u[N];
     for (size_t a = 0; a < count; a++) {
         const double rest = fmin(s->u[free[a]], 1 - s->u[free[a]]);
-        h[free[a]] = fmin(1e-3, 0.05 * rest);
+        h[free[a]] = fmin(ask_step(1e-3, s->u[free[a]], 1), 0.05 * rest); /* of the range */
         if (h[free[a]] < 1e-9)
             return false;
     }

@@ -94,13 +94,16 @@ static bool choose_range(search *s, calc_error *error) {
             const double margin = 1e-3 * (hi - lo);
             s->lo = lo + margin;
             s->hi = hi - margin;
-        } else if (ask_present(s->of->c, k, &now) && now != 0) {
-            s->lo = now / 1e3;
-            s->hi = now * 1e3;
         } else {
             char advice[LEX_NAME + 60];
             snprintf(advice, sizeof advice, ": solve %s for ... from LO to HI", k->text);
-            return ask_lacks(s->of->c, k, " to search around", advice, error);
+            if (!ask_present(s->of->c, k, &now))
+                return ask_lacks(s->of->c, k, " to search around", advice, error);
+            if (now == 0)
+                return calc_fail(error, 0, 0, "%s has no value that tells how far to search%s", k->text,
+                                 advice);
+            s->lo = now / 1e3;
+            s->hi = now * 1e3;
         }
     }
     s->ratios = ask_in_ratios(s->lo, s->hi) || ask_in_ratios(-s->lo, -s->hi);

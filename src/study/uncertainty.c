@@ -57,6 +57,18 @@ static bool derivative(state *s, const double *x, size_t i, double h, long doubl
     return true;
 }
 
+/* Close to the end of the scene, or where the deviation is far greater than the value, a smaller step must
+ * do. */
+static bool derivative_of(state *s, const double *x, size_t i, long double slope[UNCERTAIN_VALUES],
+                          const calc_error *error) {
+    const double h = ask_step(1e-3, x[i], 0.1 * s->of->deviation[i]),
+                 steps[] = {h, 1e-3 * h, 1e-3 * fabs(x[i])};
+    for (size_t k = 0; k < sizeof steps / sizeof *steps && steps[k] > 0 && !error->raised; k++)
+        if (derivative(s, x, i, steps[k], slope))
+            return true;
+    return false;
+}
+
 static bool first_order(state *s, uncertainty_answer *out, calc_error *error) {
     const uncertainty_question *of = s->of;
     long double v[UNCERTAIN_VALUES], slope[UNCERTAIN_VALUES];
@@ -65,10 +77,7 @@ static bool first_order(state *s, uncertainty_answer *out, calc_error *error) {
     if (!all_at(s, out->x, v))
         return no_value(s, error, NULL);
     for (size_t i = 0; i < of->count; i++) {
-        const double h = out->x[i] != 0 ? 1e-3 * fabs(out->x[i]) : of->deviation[i];
-        /* close to the end of the scene a smaller step must do */
-        if (!derivative(s, out->x, i, h, slope) &&
-            (error->raised || !derivative(s, out->x, i, 1e-3 * h, slope)))
+        if (!derivative_of(s, out->x, i, slope, error))
             return no_value(s, error, of->name[i].text);
         for (size_t k = 0; k < of->expressions; k++) {
             const long double moved = slope[k] * of->deviation[i];

@@ -38,8 +38,9 @@ typedef struct uncertainty_answer {
 } uncertainty_answer;
 
 /* Errors: an input without a value; an expression without one there, or without a derivative (the end of what
- * the scene allows is within a thousandth of the input). Derivatives are differences of sixth order over a
- * thousandth of the input: good to 1e-12 of themselves where the expression is smooth. */
+ * the scene allows is within a millionth of the input). Derivatives are differences of sixth order over a
+ * thousandth of the input, or of a tenth of its deviation where that is more: good to 1e-12 of themselves
+ * where the expression is smooth over as much. */
 bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, calc_error *error);
 
 #endif

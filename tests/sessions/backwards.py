@@ -271,6 +271,10 @@ def bent(tests):
     """Where nothing stands at first order, or only close to the present value."""
     for script, deviation, spread in (("x = 0; uncertainty 2*x + 1 with x +- 0.1", 0.2, None),
                                       ("x = 0; uncertainty x^3 with x +- 0.1", 0, math.sqrt(15) * 1e-3),
+                                      ("x = 0; uncertainty sin(3*x) with x +- 1", 3, None),
+                                      ("x = 1e-25; uncertainty sin(1 + x) with x +- 1e-9", 1e-9 * math.cos(1), None),
+                                      ("x = -1e-12 m; uncertainty sin((1 m + x)/(1 m)) with x +- 1 nm", 1e-9 * math.cos(1), None),
+                                      ("x = 1e-3; uncertainty sqrt(x) with x +- 0.1", 0.05 / math.sqrt(1e-3), None),
                                       ("x = 1; uncertainty sqrt(x - 0.9995) with x +- 0.1", 0.05 / math.sqrt(0.0005), None)):
         values, events, done = run_json(tests, script + "\n")
         events = [e for e in events if e["event"] == "uncertainty"]

@@ -249,6 +249,45 @@ def begun_at_the_end(tests):
                     tests.report(done))
 
 
+def offset_power(rows):
+    """s and h0 of y = s (x - h0)^1.5 with their deviations, by Gauss and Newton with derivatives by hand."""
+    s, h0 = rows[-1][1] / rows[-1][0] ** 1.5, 0.0
+    for _ in range(100):
+        slopes = [((x - h0) ** 1.5, -1.5 * s * (x - h0) ** 0.5) for x, _ in rows]
+        rest = [y - s * (x - h0) ** 1.5 for x, y in rows]
+        A, B, C = (sum(j[i] * j[k] for j in slopes) for i, k in ((0, 0), (0, 1), (1, 1)))
+        u, v = (sum(j[i] * r for j, r in zip(slopes, rest)) for i in (0, 1))
+        det = A * C - B * B
+        s, h0 = s + (C * u - B * v) / det, h0 + (A * v - B * u) / det
+    variance = sum(r * r for r in rest) / (len(rows) - 2)
+    return s, h0, math.sqrt(C / det * variance), math.sqrt(A / det * variance)
+
+
+def from_zero(tests):
+    """A start at 0, or at next to nothing, says nothing of how large a name is: the answer is that of other starts."""
+    rows = ((300, 5), (600, 16), (900, 26), (1200, 43), (1500, 57))
+    name = write(tests, "indents.csv", "x [nm],y [nN]", rows)
+    want = offset_power([(x * 1e-9, y * 1e-9) for x, y in rows])
+    for s, h0 in (("1", "0"), ("1", "1e-9"), ("1", "-1e-20"), ("1", "1"), ("1", "50"), ("1", "-30"), ("0", "1"), ("1e-12", "0"), ("0", "0"), ("1e6", "0")):
+        values, event, done = answers(tests, "s = %s Pa*m^0.5; h0 = %s nm; fit s, h0 for y = s*(x-h0)^1.5 to %s" % (s, h0, name))
+        got = (values["s"], values["h0"], event["deviation"]["s"], event["deviation"]["h0"]) if event else ()
+        tests.check("fit: begun at s = %s, h0 = %s nm" % (s, h0), event and all(abs(a / b - 1) < 1e-5 for a, b in zip(got, want)) and
+                    "note: the data hardly determine h0\n" in done.stderr, "%s, not %s\n%s" % (got, want, tests.report(done)))
+    # names of other dimensions than the data; a row where one side of 0 has no value; the answer 0 itself
+    rows = [(x, 3.0 * x * (1 + 0.002 * x)) for x in range(100, 1000, 100)]
+    name = write(tests, "bent.csv", "x [nm],y [nN]", rows)
+    for q in ("0", "1e-30", "1", "1e9"):
+        values, event, done = answers(tests, "s = 1 N/m; q = %s m^-1; fit s, q for y = s*x*(1 + q*x) to %s" % (q, name))
+        tests.check("fit: a bend from %s" % q, event and abs(values["s"] / 3 - 1) < 1e-6 and abs(values["q"] / 2e6 - 1) < 1e-6, tests.report(done))
+    name = write(tests, "edge.csv", "x [nm],y [nN]", [(x, 2e-3 * (x + 7) ** 1.5) for x in range(0, 1000, 100)])
+    values, event, done = answers(tests, "s = 1 Pa*m^0.5; h0 = 0 nm; fit s, h0 for y = s*(x-h0)^1.5 to " + name)
+    tests.check("fit: begun at the end of what has a value", event and abs(values["h0"] / -7e-9 - 1) < 1e-5, tests.report(done))
+    name = write(tests, "none.csv", "x [nm],y [nN]", [(x, 2e-3 * x ** 1.5) for x in range(100, 1000, 100)])
+    for h0 in ("0", "1e-6", "50", "-900"):
+        values, event, done = answers(tests, "s = 1 Pa*m^0.5; h0 = %s nm; fit s, h0 for y = s*(x-h0)^1.5 to %s" % (h0, name))
+        tests.check("fit: an offset of 0 from %s" % h0, event and abs(values["h0"]) < 1e-15 and event["deviation"]["h0"] < 1e-15, tests.report(done))
+
+
 def least_squares(rows, values):
     """Parameters, their deviations and correlations by the normal equations, in fractions."""
     n, m = len(rows), len(rows[0])
@@ -391,7 +430,7 @@ def refusals(tests):
             ("; ".join(["s = 1", "w = 22.5 deg"] + ["x%d = 1" % i for i in range(1, 8)]) + "; fit s, x1, x2, x3, x4, x5, x6, x7 "
              "for y = 15 + max(s - 1, (1 - s)/10) + x1*sin(u*w) + x2*cos(u*w) + x3*sin(2*u*w) + x4*cos(2*u*w) + x5*sin(3*u*w) "
              "+ x6*cos(3*u*w) + x7*sin(4*u*w) to {waves}", "the fit does not settle"),
-            ("s = 1; fit s for y = 1e-30*s*u to {exact}", "the data do not determine s: nothing in them depends on it"),
+            ("s = 1; fit s for y = u + 0*s to {exact}", "the data do not determine s: nothing in them depends on it"),
             ("s = -1; fit s for y = log(s*u) to {zero}", "log is not defined there (row 1 of the data)"),
             ("s = 1; fit s for y = s*u/(u - 2) to {exact}", "division by zero (row 2 of the data)"),
             ("s = 1; fit s for y/(u - 2) = s to {exact}", "division by zero (row 2 of the data)"),
@@ -503,6 +542,7 @@ def run(tests):
     units(tests)
     straight_lines(tests)
     begun_at_the_end(tests)
+    from_zero(tests)
     parabolas(tests)
     loops_with_loads(tests)
     edges(tests)
