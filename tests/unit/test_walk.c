@@ -127,7 +127,7 @@ static void follows(void) {
     for (int i = 0; i < 7; i++)
         other[i] = more;
     other[1].tangential_value = 6;
-    other[2].relative = RELATIVE_TANGENTIAL;
+    other[2] = other[1], other[2].relative = RELATIVE_TANGENTIAL;
     other[3].normal = BY_FORCE, other[3].normal_value = 99;
     other[4].normal = BY_FORCE, other[4].normal_value = 98;
     other[5].tangential = BY_DISPLACEMENT, other[5].tangential_value = 5e-8;
