@@ -28,6 +28,8 @@ SAME = {
     "a column twice that is not asked for": b"n,r [mm],n,f [um]\n0,0,0,0\n1,0.5,7,12.5\n2,1,5,50\n",
     "a column of notes behind blanks": b"r [mm] f [um] note\n0 0 a\n0.5 12.5 b\n1 50 c\n",
     "separators within brackets": b"note (a, b),r [mm],f [um]\nx,0,0\ny,0.5,12.5\nz,1,50\n",
+    "separators within square brackets": b"note [a, b],r [mm],f [um]\nx,0,0\ny,0.5,12.5\nz,1,50\n",
+    "quotation marks around separators, and around nothing": b'note,r [mm],f [um]\n"",0,0\n"a, b",0.5,12.5\n"",1,50\n',
     "every form of a number": b"r [mm];f [um]\n0,;-.0\n,5;12,5" + 70 * b"0" + b"E0\n" + 70 * b"0" + b"1;+5e+001\n",
     "a bracket that closes nothing": b"a),r [mm],f [um]\nx,0,0\ny,0.5,12.5\nz,1,50\n",
     "blanks, and units in parentheses": b"r (mm) f (um)\n0 0\n0.5 12.5\n1 50\n",
