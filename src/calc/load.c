@@ -248,17 +248,13 @@ static bool run_appended(scene *s, bool whole, calc_error *error) {
     return calc_status(error, &st);
 }
 
-/* From further away nothing of a contact would have digits on the way back. */
+/* From further away nothing of a contact would have digits on the way back. A press has no way back, and may
+ * be of any size. */
 static const double DEEPEST = 1e8;
 
-static bool within_depth(const load_step *step, calc_error *error) {
-    return step->normal != BY_DISPLACEMENT || fabs(step->normal_value) < DEEPEST ||
-           calc_fail(error, 0, 0, "dz = %.6g m: a contact goes less than 1e8 m deep", step->normal_value);
-}
-
 static bool append_step(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
-    if (!within_depth(step, error))
-        return false;
+    if (step->normal == BY_DISPLACEMENT && !(fabs(step->normal_value) < DEEPEST))
+        return calc_fail(error, 0, 0, "dz = %.6g m: a step goes less than 1e8 m deep", step->normal_value);
     if (extra && s->end.cycles)
         program_freeze(s->program, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
     if (!program_append(s->program, &s->end, step, extra))
@@ -275,7 +271,7 @@ static bool append_step(scene *s, const load_step *step, const cycle_extra *extr
 bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
     double mu;
     if (step->kind == LOAD_PRESS)
-        return within_depth(step, error) && start_program(s, step, error);
+        return start_program(s, step, error);
     if (!s->end.steps)
         return calc_missing(error, IN_FN);
     if (!scene_friction(s, &mu, error))
