@@ -97,6 +97,9 @@ bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim 
     const bool apart = angle || (dim_equal(d, DIM_NONE) && len && says_angle(lx->text + at, len));
     if ((dim_equal(v.d, d) && (both || !apart)) || (v.v == 0 && plain))
         return true;
+    size_t from, all;
+    if (plain && lx->kind == T_COMMA && lx->last == at + len && lex_decimal_comma(lx, lx->at, &from, &all))
+        return lex_one_value(lx); /* FN = 1,5 N */
     if (angle && plain)
         return calc_fail(lx->error, at, len, "%s needs a unit: it is an angle, in deg or rad", name);
     char want[128], got[128], unit_text[128];

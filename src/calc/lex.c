@@ -117,6 +117,47 @@ static void read_number(lexer *lx) {
         lex_fail(lx, "the number is too %s for double precision", lx->number == 0 ? "small" : "large");
 }
 
+/* ---- commas ------------------------------------------------------------------------------------ */
+
+/* Does a digit stand there, or a point or a comma between two? */
+static bool of_number(const lexer *lx, size_t i) {
+    const char *s = lx->text;
+    const bool mark = s[i] == '.' || s[i] == ',';
+    return digit(s[i]) || (mark && i > 0 && digit(s[i - 1]) && i + 1 < lx->end && digit(s[i + 1]));
+}
+
+bool lex_decimal_comma(const lexer *lx, size_t at, size_t *from, size_t *len) {
+    if (at >= lx->end || lx->text[at] != ',' || !of_number(lx, at))
+        return false;
+    size_t begin = at, end = at;
+    while (begin > 0 && of_number(lx, begin - 1))
+        begin--;
+    while (end < lx->end && of_number(lx, end))
+        end++;
+    *from = begin;
+    *len = end - begin;
+    return begin == 0 || !letter(lx->text[begin - 1]);
+}
+
+bool lex_one_value(lexer *lx) {
+    size_t from, len;
+    if (lx->kind != T_COMMA || !lex_decimal_comma(lx, lx->at, &from, &len))
+        return true;
+    const char *number = lx->text + from, *comma = lx->text + lx->at;
+    const size_t before = lx->at - from, behind = len - before - 1;
+    if (len > 40 || memchr(number, '.', len) || memchr(number, ',', before) || memchr(comma + 1, ',', behind))
+        return calc_fail(
+            lx->error, from, len,
+            "a comma is no part of a number: a decimal comma is a point here, and digits are not grouped");
+    char words[80];
+    snprintf(words, sizeof words, behind == 3 && *number != '0' ? ", or %.*s%.*s" : "", (int)before, number,
+             (int)behind, comma + 1);
+    return calc_fail(lx->error, from, len, "a decimal comma is a point here: write %.*s.%.*s%s", (int)before,
+                     number, (int)behind, comma + 1, words);
+}
+
+/* ---- characters -------------------------------------------------------------------------------- */
+
 /* What texts have in place of plain characters, and how it is written here. */
 static const char *plain_of(unsigned code) {
     static const struct {
@@ -140,7 +181,14 @@ static const char *plain_of(unsigned code) {
                 {0x2212, 0x2212, "-"},
                 {0x2215, 0x2215, "/"},
                 {0x221a, 0x221a, "sqrt( )"},
-                {0x22c5, 0x22c5, "*"}};
+                {0x22c5, 0x22c5, "*"},
+                {0x660, 0x669, "a digit from 0 to 9"},
+                {0x6f0, 0x6f9, "a digit from 0 to 9"},
+                {0x966, 0x96f, "a digit from 0 to 9"},
+                {0xff01, 0xff5e, "it in ASCII"}}; /* full width */
+    static const char digits[] = "0\0001\0002\0003\0004\0005\0006\0007\0008\0009";
+    if (code >= 0xff10 && code <= 0xff19)
+        return digits + 2 * (code - 0xff10);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (code >= rows[i].first && code <= rows[i].last)
             return rows[i].plain;
@@ -212,6 +260,9 @@ void lex_seek(lexer *lx, size_t at) {
     } else if (c == '.' && d == '.') {
         lx->kind = T_RANGE;
         lx->len = 2;
+    } else if (c == '-' && d == '>') {
+        lx->len = 2;
+        lex_fail(lx, "`in` asks for a unit: 2 mm in um");
     } else if (c && strchr("+-*/^(),:%|", c)) {
         lx->kind = (token_kind)c;
     } else if (c == '=' || c == '<' || c == '>' || c == '!') {

@@ -34,6 +34,7 @@ typedef struct lexer {
     size_t at, len;   /* its place */
     size_t last;      /* end of the token before it */
     double number;
+    bool list; /* the value that is read may be one of several, parted by commas */
     calc_error *error;
 } lexer;
 
@@ -56,6 +57,12 @@ bool lex_whole(lexer *lx, const char *what, char word[LEX_NAME]);
 token_kind lex_peek(const lexer *lx);
 /* A file name: a string, or all up to white space. False: none there. */
 bool lex_filename(lexer *lx, char *buf, size_t size);
+
+/* A comma at byte `at` straight between two digits, as of a decimal number: which of the text that number would
+ * be. False: it is none. */
+bool lex_decimal_comma(const lexer *lx, size_t at, size_t *from, size_t *len);
+/* The same as an error, where one value is wanted and the cursor stands on the comma behind it. */
+bool lex_one_value(lexer *lx);
 
 /* The decimal number at the beginning of `len` bytes times 10^shift, rounded once to double: infinite or 0
  * where it does not fit, NaN where memory is out. Returns its length, 0 where there is none: digits with or

@@ -212,10 +212,23 @@ static bool parse_quantity(parser *p, const quantity *q, size_t *out) {
         if (!parse_sum(p, &node.left))
             return false;
         if (lx->kind != T_CLOSE)
-            return lex_fail(lx, "expected ) after the argument of %s", q->name);
+            return lex_one_value(lx) && lex_fail(lx, "expected ) after the argument of %s", q->name);
         lex_next(lx);
     }
     return add(p, &node, out);
+}
+
+/* What follows an argument goes on with no other, or there are more of them. */
+static bool wrong_count(const parser *p, const char *name, int count, const char *more) {
+    lexer *lx = p->lx;
+    size_t from, len;
+    if (count == 1 && !lex_one_value(lx)) {
+        calc_append(p->c, lx->error, "; %s takes 1 argument", name);
+        return false;
+    }
+    const bool comma = lex_decimal_comma(lx, lx->at, &from, &len);
+    return lex_fail(lx, "%s takes %d argument%s%s%s", name, count, count > 1 ? "s" : "", more,
+                    comma ? "; a decimal comma is a point here" : "");
 }
 
 static bool parse_builtin(parser *p, size_t i, size_t *out) {
@@ -229,7 +242,9 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
         return add(p, &node, out);
     }
     if (lx->kind != T_OPEN)
-        return lex_fail(lx, "expected ( after %s", function->name);
+        return lex_fail(lx, "expected ( after %s%s", function->name,
+                        node.at > 0 && lx->text[node.at - 1] == '/' ? ", a function: no unit is called so"
+                                                                    : "");
     size_t *argument[2] = {&node.left, &node.right};
     const int count = function->f2 ? 2 : 1;
     for (int j = 0; j < count; j++) {
@@ -238,8 +253,7 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
             return false;
         const bool more = function->d == DIM_SHARED && j + 1 == count && lx->kind == T_COMMA;
         if (!more && lx->kind != (j + 1 < count ? T_COMMA : T_CLOSE))
-            return lex_fail(lx, "%s takes %d argument%s%s", function->name, count, count > 1 ? "s" : "",
-                            function->d == DIM_SHARED ? " or more" : "");
+            return wrong_count(p, function->name, count, function->d == DIM_SHARED ? " or more" : "");
         if (!more)
             continue;
         size_t first; /* min(a, b, c) is min(min(a, b), c) */
@@ -264,8 +278,7 @@ static bool parse_arguments(parser *p, const definition *d, expr_node *node) {
         if (!parse_sum(p, &root[j]))
             return false;
         if (lx->kind != (j + 1 < d->parameters ? T_COMMA : T_CLOSE))
-            return lex_fail(lx, "%s takes %u argument%s", d->label, d->parameters,
-                            d->parameters > 1 ? "s" : "");
+            return wrong_count(p, d->label, (int)d->parameters, "");
     }
     lex_next(lx);
     node->left = e->argument_count;
@@ -389,7 +402,7 @@ static bool parse_parenthesis(parser *p, size_t *out) {
     if (lex_accept(lx, "at") && !parse_at(p, first, begin, out))
         return false;
     if (lx->kind != T_CLOSE)
-        return lex_fail(lx, "expected )");
+        return lex_one_value(lx) && lex_fail(lx, "expected )");
     lex_next(lx);
     return true;
 }
@@ -490,7 +503,7 @@ static bool parse_whole(parser *p) {
         return false;
     /* the root is last: a parenthesised expression adds no node of its own, and need not */
     e->len = p->lx->last - e->at;
-    return true;
+    return p->lx->list || lex_one_value(p->lx);
 }
 
 bool expr_parse(calc *c, lexer *lx, expr *e) {

@@ -93,9 +93,11 @@ const char *unit_suggest(const char *word) {
         {"joule", "J"},  {"micron", "um"},    {"degree", "deg"}, {"radian", "rad"}, {"percent", "%"},
         {"kg", "kgf"},   {"lb", "lbf"},       {"kpsi", "ksi"},   {"Nm", "N*m"},     {"kNm", "kN*m"},
         {"Nmm", "N*mm"}, {"millimetre", "mm"}};
-    for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++)
-        if (same_but_case(word, other_names[i][0]))
+    for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++) {
+        const bool letters_tell = strchr(other_names[i][1], '*') != NULL; /* nM is no moment */
+        if (letters_tell ? !strcmp(word, other_names[i][0]) : same_but_case(word, other_names[i][0]))
             return other_names[i][1];
+    }
     return suggest(word, prefixed_name);
 }
 

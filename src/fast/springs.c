@@ -18,6 +18,8 @@
 /* Springs are handled SUMS at a time, each into a sum of its own; those of STRIDE springs go into the total.
  */
 enum { SUMS = 8, STRIDE = 512, ALIGNMENT = 8 * SUMS };
+/* of a sum of springs, in lanes of STRIDE/SUMS */
+#define ROUNDED (DBL_EPSILON / 2 * (STRIDE / SUMS))
 
 typedef struct cells {
     double *g, *w; /* depth of touch, normal stiffness */
@@ -516,12 +518,14 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
     const bool by_force = step->tangential_by == FRET_TO_FX;
     if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
         return fret_fail(FRET_NOT_FINITE, by_force ? "Fx" : "dx", step->tangential, 0);
-    if (by_force && fabs(step->tangential) > s->mu * FN)
-        return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)(s->mu * FN));
+    const double most = (double)(s->mu * FN);
+    if (by_force && fabs(step->tangential) > most * (1 + ROUNDED))
+        return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, most);
     if (by_force) {
-        turn(s, s->goal, step->tangential); /* which rounding must not make a reversal */
-        walk_forces(s, FN, dz, step->tangential, substeps);
-        s->goal = step->tangential;
+        const double Fx = copysign(fmin(fabs(step->tangential), most), step->tangential);
+        turn(s, s->goal, Fx); /* which rounding must not make a reversal */
+        walk_forces(s, FN, dz, Fx, substeps);
+        s->goal = Fx;
     } else {
         const fret_real dx = step->tangential_by == FRET_TO_DX ? (fret_real)step->tangential : s->dx;
         turn(s, s->dx, dx);
@@ -534,9 +538,9 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
 }
 
 /* How far all springs together may be from where a load makes them come back to, as a force: that by which
- * two visits missed it, or what rounds the sum of the springs, in lanes of STRIDE/SUMS. */
+ * two visits missed it, or what rounds their sum. */
 static double force_astray(const fret_springs *s) {
-    const fret_real rounding = (fret_real)DBL_EPSILON / 2 * (STRIDE / SUMS) * s->mu * s->FN;
+    const fret_real rounding = ROUNDED * s->mu * s->FN;
     return (double)(2 * s->normal->foundation.eta * (s->missed + rounding));
 }
 

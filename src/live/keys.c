@@ -243,6 +243,7 @@ static void compare(live *l, const char *text) {
     for (size_t i = 0; i < SIDES && ok; i++) {
         lex_next(&lx);
         const size_t at = lx.at;
+        lx.list = i + 1 < SIDES;
         ok = expr_value(c, &lx, &v[i]) && value_dim(&lx, by.text, at, lx.last - at, v[i], by.d) &&
              (lx.kind == (i + 1 < SIDES ? T_COMMA : T_END) ||
               lex_fail(&lx, "compare NAME = v1, v2: two values"));

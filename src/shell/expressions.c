@@ -47,15 +47,31 @@ bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c) {
     return read_expression(sh, lx, &sh->list[i], c);
 }
 
+/* `1,5 mm` is two values: one may have been meant. */
+static void note_comma(shell *sh, const lexer *lx) {
+    const char *comma = lx->text + lx->at;
+    size_t from, len;
+    if (*sh->calc.note || !lex_decimal_comma(lx, lx->at, &from, &len) || memchr(lx->text + from, '.', len))
+        return;
+    const int before = (int)(lx->at - from), behind = (int)strspn(comma + 1, "0123456789");
+    snprintf(sh->calc.note, sizeof sh->calc.note,
+             "the comma in %.*s,%.*s parts two values: write %.*s.%.*s for one", before, comma - before,
+             behind, comma + 1, before, comma - before, behind, comma + 1);
+}
+
 bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_t *count) {
     for (*count = 0;;) {
         if (*count == limit)
             return lex_fail(lx, "more than %zu expressions", limit);
         const size_t i = (*count)++;
-        if (!read_expression(sh, lx, &sh->list[i], &columns[i]))
+        lx->list = true;
+        const bool ok = read_expression(sh, lx, &sh->list[i], &columns[i]);
+        lx->list = false;
+        if (!ok)
             return false;
         if (lx->kind != T_COMMA)
             return !lx->error->raised;
+        note_comma(sh, lx);
         lex_next(lx);
     }
 }

@@ -41,26 +41,6 @@ bool is_continuation(const char *line) {
     return line[strspn(line, " \t")] == '.';
 }
 
-static bool digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
-const char *decimal_comma(const char *text, size_t len) {
-    int depth = 0;
-    bool quoted = false;
-    for (size_t i = 0; i < len; i++) {
-        const char c = text[i];
-        if (c == '"')
-            quoted = !quoted;
-        else if (!quoted && (c == '(' || c == ')'))
-            depth += c == '(' ? 1 : -1;
-        else if (!quoted && c == ',' && depth == 0 && i > 0 && i + 1 < len && digit(text[i - 1]) &&
-                 digit(text[i + 1]))
-            return text + i;
-    }
-    return NULL;
-}
-
 void list_word(char *buf, size_t size, const char *word, bool last) {
     const size_t n = strlen(buf);
     snprintf(buf + n, size - n, "%s%s", !n ? "" : last ? " or " : ", ", word);

@@ -16,9 +16,6 @@ void blank_prompts(char *text, size_t len);
 /* Does the line begin with the prompt of a line that goes on, `....> `? */
 bool is_continuation(const char *line);
 
-/* The comma of `1,5 mm`, outside parentheses and quotes: perhaps meant as a decimal point. NULL: none. */
-const char *decimal_comma(const char *text, size_t len);
-
 /* Adds a word to a list as messages have it, "a, b or c"; starts with an empty buf. */
 void list_word(char *buf, size_t size, const char *word, bool last);
 

@@ -7,7 +7,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "shell/command.h"
 #include "shell/lines.h"
 #include "shell/record.h"
 
@@ -115,24 +114,6 @@ static char *logical_line(typed *t) {
 
 /* ---- what is for the prompt alone -------------------------------------------------------------- */
 
-/* `1,5 mm` is two values: one may have been meant. */
-static void hint_comma(shell *sh, const char *text, size_t len) {
-    for (size_t i = 0, end; i < len; i = end + 1) {
-        end = shell_statement_end(text, i, len);
-        while (i < end && (text[i] == ' ' || text[i] == '\t'))
-            i++;
-        const size_t word = strspn(text + i, "abcdefghijklmnopqrstuvwxyz");
-        const char *comma = command_find(text + i, word) ? NULL : decimal_comma(text + i, end - i);
-        if (comma) {
-            shell_aside(sh, sh->err);
-            shell_note(sh, "the comma in %.3s parts two values: write %c.%c for one", comma - 1, comma[-1],
-                       comma[1]);
-        }
-        if (end < len && text[end] == '#')
-            return;
-    }
-}
-
 /* `!COMMAND`. */
 static void run_system(shell *sh, const char *line) {
     fflush(sh->out);
@@ -147,7 +128,6 @@ bool shell_special(shell *sh, const source *from, const char *text) {
     char help[256];
     text += strspn(text, " \t\n");
     record_line(sh, text, strlen(text));
-    hint_comma(sh, text, strlen(text));
     if (*text != '!' && *text != '?')
         return false;
     if (*text == '!' && sh->replaying) { /* what it wrote went past the session */

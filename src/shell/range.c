@@ -167,7 +167,10 @@ static bool read_with(shell *sh, lexer *lx, sweep *s) {
         if (s->curves)
             lex_next(lx);
         s->value_at[s->curves] = lx->at;
-        if (!read_bound(&sh->calc, lx, &s->with, &b, &s->value[s->curves]))
+        lx->list = true;
+        const bool ok = read_bound(&sh->calc, lx, &s->with, &b, &s->value[s->curves]);
+        lx->list = false;
+        if (!ok)
             return false;
         s->with.d = b.d;
         s->value_len[s->curves] = lx->last - s->value_at[s->curves];

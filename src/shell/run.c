@@ -258,12 +258,7 @@ static bool assign(shell *sh, lexer *lx) {
         return lex_fail(lx, "'%s' is a command, no variable: %s%s%s", c->name, c->name, *c->usage ? " " : "",
                         c->usage);
     }
-    bool ok = calc_assign(&sh->calc, lx);
-    if (*sh->calc.note) {
-        if (ok)
-            shell_note(sh, "note: %s", sh->calc.note);
-        *sh->calc.note = 0;
-    }
+    const bool ok = calc_assign(&sh->calc, lx);
     if (ok)
         warn(sh);
     return ok;
@@ -336,6 +331,9 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     progress_begin(sh, text + lx.at, len - lx.at);
     bool ok = dispatch(sh, &lx);
     progress_end();
+    if (*sh->calc.note && ok)
+        shell_note(sh, "note: %s", sh->calc.note);
+    *sh->calc.note = 0;
     if (ok && sh->calc.scene.used & ASKED_TANGENTIAL)
         warn_dissimilar(sh);
     undo_end(&sh->calc);

@@ -179,8 +179,10 @@ static bool read_term(shell *sh, lexer *lx, fret_gap *sum) {
         return lex_fail(lx, "expected `:` between exponent and coefficient, such as 2:50 m^-1");
     lex_next(lx);
     at = lx->at;
-    if (!expr_value(&sh->calc, lx, &A) ||
-        !value_dim(lx, "the coefficient", at, lx->last - at, A, (dim){0, (double)(1 - n.v), 0}))
+    lx->list = true; /* another term may follow */
+    const bool ok = expr_value(&sh->calc, lx, &A);
+    lx->list = false;
+    if (!ok || !value_dim(lx, "the coefficient", at, lx->last - at, A, (dim){0, (double)(1 - n.v), 0}))
         return false;
     sum->power[sum->terms++] = (fret_power){(double)n.v, (double)A.v, 1};
     return true;
