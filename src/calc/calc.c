@@ -470,6 +470,10 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
     if (!undo_name(c, i))
         return calc_no_memory(lx->error);
     names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);
+    calc_error deep;
+    error_clear(&deep);
+    if (a->d && !expr_levels_hold(c, &deep))
+        return calc_fail(lx->error, a->value_at, a->value_len, "%s", deep.text);
     return !a->d || name_holds(c, lx, a);
 }
 

@@ -12,6 +12,7 @@ typedef struct own_name {
     counted *definition; /* NULL: a value */
     bool known;          /* it has been given, and not taken back */
     bool woken;          /* it had been taken back: a range knows it for a while */
+    int levels;          /* of definitions that lead into each other, while they are looked through */
 } own_name;
 
 typedef struct own_names {

@@ -353,9 +353,17 @@ static void deep_names(void) {
         CHECK(assign(&c, text));
     }
     CHECK(value_of(&c, "d100") == 101);
-    CHECK(assign(&c, "d101 := d100 + 1") && !evaluate(&c, "d101", &v));
+    CHECK(!assign(&c, "d101 := d100 + 1") && !evaluate(&c, "d101", &v));
+    CHECK(assign(&c, "e = 1") && !assign(&c, "d0 := e")); /* which makes d100 deeper */
     CHECK(!strcmp(error.text, "live definitions are nested more than 100 deep"));
     CHECK(value_of(&c, "d100") == 101);
+    /* each is looked into once */
+    CHECK(assign(&c, "f0(x) := x"));
+    for (int i = 1; i <= 60; i++) {
+        char text[60];
+        snprintf(text, sizeof text, "f%d(x) := f%d(x) + f%d(x)", i, i - 1, i - 1);
+        CHECK(assign(&c, text));
+    }
     /* a circle through all of them: as much of the way as a message bears */
     CHECK(!assign(&c, "d0 := d100") && strlen(error.text) < sizeof error.text);
     CHECK(!strncmp(error.text, "a circle of definitions: d0 -> d100 -> d99 -> ", 46));
