@@ -345,6 +345,7 @@ int main(int argc, char **argv) {
         setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     shell_init(&sh, stdout, stderr);
     int status = read_options(argc, argv, &w, &sh.set);
+    sh.keep_going = w.keep_going;
     set_signals();
     if (status == EXIT_OK && !w.done)
         status = run(&sh, &w);

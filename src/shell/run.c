@@ -524,15 +524,15 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         bool done = shell_statement(sh, text + i, end - i, &error);
         if (!done)
             calc_word(&sh->calc, &error);
-        if (!done && !error.raised) /* already reported: a nested source */
-            return false;
-        if (!done) {
+        if (!done && error.raised) { /* else a nested source has reported it */
             report_error(sh, from, text, len, line, i + error.at, &error);
             sh->failed = true;
             sh->stopped |= error.stop;
             sh->refused |= error.refused;
+        }
+        if (!done) {
             ok = false;
-            if (!from->keep_going)
+            if (!from->keep_going || shell_stop)
                 return false;
         } else if (timed) {
             report_time(sh, seconds() - start);

@@ -17,7 +17,7 @@ bool do_source(shell *sh, lexer *lx, const command *self) {
     if (!file_in_open(&in, name, &shell_stop, lx->error))
         return calc_place(lx->error, v[0].value_at, v[0].value_len);
     sh->nesting++;
-    int status = shell_stream(sh, &in, false);
+    int status = shell_stream(sh, &in, sh->keep_going);
     sh->nesting--;
     return status == EXIT_OK;
 }

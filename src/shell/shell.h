@@ -23,6 +23,7 @@ enum { EXPRESSIONS = 40 };
 typedef struct shell {
     calc calc;
     settings set;
+    bool keep_going; /* as the program was told to: scripts within scripts too */
     FILE *out, *err;
     bool interactive, quit, failed;
     bool lost;               /* a recording could not be written */

@@ -24,9 +24,9 @@ fret> step \\
 ....>   Fx=20 N
   Fx = 20 N, dx = 625.995 nm, c = 148.125 um
 fret> 1,5 mm
-the comma in 1,5 parts two values: write 1.5 for one
 1 = 1
 5 mm = 5 mm
+note: the comma in 1,5 parts two values: write 1.5 for one
 fret> set timing on
 fret> c
 c = 148.125 um

@@ -36,6 +36,13 @@ def jobs(tests):
     says(tests, "--format=json", tests.run("--format=json", "-c", "0.5 MPa"),
          '{"name":"0.5 MPa","value":500000,"unit":"Pa"}')
     says(tests, "--format=text", tests.run("--format=text", "-c", "1 mm"), "1 mm = 1 mm")
+    with tests.file("x = 1\nbogus\nx = 2; bogus; x = 3\nx\n") as path:
+        for way in (["-c", "source %s; 2+2" % path], ["-c", "bogus; source %s; 2+2" % path]):
+            done = tests.run("--keep-going", *way)
+            tests.check("--keep-going through a script within a script: %s" % way[1][:6], done.stdout == "x = 3\n2+2 = 4\n" and done.returncode == 1 and
+                        done.stderr.count("error:") == way[1].count("bogus") + 2, tests.report(done))
+            done = tests.run(*way)
+            tests.check("and without: %s" % way[1][:6], done.stdout == "" and done.returncode == 1 and done.stderr.count("error:") == 1, tests.report(done))
     done = tests.run("--keep-going", "-c", "1\nfoo\n2; bar; 3\n")
     tests.check("--keep-going", done.stdout == "1 = 1\n2 = 2\n3 = 3\n" and done.returncode == 1 and
                 done.stderr.count("error:") == 2, tests.report(done))
