@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "shell/lines.h"
+#include "shell/output.h"
 #include "shell/record.h"
 
 /* A relative path is none, as the XDG specification has it: what lies in the current directory may be a
@@ -69,8 +70,11 @@ static const char *next_line(typed *t, const char *prompt, bool continued, size_
         while (*len > 0 && text[*len - 1] == '\r')
             --*len;
         if (text != line || !t->transcript || continued) {
-            if (t->shows)
-                fprintf(record_terminal(), "%s%.*s\n", prompt, (int)*len, text);
+            if (t->shows) {
+                fputs(prompt, record_terminal());
+                print_safe(record_terminal(), text, *len);
+                putc('\n', record_terminal());
+            }
             return text;
         }
         t->answers += *len > 0;
