@@ -94,3 +94,17 @@ size_t character_shown(const char *text, size_t left, char shown[CHARACTER_SHOWN
     }
     return n ? n : 1;
 }
+
+void characters_shown(const char *text, char *to, size_t size) {
+    char one[CHARACTER_SHOWN];
+    for (size_t left = strlen(text), step, n; left > 0; text += step, left -= step) {
+        step = character_shown(text, left, one);
+        n = strlen(one);
+        if (n >= size)
+            break;
+        memcpy(to, one, n);
+        to += n;
+        size -= n;
+    }
+    *to = 0;
+}

@@ -23,5 +23,7 @@ size_t text_columns(const char *text, size_t len);
  * Returns the bytes taken from text; shown holds a text of at most 10 bytes. */
 enum { CHARACTER_SHOWN = 12 };
 size_t character_shown(const char *text, size_t left, char shown[CHARACTER_SHOWN]);
+/* A whole text, as far as there is room for it. */
+void characters_shown(const char *text, char *to, size_t size);
 
 #endif

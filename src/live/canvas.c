@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <wchar.h>
 
+#include "calc/characters.h"
+
 typedef struct canvas_cell {
     unsigned char dots, ink;
     char sign;
@@ -89,19 +91,21 @@ void canvas_show(canvas *c) {
 }
 
 void put_text(rect at, int row, ink of, const char *format, ...) {
-    char text[512];
+    enum { ROOM = 2048 };
+    char text[ROOM], shown[ROOM];
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
     if (row >= at.rows || at.cols <= 0)
         return;
-    wchar_t wide[512];
-    const size_t n = mbstowcs(wide, text, sizeof wide / sizeof *wide - 1);
+    characters_shown(text, shown, sizeof shown);
+    wchar_t wide[ROOM];
+    const size_t n = mbstowcs(wide, shown, ROOM - 1);
     attrset(ink_attributes(of));
     move(at.top + row, at.left);
     if (n == (size_t)-1)
-        addnstr(text, at.cols);
+        addnstr(shown, at.cols);
     else
         addnwstr(wide, at.cols < (int)n ? at.cols : (int)n);
     attrset(A_NORMAL);

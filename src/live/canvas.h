@@ -41,7 +41,7 @@ void canvas_sign(canvas *c, int x, int y, char sign, ink of);
 /* Puts it on the screen and frees it. */
 void canvas_show(canvas *c);
 
-/* Text in the rectangle's row, cut to its width. */
+/* Text in the rectangle's row, cut to its width; what does not show is written as \x1b. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif

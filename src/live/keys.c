@@ -304,17 +304,32 @@ static void save_entered(live *l, const char *line) {
 }
 
 static void save(live *l) {
-    ask(l, "save as: ", "live.fret", save_entered);
+    ask(l, "save the scene as: ", "live.fret", save_entered);
+}
+
+/* Both scenes, to the last digit. */
+static void comparison_text(const live *l, char *text, size_t size) {
+    size_t n = (size_t)snprintf(text, size, " with %s =", l->compared.text);
+    for (size_t i = 0; i < SIDES; i++) {
+        char in[32];
+        const long double scale = unit_choose(l->compared.d, l->compared_with[i], 17, in, sizeof in);
+        n += (size_t)snprintf(text + n, size - n, "%s %.17Lg %s", i ? "," : "", l->compared_with[i] / scale,
+                              in);
+    }
 }
 
 static void picture_entered(live *l, const char *line) {
     const bool pushed = l->host->calc->scene.end.steps > 1;
-    if (live_say(l, "plot springs | %s to \"%s\"", pushed ? "loop | traction" : "pressure", line))
+    char with[LIVE_TEXT] = "";
+    if (l->comparing)
+        comparison_text(l, with, sizeof with);
+    if (pushed ? live_say(l, "plot springs%s | loop%s | traction%s to \"%s\"", with, with, with, line)
+               : live_say(l, "plot springs%s | pressure%s to \"%s\"", with, with, line))
         live_tell(l, false, "wrote %.400s", line);
 }
 
 static void picture(live *l) {
-    ask(l, "picture: ", "live.png", picture_entered);
+    ask(l, "save the picture as: ", "live.png", picture_entered);
 }
 
 static void leave(live *l) {
@@ -414,8 +429,8 @@ static void help(live *l) {
     bool ok = file_text_open(&page);
     if (ok) {
         live_keys(page.to);
-        fputs("\nThe mouse drags the point of the loop. All of it is statements: `history`, `save`\n"
-              "and `undo` know them.\n",
+        fputs("\nThe mouse drags the point of the loop. All of it is statements: `history`,\n"
+              "`save` and `undo` know them.\n",
               page.to);
         ok = file_text_close(&page);
     }
@@ -434,12 +449,9 @@ static void help(live *l) {
 static void page_key(live *l, int key) {
     const bool next = key == ' ' || key == KEY_DOWN || key == KEY_NPAGE,
                before = key == KEY_UP || key == KEY_PPAGE;
-    size_t lines = 0;
     const size_t rows = LINES > 4 ? (size_t)LINES - 3 : 1;
-    for (const char *p = l->page; *p; p++)
-        lines += *p == '\n' || !p[1];
     l->changed = true;
-    if (next && l->page_from + rows < lines) {
+    if (next && l->page_from + rows < page_rows(l->page)) {
         l->page_from += rows;
     } else if (before) {
         l->page_from = l->page_from > rows ? l->page_from - rows : 0;

@@ -23,7 +23,7 @@ void live_tell(live *l, bool bad, const char *format, ...) {
     l->changed = true;
 }
 
-/* One line goes to the status line, more to a page. */
+/* One line goes below the views, more to a page. */
 static void tell_answer(live *l, const char *line, char *answer, bool ok) {
     size_t n = answer ? strlen(answer) : 0;
     while (n > 0 && answer[n - 1] == '\n')
@@ -32,7 +32,7 @@ static void tell_answer(live *l, const char *line, char *answer, bool ok) {
         live_tell(l, true, "out of memory: %s", line);
     } else if (!n) {
         live_tell(l, !ok, "%s", line);
-    } else if (!strchr(answer, '\n')) {
+    } else if (!strchr(answer, '\n') && n < sizeof l->status && status_holds(answer)) {
         live_tell(l, !ok, "%s", answer);
     } else {
         live_tell(l, !ok, "%s", line);

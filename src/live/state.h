@@ -112,6 +112,10 @@ bool script_ends(const live *l);
 
 /* ---- views.c ---- */
 void live_draw(live *l);
+/* Is there room for the text below the views? Else it is a page. */
+bool status_holds(const char *text);
+/* Rows of a page on this screen. */
+size_t page_rows(const char *page);
 
 /* ---- keys.c ---- */
 void live_key(live *l, int key);

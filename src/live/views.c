@@ -11,6 +11,46 @@
 #include "live/state.h"
 #include "live/terminal.h"
 
+/* ---- texts --------------------------------------------------------------------------------------- */
+
+/* As much of a line of n bytes as goes into a row, broken between words where it can be. */
+static size_t row_of(const char *text, size_t n, int cols) {
+    size_t whole = 0, column = 0;
+    for (size_t i = 0, step; i < n; i += step) {
+        step = character_at(text + i, n - i, NULL);
+        step = step ? step : 1;
+        column += text_columns(text + i, step);
+        if (column > (size_t)cols && text[i] != ' ')
+            return whole ? whole : i;
+        if (text[i] == ' ')
+            whole = i;
+    }
+    return n;
+}
+
+/* The rows of a line: bytes of the next one; the text goes on to the one after. */
+static size_t next_row(const char **text, size_t *left, int cols) {
+    const size_t n = row_of(*text, *left, cols), blanks = strspn(*text + n, " ");
+    const size_t gone = n + (blanks < *left - n ? blanks : *left - n);
+    *text += gone;
+    *left -= gone;
+    return n;
+}
+
+/* Rows that a text takes, of at most so many; drawn where `at` has rows. */
+static int put_words(const char *text, ink of, rect at, int most) {
+    char shown[4 * LIVE_LINE];
+    int row = 0;
+    characters_shown(text, shown, sizeof shown);
+    const char *p = shown;
+    for (size_t left = strlen(shown); left > 0 && row < most; row++) {
+        const char *here = p;
+        const size_t n = next_row(&p, &left, at.cols);
+        put_text(at, row, of, "%.*s", (int)n, here);
+    }
+    return row;
+}
+
 /* ---- scales, the same for all scenes on the screen --------------------------------------------- */
 
 typedef struct scales {
@@ -262,6 +302,15 @@ static bool is_shown(const view *v, rect all, bool narrow) {
     return all.rows + 3 >= rows;
 }
 
+/* What a view shows, and of which scene; its first word where there is no room for more. */
+static void put_title(const char *of, const char *title, rect at) {
+    char text[LIVE_TEXT + 80];
+    const int n = snprintf(text, sizeof text, "-- %s%s%s", of, *of ? ": " : "", title);
+    if ((int)text_columns(text, (size_t)n) > at.cols)
+        text[(size_t)n - strlen(title) + strcspn(title, ":")] = 0;
+    put_text(at, 0, INK_FRAME, "%s", text);
+}
+
 /* Views of a column, one below the other: those without a share as high as they must be. */
 static void draw_column(live *l, const side *s, const scales *sc, rect all, rect column, bool narrow,
                         bool right) {
@@ -282,36 +331,11 @@ static void draw_column(live *l, const side *s, const scales *sc, rect all, rect
         shares -= v->share;
         room -= v->share ? at.rows : 0;
         if (*v->title)
-            put_text(at, 0, INK_FRAME, "-- %s%s%s", s->title, *s->title ? ": " : "", v->title);
+            put_title(s->title, v->title, at);
         const int title = *v->title != 0;
         v->draw(l, s, sc, (rect){at.top + title, at.left, at.rows - title, at.cols});
         at.top += at.rows;
     }
-}
-
-/* As much of the text as goes into a row, broken between words. */
-static size_t row_of(const char *text, int cols) {
-    size_t whole = 0;
-    for (size_t i = 0;; i++) {
-        if (text[i] && text[i] != ' ')
-            continue;
-        if (whole > 0 && text_columns(text, i) > (size_t)cols)
-            return whole;
-        whole = i;
-        if (!text[i])
-            return whole;
-    }
-}
-
-/* Rows that a text takes, of at most so many; drawn where `at` has rows. */
-static int put_words(const char *text, ink of, rect at, int most) {
-    int row = 0;
-    for (; *text && row < most; row++) {
-        const size_t n = row_of(text, at.cols);
-        put_text(at, row, of, "%.*s", (int)n, text);
-        text += n + strspn(text + n, " ");
-    }
-    return row;
 }
 
 static void draw_side(live *l, const side *s, const scales *sc, rect all) {
@@ -368,53 +392,83 @@ static void draw_head(const live *l, rect at) {
 }
 
 enum { NOTE_ROWS = 4 };
+#define STATUS_ROWS (LINES >= 16 ? LINES / 8 : 1)
 
-static int put_note(const char *text, rect at) {
-    return put_words(text, INK_CURVE, at, NOTE_ROWS);
+static int note_rows(const live *l) {
+    return *l->note && !l->page ? put_words(l->note, INK_CURVE, (rect){0, 0, 0, COLS}, NOTE_ROWS) : 1;
 }
 
-static int foot_rows(const live *l) {
-    return 1 + (*l->note && !l->page ? put_note(l->note, (rect){0, 0, 0, COLS}) : 1);
+/* What was said last takes the rows that it needs, but not from a page. */
+static int status_rows(const live *l) {
+    const int rows =
+        l->page || l->typing ? 1 : put_words(l->status, INK_NONE, (rect){0, 0, 0, COLS}, STATUS_ROWS);
+    return rows > 1 ? rows : 1;
+}
+
+/* The line being typed, as much of it as there is room for up to the cursor. */
+static void put_line(const live *l, rect at, int row) {
+    char before[LIVE_LINE], shown[4 * LIVE_LINE];
+    const int prompt = (int)strlen(l->prompt), width = at.cols - prompt - 1;
+    snprintf(before, sizeof before, "%.*s", (int)l->cursor, l->line);
+    characters_shown(before, shown, sizeof shown);
+    const int column = (int)text_columns(shown, strlen(shown)), skip = column > width ? column - width : 0;
+    characters_shown(l->line, shown, sizeof shown);
+    const char *from = shown;
+    while ((int)text_columns(shown, (size_t)(from - shown)) < skip || (*from & 0xc0) == 0x80)
+        from++;
+    put_text(at, row, INK_NONE, "%s%s", l->prompt, from);
+    move(at.top + row, at.left + prompt + column - skip);
 }
 
 static void draw_foot(const live *l, rect at) {
-    const int last = at.rows - 1;
+    const int rows = status_rows(l), last = at.rows - rows;
     if (l->page)
         put_text(at, 0, INK_FRAME, "space: more of it  up: before  any other key: back");
     else if (*l->note)
-        put_note(l->note, at);
+        put_words(l->note, INK_CURVE, at, NOTE_ROWS);
     else
         put_text(at, 0, INK_FRAME,
                  "arrows push and press  space plays  u undo  r reset  : statement  ? keys  q quit");
-    if (!l->typing) {
-        put_text(at, last, l->bad ? INK_ERROR : INK_NONE, "%s", l->status);
-        curs_set(0);
-        return;
-    }
-    const int width = at.cols - (int)strlen(l->prompt) - 1;
-    size_t from = l->cursor > (size_t)width ? l->cursor - (size_t)width : 0;
-    while (((unsigned char)l->line[from] & 0xc0) == 0x80)
-        from++;
-    put_text(at, last, INK_NONE, "%s%s", l->prompt, l->line + from);
-    move(at.top + last,
-         at.left + (int)strlen(l->prompt) + (int)text_columns(l->line + from, l->cursor - from));
-    curs_set(1);
+    if (l->typing)
+        put_line(l, at, last);
+    else
+        put_words(l->status, l->bad ? INK_ERROR : INK_NONE, (rect){at.top + last, at.left, rows, at.cols},
+                  rows);
+    curs_set(l->typing);
 }
 
-/* A text over everything, a screen of lines at a time. */
-static void draw_page(const live *l, rect all) {
+bool status_holds(const char *text) {
+    return put_words(text, INK_NONE, (rect){0, 0, 0, COLS}, LINES) <= STATUS_ROWS;
+}
+
+/* Rows of a page; those from one on are drawn where `at` has room. */
+static size_t put_page(const char *page, size_t from, rect at) {
     size_t row = 0;
-    int shown = 0;
-    for (const char *p = l->page; *p && shown < all.rows; row++) {
-        const size_t n = strcspn(p, "\n");
-        if (row >= l->page_from)
-            put_text(all, shown++, INK_NONE, "%.*s", (int)n, p);
-        p += n + (p[n] == '\n');
+    for (const char *p = page; *p; p += *p == '\n') {
+        size_t left = strcspn(p, "\n");
+        do {
+            const char *here = p;
+            const size_t n = next_row(&p, &left, at.cols);
+            if (row >= from && row - from < (size_t)at.rows)
+                put_text(at, (int)(row - from), INK_NONE, "%.*s", (int)n, here);
+            row++;
+        } while (left > 0);
     }
+    return row;
+}
+
+size_t page_rows(const char *page) {
+    return put_page(page, 0, (rect){0, 0, 0, COLS});
+}
+
+/* A text over everything, a screen of rows at a time. */
+static void draw_page(const live *l, rect all) {
+    const size_t rows = page_rows(l->page);
+    put_page(l->page, l->page_from < rows ? l->page_from : rows - 1, all);
 }
 
 void live_draw(live *l) {
-    const int foot = foot_rows(l);
+    const int foot = note_rows(l) + status_rows(l);
     rect all = {1, 0, LINES - 1 - foot, COLS};
     erase();
     if (LINES < 10 || COLS < 40) {

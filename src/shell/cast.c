@@ -138,10 +138,10 @@ bool cast_type(cast *c, const char *prompt, const char *text, size_t n, calc_err
     const double reading = READING + READING_LINE * (double)c->lines;
     bool ok = cast_write(c, prompt, strlen(prompt), error);
     cast_wait(c, reading < LONGEST ? reading : LONGEST);
-    for (size_t i = 0, bytes; ok && i < n; i += bytes) {
-        bytes = character_at(text + i, n - i, NULL);
-        bytes += !bytes;
-        ok = cast_write(c, text + i, bytes, error);
+    for (size_t i = 0; ok && i < n;) {
+        char shown[CHARACTER_SHOWN];
+        i += character_shown(text + i, n - i, shown);
+        ok = cast_write(c, shown, strlen(shown), error);
         cast_wait(c, TYPING);
     }
     cast_wait(c, ANSWERING);

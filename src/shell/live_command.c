@@ -43,15 +43,16 @@ static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
             for (size_t j = 0; j < same; j++)
                 if (found.word[i][j] != found.word[0][j])
                     same = j;
-        char rest[256];
-        snprintf(rest, sizeof rest, "%.255s", line + *cursor);
         const char last = same ? found.word[0][same - 1] : 0;
-        const bool blank = found.count == 1 && last != '=' && last != '(';
-        snprintf(line + found.start, size - found.start, "%.*s%s%s", (int)same, found.word[0],
-                 blank ? " " : "", rest);
-        *cursor = found.start + same + (blank ? 1 : 0);
-        if (*cursor > strlen(line))
-            *cursor = strlen(line);
+        const size_t rest = strlen(line + *cursor) + 1, end = found.start + same;
+        const bool blank = found.count == 1 && last != '=' && last != '(' && end + 1 + rest <= size;
+        if (end + blank + rest <= size) {
+            memmove(line + end + blank, line + *cursor, rest);
+            memcpy(line + found.start, found.word[0], same);
+            if (blank)
+                line[end] = ' ';
+            *cursor = end + blank;
+        }
     }
     candidates_free(&found);
 }

@@ -101,8 +101,13 @@ def rough(tests):
     tests.run(input=b"record r.cast\n# \xff \xe2 \x7f \xf0\x9f\x98\x80\n1 + 1 \\\n\n3\n", cwd=where)
     cast = Cast(os.path.join(where, "r.cast"))
     told = "".join(e[2] for e in cast.events)
-    tests.check("bytes that are no characters", cast.sound() and "# \ufffd \ufffd \x7f \U0001f600\r\n" in told, told)
+    tests.check("bytes that are no characters", cast.sound() and "# \\xff \\xe2 \\x7f \U0001f600\r\n" in told, told)
     tests.check("a line that goes on over nothing", "fret> 1 + 1  \\\r\n....> \r\n1 + 1 = 2\r\nfret> 3" in told, told)
+    hostile = "record r.cast\n# \x1b[2J \u202e \x9b \x07 \u200b\n1 + 1 # \x1b]0;x\x07\nrecord off\n"
+    tests.run(input=hostile, cwd=where, env={"LC_ALL": "C.UTF-8"})
+    told = "".join(e[2] for e in Cast(os.path.join(where, "r.cast")).events)
+    tests.check("what a statement says commands no terminal", not re.search("[\x00-\x09\x0b\x0c\x0e-\x1f\x7f-\x9f\u200b-\u202e]", told) and
+                "# \\x1b[2J \\u202e \\u009b \\x07 \\u200b\r\n" in told, repr(told))
     names = ["\U0001f600%s = %d" % ("\U0001f601" * (i % 7), i) for i in range(7)]
     for i in range(4):
         statements = names + ["# " + i * "a", "show variables\n" * 40]

@@ -272,6 +272,20 @@ def comparing(tests):
     tests.check("two scenes", ok and "k = -0.5: " in live.screen.text(), live.screen.text())
     live.key("l", r"step Fx\+=2 N")
     tests.check("one hand moves both", len(re.findall(r"Fx +2 N", live.screen.text())) == 2, live.screen.text())
+    titles = [re.split(" {2,}", row) for row in live.screen.text().splitlines() if row.startswith("-- ")]
+    tests.check("titles that say no half", titles == [["-- k = -0.5: springs", "-- k = 0.5: springs"],
+                                                      ["-- k = -0.5: loop: Fx over dx", "-- k = 0.5: loop: Fx over dx"]], str(titles))
+    path = os.path.join(tests.dir, "both.gp")
+    tests.check("p asks where to", live.key("p", r"save the picture as: live\.png"), live.screen.text())
+    live.child.send("\x15" + path + "\r")
+    tests.check("p draws both", live.wait("wrote .*both.gp"), live.screen.text())
+    with open(path, encoding="utf-8") as f:
+        titles = re.findall(r'title "([^"]*)"', f.read())
+    tests.check("and says which is which", sum("0.5" in t and "\u2212" not in t for t in titles) == sum("\u22120.5" in t for t in titles) >= 3, str(titles))
+    live.says("compare FN = 90 N, 110.5 N")
+    live.child.send("p\x15" + path + "\r")
+    with open(path, encoding="utf-8") as f:
+        tests.check("of a force, too", live.wait(lambda s: "wrote" in live.status() and "110.5" in open(path, encoding="utf-8").read()), live.screen.text())
     live.says("compare mu = 0.01, 0.5")
     tests.check("one that cannot follow says why", live.wait("mu = 0.01: .*exceeds"), live.screen.text())
     live.says("compare k = 1 mm, 2")
@@ -416,7 +430,7 @@ def recording(tests):
         live.wait(r"dx = 114\.748 nm")
         live.key("x", "loop: Fx")
         live.says("step Fx=50 N")
-        tests.check("an error in one line", live.wait(lambda s: live.status().startswith("error: Fx = 50 N exceeds")) and
+        tests.check("an error of two rows, whole", live.wait(r"\nerror: Fx = 50 N exceeds mu\*FN = 40 N: gross slip; step by displacement \(dx=...\)\nto slide") and
                     "loop: Fx" in live.screen.text(), live.screen.text())
         live.says("show units")
         tests.check("no pager within", live.wait("any other key: back"), live.screen.text())
@@ -676,7 +690,7 @@ def released(tests):
     for key, says in (("c", "^c0 = 1 mm"), ("l", "nothing is pressed"), ("r", "^press FN=100 N"), (":reset all\r", "^reset all"),
                       ("+", None), ("g", "^geometry sphere R=10 mm"), (":reset all\r", "^reset all"), (" ", "error: there is no load yet"),
                       ("r", "^material E0=210 GPa")):
-        tests.check("then %r" % key, live.key(key, says and (lambda s, says=says: re.search(says, live.status()))), live.screen.text())
+        tests.check("then %r" % key, live.key(key, says and (lambda s, says=says: re.search("(?m)" + says, s.text()))), live.screen.text())
     live.says("quit")
     live.gone()
 
@@ -885,6 +899,33 @@ def pages(tests):
     live.gone()
 
 
+def readable(tests):
+    """What is longer than a row goes on in the next, below the views and on a page; what is longer than that is a page."""
+    live = at_prompt(tests, SCENE)
+    rows = lambda s: [s.row(i) for i in range(24)]  # noqa: E731
+    live.key("?", "push tangentially")
+    live.key(" ", "drags the point")
+    tests.check("the keys, whole", live.wait(r"All of it is statements: `history`,\n`save` and `undo` know them\."), live.screen.text())
+    live.key("x", "loop: Fx")
+    live.says("step Fx=50 N")
+    tests.check("a message of two rows", live.wait(lambda s: rows(s)[21:] == [
+        "arrows push and press  space plays  u undo  r reset  : statement  ? keys  q quit",
+        "error: Fx = 50 N exceeds mu*FN = 40 N: gross slip; step by displacement (dx=...)", "to slide"]), live.screen.text())
+    live.says("(%s)" % "+".join(["FN"] * 90))
+    tests.check("a message of many is a page", live.wait(lambda s: "any other key: back" in s.row(22) and s.row(4).endswith("= 9 kN")), live.screen.text())
+    live.key("x", "loop: Fx")
+    live.says("; ".join("x%d = %d" % (i, i) for i in range(12)) + "; explain dW(10 N)")
+    live.wait("any other key: back")
+    live.screen.resize(24, 44)
+    live.child.setwinsize(24, 44)
+    words = tests.run("-c", SCENE + "; explain dW(10 N)", env={"LC_ALL": "C.UTF-8"}).stdout.split()
+    live.wait(lambda s: s.row(1) and len(s.row(22)) <= 44)
+    tests.check("no word of a page is lost", live.wait(lambda s: "\n".join(rows(s)[1:22]).split() == words), live.screen.text())
+    live.key("x", "loop: Fx")
+    live.says("quit")
+    live.gone()
+
+
 def begun(tests):
     """What a scene has is not set again, and what it lacks is told."""
     live = at_prompt(tests, "x = 100 GPa; E0 := 2*x; nu = 0.3; q = 0.15; mu := 2*q")
@@ -898,6 +939,28 @@ def begun(tests):
     tests.check("what is missing is told", live.wait("nu is not set|nu is missing|needs nu"), live.screen.text())
     live.says("quit")
     live.gone()
+
+
+def hostile(tests):
+    """What turns the writing round or commands a terminal is shown, and does nothing: in a script, its statements and what they say,
+    and in a line that is typed."""
+    signs = "\u202e \x9b\x1b[2J \u200b"
+    shown = "\\u202e \\u009b\\x1b[2J \\u200b"
+    with tests.file("# A note %s end\n%s # %s end\n" % (signs, SCENE, signs)) as path:
+        live = Live(tests, path)
+        tests.check("in a note", live.wait(re.escape("A note %s end" % shown)), live.screen.text())
+        tests.check("in a statement", live.key(" ", r"# \\u202e\s+" + re.escape(shown[7:] + " end")), live.screen.text())
+        live.child.send(":1 + 1 # \u202e \u00b5 \u200b")
+        tests.check("in a line", live.wait(r":1 \+ 1 # \\u202e \u00b5 \\u200b"), live.screen.text())
+        tests.check("its cursor", (live.screen.y, live.screen.x) == (23, len(r":1 + 1 # \u202e u \u200b")), "%d %d" % (live.screen.y, live.screen.x))
+        tests.check("whose characters are one each", live.key("\x7f\x1b[D\x7f\x1b[D\x1b[Dx", r":1 \+ 1 # x\\u202e *$"), live.screen.text())
+        live.key("\r", r"1 \+ 1 = 2")
+        live.says("1; 2 # \u202e")
+        tests.check("below a page", live.wait(r"any other key: back *\n1; 2 # \\u202e"), live.screen.text())
+        live.key("x", "loop: Fx")
+        hidden = re.findall("[\u0080-\u00a0\u200b-\u202e]", live.raw)
+        tests.check("none reaches the terminal", not hidden, repr(hidden))
+        live.end()
 
 
 def little(tests):
@@ -939,6 +1002,8 @@ def completed(tests):
                                                                 live.status().endswith("  geometry")), live.screen.text())
     live.key("\x151;" + 501 * " " + "geomet\t", lambda s: live.status().endswith("  geometry"))
     tests.check("Tab beyond it", live.key("\x7f", lambda s: live.status().endswith("  geometr")), live.screen.text())
+    tests.check("Tab before much else", live.key("\x15geomet " + 300 * "x" + "y\x01" + 6 * "\x1b[C" + "\t\x05", lambda s: live.status().endswith("xy")) and
+                live.key("\x01", lambda s: live.status().startswith(":geometry  x")), live.screen.text())
     live.key("\x15set report on\r", "set report on")
     live.child.send("q")
     live.wait(lambda s: not s.modes.get(1049))
@@ -990,6 +1055,6 @@ def refused_beside(tests):
 
 
 def run(tests):
-    tests.rooms(completed, dragged, refused_beside, beginning, refusals, keys, playing, repeating, going_on, sizes, comparing, stepping, mouse, slow_line, undisturbed, saving,
+    tests.rooms(completed, hostile, readable, dragged, refused_beside, beginning, refusals, keys, playing, repeating, going_on, sizes, comparing, stepping, mouse, slow_line, undisturbed, saving,
                 recording, endings, stopping, lessons, corners, typing, scripted, pointing,
                 little, energies, released, gone_on_with, in_haste, odd_terminals, hung_up, long_loads, unseen, shapes, pages, begun)
