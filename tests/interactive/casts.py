@@ -198,14 +198,15 @@ def unmade(tests):
 class Recorded(Live):
     def __init__(self, tests, name, *args, **more):
         super().__init__(tests, command=[tests.fret, "--no-rc", "--quiet", *args], **more)
-        self.path = os.path.join(tests.dir, name)
+        self.tests, self.path = tests, os.path.join(tests.dir, name)
         self.wait("fret>")
 
     def line(self, text, what=None):
         """Typed at the prompt; until what comes, and the next prompt."""
         self.child.send(text + "\r")
-        return self.wait(lambda s: (not what or re.search(what, s.text())) and
+        came = self.wait(lambda s: (not what or re.search(what, s.text())) and
                          re.search(r"fret> *$", s.text().rstrip("\n") + " "))
+        self.tests.check("what is typed is answered: " + text.partition(" /")[0][:40], came, self.screen.text())
 
 
 def typed(tests):
@@ -228,6 +229,7 @@ def typed(tests):
     s.key("b", "back")
     s.wait("q: leave")
     s.child.send("q")
+    s.line("undo")
     s.line("1234", "1234 = 1234")
     s.screen.resize(30, 100)
     s.child.setwinsize(30, 100)
