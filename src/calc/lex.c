@@ -149,9 +149,9 @@ bool lex_one_value(lexer *lx) {
         return calc_fail(
             lx->error, from, len,
             "a comma is no part of a number: a decimal comma is a point here, and digits are not grouped");
-    char words[80];
-    snprintf(words, sizeof words, behind == 3 && *number != '0' ? ", or %.*s%.*s" : "", (int)before, number,
-             (int)behind, comma + 1);
+    char words[80] = "";
+    if (behind == 3 && *number != '0') /* thousands, perhaps */
+        snprintf(words, sizeof words, ", or %.*s%.*s", (int)before, number, (int)behind, comma + 1);
     return calc_fail(lx->error, from, len, "a decimal comma is a point here: write %.*s.%.*s%s", (int)before,
                      number, (int)behind, comma + 1, words);
 }
