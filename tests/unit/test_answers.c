@@ -543,6 +543,8 @@ int main(int argc, char **argv) {
         for (size_t j = 0; j < sizeof questions / sizeof *questions; j++) {
             double want[VALUES];
             calc c;
+            if (unit_skips(i + j))
+                continue;
             const long failed = unit.failed;
             CASE(begin(&c, &scenes[i]));
             if (again(c.now, j, want)) { /* not all is asked of all: no loss without a cycle */
@@ -557,7 +559,7 @@ int main(int argc, char **argv) {
             if (unit.failed > failed)
                 printf("%s: %s\n", scenes[i].what, questions[j].what);
         }
-    CHECK(answered > 80);
+    CHECK(answered > unit_draws(80));
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
         if (scenes[i].automatic && !scenes[i].open)
             CASE(more_loads(&scenes[i]));

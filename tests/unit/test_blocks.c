@@ -78,7 +78,7 @@ static void thick_slices(void) {
     int failed = 0;
     CHECK_OK(fret_cycle_loss_by_force(&c, 0.6 * c.mu * (double)c.press.F, &want));
     end(&c);
-    for (int k = 0; k < 400; k += unit_skips(1) ? 97 : k < 8 ? 1 : 29) {
+    for (int k = 0; k < 400; k += k < 8 ? 1 : 29) {
         c = prepared_to(0);
         left = k;
         const fret_status st = fret_cycle_loss_by_force(&c, 0.6 * c.mu * (double)c.press.F, &got);
@@ -91,7 +91,7 @@ static void thick_slices(void) {
         CHECK(got == want);
         end(&c);
     }
-    CHECK(failed > (unit_skips(1) ? 0 : 3));
+    CHECK(failed > 3);
 }
 
 int main(int argc, char **argv) {
@@ -166,7 +166,8 @@ int main(int argc, char **argv) {
     }
     CHECK(failed > 3);
     CASE(end(&c));
-    CASE(thick_slices());
+    if (!unit_skips(1))
+        CASE(thick_slices());
     fret_table_free(table);
     return unit_finish();
 }

@@ -904,9 +904,9 @@ int main(int argc, char **argv) {
         CASE(ripples(FLAT_TABLE, 1e-7, 0));
         CASE(ripples(FLAT_TABLE, -0.3, 1e-8));
         CASE(leaves_of_many(0.3, 0));
+        CASE(leaves_of_many(-0.5, 1e-9));
     }
     CASE(ripples(POINTED_TABLE, -0.04, 1e-8));
-    CASE(leaves_of_many(-0.5, 1e-9));
     for (int i = 0; i < 3; i++) {
         static const double ks[] = {0, -0.3, -0.9};
         CASE(sampled_tip(ks[i], 100, 0.5, true));

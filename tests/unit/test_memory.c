@@ -934,7 +934,7 @@ static bool in_order(const fret_memory *m) {
 /* Loads of any size one after the other: a contact may be pressed by 1e20 of what is left of it then. */
 static void unequal(void) {
     unsigned long long seed = 1;
-    for (int i = 0; i < 1000; i++) {
+    for (int i = 0; i < unit_draws(1000); i++) {
         unit_scene s =
             unit_make_scene(unit_random(&seed, 0.2, 8), i % 3 ? unit_random(&seed, -0.95, 0.95) : 0);
         contact c = make(&s);
@@ -1013,9 +1013,10 @@ int main(int argc, char **argv) {
     CASE(subdivision(2000));
     CASE(objects());
     CASE(errors());
-    CASE(spring_model(2, 0));
-    if (!unit_skips(1))
+    if (!unit_skips(1)) {
+        CASE(spring_model(2, 0));
         CASE(spring_model(1, 0.5));
+    }
     CASE(spring_model(3, -0.5));
     return unit_finish();
 }

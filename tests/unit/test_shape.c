@@ -639,7 +639,7 @@ static void coarse_steps(void) {
     static const double to[][2] = {{40, 11}, {160, -30}, {70, 5}};
     struct fret_table *t = NULL;
     CHECK_OK(fret_table_make(r, f, 5, NULL, &t));
-    for (int j = unit_skips(1); j < 2; j++) {
+    for (int j = 0; j < 2; j++) {
         fret_real W[2] = {0, 0};
         for (int fine = 0; fine < 2; fine++) {
             unit_scene s = unit_make_scene(2, j ? -0.7 : 0.3);
@@ -682,6 +682,7 @@ int main(int argc, char **argv) {
     CASE(moments());
     CASE(table_order());
     CASE(long_table());
-    CASE(coarse_steps());
+    if (!unit_skips(1))
+        CASE(coarse_steps());
     return unit_finish();
 }
