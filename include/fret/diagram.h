@@ -7,8 +7,7 @@
 FRET_BEGIN
 
 /* The memory diagram in double, for the inner loop of a dynamics code in which normal and tangential motion
- * both change: fret_memory for power laws, nine times as fast, four times where the loss counts. At constant
- * F_N fret_masing does better.
+ * both change: fret_memory for power laws, nine times as fast, four times where the loss counts.
  *
  * With the depth y, or the load F_N(y) ~ y^p, as first coordinate and t = int_0^y sigma dy, or
  * int_0^y sigma dF_N, as second, the memory of a contact is a curve from (0, 0) to the present

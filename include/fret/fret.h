@@ -9,7 +9,6 @@
 #include "fret/diagram.h"
 #include "fret/field.h"
 #include "fret/gap.h"
-#include "fret/masing.h"
 #include "fret/material.h"
 #include "fret/memory.h"
 #include "fret/normal.h"

@@ -23,7 +23,6 @@ typedef struct world {
     fret_loading loading;
     fret_memory *memory, *memory_copy;
     fret_diagram *diagram, *diagram_copy;
-    fret_masing *masing, *masing_copy;
     fret_springs *springs, *springs_copy;
     fret_swing *swing, *swing_copy;
     fret_fields *fields;
@@ -55,8 +54,6 @@ static void drop_contacts(world *w) {
     fret_swing_free(w->swing_copy);
     fret_springs_free(w->springs);
     fret_springs_free(w->springs_copy);
-    fret_masing_free(w->masing);
-    fret_masing_free(w->masing_copy);
     fret_diagram_free(w->diagram);
     fret_diagram_free(w->diagram_copy);
     fret_memory_free(w->memory);
@@ -64,7 +61,6 @@ static void drop_contacts(world *w) {
     w->fields = NULL;
     w->swing = w->swing_copy = NULL;
     w->springs = w->springs_copy = NULL;
-    w->masing = w->masing_copy = NULL;
     w->diagram = w->diagram_copy = NULL;
     w->memory = w->memory_copy = NULL;
 }
@@ -93,9 +89,6 @@ static bool have_memory(world *w) {
 }
 static bool have_diagram(world *w) {
     return have_normal(w) && (w->diagram || known_code(fret_diagram_make(w->normal, 0.4, 0, &w->diagram)));
-}
-static bool have_masing(world *w) {
-    return have_press(w) && (w->masing || known_code(fret_masing_make(&w->contact, &w->masing)));
 }
 static bool have_springs(world *w) {
     return have_normal(w) && (w->springs || known_code(fret_springs_make(w->normal, 0.4, SPRINGS, 3e-4,
@@ -354,54 +347,6 @@ CALL(fret_table_sloped) {
 CALL(fret_table_free) {
     (void)w, (void)x;
     fret_table_free(NULL);
-}
-CALL(fret_masing_make) {
-    fret_masing *made;
-    if (have_press(w) && known_code(fret_masing_make(&w->contact, &made))) {
-        fret_masing_free(w->masing);
-        w->masing = made;
-    }
-    (void)x;
-}
-CALL(fret_masing_free) {
-    (void)x;
-    fret_masing_free(w->masing);
-    w->masing = NULL;
-}
-CALL(fret_masing_reset) {
-    (void)x;
-    if (have_masing(w))
-        fret_masing_reset(w->masing);
-}
-CALL(fret_masing_copy) {
-    (void)x;
-    if (have_masing(w) && (w->masing_copy || known_code(fret_masing_make(&w->contact, &w->masing_copy)))) {
-        (void)known_code(fret_masing_copy(w->masing_copy, w->masing));
-        fret_masing *was = w->masing;
-        w->masing = w->masing_copy;
-        w->masing_copy = was;
-    }
-}
-CALL(fret_masing_to_dx) {
-    if (have_masing(w))
-        (void)known_code(fret_masing_to_dx(w->masing, x[0], w->row));
-}
-CALL(fret_masing_to_force) {
-    if (have_masing(w))
-        (void)known_code(fret_masing_to_force(w->masing, x[0], w->row));
-}
-CALL(fret_masing_loss) {
-    (void)x;
-    if (have_masing(w))
-        w->sink[0] = fret_masing_loss(w->masing);
-}
-CALL(fret_masing_now) {
-    fret_masing_state now;
-    (void)x;
-    if (have_masing(w)) {
-        fret_masing_now(w->masing, &now);
-        w->sink[0] = now.kt;
-    }
 }
 CALL(fret_half_space) {
     (void)known_code(fret_half_space(x[0], x[1], w->sink, w->sink + 1, w->sink + 2));
@@ -778,14 +723,6 @@ static const struct row {
     ROW(fret_table_make),
     ROW(fret_table_sloped),
     ROW(fret_table_free),
-    ROW(fret_masing_make),
-    ROW(fret_masing_free),
-    ROW(fret_masing_reset),
-    ROW(fret_masing_copy),
-    ROW(fret_masing_to_dx),
-    ROW(fret_masing_to_force),
-    ROW(fret_masing_loss),
-    ROW(fret_masing_now),
     ROW(fret_half_space),
     ROW(fret_foundation_make),
     ROW(fret_memory_make),

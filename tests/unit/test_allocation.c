@@ -24,17 +24,14 @@ static void tables_and_contacts(void) {
     fret_normal *normal = NULL;
     fret_memory *memory = NULL;
     fret_springs *springs = NULL;
-    fret_masing *masing = NULL;
     fret_swing *swing = NULL;
     const unit_scene s = unit_make_scene(2, 0.3);
     EACH(3, fret_table_make(r, f, ROWS, NULL, &table), table == NULL);
     EACH(1, fret_normal_make(&s.material, &s.gap, &normal), normal == NULL);
     EACH(2, fret_memory_make(contact.normal, 0.4, &memory), memory == NULL);
     EACH(3, fret_springs_make(contact.normal, 0.4, 100, 1e-3, FRET_WEIGHT_CELL, &springs), springs == NULL);
-    EACH(2, fret_masing_make(&contact, &masing), masing == NULL);
     EACH(2, fret_swing_make(memory, &swing), swing == NULL);
     fret_swing_free(swing);
-    fret_masing_free(masing);
     fret_springs_free(springs);
     fret_memory_free(memory);
     fret_normal_free(normal);
@@ -183,47 +180,6 @@ static void memories(void) {
     fret_memory_free(m);
     fret_memory_free(copy);
     fret_memory_free(whole);
-}
-
-static bool alike(const fret_masing *a, const fret_masing *b) {
-    fret_masing_state x, y;
-    fret_masing_now(a, &x);
-    fret_masing_now(b, &y);
-    return x.Fx == y.Fx && x.dx == y.dx && x.W == y.W && x.turns == y.turns;
-}
-
-static void masings(void) {
-    fret_masing *m, *copy, *whole, *open;
-    double out;
-    CHECK_OK(fret_masing_make(&contact, &m));
-    CHECK_OK(fret_masing_make(&contact, &copy));
-    CHECK_OK(fret_masing_make(&contact, &whole));
-    CHECK_OK(fret_masing_make(&contact, &open));
-    int refused = 0;
-    for (int i = 0; i < 200; i++) {
-        const double part = pow(-0.99, i);
-        const bool force = i % 2;
-        left = 0;
-        const fret_status st = force ? fret_masing_to_force(m, 0.9 * limit * part, &out)
-                                     : fret_masing_to_dx(m, 0.6 * slip * part, &out);
-        left = -1;
-        if (st.code) {
-            CHECK_CODE(st, FRET_NO_MEMORY);
-            CHECK(alike(m, whole));
-            CHECK_OK(force ? fret_masing_to_force(m, 0.9 * limit * part, &out)
-                           : fret_masing_to_dx(m, 0.6 * slip * part, &out));
-            refused++;
-        }
-        CHECK_OK(force ? fret_masing_to_force(whole, 0.9 * limit * part, &out)
-                       : fret_masing_to_dx(whole, 0.6 * slip * part, &out));
-    }
-    CHECK(refused > 2 && alike(m, whole));
-    EACH(1, fret_masing_copy(copy, m), alike(copy, open));
-    CHECK(alike(copy, m));
-    fret_masing_free(m);
-    fret_masing_free(copy);
-    fret_masing_free(whole);
-    fret_masing_free(open);
 }
 
 static void diagrams(void) {
@@ -498,7 +454,6 @@ int main(int argc, char **argv) {
     CASE(pieces());
     CASE(memories());
     CASE(diagrams());
-    CASE(masings());
     CASE(springs());
     CASE(swings());
     CASE(smaller_slides());

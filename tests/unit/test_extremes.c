@@ -733,18 +733,6 @@ static void at_gross_slip(void) {
     }
 }
 
-/* Energy, or stiffness, that no double holds. */
-static void masings(void) {
-    static const double all[][2] = {{1e200, 1e200}, {1e-200, 1e-200}, {1e200, 1e-150}};
-    const fret_normal *n = power(210e9, 2, 1e-5, 1e-3);
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        const fret_contact c = {.normal = n, .mu = 0.4, .press = {.F = all[i][0], .dz = all[i][1], .a = 1}};
-        fret_masing *m = NULL;
-        CHECK_CODE(fret_masing_make(&c, &m), FRET_OVERFLOW);
-        CHECK(!m);
-    }
-}
-
 /* ---- springs ------------------------------------------------------------------------------------- */
 
 static fret_state state_of(fret_springs *s) {
@@ -840,7 +828,6 @@ int main(int argc, char **argv) {
     CASE(diagrams());
     CASE(lossless());
     CASE(at_gross_slip());
-    CASE(masings());
     CASE(springs());
     CASE(many_springs());
     CASE(quotients());
