@@ -163,13 +163,6 @@ hard-diagram: deps-check
 	@{ echo '# make hard-diagram HARD_STEPS=$(HARD_STEPS)'; nice $(B)/tests/hard/hard --diagrams $(HARD_STEPS); } > $(B)/diagram.txt; \
 	  status=$$?; mv $(B)/diagram.txt tests/hard/diagram.txt; tail -n 1 tests/hard/diagram.txt; exit $$status
 
-# The same for scenes in vectors, against the exact functions, in a minute.
-SCENES ?= 40000
-scenes: deps-check
-	@$(MAKE) --no-print-directory -s $(B)/tests/test_scenes
-	@{ echo '# make scenes SCENES=$(SCENES)'; nice $(B)/tests/test_scenes --worst $(SCENES); } > $(B)/scenes.txt
-	@mv $(B)/scenes.txt tests/hard/scenes.txt; cat tests/hard/scenes.txt
-
 # Every allocation and every system call of every kind of statement fails once. The table is kept in git.
 faults: deps-check
 	@$(MAKE) --no-print-directory -s $(B)/fret $(B)/tests/faults.so $(B)/tests/calls
@@ -276,5 +269,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram scenes faults pieces latency bench format install clean FORCE
+.PHONY: coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram faults pieces latency bench format install clean FORCE
 -include $(shell find $(B) -name chroots -prune -o -name '*.d' -print 2>/dev/null)

@@ -389,44 +389,6 @@ static double scene(const fret_normal *normal, const fret_press *press) {
     return (seconds() - t0) / (double)count;
 }
 
-/* The same in vectors, and all that comes with it. */
-enum { SCENES = 4096 };
-static double scenes(const fret_normal *normal, const fret_press *press) {
-    static double in[11][SCENES], c[SCENES], loss[SCENES];
-    for (int i = 0; i < SCENES; i++) {
-        const double k = (double)fret_normal_foundation(normal)->k + 1e-9 * i;
-        const double row[11] = {material.body[0].E0,
-                                material.body[0].nu,
-                                k,
-                                material.c0,
-                                gap.power[0].n,
-                                gap.power[0].h,
-                                gap.power[0].r0,
-                                0,
-                                (double)press->F,
-                                mu,
-                                20};
-        for (int j = 0; j < 11; j++)
-            in[j][i] = row[j];
-    }
-    const fret_scenes of = {.E0 = {in[0]},
-                            .nu = {in[1]},
-                            .k = in[2],
-                            .c0 = in[3],
-                            .n = in[4],
-                            .h = in[5],
-                            .r0 = in[6],
-                            .F = in[8],
-                            .mu = in[9],
-                            .Fx = in[10]};
-    const fret_scene_values out = {.c = c, .loss = loss};
-    double t0 = seconds();
-    if (fret_batch_scenes(&of, &out, SCENES))
-        fputs("bench: a scene is missing\n", stderr);
-    sink = c[1] + loss[SCENES - 1];
-    return (seconds() - t0) / SCENES;
-}
-
 static double cycle_loss(const fret_normal *n, const fret_press *p) {
     const long count = 50000;
     const fret_contact c = {n, mu, *p};
@@ -836,9 +798,7 @@ int main(void) {
     compare(n, &p);
     puts("Closed forms");
     const double one_power = least(power, n, &p), closed = least(cycle_loss, n, &p);
-    const double one_scene = least(scene, n, &p);
-    line("scene, material to dW", one_scene, one_power, "one powl", us, "5 us");
-    line("scene, in vectors", least(scenes, n, &p), one_scene, "one scene", us, "0.5 us");
+    line("scene, material to dW", least(scene, n, &p), one_power, "one powl", us, "5 us");
     line("fret_cycle_loss", closed, one_power, "one powl", ns, "");
     puts("A load of a sweep");
     const double pair = sweep_point(n, &p, LOG_EXP);

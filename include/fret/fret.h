@@ -13,7 +13,6 @@
 #include "fret/memory.h"
 #include "fret/normal.h"
 #include "fret/reference.h"
-#include "fret/scenes.h"
 #include "fret/springs.h"
 #include "fret/status.h"
 #include "fret/swing.h"

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "calc/rows.h"
 #include "calc/tree.h"
 #include "calc/trial.h"
 #include "number/real.h"
@@ -489,8 +488,7 @@ typedef struct block {
     operand stack[DEEPEST];
 } block;
 
-/* r: of an input, or NULL: x are those of a name. */
-static bool run_block(calc *c, const expr *e, scene_rows *r, const long double x[], size_t rows, block *b) {
+static bool run_block(calc *c, const expr *e, const long double x[], size_t rows, block *b) {
     size_t depth = 0;
     for (size_t j = 0; j < e->count; j++) {
         const expr_node *n = &e->nodes[j], *l = &e->nodes[n->left];
@@ -506,14 +504,6 @@ static bool run_block(calc *c, const expr *e, scene_rows *r, const long double x
         }
         if (n->kind == N_NAME) {
             *top = (operand){x, 1};
-            continue;
-        }
-        if (r && (n->kind == N_QUANTITY || n->kind == N_CALL)) {
-            ask(c, n->q);
-            if (!(n->kind == N_CALL ? rows_call(r, n->q, left.v, left.stride, to)
-                                    : rows_quantity(r, n->q, to)))
-                return false;
-            *top = (operand){to, 1};
             continue;
         }
         /* the dimension may vary too */
@@ -537,39 +527,11 @@ bool expr_eval_block(calc *c, const expr *e, size_t name, const long double x[],
     calc_error unused;
     error_clear(&unused);
     c->names.row[name].v.v = x[0];
-    if (!mark_varying(c, e, name) || !expr_eval(c, e, &first, &unused) || !run_block(c, e, NULL, x, rows, &b))
+    if (!mark_varying(c, e, name) || !expr_eval(c, e, &first, &unused) || !run_block(c, e, x, rows, &b))
         return false;
     for (size_t i = 0; i < rows; i++)
         out[i] = b.stack[0].v[i * b.stack[0].stride];
     *d = first.d;
-    return true;
-}
-
-/* What does not come out of the scene is the same at all rows. */
-static bool mark_rows(const calc *c, const expr *e, const scene_rows *r) {
-    for (size_t j = 0; j < e->count; j++) {
-        expr_node *n = &e->nodes[j];
-        const size_t takes = node_operands(n);
-        const bool asks = n->kind == N_QUANTITY || n->kind == N_CALL;
-        if (n->kind == N_APPLY || n->kind == N_AT ||
-            (n->kind == N_NAME && c->names.row[n->index].definition) ||
-            (asks && !rows_have(r, n->q, n->kind == N_CALL)))
-            return false;
-        n->varies = asks || (takes && e->nodes[n->left].varies) || (takes > 1 && e->nodes[n->right].varies);
-    }
-    return true;
-}
-
-bool expr_eval_rows(calc *c, const expr *e, scene_rows *r, long double out[], dim *d) {
-    if (!mark_rows(c, e, r) || !expr_dim(c, e, d))
-        return false;
-    for (size_t j = 0; j < e->count; j++)
-        if (!e->nodes[j].varies && !isfinite((double)e->nodes[j].v.v))
-            return false;
-    if (!run_block(c, e, r, r->x, r->count, &b))
-        return false;
-    for (size_t i = 0; i < r->count; i++)
-        out[i] = b.stack[0].v[i * b.stack[0].stride];
     return true;
 }
 

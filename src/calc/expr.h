@@ -47,9 +47,6 @@ bool expr_eval(struct calc *c, const expr *e, value *out, calc_error *error);
 enum { EXPR_BLOCK = 256 };
 bool expr_eval_block(struct calc *c, const expr *e, size_t name, const long double x[], size_t rows,
                      long double out[], dim *d);
-/* The same at the rows of an input. */
-struct scene_rows;
-bool expr_eval_rows(struct calc *c, const expr *e, struct scene_rows *r, long double out[], dim *d);
 /* The dimension alone, also where a value is missing. */
 bool expr_dim(struct calc *c, const expr *e, dim *d);
 void expr_free(expr *e);

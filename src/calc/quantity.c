@@ -14,8 +14,6 @@
 #define STATE(member) .of = OF_STATE, .at_state = offsetof(fret_state, member), .load = true
 #define FOUNDATION(member)                                                                                   \
     .of = OF_FOUNDATION, .at = offsetof(fret_foundation, member), .reads = READS_MATERIAL
-#define ROWS(kind, member) .rows = ROWS_OF_##kind, .at_row = offsetof(fret_scene_values, member)
-#define ROWS_BY(kind) .rows_by = ROWS_BY_##kind
 #define GETTER(function) .of = OF_GETTER, .get = get_##function
 #define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
 #define FORCE                                                                                                \
@@ -75,10 +73,10 @@ static const quantity quantities[] = {
     /* ---- state now ---- */
     {.name = "dz", .imposed = "press", .title = "indentation depth", .keywords = "approach penetration", .d = LENGTH, PRESS(dz), CALL(dz, F, FORCE),
      .block = block_dz, .reads = READS_NORMAL,
-     ROWS(PRESS, dz), ROWS_BY(LOAD), .formulas = {{"delta_z = kappa A a^n", "(10)", WHEN_POWER}, {"delta_z = g(a)", "(10)", 0}}},
+     .formulas = {{"delta_z = kappa A a^n", "(10)", WHEN_POWER}, {"delta_z = g(a)", "(10)", 0}}},
     {.name = "a", .imposed = "press", .title = "contact radius", .keywords = "Hertz size area", .d = LENGTH, PRESS(a), CALL(a, F, FORCE),
      .block = block_a, .reads = READS_NORMAL,
-     ROWS(PRESS, a), ROWS_BY(LOAD), .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(10),(13)", WHEN_POWER},
+     .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(10),(13)", WHEN_POWER},
                   {"F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx", "(10),(12)", 0}}},
     {.name = "Fx", .imposed = "step", .title = "tangential force", .keywords = "shear Mindlin Cattaneo", .d = FORCE, LOADING(Fx),
      CALL(Fx, d, LENGTH), .reads = READS_TANGENTIAL,
@@ -87,13 +85,13 @@ static const quantity quantities[] = {
                   {"F_x = mu int sigma dF_N, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
     {.name = "dx", .imposed = "step", .title = "tangential displacement", .keywords = "shear", .d = LENGTH, LOADING(dx), CALL(dx, F, FORCE),
      .block = block_dx, .reads = READS_TANGENTIAL,
-     ROWS(PUSH, dx), ROWS_BY(PUSH), .formulas = {{"delta_x = mu eta delta_z [1-(c/a)^n]", "(15),(17)", WHEN_FIRST | WHEN_POWER},
+     .formulas = {{"delta_x = mu eta delta_z [1-(c/a)^n]", "(15),(17)", WHEN_FIRST | WHEN_POWER},
                   {"delta_x = mu eta [g(a)-g(c)]", "(15)", WHEN_FIRST},
                   {"Masing: (delta_1-delta_x)/2 = delta_first((F_1-F_x)/2), from the turning point (F_1, delta_1)", NULL, WHEN_LATER},
                   {"delta_x = mu eta int sigma dy, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
     {.name = "c", .title = "stick radius", .keywords = "slip annulus Cattaneo", .d = LENGTH, LOADING(c), CALL(c, F, FORCE),
      .block = block_c, .reads = READS_TANGENTIAL,
-     ROWS(PUSH, c), ROWS_BY(PUSH), .formulas = {{"c/a = (1-F_x/(mu F_N))^(1/(n+k+1))", "(18)", WHEN_FIRST | WHEN_POWER},
+     .formulas = {{"c/a = (1-F_x/(mu F_N))^(1/(n+k+1))", "(18)", WHEN_FIRST | WHEN_POWER},
                   {"F_x = mu [F_N(a)-F_N(c)]", "(16)", WHEN_FIRST},
                   {"Masing: |F_1-F_x| = 2 mu [F_N(a)-F_N(c)], from the turning point F_1", NULL, WHEN_LATER},
                   {"c = inner edge of the outermost springs with |u| = mu eta (delta_z-g)", NULL, 0}}},
@@ -104,7 +102,7 @@ static const quantity quantities[] = {
      .reads = READS_TANGENTIAL, .formulas = {{"U = 1/2 int c_T u^2 dx", NULL, 0}}},
     {.name = "dW", .title = "energy dissipated per cycle", .keywords = "hysteresis loop dissipation loss damping Mindlin",
      .d = ENERGY, GETTER(dW), CALL(dW, FA, FORCE), .block = block_dW, .reads = READS_TANGENTIAL, .load = true,
-     ROWS(CYCLE, loss), ROWS_BY(PUSH), .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) h_T E0 a^(k+1))] "
+     .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) h_T E0 a^(k+1))] "
                    "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_FIRST | WHEN_POWER},
                   {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_FIRST},
                   {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
@@ -125,15 +123,15 @@ static const quantity quantities[] = {
      .of = OF_FUNCTION, CALL(loss_factor, FA, FORCE), .argument_or = LENGTH, .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"K''/K' at dxA = dx(FA), or at dxA", NULL, 0}}},
     {.name = "dxmax", .title = "displacement at gross slip", .keywords = "sliding", .d = LENGTH, GETTER(dxmax),
-     .reads = READS_TANGENTIAL, .load = true, ROWS(FRICTION, slip), .formulas = {{"delta_x,max = mu eta delta_z", "(17) with c = 0", 0}}},
+     .reads = READS_TANGENTIAL, .load = true, .formulas = {{"delta_x,max = mu eta delta_z", "(17) with c = 0", 0}}},
     {.name = "a0", .title = "reference radius", .d = LENGTH, GETTER(a0), .reads = READS_NORMAL, .load = true,
-     ROWS(TWIN, a), .formulas = {{"a for k = 0, same F_N and E0", "(23)", 0}}},
+     .formulas = {{"a for k = 0, same F_N and E0", "(23)", 0}}},
     {.name = "dz0", .title = "indentation depth for k = 0", .d = LENGTH, GETTER(dz0), .reads = READS_NORMAL, .load = true,
-     ROWS(TWIN, dz), .formulas = {{"delta_z for k = 0, same F_N and E0", "(10)", 0}}},
+     .formulas = {{"delta_z for k = 0, same F_N and E0", "(10)", 0}}},
     {.name = "dx0max", .title = "displacement at gross slip for k = 0", .d = LENGTH, GETTER(dx0max),
-     .reads = READS_TANGENTIAL, .load = true, ROWS(TWIN, slip), .formulas = {{"mu eta delta_z for k = 0", "(17) with c = 0", 0}}},
+     .reads = READS_TANGENTIAL, .load = true, .formulas = {{"mu eta delta_z for k = 0", "(17) with c = 0", 0}}},
     {.name = "kn", .title = "normal stiffness", .keywords = "compliance", .d = STIFFNESS, GETTER(kn), .reads = READS_NORMAL,
-     .load = true, ROWS(PRESS, kn), .formulas = {{"dF_N/d(delta_z) = 2 c_N0 c0^-k a^(k+1)/(k+1)", "(10),(13)", 0}}},
+     .load = true, .formulas = {{"dF_N/d(delta_z) = 2 c_N0 c0^-k a^(k+1)/(k+1)", "(10),(13)", 0}}},
     {.name = "kt", .title = "tangential stiffness going on", .keywords = "compliance", .d = STIFFNESS, STATE(kt),
      .reads = READS_TANGENTIAL, .formulas = {{"dF_x/d(delta_x) = F_N'(y_c)/eta, y_c = g(c)", "(17),(18)", WHEN_FIRST},
                                              {"dF_x/d(delta_x) = F_N'(y_c)/eta, y_c = g(c)", NULL, 0}}},
@@ -144,21 +142,21 @@ static const quantity quantities[] = {
      .formulas = {{"0 at the press, 1 more each step, 1/4 to the first peak of a cycle, 1 more each period", NULL, 0}}},
 
     /* ---- coefficients ---- */
-    {.name = "eta", .title = "stiffness ratio", .keywords = "Mindlin ratio", FOUNDATION(eta), ROWS(MATERIAL, eta), .formulas = {{"eta = c_N/c_T", "(4),(5)", 0}}},
+    {.name = "eta", .title = "stiffness ratio", .keywords = "Mindlin ratio", FOUNDATION(eta), .formulas = {{"eta = c_N/c_T", "(4),(5)", 0}}},
     {.name = "hN", .title = "normal coefficient of the first body", FOUNDATION(hN),
-     ROWS(MATERIAL, hN), .formulas = {{"h_N = (1+k) (1-nu) cos(pi k/2)/(Q S P), Q = 1-(1+k) nu, S = sin(pi beta/2)/beta, "
+     .formulas = {{"h_N = (1+k) (1-nu) cos(pi k/2)/(Q S P), Q = 1-(1+k) nu, S = sin(pi beta/2)/beta, "
                    "P = Gamma((3+k+beta)/2) Gamma((3+k-beta)/2)/Gamma(1+k/2)^2", "(A1)", 0}}},
     {.name = "hT", .title = "tangential coefficient of the first body", FOUNDATION(hT),
-     ROWS(MATERIAL, hT), .formulas = {{"h_T = 2 cos(pi k/2)/((1+nu) [1+(1-nu) S P]), S = sin(pi beta/2)/beta, "
+     .formulas = {{"h_T = 2 cos(pi k/2)/((1+nu) [1+(1-nu) S P]), S = sin(pi beta/2)/beta, "
                    "P = Gamma((3+k+beta)/2) Gamma((3+k-beta)/2)/Gamma(1+k/2)^2", "(A2)", 0}}},
     {.name = "beta_k", .title = "beta of the first body", FOUNDATION(beta),
-     ROWS(MATERIAL, beta), .formulas = {{"beta^2 = (1+k)(1-k nu/(1-nu))", "(A3)", 0}}},
+     .formulas = {{"beta^2 = (1+k)(1-k nu/(1-nu))", "(A3)", 0}}},
     {.name = "kappa", .title = "shape factor", GETTER(kappa), .reads = INPUT_BIT(IN_K) | INPUT_BIT(IN_N),
-     ROWS(SHAPE, kappa), .formulas = {{"kappa = (n/2) B(n/2,(k+1)/2)", "(8)", 0}}},
+     .formulas = {{"kappa = (n/2) B(n/2,(k+1)/2)", "(8)", 0}}},
     {.name = "cN", .title = "normal foundation modulus, at c0 or at x", .keywords = "stiffness Winkler", .d = PRESSURE, FOUNDATION(cN0),
-     CALL(cN, x, LENGTH), ROWS(MATERIAL, cN0), .formulas = {{"c_N(x) = c_N0 (x/c0)^k", "(4)", WHEN_CALL}, {"1/c_N0 = sum (1-nu^2)/(h_N E0)", "(4)", 0}}},
+     CALL(cN, x, LENGTH), .formulas = {{"c_N(x) = c_N0 (x/c0)^k", "(4)", WHEN_CALL}, {"1/c_N0 = sum (1-nu^2)/(h_N E0)", "(4)", 0}}},
     {.name = "cT", .title = "tangential foundation modulus, at c0 or at x", .keywords = "stiffness Winkler", .d = PRESSURE, FOUNDATION(cT0),
-     CALL(cT, x, LENGTH), ROWS(MATERIAL, cT0), .formulas = {{"c_T(x) = c_T0 (x/c0)^k", "(5)", WHEN_CALL}, {"1/c_T0 = sum 1/(h_T E0)", "(5)", 0}}},
+     CALL(cT, x, LENGTH), .formulas = {{"c_T(x) = c_T0 (x/c0)^k", "(5)", WHEN_CALL}, {"1/c_T0 = sum 1/(h_T E0)", "(5)", 0}}},
 
     /* ---- at a place ---- */
     {.name = "E", .title = "modulus at depth z", .keywords = "Young grading", .d = PRESSURE, .of = OF_FUNCTION, CALL(E, z, LENGTH),

@@ -17,21 +17,6 @@ typedef enum quantity_of {
     OF_GETTER      /* what get says */
 } quantity_of;
 
-/* Where many scenes at once (rows.h) hold it, and whose they are. */
-typedef enum row_source {
-    ROWS_OF_NOTHING,
-    ROWS_OF_MATERIAL, /* these want a material, */
-    ROWS_OF_SHAPE,    /* a gap, */
-    ROWS_OF_PRESS,    /* a press, */
-    ROWS_OF_FRICTION, /* and friction too */
-    ROWS_OF_CYCLE,    /* of the last cycle */
-    ROWS_OF_PUSH,     /* of first loading */
-    ROWS_OF_TWIN      /* of the twin with k = 0 */
-} row_source;
-
-/* What the argument of a function stands for there. */
-typedef enum row_argument { ROWS_BY_NOTHING, ROWS_BY_LOAD, ROWS_BY_PUSH } row_argument;
-
 /* When a formula holds: all of these. */
 enum {
     WHEN_ALWAYS = 0,
@@ -76,9 +61,6 @@ typedef struct quantity {
     dim argument_or; /* what the argument may be instead; a number: nothing else */
     /* the function at many arguments, to 2e-15; NULL: call does them one by one */
     bool (*block)(scene *s, const double arg[], double out[], size_t count, calc_error *error);
-    row_source rows;
-    row_argument rows_by;
-    size_t at_row;       /* member of fret_scene_values */
     unsigned reads;      /* inputs that it can depend on */
     bool load;           /* it depends on the load program too */
     const char *imposed; /* the command whose target it may be, or NULL */

@@ -30,11 +30,14 @@ static bool tame(double x) {
     return x > 0x1p-900 && x < 0x1p900;
 }
 
-void fret_loss_series(double rho, int terms, double out[]) {
-    double sum = 0;
-    for (int j = 0; j < terms; j++) {
+/* (1 + rho^2 + ... + rho^2j)/(2j+3)!, the coefficients of (sinh(x)/x - sinh(rho x)/(rho x))/((1-rho^2) x^2)
+ * in x^2. */
+static void make_series(double rho, double out[FRET_SWEEP_TERMS]) {
+    double sum = 0, factorial = 1; /* (2j+1)! */
+    for (int j = 0; j < FRET_SWEEP_TERMS; j++) {
         sum = 1 + rho * rho * sum;
-        out[j] = sum * fret_loss_factorial[j];
+        factorial *= (2 * j + 2) * (2 * j + 3);
+        out[j] = sum / factorial;
     }
 }
 
@@ -62,7 +65,7 @@ fret_status fret_sweep_make(const fret_contact *contact, fret_sweep *out) {
         w.scale = 4 * scale.hi;
         w.gross = w.scale * w.rho;
         w.cubic = 4 * dd_mul(scale, dd_mul(q, r)).hi;
-        fret_loss_series(w.rho, FRET_SWEEP_TERMS, w.series);
+        make_series(w.rho, w.series);
         w.slip = slip.hi;
         w.a = (double)press->a;
         split(dd_div(dd_of(1), normal->wide.s), w.radius);

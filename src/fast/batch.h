@@ -9,24 +9,6 @@
 #include "fret/batch.h"
 
 enum { FRET_SWEEP_TERMS = 15 };
-/* 1/(2j+3)! */
-static const double fret_loss_factorial[FRET_SWEEP_TERMS] = {
-    1 / 6.0,
-    1 / 120.0,
-    1 / 5040.0,
-    1 / 362880.0,
-    1 / 39916800.0,
-    1 / 6227020800.0,
-    1 / 1307674368000.0,
-    1 / 355687428096000.0,
-    1 / 121645100408832000.0,
-    1 / 51090942171709440000.0,
-    1 / 25852016738884976640000.0,
-    1 / 15511210043330985984000000.0,
-    1 / 10888869450418352160768000000.0,
-    1 / 8841761993739701954543616000000.0,
-    1 / 8222838654177922817725562880000000.0,
-};
 
 /* All that does not depend on the tangential load. */
 typedef struct fret_sweep {
@@ -52,10 +34,6 @@ typedef struct fret_press_law {
     double radius[2], depth[2]; /* 1/(n+k+1) and q, high and low part */
     double r0, dref;            /* [m] */
 } fret_press_law;
-
-/* (1 + rho^2 + ... + rho^2j)/(2j+3)!, the coefficients of (sinh(x)/x - sinh(rho x)/(rho x))/((1-rho^2) x^2)
- * in x^2. */
-void fret_loss_series(double rho, int terms, double out[]);
 
 /* Each loop returns whether some result is NaN. */
 typedef struct fret_variant {

@@ -399,15 +399,14 @@ const char *model_text(size_t id) {
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
                           "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
                           "    fret> set model springs 100\n    fret> dW\n    dW = 1.90687 uJ\n",
-        [MODEL_VECTORS] =
-            "The formulas in double, for many rows of a table or a curve at once: of a force\n"
-            "or amplitude, or of an input of a power-law gap at constant FN. Good to 2e-15.\n"
-            "Rows that they cannot answer for, and single values, are asked one by one.\n\n" EXAMPLE
-            "cycle FA=20 N\n    fret> table a, dW for R = 10 mm .. 20 mm steps 2\n"
-            "           R [mm]         a [um]        dW [uJ]\n"
-            "               10        186.626        1.90646\n"
-            "               15        213.633        1.66544\n"
-            "               20        235.133        1.51316\n",
+        [MODEL_VECTORS] = "The formulas in double, for many rows of a table or a curve over a force or an\n"
+                          "amplitude at once, as a(F), dz(F), c(F), dx(F), dW(FA) of a power-law gap. Good\n"
+                          "to 2e-15. Rows that they cannot answer for, and single values, are asked one by\n"
+                          "one.\n\n" EXAMPLE "table c(F), dW(F) for F = 10 N .. 30 N steps 2\n"
+                          "            F [N]      c(F) [um]     dW(F) [uJ]\n"
+                          "               10        169.561       0.188365\n"
+                          "               20        148.125        1.90646\n"
+                          "               30        117.567        9.01533\n",
         [MODEL_DOUBLE] = "The memory diagram of a power-law gap in double: forces, displacements and\n"
                          "energies to 3e-14 of their largest values so far, two to five times as fast.\n"
                          "Unless a model is chosen it tells forces, dz, dx, a and W behind 4096 rows of\n"

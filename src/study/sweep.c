@@ -8,7 +8,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "calc/rows.h"
 #include "number/real.h"
 #include "study/refine.h"
 #include "study/team.h"
@@ -23,7 +22,6 @@ typedef struct state {
     long double *values;              /* of a block, row by row */
     long double *row;                 /* of the row that is being evaluated */
     long double (*block)[EXPR_BLOCK]; /* of the expressions */
-    scene_rows *scenes;               /* where an input is swept */
     /* of the range */
     size_t rows;
     const long double *part; /* where each row is in it, 0..1; NULL: evenly */
@@ -134,28 +132,15 @@ static long double place(const state *st, size_t row) {
                        st->part ? st->part[row] : (long double)row / (long double)st->s->steps);
 }
 
-/* An expression at many rows. */
-static bool eval_block(state *st, size_t i, const long double *x, size_t rows, dim *d) {
-    sweep_job *job = st->job;
-    const expr *e = &job->expressions[i];
-    return st->s->var.is_input ? expr_eval_rows(job->c, e, st->scenes, st->block[i], d)
-                               : expr_eval_block(job->c, e, st->s->var.name, x, rows, st->block[i], d);
-}
-
-/* Many rows at once, all expressions or none. */
+/* Many values of a name at once, all expressions or none. */
 static bool run_block(state *st, const long double *x, size_t rows) {
     sweep_job *job = st->job;
     dim d;
-    if (st->s->var.is_input) {
-        calc_error unused;
-        knob var = st->s->var;
-        error_clear(&unused);
-        var.d = st->range.d;
-        if (!trial_set(st->t, &var, x[0], &unused) || !rows_begin(st->scenes, &st->t->scene, var.in, x, rows))
-            return false;
-    }
+    if (st->s->var.is_input)
+        return false;
     for (size_t i = 0; i < job->count; i++)
-        if (!eval_block(st, i, x, rows, &d) || !is_its_dim(job, i, d))
+        if (!expr_eval_block(job->c, &job->expressions[i], st->s->var.name, x, rows, st->block[i], &d) ||
+            !is_its_dim(job, i, d))
             return false;
     job->values += rows * job->count;
     return true;
@@ -562,8 +547,7 @@ bool sweep_run(const sweep *s, sweep_job *job) {
         sweep_begin(job, curves * (s->steps + 1));
     st.values = malloc(EXPR_BLOCK * job->count * sizeof *st.values);
     st.block = malloc(job->count * sizeof *st.block);
-    st.scenes = !s->along && s->var.is_input ? malloc(sizeof *st.scenes) : NULL;
-    bool ok = st.values && st.block && (s->along || !s->var.is_input || st.scenes);
+    bool ok = st.values && st.block;
     if (!ok)
         calc_no_memory(job->error);
     for (; st.curve < curves && ok; st.curve++) {
@@ -575,7 +559,6 @@ bool sweep_run(const sweep *s, sweep_job *job) {
     }
     free(st.values);
     free(st.block);
-    free(st.scenes);
     if (!job->part)
         sweep_end(job);
     return ok && (job->part || sweep_has_values(job));

@@ -536,19 +536,6 @@ CALL(fret_reference_loss_by_displacement) {
     if (have_press(w))
         (void)known_code(fret_reference_loss_by_displacement(&w->contact, x[0], w->sink, w->sink + 1));
 }
-CALL(fret_batch_scenes) {
-    double in[11][3], out[14][3];
-    for (int i = 0; i < 11; i++)
-        for (int j = 0; j < 3; j++)
-            in[i][j] = j == 1 ? 1 : x[i];
-    const fret_scenes scenes = {
-        {in[0], x[11] > 1 ? in[1] : NULL}, {in[2], in[3]}, in[4], in[5], in[6], in[7], in[8], in[9], in[10],
-        x[11] > 0 ? in[0] : NULL,          x[11] < 0};
-    const fret_scene_values values = {out[0], out[1], out[2], out[3],  out[4],  out[5],  out[6],
-                                      out[7], out[8], out[9], out[10], out[11], out[12], out[13]};
-    (void)w;
-    (void)fret_batch_scenes(&scenes, &values, 3);
-}
 CALL(fret_springs_make) {
     fret_springs *made;
     if (have_normal(w) &&
@@ -758,7 +745,6 @@ static const struct row {
     ROW(fret_quadrature_loss),
     ROW(fret_reference_loss_by_force),
     ROW(fret_reference_loss_by_displacement),
-    ROW(fret_batch_scenes),
     ROW(fret_springs_make),
     ROW(fret_springs_free),
     ROW(fret_springs_reset),
