@@ -106,7 +106,7 @@ $(B)/tests/%: $(B)/tests/unit/%.o $(call OBJ,$(CORE)) $(OUTER)
 $(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_blocks $(B)/tests/test_calc $(B)/tests/test_long_load: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
 $(B)/tests/test_blocks: WRAP += -pthread
 $(B)/tests/test_gnuplot: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc waitpid)
-$(B)/tests/test_moments: WRAP = $(addprefix -Wl$(COMMA)--wrap=,fret_exp fret_log fret_pow fret_table_distance fret_gap_profile)
+$(B)/tests/test_moments: WRAP = $(addprefix -Wl$(COMMA)--wrap=,expl logl fret_pow fret_table_distance fret_gap_profile)
 $(B)/tests/test_file: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc realloc strdup getpwuid open fdopen fcntl stat fstat ftruncate)
 
 # One file that depends on nothing, to copy to another machine: with musl, where it is at hand.

@@ -9,10 +9,10 @@
 FRET_BEGIN
 
 /* The closed forms in double, for many loads at once: ten times as fast as the functions of cycle.h and
- * normal.h, where 15 digits will do. The results have the same bits on every processor and from every
- * compiler. This holds for power laws. For other shapes, and where mu F_N, delta_x,max or their product
- * leaves 1e-270..1e270, the results are those of the functions named, rounded to double. Accuracy is
- * relative, for the arguments as given and results that are not denormal. */
+ * normal.h, where 15 digits will do. The results have the same bits whatever vectors the processor has. This
+ * holds for power laws. For other shapes, and where mu F_N, delta_x,max or their product leaves
+ * 1e-270..1e270, the results are those of the functions named, rounded to double. Accuracy is relative, for
+ * the arguments as given and results that are not denormal. */
 
 /* Energies [J] dissipated in cycles -FA .. FA, as fret_cycle_loss_by_force: 2e-15. Range 0 <= FA <= mu F_N
  * [N]. Errors: FRET_NOT_POSITIVE (mu, FN), FRET_NOT_FINITE, and those of the function named for the first

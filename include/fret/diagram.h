@@ -7,7 +7,7 @@
 FRET_BEGIN
 
 /* The memory diagram in double, for the inner loop of a dynamics code in which normal and tangential motion
- * both change: fret_memory for power laws, nine times as fast, four times where the loss counts.
+ * both change: fret_memory for power laws, eight times as fast, four times where the loss counts.
  *
  * With the depth y, or the load F_N(y) ~ y^p, as first coordinate and t = int_0^y sigma dy, or
  * int_0^y sigma dF_N, as second, the memory of a contact is a curve from (0, 0) to the present
@@ -20,15 +20,14 @@ FRET_BEGIN
  * in closed form, or by Gauss's rule of a polynomial where that would lose digits (by depth, not of Hertz's
  * law: there it is a sum of positive terms in the roots of D and d).
  *
- * A step costs two powers: each a place of a table and a series for p up to 6, else a logarithm and an
- * exponential; square roots where 2p, or 2/p by force, is a whole number up to 8 (sphere, cone at k = 0).
+ * A step costs two powers, or square roots where 2p, or 2/p by force, is a whole number up to 8 (sphere, cone
+ * at k = 0).
  *
  * Accuracy for p <= 5 against fret_memory, worst of random histories with contact lost and regained, up to
  * gross slip, within 1e-15 of it and beyond (make hard-diagram, tests/hard/diagram.txt): F_x to 3e-14 of mu
  * times the largest F_N so far, dx by force to 3e-14 of the largest delta_x,max so far, W to 1e-13 of itself
  * and of mu F_N delta_x,max together; no worse after 1e8 steps. Up to p = 10 ten times that, dx a hundred
- * times; beyond, nothing is promised. The results have the same bits on every processor and from every
- * compiler.
+ * times; beyond, nothing is promised.
  *
  * Thread-compatible: distinct contacts may be used by distinct threads. */
 typedef struct fret_diagram fret_diagram;

@@ -38,15 +38,10 @@ ln2_part = log(mpf(2)) / 64
 print("static const dd ln2_64 = %s;" % pair(ln2_part))
 print("static const double ln2_64_rest = %s;" % float(ln2_part - mpf(float(ln2_part)) - mpf(float(ln2_part - mpf(float(ln2_part))))).hex())
 ln = log(mpf(2))
-short = mp.floor(ln * 2 ** 40) / 2 ** 40
-print("static const fret_real ln2_short = %sL, ln2_left = %s;" % (float(short).hex(), real(ln - short)))
-print("static const fret_real ln2_64_short = %sL, ln2_64_left = %s;" % (float(short / 64).hex(), real((ln - short) / 64)))
 print("static const dd ln2 = %s;" % pair(ln))
 print("static const double ln2_rest = %s;" % float(ln - mpf(float(ln)) - mpf(float(ln - mpf(float(ln))))).hex())
 print("static const dd half_log_2pi = %s;" % pair(log(2 * pi) / 2))
 print("static const dd half_pi = %s;" % pair(pi / 2))
-hp = pi / 2
-print("static const double half_pi_rest = %s;" % float(hp - mpf(float(hp)) - mpf(float(hp - mpf(float(hp))))).hex())
 table("inverse_factorial", [1 / factorial(j) for j in range(0, 26)])
 table("inverse", [mpf(0)] + [1 / mpf(j) for j in range(1, 14)])
 table("stirling", [bernoulli(2 * j) / (2 * j * (2 * j - 1)) for j in range(1, 17)])

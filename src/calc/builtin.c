@@ -6,24 +6,6 @@
 #include "calc/tree.h"
 #include "number/real.h"
 
-/* Functions with the same digits under every mathematical library. */
-
-static long double real_tan(long double x) {
-    return fret_sin(x) / fret_cos(x);
-}
-
-static long double real_atan(long double x) {
-    return fret_atan2(x, 1);
-}
-
-static long double real_asin(long double x) {
-    return fret_atan2(x, sqrtl((1 - x) * (1 + x)));
-}
-
-static long double real_acos(long double x) {
-    return fret_atan2(sqrtl((1 - x) * (1 + x)), x);
-}
-
 static long double real_beta(long double x, long double y) {
     long double b = x > 0 && y > 0 ? fret_beta(x, y) : 0;
     return (double)b > 0 ? b : (long double)NAN;
@@ -31,18 +13,18 @@ static long double real_beta(long double x, long double y) {
 
 static const builtin builtins[] = {
     {"sqrt", sqrtl, NULL, DIM_HALVED, "square root; halves the dimension"},
-    {"exp", fret_exp, NULL, DIM_NUMBER, "exponential"},
-    {"log", fret_log, NULL, DIM_NUMBER, "natural logarithm"},
-    {"ln", fret_log, NULL, DIM_NUMBER, "natural logarithm"},
-    {"log10", fret_log10, NULL, DIM_NUMBER, "decimal logarithm"},
-    {"sin", fret_sin, NULL, DIM_NUMBER, "sine of an angle"},
-    {"cos", fret_cos, NULL, DIM_NUMBER, "cosine of an angle"},
-    {"tan", real_tan, NULL, DIM_NUMBER, "tangent of an angle"},
-    {"asin", real_asin, NULL, DIM_TO_ANGLE, "arc sine"},
-    {"acos", real_acos, NULL, DIM_TO_ANGLE, "arc cosine"},
-    {"atan", real_atan, NULL, DIM_TO_ANGLE, "arc tangent"},
+    {"exp", expl, NULL, DIM_NUMBER, "exponential"},
+    {"log", logl, NULL, DIM_NUMBER, "natural logarithm"},
+    {"ln", logl, NULL, DIM_NUMBER, "natural logarithm"},
+    {"log10", log10l, NULL, DIM_NUMBER, "decimal logarithm"},
+    {"sin", sinl, NULL, DIM_NUMBER, "sine of an angle"},
+    {"cos", cosl, NULL, DIM_NUMBER, "cosine of an angle"},
+    {"tan", tanl, NULL, DIM_NUMBER, "tangent of an angle"},
+    {"asin", asinl, NULL, DIM_TO_ANGLE, "arc sine"},
+    {"acos", acosl, NULL, DIM_TO_ANGLE, "arc cosine"},
+    {"atan", atanl, NULL, DIM_TO_ANGLE, "arc tangent"},
     {"abs", fabsl, NULL, DIM_KEPT, "magnitude; keeps the dimension"},
-    {"gamma", fret_gamma, NULL, DIM_NUMBER, "gamma function"},
+    {"gamma", tgammal, NULL, DIM_NUMBER, "gamma function"},
     {"min", NULL, fminl, DIM_SHARED, "the smallest of two or more"},
     {"max", NULL, fmaxl, DIM_SHARED, "the largest of two or more"},
     {"beta", NULL, real_beta, DIM_NUMBER, "beta function B(x,y), x, y > 0"},

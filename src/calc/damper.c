@@ -59,7 +59,7 @@ typedef struct branch {
 
 static fret_real branch_at(fret_real t, fret_real rest, void *context) {
     branch *b = context;
-    const fret_real sine = t < rest ? fret_sin(b->end * t) : fret_cos((FRET_PI / 2 - b->end) + b->end * rest);
+    const fret_real sine = t < rest ? sinl(b->end * t) : cosl((FRET_PI / 2 - b->end) + b->end * rest);
     fret_loading first = {0, 0, 0, 0};
     if (!b->failed.code) /* as far as dxA it does, if it did there, unless it is interrupted */
         b->failed = fret_loading_by_displacement(&b->of->contact, (double)(b->of->dxA * sine * sine), &first);
@@ -83,7 +83,7 @@ static bool harmonic_stiffness(scene *s, const peak *at, long double *out, calc_
     const fret_real slides = fret_gross_slip(&p.contact) / p.dxA; /* sin^2 phi there */
     if (slides < 1) {
         const fret_real rest = 1 - slides;
-        b.end = fret_atan2(sqrtl(slides), sqrtl(rest));
+        b.end = atan2l(sqrtl(slides), sqrtl(rest));
         flat = -p.contact.mu * p.contact.press.F * sqrtl(slides * rest);
     }
     const fret_real part = b.end * fret_integrate_closely(branch_at, &b);

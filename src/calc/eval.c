@@ -74,7 +74,7 @@ static long double real_value(const expr_node *n, long double a, long double b) 
     case '/':
         return a / b;
     default:
-        return fret_pow(a, b);
+        return powl(a, b);
     }
 }
 

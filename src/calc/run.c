@@ -104,7 +104,7 @@ static bool must_wait(runner *r) {
 static double way(const leg *l, double x) {
     if (l->even || l->law == LEG_STRAIGHT || (l->law == LEG_HALF && x == 0.5)) /* through 0 exactly */
         return x;
-    return (double)(l->law == LEG_RISE ? fret_sin(pi / 2 * x) : (1 - fret_cos(pi * x)) / 2);
+    return (double)(l->law == LEG_RISE ? sinl(pi / 2 * x) : (1 - cosl(pi * x)) / 2);
 }
 
 static fret_status step_of(runner *r, const leg *l, const fret_step *step) {
@@ -210,7 +210,7 @@ static double wrapped(double angle) {
 /* cos at a rounded angle: 0 where it is below what the rounding moves it by, as the load passes through its
  * mean. */
 static double harmonic(long double angle) {
-    const double v = (double)fret_cos(angle);
+    const double v = (double)cosl(angle);
     return fabs(v) < 4 * DBL_EPSILON ? 0 : v;
 }
 
@@ -226,16 +226,16 @@ typedef struct swing {
 static double slip_rate(const swing *w, double angle, int sign) {
     const double A = w->cycle->step.tangential_value, FNA = w->cycle->step.normal_value;
     const double phase = w->cycle->extra.phase;
-    double bound = w->load->mu * FNA * (double)fret_sin((long double)angle + phase);
+    double bound = w->load->mu * FNA * (double)sinl((long double)angle + phase);
     if (w->cycle->step.tangential == BY_DISPLACEMENT) {
         fret_press press;
-        const double FN = (double)(w->FN + FNA * fret_cos((long double)angle + phase));
+        const double FN = (double)(w->FN + FNA * cosl((long double)angle + phase));
         if (!(FN > 0) || fret_press_by_force(w->load->normal, FN, &press).code)
             return NAN;
         bound *= (double)(fret_normal_foundation(w->load->normal)->eta /
                           fret_normal_stiffness(w->load->normal, press.a));
     }
-    return -A * (double)fret_sin(angle) - sign * bound;
+    return -A * (double)sinl(angle) - sign * bound;
 }
 
 enum { SCAN = 64 };

@@ -106,7 +106,7 @@ long double unit_scale(const unit *u) {
                                          1e1L,  1e2L,  1e3L,  1e4L,  1e5L,  1e6L,  1e7L,  1e8L,  1e9L};
     if (u->exp10 >= -9 && u->exp10 <= 9)
         return powers[u->exp10 + 9] * u->factor;
-    return fret_pow(10, u->exp10) * u->factor;
+    return powl(10, u->exp10) * u->factor;
 }
 
 bool dim_equal(dim a, dim b) {

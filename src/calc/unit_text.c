@@ -52,12 +52,12 @@ static bool unit_factor(lexer *lx, unit *out) {
         return power_of_power(lx, word, at, n);
     out->d = dim_power(out->d, n);
     double exp10 = out->exp10 * n;
-    out->factor = out->factor == 1 ? 1 : fret_pow(out->factor, n);
+    out->factor = out->factor == 1 ? 1 : powl(out->factor, n);
     if (fabs(exp10) < 300 && exp10 == floor(exp10)) {
         out->exp10 = (int)exp10;
     } else {
         out->exp10 = 0;
-        out->factor *= fret_pow(10, exp10);
+        out->factor *= powl(10, exp10);
     }
     return true;
 }

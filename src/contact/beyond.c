@@ -27,7 +27,7 @@ typedef struct trail {
 /* x^-k H, with unit e. */
 static fret_real value_of(const trail *t, fret_real x, const fret_real sum[3]) {
     const fret_real alpha = (t->normal->foundation.k - 1) / 2;
-    return fret_exp(-(alpha + 1) * fret_log(x)) * t->unit_alpha * sum[2];
+    return expl(-(alpha + 1) * logl(x)) * t->unit_alpha * sum[2];
 }
 
 /* At the distance e: of the rows as if the last one went on. */

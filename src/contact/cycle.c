@@ -152,7 +152,7 @@ static fret_real loss_shape(dd q_wide, dd r_wide, const fraction *f) {
             sum += h / factorial;
             j++;
         } while (sum > old);
-        return 4 * q * r * l * l * l * fret_exp(-alpha) * sum;
+        return 4 * q * r * l * l * l * expl(-alpha) * sum;
     }
     if (q <= 0.5L) {
         fret_real y = -lost(f, q_wide);

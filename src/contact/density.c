@@ -4,7 +4,6 @@
 #include "contact/density.h"
 
 #include "contact/ring.h"
-#include "number/double.h"
 #include "number/real.h"
 
 static fret_real sum_of(const curve *c, const fret_real *smooth, const fret_real *kink) {
@@ -34,12 +33,12 @@ static fret_real near_integral(const struct fret_density *d, const ring *p, int 
                                                                          : at > 0      ? fret_kernel_above
                                                                                        : fret_kernel_below;
     if (c.x != 1)
-        c.x_m = fret_exp(d->m * fret_log(c.x));
+        c.x_m = expl(d->m * logl(c.x));
     if (rest != 0)
-        c.rim = fret_exp((kind == DEPTH ? 1 - d->m : d->m) * fret_log(c.rest));
+        c.rim = expl((kind == DEPTH ? 1 - d->m : d->m) * logl(c.rest));
     if (c.d > 0 && (kind == DEPTH || 2 * c.d < c.x)) {
-        c.d_m = fret_exp(d->m * fret_log(c.d));
-        c.span = kind == DEPTH ? 0 : fret_log(c.x / (2 * c.d));
+        c.d_m = expl(d->m * logl(c.d));
+        c.span = kind == DEPTH ? 0 : logl(c.x / (2 * c.d));
     }
     fret_real I[2][MOST];
     if (of->smooth)
@@ -57,7 +56,7 @@ static bool far_integral(const struct fret_density *d, const block *b, int kind,
     if (!(away >= 2 * b->half))
         return false;
     const double ratio = (double)(b->half / away), x2 = ratio * ratio, x4 = x2 * x2, *c = b->moment[kind];
-    const double log_away = fret_double_log((double)(away / d->unit));
+    const double log_away = log((double)(away / d->unit));
     double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
     for (int n = (int)(38.8 / (log_away - b->log_half)) & ~3; n >= 0; n -= 4) {
         s0 = s0 * x4 + c[n];
@@ -66,8 +65,7 @@ static bool far_integral(const struct fret_density *d, const block *b, int kind,
         s3 = s3 * x4 + c[n + 3];
     }
     const double power = kind == SLOPE ? (double)d->m - 1 : -(double)d->m;
-    *sum =
-        d->far_scale[kind] * fret_double_exp(power * log_away) * ((s0 + ratio * s1) + x2 * (s2 + ratio * s3));
+    *sum = d->far_scale[kind] * exp(power * log_away) * ((s0 + ratio * s1) + x2 * (s2 + ratio * s3));
     return true;
 }
 
@@ -83,8 +81,8 @@ static bool far_row(const struct fret_density *d, const fret_row_part *row, int 
     const curve *c = &made.of[kind];
     const double(*kinks)[TAYLOR] = d->moment[kind == SLOPE ? OF_SLOPE : OF_DEPTH],
           ratio = (double)(half / away);
-    const double log_away = fret_double_log((double)(away / d->unit));
-    const int terms = (int)(38.8 / -fret_double_log(ratio)) + 1;
+    const double log_away = log((double)(away / d->unit));
+    const int terms = (int)(38.8 / -log(ratio)) + 1;
     double of[TAYLOR] = {0}, all = 0;
     for (int j = 0; j < c->smooth; j++)
         for (int n = 0; n < terms; n++)
@@ -95,7 +93,7 @@ static bool far_row(const struct fret_density *d, const fret_row_part *row, int 
     for (int n = terms; n-- > 0;)
         all = all * ratio + of[n] * d->binomial[kind][n];
     const double power = kind == SLOPE ? (double)d->m - 1 : -(double)d->m;
-    *sum = d->far_scale[kind] * fret_double_exp(power * log_away) * all;
+    *sum = d->far_scale[kind] * exp(power * log_away) * all;
     return true;
 }
 

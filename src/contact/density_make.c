@@ -8,7 +8,6 @@
 #include "contact/check.h"
 #include "contact/ring.h"
 #include "number/array.h"
-#include "number/double.h"
 #include "number/real.h"
 
 typedef struct maker {
@@ -272,7 +271,7 @@ static void make_block(maker *m, size_t first, size_t last, fret_real moment[KIN
     b->lo = fret_ring_at(d, first, SLOPE, &made)->lo;
     b->hi = fret_ring_at(d, last - 1, SLOPE, &made)->hi;
     b->half = square_distance(b->hi, b->lo) / 2;
-    b->log_half = fret_double_log((double)(b->half / d->unit));
+    b->log_half = log((double)(b->half / d->unit));
     for (int n = 0; n < TAYLOR; n++)
         moment[SLOPE][n] = moment[DEPTH][n] = 0;
     if (fret_stopped(m->normal))

@@ -78,13 +78,13 @@ static fret_real near_integral(inside *c) {
  * outer end counts: linear in the power itself. */
 static fret_real pressure_beyond(fret_real t, fret_real rest, void *context) {
     const inside *c = context;
-    fret_real span = fret_log(c->to / c->from), l = span * t, weight = span;
+    fret_real span = logl(c->to / c->from), l = span * t, weight = span;
     if (c->power * span > 150) {
-        fret_real u = rest + t * fret_exp(c->power * span);
-        l = fret_log(u) / c->power;
-        weight = fret_expm1(c->power * span) / (c->power * u);
+        fret_real u = rest + t * expl(c->power * span);
+        l = logl(u) / c->power;
+        weight = expm1l(c->power * span) / (c->power * u);
     }
-    fret_real e = fminl(c->from * fret_exp(l), c->to);
+    fret_real e = fminl(c->from * expl(l), c->to);
     return weight * e * slope_at(c, e) * singular(c, e);
 }
 
@@ -111,13 +111,12 @@ static fret_real near_edge(fret_real n, fret_real m, fret_real v, fret_real w) {
 
 /* From b to 1, with v = (r/b)^2 well below 1: the kernel as a series in (r/x)^2. */
 static fret_real far_from_edge(fret_real n, fret_real m, fret_real r, fret_real b, fret_real v) {
-    const fret_real rise = n + 2 * m - 2, span = -fret_log(b);
+    const fret_real rise = n + 2 * m - 2, span = -logl(b);
     fret_real sum = 0, c = 1, outer = 1, inner = fret_pow(b, rise);
     for (int j = 0; c * (inner + outer) > LDBL_EPSILON / 8 * sum; j++) { /* of r^2 < 0.7, v < 0.3 */
         const fret_real power = rise - 2 * j;
-        sum +=
-            c * (fabsl(power) * span < 0.5L ? inner * (power != 0 ? fret_expm1(power * span) / power : span)
-                                            : (outer - inner) / power);
+        sum += c * (fabsl(power) * span < 0.5L ? inner * (power != 0 ? expm1l(power * span) / power : span)
+                                               : (outer - inner) / power);
         c *= (1 - m + j) / (1 + j);
         outer *= r * r;
         inner *= v;
@@ -215,8 +214,8 @@ typedef struct outside {
 static fret_real outside_part(fret_real t, fret_real rest, void *context) {
     (void)t;
     const outside *c = context;
-    fret_real k1 = 1 + c->normal->rule.k, l = fret_log1p(-c->span * rest) / k1;
-    fret_real below = -c->hi * fret_expm1(l), x = l < -1 ? c->hi * fret_exp(l) : c->hi - below,
+    fret_real k1 = 1 + c->normal->rule.k, l = log1pl(-c->span * rest) / k1;
+    fret_real below = -c->hi * expm1l(l), x = l < -1 ? c->hi * expl(l) : c->hi - below,
               g = 0; /* hi-x keeps its digits near the edge, x near the centre */
     if (!c->flat && x > c->lo && !fret_stopped(c->normal))
         g = fret_gap_profile(&c->normal->gap, &c->normal->rule, x - c->lo).g;
@@ -225,7 +224,7 @@ static fret_real outside_part(fret_real t, fret_real rest, void *context) {
 
 static fret_real outside_integral(const fret_normal *n, fret_real r, fret_real dz, fret_real lo, fret_real hi,
                                   bool flat) {
-    fret_real k1 = 1 + n->foundation.k, span = lo > 0 ? -fret_expm1(k1 * fret_log(lo / hi)) : 1;
+    fret_real k1 = 1 + n->foundation.k, span = lo > 0 ? -expm1l(k1 * logl(lo / hi)) : 1;
     outside c = {n, r, dz, lo, hi, span, flat};
     return fret_pow(hi, k1) * span / k1 * fret_integrate(outside_part, &c);
 }
@@ -240,7 +239,7 @@ fret_real fret_field_flat(fret_real k, fret_real q, fret_real away) {
         term *= x * (b + j) / (j + 1);
     }
     sum *= fret_pow(x, b);
-    return (near ? FRET_PI / fret_sin(FRET_PI * fminl(m, 1 - m)) - sum : sum) / 2;
+    return (near ? FRET_PI / sinl(FRET_PI * fminl(m, 1 - m)) - sum : sum) / 2;
 }
 
 static fret_real flat_outside(fret_real k, fret_real a, fret_real r) {
@@ -271,7 +270,7 @@ static fret_real surface_far(fret_real k, const fret_term *term, int terms, fret
 /* From the edge: the whole, which makes the gap itself, less what is beyond x = a. away: 1-(a/r)^2. */
 static fret_real surface_near(fret_real k, const fret_term *term, int terms, fret_real dz, fret_real a,
                               fret_real r, fret_real away) {
-    const fret_real m = (k + 1) / 2, whole = FRET_PI / fret_sin(FRET_PI * fminl(m, 1 - m)),
+    const fret_real m = (k + 1) / 2, whole = FRET_PI / sinl(FRET_PI * fminl(m, 1 - m)),
                     edge = fret_pow(away, 1 - m);
     fret_real sum = dz * flat_outside(k, a, r);
     for (int i = 0; i < terms; i++) {
@@ -321,16 +320,15 @@ typedef struct power_field {
 
 /* (x^2-r^2)^(m-1) */
 static fret_real steep_kernel(const power_field *c, fret_real z) {
-    return fret_pow(c->r * c->r * fret_expm1(2 * z / c->n), c->m - 1);
+    return fret_pow(c->r * c->r * expm1l(2 * z / c->n), c->m - 1);
 }
 
 /* Near r, where the kernel is singular: z = c->z t^(1/m), which takes z^m = c->z^m t of it away. */
 static fret_real steep_near(fret_real t, fret_real rest, void *context) {
     const power_field *c = context;
     (void)rest;
-    const fret_real z = c->z * fret_exp(fret_log(t) / c->m), u = 2 * z / c->n,
-                    bend = u > 0 ? fret_expm1(u) / u : 1;
-    return fret_exp(z - c->wide) * fret_pow(c->z, c->m) * fret_pow(2 * c->r * c->r / c->n * bend, c->m - 1) /
+    const fret_real z = c->z * expl(logl(t) / c->m), u = 2 * z / c->n, bend = u > 0 ? expm1l(u) / u : 1;
+    return expl(z - c->wide) * fret_pow(c->z, c->m) * fret_pow(2 * c->r * c->r / c->n * bend, c->m - 1) /
            c->m;
 }
 
@@ -338,27 +336,27 @@ static fret_real steep_near(fret_real t, fret_real rest, void *context) {
 static fret_real steep_far(fret_real t, fret_real rest, void *context) {
     const power_field *c = context;
     const fret_real span = c->wide - c->z;
-    return fret_stopped(c->normal) ? 0 : span * fret_exp(-span * rest) * steep_kernel(c, c->z + span * t);
+    return fret_stopped(c->normal) ? 0 : span * expl(-span * rest) * steep_kernel(c, c->z + span * t);
 }
 
 /* The whole where r lies so deep that what is near it has no weight: linear in y = 0 .. 1. */
 static fret_real steep_deep(fret_real t, fret_real rest, void *context) {
     const power_field *c = context;
-    const fret_real ln_y = rest < 0.5L ? fret_log1p(-rest) : fret_log(t);
+    const fret_real ln_y = rest < 0.5L ? log1pl(-rest) : logl(t);
     return ln_y > -c->wide ? steep_kernel(c, c->wide + ln_y) : 0;
 }
 
 /* x^(2m) (r^2-x^2)^-m, x = a e^l = a y^(1/n). */
 static fret_real steep_outside(const power_field *c, fret_real l) {
-    const fret_real gap = (c->r - c->a) * (c->r + c->a) - c->a * c->a * fret_expm1(2 * l);
-    return fret_pow(c->a * c->a * fret_exp(2 * l) / gap, c->m);
+    const fret_real gap = (c->r - c->a) * (c->r + c->a) - c->a * c->a * expm1l(2 * l);
+    return fret_pow(c->a * c->a * expl(2 * l) / gap, c->m);
 }
 
 /* y = t/2 */
 static fret_real steep_centre(fret_real t, fret_real rest, void *context) {
     const power_field *c = context;
     (void)rest;
-    return steep_outside(c, fret_log(t / 2) / c->n) / 2;
+    return steep_outside(c, logl(t / 2) / c->n) / 2;
 }
 
 /* y = 1 - t^(1/(1-m))/2, which takes the singularity at the edge away from an r that is near it. */
@@ -366,7 +364,7 @@ static fret_real steep_rim(fret_real t, fret_real rest, void *context) {
     const power_field *c = context;
     const fret_real power = 1 / (1 - c->m), away = fret_pow(t, power) / 2;
     (void)rest;
-    return fret_stopped(c->normal) ? 0 : steep_outside(c, fret_log1p(-away) / c->n) * power * away / t;
+    return fret_stopped(c->normal) ? 0 : steep_outside(c, log1pl(-away) / c->n) * power * away / t;
 }
 
 /* int_r^a g' (x^2-r^2)^(m-1) dx of a power of depth G at the edge. */
@@ -490,7 +488,7 @@ static fret_real surface_steep(const fret_normal *n, const fret_power *g, const 
 
 fret_real fret_field_surface_factor(fret_real k) {
     const fret_real away = (1 - fabsl(k)) / 2;
-    return 2 / FRET_PI * (fabsl(k) <= 0.5L ? fret_cos(FRET_PI * k / 2) : fret_sin(FRET_PI * away));
+    return 2 / FRET_PI * (fabsl(k) <= 0.5L ? cosl(FRET_PI * k / 2) : sinl(FRET_PI * away));
 }
 
 static fret_status surface_of(const fret_normal *n, const rim *at, fret_real r, fret_real *w) {
@@ -570,8 +568,8 @@ static fret_real ring_pressure(const fret_normal *n, fret_real inner, fret_real 
     const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
     fret_real sum = 0;
     for (int i = 0; i < terms; i++) {
-        const fret_real by = term[i].n + k - 1, l = fret_log(b / a);
-        sum -= term[i].G * term[i].n * (by != 0 ? fret_expm1(by * l) / by : l);
+        const fret_real by = term[i].n + k - 1, l = logl(b / a);
+        sum -= term[i].G * term[i].n * (by != 0 ? expm1l(by * l) / by : l);
     }
     sum *= fret_pow(a, k - 1);
     if (terms == 0 && c.from <= 0)

@@ -76,7 +76,7 @@ void fret_kernel_power(powers *p, int of_m, int whole, fret_real m) {
 }
 
 void fret_kernel_flat_make(flat_field *f, fret_real m) {
-    *f = (flat_field){.m = m, .whole = FRET_PI / fret_sin(FRET_PI * fminl(m, 1 - m))};
+    *f = (flat_field){.m = m, .whole = FRET_PI / sinl(FRET_PI * fminl(m, 1 - m))};
     make_series(m, m, f->centre);
     make_series(1 - m, 1 - m, f->edge);
 }
@@ -109,7 +109,7 @@ static fret_real far_part(const powers *p, const reach *c, fret_real sign, fret_
     const fret_real inner = p->nearest_two * d_power, span = p->away * c->span;
     if (fabsl(span) >= 0.5L)
         return sum + b * (outer - inner) / p->away;
-    return sum + b * inner * (p->away != 0 ? fret_expm1(span) / p->away : c->span);
+    return sum + b * inner * (p->away != 0 ? expm1l(span) / p->away : c->span);
 }
 
 void fret_kernel_above(const powers *p, const reach *c, int count, fret_real *I) {

@@ -33,7 +33,7 @@ static fret_real search_from(const fret_normal *n, bool by_force, fret_real targ
         else
             hi = e;
         fret_real slope = e * p.slope * (by_force ? fret_normal_stiffness(n, start + e) : 1) / value;
-        fret_real next = e * fret_exp(fret_log(target / value) / slope);
+        fret_real next = e * expl(logl(target / value) / slope);
         if (hi <= least)
             return 0;
         if (fabsl(next - e) <= 1e-11L * e) /* quadratic: the next step would be 1e-22 */
@@ -182,13 +182,13 @@ fret_point fret_law_at_force(const fret_normal *n, fret_real F) {
 
 fret_real fret_law_load_outside(const fret_normal *n, const fret_level *outer, fret_real inner_depth) {
     if (fret_normal_closed(n))
-        return -outer->F * fret_expm1(n->p * fret_log(inner_depth / outer->y));
+        return -outer->F * expm1l(n->p * logl(inner_depth / outer->y));
     return outer->F - fret_law_force(n, inner_depth);
 }
 
 fret_real fret_law_thickness_outside(const fret_normal *n, const fret_level *outer, fret_real inner_load) {
     if (fret_normal_closed(n))
-        return -outer->y * fret_expm1(n->q * fret_log(inner_load / outer->F));
+        return -outer->y * expm1l(n->q * logl(inner_load / outer->F));
     return outer->y - fret_law_depth(n, inner_load);
 }
 

@@ -58,7 +58,7 @@ struct fret_leaves {
 static void add_bend(const struct fret_leaves *all, const fret_real c[3], fret_real u, fret_real x,
                      fret_real V[2]) {
     const fret_real q = u / (2 * x), size = 2 * u / all->unit, r = x - u;
-    const fret_real power = fret_exp(all->alpha * fret_log(size)) * u;
+    const fret_real power = expl(all->alpha * logl(size)) * u;
     const fret_real rising[3] = {c[0] + r * c[1], 2 * (c[1] + r * c[2]), 3 * c[2]}; /* f' + r f'' */
     int terms = 1;
     for (fret_real left = 1e21L * q; left > 1 && terms < SERIES; left *= q)
@@ -192,7 +192,7 @@ static void add_bends(const struct fret_leaves *all, size_t from, size_t to, fre
 /* (1+z)^-alpha */
 static fret_real near_one(const struct fret_leaves *all, fret_real z) {
     if (fabsl(z) > 1e-3L)
-        return fret_exp(-all->alpha * fret_log1p(z));
+        return expl(-all->alpha * log1pl(z));
     fret_real sum = 0;
     for (int j = BINOMIALS; j-- > 0;)
         sum = sum * z + all->binomial[j];

@@ -72,14 +72,17 @@ static bool is_smooth(const fret_phase *p) {
     return p->front1 > 0.8L * p->front0 && p->edge1 > 0.8L * p->edge0 && p->edge0 > 0.8L * p->edge1;
 }
 
-/* To what the rate can be had where edge or front cross rows. Row by row a slice begins and ends at places of
- * their own, which the last bits of a depth or load tell: halves of the integral agree no better. */
+/* To what the rate can be had where edge or front cross rows. The last bits of a depth or load tell the place
+ * of a front that is near the centre, and, row by row, where a thin slice begins and ends: halves of the
+ * integral agree no better. */
 static fret_real tolerance_of(const fret_phase *p) {
     const fret_normal *n = p->normal;
     const fret_real edge = fmaxl(p->edge0, p->edge1),
-                    thick = fmaxl(p->edge0 - p->front0, p->edge1 - p->front1),
-                    bits = n->pieces && fret_pieces_by_rows(n->pieces) ? 16 * LDBL_EPSILON * edge / thick : 0;
-    return fmaxl(fmaxl(1e-15L, n->borne), bits);
+                    thick = fmaxl(p->edge0 - p->front0, p->edge1 - p->front1);
+    fret_real least = n->pieces ? p->front0 : edge;
+    if (n->pieces && fret_pieces_by_rows(n->pieces))
+        least = fminl(least, thick);
+    return fmaxl(fmaxl(1e-15L, n->borne), 16 * LDBL_EPSILON * edge / least);
 }
 
 /* Does edge or front come near the centre without reaching it? A rate is singular there, just beyond an end,
@@ -157,14 +160,14 @@ static fret_real thin_bow(const power_phase *c, fret_real x) {
 static fret_real bow(const power_phase *c, fret_real x, fret_real inner) {
     if (fmaxl(c->s, 1) * x < 0.2L)
         return thin_bow(c, x);
-    const fret_real log = x < 0.5L ? fret_log1p(-x) : fret_log(inner), em = fret_expm1(c->sm1 * log);
+    const fret_real log = x < 0.5L ? log1pl(-x) : logl(inner), em = expm1l(c->sm1 * log);
     return fabsl(em * (1 + c->sm1 * x) + c->sm1 * x);
 }
 
 /* (1+u)^s, -1 < u <= 0 */
 static fret_real power_near(const power_phase *c, fret_real u) {
     if (c->s * -u > 0.02L || -u > 0.02L)
-        return fret_exp(c->s * fret_log1p(u));
+        return expl(c->s * log1pl(u));
     fret_real term = c->s * u, sum = 1 + term;
     for (int i = 2; fabsl(term) > LDBL_EPSILON / 4; i++) {
         term *= u * (c->s - (fret_real)(i - 1)) / (fret_real)i;
@@ -189,7 +192,7 @@ static fret_real power_rate(fret_real t, fret_real rest, void *context) {
  * and the loss is travel [mean of u(edge) - mean of u(front)] + [thickness (u(front) - mean of u(front))],
  * from one end of the phase to the other. */
 static fret_real bent(const power_phase *c, fret_real x) {
-    return x > 0 ? x * fret_expm1(c->sm1 * fret_log(x)) : 0;
+    return x > 0 ? x * expm1l(c->sm1 * logl(x)) : 0;
 }
 
 static fret_real mean_bent(const power_phase *c, fret_real x0, fret_real u0, fret_real x1, fret_real u1) {

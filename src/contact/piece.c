@@ -2,7 +2,6 @@
 /* Polynomials of a piece: their values, places, and integrals over parts. Pure arithmetic. */
 #include "contact/piece.h"
 
-#include "number/double.h"
 #include "number/quadrature.h"
 #include "number/real.h"
 
@@ -94,7 +93,7 @@ fret_real fret_piece_distance(const piece *p, fret_real z, fret_real *rate) {
         *rate = 4 * p->width * s2 * s * p->half;
         return p->origin + p->width * (s2 * s2);
     }
-    const fret_real e = fret_exp(s);
+    const fret_real e = expl(s);
     *rate = e * p->half;
     return e;
 }
@@ -188,7 +187,7 @@ static double bent_rise(const piece *p, int by, fret_real rise, double *rate) {
     }
     const double inner = (double)fret_level_by(&p->inner, by);
     *rate = 1 / (inner + up);
-    return fret_double_log1p(up / inner);
+    return log1p(up / inner);
 }
 
 static double guess_of(const piece *p, int by, fret_real rise, double *rate) {

@@ -74,7 +74,7 @@ bool fret_pieces_depth(const struct fret_pieces *pieces, fret_real e, fret_real 
     if (!find(all, BY_DISTANCE, e, &i))
         return false;
     const piece *p = &all->piece[i];
-    const fret_real at = p->width > 0 ? sqrtl(sqrtl((e - p->origin) / p->width)) : fret_log(e);
+    const fret_real at = p->width > 0 ? sqrtl(sqrtl((e - p->origin) / p->width)) : logl(e);
     *depth = p->inner.y + fret_polynomial_at(&p->rise[DEPTHS], (at - p->middle) / p->half);
     return true;
 }

@@ -249,8 +249,8 @@ static bool cover(maker *m, fret_real origin, fret_real width, fret_real lo, fre
 
 /* Each piece twice as long as the last, as far as that does. */
 static bool cover_smooth(maker *m, fret_real from, fret_real to) {
-    fret_real lo = fret_log(from), length = 0.4L, most = 2;
-    const fret_real hi = fret_log(to);
+    fret_real lo = logl(from), length = 0.4L, most = 2;
+    const fret_real hi = logl(to);
     while (lo < hi) {
         const fret_real end = hi - lo < 1.3L * length ? hi : lo + length;
         if (cover(m, 0, 0, lo, end, 0, 1)) {
@@ -324,7 +324,7 @@ static fret_real rate_of(const fret_real *c, fret_real z) {
 }
 
 static span look(maker *m, const fret_real *row, size_t first, size_t last) {
-    const fret_real lo = fret_log(row[first]), hi = fret_log(row[last]);
+    const fret_real lo = logl(row[first]), hi = logl(row[last]);
     span s = {.first = first, .last = last, .p = {.middle = (lo + hi) / 2, .half = (hi - lo) / 2}};
     fret_real value[NODES], rate, F;
     fret_profile at;
@@ -540,8 +540,7 @@ static bool make_core(maker *m) {
     const fret_slice core = fret_law_slice(n, &all->least, all->least.y);
     fret_real K = fret_normal_stiffness(n, m->start + all->from);
     if (m->start > 0) /* it grows from that of the flat end by little */
-        K = fret_normal_stiffness(n, m->start) *
-            fret_expm1((1 + n->foundation.k) * fret_log1p(all->from / m->start));
+        K = fret_normal_stiffness(n, m->start) * expm1l((1 + n->foundation.k) * log1pl(all->from / m->start));
     all->start = m->start;
     all->K_start = fret_normal_stiffness(n, m->start);
     all->core = (stretch){all->least.y, K, core.G, core.L};

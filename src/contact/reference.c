@@ -25,8 +25,8 @@ typedef struct slip_zone {
 static fret_real by_depth(const slip_zone *s, fret_real t, fret_real rest) {
     const fret_normal *n = s->normal;
     fret_real from_edge = s->X * rest, y = s->yc + s->X * t;
-    fret_real l = from_edge < 0.5L ? fret_log1p(-from_edge) : fret_log(y);
-    return n->p * n->pm1 * fret_exp((n->pm1 - 1) * l) * t * rest;
+    fret_real l = from_edge < 0.5L ? log1pl(-from_edge) : logl(y);
+    return n->p * n->pm1 * expl((n->pm1 - 1) * l) * t * rest;
 }
 
 /* int 2 (x/c0)^k (g(a)-g(x)) (g(x)-g(c)) dx */
@@ -49,8 +49,8 @@ static fret_real piece_sum(const slip_zone *s, fret_real first, fret_real step) 
     fret_sum sum = {0, 0};
     unsigned count = (unsigned)floorl((END - first) / step + 0.5L);
     for (unsigned i = 0; i <= count && !fret_stopped(s->normal); i++) {
-        fret_real u = first + step * i, grown = fret_exp(fabsl(u));
-        fret_real e = fret_exp(-FRET_PI * (grown - 1 / grown) / 2), near = e / (1 + e), far = 1 / (1 + e);
+        fret_real u = first + step * i, grown = expl(fabsl(u));
+        fret_real e = expl(-FRET_PI * (grown - 1 / grown) / 2), near = e / (1 + e), far = 1 / (1 + e);
         fret_real weight = FRET_PI * (grown + 1 / grown) / 2 * near * far; /* dt/du */
         fret_sum_add(&sum, weight * (u < 0 ? f(s, near, far) : f(s, far, near)));
     }

@@ -2,7 +2,6 @@
 /* Rings from values at Chebyshev's nodes and from rows of a table. Allocates nothing. */
 #include "contact/ring.h"
 
-#include "number/double.h"
 #include "number/real.h"
 
 fret_real fret_ring_largest(const fret_real *v) {
@@ -62,9 +61,8 @@ static bool multiply_depth(const struct fret_density *d, const fret_row_part *ro
     curve *of = &p->of[DEPTH];
     if (!(bend <= narrow) || smooth + FACTORS > MOST + 1 || bent + FACTORS > MOST + 1)
         return false;
-    const fret_real power =
-        about ? fret_double_exp((double)(2 * (d->m - 1)) * fret_double_log((double)(p->lo / d->reach)))
-              : fret_pow(p->lo, 2 * (d->m - 1));
+    const fret_real power = about ? exp((double)(2 * (d->m - 1)) * log((double)(p->lo / d->reach)))
+                                  : fret_pow(p->lo, 2 * (d->m - 1));
     fret_real factor = p->width / 2 * power * (about ? d->reach_power : 1);
     *of = (curve){.smooth = smooth + FACTORS - 1, .kink = bent > 0 ? bent + FACTORS - 1 : 0};
     for (int n = 0; n < FACTORS; n++) {

@@ -25,16 +25,16 @@ static fret_real log_ratio(fret_real k) {
 
 void fret_ripple_make(fret_ripple *p, fret_real k) {
     static const fret_real little = 0.05L;
-    const fret_real m = (k + 1) / 2, b = 1 - k, half = fret_gamma(1 - k / 2);
-    *p = (fret_ripple){.k = k, .m = m, .whole = FRET_PI / (2 * fret_sin(FRET_PI * fminl(m, 1 - m)))};
-    const fret_real size = p->whole * fret_pow(2, -k) * half * half / (FRET_PI * fret_gamma(1 - k)),
+    const fret_real m = (k + 1) / 2, b = 1 - k, half = tgammal(1 - k / 2);
+    *p = (fret_ripple){.k = k, .m = m, .whole = FRET_PI / (2 * sinl(FRET_PI * fminl(m, 1 - m)))};
+    const fret_real size = p->whole * fret_pow(2, -k) * half * half / (FRET_PI * tgammal(1 - k)),
                     L = k * log_ratio(k);
     p->bent[0] = -size;
     if (fabsl(k) <= little) {
-        p->smooth[0] = size * (k != 0 ? fret_expm1(L) / k : log_ratio(k));
+        p->smooth[0] = size * (k != 0 ? expm1l(L) / k : log_ratio(k));
     } else {
-        const fret_real other = fret_gamma(1 + k / 2);
-        p->smooth[0] = (p->whole * fret_pow(4, k) * other * other / (FRET_PI * fret_gamma(1 + k)) - size) / k;
+        const fret_real other = tgammal(1 + k / 2);
+        p->smooth[0] = (p->whole * fret_pow(4, k) * other * other / (FRET_PI * tgammal(1 + k)) - size) / k;
     }
     /* the equation y(1-y^2)Y'' + (1-(1+2b)y^2)Y' - b^2 y Y = 0 */
     for (int n = 0; n + 1 < FRET_RIPPLE; n++) {
@@ -68,8 +68,8 @@ static int terms_of(fret_real u) {
 }
 
 static fret_real bend_of(const fret_ripple *p, fret_real u) {
-    const fret_real l = fret_log(u);
-    return p->k != 0 ? fret_expm1(p->k * l) / p->k : l;
+    const fret_real l = logl(u);
+    return p->k != 0 ? expm1l(p->k * l) / p->k : l;
 }
 
 void fret_ripple_at(const fret_ripple *p, fret_real y, fret_real u, fret_real out[2]) {

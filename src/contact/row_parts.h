@@ -4,7 +4,7 @@
 #define FRET_CONTACT_ROW_PARTS_H
 
 #include "contact/piece.h"
-#include "number/powers.h"
+#include "number/bits.h"
 
 enum { ROW_BINOMIALS = 12 };
 
@@ -31,7 +31,6 @@ struct fret_rows {
     fret_real *reach[3]; /* where each part begins, and the last one ends: distance, depth, load */
     stretch *run[RUNS];  /* as those of pieces */
     fret_real binomial[ROW_BINOMIALS]; /* of (1+z)^(m-1) */
-    fret_powers powers;                /* with m */
 };
 
 /* The powers of y. */

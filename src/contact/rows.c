@@ -23,13 +23,13 @@ static fret_real rise_of(const struct fret_rows *all, size_t i, int by, fret_rea
 }
 
 static fret_real to_m(const struct fret_rows *all, fret_real y) {
-    return y > 0 ? fret_power_of(&all->powers, y) : 0;
+    return y > 0 ? fret_pow(y, all->m) : 0;
 }
 
 /* (1+z)^(m-1) */
 static fret_real near_one(const struct fret_rows *all, fret_real z) {
     if (fabsl(z) > 0.02L)
-        return fret_exp((all->m - 1) * fret_log1p(z));
+        return expl((all->m - 1) * log1pl(z));
     return sum_of(all->binomial, fabsl(z) < 1e-3L ? 7 : ROW_BINOMIALS, z);
 }
 
@@ -71,9 +71,8 @@ static stretch part_of(const struct fret_rows *all, size_t i, fret_real from, fr
     const part *p = &all->part[i];
     const bool far = to > from / 2;
     const int parts = (far ? 1 : 2) * (is_wide(p) ? 2 : 1);
-    const fret_real s0 = far ? from : fret_exp(fret_log(from) / 3),
-                    way = (far ? to : fret_exp(fret_log(to) / 3)) - s0, bend = p->width / (p->x * p->x),
-                    edge = rise_of(all, i, DEPTHS, from, power);
+    const fret_real s0 = far ? from : expl(logl(from) / 3), way = (far ? to : expl(logl(to) / 3)) - s0,
+                    bend = p->width / (p->x * p->x), edge = rise_of(all, i, DEPTHS, from, power);
     stretch out = {edge - rise_of(all, i, DEPTHS, to, to_m_near(all, from, power, to)), 0, 0, 0};
     for (int j = 0; j < 8 * parts; j++) {
         const fret_real s = s0 + way * ((fret_real)(j / 8) + fret_gauss_node[j % 8]) / (fret_real)parts,

@@ -93,7 +93,7 @@ static fret_level level_at(const maker *m, size_t row, fret_real e) {
 /* ((1+z)^m-1)/(m z), the mean of (1+z)^(m-1) */
 static fret_real mean_near_one(const struct fret_rows *all, fret_real z) {
     if (z > 0.02L)
-        return fret_expm1(all->m * fret_log1p(z)) / (all->m * z);
+        return expm1l(all->m * log1pl(z)) / (all->m * z);
     fret_real sum = 0;
     for (int j = ROW_BINOMIALS; j-- > 0;)
         sum = sum * z + all->binomial[j] / (fret_real)(j + 1);
@@ -336,7 +336,6 @@ static fret_status make_rows(const fret_normal *n, fret_real from, fret_real e, 
     if (all && m) {
         *all = (struct fret_rows){
             .start = fret_table_start(t), .m = (n->rule.k + 1) / 2, .C = fret_normal_stiffness(n, 1)};
-        fret_powers_make(all->m, &all->powers);
         *m = (maker){.all = all, .normal = n, .slopes = slopes};
         const bool ok = add_rows(m, first, last - first, e);
         st = fret_unless_stopped(n, m->failed);

@@ -59,7 +59,7 @@ static moments power_moments(fret_real pm1, fret_real x) {
     if (p * x < 0.2L)
         return moments_series(pm1, x);
     /* arranged so that m1 = int t dK and m2 = int t^2 dK keep their factor p-1 */
-    fret_real em = fret_expm1(pm1 * fret_log1p(-x)), y = 1 + em; /* y = (1-x)^(p-1) */
+    fret_real em = expm1l(pm1 * log1pl(-x)), y = 1 + em; /* y = (1-x)^(p-1) */
     fret_real m1 = -em * (1 + pm1 * x) - pm1 * x;
     fret_real m2 = (-2 * em - y * pm1 * x * (2 + p * x)) / (2 + pm1);
     return (moments){x * y - em, (m2 + p * x * x * y) / 2, m1, x * m1 - m2};
@@ -143,10 +143,10 @@ static void cut_by_roots(cut *s, fret_real kink, fret_real lo, fret_real hi) {
  * contribution is left. */
 static void cut_at_flat(cut *s, fret_real lo, fret_real hi) {
     const fret_foundation *f = &s->normal->foundation;
-    fret_real span = lo > 0 ? fminl(fret_log(hi / lo), 42) : 42;
+    fret_real span = lo > 0 ? fminl(logl(hi / lo), 42) : 42;
     int parts = (int)(2 * span) + 1;
     for (int j = 0; j < 8 * parts; j++) {
-        fret_real e = hi * fret_exp(-span / parts * (j / 8 + fret_gauss_node[j % 8]));
+        fret_real e = hi * expl(-span / parts * (j / 8 + fret_gauss_node[j % 8]));
         fret_real dx = fret_gauss_weight[j % 8] * span / parts * e;
         cut_add(s, e, 2 * f->cN0 * fret_pow((s->start + e) / f->c0, f->k) * dx);
     }
@@ -154,11 +154,11 @@ static void cut_at_flat(cut *s, fret_real lo, fret_real hi) {
 
 /* From the centre: linear in K, since x^k may be singular there. */
 static void cut_at_centre(cut *s, fret_real lo, fret_real hi) {
-    fret_real k1 = 1 + s->normal->foundation.k, span = lo > 0 ? -fret_expm1(k1 * fret_log(lo / hi)) : 1;
+    fret_real k1 = 1 + s->normal->foundation.k, span = lo > 0 ? -expm1l(k1 * logl(lo / hi)) : 1;
     fret_real K = fret_normal_stiffness(s->normal, hi) * span;
     for (int i = 0; i < FRET_EXPONENTIAL; i++) {
         fret_node node = fret_exponential_node(i);
-        cut_add(s, hi * fret_exp(fret_log1p(-span * node.rest) / k1), K * node.weight);
+        cut_add(s, hi * expl(log1pl(-span * node.rest) / k1), K * node.weight);
     }
 }
 
@@ -294,7 +294,7 @@ fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real
     if (h >= y)
         return outer->F;
     if (fret_normal_closed(n))
-        return -outer->F * fret_expm1(n->p * fret_log1p(-h / y));
+        return -outer->F * expm1l(n->p * log1pl(-h / y));
     if (h <= 0)
         return 0;
     if ((n->pieces && fret_pieces_across(n->pieces, outer, false, n->thin, h, &w)) ||
@@ -308,7 +308,7 @@ fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret
     if (w >= F)
         return y;
     if (fret_normal_closed(n))
-        return -y * fret_expm1(n->q * fret_log1p(-w / F));
+        return -y * expm1l(n->q * log1pl(-w / F));
     if (w <= 0)
         return 0;
     if ((n->pieces && fret_pieces_across(n->pieces, outer, true, n->thin, w, &h)) ||
@@ -322,6 +322,6 @@ fret_real fret_law_stiffness_drop(const fret_normal *n, const fret_level *outer,
     if (h >= y)
         return K - fret_normal_stiffness(n, fret_gap_start(&n->gap));
     if (fret_normal_closed(n))
-        return -K * fret_expm1(n->pm1 * fret_log1p(-h / y));
+        return -K * expm1l(n->pm1 * log1pl(-h / y));
     return K - fret_normal_stiffness(n, fret_law_radius(n, y - h));
 }

@@ -282,11 +282,11 @@ static fret_status go_between(fret_swing *c, const way *w, fret_real lo, fret_re
 
 static void make_harmonic(const fret_swing *c, const fret_sine *sine, way *out) {
     *out = (way){.harmonic = true, .mean = sine->FN};
-    const fret_real y = -sine->FNA * fret_sin(sine->phase), normal = sine->FNA * fret_cos(sine->phase);
+    const fret_real y = -sine->FNA * sinl(sine->phase), normal = sine->FNA * cosl(sine->phase);
     for (int i = M; i <= P; i++) {
         const fret_real x = normal + (i == M ? -1 : 1) * sine->FA / (fret_real)c->mu;
         out->size[i] = sqrtl(x * x + y * y);
-        out->lag[i] = fret_atan2(y, x);
+        out->lag[i] = atan2l(y, x);
     }
 }
 
@@ -330,7 +330,7 @@ fret_status fret_swing_period(fret_swing *c, const fret_sine *sine) {
 
 /* Where it passes through its mean, to the rounding of the time. */
 static fret_real harmonic(fret_real angle) {
-    const fret_real v = fret_cos(angle);
+    const fret_real v = cosl(angle);
     return fabsl(v) < 4 * DBL_EPSILON ? 0 : v;
 }
 

@@ -62,13 +62,13 @@ fret_real fret_swing_front(const fret_swing *c, int which, fret_real *left);
 /* ---- ways -------------------------------------------------------------------------------------- */
 
 static inline fret_real way_at(const way *w, int which, fret_real s) {
-    return w->harmonic ? w->mean + w->size[which] * fret_cos(s - w->lag[which])
+    return w->harmonic ? w->mean + w->size[which] * cosl(s - w->lag[which])
                        : w->start[which] + w->span[which] * s;
 }
 
 /* -d/ds of a coordinate */
 static inline fret_real way_fall(const way *w, int which, fret_real s) {
-    return w->harmonic ? w->size[which] * fret_sin(s - w->lag[which]) : -w->span[which];
+    return w->harmonic ? w->size[which] * sinl(s - w->lag[which]) : -w->span[which];
 }
 
 /* The angle less whole turns, within pi of `middle`. */
@@ -82,7 +82,7 @@ static inline fret_real way_when(const way *w, int which, fret_real level, fret_
     fret_real s;
     if (w->harmonic) {
         const fret_real c = fmaxl(-1, fminl(1, (level - w->mean) / w->size[which]));
-        const fret_real angle = fret_atan2(sqrtl((1 - c) * (1 + c)), c), middle = (lo + hi) / 2;
+        const fret_real angle = acosl(c), middle = (lo + hi) / 2;
         const fret_real one = turned_to(w->lag[which] + angle, middle),
                         two = turned_to(w->lag[which] - angle, middle);
         s = fabsl(one - middle) < fabsl(two - middle) ? one : two;

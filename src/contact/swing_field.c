@@ -27,17 +27,17 @@ static void make_loads(const way *w, way *out) {
         fret_real x = 0, y = 0;
         for (int j = M; j <= P; j++) {
             const fret_real half = (i == P && j == M ? -1 : 1) * w->size[j] / 2;
-            x += half * fret_cos(w->lag[j]);
-            y += half * fret_sin(w->lag[j]);
+            x += half * cosl(w->lag[j]);
+            y += half * sinl(w->lag[j]);
         }
         out->size[i] = sqrtl(x * x + y * y);
-        out->lag[i] = fret_atan2(y, x);
+        out->lag[i] = atan2l(y, x);
     }
 }
 
 /* How far the load at the time w is above N, with all digits where that is little. */
 static fret_real rise_at(const bend *b, fret_real w) {
-    return b->beyond - 2 * b->of.size[M] * fret_sin(b->from + w / 2 - b->of.lag[M]) * fret_sin(w / 2);
+    return b->beyond - 2 * b->of.size[M] * sinl(b->from + w / 2 - b->of.lag[M]) * sinl(w / 2);
 }
 
 /* Below so much of N a radius is told by its growth. */
@@ -48,7 +48,7 @@ static fret_real square_rise(const bend *b, fret_real rise, fret_real a) {
     const fret_real ratio = rise / b->N;
     const bool known = b->N > 0 && isfinite(ratio);
     if (known && fret_normal_closed(b->normal))
-        return fret_expm1(2 / b->normal->s * fret_log1p(ratio));
+        return expm1l(2 / b->normal->s * log1pl(ratio));
     const fret_real e = known && fabsl(ratio) <= NEAR ? b->steep * rise * (1 + b->bent * rise) : a - b->r;
     return e / b->r * (2 + e / b->r);
 }
@@ -88,8 +88,8 @@ static fret_real touching_rate(fret_real t, fret_real rest, void *context) {
 /* Between lo and hi, evenly in the logarithm of the time to what is singular, `near` before the time 0. */
 static fret_real other_rate(fret_real t, fret_real rest, void *context) {
     const bend *b = context;
-    const fret_real off = b->near + b->lo, span = fret_log1p((b->hi - b->lo) / off),
-                    w = b->lo + off * fret_expm1(span * t);
+    const fret_real off = b->near + b->lo, span = log1pl((b->hi - b->lo) / off),
+                    w = b->lo + off * expm1l(span * t);
     (void)rest;
     return b->sign * span * (b->near + w) * rate_at(b, b->side * w, false);
 }
@@ -123,7 +123,7 @@ static fret_real alone(const bend *b) {
 static fret_real near_to(const bend *b) {
     static const fret_real least = 1e-15L, most = 2 * FRET_PI;
     const fret_real off = fabsl(b->beyond) / b->of.size[M],
-                    near = fminl(sqrtl(off), off / fabsl(fret_sin(b->from - b->of.lag[M])));
+                    near = fminl(sqrtl(off), off / fabsl(sinl(b->from - b->of.lag[M])));
     return b->weight == INSIDE ? most : fminl(fmaxl(near, least), most);
 }
 

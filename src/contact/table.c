@@ -523,7 +523,7 @@ static void add_block(const block *b, int count, fret_real alpha, fret_real a, f
                       fret_real out[3]) {
     const fret_real per = 1 / (a * unit), D = u * (a + b->c);
     const far_sums of = sum_far(b, count, alpha, D);
-    const fret_real K = fret_exp(alpha * fret_log(D * per));
+    const fret_real K = expl(alpha * logl(D * per));
     out[0] += K * of.slope[0];
     out[1] += K * per * (D * of.slope[0] - b->d * (2 * b->c * of.slope[1] + b->d * of.slope[2]));
     out[2] += K * (of.slope[0] + of.rf2);
@@ -536,7 +536,7 @@ static void add_points(const struct fret_table *t, fret_real alpha, size_t row, 
     for (int j = 0; j < 8; j++) {
         const fret_real back = near + (far - near) * fret_gauss_node[j], x = begin - back,
                         D = back * (2 * a - back) / (a * unit),
-                        K = (far - near) * fret_gauss_weight[j] * fret_exp(alpha * fret_log(D)),
+                        K = (far - near) * fret_gauss_weight[j] * expl(alpha * logl(D)),
                         f1 = f1_of(t, row, x);
         out[0] += K * f1;
         out[1] += K * D * f1;
@@ -552,8 +552,7 @@ void fret_table_within(const struct fret_table *t, const fret_rule *rule, size_t
         return;
     }
     const fret_edge lo = fret_edge_moments(rule, far / a), hi = fret_edge_moments(rule, near / a);
-    const fret_real K = a * fret_exp(alpha * fret_log(a / unit)), d1 = t->d1[row] * a,
-                    d2 = t->d2[row] * a * a;
+    const fret_real K = a * expl(alpha * logl(a / unit)), d1 = t->d1[row] * a, d2 = t->d2[row] * a * a;
     const fret_real p[3] = {t->d0[row] + v * (d1 + v * d2), -(d1 + 2 * v * d2), d2};
     fret_real m[FRET_EDGE];
     for (int j = 0; j < FRET_EDGE; j++)

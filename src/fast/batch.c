@@ -8,7 +8,6 @@
 #include "contact/check.h"
 #include "contact/normal.h"
 #include "fret/cycle.h"
-#include "number/double.h"
 #include "number/processor.h"
 
 #define LANES_ALSO "fast/batch_body.h"
@@ -85,9 +84,10 @@ static double law_depth(const fret_normal *normal) {
 
 void fret_press_law_make(const fret_normal *normal, fret_press_law *out) {
     dd ref = law_force(normal);
-    double m, factor;
-    lanes1_reduce(&ref.hi, &m, &out->exponent, &factor);
-    split(dd_div(dd_of(1), (dd){m, ref.lo * factor}), out->inverse);
+    int e;
+    const double m = frexp(ref.hi, &e);
+    out->exponent = e;
+    split(dd_div(dd_of(1), (dd){m, ldexp(ref.lo, -e)}), out->inverse);
     split(dd_div(dd_of(1), normal->wide.s), out->radius);
     split(normal->wide.q, out->depth);
     out->r0 = normal->gap.power[0].r0;

@@ -232,9 +232,8 @@ typedef struct path {
 
 /* F - Fx/mu with all its digits, which tell a depth near gross slip. */
 static double short_of(const fret_diagram *d, double F, double Fx) {
-    double high, low;
-    lanes1_product(&d->mu, &F, &high, &low);
-    return ((high - Fx) + low) / d->mu;
+    const dd limit = dd_prod(d->mu, F);
+    return ((limit.hi - Fx) + limit.lo) / d->mu;
 }
 
 /* The level of slip of sign s at the end. */

@@ -142,7 +142,7 @@ static bool allocate(fret_springs *s, size_t count) {
 /* int of x^k over cell i of width 1: x+^(k+1)-x-^(k+1) without the cancellation at large i. */
 static fret_real cell_weight(size_t i, fret_real k) {
     fret_real outer = (fret_real)i + 1, k1 = 1 + k;
-    return fret_pow(outer, k1) * -fret_expm1(k1 * fret_log1p(-1 / outer)) / k1;
+    return fret_pow(outer, k1) * -expm1l(k1 * log1pl(-1 / outer)) / k1;
 }
 
 /* Unfinished where it is stopped. */

@@ -16,9 +16,9 @@ static void make_near(fret_double_law *law) {
     fret_real series[N] = {0}, now[N] = {0}, last[N] = {0}, sum[N] = {0};
     for (int i = 0; i < N; i++) {
         const fret_real angle = FRET_PI * (i + 0.5L) / (fret_real)N,
-                        value = fret_pow(1 - radius + radius * fret_cos(angle), law->sm1 - 1.0L);
+                        value = fret_pow(1 - radius + radius * cosl(angle), law->sm1 - 1.0L);
         for (int j = 0; j < N; j++)
-            series[j] += (j ? 2.0L : 1.0L) / (fret_real)N * value * fret_cos(j * angle);
+            series[j] += (j ? 2.0L : 1.0L) / (fret_real)N * value * cosl(j * angle);
     }
     now[0] = 1; /* Chebyshev's polynomials as powers */
     for (int j = 0; j < N; j++) {
@@ -42,17 +42,12 @@ void fret_double_law_make(double s, double sm1, fret_double_law *law) {
     const double twice = 2 * s;
     if (twice == floor(twice) && twice <= (double)FRET_ZONE_HALVES)
         law->halves = (int)twice;
-    law->by_table = !law->halves && s <= 6;
-    if (law->by_table)
-        fret_double_powers_make(s, &law->powers);
     make_near(law);
 }
 
 double fret_double_law_power(const fret_double_law *law, double x) {
-    if (law->by_table)
-        return fret_double_power_of(&law->powers, x);
     if (!law->halves)
-        return fret_double_power(x, law->s);
+        return pow(x, law->s);
     double power = law->halves & 1 ? sqrt(x) : 1;
     for (int i = law->halves; i > 1; i -= 2)
         power *= x;
@@ -128,7 +123,7 @@ static bent bent_of(const fret_double_law *law, double y, double v, double Y, do
     if (!(x > 0))
         return (bent){0, 0};
     if (law->bend < FRET_ZONE_STRAIGHT)
-        return (bent){x, x * fret_double_expm1(law->sm1 * fret_double_log(x))};
+        return (bent){x, x * expm1(law->sm1 * log(x))};
     return (bent){x, (v >= 0 ? v : fret_double_law_value(law, y)) / V - x};
 }
 

@@ -3,9 +3,7 @@
 #ifndef FRET_FAST_ZONE_H
 #define FRET_FAST_ZONE_H
 
-#include <stdbool.h>
-
-#include "number/powers.h"
+#include "number/bits.h"
 
 /* libm's are calls. */
 static inline double lesser(double a, double b) {
@@ -22,13 +20,11 @@ static inline double greater(double a, double b) {
 enum { FRET_ZONE_TERMS = 14, FRET_ZONE_HALVES = 8 };
 
 typedef struct fret_double_law {
-    double s, sm1, bend; /* sm1 = s-1, bend = |s (s-1)| */
-    int halves;          /* 2s where powers go by square roots, else 0 */
-    bool by_table;
+    double s, sm1, bend;          /* sm1 = s-1, bend = |s (s-1)| */
+    int halves;                   /* 2s where powers go by square roots, else 0 */
     double y, per_y, v;           /* v of y, near the largest so far */
     double reach, per_reach;      /* the polynomial is good for 1-reach .. 1 */
     double near[FRET_ZONE_TERMS]; /* of (y/Y)^(s-2) in 1 - 2 (1-y/Y)/reach, over (j+1)(j+2) */
-    fret_double_powers powers;    /* where there are no halves, s <= 6 */
 } fret_double_law;
 
 /* sm1 = s-1 without cancellation. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers by their words: bits, exponents, rounding to whole numbers, without libm, where it takes as long as
- * a product of double-doubles. Rounding to nearest is assumed. Not installed. */
+/* Numbers by their words: bits, exponents, rounding to whole numbers, where libm's calls take as long as a
+ * product of double-doubles. Rounding to nearest is assumed. Not installed. */
 #ifndef FRET_NUMBER_BITS_H
 #define FRET_NUMBER_BITS_H
 

@@ -18,7 +18,7 @@ void fret_chebyshev_make(fret_chebyshev *c, int count, bool from_nil) {
     c->count = count;
     c->from_nil = from_nil;
     for (int i = 0; i < 4 * count; i++)
-        c->wave[i] = fret_cos(FRET_PI * (fret_real)i / (fret_real)(2 * count));
+        c->wave[i] = cosl(FRET_PI * (fret_real)i / (fret_real)(2 * count));
     for (int j = 0; j < count; j++) {
         const fret_real z = c->wave[2 * j + 1];
         c->node[j] = from_nil ? (1 + z) / 2 : z;

@@ -171,13 +171,10 @@ static const dd power_of_two[64] = {
 };
 static const dd ln2_64 = {0x1.62e42fefa39efp-7, 0x1.abc9e3b39803fp-62};
 static const double ln2_64_rest = 0x1.7b57a079a1934p-117;
-static const fret_real ln2_short = 0x1.62e42fefa2000p-1L, ln2_left = 7.37100256516779890183404e-13L;
-static const fret_real ln2_64_short = 0x1.62e42fefa2000p-7L, ln2_64_left = 1.151719150807468578411569e-14L;
 static const dd ln2 = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
 static const double ln2_rest = 0x1.7b57a079a1934p-111;
 static const dd half_log_2pi = {0x1.d67f1c864beb5p-1, -0x1.65b5a1b7ff5dfp-55};
 static const dd half_pi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
-static const double half_pi_rest = -0x1.f1976b7ed8fbcp-110;
 static const dd inverse_factorial[26] = {
     {0x1.0000000000000p+0, 0x0.0p+0},
     {0x1.0000000000000p+0, 0x0.0p+0},

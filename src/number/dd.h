@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Double-double arithmetic: a number as the unevaluated sum hi + lo, about 100 bits. Only the basic IEEE
- * operations are used, so that every compiler, C library and processor gives the same digits. What is inlined
- * here is named dd_..., what is linked fret_dd_... Not installed. */
+/* Double-double arithmetic: a number as the unevaluated sum hi + lo, about 100 bits, by the basic IEEE
+ * operations. What is inlined here is named dd_..., what is linked fret_dd_... Not installed. */
 #ifndef FRET_DD_H
 #define FRET_DD_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elementary functions in double of LANES = 1, 2, 4 or 8 numbers at once, with the same bits at every width,
- * each named lanes1_..., lanes2_...: those of lanes_body.h, and of the file LANES_ALSO where that is defined.
+/* Elementary functions in double of LANES = 2, 4 or 8 numbers at once, with the same bits at every width,
+ * each named lanes2_..., lanes4_...: those of lanes_body.h, and of the file LANES_ALSO where that is defined.
  * Wanted at the width of the registers: compilers split wider groups badly. No guard: included once for each
  * width. Not installed. */
 #include "number/bits.h"
@@ -9,15 +9,6 @@
 #define LANES_NAMED(count, name) LANES_PASTE(count, name)
 #define NAMED(name) LANES_NAMED(LANES, name)
 
-#if LANES == 1
-#define V double
-#define U uint64_t
-#define M int
-#define BITS fret_bits
-#define VALUE fret_from_bits
-#define SELECT(mask, yes, no) ((mask) ? (yes) : (no))
-#define ANY(mask) (mask)
-#else
 typedef double NAMED(numbers) __attribute__((vector_size(LANES * sizeof(double))));
 typedef uint64_t NAMED(words) __attribute__((vector_size(LANES * sizeof(double))));
 typedef int64_t NAMED(mask) __attribute__((vector_size(LANES * sizeof(double))));
@@ -28,7 +19,6 @@ typedef int64_t NAMED(mask) __attribute__((vector_size(LANES * sizeof(double))))
 #define VALUE(u) ((V)(u))
 #define SELECT(mask, yes, no) VALUE((BITS(yes) & (U)(mask)) | (BITS(no) & ~(U)(mask)))
 #define ANY(mask) fret_any(&(mask), LANES)
-#endif
 
 #include "number/lanes_body.h"
 #ifdef LANES_ALSO

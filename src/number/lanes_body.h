@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The elementary functions of lanes.h, once for each width: included by that alone. + - * / and whole-word
  * operations, no libm, no fused multiply-add.
- * Wants V (double or a vector of them), U (as many 64-bit words), M (what comparisons give), BITS and VALUE
+ * Wants V (a vector of doubles), U (as many 64-bit words), M (what comparisons give), BITS and VALUE
  * between V and U, SELECT(mask, yes, no), ANY(mask) and NAMED(name). Arguments go by address: vectors wider
  * than the target's registers have no stable calling convention. */
 

@@ -413,7 +413,7 @@ static bool put_angle(lexer *lx, edit *e, const arg_value *angle) {
         return calc_fail(lx->error, angle->value_at, angle->value_len, "angle must lie between 0 and 90 deg");
     if (e->has[IN_SLOPE])
         return calc_fail(lx->error, angle->at, angle->len, "give either slope or angle");
-    put(e, IN_SLOPE, fret_sin(angle->v.v) / fret_cos(angle->v.v));
+    put(e, IN_SLOPE, sinl(angle->v.v) / cosl(angle->v.v));
     return true;
 }
 

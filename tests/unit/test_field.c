@@ -290,8 +290,8 @@ typedef struct place {
 
 static fret_real surface_rate(fret_real t, fret_real rest, void *context) {
     const place *p = context;
-    const fret_real l = t < 0.5L ? fret_log(t) / p->k1 : fret_log1p(-rest) / p->k1,
-                    below = -p->a * fret_expm1(l), x = l < -1 ? p->a * fret_exp(l) : p->a - below;
+    const fret_real l = t < 0.5L ? logl(t) / p->k1 : log1pl(-rest) / p->k1, below = -p->a * expm1l(l),
+                    x = l < -1 ? p->a * expl(l) : p->a - below;
     return (p->dz - fret_normal_profile(p->normal, x)) *
            fret_pow((p->r - p->a + below) * (p->r + x), -p->k1 / 2);
 }
@@ -322,7 +322,7 @@ static void twins(void) {
         const fret_normal *n = unit_make_normal(&s);
         const fret_foundation *f = fret_normal_foundation(n);
         place p = {n, a, fret_normal_profile(n, a), a * (1 + far), 1 + f->k};
-        const fret_real ck = fret_sin(FRET_PI * (1 - fabsl(f->k)) / 2);
+        const fret_real ck = sinl(FRET_PI * (1 - fabsl(f->k)) / 2);
         fret_real got;
         CHECK_OK(fret_surface(n, a, p.r, &got));
         CHECK_REL(got, 2 * ck / FRET_PI * fret_pow(a, p.k1) / p.k1 * fret_integrate(surface_rate, &p),
@@ -478,7 +478,7 @@ typedef struct by_parts {
 static fret_real part_of(fret_real t, fret_real rest, void *context) {
     (void)t;
     const by_parts *c = context;
-    const fret_real k = fret_normal_foundation(c->normal)->k, e = c->e * fret_exp(-rest), x = c->b + e,
+    const fret_real k = fret_normal_foundation(c->normal)->k, e = c->e * expl(-rest), x = c->b + e,
                     g = fret_gap_profile(&c->normal->gap, &c->normal->rule, e).g;
     return e * g * (1 - k) * x * fret_pow((c->b - c->r + e) * (x + c->r), (k - 3) / 2);
 }
@@ -504,7 +504,7 @@ static void below_flat(void) {
         fret_press at;
         fret_real p = 0, sum = 0;
         CHECK_OK(fret_press_by_radius(normal, a, &at));
-        for (int j = 0; j < 60; j++, c.e /= fret_exp(1))
+        for (int j = 0; j < 60; j++, c.e /= expl(1))
             sum += fret_integrate_smooth(part_of, &c);
         sum += at.dz * fret_pow((a - r) * (a + r), (f->k - 1) / 2);
         CHECK_OK(fret_pressure(normal, a, r, &p));

@@ -89,7 +89,7 @@ static fret_real near_rate(fret_real t, fret_real rest, void *context) {
 /* Farther: e = lo + width power^(t-1). */
 static fret_real other_rate(fret_real t, fret_real rest, void *context) {
     const stretch *c = context;
-    const fret_real span = fret_log(c->power), way = c->width * fret_exp(-span * rest);
+    const fret_real span = logl(c->power), way = c->width * expl(-span * rest);
     (void)t;
     return span * way * pressure_rate(c, way);
 }
@@ -134,7 +134,7 @@ static fret_real surface_of(const fret_normal *n, fret_real a, fret_real dz, fre
         sum += fret_integrate(surface_rate, &c);
         hi = lo;
     }
-    return 2 * fret_cos(FRET_PI * k / 2) / FRET_PI * sum;
+    return 2 * cosl(FRET_PI * k / 2) / FRET_PI * sum;
 }
 
 /* ---- questions --------------------------------------------------------------------------------- */
@@ -391,7 +391,7 @@ static fret_real many_surface(const fret_normal *n, fret_real a, fret_real dz, f
         lo = fret_gap_kink(&n->gap, hi);
         sum += rows_between(n, r, dz, lo, hi);
     }
-    return 2 * fret_cos(FRET_PI * k / 2) / FRET_PI * sum;
+    return 2 * cosl(FRET_PI * k / 2) / FRET_PI * sum;
 }
 
 /* So many that they are summed in leaves and blocks, at the radii r; off: how rough, relative. */

@@ -27,7 +27,7 @@ static fret_real above_far(fret_real t, fret_real rest, void *context) {
     const integral *c = context;
     (void)rest;
     const fret_real y = c->lo * fret_pow(c->hi / c->lo, t);
-    return fret_log(c->hi / c->lo) * fret_pow(y, c->p + 1) * fret_pow(y - c->d, c->m - 1);
+    return logl(c->hi / c->lo) * fret_pow(y, c->p + 1) * fret_pow(y - c->d, c->m - 1);
 }
 
 /* From nil to hi: linear in y^(p+1). */
@@ -42,7 +42,7 @@ static fret_real below_far(fret_real t, fret_real rest, void *context) {
     const integral *c = context;
     (void)rest;
     const fret_real y = c->lo * fret_pow(c->hi / c->lo, t);
-    return fret_log(c->hi / c->lo) * fret_pow(y, c->p + 1) * fret_pow(y + c->d, c->m - 1);
+    return logl(c->hi / c->lo) * fret_pow(y, c->p + 1) * fret_pow(y + c->d, c->m - 1);
 }
 
 static fret_real beyond_inner(fret_real t, fret_real rest, void *context) {
@@ -89,7 +89,7 @@ static void compare(side which, int of_m, int whole, fret_real m, fret_real d, f
     c.x_m = fret_pow(x, m);
     c.d_m = fret_pow(d, m);
     c.rim = fret_pow(c.rest, which == BEYOND ? 1 - m : m);
-    c.span = d > 0 ? fret_log(x / (2 * d)) : 0;
+    c.span = d > 0 ? logl(x / (2 * d)) : 0;
     (which == ABOVE   ? fret_kernel_above
      : which == BELOW ? fret_kernel_below
                       : fret_kernel_beyond)(&p, &c, MOST, I);

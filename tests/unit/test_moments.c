@@ -25,8 +25,8 @@ static void moment(void) {
         moment();                                                                                            \
         return __real_##name arguments;                                                                      \
     }
-WRAPPED(fret_real, fret_exp, (fret_real x), (x))
-WRAPPED(fret_real, fret_log, (fret_real x), (x))
+WRAPPED(fret_real, expl, (fret_real x), (x))
+WRAPPED(fret_real, logl, (fret_real x), (x))
 WRAPPED(fret_real, fret_pow, (fret_real x, fret_real y), (x, y))
 WRAPPED(fret_real, fret_table_distance, (const struct fret_table *t, size_t row), (t, row))
 WRAPPED(fret_profile, fret_gap_profile, (const fret_gap *gap, const fret_rule *rule, fret_real e),
