@@ -196,14 +196,6 @@ fuzz: deps-check
 	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/programs.py $(B)/fret $(FUZZ) $$(date +%s)
 	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/typed.py $(B)/fret $(FUZZ) $$(date +%s)
 
-# Polynomials of the law beside searches and quadrature, worst errors: seconds for each of PIECES. The table is
-# kept in git.
-PIECES ?= 3
-pieces: deps-check
-	@$(MAKE) --no-print-directory -s $(B)/tests/test_pieces
-	@FRET_PIECES=$(PIECES) nice $(B)/tests/test_pieces > $(B)/pieces.txt
-	@mv $(B)/pieces.txt tests/hard/pieces.txt; cat tests/hard/pieces.txt
-
 # How long Ctrl-C takes. The table is kept in git.
 INTERRUPTS ?= 25
 LONGEST    ?= 5
@@ -269,5 +261,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram faults pieces latency bench format install clean FORCE
+.PHONY: coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram faults latency bench format install clean FORCE
 -include $(shell find $(B) -name chroots -prune -o -name '*.d' -print 2>/dev/null)

@@ -42,7 +42,7 @@ class Contact(Structure):
 def load(path):
     fret = ctypes.CDLL(path)
     for name, arguments in {
-            "fret_normal_make": [POINTER(Material), POINTER(Gap), POINTER(c_void_p)],
+            "fret_normal_make": [POINTER(Material), POINTER(Gap), c_void_p, c_void_p, POINTER(c_void_p)],
             "fret_press_by_force": [c_void_p, c_double, POINTER(Press)],
             "fret_batch_loss": [POINTER(Contact), POINTER(c_double), POINTER(c_double), c_size_t]}.items():
         function = getattr(fret, name)
@@ -64,7 +64,7 @@ def losses(fret, amplitudes, FN=100.0, mu=0.4, R=10e-3, E0=210e9, nu=0.3):
     gap = Gap(kind=0, terms=1)  # a power: h (r/r0)^n
     gap.power[0] = Power(2, 1 / (2 * R), 1)
     normal = c_void_p()
-    check(fret, fret.fret_normal_make(byref(material), byref(gap), byref(normal)))
+    check(fret, fret.fret_normal_make(byref(material), byref(gap), None, None, byref(normal)))
     try:
         contact = Contact(normal=normal, mu=mu)
         check(fret, fret.fret_press_by_force(normal, FN, byref(contact.press)))

@@ -62,6 +62,11 @@ fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g,
  * FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. Free with fret_table_free. */
 fret_status fret_table_make(const double *r, const double *f, size_t count, fret_stop stop,
                             struct fret_table **out);
+/* What of more than 2000 rows is left, as pieces of a cubic with f' at both ends, and how far these are off,
+ * as a part of the largest f: as few as do within 1e-14 to 1e-6 of it, the first that leaves 2000 or fewer; 0
+ * where every row is one. */
+size_t fret_table_count(const struct fret_table *table);
+double fret_table_within(const struct fret_table *table);
 /* The same with f' given at each row: f is the cubic Hermite interpolant, so that a cubic spline comes out as
  * it is. Errors also: FRET_NOT_FINITE naming slope. */
 fret_status fret_table_sloped(const double *r, const double *f, const double *slope, size_t count,

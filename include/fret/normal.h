@@ -21,9 +21,17 @@ typedef struct fret_press {
 } fret_press;
 
 /* Free with fret_normal_free, after all that borrows it. Keeps its own copy of gap; a gap table is borrowed
- * and must outlive it. Errors: those of fret_foundation_make and fret_gap_check; FRET_NOT_MONOTONE,
- * FRET_NO_MEMORY. */
-fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, fret_normal **out);
+ * and must outlive it. Once made it is only read: threads may share it.
+ *
+ * The law of a shape other than a power becomes polynomials, cell by cell: 0.2 to 1.5 ms, of a table 0.1 to
+ * 0.2 ms a row; then F_N(delta_z), its inverse and what is asked of slices take some 1 us whatever the shape.
+ * like: NULL, or a contact whose cells are taken where gap and k are the same, at once. stop, which may be
+ * NULL, ends the making; it is not kept. Errors: those of fret_foundation_make and fret_gap_check;
+ * FRET_NOT_MONOTONE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
+fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, const fret_normal *like,
+                             fret_stop stop, fret_normal **out);
+/* One more user, who frees it too. */
+fret_normal *fret_normal_hold(fret_normal *normal);
 void fret_normal_free(fret_normal *normal);
 
 /* Long work on this contact, and on all that borrows it, ends when the flag is set. Functions with a status
@@ -32,33 +40,8 @@ void fret_normal_free(fret_normal *normal);
  * or freed. The flag must outlive the contact; NULL, as at first: nothing stops. */
 void fret_normal_stop(fret_normal *normal, fret_stop stop);
 
-/* A table of so many rows up to the radius a [m] that fret_normal_prepare pays for a single question about
- * slip. */
-bool fret_normal_dense(const fret_normal *normal, fret_real a);
-
-/* For many questions, about loads up to F [N]: the law of a shape other than a power becomes polynomials,
- * piece by piece. To set up takes some 1000 times g(x), of a table some 20 times for each row; then
- * F_N(delta_z), its inverse and what is asked of slices take about 1 us whatever the shape,
- * fret_normal_profile less. A power law needs none. Where no pieces come out, or where a question is beyond
- * them, answers come as before: they agree to 1e-15.
- * error: 0, or what may be left of F_N(delta_z) of a table, relative, 1e-8 say: to be smooth across rows to
- * that takes a law a few dozen pieces, some 1000 times g(x), whatever the number of rows. To 1e-15, for 0,
- * the law of up to 2000 rows is kept row by row, and that of more where they are too rough for polynomials:
- * some 30 to 60 us a row to set up, 0.5 kB, and then 5 us a question. Of polynomials made of many rows
- * together radii are found by g(x), in some 30 us, and slices too thin for the digits they have are answered
- * row by row, in blocks of rows that are set up when they are first asked for. Not while others use the
- * contact. Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE (FN), FRET_NEGATIVE, FRET_NOT_FINITE (error),
- * FRET_NO_MEMORY, FRET_INTERRUPTED. */
-fret_status fret_normal_prepare(fret_normal *normal, double F, double error);
-
-/* Shares what was prepared for `from`, a contact of the same gap and k, at once and to a rounding: the
- * material may be another, loads go with its stiffness. Either may end first. Of other contacts, and where
- * one has been prepared and the other has not, nothing. Error: FRET_NO_MEMORY. */
-fret_status fret_normal_share(fret_normal *normal, const fret_normal *from);
-
-/* The largest relative error of these polynomials against F_N(delta_z) that was found when they were made;
- * NaN: there are none. */
-double fret_normal_prepared(const fret_normal *normal);
+/* What the polynomials leave of depth, relative, as their last terms tell; NaN: a power law has none. */
+double fret_normal_error(const fret_normal *normal);
 
 /* What it was made of. */
 const fret_foundation *fret_normal_foundation(const fret_normal *normal);

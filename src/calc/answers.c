@@ -9,14 +9,6 @@
 
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
 
-static bool used_pieces(scene *s, const fret_normal *normal) {
-    const double error = fret_normal_prepared(normal);
-    if (isnan(error))
-        return false;
-    scene_also_used(s, (scene_use){USED(MODEL_PIECES), error});
-    return true;
-}
-
 /* ---- forces in double -------------------------------------------------------------------------- */
 
 /* After so many steps that wait the exact diagram is worth avoiding. */
@@ -135,12 +127,6 @@ bool scene_contact(scene *s, fret_contact *out, calc_error *error) {
         return false;
     out->press = *press;
     s->used |= ASKED_TANGENTIAL;
-    const bool many = (s->many || fret_normal_dense(out->normal, press->a)) && press->F > 0 &&
-                      !fret_normal_is_power(out->normal);
-    if (many && !scene_many_normal(s, (double)press->F, &out->normal, error))
-        return false;
-    if (many && used_pieces(s, out->normal))
-        s->used &= ~USED(MODEL_QUADRATURE);
     return true;
 }
 
@@ -251,7 +237,7 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     }
     s->used = used | USED(stepped ? s->model : MODEL_MEMORY);
     if (!stepped && s->answers.levels)
-        used_pieces(s, engine_normal(&s->answers.run[0].engine));
+        scene_used_law(s, engine_normal(&s->answers.run[0].engine));
     *state = &s->answers.state;
     return true;
 }
@@ -291,7 +277,10 @@ void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs)
 /* ---- closed forms ------------------------------------------------------------------------------ */
 
 void scene_used_closed(scene *s) {
-    s->used |= USED(s->in.geometry->power ? MODEL_CLOSED : MODEL_QUADRATURE);
+    if (s->in.geometry->power)
+        s->used |= USED(MODEL_CLOSED);
+    else if (s->answers.normal)
+        scene_used_law(s, s->answers.normal);
 }
 
 static const load_reach *closed_reach(scene *s) {

@@ -67,9 +67,8 @@ static fret_real branch_at(fret_real t, fret_real rest, void *context) {
 }
 
 /* First loading is singular in its slope where it slides: an end of the interval, for the rule to bear. The
- * law of a gap without a formula, which may turn sharply within, is asked as often as its pieces are worth.
- */
-static bool harmonic_stiffness(scene *s, const peak *at, long double *out, calc_error *error) {
+ * law of a gap without a formula may turn sharply within. */
+static bool harmonic_stiffness(const peak *at, long double *out, calc_error *error) {
     peak p = *at;
     branch b = {.of = &p, .end = FRET_PI / 2};
     fret_real flat = 0;
@@ -77,9 +76,6 @@ static bool harmonic_stiffness(scene *s, const peak *at, long double *out, calc_
         *out = stuck(&p.contact);
         return true;
     }
-    if (!fret_normal_is_power(p.contact.normal) &&
-        !scene_many_normal(s, (double)p.contact.press.F, &p.contact.normal, error))
-        return false;
     const fret_real slides = fret_gross_slip(&p.contact) / p.dxA; /* sin^2 phi there */
     if (slides < 1) {
         const fret_real rest = 1 - slides;
@@ -104,7 +100,7 @@ bool call_Ksec(scene *s, value amplitude, long double *out, calc_error *error) {
 bool call_Kp(scene *s, value dxA, long double *out, calc_error *error) {
     peak p;
     dxA.d = DIM_LENGTH;
-    return peak_of(s, dxA, &p, error) && harmonic_stiffness(s, &p, out, error);
+    return peak_of(s, dxA, &p, error) && harmonic_stiffness(&p, out, error);
 }
 
 bool call_Kpp(scene *s, value dxA, long double *out, calc_error *error) {
@@ -119,7 +115,7 @@ bool call_Kpp(scene *s, value dxA, long double *out, calc_error *error) {
 bool call_loss_factor(scene *s, value amplitude, long double *out, calc_error *error) {
     peak p;
     long double Kp = 1;
-    if (!peak_of(s, amplitude, &p, error) || (p.dx > 0 && !harmonic_stiffness(s, &p, &Kp, error)))
+    if (!peak_of(s, amplitude, &p, error) || (p.dx > 0 && !harmonic_stiffness(&p, &Kp, error)))
         return false;
     *out = p.dx > 0 ? p.loss / (FRET_PI * p.dx * p.dx) / Kp : 0;
     return true;

@@ -34,26 +34,12 @@ double load_largest_force(const load_reach *reach, const fret_normal *normal, co
                : fmax(FN, (double)deepest.F);
 }
 
-/* Values along an oblique path are many, and so are the rows of some tables; a power law needs nothing of the
- * kind. */
-static bool normal_of_load(scene *s, const load_reach *reach, const fret_normal **out, calc_error *error) {
-    fret_press press;
-    if (!scene_normal(s, out, error))
-        return false;
-    const bool asked = s->many || reach->oblique;
-    if (fret_normal_is_power(*out) || (!asked && !fret_normal_dense(*out, fret_normal_end(*out))))
-        return true;
-    return load_press(s, *out, &press, error) &&
-           ((!asked && !fret_normal_dense(*out, press.a)) ||
-            scene_many_normal(s, load_largest_force(reach, *out, &press), out, error));
-}
-
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {
     const load_reach *reach;
     long double FN;
     *out =
         (load_view){.program = s->program, .end = s->end, .in = &s->in, .stop = s->stop, .pulse = s->pulse};
-    if (!scene_reach(s, &reach, error) || !normal_of_load(s, reach, &out->normal, error) ||
+    if (!scene_reach(s, &reach, error) || !scene_normal(s, &out->normal, error) ||
         !friction_for_program(s, &out->mu, error))
         return false;
     if (s->program->steps[0].normal == BY_FORCE && !scene_get(s, IN_FN, &FN, error))

@@ -15,21 +15,17 @@ static void answers_end(answers *a, bool keep) {
     if (a->trail)
         free(a->trail->at);
     free(a->trail);
-    fret_normal *normal = a->normal, *k0 = a->k0, *many = a->many;
+    fret_normal *normal = a->normal, *k0 = a->k0;
     fret_fields *fields = a->fields;
-    const double borne = a->borne;
     *a = (answers){.normal = NULL};
     if (keep) {
         a->normal = normal;
         a->k0 = k0;
-        a->many = many;
-        a->borne = borne;
         a->fields = fields;
     } else {
         fret_fields_free(fields);
         fret_normal_free(normal);
         fret_normal_free(k0);
-        fret_normal_free(many);
     }
 }
 
@@ -49,12 +45,6 @@ void scene_show(scene *s, int digits) {
     if (s->digits != digits && s->answers.known == KNOWN_FORCES)
         scene_moved(s);
     s->digits = digits;
-    if (s->answers.many && s->answers.borne != scene_borne(s)) {
-        scene_forget(s, true);
-        fret_fields_free(s->answers.fields);
-        s->answers.fields = NULL;
-        s->answers.borne = scene_borne(s);
-    }
 }
 
 void scene_moved(scene *s) {
@@ -73,6 +63,12 @@ void scene_also_used(scene *s, scene_use also) {
     s->used |= also.models;
 }
 
+void scene_used_law(scene *s, const fret_normal *normal) {
+    const double error = fret_normal_error(normal);
+    if (!isnan(error))
+        scene_also_used(s, (scene_use){USED(MODEL_PIECES), error});
+}
+
 /* The others are of the bodies and of the shape. */
 static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_BIT(IN_FN) | INPUT_CYCLE;
 
@@ -86,10 +82,8 @@ void scene_forget(scene *s, bool keep) {
 static void pass_contact(answers *to, answers *from) {
     to->normal = from->normal;
     to->k0 = from->k0;
-    to->many = from->many;
-    to->borne = from->borne;
     to->fields = from->fields;
-    from->normal = from->k0 = from->many = NULL;
+    from->normal = from->k0 = NULL;
     from->fields = NULL;
 }
 
@@ -112,7 +106,7 @@ void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->answers = (answers){.normal = NULL};
     to->many = false;
-    to->like = NULL;
+    to->like = from->like ? fret_normal_hold(from->like) : NULL;
     inputs_copy(&to->in, &from->in);
     counted_hold(to->program ? &to->program->base : NULL);
 }
@@ -279,8 +273,6 @@ bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_er
     if (same)
         pass_contact(&before.answers, &s->answers);
     scene_back(s, &before);
-    if (s->answers.many) /* for other loads by now: what has run on it runs again */
-        scene_forget(s, true);
     *error = mine;
     return false;
 }
@@ -306,41 +298,27 @@ static bool make_normal(scene *s, bool homogeneous, fret_normal **out, calc_erro
     fret_gap gap;
     if (!scene_material(s, homogeneous, &material, error) || !scene_gap(s, &gap, error))
         return false;
-    fret_status st = fret_normal_make(&material, &gap, out);
+    fret_status st = fret_normal_make(&material, &gap, s->like, s->stop, out);
     if (!st.code)
         fret_normal_stop(*out, s->stop);
     return calc_status(error, &st);
 }
 
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
-    if (!s->answers.normal && !make_normal(s, false, &s->answers.normal, error))
-        return false;
+    if (!s->answers.normal) {
+        if (!make_normal(s, false, &s->answers.normal, error))
+            return false;
+        fret_normal_free(s->like);
+        s->like = fret_normal_hold(s->answers.normal);
+    }
     *normal = s->answers.normal;
+    scene_used_law(s, *normal);
     return true;
 }
 
-bool scene_many_normal(scene *s, double F, const fret_normal **normal, calc_error *error) {
-    fret_status st = {.code = FRET_OK};
-    if (!s->answers.many && !make_normal(s, false, &s->answers.many, error))
-        return false;
-    *normal = s->answers.many;
-    s->answers.borne = scene_borne(s);
-    if (s->like)
-        st = fret_normal_share(s->answers.many, s->like);
-    if (!st.code)
-        st = fret_normal_prepare(s->answers.many, F, s->answers.borne);
-    return calc_status(error, &st);
-}
-
 void scene_expect_many(scene *s) {
-    static const double room = 4; /* for loads that are tried */
-    const fret_press *press;
-    calc_error ignored;
-    error_clear(&ignored);
     s->many = true;
     scene_show(s, 0);
-    if (scene_press(s, &press, &ignored) && press->F > 0 && make_normal(s, false, &s->like, &ignored))
-        (void)fret_normal_prepare(s->like, room * (double)press->F, scene_borne(s)); /* else without */
 }
 
 /* Of a table one place alone would want all of its rows: they are worked out for all places at once. */

@@ -35,8 +35,6 @@ typedef enum scene_known { KNOWN_NOTHING, KNOWN_FORCES, KNOWN_STATE } scene_know
 /* What follows, valid as far as the flags say. */
 typedef struct answers {
     fret_normal *normal, *k0; /* or NULL: not made yet */
-    fret_normal *many;        /* of a gap without a formula, prepared for many questions; or NULL */
-    double borne;             /* the error of its law that was allowed */
     fret_fields *fields;      /* of `normal`, for many places; or NULL */
     bool press_ready, reach_ready;
     scene_known known; /* of state */
@@ -108,6 +106,7 @@ double scene_borne(const scene *s);
 scene_use scene_answered_by(const scene *s);
 /* These have answered too. */
 void scene_also_used(scene *s, scene_use also);
+void scene_used_law(scene *s, const fret_normal *normal);
 /* Of a scratch scene: many values are to be asked for, and compared with one another, of its shape and k; at
  * loads about that of now, else it takes longer. */
 void scene_expect_many(scene *s);
@@ -168,8 +167,6 @@ bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *
 /* The shape alone, unchecked. */
 bool scene_gap(scene *s, fret_gap *out, calc_error *error);
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
-/* The one for many questions, prepared for loads up to F. */
-bool scene_many_normal(scene *s, double F, const fret_normal **normal, calc_error *error);
 /* Fields of the contact at many places; *fields is NULL where each is asked for by itself. */
 bool scene_fields(scene *s, fret_fields **fields, calc_error *error);
 /* The same bodies with k = 0. */

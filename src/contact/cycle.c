@@ -9,13 +9,6 @@
 #include "contact/normal.h"
 #include "number/real.h"
 
-/* At constant F_N a slice is asked for alone: with all digits, thin as it may be. */
-static const fret_normal *law_of(const fret_contact *c, fret_normal *copy) {
-    *copy = *c->normal;
-    copy->thin = true;
-    return copy;
-}
-
 /* t, its complement s = 1-t to full relative accuracy (near gross slip the rounding of the product mu F_N
  * matters), and ln s, which stays finite where s itself is too small for a double. */
 typedef struct fraction {
@@ -74,7 +67,6 @@ fret_status fret_loading_by_force(const fret_contact *c, double Fx, fret_loading
         st = fret_fail(FRET_NOT_FINITE, "Fx", Fx, 0);
     if (st.code)
         return st;
-    fret_normal copy;
     fraction f = force_fraction(c, fabs(Fx));
     if (f.s.hi < 0)
         return fret_fail(FRET_GROSS_SLIP, "Fx", Fx, (double)(c->mu * c->press.F));
@@ -86,8 +78,7 @@ fret_status fret_loading_by_force(const fret_contact *c, double Fx, fret_loading
     } else {
         const fret_real s = dd_value(f.s);
         fret_real w = f.t.hi <= 0.5 ? dd_value(f.t) * c->press.F : c->press.F - s * c->press.F;
-        x = s > 0 ? fret_law_thickness(law_of(c, &copy), &(fret_level){c->press.dz, c->press.F}, w) /
-                        c->press.dz
+        x = s > 0 ? fret_law_thickness(c->normal, &(fret_level){c->press.dz, c->press.F}, w) / c->press.dz
                   : 1;
         const fret_point inner = fret_law_at_force(c->normal, s * c->press.F);
         out->yc = s > 0 ? inner.y : 0;
@@ -110,7 +101,6 @@ fret_status fret_loading_by_displacement(const fret_contact *c, double dx, fret_
         st = fret_fail(FRET_NOT_FINITE, "dx", dx, 0);
     if (st.code)
         return st;
-    fret_normal copy;
     fraction f = depth_fraction(c, fabs(dx));
     out->dx = dx;
     if (f.s.hi <= 0) {
@@ -125,8 +115,7 @@ fret_status fret_loading_by_displacement(const fret_contact *c, double dx, fret_
         out->c = c->press.a * kept(&f, dd_div(dd_of(1), dd_of(c->normal->gap.power[0].n)));
     } else {
         out->Fx = copysignl(
-            c->mu * fret_law_load(law_of(c, &copy), &(fret_level){c->press.dz, c->press.F}, x * c->press.dz),
-            dx);
+            c->mu * fret_law_load(c->normal, &(fret_level){c->press.dz, c->press.F}, x * c->press.dz), dx);
         out->c = fret_law_radius(c->normal, out->yc);
     }
     return fret_unless_stopped(c->normal, fret_ok());
@@ -176,11 +165,10 @@ static fret_real loss_of_power(const fret_normal *normal, const fraction *f) {
 /* The general loop by Masing: 4 times the dissipation of first loading, counted from the edge:
  * int_0^d [F(y)-F(y-t)-tK(y-t)] dt = L. f: of the load, or of the depth. */
 static fret_real general_loss(const fret_contact *c, bool by_load, const fraction *f) {
-    fret_normal copy;
     const fret_level edge = {c->press.dz, c->press.F};
     const fret_real whole = by_load ? edge.F : edge.y, s = dd_value(f->s), t = fminl(f->t_wide, 1);
     return 4 * c->mu * (c->mu * c->normal->foundation.eta) *
-           fret_law_slice_to(law_of(c, &copy), &edge, by_load, t * whole, s * whole).L;
+           fret_law_slice_to(c->normal, &edge, by_load, t * whole, s * whole).L;
 }
 
 static fret_real loss_of(const fret_contact *c, const fraction *f) {

@@ -468,7 +468,7 @@ bool fret_field_light(const fret_normal *n, fret_real a) {
 
 /* How far the contact of radius a, which is y deep, reaches beyond the flat end. */
 static fret_real reach_of(const fret_normal *n, fret_real a, fret_real y) {
-    return fret_field_light(n, a) ? fret_search_radius(n, false, y) : a - fret_gap_start(&n->gap);
+    return fret_field_light(n, a) ? fret_law_distance(n, y) : a - fret_gap_start(&n->gap);
 }
 
 fret_status fret_pressure_of(const fret_normal *n, const fret_press *at, fret_real r, fret_real *p) {

@@ -3,32 +3,22 @@
  * table of many, and what lies beyond the edges; made when they are first asked for. Allocates them. */
 #include <stdlib.h>
 
-#include "contact/beyond.h"
+#include "contact/cells.h"
 #include "contact/check.h"
 #include "contact/density.h"
 #include "contact/field.h"
-#include "contact/outside.h"
-#include "contact/ripple.h"
 #include "fret/field.h"
 #include "number/real.h"
-
-enum { MANY = 2000, EDGES = 32 };
 
 struct fret_fields {
     const fret_normal *normal;         /* borrowed */
     fret_real of_pressure, of_surface; /* what fields are of their integrals */
     struct fret_density *density;
-    fret_real reach;      /* the radius that was asked for; 0: none was */
-    fret_real a, dz;      /* the contact asked last, and its depth */
-    size_t count, room;   /* slices, those asked last */
-    fret_cut *cut;        /* their radii and slopes */
-    fret_real *depth;     /* and depths */
-    fret_outside outside; /* of a table of many rows, for surfaces; once it is asked for */
-    bool has_outside;
-    /* of the same for pressures */
-    fret_ripple *ripple;
-    struct fret_beyond *beyond[EDGES]; /* of the contacts that were asked */
-    size_t edges;
+    fret_real reach;    /* the radius that was asked for; 0: none was */
+    fret_real a, dz;    /* the contact asked last, and its depth */
+    size_t count, room; /* slices, those asked last */
+    fret_cut *cut;      /* their radii and slopes */
+    fret_real *depth;   /* and depths */
 };
 
 fret_status fret_fields_make(const fret_normal *n, fret_fields **out) {
@@ -41,16 +31,9 @@ fret_status fret_fields_make(const fret_normal *n, fret_fields **out) {
     return fret_ok();
 }
 
-static void forget_edges(fret_fields *f) {
-    while (f->edges > 0)
-        fret_beyond_free(f->beyond[--f->edges]);
-}
-
 void fret_fields_free(fret_fields *f) {
     if (f) {
         fret_density_free(f->density);
-        forget_edges(f);
-        free(f->ripple);
         free(f->cut);
         free(f->depth);
     }
@@ -60,16 +43,14 @@ void fret_fields_free(fret_fields *f) {
 double fret_fields_error(const fret_fields *f) {
     static const double rounding = 1e-15;
     fret_real worst = f->density ? fret_density_error(f->density) : 0;
-    for (size_t i = 0; i < f->edges; i++)
-        worst = fmaxl(worst, fret_beyond_error(f->beyond[i]));
-    return f->density || f->edges > 0 || f->has_outside ? (double)worst + rounding : NAN;
+    return f->density ? (double)worst + rounding : NAN;
 }
 
 /* Are there polynomials for a contact of radius a? Up to the next power of two, so that what comes out does
  * not depend on what was asked before; a gap that is a series wants none. */
 static fret_status prepare(fret_fields *f, fret_real a, bool *there) {
     const fret_normal *n = f->normal;
-    const fret_real last = (n->falls ? 0.99L : 1) * n->end;
+    const fret_real last = (n->cells && n->cells->falls ? 0.99L : 1) * n->end;
     fret_term term[FRET_MOST_TERMS];
     int exponent;
     (void)frexpl(a, &exponent);
@@ -86,57 +67,6 @@ static fret_status prepare(fret_fields *f, fret_real a, bool *there) {
         f->reach = end;
     }
     *there = f->density != NULL;
-    return fret_ok();
-}
-
-/* Of many rows fields are told without what these are as polynomials, unless there are many slices. */
-static bool takes_rows(const fret_fields *f, size_t count, fret_real a) {
-    return count < EDGES && a <= f->normal->end && fret_gap_rows(&f->normal->gap, a) > MANY;
-}
-
-/* Not the pressure where the two parts that it is of are far larger than it is. */
-static bool takes_ripples(const fret_fields *f, size_t count, fret_real a) {
-    static const fret_real most = 0.97L;
-    return takes_rows(f, count, a) && f->normal->foundation.k < most;
-}
-
-static fret_status find_beyond(fret_fields *f, fret_real a, const struct fret_beyond **out) {
-    for (size_t i = 0; i < f->edges; i++)
-        if (fret_beyond_radius(f->beyond[i]) == a) {
-            *out = f->beyond[i];
-            return fret_ok();
-        }
-    if (f->edges == EDGES)
-        forget_edges(f);
-    const fret_status st = fret_beyond_make(f->normal, a, &f->beyond[f->edges]);
-    if (!st.code)
-        *out = f->beyond[f->edges++];
-    return st;
-}
-
-/* Contacts that end inside of r press there no more; the rest of them as if they had no end, less what lies
- * beyond that. */
-static fret_status pressure_by_ripples(fret_fields *f, const fret_cut *cut, size_t count, fret_real r,
-                                       fret_real *p) {
-    size_t first = 0;
-    if (!f->ripple) {
-        f->ripple = malloc(sizeof *f->ripple);
-        if (!f->ripple)
-            return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-        fret_ripple_make(f->ripple, f->normal->foundation.k);
-    }
-    while (first < count && (cut[first].a <= r || cut[first].a <= fret_gap_start(&f->normal->gap)))
-        first++;
-    fret_real sum = fret_ripple_sum(f->ripple, f->normal->gap.table, cut + first, count - first, r);
-    for (size_t i = first; i < count; i++) {
-        const struct fret_beyond *beyond;
-        const fret_real weight = cut[i].weight - (i + 1 < count ? cut[i + 1].weight : 0);
-        const fret_status st = find_beyond(f, cut[i].a, &beyond);
-        if (st.code)
-            return st;
-        sum -= weight * fret_beyond_integral(beyond, r);
-    }
-    *p = f->of_pressure * sum;
     return fret_ok();
 }
 
@@ -159,10 +89,7 @@ fret_status fret_fields_pressure(fret_fields *f, fret_real a, fret_real r, fret_
     if (st.code)
         return st;
     *p = 0;
-    const bool special = is_special(f->normal, a, r);
-    if (!special && takes_ripples(f, 1, a))
-        return pressure_by_ripples(f, &cut, 1, r, p);
-    st = special ? fret_ok() : prepare(f, a, &there);
+    st = is_special(f->normal, a, r) ? fret_ok() : prepare(f, a, &there);
     if (st.code)
         return st;
     if (!there)
@@ -198,15 +125,6 @@ static fret_status surface_but(const fret_fields *f, fret_real a, fret_real y, f
     return st;
 }
 
-/* Of r > a, the contact y deep. */
-static fret_real surface_by_rows(fret_fields *f, fret_real a, fret_real y, fret_real r) {
-    const fret_normal *n = f->normal;
-    if (!f->has_outside)
-        fret_outside_make(&f->outside, n->foundation.k);
-    f->has_outside = true;
-    return f->of_surface * fret_outside_surface(&f->outside, n->gap.table, y, a, r);
-}
-
 /* The depth of a contact, which places have in common. */
 static fret_real depth_of(fret_fields *f, fret_real a) {
     if (a != f->a) {
@@ -227,10 +145,6 @@ fret_status fret_fields_surface(fret_fields *f, fret_real a, fret_real r, fret_r
     if (r <= a && a > fret_gap_start(&n->gap) && fret_gap_sampled(&n->gap))
         return fret_field_surface(n, a, depth_of(f, a), r, w);
     const bool outside = r > a && a > fret_gap_start(&n->gap);
-    if (outside && takes_rows(f, 1, a)) {
-        *w = surface_by_rows(f, a, depth_of(f, a), r);
-        return fret_ok();
-    }
     st = outside ? prepare(f, a, &there) : fret_ok();
     if (st.code)
         return st;
@@ -311,36 +225,27 @@ static bool is_spared(const fret_fields *f, fret_real r) {
            fret_gap_series(&n->gap, &n->rule, f->cut[0].a, term) == 0;
 }
 
-/* Slices: are they told by rows, or are there polynomials for all of them? */
-static fret_status prepare_slices(fret_fields *f, const fret_memory *m,
-                                  bool (*takes)(const fret_fields *, size_t, fret_real), bool *rows,
-                                  bool *there) {
-    *rows = *there = false;
+/* Slices: are there polynomials for all of them? */
+static fret_status prepare_slices(fret_fields *f, const fret_memory *m, bool *there) {
+    *there = false;
     const fret_status st = take_slices(f, m);
     if (st.code || undisplaced(f) || any_light(f))
         return st;
-    const fret_real a = f->cut[f->count - 1].a;
-    *rows = takes(f, f->count, a);
-    return *rows ? st : prepare(f, a, there);
+    return prepare(f, f->cut[f->count - 1].a, there);
 }
 
 fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real r, fret_real *q) {
-    bool ripples, there;
+    bool there;
     *q = 0;
-    fret_status st = prepare_slices(f, m, takes_ripples, &ripples, &there);
+    fret_status st = prepare_slices(f, m, &there);
     if (st.code)
         return st;
     const fret_real a = f->count > 0 ? f->cut[f->count - 1].a : 0;
     if (f->count > 0 && r >= a)
         return fret_ok();
     const bool spared = is_spared(f, r);
-    if ((!there && !ripples) || (!spared && is_special(f->normal, a, r)))
+    if (!there || (!spared && is_special(f->normal, a, r)))
         return fret_traction(m, r, q);
-    if (ripples) {
-        st = pressure_by_ripples(f, f->cut, f->count, r, q);
-        *q *= fret_memory_friction(m);
-        return st;
-    }
     const fret_real from = fret_density_from(f->density);
     if (!spared && r < from && fret_gap_start(&f->normal->gap) <= 0) {
         fret_real inner = 0, outer = 0;
@@ -354,18 +259,7 @@ fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real
     return st;
 }
 
-/* Of the slices that end inside of r, by the rows. */
-static fret_real surface_x_by_rows(fret_fields *f, size_t outside, fret_real r) {
-    fret_real sum = 0;
-    for (size_t i = 0; i < outside; i++) {
-        const fret_cut *cut = &f->cut[i];
-        const fret_real weight = cut->weight - (i + 1 < f->count ? cut[1].weight : 0);
-        sum += weight * surface_by_rows(f, cut->a, f->depth[i], r);
-    }
-    return sum;
-}
-
-/* The same from polynomials; rest: the slope beyond them. */
+/* Of the slices that end inside of r, from polynomials; rest: the slope beyond them. */
 static fret_status surface_x_from_density(const fret_fields *f, size_t outside, fret_real rest, fret_real r,
                                           fret_real *sum) {
     fret_real head = NAN;
@@ -385,12 +279,12 @@ static fret_status surface_x_from_density(const fret_fields *f, size_t outside, 
 
 /* Slices that reach beyond r have the gap there, which all of them share. */
 fret_status fret_fields_surface_x(fret_fields *f, const fret_memory *m, fret_real r, fret_real *u) {
-    bool rows, there;
+    bool there;
     *u = 0;
-    fret_status st = prepare_slices(f, m, takes_rows, &rows, &there);
+    fret_status st = prepare_slices(f, m, &there);
     if (st.code)
         return st;
-    if ((!there && !rows) || !(r >= 0))
+    if (!there || !(r >= 0))
         return fret_surface_x(m, r, u);
     size_t outside = 0;
     while (outside < f->count && f->cut[outside].a < r)
@@ -403,10 +297,7 @@ fret_status fret_fields_surface_x(fret_fields *f, const fret_memory *m, fret_rea
     }
     for (size_t i = outside + 1; i < f->count; i++)
         sum += f->cut[i].weight * (f->depth[i] - f->depth[i - 1]);
-    if (rows)
-        sum += surface_x_by_rows(f, outside, r);
-    else
-        st = surface_x_from_density(f, outside, rest, r, &sum);
+    st = surface_x_from_density(f, outside, rest, r, &sum);
     *u = fret_memory_friction(m) * fret_memory_normal(m)->foundation.eta * sum;
     return st;
 }

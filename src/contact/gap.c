@@ -138,10 +138,6 @@ static int sphere_series(const fret_gap *gap, const fret_rule *rule, fret_real a
 static fret_real sphere_end(const fret_gap *gap) {
     return 0.95L * gap->R; /* near the equator g grows without bound, and its series no longer converges */
 }
-static fret_real sphere_ahead(const fret_gap *gap, fret_real e) {
-    return gap->R - e;
-}
-
 static fret_real sampled_f(const fret_gap *gap, fret_real r) {
     return fret_table_f(gap->table, r);
 }
@@ -156,9 +152,6 @@ static fret_real sampled_end(const fret_gap *gap) {
 }
 static fret_real sampled_kink(const fret_gap *gap, fret_real e) {
     return fret_table_kink(gap->table, e);
-}
-static fret_real sampled_bend(const fret_gap *gap, const fret_rule *rule, fret_real kink, fret_real e) {
-    return fret_table_bend(gap->table, rule, kink, e);
 }
 static fret_real sampled_tip(const fret_gap *gap) {
     return fret_table_pointed(gap->table) ? 1 : 2;
@@ -185,16 +178,51 @@ static bool sampled_grows(const fret_gap *gap) {
     return fret_table_grows(gap->table);
 }
 
+/* Far beyond a flat end, with c = b/x,
+ *   int_b^x (x^2-r^2)^(m-1) dr = x^(2m-1) (kappa(1,k) - sum (1-m)_j/j! c^(2j+1)/(2j+1)),
+ *   int_b^x 2 r (x^2-r^2)^(m-1) dr = x^2m/m (1-c^2)^m:
+ * adds what the slope `steep` of a cone, or 1/R of a paraboloid, makes of them: powers 1, 0, -2, -4 ..., or
+ * 2, 0, -2 ... */
+static void add_far_cone(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_real steep,
+                         fret_real factor[FRET_MOST_TERMS]) {
+    const fret_real c = gap->b / x0, m = (rule->k + 1) / 2;
+    fret_real part = c;
+    factor[1] += steep * x0 * fret_kappa(1, (double)rule->k);
+    for (int j = 0; j + 2 < FRET_MOST_TERMS; j++) {
+        factor[j + 2] -= steep * x0 * part / (fret_real)(2 * j + 1);
+        part *= c * c * ((fret_real)(j + 1) - m) / (fret_real)(j + 1);
+    }
+}
+static void add_far_paraboloid(const fret_gap *gap, const fret_rule *rule, fret_real x0,
+                               fret_real factor[FRET_MOST_TERMS]) {
+    const fret_real c = gap->b / x0, m = (rule->k + 1) / 2;
+    fret_real part = x0 * x0 / (2 * m * gap->R);
+    for (int j = 0; j + 1 < FRET_MOST_TERMS; j++) {
+        factor[j == 0 ? 0 : j + 1] += part;
+        part *= c * c * ((fret_real)j - m) / (fret_real)(j + 1);
+    }
+}
+static void far_cone(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_real *factor) {
+    add_far_cone(gap, rule, x0, gap->slope, factor);
+}
+static void far_paraboloid(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_real *factor) {
+    add_far_paraboloid(gap, rule, x0, factor);
+}
+static void far_rounded(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_real *factor) {
+    add_far_paraboloid(gap, rule, x0, factor);
+    add_far_cone(gap, rule, x0, -gap->b / (fret_real)gap->R, factor);
+}
+
 /* One row a shape. What a row leaves out: begins at 0, never ends, one smooth piece without a singularity
- * ahead, begins like r^2, grows. */
+ * begins like r^2, grows. */
 typedef struct shape {
     fret_real (*f)(const fret_gap *, fret_real r); /* beyond the start */
     fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real e);
     fret_real (*start)(const fret_gap *), (*end)(const fret_gap *), (*tip)(const fret_gap *);
-    fret_real (*kink)(const fret_gap *, fret_real e), (*ahead)(const fret_gap *, fret_real e);
-    fret_real (*bend)(const fret_gap *, const fret_rule *, fret_real kink, fret_real e);
+    fret_real (*kink)(const fret_gap *, fret_real e);
     bool (*grows)(const fret_gap *);
     int (*series)(const fret_gap *, const fret_rule *, fret_real a, fret_term *);
+    void (*far)(const fret_gap *, const fret_rule *, fret_real x0, fret_real *factor);
     size_t (*rows)(const fret_gap *, fret_real r);
     bool powers, closed, sharp; /* reads power[]; of gap.h the other two */
     bool b, R, slope;           /* reads these, which must be positive */
@@ -213,29 +241,34 @@ static const shape shapes[] = {
                       .grows = sum_grows,
                       .series = powers_series,
                       .powers = true},
-    [FRET_GAP_FLAT_CONE] =
-        {.f = cone_f, .profile = cone_profile, .start = flat_start, .sharp = true, .b = true, .slope = true},
+    [FRET_GAP_FLAT_CONE] = {.f = cone_f,
+                            .profile = cone_profile,
+                            .start = flat_start,
+                            .far = far_cone,
+                            .sharp = true,
+                            .b = true,
+                            .slope = true},
     [FRET_GAP_FLAT_PARABOLOID] = {.f = paraboloid_f,
                                   .profile = paraboloid_profile,
                                   .start = flat_start,
+                                  .far = far_paraboloid,
                                   .sharp = true,
                                   .b = true,
                                   .R = true},
-    [FRET_GAP_FLAT_ROUNDED] =
-        {.f = rounded_f, .profile = rounded_profile, .start = flat_start, .b = true, .R = true},
-    [FRET_GAP_EXACT_SPHERE] = {.f = sphere_f,
-                               .profile = sphere_profile,
-                               .end = sphere_end,
-                               .ahead = sphere_ahead,
-                               .series = sphere_series,
+    [FRET_GAP_FLAT_ROUNDED] = {.f = rounded_f,
+                               .profile = rounded_profile,
+                               .start = flat_start,
+                               .far = far_rounded,
+                               .b = true,
                                .R = true},
+    [FRET_GAP_EXACT_SPHERE] =
+        {.f = sphere_f, .profile = sphere_profile, .end = sphere_end, .series = sphere_series, .R = true},
     [FRET_GAP_TABLE] = {.f = sampled_f,
                         .profile = sampled_profile,
                         .start = sampled_start,
                         .end = sampled_end,
                         .tip = sampled_tip,
                         .kink = sampled_kink,
-                        .bend = sampled_bend,
                         .grows = sampled_grows,
                         .series = sampled_series,
                         .rows = sampled_rows},
@@ -306,17 +339,6 @@ fret_real fret_gap_kink(const fret_gap *gap, fret_real e) {
     return s->kink ? s->kink(gap, e) : 0;
 }
 
-fret_real fret_gap_bend(const fret_gap *gap, const fret_rule *rule, fret_real kink, fret_real e) {
-    const shape *s = shape_of(gap);
-    return s->bend ? s->bend(gap, rule, kink, e) : 0;
-}
-
-fret_real fret_gap_reach(const fret_gap *gap, fret_real e) {
-    const shape *s = shape_of(gap);
-    fret_real behind = e - fret_gap_kink(gap, e);
-    return s->ahead ? fminl(behind, s->ahead(gap, e)) : behind;
-}
-
 int fret_gap_powers(const fret_gap *gap, const fret_power **power) {
     *power = gap->power;
     return shape_of(gap)->powers ? gap->terms : 0;
@@ -326,6 +348,30 @@ int fret_gap_series(const fret_gap *gap, const fret_rule *rule, fret_real a,
                     fret_term term[FRET_MOST_TERMS]) {
     const shape *s = shape_of(gap);
     return s->series ? s->series(gap, rule, a, term) : 0;
+}
+
+int fret_gap_far(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_term term[FRET_MOST_TERMS]) {
+    static const fret_real LITTLE = 1e-21L;
+    fret_real factor[FRET_MOST_TERMS] = {0};
+    int terms = 0;
+    shape_of(gap)->far(gap, rule, x0, factor);
+    for (int i = 0; i < FRET_MOST_TERMS; i++)
+        if (fabsl(factor[i]) > LITTLE * (factor[0] + factor[1]))
+            term[terms++] = (fret_term){i == 0 ? 2 : i == 1 ? 1 : 4 - 2 * i, factor[i], 0};
+    return terms;
+}
+
+bool fret_gap_same(const fret_gap *a, const fret_gap *b) {
+    const shape *s = shape_of(a);
+    if (a->kind != b->kind || (s->b && a->b != b->b) || (s->R && a->R != b->R) ||
+        (s->slope && a->slope != b->slope) || (s->rows && a->table != b->table) ||
+        (s->powers && a->terms != b->terms))
+        return false;
+    for (int i = 0; s->powers && i < a->terms; i++)
+        if (a->power[i].n != b->power[i].n || a->power[i].h != b->power[i].h ||
+            a->power[i].r0 != b->power[i].r0)
+            return false;
+    return true;
 }
 
 bool fret_gap_sharp(const fret_gap *gap) {

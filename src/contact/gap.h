@@ -27,14 +27,6 @@ fret_real fret_gap_end(const fret_gap *gap);
  * a row of a table. */
 fret_real fret_gap_kink(const fret_gap *gap, fret_real e);
 
-/* What in g' at e > kink is not smooth because of the last kink before e: without it g' goes on smoothly
- * across that one. */
-fret_real fret_gap_bend(const fret_gap *gap, const fret_rule *rule, fret_real kink, fret_real e);
-
-/* How far the profile goes on smoothly outwards and inwards of e: to the kink, or to a singularity beyond e.
- */
-fret_real fret_gap_reach(const fret_gap *gap, fret_real e);
-
 /* The power of r that a gap without a flat end begins with. */
 fret_real fret_gap_tip(const fret_gap *gap);
 
@@ -51,6 +43,12 @@ typedef struct fret_term {
     fret_real n, G, kappa;
 } fret_term;
 int fret_gap_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term term[FRET_MOST_TERMS]);
+
+/* The same of a flat-ended gap from the radius x0 = 4 b or more on. */
+int fret_gap_far(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_term term[FRET_MOST_TERMS]);
+
+/* Are two gaps that have passed the same? */
+bool fret_gap_same(const fret_gap *gap, const fret_gap *other);
 
 /* One power: the contact has closed forms. */
 bool fret_gap_closed(const fret_gap *gap);

@@ -46,7 +46,7 @@ void fret_memory_reset(fret_memory *m) {
     m->W = (fret_sum){0, 0};
     m->count = 0;
     m->moves = 0;
-    m->pressed_near = m->unplaced = false;
+    m->pressed_near = false;
     m->direction = 1;
     m->held = FRET_KEEP_DX;
     m->edge_id = 1; /* 0: never computed */
@@ -98,7 +98,7 @@ fret_press fret_memory_pressed(const fret_memory *m) {
                     .a = m->radius,
                     .F_rest = m->edge_rest[LOAD],
                     .dz_rest = m->edge_rest[DEPTH]};
-    if (m->pressed_near || m->unplaced) /* what was pressed near can be pressed */
+    if (m->pressed_near) /* what was pressed near can be pressed */
         (void)(m->told_by == FRET_TO_FORCE ? fret_press_by_force(m->normal, m->told, &p)
                                            : fret_press_by_depth(m->normal, m->told, &p));
     return p;
@@ -113,6 +113,11 @@ double fret_memory_edge_rest(const fret_memory *m, coordinate by, fret_real edge
     return (double)(by == LOAD ? (p.F - edge) + p.F_rest : (p.dz - edge) + p.dz_rest);
 }
 
+static fret_real moment_of(const fret_memory *m, const fret_level *outer, fret_real h) {
+    const fret_slice s = fret_law_slice(m->normal, outer, h);
+    return fret_slice_moment(&s);
+}
+
 /* U = mu^2 eta/2 int v^2 dK with v the sum of sigma from the edge: from the centre outwards, a slice of
  * thickness h adds sigma h T + sigma^2 J to the half integral, T the sum of sigma dF_N inside it. */
 static fret_real stored(const fret_memory *m) {
@@ -122,7 +127,7 @@ static fret_real stored(const fret_memory *m) {
         const fret_real *end = i + 1 < m->count ? sl[1].inner : m->edge, h = sl->thick[DEPTH];
         const fret_level outer = {end[DEPTH], end[LOAD]};
         if (sl->sigma != 0 && h > 0)
-            sum += sl->sigma * h * T + sl->sigma * sl->sigma * fret_law_slice(m->normal, &outer, h).J;
+            sum += sl->sigma * h * T + sl->sigma * sl->sigma * moment_of(m, &outer, h);
         T = sl->sum[LOAD];
     }
     return m->loss_scale * sum;
@@ -193,7 +198,7 @@ int fret_memory_segment(const fret_memory *m, size_t i, fret_segment *out) {
 /* The depth of the spring at distance |x|; false where none is in contact. */
 static bool spring_at(const fret_memory *m, fret_real x, fret_real *y) {
     const fret_real r = fabsl(x);
-    if (!m->count || (!m->pressed_near && !m->unplaced && r >= m->radius))
+    if (!m->count || (!m->pressed_near && r >= m->radius))
         return false;
     const fret_real g = fret_normal_profile(m->normal, r);
     *y = g > m->edge[DEPTH] ? m->edge[DEPTH] : g; /* by rounding; NaN stays */
@@ -225,7 +230,7 @@ static fret_real slip_part(const fret_memory *m, const fret_level *outer, fret_r
                            fret_real v0, fret_real s) {
     const fret_slice part = fret_law_slice(m->normal, outer, h);
     const fret_real t2 = h * part.G - part.L; /* int t^2 dK */
-    const fret_real ends = u0 != 0 && v0 != 0 ? u0 * v0 * fret_law_stiffness_drop(m->normal, outer, h) : 0;
+    const fret_real ends = u0 != 0 && v0 != 0 ? u0 * v0 * part.fall : 0;
     return fabsl(ends + s * (v0 - u0) * part.G - s * s * t2);
 }
 

@@ -23,7 +23,7 @@ struct fret_memory {
     fret_real edge[2];            /* delta_z and F_N; 0, 0 when open */
     double edge_rest[2];          /* what does not fit in them */
     fret_real radius;             /* of the edge */
-    bool pressed_near, unplaced;  /* by `near`: rest, or else radius, are not known, */
+    bool pressed_near;            /* by `near`: rest and radius are not known, */
     fret_normal_target told_by;   /* but follow from what the edge was told by */
     double told;
     unsigned moves;  /* of the edge, so far */

@@ -465,8 +465,7 @@ static void open_contact(fret_memory *m, fret_real dx) {
 typedef enum moved {
     STAYS,
     PRESSED,
-    PRESSED_NEAR, /* by places of the law that are kept */
-    UNPLACED      /* pieces know all but the radius */
+    PRESSED_NEAR /* by places of the law that are kept */
 } moved;
 typedef struct normal_end {
     moved how;
@@ -504,13 +503,6 @@ FRET_INLINE fret_status find_normal_end(const fret_memory *m, const fret_step *s
         to->edge[LOAD] = by_force ? step->normal : v;
         return st;
     }
-    fret_real other;
-    if (step->normal >= DBL_MIN && fret_law_unplaced(m->normal, by_force, step->normal, &other)) {
-        to->how = UNPLACED;
-        to->edge[DEPTH] = by_force ? other : step->normal;
-        to->edge[LOAD] = by_force ? step->normal : other;
-        return st;
-    }
     st = by_force ? fret_press_by_force(m->normal, step->normal, &to->p)
                   : fret_press_by_depth(m->normal, fmax(step->normal, 0), &to->p);
     to->how = PRESSED;
@@ -526,13 +518,12 @@ FRET_INLINE void keep_normal_end(fret_memory *m, const fret_step *step, const no
     if (to->how != STAYS) {
         const bool placed = to->how == PRESSED;
         m->pressed_near = to->how == PRESSED_NEAR;
-        m->unplaced = to->how == UNPLACED;
         m->edge_rest[DEPTH] = placed ? to->p.dz_rest : 0;
         m->edge_rest[LOAD] = placed ? to->p.F_rest : 0;
         if (placed)
             m->radius = to->p.a;
     }
-    if (m->pressed_near || m->unplaced) {
+    if (m->pressed_near) {
         m->told_by = step->normal_by;
         m->told = step->normal;
     }

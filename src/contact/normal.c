@@ -5,59 +5,9 @@
 #include <float.h>
 #include <stdlib.h>
 
+#include "contact/cells.h"
 #include "contact/check.h"
 #include "number/real.h"
-
-/* Radii are handled as their distance e from the start of the gap. */
-static fret_profile profile(const fret_normal *n, fret_real e) {
-    return fret_gap_profile(&n->gap, &n->rule, e);
-}
-
-/* The radius soon after e, within 1 % of a table, where g is above what it is there; 0: it stays below. */
-static fret_real risen(const fret_normal *n, fret_real e) {
-    const fret_real whole = n->end - fret_gap_start(&n->gap), g = profile(n, e).g;
-    for (int i = 1; i <= 4; i++) {
-        const fret_real next = e + whole * i / 400;
-        if (next <= whole && profile(n, next).g > g)
-            return fret_gap_start(&n->gap) + next;
-    }
-    return 0;
-}
-
-/* Finds the first radius where g falls: the contact is a disc up to there. Sums with a negative term and
- * tables can do so; sampled at 400 radii, then bisected. */
-static fret_status find_end(fret_normal *n) {
-    const fret_gap *gap = &n->gap;
-    fret_real start = fret_gap_start(gap), last = fret_gap_end(gap), lo = start, first = 1e-12L;
-    n->end = last;
-    if (fret_gap_grows(gap))
-        return fret_ok();
-    const bool table = fret_gap_sampled(gap);
-    for (int i = 1; i <= 400; i++) {
-        fret_real x = table ? start + (last - start) * i / 400 : first * fret_pow(1e18L, i / 400.0L);
-        if (profile(n, x - start).slope >= 0) {
-            lo = x;
-            continue;
-        }
-        if (i == 1)
-            return fret_fail(FRET_NOT_MONOTONE, "r", (double)(table ? x : 0),
-                             table ? (double)risen(n, x - start) : 0);
-        fret_real hi = x;
-        for (int j = 0; j < 60; j++) {
-            fret_real mid = (lo + hi) / 2;
-            if (profile(n, mid - start).slope >= 0)
-                lo = mid;
-            else
-                hi = mid;
-        }
-        if (table)
-            return fret_fail(FRET_NOT_MONOTONE, "r", (double)lo, (double)risen(n, lo - start));
-        n->end = lo;
-        n->falls = true;
-        break;
-    }
-    return fret_ok();
-}
 
 /* Depth and force of the power law at a = r0, in logarithms: any exponent, no overflow. */
 static void make_power(fret_normal *n) {
@@ -88,20 +38,27 @@ static void make_power(fret_normal *n) {
     n->wide.ln_force = dd_add(dd_add(force, r0), n->wide.ln_depth);
 }
 
-fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, fret_normal **out) {
+fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, const fret_normal *like,
+                             fret_stop stop, fret_normal **out) {
     fret_normal *n = calloc(1, sizeof *n);
     if (!n)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    n->users = 1;
     n->gap = *gap;
     n->end = INFINITY;
     fret_status st = fret_foundation_make_wide(material, &n->foundation, &n->wide_foundation);
     if (!st.code)
         st = fret_gap_check(gap);
+    if (!st.code)
+        n->stiff = fret_normal_stiffness(n, 1);
     if (!st.code && fret_gap_closed(gap)) {
         make_power(n);
     } else if (!st.code) {
         fret_gap_rule(gap, material->k, &n->rule);
-        st = find_end(n);
+        n->cells = like ? fret_cells_share(like->cells, gap, material->k) : NULL;
+        if (!n->cells)
+            st = fret_cells_make(gap, material->k, stop, &n->cells);
+        n->end = st.code ? 0 : n->cells->end;
     }
     if (st.code)
         free(n);
@@ -110,16 +67,24 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
     return st;
 }
 
+fret_normal *fret_normal_hold(fret_normal *n) {
+    n->users++;
+    return n;
+}
+
 void fret_normal_free(fret_normal *n) {
-    if (n)
-        fret_pieces_free(n->pieces);
+    if (!n || --n->users > 0)
+        return;
+    fret_cells_free(n->cells);
     free(n);
 }
 
 void fret_normal_stop(fret_normal *n, fret_stop stop) {
     n->stop = stop;
-    if (n->pieces)
-        fret_pieces_stop(n->pieces, stop);
+}
+
+double fret_normal_error(const fret_normal *n) {
+    return n->cells ? (double)n->cells->error : (double)NAN;
 }
 
 const fret_foundation *fret_normal_foundation(const fret_normal *n) {
@@ -134,23 +99,20 @@ bool fret_normal_is_power(const fret_normal *n) {
     return fret_normal_closed(n);
 }
 
-bool fret_normal_dense(const fret_normal *n, fret_real a) {
-    enum { MANY = 10000 }; /* beyond which they are not taken one by one */
-    return fret_gap_rows(&n->gap, a) >= MANY;
-}
-
 fret_real fret_normal_end(const fret_normal *n) {
     return n->end;
 }
 
 fret_real fret_normal_profile(const fret_normal *n, fret_real x) {
-    const fret_real e = fabsl(x) - fret_gap_start(&n->gap);
-    if (!(fabsl(x) <= n->end && isfinite(x)))
+    x = fabsl(x);
+    if (!(x <= n->end && isfinite(x)))
         return (fret_real)NAN;
-    fret_real depth;
-    if (fret_law_prepared_depth(n, e, &depth))
-        return depth;
-    return e > 0 ? profile(n, e).g : 0;
+    if (!(x > fret_gap_start(&n->gap)))
+        return 0;
+    if (!n->cells)
+        return fret_gap_profile(&n->gap, &n->rule, x).g;
+    const fret_place p = fret_cells_at(n->cells, x);
+    return fret_cells_level(n->cells, BY_DEPTH, &p);
 }
 
 fret_status fret_contact_check(const fret_contact *contact) {
@@ -185,34 +147,18 @@ static fret_status finish(const fret_press *p, fret_press *out) {
     return fret_ok();
 }
 
-static bool by_pieces(const fret_normal *n, bool by_force, double value, fret_press *out) {
-    fret_point p;
-    if (!fret_law_prepared(n, by_force, value, &p))
-        return false;
-    *out = (fret_press){.F = p.F, .dz = p.y, .a = p.a};
-    return true;
-}
-
 static fret_status beyond_end(const fret_normal *n, const char *name, double value) {
-    return fret_fail(n->falls ? FRET_NOT_MONOTONE : FRET_TABLE_SHORT, n->falls ? "r" : name,
-                     n->falls ? (double)n->end : value, n->falls ? 0 : (double)n->end);
-}
-
-static fret_status finish_unless_stopped(const fret_normal *n, const fret_press *p, fret_press *out) {
-    return fret_stopped(n) ? fret_unless_stopped(n, fret_ok()) : finish(p, out);
+    const bool falls = n->cells->falls;
+    return fret_fail(falls ? FRET_NOT_MONOTONE : FRET_TABLE_SHORT, falls ? "r" : name,
+                     falls ? (double)n->end : value, falls ? 0 : (double)n->end);
 }
 
 /* By force or depth, without a closed form. */
-static fret_status by_search(const fret_normal *n, bool by_force, double value, fret_press *out) {
-    const fret_real e = fret_search_radius(n, by_force, value);
-    if (!isfinite(e))
+static fret_status by_cells(const fret_normal *n, bool by_force, double value, fret_press *out) {
+    const fret_point p = by_force ? fret_law_at_force(n, value) : fret_law_at_depth(n, value);
+    if (isnan(p.a))
         return beyond_end(n, by_force ? "FN" : "dz", value);
-    const fret_real other = fret_law_other(n, by_force, value, e);
-    return finish_unless_stopped(n,
-                                 &(fret_press){.F = by_force ? value : other,
-                                               .dz = by_force ? other : value,
-                                               .a = fret_gap_start(&n->gap) + e},
-                                 out);
+    return finish(&(fret_press){.F = p.F, .dz = p.y, .a = p.a}, out);
 }
 
 fret_status fret_press_by_force(const fret_normal *n, double F, fret_press *out) {
@@ -228,9 +174,7 @@ fret_status fret_press_by_force(const fret_normal *n, double F, fret_press *out)
         s.dz_rest = dd_rest(dz);
         return finish(&s, out);
     }
-    if (by_pieces(n, true, F, &s))
-        return finish(&s, out);
-    return by_search(n, true, F, out);
+    return by_cells(n, true, F, out);
 }
 
 fret_status fret_press_by_depth(const fret_normal *n, double dz, fret_press *out) {
@@ -246,9 +190,7 @@ fret_status fret_press_by_depth(const fret_normal *n, double dz, fret_press *out
         s.F_rest = dd_rest(F);
         return finish(&s, out);
     }
-    if (by_pieces(n, false, dz, &s))
-        return finish(&s, out);
-    return by_search(n, false, dz, out);
+    return by_cells(n, false, dz, out);
 }
 
 fret_status fret_press_by_radius(const fret_normal *n, double a, fret_press *out) {
@@ -269,9 +211,9 @@ fret_status fret_press_by_radius(const fret_normal *n, double a, fret_press *out
     if (a > n->end)
         return beyond_end(n, "a", a);
     if (e > 0) {
-        const fret_profile p = profile(n, e);
-        s.F = fret_force_of(n, &p);
-        s.dz = p.g;
+        const fret_place p = fret_cells_at(n->cells, a);
+        s.F = n->stiff * fret_cells_level(n->cells, BY_LOAD, &p);
+        s.dz = fret_cells_level(n->cells, BY_DEPTH, &p);
     }
-    return finish_unless_stopped(n, &s, out);
+    return finish(&s, out);
 }

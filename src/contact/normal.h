@@ -4,33 +4,26 @@
 #define FRET_CONTACT_NORMAL_H
 
 #include <float.h>
+#include <stdatomic.h>
 
-#include "contact/gap.h"
+#include "contact/cells.h"
 #include "contact/material.h"
 #include "fret/normal.h"
-
-/* Of fret_normal_prepare, see pieces.h. */
-struct fret_pieces;
-void fret_pieces_free(struct fret_pieces *pieces);
-void fret_pieces_stop(struct fret_pieces *pieces, fret_stop stop); /* for what they make when asked */
 
 struct fret_normal {
     fret_foundation foundation;
     fret_wide_foundation wide_foundation;
     fret_gap gap;
     fret_rule rule;
-    fret_real p;                /* power law: F_N ~ delta_z^p, p = (n+k+1)/n; 0 for other shapes */
-    fret_real pm1;              /* p-1 = (k+1)/n without cancellation */
-    fret_real q;                /* 1/p */
-    fret_real s;                /* n+k+1: F_N ~ a^s */
-    fret_real end;              /* largest contact radius that the gap supports [m]; infinite for a power */
-    bool falls;                 /* because g(x) begins to fall there */
-    fret_stop stop;             /* or NULL */
-    struct fret_pieces *pieces; /* or NULL: of fret_normal_prepare */
-    double prepared;            /* the load up to which they were asked for [N]; 0: they were not */
-    double borne;               /* and the error that they may have */
-    bool shared;                /* they are those of another contact */
-    bool thin;                  /* with all digits of thin slices: of a copy that asks at constant F_N */
+    fret_real p;    /* power law: F_N ~ delta_z^p, p = (n+k+1)/n; 0 for other shapes */
+    fret_real pm1;  /* p-1 = (k+1)/n without cancellation */
+    fret_real q;    /* 1/p */
+    fret_real s;    /* n+k+1: F_N ~ a^s */
+    fret_real end;  /* largest contact radius that the gap supports [m]; infinite for a power */
+    fret_stop stop; /* or NULL */
+    atomic_size_t users;
+    fret_cells *cells; /* NULL: a power law. Loads are theirs times `stiff` */
+    fret_real stiff;   /* dF_N/d delta_z at a = 1 m */
     struct {
         dd p, q, s;                   /* to 100 bits */
         dd ln_r0, ln_depth, ln_force; /* logarithms of r0, and of depth and force at a = r0 [m], [N] */
@@ -55,61 +48,47 @@ static inline fret_status fret_unless_stopped(const fret_normal *n, fret_status 
 /* mu and F_N must be positive: FRET_NOT_POSITIVE, FRET_NOT_FINITE. */
 fret_status fret_contact_check(const fret_contact *contact);
 
-/* Does a law that ends at `most` know `value`? A double's rounding beyond it counts as its end: what a
- * contact that reaches the end of its gap answers must be carried when it is given back. */
-static inline bool fret_law_reaches(fret_real most, fret_real value) {
-    return value <= most * (1 + 4 * DBL_EPSILON);
-}
-
 /* Can doubles hold what it is pressed to? */
 bool fret_press_held(const fret_press *press);
-
-/* F_N [N] of a contact whose profile is known. */
-fret_real fret_force_of(const fret_normal *normal, const fret_profile *profile);
-
-/* Distance from the start of the gap to the radius of the depth, or the load, `target`; infinity where the
- * gap ends before it is reached, 0 where it lies so close to a flat end that no digit shows it. By a search:
- * for gaps without a closed form. */
-fret_real fret_search_radius(const fret_normal *normal, bool by_force, fret_real target);
-/* The depth of the load `value`, or the load of that depth, which that search found at e. */
-fret_real fret_law_other(const fret_normal *normal, bool by_force, fret_real value, fret_real e);
 
 /* The law as the tangential problem sees it, for the depth y of an inner contact, 0 <= y. */
 fret_real fret_law_radius(const fret_normal *normal, fret_real y); /* a(y) [m] */
 fret_real fret_law_force(const fret_normal *normal, fret_real y);  /* F_N(y) [N] */
 fret_real fret_law_depth(const fret_normal *normal, fret_real F);  /* F_N^-1(F) [m] */
 
-/* All of them at once, from the depth y or from the load F: one search where there is no closed form. */
+/* How far a(y) is beyond the start of the gap [m]: near a flat end the radius would not tell. */
+fret_real fret_law_distance(const fret_normal *normal, fret_real y);
+
+/* All of them at once, from the depth y or from the load F. */
 typedef struct fret_point {
     fret_real y, F, a, K; /* depth [m], F_N(y) [N], radius [m], dF_N/dy [N/m] (0 at y = 0) */
 } fret_point;
-/* The same where pieces know it; else false. Depth g at the distance e from the start of the gap. */
-bool fret_law_prepared(const fret_normal *normal, bool by_force, fret_real value, fret_point *out);
-bool fret_law_prepared_depth(const fret_normal *normal, fret_real e, fret_real *depth);
-/* Depth by load, or load by depth, where they know it but no radius that would do. */
-bool fret_law_unplaced(const fret_normal *normal, bool by_force, fret_real value, fret_real *other);
 fret_point fret_law_at_depth(const fret_normal *normal, fret_real y);
 fret_point fret_law_at_force(const fret_normal *normal, fret_real F);
+fret_point fret_law_at_radius(const fret_normal *normal, fret_real a); /* up to fret_normal_end */
 
 /* A place in the contact: its depth y and F_N(y), both known where slices are cut. */
 typedef struct fret_level {
     fret_real y, F;
 } fret_level;
 
-/* Integrals over the slice of depths [y-h, y], 0 <= h <= y, exact also for thin slices (shapes other than the
- * power law: 1e-14 relative; where a row of a table lies within a slice thinner than 1e-5 y, 1e-18 y/h);
- * K = dF_N/dy, t the distance from y:
- *   w = int K dt = F_N(y)-F_N(y-h) [N], J = int t K dt [N m],
- *   G = int t dK = w - h K(y-h) [N],    L = int_0^h G dt [N m]. */
+/* What a slice of the law carries, from a level inwards, with all digits of thin ones too; t is the distance
+ * in depth from there: its thickness h [m], load w = int K dt [N], the fall of K = dF_N/dy [N/m], and G = int
+ * t dK [N],   L = int t (h-t) dK [N m];   K: at the inner end. Others follow: int (h-t) dK = h fall - G, int
+ * t^2 dK = h G - L, int t K dt = (h h K + h G - L)/2. Of the law that tells depth by load, with 1/K in the
+ * place of K, they are G/K, (h fall - G)/(K + fall), and the same L: twice the area between the law and its
+ * chord. */
 typedef struct fret_slice {
-    fret_real w, J, G, L;
+    fret_real h, w, fall, G, L, K;
 } fret_slice;
-fret_slice fret_law_slice(const fret_normal *normal, const fret_level *outer, fret_real h);
 
-/* The slice of a thickness, or load, `target`, beyond which `left` is left, with all digits where that is
- * little. */
+/* Of a thickness, or load, `target`, beyond which `left` is left, with all digits where that is little. */
 fret_slice fret_law_slice_to(const fret_normal *normal, const fret_level *outer, bool by_load,
                              fret_real target, fret_real left);
+/* Of the thickness h, 0 <= h <= y. */
+fret_slice fret_law_slice(const fret_normal *normal, const fret_level *outer, fret_real h);
+/* int t K dt over it, t from the outer end [N m]. */
+fret_real fret_slice_moment(const fret_slice *slice);
 
 /* The load w of a slice from its thickness, and the thickness from its load. */
 fret_real fret_law_load(const fret_normal *normal, const fret_level *outer, fret_real h);
@@ -125,8 +104,5 @@ fret_real fret_law_level_radius(const fret_normal *normal, const fret_level *lev
 
 /* ln a(y) of a power law. */
 dd fret_law_log_radius(const fret_normal *normal, fret_real y);
-
-/* int dK = K(y)-K(y-h) [N/m] over the slice. */
-fret_real fret_law_stiffness_drop(const fret_normal *normal, const fret_level *outer, fret_real h);
 
 #endif

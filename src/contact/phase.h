@@ -18,11 +18,10 @@ typedef struct fret_phase {
 
 /* With D and d the depths of edge and front, per mu^2 eta and 1 - s sigma:
  *   int [F_N(D)-F_N(d)-(D-d) K(d)] |dd| [J], the same by load and by depth.
- * Accuracy: 1e-17 relative for power laws, of thin zones as well; others 1e-14, of
- * a prepared contact at least 1e-18 of F_N delta_z. */
+ * Accuracy: 1e-17 relative for power laws, of thin zones as well; others that of the slices of the law. */
 fret_real fret_phase_loss(const fret_phase *phase);
 
-/* The same by quadrature of the law at both ends, as for shapes without a closed form. */
+/* The same by moments of the law, as for shapes without a closed form. */
 fret_real fret_phase_loss_by_law(const fret_phase *phase);
 
 /* [F_N(D)-F_N(d)-(D-d) K(d)]/K(d) [m]: D the depth of the load `edge`, d that of `front` >= 0, `zone` the

@@ -88,8 +88,8 @@ static slip_zone slip_zone_of(const fret_contact *c, const fret_loading *peak) {
     if (!fret_normal_closed(normal)) {
         s.scale = 4 * mu * mu * normal->foundation.eta * normal->foundation.cN0;
         s.start = fret_gap_start(&normal->gap);
-        s.outer = press->a - s.start;
-        s.inner = fmaxl(peak->c - s.start, 0);
+        s.outer = fret_law_distance(normal, press->dz);
+        s.inner = fret_law_distance(normal, peak->yc);
         s.g_outer = fret_gap_profile(&normal->gap, &normal->rule, s.outer).g;
         /* beside a flat end g grows within less than the last digit of the radius */
         s.g_inner = s.inner > s.start / 64 ? fret_gap_profile(&normal->gap, &normal->rule, s.inner).g

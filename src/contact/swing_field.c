@@ -184,7 +184,7 @@ static fret_status begin(const fret_swing *c, fret_real r, bend *b) {
         b->N = (fret_real)INFINITY;
     else if (!st.code && e > 0) {
         const fret_profile p = fret_gap_profile(&n->gap, &n->rule, e);
-        b->N = fret_force_of(n, &p);
+        b->N = fret_law_at_radius(n, r).F;
         if (!fret_normal_closed(n)) {
             const fret_real less = 1e-4L * b->N, inner = fret_law_at_force(n, b->N - less).a;
             b->steep = 1 / (p.slope * fret_normal_stiffness(n, r));

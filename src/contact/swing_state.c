@@ -56,7 +56,8 @@ static fret_real sum_along(const fret_swing *c, bool energy) {
             continue;
         const fret_level outer = {fret_law_depth(c->normal, N1), N1};
         const fret_real h = fret_law_thickness(c->normal, &outer, N1 - N0), sigma = (T1 - T0) / (N1 - N0);
-        sum += energy ? sigma * (h * T0 + sigma * fret_law_slice(c->normal, &outer, h).J) : sigma * h;
+        const fret_slice part = fret_law_slice(c->normal, &outer, h);
+        sum += energy ? sigma * (h * T0 + sigma * fret_slice_moment(&part)) : sigma * h;
     }
     return sum;
 }

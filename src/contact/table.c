@@ -20,13 +20,14 @@ struct fret_table {
     double *r, *f, *d0, *d1, *d2;
     double start; /* it may begin flat */
     bool grows;
+    double within;  /* of the largest f: what many rows were thinned by */
     fret_stop stop; /* while it is made */
     struct block *block;
 };
 
 /* Pieces far from the edge are summed in blocks, by Taylor's series of the kernel about the middle c of the
  * block: f' and r f'' count through their moments over x = (r-c)/d. A block precedes its two halves. */
-enum { TAYLOR = FRET_TABLE_MOMENTS, MOMENTS = TAYLOR + 2, EXACT = FRET_TABLE_EXACT, LEAF = 8 };
+enum { TAYLOR = 32, MOMENTS = TAYLOR + 2, EXACT = 9, LEAF = 8 };
 typedef struct block {
     size_t first, last, next;               /* pieces; the first block that is no part of this one */
     fret_real c, d;                         /* middle and half-width */
@@ -238,6 +239,74 @@ static bool grows(const struct fret_table *t) {
     return true;
 }
 
+/* ---- many rows --------------------------------------------------------------------------------- */
+
+enum { MANY = 2000 };
+
+/* Is the cubic between two rows, with their slopes, as close to those between, as a part of the gap there, or
+ * of little of the largest? Halfway from row to row, too. */
+static bool spans(const struct fret_table *t, size_t i, size_t j, double within, double most) {
+    static const double little = 1e-3;
+    const fret_real h = (fret_real)t->r[j] - t->r[i], s = ((fret_real)t->f[j] - t->f[i]) / h;
+    const double c1 = (double)((3 * s - 2 * (fret_real)t->d0[i] - t->d0[j]) / h),
+                 c2 = (double)(((fret_real)t->d0[i] + t->d0[j] - 2 * s) / (h * h));
+    for (size_t k = i; k < j; k++)
+        for (int half = 0; half < 2; half++) {
+            const double x = half * (t->r[k + 1] - t->r[k]) / 2, u = t->r[k] - t->r[i] + x,
+                         f = t->f[k] + x * (t->d0[k] + x * (t->d1[k] / 2 + x * t->d2[k] / 3)),
+                         cubic = t->f[i] + u * (t->d0[i] + u * (c1 + u * c2));
+            if (!(fabs(cubic - f) <= within * fmax(fabs(f), little * most)))
+                return false;
+        }
+    return true;
+}
+
+/* The last row that a piece from row i reaches, not beyond `last`: twice as far as long as that does, then by
+ * halves. */
+static size_t reach_of(const struct fret_table *t, size_t i, size_t last, double within, double most) {
+    size_t step = 1;
+    while (i + 2 * step <= last && spans(t, i, i + 2 * step, within, most))
+        step *= 2;
+    size_t near = i + step, far = i + 2 * step < last ? i + 2 * step : last + 1;
+    while (far - near > 1) {
+        const size_t middle = near + (far - near) / 2;
+        *(spans(t, i, middle, within, most) ? &near : &far) = middle;
+    }
+    return near;
+}
+
+/* How many rows are left, which come first: `keep` false leaves all as it is. The flat end stays where it is.
+ */
+static size_t thin_out(struct fret_table *t, double within, double most, bool keep) {
+    size_t left = 1;
+    for (size_t i = 0; i + 1 < t->count && !stopped(t); left++) {
+        i = reach_of(t, i, t->r[i] < t->start ? fret_table_row(t, 0) : t->count - 1, within, most);
+        if (keep) {
+            t->r[left] = t->r[i];
+            t->f[left] = t->f[i];
+            t->d0[left] = t->d0[i];
+        }
+    }
+    return left;
+}
+
+/* Fewer rows, within as little of the largest gap as leaves not too many, at most the last of these parts. */
+static void thin(struct fret_table *t) {
+    static const double parts[] = {1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6};
+    double most = 0;
+    int i = 0;
+    for (size_t j = 0; j < t->count; j++)
+        most = fmax(most, fabs(t->f[j]));
+    while (i < 8 && thin_out(t, parts[i], most, false) > MANY)
+        i++;
+    const size_t left = thin_out(t, parts[i], most, true);
+    if (stopped(t))
+        return;
+    t->count = left;
+    t->within = parts[i];
+    hermite_pieces(t);
+}
+
 fret_status fret_table_make(const double *r, const double *f, size_t count, fret_stop stop,
                             struct fret_table **out) {
     return fret_table_sloped(r, f, NULL, count, stop, out);
@@ -278,11 +347,13 @@ fret_status fret_table_sloped(const double *r, const double *f, const double *sl
         memcpy(t->d0, slope, count * sizeof *slope);
     else
         steffen_slopes(t);
-    hermite_pieces(t);
-    make_block(t, 0, count - 1);
-    t->grows = grows(t);
     for (size_t i = 1; i + 1 < count && f[i] == 0; i++)
         t->start = r[i];
+    hermite_pieces(t);
+    if (count > MANY + 1)
+        thin(t);
+    make_block(t, 0, t->count - 1);
+    t->grows = grows(t);
     if (stopped(t)) {
         fret_table_free(t);
         return fret_fail(FRET_INTERRUPTED, NULL, 0, 0);
@@ -317,6 +388,14 @@ fret_real fret_table_f(const struct fret_table *t, fret_real r) {
     size_t i = table_piece(t, r);
     fret_real x = r - t->r[i];
     return t->f[i] + x * (t->d0[i] + x * (t->d1[i] / 2 + x * t->d2[i] / 3));
+}
+
+double fret_table_within(const struct fret_table *t) {
+    return t->within;
+}
+
+size_t fret_table_count(const struct fret_table *t) {
+    return t->count;
 }
 
 fret_real fret_table_start(const struct fret_table *t) {
@@ -361,7 +440,7 @@ typedef struct sums {
     fret_real g, I, s;
 } sums;
 
-int fret_table_terms(fret_real half, fret_real away) {
+static int terms_of(fret_real half, fret_real away) {
     if (!(4 * half <= away))
         return 0;
     const double ratio = (double)(half / away);
@@ -449,7 +528,7 @@ fret_profile fret_table_profile(const struct fret_table *t, const fret_rule *rul
         const block *b = &t->block[i];
         fret_real middle = (start - b->c) + e;
         bool leaf = b->next == i + 1;
-        int terms = fret_table_terms(b->d, middle);
+        int terms = terms_of(b->d, middle);
         i = leaf || terms || middle <= -b->d ? b->next : i + 1;
         if (terms)
             add_far(&all, b, terms, alpha, a, middle);
@@ -461,7 +540,7 @@ fret_profile fret_table_profile(const struct fret_table *t, const fret_rule *rul
             block piece;
             piece.d = ((fret_real)t->r[j + 1] - t->r[j]) / 2;
             middle = (start - (t->r[j] + piece.d)) + e;
-            terms = fret_table_terms(piece.d, middle);
+            terms = terms_of(piece.d, middle);
             if (terms) {
                 piece_moments(t, j, terms, &piece);
                 add_far(&all, &piece, terms, alpha, a, middle);
@@ -477,23 +556,6 @@ fret_profile fret_table_profile(const struct fret_table *t, const fret_rule *rul
     }
     return fret_profile_of(k, a, all.g, all.g + all.s, all.I);
 }
-
-/* From the jumps of both derivatives of f' at a row, near the edge alone. */
-fret_real fret_table_bend(const struct fret_table *t, const fret_rule *rule, fret_real kink, fret_real e) {
-    const fret_real start = t->start, a = start + e, v = (e - kink) / a;
-    const size_t i = table_piece(t, start + kink);
-    if (i == 0 || v <= 0)
-        return 0;
-    const fret_real h = (fret_real)t->r[i] - t->r[i - 1];
-    const fret_real d1 = (t->d1[i] - (t->d1[i - 1] + 2 * h * t->d2[i - 1])) * a,
-                    d2 = ((fret_real)t->d2[i] - t->d2[i - 1]) * a * a;
-    const fret_edge m = fret_edge_moments(rule, v);
-    const fret_real p1 = -(d1 + 2 * v * d2);
-    const fret_real g = v * (d1 + v * d2) * m.moment[0] + p1 * m.moment[1] + d2 * m.moment[2];
-    return g - p1 * (m.moment[0] - m.moment[1]) - 2 * d2 * (m.moment[1] - m.moment[2]);
-}
-
-/* ---- parts of the sums, for whoever keeps them ------------------------------------------------- */
 
 fret_real fret_table_distance(const struct fret_table *t, size_t row) {
     return (fret_real)t->r[row] - t->start;
@@ -517,88 +579,4 @@ void fret_table_jump(const struct fret_table *t, size_t row, fret_real c[3]) {
     c[0] = 0;
     c[1] = t->d1[row] - (t->d1[row - 1] + 2 * h * t->d2[row - 1]);
     c[2] = (fret_real)t->d2[row] - t->d2[row - 1];
-}
-
-static void add_block(const block *b, int count, fret_real alpha, fret_real a, fret_real u, fret_real unit,
-                      fret_real out[3]) {
-    const fret_real per = 1 / (a * unit), D = u * (a + b->c);
-    const far_sums of = sum_far(b, count, alpha, D);
-    const fret_real K = expl(alpha * logl(D * per));
-    out[0] += K * of.slope[0];
-    out[1] += K * per * (D * of.slope[0] - b->d * (2 * b->c * of.slope[1] + b->d * of.slope[2]));
-    out[2] += K * (of.slope[0] + of.rf2);
-}
-
-/* Of a part of a row that is far, where the quadratic about the edge would lose its digits. */
-static void add_points(const struct fret_table *t, fret_real alpha, size_t row, fret_real far, fret_real near,
-                       fret_real e, fret_real unit, fret_real out[3]) {
-    const fret_real a = t->start + e, begin = e - fret_table_distance(t, row);
-    for (int j = 0; j < 8; j++) {
-        const fret_real back = near + (far - near) * fret_gauss_node[j], x = begin - back,
-                        D = back * (2 * a - back) / (a * unit),
-                        K = (far - near) * fret_gauss_weight[j] * expl(alpha * logl(D)),
-                        f1 = f1_of(t, row, x);
-        out[0] += K * f1;
-        out[1] += K * D * f1;
-        out[2] += K * (f1 + (a - back) * f2_of(t, row, x));
-    }
-}
-
-void fret_table_within(const struct fret_table *t, const fret_rule *rule, size_t row, fret_real far,
-                       fret_real near, fret_real e, fret_real unit, fret_real out[3]) {
-    const fret_real a = t->start + e, alpha = (rule->k - 1) / 2, v = (e - fret_table_distance(t, row)) / a;
-    if (near > 4 * (far - near)) {
-        add_points(t, alpha, row, far, near, e, unit, out);
-        return;
-    }
-    const fret_edge lo = fret_edge_moments(rule, far / a), hi = fret_edge_moments(rule, near / a);
-    const fret_real K = a * expl(alpha * logl(a / unit)), d1 = t->d1[row] * a, d2 = t->d2[row] * a * a;
-    const fret_real p[3] = {t->d0[row] + v * (d1 + v * d2), -(d1 + 2 * v * d2), d2};
-    fret_real m[FRET_EDGE];
-    for (int j = 0; j < FRET_EDGE; j++)
-        m[j] = lo.moment[j] - hi.moment[j];
-    for (int j = 0; j < 3; j++) {
-        out[0] += K * p[j] * m[j];
-        out[1] += K * (a / unit) * p[j] * (2 * m[j + 1] - m[j + 2]);
-        out[2] += K * p[j] * m[j];
-    }
-    out[2] -= K * (p[1] * (m[0] - m[1]) + 2 * p[2] * (m[1] - m[2]));
-}
-
-bool fret_table_block(const struct fret_table *t, size_t i, fret_table_stretch *out) {
-    if (i >= t->blocks)
-        return false;
-    const block *b = &t->block[i];
-    *out = (fret_table_stretch){b->first, b->last, b->next, b->c, b->d, b->slope, b->rf2};
-    return true;
-}
-
-void fret_table_part(const struct fret_table *t, const fret_rule *rule, size_t first, size_t last,
-                     fret_real e, fret_real unit, fret_real out[3]) {
-    const fret_real alpha = (rule->k - 1) / 2, start = t->start, a = start + e;
-    out[0] = out[1] = out[2] = 0;
-    for (size_t i = 0; i < t->blocks && t->block[i].first < last;) {
-        const block *b = &t->block[i];
-        const bool leaf = b->next == i + 1, within = b->first >= first && b->last <= last;
-        const fret_real middle = (start - b->c) + e;
-        const int terms = within ? fret_table_terms(b->d, middle) : 0;
-        i = leaf || terms || b->last <= first ? b->next : i + 1;
-        if (terms)
-            add_block(b, terms, alpha, a, middle, unit, out);
-        if (terms || !leaf)
-            continue;
-        for (size_t j = b->first > first ? b->first : first; j < b->last && j < last; j++) {
-            block piece;
-            piece.d = ((fret_real)t->r[j + 1] - t->r[j]) / 2;
-            const fret_real away = (start - (t->r[j] + piece.d)) + e;
-            const int count = fret_table_terms(piece.d, away);
-            if (!count) {
-                fret_table_within(t, rule, j, e - fret_table_distance(t, j),
-                                  e - fret_table_distance(t, j + 1), e, unit, out);
-                continue;
-            }
-            piece_moments(t, j, count, &piece);
-            add_block(&piece, count, alpha, a, away, unit, out);
-        }
-    }
 }

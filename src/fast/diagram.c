@@ -134,8 +134,8 @@ static fret_real stored(const fret_diagram *d) {
         const point *end = i + 1 < d->count ? &l[1].inner : &d->edge;
         const fret_real h = (fret_real)end->y[DEPTH] - l->inner.y[DEPTH], sigma = l->sigma;
         const fret_level outer = {end->y[DEPTH], end->y[LOAD]};
-        if (sigma != 0)
-            sum += sigma * h * l->inner.t[LOAD] + sigma * sigma * fret_law_slice(d->normal, &outer, h).J;
+        const fret_slice part = fret_law_slice(d->normal, &outer, h);
+        sum += sigma * h * l->inner.t[LOAD] + sigma * sigma * fret_slice_moment(&part);
     }
     return (fret_real)d->loss_scale * sum;
 }

@@ -199,6 +199,15 @@ static bool swings(scene *s) {
     return reach->swings;
 }
 
+static void put_law(FILE *to, const scene *s) {
+    const struct fret_table *rows = s->answers.normal ? fret_normal_gap(s->answers.normal)->table : NULL;
+    fprintf(to, "    law of the gap: %s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
+    if (rows && fret_table_within(rows) > 0)
+        fprintf(to, ", of %zu pieces within %.0e of the gap", fret_table_count(rows) - 1,
+                fret_table_within(rows));
+    fputc('\n', to);
+}
+
 /* Of a load that swings *sine tells what that is good to; 0: nobody knows. in_double: so the forces were had
  * that it is made of. */
 static model_id put_model(const page *p, const quantity *q, bool call, const expr *e, bool in_double,
@@ -210,12 +219,13 @@ static model_id put_model(const page *p, const quantity *q, bool call, const exp
     *sine = 0;
     if (stepped && (q->reads & INPUT_BIT(IN_MU)) && swings(s))
         *sine = put_sine(p, q, call, model, e);
-    else if (model == MODEL_QUADRATURE && q->by != MODEL_QUADRATURE)
-        fprintf(p->to, "    model: %s, with quadrature over the gap\n", models[MODEL_CLOSED].title);
+    else if (model == MODEL_PIECES)
+        fprintf(p->to, "    model: %s, with %s over the gap\n", models[MODEL_CLOSED].title,
+                models[MODEL_PIECES].title);
     else
         put_title(p, model, model == MODEL_MEMORY ? " (exact)\n" : "\n");
-    if (model == MODEL_MEMORY && s->used & USED(MODEL_PIECES))
-        fprintf(p->to, "    law of the gap: %s, good to %.0e\n", models[MODEL_PIECES].title, s->pieces_error);
+    if ((model == MODEL_MEMORY || model == MODEL_PIECES) && s->used & USED(MODEL_PIECES))
+        put_law(p->to, s);
     if (stepped && (q->reads & INPUT_BIT(IN_MU))) {
         if (model == MODEL_MEMORY && s->answers.levels && s->answers.run[0].repeated)
             fprintf(p->to, "    cycle: %u more period%s the last one that was run\n",

@@ -326,6 +326,18 @@ static void report_misfit(shell *sh, const smooth_answer *a) {
                a->pieces, a->pieces == 1 ? "" : "s", text[0], text[1], text[2], text[3]);
 }
 
+/* Nor is what is left of many rows. */
+static void report_thinning(shell *sh, size_t rows, const struct fret_table *gap) {
+    const size_t pieces = fret_table_count(gap) - 1;
+    const double within = fret_table_within(gap);
+    if (sh->set.format == FORMAT_JSON)
+        fprintf(sh->out, "{\"event\":\"thin\",\"rows\":%zu,\"pieces\":%zu,\"within\":%.17g}\n", rows, pieces,
+                within);
+    else
+        shell_note(sh, "note: of %zu rows %zu pieces are made, within %.0e of the largest gap", rows, pieces,
+                   within);
+}
+
 static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
     char name[ARG_FILE_NAME];
     const size_t at = lx->at;
@@ -347,6 +359,8 @@ static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
     }
     if (ok && how.by)
         report_misfit(sh, &smoothed);
+    if (ok && fret_table_within(e->table->table) > 0)
+        report_thinning(sh, data.rows, e->table->table);
     smooth_free(&smoothed);
     csv_free(&data);
     return ok || calc_place(lx->error, at, end - at);

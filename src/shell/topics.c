@@ -379,21 +379,16 @@ const char *model_text(size_t id) {
                          "step Fx=20 N; step FN=80 N Fx=10 N\n    fret> set model memory\n    fret> W\n"
                          "    W = 477.51 nJ\n",
         [MODEL_QUADRATURE] =
-            "Integrals over the gap, for shapes without a formula and for local fields.\n\n" EXAMPLE
+            "Integrals over the contact, for local fields and for the stiffness of loops.\n\n" EXAMPLE
             "step Fx=20 N\n    fret> qx(0.1 mm)\n    qx(0.1 mm) = 141.911 MPa\n",
-        [MODEL_PIECES] = "The law FN(dz) of a gap without a formula as polynomials, piece by piece: made\n"
-                         "where many values of one contact are asked for: by 32 rows of a table, by steps\n"
-                         "of FN under Fx, and of 10,000 rows and more in contact. They agree with the\n"
-                         "quadrature to 2e-15; of rows that are shown as text, FN(dz) to a hundredth of\n"
-                         "the last digit, and the loss of an amplitude that is a small part s of gross\n"
-                         "slip to some 10/s^2 of that. CSV and JSON have the law row by row where\n"
-                         "polynomials do not have the digits: 30 to 60 us a row to set up, 5 us a value. A\n"
-                         "single question of fewer than 10,000 rows takes the law of those alone that\n"
-                         "slip: both agree to 2e-15, of s above 1e-3.\n"
+        [MODEL_PIECES] = "The law FN(dz) of a gap without a formula is polynomials in the square of the\n"
+                         "radius, cell by cell, with the powers that a kink of the gap adds: a dozen cells\n"
+                         "for a shape, one or more for each row of a table. They are made once, in a\n"
+                         "millisecond, of a table in some 0.1 ms a row, and are good to 1e-15; then depth,\n"
+                         "force, loss and slip take microseconds, and so does any step. Up to 2000 rows\n"
+                         "each is taken as it is; of more, as few as do within 1e-14 to 1e-6 of the gap.\n"
                          "Local fields take the profile of a flat-ended gap, from 32 places on, and of a\n"
-                         "table from polynomials of each row too: some 60 us a row to set up, and good to\n"
-                         "1e-15 of the largest value. Of more than 2000 rows all are summed for each\n"
-                         "place: 30 to 110 us, and 10 ms before the first p or qx.\n\n" EXAMPLE
+                         "table from polynomials too, good to 1e-15 of the largest value.\n\n" EXAMPLE
                          "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
                          "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"

@@ -9,7 +9,6 @@
 
 const family_row families[FAMILIES] = {
     [FAMILY_CLOSED] = {"closed form", "", MODEL_CLOSED},
-    [FAMILY_PIECES] = {"polynomials", "", MODEL_PIECES},
     [FAMILY_MEMORY] = {"memory diagram", "", MODEL_MEMORY},
     [FAMILY_DOUBLE] = {"diagram in double", "", MODEL_DOUBLE},
     [FAMILY_QUADRATURE] = {"quadrature", "N", MODEL_QUADRATURE},
@@ -262,28 +261,17 @@ static bool steady_reference(bench *b, steady *m) {
         return calc_fail(b->error, 0, 0, "the load is too small: no model of this gap can tell dW from 0");
     study->agreement = fmaxl(study->agreement, rounding);
     snprintf(study->reference, sizeof study->reference, "quadrature in long double");
-    study->automatic =
-        fret_normal_is_power(m->contact.normal) ? "closed form" : "closed form, with quadrature over the gap";
+    study->automatic = fret_normal_is_power(m->contact.normal) ? "closed form"
+                                                               : "closed form, with polynomials over the gap";
     study->why = "constant FN";
     return true;
 }
 
-/* What steps asks for many values. */
-static bool prepare(bench *b, steady *m) {
-    if (!scene_many_normal(b->s, (double)m->contact.press.F, &m->contact.normal, b->error))
-        return false;
-    return isnan(fret_normal_prepared(m->contact.normal)) || measure(b, FAMILY_PIECES, 0, closed_cycle, m);
-}
-
 static bool measure_steady(bench *b, steady *m) {
-    const fret_normal *plain = m->contact.normal;
-    bool ok = steady_reference(b, m) && measure(b, FAMILY_CLOSED, 0, closed_cycle, m) &&
-              (fret_normal_is_power(plain) || prepare(b, m)) && memory_rows(b, m) && double_row(b, m);
-    const fret_normal *many = m->contact.normal;
-    m->contact.normal = plain;
+    bool ok = steady_reference(b, m) && measure(b, FAMILY_CLOSED, 0, closed_cycle, m) && memory_rows(b, m) &&
+              double_row(b, m);
     for (m->size = 16; ok && m->size <= 128; m->size *= 2)
         ok = measure(b, FAMILY_QUADRATURE, m->size, quadrature_cycle, m);
-    m->contact.normal = many;
     b->end -= b->budget / 4; /* kept for the last */
     ok = ok && springs_rows(b, m, FAMILY_SPRINGS);
     b->end += b->budget / 4;

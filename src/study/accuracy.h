@@ -8,7 +8,6 @@
 
 typedef enum model_family {
     FAMILY_CLOSED,
-    FAMILY_PIECES,
     FAMILY_MEMORY,
     FAMILY_DOUBLE,
     FAMILY_QUADRATURE,

@@ -200,24 +200,6 @@ static bool press_of(state *s, load_step *out, calc_error *error) {
     return true;
 }
 
-/* Rows are many: the law of a shape without a closed form is prepared, as far as they load. */
-static bool prepare(state *s, const load_step *press, const fret_normal **normal, calc_error *error) {
-    const fit_loop *loop = &s->of->loop;
-    load_step most = *press;
-    fret_press p;
-    if (fret_normal_is_power(*normal))
-        return true;
-    for (size_t i = 0; loop->normal && i < s->of->rows; i++)
-        most.normal_value = fmax(most.normal_value, loop->normal[i]);
-    const fret_status st = most.normal == BY_FORCE ? fret_press_by_force(*normal, most.normal_value, &p)
-                           : most.normal == BY_DISPLACEMENT
-                               ? fret_press_by_depth(*normal, most.normal_value, &p)
-                               : fret_press_by_radius(*normal, most.normal_value, &p);
-    if (st.code || !(p.F > 0))
-        return true; /* the run will say why */
-    return scene_many_normal(&s->q.t->scene, (double)p.F, normal, error);
-}
-
 static fret_status run_rows(state *s, runner *r, double *out) {
     const fit_loop *loop = &s->of->loop;
     fret_status st = {.code = FRET_OK};
@@ -248,7 +230,7 @@ static bool loop_rows(state *s, double *out) {
     s->bad_row = NO_ROW;
     tried->used |= ASKED_TANGENTIAL;
     if (!scene_normal(tried, &view.normal, &error) || !scene_friction(tried, &view.mu, &error) ||
-        !press_of(s, &press.step, &error) || !prepare(s, &press.step, &view.normal, &error))
+        !press_of(s, &press.step, &error))
         return ask_failed(&s->q, &error);
     fret_status st = engine_make(&r.engine, MODEL_MEMORY, view.normal, view.mu, 0, 0);
     if (!st.code)

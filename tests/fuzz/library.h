@@ -71,7 +71,7 @@ static bool same_contact(const world *w) {
 
 /* What has none yet is made, of the contact as it is. */
 static bool have_normal(world *w) {
-    if (!w->normal && known_code(fret_normal_make(&w->material, &w->gap, &w->normal))) {
+    if (!w->normal && known_code(fret_normal_make(&w->material, &w->gap, NULL, NULL, &w->normal))) {
         fret_normal_stop(w->normal, w->stop);
         w->old_table = w->table;
     }
@@ -344,6 +344,16 @@ CALL(fret_table_sloped) {
     if (known_code(fret_table_sloped(r, f, slope, count, w->stop, &made)))
         take_table(w, made);
 }
+CALL(fret_table_count) {
+    (void)x;
+    if (w->table)
+        w->sink[0] = (fret_real)fret_table_count(w->table);
+}
+CALL(fret_table_within) {
+    (void)x;
+    if (w->table)
+        w->sink[0] = fret_table_within(w->table);
+}
 CALL(fret_table_free) {
     (void)w, (void)x;
     fret_table_free(NULL);
@@ -453,29 +463,22 @@ CALL(fret_normal_stop) {
     if (have_normal(w))
         fret_normal_stop(w->normal, x[0] > 0 ? w->stop : NULL);
 }
-CALL(fret_normal_dense) {
-    if (have_normal(w))
-        (void)fret_normal_dense(w->normal, x[0]);
-}
-CALL(fret_normal_prepare) {
-    if (have_normal(w))
-        (void)known_code(fret_normal_prepare(w->normal, x[0], x[1]));
-}
-CALL(fret_normal_share) {
+CALL(fret_normal_hold) {
     fret_normal *other;
     fret_material material = w->material;
     material.body[0].E0 = x[0];
-    if (!have_normal(w) || !known_code(fret_normal_make(&material, &w->gap, &other)))
+    if (!have_normal(w) || !known_code(fret_normal_make(&material, &w->gap, w->normal, w->stop, &other)))
         return;
-    (void)known_code(fret_normal_share(other, w->normal));
-    (void)known_code(fret_press_by_force(other, x[1], &w->press));
+    fret_normal *held = fret_normal_hold(other);
     fret_normal_free(other);
+    (void)known_code(fret_press_by_force(held, x[1], &w->press));
+    fret_normal_free(held);
     w->contact.normal = NULL;
 }
-CALL(fret_normal_prepared) {
+CALL(fret_normal_error) {
     (void)x;
     if (have_normal(w))
-        w->sink[0] = fret_normal_prepared(w->normal);
+        w->sink[0] = fret_normal_error(w->normal);
 }
 CALL(fret_normal_foundation) {
     (void)x;
@@ -709,6 +712,8 @@ static const struct row {
     ROW(fret_gap_g),
     ROW(fret_table_make),
     ROW(fret_table_sloped),
+    ROW(fret_table_count),
+    ROW(fret_table_within),
     ROW(fret_table_free),
     ROW(fret_half_space),
     ROW(fret_foundation_make),
@@ -727,12 +732,10 @@ static const struct row {
     ROW(fret_memory_bound),
     ROW(fret_memory_slip_work),
     ROW(fret_normal_make),
+    ROW(fret_normal_hold),
+    ROW(fret_normal_error),
     ROW(fret_normal_free),
     ROW(fret_normal_stop),
-    ROW(fret_normal_dense),
-    ROW(fret_normal_prepare),
-    ROW(fret_normal_share),
-    ROW(fret_normal_prepared),
     ROW(fret_normal_foundation),
     ROW(fret_normal_gap),
     ROW(fret_normal_is_power),

@@ -236,7 +236,7 @@ void hard_diagrams(unsigned long steps) {
         fret_material material = {{{210e9, 0.3, false}, {70e9, 0.35, false}}, laws[i].k, 1e-3};
         fret_gap gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{laws[i].n, 1e-6, 1e-4}}};
         fret_normal *normal;
-        if (fret_normal_make(&material, &gap, &normal).code)
+        if (fret_normal_make(&material, &gap, NULL, NULL, &normal).code)
             abort();
         for (size_t j = 0; j < sizeof kinds / sizeof *kinds; j++) {
             hard_random r = hard_seed(1 + j);

@@ -277,7 +277,7 @@ static void ask(const hard_scene *s, fret_real got[ORACLE_COUNT]) {
             return;
         memcpy(got + (i ? ORACLE_HN_2 : ORACLE_HN_1), h, sizeof h);
     }
-    if (fret_normal_make(&material, &gap, &normal).code)
+    if (fret_normal_make(&material, &gap, NULL, NULL, &normal).code)
         return;
     const fret_foundation *foundation = fret_normal_foundation(normal);
     got[ORACLE_CN0] = foundation->cN0;

@@ -193,7 +193,7 @@ static fixture fixture_make(const specimen *b) {
     fret_material material;
     fret_gap gap;
     hard_contact(&b->contact, &material, &gap);
-    if (fret_normal_make(&material, &gap, &f.normal).code)
+    if (fret_normal_make(&material, &gap, NULL, NULL, &f.normal).code)
         abort();
     oracle_set_contact(f.o, &b->contact);
     oracle_press_radius(f.o, b->a);

@@ -168,7 +168,7 @@ def read_tables(tests):
         done = tests.run("-c", SCENE + "geometry file %s; press FN=1 MN" % path)
         tests.check("a table too short", "FN = 1 MN cannot be carried: the gap supports contact radii up to 1 mm"
                     in done.stderr and done.returncode == 1, tests.report(done))
-    rounded = "r [mm],f [um]\n" + "".join("%.7g,%.7g\n" % (i / 1e4, (i / 1e4) ** 2 * 100 / 3) for i in range(10001))
+    rounded = "r [mm],f [um]\n" + "".join("%.7g,%.6g\n" % (i / 1e4, (i / 1e4) ** 2 * 100 / 3) for i in range(10001))
     rippled = SCENE + "c0 = 1 mm; k = -0.9; geometry file %s" # as that of a gap is, but for the rounding of its rows
     with tests.file(rounded) as path:
         done = tests.run("-c", rippled % path)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each allocation of the library fails once: the call says so, what it was to change is as it was, nothing
  * leaks. The Makefile links this program so that the library allocates through the functions here. */
-#include "contact/rows.h"
 #include "failing.h"
 #include "unit.h"
 
@@ -27,7 +26,7 @@ static void tables_and_contacts(void) {
     fret_swing *swing = NULL;
     const unit_scene s = unit_make_scene(2, 0.3);
     EACH(3, fret_table_make(r, f, ROWS, NULL, &table), table == NULL);
-    EACH(1, fret_normal_make(&s.material, &s.gap, &normal), normal == NULL);
+    EACH(1, fret_normal_make(&s.material, &s.gap, NULL, NULL, &normal), normal == NULL);
     EACH(2, fret_memory_make(contact.normal, 0.4, &memory), memory == NULL);
     EACH(3, fret_springs_make(contact.normal, 0.4, 100, 1e-3, FRET_WEIGHT_CELL, &springs), springs == NULL);
     EACH(2, fret_swing_make(memory, &swing), swing == NULL);
@@ -38,105 +37,20 @@ static void tables_and_contacts(void) {
     fret_table_free(table);
 }
 
-/* The law of a table, by polynomials and row by row: k near -1 wants both. */
+/* The law of a table; of one like it there is nothing to make. */
 static void laws(void) {
     struct fret_table *table = NULL;
-    struct fret_rows *rows = NULL;
     fret_normal *n = NULL, *other = NULL;
-    fret_real error;
     fret_material m = unit_make_scene(2, -0.99).material;
     CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
     const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
-    CHECK_OK(fret_normal_make(&m, &gap, &n));
-    CHECK_OK(fret_normal_make(&m, &gap, &other));
-    EACH(8, fret_rows_make(n, 0, 1e-3L, &rows, &error), rows == NULL);
-    EACH(9, fret_normal_prepare(n, 1, 0), isnan(fret_normal_prepared(n)));
-    CHECK(fret_normal_prepared(n) < 1e-15);
-    EACH(0, fret_normal_share(other, n), isnan(fret_normal_prepared(other)));
-    CHECK(fret_normal_prepared(other) == fret_normal_prepared(n));
-    fret_rows_free(rows);
+    EACH(8, fret_normal_make(&m, &gap, NULL, NULL, &n), n == NULL);
+    m.body[0].E0 *= 2;
+    EACH(1, fret_normal_make(&m, &gap, n, NULL, &other), other == NULL);
+    CHECK(fret_normal_error(n) < 1e-15 && fret_normal_error(other) == fret_normal_error(n));
     fret_normal_free(n);
     fret_normal_free(other);
     fret_table_free(table);
-}
-
-/* A slice of a table whose rows find no room is had from kink to kink, over those that are too close at once.
- */
-static void slices(void) {
-    enum { MANY = 40000 };
-    static double x[MANY], depth[MANY];
-    const unit_scene s = unit_make_scene(2, 0.3);
-    struct fret_table *table = NULL;
-    fret_normal *n = NULL;
-    fret_press p;
-    for (int i = 0; i < MANY; i++) {
-        x[i] = 1e-3 * i / (double)MANY;
-        depth[i] = x[i] * x[i] / 0.02;
-    }
-    for (int rows = unit_skips(1) ? ROWS : MANY; rows; rows = rows == MANY ? ROWS : 0) {
-        CHECK_OK(fret_table_make(rows == MANY ? x : r, rows == MANY ? depth : f, (size_t)rows, NULL, &table));
-        const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
-        CHECK_OK(fret_normal_make(&s.material, &gap, &n));
-        CHECK_OK(fret_press_by_radius(n, 0.9e-3, &p));
-        for (int i = 1; i < 10; i += 8) {
-            const fret_level outer = {p.dz, p.F};
-            const fret_slice want = fret_law_slice(n, &outer, p.dz * i / 10);
-            left = 0;
-            const fret_slice got = fret_law_slice(n, &outer, p.dz * i / 10);
-            CHECK(left < 0);
-            left = -1;
-            CHECK_REL(got.w, want.w, 1e-14L);
-            CHECK_REL(got.J, want.J, 1e-14L);
-            CHECK_REL(got.G, want.G, 1e-14L);
-            CHECK_REL(got.L, want.L, 1e-14L);
-        }
-        fret_normal_free(n);
-        fret_table_free(table);
-    }
-}
-
-/* Rows that are made when they are asked for: where they find no room the question is answered without. */
-static void rows_on_demand(void) {
-    enum { MANY = 2300 };
-    static double x[MANY], depth[MANY];
-    const unit_scene s = unit_make_scene(2, 0.3);
-    struct fret_table *table = NULL;
-    fret_normal *n = NULL, *other = NULL;
-    for (int i = 0; i < MANY; i++) {
-        x[i] = 1e-3 * i / (double)MANY;
-        depth[i] = x[i] * x[i] / 0.02 * (1 + 1e-6 * (i * 7919 % 101) / 101.0);
-    }
-    CHECK_OK(fret_table_make(x, depth, MANY, NULL, &table));
-    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
-    CHECK_OK(fret_normal_make(&s.material, &gap, &n));
-    fret_press p;
-    CHECK_OK(fret_press_by_radius(n, 0.95e-3, &p));
-    CHECK_OK(fret_normal_make(&s.material, &gap, &other));
-    CHECK_OK(fret_normal_prepare(other, (double)p.F, 0));
-    EACH(9, fret_normal_prepare(n, (double)p.F, 0), isnan(fret_normal_prepared(n)));
-    for (int i = 0; i < 16; i++) {
-        const fret_level outer = {p.dz * (0.3L + 0.043L * i), 0};
-        const fret_real h = outer.y * (i % 4 + 1) / 100;
-        left = i;
-        const fret_slice got = fret_law_slice(n, &outer, h);
-        left = -1;
-        const fret_slice want = fret_law_slice(other, &outer, h);
-        CHECK_REL(got.G, want.G, UNIT_TOL(1e-13L, 1e-9L));
-        CHECK_REL(got.L, want.L, UNIT_TOL(1e-13L, 1e-9L));
-    }
-    fret_normal_free(n);
-    fret_normal_free(other);
-    fret_table_free(table);
-}
-
-/* Pieces of a law for another contact of the same shape. */
-static void pieces(void) {
-    const fret_material steel = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1};
-    const fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {4, 2e6, 1}}};
-    fret_normal *from = unit_keep_normal(&steel, &sum), *like = unit_keep_normal(&steel, &sum);
-    EACH(3, fret_normal_prepare(from, 10, 0), true);
-    EACH(0, fret_normal_share(like, from), !like->pieces && isnan(fret_normal_prepared(like)));
-    CHECK(like->pieces && fret_normal_prepared(like) == fret_normal_prepared(from));
 }
 
 static bool same(const fret_state *a, const fret_state *b) {
@@ -392,7 +306,7 @@ static void fields(void) {
     fret_real q = 0, again = 0;
     CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
     gap.table = table;
-    CHECK_OK(fret_normal_make(&s.material, &gap, &normal));
+    CHECK_OK(fret_normal_make(&s.material, &gap, NULL, NULL, &normal));
     CHECK_OK(fret_memory_make(normal, 0.4, &m));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 5}));
@@ -405,36 +319,13 @@ static void fields(void) {
     fret_normal_free(normal);
     fret_table_free(table);
     gap = (fret_gap){.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-4, .R = 1e-2};
-    CHECK_OK(fret_normal_make(&s.material, &gap, &normal));
+    CHECK_OK(fret_normal_make(&s.material, &gap, NULL, NULL, &normal));
     CHECK_OK(fret_fields_make(normal, &many));
     EACH(2, fret_fields_pressure(many, 3e-4L, 1.5e-4L, &q), isnan(fret_fields_error(many)));
     CHECK_OK(fret_fields_pressure(many, 3e-4L, 1.5e-4L, &again));
     CHECK(q > 0 && q == again && fret_fields_error(many) < 1e-14);
     fret_fields_free(many);
     fret_normal_free(normal);
-}
-
-static void pressure_of_many_rows(void) {
-    enum { MANY = 2400 };
-    static double x[MANY], depth[MANY];
-    const unit_scene s = unit_make_scene(2, 0.3);
-    struct fret_table *table = NULL;
-    fret_normal *rough = NULL;
-    fret_fields *many = NULL;
-    fret_real q = 0, again = 0;
-    for (int i = 0; i < MANY; i++) {
-        x[i] = 1e-3 * i / (double)MANY;
-        depth[i] = x[i] * x[i] / 0.02;
-    }
-    CHECK_OK(fret_table_make(x, depth, MANY, NULL, &table));
-    CHECK_OK(fret_normal_make(&s.material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = table}, &rough));
-    CHECK_OK(fret_fields_make(rough, &many));
-    EACH(5, fret_fields_pressure(many, 9e-4L, 1e-4L, &q), isnan(fret_fields_error(many)));
-    CHECK_OK(fret_fields_pressure(many, 9e-4L, 1e-4L, &again));
-    CHECK(q > 0 && q == again);
-    fret_fields_free(many);
-    fret_normal_free(rough);
-    fret_table_free(table);
 }
 
 int main(int argc, char **argv) {
@@ -449,9 +340,6 @@ int main(int argc, char **argv) {
     slip = (double)fret_gross_slip(&contact);
     CASE(tables_and_contacts());
     CASE(laws());
-    CASE(slices());
-    CASE(rows_on_demand());
-    CASE(pieces());
     CASE(memories());
     CASE(diagrams());
     CASE(springs());
@@ -460,6 +348,5 @@ int main(int argc, char **argv) {
     CASE(smaller_swings());
     CASE(periods_without_room());
     CASE(fields());
-    CASE(pressure_of_many_rows());
     return unit_finish();
 }

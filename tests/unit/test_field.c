@@ -426,7 +426,7 @@ static void pressed_lightly(const fret_normal *normal, double F) {
     fret_segment stuck;
     fret_real p = 0;
     CHECK(fret_memory_segment(m, 0, &stuck)); /* beyond which the slip of a ring is finite, if there is one */
-    const bool ring = fret_search_radius(normal, false, stuck.outer) > 0;
+    const bool ring = fret_law_distance(normal, stuck.outer) > 0;
     CHECK(fret_pressure_of(normal, &at, b, &p).code == at_end);
     CHECK(fret_traction(m, b, &p).code == (ring ? FRET_OK : at_end));
     fret_memory_free(m);

@@ -39,7 +39,7 @@ static void step_exactly(calc *c, int rows) {
     const bool by_force = h.by == BY_FORCE;
     fret_step step = {FRET_TO_FORCE, FRET_KEEP_DX, 100, 0};
     CHECK(scene_normal(c->now, &normal, fresh()) && scene_material(c->now, false, &material, fresh()));
-    CHECK_OK(fret_normal_make(&material, fret_normal_gap(normal), &h.contact));
+    CHECK_OK(fret_normal_make(&material, fret_normal_gap(normal), NULL, NULL, &h.contact));
     CHECK_OK(fret_memory_make(h.contact, 0.4, &h.exact));
     CHECK_OK(fret_memory_step(h.exact, &step));
     for (int i = 0; i < rows; i++) {

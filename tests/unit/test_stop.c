@@ -131,7 +131,7 @@ static void check_wild(struct fret_table *rows) {
         {.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 0.05}, sum, {.kind = FRET_GAP_TABLE, .table = rows}};
     for (int i = 0; i < 3; i++) {
         fret_normal *n = unit_keep_normal(&graded, &gaps[i]);
-        fret_press p, none;
+        fret_press p;
         fret_real value;
         fret_memory *m;
         fret_swing *s;
@@ -139,7 +139,6 @@ static void check_wild(struct fret_table *rows) {
         fret_normal_stop(n, &stop);
         CHECK_OK(fret_memory_make(n, 0.4, &m));
         stop = 1;
-        CHECK_CODE(fret_press_by_force(n, (double)p.F, &none), FRET_INTERRUPTED);
         CHECK_CODE(fret_pressure(n, p.a, p.a / 2, &value), FRET_INTERRUPTED);
         CHECK_CODE(fret_surface(n, p.a, 1.1L * p.a, &value), FRET_INTERRUPTED);
         CHECK_CODE(fret_pressure_of(n, &p, p.a / 2, &value), FRET_INTERRUPTED);
@@ -205,12 +204,11 @@ int main(int argc, char **argv) {
     fret_normal *normal;
     fret_press press;
     fret_real loss;
-    CHECK_OK(fret_normal_make(&steel, &gap, &normal));
+    CHECK_OK(fret_normal_make(&steel, &gap, NULL, NULL, &normal));
     fret_normal_stop(normal, &stop);
     CHECK_OK(fret_press_by_force(normal, 10, &press));
     const fret_contact contact = {normal, 0.4, press};
     stop = 1;
-    CHECK_CODE(fret_press_by_force(normal, 10, &press), FRET_INTERRUPTED);
     CHECK_CODE(fret_cycle_loss_by_force(&contact, 1, &loss), FRET_INTERRUPTED);
     stop = 0;
     CHECK_OK(fret_cycle_loss_by_force(&contact, 1, &loss));

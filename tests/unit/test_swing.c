@@ -18,10 +18,7 @@ static const fret_normal *normal_of(const load *l) {
     const fret_material material = {{{l->E0, 0.3, false}, {l->E0, 0.3, false}}, l->k, 1e-3};
     const fret_gap gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{l->n, l->A, 1}}};
     const unit_scene s = {.material = material, .gap = l->gap ? *l->gap : gap, .mu = l->mu};
-    fret_normal *n = unit_make_normal(&s);
-    if (l->gap)
-        CHECK_OK(fret_normal_prepare(n, 200, 0));
-    return n;
+    return unit_make_normal(&s);
 }
 
 /* Of a loss: what is less than the rounding of thin slips is none. A power law has no such. */

@@ -32,8 +32,6 @@ static fret_swing *swing_of(const unit_scene *scene, double FN, double FA, doubl
     const fret_sine w = {FA, FNA, phase, FN};
     fret_swing *s = NULL;
     fret_normal *n = unit_make_normal(scene);
-    if (!fret_normal_is_power(n))
-        CHECK_OK(fret_normal_prepare(n, 2 * FN, 0));
     CHECK_OK(fret_memory_make(n, scene->mu, m));
     CHECK_OK(fret_memory_step(*m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
     CHECK_OK(fret_memory_step(*m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, FN + FNA * cos(phase), FA}));

@@ -274,7 +274,7 @@ static inline unit_scene unit_make_scene(double n, double k) {
 /* Normal contacts live until the end of the test. NULL and a failed check where there is none. */
 static inline fret_normal *unit_keep_normal(const fret_material *material, const fret_gap *gap) {
     fret_normal *n = NULL;
-    CHECK_OK(fret_normal_make(material, gap, &n));
+    CHECK_OK(fret_normal_make(material, gap, NULL, NULL, &n));
     if (n && unit.normals == unit.normal_room) {
         unit.normal_room = unit.normal_room ? 2 * unit.normal_room : 64;
         unit.normal = realloc(unit.normal, unit.normal_room * sizeof *unit.normal);

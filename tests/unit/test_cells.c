@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The law by cells against the transform it is made of, slices against the law, parts against their whole. */
+#include <stdlib.h>
+
+#include "contact/cells.h"
+#include "contact/normal.h"
+#include "number/quadrature.h"
+#include "number/real.h"
+#include "unit.h"
+
+static const fret_gap shapes[] = {
+    {.kind = FRET_GAP_FLAT_CONE, .b = 1e-3, .slope = 0.01},
+    {.kind = FRET_GAP_FLAT_PARABOLOID, .b = 1e-3, .R = 0.01},
+    {.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-3, .R = 0.01},
+    {.kind = FRET_GAP_EXACT_SPHERE, .R = 0.01},
+    {.kind = FRET_GAP_SUM, .terms = 3, .power = {{0.3, 1e-6, 1e-3}, {2, 1e-5, 1e-3}, {60, 1e-6, 1e-3}}}};
+static const double gradings[] = {-0.99, -0.9, -0.5, 0, 0.5, 0.9, 0.99};
+static unsigned long long seed = 7;
+
+static fret_real uniform(fret_real lo, fret_real hi) {
+    return lo + (hi - lo) * unit_random(&seed, 0, 1);
+}
+
+typedef enum rough { SMOOTH, ROUGH, FLAT, WIDER, CONE } rough;
+
+static struct fret_table *table_of(rough how, int rows) {
+    double *r = calloc((size_t)rows, sizeof *r), *f = calloc((size_t)rows, sizeof *f);
+    struct fret_table *t = NULL;
+    for (int i = 1; i < rows; i++) {
+        r[i] = how == WIDER ? 5e-3 * pow(1.3, i - rows + 1) : 5e-3 * i / (rows - 1);
+        const double x = how == FLAT ? fmax(r[i] - 1e-3, 0) : r[i];
+        f[i] = how == CONE ? x / 20 : x * x / 0.02 + (how == ROUGH ? 1e-9 * (i % 7) * r[i] / 5e-3 : 0);
+    }
+    CHECK_OK(fret_table_make(r, f, (size_t)rows, NULL, &t));
+    free(r);
+    free(f);
+    return t;
+}
+
+/* Depth and load of a unit stiffness, as the transform tells them, and back. */
+static void places(const fret_gap *gap, double k, fret_real exact) {
+    fret_cells *c = NULL;
+    fret_rule rule;
+    fret_gap_rule(gap, k, &rule);
+    CHECK_OK(fret_cells_make(gap, k, NULL, &c));
+    if (!c)
+        return;
+    const fret_real start = fret_gap_start(gap), whole = (isfinite(c->end) ? c->end : 0.05L) - start;
+    for (int i = 0; i < (unit_skips(1) ? 60 : 300); i++) {
+        /* of a radius next to a flat end its distance has lost its digits */
+        const fret_real e = whole * (i % 2 ? uniform(0, 1) : fret_pow(10, -uniform(0, start > 0 ? 3 : 10)));
+        const fret_profile want = fret_gap_profile(gap, &rule, e);
+        const fret_place at = fret_cells_at(c, start + e);
+        const fret_real F = ((fret_real)k + 1) * want.I, few = exact * (1 + start / e * 1e-2L);
+        fret_place by;
+        CHECK_REL(fret_cells_level(c, BY_DEPTH, &at), want.g, few);
+        CHECK_REL(fret_cells_level(c, BY_LOAD, &at), F, few);
+        CHECK(fret_cells_find(c, BY_DEPTH, want.g, &by));
+        CHECK_REL(fret_cells_radius(c, &by), start + e, exact);
+        CHECK(fret_cells_find(c, BY_LOAD, F, &by));
+        CHECK_REL(fret_cells_radius(c, &by), start + e, exact);
+    }
+    CHECK(c->error <= 1e-17L);
+    fret_cells_free(c);
+}
+
+static void same_stretch(const fret_stretch *a, const fret_stretch *b, fret_real few) {
+    CHECK_REL(a->h, b->h, few);
+    CHECK_REL(a->K, b->K, few);
+    CHECK_REL(a->G, b->G, few);
+    CHECK_REL(a->L, b->L, few);
+}
+
+/* A slice, from thin to nearly all, is what its two halves carry together; its load and thickness lead to
+ * each other. */
+static void slices(const fret_gap *gap, double k, fret_real few) {
+    fret_cells *c = NULL;
+    fret_real K, unused;
+    CHECK_OK(fret_cells_make(gap, k, NULL, &c));
+    if (!c)
+        return;
+    const fret_place end = fret_cells_at(c, isfinite(c->end) ? c->end : 0.05L);
+    const fret_real most = fret_cells_level(c, BY_DEPTH, &end);
+    for (int i = 0; i < (unit_skips(1) ? 100 : 1000); i++) {
+        const fret_real y = most * (i % 3 ? uniform(0.05L, 1) : fret_pow(10, -uniform(0, 4))),
+                        h = 0.9L * y * fret_pow(10, -uniform(0, 9)), part = h * uniform(0.2L, 0.8L);
+        fret_place outer, same;
+        CHECK(fret_cells_find(c, BY_DEPTH, y, &outer));
+        const fret_place middle = fret_cells_inner(c, BY_DEPTH, &outer, part, y - part),
+                         inner = fret_cells_inner(c, BY_DEPTH, &outer, h, y - h);
+        const fret_stretch whole = fret_cells_between(c, &outer, &inner, &K);
+        fret_stretch sum = fret_cells_between(c, &outer, &middle, &unused);
+        const fret_place below = fret_cells_inner(c, BY_DEPTH, &middle, h - part, y - h);
+        const fret_stretch rest = fret_cells_between(c, &middle, &below, &unused);
+        CHECK_REL(whole.h, h, few);
+        CHECK(whole.K > 0 && whole.G > 0 && whole.L > 0);
+        sum = fret_stretch_join(&sum, &rest);
+        /* the halves meet to the rounding of the place */
+        same_stretch(&whole, &sum, few + 4e-19L * y / h);
+        CHECK_REL(K, fret_cells_stiffness(c, &inner), few);
+        const fret_real w = whole.G + whole.h * K, F = fret_cells_level(c, BY_LOAD, &outer);
+        same = fret_cells_inner(c, BY_LOAD, &outer, w, F - w);
+        CHECK_REL(fret_cells_between(c, &outer, &same, &unused).h, h, few + 4e-19L * y / h);
+    }
+    fret_cells_free(c);
+}
+
+/* L = h (F(y)+F(y-h)) - 2 int F dy: against the mean of the load by quadrature. */
+static fret_real load_at(fret_real t, fret_real rest, void *context) {
+    const fret_cells *c = context;
+    fret_place at;
+    (void)rest;
+    (void)fret_cells_find(c, BY_DEPTH, t * 1e-5L, &at);
+    return fret_cells_level(c, BY_LOAD, &at);
+}
+
+static void areas(const fret_gap *gap, double k) {
+    fret_cells *c = NULL;
+    fret_place outer;
+    CHECK_OK(fret_cells_make(gap, k, NULL, &c));
+    CHECK(fret_cells_find(c, BY_DEPTH, 1e-5L, &outer));
+    const fret_place centre = {0, c->cell[0].begin, outer.s, {0, 0}};
+    fret_real K;
+    const fret_stretch whole = fret_cells_between(c, &outer, &centre, &K);
+    CHECK(K == c->cell[0].K);
+    const fret_real F = fret_cells_level(c, BY_LOAD, &outer), mean = fret_integrate_closely(load_at, c);
+    CHECK_ABS(whole.L, 1e-5L * F - 2e-5L * mean, 1e-5L * F, 1e-16L);
+    fret_cells_free(c);
+}
+
+/* Of another material, or the same, the cells are shared; of another shape or exponent they are not. */
+static void shared(void) {
+    fret_material m = unit_make_scene(2, 0.3).material;
+    fret_gap gap = shapes[2];
+    fret_normal *n, *other;
+    CHECK_OK(fret_normal_make(&m, &gap, NULL, NULL, &n));
+    m.body[0].E0 *= 2;
+    m.body[1].E0 *= 2;
+    CHECK_OK(fret_normal_make(&m, &gap, n, NULL, &other));
+    CHECK(other->cells == n->cells);
+    CHECK_REL(fret_law_force(other, 1e-6L), 2 * fret_law_force(n, 1e-6L), 1e-18L);
+    fret_normal_free(n);
+    CHECK(fret_law_force(other, 1e-6L) > 0);
+    fret_normal *last;
+    gap.b *= 1.5;
+    CHECK_OK(fret_normal_make(&m, &gap, other, NULL, &last));
+    CHECK(last->cells != other->cells);
+    fret_normal_free(last);
+    m.k = 0.2;
+    CHECK_OK(fret_normal_make(&m, &shapes[2], other, NULL, &last));
+    CHECK(last->cells != other->cells);
+    fret_normal_free(last);
+    fret_normal_free(other);
+}
+
+int main(int argc, char **argv) {
+    unit_start("cells", argc, argv);
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
+        for (size_t j = 0; j < sizeof gradings / sizeof *gradings; j++) {
+            CASE(places(&shapes[i], gradings[j], UNIT_TOL(2e-16L, 1e-13L)));
+            CASE(slices(&shapes[i], gradings[j], UNIT_TOL(2e-14L, 1e-11L)));
+            CASE(areas(&shapes[i], gradings[j]));
+        }
+    for (rough how = SMOOTH; how <= CONE; how++) {
+        struct fret_table *t = table_of(how, how == WIDER ? 40 : 100);
+        const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = t};
+        for (size_t j = 0; j < sizeof gradings / sizeof *gradings; j += 1 + unit_skips(1)) {
+            CASE(places(&gap, gradings[j], UNIT_TOL(3e-16L, 1e-13L)));
+            CASE(slices(&gap, gradings[j], UNIT_TOL(2e-14L, 1e-11L)));
+        }
+        fret_table_free(t);
+    }
+    CASE(shared());
+    return unit_finish();
+}
