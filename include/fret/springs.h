@@ -34,34 +34,24 @@ typedef enum fret_weight {
 /* Springs of an open contact (delta_z = 0, F_x = 0). radius [m] > 0: the largest contact radius of the
  * history. Borrows normal, which must outlive it.
  * Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE (mu, radius), FRET_NOT_POSITIVE (count), FRET_OUTSIDE (rule, or
- * a radius within the flat end), FRET_TABLE_SHORT, FRET_NOT_MONOTONE (radius beyond the gap),
- * FRET_OVERFLOW, FRET_NO_MEMORY. */
+ * a radius within the flat end), FRET_TABLE_SHORT, FRET_NOT_MONOTONE (radius beyond the gap), FRET_OVERFLOW,
+ * FRET_NO_MEMORY, FRET_INTERRUPTED. */
 fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count, double radius,
                               fret_weight rule, fret_springs **out);
 void fret_springs_free(fret_springs *springs);
 
-/* Back to the open state; keeps its storage. */
-void fret_springs_reset(fret_springs *springs);
-
-/* Makes `to` equal to `from`; allocates only where the counts differ. Error: FRET_NO_MEMORY. */
-fret_status fret_springs_copy(fret_springs *to, const fret_springs *from);
-
-/* Vector instructions of `width` doubles, 2, 4 or 8, for the loops over springs; at first the widest that the
- * processor has. Every width gives the same bits. Returns 0, nothing changed, where there is no such width.
- */
-int fret_springs_use(fret_springs *springs, unsigned width);
-
 /* One step with the targets and paths of fret_memory_step, in `substeps` equal parts; F_N means its sum
- * over cells here. With FRET_TO_FX each part solves for delta_x: the least change that reaches F_x to
- * 1e-14 mu F_N. No allocation.
- * Errors, the contact as before it: FRET_GROSS_SLIP (|F_x| > mu F_N; limit mu F_N), FRET_OUTSIDE (F_N or dz
- * beyond that of `radius`; limit), FRET_NEGATIVE, FRET_NOT_FINITE, FRET_NOT_POSITIVE (substeps). */
+ * over cells here, which at a depth misses that of the continuum by the error of the cells. With FRET_TO_FX
+ * each part solves for delta_x: the least change that reaches F_x to 1e-14 mu F_N. At the mu F_N of either
+ * all springs slide: F_x is that of the cells then. No allocation.
+ * Errors, the contact as before it: FRET_GROSS_SLIP (|F_x| > mu F_N; limit the larger of both), FRET_OUTSIDE
+ * (F_N or dz beyond that of `radius`; limit), FRET_NEGATIVE, FRET_NOT_FINITE, FRET_NOT_POSITIVE (substeps);
+ * FRET_INTERRUPTED, after which the springs can only be freed. */
 fret_status fret_springs_step(fret_springs *springs, const fret_step *step, unsigned substeps);
 
 /* The state now, SI as in fret_state, in time ~ count; a is that of the continuum, c a cell boundary
- * (or a), slices the number of springs in contact. For c and kt a spring slips that is at its bound to within
- * what rounding may have moved it by: less than 5 units in the last place of the largest bound each step, and
- * what the sum of all springs, 1e-14 mu F_N, makes of displacement. */
+ * (or a), slices the number of springs in contact. For c and kt a spring slips that would within 1e-12 mu F_N
+ * more. */
 void fret_springs_state(const fret_springs *springs, fret_state *out);
 
 FRET_END

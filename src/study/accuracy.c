@@ -108,7 +108,6 @@ typedef struct steady {
     fret_loading peak;
     unsigned size;
     engine engine; /* of those that step */
-    double reach;  /* its amplitude */
 } steady;
 
 static fret_status closed_loss(const steady *m, long double *out) {
@@ -134,7 +133,7 @@ static fret_status quadrature_cycle(void *model, long double *loss) {
 }
 
 static fret_status step_to(steady *m, double part) {
-    const fret_step step = {FRET_KEEP_NORMAL, m->by_force ? FRET_TO_FX : FRET_TO_DX, 0, part * m->reach};
+    const fret_step step = {FRET_KEEP_NORMAL, m->by_force ? FRET_TO_FX : FRET_TO_DX, 0, part * m->amplitude};
     return *m->b->s->stop ? (fret_status){FRET_INTERRUPTED, NULL, 0, 0} : engine_step(&m->engine, &step);
 }
 
@@ -172,14 +171,9 @@ static fret_status loop_cycle(void *model, long double *loss) {
     return fine;
 }
 
-/* Pressed and taken to the first turning point. For springs mu F_N may be a rounding short of the amplitude.
- */
+/* Pressed and taken to the first turning point. */
 static fret_status ready(steady *m) {
-    const fret_press *press = &m->contact.press;
-    const fret_step down = {FRET_TO_FORCE, FRET_KEEP_DX, (double)press->F, 0};
-    m->reach = m->amplitude;
-    if (m->by_force && m->engine.kind == &models[MODEL_SPRINGS])
-        m->reach = fmin(m->amplitude, (double)(m->contact.mu * press->F * (1 - 1e-16L)));
+    const fret_step down = {FRET_TO_FORCE, FRET_KEEP_DX, (double)m->contact.press.F, 0};
     fret_status st = engine_step(&m->engine, &down);
     return st.code ? st : step_to(m, 1);
 }

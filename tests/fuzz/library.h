@@ -23,7 +23,7 @@ typedef struct world {
     fret_loading loading;
     fret_memory *memory, *memory_copy;
     fret_diagram *diagram, *diagram_copy;
-    fret_springs *springs, *springs_copy;
+    fret_springs *springs;
     fret_swing *swing, *swing_copy;
     fret_fields *fields;
     fret_sine sine;
@@ -53,14 +53,13 @@ static void drop_contacts(world *w) {
     fret_swing_free(w->swing);
     fret_swing_free(w->swing_copy);
     fret_springs_free(w->springs);
-    fret_springs_free(w->springs_copy);
     fret_diagram_free(w->diagram);
     fret_diagram_free(w->diagram_copy);
     fret_memory_free(w->memory);
     fret_memory_free(w->memory_copy);
     w->fields = NULL;
     w->swing = w->swing_copy = NULL;
-    w->springs = w->springs_copy = NULL;
+    w->springs = NULL;
     w->diagram = w->diagram_copy = NULL;
     w->memory = w->memory_copy = NULL;
 }
@@ -553,26 +552,6 @@ CALL(fret_springs_free) {
     fret_springs_free(w->springs);
     w->springs = NULL;
 }
-CALL(fret_springs_reset) {
-    (void)x;
-    if (have_springs(w))
-        fret_springs_reset(w->springs);
-}
-CALL(fret_springs_copy) {
-    (void)x;
-    if (have_springs(w) &&
-        (w->springs_copy ||
-         known_code(fret_springs_make(w->normal, 0.3, 7, 1e-4, FRET_WEIGHT_CELL, &w->springs_copy)))) {
-        (void)known_code(fret_springs_copy(w->springs_copy, w->springs));
-        fret_springs *was = w->springs;
-        w->springs = w->springs_copy;
-        w->springs_copy = was;
-    }
-}
-CALL(fret_springs_use) {
-    if (have_springs(w))
-        (void)fret_springs_use(w->springs, (unsigned)whole(x[0], 9));
-}
 CALL(fret_springs_step) {
     const fret_step step = step_of(x);
     if (have_springs(w))
@@ -750,9 +729,6 @@ static const struct row {
     ROW(fret_reference_loss_by_displacement),
     ROW(fret_springs_make),
     ROW(fret_springs_free),
-    ROW(fret_springs_reset),
-    ROW(fret_springs_copy),
-    ROW(fret_springs_use),
     ROW(fret_springs_step),
     ROW(fret_springs_state),
     ROW(fret_status_category),

@@ -15,6 +15,7 @@ BELOW = {
     "fret": set(),
     "number": {"fret/base.h"},
     "contact": {"number", "fret"},
+    "history": {"contact", "number", "fret"},
     "fast": {"contact", "number", "fret"},
     "calc": {"number", "fret"},
     "plot": {"calc", "number", "fret"},
@@ -22,7 +23,7 @@ BELOW = {
     "shell": {"live/live.h", "study", "plot", "calc", "number", "fret"},
     "live": {"study", "plot", "calc", "number", "fret"},
 }
-LIBRARY = ("number", "contact", "fast", "fret")
+LIBRARY = ("number", "contact", "history", "fast", "fret")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<(fret/[^>]+)>)', re.M)
 SHAPE = re.compile(r"\bFRET_GAP_(?!TERMS\b)[A-Z_]+\b")

@@ -126,26 +126,6 @@ static void diagrams(void) {
         fret_diagram_free(d[i]);
 }
 
-static void springs(void) {
-    fret_springs *s, *other;
-    fret_state before, now;
-    const fret_step steps[] = {{FRET_TO_FORCE, FRET_KEEP_DX, 20, 0},
-                               {FRET_KEEP_NORMAL, FRET_TO_DX, 0, 0.5 * slip}};
-    CHECK_OK(fret_springs_make(contact.normal, 0.4, 200, 1e-3, FRET_WEIGHT_CELL, &s));
-    CHECK_OK(fret_springs_make(contact.normal, 0.4, 100, 1e-3, FRET_WEIGHT_CELL, &other));
-    for (int i = 0; i < 2; i++) {
-        CHECK_OK(fret_springs_step(s, &steps[i], 1));
-        CHECK_OK(fret_springs_step(other, &steps[i], 1));
-    }
-    fret_springs_state(other, &before);
-    EACH(2, fret_springs_copy(other, s), (fret_springs_state(other, &now), same(&before, &now)));
-    fret_springs_state(s, &before);
-    fret_springs_state(other, &now);
-    CHECK(same(&before, &now));
-    fret_springs_free(s);
-    fret_springs_free(other);
-}
-
 /* One period from the state of `from`: what a failed one leaves is good for a copy only. */
 static fret_status period_of(fret_swing *w, const fret_swing *from, const fret_sine *sine) {
     const fret_status st = fret_swing_copy(w, from);
@@ -342,7 +322,6 @@ int main(int argc, char **argv) {
     CASE(laws());
     CASE(memories());
     CASE(diagrams());
-    CASE(springs());
     CASE(swings());
     CASE(smaller_slides());
     CASE(smaller_swings());
