@@ -321,7 +321,7 @@ def causes(tests):
 
 def slow_causes(tests):
     """What takes too long is left out, and named."""
-    done = tests.run("-c", GRADED % (0, SPHERE) + "cycle FA=15 N FNA=20 N phase=60 deg times 300; set model springs 20000; explain dW conditioning")
+    done = tests.run("-c", GRADED % (0, SPHERE) + "cycle FA=15 N FNA=20 N phase=60 deg times 300; set model springs 3000; explain dW conditioning")
     found = re.findall(r"^    (\w+) \+?= \S+(?: [^ \n]+)? {2,}\S", done.stdout, re.M)
     left = re.findall(r"^    left out after 3 seconds: (.*)$", done.stdout, re.M)
     named = found + [name for line in left + re.findall(r"^    no effect: (.*)$", done.stdout, re.M) for name in line.split(", ")]
