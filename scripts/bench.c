@@ -420,13 +420,13 @@ static double sweep_point(const fret_normal *n, const fret_press *p, sweep kind)
                 for (int i = 0; i < POINTS; i++)
                     x[i] = exp(0.37 * log(F[i]));
             else if (kind == LOSS_ALL)
-                need(fret_batch_loss(&c, F, x, POINTS));
+                need(fret_arrays_loss(&c, F, x, POINTS));
             else if (kind == RADIUS_ALL)
-                need(fret_batch_loading(&c, F, x, NULL, POINTS));
+                need(fret_arrays_loading(&c, F, x, NULL, POINTS));
             else if (kind == LOADING_ALL)
-                need(fret_batch_loading(&c, F, x, y, POINTS));
+                need(fret_arrays_loading(&c, F, x, y, POINTS));
             else
-                need(fret_batch_press(n, F, x, y, POINTS));
+                need(fret_arrays_press(n, F, x, y, POINTS));
             sink = x[pass];
         }
         best = fmin(best, (seconds() - t0) / (PASSES * POINTS));

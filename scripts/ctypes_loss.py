@@ -44,7 +44,7 @@ def load(path):
     for name, arguments in {
             "fret_normal_make": [POINTER(Material), POINTER(Gap), c_void_p, c_void_p, POINTER(c_void_p)],
             "fret_press_by_force": [c_void_p, c_double, POINTER(Press)],
-            "fret_batch_loss": [POINTER(Contact), POINTER(c_double), POINTER(c_double), c_size_t]}.items():
+            "fret_arrays_loss": [POINTER(Contact), POINTER(c_double), POINTER(c_double), c_size_t]}.items():
         function = getattr(fret, name)
         function.argtypes, function.restype = arguments, Status
     fret.fret_normal_free.argtypes, fret.fret_normal_free.restype = [c_void_p], None
@@ -70,7 +70,7 @@ def losses(fret, amplitudes, FN=100.0, mu=0.4, R=10e-3, E0=210e9, nu=0.3):
         check(fret, fret.fret_press_by_force(normal, FN, byref(contact.press)))
         count = len(amplitudes)
         FA, loss = (c_double * count)(*amplitudes), (c_double * count)()
-        check(fret, fret.fret_batch_loss(byref(contact), FA, loss, count))
+        check(fret, fret.fret_arrays_loss(byref(contact), FA, loss, count))
         return list(loss)
     finally:
         fret.fret_normal_free(normal)

@@ -4,7 +4,7 @@
 #ifndef FRET_H
 #define FRET_H
 
-#include "fret/batch.h"
+#include "fret/arrays.h"
 #include "fret/cycle.h"
 #include "fret/diagram.h"
 #include "fret/field.h"

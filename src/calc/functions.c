@@ -88,7 +88,7 @@ static bool block_press(scene *s, const double F[], double a[], double dz[], siz
     const fret_normal *normal;
     if (!scene_normal(s, &normal, error))
         return false;
-    fret_status st = fret_batch_press(normal, F, a, dz, count);
+    fret_status st = fret_arrays_press(normal, F, a, dz, count);
     return calc_status(error, &st);
 }
 
@@ -105,7 +105,7 @@ static bool block_loading(scene *s, const double F[], double c[], double dx[], s
     fret_contact contact;
     if (!scene_contact(s, &contact, error))
         return false;
-    fret_status st = fret_batch_loading(&contact, F, c, dx, count);
+    fret_status st = fret_arrays_loading(&contact, F, c, dx, count);
     return calc_status(error, &st);
 }
 
@@ -121,6 +121,6 @@ bool block_dW(scene *s, const double FA[], double out[], size_t count, calc_erro
     fret_contact contact;
     if (!scene_contact(s, &contact, error))
         return false;
-    fret_status st = fret_batch_loss(&contact, FA, out, count);
+    fret_status st = fret_arrays_loss(&contact, FA, out, count);
     return calc_status(error, &st);
 }

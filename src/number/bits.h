@@ -30,18 +30,6 @@ FRET_INLINE double fret_from_bits(uint64_t u) {
     return x;
 }
 
-/* Whether some word of a mask is not 0. */
-FRET_INLINE bool fret_any(const void *mask, int lanes) {
-    typedef int64_t pair __attribute__((vector_size(16)));
-    pair part[4];
-    memcpy(part, mask, (size_t)lanes * sizeof(int64_t));
-    if (lanes > 4)
-        part[0] |= part[2] | part[3]; /* unreached: without AVX-512 no mask is wider */
-    if (lanes > 2)
-        part[0] |= part[1];
-    return (part[0][0] | part[0][1]) != 0;
-}
-
 /* |x| < 2^51 rounded to a whole number: by adding and taking away. */
 static inline double fret_whole(double x) {
     const double big = 6755399441055744.0; /* 1.5 2^52 */

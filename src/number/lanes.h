@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elementary functions in double of LANES = 2, 4 or 8 numbers at once, with the same bits at every width,
- * each named lanes2_..., lanes4_...: those of lanes_body.h, and of the file LANES_ALSO where that is defined.
- * Wanted at the width of the registers: compilers split wider groups badly. No guard: included once for each
- * width. Not installed. */
+/* Elementary functions in double of LANES = 2 numbers at once, each named lanes2_...: those of lanes_body.h.
+ * Not installed. */
 #include "number/bits.h"
 
 #define LANES_PASTE(count, name) lanes##count##_##name
@@ -18,12 +16,8 @@ typedef int64_t NAMED(mask) __attribute__((vector_size(LANES * sizeof(double))))
 #define BITS(x) ((U)(x))
 #define VALUE(u) ((V)(u))
 #define SELECT(mask, yes, no) VALUE((BITS(yes) & (U)(mask)) | (BITS(no) & ~(U)(mask)))
-#define ANY(mask) fret_any(&(mask), LANES)
 
 #include "number/lanes_body.h"
-#ifdef LANES_ALSO
-#include LANES_ALSO
-#endif
 
 #undef V
 #undef U
@@ -31,7 +25,6 @@ typedef int64_t NAMED(mask) __attribute__((vector_size(LANES * sizeof(double))))
 #undef BITS
 #undef VALUE
 #undef SELECT
-#undef ANY
 #undef NAMED
 #undef LANES_NAMED
 #undef LANES_PASTE

@@ -1,24 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The elementary functions of lanes.h, once for each width: included by that alone. + - * / and whole-word
+/* The elementary functions of lanes.h: included by that alone. + - * / and whole-word
  * operations, no libm, no fused multiply-add.
  * Wants V (a vector of doubles), U (as many 64-bit words), M (what comparisons give), BITS and VALUE
- * between V and U, SELECT(mask, yes, no), ANY(mask) and NAMED(name). Arguments go by address: vectors wider
+ * between V and U, SELECT(mask, yes, no) and NAMED(name). Arguments go by address: vectors wider
  * than the target's registers have no stable calling convention. */
 
 #define ONE 0x3ff0000000000000u
 #define INTEGER 0x1.8p52 /* added to |x| < 2^51, rounds it and leaves it in the low bits */
-
-/* The leading 26 bits: products of two such numbers are exact. */
-#define HEAD(x) VALUE(BITS(x) & 0xfffffffff8000000u)
-
-/* a b = high + low to 2^-104. */
-FRET_INLINE void NAMED(product)(const V *a, const V *b, V *high, V *low) {
-    V ah = HEAD(*a), al = *a - ah;
-    V bh = HEAD(*b), bl = *b - bh;
-    V p = *a * *b;
-    *low = (((ah * bh - p) + ah * bl) + al * bh) + al * bl;
-    *high = p;
-}
 
 /* x = m 2^e with m in [sqrt(1/2), sqrt(2)), x > 0 normal; factor = 2^-e. */
 FRET_INLINE void NAMED(reduce)(const V *x, V *m, V *e, V *factor) {
@@ -41,29 +29,6 @@ FRET_INLINE void NAMED(log_of)(const V *f, const V *low, const V *e, V *out) {
           (w2 * w2) * ((0x1.7462ba27c8794p-3 + w * 0x1.39fdb949c5e05p-3) + w2 * 0x1.2b5fbed6295a5p-3);
     V rest = (z * half + (*e * LN2_LOW + (*low - *low * x))) + (z * w) * r;
     *out = *e * LN2_HIGH - ((half - rest) - x);
-}
-
-/* The same as high + rest, to 2^-66: 2z + 2 z^3 (1/3 + z^2 P), each factor cut so that the product of the
- * leading halves is exact. */
-FRET_INLINE void NAMED(log_pair)(const V *f, const V *low, const V *e, V *high, V *rest) {
-    V x = *f, d = 2.0 + x, z = x / d;
-    V zh = HEAD(z), dh = HEAD(d), dl = (x - (dh - 2.0)) + *low;
-    V zl = (((x - zh * dh) - zh * dl) + *low) * (0.5 - 0.5 * z); /* 1/(2+f) = (1-z)/2 */
-    V square = zh * zh, square_low = zl * (zh + z), w = z * z, w2 = w * w;
-    V tail = w * (((0x1.999999999999ap-3 + w * 0x1.2492492492523p-3) +
-                   w2 * (0x1.c71c71c6ea3a7p-4 + w * 0x1.745d177ae7ca4p-4)) +
-                  (w2 * w2) * ((0x1.3b1395b312af8p-4 + w * 0x1.1118cdef60706p-4) +
-                               w2 * (0x1.df7b9e38d150dp-5 + w * 0x1.e039c40bcc6e0p-5)));
-    V c = 0x1.5555555555555p-2 + tail, ch = HEAD(c);
-    V cl = ((0x1.5555555555555p-2 - ch) + tail) + 0x1.5555555555555p-56;
-    V sh = HEAD(square), cube = zh * sh, cube_low = zh * ((square - sh) + square_low) + zl * w;
-    V qh = HEAD(cube), ql = (cube - qh) + cube_low;
-    V v = qh * ch, vl = qh * cl + ql * c;
-    V sum = zh + v, small = ((zh - sum) + v) + (zl + vl);
-    V first = *e * LN2_HIGH, total = first + 2.0 * sum; /* |first| > |2 sum| or e = 0 */
-    small = ((first - total) + 2.0 * sum) + (2.0 * small + *e * LN2_LOW);
-    *high = total + small;
-    *rest = (total - *high) + small;
 }
 
 /* exp(x+low) = 2^k (1+p), |x| < 1420, |low| <= ulp(x); k is returned as a number. */
@@ -96,24 +61,7 @@ FRET_INLINE void NAMED(exp_times)(const V *factor, const V *x, const V *low, V *
     *out = (((1.0 + p) * f1) * *factor) * f2;
 }
 
-/* factor exp((high+low) (y[0]+y[1])): a power from the logarithm of its base. */
-FRET_INLINE void NAMED(power)(const V *high, const V *low, const double y[2], double factor, V *out) {
-    V yh = (V){0} + y[0], size = (V){0} + factor, h, l;
-    NAMED(product)(high, &yh, &h, &l);
-    l += *high * y[1] + *low * yh;
-    NAMED(exp_times)(&size, &h, &l, out);
-}
-
-/* exp(x)-1, |x| < 700. */
-FRET_INLINE void NAMED(expm1)(const V *x, V *out) {
-    V k, p, f, zero = (V){0};
-    NAMED(exp_of)(x, &zero, &k, &p);
-    NAMED(two_to)(&k, &f);
-    *out = f * p + (f - 1.0);
-}
-
 #undef ONE
-#undef HEAD
 #undef INTEGER
 #undef LN2_HIGH
 #undef LN2_LOW

@@ -132,22 +132,22 @@ static fret_step step_of(const double *x) {
 
 #define CALL(name) static void call_##name(world *w, const double *x)
 
-CALL(fret_batch_loss) {
+CALL(fret_arrays_loss) {
     const double F[4] = {x[0], x[1], x[2], x[3]};
     if (have_press(w))
-        (void)known_code(fret_batch_loss(&w->contact, F, w->row, 4));
+        (void)known_code(fret_arrays_loss(&w->contact, F, w->row, 4));
 }
-CALL(fret_batch_loading) {
+CALL(fret_arrays_loading) {
     const double F[4] = {x[0], x[1], x[2], x[3]};
     if (have_press(w))
         (void)known_code(
-            fret_batch_loading(&w->contact, F, x[4] > 0 ? w->row : NULL, x[4] >= 0 ? w->row + 4 : NULL, 4));
+            fret_arrays_loading(&w->contact, F, x[4] > 0 ? w->row : NULL, x[4] >= 0 ? w->row + 4 : NULL, 4));
 }
-CALL(fret_batch_press) {
+CALL(fret_arrays_press) {
     const double F[4] = {x[0], x[1], x[2], x[3]};
     if (have_normal(w))
         (void)known_code(
-            fret_batch_press(w->normal, F, x[4] > 0 ? w->row : NULL, x[4] >= 0 ? w->row + 4 : NULL, 4));
+            fret_arrays_press(w->normal, F, x[4] > 0 ? w->row : NULL, x[4] >= 0 ? w->row + 4 : NULL, 4));
 }
 CALL(fret_gross_slip) {
     (void)x;
@@ -653,9 +653,9 @@ static const struct row {
     const char *name;
     void (*call)(world *w, const double *x);
 } rows[] = {
-    ROW(fret_batch_loss),
-    ROW(fret_batch_loading),
-    ROW(fret_batch_press),
+    ROW(fret_arrays_loss),
+    ROW(fret_arrays_loading),
+    ROW(fret_arrays_press),
     ROW(fret_gross_slip),
     ROW(fret_loading_by_force),
     ROW(fret_loading_by_displacement),

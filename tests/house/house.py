@@ -16,6 +16,7 @@ BELOW = {
     "number": {"fret/base.h"},
     "contact": {"number", "fret"},
     "history": {"contact", "number", "fret"},
+    "arrays": {"number", "fret"},
     "fast": {"contact", "number", "fret"},
     "calc": {"number", "fret"},
     "plot": {"calc", "number", "fret"},
@@ -23,7 +24,7 @@ BELOW = {
     "shell": {"live/live.h", "study", "plot", "calc", "number", "fret"},
     "live": {"study", "plot", "calc", "number", "fret"},
 }
-LIBRARY = ("number", "contact", "history", "fast", "fret")
+LIBRARY = ("number", "contact", "history", "arrays", "fast", "fret")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<(fret/[^>]+)>)', re.M)
 SHAPE = re.compile(r"\bFRET_GAP_(?!TERMS\b)[A-Z_]+\b")

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contacts near the ends of what numbers hold, arguments that few will give, and what pieces of a law do at
  * their ends; beside the law itself, twins without pieces, and results that are known. */
+#include "arrays/arrays.h"
 #include "contact/near.h"
 #include "contact/phase.h"
-#include "fast/batch.h"
 #include "number/dd.h"
 #include "number/real.h"
 #include "unit.h"
@@ -297,7 +297,7 @@ static void check_arrays(const fret_contact *c, double least, double most) {
         F[i] = least * pow(most / least, i / ((double)MANY - 1.0));
     for (int i = 0; i < MANY && !code; i++)
         code = fret_cycle_loss_by_force(c, F[i], &want).code;
-    CHECK_CODE(fret_batch_loss(c, F, loss, MANY), code);
+    CHECK_CODE(fret_arrays_loss(c, F, loss, MANY), code);
     for (int i = 0; i < MANY && !code; i++) {
         CHECK_OK(fret_cycle_loss_by_force(c, F[i], &want));
         CHECK(loss[i] == (double)want || fabsl(loss[i] - want) <= 3e-15L * want + DBL_MIN);
@@ -308,7 +308,7 @@ static void check_arrays(const fret_contact *c, double least, double most) {
         code = FRET_OK;
         for (int i = 0; i < MANY && !code; i++)
             code = fret_loading_by_force(c, F[i], &first).code;
-        CHECK_CODE(fret_batch_loading(c, F, which & 1 ? a : NULL, which & 2 ? b : NULL, MANY), code);
+        CHECK_CODE(fret_arrays_loading(c, F, which & 1 ? a : NULL, which & 2 ? b : NULL, MANY), code);
         for (int i = 0; i < MANY && !code; i++) {
             CHECK_OK(fret_loading_by_force(c, F[i], &first));
             CHECK(which & 1 ? fabsl(a[i] - first.c) <= 2e-15L * first.c + DBL_MIN : isnan(a[i]));
@@ -318,7 +318,7 @@ static void check_arrays(const fret_contact *c, double least, double most) {
         code = FRET_OK;
         for (int i = 0; i < MANY && !code; i++)
             code = fret_press_by_force(c->normal, F[i], &press).code;
-        CHECK_CODE(fret_batch_press(c->normal, F, which & 1 ? a : NULL, which & 2 ? b : NULL, MANY), code);
+        CHECK_CODE(fret_arrays_press(c->normal, F, which & 1 ? a : NULL, which & 2 ? b : NULL, MANY), code);
         for (int i = 0; i < MANY && !code; i++) {
             CHECK_OK(fret_press_by_force(c->normal, F[i], &press));
             CHECK(which & 1 ? fabsl(a[i] - press.a) <= 2e-15L * press.a : isnan(a[i]));
