@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "number/real.h"
 
 /* One end of a closed loop. */
@@ -82,7 +82,7 @@ static bool harmonic_stiffness(const peak *at, long double *out, calc_error *err
         b.end = atan2l(sqrtl(slides), sqrtl(rest));
         flat = -p.contact.mu * p.contact.press.F * sqrtl(slides * rest);
     }
-    const fret_real part = b.end * fret_integrate_closely(branch_at, &b);
+    const fret_real part = b.end * fret_integral(branch_at, &b, 1e-15L).value;
     *out = -8 / (FRET_PI * p.dxA) * (part + flat);
     return calc_status(error, &b.failed);
 }

@@ -10,6 +10,7 @@
 
 #include "number/array.h"
 #include "number/real.h"
+#include "number/root.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -219,40 +220,38 @@ typedef struct swing {
     const load_view *load;
     const load_item *cycle;
     long double FN;
+    int sign;
 } swing;
 
 /* d/d(angle) of the tangential load + sign x its bound at gross slip; by displacement the bound is mu eta
  * delta_z, which moves with d(F_N)/k_n. */
-static double slip_rate(const swing *w, double angle, int sign) {
+static fret_real slip_rate(fret_real angle, fret_real *slope, void *about) {
+    const swing *w = about;
     const double A = w->cycle->step.tangential_value, FNA = w->cycle->step.normal_value;
     const double phase = w->cycle->extra.phase;
-    double bound = w->load->mu * FNA * (double)sinl((long double)angle + phase);
+    double bound = w->load->mu * FNA * (double)sinl(angle + phase);
+    (void)slope;
     if (w->cycle->step.tangential == BY_DISPLACEMENT) {
         fret_press press;
-        const double FN = (double)(w->FN + FNA * cosl((long double)angle + phase));
+        const double FN = (double)(w->FN + FNA * cosl(angle + phase));
         if (!(FN > 0) || fret_press_by_force(w->load->normal, FN, &press).code)
             return NAN;
         bound *= (double)(fret_normal_foundation(w->load->normal)->eta /
                           fret_normal_stiffness(w->load->normal, press.a));
     }
-    return -A * (double)sinl(angle) - sign * bound;
+    return -A * sinl(angle) - w->sign * bound;
 }
 
 enum { SCAN = 64 };
 
-/* Where slip_rate changes its sign: few places, found by a scan and bisection. */
-static size_t find_turns(const swing *w, int sign, double node[RUN_NODES], size_t count) {
-    double before = slip_rate(w, 0, sign);
+/* Where slip_rate changes its sign: few places, found by a scan. */
+static size_t find_turns(swing *w, double node[RUN_NODES], size_t count) {
+    fret_real before = slip_rate(0, NULL, w);
     for (int i = 1; i <= SCAN && count < RUN_NODES - 2; i++) {
-        double lo = 2 * pi * (i - 1) / (double)SCAN, hi = 2 * pi * i / (double)SCAN;
-        const double after = slip_rate(w, hi, sign);
-        if (before * after < 0) {
-            for (int j = 0; j < 50; j++) {
-                const double middle = (lo + hi) / 2;
-                *(slip_rate(w, middle, sign) * before > 0 ? &lo : &hi) = middle;
-            }
-            node[count++] = (lo + hi) / 2;
-        }
+        const fret_real lo = 2 * pi * (i - 1) / (fret_real)SCAN, hi = 2 * pi * i / (fret_real)SCAN,
+                        after = slip_rate(hi, NULL, w);
+        if (before * after < 0)
+            node[count++] = (double)fret_root(slip_rate, w, lo, hi, lo);
         before = after;
     }
     return count;
@@ -260,15 +259,15 @@ static size_t find_turns(const swing *w, int sign, double node[RUN_NODES], size_
 
 /* Where F_N, the tangential load, and it + and - its bound turn, in order, 0 and 2 pi among them: between
  * these places the error of chords is clean. */
-static size_t find_nodes(const swing *w, double node[RUN_NODES]) {
+static size_t find_nodes(swing *w, double node[RUN_NODES]) {
     const double phase = w->cycle->extra.phase;
     size_t count = 0;
     node[count++] = 0;
     node[count++] = pi;
     node[count++] = wrapped(-phase);
     node[count++] = wrapped(pi - phase);
-    count = find_turns(w, 1, node, count);
-    count = find_turns(w, -1, node, count);
+    for (w->sign = -1; w->sign <= 1; w->sign += 2)
+        count = find_turns(w, node, count);
     qsort(node, count, sizeof *node, ascending);
     size_t kept = 1;
     for (size_t i = 1; i < count; i++)
@@ -293,7 +292,7 @@ static double next_look(const runner *r, const leg *period, double from, double 
 static fret_status chords_period(runner *r, const load_item *c, long double FN) {
     run_place here = {.nodes = 0}, *k = r->watch ? &r->watch->place : &here;
     if (!k->nodes) {
-        const swing about = {r->load, c, FN};
+        swing about = {r->load, c, FN, 0};
         k->nodes = find_nodes(&about, k->at);
         k->begin = r->time;
         k->node = k->chord = 0;
