@@ -141,7 +141,7 @@ static fret_real curve_at(fret_real x, fret_real *slope, void *context) {
 
 static void roots(void) {
     static const fret_real places[] = {1e-20L, 1e-3L, 0.1L, 1 / 3.0L, 0.5L, 0.75L, 1 - 1e-10L};
-    static const long most[] = {6, 240, 100, 40, 80, 30};
+    static const long most[] = {8, 240, 100, 40, 80, 40};
     for (size_t i = 0; i < sizeof places / sizeof *places; i++)
         for (int kind = 0; kind < 6; kind++)
             for (int sloped = 0; sloped < 2; sloped++)
@@ -153,7 +153,7 @@ static void roots(void) {
                     else
                         CHECK_ABS(x, c.at, kind == 5 ? 1 : c.at, 4 * LDBL_EPSILON);
                     CHECK(c.asked <=
-                          (i == 0 ? 300 : most[kind])); /* halves find what is far smaller than all */
+                          (i == 0 ? 400 : most[kind])); /* halves find what is far smaller than all */
                 }
     curve c = {0, true, 0, 0}; /* at an end */
     CHECK(fret_root(curve_at, &c, 0, 1, 0.5L) == 0);
