@@ -617,12 +617,13 @@ static double gap_steps(const fret_normal *n, long count) {
 
 static double reference_losses(const fret_normal *n, long count) {
     fret_contact c = {.normal = n, .mu = mu};
+    fret_loading peak;
     fret_real loss, unused;
     need(fret_press_by_force(n, FN, &c.press));
     const double t0 = seconds();
     for (long i = 0; i < count; i++) {
-        need(fret_reference_loss_by_force(&c, mu * FN * (double)(i + 1) / (double)(count + 1), &loss,
-                                          &unused));
+        need(fret_loading_by_force(&c, mu * FN * (double)(i + 1) / (double)(count + 1), &peak));
+        need(fret_cycle_loss_by_definition(&c, &peak, &loss, &unused));
         sink = (double)loss;
     }
     return (seconds() - t0) / (double)count;

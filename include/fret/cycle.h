@@ -41,6 +41,13 @@ fret_status fret_cycle_loss_by_force(const fret_contact *contact, double FA, fre
  * 4 mu F_N (dA - delta_x,max). */
 fret_status fret_cycle_loss_by_displacement(const fret_contact *contact, double dA, fret_real *loss);
 
+/* The same by quadrature of the definition, to tell how far others err: of a cycle that turns at `peak`, from
+ * fret_loading_by_force or _by_displacement. error: relative, an estimate with what a thin annulus, or one
+ * beside a flat end, loses of the digits of long double; power laws 1e-18 + the rounding of FA/(mu F_N).
+ * Takes 10 us to 10 ms. Errors: FRET_NOT_POSITIVE (mu, FN), FRET_NOT_FINITE. */
+fret_status fret_cycle_loss_by_definition(const fret_contact *contact, const fret_loading *peak,
+                                          fret_real *loss, fret_real *error);
+
 /* w = loss/(mu F_N delta_x,max) of a power law as a function of t = 1-s; q = n/(n+k+1), r = 1-q.
  * 0 <= t <= 1; w ~ t^3 for small t, every digit kept. */
 fret_real fret_loss_shape(fret_real q, fret_real r, fret_real t, fret_real s);

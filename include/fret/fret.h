@@ -12,7 +12,6 @@
 #include "fret/material.h"
 #include "fret/memory.h"
 #include "fret/normal.h"
-#include "fret/reference.h"
 #include "fret/springs.h"
 #include "fret/status.h"
 #include "fret/swing.h"

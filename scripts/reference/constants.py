@@ -52,11 +52,11 @@ for i in range(55):
     e = exp(-pi * sinh(u))
     print("    {%s, %s}," % (real(e / (1 + e)), real(pi * cosh(u) * e / (1 + e) ** 2 / 12)))
 print("};")
-print("/* The same, step 1/8: the nodes of step 1/4 and 1/2 among them. */")
-print("static const struct {\n    fret_real small, weight;\n} doubling_rule[37] = {")
-for i in range(37):
-    u = mpf(i) / 8
+print("/* The same, step 1/16: the nodes of steps 1/8, 1/4 and 1/2 among them. */")
+print("static const struct {\n    fret_real small, weight;\n} doubling_rule[73] = {")
+for i in range(73):
+    u = mpf(i) / 16
     e = exp(-pi * sinh(u))
-    print("    {%s, %s}," % (real(e / (1 + e)), real(pi * cosh(u) * e / (1 + e) ** 2 / 8)))
+    print("    {%s, %s}," % (real(e / (1 + e)), real(pi * cosh(u) * e / (1 + e) ** 2 / 16)))
 print("};")
 print("\n#endif")

@@ -9,13 +9,21 @@
 #include <stdlib.h>
 
 #include "number/constants.h"
-#include "number/quadrature.h"
 #include "number/sum.h"
+
+const fret_real fret_gauss_node[8] = {0.0198550717512318841582195657153L, 0.101666761293186630204223031762L,
+                                      0.237233795041835507091130475405L,  0.40828267875217509753026192882L,
+                                      0.59171732124782490246973807118L,   0.762766204958164492908869524595L,
+                                      0.898333238706813369795776968238L,  0.980144928248768115841780434285L};
+const fret_real fret_gauss_weight[8] = {0.050614268145188129576265677155L, 0.111190517226687235272177997213L,
+                                        0.156853322938943643668981100993L, 0.181341891689180991482575224639L,
+                                        0.181341891689180991482575224639L, 0.156853322938943643668981100993L,
+                                        0.111190517226687235272177997213L, 0.050614268145188129576265677155L};
 
 /* Parts that an integral may be cut into. */
 enum { PARTS = 20000 };
-/* Halves of a smooth integrand agree better than the whole with them; where they do not so often, and that is
- * no more than that of the part, it is noise: rounded rows of a table. */
+/* Halves of a smooth integrand agree better than the whole with them; where they do not twice, and
+ * that is no more than that of the part, it is noise: rounded rows of a table. */
 enum { PATIENCE = 2 };
 static const fret_real NOISE = 1e-9L;
 /* Of smooth integrands the error falls to 2^-16 from part to half. Where it falls by far more, a kink next to
@@ -53,30 +61,33 @@ static result by_gauss(const integral *all, part p) {
     return out;
 }
 
-/* t = 1/(1+exp(-pi sinh u)) in steps of 1/8 of u: singularities at the ends do no harm. With every other node
- * left out it is off by `near`, with every fourth by `far`. Each time digits double, so that it is off by
- * near^2, and by far^4 or, next to singularities at the ends, less; more where near is small by chance. */
+/* t = 1/(1+exp(-pi sinh u)) in even steps of u, 1/2 and halves of that: singularities at the ends do no harm.
+ * It is off by far less than from the step before, whose digits it doubles, unless there are others. */
 static result by_doubling(const integral *all, part p) {
-    enum { LAST = sizeof doubling_rule / sizeof *doubling_rule - 1 };
-    fret_sum every[3] = {{0, 0}, {0, 0}, {0, 0}}; /* fourth, other second, other */
-    fret_real size = 0;
-    for (int i = LAST; i >= -LAST; i--) {
-        const fret_real small = doubling_rule[abs(i)].small, t = i < 0 ? small : 1 - small,
-                        v = doubling_rule[abs(i)].weight * at(all, p, t, i < 0 ? 1 - small : small);
-        fret_sum_add(&every[i % 2 ? 2 : i % 4 ? 1 : 0], v);
-        size += fabsl(v);
+    enum { LAST = sizeof doubling_rule / sizeof *doubling_rule - 1, COARSEST = 8 };
+    result out = {0, 0, 0};
+    fret_sum sum = {0, 0}, size = {0, 0};
+    for (int step = COARSEST; step > 0; step /= 2) {
+        for (int i = LAST; i >= -LAST; i -= step) {
+            if (step < COARSEST && i % (2 * step) == 0)
+                continue;
+            const fret_real small = doubling_rule[abs(i)].small, t = i < 0 ? small : 1 - small,
+                            v = doubling_rule[abs(i)].weight * at(all, p, t, i < 0 ? 1 - small : small);
+            fret_sum_add(&sum, v);
+            fret_sum_add(&size, fabsl(v));
+        }
+        const fret_real value = step * fret_sum_value(&sum);
+        out = (result){value, step * fret_sum_value(&size), fabsl(value - out.value)};
+        if (step < COARSEST && out.error <= all->tolerance * fmaxl(all->size, out.size))
+            break;
     }
-    const fret_real fourth = fret_sum_value(&every[0]), other = fourth + fret_sum_value(&every[1]),
-                    value = other + fret_sum_value(&every[2]), near = fabsl(value - 2 * other) / size,
-                    far = fmaxl(fabsl(2 * other - 4 * fourth) / size, near), q = far > 0 ? near / far : 0;
-    const fret_real chance = fmaxl(near * near, far * far * far * far * far);
-    return (result){value, size, size * fmaxl(near * q * sqrtl(q), chance)};
+    return out;
 }
 
-/* How far the halves of a part are from the whole, and that of their size; how often this has not fallen from
- * part to half. */
+/* How far the halves of a part are from the whole; the least that this was, of their size, on the way from
+ * part to half, and since when it was not less. */
 typedef struct quarrel {
-    fret_real off, most;
+    fret_real off, least;
     int times;
 } quarrel;
 
@@ -98,13 +109,10 @@ static void add(integral *all, part p, fret_real whole, quarrel before) {
             best = other;
         off = fmaxl(off, best.error);
     }
-    quarrel now = {off, off / best.size, before.times};
-    if (!(now.most < before.most))
-        now.times++;
-    else if (now.most < before.most / 256)
-        now.times = 0;
+    const fret_real own = off / best.size;
+    const quarrel now = {off, fminl(own, before.least), own < before.least ? 0 : before.times + 1};
     if (best.error > all->tolerance * all->size && all->left > 0 && p.lo < mid && mid < p.hi &&
-        !(now.times >= PATIENCE && now.most < NOISE)) {
+        !(now.times >= PATIENCE && own < NOISE)) {
         all->left--;
         add(all, left, a.value, now);
         add(all, right, b.value, now);

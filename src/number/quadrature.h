@@ -4,11 +4,9 @@
 #ifndef FRET_NUMBER_QUADRATURE_H
 #define FRET_NUMBER_QUADRATURE_H
 
-#include "fret/base.h"
+#include "number/integral.h"
 
-/* int_0^1 f dt by double-exponential quadrature; f gets t and 1-t, each with all its digits, so that
- * algebraic end-point singularities do no harm. */
-typedef fret_real fret_integrand(fret_real t, fret_real rest, void *context);
+/* int_0^1 f dt by double-exponential quadrature. */
 fret_real fret_integrate(fret_integrand *f, void *context);
 
 /* The same where a singularity may be near, off the real axis or close to an end: in halves, and halves of
@@ -35,9 +33,6 @@ fret_real fret_integrate_short_closely(fret_integrand *f, void *context, fret_re
 /* The same by halves, and halves of these, until they add up to `tolerance` of the integral, for integrands
  * that are smooth but for kinks; at most 2^24 of them. */
 fret_real fret_integrate_pieces(fret_integrand *f, void *context, fret_real tolerance);
-
-/* The nodes of the eight points. */
-extern const fret_real fret_gauss_node[8], fret_gauss_weight[8]; /* on 0..1 */
 
 /* Rules of four and eight points in double, a point and its mirror image together. */
 typedef double fret_two __attribute__((vector_size(16)));

@@ -525,18 +525,10 @@ CALL(fret_normal_stiffness) {
     if (have_normal(w))
         w->sink[0] = fret_normal_stiffness(w->normal, x[0]);
 }
-CALL(fret_quadrature_loss) {
+CALL(fret_cycle_loss_by_definition) {
+    (void)x;
     if (have_press(w))
-        (void)known_code(
-            fret_quadrature_loss(&w->contact, &w->loading, (unsigned)whole(x[0], 3000), w->sink));
-}
-CALL(fret_reference_loss_by_force) {
-    if (have_press(w))
-        (void)known_code(fret_reference_loss_by_force(&w->contact, x[0], w->sink, w->sink + 1));
-}
-CALL(fret_reference_loss_by_displacement) {
-    if (have_press(w))
-        (void)known_code(fret_reference_loss_by_displacement(&w->contact, x[0], w->sink, w->sink + 1));
+        (void)known_code(fret_cycle_loss_by_definition(&w->contact, &w->loading, w->sink, w->sink + 1));
 }
 CALL(fret_springs_make) {
     fret_springs *made;
@@ -724,9 +716,7 @@ static const struct row {
     ROW(fret_press_by_depth),
     ROW(fret_press_by_radius),
     ROW(fret_normal_stiffness),
-    ROW(fret_quadrature_loss),
-    ROW(fret_reference_loss_by_force),
-    ROW(fret_reference_loss_by_displacement),
+    ROW(fret_cycle_loss_by_definition),
     ROW(fret_springs_make),
     ROW(fret_springs_free),
     ROW(fret_springs_step),

@@ -160,16 +160,13 @@ static void memories(const fret_gap *gap, double k, size_t count) {
 
 static void losses(const fret_gap *gap, double k) {
     fret_contact c = {.normal = normal_of(k, gap), .mu = 0.4};
-    fret_real loss = 0, step = 0;
+    fret_real loss = 0, error = 0;
     fret_loading peak;
     CHECK_OK(fret_press_by_force(c.normal, 8, &c.press));
     CHECK_OK(fret_loading_by_force(&c, 2, &peak));
-    CHECK_OK(fret_reference_loss_by_force(&c, 2, &loss, &step));
+    CHECK_OK(fret_cycle_loss_by_definition(&c, &peak, &loss, &error));
     const fret_real want = loss;
-    EACH_MOMENT(20, 10, fret_reference_loss_by_force(&c, 2, &loss, &step), true, loss == want);
-    CHECK_OK(fret_quadrature_loss(&c, &peak, 100, &loss));
-    const fret_real coarse = loss;
-    EACH_MOMENT(12, 6, fret_quadrature_loss(&c, &peak, 100, &loss), true, loss == coarse);
+    EACH_MOMENT(20, 10, fret_cycle_loss_by_definition(&c, &peak, &loss, &error), true, loss == want);
 }
 
 int main(int argc, char **argv) {

@@ -70,12 +70,12 @@ static void integrals(void) {
         for (int n = 0; n < 16; n++) /* eight points are exact */
             meets((shape){power_of_t, n, 0, 0}, 1 / (fret_real)(n + 1), 1 / (fret_real)(n + 1), tol, 0, 24);
         meets((shape){wave, 0.3L, 0, 0}, expm1l(0.3L) / 0.3L, 1, tol, 0, 24);
-        meets((shape){wave, 0, 30, 0}, sinl(30.0L) / 30, 2 / FRET_PI, tol, 0, 1200);
-        meets((shape){wave, -50, 0, 0}, -expm1l(-50.0L) / 50, 0.02L, tol, 0, 1200);
+        meets((shape){wave, 0, 30, 0}, sinl(30.0L) / 30, 2 / FRET_PI, tol, 0, 1600);
+        meets((shape){wave, -50, 0, 0}, -expm1l(-50.0L) / 50, 0.02L, tol, 0, 1600);
         for (int j = 1; j < 12; j++) { /* singular at one end or both */
             const fret_real a = 0.25L * j + 0.1L;
-            meets((shape){power_of_t, a - 1, 0, 0}, 1 / a, 1 / a, tol, 0, 100);
-            meets((shape){powers, a, 0.7L, 0}, fret_beta(a, 0.7L), fret_beta(a, 0.7L), tol, 0, 100);
+            meets((shape){power_of_t, a - 1, 0, 0}, 1 / a, 1 / a, tol, 0, 170);
+            meets((shape){powers, a, 0.7L, 0}, fret_beta(a, 0.7L), fret_beta(a, 0.7L), tol, 0, 170);
         }
         for (int j = 1; j < 20; j++) { /* kinks, and steeper places, anywhere */
             const fret_real a = sqrtl(0.0025L) * j + 1e-3L,
@@ -83,12 +83,12 @@ static void integrals(void) {
                                 : j % 3 == 1 ? 1
                                              : 2.5L,
                             want = (fret_pow(a, b + 1) + fret_pow(1 - a, b + 1)) / (b + 1);
-            meets((shape){kinked, a, b, 0}, want, want, tol, 0, 6000);
+            meets((shape){kinked, a, b, 0}, want, want, tol, 0, 7000);
         }
         for (fret_real b = 0.1L; b > 1e-6L; b /= 10) /* next to the axis, in the midst and at an end */
             for (fret_real a = 0; a < 0.5L; a += 0.21L)
                 meets((shape){peak, a, b, 0}, (atanl((1 - a) / b) + atanl(a / b)) / FRET_PI, 1, tol,
-                      1e-20L / b, b < 1e-3L ? 30000 : 6000);
+                      1e-20L / b, b < 1e-3L ? 40000 : 6000);
     }
 }
 

@@ -69,7 +69,7 @@ static void check_thin(const fret_normal *normal) {
 static void check_questions(const fret_normal *normal, const fret_contact *contact) {
     fret_memory *m;
     fret_state before, during, after;
-    fret_real value = 0, step = 0;
+    fret_real value = 0, error = 0;
     fret_loading peak;
     CHECK_OK(fret_loading_by_force(contact, 1, &peak));
     CHECK_OK(fret_memory_make(normal, 0.4, &m));
@@ -83,16 +83,14 @@ static void check_questions(const fret_normal *normal, const fret_contact *conta
     CHECK(during.FN == before.FN && during.Fx == before.Fx);
     CHECK_CODE(fret_traction(m, 1e-5L, &value), FRET_INTERRUPTED);
     CHECK_CODE(fret_surface_x(m, 1e-5L, &value), FRET_INTERRUPTED);
-    CHECK_CODE(fret_quadrature_loss(contact, &peak, 100, &value), FRET_INTERRUPTED);
-    CHECK_CODE(fret_reference_loss_by_force(contact, 1, &value, &step), FRET_INTERRUPTED);
-    CHECK_CODE(fret_reference_loss_by_displacement(contact, 1e-8, &value, &step), FRET_INTERRUPTED);
+    CHECK_CODE(fret_cycle_loss_by_definition(contact, &peak, &value, &error), FRET_INTERRUPTED);
     stop = 0;
     fret_memory_state(m, &after);
     CHECK(before.U == after.U && before.W == after.W && before.dx == after.dx);
     CHECK(fret_memory_slip_work(m) == work);
     CHECK_OK(fret_traction(m, 1e-5L, &value));
     CHECK(value > 0);
-    CHECK_OK(fret_quadrature_loss(contact, &peak, 100, &value));
+    CHECK_OK(fret_cycle_loss_by_definition(contact, &peak, &value, &error));
     CHECK(value > 0);
     fret_memory_free(m);
 }
