@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "number/constants.h"
 #include "number/sum.h"
@@ -22,9 +23,10 @@ const fret_real fret_gauss_weight[8] = {0.050614268145188129576265677155L, 0.111
 
 /* Parts that an integral may be cut into. */
 enum { PARTS = 20000 };
-/* Halves of a smooth integrand agree better than the whole with them; where they do not twice, and
- * that is no more than that of the part, it is noise: rounded rows of a table. */
-enum { PATIENCE = 2 };
+/* Halves of a smooth integrand agree better than the whole with them, and next to kinks better from part to
+ * half on the whole. Where so many halvings bring less than a factor of four, and the last less than two, it
+ * is noise if it is no more than that of the part: rounded rows of a table. */
+enum { PATIENCE = 4 };
 static const fret_real NOISE = 1e-9L;
 /* Of smooth integrands the error falls to 2^-16 from part to half. Where it falls by far more, a kink next to
  * the middle may lie before the first point: the other rule, whose points crowd there, is to say. */
@@ -84,11 +86,9 @@ static result by_doubling(const integral *all, part p) {
     return out;
 }
 
-/* How far the halves of a part are from the whole; the least that this was, of their size, on the way from
- * part to half, and since when it was not less. */
+/* How far the halves of a part, and those that it came from, are from the whole, in parts of their size. */
 typedef struct quarrel {
-    fret_real off, least;
-    int times;
+    fret_real off, own[PATIENCE]; /* off: not in parts of it */
 } quarrel;
 
 static void add(integral *all, part p, fret_real whole, quarrel before) {
@@ -110,9 +110,10 @@ static void add(integral *all, part p, fret_real whole, quarrel before) {
         off = fmaxl(off, best.error);
     }
     const fret_real own = off / best.size;
-    const quarrel now = {off, fminl(own, before.least), own < before.least ? 0 : before.times + 1};
     if (best.error > all->tolerance * all->size && all->left > 0 && p.lo < mid && mid < p.hi &&
-        !(now.times >= PATIENCE && own < NOISE)) {
+        !(own > before.own[PATIENCE - 1] / 4 && own > before.own[0] / 2 && own < NOISE)) {
+        quarrel now = {off, {own}};
+        memcpy(now.own + 1, before.own, (PATIENCE - 1) * sizeof *now.own);
         all->left--;
         add(all, left, a.value, now);
         add(all, right, b.value, now);
@@ -124,7 +125,8 @@ static void add(integral *all, part p, fret_real whole, quarrel before) {
 
 fret_estimate fret_integral(fret_integrand *f, void *context, fret_real tolerance) {
     const part whole = {0, 1};
+    const quarrel first = {0, {INFINITY, INFINITY, INFINITY, INFINITY}};
     integral all = {.f = f, .context = context, .tolerance = tolerance, .left = PARTS};
-    add(&all, whole, by_gauss(&all, whole).value, (quarrel){0, INFINITY, 0});
+    add(&all, whole, by_gauss(&all, whole).value, first);
     return (fret_estimate){fret_sum_value(&all.value), fret_sum_value(&all.error) + LDBL_EPSILON * all.size};
 }
