@@ -67,7 +67,7 @@ fret_status fret_cycle_loss_by_definition(const fret_contact *c, const fret_load
         scale = 4 * c->mu * c->mu * f->eta * f->cN0 * (s.outer - s.inner);
         lost *= fmaxl(1, s.start / s.outer) / X; /* differences of depths, and of radii near a flat end */
     }
-    const fret_estimate sum = fret_integral(power ? by_depth : by_radius, &s, 1e-18L);
+    const fret_estimate sum = fret_integral(power ? by_depth : by_radius, &s, power ? 1e-18L : lost);
     *error = sum.value > 0 ? fmaxl(sum.error / sum.value, lost) : 0;
     *loss = scale * sum.value + 4 * c->mu * c->press.F * fmaxl(fabsl(peak->dx) - max, 0);
     return fret_unless_stopped(normal, fret_ok());

@@ -27,7 +27,7 @@ enum { PARTS = 20000 };
  * half on the whole. Where so many halvings bring less than a factor of four, and the last less than two, it
  * is noise if it is no more than that of the part: rounded rows of a table. */
 enum { PATIENCE = 4 };
-static const fret_real NOISE = 1e-9L;
+static const fret_real NOISE = 1e-11L;
 /* Of smooth integrands the error falls to 2^-16 from part to half. Where it falls by far more, a kink next to
  * the middle may lie before the first point: the other rule, whose points crowd there, is to say. */
 static const fret_real LUCK = 1e-6L;
