@@ -23,11 +23,6 @@ const fret_real fret_gauss_weight[8] = {0.050614268145188129576265677155L, 0.111
 
 /* Parts that an integral may be cut into. */
 enum { PARTS = 20000 };
-/* Halves of a smooth integrand agree better than the whole with them, and next to kinks better from part to
- * half on the whole. Where so many halvings bring less than a factor of four, and the last less than two, it
- * is noise if it is no more than that of the part: rounded rows of a table. */
-enum { PATIENCE = 4 };
-static const fret_real NOISE = 1e-11L;
 /* Of smooth integrands the error falls to 2^-16 from part to half. Where it falls by far more, a kink next to
  * the middle may lie before the first point: the other rule, whose points crowd there, is to say. */
 static const fret_real LUCK = 1e-6L;
@@ -87,9 +82,18 @@ static result by_doubling(const integral *all, part p) {
 }
 
 /* How far the halves of a part, and those that it came from, are from the whole, in parts of their size. */
+enum { REMEMBERED = 8 };
 typedef struct quarrel {
-    fret_real off, own[PATIENCE]; /* off: not in parts of it */
+    fret_real off, own[REMEMBERED]; /* off: not in parts of it */
 } quarrel;
+
+/* Halves of a smooth integrand agree better than the whole with them, and next to kinks better from part to
+ * half on the whole. Where the last halving brings less than a factor of two, and several together less than
+ * four, it is noise, as of rounded rows of a table; of what is more than 1e-11, twice as many must tell. */
+static bool is_noise(fret_real own, const quarrel *before) {
+    const int first = own < 1e-11L ? REMEMBERED / 2 - 1 : REMEMBERED - 1;
+    return own < 1e-6L && own > before->own[0] / 2 && own > before->own[first] / 4;
+}
 
 static void add(integral *all, part p, fret_real whole, quarrel before) {
     const fret_real mid = (p.lo + p.hi) / 2;
@@ -111,9 +115,9 @@ static void add(integral *all, part p, fret_real whole, quarrel before) {
     }
     const fret_real own = off / best.size;
     if (best.error > all->tolerance * all->size && all->left > 0 && p.lo < mid && mid < p.hi &&
-        !(own > before.own[PATIENCE - 1] / 4 && own > before.own[0] / 2 && own < NOISE)) {
+        !is_noise(own, &before)) {
         quarrel now = {off, {own}};
-        memcpy(now.own + 1, before.own, (PATIENCE - 1) * sizeof *now.own);
+        memcpy(now.own + 1, before.own, (REMEMBERED - 1) * sizeof *now.own);
         all->left--;
         add(all, left, a.value, now);
         add(all, right, b.value, now);
@@ -125,8 +129,10 @@ static void add(integral *all, part p, fret_real whole, quarrel before) {
 
 fret_estimate fret_integral(fret_integrand *f, void *context, fret_real tolerance) {
     const part whole = {0, 1};
-    const quarrel first = {0, {INFINITY, INFINITY, INFINITY, INFINITY}};
+    quarrel none = {.off = 0};
+    for (int i = 0; i < REMEMBERED; i++)
+        none.own[i] = INFINITY;
     integral all = {.f = f, .context = context, .tolerance = tolerance, .left = PARTS};
-    add(&all, whole, by_gauss(&all, whole).value, first);
+    add(&all, whole, by_gauss(&all, whole).value, none);
     return (fret_estimate){fret_sum_value(&all.value), fret_sum_value(&all.error) + LDBL_EPSILON * all.size};
 }

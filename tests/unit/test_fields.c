@@ -6,7 +6,7 @@
 #include "contact/field.h"
 #include "contact/table.h"
 #include "fret/field.h"
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "number/real.h"
 #include "unit.h"
 
@@ -106,11 +106,11 @@ static fret_real pressure_of(const fret_normal *n, fret_real a, fret_real r) {
         const fret_real scale = lo > kink ? lo - kink : beyond > 0 ? beyond : hi - lo;
         const fret_real part = fminl(hi - lo, scale) / 64;
         stretch c = {n, r, 0, lo, beyond, part, 2 / (1 + n->foundation.k)};
-        sum += fret_integrate(near_rate, &c);
+        sum += fret_integral(near_rate, &c, 1e-18L).value;
         for (fret_real way = part; way < hi - lo; way *= 16) {
             c.width = fminl(16 * way, hi - lo);
             c.power = c.width / way;
-            sum += fret_integrate(other_rate, &c);
+            sum += fret_integral(other_rate, &c, 1e-18L).value;
         }
     }
     return n->foundation.cN0 * fret_pow(n->foundation.c0, -n->foundation.k) / FRET_PI * sum;
@@ -131,7 +131,7 @@ static fret_real surface_of(const fret_normal *n, fret_real a, fret_real dz, fre
     for (fret_real hi = a; hi > 0;) {
         const fret_real lo = hi > start ? start + fret_gap_kink(&n->gap, hi - start) : 0;
         stretch c = {.normal = n, .r = r, .dz = dz, .lo = lo, .width = hi - lo};
-        sum += fret_integrate(surface_rate, &c);
+        sum += fret_integral(surface_rate, &c, 1e-18L).value;
         hi = lo;
     }
     return 2 * cosl(FRET_PI * k / 2) / FRET_PI * sum;

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "number/real.h"
 #include "unit.h"
 
@@ -61,7 +61,7 @@ static fret_real beyond_outer(fret_real t, fret_real rest, void *context) {
 }
 
 static fret_real of(fret_integrand *f, integral c) {
-    return c.hi > c.lo ? fret_integrate_pieces(f, &c, 1e-18L) : 0;
+    return c.hi > c.lo ? fret_integral(f, &c, 1e-18L).value : 0;
 }
 
 typedef enum side { ABOVE, BELOW, BEYOND, SIDES } side;
@@ -70,14 +70,16 @@ static fret_real slow(side which, fret_real p, fret_real m, fret_real d, fret_re
     integral c = {p, m, d, 0, x};
     if (which == ABOVE) {
         c.hi = fminl(x, 2 * d);
-        return fret_integrate(above_near, &c) + of(above_far, (integral){p, m, d, 2 * d, x});
+        return fret_integral(above_near, &c, 1e-18L).value + of(above_far, (integral){p, m, d, 2 * d, x});
     }
     if (which == BELOW) {
         c.hi = fminl(x, d > 0 ? d : x);
-        return fret_integrate(below_near, &c) + of(below_far, (integral){p, m, d, d, d > 0 ? x : 0});
+        return fret_integral(below_near, &c, 1e-18L).value +
+               of(below_far, (integral){p, m, d, d, d > 0 ? x : 0});
     }
     c.hi = fminl(x, d / 2);
-    return fret_integrate(beyond_inner, &c) + of(beyond_outer, (integral){p, m, d, d - x, d / 2});
+    return fret_integral(beyond_inner, &c, 1e-18L).value +
+           of(beyond_outer, (integral){p, m, d, d - x, d / 2});
 }
 
 static void compare(side which, int of_m, int whole, fret_real m, fret_real d, fret_real x) {

@@ -2,7 +2,7 @@
 /* Every gap but the single power: formulas, engine and tables against each other and the references. */
 #include "contact/normal.h"
 #include "contact/table.h"
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "unit.h"
 
 static const char *const kinds[] = {"power",        "sum",          "flat-cone", "flat-paraboloid",

@@ -5,7 +5,7 @@
 #include "contact/memory.h"
 #include "contact/swing.h"
 #include "fret/field.h"
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "unit.h"
 
 static const fret_real pi = 3.14159265358979323846264338327950288L;
@@ -101,9 +101,11 @@ static fret_real surface_of(const fret_swing *s, const fret_real *kink, size_t c
     for (size_t i = 1; i < count && kink[i - 1] < r; i++) {
         const fret_real lo = kink[i - 1], wide = (fminl(kink[i], r) - lo) / (fret_real)PARTS;
         for (int j = 0; j < PARTS; j++) /* what is singular at r is close to others, too */
-            sum +=
-                fret_integrate(outwards, &(part){s, lo + wide * j,
-                                                 j < PARTS - 1 ? lo + wide * (j + 1) : fminl(kink[i], r), r});
+            sum += fret_integral(
+                       outwards,
+                       &(part){s, lo + wide * j, j < PARTS - 1 ? lo + wide * (j + 1) : fminl(kink[i], r), r},
+                       1e-10L)
+                       .value;
     }
     return 2 * cosl(pi * k / 2) / pi * sum;
 }
@@ -136,7 +138,7 @@ static void random_load(bool far, const fret_gap *shape) {
     const size_t count = kinks_of(s, kink);
     fret_swing_state(s, &now);
     for (size_t i = 1; i < count && !far; i++)
-        force += fret_integrate(carried, &(part){s, kink[i - 1], kink[i], 0});
+        force += fret_integral(carried, &(part){s, kink[i - 1], kink[i], 0}, 1e-13L).value;
     if (!far)
         compare(0, force, now.Fx, mu * now.FN, known);
     CHECK_OK(fret_swing_memory(s, m));
@@ -239,7 +241,8 @@ static fret_real traction_by_hand(const fret_swing *s, fret_real r) {
         hand h = {.s = s, .p = p, .r = r, .from = p->lo};
         for (h.hi = p->hi - h.from; h.hi > LDBL_EPSILON; h.hi = h.lo) {
             h.lo = h.hi / 2;
-            sum += f->cN0 * powl(f->c0, -f->k) / pi * (h.hi - h.lo) * fret_integrate(rate_by_hand, &h);
+            sum += f->cN0 * powl(f->c0, -f->k) / pi * (h.hi - h.lo) *
+                   fret_integral(rate_by_hand, &h, 1e-12L).value;
         }
     }
     return s->mu * sum;
