@@ -9,8 +9,9 @@
 #include "contact/check.h"
 #include "number/quadrature.h"
 #include "number/real.h"
-#define LANES 2
-#include "number/lanes.h"
+
+/* Two numbers in one register. */
+typedef double two_numbers __attribute__((vector_size(16)));
 
 /* Cubic Hermite pieces, with Steffen's slopes where none are given: monotone data give a monotone gap, f' is
  * continuous, and the error falls with the third power of the spacing. Per piece f' = d0 + d1 t + d2 t^2, t =
@@ -99,14 +100,14 @@ static void first_moments(weights *w, int which, fret_real *moment) {
 
 /* The others, to a double's digits. */
 static void last_moments(const weights *w, block *b) {
-    lanes2_numbers x[PLACES], of[PLACES];
+    two_numbers x[PLACES], of[PLACES];
     for (int j = 0; j < w->count; j++) {
         const double at = (double)w->x[j];
-        x[j] = (lanes2_numbers){at, at};
-        of[j] = (lanes2_numbers){(double)w->of[0][j], (double)w->of[1][j]};
+        x[j] = (two_numbers){at, at};
+        of[j] = (two_numbers){(double)w->of[0][j], (double)w->of[1][j]};
     }
     for (int n = EXACT; n < MOMENTS; n++) {
-        lanes2_numbers even = {0, 0}, odd = {0, 0};
+        two_numbers even = {0, 0}, odd = {0, 0};
         for (int j = 0; j < w->count; j += 2) {
             even += of[j];
             odd += of[j + 1];
@@ -138,14 +139,14 @@ static void add_moved(block *whole, const block *part) {
     const fret_real shift = (part->c - whole->c) / whole->d, ratio = part->d / whole->d;
     const double step = (double)shift;
     fret_real power = 1, first[2][EXACT];
-    lanes2_numbers all[MOMENTS];
+    two_numbers all[MOMENTS];
     for (int n = 0; n < MOMENTS; n++) {
         const fret_real slope = part->slope[n] * power, rf2 = part->rf2[n] * power;
         if (n < EXACT) {
             first[0][n] = slope;
             first[1][n] = rf2;
         }
-        all[n] = (lanes2_numbers){(double)slope, (double)rf2};
+        all[n] = (two_numbers){(double)slope, (double)rf2};
         power *= ratio;
     }
     for (int pass = 1; pass < EXACT; pass++)

@@ -6,29 +6,16 @@
 
 #include "number/integral.h"
 
-/* int_0^1 f dt by double-exponential quadrature. */
+/* int_0^1 f dt by double-exponential quadrature; what wants no error: other callers take fret_integral. */
 fret_real fret_integrate(fret_integrand *f, void *context);
-
-/* The same where a singularity may be near, off the real axis or close to an end: in halves, and halves of
- * these, where the nodes and every other one of them tell that they are too few. Good for about 1e-15 of the
- * integral of |f|, unless rounding in f is more. */
-fret_real fret_integrate_closely(fret_integrand *f, void *context);
-
-/* The nodes of that rule, 0 <= i < FRET_EXPONENTIAL, for several integrals at once. */
-enum { FRET_EXPONENTIAL = 109 };
-typedef struct fret_node {
-    fret_real t, rest, weight;
-} fret_node;
-fret_node fret_exponential_node(int i);
 
 /* The same by eight Gauss-Legendre points: 1e-20 where f is smooth and its argument varies by less than 20 %.
  */
 fret_real fret_integrate_smooth(fret_integrand *f, void *context);
 
 /* The same by eight points in either half where they add up to those of the whole to `agree` of it, as
- * between places that are close; else as fret_integrate, or as fret_integrate_closely. */
+ * between places that are close; else as fret_integrate. */
 fret_real fret_integrate_short(fret_integrand *f, void *context, fret_real agree);
-fret_real fret_integrate_short_closely(fret_integrand *f, void *context, fret_real agree);
 
 /* The same by halves, and halves of these, until they add up to `tolerance` of the integral, for integrands
  * that are smooth but for kinks; at most 2^24 of them. */
@@ -37,8 +24,5 @@ fret_real fret_integrate_pieces(fret_integrand *f, void *context, fret_real tole
 /* Rules of four and eight points in double, a point and its mirror image together. */
 typedef double fret_two __attribute__((vector_size(16)));
 extern const fret_two fret_gauss_4[2], fret_gauss_4_weight[2], fret_gauss_8[4], fret_gauss_8_weight[4];
-
-/* int_0^(node j) f dt from the values of f at the eight nodes. */
-void fret_gauss_running(const fret_real f[8], fret_real sum[8]);
 
 #endif
