@@ -195,20 +195,15 @@ FRET_INLINE void press(const law *w, const double *restrict F, double *restrict 
 
 /* ---- arrays ------------------------------------------------------------------------------------ */
 
-/* Whether some result is missing. */
-FRET_INLINE bool lacks(const double *restrict x) {
-    uint64_t missing = 0;
-    for (int i = 0; i < BLOCK; i++)
-        missing |= -(uint64_t)(x[i] != x[i]);
-    return missing != 0;
-}
-
 #define LOOP(set, target, name)                                                                              \
     target static bool set##_##name(const law *of, const double *restrict F, double *restrict first,         \
                                     double *restrict second) {                                               \
         const law w = *of;                                                                                   \
+        uint64_t missing = 0;                                                                                \
         name(&w, F, first, second);                                                                          \
-        return lacks(first) || lacks(second);                                                                \
+        for (int i = 0; i < BLOCK; i++)                                                                      \
+            missing |= -(uint64_t)((first[i] != first[i]) | (second[i] != second[i]));                       \
+        return missing != 0;                                                                                 \
     }
 #define SET(set, target)                                                                                     \
     LOOP(set, target, loss)                                                                                  \
@@ -235,29 +230,17 @@ static loop *loop_for(fret_arrays_question question, bool anywhere) {
 }
 
 /* The same of one load by the functions of cycle.h and normal.h. */
-typedef fret_status exact_function(const void *of, double F, fret_real out[2]);
-
-static fret_status exact_loss(const void *contact, double F, fret_real out[2]) {
-    return fret_cycle_loss_by_force(contact, F, &out[0]);
-}
-
-static fret_status exact_loading(const void *contact, double F, fret_real out[2]) {
+static fret_status exactly(fret_arrays_question question, const void *of, double F, fret_real out[2]) {
     fret_loading f = {0};
-    const fret_status st = fret_loading_by_force(contact, F, &f);
-    out[0] = f.c;
-    out[1] = f.dx;
-    return st;
-}
-
-static fret_status exact_press(const void *normal, double F, fret_real out[2]) {
     fret_press p = {0};
-    const fret_status st = fret_press_by_force(normal, F, &p);
-    out[0] = p.a;
-    out[1] = p.dz;
+    fret_status st;
+    if (question == FRET_LOSSES)
+        return fret_cycle_loss_by_force(of, F, &out[0]);
+    st = question == FRET_LOADINGS ? fret_loading_by_force(of, F, &f) : fret_press_by_force(of, F, &p);
+    out[0] = question == FRET_LOADINGS ? f.c : p.a;
+    out[1] = question == FRET_LOADINGS ? f.dx : p.dz;
     return st;
 }
-
-static exact_function *const exactly[] = {exact_loss, exact_loading, exact_press};
 
 /* Block by block by the loop, where there is one; what it leaves to the exact function by that. */
 fret_status fret_arrays_ask(fret_arrays_question question, const void *of, const double F[],
@@ -268,7 +251,7 @@ fret_status fret_arrays_ask(fret_arrays_question question, const void *of, const
     law w;
     fret_status st = {FRET_OK, NULL, 0, 0};
     if (!presses) /* are mu and F_N good? */
-        st = exact_loading(of, 0, one);
+        st = exactly(FRET_LOADINGS, of, 0, one);
     const bool closed = !st.code && (presses ? law_of_press(of, &w) : law_of_contact(of, &w));
     for (size_t i = 0; i < count && !st.code; i += BLOCK) {
         size_t n = count - i < BLOCK ? count - i : BLOCK;
@@ -276,7 +259,7 @@ fret_status fret_arrays_ask(fret_arrays_question question, const void *of, const
         const bool lacks = !closed || loop_for(question, anywhere)(&w, in, out[0], out[1]);
         for (size_t j = 0; lacks && j < n; j++)
             if (!closed || isnan(out[0][j]) || isnan(out[1][j])) {
-                st = exactly[question](of, in[j], one);
+                st = exactly(question, of, in[j], one);
                 out[0][j] = (double)one[0];
                 out[1][j] = (double)one[1];
                 if (st.code)
