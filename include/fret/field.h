@@ -7,8 +7,9 @@
 FRET_BEGIN
 
 /* Local fields, by inverse transforms. A state of any history is a superposition of normal contacts: slices
- * of slope sigma are differences of contacts that end at their two ends. The local slip is not
- * meaningful in this theory, and there is no function for it.
+ * of slope sigma are differences of contacts that end at their two ends. The local slip is delta_x - u_x(r),
+ * u_x the mean over the angle: what friction works on within this theory, 2 pi int mu p s r dr = W of first
+ * loading.
  *
  * Arguments r >= 0 [m] else FRET_NEGATIVE, FRET_NOT_FINITE. FRET_SINGULAR where the field is infinite: at the
  * sharp edge of a flat-ended gap where k <= 0, and at the tip where n + k <= 1; the traction there only where

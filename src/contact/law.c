@@ -161,7 +161,7 @@ fret_point fret_law_at_radius(const fret_normal *n, fret_real a) {
     if (!(a > fret_gap_start(&n->gap)))
         return point_at(n, false, 0);
     if (fret_normal_closed(n))
-        return power_point(n, false, fret_normal_profile(n, a));
+        return power_point(n, false, fret_gap_profile(&n->gap, &n->rule, a).g);
     const fret_place p = fret_cells_at(n->cells, a);
     return (fret_point){fret_cells_level(n->cells, BY_DEPTH, &p),
                         n->stiff * fret_cells_level(n->cells, BY_LOAD, &p), a,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The house itself: includes run one way and in no circle, the library shows what its headers declare and no more,
-each public header stands alone in C and C++, and each source file says what it is."""
+each public header stands alone in C and C++, each source file says what it is, and calls run in no circle."""
 import glob
 import os
 import re
@@ -71,6 +71,24 @@ def circles(files):
     for name, text in files.items():
         module = os.path.splitext(name)[0]
         graph.setdefault(module, set()).update(os.path.splitext(other)[0] for other in includes(text))
+    return around(graph)
+
+
+def calls(build):
+    """{object: objects whose functions or data it uses}, of the rooms of the library: what the linker sees."""
+    defined, wanted = {}, {}
+    for path in sorted(p for name in LIBRARY for p in glob.glob(os.path.join(build, "src", name, "*.o"))):
+        name = os.path.relpath(path, os.path.join(build, "src"))
+        for line in subprocess.run(["nm", path], capture_output=True, text=True, check=True).stdout.splitlines():
+            kind, symbol = line.split()[-2:]
+            if kind == "U":
+                wanted.setdefault(name, set()).add(symbol)
+            elif kind in "BDRT":
+                defined[symbol] = name
+    return {name: {defined[s] for s in symbols if s in defined} for name, symbols in wanted.items()}
+
+
+def around(graph):
     found, done = [], set()
 
     def visit(module, path):
@@ -200,6 +218,7 @@ def selftest(tests):
     arrows = list(wrong_arrows(bad))
     tests.check("wrong arrows are seen", len(arrows) == 4, str(arrows))
     tests.check("circles are seen", len(circles(bad)) == 1, str(circles(bad)))
+    tests.check("circles of calls are seen", around({"a": {"b"}, "b": {"c", "b"}, "c": {"a"}, "d": {"a"}}) == ["a -> b -> c -> a"])
     tests.check("missing comments are seen", len(list(unsaid(bad))) == 3, str(list(unsaid(bad))))
     marks = {"number/i.c": "x(); /* unreached */\ny(); /* unreached: who knows */\nz(); /* unreached: no double is that small */\n"}
     tests.check("marks without a reason are seen", len(list(unreasoned(marks))) == 2, str(list(unreasoned(marks))))
@@ -216,6 +235,10 @@ def run(tests):
                        ("what no test reaches has a reason", unreasoned)):
         found = list(rule(files))
         tests.check(what, not found, "\n".join(found))
+    graph = calls(tests.build)
+    tests.check("the objects of the library are read", len(graph) > 20 and any(graph.values()), str(graph))
+    found = around(graph)
+    tests.check("no circle of calls in the library", not found, "\n".join(found))
     by_header = declared(files)
     names = {name for names in by_header.values() for name in names}
     library(tests, names)
