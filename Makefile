@@ -26,7 +26,7 @@ LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline)
 # what is left out with GSL=no, and without
 BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,ask solve optimise fit uncertainty smooth nonnegative)) \
 	src/shell/study_commands.c src/shell/data_commands.c,src/shell/study_none.c)
-CORE  := $(wildcard src/number/*.c src/contact/*.c src/history/*.c src/arrays/*.c src/fast/*.c)
+CORE  := $(wildcard src/number/*.c src/law/*.c src/history/*.c src/field/*.c src/arrays/*.c)
 PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c $(BACK), \
 	$(wildcard src/calc/*.c src/study/*.c src/plot/*.c src/shell/*.c)) \
 	$(if $(filter no,$(LIVE)),src/live/none.c,$(filter-out src/live/none.c,$(wildcard src/live/*.c)))

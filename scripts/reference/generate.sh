@@ -7,4 +7,3 @@ for script in dd material kappa loss slice scene history shape field rim corners
     figures spring_model swinging backwards damper; do
     PYTHONDONTWRITEBYTECODE=1 "${PYTHON:-python3}" "$script.py" "$@"
 done
-"${PYTHON:-python3}" tables.py > ../../src/contact/tables.h

@@ -58,8 +58,8 @@ token_kind lex_peek(const lexer *lx);
 /* A file name: a string, or all up to white space. False: none there. */
 bool lex_filename(lexer *lx, char *buf, size_t size);
 
-/* A comma at byte `at` straight between two digits, as of a decimal number: which of the text that number would
- * be. False: it is none. */
+/* A comma at byte `at` straight between two digits, as of a decimal number: which of the text that number
+ * would be. False: it is none. */
 bool lex_decimal_comma(const lexer *lx, size_t at, size_t *from, size_t *len);
 /* The same as an error, where one value is wanted and the cursor stands on the comma behind it. */
 bool lex_one_value(lexer *lx);

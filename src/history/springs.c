@@ -8,8 +8,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "contact/check.h"
-#include "contact/normal.h"
+#include "law/check.h"
+#include "law/normal.h"
 #include "number/real.h"
 #include "number/sum.h"
 

@@ -275,7 +275,7 @@ def interrupts(tests):
         f.write("dx [um],Fx [N],r [mm],f [um]\n" + "".join("%g,%g,%.9g,%.9g\n" % (i % 9 / 10, i % 7, i / 1e5, i * i / 1e9 + i % 3)
                                                         for i in range(200000)))
     scripts = {"table": LONG % "/dev/null", "table to a file": LONG % csv,
-               "cycle": SCENE + "cycle dxA=0.1 um FNA=30 N times 1000000\n",
+               "cycle": SCENE + "set model springs 1000000; cycle dxA=0.1 um FNA=30 N phase=20 deg times 1000000; dW\n",
                "step": SCENE + "cycle FA=20 N times 1000000 steps 1000000\nhistory to /dev/null\n",
                "script": SCENE + "cycle dxA=0.1 um FNA=30 N times 2\n" * 20000,
                "sweep": SCENE + "cycle FA=20 N FNA=30 N times 20\ntable W for k = 0 .. 0 steps 1000000 to /dev/null\n",

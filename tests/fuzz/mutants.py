@@ -31,10 +31,10 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 OPT = "OPT=-O1 -fno-tree-slp-vectorize"
-LEFT_OUT = ("src/live/none.c", "src/shell/prompt_plain.c", "src/shell/study_none.c", "src/number/constants.h",
-            "src/contact/tables.h")
-ROOMS = {"number": "unit sessions reference numbers hard accuracy", "contact": "unit sessions reference numbers hard accuracy",
-         "fast": "unit sessions accuracy numbers hard",
+LEFT_OUT = ("src/live/none.c", "src/shell/prompt_plain.c", "src/shell/study_none.c", "src/number/constants.h")
+ROOMS = {"number": "unit sessions reference numbers hard accuracy", "law": "unit sessions reference numbers hard accuracy",
+         "history": "unit sessions reference numbers hard accuracy", "field": "unit sessions reference rim accuracy",
+         "arrays": "unit numbers",
          "calc": "sessions errors unit scripts reading help keeping reference looks backwards fits smoothing numbers",
          "study": "fits backwards accuracy sessions errors sharing smoothing", "plot": "unit figures looks sessions paper",
          "shell": "sessions errors scripts help readme keeping looks completion figures fits accuracy interactive trouble casts",

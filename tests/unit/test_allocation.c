@@ -85,7 +85,7 @@ static void memories(void) {
     }
     fret_memory_state(m, &now);
     fret_memory_state(whole, &before);
-    CHECK(refused > 3 && same(&before, &now));
+    CHECK(refused > 2 && same(&before, &now));
     fret_memory_state(copy, &before);
     EACH(1, fret_memory_copy(copy, m), (fret_memory_state(copy, &now), same(&before, &now)));
     fret_memory_state(m, &before);

@@ -2,8 +2,8 @@
 /* The law by cells against the transform it is made of, slices against the law, parts against their whole. */
 #include <stdlib.h>
 
-#include "contact/cells.h"
-#include "contact/normal.h"
+#include "law/cells.h"
+#include "law/normal.h"
 #include "number/integral.h"
 #include "number/real.h"
 #include "unit.h"

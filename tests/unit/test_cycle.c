@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "contact/normal.h"
+#include "law/normal.h"
 #include "unit.h"
 
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;

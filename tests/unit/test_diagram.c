@@ -2,10 +2,10 @@
 /* The memory diagram in double: closed forms, the balance of energy, and what its
  * interface promises. Random histories beside the exact one are in tests/hard. */
 #include "fret/diagram.h"
-#include "unit.h"
 
-#include "contact/phase.h"
-#include "fast/zone.h"
+#include <stdint.h>
+
+#include "unit.h"
 
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
 
@@ -330,60 +330,6 @@ static void parts(void) {
     fret_diagram_free(whole);
 }
 
-/* The powers of the law, by square roots and by logarithms. */
-static void powers(void) {
-    for (int halves = 2; halves <= FRET_ZONE_HALVES; halves++) {
-        fret_double_law by_roots, by_logs;
-        fret_double_law_make(halves / 2.0, halves / 2.0 - 1, &by_roots);
-        by_roots.per_y = by_roots.v = 1;
-        by_logs = by_roots;
-        by_logs.halves = 0;
-        CHECK(by_roots.halves == halves);
-        for (int i = 1; i < 100; i++)
-            CHECK_REL(fret_double_law_value(&by_roots, i / 50.0), fret_double_law_value(&by_logs, i / 50.0),
-                      6e-15L);
-    }
-}
-
-/* Under Hertz's law every zone of slip keeps its digits: thin or thick, to the centre, out of nothing and
- * into nothing. */
-static void zones(void) {
-    const unit_scene s = unit_make_scene(2, 0);
-    const fret_normal *normal = unit_make_normal(&s);
-    const double all = 0x1p40, scale = 0x1p-60; /* differences of whole numbers are exact */
-    unsigned long long seed = 3;
-    fret_double_law law;
-    fret_double_law_make(1.5, 0.5, &law);
-    law.per_y = 1 / (all * scale);
-    law.v = (double)fret_law_force(normal, all * scale);
-    for (int i = 0; i < unit_draws(20000); i++) {
-        double edge[2], front[2], thick[2];
-        edge[0] = floor(all * unit_random(&seed, 0.3, 1));
-        thick[0] = i % 7 ? floor(edge[0] * exp(unit_random(&seed, -20, 0))) : 0;
-        front[0] = edge[0] - thick[0];
-        front[1] = i % 5 ? floor(front[0] * (1 - exp(unit_random(&seed, -14, 0)))) : 0;
-        thick[1] =
-            i % 11 || i % 7 == 0 ? 1 + floor((all - front[1]) * exp(unit_random(&seed, -20, -1e-9))) : 0;
-        edge[1] = front[1] + thick[1];
-        if (!(front[1] < front[0]))
-            continue;
-        for (int j = 0; j < 2; j++) {
-            edge[j] *= scale;
-            front[j] *= scale;
-            thick[j] *= scale;
-        }
-        const fret_zone zone = {{edge[0], edge[1]},
-                                {front[0], front[1]},
-                                {thick[0], thick[1]},
-                                front[0] - front[1],
-                                {-1, -1},
-                                {-1, -1}};
-        const fret_phase phase = {normal,   DEPTH, edge[0],  edge[1], front[0],
-                                  front[1], NULL,  {-1, -1}, {-1, -1}};
-        CHECK_REL(fret_zone_loss(&law, &zone, all * scale, law.v), fret_phase_loss(&phase), 3e-15L);
-    }
-}
-
 int main(int argc, char **argv) {
     unit_start("diagram", argc, argv);
     static const double n[] = {0.5, 1, 2, 3, 100}, k[] = {-0.99, -0.5, 0, 0.3, 0.99};
@@ -403,7 +349,5 @@ int main(int argc, char **argv) {
     CASE(separation());
     CASE(objects());
     CASE(parts());
-    CASE(powers());
-    CASE(zones());
     return unit_finish();
 }

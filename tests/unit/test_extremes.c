@@ -2,8 +2,7 @@
 /* Contacts near the ends of what numbers hold, arguments that few will give, and what pieces of a law do at
  * their ends; beside the law itself, twins without pieces, and results that are known. */
 #include "arrays/arrays.h"
-#include "contact/near.h"
-#include "contact/phase.h"
+#include "law/normal.h"
 #include "number/dd.h"
 #include "number/real.h"
 #include "unit.h"
@@ -133,64 +132,7 @@ static void ranges(void) {
     CHECK_REL(p.a, 1e-10L * sqrtl(0.5L), 1e-15L);
 }
 
-static void rates(void) {
-    const fret_normal *n = power(210e9, 2, 1e-5, 1e-3);
-    CHECK(fret_phase_rate_by_load(n, 100, 0, 100) == 0 && fret_phase_rate_by_load(n, 100, 100, 0) == 0);
-    /* int of F(y)-F(f)-(y-f)K(f) of a whole zone, by the power: (D^(5/2) terms) against the search */
-    const fret_real edge = 100, front = 40;
-    const fret_point at = fret_law_at_force(n, edge), in = fret_law_at_force(n, front);
-    CHECK_REL(fret_phase_rate_by_load(n, edge, front, edge - front),
-              ((edge - front) - (at.y - in.y) * in.K) / in.K, 1e-15L);
-}
-
 /* ---- places that are kept ------------------------------------------------------------------------ */
-
-/* Lent to contacts whose law differs in the power, in depth or force alone, in the last bit. */
-static void lent(void) {
-    static fret_near near;
-    const fret_normal *all[] = {power(210e9, 2, 1e-5, 1e-3),
-                                power(210e9, 3, 1e-5, 1e-3),
-                                power(210e9, 3, 2e-5, 1e-3),
-                                power(100e9, 3, 2e-5, 1e-3),
-                                power(nextafter(100e9, 0), 3, 2e-5, 1e-3),
-                                power(nextafter(100e9, 0), 3, nextafter(2e-5, 0), 1e-3)};
-    fret_near_make(all[0], &near);
-    for (int turn = 0; turn < 2; turn++)
-        for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-            fret_near_move(&near, all[i]);
-            CHECK(near.normal == all[i]);
-            for (int j = 0; j < 100; j++) {
-                const fret_real F = uniform(50, 150), y = fret_law_depth(all[i], F);
-                CHECK_REL(fret_near_value(&near, LOAD, F), y, UNIT_TOL(1.2e-19L, 4e-16L));
-                CHECK_REL(fret_near_value(&near, DEPTH, y), fret_law_force(all[i], y),
-                          UNIT_TOL(2e-19L, 4e-16L));
-            }
-        }
-}
-
-/* Near the ends of the range nothing is kept: none of depth, load and radius may leave it. */
-static void kept(void) {
-    static fret_near near;
-    const struct {
-        fret_normal *n;
-        coordinate by;
-        double y;
-        bool inside;
-    } all[] = {{power(210e9, 2, 1e-5, 1e-3), LOAD, 1, true},
-               {power(1, 2, 1, 1), DEPTH, 1e200, false},  /* F = 1e300 */
-               {power(1, 2, 1, 1), DEPTH, 1e-199, false}, /* F = 1e-299 */
-               {power(1, 2, 1, 1), LOAD, 1e280, true},
-               {power(1e-200, 2, 1, 1), LOAD, 1e250, false}, /* dz = 1e300 */
-               {power(1e200, 2, 1, 1), LOAD, 1e-250, false}, /* dz = 1e-300 */
-               {power(1, 0.5, 1, 1), DEPTH, 1e146, false},   /* a = 1e292 */
-               {power(1, 0.5, 1, 1), DEPTH, 1e-146, false},  /* a = 1e-292 */
-               {power(1, 0.5, 1, 1), DEPTH, 1e-170, false}}; /* no number at all */
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        fret_near_make(all[i].n, &near);
-        if (!CHECK(isnan(fret_near_value(&near, all[i].by, all[i].y)) == !all[i].inside))
-            printf("contact %zu\n", i);
-    }
-}
 
 /* ---- pieces -------------------------------------------------------------------------------------- */
 
@@ -594,9 +536,6 @@ int main(int argc, char **argv) {
     CASE(bodies());
     CASE(searches());
     CASE(ranges());
-    CASE(rates());
-    CASE(lent());
-    CASE(kept());
     CASE(close_rows());
     CASE(fields());
     CASE(short_pieces());

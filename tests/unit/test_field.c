@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Local fields: their integrals are the forces, they agree with the gap inside, and with closed forms. */
-#include "contact/field.h"
-#include "contact/normal.h"
+#include "field/field.h"
+#include "law/normal.h"
 #include "number/integral.h"
 #include "number/real.h"
 #include "unit.h"

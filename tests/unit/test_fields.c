@@ -2,10 +2,10 @@
 /* Fields at many places against slow twins: the definitions, integrated from kink to kink, and the quadrature
  * of one place after the other. Random contacts, histories and places, with corners. FRET_FIELDS=N asks N
  * times as much and prints the worst errors. */
-#include "contact/density.h"
-#include "contact/field.h"
-#include "contact/table.h"
+#include "field/density.h"
+#include "field/field.h"
 #include "fret/field.h"
+#include "law/table.h"
 #include "number/integral.h"
 #include "number/real.h"
 #include "unit.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Powers against the kernels, by quadrature in variables that take the singular ends away, and the field of a
  * flat punch. */
-#include "contact/kernel.h"
+#include "field/kernel.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "contact/slices.h"
+#include "history/memory.h"
 #include "unit.h"
 
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
@@ -892,43 +892,23 @@ static void spring_model(double n, double k) {
     fret_memory_free(c.memory);
 }
 
-/* Slices of one slope are one slice, of the mean slope; where neither bears a load, there is no mean to take.
- */
-static void merged(void) {
-    contact c = make_plain(2, 0);
-    fret_memory *m = c.memory;
-    const fret_real none[2] = {1e-9L, 0}, some[2] = {1e-9L, 3}, at[2] = {0, 0};
-    CHECK_OK(fret_memory_reserve(m, 4));
-    push(m, none, at, 0.5L, 1e-9L);
-    push(m, none, at, 0.5L + 1e-10L, 1e-9L);
-    CHECK(m->count == 1 && m->slices->sigma == 0.5L && m->slices->sum[LOAD] == 0);
-    CHECK(m->slices->thick[DEPTH] == 2e-9L && m->slices->thick[LOAD] == 0);
-    push(m, some, at, 0.25L, 1e-9L);
-    push(m, some, at, 0.25L + 4e-10L, 1e-9L);
-    CHECK(m->count == 2 && m->slices[1].thick[LOAD] == 6);
-    CHECK_REL(m->slices[1].sigma, 0.25L + 2e-10L, 1e-18L);
-    push(m, some, at, 1, 1);
-    CHECK(m->count == 3); /* sticks no more */
-    fret_memory_free(m);
-}
-
-/* Places rise from the centre to the edge, slopes are slopes, no slice is thicker than it is. */
+/* Places rise from the centre to the edge, slopes are slopes, the curve is as steep as they say. */
 static bool in_order(const fret_memory *m) {
     fret_segment s;
     fret_real last = 0;
     const fret_real slack = 8 * LDBL_EPSILON;
     for (size_t i = 0; fret_memory_segment(m, i, &s); i++, last = s.outer) {
-        const slice *sl = &m->slices[i];
+        const layer *l = &m->layers[i];
+        const point *outer = fret_memory_outer(m, i);
         for (coordinate by = DEPTH; by <= LOAD; by++) {
-            const fret_real outer = i + 1 < m->count ? sl[1].inner[by] : m->edge[by],
-                            inner = inner_of(m, i, by);
-            if (!(sl->thick[by] >= 0 && sl->thick[by] <= outer - inner + slack * outer))
+            const fret_real thick = layer_thickness(l, outer, by), apart = outer->y[by] - l->inner.y[by];
+            if (!(apart >= 0 && fabsl(thick - apart) <= slack * outer->y[by]))
                 return false;
         }
         if (!(s.inner >= 0 && s.outer >= s.inner && (i == 0 || s.inner == last) && fabsl(s.sigma) <= 1))
             return false;
     }
-    return last <= m->edge[DEPTH];
+    return last <= m->edge.y[DEPTH];
 }
 
 /* Loads of any size one after the other: a contact may be pressed by 1e20 of what is left of it then. */
@@ -992,7 +972,6 @@ int main(int argc, char **argv) {
     CASE(stiffness());
     CASE(targets());
     CASE(separation());
-    CASE(merged());
     CASE(from_far());
     CASE(unequal());
     CASE(gross_slip());

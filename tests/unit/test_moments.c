@@ -2,9 +2,9 @@
 /* An interrupt at any moment of what takes long: the call says so, leaves nothing half done behind, and gives
  * afterwards what it gives where nothing interrupts. The Makefile links this program so that functions of
  * numbers, which everything asks again and again, pass through here: each call is a moment. */
-#include "contact/normal.h"
-#include "contact/rows.h"
-#include "contact/table.h"
+#include "field/rows.h"
+#include "law/normal.h"
+#include "law/table.h"
 #include "number/real.h"
 #include "unit.h"
 

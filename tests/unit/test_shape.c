@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every gap but the single power: formulas, engine and tables against each other and the references. */
-#include "contact/normal.h"
-#include "contact/table.h"
+#include "law/normal.h"
+#include "law/table.h"
 #include "number/integral.h"
 #include "unit.h"
 

@@ -44,27 +44,6 @@ static void check_memory(const fret_normal *normal) {
     fret_memory_free(m);
 }
 
-/* A front that goes on by next to nothing, close to the centre. */
-static void check_thin(const fret_normal *normal) {
-    static const double turns[] = {3.99, 3.9, 3.990003};
-    fret_memory *m;
-    fret_state during, after;
-    CHECK_OK(fret_memory_make(normal, 0.4, &m));
-    for (int stopped = 1; stopped >= 0; stopped--) {
-        fret_memory_reset(m);
-        CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 10, 0}));
-        for (int i = 0; i < 2; i++)
-            CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, turns[i]}));
-        stop = stopped;
-        CHECK_CODE(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, turns[2]}),
-                   stopped ? FRET_INTERRUPTED : FRET_OK);
-        stop = 0;
-        fret_memory_state(m, stopped ? &during : &after);
-    }
-    CHECK(after.W > during.W && after.Fx == turns[2]);
-    fret_memory_free(m);
-}
-
 /* Questions to a state: what they had begun is no answer. */
 static void check_questions(const fret_normal *normal, const fret_contact *contact) {
     fret_memory *m;
@@ -210,7 +189,6 @@ int main(int argc, char **argv) {
     CHECK_OK(fret_cycle_loss_by_force(&contact, 1, &loss));
     CHECK(loss > 0);
     CASE(check_memory(normal));
-    CASE(check_thin(normal));
     CASE(check_questions(normal, &contact));
     CASE(check_springs(normal));
     CASE(check_elements(&steel));

@@ -2,8 +2,8 @@
 /* Harmonic forces event by event: against exact references, and against chords of the same memory. */
 #include <pthread.h>
 
-#include "contact/memory.h"
-#include "contact/swing.h"
+#include "history/memory.h"
+#include "history/swing.h"
 #include "unit.h"
 
 static const double half_turn = 3.14159265358979323846;
@@ -289,7 +289,7 @@ static void against_memory(int count) {
             CHECK_ABS(b.U, a.U, size, known(&l));
             CHECK_ABS(b.dx, a.dx, l.mu * m->normal->foundation.eta * a.dz, 10 * known(&l));
             CHECK(b.FN == a.FN && b.dz == fret_memory_pressed(m).dz && b.a == a.a);
-            CHECK(fabsl(b.dz - a.dz) <= LDBL_EPSILON * a.dz);
+            CHECK_REL(b.dz, a.dz, 1e-18L); /* by a power, and pressed */
             CHECK_REL(b.c, a.c, 1e-9L);
             CHECK_REL(b.kt, a.kt, 1e-9L);
             CHECK_OK(fret_swing_copy(kept, s));
@@ -575,7 +575,7 @@ static void mirrored(int count) {
         fret_memory *m[2] = {begin(&l), begin(&turned)};
         fret_swing *s[2] = {swing_of(m[0]), swing_of(m[1])};
         fret_state a, b;
-        const fret_real reach = l.mu * m[0]->normal->foundation.eta * m[0]->edge[DEPTH];
+        const fret_real reach = l.mu * m[0]->normal->foundation.eta * m[0]->edge.y[DEPTH];
         for (int j = 0; j < 20; j++) {
             if (j % 4 == 0) {
                 const fret_real FN = l.FN + w.FNA * cosl(w.phase);

@@ -2,9 +2,9 @@
 /* Fields after a swinging load: the traction against the force that it carries, the surface against the
  * springs that it follows from, both against chords of the same curve. Random loads, with corners.
  * FRET_FIELDS=N asks N times as much and prints the worst errors. */
-#include "contact/memory.h"
-#include "contact/swing.h"
 #include "fret/field.h"
+#include "history/memory.h"
+#include "history/swing.h"
 #include "number/integral.h"
 #include "unit.h"
 

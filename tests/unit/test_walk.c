@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A load that is walked in parts ends where one ends that is run at once, to the last bit, wherever it waits;
  * a walk follows its scene. */
+#include <float.h>
+
 #include "language.h"
 
 typedef struct looker {
@@ -98,7 +100,8 @@ static bool goes_anew(walk *w, calc *c) {
     engine_state(&w->run.engine, &got);
     CHECK(scene_state(c->now, &want, &error));
     const fret_real little = w->scene.answers.reach.swings ? 1e-5L : 1e-15L; /* chords; repeated periods */
-    CHECK(got.FN == want->FN && got.Fx == want->Fx);
+    CHECK_REL(got.FN, want->FN, 2 * LDBL_EPSILON); /* powers are counted from where the way has been */
+    CHECK(got.Fx == want->Fx);
     CHECK_REL(got.dx, want->dx, little);
     CHECK_REL(got.W, want->W, little);
     CHECK_REL(got.U, want->U, little);

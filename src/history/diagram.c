@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The memory diagram of a power law in double. Allocates its layers. */
+#include "fret/diagram.h"
+
+#define NUMBER double
+#define DIAGRAM fret_diagram
+#define FUNCTION(f) f
+#define POWER pow
+#include "history/diagram_type.h"
+#include "history/steps.h"
+#include "number/dd.h"
+
+#define LITTLE (4 * DBL_EPSILON)
+
+/* ---- the law ----------------------------------------------------------------------------------- */
+
+FRET_INLINE double law_value(const fret_diagram *d, coordinate by, double y) {
+    return power_value(&d->law[by], y);
+}
+
+FRET_INLINE fallen law_fall(const fret_diagram *d, coordinate by, place edge, double thick, double y,
+                            double v) {
+    (void)thick;
+    if (v < 0)
+        v = law_value(d, by, y);
+    return (fallen){edge.v - v, v};
+}
+
+FRET_INLINE bow law_bow(const fret_diagram *d, coordinate by, const place *outer, const place *inner,
+                        double w) {
+    return power_bow(&d->law[by], outer, inner, w);
+}
+
+/* Depth and load, or load and depth, whose product is an energy: numbers to go on with? */
+static bool law_shown(const fret_diagram *d, coordinate by, double y) {
+    const double v = law_value(d, by, y), product = y * v;
+    return product > 1e-290 && product < 1e290 && v > 1e-290 && v < 1e290;
+}
+
+/* F_N - s F_x/mu with all digits, which tell a depth near gross slip. */
+FRET_INLINE double law_left(const fret_diagram *d, coordinate by, double s, place edge, double level) {
+    const dd limit = dd_prod(d->mu, edge.y);
+    return by == DEPTH ? level : fmax(((limit.hi - s * d->Fx) + limit.lo) / d->mu, 0);
+}
+
+static fret_real law_radius(const fret_diagram *d) {
+    return fret_law_radius(d->normal, d->edge.y[DEPTH]);
+}
+
+#include "history/diagram_body.h"
+
+static fret_status law_press(fret_diagram *d, coordinate by, double y, double *v) {
+    const fret_status st = count_near(d, by, y);
+    if (st.code)
+        return st;
+    *v = law_value(d, by, y);
+    return law_shown(d, by, y) ? st : fret_fail(FRET_OVERFLOW, NULL, y, 1e290);
+}
+
+/* ---- the object -------------------------------------------------------------------------------- */
+
+fret_status fret_diagram_make(const fret_normal *normal, double mu, size_t slices, fret_diagram **out) {
+    const fret_status st = fret_check_positive("mu", mu);
+    return st.code                       ? st
+           : !fret_normal_closed(normal) ? fret_fail(FRET_OUTSIDE, "n", 0, 0)
+                                         : diagram_make(normal, mu, slices, out);
+}
+
+void fret_diagram_free(fret_diagram *d) {
+    diagram_free(d);
+}
+
+void fret_diagram_reset(fret_diagram *d) {
+    diagram_reset(d);
+}
+
+fret_status fret_diagram_copy(fret_diagram *to, const fret_diagram *from) {
+    return diagram_copy(to, from);
+}
+
+void fret_diagram_count_loss(fret_diagram *d, bool on) {
+    d->lossless = !on;
+}
+
+fret_status fret_diagram_step(fret_diagram *d, const fret_step *step) {
+    return diagram_step(d, step);
+}
+
+void fret_diagram_state(const fret_diagram *d, fret_state *out) {
+    diagram_state(d, out);
+}
+
+void fret_diagram_forces(const fret_diagram *d, fret_diagram_now *out) {
+    *out = (fret_diagram_now){.FN = d->edge.y[LOAD],
+                              .dz = d->dz,
+                              .Fx = d->Fx,
+                              .dx = d->dx,
+                              .W = d->W + d->W_rest,
+                              .last_loss = d->last_loss};
+}

@@ -1,0 +1,778 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The memory diagram: a curve that steps append to and cut. Included once for each kind of number, behind
+ * history/diagram_type.h and what the law is there:
+ *   law_value   the other coordinate of a place
+ *   law_fall    that of a place, and how far it is below that of the edge
+ *   law_bow     what a slice of the law bends (history/power_law.h)
+ *   law_shown   whether numbers hold it
+ *   law_press   the other coordinate of an edge out of the ordinary, if they do
+ *   law_left    the level of slip at an edge near gross slip, of which every digit counts
+ *   law_radius  the contact radius
+ * LITTLE: what places are known to, of the largest. Allocates the layers of its contact. */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "law/check.h"
+#include "number/array.h"
+
+/* libm's are calls; of a NaN the second. */
+FRET_INLINE NUMBER lesser(NUMBER a, NUMBER b) {
+    return a < b ? a : b;
+}
+
+FRET_INLINE NUMBER greater(NUMBER a, NUMBER b) {
+    return a > b ? a : b;
+}
+
+FRET_INLINE NUMBER size_of(NUMBER x) {
+    return FUNCTION(fabs)(x);
+}
+
+/* Each by itself: as parts of one function they would keep in memory what fits into registers. */
+#define APART static __attribute__((noinline))
+
+/* ---- life -------------------------------------------------------------------------------------- */
+
+static void diagram_reset(DIAGRAM *d) {
+    d->edge = (point){{0, 0}, {0, 0}};
+    d->dz = d->slid = d->dx = d->Fx = d->W = d->W_rest = d->last_loss = 0;
+    d->limit[DEPTH] = d->limit[LOAD] = fret_normal_closed(d->normal) ? 0 : (NUMBER)INFINITY;
+    d->sure[DEPTH] = d->sure[LOAD] = (NUMBER)INFINITY;
+    d->told = DEPTH;
+    d->direction = 1;
+    d->count = 0;
+}
+
+/* layers > 0: room for no more. */
+static fret_status diagram_make(const fret_normal *normal, double mu, size_t layers, DIAGRAM **out) {
+    const fret_status st = fret_check_positive("mu", mu);
+    if (st.code)
+        return st;
+    const size_t room = layers ? layers : 16;
+    DIAGRAM *d = calloc(1, sizeof *d);
+    if (d && room <= SIZE_MAX / sizeof *d->layers)
+        d->layers = calloc(room, sizeof *d->layers);
+    if (!d || !d->layers) {
+        free(d);
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    }
+    d->normal = normal;
+    d->mu = mu;
+    d->mu_eta = (NUMBER)(mu * normal->foundation.eta);
+    d->per_mu_eta = (NUMBER)(1 / (mu * normal->foundation.eta));
+    d->loss_scale = (NUMBER)(mu * (mu * normal->foundation.eta));
+    if (fret_normal_closed(normal)) {
+        power_make(normal->p, normal->pm1, &d->law[DEPTH]);
+        power_make(normal->q, -normal->pm1 * normal->q, &d->law[LOAD]);
+    }
+    d->room = room;
+    d->bounded = layers > 0;
+    diagram_reset(d);
+    *out = d;
+    return st;
+}
+
+static void diagram_free(DIAGRAM *d) {
+    if (d)
+        free(d->layers);
+    free(d);
+}
+
+APART fret_status make_room(DIAGRAM *d, size_t count) {
+    layer *grown = d->bounded ? NULL : fret_array_for(d->layers, &d->room, count, sizeof *grown);
+    if (!grown)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    d->layers = grown;
+    return fret_ok();
+}
+
+FRET_INLINE fret_status reserve(DIAGRAM *d, size_t count) {
+    return count <= d->room ? fret_ok() : make_room(d, count);
+}
+
+static fret_status diagram_copy(DIAGRAM *to, const DIAGRAM *from) {
+    if (to == from)
+        return fret_ok();
+    const fret_status st = reserve(to, from->count);
+    if (st.code)
+        return st;
+    layer *layers = to->layers;
+    const size_t room = to->room;
+    const bool bounded = to->bounded;
+    *to = *from;
+    to->layers = layers;
+    to->room = room;
+    to->bounded = bounded;
+    memcpy(layers, from->layers, from->count * sizeof *layers);
+    return st;
+}
+
+/* ---- the power law ----------------------------------------------------------------------------- */
+
+static fret_status law_press(DIAGRAM *d, coordinate by, double y, NUMBER *v);
+
+/* Powers are taken of the ratio to a place nearby, where their rounding is least: the middle of the 2^16-fold
+ * range of loads that y is in, and so the same whatever came before. */
+APART fret_status count_near(DIAGRAM *d, coordinate by, double y) {
+    fret_press p, middle;
+    const fret_status st =
+        by == LOAD ? fret_press_by_force(d->normal, y, &p) : fret_press_by_depth(d->normal, y, &p);
+    if (st.code)
+        return st;
+    int exponent;
+    frexpl(p.F, &exponent);
+    if (fret_press_by_force(d->normal, ldexp(1, (exponent & ~15) + 8), &middle).code)
+        middle = p; /* next to the ends of what numbers hold */
+    const fret_real at[2] = {middle.dz, middle.F}, wide[2] = {exp2l(8 / d->normal->p), 256};
+    for (coordinate i = DEPTH; i <= LOAD; i++) {
+        d->law[i].y = (NUMBER)at[i];
+        d->law[i].per_y = (NUMBER)(1 / at[i]);
+        d->law[i].v = (NUMBER)at[other_than(i)];
+    }
+    for (coordinate i = DEPTH; i <= LOAD; i++) {
+        const NUMBER least = (NUMBER)(at[i] / wide[i]);
+        d->limit[i] = (NUMBER)(at[i] * wide[i]);
+        d->sure[i] = law_shown(d, i, d->limit[i]) && law_shown(d, i, least) ? least : (NUMBER)INFINITY;
+    }
+    return st;
+}
+
+/* ---- what slip dissipates ---------------------------------------------------------------------- */
+
+/* While the front goes inwards at d and the edge is at D, slip dissipates int_d^D (D-z) dm, dm = |v''| dz.
+ * Over the phase that is int psi(z) dm, with psi(z) = int (D-z) |dd|   over the times at which d < z < D: a
+ * quadratic between any two of the places where front and edge begin and end, here inner (1-x)^2 + 2 middle x
+ * (1-x) + outer x^2,   x = 0 .. 1 from the inner one to the outer one. No term is negative: thin zones keep
+ * their digits. */
+FRET_INLINE NUMBER over(const DIAGRAM *d, coordinate by, const place *from, const place *to, NUMBER w,
+                        NUMBER inner, NUMBER middle, NUMBER outer) {
+    if (!(w > 0))
+        return 0;
+    const bow b = law_bow(d, by, to, from, w);
+    const NUMBER sum = middle * b.middle + outer * b.outer;
+    return inner > 0 ? sum + inner * b.inner : sum; /* the centre may bend without end */
+}
+
+/* The zone where a front of slip is. */
+typedef struct slip_front {
+    place edge, at; /* v < 0: not known */
+    NUMBER thick;   /* edge - at with its digits */
+} slip_front;
+
+FRET_INLINE void know(const DIAGRAM *d, coordinate by, place *p) {
+    if (p->v < 0)
+        p->v = law_value(d, by, p->y);
+}
+
+/* Edge and front go evenly from a to b, the front by `travel`. */
+APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_front *b, NUMBER travel) {
+    const NUMBER h0 = lesser(a->thick, a->edge.y),
+                 h1 = lesser(b->thick, b->edge.y), /* whatever rounding says */
+        growth = b->edge.y - a->edge.y, size = size_of(growth);
+    const place *at[4] = {&b->at, &a->at, &a->edge, &b->edge};
+    NUMBER w[3] = {travel, h0, size}, start = travel * (h0 + (h1 - travel)) / 2, end = travel * size / 2,
+           middle[3] = {travel * h1 / 2, (start + end) / 2, 0}, sum = 0;
+    if (!(travel > 0))
+        return 0;
+    know(d, by, &a->edge);
+    know(d, by, &a->at);
+    know(d, by, &b->edge);
+    know(d, by, &b->at);
+    if (growth < 0 && h1 >= travel) {
+        at[2] = &b->edge;
+        at[3] = &a->edge;
+        w[1] = h1 - travel;
+    } else if (growth < 0) { /* the edge comes to where the front has been */
+        at[1] = &b->edge;
+        at[2] = &a->at;
+        at[3] = &a->edge;
+        w[0] = h1;
+        w[1] = travel - h1;
+        w[2] = h0;
+        start = size * h1 * h1 / (2 * travel);
+        end = travel * h0 * h0 / (2 * size);
+        middle[0] = h1 * h1 / 2;
+        middle[1] = h0 * h1 / 2;
+    }
+    const NUMBER psi[4] = {0, start, end, 0};
+    for (int i = 0; i < 3; i++)
+        sum += over(d, by, at[i], at[i + 1], w[i], psi[i], middle[i], psi[i + 1]);
+    return sum;
+}
+
+/* Of the force between two depths: that of the chord, less what lies between. */
+APART NUMBER mean_force(const DIAGRAM *d, const place *a, const place *b) {
+    const NUMBER way = size_of(b->y - a->y);
+    const bool rises = a->y < b->y;
+    return way > 0 ? (a->v + b->v) / 2 - law_bow(d, DEPTH, rises ? b : a, rises ? a : b, way).middle * way / 4
+                   : b->v;
+}
+
+/* ---- steps ------------------------------------------------------------------------------------- */
+
+/* One step, straight in (y, t) of the coordinate `by`, with the contact closed at both ends. */
+typedef struct path {
+    DIAGRAM *d;
+    bool counts;       /* the loss */
+    point to;          /* t of the other coordinate is found */
+    NUMBER grow, turn; /* changes of y and t */
+    NUMBER Y;          /* the larger edge */
+    NUMBER felt;       /* whose rounding the drive has */
+    NUMBER loss;       /* per mu^2 eta */
+    bool slides;       /* ends in gross slip */
+} path;
+
+FRET_INLINE place place_of(const point *p, coordinate by) {
+    return (place){p->y[by], p->y[other_than(by)]};
+}
+
+/* Not as a whole: that waits for its parts to be written. */
+FRET_INLINE void put(place *to, NUMBER y, NUMBER v) {
+    to->y = y;
+    to->v = v;
+}
+
+FRET_INLINE void put_point(place *to, const point *p, coordinate by) {
+    put(to, p->y[by], p->y[other_than(by)]);
+}
+
+enum { UNKNOWN = -1 };
+
+/* The level y - s t of slip of sign s at the end. law_left goes by what was asked for, and so knows more near
+ * gross slip, but nothing where delta_x is far larger than what is left of it here. */
+FRET_INLINE NUMBER end_level(const path *p, coordinate by, NUMBER s) {
+    const NUMBER y = p->to.y[by], level = y - s * p->to.t[by];
+    if (size_of(level) > (NUMBER)0.1 * y || level == 0)
+        return level;
+    const NUMBER left = law_left(p->d, by, s, place_of(&p->to, by), level);
+    return size_of(left - level) <= LITTLE * y ? left : level;
+}
+
+FRET_INLINE void dissipate(path *p, coordinate by, NUMBER gain, slip_front *a, slip_front *b, NUMBER travel) {
+    if (!p->counts)
+        return;
+    p->loss += gain * phase_loss(p->d, by, a, b, travel);
+}
+
+/* How far a front has come, by the drive or by its places: near the centre these have more digits. */
+FRET_INLINE NUMBER travelled(const path *p, const slip_front *a, const slip_front *b, NUMBER travel) {
+    return a->at.y < p->felt ? a->at.y - b->at.y : travel;
+}
+
+/* Slip of sign s meets a layer: the drive that a unit of it takes, and what of it is beyond the end. */
+typedef struct meeting {
+    NUMBER gain, rest;
+} meeting;
+
+FRET_INLINE meeting meet(const layer *l, coordinate by, NUMBER s, NUMBER level) {
+    return (meeting){1 - s * l->sigma, level - (l->inner.y[by] - s * l->inner.t[by])};
+}
+
+/* Ends the step with slip of sign s, in a zone so thick: cuts the outermost of `count` layers where its level
+ * is that of the end, and goes straight to the edge; no layer: gross slip. outer: of a layer so thin that its
+ * t tell more than its y, else NULL; the front has gone `travel` from there. */
+FRET_INLINE void cut(path *p, coordinate by, NUMBER s, size_t count, NUMBER part, NUMBER thick,
+                     const point *outer, NUMBER travel) {
+    const coordinate aside = other_than(by);
+    const place edge = place_of(&p->to, by);
+    DIAGRAM *d = p->d;
+    layer *zone = &d->layers[count];
+    NUMBER y = 0, t = 0, ty = 0, tv = 0;
+    fallen fall = {edge.v, 0};
+    if (count) {
+        const layer *top = zone - 1;
+        const NUMBER inner = top->inner.y[by], v = top->inner.y[aside];
+        ty = top->inner.t[by];
+        tv = top->inner.t[aside];
+        y = lesser(inner + part, edge.y);
+        if (y > inner) {
+            fall = law_fall(d, by, edge, thick, y, UNKNOWN);
+            fall.v = lesser(greater(fall.v, v), edge.v);
+            t = !outer ? fall.v - v
+                       : layer_thickness(top, outer, aside) -
+                             (outer == &d->edge ? fall.by
+                                                : law_fall(d, by, place_of(outer, by), travel, y, fall.v).by);
+            ty += top->sigma * part;
+            tv += top->sigma * t;
+        } else { /* all of it */
+            y = inner;
+            fall = law_fall(d, by, edge, thick, y, v);
+            zone--;
+        }
+    } else {
+        p->to.t[by] = s * edge.y;
+        p->slides = true;
+    }
+    zone->inner.y[by] = y;
+    zone->inner.y[aside] = fall.v;
+    zone->inner.t[by] = ty;
+    zone->inner.t[aside] = tv;
+    zone->sigma = s;
+    d->count = (size_t)(zone - d->layers) + 1;
+    p->to.t[aside] = tv + s * fall.by;
+}
+
+/* Where the front is after a cut. */
+FRET_INLINE void put_end(slip_front *end, const path *p, coordinate by, NUMBER thick) {
+    put_point(&end->edge, &p->to, by);
+    put_point(&end->at, &p->d->layers[p->d->count - 1].inner, by);
+    end->thick = thick;
+}
+
+FRET_INLINE void begin_at(slip_front *begin, const point *edge, coordinate by) {
+    put_point(&begin->edge, edge, by);
+    put_point(&begin->at, edge, by);
+    begin->thick = 0;
+}
+
+/* Gross slip for `e` of the drive, from the edge `from` on: by depth it moves on. */
+FRET_INLINE void dissipate_all(path *p, coordinate by, NUMBER e, place *from) {
+    if (by == DEPTH && e > 0 && p->counts) {
+        const place b = place_of(&p->to, DEPTH);
+        know(p->d, DEPTH, from);
+        p->loss += e * mean_force(p->d, from, &b);
+    }
+}
+
+/* Slip of sign s from the beginning to the end of the step. */
+FRET_INLINE void slip(path *p, coordinate by, NUMBER s) {
+    DIAGRAM *d = p->d;
+    const NUMBER drive = s * p->turn - p->grow, level = end_level(p, by, s), edge = p->to.y[by];
+    const point *outer = &d->edge;
+    NUMBER left = drive;
+    slip_front zone[2], *now = &zone[0], *next = &zone[1];
+    size_t count = d->count;
+    meeting at = {0, 0};
+    bool thin = false;
+    begin_at(now, &d->edge, by);
+    for (; count; count--) {
+        const layer *top = &d->layers[count - 1];
+        const NUMBER thick = layer_thickness(top, outer, by),
+                     same = count > 1 ? LITTLE * p->Y : 0; /* of the core the least bit counts */
+        at = meet(top, by, s, level);
+        thin = size_of(top->sigma) == 1 && p->felt < top->inner.y[by];
+        if (thin) /* the same, by the drive */
+            at.rest = at.gain * thick - left;
+        if (at.gain > 0 && at.rest > 0 && !(at.rest <= same && at.rest <= (NUMBER)1e-6 * at.gain * thick))
+            break;
+        left = greater(left - at.gain * thick, 0);
+        if (at.gain > 0 && p->grow != 0)
+            put(&next->edge, edge - p->grow * (left / drive), UNKNOWN);
+        else
+            put(&next->edge, now->edge.y, now->edge.v);
+        put_point(&next->at, &top->inner, by);
+        next->thick = now->thick + thick + (next->edge.y - now->edge.y);
+        if (at.gain > 0)
+            dissipate(p, by, at.gain, now, next, thick);
+        slip_front *const last = now;
+        now = next;
+        next = last;
+        outer = &top->inner;
+    }
+    if (!count) {
+        dissipate_all(p, by, left, &now->edge);
+        cut(p, by, s, 0, 0, edge, NULL, 0);
+        return;
+    }
+    const NUMBER travel = left / at.gain, thick = now->thick + (edge - now->edge.y) + travel;
+    cut(p, by, s, count, at.rest / at.gain, thick, thin && p->grow == 0 ? outer : NULL, travel);
+    put_end(next, p, by, thick);
+    dissipate(p, by, at.gain, now, next, travelled(p, now, next, travel));
+}
+
+/* The last phase of a step that goes back: up to its end a front of slip of sign s moves in the outermost of
+ * `count` layers; s = 0: none does. */
+typedef struct last_phase {
+    slip_front zone[2], *begin, *end;
+    NUMBER s, gain, travel;
+    size_t count;
+} last_phase;
+
+/* The edge goes inwards and the drive is smaller. At the edge a slope sigma means a surplus sigma - r over
+ * the slope r of the path, and starts a zone of that sign, whose front is faster than the edge by the surplus
+ * over 1 - s sigma; a front slower than the edge is overtaken, and the next slope decides anew. */
+FRET_INLINE void phases_back(path *p, coordinate by, last_phase *last) {
+    const DIAGRAM *d = p->d;
+    const NUMBER r = p->turn / p->grow, to = p->to.y[by];
+    slip_front *now = &last->zone[0], *next = &last->zone[1];
+    size_t count = d->count;
+    begin_at(now, &d->edge, by);
+    last->s = 0;
+    while (count && now->edge.y > to) {
+        const layer *top = &d->layers[count - 1];
+        const NUMBER surplus = top->sigma - r, thick = now->at.y - top->inner.y[by],
+                     s = last->s != 0  ? last->s
+                         : surplus < 0 ? -1
+                                       : 1,
+                     gain = 1 - s * top->sigma;
+        last->s = s;
+        if (gain <= 0) {
+            put_point(&now->at, &top->inner, by);
+            now->thick += thick;
+            count--;
+            continue;
+        }
+        const NUMBER widens = s * surplus / gain, speed = 1 + widens;
+        NUMBER way = now->edge.y - to, travel = speed * way;
+        const bool reaches = thick <= travel;
+        if (reaches) {
+            way = thick > 0 ? thick / speed : 0;
+            travel = thick;
+        }
+        const bool overtaken = widens < 0 && now->thick <= -widens * way, reached = reaches && !overtaken;
+        if (overtaken) {
+            way = now->thick / -widens;
+            travel = lesser(speed * way, thick);
+        }
+        put(&next->edge, greater(now->edge.y - way, to), UNKNOWN);
+        if (reached)
+            put_point(&next->at, &top->inner, by);
+        else
+            put(&next->at, overtaken ? next->edge.y : now->at.y - travel, UNKNOWN);
+        next->thick = overtaken ? 0 : now->thick + widens * way;
+        if (!reached && !overtaken) {
+            put_point(&next->edge, &p->to, by);
+            last->begin = now;
+            last->end = next;
+            last->gain = gain;
+            last->travel = travel;
+            last->count = count;
+            return;
+        }
+        dissipate(p, by, gain, now, next, travel);
+        slip_front *const before = now;
+        now = next;
+        next = before;
+        if (reached)
+            count--;
+        else
+            last->s = 0;
+    }
+    if (!count)
+        dissipate_all(p, by, (1 - last->s * r) * (now->edge.y - to), &now->edge);
+    last->s = 0;
+}
+
+/* Both levels fall: the curve is cut where one of them is first that of the end. */
+FRET_INLINE void retreat(path *p, coordinate by) {
+    DIAGRAM *d = p->d;
+    const coordinate aside = other_than(by);
+    const NUMBER to = p->to.y[by], forward = end_level(p, by, 1), backward = end_level(p, by, -1);
+    last_phase last;
+    NUMBER s = 0, part = 0, thick = to;
+    last.s = 0;
+    if (p->counts)
+        phases_back(p, by, &last);
+    size_t count = d->count;
+    for (; count; count--) {
+        const layer *top = &d->layers[count - 1];
+        const meeting f = meet(top, by, 1, forward), b = meet(top, by, -1, backward);
+        s = f.rest <= 0 || f.rest * b.gain < b.rest * f.gain ? 1 : -1;
+        if (f.rest > 0 && b.rest > 0) {
+            part = s > 0 ? f.rest / f.gain : b.rest / b.gain;
+            thick = to - (top->inner.y[by] + part);
+            break;
+        }
+    }
+    if (count && thick <= LITTLE * to) { /* the end lies on the curve */
+        const layer *top = &d->layers[count - 1];
+        d->count = count;
+        p->to.t[aside] = top->inner.t[aside] + top->sigma * (p->to.y[aside] - top->inner.y[aside]);
+    } else {
+        cut(p, by, s, count, part, thick, NULL, 0);
+        if (last.s == s && last.count == count)
+            put_end(last.end, p, by, thick);
+    }
+    if (last.s != 0)
+        dissipate(p, by, last.gain, last.begin, last.end, travelled(p, last.begin, last.end, last.travel));
+}
+
+/* Nothing slips: the curve grows. Slopes that differ by less than the rounding of targets merge, else a ramp
+ * in many small steps would pile up layers. */
+FRET_INLINE void grow(path *p, coordinate by) {
+    DIAGRAM *d = p->d;
+    const coordinate aside = other_than(by);
+    const NUMBER sigma = p->turn / p->grow, rounding = 4 * (NUMBER)DBL_EPSILON * p->to.y[by] / p->grow;
+    layer *top = d->count ? &d->layers[d->count - 1] : NULL;
+    if (top && size_of(top->sigma - sigma) <= rounding && (size_of(sigma) < 1) == (size_of(top->sigma) < 1)) {
+        const NUMBER both = p->to.y[by] - top->inner.y[by];
+        if (size_of(sigma) < 1)
+            top->sigma = greater(-1, lesser(1, (p->to.t[by] - top->inner.t[by]) / both));
+    } else {
+        top = &d->layers[d->count++];
+        *top = (layer){d->edge, sigma};
+    }
+    p->to.t[aside] = top->inner.t[aside] + top->sigma * (p->to.y[aside] - top->inner.y[aside]);
+}
+
+/* To y, with t of the coordinate `by` there. Returns the loss. */
+FRET_INLINE NUMBER advance(DIAGRAM *d, coordinate by, NUMBER depth, NUMBER load, NUMBER t, bool counts) {
+    const NUMBER y[2] = {depth, load};
+    path p; /* not as a whole: that waits for its parts to be written */
+    p.d = d;
+    p.counts = counts;
+    p.loss = 0;
+    p.slides = false;
+    p.grow = y[by] - d->edge.y[by];
+    p.turn = t - d->edge.t[by];
+    for (coordinate i = DEPTH; i <= LOAD; i++)
+        p.to.y[i] = y[i];
+    p.to.t[by] = t;
+    p.felt = size_of(t) + size_of(d->edge.t[by]);
+    p.Y = p.grow > 0 ? y[by] : d->edge.y[by];
+    const NUMBER aside = size_of(p.turn), along = size_of(p.grow);
+    if (aside > along || (aside == along && p.grow < 0))
+        slip(&p, by, p.turn < 0 ? -1 : 1);
+    else if (p.grow < 0)
+        retreat(&p, by);
+    else if (p.grow > 0)
+        grow(&p, by);
+    else
+        return 0;
+    for (coordinate i = DEPTH; i <= LOAD; i++) { /* not as a whole: that waits for its parts to be written */
+        d->edge.y[i] = p.to.y[i];
+        d->edge.t[i] = p.to.t[i];
+    }
+    for (size_t i = d->count; i > 0 && d->layers[i - 1].inner.y[other_than(by)] > y[other_than(by)]; i--)
+        d->layers[i - 1].inner.y[other_than(by)] = y[other_than(by)]; /* whatever rounding says */
+    if (p.slides && by == DEPTH)
+        d->slid = d->dx - d->mu_eta * d->edge.t[DEPTH];
+    return p.loss;
+}
+
+APART NUMBER by_load(DIAGRAM *d, NUMBER depth, NUMBER load, NUMBER t) {
+    return advance(d, LOAD, depth, load, t, false);
+}
+APART NUMBER by_load_with_loss(DIAGRAM *d, NUMBER depth, NUMBER load, NUMBER t) {
+    return advance(d, LOAD, depth, load, t, true);
+}
+APART NUMBER by_depth(DIAGRAM *d, NUMBER depth, NUMBER load, NUMBER t) {
+    return advance(d, DEPTH, depth, load, t, false);
+}
+APART NUMBER by_depth_with_loss(DIAGRAM *d, NUMBER depth, NUMBER load, NUMBER t) {
+    return advance(d, DEPTH, depth, load, t, true);
+}
+
+static void open_contact(DIAGRAM *d, NUMBER dx) {
+    d->edge = (point){{0, 0}, {0, 0}};
+    d->count = 0;
+    d->slid = dx;
+}
+
+/* The normal state at the end of a step. */
+typedef struct normal_end {
+    NUMBER y[2];
+    NUMBER dz; /* depth, or < 0 the gap between the bodies where they part */
+    coordinate told;
+} normal_end;
+
+FRET_INLINE fret_status press_to(DIAGRAM *d, coordinate by, double target, normal_end *to) {
+    const double end = target > 0 ? target : 0;
+    if (!isfinite(target))
+        return fret_fail(FRET_NOT_FINITE, by == LOAD ? "FN" : "dz", target, 0);
+    if (by == LOAD && target < 0)
+        return fret_fail(FRET_NEGATIVE, "FN", target, 0);
+    if (end != to->y[by]) {
+        NUMBER v = 0;
+        if (end > 0 && (end < d->sure[by] || end > d->limit[by])) {
+            const fret_status st = law_press(d, by, end, &v);
+            if (st.code)
+                return st;
+        } else if (end > 0) {
+            v = law_value(d, by, end);
+        }
+        to->y[by] = end;
+        to->y[other_than(by)] = v;
+        to->told = by;
+    }
+    to->dz = target < 0 ? (NUMBER)target : to->y[DEPTH];
+    return fret_ok();
+}
+
+FRET_INLINE fret_status find_normal_end(DIAGRAM *d, const fret_step *step, normal_end *to) {
+    to->y[DEPTH] = d->edge.y[DEPTH]; /* not as a whole: that waits for its parts to be written */
+    to->y[LOAD] = d->edge.y[LOAD];
+    to->dz = d->dz;
+    to->told = d->told;
+    return step->normal_by == FRET_KEEP_NORMAL ? fret_ok()
+           : step->normal_by == FRET_TO_FORCE  ? press_to(d, LOAD, step->normal, to)
+                                               : press_to(d, DEPTH, step->normal, to);
+}
+
+/* F_x/mu at the end. */
+FRET_INLINE fret_status find_load(const DIAGRAM *d, const fret_step *step, NUMBER FN, NUMBER *load) {
+    fret_real to = 0;
+    *load = (NUMBER)step->tangential / (NUMBER)d->mu;
+    if (size_of(*load) < (NUMBER)0.9 * FN)
+        return fret_ok();
+    const fret_status st = fret_step_load(d->mu, step, FN, &to);
+    *load = (NUMBER)to;
+    return st;
+}
+
+static void step_by_force(DIAGRAM *d, double Fx, const NUMBER y[2], NUMBER load) {
+    if (Fx == d->Fx && size_of(d->edge.t[LOAD]) <= y[LOAD])
+        load = d->edge.t[LOAD]; /* the rounding of a quotient is no reversal */
+    d->Fx = Fx;
+    d->last_loss =
+        d->lossless ? by_load(d, y[DEPTH], y[LOAD], load) : by_load_with_loss(d, y[DEPTH], y[LOAD], load);
+    if (y[LOAD] <= 0)
+        open_contact(d, d->slid); /* no spring is left to be displaced */
+    d->dx = d->slid + d->mu_eta * d->edge.t[DEPTH];
+}
+
+/* With the contact closed. t: int sigma dy at the end. */
+FRET_INLINE void move(DIAGRAM *d, const NUMBER y[2], NUMBER t) {
+    d->last_loss =
+        d->lossless ? by_depth(d, y[DEPTH], y[LOAD], t) : by_depth_with_loss(d, y[DEPTH], y[LOAD], t);
+}
+
+FRET_INLINE NUMBER turned(const DIAGRAM *d, NUMBER to, NUMBER from) {
+    return to == from ? d->edge.t[DEPTH] : (to - d->slid) * d->per_mu_eta;
+}
+
+/* While open, the bodies move freely: only the closed part of the path counts. */
+static void step_by_displacement(DIAGRAM *d, NUMBER target, const normal_end *end) {
+    const NUMBER old = d->dx, from = d->dz, to = end->dz;
+    NUMBER stop = target;
+    d->dx = target;
+    d->last_loss = 0;
+    if (from <= 0 && to > 0)
+        open_contact(d, old + (target - old) * (-from / (to - from)));
+    else if (from > 0 && to <= 0)
+        stop = old + (target - old) * (from / (from - to));
+    if (from > 0 || to > 0)
+        move(d, end->y, turned(d, stop, old));
+    if (to <= 0)
+        open_contact(d, target);
+    d->Fx = d->mu * d->edge.t[LOAD];
+}
+
+/* The end of every step. */
+FRET_INLINE void end_step(DIAGRAM *d, NUMBER dz) {
+    d->dz = dz;
+    if (d->lossless)
+        return;
+    const NUMBER x = d->last_loss > 0 ? d->last_loss * d->loss_scale : 0, t = d->W + x;
+    d->W_rest += d->W >= x ? (d->W - t) + x : (x - t) + d->W;
+    d->W = t;
+    d->last_loss = x;
+}
+
+FRET_INLINE void face(DIAGRAM *d, NUMBER before, NUMBER target) {
+    if (target != before)
+        d->direction = target < before ? -1 : 1;
+}
+
+/* With all that may have to be refused, made or opened. */
+APART fret_status any_step(DIAGRAM *d, const fret_step *step) {
+    const bool by_force = step->tangential_by == FRET_TO_FX;
+    normal_end to;
+    NUMBER load = 0;
+    if (step->tangential_by != FRET_KEEP_DX && !isfinite(step->tangential))
+        return fret_fail(FRET_NOT_FINITE, by_force ? "Fx" : "dx", step->tangential, 0);
+    fret_status st = find_normal_end(d, step, &to);
+    if (!st.code && by_force)
+        st = find_load(d, step, to.y[LOAD], &load);
+    if (!st.code)
+        st = reserve(d, d->count + 2);
+    if (st.code)
+        return st;
+    const NUMBER target = step->tangential_by == FRET_KEEP_DX ? d->dx : (NUMBER)step->tangential;
+    face(d, by_force ? d->Fx : d->dx, target);
+    d->told = to.told;
+    if (by_force)
+        step_by_force(d, step->tangential, to.y, load);
+    else
+        step_by_displacement(d, target, &to);
+    end_step(d, to.dz);
+    return st;
+}
+
+/* Contact stays closed, and there is nothing to refuse and nothing to make: what most steps are. */
+FRET_INLINE bool is_plain(const DIAGRAM *d, const fret_step *step) {
+    return step->normal_by == FRET_TO_DEPTH && step->tangential_by == FRET_TO_DX && d->dz > 0 &&
+           step->normal > 0 && step->normal >= d->sure[DEPTH] && step->normal <= d->limit[DEPTH] &&
+           fabs(step->tangential) <= DBL_MAX && d->count + 2 <= d->room;
+}
+
+FRET_INLINE fret_status diagram_step(DIAGRAM *d, const fret_step *step) {
+    if (!is_plain(d, step))
+        return any_step(d, step);
+    const bool stays = step->normal == d->edge.y[DEPTH];
+    const NUMBER y[2] = {step->normal, stays ? d->edge.y[LOAD] : law_value(d, DEPTH, step->normal)};
+    const NUMBER t = turned(d, step->tangential, d->dx);
+    face(d, d->dx, step->tangential);
+    d->dx = step->tangential;
+    d->told = stays ? d->told : DEPTH;
+    move(d, y, t);
+    d->Fx = d->mu * d->edge.t[LOAD];
+    end_step(d, y[DEPTH]);
+    return fret_ok();
+}
+
+/* ---- state ------------------------------------------------------------------------------------- */
+
+FRET_INLINE const point *outer_of(const DIAGRAM *d, const layer *l) {
+    return l + 1 < d->layers + d->count ? &l[1].inner : &d->edge;
+}
+
+/* U = mu^2 eta/2 int v^2 dK with v the sum of sigma from the edge: from the centre outwards, a layer of
+ * thickness h adds sigma h T + sigma^2 J to the half integral, T the sum of sigma dF_N inside it. */
+static fret_real stored(const DIAGRAM *d) {
+    fret_real sum = 0;
+    for (const layer *l = d->layers; l < d->layers + d->count && !fret_stopped(d->normal); l++) {
+        const point *end = outer_of(d, l);
+        const fret_real h = layer_thickness(l, end, DEPTH), sigma = l->sigma;
+        if (sigma == 0 || !(h > 0))
+            continue;
+        const fret_slice part = fret_law_slice(d->normal, &(fret_level){end->y[DEPTH], end->y[LOAD]}, h);
+        sum += sigma * h * l->inner.t[LOAD] + sigma * sigma * fret_slice_moment(&part);
+    }
+    return d->mu * (d->mu * d->normal->foundation.eta) * sum;
+}
+
+/* Inwards from a layer, past those that are as thin as the rounding of loads. */
+static const layer *past_rounding(const DIAGRAM *d, const layer *from) {
+    const NUMBER rounding = 4 * (NUMBER)DBL_EPSILON * d->edge.y[LOAD];
+    while (from > d->layers && layer_thickness(from, outer_of(d, from), LOAD) <= rounding)
+        from--;
+    return from;
+}
+
+/* The layer that tells c: slip that a load has come back to, but for its rounding, is not hidden by what that
+ * leaves at the edge, or where the present slip meets it. */
+static const layer *outermost(const DIAGRAM *d) {
+    const layer *top = &d->layers[d->count - 1], *zone = past_rounding(d, top), *next = zone;
+    if (size_of(zone->sigma) < 1)
+        return top;
+    while (next > d->layers && next->sigma == zone->sigma) {
+        zone = next;
+        next = past_rounding(d, next - 1);
+    }
+    return next->sigma == zone->sigma ? next : zone;
+}
+
+static void diagram_state(const DIAGRAM *d, fret_state *out) {
+    *out = (fret_state){.FN = d->edge.y[LOAD],
+                        .dz = d->dz,
+                        .Fx = d->Fx,
+                        .dx = d->dx,
+                        .W = (fret_real)d->W + d->W_rest,
+                        .slices = d->count};
+    if (!d->count)
+        return;
+    const layer *top = outermost(d);
+    out->U = stored(d);
+    out->a = law_radius(d);
+    out->kn = fret_normal_stiffness(d->normal, out->a);
+    out->c = out->a;
+    if (size_of(top->sigma) >= 1)
+        out->c =
+            top == d->layers
+                ? 0
+                : fret_law_level_radius(d->normal, &(fret_level){top->inner.y[DEPTH], top->inner.y[LOAD]});
+    const fret_real inner = top->sigma * d->direction >= 1 ? out->c : out->a;
+    out->kt = inner > 0 ? fret_normal_stiffness(d->normal, inner) / d->normal->foundation.eta : 0;
+}

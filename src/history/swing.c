@@ -1,0 +1,513 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The memory curve in (M, P): cut and grown along the ways of the load, and what they dissipate. Allocates
+ * its pieces. */
+#include "fret/swing.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "history/memory.h"
+#include "history/swing.h"
+#include "law/check.h"
+#include "number/array.h"
+#include "number/real.h"
+
+/* Of two that are harmonic, and meet where both rise: then their lags are the same, too. */
+static bool same_way(const way *a, const way *b) {
+    return a->mean == b->mean && a->size[M] == b->size[M] && a->size[P] == b->size[P];
+}
+
+/* ---- the curve --------------------------------------------------------------------------------- */
+
+static fret_status reserve(fret_swing *c, size_t count) {
+    if (count <= c->room)
+        return fret_ok();
+    piece *grown = fret_array_for(c->pieces, &c->room, count, sizeof *grown);
+    if (!grown)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    c->pieces = grown;
+    return fret_ok();
+}
+
+/* What a force of the present size is known to. */
+static fret_real noise(const fret_swing *c) {
+    return 512 * LDBL_EPSILON * c->scale;
+}
+
+static fret_real piece_other(const piece *p, int which, fret_real level) {
+    const int other = 1 - which;
+    if (p->curved)
+        return way_at(&p->way, other, way_when(&p->way, which, level, p->lo, p->hi));
+    const fret_real part = (level - p->first[which]) / (p->last[which] - p->first[which]);
+    return p->first[other] + (p->last[other] - p->first[other]) * part;
+}
+
+/* The other coordinate where the curve crosses the level of `which`. */
+static fret_real curve_other(const fret_swing *c, int which, fret_real level) {
+    for (size_t i = c->count; i-- > 0;) {
+        const piece *p = &c->pieces[i];
+        if (p->first[which] <= level && p->first[which] < p->last[which])
+            return piece_other(p, which, fminl(level, p->last[which]));
+    }
+    return 0;
+}
+
+static fret_status append(fret_swing *c, const piece *p) {
+    const fret_status st = reserve(c, c->count + 1);
+    if (!st.code)
+        c->pieces[c->count++] = *p;
+    return st;
+}
+
+/* Are two straight pieces one, to the rounding of targets? Not where a curve in the smallest steps would pass
+ * for straight. */
+static bool in_line(const fret_swing *c, const piece *a, const piece *b) {
+    const fret_real rounding = 4 * DBL_EPSILON * c->scale, least = 1e-7L * c->scale;
+    const fret_real m = b->last[M] - a->first[M], p = b->last[P] - a->first[P];
+    const fret_real off = m * (a->last[P] - a->first[P]) - p * (a->last[M] - a->first[M]);
+    return fabsl(off) <= rounding * fmaxl(m, p) &&
+           fmaxl(b->last[M] - b->first[M], b->last[P] - b->first[P]) > least;
+}
+
+/* Parts of one way are one piece. */
+static fret_status grow(fret_swing *c, const piece *p) {
+    if (!c->count)
+        return append(c, p);
+    piece *top = &c->pieces[c->count - 1];
+    if (top->curved != p->curved || fabsl(top->last[M] - p->first[M]) > noise(c) ||
+        fabsl(top->last[P] - p->first[P]) > noise(c) ||
+        !(p->curved ? top->hi == p->lo && same_way(&top->way, &p->way) : in_line(c, top, p)))
+        return append(c, p);
+    memcpy(top->last, p->last, sizeof top->last);
+    top->hi = p->hi;
+    top->known = false;
+    return fret_ok();
+}
+
+/* Cut at the level of `which`, then straight to the end. */
+static fret_status cut(fret_swing *c, int which, fret_real level, const fret_real end[2]) {
+    while (c->count && c->pieces[c->count - 1].last[which] > level &&
+           c->pieces[c->count - 1].first[which] >= level)
+        c->count--;
+    fret_real corner[2] = {0, 0};
+    if (c->count) {
+        piece *top = &c->pieces[c->count - 1];
+        if (top->last[which] > level) {
+            top->last[1 - which] = piece_other(top, which, level);
+            top->last[which] = level;
+            if (top->curved)
+                top->hi = way_when(&top->way, which, level, top->lo, top->hi);
+            top->known = false;
+        }
+        memcpy(corner, top->last, sizeof corner);
+    }
+    if (end[1 - which] - corner[1 - which] > noise(c)) {
+        const piece straight = {.first = {corner[0], corner[1]}, .last = {end[0], end[1]}};
+        return append(c, &straight);
+    }
+    if (c->count)
+        memcpy(c->pieces[c->count - 1].last, end, sizeof corner);
+    return fret_ok();
+}
+
+/* ---- slip -------------------------------------------------------------------------------------- */
+
+typedef struct slip {
+    const fret_swing *curve;
+    const way *way;
+    int which;
+    fret_real lo, hi, end; /* end: the level at hi */
+} slip;
+
+/* [F(D)-F(d)-(D-d) F'(d)]/F'(d) [m]: D the depth of the load `edge`, d that of `front` >= 0; zone: the
+ * difference of the loads by itself. */
+static fret_real loss_rate(const fret_normal *n, fret_real edge, fret_real front, fret_real zone) {
+    if (!(zone > 0))
+        return 0;
+    const fret_level outer = {fret_law_depth(n, edge), edge};
+    const fret_slice s = fret_law_slice_to(n, &outer, true, zone, front);
+    return s.K > 0 ? s.G / s.K : 0; /* the centre has no weight */
+}
+
+/* That times the fall of the level. */
+static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
+    const slip *l = context;
+    const fret_real s = l->lo * rest + l->hi * t;
+    /* from the end, where it may be 0 and the rate infinite */
+    const fret_real level = l->way->harmonic ? way_at(l->way, l->which, s)
+                                             : l->end - l->way->span[l->which] * ((l->hi - l->lo) * rest);
+    const fret_real other = way_at(l->way, 1 - l->which, s), inner = curve_other(l->curve, l->which, level);
+    return loss_rate(l->curve->normal, (level + other) / 2, (level + inner) / 2, (other - inner) / 2) *
+           way_fall(l->way, l->which, s);
+}
+
+/* instants closer than so much, of the greatest, are one */
+static const fret_real CLOSE = 16 * LDBL_EPSILON;
+
+/* The first instant after lo at which a falling coordinate (bits: 1 M, 2 P) meets an end of a piece, of
+ * `count`, or hi. */
+static fret_real next_crossing(const fret_swing *c, size_t count, const way *w, int coordinates, fret_real lo,
+                               fret_real hi) {
+    const fret_real close = CLOSE * fmaxl(1, fabsl(hi));
+    fret_real next = hi;
+    for (int which = M; which <= P; which++) {
+        const fret_real from = way_at(w, which, lo), to = way_at(w, which, hi);
+        if (!(coordinates >> which & 1))
+            continue;
+        for (size_t i = count; i-- > 0 && c->pieces[i].last[which] > to;) {
+            const fret_real level = c->pieces[i].first[which];
+            if (!(level > to + noise(c) && level < from - noise(c)))
+                continue;
+            const fret_real s = way_when(w, which, level, lo, hi);
+            if (s > lo + close && s < next - close)
+                next = s;
+        }
+    }
+    return next;
+}
+
+/* Where the front comes near the centre at the end, the rate, a power of its level, is singular as near to
+ * that end in the plane of complex instants: a part is no longer than twice that distance and what follows
+ * it. */
+static fret_real part_end(const way *w, int which, fret_real lo, fret_real hi) {
+    const fret_real level = way_at(w, which, hi);
+    const fret_real distance = w->harmonic ? sqrtl(2 * level / w->size[which]) : level / -w->span[which];
+    return hi - lo > 2 * distance && hi - lo > 1e-6L ? (lo + hi) / 2 : hi;
+}
+
+/* Between two instants with the front at the level of `which`, which falls. */
+static fret_status slip_between(fret_swing *c, const way *w, int which, fret_real lo, fret_real hi) {
+    slip l = {.curve = c, .way = w, .which = which, .lo = lo};
+    while (l.lo < hi) {
+        l.hi = part_end(w, which, l.lo, next_crossing(c, c->count, w, 1 << which, l.lo, hi));
+        l.end = way_at(w, which, l.hi);
+        const fret_real loss = (l.hi - l.lo) * fret_swing_integral(c, slip_rate, &l);
+        c->last_loss += loss > 0 ? loss : 0;
+        l.lo = l.hi;
+    }
+    const fret_real end[2] = {way_at(w, M, hi), way_at(w, P, hi)};
+    return cut(c, which, end[which], end);
+}
+
+/* Does P lie above the curve (1), below it (-1), or on it? */
+static int side_of(const fret_swing *c, const way *w, fret_real s) {
+    const fret_real above = way_at(w, P, s) - curve_other(c, M, way_at(w, M, s));
+    return fabsl(above) <= 4 * noise(c) ? 0 : above > 0 ? 1 : -1;
+}
+
+/* Where one looks for a change of sides, as a part of the way: closer towards its ends, since what is missed
+ * there counts by its third power in the loss. */
+enum { LOOKS = 24, CLOSER = 12, HALVINGS = 64 };
+
+static fret_real look(int i) {
+    const fret_real first = 0.5L / (fret_real)LOOKS;
+    if (i < CLOSER)
+        return ldexpl(first, i - CLOSER);
+    if (i >= CLOSER + LOOKS)
+        return 1 - ldexpl(first, CLOSER + LOOKS - 1 - i);
+    return first * (1 + 2 * (i - CLOSER));
+}
+
+/* Up to when, at most hi, is the way on the side that it is on after lo? Where it begins on the curve it has
+ * to leave it first. */
+static int side_until(const fret_swing *c, const way *w, fret_real lo, fret_real *hi) {
+    const fret_real length = *hi - lo;
+    fret_real before = lo;
+    int side = 0;
+    for (int i = 0; i < CLOSER + LOOKS + CLOSER; i++) {
+        fret_real after = lo + length * look(i);
+        const int now = side_of(c, w, after);
+        if (side == 0 && i <= CLOSER / 2)
+            side = now;
+        if (now != side) {
+            for (int j = 0; j < HALVINGS; j++) {
+                const fret_real middle = (before + after) / 2;
+                *(side_of(c, w, middle) == side ? &before : &after) = middle;
+            }
+            *hi = after;
+            break;
+        }
+        before = after;
+    }
+    return side;
+}
+
+/* Is the piece straight along this coordinate? */
+static bool goes_along(const piece *p, int which) {
+    return !p->curved && p->first[1 - which] == p->last[1 - which];
+}
+
+/* Slip is forward above the curve, backward below; there is none on the way back along it. The curve is
+ * another after each. */
+static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
+    fret_status st = fret_ok();
+    const fret_real least = 1e-9L * (hi - lo);
+    size_t left =
+        0; /* a straight piece that has just been left goes with the next fall: its end is no event */
+    while (lo < hi && !st.code && !fret_stopped(c->normal)) {
+        const fret_real crossing = next_crossing(c, c->count - left, w, 1 << M | 1 << P, lo, hi);
+        fret_real stop = crossing;
+        const int side = side_until(c, w, lo, &stop);
+        stop = fminl(fmaxl(stop, lo + least), crossing); /* on, whatever rounding says */
+        if (side == 0) {
+            const fret_real end[2] = {way_at(w, M, stop), way_at(w, P, stop)};
+            st = cut(c, M, end[M], end);
+        } else {
+            st = slip_between(c, w, side > 0 ? M : P, lo, stop);
+        }
+        left = c->count > 0 && goes_along(&c->pieces[c->count - 1], side < 0 ? M : P);
+        lo = stop;
+    }
+    return st;
+}
+
+/* A part of the way in which both coordinates are monotone. */
+static fret_status go_between(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
+    const fret_real begin[2] = {way_at(w, M, lo), way_at(w, P, lo)},
+                    end[2] = {way_at(w, M, hi), way_at(w, P, hi)};
+    bool rises[2], falls[2];
+    for (int i = M; i <= P; i++) {
+        rises[i] = end[i] - begin[i] > noise(c);
+        falls[i] = begin[i] - end[i] > noise(c);
+    }
+    if (falls[M] && falls[P])
+        return both_fall(c, w, lo, hi);
+    if (falls[M] || falls[P])
+        return slip_between(c, w, falls[M] ? M : P, lo, hi);
+    if (!rises[M] && !rises[P])
+        return fret_ok();
+    const piece grown = {.first = {begin[M], begin[P]},
+                         .last = {end[M], end[P]},
+                         .curved = w->harmonic && rises[M] && rises[P],
+                         .way = *w,
+                         .lo = lo,
+                         .hi = hi};
+    return grow(c, &grown);
+}
+
+/* ---- periods and steps ------------------------------------------------------------------------- */
+
+static void make_harmonic(const fret_swing *c, const fret_sine *sine, way *out) {
+    *out = (way){.harmonic = true, .mean = sine->FN};
+    const fret_real y = -sine->FNA * sinl(sine->phase), normal = sine->FNA * cosl(sine->phase);
+    for (int i = M; i <= P; i++) {
+        const fret_real x = normal + (i == M ? -1 : 1) * sine->FA / (fret_real)c->mu;
+        out->size[i] = sqrtl(x * x + y * y);
+        out->lag[i] = atan2l(y, x);
+    }
+}
+
+int fret_swing_fits(const fret_swing *c, const fret_sine *sine) {
+    way w;
+    make_harmonic(c, sine, &w);
+    const fret_real little = 4 * DBL_EPSILON * sine->FN;
+    fret_press most;
+    if (fret_press_by_force(c->normal, (double)sine->FN + fabs(sine->FNA), &most).code)
+        return 0;
+    const fret_real begin[2] = {c->FN - c->Fx / c->mu, c->FN + c->Fx / c->mu};
+    for (int i = M; i <= P; i++)
+        if (!(w.size[i] < w.mean * (1 - 1e-12L)) || !(fabsl(way_at(&w, i, 0) - begin[i]) <= little))
+            return 0;
+    return 1;
+}
+
+static void set_edge(fret_swing *c, const fret_press *p, fret_real Fx) {
+    if (Fx != c->Fx)
+        c->direction = Fx < c->Fx ? -1 : 1;
+    c->FN = p->F;
+    c->dz = p->dz;
+    c->a = p->a;
+    c->Fx = Fx;
+}
+
+static void add_loss(fret_swing *c) {
+    c->last_loss *= c->mu * c->mu * c->normal->foundation.eta;
+    fret_sum_add(&c->W, c->last_loss);
+}
+
+/* The end of a motion. */
+static fret_status known(fret_swing *c) {
+    fret_swing_know(c);
+    return fret_unless_stopped(c->normal, fret_ok());
+}
+
+fret_status fret_swing_period(fret_swing *c, const fret_sine *sine) {
+    return fret_swing_part(c, sine, 0, 1);
+}
+
+/* Where it passes through its mean, to the rounding of the time. */
+static fret_real harmonic(fret_real angle) {
+    const fret_real v = cosl(angle);
+    return fabsl(v) < 4 * DBL_EPSILON ? 0 : v;
+}
+
+fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, double to) {
+    const fret_real lo = 2 * FRET_PI * from, hi = 2 * FRET_PI * to, last = to < 1 ? hi : 0;
+    fret_real turn[8] = {lo};
+    size_t turns = 1;
+    fret_press p;
+    way w;
+    if (!(from >= 0 && from < to && to <= 1))
+        return fret_fail(FRET_OUTSIDE, from >= 0 && from < 1 ? "to" : "from",
+                         from >= 0 && from < 1 ? to : from, 1);
+    make_harmonic(c, sine, &w);
+    for (int i = M; i <= P; i++)
+        for (int half = -2; half <= 3; half++) {
+            const fret_real s = w.lag[i] + half * FRET_PI;
+            if (w.size[i] > 0 && s > lo && s < hi)
+                turn[turns++] = s;
+        }
+    for (size_t i = 1; i < turns; i++) /* few */
+        for (size_t j = i; j > 1 && turn[j] < turn[j - 1]; j--) {
+            const fret_real s = turn[j];
+            turn[j] = turn[j - 1];
+            turn[j - 1] = s;
+        }
+    turn[turns++] = hi;
+    c->scale = fmaxl(c->scale, w.mean + fmaxl(w.size[M], w.size[P]));
+    c->last_loss = 0;
+    c->held = false;
+    fret_status st = fret_ok();
+    for (size_t i = 1; i < turns && !st.code; i++)
+        if (turn[i] - turn[i - 1] > CLOSE * 2 * FRET_PI)
+            st = go_between(c, &w, turn[i - 1], turn[i]);
+    if (!st.code)
+        st =
+            fret_press_by_force(c->normal, (double)(sine->FN + sine->FNA * harmonic(last + sine->phase)), &p);
+    if (st.code)
+        return st;
+    add_loss(c);
+    set_edge(c, &p, sine->FA * harmonic(last));
+    if (sine->FA != 0)
+        c->direction = (to > 0.5) == (sine->FA > 0) ? 1 : -1;
+    return known(c);
+}
+
+/* Straight between forces, to F_x = mu load. */
+static fret_status go_straight(fret_swing *c, const fret_press *p, fret_real load) {
+    way w = {.harmonic = false};
+    const fret_real old = c->Fx / c->mu, begin[2] = {c->FN - old, c->FN + old},
+                    end[2] = {p->F - load, p->F + load};
+    for (int i = M; i <= P; i++) {
+        w.start[i] = begin[i];
+        w.span[i] = end[i] - begin[i];
+        c->scale = fmaxl(c->scale, end[i]);
+    }
+    return go_between(c, &w, 0, 1);
+}
+
+/* At constant F_N to delta_x: beyond gross slip all of it slides. */
+static fret_status slide(fret_swing *c, double dx) {
+    if (!isfinite(dx))
+        return fret_fail(FRET_NOT_FINITE, "dx", dx, 0);
+    c->last_loss = 0;
+    if (c->held && c->goal == dx)
+        return fret_ok();
+    const fret_real mu_eta = c->mu * c->normal->foundation.eta,
+                    drive = ((fret_real)dx - fret_swing_dx(c)) / mu_eta;
+    const int sign = drive < 0 ? -1 : 1;
+    fret_real left = fabsl(drive);
+    const fret_press here = {.F = c->FN, .dz = c->dz, .a = c->a};
+    const fret_real level = fret_swing_front(c, sign > 0 ? M : P, &left), load = sign * (c->FN - level);
+    const fret_status st = go_straight(c, &here, load);
+    if (st.code)
+        return st;
+    c->last_loss += c->FN * left;
+    c->slid += sign * mu_eta * left;
+    add_loss(c);
+    c->Fx = c->mu * load;
+    c->direction = sign;
+    c->held = true;
+    c->goal = dx;
+    return known(c);
+}
+
+fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
+    fret_press p = {.F = c->FN, .dz = c->dz, .a = c->a};
+    fret_status st = fret_ok();
+    if (step->tangential_by == FRET_TO_DX && step->normal_by == FRET_KEEP_NORMAL)
+        return slide(c, step->tangential);
+    if (step->tangential_by != FRET_TO_FX)
+        return fret_fail(FRET_OUTSIDE, "dx", step->tangential, 0);
+    if (step->normal_by == FRET_TO_FORCE)
+        st = fret_press_by_force(c->normal, step->normal, &p);
+    else if (step->normal_by == FRET_TO_DEPTH)
+        st = fret_press_by_depth(c->normal, step->normal < 0 ? 0 : step->normal, &p);
+    fret_real load = 0;
+    if (!st.code)
+        st = fret_step_load(c->mu, step, p.F, &load);
+    if (st.code)
+        return st;
+    c->last_loss = 0;
+    st = go_straight(c, &p, load);
+    if (st.code)
+        return st;
+    add_loss(c);
+    c->held = false;
+    set_edge(c, &p, step->tangential);
+    return known(c);
+}
+
+/* ---- life -------------------------------------------------------------------------------------- */
+
+int fret_swing_takes(const fret_normal *normal) {
+    return !fret_gap_sampled(&normal->gap);
+}
+
+fret_status fret_swing_make(const fret_memory *m, fret_swing **out) {
+    if (!fret_swing_takes(m->normal))
+        return fret_fail(FRET_OUTSIDE, "gap", 0, 0);
+    fret_swing *c = calloc(1, sizeof *c);
+    fret_status st = c ? reserve(c, m->count + 8) : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    if (st.code) {
+        free(c);
+        return st;
+    }
+    c->normal = m->normal;
+    c->mu = m->mu;
+    c->FN = m->edge.y[LOAD];
+    const fret_press edge = fret_memory_pressed(m);
+    c->dz = edge.dz;
+    c->a = edge.a;
+    c->Fx = m->Fx;
+    c->slid = m->slid;
+    c->goal = (double)m->dx;
+    c->held = c->goal == m->dx;
+    c->direction = m->direction;
+    c->W = (fret_sum){m->W, m->W_rest};
+    fret_real at[2] = {0, 0};
+    for (size_t i = 0; i < m->count; i++) {
+        piece *p = &c->pieces[c->count++];
+        const fret_real h = layer_thickness(&m->layers[i], fret_memory_outer(m, i), LOAD),
+                        sigma = m->layers[i].sigma;
+        *p = (piece){.first = {at[M], at[P]}};
+        at[M] += (1 - sigma) * h;
+        at[P] += (1 + sigma) * h;
+        memcpy(p->last, at, sizeof at);
+    }
+    c->scale = fmaxl(at[M], at[P]);
+    *out = c;
+    return st;
+}
+
+void fret_swing_free(fret_swing *c) {
+    if (c)
+        free(c->pieces);
+    free(c);
+}
+
+fret_status fret_swing_copy(fret_swing *to, const fret_swing *from) {
+    if (to == from)
+        return fret_ok();
+    const fret_status st = reserve(to, from->count);
+    if (st.code)
+        return st;
+    piece *pieces = to->pieces;
+    const size_t room = to->room;
+    *to = *from;
+    to->pieces = pieces;
+    to->room = room;
+    memcpy(pieces, from->pieces, from->count * sizeof *pieces);
+    return st;
+}

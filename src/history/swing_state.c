@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a memory curve holds: sums along it, how far a front of slip goes, the state, all of it as a memory.
+ */
+#include <float.h>
+#include <string.h>
+
+#include "history/memory.h"
+#include "history/swing.h"
+#include "number/real.h"
+
+/* ---- along the curve --------------------------------------------------------------------------- */
+
+/* int sigma dy and int T sigma dy, T = (P-M)/2: displacement and stored energy. */
+typedef struct along {
+    const fret_swing *curve;
+    const piece *piece;
+    bool energy;
+} along;
+
+/* dy/dN */
+static fret_real compliance(const fret_normal *n, fret_real N) {
+    if (fret_stopped(n))
+        return 0;
+    return fret_normal_closed(n) ? n->q * fret_law_depth(n, N) / N : 1 / fret_law_at_force(n, N).K;
+}
+
+static fret_real along_rate(fret_real t, fret_real rest, void *context) {
+    const along *l = context;
+    const piece *p = l->piece;
+    const fret_real s = p->lo * rest + p->hi * t, m = way_at(&p->way, M, s), up = way_at(&p->way, P, s);
+    const fret_real N = (m + up) / 2, T = (up - m) / 2;
+    const fret_real dT = (way_fall(&p->way, M, s) - way_fall(&p->way, P, s)) / 2;
+    return (l->energy ? T : 1) * dT * compliance(l->curve->normal, N);
+}
+
+void fret_swing_know(fret_swing *c) {
+    for (size_t i = 0; i < c->count; i++) {
+        piece *p = &c->pieces[i];
+        for (int which = 0; which < 2 && p->curved && !p->known; which++)
+            p->sum[which] = (p->hi - p->lo) * fret_swing_integral(c, along_rate, &(along){c, p, which});
+        p->known = true;
+    }
+}
+
+static fret_real sum_along(const fret_swing *c, bool energy) {
+    fret_real sum = 0;
+    for (size_t i = 0; i < c->count; i++) {
+        const piece *p = &c->pieces[i];
+        if (p->curved) {
+            sum += p->sum[energy];
+            continue;
+        }
+        const fret_real N0 = (p->first[M] + p->first[P]) / 2, N1 = (p->last[M] + p->last[P]) / 2;
+        const fret_real T0 = (p->first[P] - p->first[M]) / 2, T1 = (p->last[P] - p->last[M]) / 2;
+        if (!(N1 > N0))
+            continue;
+        const fret_level outer = {fret_law_depth(c->normal, N1), N1};
+        const fret_real h = fret_law_thickness(c->normal, &outer, N1 - N0), sigma = (T1 - T0) / (N1 - N0);
+        const fret_slice part = fret_law_slice(c->normal, &outer, h);
+        sum += energy ? sigma * (h * T0 + sigma * fret_slice_moment(&part)) : sigma * h;
+    }
+    return sum;
+}
+
+/* ---- by displacement --------------------------------------------------------------------------- */
+
+/* A front of slip that goes inwards along `which` at constant F_N moves delta_x by mu eta int dw/K over what
+ * it passes: w the coordinate, 1/K the compliance at the load. */
+typedef struct passing {
+    const fret_swing *curve;
+    const piece *piece;
+    int which;
+    fret_real from;
+} passing;
+
+static fret_real passing_rate(fret_real t, fret_real rest, void *context) {
+    const passing *l = context;
+    const piece *p = l->piece;
+    const fret_real s = l->from * rest + p->hi * t, N = (way_at(&p->way, M, s) + way_at(&p->way, P, s)) / 2;
+    return -way_fall(&p->way, l->which, s) * compliance(l->curve->normal, N);
+}
+
+static fret_real passed(const fret_swing *c, const piece *p, int which, fret_real from) {
+    return (p->hi - from) * fret_swing_integral(c, passing_rate, &(passing){c, p, which, from});
+}
+
+/* The level at which the front has passed `rest` of a curved piece, `whole` of which would be all. */
+static fret_real curved_front(const fret_swing *c, const piece *p, int which, fret_real rest,
+                              fret_real whole) {
+    enum { HALVINGS = 64 };
+    fret_real lo = p->lo, hi = p->hi, s = hi - (hi - lo) * sqrtl(rest / whole);
+    for (int i = 0; i < HALVINGS; i++) {
+        const fret_real more = passed(c, p, which, s) - rest;
+        *(more > 0 ? &lo : &hi) = s;
+        const fret_real rate = passing_rate(0, 1, &(passing){c, p, which, s}), next = s + more / rate;
+        const fret_real last = s;
+        s = next > lo && next < hi ? next : (lo + hi) / 2;
+        if (fabsl(s - last) <= LDBL_EPSILON * hi)
+            break;
+    }
+    return way_at(&p->way, which, s);
+}
+
+fret_real fret_swing_front(const fret_swing *c, int which, fret_real *left) {
+    for (size_t i = c->count; i-- > 0;) {
+        const piece *p = &c->pieces[i];
+        const fret_real span = p->last[which] - p->first[which];
+        const fret_real N0 = (p->first[M] + p->first[P]) / 2, N1 = (p->last[M] + p->last[P]) / 2;
+        if (!(span > 0))
+            continue;
+        const fret_level outer = {fret_law_depth(c->normal, N1), N1};
+        const fret_real steep = span / (N1 - N0);
+        const fret_real whole =
+            p->curved ? passed(c, p, which, p->lo) : steep * fret_law_thickness(c->normal, &outer, N1 - N0);
+        if (*left < whole) {
+            const fret_real rest = *left;
+            *left = 0;
+            return p->curved ? curved_front(c, p, which, rest, whole)
+                             : p->last[which] - steep * fret_law_load(c->normal, &outer, rest / steep);
+        }
+        *left -= whole;
+    }
+    return 0;
+}
+
+/* What both ends of a piece are known to where the forces that it was made by are rounded. */
+static fret_real rounding(const fret_swing *c) {
+    return 16 * DBL_EPSILON * c->scale;
+}
+
+/* A zone of slip, straight along one coordinate. */
+static bool is_zone(const fret_swing *c, const piece *p, int which) {
+    return !p->curved && fabsl(p->last[1 - which] - p->first[1 - which]) <= rounding(c) &&
+           p->last[which] - p->first[which] > rounding(c);
+}
+
+/* Inwards from a piece, past those that are as small as rounding. */
+static const piece *past_rounding(const fret_swing *c, const piece *from) {
+    while (from > c->pieces && from->last[M] - from->first[M] + from->last[P] - from->first[P] <= rounding(c))
+        from--;
+    return from;
+}
+
+/* The piece that tells the radius of stick, as of a memory. */
+static const piece *outermost(const fret_swing *c) {
+    const piece *top = &c->pieces[c->count - 1], *zone = past_rounding(c, top), *next = zone;
+    const int which = is_zone(c, zone, P) ? P : M;
+    if (!is_zone(c, zone, which))
+        return top;
+    while (next > c->pieces && is_zone(c, next, which)) {
+        zone = next;
+        next = past_rounding(c, next - 1);
+    }
+    return is_zone(c, next, which) ? next : zone;
+}
+
+fret_real fret_swing_dx(const fret_swing *c) {
+    return c->slid + c->mu * c->normal->foundation.eta * sum_along(c, false);
+}
+
+void fret_swing_state(const fret_swing *c, fret_state *out) {
+    const fret_real mu_eta = c->mu * c->normal->foundation.eta;
+    *out = (fret_state){.FN = c->FN,
+                        .dz = c->dz,
+                        .a = c->a,
+                        .Fx = c->Fx,
+                        .dx = c->held ? (fret_real)c->goal : fret_swing_dx(c),
+                        .c = c->a,
+                        .W = fret_sum_value(&c->W),
+                        .U = c->mu * mu_eta * sum_along(c, true),
+                        .kn = fret_normal_stiffness(c->normal, c->a),
+                        .slices = c->count};
+    fret_real inner = c->a;
+    if (c->count) {
+        const piece *top = outermost(c);
+        const bool forward = is_zone(c, top, P) || top->first[M] == top->last[M],
+                   backward = is_zone(c, top, M) || top->first[P] == top->last[P];
+        const fret_real N = (top->first[M] + top->first[P]) / 2;
+        if (forward || backward)
+            out->c =
+                N > 0 ? fret_law_level_radius(c->normal, &(fret_level){fret_law_depth(c->normal, N), N}) : 0;
+        if (c->direction > 0 ? forward : backward)
+            inner = out->c;
+    }
+    out->kt = inner > 0 ? fret_normal_stiffness(c->normal, inner) / c->normal->foundation.eta : 0;
+}
+
+fret_real fret_swing_last_loss(const fret_swing *c) {
+    return c->last_loss;
+}
+
+/* ---- as a memory ------------------------------------------------------------------------------- */
+
+enum { SAMPLES = 640 };
+
+/* A straight layer of the memory between two places. */
+static void put_layer(fret_memory *m, const fret_real from[2], const fret_real to[2]) {
+    const fret_real N0 = (from[M] + from[P]) / 2, N1 = (to[M] + to[P]) / 2, load = N1 - N0;
+    if (!(load > 0))
+        return;
+    const fret_level outer = {fret_law_depth(m->normal, N1), N1};
+    const fret_real turn = (to[P] - from[P] - (to[M] - from[M])) / 2;
+    layer *l = &m->layers[m->count++];
+    *l = (layer){m->edge, turn / load};
+    m->edge = (point){{outer.y, N1},
+                      {l->inner.t[DEPTH] + l->sigma * fret_law_thickness(m->normal, &outer, load),
+                       l->inner.t[LOAD] + turn}};
+}
+
+fret_status fret_swing_memory(const fret_swing *c, fret_memory *m) {
+    fret_state now;
+    const fret_status st = fret_memory_reserve(m, c->count * SAMPLES + 4);
+    if (st.code)
+        return st;
+    fret_swing_state(c, &now);
+    fret_memory_reset(m);
+    for (size_t i = 0; i < c->count; i++) {
+        const piece *p = &c->pieces[i];
+        fret_real from[2] = {p->first[M], p->first[P]}, to[2];
+        for (int j = 1; p->curved && j < SAMPLES; j++) {
+            const fret_real s = p->lo + (p->hi - p->lo) * j / (fret_real)SAMPLES;
+            to[M] = way_at(&p->way, M, s);
+            to[P] = way_at(&p->way, P, s);
+            put_layer(m, from, to);
+            memcpy(from, to, sizeof from);
+        }
+        put_layer(m, from, p->last);
+    }
+    m->edge.y[DEPTH] = m->dz = c->dz;
+    m->edge.y[LOAD] = c->FN;
+    m->told = (double)c->FN == c->FN ? LOAD : DEPTH;
+    m->slid = now.dx - m->mu_eta * m->edge.t[DEPTH];
+    m->direction = c->direction;
+    m->dx = now.dx;
+    m->Fx = c->Fx;
+    m->W = c->W.sum;
+    m->W_rest = c->W.rest;
+    m->last_loss = c->last_loss;
+    return st;
+}

@@ -1,0 +1,475 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Values, places and slices of one cell. Pure. */
+#include "law/cell.h"
+
+#include <float.h>
+
+#include "number/quadrature.h"
+#include "number/real.h"
+
+fret_stretch fret_stretch_join(const fret_stretch *o, const fret_stretch *i) {
+    return (fret_stretch){o->h + i->h, o->K + i->K, o->G + i->G + o->h * i->K,
+                          o->L + i->L + i->h * o->G + o->h * (i->h * i->K - i->G)};
+}
+
+fret_stretch fret_stretch_less(const fret_stretch *whole, const fret_stretch *inner) {
+    fret_stretch o = {.h = whole->h - inner->h, .K = whole->K - inner->K};
+    o.G = whole->G - inner->G - o.h * inner->K;
+    o.L = whole->L - inner->L - inner->h * o.G - o.h * (inner->h * inner->K - inner->G);
+    return o;
+}
+
+/* ---- polynomials ------------------------------------------------------------------------------- */
+
+static fret_real at(const fret_cell *c, int i, fret_real s) {
+    fret_real sum = 0;
+    for (int j = c->count[i]; j-- > 0;)
+        sum = sum * s + c->of[i][j];
+    return sum;
+}
+
+/* The same to a double's digits, and the derivative. */
+static double about(const fret_cell *c, int i, double s, double *rate) {
+    double sum = 0;
+    *rate = 0;
+    for (int j = c->count[i]; j-- > 0;) {
+        *rate = *rate * s + sum;
+        sum = sum * s + (double)c->of[i][j];
+    }
+    return sum;
+}
+
+/* s^e */
+static fret_real raised(fret_real s, fret_real e) {
+    return e == 1 ? s : e == 0.5L ? sqrtl(s) : s > 0 ? fret_pow(s, e) : 0;
+}
+
+/* A way inwards, and ln of what it leaves of s. */
+typedef struct way {
+    fret_real s, back, log;
+} way;
+
+static way way_of(fret_real s, fret_real back) {
+    return (way){s, back, back < s ? log1pl(-back / s) : -(fret_real)INFINITY};
+}
+
+/* The fall of s^e p(s), from the quotient (p(s)-p(s1))/(s-s1): no difference loses digits. */
+static fret_real fall_of(const fret_cell *c, int i, fret_real e, const way *w) {
+    const fret_real inner = w->s - w->back, power = raised(w->s, e),
+                    less = e == 1 ? w->back : -power * expm1l(e * w->log);
+    fret_real sum = 0, quotient = 0;
+    for (int j = c->count[i]; j-- > 0;) {
+        quotient = quotient * inner + sum;
+        sum = sum * w->s + c->of[i][j];
+    }
+    return less * sum + (power - less) * w->back * quotient;
+}
+
+/* ---- powers ------------------------------------------------------------------------------------ */
+
+static int terms_of(const fret_cell *c) {
+    return c->count[RISE];
+}
+
+/* G_i s^n_i */
+static void powers_at(const fret_cell *c, fret_real s, fret_real *g) {
+    const fret_real log = s > 0 ? logl(s) : -(fret_real)INFINITY;
+    for (int i = 0; i < terms_of(c); i++)
+        g[i] = c->of[RISE][i] * expl(c->of[RISE_Q][i] * log);
+}
+
+static fret_real stiffness_of_powers(const fret_cell *c, fret_real s) {
+    return c->K_at_1 * raised(s, 2 * c->m);
+}
+
+/* The load that a power carries is this part of its depth times K. */
+static fret_real carried(const fret_cell *c, int i) {
+    const fret_real n = c->of[RISE_Q][i];
+    return n / (n + 2 * c->m);
+}
+
+/* Thin: by Gauss's rule over ln s. */
+static fret_stretch thin_part_of_powers(const fret_cell *c, fret_real s, fret_real log) {
+    fret_stretch out = {0, 0, 0, 0};
+    fret_real g[FRET_CELL_TERMS];
+    const fret_real K = stiffness_of_powers(c, s);
+    powers_at(c, s, g);
+    for (int i = 0; i < terms_of(c); i++)
+        out.h -= g[i] * expm1l(c->of[RISE_Q][i] * log);
+    for (int j = 0; j < 8; j++) {
+        const fret_real u = fret_gauss_node[j] * log,
+                        dK = -2 * c->m * K * expl(2 * c->m * u) * fret_gauss_weight[j] * log;
+        fret_real t = 0;
+        for (int i = 0; i < terms_of(c); i++)
+            t -= g[i] * expm1l(c->of[RISE_Q][i] * u);
+        out.K += dK;
+        out.G += t * dK;
+        out.L += t * (out.h - t) * dK;
+    }
+    return out;
+}
+
+/* Thick: in two halves, or by differences of depth, load and the area under the load. */
+static fret_stretch part_of_powers(const fret_cell *c, fret_real s, fret_real log) {
+    static const fret_real THIN = 0.5L, THICK = 4;
+    const fret_real inner = s * expl(log), m = c->m, K = stiffness_of_powers(c, s),
+                    K_inner = inner > 0 ? stiffness_of_powers(c, inner) : 0;
+    fret_real g[FRET_CELL_TERMS], g_inner[FRET_CELL_TERMS], most = 2 * m;
+    for (int i = 0; i < terms_of(c); i++)
+        most = fmaxl(most, fabsl(c->of[RISE_Q][i]));
+    if (most * -log <= THIN)
+        return thin_part_of_powers(c, s, log);
+    if (most * -log <= THICK) {
+        const fret_stretch outer = part_of_powers(c, s, log / 2),
+                           rest = part_of_powers(c, s * expl(log / 2), log / 2);
+        return fret_stretch_join(&outer, &rest);
+    }
+    powers_at(c, s, g);
+    if (inner > 0)
+        powers_at(c, inner, g_inner);
+    fret_stretch out = {.K = K - K_inner};
+    fret_real load[2] = {0, 0}, area = 0;
+    for (int i = 0; i < terms_of(c); i++) {
+        const fret_real less = inner > 0 ? g_inner[i] : 0;
+        out.h += g[i] - less;
+        load[0] += carried(c, i) * K * g[i];
+        load[1] += carried(c, i) * K_inner * less;
+        for (int j = 0; j < terms_of(c); j++) {
+            const fret_real n = c->of[RISE_Q][j], e = c->of[RISE_Q][i] + n + 2 * m, outer = K * g[i] * g[j],
+                            less_both = inner > 0 ? K_inner * less * g_inner[j] : 0;
+            if (n != 0) /* int of a power, which may be none */
+                area += carried(c, i) * n * (fabsl(e) > 1e-3L ? (outer - less_both) / e : outer * -log);
+        }
+    }
+    out.G = load[0] - load[1] - out.h * K_inner;
+    out.L = out.h * (load[0] + load[1]) - 2 * area;
+    return out;
+}
+
+static fret_real rise_of_powers(const fret_cell *c, int by, fret_real s) {
+    fret_real g[FRET_CELL_TERMS], sum = 0;
+    const fret_real K = by == BY_LOAD ? stiffness_of_powers(c, s) : 1;
+    powers_at(c, s, g);
+    for (int i = 0; i < terms_of(c); i++) {
+        const fret_real share = by == BY_LOAD ? carried(c, i) : 1;
+        sum += share * (K * g[i] - (c->begin > 0 ? (by == BY_LOAD ? c->K_at_1 : 1) * c->of[RISE][i] : 0));
+    }
+    return sum;
+}
+
+static fret_real rate_of_powers(const fret_cell *c, int by, fret_real s) {
+    fret_real g[FRET_CELL_TERMS], sum = 0;
+    powers_at(c, s, g);
+    for (int i = 0; i < terms_of(c); i++)
+        sum += c->of[RISE_Q][i] * g[i] / s;
+    return by == BY_LOAD ? stiffness_of_powers(c, s) * sum : sum;
+}
+
+/* ---- values ------------------------------------------------------------------------------------ */
+
+fret_real fret_cell_stiffness(const fret_cell *c, fret_real s) {
+    if (c->powers)
+        return s > 0 ? stiffness_of_powers(c, s) : 0;
+    return c->K + raised(s, c->mu) * at(c, STIFFNESS, s);
+}
+
+/* G of what lies below s */
+static fret_real load_beyond(const fret_cell *c, fret_real s, fret_real to_q, fret_real to_mu) {
+    return to_mu * (s * at(c, PART_G, s) + to_q * at(c, PART_GQ, s));
+}
+
+fret_real fret_cell_rise(const fret_cell *c, int by, fret_real s) {
+    if (c->powers)
+        return s > c->begin ? rise_of_powers(c, by, s) : 0;
+    const fret_real to_q = c->count[RISE_Q] ? raised(s, c->q) : 0,
+                    depth = s * at(c, RISE, s) + to_q * at(c, RISE_Q, s);
+    return by == BY_DEPTH ? depth : c->K * depth + load_beyond(c, s, to_q, raised(s, c->mu));
+}
+
+/* A rise and its derivative, to a double's digits. */
+static double rise_about(const fret_cell *c, int by, double s, double *rate) {
+    double P1, Q1, unused;
+    const double P = about(c, RISE, s, &P1), Q = about(c, RISE_Q, s, &Q1), q = (double)c->q,
+                 to_q = c->count[RISE_Q] ? q == 0.5 ? sqrt(s) : pow(s, q) : 0;
+    const double depth = s * P + to_q * Q;
+    *rate = P + s * P1 + to_q / s * (q * Q + s * Q1);
+    if (by == BY_DEPTH)
+        return depth;
+    const double to_mu = c->mu == 1 ? s : pow(s, (double)c->mu);
+    *rate *= (double)c->K + to_mu * about(c, STIFFNESS, s, &unused);
+    return (double)c->K * depth +
+           to_mu * (s * about(c, PART_G, s, &unused) + to_q * about(c, PART_GQ, s, &unused));
+}
+
+/* The derivative of s^e p, over s^(e-1). */
+static fret_real rate_at(const fret_cell *c, int i, fret_real e, fret_real s) {
+    fret_real sum = 0;
+    for (int j = c->count[i]; j-- > 0;)
+        sum = sum * s + ((fret_real)j + e) * c->of[i][j];
+    return sum;
+}
+
+fret_real fret_cell_rate(const fret_cell *c, int by, fret_real s) {
+    if (c->powers)
+        return rate_of_powers(c, by, s);
+    const fret_real rate =
+        rate_at(c, RISE, 1, s) + (c->count[RISE_Q] ? raised(s, c->q) / s * rate_at(c, RISE_Q, c->q, s) : 0);
+    return by == BY_LOAD ? fret_cell_stiffness(c, s) * rate : rate;
+}
+
+fret_real fret_cell_fall(const fret_cell *c, int by, fret_real s, fret_real back) {
+    if (c->powers) {
+        const fret_stretch p = part_of_powers(c, s, way_of(s, back).log);
+        return by == BY_DEPTH ? p.h : p.G + p.h * (back < s ? stiffness_of_powers(c, s - back) : 0);
+    }
+    const way w = way_of(s, back);
+    const bool bent = c->count[RISE_Q];
+    const fret_real depth = fall_of(c, RISE, 1, &w) + (bent ? fall_of(c, RISE_Q, c->q, &w) : 0);
+    if (by == BY_DEPTH)
+        return depth;
+    return c->K * depth + fall_of(c, PART_G, c->mu + 1, &w) +
+           (bent ? fall_of(c, PART_GQ, c->mu + c->q, &w) : 0);
+}
+
+/* ---- places ------------------------------------------------------------------------------------ */
+
+fret_real fret_cell_radius(const fret_cell *c, fret_real s) {
+    if (c->powers)
+        return s > 0 ? c->x * s : 0;
+    if (!(s > 0))
+        return c->x;
+    return c->x + c->width * s / (c->x + sqrtl(c->x * c->x + c->width * s));
+}
+
+fret_real fret_cell_place(const fret_cell *c, fret_real x) {
+    return c->powers ? x / c->x : fminl((x - c->x) * (x + c->x) / c->width, 1);
+}
+
+/* Newton's step in logarithms, in which rises are nearly powers. */
+static fret_real next_place(fret_real s, fret_real target, fret_real value, fret_real rate) {
+    const fret_real share = (target - value) / (rate * s);
+    return fabsl(share) < 1e-3L ? s + s * share : s * expl(logl(target / value) * value / (s * rate));
+}
+
+/* In double, with the rate there; false: not found to 1e-6. */
+static bool place_about(const fret_cell *c, int by, fret_real rise, fret_real *place, double *rate) {
+    static const double LEAST_DOUBLE = 1e-280;
+    const double target = (double)rise, share = (double)(rise / c->rise[by]);
+    double s = pow(share, 1 / c->steep[by]);
+    *place = s;
+    if (!(s > LEAST_DOUBLE && target > LEAST_DOUBLE)) {
+        *place = fret_pow(rise / c->rise[by], 1 / (fret_real)c->steep[by]);
+        return false;
+    }
+    for (int i = 0; i < 8; i++) {
+        const double value = rise_about(c, by, s, rate), step = (target - value) / *rate;
+        const double next =
+            fabs(step) < 1e-3 * s ? s + step : s * exp(log(target / value) * value / (s * *rate));
+        if (!(next > LEAST_DOUBLE && next <= 1))
+            return false;
+        *place = s = next;
+        if (fabs(step) < 1e-6 * s)
+            return true;
+    }
+    return false;
+}
+
+/* Nearer to the centre, or to a flat end, a place would underflow, and no digit tells it. */
+static const fret_real LEAST = 1e-4900L;
+
+fret_real fret_cell_find(const fret_cell *c, int by, fret_real rise) {
+    if (!(rise > 0))
+        return c->begin;
+    if (!c->powers && rise >= c->rise[by])
+        return 1;
+    fret_real lo = c->begin, hi = c->powers ? c->width : 1, s = fminl(c->begin + 1, hi);
+    double about;
+    if (!c->powers && place_about(c, by, rise, &s, &about)) { /* whose rate will do for what is left */
+        const fret_real step = (rise - fret_cell_rise(c, by, s)) / about;
+        if (fabsl(step) <= 1e-9L * s)
+            return fminl(s + step, 1);
+    }
+    for (int i = 0; i < 400; i++) {
+        s = fmaxl(s, LEAST);
+        const fret_real value = fret_cell_rise(c, by, s), miss = rise - value;
+        const fret_real rate = fret_cell_rate(c, by, s);
+        fret_real next = next_place(s, rise, value, rate);
+        next = next < LEAST ? LEAST : next;
+        if (s <= LEAST && miss <= 0)
+            return c->begin;
+        *(miss > 0 ? &lo : &hi) = s;
+        if (fabsl(miss) <= 1e-9L * fabsl(rate * s) || (isfinite(hi) && hi - lo <= 2 * LDBL_EPSILON * hi))
+            return fminl(next, c->powers ? c->width : 1);
+        if (!(next > lo && next < hi) || (isinf(hi) && next > 16 * s))
+            next = isinf(hi) ? 16 * s : lo > 0 ? sqrtl(lo) * sqrtl(hi) : hi / 16;
+        s = next;
+    }
+    return s;
+}
+
+fret_real fret_cell_find_back(const fret_cell *c, int by, fret_real s, fret_real drop) {
+    const fret_real most = s - c->begin, whole = fret_cell_rise(c, by, s);
+    if (drop >= whole)
+        return most;
+    fret_real lo = 0, hi = most, back = drop / fret_cell_rate(c, by, s);
+    for (int i = 0; i < 200; i++) {
+        if (!(back > lo && back < hi))
+            back = (lo + hi) / 2;
+        const fret_real miss = drop - fret_cell_fall(c, by, s, back),
+                        step = miss / fret_cell_rate(c, by, s - back);
+        *(miss > 0 ? &lo : &hi) = back;
+        if (fabsl(step) <= 1e-9L * back || hi - lo <= 2 * LDBL_EPSILON * hi)
+            return fminl(back + step, most);
+        back += step;
+    }
+    return back;
+}
+
+/* ---- slices ------------------------------------------------------------------------------------ */
+
+fret_stretch fret_cell_below(const fret_cell *c, fret_real s) {
+    if (c->powers)
+        return s > c->begin ? part_of_powers(c, s, way_of(s, s - c->begin).log) : (fret_stretch){0, 0, 0, 0};
+    const bool bent = c->count[RISE_Q];
+    const fret_real to_q = bent ? raised(s, c->q) : 0, to_mu = raised(s, c->mu);
+    return (fret_stretch){.h = s * at(c, RISE, s) + (bent ? to_q * at(c, RISE_Q, s) : 0),
+                          .K = to_mu * at(c, STIFFNESS, s),
+                          .G = load_beyond(c, s, to_q, to_mu),
+                          .L = to_mu *
+                               (s * s * at(c, PART_L, s) +
+                                (bent ? to_q * (s * at(c, PART_LQ, s) + to_q * at(c, PART_LQQ, s)) : 0))};
+}
+
+/* By Gauss's rule, in parts that end before they come close to the kink. */
+fret_stretch fret_cell_part(const fret_cell *c, fret_real s, fret_real back) {
+    static const fret_real CLOSE = 0.17L;
+    if (c->powers)
+        return part_of_powers(c, s, way_of(s, back).log);
+    if (back > 1.5L * CLOSE * s) {
+        const fret_stretch outer = fret_cell_part(c, s, CLOSE * s),
+                           rest = fret_cell_part(c, s - CLOSE * s, back - CLOSE * s);
+        return fret_stretch_join(&outer, &rest);
+    }
+    fret_stretch out = {fret_cell_fall(c, BY_DEPTH, s, back), 0, 0, 0};
+    const fret_real scale = c->m * c->width * back;
+    for (int j = 0; j < 8; j++) {
+        const fret_real before = back * fret_gauss_node[j], x2 = c->x * c->x + c->width * (s - before),
+                        t = fret_cell_fall(c, BY_DEPTH, s, before),
+                        dK = scale * fret_gauss_weight[j] * fret_pow(x2, c->m - 1);
+        out.K += dK;
+        out.G += t * dK;
+        out.L += t * (out.h - t) * dK;
+    }
+    return out;
+}
+
+/* ---- while it is made -------------------------------------------------------------------------- */
+
+int fret_cell_fit(const fret_chebyshev *nodes, const fret_real *value, fret_real little, fret_real *c,
+                  fret_real *tail) {
+    fret_real term[FRET_CELL_TERMS];
+    int count = nodes->count;
+    fret_chebyshev_terms(nodes, value, term);
+    *tail = fmaxl(fabsl(term[count - 2]), fabsl(term[count - 1]));
+    while (count > 0 && fabsl(term[count - 1]) <= little)
+        count--;
+    fret_chebyshev_powers(nodes, term, count, c);
+    return count;
+}
+
+/* Series i becomes int of the values times s^(power-1), over s^power; power 0: they themselves. */
+static bool integrate(fret_cell *c, int i, const fret_chebyshev *nodes, const fret_real *value,
+                      fret_real power) {
+    static const fret_real LITTLE = 1e-20L, ENOUGH = 1e-17L;
+    fret_real most = 0, tail;
+    for (int j = 0; j < nodes->count; j++)
+        most = fmaxl(most, fabsl(value[j]));
+    const int count = fret_cell_fit(nodes, value, LITTLE * most, c->of[i], &tail);
+    for (int j = 0; j < count && power > 0; j++)
+        c->of[i][j] /= (fret_real)j + power;
+    c->count[i] = (unsigned char)count;
+    return tail <= ENOUGH * most;
+}
+
+/* The product of two series, its integral as above. */
+static void multiply(fret_cell *c, int i, const fret_real *a, const fret_real *b, int count,
+                     fret_real power) {
+    for (int j = 0; j < FRET_CELL_TERMS; j++) {
+        fret_real sum = 0;
+        for (int l = 0; l <= j; l++)
+            if (l < count && j - l < count)
+                sum += a[l] * b[j - l];
+        c->of[i][j] += sum / ((fret_real)j + power);
+        if (sum != 0)
+            c->count[i] = (unsigned char)(j + 1 > c->count[i] ? j + 1 : c->count[i]);
+    }
+}
+
+/* At the centre, where terms may differ by any factor at small s: term by term. */
+static void complete_centre(fret_cell *c) {
+    enum { N = FRET_CELL_TERMS };
+    const fret_real q = c->q, mu = c->mu, k[N] = {fret_pow(c->width, c->m)};
+    fret_real P1[N], Q1[N], MP[N], MQ[N];
+    c->of[STIFFNESS][0] = k[0];
+    c->count[STIFFNESS] = 1;
+    for (int j = 0; j < N; j++) {
+        P1[j] = ((fret_real)j + 1) * c->of[RISE][j];
+        Q1[j] = ((fret_real)j + q) * c->of[RISE_Q][j];
+    }
+    multiply(c, PART_G, k, P1, N, mu + 1);
+    multiply(c, PART_GQ, k, Q1, N, mu + q);
+    for (int j = 0; j < N; j++) {
+        MP[j] = k[0] * c->of[RISE][j] - c->of[PART_G][j];
+        MQ[j] = k[0] * c->of[RISE_Q][j] - c->of[PART_GQ][j];
+    }
+    multiply(c, PART_L, P1, MP, N, mu + 2);
+    multiply(c, PART_LQ, P1, MQ, N, mu + q + 1);
+    multiply(c, PART_LQ, Q1, MP, N, mu + q + 1);
+    multiply(c, PART_LQQ, Q1, MQ, N, mu + 2 * q);
+}
+
+static bool complete_by_fits(fret_cell *c, const fret_chebyshev *nodes) {
+    enum { N = FRET_CELL_TERMS };
+    const int count = nodes->count;
+    const fret_real q = c->q, mu = c->mu, x2 = c->x * c->x;
+    fret_real k[N] = {0}, P1[N], Q1[N], MP[N], MQ[N], v[N];
+    bool ok = true, bent = c->count[RISE_Q];
+    for (int j = 0; j < count; j++) {
+        const fret_real s = nodes->node[j];
+        k[j] = c->K * expm1l(c->m * log1pl(c->width * s / x2)) / s;
+        P1[j] = rate_at(c, RISE, 1, s);
+        Q1[j] = rate_at(c, RISE_Q, q, s);
+    }
+    ok &= integrate(c, STIFFNESS, nodes, k, 0);
+    for (int j = 0; j < count; j++)
+        v[j] = k[j] * P1[j];
+    ok &= integrate(c, PART_G, nodes, v, mu + 1);
+    for (int j = 0; j < count; j++)
+        v[j] = k[j] * Q1[j];
+    ok &= !bent || integrate(c, PART_GQ, nodes, v, mu + q);
+    for (int j = 0; j < count; j++) {
+        const fret_real s = nodes->node[j];
+        MP[j] = at(c, RISE, s) * k[j] - at(c, PART_G, s);
+        MQ[j] = at(c, RISE_Q, s) * k[j] - at(c, PART_GQ, s);
+        v[j] = P1[j] * MP[j];
+    }
+    ok &= integrate(c, PART_L, nodes, v, mu + 2);
+    for (int j = 0; j < count; j++)
+        v[j] = P1[j] * MQ[j] + Q1[j] * MP[j];
+    ok &= !bent || integrate(c, PART_LQ, nodes, v, mu + q + 1);
+    for (int j = 0; j < count; j++)
+        v[j] = Q1[j] * MQ[j];
+    ok &= !bent || integrate(c, PART_LQQ, nodes, v, mu + 2 * q);
+    return ok;
+}
+
+bool fret_cell_complete(fret_cell *c, const fret_chebyshev *nodes) {
+    const bool ok = c->x > 0 ? complete_by_fits(c, nodes) : true;
+    if (!(c->x > 0))
+        complete_centre(c);
+    for (int by = BY_DEPTH; by <= BY_LOAD; by++) {
+        c->rise[by] = fret_cell_rise(c, by, 1);
+        c->steep[by] = (double)(fret_cell_rate(c, by, 1) / c->rise[by]);
+    }
+    return ok;
+}

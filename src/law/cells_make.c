@@ -1,0 +1,355 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Makes cells: of a sum of powers one, of other shapes as many as polynomials want, of a sampled gap at least
+ * one a row. Allocates them, and frees them. */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "law/cells.h"
+#include "law/check.h"
+#include "law/transform.h"
+#include "number/array.h"
+#include "number/real.h"
+
+typedef struct maker {
+    fret_cells *all;
+    const fret_gap *gap;
+    fret_real m, start;
+    fret_real summit, at_summit; /* the largest depth so far, and its radius */
+    fret_transform *rows;        /* of a sampled gap */
+    size_t row, last;            /* the row that a cell lies in; the one that goes on to it from before */
+    fret_chebyshev nodes;
+    fret_stop stop;
+    fret_status failed;
+} maker;
+
+static fret_cell *last_of(const maker *m) {
+    return &m->all->cell[m->all->count - 1];
+}
+
+/* One more, which begins where the last one ends. */
+static fret_cell *new_cell(maker *mk, fret_real x) {
+    fret_cells *all = mk->all;
+    fret_cell *grown = fret_array_for(all->cell, &all->room, all->count + 1, sizeof *grown);
+    if (!grown) {
+        mk->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+        return NULL;
+    }
+    all->cell = grown;
+    fret_cell *c = &grown[all->count++];
+    *c = (fret_cell){.x = x, .m = mk->m, .mu = 1, .K = x > 0 ? fret_pow(x, 2 * mk->m) : 0};
+    if (all->count > 1) {
+        c->y = c[-1].y + c[-1].rise[BY_DEPTH];
+        c->F = c[-1].F + c[-1].rise[BY_LOAD];
+    }
+    return c;
+}
+
+/* g so far beyond x0, the beginning of the row, but for the kink there. */
+static fret_real smooth_at(const maker *mk, fret_real x0, fret_real e) {
+    if (mk->rows)
+        return fret_transform_at(mk->rows, mk->last, mk->row, e);
+    return fret_gap_profile(mk->gap, &mk->all->rule, (x0 - mk->start) + e).g;
+}
+
+/* What the kink adds. */
+static fret_real kink_at(const maker *mk, fret_real e) {
+    return mk->rows ? fret_transform_jump(mk->rows, mk->row, e)
+                    : fret_gap_profile(mk->gap, &mk->all->rule, e).g;
+}
+
+/* Where a cell begins: `at` in x^2 beyond the radius x0; with a kink; with nothing but that. */
+typedef struct beginning {
+    fret_real x0, at;
+    bool kink, first;
+} beginning;
+
+static fret_real distance_of(const beginning *p, fret_real v) {
+    const fret_real more = p->at + v;
+    return more / (p->x0 + sqrtl(p->x0 * p->x0 + more));
+}
+
+/* How much of depth the last terms are. */
+static bool fit_cell(maker *mk, const beginning *p, fret_cell *c, fret_real width, fret_real *error) {
+    enum { N = FRET_CELL_TERMS };
+    static const fret_real LITTLE = 2e-19L, ENOUGH = 1e-18L;
+    const fret_chebyshev *nodes = &mk->nodes;
+    fret_real value[N], terms[N], tail[2] = {0, 0}, top = c->y;
+    c->width = width;
+    if (!p->first) {
+        for (int j = 0; j < nodes->count; j++) {
+            value[j] = smooth_at(mk, p->x0, distance_of(p, width * nodes->node[j])) - c->y;
+            top = fmaxl(top, c->y + value[j]);
+        }
+        const int count = fret_cell_fit(nodes, value, LITTLE * top, terms, &tail[0]);
+        c->count[RISE] = (unsigned char)(count > 1 ? count - 1 : 0);
+        memcpy(c->of[RISE], terms + 1, c->count[RISE] * sizeof *terms);
+    }
+    if (p->kink) {
+        c->q = mk->m + (fret_gap_sharp(mk->gap) ? 0 : 1);
+        for (int j = 0; j < nodes->count; j++) {
+            value[j] = kink_at(mk, distance_of(p, width * nodes->node[j])) / fret_pow(nodes->node[j], c->q);
+            top = fmaxl(top, fabsl(value[j]));
+        }
+        c->count[RISE_Q] = (unsigned char)fret_cell_fit(nodes, value, LITTLE * top, c->of[RISE_Q], &tail[1]);
+    }
+    *error = fmaxl(tail[0], tail[1]) / top;
+    return *error <= ENOUGH;
+}
+
+/* The radius soon after x, within 1 % of a table, where g is above what it is there; 0: it stays below. */
+static fret_real risen(const maker *mk, fret_real x) {
+    const fret_gap *gap = mk->gap;
+    const fret_real whole = fret_gap_end(gap) - mk->start, e = x - mk->start,
+                    g = fret_gap_profile(gap, &mk->all->rule, e).g;
+    for (int i = 1; i <= 4; i++) {
+        const fret_real next = e + whole * (fret_real)i / 400;
+        if (next <= whole && fret_gap_profile(gap, &mk->all->rule, next).g > g)
+            return mk->start + next;
+    }
+    return 0;
+}
+
+/* Does depth grow throughout? Where it falls by no more than the noise of rows, it goes on as if it did. */
+static bool grows(maker *mk, const fret_cell *c) {
+    static const fret_real NOISE = 1e-8L;
+    enum { LOOKS = 8 };
+    for (int i = 1; i <= LOOKS && mk->rows; i++) {
+        const fret_real s = (fret_real)i / (fret_real)LOOKS, y = c->y + fret_cell_rise(c, BY_DEPTH, s);
+        if (y < mk->summit * (1 - NOISE)) {
+            mk->failed =
+                fret_fail(FRET_NOT_MONOTONE, "r", (double)mk->at_summit, (double)risen(mk, mk->at_summit));
+            return false;
+        }
+        if (y > mk->summit) {
+            mk->summit = y;
+            mk->at_summit = fret_cell_radius(c, s);
+        }
+    }
+    return true;
+}
+
+/* From the radius x0 on, over `whole` in x^2, the first cell as wide as `width` at most: half of it, and half
+ * again, until polynomials do. */
+static bool add_cells(maker *mk, fret_real x0, fret_real whole, fret_real width, bool kink, bool first) {
+    static const fret_real NARROW = 1.0L / 64, WHOLE = 1.2L;
+    const fret_real least = NARROW * fminl(width, whole);
+    for (fret_real at = 0; at < whole;) {
+        const beginning p = {x0, at, kink && at == 0, first && at == 0};
+        fret_cell *c = new_cell(mk, at > 0 ? sqrtl(x0 * x0 + at) : x0);
+        fret_real error, wide = WHOLE * width > whole - at ? whole - at : width;
+        if (!c || (mk->stop && *mk->stop))
+            return false;
+        for (bool fits = false; !fits;) {
+            fits = fit_cell(mk, &p, c, wide, &error);
+            fits = (int)fret_cell_complete(c, &mk->nodes) & (int)fits;
+            if (fits || wide <= 2 * least)
+                break;
+            wide /= 2;
+        }
+        mk->all->error = fmaxl(mk->all->error, error);
+        if (!grows(mk, c))
+            return false;
+        at += wide;
+        width = wide * (at < 2 * wide ? 1 : 2);
+        mk->last = mk->row;
+    }
+    return true;
+}
+
+/* Powers from a radius on, or, x0 being only where they are told, from the centre. */
+static bool add_powers(maker *mk, const fret_term *term, int count, fret_real x0, bool from_centre) {
+    fret_cell *c = new_cell(mk, x0);
+    if (!c)
+        return false;
+    c->powers = true;
+    c->K_at_1 = c->K;
+    c->begin = from_centre ? 0 : 1;
+    c->K = from_centre ? 0 : c->K_at_1;
+    c->width = c->rise[BY_DEPTH] = c->rise[BY_LOAD] = (fret_real)INFINITY;
+    c->count[RISE] = (unsigned char)count;
+    for (int i = 0; i < count; i++) {
+        c->of[RISE][i] = term[i].G;
+        c->of[RISE_Q][i] = term[i].n;
+    }
+    return true;
+}
+
+/* Whole powers of the radius, at the centre: x^2i is s^i, odd ones have the root of s. */
+static bool add_centre(maker *mk, const fret_term *term, int count, fret_real x) {
+    fret_cell *c = new_cell(mk, 0);
+    if (!c)
+        return false;
+    c->width = x * x;
+    c->q = 0.5L;
+    c->mu = mk->m;
+    for (int i = 0; i < count; i++) {
+        const int n = (int)term[i].n, series = n % 2 ? RISE_Q : RISE, j = (n - 1) / 2;
+        c->of[series][j] += term[i].G;
+        c->count[series] = (unsigned char)(j + 1 > c->count[series] ? j + 1 : c->count[series]);
+    }
+    (void)fret_cell_complete(c, &mk->nodes);
+    return true;
+}
+
+/* ---- shapes ------------------------------------------------------------------------------------ */
+
+/* Where a sum of powers with a negative term begins to fall: looked for in logarithms of the radius. */
+static bool find_fall(maker *mk) {
+    static const fret_real FIRST = 1e-12L, SPAN = 1e18L;
+    enum { LOOKS = 400 };
+    fret_cell *c = last_of(mk);
+    fret_real lo = 0;
+    for (int i = 1; i <= LOOKS; i++) {
+        fret_real hi = FIRST * fret_pow(SPAN, (fret_real)i / (fret_real)LOOKS) / c->x;
+        if (fret_cell_rate(c, BY_DEPTH, hi) >= 0) {
+            lo = hi;
+            continue;
+        }
+        if (i == 1) {
+            mk->failed = fret_fail(FRET_NOT_MONOTONE, "r", 0, 0);
+            return false;
+        }
+        for (int j = 0; j < 60; j++) {
+            const fret_real middle = (lo + hi) / 2;
+            *(fret_cell_rate(c, BY_DEPTH, middle) >= 0 ? &lo : &hi) = middle;
+        }
+        c->width = lo;
+        mk->all->end = lo * c->x;
+        mk->all->falls = true;
+        return true;
+    }
+    return true;
+}
+
+static bool make_sum(maker *mk) {
+    const fret_power *power;
+    fret_term term[FRET_MOST_TERMS];
+    (void)fret_gap_powers(mk->gap, &power);
+    const fret_real x0 = power[0].r0;
+    const int count = fret_gap_series(mk->gap, &mk->all->rule, x0, term);
+    return add_powers(mk, term, count, x0, true) && (fret_gap_grows(mk->gap) || find_fall(mk));
+}
+
+/* Beyond so many radii of the flat end its powers have converged. */
+static const fret_real FAR = 8;
+
+static bool make_flat(maker *mk) {
+    const fret_real b = mk->start, far = FAR * b;
+    fret_term term[FRET_MOST_TERMS];
+    const int count = fret_gap_far(mk->gap, &mk->all->rule, far, term);
+    return add_cells(mk, b, (far - b) * (far + b), b * b / 2, true, true) &&
+           add_powers(mk, term, count, far, false);
+}
+
+/* The series of a sphere converges as this part of the square of its radius does. */
+static bool make_sphere(maker *mk) {
+    static const fret_real NEAR = 0.3L;
+    const fret_real end = fret_gap_end(mk->gap), x = NEAR * end;
+    fret_term term[FRET_MOST_TERMS];
+    const int count = fret_gap_series(mk->gap, &mk->all->rule, x, term);
+    return add_centre(mk, term, count < FRET_CELL_TERMS ? count : FRET_CELL_TERMS, x) &&
+           add_cells(mk, x, (end - x) * (end + x), x * x, false, false);
+}
+
+static bool make_rows(maker *mk) {
+    const struct fret_table *t = mk->gap->table;
+    fret_term term[FRET_MOST_TERMS];
+    const size_t first = fret_table_row(t, 0), last = fret_table_rows(t, fret_table_end(t)) - 1;
+    fret_real before = 0; /* where the row before begins */
+    mk->failed = fret_transform_make(t, &mk->all->rule, mk->stop, &mk->rows);
+    for (size_t i = first; i < last && !mk->failed.code; i++) {
+        const fret_real x = mk->start + fret_table_distance(t, i),
+                        end = mk->start + fret_table_distance(t, i + 1), whole = (end - x) * (end + x),
+                        away = i > first ? (x - before) * (x + before) : x * x;
+        before = x;
+        mk->row = i;
+        mk->last = i > first ? i - 1 : i;
+        if (x > 0) {
+            if (!add_cells(mk, x, whole, i > first ? away : away / 2, true, i == first))
+                return false;
+        } else if (!add_centre(mk, term, fret_gap_series(mk->gap, &mk->all->rule, end, term), end)) {
+            return false;
+        } else if (!grows(mk, last_of(mk))) {
+            return false;
+        }
+    }
+    return !mk->failed.code;
+}
+
+/* ---- all --------------------------------------------------------------------------------------- */
+
+static bool make_runs(maker *mk) {
+    fret_cells *all = mk->all;
+    for (int l = 0; all->count >> l; l++) {
+        all->run[l] = malloc((all->count >> l) * sizeof *all->run[l]);
+        if (!all->run[l]) {
+            mk->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+            return false;
+        }
+        for (size_t i = 0; i < all->count >> l; i++) {
+            const fret_cell *c = &all->cell[i];
+            if (l > 0)
+                all->run[l][i] = fret_stretch_join(&all->run[l - 1][2 * i + 1], &all->run[l - 1][2 * i]);
+            else
+                all->run[0][i] = c->powers ? (fret_stretch){0, 0, 0, 0} : fret_cell_below(c, 1);
+        }
+    }
+    return true;
+}
+
+static void find_most(fret_cells *all) {
+    const fret_cell *last = &all->cell[all->count - 1];
+    const fret_place end = {all->count - 1,
+                            isfinite(all->end) ? fret_cell_place(last, all->end) : 1,
+                            0,
+                            {(fret_real)NAN, (fret_real)NAN}};
+    for (int by = BY_DEPTH; by <= BY_LOAD; by++)
+        all->most[by] = isfinite(all->end) ? fret_cells_level(all, by, &end) : (fret_real)INFINITY;
+}
+
+fret_status fret_cells_make(const fret_gap *gap, double k, fret_stop stop, fret_cells **out) {
+    fret_cells *all = calloc(1, sizeof *all);
+    if (!all)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    all->users = 1;
+    all->gap = *gap;
+    all->k = k;
+    all->end = fret_gap_end(gap);
+    all->error = 1e-17L; /* of what is fitted itself */
+    fret_gap_rule(gap, k, &all->rule);
+    maker mk = {
+        .all = all, .gap = gap, .m = ((fret_real)k + 1) / 2, .start = fret_gap_start(gap), .stop = stop};
+    fret_chebyshev_make(&mk.nodes, FRET_CELL_TERMS, true);
+    const fret_power *unused;
+    const bool ok = fret_gap_powers(gap, &unused) ? make_sum(&mk)
+                    : fret_gap_sampled(gap)       ? make_rows(&mk)
+                    : mk.start > 0                ? make_flat(&mk)
+                                                  : make_sphere(&mk);
+    if (ok && make_runs(&mk))
+        find_most(all);
+    else if (!mk.failed.code)
+        mk.failed = fret_fail(FRET_INTERRUPTED, NULL, 0, 0);
+    fret_transform_free(mk.rows);
+    if (mk.failed.code)
+        fret_cells_free(all);
+    else
+        *out = all;
+    return mk.failed;
+}
+
+void fret_cells_free(fret_cells *all) {
+    if (!all || --all->users > 0)
+        return;
+    for (int l = 0; l < FRET_RUNS; l++)
+        free(all->run[l]);
+    free(all->cell);
+    free(all);
+}
+
+fret_cells *fret_cells_share(fret_cells *all, const fret_gap *gap, double k) {
+    if (!all || all->k != k || !fret_gap_same(&all->gap, gap))
+        return NULL;
+    all->users++;
+    return all;
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the mechanics needs of a gap beyond the public header: the one place that tells shapes apart is gap.c.
+ * Not installed. */
+#ifndef FRET_LAW_GAP_H
+#define FRET_LAW_GAP_H
+
+#include <stdbool.h>
+
+#include "law/profile.h"
+#include "number/dd.h"
+
+/* What fret_gap_profile needs to know of the exponent k. */
+void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule);
+
+/* ln kappa(n,k) = .log + ln .factor */
+dd_scaled fret_kappa_parts(double n, double k);
+
+/* At contact radius fret_gap_start + e, e > 0: near a flat end g ~ e^((k+1)/2), which a radius that has
+ * swallowed e could not tell. Valid gaps only. */
+fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_real e);
+
+/* Radius below which f = 0 (the flat end), and the radius where the gap ends (INFINITY: nowhere). */
+fret_real fret_gap_start(const fret_gap *gap);
+fret_real fret_gap_end(const fret_gap *gap);
+
+/* Distance from the start of the last place below e > 0 where the profile is not smooth: the start itself or
+ * a row of a table. */
+fret_real fret_gap_kink(const fret_gap *gap, fret_real e);
+
+/* The power of r that a gap without a flat end begins with. */
+fret_real fret_gap_tip(const fret_gap *gap);
+
+/* Is there an edge at the flat end, where f' jumps and the pressure is infinite? */
+bool fret_gap_sharp(const fret_gap *gap);
+
+/* The powers of a gap that is a sum of such, and how many; 0 for other shapes. */
+int fret_gap_powers(const fret_gap *gap, const fret_power **power);
+
+/* The profile within a contact of radius a as powers, g(x) = sum of G (x/a)^n, each of the power G/kappa
+ * (r/a)^n of the gap. How many; 0 where it is none, or of too many for that. */
+enum { FRET_MOST_TERMS = 24 };
+typedef struct fret_term {
+    fret_real n, G, kappa;
+} fret_term;
+int fret_gap_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term term[FRET_MOST_TERMS]);
+
+/* The same of a flat-ended gap from the radius x0 = 4 b or more on. */
+int fret_gap_far(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_term term[FRET_MOST_TERMS]);
+
+/* Are two gaps that have passed the same? */
+bool fret_gap_same(const fret_gap *gap, const fret_gap *other);
+
+/* One power: the contact has closed forms. */
+bool fret_gap_closed(const fret_gap *gap);
+
+/* Sampled, smooth from row to row alone? */
+bool fret_gap_sampled(const fret_gap *gap);
+/* Rows up to r; 0 for other shapes. */
+size_t fret_gap_rows(const fret_gap *gap, fret_real r);
+
+/* True only if g grows throughout; false is not yet a verdict. */
+bool fret_gap_grows(const fret_gap *gap);
+
+#endif

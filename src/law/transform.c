@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Moments of rows, and their sums. Allocates them, and frees them.
+ *
+ * With R = r^2, X = x^2 and m = (k+1)/2 the transform (3) is g = X^(1-m) int f' (X-R)^(m-1) dr. Over a block
+ * of rows about R0, of half-width d in R, and D = X-R0 well beyond d, (X-R)^(m-1) = D^(m-1) sum (1-m)_n/n!
+ * ((R-R0)/d)^n (d/D)^n, so that the block counts by its moments int f' ((R-R0)/d)^n dr. Rows that are too
+ * near for that, and the one that x lies in, count by the moments of the kernel from the edge inwards. */
+#include "law/transform.h"
+
+#include <stdlib.h>
+
+#include "law/check.h"
+#include "number/quadrature.h"
+#include "number/real.h"
+
+enum { MOMENTS = 32, NEAR = 4 }; /* NEAR^-MOMENTS is 5e-20 */
+
+/* A block of several rows precedes its two halves. */
+typedef struct block {
+    size_t first, last, next; /* rows; the first block that is no part of this one */
+    fret_real R, d;
+    fret_real moment[MOMENTS]; /* with the factor of the series */
+} block;
+
+struct fret_transform {
+    const struct fret_table *table;
+    const fret_rule *rule;
+    fret_real m, start, factor[MOMENTS];
+    size_t count;
+    block *block;
+};
+
+static fret_real radius_of(const fret_transform *t, size_t row) {
+    return t->start + fret_table_distance(t->table, row);
+}
+
+/* By Gauss's rule of eight points in parts of each row: four a block at least, which may begin at the centre
+ * and end near x. */
+static void make_moments(const fret_transform *t, block *b) {
+    const size_t rows = b->last - b->first;
+    const int parts = rows >= 4 ? 1 : rows > 1 ? 2 : 4;
+    for (size_t i = b->first; i < b->last; i++) {
+        const fret_real r = radius_of(t, i), h = (radius_of(t, i + 1) - r) / (fret_real)parts;
+        fret_real c[3];
+        fret_table_slope(t->table, i, c);
+        for (int j = 0; j < 8 * parts; j++) {
+            const fret_real x = h * ((fret_real)(j / 8) + fret_gauss_node[j % 8]),
+                            z = ((r + x) * (r + x) - b->R) / b->d;
+            fret_real of = h * fret_gauss_weight[j % 8] * (c[0] + x * (c[1] + x * c[2]));
+            for (int n = 0; n < MOMENTS; n++, of *= z)
+                b->moment[n] += of * t->factor[n];
+        }
+    }
+}
+
+static void make_block(fret_transform *t, size_t first, size_t last, fret_stop stop) {
+    block *b = &t->block[t->count++];
+    const fret_real lo = radius_of(t, first), hi = radius_of(t, last);
+    *b = (block){.first = first, .last = last, .R = (lo * lo + hi * hi) / 2, .d = (hi - lo) * (hi + lo) / 2};
+    if (stop && *stop)
+        return;
+    make_moments(t, b);
+    if (last - first > 1) {
+        make_block(t, first, first + (last - first) / 2, stop);
+        make_block(t, first + (last - first) / 2, last, stop);
+    }
+    b->next = t->count;
+}
+
+fret_status fret_transform_make(const struct fret_table *table, const fret_rule *rule, fret_stop stop,
+                                fret_transform **out) {
+    const size_t first = fret_table_row(table, 0), last = fret_table_rows(table, fret_table_end(table)) - 1;
+    fret_transform *t = calloc(1, sizeof *t);
+    block *blocks = t ? malloc(2 * (last - first) * sizeof *blocks) : NULL;
+    if (!blocks) {
+        free(t);
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    }
+    *t = (fret_transform){.table = table, .rule = rule, .block = blocks};
+    t->m = (rule->k + 1) / 2;
+    t->start = fret_table_start(table);
+    t->factor[0] = 1;
+    for (int n = 1; n < MOMENTS; n++)
+        t->factor[n] = t->factor[n - 1] * ((fret_real)n - t->m) / (fret_real)n;
+    make_block(t, first, last, stop);
+    if (stop && *stop) {
+        fret_transform_free(t);
+        return fret_fail(FRET_INTERRUPTED, NULL, 0, 0);
+    }
+    *out = t;
+    return fret_ok();
+}
+
+void fret_transform_free(fret_transform *t) {
+    if (t)
+        free(t->block);
+    free(t);
+}
+
+/* A block that is far; D: how far X is beyond its middle. */
+static fret_real far_sum(const fret_transform *t, const block *b, fret_real D, fret_real X) {
+    const fret_real ratio = b->d / D;
+    int count = 1;
+    for (double left = 1e20 * (double)ratio; left > 1 && count < MOMENTS; left *= (double)ratio)
+        count++;
+    fret_real sum = 0;
+    while (count-- > 0)
+        sum = sum * ratio + b->moment[count];
+    return sum * fret_pow(D / X, t->m - 1);
+}
+
+/* Of f' = c0 + c1 t + c2 t^2, t from a place that is v = (x-r)/x from the edge x, by the kernel's moments. */
+static fret_real near_sum(const fret_real c[3], fret_real v, fret_real x, const fret_real moment[3]) {
+    const fret_real c1 = c[1] * x, c2 = c[2] * x * x;
+    return x * ((c[0] + v * (c1 + v * c2)) * moment[0] - (c1 + 2 * v * c2) * moment[1] + c2 * moment[2]);
+}
+
+/* e: of x beyond the beginning of the row `from`. */
+static fret_real behind(const fret_transform *t, size_t row, size_t from, fret_real e) {
+    return (radius_of(t, from) - radius_of(t, row)) + e;
+}
+
+fret_real fret_transform_at(const fret_transform *t, size_t last, size_t from, fret_real e) {
+    const fret_real x = radius_of(t, from) + e, X = x * x;
+    fret_real sum = 0, c[3], moment[3];
+    for (size_t i = 0; i < t->count && t->block[i].first < last;) {
+        const block *b = &t->block[i];
+        const bool within = b->last <= last, single = b->next == i + 1;
+        const fret_real lo = behind(t, b->first, from, e), D = lo * (2 * x - lo) - b->d;
+        if (within && D >= NEAR * b->d)
+            sum += far_sum(t, b, D, X);
+        else if (!single) {
+            i++;
+            continue;
+        } else {
+            const fret_real v = lo / x;
+            const fret_edge all = fret_edge_moments(t->rule, v),
+                            beyond = fret_edge_moments(t->rule, behind(t, b->last, from, e) / x);
+            for (int j = 0; j < 3; j++)
+                moment[j] = all.moment[j] - beyond.moment[j];
+            fret_table_slope(t->table, b->first, c);
+            sum += near_sum(c, v, x, moment);
+        }
+        i = b->next;
+    }
+    const fret_real v = behind(t, last, from, e) / x;
+    const fret_edge all = fret_edge_moments(t->rule, v);
+    fret_table_slope(t->table, last, c);
+    return sum + near_sum(c, v, x, all.moment);
+}
+
+fret_real fret_transform_jump(const fret_transform *t, size_t row, fret_real e) {
+    const fret_real x = radius_of(t, row) + e, v = e / x;
+    fret_real c[3];
+    const fret_edge all = fret_edge_moments(t->rule, v);
+    if (row > fret_table_row(t->table, 0))
+        fret_table_jump(t->table, row, c);
+    else
+        fret_table_slope(t->table, row, c);
+    return near_sum(c, v, x, all.moment);
+}
