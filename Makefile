@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # make run: install what is missing, build, play the demo.   make check: install, build, test.
-VERSION := 0.1.0
+VERSION := $(shell awk '/define FRET_VERSION_/ { v = v d $$3; d = "." } END { print v }' include/fret/fret.h)
 PREFIX  ?= /usr/local
 LIBDIR  ?= $(PREFIX)/lib
 B       ?= build
@@ -46,6 +46,14 @@ TESTS := $(patsubst tests/unit/%.c,$(B)/tests/%,$(UNIT))
 COMMA := ,
 
 all: $(B)/fret $(B)/libfret.a $(B)/libfret.so $(B)/fret.pc
+
+# What the public headers declare is to be seen in the libraries, and nothing else.
+$(B)/exported.h:
+	@mkdir -p $(@D)
+	@printf '#pragma GCC visibility push(default)\n#include "fret/fret.h"\n#pragma GCC visibility pop\n' > $@
+
+$(call OBJ,$(CORE)) $(call SHARED,$(CORE)): CFLAGS_ALL += -include $(B)/exported.h
+$(call OBJ,$(CORE)) $(call SHARED,$(CORE)): | $(B)/exported.h
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)

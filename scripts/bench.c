@@ -74,12 +74,12 @@ enum { LOADS = 4096 };
 /* A step of the memory diagram at constant F_N. */
 static double memory_diagram(const fret_normal *n, const fret_press *p, bool loss) {
     static double load[LOADS];
-    const double slip = (double)fret_gross_slip(&(fret_contact){n, mu, *p});
+    const double slip = (double)fret_gross_slip(&(fret_pressed){n, mu, *p});
     double best = INFINITY;
-    fret_memory *m = NULL;
-    need(fret_memory_make(n, mu, &m));
+    fret_contact *m = NULL;
+    need(fret_contact_make(n, mu, FRET_EXACT, &m));
     fret_step step = {FRET_TO_FORCE, FRET_TO_DX, FN, 0};
-    need(fret_memory_step(m, &step));
+    need(fret_contact_step(m, &step));
     step.normal_by = FRET_KEEP_NORMAL;
     for (long i = 0; i < LOADS; i++)
         load[i] = slip * drive(i);
@@ -88,30 +88,30 @@ static double memory_diagram(const fret_normal *n, const fret_press *p, bool los
         for (long i = 0; i < LOADS; i++) {
             fret_state st;
             step.tangential = load[i];
-            need(fret_memory_step(m, &step));
-            fret_memory_forces(m, &st);
-            sink = (double)(st.Fx + (loss ? fret_memory_last_loss(m) : 0));
+            need(fret_contact_step(m, &step));
+            fret_contact_forces(m, &st);
+            sink = (double)(st.Fx + (loss ? fret_contact_last_loss(m) : 0));
         }
         best = fmin(best, (seconds() - t0) / LOADS);
     }
-    fret_memory_free(m);
+    fret_contact_free(m);
     return best;
 }
 
-/* A round of 200 steps in which both directions move, a step: of fret_memory, or of fret_diagram with the
+/* A round of 200 steps in which both directions move, a step: of FRET_EXACT, or of FRET_DOUBLE with the
  * loss or without. */
 typedef enum diagram { EXACT, DOUBLE, DOUBLE_LOSS } diagram;
 static double moving(const fret_normal *n, const fret_press *p, bool by_force, diagram kind) {
     enum { STEPS = 200, ROUNDS = 10 };
     const double pi = acos(-1), normal = by_force ? FN : (double)p->dz,
-                 tangential = by_force ? mu * FN : (double)fret_gross_slip(&(fret_contact){n, mu, *p});
+                 tangential = by_force ? mu * FN : (double)fret_gross_slip(&(fret_pressed){n, mu, *p});
     static fret_step load[STEPS];
     double best = INFINITY;
-    fret_memory *exact = NULL;
-    fret_diagram *fast = NULL;
-    need(fret_memory_make(n, mu, &exact));
-    need(fret_diagram_make(n, mu, 0, &fast));
-    fret_diagram_count_loss(fast, kind == DOUBLE_LOSS);
+    fret_contact *exact = NULL;
+    fret_contact *fast = NULL;
+    need(fret_contact_make(n, mu, FRET_EXACT, &exact));
+    need(fret_contact_make(n, mu, FRET_DOUBLE, &fast));
+    fret_contact_count_loss(fast, kind == DOUBLE_LOSS);
     for (int i = 0; i < STEPS; i++)
         load[i] = (fret_step){by_force ? FRET_TO_FORCE : FRET_TO_DEPTH, by_force ? FRET_TO_FX : FRET_TO_DX,
                               normal * (0.7 + 0.2 * sin(2 * pi * i / STEPS)),
@@ -122,21 +122,21 @@ static double moving(const fret_normal *n, const fret_press *p, bool by_force, d
             for (const fret_step *to = load; to < load + STEPS; to++) {
                 if (kind == EXACT) {
                     fret_state st;
-                    need(fret_memory_step(exact, to));
-                    fret_memory_forces(exact, &st);
+                    need(fret_contact_step(exact, to));
+                    fret_contact_forces(exact, &st);
                     sink = (double)st.Fx;
                 } else {
-                    fret_diagram_now now;
-                    if (fret_diagram_step(fast, to).code)
+                    fret_state now;
+                    if (fret_contact_step(fast, to).code)
                         exit(EXIT_FAILURE);
-                    fret_diagram_forces(fast, &now);
-                    sink = now.Fx;
+                    fret_contact_forces(fast, &now);
+                    sink = (double)now.Fx;
                 }
             }
         best = fmin(best, (seconds() - t0) / (ROUNDS * STEPS));
     }
-    fret_memory_free(exact);
-    fret_diagram_free(fast);
+    fret_contact_free(exact);
+    fret_contact_free(fast);
     return best;
 }
 
@@ -187,26 +187,26 @@ static double swinging_springs(const fret_normal *n, const fret_press *p, size_t
 }
 
 /* The diagram in double at constant F_N, a step; `nested` turning points are held all the time. */
-static fret_diagram *pressed(const fret_normal *n) {
-    fret_diagram *d = NULL;
-    need(fret_diagram_make(n, mu, 0, &d));
-    need(fret_diagram_step(d, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
+static fret_contact *pressed(const fret_normal *n) {
+    fret_contact *d = NULL;
+    need(fret_contact_make(n, mu, FRET_DOUBLE, &d));
+    need(fret_contact_step(d, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
     return d;
 }
 
-static fret_diagram_now pushed(fret_diagram *d, double dx) {
-    fret_diagram_now now;
-    need(fret_diagram_step(d, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, dx}));
-    fret_diagram_forces(d, &now);
+static fret_state pushed(fret_contact *d, double dx) {
+    fret_state now;
+    need(fret_contact_step(d, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, dx}));
+    fret_contact_forces(d, &now);
     return now;
 }
 
 static double constant(const fret_normal *n, const fret_press *p, bool loss, long nested) {
     static double load[LOADS];
-    const double slip = (double)fret_gross_slip(&(fret_contact){n, mu, *p});
+    const double slip = (double)fret_gross_slip(&(fret_pressed){n, mu, *p});
     double best = INFINITY, size = 1;
-    fret_diagram *d = pressed(n);
-    fret_diagram_count_loss(d, loss);
+    fret_contact *d = pressed(n);
+    fret_contact_count_loss(d, loss);
     for (long i = 0; i < nested; i++, size *= 1 - 2 / (double)nested)
         pushed(d, (i % 2 ? -0.99 : 0.99) * size * slip);
     for (long i = 0; i < LOADS; i++)
@@ -214,12 +214,12 @@ static double constant(const fret_normal *n, const fret_press *p, bool loss, lon
     for (int run = 0; run < 50; run++) {
         double t0 = seconds();
         for (long i = 0; i < LOADS; i++) {
-            const fret_diagram_now now = pushed(d, load[i]);
-            sink = now.Fx + now.W;
+            const fret_state now = pushed(d, load[i]);
+            sink = (double)(now.Fx + now.W);
         }
         best = fmin(best, (seconds() - t0) / LOADS);
     }
-    fret_diagram_free(d);
+    fret_contact_free(d);
     return best;
 }
 
@@ -229,21 +229,23 @@ typedef struct cycle {
 } cycle;
 
 static double amplitude(const fret_normal *n, const fret_press *p) {
-    return 0.7 * (double)fret_gross_slip(&(fret_contact){n, mu, *p});
+    return 0.7 * (double)fret_gross_slip(&(fret_pressed){n, mu, *p});
 }
 
 static cycle diagram_cycle(const fret_normal *n, const fret_press *p) {
     const double dA = amplitude(n, p);
     const long cycles = 20000;
     cycle c = {0, INFINITY};
-    fret_diagram *d = pressed(n);
+    fret_contact *d = pressed(n);
     for (int run = 0; run < 10; run++) {
         double t0 = seconds();
-        for (long i = 0; i < 2 * cycles; i++)
-            c.loss = 2 * pushed(d, i % 2 ? -dA : dA).last_loss;
+        for (long i = 0; i < 2 * cycles; i++) {
+            (void)pushed(d, i % 2 ? -dA : dA);
+            c.loss = 2 * (double)fret_contact_last_loss(d);
+        }
         c.time = fmin(c.time, (seconds() - t0) / (double)cycles);
     }
-    fret_diagram_free(d);
+    fret_contact_free(d);
     return c;
 }
 
@@ -251,21 +253,21 @@ static cycle memory_cycle(const fret_normal *n, const fret_press *p) {
     const double dA = amplitude(n, p);
     const long cycles = 20000;
     cycle c = {0, INFINITY};
-    fret_memory *m = NULL;
-    need(fret_memory_make(n, mu, &m));
+    fret_contact *m = NULL;
+    need(fret_contact_make(n, mu, FRET_EXACT, &m));
     fret_step step = {FRET_TO_FORCE, FRET_KEEP_DX, FN, 0};
-    need(fret_memory_step(m, &step));
+    need(fret_contact_step(m, &step));
     step = (fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, 0};
     for (int run = 0; run < 5; run++) {
         double t0 = seconds();
         for (long i = 0; i < 2 * cycles; i++) {
             step.tangential = i % 2 ? -dA : dA;
-            need(fret_memory_step(m, &step));
-            c.loss = 2 * (double)fret_memory_last_loss(m);
+            need(fret_contact_step(m, &step));
+            c.loss = 2 * (double)fret_contact_last_loss(m);
         }
         c.time = fmin(c.time, (seconds() - t0) / (double)cycles);
     }
-    fret_memory_free(m);
+    fret_contact_free(m);
     return c;
 }
 
@@ -299,18 +301,18 @@ static cycle area_cycle(const fret_normal *n, const fret_press *p, size_t count)
     const double dA = amplitude(n, p);
     double *load = malloc(count * sizeof *load), x = dA;
     cycle c = {0, INFINITY};
-    fret_diagram *d = pressed(n);
+    fret_contact *d = pressed(n);
     if (!load)
         exit(EXIT_FAILURE);
     for (size_t i = 0; i < count; i++)
         load[i] = dA * cos(2 * acos(-1) * (double)(i + 1) / (double)count);
-    fret_diagram_count_loss(d, false);
+    fret_contact_count_loss(d, false);
     pushed(d, -dA);
-    double Fx = pushed(d, dA).Fx;
+    double Fx = (double)pushed(d, dA).Fx;
     for (int run = 0; run < 5; run++) {
         double area = 0, t0 = seconds();
         for (size_t i = 0; i < count; i++) {
-            const double Fx1 = pushed(d, load[i]).Fx;
+            const double Fx1 = (double)pushed(d, load[i]).Fx;
             area += (Fx + Fx1) / 2 * (load[i] - x);
             x = load[i];
             Fx = Fx1;
@@ -318,7 +320,7 @@ static cycle area_cycle(const fret_normal *n, const fret_press *p, size_t count)
         c.time = fmin(c.time, seconds() - t0);
         c.loss = area;
     }
-    fret_diagram_free(d);
+    fret_contact_free(d);
     free(load);
     return c;
 }
@@ -328,7 +330,7 @@ static cycle to_error(cycle (*model)(const fret_normal *, const fret_press *, si
                       const fret_press *p, double error, size_t *count) {
     fret_real exact;
     cycle c = {0, 0};
-    need(fret_cycle_loss_by_displacement(&(fret_contact){n, mu, *p}, amplitude(n, p), &exact));
+    need(fret_cycle_loss_by_displacement(&(fret_pressed){n, mu, *p}, amplitude(n, p), &exact));
     for (*count = 8; *count <= (size_t)1 << 23; *count *= 2) {
         c = model(n, p, *count);
         if (fabs((double)(c.loss / exact - 1)) <= error)
@@ -351,7 +353,7 @@ static double scene(const fret_normal *normal, const fret_press *press) {
     double t0 = seconds();
     for (long i = 0; i < count; i++) {
         fret_normal *n;
-        fret_contact c = {.mu = mu};
+        fret_pressed c = {.mu = mu};
         fret_loading f;
         fret_real loss;
         fret_material m = material;
@@ -369,7 +371,7 @@ static double scene(const fret_normal *normal, const fret_press *press) {
 
 static double cycle_loss(const fret_normal *n, const fret_press *p) {
     const long count = 50000;
-    const fret_contact c = {n, mu, *p};
+    const fret_pressed c = {n, mu, *p};
     double t0 = seconds();
     for (long i = 0; i < count; i++) {
         fret_real loss;
@@ -412,7 +414,7 @@ static double sweep_point(const fret_normal *n, const fret_press *p, sweep kind)
     double best = INFINITY;
     for (int i = 0; i < POINTS; i++)
         F[i] = mu * FN * (0.5 + i) / POINTS;
-    const fret_contact c = {n, mu, *p};
+    const fret_pressed c = {n, mu, *p};
     for (int run = 0; run < RUNS; run++) {
         double t0 = seconds();
         for (int pass = 0; pass < PASSES; pass++) {
@@ -440,42 +442,39 @@ static const double FNA = 30, FA = 20;
 static double swinging_chord(const fret_normal *n, bool in_phase) {
     const double pi = acos(-1), phase = in_phase ? 0 : pi / 2;
     double best = INFINITY, load[200][2];
-    fret_memory *m = NULL;
+    fret_contact *m = NULL;
     for (int i = 0; i < 200; i++) {
         load[i][0] = FN + FNA * cos(2 * pi * i / 200 + phase);
         load[i][1] = FA * cos(2 * pi * i / 200);
     }
-    need(fret_memory_make(n, mu, &m));
+    need(fret_contact_make(n, mu, FRET_EXACT, &m));
     for (int run = 0; run < 20; run++) {
         double t0 = seconds();
         for (int i = 0; i < 10 * 200; i++) {
             const double *to = load[i % 200];
-            need(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, to[0], to[1]}));
-            sink = (double)fret_memory_last_loss(m);
+            need(fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, to[0], to[1]}));
+            sink = (double)fret_contact_last_loss(m);
         }
         best = fmin(best, (seconds() - t0) / (10 * 200));
     }
-    fret_memory_free(m);
+    fret_contact_free(m);
     return best;
 }
 
 static double swinging_period(const fret_normal *n) {
     const fret_sine sine = {FA, FNA, acos(-1) / 2, FN};
     double best = INFINITY;
-    fret_memory *m = NULL;
-    fret_swing *s = NULL;
-    need(fret_memory_make(n, mu, &m));
-    need(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
-    need(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, FN + FNA * cos(sine.phase), FA}));
-    need(fret_swing_make(m, &s));
+    fret_contact *m = NULL;
+    need(fret_contact_make(n, mu, FRET_EXACT, &m));
+    need(fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
+    need(fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, FN + FNA * cos(sine.phase), FA}));
     for (int run = 0; run < 20; run++) {
         double t0 = seconds();
-        need(fret_swing_period(s, &sine));
-        sink = (double)fret_swing_last_loss(s);
+        need(fret_contact_swing(m, &sine, 0, 1));
+        sink = (double)fret_contact_last_loss(m);
         best = fmin(best, seconds() - t0);
     }
-    fret_swing_free(s);
-    fret_memory_free(m);
+    fret_contact_free(m);
     return best;
 }
 
@@ -541,8 +540,8 @@ static void compare(const fret_normal *n, const fret_press *p) {
     const struct {
         const char *name, *words;
         double time;
-    } ours[] = {{"fret_diagram", "diagram in double (fret_diagram)", diagram_cycle(n, p).time},
-                {"fret_memory", "memory diagram (fret_memory)", memory_cycle(n, p).time}};
+    } ours[] = {{"FRET_DOUBLE", "contact in double", diagram_cycle(n, p).time},
+                {"FRET_EXACT", "exact contact", memory_cycle(n, p).time}};
     for (int i = 0; i < 2; i++) {
         double springs[ERRORS], area[ERRORS];
         equal_error(n, p, ours[i].name, ours[i].time, springs_cycle, "springs", springs);
@@ -563,7 +562,7 @@ enum { GAP_ROWS = 400, MANY_ROWS = 100000, GAP_CHORDS = 200 };
 
 /* dW at one load after the other, and a chord of a swinging load. */
 static double gap_losses(const fret_normal *n, long count) {
-    fret_contact c = {.normal = n, .mu = mu};
+    fret_pressed c = {.normal = n, .mu = mu};
     fret_real loss;
     need(fret_press_by_force(n, FN, &c.press));
     const double t0 = seconds();
@@ -575,30 +574,30 @@ static double gap_losses(const fret_normal *n, long count) {
 }
 
 static double gap_chord(const fret_normal *n, long count) {
-    fret_memory *m = NULL;
+    fret_contact *m = NULL;
     fret_step step = {FRET_TO_FORCE, FRET_KEEP_DX, FN, 0};
-    need(fret_memory_make(n, mu, &m));
-    need(fret_memory_step(m, &step));
+    need(fret_contact_make(n, mu, FRET_EXACT, &m));
+    need(fret_contact_step(m, &step));
     step.tangential_by = FRET_TO_FX;
     const double t0 = seconds();
     for (long i = 1; i <= count; i++) {
         const double angle = 2 * 3.14159265358979 * (double)i / GAP_CHORDS;
         step.normal = FN * (0.9 + 0.1 * cos(angle));
         step.tangential = mu * FN / 2 * sin(angle);
-        need(fret_memory_step(m, &step));
+        need(fret_contact_step(m, &step));
     }
     const double t = (seconds() - t0) / (double)count;
-    fret_memory_free(m);
+    fret_contact_free(m);
     return t;
 }
 
 /* Large steps of depth and displacement at random: edge and front cross whatever the gap has. */
 static double gap_steps(const fret_normal *n, long count) {
-    fret_memory *m = NULL;
+    fret_contact *m = NULL;
     fret_press most;
     unsigned long long state = 1;
     need(fret_press_by_force(n, FN, &most));
-    need(fret_memory_make(n, mu, &m));
+    need(fret_contact_make(n, mu, FRET_EXACT, &m));
     const double dz = (double)most.dz, dx = mu * dz * (double)fret_normal_foundation(n)->eta;
     const double t0 = seconds();
     for (long i = 0; i < count; i++) {
@@ -607,16 +606,16 @@ static double gap_steps(const fret_normal *n, long count) {
             state = state * 6364136223846793005ull + 1442695040888963407ull;
             part[j] = (double)(state >> 11) / 9007199254740992.0;
         }
-        need(fret_memory_step(m, &(fret_step){FRET_TO_DEPTH, FRET_TO_DX, dz * (0.05 + 0.95 * part[0]),
-                                              dx * (2 * part[1] - 1)}));
+        need(fret_contact_step(m, &(fret_step){FRET_TO_DEPTH, FRET_TO_DX, dz * (0.05 + 0.95 * part[0]),
+                                               dx * (2 * part[1] - 1)}));
     }
     const double t = (seconds() - t0) / (double)count;
-    fret_memory_free(m);
+    fret_contact_free(m);
     return t;
 }
 
 static double reference_losses(const fret_normal *n, long count) {
-    fret_contact c = {.normal = n, .mu = mu};
+    fret_pressed c = {.normal = n, .mu = mu};
     fret_loading peak;
     fret_real loss, unused;
     need(fret_press_by_force(n, FN, &c.press));
@@ -689,10 +688,10 @@ static void other_gaps(const fret_normal *hertz) {
 /* Fields of a state of three slices: inside up to the edge, outside up to three radii. */
 enum field { FIELD_P, FIELD_QX, FIELD_UZ, FIELD_UX, FIELDS };
 
-static double field_values(enum field what, fret_fields *many, const fret_normal *n, const fret_memory *m,
+static double field_values(enum field what, fret_fields *many, const fret_normal *n, const fret_contact *m,
                            int count) {
     fret_state now;
-    fret_memory_state(m, &now);
+    fret_contact_state(m, &now);
     const double t0 = seconds();
     for (int i = 1; i <= count; i++) {
         const fret_real part = (i - 0.5L) / count, in = now.a * part, out = now.a * (1 + 2 * part);
@@ -714,18 +713,18 @@ static void gap_fields(const char *name, const fret_gap *of) {
     static const char *const words[] = {"p(r)", "qx(r)", "uz(r) outside", "ux(r) outside"};
     const double push[] = {0.6, 0.1};
     fret_normal *n;
-    fret_memory *m;
+    fret_contact *m;
     fret_fields *many;
     fret_real value;
     char what[80];
     need(fret_normal_make(&material, of, NULL, NULL, &n));
-    need(fret_memory_make(n, mu, &m));
-    need(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
+    need(fret_contact_make(n, mu, FRET_EXACT, &m));
+    need(fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
     for (int i = 0; i < 2; i++)
-        need(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, push[i] * mu * FN}));
+        need(fret_contact_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, push[i] * mu * FN}));
     need(fret_fields_make(n, &many));
     fret_state now;
-    fret_memory_state(m, &now);
+    fret_contact_state(m, &now);
     const double t0 = seconds();
     need(fret_fields_traction(many, m, now.a / 2, &value));
     const double setting_up = seconds() - t0, one = field_values(FIELD_P, NULL, n, m, 10);
@@ -739,7 +738,7 @@ static void gap_fields(const char *name, const fret_gap *of) {
     snprintf(what, sizeof what, "%s: to set up", name);
     line(what, setting_up, one, "one p(r)", us, "");
     fret_fields_free(many);
-    fret_memory_free(m);
+    fret_contact_free(m);
     fret_normal_free(n);
 }
 
@@ -782,12 +781,12 @@ int main(void) {
     need(fret_press_by_force(hertz, FN, &q));
     const double exact = moving(n, &p, false, EXACT), exact_hertz = moving(hertz, &q, false, EXACT),
                  by_force = moving(n, &p, true, EXACT);
-    line("dz and dx: F_x", moving(n, &p, false, DOUBLE), exact, "fret_memory", ns, "60 ns");
-    line("dz and dx: F_x and loss", moving(n, &p, false, DOUBLE_LOSS), exact, "fret_memory", ns, "120 ns");
-    line("dz and dx, Hertz: F_x", moving(hertz, &q, false, DOUBLE), exact_hertz, "fret_memory", ns, "25 ns");
-    line("dz and dx, Hertz: F_x and loss", moving(hertz, &q, false, DOUBLE_LOSS), exact_hertz, "fret_memory",
+    line("dz and dx: F_x", moving(n, &p, false, DOUBLE), exact, "FRET_EXACT", ns, "60 ns");
+    line("dz and dx: F_x and loss", moving(n, &p, false, DOUBLE_LOSS), exact, "FRET_EXACT", ns, "120 ns");
+    line("dz and dx, Hertz: F_x", moving(hertz, &q, false, DOUBLE), exact_hertz, "FRET_EXACT", ns, "25 ns");
+    line("dz and dx, Hertz: F_x and loss", moving(hertz, &q, false, DOUBLE_LOSS), exact_hertz, "FRET_EXACT",
          ns, "60 ns");
-    line("FN and Fx: dx and loss", moving(n, &p, true, DOUBLE_LOSS), by_force, "fret_memory", ns, "300 ns");
+    line("FN and Fx: dx and loss", moving(n, &p, true, DOUBLE_LOSS), by_force, "FRET_EXACT", ns, "300 ns");
     line("two powers, the least that F_x takes", 2 * double_power(n, &p), double_power(n, &p), "libm pow", ns,
          "");
     fret_normal_free(hertz);

@@ -18,11 +18,11 @@ FRET_BEGIN
 
 /* Energies [J] dissipated in cycles -FA .. FA, as fret_cycle_loss_by_force: 2e-15. Range 0 <= FA <= mu F_N
  * [N]. */
-fret_status fret_arrays_loss(const fret_contact *contact, const double FA[], double loss[], size_t count);
+fret_status fret_arrays_loss(const fret_pressed *contact, const double FA[], double loss[], size_t count);
 
 /* Stick radii [m] and displacements [m] of first loading to Fx [N], |Fx| <= mu F_N, as fret_loading_by_force:
  * 1e-15. c or dx may be NULL. */
-fret_status fret_arrays_loading(const fret_contact *contact, const double Fx[], double c[], double dx[],
+fret_status fret_arrays_loading(const fret_pressed *contact, const double Fx[], double c[], double dx[],
                                 size_t count);
 
 /* Contact radii [m] and indentation depths [m] of the loads F [N] >= 0, as fret_press_by_force: 1e-15.

@@ -7,17 +7,13 @@
  * is within one unit in the last place. Arguments are exact as given. */
 typedef long double fret_real;
 
-/* Around the declarations of a header: C names, visible in the shared library. */
+/* Around the declarations of a header: C names for C++ too. */
 #ifdef __cplusplus
-#define FRET_BEGIN                                                                                           \
-    extern "C" {                                                                                             \
-    _Pragma("GCC visibility push(default)")
-#define FRET_END                                                                                             \
-    _Pragma("GCC visibility pop")                                                                            \
-    }
+#define FRET_BEGIN extern "C" {
+#define FRET_END }
 #else
-#define FRET_BEGIN _Pragma("GCC visibility push(default)")
-#define FRET_END _Pragma("GCC visibility pop")
+#define FRET_BEGIN
+#define FRET_END
 #endif
 
 #endif

@@ -17,7 +17,7 @@ typedef struct fret_loading {
 } fret_loading;
 
 /* delta_x,max = mu eta delta_z [m]: displacement at which gross slip begins (18). */
-fret_real fret_gross_slip(const fret_contact *contact);
+fret_real fret_gross_slip(const fret_pressed *contact);
 
 /* F_x = mu [F_N(a)-F_N(c)], delta_x = mu eta [g(a)-g(c)] (15),(18); power law:
  *   c/a = (1-F_x/mu F_N)^(1/(n+k+1)), delta_x = mu eta delta_z [1-(c/a)^n].
@@ -27,25 +27,25 @@ fret_real fret_gross_slip(const fret_contact *contact);
  * Accuracy, power law: within 1 unit in the last place of a double; by displacement, where delta_x,max itself
  * is known to 2^-96, this ends at |1-dx/delta_x,max| = 1e-9.
  * Other errors: FRET_NOT_POSITIVE (mu, FN), FRET_NOT_FINITE. */
-fret_status fret_loading_by_force(const fret_contact *contact, double Fx, fret_loading *out);
-fret_status fret_loading_by_displacement(const fret_contact *contact, double dx, fret_loading *out);
+fret_status fret_loading_by_force(const fret_pressed *contact, double Fx, fret_loading *out);
+fret_status fret_loading_by_displacement(const fret_pressed *contact, double dx, fret_loading *out);
 
 /* Energy [J], >= 0, dissipated in a closed cycle F_x = -FA .. FA at constant F_N:
  *   8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx; power law: w(t) mu F_N delta_x,max (27),
  *   t = FA/(mu F_N). Range 0 <= FA <= mu F_N, else FRET_NEGATIVE, FRET_GROSS_SLIP; other errors as above.
  * Accuracy, power law: within 1 unit in the last place of a double; other shapes: 1e-14, tables of up to
  * 1000 rows. Positive, where (26),(27) are printed negative. */
-fret_status fret_cycle_loss_by_force(const fret_contact *contact, double FA, fret_real *loss);
+fret_status fret_cycle_loss_by_force(const fret_pressed *contact, double FA, fret_real *loss);
 
 /* The same by displacement amplitude dA >= 0 [m]; beyond delta_x,max gross slip adds
  * 4 mu F_N (dA - delta_x,max). */
-fret_status fret_cycle_loss_by_displacement(const fret_contact *contact, double dA, fret_real *loss);
+fret_status fret_cycle_loss_by_displacement(const fret_pressed *contact, double dA, fret_real *loss);
 
 /* The same by quadrature of the definition, to tell how far others err: of a cycle that turns at `peak`, from
  * fret_loading_by_force or _by_displacement. error: relative, an estimate with what a thin annulus, or one
  * beside a flat end, loses of the digits of long double; power laws 1e-18 + the rounding of FA/(mu F_N).
  * Takes 10 us to 10 ms. Errors: FRET_NOT_POSITIVE (mu, FN), FRET_NOT_FINITE. */
-fret_status fret_cycle_loss_by_definition(const fret_contact *contact, const fret_loading *peak,
+fret_status fret_cycle_loss_by_definition(const fret_pressed *contact, const fret_loading *peak,
                                           fret_real *loss, fret_real *error);
 
 /* w = loss/(mu F_N delta_x,max) of a power law as a function of t = 1-s; q = n/(n+k+1), r = 1-q.

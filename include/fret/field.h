@@ -2,7 +2,7 @@
 #ifndef FRET_FIELD_H
 #define FRET_FIELD_H
 
-#include "fret/memory.h"
+#include "fret/contact.h"
 
 FRET_BEGIN
 
@@ -31,9 +31,11 @@ fret_status fret_surface(const fret_normal *normal, fret_real a, fret_real r, fr
 fret_status fret_pressure_of(const fret_normal *normal, const fret_press *press, fret_real r, fret_real *p);
 fret_status fret_surface_of(const fret_normal *normal, const fret_press *press, fret_real r, fret_real *w);
 
-/* q_x(r) [Pa] and u_x(r) [m] in the present state of a history: the same with -u'(x) and c_T, and u(x). */
-fret_status fret_traction(const fret_memory *memory, fret_real r, fret_real *q);
-fret_status fret_surface_x(const fret_memory *memory, fret_real r, fret_real *u);
+/* q_x(r) [Pa] and u_x(r) [m] in the present state of a history: the same with -u'(x) and c_T, and u(x). One
+ * that has swung: 1e-13 of the largest value, of other shapes than powers 1e-12. FRET_OUTSIDE: FRET_DOUBLE.
+ */
+fret_status fret_traction(const fret_contact *contact, fret_real r, fret_real *q);
+fret_status fret_surface_x(const fret_contact *contact, fret_real r, fret_real *u);
 
 /* The same at many places: what a gap without a formula needs for them is worked out when it is first asked
  * for, again where the contact grows or shrinks by a factor of 2, and kept: 0.3 ms for a flat-ended gap, 0.1
@@ -50,8 +52,9 @@ fret_status fret_fields_pressure(fret_fields *fields, fret_real a, fret_real r, 
 fret_status fret_fields_surface(fret_fields *fields, fret_real a, fret_real r, fret_real *w);
 fret_status fret_fields_pressure_of(fret_fields *fields, const fret_press *press, fret_real r, fret_real *p);
 fret_status fret_fields_surface_of(fret_fields *fields, const fret_press *press, fret_real r, fret_real *w);
-fret_status fret_fields_traction(fret_fields *fields, const fret_memory *memory, fret_real r, fret_real *q);
-fret_status fret_fields_surface_x(fret_fields *fields, const fret_memory *memory, fret_real r, fret_real *u);
+fret_status fret_fields_traction(fret_fields *fields, const fret_contact *contact, fret_real r, fret_real *q);
+fret_status fret_fields_surface_x(fret_fields *fields, const fret_contact *contact, fret_real r,
+                                  fret_real *u);
 
 /* How far the fields are off, of their largest values [1]; NAN where all were answered as above. */
 double fret_fields_error(const fret_fields *fields);

@@ -51,6 +51,9 @@ const fret_gap *fret_normal_gap(const fret_normal *normal);
  * numerically. */
 bool fret_normal_is_power(const fret_normal *normal);
 
+/* Is the law smooth enough to follow a swinging load by itself? Not that of a table, whose rows are kinks. */
+bool fret_normal_swings(const fret_normal *normal);
+
 /* Largest contact radius [m]: where the gap ends, or g begins to fall; infinite for a power. */
 fret_real fret_normal_end(const fret_normal *normal);
 
@@ -71,11 +74,11 @@ fret_status fret_press_by_radius(const fret_normal *normal, double a, fret_press
 fret_real fret_normal_stiffness(const fret_normal *normal, fret_real a);
 
 /* A contact pressed and not yet loaded tangentially, at constant F_N from here on. Borrows normal. */
-typedef struct fret_contact {
+typedef struct fret_pressed {
     const fret_normal *normal;
     double mu;        /* coefficient of friction, > 0 */
     fret_press press; /* F_N > 0 */
-} fret_contact;
+} fret_pressed;
 
 FRET_END
 

@@ -4,12 +4,12 @@
 
 #include <stddef.h>
 
-#include "fret/memory.h"
+#include "fret/contact.h"
 
 FRET_BEGIN
 
 /* The foundation cut into independent springs: the scheme of Mathematics 2022, 10, 3641, (19)-(22). A
- * cross-check of the memory diagram and the baseline for its cost; prefer fret_memory for work.
+ * cross-check of the memory diagram and the baseline for its cost; prefer fret_contact for work.
  *
  * [0, radius] is cut into `count` cells of width h, spring i of both sides together at x_i = (i+1/2) h:
  *   g_i = g(x_i),  w_i = int 2 c_N(x) dx over the cell,  B_i = mu eta (delta_z - g_i)+,
@@ -40,7 +40,7 @@ fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count
                               fret_weight rule, fret_springs **out);
 void fret_springs_free(fret_springs *springs);
 
-/* One step with the targets and paths of fret_memory_step, in `substeps` equal parts; F_N means its sum
+/* One step with the targets and paths of fret_contact_step, in `substeps` equal parts; F_N means its sum
  * over cells here, which at a depth misses that of the continuum by the error of the cells. With FRET_TO_FX
  * each part solves for delta_x: the least change that reaches F_x to 1e-14 mu F_N. At the mu F_N of either
  * all springs slide: F_x is that of the cells then. No allocation.

@@ -56,7 +56,7 @@ static dd set_powers(const fret_normal *normal, law *w) {
     return q;
 }
 
-static bool law_of_contact(const fret_contact *contact, law *w) {
+static bool law_of_contact(const fret_pressed *contact, law *w) {
     const fret_normal *normal = contact->normal;
     const fret_press *press = &contact->press;
     if (!fret_normal_is_power(normal))
@@ -272,11 +272,11 @@ fret_status fret_arrays_ask(fret_arrays_question question, const void *of, const
     return st;
 }
 
-fret_status fret_arrays_loss(const fret_contact *contact, const double FA[], double loss[], size_t count) {
+fret_status fret_arrays_loss(const fret_pressed *contact, const double FA[], double loss[], size_t count) {
     return fret_arrays_ask(FRET_LOSSES, contact, FA, (double *[]){loss, NULL}, count, false);
 }
 
-fret_status fret_arrays_loading(const fret_contact *contact, const double Fx[], double c[], double dx[],
+fret_status fret_arrays_loading(const fret_pressed *contact, const double Fx[], double c[], double dx[],
                                 size_t count) {
     return fret_arrays_ask(FRET_LOADINGS, contact, Fx, (double *[]){c, dx}, count, false);
 }

@@ -9,7 +9,7 @@
 
 typedef enum fret_arrays_question { FRET_LOSSES, FRET_LOADINGS, FRET_PRESSES } fret_arrays_question;
 
-/* of: a fret_contact, for presses a fret_normal. to: as many results as the question has, or NULL. */
+/* of: a fret_pressed, for presses a fret_normal. to: as many results as the question has, or NULL. */
 fret_status fret_arrays_ask(fret_arrays_question question, const void *of, const double F[],
                             double *const to[2], size_t count, bool anywhere);
 

@@ -19,7 +19,7 @@ enum { MANY_STEPS = 4096 };
 static bool is_borne(scene *s, const load_view *load, const fret_state *now, calc_error *error) {
     static const double sure = 1e-13;
     fret_press first;
-    fret_contact most = {.normal = load->normal, .mu = load->mu};
+    fret_pressed most = {.normal = load->normal, .mu = load->mu};
     if (!load_press(s, load->normal, &first, error))
         return false;
     const double F = load_largest_force(&s->answers.reach, load->normal, &first);
@@ -120,7 +120,7 @@ bool scene_FN(scene *s, long double *FN, calc_error *error) {
     return true;
 }
 
-bool scene_contact(scene *s, fret_contact *out, calc_error *error) {
+bool scene_contact(scene *s, fret_pressed *out, calc_error *error) {
     const fret_press *press;
     if (!scene_normal(s, &out->normal, error) || !scene_press(s, &press, error) ||
         !scene_friction(s, &out->mu, error))
@@ -168,7 +168,7 @@ bool scene_engine(scene *s, const load_view *load, model_id model, unsigned coun
 
 /* A model that steps, other than the memory diagram, was asked for. */
 static bool is_stepped(const scene *s) {
-    return !s->automatic && s->model != MODEL_MEMORY && models[s->model].make && !s->now;
+    return !s->automatic && s->model != MODEL_MEMORY && models[s->model].steps && !s->now;
 }
 
 bool scene_runs(scene *s, runs *out, calc_error *error) {
@@ -237,7 +237,7 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     }
     s->used = used | USED(stepped ? s->model : MODEL_MEMORY);
     if (!stepped && s->answers.levels)
-        scene_used_law(s, engine_normal(&s->answers.run[0].engine));
+        scene_used_law(s, fret_contact_normal(s->answers.run[0].engine.contact));
     *state = &s->answers.state;
     return true;
 }
@@ -304,7 +304,7 @@ bool scene_closed_loss(scene *s) {
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
     const fret_press *press;
     const load_reach *reach = &s->answers.reach;
-    fret_contact contact;
+    fret_pressed contact;
     if (!scene_press(s, &press, error))
         return false;
     if (!reach->by) {
@@ -321,7 +321,7 @@ bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
 bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
     load_item cycle;
     const fret_state *state;
-    fret_contact contact;
+    fret_pressed contact;
     const runner *run;
     if (s->now && !load_run(s, &run, error))
         return false;
@@ -383,8 +383,7 @@ static fret_status trace_level(const load_view *load, unsigned level, bool sine,
     if (before)
         before->finest = &r;
     fret_status st = engine_make(&r.engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
-    if (sine && !st.code)
-        st = engine_to_sine(&r.engine);
+    r.engine.sine = sine;
     if (!st.code)
         st = run_to(&r, load->end);
     engine_end(&r.engine);
@@ -419,7 +418,7 @@ bool scene_trace(scene *s, watch *w, calc_error *error) {
     if (!(s->sound && !may_be_sine) && (!load_run(s, &unused, error) || !scene_load_of(s, &load, error)))
         return false;
     s->used |= USED(MODEL_MEMORY);
-    const bool sine = may_be_sine && engine_is_sine(&s->answers.run[0].engine);
+    const bool sine = may_be_sine && s->answers.run[0].engine.sine;
     const fret_status st = swings && w->limit && !sine
                                ? trace_limit(&load, w, &halted, &no_memory)
                                : trace_level(&load, swings && !sine ? LEVELS - 1 : 0, sine, w, NULL, &halted);

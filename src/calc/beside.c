@@ -101,8 +101,7 @@ static bool keep_runner(side *s, stop *to, const runner *r) {
     to->run.watch = NULL;
     if (r->coarse)
         memcpy(to->coarse, r->coarse, sizeof to->coarse);
-    const fret_status st =
-        engine_copy(&to->run.engine, &r->engine, engine_normal(&r->engine), engine_friction(&r->engine));
+    const fret_status st = engine_copy(&to->run.engine, &r->engine);
     s->no_memory = st.code;
     return !st.code;
 }
@@ -124,7 +123,7 @@ static bool keep(const runner *r, void *context) {
         return false;
     s->stop = grown;
     if (s->stops == s->made)
-        s->stop[s->made++].run.engine = (engine){.self = NULL};
+        s->stop[s->made++].run.engine = (engine){.contact = NULL};
     fret_state now;
     engine_forces(&r->engine, &now);
     s->held += now.slices + RUNNER;

@@ -9,7 +9,7 @@
 
 /* One end of a closed loop. */
 typedef struct peak {
-    fret_contact contact;
+    fret_pressed contact;
     double dxA;             /* amplitude, as far as a double goes */
     fret_real Fx, dx, loss; /* there; of the cycle */
 } peak;
@@ -42,7 +42,7 @@ static bool peak_of(scene *s, value amplitude, peak *out, calc_error *error) {
 }
 
 /* Without slip the contact is a spring. */
-static fret_real stuck(const fret_contact *contact) {
+static fret_real stuck(const fret_pressed *contact) {
     return fret_normal_stiffness(contact->normal, contact->press.a) /
            fret_normal_foundation(contact->normal)->eta;
 }

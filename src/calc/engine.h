@@ -31,23 +31,18 @@ typedef struct model_row {
     bool chosen;       /* `set model` can ask for it */
     bool power;        /* for gaps of a single power only */
     double rounding;   /* what its values are good to, relative; 0: not known, or exact */
-    /* stepping; NULL where the model has a formula only */
-    fret_status (*make)(const fret_normal *normal, double mu, unsigned count, double radius, void **out);
-    fret_status (*step)(void *self, const fret_step *step);
-    fret_status (*chord)(void *self, const fret_step *step); /* as engine_chord; NULL: a step will do */
-    fret_status (*copy)(void *to, const void *from);         /* NULL: cannot be copied */
-    void (*state)(const void *self, fret_state *out);
-    void (*forces)(const void *self, fret_state *out); /* of it F_N, dz, F_x, dx, W */
-    long double (*last_loss)(const void *self);        /* NULL: W tells */
-    void (*end)(void *self);
+    bool steps;        /* along any load; else it has a formula only */
+    fret_exactness exactness;
 } model_row;
 
 extern const model_row models[MODELS];
 
-/* A model on its way. */
+/* A model on its way: a contact, or springs. */
 typedef struct engine {
     const model_row *kind;
-    void *self;
+    fret_contact *contact;
+    fret_springs *springs;
+    bool sine;         /* swinging loads are taken as they are */
     long double spent; /* dissipated since engine_mark, step by step: W may be far larger */
     long double more;  /* dissipated in periods that were not run: engine_repeat */
 } engine;
@@ -56,28 +51,19 @@ typedef struct engine {
 fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count,
                         double radius);
 void engine_end(engine *e);
+bool engine_is_made(const engine *e);
 fret_status engine_step(engine *e, const fret_step *step);
 /* A step that stands for a part of a curve: as long as it goes from end to end, any path near it will do. */
 fret_status engine_chord(engine *e, const fret_step *step);
 void engine_state(const engine *e, fret_state *out);
 void engine_forces(const engine *e, fret_state *out);
-/* A copy made anew in `to`, of the same contact. */
-fret_status engine_copy(engine *to, const engine *from, const fret_normal *normal, double mu);
+/* A copy made anew in `to`, of the same contact; springs have none. */
+fret_status engine_copy(engine *to, const engine *from);
 /* `times` more periods that begin and end in the present state, each with the loss. */
 void engine_repeat(engine *e, unsigned times, long double loss);
-/* Makes of a memory one that takes a swinging load as it is, without chords. */
-fret_status engine_to_sine(engine *e);
-bool engine_is_sine(const engine *e);
-/* A period of it, or the part from one of its times, 0..1, to another; taken: false where it cannot, nothing
- * has changed. */
+/* A period of the sine itself, or the part from one of its times, 0..1, to another; taken: false where the
+ * contact cannot, nothing has changed. */
 fret_status engine_swing(engine *e, const fret_sine *sine, double from, double to, bool *taken);
-/* The state of one that has taken a swinging load; NULL: a memory tells it. */
-const fret_swing *engine_curve(const engine *e);
-/* The contact of a memory, or of the sine, and its friction. */
-const fret_normal *engine_normal(const engine *e);
-double engine_friction(const engine *e);
-/* The state as a memory: what curves, in chords. NULL: out of memory. */
-const fret_memory *engine_memory(const engine *e);
 /* From here on engine_spent counts. */
 void engine_mark(engine *e);
 long double engine_spent(const engine *e);

@@ -80,51 +80,36 @@ bool call_uz(scene *s, value r, long double *out, calc_error *error) {
     return normal_field(s, r, fret_surface_of, fret_fields_surface_of, out, error);
 }
 
-/* The state of a scene with friction: a curve, or else a memory. */
-typedef struct slid {
-    const fret_swing *curve; /* or NULL */
-    const fret_memory *memory;
-} slid;
-
-static bool tangential_state(scene *s, slid *out, calc_error *error) {
+/* The state of a scene with friction. */
+static bool tangential_state(scene *s, const fret_contact **out, calc_error *error) {
     double mu;
     s->used |= USED(MODEL_MEMORY);
-    return scene_friction(s, &mu, error) && scene_curve(s, &out->curve, error) &&
-           (out->curve || scene_memory(s, &out->memory, error)); /* unreached: without a curve it is there */
+    return scene_friction(s, &mu, error) && scene_history(s, out, error);
 }
 
-static fret_real displacement_at(const slid *state, value x) {
-    const fret_real r = fabsl(x.v); /* the foundation is the same on both sides */
-    return state->curve ? fret_swing_displacement(state->curve, r)
-                        : fret_memory_displacement(state->memory, r);
-}
-
-/* How a field is told: at one place of a memory, at many, and of a curve. */
+/* How a field is told: at one place, and at many. */
 typedef struct ways {
-    fret_status (*one)(const fret_memory *, fret_real, fret_real *);
-    fret_status (*many)(fret_fields *, const fret_memory *, fret_real, fret_real *);
-    fret_status (*curve)(const fret_swing *, fret_real, fret_real *);
+    fret_status (*one)(const fret_contact *, fret_real, fret_real *);
+    fret_status (*many)(fret_fields *, const fret_contact *, fret_real, fret_real *);
 } ways;
 
 static bool tangential_field(scene *s, value r, const ways *how, long double *out, calc_error *error) {
-    slid now;
+    const fret_contact *now;
     fret_fields *fields = NULL;
-    if (!tangential_state(s, &now, error) || (!now.curve && !scene_fields(s, &fields, error)))
+    if (!tangential_state(s, &now, error) || (!fret_contact_curved(now) && !scene_fields(s, &fields, error)))
         return false;
-    fret_status st = now.curve ? how->curve(now.curve, r.v, out)
-                     : fields  ? how->many(fields, now.memory, r.v, out)
-                               : how->one(now.memory, r.v, out);
+    fret_status st = fields ? how->many(fields, now, r.v, out) : how->one(now, r.v, out);
     used_fields(s, fields);
     return calc_status(error, &st);
 }
 
 bool call_qx(scene *s, value r, long double *out, calc_error *error) {
-    static const ways traction = {fret_traction, fret_fields_traction, fret_swing_traction};
+    static const ways traction = {fret_traction, fret_fields_traction};
     return tangential_field(s, r, &traction, out, error);
 }
 
 bool call_ux(scene *s, value r, long double *out, calc_error *error) {
-    static const ways surface = {fret_surface_x, fret_fields_surface_x, fret_swing_surface_x};
+    static const ways surface = {fret_surface_x, fret_fields_surface_x};
     return tangential_field(s, r, &surface, out, error);
 }
 
@@ -150,26 +135,23 @@ bool call_w1D(scene *s, value x, long double *out, calc_error *error) {
 }
 
 bool call_u1D(scene *s, value x, long double *out, calc_error *error) {
-    slid now;
+    const fret_contact *now;
     if (!tangential_state(s, &now, error))
         return false;
-    *out = displacement_at(&now, x);
+    *out = fret_contact_displacement(now, fabsl(x.v)); /* the foundation is the same on both sides */
     return true;
 }
 
 bool call_s1D(scene *s, value x, long double *out, calc_error *error) {
     const fret_press *press;
-    slid at;
+    const fret_contact *at;
     fret_state now;
     if (!tangential_state(s, &at, error) || !scene_press(s, &press, error))
         return false;
     if (fabsl(x.v) >= press->a)
         return calc_fail(error, 0, 0, "s1D(x) is defined within the contact, where |x| < a: try s1D(0.99*a)");
-    if (at.curve)
-        fret_swing_state(at.curve, &now);
-    else
-        fret_memory_forces(at.memory, &now);
-    *out = now.dx - displacement_at(&at, x);
+    fret_contact_forces(at, &now);
+    *out = now.dx - fret_contact_displacement(at, fabsl(x.v));
     if (fabsl(*out) <= 8 * LDBL_EPSILON * fabsl(now.dx)) /* it sticks: sums in another order */
         *out = 0;
     return true;

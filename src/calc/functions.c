@@ -33,7 +33,7 @@ bool call_dz(scene *s, value F, long double *out, calc_error *error) {
 
 /* By force or displacement. */
 static bool load_first(scene *s, value arg, bool by_force, fret_loading *out, calc_error *error) {
-    fret_contact contact;
+    fret_pressed contact;
     if (!scene_contact(s, &contact, error))
         return false;
     fret_status st = by_force ? fret_loading_by_force(&contact, (double)arg.v, out)
@@ -66,7 +66,7 @@ bool call_Fx(scene *s, value d, long double *out, calc_error *error) {
 }
 
 bool call_dW(scene *s, value FA, long double *out, calc_error *error) {
-    fret_contact contact;
+    fret_pressed contact;
     if (!scene_contact(s, &contact, error))
         return false;
     fret_status st = fret_cycle_loss_by_force(&contact, (double)FA.v, out);
@@ -74,7 +74,7 @@ bool call_dW(scene *s, value FA, long double *out, calc_error *error) {
 }
 
 bool call_dWd(scene *s, value dxA, long double *out, calc_error *error) {
-    fret_contact contact;
+    fret_pressed contact;
     if (!scene_contact(s, &contact, error))
         return false;
     fret_status st = fret_cycle_loss_by_displacement(&contact, (double)dxA.v, out);
@@ -102,7 +102,7 @@ bool block_dz(scene *s, const double F[], double out[], size_t count, calc_error
 
 static bool block_loading(scene *s, const double F[], double c[], double dx[], size_t count,
                           calc_error *error) {
-    fret_contact contact;
+    fret_pressed contact;
     if (!scene_contact(s, &contact, error))
         return false;
     fret_status st = fret_arrays_loading(&contact, F, c, dx, count);
@@ -118,7 +118,7 @@ bool block_dx(scene *s, const double F[], double out[], size_t count, calc_error
 }
 
 bool block_dW(scene *s, const double FA[], double out[], size_t count, calc_error *error) {
-    fret_contact contact;
+    fret_pressed contact;
     if (!scene_contact(s, &contact, error))
         return false;
     fret_status st = fret_arrays_loss(&contact, FA, out, count);

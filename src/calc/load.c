@@ -68,7 +68,7 @@ bool load_takes_sine(const load_view *load) {
             return false;
         at.cycles += item.step.kind == LOAD_CYCLE;
     }
-    return fret_swing_takes(load->normal);
+    return fret_normal_swings(load->normal);
 }
 
 /* As many runs as the load wants, or none: those that are new start where the first one is. */
@@ -77,23 +77,22 @@ static fret_status raise_levels(answers *a, const load_view *load) {
     const unsigned wanted = a->reach.swings && !sine ? LEVELS : 1;
     fret_status st = fine;
     /* more than are wanted: in chords, as a load that was refused would have had them */
-    if (a->levels && ((engine_is_sine(&a->run[0].engine) ? !sine : a->levels > wanted) ||
-                      engine_normal(&a->run[0].engine) != load->normal))
+    if (a->levels && ((a->run[0].engine.sine ? !sine : a->levels > wanted) ||
+                      fret_contact_normal(a->run[0].engine.contact) != load->normal))
         drop_runs(a);
     if (a->levels == 0) {
         a->run[0] = (runner){.load = load, .trail = a->trail};
         st = engine_make(&a->run[0].engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
         a->levels = !st.code;
     }
-    if (sine && !st.code && !engine_is_sine(&a->run[0].engine))
-        st = engine_to_sine(&a->run[0].engine);
+    a->run[0].engine.sine = sine;
     while (a->levels < wanted && !st.code) {
         runner *r = &a->run[a->levels];
         *r = a->run[0];
         r->level = a->levels;
-        r->engine.self = NULL;
+        r->engine = (engine){.kind = a->run[0].engine.kind};
         r->trail = NULL;
-        st = engine_copy(&r->engine, &a->run[0].engine, load->normal, load->mu);
+        st = engine_copy(&r->engine, &a->run[0].engine);
         a->levels++; /* to be dropped, too, if there is only half of it */
     }
     if (st.code)
@@ -143,13 +142,13 @@ static bool catch_up(scene *s, calc_error *error) {
 }
 
 /* Keeps the contacts as they are; the storage is used again. */
-static fret_status keep_spares(answers *a, const load_view *load) {
+static fret_status keep_spares(answers *a) {
     fret_status st = fine;
     for (unsigned i = 0; i < a->levels && !st.code; i++) {
         engine kept = a->spare[i].engine;
         a->spare[i] = a->run[i];
         a->spare[i].engine = kept;
-        st = engine_copy(&a->spare[i].engine, &a->run[i].engine, load->normal, load->mu);
+        st = engine_copy(&a->spare[i].engine, &a->run[i].engine);
     }
     return st;
 }
@@ -218,7 +217,7 @@ static bool run_appended(scene *s, bool whole, calc_error *error) {
     const bool spares = whole || a->levels > 1, chords = a->chords;
     const runner before = a->run[0];
     if (!st.code && spares)
-        st = keep_spares(a, &load);
+        st = keep_spares(a);
     if (st.code)
         return calc_status(error, &st);
     st = run_levels(a, &load);
@@ -327,12 +326,32 @@ bool load_run(scene *s, const runner **run, calc_error *error) {
     return true;
 }
 
-bool scene_memory(scene *s, const fret_memory **memory, calc_error *error) {
+bool scene_history(scene *s, const fret_contact **contact, calc_error *error) {
     const runner *run;
     if (!load_run(s, &run, error))
         return false;
-    *memory = engine_memory(&run->engine);
-    return *memory || calc_no_memory(error);
+    *contact = run->engine.contact;
+    return true;
+}
+
+bool scene_straight(scene *s, const fret_contact **contact, calc_error *error) {
+    if (!scene_history(s, contact, error))
+        return false;
+    if (!fret_contact_curved(*contact))
+        return true;
+    fret_contact **chords = &s->answers.chorded;
+    const fret_normal *normal = fret_contact_normal(*contact);
+    fret_status st = fine;
+    if (*chords && fret_contact_normal(*chords) != normal) {
+        fret_contact_free(*chords);
+        *chords = NULL;
+    }
+    if (!*chords)
+        st = fret_contact_make(normal, fret_contact_friction(*contact), FRET_EXACT, chords);
+    if (!st.code)
+        st = fret_contact_chords(*chords, *contact);
+    *contact = *chords;
+    return calc_status(error, &st);
 }
 
 bool scene_trail(scene *s, const trail **out, calc_error *error) {
@@ -341,12 +360,4 @@ bool scene_trail(scene *s, const trail **out, calc_error *error) {
         drop_runs(a);
     *out = a->trail;
     return catch_up(s, error);
-}
-
-bool scene_curve(scene *s, const fret_swing **curve, calc_error *error) {
-    const runner *run;
-    if (!load_run(s, &run, error))
-        return false;
-    *curve = engine_curve(&run->engine);
-    return true;
 }

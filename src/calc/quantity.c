@@ -304,7 +304,7 @@ const formula *quantity_formula(const quantity *q, scene *s, bool call) {
 model_id quantity_model(const quantity *q, scene *s, bool call) {
     const bool power = !s->in.geometry || s->in.geometry->power;
     const model_id closed = power ? MODEL_CLOSED : MODEL_PIECES;
-    const model_id stepped = !s->automatic && models[s->model].make ? s->model : MODEL_MEMORY;
+    const model_id stepped = !s->automatic && models[s->model].steps ? s->model : MODEL_MEMORY;
     if (call)
         return q->by ? q->by : closed;
     switch (q->of) {

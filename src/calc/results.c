@@ -21,7 +21,7 @@ bool get_kn(scene *s, long double *out, calc_error *error) {
 
 /* ---- the scene against its k = 0 twin ---------------------------------------------------------- */
 
-static bool k0_contact(scene *s, fret_contact *out, calc_error *error) {
+static bool k0_contact(scene *s, fret_pressed *out, calc_error *error) {
     long double FN = 0;
     if (!scene_FN(s, &FN, error) || !scene_k0(s, &out->normal, error))
         return false;
@@ -31,7 +31,7 @@ static bool k0_contact(scene *s, fret_contact *out, calc_error *error) {
 }
 
 bool get_a0(scene *s, long double *out, calc_error *error) {
-    fret_contact contact;
+    fret_pressed contact;
     if (!k0_contact(s, &contact, error))
         return false;
     *out = contact.press.a;
@@ -39,7 +39,7 @@ bool get_a0(scene *s, long double *out, calc_error *error) {
 }
 
 bool get_dz0(scene *s, long double *out, calc_error *error) {
-    fret_contact contact;
+    fret_pressed contact;
     if (!k0_contact(s, &contact, error))
         return false;
     *out = contact.press.dz;
@@ -47,7 +47,7 @@ bool get_dz0(scene *s, long double *out, calc_error *error) {
 }
 
 bool get_dx0max(scene *s, long double *out, calc_error *error) {
-    fret_contact contact;
+    fret_pressed contact;
     if (!k0_contact(s, &contact, error) || !scene_friction(s, &contact.mu, error))
         return false;
     *out = fret_gross_slip(&contact);
@@ -55,7 +55,7 @@ bool get_dx0max(scene *s, long double *out, calc_error *error) {
 }
 
 bool get_dxmax(scene *s, long double *out, calc_error *error) {
-    fret_contact contact;
+    fret_pressed contact;
     if (!scene_contact(s, &contact, error))
         return false;
     *out = fret_gross_slip(&contact);
@@ -95,15 +95,16 @@ bool get_kappa(scene *s, long double *out, calc_error *error) {
 /* ---- the load ---------------------------------------------------------------------------------- */
 
 bool get_W1D(scene *s, long double *out, calc_error *error) {
-    const fret_memory *memory;
+    const fret_contact *contact;
     const load_reach *reach;
     double mu;
-    if (!scene_friction(s, &mu, error) || !scene_reach(s, &reach, error) || !scene_memory(s, &memory, error))
+    if (!scene_friction(s, &mu, error) || !scene_reach(s, &reach, error) ||
+        !scene_straight(s, &contact, error))
         return false;
     if (reach->normal_varies)
         return calc_fail(error, 0, 0, "W1D is defined at constant FN; W is what has been dissipated");
     s->used |= USED(MODEL_MEMORY);
-    *out = fret_memory_slip_work(memory);
+    *out = fret_contact_slip_work(contact);
     return true;
 }
 

@@ -353,7 +353,7 @@ static fret_status sine_parts(runner *r, const load_item *c, const fret_sine *lo
 
 static fret_status swinging_period(runner *r, const load_item *c, long double FN) {
     const fret_sine load = {c->step.tangential_value, c->step.normal_value, c->extra.phase, FN};
-    const bool sine = engine_is_sine(&r->engine);
+    const bool sine = r->engine.sine;
     bool taken = false;
     fret_status st = fine;
     if (sine && r->watch)
@@ -542,7 +542,7 @@ static void keep_trail(const runner *r, size_t i) {
 
 fret_status run_to(runner *r, load_mark end) {
     const load_view *load = r->load;
-    const bool every = r->watch || r->trail || !r->engine.kind->last_loss; /* springs round otherwise */
+    const bool every = r->watch || r->trail || r->engine.springs; /* springs round otherwise */
     fret_status st = fine;
     r->waits = false;
     while (r->at.steps < end.steps) {

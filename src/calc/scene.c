@@ -12,6 +12,7 @@ static void answers_end(answers *a, bool keep) {
         engine_end(&a->run[i].engine);
         engine_end(&a->spare[i].engine);
     }
+    fret_contact_free(a->chorded);
     if (a->trail)
         free(a->trail->at);
     free(a->trail);
@@ -235,7 +236,7 @@ static bool complete(const scene *s) {
 
 bool scene_valid(scene *s, calc_error *error) {
     const fret_normal *normal;
-    const fret_memory *memory;
+    const fret_contact *contact;
     const fret_press *press;
     double mu;
     for (input in = 0; in < INPUTS; in++)
@@ -253,7 +254,7 @@ bool scene_valid(scene *s, calc_error *error) {
         return waits;
     }
     if (s->in.set[IN_MU] || s->end.steps > 1)
-        return scene_friction(s, &mu, error) && scene_memory(s, &memory, error);
+        return scene_friction(s, &mu, error) && scene_history(s, &contact, error);
     return scene_press(s, &press, error);
 }
 

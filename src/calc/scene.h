@@ -40,6 +40,7 @@ typedef struct answers {
     scene_known known; /* of state */
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
+    fret_contact *chorded;             /* room for scene_straight */
     unsigned levels, spares;
     bool chords; /* the swinging load of the program cannot be taken as it is */
     load_reach reach;
@@ -175,16 +176,16 @@ bool scene_friction(scene *s, double *mu, calc_error *error);
 bool scene_press(scene *s, const fret_press **press, calc_error *error);
 /* F_N now; does not ask for the contact where it was given. */
 bool scene_FN(scene *s, long double *FN, calc_error *error);
-bool scene_contact(scene *s, fret_contact *contact, calc_error *error);
+bool scene_contact(scene *s, fret_pressed *contact, calc_error *error);
 bool scene_state(scene *s, const fret_state **state, calc_error *error);
 /* Of it only F_N, dz, F_x, dx and W: at an instant on the way of a load far cheaper. */
 bool scene_forces(scene *s, const fret_state **state, calc_error *error);
-bool scene_memory(scene *s, const fret_memory **memory, calc_error *error);
+/* What the load has left: as it is, after a swinging load curved; and with that in chords. */
+bool scene_history(scene *s, const fret_contact **contact, calc_error *error);
+bool scene_straight(scene *s, const fret_contact **contact, calc_error *error);
 /* What each step of the load has left behind, which is run for that at first; *out is NULL where there is no
  * memory for it. */
 bool scene_trail(scene *s, const trail **out, calc_error *error);
-/* The same without chords, after a swinging load; NULL: there is no such curve, the memory is exact. */
-bool scene_curve(scene *s, const fret_swing **curve, calc_error *error);
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error);
 bool scene_cycle_loss(scene *s, long double *loss, calc_error *error);
 

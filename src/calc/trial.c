@@ -204,13 +204,13 @@ static bool see_kept(trial *t, const double kept[TRAILED], size_t i, bool *lacki
 
 /* Not of springs, which take their time. */
 static bool forces_at_end(scene *s, double out[TRAILED], calc_error *error) {
-    const fret_memory *memory;
+    const fret_contact *contact;
     fret_state exact;
     const fret_state *now = &exact;
-    if (s->automatic ? !scene_forces(s, &now, error) : !scene_memory(s, &memory, error))
+    if (s->automatic ? !scene_forces(s, &now, error) : !scene_history(s, &contact, error))
         return false;
     if (!s->automatic)
-        fret_memory_forces(memory, &exact);
+        fret_contact_forces(contact, &exact);
     trail_put(now, out);
     return true;
 }

@@ -3,6 +3,7 @@
 #ifndef FRET_FIELD_FIELD_H
 #define FRET_FIELD_FIELD_H
 
+#include "history/contact.h"
 #include "law/normal.h"
 
 /* Of a contact of radius a, at r: FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OUTSIDE (a beyond the gap) or FRET_OK.
@@ -35,5 +36,9 @@ fret_real fret_field_flat(fret_real k, fret_real q, fret_real away);
 
 /* What becomes of such integrals by 2 cos(pi k/2)/pi: a surface. */
 fret_real fret_field_surface_factor(fret_real k);
+
+/* fret_traction and fret_surface_x of a curve. */
+fret_status fret_swing_traction(const fret_swing *swing, fret_real r, fret_real *q);
+fret_status fret_swing_surface_x(const fret_swing *swing, fret_real r, fret_real *u);
 
 #endif

@@ -167,11 +167,11 @@ fret_status fret_fields_surface_of(fret_fields *f, const fret_press *at, fret_re
 }
 
 /* The slices of a state: what was known of them is kept where they are the same. */
-static fret_status take_slices(fret_fields *f, const fret_memory *m) {
-    const fret_normal *law = fret_memory_normal(m);
+static fret_status take_slices(fret_fields *f, const fret_contact *c) {
+    const fret_normal *law = fret_contact_normal(c);
     fret_segment s;
     size_t i = 0;
-    for (; fret_memory_segment(m, i, &s); i++) {
+    for (; fret_contact_segment(c, i, &s); i++) {
         if (i == f->room) {
             const size_t room = 2 * f->room + 8;
             fret_cut *cut = realloc(f->cut, room * sizeof *cut);
@@ -226,18 +226,20 @@ static bool is_spared(const fret_fields *f, fret_real r) {
 }
 
 /* Slices: are there polynomials for all of them? */
-static fret_status prepare_slices(fret_fields *f, const fret_memory *m, bool *there) {
+static fret_status prepare_slices(fret_fields *f, const fret_contact *c, bool *there) {
     *there = false;
-    const fret_status st = take_slices(f, m);
+    const fret_status st = take_slices(f, c);
     if (st.code || undisplaced(f) || any_light(f))
         return st;
     return prepare(f, f->cut[f->count - 1].a, there);
 }
 
-fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real r, fret_real *q) {
+fret_status fret_fields_traction(fret_fields *f, const fret_contact *c, fret_real r, fret_real *q) {
     bool there;
     *q = 0;
-    fret_status st = prepare_slices(f, m, &there);
+    if (c->curved || c->diagram)
+        return fret_traction(c, r, q);
+    fret_status st = prepare_slices(f, c, &there);
     if (st.code)
         return st;
     const fret_real a = f->count > 0 ? f->cut[f->count - 1].a : 0;
@@ -245,7 +247,7 @@ fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real
         return fret_ok();
     const bool spared = is_spared(f, r);
     if (!there || (!spared && is_special(f->normal, a, r)))
-        return fret_traction(m, r, q);
+        return fret_traction(c, r, q);
     const fret_real from = fret_density_from(f->density);
     if (!spared && r < from && fret_gap_start(&f->normal->gap) <= 0) {
         fret_real inner = 0, outer = 0;
@@ -255,7 +257,7 @@ fret_status fret_fields_traction(fret_fields *f, const fret_memory *m, fret_real
             inner = outer;
         }
     }
-    *q = fret_memory_friction(m) * (*q + pressure_beyond(f, f->cut, f->count, r));
+    *q = fret_contact_friction(c) * (*q + pressure_beyond(f, f->cut, f->count, r));
     return st;
 }
 
@@ -278,14 +280,16 @@ static fret_status surface_x_from_density(const fret_fields *f, size_t outside, 
 }
 
 /* Slices that reach beyond r have the gap there, which all of them share. */
-fret_status fret_fields_surface_x(fret_fields *f, const fret_memory *m, fret_real r, fret_real *u) {
+fret_status fret_fields_surface_x(fret_fields *f, const fret_contact *c, fret_real r, fret_real *u) {
     bool there;
     *u = 0;
-    fret_status st = prepare_slices(f, m, &there);
+    if (c->curved || c->diagram)
+        return fret_surface_x(c, r, u);
+    fret_status st = prepare_slices(f, c, &there);
     if (st.code)
         return st;
     if (!there || !(r >= 0))
-        return fret_surface_x(m, r, u);
+        return fret_surface_x(c, r, u);
     size_t outside = 0;
     while (outside < f->count && f->cut[outside].a < r)
         outside++;
@@ -298,6 +302,6 @@ fret_status fret_fields_surface_x(fret_fields *f, const fret_memory *m, fret_rea
     for (size_t i = outside + 1; i < f->count; i++)
         sum += f->cut[i].weight * (f->depth[i] - f->depth[i - 1]);
     st = surface_x_from_density(f, outside, rest, r, &sum);
-    *u = fret_memory_friction(m) * fret_memory_normal(m)->foundation.eta * sum;
+    *u = fret_contact_friction(c) * fret_contact_normal(c)->foundation.eta * sum;
     return st;
 }

@@ -20,21 +20,6 @@ typedef struct bend {
     fret_real lo, hi, near, side, power, sign; /* sign: of the slope */
 } bend;
 
-/* Sum (M) or difference (P) of half the coordinates. */
-static void make_loads(const way *w, way *out) {
-    *out = (way){.harmonic = true, .mean = w->mean};
-    for (int i = M; i <= P; i++) {
-        fret_real x = 0, y = 0;
-        for (int j = M; j <= P; j++) {
-            const fret_real half = (i == P && j == M ? -1 : 1) * w->size[j] / 2;
-            x += half * cosl(w->lag[j]);
-            y += half * sinl(w->lag[j]);
-        }
-        out->size[i] = sqrtl(x * x + y * y);
-        out->lag[i] = atan2l(y, x);
-    }
-}
-
 /* How far the load at the time w is above N, with all digits where that is little. */
 static fret_real rise_at(const bend *b, fret_real w) {
     return b->beyond - 2 * b->of.size[M] * sinl(b->from + w / 2 - b->of.lag[M]) * sinl(w / 2);
@@ -162,7 +147,7 @@ static fret_real integral(bend *b, fret_real end) {
 /* The parts of a curved piece within and beyond the load N. */
 static fret_real sum_of(bend *b, const piece *p, weight outside, weight inside, fret_real factor) {
     fret_real sum = 0;
-    make_loads(&p->way, &b->of);
+    fret_swing_loads(&p->way, &b->of);
     const fret_real first = way_at(&b->of, M, p->lo) - b->N, last = way_at(&b->of, M, p->hi) - b->N;
     b->from = first >= 0 ? p->lo : last <= 0 ? p->hi : way_when(&b->of, M, b->N, p->lo, p->hi);
     b->beyond = first >= 0 ? first : last <= 0 ? last : 0;
@@ -252,20 +237,4 @@ fret_status fret_swing_surface_x(const fret_swing *c, fret_real r, fret_real *u)
     if (!st.code)
         *u = c->mu * c->normal->foundation.eta * sum;
     return fret_unless_stopped(c->normal, st);
-}
-
-fret_real fret_swing_displacement(const fret_swing *c, fret_real x) {
-    bend b;
-    fret_real sum = 0;
-    if (begin(c, fabsl(x), &b).code || !(b.r < c->a))
-        return 0;
-    const fret_real y = fret_normal_profile(c->normal, b.r);
-    for (size_t i = c->count; i-- > 0;) {
-        const piece *p = &c->pieces[i];
-        if (p->curved)
-            sum += sum_of(&b, p, PRESSED, INSIDE, 0);
-        else
-            sum += slope_of(p) * fmaxl(depth_at(c, p->last) - fmaxl(depth_at(c, p->first), y), 0);
-    }
-    return c->mu * c->normal->foundation.eta * sum;
 }

@@ -27,7 +27,7 @@ static fraction fraction_from(dd t, dd s) {
 }
 
 /* F of limit; the logarithm is for a power law alone. */
-static fraction fraction_of(const fret_contact *c, double F, dd limit) {
+static fraction fraction_of(const fret_pressed *c, double F, dd limit) {
     const dd t = dd_div(dd_of(F), limit), s = dd_div(dd_add_d(limit, -F), limit);
     fraction f = fret_normal_closed(c->normal) ? fraction_from(t, s) : (fraction){t, s, s, dd_value(t)};
     if (f.t.hi < tiny)
@@ -36,7 +36,7 @@ static fraction fraction_of(const fret_contact *c, double F, dd limit) {
 }
 
 /* 0.3 times 100 N is not 30 N in binary: F equal to mu F_N up to its rounding is gross slip, no more. */
-static fraction force_fraction(const fret_contact *c, double F) {
+static fraction force_fraction(const fret_pressed *c, double F) {
     fraction f = fraction_of(c, F, dd_mul_d(dd_from2(c->press.F, c->press.F_rest), c->mu));
     return fabs(f.s.hi) <= DBL_EPSILON ? fraction_from(dd_of(1), dd_of(0)) : f;
 }
@@ -57,11 +57,11 @@ static fret_real kept(const fraction *f, dd power) {
     return gross(f) ? 0 : fret_dd_exp_real(dd_mul(power, f->l));
 }
 
-fret_real fret_gross_slip(const fret_contact *c) {
+fret_real fret_gross_slip(const fret_pressed *c) {
     return c->mu * c->normal->foundation.eta * c->press.dz;
 }
 
-fret_status fret_loading_by_force(const fret_contact *c, double Fx, fret_loading *out) {
+fret_status fret_loading_by_force(const fret_pressed *c, double Fx, fret_loading *out) {
     fret_status st = fret_contact_check(c);
     if (!st.code && !isfinite(Fx))
         st = fret_fail(FRET_NOT_FINITE, "Fx", Fx, 0);
@@ -90,12 +90,12 @@ fret_status fret_loading_by_force(const fret_contact *c, double Fx, fret_loading
 }
 
 /* The same by displacement: t = dx/delta_x,max, s = 1-t. */
-static fraction depth_fraction(const fret_contact *c, double dx) {
+static fraction depth_fraction(const fret_pressed *c, double dx) {
     dd max = dd_mul(dd_mul_d(c->normal->wide_foundation.eta, c->mu), dd_from2(c->press.dz, c->press.dz_rest));
     return fraction_of(c, dx, max);
 }
 
-fret_status fret_loading_by_displacement(const fret_contact *c, double dx, fret_loading *out) {
+fret_status fret_loading_by_displacement(const fret_pressed *c, double dx, fret_loading *out) {
     fret_status st = fret_contact_check(c);
     if (!st.code && !isfinite(dx))
         st = fret_fail(FRET_NOT_FINITE, "dx", dx, 0);
@@ -164,21 +164,21 @@ static fret_real loss_of_power(const fret_normal *normal, const fraction *f) {
 
 /* The general loop by Masing: 4 times the dissipation of first loading, counted from the edge:
  * int_0^d [F(y)-F(y-t)-tK(y-t)] dt = L. f: of the load, or of the depth. */
-static fret_real general_loss(const fret_contact *c, bool by_load, const fraction *f) {
+static fret_real general_loss(const fret_pressed *c, bool by_load, const fraction *f) {
     const fret_level edge = {c->press.dz, c->press.F};
     const fret_real whole = by_load ? edge.F : edge.y, s = dd_value(f->s), t = fminl(f->t_wide, 1);
     return 4 * c->mu * (c->mu * c->normal->foundation.eta) *
            fret_law_slice_to(c->normal, &edge, by_load, t * whole, s * whole).L;
 }
 
-static fret_real loss_of(const fret_contact *c, const fraction *f) {
+static fret_real loss_of(const fret_pressed *c, const fraction *f) {
     fret_real scale = c->mu * c->press.F * fret_gross_slip(c);
     if (fret_normal_closed(c->normal))
         return scale * loss_of_power(c->normal, f);
     return general_loss(c, true, f);
 }
 
-fret_status fret_cycle_loss_by_force(const fret_contact *c, double FA, fret_real *loss) {
+fret_status fret_cycle_loss_by_force(const fret_pressed *c, double FA, fret_real *loss) {
     fret_status st = fret_contact_check(c);
     if (!st.code)
         st = fret_check_not_negative("FA", FA);
@@ -191,7 +191,7 @@ fret_status fret_cycle_loss_by_force(const fret_contact *c, double FA, fret_real
     return fret_unless_stopped(c->normal, fret_ok());
 }
 
-fret_status fret_cycle_loss_by_displacement(const fret_contact *c, double dA, fret_real *loss) {
+fret_status fret_cycle_loss_by_displacement(const fret_pressed *c, double dA, fret_real *loss) {
     fret_status st = fret_contact_check(c);
     if (!st.code)
         st = fret_check_not_negative("dxA", dA);

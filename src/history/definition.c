@@ -42,7 +42,7 @@ static fret_real by_radius(fret_real t, fret_real rest, void *context) {
     return 2 * fret_pow((s->start + e) / f->c0, f->k) * (s->g_outer - g) * (g - s->g_inner);
 }
 
-fret_status fret_cycle_loss_by_definition(const fret_contact *c, const fret_loading *peak, fret_real *loss,
+fret_status fret_cycle_loss_by_definition(const fret_pressed *c, const fret_loading *peak, fret_real *loss,
                                           fret_real *error) {
     const fret_status st = fret_contact_check(c);
     if (st.code)

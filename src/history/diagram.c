@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The memory diagram of a power law in double. Allocates its layers. */
-#include "fret/diagram.h"
+#include "history/diagram.h"
 
 #define NUMBER double
 #define DIAGRAM fret_diagram
@@ -90,11 +90,22 @@ void fret_diagram_state(const fret_diagram *d, fret_state *out) {
     diagram_state(d, out);
 }
 
-void fret_diagram_forces(const fret_diagram *d, fret_diagram_now *out) {
-    *out = (fret_diagram_now){.FN = d->edge.y[LOAD],
-                              .dz = d->dz,
-                              .Fx = d->Fx,
-                              .dx = d->dx,
-                              .W = d->W + d->W_rest,
-                              .last_loss = d->last_loss};
+void fret_diagram_forces(const fret_diagram *d, fret_state *out) {
+    diagram_forces(d, out);
+}
+
+double fret_diagram_last_loss(const fret_diagram *d) {
+    return d->last_loss;
+}
+
+size_t fret_diagram_packed(const fret_diagram *d) {
+    return packed(d);
+}
+
+void fret_diagram_pack(const fret_diagram *d, double out[]) {
+    diagram_pack(d, out);
+}
+
+fret_status fret_diagram_unpack(fret_diagram *d, const double from[], size_t count) {
+    return diagram_unpack(d, from, count);
 }

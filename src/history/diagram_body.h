@@ -754,13 +754,17 @@ static const layer *outermost(const DIAGRAM *d) {
     return next->sigma == zone->sigma ? next : zone;
 }
 
-static void diagram_state(const DIAGRAM *d, fret_state *out) {
+static void diagram_forces(const DIAGRAM *d, fret_state *out) {
     *out = (fret_state){.FN = d->edge.y[LOAD],
                         .dz = d->dz,
                         .Fx = d->Fx,
                         .dx = d->dx,
                         .W = (fret_real)d->W + d->W_rest,
                         .slices = d->count};
+}
+
+static void diagram_state(const DIAGRAM *d, fret_state *out) {
+    diagram_forces(d, out);
     if (!d->count)
         return;
     const layer *top = outermost(d);
@@ -775,4 +779,98 @@ static void diagram_state(const DIAGRAM *d, fret_state *out) {
                 : fret_law_level_radius(d->normal, &(fret_level){top->inner.y[DEPTH], top->inner.y[LOAD]});
     const fret_real inner = top->sigma * d->direction >= 1 ? out->c : out->a;
     out->kt = inner > 0 ? fret_normal_stiffness(d->normal, inner) / d->normal->foundation.eta : 0;
+}
+
+/* ---- as doubles -------------------------------------------------------------------------------- */
+
+enum { PACKED_KIND, PACKED_TOLD, PACKED_DIRECTION, PACKED_LOSSLESS, PACKED_NUMBERS }; /* the first ones */
+enum { NUMBERS_EDGE = 4, NUMBERS_REST = 7, NUMBERS_LAYER = 5 };
+
+/* A number is a sum of two doubles: long double has no more digits. */
+static double *pack_number(double *out, NUMBER x) {
+    const double high = (double)x;
+    *out++ = high;
+    *out++ = isfinite(high) ? (double)(x - high) : 0;
+    return out;
+}
+
+static const double *unpack_number(const double *from, NUMBER *x) {
+    *x = (NUMBER)from[0] + (NUMBER)from[1];
+    return from + 2;
+}
+
+static double *pack_point(double *out, const point *p) {
+    for (coordinate by = DEPTH; by <= LOAD; by++)
+        out = pack_number(pack_number(out, p->y[by]), p->t[by]);
+    return out;
+}
+
+static const double *unpack_point(const double *from, point *p) {
+    for (coordinate by = DEPTH; by <= LOAD; by++)
+        from = unpack_number(unpack_number(from, &p->y[by]), &p->t[by]);
+    return from;
+}
+
+static size_t packed(const DIAGRAM *d) {
+    return PACKED_NUMBERS + 2 * (NUMBERS_EDGE + NUMBERS_REST + NUMBERS_LAYER * d->count);
+}
+
+static void diagram_pack(const DIAGRAM *d, double out[]) {
+    const NUMBER rest[NUMBERS_REST] = {d->dz, d->slid, d->dx, d->Fx, d->W, d->W_rest, d->last_loss};
+    out[PACKED_KIND] = sizeof(NUMBER);
+    out[PACKED_TOLD] = d->told;
+    out[PACKED_DIRECTION] = d->direction;
+    out[PACKED_LOSSLESS] = d->lossless;
+    double *next = pack_point(out + PACKED_NUMBERS, &d->edge);
+    for (int i = 0; i < NUMBERS_REST; i++)
+        next = pack_number(next, rest[i]);
+    for (size_t i = 0; i < d->count; i++)
+        next = pack_number(pack_point(next, &d->layers[i].inner), d->layers[i].sigma);
+}
+
+/* Is it a curve that rises from a place to one further out, with slopes of at most 1? */
+static bool is_curve(const DIAGRAM *d) {
+    bool ok = d->count ? d->edge.y[DEPTH] > 0 && d->edge.y[LOAD] > 0 : d->edge.y[DEPTH] == 0;
+    for (size_t i = 0; i < d->count && ok; i++) {
+        const point *outer = i + 1 < d->count ? &d->layers[i + 1].inner : &d->edge,
+                    *inner = &d->layers[i].inner;
+        ok = size_of(d->layers[i].sigma) <= 1;
+        for (coordinate by = DEPTH; by <= LOAD; by++)
+            ok = ok && inner->y[by] >= 0 && inner->y[by] <= outer->y[by] && size_of(inner->t[by]) <= DBL_MAX;
+    }
+    return ok;
+}
+
+static fret_status diagram_unpack(DIAGRAM *d, const double from[], size_t count) {
+    const size_t least = PACKED_NUMBERS + 2 * (NUMBERS_EDGE + NUMBERS_REST);
+    const fret_status wrong = fret_fail(FRET_OUTSIDE, "history", (double)count, 0);
+    if (count < least || (count - least) % (2 * NUMBERS_LAYER) || from[PACKED_KIND] != sizeof(NUMBER))
+        return wrong;
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(from[i]))
+            return wrong;
+    DIAGRAM *made;
+    fret_status st = diagram_make(d->normal, d->mu, (count - least) / (2 * NUMBERS_LAYER) + 1, &made);
+    if (st.code)
+        return st;
+    NUMBER rest[NUMBERS_REST];
+    made->count = (count - least) / (2 * NUMBERS_LAYER);
+    made->told = from[PACKED_TOLD] == LOAD ? LOAD : DEPTH;
+    made->direction = from[PACKED_DIRECTION] < 0 ? -1 : 1;
+    made->lossless = from[PACKED_LOSSLESS] != 0;
+    const double *next = unpack_point(from + PACKED_NUMBERS, &made->edge);
+    for (int i = 0; i < NUMBERS_REST; i++)
+        next = unpack_number(next, &rest[i]);
+    for (size_t i = 0; i < made->count; i++)
+        next = unpack_number(unpack_point(next, &made->layers[i].inner), &made->layers[i].sigma);
+    made->dz = rest[0], made->slid = rest[1], made->dx = rest[2], made->Fx = rest[3];
+    made->W = rest[4], made->W_rest = rest[5], made->last_loss = rest[6];
+    NUMBER v;
+    st = !is_curve(made) ? wrong
+         : made->count   ? law_press(made, made->told, (double)made->edge.y[made->told], &v)
+                         : st;
+    if (!st.code)
+        st = diagram_copy(d, made);
+    diagram_free(made);
+    return st;
 }

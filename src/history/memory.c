@@ -138,39 +138,30 @@ void fret_memory_state(const fret_memory *m, fret_state *out) {
 }
 
 void fret_memory_forces(const fret_memory *m, fret_state *out) {
-    *out = (fret_state){.FN = m->edge.y[LOAD],
-                        .dz = m->dz,
-                        .Fx = m->Fx,
-                        .dx = m->dx,
-                        .W = m->W + m->W_rest,
-                        .slices = m->count};
+    diagram_forces(m, out);
 }
 
-const fret_normal *fret_memory_normal(const fret_memory *m) {
-    return m->normal;
+size_t fret_memory_packed(const fret_memory *m) {
+    return packed(m);
 }
 
-double fret_memory_friction(const fret_memory *m) {
-    return m->mu;
+void fret_memory_pack(const fret_memory *m, double out[]) {
+    diagram_pack(m, out);
 }
 
-fret_real fret_memory_last_loss(const fret_memory *m) {
-    return m->last_loss;
-}
-
-fret_real fret_memory_mean_force(const fret_memory *m, fret_real from, fret_real to) {
-    return mean_force(m, &(place){from, law_value(m, DEPTH, from)}, &(place){to, law_value(m, DEPTH, to)});
+fret_status fret_memory_unpack(fret_memory *m, const double from[], size_t count) {
+    return diagram_unpack(m, from, count);
 }
 
 /* ---- along the curve --------------------------------------------------------------------------- */
 
-int fret_memory_segment(const fret_memory *m, size_t i, fret_segment *out) {
+bool fret_memory_segment(const fret_memory *m, size_t i, fret_segment *out) {
     if (i >= m->count)
-        return 0;
+        return false;
     const layer *l = &m->layers[i];
     *out = (fret_segment){l->inner.y[DEPTH], outer_of(m, l)->y[DEPTH], l->sigma,
                           m->mu_eta * (m->edge.t[DEPTH] - l->inner.t[DEPTH])};
-    return 1;
+    return true;
 }
 
 /* From the edge inwards, where u begins at 0: near the edge no difference loses digits. */
@@ -183,11 +174,6 @@ fret_real fret_memory_displacement(const fret_memory *m, fret_real x) {
     for (; l > m->layers && l->inner.y[DEPTH] > y; l--)
         u += l->sigma * layer_thickness(l, outer_of(m, l), DEPTH);
     return m->mu_eta * (u + l->sigma * (outer_of(m, l)->y[DEPTH] - y));
-}
-
-fret_real fret_memory_bound(const fret_memory *m, fret_real x) {
-    const fret_real y = fret_normal_profile(m->normal, x);
-    return isnan(x) ? x : y < m->edge.y[DEPTH] ? m->mu_eta * (m->edge.y[DEPTH] - y) : 0;
 }
 
 /* int |u (delta_x-u)| dK over a part of a layer, of thickness h, without a change of sign within: with t the

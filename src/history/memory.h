@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The exact memory diagram from inside, for what follows its curve. Not installed. */
+/* The exact memory diagram under any law: what fret/contact.h says of one that has not swung. Not installed.
+ */
 #ifndef FRET_HISTORY_MEMORY_H
 #define FRET_HISTORY_MEMORY_H
 
-#include "fret/memory.h"
+#include "fret/contact.h"
+
+typedef struct fret_memory fret_memory;
 
 #define NUMBER fret_real
 #define DIAGRAM fret_memory
@@ -11,6 +14,17 @@
 #define POWER fret_pow
 #include "history/diagram_type.h"
 #include "history/steps.h"
+
+fret_status fret_memory_make(const fret_normal *normal, double mu, fret_memory **out);
+void fret_memory_free(fret_memory *memory);
+fret_status fret_memory_copy(fret_memory *to, const fret_memory *from);
+void fret_memory_reset(fret_memory *memory);
+fret_status fret_memory_step(fret_memory *memory, const fret_step *step);
+void fret_memory_state(const fret_memory *memory, fret_state *out);
+void fret_memory_forces(const fret_memory *memory, fret_state *out);
+bool fret_memory_segment(const fret_memory *memory, size_t i, fret_segment *out);
+fret_real fret_memory_displacement(const fret_memory *memory, fret_real x);
+fret_real fret_memory_slip_work(const fret_memory *memory);
 
 /* The edge with its radius, and all digits. */
 fret_press fret_memory_pressed(const fret_memory *memory);
@@ -23,7 +37,9 @@ static inline const point *fret_memory_outer(const fret_memory *m, size_t i) {
     return i + 1 < m->count ? &m->layers[i + 1].inner : &m->edge;
 }
 
-/* Gross slip while the edge moves from one depth to another: the mean of F_N [N]. */
-fret_real fret_memory_mean_force(const fret_memory *memory, fret_real from, fret_real to);
+/* As fret/contact.h packs: how many numbers there are, what they are, and back. */
+size_t fret_memory_packed(const fret_memory *memory);
+void fret_memory_pack(const fret_memory *memory, double out[]);
+fret_status fret_memory_unpack(fret_memory *memory, const double from[], size_t count);
 
 #endif

@@ -3,7 +3,7 @@
 #ifndef FRET_HISTORY_STEPS_H
 #define FRET_HISTORY_STEPS_H
 
-#include "fret/memory.h"
+#include "fret/contact.h"
 
 /* F_x/mu at the end of a step by force, which must not exceed the normal force FN there.
  * Errors: FRET_NOT_FINITE, FRET_GROSS_SLIP. */

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The memory curve in (M, P): cut and grown along the ways of the load, and what they dissipate. Allocates
  * its pieces. */
-#include "fret/swing.h"
+#include "history/swing.h"
 
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "history/memory.h"
-#include "history/swing.h"
 #include "law/check.h"
 #include "number/array.h"
 #include "number/real.h"
@@ -298,18 +296,19 @@ static void make_harmonic(const fret_swing *c, const fret_sine *sine, way *out) 
     }
 }
 
-int fret_swing_fits(const fret_swing *c, const fret_sine *sine) {
+bool fret_swing_fits(const fret_swing *c, const fret_sine *sine, double from) {
     way w;
     make_harmonic(c, sine, &w);
-    const fret_real little = 4 * DBL_EPSILON * sine->FN;
+    /* where a part has left it: to the rounding of the time */
+    const fret_real little = (from > 0 ? 16 : 4) * DBL_EPSILON * sine->FN, s = 2 * FRET_PI * from;
     fret_press most;
     if (fret_press_by_force(c->normal, (double)sine->FN + fabs(sine->FNA), &most).code)
-        return 0;
+        return false;
     const fret_real begin[2] = {c->FN - c->Fx / c->mu, c->FN + c->Fx / c->mu};
     for (int i = M; i <= P; i++)
-        if (!(w.size[i] < w.mean * (1 - 1e-12L)) || !(fabsl(way_at(&w, i, 0) - begin[i]) <= little))
-            return 0;
-    return 1;
+        if (!(w.size[i] < w.mean * (1 - 1e-12L)) || !(fabsl(way_at(&w, i, s) - begin[i]) <= little))
+            return false;
+    return true;
 }
 
 static void set_edge(fret_swing *c, const fret_press *p, fret_real Fx) {
@@ -451,12 +450,8 @@ fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
-int fret_swing_takes(const fret_normal *normal) {
-    return !fret_gap_sampled(&normal->gap);
-}
-
 fret_status fret_swing_make(const fret_memory *m, fret_swing **out) {
-    if (!fret_swing_takes(m->normal))
+    if (!fret_normal_swings(m->normal))
         return fret_fail(FRET_OUTSIDE, "gap", 0, 0);
     fret_swing *c = calloc(1, sizeof *c);
     fret_status st = c ? reserve(c, m->count + 8) : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);

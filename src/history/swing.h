@@ -3,11 +3,40 @@
 #ifndef FRET_HISTORY_SWING_H
 #define FRET_HISTORY_SWING_H
 
-#include "fret/swing.h"
+#include "history/memory.h"
 #include "law/normal.h"
 #include "number/quadrature.h"
 #include "number/real.h"
 #include "number/sum.h"
+
+/* The memory diagram under harmonic forces, event by event, no chords. With P = F_N + F_x/mu and M = F_N -
+ * F_x/mu the memory of a contact is a curve that rises in both from (0, 0) to the present (M, P); its slice
+ * at the load N = (M+P)/2 has the slope sigma = (dP-dM)/(dP+dM). When both grow the curve grows; when M falls
+ * below it, it is cut at M and goes straight up (slip forward), when P does, straight across (slip backward).
+ * With D and d the depths of the edge and of the cut, forward slip dissipates
+ *   dW = -dM mu^2 eta [F_N(D) - F_N(d) - (D-d) F_N'(d)]/F_N'(d),   backward slip the same with dP.
+ * A swinging load keeps pieces of its own way as pieces of the curve. */
+typedef struct fret_swing fret_swing;
+
+/* Goes on from the state of a memory, closed. Borrows its law, not the memory. Errors: FRET_OUTSIDE (a
+ * table), FRET_NO_MEMORY. */
+fret_status fret_swing_make(const fret_memory *memory, fret_swing **out);
+void fret_swing_free(fret_swing *swing);
+fret_status fret_swing_copy(fret_swing *to, const fret_swing *from);
+
+/* Can it run this: the contact stays closed and slips partially throughout, and is where the period is
+ * at the time `from`? */
+bool fret_swing_fits(const fret_swing *swing, const fret_sine *sine, double from);
+/* One period that fits, or a part of it: as fret_contact_swing. */
+fret_status fret_swing_period(fret_swing *swing, const fret_sine *sine);
+fret_status fret_swing_part(fret_swing *swing, const fret_sine *sine, double from, double to);
+/* A step by force, by depth with F_x, or to delta_x at constant F_N; others: FRET_OUTSIDE. */
+fret_status fret_swing_step(fret_swing *swing, const fret_step *step);
+void fret_swing_state(const fret_swing *swing, fret_state *out);
+fret_real fret_swing_last_loss(const fret_swing *swing);
+fret_real fret_swing_displacement(const fret_swing *swing, fret_real x);
+/* The state as a memory: curved pieces in 640 straight ones each. Error: FRET_NO_MEMORY. */
+fret_status fret_swing_memory(const fret_swing *swing, fret_memory *out);
 
 /* Two coordinates of a place on the curve or on the way of the load. */
 enum { M, P };
@@ -70,6 +99,9 @@ static inline fret_real way_at(const way *w, int which, fret_real s) {
 static inline fret_real way_fall(const way *w, int which, fret_real s) {
     return w->harmonic ? w->size[which] * sinl(s - w->lag[which]) : -w->span[which];
 }
+
+/* A harmonic way in load N = (M+P)/2, as M, and T = (P-M)/2, as P. */
+void fret_swing_loads(const way *w, way *out);
 
 /* The angle less whole turns, within pi of `middle`. */
 static inline fret_real turned_to(fret_real angle, fret_real middle) {

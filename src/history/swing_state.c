@@ -123,6 +123,59 @@ fret_real fret_swing_front(const fret_swing *c, int which, fret_real *left) {
     return 0;
 }
 
+/* ---- springs ----------------------------------------------------------------------------------- */
+
+void fret_swing_loads(const way *w, way *out) {
+    *out = (way){.harmonic = true, .mean = w->mean};
+    for (int i = M; i <= P; i++) {
+        fret_real x = 0, y = 0;
+        for (int j = M; j <= P; j++) {
+            const fret_real half = (i == P && j == M ? -1 : 1) * w->size[j] / 2;
+            x += half * cosl(w->lag[j]);
+            y += half * sinl(w->lag[j]);
+        }
+        out->size[i] = sqrtl(x * x + y * y);
+        out->lag[i] = atan2l(y, x);
+    }
+}
+
+/* When the load on the way of a curved piece is N. */
+static fret_real time_of(const piece *p, fret_real N) {
+    way loads;
+    fret_swing_loads(&p->way, &loads);
+    return way_when(&loads, M, N, p->lo, p->hi);
+}
+
+/* int sigma dy of the part of a piece that lies outside the depth y, where the load is N. */
+static fret_real outside(const fret_swing *c, const piece *p, fret_real y, fret_real N) {
+    const fret_real N0 = (p->first[M] + p->first[P]) / 2, N1 = (p->last[M] + p->last[P]) / 2;
+    if (!(N1 > N && N1 > N0))
+        return 0;
+    if (p->curved && N0 >= N)
+        return p->sum[0];
+    if (p->curved) {
+        piece part = *p;
+        part.lo = time_of(p, N);
+        return (part.hi - part.lo) * fret_swing_integral(c, along_rate, &(along){c, &part, false});
+    }
+    const fret_real inner = N0 > N ? fret_law_depth(c->normal, N0) : y;
+    return (p->last[P] - p->first[P] - (p->last[M] - p->first[M])) / 2 / (N1 - N0) *
+           (fret_law_depth(c->normal, N1) - inner);
+}
+
+fret_real fret_swing_displacement(const fret_swing *c, fret_real x) {
+    const fret_real y = fret_normal_profile(c->normal, x);
+    if (isnan(x) || !(y < c->dz))
+        return isnan(x) ? x : 0;
+    const fret_real N = y > 0 ? fret_law_force(c->normal, y) : 0;
+    fret_real sum = 0;
+    for (size_t i = c->count; i-- > 0;)
+        sum += outside(c, &c->pieces[i], y, N);
+    return c->mu * c->normal->foundation.eta * sum;
+}
+
+/* ---- the state --------------------------------------------------------------------------------- */
+
 /* What both ends of a piece are known to where the forces that it was made by are rounded. */
 static fret_real rounding(const fret_swing *c) {
     return 16 * DBL_EPSILON * c->scale;

@@ -99,6 +99,10 @@ bool fret_normal_is_power(const fret_normal *n) {
     return fret_normal_closed(n);
 }
 
+bool fret_normal_swings(const fret_normal *normal) {
+    return !fret_gap_sampled(&normal->gap);
+}
+
 fret_real fret_normal_end(const fret_normal *n) {
     return n->end;
 }
@@ -115,7 +119,7 @@ fret_real fret_normal_profile(const fret_normal *n, fret_real x) {
     return fret_cells_level(n->cells, BY_DEPTH, &p);
 }
 
-fret_status fret_contact_check(const fret_contact *contact) {
+fret_status fret_contact_check(const fret_pressed *contact) {
     fret_status st = fret_check_positive("mu", contact->mu);
     if (!st.code)
         st = fret_check_positive("FN", (double)contact->press.F);

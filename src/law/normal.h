@@ -46,7 +46,7 @@ static inline fret_status fret_unless_stopped(const fret_normal *n, fret_status 
 }
 
 /* mu and F_N must be positive: FRET_NOT_POSITIVE, FRET_NOT_FINITE. */
-fret_status fret_contact_check(const fret_contact *contact);
+fret_status fret_contact_check(const fret_pressed *contact);
 
 /* Can doubles hold what it is pressed to? */
 bool fret_press_held(const fret_press *press);

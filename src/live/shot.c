@@ -28,61 +28,61 @@ static void take_values(calc *c, shot *out) {
 }
 
 /* Parts of uniform slope; only the outermost where there are many. */
-static void take_rings(const fret_memory *memory, shot *out) {
+static void take_rings(const fret_contact *contact, shot *out) {
     fret_segment part;
     size_t count = 0;
     out->rings = 0;
-    while (fret_memory_segment(memory, count, &part))
+    while (fret_contact_segment(contact, count, &part))
         count++;
     for (size_t i = count > SHOT_RINGS ? count - SHOT_RINGS : 0; i < count; i++) {
         fret_press edge = {.a = 0};
-        fret_memory_segment(memory, i, &part);
-        fret_press_by_depth(fret_memory_normal(memory), (double)part.outer, &edge);
+        fret_contact_segment(contact, i, &part);
+        fret_press_by_depth(fret_contact_normal(contact), (double)part.outer, &edge);
         out->ring[out->rings++] = (shot_ring){(double)edge.a, (double)part.sigma};
     }
 }
 
 /* What friction allows depends on F_N alone: taken over from a shot of the same press. */
-static void take_bounds(const fret_memory *memory, const shot *like, shot *out) {
+static void take_bounds(const fret_contact *contact, const shot *like, shot *out) {
     if (like && like->bound == out->bound) {
         memcpy(out->B, like->B, sizeof out->B);
         return;
     }
     for (int i = 0; i <= SHOT_SAMPLES; i++)
-        out->B[i] = (double)fret_memory_bound(memory, out->a * (fret_real)i / (fret_real)SHOT_SAMPLES);
+        out->B[i] = (double)fret_contact_bound(contact, out->a * (fret_real)i / (fret_real)SHOT_SAMPLES);
 }
 
 /* u is straight in the depth, and so in the bound B = mu eta (dz - y), on each slice:
- * fret_memory_displacement at the places of the bounds, which are known. */
-static void take_displacements(const fret_memory *memory, double dz, shot *out) {
+ * fret_contact_displacement at the places of the bounds, which are known. */
+static void take_displacements(const fret_contact *contact, double dz, shot *out) {
     const double rise = dz > 0 ? out->bound / dz : 0; /* mu eta */
     fret_segment part;
     size_t slice = 0;
     for (int i = 0; i <= SHOT_SAMPLES; i++) {
         const double y = rise > 0 ? dz - out->B[i] / rise : 0;
         bool within;
-        while ((within = fret_memory_segment(memory, slice, &part)) && y > (double)part.outer)
+        while ((within = fret_contact_segment(contact, slice, &part)) && y > (double)part.outer)
             slice++;
         out->u[i] = within ? (double)part.u - rise * (double)part.sigma * (y - (double)part.inner) : 0;
     }
 }
 
 bool shot_take(calc *c, const shot *like, shot *out, calc_error *error) {
-    const fret_memory *memory;
+    const fret_contact *contact;
     fret_state state;
-    if (!scene_memory(c->now, &memory, error))
+    if (!scene_straight(c->now, &contact, error))
         return false;
-    fret_memory_state(memory, &state);
+    fret_contact_state(contact, &state);
     out->time = scene_time(c->now);
     out->a = (double)state.a;
     out->c = (double)state.c;
     out->dx = (double)state.dx;
     out->Fx = (double)state.Fx;
-    out->slip = fret_memory_friction(memory) * (double)state.FN;
-    out->bound = (double)fret_memory_bound(memory, 0);
-    take_bounds(memory, like, out);
-    take_displacements(memory, (double)state.dz, out);
-    take_rings(memory, out);
+    out->slip = fret_contact_friction(contact) * (double)state.FN;
+    out->bound = (double)fret_contact_bound(contact, 0);
+    take_bounds(contact, like, out);
+    take_displacements(contact, (double)state.dz, out);
+    take_rings(contact, out);
     take_values(c, out);
     out->digits = 0;
     return true;

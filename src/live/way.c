@@ -67,8 +67,8 @@ static bool keep_shot(load_way *w) {
 static track_point point_of(track *t, const runner *r, fret_state *s) {
     engine_state(&r->engine, s);
     const track_point p = {r->time, (double)s->dx, (double)s->Fx, (double)s->W, (double)s->U};
-    const extent here = {fabs(p.dx), fabs(p.Fx), (double)s->a, (double)fret_memory_bound(r->engine.self, 0),
-                         fmax(p.W, p.U)};
+    const extent here = {fabs(p.dx), fabs(p.Fx), (double)s->a,
+                         (double)fret_contact_bound(r->engine.contact, 0), fmax(p.W, p.U)};
     t->most = larger(t->most, here);
     return p;
 }

@@ -215,7 +215,7 @@ static model_id put_model(const page *p, const quantity *q, bool call, const exp
     scene *s = p->sh->calc.now;
     const model_id exact = quantity_model(q, s, call),
                    model = in_double && exact == MODEL_MEMORY ? MODEL_DOUBLE : exact;
-    const bool stepped = models[model].make;
+    const bool stepped = models[model].steps;
     *sine = 0;
     if (stepped && (q->reads & INPUT_BIT(IN_MU)) && swings(s))
         *sine = put_sine(p, q, call, model, e);
@@ -275,7 +275,7 @@ static void put_difference(const page *p, const expr *e, value v) {
 static void put_error(const page *p, const quantity *q, bool call, model_id model, double sine) {
     const scene *s = p->sh->calc.now;
     const bool power = !s->in.geometry || s->in.geometry->power, local = is_local(q, call);
-    const char *of = local ? "largest value" : models[model].make ? "largest value so far" : "value";
+    const char *of = local ? "largest value" : models[model].steps ? "largest value so far" : "value";
     double good = sine > 0 && local ? 1e-12 : sine > 0 || q->by || !power ? 1e-13 : DBL_EPSILON;
     good = fmax(good, fmax(models[model].rounding, sine));
     if (s->used & USED(MODEL_PIECES))

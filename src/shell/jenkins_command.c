@@ -17,7 +17,7 @@ typedef struct model {
     unsigned count;
     jenkins_element *element;
     jenkins_error quality;
-    fret_contact contact;
+    fret_pressed contact;
 } model;
 
 /* ---- forms ------------------------------------------------------------------------------------- */

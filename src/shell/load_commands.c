@@ -295,10 +295,10 @@ typedef struct sizes {
 
 /* How far the state is from what the row names, as a part of the largest values. Ways by force and by
  * displacement may end in the same state: the energy tells them apart. */
-static long double distance(const fret_memory *m, const rows *w, size_t row, fret_real loss,
+static long double distance(const fret_contact *m, const rows *w, size_t row, fret_real loss,
                             const sizes *most) {
     fret_state now;
-    fret_memory_forces(m, &now);
+    fret_contact_forces(m, &now);
     const double lost = row ? w->loss[row] - w->loss[row - 1] : 0;
     const long double off[NAMED] = {(long double)now.FN - w->normal[0][row],
                                     (long double)now.Fx - w->tangential[0][row],
@@ -313,23 +313,23 @@ static long double distance(const fret_memory *m, const rows *w, size_t row, fre
 
 /* Of the last, the state before, makes that behind the row: by the pair that comes nearer to what it names.
  */
-static bool choose_driver(fret_memory *m[KINDS + 1], const rows *w, size_t row, const sizes *most,
+static bool choose_driver(fret_contact *m[KINDS + 1], const rows *w, size_t row, const sizes *most,
                           unsigned char *driver, fret_status *st) {
     static const fret_normal_target normal[KINDS] = {FRET_TO_FORCE, FRET_TO_DEPTH};
     static const fret_tangential_target tangential[KINDS] = {FRET_TO_FX, FRET_TO_DX};
     long double least = INFINITY;
     for (unsigned char k = 0; k < KINDS; k++) {
         const fret_step step = {normal[k], tangential[k], w->normal[k][row], w->tangential[k][row]};
-        *st = fret_memory_copy(m[k], m[KINDS]);
+        *st = fret_contact_copy(m[k], m[KINDS]);
         if (st->code)
             return false;
-        const fret_status taken = fret_memory_step(m[k], &step);
+        const fret_status taken = fret_contact_step(m[k], &step);
         if (taken.code == FRET_NO_MEMORY)
             *st = taken;
         if (st->code)
             return false;
         const long double off =
-            taken.code ? INFINITY : distance(m[k], w, row, fret_memory_last_loss(m[k]), most);
+            taken.code ? INFINITY : distance(m[k], w, row, fret_contact_last_loss(m[k]), most);
         if (off < least) {
             least = off;
             *driver = k;
@@ -337,7 +337,7 @@ static bool choose_driver(fret_memory *m[KINDS + 1], const rows *w, size_t row, 
     }
     if (!(least <= SAME))
         return false;
-    fret_memory *now = m[*driver];
+    fret_contact *now = m[*driver];
     m[*driver] = m[KINDS];
     m[KINDS] = now;
     return true;
@@ -355,15 +355,15 @@ static bool choose_drivers(shell *sh, const rows *w, size_t row, unsigned char *
     const sizes most = {{largest_of(w->normal[0], n), largest_of(w->tangential[0], n),
                          largest_of(w->normal[1], n), largest_of(w->tangential[1], n),
                          largest_of(w->loss, n)}};
-    const fret_memory *now;
-    fret_memory *m[KINDS + 1] = {NULL};
+    const fret_contact *now;
+    fret_contact *m[KINDS + 1] = {NULL};
     fret_status st = {.code = FRET_OK};
-    if (!scene_memory(&sh->calc.scene, &now, error))
+    if (!scene_straight(&sh->calc.scene, &now, error))
         return false;
     for (size_t k = 0; k <= KINDS && !st.code; k++)
-        st = fret_memory_make(fret_memory_normal(now), fret_memory_friction(now), &m[k]);
+        st = fret_contact_make(fret_contact_normal(now), fret_contact_friction(now), FRET_EXACT, &m[k]);
     if (!st.code)
-        st = fret_memory_copy(m[KINDS], now);
+        st = fret_contact_copy(m[KINDS], now);
     bool ok = !st.code && (row == 0 || distance(m[KINDS], w, 0, 0, &most) <= SAME);
     size_t i = ok ? row : 0;
     while (ok && i < n && !shell_stop) {
@@ -373,7 +373,7 @@ static bool choose_drivers(shell *sh, const rows *w, size_t row, unsigned char *
         i += ok;
     }
     for (size_t k = 0; k <= KINDS; k++)
-        fret_memory_free(m[k]);
+        fret_contact_free(m[k]);
     if (shell_stop)
         return calc_interrupted(error);
     return ok ||

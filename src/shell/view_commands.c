@@ -24,12 +24,12 @@ static bool history_row(const runner *r, void *context) {
 }
 
 bool do_history(shell *sh, lexer *lx, const command *self) {
-    const fret_memory *memory;
+    const fret_contact *contact;
     column columns[HISTORY] = {{.name = NULL}};
     watch w = watch_points(1);
     target to;
     (void)self;
-    if (!scene_memory(&sh->calc.scene, &memory, lx->error) || !target_open(sh, lx, &to))
+    if (!scene_history(&sh->calc.scene, &contact, lx->error) || !target_open(sh, lx, &to))
         return false;
     table t = {.set = &sh->set, .to = to.to, .format = to.format, .count = HISTORY, .columns = columns};
     bool ok = true;

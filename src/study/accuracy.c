@@ -102,7 +102,7 @@ static bool affords(const bench *b, double setting_up) {
 /* Everything that its models need. */
 typedef struct steady {
     const bench *b;
-    fret_contact contact;
+    fret_pressed contact;
     bool by_force;
     double amplitude;
     fret_loading peak;
@@ -210,9 +210,9 @@ static bool double_row(bench *b, steady *m) {
 }
 
 static fret_status springs_ready(steady *m, unsigned count, double radius, fret_weight rule) {
-    fret_springs *springs = NULL;
-    fret_status st = fret_springs_make(m->contact.normal, m->contact.mu, count, radius, rule, &springs);
-    m->engine = (engine){.kind = &models[MODEL_SPRINGS], .self = springs};
+    m->engine = (engine){.kind = &models[MODEL_SPRINGS]};
+    fret_status st =
+        fret_springs_make(m->contact.normal, m->contact.mu, count, radius, rule, &m->engine.springs);
     if (!st.code)
         st = ready(m);
     if (st.code)
@@ -348,8 +348,7 @@ static bool open_general(bench *b, general *g, unsigned springs, unsigned first,
         }
         if (!springs)
             st = engine_make(&r->engine, MODEL_MEMORY, g->load.normal, g->load.mu, 0, 0);
-        if (g->sine && !st.code)
-            st = engine_to_sine(&r->engine);
+        r->engine.sine = g->sine;
         g->levels = i + 1;
         if (!st.code)
             st = approach(g, r);

@@ -13,7 +13,7 @@
 #define TOO_SMALL 1e-10
 
 typedef struct march {
-    const fret_contact *contact;
+    const fret_pressed *contact;
     double end; /* of what is fitted */
     bool all;   /* it is gross slip */
     double e;
@@ -161,7 +161,7 @@ static jenkins_element stuck(march *m, const jenkins_element *slipping, size_t c
     return (jenkins_element){.k = ((double)first.Fx - slip) / m->end, .s = sliding_slope(m) / 4 - slip};
 }
 
-bool jenkins(const fret_contact *contact, double amplitude, size_t count, const volatile sig_atomic_t *stop,
+bool jenkins(const fret_pressed *contact, double amplitude, size_t count, const volatile sig_atomic_t *stop,
              void (*pulse)(void), jenkins_element *out, jenkins_error *quality, calc_error *error) {
     const double slip = (double)fret_gross_slip(contact);
     march m = {.contact = contact, .stop = stop, .pulse = pulse, .all = !(amplitude < slip)};

@@ -27,7 +27,7 @@ typedef struct jenkins_error {
  * amplitude: the largest displacement amplitude [m]; infinite, or beyond gross slip: all. Short of gross slip
  * the last element stands for what still sticks there (F_x at the amplitude is exact) and makes no kink:
  * count > 1. pulse: called at times. Errors: what the loss says; stopped. */
-bool jenkins(const fret_contact *contact, double amplitude, size_t count, const volatile sig_atomic_t *stop,
+bool jenkins(const fret_pressed *contact, double amplitude, size_t count, const volatile sig_atomic_t *stop,
              void (*pulse)(void), jenkins_element *out, jenkins_error *quality, calc_error *error);
 
 #endif

@@ -18,13 +18,11 @@ typedef struct world {
     fret_gap gap;
     struct fret_table *table, *old_table; /* of the gap, and of the normal contact */
     fret_normal *normal, *other;
-    fret_contact contact;
+    fret_pressed pressed;
     fret_press press;
     fret_loading loading;
-    fret_memory *memory, *memory_copy;
-    fret_diagram *diagram, *diagram_copy;
+    fret_contact *contact, *other_contact; /* exact, or in double */
     fret_springs *springs;
-    fret_swing *swing, *swing_copy;
     fret_fields *fields;
     fret_sine sine;
     fret_state state;
@@ -50,22 +48,16 @@ static size_t whole(double x, size_t most) {
 
 static void drop_contacts(world *w) {
     fret_fields_free(w->fields);
-    fret_swing_free(w->swing);
-    fret_swing_free(w->swing_copy);
     fret_springs_free(w->springs);
-    fret_diagram_free(w->diagram);
-    fret_diagram_free(w->diagram_copy);
-    fret_memory_free(w->memory);
-    fret_memory_free(w->memory_copy);
+    fret_contact_free(w->contact);
+    fret_contact_free(w->other_contact);
     w->fields = NULL;
-    w->swing = w->swing_copy = NULL;
     w->springs = NULL;
-    w->diagram = w->diagram_copy = NULL;
-    w->memory = w->memory_copy = NULL;
+    w->contact = w->other_contact = NULL;
 }
 
 static bool same_contact(const world *w) {
-    return w->contact.normal == w->normal && w->contact.press.F > 0;
+    return w->pressed.normal == w->normal && w->pressed.press.F > 0;
 }
 
 /* What has none yet is made, of the contact as it is. */
@@ -80,39 +72,34 @@ static bool have_press(world *w) {
     if (!have_normal(w))
         return false;
     if (!same_contact(w) && known_code(fret_press_by_force(w->normal, 100, &w->press)))
-        w->contact = (fret_contact){w->normal, 0.4, w->press};
+        w->pressed = (fret_pressed){w->normal, 0.4, w->press};
     return same_contact(w);
 }
-static bool have_memory(world *w) {
-    return have_normal(w) && (w->memory || known_code(fret_memory_make(w->normal, 0.4, &w->memory)));
+static bool make_contact(world *w, double exactness, double mu, fret_contact **out) {
+    return known_code(fret_contact_make(w->normal, mu, exactness > 0 ? FRET_DOUBLE : FRET_EXACT, out));
 }
-static bool have_diagram(world *w) {
-    return have_normal(w) && (w->diagram || known_code(fret_diagram_make(w->normal, 0.4, 0, &w->diagram)));
+static bool have_contact(world *w) {
+    return have_normal(w) && (w->contact || make_contact(w, 0, 0.4, &w->contact));
+}
+static bool have_two_contacts(world *w) {
+    return have_contact(w) && (w->other_contact || make_contact(w, 0, 0.3, &w->other_contact));
 }
 static bool have_springs(world *w) {
     return have_normal(w) && (w->springs || known_code(fret_springs_make(w->normal, 0.4, SPRINGS, 3e-4,
                                                                          FRET_WEIGHT_CELL, &w->springs)));
-}
-static bool have_swing(world *w) { /* of a contact that is closed */
-    if (!have_memory(w) || w->swing)
-        return w->memory && w->swing;
-    fret_memory_forces(w->memory, &w->state);
-    return (w->state.FN > 0 ||
-            known_code(fret_memory_step(w->memory, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}))) &&
-           known_code(fret_swing_make(w->memory, &w->swing));
 }
 static bool have_fields(world *w) {
     return have_normal(w) && (w->fields || known_code(fret_fields_make(w->normal, &w->fields)));
 }
 
 /* The diagram in order: places rise from the centre to the edge, slopes are slopes. */
-static void check_memory(const fret_memory *m) {
+static void check_contact(const fret_contact *m) {
     fret_state now;
     fret_segment s;
-    fret_memory_forces(m, &now);
+    fret_contact_forces(m, &now);
     const fret_real edge = now.dz > 0 ? now.dz : 0;
     fret_real last = 0;
-    for (size_t i = 0; fret_memory_segment(m, i, &s); i++) {
+    for (size_t i = 0; fret_contact_segment(m, i, &s); i++) {
         if (!(s.inner >= 0 && s.outer >= s.inner && s.outer <= edge && fabsl(s.sigma) <= 1 &&
               (!i || s.inner == last))) {
             fprintf(stderr, "library: slice %zu of slope %Lg from %Lg to %Lg, after %Lg, of %Lg\n", i,
@@ -135,13 +122,13 @@ static fret_step step_of(const double *x) {
 CALL(fret_arrays_loss) {
     const double F[4] = {x[0], x[1], x[2], x[3]};
     if (have_press(w))
-        (void)known_code(fret_arrays_loss(&w->contact, F, w->row, 4));
+        (void)known_code(fret_arrays_loss(&w->pressed, F, w->row, 4));
 }
 CALL(fret_arrays_loading) {
     const double F[4] = {x[0], x[1], x[2], x[3]};
     if (have_press(w))
         (void)known_code(
-            fret_arrays_loading(&w->contact, F, x[4] > 0 ? w->row : NULL, x[4] >= 0 ? w->row + 4 : NULL, 4));
+            fret_arrays_loading(&w->pressed, F, x[4] > 0 ? w->row : NULL, x[4] >= 0 ? w->row + 4 : NULL, 4));
 }
 CALL(fret_arrays_press) {
     const double F[4] = {x[0], x[1], x[2], x[3]};
@@ -152,75 +139,26 @@ CALL(fret_arrays_press) {
 CALL(fret_gross_slip) {
     (void)x;
     if (have_press(w))
-        w->sink[0] = fret_gross_slip(&w->contact);
+        w->sink[0] = fret_gross_slip(&w->pressed);
 }
 CALL(fret_loading_by_force) {
     if (have_press(w))
-        (void)known_code(fret_loading_by_force(&w->contact, x[0], &w->loading));
+        (void)known_code(fret_loading_by_force(&w->pressed, x[0], &w->loading));
 }
 CALL(fret_loading_by_displacement) {
     if (have_press(w))
-        (void)known_code(fret_loading_by_displacement(&w->contact, x[0], &w->loading));
+        (void)known_code(fret_loading_by_displacement(&w->pressed, x[0], &w->loading));
 }
 CALL(fret_cycle_loss_by_force) {
     if (have_press(w))
-        (void)known_code(fret_cycle_loss_by_force(&w->contact, x[0], w->sink));
+        (void)known_code(fret_cycle_loss_by_force(&w->pressed, x[0], w->sink));
 }
 CALL(fret_cycle_loss_by_displacement) {
     if (have_press(w))
-        (void)known_code(fret_cycle_loss_by_displacement(&w->contact, x[0], w->sink));
+        (void)known_code(fret_cycle_loss_by_displacement(&w->pressed, x[0], w->sink));
 }
 CALL(fret_loss_shape) {
     w->sink[0] = fret_loss_shape(x[0], x[1], x[2], x[3]);
-}
-CALL(fret_diagram_make) {
-    fret_diagram *made;
-    if (have_normal(w) && known_code(fret_diagram_make(w->normal, x[0], whole(x[1], 30), &made))) {
-        fret_diagram_free(w->diagram);
-        w->diagram = made;
-    }
-}
-CALL(fret_diagram_free) {
-    (void)x;
-    fret_diagram_free(w->diagram);
-    w->diagram = NULL;
-}
-CALL(fret_diagram_count_loss) {
-    if (have_diagram(w))
-        fret_diagram_count_loss(w->diagram, x[0] > 0);
-}
-CALL(fret_diagram_reset) {
-    (void)x;
-    if (have_diagram(w))
-        fret_diagram_reset(w->diagram);
-}
-CALL(fret_diagram_copy) {
-    (void)x;
-    if (have_diagram(w) &&
-        (w->diagram_copy || known_code(fret_diagram_make(w->normal, 0.3, 0, &w->diagram_copy)))) {
-        (void)known_code(fret_diagram_copy(w->diagram_copy, w->diagram));
-        fret_diagram *was = w->diagram;
-        w->diagram = w->diagram_copy;
-        w->diagram_copy = was;
-    }
-}
-CALL(fret_diagram_step) {
-    const fret_step step = step_of(x);
-    if (have_diagram(w))
-        (void)known_code(fret_diagram_step(w->diagram, &step));
-}
-CALL(fret_diagram_forces) {
-    fret_diagram_now now;
-    (void)x;
-    if (have_diagram(w)) {
-        fret_diagram_forces(w->diagram, &now);
-        w->sink[0] = now.Fx;
-    }
-}
-CALL(fret_diagram_state) {
-    (void)x;
-    if (have_diagram(w))
-        fret_diagram_state(w->diagram, &w->state);
 }
 CALL(fret_pressure) {
     if (have_normal(w))
@@ -239,12 +177,12 @@ CALL(fret_surface_of) {
         (void)known_code(fret_surface_of(w->normal, &w->press, x[0], w->sink));
 }
 CALL(fret_traction) {
-    if (have_memory(w))
-        (void)known_code(fret_traction(w->memory, x[0], w->sink));
+    if (have_contact(w))
+        (void)known_code(fret_traction(w->contact, x[0], w->sink));
 }
 CALL(fret_surface_x) {
-    if (have_memory(w))
-        (void)known_code(fret_surface_x(w->memory, x[0], w->sink));
+    if (have_contact(w))
+        (void)known_code(fret_surface_x(w->contact, x[0], w->sink));
 }
 CALL(fret_fields_make) {
     (void)x;
@@ -272,12 +210,12 @@ CALL(fret_fields_surface_of) {
         (void)known_code(fret_fields_surface_of(w->fields, &w->press, x[0], w->sink));
 }
 CALL(fret_fields_traction) {
-    if (have_memory(w) && have_fields(w))
-        (void)known_code(fret_fields_traction(w->fields, w->memory, x[0], w->sink));
+    if (have_contact(w) && have_fields(w))
+        (void)known_code(fret_fields_traction(w->fields, w->contact, x[0], w->sink));
 }
 CALL(fret_fields_surface_x) {
-    if (have_memory(w) && have_fields(w))
-        (void)known_code(fret_fields_surface_x(w->fields, w->memory, x[0], w->sink));
+    if (have_contact(w) && have_fields(w))
+        (void)known_code(fret_fields_surface_x(w->fields, w->contact, x[0], w->sink));
 }
 CALL(fret_fields_error) {
     (void)x;
@@ -366,85 +304,11 @@ CALL(fret_foundation_make) {
     if (known_code(fret_foundation_make(&material, &made)))
         w->material = material;
 }
-CALL(fret_memory_make) {
-    fret_memory *made;
-    if (have_normal(w) && known_code(fret_memory_make(w->normal, x[0], &made))) {
-        fret_memory_free(w->memory);
-        w->memory = made;
-    }
-}
-CALL(fret_memory_free) {
-    (void)x;
-    fret_memory_free(w->memory);
-    w->memory = NULL;
-}
-CALL(fret_memory_copy) {
-    (void)x;
-    if (have_memory(w) && (w->memory_copy || known_code(fret_memory_make(w->normal, 0.3, &w->memory_copy)))) {
-        (void)known_code(fret_memory_copy(w->memory_copy, w->memory));
-        fret_memory *was = w->memory;
-        w->memory = w->memory_copy;
-        w->memory_copy = was;
-    }
-}
-CALL(fret_memory_normal) {
-    (void)x;
-    if (have_memory(w) && fret_memory_normal(w->memory) != w->normal)
-        abort();
-}
-CALL(fret_memory_friction) {
-    (void)x;
-    if (have_memory(w) && !(fret_memory_friction(w->memory) > 0))
-        abort();
-}
-CALL(fret_memory_reset) {
-    (void)x;
-    if (have_memory(w))
-        fret_memory_reset(w->memory);
-}
-CALL(fret_memory_step) {
-    const fret_step step = step_of(x);
-    if (have_memory(w) && known_code(fret_memory_step(w->memory, &step)))
-        check_memory(w->memory);
-}
-CALL(fret_memory_state) {
-    (void)x;
-    if (have_memory(w))
-        fret_memory_state(w->memory, &w->state);
-}
-CALL(fret_memory_forces) {
-    (void)x;
-    if (have_memory(w))
-        fret_memory_forces(w->memory, &w->state);
-}
-CALL(fret_memory_last_loss) {
-    (void)x;
-    if (have_memory(w) && !(fret_memory_last_loss(w->memory) >= 0))
-        abort();
-}
-CALL(fret_memory_segment) {
-    fret_segment s;
-    if (have_memory(w))
-        (void)fret_memory_segment(w->memory, whole(x[0], 100), &s);
-}
-CALL(fret_memory_displacement) {
-    if (have_memory(w))
-        w->sink[0] = fret_memory_displacement(w->memory, x[0]);
-}
-CALL(fret_memory_bound) {
-    if (have_memory(w))
-        w->sink[0] = fret_memory_bound(w->memory, x[0]);
-}
-CALL(fret_memory_slip_work) {
-    (void)x;
-    if (have_memory(w))
-        w->sink[0] = fret_memory_slip_work(w->memory);
-}
 static void forget_normal(world *w) {
     drop_contacts(w);
     fret_normal_free(w->normal);
     w->normal = NULL;
-    w->contact.normal = NULL;
+    w->pressed.normal = NULL;
     if (w->old_table != w->table)
         fret_table_free(w->old_table);
     w->old_table = NULL;
@@ -472,7 +336,7 @@ CALL(fret_normal_hold) {
     fret_normal_free(other);
     (void)known_code(fret_press_by_force(held, x[1], &w->press));
     fret_normal_free(held);
-    w->contact.normal = NULL;
+    w->pressed.normal = NULL;
 }
 CALL(fret_normal_error) {
     (void)x;
@@ -505,9 +369,9 @@ CALL(fret_normal_profile) {
 }
 static void take_press(world *w, double mu, fret_status st) {
     if (known_code(st))
-        w->contact = (fret_contact){w->normal, mu, w->press};
+        w->pressed = (fret_pressed){w->normal, mu, w->press};
     else
-        w->contact.normal = NULL;
+        w->pressed.normal = NULL;
 }
 CALL(fret_press_by_force) {
     if (have_normal(w))
@@ -528,7 +392,7 @@ CALL(fret_normal_stiffness) {
 CALL(fret_cycle_loss_by_definition) {
     (void)x;
     if (have_press(w))
-        (void)known_code(fret_cycle_loss_by_definition(&w->contact, &w->loading, w->sink, w->sink + 1));
+        (void)known_code(fret_cycle_loss_by_definition(&w->pressed, &w->loading, w->sink, w->sink + 1));
 }
 CALL(fret_springs_make) {
     fret_springs *made;
@@ -566,77 +430,121 @@ CALL(fret_status_text) {
     const fret_status st = {(fret_code)whole(x[0], 100), x[1] > 0 ? "x" : NULL, x[2], x[3]};
     w->sink[0] = fret_status_text(&st, text, whole(x[4], sizeof text));
 }
-CALL(fret_swing_takes) {
-    (void)x;
-    if (have_normal(w))
-        w->sink[0] = fret_swing_takes(w->normal);
-}
-CALL(fret_swing_make) {
-    (void)x;
-    fret_swing_free(w->swing);
-    w->swing = NULL;
-    (void)have_swing(w);
-}
-CALL(fret_swing_free) {
-    (void)x;
-    fret_swing_free(w->swing);
-    w->swing = NULL;
-}
-CALL(fret_swing_copy) {
-    (void)x;
-    if (have_swing(w) && (w->swing_copy || known_code(fret_swing_make(w->memory, &w->swing_copy)))) {
-        (void)known_code(fret_swing_copy(w->swing_copy, w->swing));
-        fret_swing *was = w->swing;
-        w->swing = w->swing_copy;
-        w->swing_copy = was;
+
+CALL(fret_contact_make) {
+    fret_contact *made;
+    if (have_normal(w) && make_contact(w, x[1], x[0], &made)) {
+        fret_contact_free(w->contact);
+        w->contact = made;
     }
 }
-CALL(fret_swing_fits) {
-    w->sine = (fret_sine){x[0], x[1], x[2], x[3]};
-    if (have_swing(w))
-        (void)fret_swing_fits(w->swing, &w->sine);
+CALL(fret_contact_free) {
+    (void)x;
+    fret_contact_free(w->contact);
+    w->contact = NULL;
 }
-CALL(fret_swing_period) {
-    w->sine = (fret_sine){x[0], x[1], x[2], x[3]};
-    if (have_swing(w) && fret_swing_fits(w->swing, &w->sine))
-        (void)known_code(fret_swing_period(w->swing, &w->sine));
+CALL(fret_contact_copy) {
+    (void)x;
+    if (have_two_contacts(w)) {
+        (void)known_code(fret_contact_copy(w->other_contact, w->contact));
+        fret_contact *was = w->contact;
+        w->contact = w->other_contact;
+        w->other_contact = was;
+    }
 }
-CALL(fret_swing_part) {
-    w->sine = (fret_sine){x[0], x[1], x[2], x[3]};
-    if (have_swing(w) && fret_swing_fits(w->swing, &w->sine))
-        (void)known_code(fret_swing_part(w->swing, &w->sine, x[4], x[5]));
+CALL(fret_contact_chords) {
+    (void)x;
+    if (have_two_contacts(w))
+        (void)known_code(fret_contact_chords(w->other_contact, w->contact));
 }
-CALL(fret_swing_step) {
+CALL(fret_contact_reset) {
+    (void)x;
+    if (have_contact(w))
+        fret_contact_reset(w->contact);
+}
+CALL(fret_contact_normal) {
+    (void)x;
+    if (have_contact(w) && fret_contact_normal(w->contact) != w->normal)
+        abort();
+}
+CALL(fret_contact_friction) {
+    (void)x;
+    if (have_contact(w) && !(fret_contact_friction(w->contact) > 0))
+        abort();
+}
+CALL(fret_contact_step) {
     const fret_step step = step_of(x);
-    if (have_swing(w))
-        (void)known_code(fret_swing_step(w->swing, &step));
+    if (have_contact(w) && known_code(fret_contact_step(w->contact, &step)))
+        check_contact(w->contact);
 }
-CALL(fret_swing_state) {
+CALL(fret_contact_count_loss) {
+    if (have_contact(w))
+        fret_contact_count_loss(w->contact, x[0] > 0);
+}
+CALL(fret_contact_swing) {
+    w->sine = (fret_sine){x[0], x[1], x[2], x[3]};
+    if (have_contact(w))
+        (void)known_code(fret_contact_swing(w->contact, &w->sine, x[4], x[5]));
+}
+CALL(fret_normal_swings) {
     (void)x;
-    if (have_swing(w))
-        fret_swing_state(w->swing, &w->state);
+    if (have_normal(w))
+        w->sink[0] = fret_normal_swings(w->normal);
 }
-CALL(fret_swing_last_loss) {
+CALL(fret_contact_curved) {
     (void)x;
-    if (have_swing(w))
-        w->sink[0] = fret_swing_last_loss(w->swing);
+    if (have_contact(w))
+        w->sink[0] = fret_contact_curved(w->contact);
 }
-CALL(fret_swing_traction) {
-    if (have_swing(w))
-        (void)known_code(fret_swing_traction(w->swing, x[0], w->sink));
-}
-CALL(fret_swing_surface_x) {
-    if (have_swing(w))
-        (void)known_code(fret_swing_surface_x(w->swing, x[0], w->sink));
-}
-CALL(fret_swing_displacement) {
-    if (have_swing(w))
-        w->sink[0] = fret_swing_displacement(w->swing, x[0]);
-}
-CALL(fret_swing_memory) {
+CALL(fret_contact_state) {
     (void)x;
-    if (have_swing(w) && (w->memory_copy || known_code(fret_memory_make(w->normal, 0.4, &w->memory_copy))))
-        (void)known_code(fret_swing_memory(w->swing, w->memory_copy));
+    if (have_contact(w))
+        fret_contact_state(w->contact, &w->state);
+}
+CALL(fret_contact_forces) {
+    (void)x;
+    if (have_contact(w))
+        fret_contact_forces(w->contact, &w->state);
+}
+CALL(fret_contact_last_loss) {
+    (void)x;
+    if (have_contact(w) && !(fret_contact_last_loss(w->contact) >= 0))
+        abort();
+}
+CALL(fret_contact_segment) {
+    fret_segment s;
+    if (have_contact(w))
+        (void)fret_contact_segment(w->contact, whole(x[0], 100), &s);
+}
+CALL(fret_contact_displacement) {
+    if (have_contact(w))
+        w->sink[0] = fret_contact_displacement(w->contact, x[0]);
+}
+CALL(fret_contact_bound) {
+    if (have_contact(w))
+        w->sink[0] = fret_contact_bound(w->contact, x[0]);
+}
+CALL(fret_contact_slip_work) {
+    (void)x;
+    if (have_contact(w))
+        w->sink[0] = fret_contact_slip_work(w->contact);
+}
+CALL(fret_contact_pack) {
+    static double packed[4000];
+    size_t count;
+    if (have_contact(w))
+        (void)known_code(fret_contact_pack(w->contact, packed, whole(x[0], 4000), &count));
+}
+/* A history as it is, or with one number that is another. */
+CALL(fret_contact_unpack) {
+    static double packed[4000];
+    size_t count;
+    if (!have_contact(w) || !known_code(fret_contact_pack(w->contact, packed, 4000, &count)))
+        return;
+    if (x[0] >= 0)
+        packed[whole(x[0], count - 1)] = x[1];
+    if (known_code(fret_contact_unpack(w->contact, packed, count - whole(x[2], count))))
+        check_contact(w->contact);
 }
 
 #define ROW(name)                                                                                            \
@@ -645,6 +553,27 @@ static const struct row {
     const char *name;
     void (*call)(world *w, const double *x);
 } rows[] = {
+    ROW(fret_contact_make),
+    ROW(fret_contact_free),
+    ROW(fret_contact_copy),
+    ROW(fret_contact_chords),
+    ROW(fret_contact_reset),
+    ROW(fret_contact_normal),
+    ROW(fret_contact_friction),
+    ROW(fret_contact_step),
+    ROW(fret_contact_count_loss),
+    ROW(fret_contact_swing),
+    ROW(fret_normal_swings),
+    ROW(fret_contact_curved),
+    ROW(fret_contact_state),
+    ROW(fret_contact_forces),
+    ROW(fret_contact_last_loss),
+    ROW(fret_contact_segment),
+    ROW(fret_contact_displacement),
+    ROW(fret_contact_bound),
+    ROW(fret_contact_slip_work),
+    ROW(fret_contact_pack),
+    ROW(fret_contact_unpack),
     ROW(fret_arrays_loss),
     ROW(fret_arrays_loading),
     ROW(fret_arrays_press),
@@ -654,14 +583,6 @@ static const struct row {
     ROW(fret_cycle_loss_by_force),
     ROW(fret_cycle_loss_by_displacement),
     ROW(fret_loss_shape),
-    ROW(fret_diagram_make),
-    ROW(fret_diagram_free),
-    ROW(fret_diagram_count_loss),
-    ROW(fret_diagram_reset),
-    ROW(fret_diagram_copy),
-    ROW(fret_diagram_step),
-    ROW(fret_diagram_forces),
-    ROW(fret_diagram_state),
     ROW(fret_pressure),
     ROW(fret_surface),
     ROW(fret_pressure_of),
@@ -688,20 +609,6 @@ static const struct row {
     ROW(fret_table_free),
     ROW(fret_half_space),
     ROW(fret_foundation_make),
-    ROW(fret_memory_make),
-    ROW(fret_memory_free),
-    ROW(fret_memory_copy),
-    ROW(fret_memory_normal),
-    ROW(fret_memory_friction),
-    ROW(fret_memory_reset),
-    ROW(fret_memory_step),
-    ROW(fret_memory_state),
-    ROW(fret_memory_forces),
-    ROW(fret_memory_last_loss),
-    ROW(fret_memory_segment),
-    ROW(fret_memory_displacement),
-    ROW(fret_memory_bound),
-    ROW(fret_memory_slip_work),
     ROW(fret_normal_make),
     ROW(fret_normal_hold),
     ROW(fret_normal_error),
@@ -724,20 +631,6 @@ static const struct row {
     ROW(fret_status_category),
     ROW(fret_status_rule),
     ROW(fret_status_text),
-    ROW(fret_swing_takes),
-    ROW(fret_swing_make),
-    ROW(fret_swing_free),
-    ROW(fret_swing_copy),
-    ROW(fret_swing_fits),
-    ROW(fret_swing_period),
-    ROW(fret_swing_part),
-    ROW(fret_swing_step),
-    ROW(fret_swing_state),
-    ROW(fret_swing_last_loss),
-    ROW(fret_swing_traction),
-    ROW(fret_swing_surface_x),
-    ROW(fret_swing_displacement),
-    ROW(fret_swing_memory),
 };
 
 /* ---- lines ------------------------------------------------------------------------------------- */

@@ -161,19 +161,21 @@ static void keep(errors *e, int which, fret_real difference, fret_real scale) {
         e->worst[which] = x;
 }
 
-static void compare(errors *e, const state *s, const fret_memory *exact, const fret_diagram *fast, bool all) {
+static void compare(errors *e, const state *s, const fret_contact *exact, const fret_contact *fast,
+                    bool all) {
     const double energy = s->mu * s->F * s->x;
-    fret_diagram_now now;
-    fret_diagram_forces(fast, &now);
+    fret_state now;
+    fret_contact_forces(fast, &now);
+    const fret_real last = fret_contact_last_loss(fast);
     keep(e, FX, s->now.Fx - now.Fx, s->mu * s->F);
     keep(e, DX, s->now.dx - now.dx, s->x);
     keep(e, NORMAL, fmaxl(fabsl(s->now.FN - now.FN) / s->F, fabsl(s->now.dz - now.dz) / s->z), 1);
-    keep(e, STEP, fret_memory_last_loss(exact) - now.last_loss, energy + now.last_loss);
+    keep(e, STEP, fret_contact_last_loss(exact) - last, energy + last);
     keep(e, LOSS, s->now.W - now.W, energy + s->now.W);
     if (all) {
         fret_state ours, theirs;
-        fret_diagram_state(fast, &ours);
-        fret_memory_state(exact, &theirs);
+        fret_contact_state(fast, &ours);
+        fret_contact_state(exact, &theirs);
         keep(e, STORED, theirs.U - ours.U, energy);
         e->slices = ours.slices > e->slices ? ours.slices : e->slices;
     }
@@ -184,28 +186,29 @@ static void compare(errors *e, const state *s, const fret_memory *exact, const f
 static errors run(const fret_normal *normal, double mu, double depth, fret_step (*next)(const state *),
                   unsigned long steps, bool rounds, hard_random *r) {
     enum { STATES = 1000, TWIN = 8 * 4 };
-    fret_memory *exact;
-    fret_diagram *fast;
+    fret_contact *exact;
+    fret_contact *fast;
     fret_press most;
     errors e = {{0}, 0, false};
-    if (fret_memory_make(normal, mu, &exact).code || fret_diagram_make(normal, mu, 0, &fast).code ||
+    if (fret_contact_make(normal, mu, FRET_EXACT, &exact).code ||
+        fret_contact_make(normal, mu, FRET_DOUBLE, &fast).code ||
         fret_press_by_depth(normal, depth, &most).code)
         abort();
     state s = {.F = (double)most.F, .z = depth, .mu = mu, .size = 1, .r = r};
     s.x = mu * (double)fret_normal_foundation(normal)->eta * depth;
     fret_real W = 0, loss = 0;
     const fret_step press = {FRET_TO_DEPTH, FRET_KEEP_DX, depth, 0};
-    if (fret_memory_step(exact, &press).code || fret_diagram_step(fast, &press).code)
+    if (fret_contact_step(exact, &press).code || fret_contact_step(fast, &press).code)
         abort();
     for (s.i = 0; s.i < steps; s.i++) {
         if (s.i % 64 == 0)
             s.size = hard_scale(r, -20, 0);
         const fret_step step = next(&s);
         const bool twin = !rounds || s.i < TWIN;
-        if (fret_diagram_step(fast, &step).code != (twin ? fret_memory_step(exact, &step).code : FRET_OK))
+        if (fret_contact_step(fast, &step).code != (twin ? fret_contact_step(exact, &step).code : FRET_OK))
             e.refused = true;
         if (rounds && s.i % 4 == 3) {
-            fret_memory_forces(exact, &s.now);
+            fret_contact_forces(exact, &s.now);
             if (twin) {
                 loss = s.now.W - W;
                 W = s.now.W;
@@ -213,12 +216,12 @@ static errors run(const fret_normal *normal, double mu, double depth, fret_step 
             s.now.W = W + loss * (fret_real)(s.i / 4 + 1 - TWIN / 4) * !twin;
             compare(&e, &s, exact, fast, s.i < 4 * STATES || s.i + 4 > steps);
         } else if (!rounds) {
-            fret_memory_forces(exact, &s.now);
+            fret_contact_forces(exact, &s.now);
             compare(&e, &s, exact, fast, s.i % (steps / STATES + 1) == 0);
         }
     }
-    fret_memory_free(exact);
-    fret_diagram_free(fast);
+    fret_contact_free(exact);
+    fret_contact_free(fast);
     return e;
 }
 

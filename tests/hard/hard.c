@@ -239,7 +239,7 @@ static void solve(oracle *o, const hard_scene *s) {
 
 /* At the load F of the normal contact. NAN for what was refused. */
 static void ask_loaded(const hard_scene *s, const fret_normal *normal, fret_real got[ORACLE_COUNT]) {
-    fret_contact c = {.normal = normal, .mu = s->mu};
+    fret_pressed c = {.normal = normal, .mu = s->mu};
     fret_loading loading;
     if (fret_press_by_force(normal, s->F, &c.press).code)
         return;

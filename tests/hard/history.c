@@ -203,10 +203,10 @@ static fixture fixture_make(const specimen *b) {
     return f;
 }
 
-static fret_memory *pressed(const fixture *f) {
-    fret_memory *m;
-    if (fret_memory_make(f->normal, f->specimen->mu, &m).code ||
-        fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, f->F, 0}).code)
+static fret_contact *pressed(const fixture *f) {
+    fret_contact *m;
+    if (fret_contact_make(f->normal, f->specimen->mu, FRET_EXACT, &m).code ||
+        fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, f->F, 0}).code)
         abort();
     return m;
 }
@@ -236,7 +236,7 @@ static void run_history(const fixture *f, const history *h, unsigned long steps)
     masing_make(exact, f->o, h->by_force);
     mpfr_t response, W, old_W, c, held;
     mpfr_inits2(256, response, W, old_W, c, held, (mpfr_ptr)0);
-    fret_memory *m = pressed(f);
+    fret_contact *m = pressed(f);
     hard_random r = hard_seed(steps);
     outcome out = {.steps = steps};
     bool refused = false;
@@ -247,14 +247,14 @@ static void run_history(const fixture *f, const history *h, unsigned long steps)
         if (compare)
             masing_state(exact, response, old_W, c);
         masing_go(exact, x);
-        if (fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, h->by_force ? FRET_TO_FX : FRET_TO_DX, 0, x})
+        if (fret_contact_step(m, &(fret_step){FRET_KEEP_NORMAL, h->by_force ? FRET_TO_FX : FRET_TO_DX, 0, x})
                 .code)
             refused = true;
         if (!compare)
             continue;
         check = i + every;
         fret_state s;
-        fret_memory_state(m, &s);
+        fret_contact_state(m, &s);
         masing_state(exact, response, W, c);
         mpfr_sub(old_W, W, old_W, MPFR_RNDN);
         mpfr_set_d(held, x, MPFR_RNDN);
@@ -262,13 +262,13 @@ static void run_history(const fixture *f, const history *h, unsigned long steps)
         keep(&out, RESPONSE, (double)(h->by_force ? s.dx : s.Fx), response);
         keep(&out, STICK, (double)s.c, c);
         keep(&out, WORK, (double)s.W, W);
-        keep(&out, LAST, (double)fret_memory_last_loss(m), old_W);
+        keep(&out, LAST, (double)fret_contact_last_loss(m), old_W);
         out.slices = s.slices > out.slices ? s.slices : out.slices;
     }
     if (refused)
         out.ulps[HELD] = INFINITY;
     row(f->specimen->name, h->name, &out);
-    fret_memory_free(m);
+    fret_contact_free(m);
     masing_free(exact);
     free(exact);
     mpfr_clears(response, W, old_W, c, held, (mpfr_ptr)0);
@@ -280,7 +280,7 @@ static void run_history(const fixture *f, const history *h, unsigned long steps)
 static void run_swing(const fixture *f, unsigned long steps) {
     static const double turn[4][2] = {{0.8, 0}, {0.6, -0.2}, {0.9, 0}, {1, 0.3}}; /* FN/F, Fx/(mu F) */
     enum { SETTLED = 4 };
-    fret_memory *m = pressed(f);
+    fret_contact *m = pressed(f);
     fret_state s, first = {0};
     outcome out = {.steps = steps};
     mpfr_t want, loss;
@@ -290,15 +290,15 @@ static void run_swing(const fixture *f, unsigned long steps) {
     for (unsigned long round = 0; round < steps / 4; round++) {
         fret_real last = 0;
         for (int i = 0; i < 4; i++) {
-            if (fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, turn[i][0] * f->F,
-                                                 turn[i][1] * f->specimen->mu * f->F})
+            if (fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, turn[i][0] * f->F,
+                                                  turn[i][1] * f->specimen->mu * f->F})
                     .code)
                 refused = true;
-            last += fret_memory_last_loss(m);
+            last += fret_contact_last_loss(m);
         }
         if (round < SETTLED)
             continue;
-        fret_memory_state(m, &s);
+        fret_contact_state(m, &s);
         out.slices = s.slices > out.slices ? s.slices : out.slices;
         if (round == SETTLED) {
             first = s;
@@ -321,7 +321,7 @@ static void run_swing(const fixture *f, unsigned long steps) {
         out.ulps[HELD] = INFINITY;
     row(f->specimen->name, "FN and Fx swing", &out);
     mpfr_clears(want, loss, (mpfr_ptr)0);
-    fret_memory_free(m);
+    fret_contact_free(m);
 }
 
 void hard_histories(unsigned long steps) {

@@ -115,7 +115,7 @@ def unsaid(files):
 
 def told_apart(files):
     for name, text in sorted(files.items()):
-        if room(name) in LIBRARY and name not in ("law/gap.c", "fret/gap.h"):
+        if room(name) in LIBRARY and name not in ("law/gap.c", "fret/gap.h", "fret/fret.h"):
             for shape in SHAPE.findall(text):
                 yield "%s: %s" % (name, shape)
 

@@ -68,6 +68,25 @@ def from_python(tests):
                 [line.split() for line in want.splitlines()[1:]] and want.count("\n") == 9, done.stdout + done.stderr + want)
 
 
+def example(tests):
+    """That of fret.h, as an embedder would build it, says what the program says."""
+    with open(os.path.join(harness.ROOT, "include/fret/fret.h"), encoding="utf-8") as f:
+        lines = f.read().splitlines()
+    first = next(i for i, line in enumerate(lines) if "#include <fret/fret.h>" in line)
+    last = next(i for i in range(first, len(lines)) if lines[i] == " *   }")
+    path, program = os.path.join(tests.dir, "example.c"), os.path.join(tests.dir, "example")
+    with open(path, "w", encoding="utf-8") as f:
+        f.write("".join(line[5:] + "\n" for line in lines[first:last + 1]))
+    done = subprocess.run([os.environ.get("CC", "cc"), "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-I" + os.path.join(harness.ROOT, "include"),
+                           path, os.path.join(harness.ROOT, tests.build, "libfret.a"), "-lm", "-o", program],
+                          capture_output=True, text=True)
+    tests.check("the example of fret.h is C without warnings", done.returncode == 0 and not done.stderr, done.stderr)
+    shown = subprocess.run([program], capture_output=True, text=True).stdout if not done.returncode else ""
+    want = tests.run("-c", "material steel E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                     "step Fx=20 N; step Fx=-20 N; step Fx=20 N; dx in m; c in m; W in J").stdout
+    tests.check("and tells what the program tells", shown == want and want.count("\n") == 3, shown + want)
+
+
 def elsewhere(tests):
     for manager, words in (("dnf", "dnf install .*readline-devel"), ("pacman", "pacman -S .*readline"),
                            ("zypper", "zypper install .*readline-devel"), ("apk", "apk add .*readline-dev"),
@@ -102,5 +121,5 @@ def begins(tests):
 
 def run(tests):
     """What is installed is the plain build."""
-    for room in (installed, from_python, elsewhere, debian, begins):
+    for room in (installed, from_python, example, elsewhere, debian, begins):
         room(tests)

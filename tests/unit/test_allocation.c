@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each allocation of the library fails once: the call says so, what it was to change is as it was, nothing
  * leaks. The Makefile links this program so that the library allocates through the functions here. */
+#include "histories.h"
+
 #include "failing.h"
 #include "unit.h"
 
 enum { ROWS = 40 };
 static double r[ROWS], f[ROWS];
-static fret_contact contact;
+static fret_pressed contact;
 static double limit, slip;
 
 static fret_status last;
@@ -98,7 +100,7 @@ static void memories(void) {
 
 static void diagrams(void) {
     fret_diagram *d[2];
-    fret_diagram_now before, now;
+    fret_state before, now;
     int refused = 0;
     for (int i = 0; i < 2; i++) {
         CHECK_OK(fret_diagram_make(contact.normal, 0.4, 0, &d[i]));
@@ -291,8 +293,8 @@ static void fields(void) {
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 5}));
     EACH(1, fret_fields_make(normal, &many), many == NULL);
-    EACH(4, fret_fields_traction(many, m, 1e-5L, &q), isnan(fret_fields_error(many)));
-    CHECK_OK(fret_fields_traction(many, m, 1e-5L, &again));
+    EACH(4, fret_fields_traction(many, CONTACT_OF(m), 1e-5L, &q), isnan(fret_fields_error(many)));
+    CHECK_OK(fret_fields_traction(many, CONTACT_OF(m), 1e-5L, &again));
     CHECK(q > 0 && q == again && fret_fields_error(many) < 1e-14);
     fret_fields_free(many);
     fret_memory_free(m);

@@ -32,7 +32,7 @@ static bool ask_FN(scene *s, double v[VALUES]) {
 }
 
 static bool ask_contact(scene *s, double v[VALUES]) {
-    fret_contact c;
+    fret_pressed c;
     fret_real loss = 0;
     if (!scene_contact(s, &c, fresh()))
         return false;
@@ -66,10 +66,10 @@ static bool ask_forces(scene *s, double v[VALUES]) {
 }
 
 static bool ask_memory(scene *s, double v[VALUES]) {
-    const fret_memory *m;
-    if (!scene_memory(s, &m, fresh()))
+    const fret_contact *m;
+    if (!scene_straight(s, &m, fresh()))
         return false;
-    v[0] = (double)fret_memory_displacement(m, 0);
+    v[0] = (double)fret_contact_displacement(m, 0);
     return true;
 }
 
@@ -422,7 +422,7 @@ static void swings_too_far(void) {
 static void too_steep(void) {
     const fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {100, 1e-6, 1e-4}}};
     double one[VALUES], many[VALUES];
-    fret_contact contact;
+    fret_pressed contact;
     calc c;
     begin(&c, &(scened){.automatic = true});
     inputs_geometry(&c.now->in, geometry_find("sum", 3), &sum, NULL);
@@ -510,7 +510,7 @@ static bool as(const engine *e, const fret_state *want) {
 
 static bool copied(engine *to, const engine *from) {
     engine_end(to); /* from nothing: each of its parts is had anew */
-    return !engine_copy(to, from, engine_normal(from), engine_friction(from)).code;
+    return !engine_copy(to, from).code;
 }
 
 /* A model with as many slices as are kept, before something swings and after: it is copied and shown, or it
@@ -519,7 +519,7 @@ static void sine_without_memory(void) {
     const fret_material m = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1e-3};
     const fret_gap gap = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{2, 5e-5, 1e-3}}};
     const fret_sine load = {.FA = 5, .FNA = 20, .phase = 1, .FN = 100};
-    engine e, copy = {.self = NULL};
+    engine e, copy = {.contact = NULL};
     fret_state now;
     bool taken = false;
     CHECK_OK(engine_make(&e, MODEL_MEMORY, unit_keep_normal(&m, &gap), 0.4, 0, 0));
@@ -527,7 +527,7 @@ static void sine_without_memory(void) {
         CHECK_OK(engine_step(&e, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 1 + i, 1e-3 * i * i}));
     CHECK_OK(engine_step(&e, &(fret_step){FRET_TO_FORCE, FRET_TO_FX,
                                           (double)(load.FN + (fret_real)load.FNA * cosl(1)), load.FA}));
-    CHECK_OK(engine_to_sine(&e));
+    e.sine = true;
     for (int swung = 0; swung < 2; swung++) {
         engine_state(&e, &now);
         EACH_FAILS(2, copied(&copy, &e), as(&e, &now));
@@ -537,8 +537,10 @@ static void sine_without_memory(void) {
             CHECK(taken);
         }
     }
-    EACH_FAILS(0, engine_memory(&copy) != NULL, as(&copy, &now));
-    CHECK_REL(fret_memory_friction(engine_memory(&copy)), 0.4, 0);
+    fret_contact *chords = NULL;
+    CHECK_OK(fret_contact_make(fret_contact_normal(e.contact), 0.4, FRET_EXACT, &chords));
+    EACH_FAILS(1, !fret_contact_chords(chords, copy.contact).code, as(&copy, &now));
+    fret_contact_free(chords);
     engine_end(&e);
     engine_end(&copy);
 }

@@ -30,16 +30,16 @@ static bool same_bits(const double *x, const double *y, size_t count) {
     } while (0)
 
 /* False where the contact itself is out of range. */
-static bool make(double n, double k, double mu, double FN, fret_contact *out) {
+static bool make(double n, double k, double mu, double FN, fret_pressed *out) {
     const unit_scene s = unit_make_scene(n, k);
-    *out = (fret_contact){.normal = unit_make_normal(&s), .mu = mu};
+    *out = (fret_pressed){.normal = unit_make_normal(&s), .mu = mu};
     return !fret_press_by_force(out->normal, FN, &out->press).code;
 }
 
 enum { LOADS = 72 }; /* a block and a half group more */
 
 /* Loads of each kind: small, middling, near gross slip. */
-static void fill(const fret_contact *c, double loads[LOADS]) {
+static void fill(const fret_pressed *c, double loads[LOADS]) {
     fret_real limit = c->mu * c->press.F;
     for (int i = 0; i < LOADS; i++) {
         fret_real t = i % 4 == 0   ? uniform(0, 1)
@@ -53,7 +53,7 @@ static void fill(const fret_contact *c, double loads[LOADS]) {
 }
 
 /* Measured over 1e6 loads: loss 1.12e-15, c 3.6e-16, dx 5.2e-16, a 2.2e-16, dz 3.1e-16. */
-static void compare(const fret_contact *c) {
+static void compare(const fret_pressed *c) {
     const fret_real of_loss = UNIT_TOL(2e-15L, 5e-15L), of_rest = UNIT_TOL(1e-15L, 1e-13L);
     double loads[LOADS], loss[LOADS], radius[LOADS], dx[LOADS];
     fill(c, loads);
@@ -90,7 +90,7 @@ static void accuracy(void) {
     static const double ns[] = {1e-6, 1e-3, 0.5, 1, 2, 10, 400, 1e6};
     static const double ks[] = {-1 + 1e-15, -0.9, -0.5, 0, 0.3, 0.9, 1 - 1e-15};
     int made = 0;
-    fret_contact c;
+    fret_pressed c;
     for (int i = 0; i < 8; i++)
         for (int j = 0; j < 7; j++)
             if (make(ns[i], ks[j], 0.3, 100, &c)) {
@@ -111,7 +111,7 @@ static void accuracy(void) {
 /* The loops for this processor and those for all. */
 static void bits(void) {
     static const double special[] = {0, -0.0, 1e-320, 1e300, 1e-300};
-    fret_contact c;
+    fret_pressed c;
     for (int round = 0; round < 60; round++) {
         double loads[LOADS], got[2][LOADS], want[2][LOADS];
         double *const to[2] = {got[0], got[1]}, *const all[2] = {want[0], want[1]},
@@ -135,7 +135,7 @@ static void bits(void) {
 
 /* An array of any length, whole or one by one, and nothing beyond its end. */
 static void lengths(void) {
-    fret_contact c;
+    fret_pressed c;
     double loads[LOADS], one[LOADS], got[LOADS + 1];
     CHECK(make(2, 0.3, 0.4, 100, &c));
     fill(&c, loads);
@@ -152,7 +152,7 @@ typedef struct answer {
     double loss, radius, dx;
 } answer;
 
-static answer ask(const fret_contact *c, double F) {
+static answer ask(const fret_pressed *c, double F) {
     answer out = {nan_, nan_, nan_};
     CHECK_OK(fret_arrays_loading(c, &F, &out.radius, &out.dx, 1));
     if (F >= 0)
@@ -161,7 +161,7 @@ static answer ask(const fret_contact *c, double F) {
 }
 
 static void gross_slip(void) {
-    fret_contact c;
+    fret_pressed c;
     CHECK(make(2, 0.4, 0.3, 100, &c));
     fret_real loss = -1, slip = fret_gross_slip(&c);
     CHECK_OK(fret_cycle_loss_by_force(&c, 30, &loss)); /* 0.3 * 100 is less than 30 */
@@ -189,18 +189,18 @@ static void others(void) {
         } else {
             s.gap.kind = FRET_GAP_POWER;
         }
-        fret_contact c = {.mu = mu};
+        fret_pressed c = {.mu = mu};
         c.normal = unit_make_normal(&s);
         CHECK_OK(fret_press_by_force(c.normal, FN, &c.press));
-        CHECK_OK(fret_arrays_loss(&(fret_contact){c.normal, mu, c.press}, loads, loss, 3));
-        CHECK_OK(fret_arrays_loading(&(fret_contact){c.normal, mu, c.press}, loads, radius, dx, 3));
+        CHECK_OK(fret_arrays_loss(&(fret_pressed){c.normal, mu, c.press}, loads, loss, 3));
+        CHECK_OK(fret_arrays_loading(&(fret_pressed){c.normal, mu, c.press}, loads, radius, dx, 3));
         CHECK_OK(fret_arrays_press(c.normal, F, a, dz, 3));
         for (int i = 0; i < 3; i++) {
             fret_real want = -1;
             fret_loading f;
             fret_press p;
-            CHECK_OK(fret_cycle_loss_by_force(&(fret_contact){c.normal, mu, c.press}, loads[i], &want));
-            CHECK_OK(fret_loading_by_force(&(fret_contact){c.normal, mu, c.press}, loads[i], &f));
+            CHECK_OK(fret_cycle_loss_by_force(&(fret_pressed){c.normal, mu, c.press}, loads[i], &want));
+            CHECK_OK(fret_loading_by_force(&(fret_pressed){c.normal, mu, c.press}, loads[i], &f));
             CHECK_OK(fret_press_by_force(c.normal, F[i], &p));
             CHECK(loss[i] == (double)want);
             CHECK(radius[i] == (double)f.c);
@@ -209,9 +209,9 @@ static void others(void) {
             CHECK_REL(dz[i], p.dz, 1e-15L);
         }
         double one[3]; /* each by itself */
-        CHECK_OK(fret_arrays_loading(&(fret_contact){c.normal, mu, c.press}, loads, one, NULL, 3));
+        CHECK_OK(fret_arrays_loading(&(fret_pressed){c.normal, mu, c.press}, loads, one, NULL, 3));
         CHECK(same_bits(one, radius, 3));
-        CHECK_OK(fret_arrays_loading(&(fret_contact){c.normal, mu, c.press}, loads, NULL, one, 3));
+        CHECK_OK(fret_arrays_loading(&(fret_pressed){c.normal, mu, c.press}, loads, NULL, one, 3));
         CHECK(same_bits(one, dx, 3));
         CHECK_OK(fret_arrays_press(c.normal, F, one, NULL, 3));
         CHECK(same_bits(one, a, 3));
@@ -221,7 +221,7 @@ static void others(void) {
 }
 
 static void errors(void) {
-    fret_contact c;
+    fret_pressed c;
     CHECK(make(2, 0.4, 0.5, 64, &c));
     const fret_normal *n = c.normal;
     double F[20], x[20], y[20];
@@ -229,8 +229,8 @@ static void errors(void) {
         F[i] = i;
 
     /* nothing to do is no error, and nothing is touched */
-    CHECK_OK(fret_arrays_loss(&(fret_contact){n, 0.5, c.press}, NULL, NULL, 0));
-    CHECK_OK(fret_arrays_loading(&(fret_contact){n, 0.5, c.press}, NULL, NULL, NULL, 0));
+    CHECK_OK(fret_arrays_loss(&(fret_pressed){n, 0.5, c.press}, NULL, NULL, 0));
+    CHECK_OK(fret_arrays_loading(&(fret_pressed){n, 0.5, c.press}, NULL, NULL, NULL, 0));
     CHECK_OK(fret_arrays_press(n, NULL, NULL, NULL, 0));
 
     /* the first offending load of several, results before it in place */
@@ -242,14 +242,14 @@ static void errors(void) {
         for (int at = 0; at < 20; at += 3) {
             F[at] = bad[b].load;
             F[19] = -2;
-            fret_status st = fret_arrays_loss(&(fret_contact){n, 0.5, c.press}, F, x, 20);
+            fret_status st = fret_arrays_loss(&(fret_pressed){n, 0.5, c.press}, F, x, 20);
             CHECK_ERROR(st, bad[b].code, "FA");
             CHECK(st.value == bad[b].load || isnan(bad[b].load));
             for (int i = 0; i < at; i++)
                 CHECK(x[i] == ask(&c, F[i]).loss);
             F[19] = 19;
             bool odd = bad[b].code == FRET_NEGATIVE; /* -1 N is no error in loading */
-            st = fret_arrays_loading(&(fret_contact){n, 0.5, c.press}, F, x, y, 20);
+            st = fret_arrays_loading(&(fret_pressed){n, 0.5, c.press}, F, x, y, 20);
             CHECK_CODE(st, odd ? FRET_OK : bad[b].code);
             for (int i = 0; i < at; i++)
                 CHECK(x[i] == ask(&c, F[i]).radius && y[i] == ask(&c, F[i]).dx);
@@ -263,10 +263,10 @@ static void errors(void) {
 
     /* one output alone gives the same */
     double z[20];
-    CHECK_OK(fret_arrays_loading(&(fret_contact){n, 0.5, c.press}, F, x, y, 20));
-    CHECK_OK(fret_arrays_loading(&(fret_contact){n, 0.5, c.press}, F, z, NULL, 20));
+    CHECK_OK(fret_arrays_loading(&(fret_pressed){n, 0.5, c.press}, F, x, y, 20));
+    CHECK_OK(fret_arrays_loading(&(fret_pressed){n, 0.5, c.press}, F, z, NULL, 20));
     CHECK(same_bits(x, z, 20));
-    CHECK_OK(fret_arrays_loading(&(fret_contact){n, 0.5, c.press}, F, NULL, z, 20));
+    CHECK_OK(fret_arrays_loading(&(fret_pressed){n, 0.5, c.press}, F, NULL, z, 20));
     CHECK(same_bits(y, z, 20));
     CHECK_OK(fret_arrays_press(n, F, x, y, 20));
     CHECK_OK(fret_arrays_press(n, F, z, NULL, 20));
@@ -276,10 +276,10 @@ static void errors(void) {
 
     x[0] = 7;
     const fret_press open = {.F = 0};
-    CHECK_ERROR(fret_arrays_loss(&(fret_contact){n, 0, c.press}, F, x, 20), FRET_NOT_POSITIVE, "mu");
-    CHECK_ERROR(fret_arrays_loading(&(fret_contact){n, nan_, c.press}, F, x, y, 20), FRET_NOT_FINITE, "mu");
-    CHECK_ERROR(fret_arrays_loss(&(fret_contact){n, 0.5, open}, F, x, 20), FRET_NOT_POSITIVE, "FN");
-    CHECK_ERROR(fret_arrays_loss(&(fret_contact){n, -1, c.press}, F, x, 20), FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_arrays_loss(&(fret_pressed){n, 0, c.press}, F, x, 20), FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_arrays_loading(&(fret_pressed){n, nan_, c.press}, F, x, y, 20), FRET_NOT_FINITE, "mu");
+    CHECK_ERROR(fret_arrays_loss(&(fret_pressed){n, 0.5, open}, F, x, 20), FRET_NOT_POSITIVE, "FN");
+    CHECK_ERROR(fret_arrays_loss(&(fret_pressed){n, -1, c.press}, F, x, 20), FRET_NOT_POSITIVE, "mu");
     CHECK(x[0] == 7);
 }
 

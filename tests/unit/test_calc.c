@@ -199,10 +199,10 @@ typedef struct place {
 
 static place place_of(calc *c) {
     const fret_state *state = NULL;
-    const fret_memory *memory = NULL;
+    const fret_contact *memory = NULL;
     place out = {.u = (fret_real)NAN};
-    if (CHECK(scene_state(c->now, &state, fresh()) && scene_memory(c->now, &memory, fresh())))
-        out = (place){*state, fret_memory_displacement(memory, 0)};
+    if (CHECK(scene_state(c->now, &state, fresh()) && scene_straight(c->now, &memory, fresh())))
+        out = (place){*state, fret_contact_displacement(memory, 0)};
     return out;
 }
 

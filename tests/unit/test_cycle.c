@@ -15,7 +15,7 @@ static void reference(void) {
         const int out = UNIT_SCENE_COLUMNS + 2;
         fret_real c = unit_result(&t, out + 2), dx = unit_result(&t, out + 3), max = unit_result(&t, out + 4);
         fret_real dW = unit_result(&t, out + 5), U = unit_result(&t, out + 8), W = unit_result(&t, out + 9);
-        fret_contact k = unit_make_contact(&s, FN);
+        fret_pressed k = unit_make_contact(&s, FN);
         fret_loading f, g;
         CHECK_OK(fret_loading_by_force(&k, FA, &f));
         CHECK(f.Fx == FA);
@@ -74,7 +74,7 @@ static void loss_shape(void) {
 
 /* The definition: 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx. */
 typedef struct loop {
-    const fret_contact *k;
+    const fret_pressed *k;
     fret_real c, yc;
 } loop;
 
@@ -91,7 +91,7 @@ static void definition(void) {
     static const double ns[] = {0.7, 1, 2, 4}, ks[] = {-0.5, 0, 0.6};
     for (int i = 0; i < 12; i++) {
         unit_scene s = unit_make_scene(ns[i % 4], ks[i / 4]);
-        fret_contact k = unit_make_contact(&s, 25);
+        fret_pressed k = unit_make_contact(&s, 25);
         for (double part = 0.2; part < 1; part += 0.25) {
             double FA = part * s.mu * 25;
             fret_loading f = {0, 0, 0, 0};
@@ -111,7 +111,7 @@ static void published(void) {
     s.material.body[0] = s.material.body[1] = (fret_body){210e9, 0.3, false};
     s.mu = 0.3;
     s.gap.power[0] = (fret_power){2, 100, 1};
-    fret_contact k = unit_make_contact(&s, 100);
+    fret_pressed k = unit_make_contact(&s, 100);
     fret_loading f = {0, 0, 0, 0};
     fret_real loss = -1;
     CHECK_OK(fret_loading_by_force(&k, 15, &f));
@@ -143,7 +143,7 @@ static void published(void) {
 static void gross_slip(void) {
     unit_scene s = unit_make_scene(2, 0.4);
     s.mu = 0.5; /* mu F_N exact */
-    fret_contact k = unit_make_contact(&s, 64);
+    fret_pressed k = unit_make_contact(&s, 64);
     fret_real max = fret_gross_slip(&k), loss = -1, more = -1;
     fret_loading f = {0, 0, 0, 0};
     CHECK_OK(fret_loading_by_force(&k, 32, &f));
@@ -159,7 +159,7 @@ static void gross_slip(void) {
     sum.gap.terms = 2;
     sum.gap.power[1] = (fret_power){4, 1e-5, 1e-3};
     sum.mu = 0.5;
-    const fret_contact of_sum = unit_make_contact(&sum, 64);
+    const fret_pressed of_sum = unit_make_contact(&sum, 64);
     CHECK(!fret_normal_closed(of_sum.normal));
     for (int sign = -1; sign <= 1; sign += 2) {
         CHECK_OK(fret_loading_by_force(&of_sum, sign * 32, &f));
@@ -202,7 +202,7 @@ static void gross_slip(void) {
 
 static void errors(void) {
     unit_scene s = unit_make_scene(2, 0.4);
-    fret_contact k = unit_make_contact(&s, 10);
+    fret_pressed k = unit_make_contact(&s, 10);
     const double wild[] = {nan_, inf_, -inf_};
     fret_loading f = {7, 7, 7, 7};
     fret_real loss = 7;
@@ -214,7 +214,7 @@ static void errors(void) {
     }
     const double bad[] = {nan_, inf_, -inf_, 0, -1};
     for (int i = 0; i < 5; i++) {
-        const fret_contact rough = {k.normal, bad[i], k.press};
+        const fret_pressed rough = {k.normal, bad[i], k.press};
         const fret_code code = i < 3 ? FRET_NOT_FINITE : FRET_NOT_POSITIVE;
         CHECK_ERROR(fret_loading_by_force(&rough, 1, &f), code, "mu");
         CHECK_ERROR(fret_loading_by_displacement(&rough, 1e-6, &f), code, "mu");
@@ -226,8 +226,8 @@ static void errors(void) {
     CHECK(f.Fx == 7 && f.dx == 7 && f.c == 7 && f.yc == 7 && loss == 7); /* untouched */
     /* an open contact carries no tangential load */
     fret_press open = {.F = 0};
-    CHECK(fret_gross_slip(&(fret_contact){k.normal, k.mu, open}) == 0);
-    CHECK(fret_loading_by_force(&(fret_contact){k.normal, k.mu, open}, 1, &f).code != FRET_OK);
+    CHECK(fret_gross_slip(&(fret_pressed){k.normal, k.mu, open}) == 0);
+    CHECK(fret_loading_by_force(&(fret_pressed){k.normal, k.mu, open}, 1, &f).code != FRET_OK);
 }
 
 int main(int argc, char **argv) {

@@ -4,13 +4,13 @@
 
 static fret_real loss, error;
 
-static fret_status by_force(const fret_contact *c, double FA) {
+static fret_status by_force(const fret_pressed *c, double FA) {
     fret_loading peak = {0, 0, 0, 0};
     const fret_status st = fret_loading_by_force(c, FA, &peak);
     return st.code ? st : fret_cycle_loss_by_definition(c, &peak, &loss, &error);
 }
 
-static fret_status by_displacement(const fret_contact *c, double dA) {
+static fret_status by_displacement(const fret_pressed *c, double dA) {
     fret_loading peak = {0, 0, 0, 0};
     const fret_status st = fret_loading_by_displacement(c, dA, &peak);
     return st.code ? st : fret_cycle_loss_by_definition(c, &peak, &loss, &error);
@@ -23,7 +23,7 @@ static void scenes(void) {
     while (unit_row(&t)) {
         unit_scene s = unit_read_scene(&t, 0);
         double FN = unit_input(&t, UNIT_SCENE_COLUMNS), FA = unit_input(&t, UNIT_SCENE_COLUMNS + 1);
-        fret_contact c = unit_make_contact(&s, FN);
+        fret_pressed c = unit_make_contact(&s, FN);
         CHECK_OK(by_force(&c, FA));
         CHECK(error >= LDBL_EPSILON && error < UNIT_TOL(1e-17L, 1e-14L));
         CHECK_REL(loss, unit_result(&t, UNIT_SCENE_COLUMNS + 2 + 5), UNIT_TOL(2e-17L, 1e-14L));
@@ -44,7 +44,7 @@ static void shapes(void) {
         for (size_t j = 0; j < sizeof ks / sizeof *ks; j++) {
             unit_scene s = unit_make_scene(2, ks[j]);
             s.gap = gaps[i];
-            fret_contact c = unit_make_contact(&s, 100);
+            fret_pressed c = unit_make_contact(&s, 100);
             for (size_t l = 0; l < sizeof ts / sizeof *ts; l++) {
                 fret_real same;
                 double FA = ts[l] * c.mu * 100;
@@ -74,7 +74,7 @@ static void flat_ends(void) {
             for (size_t n = 0; n < sizeof loads / sizeof *loads; n++) {
                 unit_scene s = unit_make_scene(2, ks[j]);
                 s.gap = gaps[i];
-                fret_contact c = unit_make_contact(&s, loads[n]);
+                fret_pressed c = unit_make_contact(&s, loads[n]);
                 for (size_t l = 0; l < sizeof rests / sizeof *rests; l++) {
                     fret_real same;
                     double FA = (1 - rests[l]) * c.mu * loads[n];
@@ -89,7 +89,7 @@ static void flat_ends(void) {
 /* By displacement, into gross slip. */
 static void amplitudes(void) {
     unit_scene s = unit_make_scene(2, -0.5);
-    fret_contact c = unit_make_contact(&s, 100);
+    fret_pressed c = unit_make_contact(&s, 100);
     fret_real max = fret_gross_slip(&c), same;
     static const double part[] = {1e-6, 0.3, 1, 2.5};
     for (size_t i = 0; i < sizeof part / sizeof *part; i++) {
@@ -105,7 +105,7 @@ static void amplitudes(void) {
     const fret_loading none = {0, 0, c.press.a, c.press.dz};
     CHECK_OK(fret_cycle_loss_by_definition(&c, &none, &loss, &error));
     CHECK(loss == 0);
-    CHECK_ERROR(fret_cycle_loss_by_definition(&(fret_contact){c.normal, -1, c.press}, &none, &loss, &error),
+    CHECK_ERROR(fret_cycle_loss_by_definition(&(fret_pressed){c.normal, -1, c.press}, &none, &loss, &error),
                 FRET_NOT_POSITIVE, "mu");
 }
 
@@ -121,7 +121,7 @@ static void sampled(void) {
     struct fret_table *table = NULL;
     CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
     s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = table};
-    fret_contact c = unit_make_contact(&s, 20);
+    fret_pressed c = unit_make_contact(&s, 20);
     fret_real closed = 0;
     CHECK_OK(by_force(&c, 4));
     CHECK(error < UNIT_TOL(1e-16L, 1e-12L));

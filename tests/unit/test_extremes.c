@@ -2,6 +2,7 @@
 /* Contacts near the ends of what numbers hold, arguments that few will give, and what pieces of a law do at
  * their ends; beside the law itself, twins without pieces, and results that are known. */
 #include "arrays/arrays.h"
+#include "histories.h"
 #include "law/normal.h"
 #include "number/dd.h"
 #include "number/real.h"
@@ -238,8 +239,8 @@ static void fields(void) {
     fret_memory *m = NULL;
     CHECK_OK(fret_memory_make(n, 0.4, &m));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 10, 1}));
-    CHECK_ERROR(fret_traction(m, -1, &p[0]), FRET_NEGATIVE, "r");
-    CHECK_ERROR(fret_surface_x(m, -1, &p[0]), FRET_NEGATIVE, "r");
+    CHECK_ERROR(fret_traction(CONTACT_OF(m), -1, &p[0]), FRET_NEGATIVE, "r");
+    CHECK_ERROR(fret_surface_x(CONTACT_OF(m), -1, &p[0]), FRET_NEGATIVE, "r");
     fret_memory_free(m);
 }
 
@@ -262,7 +263,7 @@ static void short_pieces(void) {
         for (int j = 0; j < 4; j++) {
             const double top = (double)(20 + (fret_real)sine.FNA * cosl(sine.phase));
             CHECK_OK(fret_swing_step(w, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, top, sine.FA}));
-            if (!CHECK(fret_swing_fits(w, &sine)))
+            if (!CHECK(fret_swing_fits(w, &sine, 0)))
                 break;
             CHECK_OK(fret_swing_period(w, &sine));
             fret_swing_state(w, &now);
@@ -288,7 +289,7 @@ static void definitions(void) {
     static volatile sig_atomic_t stop;
     struct fret_table *t = sphere_rows(3000);
     const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = t};
-    fret_contact c = {.normal = unit_keep_normal(&steel, &gap), .mu = 0.4};
+    fret_pressed c = {.normal = unit_keep_normal(&steel, &gap), .mu = 0.4};
     fret_loading peak;
     fret_real loss, want, error;
     CHECK_OK(fret_press_by_force(c.normal, 300, &c.press));
@@ -300,7 +301,7 @@ static void definitions(void) {
     c.mu = -1;
     CHECK_ERROR(fret_cycle_loss_by_definition(&c, &peak, &loss, &error), FRET_NOT_POSITIVE, "mu");
     fret_normal *plain = power(210e9, 2, 1e-5, 1e-3);
-    c = (fret_contact){.normal = plain, .mu = 0.4};
+    c = (fret_pressed){.normal = plain, .mu = 0.4};
     CHECK_OK(fret_press_by_force(c.normal, 300, &c.press));
     CHECK_OK(fret_loading_by_force(&c, 50, &peak));
     fret_normal_stop(plain, &stop);
@@ -318,7 +319,7 @@ static void definitions(void) {
 enum { MANY = 70 };
 
 /* The same as the functions, one by one; the first that fails tells. */
-static void check_arrays(const fret_contact *c, double least, double most) {
+static void check_arrays(const fret_pressed *c, double least, double most) {
     double F[MANY], loss[MANY], a[MANY], b[MANY];
     const double nan_ = (double)NAN;
     fret_code code = FRET_OK;
@@ -368,7 +369,7 @@ static void arrays(void) {
                {1e300, 2, 1e-5, 1e-3, 1},   {1e100, 2, 1e-290, 1e-3, 1}, {1e-300, 2, 1e290, 1, 1}};
     int used = 0;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        fret_contact c = {.normal = power(all[i].E0, all[i].n, all[i].h, all[i].r0), .mu = 0.4};
+        fret_pressed c = {.normal = power(all[i].E0, all[i].n, all[i].h, all[i].r0), .mu = 0.4};
         if (fret_press_by_force(c.normal, all[i].FN, &c.press).code)
             continue;
         used++;
@@ -388,7 +389,7 @@ static void diagrams(void) {
             const double dz = pow(10, d);
             fret_diagram *g;
             fret_press p;
-            fret_diagram_now now;
+            fret_state now;
             CHECK_OK(fret_diagram_make(n, 0.4, 0, &g));
             const fret_status want = fret_press_by_depth(n, dz, &p),
                               st = fret_diagram_step(g, &(fret_step){FRET_TO_DEPTH, FRET_KEEP_DX, dz, 0});
@@ -409,7 +410,7 @@ static void diagrams(void) {
 static void lossless(void) {
     const fret_normal *n = power(210e9, 2, 1e-5, 1e-3);
     fret_diagram *d[2];
-    fret_diagram_now now[2];
+    fret_state now[2];
     for (int i = 0; i < 2; i++) {
         CHECK_OK(fret_diagram_make(n, 0.4, 0, &d[i]));
         fret_diagram_count_loss(d[i], i == 0);
@@ -440,7 +441,7 @@ static void at_gross_slip(void) {
             dx = nextafter(dx, i % 2 ? 1 : 0);
         fret_diagram *d;
         fret_memory *m;
-        fret_diagram_now now;
+        fret_state now;
         fret_state want;
         CHECK_OK(fret_diagram_make(n, mu, 0, &d));
         CHECK_OK(fret_memory_make(n, mu, &m));

@@ -73,13 +73,13 @@ static void steep(void) {
         } else {
             const fret_step press = {FRET_TO_FORCE, FRET_KEEP_DX, load, 0},
                             push = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, unit_input(&t, 4)};
-            fret_memory *m = NULL;
-            CHECK_OK(fret_memory_make(normal, s.mu, &m));
-            CHECK_OK(fret_memory_step(m, &press));
-            CHECK_OK(fret_memory_step(m, &push));
+            fret_contact *m = NULL;
+            CHECK_OK(fret_contact_make(normal, s.mu, FRET_EXACT, &m));
+            CHECK_OK(fret_contact_step(m, &press));
+            CHECK_OK(fret_contact_step(m, &push));
             CHECK_OK(fret_traction(m, r, &normally));
             CHECK_OK(fret_surface_x(m, r, &tangentially));
-            fret_memory_free(m);
+            fret_contact_free(m);
         }
         CHECK_REL(normally, unit_result(&t, 6), UNIT_TOL(1e-13L, 1e-9L));
         CHECK_REL(tangentially, unit_result(&t, 7), UNIT_TOL(1e-13L, 1e-9L));
@@ -166,18 +166,18 @@ static void forces(void) {
              i += g < 3 ? 1 + unit_skips(1) : 2) { /* quadrature within quadrature is slow */
             const fret_material material = {{{210e9, 0.3, false}, {70e9, 0.33, false}}, ks[i], 1e-3};
             const fret_gap gap = gap_of(g);
-            fret_memory *m = NULL;
+            fret_contact *m = NULL;
             const fret_normal *normal = unit_keep_normal(&material, &gap);
-            CHECK_OK(fret_memory_make(normal, 0.3, &m));
+            CHECK_OK(fret_contact_make(normal, 0.3, FRET_EXACT, &m));
             static const fret_step steps[] = {{FRET_TO_FORCE, FRET_KEEP_DX, 100, 0},
                                               {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 20},
                                               {FRET_KEEP_NORMAL, FRET_TO_FX, 0, -5},
                                               {FRET_TO_FORCE, FRET_TO_FX, 130, 2},
                                               {FRET_TO_FORCE, FRET_TO_FX, 80, 9}};
             for (int j = 0; j < 5; j++)
-                CHECK_OK(fret_memory_step(m, &steps[j]));
+                CHECK_OK(fret_contact_step(m, &steps[j]));
             fret_state s;
-            fret_memory_state(m, &s);
+            fret_contact_state(m, &s);
             const pressed now = {normal, s.a};
             /* sharp edges are singular like (b-r)^((k-1)/2) or its logarithm: at most
              * (eps)^((k+1)/2) of the load lies closer to b than a radius can tell */
@@ -190,7 +190,7 @@ static void forces(void) {
             }
             Fp += ring(pressure, &now, lo, s.a);
             fret_segment seg;
-            for (size_t k = 0; fret_memory_segment(m, k, &seg); k++) {
+            for (size_t k = 0; fret_contact_segment(m, k, &seg); k++) {
                 fret_real outer = fret_law_radius(normal, seg.outer);
                 if (outer > lo)
                     Fq += ring(traction, m, lo, outer);
@@ -210,7 +210,7 @@ static void forces(void) {
             CHECK_REL(u, s.dx, 1e-12L);
             CHECK_OK(fret_pressure(normal, s.a, 2 * s.a, &out));
             CHECK(out == 0);
-            fret_memory_free(m);
+            fret_contact_free(m);
         }
 }
 
@@ -220,14 +220,14 @@ static void closed(void) {
     const fret_gap gap = gap_of(0);
     const fret_real pi = 3.14159265358979323846L;
     fret_press p;
-    fret_memory *m = NULL;
+    fret_contact *m = NULL;
     fret_state s;
     const fret_normal *normal = unit_keep_normal(&material, &gap);
     CHECK_OK(fret_press_by_force(normal, 100, &p));
-    CHECK_OK(fret_memory_make(normal, 0.3, &m));
-    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}));
-    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 15}));
-    fret_memory_state(m, &s);
+    CHECK_OK(fret_contact_make(normal, 0.3, FRET_EXACT, &m));
+    CHECK_OK(fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}));
+    CHECK_OK(fret_contact_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 15}));
+    fret_contact_state(m, &s);
     for (int i = 0; i < 20; i++) {
         fret_real r = p.a * i / 20, q = 0, out = 0, p0 = 3 * 100 / (2 * pi * p.a * p.a);
         CHECK_OK(fret_pressure(normal, p.a, r, &out));
@@ -241,7 +241,7 @@ static void closed(void) {
             ((2 * p.a * p.a - r * r) * asinl(p.a / r) + p.a * sqrtl(r * r - p.a * p.a)) / (pi * 0.01);
         CHECK_REL(out, hertz, 1e-11L);
     }
-    fret_memory_free(m);
+    fret_contact_free(m);
 }
 
 static void errors(void) {
@@ -255,12 +255,12 @@ static void errors(void) {
     gap = gap_of(5);
     normal = unit_keep_normal(&material, &gap);
     CHECK_ERROR(fret_pressure(normal, 2e-4L, gap.b, &out), FRET_SINGULAR, "r");
-    fret_memory *m = NULL;
-    CHECK_OK(fret_memory_make(normal, 0.3, &m));
+    fret_contact *m = NULL;
+    CHECK_OK(fret_contact_make(normal, 0.3, FRET_EXACT, &m));
     CHECK_OK(fret_traction(m, 1, &out));
     CHECK(out == 0);
-    CHECK(fret_memory_friction(m) == 0.3 && fret_memory_normal(m) == normal);
-    fret_memory_free(m);
+    CHECK(fret_contact_friction(m) == 0.3 && fret_contact_normal(m) == normal);
+    fret_contact_free(m);
 }
 
 /* The pressure of a power has the shape of the table; its scale from g and c_N at the edge. */
@@ -344,7 +344,7 @@ static void twins(void) {
 static void near_winkler(void) {
     for (double n = 2; n < 400; n *= 3) {
         const unit_scene s = unit_make_scene(n, -0.99999);
-        const fret_contact c = unit_make_contact(&s, 10);
+        const fret_pressed c = unit_make_contact(&s, 10);
         const fret_foundation *f = &c.normal->foundation;
         const fret_real m = (f->k + 1) / 2, a = c.press.a;
         for (int i = 0; i < 4; i++) {
@@ -391,13 +391,13 @@ static void pressed_lightly(const fret_normal *normal, double F) {
     const fret_foundation *f = &normal->foundation;
     const fret_real b = fret_gap_start(&normal->gap), k1 = 1 + f->k, mu = 0.3L;
     fret_press at;
-    fret_memory *m = NULL;
+    fret_contact *m = NULL;
     fret_fields *many = NULL;
     CHECK_OK(fret_press_by_force(normal, F, &at));
     CHECK_OK(fret_fields_make(normal, &many));
-    CHECK_OK(fret_memory_make(normal, (double)mu, &m));
-    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, F, 0}));
-    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 0.12 * F}));
+    CHECK_OK(fret_contact_make(normal, (double)mu, FRET_EXACT, &m));
+    CHECK_OK(fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, F, 0}));
+    CHECK_OK(fret_contact_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 0.12 * F}));
     const fret_real wide = (at.a - b) / b + 1e-16L;
     CHECK_REL(at.dz * 2 * f->cN0 * fret_pow(b / f->c0, f->k) * b / k1, F, wide + 1e-16L);
     for (int i = 0; i < 4; i++) {
@@ -426,11 +426,12 @@ static void pressed_lightly(const fret_normal *normal, double F) {
     const fret_code at_end = fret_field_infinite(normal, b) ? FRET_SINGULAR : FRET_OK;
     fret_segment stuck;
     fret_real p = 0;
-    CHECK(fret_memory_segment(m, 0, &stuck)); /* beyond which the slip of a ring is finite, if there is one */
+    CHECK(
+        fret_contact_segment(m, 0, &stuck)); /* beyond which the slip of a ring is finite, if there is one */
     const bool ring = fret_law_distance(normal, stuck.outer) > 0;
     CHECK(fret_pressure_of(normal, &at, b, &p).code == at_end);
     CHECK(fret_traction(m, b, &p).code == (ring ? FRET_OK : at_end));
-    fret_memory_free(m);
+    fret_contact_free(m);
     fret_fields_free(many);
 }
 

@@ -143,7 +143,7 @@ typedef struct asking {
     shape which;
     const fret_normal *normal;
     fret_fields *fields;
-    const fret_memory *memory;
+    const fret_contact *memory;
     fret_state now;
 } asking;
 
@@ -179,12 +179,12 @@ static fret_real slow_surface(const asking *q, fret_real a, fret_real dz, fret_r
 
 static void ask_inside(const asking *q, fret_real r) {
     const fret_press press = {.F = q->now.FN, .dz = q->now.dz, .a = q->now.a};
-    const fret_real scale = pressure_of_depth(q, press.a, press.dz, r), mu = fret_memory_friction(q->memory);
+    const fret_real scale = pressure_of_depth(q, press.a, press.dz, r), mu = fret_contact_friction(q->memory);
     fret_real got = 0, want = 0, inner = 0;
     fret_segment s;
     CHECK_OK(fret_fields_pressure_of(q->fields, &press, r, &got));
     compare(q->which, PRESSURE, got, scale, scale);
-    for (size_t i = 0; fret_memory_segment(q->memory, i, &s); i++) {
+    for (size_t i = 0; fret_contact_segment(q->memory, i, &s); i++) {
         const fret_real a = fret_law_radius(q->normal, s.outer), outer = pressure_of_depth(q, a, s.outer, r);
         want += mu * s.sigma * (outer - inner);
         inner = outer;
@@ -194,14 +194,14 @@ static void ask_inside(const asking *q, fret_real r) {
 }
 
 static void ask_anywhere(const asking *q, fret_real r) {
-    const fret_real factor = fret_memory_friction(q->memory) * q->normal->foundation.eta, dz = q->now.dz;
+    const fret_real factor = fret_contact_friction(q->memory) * q->normal->foundation.eta, dz = q->now.dz;
     fret_real got = 0, want = 0, inner = 0;
     fret_segment s;
     CHECK_OK(fret_fields_surface(q->fields, q->now.a, r, &got));
     compare(q->which, SURFACE, got, slow_surface(q, q->now.a, dz, r), dz);
     if (q->which < ROUND_TABLE)
         CHECK_OK(fret_surface_x(q->memory, r, &want));
-    for (size_t i = 0; q->which >= ROUND_TABLE && fret_memory_segment(q->memory, i, &s); i++) {
+    for (size_t i = 0; q->which >= ROUND_TABLE && fret_contact_segment(q->memory, i, &s); i++) {
         const fret_real outer = slow_surface(q, fret_law_radius(q->normal, s.outer), s.outer, r);
         want += factor * s.sigma * (outer - inner);
         inner = outer;
@@ -216,9 +216,9 @@ static fret_real place_of(const asking *q, bool inside) {
     const fret_real off = small(q->which >= ROUND_TABLE ? 2 : 10) * (uniform(0, 1) < 0.5 ? -1 : 1);
     fret_segment s;
     size_t count = 0;
-    while (fret_memory_segment(q->memory, count, &s))
+    while (fret_contact_segment(q->memory, count, &s))
         count++;
-    (void)fret_memory_segment(q->memory, (size_t)uniform(0, (double)count * 0.999), &s);
+    (void)fret_contact_segment(q->memory, (size_t)uniform(0, (double)count * 0.999), &s);
     switch ((int)uniform(0, 6)) {
     case 0:
         return a * small(5);
@@ -253,7 +253,7 @@ static void history(shape which, double k, int places) {
     const fret_gap gap = gap_of(which);
     const double mu = 0.3;
     fret_normal *normal = NULL;
-    fret_memory *m = NULL;
+    fret_contact *m = NULL;
     fret_press top;
     asking q = {.which = which};
     grading_now = k;
@@ -261,7 +261,7 @@ static void history(shape which, double k, int places) {
         fret_table_free((struct fret_table *)gap.table);
         return;
     }
-    CHECK_OK(fret_memory_make(normal, mu, &m));
+    CHECK_OK(fret_contact_make(normal, mu, FRET_EXACT, &m));
     CHECK_OK(fret_fields_make(normal, &q.fields));
     q.normal = normal;
     q.memory = m;
@@ -273,9 +273,9 @@ static void history(shape which, double k, int places) {
         const double part = uniform(0, 1) < 0.3 ? 1 - small(9) : uniform(0, 1);
         const fret_step s = {FRET_TO_FORCE, FRET_TO_FX, FN,
                              i ? mu * FN * part * (uniform(0, 1) < 0.5 ? -1 : 1) : 0};
-        CHECK_OK(fret_memory_step(m, &s));
+        CHECK_OK(fret_contact_step(m, &s));
     }
-    fret_memory_state(m, &q.now);
+    fret_contact_state(m, &q.now);
     for (int i = 0; i < places; i++) {
         const fret_real r = place_of(&q, true), far = fabsl(place_of(&q, false));
         const bool weak = which >= ROUND_TABLE && fabs(k) > 0.7; /* the definitions are, outside */
@@ -286,7 +286,7 @@ static void history(shape which, double k, int places) {
     }
     CHECK(which >= ROUND_TABLE || fret_fields_error(q.fields) < 2e-15 || fret_field_light(normal, q.now.a));
     fret_fields_free(q.fields);
-    fret_memory_free(m);
+    fret_contact_free(m);
     fret_normal_free(normal);
     fret_table_free((struct fret_table *)gap.table);
 }
@@ -319,7 +319,7 @@ static void alike(void) {
     const fret_gap flat = gap_of(FLAT_CONE);
     const fret_normal *normal = unit_keep_normal(&material, &power);
     fret_fields *f = NULL, *g = NULL;
-    fret_memory *m = NULL;
+    fret_contact *m = NULL;
     fret_real one = 0, many = -1;
     CHECK_OK(fret_fields_make(normal, &f));
     CHECK_OK(fret_pressure(normal, 1e-4L, 3e-5L, &one));
@@ -327,7 +327,7 @@ static void alike(void) {
     CHECK(one == many && isnan(fret_fields_error(f)));
     fret_fields_free(f);
     normal = unit_keep_normal(&material, &flat);
-    CHECK_OK(fret_memory_make(normal, 0.3, &m));
+    CHECK_OK(fret_contact_make(normal, 0.3, FRET_EXACT, &m));
     CHECK_OK(fret_fields_make(normal, &f));
     CHECK_OK(fret_fields_make(normal, &g));
     CHECK_OK(fret_fields_traction(f, m, 1e-4L, &many));
@@ -345,7 +345,7 @@ static void alike(void) {
     CHECK_OK(fret_fields_pressure(f, 6e-4L, 1e-4L, &many));
     CHECK_OK(fret_fields_pressure(g, 6e-4L, 1e-4L, &one));
     CHECK(one == many && fret_fields_error(f) == fret_fields_error(g));
-    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}));
+    CHECK_OK(fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}));
     CHECK_OK(fret_fields_traction(f, m, 2e-3L, &many));
     CHECK(many == 0);
     CHECK_ERROR(fret_fields_traction(f, m, -1, &many), FRET_NEGATIVE, "r");
@@ -353,7 +353,7 @@ static void alike(void) {
     fret_fields_free(f);
     fret_fields_free(g);
     fret_fields_free(NULL);
-    fret_memory_free(m);
+    fret_contact_free(m);
 }
 
 /* At the tip of a sampled cone, whose rows are exact: the traction of slices around a core without a slope is
@@ -377,16 +377,17 @@ static void sampled_tip(double k, size_t rows, double part, bool gripped) {
     CHECK_OK(fret_normal_make(&material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = t}, NULL, NULL, &n[1]));
     CHECK_OK(fret_fields_make(n[1], &fields));
     for (int i = 0; i < 2; i++) {
-        fret_memory *m = NULL;
+        fret_contact *m = NULL;
         fret_press press;
         CHECK_OK(fret_press_by_radius(n[0], r[rows - 1] * 0.97, &press));
-        CHECK_OK(fret_memory_make(n[i], 0.5, &m));
+        CHECK_OK(fret_contact_make(n[i], 0.5, FRET_EXACT, &m));
         if (gripped)
-            CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, (double)press.F / 64, 0}));
-        CHECK_OK(fret_memory_step(
+            CHECK_OK(
+                fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, (double)press.F / 64, 0}));
+        CHECK_OK(fret_contact_step(
             m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, (double)press.F, 0.5 * part * (double)press.F}));
         st[i] = i ? fret_fields_traction(fields, m, 0, &q[i]) : fret_traction(m, 0, &q[i]);
-        fret_memory_free(m);
+        fret_contact_free(m);
     }
     CHECK(st[0].code == st[1].code && st[0].code == (gripped ? FRET_OK : FRET_SINGULAR));
     CHECK_REL(q[1], q[0], 1e-14L);
@@ -405,11 +406,11 @@ static void undisplaced(void) {
         const fret_gap gap = gap_of(which);
         fret_normal *normal = NULL;
         fret_fields *f = NULL;
-        fret_memory *m = NULL;
+        fret_contact *m = NULL;
         CHECK_OK(fret_normal_make(&material, &gap, NULL, NULL, &normal));
-        CHECK_OK(fret_memory_make(normal, 0.3, &m));
+        CHECK_OK(fret_contact_make(normal, 0.3, FRET_EXACT, &m));
         CHECK_OK(fret_fields_make(normal, &f));
-        CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 10, 0}));
+        CHECK_OK(fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 10, 0}));
         for (int i = 0; i < 3; i++) {
             fret_real q = 1, u = 1, plain[2] = {1, 1};
             CHECK_OK(fret_fields_traction(f, m, place[i], &q));
@@ -423,7 +424,7 @@ static void undisplaced(void) {
         CHECK_CODE(fret_fields_traction(f, m, -1, &out), FRET_NEGATIVE);
         CHECK_CODE(fret_fields_surface_x(f, m, -1, &out), FRET_NEGATIVE);
         fret_fields_free(f);
-        fret_memory_free(m);
+        fret_contact_free(m);
         fret_normal_free(normal);
         fret_table_free((struct fret_table *)gap.table);
     }
@@ -435,13 +436,13 @@ static void stops(void) {
     volatile sig_atomic_t stop = 0;
     fret_normal *normal = NULL;
     fret_fields *f = NULL;
-    fret_memory *m = NULL;
+    fret_contact *m = NULL;
     fret_real out = 0;
     CHECK_OK(fret_normal_make(&material, &flat, NULL, NULL, &normal));
     fret_normal_stop(normal, &stop);
-    CHECK_OK(fret_memory_make(normal, 0.3, &m));
-    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}));
-    CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 10}));
+    CHECK_OK(fret_contact_make(normal, 0.3, FRET_EXACT, &m));
+    CHECK_OK(fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0}));
+    CHECK_OK(fret_contact_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 10}));
     CHECK_OK(fret_fields_make(normal, &f));
     stop = 1;
     CHECK_CODE(fret_fields_pressure(f, 6e-4L, 1e-4L, &out), FRET_INTERRUPTED);
@@ -453,7 +454,7 @@ static void stops(void) {
     CHECK_OK(fret_fields_traction(f, m, 1e-4L, &out));
     CHECK(out > 0 && fret_fields_error(f) < 2e-15);
     fret_fields_free(f);
-    fret_memory_free(m);
+    fret_contact_free(m);
     fret_normal_free(normal);
 }
 

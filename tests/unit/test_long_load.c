@@ -15,7 +15,7 @@ typedef struct history {
     load_by by;
     double normal[ROWS], tangential[ROWS], FN_most;
     fret_normal *contact;
-    fret_memory *exact;
+    fret_contact *exact;
 } history;
 static history h;
 
@@ -40,17 +40,17 @@ static void step_exactly(calc *c, int rows) {
     fret_step step = {FRET_TO_FORCE, FRET_KEEP_DX, 100, 0};
     CHECK(scene_normal(c->now, &normal, fresh()) && scene_material(c->now, false, &material, fresh()));
     CHECK_OK(fret_normal_make(&material, fret_normal_gap(normal), NULL, NULL, &h.contact));
-    CHECK_OK(fret_memory_make(h.contact, 0.4, &h.exact));
-    CHECK_OK(fret_memory_step(h.exact, &step));
+    CHECK_OK(fret_contact_make(h.contact, 0.4, FRET_EXACT, &h.exact));
+    CHECK_OK(fret_contact_step(h.exact, &step));
     for (int i = 0; i < rows; i++) {
         step = (fret_step){by_force ? FRET_TO_FORCE : FRET_TO_DEPTH, by_force ? FRET_TO_FX : FRET_TO_DX,
                            h.normal[i], h.tangential[i]};
-        CHECK_OK(fret_memory_step(h.exact, &step));
+        CHECK_OK(fret_contact_step(h.exact, &step));
     }
 }
 
 static void free_exact(void) {
-    fret_memory_free(h.exact);
+    fret_contact_free(h.exact);
     fret_normal_free(h.contact);
 }
 
@@ -92,7 +92,7 @@ static forces asked(calc *c) {
 
 static forces told(void) {
     fret_state now;
-    fret_memory_state(h.exact, &now);
+    fret_contact_state(h.exact, &now);
     return (forces){(double)now.FN, (double)now.dz, (double)now.a,
                     (double)now.Fx, (double)now.dx, (double)now.W};
 }
@@ -107,7 +107,7 @@ static void must_be(calc *c, bool in_double) {
     }
     CHECK(c->now->used == USED(MODEL_DOUBLE) && waiting(c) > 0);
     CHECK_OK(fret_press_by_force(h.contact, 120, &most)); /* more than any */
-    const fret_contact contact = {.normal = h.contact, .mu = 0.4, .press = most};
+    const fret_pressed contact = {.normal = h.contact, .mu = 0.4, .press = most};
     const double slip = (double)fret_gross_slip(&contact);
     CHECK_ABS(is.FN, want.FN, 120, 1e-14L);
     CHECK_ABS(is.dz, want.dz, (double)most.dz, 1e-14L);
@@ -189,7 +189,7 @@ static void goes_on(void) {
     step_exactly(&c, ROWS);
     must_be(&c, true);
     fret_state want;
-    fret_memory_state(h.exact, &want);
+    fret_contact_state(h.exact, &want);
     CHECK(scene_state(c.now, &now, fresh()) && now->c == want.c && now->U == want.U && waiting(&c) == 0);
     c.now->used = 0;
     must_be(&c, false);
@@ -200,7 +200,7 @@ static void goes_on(void) {
     must_be(&c, true);
     c.now->used = 0;
     CHECK(load(&c, slide, (cycle_extra){0}) && waiting(&c) == 0);
-    CHECK_OK(fret_memory_step(h.exact, &same));
+    CHECK_OK(fret_contact_step(h.exact, &same));
     must_be(&c, false);
     CHECK(load(&c, cycle, (cycle_extra){.times = 1}) && load_rows(&c, ROWS) && waiting(&c) == 0);
     free_exact();

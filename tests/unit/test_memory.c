@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "history/memory.h"
+#include "histories.h"
 #include "unit.h"
 
 static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
@@ -7,13 +7,13 @@ static const double nan_ = (double)NAN, inf_ = (double)INFINITY;
 typedef struct contact {
     const fret_normal *normal;
     double mu;
-    fret_memory *memory;
+    fret_contact *memory;
     fret_real step_W; /* W after the last step seen by checked_step */
 } contact;
 
 static contact make(const unit_scene *s) {
     contact c = {.normal = unit_make_normal(s), .mu = s->mu};
-    if (!CHECK(fret_memory_make(c.normal, c.mu, &c.memory).code == FRET_OK))
+    if (!CHECK(fret_contact_make(c.normal, c.mu, FRET_EXACT, &c.memory).code == FRET_OK))
         exit(unit_finish());
     return c;
 }
@@ -25,7 +25,7 @@ static contact make_plain(double n, double k) {
 
 static fret_state state_of(const contact *c) {
     fret_state s;
-    fret_memory_state(c->memory, &s);
+    fret_contact_state(c->memory, &s);
     return s;
 }
 
@@ -46,22 +46,22 @@ static fret_step to_dx(double dx) {
 }
 
 static void go(const contact *c, fret_step step) {
-    CHECK_OK(fret_memory_step(c->memory, &step));
+    CHECK_OK(fret_contact_step(c->memory, &step));
 }
 
 /* What must hold of every state. */
 static void check_state(contact *c) {
     fret_state s = state_of(c), f;
     const fret_real mu_eta = c->mu * c->normal->foundation.eta;
-    CHECK(s.W >= c->step_W && s.U >= 0 && fret_memory_last_loss(c->memory) >= 0);
+    CHECK(s.W >= c->step_W && s.U >= 0 && fret_contact_last_loss(c->memory) >= 0);
     c->step_W = s.W;
-    fret_memory_forces(c->memory, &f);
+    fret_contact_forces(c->memory, &f);
     CHECK(f.FN == s.FN && f.dz == s.dz && f.Fx == s.Fx && f.dx == s.dx && f.W == s.W && f.slices == s.slices);
     CHECK(fabsl(s.Fx) <= c->mu * s.FN * (1 + UNIT_TOL(1e-17L, 1e-14L)));
     fret_segment seg, last = {0, 0, 0, 0};
     fret_real force = 0;
     size_t count = 0;
-    while (fret_memory_segment(c->memory, count, &seg)) {
+    while (fret_contact_segment(c->memory, count, &seg)) {
         CHECK(fabsl(seg.sigma) <= 1 && seg.outer >= seg.inner && seg.inner == last.outer);
         CHECK(fabsl(seg.u) <=
               mu_eta * (s.dz - seg.inner) * (1 + UNIT_TOL(1e-17L, 1e-14L)) + 1e-17L * mu_eta * s.dz);
@@ -98,7 +98,7 @@ static void history_reference(const char *name, bool by_force) {
     const fret_real tol = UNIT_TOL(1e-14L, 1e-12L);
     while (unit_row(&t)) {
         if ((int)unit_input(&t, 0) != id) {
-            fret_memory_free(c.memory);
+            fret_contact_free(c.memory);
             id = (int)unit_input(&t, 0);
             unit_scene s = unit_read_scene(&t, 1);
             c = make(&s);
@@ -129,14 +129,14 @@ static void history_reference(const char *name, bool by_force) {
         CHECK_ABS(s.U, unit_result(&t, in + 5), fabsl(unit_result(&t, in + 5)) + 1e-4L * work, tol);
         check_state(&c);
     }
-    fret_memory_free(c.memory);
+    fret_contact_free(c.memory);
 }
 
 /* int F_x d(dx) over one step, adaptively, from states along the straight path. These end on doubles,
  * so that 1e-16 of noise bounds the tolerance. */
 typedef struct path {
     const contact *c;
-    fret_memory *probe;
+    fret_contact *probe;
     bool by_force;
     double normal0, normal1, tangential0, tangential1;
 } path;
@@ -146,9 +146,9 @@ static fret_real along(const path *p, fret_real t) {
     double tangential = (double)(p->tangential0 * (1 - t) + p->tangential1 * t);
     fret_step step = p->by_force ? to_force(normal, tangential) : to_depth(normal, tangential);
     fret_state s = {0};
-    if (fret_memory_copy(p->probe, p->c->memory).code || fret_memory_step(p->probe, &step).code)
+    if (fret_contact_copy(p->probe, p->c->memory).code || fret_contact_step(p->probe, &step).code)
         return (fret_real)NAN;
-    fret_memory_forces(p->probe, &s);
+    fret_contact_forces(p->probe, &s);
     return p->by_force ? s.dx : s.Fx;
 }
 
@@ -178,11 +178,11 @@ static void ledger(bool by_force) {
     unsigned long long seed = 17;
     for (int i = 0; i < 7; i++) {
         contact c = make_plain(ns[i % 4], ks[i % 5]);
-        fret_memory *probe = NULL;
-        CHECK_OK(fret_memory_make(c.normal, c.mu, &probe));
+        fret_contact *probe = NULL;
+        CHECK_OK(fret_contact_make(c.normal, c.mu, FRET_EXACT, &probe));
         fret_press base = {.F = 0};
         CHECK_OK(fret_press_by_depth(c.normal, 1e-6, &base));
-        const fret_real dmax = fret_gross_slip(&(fret_contact){c.normal, c.mu, base}),
+        const fret_real dmax = fret_gross_slip(&(fret_pressed){c.normal, c.mu, base}),
                         scale = c.mu * base.F * dmax;
         fret_real work = 0;
         /* not from the open state, where dx ~ F^q would be hard on the quadrature */
@@ -211,8 +211,8 @@ static void ledger(bool by_force) {
             normal = next;
             tangential = goal;
         }
-        fret_memory_free(probe);
-        fret_memory_free(c.memory);
+        fret_contact_free(probe);
+        fret_contact_free(c.memory);
     }
 }
 
@@ -227,8 +227,8 @@ static void closed_forms(void) {
         fret_loading f = {0, 0, 0, 0}, twice;
         fret_real loss = 0;
         CHECK_OK(fret_press_by_force(c.normal, FN, &p));
-        CHECK_OK(fret_loading_by_force(&(fret_contact){c.normal, c.mu, p}, FA, &f));
-        CHECK_OK(fret_cycle_loss_by_force(&(fret_contact){c.normal, c.mu, p}, FA, &loss));
+        CHECK_OK(fret_loading_by_force(&(fret_pressed){c.normal, c.mu, p}, FA, &f));
+        CHECK_OK(fret_cycle_loss_by_force(&(fret_pressed){c.normal, c.mu, p}, FA, &loss));
         go(&c, to_force(FN, 0));
         fret_state s = state_of(&c);
         CHECK(s.Fx == 0 && s.dx == 0 && s.W == 0 && s.U == 0 && s.c == s.a);
@@ -242,7 +242,7 @@ static void closed_forms(void) {
         /* Masing: half the reversed branch is the first loading */
         for (int j = 1; j <= 4; j++) {
             double back = FA - j * FA / 2;
-            CHECK_OK(fret_loading_by_force(&(fret_contact){c.normal, c.mu, p}, (FA - back) / 2, &twice));
+            CHECK_OK(fret_loading_by_force(&(fret_pressed){c.normal, c.mu, p}, (FA - back) / 2, &twice));
             fret_real dx0 = f.dx;
             go(&c, to_fx(back));
             CHECK_ABS((dx0 - state_of(&c).dx) / 2, twice.dx, fabsl(f.dx), UNIT_TOL(1e-16L, 1e-13L));
@@ -251,16 +251,16 @@ static void closed_forms(void) {
         for (int cycle = 0; cycle < 3; cycle++) {
             fret_real W = 0, U = state_of(&c).U;
             go(&c, to_fx(FA));
-            W += fret_memory_last_loss(c.memory);
+            W += fret_contact_last_loss(c.memory);
             CHECK_REL(2 * W, loss, UNIT_TOL(1e-15L, 1e-12L));
             CHECK_REL(state_of(&c).U, U, UNIT_TOL(1e-15L, 1e-12L));
             go(&c, to_fx(-FA));
-            W += fret_memory_last_loss(c.memory);
+            W += fret_contact_last_loss(c.memory);
             CHECK_REL(W, loss, UNIT_TOL(1e-15L, 1e-12L));
             check_state(&c);
             CHECK(state_of(&c).slices <= 3);
         }
-        fret_memory_free(c.memory);
+        fret_contact_free(c.memory);
     }
 }
 
@@ -269,14 +269,14 @@ static void displacement_cycles(void) {
         contact c = make_plain(1 + i % 4, -0.8 + 0.4 * (i / 4));
         fret_press p = {.F = 0};
         CHECK_OK(fret_press_by_force(c.normal, 20, &p));
-        const fret_real max = fret_gross_slip(&(fret_contact){c.normal, c.mu, p});
+        const fret_real max = fret_gross_slip(&(fret_pressed){c.normal, c.mu, p});
         go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0});
         for (double part = 0.1; part < 4; part *= 2) {
             double dA = part * (double)max;
             fret_real loss = 0;
             fret_loading f = {0, 0, 0, 0};
-            CHECK_OK(fret_cycle_loss_by_displacement(&(fret_contact){c.normal, c.mu, p}, dA, &loss));
-            CHECK_OK(fret_loading_by_displacement(&(fret_contact){c.normal, c.mu, p}, dA, &f));
+            CHECK_OK(fret_cycle_loss_by_displacement(&(fret_pressed){c.normal, c.mu, p}, dA, &loss));
+            CHECK_OK(fret_loading_by_displacement(&(fret_pressed){c.normal, c.mu, p}, dA, &f));
             go(&c, to_dx(dA));
             go(&c, to_dx(-dA));
             fret_state s = state_of(&c);
@@ -284,14 +284,14 @@ static void displacement_cycles(void) {
             CHECK_ABS(s.dx, -(fret_real)dA, max, UNIT_TOL(1e-17L, 1e-14L));
             fret_real W = 0;
             go(&c, to_dx(dA));
-            W += fret_memory_last_loss(c.memory);
+            W += fret_contact_last_loss(c.memory);
             go(&c, to_dx(-dA));
-            W += fret_memory_last_loss(c.memory);
+            W += fret_contact_last_loss(c.memory);
             CHECK_REL(W, loss, UNIT_TOL(1e-13L, 1e-11L));
             CHECK_ABS(state_of(&c).W - s.W, W, s.W + W, UNIT_TOL(1e-17L, 1e-14L));
             check_state(&c);
         }
-        fret_memory_free(c.memory);
+        fret_contact_free(c.memory);
     }
 }
 
@@ -316,7 +316,7 @@ static void wiping(void) {
         fret_press p = {.F = 0};
         CHECK_OK(fret_press_by_force(plain.normal, FN, &p));
         CHECK_OK(
-            fret_cycle_loss_by_force(&(fret_contact){plain.normal, plain.mu, p}, 0.3 * limit, &expected));
+            fret_cycle_loss_by_force(&(fret_pressed){plain.normal, plain.mu, p}, 0.3 * limit, &expected));
         CHECK_REL(inner, expected, 1e-14L);
         CHECK(state_of(&looped).slices == slices);
         static const double onwards[] = {-0.35, -0.7, 0.5};
@@ -324,7 +324,7 @@ static void wiping(void) {
             go(&plain, to_fx(onwards[j] * limit));
             go(&looped, to_fx(onwards[j] * limit));
             fret_state x = state_of(&plain), y = state_of(&looped);
-            CHECK_ABS(y.dx, x.dx, fret_gross_slip(&(fret_contact){plain.normal, plain.mu, p}),
+            CHECK_ABS(y.dx, x.dx, fret_gross_slip(&(fret_pressed){plain.normal, plain.mu, p}),
                       UNIT_TOL(1e-17L, 1e-14L));
             CHECK_REL(y.W, x.W + inner, UNIT_TOL(1e-16L, 1e-13L));
             CHECK_REL(y.U, x.U, UNIT_TOL(1e-15L, 1e-13L));
@@ -335,8 +335,8 @@ static void wiping(void) {
         fret_state s = state_of(&looped);
         CHECK(s.FN == 0 && s.Fx == 0 && s.U == 0 && s.slices == 0 && s.W > 0);
         check_state(&looped);
-        fret_memory_free(plain.memory);
-        fret_memory_free(looped.memory);
+        fret_contact_free(plain.memory);
+        fret_contact_free(looped.memory);
     }
 }
 
@@ -363,7 +363,7 @@ static void normal_steps(void) {
         CHECK_REL(s.dx, before.dx, UNIT_TOL(1e-17L, 1e-14L));
         CHECK(s.Fx <= c.mu * 12 && s.c < s.a);
         check_state(&c);
-        fret_memory_free(c.memory);
+        fret_contact_free(c.memory);
     }
 }
 
@@ -371,29 +371,29 @@ static void normal_steps(void) {
 static void stiffness(void) {
     for (int i = 0; i < 12; i++) {
         contact c = make_plain(1 + i % 3, -0.6 + 0.4 * (i / 3));
-        fret_memory *probe = NULL;
-        CHECK_OK(fret_memory_make(c.normal, c.mu, &probe));
+        fret_contact *probe = NULL;
+        CHECK_OK(fret_contact_make(c.normal, c.mu, FRET_EXACT, &probe));
         go(&c, to_force(20, 0));
         static const double targets[] = {0.5, -0.2, 0.1, -0.4, 0.8};
         for (int j = 0; j < 5; j++) {
             go(&c, to_fx(targets[j] * c.mu * 20));
             fret_state s = state_of(&c), f;
-            const double way = j & 1 ? -1 : 1, d = 1e-6 * c.mu * 20;
-            fret_step on = to_fx(targets[j] * c.mu * 20 + way * d),
-                      back = to_fx(targets[j] * c.mu * 20 - way * d);
-            CHECK_OK(fret_memory_copy(probe, c.memory));
-            CHECK_OK(fret_memory_step(probe, &on));
-            fret_memory_forces(probe, &f);
+            const double sense = j & 1 ? -1 : 1, d = 1e-6 * c.mu * 20;
+            fret_step on = to_fx(targets[j] * c.mu * 20 + sense * d),
+                      back = to_fx(targets[j] * c.mu * 20 - sense * d);
+            CHECK_OK(fret_contact_copy(probe, c.memory));
+            CHECK_OK(fret_contact_step(probe, &on));
+            fret_contact_forces(probe, &f);
             CHECK_REL((f.Fx - s.Fx) / (f.dx - s.dx), s.kt, 1e-4L);
             CHECK_REL(s.kt, fret_normal_stiffness(c.normal, s.c) / c.normal->foundation.eta,
                       UNIT_TOL(1e-17L, 1e-14L));
-            CHECK_OK(fret_memory_copy(probe, c.memory));
-            CHECK_OK(fret_memory_step(probe, &back));
-            fret_memory_forces(probe, &f);
+            CHECK_OK(fret_contact_copy(probe, c.memory));
+            CHECK_OK(fret_contact_step(probe, &back));
+            fret_contact_forces(probe, &f);
             CHECK_REL((f.Fx - s.Fx) / (f.dx - s.dx), s.kn / c.normal->foundation.eta, 1e-4L);
         }
-        fret_memory_free(probe);
-        fret_memory_free(c.memory);
+        fret_contact_free(probe);
+        fret_contact_free(c.memory);
     }
 }
 
@@ -415,14 +415,14 @@ static void targets(void) {
                 go(&b, to_force(FN, Fx));
             } else { /* straight in (dz, dx) */
                 double dx = unit_random(&seed, -0.9, 0.9) *
-                            (double)fret_gross_slip(&(fret_contact){a.normal, a.mu, p});
+                            (double)fret_gross_slip(&(fret_pressed){a.normal, a.mu, p});
                 go(&a, to_depth(dz, dx));
                 go(&b, (fret_step){FRET_TO_FORCE, FRET_TO_DX, FN, dx});
             }
             fret_state x = state_of(&a), y = state_of(&b);
             /* alike but for the rounding of F_N to double */
             CHECK_ABS(x.Fx, y.Fx, a.mu * FN, 1e-14L);
-            CHECK_ABS(x.dx, y.dx, fret_gross_slip(&(fret_contact){a.normal, a.mu, p}), 1e-13L);
+            CHECK_ABS(x.dx, y.dx, fret_gross_slip(&(fret_pressed){a.normal, a.mu, p}), 1e-13L);
             CHECK_REL(x.W, y.W, 1e-13L);
             CHECK_REL(x.dz, y.dz, 1e-15L);
         }
@@ -433,10 +433,10 @@ static void targets(void) {
         y = state_of(&a);
         CHECK(x.FN == y.FN && x.Fx == y.Fx && x.dx == y.dx && x.W == y.W && x.U == y.U &&
               x.slices == y.slices);
-        CHECK(fret_memory_last_loss(a.memory) == 0);
+        CHECK(fret_contact_last_loss(a.memory) == 0);
         /* KEEP_DX is TO_DX at the present dx */
         go(&a, to_dx(1e-7));
-        CHECK_OK(fret_memory_copy(b.memory, a.memory));
+        CHECK_OK(fret_contact_copy(b.memory, a.memory));
         go(&a, (fret_step){FRET_TO_DEPTH, FRET_KEEP_DX, 7e-7, 0});
         go(&b, to_depth(7e-7, 1e-7));
         x = state_of(&a);
@@ -445,8 +445,8 @@ static void targets(void) {
         CHECK_REL(x.dx, (fret_real)1e-7, UNIT_TOL(1e-16L, 1e-13L));
         CHECK_REL(y.dx, x.dx, UNIT_TOL(1e-16L, 1e-13L));
         CHECK_ABS(x.Fx, y.Fx, a.mu * x.FN, UNIT_TOL(1e-17L, 1e-14L));
-        fret_memory_free(a.memory);
-        fret_memory_free(b.memory);
+        fret_contact_free(a.memory);
+        fret_contact_free(b.memory);
     }
 }
 
@@ -475,10 +475,10 @@ static void separation(void) {
     CHECK(s.dx == 4e-7);
     check_state(&c);
     fret_segment seg = {7, 7, 7, 7};
-    CHECK(fret_memory_segment(c.memory, s.slices, &seg) == 0 &&
-          fret_memory_segment(c.memory, 1000, &seg) == 0);
-    fret_memory_free(c.memory);
-    fret_memory_free(fresh.memory);
+    CHECK(fret_contact_segment(c.memory, s.slices, &seg) == 0 &&
+          fret_contact_segment(c.memory, 1000, &seg) == 0);
+    fret_contact_free(c.memory);
+    fret_contact_free(fresh.memory);
 }
 
 static void gross_slip(void) {
@@ -486,7 +486,7 @@ static void gross_slip(void) {
     go(&c, to_force(20, 0));
     fret_press p = {.F = 0};
     CHECK_OK(fret_press_by_force(c.normal, 20, &p));
-    const double max = (double)fret_gross_slip(&(fret_contact){c.normal, c.mu, p}), limit = c.mu * 20;
+    const double max = (double)fret_gross_slip(&(fret_pressed){c.normal, c.mu, p}), limit = c.mu * 20;
     go(&c, to_dx(3 * max));
     fret_state s = state_of(&c);
     CHECK_REL(s.Fx, (fret_real)c.mu * 20, UNIT_TOL(1e-18L, 1e-15L));
@@ -505,7 +505,7 @@ static void gross_slip(void) {
     check_state(&c);
     fret_step beyond = to_fx(limit * 1.01);
     fret_state before = state_of(&c), after;
-    fret_status st = fret_memory_step(c.memory, &beyond);
+    fret_status st = fret_contact_step(c.memory, &beyond);
     CHECK_ERROR(st, FRET_GROSS_SLIP, "Fx");
     CHECK_REL((fret_real)st.limit, (fret_real)limit, 1e-15L);
     after = state_of(&c);
@@ -514,9 +514,9 @@ static void gross_slip(void) {
     /* falling F_N under a held F_x ends in gross slip as well */
     go(&c, to_fx(0.5 * limit));
     fret_step fall = to_force(5, 0.5 * limit);
-    CHECK_CODE(fret_memory_step(c.memory, &fall), FRET_GROSS_SLIP);
+    CHECK_CODE(fret_contact_step(c.memory, &fall), FRET_GROSS_SLIP);
     CHECK(state_of(&c).FN == 20);
-    fret_memory_free(c.memory);
+    fret_contact_free(c.memory);
 }
 
 /* A ramp in many small steps is the ramp in one, in slices as well: exactly where corners and steps are
@@ -527,7 +527,7 @@ static void standing(void) {
     contact c = make_plain(2, 0.3);
     fret_press p = {.F = 0};
     CHECK_OK(fret_press_by_force(c.normal, 100, &p));
-    const double scale = (double)fret_gross_slip(&(fret_contact){c.normal, c.mu, p});
+    const double scale = (double)fret_gross_slip(&(fret_pressed){c.normal, c.mu, p});
     go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 100, 0});
     for (int i = 0; i < 11; i++) {
         fret_step step = i < 6 ? to_dx(dx[i] * scale) : to_fx(Fx[i - 6]);
@@ -535,13 +535,13 @@ static void standing(void) {
         fret_state first = state_of(&c);
         for (int again = 0; again < 3; again++) {
             go(&c, step);
-            CHECK(fret_memory_last_loss(c.memory) == 0);
+            CHECK(fret_contact_last_loss(c.memory) == 0);
         }
         fret_state s = state_of(&c);
         CHECK(s.c == first.c && s.kt == first.kt && s.W == first.W && s.Fx == first.Fx && s.dx == first.dx);
         CHECK(s.c < s.a);
     }
-    fret_memory_free(c.memory);
+    fret_contact_free(c.memory);
 }
 
 /* Within the contact, up to the last digit of its radius, the bound of a spring is never below 0, nor its
@@ -554,12 +554,12 @@ static void rim(void) {
         go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, unit_random(&seed, 1, 100), 0});
         fret_state s = state_of(&c);
         go(&c, to_fx(0.5 * c.mu * (double)s.FN));
-        const fret_real inside = nextafterl(s.a, 0), bound = fret_memory_bound(c.memory, inside),
-                        u = fret_memory_displacement(c.memory, inside);
+        const fret_real inside = nextafterl(s.a, 0), bound = fret_contact_bound(c.memory, inside),
+                        u = fret_contact_displacement(c.memory, inside);
         CHECK(bound >= 0 && u >= 0 && u <= bound);
-        CHECK(bound <= 1e-12L * fret_memory_bound(c.memory, 0));
+        CHECK(bound <= 1e-12L * fret_contact_bound(c.memory, 0));
         rounded += fret_normal_profile(c.normal, inside) > s.dz;
-        fret_memory_free(c.memory);
+        fret_contact_free(c.memory);
     }
     CHECK(rounded > 0);
 }
@@ -582,14 +582,14 @@ static void brink(double n, double k) {
             go(&c, (fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0,
                                i == steps ? to : from + (to - from) * i / steps});
         fret_state end = state_of(&c);
-        CHECK_OK(fret_loading_by_force(&(fret_contact){c.normal, c.mu, p}, to, &f));
+        CHECK_OK(fret_loading_by_force(&(fret_pressed){c.normal, c.mu, p}, to, &f));
         CHECK_REL(end.c, f.c, UNIT_TOL(1e-17L, 1e-3L));
         CHECK_REL(end.dx, f.dx, UNIT_TOL(1e-18L, 1e-8L));
-        CHECK_OK(fret_cycle_loss_by_force(&(fret_contact){c.normal, c.mu, p}, from, &before));
-        CHECK_OK(fret_cycle_loss_by_force(&(fret_contact){c.normal, c.mu, p}, to, &after));
+        CHECK_OK(fret_cycle_loss_by_force(&(fret_pressed){c.normal, c.mu, p}, from, &before));
+        CHECK_OK(fret_cycle_loss_by_force(&(fret_pressed){c.normal, c.mu, p}, to, &after));
         CHECK_REL(4 * end.W, after, UNIT_TOL(5e-18L, 1e-14L));
         CHECK_REL(4 * (end.W - start.W), after - before, UNIT_TOL(1e-11L, 1e-7L));
-        fret_memory_free(c.memory);
+        fret_contact_free(c.memory);
     }
 }
 
@@ -602,13 +602,13 @@ static void brink_on_the_way(double n, double k) {
         fret_press p = {.F = 0};
         fret_loading f = {0, 0, 0, 0};
         CHECK_OK(fret_press_by_force(c.normal, FN, &p));
-        CHECK_OK(fret_loading_by_force(&(fret_contact){c.normal, c.mu, p}, to, &f));
+        CHECK_OK(fret_loading_by_force(&(fret_pressed){c.normal, c.mu, p}, to, &f));
         go(&c, (fret_step){FRET_TO_FORCE, FRET_KEEP_DX, from, 0});
         go(&c, (fret_step){FRET_TO_FORCE, FRET_TO_FX, FN, to});
         const fret_state end = state_of(&c);
         CHECK_REL(end.c, f.c, UNIT_TOL(1e-18L, 1e-3L));
         CHECK_REL(end.dx, f.dx, UNIT_TOL(1e-18L, 1e-8L));
-        fret_memory_free(c.memory);
+        fret_contact_free(c.memory);
     }
 }
 
@@ -637,7 +637,7 @@ static void nested_brinks(double n, double k) {
         const fret_state end = state_of(&c);
         CHECK_ABS(end.dx, side * mu_eta * (forth - back), mu_eta * end.dz, UNIT_TOL(4e-19L, 1e-8L));
         CHECK_REL(end.c, fret_law_radius(c.normal, depth), UNIT_TOL(1e-18L, 1e-3L));
-        fret_memory_free(c.memory);
+        fret_contact_free(c.memory);
     }
 }
 
@@ -672,8 +672,8 @@ static void subdivision(int steps) {
             CHECK(x.slices <= 6);
             CHECK(y.slices <= (steps == 2048 ? 6 : 64));
         }
-        fret_memory_free(one.memory);
-        fret_memory_free(many.memory);
+        fret_contact_free(one.memory);
+        fret_contact_free(many.memory);
     }
 }
 
@@ -682,22 +682,22 @@ static void objects(void) {
     fret_state s = state_of(&a), x, y;
     CHECK(s.FN == 0 && s.dz == 0 && s.Fx == 0 && s.dx == 0 && s.W == 0 && s.U == 0 && s.slices == 0 &&
           s.a == 0);
-    CHECK(fret_memory_last_loss(a.memory) == 0);
+    CHECK(fret_contact_last_loss(a.memory) == 0);
     go(&a, to_force(20, 0));
     /* a shrinking oscillation leaves one slice a reversal */
     for (int i = 0; i < 60; i++)
         go(&a, to_fx(20 * a.mu * 0.9 * pow(-0.93, i)));
     x = state_of(&a);
     CHECK(x.slices > 50);
-    CHECK_OK(fret_memory_copy(b.memory, a.memory)); /* another contact becomes this one */
-    CHECK_OK(fret_memory_copy(a.memory, a.memory));
+    CHECK_OK(fret_contact_copy(b.memory, a.memory)); /* another contact becomes this one */
+    CHECK_OK(fret_contact_copy(a.memory, a.memory));
     y = state_of(&b);
     CHECK(x.Fx == y.Fx && x.dx == y.dx && x.U == y.U && x.W == y.W && x.slices == y.slices && x.a == y.a &&
           x.kt == y.kt);
-    CHECK(fret_memory_last_loss(b.memory) == fret_memory_last_loss(a.memory));
+    CHECK(fret_contact_last_loss(b.memory) == fret_contact_last_loss(a.memory));
     for (size_t i = 0; i < x.slices; i++) {
         fret_segment p = {0}, q = {0};
-        CHECK(fret_memory_segment(a.memory, i, &p) && fret_memory_segment(b.memory, i, &q));
+        CHECK(fret_contact_segment(a.memory, i, &p) && fret_contact_segment(b.memory, i, &q));
         CHECK(p.inner == q.inner && p.outer == q.outer && p.sigma == q.sigma && p.u == q.u);
     }
     go(&b, to_fx(3)); /* apart again */
@@ -710,10 +710,10 @@ static void objects(void) {
     /* the way back to the last maximum wipes it all */
     go(&a, to_fx(20 * a.mu * 0.95));
     CHECK(state_of(&a).slices <= 2);
-    fret_memory_reset(a.memory);
+    fret_contact_reset(a.memory);
     x = state_of(&a);
     CHECK(x.FN == 0 && x.dz == 0 && x.Fx == 0 && x.dx == 0 && x.W == 0 && x.U == 0 && x.slices == 0);
-    CHECK(fret_memory_last_loss(a.memory) == 0);
+    CHECK(fret_contact_last_loss(a.memory) == 0);
     contact fresh = make_plain(2, 0.2);
     go(&a, to_force(10, 1));
     go(&fresh, to_force(10, 1));
@@ -721,27 +721,27 @@ static void objects(void) {
     y = state_of(&fresh);
     CHECK(x.Fx == y.Fx && x.dx == y.dx && x.U == y.U && x.W == y.W);
     /* borrowed, and by a copy too */
-    CHECK(fret_memory_normal(fresh.memory) == fresh.normal);
-    CHECK_OK(fret_memory_copy(fresh.memory, a.memory));
-    CHECK(fret_memory_normal(fresh.memory) == a.normal);
-    fret_memory_free(fresh.memory);
-    fret_memory_free(a.memory);
-    fret_memory_free(b.memory);
-    fret_memory_free(NULL);
+    CHECK(fret_contact_normal(fresh.memory) == fresh.normal);
+    CHECK_OK(fret_contact_copy(fresh.memory, a.memory));
+    CHECK(fret_contact_normal(fresh.memory) == a.normal);
+    fret_contact_free(fresh.memory);
+    fret_contact_free(a.memory);
+    fret_contact_free(b.memory);
+    fret_contact_free(NULL);
 }
 
 static void errors(void) {
     contact c = make_plain(2, 0.2);
-    fret_memory *none = NULL;
-    CHECK_ERROR(fret_memory_make(c.normal, 0, &none), FRET_NOT_POSITIVE, "mu");
-    CHECK_ERROR(fret_memory_make(c.normal, -0.3, &none), FRET_NOT_POSITIVE, "mu");
-    CHECK_ERROR(fret_memory_make(c.normal, nan_, &none), FRET_NOT_FINITE, "mu");
-    CHECK_ERROR(fret_memory_make(c.normal, inf_, &none), FRET_NOT_FINITE, "mu");
+    fret_contact *none = NULL;
+    CHECK_ERROR(fret_contact_make(c.normal, 0, FRET_EXACT, &none), FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_contact_make(c.normal, -0.3, FRET_EXACT, &none), FRET_NOT_POSITIVE, "mu");
+    CHECK_ERROR(fret_contact_make(c.normal, nan_, FRET_EXACT, &none), FRET_NOT_FINITE, "mu");
+    CHECK_ERROR(fret_contact_make(c.normal, inf_, FRET_EXACT, &none), FRET_NOT_FINITE, "mu");
     CHECK(none == NULL);
     go(&c, to_force(20, 3));
     go(&c, to_fx(-2));
     const fret_state before = state_of(&c);
-    const fret_real last = fret_memory_last_loss(c.memory);
+    const fret_real last = fret_contact_last_loss(c.memory);
     const double wild[] = {nan_, inf_, -inf_};
     struct {
         fret_step step;
@@ -775,17 +775,17 @@ static void errors(void) {
     bad[count].step = (fret_step){FRET_TO_DEPTH, FRET_TO_FX, -1e-6, 1e-9};
     bad[count++].code = FRET_GROSS_SLIP;
     for (int i = 0; i < count; i++) {
-        CHECK_CODE(fret_memory_step(c.memory, &bad[i].step), bad[i].code);
+        CHECK_CODE(fret_contact_step(c.memory, &bad[i].step), bad[i].code);
         const fret_state after = state_of(&c);
         CHECK(after.FN == before.FN && after.dz == before.dz && after.Fx == before.Fx &&
               after.dx == before.dx && after.W == before.W && after.U == before.U &&
               after.slices == before.slices && after.kt == before.kt);
-        CHECK(fret_memory_last_loss(c.memory) == last);
+        CHECK(fret_contact_last_loss(c.memory) == last);
     }
     /* an ignored target may hold anything */
     const fret_step ignored = {FRET_KEEP_NORMAL, FRET_KEEP_DX, nan_, nan_};
-    CHECK_OK(fret_memory_step(c.memory, &ignored));
-    fret_memory_free(c.memory);
+    CHECK_OK(fret_contact_step(c.memory, &ignored));
+    fret_contact_free(c.memory);
 }
 
 /* Springs of a foundation cut into N cells, each weighted by the integral of x^k over it: an
@@ -859,23 +859,23 @@ static void spring_model(double n, double k) {
     for (int i = 0; i < STEPS; i++) {
         double Fx = c.mu * 20 * unit_random(&seed, -0.9, 0.9);
         fret_step step = to_fx(Fx);
-        fret_status st = fret_memory_step(c.memory, &step);
+        fret_status st = fret_contact_step(c.memory, &step);
         if (st.code) {
             CHECK_OK(st);
             break;
         }
         fret_state s;
-        fret_memory_forces(c.memory, &s);
+        fret_contact_forces(c.memory, &s);
         pull(&coarse, Fx);
         pull(&fine, Fx);
         coarse_fine = fmaxl(coarse_fine, fabsl((fret_real)coarse.dx - fine.dx));
         fine_exact = fmaxl(fine_exact, fabsl(fine.dx - s.dx));
-        falls = falls || s.W < W || fret_memory_last_loss(c.memory) < 0;
-        sum += fret_memory_last_loss(c.memory);
+        falls = falls || s.W < W || fret_contact_last_loss(c.memory) < 0;
+        sum += fret_contact_last_loss(c.memory);
         W = s.W;
         slices = s.slices > slices ? s.slices : slices;
     }
-    const fret_real max = fret_gross_slip(&(fret_contact){c.normal, c.mu, p});
+    const fret_real max = fret_gross_slip(&(fret_pressed){c.normal, c.mu, p});
     CHECK(!falls);
     CHECK(slices < 40); /* records of a random sequence: about ln(steps) a side */
     /* of second order, or of order 1+k where the centre weighs most: the rest is less than the gap */
@@ -889,15 +889,16 @@ static void spring_model(double n, double k) {
         printf("springs n=%g k=%g: dx %.1Le -> %.1Le of dx_max, W %.1Le -> %.1Le; at most %zu slices\n", n, k,
                coarse_fine / max, fine_exact / max, fabsl((coarse.W - W) / W), fabsl((fine.W - W) / W),
                slices);
-    fret_memory_free(c.memory);
+    fret_contact_free(c.memory);
 }
 
 /* Places rise from the centre to the edge, slopes are slopes, the curve is as steep as they say. */
-static bool in_order(const fret_memory *m) {
+static bool in_order(const fret_contact *c) {
+    const fret_memory *m = c->memory;
     fret_segment s;
     fret_real last = 0;
     const fret_real slack = 8 * LDBL_EPSILON;
-    for (size_t i = 0; fret_memory_segment(m, i, &s); i++, last = s.outer) {
+    for (size_t i = 0; fret_contact_segment(c, i, &s); i++, last = s.outer) {
         const layer *l = &m->layers[i];
         const point *outer = fret_memory_outer(m, i);
         for (coordinate by = DEPTH; by <= LOAD; by++) {
@@ -928,11 +929,11 @@ static void unequal(void) {
             step.tangential = step.tangential_by == FRET_TO_FX
                                   ? part * (step.normal_by == FRET_TO_FORCE ? bound : c.mu * (double)now.FN)
                                   : part * pow(10, unit_random(&seed, -14, 10));
-            if (fret_memory_step(c.memory, &step).code)
+            if (fret_contact_step(c.memory, &step).code)
                 continue;
             CHECK(in_order(c.memory));
         }
-        fret_memory_free(c.memory);
+        fret_contact_free(c.memory);
         fret_normal_free(unit.normal[--unit.normals]);
     }
 }
@@ -945,7 +946,7 @@ static void from_far(void) {
                           .terms = 1,
                           .power = {{5.8191091357016242, 2.6918748266644205e-05, 0.0051140926825317999}}};
     contact c = {.normal = unit_keep_normal(&material, &gap), .mu = 0.4};
-    CHECK_OK(fret_memory_make(c.normal, c.mu, &c.memory));
+    CHECK_OK(fret_contact_make(c.normal, c.mu, FRET_EXACT, &c.memory));
     const fret_step steps[] = {to_force(31.600412869186258, -4.1945459287254589),
                                {FRET_TO_DEPTH, FRET_KEEP_DX, 631885072763.47363, 0},
                                {FRET_TO_FORCE, FRET_TO_DX, 29.405160495167841, 4.7407009394257462e-08},
@@ -956,7 +957,7 @@ static void from_far(void) {
         CHECK(in_order(c.memory));
         check_state(&c);
     }
-    fret_memory_free(c.memory);
+    fret_contact_free(c.memory);
 }
 
 int main(int argc, char **argv) {

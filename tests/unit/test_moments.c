@@ -81,14 +81,14 @@ static fret_normal *normal_of(double k, const fret_gap *gap) {
 }
 
 /* Oblique loading, then ever smaller turns: slices of all kinds. */
-static void begin(fret_memory *m) {
+static void begin(fret_contact *m) {
     static const fret_step steps[] = {
         {FRET_TO_FORCE, FRET_TO_FX, 5, 1},    {FRET_TO_FORCE, FRET_TO_FX, 8, -1},
         {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 2}, {FRET_TO_FORCE, FRET_TO_FX, 6, 1.5},
         {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 1}, {FRET_KEEP_NORMAL, FRET_TO_FX, 0, 1.2}};
-    fret_memory_reset(m);
+    fret_contact_reset(m);
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
-        CHECK_OK(fret_memory_step(m, &steps[i]));
+        CHECK_OK(fret_contact_step(m, &steps[i]));
 }
 
 static void laws(const fret_gap *gap, double k, long tries) {
@@ -106,7 +106,7 @@ static void laws(const fret_gap *gap, double k, long tries) {
 
 typedef enum what { PRESSURE, SURFACE, TRACTION, SURFACE_X } what;
 
-static fret_status ask(const fret_normal *n, const fret_memory *m, what w, fret_real r, fret_real *v) {
+static fret_status ask(const fret_normal *n, const fret_contact *m, what w, fret_real r, fret_real *v) {
     const fret_real a = 2e-4L;
     fret_fields *f;
     CHECK_OK(fret_fields_make(n, &f));
@@ -126,8 +126,8 @@ static void memories(const fret_gap *gap, double k) {
     } places[] = {{PRESSURE, 1.2e-4L}, {SURFACE, 3.2e-4L},   {TRACTION, 0.4e-4L},
                   {TRACTION, 1.2e-4L}, {SURFACE_X, 0.4e-4L}, {SURFACE_X, 3.2e-4L}};
     fret_normal *n = normal_of(k, gap);
-    fret_memory *m;
-    CHECK_OK(fret_memory_make(n, 0.4, &m));
+    fret_contact *m;
+    CHECK_OK(fret_contact_make(n, 0.4, FRET_EXACT, &m));
     begin(m);
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         const what w = places[i].w;
@@ -137,11 +137,11 @@ static void memories(const fret_gap *gap, double k) {
         const fret_real want = v;
         EACH_MOMENT(12, 5, ask(n, m, w, r, &v), true, v == want);
     }
-    fret_memory_free(m);
+    fret_contact_free(m);
 }
 
 static void losses(const fret_gap *gap, double k) {
-    fret_contact c = {.normal = normal_of(k, gap), .mu = 0.4};
+    fret_pressed c = {.normal = normal_of(k, gap), .mu = 0.4};
     fret_real loss = 0, error = 0;
     fret_loading peak;
     CHECK_OK(fret_press_by_force(c.normal, 8, &c.press));

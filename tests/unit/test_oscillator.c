@@ -4,7 +4,7 @@
  *        m x'' = P(t) - F_x,   F_N = F_N(t)
  *
  * The contact takes the displacement of the mass and the normal load of the day, and gives back F_x:
- * two calls a step, fret_memory_step and fret_memory_forces. Time goes by velocity Verlet. The books
+ * two calls a step, fret_contact_step and fret_contact_forces. Time goes by velocity Verlet. The books
  * must balance:
  *
  *        kinetic + stored in the contact + dissipated = work of P
@@ -62,7 +62,7 @@ typedef struct oscillator {
     double x, v;  /* displacement [m] and velocity [m/s] of the mass */
     double force; /* F_x, by which the contact holds it back [N] */
     double work;  /* done by P since the start [J] */
-    fret_memory *contact;
+    fret_contact *contact;
 } oscillator;
 
 static double pull_at(const drive *d, double t) {
@@ -75,13 +75,13 @@ static double load_at(const drive *d, double t) {
 
 /* Moves the contact to a displacement under a load and returns the force it answers with. Displacement
  * control: the mass may slide away, and the contact then holds back by mu F_N. */
-static fret_status contact_force(fret_memory *contact, double FN, double x, double *force) {
+static fret_status contact_force(fret_contact *contact, double FN, double x, double *force) {
     const fret_step step = {FRET_TO_FORCE, FRET_TO_DX, FN, x};
     fret_state now;
-    fret_status st = fret_memory_step(contact, &step);
+    fret_status st = fret_contact_step(contact, &step);
     if (st.code)
-        return st;                     /* the contact is as before */
-    fret_memory_forces(contact, &now); /* fret_memory_state has energies and stiffness too */
+        return st;                      /* the contact is as before */
+    fret_contact_forces(contact, &now); /* fret_contact_state has energies and stiffness too */
     *force = (double)now.Fx;
     return st;
 }
@@ -102,12 +102,12 @@ static fret_status verlet(oscillator *o, const drive *d, double t, double dt) {
 /* One implicit step (average acceleration), for a stiff model: guesses the end, asks the contact, and goes
  * back to try again with a better guess until the guess stands. `saved` is a second contact to go back to;
  * a copy allocates only where it holds fewer slices than ever before. */
-static fret_status implicit(oscillator *o, fret_memory *saved, const drive *d, double t, double dt,
+static fret_status implicit(oscillator *o, fret_contact *saved, const drive *d, double t, double dt,
                             double tolerance, int *tries) {
     const double before = pull_at(d, t), after = pull_at(d, t + dt), x0 = o->x, v0 = o->v;
     const double a0 = (before - o->force) / o->mass;
     double x = x0 + dt * v0 + dt * dt / 2 * a0, force = o->force;
-    fret_status st = fret_memory_copy(saved, o->contact);
+    fret_status st = fret_contact_copy(saved, o->contact);
     for (*tries = 1; !st.code; ++*tries) {
         st = contact_force(o->contact, load_at(d, t + dt), x, &force);
         if (st.code)
@@ -117,12 +117,12 @@ static fret_status implicit(oscillator *o, fret_memory *saved, const drive *d, d
         if (fabs(miss) <= tolerance || *tries >= 50)
             break;
         fret_state end;
-        fret_memory_state(o->contact, &end);
+        fret_contact_state(o->contact, &end);
         x += miss / (1 + dt * dt / 4 * (double)end.kt / o->mass); /* Newton with the contact's stiffness */
-        st = fret_memory_copy(o->contact, saved);
+        st = fret_contact_copy(o->contact, saved);
     }
     if (st.code) /* leaves the model as it was; of equal size, so that this cannot fail */
-        return fret_memory_copy(o->contact, saved), st;
+        return fret_contact_copy(o->contact, saved), st;
     o->work += (before + after) / 2 * (x - x0);
     o->v = v0 + dt / 2 * (a0 + (after - force) / o->mass);
     o->x = x;
@@ -134,7 +134,7 @@ static fret_status implicit(oscillator *o, fret_memory *saved, const drive *d, d
 
 typedef struct rig {
     oscillator mass;
-    fret_memory *saved;
+    fret_contact *saved;
     double slip; /* delta_x,max at the mean load */
     const fret_normal *normal;
     double mu;
@@ -148,25 +148,25 @@ static rig make_rig(const drive *d) {
     fret_press press;
     fret_state start;
     CHECK_OK(fret_press_by_force(r.normal, d->FN, &press));
-    if (!CHECK(fret_memory_make(r.normal, r.mu, &r.mass.contact).code == FRET_OK) ||
-        !CHECK(fret_memory_make(r.normal, r.mu, &r.saved).code == FRET_OK))
+    if (!CHECK(fret_contact_make(r.normal, r.mu, FRET_EXACT, &r.mass.contact).code == FRET_OK) ||
+        !CHECK(fret_contact_make(r.normal, r.mu, FRET_EXACT, &r.saved).code == FRET_OK))
         exit(unit_finish());
-    r.slip = (double)fret_gross_slip(&(fret_contact){r.normal, r.mu, press});
+    r.slip = (double)fret_gross_slip(&(fret_pressed){r.normal, r.mu, press});
     CHECK_OK(contact_force(r.mass.contact, load_at(d, 0), 0, &r.mass.force));
-    fret_memory_state(r.mass.contact, &start);
+    fret_contact_state(r.mass.contact, &start);
     const double omega = 2 * pi * 1000;
     r.mass.mass = (double)start.kt / (omega * omega);
     return r;
 }
 
 static void drop(rig *r) {
-    fret_memory_free(r->mass.contact);
-    fret_memory_free(r->saved);
+    fret_contact_free(r->mass.contact);
+    fret_contact_free(r->saved);
 }
 
 static double energy(const oscillator *o) {
     fret_state s;
-    fret_memory_state(o->contact, &s);
+    fret_contact_state(o->contact, &s);
     return o->mass * o->v * o->v / 2 + (double)(s.U + s.W);
 }
 
@@ -185,7 +185,7 @@ static double imbalance(const drive *d, int steps, bool by_implicit) {
         else
             CHECK_OK(verlet(&r.mass, d, i * dt, dt));
         most = by_implicit && tries > most ? tries : most;
-        fret_memory_forces(r.mass.contact, &s);
+        fret_contact_forces(r.mass.contact, &s);
         CHECK(s.W >= dissipated); /* the second law, at every step */
         dissipated = s.W;
         const double miss = energy(&r.mass) - r.mass.work;
@@ -225,7 +225,7 @@ static double contact_imbalance(int steps, double *final) {
         through += (force + r.mass.force) / 2 * (r.mass.x - x);
         CHECK(fabs(r.mass.force) <= r.mu * load_at(&d, (i + 1) * dt) * (1 + 1e-12));
     }
-    fret_memory_state(r.mass.contact, &s);
+    fret_contact_state(r.mass.contact, &s);
     *final = energy(&r.mass) - r.mass.work;
     const double error = (through - (double)(s.U + s.W)) / (double)s.W;
     if (getenv("FRET_UNIT_VERBOSE"))
@@ -271,7 +271,7 @@ static void test_no_allocation(void) {
     int tries, failed = 0;
     for (int run = 0; run < 2; run++) {
         calls = 0;
-        fret_memory_reset(r.mass.contact);
+        fret_contact_reset(r.mass.contact);
         failed += contact_force(r.mass.contact, load_at(&d, 0), 0, &r.mass.force).code != FRET_OK;
         r.mass.x = r.mass.v = r.mass.work = 0;
         for (int i = 0; i < steps; i++)
@@ -295,15 +295,15 @@ static void test_rollback(void) {
     fret_state a, b;
     for (int i = 0; i < 100; i++)
         CHECK_OK(verlet(&r.mass, &d, i * dt, dt));
-    CHECK_OK(fret_memory_copy(r.saved, r.mass.contact));
-    fret_memory_state(r.mass.contact, &a);
+    CHECK_OK(fret_contact_copy(r.saved, r.mass.contact));
+    fret_contact_state(r.mass.contact, &a);
     double force = r.mass.force;
     CHECK_CODE(contact_force(r.mass.contact, -1, r.mass.x, &force), FRET_NEGATIVE);
     CHECK_CODE(contact_force(r.mass.contact, 100, (double)NAN, &force), FRET_NOT_FINITE);
     CHECK(force == r.mass.force);
     CHECK_OK(contact_force(r.mass.contact, 50, 3 * r.slip, &force)); /* a wrong guess ... */
-    CHECK_OK(fret_memory_copy(r.mass.contact, r.saved));             /* ... taken back */
-    fret_memory_state(r.mass.contact, &b);
+    CHECK_OK(fret_contact_copy(r.mass.contact, r.saved));            /* ... taken back */
+    fret_contact_state(r.mass.contact, &b);
     CHECK(a.FN == b.FN && a.dz == b.dz && a.a == b.a && a.Fx == b.Fx && a.dx == b.dx && a.c == b.c &&
           a.W == b.W && a.U == b.U && a.kn == b.kn && a.kt == b.kt && a.slices == b.slices);
     drop(&r);

@@ -117,10 +117,10 @@ static void reference(void) {
         fret_loading f = {0, 0, 0, 0};
         fret_real loss = -1;
         p = (fret_press){.F = F, .dz = dz, .a = a};
-        CHECK_OK(fret_loading_by_force(&(fret_contact){n, s.mu, p}, FA, &f));
+        CHECK_OK(fret_loading_by_force(&(fret_pressed){n, s.mu, p}, FA, &f));
         NEAR(f.c, c, c, tol);
         NEAR(f.dx, dx, dx, tol);
-        CHECK_OK(fret_cycle_loss_by_force(&(fret_contact){n, s.mu, p}, FA, &loss));
+        CHECK_OK(fret_cycle_loss_by_force(&(fret_pressed){n, s.mu, p}, FA, &loss));
         NEAR(loss, dW, dW, tol);
         fret_table_free(table);
     }
@@ -188,10 +188,10 @@ static void sloped(void) {
     fret_table_free(t);
 }
 
-static fret_real lost(fret_memory *m, double tangential) {
+static fret_real lost(fret_contact *m, double tangential) {
     fret_step step = {FRET_KEEP_NORMAL, FRET_TO_FX, 0, tangential};
-    CHECK_OK(fret_memory_step(m, &step));
-    return fret_memory_last_loss(m);
+    CHECK_OK(fret_contact_step(m, &step));
+    return fret_contact_last_loss(m);
 }
 
 /* The closed forms and the engine share the slices of the law, but not the way to them. */
@@ -212,19 +212,19 @@ static void engine(void) {
                 double FA = (double)(parts[i] * (fret_real)s.mu * FN);
                 while (FA > s.mu * (fret_real)FN)
                     FA = nextafter(FA, 0);
-                fret_memory *m = NULL;
-                CHECK_OK(fret_memory_make(n, s.mu, &m));
+                fret_contact *m = NULL;
+                CHECK_OK(fret_contact_make(n, s.mu, FRET_EXACT, &m));
                 if (!m)
                     continue;
                 fret_step press = {FRET_TO_FORCE, FRET_TO_DX, FN, 0};
-                CHECK_OK(fret_memory_step(m, &press));
+                CHECK_OK(fret_contact_step(m, &press));
                 fret_real loss = -1;
                 fret_loading f = {0, 0, 0, 0};
                 fret_state st;
-                CHECK_OK(fret_cycle_loss_by_force(&(fret_contact){n, s.mu, p}, FA, &loss));
-                CHECK_OK(fret_loading_by_force(&(fret_contact){n, s.mu, p}, FA, &f));
+                CHECK_OK(fret_cycle_loss_by_force(&(fret_pressed){n, s.mu, p}, FA, &loss));
+                CHECK_OK(fret_loading_by_force(&(fret_pressed){n, s.mu, p}, FA, &f));
                 fret_real first = lost(m, FA);
-                fret_memory_state(m, &st);
+                fret_contact_state(m, &st);
                 CHECK_REL(4 * first, loss, UNIT_TOL(1e-14L, 1e-11L));
                 CHECK_REL(st.dx, f.dx, UNIT_TOL(1e-14L, 1e-11L));
                 if (i < 3) /* at gross slip c hangs on the last bit of mu F_N */
@@ -234,7 +234,7 @@ static void engine(void) {
                     sum += lost(m, FA);
                     CHECK_REL(sum, loss, UNIT_TOL(1e-14L, 1e-11L));
                 }
-                fret_memory_free(m);
+                fret_contact_free(m);
             }
         }
     fret_table_free(table);
@@ -280,8 +280,8 @@ static answers ask(const unit_scene *s, double FN) {
     answers a = {.loss = -1};
     const fret_normal *n = unit_make_normal(s);
     CHECK_OK(fret_press_by_force(n, FN, &a.p));
-    CHECK_OK(fret_loading_by_force(&(fret_contact){n, s->mu, a.p}, 0.6 * s->mu * FN, &a.f));
-    CHECK_OK(fret_cycle_loss_by_force(&(fret_contact){n, s->mu, a.p}, 0.6 * s->mu * FN, &a.loss));
+    CHECK_OK(fret_loading_by_force(&(fret_pressed){n, s->mu, a.p}, 0.6 * s->mu * FN, &a.f));
+    CHECK_OK(fret_cycle_loss_by_force(&(fret_pressed){n, s->mu, a.p}, 0.6 * s->mu * FN, &a.loss));
     return a;
 }
 
@@ -353,17 +353,17 @@ static void limits(void) {
         CHECK(p.F == 1 && p.dz == 2 && p.a == 3); /* untouched on failure */
 
         /* the engine refuses alike, and stays where it was */
-        fret_memory *m = NULL;
-        CHECK_OK(fret_memory_make(n, s.mu, &m));
+        fret_contact *m = NULL;
+        CHECK_OK(fret_contact_make(n, s.mu, FRET_EXACT, &m));
         fret_step step = {FRET_TO_FORCE, FRET_TO_DX, (double)at.F * 0.5, 0};
         fret_state old, now;
-        CHECK_OK(fret_memory_step(m, &step));
-        fret_memory_state(m, &old);
+        CHECK_OK(fret_contact_step(m, &step));
+        fret_contact_state(m, &old);
         step.normal = (double)at.F * 1.001;
-        CHECK_CODE(fret_memory_step(m, &step), FRET_NOT_MONOTONE);
-        fret_memory_state(m, &now);
+        CHECK_CODE(fret_contact_step(m, &step), FRET_NOT_MONOTONE);
+        fret_contact_state(m, &now);
         CHECK(old.FN == now.FN && old.dz == now.dz && old.a == now.a && old.slices == now.slices);
-        fret_memory_free(m);
+        fret_contact_free(m);
 
         /* falls from the tip on: never a disc */
         s.gap.power[0].h = -50;
@@ -606,21 +606,21 @@ static void coarse_steps(void) {
             unit_scene s = unit_make_scene(2, j ? -0.7 : 0.3);
             s.gap = (fret_gap){.kind = FRET_GAP_TABLE, .table = t};
             const fret_normal *n = unit_make_normal(&s);
-            fret_memory *m = NULL;
-            CHECK_OK(fret_memory_make(n, 0.3, &m));
+            fret_contact *m = NULL;
+            CHECK_OK(fret_contact_make(n, 0.3, FRET_EXACT, &m));
             double FN = 100, Fx = 0;
             fret_step step = {FRET_TO_FORCE, FRET_TO_FX, FN, Fx};
-            CHECK_OK(fret_memory_step(m, &step));
+            CHECK_OK(fret_contact_step(m, &step));
             for (int i = 0, parts = fine ? 200 : 1; i < 3; FN = to[i][0], Fx = to[i][1], i++)
                 for (int part = 1; part <= parts; part++) {
                     step.normal = FN + (to[i][0] - FN) * part / parts;
                     step.tangential = Fx + (to[i][1] - Fx) * part / parts;
-                    CHECK_OK(fret_memory_step(m, &step));
+                    CHECK_OK(fret_contact_step(m, &step));
                 }
             fret_state state;
-            fret_memory_forces(m, &state);
+            fret_contact_forces(m, &state);
             W[fine] = state.W;
-            fret_memory_free(m);
+            fret_contact_free(m);
         }
         CHECK_REL(W[0], W[1], UNIT_TOL(1e-14L, 1e-12L));
     }

@@ -6,7 +6,7 @@
 typedef struct pair {
     const fret_normal *normal;
     double mu, FN, radius, slip; /* slip: delta_x,max at F_N */
-    fret_memory *memory;
+    fret_contact *memory;
     fret_springs *springs;
     size_t count;
     double reach; /* radius that the springs are cut for */
@@ -27,15 +27,15 @@ static pair make(double n, double k) {
     fret_press press;
     CHECK_OK(fret_press_by_force(p.normal, p.FN, &press));
     p.radius = (double)press.a;
-    p.slip = (double)fret_gross_slip(&(fret_contact){p.normal, p.mu, press});
-    if (!CHECK(fret_memory_make(p.normal, p.mu, &p.memory).code == FRET_OK))
+    p.slip = (double)fret_gross_slip(&(fret_pressed){p.normal, p.mu, press});
+    if (!CHECK(fret_contact_make(p.normal, p.mu, FRET_EXACT, &p.memory).code == FRET_OK))
         exit(unit_finish());
     return p;
 }
 
 static void drop(pair *p) {
     fret_springs_free(p->springs);
-    fret_memory_free(p->memory);
+    fret_contact_free(p->memory);
 }
 
 static fret_step to_depth(double dz, double dx) {
@@ -61,7 +61,7 @@ static fret_step to_fx(double Fx) {
 static void go(pair *p, fret_step step, unsigned substeps) {
     fret_state before, after;
     fret_springs_state(p->springs, &before);
-    CHECK_OK(fret_memory_step(p->memory, &step));
+    CHECK_OK(fret_contact_step(p->memory, &step));
     CHECK_OK(fret_springs_step(p->springs, &step, substeps));
     fret_springs_state(p->springs, &after);
     CHECK(after.W >= before.W && after.U >= 0);
@@ -71,7 +71,7 @@ static void go(pair *p, fret_step step, unsigned substeps) {
 /* How far the springs are from the diagram; loads to mu F_N, displacements to delta_x,max. */
 static fret_real distance(const pair *p) {
     fret_state m, s;
-    fret_memory_state(p->memory, &m);
+    fret_contact_state(p->memory, &m);
     fret_springs_state(p->springs, &s);
     const fret_real force = (m.Fx - s.Fx) / (p->mu * p->FN), shift = (m.dx - s.dx) / p->slip;
     const fret_real energy = p->mu * p->FN * p->slip, W = (m.W - s.W) / energy, U = (m.U - s.U) / energy;
@@ -79,7 +79,7 @@ static fret_real distance(const pair *p) {
 }
 
 static void restart(pair *p) {
-    fret_memory_reset(p->memory);
+    fret_contact_reset(p->memory);
     springs_of(p, p->count, p->reach, FRET_WEIGHT_CELL);
 }
 
@@ -91,7 +91,7 @@ static fret_real constant_load_error(pair *p, size_t count, fret_weight rule, bo
     fret_real sum = 0;
     for (int cut = 0; cut < CUTS; cut++) {
         springs_of(p, count, p->radius * (1 + (cut + 0.5) / (double)CUTS / (double)count), rule);
-        fret_memory_reset(p->memory);
+        fret_contact_reset(p->memory);
         go(p, press_only(p->FN), 1);
         for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) {
             go(p, by_force ? to_fx(turns[i] * p->mu * p->FN) : to_dx(turns[i] * p->slip), 1);
@@ -308,7 +308,7 @@ static void test_stick(void) {
     go(&p, press_only(p.FN), 1);
     for (int i = 1; i < 6; i++) {
         go(&p, to_fx((i % 2 ? 1 : -1) * (0.9 - 0.1 * i) * p.mu * p.FN), 1);
-        fret_memory_state(p.memory, &m);
+        fret_contact_state(p.memory, &m);
         fret_springs_state(p.springs, &s);
         CHECK_ABS(s.c, m.c, p.radius, 1.5L / 4000);
         CHECK_REL(s.kt, m.kt, 2e-3L);
@@ -338,7 +338,7 @@ static void loops_close(double n, double k, size_t count, bool oblique) {
         const double *at = place[(int)unit_random(&seed, 0, PLACES)];
         fret_state m, s;
         go(&p, oblique ? to_force(at[0], at[1]) : to_fx(at[1]), oblique ? 64 : 1);
-        fret_memory_state(p.memory, &m);
+        fret_contact_state(p.memory, &m);
         fret_springs_state(p.springs, &s);
         const fret_real cell = (fret_real)p.radius / (fret_real)count;
         CHECK_ABS(s.c, m.c, cell, 2);
@@ -405,9 +405,9 @@ static void test_pad(void) {
     fret_springs *none = NULL;
     p.normal = unit_keep_normal(&steel.material, &gap);
     CHECK_OK(fret_press_by_force(p.normal, p.FN, &press));
-    p.slip = (double)fret_gross_slip(&(fret_contact){p.normal, p.mu, press});
+    p.slip = (double)fret_gross_slip(&(fret_pressed){p.normal, p.mu, press});
     p.radius = (double)press.a;
-    CHECK_OK(fret_memory_make(p.normal, p.mu, &p.memory));
+    CHECK_OK(fret_contact_make(p.normal, p.mu, FRET_EXACT, &p.memory));
     springs_of(&p, 2000, p.radius * 1.001, FRET_WEIGHT_CELL);
     go(&p, to_force(p.FN, 0), 1);
     go(&p, to_fx(0.6 * p.mu * p.FN), 1);

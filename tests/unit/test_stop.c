@@ -2,6 +2,7 @@
 /* A flag that is set ends long work with its own status, and what was interrupted serves again after a reset.
  */
 #include "fret/fret.h"
+#include "histories.h"
 
 #include "study/jenkins.h"
 #include "unit.h"
@@ -45,7 +46,7 @@ static void check_memory(const fret_normal *normal) {
 }
 
 /* Questions to a state: what they had begun is no answer. */
-static void check_questions(const fret_normal *normal, const fret_contact *contact) {
+static void check_questions(const fret_normal *normal, const fret_pressed *contact) {
     fret_memory *m;
     fret_state before, during, after;
     fret_real value = 0, error = 0;
@@ -60,14 +61,14 @@ static void check_questions(const fret_normal *normal, const fret_contact *conta
     CHECK(fret_memory_slip_work(m) == 0);
     fret_memory_state(m, &during);
     CHECK(during.FN == before.FN && during.Fx == before.Fx);
-    CHECK_CODE(fret_traction(m, 1e-5L, &value), FRET_INTERRUPTED);
-    CHECK_CODE(fret_surface_x(m, 1e-5L, &value), FRET_INTERRUPTED);
+    CHECK_CODE(fret_traction(CONTACT_OF(m), 1e-5L, &value), FRET_INTERRUPTED);
+    CHECK_CODE(fret_surface_x(CONTACT_OF(m), 1e-5L, &value), FRET_INTERRUPTED);
     CHECK_CODE(fret_cycle_loss_by_definition(contact, &peak, &value, &error), FRET_INTERRUPTED);
     stop = 0;
     fret_memory_state(m, &after);
     CHECK(before.U == after.U && before.W == after.W && before.dx == after.dx);
     CHECK(fret_memory_slip_work(m) == work);
-    CHECK_OK(fret_traction(m, 1e-5L, &value));
+    CHECK_OK(fret_traction(CONTACT_OF(m), 1e-5L, &value));
     CHECK(value > 0);
     CHECK_OK(fret_cycle_loss_by_definition(contact, &peak, &value, &error));
     CHECK(value > 0);
@@ -126,7 +127,7 @@ static void check_wild(struct fret_table *rows) {
         stop = 0;
         fret_memory_reset(m);
         CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, (double)p.F / 2, 0}));
-        if (fret_swing_takes(n)) {
+        if (fret_normal_swings(n)) {
             const double F = (double)p.F;
             CHECK_OK(fret_swing_make(m, &s));
             stop = 1;
@@ -149,7 +150,7 @@ static void check_elements(const fret_material *material) {
     fret_press p;
     CHECK_OK(fret_press_by_force(normal, 10, &p));
     fret_normal_stop(normal, &stop);
-    const fret_contact contact = {normal, 0.4, p};
+    const fret_pressed contact = {normal, 0.4, p};
     const double part = 0.5 * (double)fret_gross_slip(&contact);
     jenkins_element whole[ELEMENTS], out[ELEMENTS];
     jenkins_error quality, unused;
@@ -182,7 +183,7 @@ int main(int argc, char **argv) {
     CHECK_OK(fret_normal_make(&steel, &gap, NULL, NULL, &normal));
     fret_normal_stop(normal, &stop);
     CHECK_OK(fret_press_by_force(normal, 10, &press));
-    const fret_contact contact = {normal, 0.4, press};
+    const fret_pressed contact = {normal, 0.4, press};
     stop = 1;
     CHECK_CODE(fret_cycle_loss_by_force(&contact, 1, &loss), FRET_INTERRUPTED);
     stop = 0;

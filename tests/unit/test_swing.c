@@ -2,8 +2,7 @@
 /* Harmonic forces event by event: against exact references, and against chords of the same memory. */
 #include <pthread.h>
 
-#include "history/memory.h"
-#include "history/swing.h"
+#include "histories.h"
 #include "unit.h"
 
 static const double half_turn = 3.14159265358979323846;
@@ -81,7 +80,7 @@ static fret_real chords(fret_memory *m, const load *l, int count) {
             const fret_step step = {FRET_TO_FORCE, FRET_TO_FX, l->FN + l->FNA * cos(s + w.phase),
                                     l->FA * cos(s)};
             CHECK_OK(fret_memory_step(m, &step));
-            sum += fret_memory_last_loss(m);
+            sum += m->last_loss;
         }
     return sum;
 }
@@ -116,7 +115,7 @@ static void references(void) {
         fret_memory *m = begin(&l);
         fret_swing *s = swing_of(m);
         fret_state now;
-        CHECK(fret_swing_fits(s, &w));
+        CHECK(fret_swing_fits(s, &w, 0));
         for (int i = 0; i < 3; i++) {
             CHECK_OK(fret_swing_period(s, &w));
             if (i == 0) {
@@ -175,7 +174,7 @@ static void against_chords(int count) {
         fret_swing *s = swing_of(coarse);
         fret_state a, b, now;
         fret_real loss[2] = {0, 0};
-        CHECK(fret_swing_fits(s, &w));
+        CHECK(fret_swing_fits(s, &w, 0));
         for (int j = 0; j < 2; j++) {
             CHECK_OK(fret_swing_period(s, &w));
             loss[0] = chords(coarse, &l, 320);
@@ -285,7 +284,7 @@ static void against_memory(int count) {
             const fret_real size =
                 l.mu * l.mu * m->normal->foundation.eta * 100 * fret_law_depth(m->normal, 100);
             CHECK_ABS(b.W, a.W, a.W + (l.gap ? 1e-4L * size : 0), 100 * known(&l));
-            CHECK_ABS(fret_swing_last_loss(s), fret_memory_last_loss(m), size, 10 * known(&l));
+            CHECK_ABS(fret_swing_last_loss(s), m->last_loss, size, 10 * known(&l));
             CHECK_ABS(b.U, a.U, size, known(&l));
             CHECK_ABS(b.dx, a.dx, l.mu * m->normal->foundation.eta * a.dz, 10 * known(&l));
             CHECK(b.FN == a.FN && b.dz == fret_memory_pressed(m).dz && b.a == a.a);
@@ -395,7 +394,7 @@ static void through_slip(void) {
         CHECK_ABS(b.U, a.U, limit * reach, 1e-15L);
         /* the first step goes over what curves, which the memory has in chords */
         CHECK_ABS(b.W, a.W, limit * reach, 1e-6L);
-        CHECK_ABS(fret_swing_last_loss(s), fret_memory_last_loss(m), limit * reach, i ? 1e-15L : 1e-6L);
+        CHECK_ABS(fret_swing_last_loss(s), m->last_loss, limit * reach, i ? 1e-15L : 1e-6L);
         CHECK_ABS(b.c, a.c, a.a, 1e-9L);
         CHECK_ABS(b.kt, a.kt, a.kn, 1e-9L);
     }
@@ -415,7 +414,8 @@ static void refusals(void) {
     fret_state before, after;
     fret_swing_state(s, &before);
     const fret_sine slides = {39, 30, 1, 100}, elsewhere = {20, 30, 1, 100}, opens = {0, 100, 0, 100};
-    CHECK(!fret_swing_fits(s, &slides) && !fret_swing_fits(s, &elsewhere) && !fret_swing_fits(s, &opens));
+    CHECK(!fret_swing_fits(s, &slides, 0) && !fret_swing_fits(s, &elsewhere, 0) &&
+          !fret_swing_fits(s, &opens, 0));
     const fret_step by_dx = {FRET_TO_FORCE, FRET_TO_DX, 90, 1e-7},
                     held = {FRET_TO_FORCE, FRET_KEEP_DX, 90, 0},
                     no_dx = {FRET_KEEP_NORMAL, FRET_TO_DX, 0, (double)NAN},
@@ -449,7 +449,7 @@ static void refusals(void) {
     const unit_scene steel = unit_make_scene(2, 0);
     s = NULL;
     CHECK_OK(fret_memory_make(unit_keep_normal(&steel.material, &sampled), 0.4, &m));
-    CHECK(!fret_swing_takes(fret_memory_normal(m)));
+    CHECK(!fret_normal_swings(m->normal));
     CHECK_CODE(fret_swing_make(m, &s), FRET_OUTSIDE);
     CHECK(s == NULL);
     fret_memory_free(m);
@@ -475,11 +475,11 @@ static void too_small(void) {
     CHECK_OK(fret_memory_make(n, 0.4, &m));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 110, 1}));
     fret_swing *s = swing_of(m);
-    CHECK(fret_swing_fits(s, &(fret_sine){1, 10, 0, 100}));
+    CHECK(fret_swing_fits(s, &(fret_sine){1, 10, 0, 100}, 0));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 20, 1}));
     fret_swing_free(s);
     s = swing_of(m);
-    CHECK(!fret_swing_fits(s, &(fret_sine){1, top - 100, acos(-1), 100}));
+    CHECK(!fret_swing_fits(s, &(fret_sine){1, top - 100, acos(-1), 100}, 0));
     CHECK_OK(fret_swing_surface_x(s, 1e-2, &q)); /* beyond the sphere, too */
     CHECK(q > 0);
     fret_swing_free(s);
@@ -493,7 +493,7 @@ static void by_depth(void) {
     fret_swing *s = swing_of(m), *t = swing_of(m);
     fret_state one, two;
     fret_press p;
-    CHECK_OK(fret_press_by_force(fret_memory_normal(m), 80, &p));
+    CHECK_OK(fret_press_by_force(m->normal, 80, &p));
     CHECK_OK(fret_swing_step(s, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 80, 5}));
     CHECK_OK(fret_swing_step(t, &(fret_step){FRET_TO_DEPTH, FRET_TO_FX, (double)p.dz, 5}));
     fret_swing_state(s, &one);
@@ -651,7 +651,7 @@ static void opened_and_closed(void) {
     CHECK(open.FN == 0 && open.slices == 0 && open.W > 0);
     CHECK_OK(fret_swing_step(s, &pressed));
     CHECK_OK(fret_swing_step(s, &pushed));
-    CHECK_OK(fret_memory_make(fret_memory_normal(m), l.mu, &fresh));
+    CHECK_OK(fret_memory_make(m->normal, l.mu, &fresh));
     CHECK_OK(fret_memory_step(fresh, &pressed));
     t = swing_of(fresh);
     CHECK_OK(fret_swing_step(t, &pushed));

@@ -3,8 +3,7 @@
  * springs that it follows from, both against chords of the same curve. Random loads, with corners.
  * FRET_FIELDS=N asks N times as much and prints the worst errors. */
 #include "fret/field.h"
-#include "history/memory.h"
-#include "history/swing.h"
+#include "histories.h"
 #include "number/integral.h"
 #include "unit.h"
 
@@ -150,12 +149,12 @@ static void random_load(bool far, const fret_gap *shape) {
             CHECK_OK(fret_swing_surface_x(s, r, &got));
             if (!far)
                 compare(1, got, surface_of(s, kink, count, r), reach, known);
-            CHECK_OK(fret_surface_x(m, r, &chords));
+            CHECK_OK(fret_surface_x(CONTACT_OF(m), r, &chords));
             compare(3, got, chords, reach, 1e-5L);
         }
         CHECK_OK(fret_pressure(s->normal, now.a, 0.9L * now.a, &scale));
         CHECK_OK(fret_swing_traction(s, r, &got));
-        CHECK_OK(fret_traction(m, r, &chords));
+        CHECK_OK(fret_traction(CONTACT_OF(m), r, &chords));
         CHECK((r < now.a) == (got != 0));
         compare(2, got, chords, mu * scale, far ? 2e-2L : 1e-3L);
         CHECK_ABS(fret_swing_displacement(s, r), fret_memory_displacement(m, r), reach, 1e-5L);
@@ -200,10 +199,10 @@ static void straight_line(const fret_gap *gap, double grading) {
         const fret_real r = turned.a + (i < 0 ? -1 : i > 0) * ldexpl(turned.a / 4, -2 * (30 - abs(i)));
         fret_real got = 0, want = 0;
         CHECK_OK(fret_swing_traction(s, r, &got));
-        CHECK_OK(fret_traction(m, r, &want));
+        CHECK_OK(fret_traction(CONTACT_OF(m), r, &want));
         compare(0, got, want, mu * scale, known + felt(r / turned.a, 1, grading));
         CHECK_OK(fret_swing_surface_x(s, r, &got));
-        CHECK_OK(fret_surface_x(m, r, &want));
+        CHECK_OK(fret_surface_x(CONTACT_OF(m), r, &want));
         compare(1, got, want, mu * s->normal->foundation.eta * whole.dz, known);
         CHECK_ABS(fret_swing_displacement(s, r), fret_memory_displacement(m, r),
                   mu * s->normal->foundation.eta * whole.dz, known);
@@ -294,7 +293,7 @@ static void special_places(void) {
     CHECK(centre != 0);
     CHECK_REL(centre, close, 1e-11L);
     CHECK_OK(fret_swing_memory(s, m));
-    CHECK_OK(fret_traction(m, 0, &want));
+    CHECK_OK(fret_traction(CONTACT_OF(m), 0, &want));
     CHECK_REL(centre, want, 1e-5L);
     CHECK_ERROR(fret_swing_traction(s, -1e-9L, &q), FRET_NEGATIVE, "r");
     CHECK_ERROR(fret_swing_surface_x(s, -1e-9L, &q), FRET_NEGATIVE, "r");
@@ -317,7 +316,8 @@ static void special_places(void) {
         for (double r = 0.5; r < 2; r += 0.5) {
             const fret_real x = r * fret_gap_start(&s->normal->gap);
             q = want = 0;
-            const fret_status one = fret_swing_traction(s, x, &q), two = fret_traction(m, x, &want);
+            const fret_status one = fret_swing_traction(s, x, &q),
+                              two = fret_traction(CONTACT_OF(m), x, &want);
             CHECK((one.code == FRET_SINGULAR) == (r == 1 && soft && !gripped));
             agree(one, two, q, want);
         }

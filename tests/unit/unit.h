@@ -289,8 +289,8 @@ static inline fret_normal *unit_make_normal(const unit_scene *s) {
     return unit_keep_normal(&s->material, &s->gap);
 }
 
-static inline fret_contact unit_make_contact(const unit_scene *s, double FN) {
-    fret_contact c = {.normal = unit_make_normal(s), .mu = s->mu};
+static inline fret_pressed unit_make_contact(const unit_scene *s, double FN) {
+    fret_pressed c = {.normal = unit_make_normal(s), .mu = s->mu};
     CHECK_OK(fret_press_by_force(c.normal, FN, &c.press));
     return c;
 }
