@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Traction and tangential displacement of a history, as a sum of normal contacts. Pure. */
-#include "fret/field.h"
 #include "field/field.h"
+#include "fret/field.h"
 #include "law/check.h"
 
 /* Sum over the slices of weight sigma times the difference of the field at their two ends: the field where

@@ -828,15 +828,21 @@ static void diagram_pack(const DIAGRAM *d, double out[]) {
         next = pack_number(pack_point(next, &d->layers[i].inner), d->layers[i].sigma);
 }
 
-/* Is it a curve that rises from a place to one further out, with slopes of at most 1? */
-static bool is_curve(const DIAGRAM *d) {
-    bool ok = d->count ? d->edge.y[DEPTH] > 0 && d->edge.y[LOAD] > 0 : d->edge.y[DEPTH] == 0;
+/* Is it a curve that rises from a place to one further out, with slopes of at most 1, and what comes of them,
+ * and energies of something that rubs? */
+static bool is_history(const DIAGRAM *d) {
+    bool ok = d->W >= 0 && size_of(d->W_rest) <= d->W && d->last_loss >= 0 &&
+              d->W + d->last_loss <= DBL_MAX && size_of(d->Fx) <= 2 * d->mu * d->edge.y[LOAD] &&
+              size_of(d->dx - d->slid) <= 2 * d->mu_eta * d->edge.y[DEPTH] + LITTLE * size_of(d->slid) &&
+              (d->count ? d->dz > 0 && d->edge.y[DEPTH] > 0 && d->edge.y[LOAD] > 0
+                        : d->dz <= 0 && d->edge.y[DEPTH] == 0 && d->edge.y[LOAD] == 0);
     for (size_t i = 0; i < d->count && ok; i++) {
         const point *outer = i + 1 < d->count ? &d->layers[i + 1].inner : &d->edge,
                     *inner = &d->layers[i].inner;
         ok = size_of(d->layers[i].sigma) <= 1;
         for (coordinate by = DEPTH; by <= LOAD; by++)
-            ok = ok && inner->y[by] >= 0 && inner->y[by] <= outer->y[by] && size_of(inner->t[by]) <= DBL_MAX;
+            ok = ok && inner->y[by] >= 0 && inner->y[by] <= outer->y[by] &&
+                 size_of(inner->t[by]) <= 2 * d->edge.y[by] && size_of(outer->t[by]) <= 2 * d->edge.y[by];
     }
     return ok;
 }
@@ -866,9 +872,9 @@ static fret_status diagram_unpack(DIAGRAM *d, const double from[], size_t count)
     made->dz = rest[0], made->slid = rest[1], made->dx = rest[2], made->Fx = rest[3];
     made->W = rest[4], made->W_rest = rest[5], made->last_loss = rest[6];
     NUMBER v;
-    st = !is_curve(made) ? wrong
-         : made->count   ? law_press(made, made->told, (double)made->edge.y[made->told], &v)
-                         : st;
+    st = !is_history(made) ? wrong
+         : made->count     ? law_press(made, made->told, (double)made->edge.y[made->told], &v)
+                           : st;
     if (!st.code)
         st = diagram_copy(d, made);
     diagram_free(made);

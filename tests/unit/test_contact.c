@@ -31,8 +31,8 @@ static void both(void) {
     fret_contact *exact = make(n, FRET_EXACT), *fast = make(n, FRET_DOUBLE), *none = NULL;
     unsigned long long seed = 7;
     fret_real out = 0, max = 0.4L * 100 * 4e-6L;
-    CHECK_ERROR(fret_contact_make(unit_keep_normal(&s.material, &flat), 0.4, FRET_DOUBLE, &none), FRET_OUTSIDE,
-                "n");
+    CHECK_ERROR(fret_contact_make(unit_keep_normal(&s.material, &flat), 0.4, FRET_DOUBLE, &none),
+                FRET_OUTSIDE, "n");
     CHECK_ERROR(fret_contact_make(n, 0, FRET_EXACT, &none), FRET_NOT_POSITIVE, "mu");
     CHECK(!none);
     for (int i = 0; i < 200; i++) {
@@ -105,7 +105,8 @@ static void swings(void) {
     static const double r[] = {0, 1e-3, 2e-3}, f[] = {0, 1e-6, 4e-6};
     struct fret_table *table = NULL;
     CHECK_OK(fret_table_make(r, f, 3, NULL, &table));
-    const fret_normal *rows = unit_keep_normal(&s.material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = table});
+    const fret_normal *rows =
+        unit_keep_normal(&s.material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = table});
     c = make(rows, FRET_EXACT);
     CHECK(!fret_normal_swings(rows));
     CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 13, 1}));
@@ -149,6 +150,17 @@ static void packed(double n, double k, fret_exactness exactness) {
         to[i] = i % 2 ? (double)INFINITY : (double)NAN;
         CHECK_CODE(fret_contact_unpack(c, to, count), FRET_OUTSIDE);
         to[i] = was;
+    }
+    for (size_t i = 0; i < 2 * count; i++) { /* what may pass for one goes on as one */
+        const double was = to[i / 2];
+        const fret_step next = random_step(&seed, 100);
+        to[i / 2] = i % 2 ? -1e290 : 1e290;
+        if (!fret_contact_unpack(other, to, count).code && !fret_contact_step(other, &next).code) {
+            fret_state now;
+            fret_contact_forces(other, &now);
+            CHECK(fret_contact_last_loss(other) >= 0 && now.W >= 0 && isfinite(now.dx));
+        }
+        to[i / 2] = was;
     }
     for (size_t i = 0; i < count; i += 7)
         CHECK(fret_contact_unpack(c, to, i).code == FRET_OUTSIDE || (i > 0 && i < count));
