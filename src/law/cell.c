@@ -44,25 +44,48 @@ static fret_real raised(fret_real s, fret_real e) {
     return e == 1 ? s : e == 0.5L ? sqrtl(s) : s > 0 ? fret_pow(s, e) : 0;
 }
 
-/* A way inwards, and ln of what it leaves of s. */
+/* A way inwards from s: s^q, how far, and ln of what that leaves of s where it is asked for. */
 typedef struct way {
-    fret_real s, back, log;
+    fret_real s, to_q, back, log;
 } way;
 
-static way way_of(fret_real s, fret_real back) {
-    return (way){s, back, back < s ? log1pl(-back / s) : -(fret_real)INFINITY};
+static way way_from(const fret_cell *c, fret_real s) {
+    return (way){s, c->count[RISE_Q] ? raised(s, c->q) : 0, 0, 0};
 }
 
-/* The fall of s^e p(s), from the quotient (p(s)-p(s1))/(s-s1): no difference loses digits. */
-static fret_real fall_of(const fret_cell *c, int i, fret_real e, const way *w) {
-    const fret_real inner = w->s - w->back, power = raised(w->s, e),
-                    less = e == 1 ? w->back : -power * expm1l(e * w->log);
+static fret_real log_left(fret_real s, fret_real back) {
+    return back < s ? log1pl(-back / s) : -(fret_real)INFINITY;
+}
+
+static void go(const fret_cell *c, way *w, fret_real back) {
+    w->back = back;
+    w->log = c->count[RISE_Q] || c->mu != 1 ? log_left(w->s, back) : 0;
+}
+
+/* The fall of s^e p(s), from the quotient (p(s)-p(s1))/(s-s1): no difference loses digits. power: s^e, and
+ * how much less it is there. */
+static fret_real fall_of(const fret_cell *c, int i, const way *w, fret_real power, fret_real less) {
+    const fret_real inner = w->s - w->back;
     fret_real sum = 0, quotient = 0;
     for (int j = c->count[i]; j-- > 0;) {
         quotient = quotient * inner + sum;
         sum = sum * w->s + c->of[i][j];
     }
     return less * sum + (power - less) * w->back * quotient;
+}
+
+static fret_real depth_fall(const fret_cell *c, const way *w) {
+    const fret_real smooth = fall_of(c, RISE, w, w->s, w->back);
+    return c->count[RISE_Q] ? smooth + fall_of(c, RISE_Q, w, w->to_q, -w->to_q * expm1l(c->q * w->log))
+                            : smooth;
+}
+
+static fret_real load_fall(const fret_cell *c, const way *w) {
+    const fret_real to_mu = raised(w->s, c->mu), power = to_mu * w->s, bent = to_mu * w->to_q,
+                    less =
+                        c->mu == 1 ? w->back * (2 * w->s - w->back) : -power * expm1l((c->mu + 1) * w->log),
+                    load = c->K * depth_fall(c, w) + fall_of(c, PART_G, w, power, less);
+    return bent > 0 ? load + fall_of(c, PART_GQ, w, bent, -bent * expm1l((c->mu + c->q) * w->log)) : load;
 }
 
 /* ---- powers ------------------------------------------------------------------------------------ */
@@ -219,16 +242,12 @@ fret_real fret_cell_rate(const fret_cell *c, int by, fret_real s) {
 
 fret_real fret_cell_fall(const fret_cell *c, int by, fret_real s, fret_real back) {
     if (c->powers) {
-        const fret_stretch p = part_of_powers(c, s, way_of(s, back).log);
+        const fret_stretch p = part_of_powers(c, s, log_left(s, back));
         return by == BY_DEPTH ? p.h : p.G + p.h * (back < s ? stiffness_of_powers(c, s - back) : 0);
     }
-    const way w = way_of(s, back);
-    const bool bent = c->count[RISE_Q];
-    const fret_real depth = fall_of(c, RISE, 1, &w) + (bent ? fall_of(c, RISE_Q, c->q, &w) : 0);
-    if (by == BY_DEPTH)
-        return depth;
-    return c->K * depth + fall_of(c, PART_G, c->mu + 1, &w) +
-           (bent ? fall_of(c, PART_GQ, c->mu + c->q, &w) : 0);
+    way w = way_from(c, s);
+    go(c, &w, back);
+    return by == BY_DEPTH ? depth_fall(c, &w) : load_fall(c, &w);
 }
 
 /* ---- places ------------------------------------------------------------------------------------ */
@@ -329,7 +348,7 @@ fret_real fret_cell_find_back(const fret_cell *c, int by, fret_real s, fret_real
 
 fret_stretch fret_cell_below(const fret_cell *c, fret_real s) {
     if (c->powers)
-        return s > c->begin ? part_of_powers(c, s, way_of(s, s - c->begin).log) : (fret_stretch){0, 0, 0, 0};
+        return s > c->begin ? part_of_powers(c, s, log_left(s, s - c->begin)) : (fret_stretch){0, 0, 0, 0};
     const bool bent = c->count[RISE_Q];
     const fret_real to_q = bent ? raised(s, c->q) : 0, to_mu = raised(s, c->mu);
     return (fret_stretch){.h = s * at(c, RISE, s) + (bent ? to_q * at(c, RISE_Q, s) : 0),
@@ -340,22 +359,28 @@ fret_stretch fret_cell_below(const fret_cell *c, fret_real s) {
                                 (bent ? to_q * (s * at(c, PART_LQ, s) + to_q * at(c, PART_LQQ, s)) : 0))};
 }
 
-/* By Gauss's rule, in parts that end before they come close to the kink. */
+/* By Gauss's rule, in parts that end before they come close to the kink: of a part that is `back` of s, the
+ * rule of n points errs by (4 s/back)^-2n. */
 fret_stretch fret_cell_part(const fret_cell *c, fret_real s, fret_real back) {
-    static const fret_real CLOSE = 0.17L;
+    static const fret_real CLOSE = 0.17L, FEW = 0.02L;
     if (c->powers)
-        return part_of_powers(c, s, way_of(s, back).log);
+        return part_of_powers(c, s, log_left(s, back));
     if (back > 1.5L * CLOSE * s) {
         const fret_stretch outer = fret_cell_part(c, s, CLOSE * s),
                            rest = fret_cell_part(c, s - CLOSE * s, back - CLOSE * s);
         return fret_stretch_join(&outer, &rest);
     }
-    fret_stretch out = {fret_cell_fall(c, BY_DEPTH, s, back), 0, 0, 0};
+    way w = way_from(c, s);
+    go(c, &w, back);
+    fret_stretch out = {depth_fall(c, &w), 0, 0, 0};
     const fret_real scale = c->m * c->width * back;
-    for (int j = 0; j < 8; j++) {
-        const fret_real before = back * fret_gauss_node[j], x2 = c->x * c->x + c->width * (s - before),
-                        t = fret_cell_fall(c, BY_DEPTH, s, before),
-                        dK = scale * fret_gauss_weight[j] * fret_pow(x2, c->m - 1);
+    const bool few = back < FEW * s;
+    const fret_real *node = few ? fret_gauss_4_node : fret_gauss_node,
+                    *weight = few ? fret_gauss_4_weight : fret_gauss_weight;
+    for (int j = 0; j < (few ? 4 : 8); j++) {
+        go(c, &w, back * node[j]);
+        const fret_real x2 = c->x * c->x + c->width * (s - w.back), t = depth_fall(c, &w),
+                        dK = scale * weight[j] * fret_pow(x2, c->m - 1);
         out.K += dK;
         out.G += t * dK;
         out.L += t * (out.h - t) * dK;

@@ -102,6 +102,9 @@ static void add_runs(const fret_cells *all, size_t from, size_t to, fret_stretch
     }
 }
 
+/* Of a slice that is this part of s, or less, L would be lost in differences: it falls with the cube. */
+static const fret_real THIN = 0.1L;
+
 /* From s inwards by `back`: by a difference, unless that would lose digits. K: there. */
 static fret_stretch part_of(const fret_cell *c, fret_real s, const fret_stretch *whole, fret_real back,
                             fret_real inner, fret_real *K) {
@@ -117,6 +120,10 @@ fret_stretch fret_cells_between(const fret_cells *all, const fret_place *outer, 
                                 fret_real *K) {
     const fret_cell *o = &all->cell[outer->i], *i = &all->cell[inner->i];
     const bool whole = !(inner->s > i->begin);
+    if (outer->i == inner->i && !whole && inner->back < THIN * outer->s) {
+        *K = fret_cell_stiffness(o, inner->s);
+        return fret_cell_part(o, outer->s, inner->back);
+    }
     fret_stretch sum = fret_cell_below(o, outer->s);
     *K = i->K;
     if (outer->i == inner->i)

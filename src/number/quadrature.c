@@ -44,19 +44,6 @@ typedef struct quarrel {
     int times;
 } quarrel;
 
-const fret_two fret_gauss_4[2] = {{0x1.1c6490c2719ecp-4, 0x1.dc736de7b1cc3p-1},
-                                  {0x1.51ee013116102p-2, 0x1.5708ff6774f7fp-1}};
-const fret_two fret_gauss_4_weight[2] = {{0x1.64340f7e7b66bp-3, 0x1.64340f7e7b66bp-3},
-                                         {0x1.4de5f840c24cap-2, 0x1.4de5f840c24cap-2}};
-const fret_two fret_gauss_8[4] = {{0x1.454e34f533998p-6, 0x1.f5d58e5856633p-1},
-                                  {0x1.a06d536d82f88p-4, 0x1.cbf255924fa0fp-1},
-                                  {0x1.e5dad4f9af698p-3, 0x1.86894ac19425ap-1},
-                                  {0x1.a214dac30e32fp-2, 0x1.2ef5929e78e69p-1}};
-const fret_two fret_gauss_8_weight[4] = {{0x1.9ea1d04ca0374p-5, 0x1.9ea1d04ca0374p-5},
-                                         {0x1.c76fb531d2b96p-4, 0x1.c76fb531d2b96p-4},
-                                         {0x1.413c50a255615p-3, 0x1.413c50a255615p-3},
-                                         {0x1.736360b199343p-3, 0x1.736360b199343p-3}};
-
 fret_real fret_integrate_smooth(fret_integrand *f, void *context) {
     fret_real sum = 0;
     for (int i = 0; i < 8; i++)

@@ -21,8 +21,7 @@ fret_real fret_integrate_short(fret_integrand *f, void *context, fret_real agree
  * that are smooth but for kinks; at most 2^24 of them. */
 fret_real fret_integrate_pieces(fret_integrand *f, void *context, fret_real tolerance);
 
-/* Rules of four and eight points in double, a point and its mirror image together. */
+/* A point and its mirror image together. */
 typedef double fret_two __attribute__((vector_size(16)));
-extern const fret_two fret_gauss_4[2], fret_gauss_4_weight[2], fret_gauss_8[4], fret_gauss_8_weight[4];
 
 #endif
