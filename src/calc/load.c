@@ -194,18 +194,6 @@ static bool can_wait(const scene *s, const load_step *step, double mu, bool many
     return s->answers.levels && (load_is_slide(step) || (may && is_tame(step, mu)));
 }
 
-static bool start_program(scene *s, const load_step *press, calc_error *error) {
-    scene_mark before;
-    const fret_press *p;
-    scene_save(s, &before, true);
-    if (scene_append(s, press, NULL, error) && scene_press(s, &p, error)) {
-        scene_drop(&before);
-        return true;
-    }
-    scene_back(s, &before);
-    return false;
-}
-
 /* The step that has just been appended. A single step leaves the memory as it was when it fails; a cycle, or
  * one of several levels, needs the spares. */
 static bool run_appended(scene *s, bool whole, calc_error *error) {
@@ -253,10 +241,8 @@ static bool append_step(scene *s, const load_step *step, const cycle_extra *extr
     return true;
 }
 
-bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
     double mu;
-    if (step->kind == LOAD_PRESS)
-        return start_program(s, step, error);
     if (!s->end.steps)
         return calc_missing(error, IN_FN);
     if (!scene_friction(s, &mu, error))

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What answers want of the load of a scene beyond scene.h. */
+/* What answers and changes want of the load of a scene beyond scene.h. */
 #ifndef CALC_LOAD_H
 #define CALC_LOAD_H
 
 #include "calc/scene.h"
 
+/* scene_load of a step that is no press. */
+bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error);
 /* The press at the beginning of the program. */
 bool load_press(scene *s, const fret_normal *normal, fret_press *out, calc_error *error);
 /* The largest F_N of the load, pressed so at first; a gap that does not carry it refuses it where it comes to

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The life of a scene, its inputs, and the one way back. What follows from a scene is in answers.c. */
+/* The life of a scene, its inputs, and the one way back. What follows from a scene is in answers.c, what
+ * changes it whole or not at all in edit.c. */
 #include "calc/scene.h"
 
 #include <math.h>
@@ -80,7 +81,11 @@ void scene_forget(scene *s, bool keep) {
     s->sound = false;
 }
 
-static void pass_contact(answers *to, answers *from) {
+bool scene_same_contact(const inputs *a, const inputs *b) {
+    return inputs_same(a, b, ~keeps_contact);
+}
+
+void answers_pass_contact(answers *to, answers *from) {
     to->normal = from->normal;
     to->k0 = from->k0;
     to->fields = from->fields;
@@ -89,8 +94,8 @@ static void pass_contact(answers *to, answers *from) {
 }
 
 void scene_take_contact(scene *s, scene *from) {
-    if (inputs_same(&s->in, &from->in, ~keeps_contact))
-        pass_contact(&s->answers, &from->answers);
+    if (scene_same_contact(&s->in, &from->in))
+        answers_pass_contact(&s->answers, &from->answers);
 }
 
 void scene_free(scene *s) {
@@ -227,55 +232,6 @@ bool scene_get(scene *s, input in, long double *out, calc_error *error) {
 void scene_put(scene *s, input in, double v) {
     inputs_put(&s->in, in, v);
     scene_forget(s, keeps_contact & INPUT_BIT(in));
-}
-
-static bool complete(const scene *s) {
-    const inputs *in = &s->in;
-    return in->set[IN_E0] && in->set[IN_NU] && in->geometry && (in->v[IN_K] == 0 || in->set[IN_C0]);
-}
-
-bool scene_valid(scene *s, calc_error *error) {
-    const fret_normal *normal;
-    const fret_contact *contact;
-    const fret_press *press;
-    double mu;
-    for (input in = 0; in < INPUTS; in++)
-        if (s->in.set[in] && !(s->in.bindings & INPUT_BIT(in))) {
-            fret_status st = input_status(in, s->in.v[in]);
-            if (!calc_input_status(error, (int)in, &st))
-                return false;
-        }
-    if (s->end.steps == 0) {
-        if (!complete(s) || scene_normal(s, &normal, error))
-            return true;
-        const bool waits = error->kind == ERROR_MISSING && error->input == IN_FN; /* c0 := a0 */
-        if (waits)
-            error_clear(error);
-        return waits;
-    }
-    if (s->in.set[IN_MU] || s->end.steps > 1)
-        return scene_friction(s, &mu, error) && scene_history(s, &contact, error);
-    return scene_press(s, &press, error);
-}
-
-bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_error *error) {
-    scene_mark before;
-    calc_error mine;
-    error_clear(&mine);
-    scene_save(s, &before, true);
-    edit(&s->in, context);
-    const bool same = inputs_same(&s->in, &before.in, ~keeps_contact);
-    if (same)
-        pass_contact(&s->answers, &before.answers);
-    if (scene_valid(s, &mine)) {
-        scene_drop(&before);
-        return true;
-    }
-    if (same)
-        pass_contact(&before.answers, &s->answers);
-    scene_back(s, &before);
-    *error = mine;
-    return false;
 }
 
 /* ---- the contact ------------------------------------------------------------------------------- */

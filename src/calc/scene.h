@@ -115,6 +115,10 @@ void scene_expect_many(scene *s);
 void scene_moved(scene *s);
 /* Forgets what has been computed; keep: the normal contact still stands. */
 void scene_forget(scene *s, bool keep);
+/* Are the contacts of these inputs the same? */
+bool scene_same_contact(const inputs *a, const inputs *b);
+/* Only where they are. */
+void answers_pass_contact(answers *to, answers *from);
 /* Takes the contact of another scene, where it is the same: that one is to be asked nothing any more. */
 void scene_take_contact(scene *s, scene *from);
 

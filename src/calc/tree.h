@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the parser and the evaluator of expressions share. */
+/* What those that parse, evaluate and look through expressions share. */
 #ifndef CALC_TREE_H
 #define CALC_TREE_H
 
@@ -48,6 +48,9 @@ struct expr_at {
 
 /* How many values a node takes from the nodes before it. */
 size_t node_operands(const expr_node *n);
+
+/* A step more of a way of definitions, or, for want of room, the last with dots. Returns the room it took. */
+size_t way_step(char *way, size_t size, const char *name, const char *text);
 
 /* An elementary function: of one argument, or of two. */
 typedef struct builtin {

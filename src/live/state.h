@@ -71,14 +71,7 @@ typedef struct live {
     bool changed; /* something is to be drawn */
 } live;
 
-/* ---- what the keys do: statements, most of them ---- */
-
-/* Runs a line and tells what it says; false: an error. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-bool live_say(live *l, const char *format, ...);
-bool live_say_line(live *l, const char *line);
+/* ---- state.c ---- */
 /* 1, 2 or 5 times a power of ten, near v. */
 double live_nice(double v);
 /* A number for a statement, in a unit that suits it. */
@@ -87,9 +80,24 @@ void live_amount(double v, dim d, char *text, size_t size);
 __attribute__((format(printf, 3, 4)))
 #endif
 void live_tell(live *l, bool bad, const char *format, ...);
+/* The state that is shown: on the way of a cycle, or the present one. */
+const shot *side_shown(const live *l, const side *s);
+
+/* ---- scenes.c: what the keys do, statements most of them ---- */
+
+/* Runs a line and tells what it says; false: an error. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+bool live_say(live *l, const char *format, ...);
+bool live_say_line(live *l, const char *line);
 /* After a change: what is shown must follow; and does, before it is drawn or asked. */
 void live_update(live *l);
 void live_refresh(live *l);
+/* The first that is of an earlier scene; false: none is. */
+bool live_refresh_next(live *l);
+/* How many are shown. */
+size_t live_sides(const live *l);
 /* Nothing set yet: a scene to begin with. */
 void live_begin(live *l);
 void live_play(live *l);
@@ -100,8 +108,6 @@ void live_play_end(live *l);
 void live_play_item(live *l);
 /* Walks the ways until it is late; NULL: to their ends. */
 void live_walk(live *l, bool (*late)(void));
-/* The state that is shown: on the way of a cycle, or the present one. */
-const shot *side_shown(const live *l, const side *s);
 
 /* ---- script.c ---- */
 bool script_open(live *l, const char *path, calc_error *error);

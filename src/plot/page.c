@@ -10,13 +10,6 @@
 
 enum { TICS = 24, TIC = 24, LEVELS = 9 };
 
-size_t plot_columns(const char *text) {
-    size_t n = 0;
-    for (; *text; text++)
-        n += ((unsigned char)*text & 0xc0) != 0x80;
-    return n;
-}
-
 plot_pages plot_pages_for(const plot_target *t, size_t panels, bool one_screen) {
     int w = t->columns ? t->columns : 79, h = t->rows ? t->rows : 24, n = (int)panels;
     bool beside = n == 1 || w / n >= 50;

@@ -38,6 +38,11 @@ double plot_step(double least);
 /* At most `room` levels for contours of z, in rising order. */
 size_t plot_levels(const plot_map *m, double *level, size_t room);
 
+/* ---- text.c --------------------------------------------------------------------------------------- */
+
+/* Room in a text of the terminal: columns of its characters. */
+size_t plot_columns(const char *text);
+
 /* ---- script.c: pictures ------------------------------------------------------------------------- */
 
 /* Points are left out only where a line is straight: on terminals whose lines end on whole pixels, a curve of
@@ -136,8 +141,5 @@ bool plot_run_open(plot_run *r, calc_error *error);
 bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *error);
 /* Removes everything; may be called twice. */
 void plot_run_close(plot_run *r);
-
-/* Room in a text of the terminal: columns of its characters. */
-size_t plot_columns(const char *text);
 
 #endif

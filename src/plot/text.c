@@ -6,9 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "plot/plot.h"
+#include "plot/script.h"
 
 enum { THIN_SPACE = 0x2009 };
+
+size_t plot_columns(const char *text) {
+    size_t n = 0;
+    for (; *text; text++)
+        n += ((unsigned char)*text & 0xc0) != 0x80;
+    return n;
+}
 
 typedef struct writer {
     FILE *to;

@@ -19,6 +19,8 @@ typedef struct command {
     const char *keywords;
     const char *group;       /* of `help`: what it is for */
     bool changes;            /* the scene */
+    bool keeps;              /* what it has changed, where it fails too */
+    bool returns;            /* to a scene as it was: what has been warned of may hold no more */
     void (*print)(FILE *to); /* more help, from a table */
 } command;
 
@@ -27,6 +29,10 @@ static inline arg_list command_args(const command *c) {
     return (arg_list){c->args, c->name, c->name, c->usage, "argument"};
 }
 
+/* The table, which knows all handlers, ended by a row without a name. */
+extern const command commands[];
+/* Once, before any statement: what follows looks it up there. */
+void command_use(const command *rows);
 const command *command_find(const char *name, size_t len);
 const command *command_row(size_t i); /* NULL after the last */
 const char *command_name(size_t i);

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of commands and the rows of their arguments: the one file that knows all handlers. */
+/* The table of commands and the rows of their arguments: the one file that knows all handlers. main hands it
+ * down, command.c looks it up. */
 #include "shell/command.h"
-
-#include <string.h>
 
 #include "live/live.h"
 #include "shell/accuracy_command.h"
 #include "shell/figures.h"
 #include "shell/help.h"
-#include "shell/looks.h"
 #include "shell/presets.h"
 #include "shell/range.h"
 #include "shell/scripts.h"
@@ -157,7 +155,7 @@ static void figures_list(FILE *to) {
         fprintf(to, "    %-12s %s\n", f->name, f->summary);
 }
 
-static const command commands[] = {
+const command commands[] = {
     {.name = "material",
      .run = do_material,
      .args = material_args,
@@ -306,6 +304,7 @@ static const command commands[] = {
              "    error: there is no load yet: press first (press FN=100 N)\n"},
     {.name = "undo",
      .run = do_undo,
+     .returns = true,
      .group = "the load",
      .keywords = "back",
      .usage = "",
@@ -592,6 +591,7 @@ static const command commands[] = {
      .group = "the session",
      .keywords = "script",
      .changes = true,
+     .keeps = true,
      .usage = "FILE",
      .summary = "run a script",
      .help = "Statements of a file, as if typed here; it stops at the first error.\n\n"
@@ -721,37 +721,5 @@ static const command commands[] = {
      .usage = "",
      .summary = "the same as quit",
      .help = "    fret> exit\n"},
+    {.name = NULL},
 };
-enum { COMMANDS = sizeof commands / sizeof *commands };
-
-const command *command_row(size_t i) {
-    return i < COMMANDS ? &commands[i] : NULL;
-}
-
-const char *command_name(size_t i) {
-    return i < COMMANDS ? commands[i].name : NULL;
-}
-
-const command *command_find(const char *name, size_t len) {
-    static word_index words = {.name = command_name};
-    size_t row;
-    return word_find(&words, name, len, &row) ? &commands[row] : NULL;
-}
-
-/* Words that may follow a number: those that rows of the table of commands name, and those of ranges. */
-bool argument_word(const lexer *lx) {
-    static const char *const others[] = {"to",   "for",   "in",      "at",     "with",    "from",
-                                         "over", "along", "against", "frames", "samples", "seed"};
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (lex_is(lx, others[i]))
-            return true;
-    for (size_t i = 0; looks_word(i); i++)
-        if (lex_is(lx, looks_word(i)))
-            return true;
-    const command *c;
-    for (size_t i = 0; (c = command_row(i)); i++)
-        for (const arg *a = c->args; a && a->kind; a++)
-            if (a->kind != ARG_VALUE && lex_is(lx, a->name))
-                return true;
-    return false;
-}

@@ -10,6 +10,7 @@
 #include "number/array.h"
 #include "shell/command.h"
 #include "shell/help.h"
+#include "shell/lines.h"
 #include "shell/looks.h"
 
 /* ---- candidates -------------------------------------------------------------------------------- */
@@ -189,8 +190,14 @@ static const command *load_along(const place *p) {
     return NULL;
 }
 
+/* One of these first. */
+static bool takes_names(const command *c, const char *(*names)(size_t i)) {
+    const arg *a = row_of_kind(c, ARG_NAME);
+    return a && a->words == names;
+}
+
 static const geometry *shape_of(const place *p) {
-    if (!p->command || p->command->run != do_geometry)
+    if (!takes_names(p->command, geometry_name))
         return NULL;
     const char *name = p->line + p->token[1].at;
     return geometry_find(name, strcspn(name, " \t\n;"));
@@ -360,9 +367,10 @@ static void add_continuation(const place *p) {
     const command *c = p->command;
     const bool range = has_range(c), figure = range && row_of_kind(c, ARG_NAME);
     const geometry *shape = shape_of(p);
-    if (c && c->run == do_set && p->count > 2)
+    const bool set = takes_names(c, setting_name);
+    if (set && p->count > 2)
         return;
-    if (c && c->run == do_set)
+    if (set)
         add_setting_words(p);
     else if (shape)
         add_parameters(p, shape);

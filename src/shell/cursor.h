@@ -20,7 +20,7 @@ bool stray_unit(lexer *lx);
 /* A whole number from 1 to limit. */
 bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, unsigned *out);
 
-/* Is it a word that may follow a number: one that the table of commands names, or of a range? In commands.c.
+/* Is it a word that may follow a number: one that the table of commands names, or of a range? In command.c.
  */
 bool argument_word(const lexer *lx);
 

@@ -11,6 +11,7 @@
 #include "number/array.h"
 #include "shell/command.h"
 #include "shell/output.h"
+#include "shell/text.h"
 #include "shell/topics.h"
 #include "shell/typeset.h"
 #include "study/influence.h"

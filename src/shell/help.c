@@ -8,8 +8,8 @@
 #include "shell/figures.h"
 #include "shell/lines.h"
 #include "shell/looks.h"
-#include "shell/output.h"
 #include "shell/presets.h"
+#include "shell/text.h"
 #include "shell/topics.h"
 
 enum { LINE_LABEL = 64, HELP_TEXT = 1024 };

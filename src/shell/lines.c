@@ -64,3 +64,45 @@ void help_wrapped(FILE *to, const char *text, size_t at, size_t indent) {
     }
     putc('\n', to);
 }
+
+/* A `#` that belongs to a word, as in a#b.csv. */
+static bool within_word(const char *text, size_t i, size_t len) {
+    static const char ends[] = " \t\r\n;\"#"; /* and a byte 0 */
+    return i > 0 && i + 1 < len && !strchr(ends, text[i - 1]) && !strchr(ends, text[i + 1]);
+}
+
+size_t shell_statement_end(const char *text, size_t i, size_t len) {
+    static const bool special[256] = {['"'] = true, ['\n'] = true, [';'] = true, ['#'] = true};
+    bool quoted = false;
+    for (; i < len; i++) {
+        const char c = text[i];
+        if (!special[(unsigned char)c])
+            continue;
+        if (c == '"')
+            quoted = !quoted;
+        else if (c == '\n')
+            quoted = false;
+        else if (!quoted && (c != '#' || !within_word(text, i, len)))
+            break;
+    }
+    return i;
+}
+
+bool shell_continues(const char *text, size_t len) {
+    while (len && text[len - 1] == '\r')
+        len--;
+    if (!len || text[len - 1] != '\\')
+        return false;
+    size_t end = shell_statement_end(text, 0, len);
+    while (end < len && text[end] == ';')
+        end = shell_statement_end(text, end + 1, len);
+    return end == len; /* not within a comment */
+}
+
+size_t shell_mark(const char *line, size_t len) {
+    size_t at = len;
+    if (shell_continues(line, len))
+        while (line[--at] != '\\')
+            ;
+    return at;
+}

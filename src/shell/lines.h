@@ -16,6 +16,13 @@ void blank_prompts(char *text, size_t len);
 /* Does the line begin with the prompt of a line that goes on, `....> `? */
 bool is_continuation(const char *line);
 
+/* Does the line end in a continuation mark? */
+bool shell_continues(const char *text, size_t len);
+/* Where the mark is, or the length of the line. */
+size_t shell_mark(const char *line, size_t len);
+/* End of the statement that begins at i: a `;`, a comment or the end of the line. */
+size_t shell_statement_end(const char *text, size_t i, size_t len);
+
 /* Adds a word to a list as messages have it, "a, b or c"; starts with an empty buf. */
 void list_word(char *buf, size_t size, const char *word, bool last);
 

@@ -10,6 +10,7 @@
 #include "shell/lines.h"
 #include "shell/progress.h"
 #include "shell/record.h"
+#include "shell/recorder.h"
 #include "shell/show.h"
 
 static bool run(void *self, const char *line, char **answer) {

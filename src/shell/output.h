@@ -69,19 +69,4 @@ void print_safe(FILE *to, const char *text, size_t len);
 /* The text as a JSON string, quotation marks included; bytes that are no UTF-8 become U+FFFD. */
 void print_json_string(FILE *to, const char *text);
 
-/* Text of words, in which what does not show is escaped; or a picture of gnuplot, which knows what it sends
- * to a terminal; or pictures that move, which no pager can show. */
-typedef enum text_kind { TEXT_WORDS, TEXT_PICTURE, TEXT_MOTION } text_kind;
-
-/* Text on its way out: as it is, as one JSON object, or at a terminal by the pager. */
-typedef struct text_out {
-    const settings *set;
-    FILE *out, *to; /* write to `to` */
-    text_kind kind;
-    file_text kept; /* where it does not go out at once */
-} text_out;
-bool text_begin(text_out *t, const settings *set, FILE *out, text_kind kind);
-/* keep: else what has been written is dropped, where it is not out yet. False: out of memory. */
-bool text_end(text_out *t, bool keep);
-
 #endif

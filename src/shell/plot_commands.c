@@ -10,6 +10,7 @@
 #include "shell/panel.h"
 #include "shell/progress.h"
 #include "shell/target.h"
+#include "shell/text.h"
 #include "shell/typeset.h"
 
 /* ---- where it goes ----------------------------------------------------------------------------- */

@@ -9,7 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "shell/record.h"
+#include "shell/recorder.h"
 
 enum { LINE = 60, WHAT = 20 };
 static const double WAIT = 0.5, EVERY = 0.1; /* seconds */

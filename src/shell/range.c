@@ -234,3 +234,8 @@ bool range_read(shell *sh, lexer *lx, range *out, size_t steps) {
     return !s->log || (ends.lo > 0 && ends.hi > 0) ||
            calc_fail(lx->error, at, 1, "a logarithmic sweep needs positive ends");
 }
+
+void note_missing(shell *sh, const sweep_job *job) {
+    if (job->missing.raised)
+        shell_note(sh, "note: some values are missing: %s (%s)", job->missing.text, job->where);
+}

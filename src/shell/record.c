@@ -9,25 +9,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "shell/cast.h"
+#include "shell/lines.h"
+#include "shell/recorder.h"
 #include "shell/target.h"
 
 /* ---- two places -------------------------------------------------------------------------------- */
-
-enum { HELD = 1024 };
-
-struct recorder {
-    shell *sh;
-    file_log log;
-    cast *cast;                /* that is written there; NULL: a transcript is */
-    FILE *out, *err;           /* of the session */
-    FILE *both_out, *both_err; /* with the file */
-    char *line;                /* that is to be written before anything follows, or NULL */
-    char held[HELD];           /* of the transcript's line */
-    size_t held_count;
-    bool escape; /* within a colour, which a transcript does without */
-    bool lost;   /* the file cannot be written any more */
-};
 
 /* There is one session that can record. */
 static struct recorder *recording;
@@ -302,26 +288,10 @@ void record_aside(const char *text) {
     keep(recording, text, strlen(text));
 }
 
-bool record_shows(const shell *sh) {
-    return sh->record && sh->record->out == stdout;
-}
-
 /* ---- the terminal ------------------------------------------------------------------------------ */
 
 FILE *record_terminal(void) {
     return recording && recording->cast ? recording->both_out : stdout;
-}
-
-void record_streams(const shell *sh, FILE **out, FILE **err) {
-    *out = sh->record ? sh->record->out : sh->out;
-    *err = sh->record ? sh->record->err : sh->err;
-}
-
-void record_divert(shell *sh, FILE *out, FILE *err) {
-    fflush(sh->out);
-    fflush(sh->err);
-    *(sh->record ? &sh->record->out : &sh->out) = out;
-    *(sh->record ? &sh->record->err : &sh->err) = err;
 }
 
 void record_away(shell *sh, bool now) {

@@ -18,14 +18,9 @@ bool record_end(shell *sh, bool tells);
 void record_line(shell *sh, const char *text, size_t len);
 /* Text that reached the terminal by another way than the session's streams. */
 void record_aside(const char *text);
-/* Does the recorder pass on to standard output? */
-bool record_shows(const shell *sh);
 
 /* Where an editor of lines writes to the terminal. */
 FILE *record_terminal(void);
-/* The session's own streams, below a recorder; and others in place of them. */
-void record_streams(const shell *sh, FILE **out, FILE **err);
-void record_divert(shell *sh, FILE *out, FILE *err);
 /* The screen is another's for a while: a cast is not told what the session says. */
 void record_away(shell *sh, bool now);
 /* Is there a cast that is to be told what the screen shows, and of what size? And that, after so many

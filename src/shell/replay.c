@@ -8,6 +8,7 @@
 #include "shell/lines.h"
 #include "shell/output.h"
 #include "shell/record.h"
+#include "shell/text.h"
 #include "shell/typeset.h"
 
 /* ---- lines ------------------------------------------------------------------------------------- */

@@ -2,10 +2,6 @@
 /* Statements, lines and streams of them: dispatch, and the one place that reports errors. */
 #include "shell/shell.h"
 
-#include <math.h>
-#include <poll.h>
-#include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -18,8 +14,6 @@
 #include "shell/lines.h"
 #include "shell/progress.h"
 #include "shell/record.h"
-
-volatile sig_atomic_t shell_stop;
 
 void shell_init(shell *sh, FILE *out, FILE *err) {
     *sh = (shell){.out = out, .err = err, .set = settings_initial};
@@ -34,35 +28,6 @@ void shell_free(shell *sh) {
     calc_free(&sh->calc);
     for (size_t i = 0; i < EXPRESSIONS; i++)
         expr_free(&sh->list[i]);
-}
-
-enum { NOTE = 8192 }; /* holds a file's name, escaped or not */
-
-void shell_note(shell *sh, const char *format, ...) {
-    char text[NOTE];
-    va_list args;
-    progress_wipe();
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    fflush(sh->out);
-    print_safe(sh->err, text, strlen(text));
-    fputc('\n', sh->err);
-}
-
-bool shell_aside(const shell *sh, FILE *to) {
-    if (sh->replaying)
-        putc(MARK_ASIDE, to);
-    return sh->replaying || sh->interactive;
-}
-
-bool shell_on_terminal(const shell *sh) {
-    return (sh->out == stdout || record_shows(sh)) && isatty(STDOUT_FILENO);
-}
-
-bool shell_escapes(void) {
-    const char *term = getenv("TERM");
-    return term && *term && strcmp(term, "dumb") != 0 && strcmp(term, "unknown") != 0;
 }
 
 /* ---- statements -------------------------------------------------------------------------------- */
@@ -87,138 +52,6 @@ static bool print_statement(shell *sh, lexer *lx) {
     return ok;
 }
 
-/* The theory leaves coupling out, which is exact for a normal load without friction: said of what is
- * tangential, a load or a question. */
-static void warn_dissimilar(shell *sh) {
-    scene *s = &sh->calc.scene;
-    const fret_normal *normal;
-    const load_reach *reach;
-    calc_error ignored;
-    error_clear(&ignored);
-    if (!scene_normal(s, &normal, &ignored))
-        return;
-    const fret_foundation *f = fret_normal_foundation(normal);
-    const bool tangential = s->used & ASKED_TANGENTIAL || (scene_reach(s, &reach, &ignored) && reach->by);
-    if (!f->similar && !sh->dissimilar && tangential)
-        shell_note(
-            sh,
-            "warning: the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
-            "are coupled, and these results are an approximation",
-            (double)f->mismatch);
-    sh->dissimilar = !f->similar && (sh->dissimilar || tangential);
-}
-
-/* Beyond these the bodies are no half-spaces, which the theory takes them for. */
-static const double most_radius = 0.3, most_slope = 0.36397023426620236; /* of R; tan 20 deg */
-
-/* Where contact is widest: now, or within the cycle that ends here. */
-static bool find_wide(scene *s, fret_press *wide, bool *within, calc_error *error) {
-    const fret_press *now;
-    const fret_normal *normal;
-    fret_press top;
-    *within = false;
-    if (!scene_press(s, &now, error) || !scene_normal(s, &normal, error))
-        return false;
-    *wide = *now;
-    if (program_last_cycle(s->program, s->end) + 1 != s->end.steps)
-        return true;
-    long double FNA = 0, phase = 0;
-    scene_get(s, IN_FNA, &FNA, error);
-    scene_get(s, IN_PHASE, &phase, error);
-    const fret_real most = now->F + fabsl(FNA) - FNA * cosl(phase); /* it ends at FN + FNA cos(phase) */
-    if (most > now->F && !fret_press_by_force(normal, (double)most, &top).code) {
-        *wide = top;
-        *within = true;
-    }
-    return true;
-}
-
-/* The smallest radius of curvature of a body; infinite where there is none. Two that fit closely are together
- * far flatter than each of them. */
-static long double least_radius(scene *s, const char **name) {
-    const double *R = s->in.radii;
-    long double of_both = INFINITY;
-    calc_error ignored;
-    error_clear(&ignored);
-    *name = "R";
-    if (!inputs_take(&s->in, IN_RADIUS) || !scene_get(s, IN_RADIUS, &of_both, &ignored) || R[0] == 0)
-        return of_both;
-    *name = fabs(R[0]) <= fabs(R[1]) ? "R1" : "R2";
-    return fmin(fabs(R[0]), fabs(R[1]));
-}
-
-static void warn_half_space(shell *sh) {
-    scene *s = &sh->calc.scene;
-    fret_press press;
-    bool within;
-    const char *name;
-    long double slope = 0;
-    calc_error ignored;
-    error_clear(&ignored);
-    if (!find_wide(s, &press, &within, &ignored))
-        return;
-    enum { WIDE = 1, STEEP = 2 };
-    const long double R = least_radius(s, &name);
-    if (inputs_take(&s->in, IN_SLOPE))
-        scene_get(s, IN_SLOPE, &slope, &ignored);
-    const bool wide = press.a > most_radius * R, steep = slope > most_slope;
-    if (wide && !(sh->no_half_space & WIDE))
-        shell_note(sh,
-                   "warning: a/%s = %.3g%s: beyond 0.3 the bodies are no half-spaces, and these results are "
-                   "an approximation",
-                   name, (double)(press.a / R), within ? " within the cycle" : "");
-    if (steep && !(sh->no_half_space & STEEP))
-        shell_note(sh,
-                   "warning: slope = %.3g: flanks steeper than 20 deg leave the half-space, and these "
-                   "results are an "
-                   "approximation",
-                   (double)slope);
-    sh->no_half_space = (wide ? WIDE : 0u) | (steep ? STEEP : 0u);
-}
-
-/* The press from which on the contact is too wide. */
-static void find_widest(shell *sh) {
-    scene *s = &sh->calc.scene;
-    const fret_normal *normal;
-    const char *name;
-    calc_error ignored;
-    error_clear(&ignored);
-    sh->widest = (fret_press){.F = INFINITY, .dz = INFINITY};
-    const long double R = least_radius(s, &name);
-    if (isinf(R))
-        return;
-    if (!scene_normal(s, &normal, &ignored) ||
-        fret_press_by_radius(normal, most_radius * (double)R, &sh->widest).code)
-        sh->widest = (fret_press){.F = 0, .dz = 0};
-}
-
-void shell_pressed(shell *sh, const load_step *step) {
-    const scene *s = &sh->calc.scene;
-    if (step->tangential && !sh->dissimilar)
-        warn_dissimilar(sh);
-    if (step->normal == BY_NONE || sh->no_half_space)
-        return;
-    if (!sh->widest_known)
-        find_widest(sh);
-    sh->widest_known = true;
-    const fret_real most = step->normal == BY_FORCE ? sh->widest.F : sh->widest.dz;
-    const bool cheap = s->automatic || s->model != MODEL_DOUBLE; /* to ask where it is now */
-    if (step->relative & RELATIVE_NORMAL ? step->normal_value > 0 && most < INFINITY && cheap
-                                         : step->normal_value > most)
-        warn_half_space(sh);
-}
-
-static void warn(shell *sh) {
-    sh->widest_known = false;
-    if (!sh->calc.scene.end.steps) {
-        sh->no_half_space = 0;
-        sh->dissimilar = false;
-        return;
-    }
-    warn_dissimilar(sh);
-    warn_half_space(sh);
-}
-
 /* A command word alone misses more than its first argument. */
 static void add_usage(const command *c, calc_error *error) {
     static const char missing[] = "expected ";
@@ -237,7 +70,7 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
     if (c->changes && !(before = undo_mark(&sh->calc)))
         return calc_no_memory(lx->error);
     bool ok = c->run(sh, lx, c);
-    if (c->changes && (ok || c->run == do_source))
+    if (c->changes && (ok || c->keeps))
         undo_scene(&sh->calc, before);
     else if (c->changes)
         undo_unmark(&sh->calc, before);
@@ -245,8 +78,8 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
         undo_pop(&sh->calc, true);
         ok = calc_interrupted(lx->error);
     }
-    if (ok && (c->changes || c->run == do_undo))
-        warn(sh);
+    if (ok && (c->changes || c->returns))
+        shell_warn(sh);
     if (bare)
         add_usage(c, lx->error);
     return ok || calc_place(lx->error, at, lx->end > at + len ? lx->end - at : len);
@@ -260,7 +93,7 @@ static bool assign(shell *sh, lexer *lx) {
     }
     const bool ok = calc_assign(&sh->calc, lx);
     if (ok)
-        warn(sh);
+        shell_warn(sh);
     return ok;
 }
 
@@ -335,7 +168,7 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
         shell_note(sh, "note: %s", sh->calc.note);
     *sh->calc.note = 0;
     if (ok && sh->calc.scene.used & ASKED_TANGENTIAL)
-        warn_dissimilar(sh);
+        shell_warn_dissimilar(sh);
     undo_end(&sh->calc);
     if (shell_stop) { /* what has been half computed must answer nothing, whatever it seemed to say */
         scene_forget(&sh->calc.scene, false);
@@ -348,41 +181,6 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
 }
 
 /* ---- lines ------------------------------------------------------------------------------------- */
-
-/* A `#` that belongs to a word, as in a#b.csv. */
-static bool within_word(const char *text, size_t i, size_t len) {
-    static const char ends[] = " \t\r\n;\"#"; /* and a byte 0 */
-    return i > 0 && i + 1 < len && !strchr(ends, text[i - 1]) && !strchr(ends, text[i + 1]);
-}
-
-/* End of the statement that begins at i: a `;`, a comment or the end of the line. */
-size_t shell_statement_end(const char *text, size_t i, size_t len) {
-    static const bool special[256] = {['"'] = true, ['\n'] = true, [';'] = true, ['#'] = true};
-    bool quoted = false;
-    for (; i < len; i++) {
-        const char c = text[i];
-        if (!special[(unsigned char)c])
-            continue;
-        if (c == '"')
-            quoted = !quoted;
-        else if (c == '\n')
-            quoted = false;
-        else if (!quoted && (c != '#' || !within_word(text, i, len)))
-            break;
-    }
-    return i;
-}
-
-bool shell_continues(const char *text, size_t len) {
-    while (len && text[len - 1] == '\r')
-        len--;
-    if (!len || text[len - 1] != '\\')
-        return false;
-    size_t end = shell_statement_end(text, 0, len);
-    while (end < len && text[end] == ';')
-        end = shell_statement_end(text, end + 1, len);
-    return end == len; /* not within a comment */
-}
 
 enum { SHOWN = 100 }; /* columns of a long line, around the place */
 
@@ -437,26 +235,6 @@ static void show_place(const shell *sh, bool aside, const char *text, size_t len
     putc('\n', to);
 }
 
-/* `error: ...`, behind a place or not. */
-static void print_error(const shell *sh, const char *text) {
-    fputs(sh->set.color ? "\033[1;31merror:\033[0m " : "error: ", sh->err);
-    print_safe(sh->err, text, strlen(text));
-    putc('\n', sh->err);
-}
-
-void shell_error(shell *sh, const char *text) {
-    progress_wipe();
-    fflush(sh->out);
-    print_error(sh, text);
-    fflush(sh->err);
-    sh->failed = true;
-}
-
-bool shell_unread(void) {
-    struct pollfd out = {.fd = STDOUT_FILENO};
-    return ferror(stdout) && poll(&out, 1, 0) > 0 && out.revents & (POLLERR | POLLHUP);
-}
-
 static void report_error(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
                          const calc_error *error) {
     fflush(sh->out);
@@ -476,7 +254,7 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
         print_safe(sh->err, from->name, strlen(from->name));
         fprintf(sh->err, ":%zu:%zu: ", line, character_count(text + begin, at - begin) + 1);
     }
-    print_error(sh, error->text);
+    shell_print_error(sh, error->text);
     const size_t width = error->len ? error->len : 1;
     if (from->name || sh->replaying || (sh->interactive && width < end - begin))
         show_place(sh, !from->name, text + begin, end - begin, at - begin, width);
@@ -547,14 +325,6 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
 }
 
 /* ---- streams ----------------------------------------------------------------------------------- */
-
-size_t shell_mark(const char *line, size_t len) {
-    size_t at = len;
-    if (shell_continues(line, len))
-        while (line[--at] != '\\')
-            ;
-    return at;
-}
 
 int shell_stream(shell *sh, file_in *in, bool keep_going) {
     const source from = {in->name, keep_going};

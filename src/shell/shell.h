@@ -39,38 +39,15 @@ typedef struct shell {
     expr list[EXPRESSIONS]; /* of a print, table or plot statement, reused */
 } shell;
 
+/* ---- say.c: what is said beside answers ---- */
+
 /* Set by the SIGINT handler. */
 extern volatile sig_atomic_t shell_stop;
 
-void shell_init(shell *sh, FILE *out, FILE *err);
-void shell_free(shell *sh);
-
-/* Runs one statement; the error is filled in on failure. */
-bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error);
-
-/* A step has been taken: says what no press has said, of bodies that are dissimilar, of a contact too wide.
- */
-void shell_pressed(shell *sh, const load_step *step);
-
-/* Runs a logical line of several statements, reporting errors; false if one failed. `line` is the number
- * of its first physical line. */
-bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line);
-
-/* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it.
- * Returns an exit status. */
-int shell_stream(shell *sh, file_in *in, bool keep_going);
-int shell_file(shell *sh, const char *path, bool keep_going);
-int shell_text(shell *sh, const char *text, const char *name, bool keep_going);
-int shell_stdin(shell *sh, bool keep_going);
-/* Does the line end in a continuation mark? */
-bool shell_continues(const char *text, size_t len);
-/* Where the mark is, or the length of the line. */
-size_t shell_mark(const char *line, size_t len);
-/* End of the statement that begins at i: a `;`, a comment or the end of the line. */
-size_t shell_statement_end(const char *text, size_t i, size_t len);
-
 /* Reports an error that has no place in a statement. */
 void shell_error(shell *sh, const char *text);
+/* `error: ...`, behind a place or not. */
+void shell_print_error(const shell *sh, const char *text);
 /* Has whoever read standard output gone, as `head` does? That is no error to be told of. */
 bool shell_unread(void);
 /* Something to be told that is no error, on standard error. */
@@ -91,12 +68,43 @@ bool shell_on_terminal(const shell *sh);
 /* Does the terminal obey escapes, as those of colours? Not a dumb one, nor one that nobody names. */
 bool shell_escapes(void);
 
-/* prompt.c: the interactive session. */
+/* ---- warnings.c ---- */
+
+/* After a change of the scene: warns of what has not been warned of yet. */
+void shell_warn(shell *sh);
+/* The same of bodies that are dissimilar alone: something tangential has been asked for. */
+void shell_warn_dissimilar(shell *sh);
+/* A step has been taken: says what no press has said, of bodies that are dissimilar, of a contact too wide.
+ */
+void shell_pressed(shell *sh, const load_step *step);
+
+/* ---- run.c: statements, lines and streams ---- */
+
+void shell_init(shell *sh, FILE *out, FILE *err);
+void shell_free(shell *sh);
+
+/* Runs one statement; the error is filled in on failure. */
+bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error);
+
+/* Runs a logical line of several statements, reporting errors; false if one failed. `line` is the number
+ * of its first physical line. */
+bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line);
+
+/* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it.
+ * Returns an exit status. */
+int shell_stream(shell *sh, file_in *in, bool keep_going);
+int shell_file(shell *sh, const char *path, bool keep_going);
+int shell_text(shell *sh, const char *text, const char *name, bool keep_going);
+int shell_stdin(shell *sh, bool keep_going);
+
+/* ---- prompt.c, replay.c ---- */
+
+/* The interactive session. */
 int shell_prompt(shell *sh, bool quiet, bool read_rc);
-/* replay.c: runs a transcript in a session of its own and compares, reports on `out`; returns an exit status.
+/* Runs a transcript in a session of its own and compares, reports on `out`; returns an exit status.
  * error: why the transcript could not be run; empty: it has been. */
 int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, calc_error *error);
-/* prompt.c: `?WORD` and `!COMMAND` as a line that a statement stands for; true: it was one of them, and has
+/* `?WORD` and `!COMMAND` as a line that a statement stands for; true: it was one of them, and has
  * been run. */
 bool shell_special(shell *sh, const source *from, const char *text);
 

@@ -10,6 +10,7 @@
 #include "shell/command.h"
 #include "shell/lines.h"
 #include "shell/output.h"
+#include "shell/text.h"
 #include "shell/topics.h"
 
 /* ---- values ------------------------------------------------------------------------------------ */

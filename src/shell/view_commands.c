@@ -130,11 +130,6 @@ static bool own_columns(table_job *job, const sweep *s, const knob *second) {
            (!second || column_si(&own[1], second->text, second->d));
 }
 
-void note_missing(shell *sh, const sweep_job *job) {
-    if (job->missing.raised)
-        shell_note(sh, "note: some values are missing: %s (%s)", job->missing.text, job->where);
-}
-
 /* ---- a grid as text: a matrix of each expression ----------------------------------------------- */
 
 typedef struct matrix {

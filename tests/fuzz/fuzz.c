@@ -27,6 +27,8 @@
 #include <unistd.h>
 
 #include "library.h"
+#include "shell/command.h"
+#include "shell/lines.h"
 #include "shell/output.h"
 #include "shell/shell.h"
 #include "shell/show.h"
@@ -37,8 +39,8 @@ int fuzz_open(const char *path, int flags, ...);
 FILE *fuzz_fopen(const char *path, const char *mode);
 int fuzz_posix_spawnp(pid_t *pid, const char *file, const posix_spawn_file_actions_t *actions,
                       const posix_spawnattr_t *attributes, char *const argv[], char *const envp[]);
-int fuzz_system(const char *command);
-FILE *fuzz_popen(const char *command, const char *mode);
+int fuzz_system(const char *line);
+FILE *fuzz_popen(const char *line, const char *mode);
 pid_t fuzz_fork(void);
 char *fuzz_mkdtemp(char *pattern);
 
@@ -74,13 +76,13 @@ int fuzz_posix_spawnp(pid_t *pid, const char *file, const posix_spawn_file_actio
     return ENOENT;
 }
 
-int fuzz_system(const char *command) {
-    (void)command;
+int fuzz_system(const char *line) {
+    (void)line;
     return -1;
 }
 
-FILE *fuzz_popen(const char *command, const char *mode) {
-    (void)command, (void)mode;
+FILE *fuzz_popen(const char *line, const char *mode) {
+    (void)line, (void)mode;
     errno = ENOENT;
     return NULL;
 }
@@ -475,6 +477,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv) {
     for (size_t i = 0; name && i < sizeof targets / sizeof *targets; i++)
         if (!strcmp(name, targets[i].name))
             chosen = &targets[i];
+    command_use(commands);
     nowhere = fopen("/dev/null", "w");
     if (!chosen || !nowhere || !mkdtemp(folder)) {
         fprintf(stderr, "FRET_FUZZ must be statements, json, gap, follow, table, replay or library\n");

@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scenes of the full-screen mode: statements that change them, what is shown of them, and a cycle that
+ * plays. Asks the views only for the room there is. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "live/state.h"
+
+/* ---- statements -------------------------------------------------------------------------------- */
+
+/* One line goes below the views, more to a page. */
+static void tell_answer(live *l, const char *line, char *answer, bool ok) {
+    size_t n = answer ? strlen(answer) : 0;
+    while (n > 0 && answer[n - 1] == '\n')
+        answer[--n] = 0;
+    if (!answer) {
+        live_tell(l, true, "out of memory: %s", line);
+    } else if (!n) {
+        live_tell(l, !ok, "%s", line);
+    } else if (!strchr(answer, '\n') && n < sizeof l->status && status_holds(answer)) {
+        live_tell(l, !ok, "%s", answer);
+    } else {
+        live_tell(l, !ok, "%s", line);
+        free(l->page);
+        l->page = answer;
+        l->page_from = 0;
+        return;
+    }
+    free(answer);
+}
+
+static bool say(live *l, const char *line) {
+    char *answer = NULL;
+    const bool ok = l->host->run(l->host->self, line, &answer);
+    if (!ok && *l->host->stop)
+        *l->host->stop = 0; /* the statement was interrupted, not the session */
+    tell_answer(l, line, answer, ok);
+    l->leave = l->leave || *l->host->quit;
+    live_update(l);
+    return ok;
+}
+
+bool live_say(live *l, const char *format, ...) {
+    char line[LIVE_LINE];
+    va_list args;
+    va_start(args, format);
+    const int n = vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    if (n < 0 || n >= (int)sizeof line) {
+        live_tell(l, true, "the line is too long");
+        return false;
+    }
+    return live_say_line(l, line);
+}
+
+bool live_say_line(live *l, const char *line) {
+    live_play_end(l);
+    return say(l, line);
+}
+
+/* ---- what is shown ----------------------------------------------------------------------------- */
+
+static void trouble(live *l, side *s, calc_error *error) {
+    calc_word(l->host->calc, error);
+    snprintf(s->trouble, sizeof s->trouble, "%.*s", LIVE_TEXT - 1, error->text);
+}
+
+/* Of the scene that expressions see; along: the last item is to be played. */
+static bool take(live *l, side *s, bool along, calc_error *error) {
+    calc *c = l->host->calc;
+    const size_t items = c->now->end.steps;
+    s->trouble[0] = 0;
+    if (along)
+        s->before = s->now;
+    if (!shot_take(c, NULL, &s->now, error)) {
+        s->now = (shot){.time = 0}; /* keys must not go on from what is gone */
+        return false;
+    }
+    return way_follow(&s->way, c, along && items ? items - 1 : NO_ITEM, error);
+}
+
+static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *error) {
+    trial *t = trial_open(l->host->calc, error);
+    const bool ok = t && trial_set(t, &l->compared, l->compared_with[i], error) && take(l, s, along, error);
+    if (t)
+        trial_close(t);
+    return ok;
+}
+
+size_t live_sides(const live *l) {
+    return l->comparing ? SIDES : 1;
+}
+
+static void refresh_side(live *l, size_t i) {
+    side *s = &l->side[i];
+    calc_error error;
+    error_clear(&error);
+    if (!(l->comparing ? take_compared(l, s, i, l->follow, &error) : take(l, s, l->follow, &error)))
+        trouble(l, s, &error);
+    s->stale = false;
+    l->changed = true;
+    if (i == 0 && !(l->FA > 0) && s->now.slip > 0) /* half of what would slide it */
+        l->FA = live_nice(s->now.slip / 2);
+}
+
+void live_update(live *l) {
+    for (size_t i = 0; i < SIDES; i++)
+        l->side[i].stale = true;
+    l->changed = true;
+}
+
+bool live_refresh_next(live *l) {
+    for (size_t i = 0; i < live_sides(l); i++)
+        if (l->side[i].stale) {
+            refresh_side(l, i);
+            return true;
+        }
+    l->follow = false;
+    return false;
+}
+
+void live_refresh(live *l) {
+    while (live_refresh_next(l))
+        ;
+}
+
+void live_begin(live *l) {
+    const inputs *in = &l->host->calc->scene.in;
+    char line[LIVE_LINE] = "";
+    const struct {
+        bool missing;
+        const char *statement;
+    } first[] = {{!in->set[IN_E0] && !in->bound[IN_E0], "material E0=210 GPa nu=0.3 k=0 c0=1 mm"},
+                 {!in->geometry, "geometry sphere R=10 mm"},
+                 {!in->set[IN_MU] && !in->bound[IN_MU], "friction 0.4"},
+                 {!l->host->calc->scene.end.steps, "press FN=100 N"}};
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++)
+        if (first[i].missing) {
+            const size_t n = strlen(line);
+            snprintf(line + n, sizeof line - n, "%s%s", n ? "; " : "", first[i].statement);
+        }
+    if (!*line) {
+        live_update(l);
+    } else if (live_say(l, "%s", line)) { /* what they answer, as with `set timing on`, is no page */
+        free(l->page);
+        l->page = NULL;
+    }
+}
+
+static void walk_side(live *l, side *s, bool (*late)(void)) {
+    calc_error error;
+    error_clear(&error);
+    if (*s->trouble || way_rests(&s->way))
+        return;
+    l->changed = true;
+    if (!way_on(&s->way, l->host->calc, late, &error))
+        trouble(l, s, &error);
+}
+
+void live_walk(live *l, bool (*late)(void)) {
+    for (size_t i = 0; i < live_sides(l); i++) {
+        if (l->playing)
+            way_pass(&l->side[i].way, l->play_at);
+        walk_side(l, &l->side[i], late);
+    }
+}
+
+/* ---- a cycle that plays ------------------------------------------------------------------------ */
+
+/* From where the last item of the load begins to move. */
+static void start_play(live *l) {
+    l->playing = true;
+    l->moves = false;
+    l->play_at = 0;
+}
+
+static void cycle_text(const live *l, double FA, double FNA, double phase, char *text, size_t size) {
+    char force[40], swing[40];
+    live_amount(FA, DIM_FORCE, force, sizeof force);
+    live_amount(FNA, DIM_FORCE, swing, sizeof swing);
+    (void)l;
+    if (FNA > 0)
+        snprintf(text, size, "cycle FA=%s FNA=%s phase=%g deg", force, swing, phase);
+    else
+        snprintf(text, size, "cycle FA=%s", force);
+}
+
+static bool last_cycle(const live *l, load_item *out) {
+    scene *s = &l->host->calc->scene;
+    calc_error ignored;
+    error_clear(&ignored);
+    if (!s->end.cycles || s->program->steps[s->end.steps - 1].kind != LOAD_CYCLE)
+        return false;
+    return scene_last_cycle(s, out, &ignored);
+}
+
+static void remember_cycle(live *l) {
+    l->said_changes = l->host->calc->undo.count;
+    last_cycle(l, &l->said);
+}
+
+/* Is the cycle that is to be played the last that was done? Then it goes on: another one would turn about
+ * where that one ends. */
+static bool goes_on(const live *l) {
+    const load_item *said = &l->said;
+    load_item now;
+    return l->FA == l->said_FA && l->FNA == l->said_FNA && (l->FNA == 0 || l->phase == l->said_phase) &&
+           l->host->calc->undo.count == l->said_changes && last_cycle(l, &now) &&
+           now.extra.times == said->extra.times && now.step.tangential == said->step.tangential &&
+           now.step.tangential_value == said->step.tangential_value &&
+           now.step.normal_value == said->step.normal_value && now.extra.phase == said->extra.phase;
+}
+
+static void one_more(live *l) {
+    char text[LIVE_TEXT];
+    for (size_t i = 0; i < live_sides(l); i++)
+        if (!*l->side[i].trouble)
+            way_more(&l->side[i].way);
+    l->periods++;
+    cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
+    live_tell(l, false, "%s times %u", text, l->periods);
+}
+
+static void start_cycle(live *l) {
+    char text[LIVE_TEXT];
+    cycle_text(l, l->FA, l->FNA, l->phase, text, sizeof text);
+    if (!live_say(l, "%s", text))
+        return;
+    remember_cycle(l);
+    l->follow = true;
+    l->said_FA = l->FA;
+    l->said_FNA = l->FNA;
+    l->said_phase = l->phase;
+    l->periods = 1;
+    start_play(l);
+}
+
+void live_play(live *l) {
+    l->last_cycle = false;
+    live_refresh(l);
+    if (goes_on(l)) {
+        one_more(l);
+        start_play(l);
+    } else {
+        start_cycle(l);
+    }
+}
+
+void live_play_item(live *l) {
+    l->last_cycle = true;
+    l->periods = 0;
+    live_update(l);
+    l->follow = true;
+    start_play(l);
+}
+
+/* In place of the cycle that has been taken back. */
+static void say_periods(live *l) {
+    char text[LIVE_TEXT], line[LIVE_LINE], why[LIVE_LINE];
+    cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
+    snprintf(line, sizeof line, "%s times %u", text, l->periods);
+    if (!say(l, line)) { /* interrupted, perhaps: nothing that has been said is lost */
+        memcpy(why, l->status, sizeof why);
+        snprintf(line, sizeof line, "%s times %u", text, l->said.extra.times);
+        say(l, line);
+        live_tell(l, true, "%s", why);
+    }
+    remember_cycle(l);
+}
+
+void live_play_end(live *l) {
+    const bool more = l->playing && l->periods > l->said.extra.times;
+    l->playing = false;
+    l->changed = true;
+    for (size_t i = 0; i < live_sides(l); i++)
+        way_unwatch(&l->side[i].way);
+    if (more && say(l, "undo"))
+        say_periods(l);
+}
+
+/* The end of what has been walked. */
+static double ahead(const live *l) {
+    double time = INFINITY;
+    for (size_t i = 0; i < live_sides(l); i++) {
+        const load_way *w = &l->side[i].way;
+        if (!*l->side[i].trouble)
+            time = fmin(time, w->play[w->shots - 1].time);
+    }
+    return time;
+}
+
+/* Has each scene come to what moves, or moves nothing? One hand moves both. */
+static bool ready(const live *l) {
+    for (size_t i = 0; i < live_sides(l); i++) {
+        const side *s = &l->side[i];
+        if (s->stale || (!*s->trouble && s->way.shots + way_done(&s->way) < 2))
+            return false;
+    }
+    return true;
+}
+
+void live_play_on(live *l, double seconds) {
+    const load_way *w = &l->side[0].way;
+    if (!l->playing || (!l->moves && !ready(l)))
+        return;
+    if (*l->side[0].trouble) {
+        live_play_end(l);
+        return;
+    }
+    l->changed = true;
+    if (!l->moves)
+        l->play_at = w->play[0].time;
+    l->moves = true;
+    l->play_at = fmin(l->play_at + seconds * l->speed, ahead(l));
+    if (!way_done(w) || l->play_at < w->play[w->shots - 1].time)
+        return;
+    if (l->last_cycle) {
+        live_play_end(l);
+    } else if (goes_on(l)) {
+        one_more(l);
+    } else {
+        live_play_end(l);
+        start_cycle(l);
+    }
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The state of the full-screen mode as the views ask for it, and words for numbers. Runs no statement. */
+#include "live/state.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+void live_tell(live *l, bool bad, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    vsnprintf(l->status, sizeof l->status, format, args);
+    va_end(args);
+    l->bad = bad;
+    l->changed = true;
+}
+
+double live_nice(double v) {
+    const double ten = pow(10, floor(log10(v))), part = v / ten;
+    return ten * (part < 1.5 ? 1 : part < 3.5 ? 2 : part < 7.5 ? 5 : 10);
+}
+
+void live_amount(double v, dim d, char *text, size_t size) {
+    char in[32], number[40];
+    const double scale = (double)unit_choose(d, v, 3, in, sizeof in);
+    snprintf(number, sizeof number, "%.3g", v / scale);
+    snprintf(text, size, "%s%s%s", number, *in ? " " : "", in);
+}
+
+const shot *side_shown(const live *l, const side *s) {
+    const load_way *w = &s->way;
+    if (!l->playing)
+        return &s->now;
+    if (!w->shots)
+        return &s->before;
+    size_t i = 0;
+    while (i + 1 < w->shots && w->play[i + 1].time <= l->play_at)
+        i++;
+    return &w->play[i];
+}
