@@ -28,8 +28,15 @@ static fret_real at(const fret_cell *c, int i, fret_real s) {
     return sum;
 }
 
-/* The same to a double's digits, and the derivative. */
-static double about(const fret_cell *c, int i, double s, double *rate) {
+/* The same to a double's digits. */
+static double about(const fret_cell *c, int i, double s) {
+    double sum = 0;
+    for (int j = c->count[i]; j-- > 0;)
+        sum = sum * s + (double)c->of[i][j];
+    return sum;
+}
+
+static double about_with_rate(const fret_cell *c, int i, double s, double *rate) {
     double sum = 0;
     *rate = 0;
     for (int j = c->count[i]; j-- > 0;) {
@@ -211,17 +218,16 @@ fret_real fret_cell_rise(const fret_cell *c, int by, fret_real s) {
 
 /* A rise and its derivative, to a double's digits. */
 static double rise_about(const fret_cell *c, int by, double s, double *rate) {
-    double P1, Q1, unused;
-    const double P = about(c, RISE, s, &P1), Q = about(c, RISE_Q, s, &Q1), q = (double)c->q,
-                 to_q = c->count[RISE_Q] ? q == 0.5 ? sqrt(s) : pow(s, q) : 0;
+    double P1, Q1;
+    const double P = about_with_rate(c, RISE, s, &P1), Q = about_with_rate(c, RISE_Q, s, &Q1),
+                 q = (double)c->q, to_q = c->count[RISE_Q] ? q == 0.5 ? sqrt(s) : pow(s, q) : 0;
     const double depth = s * P + to_q * Q;
     *rate = P + s * P1 + to_q / s * (q * Q + s * Q1);
     if (by == BY_DEPTH)
         return depth;
     const double to_mu = c->mu == 1 ? s : pow(s, (double)c->mu);
-    *rate *= (double)c->K + to_mu * about(c, STIFFNESS, s, &unused);
-    return (double)c->K * depth +
-           to_mu * (s * about(c, PART_G, s, &unused) + to_q * about(c, PART_GQ, s, &unused));
+    *rate *= (double)c->K + to_mu * about(c, STIFFNESS, s);
+    return (double)c->K * depth + to_mu * (s * about(c, PART_G, s) + to_q * about(c, PART_GQ, s));
 }
 
 /* The derivative of s^e p, over s^(e-1). */
