@@ -25,15 +25,6 @@ bool load_press(scene *s, const fret_normal *normal, fret_press *out, calc_error
     return calc_status(error, &st);
 }
 
-double load_largest_force(const load_reach *reach, const fret_normal *normal, const fret_press *press) {
-    const double dz = fmax((double)press->dz, reach->dz_most) + reach->dz_more;
-    const double FN = fmax((double)press->F, reach->FN_most) + reach->FN_more;
-    fret_press deepest;
-    return dz == (double)press->dz || fret_press_by_depth(normal, dz, &deepest).code
-               ? FN
-               : fmax(FN, (double)deepest.F);
-}
-
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {
     const load_reach *reach;
     long double FN;
@@ -161,37 +152,9 @@ static void use_spares(answers *a) {
     }
 }
 
-bool load_by_double(const scene *s) {
-    return !s->automatic && s->model == MODEL_DOUBLE && !s->now && s->answers.normal &&
-           fret_normal_is_power(s->answers.normal);
-}
-
-/* Beyond F_N ~ dz^5 it promises less. */
-static bool is_gentle(const fret_normal *normal) {
-    const double n = fret_normal_gap(normal)->power[0].n, k = (double)fret_normal_foundation(normal)->k;
-    return fret_normal_is_power(normal) && n + 1 + k <= 5 * n;
-}
-
-bool load_allows_double(const scene *s) {
-    return s->automatic && !s->now && s->answers.normal && is_gentle(s->answers.normal) &&
-           s->answers.levels == 1 && !s->end.cycles;
-}
-
-/* Can the step not fail? Both forces, or both displacements, well within what friction and the range of
- * numbers allow. */
-static bool is_tame(const load_step *step, double mu) {
-    const double normal = step->normal_value, tangential = fabs(step->tangential_value);
-    if (step->kind != LOAD_STEP || step->relative || step->normal != step->tangential || !(normal >= 1e-30) ||
-        !(normal <= 1e30))
-        return false;
-    return step->normal == BY_FORCE ? tangential <= mu * normal * (1 - 1e-12) : tangential <= 1e30;
-}
-
-/* What is always possible waits until a result is asked: to slide to a displacement at constant F_N, and,
- * where the diagram in double may answer, any step that cannot fail: one of many, if it was not asked for. */
-static bool can_wait(const scene *s, const load_step *step, double mu, bool many) {
-    const bool may = load_by_double(s) || (many && load_allows_double(s));
-    return s->answers.levels && (load_is_slide(step) || (may && is_tame(step, mu)));
+/* What is always possible waits until a result is asked: to slide to a displacement at constant F_N. */
+static bool can_wait(const scene *s, const load_step *step) {
+    return s->answers.levels && load_is_slide(step);
 }
 
 static bool start_program(scene *s, const load_step *press, calc_error *error) {
@@ -261,7 +224,7 @@ bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_
         return calc_missing(error, IN_FN);
     if (!scene_friction(s, &mu, error))
         return false;
-    if (can_wait(s, step, mu, false))
+    if (can_wait(s, step))
         return append_step(s, step, extra, error);
     if (!catch_up(s, error))
         return false;
@@ -297,7 +260,7 @@ bool scene_load_rows(scene *s, load_step step, const double *normal, const doubl
     for (size_t i = 0; i < count; i++) {
         step.normal_value = normal[i];
         step.tangential_value = tangential[i];
-        wait = wait && can_wait(s, &step, mu, true);
+        wait = wait && can_wait(s, &step);
         if (!append_step(s, &step, NULL, error)) {
             *row = i;
             return false;

@@ -35,22 +35,9 @@ void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *e
     *s = (scene){.automatic = true, .stop = stop ? stop : &never, .evaluate = evaluate, .context = context};
 }
 
-/* Below a hundredth of the last digit shown; nothing else is worth it. */
-double scene_borne(const scene *s) {
-    static const double by_digits[] = {0, 1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
-    return (size_t)s->digits < sizeof by_digits / sizeof *by_digits ? by_digits[s->digits] : 0;
-}
-
-/* What was worked out for other digits is worked out anew. */
-void scene_show(scene *s, int digits) {
-    if (s->digits != digits && s->answers.known == KNOWN_FORCES)
-        scene_moved(s);
-    s->digits = digits;
-}
-
 void scene_moved(scene *s) {
     s->answers.press_ready = false;
-    s->answers.known = KNOWN_NOTHING;
+    s->answers.state_ready = false;
 }
 
 scene_use scene_answered_by(const scene *s) {
@@ -319,7 +306,6 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
 
 void scene_expect_many(scene *s) {
     s->many = true;
-    scene_show(s, 0);
 }
 
 /* Of a table one place alone would want all of its rows: they are worked out for all places at once. */
@@ -400,17 +386,6 @@ static void reach_step(load_reach *r, const load_step *step, unsigned times) {
     r->most = fmax(r->most, size);
     r->end = v;
     r->normal_varies = r->normal_varies || load_moves_normal(step);
-    r->oblique = r->oblique || (load_moves_normal(step) && r->by);
-    if (step->kind == LOAD_CYCLE)
-        r->FN_more = fmax(r->FN_more, fabs(step->normal_value));
-    else if (step->normal == BY_FORCE && step->relative & RELATIVE_NORMAL)
-        r->FN_more += fmax(step->normal_value, 0);
-    else if (step->normal == BY_FORCE)
-        r->FN_most = fmax(r->FN_most, step->normal_value);
-    else if (step->normal == BY_DISPLACEMENT && step->relative & RELATIVE_NORMAL)
-        r->dz_more += fmax(step->normal_value, 0);
-    else if (step->normal == BY_DISPLACEMENT)
-        r->dz_most = fmax(r->dz_most, step->normal_value);
     if (step->kind == LOAD_CYCLE) { /* a second period is closed whatever came before */
         r->closed = r->first || times > 1;
         r->swings = r->swings || step->normal_value != 0;

@@ -23,21 +23,15 @@ typedef struct load_reach {
     double end;         /* where it ends */
     bool closed;        /* the last period of the last cycle returned to the state that it began in */
     bool normal_varies; /* some step changes F_N */
-    bool oblique;       /* of a contact that is, or comes to be, under F_x */
-    double FN_most, FN_more; /* largest F_N that a step asks for; what steps and swings may add */
-    double dz_most, dz_more; /* the same for delta_z */
-    bool swings;             /* a cycle does */
-    size_t last_cycle;       /* its index, or NO_CYCLE */
+    bool swings;        /* a cycle does */
+    size_t last_cycle;  /* its index, or NO_CYCLE */
 } load_reach;
-
-typedef enum scene_known { KNOWN_NOTHING, KNOWN_FORCES, KNOWN_STATE } scene_known;
 
 /* What follows, valid as far as the flags say. */
 typedef struct answers {
     fret_normal *normal, *k0; /* or NULL: not made yet */
     fret_fields *fields;      /* of `normal`, for many places; or NULL */
-    bool press_ready, reach_ready;
-    scene_known known; /* of state */
+    bool press_ready, reach_ready, state_ready;
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
     fret_contact *chorded;             /* room for scene_straight */
@@ -87,7 +81,6 @@ struct scene {
     bool many;
     /* of a scratch scene: what is prepared for its shape and k, whatever the material; or NULL */
     fret_normal *like;
-    int digits; /* of the values shown; 0: all. The law of a table need not be better than they can tell */
     double pieces_error; /* of the polynomials among them, relative */
     unsigned used;       /* what has answered: raised by whatever does, cleared by whoever wants to know */
     const volatile sig_atomic_t *stop; /* never NULL */
@@ -100,10 +93,6 @@ void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *e
 void scene_free(scene *s);
 /* A scratch scene: shares inputs and program, owns its results. Free with scene_free. */
 void scene_clone(scene *to, const scene *from);
-/* Values are shown with so many digits from now on; 0: all. */
-void scene_show(scene *s, int digits);
-/* The relative error that those do not tell; 0: they are all. */
-double scene_borne(const scene *s);
 scene_use scene_answered_by(const scene *s);
 /* These have answered too. */
 void scene_also_used(scene *s, scene_use also);
@@ -207,14 +196,4 @@ bool scene_trace(scene *s, watch *w, calc_error *error);
  */
 bool scene_engine(scene *s, const load_view *load, model_id model, unsigned count, engine *out,
                   calc_error *error);
-/* The load run by the model that was asked for, one that steps, at all levels that it wants: they look at the
- * load beside them. To be ended where they are made. */
-typedef struct runs {
-    load_view load;
-    runner run[LEVELS];
-    unsigned levels;
-} runs;
-bool scene_runs(scene *s, runs *out, calc_error *error);
-void runs_end(runs *r);
-
 #endif

@@ -554,7 +554,6 @@ static const command commands[] = {
              "    memory diagram                        1.9065    <5e-19     ... ns        ...\n"
              "    loop area (21)           M = 10       1.8755   1.6e-02     ... us        ...\n"
              "    loop area (21)          M = 100       1.9061   1.6e-04     ... us        ...\n"
-             "    diagram in double                     1.9065   1.8e-16     ... ns        ...\n"
              "    quadrature                            1.9065    <5e-19     ... us        ...\n"
              "    springs                 N = 100       1.9069   2.2e-04     ... ns        ...\n"
              "    springs                N = 1000       1.9065   5.5e-06     ... us        ...\n"

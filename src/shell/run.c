@@ -193,7 +193,6 @@ static void find_widest(shell *sh) {
 }
 
 void shell_pressed(shell *sh, const load_step *step) {
-    const scene *s = &sh->calc.scene;
     if (step->tangential && !sh->dissimilar)
         warn_dissimilar(sh);
     if (step->normal == BY_NONE || sh->no_half_space)
@@ -202,8 +201,7 @@ void shell_pressed(shell *sh, const load_step *step) {
         find_widest(sh);
     sh->widest_known = true;
     const fret_real most = step->normal == BY_FORCE ? sh->widest.F : sh->widest.dz;
-    const bool cheap = s->automatic || s->model != MODEL_DOUBLE; /* to ask where it is now */
-    if (step->relative & RELATIVE_NORMAL ? step->normal_value > 0 && most < INFINITY && cheap
+    if (step->relative & RELATIVE_NORMAL ? step->normal_value > 0 && most < INFINITY
                                          : step->normal_value > most)
         warn_half_space(sh);
 }
@@ -520,7 +518,6 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         double start = timed ? seconds() : 0;
         const struct recorder *recorder = sh->record;
         sh->calc.scene.used = 0;
-        scene_show(&sh->calc.scene, sh->set.format == FORMAT_TEXT ? sh->set.digits : 0);
         bool done = shell_statement(sh, text + i, end - i, &error);
         if (!done)
             calc_word(&sh->calc, &error);

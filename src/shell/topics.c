@@ -402,14 +402,6 @@ const char *model_text(size_t id) {
                           "               10        169.561       0.188365\n"
                           "               20        148.125        1.90646\n"
                           "               30        117.567        9.01533\n",
-        [MODEL_DOUBLE] = "The memory diagram of a power-law gap in double: forces, displacements and\n"
-                         "energies to 3e-14 of their largest values so far, two to five times as fast.\n"
-                         "Unless a model is chosen it tells forces, dz, dx, a and W behind 4096 rows of\n"
-                         "`follow` and more, shown as text of up to 10 digits, where that many are surely\n"
-                         "the same; else, and in CSV and JSON, the exact diagram does.\n"
-                         "The library offers it to other programs as fret/diagram.h.\n\n" EXAMPLE
-                         "step Fx=20 N; step FN=80 N Fx=10 N\n    fret> set model double\n    fret> W\n"
-                         "    W = 477.51 nJ\n",
     };
     return texts[id];
 }

@@ -666,7 +666,6 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
         return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", n, p);
     if (!ask_open(&s.q, question->c, question->name, p, error))
         return false;
-    scene_show(&s.q.t->scene, 0); /* differences are taken of what comes out */
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &method, n, p);
     gsl_vector *q = gsl_vector_alloc(p);
     s.weight = gsl_vector_alloc(n);

@@ -104,7 +104,6 @@ STATEMENTS = (
     (SWUNG, ("k = 0.2, c0 = 1 mm", "qx(0.1 mm), W", "accuracy within 0.001", "table Fx, W along cycle steps 4",
              "table kn, W1D, dW along program steps 4", "table (W at mu=0.5) along cycle steps 4", "explain W", "step dx=0.1 um",
              "step dx=30 um")),
-    (SWUNG + "; set model double", ("W", "step Fx=1 N", "p(0 m)", "explain W", "step dx=0.1 um")),
     (SWUNG.replace("FA=", "dxA:=1e-8 m/N*"), ("k = 0.2, c0 = 1 mm", "qx(0.1 mm), W", "accuracy within 0.001",
                                              "table c, kt along cycle steps 4", "step FN=90 N Fx=1 N")),
     (TABLE.replace("cycle FA=2 N", "step FN=9 N Fx=1 N; cycle FA=1 N"), ("accuracy within 0.001", "w1D(0 m), qz1D(0 m), W",

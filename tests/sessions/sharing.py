@@ -101,33 +101,6 @@ def vectors(tests):
     tests.each([lambda a=a: one(*a) for a in tests.some(LOADS, 2)])
 
 
-def histories(tests):
-    """A history that is followed by the diagram in double alone: as the exact one has it, which then still can be asked."""
-    names = ("W", "FN", "dz", "a", "Fx", "dx", "c", "U", "kt")
-    forces = [(100 + 10 * math.sin(0.013 * i), 15 * math.sin(0.37 * i) + 8 * math.sin(0.0113 * i)) for i in range(3000)]
-    depths = [(3 + 0.4 * math.sin(0.017 * i), 0.5 * math.sin(0.31 * i) + 0.4 * math.sin(0.007 * i)) for i in range(3000)]
-    bad = forces[:2000] + [(100, 40.5)] + forces[2000:]
-    for head, rows, end in (("FN [N],Fx [N]", forces, ""), ("dz [um],dx [um]", depths, ""), ("FN [N],Fx [N]", bad, ""),
-                            ("FN [N],Fx [N]", forces, "step FN=90 N Fx=3 N; step Fx+=1 N; cycle FA=5 N; undo; step dx=0.1 um; "),
-                            ("FN [N],Fx [N]", forces, "k = 0.1; mu = 0.35; ")):
-        with tests.file(head + "\n" + "".join("%.17g,%.17g\n" % row for row in rows), ".csv") as path:
-            follow = "follow %s; %s" % (path, end)
-            asked = ["--format=json", "--keep-going", "-c", GRADED.partition("; cycle")[0]]
-            script = follow + "; ".join(names)
-            exact, fast, back = (tests.run(*asked, "-c", before, "-c", script, "-c", after, "-c", "; ".join(names))
-                                 for before, after in (("set model auto", "set model auto"),
-                                                       ("set model double", "set model double"),
-                                                       ("set model double", "set model auto")))
-            name = "%s, %d rows, %s" % (head, len(rows), end)
-            want, got, then = (harness.printed_values(done.stdout) for done in (exact, fast, back))
-            tests.check("follow by %s: messages" % name, exact.stderr == fast.stderr == back.stderr and
-                        bool(exact.stderr) == (rows is bad), exact.stderr + fast.stderr + back.stderr)
-            far = max((abs(g - w) / abs(w or 1) for g, w in zip(got, want)), default=1)
-            tests.check("follow by %s: in double" % name, len(got) == len(want) and far < 1e-10, "%g\n%s\n%s" % (far, want, got))
-            tests.check("follow by %s: exact again" % name, then[-len(names):] == want[-len(names):],
-                        "%s\n%s" % (want, then))
-
-
 def past_a_range(tests):
     """A table that goes on beyond the range of an input, in blocks of many rows: as far as it goes it is the one that ends there."""
     ends, far = [], []
@@ -245,7 +218,6 @@ def settings(tests):
 
 def run(tests):
     vectors(tests)
-    histories(tests)
     past_a_range(tests)
     data(tests)
     settings(tests)

@@ -199,8 +199,6 @@ static const scened scenes[] = {
      .phase = 1,
      .automatic = true},
     {.what = "by memory", .then = FORCE(LOAD_CYCLE, 20, 0), .model = MODEL_MEMORY},
-    {.what = "by double", .then = FORCE(LOAD_CYCLE, 20, 0), .model = MODEL_DOUBLE},
-    {.what = "by double, swinging", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_DOUBLE},
     {.what = "by springs", .then = FORCE(LOAD_CYCLE, 12, 0), .model = MODEL_SPRINGS},
     {.what = "by springs, swinging", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_SPRINGS},
     {.what = "by closed forms", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_CLOSED},
