@@ -12,7 +12,6 @@ const model_row models[MODELS] = {
                        .count = "the number of springs",
                        .chosen = true,
                        .steps = true},
-    [MODEL_VECTORS] = {.name = "vectors", .title = "vectors to 2e-15"},
 };
 
 fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count,

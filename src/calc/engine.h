@@ -14,7 +14,6 @@ typedef enum model_id {
     MODEL_QUADRATURE,
     MODEL_PIECES,
     MODEL_SPRINGS,
-    MODEL_VECTORS,
     MODELS
 } model_id;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The values of expressions: of one, or of a block of rows at once. */
+/* The values of expressions. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -427,112 +427,6 @@ bool expr_dim(calc *c, const expr *e, dim *d) {
 
 bool expr_value(calc *c, lexer *lx, value *out) {
     return expr_parse(c, lx, &c->scratch) && expr_eval(c, &c->scratch, out, lx->error);
-}
-
-/* ---- a block of rows --------------------------------------------------------------------------- */
-
-/* A value at every row, or one for all of them: stride 0. */
-typedef struct operand {
-    const long double *v;
-    size_t stride;
-} operand;
-
-static bool call_block(calc *c, const quantity *q, operand a, dim d, size_t rows, long double *out) {
-    calc_error unused;
-    error_clear(&unused);
-    ask(c, q);
-    if (q->block) {
-        double argument[EXPR_BLOCK], result[EXPR_BLOCK];
-        for (size_t i = 0; i < rows; i++)
-            argument[i] = (double)a.v[i];
-        if (!q->block(c->now, argument, result, rows, &unused))
-            return false;
-        for (size_t i = 0; i < rows; i++)
-            out[i] = result[i];
-        if (c->now->in.geometry->power)
-            c->now->used |= USED(MODEL_VECTORS);
-        return true;
-    }
-    for (size_t i = 0; i < rows; i++)
-        if (*c->now->stop || !q->call(c->now, (value){a.v[i], d}, &out[i], &unused) ||
-            !isfinite((double)out[i]))
-            return false;
-    return true;
-}
-
-/* What varies with the name; false where a node hides what it depends on. */
-static bool mark_varying(const calc *c, const expr *e, size_t name) {
-    for (size_t j = 0; j < e->count; j++) {
-        expr_node *n = &e->nodes[j];
-        const size_t takes = node_operands(n);
-        if (n->kind == N_APPLY || n->kind == N_AT || (n->kind == N_NAME && c->names.row[n->index].definition))
-            return false;
-        n->varies = (n->kind == N_NAME && n->index == name) || (takes && e->nodes[n->left].varies) ||
-                    (takes > 1 && e->nodes[n->right].varies);
-    }
-    return c->now->in.bindings == 0;
-}
-
-static bool elementwise(const expr_node *n, operand a, operand b, size_t rows, long double *to) {
-    bool finite = true;
-    for (size_t i = 0; i < rows; i++) {
-        to[i] = real_value(n, a.v[i * a.stride], b.v[i * b.stride]);
-        finite = finite && isfinite((double)to[i]);
-    }
-    return finite;
-}
-
-enum { DEEPEST = 16 };
-typedef struct block {
-    long double column[DEEPEST][EXPR_BLOCK];
-    operand stack[DEEPEST];
-} block;
-
-static bool run_block(calc *c, const expr *e, const long double x[], size_t rows, block *b) {
-    size_t depth = 0;
-    for (size_t j = 0; j < e->count; j++) {
-        const expr_node *n = &e->nodes[j], *l = &e->nodes[n->left];
-        const size_t takes = node_operands(n);
-        depth -= takes;
-        if (depth == DEEPEST)
-            return false;
-        operand *top = &b->stack[depth], left = *top, right = takes > 1 ? top[1] : left;
-        long double *to = b->column[depth++];
-        if (!n->varies) {
-            *top = (operand){&n->v.v, 0};
-            continue;
-        }
-        if (n->kind == N_NAME) {
-            *top = (operand){x, 1};
-            continue;
-        }
-        /* the dimension may vary too */
-        if (n->op == '^' && e->nodes[n->right].varies && !dim_equal(l->v.d, DIM_NONE))
-            return false;
-        if (n->kind == N_CALL ? !call_block(c, n->q, left, l->v.d, rows, to)
-                              : !elementwise(n, left, right, rows, to))
-            return false;
-        *top = (operand){to, 1};
-    }
-    return true;
-}
-
-static block b; /* too large for a small stack */
-
-/* Children come before their parents, the left before the right: a stack machine. Dimensions, and what does
- * not vary, are those of the first row. */
-bool expr_eval_block(calc *c, const expr *e, size_t name, const long double x[], size_t rows,
-                     long double out[], dim *d) {
-    value first;
-    calc_error unused;
-    error_clear(&unused);
-    c->names.row[name].v.v = x[0];
-    if (!mark_varying(c, e, name) || !expr_eval(c, e, &first, &unused) || !run_block(c, e, x, rows, &b))
-        return false;
-    for (size_t i = 0; i < rows; i++)
-        out[i] = b.stack[0].v[i * b.stack[0].stride];
-    *d = first.d;
-    return true;
 }
 
 /* ---- what an expression is made of ------------------------------------------------------------- */

@@ -93,7 +93,6 @@ void scene_free(scene *s) {
 void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->answers = (answers){.normal = NULL};
-    to->many = false;
     to->like = from->like ? fret_normal_hold(from->like) : NULL;
     inputs_copy(&to->in, &from->in);
     counted_hold(to->program ? &to->program->base : NULL);
@@ -304,17 +303,13 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
     return true;
 }
 
-void scene_expect_many(scene *s) {
-    s->many = true;
-}
-
-/* Of a table one place alone would want all of its rows: they are worked out for all places at once. */
+/* Places of a power law are asked for one by one; of another gap what one wants serves all of them. */
 bool scene_fields(scene *s, fret_fields **fields, calc_error *error) {
     const fret_normal *normal;
     *fields = NULL;
     if (!scene_normal(s, &normal, error))
         return false;
-    if (!s->many && !fret_normal_gap(normal)->table)
+    if (fret_normal_is_power(normal))
         return true;
     fret_status st = {.code = FRET_OK};
     if (!s->answers.fields)

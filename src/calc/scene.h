@@ -30,7 +30,7 @@ typedef struct load_reach {
 /* What follows, valid as far as the flags say. */
 typedef struct answers {
     fret_normal *normal, *k0; /* or NULL: not made yet */
-    fret_fields *fields;      /* of `normal`, for many places; or NULL */
+    fret_fields *fields;      /* of `normal`, or NULL */
     bool press_ready, reach_ready, state_ready;
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
@@ -77,8 +77,6 @@ struct scene {
     bool automatic; /* the model: the closed form where there is one, else the memory diagram */
     model_id model; /* else this one */
     unsigned springs;
-    /* many values of this contact are asked for: a decision of what asks, never of what was asked */
-    bool many;
     /* of a scratch scene: what is prepared for its shape and k, whatever the material; or NULL */
     fret_normal *like;
     double pieces_error; /* of the polynomials among them, relative */
@@ -97,9 +95,6 @@ scene_use scene_answered_by(const scene *s);
 /* These have answered too. */
 void scene_also_used(scene *s, scene_use also);
 void scene_used_law(scene *s, const fret_normal *normal);
-/* Of a scratch scene: many values are to be asked for, and compared with one another, of its shape and k; at
- * loads about that of now, else it takes longer. */
-void scene_expect_many(scene *s);
 /* Another instant: press and state are found anew. */
 void scene_moved(scene *s);
 /* Forgets what has been computed; keep: the normal contact still stands. */
@@ -157,7 +152,7 @@ bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *
 /* The shape alone, unchecked. */
 bool scene_gap(scene *s, fret_gap *out, calc_error *error);
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
-/* Fields of the contact at many places; *fields is NULL where each is asked for by itself. */
+/* Fields of the contact; *fields is NULL where a place is asked for by itself. */
 bool scene_fields(scene *s, fret_fields **fields, calc_error *error);
 /* The same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);

@@ -88,7 +88,7 @@ def run(tests):
     tests.check("what has an example", len(topics) >= 9 and len(settings) >= 8 and len(geometries) >= 10,
                 "%s\n%s\n%s" % (topics, settings, geometries))
     shown = {*transcripts.command_names(tests), *topics, *settings, *geometries, "closed", "memory", "springs", "quadrature",
-             "polynomials", "vectors"}
+             "polynomials"}
     text = tests.run("-c", "help quantities").stdout
     quantities = re.findall(r"^    (\w+)(?:\(\w+\))?  ", text, re.M)
     tests.each([lambda t=t: one(t) for t in sorted(shown | set(quantities))])

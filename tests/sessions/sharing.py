@@ -1,10 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables at speed: loads in vectors against rows one by one, and work shared among processes: the same characters from
-any number of them, whatever becomes of them, and none left."""
-import csv
+"""Work shared among processes: the same characters from any number of them, whatever becomes of them, and none left."""
 import errno
-import io
-import math
 import os
 import re
 import resource
@@ -13,7 +9,6 @@ import subprocess
 import time
 
 import faults
-import harness
 
 GRADED = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N"
 STEEL = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
@@ -76,33 +71,8 @@ def alone(tests):
     tests.each([lambda a=next(a for a in STATEMENTS if a[1].startswith(kind)): one(*a) for kind in kinds])
 
 
-# Scenes, and what vectors can tell of them over a load up to that: against the same by `at`, which goes row by row.
-LOADS = (
-    (GRADED, "19.99 N", "a(F), dz(F), c(F), dx(F), dW(F), c(F)/a"),
-    ("material E0=70 GPa nu=0.4 k=-0.3 c0=0.1 mm; geometry power n=0.7 h=1 um r0=3 mm; friction 0.3; press FN=20 N", "6 N", "a(F), dz(F), c(F), dx(F), dW(F)"),
-    ("material E0=1 GPa nu=0.5; second rigid; geometry cone slope=0.05; friction 0.2; press FN=7 N", "1.4 N", "a(F), dz(F), c(F), dx(F), dW(F)"),
-)
-
-
-def vectors(tests):
-    """No value is further than 2e-15 from the one that is had by itself, and vectors were at work."""
-    def one(setup, end, what):
-        fast = tests.run("--format=csv", "-c", "%s; set timing on; table %s for F = 0.01 N .. %s steps 40" % (setup, what, end))
-        slow = tests.run("--format=csv", "-c", "%s; table %s for F = 0.01 N .. %s steps 40" %
-                         (setup, ", ".join("(%s at nu=nu)" % e for e in what.split(", ")), end))
-        if not tests.check("table over F up to " + end, fast.stdout and slow.stdout, tests.report(fast) + tests.report(slow)):
-            return
-        tests.check("table over F up to %s: in vectors" % end, "vectors" in fast.stderr and "vectors" not in slow.stderr, fast.stderr)
-        got, want = (list(csv.reader(io.StringIO(done.stdout))) for done in (fast, slow))
-        for i, column in enumerate(what.split(", ")):
-            far = max((abs(float(g[i + 1]) / float(w[i + 1]) - 1) for g, w in zip(got[1:], want[1:])
-                       if g[i + 1] != w[i + 1]), default=0)
-            tests.check("%s up to %s" % (column, end), far <= 2.5e-15, "%g" % far)
-    tests.each([lambda a=a: one(*a) for a in tests.some(LOADS, 2)])
-
-
 def past_a_range(tests):
-    """A table that goes on beyond the range of an input, in blocks of many rows: as far as it goes it is the one that ends there."""
+    """A table that goes on beyond the range of an input: as far as it goes it is the one that ends there."""
     ends, far = [], []
     for end, steps, to in (("0.5", 3000, ends), ("0.6", 6000, far)):
         done = tests.run("--format=csv", "-c", GRADED.partition("; cycle")[0] + "; table a, dz for nu = 0.4 .. %s steps %d" % (end, steps))
@@ -217,7 +187,6 @@ def settings(tests):
 
 
 def run(tests):
-    vectors(tests)
     past_a_range(tests)
     data(tests)
     settings(tests)

@@ -106,18 +106,6 @@ static void wordings(void) {
     calc_free(&c);
 }
 
-/* Functions of many values ask nothing of an empty scene. */
-static void blocks(void) {
-    static quantity_block_function *const all[] = {block_a, block_dz, block_c, block_dx, block_dW};
-    const double F[2] = {1, 2};
-    double out[2];
-    calc c;
-    calc_init(&c, NULL);
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        CHECK(!all[i](c.now, F, out, 2, fresh()) && error.kind == ERROR_MISSING);
-    calc_free(&c);
-}
-
 /* ---- statements --------------------------------------------------------------------------------- */
 
 static bool evaluate(calc *c, const char *text, calc_value *out) {
@@ -593,7 +581,6 @@ int main(int argc, char **argv) {
     CASE(ranges());
     CASE(first_errors());
     CASE(wordings());
-    CASE(blocks());
     CASE(expressions());
     CASE(assignments());
     CASE(loads(false));
