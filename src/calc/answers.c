@@ -167,17 +167,9 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
 bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
     answers *a = &s->answers;
     const runner *run = s->now ? s->now->run : NULL;
-    if (!s->now || a->state_ready || (run && run->coarse) || (!s->automatic && s->model == MODEL_CLOSED))
+    if (!s->now || a->state_ready || run->coarse || (!s->automatic && s->model == MODEL_CLOSED))
         return scene_state(s, state, error);
-    const double *kept = s->now->kept;
-    if (kept)
-        a->state = (fret_state){.FN = kept[TRAIL_FN],
-                                .dz = kept[TRAIL_DZ],
-                                .Fx = kept[TRAIL_FX],
-                                .dx = kept[TRAIL_DX],
-                                .W = kept[TRAIL_W]};
-    else
-        engine_forces(&run->engine, &a->state);
+    engine_forces(&run->engine, &a->state);
     s->used |= USED(MODEL_MEMORY);
     *state = &a->state;
     return true;

@@ -3,7 +3,6 @@
 #include "calc/load.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
 
@@ -72,7 +71,7 @@ static fret_status raise_levels(answers *a, const load_view *load) {
                       fret_contact_normal(a->run[0].engine.contact) != load->normal))
         drop_runs(a);
     if (a->levels == 0) {
-        a->run[0] = (runner){.load = load, .trail = a->trail};
+        a->run[0] = (runner){.load = load};
         st = engine_make(&a->run[0].engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
         a->levels = !st.code;
     }
@@ -82,7 +81,6 @@ static fret_status raise_levels(answers *a, const load_view *load) {
         *r = a->run[0];
         r->level = a->levels;
         r->engine = (engine){.kind = a->run[0].engine.kind};
-        r->trail = NULL;
         st = engine_copy(&r->engine, &a->run[0].engine);
         a->levels++; /* to be dropped, too, if there is only half of it */
     }
@@ -275,10 +273,6 @@ bool scene_load_rows(scene *s, load_step step, const double *normal, const doubl
 
 bool load_run(scene *s, const runner **run, calc_error *error) {
     *run = s->now ? s->now->run : NULL;
-    if (s->now && !*run) {
-        *s->now->lacking = true;
-        return calc_fail(error, 0, 0, "only forces are known here"); /* to be asked of a run again */
-    }
     if (s->now)
         return true;
     if (!s->end.steps)
@@ -315,12 +309,4 @@ bool scene_straight(scene *s, const fret_contact **contact, calc_error *error) {
         st = fret_contact_chords(*chords, *contact);
     *contact = *chords;
     return calc_status(error, &st);
-}
-
-bool scene_trail(scene *s, const trail **out, calc_error *error) {
-    answers *a = &s->answers;
-    if (!a->trail && (a->trail = calloc(1, sizeof *a->trail)))
-        drop_runs(a);
-    *out = a->trail;
-    return catch_up(s, error);
 }

@@ -3,7 +3,6 @@
 #include "calc/scene.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
@@ -13,9 +12,6 @@ static void answers_end(answers *a, bool keep) {
         engine_end(&a->spare[i].engine);
     }
     fret_contact_free(a->chorded);
-    if (a->trail)
-        free(a->trail->at);
-    free(a->trail);
     fret_normal *normal = a->normal, *k0 = a->k0;
     fret_fields *fields = a->fields;
     *a = (answers){.normal = NULL};
@@ -357,9 +353,7 @@ bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, cal
 }
 
 double scene_time(const scene *s) {
-    if (s->now)
-        return s->now->run ? s->now->run->time : s->now->time;
-    return program_time(s->program, s->end);
+    return s->now ? s->now->run->time : program_time(s->program, s->end);
 }
 
 bool scene_last_cycle(scene *s, load_item *out, calc_error *error) {

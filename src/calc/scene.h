@@ -38,7 +38,6 @@ typedef struct answers {
     unsigned levels, spares;
     bool chords; /* the swinging load of the program cannot be taken as it is */
     load_reach reach;
-    trail *trail; /* of run[0], or NULL */
     fret_state state;
     long double loss; /* of the last period */
 } answers;
@@ -49,12 +48,9 @@ typedef struct scene scene;
 typedef bool scene_definition(void *context, scene *s, input in, counted *definition, value *out,
                               calc_error *error);
 
-/* An instant on the way of a load: the run as it stands there, or what it has left behind. */
+/* An instant on the way of a load: the run as it stands there. */
 typedef struct instant {
     const runner *run;
-    const double *kept;    /* TRAILED; NULL: there is the run */
-    double time;           /* of it */
-    bool *lacking;         /* raised where more than that is wanted */
     struct beside *beside; /* the same instant in other scenes (beside.h); NULL: it cannot be had */
 } instant;
 
@@ -167,9 +163,6 @@ bool scene_forces(scene *s, const fret_state **state, calc_error *error);
 /* What the load has left: as it is, after a swinging load curved; and with that in chords. */
 bool scene_history(scene *s, const fret_contact **contact, calc_error *error);
 bool scene_straight(scene *s, const fret_contact **contact, calc_error *error);
-/* What each step of the load has left behind, which is run for that at first; *out is NULL where there is no
- * memory for it. */
-bool scene_trail(scene *s, const trail **out, calc_error *error);
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error);
 bool scene_cycle_loss(scene *s, long double *loss, calc_error *error);
 

@@ -122,7 +122,7 @@ static bool by_runs(const page *p, const expr *e, const runner run[LEVELS], long
     scene *s = p->sh->calc.now;
     bool ok = true;
     for (unsigned i = 0; i < LEVELS && ok; i++) {
-        const instant now = {.run = &run[i], .time = run[i].time};
+        const instant now = {.run = &run[i]};
         calc_error ignored;
         value v = {0, DIM_NONE};
         error_clear(&ignored);

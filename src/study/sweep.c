@@ -388,19 +388,6 @@ static bool look(void *context, double time, calc_error *error) {
     return evaluate_row(st, time) && st->job->row(st->job->context, st->s, st->curve, time, st->row);
 }
 
-/* Asks for all that a row does. */
-static bool probe(void *context, double time, calc_error *error) {
-    state *st = context;
-    (void)time, (void)error;
-    for (size_t i = 0; i < st->job->count; i++) {
-        value v;
-        calc_error ignored;
-        error_clear(&ignored);
-        expr_eval(st->job->c, &st->job->expressions[i], &v, &ignored);
-    }
-    return true;
-}
-
 bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error) {
     scene *tried = &t->scene;
     double mu;
@@ -422,11 +409,8 @@ static bool run_along(state *st) {
     if (s->what == ALONG_LOAD && !sweep_try_load(st->t, &st->range, &from, st->job->error))
         return false;
     calc_error error;
-    bool done = false, ok = true;
     error_clear(&error);
-    if (s->turns)
-        ok = trial_trail(st->t, s->what, s->steps, probe, look, st, &done, &error);
-    if (ok && (done || trial_along(st->t, s->what, from, s->steps, s->turns, look, st, &error)))
+    if (trial_along(st->t, s->what, from, s->steps, s->turns, look, st, &error))
         return true;
     if (!st->job->error->raised)
         *st->job->error = error;
