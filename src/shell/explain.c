@@ -228,13 +228,20 @@ static bool is_local(const quantity *q, bool call) {
     return call && q->load && (*q->argument == 'x' || *q->argument == 'r');
 }
 
-/* The value of e by the model that is exact for the scene. */
+/* The value of e where the memory diagram stands, which the scene has run beside its springs. */
 static bool exact_value(const page *p, const expr *e, value *v) {
+    const answers *a = &p->sh->calc.now->answers;
+    sight coarse[LEVELS - 1];
+    runner run = a->run[a->levels - 1];
+    const instant now = {.run = &run};
     calc_error ignored;
     error_clear(&ignored);
+    for (unsigned i = 0; i + 1 < a->levels; i++)
+        run_sight(&a->run[i], &coarse[i]);
+    run.coarse = a->levels > 1 ? coarse : NULL;
     trial *t = trial_open(&p->sh->calc, &ignored);
     if (t)
-        scene_set_model(&t->scene, true, MODEL_CLOSED, 0);
+        t->scene.now = &now;
     const bool ok = t && expr_eval(&p->sh->calc, e, v, &ignored);
     if (t) {
         t->scene.used = 0; /* it has not answered */
