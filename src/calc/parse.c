@@ -25,7 +25,8 @@ typedef struct parser {
 
 /* ---- nodes ------------------------------------------------------------------------------------- */
 
-size_t node_operands(const expr_node *n) {
+/* How many values a node takes from the nodes before it. */
+static size_t operands(const expr_node *n) {
     switch ((node_kind)n->kind) {
     case N_BINARY:
         return 2;
@@ -105,9 +106,9 @@ static bool split_tail(parser *p, size_t first, expr *body) {
         expr_node *n = &body->nodes[i];
         if (n->kind == N_APPLY) {
             n->left -= arguments;
-        } else if (node_operands(n)) {
+        } else if (operands(n)) {
             n->left -= first;
-            n->right -= node_operands(n) > 1 ? first : 0;
+            n->right -= operands(n) > 1 ? first : 0;
         }
     }
     e->count = first;
@@ -369,7 +370,6 @@ static bool parse_number(parser *p, size_t *out) {
     expr_node node; /* one by one: to clear the whole would cost more than the rest */
     node.kind = N_NUMBER;
     node.op = 0;
-    node.varies = false;
     node.at = at;
     node.left = node.right = node.index = 0;
     node.q = NULL;

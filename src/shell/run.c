@@ -298,7 +298,6 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         double start = timed ? seconds() : 0;
         const struct recorder *recorder = sh->record;
         sh->calc.scene.used = 0;
-        scene_show(&sh->calc.scene, sh->set.format == FORMAT_TEXT ? sh->set.digits : 0);
         bool done = shell_statement(sh, text + i, end - i, &error);
         if (!done)
             calc_word(&sh->calc, &error);

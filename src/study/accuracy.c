@@ -10,7 +10,6 @@
 const family_row families[FAMILIES] = {
     [FAMILY_CLOSED] = {"closed form", "", MODEL_CLOSED},
     [FAMILY_MEMORY] = {"memory diagram", "", MODEL_MEMORY},
-    [FAMILY_DOUBLE] = {"diagram in double", "", MODEL_DOUBLE},
     [FAMILY_QUADRATURE] = {"quadrature", "", MODEL_QUADRATURE},
     [FAMILY_LOOP] = {"loop area (21)", "M", MODEL_MEMORY},
     [FAMILY_SPRINGS] = {"springs", "N", MODEL_SPRINGS},
@@ -195,20 +194,6 @@ static bool memory_rows(bench *b, steady *m) {
     return ok;
 }
 
-/* Where the gap is a single power, and its numbers fit a double. */
-static bool double_row(bench *b, steady *m) {
-    if (!fret_normal_is_power(m->contact.normal))
-        return true;
-    fret_status st = engine_make(&m->engine, MODEL_DOUBLE, m->contact.normal, m->contact.mu, 0, 0);
-    if (!st.code)
-        st = ready(m);
-    const bool ok = st.code && fret_status_category(st.code) != FRET_CAT_SYSTEM
-                        ? true
-                        : calc_status(b->error, &st) && measure(b, FAMILY_DOUBLE, 0, stepped_cycle, m);
-    engine_end(&m->engine);
-    return ok;
-}
-
 static fret_status springs_ready(steady *m, unsigned count, double radius, fret_weight rule) {
     m->engine = (engine){.kind = &models[MODEL_SPRINGS]};
     fret_status st =
@@ -267,7 +252,7 @@ static bool steady_reference(bench *b, steady *m) {
 
 static bool measure_steady(bench *b, steady *m) {
     bool ok = steady_reference(b, m) && measure(b, FAMILY_CLOSED, 0, closed_cycle, m) && memory_rows(b, m) &&
-              double_row(b, m) && measure(b, FAMILY_QUADRATURE, 0, quadrature_cycle, m);
+              measure(b, FAMILY_QUADRATURE, 0, quadrature_cycle, m);
     b->end -= b->budget / 4; /* kept for the last */
     ok = ok && springs_rows(b, m, FAMILY_SPRINGS);
     b->end += b->budget / 4;
