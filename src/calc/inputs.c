@@ -65,7 +65,7 @@ static const geometry geometries[] = {
      .n = 1,
      .power = true,
      ONE(IN_SLOPE),
-     .usage = "cone slope=0.05 | cone angle=3 deg",
+     .takes = "slope:=0.05 | angle=3 deg",
      .meaning = "f = slope r",
      .keywords = "angle",
      .example = "    fret> material steel; geometry cone angle=3 deg; press FN=100 N\n"
@@ -78,7 +78,7 @@ static const geometry geometries[] = {
      .n = 2,
      .power = true,
      ONE(IN_RADIUS),
-     .usage = "paraboloid R=10 mm | paraboloid R1=20 mm R2=20 mm",
+     .takes = "R:=10 mm | R1=20 mm R2=20 mm",
      .meaning = "f = r^2/(2R)",
      .keywords = "Hertz Mindlin",
      .example = "    fret> material steel; geometry paraboloid R=10 mm; press FN=100 N\n"
@@ -91,7 +91,7 @@ static const geometry geometries[] = {
      .n = 2,
      .power = true,
      ONE(IN_RADIUS),
-     .usage = "sphere R=10 mm | sphere R1=20 mm R2=20 mm",
+     .takes = "R:=10 mm | R1=20 mm R2=20 mm",
      .meaning = "Hertz: the paraboloid",
      .keywords = "Mindlin",
      .example = "    fret> material steel; geometry sphere R1=20 mm R2=30 mm; press FN=100 N\n"
@@ -104,7 +104,7 @@ static const geometry geometries[] = {
      .power = true,
      .required = INPUT_BIT(IN_N),
      .allowed = INPUT_BIT(IN_N) | INPUT_BIT(IN_A) | INPUT_BIT(IN_H) | INPUT_BIT(IN_R0),
-     .usage = "power n=3 A=50 m^-2 | power n=3 h=1 um r0=1 mm",
+     .takes = "n:=3 [A:=50 m^-2 | h:=1 um r0:=1 mm]",
      .meaning = "f = A r^n = h (r/r0)^n",
      .keywords = "exponent",
      .example = "    fret> material steel; geometry power n=4 h=1 um r0=1 mm; press FN=100 N\n"
@@ -115,8 +115,8 @@ static const geometry geometries[] = {
     {.name = "sum",
      .gap = sum,
      .by = PARAMETERS_TERMS,
-     .usage = "sum 2:50 m^-1, 4:2e6 m^-3",
-     .meaning = "f = sum of A r^n",
+     .takes = "TERM, ...",
+     .meaning = "f = sum of A r^n, each n:A",
      .keywords = "powers polynomial",
      .example = "    fret> material steel; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=100 N\n"
                 "    fret> f(1 mm), a\n"
@@ -125,7 +125,7 @@ static const geometry geometries[] = {
     {.name = "flat-cone",
      .gap = flat_cone,
      TWO(IN_B, IN_SLOPE),
-     .usage = "flat-cone b=1 mm slope=0.05",
+     .takes = "b:=1 mm slope:=0.05",
      .meaning = "f = slope (r-b), r > b",
      .keywords = "punch",
      .example = "    fret> material steel; geometry flat-cone b=0.2 mm slope=0.05; press FN=100 N\n"
@@ -135,7 +135,7 @@ static const geometry geometries[] = {
     {.name = "flat-paraboloid",
      .gap = flat_paraboloid,
      TWO(IN_B, IN_RADIUS),
-     .usage = "flat-paraboloid b=1 mm R=10 mm",
+     .takes = "b:=1 mm R:=10 mm",
      .meaning = "f = (r^2-b^2)/(2R), r > b",
      .keywords = "worn punch",
      .example = "    fret> material steel; geometry flat-paraboloid b=0.2 mm R=10 mm; press FN=100 N\n"
@@ -145,7 +145,7 @@ static const geometry geometries[] = {
     {.name = "flat-rounded",
      .gap = flat_rounded,
      TWO(IN_B, IN_RADIUS),
-     .usage = "flat-rounded b=1 mm R=10 mm",
+     .takes = "b:=1 mm R:=10 mm",
      .meaning = "f = (r-b)^2/(2R), r > b",
      .keywords = "pad punch fretting",
      .example = "    fret> material steel; geometry flat-rounded b=0.2 mm R=10 mm; press FN=100 N\n"
@@ -155,7 +155,7 @@ static const geometry geometries[] = {
     {.name = "exact-sphere",
      .gap = exact_sphere,
      ONE(IN_RADIUS),
-     .usage = "exact-sphere R=10 mm",
+     .takes = "R:=10 mm",
      .meaning = "f = R - sqrt(R^2-r^2)",
      .keywords = "ball",
      .example = "    fret> material steel; geometry exact-sphere R=10 mm; press FN=100 N\n"
@@ -165,7 +165,7 @@ static const geometry geometries[] = {
     {.name = "file",
      .gap = file,
      .by = PARAMETERS_FILE,
-     .usage = "file gap.csv [smooth | smooth 0.1 um | smooth 8]",
+     .takes = "FILE.csv [smooth HOW]",
      .meaning = "rows of r, f with units in the header; smooth: see help files",
      .keywords = "csv table sampled measured profile noisy noise spline smooth roughness",
      .example = "    $ cat gap.csv\n"

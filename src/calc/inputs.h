@@ -47,7 +47,7 @@ typedef struct geometry {
     bool power;
     enum { PARAMETERS_NAMED, PARAMETERS_TERMS, PARAMETERS_FILE } by;
     unsigned required, allowed; /* sets of inputs */
-    const char *usage;
+    const char *takes;          /* behind its name, as rows of commands do */
     const char *meaning;
     const char *keywords; /* other words to find it by */
     const char *example;  /* of `help`: a transcript, indented by four */

@@ -16,10 +16,13 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
         const geometry *g = s->in.geometry;
         if (inputs_take(&s->in, in))
             return true;
+        char usage[160];
+        takes_text(g->takes, usage, sizeof usage);
         if (g->allowed & INPUT_BIT(in)) /* h and r0 */
-            return calc_fail(error, 0, 0, "geometry %s was given by A, not by %s (%s)", g->name, q->name,
-                             g->usage);
-        return calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s)", q->name, g->name, g->usage);
+            return calc_fail(error, 0, 0, "geometry %s was given by A, not by %s (%s %s)", g->name, q->name,
+                             g->name, usage);
+        return calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s %s)", q->name, g->name, g->name,
+                         usage);
     }
     if (in == IN_FN)
         return !s->end.steps || s->program->steps[0].normal == BY_FORCE ||

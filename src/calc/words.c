@@ -58,6 +58,18 @@ static size_t distance(const char *a, const char *b) {
     return rows[i % 3][n];
 }
 
+void takes_text(const char *takes, char *buf, size_t size) {
+    static const char adds[] = ", += for an increment";
+    const char *more = strstr(takes, "+=") ? adds : "";
+    size_t n = 0;
+    for (const char *p = takes; *p && n + sizeof adds < size; p++)
+        if (*p == ':' && (p[1] == '=' || (p > takes && p[-1] >= 'A' && p[-1] <= 'Z')))
+            p += strspn(p + 1, "0123456789");
+        else if (!(*p == '*' && p > takes && p[-1] == ']') && !(*p == '+' && p[1] == '='))
+            buf[n++] = *p;
+    strcpy(buf + n, more);
+}
+
 bool same_but_case(const char *a, const char *b) {
     while (*a && (*a == *b || ((*a ^ *b) == 0x20 && (*a | 0x20) >= 'a' && (*a | 0x20) <= 'z')))
         a++, b++;

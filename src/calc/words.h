@@ -23,6 +23,9 @@ void plain_letters(const char *word, size_t len, char plain[PLAIN_WORD]);
 /* Nearest of count names to what was typed, within a third of its length, or NULL. name(i) lists them. */
 const char *suggest(const char *typed, const char *(*name)(size_t i));
 
+/* What a row takes, as who reads it is told: without the marks of := and +=, and the most of a number. */
+void takes_text(const char *takes, char *buf, size_t size);
+
 bool same_but_case(const char *a, const char *b);
 /* One letter changed, missing or too many, or two swapped. */
 bool one_letter_apart(const char *a, const char *b);

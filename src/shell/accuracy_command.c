@@ -8,9 +8,6 @@
 #include "shell/output.h"
 #include "shell/progress.h"
 
-/* Rows of its arguments in the table of commands. */
-enum { ROW_FA, ROW_DXA, ROW_WITHIN };
-
 /* ---- measuring --------------------------------------------------------------------------------- */
 
 static void describe_size(const accuracy_row *row, char *buf, size_t size) {
@@ -27,28 +24,24 @@ static void show_progress(void *context, const accuracy_row *row) {
     progress_words(words);
 }
 
-static bool read_load_given(shell *sh, lexer *lx, const command *self, arg_value out[ARGS]) {
-    const arg_list list = command_args(self);
-    return args_read_some(sh, lx, &list, out, NULL);
-}
-
-static bool run_study(shell *sh, const arg_value given[ARGS], accuracy_study *out, calc_error *error) {
-    const arg_value *v = &given[given[ROW_DXA].given ? ROW_DXA : ROW_FA];
-    const accuracy_load load = {.given = v->given,
-                                .by_force = !given[ROW_DXA].given,
-                                .amplitude = (double)v->v.v,
-                                .seconds = given[ROW_WITHIN].given ? (double)given[ROW_WITHIN].v.v : 3};
+static bool run_study(shell *sh, said *given, accuracy_study *out, calc_error *error) {
+    const heard *FA = said_of(given, "FA", 0), *dxA = said_of(given, "dxA", 0), *v = dxA ? dxA : FA,
+                *within = said_of(given, "within", 0);
+    const accuracy_load load = {.given = v != NULL,
+                                .by_force = !dxA,
+                                .amplitude = v ? (double)v->v.v : 0,
+                                .seconds = within ? (double)within->v.v : 3};
     bool ok = accuracy_measure(sh->calc.now, &load, show_progress, NULL, out, error);
     progress_wipe();
     const char *blamed = error->raised && error->kind == ERROR_STATUS ? error->status.quantity : NULL;
-    if (blamed && !strcmp(blamed, "FA")) /* a dxA has no bound */
-        arg_place(error, v);
+    if (v && blamed && !strcmp(blamed, "FA")) /* a dxA has no bound */
+        heard_place(error, v);
     return ok;
 }
 
 bool accuracy_study_read(shell *sh, lexer *lx, const command *self, accuracy_study *out) {
-    arg_value given[ARGS];
-    return read_load_given(sh, lx, self, given) && run_study(sh, given, out, lx->error);
+    said given;
+    return said_read_some(sh, lx, command_form(self), &given) && run_study(sh, &given, out, lx->error);
 }
 
 /* ---- words ------------------------------------------------------------------------------------- */
@@ -198,9 +191,9 @@ static void print_json(shell *sh, const accuracy_study *study, const char *load,
 
 bool do_accuracy(shell *sh, lexer *lx, const command *self) {
     accuracy_study study;
-    arg_value given[ARGS];
+    said given;
     char advice[ACCURACY_TEXT], load[ACCURACY_TEXT];
-    if (!read_load_given(sh, lx, self, given) || !at_end(lx) || !run_study(sh, given, &study, lx->error))
+    if (!said_read(sh, lx, command_form(self), &given) || !run_study(sh, &given, &study, lx->error))
         return false;
     advise(&study, sh->set.format == FORMAT_TEXT ? "\n" : "; ", advice, sizeof advice);
     accuracy_load_text(sh, &study, load, sizeof load);

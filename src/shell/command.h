@@ -4,18 +4,14 @@
 #ifndef SHELL_COMMAND_H
 #define SHELL_COMMAND_H
 
-#include "shell/args.h"
-
-/* Groups of arguments: one target in each direction. */
-enum { GROUP_NORMAL = 1, GROUP_TANGENTIAL };
+#include "shell/reader.h"
 
 typedef struct command {
     const char *name;
     bool (*run)(shell *sh, lexer *lx, const struct command *self); /* the cursor after the command word */
-    const arg *args;                                               /* ended by an empty row; NULL: none */
-    const char *usage;                                             /* without the command word */
-    const char *summary;                                           /* one line */
-    const char *help; /* what it does; ends with an example as a transcript, indented by four */
+    const char *takes;   /* behind the command word, see grammar.h: it is read by this, and its usage */
+    const char *summary; /* one line */
+    const char *help;    /* what it does; ends with an example as a transcript, indented by four */
     const char *keywords;
     const char *group;       /* of `help`: what it is for */
     bool changes;            /* the scene */
@@ -24,18 +20,22 @@ typedef struct command {
     void (*print)(FILE *to); /* more help, from a table */
 } command;
 
-/* The rows of a command as its arguments are read. */
-static inline arg_list command_args(const command *c) {
-    return (arg_list){c->args, c->name, c->name, c->usage, "argument"};
-}
-
-/* The table, which knows all handlers, ended by a row without a name. */
+/* The table, which knows all handlers, and the holes of its lines, ended by rows without a name. */
 extern const command commands[];
+extern const hole_row holes[];
 /* Once, before any statement: what follows looks it up there. */
-void command_use(const command *rows);
+void command_use(const command *rows, const hole_row *of);
 const command *command_find(const char *name, size_t len);
 const command *command_row(size_t i); /* NULL after the last */
 const char *command_name(size_t i);
+const hole_row *hole_at(size_t i); /* likewise */
+/* What it takes; what `geometry` takes behind the name of this shape. */
+const grammar *command_form(const command *c);
+const grammar *shape_form(const geometry *g);
+/* "step Fx=20 N ...", as who types it is told. */
+static inline void command_usage(const command *c, char buf[GRAMMAR_USAGE]) {
+    grammar_usage(command_form(c), buf);
+}
 
 /* The arguments of `step` or `cycle`, whose word the cursor is on: the load, not run; for `along`. */
 bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]);

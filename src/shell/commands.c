@@ -13,130 +13,53 @@
 #include "shell/show.h"
 #include "shell/study_commands.h"
 
-#define INPUT(which) .in = 1 + (which)
+/* ---- holes ------------------------------------------------------------------------------------- */
 
-static const arg material_args[] = {{.kind = ARG_CHOICE, .name = "material", .words = preset_name},
-                                    {.kind = ARG_VALUE, .name = "E0", INPUT(IN_E0), .flags = ARG_LIVE},
-                                    {.kind = ARG_VALUE, .name = "nu", INPUT(IN_NU), .flags = ARG_LIVE},
-                                    {.kind = ARG_VALUE, .name = "k", INPUT(IN_K), .flags = ARG_LIVE},
-                                    {.kind = ARG_VALUE, .name = "c0", INPUT(IN_C0), .flags = ARG_LIVE},
-                                    {.kind = ARG_VALUE, .name = "E0_2", INPUT(IN_E0_2), .flags = ARG_LIVE},
-                                    {.kind = ARG_VALUE, .name = "nu_2", INPUT(IN_NU_2), .flags = ARG_LIVE},
-                                    {.kind = ARG_END}};
+static const char *axes_name(size_t i) {
+    static const char *const names[] = {"x", "y", "xy"};
+    return i < sizeof names / sizeof *names ? names[i] : NULL;
+}
 
-static const arg second_args[] = {{.kind = ARG_CHOICE, .name = "material", .words = second_name},
-                                  {.kind = ARG_VALUE, .name = "E0", INPUT(IN_E0), .flags = ARG_LIVE},
-                                  {.kind = ARG_VALUE, .name = "nu", INPUT(IN_NU), .flags = ARG_LIVE},
-                                  {.kind = ARG_VALUE, .name = "E0_2", INPUT(IN_E0_2), .flags = ARG_LIVE},
-                                  {.kind = ARG_VALUE, .name = "nu_2", INPUT(IN_NU_2), .flags = ARG_LIVE},
-                                  {.kind = ARG_END}};
+static const char *off_name(size_t i) {
+    return i == 0 ? "off" : NULL;
+}
 
-static const arg friction_args[] = {{.kind = ARG_EXPR, .name = "mu", INPUT(IN_MU)}, {.kind = ARG_END}};
+const hole_row holes[] = {
+    {.name = "EXPR", .kind = HOLE_EXPR},
+    {.name = "VALUES", .kind = HOLE_EXPR},
+    {.name = "DEVIATION", .kind = HOLE_EXPR},
+    {.name = "TERM", .kind = HOLE_EXPR},
+    {.name = "HOW", .kind = HOLE_MAYBE},
+    {.name = "LO", .kind = HOLE_SPAN},
+    {.name = "NAME", .kind = HOLE_NAME},
+    {.name = "MU", .kind = HOLE_VALUE, .noun = "mu"},
+    {.name = "N", .kind = HOLE_COUNT},
+    {.name = "SECONDS", .kind = HOLE_SECONDS},
+    {.name = "TEXT", .kind = HOLE_TEXT},
+    {.name = "FILE", .kind = HOLE_FILE},
+    {.name = "LOAD", .kind = HOLE_LOAD},
+    {.name = "MATERIAL", .kind = HOLE_CHOICE, .noun = "material", .words = preset_name},
+    {.name = "BODY", .kind = HOLE_CHOICE, .noun = "material", .words = second_name},
+    {.name = "AXES", .kind = HOLE_CHOICE, .noun = "axis", .words = axes_name},
+    {.name = "OFF", .kind = HOLE_CHOICE, .noun = "word", .words = off_name},
+    {.name = "WORD", .kind = HOLE_WORD},
+    {.name = "SHAPE", .kind = HOLE_WORD, .words = geometry_name},
+    {.name = "PART", .kind = HOLE_WORD, .words = show_name},
+    {.name = "SETTING", .kind = HOLE_WORD, .words = setting_name},
+    {.name = "LESSON", .kind = HOLE_WORD, .words = script_name},
+    {.name = "TOPIC", .kind = HOLE_WORD, .words = help_name},
+    {.name = "FIGURE", .kind = HOLE_WORD, .words = figure_word},
+    {.name = "RANGE",
+     .kind = HOLE_CLAUSES,
+     .clauses = "[for NAME = LO .. HI]* [along LOAD] [steps N:100000000] [log] [with NAME = VALUES]"},
+    {.name = "LOOK",
+     .kind = HOLE_CLAUSES,
+     .clauses = "[title TEXT]* [xlabel TEXT]* [ylabel TEXT]* [xrange LO .. HI]* [yrange LO .. HI]* "
+                "[log AXES]* [flip AXES]* [key OFF]* [points]* [over FILE]*"},
+    {.name = NULL},
+};
 
-static const arg press_args[] = {
-    {.kind = ARG_VALUE, .name = "FN", INPUT(IN_FN), .group = GROUP_NORMAL},
-    {.kind = ARG_VALUE, .name = "dz", .d = {0, 1, 0}, .flags = ARG_POSITIVE, .group = GROUP_NORMAL},
-    {.kind = ARG_VALUE, .name = "a", .d = {0, 1, 0}, .flags = ARG_POSITIVE, .group = GROUP_NORMAL},
-    {.kind = ARG_END}};
-
-static const arg step_args[] = {
-    {.kind = ARG_VALUE, .name = "Fx", .d = {1, 0, 0}, .flags = ARG_INCREMENT, .group = GROUP_TANGENTIAL},
-    {.kind = ARG_VALUE, .name = "dx", .d = {0, 1, 0}, .flags = ARG_INCREMENT, .group = GROUP_TANGENTIAL},
-    {.kind = ARG_VALUE, .name = "FN", .d = {1, 0, 0}, .flags = ARG_INCREMENT, .group = GROUP_NORMAL},
-    {.kind = ARG_VALUE, .name = "dz", .d = {0, 1, 0}, .flags = ARG_INCREMENT, .group = GROUP_NORMAL},
-    {.kind = ARG_COUNT, .name = "steps", .most = 1000000},
-    {.kind = ARG_END}};
-
-static const arg cycle_args[] = {
-    {.kind = ARG_VALUE, .name = "FA", INPUT(IN_FA), .flags = ARG_LIVE, .group = GROUP_TANGENTIAL},
-    {.kind = ARG_VALUE, .name = "dxA", INPUT(IN_DXA), .flags = ARG_LIVE, .group = GROUP_TANGENTIAL},
-    {.kind = ARG_VALUE, .name = "FNA", INPUT(IN_FNA), .flags = ARG_LIVE},
-    {.kind = ARG_VALUE, .name = "phase", INPUT(IN_PHASE), .flags = ARG_LIVE, .beside = "FNA"},
-    {.kind = ARG_COUNT, .name = "times", .most = 1000000},
-    {.kind = ARG_COUNT, .name = "steps", .most = 1000000},
-    {.kind = ARG_END}};
-
-static const arg geometry_args[] = {{.kind = ARG_NAME, .name = "shape", .words = geometry_name},
-                                    {.kind = ARG_END}};
-static const arg show_args[] = {{.kind = ARG_NAME, .name = "part", .words = show_name}, {.kind = ARG_END}};
-static const arg set_args[] = {{.kind = ARG_NAME, .name = "setting", .words = setting_name},
-                               {.kind = ARG_END}};
-static const arg demo_args[] = {{.kind = ARG_NAME, .name = "lesson", .words = script_name},
-                                {.kind = ARG_END}};
-static const arg help_args[] = {{.kind = ARG_NAME, .name = "topic", .words = help_name}, {.kind = ARG_END}};
-
-static const arg reset_args[] = {{.kind = ARG_WORD, .name = "all"}, {.kind = ARG_END}};
-
-static const arg file_args[] = {{.kind = ARG_FILE, .name = "file"}, {.kind = ARG_END}};
-
-static const arg record_args[] = {
-    {.kind = ARG_FILE, .name = "file"}, {.kind = ARG_WORD, .name = "off"}, {.kind = ARG_END}};
-
-static const arg save_args[] = {
-    {.kind = ARG_FILE, .name = "file"}, {.kind = ARG_WORD, .name = "history"}, {.kind = ARG_END}};
-
-static const arg to_args[] = {{.kind = ARG_TO, .name = "to"}, {.kind = ARG_END}};
-
-static const arg explain_args[] = {{.kind = ARG_LIST, .name = "quantity"},
-                                   {.kind = ARG_WORD, .name = "at"},
-                                   {.kind = ARG_WORD, .name = "conditioning"},
-                                   {.kind = ARG_END}};
-
-static const arg table_args[] = {{.kind = ARG_LIST, .name = "expression"},
-                                 {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
-                                 {.kind = ARG_WORD, .name = "log"},
-                                 {.kind = ARG_TO, .name = "to"},
-                                 {.kind = ARG_END}};
-
-static const arg plot_args[] = {{.kind = ARG_NAME, .name = "figure", .words = figure_word},
-                                {.kind = ARG_LIST, .name = "expression"},
-                                {.kind = ARG_COUNT, .name = "steps", .most = RANGE_STEPS},
-                                {.kind = ARG_WORD, .name = "log"},
-                                {.kind = ARG_TO, .name = "to"},
-                                {.kind = ARG_END}};
-
-static const arg animate_args[] = {{.kind = ARG_NAME, .name = "figure", .words = figure_word},
-                                   {.kind = ARG_LIST, .name = "expression"},
-                                   {.kind = ARG_COUNT, .name = "frames", .most = PLOT_FRAMES},
-                                   {.kind = ARG_TO, .name = "to"},
-                                   {.kind = ARG_END}};
-
-static const arg accuracy_args[] = {
-    {.kind = ARG_VALUE, .name = "FA", .d = {1, 0, 0}, .flags = ARG_POSITIVE, .group = GROUP_TANGENTIAL},
-    {.kind = ARG_VALUE, .name = "dxA", .d = {0, 1, 0}, .flags = ARG_POSITIVE, .group = GROUP_TANGENTIAL},
-    {.kind = ARG_NUMBER, .name = "within", .most = 3600},
-    {.kind = ARG_END}};
-
-static const arg export_args[] = {{.kind = ARG_COUNT, .name = "jenkins", .most = 1000},
-                                  {.kind = ARG_TO, .name = "to"},
-                                  {.kind = ARG_VALUE, .name = "FA", .d = {1, 0, 0}, .flags = ARG_POSITIVE},
-                                  {.kind = ARG_END}};
-
-static const arg solve_args[] = {{.kind = ARG_KNOB, .name = "input"},
-                                 {.kind = ARG_WORD, .name = "for"},
-                                 {.kind = ARG_WORD, .name = "from"},
-                                 {.kind = ARG_WORD, .name = "to"},
-                                 {.kind = ARG_END}};
-
-static const arg fit_args[] = {{.kind = ARG_KNOB, .name = "input"},
-                               {.kind = ARG_WORD, .name = "for"},
-                               {.kind = ARG_TO, .name = "to"},
-                               {.kind = ARG_TO, .name = "along"},
-                               {.kind = ARG_END}};
-
-static const arg uncertainty_args[] = {{.kind = ARG_LIST, .name = "expression"},
-                                       {.kind = ARG_WORD, .name = "in"},
-                                       {.kind = ARG_WORD, .name = "at"},
-                                       {.kind = ARG_WORD, .name = "with"},
-                                       {.kind = ARG_COUNT, .name = "samples", .most = 10000000},
-                                       {.kind = ARG_COUNT, .name = "seed", .most = 1000000000},
-                                       {.kind = ARG_END}};
-
-static const arg optimise_args[] = {{.kind = ARG_LIST, .name = "expression"},
-                                    {.kind = ARG_WORD, .name = "in"},
-                                    {.kind = ARG_WORD, .name = "at"},
-                                    {.kind = ARG_WORD, .name = "over"},
-                                    {.kind = ARG_END}};
+/* ---- help from tables -------------------------------------------------------------------------- */
 
 static void presets_list(FILE *to) {
     const preset *p;
@@ -144,10 +67,16 @@ static void presets_list(FILE *to) {
         fprintf(to, "    %-17s E0=%.10g GPa nu=%.10g\n", p->name, p->E0 / 1e9, p->nu);
 }
 
+static void geometry_line(FILE *to, const geometry *g) {
+    char usage[GRAMMAR_USAGE];
+    grammar_usage(shape_form(g), usage);
+    fprintf(to, "    %s\n        %s\n", usage, g->meaning);
+}
+
 static void geometry_list(FILE *to) {
     const geometry *g;
     for (size_t i = 0; (g = geometry_row(i)); i++)
-        fprintf(to, "    geometry %s\n        %s\n", g->usage, g->meaning);
+        geometry_line(to, g);
     fputs("\n    fret> geometry cone angle=45 deg\n    fret> slope\n    slope = 1\n", to);
 }
 
@@ -160,12 +89,11 @@ static void figures_list(FILE *to) {
 const command commands[] = {
     {.name = "material",
      .run = do_material,
-     .args = material_args,
      .group = "the bodies",
      .keywords = "steel aluminium Young elastic graded",
      .changes = true,
      .print = presets_list,
-     .usage = "E0=210 GPa nu=0.3 [k=0.5 c0=1 mm] | steel",
+     .takes = "[MATERIAL] [E0:=210 GPa] [nu:=0.3] [k:=0.5] [c0:=1 mm] [E0_2:=70 GPa] [nu_2:=0.33]",
      .summary = "the elastic bodies",
      .help = "Sets E(z) = E0 (z/c0)^k and Poisson's ratio of both bodies. Without k the\n"
              "material is homogeneous and c0 is not needed. Arguments behind a name of\n"
@@ -177,11 +105,10 @@ const command commands[] = {
              "    eta = 2.10754\n"},
     {.name = "second",
      .run = do_second,
-     .args = second_args,
      .group = "the bodies",
      .keywords = "other body",
      .changes = true,
-     .usage = "E0=70 GPa nu=0.33 | aluminium | rigid | same",
+     .takes = "[BODY] [E0:=70 GPa] [nu:=0.33] [E0_2:=70 GPa] [nu_2:=0.33]",
      .summary = "the other body, where it differs",
      .help = "The second body shares k and c0 with the first; by default it is the same.\n"
              "Bodies that are not elastically similar couple normal and tangential contact,\n"
@@ -197,20 +124,18 @@ const command commands[] = {
              "coupled, and these results are an approximation\n"},
     {.name = "geometry",
      .run = do_geometry,
-     .args = geometry_args,
      .group = "the bodies",
      .keywords = "gap shape indenter sphere cone",
      .changes = true,
      .print = geometry_list,
-     .usage = "SHAPE NAME=EXPR ...",
+     .takes = "SHAPE ...",
      .summary = "the gap between the bodies"},
     {.name = "friction",
      .run = do_friction,
-     .args = friction_args,
      .group = "the bodies",
      .keywords = "Coulomb mu",
      .changes = true,
-     .usage = "MU",
+     .takes = "MU",
      .summary = "the coefficient of friction",
      .help = "Sets mu, Coulomb's coefficient. `mu = 0.4` does the same.\n\n"
              "    fret> friction 0.4\n"
@@ -218,11 +143,10 @@ const command commands[] = {
              "    mu = 0.4\n"},
     {.name = "press",
      .run = do_press,
-     .args = press_args,
      .group = "the load",
      .keywords = "normal load Hertz indentation",
      .changes = true,
-     .usage = "FN=100 N | dz=1 um | a=0.2 mm",
+     .takes = "FN=100 N | dz=1 um | a=0.2 mm",
      .summary = "press the bodies together: starts a load program",
      .help = "By force, indentation depth or contact radius. What was stepped before is\n"
              "forgotten.\n\n"
@@ -233,10 +157,9 @@ const command commands[] = {
              "    dz = 4 um\n"},
     {.name = "step",
      .run = do_step,
-     .args = step_args,
      .group = "the load",
      .keywords = "tangential load",
-     .usage = "Fx=20 N | dx=0.5 um | FN=120 N | dz=1 um, += for an increment [steps 50]",
+     .takes = "[Fx+=20 N | dx+=0.5 um] [FN+=120 N | dz+=1 um] [steps N:1000000]",
      .summary = "a straight step of the load",
      .help = "A tangential target, a normal target, or both for a straight ramp; += adds to\n"
              "what is there now. A normal step alone holds dx. Both together go straight in FN\n"
@@ -252,11 +175,10 @@ const command commands[] = {
              "    c/a = 0.956466\n"},
     {.name = "cycle",
      .run = do_cycle,
-     .args = cycle_args,
      .group = "the load",
      .keywords = "oscillation fretting hysteresis loop dissipation",
      .changes = true,
-     .usage = "FA=20 N | dxA=0.5 um [times 3] [steps 200] [FNA=30 N phase=90 deg]",
+     .takes = "FA:=20 N | dxA:=0.5 um [times N:1000000] [steps N:1000000] [FNA:=30 N] [phase:=90 deg]",
      .summary = "close tangential cycles",
      .help = "Goes to +FA, then through whole cycles +FA, -FA, +FA; dW is the energy that\n"
              "the last one dissipated. With FNA the normal force swings too,\n"
@@ -270,11 +192,10 @@ const command commands[] = {
              "    dW/(4*FN*dxmax) = 0.281737 %\n"},
     {.name = "follow",
      .run = do_follow,
-     .args = file_args,
      .group = "the load",
      .keywords = "csv history measured",
      .changes = true,
-     .usage = "FILE.csv",
+     .takes = "FILE.csv",
      .summary = "load along a table of FN,Fx or dz,dx",
      .help = "The header gives the columns and their units. Every row is a straight step; one\n"
              "that cannot be carried leaves the scene as before the command. Where nothing is\n"
@@ -294,10 +215,9 @@ const command commands[] = {
              "    W = 328.223 nJ\n"},
     {.name = "reset",
      .run = do_reset,
-     .args = reset_args,
      .group = "the load",
      .changes = true,
-     .usage = "[all]",
+     .takes = "[all]",
      .summary = "forget the load program; all: the inputs too",
      .help = "Variables of your own are kept.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; press FN=1 N\n"
@@ -309,7 +229,7 @@ const command commands[] = {
      .returns = true,
      .group = "the load",
      .keywords = "back",
-     .usage = "",
+     .takes = "",
      .summary = "take back the last change of the scene",
      .help = "Of the inputs, the load or a name; again for the one before. A script run by\n"
              "`source`, a lesson, or a file that was followed, is one change.\n\n"
@@ -319,10 +239,9 @@ const command commands[] = {
              "    mu = 0.4\n"},
     {.name = "history",
      .run = do_history,
-     .args = to_args,
      .group = "results",
      .keywords = "loop hysteresis csv export",
-     .usage = "[to FILE]",
+     .takes = "[to FILE]",
      .summary = "the recorded load history as a table",
      .help = "One row for every press and step, and for the points that `steps` asked for.\n"
              "`help files` tells the forms of FILE.\n\n"
@@ -335,11 +254,9 @@ const command commands[] = {
              "              100        3.48291            -20       -625.995        1429.84\n"},
     {.name = "table",
      .run = do_table,
-     .args = table_args,
      .group = "results",
      .keywords = "sweep csv export",
-     .usage =
-         "EXPR, ... for VAR = LO .. HI [steps N] [log] [with VAR2 = v1, v2, ...] | for VAR2 = ... [to FILE]",
+     .takes = "EXPR, ... RANGE [to FILE]",
      .summary = "a table over a range",
      .help = "VAR is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n"
              "Two ranges make a matrix, as CSV and JSON a row for each pair. `along program`,\n"
@@ -353,10 +270,9 @@ const command commands[] = {
              "               40        54.1344              0\n"},
     {.name = "plot",
      .run = do_plot,
-     .args = plot_args,
      .group = "results",
      .keywords = "figure loop hysteresis png svg pdf tex export contour map measured",
-     .usage = "FIGURE [| FIGURE ...] [to FILE.png|svg|pdf|tex|html|gif|gp]",
+     .takes = "FIGURE | EXPR, ... [against EXPR] RANGE LOOK [to FILE.png|svg|pdf|tex|html|gif|gp]",
      .summary = "figures, in the terminal or to a file",
      .print = figures_list,
      .help = "FIGURE is one of\n\n"
@@ -390,10 +306,9 @@ const command commands[] = {
              "                          r [um]\n"},
     {.name = "animate",
      .run = do_animate,
-     .args = animate_args,
      .group = "results",
      .keywords = "video movie gif springs",
-     .usage = "FIGURE [| FIGURE ...] [frames N] [to FILE.gif]",
+     .takes = "FIGURE | EXPR, ... [against EXPR] RANGE LOOK [frames N:1000] [to FILE.gif]",
      .summary = "figures in motion along a load",
      .help = "Figures as of `plot`. Those `along` a load, all along the same one, are drawn up\n"
              "to a moving instant; `springs`, `pressure`, `traction` and what else goes over\n"
@@ -405,10 +320,9 @@ const command commands[] = {
              "    wrote cycle.gif (174 kB)\n"},
     {.name = "solve",
      .run = do_solve,
-     .args = solve_args,
      .group = "backwards",
      .keywords = "root equation inverse backwards find",
-     .usage = "NAME for EXPR = EXPR [from LO to HI]",
+     .takes = "NAME for EXPR = EXPR [from EXPR] [to EXPR]",
      .summary = "the value of an input that makes an equation hold",
      .help = "NAME is an input or a variable of yours; the scene stays as it is. Without a\n"
              "range it looks over the whole range of k and nu, and three decades on either\n"
@@ -422,10 +336,9 @@ const command commands[] = {
              "    mu = 0.636473\n"},
     {.name = "maximize",
      .run = do_maximize,
-     .args = optimise_args,
      .group = "backwards",
      .keywords = "optimum optimise best design largest peak",
-     .usage = "EXPR over NAME = LO .. HI, ...",
+     .takes = "EXPR over NAME = LO .. HI, ...",
      .summary = "where an expression is largest",
      .help = "One to three inputs or free names, each in its range; the scene stays as it is.\n"
              "A note says where the best is an end of a range, or where the scene ends.\n\n"
@@ -435,10 +348,9 @@ const command commands[] = {
              "    dWd(0.5 um) = 3.33974 uJ\n"},
     {.name = "minimize",
      .run = do_minimize,
-     .args = optimise_args,
      .group = "backwards",
      .keywords = "optimum optimise best design smallest",
-     .usage = "EXPR over NAME = LO .. HI, ...",
+     .takes = "EXPR over NAME = LO .. HI, ...",
      .summary = "where an expression is smallest",
      .help = "As `maximize`.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
@@ -448,10 +360,9 @@ const command commands[] = {
              "    note: no inner optimum in FN: FN = 20 N is the lower end of its range\n"},
     {.name = "fit",
      .run = do_fit,
-     .args = fit_args,
      .group = "backwards",
      .keywords = "least squares regression identify parameter measured data inverse calibrate",
-     .usage = "NAME, ... for EXPR = EXPR to FILE.csv | along FILE.csv",
+     .takes = "NAME, ... [for EXPR = EXPR] [to FILE.csv] [along FILE.csv]",
      .summary = "inputs from measured data, with how sure they are",
      .help = "Starts from the present values; the scene stays as it is. With `for` each row is\n"
              "an equation whose columns are names: depth = dz(force). With `along` the file is\n"
@@ -472,10 +383,9 @@ const command commands[] = {
              "    rms = 17.5911 nm over 4 rows\n"},
     {.name = "uncertainty",
      .run = do_uncertainty,
-     .args = uncertainty_args,
      .group = "backwards",
      .keywords = "error deviation Monte Carlo tolerance variance confidence sensitivity",
-     .usage = "EXPR, ... with NAME +- DEVIATION, ... [samples 10000] [seed 1]",
+     .takes = "EXPR, ... with NAME +- DEVIATION, ... [samples N:10000000] [seed N:1000000000]",
      .summary = "how sure a value is, and which input that comes from",
      .help = "Standard deviations of independent inputs; 5 % is a part of the value. The\n"
              "answer is first order, from derivatives, with the share of each input in the\n"
@@ -490,10 +400,9 @@ const command commands[] = {
              "        from mu 0 %, E0 100 %\n"},
     {.name = "export",
      .run = do_export,
-     .args = export_args,
      .group = "backwards",
      .keywords = "jenkins masing iwan elements dynamics damper model springs",
-     .usage = "jenkins N to FILE.csv|json|h [FA=20 N]",
+     .takes = "jenkins N:1000 to FILE.csv|json|h [FA=20 N]",
      .summary = "the contact as parallel Jenkins elements, for a dynamics code",
      .help = "Springs in line with sliders, chosen to minimise the worst error of the energy\n"
              "per cycle over all amplitudes, at this normal force; with FA, over those up to\n"
@@ -507,10 +416,9 @@ const command commands[] = {
              "    relative = 0.0147451\n"},
     {.name = "explain",
      .run = do_explain,
-     .args = explain_args,
      .group = "results",
      .keywords = "formula equation Mindlin",
-     .usage = "EXPR [at NAME=EXPR, ...] [conditioning]",
+     .takes = "EXPR [conditioning]",
      .summary = "formula, source, numbers put in, model used, error",
      .help = "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs\n"
              "that the value depends on, how it was computed, and the error of the numbers\n"
@@ -531,10 +439,9 @@ const command commands[] = {
              "        no effect: E0\n"},
     {.name = "accuracy",
      .run = do_accuracy,
-     .args = accuracy_args,
      .group = "results",
      .keywords = "error speed",
-     .usage = "[FA=20 N | dxA=0.5 um] [within 3]",
+     .takes = "[FA=20 N | dxA=0.5 um] [within SECONDS:3600]",
      .summary = "error against time of every model, for this scene",
      .help = "A table of the models that can answer for dW: value, relative error, time of a\n"
              "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
@@ -561,10 +468,9 @@ const command commands[] = {
              "    auto picks: closed form (constant FN): error <5e-19 in ... ns\n"},
     {.name = "show",
      .run = do_show,
-     .args = show_args,
      .group = "the session",
      .keywords = "save",
-     .usage = "[scene|settings|units|commands|variables|demos]",
+     .takes = "[PART]",
      .summary = "what is set",
      .help = "The scene as the commands that make it again, to the last digit; the settings,\n"
              "the units or the commands.\n\n"
@@ -574,11 +480,10 @@ const command commands[] = {
              "    geometry sphere R=10 mm\n"},
     {.name = "set",
      .run = do_set,
-     .args = set_args,
      .group = "the session",
      .keywords = "options",
      .print = help_settings,
-     .usage = "NAME VALUE",
+     .takes = "SETTING ...",
      .summary = "settings",
      .help = "One setting a statement. `set timing on` shows the time of each statement and\n"
              "the models that answered. `set model` picks one: auto takes the closed form\n"
@@ -587,12 +492,11 @@ const command commands[] = {
              "    pi = 3.14159265359\n"},
     {.name = "source",
      .run = do_source,
-     .args = file_args,
      .group = "the session",
      .keywords = "script",
      .changes = true,
      .keeps = true,
-     .usage = "FILE",
+     .takes = "FILE",
      .summary = "run a script",
      .help = "Statements of a file, as if typed here; it stops at the first error.\n\n"
              "    $ cat ball.fret\n"
@@ -605,10 +509,9 @@ const command commands[] = {
              "    dz = 3.48291 um\n"},
     {.name = "save",
      .run = do_save,
-     .args = save_args,
      .group = "the session",
      .keywords = "write keep export scene history",
-     .usage = "FILE | history FILE",
+     .takes = "FILE | history FILE",
      .summary = "write the scene as commands; or what has been typed",
      .help = "The file makes the scene again, to the last bit: `source FILE`, or fret FILE.\n"
              "`save history` writes the lines typed in this session, as they were typed.\n\n"
@@ -620,10 +523,9 @@ const command commands[] = {
              "    friction 0.3\n"},
     {.name = "record",
      .run = do_record,
-     .args = record_args,
      .group = "the session",
      .keywords = "transcript log protocol test save cast asciicast asciinema film demonstration",
-     .usage = "FILE | FILE.cast | off",
+     .takes = "FILE | off",
      .summary = "keep what is typed and answered as a transcript, or the terminal as a cast",
      .help = "A transcript begins with the scene and the settings as they are. `replay FILE`,\n"
              "or fret --replay FILE, runs it and compares the answers.\n\n"
@@ -638,10 +540,9 @@ const command commands[] = {
              "    wrote session.txt (36 B)\n"},
     {.name = "replay",
      .run = do_replay,
-     .args = file_args,
      .group = "the session",
      .keywords = "transcript test compare record",
-     .usage = "FILE",
+     .takes = "FILE",
      .summary = "run a transcript and compare what comes out",
      .help = "In a session of its own: the scene stays. Lines after `fret> ` are run, what\n"
              "follows each must come out again, numbers within their printed digits.\n"
@@ -656,10 +557,9 @@ const command commands[] = {
              "    check.txt: 2 passed, 0 failed\n"},
     {.name = "live",
      .run = do_live,
-     .args = file_args,
      .group = "the session",
      .keywords = "full-screen teach demonstration tui animate",
-     .usage = "[FILE]",
+     .takes = "[FILE]",
      .summary = "press, push and pull by hand, everything drawn: the full-screen mode",
      .print = live_keys,
      .help = "The mouse drags the point of the loop. What is done there are statements: undo\n"
@@ -674,10 +574,9 @@ const command commands[] = {
              "    dW = 1.90646 uJ\n"},
     {.name = "demo",
      .run = do_demo,
-     .args = demo_args,
      .group = "the session",
      .keywords = "tour lesson teach figure paper",
-     .usage = "[NAME]",
+     .takes = "[LESSON]",
      .summary = "play a lesson, or a tour of the program",
      .help = "A lesson asks, then shows each statement and its answer. At the prompt a key\n"
              "leads on, `b` back, `q` out; in a script it plays through. It begins without a\n"
@@ -690,9 +589,8 @@ const command commands[] = {
              "    # Does all of the contact stick? Where will it slip first?\n"},
     {.name = "help",
      .run = do_help,
-     .args = help_args,
      .group = "the session",
-     .usage = "[TOPIC]",
+     .takes = "[TOPIC]",
      .summary = "this help, or that on a command, a quantity or a topic",
      .help = "    fret> help kappa\n"
              "    kappa: shape factor\n"
@@ -701,7 +599,7 @@ const command commands[] = {
      .run = do_apropos,
      .group = "the session",
      .keywords = "search",
-     .usage = "WORD ...",
+     .takes = "WORD ...",
      .summary = "find commands and quantities by a word, or several",
      .help = "Several words must all be there, in any order.\n\n"
              "    fret> apropos stick\n"
@@ -712,13 +610,13 @@ const command commands[] = {
     {.name = "quit",
      .run = do_quit,
      .group = "the session",
-     .usage = "",
+     .takes = "",
      .summary = "leave (so does Ctrl-D)",
      .help = "    fret> quit\n"},
     {.name = "exit",
      .run = do_quit,
      .group = "the session",
-     .usage = "",
+     .takes = "",
      .summary = "the same as quit",
      .help = "    fret> exit\n"},
     {.name = NULL},

@@ -11,7 +11,6 @@
 #include "shell/command.h"
 #include "shell/help.h"
 #include "shell/lines.h"
-#include "shell/looks.h"
 
 /* ---- candidates -------------------------------------------------------------------------------- */
 
@@ -170,16 +169,20 @@ static void read_tokens(place *p, size_t begin, size_t start) {
     p->command = p->count && !assignment ? command_find(p->line + p->token[0].at, p->token[0].len) : NULL;
 }
 
-static const arg *row_of_kind(const command *c, arg_kind kind) {
-    const arg *a = c ? c->args : NULL;
-    while (a && a->kind && a->kind != kind)
-        a++;
-    return a && a->kind ? a : NULL;
+/* What the command takes, of a geometry behind its name; NULL: there is none. */
+static const grammar *form_of(const place *p) {
+    const grammar *f = p->command ? command_form(p->command) : NULL;
+    const hole_row *first = f ? grammar_first(f, HOLE_WORD) : NULL;
+    if (!first || first->words != geometry_name || p->count < 2)
+        return f;
+    const char *name = p->line + p->token[1].at;
+    const geometry *g = geometry_find(name, strcspn(name, " \t\n;"));
+    return g ? shape_form(g) : f;
 }
 
-/* Does it take `for`, `along` and what belongs to them? */
-static bool has_range(const command *c) {
-    return row_of_kind(c, ARG_LIST) && row_of_kind(c, ARG_TO);
+static bool is_setting(const place *p) {
+    const hole_row *first = p->command ? grammar_first(command_form(p->command), HOLE_WORD) : NULL;
+    return first && first->words == setting_name;
 }
 
 /* `along cycle ...`: its arguments may follow. */
@@ -190,47 +193,37 @@ static const command *load_along(const place *p) {
     return NULL;
 }
 
-/* One of these first. */
-static bool takes_names(const command *c, const char *(*names)(size_t i)) {
-    const arg *a = row_of_kind(c, ARG_NAME);
-    return a && a->words == names;
+/* ---- what may follow --------------------------------------------------------------------------- */
+
+static void add_loads(const place *p) {
+    add(p, "program", "");
+    add(p, "cycle", "");
+    add(p, "step", "");
 }
 
-static const geometry *shape_of(const place *p) {
-    if (!takes_names(p->command, geometry_name))
-        return NULL;
-    const char *name = p->line + p->token[1].at;
-    return geometry_find(name, strcspn(name, " \t\n;"));
+/* What may stand in the hole; false: nothing that is known. */
+static bool add_hole(const place *p, const hole *h, const char *behind_name) {
+    switch (h->row->kind) {
+    case HOLE_EXPR:
+    case HOLE_SPAN:
+    case HOLE_VALUE:
+        add_values(p);
+        return true;
+    case HOLE_NAME:
+        add_knobs(p, behind_name);
+        return true;
+    case HOLE_LOAD:
+        add_loads(p);
+        return true;
+    case HOLE_CHOICE:
+    case HOLE_WORD:
+        if (h->row->words)
+            add_all(p, h->row->words);
+        return true;
+    default:
+        return false;
+    }
 }
-
-/* ---- words that something follows -------------------------------------------------------------- */
-
-typedef enum follows {
-    FOLLOWS_KNOB,
-    FOLLOWS_NAME, /* of one, without its value */
-    FOLLOWS_LOAD,
-    FOLLOWS_VALUE,
-    FOLLOWS_FILE,
-    FOLLOWS_UNIT
-} follows;
-
-/* Words of expressions and ranges; those of commands are rows of their arguments. alone: what follows in a
- * command without a range. */
-static const struct {
-    const char *word;
-    follows what, alone;
-    bool of_range, of_figure, of_value;
-} words[] = {
-    {"in", FOLLOWS_UNIT, FOLLOWS_UNIT, true, true, true},
-    {"at", FOLLOWS_KNOB, FOLLOWS_KNOB, true, true, true},
-    {"for", FOLLOWS_KNOB, FOLLOWS_VALUE, true, true, false},
-    {"along", FOLLOWS_LOAD, FOLLOWS_FILE, true, true, false},
-    {"with", FOLLOWS_KNOB, FOLLOWS_NAME, true, true, false},
-    {"against", FOLLOWS_VALUE, FOLLOWS_VALUE, false, true, false},
-    {"over", FOLLOWS_FILE, FOLLOWS_KNOB, false, true, false},
-    {"from", FOLLOWS_VALUE, FOLLOWS_VALUE, false, false, false},
-};
-enum { WORD_ROWS = sizeof words / sizeof *words };
 
 /* The dimension of what stands before `in`, where a quantity or a name alone does. */
 static bool dim_before(const place *p, dim *d) {
@@ -260,89 +253,29 @@ static bool dim_before(const place *p, dim *d) {
     return true;
 }
 
-static bool add_following(const place *p, follows what) {
-    dim d = DIM_NONE;
-    switch (what) {
-    case FOLLOWS_KNOB:
-    case FOLLOWS_NAME:
-        add_knobs(p, what == FOLLOWS_KNOB ? "=" : "");
-        return true;
-    case FOLLOWS_LOAD:
-        add(p, "program", "");
-        add(p, "cycle", "");
-        add(p, "step", "");
-        return true;
-    case FOLLOWS_VALUE:
-        add_values(p);
-        return true;
-    case FOLLOWS_UNIT: {
-        const bool known = dim_before(p, &d);
-        add_units(p, !known, d);
-        return true;
-    }
-    default:
-        return false;
-    }
-}
-
 /* ---- arguments --------------------------------------------------------------------------------- */
 
-static bool group_given(const place *p, const arg *args, int group) {
-    for (const arg *a = args; group && a->kind; a++)
-        if (a->group == group && is_assigned(p, a->name))
+/* Has another way been gone? */
+static bool is_barred(const place *p, const grammar *f, const clause *of) {
+    for (const clause *a = f->clause; of->group && a < f->clause + f->count; a++)
+        if (a->group == of->group && a->way != of->way && is_assigned(p, a->name))
             return true;
     return false;
 }
 
-/* The rows of a command that may still come. first: right after its word. */
-static void add_arguments(const place *p, const command *c, bool first) {
-    const bool list = row_of_kind(c, ARG_LIST) || row_of_kind(c, ARG_KNOB);
-    for (const arg *a = c->args; a && a->kind; a++)
-        switch (a->kind) {
-        case ARG_VALUE:
-            if (!is_assigned(p, a->name) && !group_given(p, c->args, a->group))
-                add(p, a->name, "=");
-            break;
-        case ARG_COUNT:
-        case ARG_NUMBER:
-        case ARG_WORD:
-        case ARG_TO:
-            if (!is_given(p, a->name) && !(first && list))
-                add(p, a->name, "");
-            break;
-        case ARG_CHOICE:
-        case ARG_NAME:
-            if (first)
-                add_all(p, a->words);
-            break;
-        case ARG_EXPR:
-        case ARG_LIST:
-            if (first)
-                add_values(p);
-            break;
-        case ARG_KNOB:
-            if (first)
-                add_knobs(p, "");
-            break;
-        default:
-            break;
+/* What may still come. first: right behind the command's word, or that of a figure. */
+static void add_items(const place *p, const grammar *f, bool first) {
+    bool awaited = false; /* something must stand first */
+    for (const clause *a = f->clause; a < f->clause + f->count; a++) {
+        if (!*a->name && first) {
+            add_hole(p, &a->hole[0], "");
+            awaited = awaited || !a->optional;
+        } else if (a->argument && !is_assigned(p, a->name) && !is_barred(p, f, a)) {
+            add(p, a->name, "=");
+        } else if (*a->name && !a->argument && !awaited && !is_given(p, a->name)) {
+            add(p, a->name, "");
         }
-}
-
-/* NAME= of a usage line such as `cone slope=0.05 | cone angle=3 deg`. */
-static void add_parameters(const place *p, const geometry *shape) {
-    const char *usage = shape->usage;
-    for (const char *equals = strchr(usage, '='); equals; equals = strchr(equals + 1, '=')) {
-        char name[LEX_NAME];
-        size_t n = 0;
-        while (equals[-1 - (ptrdiff_t)n] != ' ') /* the word of the geometry stands first */
-            n++;
-        snprintf(name, sizeof name, "%.*s", (int)n, equals - n);
-        if (!is_assigned(p, name))
-            add(p, name, "=");
     }
-    if (shape->by == PARAMETERS_FILE && !is_given(p, "smooth"))
-        add(p, "smooth", "");
 }
 
 /* The words among what a setting takes: `auto|closed|springs N`. */
@@ -364,29 +297,22 @@ static void add_setting_words(const place *p) {
 
 /* After something that may end a value: what goes on. */
 static void add_continuation(const place *p) {
-    const command *c = p->command;
-    const bool range = has_range(c), figure = range && row_of_kind(c, ARG_NAME);
-    const geometry *shape = shape_of(p);
-    const bool set = takes_names(c, setting_name);
-    if (set && p->count > 2)
+    const grammar *f = form_of(p);
+    if (is_setting(p)) {
+        if (p->count == 2)
+            add_setting_words(p);
         return;
-    if (set)
-        add_setting_words(p);
-    else if (shape)
-        add_parameters(p, shape);
-    else if (c)
-        add_arguments(p, c, false);
+    }
+    if (f)
+        add_items(p, f, false);
     if (load_along(p))
-        add_arguments(p, load_along(p), false);
-    for (size_t i = 0; i < WORD_ROWS; i++)
-        if ((figure  ? words[i].of_figure
-             : range ? words[i].of_range
-                     : !c && words[i].of_value) &&
-            !is_given(p, words[i].word))
-            add(p, words[i].word, "");
-    for (size_t i = 0; figure && looks_word(i); i++)
-        if (!is_given(p, looks_word(i)) && strcmp(looks_word(i), "over"))
-            add(p, looks_word(i), "");
+        add_items(p, command_form(load_along(p)), false);
+    if (f && !grammar_first(f, HOLE_EXPR))
+        return;
+    if (!is_given(p, "in"))
+        add(p, "in", "");
+    if (!is_given(p, "at"))
+        add(p, "at", "");
 }
 
 /* The dimension that `NAME = NUMBER` wants at the cursor after the number. */
@@ -396,8 +322,10 @@ static bool wanted_dim(const place *p, dim *d) {
            (p->token[i].kind == T_NUMBER || p->token[i].kind == T_MINUS || p->token[i].kind == T_RANGE ||
             (p->token[i].kind == T_NAME && p->token[i - 1].kind == T_NUMBER))) /* 1 N .. 2 */
         i--;
-    if (p->command && i == 0 && p->command->args && p->command->args->kind == ARG_EXPR) {
-        *d = p->command->args->d;
+    const hole_row *number =
+        p->command && i == 0 ? grammar_first(command_form(p->command), HOLE_VALUE) : NULL;
+    if (number) {
+        *d = quantity_find(number->noun, strlen(number->noun))->d;
         return true;
     }
     if (i == 0 || !assigns(p->token[i].kind))
@@ -410,31 +338,46 @@ static bool wanted_dim(const place *p, dim *d) {
 
 /* ---- where the cursor is ----------------------------------------------------------------------- */
 
+/* The clause whose word the last token is; NULL: none, or the statement's first word. */
+static const clause *last_clause(const place *p, const grammar *f) {
+    for (const clause *a = f ? f->clause : NULL; a && a < f->clause + f->count && p->count > 1; a++)
+        if (!a->argument && *a->name && a->holes && is_word(p, p->count - 1, a->name))
+            return a;
+    return NULL;
+}
+
 /* Does a file name follow the tokens? */
 static bool wants_file(const place *p) {
-    const size_t last = p->count - 1;
-    if (!p->command)
-        return false;
-    if (p->count == 1)
-        return row_of_kind(p->command, ARG_FILE) != NULL;
-    const geometry *shape = shape_of(p);
-    if (shape)
-        return p->count == 2 && shape->by == PARAMETERS_FILE;
-    for (const arg *a = p->command->args; a && a->kind; a++)
-        if (a->kind == ARG_TO && is_word(p, last, a->name))
-            return true;
-    for (size_t i = 0; i < WORD_ROWS; i++)
-        if (words[i].what == FOLLOWS_FILE && is_word(p, last, words[i].word))
-            return has_range(p->command);
-    return false;
+    const grammar *f = form_of(p);
+    const clause *a = last_clause(p, f);
+    if (!f || p->count == (f->shape ? 2 : 1))
+        return f && grammar_first(f, HOLE_FILE);
+    return a && a->hole[0].row->kind == HOLE_FILE;
 }
 
 /* `record off`, where it has been begun: the editor completes either words or files. */
 static void add_words_beside_file(const place *p) {
-    const arg *a = p->cursor > p->start && p->count == 1 ? p->command->args : NULL;
-    for (; a && a->kind; a++)
-        if (a->kind == ARG_WORD)
+    const grammar *f = p->cursor > p->start && p->count == 1 ? command_form(p->command) : NULL;
+    for (const clause *a = f ? f->clause : NULL; a && a < f->clause + f->count; a++)
+        if (*a->name && !a->argument)
             add(p, a->name, "");
+}
+
+/* Behind `in` and `at` of an expression, and behind the word of a clause. */
+static bool add_behind_word(const place *p) {
+    const clause *a = last_clause(p, form_of(p));
+    dim d = DIM_NONE;
+    if (a)
+        return add_hole(p, &a->hole[0], a->holes > 1 && a->hole[1].before == '=' ? "=" : "");
+    if (is_word(p, p->count - 1, "at")) {
+        add_knobs(p, "=");
+        return true;
+    }
+    if (!is_word(p, p->count - 1, "in"))
+        return false;
+    const bool known = dim_before(p, &d);
+    add_units(p, !known, d);
+    return true;
 }
 
 static void complete_word(const place *p) {
@@ -444,16 +387,13 @@ static void complete_word(const place *p) {
         return;
     }
     const token_kind last = p->token[p->count - 1].kind;
-    const bool ranges = !p->command || has_range(p->command);
     dim d = DIM_NONE;
     if (p->command && (p->count == 1 || last == T_BAR)) {
-        add_arguments(p, p->command, true);
+        add_items(p, command_form(p->command), true);
         return;
     }
-    for (size_t i = 0; i < WORD_ROWS; i++)
-        if (is_word(p, p->count - 1, words[i].word) &&
-            add_following(p, ranges ? words[i].what : words[i].alone))
-            return;
+    if (add_behind_word(p))
+        return;
     if (last == T_NUMBER) {
         const bool known = wanted_dim(p, &d);
         const bool begun = p->cursor > p->start;

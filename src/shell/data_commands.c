@@ -53,7 +53,7 @@ static bool print_row(shell *sh, const estimate *e, size_t count, const uncertai
     size_t n = 0;
     bool ok = columns && si;
     for (size_t i = 0; i < count && ok; i++) {
-        char name[ARG_FILE_NAME];
+        char name[FILE_NAME];
         si[n] = e[i].v;
         ok = add_column(&columns[n++], e[i].c.name, &e[i].c);
         snprintf(name, sizeof name, "%s deviation", e[i].c.name);
@@ -121,7 +121,7 @@ static bool read_names(shell *sh, lexer *lx, fit_question *q) {
 }
 
 /* The file stands behind the expressions that use its columns. */
-static bool file_ahead(const lexer *lx, char name[ARG_FILE_NAME]) {
+static bool file_ahead(const lexer *lx, char name[FILE_NAME]) {
     calc_error ignored;
     lexer scan = *lx;
     error_clear(&ignored);
@@ -130,7 +130,7 @@ static bool file_ahead(const lexer *lx, char name[ARG_FILE_NAME]) {
         if (lex_is(&scan, "to")) {
             lex_next(&scan);
             error_clear(&ignored);
-            return lex_filename(&scan, name, ARG_FILE_NAME);
+            return lex_filename(&scan, name, FILE_NAME);
         }
         lex_next(&scan);
     }
@@ -244,7 +244,7 @@ static bool read_side(shell *sh, lexer *lx, const csv *data, expr *e) {
 }
 
 static bool read_equation(shell *sh, lexer *lx, fit_question *q, csv *data, range_names *names) {
-    char name[ARG_FILE_NAME];
+    char name[FILE_NAME];
     if (!file_ahead(lx, name))
         return lex_fail(lx, "expected EXPR = EXPR to FILE.csv");
     if (!csv_read(name, &shell_stop, data, lx->error) || !read_columns(sh, data, q, names, lx->error) ||
@@ -281,7 +281,7 @@ static void no_loop(const csv *data, const char *misses, calc_error *error) {
 }
 
 static bool read_loop(lexer *lx, fit_question *q, csv *data) {
-    char name[ARG_FILE_NAME];
+    char name[FILE_NAME];
     const size_t at = lx->at;
     calc_error *error = lx->error;
     if (!lex_filename(lx, name, sizeof name) || !csv_read(name, &shell_stop, data, error))

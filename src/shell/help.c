@@ -7,7 +7,6 @@
 #include "shell/command.h"
 #include "shell/figures.h"
 #include "shell/lines.h"
-#include "shell/looks.h"
 #include "shell/presets.h"
 #include "shell/text.h"
 #include "shell/topics.h"
@@ -120,9 +119,18 @@ static entry command_entry(size_t i) {
 /* Ends with the example: the command's own text, else what its table prints. */
 static void command_help(FILE *to, size_t i) {
     const command *c = command_row(i);
-    char text[HELP_TEXT];
-    snprintf(text, sizeof text, "%s%s%s", c->name, *c->usage ? " " : "", c->usage);
-    help_wrapped(to, text, 0, 6);
+    const hole_row *row;
+    char usage[GRAMMAR_USAGE], text[GRAMMAR_USAGE];
+    command_usage(c, usage);
+    help_wrapped(to, usage, 0, 6);
+    for (size_t h = 0; (row = hole_at(h)); h++) {
+        if (row->kind != HOLE_CLAUSES || !strstr(c->takes, row->name))
+            continue;
+        const int n = snprintf(text, sizeof text, "%s: ", row->name);
+        takes_text(row->clauses, text + n, sizeof text - (size_t)n);
+        fputs("      ", to);
+        help_wrapped(to, text, 6, 8);
+    }
     fprintf(to, "  %s\n", c->summary);
     if (c->print) {
         putc('\n', to);
@@ -174,7 +182,9 @@ static entry geometry_entry(size_t i) {
 
 static void geometry_help(FILE *to, size_t i) {
     const geometry *g = geometry_row(i);
-    fprintf(to, "geometry %s\n  %s\n", g->usage, g->meaning);
+    char usage[GRAMMAR_USAGE];
+    grammar_usage(shape_form(g), usage);
+    fprintf(to, "%s\n  %s\n", usage, g->meaning);
     for (input in = IN_N; in < INPUTS; in++)
         if (g->allowed & INPUT_BIT(in))
             fprintf(to, "    %-10s  %s\n", quantity_of_input(in)->name, quantity_of_input(in)->title);
@@ -442,22 +452,18 @@ const char *help_where(const char *word) {
 /* The help that tells of a word within statements, or NULL. */
 static const char *told_in(const char *word) {
     static const char *const words[][2] = {
-        {"at", "expressions"}, {"in", "expressions"}, {"ans", "expressions"}, {"for", "table"},
-        {"with", "table"},     {"along", "plot"},     {"against", "plot"},    {"map", "plot"},
-        {"over", "plot"},      {"to", "files"},       {"smooth", "files"},    {"rigid", "second"},
-        {"same", "second"}};
+        {"at", "expressions"}, {"in", "expressions"}, {"ans", "expressions"},
+        {"along", "plot"},     {"map", "plot"},       {"to", "files"},
+        {"smooth", "files"},   {"rigid", "second"},   {"same", "second"}};
     const command *c;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (!strcmp(word, words[i][0]))
             return words[i][1];
-    for (size_t i = 0; looks_word(i); i++)
-        if (!strcmp(word, looks_word(i)))
-            return "plot";
-    for (size_t i = 0; (c = command_row(i)); i++)
-        for (const arg *a = c->args; a && a->kind; a++)
-            if ((a->kind == ARG_COUNT || a->kind == ARG_NUMBER || a->kind == ARG_WORD) &&
-                !strcmp(word, a->name))
-                return c->name;
+    for (size_t i = 0; *word && (c = command_row(i)); i++) {
+        const clause *a = grammar_clause(command_form(c), word);
+        if (a && !a->argument)
+            return c->name;
+    }
     return NULL;
 }
 

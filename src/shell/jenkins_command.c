@@ -78,7 +78,7 @@ static writer *form_of(const char *name, calc_error *error, size_t at, size_t le
 
 typedef struct request {
     unsigned count;
-    char name[ARG_FILE_NAME];
+    char name[FILE_NAME];
     size_t at, len; /* of it */
     writer *write;
     bool limited;

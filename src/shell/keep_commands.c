@@ -11,17 +11,14 @@
 /* ---- save -------------------------------------------------------------------------------------- */
 
 bool do_save(shell *sh, lexer *lx, const command *self) {
-    char name[ARG_FILE_NAME];
+    char name[FILE_NAME];
     file_out file;
     file_report report;
-    (void)self;
-    const bool history = lex_is(lx, "history") && word_at(lx) == lx->len && lex_peek(lx) != T_END;
-    if (history)
-        lex_next(lx);
-    const size_t at = lx->at;
-    if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
         return false;
-    const size_t len = lx->last - at;
+    const bool history = *s.list[0].of->name;
+    const size_t at = s.list[0].hole[0].at, len = s.list[0].hole[0].len;
     if (history && sh->replaying)
         return true;
     if (history && !sh->typed.to)
@@ -55,31 +52,31 @@ static char *beginning(shell *sh) {
 }
 
 bool do_record(shell *sh, lexer *lx, const command *self) {
-    char name[ARG_FILE_NAME];
-    (void)self;
-    if (word_at(lx) == lx->len && lex_accept(lx, "off"))
-        return at_end(lx) && (record_end(sh, true) || lex_fail(lx, "nothing is being recorded"));
-    const size_t at = lx->at;
-    if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
+    char name[FILE_NAME];
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    if (said_of(&s, "off", 0))
+        return record_end(sh, true) || lex_fail(lx, "nothing is being recorded");
+    if (!hole_file(lx, &s.list[0].hole[0], name))
         return false;
     char *text = beginning(sh);
     if (!text)
         return calc_no_memory(lx->error);
     const bool ok = record_begin(sh, name, text, lx->error);
     free(text);
-    return ok || calc_place(lx->error, at, lx->last - at);
+    return ok || heard_place(lx->error, &s.list[0]);
 }
 
 bool do_replay(shell *sh, lexer *lx, const command *self) {
-    const arg_list list = command_args(self);
-    char name[ARG_FILE_NAME];
-    arg_value v[ARGS];
-    if (!args_read(sh, lx, &list, v, name))
+    char name[FILE_NAME];
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
         return false;
     const int status = shell_replay(name, 0, &sh->set, sh->out, lx->error);
     if (status == EXIT_OK)
         return true;
     if (!lx->error->raised)
         calc_fail(lx->error, 0, 0, "%s does not come out again", name);
-    return calc_place(lx->error, v[0].value_at, v[0].value_len);
+    return heard_place(lx->error, &s.list[0]);
 }

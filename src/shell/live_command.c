@@ -16,21 +16,21 @@
 static bool run(void *self, const char *line, char **answer) {
     static const source from = {NULL, false};
     shell *sh = self;
-    file_text said;
-    if (!file_text_open(&said))
+    file_text told;
+    if (!file_text_open(&told))
         return false;
     FILE *out, *err;
     record_line(sh, line, strlen(line));
     record_streams(sh, &out, &err);
-    record_divert(sh, said.to, said.to);
+    record_divert(sh, told.to, told.to);
     const bool failed = sh->failed, interactive = sh->interactive;
     sh->interactive = false; /* an error is one line, a demo does not wait for keys */
     const bool ok = shell_line(sh, &from, line, strlen(line), 1);
     sh->interactive = interactive;
     record_divert(sh, out, err); /* a recording may have begun or ended */
     sh->failed = failed;         /* it has been told there */
-    if (file_text_close(&said))
-        *answer = said.text;
+    if (file_text_close(&told))
+        *answer = told.text;
     return ok && *answer;
 }
 
@@ -108,11 +108,12 @@ static bool can_read(const char *name, calc_error *error) {
 }
 
 bool do_live(shell *sh, lexer *lx, const command *self) {
-    char name[ARG_FILE_NAME];
-    const arg_list list = command_args(self);
-    arg_value v[ARGS];
-    const bool script = lx->kind != T_END;
-    if (script && !args_read(sh, lx, &list, v, name))
+    char name[FILE_NAME];
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    const bool script = s.count > 0;
+    if (script && !hole_file(lx, &s.list[0].hole[0], name))
         return false;
     if (sh->replaying) /* what was done there follows, statement by statement */
         return !script || can_read(name, lx->error);

@@ -58,99 +58,99 @@ static load_by by_of(const char *name) {
     return *name == 'F' ? BY_FORCE : *name == 'd' ? BY_DISPLACEMENT : BY_RADIUS;
 }
 
+/* Is it the normal force or displacement? Else it is the tangential one. */
+static bool is_normal(const char *name) {
+    return name[1] == 'N' || name[1] == 'z';
+}
+
 /* What a step or a cycle was given. last: the target that the error of the load belongs to. */
-static void load_of(const arg_list *list, const arg_value v[ARGS], load_step *step, cycle_extra *extra,
-                    const arg_value **last) {
+static void load_of(const said *s, load_step *step, cycle_extra *extra, const heard **last) {
     *last = NULL;
-    for (const arg *a = list->args; a->kind; a++) {
-        const arg_value *x = &v[a - list->args];
-        if (!x->given)
+    for (const heard *h = s->list; h < s->list + s->count; h++) {
+        const clause *a = h->of;
+        if (!a->argument) {
+            *(a->name[0] == 's' ? &step->points : &extra->times) = h->count;
             continue;
-        if (a->kind == ARG_COUNT) {
-            *(a->name[0] == 's' ? &step->points : &extra->times) = x->count;
-        } else if (a->group == GROUP_TANGENTIAL) {
-            step->tangential = (unsigned char)by_of(a->name);
-            step->tangential_value = (double)x->v.v;
-            step->relative |= x->increment ? RELATIVE_TANGENTIAL : 0;
-        } else if (a->group == GROUP_NORMAL) {
-            step->normal = (unsigned char)by_of(a->name);
-            step->normal_value = (double)x->v.v;
-            step->relative |= x->increment ? RELATIVE_NORMAL : 0;
-        } else {
-            *(a->in == 1 + IN_PHASE ? &extra->phase : &step->normal_value) = (double)x->v.v;
         }
-        if (a->group && (!*last || x->at > (*last)->at))
-            *last = x;
+        if (a->in == 1 + IN_FNA || a->in == 1 + IN_PHASE) {
+            *(a->in == 1 + IN_PHASE ? &extra->phase : &step->normal_value) = (double)h->v.v;
+            continue;
+        }
+        *last = h;
+        if (is_normal(a->name)) {
+            step->normal = (unsigned char)by_of(a->name);
+            step->normal_value = (double)h->v.v;
+            step->relative |= h->increment ? RELATIVE_NORMAL : 0;
+        } else {
+            step->tangential = (unsigned char)by_of(a->name);
+            step->tangential_value = (double)h->v.v;
+            step->relative |= h->increment ? RELATIVE_TANGENTIAL : 0;
+        }
     }
 }
 
 /* A live amplitude has its value in the scene as it is. */
-static bool live_values(shell *sh, lexer *lx, const arg_list *list, arg_value v[ARGS]) {
-    for (const arg *a = list->args; a->kind; a++) {
-        arg_value *x = &v[a - list->args];
-        if (!x->live)
+static bool live_values(shell *sh, lexer *lx, said *s) {
+    for (heard *h = s->list; h < s->list + s->count; h++) {
+        const clause *a = h->of;
+        if (!h->live)
             continue;
-        if (!definition_value(&sh->calc, (definition *)x->live, &x->v, lx->error) ||
-            !value_dim(lx, a->name, x->value_at, x->value_len, x->v,
-                       quantity_of_input((input)(a->in - 1))->d))
-            return arg_place(lx->error, x);
-        fret_status st = input_status((input)(a->in - 1), (double)x->v.v);
+        if (!definition_value(&sh->calc, (definition *)h->live, &h->v, lx->error) ||
+            !value_dim(lx, a->name, h->hole[0].at, h->hole[0].len, h->v, a->d))
+            return heard_place(lx->error, h);
+        fret_status st = input_status((input)(a->in - 1), (double)h->v.v);
         if (!calc_input_status(lx->error, a->in - 1, &st))
-            return arg_place(lx->error, x);
+            return heard_place(lx->error, h);
     }
     return true;
 }
 
-static bool read_targets(shell *sh, lexer *lx, const command *self, arg_value v[ARGS], load_step *step,
-                         cycle_extra *extra, const arg_value **last) {
-    const arg_list list = command_args(self);
+static bool read_targets(shell *sh, lexer *lx, const command *self, said *s, load_step *step,
+                         cycle_extra *extra, const heard **last) {
     const bool cycle = self->run == do_cycle;
     *step = (load_step){.kind = cycle ? LOAD_CYCLE : LOAD_STEP};
     *extra = (cycle_extra){.times = 1};
-    if (!args_read_some(sh, lx, &list, v, NULL)) {
-        args_drop(&list, v);
-        return false;
+    bool ok = said_read_some(sh, lx, command_form(self), s) && (!cycle || live_values(sh, lx, s));
+    load_of(s, step, extra, last);
+    if (ok && (cycle ? !step->tangential : !step->tangential && !step->normal)) {
+        char usage[GRAMMAR_USAGE];
+        command_usage(self, usage);
+        ok = lex_fail(lx, "%s usage: %s", cycle ? "cycle by what amplitude?" : "step to where?", usage);
     }
-    bool ok = !cycle || live_values(sh, lx, &list, v);
-    load_of(&list, v, step, extra, last);
-    if (ok && (cycle ? !step->tangential : !step->tangential && !step->normal))
-        ok = lex_fail(lx, "%s usage: %s %s", cycle ? "cycle by what amplitude?" : "step to where?",
-                      self->name, self->usage);
     if (!ok)
-        args_drop(&list, v);
+        said_drop(s);
     return ok;
 }
 
 bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]) {
     const command *c = command_find(lx->text + lx->at, lx->len);
-    arg_value v[ARGS];
-    const arg_value *last;
+    said s;
+    const heard *last;
     lex_next(lx);
-    if (!read_targets(sh, lx, c, v, step, extra, &last))
+    if (!read_targets(sh, lx, c, &s, step, extra, &last))
         return false;
-    for (const arg *a = c->args; a->kind; a++)
-        if (v[a - c->args].live)
-            bound[a->in - 1] = v[a - c->args].live;
+    for (const heard *h = s.list; h < s.list + s.count; h++)
+        if (h->live)
+            bound[h->of->in - 1] = h->live;
     return true;
 }
 
 bool do_press(shell *sh, lexer *lx, const command *self) {
     static const char *const names[] = {"FN", "a", "dz", NULL};
-    const arg_list list = command_args(self);
-    arg_value v[ARGS];
-    if (!at_argument(lx))
-        return lex_fail(lx, "press by what? usage: %s %s", self->name, self->usage);
-    if (!args_read(sh, lx, &list, v, NULL))
+    char usage[GRAMMAR_USAGE];
+    said s;
+    if (!at_argument(lx)) {
+        command_usage(self, usage);
+        return lex_fail(lx, "press by what? usage: %s", usage);
+    }
+    if (!said_read(sh, lx, command_form(self), &s))
         return false;
-    size_t i = 0;
-    while (!v[i].given)
-        i++;
-    const load_step step = {.kind = LOAD_PRESS,
-                            .normal = (unsigned char)by_of(self->args[i].name),
-                            .normal_value = (double)v[i].v.v};
+    const heard *by = &s.list[0];
+    const load_step step = {
+        .kind = LOAD_PRESS, .normal = (unsigned char)by_of(by->of->name), .normal_value = (double)by->v.v};
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error)) {
         const char *of = lx->error->kind == ERROR_STATUS ? lx->error->status.quantity : NULL;
-        return of && !strcmp(of, self->args[i].name) ? arg_place(lx->error, &v[i]) : false;
+        return of && !strcmp(of, by->of->name) ? heard_place(lx->error, by) : false;
     }
     report_event(sh, "press", names);
     return true;
@@ -159,15 +159,14 @@ bool do_press(shell *sh, lexer *lx, const command *self) {
 bool do_step(shell *sh, lexer *lx, const command *self) {
     static const char *const names[] = {"Fx", "dx", "c", NULL}, *const oblique[] = {"FN", "Fx", "dx", "c",
                                                                                     NULL};
-    arg_value v[ARGS];
+    said s;
     load_step step;
     cycle_extra extra;
-    const arg_value *last;
-    const arg_list list = command_args(self);
-    if (!read_targets(sh, lx, self, v, &step, &extra, &last) || !args_end(lx, &list))
+    const heard *last;
+    if (!read_targets(sh, lx, self, &s, &step, &extra, &last) || !said_end(lx, s.by))
         return false;
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error))
-        return arg_place(lx->error, last);
+        return heard_place(lx->error, last);
     if (reports(sh)) /* a step may wait until it is asked for */
         report_event(sh, "step", step.normal ? oblique : names);
     if (shell_stop) { /* run_command takes back what other loads are */
@@ -187,23 +186,22 @@ static void bind_all(inputs *in, void *context) {
 
 bool do_cycle(shell *sh, lexer *lx, const command *self) {
     static const char *const names[] = {"dW", "Fx", "dx", "c", NULL};
-    arg_value v[ARGS];
+    said s;
     load_step step;
     cycle_extra extra;
-    const arg_value *last;
-    const arg_list list = command_args(self);
+    const heard *last;
     counted *bound[INPUTS] = {NULL};
     bool live = false;
-    if (!read_targets(sh, lx, self, v, &step, &extra, &last))
+    if (!read_targets(sh, lx, self, &s, &step, &extra, &last))
         return false;
     scene_mark before;
     scene_save(&sh->calc.scene, &before, false);
-    bool ok = args_end(lx, &list) &&
-              (scene_load(&sh->calc.scene, &step, &extra, lx->error) || arg_place(lx->error, last));
+    bool ok = said_end(lx, s.by) &&
+              (scene_load(&sh->calc.scene, &step, &extra, lx->error) || heard_place(lx->error, last));
     const bool loaded = ok;
-    for (const arg *a = self->args; ok && a->kind; a++)
-        if (v[a - self->args].live) {
-            bound[a->in - 1] = v[a - self->args].live;
+    for (const heard *h = s.list; ok && h < s.list + s.count; h++)
+        if (h->live) {
+            bound[h->of->in - 1] = h->live;
             live = true;
         }
     if (ok && live)
@@ -212,9 +210,9 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
         scene_back(&sh->calc.scene, &before);
     else
         scene_drop(&before);
-    if (ok)
-        args_note_idle(sh, &list, v);
-    args_drop(&list, v);
+    if (ok && said_of(&s, "phase", 0) && !said_of(&s, "FNA", 0))
+        shell_note(sh, "note: phase does nothing without FNA");
+    said_drop(&s);
     if (ok)
         report_event(sh, "cycle", names);
     return ok;
@@ -464,17 +462,16 @@ static bool follow(shell *sh, const csv *data, calc_error *error) {
 
 bool do_follow(shell *sh, lexer *lx, const command *self) {
     static const char *const names[] = {"FN", "Fx", "dx", "c", NULL};
-    const arg_list list = command_args(self);
-    char name[ARG_FILE_NAME];
-    arg_value v[ARGS];
+    char name[FILE_NAME];
+    said s;
     csv data;
-    if (!args_read(sh, lx, &list, v, name))
+    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
         return false;
     bool ok = csv_read(name, &shell_stop, &data, lx->error) && follow(sh, &data, lx->error);
     csv_free(&data);
     if (!ok) {
-        lx->error->at = v[0].value_at;
-        lx->error->len = v[0].value_len;
+        lx->error->at = s.list[0].hole[0].at;
+        lx->error->len = s.list[0].hole[0].len;
         return false;
     }
     report_event(sh, "follow", names);
@@ -484,11 +481,10 @@ bool do_follow(shell *sh, lexer *lx, const command *self) {
 /* ---- the ways back ----------------------------------------------------------------------------- */
 
 bool do_reset(shell *sh, lexer *lx, const command *self) {
-    const arg_list list = command_args(self);
-    arg_value v[ARGS];
-    if (!args_read(sh, lx, &list, v, NULL))
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s))
         return false;
-    scene_reset(&sh->calc.scene, v[0].given);
+    scene_reset(&sh->calc.scene, said_of(&s, "all", 0) != NULL);
     return true;
 }
 

@@ -82,7 +82,7 @@ static bool read_over(shell *sh, lexer *lx, const look *self, plot_panel *p, loo
         return lex_fail(lx, "more than %d files", OVER);
     const size_t i = out->files++;
     out->over_at[i] = lx->at;
-    if (!lex_filename(lx, out->over[i], ARG_FILE_NAME))
+    if (!lex_filename(lx, out->over[i], FILE_NAME))
         return false;
     out->over_len[i] = lx->last - out->over_at[i];
     return true;

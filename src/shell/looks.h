@@ -18,7 +18,7 @@ typedef struct limits {
 typedef struct looks {
     limits x, y;
     size_t files;
-    char over[OVER][ARG_FILE_NAME];
+    char over[OVER][FILE_NAME];
     size_t over_at[OVER], over_len[OVER];
 } looks;
 

@@ -343,7 +343,7 @@ int main(int argc, char **argv) {
         return out_of_memory();
     if (!isatty(STDOUT_FILENO)) /* musl writes the first line early: an error is forgotten by the end */
         setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
-    command_use(commands);
+    command_use(commands, holes);
     shell_init(&sh, stdout, stderr);
     int status = read_options(argc, argv, &w, &sh.set);
     sh.keep_going = w.keep_going;

@@ -85,13 +85,20 @@ static bool put_topic(FILE *to, const char *name) {
 
 static void put_commands(FILE *to) {
     const command *c;
-    char line[1024];
+    const hole_row *h;
+    char usage[GRAMMAR_USAGE];
     for (size_t i = 0; (c = command_row(i)); i++) {
-        snprintf(line, sizeof line, "%s%s%s", c->name, *c->usage ? " " : "", c->usage);
+        command_usage(c, usage);
         fputs(".TP\n.B ", to);
-        put_line(to, line, strlen(line));
+        put_line(to, usage, strlen(usage));
         fprintf(to, "%c%s.\n", toupper((unsigned char)c->summary[0]), c->summary + 1);
     }
+    for (size_t i = 0; (h = hole_at(i)); i++)
+        if (h->kind == HOLE_CLAUSES) {
+            takes_text(h->clauses, usage, sizeof usage);
+            fprintf(to, ".TP\n.B %s\n", h->name);
+            put_line(to, usage, strlen(usage));
+        }
 }
 
 /* ` -f FILE  what it does` of the usage. */

@@ -432,7 +432,7 @@ static bool draw_sweep(shell *sh, lexer *lx, const figure *f, plot_panel *p, siz
 /* The end of what belongs to this figure: a `|`, `to FILE`, `frames N`, or the end. */
 static size_t figure_end(const lexer *lx) {
     calc_error ignored;
-    char file[ARG_FILE_NAME];
+    char file[FILE_NAME];
     lexer scan = *lx;
     error_clear(&ignored);
     scan.error = &ignored;

@@ -90,7 +90,7 @@ static bool find_file(lexer *lx, char *file) {
     scan.error = &ignored;
     while (scan.kind != T_END && !lex_is(&scan, "to"))
         if (lex_accept(&scan, "over"))
-            lex_filename(&scan, file, ARG_FILE_NAME);
+            lex_filename(&scan, file, FILE_NAME);
         else
             lex_next(&scan);
     file[0] = 0;
@@ -98,7 +98,7 @@ static bool find_file(lexer *lx, char *file) {
         return true;
     lex_next(&scan);
     const size_t at = scan.at;
-    if (!lex_filename(&scan, file, ARG_FILE_NAME))
+    if (!lex_filename(&scan, file, FILE_NAME))
         return true; /* said when it is read */
     return plot_check(file, &shell_stop, lx->error) || calc_place(lx->error, at, scan.last - at);
 }
@@ -113,7 +113,7 @@ static bool draw_panels(shell *sh, lexer *lx, plot_figure *f, motion *m) {
 
 /* Behind the figures. */
 static bool read_end(shell *sh, lexer *lx, unsigned *frames) {
-    char again[ARG_FILE_NAME];
+    char again[FILE_NAME];
     if (frames && lex_accept(lx, "frames") && !read_count(&sh->calc, lx, "frames", PLOT_FRAMES, frames))
         return false;
     if (lex_accept(lx, "to") && !lex_filename(lx, again, sizeof again))
@@ -149,7 +149,7 @@ static void fail_figure(const calc *c, lexer *lx) {
 }
 
 bool do_plot(shell *sh, lexer *lx, const command *self) {
-    char file[ARG_FILE_NAME];
+    char file[FILE_NAME];
     plot_figure f;
     range_names used;
     bool found;
@@ -269,7 +269,7 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
 
 bool do_animate(shell *sh, lexer *lx, const command *self) {
     enum { FRAMES = 80 };
-    char file[ARG_FILE_NAME];
+    char file[FILE_NAME];
     range_names used;
     bool found;
     (void)self;

@@ -55,9 +55,12 @@ static bool print_statement(shell *sh, lexer *lx) {
 /* A command word alone misses more than its first argument. */
 static void add_usage(const command *c, calc_error *error) {
     static const char missing[] = "expected ";
+    char usage[GRAMMAR_USAGE];
     const size_t n = strlen(error->text);
-    if (error->raised && error->kind == ERROR_WORDS && !strncmp(error->text, missing, sizeof missing - 1))
-        snprintf(error->text + n, sizeof error->text - n, "; usage: %s %s", c->name, c->usage);
+    if (error->raised && error->kind == ERROR_WORDS && !strncmp(error->text, missing, sizeof missing - 1)) {
+        command_usage(c, usage);
+        snprintf(error->text + n, sizeof error->text - n, "; usage: %s", usage);
+    }
 }
 
 static bool run_command(shell *sh, lexer *lx, const command *c) {
@@ -65,7 +68,7 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
     scene_mark *before = NULL;
     lex_next(lx);
     const bool bare = lx->kind == T_END;
-    if (lx->error->raised && !(c->args && c->args->kind == ARG_FILE))
+    if (lx->error->raised && !grammar_first(command_form(c), HOLE_FILE))
         return false;
     if (c->changes && !(before = undo_mark(&sh->calc)))
         return calc_no_memory(lx->error);
@@ -86,10 +89,11 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
 }
 
 static bool assign(shell *sh, lexer *lx) {
-    if (command_find(lx->text + lx->at, lx->len)) {
-        const command *c = command_find(lx->text + lx->at, lx->len);
-        return lex_fail(lx, "'%s' is a command, no variable: %s%s%s", c->name, c->name, *c->usage ? " " : "",
-                        c->usage);
+    const command *c = command_find(lx->text + lx->at, lx->len);
+    if (c) {
+        char usage[GRAMMAR_USAGE];
+        command_usage(c, usage);
+        return lex_fail(lx, "'%s' is a command, no variable: %s", c->name, usage);
     }
     const bool ok = calc_assign(&sh->calc, lx);
     if (ok)

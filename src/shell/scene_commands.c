@@ -59,85 +59,84 @@ static bool has(const edit *e, input in) {
 }
 
 /* What was given for inputs. */
-static void gather(edit *e, const arg_list *list, const arg_value v[ARGS]) {
-    for (const arg *a = list->args; a->kind; a++) {
-        const arg_value *x = &v[a - list->args];
-        if (!a->in || !x->given)
+static void gather(edit *e, const said *s) {
+    for (const heard *h = s->list; h < s->list + s->count; h++) {
+        if (!h->of->in)
             continue;
-        if (x->live)
-            e->bound[a->in - 1] = x->live;
+        if (h->live)
+            e->bound[h->of->in - 1] = h->live;
         else
-            put(e, (input)(a->in - 1), x->v.v);
+            put(e, (input)(h->of->in - 1), h->v.v);
     }
 }
 
 /* ---- material, second body, friction ----------------------------------------------------------- */
 
 bool do_material(shell *sh, lexer *lx, const command *self) {
-    const arg_list list = command_args(self);
-    arg_value v[ARGS];
+    said s;
     edit e = {.clear_material = true};
-    if (!args_read(sh, lx, &list, v, NULL))
+    char usage[GRAMMAR_USAGE];
+    if (!said_read(sh, lx, command_form(self), &s))
         return false;
-    if (v[0].given) {
-        put(&e, IN_E0, preset_row(v[0].choice)->E0);
-        put(&e, IN_NU, preset_row(v[0].choice)->nu);
+    const heard *named = said_of(&s, "", 0);
+    if (named) {
+        put(&e, IN_E0, preset_row(named->choice)->E0);
+        put(&e, IN_NU, preset_row(named->choice)->nu);
     }
-    gather(&e, &list, v);
+    gather(&e, &s);
     if (has(&e, IN_E0_2) || has(&e, IN_NU_2)) {
         e.clear_second = true;
         e.second = SECOND_GIVEN;
     }
     bool ok = false;
+    command_usage(self, usage);
     if (!has(&e, IN_E0) || !has(&e, IN_NU))
-        lex_fail(lx, "%s is missing; usage: %s %s", has(&e, IN_E0) ? "nu" : "E0", self->name, self->usage);
+        lex_fail(lx, "%s is missing; usage: %s", has(&e, IN_E0) ? "nu" : "E0", usage);
     else if (e.bound[IN_K] && !has(&e, IN_C0))
         lex_fail(lx, "c0 is missing: with a k that follows others the depth where E = E0 matters");
     else if (e.has[IN_K] && e.v[IN_K] != 0 && !has(&e, IN_C0))
         lex_fail(lx, "c0 is missing: with k = %g the depth where E = E0 matters", e.v[IN_K]);
     else
         ok = scene_edit(&sh->calc.scene, apply, &e, lx->error);
-    args_drop(&list, v);
+    said_drop(&s);
     return ok;
 }
 
 /* E0 and E0_2 are the same here, as nu and nu_2 are; a rigid body has neither. */
-static bool second_holds(lexer *lx, const arg_list *list, const arg_value v[ARGS]) {
-    const arg_value *of[INPUTS] = {NULL};
-    const bool rigid = v[0].given && v[0].choice == SECOND_WORDS - 1;
-    for (const arg *a = list->args; a->kind; a++) {
-        const arg_value *x = &v[a - list->args];
-        if (!a->in || !x->given)
+static bool second_holds(lexer *lx, const said *s, bool rigid) {
+    bool given[INPUTS] = {false};
+    for (const heard *h = s->list; h < s->list + s->count; h++) {
+        const int of = h->of->in;
+        if (!of)
             continue;
-        const input in = a->in == 1 + IN_E0 ? IN_E0_2 : a->in == 1 + IN_NU ? IN_NU_2 : (input)(a->in - 1);
+        const input in = of == 1 + IN_E0 ? IN_E0_2 : of == 1 + IN_NU ? IN_NU_2 : (input)(of - 1);
         if (rigid)
-            return calc_fail(lx->error, x->at, x->len, "a rigid body has no %s", a->name);
-        const arg_value *later = of[in] && of[in]->at > x->at ? of[in] : x;
-        if (of[in])
-            return calc_fail(lx->error, later->at, later->len,
+            return calc_fail(lx->error, h->at, h->len, "a rigid body has no %s", h->of->name);
+        if (given[in])
+            return calc_fail(lx->error, h->at, h->len,
                              "%s is given twice: here it is that of the second body",
                              quantity_of_input(in)->name);
-        of[in] = x;
+        given[in] = true;
     }
     return true;
 }
 
 bool do_second(shell *sh, lexer *lx, const command *self) {
-    const arg_list list = command_args(self);
-    arg_value v[ARGS];
+    said s;
     edit e = {.clear_second = true, .second = SECOND_GIVEN};
-    if (!args_read(sh, lx, &list, v, NULL))
+    if (!said_read(sh, lx, command_form(self), &s))
         return false;
-    gather(&e, &list, v);
-    if (!second_holds(lx, &list, v)) {
-        args_drop(&list, v);
+    const heard *named = said_of(&s, "", 0);
+    gather(&e, &s);
+    if (!second_holds(lx, &s, named && named->choice == SECOND_WORDS - 1)) {
+        said_drop(&s);
         return false;
     }
-    if (v[0].given && v[0].choice < SECOND_WORDS) {
-        e.second = v[0].choice ? SECOND_RIGID : SECOND_SAME;
-    } else if (v[0].given) {
-        put(&e, IN_E0_2, preset_row(v[0].choice - SECOND_WORDS)->E0);
-        put(&e, IN_NU_2, preset_row(v[0].choice - SECOND_WORDS)->nu);
+    if (named && named->choice < SECOND_WORDS) {
+        e.second = named->choice ? SECOND_RIGID : SECOND_SAME;
+    } else if (named) {
+        put(&e, IN_E0_2, preset_row(named->choice - SECOND_WORDS)->E0);
+        put(&e, IN_NU_2, preset_row(named->choice - SECOND_WORDS)->nu);
     }
     for (int i = 0; i < 2; i++) { /* E0 is that of the second body here */
         static const input own[] = {IN_E0, IN_NU}, other[] = {IN_E0_2, IN_NU_2};
@@ -151,18 +150,17 @@ bool do_second(shell *sh, lexer *lx, const command *self) {
     bool ok = e.second != SECOND_GIVEN || has(&e, IN_E0_2) || has(&e, IN_NU_2)
                   ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
                   : lex_fail(lx, "expected E0=... nu=..., a material, rigid or same");
-    args_drop(&list, v);
+    said_drop(&s);
     return ok;
 }
 
 bool do_friction(shell *sh, lexer *lx, const command *self) {
-    const arg_list list = command_args(self);
-    arg_value v[ARGS];
+    said s;
     edit e = {.clear_material = false};
-    if (!args_read(sh, lx, &list, v, NULL))
+    if (!said_read(sh, lx, command_form(self), &s))
         return false;
-    put(&e, IN_MU, v[0].v.v);
-    return scene_edit(&sh->calc.scene, apply, &e, lx->error) || arg_place(lx->error, &v[0]);
+    put(&e, IN_MU, s.list[0].v.v);
+    return scene_edit(&sh->calc.scene, apply, &e, lx->error) || heard_place(lx->error, &s.list[0]);
 }
 
 /* ---- geometry ---------------------------------------------------------------------------------- */
@@ -339,7 +337,7 @@ static void report_thinning(shell *sh, size_t rows, const struct fret_table *gap
 }
 
 static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
-    char name[ARG_FILE_NAME];
+    char name[FILE_NAME];
     const size_t at = lx->at;
     smoothing how = {.by = SMOOTH_NOT};
     smooth_answer smoothed = {.pieces = 0};
@@ -366,53 +364,10 @@ static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
     return ok || calc_place(lx->error, at, end - at);
 }
 
-/* The rows of what the geometry takes; `angle` beside slope, R1 and R2 beside R are no inputs of their own.
- */
-static void rows_of(const geometry *g, arg rows[ARGS]) {
-    size_t count = 0;
-    for (input in = IN_N; in < INPUTS; in++)
-        if (g->allowed & INPUT_BIT(in))
-            rows[count++] = (arg){
-                .kind = ARG_VALUE, .name = quantity_of_input(in)->name, .in = 1 + (int)in, .flags = ARG_LIVE};
-    if (g->allowed & INPUT_BIT(IN_SLOPE))
-        rows[count++] = (arg){.kind = ARG_VALUE, .name = "angle", .d = {0, 0, 1}};
-    if (g->power && g->allowed & INPUT_BIT(IN_RADIUS)) {
-        rows[count++] = (arg){.kind = ARG_VALUE, .name = "R1", .d = {0, 1, 0}, .flags = ARG_NONZERO};
-        rows[count++] = (arg){.kind = ARG_VALUE, .name = "R2", .d = {0, 1, 0}, .flags = ARG_NONZERO};
-    }
-    rows[count] = (arg){.kind = ARG_END};
-}
-
-/* A has the dimension that n gives it: read before. */
-static bool name_dimension(shell *sh, lexer *lx, arg rows[ARGS]) {
-    lexer scan = *lx;
-    calc_error ignored;
-    error_clear(&ignored);
-    scan.error = &ignored;
-    for (arg *a = rows; a->kind; a++)
-        if (a->in == 1 + IN_A) {
-            value n = {0};
-            while (scan.kind != T_END && !(lex_is(&scan, "n") && at_argument(&scan)) &&
-                   !(lex_is(&scan, "A") && at_argument(&scan)))
-                lex_next(&scan);
-            if (lex_is(&scan, "A"))
-                return calc_fail(lx->error, scan.at, scan.len,
-                                 "give n before A: the dimension of A depends on it");
-            lex_next(&scan);
-            lex_next(&scan);
-            if (scan.kind != T_END && expr_value(&sh->calc, &scan, &n))
-                a->d = (dim){0, 1 - (double)n.v, 0};
-            a->flags |= ARG_OWN_DIM;
-        }
-    return true;
-}
-
 /* 1/R = 1/R1 + 1/R2; a negative radius is a hollow. */
-static bool put_radii(lexer *lx, edit *e, const arg_value *R1, const arg_value *R2) {
-    if (!R1->given || !R2->given)
+static bool put_radii(lexer *lx, edit *e, const heard *R1, const heard *R2) {
+    if (!R1 || !R2)
         return lex_fail(lx, "give both R1 and R2, or R");
-    if (e->has[IN_RADIUS])
-        return calc_fail(lx->error, R1->at, R1->len, "give either R or R1 and R2");
     e->radii[0] = (double)R1->v.v;
     e->radii[1] = (double)R2->v.v;
     const long double curvature = 1 / (long double)e->radii[0] + 1 / (long double)e->radii[1];
@@ -422,30 +377,26 @@ static bool put_radii(lexer *lx, edit *e, const arg_value *R1, const arg_value *
     return true;
 }
 
-static bool put_angle(lexer *lx, edit *e, const arg_value *angle) {
+static bool put_angle(lexer *lx, edit *e, const heard *angle) {
     if (!(angle->v.v > 0 && angle->v.v < 1.5707963267948966 /* 90 deg as a double */))
-        return calc_fail(lx->error, angle->value_at, angle->value_len, "angle must lie between 0 and 90 deg");
-    if (e->has[IN_SLOPE])
-        return calc_fail(lx->error, angle->at, angle->len, "give either slope or angle");
+        return calc_fail(lx->error, angle->hole[0].at, angle->hole[0].len,
+                         "angle must lie between 0 and 90 deg");
     put(e, IN_SLOPE, sinl(angle->v.v) / cosl(angle->v.v));
     return true;
 }
 
-static bool read_parameters(lexer *lx, const geometry *g, edit *e, const arg_list *list,
-                            const arg_value v[ARGS]) {
-    gather(e, list, v);
-    for (size_t i = 0; list->args[i].kind; i++) {
-        const char *name = list->args[i].name;
-        if (!strcmp(name, "angle") && v[i].given && !put_angle(lx, e, &v[i]))
-            return false;
-        if (!strcmp(name, "R1") && (v[i].given || v[i + 1].given) && !put_radii(lx, e, &v[i], &v[i + 1]))
-            return false;
-    }
+static bool put_parameters(lexer *lx, const geometry *g, edit *e, said *s) {
+    const heard *angle = said_of(s, "angle", 0), *R1 = said_of(s, "R1", 0), *R2 = said_of(s, "R2", 0);
+    char usage[GRAMMAR_USAGE];
+    gather(e, s);
+    if ((angle && !put_angle(lx, e, angle)) || ((R1 || R2) && !put_radii(lx, e, R1, R2)))
+        return false;
+    grammar_usage(s->by, usage);
     for (input in = IN_N; in < INPUTS; in++)
         if (g->required & INPUT_BIT(in) && !has(e, in))
-            return lex_fail(lx, "a parameter is missing; usage: %s %s", list->command, list->usage);
+            return lex_fail(lx, "a parameter is missing; usage: %s", usage);
     if (g->allowed & INPUT_BIT(IN_A) && (has(e, IN_A) == has(e, IN_H) || has(e, IN_H) != has(e, IN_R0)))
-        return lex_fail(lx, "give either A or both h and r0; usage: %s %s", list->command, list->usage);
+        return lex_fail(lx, "give either A or both h and r0; usage: %s", usage);
     return true;
 }
 
@@ -476,8 +427,8 @@ bool do_geometry(shell *sh, lexer *lx, const command *self) {
     const geometry *g = read_shape(lx);
     edit e = {.geometry = g};
     fret_gap sum;
-    arg rows[ARGS];
-    arg_value v[ARGS];
+    said s;
+    (void)self;
     if (!g)
         return false;
     if (g->by == PARAMETERS_FILE)
@@ -486,11 +437,9 @@ bool do_geometry(shell *sh, lexer *lx, const command *self) {
         e.sum = &sum;
         return read_sum(sh, lx, &sum) && scene_edit(&sh->calc.scene, apply, &e, lx->error);
     }
-    rows_of(g, rows);
-    const arg_list list = {rows, g->name, self->name, g->usage, "parameter"};
-    if (!name_dimension(sh, lx, rows) || !args_read(sh, lx, &list, v, NULL))
+    if (!said_read(sh, lx, shape_form(g), &s))
         return false;
-    bool ok = read_parameters(lx, g, &e, &list, v) && scene_edit(&sh->calc.scene, apply, &e, lx->error);
-    args_drop(&list, v);
+    bool ok = put_parameters(lx, g, &e, &s) && scene_edit(&sh->calc.scene, apply, &e, lx->error);
+    said_drop(&s);
     return ok;
 }

@@ -6,16 +6,15 @@
 
 bool do_source(shell *sh, lexer *lx, const command *self) {
     enum { NESTING = 16 };
-    char name[ARG_FILE_NAME];
-    const arg_list list = command_args(self);
-    arg_value v[ARGS];
-    if (!args_read(sh, lx, &list, v, name))
+    char name[FILE_NAME];
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
         return false;
     if (sh->nesting == NESTING)
-        return calc_fail(lx->error, v[0].value_at, 1, "scripts are nested more than %d deep", NESTING);
+        return calc_fail(lx->error, s.list[0].hole[0].at, 1, "scripts are nested more than %d deep", NESTING);
     file_in in;
     if (!file_in_open(&in, name, &shell_stop, lx->error))
-        return calc_place(lx->error, v[0].value_at, v[0].value_len);
+        return heard_place(lx->error, &s.list[0]);
     sh->nesting++;
     int status = shell_stream(sh, &in, sh->keep_going);
     sh->nesting--;

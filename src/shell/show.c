@@ -369,9 +369,12 @@ static bool show_units(shell *sh, FILE *to) {
 
 static bool show_commands(shell *sh, FILE *to) {
     const command *c;
+    char usage[GRAMMAR_USAGE];
     (void)sh;
-    for (size_t i = 0; (c = command_row(i)); i++)
-        fprintf(to, "%s%s%s\n", c->name, *c->usage ? " " : "", c->usage);
+    for (size_t i = 0; (c = command_row(i)); i++) {
+        command_usage(c, usage);
+        fprintf(to, "%s\n", usage);
+    }
     return true;
 }
 

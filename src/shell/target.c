@@ -29,7 +29,7 @@ static bool choose_form(lexer *lx, const char *name, target *t) {
 }
 
 bool target_open(shell *sh, lexer *lx, target *t) {
-    char name[ARG_FILE_NAME];
+    char name[FILE_NAME];
     *t = (target){.to = sh->out, .format = sh->set.format};
     if (!lex_accept(lx, "to"))
         return at_end(lx);
@@ -54,7 +54,7 @@ void target_report(shell *sh, const char *name, const file_report *r) {
 }
 
 bool target_close(shell *sh, lexer *lx, target *t, bool ok) {
-    char name[ARG_FILE_NAME];
+    char name[FILE_NAME];
     file_report report;
     if (!t->file.to)
         return ok;

@@ -4,7 +4,7 @@
 #define SHELL_TARGET_H
 
 #include "calc/file.h"
-#include "shell/args.h"
+#include "shell/reader.h"
 
 typedef struct target {
     FILE *to;

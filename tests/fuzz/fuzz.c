@@ -477,7 +477,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv) {
     for (size_t i = 0; name && i < sizeof targets / sizeof *targets; i++)
         if (!strcmp(name, targets[i].name))
             chosen = &targets[i];
-    command_use(commands);
+    command_use(commands, holes);
     nowhere = fopen("/dev/null", "w");
     if (!chosen || !nowhere || !mkdtemp(folder)) {
         fprintf(stderr, "FRET_FUZZ must be statements, json, gap, follow, table, replay or library\n");

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "unit.h"
+
+#define unit calc_unit /* the other one is at work here */
+#include "shell/command.h"
+#undef unit
+
+static grammar parsed;
+
+static bool parses(const char *takes) {
+    const char *at;
+    parsed = (grammar){.command = "test", .takes = takes};
+    return grammar_parse(&parsed, holes, &at);
+}
+
+static void all_rows(void) {
+    size_t shapes = 0;
+    for (const command *c = commands; c->name; c++)
+        if (!CHECK(parses(c->takes)))
+            printf("%s %s\n", c->name, c->takes);
+    for (const geometry *g; (g = geometry_row(shapes)); shapes++)
+        if (!CHECK(parses(g->takes)))
+            printf("%s %s\n", g->name, g->takes);
+    for (const hole_row *h = holes; h->name; h++)
+        CHECK(h->kind != HOLE_CLAUSES || parses(h->clauses));
+    CHECK(shapes > 0 && parses(""));
+    CHECK(parsed.count == 0);
+}
+
+static void malformed(void) {
+    static const char *const lines[] = {
+        "[steps N", "steps N]",          "[]",          "[[all]]",    "| all",
+        "all |",    "all | | off",       "steps NIX",   "nix=1 N",    "Fx:=1 N",
+        "= EXPR",   "for NAME = x",      "for NAME +-", "mu=0.3 | ]", "a_word_that_is_far_too_long",
+        "?",        "for EXPR EXPR EXPR"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        if (!CHECK(!parses(lines[i])))
+            printf("%s\n", lines[i]);
+}
+
+static void arguments(void) {
+    CHECK(parses("[Fx+=20 N | dx+=0.5 um] [FN:=120 N steel] dz=1 um [steps N:1000]"));
+    CHECK(parsed.count == 5);
+    const clause *Fx = &parsed.clause[0], *dx = &parsed.clause[1], *FN = &parsed.clause[2],
+                 *dz = &parsed.clause[3], *steps = &parsed.clause[4];
+    CHECK(Fx->argument && Fx->increment && !Fx->live && Fx->optional && dim_equal(Fx->d, DIM_FORCE));
+    CHECK(Fx->group && Fx->group == dx->group && Fx->way != dx->way && Fx->in == 0 && Fx->must == ANY);
+    CHECK(FN->live && !FN->increment && FN->in == 1 + IN_FN && FN->group == 0);
+    CHECK(!dz->optional && dz->must == POSITIVE && dz->in == 0);
+    CHECK(!steps->argument && steps->holes == 1 && steps->hole[0].most == 1000);
+    CHECK(grammar_clause(&parsed, "steps") == steps && !grammar_clause(&parsed, "step"));
+}
+
+static void ways(void) {
+    CHECK(parses("R:=10 mm | R1=20 mm R2=20 mm"));
+    CHECK(parsed.clause[1].way == parsed.clause[2].way && parsed.clause[0].way != parsed.clause[1].way);
+    CHECK(parsed.clause[0].group == parsed.clause[2].group && parsed.clause[2].must == NONZERO);
+    CHECK(parses("n:=3 [A:=50 m^-2 | h:=1 um r0:=1 mm] [all]"));
+    CHECK(parsed.clause[0].group == 0 && parsed.clause[4].group == 0);
+    CHECK(parsed.clause[1].group && parsed.clause[1].group == parsed.clause[3].group);
+}
+
+static void clauses_with_holes(void) {
+    CHECK(parses("EXPR, ... over NAME = LO .. HI, ... [log AXES]*"));
+    CHECK(parsed.count == 3 && parsed.clause[0].list && !*parsed.clause[0].name);
+    CHECK(parsed.clause[1].list && parsed.clause[1].holes == 2 && parsed.clause[1].hole[1].before == '=');
+    CHECK(parsed.clause[1].hole[1].row->kind == HOLE_SPAN);
+    CHECK(parsed.clause[2].again && !parsed.clause[1].again);
+    CHECK(parses("EXPR RANGE [to FILE.png|svg]"));
+    CHECK(grammar_clause(&parsed, "for")->again && grammar_clause(&parsed, "to")->optional);
+    CHECK(grammar_first(&parsed, HOLE_EXPR) && !grammar_first(&parsed, HOLE_FILE));
+}
+
+static void usage(void) {
+    char text[GRAMMAR_USAGE];
+    CHECK(parses("[Fx+=20 N | dx+=0.5 um] [steps N:1000]"));
+    grammar_usage(&parsed, text);
+    CHECK(!strcmp(text, "test [Fx=20 N | dx=0.5 um] [steps N], += for an increment"));
+    parsed = (grammar){.command = "geometry", .shape = "cone", .takes = "slope:=0.05 | angle=3 deg"};
+    grammar_usage(&parsed, text);
+    CHECK(!strcmp(text, "geometry cone slope=0.05 | angle=3 deg"));
+    parsed = (grammar){.command = "undo", .takes = ""};
+    grammar_usage(&parsed, text);
+    CHECK(!strcmp(text, "undo"));
+}
+
+int main(int argc, char **argv) {
+    unit_start("grammar", argc, argv);
+    CASE(all_rows());
+    CASE(malformed());
+    CASE(arguments());
+    CASE(ways());
+    CASE(clauses_with_holes());
+    CASE(usage());
+    return unit_finish();
+}
