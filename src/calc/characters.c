@@ -33,6 +33,15 @@ size_t character_at(const char *text, size_t left, unsigned *code) {
     return n;
 }
 
+size_t character_before(const char *text, size_t at) {
+    enum { MOST = 4 };
+    size_t from = at;
+    do
+        from -= from > 0;
+    while (from > 0 && at - from < MOST && ((unsigned char)text[from] & 0xc0) == 0x80);
+    return from;
+}
+
 bool character_shows(unsigned c) {
     static const struct {
         unsigned first, last;

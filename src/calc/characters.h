@@ -9,6 +9,8 @@
 
 /* The bytes of the character at text, of which `left` are there; 0: they are no UTF-8. code may be NULL. */
 size_t character_at(const char *text, size_t left, unsigned *code);
+/* Where the character begins that ends before `at`, or is cut off there. */
+size_t character_before(const char *text, size_t at);
 
 /* No control character, and none that turns the direction of writing or takes no place. */
 bool character_shows(unsigned code);

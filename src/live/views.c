@@ -414,8 +414,8 @@ static void put_line(const live *l, rect at, int row) {
     const int column = (int)text_columns(shown, strlen(shown)), skip = column > width ? column - width : 0;
     characters_shown(l->line, shown, sizeof shown);
     const char *from = shown;
-    while ((int)text_columns(shown, (size_t)(from - shown)) < skip || (*from & 0xc0) == 0x80)
-        from++;
+    while ((int)text_columns(shown, (size_t)(from - shown)) < skip)
+        from += character_at(from, strlen(from), NULL);
     put_text(at, row, INK_NONE, "%s%s", l->prompt, from);
     move(at.top + row, at.left + prompt + column - skip);
 }

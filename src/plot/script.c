@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/characters.h"
+
 enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
 
 /* ---- kinds -------------------------------------------------------------------------------------- */
@@ -246,7 +248,7 @@ static size_t key_entries(scribe *s, const plot_panel *p, size_t *longest) {
         if (!p->series[i]->title)
             continue;
         char *text = plot_text(p->series[i]->title, PLOT_UNICODE);
-        size_t n = plot_columns(text ? text : "");
+        size_t n = text ? text_columns(text, strlen(text)) : 0;
         s->lost |= !text;
         *longest = n > *longest ? n : *longest;
         free(text);

@@ -38,11 +38,6 @@ double plot_step(double least);
 /* At most `room` levels for contours of z, in rising order. */
 size_t plot_levels(const plot_map *m, double *level, size_t room);
 
-/* ---- text.c --------------------------------------------------------------------------------------- */
-
-/* Room in a text of the terminal: columns of its characters. */
-size_t plot_columns(const char *text);
-
 /* ---- script.c: pictures ------------------------------------------------------------------------- */
 
 /* Points are left out only where a line is straight: on terminals whose lines end on whole pixels, a curve of

@@ -89,14 +89,8 @@ static bool find_size(cast *c) {
 
 /* Bytes at the end that begin a character of UTF-8 and do not end it. */
 static size_t begun(const char *text, size_t n) {
-    for (size_t back = 1; back < UTF8 && back <= n; back++) {
-        const unsigned char c = (unsigned char)text[n - back];
-        if (c < 0x80)
-            return 0;
-        if (c >= 0xc0)
-            return back < (c >= 0xf0 ? 4u : c >= 0xe0 ? 3u : 2u) ? back : 0;
-    }
-    return 0;
+    const size_t at = character_before(text, n), left = n - at;
+    return left < UTF8 && !character_at(text + at, left, NULL) ? left : 0;
 }
 
 /* At most PIECE/2 bytes: ends of lines grow. */

@@ -26,6 +26,8 @@ static void characters(void) {
     CHECK(character_at("", 0, &code) == 0 && code == 7);
     CHECK(character_at("\xe2\x82\xac", 3, &code) == 3 && code == 0x20ac);
     CHECK(character_at("\xe2\x82\xac", 2, &code) == 0 && character_at("a", 1, NULL) == 1);
+    CHECK(character_before("a\xe2\x82\xac", 4) == 1 && character_before("a\xe2\x82", 3) == 1);
+    CHECK(character_before("ab", 2) == 1 && character_before("ab", 0) == 0);
     static const struct {
         const char *text;
         size_t count, columns;
@@ -40,6 +42,17 @@ static void characters(void) {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         CHECK(character_count(rows[i].text, strlen(rows[i].text)) == rows[i].count);
         CHECK(text_columns(rows[i].text, strlen(rows[i].text)) == rows[i].columns);
+    }
+}
+
+/* Those at the ends of what is hidden. */
+static void hidden(void) {
+    static const unsigned from[][2] = {
+        {0x7f, 0x9f},     {0xad, 0xad},     {0x61c, 0x61c},   {0x200b, 0x200f}, {0x2028, 0x202e},
+        {0x2060, 0x206f}, {0xfe00, 0xfe0f}, {0xfeff, 0xfeff}, {0xfff0, 0xfffb}, {0xe0000, 0xe0fff}};
+    for (size_t i = 0; i < sizeof from / sizeof *from; i++) {
+        CHECK(character_shows(from[i][0] - 1) && !character_shows(from[i][0]));
+        CHECK(!character_shows(from[i][1]) && character_shows(from[i][1] + 1));
     }
 }
 
@@ -589,6 +602,7 @@ int main(int argc, char **argv) {
     unit_start("test_calc", argc, argv);
     CASE(words());
     CASE(characters());
+    CASE(hidden());
     CASE(units());
     CASE(ranges());
     CASE(first_errors());
