@@ -80,14 +80,44 @@ static size_t columns_of(unsigned code) {
     return n < 0 ? 1 : (size_t)n;
 }
 
+/* Of the character there, or of what is none: its bytes, and its columns. */
+static size_t step(const char *text, size_t left, size_t *columns) {
+    unsigned code;
+    const size_t n = character_at(text, left, &code);
+    *columns = n && character_shows(code) ? columns_of(code) : 1;
+    return n ? n : 1;
+}
+
 size_t text_columns(const char *text, size_t len) {
     size_t count = 0;
-    for (size_t i = 0, n; i < len; i += n ? n : 1) {
-        unsigned code;
-        n = character_at(text + i, len - i, &code);
-        count += n && character_shows(code) ? columns_of(code) : 1;
-    }
+    for (size_t i = 0, one; i < len; count += one)
+        i += step(text + i, len - i, &one);
     return count;
+}
+
+size_t text_fit(const char *text, size_t len, size_t columns) {
+    size_t i = 0;
+    for (size_t n, one; i < len; i += n, columns -= one) {
+        n = step(text + i, len - i, &one);
+        if (one > columns)
+            break;
+    }
+    return i;
+}
+
+size_t text_break(const char **text, size_t *left, size_t columns) {
+    const char *row = *text;
+    size_t n = text_fit(row, *left, columns), word = n, gone, one;
+    while (n < *left && row[n] != ' ' && word > 0 && row[word - 1] != ' ')
+        word--;
+    n = word ? word : n || !*left ? n : step(row, *left, &one);
+    for (gone = n; gone < *left && row[gone] == ' ';)
+        gone++;
+    *text += gone;
+    *left -= gone;
+    while (n > 0 && row[n - 1] == ' ')
+        n--;
+    return n;
 }
 
 size_t character_shown(const char *text, size_t left, char shown[CHARACTER_SHOWN]) {

@@ -184,29 +184,17 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
 
 enum { SHOWN = 100 }; /* columns of a long line, around the place */
 
-/* Bytes of the character there, or of what is none, and its columns. */
-static size_t next_character(const char *text, size_t left, size_t *columns) {
-    const size_t n = character_at(text, left, NULL);
-    *columns = text_columns(text, n ? n : 1);
-    return n ? n : 1;
-}
-
 /* The part of a line that is shown: `before` columns of it lie before the place. */
 static void find_part(const char *text, size_t len, size_t at, size_t *begin, size_t *end, size_t *before) {
-    size_t columns, room = SHOWN;
     *begin = 0;
     *end = len;
     *before = text_columns(text, at);
     if (text_columns(text, len) <= SHOWN)
         return;
-    for (; *before > SHOWN / 2; *before -= columns)
-        *begin += next_character(text + *begin, len - *begin, &columns);
-    for (*end = *begin; *end < len; room -= columns) {
-        const size_t n = next_character(text + *end, len - *end, &columns);
-        if (columns > room)
-            break;
-        *end += n;
-    }
+    if (*before > SHOWN / 2)
+        *begin = text_fit(text, at, *before - SHOWN / 2);
+    *before -= text_columns(text, *begin);
+    *end = *begin + text_fit(text + *begin, len - *begin, SHOWN);
 }
 
 static void show_place(const shell *sh, bool aside, const char *text, size_t len, size_t at, size_t width) {

@@ -45,6 +45,27 @@ static void characters(void) {
     }
 }
 
+static void rows(void) {
+    static const struct {
+        const char *text;
+        size_t columns, row, rest; /* bytes */
+    } rows[] = {{"", 5, 0, 0},
+                {"ab cd", 5, 5, 0},
+                {"ab cd", 4, 2, 2},
+                {"ab   cd", 3, 2, 2},
+                {"ab cd", 2, 2, 2},
+                {"abcd", 3, 3, 1},
+                {"  ab", 3, 0, 2},
+                {"\xe5\xa5\xb3", 1, 3, 0}, /* at least a character */
+                {"a\xe5\xa5\xb3 b", 2, 1, 5}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *text = rows[i].text;
+        size_t left = strlen(text);
+        CHECK(text_break(&text, &left, rows[i].columns) == rows[i].row && left == rows[i].rest);
+        CHECK(text + left == rows[i].text + strlen(rows[i].text));
+    }
+}
+
 /* Those at the ends of what is hidden. */
 static void hidden(void) {
     static const unsigned from[][2] = {
@@ -602,6 +623,7 @@ int main(int argc, char **argv) {
     unit_start("test_calc", argc, argv);
     CASE(words());
     CASE(characters());
+    CASE(rows());
     CASE(hidden());
     CASE(units());
     CASE(ranges());
