@@ -42,6 +42,16 @@ size_t character_before(const char *text, size_t at) {
     return from;
 }
 
+size_t character_put(unsigned code, char to[CHARACTER_BYTES]) {
+    static const unsigned first[] = {0, 0xc0, 0xe0, 0xf0};
+    const unsigned more = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+    to[0] = (char)(first[more] | code >> (6 * more));
+    for (unsigned i = 1; i <= more; i++)
+        to[i] = (char)(0x80 | (code >> (6 * (more - i)) & 0x3f));
+    to[more + 1] = 0;
+    return more + 1;
+}
+
 bool character_shows(unsigned c) {
     static const struct {
         unsigned first, last;

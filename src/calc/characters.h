@@ -12,6 +12,10 @@ size_t character_at(const char *text, size_t left, unsigned *code);
 /* Where the character begins that ends before `at`, or is cut off there. */
 size_t character_before(const char *text, size_t at);
 
+/* The character as UTF-8, and a NUL: its bytes. */
+enum { CHARACTER_BYTES = 5 };
+size_t character_put(unsigned code, char to[CHARACTER_BYTES]);
+
 /* No control character, and none that turns the direction of writing or takes no place. */
 bool character_shows(unsigned code);
 

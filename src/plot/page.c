@@ -9,7 +9,7 @@
 #include "calc/characters.h"
 #include "plot/script.h"
 
-enum { TICS = 24, TIC = 24, LEVELS = 9 };
+enum { TICS = 24, TIC = 24, LEVELS = 9, BRAILLE = 0x2800 /* of no dots */ };
 
 static size_t columns(const char *text) {
     return text_columns(text, strlen(text));
@@ -189,9 +189,9 @@ static void sign_of(const page *g, size_t at, char sign[SIGN], const char **colo
         const size_t n = strlen(dash);
         size_t used = 0;
         for (size_t i = 0; i < 8; i += 2)
-            used += plot_braille(
-                (unsigned char)((dash[i % n] == '1' ? 0x02 : 0) | (dash[(i + 1) % n] == '1' ? 0x10 : 0)),
-                sign + used);
+            used += character_put(BRAILLE + (dash[i % n] == '1' ? 0x02U : 0) +
+                                      (dash[(i + 1) % n] == '1' ? 0x10U : 0),
+                                  sign + used);
         return;
     }
     const char c = s->role == PLOT_NOW        ? '@'
@@ -275,14 +275,14 @@ static bool write_series_cells(page *g, size_t at) {
 /* The characters of one colour. */
 static void write_ink(const page *g, size_t n) {
     const int columns = g->x.cells + 1;
-    char braille[4];
+    char braille[CHARACTER_BYTES];
     fprintf(g->to, "$ink%zu_%zu_%zu << END\n", g->frame, g->index, n);
     for (int r = 0; r <= g->y.cells; r++)
         for (int c = 0; c < columns; c++) {
             const ink *i = &g->ink[r * columns + c];
             if (!i->bits || i->color != ink_color(n))
                 continue;
-            plot_braille(i->bits, braille);
+            character_put(BRAILLE + i->bits, braille);
             fprintf(g->to, "%.12g %.12g %s\n", at_cell(&g->x, c), at_cell(&g->y, r), braille);
         }
     fputs("END\n", g->to);

@@ -27,6 +27,12 @@ static void characters(void) {
     CHECK(character_at("\xe2\x82\xac", 3, &code) == 3 && code == 0x20ac);
     CHECK(character_at("\xe2\x82\xac", 2, &code) == 0 && character_at("a", 1, NULL) == 1);
     CHECK(character_before("a\xe2\x82\xac", 4) == 1 && character_before("a\xe2\x82", 3) == 1);
+    char put[CHARACTER_BYTES];
+    static const unsigned codes[] = {0x24, 0x7f, 0x80, 0x7ff, 0x800, 0x28ff, 0xffff, 0x10000, 0x10ffff};
+    for (size_t i = 0; i < sizeof codes / sizeof *codes; i++) {
+        const size_t n = character_put(codes[i], put);
+        CHECK(strlen(put) == n && character_at(put, n, &code) == n && code == codes[i]);
+    }
     CHECK(character_before("ab", 2) == 1 && character_before("ab", 0) == 0);
     static const struct {
         const char *text;

@@ -699,7 +699,6 @@ static int count_dots(const plot_cells *c) {
 
 static void dots(void) {
     plot_cells c;
-    char text[4];
     if (!CHECK(plot_cells_make(&c, 10, 5, true)))
         return;
     /* from corner to corner of the frame, and far beyond it */
@@ -725,8 +724,6 @@ static void dots(void) {
     plot_cells_draw(&c, level, 2, true, "1100");
     CHECK(count_dots(&c) == 8 && plot_cells_has(&c, 0, 0) && !plot_cells_has(&c, 1, 0));
     free(c.dot);
-    CHECK(plot_braille(0xff, text) == 3 && !strcmp(text, "\u28ff"));
-    CHECK(plot_braille(0x40, text) == 3 && !strcmp(text, "\u2840"));
 }
 
 /* ---- targets ------------------------------------------------------------------------------------ */
