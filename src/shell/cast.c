@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "calc/characters.h"
+#include "calc/clock.h"
 
 enum {
     COLS = 80,
@@ -33,12 +33,6 @@ struct cast {
     size_t held_count; /* of a character that is not whole yet */
     char event[PIECE * ESCAPED + 64];
 };
-
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- events ------------------------------------------------------------------------------------ */
 
@@ -68,7 +62,7 @@ static char *escape(char *to, const char *text, size_t n) {
 
 static bool event(cast *c, char kind, const char *text, size_t n, calc_error *error) {
     if (c->clock)
-        c->at = seconds() - c->began;
+        c->at = clock_wall() - c->began;
     char *to = c->event + sprintf(c->event, "[%.6f,\"%c\",\"", c->at, kind);
     to = escape(to, text, n);
     memcpy(to, "\"]\n", 3);
@@ -163,7 +157,7 @@ cast *cast_begin(file_log *log, bool clock, calc_error *error) {
     }
     *c = (cast){.log = log, .clock = clock, .cols = COLS, .rows = ROWS};
     if (clock)
-        c->began = seconds();
+        c->began = clock_wall();
     find_size(c);
     if (add(c, (size_t)sprintf(c->event, "{\"version\":2,\"width\":%d,\"height\":%d}\n", c->cols, c->rows),
             error))

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Statements, lines and streams of them: dispatch, and the one place that reports errors. */
+#include "calc/clock.h"
 #include "shell/shell.h"
 
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "calc/characters.h"
@@ -249,12 +249,6 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
     fflush(sh->err);
 }
 
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void report_time(shell *sh, double t) {
     fflush(sh->out);
     if (sh->replaying) /* no two runs agree */
@@ -283,7 +277,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         size_t end = shell_statement_end(text, i, len);
         calc_error error;
         bool timed = sh->set.timing;
-        double start = timed ? seconds() : 0;
+        double start = timed ? clock_wall() : 0;
         const struct recorder *recorder = sh->record;
         sh->calc.scene.used = 0;
         scene_show(&sh->calc.scene, sh->set.format == FORMAT_TEXT ? sh->set.digits : 0);
@@ -301,7 +295,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
             if (!from->keep_going || shell_stop)
                 return false;
         } else if (timed) {
-            report_time(sh, seconds() - start);
+            report_time(sh, clock_wall() - start);
         }
         i = end < len && text[end] == ';' ? end + 1 : len;
         while (i < len && text[i] == ' ')

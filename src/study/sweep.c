@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "calc/clock.h"
 #include "number/real.h"
 #include "study/refine.h"
 #include "study/team.h"
@@ -188,9 +189,9 @@ static bool give_rows(state *st, size_t first, const long double *x, const long 
 
 /* An error loses no row before it. */
 static bool run_rows(state *st, size_t first, const long double *x, size_t rows) {
-    const double began = team_clock();
+    const double began = clock_wall();
     const size_t n = evaluate(st, x, rows, st->values);
-    st->job->taken += team_clock() - began;
+    st->job->taken += clock_wall() - began;
     return give_rows(st, first, x, st->values, n) && n == rows;
 }
 
