@@ -19,6 +19,8 @@ typedef const volatile sig_atomic_t *file_stop;
 
 /* A name as the shell takes it: `~` and `~/...` are the home directory. To be freed; NULL: out of memory. */
 char *file_expand(const char *name);
+/* Is this the ending of the name, as ".csv"? */
+bool file_ends(const char *name, const char *ending);
 
 /* ---- output ------------------------------------------------------------------------------------- */
 

@@ -31,9 +31,8 @@ static const plot_kind kinds[] = {
     {".gp", PLOT_ENHANCED, NULL, 1, 16, 3, 0}};
 
 const plot_kind *plot_kind_of(const char *file, calc_error *error) {
-    const char *slash = strrchr(file, '/'), *dot = strrchr(slash ? slash : file, '.');
-    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
-        if (!strcmp(dot, kinds[i].ending))
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (file_ends(file, kinds[i].ending))
             return &kinds[i];
     char endings[80] = "";
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
