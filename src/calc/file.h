@@ -131,8 +131,7 @@ file_got file_in_line(file_in *in, calc_error *error);
 
 /* The place of a line's continuation mark, or `length` when it has none. */
 typedef size_t file_mark(const char *line, size_t length);
-/* The same with the lines that continue it: the mark becomes a blank, the end of the line a newline. A mark
- * in the last line stays. */
+/* The same with the lines that continue it: the mark becomes a blank, the end of the line a newline. */
 file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error);
 
 void file_in_close(file_in *in);

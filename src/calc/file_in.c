@@ -274,6 +274,7 @@ file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error) {
         size_t at = begin + mark(in->line + begin, in->length - begin);
         if (at >= in->length)
             break;
+        in->line[at] = ' ';
         begin = in->length + 1;
         if (!append(in, "\n", 1, error))
             return FILE_GOT_ERROR;
@@ -282,7 +283,6 @@ file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error) {
             in->line[--in->length] = 0;
             return FILE_GOT_LINE;
         }
-        in->line[at] = ' ';
     }
     return got;
 }

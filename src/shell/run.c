@@ -316,9 +316,6 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
     bool ok = true, last = true; /* all statements so far; those of the last line */
     while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || keep_going) &&
            (got = file_in_logical(in, shell_mark, &error)) == FILE_GOT_LINE) {
-        const size_t open = shell_mark(in->line, in->length); /* nothing continues the last line */
-        if (open < in->length)
-            in->line[open] = ' ';
         blank_prompts(in->line, in->length);
         if (sh->nesting == 0)
             record_line(sh, in->line, in->length);
