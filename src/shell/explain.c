@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/characters.h"
 #include "calc/trial.h"
 #include "number/array.h"
 #include "shell/command.h"
+#include "shell/lines.h"
 #include "shell/output.h"
 #include "shell/text.h"
 #include "shell/topics.h"
@@ -48,31 +48,15 @@ static void put_value(const page *p, const char *name, size_t len, value v) {
     fprintf(p->to, "    %.*s = %s\n", (int)len, name, text);
 }
 
-/* Broken at spaces, further lines indented more. */
-static void put_wrapped(FILE *to, const char *text) {
-    enum { LINE = 79, INDENT = 4 };
-    size_t used = 0;
-    while (*text) {
-        const size_t gap = strspn(text, " "), len = strcspn(text + gap, " ");
-        const size_t width = text_columns(text + gap, len);
-        const bool breaks = used > 0 && used + gap + width > LINE;
-        const size_t space = used == 0 ? INDENT : breaks ? (size_t)2 * INDENT : gap;
-        fprintf(to, "%s%*s%.*s", breaks ? "\n" : "", (int)space, "", (int)len, text + gap);
-        used = (breaks ? 0 : used) + space + width;
-        text += gap + len;
-    }
-    fputc('\n', to);
-}
-
 static void put_formula(const page *p, const quantity *q, bool call) {
     const formula *f = quantity_formula(q, p->sh->calc.now, call);
     char set[512], line[600];
     fprintf(p->to, "%s: %s\n", q->name, q->title);
     if (typeset_unicode())
         typeset(f->text, set, sizeof set);
-    snprintf(line, sizeof line, "%s%s%s", typeset_unicode() ? set : f->text, f->equation ? "  " : "",
+    snprintf(line, sizeof line, "    %s%s%s", typeset_unicode() ? set : f->text, f->equation ? "  " : "",
              f->equation ? f->equation : "");
-    put_wrapped(p->to, line);
+    help_wrapped(p->to, line, 0, 8);
 }
 
 /* Where a step mixes force and displacement, its path is a choice. */

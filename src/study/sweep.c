@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "calc/clock.h"
 #include "number/real.h"
 #include "study/refine.h"
 #include "study/team.h"
@@ -33,19 +34,13 @@ static bool stopped(const state *st) {
     return calc_stopped(st->job->c->scene.stop, st->job->error);
 }
 
-static void say_value(char *to, size_t size, dim d, long double v) {
-    char unit_text[100];
-    const long double scale = unit_choose(d, v, 6, unit_text, sizeof unit_text);
-    snprintf(to, size, "%.6g%s%s", (double)(v / scale), *unit_text ? " " : "", unit_text);
-}
-
 static void say_where(state *st, long double x) {
     const sweep *s = st->s;
     char at[120], with[60 + LEX_NAME] = "";
-    say_value(at, sizeof at, s->along ? DIM_NONE : st->range.d, x);
+    calc_amount(s->along ? DIM_NONE : st->range.d, x, 6, at, sizeof at);
     if (s->curves) {
         snprintf(with, sizeof with, ", %s = ", s->with.text);
-        say_value(with + strlen(with), sizeof with - strlen(with), s->with.d, s->value[st->curve]);
+        calc_amount(s->with.d, s->value[st->curve], 6, with + strlen(with), sizeof with - strlen(with));
     }
     snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->along ? "time" : s->var.text, at,
              with);
@@ -170,9 +165,9 @@ static bool give_rows(state *st, size_t first, const long double *x, const long 
 
 /* An error loses no row before it. */
 static bool run_rows(state *st, size_t first, const long double *x, size_t rows) {
-    const double began = team_clock();
+    const double began = clock_wall();
     const size_t n = evaluate(st, x, rows, st->values);
-    st->job->taken += team_clock() - began;
+    st->job->taken += clock_wall() - began;
     return give_rows(st, first, x, st->values, n) && n == rows;
 }
 
