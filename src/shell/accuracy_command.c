@@ -24,7 +24,7 @@ static void show_progress(void *context, const accuracy_row *row) {
     progress_words(words);
 }
 
-static bool run_study(shell *sh, said *given, accuracy_study *out, calc_error *error) {
+bool accuracy_study_run(shell *sh, said *given, accuracy_study *out, calc_error *error) {
     const heard *FA = said_of(given, "FA", 0), *dxA = said_of(given, "dxA", 0), *v = dxA ? dxA : FA,
                 *within = said_of(given, "within", 0);
     const accuracy_load load = {.given = v != NULL,
@@ -37,11 +37,6 @@ static bool run_study(shell *sh, said *given, accuracy_study *out, calc_error *e
     if (v && blamed && !strcmp(blamed, "FA")) /* a dxA has no bound */
         heard_place(error, v);
     return ok;
-}
-
-bool accuracy_study_read(shell *sh, lexer *lx, const command *self, accuracy_study *out) {
-    said given;
-    return said_read_some(sh, lx, command_form(self), &given) && run_study(sh, &given, out, lx->error);
 }
 
 /* ---- words ------------------------------------------------------------------------------------- */
@@ -193,7 +188,7 @@ bool do_accuracy(shell *sh, lexer *lx, const command *self) {
     accuracy_study study;
     said given;
     char advice[ACCURACY_TEXT], load[ACCURACY_TEXT];
-    if (!said_read(sh, lx, command_form(self), &given) || !run_study(sh, &given, &study, lx->error))
+    if (!said_read(sh, lx, command_form(self), &given) || !accuracy_study_run(sh, &given, &study, lx->error))
         return false;
     advise(&study, sh->set.format == FORMAT_TEXT ? "\n" : "; ", advice, sizeof advice);
     accuracy_load_text(sh, &study, load, sizeof load);

@@ -6,9 +6,8 @@
 #include "shell/command.h"
 #include "study/accuracy.h"
 
-/* [FA=... | dxA=...] [within SECONDS] at the cursor, as far as it goes, measured: progress is shown on a
- * terminal. self: the row of `accuracy`, whose args are these three in this order. */
-bool accuracy_study_read(shell *sh, lexer *lx, const command *self, accuracy_study *out);
+/* Measures what has been said; progress is shown on a terminal. */
+bool accuracy_study_run(shell *sh, said *given, accuracy_study *out, calc_error *error);
 
 /* The cycle in words: "FA = 20 N at FN = 100 N, the last cycle". */
 void accuracy_load_text(const shell *sh, const accuracy_study *study, char *buf, size_t size);

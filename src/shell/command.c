@@ -39,8 +39,7 @@ const hole_row *hole_at(size_t i) {
 
 enum { COMMANDS = 48, SHAPES = 16 };
 
-/* Parsed where it is wanted first. */
-static const grammar *made(grammar *f, const char *name, const char *shape, const char *takes) {
+const grammar *grammar_made(grammar *f, const char *name, const char *shape, const char *takes) {
     const char *at;
     if (f->takes)
         return f;
@@ -55,12 +54,12 @@ static const grammar *made(grammar *f, const char *name, const char *shape, cons
 
 const grammar *command_form(const command *c) {
     static grammar forms[COMMANDS];
-    return made(&forms[c - all], c->name, NULL, c->takes);
+    return grammar_made(&forms[c - all], c->name, NULL, c->takes);
 }
 
 const grammar *shape_form(const geometry *g) {
     static grammar forms[SHAPES];
-    return made(&forms[g - geometry_row(0)], "geometry", g->name, g->takes);
+    return grammar_made(&forms[g - geometry_row(0)], "geometry", g->name, g->takes);
 }
 
 bool argument_word(const lexer *lx) {

@@ -32,6 +32,8 @@ const hole_row *hole_at(size_t i); /* likewise */
 /* What it takes; what `geometry` takes behind the name of this shape. */
 const grammar *command_form(const command *c);
 const grammar *shape_form(const geometry *g);
+/* Parsed where it is wanted first. */
+const grammar *grammar_made(grammar *f, const char *name, const char *shape, const char *takes);
 /* "step Fx=20 N ...", as who types it is told. */
 static inline void command_usage(const command *c, char buf[GRAMMAR_USAGE]) {
     grammar_usage(command_form(c), buf);

@@ -158,7 +158,7 @@ static const double *column_of(const csv *data, const char *name, dim d, calc_er
 
 /* Columns as names: of inputs that the scene takes, or free ones. Those that are results, or no names, have
  * no say, and are missed if they are asked for; one that is named in vain is no matter. */
-static bool read_columns(shell *sh, const csv *data, fit_question *q, range_names *names, calc_error *error) {
+static bool read_columns(shell *sh, const csv *data, fit_question *q, size_t names, calc_error *error) {
     _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
     for (size_t i = 0; i < data->columns; i++) {
         const csv_values *of_file = &data->column[i];
@@ -173,7 +173,7 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, range_name
         const quantity *of = quantity_find(of_file->name, strlen(of_file->name));
         if ((of && !quantity_is_input(of)) || (!of && name_taken(of_file->name, strlen(of_file->name))))
             continue;
-        if (!range_wake(sh, &lx, names))
+        if (!names_wake(sh, &lx, names))
             return calc_no_memory(error);
         knob_name(&sh->calc, &lx, k); /* there is one */
         if (k->is_input && !calc_takes(&sh->calc, k->in, &useless))
@@ -243,7 +243,7 @@ static bool read_side(shell *sh, lexer *lx, const csv *data, expr *e) {
     return false;
 }
 
-static bool read_equation(shell *sh, lexer *lx, fit_question *q, csv *data, range_names *names) {
+static bool read_equation(shell *sh, lexer *lx, fit_question *q, csv *data, size_t names) {
     char name[FILE_NAME];
     if (!file_ahead(lx, name))
         return lex_fail(lx, "expected EXPR = EXPR to FILE.csv");
@@ -300,7 +300,7 @@ static bool read_loop(lexer *lx, fit_question *q, csv *data) {
     return !error->raised || calc_place(error, at, lx->last - at);
 }
 
-static bool read_fit(shell *sh, lexer *lx, fit_question *q, csv *data, range_names *names) {
+static bool read_fit(shell *sh, lexer *lx, fit_question *q, csv *data, size_t names) {
     q->c = &sh->calc;
     if (!read_names(sh, lx, q))
         return false;
@@ -388,14 +388,14 @@ static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, cal
 }
 
 bool do_fit(shell *sh, lexer *lx, const command *self) {
-    range_names names = {.count = sh->calc.names.count};
+    const size_t names = sh->calc.names.count;
     fit_question *q = calloc(1, sizeof *q);
     csv data = {0};
     fit_answer a;
     (void)self;
-    bool ok = (q || calc_no_memory(lx->error)) && read_fit(sh, lx, q, &data, &names) &&
+    bool ok = (q || calc_no_memory(lx->error)) && read_fit(sh, lx, q, &data, names) &&
               fit(q, &a, lx->error) && print_fit(sh, q, &a, lx->error);
-    range_forget(sh, &names);
+    names_forget(sh, names);
     csv_free(&data);
     free(q);
     return ok;

@@ -76,6 +76,12 @@ bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_
     }
 }
 
+bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *columns, size_t limit,
+                         size_t *count) {
+    lexer own = hole_lexer(lx, part);
+    return read_expressions(sh, &own, columns, limit, count) && at_end(&own);
+}
+
 bool column_fits(const expr *e, column *c, value v, calc_error *error) {
     if (c->chosen && !dim_equal(c->d, v.d)) {
         char is[128];

@@ -48,6 +48,7 @@ static const figure figures[] = {
     {.name = "accuracy",
      .title = "error against time",
      .summary = "of every model, for this scene",
+     .takes = "[FA=20 N | dxA=0.5 um] [within SECONDS:3600] [frames N:1000] [to FILE]",
      .build = figure_accuracy},
 };
 enum { FIGURES = sizeof figures / sizeof *figures };
@@ -71,12 +72,17 @@ const figure *figure_find(const char *name, size_t len) {
     return NULL;
 }
 
+const grammar *figure_form(const figure *f) {
+    static grammar forms[FIGURES];
+    return grammar_made(&forms[f - figures], f->name, NULL, f->takes);
+}
+
 /* Error against time, one curve a model. */
-bool figure_accuracy(shell *sh, lexer *lx, plot_panel *p) {
+bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p) {
     accuracy_study study;
     char text[400], load[360];
     plot_series *series = NULL;
-    if (!accuracy_study_read(sh, lx, command_find("accuracy", 8), &study))
+    if (!accuracy_study_run(sh, all, &study, lx->error))
         return false;
     for (size_t i = 0; i < study.count; i++) {
         const accuracy_row *row = &study.row[i];

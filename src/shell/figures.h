@@ -4,7 +4,7 @@
 #define SHELL_FIGURES_H
 
 #include "plot/plot.h"
-#include "shell/shell.h"
+#include "shell/reader.h"
 
 typedef struct figure {
     const char *name;
@@ -15,16 +15,17 @@ typedef struct figure {
     /* of the expressions: c curve, t thin line, b edge of a band (two of them), s curve that slips where it
      * is at its bounds, which follow */
     const char *roles;
-    /* reads its own arguments */
-    bool (*build)(shell *sh, lexer *lx, plot_panel *p);
+    const char *takes; /* where build makes it */
+    bool (*build)(shell *sh, lexer *lx, said *all, plot_panel *p);
 } figure;
 
 const figure *figure_row(size_t i); /* NULL after the last */
 const char *figure_name(size_t i);
-const char *figure_word(size_t i); /* what a figure may begin with: these, and map */
+const grammar *figure_form(const figure *f); /* of one that build makes */
+const char *figure_word(size_t i);           /* what a figure may begin with: these, and map */
 const figure *figure_find(const char *name, size_t len);
 
 /* figures that are no sweep */
-bool figure_accuracy(shell *sh, lexer *lx, plot_panel *p);
+bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p);
 
 #endif

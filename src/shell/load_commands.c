@@ -118,7 +118,7 @@ static bool read_targets(shell *sh, lexer *lx, const command *self, said *s, loa
         ok = lex_fail(lx, "%s usage: %s", cycle ? "cycle by what amplitude?" : "step to where?", usage);
     }
     if (!ok)
-        said_drop(s);
+        said_drop(sh, s);
     return ok;
 }
 
@@ -212,7 +212,7 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
         scene_drop(&before);
     if (ok && said_of(&s, "phase", 0) && !said_of(&s, "FNA", 0))
         shell_note(sh, "note: phase does nothing without FNA");
-    said_drop(&s);
+    said_drop(sh, &s);
     if (ok)
         report_event(sh, "cycle", names);
     return ok;

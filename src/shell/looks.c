@@ -8,114 +8,100 @@
 
 #include "calc/csv.h"
 
-typedef struct look look;
-struct look {
-    const char *name;
-    bool (*read)(shell *sh, lexer *lx, const look *self, plot_panel *p,
-                 looks *out); /* the cursor behind the word */
-    size_t at;                /* of the panel's text */
-};
+typedef bool look_read(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out);
 
-static bool read_text(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
-    (void)sh, (void)out;
-    if (lx->kind != T_STRING)
-        return lex_fail(lx, "expected %s \"TEXT\"", self->name);
-    char **text = (char **)(void *)((char *)p + self->at);
+static bool read_text(const lexer *lx, const heard *h, char **text) {
     free(*text);
-    *text = strndup(lx->text + lx->at + 1, lx->len - 2);
-    lex_next(lx);
+    *text = strndup(lx->text + h->hole[0].at + 1, h->hole[0].len - 2);
     return *text || calc_no_memory(lx->error);
 }
 
-static bool read_limits(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
+static bool read_title(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
+    (void)sh, (void)out;
+    return read_text(lx, h, &p->title);
+}
+
+static bool read_xlabel(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
+    (void)sh, (void)out;
+    return read_text(lx, h, &p->xlabel);
+}
+
+static bool read_ylabel(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
+    (void)sh, (void)out;
+    return read_text(lx, h, &p->ylabel);
+}
+
+static bool read_limits(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
+    limits *l = *h->of->name == 'x' ? &out->x : &out->y;
+    lexer own = hole_lexer(lx, &h->hole[0]);
     (void)p;
-    limits *l = *self->name == 'x' ? &out->x : &out->y;
-    l->at = lx->at;
-    if (!expr_value(&sh->calc, lx, &l->end[0]))
+    l->at = own.at;
+    if (!expr_value(&sh->calc, &own, &l->end[0]))
         return false;
-    if (lx->kind != T_RANGE)
-        return lex_fail(lx, "expected %s LO .. HI", self->name);
-    lex_next(lx);
-    if (!expr_value(&sh->calc, lx, &l->end[1]))
+    if (own.kind != T_RANGE)
+        return lex_fail(&own, "expected %s LO .. HI", h->of->name);
+    lex_next(&own);
+    if (!expr_value(&sh->calc, &own, &l->end[1]))
         return false;
-    l->len = lx->last - l->at;
+    l->len = own.last - l->at;
     l->given = true;
+    return at_end(&own);
+}
+
+/* x, y or both, as its choice is. */
+enum { AXIS_X, AXIS_Y, AXIS_BOTH };
+
+static bool read_log(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
+    (void)sh, (void)lx, (void)out;
+    p->logx = p->logx || (h->of->holes && h->choice != AXIS_Y); /* without an axis it is of the range */
+    p->logy = p->logy || (h->of->holes && h->choice != AXIS_X);
     return true;
 }
 
-/* x, y or both. */
-static bool read_axes(lexer *lx, const look *self, bool *x, bool *y) {
-    const bool both = lex_is(lx, "xy");
-    if (!both && !lex_is(lx, "x") && !lex_is(lx, "y"))
-        return lex_fail(lx, "expected %s x, %s y or %s xy", self->name, self->name, self->name);
-    *x = *x || both || lex_is(lx, "x");
-    *y = *y || both || lex_is(lx, "y");
-    lex_next(lx);
+static bool read_flip(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
+    (void)sh, (void)lx, (void)out;
+    p->flipx = p->flipx || h->choice != AXIS_Y;
+    p->flipy = p->flipy || h->choice != AXIS_X;
     return true;
 }
 
-static bool read_log(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
-    (void)sh, (void)out;
-    return read_axes(lx, self, &p->logx, &p->logy);
+static bool read_key(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
+    (void)sh, (void)lx, (void)h, (void)out;
+    p->key_off = true;
+    return true;
 }
 
-static bool read_flip(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
-    (void)sh, (void)out;
-    return read_axes(lx, self, &p->flipx, &p->flipy);
-}
-
-static bool read_key(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
-    (void)sh, (void)out;
-    p->key_off = lex_accept(lx, "off");
-    return p->key_off || lex_fail(lx, "expected %s off", self->name);
-}
-
-static bool read_points(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
-    (void)sh, (void)out, (void)self;
+static bool read_points(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
+    (void)sh, (void)lx, (void)h, (void)out;
     p->points = true;
-    return !lx->error->raised;
-}
-
-static bool read_over(shell *sh, lexer *lx, const look *self, plot_panel *p, looks *out) {
-    (void)sh, (void)self, (void)p;
-    if (out->files == OVER)
-        return lex_fail(lx, "more than %d files", OVER);
-    const size_t i = out->files++;
-    out->over_at[i] = lx->at;
-    if (!lex_filename(lx, out->over[i], FILE_NAME))
-        return false;
-    out->over_len[i] = lx->last - out->over_at[i];
     return true;
 }
 
-static const look rows[] = {{"title", read_text, offsetof(plot_panel, title)},
-                            {"xlabel", read_text, offsetof(plot_panel, xlabel)},
-                            {"ylabel", read_text, offsetof(plot_panel, ylabel)},
-                            {"xrange", read_limits, 0},
-                            {"yrange", read_limits, 0},
-                            {"log", read_log, 0},
-                            {"flip", read_flip, 0},
-                            {"key", read_key, 0},
-                            {"points", read_points, 0},
-                            {"over", read_over, 0}};
+static bool read_over(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
+    (void)sh, (void)p;
+    if (out->files == OVER)
+        return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "more than %d files", OVER);
+    const size_t i = out->files++;
+    out->over_at[i] = h->hole[0].at;
+    out->over_len[i] = h->hole[0].len;
+    return hole_file(lx, &h->hole[0], out->over[i]);
+}
+
+static const struct {
+    const char *name;
+    look_read *read;
+} rows[] = {{"title", read_title},   {"xlabel", read_xlabel}, {"ylabel", read_ylabel},
+            {"xrange", read_limits}, {"yrange", read_limits}, {"log", read_log},
+            {"flip", read_flip},     {"key", read_key},       {"points", read_points},
+            {"over", read_over}};
 enum { ROWS = sizeof rows / sizeof *rows };
 
-const char *looks_word(size_t i) {
-    return i < ROWS ? rows[i].name : NULL;
-}
-
-bool looks_read(shell *sh, lexer *lx, plot_panel *p, looks *out, bool *found) {
-    const look *row = rows;
-    while (row < rows + ROWS && !lex_is(lx, row->name))
-        row++;
-    *found = row < rows + ROWS;
-    if (!*found)
-        return true;
-    if (row->read != read_over) /* a file's name is not made of tokens */
-        lex_next(lx);
-    else
-        lx->error->raised = (lex_next(lx), false);
-    return !lx->error->raised && row->read(sh, lx, row, p, out);
+bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out) {
+    for (const heard *h = all->list; h < all->list + all->count; h++)
+        for (size_t i = 0; i < ROWS; i++)
+            if (!strcmp(h->of->name, rows[i].name) && !rows[i].read(sh, lx, h, p, out))
+                return false;
+    return true;
 }
 
 /* ---- measured points --------------------------------------------------------------------------- */

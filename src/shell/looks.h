@@ -22,10 +22,8 @@ typedef struct looks {
     size_t over_at[OVER], over_len[OVER];
 } looks;
 
-/* Reads the look at the cursor, if one is there: *found. */
-bool looks_read(shell *sh, lexer *lx, plot_panel *p, looks *out, bool *found);
-/* i = 0, 1, ... until NULL. */
-const char *looks_word(size_t i);
+/* All that have been said. */
+bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out);
 
 /* An axis as the points on it stand, in SI. */
 typedef struct axis_of {

@@ -10,31 +10,26 @@
 
 enum { MAP_STEPS = 60 };
 
-bool grid_range_at(const lexer *lx) {
-    calc_error ignored;
-    lexer scan = *lx;
-    size_t ranges = 0;
-    error_clear(&ignored);
-    scan.error = &ignored;
-    for (; scan.kind != T_END && !lex_is(&scan, "to"); lex_next(&scan))
-        ranges += lex_is(&scan, "for");
-    return ranges > 1;
-}
-
-bool grid_range_read(shell *sh, lexer *lx, grid_range *out, size_t steps_a, size_t steps_b) {
-    if (!range_read(sh, lx, &out->a, steps_a))
+bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t steps_a, size_t steps_b) {
+    const heard *with = said_of(all, "with", 0), *second = said_of(all, "for", 1),
+                *third = said_of(all, "for", 2);
+    if (!range_read(sh, lx, all, 0, &out->a, steps_a))
         return false;
-    if (out->a.sweep.along || out->a.sweep.curves)
+    if (out->a.sweep.along)
         return lex_fail(lx, "a map goes for A = LO .. HI for B = LO .. HI");
-    if (!lex_is(lx, "for"))
+    if (with)
+        return calc_fail(lx->error, with->at, with->len,
+                         "a map has no curves: `with` does not go with two ranges");
+    if (!second)
         return lex_fail(lx, "expected for VAR2 = LO .. HI");
-    const size_t at = lx->at;
-    if (!range_read(sh, lx, &out->b, steps_b))
+    if (third)
+        return calc_fail(lx->error, third->at, third->len, "a map goes for A = LO .. HI for B = LO .. HI");
+    if (!range_read(sh, lx, all, 1, &out->b, steps_b))
         return false;
     if (!strcmp(out->a.sweep.var.text, out->b.sweep.var.text))
-        return calc_fail(lx->error, at, lx->last - at, "%s is given twice", out->b.sweep.var.text);
+        return calc_fail(lx->error, second->at, second->len, "%s is given twice", out->b.sweep.var.text);
     out->grid = (grid){out->a.sweep, out->b.sweep};
-    return !out->b.sweep.curves || lex_fail(lx, "a map has no curves: `with` does not go with two ranges");
+    return true;
 }
 
 bool map_at(const lexer *lx) {
@@ -114,19 +109,17 @@ static bool run_map(shell *sh, lexer *lx, const grid_range *r, column *c, const 
     return true;
 }
 
-bool map_draw(shell *sh, lexer *lx, plot_panel *p) {
+bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p) {
     column c;
     grid_range r;
-    bool found = true;
     looks *l = calloc(1, sizeof *l);
     if (!l)
         return calc_no_memory(lx->error);
-    lex_next(lx);
-    bool ok = read_one_expression(sh, lx, 0, &c);
-    ok = ok && grid_range_read(sh, lx, &r, MAP_STEPS, MAP_STEPS);
-    while (ok && found)
-        ok = looks_read(sh, lx, p, l, &found);
-    ok = ok && run_map(sh, lx, &r, &c, l, p);
+    lexer own = hole_lexer(lx, &all->list[0].hole[0]);
+    lex_next(&own);
+    const bool ok = read_one_expression(sh, &own, 0, &c) && at_end(&own) &&
+                    grid_range_read(sh, lx, all, &r, MAP_STEPS, MAP_STEPS) && looks_read(sh, lx, all, p, l) &&
+                    run_map(sh, lx, &r, &c, l, p);
     columns_free(&c, 1);
     free(l);
     return ok;

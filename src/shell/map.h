@@ -13,13 +13,11 @@ typedef struct grid_range {
     grid grid;
 } grid_range;
 
-/* Is the cursor on the first of two ranges? */
-bool grid_range_at(const lexer *lx);
-/* At the first `for`; steps: where none are given. */
-bool grid_range_read(shell *sh, lexer *lx, grid_range *out, size_t steps_a, size_t steps_b);
+/* Of two `for`; steps: where none are given. */
+bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t steps_a, size_t steps_b);
 
 /* Is the cursor on `map EXPR`? */
 bool map_at(const lexer *lx);
-bool map_draw(shell *sh, lexer *lx, plot_panel *p);
+bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p);
 
 #endif

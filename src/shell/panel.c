@@ -320,18 +320,18 @@ static bool is_still(const sweep *s) {
 }
 
 /* All figures follow one load. */
-static bool follow(motion *m, lexer *lx, const range *r, size_t load_end) {
+static bool follow(motion *m, const lexer *lx, const range *r) {
     const sweep *s = &r->sweep;
     if (!m || m->at || !s->along)
         return true;
-    const size_t len = load_end - r->at;
-    char *load = s->what == ALONG_LOAD ? strndup(lx->text + r->at, len) : NULL;
+    const size_t len = r->own.end - r->own.at;
+    char *load = s->what == ALONG_LOAD ? strndup(lx->text + r->own.at, len) : NULL;
     if (s->what == ALONG_LOAD && !load)
         return calc_no_memory(lx->error);
     const bool same = !m->found || (m->what == s->what && (!load || !strcmp(load, m->load)));
     if (m->found) {
         free(load);
-        return same || calc_fail(lx->error, r->at, len, "the figures of an animation go along one load");
+        return same || calc_fail(lx->error, r->own.at, len, "the figures of an animation go along one load");
     }
     m->found = true;
     m->what = s->what;
@@ -340,16 +340,6 @@ static bool follow(motion *m, lexer *lx, const range *r, size_t load_end) {
 }
 
 /* ---- figures ----------------------------------------------------------------------------------- */
-
-/* What stands behind the range, in any order. */
-static bool read_behind(shell *sh, lexer *lx, sweep *s, plot_panel *p, looks *l) {
-    bool found;
-    do {
-        if (!range_read_options(sh, lx, s) || !looks_read(sh, lx, p, l, &found))
-            return false;
-    } while (found);
-    return true;
-}
 
 static bool run_sweep(panel_job *job, lexer *lx, sweep_job *sweeping, const sweep *s) {
     calc *c = &job->sh->calc;
@@ -364,9 +354,10 @@ static bool run_sweep(panel_job *job, lexer *lx, sweep_job *sweeping, const swee
     return ok && mark_now(job);
 }
 
-/* What has been read is all there is. */
-static bool no_second_range(lexer *lx) {
-    return !lex_is(lx, "for") || lex_fail(lx, "two ranges make a map: plot map EXPR for A = ... for B = ...");
+static bool no_second_range(const lexer *lx, said *all) {
+    const heard *second = said_of(all, "for", 1);
+    return !second || calc_fail(lx->error, second->at, second->len,
+                                "two ranges make a map: plot map EXPR for A = ... for B = ...");
 }
 
 /* Curves and axes of what has been read. */
@@ -400,15 +391,17 @@ static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
     return true;
 }
 
-/* EXPR, ... [against EXPR] RANGE at the cursor. */
-static bool draw_sweep(shell *sh, lexer *lx, const figure *f, plot_panel *p, size_t index, motion *m) {
+/* EXPR, ... [against EXPR] RANGE. */
+static bool draw_sweep(shell *sh, lexer *lx, said *all, const figure *f, plot_panel *p, size_t index,
+                       motion *m) {
     column columns[PLOTTED + 1];
     size_t count = 0;
+    const heard *against = said_of(all, "against", 0);
     looks *l = calloc(1, sizeof *l);
     range r;
     if (!l)
         return calc_no_memory(lx->error);
-    bool ok = read_expressions(sh, lx, columns, PLOTTED, &count);
+    bool ok = read_expressions_in(sh, lx, &all->list[0].hole[0], columns, PLOTTED, &count);
     panel_job job = {.sh = sh,
                      .p = p,
                      .figure = f,
@@ -418,51 +411,29 @@ static bool draw_sweep(shell *sh, lexer *lx, const figure *f, plot_panel *p, siz
                      .columns = columns,
                      .statement = lx->text,
                      .error = lx->error};
-    if (ok && lex_accept(lx, "against")) {
-        ok = read_one_expression(sh, lx, count, &columns[count]);
+    if (ok && against) {
+        lexer own = hole_lexer(lx, &against->hole[0]);
+        ok = read_one_expression(sh, &own, count, &columns[count]) && at_end(&own);
         job.against = p->airy = true;
     }
-    ok = ok && range_read(sh, lx, &r, 0) && follow(m, lx, &r, lx->last) &&
-         read_behind(sh, lx, &r.sweep, p, l) && no_second_range(lx) && make_curves(&job, lx, l, &r.sweep);
+    ok = ok && no_second_range(lx, all) && range_read(sh, lx, all, 0, &r, 0) && follow(m, lx, &r) &&
+         looks_read(sh, lx, all, p, l) && make_curves(&job, lx, l, &r.sweep);
     columns_free(columns, count + job.against);
     free(l);
     return ok;
 }
 
-/* The end of what belongs to this figure: a `|`, `to FILE`, `frames N`, or the end. */
-static size_t figure_end(const lexer *lx) {
-    calc_error ignored;
-    char file[FILE_NAME];
-    lexer scan = *lx;
-    error_clear(&ignored);
-    scan.error = &ignored;
-    while (scan.kind != T_END && scan.kind != T_BAR && !lex_is(&scan, "to") && !lex_is(&scan, "frames"))
-        if (lex_accept(&scan, "over")) /* a name need not be made of tokens */
-            lex_filename(&scan, file, sizeof file);
-        else
-            lex_next(&scan);
-    return scan.kind == T_END ? lx->end : scan.at;
-}
-
 /* Of a homogeneous body that is not compared with others. */
-static const char *statement_of(const shell *sh, const figure *f, const lexer *lx, size_t rest) {
+static const char *statement_of(const shell *sh, const figure *f, said *all) {
     const inputs *in = &sh->calc.now->in;
     bool graded = !in->set[IN_E0] || in->v[IN_K] != 0 || in->set[IN_C0];
-    graded = graded || in->bindings & (INPUT_BIT(IN_K) | INPUT_BIT(IN_C0));
-    lexer scan = *lx;
-    calc_error ignored;
-    error_clear(&ignored);
-    scan.error = &ignored;
-    while (f->without_c0 && !graded && scan.kind != T_END && scan.at < rest) {
-        lex_next(&scan);
-        graded = lex_is(&scan, "with");
-    }
+    graded = graded || in->bindings & (INPUT_BIT(IN_K) | INPUT_BIT(IN_C0)) || said_of(all, "with", 0);
     return f->without_c0 && !graded ? f->without_c0 : f->statement;
 }
 
-/* What follows the name of a figure may be another range. */
-static size_t statement_length(const char *statement, const lexer *next) {
-    if (!lex_is(next, "along") && !lex_is(next, "for"))
+/* As much of it as what has been said leaves: that may be of another range. */
+static size_t statement_length(const char *statement, said *all) {
+    if (!said_of(all, "along", 0) && !said_of(all, "for", 0))
         return strlen(statement);
     const char *own = strstr(statement, " along ");
     own = own ? own : strstr(statement, " for "); /* each has either */
@@ -470,96 +441,110 @@ static size_t statement_length(const char *statement, const lexer *next) {
 }
 
 /* Does a figure over a place stand before `along`? For a place of the user's it goes along as any other. */
-static bool goes_over_place(const shell *sh, const lexer *next, const figure *f) {
+static bool goes_over_place(const shell *sh, const said *all, const figure *f) {
     const char *of = strstr(f->statement, " for ");
     size_t own;
-    if (!of || !lex_is(next, "along"))
+    if (!of || all->count < 2 || strcmp(all->list[1].of->name, "along") != 0)
         return false;
     of += strlen(" for ");
     return !names_find(&sh->calc.names, of, strcspn(of, " "), &own);
 }
 
 /* It moves with that load. */
-static bool take_load(shell *sh, lexer *next, const figure *f, motion *m) {
+static bool take_load(shell *sh, const lexer *lx, const heard *along, const figure *f, motion *m) {
     const char *of = strstr(f->statement, " for ") + strlen(" for ");
     range r;
     if (!m)
-        return lex_fail(next, "%s goes over %.*s, not along a load: animate %s along ... shows it move",
-                        f->name, (int)strcspn(of, " "), of, f->name);
-    return range_read_along(sh, next, &r) && follow(m, next, &r, next->last);
+        return calc_fail(lx->error, along->at, along->len,
+                         "%s goes over %.*s, not along a load: animate %s along ... shows it move", f->name,
+                         (int)strcspn(of, " "), of, f->name);
+    return range_read_along(sh, lx, &along->hole[0], &r) && follow(m, lx, &r);
 }
 
 /* A figure of the table: its statement as if it stood here, what follows the name after it. */
-static bool draw_named(shell *sh, lexer *lx, const figure *f, plot_panel *p, size_t index, motion *m) {
-    if (f->build) {
-        lex_next(lx);
-        return f->build(sh, lx, p);
-    }
-    lexer next = *lx;
-    lex_next(&next);
-    size_t from = lx->at + lx->len;
-    const size_t rest = figure_end(lx);
-    const char *statement = statement_of(sh, f, lx, rest);
-    if (goes_over_place(sh, &next, f)) {
-        if (!take_load(sh, &next, f, m))
+static bool draw_named(shell *sh, lexer *lx, panel *as, const figure *f, plot_panel *p, size_t index,
+                       motion *m) {
+    size_t from = as->at + strlen(f->name);
+    const char *statement = statement_of(sh, f, &as->said);
+    size_t length = statement_length(statement, &as->said);
+    if (goes_over_place(sh, &as->said, f)) {
+        const heard *along = &as->said.list[1];
+        if (!take_load(sh, lx, along, f, m))
             return false;
-        from = next.last;
+        from = along->hole[0].at + along->hole[0].len;
+        length = strlen(statement);
     }
-    const size_t length = statement_length(statement, &next);
-    const size_t room = length + (rest - from) + 1;
+    const size_t room = length + (as->end - from) + 1;
     char *text = malloc(room);
+    said all;
     if (!text)
         return calc_no_memory(lx->error);
-    snprintf(text, room, "%.*s%.*s", (int)length, statement, (int)(rest - from), lx->text + from);
+    snprintf(text, room, "%.*s%.*s", (int)length, statement, (int)(as->end - from), lx->text + from);
     lexer own;
     lex_start(&own, text, strlen(text), lx->error);
-    range_names used;
-    bool found;
-    bool ok =
-        range_names_find(sh, &own, &used, &found) && draw_sweep(sh, &own, f, p, index, m) && at_end(&own);
-    range_forget(sh, &used);
+    bool ok = said_read(sh, &own, as->said.by, &all);
+    if (ok) {
+        ok = draw_sweep(sh, &own, &all, f, p, index, m);
+        said_drop(sh, &all);
+    }
     free(text);
     if (!ok && lx->error->len && lx->error->at >= length)
         lx->error->at += from - length;
     else if (!ok)
         lx->error->len = 0;
-    lex_seek(lx, rest);
+    return ok;
+}
+
+bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
+    const figure *f = lx->kind == T_NAME ? figure_find(lx->text + lx->at, lx->len) : NULL;
+    out->at = lx->at;
+    if (f && f->build) {
+        lex_next(lx);
+        row = figure_form(f);
+    }
+    const bool ok = said_read_some(sh, lx, row, &out->said);
+    out->end = lx->kind == T_END ? lx->end : lx->at;
+    if (!ok)
+        said_drop(sh, &out->said);
     return ok;
 }
 
 /* The name of a figure is an expression where one goes on behind it; a range may follow one that has no
  * value. */
-static const figure *figure_at(const shell *sh, const lexer *lx) {
-    static const char *const goes_on[] = {"in", "at", "against", "for", "along"};
-    enum { EXPRESSION = 3 }; /* those that are no range */
-    const char *name = lx->text + lx->at;
+static const figure *figure_of(const shell *sh, const lexer *lx, panel *p) {
+    const char *name = lx->text + p->at;
+    const figure *f = figure_find(name, p->said.count ? p->said.list[0].hole[0].len : 0);
     size_t own;
-    const figure *f = lx->kind == T_NAME ? figure_find(name, lx->len) : NULL;
-    if (!f)
+    if (!f || said_of(&p->said, "against", 0))
         return NULL;
-    const bool valued = quantity_find(name, lx->len) || names_find(&sh->calc.names, name, lx->len, &own);
-    lexer next = *lx;
-    calc_error ignored;
-    error_clear(&ignored);
-    next.error = &ignored;
-    lex_next(&next);
-    for (size_t i = 0; i < (valued ? sizeof goes_on / sizeof *goes_on : EXPRESSION); i++)
-        if (lex_is(&next, goes_on[i]))
-            return NULL;
-    return next.kind == T_END || next.kind == T_NAME || next.kind == T_BAR ? f : NULL;
+    const bool valued =
+        quantity_find(name, strlen(f->name)) || names_find(&sh->calc.names, name, strlen(f->name), &own);
+    return valued && (said_of(&p->said, "for", 0) || said_of(&p->said, "along", 0)) ? NULL : f;
 }
 
-bool panel_is_named(const shell *sh, const lexer *lx) {
-    return figure_at(sh, lx) != NULL;
+static const figure *figure_built(const panel *p) {
+    const figure *f;
+    for (size_t i = 0; (f = figure_row(i)); i++)
+        if (f->build && p->said.by == figure_form(f))
+            return f;
+    return NULL;
 }
 
-bool panel_draw(shell *sh, lexer *lx, plot_figure *f, motion *m) {
+bool panel_is_whole(const shell *sh, const lexer *lx, panel *p) {
+    return figure_built(p) || said_of(&p->said, "for", 0) || said_of(&p->said, "along", 0) ||
+           figure_of(sh, lx, p);
+}
+
+bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
     const size_t index = f->count;
     plot_panel *p = plot_panel_add(f, lx->error);
     if (!p)
-        return calc_place(lx->error, lx->at, lx->len);
-    const figure *named = figure_at(sh, lx);
+        return calc_place(lx->error, as->at, 1);
+    const figure *built = figure_built(as), *named = built ? NULL : figure_of(sh, lx, as);
+    if (built)
+        return built->build(sh, lx, &as->said, p);
     if (named)
-        return draw_named(sh, lx, named, p, index, m);
-    return map_at(lx) ? map_draw(sh, lx, p) : draw_sweep(sh, lx, NULL, p, index, m);
+        return draw_named(sh, lx, as, named, p, index, m);
+    const lexer first = hole_lexer(lx, &as->said.list[0].hole[0]);
+    return map_at(&first) ? map_draw(sh, lx, &as->said, p) : draw_sweep(sh, lx, &as->said, NULL, p, index, m);
 }

@@ -24,9 +24,17 @@ typedef struct motion {
     axis_unit unit[PLOT_PANELS][2];
 } motion;
 
-/* Is the cursor on a figure that needs no range? */
-bool panel_is_named(const shell *sh, const lexer *lx);
+/* A figure as it has been said. */
+typedef struct panel {
+    said said;
+    size_t at, end; /* in the statement */
+} panel;
+
+/* At the cursor, to the `|` or the end. */
+bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out);
+/* Does it say what it goes over? One of the table need not. */
+bool panel_is_whole(const shell *sh, const lexer *lx, panel *p);
 /* Appends a panel; m: NULL where nothing moves. */
-bool panel_draw(shell *sh, lexer *lx, plot_figure *f, motion *m);
+bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m);
 
 #endif

@@ -6,6 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "number/array.h"
 #include "shell/figures.h"
 #include "shell/panel.h"
 #include "shell/progress.h"
@@ -82,43 +83,50 @@ static bool draw(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
 
 /* ---- figures ----------------------------------------------------------------------------------- */
 
-/* `to FILE` may stand behind long work: it is asked for before. */
-static bool find_file(lexer *lx, char *file) {
-    calc_error ignored;
-    lexer scan = *lx;
-    error_clear(&ignored);
-    scan.error = &ignored;
-    while (scan.kind != T_END && !lex_is(&scan, "to"))
-        if (lex_accept(&scan, "over"))
-            lex_filename(&scan, file, FILE_NAME);
-        else
-            lex_next(&scan);
+/* FIGURE [| FIGURE ...] as they have been said. */
+typedef struct panels {
+    panel *list;
+    size_t count, room;
+} panels;
+
+static void panels_free(shell *sh, panels *p) {
+    while (p->count > 0)
+        said_drop(sh, &p->list[--p->count].said);
+    free(p->list);
+}
+
+static heard *last_said(panels *p, const char *word) {
+    return said_of(&p->list[p->count - 1].said, word, 0);
+}
+
+static bool read_panels(shell *sh, lexer *lx, const grammar *row, panels *out) {
+    do {
+        if (out->count)
+            lex_next(lx);
+        panel *grown = fret_array_for(out->list, &out->room, out->count + 1, sizeof *grown);
+        if (!grown)
+            return calc_no_memory(lx->error);
+        out->list = grown;
+        if (!panel_read(sh, lx, row, &out->list[out->count]))
+            return false;
+        out->count++;
+    } while (lx->kind == T_BAR && !last_said(out, "to") && !last_said(out, "frames"));
+    return said_end(lx, out->list[out->count - 1].said.by);
+}
+
+/* `to FILE` stands behind long work: it is looked at before. file: empty where there is none. */
+static bool find_file(const lexer *lx, panels *p, char *file) {
+    const heard *to = last_said(p, "to");
     file[0] = 0;
-    if (scan.kind == T_END)
-        return true;
-    lex_next(&scan);
-    const size_t at = scan.at;
-    if (!lex_filename(&scan, file, FILE_NAME))
-        return true; /* said when it is read */
-    return plot_check(file, &shell_stop, lx->error) || calc_place(lx->error, at, scan.last - at);
+    return !to || (hole_file(lx, &to->hole[0], file) &&
+                   (plot_check(file, &shell_stop, lx->error) || heard_place(lx->error, to)));
 }
 
-/* FIGURE [| FIGURE ...] at the cursor. */
-static bool draw_panels(shell *sh, lexer *lx, plot_figure *f, motion *m) {
-    bool ok;
-    while ((ok = panel_draw(sh, lx, f, m)) && lx->kind == T_BAR)
-        lex_next(lx);
-    return ok;
-}
-
-/* Behind the figures. */
-static bool read_end(shell *sh, lexer *lx, unsigned *frames) {
-    char again[FILE_NAME];
-    if (frames && lex_accept(lx, "frames") && !read_count(&sh->calc, lx, "frames", PLOT_FRAMES, frames))
-        return false;
-    if (lex_accept(lx, "to") && !lex_filename(lx, again, sizeof again))
-        return false;
-    return at_end(lx);
+static bool draw_panels(shell *sh, lexer *lx, panels *p, plot_figure *f, motion *m) {
+    for (size_t i = 0; i < p->count; i++)
+        if (!panel_draw(sh, lx, &p->list[i], f, m))
+            return false;
+    return true;
 }
 
 /* Neither a figure nor a range: a figure may have been misspelt. */
@@ -151,19 +159,18 @@ static void fail_figure(const calc *c, lexer *lx) {
 bool do_plot(shell *sh, lexer *lx, const command *self) {
     char file[FILE_NAME];
     plot_figure f;
-    range_names used;
-    bool found;
-    (void)self;
-    if (!range_names_find(sh, lx, &used, &found))
-        return false;
+    panels p = {.count = 0};
+    lexer begin = *lx;
     plot_figure_init(&f);
-    bool ok = found || panel_is_named(sh, lx);
-    if (!ok)
-        fail_figure(&sh->calc, lx);
-    ok = ok && find_file(lx, file) && draw_panels(sh, lx, &f, NULL) && read_end(sh, lx, NULL) &&
+    bool ok = read_panels(sh, lx, command_form(self), &p);
+    if (ok && !panel_is_whole(sh, lx, &p.list[0])) {
+        fail_figure(&sh->calc, &begin);
+        ok = false;
+    }
+    ok = ok && find_file(lx, &p, file) && draw_panels(sh, lx, &p, &f, NULL) &&
          draw(sh, lx, &f, *file ? file : NULL);
     plot_figure_free(&f);
-    range_forget(sh, &used);
+    panels_free(sh, &p);
     return ok;
 }
 
@@ -171,7 +178,8 @@ bool do_plot(shell *sh, lexer *lx, const command *self) {
 
 typedef struct movie {
     shell *sh;
-    const lexer *figures; /* at the first */
+    const lexer *lx;
+    panels figures;
     motion motion;
     plot_figure *frame;
     size_t done, frames;
@@ -181,12 +189,12 @@ typedef struct movie {
 /* The figures at an instant. */
 static bool take_frame(void *context, double time, calc_error *error) {
     movie *m = context;
-    lexer lx = *m->figures;
+    lexer lx = *m->lx;
     (void)error;
     lx.error = m->error;
     m->motion.until = time;
     progress_part((double)m->done / (double)m->frames);
-    return draw_panels(m->sh, &lx, &m->frame[m->done++], &m->motion);
+    return draw_panels(m->sh, &lx, &m->figures, &m->frame[m->done++], &m->motion);
 }
 
 /* Goes along the load on a scratch scene. */
@@ -247,11 +255,10 @@ static bool draw_movie(movie *m, lexer *lx, const char *file) {
 /* Draws the figures once as they stand, then at every instant, then all of it. */
 static bool run_movie(movie *m, lexer *lx, const char *file) {
     plot_figure whole;
-    unsigned frames = (unsigned)m->frames;
+    const size_t frames = m->frames;
     plot_figure_init(&whole);
-    bool ok = draw_panels(m->sh, lx, &whole, &m->motion) && read_end(m->sh, lx, &frames);
+    bool ok = draw_panels(m->sh, lx, &m->figures, &whole, &m->motion);
     plot_figure_free(&whole);
-    m->frames = frames;
     if (ok && !m->motion.found)
         m->motion.what = ALONG_PROGRAM;
     m->frame = ok ? calloc(frames, sizeof *m->frame) : NULL;
@@ -270,21 +277,19 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
 bool do_animate(shell *sh, lexer *lx, const command *self) {
     enum { FRAMES = 80 };
     char file[FILE_NAME];
-    range_names used;
-    bool found;
-    (void)self;
-    if (!range_names_find(sh, lx, &used, &found))
-        return false;
-    const lexer figures = *lx;
+    lexer begin = *lx;
     movie *m = calloc(1, sizeof *m);
-    bool ok = m || calc_no_memory(lx->error);
-    if (ok) {
-        *m = (movie){.sh = sh, .figures = &figures, .frames = FRAMES, .error = lx->error};
-        ok = (found || panel_is_named(sh, lx) ||
-              lex_fail(lx, "expected EXPR, ... along program, or a figure")) &&
-             find_file(lx, file) && run_movie(m, lx, *file ? file : NULL);
-    }
+    if (!m)
+        return calc_no_memory(lx->error);
+    *m = (movie){.sh = sh, .lx = lx, .frames = FRAMES, .error = lx->error};
+    bool ok = read_panels(sh, lx, command_form(self), &m->figures) &&
+              (panel_is_whole(sh, lx, &m->figures.list[0]) ||
+               lex_fail(&begin, "expected EXPR, ... along program, or a figure"));
+    const heard *frames = ok ? last_said(&m->figures, "frames") : NULL;
+    if (frames)
+        m->frames = frames->count;
+    ok = ok && find_file(lx, &m->figures, file) && run_movie(m, lx, *file ? file : NULL);
+    panels_free(sh, &m->figures);
     free(m);
-    range_forget(sh, &used);
     return ok;
 }

@@ -8,11 +8,35 @@
 
 /* ---- what has been said ------------------------------------------------------------------------ */
 
-void said_drop(said *s) {
+bool names_wake(shell *sh, const lexer *lx, size_t before) {
+    own_names *n = &sh->calc.names;
+    const char *text = lx->text + lx->at;
+    size_t i;
+    if (quantity_find(text, lx->len) || name_taken(text, lx->len) || names_find(n, text, lx->len, &i))
+        return true;
+    if (!names_add(n, text, lx->len, &i))
+        return calc_no_memory(lx->error);
+    n->row[i].woken = i < before;
+    n->row[i].known = true;
+    return true;
+}
+
+void names_forget(shell *sh, size_t before) {
+    own_names *n = &sh->calc.names;
+    names_drop(n, before);
+    for (size_t i = 0; i < n->count; i++)
+        if (n->row[i].woken)
+            n->row[i].known = n->row[i].woken = false;
+}
+
+void said_drop(shell *sh, said *s) {
     for (unsigned i = 0; i < s->count; i++) {
         counted_drop(s->list[i].live);
         s->list[i].live = NULL;
     }
+    if (s->wakes)
+        names_forget(sh, s->names);
+    s->wakes = false;
 }
 
 heard *said_of(said *s, const char *name, size_t i) {
@@ -29,7 +53,7 @@ lexer hole_lexer(const lexer *lx, const span *part) {
     return own;
 }
 
-bool hole_file(lexer *lx, const span *part, char name[FILE_NAME]) {
+bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
     lexer own = *lx;
     own.at = part->at;
     return lex_filename(&own, name, FILE_NAME);
@@ -39,7 +63,6 @@ static const hole_row *first_hole(const clause *a) {
     return a->holes ? a->hole[0].row : NULL;
 }
 
-/* What a list of words holds, as many as a message bears. */
 static bool is_choice(const hole_row *row, const char *word, size_t len, size_t *choice) {
     const char *name;
     for (*choice = 0; (name = row->words(*choice)); ++*choice)
@@ -194,6 +217,15 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
     }
     snprintf(word, sizeof word, "%.*s", LEX_SHOWN(len), lx->text + lx->at);
     lx->len = len;
+    if (!row->noun) { /* one of few */
+        for (size_t i = 0; row->words(i); i++)
+            snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s %s",
+                     !i                  ? ""
+                     : row->words(i + 1) ? ", "
+                                         : " or ",
+                     h->of->name, row->words(i));
+        return lex_fail(lx, "expected %s", list);
+    }
     const char *near = suggest(word, row->words);
     for (size_t i = 0; i < 7 && row->words(i); i++)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", row->words(i));
@@ -201,6 +233,82 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
         snprintf(list + strlen(list), sizeof list - strlen(list), ", ...");
     return lex_fail(lx, near ? "unknown %s '%s': did you mean %s?" : "unknown %s '%s' (%s)", row->noun, word,
                     near ? near : list);
+}
+
+/* ---- clauses ----------------------------------------------------------------------------------- */
+
+static const clause *clause_named(const lexer *lx, const grammar *f) {
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (!a->argument && *a->name && lex_is(lx, a->name))
+            return a;
+    return NULL;
+}
+
+/* Does a word follow that begins no clause, and so is a choice? */
+static bool choice_follows(const lexer *lx, const grammar *f) {
+    calc_error ignored;
+    lexer next = *lx;
+    error_clear(&ignored);
+    next.error = &ignored;
+    lex_next(&next);
+    return next.kind == T_NAME && !clause_named(&next, f);
+}
+
+/* The clause of the word at the cursor, or NULL. Of two of that name one has a choice: `log`, `log x`. */
+static const clause *clause_at(const lexer *lx, const grammar *f) {
+    const clause *found = clause_named(lx, f);
+    for (const clause *a = found ? found + 1 : f->clause + f->count; a < f->clause + f->count; a++)
+        if (!strcmp(a->name, found->name))
+            return choice_follows(lx, f) ? a : found;
+    return found;
+}
+
+/* ---- parts that are found ---------------------------------------------------------------------- */
+
+/* Over a part of the statement: behind an operand a word of the row begins a clause, and nowhere else can it.
+ * A comma ends the part where `ends` says so, an `=` where one is to come that does not belong to `at`. */
+static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_ends) {
+    calc_error ignored, *error = lx->error;
+    int depth = 0;
+    bool operand = false, changing = false;      /* behind `at` */
+    enum { NOTHING, PLACE, NAMED } at = NOTHING; /* of a name that `at` changes */
+    error_clear(&ignored);
+    for (lx->error = &ignored; lx->kind != T_END || ignored.raised; lex_next(lx)) {
+        const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
+        if (depth == 0 &&
+            (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
+             (lx->kind == T_ASSIGN && equals_ends && at != NAMED) || (name && operand && clause_at(lx, f))))
+            break;
+        error_clear(&ignored); /* of what is no token, as its parser will say */
+        depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
+        changing = changing || (joins && lex_is(lx, "at"));
+        at = name && at == PLACE ? NAMED : joins || (changing && lx->kind == T_COMMA) ? PLACE : NOTHING;
+        operand = !joins && (name || lx->kind == T_NUMBER || lx->kind == T_CLOSE || lx->kind == T_PERCENT ||
+                             lx->kind == T_STRING);
+    }
+    lx->error = error;
+}
+
+/* One name, or of those that stand first several. */
+static bool skip_name_hole(shell *sh, lexer *lx, said *s, const clause *a) {
+    if (lx->kind != T_NAME)
+        return *a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name");
+    if (a->list && !*a->name) {
+        skip_part(lx, s->by, false, false);
+        return true;
+    }
+    s->wakes = true;
+    if (lx->len < LEX_NAME && !names_wake(sh, lx, s->names))
+        return false;
+    lex_next(lx);
+    return !lx->error->raised;
+}
+
+static bool skip_load(lexer *lx, said *s) {
+    if (!lex_is(lx, "program") && !lex_is(lx, "cycle") && !lex_is(lx, "step"))
+        return lex_fail(lx, "along what? program, cycle, step ... or cycle ...");
+    skip_part(lx, s->by, false, false);
+    return true;
 }
 
 /* ---- holes ------------------------------------------------------------------------------------- */
@@ -217,7 +325,8 @@ static bool skip_name(lexer *lx, const grammar *f, const hole_row *row) {
 }
 
 static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
-    const hole *of = &h->of->hole[i];
+    const clause *a = h->of;
+    const hole *of = &a->hole[i];
     const hole_row *row = of->row;
     bool ok = true;
     h->hole[i].at = lx->at;
@@ -236,29 +345,58 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         ok = lex_filename(lx, name, sizeof name);
         break;
     }
+    case HOLE_NAME:
+        ok = skip_name_hole(sh, lx, s, a);
+        break;
+    case HOLE_LOAD:
+        ok = skip_load(lx, s);
+        break;
+    case HOLE_TEXT:
+        if (lx->kind != T_STRING)
+            return lex_fail(lx, "expected %s \"TEXT\"", a->name);
+        lex_next(lx);
+        break;
+    case HOLE_WORD:
+        h->hole[i].len = word_at(lx);
+        lex_seek(lx, lx->at + h->hole[i].len);
+        return true;
     default:
+        skip_part(lx, s->by, a->list && *a->name, i + 1 < a->holes && a->hole[i + 1].before == '=');
         break;
     }
-    h->hole[i].len = lx->last - h->hole[i].at;
+    h->hole[i].len = lx->last > h->hole[i].at ? lx->last - h->hole[i].at : 0;
     return ok;
+}
+
+/* What parts the hole from the one before. */
+static bool read_between(lexer *lx, const heard *h, unsigned i) {
+    const char before = h->of->hole[i].before;
+    const span *name = &h->hole[i - 1];
+    const bool named = h->of->hole[i - 1].row->kind == HOLE_NAME;
+    if (before == '=' && lx->kind != T_ASSIGN)
+        return named ? lex_fail(lx, "expected = after %.*s", LEX_SHOWN(name->len), lx->text + name->at)
+                     : lex_fail(lx, "expected = EXPR: what should it be equal to?");
+    if (before == '+') {
+        const size_t sign = lx->at;
+        if (lx->kind != T_PLUS || lex_peek(lx) != T_MINUS)
+            return lex_fail(lx, "expected +- after %.*s", LEX_SHOWN(name->len), lx->text + name->at);
+        lex_next(lx);
+        if (lx->at != sign + 1)
+            return lex_fail(lx, "expected +-");
+    }
+    if (before)
+        lex_next(lx);
+    return !lx->error->raised;
 }
 
 static bool read_holes(shell *sh, lexer *lx, said *s, heard *h) {
     for (unsigned i = 0; i < h->of->holes; i++)
-        if (!read_hole(sh, lx, s, h, i))
+        if ((i && !read_between(lx, h, i)) || !read_hole(sh, lx, s, h, i))
             return false;
     return true;
 }
 
-/* ---- clauses ----------------------------------------------------------------------------------- */
-
-/* The clause of the word at the cursor, or NULL. */
-static const clause *clause_at(const lexer *lx, const grammar *f) {
-    for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (!a->argument && *a->name && lex_is(lx, a->name))
-            return a;
-    return NULL;
-}
+/* ---- the statement ----------------------------------------------------------------------------- */
 
 static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
     heard *h = may_come(lx, s, a) ? add(lx, s, a) : NULL;
@@ -268,7 +406,15 @@ static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
     lex_next(lx);
     if (row && row->kind == HOLE_FILE) /* a name need not be made of tokens */
         error_clear(lx->error);
-    return !lx->error->raised && read_holes(sh, lx, s, h);
+    if (lx->error->raised || !read_holes(sh, lx, s, h))
+        return false;
+    while (a->list && lx->kind == T_COMMA) {
+        lex_next(lx);
+        h = add(lx, s, a);
+        if (!h || !read_holes(sh, lx, s, h))
+            return false;
+    }
+    return !lx->error->raised;
 }
 
 /* Is the word of a row that may begin with any word one of its clauses? `record off`, but `record off.txt`.
@@ -279,9 +425,11 @@ static bool begins_clause(const lexer *lx, const clause *a) {
 
 /* What may only stand first. */
 static bool read_first(shell *sh, lexer *lx, said *s) {
-    const clause *a = s->by->clause;
-    const hole_row *row = s->by->count && !*a->name ? first_hole(a) : NULL;
-    if (!row || begins_clause(lx, clause_at(lx, s->by)) ||
+    const clause *a = s->by->clause, *end = a + s->by->count;
+    while (a + 1 < end && !*a[1].name) /* any expression may stand where a word may */
+        a++;
+    const hole_row *row = a < end && !*a->name ? first_hole(a) : NULL;
+    if (!row || (row->kind == HOLE_FILE && begins_clause(lx, clause_at(lx, s->by))) ||
         (a->optional && lx->kind == T_END && !lx->error->raised))
         return true;
     if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || at_argument(lx)))
@@ -292,6 +440,8 @@ static bool read_first(shell *sh, lexer *lx, said *s) {
 
 bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
     out->by = f;
+    out->wakes = false;
+    out->names = sh->calc.names.count;
     out->count = 0;
     if (!read_first(sh, lx, out))
         return false;
@@ -324,5 +474,5 @@ bool said_end(lexer *lx, const grammar *f) {
 }
 
 bool said_read(shell *sh, lexer *lx, const grammar *f, said *out) {
-    return (said_read_some(sh, lx, f, out) && said_end(lx, f)) || (said_drop(out), false);
+    return (said_read_some(sh, lx, f, out) && said_end(lx, f)) || (said_drop(sh, out), false);
 }

@@ -98,7 +98,7 @@ bool do_material(shell *sh, lexer *lx, const command *self) {
         lex_fail(lx, "c0 is missing: with k = %g the depth where E = E0 matters", e.v[IN_K]);
     else
         ok = scene_edit(&sh->calc.scene, apply, &e, lx->error);
-    said_drop(&s);
+    said_drop(sh, &s);
     return ok;
 }
 
@@ -129,7 +129,7 @@ bool do_second(shell *sh, lexer *lx, const command *self) {
     const heard *named = said_of(&s, "", 0);
     gather(&e, &s);
     if (!second_holds(lx, &s, named && named->choice == SECOND_WORDS - 1)) {
-        said_drop(&s);
+        said_drop(sh, &s);
         return false;
     }
     if (named && named->choice < SECOND_WORDS) {
@@ -150,7 +150,7 @@ bool do_second(shell *sh, lexer *lx, const command *self) {
     bool ok = e.second != SECOND_GIVEN || has(&e, IN_E0_2) || has(&e, IN_NU_2)
                   ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
                   : lex_fail(lx, "expected E0=... nu=..., a material, rigid or same");
-    said_drop(&s);
+    said_drop(sh, &s);
     return ok;
 }
 
@@ -440,6 +440,6 @@ bool do_geometry(shell *sh, lexer *lx, const command *self) {
     if (!said_read(sh, lx, shape_form(g), &s))
         return false;
     bool ok = put_parameters(lx, g, &e, &s) && scene_edit(&sh->calc.scene, apply, &e, lx->error);
-    said_drop(&s);
+    said_drop(sh, &s);
     return ok;
 }

@@ -93,33 +93,33 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
 }
 
 bool do_solve(shell *sh, lexer *lx, const command *self) {
-    range_names names = {.count = sh->calc.names.count};
+    const size_t names = sh->calc.names.count;
     solve_question q;
     solve_answer a;
     column c = {.name = NULL};
     (void)self;
-    bool ok = (lx->kind != T_NAME || range_wake(sh, lx, &names)) && read_solve(sh, lx, &q) &&
+    bool ok = (lx->kind != T_NAME || names_wake(sh, lx, names)) && read_solve(sh, lx, &q) &&
               solve(&q, &a, lx->error) && knob_column(&c, &q.name, lx->error);
     if (ok) {
         print_answers(sh, &c, &(long double){a.x}, 1);
         report_solve(sh, &q, &a);
     }
     columns_free(&c, 1);
-    range_forget(sh, &names);
+    names_forget(sh, names);
     return ok;
 }
 
 /* ---- maximize, minimize ------------------------------------------------------------------------ */
 
 /* The names stand behind the expression that uses them. */
-static bool wake_over(shell *sh, const lexer *lx, range_names *names) {
+static bool wake_over(shell *sh, const lexer *lx, size_t names) {
     calc_error ignored;
     lexer scan = *lx;
     bool over = false, name = false;
     error_clear(&ignored);
     scan.error = &ignored;
     while (scan.kind != T_END) {
-        if (name && scan.kind == T_NAME && scan.len < LEX_NAME && !range_wake(sh, &scan, names))
+        if (name && scan.kind == T_NAME && scan.len < LEX_NAME && !names_wake(sh, &scan, names))
             return calc_no_memory(lx->error);
         name = lex_is(&scan, "over") || (over && scan.kind == T_COMMA);
         over = over || lex_is(&scan, "over");
@@ -189,12 +189,12 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
 }
 
 static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {
-    range_names names = {.count = sh->calc.names.count};
+    const size_t names = sh->calc.names.count;
     optimise_question q = {.c = &sh->calc, .e = &sh->list[0], .most = most};
     optimise_answer a;
     column columns[OPTIMISE_NAMES + 1] = {{.name = NULL}}, optimised = {.name = NULL};
     long double si[OPTIMISE_NAMES + 1];
-    bool ok = wake_over(sh, lx, &names) && read_one_expression(sh, lx, 0, &optimised) &&
+    bool ok = wake_over(sh, lx, names) && read_one_expression(sh, lx, 0, &optimised) &&
               read_over(sh, lx, &q) && at_end(lx) && optimise(&q, &a, lx->error) &&
               column_fits(q.e, &optimised, (value){a.value, a.d}, lx->error);
     for (size_t i = 0; i < q.count && ok; i++) {
@@ -208,7 +208,7 @@ static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {
         report_optimum(sh, &q, &a, self->name);
     }
     columns_free(columns, q.count + 1);
-    range_forget(sh, &names);
+    names_forget(sh, names);
     return ok;
 }
 

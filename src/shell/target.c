@@ -14,7 +14,7 @@ static const struct {
              {".txt", FORMAT_TEXT, true},
              {".dat", FORMAT_TEXT, true}};
 
-static bool choose_form(lexer *lx, const char *name, target *t) {
+static bool choose_form(const lexer *lx, const char *name, target *t) {
     if (!strncmp(name, "/dev/", 5))
         return true;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
@@ -27,16 +27,15 @@ static bool choose_form(lexer *lx, const char *name, target *t) {
                      "cannot tell the form of a table from '%s': use .csv, .json, .txt or .dat", name);
 }
 
-bool target_open(shell *sh, lexer *lx, target *t) {
+bool target_open(shell *sh, const lexer *lx, said *all, target *t) {
+    const heard *to = said_of(all, "to", 0);
     char name[FILE_NAME];
     *t = (target){.to = sh->out, .format = sh->set.format};
-    if (!lex_accept(lx, "to"))
-        return at_end(lx);
-    t->at = lx->at;
-    if (!lex_filename(lx, name, sizeof name) || !at_end(lx))
-        return false;
-    t->len = lx->last - t->at;
-    if (!choose_form(lx, name, t))
+    if (!to)
+        return true;
+    t->at = to->hole[0].at;
+    t->len = to->hole[0].len;
+    if (!hole_file(lx, &to->hole[0], name) || !choose_form(lx, name, t))
         return false;
     if (!file_out_open(&t->file, name, &shell_stop, lx->error))
         return calc_place(lx->error, t->at, t->len);

@@ -14,8 +14,8 @@ typedef struct target {
     size_t at, len; /* of the name in the statement */
 } target;
 
-/* `to FILE` at the end of the statement, or nothing. */
-bool target_open(shell *sh, lexer *lx, target *t);
+/* As `to FILE` has been said, or not. */
+bool target_open(shell *sh, const lexer *lx, said *all, target *t);
 /* Keeps the file where ok; false: something was wrong before, or a byte was lost. */
 bool target_close(shell *sh, lexer *lx, target *t, bool ok);
 /* "wrote F (12 kB)", on standard error. */

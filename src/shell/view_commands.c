@@ -28,8 +28,9 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
     column columns[HISTORY] = {{.name = NULL}};
     watch w = watch_points(1);
     target to;
-    (void)self;
-    if (!scene_history(&sh->calc.scene, &contact, lx->error) || !target_open(sh, lx, &to))
+    said all;
+    if (!scene_history(&sh->calc.scene, &contact, lx->error) ||
+        !said_read(sh, lx, command_form(self), &all) || !target_open(sh, lx, &all, &to))
         return false;
     table t = {.set = &sh->set, .to = to.to, .format = to.format, .count = HISTORY, .columns = columns};
     bool ok = true;
@@ -206,12 +207,13 @@ static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *swee
 /* ---- the command ------------------------------------------------------------------------------- */
 
 /* g: of two names, or NULL. */
-static bool run_table(shell *sh, lexer *lx, const sweep *s, const grid *g, column *columns, size_t count) {
+static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const grid *g, column *columns,
+                      size_t count) {
     table_job *job = calloc(1, sizeof *job);
     target to;
     if (!job)
         return calc_no_memory(lx->error);
-    if (!target_open(sh, lx, &to)) {
+    if (!target_open(sh, lx, all, &to)) {
         free(job);
         return false;
     }
@@ -259,21 +261,23 @@ bool do_table(shell *sh, lexer *lx, const command *self) {
     enum { ROWS = 20, ACROSS = 5 };
     column columns[COLUMNS - 2];
     size_t count = 0;
-    range_names names;
     range r;
     grid_range two;
-    bool found;
-    (void)self;
-    if (!range_names_find(sh, lx, &names, &found))
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all))
         return false;
-    bool ok = found || lex_fail(lx, "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N");
-    ok = ok && read_expressions(sh, lx, columns, COLUMNS - 2, &count);
-    if (ok && grid_range_at(lx))
-        ok = grid_range_read(sh, lx, &two, ROWS, ACROSS) &&
-             run_table(sh, lx, &two.grid.a, &two.grid, columns, count);
+    const span *first = &all.list[0].hole[0];
+    bool ok = said_of(&all, "for", 0) || said_of(&all, "along", 0) ||
+              calc_fail(lx->error, first->at, first->len,
+                        "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N");
+    ok = ok && read_expressions_in(sh, lx, first, columns, COLUMNS - 2, &count);
+    if (ok && said_of(&all, "for", 1))
+        ok = grid_range_read(sh, lx, &all, &two, ROWS, ACROSS) &&
+             run_table(sh, lx, &all, &two.grid.a, &two.grid, columns, count);
     else
-        ok = ok && range_read(sh, lx, &r, ROWS) && run_table(sh, lx, &r.sweep, NULL, columns, count);
+        ok = ok && range_read(sh, lx, &all, 0, &r, ROWS) &&
+             run_table(sh, lx, &all, &r.sweep, NULL, columns, count);
     columns_free(columns, count);
-    range_forget(sh, &names);
+    said_drop(sh, &all);
     return ok;
 }
