@@ -7,6 +7,13 @@
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
+/* The fields of a state that is no longer. */
+static void forget_fields(answers *a) {
+    fret_field_free(a->pressed);
+    fret_field_free(a->dragged);
+    a->pressed = a->dragged = NULL;
+}
+
 static void answers_end(answers *a, bool keep) {
     for (unsigned i = 0; i < LEVELS; i++) {
         engine_end(&a->run[i].engine);
@@ -17,14 +24,12 @@ static void answers_end(answers *a, bool keep) {
         free(a->trail->at);
     free(a->trail);
     fret_normal *normal = a->normal, *k0 = a->k0;
-    fret_fields *fields = a->fields;
+    forget_fields(a);
     *a = (answers){.normal = NULL};
     if (keep) {
         a->normal = normal;
         a->k0 = k0;
-        a->fields = fields;
     } else {
-        fret_fields_free(fields);
         fret_normal_free(normal);
         fret_normal_free(k0);
     }
@@ -49,6 +54,7 @@ void scene_show(scene *s, int digits) {
 }
 
 void scene_moved(scene *s) {
+    forget_fields(&s->answers);
     s->answers.press_ready = false;
     s->answers.known = KNOWN_NOTHING;
 }
@@ -83,9 +89,7 @@ void scene_forget(scene *s, bool keep) {
 static void pass_contact(answers *to, answers *from) {
     to->normal = from->normal;
     to->k0 = from->k0;
-    to->fields = from->fields;
     from->normal = from->k0 = NULL;
-    from->fields = NULL;
 }
 
 void scene_take_contact(scene *s, scene *from) {
@@ -322,18 +326,28 @@ void scene_expect_many(scene *s) {
     scene_show(s, 0);
 }
 
-/* Of a table one place alone would want all of its rows: they are worked out for all places at once. */
-bool scene_fields(scene *s, fret_fields **fields, calc_error *error) {
+bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error) {
     const fret_normal *normal;
-    *fields = NULL;
-    if (!scene_normal(s, &normal, error))
-        return false;
-    if (!s->many && !fret_normal_gap(normal)->table)
-        return true;
+    const fret_press *press;
     fret_status st = {.code = FRET_OK};
-    if (!s->answers.fields)
-        st = fret_fields_make(normal, &s->answers.fields);
-    *fields = s->answers.fields;
+    if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error))
+        return false;
+    if (!s->answers.pressed)
+        st = fret_field_of_press(normal, press, &s->answers.pressed);
+    *field = s->answers.pressed;
+    return calc_status(error, &st);
+}
+
+bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error) {
+    const fret_contact *now;
+    double mu;
+    fret_status st = {.code = FRET_OK};
+    s->used |= USED(MODEL_MEMORY);
+    if (!scene_friction(s, &mu, error) || !scene_history(s, &now, error))
+        return false;
+    if (!s->answers.dragged)
+        st = fret_field_make(now, &s->answers.dragged);
+    *field = s->answers.dragged;
     return calc_status(error, &st);
 }
 

@@ -2,6 +2,7 @@
 /* The door to histories: what either exactness takes and refuses, swinging and its chords, histories as
  * arrays of doubles. What contacts answer is tested where it is worked out. */
 #include "histories.h"
+#include "places.h"
 #include "unit.h"
 
 static fret_contact *make(const fret_normal *n, fret_exactness exactness) {
@@ -31,8 +32,8 @@ static void both(void) {
     fret_contact *exact = make(n, FRET_EXACT), *fast = make(n, FRET_DOUBLE), *none = NULL;
     unsigned long long seed = 7;
     fret_real out = 0, max = 0.4L * 100 * 4e-6L;
-    CHECK_ERROR(fret_contact_make(unit_keep_normal(&s.material, &flat), 0.4, FRET_DOUBLE, &none), FRET_OUTSIDE,
-                "n");
+    CHECK_ERROR(fret_contact_make(unit_keep_normal(&s.material, &flat), 0.4, FRET_DOUBLE, &none),
+                FRET_OUTSIDE, "n");
     CHECK_ERROR(fret_contact_make(n, 0, FRET_EXACT, &none), FRET_NOT_POSITIVE, "mu");
     CHECK(!none);
     for (int i = 0; i < 200; i++) {
@@ -52,8 +53,8 @@ static void both(void) {
     CHECK_ERROR(fret_contact_copy(fast, exact), FRET_OUTSIDE, "exactness");
     CHECK_ERROR(fret_contact_chords(exact, fast), FRET_OUTSIDE, "exactness");
     CHECK_ERROR(fret_contact_swing(fast, &(fret_sine){1, 1, 0, 10}, 0, 1), FRET_OUTSIDE, "exactness");
-    CHECK_ERROR(fret_traction(fast, 0, &out), FRET_OUTSIDE, "exactness");
-    CHECK_ERROR(fret_surface_x(fast, 0, &out), FRET_OUTSIDE, "exactness");
+    CHECK_ERROR(place_traction(fast, 0, &out), FRET_OUTSIDE, "exactness");
+    CHECK_ERROR(place_surface_x(fast, 0, &out), FRET_OUTSIDE, "exactness");
     CHECK(fret_contact_normal(fast) == n && fret_contact_friction(fast) == 0.4);
     fret_contact_count_loss(fast, false);
     CHECK_OK(fret_contact_step(fast, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 100, 39}));
@@ -105,7 +106,8 @@ static void swings(void) {
     static const double r[] = {0, 1e-3, 2e-3}, f[] = {0, 1e-6, 4e-6};
     struct fret_table *table = NULL;
     CHECK_OK(fret_table_make(r, f, 3, NULL, &table));
-    const fret_normal *rows = unit_keep_normal(&s.material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = table});
+    const fret_normal *rows =
+        unit_keep_normal(&s.material, &(fret_gap){.kind = FRET_GAP_TABLE, .table = table});
     c = make(rows, FRET_EXACT);
     CHECK(!fret_normal_swings(rows));
     CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 13, 1}));
