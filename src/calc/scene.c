@@ -110,7 +110,6 @@ void scene_free(scene *s) {
 void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->answers = (answers){.normal = NULL};
-    to->many = false;
     to->like = from->like ? fret_normal_hold(from->like) : NULL;
     inputs_copy(&to->in, &from->in);
     counted_hold(to->program ? &to->program->base : NULL);
@@ -319,11 +318,6 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
     *normal = s->answers.normal;
     scene_used_law(s, *normal);
     return true;
-}
-
-void scene_expect_many(scene *s) {
-    s->many = true;
-    scene_show(s, 0);
 }
 
 bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error) {

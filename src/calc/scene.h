@@ -83,8 +83,6 @@ struct scene {
     bool automatic; /* the model: the closed form where there is one, else the memory diagram */
     model_id model; /* else this one */
     unsigned springs;
-    /* many values of this contact are asked for: a decision of what asks, never of what was asked */
-    bool many;
     /* of a scratch scene: what is prepared for its shape and k, whatever the material; or NULL */
     fret_normal *like;
     int digits; /* of the values shown; 0: all. The law of a table need not be better than they can tell */
@@ -108,9 +106,6 @@ scene_use scene_answered_by(const scene *s);
 /* These have answered too. */
 void scene_also_used(scene *s, scene_use also);
 void scene_used_law(scene *s, const fret_normal *normal);
-/* Of a scratch scene: many values are to be asked for, and compared with one another, of its shape and k; at
- * loads about that of now, else it takes longer. */
-void scene_expect_many(scene *s);
 /* Another instant: press and state are found anew. */
 void scene_moved(scene *s);
 /* Forgets what has been computed; keep: the normal contact still stands. */

@@ -124,7 +124,6 @@ bool trial_change(trial *t, const knob_value by[], size_t count, size_t *wrong, 
         return calc_fail(error, 0, 0,
                          "%s cannot be changed at an instant of a load: try along ... with %s = ...",
                          by[run].p.text, by[run].p.text);
-    t->scene.many = t->outer->many;
     return beside_scene(now->beside, &t->scene, by, count, scene_time(t->outer), &t->c->now, error);
 }
 

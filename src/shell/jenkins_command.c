@@ -121,7 +121,7 @@ static bool read_request(shell *sh, lexer *lx, request *r) {
 static bool make_model(trial *t, const request *r, model *m, calc_error *error) {
     double amplitude = (double)INFINITY;
     fret_loading first;
-    scene_expect_many(&t->scene);
+    scene_show(&t->scene, 0);
     if (!scene_contact(&t->scene, &m->contact, error))
         return false;
     if (r->limited) {

@@ -224,34 +224,10 @@ static size_t values_at(size_t count) {
     return found_at() + (count * sizeof(found) + 63) / 64 * 64;
 }
 
-/* Are the values of a curve so many, of one contact, that its law is worth preparing? Then for all of them: a
- * row has the same digits wherever it is worked out. */
-static bool is_many(const state *st) {
-    /* of rows one value costs as much as it takes to prepare a few; F_N prepares anew each time it doubles */
-    enum { OF_ROWS = 8, MANY = 32, OF_LOADS = 1000 };
-    const sweep *s = st->s;
-    const fret_normal *normal;
-    calc_error ignored;
-    error_clear(&ignored);
-    if (!s->along && s->var.is_input && s->var.in != IN_MU && s->var.in != IN_FN)
-        return false;
-    if (!s->along && s->var.is_input && s->var.in == IN_FN)
-        return s->steps + 1 >= OF_LOADS && !st->t->scene.in.bindings;
-    return s->steps + 1 >= OF_ROWS && !st->t->scene.in.bindings &&
-           (s->steps + 1 >= MANY ||
-            (scene_normal(&st->t->scene, &normal, &ignored) && fret_normal_gap(normal)->table));
-}
-
-static void open_trial(state *st, calc_error *error) {
-    st->t = trial_open(st->job->c, error);
-    if (st->t)
-        st->t->scene.many = is_many(st);
-}
-
-/* A law that has been prepared serves the next curve, where that is of the same contact. */
+/* A law serves the next curve, where that is of the same contact, and no definition says what that is. */
 static void close_trial(state *st) {
     scene *contact = &st->job->contact, *s = &st->t->scene;
-    if (s->many) {
+    if (!s->in.bindings) {
         scene_free(contact);
         scene_clone(contact, s);
         scene_take_contact(contact, s);
@@ -263,7 +239,7 @@ static void close_trial(state *st) {
 static bool set_curve(state *st, calc_error *error) {
     if (st->s->curves && !trial_set(st->t, &st->s->with, st->with, error))
         return false;
-    if (st->t->scene.many)
+    if (!st->t->scene.in.bindings)
         scene_take_contact(&st->t->scene, &st->job->contact);
     return true;
 }
@@ -272,7 +248,7 @@ static bool set_curve(state *st, calc_error *error) {
 static void begin_curve(state *st, calc_error *error) {
     knob var = st->s->var;
     var.d = st->range.d;
-    open_trial(st, error);
+    st->t = trial_open(st->job->c, error);
     if (!st->t) /* unreached: memory runs out here alone */
         _exit(0);
     set_curve(st, error);
@@ -354,33 +330,11 @@ static size_t block_rows(const state *st) {
     return rows < least ? least : rows < EXPR_BLOCK ? rows : EXPR_BLOCK;
 }
 
-/* A gap of rows has what they tell worked out when it is first asked for: here, so that not everyone does it
- * anew. The first value has asked for its own; of both ends one asks for most. F_N prepares anew instead. */
-static void ask_ahead(state *st) {
-    scene *s = &st->t->scene;
-    const unsigned used = s->used;
-    const fret_normal *normal;
-    calc_error ignored;
-    value v;
-    knob var = st->s->var;
-    var.d = st->range.d;
-    error_clear(&ignored);
-    if (!s->many || (var.is_input && var.in == IN_FN) || !scene_normal(s, &normal, &ignored) ||
-        !fret_normal_gap(normal)->table || !trial_set(st->t, &var, place(st, st->rows - 1), &ignored))
-        return;
-    for (size_t i = 0; i < st->job->count; i++) {
-        error_clear(&ignored);
-        expr_eval(st->job->c, &st->job->expressions[i], &v, &ignored);
-    }
-    s->used = used;
-}
-
 /* Has it come to be worth while? */
 static bool shared(state *st) {
     sweep_job *job = st->job;
     if (job->team || job->alone || !team_pays(job->c, job->taken, (double)job->done, (double)job->all))
         return job->team;
-    ask_ahead(st);
     const size_t out = values_at(job->count) + EXPR_BLOCK * job->count * sizeof *st->values;
     job->team =
         team_begin(&(team_job){.c = job->c, .in = sizeof(portion), .out = out, .work = work, .context = st});
@@ -551,7 +505,7 @@ bool sweep_run(const sweep *s, sweep_job *job) {
     if (!ok)
         calc_no_memory(job->error);
     for (; st.curve < curves && ok; st.curve++) {
-        open_trial(&st, job->error);
+        st.t = trial_open(job->c, job->error);
         ok = st.t && run_curve(&st);
         calc_word(job->c, job->error);
         if (st.t)

@@ -260,7 +260,7 @@ bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, 
     if (!ask_open(&s.q, question->c, question->name, question->count, error))
         return false;
     if (ask_keeps_shape(&s.q))
-        scene_expect_many(&s.q.t->scene);
+        scene_show(&s.q.t->scene, 0);
     bool ok = first_order(&s, out, error) && monte_carlo(&s, out, error);
     out->evaluations = s.q.evaluations;
     ask_close(&s.q);

@@ -183,7 +183,6 @@ typedef struct scened {
     double phase;
     bool automatic;
     model_id model;
-    bool many;
     bool open; /* and lifted off at last */
 } scened;
 
@@ -205,13 +204,7 @@ static const scened scenes[] = {
     {.what = "by springs, swinging", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_SPRINGS},
     {.what = "by closed forms", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_CLOSED},
     {.what = "rows", .rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true},
-    {.what = "many of rows", .rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true, .many = true},
-    {.what = "many, open",
-     .rows = true,
-     .then = FORCE(LOAD_STEP, 20, 0),
-     .automatic = true,
-     .many = true,
-     .open = true},
+    {.what = "rows, open", .rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true, .open = true},
 };
 
 static bool loaded(calc *c, const load_step *step, double phase) {
@@ -230,7 +223,6 @@ static void begin(calc *c, const scened *of) {
         CHECK(assign(c, of->then.tangential_value == 20 ? "z = 20 N" : "z = 12 N") && assign(c, "FA := z"));
     else
         CHECK(assign(c, "z = 1"));
-    c->now->many = of->many;
     scene_set_model(c->now, of->automatic, of->model, 40);
 }
 
@@ -418,17 +410,15 @@ static void swings_too_far(void) {
     calc_free(&c);
 }
 
-/* One value is the same as one of many. */
+/* A sum of powers with a steep one. */
 static void too_steep(void) {
     const fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {100, 1e-6, 1e-4}}};
-    double one[VALUES], many[VALUES];
+    double one[VALUES];
     fret_pressed contact;
     calc c;
     begin(&c, &(scened){.automatic = true});
     inputs_geometry(&c.now->in, geometry_find("sum", 3), &sum, NULL);
     CHECK(again(c.now, CONTACT, one));
-    c.now->many = true;
-    CHECK(again(c.now, CONTACT, many) && !memcmp(one, many, sizeof one));
     CHECK(scene_contact(c.now, &contact, fresh()) && (c.now->used & USED(MODEL_PIECES)));
     calc_free(&c);
 }
