@@ -47,7 +47,7 @@ static bool print_statement(shell *sh, lexer *lx) {
     }
     progress_wipe();
     if (ok)
-        print_values(&sh->set, sh->out, columns, si, count);
+        ok = answer_values(&sh->set, sh->out, columns, si, count) || calc_no_memory(lx->error);
     columns_free(columns, count);
     return ok;
 }

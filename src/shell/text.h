@@ -12,7 +12,7 @@
  * to a terminal; or pictures that move, which no pager can show. */
 typedef enum text_kind { TEXT_WORDS, TEXT_PICTURE, TEXT_MOTION } text_kind;
 
-/* Text on its way out: as it is, as one JSON object, or at a terminal by the pager. */
+/* Text on its way out: as it is, as one object for programs, or at a terminal by the pager. */
 typedef struct text_out {
     const settings *set;
     FILE *out, *to; /* write to `to` */
