@@ -270,28 +270,25 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
             answer_words(out, "correlation of %s and %s = %.3g\n", q->name[i].text, q->name[j].text,
                          a->correlation[i][j]);
             if (fabs(a->correlation[i][j]) > 0.99)
-                shell_note(sh, "note: the data hardly tell %s and %s apart", q->name[i].text,
-                           q->name[j].text);
+                shell_note(sh, "the data hardly tell %s and %s apart", q->name[i].text, q->name[j].text);
         }
     format_value(&sh->set, (value){a->rms, a->d}, rms, sizeof rms);
     answer_words(out, "rms = %s over %zu rows\n", rms, q->rows);
     for (size_t i = 0; i < q->count; i++)
         if (a->deviation[i] > fabs(a->value[i]))
-            shell_note(sh, "note: the data hardly determine %s", q->name[i].text);
+            shell_note(sh, "the data hardly determine %s", q->name[i].text);
     if (a->drifts)
-        shell_note(
-            sh,
-            "note: residuals go together from row to row (correlation %.2f): a drift, an offset or a model "
-            "that does not fit; the standard errors are too small",
-            a->together);
+        shell_note(sh,
+                   "residuals go together from row to row (correlation %.2f): a drift, an offset or a model "
+                   "that does not fit; the standard errors are too small",
+                   a->together);
     if (a->twice)
-        shell_note(
-            sh, "note: the loop is closed and does not begin at rest: run twice, the second time compared");
+        shell_note(sh, "the loop is closed and does not begin at rest: run twice, the second time compared");
     if (q->robust)
-        shell_note(sh, "note: %zu of %zu rows are far off (beyond three robust deviations)", a->far, q->rows);
+        shell_note(sh, "%zu of %zu rows are far off (beyond three robust deviations)", a->far, q->rows);
     if (sh->set.timing)
-        shell_note(sh, "fit: Levenberg and Marquardt's method%s, %u iterations, %u evaluations of %zu rows",
-                   q->robust ? ", weights after Huber" : "", a->iterations, a->evaluations, q->rows);
+        shell_say(sh, "fit: Levenberg and Marquardt's method%s, %u iterations, %u evaluations of %zu rows",
+                  q->robust ? ", weights after Huber" : "", a->iterations, a->evaluations, q->rows);
 }
 
 static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, calc_error *error) {
@@ -418,12 +415,12 @@ static void remark_uncertain(shell *sh, answer *out, const uncertainty_question 
         char mean[CALC_VALUE_TEXT], spread[CALC_VALUE_TEXT];
         calc_value_text(u->d, u->mean, mean);
         calc_value_text(u->d, u->spread, spread);
-        shell_note(sh, "note: the Monte Carlo says something else of %s: mean %s, deviation %s", c->name,
-                   mean, spread);
+        shell_note(sh, "the Monte Carlo says something else of %s: mean %s, deviation %s", c->name, mean,
+                   spread);
     }
     if (u->samples < q->samples)
-        shell_note(sh, "note: %u of %u samples of %s %s no value: %s", q->samples - u->samples, q->samples,
-                   c->name, q->samples - u->samples > 1 ? "have" : "has", missing);
+        shell_note(sh, "%u of %u samples of %s %s no value: %s", q->samples - u->samples, q->samples, c->name,
+                   q->samples - u->samples > 1 ? "have" : "has", missing);
 }
 
 static bool print_uncertain(shell *sh, const uncertainty_question *q, const uncertainty_answer *a,
@@ -445,8 +442,8 @@ static bool print_uncertain(shell *sh, const uncertainty_question *q, const unce
         return calc_no_memory(error);
     answered(sh, last->v, last->d);
     if (sh->set.timing)
-        shell_note(sh, "uncertainty: differences of sixth order and %u samples (seed %u), %u evaluations",
-                   q->samples, q->seed, a->evaluations);
+        shell_say(sh, "uncertainty: differences of sixth order and %u samples (seed %u), %u evaluations",
+                  q->samples, q->seed, a->evaluations);
     return true;
 }
 

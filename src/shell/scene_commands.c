@@ -324,7 +324,7 @@ static void report_misfit(shell *sh, const smooth_answer *a) {
     answer_done(&event);
     for (int i = 0; i < MISFITS; i++)
         format_value(&brief, (value){v[i], DIM_LENGTH}, text[i], sizeof text[i]);
-    shell_note(sh, "note: smoothed, %zu piece%s: misfit %s rms, %s at worst (r = %s); f(0) = %s is taken off",
+    shell_note(sh, "smoothed, %zu piece%s: misfit %s rms, %s at worst (r = %s); f(0) = %s is taken off",
                a->pieces, a->pieces == 1 ? "" : "s", text[0], text[1], text[2], text[3]);
 }
 
@@ -339,8 +339,7 @@ static void report_thinning(shell *sh, size_t rows, const struct fret_table *gap
     answer_number(&event, "pieces", (double)pieces);
     answer_number(&event, "within", within);
     answer_done(&event);
-    shell_note(sh, "note: of %zu rows %zu pieces are made, within %.0e of the largest gap", rows, pieces,
-               within);
+    shell_note(sh, "of %zu rows %zu pieces are made, within %.0e of the largest gap", rows, pieces, within);
 }
 
 static bool read_gap_file(shell *sh, lexer *lx, edit *e) {

@@ -87,17 +87,15 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
         answer_flag(&event, "jumps", true);
     answer_done(&event);
     if (a->touches)
-        shell_note(
-            sh, "note: the two sides touch there without passing each other, which tells 8 digits at most");
+        shell_note(sh, "the two sides touch there without passing each other, which tells 8 digits at most");
     if (a->jumps)
-        shell_note(
-            sh, "note: elsewhere the two sides jump past each other; a root close to a jump may be hidden");
+        shell_note(sh, "elsewhere the two sides jump past each other; a root close to a jump may be hidden");
     if (!sh->set.timing)
         return;
     calc_value_text(q->name.d, a->lo, lo);
     calc_value_text(q->name.d, a->hi, hi);
-    shell_note(sh, "solve: scan and Brent's method, %u evaluations, bracket %s = %s .. %s", a->evaluations,
-               q->name.text, lo, hi);
+    shell_say(sh, "solve: scan and Brent's method, %u evaluations, bracket %s = %s .. %s", a->evaluations,
+              q->name.text, lo, hi);
 }
 
 bool do_solve(shell *sh, lexer *lx, const command *self) {
@@ -185,16 +183,16 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
         ask_text(&q->name[i], a->x[i], there);
         inner = inner || a->end[i] == END_INNER;
         if (a->end[i] == END_SCENE && !edge)
-            shell_note(sh, "note: the scene ends at %s: %s", there, a->why.text);
+            shell_note(sh, "the scene ends at %s: %s", there, a->why.text);
         edge |= a->end[i] == END_SCENE;
         if (a->end[i] == END_LOW || a->end[i] == END_HIGH)
-            shell_note(sh, "note: no inner optimum in %s: %s is the %s end of its range", q->name[i].text,
-                       there, a->end[i] == END_LOW ? "lower" : "upper");
+            shell_note(sh, "no inner optimum in %s: %s is the %s end of its range", q->name[i].text, there,
+                       a->end[i] == END_LOW ? "lower" : "upper");
     }
     if (sh->set.timing)
-        shell_note(sh, "%s: grid, %s%s, %u evaluations", word,
-                   q->count == 1 ? "Brent's method" : "simplex of Nelder and Mead",
-                   a->sharp && inner ? ", Newton's method" : "", a->evaluations);
+        shell_say(sh, "%s: grid, %s%s, %u evaluations", word,
+                  q->count == 1 ? "Brent's method" : "simplex of Nelder and Mead",
+                  a->sharp && inner ? ", Newton's method" : "", a->evaluations);
 }
 
 static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {

@@ -619,7 +619,7 @@ def needed(tests, asked, scene, name, path):
     with tests.file("\n".join(lines) + "\n") as script:
         done = tests.run("--keep-going", script)
     failed = {int(line): words for line, words in re.findall(r":(\d+):\d+: error: (.*)", done.stderr)}
-    values = iter(done.stdout.splitlines())
+    values = iter([line for line in done.stdout.splitlines() if line.startswith('{"name":')])
     value = {line: None if line in failed else next(values, "") for line in range(first, len(lines) + 1)}
     tests.check(told, not any(line < first for line in failed) and next(values, None) is None, tests.report(done))
     value = {line: re.sub(r'"name":"[^"]*",', "", text or "") for line, text in value.items()}
