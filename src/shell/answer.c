@@ -67,6 +67,10 @@ void answer_report(answer *a, const char *name) {
     open_as(a, LAYOUT_LINE, "event", name);
 }
 
+void answer_page(answer *a, const char *name) {
+    open_as(a, LAYOUT_PAGE, "event", name);
+}
+
 void answer_message(answer *a, const char *kind, const char *text) {
     open_as(a, LAYOUT_QUIET, kind, text);
 }
@@ -99,6 +103,11 @@ void answer_list(answer *a, const char *name, const double *v, size_t count) {
 void answer_quantity(answer *a, const char *name, value v) {
     if (a->form->quantity)
         a->form->quantity(a, name, v);
+}
+
+void answer_fact(answer *a, const char *name, const char *text) {
+    if (a->form->fact)
+        a->form->fact(a, name, text);
 }
 
 void answer_share(answer *a, const char *name, double part) {
@@ -136,14 +145,12 @@ void answer_items_up(answer *a) {
         a->form->items_up(a);
 }
 
-bool answer_words(answer *a, const char *format, ...) {
+void answer_words(answer *a, const char *format, ...) {
     va_list args;
-    if (!a->form->words)
-        return false;
     va_start(args, format);
-    a->form->words(a, format, args);
+    if (a->form->words)
+        a->form->words(a, format, args);
     va_end(args);
-    return true;
 }
 
 /* ---- tables ------------------------------------------------------------------------------------ */

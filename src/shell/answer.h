@@ -34,6 +34,8 @@ bool answer_beside(answer *a, const column *c, long double si, long double devia
 void answer_event(answer *a, const char *name);
 /* In text one line, of its quantities. */
 void answer_report(answer *a, const char *name);
+/* In text a line each of its quantities and its facts. */
+void answer_page(answer *a, const char *name);
 /* A message that readers have elsewhere. kind: "note", "warning", "error". */
 void answer_message(answer *a, const char *kind, const char *text);
 /* Ends any of them. */
@@ -45,6 +47,8 @@ void answer_string(answer *a, const char *name, const char *text);
 void answer_flag(answer *a, const char *name, bool v);
 void answer_list(answer *a, const char *name, const double *v, size_t count);
 void answer_quantity(answer *a, const char *name, value v);
+/* `name: text` of a page; else as a string. */
+void answer_fact(answer *a, const char *name, const char *text);
 /* What part of the last estimate's variance comes from `name`; in a group of their own. */
 void answer_share(answer *a, const char *name, double part);
 /* Facts that belong together, up to answer_up. */
@@ -56,11 +60,11 @@ void answer_items(answer *a, const char *name);
 void answer_item(answer *a);
 void answer_item_up(answer *a);
 void answer_items_up(answer *a);
-/* The same facts, for readers: of text alone. False: the form has no words. */
+/* The same facts, for readers: of text alone, and where CSV is as text. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
-bool answer_words(answer *a, const char *format, ...);
+void answer_words(answer *a, const char *format, ...);
 
 /* ---- tables: a value that is not finite is a gap ---- */
 

@@ -117,11 +117,19 @@ static void put_waiting(answer *a, bool ok) {
     *w = (struct waiting){.count = 0};
 }
 
+/* A page is as in text; elsewhere rows have it all. */
+static void put_words(answer *a, const char *format, va_list args) {
+    if (a->layout == LAYOUT_PAGE)
+        text_words(a, format, args);
+}
+
 const answer_form answer_as_csv = {
     .value = put_value,
     .estimate = put_estimate,
-    .close = text_line_close,
-    .quantity = text_line_quantity,
+    .close = text_close,
+    .quantity = text_quantity,
+    .fact = text_fact,
+    .words = put_words,
     .share = put_share,
     .columns = put_columns,
     .row = put_row,

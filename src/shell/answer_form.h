@@ -57,8 +57,8 @@ typedef struct answer_cell {
 
 /* ---- forms ---- */
 
-/* How text lays out an event: it has but words, or one line of its quantities. */
-enum { LAYOUT_QUIET, LAYOUT_LINE };
+/* How text lays out an event: it has but words; one line of its quantities; a line of each. */
+enum { LAYOUT_QUIET, LAYOUT_LINE, LAYOUT_PAGE };
 
 /* NULL: the form has no place for it. */
 typedef struct answer_form {
@@ -73,6 +73,7 @@ typedef struct answer_form {
     void (*flag)(answer *a, const char *name, bool v);
     void (*list)(answer *a, const char *name, const double *v, size_t count);
     void (*quantity)(answer *a, const char *name, value v);
+    void (*fact)(answer *a, const char *name, const char *text);
     void (*share)(answer *a, const char *name, double part);
     void (*group)(answer *a, const char *name);
     void (*up)(answer *a);
@@ -93,7 +94,9 @@ enum { TEXT_HELD = 2000 }; /* rows of a table */
 extern const answer_form answer_as_text, answer_as_csv, answer_as_json;
 
 /* What CSV has as text has it, where it is no row. */
-void text_line_close(answer *a);
-void text_line_quantity(answer *a, const char *name, value v);
+void text_close(answer *a);
+void text_quantity(answer *a, const char *name, value v);
+void text_fact(answer *a, const char *name, const char *text);
+void text_words(answer *a, const char *format, va_list args);
 
 #endif

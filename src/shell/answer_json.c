@@ -218,6 +218,7 @@ const answer_form answer_as_json = {
     .flag = put_flag,
     .list = put_list,
     .quantity = put_quantity,
+    .fact = put_member,
     .share = put_number_member,
     .group = begin_group,
     .up = end_group,

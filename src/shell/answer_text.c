@@ -42,18 +42,31 @@ static void put_beside(answer *a, const column *c, long double si, long double d
 
 /* ---- events ------------------------------------------------------------------------------------ */
 
-void text_line_quantity(answer *a, const char *name, value v) {
+void text_quantity(answer *a, const char *name, value v) {
     char text[160];
-    if (a->layout != LAYOUT_LINE)
+    if (a->layout == LAYOUT_QUIET)
         return;
     format_value(a->set, v, text, sizeof text);
-    fprintf(a->to, "%s%s = %s", a->any ? ", " : "  ", name, text);
-    a->any = true;
+    if (a->layout == LAYOUT_PAGE) {
+        fprintf(a->to, "    %s = %s\n", name, text);
+    } else {
+        fprintf(a->to, "%s%s = %s", a->any ? ", " : "  ", name, text);
+        a->any = true;
+    }
 }
 
-void text_line_close(answer *a) {
+void text_fact(answer *a, const char *name, const char *text) {
+    if (a->layout == LAYOUT_PAGE)
+        fprintf(a->to, "    %s: %s\n", name, text);
+}
+
+void text_close(answer *a) {
     if (a->layout == LAYOUT_LINE)
         putc('\n', a->to);
+}
+
+void text_words(answer *a, const char *format, va_list args) {
+    vfprintf(a->to, format, args);
 }
 
 static void put_share(answer *a, const char *name, double part) {
@@ -66,10 +79,6 @@ static void end_group(answer *a) {
     if (a->any)
         putc('\n', a->to);
     a->any = false;
-}
-
-static void put_words(answer *a, const char *format, va_list args) {
-    vfprintf(a->to, format, args);
 }
 
 /* ---- tables ------------------------------------------------------------------------------------ */
@@ -171,11 +180,12 @@ const answer_form answer_as_text = {
     .value = put_value,
     .estimate = put_estimate,
     .beside = put_beside,
-    .close = text_line_close,
-    .quantity = text_line_quantity,
+    .close = text_close,
+    .quantity = text_quantity,
+    .fact = text_fact,
     .share = put_share,
     .up = end_group,
-    .words = put_words,
+    .words = text_words,
     .columns = put_columns,
     .row = hold,
     .heads = put_heads,

@@ -14,7 +14,7 @@ bool text_begin(text_out *t, const settings *set, FILE *out, text_kind kind) {
     progress_wipe();
     *t = (text_out){.set = set, .out = out, .to = out, .kind = kind};
     const bool paged = set->pages && set->pager != PAGER_OFF && kind != TEXT_MOTION;
-    if (kind != TEXT_WORDS && !answer_is_data(set) && !paged)
+    if (kind > TEXT_ANSWERS && !answer_is_data(set) && !paged)
         return true;
     if (!file_text_open(&t->kept))
         return false;
@@ -58,8 +58,10 @@ bool text_end(text_out *t, bool keep) {
     const bool data = answer_is_data(t->set);
     if (!file_text_close(&t->kept))
         return false;
-    const bool ok = data || t->kind != TEXT_WORDS || make_safe(t), any = ok && keep && t->kept.size > 0;
-    if (any && data) {
+    const bool ok = data || t->kind > TEXT_ANSWERS || make_safe(t), any = ok && keep && t->kept.size > 0;
+    if (any && data && t->kind == TEXT_ANSWERS) {
+        fputs(t->kept.text, t->out);
+    } else if (any && data) {
         answer a;
         answer_begin(&a, t->set, t->out);
         answer_message(&a, "text", t->kept.text);
