@@ -111,7 +111,7 @@ OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard src/calc/*.c src/study/*.c s
 $(B)/tests/%: $(B)/tests/unit/%.o $(call OBJ,$(CORE)) $(OUTER)
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(LIBS_GSL) $(LIBS_CORE)
 # their allocations, and some calls, pass through the test
-$(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_blocks $(B)/tests/test_calc $(B)/tests/test_long_load: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
+$(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_calc: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
 $(B)/tests/test_blocks: WRAP += -pthread
 $(B)/tests/test_gnuplot: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc waitpid)
 $(B)/tests/test_moments: WRAP = $(addprefix -Wl$(COMMA)--wrap=,expl logl fret_pow fret_table_distance fret_gap_profile)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows from a scene, made ready on demand: the cheapest model answers that is exact, or that no digit
- * shown tells from it. */
+/* What follows from a scene, made ready on demand: the cheapest model answers that is exact. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,59 +7,6 @@
 #include "number/array.h"
 
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
-
-/* ---- forces in double -------------------------------------------------------------------------- */
-
-/* After so many steps that wait the exact diagram is worth avoiding. */
-enum { MANY_STEPS = 4096 };
-
-/* Do the digits shown not tell forces in double (include/fret/diagram.h) from exact ones? Not where they are
- * small beside those that the load went through. */
-static bool is_borne(scene *s, const load_view *load, const fret_state *now, calc_error *error) {
-    static const double sure = 1e-13;
-    fret_press first;
-    fret_pressed most = {.normal = load->normal, .mu = load->mu};
-    if (!load_press(s, load->normal, &first, error))
-        return false;
-    const double F = load_largest_force(&s->answers.reach, load->normal, &first);
-    const fret_status st = fret_press_by_force(load->normal, F, &most.press);
-    if (!calc_status(error, &st))
-        return false;
-    const fret_real slip = fret_gross_slip(&most), Fx = load->mu * most.press.F,
-                    bound = scene_borne(s) / sure;
-    return now->FN * bound >= most.press.F && now->dz * bound >= most.press.dz &&
-           fabsl(now->Fx) * bound >= Fx && fabsl(now->dx) * bound >= slip + fabsl(now->dx) &&
-           now->W * bound >= now->W + Fx * slip;
-}
-
-/* On failure the exact diagram is asked, and tells why. */
-static bool find_by_double(scene *s) {
-    answers *a = &s->answers;
-    const load_reach *reach;
-    load_view load;
-    fret_state now;
-    calc_error ignored;
-    error_clear(&ignored);
-    if (scene_borne(s) == 0 || !load_allows_double(s) || s->end.steps - a->run[0].at.steps < MANY_STEPS ||
-        !scene_reach(s, &reach, &ignored) || !reach->oblique || !scene_load_of(s, &load, &ignored))
-        return false;
-    runner r = {.load = &load};
-    bool ok = scene_engine(s, &load, MODEL_DOUBLE, 0, &r.engine, &ignored) && !run_to(&r, load.end).code;
-    if (ok)
-        engine_forces(&r.engine, &now);
-    engine_end(&r.engine);
-    ok = ok && is_borne(s, &load, &now, &ignored);
-    if (ok) {
-        a->state = now;
-        a->known = KNOWN_FORCES;
-    }
-    return ok;
-}
-
-static bool forces_by_double(scene *s) {
-    const answers *a = &s->answers;
-    return a->known == KNOWN_FORCES || (a->known == KNOWN_NOTHING && find_by_double(s));
-}
 
 /* ---- the normal contact now -------------------------------------------------------------------- */
 
@@ -82,15 +28,6 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
         if (!moves) {
             if (!press_of_program(s, error))
                 return false;
-        } else if (load_by_double(s)) {
-            const fret_state *now;
-            if (!scene_state(s, &now, error))
-                return false;
-            a->press = (fret_press){.F = now->FN, .dz = now->dz, .a = now->a};
-        } else if (forces_by_double(s)) {
-            const fret_status st = fret_press_by_force(a->normal, (double)a->state.FN, &a->press);
-            if (!calc_status(error, &st)) /* unreached: as much has been pressed before */
-                return false;
         } else if (!load_run(s, &run, error)) {
             return false;
         } else {
@@ -100,7 +37,7 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
         a->press_ready = true;
     }
     if (moves)
-        s->used |= USED(load_by_double(s) || a->known == KNOWN_FORCES ? MODEL_DOUBLE : MODEL_MEMORY);
+        s->used |= USED(MODEL_MEMORY);
     else
         scene_used_closed(s);
     return true;
@@ -159,9 +96,6 @@ bool scene_engine(scene *s, const load_view *load, model_id model, unsigned coun
     w.context = &a;
     if (models[model].count && !scene_trace(s, &w, error))
         return false;
-    if (models[model].power && !fret_normal_is_power(load->normal))
-        return calc_fail(error, 0, 0, "`%s` is for gaps of a single power: set model auto",
-                         models[model].name);
     fret_status st = engine_make(out, model, load->normal, load->mu, count, (double)(a * (1 + 1e-12L)));
     return calc_status(error, &st);
 }
@@ -171,39 +105,29 @@ static bool is_stepped(const scene *s) {
     return !s->automatic && s->model != MODEL_MEMORY && models[s->model].steps && !s->now;
 }
 
-bool scene_runs(scene *s, runs *out, calc_error *error) {
-    *out = (runs){.levels = 0};
-    bool ok = scene_load_of(s, &out->load, error);
+/* At all levels that the load wants: they look at the load beside them. */
+static bool stepped_state(scene *s, calc_error *error) {
+    load_view load;
+    runner run[LEVELS];
+    unsigned made = 0;
+    bool ok = scene_load_of(s, &load, error);
     const unsigned levels = s->answers.reach.swings ? LEVELS : 1;
-    while (out->levels < levels && ok) {
-        runner *r = &out->run[out->levels];
-        *r = (runner){.load = &out->load, .level = out->levels++};
-        ok = scene_engine(s, &out->load, s->model, s->springs, &r->engine, error);
-        fret_status st = ok ? run_to(r, out->load.end) : fine;
+    while (made < levels && ok) {
+        runner *r = &run[made];
+        *r = (runner){.load = &load, .level = made++};
+        ok = scene_engine(s, &load, s->model, s->springs, &r->engine, error);
+        fret_status st = ok ? run_to(r, load.end) : fine;
         ok = ok && calc_status(error, &st);
     }
-    if (!ok)
-        runs_end(out);
-    return ok;
-}
-
-void runs_end(runs *r) {
-    while (r->levels)
-        engine_end(&r->run[--r->levels].engine);
-}
-
-static bool stepped_state(scene *s, calc_error *error) {
-    runs all;
-    if (!scene_runs(s, &all, error))
-        return false;
-    if (all.levels > 1) {
-        swinging_state(&s->answers, all.run);
-    } else {
-        engine_state(&all.run[0].engine, &s->answers.state);
-        s->answers.loss = all.run[0].cycle_loss;
+    if (ok && levels > 1) {
+        swinging_state(&s->answers, run);
+    } else if (ok) {
+        engine_state(&run[0].engine, &s->answers.state);
+        s->answers.loss = run[0].cycle_loss;
     }
-    runs_end(&all);
-    return true;
+    while (made)
+        engine_end(&run[--made].engine);
+    return ok;
 }
 
 static void memory_state(scene *s, const runner *run) {
@@ -221,11 +145,9 @@ static void memory_state(scene *s, const runner *run) {
 bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     const bool stepped = is_stepped(s);
     const unsigned used = s->used; /* what only checks the load program does not answer */
-    if (s->answers.known == KNOWN_FORCES)
-        scene_moved(s); /* the press is theirs */
-    if (s->answers.known != KNOWN_STATE) {
+    if (!s->answers.state_ready) {
         const runner *run = NULL;
-        if (!(load_by_double(s) && s->end.steps > 0) && !load_run(s, &run, error))
+        if (!load_run(s, &run, error))
             return false;
         if (!s->automatic && s->model == MODEL_CLOSED)
             return calc_fail(error, 0, 0, "no closed form for this: set model auto");
@@ -233,7 +155,7 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
             return false;
         if (!stepped)
             memory_state(s, run);
-        s->answers.known = KNOWN_STATE;
+        s->answers.state_ready = true;
     }
     s->used = used | USED(stepped ? s->model : MODEL_MEMORY);
     if (!stepped && s->answers.levels)
@@ -245,23 +167,9 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
 bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
     answers *a = &s->answers;
     const runner *run = s->now ? s->now->run : NULL;
-    if (forces_by_double(s)) {
-        s->used |= USED(MODEL_DOUBLE);
-        *state = &a->state;
-        return true;
-    }
-    if (!s->now || a->known == KNOWN_STATE || (run && run->coarse) ||
-        (!s->automatic && s->model == MODEL_CLOSED))
+    if (!s->now || a->state_ready || run->coarse || (!s->automatic && s->model == MODEL_CLOSED))
         return scene_state(s, state, error);
-    const double *kept = s->now->kept;
-    if (kept)
-        a->state = (fret_state){.FN = kept[TRAIL_FN],
-                                .dz = kept[TRAIL_DZ],
-                                .Fx = kept[TRAIL_FX],
-                                .dx = kept[TRAIL_DX],
-                                .W = kept[TRAIL_W]};
-    else
-        engine_forces(&run->engine, &a->state);
+    engine_forces(&run->engine, &a->state);
     s->used |= USED(MODEL_MEMORY);
     *state = &a->state;
     return true;

@@ -67,7 +67,6 @@ static side *side_make(beside *b, const scene *changed, const knob_value by[], s
         side_free(b->side[--b->count]);
     scene_clone(&s->scene, changed);
     s->scene.now = NULL;
-    s->scene.many = changed->many;
     memcpy(s->by, by, count * sizeof *by);
     s->count = count;
     s->budget = b->count < FEW ? HELD : 1;

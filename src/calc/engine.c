@@ -12,21 +12,13 @@ const model_row models[MODELS] = {
                        .count = "the number of springs",
                        .chosen = true,
                        .steps = true},
-    [MODEL_VECTORS] = {.name = "vectors", .title = "vectors to 2e-15"},
-    [MODEL_DOUBLE] = {.name = "double",
-                      .title = "memory diagram in double, to 3e-14",
-                      .chosen = true,
-                      .power = true,
-                      .rounding = 3e-14,
-                      .steps = true,
-                      .exactness = FRET_DOUBLE},
 };
 
 fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count,
                         double radius) {
     *e = (engine){.kind = &models[id]};
     return id == MODEL_SPRINGS ? fret_springs_make(normal, mu, count, radius, FRET_WEIGHT_CELL, &e->springs)
-                               : fret_contact_make(normal, mu, models[id].exactness, &e->contact);
+                               : fret_contact_make(normal, mu, FRET_EXACT, &e->contact);
 }
 
 void engine_end(engine *e) {
@@ -89,7 +81,7 @@ fret_status engine_copy(engine *to, const engine *from) {
         engine_end(to);
     if (!to->contact)
         st = fret_contact_make(fret_contact_normal(from->contact), fret_contact_friction(from->contact),
-                               from->kind->exactness, &to->contact);
+                               FRET_EXACT, &to->contact);
     if (!st.code)
         st = fret_contact_copy(to->contact, from->contact);
     to->kind = from->kind;

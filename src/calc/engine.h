@@ -14,8 +14,6 @@ typedef enum model_id {
     MODEL_QUADRATURE,
     MODEL_PIECES,
     MODEL_SPRINGS,
-    MODEL_VECTORS,
-    MODEL_DOUBLE,
     MODELS
 } model_id;
 
@@ -29,10 +27,7 @@ typedef struct model_row {
     const char *title; /* for explain */
     const char *count; /* what its number means, as in `springs N`; NULL: it has none */
     bool chosen;       /* `set model` can ask for it */
-    bool power;        /* for gaps of a single power only */
-    double rounding;   /* what its values are good to, relative; 0: not known, or exact */
     bool steps;        /* along any load; else it has a formula only */
-    fret_exactness exactness;
 } model_row;
 
 extern const model_row models[MODELS];

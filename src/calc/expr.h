@@ -42,11 +42,6 @@ bool expr_parse_at(struct calc *c, lexer *lx, expr *e);
 /* `at ...` at the cursor, for an expression that has been parsed. */
 bool expr_read_at(struct calc *c, lexer *lx, expr *e);
 bool expr_eval(struct calc *c, const expr *e, value *out, calc_error *error);
-/* The same at `rows` values x of one name, 1 to EXPR_BLOCK: one dimension for all. False where a row fails,
- * or may: expr_eval, row by row, finds out. */
-enum { EXPR_BLOCK = 256 };
-bool expr_eval_block(struct calc *c, const expr *e, size_t name, const long double x[], size_t rows,
-                     long double out[], dim *d);
 /* The dimension alone, also where a value is missing. */
 bool expr_dim(struct calc *c, const expr *e, dim *d);
 void expr_free(expr *e);

@@ -7,8 +7,6 @@
 
 typedef bool quantity_get_function(scene *s, long double *out, calc_error *error);
 typedef bool quantity_call_function(scene *s, value arg, long double *out, calc_error *error);
-typedef bool quantity_block_function(scene *s, const double arg[], double out[], size_t count,
-                                     calc_error *error);
 
 /* results.c */
 quantity_get_function get_FN, get_dW, get_kn, get_a0, get_dz0, get_dxmax, get_dx0max, get_kappa, get_W1D,
@@ -16,7 +14,6 @@ quantity_get_function get_FN, get_dW, get_kn, get_a0, get_dz0, get_dxmax, get_dx
 
 /* functions.c: of the scene, tangentially unloaded */
 quantity_call_function call_a, call_dz, call_c, call_dx, call_Fx, call_dW, call_dWd;
-quantity_block_function block_a, block_dz, block_c, block_dx, block_dW;
 
 /* damper.c: over a closed cycle of an amplitude, at constant F_N */
 quantity_call_function call_Ksec, call_Kp, call_Kpp, call_loss_factor;

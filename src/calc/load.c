@@ -3,7 +3,6 @@
 #include "calc/load.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
 
@@ -23,15 +22,6 @@ bool load_press(scene *s, const fret_normal *normal, fret_press *out, calc_error
                      : step->normal == BY_DISPLACEMENT ? fret_press_by_depth(normal, (double)by, out)
                                                        : fret_press_by_radius(normal, (double)by, out);
     return calc_status(error, &st);
-}
-
-double load_largest_force(const load_reach *reach, const fret_normal *normal, const fret_press *press) {
-    const double dz = fmax((double)press->dz, reach->dz_most) + reach->dz_more;
-    const double FN = fmax((double)press->F, reach->FN_most) + reach->FN_more;
-    fret_press deepest;
-    return dz == (double)press->dz || fret_press_by_depth(normal, dz, &deepest).code
-               ? FN
-               : fmax(FN, (double)deepest.F);
 }
 
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {
@@ -81,7 +71,7 @@ static fret_status raise_levels(answers *a, const load_view *load) {
                       fret_contact_normal(a->run[0].engine.contact) != load->normal))
         drop_runs(a);
     if (a->levels == 0) {
-        a->run[0] = (runner){.load = load, .trail = a->trail};
+        a->run[0] = (runner){.load = load};
         st = engine_make(&a->run[0].engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
         a->levels = !st.code;
     }
@@ -91,7 +81,6 @@ static fret_status raise_levels(answers *a, const load_view *load) {
         *r = a->run[0];
         r->level = a->levels;
         r->engine = (engine){.kind = a->run[0].engine.kind};
-        r->trail = NULL;
         st = engine_copy(&r->engine, &a->run[0].engine);
         a->levels++; /* to be dropped, too, if there is only half of it */
     }
@@ -161,37 +150,9 @@ static void use_spares(answers *a) {
     }
 }
 
-bool load_by_double(const scene *s) {
-    return !s->automatic && s->model == MODEL_DOUBLE && !s->now && s->answers.normal &&
-           fret_normal_is_power(s->answers.normal);
-}
-
-/* Beyond F_N ~ dz^5 it promises less. */
-static bool is_gentle(const fret_normal *normal) {
-    const double n = fret_normal_gap(normal)->power[0].n, k = (double)fret_normal_foundation(normal)->k;
-    return fret_normal_is_power(normal) && n + 1 + k <= 5 * n;
-}
-
-bool load_allows_double(const scene *s) {
-    return s->automatic && !s->now && s->answers.normal && is_gentle(s->answers.normal) &&
-           s->answers.levels == 1 && !s->end.cycles;
-}
-
-/* Can the step not fail? Both forces, or both displacements, well within what friction and the range of
- * numbers allow. */
-static bool is_tame(const load_step *step, double mu) {
-    const double normal = step->normal_value, tangential = fabs(step->tangential_value);
-    if (step->kind != LOAD_STEP || step->relative || step->normal != step->tangential || !(normal >= 1e-30) ||
-        !(normal <= 1e30))
-        return false;
-    return step->normal == BY_FORCE ? tangential <= mu * normal * (1 - 1e-12) : tangential <= 1e30;
-}
-
-/* What is always possible waits until a result is asked: to slide to a displacement at constant F_N, and,
- * where the diagram in double may answer, any step that cannot fail: one of many, if it was not asked for. */
-static bool can_wait(const scene *s, const load_step *step, double mu, bool many) {
-    const bool may = load_by_double(s) || (many && load_allows_double(s));
-    return s->answers.levels && (load_is_slide(step) || (may && is_tame(step, mu)));
+/* What is always possible waits until a result is asked: to slide to a displacement at constant F_N. */
+static bool can_wait(const scene *s, const load_step *step) {
+    return s->answers.levels && load_is_slide(step);
 }
 
 /* The step that has just been appended. A single step leaves the memory as it was when it fails; a cycle, or
@@ -247,7 +208,7 @@ bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_
         return calc_missing(error, IN_FN);
     if (!scene_friction(s, &mu, error))
         return false;
-    if (can_wait(s, step, mu, false))
+    if (can_wait(s, step))
         return append_step(s, step, extra, error);
     if (!catch_up(s, error))
         return false;
@@ -283,7 +244,7 @@ bool scene_load_rows(scene *s, load_step step, const double *normal, const doubl
     for (size_t i = 0; i < count; i++) {
         step.normal_value = normal[i];
         step.tangential_value = tangential[i];
-        wait = wait && can_wait(s, &step, mu, true);
+        wait = wait && can_wait(s, &step);
         if (!append_step(s, &step, NULL, error)) {
             *row = i;
             return false;
@@ -298,10 +259,6 @@ bool scene_load_rows(scene *s, load_step step, const double *normal, const doubl
 
 bool load_run(scene *s, const runner **run, calc_error *error) {
     *run = s->now ? s->now->run : NULL;
-    if (s->now && !*run) {
-        *s->now->lacking = true;
-        return calc_fail(error, 0, 0, "only forces are known here"); /* to be asked of a run again */
-    }
     if (s->now)
         return true;
     if (!s->end.steps)
@@ -338,12 +295,4 @@ bool scene_straight(scene *s, const fret_contact **contact, calc_error *error) {
         st = fret_contact_chords(*chords, *contact);
     *contact = *chords;
     return calc_status(error, &st);
-}
-
-bool scene_trail(scene *s, const trail **out, calc_error *error) {
-    answers *a = &s->answers;
-    if (!a->trail && (a->trail = calloc(1, sizeof *a->trail)))
-        drop_runs(a);
-    *out = a->trail;
-    return catch_up(s, error);
 }

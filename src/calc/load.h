@@ -9,15 +9,8 @@
 bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error);
 /* The press at the beginning of the program. */
 bool load_press(scene *s, const fret_normal *normal, fret_press *out, calc_error *error);
-/* The largest F_N of the load, pressed so at first; a gap that does not carry it refuses it where it comes to
- * it. */
-double load_largest_force(const load_reach *reach, const fret_normal *normal, const fret_press *press);
 /* Can a swinging load be taken as it is? On no table of rows. */
 bool load_takes_sine(const load_view *load);
-/* The diagram in double was asked for, which tells the state without the exact one. */
-bool load_by_double(const scene *s);
-/* May it, where nobody asked for a model, tell the forces? */
-bool load_allows_double(const scene *s);
 /* The run that has come to the end of the program, or to now. */
 bool load_run(scene *s, const runner **run, calc_error *error);
 

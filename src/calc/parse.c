@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/characters.h"
 #include "calc/tree.h"
 #include "calc/trial.h"
 #include "calc/unit_text.h"
@@ -25,7 +26,8 @@ typedef struct parser {
 
 /* ---- nodes ------------------------------------------------------------------------------------- */
 
-size_t node_operands(const expr_node *n) {
+/* How many values a node takes from the nodes before it. */
+static size_t operands(const expr_node *n) {
     switch ((node_kind)n->kind) {
     case N_BINARY:
         return 2;
@@ -105,9 +107,9 @@ static bool split_tail(parser *p, size_t first, expr *body) {
         expr_node *n = &body->nodes[i];
         if (n->kind == N_APPLY) {
             n->left -= arguments;
-        } else if (node_operands(n)) {
+        } else if (operands(n)) {
             n->left -= first;
-            n->right -= node_operands(n) > 1 ? first : 0;
+            n->right -= operands(n) > 1 ? first : 0;
         }
     }
     e->count = first;
@@ -128,9 +130,7 @@ static bool unknown_name(parser *p) {
     const char *near = suggest(word, quantity_name);
     if (!near)
         near = suggest(word, builtin_name);
-    size_t same = strlen(word) - 1; /* all letters but the last */
-    while (same > 0 && ((unsigned char)word[same] & 0xc0) == 0x80)
-        same--;
+    const size_t same = character_before(word, strlen(word)); /* all letters but the last */
     for (size_t i = 0; !near && i < p->c->names.count; i++)
         if (p->c->names.row[i].known && same > 1 && !strncmp(p->c->names.row[i].text, word, same))
             near = p->c->names.row[i].text;
@@ -369,7 +369,6 @@ static bool parse_number(parser *p, size_t *out) {
     expr_node node; /* one by one: to clear the whole would cost more than the rest */
     node.kind = N_NUMBER;
     node.op = 0;
-    node.varies = false;
     node.at = at;
     node.left = node.right = node.index = 0;
     node.q = NULL;

@@ -58,9 +58,7 @@ typedef struct quantity {
         by; /* what answers for the function; MODEL_CLOSED: the closed form, or quadrature over the gap */
     const char *argument;
     dim argument_d;
-    dim argument_or; /* what the argument may be instead; a number: nothing else */
-    /* the function at many arguments, to 2e-15; NULL: call does them one by one */
-    bool (*block)(scene *s, const double arg[], double out[], size_t count, calc_error *error);
+    dim argument_or;     /* what the argument may be instead; a number: nothing else */
     unsigned reads;      /* inputs that it can depend on */
     bool load;           /* it depends on the load program too */
     const char *imposed; /* the command whose target it may be, or NULL */

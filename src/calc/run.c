@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "number/array.h"
 #include "number/real.h"
 #include "number/root.h"
 
@@ -517,32 +516,9 @@ static bool on_the_way(const load_view *load, size_t i) {
     return here == next || (last < here && here < next) || (last > here && here > next);
 }
 
-void trail_put(const fret_state *now, double out[TRAILED]) {
-    out[TRAIL_FN] = (double)now->FN;
-    out[TRAIL_DZ] = (double)now->dz;
-    out[TRAIL_FX] = (double)now->Fx;
-    out[TRAIL_DX] = (double)now->dx;
-    out[TRAIL_W] = (double)now->W;
-}
-
-/* Out of memory the trail ends here. */
-static void keep_trail(const runner *r, size_t i) {
-    trail *t = r->trail;
-    fret_state now;
-    if (!t || i > t->count)
-        return;
-    double(*grown)[TRAILED] = fret_array_for(t->at, &t->room, i + 1, sizeof *grown);
-    if (!grown)
-        return;
-    t->at = grown;
-    engine_forces(&r->engine, &now);
-    trail_put(&now, t->at[i]);
-    t->count = i + 1;
-}
-
 fret_status run_to(runner *r, load_mark end) {
     const load_view *load = r->load;
-    const bool every = r->watch || r->trail || r->engine.springs; /* springs round otherwise */
+    const bool every = r->watch || r->engine.springs; /* springs round otherwise */
     fret_status st = fine;
     r->waits = false;
     while (r->at.steps < end.steps) {
@@ -563,7 +539,6 @@ fret_status run_to(runner *r, load_mark end) {
         st = unless_stopped(r, st);
         if (st.code)
             break;
-        keep_trail(r, r->at.steps);
         r->at.steps++;
         r->at.cycles += step->kind == LOAD_CYCLE;
     }

@@ -38,15 +38,6 @@ typedef struct leg {
 
 typedef struct runner runner;
 
-/* What each step left behind, in double, so that a long history can be drawn again and again: 40 bytes a
- * step. The first `count` steps are there. */
-enum { TRAIL_FN, TRAIL_DZ, TRAIL_FX, TRAIL_DX, TRAIL_W, TRAILED };
-typedef struct trail {
-    double (*at)[TRAILED];
-    size_t count, room;
-} trail;
-void trail_put(const fret_state *now, double out[TRAILED]);
-
 /* Where in a cycle a run waits. */
 enum { RUN_NODES = 24 };
 typedef struct run_place {
@@ -106,7 +97,6 @@ struct runner {
     engine engine;
     unsigned level;      /* a swinging period in RUN_CHORDS 2^level chords */
     watch *watch;        /* or NULL */
-    trail *trail;        /* or NULL */
     const sight *coarse; /* the same instant at the LEVELS - 1 coarser levels, or NULL */
     load_mark at;        /* next step of the program, and next of its cycles */
     double time;         /* now */

@@ -4,7 +4,6 @@
 #include "calc/scene.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
@@ -14,9 +13,6 @@ static void answers_end(answers *a, bool keep) {
         engine_end(&a->spare[i].engine);
     }
     fret_contact_free(a->chorded);
-    if (a->trail)
-        free(a->trail->at);
-    free(a->trail);
     fret_normal *normal = a->normal, *k0 = a->k0;
     fret_fields *fields = a->fields;
     *a = (answers){.normal = NULL};
@@ -36,22 +32,9 @@ void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *e
     *s = (scene){.automatic = true, .stop = stop ? stop : &never, .evaluate = evaluate, .context = context};
 }
 
-/* Below a hundredth of the last digit shown; nothing else is worth it. */
-double scene_borne(const scene *s) {
-    static const double by_digits[] = {0, 1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
-    return (size_t)s->digits < sizeof by_digits / sizeof *by_digits ? by_digits[s->digits] : 0;
-}
-
-/* What was worked out for other digits is worked out anew. */
-void scene_show(scene *s, int digits) {
-    if (s->digits != digits && s->answers.known == KNOWN_FORCES)
-        scene_moved(s);
-    s->digits = digits;
-}
-
 void scene_moved(scene *s) {
     s->answers.press_ready = false;
-    s->answers.known = KNOWN_NOTHING;
+    s->answers.state_ready = false;
 }
 
 scene_use scene_answered_by(const scene *s) {
@@ -111,7 +94,6 @@ void scene_free(scene *s) {
 void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->answers = (answers){.normal = NULL};
-    to->many = false;
     to->like = from->like ? fret_normal_hold(from->like) : NULL;
     inputs_copy(&to->in, &from->in);
     counted_hold(to->program ? &to->program->base : NULL);
@@ -273,18 +255,13 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
     return true;
 }
 
-void scene_expect_many(scene *s) {
-    s->many = true;
-    scene_show(s, 0);
-}
-
-/* Of a table one place alone would want all of its rows: they are worked out for all places at once. */
+/* Places of a power law are asked for one by one; of another gap what one wants serves all of them. */
 bool scene_fields(scene *s, fret_fields **fields, calc_error *error) {
     const fret_normal *normal;
     *fields = NULL;
     if (!scene_normal(s, &normal, error))
         return false;
-    if (!s->many && !fret_normal_gap(normal)->table)
+    if (fret_normal_is_power(normal))
         return true;
     fret_status st = {.code = FRET_OK};
     if (!s->answers.fields)
@@ -332,9 +309,7 @@ bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, cal
 }
 
 double scene_time(const scene *s) {
-    if (s->now)
-        return s->now->run ? s->now->run->time : s->now->time;
-    return program_time(s->program, s->end);
+    return s->now ? s->now->run->time : program_time(s->program, s->end);
 }
 
 bool scene_last_cycle(scene *s, load_item *out, calc_error *error) {
@@ -356,17 +331,6 @@ static void reach_step(load_reach *r, const load_step *step, unsigned times) {
     r->most = fmax(r->most, size);
     r->end = v;
     r->normal_varies = r->normal_varies || load_moves_normal(step);
-    r->oblique = r->oblique || (load_moves_normal(step) && r->by);
-    if (step->kind == LOAD_CYCLE)
-        r->FN_more = fmax(r->FN_more, fabs(step->normal_value));
-    else if (step->normal == BY_FORCE && step->relative & RELATIVE_NORMAL)
-        r->FN_more += fmax(step->normal_value, 0);
-    else if (step->normal == BY_FORCE)
-        r->FN_most = fmax(r->FN_most, step->normal_value);
-    else if (step->normal == BY_DISPLACEMENT && step->relative & RELATIVE_NORMAL)
-        r->dz_more += fmax(step->normal_value, 0);
-    else if (step->normal == BY_DISPLACEMENT)
-        r->dz_most = fmax(r->dz_most, step->normal_value);
     if (step->kind == LOAD_CYCLE) { /* a second period is closed whatever came before */
         r->closed = r->first || times > 1;
         r->swings = r->swings || step->normal_value != 0;

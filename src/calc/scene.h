@@ -23,28 +23,21 @@ typedef struct load_reach {
     double end;         /* where it ends */
     bool closed;        /* the last period of the last cycle returned to the state that it began in */
     bool normal_varies; /* some step changes F_N */
-    bool oblique;       /* of a contact that is, or comes to be, under F_x */
-    double FN_most, FN_more; /* largest F_N that a step asks for; what steps and swings may add */
-    double dz_most, dz_more; /* the same for delta_z */
-    bool swings;             /* a cycle does */
-    size_t last_cycle;       /* its index, or NO_CYCLE */
+    bool swings;        /* a cycle does */
+    size_t last_cycle;  /* its index, or NO_CYCLE */
 } load_reach;
-
-typedef enum scene_known { KNOWN_NOTHING, KNOWN_FORCES, KNOWN_STATE } scene_known;
 
 /* What follows, valid as far as the flags say. */
 typedef struct answers {
     fret_normal *normal, *k0; /* or NULL: not made yet */
-    fret_fields *fields;      /* of `normal`, for many places; or NULL */
-    bool press_ready, reach_ready;
-    scene_known known; /* of state */
+    fret_fields *fields;      /* of `normal`, or NULL */
+    bool press_ready, reach_ready, state_ready;
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
     fret_contact *chorded;             /* room for scene_straight */
     unsigned levels, spares;
     bool chords; /* the swinging load of the program cannot be taken as it is */
     load_reach reach;
-    trail *trail; /* of run[0], or NULL */
     fret_state state;
     long double loss; /* of the last period */
 } answers;
@@ -55,12 +48,9 @@ typedef struct scene scene;
 typedef bool scene_definition(void *context, scene *s, input in, counted *definition, value *out,
                               calc_error *error);
 
-/* An instant on the way of a load: the run as it stands there, or what it has left behind. */
+/* An instant on the way of a load: the run as it stands there. */
 typedef struct instant {
     const runner *run;
-    const double *kept;    /* TRAILED; NULL: there is the run */
-    double time;           /* of it */
-    bool *lacking;         /* raised where more than that is wanted */
     struct beside *beside; /* the same instant in other scenes (beside.h); NULL: it cannot be had */
 } instant;
 
@@ -83,11 +73,8 @@ struct scene {
     bool automatic; /* the model: the closed form where there is one, else the memory diagram */
     model_id model; /* else this one */
     unsigned springs;
-    /* many values of this contact are asked for: a decision of what asks, never of what was asked */
-    bool many;
     /* of a scratch scene: what is prepared for its shape and k, whatever the material; or NULL */
     fret_normal *like;
-    int digits; /* of the values shown; 0: all. The law of a table need not be better than they can tell */
     double pieces_error; /* of the polynomials among them, relative */
     unsigned used;       /* what has answered: raised by whatever does, cleared by whoever wants to know */
     const volatile sig_atomic_t *stop; /* never NULL */
@@ -100,17 +87,10 @@ void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *e
 void scene_free(scene *s);
 /* A scratch scene: shares inputs and program, owns its results. Free with scene_free. */
 void scene_clone(scene *to, const scene *from);
-/* Values are shown with so many digits from now on; 0: all. */
-void scene_show(scene *s, int digits);
-/* The relative error that those do not tell; 0: they are all. */
-double scene_borne(const scene *s);
 scene_use scene_answered_by(const scene *s);
 /* These have answered too. */
 void scene_also_used(scene *s, scene_use also);
 void scene_used_law(scene *s, const fret_normal *normal);
-/* Of a scratch scene: many values are to be asked for, and compared with one another, of its shape and k; at
- * loads about that of now, else it takes longer. */
-void scene_expect_many(scene *s);
 /* Another instant: press and state are found anew. */
 void scene_moved(scene *s);
 /* Forgets what has been computed; keep: the normal contact still stands. */
@@ -172,7 +152,7 @@ bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *
 /* The shape alone, unchecked. */
 bool scene_gap(scene *s, fret_gap *out, calc_error *error);
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
-/* Fields of the contact at many places; *fields is NULL where each is asked for by itself. */
+/* Fields of the contact; *fields is NULL where a place is asked for by itself. */
 bool scene_fields(scene *s, fret_fields **fields, calc_error *error);
 /* The same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);
@@ -187,9 +167,6 @@ bool scene_forces(scene *s, const fret_state **state, calc_error *error);
 /* What the load has left: as it is, after a swinging load curved; and with that in chords. */
 bool scene_history(scene *s, const fret_contact **contact, calc_error *error);
 bool scene_straight(scene *s, const fret_contact **contact, calc_error *error);
-/* What each step of the load has left behind, which is run for that at first; *out is NULL where there is no
- * memory for it. */
-bool scene_trail(scene *s, const trail **out, calc_error *error);
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error);
 bool scene_cycle_loss(scene *s, long double *loss, calc_error *error);
 
@@ -211,14 +188,4 @@ bool scene_trace(scene *s, watch *w, calc_error *error);
  */
 bool scene_engine(scene *s, const load_view *load, model_id model, unsigned count, engine *out,
                   calc_error *error);
-/* The load run by the model that was asked for, one that steps, at all levels that it wants: they look at the
- * load beside them. To be ended where they are made. */
-typedef struct runs {
-    load_view load;
-    runner run[LEVELS];
-    unsigned levels;
-} runs;
-bool scene_runs(scene *s, runs *out, calc_error *error);
-void runs_end(runs *r);
-
 #endif

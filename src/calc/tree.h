@@ -22,7 +22,6 @@ typedef enum node_kind {
 struct expr_node {
     unsigned char kind; /* node_kind */
     char op;
-    bool varies; /* with the name of a block */
     unsigned len;
     size_t at;          /* its place in the statement */
     size_t left, right; /* N_APPLY: first of the arguments, and how many */
@@ -45,9 +44,6 @@ struct expr_at {
         expr value;
     } change[CHANGES];
 };
-
-/* How many values a node takes from the nodes before it. */
-size_t node_operands(const expr_node *n);
 
 /* A step more of a way of definitions, or, for want of room, the last with dots. Returns the room it took. */
 size_t way_step(char *way, size_t size, const char *name, const char *text);

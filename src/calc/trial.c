@@ -118,13 +118,10 @@ bool trial_change(trial *t, const knob_value by[], size_t count, size_t *wrong, 
     }
     if (!now || run == count)
         return true;
-    if (now->kept)
-        *now->lacking = true;
     if (!now->beside)
         return calc_fail(error, 0, 0,
                          "%s cannot be changed at an instant of a load: try along ... with %s = ...",
                          by[run].p.text, by[run].p.text);
-    t->scene.many = t->outer->many;
     return beside_scene(now->beside, &t->scene, by, count, scene_time(t->outer), &t->c->now, error);
 }
 
@@ -186,58 +183,6 @@ static bool see(const runner *r, void *context) {
     bool ok = a->look(a->context, r->time, a->error);
     s->now = NULL;
     scene_moved(s);
-    return ok;
-}
-
-/* At an instant that is known by its forces. */
-static bool see_kept(trial *t, const double kept[TRAILED], size_t i, bool *lacking, along_look *look,
-                     void *context, calc_error *error) {
-    const instant now = {.kept = kept, .time = (double)i, .lacking = lacking};
-    scene *s = &t->scene;
-    s->now = &now;
-    scene_moved(s);
-    const bool ok = look(context, now.time, error);
-    s->now = NULL;
-    scene_moved(s);
-    return ok;
-}
-
-/* Not of springs, which take their time. */
-static bool forces_at_end(scene *s, double out[TRAILED], calc_error *error) {
-    const fret_contact *contact;
-    fret_state exact;
-    const fret_state *now = &exact;
-    if (s->automatic ? !scene_forces(s, &now, error) : !scene_history(s, &contact, error))
-        return false;
-    if (!s->automatic)
-        fret_contact_forces(contact, &exact);
-    trail_put(now, out);
-    return true;
-}
-
-bool trial_trail(trial *t, along_what what, size_t points, along_look *probe, along_look *look, void *context,
-                 bool *done, calc_error *error) {
-    enum { MANY = 10 }; /* steps for each point */
-    const size_t steps = t->scene.end.steps;
-    const trail *kept;
-    double last[TRAILED];
-    bool lacking = false;
-    *done = false;
-    if (what != ALONG_PROGRAM || !t->scene.sound || t->outer != &t->c->scene || t->scene.end.cycles ||
-        steps < MANY * points)
-        return true;
-    if (!forces_at_end(t->outer, last, error))
-        return false;
-    if (!see_kept(t, last, steps - 1, &lacking, probe, context, error))
-        return false;
-    if (lacking)
-        return true;
-    if (!scene_trail(t->outer, &kept, error))
-        return false;
-    *done = kept && kept->count >= steps;
-    bool ok = true;
-    for (size_t i = 0; i < steps && *done && ok; i++)
-        ok = see_kept(t, kept->at[i], i, &lacking, look, context, error);
     return ok;
 }
 

@@ -47,10 +47,4 @@ typedef bool along_look(void *context, double time, calc_error *error);
 bool trial_along(trial *t, along_what what, load_mark from, size_t points, bool turns, along_look *look,
                  void *context, calc_error *error);
 
-/* The same at the ends of the steps alone, from what the user's load leaves behind, run for that once: for
- * programs of so many steps that `points` instants more would not be seen. *done stays false where that is
- * not to be had, or where `probe`, which is to evaluate what look will, wants more than forces. */
-bool trial_trail(trial *t, along_what what, size_t points, along_look *probe, along_look *look, void *context,
-                 bool *done, calc_error *error);
-
 #endif

@@ -147,7 +147,7 @@ void walk_more(walk *w) {
 }
 
 void walk_enter(walk *w, calc *c) {
-    w->now = (instant){.run = &w->run, .time = w->run.time};
+    w->now = (instant){.run = &w->run};
     w->outer = c->now;
     c->now = &w->scene;
     w->scene.now = &w->now;

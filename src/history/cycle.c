@@ -168,7 +168,7 @@ static fret_real general_loss(const fret_pressed *c, bool by_load, const fractio
     const fret_level edge = {c->press.dz, c->press.F};
     const fret_real whole = by_load ? edge.F : edge.y, s = dd_value(f->s), t = fminl(f->t_wide, 1);
     return 4 * c->mu * (c->mu * c->normal->foundation.eta) *
-           fret_law_slice_to(c->normal, &edge, by_load, t * whole, s * whole).L;
+           fret_law_slice_to(c->normal, &edge, by_load, t * whole, s * whole, NULL).L;
 }
 
 static fret_real loss_of(const fret_pressed *c, const fraction *f) {

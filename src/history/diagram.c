@@ -26,8 +26,16 @@ FRET_INLINE fallen law_fall(const fret_diagram *d, coordinate by, place edge, do
     return (fallen){edge.v - v, v};
 }
 
+/* Of a power law none is looked for. */
+typedef char spot;
+
+static spot no_spot(void) {
+    return 0;
+}
+
 FRET_INLINE bow law_bow(const fret_diagram *d, coordinate by, const place *outer, const place *inner,
-                        double w) {
+                        double w, spot *at) {
+    (void)at;
     return power_bow(&d->law[by], outer, inner, w);
 }
 

@@ -3,7 +3,8 @@
  * history/diagram_type.h and what the law is there:
  *   law_value   the other coordinate of a place
  *   law_fall    that of a place, and how far it is below that of the edge
- *   law_bow     what a slice of the law bends (history/power_law.h)
+ *   law_bow     what a slice of the law bends (history/power_law.h); slices from the edge inwards hand on a
+ *               `spot` where the law has looked, at first no_spot
  *   law_shown   whether numbers hold it
  *   law_press   the other coordinate of an edge out of the ordinary, if they do
  *   law_left    the level of slip at an edge near gross slip, of which every digit counts
@@ -146,10 +147,10 @@ APART fret_status count_near(DIAGRAM *d, coordinate by, double y) {
  * (1-x) + outer x^2,   x = 0 .. 1 from the inner one to the outer one. No term is negative: thin zones keep
  * their digits. */
 FRET_INLINE NUMBER over(const DIAGRAM *d, coordinate by, const place *from, const place *to, NUMBER w,
-                        NUMBER inner, NUMBER middle, NUMBER outer) {
+                        NUMBER inner, NUMBER middle, NUMBER outer, spot *at) {
     if (!(w > 0))
         return 0;
-    const bow b = law_bow(d, by, to, from, w);
+    const bow b = law_bow(d, by, to, from, w, at);
     const NUMBER sum = middle * b.middle + outer * b.outer;
     return inner > 0 ? sum + inner * b.inner : sum; /* the centre may bend without end */
 }
@@ -196,16 +197,19 @@ APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_fro
         middle[1] = h0 * h1 / 2;
     }
     const NUMBER psi[4] = {0, start, end, 0};
-    for (int i = 0; i < 3; i++)
-        sum += over(d, by, at[i], at[i + 1], w[i], psi[i], middle[i], psi[i + 1]);
+    spot last = no_spot();
+    for (int i = 2; i >= 0; i--)
+        sum += over(d, by, at[i], at[i + 1], w[i], psi[i], middle[i], psi[i + 1], &last);
     return sum;
 }
 
 /* Of the force between two depths: that of the chord, less what lies between. */
 APART NUMBER mean_force(const DIAGRAM *d, const place *a, const place *b) {
     const NUMBER way = size_of(b->y - a->y);
+    spot last = no_spot();
     const bool rises = a->y < b->y;
-    return way > 0 ? (a->v + b->v) / 2 - law_bow(d, DEPTH, rises ? b : a, rises ? a : b, way).middle * way / 4
+    return way > 0 ? (a->v + b->v) / 2 -
+                         law_bow(d, DEPTH, rises ? b : a, rises ? a : b, way, &last).middle * way / 4
                    : b->v;
 }
 

@@ -34,13 +34,19 @@ static fallen law_fall(const fret_memory *m, coordinate by, place edge, fret_rea
     return (fallen){edge.v - v, v};
 }
 
+typedef fret_place spot;
+
+static spot no_spot(void) {
+    return fret_place_none();
+}
+
 FRET_INLINE bow law_bow(const fret_memory *m, coordinate by, const place *outer, const place *inner,
-                        fret_real w) {
+                        fret_real w, spot *at) {
     if (fret_normal_closed(m->normal))
         return power_bow(&m->law[by], outer, inner, w);
     const bool by_load = by == LOAD;
     const fret_level level = level_of(by, *outer);
-    const fret_slice s = fret_law_slice_to(m->normal, &level, by_load, w, inner->y);
+    const fret_slice s = fret_law_slice_to(m->normal, &level, by_load, w, inner->y, at);
     const fret_real N = (s.h * s.fall - s.G) / (by_load ? s.K + s.fall : 1),
                     G = !by_load  ? s.G
                         : s.K > 0 ? s.G / s.K

@@ -124,7 +124,7 @@ static fret_real loss_rate(const fret_normal *n, fret_real edge, fret_real front
     if (!(zone > 0))
         return 0;
     const fret_level outer = {fret_law_depth(n, edge), edge};
-    const fret_slice s = fret_law_slice_to(n, &outer, true, zone, front);
+    const fret_slice s = fret_law_slice_to(n, &outer, true, zone, front, NULL);
     return s.K > 0 ? s.G / s.K : 0; /* the centre has no weight */
 }
 

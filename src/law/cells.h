@@ -6,6 +6,7 @@
 
 #include <float.h>
 #include <stdatomic.h>
+#include <stdint.h>
 
 #include "law/cell.h"
 #include "law/gap.h"
@@ -45,6 +46,11 @@ typedef struct fret_place {
     fret_real s, back;
     fret_real rise[2]; /* of depth and load above the beginning of the cell; NaN where not known */
 } fret_place;
+
+/* No place, yet. */
+static inline fret_place fret_place_none(void) {
+    return (fret_place){SIZE_MAX, 0, 0, {0, 0}};
+}
 
 /* Where depth or load is `value`; false: beyond the end. */
 bool fret_cells_find(const fret_cells *cells, int by, fret_real value, fret_place *out);

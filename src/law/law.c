@@ -118,18 +118,20 @@ static fret_point cell_point(const fret_normal *n, bool by_force, fret_real valu
 }
 
 static fret_slice cell_slice(const fret_normal *n, const fret_level *outer, bool by_load, fret_real target,
-                             fret_real left) {
+                             fret_real left, fret_place *at) {
     const fret_cells *all = n->cells;
     const int by = by_load ? BY_LOAD : BY_DEPTH;
     const fret_real per = by_load ? 1 / n->stiff : 1;
-    fret_place from;
-    if (!fret_cells_find(all, by, (by_load ? outer->F : outer->y) * per, &from))
+    fret_place from = at ? *at : fret_place_none();
+    if (from.i == SIZE_MAX && !fret_cells_find(all, by, (by_load ? outer->F : outer->y) * per, &from))
         return (fret_slice){(fret_real)NAN, (fret_real)NAN, (fret_real)NAN,
                             (fret_real)NAN, (fret_real)NAN, (fret_real)NAN};
     const fret_place to = left > 0 ? fret_cells_inner(all, by, &from, target * per, left * per)
                                    : (fret_place){0, all->cell[0].begin, from.s, {0, 0}};
     fret_real K;
     const fret_stretch sum = fret_cells_between(all, &from, &to, &K);
+    if (at)
+        *at = to;
     const fret_real G = n->stiff * sum.G;
     K *= n->stiff;
     fret_slice out = {
@@ -204,11 +206,11 @@ fret_real fret_law_depth(const fret_normal *n, fret_real F) {
 }
 
 fret_slice fret_law_slice_to(const fret_normal *n, const fret_level *outer, bool by_load, fret_real target,
-                             fret_real left) {
+                             fret_real left, fret_place *at) {
     if (!(target > 0))
         return (fret_slice){0, 0, 0, 0, 0, fret_law_at_depth(n, outer->y).K};
     if (!fret_normal_closed(n))
-        return cell_slice(n, outer, by_load, fminl(target, by_load ? outer->F : outer->y), left);
+        return cell_slice(n, outer, by_load, fminl(target, by_load ? outer->F : outer->y), left, at);
     if (!by_load)
         return power_slice(n, outer, target, left / outer->y);
     const fret_real inner =
@@ -218,7 +220,7 @@ fret_slice fret_law_slice_to(const fret_normal *n, const fret_level *outer, bool
 }
 
 fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_real h) {
-    return fret_law_slice_to(n, outer, false, h, outer->y - h);
+    return fret_law_slice_to(n, outer, false, h, outer->y - h, NULL);
 }
 
 fret_real fret_slice_moment(const fret_slice *s) {
@@ -238,7 +240,7 @@ fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret
         return outer->y;
     if (fret_normal_closed(n))
         return -outer->y * expm1l(n->q * log1pl(-w / outer->F));
-    return fret_law_slice_to(n, outer, true, w, outer->F - w).h;
+    return fret_law_slice_to(n, outer, true, w, outer->F - w, NULL).h;
 }
 
 fret_real fret_law_load_outside(const fret_normal *n, const fret_level *outer, fret_real inner_depth) {

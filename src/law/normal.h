@@ -82,9 +82,10 @@ typedef struct fret_slice {
     fret_real h, w, fall, G, L, K;
 } fret_slice;
 
-/* Of a thickness, or load, `target`, beyond which `left` is left, with all digits where that is little. */
+/* Of a thickness, or load, `target`, beyond which `left` is left, with all digits where that is little. at:
+ * of slices one within the other, where the one before has ended, and then where this one does; else NULL. */
 fret_slice fret_law_slice_to(const fret_normal *normal, const fret_level *outer, bool by_load,
-                             fret_real target, fret_real left);
+                             fret_real target, fret_real left, fret_place *at);
 /* Of the thickness h, 0 <= h <= y. */
 fret_slice fret_law_slice(const fret_normal *normal, const fret_level *outer, fret_real h);
 /* int t K dt over it, t from the outer end [N m]. */

@@ -13,30 +13,6 @@
 
 /* ---- texts --------------------------------------------------------------------------------------- */
 
-/* As much of a line of n bytes as goes into a row, broken between words where it can be. */
-static size_t row_of(const char *text, size_t n, int cols) {
-    size_t whole = 0, column = 0;
-    for (size_t i = 0, step; i < n; i += step) {
-        step = character_at(text + i, n - i, NULL);
-        step = step ? step : 1;
-        column += text_columns(text + i, step);
-        if (column > (size_t)cols && text[i] != ' ')
-            return whole ? whole : i;
-        if (text[i] == ' ')
-            whole = i;
-    }
-    return n;
-}
-
-/* The rows of a line: bytes of the next one; the text goes on to the one after. */
-static size_t next_row(const char **text, size_t *left, int cols) {
-    const size_t n = row_of(*text, *left, cols), blanks = strspn(*text + n, " ");
-    const size_t gone = n + (blanks < *left - n ? blanks : *left - n);
-    *text += gone;
-    *left -= gone;
-    return n;
-}
-
 /* Rows that a text takes, of at most so many; drawn where `at` has rows. */
 static int put_words(const char *text, ink of, rect at, int most) {
     char shown[4 * LIVE_LINE];
@@ -45,7 +21,7 @@ static int put_words(const char *text, ink of, rect at, int most) {
     const char *p = shown;
     for (size_t left = strlen(shown); left > 0 && row < most; row++) {
         const char *here = p;
-        const size_t n = next_row(&p, &left, at.cols);
+        const size_t n = text_break(&p, &left, (size_t)at.cols);
         put_text(at, row, of, "%.*s", (int)n, here);
     }
     return row;
@@ -414,8 +390,8 @@ static void put_line(const live *l, rect at, int row) {
     const int column = (int)text_columns(shown, strlen(shown)), skip = column > width ? column - width : 0;
     characters_shown(l->line, shown, sizeof shown);
     const char *from = shown;
-    while ((int)text_columns(shown, (size_t)(from - shown)) < skip || (*from & 0xc0) == 0x80)
-        from++;
+    while ((int)text_columns(shown, (size_t)(from - shown)) < skip)
+        from += character_at(from, strlen(from), NULL);
     put_text(at, row, INK_NONE, "%s%s", l->prompt, from);
     move(at.top + row, at.left + prompt + column - skip);
 }
@@ -448,7 +424,7 @@ static size_t put_page(const char *page, size_t from, rect at) {
         size_t left = strcspn(p, "\n");
         do {
             const char *here = p;
-            const size_t n = next_row(&p, &left, at.cols);
+            const size_t n = text_break(&p, &left, (size_t)at.cols);
             if (row >= from && row - from < (size_t)at.rows)
                 put_text(at, (int)(row - from), INK_NONE, "%.*s", (int)n, here);
             row++;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines on a page of text: which dots of its cells they touch, and the characters of braille that show them.
+/* Lines on a page of text: which dots of its cells they touch.
  * Pure. */
 #include <math.h>
 #include <stdlib.h>
@@ -83,12 +83,4 @@ unsigned char plot_cells_braille(const plot_cells *c, int column, int row) {
             if (c->dot[(row * 4 + y) * c->columns * 2 + column * 2 + x])
                 bits |= bit[y][x];
     return (unsigned char)bits;
-}
-
-size_t plot_braille(unsigned char bits, char to[4]) {
-    to[0] = (char)0xe2;
-    to[1] = (char)(0xa0 | bits >> 6);
-    to[2] = (char)(0x80 | (bits & 0x3f));
-    to[3] = 0;
-    return 3;
 }

@@ -6,9 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/characters.h"
 #include "plot/script.h"
 
-enum { TICS = 24, TIC = 24, LEVELS = 9 };
+enum { TICS = 24, TIC = 24, LEVELS = 9, BRAILLE = 0x2800 /* of no dots */ };
+
+static size_t columns(const char *text) {
+    return text_columns(text, strlen(text));
+}
 
 plot_pages plot_pages_for(const plot_target *t, size_t panels, bool one_screen) {
     int w = t->columns ? t->columns : 79, h = t->rows ? t->rows : 24, n = (int)panels;
@@ -184,9 +189,9 @@ static void sign_of(const page *g, size_t at, char sign[SIGN], const char **colo
         const size_t n = strlen(dash);
         size_t used = 0;
         for (size_t i = 0; i < 8; i += 2)
-            used += plot_braille(
-                (unsigned char)((dash[i % n] == '1' ? 0x02 : 0) | (dash[(i + 1) % n] == '1' ? 0x10 : 0)),
-                sign + used);
+            used += character_put(BRAILLE + (dash[i % n] == '1' ? 0x02U : 0) +
+                                      (dash[(i + 1) % n] == '1' ? 0x10U : 0),
+                                  sign + used);
         return;
     }
     const char c = s->role == PLOT_NOW        ? '@'
@@ -270,14 +275,14 @@ static bool write_series_cells(page *g, size_t at) {
 /* The characters of one colour. */
 static void write_ink(const page *g, size_t n) {
     const int columns = g->x.cells + 1;
-    char braille[4];
+    char braille[CHARACTER_BYTES];
     fprintf(g->to, "$ink%zu_%zu_%zu << END\n", g->frame, g->index, n);
     for (int r = 0; r <= g->y.cells; r++)
         for (int c = 0; c < columns; c++) {
             const ink *i = &g->ink[r * columns + c];
             if (!i->bits || i->color != ink_color(n))
                 continue;
-            plot_braille(i->bits, braille);
+            character_put(BRAILLE + i->bits, braille);
             fprintf(g->to, "%.12g %.12g %s\n", at_cell(&g->x, c), at_cell(&g->y, r), braille);
         }
     fputs("END\n", g->to);
@@ -353,6 +358,7 @@ static bool set_texts(const page *g) {
          *z = shown(g, p->map.nx ? p->map.label : "");
     bool ok = title && x && y && z;
     if (ok) {
+        const int above = (int)columns(y);
         size_t room = strlen(title) + strlen(y) + strlen(z) + 20;
         char *line = malloc(room);
         ok = line != NULL;
@@ -362,8 +368,7 @@ static bool set_texts(const page *g) {
             fputs("set label ", g->to);
             plot_quote(g->to, line);
             fprintf(g->to, " at character %d,%d left\nset xlabel ",
-                    plot_columns(y) + 2 < (size_t)g->left ? g->left - (int)plot_columns(y) - 1 : 1,
-                    g->rows - 1);
+                    above + 2 < g->left ? g->left - above - 1 : 1, g->rows - 1);
             plot_quote(g->to, x);
             putc('\n', g->to);
             free(line);
@@ -416,14 +421,14 @@ static size_t key_of(const page *g, entry key[PLOT_CURVES + LEVELS]) {
 static size_t sign_columns(const entry *key, size_t n) {
     size_t most = 1;
     for (size_t i = 0; i < n; i++)
-        most = plot_columns(key[i].sign) > most ? plot_columns(key[i].sign) : most;
+        most = columns(key[i].sign) > most ? columns(key[i].sign) : most;
     return most;
 }
 
 static void place_key(page *g, const entry *key, size_t n) {
     size_t longest = 0;
     for (size_t i = 0; i < n; i++) {
-        size_t c = plot_columns(key[i].text);
+        size_t c = columns(key[i].text);
         longest = c > longest ? c : longest;
     }
     const size_t sign = sign_columns(key, n);
@@ -432,7 +437,7 @@ static void place_key(page *g, const entry *key, size_t n) {
     g->right = g->key_right ? (int)(longest + sign) + 5 : 3;
     size_t at = 0;
     for (size_t i = 0; i < n && !g->key_right; i++) { /* rows of entries below */
-        size_t w = plot_columns(key[i].text) + sign + 4;
+        size_t w = columns(key[i].text) + sign + 4;
         if (!g->key_rows || at + w > (size_t)g->columns) {
             g->key_rows++;
             at = 0;
@@ -450,7 +455,7 @@ static void set_key(const page *g, const entry *key, size_t n) {
     const int sign = (int)sign_columns(key, n);
     fputs("unset key\n", g->to);
     for (size_t i = 0; i < n && row >= 0; i++) {
-        int w = (int)plot_columns(key[i].text) + sign + 4;
+        int w = (int)columns(key[i].text) + sign + 4;
         if (!g->key_right && column > 2 && column + w - 2 > g->columns) {
             column = 2;
             if (--row < 0)

@@ -38,11 +38,6 @@ double plot_step(double least);
 /* At most `room` levels for contours of z, in rising order. */
 size_t plot_levels(const plot_map *m, double *level, size_t room);
 
-/* ---- text.c --------------------------------------------------------------------------------------- */
-
-/* Room in a text of the terminal: columns of its characters. */
-size_t plot_columns(const char *text);
-
 /* ---- script.c: pictures ------------------------------------------------------------------------- */
 
 /* Points are left out only where a line is straight: on terminals whose lines end on whole pixels, a curve of
@@ -106,8 +101,6 @@ void plot_cells_draw(const plot_cells *c, const double (*point)[2], size_t count
 bool plot_cells_has(const plot_cells *c, int column, int row);
 /* The dots of a cell as bits of U+2800; of braille only. */
 unsigned char plot_cells_braille(const plot_cells *c, int column, int row);
-/* The character in UTF-8; its length. */
-size_t plot_braille(unsigned char bits, char to[4]);
 
 /* ---- page.c: text ------------------------------------------------------------------------------- */
 

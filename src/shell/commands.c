@@ -118,9 +118,11 @@ static const arg solve_args[] = {{.kind = ARG_KNOB, .name = "input"},
                                  {.kind = ARG_WORD, .name = "to"},
                                  {.kind = ARG_END}};
 
-static const arg fit_args[] = {{.kind = ARG_KNOB, .name = "input"},  {.kind = ARG_WORD, .name = "for"},
-                               {.kind = ARG_TO, .name = "to"},       {.kind = ARG_TO, .name = "along"},
-                               {.kind = ARG_WORD, .name = "robust"}, {.kind = ARG_END}};
+static const arg fit_args[] = {{.kind = ARG_KNOB, .name = "input"},
+                               {.kind = ARG_WORD, .name = "for"},
+                               {.kind = ARG_TO, .name = "to"},
+                               {.kind = ARG_TO, .name = "along"},
+                               {.kind = ARG_END}};
 
 static const arg uncertainty_args[] = {{.kind = ARG_LIST, .name = "expression"},
                                        {.kind = ARG_WORD, .name = "in"},
@@ -449,7 +451,7 @@ const command commands[] = {
      .args = fit_args,
      .group = "backwards",
      .keywords = "least squares regression identify parameter measured data inverse calibrate",
-     .usage = "NAME, ... for EXPR = EXPR to FILE.csv | along FILE.csv [robust]",
+     .usage = "NAME, ... for EXPR = EXPR to FILE.csv | along FILE.csv",
      .summary = "inputs from measured data, with how sure they are",
      .help = "Starts from the present values; the scene stays as it is. With `for` each row is\n"
              "an equation whose columns are names: depth = dz(force). With `along` the file is\n"
@@ -457,8 +459,7 @@ const command commands[] = {
              "compared. Answers are values with their standard errors, correlations and the\n"
              "rms of the residuals; data that do not determine a name, or cannot tell two\n"
              "apart, are an error that names them. A note says where the residuals of a loop\n"
-             "are no noise but go together, by a drift or an offset: take that off the file.\n"
-             "`robust` gives rows far off less weight (Huber).\n\n"
+             "are no noise but go together, by a drift or an offset: take that off the file.\n\n"
              "    $ cat depth.csv\n"
              "    force [N],depth [um]\n"
              "    20,1.21\n"
@@ -553,7 +554,6 @@ const command commands[] = {
              "    memory diagram                        1.9065    <5e-19     ... ns        ...\n"
              "    loop area (21)           M = 10       1.8755   1.6e-02     ... us        ...\n"
              "    loop area (21)          M = 100       1.9061   1.6e-04     ... us        ...\n"
-             "    diagram in double                     1.9065   1.8e-16     ... ns        ...\n"
              "    quadrature                            1.9065    <5e-19     ... us        ...\n"
              "    springs                 N = 100       1.9069   2.2e-04     ... ns        ...\n"
              "    springs                N = 1000       1.9065   5.5e-06     ... us        ...\n"

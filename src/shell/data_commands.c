@@ -234,7 +234,6 @@ static bool read_fit(shell *sh, lexer *lx, fit_question *q, csv *data, range_nam
     } else if (!read_equation(sh, lx, q, data, names)) {
         return false;
     }
-    q->robust = lex_accept(lx, "robust");
     return at_end(lx);
 }
 
@@ -284,11 +283,9 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
                    a->together);
     if (a->twice)
         shell_note(sh, "the loop is closed and does not begin at rest: run twice, the second time compared");
-    if (q->robust)
-        shell_note(sh, "%zu of %zu rows are far off (beyond three robust deviations)", a->far, q->rows);
     if (sh->set.timing)
-        shell_say(sh, "fit: Levenberg and Marquardt's method%s, %u iterations, %u evaluations of %zu rows",
-                  q->robust ? ", weights after Huber" : "", a->iterations, a->evaluations, q->rows);
+        shell_say(sh, "fit: Levenberg and Marquardt's method, %u iterations, %u evaluations of %zu rows",
+                  a->iterations, a->evaluations, q->rows);
 }
 
 static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, calc_error *error) {

@@ -6,11 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/characters.h"
+#include "calc/file.h"
 #include "calc/trial.h"
 #include "number/array.h"
 #include "shell/answer.h"
 #include "shell/command.h"
+#include "shell/lines.h"
 #include "shell/text.h"
 #include "shell/topics.h"
 #include "shell/typeset.h"
@@ -58,22 +59,19 @@ static void put_value(const page *p, const char *name, size_t len, value v) {
     free(whole);
 }
 
-enum { WRAPPED = 900 };
-
 /* Broken at spaces, further lines indented more. */
-static void wrap(const char *text, char out[WRAPPED]) {
-    enum { LINE = 79, INDENT = 4 };
-    size_t used = 0, n = 0;
-    while (*text && n < WRAPPED) {
-        const size_t gap = strspn(text, " "), len = strcspn(text + gap, " ");
-        const size_t width = text_columns(text + gap, len);
-        const bool breaks = used > 0 && used + gap + width > LINE;
-        const size_t space = used == 0 ? INDENT : breaks ? (size_t)2 * INDENT : gap;
-        n += (size_t)snprintf(out + n, WRAPPED - n, "%s%*s%.*s", breaks ? "\n" : "", (int)space, "", (int)len,
-                              text + gap);
-        used = (breaks ? 0 : used) + space + width;
-        text += gap + len;
+static void put_wrapped(const page *p, const char *line) {
+    file_text wrapped;
+    bool ok = file_text_open(&wrapped);
+    if (ok)
+        help_wrapped(wrapped.to, line, 0, 8);
+    ok = ok && file_text_close(&wrapped);
+    if (!ok) {
+        calc_raise_memory(p->error);
+        return;
     }
+    answer_words(p->out, "%s", wrapped.text);
+    free(wrapped.text);
 }
 
 static void put_title(const page *p, const quantity *q) {
@@ -84,14 +82,13 @@ static void put_title(const page *p, const quantity *q) {
 
 static void put_formula(const page *p, const quantity *q, bool call) {
     const formula *f = quantity_formula(q, p->sh->calc.now, call);
-    char set[512], line[600], wrapped[WRAPPED];
+    char set[512], line[600];
     put_title(p, q);
     if (typeset_unicode())
         typeset(f->text, set, sizeof set);
-    snprintf(line, sizeof line, "%s%s%s", typeset_unicode() ? set : f->text, f->equation ? "  " : "",
+    snprintf(line, sizeof line, "    %s%s%s", typeset_unicode() ? set : f->text, f->equation ? "  " : "",
              f->equation ? f->equation : "");
-    wrap(line, wrapped);
-    answer_words(p->out, "%s\n", wrapped);
+    put_wrapped(p, line);
     answer_string(p->out, "formula", f->text);
     if (f->equation)
         answer_string(p->out, "equation", f->equation);
@@ -152,7 +149,7 @@ static bool by_runs(const page *p, const expr *e, const runner run[LEVELS], long
     scene *s = p->sh->calc.now;
     bool ok = true;
     for (unsigned i = 0; i < LEVELS && ok; i++) {
-        const instant now = {.run = &run[i], .time = run[i].time};
+        const instant now = {.run = &run[i]};
         calc_error ignored;
         value v = {0, DIM_NONE};
         error_clear(&ignored);
@@ -169,18 +166,7 @@ static bool by_runs(const page *p, const expr *e, const runner run[LEVELS], long
 /* The value after each number of chords, where that tells all that it is good to. */
 static bool by_chords(const page *p, model_id model, const expr *e, long double at[LEVELS]) {
     scene *s = p->sh->calc.now;
-    calc_error ignored;
-    runs all;
-    error_clear(&ignored);
-    if (!e || (model != MODEL_MEMORY && models[model].rounding == 0))
-        return false;
-    if (model == MODEL_MEMORY)
-        return s->answers.levels == LEVELS && by_runs(p, e, s->answers.run, at);
-    if (!had(p, scene_runs(s, &all, &ignored), &ignored))
-        return false;
-    const bool ok = by_runs(p, e, all.run, at);
-    runs_end(&all);
-    return ok;
+    return e && model == MODEL_MEMORY && s->answers.levels == LEVELS && by_runs(p, e, s->answers.run, at);
 }
 
 enum { MODEL_TEXT = 240 };
@@ -199,7 +185,7 @@ static double describe_sine(const page *p, const quantity *q, bool call, model_i
     const answers *a = &p->sh->calc.now->answers;
     const int finest = RUN_CHORDS << (LEVELS - 1);
     const bool limit = is_extrapolated(q, call);
-    const double least = fmax(models[model].rounding, 1e-15);
+    const double least = 1e-15;
     long double at[LEVELS];
     const size_t n = strlen(text), room = MODEL_TEXT - n;
     if (model == MODEL_MEMORY && a->levels == 1) { /* all that it answers: no function of another load */
@@ -253,13 +239,10 @@ static void put_repeated(const page *p, unsigned periods) {
     answer_fact(p->out, "cycle", text);
 }
 
-/* Of a load that swings *sine tells what that is good to; 0: nobody knows. in_double: so the forces were had
- * that it is made of. */
-static model_id put_model(const page *p, const quantity *q, bool call, const expr *e, bool in_double,
-                          double *sine) {
+/* Of a load that swings *sine tells what that is good to; 0: nobody knows. */
+static model_id put_model(const page *p, const quantity *q, bool call, const expr *e, double *sine) {
     scene *s = p->sh->calc.now;
-    const model_id exact = quantity_model(q, s, call),
-                   model = in_double && exact == MODEL_MEMORY ? MODEL_DOUBLE : exact;
+    const model_id model = quantity_model(q, s, call);
     const bool stepped = models[model].steps;
     char text[MODEL_TEXT];
     *sine = 0;
@@ -290,13 +273,20 @@ static bool is_local(const quantity *q, bool call) {
     return call && q->load && (*q->argument == 'x' || *q->argument == 'r');
 }
 
-/* The value of e by the model that is exact for the scene. */
+/* The value of e where the memory diagram stands, which the scene has run beside its springs. */
 static bool exact_value(const page *p, const expr *e, value *v) {
+    const answers *a = &p->sh->calc.now->answers;
+    sight coarse[LEVELS - 1];
+    runner run = a->run[a->levels - 1];
+    const instant now = {.run = &run};
     calc_error ignored;
     error_clear(&ignored);
+    for (unsigned i = 0; i + 1 < a->levels; i++)
+        run_sight(&a->run[i], &coarse[i]);
+    run.coarse = a->levels > 1 ? coarse : NULL;
     trial *t = trial_open(&p->sh->calc, &ignored);
     if (t)
-        scene_set_model(&t->scene, true, MODEL_CLOSED, 0);
+        t->scene.now = &now;
     const bool ok = t && expr_eval(&p->sh->calc, e, v, &ignored);
     if (t) {
         t->scene.used = 0; /* it has not answered */
@@ -334,7 +324,7 @@ static void put_error(const page *p, const quantity *q, bool call, model_id mode
     const bool power = !s->in.geometry || s->in.geometry->power, local = is_local(q, call);
     const char *of = local ? "largest value" : models[model].steps ? "largest value so far" : "value";
     double good = sine > 0 && local ? 1e-12 : sine > 0 || q->by || !power ? 1e-13 : DBL_EPSILON;
-    good = fmax(good, fmax(models[model].rounding, sine));
+    good = fmax(good, sine);
     if (s->used & USED(MODEL_PIECES))
         good = fmax(good, s->pieces_error);
     answer_words(p->out, "    error: below %.0e of the %s\n", round_up(good), of);
@@ -546,7 +536,6 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
     influence_study study = {.count = 0};
     value v, argument = {0};
     bool ok = true, has = !(in && is_free(of, in)) && text_value(p, of->text, of->len, &e, &v);
-    const bool in_double = has && c->now->answers.known == KNOWN_FORCES;
     if (has && of->call)
         text_value(p, of->text + of->argument, of->argument_len, &unused, &argument);
     if (has)
@@ -560,7 +549,7 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
         if (has)
             put_load(p, q, &study);
         answer_up(p->out);
-        const model_id model = put_model(p, q, of->call, has ? &e : NULL, in_double, &sine);
+        const model_id model = put_model(p, q, of->call, has ? &e : NULL, &sine);
         if (has)
             put_value(p, of->text, of->len, v);
         if (has && model == MODEL_SPRINGS)

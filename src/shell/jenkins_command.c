@@ -87,9 +87,8 @@ static const struct {
 } forms[] = {{".csv", write_csv}, {".json", write_json}, {".h", write_header}};
 
 static writer *form_of(const char *name, calc_error *error, size_t at, size_t len) {
-    const char *base = strrchr(name, '/'), *dot = strrchr(base ? base : name, '.');
-    for (size_t i = 0; dot && i < sizeof forms / sizeof *forms; i++)
-        if (!strcmp(dot, forms[i].ending))
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (file_ends(name, forms[i].ending))
             return forms[i].write;
     calc_fail(error, at, len, "cannot tell the form of a model from '%s': use .csv, .json or .h", name);
     return NULL;
@@ -142,7 +141,6 @@ static bool read_request(shell *sh, lexer *lx, request *r) {
 static bool make_model(trial *t, const request *r, model *m, calc_error *error) {
     double amplitude = (double)INFINITY;
     fret_loading first;
-    scene_expect_many(&t->scene);
     if (!scene_contact(&t->scene, &m->contact, error))
         return false;
     if (r->limited) {

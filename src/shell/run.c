@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Statements, lines and streams of them: dispatch, and the one place that reports errors. */
+#include "calc/clock.h"
 #include "shell/shell.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "calc/characters.h"
@@ -185,29 +185,17 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
 
 enum { SHOWN = 100 }; /* columns of a long line, around the place */
 
-/* Bytes of the character there, or of what is none, and its columns. */
-static size_t next_character(const char *text, size_t left, size_t *columns) {
-    const size_t n = character_at(text, left, NULL);
-    *columns = text_columns(text, n ? n : 1);
-    return n ? n : 1;
-}
-
 /* The part of a line that is shown: `before` columns of it lie before the place. */
 static void find_part(const char *text, size_t len, size_t at, size_t *begin, size_t *end, size_t *before) {
-    size_t columns, room = SHOWN;
     *begin = 0;
     *end = len;
     *before = text_columns(text, at);
     if (text_columns(text, len) <= SHOWN)
         return;
-    for (; *before > SHOWN / 2; *before -= columns)
-        *begin += next_character(text + *begin, len - *begin, &columns);
-    for (*end = *begin; *end < len; room -= columns) {
-        const size_t n = next_character(text + *end, len - *end, &columns);
-        if (columns > room)
-            break;
-        *end += n;
-    }
+    if (*before > SHOWN / 2)
+        *begin = text_fit(text, at, *before - SHOWN / 2);
+    *before -= text_columns(text, *begin);
+    *end = *begin + text_fit(text + *begin, len - *begin, SHOWN);
 }
 
 static void show_place(const shell *sh, bool aside, const char *text, size_t len, size_t at, size_t width) {
@@ -273,12 +261,6 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
     fflush(sh->err);
 }
 
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* The models that have answered, in parentheses. */
 static void list_models(const shell *sh, FILE *to) {
     const char *before = " (";
@@ -318,10 +300,9 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         size_t end = shell_statement_end(text, i, len);
         calc_error error;
         bool timed = sh->set.timing;
-        double start = timed ? seconds() : 0;
+        double start = timed ? clock_wall() : 0;
         const struct recorder *recorder = sh->record;
         sh->calc.scene.used = 0;
-        scene_show(&sh->calc.scene, sh->set.format == FORMAT_TEXT ? sh->set.digits : 0);
         bool done = shell_statement(sh, text + i, end - i, &error);
         if (!done)
             calc_word(&sh->calc, &error);
@@ -336,7 +317,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
             if (!from->keep_going || shell_stop)
                 return false;
         } else if (timed) {
-            report_time(sh, seconds() - start);
+            report_time(sh, clock_wall() - start);
         }
         i = end < len && text[end] == ';' ? end + 1 : len;
         while (i < len && text[i] == ' ')
@@ -357,9 +338,6 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
     bool ok = true, last = true; /* all statements so far; those of the last line */
     while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || keep_going) &&
            (got = file_in_logical(in, shell_mark, &error)) == FILE_GOT_LINE) {
-        const size_t open = shell_mark(in->line, in->length); /* nothing continues the last line */
-        if (open < in->length)
-            in->line[open] = ' ';
         blank_prompts(in->line, in->length);
         if (sh->nesting == 0)
             record_line(sh, in->line, in->length);

@@ -177,8 +177,8 @@ static const setting rows[] = {
      .words = reports,
      .at = offsetof(settings, pager)},
     {.name = "model",
-     .usage = "auto|closed|memory|double|springs N",
-     .summary = "what answers for tangential loads; auto: the cheapest exact as far as shown",
+     .usage = "auto|closed|memory|springs N",
+     .summary = "what answers for tangential loads; auto: the cheapest exact one",
      .example =
          "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N\n"
          "    fret> dW\n"

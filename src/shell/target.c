@@ -15,11 +15,10 @@ static const struct {
              {".dat", FORMAT_TEXT, true}};
 
 static bool choose_form(lexer *lx, const char *name, target *t) {
-    const char *base = strrchr(name, '/'), *dot = strrchr(base ? base : name, '.');
     if (!strncmp(name, "/dev/", 5))
         return true;
-    for (size_t i = 0; dot && i < sizeof forms / sizeof *forms; i++)
-        if (!strcmp(dot, forms[i].ending)) {
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (file_ends(name, forms[i].ending)) {
             t->format = forms[i].format;
             t->blocks = forms[i].blocks;
             return true;

@@ -387,29 +387,13 @@ const char *model_text(size_t id) {
                          "millisecond, of a table in some 0.1 ms a row, and are good to 1e-15; then depth,\n"
                          "force, loss and slip take microseconds, and so does any step. Up to 2000 rows\n"
                          "each is taken as it is; of more, as few as do within 1e-14 to 1e-6 of the gap.\n"
-                         "Local fields take the profile of a flat-ended gap, from 32 places on, and of a\n"
-                         "table from polynomials too, good to 1e-15 of the largest value.\n\n" EXAMPLE
+                         "Local fields take the profile of such a gap from polynomials too, good to\n"
+                         "1e-15 of the largest value.\n\n" EXAMPLE
                          "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
                          "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
                           "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
                           "    fret> set model springs 100\n    fret> dW\n    dW = 1.90687 uJ\n",
-        [MODEL_VECTORS] = "The formulas in double, for many rows of a table or a curve over a force or an\n"
-                          "amplitude at once, as a(F), dz(F), c(F), dx(F), dW(FA) of a power-law gap. Good\n"
-                          "to 2e-15. Rows that they cannot answer for, and single values, are asked one by\n"
-                          "one.\n\n" EXAMPLE "table c(F), dW(F) for F = 10 N .. 30 N steps 2\n"
-                          "            F [N]      c(F) [um]     dW(F) [uJ]\n"
-                          "               10        169.561       0.188365\n"
-                          "               20        148.125        1.90646\n"
-                          "               30        117.567        9.01533\n",
-        [MODEL_DOUBLE] = "The memory diagram of a power-law gap in double: forces, displacements and\n"
-                         "energies to 3e-14 of their largest values so far, two to five times as fast.\n"
-                         "Unless a model is chosen it tells forces, dz, dx, a and W behind 4096 rows of\n"
-                         "`follow` and more, shown as text of up to 10 digits, where that many are surely\n"
-                         "the same; else, and in CSV and JSON, the exact diagram does.\n"
-                         "The library offers it to other programs as fret/diagram.h.\n\n" EXAMPLE
-                         "step Fx=20 N; step FN=80 N Fx=10 N\n    fret> set model double\n    fret> W\n"
-                         "    W = 477.51 nJ\n",
     };
     return texts[id];
 }

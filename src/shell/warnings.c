@@ -110,7 +110,6 @@ static void find_widest(shell *sh) {
 }
 
 void shell_pressed(shell *sh, const load_step *step) {
-    const scene *s = &sh->calc.scene;
     if (step->tangential && !sh->dissimilar)
         shell_warn_dissimilar(sh);
     if (step->normal == BY_NONE || sh->no_half_space)
@@ -119,8 +118,7 @@ void shell_pressed(shell *sh, const load_step *step) {
         find_widest(sh);
     sh->widest_known = true;
     const fret_real most = step->normal == BY_FORCE ? sh->widest.F : sh->widest.dz;
-    const bool cheap = s->automatic || s->model != MODEL_DOUBLE; /* to ask where it is now */
-    if (step->relative & RELATIVE_NORMAL ? step->normal_value > 0 && most < INFINITY && cheap
+    if (step->relative & RELATIVE_NORMAL ? step->normal_value > 0 && most < INFINITY
                                          : step->normal_value > most)
         warn_half_space(sh);
 }

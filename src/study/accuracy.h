@@ -9,7 +9,6 @@
 typedef enum model_family {
     FAMILY_CLOSED,
     FAMILY_MEMORY,
-    FAMILY_DOUBLE,
     FAMILY_QUADRATURE,
     FAMILY_LOOP,
     FAMILY_SPRINGS,

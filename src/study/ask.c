@@ -30,14 +30,6 @@ bool ask_failed(ask *q, const calc_error *error) {
     return false;
 }
 
-bool ask_keeps_shape(const ask *q) {
-    static const unsigned shape = INPUT_GEOMETRY | INPUT_BIT(IN_K);
-    for (size_t i = 0; i < q->count; i++)
-        if (q->knobs[i].is_input && (INPUT_BIT(q->knobs[i].in) & shape))
-            return false;
-    return !(q->t->scene.in.bindings & shape);
-}
-
 bool ask_set(ask *q, const double x[]) {
     calc_error error;
     error_clear(&error);

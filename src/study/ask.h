@@ -20,8 +20,6 @@ bool ask_open(ask *q, calc *c, const knob *knobs, size_t count, calc_error *erro
 /* Puts the error into words while the trial is still seen. */
 void ask_close(ask *q);
 
-/* Are shape and k the same wherever the knobs stand? */
-bool ask_keeps_shape(const ask *q);
 /* The scene with these values of the knobs; false: there is none, or the question has ended. */
 bool ask_set(ask *q, const double x[]);
 /* The expression in it, of the same dimension each time: *d as found at first, where `known` has become true.

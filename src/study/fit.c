@@ -6,22 +6,19 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit_nlinear.h>
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/clock.h"
 #include "study/team.h"
 
 /* Where a trial point has no value its residuals are this large: the step is taken back. */
 static const double refused = 1e6;
-/* Tuned to 95 % of the efficiency of least squares on normal noise (Huber 1981). */
-static const double huber = 1.345;
-enum { ITERATIONS = 200, ROUNDS = 30, BEGINNINGS = 4 };
-static const double apart = 1e-5;     /* of the two places of a difference, as a part of q */
-static const double visible = 1e-6;   /* residuals of a loop, as a part of it */
-static const double rounding = 1e-12; /* and what is none */
+enum { ITERATIONS = 200, BEGINNINGS = 4 };
+static const double apart = 1e-5;   /* of the two places of a difference, as a part of q */
+static const double visible = 1e-6; /* residuals of a loop, as a part of it */
 #define NO_ROW ((size_t)-1)
 
 typedef struct state {
@@ -36,8 +33,7 @@ typedef struct state {
     dim d;
     bool known;
     bool twice;
-    size_t bad_row; /* the last one without a value; NO_ROW: it was not a row's fault */
-    gsl_vector *weight;
+    size_t bad_row;   /* the last one without a value; NO_ROW: it was not a row's fault */
     double *residual; /* as they are computed */
     double *above, *below;
     gsl_vector *beside;  /* where these are */
@@ -172,9 +168,9 @@ static bool equations(state *s, double *out) {
         }
         return !stopped(s) && ok;
     }
-    const double began = team_clock();
+    const double began = clock_wall();
     const bool ok = equation_rows(s, 0, rows, out);
-    s->taken = team_clock() - began;
+    s->taken = clock_wall() - began;
     return ok;
 }
 
@@ -424,15 +420,6 @@ static bool begin_again(state *s, gsl_vector *q, bool *again, calc_error *error)
 
 /* ---- what the data say ------------------------------------------------------------------------- */
 
-/* Without the weights, whose effect the variance holds. */
-static void jacobian(state *s, gsl_multifit_nlinear_workspace *w) {
-    gsl_matrix_memcpy(s->J, gsl_multifit_nlinear_jac(w));
-    for (size_t i = 0; i < s->of->rows; i++) {
-        gsl_vector_view row = gsl_matrix_row(s->J, i);
-        gsl_vector_scale(&row.vector, 1 / sqrt(gsl_vector_get(s->weight, i)));
-    }
-}
-
 /* (J^T J)^-1 from J = U S V^T diag(norm). GSL's own does not look whether it has got its memory. */
 static void covariance(const gsl_matrix *V, const gsl_vector *sv, const double *norm,
                        double C[FIT_NAMES][FIT_NAMES]) {
@@ -457,7 +444,7 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT
     gsl_vector *sv = gsl_vector_alloc(p);
     double norm[FIT_NAMES], most = 0;
     bool ok = V && sv;
-    jacobian(s, w);
+    gsl_matrix_memcpy(J, gsl_multifit_nlinear_jac(w));
     for (size_t i = 0; i < p; i++) {
         const gsl_vector_const_view column = gsl_matrix_const_column(J, i);
         norm[i] = gsl_blas_dnrm2(&column.vector);
@@ -498,34 +485,6 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT
 }
 
 /* ---- solving ----------------------------------------------------------------------------------- */
-
-/* GSL's residuals carry the root of their weight. */
-static double residual_size(const state *s, const gsl_vector *f, size_t i) {
-    return fabs(gsl_vector_get(f, i)) / sqrt(gsl_vector_get(s->weight, i));
-}
-
-/* Weights after Huber from the residuals; *change is the largest. */
-static bool reweigh(state *s, const gsl_vector *f, double *scale, double *change, calc_error *error) {
-    static const double least = 1e-9; /* of the largest: most rows may be met exactly */
-    const size_t n = s->of->rows;
-    double *size = malloc(n * sizeof *size);
-    if (!size)
-        return calc_no_memory(error);
-    *change = 0;
-    for (size_t i = 0; i < n; i++)
-        size[i] = residual_size(s, f, i);
-    const double largest = gsl_stats_max(size, 1, n);
-    *scale = fmax(1.4826 * gsl_stats_median(size, 1, n), least * largest);
-    if (!s->of->left)
-        *scale = fmax(*scale, rounding * largest_force(s) / s->unit);
-    free(size);
-    for (size_t i = 0; i < n; i++) {
-        const double r = residual_size(s, f, i), w = r > huber * *scale ? huber * *scale / r : 1;
-        *change = fmax(*change, fabs(w - gsl_vector_get(s->weight, i)));
-        gsl_vector_set(s->weight, i, w);
-    }
-    return true;
-}
 
 /* No progress is none to be made where the step to the least squares is small beside the standard errors, or
  * beside the name itself. Else, most often, the data are to blame. */
@@ -569,41 +528,14 @@ static bool descend(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, 
                     calc_error *error) {
     gsl_multifit_nlinear_fdf fdf = {
         .f = gsl_residuals, .df = gsl_jacobian, .n = s->of->rows, .p = s->of->count, .params = s};
-    double change = INFINITY;
-    for (int round = 0; round < (s->of->robust ? ROUNDS : 1) && change >= 1e-4; round++) {
-        int status = gsl_multifit_nlinear_winit(q, s->weight, &fdf, w);
-        if (!status)
-            status = drive(s, w);
-        if (error->raised)
-            return false;
-        out->iterations += (unsigned)gsl_multifit_nlinear_niter(w);
-        gsl_vector_memcpy(q, gsl_multifit_nlinear_position(w));
-        if (status && !arrived(s, w, error))
-            return false;
-        if (s->of->robust && !reweigh(s, gsl_multifit_nlinear_residual(w), &out->scale, &change, error))
-            return false;
-    }
-    return true;
-}
-
-/* The variance of a residual, as the standard errors see it. */
-static double variance(const state *s, const gsl_vector *f, double scale, fit_answer *out) {
-    const size_t n = s->of->rows;
-    double squares = 0, psi = 0, inside = 0;
-    for (size_t i = 0; i < n; i++) {
-        const double r = residual_size(s, f, i);
-        squares += r * r;
-        if (s->of->robust) {
-            const bool in = r <= huber * scale;
-            inside += in;
-            psi += in ? r * r : huber * scale * huber * scale;
-            out->far += r > 3 * scale;
-        }
-    }
-    const double free = (double)(n - s->of->count);
-    out->rms = sqrt(squares / (double)n) * s->unit;
-    /* Huber 1981, (6.6.4) without its correction */
-    return s->of->robust ? psi / free / (inside / (double)n * inside / (double)n) : squares / free;
+    int status = gsl_multifit_nlinear_init(q, &fdf, w);
+    if (!status)
+        status = drive(s, w);
+    if (error->raised)
+        return false;
+    out->iterations += (unsigned)gsl_multifit_nlinear_niter(w);
+    gsl_vector_memcpy(q, gsl_multifit_nlinear_position(w));
+    return !status || arrived(s, w, error);
 }
 
 /* A drift, an offset or a model that does not fit leaves residuals that go together from row to row. */
@@ -612,7 +544,7 @@ static void look_for_drift(const state *s, const gsl_vector *f, fit_answer *out)
     const double size = s->of->left ? INFINITY : largest_force(s);
     double squares = 0, products = 0, before = 0;
     for (size_t i = 0; i < n; i++) {
-        const double r = gsl_vector_get(f, i) / sqrt(gsl_vector_get(s->weight, i));
+        const double r = gsl_vector_get(f, i);
         squares += r * r;
         products += r * before;
         before = r;
@@ -624,9 +556,11 @@ static void look_for_drift(const state *s, const gsl_vector *f, fit_answer *out)
 static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector *q, fit_answer *out,
                   calc_error *error) {
     const size_t p = s->of->count;
-    const double v = variance(s, gsl_multifit_nlinear_residual(w), out->scale, out);
+    const gsl_vector *f = gsl_multifit_nlinear_residual(w);
+    const double squares = pow(gsl_blas_dnrm2(f), 2), v = squares / (double)(s->of->rows - p);
     double C[FIT_NAMES][FIT_NAMES];
-    look_for_drift(s, gsl_multifit_nlinear_residual(w), out);
+    out->rms = sqrt(squares / (double)s->of->rows) * s->unit;
+    look_for_drift(s, f, out);
     const bool ok = determined(s, w, C, error);
     for (size_t i = 0; i < p && ok; i++) {
         const double x = parameter(s, i, gsl_vector_get(q, i));
@@ -635,7 +569,6 @@ static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector 
         for (size_t j = 0; j < p; j++)
             out->correlation[i][j] = C[i][j] / sqrt(C[i][i] * C[j][j]);
     }
-    out->scale *= s->unit;
     out->d = s->d;
     out->twice = s->twice;
     out->evaluations = s->q.evaluations;
@@ -646,7 +579,6 @@ static bool run(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_
                 calc_error *error) {
     s->above = s->residual + s->of->rows;
     s->below = s->above + s->of->rows;
-    gsl_vector_set_all(s->weight, 1);
     bool again = true;
     if (!begin(s, q, error))
         return false;
@@ -666,19 +598,16 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
         return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", n, p);
     if (!ask_open(&s.q, question->c, question->name, p, error))
         return false;
-    scene_show(&s.q.t->scene, 0); /* differences are taken of what comes out */
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &method, n, p);
     gsl_vector *q = gsl_vector_alloc(p);
-    s.weight = gsl_vector_alloc(n);
     s.beside = gsl_vector_alloc(p);
     s.J = gsl_matrix_alloc(n, p);
     s.residual = malloc(3 * n * sizeof *s.residual);
-    bool ok = w && q && s.weight && s.beside && s.J && s.residual;
+    bool ok = w && q && s.beside && s.J && s.residual;
     ok = ok ? run(&s, w, q, out, error) : calc_no_memory(error);
     if (w)
         gsl_multifit_nlinear_free(w);
     gsl_vector_free(q);
-    gsl_vector_free(s.weight);
     gsl_vector_free(s.beside);
     gsl_matrix_free(s.J);
     free(s.residual);

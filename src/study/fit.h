@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inputs and names from measured data: least squares by Levenberg and Marquardt (GSL), or robust after Huber.
- */
+/* Inputs and names from measured data: least squares by Levenberg and Marquardt (GSL). */
 #ifndef STUDY_FIT_H
 #define STUDY_FIT_H
 
@@ -31,7 +30,6 @@ typedef struct fit_question {
     fit_column column[FIT_COLUMNS];
     size_t columns;
     fit_loop loop;
-    bool robust;
 } fit_question;
 
 typedef struct fit_answer {
@@ -42,8 +40,6 @@ typedef struct fit_answer {
     double together;      /* correlation of each residual with the next: of noise it is near 0 */
     bool drifts;          /* of a loop: it is not by chance, and the deviations are too small */
     dim d;                /* of them */
-    double scale;         /* robust: of the residuals, 1.4826 times the median magnitude */
-    size_t far;           /* robust: rows beyond three times that */
     bool twice;           /* a closed loop that does not begin at rest: run twice, the second time compared */
     unsigned evaluations; /* of all rows */
     unsigned iterations;

@@ -9,6 +9,7 @@
 #include <gsl/gsl_multimin.h>
 #include <math.h>
 
+#include "calc/clock.h"
 #include "number/real.h"
 #include "study/team.h"
 
@@ -123,9 +124,9 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
 /* One after the other, or by a team where that pays. */
 static bool at_all(places *p) {
     search *s = p->s;
-    const double began = team_clock();
+    const double began = clock_wall();
     size_t i = 0;
-    for (; i < p->count && !team_pays(s->of->c, team_clock() - began, (double)i, (double)p->count); i++) {
+    for (; i < p->count && !team_pays(s->of->c, clock_wall() - began, (double)i, (double)p->count); i++) {
         p->f[i] = at(s, p->u[i]);
         if (s->q.error->raised)
             return false;

@@ -8,9 +8,12 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "calc/clock.h"
 #include "number/real.h"
 #include "study/refine.h"
 #include "study/team.h"
+
+enum { PORTION = 256 }; /* rows, at most */
 
 typedef struct state {
     const sweep *s;
@@ -19,9 +22,8 @@ typedef struct state {
     size_t curve;
     long double with; /* its value */
     sweep_range range;
-    long double *values;              /* of a block, row by row */
-    long double *row;                 /* of the row that is being evaluated */
-    long double (*block)[EXPR_BLOCK]; /* of the expressions */
+    long double *values; /* of a portion, row by row */
+    long double *row;    /* of the row that is being evaluated */
     /* of the range */
     size_t rows;
     const long double *part; /* where each row is in it, 0..1; NULL: evenly */
@@ -32,19 +34,13 @@ static bool stopped(const state *st) {
     return calc_stopped(st->job->c->scene.stop, st->job->error);
 }
 
-static void say_value(char *to, size_t size, dim d, long double v) {
-    char unit_text[100];
-    const long double scale = unit_choose(d, v, 6, unit_text, sizeof unit_text);
-    snprintf(to, size, "%.6g%s%s", (double)(v / scale), *unit_text ? " " : "", unit_text);
-}
-
 static void say_where(state *st, long double x) {
     const sweep *s = st->s;
     char at[120], with[60 + LEX_NAME] = "";
-    say_value(at, sizeof at, s->along ? DIM_NONE : st->range.d, x);
+    calc_amount(s->along ? DIM_NONE : st->range.d, x, 6, at, sizeof at);
     if (s->curves) {
         snprintf(with, sizeof with, ", %s = ", s->with.text);
-        say_value(with + strlen(with), sizeof with - strlen(with), s->with.d, s->value[st->curve]);
+        calc_amount(s->with.d, s->value[st->curve], 6, with + strlen(with), sizeof with - strlen(with));
     }
     snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->along ? "time" : s->var.text, at,
              with);
@@ -132,20 +128,6 @@ static long double place(const state *st, size_t row) {
                        st->part ? st->part[row] : (long double)row / (long double)st->s->steps);
 }
 
-/* Many values of a name at once, all expressions or none. */
-static bool run_block(state *st, const long double *x, size_t rows) {
-    sweep_job *job = st->job;
-    dim d;
-    if (st->s->var.is_input)
-        return false;
-    for (size_t i = 0; i < job->count; i++)
-        if (!expr_eval_block(job->c, &job->expressions[i], st->s->var.name, x, rows, st->block[i], &d) ||
-            !is_its_dim(job, i, d))
-            return false;
-    job->values += rows * job->count;
-    return true;
-}
-
 static bool one_row(state *st, long double x) {
     calc_error error;
     error_clear(&error);
@@ -160,16 +142,11 @@ static bool one_row(state *st, long double x) {
     return gap(st, &error, x);
 }
 
-/* Rows that are had together, or else one by one: how many there are before one that ends it. Which way
- * decides on last digits: the ends of a block depend on nothing but the range. */
+/* How many rows there are before one that ends it. */
 static size_t evaluate(state *st, const long double *x, size_t rows, long double *values) {
-    const size_t count = st->job->count;
-    const bool whole = run_block(st, x, rows);
     for (size_t r = 0; r < rows; r++) {
-        st->row = values + r * count;
-        for (size_t j = 0; whole && j < count; j++)
-            st->row[j] = st->block[j][r];
-        if (!whole && !one_row(st, x[r]))
+        st->row = values + r * st->job->count;
+        if (!one_row(st, x[r]))
             return r;
     }
     return rows;
@@ -188,9 +165,9 @@ static bool give_rows(state *st, size_t first, const long double *x, const long 
 
 /* An error loses no row before it. */
 static bool run_rows(state *st, size_t first, const long double *x, size_t rows) {
-    const double began = team_clock();
+    const double began = clock_wall();
     const size_t n = evaluate(st, x, rows, st->values);
-    st->job->taken += team_clock() - began;
+    st->job->taken += clock_wall() - began;
     return give_rows(st, first, x, st->values, n) && n == rows;
 }
 
@@ -201,7 +178,7 @@ typedef struct portion {
     long double with;
     sweep_range range;
     size_t rows;
-    long double x[EXPR_BLOCK];
+    long double x[PORTION];
 } portion;
 
 /* What comes of them; behind it a found for each expression, and the values, row by row. */
@@ -224,55 +201,16 @@ static size_t values_at(size_t count) {
     return found_at() + (count * sizeof(found) + 63) / 64 * 64;
 }
 
-/* Are the values of a curve so many, of one contact, that its law is worth preparing? Then for all of them: a
- * row has the same digits wherever it is worked out. */
-static bool is_many(const state *st) {
-    /* of rows one value costs as much as it takes to prepare a few; F_N prepares anew each time it doubles */
-    enum { OF_ROWS = 8, MANY = 32, OF_LOADS = 1000 };
-    const sweep *s = st->s;
-    const fret_normal *normal;
-    calc_error ignored;
-    error_clear(&ignored);
-    if (!s->along && s->var.is_input && s->var.in != IN_MU && s->var.in != IN_FN)
-        return false;
-    if (!s->along && s->var.is_input && s->var.in == IN_FN)
-        return s->steps + 1 >= OF_LOADS && !st->t->scene.in.bindings;
-    return s->steps + 1 >= OF_ROWS && !st->t->scene.in.bindings &&
-           (s->steps + 1 >= MANY ||
-            (scene_normal(&st->t->scene, &normal, &ignored) && fret_normal_gap(normal)->table));
-}
-
-static void open_trial(state *st, calc_error *error) {
-    st->t = trial_open(st->job->c, error);
-    if (st->t)
-        st->t->scene.many = is_many(st);
-}
-
-/* A law that has been prepared serves the next curve, where that is of the same contact. */
-static void close_trial(state *st) {
-    scene *contact = &st->job->contact, *s = &st->t->scene;
-    if (s->many) {
-        scene_free(contact);
-        scene_clone(contact, s);
-        scene_take_contact(contact, s);
-    }
-    trial_close(st->t);
-}
-
 /* Fixes the name of `with`. */
 static bool set_curve(state *st, calc_error *error) {
-    if (st->s->curves && !trial_set(st->t, &st->s->with, st->with, error))
-        return false;
-    if (st->t->scene.many)
-        scene_take_contact(&st->t->scene, &st->job->contact);
-    return true;
+    return !st->s->curves || trial_set(st->t, &st->s->with, st->with, error);
 }
 
 /* As it went with the one who gives. */
 static void begin_curve(state *st, calc_error *error) {
     knob var = st->s->var;
     var.d = st->range.d;
-    open_trial(st, error);
+    st->t = trial_open(st->job->c, error);
     if (!st->t) /* unreached: memory runs out here alone */
         _exit(0);
     set_curve(st, error);
@@ -296,7 +234,7 @@ static bool work(void *context, const void *in, void *out) {
     st->range = p->range;
     st->with = p->with;
     if (!same) {
-        close_trial(st);
+        trial_close(st->t);
         begin_curve(st, job->error);
     }
     st->t->scene.used = 0;
@@ -348,31 +286,10 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
     return give_rows(st, row, p->x, values, p->rows);
 }
 
-/* Rows of a block: few where there are few, so that a team can share those that take long. */
-static size_t block_rows(const state *st) {
-    const size_t least = st->s->var.is_input ? 1 : 16, rows = st->rows / 64 / least * least;
-    return rows < least ? least : rows < EXPR_BLOCK ? rows : EXPR_BLOCK;
-}
-
-/* A gap of rows has what they tell worked out when it is first asked for: here, so that not everyone does it
- * anew. The first value has asked for its own; of both ends one asks for most. F_N prepares anew instead. */
-static void ask_ahead(state *st) {
-    scene *s = &st->t->scene;
-    const unsigned used = s->used;
-    const fret_normal *normal;
-    calc_error ignored;
-    value v;
-    knob var = st->s->var;
-    var.d = st->range.d;
-    error_clear(&ignored);
-    if (!s->many || (var.is_input && var.in == IN_FN) || !scene_normal(s, &normal, &ignored) ||
-        !fret_normal_gap(normal)->table || !trial_set(st->t, &var, place(st, st->rows - 1), &ignored))
-        return;
-    for (size_t i = 0; i < st->job->count; i++) {
-        error_clear(&ignored);
-        expr_eval(st->job->c, &st->job->expressions[i], &v, &ignored);
-    }
-    s->used = used;
+/* Few where there are few, so that a team can share those that take long. */
+static size_t portion_rows(const state *st) {
+    const size_t rows = st->rows / 64;
+    return rows < 1 ? 1 : rows < PORTION ? rows : PORTION;
 }
 
 /* Has it come to be worth while? */
@@ -380,17 +297,16 @@ static bool shared(state *st) {
     sweep_job *job = st->job;
     if (job->team || job->alone || !team_pays(job->c, job->taken, (double)job->done, (double)job->all))
         return job->team;
-    ask_ahead(st);
-    const size_t out = values_at(job->count) + EXPR_BLOCK * job->count * sizeof *st->values;
+    const size_t out = values_at(job->count) + PORTION * job->count * sizeof *st->values;
     job->team =
         team_begin(&(team_job){.c = job->c, .in = sizeof(portion), .out = out, .work = work, .context = st});
     job->alone = !job->team;
     return job->team;
 }
 
-/* From a row on, where a block begins. */
+/* From a row on. */
 static bool share(state *st, size_t row) {
-    sharing sh = {.st = st, .first = row, .rows = block_rows(st)};
+    sharing sh = {.st = st, .first = row, .rows = portion_rows(st)};
     const team_run run = {
         .parts = (st->rows - row + sh.rows - 1) / sh.rows, .give = give, .take = take, .context = &sh};
     const bool ok = team_work(st->job->team, &run);
@@ -399,8 +315,8 @@ static bool share(state *st, size_t row) {
 
 static bool run_all(state *st) {
     sweep_job *job = st->job;
-    const size_t most = block_rows(st);
-    long double x[EXPR_BLOCK];
+    const size_t most = portion_rows(st);
+    long double x[PORTION];
     if (job->done + st->rows > job->all)
         job->all = job->done + st->rows;
     for (size_t i = 0, rows; i < st->rows; i += rows) {
@@ -420,13 +336,11 @@ void sweep_begin(sweep_job *job, size_t rows) {
     job->values = job->done = 0;
     job->all = rows;
     job->taken = 0;
-    scene_init(&job->contact, NULL, NULL, NULL);
 }
 
 void sweep_end(sweep_job *job) {
     team_end(job->team);
     job->team = NULL;
-    scene_free(&job->contact);
 }
 
 /* ---- even rows, or where they are wanted ------------------------------------------------------- */
@@ -469,19 +383,6 @@ static bool look(void *context, double time, calc_error *error) {
     return evaluate_row(st, time) && st->job->row(st->job->context, st->s, st->curve, time, st->row);
 }
 
-/* Asks for all that a row does. */
-static bool probe(void *context, double time, calc_error *error) {
-    state *st = context;
-    (void)time, (void)error;
-    for (size_t i = 0; i < st->job->count; i++) {
-        value v;
-        calc_error ignored;
-        error_clear(&ignored);
-        expr_eval(st->job->c, &st->job->expressions[i], &v, &ignored);
-    }
-    return true;
-}
-
 bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error) {
     scene *tried = &t->scene;
     double mu;
@@ -503,11 +404,8 @@ static bool run_along(state *st) {
     if (s->what == ALONG_LOAD && !sweep_try_load(st->t, &st->range, &from, st->job->error))
         return false;
     calc_error error;
-    bool done = false, ok = true;
     error_clear(&error);
-    if (s->turns)
-        ok = trial_trail(st->t, s->what, s->steps, probe, look, st, &done, &error);
-    if (ok && (done || trial_along(st->t, s->what, from, s->steps, s->turns, look, st, &error)))
+    if (trial_along(st->t, s->what, from, s->steps, s->turns, look, st, &error))
         return true;
     if (!st->job->error->raised)
         *st->job->error = error;
@@ -545,20 +443,18 @@ bool sweep_run(const sweep *s, sweep_job *job) {
     state st = {.s = s, .job = job};
     if (!job->part)
         sweep_begin(job, curves * (s->steps + 1));
-    st.values = malloc(EXPR_BLOCK * job->count * sizeof *st.values);
-    st.block = malloc(job->count * sizeof *st.block);
-    bool ok = st.values && st.block;
+    st.values = malloc(PORTION * job->count * sizeof *st.values);
+    bool ok = st.values;
     if (!ok)
         calc_no_memory(job->error);
     for (; st.curve < curves && ok; st.curve++) {
-        open_trial(&st, job->error);
+        st.t = trial_open(job->c, job->error);
         ok = st.t && run_curve(&st);
         calc_word(job->c, job->error);
         if (st.t)
-            close_trial(&st);
+            trial_close(st.t);
     }
     free(st.values);
-    free(st.block);
     if (!job->part)
         sweep_end(job);
     return ok && (job->part || sweep_has_values(job));

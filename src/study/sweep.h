@@ -58,7 +58,6 @@ typedef struct sweep_job {
     struct team *team; /* at work on it, or NULL */
     bool alone;        /* there is none to be had */
     size_t done, all;  /* rows */
-    scene contact;     /* of the last curve, where its law has been prepared */
     double taken;      /* seconds for those, without what became of them */
 } sweep_job;
 

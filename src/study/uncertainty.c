@@ -7,6 +7,7 @@
 #include <gsl/gsl_rng.h>
 #include <math.h>
 
+#include "calc/clock.h"
 #include "study/team.h"
 
 typedef struct state {
@@ -185,9 +186,9 @@ static bool count(void *context, size_t part, const void *in, const void *out) {
     if (!o || (o->missing && !m->answer->missing.raised)) {
         const calc_error before = m->answer->missing;
         const scene_use used = scene_answered_by(&s->q.t->scene);
-        const double began = team_clock();
+        const double began = clock_wall();
         const bool ok = evaluate(m, p, &own);
-        m->taken += team_clock() - began;
+        m->taken += clock_wall() - began;
         scene_also_used(&s->q.t->scene, used);
         if (before.raised)
             m->answer->missing = before;
@@ -259,8 +260,6 @@ bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, 
             return ask_lacks(question->c, &question->name[i], "", "", error);
     if (!ask_open(&s.q, question->c, question->name, question->count, error))
         return false;
-    if (ask_keeps_shape(&s.q))
-        scene_expect_many(&s.q.t->scene);
     bool ok = first_order(&s, out, error) && monte_carlo(&s, out, error);
     out->evaluations = s.q.evaluations;
     ask_close(&s.q);

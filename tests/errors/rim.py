@@ -93,14 +93,14 @@ def once(tests):
                [lambda s=s: one(s, faults.calls) for s in filtered])
 
 
-def waiting_rows(tests):
-    """Rows of a history that wait until a result is asked, interrupted at each allocation: all or nothing."""
+def many_rows(tests):
+    """Rows of a history, interrupted at each allocation: all or nothing."""
     folder = os.path.join(os.path.abspath(tests.build), "tests")
     if tests.sanitized or not os.path.exists(os.path.join(folder, "faults.so")):
         return
     env = {name: tests.env[name] for name in ("PATH", "LC_ALL", "TERM")}
-    ends, wrong = faults.attempt(faults.Faults(tests.fret, folder, env, SCENE + "set model double\nFx", "follow follow.csv"), faults.interrupts)
-    tests.check("rows that wait, interrupted", not wrong and ends, "%s\n%s" % (ends, wrong))
+    ends, wrong = faults.attempt(faults.Faults(tests.fret, folder, env, SCENE + "Fx", "follow follow.csv"), faults.interrupts)
+    tests.check("many rows, interrupted", not wrong and ends, "%s\n%s" % (ends, wrong))
 
 
 def lost_reads(tests):
@@ -580,7 +580,7 @@ FOLLOWS = {"E0": "210 GPa*%s", "nu": "0.3*%s", "k": "0.3*%s", "c0": "1 mm*%s", "
 NEEDING = (("sphere R=10 mm", {"R": "10 mm*%s"}, "cycle FA=20 N", "auto"),
            ("sphere R=10 mm", {"R": "10 mm*%s"}, "step Fx=20 N", "memory"),
            ("sphere R=10 mm", {}, "step FN=80 N Fx=20 N; cycle dxA=0.5 um", "auto"),
-           ("power n=3 A=50 m^-2", {"A": "50 m^-2*%s"}, "cycle FA=20 N", "double"),
+           ("power n=3 A=50 m^-2", {"A": "50 m^-2*%s"}, "cycle FA=20 N", "auto"),
            ("power n=4 h=1 um r0=1 mm", {"n": "4*%s", "h": "1 um*%s", "r0": "1 mm*%s"}, "cycle dxA=0.1 um times 2", "springs 50"),
            ("flat-rounded b=0.2 mm R=10 mm", {"b": "0.2 mm*%s"}, "cycle FA=20 N", "closed"),
            ("cone slope=0.05", {"slope": "0.05*%s"}, "cycle FA=12 N FNA=9 N", "auto"),
@@ -712,7 +712,7 @@ def ends(tests, asked, shape, load):
                     "%s, expected %s" % (a, b))
 
 
-ROOM = (waiting_rows, needs, tabled, along, lines_without_end, once, lost_reads, no_more_keys, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
+ROOM = (many_rows, needs, tabled, along, lines_without_end, once, lost_reads, no_more_keys, transcripts, limits, hostile, gnuplot, inherited, signals, prompt_memory, ended_at_work, interrupts, history)
 
 
 def run(tests):

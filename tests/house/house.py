@@ -24,6 +24,7 @@ BELOW = {
     "shell": {"live/live.h", "study", "plot", "calc", "number", "fret"},
     "live": {"study", "plot", "calc", "number", "fret"},
 }
+INTRODUCED = ("number", "law", "history", "arrays")
 LIBRARY = ("number", "law", "history", "field", "arrays", "fret")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<(fret/[^>]+)>)', re.M)
@@ -120,6 +121,21 @@ def told_apart(files):
         if room(name) in LIBRARY and name not in ("law/gap.c", "fret/gap.h", "fret/fret.h"):
             for shape in SHAPE.findall(text):
                 yield "%s: %s" % (name, shape)
+
+
+SCREEN = 45  # lines
+
+
+def unintroduced(files):
+    """Rooms of the library without a README.md of one screen that names their files."""
+    for name in sorted({room(f) for f in files} & set(INTRODUCED)):
+        path = os.path.join(harness.ROOT, "src", name, "README.md")
+        text = read(path) if os.path.exists(path) else ""
+        if not text or text.count("\n") > SCREEN:
+            yield "src/%s/README.md: %d lines" % (name, text.count("\n"))
+        for stem in sorted({os.path.splitext(f.partition("/")[2])[0] for f in files if room(f) == name and f.endswith(".c")}):
+            if not re.search(r"\b%s\b" % stem, text):
+                yield "src/%s/README.md does not name %s" % (name, stem)
 
 
 def unreasoned(files):
@@ -234,6 +250,7 @@ def run(tests):
     files = sources()
     for what, rule in (("arrows run one way", wrong_arrows), ("no circle of includes", circles),
                        ("files say what they are", unsaid), ("gap.c alone tells shapes apart", told_apart),
+                       ("rooms are introduced", unintroduced),
                        ("what no test reaches has a reason", unreasoned)):
         found = list(rule(files))
         tests.check(what, not found, "\n".join(found))

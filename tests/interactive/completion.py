@@ -60,7 +60,7 @@ OFFERED = (
     ("solve mu for ", "dW a breadth", "FN="), ("solve mu for breadth = 3 mm ", "from", "with"),
     ("solve mu for breadth = 3 mm from ", "a breadth", "to"), ("maximize dWd(", "a breadth", "over"),
     ("maximize breadth ", "over in at", "for"), ("maximize breadth over ", "FN= wobble=", "gap1.csv"),
-    ("fit mu ", "for along to robust", "steps"), ("fit mu for ", "a breadth", "FN="),
+    ("fit mu ", "for along to", "steps"), ("fit mu for ", "a breadth", "FN="),
     ("fit mu along gap", "gap1.csv gap2.csv", None), ("fit mu for breadth = 2*a to gap", "gap1.csv gap2.csv", None),
 )
 # typed, and nothing goes on there

@@ -151,7 +151,7 @@ SCENES = (SCENE, SCENE + "; step Fx=20 N; step FN=80 N Fx=10 N", SCENE + "; cycl
           "material steel; geometry sum 2:50 m^-1, 4:2e6 m^-3; friction 0.4; press FN=10 N; step Fx=3 N; step Fx=-1 N FN=12 N",
           "material steel; geometry exact-sphere R=1 mm; friction 0.4; press a=0.2 mm; step dx+=1 nm; step FN=0 N",
           "material steel; geometry paraboloid R=1 um; friction 0.1; press FN=1e-30 N; step Fx=1e-32 N",
-          SCENE + "; step Fx=20 N; step Fx=-5 N; set model double", SCENE + "; step Fx=20 N; step Fx=-5 N; set model springs 100")
+          SCENE + "; step Fx=20 N; step Fx=-5 N; set model springs 100")
 NAMES = ("FN", "Fx", "dx", "dz", "a", "c", "c/a", "W", "U", "dW", "kt")
 
 

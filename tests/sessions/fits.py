@@ -93,20 +93,6 @@ def noisy_loops(tests, count):
         tests.check("fit: %s within two standard errors in %d of %d sets" % (name, n, count), n >= 0.9 * count)
 
 
-def outliers(tests):
-    """Rows far off pull least squares away, the robust fit hardly."""
-    mu, E0 = 0.35, 200e9
-    path = path_of(0.8e-6, 25)
-    noise = random.Random(3)
-    rows = [(d * 1e6, f + noise.gauss(0, 0.1) + (15 if i % 12 == 5 else 0)) for i, (d, f) in enumerate(zip(path, loop(mu, E0, path)))]
-    name = write(tests, "outliers.csv", "dx [um],Fx [N]", rows)
-    plain, _, _ = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + name)
-    robust, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + name + " robust")
-    off = abs(robust.get("mu", 0) - mu), abs(plain.get("mu", 0) - mu)
-    tests.check("fit: robust against rows far off", event and off[0] < 0.01 * mu and off[1] > 5 * off[0],
-                "%s\n%s" % (off, tests.report(done)))
-
-
 def drifting(tests):
     """Residuals that are no noise are told of: an offset, a drift; noise and what is exact are not."""
     mu, E0 = 0.35, 200e9
@@ -209,17 +195,15 @@ def straight_lines(tests):
     tests.check("fit: a slope and an offset", event and abs(values["s"] / with_offset - 1) < 1e-8
                 and abs(values["off"] - (sum(y) / n - with_offset * mean)) < 1e-11
                 and abs(event["correlation"]["s,off"] + mean * math.sqrt(n / uu)) < 1e-6, tests.report(done))
-    for way in ("", " robust"):
-        values, event, done = answers(tests, "s = 2; fit s for y = s*u to " + exact + way)
-        tests.check("fit: begun where it ends" + way, event and values["s"] == 2 and event["rms"] == 0
-                    and event["deviation"]["s"] == 0, tests.report(done))
+    values, event, done = answers(tests, "s = 2; fit s for y = s*u to " + exact)
+    tests.check("fit: begun where it ends", event and values["s"] == 2 and event["rms"] == 0
+                and event["deviation"]["s"] == 0, tests.report(done))
     done = tests.run("--format=csv", "-c", "s = 1 mm; fit s for y = s*u to " + name)
     header, row = (done.stdout.splitlines() + ["", ""])[:2]
     tests.check("fit as CSV", header == "s [m],s deviation [m]" and abs(float(row.partition(",")[0]) / slope - 1) < 1e-9,
                 tests.report(done))
-    done = tests.run("-c", "set timing on; s = 1 mm; fit s for y = s*u to %s robust" % name)
-    tests.check("fit tells its method", "method, weights after Huber" in done.stderr and "evaluations of 5 rows" in done.stderr
-                and "0 of 5 rows are far off" in done.stderr, tests.report(done))
+    done = tests.run("-c", "set timing on; s = 1 mm; fit s for y = s*u to %s" % name)
+    tests.check("fit tells its method", "Marquardt's method" in done.stderr and "evaluations of 5 rows" in done.stderr, tests.report(done))
 
 
 def begun_at_the_end(tests):
@@ -228,25 +212,16 @@ def begun_at_the_end(tests):
     scene = SETUP % (210, 0.4) + "; "
     tests.run("-c", scene + "table dx in um, Fx along cycle FA=30 N steps 60 to " + name)
     for start in ("", "mu = 0.5; E0 = 100 GPa; "):
-        for way in ("", " robust"):
-            values, event, done = answers(tests, scene + start + "fit mu, E0 along " + name + way)
-            tests.check("fit: nothing left but rounding, from '%s'%s" % (start, way),
-                        event and abs(values["mu"] / 0.4 - 1) < 1e-13 and abs(values["E0"] / 210e9 - 1) < 1e-13
-                        and event["rms"] < 1e-13 and " far off" not in done.stderr.replace("note: 0 of 61 rows are far off", ""),
-                        tests.report(done))
+        values, event, done = answers(tests, scene + start + "fit mu, E0 along " + name)
+        tests.check("fit: nothing left but rounding, from '%s'" % start,
+                    event and abs(values["mu"] / 0.4 - 1) < 1e-13 and abs(values["E0"] / 210e9 - 1) < 1e-13
+                    and event["rms"] < 1e-13, tests.report(done))
     noisy = write(tests, "again.csv", "u,y", [(u, 2 * u + 0.1 * math.sin(7.0 * u)) for u in range(1, 9)])
     slope = sum(u * (2 * u + 0.1 * math.sin(7.0 * u)) for u in range(1, 9)) / sum(u * u for u in range(1, 9))
-    for way in ("", " robust"):
-        first, _, _ = answers(tests, "s = 1; fit s for y = s*u to " + noisy + way)
-        again, event, done = answers(tests, "s = %.17g; fit s for y = s*u to %s" % (first.get("s", 0), noisy + way))
-        tests.check("fit: begun at its own answer" + way, event and abs(again["s"] / first["s"] - 1) < 1e-7
-                    and (way or abs(again["s"] / slope - 1) < 1e-9), tests.report(done))
-    # half of the rows and more met exactly
-    off = write(tests, "one-off.csv", "u,y", [(1, 2), (2, 4), (3, 6), (4, 8), (5, 10), (6, 17)])
-    for start in (1, 2, 3):
-        values, event, done = answers(tests, "s = %d; fit s for y = s*u to %s robust" % (start, off))
-        tests.check("fit: all rows but one met, from %d" % start, event and abs(values["s"] - 2) < 1e-3 and "1 of 6 rows" in done.stderr,
-                    tests.report(done))
+    first, _, _ = answers(tests, "s = 1; fit s for y = s*u to " + noisy)
+    again, event, done = answers(tests, "s = %.17g; fit s for y = s*u to %s" % (first.get("s", 0), noisy))
+    tests.check("fit: begun at its own answer", event and abs(again["s"] / first["s"] - 1) < 1e-7
+                and abs(again["s"] / slope - 1) < 1e-9, tests.report(done))
 
 
 def offset_power(rows):
@@ -550,7 +525,6 @@ def run(tests):
     not_closed(tests)
     refusals(tests)
     noisy_loops(tests, 20 if tests.few else 100)
-    outliers(tests)
     drifting(tests)
     closed_loop(tests)
     equations(tests)

@@ -382,7 +382,7 @@ def on_the_way(tests):
             name = "%s, %s: " % (shape, ramp)
             want = values(tests, before + "step %s; FN, dz, Fx, dx, W, U" % ramp)
             start = values(tests, before + "W, U")
-            for model in ("auto", "double"):
+            for model in ("auto", "memory"):
                 done = tests.run("--format=json", "-c", "set model %s\n%stable FN, dz, Fx, dx, W, U along step %s steps 500"
                                  % (model, before, ramp))
                 rows = [row for row in harness.told(done.stdout) if "time" in row]

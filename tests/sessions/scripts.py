@@ -205,25 +205,10 @@ def read_tables(tests):
     rows = ["%.6f,%.6f" % (100 + 10*math.sin(0.013*i), 15*math.sin(0.37*i) + 8*math.sin(0.0113*i)) for i in range(9000)]
     steps = "\n".join("step FN=%s N Fx=%s N" % tuple(row.split(",")) for row in rows)
     with tests.file("FN [N],Fx [N]\n" + "\n".join(rows)) as path:
-        for model in "auto", "double":
-            script = SCENE + "set digits 17; set model %s\n%s\nFN, dz, Fx, dx, W, c\n"
-            with tests.file(script % (model, steps)) as one, tests.file(script % (model, "follow " + path)) as many:
-                done = tests.run(many)
-                tests.check("follow many rows, %s" % model, done.stdout == tests.run(one).stdout and
-                            done.stdout.count("=") == 6, tests.report(done))
-    # forces that are shown as text are had in double, to the same digits as those of the exact diagram
-    with tests.file("FN [N],Fx [N]\n" + "\n".join(rows)) as path:
-        for digits in 6, 8:
-            asked = SCENE + "set digits %d; set model %s; follow %s\nset timing on\nFN, dz, Fx, dx, W, a"
-            quick, exact = (tests.run("-c", asked % (digits, model, path)) for model in ("auto", "memory"))
-            tests.check("forces in double, %d digits" % digits, quick.stdout == exact.stdout and quick.stdout.count("=") == 6 and
-                        "(memory diagram in double, to 3e-14)" in quick.stderr and "(memory diagram)" in exact.stderr,
-                        tests.report(quick) + tests.report(exact))
-        done = tests.run("-c", SCENE + "follow %s; explain W; c; explain W" % path)
-        tests.check("forces in double, explained", done.stdout.index("model: memory diagram in double, to 3e-14") <
-                    done.stdout.index("c = ") < done.stdout.index("model: memory diagram (exact)"), tests.report(done))
-        says(tests, "forces in double, then all digits", tests.run("-c", SCENE + "follow %s; W\nset format csv\nW, dz, dx" % path),
-             tests.run("-c", SCENE + "set model memory; follow %s; W\nset format csv\nW, dz, dx" % path).stdout)
+        script = SCENE + "set digits 17\n%s\nFN, dz, Fx, dx, W, c\n"
+        with tests.file(script % steps) as one, tests.file(script % ("follow " + path)) as many:
+            done = tests.run(many)
+            tests.check("follow many rows", done.stdout == tests.run(one).stdout and done.stdout.count("=") == 6, tests.report(done))
     for bad in 4096, 4097, 8999:
         with tests.file("FN [N],Fx [N]\n" + "\n".join(rows[:bad - 1] + ["100,50"] + rows[bad:])) as path:
             done = tests.run("--keep-going", "-c", SCENE + "step Fx=3 N; follow %s\nFN, Fx" % path)

@@ -1,10 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables at speed: loads in vectors against rows one by one, and work shared among processes: the same characters from
-any number of them, whatever becomes of them, and none left."""
-import csv
+"""Work shared among processes: the same characters from any number of them, whatever becomes of them, and none left."""
 import errno
-import io
-import math
 import os
 import re
 import resource
@@ -13,7 +9,6 @@ import subprocess
 import time
 
 import faults
-import harness
 
 GRADED = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N"
 STEEL = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
@@ -76,60 +71,8 @@ def alone(tests):
     tests.each([lambda a=next(a for a in STATEMENTS if a[1].startswith(kind)): one(*a) for kind in kinds])
 
 
-# Scenes, and what vectors can tell of them over a load up to that: against the same by `at`, which goes row by row.
-LOADS = (
-    (GRADED, "19.99 N", "a(F), dz(F), c(F), dx(F), dW(F), c(F)/a"),
-    ("material E0=70 GPa nu=0.4 k=-0.3 c0=0.1 mm; geometry power n=0.7 h=1 um r0=3 mm; friction 0.3; press FN=20 N", "6 N", "a(F), dz(F), c(F), dx(F), dW(F)"),
-    ("material E0=1 GPa nu=0.5; second rigid; geometry cone slope=0.05; friction 0.2; press FN=7 N", "1.4 N", "a(F), dz(F), c(F), dx(F), dW(F)"),
-)
-
-
-def vectors(tests):
-    """No value is further than 2e-15 from the one that is had by itself, and vectors were at work."""
-    def one(setup, end, what):
-        fast = tests.run("--format=csv", "-c", "%s; set timing on; table %s for F = 0.01 N .. %s steps 40" % (setup, what, end))
-        slow = tests.run("--format=csv", "-c", "%s; table %s for F = 0.01 N .. %s steps 40" %
-                         (setup, ", ".join("(%s at nu=nu)" % e for e in what.split(", ")), end))
-        if not tests.check("table over F up to " + end, fast.stdout and slow.stdout, tests.report(fast) + tests.report(slow)):
-            return
-        tests.check("table over F up to %s: in vectors" % end, "vectors" in fast.stderr and "vectors" not in slow.stderr, fast.stderr)
-        got, want = (list(csv.reader(io.StringIO(done.stdout))) for done in (fast, slow))
-        for i, column in enumerate(what.split(", ")):
-            far = max((abs(float(g[i + 1]) / float(w[i + 1]) - 1) for g, w in zip(got[1:], want[1:])
-                       if g[i + 1] != w[i + 1]), default=0)
-            tests.check("%s up to %s" % (column, end), far <= 2.5e-15, "%g" % far)
-    tests.each([lambda a=a: one(*a) for a in tests.some(LOADS, 2)])
-
-
-def histories(tests):
-    """A history that is followed by the diagram in double alone: as the exact one has it, which then still can be asked."""
-    names = ("W", "FN", "dz", "a", "Fx", "dx", "c", "U", "kt")
-    forces = [(100 + 10 * math.sin(0.013 * i), 15 * math.sin(0.37 * i) + 8 * math.sin(0.0113 * i)) for i in range(3000)]
-    depths = [(3 + 0.4 * math.sin(0.017 * i), 0.5 * math.sin(0.31 * i) + 0.4 * math.sin(0.007 * i)) for i in range(3000)]
-    bad = forces[:2000] + [(100, 40.5)] + forces[2000:]
-    for head, rows, end in (("FN [N],Fx [N]", forces, ""), ("dz [um],dx [um]", depths, ""), ("FN [N],Fx [N]", bad, ""),
-                            ("FN [N],Fx [N]", forces, "step FN=90 N Fx=3 N; step Fx+=1 N; cycle FA=5 N; undo; step dx=0.1 um; "),
-                            ("FN [N],Fx [N]", forces, "k = 0.1; mu = 0.35; ")):
-        with tests.file(head + "\n" + "".join("%.17g,%.17g\n" % row for row in rows), ".csv") as path:
-            follow = "follow %s; %s" % (path, end)
-            asked = ["--format=json", "--keep-going", "-c", GRADED.partition("; cycle")[0]]
-            script = follow + "; ".join(names)
-            exact, fast, back = (tests.run(*asked, "-c", before, "-c", script, "-c", after, "-c", "; ".join(names))
-                                 for before, after in (("set model auto", "set model auto"),
-                                                       ("set model double", "set model double"),
-                                                       ("set model double", "set model auto")))
-            name = "%s, %d rows, %s" % (head, len(rows), end)
-            want, got, then = (harness.printed_values(done.stdout) for done in (exact, fast, back))
-            tests.check("follow by %s: messages" % name, exact.stderr == fast.stderr == back.stderr and
-                        bool(exact.stderr) == (rows is bad), exact.stderr + fast.stderr + back.stderr)
-            far = max((abs(g - w) / abs(w or 1) for g, w in zip(got, want)), default=1)
-            tests.check("follow by %s: in double" % name, len(got) == len(want) and far < 1e-10, "%g\n%s\n%s" % (far, want, got))
-            tests.check("follow by %s: exact again" % name, then[-len(names):] == want[-len(names):],
-                        "%s\n%s" % (want, then))
-
-
 def past_a_range(tests):
-    """A table that goes on beyond the range of an input, in blocks of many rows: as far as it goes it is the one that ends there."""
+    """A table that goes on beyond the range of an input: as far as it goes it is the one that ends there."""
     ends, far = [], []
     for end, steps, to in (("0.5", 3000, ends), ("0.6", 6000, far)):
         done = tests.run("--format=csv", "-c", GRADED.partition("; cycle")[0] + "; table a, dz for nu = 0.4 .. %s steps %d" % (end, steps))
@@ -244,8 +187,6 @@ def settings(tests):
 
 
 def run(tests):
-    vectors(tests)
-    histories(tests)
     past_a_range(tests)
     data(tests)
     settings(tests)

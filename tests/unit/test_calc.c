@@ -26,6 +26,14 @@ static void characters(void) {
     CHECK(character_at("", 0, &code) == 0 && code == 7);
     CHECK(character_at("\xe2\x82\xac", 3, &code) == 3 && code == 0x20ac);
     CHECK(character_at("\xe2\x82\xac", 2, &code) == 0 && character_at("a", 1, NULL) == 1);
+    CHECK(character_before("a\xe2\x82\xac", 4) == 1 && character_before("a\xe2\x82", 3) == 1);
+    char put[CHARACTER_BYTES];
+    static const unsigned codes[] = {0x24, 0x7f, 0x80, 0x7ff, 0x800, 0x28ff, 0xffff, 0x10000, 0x10ffff};
+    for (size_t i = 0; i < sizeof codes / sizeof *codes; i++) {
+        const size_t n = character_put(codes[i], put);
+        CHECK(strlen(put) == n && character_at(put, n, &code) == n && code == codes[i]);
+    }
+    CHECK(character_before("ab", 2) == 1 && character_before("ab", 0) == 0);
     static const struct {
         const char *text;
         size_t count, columns;
@@ -40,6 +48,38 @@ static void characters(void) {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         CHECK(character_count(rows[i].text, strlen(rows[i].text)) == rows[i].count);
         CHECK(text_columns(rows[i].text, strlen(rows[i].text)) == rows[i].columns);
+    }
+}
+
+static void rows(void) {
+    static const struct {
+        const char *text;
+        size_t columns, row, rest; /* bytes */
+    } rows[] = {{"", 5, 0, 0},
+                {"ab cd", 5, 5, 0},
+                {"ab cd", 4, 2, 2},
+                {"ab   cd", 3, 2, 2},
+                {"ab cd", 2, 2, 2},
+                {"abcd", 3, 3, 1},
+                {"  ab", 3, 0, 2},
+                {"\xe5\xa5\xb3", 1, 3, 0}, /* at least a character */
+                {"a\xe5\xa5\xb3 b", 2, 1, 5}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *text = rows[i].text;
+        size_t left = strlen(text);
+        CHECK(text_break(&text, &left, rows[i].columns) == rows[i].row && left == rows[i].rest);
+        CHECK(text + left == rows[i].text + strlen(rows[i].text));
+    }
+}
+
+/* Those at the ends of what is hidden. */
+static void hidden(void) {
+    static const unsigned from[][2] = {
+        {0x7f, 0x9f},     {0xad, 0xad},     {0x61c, 0x61c},   {0x200b, 0x200f}, {0x2028, 0x202e},
+        {0x2060, 0x206f}, {0xfe00, 0xfe0f}, {0xfeff, 0xfeff}, {0xfff0, 0xfffb}, {0xe0000, 0xe0fff}};
+    for (size_t i = 0; i < sizeof from / sizeof *from; i++) {
+        CHECK(character_shows(from[i][0] - 1) && !character_shows(from[i][0]));
+        CHECK(!character_shows(from[i][1]) && character_shows(from[i][1] + 1));
     }
 }
 
@@ -103,18 +143,6 @@ static void wordings(void) {
         if (!CHECK(!strcmp(error.text, rows[i].text)))
             printf("%s\n", error.text);
     }
-    calc_free(&c);
-}
-
-/* Functions of many values ask nothing of an empty scene. */
-static void blocks(void) {
-    static quantity_block_function *const all[] = {block_a, block_dz, block_c, block_dx, block_dW};
-    const double F[2] = {1, 2};
-    double out[2];
-    calc c;
-    calc_init(&c, NULL);
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        CHECK(!all[i](c.now, F, out, 2, fresh()) && error.kind == ERROR_MISSING);
     calc_free(&c);
 }
 
@@ -388,20 +416,10 @@ static bool look_on(void *context, double time, calc_error *now) {
     return l->left-- != 0;
 }
 
-static bool probed, probe_ends;
-
-static bool probe_on(void *context, double time, calc_error *now) {
-    (void)context, (void)now;
-    probed = true;
-    CHECK(time == 30); /* where the load ends */
-    return !probe_ends;
-}
-
-/* What ends the looking ends it at once, whether or not the instants are known already. */
+/* What ends the looking ends it at once. */
 static void along(void) {
     calc c;
     looks all;
-    bool done;
     press_steel(&c, NULL, 0);
     for (int i = 0; i < 30; i++)
         CHECK(load(
@@ -412,26 +430,16 @@ static void along(void) {
     CHECK(scene_state(c.now, &now, fresh()));
     for (int fails_at = -1; fails_at < 3; fails_at++) {
         trial *t = trial_open(&c, fresh());
-        probed = false;
-        probe_ends = fails_at == 0;
-        all = (looks){.left = fails_at > 0 ? fails_at : -1};
-        CHECK(trial_trail(t, ALONG_PROGRAM, 3, probe_on, look_on, &all, &done, fresh()) == (fails_at < 0) &&
-              probed);
-        CHECK(all.seen == (fails_at < 0 ? 31 : fails_at ? fails_at + 1 : 0) && done == !probe_ends);
         all = (looks){.left = fails_at};
         CHECK(trial_along(t, ALONG_PROGRAM, c.now->end, 10, true, look_on, &all, fresh()) == (fails_at < 0));
         trial_close(t);
     }
-    trial *t = trial_open(&c, fresh());
-    scene_put(&t->scene, IN_MU, 0.3); /* another scene has left nothing behind */
-    CHECK(trial_trail(t, ALONG_PROGRAM, 3, probe_on, look_on, &all, &done, fresh()) && !done);
-    trial_close(t);
     /* the last cycle alone, with its turning points, of a load that goes on */
     CHECK(load(&c, (load_step){.kind = LOAD_CYCLE, .tangential = BY_FORCE, .tangential_value = 12},
                (cycle_extra){.times = 2}));
     CHECK(load(&c, (load_step){.kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 3, .points = 1},
                (cycle_extra){0}));
-    t = trial_open(&c, fresh());
+    trial *t = trial_open(&c, fresh());
     all = (looks){.left = -1};
     CHECK(trial_along(t, ALONG_CYCLE, c.now->end, 5, true, look_on, &all, fresh()));
     CHECK_REL(all.last, 32.25L, 1e-12L);
@@ -440,54 +448,11 @@ static void along(void) {
     calc_free(&c);
 }
 
-/* Where there is no memory for what steps leave behind, or not for all of it, they are to be run again. */
-static void trail_without_memory(void) {
-    static const load_step slide = {
-        .kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 5, .points = 1};
-    bool failed = true, refused = false, without = false;
-    calc c;
-    press_steel(&c, NULL, 0);
-    for (int i = 0; i < 30; i++)
-        CHECK(load(&c, slide, (cycle_extra){0}));
-    for (int n = 0; failed && n < 100; n++) {
-        looks all = {.left = -1};
-        bool done = false;
-        scene_forget(c.now, false);
-        scene_set_model(c.now, n % 2, MODEL_SPRINGS, 1000);
-        trial *t = trial_open(&c, fresh());
-        left = n;
-        const bool ok = trial_trail(t, ALONG_PROGRAM, 3, probe_on, look_on, &all, &done, fresh());
-        failed = left < 0;
-        left = -1;
-        CHECK(ok ? all.seen == (done ? 31 : 0) : !done && out_of_memory(&c));
-        refused = refused || !ok;
-        without = without || (ok && !done);
-        trial_close(t);
-    }
-    CHECK(!failed && refused && without);
-    calc_free(&c);
-}
-
-/* Of few steps, and of a cycle alone, the instants are run again; an input that the shape has not is refused.
- */
+/* An input that the shape has not is refused. */
 static void trials(void) {
-    static const load_step slide = {
-        .kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 5, .points = 1};
-    looks all = {.left = -1};
-    bool done = true;
     calc c;
     press_steel(&c, NULL, 0);
     trial *t = trial_open(&c, fresh());
-    CHECK(trial_trail(t, ALONG_PROGRAM, 1, probe_on, look_on, &all, &done, fresh()) && !done);
-    CHECK(!c.now->answers.trail);
-    trial_close(t);
-    for (int i = 0; i < 30; i++)
-        CHECK(load(&c, slide, (cycle_extra){0}));
-    const fret_state *now;
-    CHECK(scene_state(c.now, &now, fresh()));
-    t = trial_open(&c, fresh());
-    done = true;
-    CHECK(trial_trail(t, ALONG_CYCLE, 3, probe_on, look_on, &all, &done, fresh()) && !done && !all.seen);
     const knob slope = {.is_input = true, .in = IN_SLOPE, .text = "slope"};
     CHECK(!trial_set(t, &slope, 0.1L, fresh()));
     calc_word(&c, &error);
@@ -589,11 +554,12 @@ int main(int argc, char **argv) {
     unit_start("test_calc", argc, argv);
     CASE(words());
     CASE(characters());
+    CASE(rows());
+    CASE(hidden());
     CASE(units());
     CASE(ranges());
     CASE(first_errors());
     CASE(wordings());
-    CASE(blocks());
     CASE(expressions());
     CASE(assignments());
     CASE(loads(false));
@@ -603,7 +569,6 @@ int main(int argc, char **argv) {
     CASE(alike_names());
     CASE(deep_names());
     CASE(along());
-    CASE(trail_without_memory());
     CASE(trials());
     CASE(formulas());
     CASE(interrupted());
