@@ -491,6 +491,14 @@ static bool complete_by_fits(fret_cell *c, const fret_chebyshev *nodes) {
     for (int j = 0; j < count; j++)
         v[j] = Q1[j] * MQ[j];
     ok &= !bent || integrate(c, PART_LQQ, nodes, v, mu + 2 * q);
+    for (int j = 0; j < count; j++) {
+        const fret_real s = nodes->node[j], dK = rate_at(c, STIFFNESS, 1, s);
+        v[j] = (c->y + s * at(c, RISE, s)) * dK;
+        Q1[j] = at(c, RISE_Q, s) * dK;
+    }
+    (void)integrate(c, AREA, nodes, v, 0); /* as smooth as those above */
+    if (bent)
+        (void)integrate(c, AREA_Q, nodes, Q1, 0);
     return ok;
 }
 

@@ -3,7 +3,7 @@
 #ifndef SHELL_EXPRESSIONS_H
 #define SHELL_EXPRESSIONS_H
 
-#include "shell/output.h"
+#include "shell/answer.h"
 #include "shell/reader.h"
 
 /* Into sh->list and columns, which are to be freed whatever comes; at most limit. */

@@ -166,5 +166,5 @@ bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out, size_
 
 void note_missing(shell *sh, const sweep_job *job) {
     if (job->missing.raised)
-        shell_note(sh, "note: some values are missing: %s (%s)", job->missing.text, job->where);
+        shell_note(sh, "some values are missing: %s (%s)", job->missing.text, job->where);
 }

@@ -199,7 +199,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
     setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
     if (over)
-        shell_note(sh, "overwriting %s", path);
+        shell_say(sh, "overwriting %s", path);
     sh->record = recording = r;
     sh->out = r->both_out;
     sh->err = r->both_err;

@@ -3,6 +3,7 @@
 #include "calc/clock.h"
 #include "shell/shell.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -47,7 +48,7 @@ static bool print_statement(shell *sh, lexer *lx) {
     }
     progress_wipe();
     if (ok)
-        print_values(&sh->set, sh->out, columns, si, count);
+        ok = answer_values(&sh->set, sh->out, columns, si, count) || calc_no_memory(lx->error);
     columns_free(columns, count);
     return ok;
 }
@@ -169,7 +170,7 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     bool ok = dispatch(sh, &lx);
     progress_end();
     if (*sh->calc.note && ok)
-        shell_note(sh, "note: %s", sh->calc.note);
+        shell_note(sh, "%s", sh->calc.note);
     *sh->calc.note = 0;
     if (ok && sh->calc.scene.used & ASKED_TANGENTIAL)
         shell_warn_dissimilar(sh);
@@ -242,9 +243,20 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
     size_t end = begin;
     while (end < len && text[end] != '\n')
         end++;
+    const size_t place = character_count(text + begin, at - begin) + 1;
+    answer a;
+    answer_begin(&a, &sh->set, sh->out);
+    answer_message(&a, "error", error->text);
+    if (from->name) {
+        answer_string(&a, "file", from->name);
+        answer_number(&a, "line", (double)line);
+    }
+    answer_number(&a, "column", (double)place);
+    answer_done(&a);
+    fflush(sh->out);
     if (from->name) {
         print_safe(sh->err, from->name, strlen(from->name));
-        fprintf(sh->err, ":%zu:%zu: ", line, character_count(text + begin, at - begin) + 1);
+        fprintf(sh->err, ":%zu:%zu: ", line, place);
     }
     shell_print_error(sh, error->text);
     const size_t width = error->len ? error->len : 1;
@@ -253,24 +265,35 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
     fflush(sh->err);
 }
 
-static void report_time(shell *sh, double t) {
-    fflush(sh->out);
-    if (sh->replaying) /* no two runs agree */
-        return;
-    fprintf(sh->err, "time: %.3g ms", 1e3 * t);
+/* The models that have answered, in parentheses. */
+static void list_models(const shell *sh, FILE *to) {
     const char *before = " (";
     for (model_id i = 0; i < MODELS; i++)
         if (sh->calc.scene.used & USED(i)) {
-            fprintf(sh->err, "%s%s", before, models[i].title);
+            fprintf(to, "%s%s", before, models[i].title);
             if (i == MODEL_PIECES)
-                fprintf(sh->err, " to %.0e", sh->calc.scene.pieces_error);
+                fprintf(to, " to %.0e", sh->calc.scene.pieces_error);
             before = ", ";
         }
     const answers *a = &sh->calc.scene.answers;
     if (sh->calc.scene.used & USED(MODEL_MEMORY) && a->levels && a->run[0].repeated)
-        fprintf(sh->err, ", %u period%s the last one run", a->run[0].repeated,
+        fprintf(to, ", %u period%s the last one run", a->run[0].repeated,
                 a->run[0].repeated == 1 ? " repeats" : "s repeat");
-    fputs(*before == ',' ? ")\n" : "\n", sh->err);
+    if (*before == ',')
+        putc(')', to);
+}
+
+static void report_time(shell *sh, double t) {
+    file_text models_text;
+    if (sh->replaying) /* no two runs agree */
+        return;
+    if (!file_text_open(&models_text))
+        return;
+    list_models(sh, models_text.to);
+    if (!file_text_close(&models_text))
+        return;
+    shell_say(sh, "time: %.3g ms%s", 1e3 * t, models_text.text);
+    free(models_text.text);
 }
 
 bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line) {

@@ -48,7 +48,7 @@ void target_report(shell *sh, const char *name, const file_report *r) {
     if (r->direct || sh->set.report == REPORT_OFF)
         return;
     file_size_text(r->size, size);
-    shell_note(sh, "%s %s (%s)", r->overwrote ? "overwrote" : "wrote", name, size);
+    shell_say(sh, "%s %s (%s)", r->overwrote ? "overwrote" : "wrote", name, size);
 }
 
 bool target_close(shell *sh, lexer *lx, target *t, bool ok) {

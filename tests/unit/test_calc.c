@@ -66,9 +66,9 @@ static void rows(void) {
                 {"a\xe5\xa5\xb3 b", 2, 1, 5}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const char *text = rows[i].text;
-        size_t left = strlen(text);
-        CHECK(text_break(&text, &left, rows[i].columns) == rows[i].row && left == rows[i].rest);
-        CHECK(text + left == rows[i].text + strlen(rows[i].text));
+        size_t rest = strlen(text);
+        CHECK(text_break(&text, &rest, rows[i].columns) == rows[i].row && rest == rows[i].rest);
+        CHECK(text + rest == rows[i].text + strlen(rows[i].text));
     }
 }
 
