@@ -32,6 +32,7 @@ const hole_row holes[] = {
     {.name = "HOW", .kind = HOLE_MAYBE},
     {.name = "LO", .kind = HOLE_SPAN},
     {.name = "NAME", .kind = HOLE_NAME},
+    {.name = "INPUT", .kind = HOLE_INPUT},
     {.name = "MU", .kind = HOLE_VALUE, .noun = "mu"},
     {.name = "N", .kind = HOLE_COUNT},
     {.name = "SECONDS", .kind = HOLE_SECONDS},
@@ -44,7 +45,7 @@ const hole_row holes[] = {
     {.name = "OFF", .kind = HOLE_CHOICE, .words = off_name},
     {.name = "WORD", .kind = HOLE_WORD},
     {.name = "SHAPE", .kind = HOLE_WORD, .words = geometry_name},
-    {.name = "PART", .kind = HOLE_WORD, .words = show_name},
+    {.name = "PART", .kind = HOLE_CHOICE, .noun = "part", .words = show_name},
     {.name = "SETTING", .kind = HOLE_WORD, .words = setting_name},
     {.name = "LESSON", .kind = HOLE_WORD, .words = script_name},
     {.name = "TOPIC", .kind = HOLE_WORD, .words = help_name},
@@ -322,7 +323,7 @@ const command commands[] = {
      .run = do_solve,
      .group = "backwards",
      .keywords = "root equation inverse backwards find",
-     .takes = "NAME for EXPR = EXPR [from EXPR] [to EXPR]",
+     .takes = "NAME for EXPR = EXPR [from LO to HI]",
      .summary = "the value of an input that makes an equation hold",
      .help = "NAME is an input or a variable of yours; the scene stays as it is. Without a\n"
              "range it looks over the whole range of k and nu, and three decades on either\n"
@@ -362,7 +363,7 @@ const command commands[] = {
      .run = do_fit,
      .group = "backwards",
      .keywords = "least squares regression identify parameter measured data inverse calibrate",
-     .takes = "NAME, ... [for EXPR = EXPR] [to FILE.csv] [along FILE.csv]",
+     .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv]",
      .summary = "inputs from measured data, with how sure they are",
      .help = "Starts from the present values; the scene stays as it is. With `for` each row is\n"
              "an equation whose columns are names: depth = dz(force). With `along` the file is\n"
@@ -385,7 +386,7 @@ const command commands[] = {
      .run = do_uncertainty,
      .group = "backwards",
      .keywords = "error deviation Monte Carlo tolerance variance confidence sensitivity",
-     .takes = "EXPR, ... with NAME +- DEVIATION, ... [samples N:10000000] [seed N:1000000000]",
+     .takes = "EXPR, ... with INPUT +- DEVIATION, ... [samples N:10000000] [seed N:1000000000]",
      .summary = "how sure a value is, and which input that comes from",
      .help = "Standard deviations of independent inputs; 5 % is a part of the value. The\n"
              "answer is first order, from derivatives, with the share of each input in the\n"

@@ -210,6 +210,7 @@ static bool add_hole(const place *p, const hole *h, const char *behind_name) {
         add_values(p);
         return true;
     case HOLE_NAME:
+    case HOLE_INPUT:
         add_knobs(p, behind_name);
         return true;
     case HOLE_LOAD:
@@ -295,6 +296,13 @@ static void add_setting_words(const place *p) {
     }
 }
 
+static bool has_expression(const grammar *f) {
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (a->holes && a->hole[0].row->kind == HOLE_EXPR)
+            return true;
+    return false;
+}
+
 /* After something that may end a value: what goes on. */
 static void add_continuation(const place *p) {
     const grammar *f = form_of(p);
@@ -307,7 +315,7 @@ static void add_continuation(const place *p) {
         add_items(p, f, false);
     if (load_along(p))
         add_items(p, command_form(load_along(p)), false);
-    if (f && !grammar_first(f, HOLE_EXPR))
+    if (f && !has_expression(f))
         return;
     if (!is_given(p, "in"))
         add(p, "in", "");

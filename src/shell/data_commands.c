@@ -35,26 +35,9 @@ static bool read_names(shell *sh, lexer *lx, fit_question *q) {
         if (ask_repeats(q->name, q->count))
             return calc_fail(lx->error, at, lx->last - at, "%s is given twice", q->name[q->count - 1].text);
         if (lx->kind != T_COMMA)
-            return !lx->error->raised;
+            return at_end(lx);
         lex_next(lx);
     }
-}
-
-/* The file stands behind the expressions that use its columns. */
-static bool file_ahead(const lexer *lx, char name[FILE_NAME]) {
-    calc_error ignored;
-    lexer scan = *lx;
-    error_clear(&ignored);
-    scan.error = &ignored;
-    while (scan.kind != T_END) {
-        if (lex_is(&scan, "to")) {
-            lex_next(&scan);
-            error_clear(&ignored);
-            return lex_filename(&scan, name, FILE_NAME);
-        }
-        lex_next(&scan);
-    }
-    return false;
 }
 
 /* An angle needs its unit as lengths do. */
@@ -163,33 +146,33 @@ static bool read_side(shell *sh, lexer *lx, const csv *data, expr *e) {
     return false;
 }
 
-static bool read_equation(shell *sh, lexer *lx, fit_question *q, csv *data, size_t names) {
+static bool read_side_in(shell *sh, const lexer *lx, const span *part, const csv *data, expr *e) {
+    lexer own = hole_lexer(lx, part);
+    return read_side(sh, &own, data, e) && at_end(&own);
+}
+
+static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, size_t names) {
+    const heard *sides = said_of(all, "for", 0), *to = said_of(all, "to", 0);
     char name[FILE_NAME];
-    if (!file_ahead(lx, name))
-        return lex_fail(lx, "expected EXPR = EXPR to FILE.csv");
-    if (!csv_read(name, &shell_stop, data, lx->error) || !read_columns(sh, data, q, names, lx->error) ||
-        !read_side(sh, lx, data, &sh->list[0]))
-        return false;
-    if (lx->kind != T_ASSIGN)
-        return lex_fail(lx, "expected = EXPR");
-    lex_next(lx);
-    if (!read_side(sh, lx, data, &sh->list[1]))
+    if (!to)
+        return lex_fail(lx, "expected to FILE.csv");
+    if (!hole_file(lx, &to->hole[0], name) || !csv_read(name, &shell_stop, data, lx->error) ||
+        !read_columns(sh, data, q, names, lx->error) ||
+        !read_side_in(sh, lx, &sides->hole[0], data, &sh->list[0]) ||
+        !read_side_in(sh, lx, &sides->hole[1], data, &sh->list[1]))
         return false;
     q->left = &sh->list[0];
     q->right = &sh->list[1];
     q->rows = data->rows;
-    if (!lex_is(lx, "to"))
-        return lex_fail(lx, "expected to FILE.csv");
     if (ambiguous(sh, data, q->left, lx->error) || ambiguous(sh, data, q->right, lx->error))
         return false;
     if (!uses_columns(sh, q)) {
         char columns[CALC_ERROR_TEXT / 2];
         csv_names(data, columns, sizeof columns);
-        return calc_fail(lx->error, q->left->at, lx->last - q->left->at,
+        return calc_fail(lx->error, q->left->at, q->right->at + q->right->len - q->left->at,
                          "no column of %.100s is in the equation: they are %s", name, columns);
     }
-    lex_next(lx);
-    return lex_filename(lx, name, sizeof name);
+    return true;
 }
 
 static void no_loop(const csv *data, const char *misses, calc_error *error) {
@@ -200,12 +183,11 @@ static void no_loop(const csv *data, const char *misses, calc_error *error) {
               data->path, misses, names);
 }
 
-static bool read_loop(lexer *lx, fit_question *q, csv *data) {
+static bool read_loop(const lexer *lx, const heard *along, fit_question *q, csv *data) {
     char name[FILE_NAME];
-    const size_t at = lx->at;
     calc_error *error = lx->error;
-    if (!lex_filename(lx, name, sizeof name) || !csv_read(name, &shell_stop, data, error))
-        return calc_place(error, at, lx->last - at);
+    if (!hole_file(lx, &along->hole[0], name) || !csv_read(name, &shell_stop, data, error))
+        return heard_place(error, along);
     q->rows = data->rows;
     q->loop.dx = column_of(data, "dx", DIM_LENGTH, error);
     q->loop.Fx = column_of(data, "Fx", DIM_FORCE, error);
@@ -217,24 +199,18 @@ static bool read_loop(lexer *lx, fit_question *q, csv *data) {
     }
     if (!error->raised && (!q->loop.dx || !q->loop.Fx))
         no_loop(data, q->loop.dx ? "Fx" : "dx", error);
-    return !error->raised || calc_place(error, at, lx->last - at);
+    return !error->raised || heard_place(error, along);
 }
 
-static bool read_fit(shell *sh, lexer *lx, fit_question *q, csv *data, size_t names) {
+static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, size_t names) {
+    const heard *along = said_of(all, "along", 0);
+    lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     q->c = &sh->calc;
-    if (!read_names(sh, lx, q))
+    if (!read_names(sh, &own, q))
         return false;
-    if (lex_is(lx, "along")) {
-        lex_next(lx);
-        error_clear(lx->error); /* a file name need not be made of tokens */
-        if (!read_loop(lx, q, data))
-            return false;
-    } else if (!lex_accept(lx, "for")) {
+    if (!along && !said_of(all, "for", 0))
         return lex_fail(lx, "expected for EXPR = EXPR to FILE.csv, or along FILE.csv");
-    } else if (!read_equation(sh, lx, q, data, names)) {
-        return false;
-    }
-    return at_end(lx);
+    return along ? read_loop(lx, along, q, data) : read_equation(sh, lx, all, q, data, names);
 }
 
 /* ---- fit: what is said ------------------------------------------------------------------------- */
@@ -313,9 +289,10 @@ bool do_fit(shell *sh, lexer *lx, const command *self) {
     fit_question *q = calloc(1, sizeof *q);
     csv data = {0};
     fit_answer a;
-    (void)self;
-    bool ok = (q || calc_no_memory(lx->error)) && read_fit(sh, lx, q, &data, names) &&
-              fit(q, &a, lx->error) && print_fit(sh, q, &a, lx->error);
+    said all;
+    bool ok = (q || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all) &&
+              read_fit(sh, lx, &all, q, &data, names) && fit(q, &a, lx->error) &&
+              print_fit(sh, q, &a, lx->error);
     names_forget(sh, names);
     csv_free(&data);
     free(q);
@@ -325,16 +302,10 @@ bool do_fit(shell *sh, lexer *lx, const command *self) {
 /* ---- uncertainty ------------------------------------------------------------------------------- */
 
 /* `+- 0.02`, `+- 5 %`: a percentage is a part of the value. */
-static bool read_deviation(shell *sh, lexer *lx, const knob *k, double *out) {
-    const size_t sign = lx->at;
+static bool read_deviation(shell *sh, const lexer *of, const span *part, const knob *k, double *out) {
+    lexer own = hole_lexer(of, part), *lx = &own;
     value v;
     double now = 0;
-    if (lx->kind != T_PLUS || lex_peek(lx) != T_MINUS)
-        return lex_fail(lx, "expected +- after %s", k->text);
-    lex_next(lx);
-    if (lx->at != sign + 1)
-        return lex_fail(lx, "expected +-");
-    lex_next(lx);
     const size_t at = lx->at;
     if (!expr_value(&sh->calc, lx, &v))
         return false;
@@ -345,42 +316,33 @@ static bool read_deviation(shell *sh, lexer *lx, const knob *k, double *out) {
     }
     *out = (double)v.v;
     return value_dim(lx, k->text, at, lx->last - at, v, k->d) &&
-           (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "a deviation must be positive"));
+           (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "a deviation must be positive")) && at_end(lx);
 }
 
-static bool read_uncertain(shell *sh, lexer *lx, uncertainty_question *q) {
-    for (;;) {
+static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_question *q) {
+    const heard *h, *samples = said_of(all, "samples", 0), *seed = said_of(all, "seed", 0);
+    for (size_t i = 0; (h = said_of(all, "with", i)); i++) {
         size_t unused;
         knob *k = &q->name[q->count];
+        const span *name = &h->hole[0];
+        lexer own = hole_lexer(lx, name);
         if (q->count == UNCERTAIN_NAMES)
-            return lex_fail(lx, "more than %d inputs", UNCERTAIN_NAMES);
-        if (lx->kind == T_NAME && !quantity_find(lx->text + lx->at, lx->len) &&
-            !names_find(&sh->calc.names, lx->text + lx->at, lx->len, &unused))
-            return lex_fail(lx, "'%.*s' is no input and has no value", LEX_WORD(lx));
-        const size_t at = lx->at;
-        if (!knob_read(&sh->calc, lx, k))
+            return lex_fail(&own, "more than %d inputs", UNCERTAIN_NAMES);
+        if (!quantity_find(own.text + own.at, own.len) &&
+            !names_find(&sh->calc.names, own.text + own.at, own.len, &unused))
+            return lex_fail(&own, "'%.*s' is no input and has no value", LEX_WORD(&own));
+        if (!knob_read(&sh->calc, &own, k))
             return false;
         if (ask_repeats(q->name, q->count + 1))
-            return calc_fail(lx->error, at, lx->last - at, "%s is given twice", k->text);
-        if (!read_deviation(sh, lx, k, &q->deviation[q->count++]))
+            return calc_fail(lx->error, name->at, name->len, "%s is given twice", k->text);
+        if (!read_deviation(sh, lx, &h->hole[1], k, &q->deviation[q->count++]))
             return false;
-        if (lx->kind != T_COMMA)
-            return !lx->error->raised;
-        lex_next(lx);
     }
-}
-
-static bool read_sampling(shell *sh, lexer *lx, uncertainty_question *q) {
-    for (;;)
-        if (lex_accept(lx, "samples")) {
-            if (!read_count(&sh->calc, lx, "samples", 10000000, &q->samples))
-                return false;
-        } else if (lex_accept(lx, "seed")) {
-            if (!read_count(&sh->calc, lx, "seed", 1000000000, &q->seed))
-                return false;
-        } else {
-            return at_end(lx);
-        }
+    if (samples)
+        q->samples = samples->count;
+    if (seed)
+        q->seed = seed->count;
+    return true;
 }
 
 static void report_uncertain(answer *out, const uncertainty_question *q, const uncertain *u,
@@ -457,11 +419,10 @@ bool do_uncertainty(shell *sh, lexer *lx, const command *self) {
     uncertainty_question q = {.c = &sh->calc, .e = sh->list, .samples = usual_samples(sh), .seed = 1};
     uncertainty_answer *a = calloc(1, sizeof *a);
     column columns[UNCERTAIN_VALUES];
-    (void)self;
-    bool ok = a || calc_no_memory(lx->error);
-    ok = ok && read_expressions(sh, lx, columns, UNCERTAIN_VALUES, &q.expressions);
-    ok = ok && (lex_accept(lx, "with") || lex_fail(lx, "expected with NAME +- DEVIATION, ..."));
-    ok = ok && read_uncertain(sh, lx, &q) && read_sampling(sh, lx, &q) && uncertainty(&q, a, lx->error) &&
+    said all;
+    bool ok = (a || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all);
+    ok = ok && read_expressions_in(sh, lx, &all.list[0].hole[0], columns, UNCERTAIN_VALUES, &q.expressions);
+    ok = ok && read_uncertain(sh, lx, &all, &q) && uncertainty(&q, a, lx->error) &&
          print_uncertain(sh, &q, a, columns, lx->error);
     columns_free(columns, q.expressions);
     free(a);

@@ -217,23 +217,21 @@ static bool play(lesson *l) {
 }
 
 bool do_demo(shell *sh, lexer *lx, const command *self) {
-    const bool tour = lx->kind == T_END, text = sh->set.format == FORMAT_TEXT;
-    const script *s = tour ? script_find("tour", 4) : script_find(lx->text + lx->at, word_at(lx));
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all))
+        return false;
+    const bool tour = all.count == 0, text = sh->set.format == FORMAT_TEXT;
+    const span *name = &all.list[0].hole[0];
+    const script *s = tour ? script_find("tour", 4) : script_find(lx->text + name->at, name->len);
     const scene *now = &sh->calc.scene;
-    (void)self;
     if (!s) {
         char word[LEX_NAME];
-        snprintf(word, sizeof word, "%.*s", (int)word_at(lx), lx->text + lx->at);
+        snprintf(word, sizeof word, "%.*s", LEX_SHOWN(name->len), lx->text + name->at);
         const char *near = suggest(word, script_name);
-        return lex_fail(lx,
-                        near ? "there is no demo '%s': did you mean %s?"
-                             : "there is no demo '%s': show demos lists them",
-                        word, near);
-    }
-    if (!tour) {
-        lex_seek(lx, lx->at + word_at(lx));
-        if (!at_end(lx))
-            return false;
+        return calc_fail(lx->error, name->at, name->len,
+                         near ? "there is no demo '%s': did you mean %s?"
+                              : "there is no demo '%s': show demos lists them",
+                         word, near);
     }
     lesson l = {.sh = sh,
                 .s = s,

@@ -733,20 +733,16 @@ static bool no_quantity(shell *sh, lexer *lx) {
 /* An input or a function by its name alone may be without a value. */
 static const quantity *bare_name(const lexer *lx) {
     const quantity *q = lx->kind == T_NAME ? quantity_find(lx->text + lx->at, lx->len) : NULL;
-    return q && (q->of == OF_INPUT || q->of == OF_FUNCTION) && lex_peek(lx) == T_END ? q : NULL;
+    return q && (q->of == OF_INPUT || q->of == OF_FUNCTION) ? q : NULL;
 }
 
 /* What is to be explained, `e`, in the scene as it is, or as `at` changes it: a trial, then. */
-static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v,
-                            bool *conditioning) {
+static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v) {
     bool call;
     size_t first;
     const size_t at = lx->at;
     expr *whole = &sh->list[0];
-    if (!expr_parse_at(&sh->calc, lx, whole))
-        return false;
-    *conditioning = lex_accept(lx, "conditioning");
-    if (!at_end(lx))
+    if (!expr_parse_at(&sh->calc, lx, whole) || !at_end(lx))
         return false;
     const expr *meant = expr_meant(&sh->calc, whole);
     if (!expr_changed(&sh->calc, meant, t, e, lx->error))
@@ -803,14 +799,18 @@ bool do_explain(shell *sh, lexer *lx, const command *self) {
     const expr *e = NULL, *asked = NULL;
     trial *changed = NULL;
     value v = {0};
-    bool conditioning = false;
-    (void)self;
-    if (lex_is(lx, "mismatch") && lex_peek(lx) == T_END)
-        return explain_mismatch(sh, lx);
-    if (no_quantity(sh, lx))
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all))
         return false;
-    const quantity *bare = bare_name(lx);
-    const bool ok = (bare || read_expression(sh, lx, &e, &asked, &changed, &v, &conditioning)) &&
+    const bool conditioning = said_of(&all, "conditioning", 0);
+    lexer own = hole_lexer(lx, &all.list[0].hole[0]);
+    const bool alone = own.at + own.len == own.end && !conditioning;
+    if (lex_is(&own, "mismatch") && alone)
+        return explain_mismatch(sh, lx);
+    if (no_quantity(sh, &own))
+        return false;
+    const quantity *bare = alone ? bare_name(&own) : NULL;
+    const bool ok = (bare || read_expression(sh, &own, &e, &asked, &changed, &v)) &&
                     explain(sh, bare, e, asked, v, conditioning, lx);
     if (changed)
         trial_close(changed);

@@ -43,6 +43,8 @@ static clause *add(parsing *g, const char *name, size_t len) {
     if (!g->parted && f->count - 1 > g->first)
         a->way = a[-1].way;
     memcpy(a->name, name, len);
+    a->text = name;
+    a->len = len;
     g->parted = false;
     return a;
 }
@@ -113,12 +115,14 @@ static bool parse_hole(parsing *g, size_t n, char before) {
         a->in = 1 + (int)quantity_input(q);
     }
     g->p += n;
-    if (!strncmp(g->p, " .. ", 4)) /* the other end */
-        n += word_length(g->p + 4), g->p += 4 + word_length(g->p + 4);
+    if (row->kind == HOLE_SPAN &&
+        (!strncmp(g->p, " .. ", 4) || !strncmp(g->p, " to ", 4))) /* the other end */
+        g->p += 4 + word_length(g->p + 4);
     if (g->p[-1] == ',' && !strncmp(g->p, " ...", 4))
         a->list = true;
     if (!strncmp(g->p, " ...", 4))
         g->p += 4;
+    a->len = (size_t)(g->p - a->text);
     return true;
 }
 

@@ -18,7 +18,8 @@ typedef enum hole_kind {
     HOLE_EXPR,    /* an expression, or a list of them */
     HOLE_MAYBE,   /* an expression, or nothing */
     HOLE_SPAN,    /* LO .. HI */
-    HOLE_NAME,    /* a name that is changed */
+    HOLE_NAME,    /* a name that is changed, known to what stands before it too */
+    HOLE_INPUT,   /* a name that has a value, or a list of them */
     HOLE_VALUE,   /* an expression of the dimension of a quantity, whose name may stand before: mu=0.3 */
     HOLE_COUNT,   /* a whole number from 1 on */
     HOLE_SECONDS, /* a positive number */
@@ -47,6 +48,8 @@ typedef struct hole {
 enum { CLAUSE_NAME = 16, CLAUSE_HOLES = 2 };
 typedef struct clause {
     char name[CLAUSE_NAME]; /* of an argument, or the word of a clause; empty: of holes that stand first */
+    const char *text;       /* of the line, from there on */
+    size_t len;             /* of this clause */
     bool argument, live, increment;
     bool optional, again;
     bool list; /* comes again behind a comma */

@@ -11,8 +11,6 @@
 #include "shell/target.h"
 #include "study/jenkins.h"
 
-enum { ELEMENTS = 1000 };
-
 typedef struct model {
     unsigned count;
     jenkins_element *element;
@@ -105,37 +103,22 @@ typedef struct request {
     double FA;
 } request;
 
-static bool read_request(shell *sh, lexer *lx, request *r) {
-    static const dim force = {1, 0, 0};
-    value v;
-    if (!lex_accept(lx, "jenkins"))
-        return lex_fail(lx, "export what? jenkins N to FILE");
-    if (!read_count(&sh->calc, lx, "the number of elements", ELEMENTS, &r->count))
+static bool read_request(shell *sh, lexer *lx, const command *self, request *r) {
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all))
         return false;
-    if (!lex_is(lx, "to"))
-        return lex_fail(lx, "expected to FILE.csv, .json or .h");
-    lex_next(lx);
-    error_clear(lx->error); /* a file name need not be made of tokens */
-    r->at = lx->at;
-    if (!lex_filename(lx, r->name, sizeof r->name))
+    const heard *to = said_of(&all, "to", 0), *FA = said_of(&all, "FA", 0);
+    r->count = said_of(&all, "jenkins", 0)->count;
+    r->at = to->hole[0].at;
+    r->len = to->hole[0].len;
+    if (!hole_file(lx, &to->hole[0], r->name))
         return false;
-    r->len = lx->last - r->at;
     r->write = form_of(r->name, lx->error, r->at, r->len);
-    if (!r->write)
-        return false;
-    r->limited = at_argument(lx) && lex_is(lx, "FA");
-    if (!r->limited)
-        return at_end(lx);
-    lex_next(lx);
-    lex_next(lx);
-    const size_t at = lx->at;
-    if (!expr_value(&sh->calc, lx, &v) || !value_dim(lx, "FA", at, lx->last - at, v, force))
-        return false;
-    r->FA = (double)v.v;
-    return (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "FA must be positive")) &&
-           (r->count > 1 || calc_fail(lx->error, at, lx->last - at,
-                                      "up to FA one of the elements only sticks: take 2 or more")) &&
-           at_end(lx);
+    r->limited = FA;
+    r->FA = FA ? (double)FA->v.v : 0;
+    return r->write && (!FA || r->count > 1 ||
+                        calc_fail(lx->error, FA->hole[0].at, FA->hole[0].len,
+                                  "up to FA one of the elements only sticks: take 2 or more"));
 }
 
 static bool make_model(trial *t, const request *r, model *m, calc_error *error) {
@@ -196,9 +179,8 @@ static bool give_model(shell *sh, lexer *lx, const request *r, const model *m) {
 bool do_export(shell *sh, lexer *lx, const command *self) {
     request *r = calloc(1, sizeof *r);
     model m = {.count = 0};
-    (void)self;
     trial *t = NULL;
-    const bool ok = (r || calc_no_memory(lx->error)) && read_request(sh, lx, r) &&
+    const bool ok = (r || calc_no_memory(lx->error)) && read_request(sh, lx, self, r) &&
                     (t = trial_open(&sh->calc, lx->error)) && make_model(t, r, &m, lx->error) &&
                     give_model(sh, lx, r, &m);
     calc_word(&sh->calc, lx->error);

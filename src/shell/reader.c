@@ -289,14 +289,25 @@ static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_
     lx->error = error;
 }
 
+static bool at_name(lexer *lx, const clause *a) {
+    return lx->kind == T_NAME ||
+           (*a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name"));
+}
+
 /* One name, or of those that stand first several. */
-static bool skip_name_hole(shell *sh, lexer *lx, said *s, const clause *a) {
-    if (lx->kind != T_NAME)
-        return *a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name");
-    if (a->list && !*a->name) {
+static bool skip_input(lexer *lx, const said *s, const clause *a) {
+    if (!at_name(lx, a))
+        return false;
+    if (*a->name)
+        lex_next(lx);
+    else
         skip_part(lx, s->by, false, false);
-        return true;
-    }
+    return !lx->error->raised;
+}
+
+static bool skip_name_hole(shell *sh, lexer *lx, said *s, const clause *a) {
+    if (!at_name(lx, a))
+        return false;
     s->wakes = true;
     if (lx->len < LEX_NAME && !names_wake(sh, lx, s->names))
         return false;
@@ -348,6 +359,9 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
     case HOLE_NAME:
         ok = skip_name_hole(sh, lx, s, a);
         break;
+    case HOLE_INPUT:
+        ok = skip_input(lx, s, a);
+        break;
     case HOLE_LOAD:
         ok = skip_load(lx, s);
         break;
@@ -365,16 +379,19 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         break;
     }
     h->hole[i].len = lx->last > h->hole[i].at ? lx->last - h->hole[i].at : 0;
-    return ok;
+    return ok &&
+           (h->hole[i].len || !*a->name || row->kind == HOLE_MAYBE || lex_fail(lx, "expected a value here"));
 }
 
 /* What parts the hole from the one before. */
 static bool read_between(lexer *lx, const heard *h, unsigned i) {
     const char before = h->of->hole[i].before;
     const span *name = &h->hole[i - 1];
-    const bool named = h->of->hole[i - 1].row->kind == HOLE_NAME;
+    const bool named = h->of->hole[i - 1].row->kind != HOLE_EXPR;
     if (before == '=' && lx->kind != T_ASSIGN)
-        return named ? lex_fail(lx, "expected = after %.*s", LEX_SHOWN(name->len), lx->text + name->at)
+        return named ? lex_fail(lx, "expected =%s after %.*s",
+                                h->of->hole[i].row->kind == HOLE_SPAN ? " LO .. HI" : "",
+                                LEX_SHOWN(name->len), lx->text + name->at)
                      : lex_fail(lx, "expected = EXPR: what should it be equal to?");
     if (before == '+') {
         const size_t sign = lx->at;
@@ -473,6 +490,22 @@ bool said_end(lexer *lx, const grammar *f) {
     return at_end(lx);
 }
 
+/* Clauses that may not be left out. */
+static bool is_whole(lexer *lx, said *s) {
+    char text[GRAMMAR_USAGE], line[GRAMMAR_USAGE];
+    for (const clause *a = s->by->clause; a < s->by->clause + s->by->count; a++) {
+        if (a->argument || a->optional || a->group || !*a->name || said_of(s, a->name, 0))
+            continue;
+        if (s->count && !*s->list[0].of->name && !s->list[0].hole[0].len)
+            return lex_fail(lx, "expected a value here");
+        snprintf(line, sizeof line, "%.*s", (int)a->len, a->text);
+        takes_text(line, text, sizeof text);
+        return lex_fail(lx, "expected %s", text);
+    }
+    return true;
+}
+
 bool said_read(shell *sh, lexer *lx, const grammar *f, said *out) {
-    return (said_read_some(sh, lx, f, out) && said_end(lx, f)) || (said_drop(sh, out), false);
+    return (said_read_some(sh, lx, f, out) && is_whole(lx, out) && said_end(lx, f)) ||
+           (said_drop(sh, out), false);
 }

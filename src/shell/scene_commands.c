@@ -186,7 +186,8 @@ static bool read_term(shell *sh, lexer *lx, fret_gap *sum) {
     return true;
 }
 
-static bool read_sum(shell *sh, lexer *lx, fret_gap *sum) {
+static bool read_sum(shell *sh, const lexer *of, const span *terms, fret_gap *sum) {
+    lexer own = hole_lexer(of, terms), *lx = &own;
     *sum = (fret_gap){.kind = FRET_GAP_SUM};
     do {
         if (sum->terms == FRET_GAP_TERMS)
@@ -200,15 +201,12 @@ static bool read_sum(shell *sh, lexer *lx, fret_gap *sum) {
 }
 
 /* `smooth`, `smooth 8`, `smooth 0.1 um`. */
-static bool read_smoothing(shell *sh, lexer *lx, smoothing *how) {
+static bool read_smoothing(shell *sh, const lexer *of, const span *part, smoothing *how) {
     value v;
-    if (lx->kind == T_END)
-        return true;
-    if (!lex_accept(lx, "smooth"))
-        return lex_fail(lx, "expected smooth, or nothing, after the name of the file");
     how->by = SMOOTH_FREELY;
-    if (lx->kind == T_END)
+    if (!part->len)
         return true;
+    lexer own = hole_lexer(of, part), *lx = &own;
     const size_t at = lx->at;
     if (!expr_value(&sh->calc, lx, &v) || stray_unit(lx) || !at_end(lx))
         return false;
@@ -340,16 +338,14 @@ static void report_thinning(shell *sh, size_t rows, const struct fret_table *gap
     shell_note(sh, "of %zu rows %zu pieces are made, within %.0e of the largest gap", rows, pieces, within);
 }
 
-static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
+static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
     char name[FILE_NAME];
-    const size_t at = lx->at;
+    const heard *smoothly = said_of(s, "smooth", 0);
     smoothing how = {.by = SMOOTH_NOT};
     smooth_answer smoothed = {.pieces = 0};
     csv data;
-    if (!lex_filename(lx, name, sizeof name))
-        return false;
-    const size_t end = lx->last;
-    if (!read_smoothing(sh, lx, &how))
+    if (!hole_file(lx, &s->list[0].hole[0], name) ||
+        (smoothly && !read_smoothing(sh, lx, &smoothly->hole[0], &how)))
         return false;
     bool ok = csv_read(name, &shell_stop, &data, lx->error);
     if (ok) {
@@ -365,7 +361,7 @@ static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
         report_thinning(sh, data.rows, e->table->table);
     smooth_free(&smoothed);
     csv_free(&data);
-    return ok || calc_place(lx->error, at, end - at);
+    return ok || heard_place(lx->error, &s->list[0]);
 }
 
 /* 1/R = 1/R1 + 1/R2; a negative radius is a hollow. */
@@ -435,15 +431,13 @@ bool do_geometry(shell *sh, lexer *lx, const command *self) {
     (void)self;
     if (!g)
         return false;
-    if (g->by == PARAMETERS_FILE)
-        return read_gap_file(sh, lx, &e);
-    if (g->by == PARAMETERS_TERMS) {
-        e.sum = &sum;
-        return read_sum(sh, lx, &sum) && scene_edit(&sh->calc.scene, apply, &e, lx->error);
-    }
     if (!said_read(sh, lx, shape_form(g), &s))
         return false;
-    bool ok = put_parameters(lx, g, &e, &s) && scene_edit(&sh->calc.scene, apply, &e, lx->error);
+    if (g->by == PARAMETERS_FILE)
+        return read_gap_file(sh, lx, &s, &e);
+    e.sum = g->by == PARAMETERS_TERMS ? &sum : NULL;
+    const bool ok = (e.sum ? read_sum(sh, lx, &s.list[0].hole[0], &sum) : put_parameters(lx, g, &e, &s)) &&
+                    scene_edit(&sh->calc.scene, apply, &e, lx->error);
     said_drop(sh, &s);
     return ok;
 }

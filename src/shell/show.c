@@ -409,21 +409,10 @@ static bool say(shell *sh, lexer *lx, bool (*show)(shell *sh, FILE *to)) {
 }
 
 bool do_show(shell *sh, lexer *lx, const command *self) {
-    size_t which = 0; /* the scene */
-    (void)self;
-    if (lx->kind == T_NAME) {
-        while (which < SHOWS && !lex_accept(lx, shown[which].name))
-            which++;
-        if (which == SHOWS) {
-            char list[CALC_ERROR_TEXT / 2] = "";
-            for (size_t i = 0; i < SHOWS; i++)
-                list_word(list, sizeof list, shown[i].name, i + 1 == SHOWS);
-            return lex_fail(lx, "show what? %s", list);
-        }
-    }
-    if (!at_end(lx))
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all))
         return false;
-    return say(sh, lx, shown[which].show);
+    return say(sh, lx, shown[all.count ? all.list[0].choice : 0].show); /* else the scene */
 }
 
 bool do_set(shell *sh, lexer *lx, const command *self) {

@@ -47,30 +47,32 @@ static bool read_side(shell *sh, lexer *lx, expr *e) {
     return expr_read_at(&sh->calc, lx, e);
 }
 
-static bool read_solve(shell *sh, lexer *lx, solve_question *q) {
+/* All of the hole. */
+static bool read_side_in(shell *sh, const lexer *lx, const span *part, expr *e) {
+    lexer own = hole_lexer(lx, part);
+    return read_side(sh, &own, e) && at_end(&own);
+}
+
+static bool read_solve(shell *sh, const lexer *lx, said *all, solve_question *q) {
     sweep_range ends = {.lo = 0};
-    if (!knob_read(&sh->calc, lx, &q->name))
-        return false;
-    if (!lex_accept(lx, "for"))
-        return lex_fail(lx, "expected for EXPR = EXPR");
-    if (!read_side(sh, lx, &sh->list[0]))
-        return false;
-    if (lx->kind != T_ASSIGN)
-        return lex_fail(lx, "expected = EXPR: what should it be equal to?");
-    lex_next(lx);
-    if (!read_side(sh, lx, &sh->list[1]))
+    const heard *equation = said_of(all, "for", 0), *from = said_of(all, "from", 0);
+    lexer own = hole_lexer(lx, &all->list[0].hole[0]);
+    if (!knob_read(&sh->calc, &own, &q->name) || !read_side_in(sh, lx, &equation->hole[0], &sh->list[0]) ||
+        !read_side_in(sh, lx, &equation->hole[1], &sh->list[1]))
         return false;
     q->c = &sh->calc;
     q->left = &sh->list[0];
     q->right = &sh->list[1];
-    q->given = lex_accept(lx, "from");
-    if (q->given && !range_read_interval(&sh->calc, lx, &q->name, "to", &ends))
+    q->given = from;
+    if (!from)
+        return true;
+    own = hole_lexer(lx, &from->hole[0]);
+    if (!range_read_interval(&sh->calc, &own, &q->name, "to", &ends) || !at_end(&own))
         return false;
     q->lo = (double)ends.lo;
     q->hi = (double)ends.hi;
-    if (q->given)
-        q->name.d = ends.d;
-    return at_end(lx);
+    q->name.d = ends.d;
+    return true;
 }
 
 static void report_solve(shell *sh, const solve_question *q, const solve_answer *a) {
@@ -99,68 +101,46 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
 }
 
 bool do_solve(shell *sh, lexer *lx, const command *self) {
-    const size_t names = sh->calc.names.count;
-    solve_question q;
+    said all;
+    solve_question q = {.given = false};
     solve_answer a;
     column c = {.name = NULL};
-    (void)self;
-    bool ok = (lx->kind != T_NAME || names_wake(sh, lx, names)) && read_solve(sh, lx, &q) &&
-              solve(&q, &a, lx->error) && knob_column(&c, &q.name, lx->error);
+    if (!said_read(sh, lx, command_form(self), &all))
+        return false;
+    bool ok = read_solve(sh, lx, &all, &q) && solve(&q, &a, lx->error) && knob_column(&c, &q.name, lx->error);
     ok = ok && print_answers(sh, &c, &(long double){a.x}, 1, lx->error);
     if (ok)
         report_solve(sh, &q, &a);
     columns_free(&c, 1);
-    names_forget(sh, names);
+    said_drop(sh, &all);
     return ok;
 }
 
 /* ---- maximize, minimize ------------------------------------------------------------------------ */
 
-/* The names stand behind the expression that uses them. */
-static bool wake_over(shell *sh, const lexer *lx, size_t names) {
-    calc_error ignored;
-    lexer scan = *lx;
-    bool over = false, name = false;
-    error_clear(&ignored);
-    scan.error = &ignored;
-    while (scan.kind != T_END) {
-        if (name && scan.kind == T_NAME && scan.len < LEX_NAME && !names_wake(sh, &scan, names))
-            return calc_no_memory(lx->error);
-        name = lex_is(&scan, "over") || (over && scan.kind == T_COMMA);
-        over = over || lex_is(&scan, "over");
-        lex_next(&scan);
-    }
-    return true;
-}
-
-static bool read_over(shell *sh, lexer *lx, optimise_question *q) {
-    if (!lex_accept(lx, "over"))
-        return lex_fail(lx, "expected over NAME = LO .. HI");
-    for (;;) {
+static bool read_over(shell *sh, const lexer *lx, said *all, optimise_question *q) {
+    const heard *h;
+    for (size_t i = 0; (h = said_of(all, "over", i)); i++) {
         sweep_range ends = {.lo = 0};
         knob *k = &q->name[q->count];
+        const span *name = &h->hole[0], *ends_at = &h->hole[1];
+        lexer own = hole_lexer(lx, name);
         if (q->count == OPTIMISE_NAMES)
-            return lex_fail(lx, "more than %d names", OPTIMISE_NAMES);
-        const size_t at = lx->at;
-        if (!knob_read(&sh->calc, lx, k))
+            return lex_fail(&own, "more than %d names", OPTIMISE_NAMES);
+        if (!knob_read(&sh->calc, &own, k))
             return false;
         if (ask_repeats(q->name, q->count + 1))
-            return calc_fail(lx->error, at, lx->last - at, "%s is given twice", k->text);
-        if (lx->kind != T_ASSIGN)
-            return lex_fail(lx, "expected = LO .. HI after %s", k->text);
-        lex_next(lx);
-        const size_t from = lx->at;
-        if (!range_read_interval(&sh->calc, lx, k, NULL, &ends))
+            return calc_fail(lx->error, name->at, name->len, "%s is given twice", k->text);
+        own = hole_lexer(lx, ends_at);
+        if (!range_read_interval(&sh->calc, &own, k, NULL, &ends) || !at_end(&own))
             return false;
         if (!(ends.lo < ends.hi))
-            return calc_fail(lx->error, from, lx->last - from, "an empty range: LO must be below HI");
+            return calc_fail(lx->error, ends_at->at, ends_at->len, "an empty range: LO must be below HI");
         k->d = ends.d;
         q->lo[q->count] = (double)ends.lo;
         q->hi[q->count++] = (double)ends.hi;
-        if (lx->kind != T_COMMA)
-            return !lx->error->raised;
-        lex_next(lx);
     }
+    return true;
 }
 
 static const char *const end_words[] = {"inner", "low", "high", "scene"};
@@ -196,14 +176,16 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
 }
 
 static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {
-    const size_t names = sh->calc.names.count;
+    said all;
     optimise_question q = {.c = &sh->calc, .e = &sh->list[0], .most = most};
     optimise_answer a;
     column columns[OPTIMISE_NAMES + 1] = {{.name = NULL}}, optimised = {.name = NULL};
     long double si[OPTIMISE_NAMES + 1];
-    bool ok = wake_over(sh, lx, names) && read_one_expression(sh, lx, 0, &optimised) &&
-              read_over(sh, lx, &q) && at_end(lx) && optimise(&q, &a, lx->error) &&
-              column_fits(q.e, &optimised, (value){a.value, a.d}, lx->error);
+    if (!said_read(sh, lx, command_form(self), &all))
+        return false;
+    lexer own = hole_lexer(lx, &all.list[0].hole[0]);
+    bool ok = read_one_expression(sh, &own, 0, &optimised) && at_end(&own) && read_over(sh, lx, &all, &q) &&
+              optimise(&q, &a, lx->error) && column_fits(q.e, &optimised, (value){a.value, a.d}, lx->error);
     for (size_t i = 0; i < q.count && ok; i++) {
         ok = knob_column(&columns[i], &q.name[i], lx->error);
         si[i] = a.x[i];
@@ -214,7 +196,7 @@ static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {
     if (ok)
         report_optimum(sh, &q, &a, self->name);
     columns_free(columns, q.count + 1);
-    names_forget(sh, names);
+    said_drop(sh, &all);
     return ok;
 }
 

@@ -432,10 +432,10 @@ def refusals(tests):
             ("fit FN for y = u to {exact}", "FN has no value to start from"),
             ("s := 3; fit s for y = s to {exact}", "s has no value of its own to start from (it follows s := 3)"),
             ("s = 1; fit s, s for y = s to {exact}", "s is given twice"),
-            ("s = 1; fit s for y to {exact}", "expected = EXPR"), ("s = 1; fit s for y = s {exact}", "expected EXPR = EXPR to FILE.csv"),
+            ("s = 1; fit s for y to {exact}", "expected = EXPR"), ("s = 1; fit s for y = s {exact}", "expected to FILE.csv"),
             ("s = 1; fit s to {exact}", "expected for EXPR = EXPR to FILE.csv, or along FILE.csv"),
             ("s = 1; fit s for y = s to {exact} wobbly", "unexpected 'wobbly'"),
-            ("s = 1; fit s for y = s (3) to {exact}", "expected to FILE.csv"),
+            ("s = 1; fit s for y = s (3) to {exact}", "unexpected '('"),
             ("; ".join("n%d = 1" % i for i in range(9)) + "; fit " + ", ".join("n%d" % i for i in range(9)) + " for y = n1 to {exact}",
              "more than 8 names"), ("fit 3 for y = u to {exact}", "expected a name")):
         script = script.format(nowhere=os.path.join(tests.dir, "nowhere.csv"), **path)

@@ -247,7 +247,7 @@ def kept(tests):
 
 
 WRONG = (
-    (sphere, "smoth", "-c:1:%d: error: expected smooth, or nothing, after the name of the file"),
+    (sphere, "smoth", "-c:1:%d: error: unexpected 'smoth': did you mean smooth?"),
     (sphere, "smooth 3 N", "smooth takes a misfit (smooth 0.1 um) or a number of pieces (smooth 8)"),
     (sphere, "smooth 0", "smooth takes a misfit"), (sphere, "smooth 2.5", "smooth takes a misfit"),
     (sphere, "smooth -1 um", "smooth takes a misfit"), (sphere, "smooth 3 4", "unexpected '4'"),
