@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "unit.h"
+
+#define unit calc_unit /* the other one is at work here */
+#include "shell/command.h"
+#undef unit
+
+static shell sh;
+static calc_error wrong;
+static lexer lx;
+static said all;
+
+/* The statement by its row. */
+static bool reads(const char *text) {
+    error_clear(&wrong);
+    lex_start(&lx, text, strlen(text), &wrong);
+    const command *c = command_find(text, strcspn(text, " "));
+    lex_next(&lx);
+    return said_read(&sh, &lx, command_form(c), &all);
+}
+
+static bool fails(const char *text, const char *why) {
+    const bool ok = !reads(text) && strstr(wrong.text, why);
+    if (!ok)
+        printf("%s: %s\n", text, wrong.text);
+    return ok;
+}
+
+/* Does the i-th clause of this name have these holes? other: NULL where it has one. */
+static bool has(const char *name, size_t i, const char *first, const char *other) {
+    const char *want[CLAUSE_HOLES] = {first, other};
+    const heard *h = said_of(&all, name, i);
+    for (size_t k = 0; h && k < CLAUSE_HOLES && want[k]; k++) {
+        const span *part = &h->hole[k];
+        if (strlen(want[k]) != part->len || memcmp(lx.text + part->at, want[k], part->len) != 0) {
+            printf("%s: %.*s\n", name, (int)part->len, lx.text + part->at);
+            return false;
+        }
+    }
+    return h != NULL;
+}
+
+static void cut(void) {
+    CHECK(reads("table with*x, log(for) in mm for x = 1 .. log(3) with with = 1, 2 steps 7 to a to b.csv") ==
+          false);
+    CHECK(reads("table with*x, (x for) in mm for x = 1 .. log(3) with with = 1, 2 steps 7 to a,b.csv"));
+    CHECK(has("", 0, "with*x, (x for) in mm", NULL) && has("for", 0, "x", "1 .. log(3)"));
+    CHECK(has("with", 0, "with", "1, 2") && has("to", 0, "a,b.csv", NULL));
+    CHECK(said_of(&all, "steps", 0)->count == 7 && !said_of(&all, "steps", 1) && !said_of(&all, "along", 0));
+    said_drop(&sh, &all);
+    CHECK(reads("solve mu for dW at k=0, FN = 3 N = 5 uJ from 0.3 to 1"));
+    CHECK(has("for", 0, "dW at k=0, FN = 3 N", "5 uJ") && has("from", 0, "0.3 to 1", NULL));
+    said_drop(&sh, &all);
+    CHECK(
+        reads("plot Fx along cycle FA=20 N times 3 steps 40 log y log flip xy title \"a | b\" over \"c d\""));
+    CHECK(has("along", 0, "cycle FA=20 N times 3", NULL) && has("title", 0, "\"a | b\"", NULL));
+    CHECK(said_of(&all, "log", 0)->of->holes == 1 && said_of(&all, "log", 1)->of->holes == 0);
+    CHECK(said_of(&all, "log", 0)->choice == 1 && said_of(&all, "flip", 0)->choice == 2);
+    CHECK(has("over", 0, "\"c d\"", NULL));
+    said_drop(&sh, &all);
+}
+
+static void lists(void) {
+    CHECK(reads("maximize x*y over x = 1 .. 2, y = 3 .. 4"));
+    CHECK(has("over", 0, "x", "1 .. 2") && has("over", 1, "y", "3 .. 4") && !said_of(&all, "over", 2));
+    said_drop(&sh, &all);
+    CHECK(reads("uncertainty a, dz with mu +- 0.02, E0 +- 5 % seed 3"));
+    CHECK(has("", 0, "a, dz", NULL) && has("with", 0, "mu", "0.02") && has("with", 1, "E0", "5 %"));
+    said_drop(&sh, &all);
+    CHECK(reads("fit E0, mu for a = b to c.csv"));
+    CHECK(has("", 0, "E0, mu", NULL) && has("for", 0, "a", "b"));
+    said_drop(&sh, &all);
+}
+
+/* Names of a range are known while what has been said is, and no longer. */
+static void names(void) {
+    size_t i;
+    CHECK(!names_find(&sh.calc.names, "x", 1, &i));
+    CHECK(reads("table x for x = 1 .. 2") && names_find(&sh.calc.names, "x", 1, &i));
+    said_drop(&sh, &all);
+    CHECK(!names_find(&sh.calc.names, "x", 1, &i) && sh.calc.names.count == 0);
+    CHECK(fails("table x for x = 1 .. 2 | 3", "unexpected '|'"));
+    CHECK(!names_find(&sh.calc.names, "x", 1, &i));
+}
+
+static void arguments(void) {
+    CHECK(reads("step Fx+=2*3 N FN=1 kN steps 4") && all.count == 3);
+    const heard *Fx = said_of(&all, "Fx", 0), *FN = said_of(&all, "FN", 0);
+    CHECK(Fx->increment && Fx->v.v == 6 && !FN->increment && FN->v.v == 1000);
+    CHECK(reads("cycle FA:=0.9*mu*FN") && said_of(&all, "FA", 0)->live);
+    said_drop(&sh, &all);
+    CHECK(!said_of(&all, "FA", 0)->live);
+    CHECK(reads("material steel nu=0.28") && said_of(&all, "", 0) && said_of(&all, "nu", 0));
+    CHECK(reads("record off") && said_of(&all, "off", 0));
+    CHECK(reads("record off.txt") && has("", 0, "off.txt", NULL));
+    CHECK(reads("friction mu=0.3") && said_of(&all, "", 0)->v.v == 0.3);
+}
+
+static void errors(void) {
+    CHECK(fails("step Fx=1 N Fx=2 N", "Fx is given twice"));
+    CHECK(fails("step Fx=1 N dx=2 um", "give either Fx or dx"));
+    CHECK(fails("step Fx:=1 N", "does not take Fx by :="));
+    CHECK(fails("step a=1 m", "step has no argument 'a'"));
+    CHECK(fails("step Fx=1 N stps 3", "did you mean steps?"));
+    CHECK(fails("maximize a", "expected over NAME = LO .. HI, ..."));
+    CHECK(fails("maximize", "expected a value here"));
+    CHECK(fails("solve mu for a", "expected = EXPR"));
+    CHECK(fails("table a for x 1", "expected = LO .. HI after x"));
+    CHECK(fails("table a for x = 1 .. 2 with", "expected a name after with"));
+    CHECK(fails("uncertainty a with mu 3", "expected +- after mu"));
+    CHECK(fails("plot a for x = 1 .. 2 log z", "expected log x, log y or log xy"));
+    CHECK(fails("plot a for x = 1 .. 2 title b", "expected title \"TEXT\""));
+    CHECK(fails("material steal", "did you mean steel?"));
+    CHECK(fails("accuracy within 4000", "the seconds must be a positive number"));
+}
+
+int main(int argc, char **argv) {
+    unit_start("reader", argc, argv);
+    command_use(commands, holes);
+    shell_init(&sh, stdout, stderr);
+    CASE(cut());
+    CASE(lists());
+    CASE(names());
+    CASE(arguments());
+    CASE(errors());
+    shell_free(&sh);
+    return unit_finish();
+}
