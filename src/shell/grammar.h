@@ -45,6 +45,8 @@ typedef struct hole {
     char before; /* '=', or '+' of +-: what parts it from the hole before; 0: nothing */
 } hole;
 
+typedef enum value_must { ANY, POSITIVE, NONZERO } value_must;
+
 enum { CLAUSE_NAME = 16, CLAUSE_HOLES = 2 };
 typedef struct clause {
     char name[CLAUSE_NAME]; /* of an argument, or the word of a clause; empty: of holes that stand first */
@@ -55,7 +57,7 @@ typedef struct clause {
     bool list; /* comes again behind a comma */
     int in;    /* of an argument, 1 + the input whose range it has; 0: none */
     dim d;     /* of an argument or a value */
-    enum { ANY, POSITIVE, NONZERO } must;
+    value_must must;
     unsigned group, way; /* one way of a group is gone; 0: in no group */
     hole hole[CLAUSE_HOLES];
     unsigned holes;
