@@ -183,8 +183,8 @@ static void sign_of(const page *g, size_t at, char sign[SIGN], const char **colo
         const char *dash = dash_of(g, at);
         const size_t n = strlen(dash);
         size_t used = 0;
-        for (size_t i = 0; i < 8; i += 2)
-            used += plot_braille(
+        for (size_t i = 0; i < 8; i += 2, used += 3)
+            plot_braille(
                 (unsigned char)((dash[i % n] == '1' ? 0x02 : 0) | (dash[(i + 1) % n] == '1' ? 0x10 : 0)),
                 sign + used);
         return;
@@ -196,41 +196,47 @@ static void sign_of(const page *g, size_t at, char sign[SIGN], const char **colo
     snprintf(sign, SIGN, "%c", c);
 }
 
-/* In cells; false where there is no point. */
-static bool locate(const page *g, double x, double y, double at[2]) {
+/* In dots; false where there is no point. */
+static bool locate(const page *g, const plot_cells *cells, double x, double y, double at[2]) {
     at[0] = at[1] = NAN;
     if (!isfinite(x) || !isfinite(y) || (g->x.axis.log && x <= 0) || (g->y.axis.log && y <= 0))
         return false;
     const double cx = cell_of(&g->x, x), cy = cell_of(&g->y, y);
     if (!(fabs(cx) < 1e15 && fabs(cy) < 1e15))
         return false;
-    at[0] = cx;
-    at[1] = cy;
+    at[0] = (cx + 0.5) * cells->across - 0.5;
+    at[1] = (g->y.cells - cy + 0.5) * cells->up - 0.5;
     return true;
 }
 
 /* The cells that a series touches. */
 static bool trace(const page *g, size_t at, plot_cells *cells) {
     const plot_series *s = g->panel->series[at];
-    double(*point)[2] = malloc((s->count + 1) * sizeof *point);
-    if (!point || !plot_cells_make(cells, g->x.cells + 1, g->y.cells + 1, g->braille && is_line(s))) {
-        free(point);
+    const bool braille = g->braille && is_line(s);
+    if (!plot_cells_make(cells, g->x.cells + 1, g->y.cells + 1, braille ? 2 : 1, braille ? 4 : 1))
         return false;
-    }
     for (int edge = 0; edge < 1 + (s->y2 != NULL); edge++) {
         const double *y = edge ? s->y2 : s->y;
-        for (size_t i = 0; i < s->count; i++)
-            locate(g, s->x[i], y[i], point[i]);
-        plot_cells_draw(cells, (const double(*)[2])point, s->count, is_line(s), dash_of(g, at));
+        plot_pen pen = plot_pen_of(cells, dash_of(g, at), 0);
+        double from[2] = {NAN, NAN}, to[2];
+        for (size_t i = 0; i < s->count; i++) {
+            const bool on = locate(g, cells, s->x[i], y[i], to) && is_line(s) && isfinite(from[0]);
+            plot_pen_line(&pen, on ? from[0] : to[0], on ? from[1] : to[1], to[0], to[1]);
+            memcpy(from, to, sizeof to);
+        }
     }
-    free(point);
     return true;
+}
+
+/* Row 0 is the lowest. */
+static const plot_cell *traced(const plot_cells *cells, int column, int row) {
+    return &cells->cell[(cells->rows - 1 - row) * cells->stride + column];
 }
 
 static void write_cells(const page *g, const plot_cells *cells) {
     for (int r = 0; r < cells->rows; r++)
-        for (int c = 0; c < cells->columns; c++)
-            if (plot_cells_has(cells, c, r))
+        for (int c = 0; c < cells->cols; c++)
+            if (traced(cells, c, r)->dots)
                 fprintf(g->to, "%.12g %.12g\n", at_cell(&g->x, c), at_cell(&g->y, r));
 }
 
@@ -241,9 +247,9 @@ static void ink_cells(page *g, size_t at, const plot_cells *cells) {
     sign_of(g, at, sign, &color);
     const bool helping = is_helping(g->panel->series[at]);
     for (int r = 0; r < cells->rows; r++)
-        for (int c = 0; c < cells->columns; c++) {
-            const unsigned char bits = plot_cells_braille(cells, c, r);
-            ink *i = &g->ink[r * cells->columns + c];
+        for (int c = 0; c < cells->cols; c++) {
+            const unsigned char bits = traced(cells, c, r)->dots;
+            ink *i = &g->ink[r * cells->cols + c];
             if (!bits)
                 continue;
             i->bits = i->helping && !helping ? bits : (unsigned char)(i->bits | bits);
@@ -263,7 +269,7 @@ static bool write_series_cells(page *g, size_t at) {
         write_cells(g, &cells);
         fputs("END\n", g->to);
     }
-    free(cells.dot);
+    free(cells.cell);
     return true;
 }
 

@@ -3,6 +3,7 @@
 #ifndef PLOT_SCRIPT_H
 #define PLOT_SCRIPT_H
 
+#include "plot/cells.h"
 #include "plot/plot.h"
 
 /* ---- axis.c: limits and tics -------------------------------------------------------------------- */
@@ -89,25 +90,6 @@ typedef struct plot_reel {
 bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, const plot_target *target,
                         calc_error *error);
 bool plot_stopped(const plot_target *target);
-
-/* ---- dots.c: lines on text ----------------------------------------------------------------------- */
-
-/* The cells of a frame, from its lower left, parted into dots: 2 x 4 for braille, else 1 x 1. */
-typedef struct plot_cells {
-    int columns, rows, across, up;
-    char *dot; /* row by row; to be freed */
-} plot_cells;
-
-bool plot_cells_make(plot_cells *c, int columns, int rows, bool braille); /* false: out of memory */
-/* A line through points given in cells (0,0 is the middle of the first), or the points alone; one that is not
- * finite is a gap. `dash` tells which dots along the way to put down, as "1110". */
-void plot_cells_draw(const plot_cells *c, const double (*point)[2], size_t count, bool joined,
-                     const char *dash);
-bool plot_cells_has(const plot_cells *c, int column, int row);
-/* The dots of a cell as bits of U+2800; of braille only. */
-unsigned char plot_cells_braille(const plot_cells *c, int column, int row);
-/* The character in UTF-8; its length. */
-size_t plot_braille(unsigned char bits, char to[4]);
 
 /* ---- page.c: text ------------------------------------------------------------------------------- */
 
