@@ -91,9 +91,9 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
                         calc_error *error);
 bool plot_stopped(const plot_target *target);
 
-/* ---- page.c: text ------------------------------------------------------------------------------- */
+/* ---- text: page.c, dumb.c, sheet.c --------------------------------------------------------------- */
 
-/* Panels on a page of text. */
+/* Panels on pages of text. */
 typedef struct plot_pages {
     int columns, rows; /* of a panel */
     bool beside;       /* panels side by side, else one below the other */
@@ -101,9 +101,13 @@ typedef struct plot_pages {
 } plot_pages;
 
 plot_pages plot_pages_for(const plot_target *target, size_t panels, bool one_screen);
-/* A page of gnuplot for each panel of each frame. */
+/* A page of gnuplot for each panel of each frame; not of braille. */
 bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
                       calc_error *error);
+/* Draws frame n and prints it, each line with the end given: of braille. The number of lines; 0 with the
+ * error. */
+size_t plot_print_frame(const plot_reel *reel, size_t n, const plot_target *target, const plot_pages *pages,
+                        const char *end, calc_error *error);
 
 /* ---- draw.c: to the target ---------------------------------------------------------------------- */
 
