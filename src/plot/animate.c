@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Animations: every frame is filled in first, since axes hold for all; one run of gnuplot then draws them. */
+/* Animations: every frame is filled in first, since axes hold for all; then they are drawn together. */
 #include <stdlib.h>
 #include <string.h>
 
