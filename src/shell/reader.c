@@ -266,12 +266,12 @@ static const clause *clause_at(const lexer *lx, const grammar *f) {
 /* ---- parts that are found ---------------------------------------------------------------------- */
 
 /* Over a part of the statement: behind an operand a word of the row begins a clause, and nowhere else can it.
- * A comma ends the part where `ends` says so, an `=` where one is to come that does not belong to `at`. */
+ * A comma may end the part, and an `=` that does not belong to `at`. */
 static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_ends) {
     calc_error ignored, *error = lx->error;
     int depth = 0;
-    bool operand = false, changing = false;      /* behind `at` */
-    enum { NOTHING, PLACE, NAMED } at = NOTHING; /* of a name that `at` changes */
+    bool operand = false, changing = false;      /* it ends before the token; there has been an `at` */
+    enum { NOTHING, PLACE, NAMED } at = NOTHING; /* where `at` wants a name, and behind that name */
     error_clear(&ignored);
     for (lx->error = &ignored; lx->kind != T_END || ignored.raised; lex_next(lx)) {
         const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
@@ -279,7 +279,7 @@ static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_
             (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
              (lx->kind == T_ASSIGN && equals_ends && at != NAMED) || (name && operand && clause_at(lx, f))))
             break;
-        error_clear(&ignored); /* of what is no token, as its parser will say */
+        error_clear(&ignored); /* who parses the part says what is no token */
         depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
         changing = changing || (joins && lex_is(lx, "at"));
         at = name && at == PLACE ? NAMED : joins || (changing && lx->kind == T_COMMA) ? PLACE : NOTHING;
@@ -289,27 +289,16 @@ static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_
     lx->error = error;
 }
 
-static bool at_name(lexer *lx, const clause *a) {
-    return lx->kind == T_NAME ||
-           (*a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name"));
-}
-
-/* One name, or of those that stand first several. */
-static bool skip_input(lexer *lx, const said *s, const clause *a) {
-    if (!at_name(lx, a))
-        return false;
-    if (*a->name)
-        lex_next(lx);
-    else
+/* One name, which becomes known where it stands behind what uses it; of those that stand first several. */
+static bool skip_names(shell *sh, lexer *lx, said *s, const clause *a, bool wakes) {
+    if (lx->kind != T_NAME)
+        return *a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name");
+    if (a->list && !*a->name) {
         skip_part(lx, s->by, false, false);
-    return !lx->error->raised;
-}
-
-static bool skip_name_hole(shell *sh, lexer *lx, said *s, const clause *a) {
-    if (!at_name(lx, a))
-        return false;
-    s->wakes = true;
-    if (lx->len < LEX_NAME && !names_wake(sh, lx, s->names))
+        return true;
+    }
+    s->wakes = s->wakes || wakes;
+    if (wakes && lx->len < LEX_NAME && !names_wake(sh, lx, s->names))
         return false;
     lex_next(lx);
     return !lx->error->raised;
@@ -357,10 +346,8 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         break;
     }
     case HOLE_NAME:
-        ok = skip_name_hole(sh, lx, s, a);
-        break;
     case HOLE_INPUT:
-        ok = skip_input(lx, s, a);
+        ok = skip_names(sh, lx, s, a, row->kind == HOLE_NAME);
         break;
     case HOLE_LOAD:
         ok = skip_load(lx, s);
