@@ -30,7 +30,7 @@ void lex_raise(lexer *lx, const char *format, ...) {
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    calc_raise(lx->error, lx->at, lx->len, "%s", text);
+    calc_raise(lx->error, lx->at, lx->len + (lx->part && lx->kind == T_END && lx->len == 0), "%s", text);
 }
 
 void lex_start(lexer *lx, const char *text, size_t len, calc_error *error) {

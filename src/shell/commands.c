@@ -259,7 +259,7 @@ const command commands[] = {
      .keywords = "sweep csv export",
      .takes = "EXPR, ... RANGE [to FILE]",
      .summary = "a table over a range",
-     .help = "VAR is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n"
+     .help = "NAME is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n"
              "Two ranges make a matrix, as CSV and JSON a row for each pair. `along program`,\n"
              "`along cycle` and `along cycle FA=...` go along a load.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
@@ -276,19 +276,15 @@ const command commands[] = {
      .takes = "FIGURE | EXPR, ... [against EXPR] RANGE LOOK [to FILE.png|svg|pdf|tex|html|gif|gp]",
      .summary = "figures, in the terminal or to a file",
      .print = figures_list,
-     .help = "FIGURE is one of\n\n"
-             "    EXPR, ... [against EXPR] RANGE [with NAME = v1, v2, ...] [LOOKS]\n"
-             "    map EXPR for A = LO .. HI for B = LO .. HI [LOOKS]\n"
-             "    a name of the list above [another RANGE] [with ...] [LOOKS]\n\n"
-             "RANGE is `for NAME = LO .. HI [steps N] [log]`, with more points where the curve\n"
-             "bends unless steps are given, or `along program`, `along cycle` or\n"
-             "`along step ...`, `along cycle ...` for a load that is only tried. LOOKS:\n"
-             "title \"...\", xlabel \"...\", ylabel \"...\", xrange LO .. HI,\n"
-             "yrange LO .. HI, log x|y|xy, flip x|y, key off, points, and over FILE.csv,\n"
-             "which adds measured points. FILE.gp is the gnuplot script\n"
-             "itself. `set plot 80x24` fixes the size in the terminal, `set plot terminal` how\n"
-             "it is drawn there: dumb in plain characters, block in braille (auto takes it\n"
-             "where it can), sixel as a picture.\n\n"
+     .help = "A FIGURE of the list above stands alone or with another RANGE; a | puts one\n"
+             "beside it. `map EXPR for A = LO .. HI for B = LO .. HI` draws contours. Where no\n"
+             "steps are given there are more points where the curve bends. LOAD is program,\n"
+             "cycle, or one that is only tried: `step ...`, `cycle FA=...`. AXES are x, y or\n"
+             "xy, TEXT stands in quotation marks, `key off` hides the key, and `over` adds\n"
+             "measured points. FILE.gp is the gnuplot script itself. `set plot 80x24` fixes\n"
+             "the size in the terminal, `set plot terminal` how it is drawn there: dumb in\n"
+             "plain characters, block in braille (auto takes it where it can), sixel as a\n"
+             "picture.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> press FN=100 N; cycle FA=38 N\n"
              "    fret> plot loop | springs to both.svg\n"
@@ -473,8 +469,8 @@ const command commands[] = {
      .keywords = "save",
      .takes = "[PART]",
      .summary = "what is set",
-     .help = "The scene as the commands that make it again, to the last digit; the settings,\n"
-             "the units or the commands.\n\n"
+     .help = "PART is scene, the commands that make it again, to the last digit; or settings,\n"
+             "units, commands, variables or demos.\n\n"
              "    fret> material steel; geometry sphere R=10 mm\n"
              "    fret> show\n"
              "    material E0=210 GPa nu=0.3\n"

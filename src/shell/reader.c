@@ -49,6 +49,10 @@ heard *said_of(said *s, const char *name, size_t i) {
 lexer hole_lexer(const lexer *lx, const span *part) {
     lexer own = *lx;
     own.end = part->at + part->len;
+    size_t next = own.end;
+    while (next < lx->end && strchr(" \t\r\n", lx->text[next]))
+        next++;
+    own.part = next < lx->end;
     lex_seek(&own, part->at);
     return own;
 }
