@@ -2,7 +2,7 @@
 /* Fields of the curved pieces of a memory: the field of what each contact adds to the one within it, which
  * has a formula, along the way itself. Allocates nothing. */
 #include "field/field.h"
-#include "number/quadrature.h"
+#include "number/integral.h"
 
 /* What a place asks of a curved piece: int weight sigma dy along it. The normal and the tangential load are
  * the coordinates M and P of `of`; instants count from `from`, where the load is `beyond` more than N. */
@@ -91,7 +91,7 @@ static fret_real sum_between(bend *b, fret_real lo, fret_real hi) {
         b->lo = lo;
         b->hi = end;
         b->sign = way_fall(&b->of, P, b->from + b->side * (lo + end) / 2) > 0 ? -1 : 1;
-        sum += b->sign * fret_integrate_pieces(other_rate, b, 1e-14L);
+        sum += b->sign * fret_integral(other_rate, b, 1e-14L).value;
     }
     return sum;
 }
@@ -117,7 +117,7 @@ static fret_real sum_doubling(bend *b, fret_real lo, fret_real hi) {
     b->sign = 1;
     for (b->lo = lo; b->lo < hi; b->lo = b->hi) {
         b->hi = fminl(2 * b->lo + b->near, hi);
-        sum += fret_integrate_smooth(other_rate, b);
+        sum += fret_integral_smooth(other_rate, b);
     }
     return sum;
 }
@@ -134,7 +134,8 @@ static fret_real integral(bend *b, fret_real end) {
         b->near = 0;
         b->power = b->weight == ALONG ? 1 / m : 1;
         b->hi = b->side * from;
-        sum = (b->weight == ALONG ? fret_pow(from, m) / m : from) * fret_integrate(touching_rate, b);
+        sum = (b->weight == ALONG ? fret_pow(from, m) / m : from) *
+              fret_integral_ends(touching_rate, b, 1e-17L);
     }
     if (from + b->near < clear) {
         sum += sum_doubling(b, from, clear);

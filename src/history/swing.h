@@ -5,7 +5,7 @@
 
 #include "history/memory.h"
 #include "law/normal.h"
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "number/real.h"
 #include "number/sum.h"
 
@@ -78,7 +78,7 @@ struct fret_swing {
 
 /* Rules of few points are to agree to what the law is good to. */
 static inline fret_real fret_swing_integral(const fret_swing *c, fret_integrand *f, void *context) {
-    return fret_integrate_short(f, context, fret_normal_closed(c->normal) ? 1e-17L : 1e-13L);
+    return fret_integral_ends(f, context, fret_normal_closed(c->normal) ? 1e-17L : 1e-13L);
 }
 
 /* The sums of pieces that have changed: a question only reads. */
