@@ -47,7 +47,7 @@ double team_clock(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static unsigned cores(const calc *c) {
+unsigned team_cores(const calc *c) {
     static long there; /* asked once: the system reads a file for it */
     if (!there)
         there = sysconf(_SC_NPROCESSORS_ONLN);
@@ -55,7 +55,7 @@ static unsigned cores(const calc *c) {
 }
 
 bool team_pays(const calc *c, double taken, double done, double all) {
-    return taken > pays && done > 0 && taken / done * (all - done) > pays && cores(c) > 1;
+    return taken > pays && done > 0 && taken / done * (all - done) > pays && team_cores(c) > 1;
 }
 
 static size_t aligned(size_t bytes) {
@@ -145,7 +145,7 @@ static bool open_all(team *t) {
 }
 
 team *team_begin(const team_job *job) {
-    const unsigned wanted = cores(job->c);
+    const unsigned wanted = team_cores(job->c);
     team fresh = {.job = *job, .given = {-1, -1}, .done = {-1, -1}, .places = AHEAD * wanted};
     if (wanted < 2)
         return NULL;
