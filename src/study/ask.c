@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Trials that count, and tell that they are at work. Reads and prints nothing. */
+/* Present values, steps, places and words of knobs. */
 #include "study/ask.h"
 
 #include <math.h>
@@ -7,62 +7,6 @@
 #include <string.h>
 
 #include "number/real.h"
-
-bool ask_open(ask *q, calc *c, const knob *knobs, size_t count, calc_error *error) {
-    *q = (ask){.c = c, .knobs = knobs, .count = count, .error = error};
-    q->t = trial_open(c, error);
-    return q->t != NULL;
-}
-
-void ask_close(ask *q) {
-    calc_word(q->c, q->error);
-    trial_close(q->t);
-    q->t = NULL;
-}
-
-bool ask_failed(ask *q, const calc_error *error) {
-    if (error->stop || error->strange || error->circle) {
-        *q->error = *error;
-        return false;
-    }
-    q->none = *error;
-    calc_word(q->c, &q->none);
-    return false;
-}
-
-bool ask_set(ask *q, const double x[]) {
-    calc_error error;
-    error_clear(&error);
-    if (q->error->raised || calc_stopped(q->c->scene.stop, q->error))
-        return false;
-    q->evaluations++;
-    error_clear(&q->none);
-    for (size_t i = 0; i < q->count; i++)
-        if (!trial_set(q->t, &q->knobs[i], x[i], &error))
-            return ask_failed(q, &error);
-    return true;
-}
-
-bool ask_value(ask *q, const expr *e, dim *d, bool *known, long double *out) {
-    calc_error error;
-    value v;
-    error_clear(&error);
-    if (q->error->raised)
-        return false;
-    if (q->c->scene.pulse)
-        q->c->scene.pulse();
-    if (!expr_eval(q->c, e, &v, &error))
-        return ask_failed(q, &error);
-    if (*known && !dim_equal(v.d, *d)) {
-        q->error->strange = true;
-        return calc_fail(q->error, e->at, e->len, "%.*s has no dimension of its own: it changes on the way",
-                         LEX_SHOWN(e->len), e->text + e->at);
-    }
-    *known = true;
-    *d = v.d;
-    *out = v.v;
-    return true;
-}
 
 bool ask_repeats(const knob *knobs, size_t count) {
     for (size_t i = 0; i + 1 < count; i++)

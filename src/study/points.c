@@ -219,10 +219,13 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
     const calc_error *why = (const calc_error *)((const char *)out + errors_at(p));
     scene_also_used(&p->t->scene, ((const outcome *)out)->used);
     p->evaluations += (unsigned)given->count;
-    for (size_t k = 0; k < given->count; k++)
-        if (!hand_over(p, sh->run, i + k, x + k * p->count, v + k * p->n,
-                       lacks(v + k * p->n, p->n) ? &why[k] : NULL))
+    for (size_t k = 0; k < given->count; k++) {
+        const bool gap = lacks(v + k * p->n, p->n);
+        if (gap)
+            p->none = why[k];
+        if (!hand_over(p, sh->run, i + k, x + k * p->count, v + k * p->n, gap ? &p->none : NULL))
             return false;
+    }
     return true;
 }
 
