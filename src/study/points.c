@@ -57,9 +57,11 @@ bool points_failed(points *p, const calc_error *error) {
     return false;
 }
 
+static bool is_so(long double x, long double now) {
+    return x == now && (x != 0 || signbit(x) == signbit(now));
+}
+
 bool points_put(points *p, size_t i, long double x, calc_error *error) {
-    if (x == p->now[i] && signbit(x) == signbit(p->now[i])) /* the contact need not be made anew */
-        return true;
     p->now[i] = (long double)NAN;
     if (!trial_set(p->t, &p->knobs[i], x, error))
         return false;
@@ -70,12 +72,12 @@ bool points_put(points *p, size_t i, long double x, calc_error *error) {
 bool points_set(points *p, const long double x[]) {
     calc_error error;
     error_clear(&error);
-    error_clear(&p->none);
+    p->none.raised = false;
     if (p->error->raised || calc_stopped(p->c->scene.stop, p->error))
         return false;
     p->evaluations++;
     for (size_t i = 0; i < p->count; i++)
-        if (!points_put(p, i, x[i], &error))
+        if (!is_so(x[i], p->now[i]) && !points_put(p, i, x[i], &error)) /* else nothing is made anew */
             return points_failed(p, &error);
     return true;
 }
@@ -86,16 +88,17 @@ static void nothing(const points *p, size_t from, value v[]) {
 }
 
 bool points_look(points *p, value v[]) {
-    error_clear(&p->none);
+    calc_error error;
+    error_clear(&error);
+    p->none.raised = false;
     if (p->c->scene.pulse)
         p->c->scene.pulse();
     for (size_t i = 0; i < p->n && !p->error->raised; i++) {
-        calc_error error;
-        error_clear(&error);
         if (expr_eval(p->c, &p->e[i], &v[i], &error))
             continue;
         nothing(p, i, v);
         points_failed(p, &error);
+        error_clear(&error);
     }
     return !p->error->raised && !p->none.raised;
 }
@@ -109,14 +112,14 @@ bool points_at(points *p, const long double x[], value v[]) {
 
 bool points_keeps(points *p, size_t i, dim of, dim *d, bool *known) {
     const expr *e = &p->e[i];
-    if (*known && !dim_equal(of, *d)) {
-        p->error->strange = true;
-        return calc_fail(p->error, e->at, e->len, "%.*s has no dimension of its own: it changes on the way",
-                         LEX_SHOWN(e->len), e->text + e->at);
-    }
+    if (!*known)
+        *d = of;
     *known = true;
-    *d = of;
-    return true;
+    if (dim_equal(of, *d))
+        return true;
+    p->error->strange = true;
+    return calc_fail(p->error, e->at, e->len, "%.*s has no dimension of its own: it changes on the way",
+                     LEX_SHOWN(e->len), e->text + e->at);
 }
 
 /* ---- a run of them ----------------------------------------------------------------------------- */
@@ -124,8 +127,7 @@ bool points_keeps(points *p, size_t i, dim of, dim *d, bool *known) {
 static bool hand_over(points *p, const points_run *run, size_t i, const long double x[], const value v[],
                       const calc_error *why) {
     p->done++;
-    return run->take(run->context, i, x, v, why) && !p->error->raised &&
-           !calc_stopped(p->c->scene.stop, p->error);
+    return run->take(run->context, i, x, v, why) && !p->error->raised;
 }
 
 static bool one_here(points *p, const points_run *run, size_t i, const long double x[]) {
@@ -254,11 +256,10 @@ static bool share(points *p, const points_run *run, size_t first) {
     sharing sh = {.p = p, .run = run, .first = first, .portion = portion_of(p, left)};
     const team_run parts = {
         .parts = (left + sh.portion - 1) / sh.portion, .give = give, .take = take, .context = &sh};
-    if (team_work(p->team, &parts))
-        return true;
-    points_dismiss(p); /* the rest of it is of no use */
-    calc_stopped(p->c->scene.stop, p->error);
-    return false;
+    const bool ok = team_work(p->team, &parts);
+    if (!ok)
+        points_dismiss(p); /* the rest of it is of no use */
+    return !calc_stopped(p->c->scene.stop, p->error) && ok;
 }
 
 bool points_go(points *p, const points_run *run) {
@@ -269,5 +270,5 @@ bool points_go(points *p, const points_run *run) {
         if (!one_here(p, run, i, p->next))
             return false;
     }
-    return true;
+    return !calc_stopped(p->c->scene.stop, p->error);
 }

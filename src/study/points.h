@@ -37,9 +37,10 @@ bool points_anew(points *p);
 /* Before a knob becomes another: those at work have not seen it. */
 void points_dismiss(points *p);
 
-/* One knob, where it is not so already. */
+/* One knob. */
 bool points_put(points *p, size_t i, long double x, calc_error *error);
-/* All of them, runs nothing; false: there is no such scene, or all has ended. */
+/* All of them, where they are not so already; runs nothing. False: there is no such scene, or all has ended.
+ */
 bool points_set(points *p, const long double x[]);
 /* The expressions in the scene as it stands. What has no value is NaN; false: one has none, or all has ended.
  */
