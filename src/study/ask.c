@@ -6,8 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "number/real.h"
-
 bool ask_repeats(const knob *knobs, size_t count) {
     for (size_t i = 0; i + 1 < count; i++)
         if (!strcmp(knobs[i].text, knobs[count - 1].text))
@@ -44,12 +42,7 @@ double ask_step(double part, double x, double scale) {
     return part * fmax(fabs(x), scale);
 }
 
-double ask_grid(double lo, double hi, bool log, unsigned i, unsigned last) {
-    const long double part = (long double)i / last;
-    if (i == 0 || i == last)
-        return i ? hi : lo;
-    return (double)(log ? lo * fret_pow((long double)hi / lo, part) : lo + ((long double)hi - lo) * part);
-}
+const long double ask_slope[ASK_SLOPES] = {3 / 4.0L, -3 / 20.0L, 1 / 60.0L};
 
 bool ask_in_ratios(double lo, double hi) {
     return lo > 0 && hi > 0 && (hi >= 10 * lo || lo >= 10 * hi);

@@ -19,9 +19,10 @@ bool ask_lacks(const calc *c, const knob *k, const char *what_for, const char *a
  * is less the scale, without which the step would come to nothing at 0: what else tells how far the name
  * goes, be it its deviation, the range that is searched or what the data show. */
 double ask_step(double part, double x, double scale);
+/* Weights of f(x+jh)-f(x-jh) in a slope, over h: sixth order. */
+enum { ASK_SLOPES = 3 };
+extern const long double ask_slope[ASK_SLOPES];
 
-/* Place i of 0..last from lo to hi, evenly or in ratios. */
-double ask_grid(double lo, double hi, bool log, unsigned i, unsigned last);
 /* Is a range searched in ratios? */
 bool ask_in_ratios(double lo, double hi);
 /* "mu = 0.3" */

@@ -9,11 +9,10 @@
 #include <gsl/gsl_multimin.h>
 #include <math.h>
 
-#include "number/real.h"
 #include "study/points.h"
 
 /* Names are turned into parts of their ranges, 0 to 1. */
-enum { N = OPTIMISE_NAMES, LINE = 16, SLOPES = 3, EDGE_EVALUATIONS = 60, SIMPLEX_STEPS = 400 };
+enum { N = OPTIMISE_NAMES, LINE = 16, EDGE_EVALUATIONS = 60, SIMPLEX_STEPS = 400 };
 
 /* Narrow enough for Newton's method. */
 #define NARROW 2e-3
@@ -32,12 +31,7 @@ typedef struct search {
 } search;
 
 static double place_of(const search *s, size_t i, double u) {
-    const optimise_question *of = s->of;
-    if (u <= 0 || u >= 1)
-        return u <= 0 ? of->lo[i] : of->hi[i];
-    if (!s->ratios[i])
-        return (double)(of->lo[i] + ((long double)of->hi[i] - of->lo[i]) * u);
-    return (double)(of->lo[i] * fret_pow((long double)of->hi[i] / of->lo[i], u));
+    return (double)points_place(s->of->lo[i], s->of->hi[i], s->ratios[i], fmin(fmax(u, 0), 1));
 }
 
 static void set_knobs(const search *s, const double *u, long double x[N]) {
@@ -388,9 +382,8 @@ static bool search_several(search *s, optimise_end end[N]) {
 
 /* ---- Newton's method --------------------------------------------------------------------------- */
 
-/* Weights of f(x+jh)-f(x-jh) over h and of f(x+jh)+f(x-jh)-2f(x) over h^2: sixth order. */
-static const long double first_weight[SLOPES] = {3 / 4.0L, -3 / 20.0L, 1 / 60.0L};
-static const long double second_weight[SLOPES] = {3 / 2.0L, -3 / 20.0L, 1 / 90.0L};
+/* Of f(x+jh)+f(x-jh)-2f(x) over h^2: sixth order. */
+static const long double second_weight[ASK_SLOPES] = {3 / 2.0L, -3 / 20.0L, 1 / 90.0L};
 
 static long double moved(search *s, size_t i, double by, size_t j, double also) {
     double u[N];
@@ -408,9 +401,9 @@ static bool differences(search *s, const size_t *free, size_t count, const doubl
     for (size_t a = 0; a < count; a++) {
         const size_t i = free[a];
         long double slope = 0, bend = 0;
-        for (int j = 1; j <= SLOPES; j++) {
+        for (int j = 1; j <= ASK_SLOPES; j++) {
             const long double up = moved(s, i, j * h[i], i, 0), down = moved(s, i, -j * h[i], i, 0);
-            slope += first_weight[j - 1] * (up - down);
+            slope += ask_slope[j - 1] * (up - down);
             bend += second_weight[j - 1] * ((up - s->f) + (down - s->f));
         }
         gsl_vector_set(g, a, (double)(slope / h[i]));

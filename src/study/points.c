@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "number/real.h"
 #include "study/team.h"
 
 enum { PORTION = 256 }; /* points of a part, at most */
@@ -120,6 +121,12 @@ bool points_keeps(points *p, size_t i, dim of, dim *d, bool *known) {
     p->error->strange = true;
     return calc_fail(p->error, e->at, e->len, "%.*s has no dimension of its own: it changes on the way",
                      LEX_SHOWN(e->len), e->text + e->at);
+}
+
+long double points_place(long double lo, long double hi, bool ratios, long double part) {
+    if (part == 1)
+        return hi;
+    return ratios ? lo * fret_pow(hi / lo, part) : lo + (hi - lo) * part;
 }
 
 /* ---- a run of them ----------------------------------------------------------------------------- */

@@ -52,6 +52,9 @@ bool points_failed(points *p, const calc_error *error);
 /* The value of expression i has the dimension that it had at first: *d, where `known` has become true. */
 bool points_keeps(points *p, size_t i, dim of, dim *d, bool *known);
 
+/* The place of a part 0..1 of a range, evenly or, both ends on one side of 0, in ratios. */
+long double points_place(long double lo, long double hi, bool ratios, long double part);
+
 /* Points 0, 1, ...: both are called in their order. */
 typedef struct points_run {
     size_t count;

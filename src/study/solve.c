@@ -115,8 +115,7 @@ static bool scan(search *s) {
     unsigned turns = 0;
     for (unsigned i = 0; i <= s->places; i++) {
         place *p = &s->at[i];
-        p->x = s->lo < 0 && s->ratios ? -ask_grid(-s->lo, -s->hi, true, i, s->places)
-                                      : ask_grid(s->lo, s->hi, s->ratios, i, s->places);
+        p->x = (double)points_place(s->lo, s->hi, s->ratios, (long double)i / s->places);
         p->f = difference(s, p->x);
         if (s->p.error->raised)
             return false;

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "number/real.h"
 #include "study/refine.h"
 
 typedef struct state {
@@ -109,9 +108,7 @@ static bool take_row(state *st, size_t row, long double x, const value v[], cons
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
 long double sweep_value(const sweep *s, const sweep_range *r, long double part) {
-    if (part == 1)
-        return r->hi;
-    return s->log ? r->lo * fret_pow(r->hi / r->lo, part) : r->lo + (r->hi - r->lo) * part;
+    return points_place(r->lo, r->hi, s->log, part);
 }
 
 static long double place(const state *st, size_t row) {

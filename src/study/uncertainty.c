@@ -41,23 +41,21 @@ static bool no_value(const state *s, calc_error *error, const char *beside) {
     return false;
 }
 
-/* Differences of sixth order, as optimise.c has them. */
 static bool derivative(state *s, const double *x, size_t i, double h, long double slope[UNCERTAIN_VALUES]) {
-    static const long double weight[] = {3 / 4.0L, -3 / 20.0L, 1 / 60.0L};
     long double up[UNCERTAIN_NAMES], down[UNCERTAIN_NAMES];
     value above[UNCERTAIN_VALUES], below[UNCERTAIN_VALUES];
     for (size_t k = 0; k < UNCERTAIN_NAMES; k++)
         up[k] = down[k] = x[k];
     for (size_t k = 0; k < s->of->expressions; k++)
         slope[k] = 0;
-    for (int j = 1; j <= 3; j++) {
+    for (int j = 1; j <= ASK_SLOPES; j++) {
         up[i] = x[i] + j * h;
         down[i] = x[i] - j * h;
         if (!all_at(s, up, above) || !all_at(s, down, below))
             return false;
         const long double apart = up[i] - down[i]; /* as it has been rounded */
         for (size_t k = 0; k < s->of->expressions; k++)
-            slope[k] += 2 * j * weight[j - 1] * (above[k].v - below[k].v) / apart;
+            slope[k] += 2 * j * ask_slope[j - 1] * (above[k].v - below[k].v) / apart;
     }
     return true;
 }
