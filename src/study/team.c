@@ -105,8 +105,9 @@ static void work(const team *t, const sigset_t *before, pid_t giver) {
     t->job.c->cores = 1;
     t->job.c->scene.pulse = t->job.c->now->pulse = NULL;
     for (;;) {
+        /* Not exit: what is buffered would be written twice, and the terminal is the other's to give back. */
         if (getppid() != giver || !passes(t->given[0], &i, true)) /* unreached: killed with whoever gives */
-            _exit(0); /* what is buffered is the other's to write */
+            _exit(0);
         place_at(t, i)->of_use = t->job.work(t->job.context, in_of(t, i), out_of(t, i));
         passes(t->done[1], &i, false);
     }
