@@ -12,8 +12,7 @@ enum { PORTION = 256 }; /* points of a part, at most */
 
 bool points_open(points *p, calc *c, const knob *knobs, size_t count, const expr *e, size_t n,
                  calc_error *error) {
-    *p = (points){
-        .c = c, .knobs = knobs, .count = count, .e = e, .n = n, .error = error, .alone = team_cores(c) < 2};
+    *p = (points){.c = c, .knobs = knobs, .count = count, .e = e, .n = n, .error = error};
     error_clear(&p->none);
     p->now = malloc((2 * count + 1) * sizeof *p->now);
     p->v = malloc((n + 1) * sizeof *p->v);
@@ -241,7 +240,7 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
 /* Has it come to be worth while? */
 static bool shared(points *p, size_t left) {
     const size_t to_come = p->all > p->done + left ? p->all - p->done : left;
-    if (p->team || p->alone || !team_pays(p->c, p->taken, (double)p->watched, (double)(p->watched + to_come)))
+    if (p->team || p->alone || !team_pays(p->taken, (double)p->watched, (double)(p->watched + to_come)))
         return p->team && left > 1;
     const size_t in = knobs_at() + PORTION * p->count * sizeof *p->now;
     const size_t out = errors_at(p) + PORTION * sizeof(calc_error);

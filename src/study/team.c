@@ -47,15 +47,15 @@ double team_clock(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-unsigned team_cores(const calc *c) {
+static unsigned cores(const calc *c) {
     static long there; /* asked once: the system reads a file for it */
     if (!there)
         there = sysconf(_SC_NPROCESSORS_ONLN);
     return (unsigned)fmin(c->cores ? c->cores : fmax((double)there, 1), WORKERS);
 }
 
-bool team_pays(const calc *c, double taken, double done, double all) {
-    return taken > pays && done > 0 && taken / done * (all - done) > pays && team_cores(c) > 1;
+bool team_pays(double taken, double done, double all) {
+    return taken > pays && done > 0 && taken / done * (all - done) > pays;
 }
 
 static size_t aligned(size_t bytes) {
@@ -146,7 +146,7 @@ static bool open_all(team *t) {
 }
 
 team *team_begin(const team_job *job) {
-    const unsigned wanted = team_cores(job->c);
+    const unsigned wanted = cores(job->c);
     team fresh = {.job = *job, .given = {-1, -1}, .done = {-1, -1}, .places = AHEAD * wanted};
     if (wanted < 2)
         return NULL;

@@ -32,9 +32,8 @@ team *team_begin(const team_job *job);
 bool team_work(team *t, const team_run *run);
 void team_end(team *t); /* NULL too */
 
-unsigned team_cores(const calc *c); /* that may be kept busy */
 /* Does a team pay, where `done` of `all` have taken so many seconds? */
-bool team_pays(const calc *c, double taken, double done, double all);
+bool team_pays(double taken, double done, double all);
 double team_clock(void); /* seconds */
 
 #endif
