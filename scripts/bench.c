@@ -481,25 +481,45 @@ static double swinging_period(const fret_normal *n) {
 /* The pressure at a place, over the contact. */
 static double pressure_value(const fret_normal *n, const fret_press *p) {
     const int count = 200;
+    fret_field *field;
+    need(fret_field_of_press(n, p, &field));
     double t0 = seconds();
     for (int i = 1; i < count; i++) {
         fret_real value;
-        need(fret_pressure(n, p->a, p->a * i / count, &value));
+        need(fret_field_pressure(field, p->a * i / count, &value));
         sink = (double)value;
     }
-    return (seconds() - t0) / (count - 1);
+    t0 = seconds() - t0;
+    fret_field_free(field);
+    return t0 / (count - 1);
 }
 
 /* The surface up to three radii from the centre. */
 static double surface_value(const fret_normal *n, const fret_press *p) {
     const int count = 200;
+    fret_field *field;
+    need(fret_field_of_press(n, p, &field));
     double t0 = seconds();
     for (int i = 1; i < count; i++) {
         fret_real value;
-        need(fret_surface(n, p->a, p->a * (1 + 2.0 * i / count), &value));
+        need(fret_field_surface(field, p->a * (1 + 2.0 * i / count), &value));
         sink = (double)value;
     }
-    return (seconds() - t0) / (count - 1);
+    t0 = seconds() - t0;
+    fret_field_free(field);
+    return t0 / (count - 1);
+}
+
+/* To make one. */
+static double field_made(const fret_normal *n, const fret_press *p) {
+    const int count = 100;
+    const double t0 = seconds();
+    for (int i = 0; i < count; i++) {
+        fret_field *field;
+        need(fret_field_of_press(n, p, &field));
+        fret_field_free(field);
+    }
+    return (seconds() - t0) / count;
 }
 
 static const double ns = 1e9, us = 1e6;
@@ -688,8 +708,7 @@ static void other_gaps(const fret_normal *hertz) {
 /* Fields of a state of three slices: inside up to the edge, outside up to three radii. */
 enum field { FIELD_P, FIELD_QX, FIELD_UZ, FIELD_UX, FIELDS };
 
-static double field_values(enum field what, fret_fields *many, const fret_normal *n, const fret_contact *m,
-                           int count) {
+static double field_values(enum field what, const fret_field *f, const fret_contact *m, int count) {
     fret_state now;
     fret_contact_state(m, &now);
     const double t0 = seconds();
@@ -697,62 +716,62 @@ static double field_values(enum field what, fret_fields *many, const fret_normal
         const fret_real part = (i - 0.5L) / count, in = now.a * part, out = now.a * (1 + 2 * part);
         fret_real value = 0;
         if (what == FIELD_P)
-            need(many ? fret_fields_pressure(many, now.a, in, &value) : fret_pressure(n, now.a, in, &value));
+            need(fret_field_pressure(f, in, &value));
         else if (what == FIELD_QX)
-            need(many ? fret_fields_traction(many, m, in, &value) : fret_traction(m, in, &value));
+            need(fret_field_traction(f, in, &value));
         else if (what == FIELD_UZ)
-            need(many ? fret_fields_surface(many, now.a, out, &value) : fret_surface(n, now.a, out, &value));
+            need(fret_field_surface(f, out, &value));
         else
-            need(many ? fret_fields_surface_x(many, m, out, &value) : fret_surface_x(m, out, &value));
+            need(fret_field_surface_x(f, out, &value));
         sink = (double)value;
     }
     return (seconds() - t0) / count;
 }
 
-static void gap_fields(const char *name, const fret_gap *of) {
+static void gap_fields(const char *name, const fret_gap *of, double one_power) {
     static const char *const words[] = {"p(r)", "qx(r)", "uz(r) outside", "ux(r) outside"};
     const double push[] = {0.6, 0.1};
     fret_normal *n;
     fret_contact *m;
-    fret_fields *many;
-    fret_real value;
+    fret_field *field = NULL;
     char what[80];
     need(fret_normal_make(&material, of, NULL, NULL, &n));
     need(fret_contact_make(n, mu, FRET_EXACT, &m));
     need(fret_contact_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
     for (int i = 0; i < 2; i++)
         need(fret_contact_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, push[i] * mu * FN}));
-    need(fret_fields_make(n, &many));
-    fret_state now;
-    fret_contact_state(m, &now);
-    const double t0 = seconds();
-    need(fret_fields_traction(many, m, now.a / 2, &value));
-    const double setting_up = seconds() - t0, one = field_values(FIELD_P, NULL, n, m, 10);
+    double making = INFINITY;
+    for (int run = 0; run < 5; run++) {
+        fret_field_free(field);
+        const double t0 = seconds();
+        need(fret_field_make(m, &field));
+        making = fmin(making, seconds() - t0);
+    }
     for (enum field f = FIELD_P; f < FIELDS; f++) {
         double best = INFINITY;
         for (int run = 0; run < 5; run++)
-            best = fmin(best, field_values(f, many, n, m, 200));
+            best = fmin(best, field_values(f, field, m, 200));
         snprintf(what, sizeof what, "%s: %s", name, words[f]);
-        line(what, best, field_values(f, NULL, n, m, 10), "one place by quadrature", us, "5 us");
+        line(what, best, one_power, "one powl", us, "5 us");
     }
-    snprintf(what, sizeof what, "%s: to set up", name);
-    line(what, setting_up, one, "one p(r)", us, "");
-    fret_fields_free(many);
+    snprintf(what, sizeof what, "%s: to make it", name);
+    line(what, making, one_power, "one powl", us, "");
+    fret_field_free(field);
     fret_contact_free(m);
     fret_normal_free(n);
 }
 
-static void fields_of_gaps(void) {
+static void fields_of_gaps(double one_power) {
     const fret_gap cone = {.kind = FRET_GAP_FLAT_CONE, .b = 0.1e-3, .slope = 0.02},
                    paraboloid = {.kind = FRET_GAP_FLAT_PARABOLOID, .b = 0.1e-3, .R = 10e-3},
                    rounded = {.kind = FRET_GAP_FLAT_ROUNDED, .b = 0.1e-3, .R = 10e-3};
     fret_gap few = {.kind = FRET_GAP_TABLE, .table = sphere_rows(GAP_ROWS, 17)},
              many = {.kind = FRET_GAP_TABLE, .table = sphere_rows(MANY_ROWS, 17)};
-    gap_fields("flat-cone", &cone);
-    gap_fields("flat-paraboloid", &paraboloid);
-    gap_fields("flat-rounded", &rounded);
-    gap_fields("400 rows", &few);
-    gap_fields("1e5 rows", &many);
+    gap_fields("flat-cone", &cone, one_power);
+    gap_fields("flat-paraboloid", &paraboloid, one_power);
+    gap_fields("flat-rounded", &rounded, one_power);
+    gap_fields("400 rows", &few, one_power);
+    gap_fields("1e5 rows", &many, one_power);
     fret_table_free((struct fret_table *)few.table);
     fret_table_free((struct fret_table *)many.table);
 }
@@ -820,13 +839,14 @@ int main(void) {
     puts("A local field");
     line("p(r)", least(pressure_value, n, &p), one_power, "one powl", us, "5 us");
     line("uz(r) outside", least(surface_value, n, &p), one_power, "one powl", us, "5 us");
+    line("to make it", least(field_made, n, &p), one_power, "one powl", us, "");
     const fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 10e-3};
     fret_normal *ball;
     need(fret_normal_make(&material, &sphere, NULL, NULL, &ball));
     need(fret_press_by_force(ball, FN, &q));
     line("exact-sphere: p(r)", least(pressure_value, ball, &q), one_power, "one powl", us, "5 us");
     line("exact-sphere: uz(r) outside", least(surface_value, ball, &q), one_power, "one powl", us, "5 us");
-    fields_of_gaps();
+    fields_of_gaps(one_power);
     fret_normal_free(ball);
     fret_normal_free(n);
     return EXIT_SUCCESS;

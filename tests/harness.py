@@ -19,9 +19,14 @@ PROMPT = "fret> "
 NUMBER = re.compile(r"\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?")
 
 
+def told(text):
+    """JSON lines, messages and heads of tables left out."""
+    return [row for row in map(json.loads, text.splitlines()) if "columns" not in row and next(iter(row)) not in ("note", "warning", "error")]
+
+
 def printed_values(text):
     """The values of JSON lines, events left out."""
-    return [row["value"] for row in map(json.loads, text.splitlines()) if "event" not in row]
+    return [row["value"] for row in told(text) if "event" not in row]
 
 
 def reported(stderr, names, verb="wrote"):

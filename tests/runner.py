@@ -17,6 +17,7 @@ for folder in ("", "unit", "sessions", "errors", "interactive", "portable", "hou
     sys.path.insert(0, os.path.join(HERE, folder))
 
 import accuracy_test  # noqa: E402
+import answers  # noqa: E402
 import backwards  # noqa: E402
 import casts  # noqa: E402
 import completion  # noqa: E402
@@ -59,7 +60,7 @@ ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.ru
          "scripts": scripts.run, "trouble": trouble.run, "fits": fits.run, "instants": instants.run, "keeping": keeping.run,
          "backwards": backwards.run, "looks": looks.run, "paper": paper.run, "packaging": packaging.run, "house": house.run,
          "figures": figures.run, "sessions": transcripts.run, "help": helping.run, "reference": reference.run, "reading": reading.run,
-         "smoothing": smoothing.run, "following": following.run, "readme": transcripts.readme, "fuzz": fuzzing.run,
+         "smoothing": smoothing.run, "answers": answers.run, "following": following.run, "readme": transcripts.readme, "fuzz": fuzzing.run,
          "portable": portable.run, "moving": moving.run, "completion": completion.run, "rough": rough.run, "typed": typed.run,
          "live": live.run, "interactive": prompt.run, "casts": casts.run}
 DRAWING = ("unit", "hard", "numbers", "errors", "fits", "instants", "accuracy", "programs", "typed", "rim", "sharing", "explaining", "completion", "moving")

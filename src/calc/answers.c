@@ -252,6 +252,33 @@ bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
     return calc_status(error, &st);
 }
 
+/* ---- fields ------------------------------------------------------------------------------------ */
+
+bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error) {
+    const fret_normal *normal;
+    const fret_press *press;
+    fret_status st = {.code = FRET_OK};
+    if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error))
+        return false;
+    if (!s->answers.pressed)
+        st = fret_field_of_press(normal, press, &s->answers.pressed);
+    *field = s->answers.pressed;
+    return calc_status(error, &st);
+}
+
+bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error) {
+    const fret_contact *now;
+    double mu;
+    fret_status st = {.code = FRET_OK};
+    s->used |= USED(MODEL_MEMORY);
+    if (!scene_friction(s, &mu, error) || !scene_history(s, &now, error))
+        return false;
+    if (!s->answers.dragged)
+        st = fret_field_make(now, &s->answers.dragged);
+    *field = s->answers.dragged;
+    return calc_status(error, &st);
+}
+
 /* ---- running it again -------------------------------------------------------------------------- */
 
 /* What the coarser levels saw, look by look. */

@@ -96,7 +96,9 @@ const char *lead_name(size_t i); /* NULL after the last */
 const char *lead_text(size_t i);
 const char *lead_from(const char *word);
 
-/* "3 um", with no more digits than a message bears. */
+/* "3 um", in the unit that fits. */
+void calc_amount(dim d, long double v, int digits, char *text, size_t size);
+/* The same with no more digits than a message bears. */
 enum { CALC_VALUE_TEXT = 160 };
 void calc_value_text(dim d, double v, char text[CALC_VALUE_TEXT]);
 /* Puts an error into words, once. */

@@ -33,6 +33,25 @@ size_t character_at(const char *text, size_t left, unsigned *code) {
     return n;
 }
 
+size_t character_before(const char *text, size_t at) {
+    enum { MOST = 4 };
+    size_t from = at;
+    do
+        from -= from > 0;
+    while (from > 0 && at - from < MOST && ((unsigned char)text[from] & 0xc0) == 0x80);
+    return from;
+}
+
+size_t character_put(unsigned code, char to[CHARACTER_BYTES]) {
+    static const unsigned first[] = {0, 0xc0, 0xe0, 0xf0};
+    const unsigned more = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+    to[0] = (char)(first[more] | code >> (6 * more));
+    for (unsigned i = 1; i <= more; i++)
+        to[i] = (char)(0x80 | (code >> (6 * (more - i)) & 0x3f));
+    to[more + 1] = 0;
+    return more + 1;
+}
+
 bool character_shows(unsigned c) {
     static const struct {
         unsigned first, last;
@@ -71,14 +90,44 @@ static size_t columns_of(unsigned code) {
     return n < 0 ? 1 : (size_t)n;
 }
 
+/* Of the character there, or of what is none: its bytes, and its columns. */
+static size_t step(const char *text, size_t left, size_t *columns) {
+    unsigned code;
+    const size_t n = character_at(text, left, &code);
+    *columns = n && character_shows(code) ? columns_of(code) : 1;
+    return n ? n : 1;
+}
+
 size_t text_columns(const char *text, size_t len) {
     size_t count = 0;
-    for (size_t i = 0, n; i < len; i += n ? n : 1) {
-        unsigned code;
-        n = character_at(text + i, len - i, &code);
-        count += n && character_shows(code) ? columns_of(code) : 1;
-    }
+    for (size_t i = 0, one; i < len; count += one)
+        i += step(text + i, len - i, &one);
     return count;
+}
+
+size_t text_fit(const char *text, size_t len, size_t columns) {
+    size_t i = 0;
+    for (size_t n, one; i < len; i += n, columns -= one) {
+        n = step(text + i, len - i, &one);
+        if (one > columns)
+            break;
+    }
+    return i;
+}
+
+size_t text_break(const char **text, size_t *left, size_t columns) {
+    const char *row = *text;
+    size_t n = text_fit(row, *left, columns), word = n, gone, one;
+    while (n < *left && row[n] != ' ' && word > 0 && row[word - 1] != ' ')
+        word--;
+    n = word ? word : n || !*left ? n : step(row, *left, &one);
+    for (gone = n; gone < *left && row[gone] == ' ';)
+        gone++;
+    *text += gone;
+    *left -= gone;
+    while (n > 0 && row[n - 1] == ' ')
+        n--;
+    return n;
 }
 
 size_t character_shown(const char *text, size_t left, char shown[CHARACTER_SHOWN]) {

@@ -46,38 +46,36 @@ bool call_g(scene *s, value x, long double *out, calc_error *error) {
 
 /* ---- local fields ------------------------------------------------------------------------------ */
 
-typedef fret_status one_place(const fret_normal *, const fret_press *, fret_real r, fret_real *out);
-typedef fret_status of_places(fret_fields *, const fret_press *, fret_real r, fret_real *out);
+typedef fret_status at_place(const fret_field *, fret_real r, fret_real *out);
 
-/* What has answered. */
-static void used_fields(scene *s, const fret_fields *fields) {
-    const double error = fields ? fret_fields_error(fields) : (double)NAN;
-    if (isnan(error)) {
-        s->used |= USED(MODEL_QUADRATURE);
-        return;
-    }
-    scene_also_used(s, (scene_use){USED(MODEL_PIECES), error});
-}
-
-static bool normal_field(scene *s, value r, one_place *one, of_places *many, long double *out,
-                         calc_error *error) {
-    const fret_normal *normal;
-    const fret_press *press;
-    fret_fields *fields;
-    if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error) ||
-        !scene_fields(s, &fields, error))
+/* By which, and what has answered. */
+static bool field_at(scene *s, value r, bool dragged, at_place *ask, long double *out, calc_error *error) {
+    const fret_field *field;
+    if (dragged ? !scene_dragged_field(s, &field, error) : !scene_pressed_field(s, &field, error))
         return false;
-    fret_status st = fields ? many(fields, press, r.v, out) : one(normal, press, r.v, out);
-    used_fields(s, fields);
+    fret_status st = ask(field, r.v, out);
+    const double off = fret_field_error(field);
+    if (isnan(off))
+        s->used |= USED(MODEL_QUADRATURE);
+    else
+        scene_also_used(s, (scene_use){USED(MODEL_PIECES), off});
     return calc_status(error, &st);
 }
 
 bool call_p(scene *s, value r, long double *out, calc_error *error) {
-    return normal_field(s, r, fret_pressure_of, fret_fields_pressure_of, out, error);
+    return field_at(s, r, false, fret_field_pressure, out, error);
 }
 
 bool call_uz(scene *s, value r, long double *out, calc_error *error) {
-    return normal_field(s, r, fret_surface_of, fret_fields_surface_of, out, error);
+    return field_at(s, r, false, fret_field_surface, out, error);
+}
+
+bool call_qx(scene *s, value r, long double *out, calc_error *error) {
+    return field_at(s, r, true, fret_field_traction, out, error);
+}
+
+bool call_ux(scene *s, value r, long double *out, calc_error *error) {
+    return field_at(s, r, true, fret_field_surface_x, out, error);
 }
 
 /* The state of a scene with friction. */
@@ -85,32 +83,6 @@ static bool tangential_state(scene *s, const fret_contact **out, calc_error *err
     double mu;
     s->used |= USED(MODEL_MEMORY);
     return scene_friction(s, &mu, error) && scene_history(s, out, error);
-}
-
-/* How a field is told: at one place, and at many. */
-typedef struct ways {
-    fret_status (*one)(const fret_contact *, fret_real, fret_real *);
-    fret_status (*many)(fret_fields *, const fret_contact *, fret_real, fret_real *);
-} ways;
-
-static bool tangential_field(scene *s, value r, const ways *how, long double *out, calc_error *error) {
-    const fret_contact *now;
-    fret_fields *fields = NULL;
-    if (!tangential_state(s, &now, error) || (!fret_contact_curved(now) && !scene_fields(s, &fields, error)))
-        return false;
-    fret_status st = fields ? how->many(fields, now, r.v, out) : how->one(now, r.v, out);
-    used_fields(s, fields);
-    return calc_status(error, &st);
-}
-
-bool call_qx(scene *s, value r, long double *out, calc_error *error) {
-    static const ways traction = {fret_traction, fret_fields_traction};
-    return tangential_field(s, r, &traction, out, error);
-}
-
-bool call_ux(scene *s, value r, long double *out, calc_error *error) {
-    static const ways surface = {fret_surface_x, fret_fields_surface_x};
-    return tangential_field(s, r, &surface, out, error);
 }
 
 /* ---- the one-dimensional model ----------------------------------------------------------------- */

@@ -50,6 +50,11 @@ static char *beside(const char *path, const char *name) {
     return joined;
 }
 
+bool file_ends(const char *name, const char *ending) {
+    const size_t n = strlen(name), m = strlen(ending);
+    return n >= m && !strcmp(name + n - m, ending);
+}
+
 /* The text of a link; NULL with errno, EINVAL where there is no link. */
 static char *link_text(const char *path) {
     for (size_t room = 256;; room *= 2) {

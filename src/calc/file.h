@@ -19,6 +19,8 @@ typedef const volatile sig_atomic_t *file_stop;
 
 /* A name as the shell takes it: `~` and `~/...` are the home directory. To be freed; NULL: out of memory. */
 char *file_expand(const char *name);
+/* Is this the ending of the name, as ".csv"? */
+bool file_ends(const char *name, const char *ending);
 
 /* ---- output ------------------------------------------------------------------------------------- */
 
@@ -129,8 +131,7 @@ file_got file_in_line(file_in *in, calc_error *error);
 
 /* The place of a line's continuation mark, or `length` when it has none. */
 typedef size_t file_mark(const char *line, size_t length);
-/* The same with the lines that continue it: the mark becomes a blank, the end of the line a newline. A mark
- * in the last line stays. */
+/* The same with the lines that continue it: the mark becomes a blank, the end of the line a newline. */
 file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error);
 
 void file_in_close(file_in *in);

@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "calc/characters.h"
+
 enum { BLOCK = 1 << 16, PAUSE = 20 /* ms between looks at the stop flag */ };
 /* UTF-16 is read into the last quarter of the block and becomes UTF-8 at its beginning, which is at most half
  * as long again. */
@@ -113,13 +115,7 @@ static file_got read_some(file_in *in, char *to, size_t room, size_t *got, calc_
 /* ---- UTF-16 ------------------------------------------------------------------------------------ */
 
 static void put_character(file_in *in, unsigned code) {
-    char *to = in->block + in->have;
-    const int more = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
-    static const unsigned first[] = {0, 0xc0, 0xe0, 0xf0};
-    to[0] = (char)(first[more] | code >> (6 * more));
-    for (int i = 1; i <= more; i++)
-        to[i] = (char)(0x80 | (code >> (6 * (more - i)) & 0x3f));
-    in->have += 1 + (size_t)more;
+    in->have += character_put(code, in->block + in->have);
 }
 
 /* What has no other half is replaced. */
@@ -278,6 +274,7 @@ file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error) {
         size_t at = begin + mark(in->line + begin, in->length - begin);
         if (at >= in->length)
             break;
+        in->line[at] = ' ';
         begin = in->length + 1;
         if (!append(in, "\n", 1, error))
             return FILE_GOT_ERROR;
@@ -286,7 +283,6 @@ file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error) {
             in->line[--in->length] = 0;
             return FILE_GOT_LINE;
         }
-        in->line[at] = ' ';
     }
     return got;
 }

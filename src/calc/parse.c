@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/characters.h"
 #include "calc/tree.h"
 #include "calc/trial.h"
 #include "calc/unit_text.h"
@@ -129,9 +130,7 @@ static bool unknown_name(parser *p) {
     const char *near = suggest(word, quantity_name);
     if (!near)
         near = suggest(word, builtin_name);
-    size_t same = strlen(word) - 1; /* all letters but the last */
-    while (same > 0 && ((unsigned char)word[same] & 0xc0) == 0x80)
-        same--;
+    const size_t same = character_before(word, strlen(word)); /* all letters but the last */
     for (size_t i = 0; !near && i < p->c->names.count; i++)
         if (p->c->names.row[i].known && same > 1 && !strncmp(p->c->names.row[i].text, word, same))
             near = p->c->names.row[i].text;

@@ -7,6 +7,13 @@
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
+/* The fields of a state that is no longer. */
+static void forget_fields(answers *a) {
+    fret_field_free(a->pressed);
+    fret_field_free(a->dragged);
+    a->pressed = a->dragged = NULL;
+}
+
 static void answers_end(answers *a, bool keep) {
     for (unsigned i = 0; i < LEVELS; i++) {
         engine_end(&a->run[i].engine);
@@ -14,14 +21,12 @@ static void answers_end(answers *a, bool keep) {
     }
     fret_contact_free(a->chorded);
     fret_normal *normal = a->normal, *k0 = a->k0;
-    fret_fields *fields = a->fields;
+    forget_fields(a);
     *a = (answers){.normal = NULL};
     if (keep) {
         a->normal = normal;
         a->k0 = k0;
-        a->fields = fields;
     } else {
-        fret_fields_free(fields);
         fret_normal_free(normal);
         fret_normal_free(k0);
     }
@@ -33,6 +38,7 @@ void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *e
 }
 
 void scene_moved(scene *s) {
+    forget_fields(&s->answers);
     s->answers.press_ready = false;
     s->answers.state_ready = false;
 }
@@ -71,9 +77,7 @@ bool scene_same_contact(const inputs *a, const inputs *b) {
 void answers_pass_contact(answers *to, answers *from) {
     to->normal = from->normal;
     to->k0 = from->k0;
-    to->fields = from->fields;
     from->normal = from->k0 = NULL;
-    from->fields = NULL;
 }
 
 void scene_take_contact(scene *s, scene *from) {
@@ -253,21 +257,6 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
     *normal = s->answers.normal;
     scene_used_law(s, *normal);
     return true;
-}
-
-/* Places of a power law are asked for one by one; of another gap what one wants serves all of them. */
-bool scene_fields(scene *s, fret_fields **fields, calc_error *error) {
-    const fret_normal *normal;
-    *fields = NULL;
-    if (!scene_normal(s, &normal, error))
-        return false;
-    if (fret_normal_is_power(normal))
-        return true;
-    fret_status st = {.code = FRET_OK};
-    if (!s->answers.fields)
-        st = fret_fields_make(normal, &s->answers.fields);
-    *fields = s->answers.fields;
-    return calc_status(error, &st);
 }
 
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error) {

@@ -29,8 +29,8 @@ typedef struct load_reach {
 
 /* What follows, valid as far as the flags say. */
 typedef struct answers {
-    fret_normal *normal, *k0; /* or NULL: not made yet */
-    fret_fields *fields;      /* of `normal`, or NULL */
+    fret_normal *normal, *k0;      /* or NULL: not made yet */
+    fret_field *pressed, *dragged; /* of the press, and of the history, as they are now; or NULL */
     bool press_ready, reach_ready, state_ready;
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
@@ -152,8 +152,9 @@ bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *
 /* The shape alone, unchecked. */
 bool scene_gap(scene *s, fret_gap *out, calc_error *error);
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
-/* Fields of the contact; *fields is NULL where a place is asked for by itself. */
-bool scene_fields(scene *s, fret_fields **fields, calc_error *error);
+/* Fields of the press and of the history as they are now. */
+bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error);
+bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error);
 /* The same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);
 bool scene_friction(scene *s, double *mu, calc_error *error);

@@ -50,15 +50,14 @@ static dim dimension_of(const calc *c, const char *name) {
     return DIM_NONE;
 }
 
-static void value_text(dim d, double v, int digits, char text[CALC_VALUE_TEXT]) {
+void calc_amount(dim d, long double v, int digits, char *text, size_t size) {
     char unit_text[128] = "";
     long double scale = unit_choose(d, v, digits, unit_text, sizeof unit_text);
-    snprintf(text, CALC_VALUE_TEXT, "%.*g%s%s", digits, (double)(v / scale), *unit_text ? " " : "",
-             unit_text);
+    snprintf(text, size, "%.*g%s%s", digits, (double)(v / scale), *unit_text ? " " : "", unit_text);
 }
 
 void calc_value_text(dim d, double v, char text[CALC_VALUE_TEXT]) {
-    value_text(d, v, 6, text);
+    calc_amount(d, v, 6, text, CALC_VALUE_TEXT);
 }
 
 static void word_status(const calc *c, calc_error *error) {
@@ -73,8 +72,8 @@ static void word_status(const calc *c, calc_error *error) {
     }
     const dim d = dimension_of(c, strcmp(name, RUN_FX_OF_CYCLE) ? name : "Fx");
     for (int digits = 6; digits <= 17; digits++) { /* as many as tell them apart */
-        value_text(d, st->value, digits, given);
-        value_text(st->code == FRET_TABLE_SHORT ? DIM_LENGTH : d, st->limit, digits, limit);
+        calc_amount(d, st->value, digits, given, sizeof given);
+        calc_amount(st->code == FRET_TABLE_SHORT ? DIM_LENGTH : d, st->limit, digits, limit, sizeof limit);
         if (strcmp(given, limit) || st->value == st->limit)
             break;
     }

@@ -98,7 +98,7 @@ static fret_real to_q(const powers *p, fret_real x, fret_real x_m) {
 
 /* From r to x, 2d < x, but for what is constant of d^(q+m): the kernel in powers of d/y, where the nearest
  * term is a logarithm or near one. */
-static fret_real far_part(const powers *p, const reach *c, fret_real sign, fret_real nil) {
+static fret_real far_part(const powers *p, const distances *c, fret_real sign, fret_real nil) {
     const fret_real u = c->d / c->x, d_power = to_q(p, c->d, c->d_m) * c->d_m;
     fret_real outer = to_q(p, c->x, c->x_m) * c->x_m, b = p->nearest_b;
     fret_real sum = nil * d_power - outer * series(p->far, sign * u);
@@ -112,7 +112,7 @@ static fret_real far_part(const powers *p, const reach *c, fret_real sign, fret_
     return sum + b * inner * (p->away != 0 ? expm1l(span) / p->away : c->span);
 }
 
-void fret_kernel_above(const powers *p, const reach *c, int count, fret_real *I) {
+void fret_kernel_above(const powers *p, const distances *c, int count, fret_real *I) {
     fret_real edge = c->rim * to_q(p, c->x, c->x_m);
     I[0] = 2 * c->d < c->x ? far_part(p, c, 1, p->above_nil) : edge / c->m * series(p->edge, c->rest / c->x);
     for (int j = 0; j + 1 < count; j++) {
@@ -121,7 +121,7 @@ void fret_kernel_above(const powers *p, const reach *c, int count, fret_real *I)
     }
 }
 
-void fret_kernel_below(const powers *p, const reach *c, int count, fret_real *I) {
+void fret_kernel_below(const powers *p, const distances *c, int count, fret_real *I) {
     const fret_real d = c->d, x = c->x;
     fret_real edge = c->rim * to_q(p, x, c->x_m);
     if (d < x) {
@@ -152,7 +152,7 @@ void fret_kernel_below(const powers *p, const reach *c, int count, fret_real *I)
     }
 }
 
-void fret_kernel_beyond(const powers *p, const reach *c, int count, fret_real *I) {
+void fret_kernel_beyond(const powers *p, const distances *c, int count, fret_real *I) {
     static const fret_real near = 0.4L;
     const fret_real down = 1 / c->d, out = c->rest * down;
     fret_real step[MOST], xq = to_q(p, c->x, c->x_m), now;

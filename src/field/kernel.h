@@ -33,10 +33,10 @@ typedef struct powers {
 
 /* What integrals from d to x, or up to x, have in common, whatever q is: d >= 0 the distance of r, rest that
  * of x from r; what takes time, where it is wanted. */
-typedef struct reach {
+typedef struct distances {
     fret_real m, d, x, rest;
     fret_real rim, x_m, d_m, span; /* rest^m or rest^(1-m), x^m, d^m, ln(x/2d) */
-} reach;
+} distances;
 
 /* The field of a flat punch outside, int_0^a x^k (r^2-x^2)^-m dx: by its series in (a/r)^2 and, near the
  * edge, in what is left of 1. */
@@ -54,10 +54,10 @@ fret_real fret_kernel_flat_of(const flat_field *f, fret_real q, fret_real away);
 void fret_kernel_power(powers *p, int of_m, int whole, fret_real m);
 
 /* I[j] for j < count: int y^(q+j) (y-d)^(m-1) dy from d to x; */
-void fret_kernel_above(const powers *p, const reach *c, int count, fret_real *I);
+void fret_kernel_above(const powers *p, const distances *c, int count, fret_real *I);
 /* the same from 0 to x with y+d for y-d; */
-void fret_kernel_below(const powers *p, const reach *c, int count, fret_real *I);
+void fret_kernel_below(const powers *p, const distances *c, int count, fret_real *I);
 /* int_0^x y^(q+j) (d-y)^-m dy, d >= x. */
-void fret_kernel_beyond(const powers *p, const reach *c, int count, fret_real *I);
+void fret_kernel_beyond(const powers *p, const distances *c, int count, fret_real *I);
 
 #endif

@@ -1,97 +1,92 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a density consists of: rings, in each of which the profile is two polynomials, and blocks of rings as
- * they look from afar. For those who make one or integrate over it. Not installed. */
+/* The sum that every field is: rings, each a cell of the law, with the slopes of the slices that end in them.
+ * Made once, only read afterwards. Not installed. */
 #ifndef FRET_FIELD_RING_H
 #define FRET_FIELD_RING_H
 
 #include "field/kernel.h"
-#include "field/rows.h"
-#include "number/chebyshev.h"
+#include "law/normal.h"
 
-/* s = lo^2 + width y. What varies is smooth + y^q kink, polynomials in y. */
-typedef struct curve {
-    int smooth, kink; /* terms */
-    fret_real c[2][MOST];
-} curve;
+/* Two sums are taken at once: of the contact as it is pressed, and of its slices by their slopes. */
+enum { PRESSED, DRAGGED, LOADS };
 
-enum { SLOPE, DEPTH, KINDS };
+/* What reaches from the end of the slice before to the radius a, y deep, with its slope. */
+typedef struct slice {
+    fret_real y, a, weight[LOADS];
+} slice;
+
+/* The end of a slice: v of a ring, linear in the square of the radius, which right next to a flat end tells
+ * it better than the radius. */
+typedef struct rim {
+    size_t ring;
+    fret_real v;
+    bool by_v;
+} rim;
+
+/* g' against (x^2-r^2)^(m-1), and x^k g against (r^2-x^2)^-m. */
+enum { SLOPES, DEPTHS, KINDS };
 
 typedef struct ring {
-    fret_real lo, hi, width;
-    curve of[KINDS];        /* g' dx/dy, and with q+1 x^k g dx/dy */
-    fret_real scale[KINDS]; /* width^(m-1), width^-m */
+    const fret_cell *cell;
+    fret_cell *own;         /* the same where it is made for this sum alone */
+    fret_real lo, hi;       /* radii */
+    fret_real scale[KINDS]; /* width^(m-1), width^-m/2m */
+    size_t first;           /* the first slice that ends in it or beyond */
+    bool cut;               /* in it */
 } ring;
 
-/* Stretches first .. last-1 from afar: the moments of the kernel's series about the middle. A block precedes
- * its two halves, unless it is a leaf. */
-enum { TAYLOR = 56 };
+/* Rings i 2^l .. (i+1) 2^l from afar: moments about the middle, times those of the kernel's series, of those
+ * that no slice ends in. */
+enum { TAYLOR = 36, LEVELS = 40 };
 typedef struct block {
-    size_t first, last, next;
     fret_real lo, hi, half;
     double log_half; /* of half in units */
-    double moment[KINDS][TAYLOR];
+    double of[LOADS][KINDS][TAYLOR];
 } block;
 
 enum { OF_ONE, OF_SLOPE, OF_DEPTH, POWERS };
 
-/* Those of a table are made of its rows, when they are wanted where they are many. */
-struct fret_density {
-    fret_real m, from, from_depth, unit, error;
-    powers power[POWERS]; /* q = 0, that of the slope, and of the depth */
-    flat_field flat;
-    double far_scale[KINDS];
-    fret_real reach, reach_power;           /* the radius up to which it goes, that to the power of 2(m-1) */
-    double moment[POWERS][MOST][TAYLOR];    /* int_0^1 y^(q+j) (2y-1)^n dy */
-    double binomial[KINDS][TAYLOR];         /* of the kernel's series */
-    size_t count, kept, room, blocks, leaf; /* rings, those kept; how many a leaf has */
-    size_t heads;                           /* rings before the rows */
+typedef struct rings {
+    const fret_normal *normal;
+    fret_real m, unit;    /* (k+1)/2; the square of the largest radius */
+    powers power[POWERS]; /* q = 0, that of the slope at a kink, and of the depth */
+    int loads;
+    size_t slices, count, room;
+    const slice *slice; /* borrowed */
+    rim *rim;
     ring *ring;
-    block *block;
-    struct fret_rows *rows; /* or NULL */
-    fret_chebyshev rule;    /* of y */
-    fret_real node_q[MOST]; /* y^q of the slope at its nodes */
-};
+    block *block[LEVELS];
+} rings;
+
+/* Of the law's cells from number `first` on, or of one steep power, told at the end of the last slice. Slices
+ * from the inner to the outer, there is one. Errors: FRET_NO_MEMORY, FRET_INTERRUPTED. */
+fret_status fret_rings_make(const fret_normal *normal, size_t first, const fret_term *steep,
+                            const slice *slices, size_t count, int loads, rings **out);
+void fret_rings_free(rings *all);
+
+/* The sums at r: int g' (x^2-r^2)^(m-1) dx over x > r, each slice by its weight; */
+fret_real fret_rings_slope(const rings *all, int load, fret_real r);
+/* int x^k g (r^2-x^2)^-m dx over the slices before number `end`, which r lies in or beyond, by how much more
+ * they weigh than that one. */
+fret_real fret_rings_depth(const rings *all, int load, fret_real r, size_t end);
+
+/* What is integrated over a cell, by v: a polynomial, and one times v^q, or for slopes v^(q-1). */
+static inline int terms_of(const fret_cell *c, int kind, bool kinked) {
+    return c->count[(kind == SLOPES ? RISE : AREA) + kinked];
+}
+static inline fret_real term_of(const fret_cell *c, int kind, bool kinked, int j) {
+    return kind == SLOPES ? ((fret_real)j + (kinked ? c->q : 1)) * c->of[RISE + kinked][j]
+                          : c->of[AREA + kinked][j];
+}
 
 /* The distance of squares, with all digits. */
 static inline fret_real square_distance(fret_real x, fret_real y) {
     return (x - y) * (x + y);
 }
 
-/* c[0] + c[1] y + ... */
-static inline fret_real fret_ring_value(const fret_real *c, int count, fret_real y) {
-    fret_real v = 0;
-    while (count-- > 0)
-        v = v * y + c[count];
-    return v;
-}
-
-/* The largest of values at the nodes. */
-fret_real fret_ring_largest(const fret_real *value);
-/* Powers of y through values at the nodes. Returns how large the last terms are, of the whole. */
-fret_real fret_ring_fit(const fret_chebyshev *rule, const fret_real *value, fret_real whole, fret_real *c,
-                        int *count);
-/* What is left of the last terms of x^k g dx/dy, from rises over y of g, smooth and of the kink. */
-fret_real fret_ring_fit_depth(const struct fret_density *d, ring *p, fret_real depth, const fret_real *smooth,
-                              const fret_real *sharp);
-void fret_ring_scale(const struct fret_density *d, int kind, ring *p);
-
-/* A density of the rings that `cover` adds from one radius to another, of which g' alone counts. cover: false
- * where it is stopped or there is no memory. */
-typedef bool fret_ring_cover(struct fret_density *d, void *context);
-fret_status fret_density_of_rings(const fret_normal *normal, fret_real from, fret_real to,
-                                  fret_ring_cover *cover, void *context, struct fret_density **out);
-bool fret_ring_add(struct fret_density *d, const ring *p);
-
-/* Ring i from its row. */
-void fret_ring_take(const struct fret_density *d, size_t i, int kind, ring *out);
-/* The same of a row to a double's digits, for one that is far; false: the row is wide. */
-bool fret_ring_take_about(const struct fret_density *d, const fret_row_part *row, int kind, ring *out);
-/* Ring i, or the one that is kept. */
-static inline const ring *fret_ring_at(const struct fret_density *d, size_t i, int kind, ring *room) {
-    if (i < d->kept)
-        return &d->ring[i];
-    fret_ring_take(d, i, kind, room);
-    return room;
+/* How much a slice weighs; beyond the last there is nothing. */
+static inline fret_real weight_of(const slice *s, size_t count, int load, size_t i) {
+    return i < count ? s[i].weight[load] : 0;
 }
 
 #endif

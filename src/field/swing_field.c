@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fields of a memory curve: straight pieces as differences of two contacts; of curved ones the field of what
- * each contact adds to the one within it, which has a formula, along the way itself. Allocates nothing. */
+/* Fields of the curved pieces of a memory: the field of what each contact adds to the one within it, which
+ * has a formula, along the way itself. Allocates nothing. */
 #include "field/field.h"
-#include "history/swing.h"
-#include "law/check.h"
 #include "number/quadrature.h"
 
 /* What a place asks of a curved piece: int weight sigma dy along it. The normal and the tangential load are
  * the coordinates M and P of `of`; instants count from `from`, where the load is `beyond` more than N. */
-typedef enum weight { PRESSED, OUTSIDE, INSIDE } weight;
+typedef enum weight { ALONG, OUTSIDE, INSIDE } weight;
 typedef struct bend {
     const fret_normal *normal;
+    const flat_field *flat;
     way of;
     fret_real r, N; /* the place, and the load of a contact that ends there */
     fret_real steep,
@@ -49,16 +48,16 @@ static fret_real rate_at(const bend *b, fret_real w, bool but) {
     if (fret_stopped(b->normal))
         return 0;
     const fret_point at = fret_law_at_force(b->normal, way_at(&b->of, M, b->from + w));
-    const fret_real k = b->normal->foundation.k, sum = depth_rate(b, w, &at);
+    const fret_real sum = depth_rate(b, w, &at);
     if (b->weight == INSIDE)
         return sum;
     const fret_real a = at.a, rise = rise_at(b, w);
-    if (b->weight == PRESSED) {
+    if (b->weight == ALONG) {
         const fret_real way2 = b->r > 0 ? b->r * b->r * square_rise(b, rise, a) : a * a;
-        return way2 > 0 ? sum * fret_pow(but ? way2 / w : way2, (k - 1) / 2) : 0;
+        return way2 > 0 ? sum * fret_pow(but ? way2 / w : way2, (b->normal->foundation.k - 1) / 2) : 0;
     }
     const fret_real away = fminl(fmaxl(-square_rise(b, rise, a), 0), 1);
-    return sum * fret_field_flat(k, 1 - away, away);
+    return sum * fret_kernel_flat_of(b->flat, 1 - away, away);
 }
 
 /* From `from` on, t to the power of what takes the singularity away. */
@@ -67,7 +66,7 @@ static fret_real touching_rate(fret_real t, fret_real rest, void *context) {
     const bend *b = context;
     const fret_real w = b->hi * fmaxl(fret_pow(t, b->power), deep);
     (void)rest;
-    return rate_at(b, w, b->weight == PRESSED);
+    return rate_at(b, w, b->weight == ALONG);
 }
 
 /* Between lo and hi, evenly in the logarithm of the time to what is singular, `near` before the time 0. */
@@ -133,9 +132,9 @@ static fret_real integral(bend *b, fret_real end) {
     if (b->weight != INSIDE && b->beyond == 0) {
         from = fminl(whole, fmaxl(alone(b), least));
         b->near = 0;
-        b->power = b->weight == PRESSED ? 1 / m : 1;
+        b->power = b->weight == ALONG ? 1 / m : 1;
         b->hi = b->side * from;
-        sum = (b->weight == PRESSED ? fret_pow(from, m) / m : from) * fret_integrate(touching_rate, b);
+        sum = (b->weight == ALONG ? fret_pow(from, m) / m : from) * fret_integrate(touching_rate, b);
     }
     if (from + b->near < clear) {
         sum += sum_doubling(b, from, clear);
@@ -152,7 +151,7 @@ static fret_real sum_of(bend *b, const piece *p, weight outside, weight inside, 
     b->from = first >= 0 ? p->lo : last <= 0 ? p->hi : way_when(&b->of, M, b->N, p->lo, p->hi);
     b->beyond = first >= 0 ? first : last <= 0 ? last : 0;
     b->weight = outside;
-    if (outside != PRESSED && b->from > p->lo)
+    if (outside != ALONG && b->from > p->lo)
         sum += factor * integral(b, p->lo - b->from);
     b->weight = inside;
     if (b->from < p->hi)
@@ -160,81 +159,37 @@ static fret_real sum_of(bend *b, const piece *p, weight outside, weight inside, 
     return sum;
 }
 
-static fret_status begin(const fret_swing *c, fret_real r, bend *b) {
-    const fret_status st = fret_check_not_negative("r", (double)r);
+static bend begin(const fret_swing *c, fret_real r) {
     const fret_normal *n = c->normal;
     const fret_real e = r - fret_gap_start(&n->gap);
-    *b = (bend){.normal = n, .r = r};
+    bend b = {.normal = n, .r = r};
     if (!(r < n->end))
-        b->N = (fret_real)INFINITY;
-    else if (!st.code && e > 0) {
+        b.N = (fret_real)INFINITY;
+    else if (e > 0) {
         const fret_profile p = fret_gap_profile(&n->gap, &n->rule, e);
-        b->N = fret_law_at_radius(n, r).F;
+        b.N = fret_law_at_radius(n, r).F;
         if (!fret_normal_closed(n)) {
-            const fret_real less = 1e-4L * b->N, inner = fret_law_at_force(n, b->N - less).a;
-            b->steep = 1 / (p.slope * fret_normal_stiffness(n, r));
-            b->bent = (1 - (r - inner) / (b->steep * less)) / less;
+            const fret_real less = 1e-4L * b.N, inner = fret_law_at_force(n, b.N - less).a;
+            b.steep = 1 / (p.slope * fret_normal_stiffness(n, r));
+            b.bent = (1 - (r - inner) / (b.steep * less)) / less;
         }
     }
-    return st;
+    return b;
 }
 
-static fret_real depth_at(const fret_swing *c, const fret_real at[2]) {
-    const fret_real N = (at[M] + at[P]) / 2;
-    return N > 0 ? fret_law_depth(c->normal, N) : 0;
-}
-
-/* (dP-dM)/(dP+dM) */
-static fret_real slope_of(const piece *p) {
-    const fret_real m = p->last[M] - p->first[M], up = p->last[P] - p->first[P];
-    return m + up > 0 ? (up - m) / (m + up) : 0;
-}
-
-/* The field of a straight piece is added. */
-static fret_status add_straight(const fret_swing *c, const piece *p, fret_real r, bool traction,
-                                fret_real *sum) {
-    const fret_real sigma = slope_of(p);
-    fret_real part = 0;
-    if (sigma == 0)
-        return fret_ok();
-    const fret_status st =
-        fret_field_between(c->normal, depth_at(c, p->first), depth_at(c, p->last), r, traction, &part);
-    *sum += sigma * part;
-    return st;
-}
-
-fret_status fret_swing_traction(const fret_swing *c, fret_real r, fret_real *q) {
-    const fret_foundation *f = &c->normal->foundation;
-    bend b;
-    fret_real sum = 0, curved = 0;
-    fret_status st = begin(c, r, &b);
-    *q = 0;
-    for (size_t i = 0; i < c->count && !st.code && r < c->a; i++) {
-        const piece *p = &c->pieces[i];
-        if (p->curved)
-            curved += sum_of(&b, p, PRESSED, PRESSED, 0);
-        else
-            st = add_straight(c, p, r, true, &sum);
-    }
-    if (!st.code)
-        *q = c->mu * (sum + f->cN0 * fret_pow(f->c0, -f->k) / FRET_PI * curved);
-    return fret_unless_stopped(c->normal, st);
-}
-
-fret_status fret_swing_surface_x(const fret_swing *c, fret_real r, fret_real *u) {
-    const fret_real factor = fret_field_surface_factor(c->normal->foundation.k);
-    bend b;
+fret_real fret_swing_slope(const fret_swing *c, fret_real r) {
+    bend b = begin(c, r);
     fret_real sum = 0;
-    fret_status st = begin(c, r, &b);
-    *u = 0;
-    for (size_t i = 0; i < c->count && !st.code; i++) {
-        const piece *p = &c->pieces[i];
-        if (p->curved)
-            sum += sum_of(&b, p, OUTSIDE, INSIDE, factor);
-        else
-            st = add_straight(c, p, r, false, &sum);
-    }
-    if (!st.code)
-        *u = c->mu * c->normal->foundation.eta * sum;
-    return fret_unless_stopped(c->normal, st);
+    for (size_t i = 0; i < c->count && r < c->a; i++)
+        sum += sum_of(&b, &c->pieces[i], ALONG, ALONG, 0);
+    return sum;
+}
+
+fret_real fret_swing_surface(const fret_swing *c, const flat_field *flat, fret_real factor, fret_real r) {
+    bend b = begin(c, r);
+    fret_real sum = 0;
+    b.flat = flat;
+    for (size_t i = 0; i < c->count; i++)
+        sum += sum_of(&b, &c->pieces[i], OUTSIDE, INSIDE, factor);
+    return sum;
 }

@@ -7,6 +7,7 @@
 #include "history/memory.h"
 #include "history/swing.h"
 #include "number/real.h"
+#include "number/root.h"
 
 /* ---- along the curve --------------------------------------------------------------------------- */
 
@@ -70,7 +71,7 @@ typedef struct passing {
     const fret_swing *curve;
     const piece *piece;
     int which;
-    fret_real from;
+    fret_real from, rest;
 } passing;
 
 static fret_real passing_rate(fret_real t, fret_real rest, void *context) {
@@ -81,24 +82,22 @@ static fret_real passing_rate(fret_real t, fret_real rest, void *context) {
 }
 
 static fret_real passed(const fret_swing *c, const piece *p, int which, fret_real from) {
-    return (p->hi - from) * fret_swing_integral(c, passing_rate, &(passing){c, p, which, from});
+    return (p->hi - from) * fret_swing_integral(c, passing_rate, &(passing){c, p, which, from, 0});
+}
+
+static fret_real passed_less(fret_real s, fret_real *slope, void *context) {
+    passing *l = context;
+    l->from = s;
+    *slope = -passing_rate(0, 1, l);
+    return passed(l->curve, l->piece, l->which, s) - l->rest;
 }
 
 /* The level at which the front has passed `rest` of a curved piece, `whole` of which would be all. */
 static fret_real curved_front(const fret_swing *c, const piece *p, int which, fret_real rest,
                               fret_real whole) {
-    enum { HALVINGS = 64 };
-    fret_real lo = p->lo, hi = p->hi, s = hi - (hi - lo) * sqrtl(rest / whole);
-    for (int i = 0; i < HALVINGS; i++) {
-        const fret_real more = passed(c, p, which, s) - rest;
-        *(more > 0 ? &lo : &hi) = s;
-        const fret_real rate = passing_rate(0, 1, &(passing){c, p, which, s}), next = s + more / rate;
-        const fret_real last = s;
-        s = next > lo && next < hi ? next : (lo + hi) / 2;
-        if (fabsl(s - last) <= LDBL_EPSILON * hi)
-            break;
-    }
-    return way_at(&p->way, which, s);
+    passing l = {c, p, which, 0, rest};
+    return way_at(&p->way, which,
+                  fret_root(passed_less, &l, p->lo, p->hi, p->hi - (p->hi - p->lo) * sqrtl(rest / whole)));
 }
 
 fret_real fret_swing_front(const fret_swing *c, int which, fret_real *left) {

@@ -6,6 +6,7 @@
 
 #include "number/quadrature.h"
 #include "number/real.h"
+#include "number/root.h"
 
 fret_stretch fret_stretch_join(const fret_stretch *o, const fret_stretch *i) {
     return (fret_stretch){o->h + i->h, o->K + i->K, o->G + i->G + o->h * i->K,
@@ -270,12 +271,6 @@ fret_real fret_cell_place(const fret_cell *c, fret_real x) {
     return c->powers ? x / c->x : fminl((x - c->x) * (x + c->x) / c->width, 1);
 }
 
-/* Newton's step in logarithms, in which rises are nearly powers. */
-static fret_real next_place(fret_real s, fret_real target, fret_real value, fret_real rate) {
-    const fret_real share = (target - value) / (rate * s);
-    return fabsl(share) < 1e-3L ? s + s * share : s * expl(logl(target / value) * value / (s * rate));
-}
-
 /* In double, with the rate there; false: not found to 1e-6. */
 static bool place_about(const fret_cell *c, int by, fret_real rise, fret_real *place, double *rate) {
     static const double LEAST_DOUBLE = 1e-280;
@@ -299,6 +294,21 @@ static bool place_about(const fret_cell *c, int by, fret_real rise, fret_real *p
     return false;
 }
 
+/* What is looked for: a rise, or a fall from s on. */
+typedef struct search {
+    const fret_cell *cell;
+    int by;
+    fret_real wanted, s;
+} search;
+
+/* In logarithms, in which rises are nearly powers. */
+static fret_real miss_at(fret_real log, fret_real *slope, void *context) {
+    const search *f = context;
+    const fret_real s = expl(log), value = fret_cell_rise(f->cell, f->by, s);
+    *slope = value > 0 ? fret_cell_rate(f->cell, f->by, s) * s / value : 0;
+    return value > 0 ? logl(value / f->wanted) : -(fret_real)LDBL_MAX;
+}
+
 /* Nearer to the centre, or to a flat end, a place would underflow, and no digit tells it. */
 static const fret_real LEAST = 1e-4900L;
 
@@ -307,47 +317,37 @@ fret_real fret_cell_find(const fret_cell *c, int by, fret_real rise) {
         return c->begin;
     if (!c->powers && rise >= c->rise[by])
         return 1;
-    fret_real lo = c->begin, hi = c->powers ? c->width : 1, s = fminl(c->begin + 1, hi);
+    fret_real lo = fmaxl(c->begin, LEAST), hi = c->powers ? fminl(c->begin + 1, c->width) : 1, s = hi;
     double about;
     if (!c->powers && place_about(c, by, rise, &s, &about)) { /* whose rate will do for what is left */
         const fret_real step = (rise - fret_cell_rise(c, by, s)) / about;
         if (fabsl(step) <= 1e-9L * s)
             return fminl(s + step, 1);
     }
-    for (int i = 0; i < 400; i++) {
-        s = fmaxl(s, LEAST);
-        const fret_real value = fret_cell_rise(c, by, s), miss = rise - value;
-        const fret_real rate = fret_cell_rate(c, by, s);
-        fret_real next = next_place(s, rise, value, rate);
-        next = next < LEAST ? LEAST : next;
-        if (s <= LEAST && miss <= 0)
-            return c->begin;
-        *(miss > 0 ? &lo : &hi) = s;
-        if (fabsl(miss) <= 1e-9L * fabsl(rate * s) || (isfinite(hi) && hi - lo <= 2 * LDBL_EPSILON * hi))
-            return fminl(next, c->powers ? c->width : 1);
-        if (!(next > lo && next < hi) || (isinf(hi) && next > 16 * s))
-            next = isinf(hi) ? 16 * s : lo > 0 ? sqrtl(lo) * sqrtl(hi) : hi / 16;
-        s = next;
-    }
-    return s;
+    if (fret_cell_rise(c, by, lo) >= rise)
+        return c->begin;
+    for (; c->powers && hi < c->width && fret_cell_rise(c, by, hi) < rise; hi = fminl(16 * hi, c->width))
+        lo = hi;
+    if (!(fret_cell_rise(c, by, hi) > rise)) /* the end of what grows */
+        return hi;
+    search f = {c, by, rise, 0};
+    s = expl(fret_root(miss_at, &f, logl(lo), logl(hi), logl(s)));
+    s += (rise - fret_cell_rise(c, by, s)) / fret_cell_rate(c, by, s); /* a logarithm tells fewer digits */
+    return fminl(fmaxl(s, c->begin), hi);
+}
+
+static fret_real short_of(fret_real back, fret_real *slope, void *context) {
+    const search *f = context;
+    *slope = fret_cell_rate(f->cell, f->by, f->s - back);
+    return fret_cell_fall(f->cell, f->by, f->s, back) - f->wanted;
 }
 
 fret_real fret_cell_find_back(const fret_cell *c, int by, fret_real s, fret_real drop) {
-    const fret_real most = s - c->begin, whole = fret_cell_rise(c, by, s);
-    if (drop >= whole)
+    const fret_real most = s - c->begin;
+    if (drop >= fret_cell_rise(c, by, s))
         return most;
-    fret_real lo = 0, hi = most, back = drop / fret_cell_rate(c, by, s);
-    for (int i = 0; i < 200; i++) {
-        if (!(back > lo && back < hi))
-            back = (lo + hi) / 2;
-        const fret_real miss = drop - fret_cell_fall(c, by, s, back),
-                        step = miss / fret_cell_rate(c, by, s - back);
-        *(miss > 0 ? &lo : &hi) = back;
-        if (fabsl(step) <= 1e-9L * back || hi - lo <= 2 * LDBL_EPSILON * hi)
-            return fminl(back + step, most);
-        back += step;
-    }
-    return back;
+    search f = {c, by, drop, s};
+    return fret_root(short_of, &f, 0, most, drop / fret_cell_rate(c, by, s));
 }
 
 /* ---- slices ------------------------------------------------------------------------------------ */
@@ -491,6 +491,14 @@ static bool complete_by_fits(fret_cell *c, const fret_chebyshev *nodes) {
     for (int j = 0; j < count; j++)
         v[j] = Q1[j] * MQ[j];
     ok &= !bent || integrate(c, PART_LQQ, nodes, v, mu + 2 * q);
+    for (int j = 0; j < count; j++) {
+        const fret_real s = nodes->node[j], dK = rate_at(c, STIFFNESS, 1, s);
+        v[j] = (c->y + s * at(c, RISE, s)) * dK;
+        Q1[j] = at(c, RISE_Q, s) * dK;
+    }
+    (void)integrate(c, AREA, nodes, v, 0); /* as smooth as those above */
+    if (bent)
+        (void)integrate(c, AREA_Q, nodes, Q1, 0);
     return ok;
 }
 

@@ -27,8 +27,9 @@ enum { BY_DEPTH, BY_LOAD };
  * where it begins, and mu that of the stiffness: y - y0 = s P + s^q Q,   K - K0 = s^mu k, and of what lies
  * below s G = s^(mu+1) P + s^(mu+q) Q,   L = s^(mu+2) P + s^(mu+q+1) Q + s^(mu+2q) R. mu = 1 but at the
  * centre, where K ~ s^m, m = (k+1)/2; there q = 1/2 for odd powers of r. Elsewhere q = m + 1 where f'' jumps,
- * m where f' does: the transform (3) of the jump is v^q times a series in v = x^2-x0^2. */
-enum { RISE, RISE_Q, STIFFNESS, PART_G, PART_GQ, PART_L, PART_LQ, PART_LQQ, FRET_CELL_SERIES };
+ * m where f' does: the transform (3) of the jump is v^q times a series in v = x^2-x0^2. For fields, not at
+ * the centre: y dK/ds = A + s^q Q. */
+enum { RISE, RISE_Q, STIFFNESS, PART_G, PART_GQ, PART_L, PART_LQ, PART_LQQ, AREA, AREA_Q, FRET_CELL_SERIES };
 enum { FRET_CELL_TERMS = 20 };
 
 /* A cell may be a sum of powers instead, y = sum of G_i s^n_i with s = x/x0 from 1 on, or from the centre on

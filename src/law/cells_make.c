@@ -10,6 +10,7 @@
 #include "law/transform.h"
 #include "number/array.h"
 #include "number/real.h"
+#include "number/root.h"
 
 typedef struct maker {
     fret_cells *all;
@@ -194,6 +195,11 @@ static bool add_centre(maker *mk, const fret_term *term, int count, fret_real x)
 
 /* ---- shapes ------------------------------------------------------------------------------------ */
 
+static fret_real rate_there(fret_real s, fret_real *slope, void *context) {
+    (void)slope;
+    return fret_cell_rate(context, BY_DEPTH, s);
+}
+
 /* Where a sum of powers with a negative term begins to fall: looked for in logarithms of the radius. */
 static bool find_fall(maker *mk) {
     static const fret_real FIRST = 1e-12L, SPAN = 1e18L;
@@ -210,12 +216,8 @@ static bool find_fall(maker *mk) {
             mk->failed = fret_fail(FRET_NOT_MONOTONE, "r", 0, 0);
             return false;
         }
-        for (int j = 0; j < 60; j++) {
-            const fret_real middle = (lo + hi) / 2;
-            *(fret_cell_rate(c, BY_DEPTH, middle) >= 0 ? &lo : &hi) = middle;
-        }
-        c->width = lo;
-        mk->all->end = lo * c->x;
+        c->width = fret_root(rate_there, c, lo, hi, lo);
+        mk->all->end = c->width * c->x;
         mk->all->falls = true;
         return true;
     }

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Dots, lines and text on the screen of curses. */
+/* Cells and text on the screen of curses. */
 #define _XOPEN_SOURCE 700
 #define NCURSES_WIDECHAR 1
 #define NCURSES_NOMACROS 1
 #include "live/canvas.h"
 
 #include <curses.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,51 +13,21 @@
 
 #include "calc/characters.h"
 
-typedef struct canvas_cell {
-    unsigned char dots, ink;
-    char sign;
-} canvas_cell;
-
 bool canvas_make(canvas *c, rect at, bool braille) {
-    *c = (canvas){at, at.cols * (braille ? 2 : 1), at.rows * (braille ? 4 : 2), braille, NULL};
+    *c = (canvas){.at = at,
+                  .wide = at.cols * (braille ? 2 : 1),
+                  .high = at.rows * (braille ? 4 : 2),
+                  .braille = braille};
     if (at.rows <= 0)
         return false;
-    c->cell = calloc((size_t)at.rows * (size_t)at.cols + 1, sizeof *c->cell);
-    if (!c->cell)
+    const bool made = plot_cells_make(&c->cells, at.cols, at.rows, braille ? 2 : 1, braille ? 4 : 2);
+    if (!made)
         put_text(at, 0, INK_ERROR, "out of memory");
-    return c->cell != NULL;
+    return made;
 }
 
-/* What lies outside goes to a cell behind the last, which is not shown. */
-static canvas_cell *cell_of(const canvas *c, int x, int y) {
-    if (x < 0 || y < 0 || x >= c->wide || y >= c->high)
-        return &c->cell[c->at.rows * c->at.cols];
-    return &c->cell[y / (c->braille ? 4 : 2) * c->at.cols + x / (c->braille ? 2 : 1)];
-}
-
-void canvas_dot(canvas *c, int x, int y, ink of) {
-    static const unsigned char bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
-    canvas_cell *at = cell_of(c, x, y);
-    at->dots = (unsigned char)(at->dots | (c->braille ? bits[y & 3][x & 1] : 1 << (y & 1)));
-    if (of > at->ink)
-        at->ink = (unsigned char)of;
-}
-
-void canvas_line(canvas *c, double x0, double y0, double x1, double y1, ink of, int every) {
-    const double longest = fmax(fabs(x1 - x0), fabs(y1 - y0)), most = 8.0 * (c->wide + c->high);
-    if (!isfinite(longest) || longest > most) /* unreached: scales hold what is drawn */
-        return;
-    const int n = (int)ceil(longest);
-    for (int i = 0; i <= n; i += every) {
-        const double part = n ? (double)i / n : 0;
-        canvas_dot(c, (int)lround(x0 + (x1 - x0) * part), (int)lround(y0 + (y1 - y0) * part), of);
-    }
-}
-
-void canvas_sign(canvas *c, int x, int y, char sign, ink of) {
-    canvas_cell *at = cell_of(c, x, y);
-    at->sign = sign;
-    at->ink = (unsigned char)of;
+void canvas_sign(const canvas *c, int x, int y, char sign, ink of) {
+    plot_cells_sign(&c->cells, x / c->cells.across, y / c->cells.up, (char[]){sign, 0}, of);
 }
 
 /* Of an ink on this terminal. */
@@ -72,22 +41,17 @@ static int ink_attributes(ink of) {
 }
 
 void canvas_show(canvas *c) {
+    char shown[CELL_TEXT];
     for (int i = 0; i < c->at.rows; i++)
         for (int j = 0; j < c->at.cols; j++) {
-            const canvas_cell *at = &c->cell[i * c->at.cols + j];
-            if (!at->sign && !at->dots)
+            const ink of = (ink)plot_cells_show(&c->cells, j, i, shown);
+            if (!*shown)
                 continue;
-            attrset(ink_attributes((ink)at->ink));
-            if (at->sign || !c->braille) {
-                mvaddch(c->at.top + i, c->at.left + j,
-                        (chtype)(unsigned char)(at->sign ? at->sign : " '.:"[at->dots]));
-            } else {
-                const wchar_t text[] = {(wchar_t)(0x2800 + at->dots), 0};
-                mvaddwstr(c->at.top + i, c->at.left + j, text);
-            }
+            attrset(ink_attributes(of));
+            mvaddstr(c->at.top + i, c->at.left + j, shown);
         }
     attrset(A_NORMAL);
-    free(c->cell);
+    free(c->cells.cell);
 }
 
 void put_text(rect at, int row, ink of, const char *format, ...) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A rectangle of dots, 2 x 4 a cell in braille, 1 x 2 in plain characters. Draws on the screen of curses. */
+/* Cells on the screen of curses: 2 x 4 dots each in braille, 1 x 2 in plain characters. */
 #ifndef LIVE_CANVAS_H
 #define LIVE_CANVAS_H
 
-#include <stdbool.h>
+#include "plot/cells.h"
 
-/* What is drawn; where things meet in a cell the later one is seen. */
+/* What is drawn. */
 typedef enum ink {
     INK_NONE,
     INK_FRAME,  /* axes, titles */
@@ -28,16 +28,13 @@ typedef struct canvas {
     rect at;
     int wide, high; /* dots */
     bool braille;
-    struct canvas_cell *cell;
+    plot_cells cells;
 } canvas;
 
 /* False: out of memory, or no room; nothing is to be freed then. */
 bool canvas_make(canvas *c, rect at, bool braille);
-void canvas_dot(canvas *c, int x, int y, ink of);
-/* From and to in dots, 0,0 at the left top; every: only each of so many dots. */
-void canvas_line(canvas *c, double x0, double y0, double x1, double y1, ink of, int every);
 /* A character in the cell of a dot. */
-void canvas_sign(canvas *c, int x, int y, char sign, ink of);
+void canvas_sign(const canvas *c, int x, int y, char sign, ink of);
 /* Puts it on the screen and frees it. */
 void canvas_show(canvas *c);
 

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <wchar.h>
 
+#include "calc/characters.h"
 #include "calc/file.h"
 
 typedef struct film_cell {
@@ -40,24 +41,6 @@ static bool same_look(const film_cell *a, const film_cell *b) {
     return a->bold == b->bold && a->reverse == b->reverse && a->color == b->color;
 }
 
-/* UTF-8, whatever the locale is. */
-static void put_sign(FILE *to, wchar_t sign) {
-    const unsigned c = (unsigned)sign;
-    if (c < 0x80) {
-        putc((int)c, to);
-        return;
-    }
-    if (c >= 0x10000)
-        fprintf(to, "%c%c", (int)(0xf0 | c >> 18), (int)(0x80 | (c >> 12 & 0x3f)));
-    else if (c >= 0x800)
-        putc((int)(0xe0 | c >> 12), to);
-    else
-        putc((int)(0xc0 | c >> 6), to);
-    if (c >= 0x800)
-        putc((int)(0x80 | (c >> 6 & 0x3f)), to);
-    putc((int)(0x80 | (c & 0x3f)), to);
-}
-
 static void put_look(FILE *to, const film_cell *c) {
     fprintf(to, "\033[0%s%s", c->bold ? ";1" : "", c->reverse ? ";7" : "");
     if (c->color >= 8)
@@ -70,6 +53,7 @@ static void put_look(FILE *to, const film_cell *c) {
 /* A row: runs of cells that have changed. */
 static void put_row(FILE *to, int y, film_cell *before, int cols, const cchar_t *now) {
     film_cell look = blank;
+    char sign[CHARACTER_BYTES];
     int at = -1; /* where the next sign goes */
     for (int x = 0; x < cols; x++) {
         const film_cell c = cell_of(&now[x]);
@@ -79,7 +63,8 @@ static void put_row(FILE *to, int y, film_cell *before, int cols, const cchar_t 
             fprintf(to, "\033[%d;%dH", y + 1, x + 1);
         if (!same_look(&c, &look))
             put_look(to, &c);
-        put_sign(to, c.sign);
+        character_put((unsigned)c.sign, sign); /* UTF-8, whatever the locale is */
+        fputs(sign, to);
         before[x] = look = c;
         at = x + 1;
     }

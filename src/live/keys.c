@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/characters.h"
 #include "calc/file.h"
 #include "live/state.h"
 #include "live/terminal.h"
@@ -484,19 +485,14 @@ static void insert(live *l, int key) {
     l->line[l->cursor++] = (char)key;
 }
 
-/* The character before or behind the cursor, which has more than a byte where it is not ASCII. */
-static size_t neighbour(const live *l, int way) {
-    size_t at = l->cursor;
-    const size_t end = way < 0 ? 0 : strlen(l->line);
-    if (at != end)
-        at += (size_t)way;
-    while (at != end && ((unsigned char)l->line[at] & 0xc0) == 0x80)
-        at += (size_t)way;
-    return at;
+/* Over the character behind the cursor. */
+static size_t next(const live *l) {
+    const size_t left = strlen(l->line) - l->cursor, n = character_at(l->line + l->cursor, left, NULL);
+    return l->cursor + (n || !left ? n : 1);
 }
 
 static void erase_one(live *l) {
-    const size_t at = neighbour(l, -1);
+    const size_t at = character_before(l->line, l->cursor);
     memmove(l->line + at, l->line + l->cursor, strlen(l->line) - l->cursor + 1);
     l->cursor = at;
 }
@@ -513,9 +509,9 @@ static void typing_key(live *l, int key) {
     } else if (key == KEY_BACKSPACE || key == DELETE || key == '\b') {
         erase_one(l);
     } else if (key == KEY_LEFT) {
-        l->cursor = neighbour(l, -1);
+        l->cursor = character_before(l->line, l->cursor);
     } else if (key == KEY_RIGHT) {
-        l->cursor = neighbour(l, 1);
+        l->cursor = next(l);
     } else if (key == KEY_UP || key == KEY_DOWN) {
         recall(l, key == KEY_UP);
     } else if (key == CTRL_U) {

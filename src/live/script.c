@@ -49,10 +49,8 @@ bool script_open(live *l, const char *path, calc_error *error) {
         return false;
     file_got got = FILE_GOT_LINE;
     bool ok = true;
-    while (ok && (got = file_in_logical(&in, l->host->mark, error)) == FILE_GOT_LINE) {
-        in.line[l->host->mark(in.line, in.length)] = 0; /* nothing continues the last line */
+    while (ok && (got = file_in_logical(&in, l->host->mark, error)) == FILE_GOT_LINE)
         ok = keep(l, in.line);
-    }
     file_in_close(&in);
     statements_only(s);
     s->undo = calloc(s->count + 1, sizeof *s->undo);

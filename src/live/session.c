@@ -5,23 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "calc/clock.h"
 #include "live/state.h"
 #include "live/terminal.h"
-
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* Of the processor: how busy the machine is and how slow the terminal is no work of ours. */
-static double worked(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void count_work(live_work *work, bool frame, double spent) {
     work->frames += frame;
@@ -34,7 +21,7 @@ static double walked_from;
 
 static bool late(void) {
     static const double SLICE = 0.0015;
-    return seconds() - walked_from > SLICE;
+    return clock_wall() - walked_from > SLICE;
 }
 
 /* Is there more to walk? */
@@ -54,9 +41,9 @@ static bool film_now(live *l, double seconds) {
 
 static void session(live *l, live_work *work) {
     enum { IDLE = 1000, FRAME = 16 /* milliseconds */, MANY = 20 };
-    double before = seconds(), filmed = before, last = worked();
+    double before = clock_wall(), filmed = before, last = clock_worked();
     while (!l->leave) {
-        double start = seconds();
+        double start = clock_wall();
         walked_from = start;
         const bool fresh = !live_refresh_next(l); /* a scene a turn: the other one has its own */
         if (fresh)
@@ -67,7 +54,7 @@ static void session(live *l, live_work *work) {
             l->changed = false;
             live_draw(l);
         }
-        const double now = worked();
+        const double now = clock_worked();
         count_work(work, draws, now - last);
         last = now;
         if (draws) {
@@ -76,7 +63,7 @@ static void session(live *l, live_work *work) {
         }
         const int pause = !fresh ? 0 : l->playing || walks(l) ? FRAME : l->changed ? busy : IDLE;
         int key = terminal_key(pause, l->host->stop);
-        walked_from = start = seconds();
+        walked_from = start = clock_wall();
         bool away = false;
         for (int many = 1; key != KEY_NONE; many++) { /* held keys: one frame for all that wait */
             away = away || key == KEY_AGAIN;
@@ -84,7 +71,7 @@ static void session(live *l, live_work *work) {
             key = many < MANY && !l->leave && !late() ? terminal_key(0, l->host->stop) : KEY_NONE;
         }
         if (away) /* stopped, perhaps: nothing has been seen since */
-            before = start = seconds();
+            before = start = clock_wall();
         live_play_on(l, start - before);
         before = start;
     }

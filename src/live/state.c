@@ -21,10 +21,7 @@ double live_nice(double v) {
 }
 
 void live_amount(double v, dim d, char *text, size_t size) {
-    char in[32], number[40];
-    const double scale = (double)unit_choose(d, v, 3, in, sizeof in);
-    snprintf(number, sizeof number, "%.3g", v / scale);
-    snprintf(text, size, "%s%s%s", number, *in ? " " : "", in);
+    calc_amount(d, v, 3, text, size);
 }
 
 const shot *side_shown(const live *l, const side *s) {

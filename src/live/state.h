@@ -125,7 +125,5 @@ size_t page_rows(const char *page);
 
 /* ---- keys.c ---- */
 void live_key(live *l, int key);
-/* Key i of the table, and what it does; false after the last. */
-bool key_help(size_t i, const char **keys, const char **does);
 
 #endif

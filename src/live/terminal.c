@@ -20,6 +20,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "calc/clock.h"
 #include "calc/file.h"
 #include "live/canvas.h"
 
@@ -226,12 +227,6 @@ bool terminal_unicode(void) {
 
 /* ---- slow lines -------------------------------------------------------------------------------- */
 
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* Bytes that a row takes from one screen to the other, about: signs, moves of the cursor, colours. */
 static int row_bytes(int y) {
     enum { MOVE = 7, LOOK = 11 };
@@ -275,16 +270,16 @@ void terminal_show(void) {
     const int rate = baudrate();
     wnoutrefresh(stdscr);
     const bool slow = rate > 0 && rate <= SLOW;
-    const double takes = slow ? (double)BITS * bytes_of_update() / rate : 0, begin = seconds();
+    const double takes = slow ? (double)BITS * bytes_of_update() / rate : 0, begin = clock_wall();
     doupdate();
-    const double now = seconds();
+    const double now = clock_wall();
     /* as long as it says, or as long as it made us wait */
     own.free_at = fmax(begin + takes, now + (now - begin > 0.05 ? now - begin : 0));
 }
 
 int terminal_busy(void) {
     int waiting = 0;
-    const double left = own.free_at - seconds();
+    const double left = own.free_at - clock_wall();
     if (left > 0)
         return 1 + (int)(1000 * fmin(left, 60));
     ioctl(STDOUT_FILENO, TIOCOUTQ, &waiting);

@@ -13,30 +13,6 @@
 
 /* ---- texts --------------------------------------------------------------------------------------- */
 
-/* As much of a line of n bytes as goes into a row, broken between words where it can be. */
-static size_t row_of(const char *text, size_t n, int cols) {
-    size_t whole = 0, column = 0;
-    for (size_t i = 0, step; i < n; i += step) {
-        step = character_at(text + i, n - i, NULL);
-        step = step ? step : 1;
-        column += text_columns(text + i, step);
-        if (column > (size_t)cols && text[i] != ' ')
-            return whole ? whole : i;
-        if (text[i] == ' ')
-            whole = i;
-    }
-    return n;
-}
-
-/* The rows of a line: bytes of the next one; the text goes on to the one after. */
-static size_t next_row(const char **text, size_t *left, int cols) {
-    const size_t n = row_of(*text, *left, cols), blanks = strspn(*text + n, " ");
-    const size_t gone = n + (blanks < *left - n ? blanks : *left - n);
-    *text += gone;
-    *left -= gone;
-    return n;
-}
-
 /* Rows that a text takes, of at most so many; drawn where `at` has rows. */
 static int put_words(const char *text, ink of, rect at, int most) {
     char shown[4 * LIVE_LINE];
@@ -45,7 +21,7 @@ static int put_words(const char *text, ink of, rect at, int most) {
     const char *p = shown;
     for (size_t left = strlen(shown); left > 0 && row < most; row++) {
         const char *here = p;
-        const size_t n = next_row(&p, &left, at.cols);
+        const size_t n = text_break(&p, &left, (size_t)at.cols);
         put_text(at, row, of, "%.*s", (int)n, here);
     }
     return row;
@@ -118,6 +94,22 @@ static bool on_edge(const shot *s, double r, double width) {
     return false;
 }
 
+/* dot: its size. */
+static void put_zone(const canvas *c, const shot *s, const zone *z, double dot) {
+    const int mx = c->wide / 2, my = c->high / 2;
+    for (int y = 0; y < c->high; y++)
+        for (int x = 0; x < c->wide; x++) {
+            const double r = hypot(x - mx + 0.5, y - my + 0.5) * dot;
+            if (zone_at(s, r) != z || on_edge(s, r, 0.5 * dot))
+                continue;
+            if (!c->braille)
+                canvas_sign(c, x, y, z->sign, z->of);
+            else if ((x + 2 * (y % 2) * (z->every / 4) + (y % 2) * (z->every == 2)) % z->every == 0 &&
+                     (z->every < 4 || y % 2 == 0))
+                plot_cells_dot(&c->cells, x, y, z->of);
+        }
+}
+
 static void draw_disc(live *l, const side *sd, const scales *sc, rect at) {
     const shot *s = side_shown(l, sd);
     canvas c;
@@ -126,20 +118,10 @@ static void draw_disc(live *l, const side *sd, const scales *sc, rect at) {
     disc.rows -= 1;
     if (!canvas_make(&c, disc, terminal_unicode()))
         return;
-    const double radius = fmin(c.wide, c.high) / 2.0 - 0.5, dot = sc->a / radius;
-    const int mx = c.wide / 2, my = c.high / 2;
-    for (int y = 0; y < c.high; y++)
-        for (int x = 0; x < c.wide; x++) {
-            const double r = hypot(x - mx + 0.5, y - my + 0.5) * dot;
-            const zone *z = zone_at(s, r);
-            if (!z || on_edge(s, r, 0.5 * dot))
-                continue;
-            if (!c.braille)
-                canvas_sign(&c, x, y, z->sign, z->of);
-            else if ((x + 2 * (y % 2) * (z->every / 4) + (y % 2) * (z->every == 2)) % z->every == 0 &&
-                     (z->every < 4 || y % 2 == 0))
-                canvas_dot(&c, x, y, z->of);
-        }
+    const double dot = sc->a / (fmin(c.wide, c.high) / 2.0 - 0.5);
+    put_zone(&c, s, &earlier, dot);
+    put_zone(&c, s, &stick, dot);
+    put_zone(&c, s, &slip, dot);
     canvas_show(&c);
     static const char *const names[] = {"stick", "slip", "earlier"};
     const zone *zones[] = {&stick, &slip, &earlier};
@@ -157,6 +139,13 @@ static void draw_disc(live *l, const side *sd, const scales *sc, rect at) {
     }
 }
 
+/* ---- lines -------------------------------------------------------------------------------------- */
+
+static void draw_line(const canvas *c, const char *dash, ink of, double x0, double y0, double x1, double y1) {
+    plot_pen pen = plot_pen_of(&c->cells, dash, of);
+    plot_pen_line(&pen, x0, y0, x1, y1);
+}
+
 /* ---- the springs ------------------------------------------------------------------------------- */
 
 static void draw_springs(live *l, const side *sd, const scales *sc, rect at) {
@@ -168,17 +157,22 @@ static void draw_springs(live *l, const side *sd, const scales *sc, rect at) {
     if (!canvas_make(&c, box, terminal_unicode()))
         return;
     const double mx = (c.wide - 1) / 2.0, my = (c.high - 1) / 2.0, kx = mx / sc->a, ky = my / sc->bound;
-    canvas_line(&c, 0, my, c.wide - 1, my, INK_FRAME, 4);
-    for (int way = -1; way <= 1; way += 2)
+    draw_line(&c, "1000", INK_FRAME, 0, my, c.wide - 1, my);
+    for (int way = -1; way <= 1; way += 2) {
+        const double step = way * kx * s->a / (double)SHOT_SAMPLES;
+        plot_pen above = plot_pen_of(&c.cells, "10", INK_BOUND), below = above,
+                 u = plot_pen_of(&c.cells, "1", INK_STICK);
         for (int i = 0; i < SHOT_SAMPLES; i++) {
-            const double x0 = mx + way * kx * s->a * i / (double)SHOT_SAMPLES,
-                         x1 = x0 + way * kx * s->a / (double)SHOT_SAMPLES;
-            canvas_line(&c, x0, my - ky * s->B[i], x1, my - ky * s->B[i + 1], INK_BOUND, 2);
-            canvas_line(&c, x0, my + ky * s->B[i], x1, my + ky * s->B[i + 1], INK_BOUND, 2);
-            const bool slips = s->a * (i + 0.5) / (double)SHOT_SAMPLES > s->c;
-            canvas_line(&c, x0, my - ky * s->u[i], x1, my - ky * s->u[i + 1], slips ? INK_SLIP : INK_STICK,
-                        1);
+            const double x0 = mx + step * i, x1 = x0 + step;
+            plot_pen_line(&above, x0, my - ky * s->B[i], x1, my - ky * s->B[i + 1]);
+            plot_pen_line(&below, x0, my + ky * s->B[i], x1, my + ky * s->B[i + 1]);
         }
+        for (int i = 0; i < SHOT_SAMPLES; i++) {
+            const double x0 = mx + step * i, x1 = x0 + step;
+            u.ink = s->a * (i + 0.5) / (double)SHOT_SAMPLES > s->c ? INK_SLIP : INK_STICK;
+            plot_pen_line(&u, x0, my - ky * s->u[i], x1, my - ky * s->u[i + 1]);
+        }
+    }
     canvas_show(&c);
     amount(sc->bound, DIM_LENGTH, text);
     put_text(at, 0, INK_FRAME, "%s", text);
@@ -203,17 +197,18 @@ static void draw_loop(live *l, const side *sd, const scales *sc, rect at) {
     if (!canvas_make(&c, at, terminal_unicode()))
         return;
     const double mx = (c.wide - 1) / 2.0, my = (c.high - 1) / 2.0, kx = mx / sc->dx, ky = my / sc->Fx;
-    canvas_line(&c, 0, my, c.wide - 1, my, INK_FRAME, 4);
-    canvas_line(&c, mx, 0, mx, c.high - 1, INK_FRAME, 4);
-    canvas_line(&c, 0, my - ky * s->slip, c.wide - 1, my - ky * s->slip, INK_BOUND, 4);
-    canvas_line(&c, 0, my + ky * s->slip, c.wide - 1, my + ky * s->slip, INK_BOUND, 4);
+    draw_line(&c, "1000", INK_FRAME, 0, my, c.wide - 1, my);
+    draw_line(&c, "1000", INK_FRAME, mx, 0, mx, c.high - 1);
+    draw_line(&c, "1000", INK_BOUND, 0, my - ky * s->slip, c.wide - 1, my - ky * s->slip);
+    draw_line(&c, "1000", INK_BOUND, 0, my + ky * s->slip, c.wide - 1, my + ky * s->slip);
+    plot_pen path = plot_pen_of(&c.cells, "1", INK_CURVE);
     const track *t = &sd->way.path;
     const double until = s->time + 1e-9;
     for (size_t i = 0; i + 1 < t->count && t->point[i].time <= until; i++) {
         const track_point *p = &t->point[i], *q = p + 1;
         const bool whole = q->time <= until; /* else as far as the present point */
-        canvas_line(&c, mx + kx * p->dx, my - ky * p->Fx, mx + kx * (whole ? q->dx : s->dx),
-                    my - ky * (whole ? q->Fx : s->Fx), INK_CURVE, 1);
+        plot_pen_line(&path, mx + kx * p->dx, my - ky * p->Fx, mx + kx * (whole ? q->dx : s->dx),
+                      my - ky * (whole ? q->Fx : s->Fx));
     }
     canvas_sign(&c, (int)lround(mx + kx * s->dx), (int)lround(my - ky * s->Fx), 'O', INK_POINT);
     canvas_show(&c);
@@ -241,11 +236,12 @@ static void draw_energies(live *l, const side *sd, const scales *sc, rect at) {
     (void)l;
     const double begin = t->point[0].time, end = fmax(t->point[t->count - 1].time, begin + 1);
     const double kx = (c.wide - 1) / (end - begin), ky = (c.high - 1) / sc->energy, floor_y = c.high - 1;
+    plot_pen W = plot_pen_of(&c.cells, "1", INK_SLIP), U = plot_pen_of(&c.cells, "10", INK_OTHER);
     for (size_t i = 0; i + 1 < t->count && t->point[i + 1].time <= s->time + 1e-9; i++) {
         const track_point *p = &t->point[i], *q = p + 1;
         const double x0 = kx * (p->time - begin), x1 = kx * (q->time - begin);
-        canvas_line(&c, x0, floor_y - ky * p->W, x1, floor_y - ky * q->W, INK_SLIP, 1);
-        canvas_line(&c, x0, floor_y - ky * p->U, x1, floor_y - ky * q->U, INK_OTHER, 2);
+        plot_pen_line(&W, x0, floor_y - ky * p->W, x1, floor_y - ky * q->W);
+        plot_pen_line(&U, x0, floor_y - ky * p->U, x1, floor_y - ky * q->U);
     }
     canvas_show(&c);
     amount(sc->energy, DIM_ENERGY, text);
@@ -414,8 +410,8 @@ static void put_line(const live *l, rect at, int row) {
     const int column = (int)text_columns(shown, strlen(shown)), skip = column > width ? column - width : 0;
     characters_shown(l->line, shown, sizeof shown);
     const char *from = shown;
-    while ((int)text_columns(shown, (size_t)(from - shown)) < skip || (*from & 0xc0) == 0x80)
-        from++;
+    while ((int)text_columns(shown, (size_t)(from - shown)) < skip)
+        from += character_at(from, strlen(from), NULL);
     put_text(at, row, INK_NONE, "%s%s", l->prompt, from);
     move(at.top + row, at.left + prompt + column - skip);
 }
@@ -448,7 +444,7 @@ static size_t put_page(const char *page, size_t from, rect at) {
         size_t left = strcspn(p, "\n");
         do {
             const char *here = p;
-            const size_t n = next_row(&p, &left, at.cols);
+            const size_t n = text_break(&p, &left, (size_t)at.cols);
             if (row >= from && row - from < (size_t)at.rows)
                 put_text(at, (int)(row - from), INK_NONE, "%.*s", (int)n, here);
             row++;

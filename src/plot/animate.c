@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Animations: every frame is filled in first, since axes hold for all; one run of gnuplot then draws them. */
+/* Animations: every frame is filled in first, since axes hold for all; then they are drawn together. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,8 +26,7 @@ static bool fill_frame(const plot_movie *m, size_t i, plot_figure *f, plot_exten
 
 bool plot_animate(const plot_movie *m, const plot_target *t, file_report *report, calc_error *error) {
     plot_extents extent[PLOT_PANELS];
-    const char *dot = t->file ? strrchr(t->file, '.') : NULL;
-    if (t->file && (!dot || strcmp(dot, ".gif")))
+    if (t->file && !file_ends(t->file, ".gif"))
         return calc_fail(error, 0, 0, "an animation goes to a .gif file or to the terminal");
     if (m->frames < 1 || m->frames > PLOT_FRAMES)
         return calc_fail(error, 0, 0, "an animation has 1 to %d frames", PLOT_FRAMES);

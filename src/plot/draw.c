@@ -248,16 +248,24 @@ static size_t print_pages(FILE *out, char *const *page, size_t panels, const plo
     return lines;
 }
 
+/* A frame of pages that gnuplot drew; NULL: as it is drawn here. The number of lines; 0 with the error. */
+static size_t print_frame(const sheets *s, const scripted *w, size_t n, const char *end, calc_error *error) {
+    const size_t panels = w->reel->frame[0].count;
+    return s ? print_pages(w->target->out, s->page + n * panels, panels, w->pages, end)
+             : plot_print_frame(w->reel, n, w->target, w->pages, end, error);
+}
+
 /* Frames one after another in place: the cursor goes back up, each line is written over. */
-static bool play(const sheets *s, const scripted *w, size_t panels, calc_error *error) {
+static bool play(const sheets *s, const scripted *w, calc_error *error) {
     const plot_target *t = w->target;
-    size_t frames = s->count / panels, first = t->moving ? 0 : frames - 1, lines = 0;
-    if (s->count != w->reel->count * panels)
-        return calc_fail(error, 0, 0, "gnuplot drew %zu pages of %zu", s->count, w->reel->count * panels);
-    for (size_t n = first; n < frames; n++) {
+    const size_t frames = w->reel->count;
+    size_t lines = 0;
+    for (size_t n = t->moving ? 0 : frames - 1; n < frames; n++) {
         if (lines)
             fprintf(t->out, "\033[%zuA", lines);
-        lines = print_pages(t->out, s->page + n * panels, panels, w->pages, t->moving ? "\033[K\n" : "\n");
+        lines = print_frame(s, w, n, t->moving ? "\033[K\n" : "\n", error);
+        if (!lines)
+            return false;
         if (fflush(t->out))
             return calc_errno(error, errno, "cannot write");
         for (int ms = (int)(1000 * w->reel->seconds); ms > 0 && n + 1 < frames; ms -= 10) {
@@ -272,36 +280,40 @@ static bool play(const sheets *s, const scripted *w, size_t panels, calc_error *
 static const plot_kind sixel = {
     "", PLOT_ENHANCED, "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor", 1, 14, 3, PLOT_STRAIGHT};
 
-static bool to_terminal_as(const scripted *s, size_t panels, calc_error *error) {
-    plot_run r;
+/* What gnuplot drew to the terminal. */
+static bool show_drawn(const plot_run *r, const scripted *s, calc_error *error) {
+    const size_t count = s->reel->count * s->reel->frame[0].count;
     sheets pages;
-    if (!plot_run_open(&r, error))
-        return false;
-    bool ok = have_drawn(&r, s, error);
-    if (ok && s->kind) {
-        ok = copy(&r, s->target->out, s->kind, error);
+    if (s->kind) {
+        const bool ok = copy(r, s->target->out, s->kind, error);
         fputc('\n', s->target->out);
-    } else if (ok) {
-        ok = sheets_read(&pages, &r, error);
-        if (ok) {
-            ok = play(&pages, s, panels, error);
-            sheets_free(&pages);
-        }
+        return ok;
     }
-    plot_run_close(&r);
+    if (!sheets_read(&pages, r, error))
+        return false;
+    const bool ok = pages.count == count
+                        ? play(&pages, s, error)
+                        : calc_fail(error, 0, 0, "gnuplot drew %zu pages of %zu", pages.count, count);
+    sheets_free(&pages);
     return ok;
 }
 
 static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error *error) {
-    size_t panels = reel->frame[0].count;
-    plot_pages pages = plot_pages_for(t, panels, reel->count > 1);
+    plot_run r;
+    plot_pages pages = plot_pages_for(t, reel->frame[0].count, reel->count > 1);
     scripted s = {.reel = reel, .target = t, .pages = &pages};
+    if (pages.braille)
+        return play(NULL, &s, error);
     if (t->terminal == PLOT_SIXEL &&
         reel->count == 1) { /* pictures that follow each other would scroll away */
         s.kind = &sixel;
         s.pages = NULL;
     }
-    return to_terminal_as(&s, panels, error);
+    if (!plot_run_open(&r, error))
+        return false;
+    const bool ok = have_drawn(&r, &s, error) && show_drawn(&r, &s, error);
+    plot_run_close(&r);
+    return ok;
 }
 
 /* ---- figures ------------------------------------------------------------------------------------ */

@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "calc/clock.h"
 #include "plot/script.h"
 
 extern char **environ;
@@ -105,20 +105,14 @@ static int start(const plot_run *r, char *const argv[], pid_t *pid, int *guard) 
     return code;
 }
 
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 typedef enum end { ENDED, STOPPED, LATE, LOST } end;
 
 static end wait_for(pid_t pid, int guard, const plot_target *target, double timeout, int *status) {
-    double limit = seconds() + timeout;
+    double limit = clock_wall() + timeout;
     for (;;) {
         const pid_t done = waitpid(pid, status, WNOHANG);
         const bool lost = done < 0 && errno != EINTR;
-        const end how = plot_stopped(target) ? STOPPED : seconds() > limit ? LATE : lost ? LOST : ENDED;
+        const end how = plot_stopped(target) ? STOPPED : clock_wall() > limit ? LATE : lost ? LOST : ENDED;
         if (done != pid && how == ENDED) {
             poll(NULL, 0, PAUSE);
             continue;

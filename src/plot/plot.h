@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures through gnuplot: numbers, texts and looks in; a picture in a file or text in the terminal out.
+/* Figures: numbers, texts and looks in; a picture in a file or text in the terminal out. gnuplot draws them,
+ * but for dots in a terminal.
  * Nothing here knows a scene or a quantity.
  *
  *     plot_figure f;

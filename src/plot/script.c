@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/characters.h"
+
 enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
 
 /* ---- kinds -------------------------------------------------------------------------------------- */
@@ -29,9 +31,8 @@ static const plot_kind kinds[] = {
     {".gp", PLOT_ENHANCED, NULL, 1, 16, 3, 0}};
 
 const plot_kind *plot_kind_of(const char *file, calc_error *error) {
-    const char *slash = strrchr(file, '/'), *dot = strrchr(slash ? slash : file, '.');
-    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
-        if (!strcmp(dot, kinds[i].ending))
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (file_ends(file, kinds[i].ending))
             return &kinds[i];
     char endings[80] = "";
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
@@ -246,7 +247,7 @@ static size_t key_entries(scribe *s, const plot_panel *p, size_t *longest) {
         if (!p->series[i]->title)
             continue;
         char *text = plot_text(p->series[i]->title, PLOT_UNICODE);
-        size_t n = plot_columns(text ? text : "");
+        size_t n = text ? text_columns(text, strlen(text)) : 0;
         s->lost |= !text;
         *longest = n > *longest ? n : *longest;
         free(text);

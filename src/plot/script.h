@@ -3,6 +3,7 @@
 #ifndef PLOT_SCRIPT_H
 #define PLOT_SCRIPT_H
 
+#include "plot/cells.h"
 #include "plot/plot.h"
 
 /* ---- axis.c: limits and tics -------------------------------------------------------------------- */
@@ -37,11 +38,6 @@ double plot_step(double least);
 
 /* At most `room` levels for contours of z, in rising order. */
 size_t plot_levels(const plot_map *m, double *level, size_t room);
-
-/* ---- text.c --------------------------------------------------------------------------------------- */
-
-/* Room in a text of the terminal: columns of its characters. */
-size_t plot_columns(const char *text);
 
 /* ---- script.c: pictures ------------------------------------------------------------------------- */
 
@@ -90,28 +86,9 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
                         calc_error *error);
 bool plot_stopped(const plot_target *target);
 
-/* ---- dots.c: lines on text ----------------------------------------------------------------------- */
+/* ---- text: page.c, dumb.c, sheet.c --------------------------------------------------------------- */
 
-/* The cells of a frame, from its lower left, parted into dots: 2 x 4 for braille, else 1 x 1. */
-typedef struct plot_cells {
-    int columns, rows, across, up;
-    char *dot; /* row by row; to be freed */
-} plot_cells;
-
-bool plot_cells_make(plot_cells *c, int columns, int rows, bool braille); /* false: out of memory */
-/* A line through points given in cells (0,0 is the middle of the first), or the points alone; one that is not
- * finite is a gap. `dash` tells which dots along the way to put down, as "1110". */
-void plot_cells_draw(const plot_cells *c, const double (*point)[2], size_t count, bool joined,
-                     const char *dash);
-bool plot_cells_has(const plot_cells *c, int column, int row);
-/* The dots of a cell as bits of U+2800; of braille only. */
-unsigned char plot_cells_braille(const plot_cells *c, int column, int row);
-/* The character in UTF-8; its length. */
-size_t plot_braille(unsigned char bits, char to[4]);
-
-/* ---- page.c: text ------------------------------------------------------------------------------- */
-
-/* Panels on a page of text. */
+/* Panels on pages of text. */
 typedef struct plot_pages {
     int columns, rows; /* of a panel */
     bool beside;       /* panels side by side, else one below the other */
@@ -119,9 +96,13 @@ typedef struct plot_pages {
 } plot_pages;
 
 plot_pages plot_pages_for(const plot_target *target, size_t panels, bool one_screen);
-/* A page of gnuplot for each panel of each frame. */
+/* A page of gnuplot for each panel of each frame; not of braille. */
 bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
                       calc_error *error);
+/* Draws frame n and prints it, each line with the end given: of braille. The number of lines; 0 with the
+ * error. */
+size_t plot_print_frame(const plot_reel *reel, size_t n, const plot_target *target, const plot_pages *pages,
+                        const char *end, calc_error *error);
 
 /* ---- draw.c: to the target ---------------------------------------------------------------------- */
 

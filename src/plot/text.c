@@ -6,16 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calc/characters.h"
 #include "plot/script.h"
 
 enum { THIN_SPACE = 0x2009 };
-
-size_t plot_columns(const char *text) {
-    size_t n = 0;
-    for (; *text; text++)
-        n += ((unsigned char)*text & 0xc0) != 0x80;
-    return n;
-}
 
 typedef struct writer {
     FILE *to;
@@ -24,32 +18,6 @@ typedef struct writer {
 } writer;
 
 /* ---- characters --------------------------------------------------------------------------------- */
-
-/* Bytes of the character at p, 0 where it is no UTF-8; its code in *code. */
-static size_t character(const char *p, unsigned *code) {
-    static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
-    const unsigned char *b = (const unsigned char *)p;
-    size_t n = *b < 0x80                 ? 1
-               : *b >= 0xc2 && *b < 0xe0 ? 2
-               : *b >= 0xe0 && *b < 0xf0 ? 3
-               : *b >= 0xf0 && *b < 0xf5 ? 4
-                                         : 0;
-    unsigned c = n == 1 ? *b : n == 2 ? *b & 0x1f : n == 3 ? *b & 0x0f : *b & 0x07;
-    for (size_t i = 1; i < n; i++) {
-        if ((b[i] & 0xc0) != 0x80)
-            return 0;
-        c = c << 6 | (b[i] & 0x3f);
-    }
-    *code = c;
-    return n && c >= least[n] && (c < 0xd800 || c > 0xdfff) && c < 0x110000 ? n : 0;
-}
-
-/* Controls, and what turns or hides its neighbours. */
-static bool is_hidden(unsigned c) {
-    return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0xad || (c >= 0x200b && c <= 0x200f) ||
-           (c >= 0x2028 && c <= 0x202e) || (c >= 0x2060 && c <= 0x206f) || c == 0xfeff || c == 0x61c ||
-           (c >= 0xfff9 && c <= 0xfffb) || (c >= 0xe0000 && c < 0xe1000);
-}
 
 /* Greek and the like: typed in ASCII, and in the mathematics of TeX. */
 static const struct symbol {
@@ -145,8 +113,8 @@ static void put_char(writer *w, const char *p, size_t n, unsigned c) {
 static void put(writer *w, const char *text, size_t n) {
     unsigned c;
     for (size_t i = 0, step; i < n; i += step) {
-        step = character(text + i, &c);
-        if (!step || is_hidden(c)) {
+        step = character_at(text + i, n - i, &c);
+        if (!step || !character_shows(c)) {
             step = step ? step : 1;
             putc('?', w->to);
         } else {
@@ -338,8 +306,7 @@ static void put_unit(writer *w, const char *p, const char *end) {
             puts_text(w, w->form == PLOT_ASCII ? "*" : "·");
             n = 1;
         } else {
-            unsigned code;
-            n = character(p, &code);
+            n = character_at(p, (size_t)(end - p), NULL);
             n = n ? n : 1;
             put(w, p, n);
         }
@@ -407,8 +374,7 @@ static void put_expression(writer *w, const char *p, const char *end) {
         } else if ((unsigned char)*p < 0x80) {
             put_operator(w, *p, p + 1, end);
         } else {
-            unsigned code;
-            n = character(p, &code);
+            n = character_at(p, (size_t)(end - p), NULL);
             n = n ? n : 1;
             put(w, p, n);
         }

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command `accuracy`: its arguments, its progress, and the study as text, CSV or JSON. */
+/* The command `accuracy`: its arguments, its progress, and what the study says. */
 #include "shell/accuracy_command.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "shell/output.h"
+#include "shell/answer.h"
 #include "shell/progress.h"
+
+/* Columns of its answer. */
+enum { HEAD_MODEL, HEAD_PARAMETER, HEAD_VALUE, HEAD_ERROR, HEAD_BOUND, HEAD_SECONDS, HEAD_RATIO, HEADS };
 
 /* Rows of its arguments in the table of commands. */
 enum { ROW_FA, ROW_DXA, ROW_WITHIN };
@@ -131,84 +134,77 @@ static void advise(const accuracy_study *study, const char *separator, char *buf
 
 /* ---- printing ---------------------------------------------------------------------------------- */
 
-static void print_text(shell *sh, const accuracy_study *study, const char *load, const char *advice) {
-    char unit_text[COLUMN_UNIT], head[COLUMN_UNIT + 8];
+enum { SHORT = 40 };
+
+static void say_row(answer *out, const accuracy_study *study, const accuracy_row *row, long double scale,
+                    const answer_head heads[HEADS]) {
+    const double ratio = row->seconds / fastest(study);
+    char parameter[SHORT], number[NUMBER_TEXT], error[SHORT], t[SHORT], times[SHORT];
+    describe_size(row, parameter, sizeof parameter);
+    number_text(number, out->set->digits, (double)(row->value / scale));
+    format_error(row, error, sizeof error);
+    format_seconds(row->seconds, t, sizeof t);
+    format_ratio(ratio, times, sizeof times);
+    const answer_cell cells[HEADS] = {
+        [HEAD_MODEL] = {.kind = CELL_WORDS, .words = families[row->family].name},
+        [HEAD_PARAMETER] = {CELL_NUMBER, .v = (double)row->size, .digits = 17, .shown = parameter},
+        [HEAD_VALUE] = {CELL_NUMBER, .v = (double)row->value, .digits = 17, .shown = number},
+        [HEAD_ERROR] = {CELL_NUMBER, .v = (double)row->error, .digits = 3, .shown = error},
+        [HEAD_BOUND] = {CELL_FLAG, .v = row->below},
+        [HEAD_SECONDS] = {CELL_NUMBER, .v = row->seconds, .digits = 3, .shown = t},
+        [HEAD_RATIO] = {CELL_NUMBER, .v = ratio, .digits = 3, .shown = times}};
+    answer_cells(out, heads, cells, HEADS);
+}
+
+static void say_table(answer *out, const accuracy_study *study, long double scale, const char *unit_text) {
+    char dW[COLUMN_UNIT + 8];
+    snprintf(dW, sizeof dW, "dW [%s]", unit_text);
+    const answer_head heads[HEADS] = {[HEAD_MODEL] = {"model", "", NULL, "model", -18},
+                                      [HEAD_PARAMETER] = {"parameter", "", NULL, "parameter", 12},
+                                      [HEAD_VALUE] = {"value", "J", NULL, dW, out->set->digits + 7},
+                                      [HEAD_ERROR] = {"error", "", NULL, "error", 9},
+                                      [HEAD_BOUND] = {"bound", "", "error is a bound", NULL, 0},
+                                      [HEAD_SECONDS] = {"seconds", "s", "seconds", "time/cycle", 10},
+                                      [HEAD_RATIO] = {"ratio", "", NULL, "x fastest", 10}};
+    answer_heads(out, "accuracy", heads, HEADS);
+    for (size_t i = 0; i < study->count; i++)
+        say_row(out, study, &study->row[i], scale, heads);
+}
+
+static void say(shell *sh, const accuracy_study *study) {
+    char unit_text[COLUMN_UNIT], load[ACCURACY_TEXT], advice[ACCURACY_TEXT], error[SHORT];
     const long double scale =
         unit_choose(DIM_ENERGY, study->value, sh->set.digits, unit_text, sizeof unit_text);
-    const int width = sh->set.digits + 7;
     const accuracy_row bound = {.error = study->agreement, .below = true};
-    char error[40], parameter[40], t[40], ratio[40];
-    if (sh->replaying) { /* times, and what follows from them */
-        fprintf(sh->out, "%c\n", MARK_DRAWING);
-        return;
-    }
+    answer out;
+    answer_begin(&out, &sh->set, sh->out);
+    accuracy_load_text(sh, study, load, sizeof load);
     format_error(&bound, error, sizeof error);
-    fprintf(sh->out, "%s\nreference: %s, %.*g %s, good to %s\n", load, study->reference, sh->set.digits,
-            (double)(study->value / scale), unit_text, error + 1);
-    snprintf(head, sizeof head, "dW [%s]", unit_text);
-    fprintf(sh->out, "%-18s %12s %*s %9s %10s %10s\n", "model", "parameter", width, head, "error",
-            "time/cycle", "x fastest");
-    for (size_t i = 0; i < study->count; i++) {
-        const accuracy_row *row = &study->row[i];
-        describe_size(row, parameter, sizeof parameter);
-        format_error(row, error, sizeof error);
-        format_seconds(row->seconds, t, sizeof t);
-        format_ratio(row->seconds / fastest(study), ratio, sizeof ratio);
-        fprintf(sh->out, "%-18s %12s %*.*g %9s %10s %10s\n", families[row->family].name, parameter, width,
-                sh->set.digits, (double)(row->value / scale), error, t, ratio);
-    }
-    fprintf(sh->out, "%s\n", advice);
-}
-
-static void print_csv(shell *sh, const accuracy_study *study) {
-    fputs("model,parameter,value [J],error,error is a bound,seconds,ratio\n", sh->out);
-    for (size_t i = 0; i < study->count; i++) {
-        const accuracy_row *row = &study->row[i];
-        const char *name = families[row->family].name, *quote = strchr(name, ',') ? "\"" : "";
-        fprintf(sh->out, "%s%s%s,%lu,%.17g,%.3g,%d,%.3g,%.3g\n", quote, name, quote, row->size,
-                (double)row->value, (double)row->error, row->below, row->seconds,
-                row->seconds / fastest(study));
-    }
-}
-
-static void print_text_member(FILE *to, const char *name, const char *text) {
-    fprintf(to, "\"%s\":", name);
-    print_json_string(to, text);
-    fputc(',', to);
-}
-
-static void print_json(shell *sh, const accuracy_study *study, const char *load, const char *advice) {
-    for (size_t i = 0; i < study->count; i++) {
-        const accuracy_row *row = &study->row[i];
-        fputc('{', sh->out);
-        print_text_member(sh->out, "model", families[row->family].name);
-        fprintf(sh->out,
-                "\"parameter\":%lu,\"value\":%.17g,\"error\":%.3g,\"bound\":%s,\"seconds\":%.3g,\"ratio\":%."
-                "3g}\n",
-                row->size, (double)row->value, (double)row->error, row->below ? "true" : "false",
-                row->seconds, row->seconds / fastest(study));
-    }
-    fputc('{', sh->out);
-    print_text_member(sh->out, "advice", advice);
-    print_text_member(sh->out, "auto", study->automatic);
-    print_text_member(sh->out, "load", load);
-    print_text_member(sh->out, "reference", study->reference);
-    fprintf(sh->out, "\"value\":%.17g,\"agreement\":%.3g}\n", (double)study->value, (double)study->agreement);
+    answer_words(&out, "%s\nreference: %s, %.*g %s, good to %s\n", load, study->reference, sh->set.digits,
+                 (double)(study->value / scale), unit_text, error + 1);
+    say_table(&out, study, scale, unit_text);
+    advise(study, "; ", advice, sizeof advice);
+    answer_event(&out, "accuracy");
+    answer_string(&out, "advice", advice);
+    answer_string(&out, "auto", study->automatic);
+    answer_string(&out, "load", load);
+    answer_string(&out, "reference", study->reference);
+    answer_number(&out, "value", (double)study->value);
+    answer_number(&out, "agreement", (double)study->agreement);
+    answer_done(&out);
+    advise(study, "\n", advice, sizeof advice);
+    answer_words(&out, "%s\n", advice);
+    answer_end(&out, true);
 }
 
 bool do_accuracy(shell *sh, lexer *lx, const command *self) {
     accuracy_study study;
     arg_value given[ARGS];
-    char advice[ACCURACY_TEXT], load[ACCURACY_TEXT];
     if (!read_load_given(sh, lx, self, given) || !at_end(lx) || !run_study(sh, given, &study, lx->error))
         return false;
-    advise(&study, sh->set.format == FORMAT_TEXT ? "\n" : "; ", advice, sizeof advice);
-    accuracy_load_text(sh, &study, load, sizeof load);
-    if (sh->set.format == FORMAT_CSV)
-        print_csv(sh, &study);
-    else if (sh->set.format == FORMAT_JSON)
-        print_json(sh, &study, load, advice);
+    if (sh->replaying) /* times, and what follows from them */
+        fprintf(sh->out, "%c\n", MARK_DRAWING);
     else
-        print_text(sh, &study, load, advice);
+        say(sh, &study);
     return true;
 }

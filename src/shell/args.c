@@ -32,7 +32,7 @@ void args_note_idle(shell *sh, const arg_list *list, const arg_value v[ARGS]) {
     for (const arg *a = list->args; a->kind; a++)
         for (const arg *other = list->args; a->beside && other->kind; other++)
             if (!strcmp(other->name, a->beside) && v[a - list->args].given && !v[other - list->args].given)
-                shell_note(sh, "note: %s does nothing without %s", a->name, a->beside);
+                shell_note(sh, "%s does nothing without %s", a->name, a->beside);
 }
 
 /* ---- NAME = EXPR ------------------------------------------------------------------------------- */

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "calc/characters.h"
+#include "calc/clock.h"
 
 enum {
     COLS = 80,
@@ -33,12 +33,6 @@ struct cast {
     size_t held_count; /* of a character that is not whole yet */
     char event[PIECE * ESCAPED + 64];
 };
-
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- events ------------------------------------------------------------------------------------ */
 
@@ -68,7 +62,7 @@ static char *escape(char *to, const char *text, size_t n) {
 
 static bool event(cast *c, char kind, const char *text, size_t n, calc_error *error) {
     if (c->clock)
-        c->at = seconds() - c->began;
+        c->at = clock_wall() - c->began;
     char *to = c->event + sprintf(c->event, "[%.6f,\"%c\",\"", c->at, kind);
     to = escape(to, text, n);
     memcpy(to, "\"]\n", 3);
@@ -89,14 +83,8 @@ static bool find_size(cast *c) {
 
 /* Bytes at the end that begin a character of UTF-8 and do not end it. */
 static size_t begun(const char *text, size_t n) {
-    for (size_t back = 1; back < UTF8 && back <= n; back++) {
-        const unsigned char c = (unsigned char)text[n - back];
-        if (c < 0x80)
-            return 0;
-        if (c >= 0xc0)
-            return back < (c >= 0xf0 ? 4u : c >= 0xe0 ? 3u : 2u) ? back : 0;
-    }
-    return 0;
+    const size_t at = character_before(text, n), left = n - at;
+    return left < UTF8 && !character_at(text + at, left, NULL) ? left : 0;
 }
 
 /* At most PIECE/2 bytes: ends of lines grow. */
@@ -169,7 +157,7 @@ cast *cast_begin(file_log *log, bool clock, calc_error *error) {
     }
     *c = (cast){.log = log, .clock = clock, .cols = COLS, .rows = ROWS};
     if (clock)
-        c->began = seconds();
+        c->began = clock_wall();
     find_size(c);
     if (add(c, (size_t)sprintf(c->event, "{\"version\":2,\"width\":%d,\"height\":%d}\n", c->cols, c->rows),
             error))

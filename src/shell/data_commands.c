@@ -11,90 +11,10 @@
 #include "study/fit.h"
 #include "study/uncertainty.h"
 
-/* ---- a value and its deviation ----------------------------------------------------------------- */
-
-typedef struct estimate {
-    column c;
-    long double v, deviation;
-    const double *share; /* of its variance, by input, or NULL */
-} estimate;
-
-/* `mu = 0.4 +- 0.002`, both in the unit of the value. */
-static void print_estimate(shell *sh, const char *name, const estimate *e) {
-    char unit_text[COLUMN_UNIT], value_text[NUMBER_TEXT], deviation[NUMBER_TEXT];
-    long double scale = e->c.scale;
-    if (e->c.chosen)
-        snprintf(unit_text, sizeof unit_text, "%s", e->c.unit);
-    else
-        scale = unit_choose(e->c.d, e->v, sh->set.digits, unit_text, sizeof unit_text);
-    number_text(value_text, sh->set.digits, (double)(e->v / scale));
-    number_text(deviation, 3, (double)(e->deviation / scale));
-    if (*unit_text)
-        fprintf(sh->out, "%s = %s %s +- %s %s\n", name, value_text, unit_text, deviation, unit_text);
-    else
-        fprintf(sh->out, "%s = %s +- %s\n", name, value_text, deviation);
-}
-
-/* One more column of a row. like: its unit, or NULL. */
-static bool add_column(column *c, const char *name, const column *like) {
-    *c = like ? *like : (column){.scale = 1};
-    c->name = column_name(name, strlen(name));
-    if (like && !like->chosen)
-        dim_unit(like->d, c->unit, sizeof c->unit);
-    return c->name != NULL;
-}
-
-/* CSV: a row of values, deviations and, of what is uncertain, the shares of its inputs. */
-static bool print_row(shell *sh, const estimate *e, size_t count, const uncertainty_question *q,
-                      calc_error *error) {
-    const size_t shares = q ? q->count : 0, most = count * (2 + shares);
-    column *columns = calloc(most, sizeof *columns);
-    long double *si = calloc(most, sizeof *si);
-    size_t n = 0;
-    bool ok = columns && si;
-    for (size_t i = 0; i < count && ok; i++) {
-        char name[ARG_FILE_NAME];
-        si[n] = e[i].v;
-        ok = add_column(&columns[n++], e[i].c.name, &e[i].c);
-        snprintf(name, sizeof name, "%s deviation", e[i].c.name);
-        si[n] = e[i].deviation;
-        ok &= add_column(&columns[n++], name, &e[i].c);
-        for (size_t k = 0; k < shares && ok; k++) {
-            snprintf(name, sizeof name, "%s from %s", e[i].c.name, q->name[k].text);
-            si[n] = e[i].share[k];
-            ok = add_column(&columns[n++], name, NULL);
-        }
-    }
-    if (ok)
-        print_values(&sh->set, sh->out, columns, si, n);
-    for (size_t i = 0; columns && i < n; i++)
-        free(columns[i].name);
-    free(columns);
-    free(si);
-    return ok || calc_no_memory(error);
-}
-
-static bool print_estimates(shell *sh, const estimate *e, size_t count, const uncertainty_question *q,
-                            calc_error *error) {
-    sh->calc.ans = (value){e[count - 1].v, e[count - 1].c.d};
+/* As `ans`. */
+static void answered(shell *sh, long double v, dim d) {
+    sh->calc.ans = (value){v, d};
     sh->calc.has_ans = true;
-    if (sh->set.format == FORMAT_CSV)
-        return print_row(sh, e, count, q, error);
-    for (size_t i = 0; i < count; i++)
-        if (sh->set.format == FORMAT_JSON)
-            print_json_value(sh->out, e[i].c.name, e[i].v, e[i].c.d);
-        else
-            print_estimate(sh, e[i].c.name, &e[i]);
-    return true;
-}
-
-static void json_number_of(shell *sh, bool first, const char *name, double v) {
-    fputs(first ? "" : ",", sh->out);
-    print_json_string(sh->out, name);
-    if (isfinite(v))
-        fprintf(sh->out, ":%.17g", v);
-    else
-        fputs(":null", sh->out);
 }
 
 /* ---- fit: what is read ------------------------------------------------------------------------- */
@@ -319,71 +239,72 @@ static bool read_fit(shell *sh, lexer *lx, fit_question *q, csv *data, range_nam
 
 /* ---- fit: what is said ------------------------------------------------------------------------- */
 
-static void json_fit(shell *sh, const fit_question *q, const fit_answer *a) {
-    fprintf(sh->out, "{\"event\":\"fit\",\"rows\":%zu,\"evaluations\":%u,\"iterations\":%u", q->rows,
-            a->evaluations, a->iterations);
-    json_number_of(sh, false, "rms", a->rms);
-    json_number_of(sh, false, "neighbours", a->together);
-    fputs(",\"deviation\":{", sh->out);
+static void report_fit(answer *out, const fit_question *q, const fit_answer *a) {
+    answer_event(out, "fit");
+    answer_number(out, "rows", (double)q->rows);
+    answer_number(out, "evaluations", a->evaluations);
+    answer_number(out, "iterations", a->iterations);
+    answer_number(out, "rms", a->rms);
+    answer_number(out, "neighbours", a->together);
+    answer_group(out, "deviation");
     for (size_t i = 0; i < q->count; i++)
-        json_number_of(sh, i == 0, q->name[i].text, a->deviation[i]);
-    fputs("},\"correlation\":{", sh->out);
-    for (size_t i = 0, n = 0; i < q->count; i++)
+        answer_number(out, q->name[i].text, a->deviation[i]);
+    answer_up(out);
+    answer_group(out, "correlation");
+    for (size_t i = 0; i < q->count; i++)
         for (size_t j = i + 1; j < q->count; j++) {
             char pair[2 * LEX_NAME + 2];
             snprintf(pair, sizeof pair, "%s,%s", q->name[i].text, q->name[j].text);
-            json_number_of(sh, n++ == 0, pair, a->correlation[i][j]);
+            answer_number(out, pair, a->correlation[i][j]);
         }
-    fputs("}}\n", sh->out);
+    answer_up(out);
+    answer_done(out);
 }
 
-static void report_fit(shell *sh, const fit_question *q, const fit_answer *a) {
-    char text[COLUMN_UNIT + NUMBER_TEXT];
-    const bool plain = sh->set.format == FORMAT_TEXT;
-    if (sh->set.format == FORMAT_JSON)
-        json_fit(sh, q, a);
+/* What the event has is said in words to readers; what to think of it, to all. */
+static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_answer *a) {
+    char rms[COLUMN_UNIT + NUMBER_TEXT];
     for (size_t i = 0; i < q->count; i++)
         for (size_t j = i + 1; j < q->count; j++) {
-            if (plain)
-                fprintf(sh->out, "correlation of %s and %s = %.3g\n", q->name[i].text, q->name[j].text,
-                        a->correlation[i][j]);
+            answer_words(out, "correlation of %s and %s = %.3g\n", q->name[i].text, q->name[j].text,
+                         a->correlation[i][j]);
             if (fabs(a->correlation[i][j]) > 0.99)
-                shell_note(sh, "note: the data hardly tell %s and %s apart", q->name[i].text,
-                           q->name[j].text);
+                shell_note(sh, "the data hardly tell %s and %s apart", q->name[i].text, q->name[j].text);
         }
-    format_value(&sh->set, (value){a->rms, a->d}, text, sizeof text);
-    if (plain)
-        fprintf(sh->out, "rms = %s over %zu rows\n", text, q->rows);
+    format_value(&sh->set, (value){a->rms, a->d}, rms, sizeof rms);
+    answer_words(out, "rms = %s over %zu rows\n", rms, q->rows);
     for (size_t i = 0; i < q->count; i++)
         if (a->deviation[i] > fabs(a->value[i]))
-            shell_note(sh, "note: the data hardly determine %s", q->name[i].text);
+            shell_note(sh, "the data hardly determine %s", q->name[i].text);
     if (a->drifts)
-        shell_note(
-            sh,
-            "note: residuals go together from row to row (correlation %.2f): a drift, an offset or a model "
-            "that does not fit; the standard errors are too small",
-            a->together);
+        shell_note(sh,
+                   "residuals go together from row to row (correlation %.2f): a drift, an offset or a model "
+                   "that does not fit; the standard errors are too small",
+                   a->together);
     if (a->twice)
-        shell_note(
-            sh, "note: the loop is closed and does not begin at rest: run twice, the second time compared");
+        shell_note(sh, "the loop is closed and does not begin at rest: run twice, the second time compared");
     if (sh->set.timing)
-        shell_note(sh, "fit: Levenberg and Marquardt's method, %u iterations, %u evaluations of %zu rows",
-                   a->iterations, a->evaluations, q->rows);
+        shell_say(sh, "fit: Levenberg and Marquardt's method, %u iterations, %u evaluations of %zu rows",
+                  a->iterations, a->evaluations, q->rows);
 }
 
 static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, calc_error *error) {
-    estimate e[FIT_NAMES] = {{.v = 0}};
+    answer out;
+    column c[FIT_NAMES] = {{.name = NULL}};
     bool ok = true;
-    for (size_t i = 0; i < q->count; i++) {
-        e[i].v = a->value[i];
-        e[i].deviation = a->deviation[i];
-        ok &= column_si(&e[i].c, q->name[i].text, q->name[i].d);
-    }
-    ok = ok ? print_estimates(sh, e, q->count, NULL, error) : calc_no_memory(error);
-    if (ok)
-        report_fit(sh, q, a);
+    answer_begin(&out, &sh->set, sh->out);
     for (size_t i = 0; i < q->count; i++)
-        columns_free(&e[i].c, 1);
+        ok &= column_si(&c[i], q->name[i].text, q->name[i].d);
+    for (size_t i = 0; i < q->count && ok; i++)
+        answer_estimate(&out, &c[i], a->value[i], a->deviation[i]);
+    if (ok)
+        report_fit(&out, q, a);
+    ok = (answer_end(&out, ok) && ok) || calc_no_memory(error);
+    if (ok) {
+        answered(sh, a->value[q->count - 1], q->name[q->count - 1].d);
+        remark_fit(sh, &out, q, a);
+    }
+    columns_free(c, q->count);
     return ok;
 }
 
@@ -462,73 +383,64 @@ static bool read_sampling(shell *sh, lexer *lx, uncertainty_question *q) {
         }
 }
 
-static void json_uncertain(shell *sh, const uncertainty_question *q, const uncertainty_answer *a,
-                           const estimate *e) {
-    for (size_t k = 0; k < q->expressions; k++) {
-        const uncertain *u = &a->value[k];
-        fputs("{\"event\":\"uncertainty\",\"of\":", sh->out);
-        print_json_string(sh->out, e[k].c.name);
-        json_number_of(sh, false, "deviation", u->deviation);
-        fputs(",\"shares\":{", sh->out);
-        for (size_t i = 0; i < q->count; i++)
-            json_number_of(sh, i == 0, q->name[i].text, u->share[i]);
-        fputs("},\"Monte Carlo\":{", sh->out);
-        json_number_of(sh, true, "mean", u->mean);
-        json_number_of(sh, false, "deviation", u->spread);
-        fprintf(sh->out, ",\"samples\":%u,\"differs\":%s}}\n", u->samples, u->differs ? "true" : "false");
-    }
+static void report_uncertain(answer *out, const uncertainty_question *q, const uncertain *u,
+                             const column *c) {
+    answer_estimate(out, c, u->v, u->deviation);
+    answer_event(out, "uncertainty");
+    answer_string(out, "of", c->name);
+    answer_number(out, "deviation", u->deviation);
+    answer_group(out, "shares");
+    for (size_t i = 0; i < q->count; i++)
+        answer_share(out, q->name[i].text, u->share[i]);
+    answer_up(out);
+    answer_group(out, "Monte Carlo");
+    answer_number(out, "mean", u->mean);
+    answer_number(out, "deviation", u->spread);
+    answer_number(out, "samples", u->samples);
+    answer_flag(out, "differs", u->differs);
+    answer_up(out);
+    answer_done(out);
 }
 
-static void text_uncertain(shell *sh, const uncertainty_question *q, const uncertain *u, const estimate *e) {
-    const char *before = "    from ";
-    for (size_t i = 0; i < q->count; i++, before = ", ")
-        fprintf(sh->out, "%s%s %.3g %%", before, q->name[i].text, 100 * u->share[i]);
-    putc('\n', sh->out);
-    if (!u->differs)
-        return;
-    estimate sampled = *e;
-    fputs("    ", sh->out);
-    sampled.v = u->mean;
-    sampled.deviation = u->spread;
-    print_estimate(sh, "Monte Carlo", &sampled);
+/* Where samples say something else, and where they say nothing. */
+static void remark_uncertain(shell *sh, answer *out, const uncertainty_question *q, const uncertain *u,
+                             const column *c, const char *missing) {
+    column sampled = *c;
+    char name[] = "Monte Carlo";
+    sampled.name = name;
+    if (u->differs && !answer_beside(out, &sampled, u->mean, u->spread)) {
+        char mean[CALC_VALUE_TEXT], spread[CALC_VALUE_TEXT];
+        calc_value_text(u->d, u->mean, mean);
+        calc_value_text(u->d, u->spread, spread);
+        shell_note(sh, "the Monte Carlo says something else of %s: mean %s, deviation %s", c->name, mean,
+                   spread);
+    }
+    if (u->samples < q->samples)
+        shell_note(sh, "%u of %u samples of %s %s no value: %s", q->samples - u->samples, q->samples, c->name,
+                   q->samples - u->samples > 1 ? "have" : "has", missing);
 }
 
 static bool print_uncertain(shell *sh, const uncertainty_question *q, const uncertainty_answer *a,
-                            estimate *e, calc_error *error) {
+                            column *columns, calc_error *error) {
+    const uncertain *last = &a->value[q->expressions - 1];
+    answer out;
     for (size_t k = 0; k < q->expressions; k++) {
         const uncertain *u = &a->value[k];
-        if (!column_fits(&q->e[k], &e[k].c, (value){u->v, u->d}, error) ||
-            !column_fits(&q->e[k], &e[k].c, (value){u->deviation, u->d}, error))
+        if (!column_fits(&q->e[k], &columns[k], (value){u->v, u->d}, error) ||
+            !column_fits(&q->e[k], &columns[k], (value){u->deviation, u->d}, error))
             return false;
-        e[k].v = a->value[k].v;
-        e[k].deviation = a->value[k].deviation;
-        e[k].share = a->value[k].share;
     }
-    if (sh->set.format != FORMAT_TEXT && !print_estimates(sh, e, q->expressions, q, error))
-        return false;
-    if (sh->set.format == FORMAT_JSON)
-        json_uncertain(sh, q, a, e);
+    answer_begin(&out, &sh->set, sh->out);
     for (size_t k = 0; k < q->expressions; k++) {
-        const uncertain *u = &a->value[k];
-        if (sh->set.format == FORMAT_TEXT) {
-            print_estimates(sh, &e[k], 1, q, error); /* text: of no memory */
-            text_uncertain(sh, q, u, &e[k]);
-        }
-        if (u->differs && sh->set.format == FORMAT_CSV) {
-            char mean[CALC_VALUE_TEXT], spread[CALC_VALUE_TEXT];
-            calc_value_text(u->d, u->mean, mean);
-            calc_value_text(u->d, u->spread, spread);
-            shell_note(sh, "note: the Monte Carlo says something else of %s: mean %s, deviation %s",
-                       e[k].c.name, mean, spread);
-        }
-        if (u->samples < q->samples)
-            shell_note(sh, "note: %u of %u samples of %s %s no value: %s", q->samples - u->samples,
-                       q->samples, e[k].c.name, q->samples - u->samples > 1 ? "have" : "has",
-                       a->missing.text);
+        report_uncertain(&out, q, &a->value[k], &columns[k]);
+        remark_uncertain(sh, &out, q, &a->value[k], &columns[k], a->missing.text);
     }
+    if (!answer_end(&out, true))
+        return calc_no_memory(error);
+    answered(sh, last->v, last->d);
     if (sh->set.timing)
-        shell_note(sh, "uncertainty: differences of sixth order and %u samples (seed %u), %u evaluations",
-                   q->samples, q->seed, a->evaluations);
+        shell_say(sh, "uncertainty: differences of sixth order and %u samples (seed %u), %u evaluations",
+                  q->samples, q->seed, a->evaluations);
     return true;
 }
 
@@ -545,17 +457,13 @@ bool do_uncertainty(shell *sh, lexer *lx, const command *self) {
     uncertainty_question q = {.c = &sh->calc, .e = sh->list, .samples = usual_samples(sh), .seed = 1};
     uncertainty_answer *a = calloc(1, sizeof *a);
     column columns[UNCERTAIN_VALUES];
-    estimate *e = calloc(UNCERTAIN_VALUES, sizeof *e);
     (void)self;
-    bool ok = (a && e) || calc_no_memory(lx->error);
+    bool ok = a || calc_no_memory(lx->error);
     ok = ok && read_expressions(sh, lx, columns, UNCERTAIN_VALUES, &q.expressions);
-    for (size_t k = 0; k < q.expressions; k++)
-        e[k].c = columns[k];
     ok = ok && (lex_accept(lx, "with") || lex_fail(lx, "expected with NAME +- DEVIATION, ..."));
     ok = ok && read_uncertain(sh, lx, &q) && read_sampling(sh, lx, &q) && uncertainty(&q, a, lx->error) &&
-         print_uncertain(sh, &q, a, e, lx->error);
+         print_uncertain(sh, &q, a, columns, lx->error);
     columns_free(columns, q.expressions);
     free(a);
-    free(e);
     return ok;
 }

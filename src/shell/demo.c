@@ -2,11 +2,13 @@
 /* Plays scripted sessions: straight through, or a key per step at a terminal. A scene that one makes stays;
  * it is one change, for undo. */
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include "calc/file.h"
+#include "shell/answer.h"
 #include "shell/command.h"
 #include "shell/progress.h"
 #include "shell/record.h"
@@ -144,7 +146,21 @@ static bool ended(const lesson *l) {
     return l->sh->stopped || l->sh->refused || l->error->raised || shell_stop;
 }
 
-static void run_step(lesson *l, size_t i, size_t end, bool shown) {
+/* A line of the lesson, for who reads it: of CSV nobody does. */
+static void tell(const lesson *l, const char *prompt, const char *line) {
+    enum { LINE = 400 }; /* bytes: a line of a script is one of a terminal */
+    answer a;
+    char text[LINE];
+    snprintf(text, sizeof text, "%s%s", prompt, line);
+    answer_begin(&a, &l->set, l->sh->out);
+    answer_words(&a, "%s\n", text);
+    if (!*text)
+        return;
+    answer_message(&a, "text", text);
+    answer_done(&a);
+}
+
+static void run_step(lesson *l, size_t i, size_t end) {
     if (!l->before && i < end) {
         if (!(l->before = undo_mark(&l->sh->calc))) {
             calc_raise_memory(l->error);
@@ -153,25 +169,22 @@ static void run_step(lesson *l, size_t i, size_t end, bool shown) {
         begin(l);
     }
     for (; i < end && !ended(l); i++) {
-        if (shown)
-            fprintf(l->sh->out, "fret> %s\n", l->s->line[i]);
+        tell(l, "fret> ", l->s->line[i]);
         run(l, l->s->line[i]);
     }
 }
 
 /* False: it is over. *i: on to the next step, or back to one before. */
 static bool play_step(lesson *l, size_t *i) {
-    const bool shown = l->set.format == FORMAT_TEXT;
     const script *s = l->s;
     const size_t statements = statements_of(s, *i), end = end_of(s, *i);
-    FILE *out = l->sh->out;
-    if (shown && *i < statements)
-        fputc('\n', out);
-    for (size_t j = *i; shown && j < statements; j++)
-        fprintf(out, "%s\n", s->line[j]);
+    if (*i < statements)
+        tell(l, "", "");
+    for (size_t j = *i; j < statements; j++)
+        tell(l, "", s->line[j]);
     const wish w = l->keys && s->line[statements] ? ask(l->sh) : ON;
     if (w == ON) {
-        run_step(l, statements, end, shown);
+        run_step(l, statements, end);
         *i = end;
     } else if (w == BACK && l->before) {
         *i = step_before(s, *i);
@@ -186,8 +199,7 @@ static bool play(lesson *l) {
     const bool stopped = sh->stopped, refused = sh->refused, interactive = sh->interactive;
     const int depth = progress_apart();
     sh->stopped = sh->refused = sh->interactive = false; /* an error is one line */
-    if (l->set.format == FORMAT_TEXT)
-        fprintf(sh->out, "%s\n", l->s->title);
+    tell(l, "", l->s->title);
     for (size_t i = 0; l->s->line[i] && play_step(l, &i);)
         ;
     const bool ok = !ended(l);
@@ -236,7 +248,9 @@ bool do_demo(shell *sh, lexer *lx, const command *self) {
         return shell_stop ? calc_interrupted(lx->error) : false;
     if (text && l.before && shell_aside(sh, sh->out))
         fputs("The scene is the lesson's now: go on with it. `undo` brings back yours.\n", sh->out);
-    if (tour && text)
-        fputs("\nLessons, such as `demo pressing`: `show demos` lists them.\n", sh->out);
+    if (tour) {
+        tell(&l, "", "");
+        tell(&l, "", "Lessons, such as `demo pressing`: `show demos` lists them.");
+    }
     return true;
 }

@@ -6,11 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/characters.h"
+#include "calc/file.h"
 #include "calc/trial.h"
 #include "number/array.h"
+#include "shell/answer.h"
 #include "shell/command.h"
-#include "shell/output.h"
+#include "shell/lines.h"
 #include "shell/text.h"
 #include "shell/topics.h"
 #include "shell/typeset.h"
@@ -28,7 +29,7 @@ typedef struct part {
 /* Who explains where to. */
 typedef struct page {
     shell *sh;
-    FILE *to;
+    answer *out;
     bool conditioning; /* it is wanted */
     calc_error *error; /* raised: the page is not to be shown */
 } page;
@@ -42,37 +43,55 @@ static bool had(const page *p, bool ok, const calc_error *why) {
 
 /* ---- lines ------------------------------------------------------------------------------------- */
 
+/* An expression and its value, in the scene as it stands. */
 static void put_value(const page *p, const char *name, size_t len, value v) {
-    char text[160];
+    char text[160], unit_text[COLUMN_UNIT], *whole = column_name(name, len);
     format_value(&p->sh->set, v, text, sizeof text);
-    fprintf(p->to, "    %.*s = %s\n", (int)len, name, text);
+    answer_words(p->out, "    %.*s = %s\n", (int)len, name, text);
+    dim_unit(v.d, unit_text, sizeof unit_text);
+    if (!whole) {
+        calc_raise_memory(p->error);
+        return;
+    }
+    answer_string(p->out, "expression", whole);
+    answer_number(p->out, "value", (double)v.v);
+    answer_string(p->out, "unit", unit_text);
+    free(whole);
 }
 
 /* Broken at spaces, further lines indented more. */
-static void put_wrapped(FILE *to, const char *text) {
-    enum { LINE = 79, INDENT = 4 };
-    size_t used = 0;
-    while (*text) {
-        const size_t gap = strspn(text, " "), len = strcspn(text + gap, " ");
-        const size_t width = text_columns(text + gap, len);
-        const bool breaks = used > 0 && used + gap + width > LINE;
-        const size_t space = used == 0 ? INDENT : breaks ? (size_t)2 * INDENT : gap;
-        fprintf(to, "%s%*s%.*s", breaks ? "\n" : "", (int)space, "", (int)len, text + gap);
-        used = (breaks ? 0 : used) + space + width;
-        text += gap + len;
+static void put_wrapped(const page *p, const char *line) {
+    file_text wrapped;
+    bool ok = file_text_open(&wrapped);
+    if (ok)
+        help_wrapped(wrapped.to, line, 0, 8);
+    ok = ok && file_text_close(&wrapped);
+    if (!ok) {
+        calc_raise_memory(p->error);
+        return;
     }
-    fputc('\n', to);
+    answer_words(p->out, "%s", wrapped.text);
+    free(wrapped.text);
+}
+
+static void put_title(const page *p, const quantity *q) {
+    answer_words(p->out, "%s: %s\n", q->name, q->title);
+    answer_string(p->out, "name", q->name);
+    answer_string(p->out, "title", q->title);
 }
 
 static void put_formula(const page *p, const quantity *q, bool call) {
     const formula *f = quantity_formula(q, p->sh->calc.now, call);
     char set[512], line[600];
-    fprintf(p->to, "%s: %s\n", q->name, q->title);
+    put_title(p, q);
     if (typeset_unicode())
         typeset(f->text, set, sizeof set);
-    snprintf(line, sizeof line, "%s%s%s", typeset_unicode() ? set : f->text, f->equation ? "  " : "",
+    snprintf(line, sizeof line, "    %s%s%s", typeset_unicode() ? set : f->text, f->equation ? "  " : "",
              f->equation ? f->equation : "");
-    put_wrapped(p->to, line);
+    put_wrapped(p, line);
+    answer_string(p->out, "formula", f->text);
+    if (f->equation)
+        answer_string(p->out, "equation", f->equation);
 }
 
 /* Where a step mixes force and displacement, its path is a choice. */
@@ -84,6 +103,7 @@ static void put_paths(const page *p) {
                  {BY_DISPLACEMENT, BY_FORCE, "step dz= Fx=", "(F_N, F_x)"}};
     const scene *s = p->sh->calc.now;
     char plane[64];
+    bool any = false;
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++)
         for (size_t j = 1; j < s->end.steps; j++) {
             const load_step *step = &s->program->steps[j];
@@ -91,10 +111,16 @@ static void put_paths(const page *p) {
                 step->tangential != paths[i].tangential)
                 continue;
             typeset(paths[i].plane, plane, sizeof plane);
-            fprintf(p->to, "    path: %s goes straight in %s\n", paths[i].step,
-                    typeset_unicode() ? plane : paths[i].plane);
+            answer_words(p->out, "    path: %s goes straight in %s\n", paths[i].step,
+                         typeset_unicode() ? plane : paths[i].plane);
+            if (!any)
+                answer_group(p->out, "straight paths");
+            any = true;
+            answer_string(p->out, paths[i].step, paths[i].plane);
             break;
         }
+    if (any)
+        answer_up(p->out);
 }
 
 /* ---- the model --------------------------------------------------------------------------------- */
@@ -143,28 +169,32 @@ static bool by_chords(const page *p, model_id model, const expr *e, long double 
     return e && model == MODEL_MEMORY && s->answers.levels == LEVELS && by_runs(p, e, s->answers.run, at);
 }
 
-static void put_title(const page *p, model_id model, const char *then) {
+enum { MODEL_TEXT = 240 };
+
+static void name_model(const page *p, model_id model, char text[MODEL_TEXT]) {
     if (model == MODEL_SPRINGS)
-        fprintf(p->to, "    model: %u %s%s", p->sh->calc.now->springs, models[model].title, then);
+        snprintf(text, MODEL_TEXT, "%u %s", p->sh->calc.now->springs, models[model].title);
     else
-        fprintf(p->to, "    model: %s%s", models[model].title, then);
+        snprintf(text, MODEL_TEXT, "%s", models[model].title);
 }
 
-/* e: what is explained; NULL: it has no value. What that is good to; 0: nobody knows. */
-static double put_sine(const page *p, const quantity *q, bool call, model_id model, const expr *e) {
+/* How a swinging load has been run is added to `text`. e: what is explained; NULL: it has no value. What that
+ * is good to; 0: nobody knows. */
+static double describe_sine(const page *p, const quantity *q, bool call, model_id model, const expr *e,
+                            char text[MODEL_TEXT]) {
     const answers *a = &p->sh->calc.now->answers;
     const int finest = RUN_CHORDS << (LEVELS - 1);
     const bool limit = is_extrapolated(q, call);
     const double least = 1e-15;
     long double at[LEVELS];
-    put_title(p, model, ", ");
+    const size_t n = strlen(text), room = MODEL_TEXT - n;
     if (model == MODEL_MEMORY && a->levels == 1) { /* all that it answers: no function of another load */
-        fputs("the sine itself, event by event (exact)\n", p->to);
+        snprintf(text + n, room, ", the sine itself, event by event (exact)");
         return least;
     }
     if (!by_chords(p, model, e, at)) {
-        fprintf(p->to, "by %d chords a period of the sine%s\n", finest,
-                limit ? " and fewer, extrapolated" : "");
+        snprintf(text + n, room, ", by %d chords a period of the sine%s", finest,
+                 limit ? " and fewer, extrapolated" : "");
         return 0;
     }
     const long double last = fabsl(at[LEVELS - 1]), change = fabsl(at[LEVELS - 1] - at[LEVELS - 2]);
@@ -173,10 +203,11 @@ static double put_sine(const page *p, const quantity *q, bool call, model_id mod
                                               : 0),
                  good = round_up(fmax(unsure, least));
     if (limit)
-        fprintf(p->to, "converged to %.0e (the sine itself, by %d chords a period and fewer, extrapolated)\n",
-                good, finest);
+        snprintf(text + n, room,
+                 ", converged to %.0e (the sine itself, by %d chords a period and fewer, extrapolated)", good,
+                 finest);
     else
-        fprintf(p->to, "by %d chords a period of the sine, good to %.0e\n", finest, good);
+        snprintf(text + n, room, ", by %d chords a period of the sine, good to %.0e", finest, good);
     return good;
 }
 
@@ -189,13 +220,23 @@ static bool swings(scene *s) {
     return reach->swings;
 }
 
-static void put_law(FILE *to, const scene *s) {
+static void put_law(const page *p) {
+    const scene *s = p->sh->calc.now;
     const struct fret_table *rows = s->answers.normal ? fret_normal_gap(s->answers.normal)->table : NULL;
-    fprintf(to, "    law of the gap: %s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
+    char text[MODEL_TEXT];
+    const int n =
+        snprintf(text, sizeof text, "%s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
     if (rows && fret_table_within(rows) > 0)
-        fprintf(to, ", of %zu pieces within %.0e of the gap", fret_table_count(rows) - 1,
-                fret_table_within(rows));
-    fputc('\n', to);
+        snprintf(text + n, sizeof text - (size_t)n, ", of %zu pieces within %.0e of the gap",
+                 fret_table_count(rows) - 1, fret_table_within(rows));
+    answer_fact(p->out, "law of the gap", text);
+}
+
+static void put_repeated(const page *p, unsigned periods) {
+    char text[MODEL_TEXT];
+    snprintf(text, sizeof text, "%u more period%s the last one that was run", periods,
+             periods == 1 ? " repeats" : "s repeat");
+    answer_fact(p->out, "cycle", text);
 }
 
 /* Of a load that swings *sine tells what that is good to; 0: nobody knows. */
@@ -203,20 +244,23 @@ static model_id put_model(const page *p, const quantity *q, bool call, const exp
     scene *s = p->sh->calc.now;
     const model_id model = quantity_model(q, s, call);
     const bool stepped = models[model].steps;
+    char text[MODEL_TEXT];
     *sine = 0;
+    name_model(p, model, text);
+    const size_t n = strlen(text);
     if (stepped && (q->reads & INPUT_BIT(IN_MU)) && swings(s))
-        *sine = put_sine(p, q, call, model, e);
+        *sine = describe_sine(p, q, call, model, e, text);
     else if (model == MODEL_PIECES)
-        fprintf(p->to, "    model: %s, with %s over the gap\n", models[MODEL_CLOSED].title,
-                models[MODEL_PIECES].title);
-    else
-        put_title(p, model, model == MODEL_MEMORY ? " (exact)\n" : "\n");
+        snprintf(text, sizeof text, "%s, with %s over the gap", models[MODEL_CLOSED].title,
+                 models[MODEL_PIECES].title);
+    else if (model == MODEL_MEMORY)
+        snprintf(text + n, sizeof text - n, " (exact)");
+    answer_fact(p->out, "model", text);
     if ((model == MODEL_MEMORY || model == MODEL_PIECES) && s->used & USED(MODEL_PIECES))
-        put_law(p->to, s);
+        put_law(p);
     if (stepped && (q->reads & INPUT_BIT(IN_MU))) {
         if (model == MODEL_MEMORY && s->answers.levels && s->answers.run[0].repeated)
-            fprintf(p->to, "    cycle: %u more period%s the last one that was run\n",
-                    s->answers.run[0].repeated, s->answers.run[0].repeated == 1 ? " repeats" : "s repeat");
+            put_repeated(p, s->answers.run[0].repeated);
         put_paths(p);
     }
     return model;
@@ -251,6 +295,12 @@ static bool exact_value(const page *p, const expr *e, value *v) {
     return had(p, ok, &ignored);
 }
 
+/* For programs: a part of what. */
+static void say_error(const page *p, double error, const char *of) {
+    answer_number(p->out, "error", error);
+    answer_string(p->out, "error of", of);
+}
+
 /* Of springs, which are an approximation. */
 static void put_difference(const page *p, const expr *e, value v) {
     char text[160];
@@ -259,10 +309,13 @@ static void put_difference(const page *p, const expr *e, value v) {
         return;
     const long double off = fabsl(v.v - exact.v);
     format_value(&p->sh->set, (value){off, v.d}, text, sizeof text);
-    if (off > 0 && exact.v != 0)
-        fprintf(p->to, "    error: %.1Le of the value, beside the exact one\n", off / fabsl(exact.v));
-    else
-        fprintf(p->to, "    error: %s, beside the exact value\n", text);
+    if (off > 0 && exact.v != 0) {
+        answer_words(p->out, "    error: %.1Le of the value, beside the exact one\n", off / fabsl(exact.v));
+        say_error(p, (double)(off / fabsl(exact.v)), "value");
+    } else {
+        answer_words(p->out, "    error: %s, beside the exact value\n", text);
+        answer_number(p->out, "absolute error", (double)off);
+    }
 }
 
 /* What the value is good to, as README says under `How exact`. */
@@ -274,7 +327,8 @@ static void put_error(const page *p, const quantity *q, bool call, model_id mode
     good = fmax(good, sine);
     if (s->used & USED(MODEL_PIECES))
         good = fmax(good, s->pieces_error);
-    fprintf(p->to, "    error: below %.0e of the %s\n", round_up(good), of);
+    answer_words(p->out, "    error: below %.0e of the %s\n", round_up(good), of);
+    say_error(p, round_up(good), of);
 }
 
 /* ---- inputs and conditioning ------------------------------------------------------------------- */
@@ -299,7 +353,7 @@ static void put_inputs(const page *p, const quantity *q, const influence_study *
         if (set && row != q && (q->reads & ~of_load & INPUT_BIT(in)) &&
             !(in == IN_C0 && s->in.v[IN_K] == 0) && has_effect(study, in) &&
             had(p, scene_get(s, in, &v.v, &ignored), &ignored))
-            put_value(p, row->name, strlen(row->name), v);
+            answer_quantity(p->out, row->name, v);
     }
 }
 
@@ -325,7 +379,7 @@ static void put_cycle(const page *p, const influence_study *study) {
     for (size_t i = 0; i < study->count; i++) {
         const cause *c = &study->cause[i];
         if (c->kind == CAUSE_INPUT && (INPUT_BIT(c->in) & INPUT_CYCLE) && c->influence != INFLUENCE_NONE)
-            put_value(p, c->name, strlen(c->name), c->v);
+            answer_quantity(p->out, c->name, c->v);
     }
 }
 
@@ -341,52 +395,78 @@ static void put_load(const page *p, const quantity *q, const influence_study *st
         matters = matters || (cause_is_load(&study->cause[i]) && study->cause[i].influence != INFLUENCE_NONE);
     if (!matters || !q->load || quantity_is_input(q) || !had(p, scene_press(s, &press, &ignored), &ignored))
         return;
-    put_value(p, "FN now", 6, (value){press->F, DIM_FORCE});
+    answer_quantity(p->out, "FN now", (value){press->F, DIM_FORCE});
     if (is_of_cycle(q))
         put_cycle(p, study);
     else if (is_pushed(study) && strcmp(q->name, "Fx") && had(p, scene_state(s, &state, &ignored), &ignored))
-        put_value(p, "Fx now", 6, (value){state->Fx, DIM_FORCE});
+        answer_quantity(p->out, "Fx now", (value){state->Fx, DIM_FORCE});
+}
+
+static const char *const not_shown[] = {"no effect", "condition number below 0.01",
+                                        "not smooth here, or hidden by rounding", "left out after 3 seconds",
+                                        "0 has no last digit"};
+
+static const char *argument_of(const cause *c) {
+    return c->kind == CAUSE_ARGUMENT ? "argument " : "";
 }
 
 static void put_cause(const page *p, const cause *c) {
     char head[220], text[160];
     format_value(&p->sh->set, c->v, text, sizeof text);
-    snprintf(head, sizeof head, "%s%s %s %s", c->kind == CAUSE_ARGUMENT ? "argument " : "", c->name,
-             c->increment ? "+=" : "=", text);
-    fprintf(p->to, "    %-20s  %10.1Le  %14.1Le  %16.2Lg%s\n", head, c->digit, c->change,
-            c->change / c->digit, c->refused ? "  (at the end of its range)" : "");
+    snprintf(head, sizeof head, "%s%s %s %s", argument_of(c), c->name, c->increment ? "+=" : "=", text);
+    answer_words(p->out, "    %-20s  %10.1Le  %14.1Le  %16.2Lg%s\n", head, c->digit, c->change,
+                 c->change / c->digit, c->refused ? "  (at the end of its range)" : "");
+}
+
+/* For programs: all causes, in their order. */
+static void list_causes(const page *p, const influence_study *study) {
+    answer_items(p->out, "conditioning");
+    for (size_t i = 0; i < study->count; i++) {
+        const cause *c = &study->cause[i];
+        char name[220];
+        snprintf(name, sizeof name, "%s%s", argument_of(c), c->name);
+        answer_item(p->out);
+        answer_string(p->out, "of", name);
+        answer_number(p->out, "value", (double)c->v.v);
+        if (c->influence == INFLUENCE_SHOWN) {
+            answer_number(p->out, "last digit", (double)c->digit);
+            answer_number(p->out, "moves", (double)c->change);
+            answer_number(p->out, "condition number", (double)(c->change / c->digit));
+            answer_flag(p->out, "at the end of its range", c->refused);
+        } else {
+            answer_string(p->out, "not shown", not_shown[c->influence]);
+        }
+        answer_item_up(p->out);
+    }
+    answer_items_up(p->out);
 }
 
 static void put_conditioning(const page *p, const char *name, const influence_study *study) {
-    static const char *const not_shown[] = {"no effect", "condition number below 0.01",
-                                            "not smooth here, or hidden by rounding",
-                                            "left out after 3 seconds", "0 has no last digit"};
     char moves[100];
     snprintf(moves, sizeof moves, "moves %s by", name);
     bool headed = false;
+    list_causes(p, study);
     for (size_t i = 0; i < study->count; i++) {
         if (study->cause[i].influence != INFLUENCE_SHOWN)
             continue;
         if (!headed)
-            fprintf(p->to, "    %-20s  last digit  %14s  condition number\n", "conditioning", moves);
+            answer_words(p->out, "    %-20s  last digit  %14s  condition number\n", "conditioning", moves);
         headed = true;
         put_cause(p, &study->cause[i]);
     }
     for (influence kind = INFLUENCE_SHOWN; kind-- > INFLUENCE_NONE;) {
-        const char *separator = NULL;
+        bool any = false;
         for (size_t i = 0; i < study->count; i++) {
             const cause *c = &study->cause[i];
             if (c->influence != kind)
                 continue;
-            if (separator)
-                fputs(separator, p->to);
-            else
-                fprintf(p->to, "    %s: ", not_shown[kind]);
-            fprintf(p->to, "%s%s", c->kind == CAUSE_ARGUMENT ? "argument " : "", c->name);
-            separator = ", ";
+            if (!any)
+                answer_words(p->out, "    %s: ", not_shown[kind]);
+            answer_words(p->out, "%s%s%s", any ? ", " : "", argument_of(c), c->name);
+            any = true;
         }
-        if (separator)
-            fputc('\n', p->to);
+        if (any)
+            answer_words(p->out, "\n");
     }
 }
 
@@ -417,16 +497,22 @@ static void explain_input(const page *p, const quantity *q) {
     value v = {0, quantity_dim(q, c->now)};
     calc_error ignored;
     error_clear(&ignored);
+    answer_page(p->out, "explain");
     put_formula(p, q, false);
     if (had(p, quantity_get(q, c->now, &v.v, &ignored), &ignored))
         put_value(p, q->name, strlen(q->name), v);
+    answer_done(p->out);
 }
 
 /* A function without an argument: no value. */
 static void explain_function(const page *p, const quantity *q) {
     const influence_study nothing = {.count = 0};
+    answer_page(p->out, "explain");
     put_formula(p, q, true);
+    answer_group(p->out, "numbers");
     put_inputs(p, q, &nothing);
+    answer_up(p->out);
+    answer_done(p->out);
 }
 
 /* Does it stand for many values: within a function, of what that is given? */
@@ -456,10 +542,13 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
         ok = influences(c, &e, v.v, of->call ? q : NULL, argument, &study, error);
     if (ok) {
         double sine;
+        answer_page(p->out, "explain");
         put_formula(p, q, of->call);
+        answer_group(p->out, "numbers");
         put_inputs(p, q, &study);
         if (has)
             put_load(p, q, &study);
+        answer_up(p->out);
         const model_id model = put_model(p, q, of->call, has ? &e : NULL, &sine);
         if (has)
             put_value(p, of->text, of->len, v);
@@ -470,6 +559,8 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
     }
     if (ok && whole && p->conditioning)
         put_conditioning(p, q->name, &study);
+    if (ok)
+        answer_done(p->out);
     expr_free(&e);
     expr_free(&unused);
     return ok;
@@ -512,9 +603,11 @@ static bool explain_whole(const page *p, const expr *e, value v, calc_error *err
     influence_study study;
     if (p->conditioning && !influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, error))
         return false;
+    answer_page(p->out, "explain");
     put_value(p, e->text + e->at, e->len, v);
     if (p->conditioning)
         put_conditioning(p, "it", &study);
+    answer_done(p->out);
     return true;
 }
 
@@ -550,9 +643,11 @@ static void explain_call(const page *p, const part *of, const definition *in, bo
     expr e = {0};
     value v;
     if (!(in && is_free(of, in)) && text_value(p, of->text, of->len, &e, &v)) {
+        answer_page(p->out, "explain");
         if (title)
-            fprintf(p->to, "%s: %s\n", of->q->name, of->q->title);
+            put_title(p, of->q);
         put_value(p, of->text, of->len, v);
+        answer_done(p->out);
     }
     expr_free(&e);
 }
@@ -626,9 +721,9 @@ static bool no_quantity(shell *sh, lexer *lx) {
     for (const char *name; (name = builtin_name(i)); i++)
         if (lex_is(lx, name))
             return false;
-    const char *answer = lead_from(word), *near = answer ? answer : suggest(word, quantity_name);
+    const char *lead = lead_from(word), *near = lead ? lead : suggest(word, quantity_name);
     lex_fail(lx,
-             answer ? "'%s' is no quantity: %s"
+             lead   ? "'%s' is no quantity: %s"
              : near ? "'%s' is no quantity: did you mean %s?"
                     : "'%s' is no quantity; try: explain dW",
              word, near);
@@ -667,21 +762,32 @@ static bool explain_mismatch(shell *sh, lexer *lx) {
     const fret_normal *normal;
     calc_error ignored;
     text_out text;
+    answer out;
     error_clear(&ignored);
-    if (!text_begin(&text, &sh->set, sh->out, TEXT_WORDS))
+    if (!text_begin(&text, &sh->set, sh->out, TEXT_ANSWERS))
         return calc_no_memory(lx->error);
-    if (scene_normal(&sh->calc.scene, &normal, &ignored))
-        fprintf(text.to, "mismatch = %.3g\n\n", (double)fret_normal_foundation(normal)->mismatch);
-    fputs(coupling_text, text.to);
+    answer_begin(&out, &sh->set, text.to);
+    answer_page(&out, "explain");
+    answer_string(&out, "name", "mismatch");
+    if (scene_normal(&sh->calc.scene, &normal, &ignored)) {
+        const double mismatch = (double)fret_normal_foundation(normal)->mismatch;
+        answer_words(&out, "mismatch = %.3g\n\n", mismatch);
+        answer_number(&out, "value", mismatch);
+    }
+    answer_words(&out, "%s", coupling_text);
+    answer_string(&out, "text", coupling_text);
+    answer_done(&out);
     return text_end(&text, true) || calc_no_memory(lx->error);
 }
 
 static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *asked, value v,
                     bool conditioning, lexer *lx) {
     text_out text;
-    if (!text_begin(&text, &sh->set, sh->out, TEXT_WORDS))
+    answer out;
+    if (!text_begin(&text, &sh->set, sh->out, TEXT_ANSWERS))
         return calc_no_memory(lx->error);
-    const page p = {sh, text.to, conditioning, lx->error};
+    answer_begin(&out, &sh->set, text.to);
+    const page p = {sh, &out, conditioning, lx->error};
     bool ok = true;
     if (bare && bare->of == OF_INPUT)
         explain_input(&p, bare);

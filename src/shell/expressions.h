@@ -3,8 +3,8 @@
 #ifndef SHELL_EXPRESSIONS_H
 #define SHELL_EXPRESSIONS_H
 
+#include "shell/answer.h"
 #include "shell/args.h"
-#include "shell/output.h"
 
 /* Into sh->list and columns, which are to be freed whatever comes; at most limit. */
 bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_t *count);

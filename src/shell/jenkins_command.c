@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "calc/trial.h"
-#include "shell/output.h"
+#include "shell/answer.h"
 #include "shell/progress.h"
 #include "shell/study_commands.h"
 #include "shell/target.h"
@@ -22,27 +22,46 @@ typedef struct model {
 
 /* ---- forms ------------------------------------------------------------------------------------- */
 
-static void write_csv(const model *m, FILE *to) {
+static bool write_csv(const settings *set, const model *m, FILE *to) {
+    static const dim stiffness = {1, -1, 0};
+    answer a;
+    column columns[2] = {{.name = NULL}};
+    const bool ok = column_si(&columns[0], "k", stiffness) && column_si(&columns[1], "slip", DIM_FORCE);
     fprintf(to, "# parallel Jenkins elements of a contact at F_N = %.17g N, mu = %.17g\n",
             (double)m->contact.press.F, m->contact.mu);
     fprintf(to, "# worst error of the energy per cycle, up to the amplitude %.17g m: %.17g J\n",
             m->quality.most, m->quality.worst);
-    fputs("k [N/m],slip [N]\n", to);
-    for (unsigned i = 0; i < m->count; i++)
-        fprintf(to, "%.17g,%.17g\n", m->element[i].k, m->element[i].s);
+    answer_begin_as(&a, set, to, FORMAT_CSV);
+    if (ok)
+        answer_columns(&a, "export", columns, 2);
+    for (unsigned i = 0; ok && i < m->count; i++)
+        answer_row(&a, (const long double[]){m->element[i].k, m->element[i].s});
+    columns_free(columns, 2);
+    return answer_end(&a, ok) && ok;
 }
 
-static void write_json(const model *m, FILE *to) {
-    fprintf(
-        to,
-        "{\"model\":\"jenkins\",\"FN\":%.17g,\"mu\":%.17g,\"error\":%.17g,\"amplitude\":%.17g,\"elements\":[",
-        (double)m->contact.press.F, m->contact.mu, m->quality.worst, m->quality.most);
-    for (unsigned i = 0; i < m->count; i++)
-        fprintf(to, "%s{\"k\":%.17g,\"slip\":%.17g}", i ? "," : "", m->element[i].k, m->element[i].s);
-    fputs("]}\n", to);
+static bool write_json(const settings *set, const model *m, FILE *to) {
+    answer a;
+    answer_begin_as(&a, set, to, FORMAT_JSON);
+    answer_message(&a, "model", "jenkins");
+    answer_number(&a, "FN", (double)m->contact.press.F);
+    answer_number(&a, "mu", m->contact.mu);
+    answer_number(&a, "error", m->quality.worst);
+    answer_number(&a, "amplitude", m->quality.most);
+    answer_items(&a, "elements");
+    for (unsigned i = 0; i < m->count; i++) {
+        answer_item(&a);
+        answer_number(&a, "k", m->element[i].k);
+        answer_number(&a, "slip", m->element[i].s);
+        answer_item_up(&a);
+    }
+    answer_items_up(&a);
+    answer_done(&a);
+    return answer_end(&a, true);
 }
 
-static void write_header(const model *m, FILE *to) {
+static bool write_header(const settings *set, const model *m, FILE *to) {
+    (void)set;
     fprintf(
         to,
         "/* Parallel Jenkins elements, each a spring k [N/m] in line with a slider of the force slip [N], of "
@@ -57,18 +76,19 @@ static void write_header(const model *m, FILE *to) {
     for (unsigned i = 0; i < m->count; i++)
         fprintf(to, "    {%.17g, %.17g},\n", m->element[i].k, m->element[i].s);
     fputs("};\n#endif\n", to);
+    return true;
 }
 
-typedef void writer(const model *m, FILE *to);
+/* False: out of memory. */
+typedef bool writer(const settings *set, const model *m, FILE *to);
 static const struct {
     const char *ending;
     writer *write;
 } forms[] = {{".csv", write_csv}, {".json", write_json}, {".h", write_header}};
 
 static writer *form_of(const char *name, calc_error *error, size_t at, size_t len) {
-    const char *base = strrchr(name, '/'), *dot = strrchr(base ? base : name, '.');
-    for (size_t i = 0; dot && i < sizeof forms / sizeof *forms; i++)
-        if (!strcmp(dot, forms[i].ending))
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (file_ends(name, forms[i].ending))
             return forms[i].write;
     calc_fail(error, at, len, "cannot tell the form of a model from '%s': use .csv, .json or .h", name);
     return NULL;
@@ -143,8 +163,8 @@ static bool write_model(shell *sh, lexer *lx, const request *r, const model *m) 
     file_report report;
     if (!file_out_open(&file, r->name, &shell_stop, lx->error))
         return calc_place(lx->error, r->at, r->len);
-    r->write(m, file.to);
-    if (!file_out_close(&file, true, &report, lx->error))
+    const bool ok = r->write(&sh->set, m, file.to) || calc_no_memory(lx->error);
+    if (!file_out_close(&file, ok, &report, lx->error) || !ok)
         return calc_place(lx->error, r->at, r->len);
     target_report(sh, r->name, &report);
     return true;
@@ -154,14 +174,21 @@ static bool write_model(shell *sh, lexer *lx, const request *r, const model *m) 
 static bool give_model(shell *sh, lexer *lx, const request *r, const model *m) {
     column columns[2] = {{.name = NULL}};
     const long double si[] = {m->quality.worst, m->quality.worst / m->quality.scale};
-    const bool ok = ((column_si(&columns[0], "error of dW", DIM_ENERGY) &&
-                      column_si(&columns[1], "relative", DIM_NONE)) ||
-                     calc_no_memory(lx->error)) &&
-                    write_model(sh, lx, r, m);
-    if (ok)
-        print_values(&sh->set, sh->out, columns, si, 2);
-    if (ok && sh->set.format == FORMAT_JSON)
-        fprintf(sh->out, "{\"event\":\"export\",\"model\":\"jenkins\",\"elements\":%u}\n", m->count);
+    answer a;
+    bool ok = ((column_si(&columns[0], "error of dW", DIM_ENERGY) &&
+                column_si(&columns[1], "relative", DIM_NONE)) ||
+               calc_no_memory(lx->error)) &&
+              write_model(sh, lx, r, m);
+    if (ok) {
+        answer_begin(&a, &sh->set, sh->out);
+        for (int i = 0; i < 2; i++)
+            answer_value(&a, &columns[i], si[i]);
+        answer_event(&a, "export");
+        answer_string(&a, "model", "jenkins");
+        answer_number(&a, "elements", m->count);
+        answer_done(&a);
+        ok = answer_end(&a, true) || calc_no_memory(lx->error);
+    }
     columns_free(columns, 2);
     return ok;
 }

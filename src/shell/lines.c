@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "calc/characters.h"
+
 const char *strip_prompt(const char *line, size_t *len) {
     static const char *const prompts[] = {"fret>", "....>"};
     enum { PROMPT = 5 };
@@ -48,19 +50,12 @@ void list_word(char *buf, size_t size, const char *word, bool last) {
 
 void help_wrapped(FILE *to, const char *text, size_t at, size_t indent) {
     enum { WIDTH = 79 };
-    for (size_t gap = 0; *text;) {
-        const size_t n = strcspn(text, " ");
-        if (gap && at + gap + n > WIDTH) {
+    for (size_t left = strlen(text); left > 0; at = indent) {
+        const char *row = text;
+        const size_t n = text_break(&text, &left, WIDTH - at);
+        fwrite(row, 1, n, to);
+        if (left)
             fprintf(to, "\n%*s", (int)indent, "");
-            at = indent;
-        } else {
-            fprintf(to, "%*s", (int)gap, "");
-            at += gap;
-        }
-        fwrite(text, 1, n, to);
-        at += n;
-        gap = strspn(text + n, " ");
-        text += n + gap;
     }
     putc('\n', to);
 }

@@ -94,8 +94,8 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
     if (sh->set.report == REPORT_OFF)
         sh->set.report = before.report;
     if (ok && sh->set.timing && work.frames)
-        shell_note(sh, "live: %zu frames, %.3g ms of work each, %.3g ms the longest", work.frames,
-                   1e3 * work.total / (double)work.frames, 1e3 * work.worst);
+        shell_say(sh, "live: %zu frames, %.3g ms of work each, %.3g ms the longest", work.frames,
+                  1e3 * work.total / (double)work.frames, 1e3 * work.worst);
     return ok;
 }
 

@@ -6,19 +6,18 @@
 #include <string.h>
 
 #include "calc/csv.h"
+#include "shell/answer.h"
 #include "shell/command.h"
-#include "shell/output.h"
 #include "shell/progress.h"
 
 /* ---- reports ----------------------------------------------------------------------------------- */
 
 enum { REPORTED = 8 }; /* quantities at most */
 
-/* Events are data where answers are JSON; else they are for who types. */
+/* Programs are told of all; else a report is for who types. */
 static bool reports(const shell *sh) {
     return sh->set.report == REPORT_ON ||
-           (sh->set.report == REPORT_AUTO &&
-            (sh->interactive || sh->replaying || sh->set.format == FORMAT_JSON));
+           (sh->set.report == REPORT_AUTO && (sh->interactive || sh->replaying || answer_is_data(&sh->set)));
 }
 
 /* What they are is found first: it may take its time, and show that. */
@@ -36,20 +35,15 @@ static void report_event(shell *sh, const char *event, const char *const *names)
         count += quantity_get(of[count], &sh->calc.scene, &v[count].v, &error);
     }
     progress_wipe();
-    const bool json = sh->set.format == FORMAT_JSON;
-    if (!json && sh->set.report == REPORT_AUTO)
+    if (sh->set.report == REPORT_AUTO && !answer_is_data(&sh->set))
         shell_aside(sh, sh->out);
-    if (json)
-        fprintf(sh->out, "{\"event\":\"%s\"", event);
-    for (size_t i = 0; i < count; i++) {
-        char text[160];
-        format_value(&sh->set, v[i], text, sizeof text);
-        if (json)
-            fprintf(sh->out, ",\"%s\":%.17g", of[i]->name, (double)v[i].v);
-        else
-            fprintf(sh->out, "%s%s = %s", i ? ", " : "  ", of[i]->name, text);
-    }
-    fputs(json ? "}\n" : "\n", sh->out);
+    answer a;
+    answer_begin(&a, &sh->set, sh->out);
+    answer_report(&a, event);
+    for (size_t i = 0; i < count; i++)
+        answer_quantity(&a, of[i]->name, v[i]);
+    answer_done(&a);
+    answer_end(&a, true);
 }
 
 /* ---- press, step, cycle ------------------------------------------------------------------------ */

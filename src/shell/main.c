@@ -101,9 +101,8 @@ static int take_tolerance(wishes *w, const char *text) {
 }
 
 static int take_format(settings *set, const char *text) {
-    static const char *const names[] = {[FORMAT_TEXT] = "text", [FORMAT_CSV] = "csv", [FORMAT_JSON] = "json"};
-    for (int i = 0; i < 3; i++)
-        if (!strcmp(names[i], text)) {
+    for (int i = 0; format_names[i]; i++)
+        if (!strcmp(format_names[i], text)) {
             set->format = i;
             return EXIT_OK;
         }

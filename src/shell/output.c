@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values and tables as text, CSV or JSON. Writes to the streams that it is given. */
+/* Numbers, values and columns as text. Writes to the streams that it is given. */
 #include "shell/output.h"
 
 #include <float.h>
@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "calc/characters.h"
-#include "shell/progress.h"
 
 /* ---- numbers ----------------------------------------------------------------------------------- */
 
@@ -75,8 +74,7 @@ size_t number_text(char text[NUMBER_TEXT], int digits, double v) {
     return (size_t)(p - text);
 }
 
-/* In a field of `width`, to the right. */
-static void put_number(FILE *to, int width, int digits, double v) {
+void print_number(FILE *to, int width, int digits, double v) {
     static const char blanks[] = "                        ";
     char text[NUMBER_TEXT];
     size_t n = number_text(text, digits, v);
@@ -106,39 +104,6 @@ void print_safe(FILE *to, const char *text, size_t len) {
     }
 }
 
-/* Length of the printable ASCII that begins there and stands for itself in JSON: most names are that. */
-static size_t json_plain(const char *text) {
-    size_t n = 0;
-    while (text[n] >= ' ' && text[n] < 0x7f && text[n] != '"' && text[n] != '\\')
-        n++;
-    return n;
-}
-
-void print_json_string(FILE *to, const char *text) {
-    putc('"', to);
-    size_t plain = json_plain(text);
-    fwrite(text, 1, plain, to);
-    text += plain;
-    size_t left = strlen(text);
-    while (left > 0) {
-        unsigned code;
-        size_t n = character_at(text, left, &code);
-        if (n == 0) {
-            fputs("\\ufffd", to);
-            n = 1;
-        } else if (code == '"' || code == '\\') {
-            fprintf(to, "\\%c", *text);
-        } else if (code < 0x10000 && !character_shows(code)) {
-            fprintf(to, "\\u%04x", code);
-        } else {
-            fwrite(text, 1, n, to);
-        }
-        text += n;
-        left -= n;
-    }
-    putc('"', to);
-}
-
 /* ---- values ------------------------------------------------------------------------------------ */
 
 void format_value(const settings *set, value v, char *buf, size_t size) {
@@ -164,14 +129,6 @@ void format_exact(value v, char *buf, size_t size) {
         dim_unit(v.d, unit_text, sizeof unit_text);
     }
     snprintf(buf, size, "%s%s%s", number, *unit_text ? " " : "", unit_text);
-}
-
-/* JSON has no infinities; results never are, but a table may hold gaps. */
-static void json_number(FILE *to, long double v) {
-    if (isfinite((double)v))
-        put_number(to, 0, 17, (double)v);
-    else
-        fputs("null", to);
 }
 
 /* ---- columns ----------------------------------------------------------------------------------- */
@@ -221,58 +178,6 @@ void columns_free(column *c, size_t count) {
     }
 }
 
-static void csv_field(FILE *to, const column *c) {
-    const bool quoted = strchr(c->name, ',') != NULL; /* quotes and ends of lines are in no name */
-    if (quoted)
-        putc('"', to);
-    fputs(c->name, to);
-    if (*c->unit)
-        fprintf(to, " [%s]", c->unit);
-    if (quoted)
-        putc('"', to);
-}
-
-static void print_text(const settings *set, FILE *to, const column *c, long double v) {
-    char text[COLUMN_UNIT + NUMBER_TEXT + 2], number[NUMBER_TEXT];
-    if (c->chosen) {
-        number_text(number, set->digits, (double)(v / c->scale));
-        snprintf(text, sizeof text, "%s %s", number, c->unit);
-    } else {
-        format_value(set, (value){v, c->d}, text, sizeof text);
-    }
-    fprintf(to, "%s = %s\n", c->name, text);
-}
-
-void print_json_value(FILE *to, const char *name, long double v, dim d) {
-    char unit_text[COLUMN_UNIT];
-    dim_unit(d, unit_text, sizeof unit_text);
-    fputs("{\"name\":", to);
-    print_json_string(to, name);
-    fputs(",\"value\":", to);
-    json_number(to, v);
-    fputs(",\"unit\":", to);
-    print_json_string(to, unit_text);
-    fputs("}\n", to);
-}
-
-void print_values(const settings *set, FILE *to, const column *columns, const long double *si, size_t count) {
-    if (set->format == FORMAT_CSV) {
-        table t = {.set = set, .to = to, .format = FORMAT_CSV, .count = count, .columns = columns};
-        table_begin(&t);
-        table_row(&t, si);
-        return;
-    }
-    for (size_t i = 0; i < count; i++)
-        if (set->format == FORMAT_TEXT)
-            print_text(set, to, &columns[i], si[i]);
-        else
-            print_json_value(to, columns[i].name, si[i], columns[i].d);
-}
-
-/* ---- tables ------------------------------------------------------------------------------------ */
-
-enum { TABLE_HELD = 2000 };
-
 /* The unit that suits magnitudes: its prefix fits their middle in decades, but one that would leave five
  * digits before the point of the largest gives way to one that fits that. What is 1e-6 of the largest is as
  * good as 0. */
@@ -295,123 +200,4 @@ static long double suitable(dim d, const long double *v, size_t count, size_t st
 void column_suit(column *c, const long double *v, size_t count, size_t stride, int digits) {
     if (!c->chosen)
         c->scale = suitable(c->d, v, count, stride, digits, c->unit);
-}
-
-/* The unit of a text column: the one that was asked for, or one that suits what is held. */
-static void choose_unit(table *t, size_t i, char unit_text[COLUMN_UNIT]) {
-    const column *c = &t->columns[i];
-    t->scale[i] = c->scale;
-    snprintf(unit_text, COLUMN_UNIT, "%s", c->unit);
-    if (!c->chosen)
-        t->scale[i] = suitable(c->d, t->held + i, t->rows, t->count + 1, t->set->digits, unit_text);
-}
-
-/* As wide as a number with its digits, or as the name. */
-static void text_head(table *t) {
-    for (size_t i = 0; i < t->count; i++) {
-        char unit_text[COLUMN_UNIT];
-        const column *c = &t->columns[i];
-        choose_unit(t, i, unit_text);
-        const size_t unit_width = text_columns(unit_text, strlen(unit_text)),
-                     head = text_columns(c->name, strlen(c->name)) + (*unit_text ? unit_width + 3 : 0);
-        const size_t number = (size_t)t->set->digits + 7;
-        t->width[i] = (int)(head > number ? head : number);
-        fprintf(t->to, "%s%*s", i ? "  " : "", t->width[i] - (int)head, "");
-        fprintf(t->to, *unit_text ? "%s [%s]" : "%s", c->name, unit_text);
-    }
-    putc('\n', t->to);
-}
-
-static void text_row(const table *t, const long double *si) {
-    if (si[t->count] != 0)
-        putc('\n', t->to);
-    for (size_t i = 0; i < t->count; i++) {
-        const double v = (double)(si[i] / t->scale[i]);
-        if (i)
-            fwrite("  ", 1, 2, t->to);
-        if (isfinite(v))
-            put_number(t->to, t->width[i], t->set->digits, v);
-        else
-            fprintf(t->to, "%*s", t->width[i], "");
-    }
-    putc('\n', t->to);
-}
-
-static void release(table *t) {
-    t->headed = true;
-    text_head(t);
-    for (size_t row = 0; row < t->rows; row++)
-        text_row(t, t->held + row * (t->count + 1));
-    free(t->held);
-    t->held = NULL;
-    t->rows = 0;
-}
-
-static void hold(table *t, const long double *si) {
-    long double row[COLUMNS + 1];
-    memcpy(row, si, t->count * sizeof *row);
-    row[t->count] = t->gap;
-    t->gap = false;
-    if (!t->headed)
-        memcpy(t->held + t->rows++ * (t->count + 1), row, (t->count + 1) * sizeof *row);
-    if (t->headed)
-        text_row(t, row);
-    else if (t->rows == TABLE_HELD)
-        release(t);
-}
-
-bool table_begin(table *t) {
-    t->headed = t->gap = false;
-    t->held = t->format == FORMAT_TEXT ? malloc(TABLE_HELD * (t->count + 1) * sizeof *t->held) : NULL;
-    t->rows = 0;
-    if (t->format != FORMAT_CSV)
-        return t->held || t->format != FORMAT_TEXT;
-    for (size_t i = 0; i < t->count; i++) {
-        if (i)
-            putc(',', t->to);
-        csv_field(t->to, &t->columns[i]);
-    }
-    putc('\n', t->to);
-    return true;
-}
-
-bool table_shows_next(const table *t) {
-    return t->format != FORMAT_TEXT || t->headed || t->rows + 1 == TABLE_HELD;
-}
-
-void table_gap(table *t) {
-    t->gap = true;
-}
-
-void table_end(table *t, bool ok) {
-    if (ok && t->held)
-        release(t);
-    free(t->held);
-    t->held = NULL;
-}
-
-void table_row(table *t, const long double *si) {
-    FILE *to = t->to;
-    if (t->format == FORMAT_TEXT) {
-        hold(t, si);
-        return;
-    }
-    for (size_t i = 0; i < t->count; i++) {
-        const column *c = &t->columns[i];
-        const double v = (double)(si[i] / c->scale);
-        if (t->format == FORMAT_JSON) {
-            putc(i ? ',' : '{', to);
-            print_json_string(to, c->name);
-            putc(':', to);
-            json_number(to, si[i]);
-        } else {
-            if (i)
-                putc(',', to);
-            if (isfinite(v))
-                put_number(to, 0, 17, v);
-        }
-    }
-    if (t->format == FORMAT_JSON)
-        putc('}', to);
-    putc('\n', to);
 }

@@ -235,7 +235,7 @@ static void note_logarithms(shell *sh, const plot_panel *p) {
         for (size_t j = 0; j < p->series[i]->count && !lost; j++)
             lost = (p->logx && p->series[i]->x[j] <= 0) || (p->logy && p->series[i]->y[j] <= 0);
     if (lost)
-        shell_note(sh, "note: a logarithmic axis has no place for what is not above 0");
+        shell_note(sh, "a logarithmic axis has no place for what is not above 0");
 }
 
 static void divide(plot_panel *p, bool x_axis, long double scale) {

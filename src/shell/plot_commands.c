@@ -6,6 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "shell/answer.h"
 #include "shell/figures.h"
 #include "shell/panel.h"
 #include "shell/progress.h"
@@ -39,13 +40,13 @@ static bool begin_target(shell *sh, const char *file, text_kind kind, text_out *
                          calc_error *error) {
     if (!text_begin(text, &sh->set, sh->out, kind))
         return calc_no_memory(error);
-    const bool json = sh->set.format == FORMAT_JSON;
+    const bool data = answer_is_data(&sh->set);
     *to = (plot_target){.file = file,
                         .out = text->to,
-                        .terminal = terminal_kind(sh, !json && shell_on_terminal(sh)),
-                        .color = sh->set.color_out && !json,
+                        .terminal = terminal_kind(sh, !data && shell_on_terminal(sh)),
+                        .color = sh->set.color_out && !data,
                         .unicode = typeset_unicode(),
-                        .moving = kind == TEXT_MOTION && !json && sh->out == stdout &&
+                        .moving = kind == TEXT_MOTION && !data && sh->out == stdout &&
                                   shell_on_terminal(sh) && shell_escapes(),
                         .columns = sh->set.plot_width,
                         .rows = sh->set.plot_height,

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "calc/clock.h"
 #include "shell/recorder.h"
 
 enum { LINE = 60, WHAT = 20 };
@@ -28,12 +28,6 @@ static struct {
     bool seen;           /* it is on the terminal */
 } now = {.terminal = -1};
 
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 void progress_begin(const shell *sh, const char *what, size_t len) {
     if (now.depth++ > 0)
         return;
@@ -43,7 +37,7 @@ void progress_begin(const shell *sh, const char *what, size_t len) {
     if (!now.on)
         return;
     now.sh = sh;
-    now.began = seconds();
+    now.began = clock_wall();
     now.part = -1;
     now.seen = false;
     for (now.len = 0; now.len < len && now.len < WHAT && !strchr(" \t\n\r", what[now.len]); now.len++)
@@ -73,7 +67,7 @@ void progress_pulse(void) {
     char words[LINE + 40], left[24] = "";
     if (!now.on)
         return;
-    const double t = seconds(), taken = t - now.began;
+    const double t = clock_wall(), taken = t - now.began;
     if (taken < WAIT || t - now.shown < EVERY)
         return;
     now.shown = t;

@@ -123,9 +123,9 @@ static void run_system(shell *sh, const char *line) {
     fflush(sh->out);
     const int status = system(line);
     if (status == -1)
-        shell_note(sh, "the system's shell fails: %s", strerror(errno));
+        shell_say(sh, "the system's shell fails: %s", strerror(errno));
     else if (status != 0)
-        shell_note(sh, "the command ended with status %d", status > 255 ? status / 256 : status);
+        shell_say(sh, "the command ended with status %d", status > 255 ? status / 256 : status);
 }
 
 bool shell_special(shell *sh, const source *from, const char *text) {
@@ -187,8 +187,8 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
         if (!line)
             break;
         if (waiting.answers > 0 && !waiting.next)
-            shell_note(sh, PASTED "%zu line%s without a prompt taken for answers", waiting.answers,
-                       waiting.answers == 1 ? "" : "s");
+            shell_say(sh, PASTED "%zu line%s without a prompt taken for answers", waiting.answers,
+                      waiting.answers == 1 ? "" : "s");
         run_line(sh, line);
         free(line);
         if (shell_stop) /* what was pasted behind it is dropped too */

@@ -265,11 +265,11 @@ static void open_history(shell *sh) {
         fd = open(path, O_RDONLY | FLAGS);
     const bool strange = fd < 0 ? code == ELOOP : (fstat(fd, &st), !S_ISREG(st.st_mode));
     if (strange)
-        shell_note(sh, "no history is kept: %s is no plain file", path);
+        shell_say(sh, "no history is kept: %s is no plain file", path);
     else if (code)
-        shell_note(sh, "no history is kept: cannot write %s: %s", path, strerror(code));
+        shell_say(sh, "no history is kept: cannot write %s: %s", path, strerror(code));
     else if ((st.st_mode & 077) != 0 && st.st_nlink == 1 && fchmod(fd, 0600) != 0)
-        shell_note(sh, "others can read %s", path);
+        shell_say(sh, "others can read %s", path);
     if (fd >= 0 && !strange)
         read_lines(fd, st.st_size);
     if (fd >= 0 && (strange || code)) {
@@ -381,7 +381,7 @@ void prompt_keep(const char *line) {
     remember(copy);
     copy[n] = '\n';
     if (history_file >= 0 && write(history_file, copy, n + 1) < 0) { /* full, or gone */
-        shell_note(completing, "no history is kept any more: %s", strerror(errno));
+        shell_say(completing, "no history is kept any more: %s", strerror(errno));
         file_keep(history_file, false);
         close(history_file);
         history_file = -1;

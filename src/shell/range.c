@@ -237,5 +237,5 @@ bool range_read(shell *sh, lexer *lx, range *out, size_t steps) {
 
 void note_missing(shell *sh, const sweep_job *job) {
     if (job->missing.raised)
-        shell_note(sh, "note: some values are missing: %s (%s)", job->missing.text, job->where);
+        shell_note(sh, "some values are missing: %s (%s)", job->missing.text, job->where);
 }

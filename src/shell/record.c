@@ -173,11 +173,6 @@ static void put_statements(struct recorder *r, const char *text) {
 
 /* ---- a recording ------------------------------------------------------------------------------- */
 
-static bool ends(const char *name, const char *end) {
-    const size_t n = strlen(name), m = strlen(end);
-    return n >= m && !strcmp(name + n - m, end);
-}
-
 bool record_begin(shell *sh, const char *path, const char *beginning, calc_error *error) {
     bool over = false;
     if (sh->replaying)
@@ -188,7 +183,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     }
     r->sh = sh;
     r->log.fd = -1;
-    const bool as_cast = ends(path, ".cast");
+    const bool as_cast = file_ends(path, ".cast");
     open_both(r); /* before the file is emptied */
     if (!r->both_out || !r->both_err)
         calc_no_memory(error);
@@ -204,7 +199,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
     setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
     if (over)
-        shell_note(sh, "overwriting %s", path);
+        shell_say(sh, "overwriting %s", path);
     sh->record = recording = r;
     sh->out = r->both_out;
     sh->err = r->both_err;

@@ -285,17 +285,14 @@ static bool judge(replay *r) {
 /* Adds a physical line of a statement; a mark of continuation becomes a blank, as it does where lines are
  * typed. */
 static bool add_part(replay *r, const char *line, size_t n, bool *whole) {
-    *whole = !shell_continues(line, n);
+    const size_t mark = shell_mark(line, n);
+    *whole = mark == n;
     if (r->statement.len > 0 && !append(&r->statement, "\n", 1))
         return false;
     if (!append(&r->statement, line, n))
         return false;
-    if (!*whole) {
-        size_t end = r->statement.len;
-        while (r->statement.p[--end] != '\\')
-            ;
-        r->statement.p[end] = ' ';
-    }
+    if (!*whole)
+        r->statement.p[r->statement.len - n + mark] = ' ';
     return true;
 }
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Statements, lines and streams of them: dispatch, and the one place that reports errors. */
+#include "calc/clock.h"
 #include "shell/shell.h"
 
+#include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "calc/characters.h"
@@ -47,7 +48,7 @@ static bool print_statement(shell *sh, lexer *lx) {
     }
     progress_wipe();
     if (ok)
-        print_values(&sh->set, sh->out, columns, si, count);
+        ok = answer_values(&sh->set, sh->out, columns, si, count) || calc_no_memory(lx->error);
     columns_free(columns, count);
     return ok;
 }
@@ -165,7 +166,7 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     bool ok = dispatch(sh, &lx);
     progress_end();
     if (*sh->calc.note && ok)
-        shell_note(sh, "note: %s", sh->calc.note);
+        shell_note(sh, "%s", sh->calc.note);
     *sh->calc.note = 0;
     if (ok && sh->calc.scene.used & ASKED_TANGENTIAL)
         shell_warn_dissimilar(sh);
@@ -184,29 +185,17 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
 
 enum { SHOWN = 100 }; /* columns of a long line, around the place */
 
-/* Bytes of the character there, or of what is none, and its columns. */
-static size_t next_character(const char *text, size_t left, size_t *columns) {
-    const size_t n = character_at(text, left, NULL);
-    *columns = text_columns(text, n ? n : 1);
-    return n ? n : 1;
-}
-
 /* The part of a line that is shown: `before` columns of it lie before the place. */
 static void find_part(const char *text, size_t len, size_t at, size_t *begin, size_t *end, size_t *before) {
-    size_t columns, room = SHOWN;
     *begin = 0;
     *end = len;
     *before = text_columns(text, at);
     if (text_columns(text, len) <= SHOWN)
         return;
-    for (; *before > SHOWN / 2; *before -= columns)
-        *begin += next_character(text + *begin, len - *begin, &columns);
-    for (*end = *begin; *end < len; room -= columns) {
-        const size_t n = next_character(text + *end, len - *end, &columns);
-        if (columns > room)
-            break;
-        *end += n;
-    }
+    if (*before > SHOWN / 2)
+        *begin = text_fit(text, at, *before - SHOWN / 2);
+    *before -= text_columns(text, *begin);
+    *end = *begin + text_fit(text + *begin, len - *begin, SHOWN);
 }
 
 static void show_place(const shell *sh, bool aside, const char *text, size_t len, size_t at, size_t width) {
@@ -250,9 +239,20 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
     size_t end = begin;
     while (end < len && text[end] != '\n')
         end++;
+    const size_t place = character_count(text + begin, at - begin) + 1;
+    answer a;
+    answer_begin(&a, &sh->set, sh->out);
+    answer_message(&a, "error", error->text);
+    if (from->name) {
+        answer_string(&a, "file", from->name);
+        answer_number(&a, "line", (double)line);
+    }
+    answer_number(&a, "column", (double)place);
+    answer_done(&a);
+    fflush(sh->out);
     if (from->name) {
         print_safe(sh->err, from->name, strlen(from->name));
-        fprintf(sh->err, ":%zu:%zu: ", line, character_count(text + begin, at - begin) + 1);
+        fprintf(sh->err, ":%zu:%zu: ", line, place);
     }
     shell_print_error(sh, error->text);
     const size_t width = error->len ? error->len : 1;
@@ -261,30 +261,35 @@ static void report_error(shell *sh, const source *from, const char *text, size_t
     fflush(sh->err);
 }
 
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void report_time(shell *sh, double t) {
-    fflush(sh->out);
-    if (sh->replaying) /* no two runs agree */
-        return;
-    fprintf(sh->err, "time: %.3g ms", 1e3 * t);
+/* The models that have answered, in parentheses. */
+static void list_models(const shell *sh, FILE *to) {
     const char *before = " (";
     for (model_id i = 0; i < MODELS; i++)
         if (sh->calc.scene.used & USED(i)) {
-            fprintf(sh->err, "%s%s", before, models[i].title);
+            fprintf(to, "%s%s", before, models[i].title);
             if (i == MODEL_PIECES)
-                fprintf(sh->err, " to %.0e", sh->calc.scene.pieces_error);
+                fprintf(to, " to %.0e", sh->calc.scene.pieces_error);
             before = ", ";
         }
     const answers *a = &sh->calc.scene.answers;
     if (sh->calc.scene.used & USED(MODEL_MEMORY) && a->levels && a->run[0].repeated)
-        fprintf(sh->err, ", %u period%s the last one run", a->run[0].repeated,
+        fprintf(to, ", %u period%s the last one run", a->run[0].repeated,
                 a->run[0].repeated == 1 ? " repeats" : "s repeat");
-    fputs(*before == ',' ? ")\n" : "\n", sh->err);
+    if (*before == ',')
+        putc(')', to);
+}
+
+static void report_time(shell *sh, double t) {
+    file_text models_text;
+    if (sh->replaying) /* no two runs agree */
+        return;
+    if (!file_text_open(&models_text))
+        return;
+    list_models(sh, models_text.to);
+    if (!file_text_close(&models_text))
+        return;
+    shell_say(sh, "time: %.3g ms%s", 1e3 * t, models_text.text);
+    free(models_text.text);
 }
 
 bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line) {
@@ -295,7 +300,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         size_t end = shell_statement_end(text, i, len);
         calc_error error;
         bool timed = sh->set.timing;
-        double start = timed ? seconds() : 0;
+        double start = timed ? clock_wall() : 0;
         const struct recorder *recorder = sh->record;
         sh->calc.scene.used = 0;
         bool done = shell_statement(sh, text + i, end - i, &error);
@@ -312,7 +317,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
             if (!from->keep_going || shell_stop)
                 return false;
         } else if (timed) {
-            report_time(sh, seconds() - start);
+            report_time(sh, clock_wall() - start);
         }
         i = end < len && text[end] == ';' ? end + 1 : len;
         while (i < len && text[i] == ' ')
@@ -333,9 +338,6 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
     bool ok = true, last = true; /* all statements so far; those of the last line */
     while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || keep_going) &&
            (got = file_in_logical(in, shell_mark, &error)) == FILE_GOT_LINE) {
-        const size_t open = shell_mark(in->line, in->length); /* nothing continues the last line */
-        if (open < in->length)
-            in->line[open] = ' ';
         blank_prompts(in->line, in->length);
         if (sh->nesting == 0)
             record_line(sh, in->line, in->length);

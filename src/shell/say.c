@@ -6,24 +6,52 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "shell/output.h"
+#include "shell/answer.h"
 #include "shell/progress.h"
 #include "shell/recorder.h"
 
 volatile sig_atomic_t shell_stop;
 
+void shell_message(const shell *sh, const char *kind, const char *text) {
+    answer a;
+    answer_begin(&a, &sh->set, sh->out);
+    answer_message(&a, kind, text);
+    answer_done(&a);
+    fflush(sh->out);
+}
+
 enum { NOTE = 8192 }; /* holds a file's name, escaped or not */
 
-void shell_note(shell *sh, const char *format, ...) {
+/* On standard error, `before` it what it is; a program that reads answers finds it among them, as `kind`. */
+static void tell(shell *sh, const char *kind, const char *before, const char *format, va_list args) {
     char text[NOTE];
-    va_list args;
     progress_wipe();
-    va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    fflush(sh->out);
+    shell_message(sh, kind, text);
+    fputs(before, sh->err);
     print_safe(sh->err, text, strlen(text));
     fputc('\n', sh->err);
+}
+
+void shell_say(shell *sh, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    tell(sh, "note", "", format, args);
+    va_end(args);
+}
+
+void shell_note(shell *sh, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    tell(sh, "note", "note: ", format, args);
+    va_end(args);
+}
+
+void shell_warning(shell *sh, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    tell(sh, "warning", "warning: ", format, args);
+    va_end(args);
 }
 
 bool shell_aside(const shell *sh, FILE *to) {
@@ -49,7 +77,7 @@ void shell_print_error(const shell *sh, const char *text) {
 
 void shell_error(shell *sh, const char *text) {
     progress_wipe();
-    fflush(sh->out);
+    shell_message(sh, "error", text);
     shell_print_error(sh, text);
     fflush(sh->err);
     sh->failed = true;

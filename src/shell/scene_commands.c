@@ -7,8 +7,8 @@
 
 #include "calc/csv.h"
 #include "number/real.h"
+#include "shell/answer.h"
 #include "shell/command.h"
-#include "shell/output.h"
 #include "shell/presets.h"
 #include "study/smooth.h"
 
@@ -312,17 +312,19 @@ static void report_misfit(shell *sh, const smooth_answer *a) {
     const double v[MISFITS] = {a->rms, a->worst, a->at, a->offset};
     char text[MISFITS][CALC_VALUE_TEXT];
     settings brief = sh->set;
+    answer event;
     brief.digits = 3;
-    if (sh->set.format == FORMAT_JSON) {
-        fprintf(sh->out,
-                "{\"event\":\"smooth\",\"pieces\":%zu,\"rms\":%.17g,\"worst\":%.17g,\"at\":%.17g,"
-                "\"offset\":%.17g}\n",
-                a->pieces, v[0], v[1], v[2], v[3]);
-        return;
-    }
+    answer_begin(&event, &sh->set, sh->out);
+    answer_event(&event, "smooth");
+    answer_number(&event, "pieces", (double)a->pieces);
+    answer_number(&event, "rms", a->rms);
+    answer_number(&event, "worst", a->worst);
+    answer_number(&event, "at", a->at);
+    answer_number(&event, "offset", a->offset);
+    answer_done(&event);
     for (int i = 0; i < MISFITS; i++)
         format_value(&brief, (value){v[i], DIM_LENGTH}, text[i], sizeof text[i]);
-    shell_note(sh, "note: smoothed, %zu piece%s: misfit %s rms, %s at worst (r = %s); f(0) = %s is taken off",
+    shell_note(sh, "smoothed, %zu piece%s: misfit %s rms, %s at worst (r = %s); f(0) = %s is taken off",
                a->pieces, a->pieces == 1 ? "" : "s", text[0], text[1], text[2], text[3]);
 }
 
@@ -330,12 +332,14 @@ static void report_misfit(shell *sh, const smooth_answer *a) {
 static void report_thinning(shell *sh, size_t rows, const struct fret_table *gap) {
     const size_t pieces = fret_table_count(gap) - 1;
     const double within = fret_table_within(gap);
-    if (sh->set.format == FORMAT_JSON)
-        fprintf(sh->out, "{\"event\":\"thin\",\"rows\":%zu,\"pieces\":%zu,\"within\":%.17g}\n", rows, pieces,
-                within);
-    else
-        shell_note(sh, "note: of %zu rows %zu pieces are made, within %.0e of the largest gap", rows, pieces,
-                   within);
+    answer event;
+    answer_begin(&event, &sh->set, sh->out);
+    answer_event(&event, "thin");
+    answer_number(&event, "rows", (double)rows);
+    answer_number(&event, "pieces", (double)pieces);
+    answer_number(&event, "within", within);
+    answer_done(&event);
+    shell_note(sh, "of %zu rows %zu pieces are made, within %.0e of the largest gap", rows, pieces, within);
 }
 
 static bool read_gap_file(shell *sh, lexer *lx, edit *e) {
@@ -463,9 +467,9 @@ static const geometry *read_shape(lexer *lx) {
         lex_fail(lx, "which geometry? try: help geometry");
         return NULL;
     }
-    const char *answer = lead_from(word), *near = answer ? answer : suggest(word, geometry_name);
+    const char *lead = lead_from(word), *near = lead ? lead : suggest(word, geometry_name);
     calc_fail(lx->error, begin, len,
-              answer ? "unknown geometry '%s': %s"
+              lead   ? "unknown geometry '%s': %s"
               : near ? "unknown geometry '%s': did you mean %s?"
                      : "unknown geometry '%s'; try: help geometry",
               word, near);

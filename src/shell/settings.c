@@ -128,9 +128,9 @@ const settings settings_initial = {.digits = 6, .plot_timeout = 30};
 
 /* ---- the table --------------------------------------------------------------------------------- */
 
-static const char *const formats[] = {"text", "csv", "json", NULL},
-                         *const reports[] = {"auto", "off", "on", NULL},
-                         *const switches[] = {"off", "on", NULL};
+const char *const format_names[] = {
+    [FORMAT_TEXT] = "text", [FORMAT_CSV] = "csv", [FORMAT_JSON] = "json", NULL};
+static const char *const reports[] = {"auto", "off", "on", NULL}, *const switches[] = {"off", "on", NULL};
 
 static const setting rows[] = {
     {.name = "format",
@@ -143,7 +143,7 @@ static const setting rows[] = {
                 "    fret> set format json\n"
                 "    fret> 1 mm\n"
                 "    {\"name\":\"1 mm\",\"value\":0.001,\"unit\":\"m\"}\n",
-     .words = formats,
+     .words = format_names,
      .at = offsetof(settings, format)},
     {.name = "digits",
      .usage = "N",

@@ -39,6 +39,8 @@ typedef struct setting {
 } setting;
 
 extern const settings settings_initial;
+/* By output_format, ended by NULL. */
+extern const char *const format_names[];
 
 const setting *setting_row(size_t i); /* NULL after the last */
 const char *setting_name(size_t i);

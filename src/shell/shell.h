@@ -50,11 +50,18 @@ void shell_error(shell *sh, const char *text);
 void shell_print_error(const shell *sh, const char *text);
 /* Has whoever read standard output gone, as `head` does? That is no error to be told of. */
 bool shell_unread(void);
-/* Something to be told that is no error, on standard error. */
+/* Things to be told that are no errors, on standard error; a program that reads answers has them there, too.
+ */
 #if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
+#define SHELL_FORMAT __attribute__((format(printf, 2, 3)))
+#else
+#define SHELL_FORMAT
 #endif
-void shell_note(shell *sh, const char *format, ...);
+SHELL_FORMAT void shell_say(shell *sh, const char *format, ...);
+SHELL_FORMAT void shell_note(shell *sh, const char *format, ...);    /* `note: ...` */
+SHELL_FORMAT void shell_warning(shell *sh, const char *format, ...); /* `warning: ...` */
+/* The part of a program in that: a "note", a "warning", an "error". */
+void shell_message(const shell *sh, const char *kind, const char *text);
 
 /* Is a line to be written that is for who types, and has no place in a script's output? In a replay it is,
  * after a mark: a transcript may have it or not. */

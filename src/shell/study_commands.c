@@ -14,10 +14,13 @@ const char study_library[] = "";
 /* ---- what they share --------------------------------------------------------------------------- */
 
 /* Answers as printed values are, and remembered as `ans`. */
-static void print_answers(shell *sh, column *columns, const long double *si, size_t count) {
-    print_values(&sh->set, sh->out, columns, si, count);
+static bool print_answers(shell *sh, column *columns, const long double *si, size_t count,
+                          calc_error *error) {
+    if (!answer_values(&sh->set, sh->out, columns, si, count))
+        return calc_no_memory(error);
     sh->calc.ans = (value){si[count - 1], columns[count - 1].d};
     sh->calc.has_ans = true;
+    return true;
 }
 
 /* A knob where it was found, as a column. */
@@ -72,24 +75,27 @@ static bool read_solve(shell *sh, lexer *lx, solve_question *q) {
 
 static void report_solve(shell *sh, const solve_question *q, const solve_answer *a) {
     char lo[CALC_VALUE_TEXT], hi[CALC_VALUE_TEXT];
-    if (sh->set.format == FORMAT_JSON) {
-        fputs("{\"event\":\"solve\",\"method\":\"Brent\"", sh->out);
-        fprintf(sh->out, ",\"evaluations\":%u", a->evaluations);
-        fprintf(sh->out, ",\"bracket\":[%.17g,%.17g]%s%s}\n", a->lo, a->hi,
-                a->touches ? ",\"touches\":true" : "", a->jumps ? ",\"jumps\":true" : "");
-    }
+    answer event;
+    answer_begin(&event, &sh->set, sh->out);
+    answer_event(&event, "solve");
+    answer_string(&event, "method", "Brent");
+    answer_number(&event, "evaluations", a->evaluations);
+    answer_list(&event, "bracket", (const double[]){a->lo, a->hi}, 2);
     if (a->touches)
-        shell_note(
-            sh, "note: the two sides touch there without passing each other, which tells 8 digits at most");
+        answer_flag(&event, "touches", true);
     if (a->jumps)
-        shell_note(
-            sh, "note: elsewhere the two sides jump past each other; a root close to a jump may be hidden");
+        answer_flag(&event, "jumps", true);
+    answer_done(&event);
+    if (a->touches)
+        shell_note(sh, "the two sides touch there without passing each other, which tells 8 digits at most");
+    if (a->jumps)
+        shell_note(sh, "elsewhere the two sides jump past each other; a root close to a jump may be hidden");
     if (!sh->set.timing)
         return;
     calc_value_text(q->name.d, a->lo, lo);
     calc_value_text(q->name.d, a->hi, hi);
-    shell_note(sh, "solve: scan and Brent's method, %u evaluations, bracket %s = %s .. %s", a->evaluations,
-               q->name.text, lo, hi);
+    shell_say(sh, "solve: scan and Brent's method, %u evaluations, bracket %s = %s .. %s", a->evaluations,
+              q->name.text, lo, hi);
 }
 
 bool do_solve(shell *sh, lexer *lx, const command *self) {
@@ -100,10 +106,9 @@ bool do_solve(shell *sh, lexer *lx, const command *self) {
     (void)self;
     bool ok = (lx->kind != T_NAME || range_wake(sh, lx, &names)) && read_solve(sh, lx, &q) &&
               solve(&q, &a, lx->error) && knob_column(&c, &q.name, lx->error);
-    if (ok) {
-        print_answers(sh, &c, &(long double){a.x}, 1);
+    ok = ok && print_answers(sh, &c, &(long double){a.x}, 1, lx->error);
+    if (ok)
         report_solve(sh, &q, &a);
-    }
     columns_free(&c, 1);
     range_forget(sh, &names);
     return ok;
@@ -162,30 +167,32 @@ static const char *const end_words[] = {"inner", "low", "high", "scene"};
 
 static void report_optimum(shell *sh, const optimise_question *q, const optimise_answer *a,
                            const char *word) {
-    if (sh->set.format == FORMAT_JSON) {
-        fprintf(sh->out, "{\"event\":\"%s\"", word);
-        fprintf(sh->out, ",\"evaluations\":%u", a->evaluations);
-        fprintf(sh->out, ",\"sharp\":%s,\"ends\":{", a->sharp ? "true" : "false");
-        for (size_t i = 0; i < q->count; i++)
-            fprintf(sh->out, "%s\"%s\":\"%s\"", i ? "," : "", q->name[i].text, end_words[a->end[i]]);
-        fputs("}}\n", sh->out);
-    }
+    answer event;
+    answer_begin(&event, &sh->set, sh->out);
+    answer_event(&event, word);
+    answer_number(&event, "evaluations", a->evaluations);
+    answer_flag(&event, "sharp", a->sharp);
+    answer_group(&event, "ends");
+    for (size_t i = 0; i < q->count; i++)
+        answer_string(&event, q->name[i].text, end_words[a->end[i]]);
+    answer_up(&event);
+    answer_done(&event);
     bool inner = false, edge = false;
     for (size_t i = 0; i < q->count; i++) {
         char there[ASK_TEXT];
         ask_text(&q->name[i], a->x[i], there);
         inner = inner || a->end[i] == END_INNER;
         if (a->end[i] == END_SCENE && !edge)
-            shell_note(sh, "note: the scene ends at %s: %s", there, a->why.text);
+            shell_note(sh, "the scene ends at %s: %s", there, a->why.text);
         edge |= a->end[i] == END_SCENE;
         if (a->end[i] == END_LOW || a->end[i] == END_HIGH)
-            shell_note(sh, "note: no inner optimum in %s: %s is the %s end of its range", q->name[i].text,
-                       there, a->end[i] == END_LOW ? "lower" : "upper");
+            shell_note(sh, "no inner optimum in %s: %s is the %s end of its range", q->name[i].text, there,
+                       a->end[i] == END_LOW ? "lower" : "upper");
     }
     if (sh->set.timing)
-        shell_note(sh, "%s: grid, %s%s, %u evaluations", word,
-                   q->count == 1 ? "Brent's method" : "simplex of Nelder and Mead",
-                   a->sharp && inner ? ", Newton's method" : "", a->evaluations);
+        shell_say(sh, "%s: grid, %s%s, %u evaluations", word,
+                  q->count == 1 ? "Brent's method" : "simplex of Nelder and Mead",
+                  a->sharp && inner ? ", Newton's method" : "", a->evaluations);
 }
 
 static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {
@@ -202,11 +209,10 @@ static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {
         si[i] = a.x[i];
     }
     columns[q.count] = optimised;
-    if (ok) {
-        si[q.count] = a.value;
-        print_answers(sh, columns, si, q.count + 1);
+    si[q.count] = ok ? a.value : 0;
+    ok = ok && print_answers(sh, columns, si, q.count + 1, lx->error);
+    if (ok)
         report_optimum(sh, &q, &a, self->name);
-    }
     columns_free(columns, q.count + 1);
     range_forget(sh, &names);
     return ok;

@@ -15,11 +15,10 @@ static const struct {
              {".dat", FORMAT_TEXT, true}};
 
 static bool choose_form(lexer *lx, const char *name, target *t) {
-    const char *base = strrchr(name, '/'), *dot = strrchr(base ? base : name, '.');
     if (!strncmp(name, "/dev/", 5))
         return true;
-    for (size_t i = 0; dot && i < sizeof forms / sizeof *forms; i++)
-        if (!strcmp(dot, forms[i].ending)) {
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (file_ends(name, forms[i].ending)) {
             t->format = forms[i].format;
             t->blocks = forms[i].blocks;
             return true;
@@ -50,7 +49,7 @@ void target_report(shell *sh, const char *name, const file_report *r) {
     if (r->direct || sh->set.report == REPORT_OFF)
         return;
     file_size_text(r->size, size);
-    shell_note(sh, "%s %s (%s)", r->overwrote ? "overwrote" : "wrote", name, size);
+    shell_say(sh, "%s %s (%s)", r->overwrote ? "overwrote" : "wrote", name, size);
 }
 
 bool target_close(shell *sh, lexer *lx, target *t, bool ok) {

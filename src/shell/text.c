@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Text on its way out: as it is, as JSON, or by the pager, which a recorder is told of. */
+/* Text on its way out: as it is, as an object for programs, or by the pager, which a recorder is told of. */
 #include "shell/text.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "shell/output.h"
+#include "shell/answer.h"
 #include "shell/pager.h"
 #include "shell/progress.h"
 #include "shell/record.h"
@@ -14,7 +14,7 @@ bool text_begin(text_out *t, const settings *set, FILE *out, text_kind kind) {
     progress_wipe();
     *t = (text_out){.set = set, .out = out, .to = out, .kind = kind};
     const bool paged = set->pages && set->pager != PAGER_OFF && kind != TEXT_MOTION;
-    if (kind != TEXT_WORDS && set->format != FORMAT_JSON && !paged)
+    if (kind > TEXT_ANSWERS && !answer_is_data(set) && !paged)
         return true;
     if (!file_text_open(&t->kept))
         return false;
@@ -55,14 +55,17 @@ bool text_end(text_out *t, bool keep) {
     progress_wipe();
     if (t->to == t->out)
         return true;
-    const bool json = t->set->format == FORMAT_JSON;
+    const bool data = answer_is_data(t->set);
     if (!file_text_close(&t->kept))
         return false;
-    const bool ok = json || t->kind != TEXT_WORDS || make_safe(t), any = ok && keep && t->kept.size > 0;
-    if (any && json) {
-        fputs("{\"text\":", t->out);
-        print_json_string(t->out, t->kept.text);
-        fputs("}\n", t->out);
+    const bool ok = data || t->kind > TEXT_ANSWERS || make_safe(t), any = ok && keep && t->kept.size > 0;
+    if (any && data && t->kind == TEXT_ANSWERS) {
+        fputs(t->kept.text, t->out);
+    } else if (any && data) {
+        answer a;
+        answer_begin(&a, t->set, t->out);
+        answer_message(&a, "text", t->kept.text);
+        answer_done(&a);
     } else if (any) {
         show_text(t);
     }

@@ -8,11 +8,12 @@
 #include "calc/file.h"
 #include "shell/settings.h"
 
-/* Text of words, in which what does not show is escaped; or a picture of gnuplot, which knows what it sends
+/* Text of words, in which what does not show is escaped; answers, likewise, which are objects for programs
+ * already; or a picture of gnuplot, which knows what it sends
  * to a terminal; or pictures that move, which no pager can show. */
-typedef enum text_kind { TEXT_WORDS, TEXT_PICTURE, TEXT_MOTION } text_kind;
+typedef enum text_kind { TEXT_WORDS, TEXT_ANSWERS, TEXT_PICTURE, TEXT_MOTION } text_kind;
 
-/* Text on its way out: as it is, as one JSON object, or at a terminal by the pager. */
+/* Text on its way out: as it is, as one object for programs, or at a terminal by the pager. */
 typedef struct text_out {
     const settings *set;
     FILE *out, *to; /* write to `to` */

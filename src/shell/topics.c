@@ -194,11 +194,11 @@ static const char files_text[] =
     "r < 0 too. Where noise would make it fall it is the nearest convex profile; one\n"
     "that falls by more than noise is refused.\n\n"
     "Written: `history to FILE`, `table ... to FILE`. FILE.csv is in SI or the units\n"
-    "asked for, FILE.json has an object a line in SI, FILE.txt and FILE.dat are as\n"
-    "shown, with blank lines between curves. `plot ... to FILE`: the ending tells the\n"
-    "kind of picture. A file is written whole or not at all; that one was there\n"
-    "before is said. ~ is the home directory; a name with blanks goes into quotation\n"
-    "marks.\n\n"
+    "asked for, FILE.json has an object a line in SI, the first with the units of\n"
+    "the columns, FILE.txt and FILE.dat are as shown, with blank lines between\n"
+    "curves. `plot ... to FILE`: the ending tells the kind of picture. A file is\n"
+    "written whole or not at all; that one was there before is said. ~ is the home\n"
+    "directory; a name with blanks goes into quotation marks.\n\n"
     "`plot ... over FILE.csv` lays points on top: columns with the names of the axes,\n"
     "else the only one of the dimension without the name of another quantity.\n"
     "`animate ... to FILE.gif` writes a moving picture.\n\n"
@@ -381,16 +381,16 @@ const char *model_text(size_t id) {
         [MODEL_QUADRATURE] =
             "Integrals over the contact, for local fields and for the stiffness of loops.\n\n" EXAMPLE
             "step Fx=20 N\n    fret> qx(0.1 mm)\n    qx(0.1 mm) = 141.911 MPa\n",
-        [MODEL_PIECES] = "The law FN(dz) of a gap without a formula is polynomials in the square of the\n"
-                         "radius, cell by cell, with the powers that a kink of the gap adds: a dozen cells\n"
-                         "for a shape, one or more for each row of a table. They are made once, in a\n"
-                         "millisecond, of a table in some 0.1 ms a row, and are good to 1e-15; then depth,\n"
-                         "force, loss and slip take microseconds, and so does any step. Up to 2000 rows\n"
-                         "each is taken as it is; of more, as few as do within 1e-14 to 1e-6 of the gap.\n"
-                         "Local fields take the profile of such a gap from polynomials too, good to\n"
-                         "1e-15 of the largest value.\n\n" EXAMPLE
-                         "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
-                         "    dW = 2.53755 uJ\n",
+        [MODEL_PIECES] =
+            "The law FN(dz) of a gap without a formula is polynomials in the square of the\n"
+            "radius, cell by cell, with the powers that a kink of the gap adds: a dozen cells\n"
+            "for a shape, one or more for each row of a table. They are made once, in a\n"
+            "millisecond, of a table in some 0.1 ms a row, and are good to 1e-15; then depth,\n"
+            "force, loss and slip take microseconds, and so does any step. Up to 2000 rows\n"
+            "each is taken as it is; of more, as few as do within 1e-14 to 1e-6 of the gap.\n"
+            "Local fields are sums over the same cells, good to 1e-15 of the largest value.\n\n" EXAMPLE
+            "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
+            "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
                           "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
                           "    fret> set model springs 100\n    fret> dW\n    dW = 1.90687 uJ\n",

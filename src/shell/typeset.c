@@ -74,14 +74,6 @@ static size_t match_sign(const char *text, const char **set) {
     return 0;
 }
 
-/* Bytes of the character here. */
-static size_t character(const char *text) {
-    size_t len = 1;
-    while (((unsigned char)text[len] & 0xC0) == 0x80)
-        len++;
-    return len;
-}
-
 void typeset(const char *plain, char *buf, size_t size) {
     size_t used = 0;
     bool within = false; /* a word */
@@ -90,7 +82,7 @@ void typeset(const char *plain, char *buf, size_t size) {
         size_t len = within ? 0 : match_letter(plain, &set);
         if (len == 0)
             len = match_sign(plain, &set);
-        const size_t taken = len ? len : character(plain), put = len ? strlen(set) : taken;
+        const size_t taken = len ? len : 1, put = len ? strlen(set) : taken;
         if (used + put >= size) /* unreached: callers have room for all of it */
             break;
         memcpy(buf + used, set, put);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shell/answer.h"
 #include "shell/expressions.h"
 #include "shell/map.h"
 #include "shell/progress.h"
@@ -19,7 +20,7 @@ static bool history_row(const runner *r, void *context) {
     sight now;
     run_sight(r, &now);
     const fret_state *s = &now.state;
-    table_row(context, (const long double[HISTORY]){s->FN, s->dz, s->Fx, s->dx, s->W});
+    answer_row(context, (const long double[HISTORY]){s->FN, s->dz, s->Fx, s->dx, s->W});
     return true;
 }
 
@@ -28,21 +29,21 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
     column columns[HISTORY] = {{.name = NULL}};
     watch w = watch_points(1);
     target to;
-    (void)self;
     if (!scene_history(&sh->calc.scene, &contact, lx->error) || !target_open(sh, lx, &to))
         return false;
-    table t = {.set = &sh->set, .to = to.to, .format = to.format, .count = HISTORY, .columns = columns};
+    answer a;
+    answer_begin_as(&a, &sh->set, to.to, to.format);
     bool ok = true;
     for (size_t i = 0; i < HISTORY; i++)
         ok = ok && column_si(&columns[i], history_names[i],
                              quantity_find(history_names[i], strlen(history_names[i]))->d);
-    ok = ok && table_begin(&t);
+    ok = ok && answer_columns(&a, self->name, columns, HISTORY);
     if (ok) {
         w.limit = true;
         w.see = history_row;
-        w.context = &t;
+        w.context = &a;
         ok = scene_trace(&sh->calc.scene, &w, lx->error);
-        table_end(&t, ok);
+        answer_end(&a, ok);
     } else {
         calc_no_memory(lx->error);
     }
@@ -53,7 +54,7 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
 /* ---- table ------------------------------------------------------------------------------------- */
 
 typedef struct table_job {
-    table t;
+    answer a;
     column columns[COLUMNS]; /* the sweep's own, then those of the expressions */
     size_t first;            /* of the expressions */
     size_t count;
@@ -82,7 +83,7 @@ static bool begin(table_job *job) {
     begin_columns(job);
     if (!columns_distinct(job->columns, job->first + job->count))
         return calc_no_memory(job->error);
-    job->begun = table_begin(&job->t);
+    job->begun = answer_columns(&job->a, "table", job->columns, job->first + job->count);
     return job->begun || calc_no_memory(job->error);
 }
 
@@ -94,7 +95,7 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
         return false;
     if (job->blocks && !first &&
         (curve != job->curve || (s->curves && islessgreater(s->value[curve], job->second))))
-        table_gap(&job->t);
+        answer_gap(&job->a);
     job->curve = curve;
     job->second = s->curves ? s->value[curve] : 0;
     row[0] = x;
@@ -103,13 +104,13 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     memcpy(row + job->first, values, job->count * sizeof *row);
     const size_t curves = s->curves ? s->curves : 1;
     job->rows++;
-    if (job->screen && table_shows_next(&job->t))
+    if (job->screen && answer_shows_next(&job->a))
         progress_wipe();
     else
         progress_part((double)job->rows / (double)(curves * (s->steps + 1)));
-    table_row(&job->t, row);
+    answer_row(&job->a, row);
     /* a reader that has gone, or a full disk: no use in going on */
-    return !ferror(job->t.to) ||
+    return !ferror(job->a.to) ||
            calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
 }
 
@@ -163,17 +164,18 @@ static bool print_matrix(shell *sh, FILE *to, const matrix *m, size_t i, column 
         columns[j + 1].scale = c->scale;
         columns[j + 1].chosen = true; /* the heading tells the unit */
     }
-    table t = {.set = &sh->set, .to = to, .format = FORMAT_TEXT, .count = across + 1, .columns = columns};
-    ok = ok && table_begin(&t);
+    answer a;
+    answer_begin_as(&a, &sh->set, to, FORMAT_TEXT);
+    ok = ok && answer_columns(&a, "table", columns, across + 1);
     if (ok) {
         fprintf(to, *c->unit ? "%s%s [%s]\n" : "%s%s\n", i ? "\n" : "", c->name, c->unit);
         for (size_t r = 0; r < rows; r++) {
             long double row[COLUMNS] = {m->a[r]};
             for (size_t j = 0; j < across; j++)
                 row[j + 1] = m->value[(j * rows + r) * m->count + i];
-            table_row(&t, row);
+            answer_row(&a, row);
         }
-        table_end(&t, true);
+        answer_end(&a, true);
     }
     columns_free(columns, across + 1);
     return ok;
@@ -195,7 +197,7 @@ static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *swee
     if (ok)
         begin_columns(job);
     for (size_t i = 0; ok && i < job->count; i++)
-        ok = print_matrix(sh, job->t.to, &m, i, &job->columns[job->first + i]) ||
+        ok = print_matrix(sh, job->a.to, &m, i, &job->columns[job->first + i]) ||
              calc_no_memory(sweeping->error);
     free(m.value);
     free(m.a);
@@ -224,11 +226,7 @@ static bool run_table(shell *sh, lexer *lx, const sweep *s, const grid *g, colum
     memcpy(job->columns + job->first, columns, count * sizeof *columns); /* with their names */
     for (size_t i = 0; i < count; i++)
         columns[i].name = NULL;
-    job->t = (table){.set = &sh->set,
-                     .to = to.to,
-                     .format = to.format,
-                     .count = job->first + count,
-                     .columns = job->columns};
+    answer_begin_as(&job->a, &sh->set, to.to, to.format);
     wanted(job);
     sweep_job sweeping = {.c = &sh->calc,
                           .expressions = sh->list,
@@ -247,7 +245,7 @@ static bool run_table(shell *sh, lexer *lx, const sweep *s, const grid *g, colum
                        : sweep_run(s, &sweeping));
     progress_wipe();
     if (job->begun)
-        table_end(&job->t, sweeping.values > 0);
+        answer_end(&job->a, sweeping.values > 0);
     if (ok)
         note_missing(sh, &sweeping);
     columns_free(job->columns, job->first + count);

@@ -18,11 +18,10 @@ void shell_warn_dissimilar(shell *sh) {
     const fret_foundation *f = fret_normal_foundation(normal);
     const bool tangential = s->used & ASKED_TANGENTIAL || (scene_reach(s, &reach, &ignored) && reach->by);
     if (!f->similar && !sh->dissimilar && tangential)
-        shell_note(
-            sh,
-            "warning: the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
-            "are coupled, and these results are an approximation",
-            (double)f->mismatch);
+        shell_warning(sh,
+                      "the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
+                      "are coupled, and these results are an approximation",
+                      (double)f->mismatch);
     sh->dissimilar = !f->similar && (sh->dissimilar || tangential);
 }
 
@@ -81,16 +80,16 @@ static void warn_half_space(shell *sh) {
         scene_get(s, IN_SLOPE, &slope, &ignored);
     const bool wide = press.a > most_radius * R, steep = slope > most_slope;
     if (wide && !(sh->no_half_space & WIDE))
-        shell_note(sh,
-                   "warning: a/%s = %.3g%s: beyond 0.3 the bodies are no half-spaces, and these results are "
-                   "an approximation",
-                   name, (double)(press.a / R), within ? " within the cycle" : "");
+        shell_warning(sh,
+                      "a/%s = %.3g%s: beyond 0.3 the bodies are no half-spaces, and these results are "
+                      "an approximation",
+                      name, (double)(press.a / R), within ? " within the cycle" : "");
     if (steep && !(sh->no_half_space & STEEP))
-        shell_note(sh,
-                   "warning: slope = %.3g: flanks steeper than 20 deg leave the half-space, and these "
-                   "results are an "
-                   "approximation",
-                   (double)slope);
+        shell_warning(sh,
+                      "slope = %.3g: flanks steeper than 20 deg leave the half-space, and these "
+                      "results are an "
+                      "approximation",
+                      (double)slope);
     sh->no_half_space = (wide ? WIDE : 0u) | (steep ? STEEP : 0u);
 }
 

@@ -5,7 +5,8 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <time.h>
+
+#include "calc/clock.h"
 
 const family_row families[FAMILIES] = {
     [FAMILY_CLOSED] = {"closed form", "", MODEL_CLOSED},
@@ -19,13 +20,6 @@ const family_row families[FAMILIES] = {
 static const long double rounding = 4e-19L; /* no reference is better */
 static const long double nothing = 1e-29L;  /* of what is stored: what rounding leaves where nothing slips */
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
-
-/* Of the processor, so that a busy machine does no harm. */
-static double cpu_now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- measuring --------------------------------------------------------------------------------- */
 
@@ -54,7 +48,7 @@ static bool time_of(bench *b, cycle_of *cycle, void *model, double *seconds) {
     for (unsigned long count = 1; *seconds * (double)count < b->enough;) {
         count =
             *seconds * 4 * (double)count < b->enough ? 4 * count : (unsigned long)(b->enough / *seconds) + 1;
-        const double start = cpu_now();
+        const double start = clock_worked();
         fret_status st = fine;
         for (unsigned long i = 0; i < count && !st.code; i++) {
             if (stopped(b))
@@ -63,7 +57,7 @@ static bool time_of(bench *b, cycle_of *cycle, void *model, double *seconds) {
         }
         if (!calc_status(b->error, &st))
             return false;
-        *seconds = (cpu_now() - start) / (double)count;
+        *seconds = (clock_worked() - start) / (double)count;
     }
     return true;
 }
@@ -74,9 +68,9 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
     accuracy_row *row = &study->row[study->count];
     *row = (accuracy_row){.family = family, .size = size};
     tell(b, family, size);
-    const double start = cpu_now();
+    const double start = clock_worked();
     fret_status st = cycle(model, &row->value);
-    row->seconds = cpu_now() - start;
+    row->seconds = clock_worked() - start;
     if (!calc_status(b->error, &st) || !time_of(b, cycle, model, &row->seconds))
         return false;
     row->error = fabsl(row->value / study->value - 1);
@@ -93,7 +87,7 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
 static bool affords(const bench *b, double setting_up) {
     const accuracy_row *last = &b->study->row[b->study->count - 1];
     const double next = 10 * (setting_up + 2 * last->seconds);
-    return (last->family != FAMILY_LOOP && last->size < 1000) || cpu_now() + next < b->end;
+    return (last->family != FAMILY_LOOP && last->size < 1000) || clock_worked() + next < b->end;
 }
 
 /* ---- models of a cycle at constant F_N --------------------------------------------------------- */
@@ -213,14 +207,14 @@ static bool springs_rows(bench *b, steady *m, model_family family) {
     const unsigned wider = midpoint && fret_normal_foundation(m->contact.normal)->k < 0 ? 2 : 1;
     bool ok = true;
     for (unsigned count = 100; ok && count <= 1000000; count *= 10) {
-        const double start = cpu_now();
+        const double start = clock_worked();
         tell(b, family, count);
         fret_status st = springs_ready(m, wider * count, wider * (double)m->contact.press.a, rule);
         if (st.code && fret_status_category(st.code) != FRET_CAT_SYSTEM)
             break;
         if (!calc_status(b->error, &st))
             return false;
-        const double setting_up = cpu_now() - start;
+        const double setting_up = clock_worked() - start;
         ok = measure(b, family, count, stepped_cycle, m);
         engine_end(&m->engine);
         if (ok && !affords(b, setting_up))
@@ -401,11 +395,11 @@ static bool by_sine(const bench *b) {
 static bool general_row(bench *b, model_family family, unsigned springs, bool *more) {
     general g = {.sine = family == FAMILY_MEMORY && by_sine(b)};
     const unsigned levels = swings(b) && !g.sine ? LEVELS : 1;
-    const double start = cpu_now();
+    const double start = clock_worked();
     tell(b, family, springs);
     if (!open_general(b, &g, springs, 0, levels, false))
         return false;
-    const double setting_up = cpu_now() - start;
+    const double setting_up = clock_worked() - start;
     bool ok = measure(b, family, springs, general_cycle, &g);
     close_general(&g);
     *more = ok && affords(b, setting_up);
@@ -415,7 +409,7 @@ static bool general_row(bench *b, model_family family, unsigned springs, bool *m
 /* A period seen at the ends of its chords, or where F_N is constant in it, each branch in so many parts. */
 static bool loop_row(bench *b, unsigned level, unsigned parts, bool *more) {
     general g = {.levels = 0};
-    const double start = cpu_now();
+    const double start = clock_worked();
     if (!open_general(b, &g, 0, level, 1, false))
         return false;
     const bool swinging = g.cycle.step.normal_value != 0;
@@ -424,7 +418,7 @@ static bool loop_row(bench *b, unsigned level, unsigned parts, bool *more) {
     g.watch.context = &g.looks;
     g.run[0].watch = &g.watch;
     g.run[0].area_wanted = true;
-    const double setting_up = cpu_now() - start;
+    const double setting_up = clock_worked() - start;
     bool ok =
         measure(b, FAMILY_LOOP, swinging ? (unsigned long)(RUN_CHORDS << level) / 2 : parts, area_cycle, &g);
     if (ok)
@@ -550,7 +544,7 @@ bool accuracy_measure(scene *s, const accuracy_load *load, accuracy_progress *pr
     if (!choose_load(s, load, out, &m, error))
         return false;
     b.budget = load->seconds;
-    b.end = cpu_now() + load->seconds;
+    b.end = clock_worked() + load->seconds;
     b.enough = fmin(0.02, load->seconds / 150);
     return out->program ? measure_general(&b) : measure_steady(&b, &m);
 }

@@ -4,7 +4,8 @@
 
 #include <float.h>
 #include <math.h>
-#include <time.h>
+
+#include "calc/clock.h"
 
 /* ---- what there is to change ------------------------------------------------------------------- */
 
@@ -185,11 +186,11 @@ static void find_influence(probe *p, cause *c) {
 }
 
 static bool probe_all(probe *p, influence_study *out) {
-    const clock_t start = clock();
+    const double start = clock_worked();
     for (size_t i = 0; i < out->count; i++) {
         if (out->cause[i].influence == INFLUENCE_ZERO)
             continue;
-        if (clock() - start < INFLUENCE_SECONDS * CLOCKS_PER_SEC)
+        if (clock_worked() - start < INFLUENCE_SECONDS)
             find_influence(p, &out->cause[i]);
         else
             out->cause[i].influence = INFLUENCE_LEFT;

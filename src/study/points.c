@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "calc/clock.h"
 #include "number/real.h"
 #include "study/team.h"
 
@@ -138,10 +139,10 @@ static bool hand_over(points *p, const points_run *run, size_t i, const long dou
 
 static bool one_here(points *p, const points_run *run, size_t i, const long double x[]) {
     const bool watched = !p->team && !p->alone;
-    const double began = watched ? team_clock() : 0;
+    const double began = watched ? clock_wall() : 0;
     const bool all = points_at(p, x, p->v);
     if (watched) {
-        p->taken += team_clock() - began;
+        p->taken += clock_wall() - began;
         p->watched++;
     }
     return hand_over(p, run, i, x, p->v, all ? NULL : p->error->raised ? p->error : &p->none);

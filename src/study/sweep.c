@@ -21,19 +21,13 @@ typedef struct state {
     long double *out;        /* of all rows; NULL: they go to the job as soon as they are there */
 } state;
 
-static void say_value(char *to, size_t size, dim d, long double v) {
-    char unit_text[100];
-    const long double scale = unit_choose(d, v, 6, unit_text, sizeof unit_text);
-    snprintf(to, size, "%.6g%s%s", (double)(v / scale), *unit_text ? " " : "", unit_text);
-}
-
 static void say_where(state *st, long double x) {
     const sweep *s = st->s;
     char at[120], with[60 + LEX_NAME] = "";
-    say_value(at, sizeof at, s->along ? DIM_NONE : st->range.d, x);
+    calc_amount(s->along ? DIM_NONE : st->range.d, x, 6, at, sizeof at);
     if (s->curves) {
         snprintf(with, sizeof with, ", %s = ", s->with.text);
-        say_value(with + strlen(with), sizeof with - strlen(with), s->with.d, s->value[st->curve]);
+        calc_amount(s->with.d, s->value[st->curve], 6, with + strlen(with), sizeof with - strlen(with));
     }
     snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->along ? "time" : s->var.text, at,
              with);

@@ -9,7 +9,6 @@
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 #ifdef __linux__
 #include <sys/prctl.h>
@@ -40,12 +39,6 @@ struct team {
     size_t all;                 /* bytes; the sheet lies behind what it belongs to */
     bool alone;                 /* a worker is gone */
 };
-
-double team_clock(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static unsigned cores(const calc *c) {
     static long there; /* asked once: the system reads a file for it */

@@ -34,6 +34,5 @@ void team_end(team *t); /* NULL too */
 
 /* Does a team pay, where `done` of `all` have taken so many seconds? */
 bool team_pays(double taken, double done, double all);
-double team_clock(void); /* seconds */
 
 #endif

@@ -2,7 +2,6 @@
 """The rim of the program: lines without end, memory that runs out, signals at the prompt, text that would command the
 terminal, small stacks. Nothing is lost, nothing is wrong in silence."""
 import errno
-import json
 import os
 import pty
 import re
@@ -17,6 +16,8 @@ import termios
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "fuzz"))
+import harness  # noqa: E402
+
 import faults  # noqa: E402
 import latency  # noqa: E402
 
@@ -618,7 +619,7 @@ def needed(tests, asked, scene, name, path):
     with tests.file("\n".join(lines) + "\n") as script:
         done = tests.run("--keep-going", script)
     failed = {int(line): words for line, words in re.findall(r":(\d+):\d+: error: (.*)", done.stderr)}
-    values = iter(done.stdout.splitlines())
+    values = iter([line for line in done.stdout.splitlines() if line.startswith('{"name":')])
     value = {line: None if line in failed else next(values, "") for line in range(first, len(lines) + 1)}
     tests.check(told, not any(line < first for line in failed) and next(values, None) is None, tests.report(done))
     value = {line: re.sub(r'"name":"[^"]*",', "", text or "") for line, text in value.items()}
@@ -668,7 +669,7 @@ def columns(tests, asked, scene, span):
     with tests.file("\n".join(lines) + "\n") as script:
         done = tests.run("--keep-going", script)
     failed = {int(line) for line in re.findall(r":(\d+):\d+: error: ", done.stderr)}
-    told = [json.loads(line) for line in done.stdout.splitlines()]
+    told = harness.told(done.stdout)
     rows = {}
     for row in told:
         rows.setdefault(list(row)[-1], []).append(list(row.values())[-1])
@@ -700,7 +701,7 @@ def ends(tests, asked, shape, load):
     with tests.file("\n".join(lines) + "\n") as script:
         done = tests.run("--keep-going", script)
     failed = {int(line) for line in re.findall(r":(\d+):\d+: error: ", done.stderr)}
-    told = [json.loads(line) for line in done.stdout.splitlines()]
+    told = harness.told(done.stdout)
     rows = {list(row)[-1]: list(row.values())[-1] for row in told if "name" not in row}
     values = {row["name"]: row["value"] for row in told if "name" in row}
     tests.check("along " + load, not {1, 2} & failed and len(values) > 40, tests.report(done))

@@ -23,7 +23,7 @@ typedef struct world {
     fret_loading loading;
     fret_contact *contact, *other_contact; /* exact, or in double */
     fret_springs *springs;
-    fret_fields *fields;
+    fret_field *field;
     fret_sine sine;
     fret_state state;
     fret_real sink[16]; /* where results go */
@@ -47,11 +47,11 @@ static size_t whole(double x, size_t most) {
 /* ---- objects ----------------------------------------------------------------------------------- */
 
 static void drop_contacts(world *w) {
-    fret_fields_free(w->fields);
+    fret_field_free(w->field);
     fret_springs_free(w->springs);
     fret_contact_free(w->contact);
     fret_contact_free(w->other_contact);
-    w->fields = NULL;
+    w->field = NULL;
     w->springs = NULL;
     w->contact = w->other_contact = NULL;
 }
@@ -88,8 +88,8 @@ static bool have_springs(world *w) {
     return have_normal(w) && (w->springs || known_code(fret_springs_make(w->normal, 0.4, SPRINGS, 3e-4,
                                                                          FRET_WEIGHT_CELL, &w->springs)));
 }
-static bool have_fields(world *w) {
-    return have_normal(w) && (w->fields || known_code(fret_fields_make(w->normal, &w->fields)));
+static bool have_field(world *w) {
+    return have_contact(w) && (w->field || known_code(fret_field_make(w->contact, &w->field)));
 }
 
 /* The diagram in order: places rise from the centre to the edge, slopes are slopes. */
@@ -160,67 +160,43 @@ CALL(fret_cycle_loss_by_displacement) {
 CALL(fret_loss_shape) {
     w->sink[0] = fret_loss_shape(x[0], x[1], x[2], x[3]);
 }
-CALL(fret_pressure) {
+CALL(fret_field_make) {
+    (void)x;
+    fret_field_free(w->field);
+    w->field = NULL;
+    (void)have_field(w);
+}
+CALL(fret_field_of_press) {
+    fret_field_free(w->field);
+    w->field = NULL;
     if (have_normal(w))
-        (void)known_code(fret_pressure(w->normal, x[0], x[1], w->sink));
+        (void)known_code(fret_field_of_press(w->normal, &(fret_press){.dz = x[0]}, &w->field));
 }
-CALL(fret_surface) {
-    if (have_normal(w))
-        (void)known_code(fret_surface(w->normal, x[0], x[1], w->sink));
-}
-CALL(fret_pressure_of) {
-    if (have_press(w))
-        (void)known_code(fret_pressure_of(w->normal, &w->press, x[0], w->sink));
-}
-CALL(fret_surface_of) {
-    if (have_press(w))
-        (void)known_code(fret_surface_of(w->normal, &w->press, x[0], w->sink));
-}
-CALL(fret_traction) {
-    if (have_contact(w))
-        (void)known_code(fret_traction(w->contact, x[0], w->sink));
-}
-CALL(fret_surface_x) {
-    if (have_contact(w))
-        (void)known_code(fret_surface_x(w->contact, x[0], w->sink));
-}
-CALL(fret_fields_make) {
+CALL(fret_field_free) {
     (void)x;
-    (void)have_fields(w);
+    fret_field_free(w->field);
+    w->field = NULL;
 }
-CALL(fret_fields_free) {
+CALL(fret_field_pressure) {
+    if (have_field(w))
+        (void)known_code(fret_field_pressure(w->field, x[0], w->sink));
+}
+CALL(fret_field_surface) {
+    if (have_field(w))
+        (void)known_code(fret_field_surface(w->field, x[0], w->sink));
+}
+CALL(fret_field_traction) {
+    if (have_field(w))
+        (void)known_code(fret_field_traction(w->field, x[0], w->sink));
+}
+CALL(fret_field_surface_x) {
+    if (have_field(w))
+        (void)known_code(fret_field_surface_x(w->field, x[0], w->sink));
+}
+CALL(fret_field_error) {
     (void)x;
-    fret_fields_free(w->fields);
-    w->fields = NULL;
-}
-CALL(fret_fields_pressure) {
-    if (have_fields(w))
-        (void)known_code(fret_fields_pressure(w->fields, x[0], x[1], w->sink));
-}
-CALL(fret_fields_surface) {
-    if (have_fields(w))
-        (void)known_code(fret_fields_surface(w->fields, x[0], x[1], w->sink));
-}
-CALL(fret_fields_pressure_of) {
-    if (have_press(w) && have_fields(w))
-        (void)known_code(fret_fields_pressure_of(w->fields, &w->press, x[0], w->sink));
-}
-CALL(fret_fields_surface_of) {
-    if (have_press(w) && have_fields(w))
-        (void)known_code(fret_fields_surface_of(w->fields, &w->press, x[0], w->sink));
-}
-CALL(fret_fields_traction) {
-    if (have_contact(w) && have_fields(w))
-        (void)known_code(fret_fields_traction(w->fields, w->contact, x[0], w->sink));
-}
-CALL(fret_fields_surface_x) {
-    if (have_contact(w) && have_fields(w))
-        (void)known_code(fret_fields_surface_x(w->fields, w->contact, x[0], w->sink));
-}
-CALL(fret_fields_error) {
-    (void)x;
-    if (have_fields(w))
-        w->sink[0] = fret_fields_error(w->fields);
+    if (have_field(w))
+        w->sink[0] = fret_field_error(w->field);
 }
 CALL(fret_kappa) {
     w->sink[0] = fret_kappa(x[0], x[1]);
@@ -583,21 +559,14 @@ static const struct row {
     ROW(fret_cycle_loss_by_force),
     ROW(fret_cycle_loss_by_displacement),
     ROW(fret_loss_shape),
-    ROW(fret_pressure),
-    ROW(fret_surface),
-    ROW(fret_pressure_of),
-    ROW(fret_surface_of),
-    ROW(fret_traction),
-    ROW(fret_surface_x),
-    ROW(fret_fields_make),
-    ROW(fret_fields_free),
-    ROW(fret_fields_pressure),
-    ROW(fret_fields_surface),
-    ROW(fret_fields_pressure_of),
-    ROW(fret_fields_surface_of),
-    ROW(fret_fields_traction),
-    ROW(fret_fields_surface_x),
-    ROW(fret_fields_error),
+    ROW(fret_field_make),
+    ROW(fret_field_of_press),
+    ROW(fret_field_free),
+    ROW(fret_field_pressure),
+    ROW(fret_field_surface),
+    ROW(fret_field_traction),
+    ROW(fret_field_surface_x),
+    ROW(fret_field_error),
     ROW(fret_kappa),
     ROW(fret_gap_check),
     ROW(fret_gap_f),

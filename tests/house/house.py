@@ -24,7 +24,7 @@ BELOW = {
     "shell": {"live/live.h", "study", "plot", "calc", "number", "fret"},
     "live": {"study", "plot", "calc", "number", "fret"},
 }
-INTRODUCED = ("number", "law", "history", "arrays", "study")
+INTRODUCED = ("number", "law", "history", "field", "arrays", "study")
 LIBRARY = ("number", "law", "history", "field", "arrays", "fret")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<(fret/[^>]+)>)', re.M)

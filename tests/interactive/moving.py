@@ -387,7 +387,7 @@ def memory(tests):
     rows = live.screen.text().splitlines()
     high = next(i for i, row in enumerate(rows) if row.startswith(" FN ")) - next(i for i, row in enumerate(rows) if "-- energy" in row) - 1
     live.end()
-    live = Live(tests, size=(50, 130), FAULT_SIZE=str(3 * (high * (130 * 2 // 5 - 1) + 1)), FAULT="1", **fault)
+    live = Live(tests, size=(50, 130), FAULT_SIZE=str(14 * (high * (130 * 2 // 5 - 1) + 1)), FAULT="1", **fault)
     live.wait(r"a +186\.626 um")
     live.says("source arm")
     tests.check("memory for a picture", live.wait(r"-- energy.*\nout of memory") and live.key("f", "displacements dx and dz") and

@@ -2,7 +2,6 @@
 """The program against tables that independent code has made: springs of the one-dimensional model, points of the
 paper's figures, losses under swinging normal forces. (The other tables are read by tests/unit and the room numbers.)"""
 import csv
-import json
 import os
 import re
 
@@ -73,7 +72,7 @@ def figure(tests, panel, k, ratio, rows):
     scene = FIGURE % (shape, k, ratio)
     if rows[0]["t"]:
         done = tests.run("-c", scene + "table %s, %s along cycle FA=0.9*mu*FN steps %d" % (x, y, len(rows) - 1))
-        table = [json.loads(text) for text in done.stdout.splitlines()]
+        table = harness.told(done.stdout)
         compared(tests, name + ": instants", [4 * float(row["t"]) for row in rows],
                  [4 * row["time"] for row in table], EXACT)
         for axis, expression in (("x", x), ("y", y)):

@@ -18,7 +18,7 @@ SPHERE, CONE = "sphere R=10 mm", "cone slope=0.01"
 def measured(tests, script, command="accuracy within 0.3"):
     """The rows by model, as {parameter: row}, and the last object."""
     done = tests.run("-c", script + "\nset format json\n" + command)
-    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    lines = harness.told(done.stdout)
     wide = "warning: a/R = 0.7: beyond 0.3 the bodies are no half-spaces"  # a scene of the tests is, on purpose
     told = [line for line in done.stderr.splitlines() if not line.startswith(wide)]
     if not tests.check("%s; %s" % (script, command), len(lines) > 1 and not told and done.returncode == 0,
@@ -103,7 +103,7 @@ def loads(tests):
     tests.check("accuracy, all slides", rows and last["agreement"] > 0, str(last))
     # the same number as dW, and nothing has moved
     done = tests.run("-c", scene + "cycle FA=20 N\nset format json\nW\ndW\naccuracy within 0.1\nW\ndW")
-    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    lines = harness.told(done.stdout)
     tests.check("accuracy takes the last cycle", len(lines) > 10 and
                 lines[-3]["load"] == "FA = 20 N at FN = 100 N, the last cycle", tests.report(done))
     tests.check("accuracy leaves the scene", lines[:2] == lines[-2:] and len(lines) > 10, tests.report(done))
@@ -382,7 +382,7 @@ def curves(tests):
     rows = "table dW(F), a for F = 1 N .. 8 N steps 39"
     for name, values in (("mu", ("0.4", "0.5", "0.6")), ("k", ("0.1", "0.3", "0.1")), ("FN", ("50 N", "90 N", "40 N"))):
         done = [tests.run("--format=json", "-c", scene + rows + " with %s = %s" % (name, which)) for which in (", ".join(values), *values)]
-        together, *apart = [re.findall(r'^.*"dW.*$', one.stdout, re.M) for one in done]
+        together, *apart = [re.findall(r'^{"F".*$', one.stdout, re.M) for one in done]
         tests.check("curves of one table and of several, " + name, len(apart[0]) == 40 and together == sum(apart, []),
                     tests.report(done[0]) + "\n".join(sum(apart, [])))
     matrix = tests.run("--format=csv", "-c", scene + rows.replace(", a", "") + " for mu = 0.4 .. 0.6 steps 2")

@@ -17,7 +17,7 @@ def table(name):
 
 def run_json(tests, script):
     done = tests.run("--format=json", input=script)
-    rows = [json.loads(line) for line in done.stdout.splitlines()]
+    rows = harness.told(done.stdout)
     return [r for r in rows if "name" in r], [r for r in rows if "event" in r], done
 
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Inputs that follow definitions: what is asked in a table over what they depend on, by `at`, by `with`, and after a statement that
 sets it, is the same to the last digits."""
-import json
 import random
+
+import harness
 
 GEOMETRIES = ("sphere R=10 mm", "cone slope=0.02", "exact-sphere R=10 mm", "flat-rounded b=0.02 mm R=10 mm", "power n=3 A=50 m^-2")
 # An input that follows, and what it follows with two values of that.
@@ -15,7 +16,7 @@ ASKED = ("a", "dz", "kt", "kn", "dW(1 N)", "Fx(0.01 um)", "p(0.01 mm)", "uz(1 mm
 
 def values(done):
     """Those that are reported, else those of the rows."""
-    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    lines = harness.told(done.stdout)
     told = [line["value"] for line in lines if "name" in line and "value" in line]
     return told or [[row[name] for name in ASKED] for row in lines if "event" not in row]
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Inputs changed at an instant of a load, `(W at k=0)` along it: the value of the changed scene at the same instant. Against
 the same load run in that scene, and against that scene at the end of a load that is cut there."""
-import json
 import math
 import os
 import random
@@ -29,7 +28,7 @@ ASKED = ("Fx", "dx", "W", "a", "c", "U", "dW", "FN", "dz", "kt", "kn", "p(0 m)",
 def rows(tests, script):
     """The rows of the table that the script ends with, and what went wrong; time is rounded."""
     done = tests.run("--format=json", "-c", script)
-    found = [json.loads(line) for line in done.stdout.splitlines()]
+    found = harness.told(done.stdout)
     found = [list(row.values()) for row in found if "time" in row and "event" not in row]
     for row in found:
         row[0] = round(row[0], 9)
@@ -88,7 +87,7 @@ def against_cut(tests):
                 "(%s at %s)" % (x, change) for x in asked)]))
             for i, row in enumerate(got):
                 cut = tests.run("--format=json", "-c", "; ".join([setup, *steps[:i], *("%s at %s" % (x, change) for x in asked)]))
-                want = [json.loads(line)["value"] for line in cut.stdout.splitlines()[-len(asked):]]
+                want = harness.printed_values(cut.stdout)[-len(asked):]
                 tests.check("%s at %s after %d steps" % (setup, change, i),
                             row[0] == i and all(abs(a - b) <= 4e-16 * abs(b) for a, b in zip(row[1:], want)), "%s\n%s" % (row, want))
             tests.check("%s at %s: rows" % (setup, change), len(got) == 6, tests.report(done))
@@ -139,7 +138,7 @@ def turning_points(tests):
     for x, y in between:
         turned = "step Fx=20 N; step Fx=-20 N; " if x > 0.75 else "step Fx=20 N; " if x > 0.25 else ""
         done = tests.run("--format=json", "-c", "%s; %sstep Fx=20 N*%s; W in uJ" % (press, turned, "sin(2*pi*%.17g)" % x))
-        want = json.loads(done.stdout.splitlines()[-1])["value"]
+        want = harness.printed_values(done.stdout)[-1]
         tests.check("W at the turn at %g" % x, abs(1e-6 * y - want) <= 1e-8 * want, "%g %g" % (y, want))
     load = press + "; cycle FA=20 N; plot W, (W at FNA=10 N, phase=70 deg) along program steps 4"
     drawn = curves(tests, load, "chords")  # chords, which do not turn
@@ -192,7 +191,7 @@ def periods(tests):
         end = got[-1][0] if got else 0
         for times in (1, 2, 3):
             plain = tests.run("--format=json", "-c", "%s; %s times %d; %s" % (setup, cycle, times, asked))
-            want = [line["value"] for line in map(json.loads, plain.stdout.splitlines()) if "value" in line]
+            want = [line["value"] for line in harness.told(plain.stdout) if "value" in line]
             row = [row[1:] for row in got if abs(row[0] - (end - 3 + times)) < 1e-9]
             tests.check("period %d of %s; %s" % (times, setup, cycle), len(row) == 1 and len(want) == 12 and all(
                 abs(x - y) <= 1e-12 * max(abs(y), want[2] if i == 4 else 0) for i, (x, y) in enumerate(zip(row[0], want))), "%s\n%s\n%s" % (row, want, tests.report(done)))

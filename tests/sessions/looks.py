@@ -366,6 +366,14 @@ def terminals(tests):
     tests.check("braille when asked for", re.search("[\u2801-\u28ff]{8}", block.stdout) and "*" not in block.stdout and
                 [line[:7] for line in block.stdout.splitlines()] == [line[:7] for line in wide.stdout.splitlines()],
                 block.stdout)
+    panels = tests.run("--color=always", "-c", SCENE + "set plot terminal block; set plot 100x20\nplot springs title \"\u65e5\u672c\" | dissipation",
+                       env={"LC_ALL": "C.UTF-8", "PATH": "/nonexistent"})
+    head, top, *rows = [re.sub("\033\\[[0-9;]*m", "", line) for line in panels.stdout.splitlines()]
+    borders = [i for i, c in enumerate(top) if c == "+"]
+    tests.check("dots need no gnuplot, and panels stand side by side in their colours", panels.returncode == 0 and len(borders) == 4 and
+                all(row[i] in "|+" or row[i] > "\u2800" for row in rows[:-3] for i in borders[:2]) and
+                "\033[38;5;33m" in panels.stdout and "\033[38;5;248m" in panels.stdout, panels.stdout + panels.stderr)
+    tests.check("a wide character takes two columns", "\u65e5\u672c" in head and head.index("\u0394W") == 51 - 2, head)
     gnuplots(tests)
     shown = tests.run("-c", "set plot 100x30; set plot terminal dumb; show settings")
     tests.check("settings of plots are shown as they are set", "set plot 100x30\nset plot terminal dumb\n" in shown.stdout,

@@ -3,7 +3,6 @@
 import csv
 import decimal
 import glob
-import json
 import math
 import os
 import re
@@ -35,7 +34,7 @@ def reference():
 
 def objects(done):
     """What is printed, without what press and cycle report of themselves."""
-    return [row for row in map(json.loads, done.stdout.splitlines()) if "event" not in row]
+    return [row for row in harness.told(done.stdout) if "event" not in row]
 
 
 def table_of(plot, steps):

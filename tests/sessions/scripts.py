@@ -2,7 +2,6 @@
 """The program in scripts: files, options, output files, pictures, the demos."""
 import csv
 import glob
-import json
 import math
 import os
 import re
@@ -76,7 +75,7 @@ def written(tests):
     done = tests.run("-c", SCENE + "step Fx=20 N\nhistory to h.csv\ntable dW(F) in uJ, c(F)/a for F = 10 N .. 30 N "
                      "steps 2 to t.csv\ntable x for x = 1 .. 3 steps 2 to t.txt\n"
                      "set format json; table x^2 for x = 1 .. 3 steps 2 to \"t 2.json\"\nhistory to h.json", cwd=where)
-    tests.check("tables to files", done.returncode == 0 and not done.stdout and
+    tests.check("tables to files", done.returncode == 0 and not harness.told(done.stdout) and
                 harness.reported(done.stderr, ["h.csv", "t.csv", "t.txt", "t 2.json", "h.json"]), tests.report(done))
     done = tests.run("-c", "table x for x = 1 .. 3 to t.txt", cwd=where)
     tests.check("a table over another", harness.reported(done.stderr, ["t.txt"], "overwrote"), tests.report(done))
@@ -94,7 +93,7 @@ def written(tests):
 
     def lines(name):
         with open(os.path.join(where, name), encoding="ascii") as f:
-            return [json.loads(line) for line in f]
+            return harness.told(f.read())
 
     tests.check("h.csv", rows("h.csv")[0] == ["FN [N]", "dz [m]", "Fx [N]", "dx [m]", "W [J]"] and
                 len(rows("h.csv")) == 3 and rows("h.csv")[2][2] == "20", str(rows("h.csv")))
@@ -107,7 +106,7 @@ def written(tests):
                    "            3              3\n", f.read())
     done = tests.run("--format=json", "-c", 'x = 1\ntable x, x^2 for x = 1 .. 3 steps 2\n"')
     tests.check("rows are on standard output, errors are not",
-                [json.loads(line)["x"] for line in done.stdout.splitlines()] == [1, 2, 3] and "error:" in done.stderr)
+                [row["x"] for row in harness.told(done.stdout)] == [1, 2, 3] and "error:" in done.stderr)
     quoted = tests.run("--format=csv", "-c", "max(1 mm, 2 mm), 3").stdout.splitlines()
     tests.check("CSV fields with commas are quoted", next(csv.reader(quoted[:1])) == ["max(1 mm, 2 mm) [m]", "3"],
                 str(quoted))
@@ -484,7 +483,7 @@ def lessons_aside(tests):
     tests.check("nor those of its own", done.returncode == 0 and "set digits 6\n" in done.stdout and "set model auto\n" in done.stdout and
                 done.stdout.endswith("pi = 3.14159\nmu = 0.4\n"), tests.report(done))
     done = tests.run("--format=json", "-c", "demo loop")
-    rows = [json.loads(line) for line in done.stdout.splitlines()]
+    rows = harness.told(done.stdout)
     tests.check("a lesson in JSON", done.returncode == 0 and any(row.get("name") == "dW" for row in rows),
                 tests.report(done))
 

@@ -3,12 +3,14 @@
 #ifndef HISTORIES_H
 #define HISTORIES_H
 
-#include "field/field.h"
 #include "history/contact.h"
 #include "history/diagram.h"
 #include "history/swing.h"
 
 /* A contact that holds a memory, which it does not own. */
 #define CONTACT_OF(m) (&(const fret_contact){.normal = (m)->normal, .mu = (m)->mu, .memory = (m)})
+
+/* The same of one that has swung. */
+#define SWUNG(s) (&(const fret_contact){.normal = (s)->normal, .mu = (s)->mu, .swing = (s), .curved = true})
 
 #endif

@@ -277,36 +277,36 @@ static void periods_without_room(void) {
     fret_memory_free(m);
 }
 
-/* What a field wants is kept, or nothing is. */
+/* A field is there, or nothing is. */
 static void fields(void) {
     const unit_scene s = unit_make_scene(2, 0.3);
     fret_gap gap = {.kind = FRET_GAP_TABLE};
     struct fret_table *table = NULL;
     fret_normal *normal = NULL;
     fret_memory *m = NULL;
-    fret_fields *many = NULL;
-    fret_real q = 0, again = 0;
+    fret_field *field = NULL;
+    fret_real q = 0;
     CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
     gap.table = table;
     CHECK_OK(fret_normal_make(&s.material, &gap, NULL, NULL, &normal));
     CHECK_OK(fret_memory_make(normal, 0.4, &m));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 5}));
-    EACH(1, fret_fields_make(normal, &many), many == NULL);
-    EACH(4, fret_fields_traction(many, CONTACT_OF(m), 1e-5L, &q), isnan(fret_fields_error(many)));
-    CHECK_OK(fret_fields_traction(many, CONTACT_OF(m), 1e-5L, &again));
-    CHECK(q > 0 && q == again && fret_fields_error(many) < 1e-14);
-    fret_fields_free(many);
+    EACH(8, fret_field_make(CONTACT_OF(m), &field), field == NULL);
+    CHECK_OK(fret_field_traction(field, 1e-5L, &q));
+    CHECK(q > 0 && fret_field_error(field) < 1e-14);
+    fret_field_free(field);
     fret_memory_free(m);
     fret_normal_free(normal);
     fret_table_free(table);
     gap = (fret_gap){.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-4, .R = 1e-2};
     CHECK_OK(fret_normal_make(&s.material, &gap, NULL, NULL, &normal));
-    CHECK_OK(fret_fields_make(normal, &many));
-    EACH(2, fret_fields_pressure(many, 3e-4L, 1.5e-4L, &q), isnan(fret_fields_error(many)));
-    CHECK_OK(fret_fields_pressure(many, 3e-4L, 1.5e-4L, &again));
-    CHECK(q > 0 && q == again && fret_fields_error(many) < 1e-14);
-    fret_fields_free(many);
+    /* beyond eight times the flat end's radius cells are made of powers */
+    EACH(10, fret_field_of_press(normal, &(fret_press){.dz = fret_normal_profile(normal, 3e-3L)}, &field),
+         field == NULL);
+    CHECK_OK(fret_field_pressure(field, 1.5e-4L, &q));
+    CHECK(q > 0 && fret_field_error(field) < 1e-14);
+    fret_field_free(field);
     fret_normal_free(normal);
 }
 

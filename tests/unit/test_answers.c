@@ -408,7 +408,7 @@ static void swings_too_far(void) {
     calc_free(&c);
 }
 
-/* What is too steep for a sum of powers is told by polynomials, the same whenever it is asked. */
+/* A sum of powers with a steep one. */
 static void too_steep(void) {
     const fret_gap sum = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 50, 1}, {100, 1e-6, 1e-4}}};
     double one[VALUES];
@@ -417,7 +417,6 @@ static void too_steep(void) {
     begin(&c, &(scened){.automatic = true});
     inputs_geometry(&c.now->in, geometry_find("sum", 3), &sum, NULL);
     CHECK(again(c.now, CONTACT, one));
-    CHECK(as_ever(c.now, CONTACT, one));
     CHECK(scene_contact(c.now, &contact, fresh()) && (c.now->used & USED(MODEL_PIECES)));
     calc_free(&c);
 }

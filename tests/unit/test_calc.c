@@ -26,6 +26,14 @@ static void characters(void) {
     CHECK(character_at("", 0, &code) == 0 && code == 7);
     CHECK(character_at("\xe2\x82\xac", 3, &code) == 3 && code == 0x20ac);
     CHECK(character_at("\xe2\x82\xac", 2, &code) == 0 && character_at("a", 1, NULL) == 1);
+    CHECK(character_before("a\xe2\x82\xac", 4) == 1 && character_before("a\xe2\x82", 3) == 1);
+    char put[CHARACTER_BYTES];
+    static const unsigned codes[] = {0x24, 0x7f, 0x80, 0x7ff, 0x800, 0x28ff, 0xffff, 0x10000, 0x10ffff};
+    for (size_t i = 0; i < sizeof codes / sizeof *codes; i++) {
+        const size_t n = character_put(codes[i], put);
+        CHECK(strlen(put) == n && character_at(put, n, &code) == n && code == codes[i]);
+    }
+    CHECK(character_before("ab", 2) == 1 && character_before("ab", 0) == 0);
     static const struct {
         const char *text;
         size_t count, columns;
@@ -40,6 +48,38 @@ static void characters(void) {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         CHECK(character_count(rows[i].text, strlen(rows[i].text)) == rows[i].count);
         CHECK(text_columns(rows[i].text, strlen(rows[i].text)) == rows[i].columns);
+    }
+}
+
+static void rows(void) {
+    static const struct {
+        const char *text;
+        size_t columns, row, rest; /* bytes */
+    } rows[] = {{"", 5, 0, 0},
+                {"ab cd", 5, 5, 0},
+                {"ab cd", 4, 2, 2},
+                {"ab   cd", 3, 2, 2},
+                {"ab cd", 2, 2, 2},
+                {"abcd", 3, 3, 1},
+                {"  ab", 3, 0, 2},
+                {"\xe5\xa5\xb3", 1, 3, 0}, /* at least a character */
+                {"a\xe5\xa5\xb3 b", 2, 1, 5}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *text = rows[i].text;
+        size_t rest = strlen(text);
+        CHECK(text_break(&text, &rest, rows[i].columns) == rows[i].row && rest == rows[i].rest);
+        CHECK(text + rest == rows[i].text + strlen(rows[i].text));
+    }
+}
+
+/* Those at the ends of what is hidden. */
+static void hidden(void) {
+    static const unsigned from[][2] = {
+        {0x7f, 0x9f},     {0xad, 0xad},     {0x61c, 0x61c},   {0x200b, 0x200f}, {0x2028, 0x202e},
+        {0x2060, 0x206f}, {0xfe00, 0xfe0f}, {0xfeff, 0xfeff}, {0xfff0, 0xfffb}, {0xe0000, 0xe0fff}};
+    for (size_t i = 0; i < sizeof from / sizeof *from; i++) {
+        CHECK(character_shows(from[i][0] - 1) && !character_shows(from[i][0]));
+        CHECK(!character_shows(from[i][1]) && character_shows(from[i][1] + 1));
     }
 }
 
@@ -514,6 +554,8 @@ int main(int argc, char **argv) {
     unit_start("test_calc", argc, argv);
     CASE(words());
     CASE(characters());
+    CASE(rows());
+    CASE(hidden());
     CASE(units());
     CASE(ranges());
     CASE(first_errors());

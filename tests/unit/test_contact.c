@@ -2,6 +2,7 @@
 /* The door to histories: what either exactness takes and refuses, swinging and its chords, histories as
  * arrays of doubles. What contacts answer is tested where it is worked out. */
 #include "histories.h"
+#include "places.h"
 #include "unit.h"
 
 static fret_contact *make(const fret_normal *n, fret_exactness exactness) {
@@ -52,8 +53,8 @@ static void both(void) {
     CHECK_ERROR(fret_contact_copy(fast, exact), FRET_OUTSIDE, "exactness");
     CHECK_ERROR(fret_contact_chords(exact, fast), FRET_OUTSIDE, "exactness");
     CHECK_ERROR(fret_contact_swing(fast, &(fret_sine){1, 1, 0, 10}, 0, 1), FRET_OUTSIDE, "exactness");
-    CHECK_ERROR(fret_traction(fast, 0, &out), FRET_OUTSIDE, "exactness");
-    CHECK_ERROR(fret_surface_x(fast, 0, &out), FRET_OUTSIDE, "exactness");
+    CHECK_ERROR(place_traction(fast, 0, &out), FRET_OUTSIDE, "exactness");
+    CHECK_ERROR(place_surface_x(fast, 0, &out), FRET_OUTSIDE, "exactness");
     CHECK(fret_contact_normal(fast) == n && fret_contact_friction(fast) == 0.4);
     fret_contact_count_loss(fast, false);
     CHECK_OK(fret_contact_step(fast, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 100, 39}));

@@ -6,6 +6,7 @@
 #include "law/normal.h"
 #include "number/dd.h"
 #include "number/real.h"
+#include "places.h"
 #include "unit.h"
 
 static unsigned long long seed = 5;
@@ -198,7 +199,7 @@ static void fields(void) {
         const fret_real a = 1e-3L, r = a * all[i].r, k = all[i].k;
         fret_real dz, slope, got = 0;
         CHECK_OK(fret_gap_g(&gap, m.k, a, &dz, &slope));
-        CHECK_OK(fret_surface(n, a, r, &got));
+        CHECK_OK(place_surface(n, a, r, &got));
         const outside o = {all[i].n, k, a, r, dz};
         const fret_real factor = 2 * sinl(FRET_PI * (1 - fabsl(k)) / 2) / FRET_PI;
         CHECK_REL(got, factor * unit_integrate(surface_rate, &o, 0, a), 1e-12L);
@@ -209,22 +210,22 @@ static void fields(void) {
     const fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 1e-3};
     const fret_normal *n = unit_keep_normal(&graded, &sphere);
     fret_real p[3];
-    CHECK_OK(fret_pressure(n, 0.9e-3L, 0, &p[0]));
-    CHECK_OK(fret_pressure(n, 0.9e-3L, 1e-60L, &p[1]));
-    CHECK_OK(fret_pressure(n, 0.9e-3L, 1e-12L, &p[2]));
+    CHECK_OK(place_pressure(n, 0.9e-3L, 0, &p[0]));
+    CHECK_OK(place_pressure(n, 0.9e-3L, 1e-60L, &p[1]));
+    CHECK_OK(place_pressure(n, 0.9e-3L, 1e-12L, &p[2]));
     CHECK_REL(p[1], p[0], 1e-12L);
     CHECK_REL(p[2], p[0], 1e-7L);
     /* a pointed term beside a steep one is singular in the middle */
     const fret_gap mixed = {.kind = FRET_GAP_SUM, .terms = 2, .power = {{0.5, 1e-5, 1e-3}, {30, 1e-5, 1e-3}}};
     n = unit_keep_normal(&steel, &mixed);
-    CHECK_ERROR(fret_pressure(n, 1e-3L, 0, &p[0]), FRET_SINGULAR, "r");
-    CHECK_OK(fret_pressure(n, 1e-3L, 5e-4L, &p[0]));
+    CHECK_ERROR(place_pressure(n, 1e-3L, 0, &p[0]), FRET_SINGULAR, "r");
+    CHECK_OK(place_pressure(n, 1e-3L, 5e-4L, &p[0]));
     /* a steep one alone: at the rim, and where a double can tell the two no more */
     const fret_gap steep = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{40, 1e-5, 1e-3}}};
     n = unit_keep_normal(&steel, &steep);
     for (int i = 0; i < 4; i++) {
         const fret_real r = (fret_real[]){1e-3L, nextafterl(1e-3L, 0), 1e-3L * (1 - 1e-18L), 2e-3L}[i];
-        CHECK_OK(fret_pressure(n, 1e-3L, r, &p[0]));
+        CHECK_OK(place_pressure(n, 1e-3L, r, &p[0]));
         CHECK(p[0] >= 0 && p[0] < 1e3);
     }
     /* not pressed beyond its flat end */
@@ -232,15 +233,15 @@ static void fields(void) {
     n = unit_keep_normal(&steel, &flat);
     for (int i = 0; i < 3; i++) {
         const fret_real r = (fret_real[]){0, 5e-4L, 2e-3L}[i];
-        CHECK_OK(fret_pressure(n, 1e-3L, r, &p[0]));
-        CHECK_OK(fret_surface(n, 1e-3L, r, &p[1]));
+        CHECK_OK(place_pressure(n, 1e-3L, r, &p[0]));
+        CHECK_OK(place_surface(n, 1e-3L, r, &p[1]));
         CHECK(p[0] == 0 && p[1] == 0);
     }
     fret_memory *m = NULL;
     CHECK_OK(fret_memory_make(n, 0.4, &m));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 10, 1}));
-    CHECK_ERROR(fret_traction(CONTACT_OF(m), -1, &p[0]), FRET_NEGATIVE, "r");
-    CHECK_ERROR(fret_surface_x(CONTACT_OF(m), -1, &p[0]), FRET_NEGATIVE, "r");
+    CHECK_ERROR(place_traction(CONTACT_OF(m), -1, &p[0]), FRET_NEGATIVE, "r");
+    CHECK_ERROR(place_surface_x(CONTACT_OF(m), -1, &p[0]), FRET_NEGATIVE, "r");
     fret_memory_free(m);
 }
 

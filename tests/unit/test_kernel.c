@@ -86,7 +86,7 @@ static void compare(side which, int of_m, int whole, fret_real m, fret_real d, f
     static const int some[] = {0, 1, 2, 7, MOST - 1};
     static powers p;
     fret_real I[MOST];
-    reach c = {.m = m, .d = d, .x = x, .rest = which == BELOW ? x + d : fabsl(x - d)};
+    distances c = {.m = m, .d = d, .x = x, .rest = which == BELOW ? x + d : fabsl(x - d)};
     fret_kernel_power(&p, of_m, whole, m);
     c.x_m = fret_pow(x, m);
     c.d_m = fret_pow(d, m);

@@ -2,7 +2,6 @@
 /* An interrupt at any moment of what takes long: the call says so, leaves nothing half done behind, and gives
  * afterwards what it gives where nothing interrupts. The Makefile links this program so that functions of
  * numbers, which everything asks again and again, pass through here: each call is a moment. */
-#include "field/rows.h"
 #include "law/normal.h"
 #include "law/table.h"
 #include "number/real.h"
@@ -106,15 +105,15 @@ static void laws(const fret_gap *gap, double k, long tries) {
 
 typedef enum what { PRESSURE, SURFACE, TRACTION, SURFACE_X } what;
 
-static fret_status ask(const fret_normal *n, const fret_contact *m, what w, fret_real r, fret_real *v) {
-    const fret_real a = 2e-4L;
-    fret_fields *f;
-    CHECK_OK(fret_fields_make(n, &f));
-    const fret_status st = w == PRESSURE   ? fret_fields_pressure(f, a, r, v)
-                           : w == SURFACE  ? fret_fields_surface(f, a, r, v)
-                           : w == TRACTION ? fret_fields_traction(f, m, r, v)
-                                           : fret_fields_surface_x(f, m, r, v);
-    fret_fields_free(f);
+static fret_status ask(const fret_contact *m, what w, fret_real r, fret_real *v) {
+    fret_field *f = NULL;
+    fret_status st = fret_field_make(m, &f);
+    if (!st.code)
+        st = w == PRESSURE   ? fret_field_pressure(f, r, v)
+             : w == SURFACE  ? fret_field_surface(f, r, v)
+             : w == TRACTION ? fret_field_traction(f, r, v)
+                             : fret_field_surface_x(f, r, v);
+    fret_field_free(f);
     return st;
 }
 
@@ -133,9 +132,9 @@ static void memories(const fret_gap *gap, double k) {
         const what w = places[i].w;
         const fret_real r = places[i].r;
         fret_real v = 0;
-        CHECK_OK(ask(n, m, w, r, &v));
+        CHECK_OK(ask(m, w, r, &v));
         const fret_real want = v;
-        EACH_MOMENT(12, 5, ask(n, m, w, r, &v), true, v == want);
+        EACH_MOMENT(12, 5, ask(m, w, r, &v), true, v == want);
     }
     fret_contact_free(m);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures: the forms of texts, what reaches gnuplot, thinning, limits, pages, pictures. */
 #define _GNU_SOURCE /* fopencookie */
+#include "calc/characters.h"
 #include "plot/plot.h"
 
 #include <sys/stat.h>
@@ -69,7 +70,7 @@ static void odd_names(void) {
     TEXT("\u2029a\u2065\u061c\ufeff\u00ad\x7f\u2000\u200f\u202e\u2030\u206f\u2070", PLOT_UNICODE,
          "?a?????\u2000??\u2030?\u2070");
     TEXT("\ufff8\ufff9\ufffb\ufffc\U000dffff\U000e0001\U000e1000\xed\xa0\x80\xf4\x90\x80\x80", PLOT_UNICODE,
-         "\ufff8??\ufffc\U000dffff?\U000e1000???????");
+         "???\ufffc\U000dffff?\U000e1000???????");
 }
 
 static void plain(void) {
@@ -91,25 +92,6 @@ static void plain(void) {
     TEXT("\xf0\x9f\x98\x80", PLOT_UNICODE, "\xf0\x9f\x98\x80");
     TEXT(PLOT_END PLOT_END "a" PLOT_EXPR, PLOT_UNICODE, "a");
     TEXT("", PLOT_TEX, "");
-}
-
-/* What turns or hides its neighbours, up to its ends, and none beside it. */
-static void hidden(void) {
-    static const unsigned from[][2] = {{0xad, 0xad},     {0x61c, 0x61c},    {0x200b, 0x200f},
-                                       {0x2028, 0x202e}, {0x2060, 0x206f},  {0xfeff, 0xfeff},
-                                       {0xfff9, 0xfffb}, {0xe0000, 0xe0fff}};
-    for (size_t i = 0; i < sizeof from / sizeof *from; i++)
-        for (int end = 0; end < 4; end++) {
-            const unsigned c = end == 0 ? from[i][0] - 1 : end == 3 ? from[i][1] + 1 : from[i][end - 1];
-            const unsigned lead = c < 0x800 ? 0xc0 | c >> 6 : c < 0x10000 ? 0xe0 | c >> 12 : 0xf0 | c >> 18;
-            char text[5] = {(char)lead}, *at = text + 1;
-            if (c >= 0x10000)
-                *at++ = (char)(0x80 | (c >> 12 & 0x3f));
-            if (c >= 0x800)
-                *at++ = (char)(0x80 | (c >> 6 & 0x3f));
-            *at = (char)(0x80 | (c & 0x3f));
-            TEXT(text, PLOT_UNICODE, end == 1 || end == 2 ? "?" : text);
-        }
 }
 
 static void page_sizes(void) {
@@ -707,45 +689,100 @@ static void levels(void) {
     plot_figure_free(&f);
 }
 
-/* ---- dots --------------------------------------------------------------------------------------- */
+/* ---- cells -------------------------------------------------------------------------------------- */
+
+static const char *shown(const plot_cells *c, int column, int row) {
+    static char text[CELL_TEXT];
+    plot_cells_show(c, column, row, text);
+    return text;
+}
 
 static int count_dots(const plot_cells *c) {
     int n = 0;
-    for (int i = 0; i < c->columns * c->across * c->rows * c->up; i++)
-        n += c->dot[i];
+    for (int i = 0; i < c->rows * c->stride; i++)
+        for (unsigned bits = c->cell[i].dots; bits; bits &= bits - 1)
+            n++;
     return n;
+}
+
+static void draw_line(const plot_cells *c, const char *dash, double x0, double y0, double x1, double y1) {
+    plot_pen pen = plot_pen_of(c, dash, 1);
+    plot_pen_line(&pen, x0, y0, x1, y1);
 }
 
 static void dots(void) {
     plot_cells c;
-    char text[4];
-    if (!CHECK(plot_cells_make(&c, 10, 5, true)))
+    char text[CHARACTER_BYTES];
+    if (!CHECK(plot_cells_make(&c, 10, 5, 2, 4)))
         return;
-    /* from corner to corner of the frame, and far beyond it */
-    const double line[][2] = {{-0.5, -0.5}, {9.5, 4.5}}, far[][2] = {{-1e14, 2}, {1e14, 2}};
-    plot_cells_draw(&c, line, 2, true, "1");
-    CHECK(count_dots(&c) >= 20 && count_dots(&c) <= 40);
-    CHECK(plot_cells_braille(&c, 0, 0) == 0xe0 || plot_cells_has(&c, 0, 0));
-    CHECK(plot_cells_has(&c, 9, 4) && !plot_cells_has(&c, 0, 4) && !plot_cells_has(&c, 9, 0));
-    plot_cells_draw(&c, far, 2, true, "1");
+    /* from corner to corner, and far beyond */
+    draw_line(&c, "1", 0, 19, 19, 0);
+    CHECK(count_dots(&c) >= 20 && count_dots(&c) <= 40 && *shown(&c, 9, 0) && *shown(&c, 0, 4) &&
+          !*shown(&c, 0, 0) && !*shown(&c, 9, 4));
+    draw_line(&c, "1", -1e14, 9, 1e14, 9);
     for (int i = 0; i < 10; i++)
-        CHECK(plot_cells_has(&c, i, 2));
-    free(c.dot);
-    if (!CHECK(plot_cells_make(&c, 4, 2, true)))
+        CHECK(c.cell[2 * 10 + i].dots & 0x12);
+    const int before = count_dots(&c);
+    draw_line(&c, "1", -5, -5, -5, 50);
+    draw_line(&c, "1", 0, 21, 19, 21);
+    draw_line(&c, "1", -9, 5, 5, -9);
+    draw_line(&c, "1", NAN, 0, 19, 19);
+    draw_line(&c, "1", 0, 0, 19, INFINITY);
+    CHECK(count_dots(&c) == before);
+    free(c.cell);
+    if (!CHECK(plot_cells_make(&c, 8, 1, 2, 4)))
         return;
-    const double points[][2] = {{0, 0}, {NAN, NAN}, {1.3, 0.4}, {7, 7}};
-    plot_cells_draw(&c, points, 4, false, "1");
-    CHECK(count_dots(&c) == 2 && plot_cells_braille(&c, 0, 0) == 0x10 &&
-          plot_cells_braille(&c, 1, 0) == 0x08);
-    free(c.dot);
-    if (!CHECK(plot_cells_make(&c, 8, 1, true)))
+    draw_line(&c, "1100", 0, 1, 15, 1);
+    CHECK(count_dots(&c) == 8 && !strcmp(shown(&c, 0, 0), "\u2812") && !*shown(&c, 1, 0));
+    /* a point alone, and dashes that go on from line to line */
+    plot_pen pen = plot_pen_of(&c, "10", 2);
+    for (int i = 0; i < 8; i++)
+        plot_pen_line(&pen, 0.5 * i, 3, 0.5 * i, 3);
+    CHECK(count_dots(&c) == 11 && !strcmp(shown(&c, 0, 0), "\u2852") && !strcmp(shown(&c, 1, 0), "\u2840"));
+    free(c.cell);
+    plot_braille(0xff, text);
+    CHECK(!strcmp(text, "\u28ff"));
+    plot_braille(0x40, text);
+    CHECK(!strcmp(text, "\u2840"));
+}
+
+/* What covers what. */
+static void covers(void) {
+    plot_cells all, c;
+    char text[CELL_TEXT];
+    if (!CHECK(plot_cells_make(&all, 6, 3, 1, 2)))
         return;
-    const double level[][2] = {{-0.5, 0}, {7.49, 0}};
-    plot_cells_draw(&c, level, 2, true, "1100");
-    CHECK(count_dots(&c) == 8 && plot_cells_has(&c, 0, 0) && !plot_cells_has(&c, 1, 0));
-    free(c.dot);
-    CHECK(plot_braille(0xff, text) == 3 && !strcmp(text, "\u28ff"));
-    CHECK(plot_braille(0x40, text) == 3 && !strcmp(text, "\u2840"));
+    all.faint = 3;
+    c = plot_cells_part(&all, 1, 1, 4, 9);
+    CHECK(c.cols == 4 && c.rows == 2);
+    plot_cells_dot(&c, 0, 0, 3);
+    CHECK(plot_cells_show(&all, 1, 1, text) == 3 && !strcmp(text, "'"));
+    plot_cells_dot(&c, 0, 1, 3);
+    CHECK(!strcmp(shown(&c, 0, 0), ":"));
+    plot_cells_dot(&c, 0, 1, 1); /* the faint ones give way */
+    CHECK(plot_cells_show(&c, 0, 0, text) == 1 && !strcmp(text, "."));
+    plot_cells_sign(&c, 0, 0, "O", 2);
+    CHECK(plot_cells_show(&c, 0, 0, text) == 2 && !strcmp(text, "O"));
+    plot_cells_dot(&c, 0, 0, 1);
+    CHECK(!strcmp(shown(&c, 0, 0), ":"));
+    for (int i = -1; i <= 4; i += 5) {
+        plot_cells_sign(&c, i, 0, "X", 2);
+        plot_cells_dot(&c, i, 0, 2);
+        plot_cells_dot(&c, 0, i, 2);
+        CHECK(!*shown(&c, i, 0));
+    }
+    CHECK(!*shown(&all, 0, 1) && !*shown(&all, 5, 1) && !*shown(&all, 1, 0));
+    /* a wide character takes two columns, or none at the end; accents go onto what they follow */
+    plot_cells_text(&c, 0, 1, "e\u0301\u65e5o\u65e5", 0);
+    CHECK(!strcmp(shown(&c, 0, 1), "e\u0301") && !strcmp(shown(&c, 1, 1), "\u65e5") && !*shown(&c, 2, 1) &&
+          !strcmp(shown(&c, 3, 1), "o") && !*shown(&all, 5, 2));
+    plot_cells_text(&c, 0, 0, "\u0301x\u0301\u0301\u0301\u0301\u0301\u0301\u0301\xff", 0);
+    CHECK(!strncmp(shown(&c, 0, 0), "x\u0301", 3) && !strcmp(shown(&c, 1, 0), "\xff"));
+    c = plot_cells_part(&all, 7, 0, 1, 1);
+    CHECK(c.cols == 0);
+    plot_cells_text(&c, 0, 0, "a", 0);
+    CHECK(!*shown(&all, 0, 0));
+    free(all.cell);
 }
 
 /* ---- targets ------------------------------------------------------------------------------------ */
@@ -1113,7 +1150,6 @@ int main(int argc, char **argv) {
     CASE(names());
     CASE(odd_names());
     CASE(plain());
-    CASE(hidden());
     CASE(page_sizes());
     CASE(quoting());
     CASE(scripts());
@@ -1128,6 +1164,7 @@ int main(int argc, char **argv) {
     CASE(axes());
     CASE(levels());
     CASE(dots());
+    CASE(covers());
     CASE(pages());
     CASE(odd_pages());
     CASE(map_pages());

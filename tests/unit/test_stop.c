@@ -4,6 +4,7 @@
 #include "fret/fret.h"
 #include "histories.h"
 
+#include "places.h"
 #include "study/jenkins.h"
 #include "unit.h"
 
@@ -61,14 +62,14 @@ static void check_questions(const fret_normal *normal, const fret_pressed *conta
     CHECK(fret_memory_slip_work(m) == 0);
     fret_memory_state(m, &during);
     CHECK(during.FN == before.FN && during.Fx == before.Fx);
-    CHECK_CODE(fret_traction(CONTACT_OF(m), 1e-5L, &value), FRET_INTERRUPTED);
-    CHECK_CODE(fret_surface_x(CONTACT_OF(m), 1e-5L, &value), FRET_INTERRUPTED);
+    CHECK_CODE(place_traction(CONTACT_OF(m), 1e-5L, &value), FRET_INTERRUPTED);
+    CHECK_CODE(place_surface_x(CONTACT_OF(m), 1e-5L, &value), FRET_INTERRUPTED);
     CHECK_CODE(fret_cycle_loss_by_definition(contact, &peak, &value, &error), FRET_INTERRUPTED);
     stop = 0;
     fret_memory_state(m, &after);
     CHECK(before.U == after.U && before.W == after.W && before.dx == after.dx);
     CHECK(fret_memory_slip_work(m) == work);
-    CHECK_OK(fret_traction(CONTACT_OF(m), 1e-5L, &value));
+    CHECK_OK(place_traction(CONTACT_OF(m), 1e-5L, &value));
     CHECK(value > 0);
     CHECK_OK(fret_cycle_loss_by_definition(contact, &peak, &value, &error));
     CHECK(value > 0);
@@ -115,10 +116,10 @@ static void check_wild(struct fret_table *rows) {
         fret_normal_stop(n, &stop);
         CHECK_OK(fret_memory_make(n, 0.4, &m));
         stop = 1;
-        CHECK_CODE(fret_pressure(n, p.a, p.a / 2, &value), FRET_INTERRUPTED);
-        CHECK_CODE(fret_surface(n, p.a, 1.1L * p.a, &value), FRET_INTERRUPTED);
-        CHECK_CODE(fret_pressure_of(n, &p, p.a / 2, &value), FRET_INTERRUPTED);
-        CHECK_CODE(fret_surface_of(n, &p, 1.1L * p.a, &value), FRET_INTERRUPTED);
+        CHECK_CODE(place_pressure(n, p.a, p.a / 2, &value), FRET_INTERRUPTED);
+        CHECK_CODE(place_surface(n, p.a, 1.1L * p.a, &value), FRET_INTERRUPTED);
+        CHECK_CODE(place_of_press(n, &p, fret_field_pressure, p.a / 2, &value), FRET_INTERRUPTED);
+        CHECK_CODE(place_of_press(n, &p, fret_field_surface, 1.1L * p.a, &value), FRET_INTERRUPTED);
         stop = 0;
         CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_DEPTH, FRET_KEEP_DX, (double)p.dz / 2, 0}));
         stop = 1; /* gross slip while the edge moves */
@@ -133,8 +134,8 @@ static void check_wild(struct fret_table *rows) {
             stop = 1;
             CHECK_CODE(fret_swing_step(s, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 0.1 * F}),
                        FRET_INTERRUPTED);
-            CHECK_CODE(fret_swing_traction(s, p.a / 9, &value), FRET_INTERRUPTED);
-            CHECK_CODE(fret_swing_surface_x(s, p.a, &value), FRET_INTERRUPTED);
+            CHECK_CODE(place_traction(SWUNG(s), p.a / 9, &value), FRET_INTERRUPTED);
+            CHECK_CODE(place_surface_x(SWUNG(s), p.a, &value), FRET_INTERRUPTED);
             stop = 0;
             fret_swing_free(s);
         }

@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include "histories.h"
+#include "places.h"
 #include "unit.h"
 
 static const double half_turn = 3.14159265358979323846;
@@ -480,7 +481,7 @@ static void too_small(void) {
     fret_swing_free(s);
     s = swing_of(m);
     CHECK(!fret_swing_fits(s, &(fret_sine){1, top - 100, acos(-1), 100}, 0));
-    CHECK_OK(fret_swing_surface_x(s, 1e-2, &q)); /* beyond the sphere, too */
+    CHECK_OK(place_surface_x(SWUNG(s), 1e-2, &q)); /* beyond the sphere, too */
     CHECK(q > 0);
     fret_swing_free(s);
     fret_memory_free(m);
@@ -703,7 +704,7 @@ static void from_one_way_to_another(void) {
 }
 
 typedef struct question {
-    const fret_swing *of;
+    fret_swing *of;
     fret_state state;
     fret_real q, u;
     bool failed;
@@ -715,7 +716,7 @@ static void *ask(void *context) {
     pthread_barrier_wait(a->together);
     fret_swing_state(a->of, &a->state);
     a->failed =
-        fret_swing_traction(a->of, 5e-5L, &a->q).code || fret_swing_surface_x(a->of, 5e-4L, &a->u).code;
+        place_traction(SWUNG(a->of), 5e-5L, &a->q).code || place_surface_x(SWUNG(a->of), 5e-4L, &a->u).code;
     return NULL;
 }
 

@@ -2,9 +2,9 @@
 /* Fields after a swinging load: the traction against the force that it carries, the surface against the
  * springs that it follows from, both against chords of the same curve. Random loads, with corners.
  * FRET_FIELDS=N asks N times as much and prints the worst errors. */
-#include "fret/field.h"
 #include "histories.h"
 #include "number/integral.h"
+#include "places.h"
 #include "unit.h"
 
 static const fret_real pi = 3.14159265358979323846264338327950288L;
@@ -23,6 +23,14 @@ static void compare(int which, fret_real got, fret_real want, fret_real scale, f
     const fret_real error = fabsl(got - want) / scale;
     worst[which] = fmaxl(worst[which], error);
     CHECK_ABS(got, want, scale, tolerance);
+}
+
+static fret_status swing_traction(fret_swing *s, fret_real r, fret_real *q) {
+    return place_traction(SWUNG(s), r, q);
+}
+
+static fret_status swing_surface_x(fret_swing *s, fret_real r, fret_real *u) {
+    return place_surface_x(SWUNG(s), r, u);
 }
 
 /* Pressed, and swung for a while. */
@@ -50,7 +58,7 @@ typedef struct hand {
 
 /* Between the ends of two pieces, where fields have kinks. */
 typedef struct part {
-    const fret_swing *s;
+    fret_swing *s;
     fret_real lo, hi, r;
 } part;
 
@@ -59,7 +67,7 @@ static fret_real carried(fret_real t, fret_real rest, void *context) {
     const fret_real r = p->lo * rest + p->hi * t;
     fret_real q = 0;
     if (t > 0 && rest > 0 && r != fret_gap_start(&p->s->normal->gap)) /* where it is infinite */
-        CHECK_OK(fret_swing_traction(p->s, r, &q));
+        CHECK_OK(swing_traction(p->s, r, &q));
     return (p->hi - p->lo) * 2 * pi * r * q;
 }
 
@@ -93,7 +101,7 @@ static size_t kinks_of(const fret_swing *s, fret_real *kink) {
     return count;
 }
 
-static fret_real surface_of(const fret_swing *s, const fret_real *kink, size_t count, fret_real r) {
+static fret_real surface_of(fret_swing *s, const fret_real *kink, size_t count, fret_real r) {
     enum { PARTS = 12 };
     const fret_real k = s->normal->foundation.k;
     fret_real sum = 0;
@@ -146,25 +154,25 @@ static void random_load(bool far, const fret_gap *shape) {
                         reach = mu * s->normal->foundation.eta * now.dz;
         fret_real chords;
         if (i % 3 == 1) {
-            CHECK_OK(fret_swing_surface_x(s, r, &got));
+            CHECK_OK(swing_surface_x(s, r, &got));
             if (!far)
                 compare(1, got, surface_of(s, kink, count, r), reach, known);
-            CHECK_OK(fret_surface_x(CONTACT_OF(m), r, &chords));
+            CHECK_OK(place_surface_x(CONTACT_OF(m), r, &chords));
             compare(3, got, chords, reach, 1e-5L);
         }
-        CHECK_OK(fret_pressure(s->normal, now.a, 0.9L * now.a, &scale));
-        CHECK_OK(fret_swing_traction(s, r, &got));
-        CHECK_OK(fret_traction(CONTACT_OF(m), r, &chords));
+        CHECK_OK(place_pressure(s->normal, now.a, 0.9L * now.a, &scale));
+        CHECK_OK(swing_traction(s, r, &got));
+        CHECK_OK(place_traction(CONTACT_OF(m), r, &chords));
         CHECK((r < now.a) == (got != 0));
         compare(2, got, chords, mu * scale, far ? 2e-2L : 1e-3L);
         CHECK_ABS(fret_swing_displacement(s, r), fret_memory_displacement(m, r), reach, 1e-5L);
     }
-    CHECK_OK(fret_swing_surface_x(s, 0, &got)); /* the centre goes as far as its spring */
+    CHECK_OK(swing_surface_x(s, 0, &got)); /* the centre goes as far as its spring */
     CHECK_ABS(got, fret_swing_displacement(s, 0), mu * s->normal->foundation.eta * now.dz, 1e-15L);
     fret_real beyond = 0; /* as of a point load, where no number holds the force of a contact so large */
-    CHECK_OK(fret_swing_surface_x(s, 1e300L * now.a, &got));
-    CHECK_OK(fret_swing_surface_x(s, 1e100L * now.a, &beyond));
-    CHECK_REL(got, beyond * powl(1e-200L, 1 + grading), 1e-12L);
+    CHECK_OK(swing_surface_x(s, 1e300L * now.a, &got));
+    CHECK_OK(swing_surface_x(s, 1e20L * now.a, &beyond));
+    CHECK_REL(got, beyond * powl(1e-280L, 1 + grading), 1e-12L);
     fret_swing_free(s);
     fret_memory_free(m);
 }
@@ -193,16 +201,16 @@ static void straight_line(const fret_gap *gap, double grading) {
     CHECK(s->count > 1 && s->pieces[s->count - 1].curved);
     CHECK_OK(fret_press_by_force(s->normal, least, &turned));
     CHECK_OK(fret_press_by_force(s->normal, FN + FNA, &whole));
-    CHECK_OK(fret_pressure(s->normal, whole.a, 0.9L * whole.a, &scale));
+    CHECK_OK(place_pressure(s->normal, whole.a, 0.9L * whole.a, &scale));
     const fret_real known = fret_normal_is_power(s->normal) ? 1e-13L : 1e-12L;
     for (int i = -30; i <= 30; i++) {
         const fret_real r = turned.a + (i < 0 ? -1 : i > 0) * ldexpl(turned.a / 4, -2 * (30 - abs(i)));
         fret_real got = 0, want = 0;
-        CHECK_OK(fret_swing_traction(s, r, &got));
-        CHECK_OK(fret_traction(CONTACT_OF(m), r, &want));
+        CHECK_OK(swing_traction(s, r, &got));
+        CHECK_OK(place_traction(CONTACT_OF(m), r, &want));
         compare(0, got, want, mu * scale, known + felt(r / turned.a, 1, grading));
-        CHECK_OK(fret_swing_surface_x(s, r, &got));
-        CHECK_OK(fret_surface_x(CONTACT_OF(m), r, &want));
+        CHECK_OK(swing_surface_x(s, r, &got));
+        CHECK_OK(place_surface_x(CONTACT_OF(m), r, &want));
         compare(1, got, want, mu * s->normal->foundation.eta * whole.dz, known);
         CHECK_ABS(fret_swing_displacement(s, r), fret_memory_displacement(m, r),
                   mu * s->normal->foundation.eta * whole.dz, known);
@@ -231,8 +239,8 @@ static fret_real traction_by_hand(const fret_swing *s, fret_real r) {
         const piece *p = &s->pieces[i];
         const fret_real m = p->last[M] - p->first[M], up = p->last[P] - p->first[P];
         fret_real inner = 0, outer = 0;
-        CHECK_OK(fret_pressure(n, radius_at(s, p->first), r, &inner));
-        CHECK_OK(fret_pressure(n, radius_at(s, p->last), r, &outer));
+        CHECK_OK(place_pressure(n, radius_at(s, p->first), r, &inner));
+        CHECK_OK(place_pressure(n, radius_at(s, p->last), r, &outer));
         if (!p->curved && m + up > 0)
             sum += (up - m) / (up + m) * (outer - inner);
         if (!p->curved || outer == 0)
@@ -255,7 +263,7 @@ static void near_kinks(double phase, double grading) {
     fret_swing *s = swing_of(&scene, 100, 10, 40, phase, 1.7, &m);
     fret_real kink[64], scale, q;
     const size_t count = kinks_of(s, kink);
-    CHECK_OK(fret_pressure(s->normal, s->a, 0.9L * s->a, &scale));
+    CHECK_OK(place_pressure(s->normal, s->a, 0.9L * s->a, &scale));
     CHECK(count > 3);
     for (size_t j = 1; j < count; j++)
         for (int i = -12; i <= 12; i++) {
@@ -269,7 +277,7 @@ static void near_kinks(double phase, double grading) {
                           r < radius_at(s, s->pieces[l].last);
             if (within)
                 continue;
-            CHECK_OK(fret_swing_traction(s, r, &q));
+            CHECK_OK(swing_traction(s, r, &q));
             compare(0, q, traction_by_hand(s, r), scene.mu * scale, 1e-13L + felt(1 + near, 1, grading));
         }
     fret_swing_free(s);
@@ -288,17 +296,17 @@ static void special_places(void) {
     fret_memory *m = NULL;
     fret_swing *s = swing_of(&scene, 100, 15, 40, 1, 1.7, &m);
     fret_real centre = 0, close = 0, q = 0, want = 0;
-    CHECK_OK(fret_swing_traction(s, 0, &centre));
-    CHECK_OK(fret_swing_traction(s, 1e-9L * s->a, &close));
+    CHECK_OK(swing_traction(s, 0, &centre));
+    CHECK_OK(swing_traction(s, 1e-9L * s->a, &close));
     CHECK(centre != 0);
     CHECK_REL(centre, close, 1e-11L);
     CHECK_OK(fret_swing_memory(s, m));
-    CHECK_OK(fret_traction(CONTACT_OF(m), 0, &want));
+    CHECK_OK(place_traction(CONTACT_OF(m), 0, &want));
     CHECK_REL(centre, want, 1e-5L);
-    CHECK_ERROR(fret_swing_traction(s, -1e-9L, &q), FRET_NEGATIVE, "r");
-    CHECK_ERROR(fret_swing_surface_x(s, -1e-9L, &q), FRET_NEGATIVE, "r");
-    CHECK_ERROR(fret_swing_traction(s, (fret_real)NAN, &q), FRET_NOT_FINITE, "r");
-    CHECK_ERROR(fret_swing_surface_x(s, (fret_real)INFINITY, &q), FRET_NOT_FINITE, "r");
+    CHECK_ERROR(swing_traction(s, -1e-9L, &q), FRET_NEGATIVE, "r");
+    CHECK_ERROR(swing_surface_x(s, -1e-9L, &q), FRET_NEGATIVE, "r");
+    CHECK_ERROR(swing_traction(s, (fret_real)NAN, &q), FRET_NOT_FINITE, "r");
+    CHECK_ERROR(swing_surface_x(s, (fret_real)INFINITY, &q), FRET_NOT_FINITE, "r");
     CHECK(fret_swing_displacement(s, (fret_real)INFINITY) == 0);
     fret_swing_free(s);
     fret_memory_free(m);
@@ -316,8 +324,7 @@ static void special_places(void) {
         for (double r = 0.5; r < 2; r += 0.5) {
             const fret_real x = r * fret_gap_start(&s->normal->gap);
             q = want = 0;
-            const fret_status one = fret_swing_traction(s, x, &q),
-                              two = fret_traction(CONTACT_OF(m), x, &want);
+            const fret_status one = swing_traction(s, x, &q), two = place_traction(CONTACT_OF(m), x, &want);
             CHECK((one.code == FRET_SINGULAR) == (r == 1 && soft && !gripped));
             agree(one, two, q, want);
         }
@@ -335,8 +342,8 @@ static void empty_piece(void) {
     const fret_real r = 0.6L * s->a;
     for (int i = 0; i < 2; i++) {
         fret_real *out = i ? after : before;
-        CHECK_OK(fret_swing_traction(s, r, &out[0]));
-        CHECK_OK(fret_swing_surface_x(s, r, &out[1]));
+        CHECK_OK(swing_traction(s, r, &out[0]));
+        CHECK_OK(swing_surface_x(s, r, &out[1]));
         out[2] = fret_swing_displacement(s, r);
         const piece *top = &s->pieces[s->count - 1];
         const piece none = {.first = {top->last[M], top->last[P]}, .last = {top->last[M], top->last[P]}};
