@@ -45,14 +45,7 @@ print("static const dd half_pi = %s;" % pair(pi / 2))
 table("inverse_factorial", [1 / factorial(j) for j in range(0, 26)])
 table("inverse", [mpf(0)] + [1 / mpf(j) for j in range(1, 14)])
 table("stirling", [bernoulli(2 * j) / (2 * j * (2 * j - 1)) for j in range(1, 17)])
-print("/* Double-exponential rule, step 1/12: distance from the nearer end, and weight. */")
-print("static const struct {\n    fret_real small, weight;\n} exponential_rule[55] = {")
-for i in range(55):
-    u = mpf(i) / 12
-    e = exp(-pi * sinh(u))
-    print("    {%s, %s}," % (real(e / (1 + e)), real(pi * cosh(u) * e / (1 + e) ** 2 / 12)))
-print("};")
-print("/* The same, step 1/16: the nodes of steps 1/8, 1/4 and 1/2 among them. */")
+print("/* Double-exponential rule, step 1/16: distance from the nearer end, and weight; the nodes of steps 1/8, 1/4 and 1/2 among them. */")
 print("static const struct {\n    fret_real small, weight;\n} doubling_rule[73] = {")
 for i in range(73):
     u = mpf(i) / 16

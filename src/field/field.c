@@ -136,12 +136,12 @@ static fret_real depth_at(const fret_swing *c, const fret_real at[2]) {
 }
 
 /* (dP-dM)/(dP+dM) */
-static fret_real slope_of(const piece *p) {
+static fret_real slope_of(const arc *p) {
     const fret_real m = p->last[M] - p->first[M], up = p->last[P] - p->first[P];
     return m + up > 0 ? (up - m) / (m + up) : 0;
 }
 
-/* Straight pieces are slices; of curved ones copies are kept, whose slices have no slope. */
+/* Straight arcs are slices; of curved ones copies are kept, whose slices have no slope. */
 static fret_status make_of_swing(const fret_swing *c, fret_field **out) {
     fret_status st = begin(c->normal, c->mu, LOADS, c->count, out);
     if (st.code)
@@ -149,14 +149,14 @@ static fret_status make_of_swing(const fret_swing *c, fret_field **out) {
     fret_field *f = *out;
     f->swung = *c;
     f->swung.count = 0;
-    f->swung.pieces = calloc(c->count + 1, sizeof *c->pieces);
-    if (!f->swung.pieces)
+    f->swung.arcs = calloc(c->count + 1, sizeof *c->arcs);
+    if (!f->swung.arcs)
         st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     for (size_t i = 0; i < c->count && !st.code; i++) {
-        const piece *p = &c->pieces[i];
+        const arc *p = &c->arcs[i];
         add_slice(f, depth_at(c, p->last), p->curved ? 0 : slope_of(p));
         if (p->curved)
-            f->swung.pieces[f->swung.count++] = *p;
+            f->swung.arcs[f->swung.count++] = *p;
     }
     return finish(f, st, out);
 }
@@ -182,7 +182,7 @@ void fret_field_free(fret_field *f) {
         return;
     for (size_t i = 0; i < f->sums; i++)
         fret_rings_free(f->sum[i]);
-    free(f->swung.pieces);
+    free(f->swung.arcs);
     free(f->slice);
     free(f);
 }

@@ -21,10 +21,10 @@ struct fret_field {
     flat_field flat;
     size_t sums;
     rings *sum[FRET_GAP_TERMS]; /* of what lies beyond the head, or of steep powers */
-    fret_swing swung;           /* curved pieces; none: count 0 */
+    fret_swing swung;           /* curved arcs; none: count 0 */
 };
 
-/* What curved pieces add to the sums: int sigma times the field of a flat punch dy along them; factor: what
+/* What curved arcs add to the sums: int sigma times the field of a flat punch dy along them; factor: what
  * turns depth sums into surfaces. */
 fret_real fret_swing_slope(const fret_swing *swing, fret_real r);
 fret_real fret_swing_surface(const fret_swing *swing, const flat_field *flat, fret_real factor, fret_real r);

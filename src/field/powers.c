@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "number/real.h"
 
 /* ---- within ------------------------------------------------------------------------------------ */
@@ -143,5 +143,5 @@ fret_real fret_powers_surface(const fret_term *term, int terms, const flat_field
         return away < NEAR ? surface_near(term, terms, flat, dz, a, r, away)
                            : surface_far(m, term, terms, dz, (a / r) * (a / r));
     outside c = {term, terms, m, dz, a, r};
-    return fret_pow(a, 2 * m) / (2 * m) * fret_integrate(outside_rate, &c);
+    return fret_pow(a, 2 * m) / (2 * m) * fret_integral_ends(outside_rate, &c, 1e-17L);
 }

@@ -3,7 +3,7 @@
  * Reads rings, and changes nothing. */
 #include "field/ring.h"
 
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "number/real.h"
 
 /* A question. end: slices from there on count as nothing, and those before by how much more they weigh. */
@@ -89,7 +89,7 @@ static fret_real spared_ring(const question *q, const ring *p, fret_real at) {
     for (size_t i = 1; c.lo < 1 && i < q->end; i++) {
         c.hi = end_in(q->all, p, i);
         if (c.hi > c.lo && weight_at(q, i) != 0)
-            sum += weight_at(q, i) * fret_integrate_pieces(away_rate, &c, 1e-17L);
+            sum += weight_at(q, i) * fret_integral(away_rate, &c, 1e-17L).value;
         c.lo = c.hi;
     }
     return p->scale[SLOPES] * sum;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fields of the curved pieces of a memory: the field of what each contact adds to the one within it, which
+/* Fields of the curved arcs of a memory: the field of what each contact adds to the one within it, which
  * has a formula, along the way itself. Allocates nothing. */
 #include "field/field.h"
-#include "number/quadrature.h"
+#include "number/integral.h"
 
-/* What a place asks of a curved piece: int weight sigma dy along it. The normal and the tangential load are
+/* What a place asks of a curved arc: int weight sigma dy along it. The normal and the tangential load are
  * the coordinates M and P of `of`; instants count from `from`, where the load is `beyond` more than N. */
 typedef enum weight { ALONG, OUTSIDE, INSIDE } weight;
 typedef struct bend {
@@ -91,7 +91,7 @@ static fret_real sum_between(bend *b, fret_real lo, fret_real hi) {
         b->lo = lo;
         b->hi = end;
         b->sign = way_fall(&b->of, P, b->from + b->side * (lo + end) / 2) > 0 ? -1 : 1;
-        sum += b->sign * fret_integrate_pieces(other_rate, b, 1e-14L);
+        sum += b->sign * fret_integral(other_rate, b, 1e-14L).value;
     }
     return sum;
 }
@@ -117,7 +117,7 @@ static fret_real sum_doubling(bend *b, fret_real lo, fret_real hi) {
     b->sign = 1;
     for (b->lo = lo; b->lo < hi; b->lo = b->hi) {
         b->hi = fminl(2 * b->lo + b->near, hi);
-        sum += fret_integrate_smooth(other_rate, b);
+        sum += fret_integral_smooth(other_rate, b);
     }
     return sum;
 }
@@ -134,7 +134,8 @@ static fret_real integral(bend *b, fret_real end) {
         b->near = 0;
         b->power = b->weight == ALONG ? 1 / m : 1;
         b->hi = b->side * from;
-        sum = (b->weight == ALONG ? fret_pow(from, m) / m : from) * fret_integrate(touching_rate, b);
+        sum = (b->weight == ALONG ? fret_pow(from, m) / m : from) *
+              fret_integral_ends(touching_rate, b, 1e-17L);
     }
     if (from + b->near < clear) {
         sum += sum_doubling(b, from, clear);
@@ -143,8 +144,8 @@ static fret_real integral(bend *b, fret_real end) {
     return sum + sum_between(b, from, whole);
 }
 
-/* The parts of a curved piece within and beyond the load N. */
-static fret_real sum_of(bend *b, const piece *p, weight outside, weight inside, fret_real factor) {
+/* The parts of a curved arc within and beyond the load N. */
+static fret_real sum_of(bend *b, const arc *p, weight outside, weight inside, fret_real factor) {
     fret_real sum = 0;
     fret_swing_loads(&p->way, &b->of);
     const fret_real first = way_at(&b->of, M, p->lo) - b->N, last = way_at(&b->of, M, p->hi) - b->N;
@@ -181,7 +182,7 @@ fret_real fret_swing_slope(const fret_swing *c, fret_real r) {
     bend b = begin(c, r);
     fret_real sum = 0;
     for (size_t i = 0; i < c->count && r < c->a; i++)
-        sum += sum_of(&b, &c->pieces[i], ALONG, ALONG, 0);
+        sum += sum_of(&b, &c->arcs[i], ALONG, ALONG, 0);
     return sum;
 }
 
@@ -190,6 +191,6 @@ fret_real fret_swing_surface(const fret_swing *c, const flat_field *flat, fret_r
     fret_real sum = 0;
     b.flat = flat;
     for (size_t i = 0; i < c->count; i++)
-        sum += sum_of(&b, &c->pieces[i], OUTSIDE, INSIDE, factor);
+        sum += sum_of(&b, &c->arcs[i], OUTSIDE, INSIDE, factor);
     return sum;
 }

@@ -2,13 +2,13 @@
 /* A power law v ~ y^s, load by depth or depth by load, in numbers of the kind NUMBER, and what a slice of it
  * bends. FUNCTION(f) is libm's f for that kind, POWER(x, s) a power. Included once for each kind; pure. */
 #include "number/bits.h"
-#include "number/quadrature.h"
 #include "number/real.h"
 
 /* Powers go by square roots up to s = 4, where 2 s is a whole number (sphere, cone at k = 0). */
 enum { LAW_HALVES = 8 };
 
 /* Three series, whose later terms, taken by pairs, are so small that double will do. */
+typedef double law_pair __attribute__((vector_size(16)));
 enum { CROSS, EVEN, ODD, LAW_SERIES, LAW_LEADING = 2, LAW_PAIRS = 14 };
 
 typedef struct power_law {
@@ -17,7 +17,7 @@ typedef struct power_law {
     NUMBER y, per_y, v;  /* v of y, near the largest so far */
     NUMBER per_reach;    /* the series are in (rho/reach)^2, and good up to 1/4 */
     NUMBER leading[LAW_LEADING][LAW_SERIES];
-    fret_two later[LAW_PAIRS][LAW_SERIES];
+    law_pair later[LAW_PAIRS][LAW_SERIES];
 } power_law;
 
 /* With b the law's second derivative over a slice from c (1-rho) to c (1+rho), each of
@@ -102,7 +102,7 @@ static bow power_thick_bow(const power_law *p, const place *outer, const place *
                  scale * (h * (h * steep[0] + e) - cross)};
 }
 
-FRET_INLINE NUMBER series_sum(const power_law *p, int which, NUMBER x, fret_two later) {
+FRET_INLINE NUMBER series_sum(const power_law *p, int which, NUMBER x, law_pair later) {
     const double x1 = (double)x;
     return p->leading[0][which] + x * (p->leading[1][which] + x * (later[0] + x1 * later[1]));
 }
@@ -113,8 +113,8 @@ FRET_INLINE bow power_bow(const power_law *p, const place *outer, const place *i
         return power_thick_bow(p, outer, inner, w);
     const int pairs = x < (NUMBER)0x1p-11 ? 2 : x < (NUMBER)0x1p-5 ? 5 : x < (NUMBER)0x1p-3 ? 9 : LAW_PAIRS;
     const double square = (double)(x * x);
-    const fret_two *c = p->later[pairs - 1];
-    fret_two cross = c[CROSS], even = c[EVEN], odd = c[ODD];
+    const law_pair *c = p->later[pairs - 1];
+    law_pair cross = c[CROSS], even = c[EVEN], odd = c[ODD];
     while (c > p->later[0]) {
         c -= LAW_SERIES;
         cross = cross * square + c[CROSS];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The memory curve in (M, P): cut and grown along the ways of the load, and what they dissipate. Allocates
- * its pieces. */
+ * its arcs. */
 #include "history/swing.h"
 
 #include <float.h>
@@ -21,10 +21,10 @@ static bool same_way(const way *a, const way *b) {
 static fret_status reserve(fret_swing *c, size_t count) {
     if (count <= c->room)
         return fret_ok();
-    piece *grown = fret_array_for(c->pieces, &c->room, count, sizeof *grown);
+    arc *grown = fret_array_for(c->arcs, &c->room, count, sizeof *grown);
     if (!grown)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    c->pieces = grown;
+    c->arcs = grown;
     return fret_ok();
 }
 
@@ -33,7 +33,7 @@ static fret_real noise(const fret_swing *c) {
     return 512 * LDBL_EPSILON * c->scale;
 }
 
-static fret_real piece_other(const piece *p, int which, fret_real level) {
+static fret_real arc_other(const arc *p, int which, fret_real level) {
     const int other = 1 - which;
     if (p->curved)
         return way_at(&p->way, other, way_when(&p->way, which, level, p->lo, p->hi));
@@ -44,23 +44,23 @@ static fret_real piece_other(const piece *p, int which, fret_real level) {
 /* The other coordinate where the curve crosses the level of `which`. */
 static fret_real curve_other(const fret_swing *c, int which, fret_real level) {
     for (size_t i = c->count; i-- > 0;) {
-        const piece *p = &c->pieces[i];
+        const arc *p = &c->arcs[i];
         if (p->first[which] <= level && p->first[which] < p->last[which])
-            return piece_other(p, which, fminl(level, p->last[which]));
+            return arc_other(p, which, fminl(level, p->last[which]));
     }
     return 0;
 }
 
-static fret_status append(fret_swing *c, const piece *p) {
+static fret_status append(fret_swing *c, const arc *p) {
     const fret_status st = reserve(c, c->count + 1);
     if (!st.code)
-        c->pieces[c->count++] = *p;
+        c->arcs[c->count++] = *p;
     return st;
 }
 
-/* Are two straight pieces one, to the rounding of targets? Not where a curve in the smallest steps would pass
+/* Are two straight arcs one, to the rounding of targets? Not where a curve in the smallest steps would pass
  * for straight. */
-static bool in_line(const fret_swing *c, const piece *a, const piece *b) {
+static bool in_line(const fret_swing *c, const arc *a, const arc *b) {
     const fret_real rounding = 4 * DBL_EPSILON * c->scale, least = 1e-7L * c->scale;
     const fret_real m = b->last[M] - a->first[M], p = b->last[P] - a->first[P];
     const fret_real off = m * (a->last[P] - a->first[P]) - p * (a->last[M] - a->first[M]);
@@ -68,11 +68,11 @@ static bool in_line(const fret_swing *c, const piece *a, const piece *b) {
            fmaxl(b->last[M] - b->first[M], b->last[P] - b->first[P]) > least;
 }
 
-/* Parts of one way are one piece. */
-static fret_status grow(fret_swing *c, const piece *p) {
+/* Parts of one way are one arc. */
+static fret_status grow(fret_swing *c, const arc *p) {
     if (!c->count)
         return append(c, p);
-    piece *top = &c->pieces[c->count - 1];
+    arc *top = &c->arcs[c->count - 1];
     if (top->curved != p->curved || fabsl(top->last[M] - p->first[M]) > noise(c) ||
         fabsl(top->last[P] - p->first[P]) > noise(c) ||
         !(p->curved ? top->hi == p->lo && same_way(&top->way, &p->way) : in_line(c, top, p)))
@@ -85,14 +85,14 @@ static fret_status grow(fret_swing *c, const piece *p) {
 
 /* Cut at the level of `which`, then straight to the end. */
 static fret_status cut(fret_swing *c, int which, fret_real level, const fret_real end[2]) {
-    while (c->count && c->pieces[c->count - 1].last[which] > level &&
-           c->pieces[c->count - 1].first[which] >= level)
+    while (c->count && c->arcs[c->count - 1].last[which] > level &&
+           c->arcs[c->count - 1].first[which] >= level)
         c->count--;
     fret_real corner[2] = {0, 0};
     if (c->count) {
-        piece *top = &c->pieces[c->count - 1];
+        arc *top = &c->arcs[c->count - 1];
         if (top->last[which] > level) {
-            top->last[1 - which] = piece_other(top, which, level);
+            top->last[1 - which] = arc_other(top, which, level);
             top->last[which] = level;
             if (top->curved)
                 top->hi = way_when(&top->way, which, level, top->lo, top->hi);
@@ -101,11 +101,11 @@ static fret_status cut(fret_swing *c, int which, fret_real level, const fret_rea
         memcpy(corner, top->last, sizeof corner);
     }
     if (end[1 - which] - corner[1 - which] > noise(c)) {
-        const piece straight = {.first = {corner[0], corner[1]}, .last = {end[0], end[1]}};
+        const arc straight = {.first = {corner[0], corner[1]}, .last = {end[0], end[1]}};
         return append(c, &straight);
     }
     if (c->count)
-        memcpy(c->pieces[c->count - 1].last, end, sizeof corner);
+        memcpy(c->arcs[c->count - 1].last, end, sizeof corner);
     return fret_ok();
 }
 
@@ -143,7 +143,7 @@ static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
 /* instants closer than so much, of the greatest, are one */
 static const fret_real CLOSE = 16 * LDBL_EPSILON;
 
-/* The first instant after lo at which a falling coordinate (bits: 1 M, 2 P) meets an end of a piece, of
+/* The first instant after lo at which a falling coordinate (bits: 1 M, 2 P) meets an end of an arc, of
  * `count`, or hi. */
 static fret_real next_crossing(const fret_swing *c, size_t count, const way *w, int coordinates, fret_real lo,
                                fret_real hi) {
@@ -153,8 +153,8 @@ static fret_real next_crossing(const fret_swing *c, size_t count, const way *w, 
         const fret_real from = way_at(w, which, lo), to = way_at(w, which, hi);
         if (!(coordinates >> which & 1))
             continue;
-        for (size_t i = count; i-- > 0 && c->pieces[i].last[which] > to;) {
-            const fret_real level = c->pieces[i].first[which];
+        for (size_t i = count; i-- > 0 && c->arcs[i].last[which] > to;) {
+            const fret_real level = c->arcs[i].first[which];
             if (!(level > to + noise(c) && level < from - noise(c)))
                 continue;
             const fret_real s = way_when(w, which, level, lo, hi);
@@ -231,8 +231,8 @@ static int side_until(const fret_swing *c, const way *w, fret_real lo, fret_real
     return side;
 }
 
-/* Is the piece straight along this coordinate? */
-static bool goes_along(const piece *p, int which) {
+/* Is the arc straight along this coordinate? */
+static bool goes_along(const arc *p, int which) {
     return !p->curved && p->first[1 - which] == p->last[1 - which];
 }
 
@@ -241,8 +241,7 @@ static bool goes_along(const piece *p, int which) {
 static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
     fret_status st = fret_ok();
     const fret_real least = 1e-9L * (hi - lo);
-    size_t left =
-        0; /* a straight piece that has just been left goes with the next fall: its end is no event */
+    size_t left = 0; /* a straight arc that has just been left goes with the next fall: its end is no event */
     while (lo < hi && !st.code && !fret_stopped(c->normal)) {
         const fret_real crossing = next_crossing(c, c->count - left, w, 1 << M | 1 << P, lo, hi);
         fret_real stop = crossing;
@@ -254,7 +253,7 @@ static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_rea
         } else {
             st = slip_between(c, w, side > 0 ? M : P, lo, stop);
         }
-        left = c->count > 0 && goes_along(&c->pieces[c->count - 1], side < 0 ? M : P);
+        left = c->count > 0 && goes_along(&c->arcs[c->count - 1], side < 0 ? M : P);
         lo = stop;
     }
     return st;
@@ -275,12 +274,12 @@ static fret_status go_between(fret_swing *c, const way *w, fret_real lo, fret_re
         return slip_between(c, w, falls[M] ? M : P, lo, hi);
     if (!rises[M] && !rises[P])
         return fret_ok();
-    const piece grown = {.first = {begin[M], begin[P]},
-                         .last = {end[M], end[P]},
-                         .curved = w->harmonic && rises[M] && rises[P],
-                         .way = *w,
-                         .lo = lo,
-                         .hi = hi};
+    const arc grown = {.first = {begin[M], begin[P]},
+                       .last = {end[M], end[P]},
+                       .curved = w->harmonic && rises[M] && rises[P],
+                       .way = *w,
+                       .lo = lo,
+                       .hi = hi};
     return grow(c, &grown);
 }
 
@@ -473,10 +472,10 @@ fret_status fret_swing_make(const fret_memory *m, fret_swing **out) {
     c->W = (fret_sum){m->W, m->W_rest};
     fret_real at[2] = {0, 0};
     for (size_t i = 0; i < m->count; i++) {
-        piece *p = &c->pieces[c->count++];
+        arc *p = &c->arcs[c->count++];
         const fret_real h = layer_thickness(&m->layers[i], fret_memory_outer(m, i), LOAD),
                         sigma = m->layers[i].sigma;
-        *p = (piece){.first = {at[M], at[P]}};
+        *p = (arc){.first = {at[M], at[P]}};
         at[M] += (1 - sigma) * h;
         at[P] += (1 + sigma) * h;
         memcpy(p->last, at, sizeof at);
@@ -488,7 +487,7 @@ fret_status fret_swing_make(const fret_memory *m, fret_swing **out) {
 
 void fret_swing_free(fret_swing *c) {
     if (c)
-        free(c->pieces);
+        free(c->arcs);
     free(c);
 }
 
@@ -498,11 +497,11 @@ fret_status fret_swing_copy(fret_swing *to, const fret_swing *from) {
     const fret_status st = reserve(to, from->count);
     if (st.code)
         return st;
-    piece *pieces = to->pieces;
+    arc *arcs = to->arcs;
     const size_t room = to->room;
     *to = *from;
-    to->pieces = pieces;
+    to->arcs = arcs;
     to->room = room;
-    memcpy(pieces, from->pieces, from->count * sizeof *pieces);
+    memcpy(arcs, from->arcs, from->count * sizeof *arcs);
     return st;
 }

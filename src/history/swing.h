@@ -5,7 +5,7 @@
 
 #include "history/memory.h"
 #include "law/normal.h"
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "number/real.h"
 #include "number/sum.h"
 
@@ -15,7 +15,7 @@
  * below it, it is cut at M and goes straight up (slip forward), when P does, straight across (slip backward).
  * With D and d the depths of the edge and of the cut, forward slip dissipates
  *   dW = -dM mu^2 eta [F_N(D) - F_N(d) - (D-d) F_N'(d)]/F_N'(d),   backward slip the same with dP.
- * A swinging load keeps pieces of its own way as pieces of the curve. */
+ * A swinging load keeps arcs of its own way as arcs of the curve. */
 typedef struct fret_swing fret_swing;
 
 /* Goes on from the state of a memory, closed. Borrows its law, not the memory. Errors: FRET_OUTSIDE (a
@@ -35,7 +35,7 @@ fret_status fret_swing_step(fret_swing *swing, const fret_step *step);
 void fret_swing_state(const fret_swing *swing, fret_state *out);
 fret_real fret_swing_last_loss(const fret_swing *swing);
 fret_real fret_swing_displacement(const fret_swing *swing, fret_real x);
-/* The state as a memory: curved pieces in 640 straight ones each. Error: FRET_NO_MEMORY. */
+/* The state as a memory: curved arcs in 640 straight ones each. Error: FRET_NO_MEMORY. */
 fret_status fret_swing_memory(const fret_swing *swing, fret_memory *out);
 
 /* Two coordinates of a place on the curve or on the way of the load. */
@@ -50,14 +50,14 @@ typedef struct way {
 
 /* A part of the curve from the place first to the place last: straight, or the way itself between two
  * instants. */
-typedef struct piece {
+typedef struct arc {
     fret_real first[2], last[2];
     bool curved;
     way way;
     fret_real lo, hi;
     bool known; /* of one that is curved: its sums, from the end of the motion that has changed it on */
     fret_real sum[2];
-} piece;
+} arc;
 
 struct fret_swing {
     const fret_normal *normal;
@@ -71,17 +71,17 @@ struct fret_swing {
     fret_sum W;
     fret_real last_loss, scale; /* scale: the largest of M and P so far */
     size_t count, room;
-    piece *pieces; /* innermost first */
+    arc *arcs; /* innermost first */
 };
 
 /* ---- along the curve --------------------------------------------------------------------------- */
 
 /* Rules of few points are to agree to what the law is good to. */
 static inline fret_real fret_swing_integral(const fret_swing *c, fret_integrand *f, void *context) {
-    return fret_integrate_short(f, context, fret_normal_closed(c->normal) ? 1e-17L : 1e-13L);
+    return fret_integral_ends(f, context, fret_normal_closed(c->normal) ? 1e-17L : 1e-13L);
 }
 
-/* The sums of pieces that have changed: a question only reads. */
+/* The sums of arcs that have changed: a question only reads. */
 void fret_swing_know(fret_swing *c);
 fret_real fret_swing_dx(const fret_swing *c);
 /* Where a front of slip that goes inwards along `which` at constant F_N comes to, for so much of delta_x per

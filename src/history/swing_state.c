@@ -14,7 +14,7 @@
 /* int sigma dy and int T sigma dy, T = (P-M)/2: displacement and stored energy. */
 typedef struct along {
     const fret_swing *curve;
-    const piece *piece;
+    const arc *arc;
     bool energy;
 } along;
 
@@ -27,7 +27,7 @@ static fret_real compliance(const fret_normal *n, fret_real N) {
 
 static fret_real along_rate(fret_real t, fret_real rest, void *context) {
     const along *l = context;
-    const piece *p = l->piece;
+    const arc *p = l->arc;
     const fret_real s = p->lo * rest + p->hi * t, m = way_at(&p->way, M, s), up = way_at(&p->way, P, s);
     const fret_real N = (m + up) / 2, T = (up - m) / 2;
     const fret_real dT = (way_fall(&p->way, M, s) - way_fall(&p->way, P, s)) / 2;
@@ -36,7 +36,7 @@ static fret_real along_rate(fret_real t, fret_real rest, void *context) {
 
 void fret_swing_know(fret_swing *c) {
     for (size_t i = 0; i < c->count; i++) {
-        piece *p = &c->pieces[i];
+        arc *p = &c->arcs[i];
         for (int which = 0; which < 2 && p->curved && !p->known; which++)
             p->sum[which] = (p->hi - p->lo) * fret_swing_integral(c, along_rate, &(along){c, p, which});
         p->known = true;
@@ -46,7 +46,7 @@ void fret_swing_know(fret_swing *c) {
 static fret_real sum_along(const fret_swing *c, bool energy) {
     fret_real sum = 0;
     for (size_t i = 0; i < c->count; i++) {
-        const piece *p = &c->pieces[i];
+        const arc *p = &c->arcs[i];
         if (p->curved) {
             sum += p->sum[energy];
             continue;
@@ -69,19 +69,19 @@ static fret_real sum_along(const fret_swing *c, bool energy) {
  * it passes: w the coordinate, 1/K the compliance at the load. */
 typedef struct passing {
     const fret_swing *curve;
-    const piece *piece;
+    const arc *arc;
     int which;
     fret_real from, rest;
 } passing;
 
 static fret_real passing_rate(fret_real t, fret_real rest, void *context) {
     const passing *l = context;
-    const piece *p = l->piece;
+    const arc *p = l->arc;
     const fret_real s = l->from * rest + p->hi * t, N = (way_at(&p->way, M, s) + way_at(&p->way, P, s)) / 2;
     return -way_fall(&p->way, l->which, s) * compliance(l->curve->normal, N);
 }
 
-static fret_real passed(const fret_swing *c, const piece *p, int which, fret_real from) {
+static fret_real passed(const fret_swing *c, const arc *p, int which, fret_real from) {
     return (p->hi - from) * fret_swing_integral(c, passing_rate, &(passing){c, p, which, from, 0});
 }
 
@@ -89,12 +89,11 @@ static fret_real passed_less(fret_real s, fret_real *slope, void *context) {
     passing *l = context;
     l->from = s;
     *slope = -passing_rate(0, 1, l);
-    return passed(l->curve, l->piece, l->which, s) - l->rest;
+    return passed(l->curve, l->arc, l->which, s) - l->rest;
 }
 
-/* The level at which the front has passed `rest` of a curved piece, `whole` of which would be all. */
-static fret_real curved_front(const fret_swing *c, const piece *p, int which, fret_real rest,
-                              fret_real whole) {
+/* The level at which the front has passed `rest` of a curved arc, `whole` of which would be all. */
+static fret_real curved_front(const fret_swing *c, const arc *p, int which, fret_real rest, fret_real whole) {
     passing l = {c, p, which, 0, rest};
     return way_at(&p->way, which,
                   fret_root(passed_less, &l, p->lo, p->hi, p->hi - (p->hi - p->lo) * sqrtl(rest / whole)));
@@ -102,7 +101,7 @@ static fret_real curved_front(const fret_swing *c, const piece *p, int which, fr
 
 fret_real fret_swing_front(const fret_swing *c, int which, fret_real *left) {
     for (size_t i = c->count; i-- > 0;) {
-        const piece *p = &c->pieces[i];
+        const arc *p = &c->arcs[i];
         const fret_real span = p->last[which] - p->first[which];
         const fret_real N0 = (p->first[M] + p->first[P]) / 2, N1 = (p->last[M] + p->last[P]) / 2;
         if (!(span > 0))
@@ -138,22 +137,22 @@ void fret_swing_loads(const way *w, way *out) {
     }
 }
 
-/* When the load on the way of a curved piece is N. */
-static fret_real time_of(const piece *p, fret_real N) {
+/* When the load on the way of a curved arc is N. */
+static fret_real time_of(const arc *p, fret_real N) {
     way loads;
     fret_swing_loads(&p->way, &loads);
     return way_when(&loads, M, N, p->lo, p->hi);
 }
 
-/* int sigma dy of the part of a piece that lies outside the depth y, where the load is N. */
-static fret_real outside(const fret_swing *c, const piece *p, fret_real y, fret_real N) {
+/* int sigma dy of the part of an arc that lies outside the depth y, where the load is N. */
+static fret_real outside(const fret_swing *c, const arc *p, fret_real y, fret_real N) {
     const fret_real N0 = (p->first[M] + p->first[P]) / 2, N1 = (p->last[M] + p->last[P]) / 2;
     if (!(N1 > N && N1 > N0))
         return 0;
     if (p->curved && N0 >= N)
         return p->sum[0];
     if (p->curved) {
-        piece part = *p;
+        arc part = *p;
         part.lo = time_of(p, N);
         return (part.hi - part.lo) * fret_swing_integral(c, along_rate, &(along){c, &part, false});
     }
@@ -169,37 +168,37 @@ fret_real fret_swing_displacement(const fret_swing *c, fret_real x) {
     const fret_real N = y > 0 ? fret_law_force(c->normal, y) : 0;
     fret_real sum = 0;
     for (size_t i = c->count; i-- > 0;)
-        sum += outside(c, &c->pieces[i], y, N);
+        sum += outside(c, &c->arcs[i], y, N);
     return c->mu * c->normal->foundation.eta * sum;
 }
 
 /* ---- the state --------------------------------------------------------------------------------- */
 
-/* What both ends of a piece are known to where the forces that it was made by are rounded. */
+/* What both ends of an arc are known to where the forces that it was made by are rounded. */
 static fret_real rounding(const fret_swing *c) {
     return 16 * DBL_EPSILON * c->scale;
 }
 
 /* A zone of slip, straight along one coordinate. */
-static bool is_zone(const fret_swing *c, const piece *p, int which) {
+static bool is_zone(const fret_swing *c, const arc *p, int which) {
     return !p->curved && fabsl(p->last[1 - which] - p->first[1 - which]) <= rounding(c) &&
            p->last[which] - p->first[which] > rounding(c);
 }
 
-/* Inwards from a piece, past those that are as small as rounding. */
-static const piece *past_rounding(const fret_swing *c, const piece *from) {
-    while (from > c->pieces && from->last[M] - from->first[M] + from->last[P] - from->first[P] <= rounding(c))
+/* Inwards from an arc, past those that are as small as rounding. */
+static const arc *past_rounding(const fret_swing *c, const arc *from) {
+    while (from > c->arcs && from->last[M] - from->first[M] + from->last[P] - from->first[P] <= rounding(c))
         from--;
     return from;
 }
 
-/* The piece that tells the radius of stick, as of a memory. */
-static const piece *outermost(const fret_swing *c) {
-    const piece *top = &c->pieces[c->count - 1], *zone = past_rounding(c, top), *next = zone;
+/* The arc that tells the radius of stick, as of a memory. */
+static const arc *outermost(const fret_swing *c) {
+    const arc *top = &c->arcs[c->count - 1], *zone = past_rounding(c, top), *next = zone;
     const int which = is_zone(c, zone, P) ? P : M;
     if (!is_zone(c, zone, which))
         return top;
-    while (next > c->pieces && is_zone(c, next, which)) {
+    while (next > c->arcs && is_zone(c, next, which)) {
         zone = next;
         next = past_rounding(c, next - 1);
     }
@@ -224,7 +223,7 @@ void fret_swing_state(const fret_swing *c, fret_state *out) {
                         .slices = c->count};
     fret_real inner = c->a;
     if (c->count) {
-        const piece *top = outermost(c);
+        const arc *top = outermost(c);
         const bool forward = is_zone(c, top, P) || top->first[M] == top->last[M],
                    backward = is_zone(c, top, M) || top->first[P] == top->last[P];
         const fret_real N = (top->first[M] + top->first[P]) / 2;
@@ -267,7 +266,7 @@ fret_status fret_swing_memory(const fret_swing *c, fret_memory *m) {
     fret_swing_state(c, &now);
     fret_memory_reset(m);
     for (size_t i = 0; i < c->count; i++) {
-        const piece *p = &c->pieces[i];
+        const arc *p = &c->arcs[i];
         fret_real from[2] = {p->first[M], p->first[P]}, to[2];
         for (int j = 1; p->curved && j < SAMPLES; j++) {
             const fret_real s = p->lo + (p->hi - p->lo) * j / (fret_real)SAMPLES;

@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "number/real.h"
 #include "number/root.h"
 

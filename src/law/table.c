@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "law/check.h"
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "number/real.h"
 
 /* Two numbers in one register. */

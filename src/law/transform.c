@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "law/check.h"
-#include "number/quadrature.h"
+#include "number/integral.h"
 #include "number/real.h"
 
 enum { MOMENTS = 32, NEAR = 4 }; /* NEAR^-MOMENTS is 5e-20 */

@@ -133,6 +133,18 @@ static void add(integral *all, part p, fret_real whole, quarrel before) {
     }
 }
 
+fret_real fret_integral_ends(fret_integrand *f, void *context, fret_real tolerance) {
+    const integral all = {.f = f, .context = context, .tolerance = tolerance};
+    const part whole = {0, 1}, left = {0, 0.5L}, right = {0.5L, 1};
+    const fret_real rough = by_gauss(&all, whole).value,
+                    halves = by_gauss(&all, left).value + by_gauss(&all, right).value;
+    return fabsl(halves - rough) <= tolerance * fabsl(halves) ? halves : by_doubling(&all, whole).value;
+}
+
+fret_real fret_integral_smooth(fret_integrand *f, void *context) {
+    return by_gauss(&(integral){.f = f, .context = context}, (part){0, 1}).value;
+}
+
 fret_estimate fret_integral(fret_integrand *f, void *context, fret_real tolerance) {
     const part whole = {0, 1};
     quarrel none = {.off = 0};

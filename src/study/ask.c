@@ -1,68 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Trials that count, and tell that they are at work. Reads and prints nothing. */
+/* Present values, steps, places and words of knobs. */
 #include "study/ask.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "number/real.h"
-
-bool ask_open(ask *q, calc *c, const knob *knobs, size_t count, calc_error *error) {
-    *q = (ask){.c = c, .knobs = knobs, .count = count, .error = error};
-    q->t = trial_open(c, error);
-    return q->t != NULL;
-}
-
-void ask_close(ask *q) {
-    calc_word(q->c, q->error);
-    trial_close(q->t);
-    q->t = NULL;
-}
-
-bool ask_failed(ask *q, const calc_error *error) {
-    if (error->stop || error->strange || error->circle) {
-        *q->error = *error;
-        return false;
-    }
-    q->none = *error;
-    calc_word(q->c, &q->none);
-    return false;
-}
-
-bool ask_set(ask *q, const double x[]) {
-    calc_error error;
-    error_clear(&error);
-    if (q->error->raised || calc_stopped(q->c->scene.stop, q->error))
-        return false;
-    q->evaluations++;
-    error_clear(&q->none);
-    for (size_t i = 0; i < q->count; i++)
-        if (!trial_set(q->t, &q->knobs[i], x[i], &error))
-            return ask_failed(q, &error);
-    return true;
-}
-
-bool ask_value(ask *q, const expr *e, dim *d, bool *known, long double *out) {
-    calc_error error;
-    value v;
-    error_clear(&error);
-    if (q->error->raised)
-        return false;
-    if (q->c->scene.pulse)
-        q->c->scene.pulse();
-    if (!expr_eval(q->c, e, &v, &error))
-        return ask_failed(q, &error);
-    if (*known && !dim_equal(v.d, *d)) {
-        q->error->strange = true;
-        return calc_fail(q->error, e->at, e->len, "%.*s has no dimension of its own: it changes on the way",
-                         LEX_SHOWN(e->len), e->text + e->at);
-    }
-    *known = true;
-    *d = v.d;
-    *out = v.v;
-    return true;
-}
 
 bool ask_repeats(const knob *knobs, size_t count) {
     for (size_t i = 0; i + 1 < count; i++)
@@ -100,12 +42,7 @@ double ask_step(double part, double x, double scale) {
     return part * fmax(fabs(x), scale);
 }
 
-double ask_grid(double lo, double hi, bool log, unsigned i, unsigned last) {
-    const long double part = (long double)i / last;
-    if (i == 0 || i == last)
-        return i ? hi : lo;
-    return (double)(log ? lo * fret_pow((long double)hi / lo, part) : lo + ((long double)hi - lo) * part);
-}
+const long double ask_slope[ASK_SLOPES] = {3 / 4.0L, -3 / 20.0L, 1 / 60.0L};
 
 bool ask_in_ratios(double lo, double hi) {
     return lo > 0 && hi > 0 && (hi >= 10 * lo || lo >= 10 * hi);

@@ -1,32 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Expressions as functions of some inputs and names, for questions that go backwards: a trial that counts,
- * and tells a place without a value from the end of the question. */
+/* Inputs and names that questions are asked about: what they are now, how far to go with them, and in words.
+ * Reads the scene and the names, changes nothing. */
 #ifndef STUDY_ASK_H
 #define STUDY_ASK_H
 
-#include "calc/trial.h"
-
-typedef struct ask {
-    calc *c;
-    trial *t;
-    const knob *knobs; /* borrowed */
-    size_t count;
-    unsigned evaluations; /* of scenes */
-    calc_error *error;    /* raised: the question has ended */
-    calc_error none;      /* why the latest place had no value: raised */
-} ask;
-
-bool ask_open(ask *q, calc *c, const knob *knobs, size_t count, calc_error *error);
-/* Puts the error into words while the trial is still seen. */
-void ask_close(ask *q);
-
-/* The scene with these values of the knobs; false: there is none, or the question has ended. */
-bool ask_set(ask *q, const double x[]);
-/* The expression in it, of the same dimension each time: *d as found at first, where `known` has become true.
- */
-bool ask_value(ask *q, const expr *e, dim *d, bool *known, long double *out);
-/* Takes an error as one of these two; false. */
-bool ask_failed(ask *q, const calc_error *error);
+#include "calc/calc.h"
 
 /* Is the last of these the same as one before? */
 bool ask_repeats(const knob *knobs, size_t count);
@@ -41,9 +19,10 @@ bool ask_lacks(const calc *c, const knob *k, const char *what_for, const char *a
  * is less the scale, without which the step would come to nothing at 0: what else tells how far the name
  * goes, be it its deviation, the range that is searched or what the data show. */
 double ask_step(double part, double x, double scale);
+/* Weights of f(x+jh)-f(x-jh) in a slope, over h: sixth order. */
+enum { ASK_SLOPES = 3 };
+extern const long double ask_slope[ASK_SLOPES];
 
-/* Place i of 0..last from lo to hi, evenly or in ratios. */
-double ask_grid(double lo, double hi, bool log, unsigned i, unsigned last);
 /* Is a range searched in ratios? */
 bool ask_in_ratios(double lo, double hi);
 /* "mu = 0.3" */

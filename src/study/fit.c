@@ -11,8 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/clock.h"
-#include "study/team.h"
+#include "study/points.h"
 
 /* Where a trial point has no value its residuals are this large: the step is taken back. */
 static const double refused = 1e6;
@@ -23,7 +22,9 @@ static const double visible = 1e-6; /* residuals of a loop, as a part of it */
 
 typedef struct state {
     const fit_question *of;
-    ask q;
+    points p;
+    expr sides[2];                       /* left and right */
+    knob knobs[FIT_NAMES + FIT_COLUMNS]; /* names, and columns behind them */
     double start[FIT_NAMES], scale[FIT_NAMES];
     /* parameter i is start exp(q-1), or start + scale (q-1) */
     bool ratio[FIT_NAMES], bounded[FIT_NAMES];
@@ -36,147 +37,60 @@ typedef struct state {
     size_t bad_row;   /* the last one without a value; NO_ROW: it was not a row's fault */
     double *residual; /* as they are computed */
     double *above, *below;
-    gsl_vector *beside;  /* where these are */
-    gsl_matrix *J;       /* used up by what is asked of it */
-    double x[FIT_NAMES]; /* of the names, present */
-    team *t;
-    bool alone;   /* a team is of no use, or cannot be had */
-    double taken; /* seconds, for all equations once */
+    gsl_vector *beside;       /* where these are */
+    gsl_matrix *J;            /* used up by what is asked of it */
+    long double x[FIT_NAMES]; /* of the names, present */
+    unsigned evaluations;
 } state;
 
 static double parameter(const state *s, size_t i, double q) {
     return s->ratio[i] ? s->start[i] * exp(q - 1) : s->start[i] + s->scale[i] * (q - 1);
 }
 
-static bool stopped(state *s) {
-    return calc_stopped(s->of->c->scene.stop, s->q.error);
-}
-
 /* ---- residuals --------------------------------------------------------------------------------- */
 
-static bool equation_row(state *s, size_t row, double *out) {
+typedef struct sides {
+    state *s;
+    double *out; /* left - right of all rows */
+} sides;
+
+static void give(void *context, size_t row, long double x[]) {
+    const state *s = ((const sides *)context)->s;
     const fit_question *of = s->of;
-    calc_error error;
-    long double left;
-    value right;
-    error_clear(&error);
+    for (size_t i = 0; i < of->count; i++)
+        x[i] = s->x[i];
     for (size_t j = 0; j < of->columns; j++)
-        if (!trial_set(s->q.t, &of->column[j].name, of->column[j].v[row], &error))
-            return ask_failed(&s->q, &error);
-    if (!ask_value(&s->q, of->left, &s->d, &s->known, &left))
+        x[of->count + j] = of->column[j].v[row];
+}
+
+static bool take(void *context, size_t row, const long double x[], const value v[], const calc_error *why) {
+    const sides *to = context;
+    state *s = to->s;
+    (void)x;
+    s->bad_row = row;
+    if (why || !points_keeps(&s->p, 0, v[0].d, &s->d, &s->known))
         return false;
-    if (!expr_eval(of->c, of->right, &right, &error))
-        return ask_failed(&s->q, &error);
-    if (!dim_equal(right.d, s->d)) {
+    if (!dim_equal(v[1].d, s->d)) {
+        const expr *right = &s->sides[1];
         char is[128], wants[128];
         dim_describe(s->d, wants, sizeof wants);
-        dim_describe(right.d, is, sizeof is);
-        return calc_fail(s->q.error, of->right->at, of->right->len,
-                         "the left side is %s, the right side is %s", wants, is);
+        dim_describe(v[1].d, is, sizeof is);
+        return calc_fail(s->p.error, right->at, right->len, "the left side is %s, the right side is %s",
+                         wants, is);
     }
-    *out = (double)(left - right.v);
-    s->largest = fmax(s->largest, (double)fmaxl(fabsl(left), fabsl(right.v)));
+    to->out[row] = (double)(v[0].v - v[1].v);
+    s->largest = fmax(s->largest, (double)fmaxl(fabsl(v[0].v), fabsl(v[1].v)));
     return true;
-}
-
-/* Rows from first to last. */
-static bool equation_rows(state *s, size_t first, size_t last, double *out) {
-    for (size_t i = first; i < last; i++) {
-        s->bad_row = i;
-        if ((i % 64 == 0 && stopped(s)) || !equation_row(s, i, &out[i - first]))
-            return false;
-    }
-    return true;
-}
-
-/* Rows go in portions where a team pays: at least a millisecond of them. */
-enum { ROWS = 1024 };
-
-typedef struct portion {
-    double x[FIT_NAMES];
-    size_t first, last;
-} portion;
-
-typedef struct outcome {
-    scene_use used;
-    double v[ROWS];
-} outcome;
-
-static bool work(void *context, const void *in, void *out) {
-    state *s = context;
-    const portion *p = in;
-    outcome *o = out;
-    error_clear(s->q.error);
-    s->q.t->scene.used = 0;
-    ask_set(&s->q, p->x); /* as it went with the one who gives; an error that is raised ends the first row */
-    const bool ok = equation_rows(s, p->first, p->last, o->v);
-    o->used = scene_answered_by(&s->q.t->scene);
-    return ok;
-}
-
-typedef struct sharing {
-    state *s;
-    double *out;
-    size_t rows; /* of a portion */
-} sharing;
-
-static void give(void *context, size_t part, void *in) {
-    const sharing *sh = context;
-    const state *s = sh->s;
-    portion *p = in;
-    for (size_t i = 0; i < s->of->count; i++)
-        p->x[i] = s->x[i];
-    p->first = part * sh->rows;
-    p->last = p->first + sh->rows < s->of->rows ? p->first + sh->rows : s->of->rows;
-}
-
-static bool take(void *context, size_t part, const void *in, const void *out) {
-    const sharing *sh = context;
-    state *s = sh->s;
-    const portion *p = in;
-    const outcome *o = out;
-    (void)part;
-    if (!o)
-        return equation_rows(s, p->first, p->last, sh->out + p->first);
-    scene_also_used(&s->q.t->scene, o->used);
-    memcpy(sh->out + p->first, o->v, (p->last - p->first) * sizeof *o->v);
-    return true;
-}
-
-static bool shared(state *s) {
-    const double rounds = 10; /* a fit goes through the rows more often than that */
-    if (s->t || s->alone || !s->known || !team_pays(s->of->c, s->taken * rounds, 1, 2))
-        return s->t;
-    s->t = team_begin(&(team_job){
-        .c = s->of->c, .in = sizeof(portion), .out = sizeof(outcome), .work = work, .context = s});
-    s->alone = !s->t;
-    return s->t;
 }
 
 static bool equations(state *s, double *out) {
-    const size_t rows = s->of->rows;
-    if (shared(s)) {
-        sharing sh = {.s = s, .out = out};
-        const double each = s->taken / (double)rows;
-        sh.rows = (size_t)fmin(fmax(fmin(1e-3 / each, (double)rows / 4), 1), ROWS);
-        const team_run run = {
-            .parts = (rows + sh.rows - 1) / sh.rows, .give = give, .take = take, .context = &sh};
-        const bool ok = team_work(s->t, &run);
-        if (!ok) { /* the rest of it is of no use */
-            team_end(s->t);
-            s->t = NULL;
-        }
-        return !stopped(s) && ok;
-    }
-    const double began = clock_wall();
-    const bool ok = equation_rows(s, 0, rows, out);
-    s->taken = clock_wall() - began;
-    return ok;
+    sides to = {s, out};
+    return points_go(&s->p, &(points_run){.count = s->of->rows, .give = give, .take = take, .context = &to});
 }
 
 /* The press that everything begins with. */
 static bool press_of(state *s, load_step *out, calc_error *error) {
-    scene *tried = &s->q.t->scene;
+    scene *tried = &s->p.t->scene;
     const fit_loop *loop = &s->of->loop;
     long double FN;
     *out = (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE};
@@ -217,17 +131,19 @@ static fret_status run_rows(state *s, runner *r, double *out) {
 }
 
 static bool loop_rows(state *s, double *out) {
-    scene *tried = &s->q.t->scene;
+    scene *tried = &s->p.t->scene;
     load_view view = {.in = &tried->in, .stop = s->of->c->scene.stop};
     runner r = {.load = &view};
     load_item press = {.extra = {0}};
     calc_error error;
     error_clear(&error);
     s->bad_row = NO_ROW;
+    if (!points_set(&s->p, s->x))
+        return false;
     tried->used |= ASKED_TANGENTIAL;
     if (!scene_normal(tried, &view.normal, &error) || !scene_friction(tried, &view.mu, &error) ||
         !press_of(s, &press.step, &error))
-        return ask_failed(&s->q, &error);
+        return points_failed(&s->p, &error);
     fret_status st = engine_make(&r.engine, MODEL_MEMORY, view.normal, view.mu, 0, 0);
     if (!st.code)
         st = run_item(&r, &press);
@@ -236,16 +152,17 @@ static bool loop_rows(state *s, double *out) {
     engine_end(&r.engine);
     s->d = DIM_FORCE;
     s->known = true;
-    if (!s->q.error->raised && !calc_status(&error, &st))
-        ask_failed(&s->q, &error);
-    return !st.code && !s->q.error->raised;
+    if (!s->p.error->raised && !calc_status(&error, &st))
+        points_failed(&s->p, &error);
+    return !st.code && !s->p.error->raised;
 }
 
 /* left - right, or measured - computed F_x, in SI. */
 static bool residuals(state *s, const gsl_vector *q, double *out) {
     for (size_t i = 0; i < s->of->count; i++)
         s->x[i] = parameter(s, i, gsl_vector_get(q, i));
-    return ask_set(&s->q, s->x) && (s->of->left ? equations : loop_rows)(s, out);
+    s->evaluations++;
+    return (s->of->left ? equations : loop_rows)(s, out);
 }
 
 static int gsl_residuals(const gsl_vector *q, void *context, gsl_vector *f) {
@@ -256,7 +173,7 @@ static int gsl_residuals(const gsl_vector *q, void *context, gsl_vector *f) {
         return GSL_SUCCESS;
     }
     gsl_vector_set_all(f, refused);
-    return s->q.error->raised ? GSL_EFAILED : GSL_SUCCESS;
+    return s->p.error->raised ? GSL_EFAILED : GSL_SUCCESS;
 }
 
 /* With one parameter at q. */
@@ -268,7 +185,7 @@ static bool residuals_beside(state *s, size_t i, double q, double *out) {
 static void no_slope(const state *s, size_t i, double q) {
     char at[ASK_TEXT];
     ask_text(&s->of->name[i], parameter(s, i, q), at);
-    calc_fail(s->q.error, 0, 0, "no value close beside %s, for the derivative: %s", at, s->q.none.text);
+    calc_fail(s->p.error, 0, 0, "no value close beside %s, for the derivative: %s", at, s->p.none.text);
 }
 
 /* Differences about q; at the end of the scene, where one of the two has no value, from q to the other. */
@@ -285,7 +202,7 @@ static int gsl_jacobian(const gsl_vector *q, void *context, gsl_matrix *J) {
             residuals_beside(s, i, hi = at, s->above);
         if (!below)
             residuals_beside(s, i, lo = at, s->below);
-        if (s->q.error->raised)
+        if (s->p.error->raised)
             return GSL_EFAILED;
         for (size_t row = 0; row < s->of->rows; row++)
             gsl_matrix_set(J, row, i, (s->above[row] - s->below[row]) / s->unit / (hi - lo));
@@ -382,7 +299,7 @@ static bool begin(state *s, gsl_vector *q, calc_error *error) {
     gsl_vector_set_all(q, 1);
     if (!residuals(s, q, s->residual)) {
         if (!error->raised) {
-            *error = s->q.none;
+            *error = s->p.none;
             if (s->bad_row != NO_ROW)
                 calc_append(of->c, error, " (row %zu of the data)", s->bad_row + 1);
         }
@@ -399,10 +316,10 @@ static bool begin_again(state *s, gsl_vector *q, bool *again, calc_error *error)
     const state before = *s;
     *again = false;
     for (size_t i = 0; i < s->of->count; i++)
-        s->x[i] = s->start[i] = parameter(s, i, gsl_vector_get(q, i));
+        s->start[i] = parameter(s, i, gsl_vector_get(q, i));
+    gsl_vector_set_all(s->beside, 1);
     s->largest = 0;
-    if (!ask_set(&s->q, s->x) ||
-        !(s->of->left ? equation_rows(s, 0, s->of->rows, s->residual) : loop_rows(s, s->residual)))
+    if (!residuals(s, s->beside, s->residual))
         return false; /* unreached: it has been computed */
     choose_scales(s);
     for (size_t i = 0; i < s->of->count; i++)
@@ -515,7 +432,7 @@ static int drive(const state *s, gsl_multifit_nlinear_workspace *w) {
     int status = GSL_CONTINUE, info;
     for (int i = 0; i < ITERATIONS && status == GSL_CONTINUE; i++) {
         const int step = gsl_multifit_nlinear_iterate(w);
-        if (s->q.error->raised)
+        if (s->p.error->raised)
             return GSL_EFAILED;
         if (step == GSL_ENOPROG && i == 0) /* it may have begun there; later it may have arrived */
             return GSL_EMAXITER;
@@ -571,7 +488,7 @@ static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector 
     }
     out->d = s->d;
     out->twice = s->twice;
-    out->evaluations = s->q.evaluations;
+    out->evaluations = s->evaluations;
     return ok;
 }
 
@@ -588,6 +505,24 @@ static bool run(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_
     return judge(s, w, q, out, error);
 }
 
+static bool begin_points(state *s, calc_error *error) {
+    static const size_t passes = 10; /* a fit goes through the rows more often than that */
+    const fit_question *of = s->of;
+    for (size_t i = 0; i < of->count; i++)
+        s->knobs[i] = of->name[i];
+    for (size_t j = 0; j < of->columns; j++)
+        s->knobs[of->count + j] = of->column[j].name;
+    if (of->left) {
+        s->sides[0] = *of->left;
+        s->sides[1] = *of->right;
+    }
+    const size_t columns = of->left ? of->columns : 0;
+    const bool ok =
+        points_open(&s->p, of->c, s->knobs, of->count + columns, s->sides, of->left ? 2 : 0, error);
+    s->p.all = passes * of->rows;
+    return ok;
+}
+
 bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     const size_t n = question->rows, p = question->count;
     const gsl_multifit_nlinear_parameters method = gsl_multifit_nlinear_default_parameters();
@@ -596,8 +531,8 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     gsl_set_error_handler_off();
     if (n <= p)
         return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", n, p);
-    if (!ask_open(&s.q, question->c, question->name, p, error))
-        return false;
+    if (!begin_points(&s, error))
+        return points_close(&s.p), false;
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &method, n, p);
     gsl_vector *q = gsl_vector_alloc(p);
     s.beside = gsl_vector_alloc(p);
@@ -611,7 +546,6 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     gsl_vector_free(s.beside);
     gsl_matrix_free(s.J);
     free(s.residual);
-    team_end(s.t);
-    ask_close(&s.q);
+    points_close(&s.p);
     return ok;
 }

@@ -9,19 +9,17 @@
 #include <gsl/gsl_multimin.h>
 #include <math.h>
 
-#include "calc/clock.h"
-#include "number/real.h"
-#include "study/team.h"
+#include "study/points.h"
 
 /* Names are turned into parts of their ranges, 0 to 1. */
-enum { N = OPTIMISE_NAMES, LINE = 16, SLOPES = 3, EDGE_EVALUATIONS = 60, SIMPLEX_STEPS = 400 };
+enum { N = OPTIMISE_NAMES, LINE = 16, EDGE_EVALUATIONS = 60, SIMPLEX_STEPS = 400 };
 
 /* Narrow enough for Newton's method. */
 #define NARROW 2e-3
 
 typedef struct search {
     const optimise_question *of;
-    ask q;
+    points p;
     bool ratios[N];
     bool known, varies;
     dim d;
@@ -33,36 +31,31 @@ typedef struct search {
 } search;
 
 static double place_of(const search *s, size_t i, double u) {
-    const optimise_question *of = s->of;
-    if (u <= 0 || u >= 1)
-        return u <= 0 ? of->lo[i] : of->hi[i];
-    if (!s->ratios[i])
-        return (double)(of->lo[i] + ((long double)of->hi[i] - of->lo[i]) * u);
-    return (double)(of->lo[i] * fret_pow((long double)of->hi[i] / of->lo[i], u));
+    return (double)points_place(s->of->lo[i], s->of->hi[i], s->ratios[i], fmin(fmax(u, 0), 1));
 }
 
-static bool value_at(search *s, const double *u, long double *v) {
-    double x[N];
+static void set_knobs(const search *s, const double *u, long double x[N]) {
     for (size_t i = 0; i < s->of->count; i++)
         x[i] = place_of(s, i, u[i]);
-    return ask_set(&s->q, x) && ask_value(&s->q, s->of->e, &s->d, &s->known, v);
-}
-
-static long double seen(search *s, long double v) {
-    if (isnan(s->seen))
-        s->seen = v;
-    s->varies = s->varies || v != s->seen;
-    return s->of->most ? -v : v;
 }
 
 /* To be made small; NaN: no value there, or the question has ended. */
+static long double take_value(search *s, const value *v, const calc_error *why) {
+    if (why)
+        s->why = *why;
+    if (why || !points_keeps(&s->p, 0, v->d, &s->d, &s->known))
+        return (long double)NAN;
+    if (isnan(s->seen))
+        s->seen = v->v;
+    s->varies = s->varies || v->v != s->seen;
+    return s->of->most ? -v->v : v->v;
+}
+
 static long double at(search *s, const double *u) {
-    long double v;
-    if (value_at(s, u, &v))
-        return seen(s, v);
-    if (s->q.none.raised)
-        s->why = s->q.none;
-    return (long double)NAN;
+    long double x[N];
+    value v;
+    set_knobs(s, u, x);
+    return take_value(s, &v, points_at(&s->p, x, &v) ? NULL : &s->p.none);
 }
 
 static bool better(search *s, const double *u, long double f) {
@@ -80,70 +73,25 @@ enum { PLACES = 128 };
 
 typedef struct places {
     search *s;
-    size_t count, first; /* where the team begins */
+    size_t count;
     double u[PLACES][N];
     long double f[PLACES];
 } places;
 
-typedef struct outcome {
-    long double v;
-    dim d;
-    scene_use used;
-} outcome;
-
-static bool work(void *context, const void *in, void *out) {
-    search *s = context;
-    outcome *o = out;
-    error_clear(s->q.error);
-    s->q.t->scene.used = 0;
-    const bool ok = value_at(s, in, &o->v);
-    o->d = s->d;
-    o->used = scene_answered_by(&s->q.t->scene);
-    return ok;
-}
-
-static void give(void *context, size_t part, void *in) {
+static void give(void *context, size_t i, long double x[]) {
     const places *p = context;
-    for (size_t i = 0; i < N; i++)
-        ((double *)in)[i] = p->u[p->first + part][i];
+    set_knobs(p->s, p->u[i], x);
 }
 
-static bool take(void *context, size_t part, const void *in, const void *out) {
+static bool take(void *context, size_t i, const long double x[], const value v[], const calc_error *why) {
     places *p = context;
-    search *s = p->s;
-    const outcome *o = out;
-    const bool of_use = o && s->known && dim_equal(o->d, s->d);
-    p->f[p->first + part] = of_use ? seen(s, o->v) : at(s, in);
-    if (of_use) {
-        s->q.evaluations++;
-        scene_also_used(&s->q.t->scene, o->used);
-    }
-    return !s->q.error->raised;
+    (void)x;
+    p->f[i] = take_value(p->s, v, why);
+    return true;
 }
 
-/* One after the other, or by a team where that pays. */
 static bool at_all(places *p) {
-    search *s = p->s;
-    const double began = clock_wall();
-    size_t i = 0;
-    for (; i < p->count && !team_pays(s->of->c, clock_wall() - began, (double)i, (double)p->count); i++) {
-        p->f[i] = at(s, p->u[i]);
-        if (s->q.error->raised)
-            return false;
-    }
-    p->first = i;
-    team *t =
-        i < p->count
-            ? team_begin(&(team_job){
-                  .c = s->of->c, .in = sizeof p->u[0], .out = sizeof(outcome), .work = work, .context = s})
-            : NULL;
-    const team_run run = {.parts = p->count - i, .give = give, .take = take, .context = p};
-    if (t && !team_work(t, &run) && !s->q.error->raised)
-        calc_interrupted(s->q.error);
-    team_end(t);
-    for (; !t && i < p->count && !s->q.error->raised; i++)
-        p->f[i] = at(s, p->u[i]);
-    return !s->q.error->raised;
+    return points_go(&p->s->p, &(points_run){.count = p->count, .give = give, .take = take, .context = p});
 }
 
 /* ---- along one name ---------------------------------------------------------------------------- */
@@ -233,7 +181,7 @@ static bool narrow(line *l, double lo, double hi, double part) {
     gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
     gsl_function along = {gsl_line, l};
     if (!m)
-        return calc_no_memory(l->s->q.error);
+        return calc_no_memory(l->s->p.error);
     below.f = (double)line_at(l, lo);
     above.f = (double)line_at(l, hi);
     break_tie(l, &best, &above, &below);
@@ -249,14 +197,14 @@ static bool narrow(line *l, double lo, double hi, double part) {
             break;
     }
     gsl_min_fminimizer_free(m);
-    return !l->s->q.error->raised;
+    return !l->s->p.error->raised;
 }
 
 /* At an end of the range, unless it is better a little inside. */
 static bool leave_end(line *l, double next) {
     const double end = l->u;
     line_at(l, end + (next - end) * 1e-4);
-    if (l->s->q.error->raised)
+    if (l->s->p.error->raised)
         return false;
     if (l->u == end) {
         l->end = end > 0 ? END_HIGH : END_LOW;
@@ -272,7 +220,7 @@ static bool approach_edge(line *l, double bad, double other) {
     while (l->evaluations < EDGE_EVALUATIONS) { /* too few of them to come to neighbouring numbers */
         const double good = l->u, mid = bad + (good - bad) / 2;
         const long double f = line_at(l, mid);
-        if (l->s->q.error->raised)
+        if (l->s->p.error->raised)
             return false;
         if (isnan(f)) {
             bad = mid;
@@ -300,7 +248,7 @@ static bool search_line(line *l) {
         return false;
     for (int i = 0; i <= LINE; i++) {
         f[i] = nested ? line_at(l, i * apart) : line_take(l, i * apart, all.u[i], all.f[i]);
-        if (l->s->q.error->raised)
+        if (l->s->p.error->raised)
             return false;
         if (!isnan(f[i]) && l->u == i * apart)
             best = i;
@@ -362,7 +310,7 @@ static bool simplex(search *s, size_t free, double step, double size) {
                 gsl_vector_set(start, next++, asin(sqrt(s->u[i])));
         gsl_vector_set_all(steps, step);
         int status = gsl_multimin_fminimizer_set(m, &f, start, steps);
-        for (int i = 0; !status && i < SIMPLEX_STEPS && !s->q.error->raised; i++) {
+        for (int i = 0; !status && i < SIMPLEX_STEPS && !s->p.error->raised; i++) {
             status = gsl_multimin_fminimizer_iterate(m);
             if (gsl_multimin_fminimizer_size(m) < size)
                 break;
@@ -373,14 +321,14 @@ static bool simplex(search *s, size_t free, double step, double size) {
             const double sine = s->fixed[i] ? 0 : sin(gsl_vector_get(gsl_multimin_fminimizer_x(m), next++));
             u[i] = s->fixed[i] ? s->u[i] : sine * sine;
         }
-        if (!s->q.error->raised)
+        if (!s->p.error->raised)
             better(s, u, at(s, u));
     }
     if (m)
         gsl_multimin_fminimizer_free(m);
     gsl_vector_free(start);
     gsl_vector_free(steps);
-    return ok ? !s->q.error->raised : calc_no_memory(s->q.error);
+    return ok ? !s->p.error->raised : calc_no_memory(s->p.error);
 }
 
 static bool search_grid(search *s) {
@@ -429,14 +377,13 @@ static bool search_several(search *s, optimise_end end[N]) {
     if (!simplex(s, s->of->count, 0.15, 1e-4))
         return false;
     const size_t before = s->of->count, free = fix_ends(s, end);
-    return !free || s->q.error->raised || free == before || simplex(s, free, 0.02, 1e-4);
+    return !free || s->p.error->raised || free == before || simplex(s, free, 0.02, 1e-4);
 }
 
 /* ---- Newton's method --------------------------------------------------------------------------- */
 
-/* Weights of f(x+jh)-f(x-jh) over h and of f(x+jh)+f(x-jh)-2f(x) over h^2: sixth order. */
-static const long double first_weight[SLOPES] = {3 / 4.0L, -3 / 20.0L, 1 / 60.0L};
-static const long double second_weight[SLOPES] = {3 / 2.0L, -3 / 20.0L, 1 / 90.0L};
+/* Of f(x+jh)+f(x-jh)-2f(x) over h^2: sixth order. */
+static const long double second_weight[ASK_SLOPES] = {3 / 2.0L, -3 / 20.0L, 1 / 90.0L};
 
 static long double moved(search *s, size_t i, double by, size_t j, double also) {
     double u[N];
@@ -454,9 +401,9 @@ static bool differences(search *s, const size_t *free, size_t count, const doubl
     for (size_t a = 0; a < count; a++) {
         const size_t i = free[a];
         long double slope = 0, bend = 0;
-        for (int j = 1; j <= SLOPES; j++) {
+        for (int j = 1; j <= ASK_SLOPES; j++) {
             const long double up = moved(s, i, j * h[i], i, 0), down = moved(s, i, -j * h[i], i, 0);
-            slope += first_weight[j - 1] * (up - down);
+            slope += ask_slope[j - 1] * (up - down);
             bend += second_weight[j - 1] * ((up - s->f) + (down - s->f));
         }
         gsl_vector_set(g, a, (double)(slope / h[i]));
@@ -471,7 +418,7 @@ static bool differences(search *s, const size_t *free, size_t count, const doubl
         if (isnan(gsl_vector_get(g, a)))
             return false;
     }
-    return !s->q.error->raised;
+    return !s->p.error->raised;
 }
 
 /* One step; *length of it in parts of the ranges. False: none can be made. */
@@ -527,7 +474,7 @@ static bool sharpen(search *s, bool *sharp) {
     gsl_vector_free(g);
     gsl_vector_free(step);
     gsl_matrix_free(H);
-    return ok ? !s->q.error->raised : calc_no_memory(s->q.error);
+    return ok ? !s->p.error->raised : calc_no_memory(s->p.error);
 }
 
 /* ---- answers ----------------------------------------------------------------------------------- */
@@ -571,7 +518,7 @@ static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     if (!go_on(s, free))
         return false;
     if (!end_of_scene(s, out))
-        return !s->q.error->raised;
+        return !s->p.error->raised;
     line outer = {.s = s, .nested = true, .f = (long double)NAN};
     if (!search_line(&outer) || !narrow(&outer, outer.lo, outer.hi, 1e-8))
         return false;
@@ -579,7 +526,7 @@ static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     for (size_t i = 0; i < s->of->count; i++)
         out->end[i] = s->u[i] <= 0 ? END_LOW : s->u[i] >= 1 ? END_HIGH : END_INNER;
     end_of_scene(s, out);
-    return !s->q.error->raised;
+    return !s->p.error->raised;
 }
 
 static bool answer(search *s, optimise_answer *out, calc_error *error) {
@@ -599,7 +546,7 @@ static bool answer(search *s, optimise_answer *out, calc_error *error) {
     out->value = s->of->most ? -s->f : s->f;
     out->d = s->d;
     out->why = s->why;
-    out->evaluations = s->q.evaluations;
+    out->evaluations = s->p.evaluations;
     return !error->raised;
 }
 
@@ -609,9 +556,8 @@ bool optimise(const optimise_question *question, optimise_answer *out, calc_erro
     gsl_set_error_handler_off();
     for (size_t i = 0; i < question->count; i++)
         s.ratios[i] = ask_in_ratios(question->lo[i], question->hi[i]);
-    if (!ask_open(&s.q, question->c, question->name, question->count, error))
-        return false;
-    bool ok = answer(&s, out, error);
-    ask_close(&s.q);
+    const bool ok = points_open(&s.p, question->c, question->name, question->count, question->e, 1, error) &&
+                    answer(&s, out, error);
+    points_close(&s.p);
     return ok;
 }

@@ -14,20 +14,20 @@ typedef struct bulk {
     double middle, height; /* 0: a constant */
 } bulk;
 
-typedef struct points {
+typedef struct picture {
     const refinement *r;
     size_t n;
     long double *part, *value; /* n rows */
     bool *halve;               /* the interval behind a point */
     bulk *of;
-} points;
+} picture;
 
 static int ascending(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
-static bulk bulk_of(const points *p, size_t column, double *sorted) {
+static bulk bulk_of(const picture *p, size_t column, double *sorted) {
     size_t n = 0;
     for (size_t i = 0; i < p->n; i++) {
         const double v = (double)p->value[i * p->r->count + column];
@@ -47,7 +47,7 @@ static bulk bulk_of(const points *p, size_t column, double *sorted) {
     return (bulk){(lo + hi) / 2, hi - lo > noise ? hi - lo : 0};
 }
 
-static double value_at(const points *p, size_t i, size_t column) {
+static double value_at(const picture *p, size_t i, size_t column) {
     return (double)p->value[i * p->r->count + column];
 }
 
@@ -56,12 +56,12 @@ static bool is_far(const bulk *b, double v) {
     return fabs(v - b->middle) > 2 * b->height;
 }
 
-static void mark(points *p, size_t i) {
+static void mark(picture *p, size_t i) {
     if (p->part[i + 1] - p->part[i] > narrow)
         p->halve[i] = true;
 }
 
-static void mark_column(points *p, size_t column) {
+static void mark_column(picture *p, size_t column) {
     const bulk *b = &p->of[column];
     if (!(b->height > 0))
         return;
@@ -83,7 +83,7 @@ static void mark_column(points *p, size_t column) {
 }
 
 /* The middles of marked intervals come between their ends, from the back so that nothing is overwritten. */
-static void merge(points *p, size_t more, const long double *part, const long double *value) {
+static void merge(picture *p, size_t more, const long double *part, const long double *value) {
     const size_t count = p->r->count, row = count * sizeof *value;
     for (size_t i = p->n, to = p->n + more, k = more; i-- > 0;) {
         if (i + 1 < p->n && p->halve[i]) {
@@ -99,7 +99,7 @@ static void merge(points *p, size_t more, const long double *part, const long do
 }
 
 /* One round: more gets how many points have been added. */
-static bool halve(points *p, long double *part, long double *value, size_t *more) {
+static bool halve(picture *p, long double *part, long double *value, size_t *more) {
     memset(p->halve, 0, p->n * sizeof *p->halve);
     for (size_t j = 0; j < p->r->count; j++)
         mark_column(p, j);
@@ -116,7 +116,7 @@ static bool halve(points *p, long double *part, long double *value, size_t *more
     return true;
 }
 
-static bool run(points *p, double *sorted, long double *part, long double *value) {
+static bool run(picture *p, double *sorted, long double *part, long double *value) {
     for (size_t i = 0; i < p->n; i++)
         p->part[i] = (long double)i / (long double)(p->n - 1);
     if (!p->r->evaluate(p->r->context, p->part, p->n, p->value))
@@ -135,7 +135,7 @@ static bool run(points *p, double *sorted, long double *part, long double *value
 
 bool refine(const refinement *r, calc_error *error) {
     const size_t room = r->steps + 1 > POINTS ? r->steps + 1 : POINTS;
-    points p = {.r = r, .n = r->steps + 1};
+    picture p = {.r = r, .n = r->steps + 1};
     p.part = malloc(room * sizeof *p.part);
     p.value = malloc(room * r->count * sizeof *p.value);
     p.halve = malloc(room * sizeof *p.halve);

@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/points.h"
+
 /* Intervals of the scan, and of the one where sides that jump or swing want more of them; halvings to an edge
  * of what the scene allows; evaluations to come nearer, and of the method. */
 enum { SCAN = 24, FINE = 8 * SCAN, EDGE = 60, NEARER = 21, METHOD = 60, ROOTS = 48, LISTED = 12 };
@@ -21,7 +23,8 @@ typedef struct place {
 
 typedef struct search {
     const solve_question *of;
-    ask q;
+    points p;
+    expr sides[2]; /* left and right */
     dim d;
     bool known, ratios;
     double lo, hi; /* searched */
@@ -41,25 +44,21 @@ typedef struct search {
 } search;
 
 /* left - right. NaN: no value there, or the question has ended. */
-static double difference(search *s, double x) {
-    long double left;
-    if (!ask_set(&s->q, &x) || !ask_value(&s->q, s->of->left, &s->d, &s->known, &left))
+static double difference(search *s, double at) {
+    const expr *right = &s->sides[1];
+    const long double x = at;
+    value v[2];
+    if (!points_at(&s->p, &x, v) || !points_keeps(&s->p, 0, v[0].d, &s->d, &s->known))
         return (double)NAN;
-    calc_error error;
-    value v;
-    error_clear(&error);
-    if (!expr_eval(s->q.c, s->of->right, &v, &error))
-        return ask_failed(&s->q, &error), (double)NAN;
     /* a bare 0 has any dimension */
-    if (!dim_equal(v.d, s->d) && !(v.v == 0 && dim_equal(v.d, DIM_NONE))) {
+    if (!dim_equal(v[1].d, s->d) && !(v[1].v == 0 && dim_equal(v[1].d, DIM_NONE))) {
         char is[128], wants[128];
-        dim_describe(v.d, is, sizeof is);
+        dim_describe(v[1].d, is, sizeof is);
         dim_describe(s->d, wants, sizeof wants);
-        calc_fail(s->q.error, s->of->right->at, s->of->right->len,
-                  "the left side is %s, the right side is %s", wants, is);
+        calc_fail(s->p.error, right->at, right->len, "the left side is %s, the right side is %s", wants, is);
         return (double)NAN;
     }
-    return (double)(left - v.v);
+    return (double)(v[0].v - v[1].v);
 }
 
 static double middle(const search *s, double a, double b) {
@@ -116,10 +115,9 @@ static bool scan(search *s) {
     unsigned turns = 0;
     for (unsigned i = 0; i <= s->places; i++) {
         place *p = &s->at[i];
-        p->x = s->lo < 0 && s->ratios ? -ask_grid(-s->lo, -s->hi, true, i, s->places)
-                                      : ask_grid(s->lo, s->hi, s->ratios, i, s->places);
+        p->x = (double)points_place(s->lo, s->hi, s->ratios, (long double)i / s->places);
         p->f = difference(s, p->x);
-        if (s->q.error->raised)
+        if (s->p.error->raised)
             return false;
         if (p->f == 0)
             add_bracket(s, *p, *p);
@@ -142,11 +140,11 @@ static bool approach_edge(search *s, place bad, place good) {
         if (mid.x == bad.x || mid.x == good.x)
             break;
         mid.f = difference(s, mid.x);
-        if (s->q.error->raised)
+        if (s->p.error->raised)
             return false;
         if (isnan(mid.f)) {
             bad = mid;
-            s->why = s->q.none;
+            s->why = s->p.none;
         } else if (opposite(mid.f, good.f) || mid.f == 0) {
             add_bracket(s, mid, mid.f == 0 ? mid : good);
             return true;
@@ -156,7 +154,7 @@ static bool approach_edge(search *s, place bad, place good) {
     }
     if (!s->why.raised) {
         difference(s, bad.x);
-        s->why = s->q.none;
+        s->why = s->p.none;
     }
     s->edged = true;
     s->edge = good;
@@ -197,7 +195,7 @@ static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
         const place other = first ? a : c;
         place mid = {.x = middle(s, b.x, other.x)};
         mid.f = difference(s, mid.x);
-        if (s->q.error->raised)
+        if (s->p.error->raised)
             return false;
         if (opposite(mid.f, b.f)) {
             add_bracket(s, b, mid);
@@ -215,16 +213,16 @@ static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
     if (!method)
         return calc_no_memory(error);
     s->side = b.f > 0 ? 1 : -1;
-    const unsigned begun = s->q.evaluations;
+    const unsigned begun = s->p.evaluations;
     int status = gsl_min_fminimizer_set_with_values(method, &f, b.x, fabs(b.f), fmin(a.x, c.x), fabs(a.f),
                                                     fmax(a.x, c.x), fabs(c.f));
-    while (!status && b.f * s->side > 0 && s->q.evaluations - begun < NEARER) {
+    while (!status && b.f * s->side > 0 && s->p.evaluations - begun < NEARER) {
         status = gsl_min_fminimizer_iterate(method);
         b.x = gsl_min_fminimizer_x_minimum(method);
         b.f = s->side * gsl_min_fminimizer_f_minimum(method);
     }
     gsl_min_fminimizer_free(method);
-    if (s->q.error->raised)
+    if (s->p.error->raised)
         return false;
     const double left = b.f * s->side; /* not NaN: it is the least that has been met */
     if (left < 0) {
@@ -245,7 +243,7 @@ static bool search_end(search *s, place end, place next, calc_error *error) {
         return true;
     place p = {.x = end.x + 1e-3 * (next.x - end.x)};
     p.f = difference(s, p.x);
-    if (s->q.error->raised)
+    if (s->p.error->raised)
         return false;
     if (opposite(p.f, end.f)) {
         add_bracket(s, end, p);
@@ -297,7 +295,7 @@ static bool no_root(search *s, calc_error *error) {
     calc_value_text(k->d, s->hi, to);
     if (isnan(best.f))
         return calc_fail(error, left->at, left->len, "no value anywhere from %s = %s to %s: %s", k->text,
-                         from, to, s->q.none.text);
+                         from, to, s->p.none.text);
     if (alike)
         return calc_fail(error, left->at, left->len, "the two sides %s for every %s from %s to %s",
                          best.f == 0 ? "are equal" : "differ by the same", k->text, from, to);
@@ -339,8 +337,8 @@ static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *err
         return calc_no_memory(error);
     int status = gsl_root_fsolver_set(solver, &f, fmin(a.x, b.x), fmax(a.x, b.x));
     double lo = a.x, hi = b.x;
-    const unsigned begun = s->q.evaluations;
-    while (!status && s->q.evaluations - begun < METHOD) {
+    const unsigned begun = s->p.evaluations;
+    while (!status && s->p.evaluations - begun < METHOD) {
         const double before = *x;
         status = gsl_root_fsolver_iterate(solver);
         *x = gsl_root_fsolver_root(solver);
@@ -351,11 +349,11 @@ static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *err
             break;
     }
     gsl_root_fsolver_free(solver);
-    if (s->q.error->raised)
+    if (s->p.error->raised)
         return false;
     if (status)
         return calc_fail(error, s->of->left->at, s->of->left->len, "no value within the bracket: %s",
-                         s->q.none.text);
+                         s->p.none.text);
     return true;
 }
 
@@ -458,18 +456,17 @@ static bool answer(search *s, solve_answer *out, calc_error *error) {
         return several(s, error);
     out->lo = fmin(s->root[0].x, s->other[0].x);
     out->hi = fmax(s->root[0].x, s->other[0].x);
-    out->evaluations = s->q.evaluations;
+    out->evaluations = s->p.evaluations;
     out->touches = s->touches;
     return true;
 }
 
 bool solve(const solve_question *question, solve_answer *out, calc_error *error) {
-    search s = {.of = question, .nearest = {.f = (double)NAN}};
+    search s = {.of = question, .sides = {*question->left, *question->right}, .nearest = {.f = (double)NAN}};
     *out = (solve_answer){.jumps = false};
     gsl_set_error_handler_off();
-    if (!ask_open(&s.q, question->c, &question->name, 1, error))
-        return false;
-    bool ok = answer(&s, out, error);
-    ask_close(&s.q);
+    const bool ok =
+        points_open(&s.p, question->c, &question->name, 1, s.sides, 2, error) && answer(&s, out, error);
+    points_close(&s.p);
     return ok;
 }

@@ -4,7 +4,7 @@
 #ifndef STUDY_SWEEP_H
 #define STUDY_SWEEP_H
 
-#include "calc/trial.h"
+#include "study/points.h"
 
 enum { SWEEP_VALUES = 20 };
 
@@ -53,12 +53,8 @@ typedef struct sweep_job {
     calc_error missing; /* the first value that could not be had: raised */
     char where[320];    /* of it */
     size_t values;      /* that could be had */
-    bool part; /* of something larger: no value at all is no error, and missing, values and what follows go on
-                  counting */
-    struct team *team; /* at work on it, or NULL */
-    bool alone;        /* there is none to be had */
-    size_t done, all;  /* rows */
-    double taken;      /* seconds for those, without what became of them */
+    points p;
+    knob knobs[2]; /* that of `with`, if there is one, and that of the range */
 } sweep_job;
 
 /* False: an error; job->missing tells of gaps, which are none. An interrupt is an error, and so is a sweep
@@ -67,11 +63,11 @@ bool sweep_run(const sweep *s, sweep_job *job);
 
 /* The value of the name at a part 0..1 of its range. */
 long double sweep_value(const sweep *s, const sweep_range *r, long double part);
-/* Around the sweeps that are parts of one job: of so many rows in all. */
-void sweep_begin(sweep_job *job, size_t rows);
-void sweep_end(sweep_job *job);
-/* False: not one, which is an error. */
-bool sweep_has_values(sweep_job *job);
+/* The same for several sweeps over the same names, of so many rows in all: their parts between begin and end.
+ */
+bool sweep_begin(const sweep *s, sweep_job *job, size_t rows);
+bool sweep_part(const sweep *s, sweep_job *job);
+bool sweep_end(sweep_job *job, bool ok);
 /* Appends the load of a range to the program of a trial; `from` gets where it begins. */
 bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error);
 

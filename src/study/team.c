@@ -14,7 +14,6 @@
 #include <sys/prctl.h>
 #endif
 
-#include "calc/clock.h"
 #include "calc/file.h"
 
 enum {
@@ -48,8 +47,8 @@ static unsigned cores(const calc *c) {
     return (unsigned)fmin(c->cores ? c->cores : fmax((double)there, 1), WORKERS);
 }
 
-bool team_pays(const calc *c, double taken, double done, double all) {
-    return taken > pays && done > 0 && taken / done * (all - done) > pays && cores(c) > 1;
+bool team_pays(double taken, double done, double all) {
+    return taken > pays && done > 0 && taken / done * (all - done) > pays;
 }
 
 static size_t aligned(size_t bytes) {
@@ -99,8 +98,9 @@ static void work(const team *t, const sigset_t *before, pid_t giver) {
     t->job.c->cores = 1;
     t->job.c->scene.pulse = t->job.c->now->pulse = NULL;
     for (;;) {
+        /* Not exit: what is buffered would be written twice, and the terminal is the other's to give back. */
         if (getppid() != giver || !passes(t->given[0], &i, true)) /* unreached: killed with whoever gives */
-            _exit(0); /* what is buffered is the other's to write */
+            _exit(0);
         place_at(t, i)->of_use = t->job.work(t->job.context, in_of(t, i), out_of(t, i));
         passes(t->done[1], &i, false);
     }

@@ -33,6 +33,6 @@ bool team_work(team *t, const team_run *run);
 void team_end(team *t); /* NULL too */
 
 /* Does a team pay, where `done` of `all` have taken so many seconds? */
-bool team_pays(const calc *c, double taken, double done, double all);
+bool team_pays(double taken, double done, double all);
 
 #endif

@@ -24,7 +24,7 @@ BELOW = {
     "shell": {"live/live.h", "study", "plot", "calc", "number", "fret"},
     "live": {"study", "plot", "calc", "number", "fret"},
 }
-INTRODUCED = ("number", "law", "history", "field", "arrays")
+INTRODUCED = ("number", "law", "history", "field", "arrays", "study")
 LIBRARY = ("number", "law", "history", "field", "arrays", "fret")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<(fret/[^>]+)>)', re.M)
@@ -127,7 +127,7 @@ SCREEN = 45  # lines
 
 
 def unintroduced(files):
-    """Rooms of the library without a README.md of one screen that names their files."""
+    """Rooms without a README.md of one screen that names their files."""
     for name in sorted({room(f) for f in files} & set(INTRODUCED)):
         path = os.path.join(harness.ROOT, "src", name, "README.md")
         text = read(path) if os.path.exists(path) else ""

@@ -5,7 +5,6 @@
 #include "law/normal.h"
 #include "law/table.h"
 #include "number/integral.h"
-#include "number/quadrature.h"
 #include "number/real.h"
 #include "places.h"
 #include "unit.h"
@@ -156,7 +155,7 @@ static fret_real smooth_rate(fret_real t, fret_real rest, void *context) {
 static fret_real smooth_part(const fret_normal *n, fret_real dz, fret_real r, fret_real lo, fret_real hi) {
     const fret_real k1 = 1 + n->foundation.k, span = lo > 0 ? -expm1l(k1 * logl(lo / hi)) : 1;
     smooth c = {n, r, dz, lo, hi, span};
-    return fret_pow(hi, k1) * span / k1 * fret_integrate(smooth_rate, &c);
+    return fret_pow(hi, k1) * span / k1 * fret_integral(smooth_rate, &c, 1e-18L).value;
 }
 
 static fret_real smooth_surface(const fret_normal *n, fret_real a, fret_real dz, fret_real r) {

@@ -730,19 +730,19 @@ static void asked_by_two(void) {
         fret_swing *s = swing_of(m);
         CHECK_OK(fret_swing_part(s, &w, 0, i / 10.0));
         for (size_t j = 0; j < s->count; j++)
-            curved = curved || s->pieces[j].curved;
+            curved = curved || s->arcs[j].curved;
         pthread_barrier_t together;
         pthread_t other;
         CHECK(pthread_barrier_init(&together, NULL, 2) == 0);
         question a = {.of = s, .together = &together}, b = a;
-        const size_t size = s->count * sizeof *s->pieces;
+        const size_t size = s->count * sizeof *s->arcs;
         char *before = malloc(size);
         if (!before || pthread_create(&other, NULL, ask, &b))
             exit(unit_finish());
-        memcpy(before, s->pieces, size);
+        memcpy(before, s->arcs, size);
         ask(&a);
         CHECK(pthread_join(other, NULL) == 0);
-        CHECK(!memcmp(before, s->pieces, size));
+        CHECK(!memcmp(before, s->arcs, size));
         CHECK(!a.failed && !b.failed && a.state.dx == b.state.dx && a.state.U == b.state.U && a.q == b.q &&
               a.u == b.u && a.state.U > 0);
         pthread_barrier_destroy(&together);

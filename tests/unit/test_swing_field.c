@@ -52,11 +52,11 @@ static fret_swing *swing_of(const unit_scene *scene, double FN, double FA, doubl
 
 typedef struct hand {
     const fret_swing *s;
-    const piece *p;
+    const arc *p;
     fret_real r, from, lo, hi;
 } hand;
 
-/* Between the ends of two pieces, where fields have kinks. */
+/* Between the ends of two arcs, where fields have kinks. */
 typedef struct part {
     fret_swing *s;
     fret_real lo, hi, r;
@@ -93,7 +93,7 @@ static size_t kinks_of(const fret_swing *s, fret_real *kink) {
     if (flat > 0)
         kink[count++] = flat;
     for (size_t i = 0; i < s->count; i++) {
-        const piece *p = &s->pieces[i];
+        const arc *p = &s->arcs[i];
         const fret_real a = radius_at(s, p->last);
         if (a > kink[count - 1] * (1 + 1e-9L))
             kink[count++] = a;
@@ -198,7 +198,7 @@ static void straight_line(const fret_gap *gap, double grading) {
     fret_real scale;
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, least, -FA}));
     CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, FN + FNA, FA}));
-    CHECK(s->count > 1 && s->pieces[s->count - 1].curved);
+    CHECK(s->count > 1 && s->arcs[s->count - 1].curved);
     CHECK_OK(fret_press_by_force(s->normal, least, &turned));
     CHECK_OK(fret_press_by_force(s->normal, FN + FNA, &whole));
     CHECK_OK(place_pressure(s->normal, whole.a, 0.9L * whole.a, &scale));
@@ -219,7 +219,7 @@ static void straight_line(const fret_gap *gap, double grading) {
     fret_memory_free(m);
 }
 
-/* The slow twin of the traction of a power law: along each curved piece in parts that shrink towards where it
+/* The slow twin of the traction of a power law: along each arc in parts that shrink towards where it
  * begins, beyond r. */
 static fret_real rate_by_hand(fret_real t, fret_real rest, void *context) {
     const hand *h = context;
@@ -236,7 +236,7 @@ static fret_real traction_by_hand(const fret_swing *s, fret_real r) {
     const fret_foundation *f = &n->foundation;
     fret_real sum = 0;
     for (size_t i = 0; i < s->count; i++) {
-        const piece *p = &s->pieces[i];
+        const arc *p = &s->arcs[i];
         const fret_real m = p->last[M] - p->first[M], up = p->last[P] - p->first[P];
         fret_real inner = 0, outer = 0;
         CHECK_OK(place_pressure(n, radius_at(s, p->first), r, &inner));
@@ -255,7 +255,7 @@ static fret_real traction_by_hand(const fret_swing *s, fret_real r) {
     return s->mu * sum;
 }
 
-/* Close to where a piece begins its contacts all end close to the place. Nothing is said of the last digits
+/* Close to where an arc begins its contacts all end close to the place. Nothing is said of the last digits
  * of a radius. */
 static void near_kinks(double phase, double grading) {
     unit_scene scene = unit_make_scene(2, grading);
@@ -273,8 +273,8 @@ static void near_kinks(double phase, double grading) {
                 near = fminl(near, fabsl(r / kink[l] - 1));
             bool within = i == 0 || r >= s->a;
             for (size_t l = 0; l < s->count; l++)
-                within |= s->pieces[l].curved && r > radius_at(s, s->pieces[l].first) &&
-                          r < radius_at(s, s->pieces[l].last);
+                within |= s->arcs[l].curved && r > radius_at(s, s->arcs[l].first) &&
+                          r < radius_at(s, s->arcs[l].last);
             if (within)
                 continue;
             CHECK_OK(swing_traction(s, r, &q));
@@ -333,8 +333,8 @@ static void special_places(void) {
     }
 }
 
-/* A piece of no length, of no slope, has no part in a field. */
-static void empty_piece(void) {
+/* A arc of no length, of no slope, has no part in a field. */
+static void empty_arc(void) {
     const unit_scene scene = unit_make_scene(2, 0);
     fret_memory *m = NULL;
     fret_swing *s = swing_of(&scene, 100, 15, 40, 1, 0.7, &m);
@@ -345,10 +345,10 @@ static void empty_piece(void) {
         CHECK_OK(swing_traction(s, r, &out[0]));
         CHECK_OK(swing_surface_x(s, r, &out[1]));
         out[2] = fret_swing_displacement(s, r);
-        const piece *top = &s->pieces[s->count - 1];
-        const piece none = {.first = {top->last[M], top->last[P]}, .last = {top->last[M], top->last[P]}};
+        const arc *top = &s->arcs[s->count - 1];
+        const arc none = {.first = {top->last[M], top->last[P]}, .last = {top->last[M], top->last[P]}};
         if (!i && CHECK(s->count < s->room))
-            s->pieces[s->count++] = none;
+            s->arcs[s->count++] = none;
     }
     for (int i = 0; i < 3; i++)
         CHECK(before[i] != 0 && after[i] == before[i]);
@@ -369,7 +369,7 @@ int main(int argc, char **argv) {
     }
     CASE(near_kinks(0.3, 0.5));
     CASE(special_places());
-    CASE(empty_piece());
+    CASE(empty_arc());
     const char *many = getenv("FRET_FIELDS");
     for (int i = 0; i < 12 * (many ? atoi(many) : 1); i++)
         if (!unit_skips((size_t)i))

@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One point here; portions of them by a team. */
+#include "study/points.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "calc/clock.h"
+#include "number/real.h"
+#include "study/team.h"
+
+enum { PORTION = 256 }; /* points of a part, at most */
+
+bool points_open(points *p, calc *c, const knob *knobs, size_t count, const expr *e, size_t n,
+                 calc_error *error) {
+    *p = (points){.c = c, .knobs = knobs, .count = count, .e = e, .n = n, .error = error};
+    error_clear(&p->none);
+    p->now = malloc((2 * count + 1) * sizeof *p->now);
+    p->v = malloc((n + 1) * sizeof *p->v);
+    if (!p->now || !p->v)
+        return calc_no_memory(error);
+    p->next = p->now + count;
+    return points_anew(p);
+}
+
+bool points_anew(points *p) {
+    if (p->t)
+        trial_close(p->t);
+    p->t = trial_open(p->c, p->error);
+    for (size_t i = 0; i < p->count; i++)
+        p->now[i] = (long double)NAN;
+    return p->t != NULL;
+}
+
+void points_dismiss(points *p) {
+    team_end(p->team);
+    p->team = NULL;
+}
+
+void points_close(points *p) {
+    points_dismiss(p);
+    calc_word(p->c, p->error);
+    if (p->t)
+        trial_close(p->t);
+    free(p->now);
+    free(p->v);
+}
+
+/* ---- one point --------------------------------------------------------------------------------- */
+
+bool points_failed(points *p, const calc_error *error) {
+    if (error->stop || error->strange || error->circle) {
+        *p->error = *error;
+    } else if (!p->none.raised) {
+        p->none = *error;
+        calc_word(p->c, &p->none);
+    }
+    return false;
+}
+
+static bool is_so(long double x, long double now) {
+    return x == now && (x != 0 || signbit(x) == signbit(now));
+}
+
+bool points_put(points *p, size_t i, long double x, calc_error *error) {
+    p->now[i] = (long double)NAN;
+    if (!trial_set(p->t, &p->knobs[i], x, error))
+        return false;
+    p->now[i] = x;
+    return true;
+}
+
+bool points_set(points *p, const long double x[]) {
+    calc_error error;
+    error_clear(&error);
+    p->none.raised = false;
+    if (p->error->raised || calc_stopped(p->c->scene.stop, p->error))
+        return false;
+    p->evaluations++;
+    for (size_t i = 0; i < p->count; i++)
+        if (!is_so(x[i], p->now[i]) && !points_put(p, i, x[i], &error)) /* else nothing is made anew */
+            return points_failed(p, &error);
+    return true;
+}
+
+static void nothing(const points *p, size_t from, value v[]) {
+    for (size_t i = from; i < p->n; i++)
+        v[i] = (value){(long double)NAN, DIM_NONE};
+}
+
+bool points_look(points *p, value v[]) {
+    calc_error error;
+    error_clear(&error);
+    p->none.raised = false;
+    if (p->c->scene.pulse)
+        p->c->scene.pulse();
+    for (size_t i = 0; i < p->n && !p->error->raised; i++) {
+        if (expr_eval(p->c, &p->e[i], &v[i], &error))
+            continue;
+        nothing(p, i, v);
+        points_failed(p, &error);
+        error_clear(&error);
+    }
+    return !p->error->raised && !p->none.raised;
+}
+
+bool points_at(points *p, const long double x[], value v[]) {
+    if (points_set(p, x))
+        return points_look(p, v);
+    nothing(p, 0, v);
+    return false;
+}
+
+bool points_keeps(points *p, size_t i, dim of, dim *d, bool *known) {
+    const expr *e = &p->e[i];
+    if (!*known)
+        *d = of;
+    *known = true;
+    if (dim_equal(of, *d))
+        return true;
+    p->error->strange = true;
+    return calc_fail(p->error, e->at, e->len, "%.*s has no dimension of its own: it changes on the way",
+                     LEX_SHOWN(e->len), e->text + e->at);
+}
+
+long double points_place(long double lo, long double hi, bool ratios, long double part) {
+    if (part == 1)
+        return hi;
+    return ratios ? lo * fret_pow(hi / lo, part) : lo + (hi - lo) * part;
+}
+
+/* ---- a run of them ----------------------------------------------------------------------------- */
+
+static bool hand_over(points *p, const points_run *run, size_t i, const long double x[], const value v[],
+                      const calc_error *why) {
+    p->done++;
+    return run->take(run->context, i, x, v, why) && !p->error->raised;
+}
+
+static bool one_here(points *p, const points_run *run, size_t i, const long double x[]) {
+    const bool watched = !p->team && !p->alone;
+    const double began = watched ? clock_wall() : 0;
+    const bool all = points_at(p, x, p->v);
+    if (watched) {
+        p->taken += clock_wall() - began;
+        p->watched++;
+    }
+    return hand_over(p, run, i, x, p->v, all ? NULL : p->error->raised ? p->error : &p->none);
+}
+
+/* A part as it is given: how many points, and behind it their knobs. */
+typedef struct portion {
+    size_t count;
+} portion;
+
+/* What comes of it; behind it the values, and the errors of those that lack one. */
+typedef struct outcome {
+    scene_use used;
+} outcome;
+
+static size_t aligned(size_t bytes) {
+    return (bytes + 63) / 64 * 64;
+}
+
+static size_t knobs_at(void) {
+    return aligned(sizeof(portion));
+}
+
+static size_t values_at(void) {
+    return aligned(sizeof(outcome));
+}
+
+static size_t errors_at(const points *p) {
+    return aligned(values_at() + PORTION * p->n * sizeof(value));
+}
+
+/* In a copy, whose points are its own; false: one of them ends it all, and is met again by who gave it. */
+static bool work(void *context, const void *in, void *out) {
+    points *p = context;
+    const portion *given = in;
+    const long double *x = (const long double *)((const char *)in + knobs_at());
+    value *v = (value *)((char *)out + values_at());
+    calc_error *why = (calc_error *)((char *)out + errors_at(p));
+    error_clear(p->error);
+    p->t->scene.used = 0;
+    for (size_t k = 0; k < given->count; k++)
+        if (!points_at(p, x + k * p->count, v + k * p->n))
+            why[k] = p->error->raised ? *p->error : p->none;
+    ((outcome *)out)->used = scene_answered_by(&p->t->scene);
+    return !p->error->raised;
+}
+
+typedef struct sharing {
+    points *p;
+    const points_run *run;
+    size_t first, portion; /* where it begins; points of a part */
+} sharing;
+
+static void give(void *context, size_t part, void *in) {
+    const sharing *sh = context;
+    const size_t i = sh->first + part * sh->portion, left = sh->run->count - i;
+    portion *given = in;
+    given->count = left < sh->portion ? left : sh->portion;
+    for (size_t k = 0; k < given->count; k++)
+        sh->run->give(sh->run->context, i + k, (long double *)((char *)in + knobs_at()) + k * sh->p->count);
+}
+
+static bool lacks(const value *v, size_t n) {
+    for (size_t i = 0; i < n; i++)
+        if (isnan(v[i].v))
+            return true;
+    return false;
+}
+
+static bool take(void *context, size_t part, const void *in, const void *out) {
+    const sharing *sh = context;
+    points *p = sh->p;
+    const portion *given = in;
+    const long double *x = (const long double *)((const char *)in + knobs_at());
+    const size_t i = sh->first + part * sh->portion;
+    if (!out) {
+        for (size_t k = 0; k < given->count; k++)
+            if (!one_here(p, sh->run, i + k, x + k * p->count))
+                return false;
+        return true;
+    }
+    const value *v = (const value *)((const char *)out + values_at());
+    const calc_error *why = (const calc_error *)((const char *)out + errors_at(p));
+    scene_also_used(&p->t->scene, ((const outcome *)out)->used);
+    p->evaluations += (unsigned)given->count;
+    for (size_t k = 0; k < given->count; k++) {
+        const bool gap = lacks(v + k * p->n, p->n);
+        if (gap)
+            p->none = why[k];
+        if (!hand_over(p, sh->run, i + k, x + k * p->count, v + k * p->n, gap ? &p->none : NULL))
+            return false;
+    }
+    return true;
+}
+
+/* Has it come to be worth while? */
+static bool shared(points *p, size_t left) {
+    const size_t to_come = p->all > p->done + left ? p->all - p->done : left;
+    if (p->team || p->alone || !team_pays(p->taken, (double)p->watched, (double)(p->watched + to_come)))
+        return p->team && left > 1;
+    const size_t in = knobs_at() + PORTION * p->count * sizeof *p->now;
+    const size_t out = errors_at(p) + PORTION * sizeof(calc_error);
+    p->team = team_begin(&(team_job){.c = p->c, .in = in, .out = out, .work = work, .context = p});
+    p->alone = !p->team;
+    return p->team != NULL;
+}
+
+/* Points of a part: few where there are few, so that all can share those that take long; but where they are
+ * quick, enough to be worth handing over. */
+static size_t portion_of(const points *p, size_t left) {
+    static const double worth = 1e-3; /* seconds */
+    const double many = (double)left, quick = worth * (double)p->watched / p->taken;
+    return (size_t)fmin(fmax(fmax(many / 64, fmin(many / 16, quick)), 1), PORTION);
+}
+
+static bool share(points *p, const points_run *run, size_t first) {
+    const size_t left = run->count - first;
+    sharing sh = {.p = p, .run = run, .first = first, .portion = portion_of(p, left)};
+    const team_run parts = {
+        .parts = (left + sh.portion - 1) / sh.portion, .give = give, .take = take, .context = &sh};
+    const bool ok = team_work(p->team, &parts);
+    if (!ok)
+        points_dismiss(p); /* the rest of it is of no use */
+    return !calc_stopped(p->c->scene.stop, p->error) && ok;
+}
+
+bool points_go(points *p, const points_run *run) {
+    for (size_t i = 0; i < run->count; i++) {
+        if (shared(p, run->count - i))
+            return share(p, run, i);
+        run->give(run->context, i, p->next);
+        if (!one_here(p, run, i, p->next))
+            return false;
+    }
+    return !calc_stopped(p->c->scene.stop, p->error);
+}
