@@ -25,10 +25,11 @@ LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline)
 
 # what is left out with GSL=no, and without
 BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,ask solve optimise fit uncertainty smooth nonnegative)) \
-	src/shell/study_commands.c src/shell/data_commands.c,src/shell/study_none.c)
+	src/commands/study_commands.c src/commands/data_commands.c,src/commands/study_none.c)
 CORE  := $(wildcard src/number/*.c src/law/*.c src/history/*.c src/field/*.c src/arrays/*.c)
-PROG  := $(filter-out src/shell/prompt_$(if $(filter no,$(READLINE)),readline,plain).c $(BACK), \
-	$(wildcard src/calc/*.c src/study/*.c src/plot/*.c src/shell/*.c)) \
+ABOVE := text scene language study plot statement commands help prompt
+PROG  := $(filter-out src/prompt/prompt_$(if $(filter no,$(READLINE)),readline,plain).c $(BACK), \
+	$(wildcard $(ABOVE:%=src/%/*.c))) \
 	$(if $(filter no,$(LIVE)),src/live/none.c,$(filter-out src/live/none.c,$(wildcard src/live/*.c)))
 # scripts/demos and scripts/paper as C, for `demo`
 PAPER   := $(wildcard scripts/paper/*.txt)
@@ -107,12 +108,12 @@ $(B)/fret.pc: FORCE
 		'$(PREFIX)' '$(LIBDIR)' '$(VERSION)' '$(LIBS_CORE)' > $@
 
 # Tests see what is not public too; those of rooms above the mechanics take these objects one by one.
-OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard src/calc/*.c src/study/*.c src/plot/*.c)))
+OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard $(patsubst %,src/%/*.c,text scene language study plot))))
 $(B)/tests/%: $(B)/tests/unit/%.o $(call OBJ,$(CORE)) $(OUTER)
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(LIBS_GSL) $(LIBS_CORE)
 # the rows of all commands are in the whole program
 $(B)/tests/test_grammar $(B)/tests/test_reader: LIBS_GSL := $(LIBS)
-$(B)/tests/test_grammar $(B)/tests/test_reader: $(call OBJ,$(filter-out src/shell/main.c,$(PROG))) $(B)/scripts.o
+$(B)/tests/test_grammar $(B)/tests/test_reader: $(call OBJ,$(filter-out src/prompt/main.c,$(PROG))) $(B)/scripts.o
 # their allocations, and some calls, pass through the test
 $(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_calc: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
 $(B)/tests/test_blocks: WRAP += -pthread
@@ -199,7 +200,7 @@ FUZZ_CALLS := open fopen posix_spawnp system popen fork mkdtemp
 fuzz-build:
 	@$(MAKE) --no-print-directory -s B=build/fuzz CC=clang OPT='-O1 -g -fsanitize=address,undefined,fuzzer-no-link \
 		-fno-sanitize-recover=all' CFLAGS='$(foreach call,$(FUZZ_CALLS),-D$(call)=fuzz_$(call))' build/fuzz/fuzz
-$(B)/fuzz: tests/fuzz/fuzz.c $(call OBJ,$(filter-out src/shell/main.c,$(PROG)) $(CORE)) $(B)/scripts.o
+$(B)/fuzz: tests/fuzz/fuzz.c $(call OBJ,$(filter-out src/prompt/main.c,$(PROG)) $(CORE)) $(B)/scripts.o
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -fsanitize=fuzzer -o $@ $(filter %.c %.o,$^) $(LIBS)
 fuzz: deps-check
 	@$(MAKE) --no-print-directory -s fuzz-build $(B)/fret

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <wchar.h>
 
-#include "calc/characters.h"
+#include "text/characters.h"
 
 bool canvas_make(canvas *c, rect at, bool braille) {
     *c = (canvas){.at = at,

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <wchar.h>
 
-#include "calc/characters.h"
-#include "calc/file.h"
+#include "text/characters.h"
+#include "text/file.h"
 
 typedef struct film_cell {
     wchar_t sign;

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/characters.h"
-#include "calc/file.h"
 #include "live/state.h"
 #include "live/terminal.h"
+#include "text/characters.h"
+#include "text/file.h"
 
 /* ---- pushing and pressing ---------------------------------------------------------------------- */
 

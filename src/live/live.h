@@ -4,8 +4,8 @@
 #ifndef LIVE_LIVE_H
 #define LIVE_LIVE_H
 
-#include "calc/calc.h"
-#include "calc/file.h"
+#include "language/calc.h"
+#include "text/file.h"
 
 /* What the program around the language does for it. */
 typedef struct live_host {

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/file.h"
 #include "live/state.h"
+#include "text/file.h"
 
 /* In one line, however many it had. */
 static bool keep(live *l, const char *line) {

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/clock.h"
 #include "live/state.h"
 #include "live/terminal.h"
+#include "text/clock.h"
 
 static void count_work(live_work *work, bool frame, double spent) {
     work->frames += frame;

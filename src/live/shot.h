@@ -3,7 +3,7 @@
 #ifndef LIVE_SHOT_H
 #define LIVE_SHOT_H
 
-#include "calc/trial.h"
+#include "language/trial.h"
 
 enum { SHOT_SAMPLES = 96, SHOT_RINGS = 32, SHOT_VALUES = 11 };
 

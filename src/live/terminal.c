@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The terminal by curses. Signals that end the program put it right through the list of calc/file.h; those
+/* The terminal by curses. Signals that end the program put it right through the list of text/file.h; those
  * that stop it or change its size wait until nothing is being drawn. */
 #define _XOPEN_SOURCE 700
 #define NCURSES_WIDECHAR 1
@@ -20,9 +20,9 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "calc/clock.h"
-#include "calc/file.h"
 #include "live/canvas.h"
+#include "text/clock.h"
+#include "text/file.h"
 
 static const char mouse_on[] = "\033[?1002h", mouse_off[] = "\033[?1002l\033[?1006l\033[?1000l";
 

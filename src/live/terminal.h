@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "calc/error.h"
+#include "text/error.h"
 
 /* Beyond the keys of curses. */
 enum { KEY_NONE = -1, KEY_STOP = 0x10000 /* Ctrl-C */, KEY_AGAIN /* the screen must be drawn anew */ };

@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "calc/characters.h"
 #include "live/state.h"
 #include "live/terminal.h"
+#include "text/characters.h"
 
 /* ---- texts --------------------------------------------------------------------------------------- */
 

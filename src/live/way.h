@@ -4,7 +4,7 @@
 #ifndef LIVE_WAY_H
 #define LIVE_WAY_H
 
-#include "calc/walk.h"
+#include "language/walk.h"
 #include "live/shot.h"
 
 /* A polyline with every turning point; the oldest part goes where it is long. */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/characters.h"
+#include "text/characters.h"
 
 bool plot_cells_make(plot_cells *c, int cols, int rows, int across, int up) {
     *c = (plot_cells){.cols = cols, .rows = rows, .across = across, .up = up, .stride = cols};

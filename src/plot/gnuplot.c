@@ -10,8 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "calc/clock.h"
 #include "plot/script.h"
+#include "text/clock.h"
 
 extern char **environ;
 

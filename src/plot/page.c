@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/characters.h"
+#include "text/characters.h"
 
 plot_pages plot_pages_for(const plot_target *t, size_t panels, bool one_screen) {
     int w = t->columns ? t->columns : 79, h = t->rows ? t->rows : 24, n = (int)panels;

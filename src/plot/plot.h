@@ -15,7 +15,7 @@
 #ifndef PLOT_PLOT_H
 #define PLOT_PLOT_H
 
-#include "calc/file.h"
+#include "text/file.h"
 
 enum {
     PLOT_PANELS = 6,     /* side by side */

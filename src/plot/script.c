@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/characters.h"
+#include "text/characters.h"
 
 enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
 

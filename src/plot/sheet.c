@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/characters.h"
 #include "plot/page.h"
+#include "text/characters.h"
 
 /* ---- drawing ------------------------------------------------------------------------------------ */
 

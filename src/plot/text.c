@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/characters.h"
 #include "plot/script.h"
+#include "text/characters.h"
 
 enum { THIN_SPACE = 0x2009 };
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "calc/clock.h"
+#include "text/clock.h"
 
 const family_row families[FAMILIES] = {
     [FAMILY_CLOSED] = {"closed form", "", MODEL_CLOSED},

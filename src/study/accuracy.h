@@ -4,7 +4,7 @@
 #ifndef STUDY_ACCURACY_H
 #define STUDY_ACCURACY_H
 
-#include "calc/scene.h"
+#include "scene/scene.h"
 
 typedef enum model_family {
     FAMILY_CLOSED,

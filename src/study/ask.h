@@ -4,7 +4,7 @@
 #ifndef STUDY_ASK_H
 #define STUDY_ASK_H
 
-#include "calc/calc.h"
+#include "language/calc.h"
 
 /* Is the last of these the same as one before? */
 bool ask_repeats(const knob *knobs, size_t count);

@@ -5,7 +5,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "calc/clock.h"
+#include "text/clock.h"
 
 /* ---- what there is to change ------------------------------------------------------------------- */
 

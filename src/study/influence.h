@@ -4,7 +4,7 @@
 #ifndef STUDY_INFLUENCE_H
 #define STUDY_INFLUENCE_H
 
-#include "calc/trial.h"
+#include "language/trial.h"
 
 /* What a change of a cause does to a result. */
 typedef enum influence {

@@ -6,8 +6,8 @@
 
 #include <signal.h>
 
-#include "calc/error.h"
 #include "fret/fret.h"
+#include "text/error.h"
 
 typedef struct jenkins_element {
     double k; /* stiffness [N/m] */

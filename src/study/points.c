@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "calc/clock.h"
 #include "number/real.h"
 #include "study/team.h"
+#include "text/clock.h"
 
 enum { PORTION = 256 }; /* points of a part, at most */
 

@@ -5,7 +5,7 @@
 #ifndef STUDY_POINTS_H
 #define STUDY_POINTS_H
 
-#include "calc/trial.h"
+#include "language/trial.h"
 
 typedef struct points {
     calc *c;

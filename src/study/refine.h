@@ -4,7 +4,7 @@
 #ifndef STUDY_REFINE_H
 #define STUDY_REFINE_H
 
-#include "calc/error.h"
+#include "text/error.h"
 
 typedef struct refinement {
     size_t count; /* values of a row; one that is not finite is a gap */

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calc/calc.h"
+#include "language/calc.h"
 #include "study/nonnegative.h"
 
 #if GSL_MAJOR_VERSION == 2 && GSL_MINOR_VERSION < 8 /* which have other names for these */

@@ -3,8 +3,8 @@
 #ifndef STUDY_SMOOTH_H
 #define STUDY_SMOOTH_H
 
-#include "calc/file.h"
-#include "calc/inputs.h"
+#include "scene/inputs.h"
+#include "text/file.h"
 
 enum { SMOOTH_PIECES_MOST = 200, SMOOTH_PIECES_TRIED = 100 };
 

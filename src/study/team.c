@@ -14,7 +14,7 @@
 #include <sys/prctl.h>
 #endif
 
-#include "calc/file.h"
+#include "text/file.h"
 
 enum {
     WORKERS = 64,

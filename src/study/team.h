@@ -5,7 +5,7 @@
 #ifndef STUDY_TEAM_H
 #define STUDY_TEAM_H
 
-#include "calc/calc.h"
+#include "language/calc.h"
 
 typedef struct team team;
 

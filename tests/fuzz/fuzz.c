@@ -27,11 +27,11 @@
 #include <unistd.h>
 
 #include "library.h"
-#include "shell/command.h"
-#include "shell/lines.h"
-#include "shell/output.h"
-#include "shell/shell.h"
-#include "shell/show.h"
+#include "prompt/show.h"
+#include "statement/command.h"
+#include "statement/output.h"
+#include "statement/shell.h"
+#include "text/lines.h"
 
 /* ---- what the program may do ------------------------------------------------------------------- */
 

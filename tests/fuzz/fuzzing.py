@@ -117,7 +117,7 @@ def start(target, folder):
 def dictionary(target, path):
     """Words of the language, from the program's sources, or of the library."""
     words = set(rows() if target == "library" else ())
-    for name in () if words else glob.glob(os.path.join(ROOT, "src/calc/*.c")) + [os.path.join(ROOT, "src/shell/commands.c")]:
+    for name in () if words else [path for room in ("text", "scene", "language", "prompt") for path in glob.glob(os.path.join(ROOT, "src", room, "*.c"))]:
         with open(name, encoding="utf-8") as f:
             words |= set(re.findall(r'"([A-Za-z][\w.-]{0,14})"', f.read()))
     with open(path, "w", encoding="utf-8") as f:

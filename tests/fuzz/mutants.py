@@ -31,7 +31,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 OPT = "OPT=-O1 -fno-tree-slp-vectorize"
-LEFT_OUT = ("src/live/none.c", "src/shell/prompt_plain.c", "src/shell/study_none.c", "src/number/constants.h")
+LEFT_OUT = ("src/live/none.c", "src/prompt/prompt_plain.c", "src/commands/study_none.c", "src/number/constants.h")
 ROOMS = {"number": "unit sessions reference numbers hard accuracy", "law": "unit sessions reference numbers hard accuracy",
          "history": "unit sessions reference numbers hard accuracy", "field": "unit sessions reference rim accuracy",
          "arrays": "unit numbers",

@@ -18,13 +18,18 @@ BELOW = {
     "history": {"law", "number", "fret"},
     "field": {"history", "law", "number", "fret"},
     "arrays": {"number", "fret"},
-    "calc": {"number", "fret"},
-    "plot": {"calc", "number", "fret"},
-    "study": {"calc", "number", "fret"},
-    "shell": {"live/live.h", "study", "plot", "calc", "number", "fret"},
-    "live": {"study", "plot", "calc", "number", "fret"},
+    "text": {"number", "fret"},
+    "scene": {"text", "number", "fret"},
+    "language": {"scene", "text", "number", "fret"},
+    "study": {"language", "scene", "text", "number", "fret"},
+    "plot": {"text", "number", "fret"},
+    "statement": {"language", "scene", "text", "number", "fret"},
+    "commands": {"statement", "study", "plot", "language", "scene", "text", "number", "fret"},
+    "help": {"commands", "statement", "study", "language", "scene", "text", "number", "fret"},
+    "live": {"plot", "language", "scene", "text", "number", "fret"},
+    "prompt": {"live/live.h", "help", "commands", "statement", "study", "plot", "language", "scene", "text", "number", "fret"},
 }
-INTRODUCED = ("number", "law", "history", "field", "arrays", "study")
+INTRODUCED = tuple(sorted(set(BELOW) - {"fret"}))
 LIBRARY = ("number", "law", "history", "field", "arrays", "fret")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<(fret/[^>]+)>)', re.M)

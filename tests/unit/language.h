@@ -8,11 +8,11 @@
 #define unit calc_unit /* names that calc has too */
 #define value calc_value
 #define quantity calc_quantity
-#include "calc/calc.h"
-#include "calc/characters.h"
-#include "calc/functions.h"
-#include "calc/trial.h"
-#include "calc/walk.h"
+#include "language/calc.h"
+#include "language/trial.h"
+#include "language/walk.h"
+#include "scene/functions.h"
+#include "text/characters.h"
 #undef unit
 #undef value
 #undef quantity

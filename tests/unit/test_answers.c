@@ -3,9 +3,9 @@
  * once, and where a live definition has no value any more: it is refused, and the next time answered to the
  * last digit as ever. The Makefile links this program so that the language allocates through the functions
  * here. */
-#include "calc/engine.h"
 #include "failing.h"
 #include "language.h"
+#include "scene/engine.h"
 
 static volatile sig_atomic_t stop;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files out and in: modes, links, pipes, limits, faults. The Makefile links this program so that some calls
  * pass through the functions here. */
-#include "calc/file.h"
+#include "text/file.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures: the forms of texts, what reaches gnuplot, thinning, limits, pages, pictures. */
 #define _GNU_SOURCE /* fopencookie */
-#include "calc/characters.h"
 #include "plot/plot.h"
+#include "text/characters.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

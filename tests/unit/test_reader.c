@@ -2,7 +2,7 @@
 #include "unit.h"
 
 #define unit calc_unit /* the other one is at work here */
-#include "shell/command.h"
+#include "statement/command.h"
 #undef unit
 
 static shell sh;

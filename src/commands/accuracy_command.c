@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The command `accuracy`: its arguments, its progress, and what the study says. */
+#include "commands/accuracy_command.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "statement/answer.h"
+#include "statement/progress.h"
+
+/* Columns of its answer. */
+enum { HEAD_MODEL, HEAD_PARAMETER, HEAD_VALUE, HEAD_ERROR, HEAD_BOUND, HEAD_SECONDS, HEAD_RATIO, HEADS };
+
+/* ---- measuring --------------------------------------------------------------------------------- */
+
+static void describe_size(const accuracy_row *row, char *buf, size_t size) {
+    buf[0] = 0;
+    if (row->size)
+        snprintf(buf, size, "%s = %lu", families[row->family].size, row->size);
+}
+
+static void show_progress(void *context, const accuracy_row *row) {
+    char size[40], words[80];
+    describe_size(row, size, sizeof size);
+    snprintf(words, sizeof words, "measuring %-17s %-11s", families[row->family].name, size);
+    (void)context;
+    progress_words(words);
+}
+
+bool accuracy_study_run(shell *sh, said *given, accuracy_study *out, calc_error *error) {
+    const heard *FA = said_of(given, "FA", 0), *dxA = said_of(given, "dxA", 0), *v = dxA ? dxA : FA,
+                *within = said_of(given, "within", 0);
+    const accuracy_load load = {.given = v != NULL,
+                                .by_force = !dxA,
+                                .amplitude = v ? (double)v->v.v : 0,
+                                .seconds = within ? (double)within->v.v : 3};
+    bool ok = accuracy_measure(sh->calc.now, &load, show_progress, NULL, out, error);
+    progress_wipe();
+    const char *blamed = error->raised && error->kind == ERROR_STATUS ? error->status.quantity : NULL;
+    if (v && blamed && !strcmp(blamed, "FA")) /* a dxA has no bound */
+        heard_place(error, v);
+    return ok;
+}
+
+/* ---- words ------------------------------------------------------------------------------------- */
+
+void accuracy_load_text(const shell *sh, const accuracy_study *study, char *buf, size_t size) {
+    static const char *const from[] = {[FROM_USER] = "",
+                                       [FROM_CYCLE] = ", the last cycle",
+                                       [FROM_STEP] = ", that of the last step: no cycle has been run",
+                                       [FROM_LIMIT] = ", half of mu*FN: no cycle has been run"};
+    char amplitude[160], FN[160];
+    const char *name = study->by_force ? "FA" : "dxA";
+    format_value(&sh->set, (value){study->amplitude, study->by_force ? DIM_FORCE : DIM_LENGTH}, amplitude,
+                 sizeof amplitude);
+    format_value(&sh->set, (value){study->FN, DIM_FORCE}, FN, sizeof FN);
+    if (study->program)
+        snprintf(buf, size, "%s = %s%s of the load program", name, amplitude, from[study->from]);
+    else
+        snprintf(buf, size, "%s = %s at FN = %s%s", name, amplitude, FN, from[study->from]);
+}
+
+static double fastest(const accuracy_study *study) {
+    double least = study->row[0].seconds;
+    for (size_t i = 1; i < study->count; i++)
+        least = fmin(least, study->row[i].seconds);
+    return least;
+}
+
+static void format_ratio(double ratio, char *buf, size_t size) {
+    snprintf(buf, size, ratio < 999.5 ? "%.3g" : "%.0f", ratio);
+}
+
+static void format_seconds(double t, char *buf, size_t size) {
+    static const char *const units[] = {"s", "ms", "us", "ns"};
+    int i = 0;
+    for (; i < 3 && t < 0.9995; i++)
+        t *= 1e3;
+    snprintf(buf, size, "%.3g %s", t, units[i]);
+}
+
+/* A bound is rounded up. */
+static void format_error(const accuracy_row *row, char *buf, size_t size) {
+    const double e = (double)row->error;
+    if (row->below) {
+        const double place = pow(10, floor(log10(e)));
+        snprintf(buf, size, "<%.0e", ceil(e / place * (1 - 1e-9)) * place);
+    } else {
+        snprintf(buf, size, "%.1e", e);
+    }
+}
+
+/* The first of the springs that err by 1e-6 at most, or the best. */
+static const accuracy_row *good_springs(const accuracy_study *study) {
+    const accuracy_row *best = NULL;
+    for (size_t i = 0; i < study->count; i++)
+        if (study->row[i].family == FAMILY_SPRINGS &&
+            (!best || (best->error > 1e-6L && study->row[i].error < best->error)))
+            best = &study->row[i];
+    return best;
+}
+
+/* What the springs pay, a separator, and what auto picks and why. */
+static void advise(const accuracy_study *study, const char *separator, char *buf, size_t size) {
+    const accuracy_row *row = &study->row[0], *springs = good_springs(study); /* auto's choice comes first */
+    char error[40], t[40], ratio[40];
+    int n = 0;
+    if (springs) {
+        format_error(springs, error, sizeof error);
+        format_seconds(springs->seconds, t, sizeof t);
+        const bool slower = springs->seconds >= row->seconds;
+        format_ratio(slower ? springs->seconds / row->seconds : row->seconds / springs->seconds, ratio,
+                     sizeof ratio);
+        n = snprintf(buf, size, "%lu springs: error %s in %s, %s times as %s as auto%s", springs->size, error,
+                     t, ratio, slower ? "long" : "fast", separator);
+    }
+    format_error(row, error, sizeof error);
+    format_seconds(row->seconds, t, sizeof t);
+    snprintf(buf + n, size - (size_t)n, "auto picks: %s (%s): error %s in %s", study->automatic, study->why,
+             error, t);
+}
+
+/* ---- printing ---------------------------------------------------------------------------------- */
+
+enum { SHORT = 40 };
+
+static void say_row(answer *out, const accuracy_study *study, const accuracy_row *row, long double scale,
+                    const answer_head heads[HEADS]) {
+    const double ratio = row->seconds / fastest(study);
+    char parameter[SHORT], number[NUMBER_TEXT], error[SHORT], t[SHORT], times[SHORT];
+    describe_size(row, parameter, sizeof parameter);
+    number_text(number, out->set->digits, (double)(row->value / scale));
+    format_error(row, error, sizeof error);
+    format_seconds(row->seconds, t, sizeof t);
+    format_ratio(ratio, times, sizeof times);
+    const answer_cell cells[HEADS] = {
+        [HEAD_MODEL] = {.kind = CELL_WORDS, .words = families[row->family].name},
+        [HEAD_PARAMETER] = {CELL_NUMBER, .v = (double)row->size, .digits = 17, .shown = parameter},
+        [HEAD_VALUE] = {CELL_NUMBER, .v = (double)row->value, .digits = 17, .shown = number},
+        [HEAD_ERROR] = {CELL_NUMBER, .v = (double)row->error, .digits = 3, .shown = error},
+        [HEAD_BOUND] = {CELL_FLAG, .v = row->below},
+        [HEAD_SECONDS] = {CELL_NUMBER, .v = row->seconds, .digits = 3, .shown = t},
+        [HEAD_RATIO] = {CELL_NUMBER, .v = ratio, .digits = 3, .shown = times}};
+    answer_cells(out, heads, cells, HEADS);
+}
+
+static void say_table(answer *out, const accuracy_study *study, long double scale, const char *unit_text) {
+    char dW[COLUMN_UNIT + 8];
+    snprintf(dW, sizeof dW, "dW [%s]", unit_text);
+    const answer_head heads[HEADS] = {[HEAD_MODEL] = {"model", "", NULL, "model", -18},
+                                      [HEAD_PARAMETER] = {"parameter", "", NULL, "parameter", 12},
+                                      [HEAD_VALUE] = {"value", "J", NULL, dW, out->set->digits + 7},
+                                      [HEAD_ERROR] = {"error", "", NULL, "error", 9},
+                                      [HEAD_BOUND] = {"bound", "", "error is a bound", NULL, 0},
+                                      [HEAD_SECONDS] = {"seconds", "s", "seconds", "time/cycle", 10},
+                                      [HEAD_RATIO] = {"ratio", "", NULL, "x fastest", 10}};
+    answer_heads(out, "accuracy", heads, HEADS);
+    for (size_t i = 0; i < study->count; i++)
+        say_row(out, study, &study->row[i], scale, heads);
+}
+
+static void say(shell *sh, const accuracy_study *study) {
+    char unit_text[COLUMN_UNIT], load[ACCURACY_TEXT], advice[ACCURACY_TEXT], error[SHORT];
+    const long double scale =
+        unit_choose(DIM_ENERGY, study->value, sh->set.digits, unit_text, sizeof unit_text);
+    const accuracy_row bound = {.error = study->agreement, .below = true};
+    answer out;
+    answer_begin(&out, &sh->set, sh->out);
+    accuracy_load_text(sh, study, load, sizeof load);
+    format_error(&bound, error, sizeof error);
+    answer_words(&out, "%s\nreference: %s, %.*g %s, good to %s\n", load, study->reference, sh->set.digits,
+                 (double)(study->value / scale), unit_text, error + 1);
+    say_table(&out, study, scale, unit_text);
+    advise(study, "; ", advice, sizeof advice);
+    answer_event(&out, "accuracy");
+    answer_string(&out, "advice", advice);
+    answer_string(&out, "auto", study->automatic);
+    answer_string(&out, "load", load);
+    answer_string(&out, "reference", study->reference);
+    answer_number(&out, "value", (double)study->value);
+    answer_number(&out, "agreement", (double)study->agreement);
+    answer_done(&out);
+    advise(study, "\n", advice, sizeof advice);
+    answer_words(&out, "%s\n", advice);
+    answer_end(&out, true);
+}
+
+bool do_accuracy(shell *sh, lexer *lx, const command *self) {
+    accuracy_study study;
+    said given;
+    if (!said_read(sh, lx, command_form(self), &given) || !accuracy_study_run(sh, &given, &study, lx->error))
+        return false;
+    if (sh->replaying) /* times, and what follows from them */
+        fprintf(sh->out, "%c\n", MARK_DRAWING);
+    else
+        say(sh, &study);
+    return true;
+}

@@ -1,0 +1,430 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* fit and uncertainty: values with how sure they are. They leave the scene as it is. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands/expressions.h"
+#include "commands/range.h"
+#include "commands/study_commands.h"
+#include "study/fit.h"
+#include "study/uncertainty.h"
+#include "text/csv.h"
+
+/* As `ans`. */
+static void answered(shell *sh, long double v, dim d) {
+    sh->calc.ans = (value){v, d};
+    sh->calc.has_ans = true;
+}
+
+/* ---- fit: what is read ------------------------------------------------------------------------- */
+
+/* A name that is to be found needs a value to start from. */
+static bool read_names(shell *sh, lexer *lx, fit_question *q) {
+    for (;;) {
+        size_t unused;
+        if (q->count == FIT_NAMES)
+            return lex_fail(lx, "more than %d names", FIT_NAMES);
+        if (lx->kind == T_NAME && lx->len < LEX_NAME && !quantity_find(lx->text + lx->at, lx->len) &&
+            !name_taken(lx->text + lx->at, lx->len) &&
+            !names_find(&sh->calc.names, lx->text + lx->at, lx->len, &unused))
+            return lex_fail(lx, "'%.*s' is no input and has no value to start from", LEX_WORD(lx));
+        const size_t at = lx->at;
+        if (!knob_read(&sh->calc, lx, &q->name[q->count++]))
+            return false;
+        if (ask_repeats(q->name, q->count))
+            return calc_fail(lx->error, at, lx->last - at, "%s is given twice", q->name[q->count - 1].text);
+        if (lx->kind != T_COMMA)
+            return at_end(lx);
+        lex_next(lx);
+    }
+}
+
+/* An angle needs its unit as lengths do. */
+static bool same_dim(dim a, dim b) {
+    return dim_equal(a, b) && (a.rad != 0) == (b.rad != 0);
+}
+
+/* Column `name` of this dimension; NULL: there is none, or with an error it is not of it. */
+static const double *column_of(const csv *data, const char *name, dim d, calc_error *error) {
+    char wants[128], is[128];
+    if (!csv_has(data, name))
+        return NULL;
+    const csv_values *of_file = csv_column(data, name, error);
+    if (!of_file || same_dim(of_file->d, d))
+        return of_file ? of_file->v : NULL;
+    dim_describe(d, wants, sizeof wants);
+    dim_describe(of_file->d, is, sizeof is);
+    calc_fail(error, 0, 0, "column %s is %s: it needs the unit of %s in the header", name, is, wants);
+    return NULL;
+}
+
+/* Columns as names: of inputs that the scene takes, or free ones. Those that are results, or no names, have
+ * no say, and are missed if they are asked for; one that is named in vain is no matter. */
+static bool read_columns(shell *sh, const csv *data, fit_question *q, size_t names, calc_error *error) {
+    _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
+    for (size_t i = 0; i < data->columns; i++) {
+        const csv_values *of_file = &data->column[i];
+        calc_error useless;
+        lexer lx;
+        knob *k = &q->column[q->columns].name;
+        error_clear(&useless);
+        lex_start(&lx, of_file->name, strlen(of_file->name), &useless);
+        if (useless.raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble ||
+            of_file->twice)
+            continue;
+        const quantity *of = quantity_find(of_file->name, strlen(of_file->name));
+        if ((of && !quantity_is_input(of)) || (!of && name_taken(of_file->name, strlen(of_file->name))))
+            continue;
+        if (!names_wake(sh, &lx, names))
+            return calc_no_memory(error);
+        knob_name(&sh->calc, &lx, k); /* there is one */
+        if (k->is_input && !calc_takes(&sh->calc, k->in, &useless))
+            continue;
+        if (k->is_input && !same_dim(k->d, of_file->d))
+            return column_of(data, of_file->name, k->d, error) != NULL;
+        k->d = of_file->d;
+        q->column[q->columns++].v = of_file->v;
+    }
+    return true;
+}
+
+/* A quantity in the equation that is also a column, whose rows it does not take: one of them was meant. */
+static bool ambiguous(const shell *sh, const csv *data, const expr *e, calc_error *error) {
+    const quantity *of;
+    bool call;
+    size_t at;
+    for (size_t i = 0; (of = expr_quantity(e, i, &call, &at)); i++) {
+        calc_error useless;
+        error_clear(&useless);
+        const bool is_input = quantity_is_input(of);
+        if (call || !csv_has(data, of->name) ||
+            (is_input && calc_takes(&sh->calc, quantity_input(of), &useless)))
+            continue;
+        calc_fail(error, e->at, e->len,
+                  is_input ? "%s is an input that this scene does not take, and a column of the file: rename "
+                             "the column"
+                           : "%s is a result of the scene and a column of the file: rename the column",
+                  of->name);
+        return true;
+    }
+    return false;
+}
+
+static bool uses_columns(const shell *sh, const fit_question *q) {
+    for (size_t i = 0; i < q->columns; i++) {
+        const knob *k = &q->column[i].name;
+        const quantity *of = NULL;
+        const char *own = k->text;
+        if (k->is_input) {
+            of = quantity_of_input(k->in);
+            own = NULL;
+        }
+        if (expr_mentions(&sh->calc, q->left, of, own) || expr_mentions(&sh->calc, q->right, of, own))
+            return true;
+    }
+    return false;
+}
+
+/* A name that is unknown because something is wrong in its column. */
+static bool read_side(shell *sh, lexer *lx, const csv *data, expr *e) {
+    char name[CSV_NAME];
+    calc_error wrong, *error = lx->error;
+    if (expr_parse_at(&sh->calc, lx, e))
+        return true;
+    error_clear(&wrong);
+    snprintf(name, sizeof name, "%.*s", (int)(error->len < sizeof name ? error->len : 0),
+             lx->text + error->at);
+    if (csv_has(data, name) && !csv_column(data, name, &wrong)) {
+        calc_place(&wrong, error->at, error->len);
+        *error = wrong;
+    } else if (!strncmp(error->text, "unknown name", 12)) {
+        char names[CALC_ERROR_TEXT / 2];
+        csv_names(data, names, sizeof names);
+        calc_append(&sh->calc, error, " (the columns of %.100s are %s)", data->path, names);
+    }
+    return false;
+}
+
+static bool read_side_in(shell *sh, const lexer *lx, const span *part, const csv *data, expr *e) {
+    lexer own = hole_lexer(lx, part);
+    return read_side(sh, &own, data, e) && at_end(&own);
+}
+
+static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, size_t names) {
+    const heard *sides = said_of(all, "for", 0), *to = said_of(all, "to", 0);
+    char name[FILE_NAME];
+    if (!to)
+        return lex_fail(lx, "expected to FILE.csv");
+    if (!hole_file(lx, &to->hole[0], name) || !csv_read(name, &shell_stop, data, lx->error) ||
+        !read_columns(sh, data, q, names, lx->error) ||
+        !read_side_in(sh, lx, &sides->hole[0], data, &sh->list[0]) ||
+        !read_side_in(sh, lx, &sides->hole[1], data, &sh->list[1]))
+        return false;
+    q->left = &sh->list[0];
+    q->right = &sh->list[1];
+    q->rows = data->rows;
+    if (ambiguous(sh, data, q->left, lx->error) || ambiguous(sh, data, q->right, lx->error))
+        return false;
+    if (!uses_columns(sh, q)) {
+        char columns[CALC_ERROR_TEXT / 2];
+        csv_names(data, columns, sizeof columns);
+        return calc_fail(lx->error, q->left->at, q->right->at + q->right->len - q->left->at,
+                         "no column of %.100s is in the equation: they are %s", name, columns);
+    }
+    return true;
+}
+
+static void no_loop(const csv *data, const char *misses, calc_error *error) {
+    char names[CALC_ERROR_TEXT / 2];
+    csv_names(data, names, sizeof names);
+    calc_fail(error, 0, 0,
+              "%.200s has no column %s: a loop needs dx and Fx, and may have FN or dz; its columns are %s",
+              data->path, misses, names);
+}
+
+static bool read_loop(const lexer *lx, const heard *along, fit_question *q, csv *data) {
+    char name[FILE_NAME];
+    calc_error *error = lx->error;
+    if (!hole_file(lx, &along->hole[0], name) || !csv_read(name, &shell_stop, data, error))
+        return heard_place(error, along);
+    q->rows = data->rows;
+    q->loop.dx = column_of(data, "dx", DIM_LENGTH, error);
+    q->loop.Fx = column_of(data, "Fx", DIM_FORCE, error);
+    q->loop.normal = column_of(data, "FN", DIM_FORCE, error);
+    q->loop.normal_by = BY_FORCE;
+    if (!q->loop.normal) {
+        q->loop.normal = column_of(data, "dz", DIM_LENGTH, error);
+        q->loop.normal_by = BY_DISPLACEMENT;
+    }
+    if (!error->raised && (!q->loop.dx || !q->loop.Fx))
+        no_loop(data, q->loop.dx ? "Fx" : "dx", error);
+    return !error->raised || heard_place(error, along);
+}
+
+static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, size_t names) {
+    const heard *along = said_of(all, "along", 0);
+    lexer own = hole_lexer(lx, &all->list[0].hole[0]);
+    q->c = &sh->calc;
+    if (!read_names(sh, &own, q))
+        return false;
+    if (!along && !said_of(all, "for", 0))
+        return lex_fail(lx, "expected for EXPR = EXPR to FILE.csv, or along FILE.csv");
+    return along ? read_loop(lx, along, q, data) : read_equation(sh, lx, all, q, data, names);
+}
+
+/* ---- fit: what is said ------------------------------------------------------------------------- */
+
+static void report_fit(answer *out, const fit_question *q, const fit_answer *a) {
+    answer_event(out, "fit");
+    answer_number(out, "rows", (double)q->rows);
+    answer_number(out, "evaluations", a->evaluations);
+    answer_number(out, "iterations", a->iterations);
+    answer_number(out, "rms", a->rms);
+    answer_number(out, "neighbours", a->together);
+    answer_group(out, "deviation");
+    for (size_t i = 0; i < q->count; i++)
+        answer_number(out, q->name[i].text, a->deviation[i]);
+    answer_up(out);
+    answer_group(out, "correlation");
+    for (size_t i = 0; i < q->count; i++)
+        for (size_t j = i + 1; j < q->count; j++) {
+            char pair[2 * LEX_NAME + 2];
+            snprintf(pair, sizeof pair, "%s,%s", q->name[i].text, q->name[j].text);
+            answer_number(out, pair, a->correlation[i][j]);
+        }
+    answer_up(out);
+    answer_done(out);
+}
+
+/* What the event has is said in words to readers; what to think of it, to all. */
+static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_answer *a) {
+    char rms[COLUMN_UNIT + NUMBER_TEXT];
+    for (size_t i = 0; i < q->count; i++)
+        for (size_t j = i + 1; j < q->count; j++) {
+            answer_words(out, "correlation of %s and %s = %.3g\n", q->name[i].text, q->name[j].text,
+                         a->correlation[i][j]);
+            if (fabs(a->correlation[i][j]) > 0.99)
+                shell_note(sh, "the data hardly tell %s and %s apart", q->name[i].text, q->name[j].text);
+        }
+    format_value(&sh->set, (value){a->rms, a->d}, rms, sizeof rms);
+    answer_words(out, "rms = %s over %zu rows\n", rms, q->rows);
+    for (size_t i = 0; i < q->count; i++)
+        if (a->deviation[i] > fabs(a->value[i]))
+            shell_note(sh, "the data hardly determine %s", q->name[i].text);
+    if (a->drifts)
+        shell_note(sh,
+                   "residuals go together from row to row (correlation %.2f): a drift, an offset or a model "
+                   "that does not fit; the standard errors are too small",
+                   a->together);
+    if (a->twice)
+        shell_note(sh, "the loop is closed and does not begin at rest: run twice, the second time compared");
+    if (sh->set.timing)
+        shell_say(sh, "fit: Levenberg and Marquardt's method, %u iterations, %u evaluations of %zu rows",
+                  a->iterations, a->evaluations, q->rows);
+}
+
+static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, calc_error *error) {
+    answer out;
+    column c[FIT_NAMES] = {{.name = NULL}};
+    bool ok = true;
+    answer_begin(&out, &sh->set, sh->out);
+    for (size_t i = 0; i < q->count; i++)
+        ok &= column_si(&c[i], q->name[i].text, q->name[i].d);
+    for (size_t i = 0; i < q->count && ok; i++)
+        answer_estimate(&out, &c[i], a->value[i], a->deviation[i]);
+    if (ok)
+        report_fit(&out, q, a);
+    ok = (answer_end(&out, ok) && ok) || calc_no_memory(error);
+    if (ok) {
+        answered(sh, a->value[q->count - 1], q->name[q->count - 1].d);
+        remark_fit(sh, &out, q, a);
+    }
+    columns_free(c, q->count);
+    return ok;
+}
+
+bool do_fit(shell *sh, lexer *lx, const command *self) {
+    const size_t names = sh->calc.names.count;
+    fit_question *q = calloc(1, sizeof *q);
+    csv data = {0};
+    fit_answer a;
+    said all;
+    bool ok = (q || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all) &&
+              read_fit(sh, lx, &all, q, &data, names) && fit(q, &a, lx->error) &&
+              print_fit(sh, q, &a, lx->error);
+    names_forget(sh, names);
+    csv_free(&data);
+    free(q);
+    return ok;
+}
+
+/* ---- uncertainty ------------------------------------------------------------------------------- */
+
+/* `+- 0.02`, `+- 5 %`: a percentage is a part of the value. */
+static bool read_deviation(shell *sh, const lexer *of, const span *part, const knob *k, double *out) {
+    lexer own = hole_lexer(of, part), *lx = &own;
+    value v;
+    double now = 0;
+    const size_t at = lx->at;
+    if (!expr_value(&sh->calc, lx, &v))
+        return false;
+    if (lx->text[lx->last - 1] == '%') {
+        if (!ask_present(&sh->calc, k, &now))
+            return ask_lacks(&sh->calc, k, "", "", lx->error) || calc_place(lx->error, at, lx->last - at);
+        v = (value){v.v * fabs(now), k->d};
+    }
+    *out = (double)v.v;
+    return value_dim(lx, k->text, at, lx->last - at, v, k->d) &&
+           (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "a deviation must be positive")) && at_end(lx);
+}
+
+static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_question *q) {
+    const heard *h, *samples = said_of(all, "samples", 0), *seed = said_of(all, "seed", 0);
+    for (size_t i = 0; (h = said_of(all, "with", i)); i++) {
+        size_t unused;
+        knob *k = &q->name[q->count];
+        const span *name = &h->hole[0];
+        lexer own = hole_lexer(lx, name);
+        if (q->count == UNCERTAIN_NAMES)
+            return lex_fail(&own, "more than %d inputs", UNCERTAIN_NAMES);
+        if (!quantity_find(own.text + own.at, own.len) &&
+            !names_find(&sh->calc.names, own.text + own.at, own.len, &unused))
+            return lex_fail(&own, "'%.*s' is no input and has no value", LEX_WORD(&own));
+        if (!knob_read(&sh->calc, &own, k))
+            return false;
+        if (ask_repeats(q->name, q->count + 1))
+            return calc_fail(lx->error, name->at, name->len, "%s is given twice", k->text);
+        if (!read_deviation(sh, lx, &h->hole[1], k, &q->deviation[q->count++]))
+            return false;
+    }
+    if (samples)
+        q->samples = samples->count;
+    if (seed)
+        q->seed = seed->count;
+    return true;
+}
+
+static void report_uncertain(answer *out, const uncertainty_question *q, const uncertain *u,
+                             const column *c) {
+    answer_estimate(out, c, u->v, u->deviation);
+    answer_event(out, "uncertainty");
+    answer_string(out, "of", c->name);
+    answer_number(out, "deviation", u->deviation);
+    answer_group(out, "shares");
+    for (size_t i = 0; i < q->count; i++)
+        answer_share(out, q->name[i].text, u->share[i]);
+    answer_up(out);
+    answer_group(out, "Monte Carlo");
+    answer_number(out, "mean", u->mean);
+    answer_number(out, "deviation", u->spread);
+    answer_number(out, "samples", u->samples);
+    answer_flag(out, "differs", u->differs);
+    answer_up(out);
+    answer_done(out);
+}
+
+/* Where samples say something else, and where they say nothing. */
+static void remark_uncertain(shell *sh, answer *out, const uncertainty_question *q, const uncertain *u,
+                             const column *c, const char *missing) {
+    column sampled = *c;
+    char name[] = "Monte Carlo";
+    sampled.name = name;
+    if (u->differs && !answer_beside(out, &sampled, u->mean, u->spread)) {
+        char mean[CALC_VALUE_TEXT], spread[CALC_VALUE_TEXT];
+        calc_value_text(u->d, u->mean, mean);
+        calc_value_text(u->d, u->spread, spread);
+        shell_note(sh, "the Monte Carlo says something else of %s: mean %s, deviation %s", c->name, mean,
+                   spread);
+    }
+    if (u->samples < q->samples)
+        shell_note(sh, "%u of %u samples of %s %s no value: %s", q->samples - u->samples, q->samples, c->name,
+                   q->samples - u->samples > 1 ? "have" : "has", missing);
+}
+
+static bool print_uncertain(shell *sh, const uncertainty_question *q, const uncertainty_answer *a,
+                            column *columns, calc_error *error) {
+    const uncertain *last = &a->value[q->expressions - 1];
+    answer out;
+    for (size_t k = 0; k < q->expressions; k++) {
+        const uncertain *u = &a->value[k];
+        if (!column_fits(&q->e[k], &columns[k], (value){u->v, u->d}, error) ||
+            !column_fits(&q->e[k], &columns[k], (value){u->deviation, u->d}, error))
+            return false;
+    }
+    answer_begin(&out, &sh->set, sh->out);
+    for (size_t k = 0; k < q->expressions; k++) {
+        report_uncertain(&out, q, &a->value[k], &columns[k]);
+        remark_uncertain(sh, &out, q, &a->value[k], &columns[k], a->missing.text);
+    }
+    if (!answer_end(&out, true))
+        return calc_no_memory(error);
+    answered(sh, last->v, last->d);
+    if (sh->set.timing)
+        shell_say(sh, "uncertainty: differences of sixth order and %u samples (seed %u), %u evaluations",
+                  q->samples, q->seed, a->evaluations);
+    return true;
+}
+
+/* A swinging normal force takes a thousand times as long. */
+static unsigned usual_samples(shell *sh) {
+    const load_reach *reach = &(load_reach){.swings = false};
+    calc_error ignored;
+    error_clear(&ignored);
+    scene_reach(&sh->calc.scene, &reach, &ignored);
+    return reach->swings ? 200 : 10000;
+}
+
+bool do_uncertainty(shell *sh, lexer *lx, const command *self) {
+    uncertainty_question q = {.c = &sh->calc, .e = sh->list, .samples = usual_samples(sh), .seed = 1};
+    uncertainty_answer *a = calloc(1, sizeof *a);
+    column columns[UNCERTAIN_VALUES];
+    said all;
+    bool ok = (a || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all);
+    ok = ok && read_expressions_in(sh, lx, &all.list[0].hole[0], columns, UNCERTAIN_VALUES, &q.expressions);
+    ok = ok && read_uncertain(sh, lx, &all, &q) && uncertainty(&q, a, lx->error) &&
+         print_uncertain(sh, &q, a, columns, lx->error);
+    columns_free(columns, q.expressions);
+    free(a);
+    return ok;
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The one table of figures: each is a plot that could be typed, and how it looks. */
+#ifndef COMMANDS_FIGURES_H
+#define COMMANDS_FIGURES_H
+
+#include "plot/plot.h"
+#include "statement/reader.h"
+
+typedef struct figure {
+    const char *name;
+    const char *title;
+    const char *summary;
+    const char *statement;  /* EXPR, ... [against EXPR] RANGE [looks]; NULL: build makes it */
+    const char *without_c0; /* of a homogeneous body, in place of the statement; or NULL */
+    /* of the expressions: c curve, t thin line, b edge of a band (two of them), s curve that slips where it
+     * is at its bounds, which follow */
+    const char *roles;
+    const char *takes; /* where build makes it */
+    bool (*build)(shell *sh, lexer *lx, said *all, plot_panel *p);
+} figure;
+
+const figure *figure_row(size_t i); /* NULL after the last */
+const char *figure_name(size_t i);
+const grammar *figure_form(const figure *f); /* of one that build makes */
+const char *figure_word(size_t i);           /* what a figure may begin with: these, and map */
+const figure *figure_find(const char *name, size_t len);
+
+/* figures that are no sweep */
+bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p);
+
+#endif

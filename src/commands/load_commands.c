@@ -1,0 +1,488 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands of the load program: press, step, cycle, follow, and the ways back. Each reads everything, then
+ * changes everything or nothing. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "statement/answer.h"
+#include "statement/command.h"
+#include "statement/progress.h"
+#include "text/csv.h"
+
+/* ---- reports ----------------------------------------------------------------------------------- */
+
+enum { REPORTED = 8 }; /* quantities at most */
+
+/* Programs are told of all; else a report is for who types. */
+static bool reports(const shell *sh) {
+    return sh->set.report == REPORT_ON ||
+           (sh->set.report == REPORT_AUTO && (sh->interactive || sh->replaying || answer_is_data(&sh->set)));
+}
+
+/* What they are is found first: it may take its time, and show that. */
+static void report_event(shell *sh, const char *event, const char *const *names) {
+    const quantity *of[REPORTED];
+    value v[REPORTED];
+    size_t count = 0;
+    if (!reports(sh))
+        return;
+    for (; *names; names++) {
+        calc_error error;
+        error_clear(&error);
+        of[count] = quantity_find(*names, strlen(*names));
+        v[count] = (value){0, of[count]->d};
+        count += quantity_get(of[count], &sh->calc.scene, &v[count].v, &error);
+    }
+    progress_wipe();
+    if (sh->set.report == REPORT_AUTO && !answer_is_data(&sh->set))
+        shell_aside(sh, sh->out);
+    answer a;
+    answer_begin(&a, &sh->set, sh->out);
+    answer_report(&a, event);
+    for (size_t i = 0; i < count; i++)
+        answer_quantity(&a, of[i]->name, v[i]);
+    answer_done(&a);
+    answer_end(&a, true);
+}
+
+/* ---- press, step, cycle ------------------------------------------------------------------------ */
+
+static load_by by_of(const char *name) {
+    return *name == 'F' ? BY_FORCE : *name == 'd' ? BY_DISPLACEMENT : BY_RADIUS;
+}
+
+/* Is it the normal force or displacement? Else it is the tangential one. */
+static bool is_normal(const char *name) {
+    return name[1] == 'N' || name[1] == 'z';
+}
+
+/* What a step or a cycle was given. last: the target that the error of the load belongs to. */
+static void load_of(const said *s, load_step *step, cycle_extra *extra, const heard **last) {
+    *last = NULL;
+    for (const heard *h = s->list; h < s->list + s->count; h++) {
+        const clause *a = h->of;
+        if (!a->argument) {
+            *(a->name[0] == 's' ? &step->points : &extra->times) = h->count;
+            continue;
+        }
+        if (a->in == 1 + IN_FNA || a->in == 1 + IN_PHASE) {
+            *(a->in == 1 + IN_PHASE ? &extra->phase : &step->normal_value) = (double)h->v.v;
+            continue;
+        }
+        *last = h;
+        if (is_normal(a->name)) {
+            step->normal = (unsigned char)by_of(a->name);
+            step->normal_value = (double)h->v.v;
+            step->relative |= h->increment ? RELATIVE_NORMAL : 0;
+        } else {
+            step->tangential = (unsigned char)by_of(a->name);
+            step->tangential_value = (double)h->v.v;
+            step->relative |= h->increment ? RELATIVE_TANGENTIAL : 0;
+        }
+    }
+}
+
+/* A live amplitude has its value in the scene as it is. */
+static bool live_values(shell *sh, lexer *lx, said *s) {
+    for (heard *h = s->list; h < s->list + s->count; h++) {
+        const clause *a = h->of;
+        if (!h->live)
+            continue;
+        if (!definition_value(&sh->calc, (definition *)h->live, &h->v, lx->error) ||
+            !value_dim(lx, a->name, h->hole[0].at, h->hole[0].len, h->v, a->d))
+            return heard_place(lx->error, h);
+        fret_status st = input_status((input)(a->in - 1), (double)h->v.v);
+        if (!calc_input_status(lx->error, a->in - 1, &st))
+            return heard_place(lx->error, h);
+    }
+    return true;
+}
+
+static bool read_targets(shell *sh, lexer *lx, const command *self, said *s, load_step *step,
+                         cycle_extra *extra, const heard **last) {
+    const bool cycle = self->run == do_cycle;
+    *step = (load_step){.kind = cycle ? LOAD_CYCLE : LOAD_STEP};
+    *extra = (cycle_extra){.times = 1};
+    bool ok = said_read_some(sh, lx, command_form(self), s) && (!cycle || live_values(sh, lx, s));
+    load_of(s, step, extra, last);
+    if (ok && (cycle ? !step->tangential : !step->tangential && !step->normal)) {
+        char usage[GRAMMAR_USAGE];
+        command_usage(self, usage);
+        ok = lex_fail(lx, "%s usage: %s", cycle ? "cycle by what amplitude?" : "step to where?", usage);
+    }
+    if (!ok)
+        said_drop(sh, s);
+    return ok;
+}
+
+bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]) {
+    const command *c = command_find(lx->text + lx->at, lx->len);
+    said s;
+    const heard *last;
+    lex_next(lx);
+    if (!read_targets(sh, lx, c, &s, step, extra, &last))
+        return false;
+    for (const heard *h = s.list; h < s.list + s.count; h++)
+        if (h->live)
+            bound[h->of->in - 1] = h->live;
+    return true;
+}
+
+bool do_press(shell *sh, lexer *lx, const command *self) {
+    static const char *const names[] = {"FN", "a", "dz", NULL};
+    char usage[GRAMMAR_USAGE];
+    said s;
+    if (!at_argument(lx)) {
+        command_usage(self, usage);
+        return lex_fail(lx, "press by what? usage: %s", usage);
+    }
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    const heard *by = &s.list[0];
+    const load_step step = {
+        .kind = LOAD_PRESS, .normal = (unsigned char)by_of(by->of->name), .normal_value = (double)by->v.v};
+    if (!scene_load(&sh->calc.scene, &step, NULL, lx->error)) {
+        const char *of = lx->error->kind == ERROR_STATUS ? lx->error->status.quantity : NULL;
+        return of && !strcmp(of, by->of->name) ? heard_place(lx->error, by) : false;
+    }
+    report_event(sh, "press", names);
+    return true;
+}
+
+bool do_step(shell *sh, lexer *lx, const command *self) {
+    static const char *const names[] = {"Fx", "dx", "c", NULL}, *const oblique[] = {"FN", "Fx", "dx", "c",
+                                                                                    NULL};
+    said s;
+    load_step step;
+    cycle_extra extra;
+    const heard *last;
+    if (!read_targets(sh, lx, self, &s, &step, &extra, &last) || !said_end(lx, s.by))
+        return false;
+    if (!scene_load(&sh->calc.scene, &step, NULL, lx->error))
+        return heard_place(lx->error, last);
+    if (reports(sh)) /* a step may wait until it is asked for */
+        report_event(sh, "step", step.normal ? oblique : names);
+    if (shell_stop) { /* run_command takes back what other loads are */
+        calc_undo(&sh->calc);
+        return calc_interrupted(lx->error);
+    }
+    shell_pressed(sh, &step);
+    return true;
+}
+
+static void bind_all(inputs *in, void *context) {
+    counted **bound = context;
+    for (input i = 0; i < INPUTS; i++)
+        if (bound[i])
+            inputs_bind(in, i, counted_hold(bound[i]));
+}
+
+bool do_cycle(shell *sh, lexer *lx, const command *self) {
+    static const char *const names[] = {"dW", "Fx", "dx", "c", NULL};
+    said s;
+    load_step step;
+    cycle_extra extra;
+    const heard *last;
+    counted *bound[INPUTS] = {NULL};
+    bool live = false;
+    if (!read_targets(sh, lx, self, &s, &step, &extra, &last))
+        return false;
+    scene_mark before;
+    scene_save(&sh->calc.scene, &before, false);
+    bool ok = said_end(lx, s.by) &&
+              (scene_load(&sh->calc.scene, &step, &extra, lx->error) || heard_place(lx->error, last));
+    const bool loaded = ok;
+    for (const heard *h = s.list; ok && h < s.list + s.count; h++)
+        if (h->live) {
+            bound[h->of->in - 1] = h->live;
+            live = true;
+        }
+    if (ok && live)
+        ok = scene_edit(&sh->calc.scene, bind_all, bound, lx->error);
+    if (loaded && !ok)
+        scene_back(&sh->calc.scene, &before);
+    else
+        scene_drop(&before);
+    if (ok && said_of(&s, "phase", 0) && !said_of(&s, "FNA", 0))
+        shell_note(sh, "phase does nothing without FNA");
+    said_drop(sh, &s);
+    if (ok)
+        report_event(sh, "cycle", names);
+    return ok;
+}
+
+/* ---- follow ------------------------------------------------------------------------------------ */
+
+/* What the columns of a history may be. */
+typedef struct followed {
+    const char *name[2];
+    unsigned char by;
+    dim d;
+    const char *example;
+} followed;
+
+static const followed kinds[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0, 0}, "FN [N],Fx [N]"},
+                                 {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1, 0}, "dz [um],dx [um]"}};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+enum { AT_ONCE = 4096 }; /* rows; then it is told how far it has come */
+
+/* Rows as they are followed. Of those that have both pairs: loss, their W, and driver, by which pair each is;
+ * NULL: all by `kind`. */
+typedef struct rows {
+    const csv *data;
+    const followed *kind;
+    const double *normal[KINDS], *tangential[KINDS]; /* by kind */
+    const double *loss;
+    const unsigned char *driver;
+} rows;
+
+static bool follow_press(shell *sh, const rows *w, calc_error *error) {
+    const followed *kind = w->kind;
+    const size_t k = (size_t)(kind - kinds);
+    const load_step press = {.kind = LOAD_PRESS, .normal = kind->by, .normal_value = w->normal[k][0]};
+    if (!(press.normal_value > 0) || w->tangential[k][0] != 0)
+        return calc_fail(
+            error, 0, 0,
+            "%s: there is no load yet: press first, or begin with a row that presses (%s > 0, %s = 0)",
+            w->data->path, kind->name[0], kind->name[1]);
+    return scene_load(&sh->calc.scene, &press, NULL, error);
+}
+
+/* Rows become steps. */
+static bool follow_rows(shell *sh, const rows *w, size_t row, calc_error *error) {
+    const csv *data = w->data;
+    for (size_t count; row < data->rows; row += count) {
+        const size_t k = w->driver ? w->driver[row] : (size_t)(w->kind - kinds);
+        const load_step step = {.kind = LOAD_STEP, .normal = kinds[k].by, .tangential = kinds[k].by};
+        size_t bad;
+        for (count = 1; count < AT_ONCE && row + count < data->rows; count++)
+            if (w->driver && w->driver[row + count] != k)
+                break;
+        progress_part((double)row / (double)data->rows);
+        bool ok = scene_load_rows(&sh->calc.scene, step, w->normal[k] + row, w->tangential[k] + row, count,
+                                  &bad, error);
+        if (ok && shell_stop)
+            ok = calc_interrupted(error);
+        if (!ok) {
+            if (!error->stop)
+                calc_append(&sh->calc, error, " (row %zu of %.200s)", row + bad + 1, data->path);
+            return false;
+        }
+    }
+    progress_part(-1); /* what springs make of it is not known yet */
+    return true;
+}
+
+/* ---- of both pairs, as `history` writes them ---- */
+
+enum { NAMED = 2 * KINDS + 1 };
+#define SAME 1e-4L /* what the digits of a table as text may move */
+
+/* The largest of FN, Fx, dz, dx and W. */
+typedef struct sizes {
+    double of[NAMED];
+} sizes;
+
+/* How far the state is from what the row names, as a part of the largest values. Ways by force and by
+ * displacement may end in the same state: the energy tells them apart. */
+static long double distance(const fret_contact *m, const rows *w, size_t row, fret_real loss,
+                            const sizes *most) {
+    fret_state now;
+    fret_contact_forces(m, &now);
+    const double lost = row ? w->loss[row] - w->loss[row - 1] : 0;
+    const long double off[NAMED] = {(long double)now.FN - w->normal[0][row],
+                                    (long double)now.Fx - w->tangential[0][row],
+                                    (long double)now.dz - w->normal[1][row],
+                                    (long double)now.dx - w->tangential[1][row], (long double)loss - lost};
+    long double worst = 0;
+    for (size_t i = 0; i < NAMED; i++)
+        if (off[i] != 0)
+            worst = fmaxl(worst, fabsl(off[i]) / most->of[i]);
+    return worst;
+}
+
+/* Of the last, the state before, makes that behind the row: by the pair that comes nearer to what it names.
+ */
+static bool choose_driver(fret_contact *m[KINDS + 1], const rows *w, size_t row, const sizes *most,
+                          unsigned char *driver, fret_status *st) {
+    static const fret_normal_target normal[KINDS] = {FRET_TO_FORCE, FRET_TO_DEPTH};
+    static const fret_tangential_target tangential[KINDS] = {FRET_TO_FX, FRET_TO_DX};
+    long double least = INFINITY;
+    for (unsigned char k = 0; k < KINDS; k++) {
+        const fret_step step = {normal[k], tangential[k], w->normal[k][row], w->tangential[k][row]};
+        *st = fret_contact_copy(m[k], m[KINDS]);
+        if (st->code)
+            return false;
+        const fret_status taken = fret_contact_step(m[k], &step);
+        if (taken.code == FRET_NO_MEMORY)
+            *st = taken;
+        if (st->code)
+            return false;
+        const long double off =
+            taken.code ? INFINITY : distance(m[k], w, row, fret_contact_last_loss(m[k]), most);
+        if (off < least) {
+            least = off;
+            *driver = k;
+        }
+    }
+    if (!(least <= SAME))
+        return false;
+    fret_contact *now = m[*driver];
+    m[*driver] = m[KINDS];
+    m[KINDS] = now;
+    return true;
+}
+
+static double largest_of(const double *v, size_t n) {
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fabs(v[i]));
+    return most;
+}
+
+static bool choose_drivers(shell *sh, const rows *w, size_t row, unsigned char *driver, calc_error *error) {
+    const size_t n = w->data->rows;
+    const sizes most = {{largest_of(w->normal[0], n), largest_of(w->tangential[0], n),
+                         largest_of(w->normal[1], n), largest_of(w->tangential[1], n),
+                         largest_of(w->loss, n)}};
+    const fret_contact *now;
+    fret_contact *m[KINDS + 1] = {NULL};
+    fret_status st = {.code = FRET_OK};
+    if (!scene_straight(&sh->calc.scene, &now, error))
+        return false;
+    for (size_t k = 0; k <= KINDS && !st.code; k++)
+        st = fret_contact_make(fret_contact_normal(now), fret_contact_friction(now), FRET_EXACT, &m[k]);
+    if (!st.code)
+        st = fret_contact_copy(m[KINDS], now);
+    bool ok = !st.code && (row == 0 || distance(m[KINDS], w, 0, 0, &most) <= SAME);
+    size_t i = ok ? row : 0;
+    while (ok && i < n && !shell_stop) {
+        if (i % AT_ONCE == 0)
+            progress_part(0.5 * (double)i / (double)n);
+        ok = choose_driver(m, w, i, &most, &driver[i], &st);
+        i += ok;
+    }
+    for (size_t k = 0; k <= KINDS; k++)
+        fret_contact_free(m[k]);
+    if (shell_stop)
+        return calc_interrupted(error);
+    return ok ||
+           (calc_status(error, &st) &&
+            calc_fail(error, 0, 0, "%s: FN,Fx and dz,dx do not agree in this scene (row %zu): leave one pair",
+                      w->data->path, i + 1));
+}
+
+static bool of_dimension(const csv *data, const csv_values *read, const followed *kind, calc_error *error) {
+    char wants[128], is[128];
+    if (dim_equal(read->d, kind->d))
+        return true;
+    if (!read->has_unit)
+        return calc_fail(error, 0, 0, "%s: the columns need units in the header, such as %s", data->path,
+                         kind->example);
+    dim_describe(kind->d, wants, sizeof wants);
+    dim_describe(read->d, is, sizeof is);
+    return calc_fail(error, 0, 0, "%s: column %s is %s, not %s, by the unit in the header", data->path,
+                     read->name, is, wants);
+}
+
+static bool has_pair(const csv *data, const followed *kind) {
+    return csv_has(data, kind->name[0]) && csv_has(data, kind->name[1]);
+}
+
+static bool read_pair(const csv *data, const followed *kind, rows *w, calc_error *error) {
+    const size_t k = (size_t)(kind - kinds);
+    const csv_values *normal = csv_column(data, kind->name[0], error),
+                     *tangential = normal ? csv_column(data, kind->name[1], error) : NULL;
+    if (!tangential || !of_dimension(data, normal, kind, error) ||
+        !of_dimension(data, tangential, kind, error))
+        return false;
+    w->normal[k] = normal->v;
+    w->tangential[k] = tangential->v;
+    return true;
+}
+
+static bool read_loss(const csv *data, rows *w, calc_error *error) {
+    static const followed energy = {.d = {1, 1, 0}, .example = "W [J]"};
+    const csv_values *loss = csv_column(data, "W", error);
+    if (!loss || !of_dimension(data, loss, &energy, error))
+        return false;
+    w->loss = loss->v;
+    return true;
+}
+
+static bool follow_all(shell *sh, rows *w, bool both, calc_error *error) {
+    unsigned char *driver = NULL;
+    size_t row = 0;
+    if (!sh->calc.scene.end.steps) {
+        if (!follow_press(sh, w, error))
+            return false;
+        row = 1;
+    }
+    if (both && !(driver = malloc(w->data->rows)))
+        return calc_no_memory(error);
+    w->driver = driver;
+    const bool ok = (!both || choose_drivers(sh, w, row, driver, error)) && follow_rows(sh, w, row, error);
+    free(driver);
+    return ok;
+}
+
+static bool follow(shell *sh, const csv *data, calc_error *error) {
+    const bool forces = has_pair(data, &kinds[0]), places = has_pair(data, &kinds[1]);
+    rows w = {.data = data, .kind = places && !forces ? &kinds[1] : &kinds[0]};
+    char names[CALC_ERROR_TEXT / 2];
+    scene_mark before;
+    double mu;
+    csv_names(data, names, sizeof names);
+    if (!forces && !places)
+        return calc_fail(error, 0, 0, "%s: the columns must be FN,Fx or dz,dx, not %s", data->path, names);
+    if (forces && places && !csv_has(data, "W"))
+        return calc_fail(error, 0, 0, "%s has FN,Fx and dz,dx, but no W: leave one pair", data->path);
+    if ((forces && !read_pair(data, &kinds[0], &w, error)) ||
+        (places && !read_pair(data, &kinds[1], &w, error)) ||
+        (forces && places && !read_loss(data, &w, error)))
+        return false;
+    if (!sh->calc.scene.in.bound[IN_MU] && !scene_friction(&sh->calc.scene, &mu, error))
+        return false; /* a live one may depend on the press that is to come */
+    scene_save(&sh->calc.scene, &before, false);
+    if (!follow_all(sh, &w, forces && places, error)) {
+        scene_back(&sh->calc.scene, &before);
+        return false;
+    }
+    scene_drop(&before);
+    return true;
+}
+
+bool do_follow(shell *sh, lexer *lx, const command *self) {
+    static const char *const names[] = {"FN", "Fx", "dx", "c", NULL};
+    char name[FILE_NAME];
+    said s;
+    csv data;
+    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
+        return false;
+    bool ok = csv_read(name, &shell_stop, &data, lx->error) && follow(sh, &data, lx->error);
+    csv_free(&data);
+    if (!ok) {
+        lx->error->at = s.list[0].hole[0].at;
+        lx->error->len = s.list[0].hole[0].len;
+        return false;
+    }
+    report_event(sh, "follow", names);
+    return true;
+}
+
+/* ---- the ways back ----------------------------------------------------------------------------- */
+
+bool do_reset(shell *sh, lexer *lx, const command *self) {
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    scene_reset(&sh->calc.scene, said_of(&s, "all", 0) != NULL);
+    return true;
+}
+
+bool do_undo(shell *sh, lexer *lx, const command *self) {
+    (void)self;
+    return at_end(lx) && (calc_undo(&sh->calc) || lex_fail(lx, "there is nothing to take back"));
+}

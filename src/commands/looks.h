@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How a figure looks, as it is written behind it: title "...", xrange LO .. HI, log y, over FILE.csv, ... */
+#ifndef COMMANDS_LOOKS_H
+#define COMMANDS_LOOKS_H
+
+#include "commands/expressions.h"
+#include "plot/plot.h"
+
+enum { OVER = 4 }; /* files of measured points */
+
+typedef struct limits {
+    bool given;
+    value end[2];
+    size_t at, len;
+} limits;
+
+/* What must wait until the axes are known. */
+typedef struct looks {
+    limits x, y;
+    size_t files;
+    char over[OVER][FILE_NAME];
+    size_t over_at[OVER], over_len[OVER];
+} looks;
+
+/* All that have been said. */
+bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out);
+
+/* An axis as the points on it stand, in SI. */
+typedef struct axis_of {
+    const char *name;
+    dim d;
+} axis_of;
+
+/* Adds the measured points, in SI. */
+bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y);
+/* Limits in the unit of the axis, which is scale SI. */
+bool looks_limit(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
+                 long double scale);
+
+#endif

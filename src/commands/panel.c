@@ -1,0 +1,550 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Figures as they are written, and the curves that sweeps make of them. */
+#include "commands/panel.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands/figures.h"
+#include "commands/looks.h"
+#include "commands/map.h"
+#include "statement/progress.h"
+
+enum {
+    PLOTTED = 8,
+    EVENLY = 100,
+    MOVING = 300, /* frames take a curve as it is sampled */
+    ALONG = 1000
+}; /* expressions of a panel, points of its curves to begin with */
+
+/* A panel on its way: expressions of a sweep become curves. */
+typedef struct panel_job {
+    shell *sh;
+    plot_panel *p;
+    const figure *figure; /* or NULL */
+    const sweep *s;
+    motion *m;
+    size_t index; /* of the panel */
+    size_t count; /* expressions that are drawn */
+    bool against; /* the one after them is the abscissa */
+    const column *columns;
+    const char *statement;
+    calc_error *error;
+    bool lost;                                   /* there was no memory for a point */
+    size_t each;                                 /* series of a curve */
+    bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series told apart by their bound */
+    double last[PLOTTED][2];
+} panel_job;
+
+/* c curve, t thin line, b an edge of a band, of two; s a curve told apart where it is at the bounds that
+ * follow it. Of several curves the bands would cover each other: their edges are lines. */
+static char role_of(const panel_job *job, size_t i) {
+    const char role = job->figure && job->figure->roles ? job->figure->roles[i] : 'c';
+    return role == 'b' && job->s->curves ? 't' : role;
+}
+
+static bool is_main(const panel_job *job, size_t i) {
+    return role_of(job, i) == 'c' || role_of(job, i) == 's';
+}
+
+static size_t main_count(const panel_job *job) {
+    size_t n = 0;
+    for (size_t i = 0; i < job->count; i++)
+        n += is_main(job, i);
+    return n;
+}
+
+/* ---- curves ------------------------------------------------------------------------------------ */
+
+/* The value of a curve: as it is written where that says more than the number, as c0 = 2*a0 does. */
+static void value_text(const panel_job *job, size_t curve, char *text, size_t size) {
+    const sweep *s = job->s;
+    const char *written = job->statement + s->value_at[curve];
+    const size_t len = s->value_len[curve];
+    if (isalpha((unsigned char)*written) || memchr(written, '*', len))
+        snprintf(text, size, "%.*s", (int)len, written);
+    else
+        format_value(&job->sh->set, (value){s->value[curve], s->with.d}, text, size);
+}
+
+enum { TITLE = 520 };
+
+/* "k = 0.5", the expression, or both: what tells the curves apart; then the part, which may be NULL. NULL:
+ * there is nothing to tell. */
+static const char *title_of(const panel_job *job, size_t curve, size_t i, const char *part,
+                            char title[TITLE]) {
+    char number[160];
+    const column *c = &job->columns[i];
+    const bool several = main_count(job) > 1, own = is_main(job, i) && (several || job->s->curves);
+    if (!own && !part)
+        return NULL;
+    if (job->s->curves)
+        value_text(job, curve, number, sizeof number);
+    if (!own)
+        *title = 0;
+    else if (several && job->s->curves)
+        snprintf(title, TITLE, PLOT_EXPR "%.200s, %s = %s" PLOT_END, c->name, job->s->with.text, number);
+    else if (job->s->curves)
+        snprintf(title, TITLE, PLOT_EXPR "%s = %s" PLOT_END, job->s->with.text, number);
+    else
+        snprintf(title, TITLE, PLOT_EXPR "%.300s" PLOT_END, c->name);
+    const size_t n = strlen(title);
+    if (part)
+        snprintf(title + n, TITLE - n, "%s%s", n ? ", " : "", part);
+    return title;
+}
+
+static plot_series *add_series(panel_job *job, plot_role role, const char *title, bool thin) {
+    plot_series *s = plot_series_add(job->p, role, title, job->error);
+    if (s)
+        s->thin = thin;
+    return s;
+}
+
+/* The series of a curve: one an expression, one for both edges of a band, two where stick and slip are told
+ * apart. */
+static bool add_curve(panel_job *job, size_t curve) {
+    for (size_t i = 0; i < job->count; i++) {
+        const char role = role_of(job, i);
+        char title[TITLE];
+        if (role == 's') {
+            plot_series *stick = add_series(job, PLOT_CURVE, title_of(job, curve, i, "stick", title), false),
+                        *slip =
+                            stick ? add_series(job, PLOT_CURVE, title_of(job, curve, i, "slip", title), false)
+                                  : NULL;
+            if (!slip)
+                return false;
+            stick->style = (int)(2 * curve);
+            slip->style = (int)(2 * curve + 1);
+        } else if (!add_series(job, role == 'b' ? PLOT_BAND : PLOT_CURVE,
+                               title_of(job, curve, i, NULL, title), role != 'c')) {
+            return false;
+        }
+        i += role == 'b';
+    }
+    return true;
+}
+
+static void add_point(panel_job *job, plot_series *s, double x, double y) {
+    job->lost = !plot_point(s, x, y) || job->lost;
+}
+
+/* To the stick or the slip series at j, j+1; the point between is in both, so that they join. */
+static void add_told_apart(panel_job *job, size_t j, size_t i, double x, const long double *values) {
+    plot_series *const *s = job->p->series + j;
+    const double u = (double)values[i], bound = fabs((double)values[i + 1]);
+    if (!(bound > 1e-12 * fabs(u))) { /* out of contact */
+        add_point(job, s[0], x, NAN);
+        add_point(job, s[1], x, NAN);
+        job->begun[j] = false;
+        return;
+    }
+    const bool slips = fabs(u) >= bound * (1 - 1e-9);
+    if (job->begun[j] && slips != job->slips[j]) {
+        add_point(job, s[slips], x, NAN);
+        add_point(job, s[slips], job->last[i][0], job->last[i][1]);
+    }
+    job->slips[j] = slips;
+    job->begun[j] = true;
+    job->last[i][0] = x;
+    job->last[i][1] = u;
+    add_point(job, s[slips], x, u);
+}
+
+static size_t series_each(const panel_job *job) {
+    size_t each = 0;
+    for (size_t i = 0; i < job->count; i++) {
+        const char role = role_of(job, i);
+        each += role == 's' ? 2 : 1;
+        i += role == 'b';
+    }
+    return each;
+}
+
+static bool is_over(const panel_job *job, const sweep *s, long double time) {
+    return job->m && job->m->at && s->along && time > (long double)job->m->until + 1e-9L;
+}
+
+static bool give_point(void *context, const sweep *s, size_t curve, long double x,
+                       const long double *values) {
+    panel_job *job = context;
+    const size_t at = curve * job->each;
+    progress_pulse();
+    const double abscissa = (double)(job->against ? values[job->count] : x);
+    if (at >= job->p->count && !add_curve(job, curve))
+        return false;
+    if (is_over(job, s, x))
+        return true;
+    for (size_t i = 0, j = at; i < job->count; i++, j++) {
+        const char role = role_of(job, i);
+        plot_series *to = job->p->series[j];
+        if (role == 'b')
+            job->lost = !plot_band(to, abscissa, (double)values[i], (double)values[i + 1]) || job->lost;
+        else if (role == 's')
+            add_told_apart(job, j, i, abscissa, values);
+        else
+            add_point(job, to, abscissa, (double)values[i]);
+        i += role == 'b';
+        j += role == 's';
+    }
+    return !job->lost || calc_no_memory(job->error);
+}
+
+/* The last point of every main curve, marked. */
+static bool mark_now(panel_job *job) {
+    const size_t series = job->p->count;
+    if (!job->m || !job->m->at || !job->s->along)
+        return true;
+    plot_series *now = add_series(job, PLOT_NOW, NULL, false);
+    for (size_t i = 0; now && i < series; i++) {
+        const plot_series *s = job->p->series[i];
+        if (s->role == PLOT_CURVE && !s->thin && s->count)
+            add_point(job, now, s->x[s->count - 1], s->y[s->count - 1]);
+    }
+    return now && (!job->lost || calc_no_memory(job->error));
+}
+
+/* ---- axes -------------------------------------------------------------------------------------- */
+
+/* What the unit of an axis is to fit: the largest value, on a logarithmic axis the middle. */
+static double typical(const plot_panel *p, bool x_axis, const limits *given) {
+    const bool log = x_axis ? p->logx : p->logy;
+    double most = 0, least = INFINITY;
+    for (size_t i = 0; i < p->count && !given->given; i++)
+        for (size_t j = 0; j < p->series[i]->count; j++) {
+            const double v = x_axis ? p->series[i]->x[j] : p->series[i]->y[j];
+            if (isfinite(v))
+                most = fmax(most, fabs(v));
+            if (v > 0)
+                least = fmin(least, v);
+        }
+    if (given->given) {
+        const double lo = fabs((double)given->end[0].v), hi = fabs((double)given->end[1].v);
+        most = fmax(lo, hi);
+        least = fmin(lo, hi);
+    }
+    return log && least > 0 && least < most ? sqrt(least) * sqrt(most) : most;
+}
+
+/* Points without a place on their axes are gaps, too. */
+static void note_logarithms(shell *sh, const plot_panel *p) {
+    bool lost = false;
+    for (size_t i = 0; i < p->count && !lost; i++)
+        for (size_t j = 0; j < p->series[i]->count && !lost; j++)
+            lost = (p->logx && p->series[i]->x[j] <= 0) || (p->logy && p->series[i]->y[j] <= 0);
+    if (lost)
+        shell_note(sh, "a logarithmic axis has no place for what is not above 0");
+}
+
+static void divide(plot_panel *p, bool x_axis, long double scale) {
+    for (size_t i = 0; i < p->count; i++) {
+        plot_series *s = p->series[i];
+        for (size_t j = 0; j < s->count; j++) {
+            double *v = x_axis ? &s->x[j] : &s->y[j];
+            *v = (double)(*v / scale);
+            if (!x_axis && s->y2)
+                s->y2[j] = (double)(s->y2[j] / scale);
+        }
+    }
+}
+
+/* The ordinate by the expressions that share it, as far as there is room for them. */
+static void ordinate_name(const panel_job *job, char *name, size_t size) {
+    *name = 0;
+    for (size_t i = 0; i < job->count; i++) {
+        const size_t n = strlen(name);
+        if (!is_main(job, i))
+            continue;
+        if (n + strlen(job->columns[i].name) + 3 > size) {
+            *name = 0;
+            return;
+        }
+        snprintf(name + n, size - n, "%s%s", n ? ", " : "", job->columns[i].name);
+    }
+}
+
+/* In the unit that was asked for, or one with a prefix that fits. */
+static bool scale_axis(panel_job *job, lexer *lx, const looks *l, bool x_axis, const column *c,
+                       const axis_of *axis) {
+    axis_unit own, *u = job->m ? &job->m->unit[job->index][x_axis] : &own;
+    if (c && c->chosen) {
+        u->scale = c->scale;
+        snprintf(u->text, sizeof u->text, "%s", c->unit);
+    } else if (!job->m || !job->m->at) {
+        u->scale =
+            unit_choose(axis->d, typical(job->p, x_axis, x_axis ? &l->x : &l->y), 6, u->text, sizeof u->text);
+    }
+    divide(job->p, x_axis, u->scale);
+    char **label = x_axis ? &job->p->xlabel : &job->p->ylabel;
+    if (!*label)
+        *label = plot_label(axis->name, u->text);
+    return (*label || calc_no_memory(lx->error)) && looks_limit(lx, l, job->p, x_axis, axis, u->scale);
+}
+
+static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const dim *d, const bool *known) {
+    const sweep *s = job->s;
+    char name[40];
+    const bool shared = main_count(job) > 1;
+    const column *c = job->columns, *x = job->against ? &c[job->count] : NULL;
+    size_t first = 0; /* whose dimension is known: there may be no value that tells of it */
+    while (first + 1 < job->count && !known[first])
+        first++;
+    for (size_t i = first + 1; i < job->count; i++)
+        if (known[i] && !dim_equal(d[i], d[first]))
+            return calc_fail(job->error, job->sh->list[i].at, job->sh->list[i].len,
+                             "%s and %s cannot share an axis", c[first].name, c[i].name);
+    ordinate_name(job, name, sizeof name);
+    const axis_of ax = {x          ? x->name
+                        : s->along ? "time"
+                                   : s->var.text,
+                        x          ? d[job->count]
+                        : s->along ? DIM_NONE
+                                   : s->var.d},
+                  ay = {shared ? name : c[0].name, d[first]};
+    job->p->logx = job->p->logx || s->log;
+    if (!job->p->title && job->figure)
+        job->p->title = strdup(job->figure->title);
+    if (!job->p->title && job->figure)
+        return calc_no_memory(lx->error);
+    return looks_lay_over(lx, l, job->p, &ax, &ay) && scale_axis(job, lx, l, true, x, &ax) &&
+           scale_axis(job, lx, l, false, &c[0], &ay);
+}
+
+/* ---- motion ------------------------------------------------------------------------------------ */
+
+/* Does the sweep make scenes of its own, which know nothing of the instant? */
+static bool is_still(const sweep *s) {
+    return s->along || s->var.is_input || (s->curves && s->with.is_input);
+}
+
+/* All figures follow one load. */
+static bool follow(motion *m, const lexer *lx, const range *r) {
+    const sweep *s = &r->sweep;
+    if (!m || m->at || !s->along)
+        return true;
+    const size_t len = r->own.end - r->own.at;
+    char *load = s->what == ALONG_LOAD ? strndup(lx->text + r->own.at, len) : NULL;
+    if (s->what == ALONG_LOAD && !load)
+        return calc_no_memory(lx->error);
+    const bool same = !m->found || (m->what == s->what && (!load || !strcmp(load, m->load)));
+    if (m->found) {
+        free(load);
+        return same || calc_fail(lx->error, r->own.at, len, "the figures of an animation go along one load");
+    }
+    m->found = true;
+    m->what = s->what;
+    m->load = load;
+    return true;
+}
+
+/* ---- figures ----------------------------------------------------------------------------------- */
+
+static bool run_sweep(panel_job *job, lexer *lx, sweep_job *sweeping, const sweep *s) {
+    calc *c = &job->sh->calc;
+    scene *seen = c->now;
+    const bool still = job->m && job->m->at && is_still(s);
+    if (s->along && s->what == ALONG_PROGRAM && c->scene.end.steps == 1)
+        return calc_fail(lx->error, 0, 0, "there is no loop yet: use step or cycle first");
+    if (still)
+        c->now = job->m->at->outer;
+    const bool ok = sweep_run(s, sweeping);
+    c->now = seen;
+    return ok && mark_now(job);
+}
+
+static bool no_second_range(const lexer *lx, said *all) {
+    const heard *second = said_of(all, "for", 1);
+    return !second || calc_fail(lx->error, second->at, second->len,
+                                "two ranges make a map: plot map EXPR for A = ... for B = ...");
+}
+
+/* Curves and axes of what has been read. */
+static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
+    const size_t count = job->count + job->against;
+    dim d[PLOTTED + 1] = {DIM_NONE};
+    bool known[PLOTTED + 1] = {false};
+    job->s = s;
+    job->each = series_each(job);
+    s->turns = true;
+    s->refine = !s->along && !s->steps;
+    s->steps = s->steps ? s->steps : s->along ? ALONG : job->m ? MOVING : EVENLY;
+    for (size_t i = 0; i < count; i++) {
+        known[i] = job->columns[i].chosen;
+        d[i] = job->columns[i].d;
+    }
+    sweep_job sweeping = {.c = &job->sh->calc,
+                          .expressions = job->sh->list,
+                          .count = count,
+                          .d = d,
+                          .known = known,
+                          .row = give_point,
+                          .context = job,
+                          .error = lx->error};
+    if (!run_sweep(job, lx, &sweeping, s) || !finish_axes(job, lx, l, d, known))
+        return false;
+    if (!job->m || !job->m->at) {
+        note_missing(job->sh, &sweeping);
+        note_logarithms(job->sh, job->p);
+    }
+    return true;
+}
+
+/* EXPR, ... [against EXPR] RANGE. */
+static bool draw_sweep(shell *sh, lexer *lx, said *all, const figure *f, plot_panel *p, size_t index,
+                       motion *m) {
+    column columns[PLOTTED + 1];
+    size_t count = 0;
+    const heard *against = said_of(all, "against", 0);
+    looks *l = calloc(1, sizeof *l);
+    range r;
+    if (!l)
+        return calc_no_memory(lx->error);
+    bool ok = read_expressions_in(sh, lx, &all->list[0].hole[0], columns, PLOTTED, &count);
+    panel_job job = {.sh = sh,
+                     .p = p,
+                     .figure = f,
+                     .m = m,
+                     .index = index,
+                     .count = count,
+                     .columns = columns,
+                     .statement = lx->text,
+                     .error = lx->error};
+    if (ok && against) {
+        lexer own = hole_lexer(lx, &against->hole[0]);
+        ok = read_one_expression(sh, &own, count, &columns[count]) && at_end(&own);
+        job.against = p->airy = true;
+    }
+    ok = ok && no_second_range(lx, all) && range_read(sh, lx, all, 0, &r, 0) && follow(m, lx, &r) &&
+         looks_read(sh, lx, all, p, l) && make_curves(&job, lx, l, &r.sweep);
+    columns_free(columns, count + job.against);
+    free(l);
+    return ok;
+}
+
+/* Of a homogeneous body that is not compared with others. */
+static const char *statement_of(const shell *sh, const figure *f, said *all) {
+    const inputs *in = &sh->calc.now->in;
+    bool graded = !in->set[IN_E0] || in->v[IN_K] != 0 || in->set[IN_C0];
+    graded = graded || in->bindings & (INPUT_BIT(IN_K) | INPUT_BIT(IN_C0)) || said_of(all, "with", 0);
+    return f->without_c0 && !graded ? f->without_c0 : f->statement;
+}
+
+/* As much of it as what has been said leaves: that may be of another range. */
+static size_t statement_length(const char *statement, said *all) {
+    if (!said_of(all, "along", 0) && !said_of(all, "for", 0))
+        return strlen(statement);
+    const char *own = strstr(statement, " along ");
+    own = own ? own : strstr(statement, " for "); /* each has either */
+    return (size_t)(own - statement);
+}
+
+/* Does a figure over a place stand before `along`? For a place of the user's it goes along as any other. */
+static bool goes_over_place(const shell *sh, const said *all, const figure *f) {
+    const char *of = strstr(f->statement, " for ");
+    size_t own;
+    if (!of || all->count < 2 || strcmp(all->list[1].of->name, "along") != 0)
+        return false;
+    of += strlen(" for ");
+    return !names_find(&sh->calc.names, of, strcspn(of, " "), &own);
+}
+
+/* It moves with that load. */
+static bool take_load(shell *sh, const lexer *lx, const heard *along, const figure *f, motion *m) {
+    const char *of = strstr(f->statement, " for ") + strlen(" for ");
+    range r;
+    if (!m)
+        return calc_fail(lx->error, along->at, along->len,
+                         "%s goes over %.*s, not along a load: animate %s along ... shows it move", f->name,
+                         (int)strcspn(of, " "), of, f->name);
+    return range_read_along(sh, lx, &along->hole[0], &r) && follow(m, lx, &r);
+}
+
+/* A figure of the table: its statement as if it stood here, what follows the name after it. */
+static bool draw_named(shell *sh, lexer *lx, panel *as, const figure *f, plot_panel *p, size_t index,
+                       motion *m) {
+    size_t from = as->at + strlen(f->name);
+    const char *statement = statement_of(sh, f, &as->said);
+    size_t length = statement_length(statement, &as->said);
+    if (goes_over_place(sh, &as->said, f)) {
+        const heard *along = &as->said.list[1];
+        if (!take_load(sh, lx, along, f, m))
+            return false;
+        from = along->hole[0].at + along->hole[0].len;
+        length = strlen(statement);
+    }
+    const size_t room = length + (as->end - from) + 1;
+    char *text = malloc(room);
+    said all;
+    if (!text)
+        return calc_no_memory(lx->error);
+    snprintf(text, room, "%.*s%.*s", (int)length, statement, (int)(as->end - from), lx->text + from);
+    lexer own;
+    lex_start(&own, text, strlen(text), lx->error);
+    bool ok = said_read(sh, &own, as->said.by, &all);
+    if (ok) {
+        ok = draw_sweep(sh, &own, &all, f, p, index, m);
+        said_drop(sh, &all);
+    }
+    free(text);
+    if (!ok && lx->error->len && lx->error->at >= length)
+        lx->error->at += from - length;
+    else if (!ok)
+        lx->error->len = 0;
+    return ok;
+}
+
+bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
+    const figure *f = lx->kind == T_NAME ? figure_find(lx->text + lx->at, lx->len) : NULL;
+    out->at = lx->at;
+    if (f && f->build) {
+        lex_next(lx);
+        row = figure_form(f);
+    }
+    const bool ok = said_read_some(sh, lx, row, &out->said);
+    out->end = lx->kind == T_END ? lx->end : lx->at;
+    if (!ok)
+        said_drop(sh, &out->said);
+    return ok;
+}
+
+/* The name of a figure is an expression where one goes on behind it; a range may follow one that has no
+ * value. */
+static const figure *figure_of(const shell *sh, const lexer *lx, panel *p) {
+    const char *name = lx->text + p->at;
+    const figure *f = figure_find(name, p->said.count ? p->said.list[0].hole[0].len : 0);
+    size_t own;
+    if (!f || said_of(&p->said, "against", 0))
+        return NULL;
+    const bool valued =
+        quantity_find(name, strlen(f->name)) || names_find(&sh->calc.names, name, strlen(f->name), &own);
+    return valued && (said_of(&p->said, "for", 0) || said_of(&p->said, "along", 0)) ? NULL : f;
+}
+
+static const figure *figure_built(const panel *p) {
+    const figure *f;
+    for (size_t i = 0; (f = figure_row(i)); i++)
+        if (f->build && p->said.by == figure_form(f))
+            return f;
+    return NULL;
+}
+
+bool panel_is_whole(const shell *sh, const lexer *lx, panel *p) {
+    return figure_built(p) || said_of(&p->said, "for", 0) || said_of(&p->said, "along", 0) ||
+           figure_of(sh, lx, p);
+}
+
+bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
+    const size_t index = f->count;
+    plot_panel *p = plot_panel_add(f, lx->error);
+    if (!p)
+        return calc_place(lx->error, as->at, 1);
+    const figure *built = figure_built(as), *named = built ? NULL : figure_of(sh, lx, as);
+    if (built)
+        return built->build(sh, lx, &as->said, p);
+    if (named)
+        return draw_named(sh, lx, as, named, p, index, m);
+    const lexer first = hole_lexer(lx, &as->said.list[0].hole[0]);
+    return map_at(&first) ? map_draw(sh, lx, &as->said, p) : draw_sweep(sh, lx, &as->said, NULL, p, index, m);
+}

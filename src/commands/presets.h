@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Materials by name, with their sources. */
+#ifndef COMMANDS_PRESETS_H
+#define COMMANDS_PRESETS_H
+
+#include <stddef.h>
+
+typedef struct preset {
+    const char *name;
+    double E0, nu;
+    const char *source;
+} preset;
+
+const preset *preset_row(size_t i); /* NULL after the last */
+const char *preset_name(size_t i);
+/* What `second` takes: same, rigid, then the presets. */
+enum { SECOND_WORDS = 2 };
+const char *second_name(size_t i);
+
+#endif

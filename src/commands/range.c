@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading ranges. */
+#include "commands/range.h"
+
+#include <string.h>
+
+/* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
+
+/* What the ends of a range, or the values of a list, have in common. A bare 0 is of any dimension. */
+typedef struct bounds {
+    dim d;
+    bool known; /* the dimension: of an input, or of a value before that is no bare 0 */
+    value v;    /* that one */
+    size_t at, len;
+} bounds;
+
+static bool is_plain(dim d) {
+    return dim_equal(d, DIM_NONE) && d.rad == 0;
+}
+
+static bool read_bound(calc *c, lexer *lx, const knob *var, bounds *b, long double *out) {
+    value v;
+    const size_t at = lx->at;
+    if (!expr_value(c, lx, &v))
+        return false;
+    const size_t len = lx->last - at;
+    *out = v.v;
+    if (var->is_input)
+        b->d = quantity_dim(quantity_of_input(var->in), c->now);
+    else if (b->known && is_plain(b->d) && !is_plain(v.d))
+        return value_dim(lx, var->text, b->at, b->len, b->v, v.d); /* 1 .. 3 mm */
+    else if (!b->known)
+        *b = (bounds){v.d, v.v != 0 || !is_plain(v.d), v, at, len};
+    return value_dim(lx, var->text, at, len, v, b->d);
+}
+
+bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out) {
+    bounds b = {.known = false};
+    if (!read_bound(c, lx, var, &b, &out->lo))
+        return false;
+    if (word ? !lex_is(lx, word) : lx->kind != T_RANGE)
+        return word ? lex_fail(lx, "expected %s and the other end of the range", word)
+                    : lex_fail(lx, "expected .. between the two ends of the sweep");
+    lex_next(lx);
+    const bool ok = read_bound(c, lx, var, &b, &out->hi);
+    out->d = b.d;
+    return ok;
+}
+
+/* The range where a curve sees it. */
+static bool evaluate_range(const sweep *s, sweep_range *out, calc_error *error) {
+    const range *r = s->context;
+    lexer lx = r->own;
+    lx.error = error;
+    if (!s->along)
+        return range_read_interval(&r->sh->calc, &lx, &s->var, NULL, out);
+    return s->what != ALONG_LOAD || read_load(r->sh, &lx, &out->step, &out->extra, out->bound);
+}
+
+static void begin(shell *sh, const lexer *lx, const span *part, range *out) {
+    *out = (range){.sweep = {.range = evaluate_range}, .sh = sh, .own = hole_lexer(lx, part)};
+    out->sweep.context = out;
+}
+
+bool range_read_along(shell *sh, const lexer *lx, const span *part, range *out) {
+    sweep *s = &out->sweep;
+    sweep_range load = {.lo = 0};
+    begin(sh, lx, part, out);
+    lexer own = out->own;
+    s->along = true;
+    s->what = ALONG_LOAD;
+    if (lex_accept(&own, "program")) {
+        s->what = ALONG_PROGRAM;
+    } else if (lex_is(&own, "cycle") &&
+               own.at + own.len == own.end) { /* the last period; `cycle FA=..` is a load */
+        s->what = ALONG_CYCLE;
+        lex_next(&own);
+    }
+    if (s->what != ALONG_LOAD)
+        return at_end(&own);
+    const bool ok = read_load(sh, &own, &load.step, &load.extra, load.bound) && at_end(&own);
+    for (input in = 0; in < INPUTS; in++)
+        counted_drop(load.bound[in]);
+    return ok;
+}
+
+static bool read_with(shell *sh, const lexer *lx, const heard *h, sweep *s) {
+    lexer name = hole_lexer(lx, &h->hole[0]), own = hole_lexer(lx, &h->hole[1]);
+    if (!knob_read(&sh->calc, &name, &s->with))
+        return false;
+    if (!strcmp(s->with.text, s->var.text))
+        return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s is given twice", s->with.text);
+    bounds b = {.known = false};
+    do {
+        if (s->curves == SWEEP_VALUES)
+            return lex_fail(&own, "more than %d values", SWEEP_VALUES);
+        if (s->curves)
+            lex_next(&own);
+        s->value_at[s->curves] = own.at;
+        own.list = true;
+        const bool ok = read_bound(&sh->calc, &own, &s->with, &b, &s->value[s->curves]);
+        own.list = false;
+        if (!ok)
+            return false;
+        s->with.d = b.d;
+        s->value_len[s->curves] = own.last - s->value_at[s->curves];
+        s->curves++;
+    } while (own.kind == T_COMMA);
+    return at_end(&own);
+}
+
+/* `steps`, `log` and `with` that stand before the next `for`. */
+static bool read_options(shell *sh, lexer *lx, const said *said_all, size_t which, sweep *s) {
+    size_t ranges = 0;
+    bool given = false;
+    for (const heard *h = said_all->list; h < said_all->list + said_all->count; h++) {
+        const char *word = h->of->name;
+        ranges += !strcmp(word, "for");
+        if ((ranges ? ranges - 1 : 0) != which)
+            continue;
+        if (!strcmp(word, "steps")) {
+            if (given)
+                return calc_fail(lx->error, h->at, h->len, "steps is given twice");
+            s->steps = h->count;
+            s->refine = false;
+            given = true;
+        } else if (!strcmp(word, "log") && !h->of->holes) { /* `log x` is of the axes */
+            if (s->along)
+                return calc_fail(lx->error, h->at, h->len,
+                                 "log goes with for NAME = LO .. HI, or as log x or log y");
+            s->log = true;
+        } else if (!strcmp(word, "with") && !read_with(sh, lx, h, s)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out, size_t steps) {
+    sweep *s = &out->sweep;
+    sweep_range ends = {.lo = 0};
+    const heard *along = said_of(all, "along", 0), *by = said_of(all, "for", which);
+    if (along && by)
+        return calc_fail(lx->error, by->at > along->at ? by->at : along->at,
+                         by->at > along->at ? by->len : along->len,
+                         "a range goes for NAME = LO .. HI, or along a load");
+    if (along) {
+        const bool ok = range_read_along(sh, lx, &along->hole[0], out);
+        s->steps = steps;
+        return ok && read_options(sh, lx, all, which, s);
+    }
+    if (!by)
+        return lex_fail(lx, "expected for VAR = LO .. HI");
+    begin(sh, lx, &by->hole[1], out);
+    s->steps = steps;
+    lexer name = hole_lexer(lx, &by->hole[0]), own = out->own;
+    if (!knob_read(&sh->calc, &name, &s->var) ||
+        !range_read_interval(&sh->calc, &own, &s->var, NULL, &ends) || !at_end(&own))
+        return false;
+    s->var.d = ends.d;
+    if (!read_options(sh, lx, all, which, s))
+        return false;
+    return !s->log || (ends.lo > 0 && ends.hi > 0) ||
+           calc_fail(lx->error, by->hole[1].at, by->hole[1].len, "a logarithmic sweep needs positive ends");
+}
+
+void note_missing(shell *sh, const sweep_job *job) {
+    if (job->missing.raised)
+        shell_note(sh, "some values are missing: %s (%s)", job->missing.text, job->where);
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Ranges of tables and plots as they have been said: for NAME = LO .. HI, along a load, with NAME = v1, v2,
+ * ...
+ */
+#ifndef COMMANDS_RANGE_H
+#define COMMANDS_RANGE_H
+
+#include "statement/command.h"
+#include "study/sweep.h"
+
+/* A sweep and where in the statement its range stands: it is read again for each curve. */
+typedef struct range {
+    sweep sweep;
+    shell *sh;
+    lexer own; /* over LO .. HI, or the load */
+} range;
+
+/* LO .. HI of var; word: what stands between them instead of `..`, or NULL. */
+bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out);
+/* As far as the load goes that stands there. */
+bool range_read_along(shell *sh, const lexer *lx, const span *load, range *out);
+/* The range of the which-th `for`, or `along`, and what else of a range has been said for it; steps: where
+ * none are given. It must stay where it is, and the text of the statement too. */
+bool range_read(shell *sh, lexer *lx, said *s, size_t which, range *out, size_t steps);
+/* Says on standard error why some values of a sweep are missing. */
+void note_missing(shell *sh, const sweep_job *job);
+
+#endif

@@ -1,0 +1,443 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands that set material, second body, friction and geometry. Each reads everything, then changes
+ * everything or nothing. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands/presets.h"
+#include "number/real.h"
+#include "statement/answer.h"
+#include "statement/command.h"
+#include "study/smooth.h"
+#include "text/csv.h"
+
+/* ---- gathering --------------------------------------------------------------------------------- */
+
+/* Changes to a scene gathered before any is made. */
+typedef struct edit {
+    bool has[INPUTS];
+    double v[INPUTS];
+    counted *bound[INPUTS]; /* borrowed */
+    bool clear_material, clear_second;
+    second_body second;
+    const geometry *geometry;
+    double radii[2];
+    const fret_gap *sum;
+    shared_table *table;
+} edit;
+
+static void put(edit *e, input in, long double v) {
+    e->has[in] = true;
+    e->v[in] = (double)v;
+}
+
+static void apply(inputs *in, void *context) {
+    const edit *e = context;
+    if (e->clear_material)
+        inputs_unset(in, INPUT_BIT(IN_K) | INPUT_BIT(IN_C0));
+    if (e->clear_second) {
+        inputs_unset(in, INPUT_BIT(IN_E0_2) | INPUT_BIT(IN_NU_2));
+        in->second = e->second;
+    }
+    if (e->geometry)
+        inputs_geometry(in, e->geometry, e->sum, e->table);
+    for (input i = 0; i < INPUTS; i++)
+        if (e->has[i])
+            inputs_put(in, i, e->v[i]);
+    for (input i = 0; i < INPUTS; i++)
+        if (e->bound[i]) {
+            inputs_put(in, i, in->v[i]);
+            inputs_bind(in, i, counted_hold(e->bound[i]));
+        }
+    for (int i = 0; i < 2 && e->radii[i] != 0; i++)
+        in->radii[i] = e->radii[i];
+}
+
+static bool has(const edit *e, input in) {
+    return e->has[in] || e->bound[in];
+}
+
+/* What was given for inputs. */
+static void gather(edit *e, const said *s) {
+    for (const heard *h = s->list; h < s->list + s->count; h++) {
+        if (!h->of->in)
+            continue;
+        if (h->live)
+            e->bound[h->of->in - 1] = h->live;
+        else
+            put(e, (input)(h->of->in - 1), h->v.v);
+    }
+}
+
+/* ---- material, second body, friction ----------------------------------------------------------- */
+
+bool do_material(shell *sh, lexer *lx, const command *self) {
+    said s;
+    edit e = {.clear_material = true};
+    char usage[GRAMMAR_USAGE];
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    const heard *named = said_of(&s, "", 0);
+    if (named) {
+        put(&e, IN_E0, preset_row(named->choice)->E0);
+        put(&e, IN_NU, preset_row(named->choice)->nu);
+    }
+    gather(&e, &s);
+    if (has(&e, IN_E0_2) || has(&e, IN_NU_2)) {
+        e.clear_second = true;
+        e.second = SECOND_GIVEN;
+    }
+    bool ok = false;
+    command_usage(self, usage);
+    if (!has(&e, IN_E0) || !has(&e, IN_NU))
+        lex_fail(lx, "%s is missing; usage: %s", has(&e, IN_E0) ? "nu" : "E0", usage);
+    else if (e.bound[IN_K] && !has(&e, IN_C0))
+        lex_fail(lx, "c0 is missing: with a k that follows others the depth where E = E0 matters");
+    else if (e.has[IN_K] && e.v[IN_K] != 0 && !has(&e, IN_C0))
+        lex_fail(lx, "c0 is missing: with k = %g the depth where E = E0 matters", e.v[IN_K]);
+    else
+        ok = scene_edit(&sh->calc.scene, apply, &e, lx->error);
+    said_drop(sh, &s);
+    return ok;
+}
+
+/* E0 and E0_2 are the same here, as nu and nu_2 are; a rigid body has neither. */
+static bool second_holds(lexer *lx, const said *s, bool rigid) {
+    bool given[INPUTS] = {false};
+    for (const heard *h = s->list; h < s->list + s->count; h++) {
+        const int of = h->of->in;
+        if (!of)
+            continue;
+        const input in = of == 1 + IN_E0 ? IN_E0_2 : of == 1 + IN_NU ? IN_NU_2 : (input)(of - 1);
+        if (rigid)
+            return calc_fail(lx->error, h->at, h->len, "a rigid body has no %s", h->of->name);
+        if (given[in])
+            return calc_fail(lx->error, h->at, h->len,
+                             "%s is given twice: here it is that of the second body",
+                             quantity_of_input(in)->name);
+        given[in] = true;
+    }
+    return true;
+}
+
+bool do_second(shell *sh, lexer *lx, const command *self) {
+    said s;
+    edit e = {.clear_second = true, .second = SECOND_GIVEN};
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    const heard *named = said_of(&s, "", 0);
+    gather(&e, &s);
+    if (!second_holds(lx, &s, named && named->choice == SECOND_WORDS - 1)) {
+        said_drop(sh, &s);
+        return false;
+    }
+    if (named && named->choice < SECOND_WORDS) {
+        e.second = named->choice ? SECOND_RIGID : SECOND_SAME;
+    } else if (named) {
+        put(&e, IN_E0_2, preset_row(named->choice - SECOND_WORDS)->E0);
+        put(&e, IN_NU_2, preset_row(named->choice - SECOND_WORDS)->nu);
+    }
+    for (int i = 0; i < 2; i++) { /* E0 is that of the second body here */
+        static const input own[] = {IN_E0, IN_NU}, other[] = {IN_E0_2, IN_NU_2};
+        if (e.bound[own[i]])
+            e.bound[other[i]] = e.bound[own[i]];
+        else if (e.has[own[i]])
+            put(&e, other[i], e.v[own[i]]);
+        e.has[own[i]] = false;
+        e.bound[own[i]] = NULL;
+    }
+    bool ok = e.second != SECOND_GIVEN || has(&e, IN_E0_2) || has(&e, IN_NU_2)
+                  ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
+                  : lex_fail(lx, "expected E0=... nu=..., a material, rigid or same");
+    said_drop(sh, &s);
+    return ok;
+}
+
+bool do_friction(shell *sh, lexer *lx, const command *self) {
+    said s;
+    edit e = {.clear_material = false};
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    put(&e, IN_MU, s.list[0].v.v);
+    return scene_edit(&sh->calc.scene, apply, &e, lx->error) || heard_place(lx->error, &s.list[0]);
+}
+
+/* ---- geometry ---------------------------------------------------------------------------------- */
+
+/* One term n:A of a sum. */
+static bool read_term(shell *sh, lexer *lx, fret_gap *sum) {
+    value n, A;
+    size_t at = lx->at;
+    if (!expr_value(&sh->calc, lx, &n) || !value_dim(lx, "the exponent", at, lx->last - at, n, DIM_NONE))
+        return false;
+    if (!(n.v > 0))
+        return calc_fail(lx->error, at, lx->last - at, "n = %Lg must be positive", n.v);
+    if (lx->kind != T_COLON)
+        return lex_fail(lx, "expected `:` between exponent and coefficient, such as 2:50 m^-1");
+    lex_next(lx);
+    at = lx->at;
+    lx->list = true; /* another term may follow */
+    const bool ok = expr_value(&sh->calc, lx, &A);
+    lx->list = false;
+    if (!ok || !value_dim(lx, "the coefficient", at, lx->last - at, A, (dim){0, (double)(1 - n.v), 0}))
+        return false;
+    sum->power[sum->terms++] = (fret_power){(double)n.v, (double)A.v, 1};
+    return true;
+}
+
+static bool read_sum(shell *sh, const lexer *of, const span *terms, fret_gap *sum) {
+    lexer own = hole_lexer(of, terms), *lx = &own;
+    *sum = (fret_gap){.kind = FRET_GAP_SUM};
+    do {
+        if (sum->terms == FRET_GAP_TERMS)
+            return lex_fail(lx, "a sum has at most %d terms", FRET_GAP_TERMS);
+        if (sum->terms)
+            lex_next(lx);
+        if (!read_term(sh, lx, sum))
+            return false;
+    } while (lx->kind == T_COMMA);
+    return at_end(lx);
+}
+
+/* `smooth`, `smooth 8`, `smooth 0.1 um`. */
+static bool read_smoothing(shell *sh, const lexer *of, const span *part, smoothing *how) {
+    value v;
+    how->by = SMOOTH_FREELY;
+    if (!part->len)
+        return true;
+    lexer own = hole_lexer(of, part), *lx = &own;
+    const size_t at = lx->at;
+    if (!expr_value(&sh->calc, lx, &v) || stray_unit(lx) || !at_end(lx))
+        return false;
+    const bool within = dim_equal(v.d, DIM_LENGTH), number = dim_equal(v.d, DIM_NONE);
+    if (!(within && v.v > 0) &&
+        !(number && v.v >= 1 && v.v <= (long double)SMOOTH_PIECES_MOST && v.v == floorl(v.v)))
+        return calc_fail(lx->error, at, lx->last - at,
+                         "smooth takes a misfit (smooth 0.1 um) or a number of pieces (smooth 8)");
+    *how = (smoothing){within ? SMOOTH_WITHIN : SMOOTH_PIECES, within ? 0 : (size_t)v.v, (double)v.v};
+    return true;
+}
+
+/* Columns r and f, among others in any order. */
+static bool columns_of(const csv *data, const csv_values **r, const csv_values **f, calc_error *error) {
+    *r = csv_column(data, "r", error);
+    *f = *r ? csv_column(data, "f", error) : NULL;
+    if (!*f)
+        return false;
+    if (!(*r)->has_unit || !(*f)->has_unit)
+        return calc_fail(error, 0, 0,
+                         "%s: r and f are lengths and need units in the header, such as r [mm],f [um]",
+                         data->path);
+    const csv_values *wrong = !dim_equal((*r)->d, DIM_LENGTH)   ? *r
+                              : !dim_equal((*f)->d, DIM_LENGTH) ? *f
+                                                                : NULL;
+    char is[128];
+    if (wrong)
+        dim_describe(wrong->d, is, sizeof is);
+    return !wrong || calc_fail(error, 0, 0, "%s: column %s is %s, not a length, by the unit in the header",
+                               data->path, wrong->name, is);
+}
+
+/* The bodies touch at r = 0 before they are pressed, and nowhere overlap. */
+static bool is_open(const csv *data, const double *f, calc_error *error) {
+    char text[CALC_VALUE_TEXT];
+    size_t i = 0;
+    while (i < data->rows && f[i] >= 0)
+        i++;
+    if (i == data->rows)
+        return true;
+    calc_value_text(DIM_LENGTH, f[i], text);
+    return calc_fail(error, 0, 0,
+                     "%s:%zu: f = %s is below f(0) = 0: f is the gap and grows outward; the sign or the apex "
+                     "may be the cause",
+                     data->path, data->line[i], text);
+}
+
+/* Where the rows of a gap are none. */
+static void out_of_order(const csv *data, const double *r, calc_error *error) {
+    char text[CALC_VALUE_TEXT];
+    size_t i = 0;
+    if (data->rows == 1) {
+        calc_fail(error, 0, 0, "%s has one row: a gap needs two or more", data->path);
+        return;
+    }
+    while (i + 1 < data->rows && (i ? r[i] > r[i - 1] : r[0] == 0))
+        i++;
+    calc_value_text(DIM_LENGTH, r[i], text);
+    calc_fail(error, 0, 0,
+              "%s:%zu: r = %s is out of order: radii must start at 0 and grow (smooth takes any order)",
+              data->path, data->line[i], text);
+}
+
+static struct fret_table *table_of(const csv *data, smoothing how, smooth_answer *smoothed,
+                                   calc_error *error) {
+    struct fret_table *gap = NULL;
+    const csv_values *r, *f;
+    fret_status st;
+    if (!columns_of(data, &r, &f, error))
+        return NULL;
+    if (how.by) {
+        if (!smooth(r->v, f->v, data->rows, how, &shell_stop, smoothed, error))
+            return NULL;
+        st = fret_table_sloped(smoothed->r, smoothed->f, smoothed->slope, smoothed->pieces + 1, &shell_stop,
+                               &gap);
+    } else if (r->v[0] == 0 && f->v[0] != 0) {
+        char text[CALC_VALUE_TEXT];
+        calc_value_text(DIM_LENGTH, f->v[0], text);
+        calc_fail(error, 0, 0,
+                  "%s:%zu: f(0) = %s must be 0: the bodies touch at r = 0 before they are pressed (smooth "
+                  "takes it off)",
+                  data->path, data->line[0], text);
+        return NULL;
+    } else if (!is_open(data, f->v, error)) {
+        return NULL;
+    } else {
+        st = fret_table_make(r->v, f->v, data->rows, &shell_stop, &gap);
+        if (st.code == FRET_BAD_TABLE) {
+            out_of_order(data, r->v, error);
+            return NULL;
+        }
+    }
+    return calc_status(error, &st) ? gap : NULL;
+}
+
+/* What smoothing has changed is never silent. */
+static void report_misfit(shell *sh, const smooth_answer *a) {
+    enum { MISFITS = 4 };
+    const double v[MISFITS] = {a->rms, a->worst, a->at, a->offset};
+    char text[MISFITS][CALC_VALUE_TEXT];
+    settings brief = sh->set;
+    answer event;
+    brief.digits = 3;
+    answer_begin(&event, &sh->set, sh->out);
+    answer_event(&event, "smooth");
+    answer_number(&event, "pieces", (double)a->pieces);
+    answer_number(&event, "rms", a->rms);
+    answer_number(&event, "worst", a->worst);
+    answer_number(&event, "at", a->at);
+    answer_number(&event, "offset", a->offset);
+    answer_done(&event);
+    for (int i = 0; i < MISFITS; i++)
+        format_value(&brief, (value){v[i], DIM_LENGTH}, text[i], sizeof text[i]);
+    shell_note(sh, "smoothed, %zu piece%s: misfit %s rms, %s at worst (r = %s); f(0) = %s is taken off",
+               a->pieces, a->pieces == 1 ? "" : "s", text[0], text[1], text[2], text[3]);
+}
+
+/* Nor is what is left of many rows. */
+static void report_thinning(shell *sh, size_t rows, const struct fret_table *gap) {
+    const size_t pieces = fret_table_count(gap) - 1;
+    const double within = fret_table_within(gap);
+    answer event;
+    answer_begin(&event, &sh->set, sh->out);
+    answer_event(&event, "thin");
+    answer_number(&event, "rows", (double)rows);
+    answer_number(&event, "pieces", (double)pieces);
+    answer_number(&event, "within", within);
+    answer_done(&event);
+    shell_note(sh, "of %zu rows %zu pieces are made, within %.0e of the largest gap", rows, pieces, within);
+}
+
+static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
+    char name[FILE_NAME];
+    const heard *smoothly = said_of(s, "smooth", 0);
+    smoothing how = {.by = SMOOTH_NOT};
+    smooth_answer smoothed = {.pieces = 0};
+    csv data;
+    if (!hole_file(lx, &s->list[0].hole[0], name) ||
+        (smoothly && !read_smoothing(sh, lx, &smoothly->hole[0], &how)))
+        return false;
+    bool ok = csv_read(name, &shell_stop, &data, lx->error);
+    if (ok) {
+        struct fret_table *gap = table_of(&data, how, &smoothed, lx->error);
+        e->table = gap ? shared_table_make(gap, name, how) : NULL;
+        if (gap && !e->table)
+            calc_no_memory(lx->error);
+        ok = e->table && scene_edit(&sh->calc.scene, apply, e, lx->error); /* which takes the table over */
+    }
+    if (ok && how.by)
+        report_misfit(sh, &smoothed);
+    if (ok && fret_table_within(e->table->table) > 0)
+        report_thinning(sh, data.rows, e->table->table);
+    smooth_free(&smoothed);
+    csv_free(&data);
+    return ok || heard_place(lx->error, &s->list[0]);
+}
+
+/* 1/R = 1/R1 + 1/R2; a negative radius is a hollow. */
+static bool put_radii(lexer *lx, edit *e, const heard *R1, const heard *R2) {
+    if (!R1 || !R2)
+        return lex_fail(lx, "give both R1 and R2, or R");
+    e->radii[0] = (double)R1->v.v;
+    e->radii[1] = (double)R2->v.v;
+    const long double curvature = 1 / (long double)e->radii[0] + 1 / (long double)e->radii[1];
+    if (!(curvature > 0))
+        return calc_fail(lx->error, R1->at, lx->last - R1->at, "1/R1 + 1/R2 must be positive");
+    put(e, IN_RADIUS, 1 / curvature);
+    return true;
+}
+
+static bool put_angle(lexer *lx, edit *e, const heard *angle) {
+    if (!(angle->v.v > 0 && angle->v.v < 1.5707963267948966 /* 90 deg as a double */))
+        return calc_fail(lx->error, angle->hole[0].at, angle->hole[0].len,
+                         "angle must lie between 0 and 90 deg");
+    put(e, IN_SLOPE, sinl(angle->v.v) / cosl(angle->v.v));
+    return true;
+}
+
+static bool put_parameters(lexer *lx, const geometry *g, edit *e, said *s) {
+    const heard *angle = said_of(s, "angle", 0), *R1 = said_of(s, "R1", 0), *R2 = said_of(s, "R2", 0);
+    char usage[GRAMMAR_USAGE];
+    gather(e, s);
+    if ((angle && !put_angle(lx, e, angle)) || ((R1 || R2) && !put_radii(lx, e, R1, R2)))
+        return false;
+    grammar_usage(s->by, usage);
+    for (input in = IN_N; in < INPUTS; in++)
+        if (g->required & INPUT_BIT(in) && !has(e, in))
+            return lex_fail(lx, "a parameter is missing; usage: %s", usage);
+    if (g->allowed & INPUT_BIT(IN_A) && (has(e, IN_A) == has(e, IN_H) || has(e, IN_H) != has(e, IN_R0)))
+        return lex_fail(lx, "give either A or both h and r0; usage: %s", usage);
+    return true;
+}
+
+/* The name of a geometry under the cursor. */
+static const geometry *read_shape(lexer *lx) {
+    const size_t begin = lx->at, len = choice_at(lx);
+    const geometry *g = geometry_find(lx->text + begin, len);
+    char word[LEX_NAME];
+    if (g) {
+        lex_seek(lx, begin + len);
+        return g;
+    }
+    snprintf(word, sizeof word, "%.*s", LEX_SHOWN(len), lx->text + begin);
+    if (!len) {
+        lex_fail(lx, "which geometry? try: help geometry");
+        return NULL;
+    }
+    const char *lead = lead_from(word), *near = lead ? lead : suggest(word, geometry_name);
+    calc_fail(lx->error, begin, len,
+              lead   ? "unknown geometry '%s': %s"
+              : near ? "unknown geometry '%s': did you mean %s?"
+                     : "unknown geometry '%s'; try: help geometry",
+              word, near);
+    return NULL;
+}
+
+bool do_geometry(shell *sh, lexer *lx, const command *self) {
+    const geometry *g = read_shape(lx);
+    edit e = {.geometry = g};
+    fret_gap sum;
+    said s;
+    (void)self;
+    if (!g)
+        return false;
+    if (!said_read(sh, lx, shape_form(g), &s))
+        return false;
+    if (g->by == PARAMETERS_FILE)
+        return read_gap_file(sh, lx, &s, &e);
+    e.sum = g->by == PARAMETERS_TERMS ? &sum : NULL;
+    const bool ok = (e.sum ? read_sum(sh, lx, &s.list[0].hole[0], &sum) : put_parameters(lx, g, &e, &s)) &&
+                    scene_edit(&sh->calc.scene, apply, &e, lx->error);
+    said_drop(sh, &s);
+    return ok;
+}

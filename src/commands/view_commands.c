@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands that show what follows from the scene as a table, and leave it as it is. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands/expressions.h"
+#include "commands/map.h"
+#include "statement/answer.h"
+#include "statement/progress.h"
+#include "statement/target.h"
+
+/* ---- history ----------------------------------------------------------------------------------- */
+
+static const char *const history_names[] = {"FN", "dz", "Fx", "dx", "W"};
+enum { HISTORY = sizeof history_names / sizeof *history_names };
+
+static bool history_row(const runner *r, void *context) {
+    sight now;
+    run_sight(r, &now);
+    const fret_state *s = &now.state;
+    answer_row(context, (const long double[HISTORY]){s->FN, s->dz, s->Fx, s->dx, s->W});
+    return true;
+}
+
+bool do_history(shell *sh, lexer *lx, const command *self) {
+    const fret_contact *contact;
+    column columns[HISTORY] = {{.name = NULL}};
+    watch w = watch_points(1);
+    target to;
+    said all;
+    if (!scene_history(&sh->calc.scene, &contact, lx->error) ||
+        !said_read(sh, lx, command_form(self), &all) || !target_open(sh, lx, &all, &to))
+        return false;
+    answer a;
+    answer_begin_as(&a, &sh->set, to.to, to.format);
+    bool ok = true;
+    for (size_t i = 0; i < HISTORY; i++)
+        ok = ok && column_si(&columns[i], history_names[i],
+                             quantity_find(history_names[i], strlen(history_names[i]))->d);
+    ok = ok && answer_columns(&a, self->name, columns, HISTORY);
+    if (ok) {
+        w.limit = true;
+        w.see = history_row;
+        w.context = &a;
+        ok = scene_trace(&sh->calc.scene, &w, lx->error);
+        answer_end(&a, ok);
+    } else {
+        calc_no_memory(lx->error);
+    }
+    columns_free(columns, HISTORY);
+    return target_close(sh, lx, &to, ok);
+}
+
+/* ---- table ------------------------------------------------------------------------------------- */
+
+typedef struct table_job {
+    answer a;
+    column columns[COLUMNS]; /* the sweep's own, then those of the expressions */
+    size_t first;            /* of the expressions */
+    size_t count;
+    dim d[COLUMNS];
+    bool known[COLUMNS];
+    const char *units[COLUMNS];
+    size_t curve;
+    long double second; /* the value of the second name of a grid, in the last row */
+    bool begun, blocks;
+    const char *name; /* where it goes, for messages */
+    bool screen;      /* rows that go there are progress enough */
+    size_t rows;
+    calc_error *error;
+} table_job;
+
+static void begin_columns(table_job *job) {
+    for (size_t i = 0; i < job->count; i++) {
+        column *c = &job->columns[job->first + i];
+        c->d = job->known[i] ? job->d[i] : DIM_NONE;
+        if (!c->chosen)
+            dim_unit(c->d, c->unit, sizeof c->unit);
+    }
+}
+
+static bool begin(table_job *job) {
+    begin_columns(job);
+    if (!columns_distinct(job->columns, job->first + job->count))
+        return calc_no_memory(job->error);
+    job->begun = answer_columns(&job->a, "table", job->columns, job->first + job->count);
+    return job->begun || calc_no_memory(job->error);
+}
+
+static bool give_row(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
+    table_job *job = context;
+    long double row[COLUMNS];
+    const bool first = !job->begun;
+    if (first && !begin(job))
+        return false;
+    if (job->blocks && !first &&
+        (curve != job->curve || (s->curves && islessgreater(s->value[curve], job->second))))
+        answer_gap(&job->a);
+    job->curve = curve;
+    job->second = s->curves ? s->value[curve] : 0;
+    row[0] = x;
+    if (s->curves)
+        row[1] = s->value[curve];
+    memcpy(row + job->first, values, job->count * sizeof *row);
+    const size_t curves = s->curves ? s->curves : 1;
+    job->rows++;
+    if (job->screen && answer_shows_next(&job->a))
+        progress_wipe();
+    else
+        progress_part((double)job->rows / (double)(curves * (s->steps + 1)));
+    answer_row(&job->a, row);
+    /* a reader that has gone, or a full disk: no use in going on */
+    return !ferror(job->a.to) ||
+           calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
+}
+
+/* A dimension that the user asked for must come out. */
+static void wanted(table_job *job) {
+    for (size_t i = 0; i < job->count; i++) {
+        job->known[i] = job->columns[job->first + i].chosen;
+        job->d[i] = job->columns[job->first + i].d;
+        job->units[i] = job->known[i] ? job->columns[job->first + i].unit : NULL;
+    }
+}
+
+/* second: the other name of a grid, or of the curves; NULL: there is none */
+static bool own_columns(table_job *job, const sweep *s, const knob *second) {
+    const char *name = s->along ? "time" : s->var.text;
+    column *own = job->columns;
+    return column_si(&own[0], name, s->along ? DIM_NONE : s->var.d) &&
+           (!second || column_si(&own[1], second->text, second->d));
+}
+
+/* ---- a grid as text: a matrix of each expression ----------------------------------------------- */
+
+typedef struct matrix {
+    const grid *g;
+    size_t count, at;   /* expressions; rows so far */
+    long double *value; /* of all expressions, as they come */
+    long double *a, *b;
+} matrix;
+
+static bool keep_row(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
+    matrix *m = context;
+    const size_t rows = m->g->a.steps + 1;
+    (void)curve;
+    m->a[m->at % rows] = x;
+    m->b[m->at / rows] = s->value[0];
+    memcpy(m->value + m->at++ * m->count, values, m->count * sizeof *values);
+    return true;
+}
+
+/* One expression: the first name downward, the second across. */
+static bool print_matrix(shell *sh, FILE *to, const matrix *m, size_t i, column *c) {
+    const size_t rows = m->g->a.steps + 1, across = m->g->b.steps + 1;
+    column columns[COLUMNS] = {{.name = NULL}};
+    char head[200], number[120];
+    bool ok = column_si(&columns[0], m->g->a.var.text, m->g->a.var.d);
+    column_suit(c, m->value + i, rows * across, m->count, sh->set.digits);
+    for (size_t j = 0; ok && j < across; j++) {
+        format_value(&sh->set, (value){m->b[j], m->g->b.var.d}, number, sizeof number);
+        snprintf(head, sizeof head, "%s = %s", m->g->b.var.text, number);
+        ok = column_si(&columns[j + 1], head, DIM_NONE);
+        columns[j + 1].scale = c->scale;
+        columns[j + 1].chosen = true; /* the heading tells the unit */
+    }
+    answer a;
+    answer_begin_as(&a, &sh->set, to, FORMAT_TEXT);
+    ok = ok && answer_columns(&a, "table", columns, across + 1);
+    if (ok) {
+        fprintf(to, *c->unit ? "%s%s [%s]\n" : "%s%s\n", i ? "\n" : "", c->name, c->unit);
+        for (size_t r = 0; r < rows; r++) {
+            long double row[COLUMNS] = {m->a[r]};
+            for (size_t j = 0; j < across; j++)
+                row[j + 1] = m->value[(j * rows + r) * m->count + i];
+            answer_row(&a, row);
+        }
+        answer_end(&a, true);
+    }
+    columns_free(columns, across + 1);
+    return ok;
+}
+
+static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *sweeping) {
+    const size_t rows = g->a.steps + 1, across = g->b.steps + 1;
+    if (across > COLUMNS - 1)
+        return calc_fail(sweeping->error, 0, 0,
+                         "a matrix as text has at most %d columns: use fewer steps, or a file", COLUMNS - 1);
+    matrix m = {.g = g, .count = job->count};
+    m.value = calloc(rows * across, job->count * sizeof *m.value);
+    m.a = calloc(rows, sizeof *m.a);
+    m.b = calloc(across, sizeof *m.b);
+    bool ok = (m.value && m.a && m.b) || calc_no_memory(sweeping->error);
+    sweeping->row = keep_row;
+    sweeping->context = &m;
+    ok = ok && grid_run(g, sweeping);
+    if (ok)
+        begin_columns(job);
+    for (size_t i = 0; ok && i < job->count; i++)
+        ok = print_matrix(sh, job->a.to, &m, i, &job->columns[job->first + i]) ||
+             calc_no_memory(sweeping->error);
+    free(m.value);
+    free(m.a);
+    free(m.b);
+    return ok;
+}
+
+/* ---- the command ------------------------------------------------------------------------------- */
+
+/* g: of two names, or NULL. */
+static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const grid *g, column *columns,
+                      size_t count) {
+    table_job *job = calloc(1, sizeof *job);
+    target to;
+    if (!job)
+        return calc_no_memory(lx->error);
+    if (!target_open(sh, lx, all, &to)) {
+        free(job);
+        return false;
+    }
+    const knob *second = g ? &g->b.var : s->curves ? &s->with : NULL;
+    job->first = 1 + (second != NULL);
+    job->count = count;
+    job->blocks = to.blocks;
+    job->name = to.file.to ? to.file.name : "to standard output";
+    job->error = lx->error;
+    memcpy(job->columns + job->first, columns, count * sizeof *columns); /* with their names */
+    for (size_t i = 0; i < count; i++)
+        columns[i].name = NULL;
+    answer_begin_as(&job->a, &sh->set, to.to, to.format);
+    wanted(job);
+    sweep_job sweeping = {.c = &sh->calc,
+                          .expressions = sh->list,
+                          .count = count,
+                          .d = job->d,
+                          .known = job->known,
+                          .units = job->units,
+                          .row = give_row,
+                          .context = job,
+                          .error = lx->error};
+    job->screen = to.to == sh->out && shell_on_terminal(sh);
+    bool ok = own_columns(job, s, second) || calc_no_memory(lx->error);
+    const bool square = g && to.format == FORMAT_TEXT && !to.blocks;
+    ok = ok && (square ? run_matrix(sh, job, g, &sweeping)
+                : g    ? grid_run(g, &sweeping)
+                       : sweep_run(s, &sweeping));
+    progress_wipe();
+    if (job->begun)
+        answer_end(&job->a, sweeping.values > 0);
+    if (ok)
+        note_missing(sh, &sweeping);
+    columns_free(job->columns, job->first + count);
+    free(job);
+    return target_close(sh, lx, &to, ok);
+}
+
+bool do_table(shell *sh, lexer *lx, const command *self) {
+    enum { ROWS = 20, ACROSS = 5 };
+    column columns[COLUMNS - 2];
+    size_t count = 0;
+    range r;
+    grid_range two;
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all))
+        return false;
+    const span *first = &all.list[0].hole[0];
+    bool ok = said_of(&all, "for", 0) || said_of(&all, "along", 0) ||
+              calc_fail(lx->error, first->at, first->len,
+                        "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N");
+    ok = ok && read_expressions_in(sh, lx, first, columns, COLUMNS - 2, &count);
+    if (ok && said_of(&all, "for", 1))
+        ok = grid_range_read(sh, lx, &all, &two, ROWS, ACROSS) &&
+             run_table(sh, lx, &all, &two.grid.a, &two.grid, columns, count);
+    else
+        ok = ok && range_read(sh, lx, &all, 0, &r, ROWS) &&
+             run_table(sh, lx, &all, &r.sweep, NULL, columns, count);
+    columns_free(columns, count);
+    said_drop(sh, &all);
+    return ok;
+}

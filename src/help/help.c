@@ -1,0 +1,535 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* help and apropos: one table of all that has help. Changes nothing. */
+#include "help/help.h"
+
+#include <string.h>
+
+#include "commands/figures.h"
+#include "commands/presets.h"
+#include "help/topics.h"
+#include "statement/command.h"
+#include "statement/text.h"
+#include "text/lines.h"
+
+enum { LINE_LABEL = 64, HELP_TEXT = 1024 };
+
+/* A row of any table, for lists and searches: "geometry sphere  a sphere ...". */
+typedef struct entry {
+    const char *command;         /* that takes the name, or NULL */
+    const char *name, *argument; /* NULL: none */
+    const char *kind;            /* before its summary, or NULL */
+    char numbers[LINE_LABEL];    /* the summary, where there is no other */
+    const char *summary;
+    const char *keywords, *text; /* searched too; text only where nothing else is found; or NULL */
+} entry;
+
+/* ---- quantities -------------------------------------------------------------------------------- */
+
+static entry quantity_entry(size_t i) {
+    const quantity *q = quantity_row(i);
+    return (entry){.name = q->name,
+                   .argument = quantity_has_value(q) ? NULL : q->argument,
+                   .summary = q->title,
+                   .keywords = q->keywords,
+                   .text = q->formulas[0].text};
+}
+
+/* When the formula is used, in words; empty: whatever the scene is. */
+static void when_text(const formula *f, bool others, char *buf, size_t size) {
+    static const struct {
+        unsigned when;
+        const char *text;
+    } words[] = {{WHEN_CALL, "as a function"},     {WHEN_FIRST, "on first loading"},
+                 {WHEN_LATER, "after a reversal"}, {WHEN_HISTORY, "where FN changed"},
+                 {WHEN_POWER, "power-law gap"},    {WHEN_SHAPE, "other gaps"}};
+    *buf = 0;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (f->when & words[i].when) {
+            const size_t n = strlen(buf);
+            snprintf(buf + n, size - n, "%s%s", n ? ", " : "", words[i].text);
+        }
+    if (f->when == WHEN_ALWAYS && others)
+        snprintf(buf, size, "else");
+}
+
+/* Is the formula that of an earlier row, too? */
+static bool is_repeated(const quantity *q, size_t row) {
+    for (size_t i = 0; i < row; i++)
+        if (!strcmp(q->formulas[i].text, q->formulas[row].text))
+            return true;
+    return false;
+}
+
+/* Does it hold whatever the scene is: where its row says so, and elsewhere? */
+static bool holds_else(const quantity *q, size_t row) {
+    for (size_t i = row + 1; i < FORMULAS && q->formulas[i].text; i++)
+        if (q->formulas[i].when == WHEN_ALWAYS && !strcmp(q->formulas[i].text, q->formulas[row].text))
+            return true;
+    return false;
+}
+
+/* What values it takes, where they have a unit. */
+static void dim_line(FILE *to, const char *what, dim d) {
+    char unit_text[128], described[128];
+    if (dim_equal(d, DIM_NONE)) {
+        if (d.rad != 0)
+            fprintf(to, "    %san angle, in deg or rad\n", what);
+        return;
+    }
+    dim_unit(d, unit_text, sizeof unit_text);
+    dim_describe(d, described, sizeof described);
+    fprintf(to, "    %s%s, in %s\n", what, described, unit_text);
+}
+
+static void quantity_help(FILE *to, size_t row) {
+    const quantity *q = quantity_row(row);
+    char text[HELP_TEXT], when[128];
+    fprintf(to, "%s: %s\n", q->name, q->title);
+    for (size_t i = 0; i < FORMULAS && q->formulas[i].text; i++) {
+        const formula *f = &q->formulas[i];
+        if (is_repeated(q, i))
+            continue;
+        when_text(f, i > 0, when, sizeof when);
+        if (holds_else(q, i))
+            *when = 0;
+        snprintf(text, sizeof text, "%s%s%s%s%s%s", f->text, f->equation ? "  " : "",
+                 f->equation ? f->equation : "", *when ? "  [" : "", when, *when ? "]" : "");
+        fputs("    ", to);
+        help_wrapped(to, text, 4, 8);
+    }
+    dim_line(to, "", quantity_is_input(q) && quantity_input(q) == IN_A ? DIM_NONE : q->d);
+    if (quantity_is_input(q))
+        fprintf(to, "    an input: %s = EXPR sets it, %s := EXPR binds it\n", q->name, q->name);
+    if (!q->call)
+        return;
+    fprintf(to, "    as a function: %s(%s)\n", q->name, q->argument);
+    snprintf(when, sizeof when, "%s is ", q->argument);
+    dim_line(to, when, q->argument_d);
+    if (!dim_equal(q->argument_or, DIM_NONE))
+        dim_line(to, "or ", q->argument_or);
+}
+
+/* ---- commands, settings, models ---------------------------------------------------------------- */
+
+static entry command_entry(size_t i) {
+    const command *c = command_row(i);
+    return (entry){.name = c->name, .summary = c->summary, .keywords = c->keywords, .text = c->help};
+}
+
+/* Ends with the example: the command's own text, else what its table prints. */
+static void command_help(FILE *to, size_t i) {
+    const command *c = command_row(i);
+    const hole_row *row;
+    char usage[GRAMMAR_USAGE], text[GRAMMAR_USAGE];
+    command_usage(c, usage);
+    help_wrapped(to, usage, 0, 6);
+    for (size_t h = 0; (row = hole_at(h)); h++) {
+        if (row->kind != HOLE_CLAUSES || !strstr(c->takes, row->name))
+            continue;
+        const int n = snprintf(text, sizeof text, "%s: ", row->name);
+        takes_text(row->clauses, text + n, sizeof text - (size_t)n);
+        fputs("      ", to);
+        help_wrapped(to, text, 6, 8);
+    }
+    fprintf(to, "  %s\n", c->summary);
+    if (c->print) {
+        putc('\n', to);
+        c->print(to);
+    }
+    if (c->help)
+        fprintf(to, "\n%s", c->help);
+}
+
+static entry setting_entry(size_t i) {
+    const setting *row = setting_row(i);
+    return (entry){.command = "set ", .name = row->name, .summary = row->summary, .keywords = row->usage};
+}
+
+static void setting_help(FILE *to, size_t i) {
+    const setting *row = setting_row(i);
+    fprintf(to, "set %s %s\n  ", row->name, row->usage);
+    help_wrapped(to, row->summary, 2, 2);
+    fprintf(to, "\n%s", row->example);
+}
+
+static const char *model_name(size_t i) {
+    return i < MODELS ? models[i].name : NULL;
+}
+
+static entry model_entry(size_t i) {
+    return (entry){.command = models[i].chosen ? "set model " : NULL,
+                   .name = models[i].name,
+                   .kind = "a model: ",
+                   .summary = models[i].title,
+                   .text = model_text(i)};
+}
+
+static void model_help(FILE *to, size_t i) {
+    if (models[i].chosen)
+        fprintf(to, "set model %s%s\n  answers by: %s\n\n", models[i].name, models[i].count ? " N" : "",
+                models[i].title);
+    else
+        fprintf(to, "%s\n\n", models[i].title);
+    fputs(model_text(i), to);
+}
+
+/* ---- geometries, materials, units, functions --------------------------------------------------- */
+
+static entry geometry_entry(size_t i) {
+    const geometry *g = geometry_row(i);
+    return (entry){.command = "geometry ", .name = g->name, .summary = g->meaning, .keywords = g->keywords};
+}
+
+static void geometry_help(FILE *to, size_t i) {
+    const geometry *g = geometry_row(i);
+    char usage[GRAMMAR_USAGE];
+    grammar_usage(shape_form(g), usage);
+    fprintf(to, "%s\n  %s\n", usage, g->meaning);
+    for (input in = IN_N; in < INPUTS; in++)
+        if (g->allowed & INPUT_BIT(in))
+            fprintf(to, "    %-10s  %s\n", quantity_of_input(in)->name, quantity_of_input(in)->title);
+    fprintf(to, "\n%s", g->example);
+}
+
+static entry preset_entry(size_t i) {
+    const preset *p = preset_row(i);
+    entry e = {.command = "material ", .name = p->name, .keywords = p->source};
+    snprintf(e.numbers, sizeof e.numbers, "E0=%.10g GPa nu=%.10g", p->E0 / 1e9, p->nu);
+    return e;
+}
+
+static void preset_help(FILE *to, size_t i) {
+    const entry e = preset_entry(i);
+    fprintf(to, "%s%s\n  %s\n  ", e.command, e.name, e.numbers);
+    help_wrapped(to, e.keywords, 2, 2);
+}
+
+static entry figure_entry(size_t i) {
+    const figure *f = figure_row(i);
+    return (entry){.command = "plot ", .name = f->name, .summary = f->title, .keywords = f->summary};
+}
+
+static void figure_help(FILE *to, size_t i) {
+    const figure *f = figure_row(i);
+    char text[HELP_TEXT];
+    fprintf(to, "plot %s [looks] [to FILE]\n  %s\n  ", f->name, f->title);
+    help_wrapped(to, f->summary, 2, 2);
+    if (f->statement) {
+        snprintf(text, sizeof text, "as: plot %s", f->statement);
+        fputs("  ", to);
+        help_wrapped(to, text, 2, 6);
+    }
+}
+
+static entry unit_entry(size_t i) {
+    return (entry){.name = unit_name(i), .kind = "a unit: ", .summary = unit_meaning(i), .keywords = "unit"};
+}
+
+/* With a prefix too. */
+static void unit_help(FILE *to, const char *word, const unit *u) {
+    char si[128], described[128];
+    dim_unit(u->d, si, sizeof si);
+    if (u->d.rad != 0)
+        snprintf(si, sizeof si, "rad");
+    dim_describe(u->d, described, sizeof described);
+    fprintf(to, "%s: %s; 1 %s = %.10Lg%s%s\n", word, u->d.rad != 0 ? "an angle" : described, word,
+            unit_scale(u), *si ? " " : "", si);
+}
+
+static entry builtin_entry(size_t i) {
+    return (entry){.name = builtin_name(i), .summary = builtin_summary(i), .keywords = "function"};
+}
+
+static void builtin_help(FILE *to, size_t i) {
+    fprintf(to, "%s: %s\n", builtin_name(i), builtin_summary(i));
+}
+
+static entry lead_entry(size_t i) {
+    return (entry){.name = lead_name(i), .summary = lead_text(i)};
+}
+
+static void lead_help(FILE *to, size_t i) {
+    fprintf(to, "%s: %s\n", lead_name(i), lead_text(i));
+}
+
+static entry topic_entry(size_t i) {
+    const topic *t = topic_row(i);
+    return (entry){
+        .command = "help ", .name = t->name, .summary = t->summary, .keywords = t->keywords, .text = t->text};
+}
+
+static void topic_help(FILE *to, size_t i) {
+    const topic *t = topic_row(i);
+    if (t->text)
+        fputs(t->text, to);
+    if (t->print)
+        t->print(to);
+    fprintf(to, "\n%s", t->example);
+}
+
+/* ---- the table --------------------------------------------------------------------------------- */
+
+typedef struct subject {
+    const char *(*name)(size_t i); /* ended by NULL */
+    entry (*entry)(size_t i);
+    void (*help)(FILE *to, size_t i); /* NULL: by its word, see help_on */
+} subject;
+
+/* clang-format off */
+static const subject subjects[] = {
+    {command_name, command_entry, command_help},
+    {topic_name, topic_entry, topic_help},
+    {setting_name, setting_entry, setting_help},
+    {model_name, model_entry, model_help},
+    {geometry_name, geometry_entry, geometry_help},
+    {preset_name, preset_entry, preset_help},
+    {quantity_name, quantity_entry, quantity_help},
+    {builtin_name, builtin_entry, builtin_help},
+    {figure_name, figure_entry, figure_help},
+    {lead_name, lead_entry, lead_help},
+    {unit_name, unit_entry, NULL},
+};
+/* clang-format on */
+enum { SUBJECTS = sizeof subjects / sizeof *subjects };
+
+const char *help_name(size_t i) {
+    const char *name = NULL;
+    for (size_t s = 0; s < SUBJECTS; s++)
+        for (size_t row = 0; (name = subjects[s].name(row)); row++)
+            if (i-- == 0)
+                return name;
+    return NULL;
+}
+
+void help_settings(FILE *to) {
+    const setting *row;
+    for (size_t i = 0; (row = setting_row(i)); i++) {
+        fprintf(to, "    set %s %s\n        ", row->name, row->usage);
+        help_wrapped(to, row->summary, 8, 8);
+    }
+}
+
+/* ---- help -------------------------------------------------------------------------------------- */
+
+/* The commands of a group on one line, broken where it is full. */
+static void group_line(FILE *to, const char *group) {
+    enum { GROUP = 18 };
+    char names[HELP_TEXT] = "";
+    const command *c;
+    for (size_t i = 0; (c = command_row(i)); i++)
+        if (!strcmp(c->group, group)) {
+            const size_t n = strlen(names);
+            snprintf(names + n, sizeof names - n, "%s%s", n ? " " : "", c->name);
+        }
+    fprintf(to, "    %-*s", GROUP - 4, group);
+    help_wrapped(to, names, GROUP, GROUP);
+}
+
+static bool group_seen(size_t row, const char *group) {
+    for (size_t i = 0; i < row; i++)
+        if (!strcmp(command_row(i)->group, group))
+            return true;
+    return false;
+}
+
+/* On one screen of 80 by 24. */
+static void overview(FILE *to) {
+    const command *c;
+    char names[HELP_TEXT] = "";
+    fputs("fret: partial-slip contact of power-law graded elastic solids.\n\n"
+          "    NAME = EXPR, ...        set inputs (k = 0.5) or variables of your own\n"
+          "    NAME := EXPR            a live definition, followed wherever NAME is used\n"
+          "    EXPR [in UNIT], ...     print values: a, c/a, dW in uJ, dW at k=0\n\n"
+          "Commands (help COMMAND tells more):\n",
+          to);
+    for (size_t i = 0; (c = command_row(i)); i++)
+        if (!group_seen(i, c->group))
+            group_line(to, c->group);
+    for (size_t i = 0; topic_name(i); i++) {
+        const size_t n = strlen(names);
+        snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "Topics: ", topic_name(i));
+    }
+    help_wrapped(to, names, 0, 8);
+    fputs("help NAME tells of any quantity, unit, geometry, setting or model, such as\n"
+          "`help dW`; apropos WORD finds them by what they are about.\n\n"
+          "Begin with `demo`, or:\n"
+          "    material steel; geometry sphere R=10 mm; friction 0.4\n"
+          "    press FN=100 N; cycle FA=20 N; dW\n",
+          to);
+}
+
+/* A word need not be made of tokens: flat-rounded, %. */
+static void raw_word(lexer *lx, char word[LEX_NAME]) {
+    size_t n = 0;
+    while (lx->at + n < lx->end && !strchr(" \t\r\n", lx->text[lx->at + n]))
+        n++;
+    lx->error->raised = false;
+    lx->len = n;
+    snprintf(word, LEX_NAME, "%.*s", LEX_SHOWN(n), lx->text + lx->at);
+    if (n >= LEX_NAME)
+        *word = 0; /* no name is as long */
+}
+
+/* All that have this name; how many. */
+static size_t help_on(FILE *to, const char *word) {
+    size_t count = 0;
+    const char *name;
+    unit u;
+    for (size_t s = 0; s < SUBJECTS; s++)
+        for (size_t i = 0; subjects[s].help && (name = subjects[s].name(i)); i++)
+            if (!strcmp(name, word)) {
+                if (to && count > 0)
+                    putc('\n', to);
+                if (to)
+                    subjects[s].help(to, i);
+                count++;
+            }
+    if (*word && unit_lookup(word, strlen(word), &u)) { /* a name of nothing else */
+        if (to)
+            unit_help(to, word, &u);
+        count++;
+    }
+    return count;
+}
+
+/* ---- by what it is about ------------------------------------------------------------------------ */
+
+static bool contains(const char *text, const char *word) {
+    const size_t n = strlen(word);
+    for (; text && *text; text++) {
+        size_t i = 0;
+        while (i < n && text[i] && (text[i] | 0x20) == (word[i] | 0x20))
+            i++;
+        if (i == n)
+            return true;
+    }
+    return false;
+}
+
+static bool is_about(const entry *e, const char *word, bool deep) {
+    return contains(e->name, word) || contains(e->kind, word) || contains(e->numbers, word) ||
+           contains(e->summary, word) || contains(e->keywords, word) || (deep && contains(e->text, word));
+}
+
+/* About each of the words, ended by an empty one. */
+static bool is_about_all(const entry *e, char (*words)[LEX_NAME], bool deep) {
+    while (**words && is_about(e, *words, deep))
+        words++;
+    return !**words;
+}
+
+/* One line each; deep: by their texts too. */
+static size_t list_about(FILE *to, char (*words)[LEX_NAME], bool deep) {
+    enum { LABELS = 10 };
+    size_t count = 0;
+    for (size_t s = 0; s < SUBJECTS; s++)
+        for (size_t i = 0; subjects[s].name(i); i++) {
+            const entry e = subjects[s].entry(i);
+            char label[LINE_LABEL];
+            if (!is_about_all(&e, words, deep))
+                continue;
+            snprintf(label, sizeof label, "%s%s%s%s%s", e.command ? e.command : "", e.name,
+                     e.argument ? "(" : "", e.argument ? e.argument : "", e.argument ? ")" : "");
+            if (to)
+                fprintf(to, "%-*s  %s%s\n", LABELS, label, e.kind ? e.kind : "",
+                        e.summary ? e.summary : e.numbers);
+            count++;
+        }
+    return count;
+}
+
+const char *help_where(const char *word) {
+    enum { LEAST = 3 }; /* letters: less are in every text */
+    char words[2][LEX_NAME] = {"", ""};
+    snprintf(words[0], LEX_NAME, "%s", word);
+    if (!figure_find(word, strlen(word)) && help_on(NULL, word)) /* who looks for a figure types `plot` */
+        return "help";
+    return strlen(word) >= LEAST && list_about(NULL, words, false) ? "apropos" : NULL;
+}
+
+/* ---- the commands ------------------------------------------------------------------------------- */
+
+/* The help that tells of a word within statements, or NULL. */
+static const char *told_in(const char *word) {
+    static const char *const words[][2] = {
+        {"at", "expressions"}, {"in", "expressions"}, {"ans", "expressions"},
+        {"along", "plot"},     {"map", "plot"},       {"to", "files"},
+        {"smooth", "files"},   {"rigid", "second"},   {"same", "second"}};
+    const command *c;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (!strcmp(word, words[i][0]))
+            return words[i][1];
+    for (size_t i = 0; *word && (c = command_row(i)); i++) {
+        const clause *a = grammar_clause(command_form(c), word);
+        if (a && !a->argument)
+            return c->name;
+    }
+    return NULL;
+}
+
+static bool no_help(lexer *lx, const char *word) {
+    if (told_in(word))
+        return lex_fail(lx, "no help on '%s' alone; try: help %s", word, told_in(word));
+    const char *near = *word ? suggest(word, help_name) : NULL;
+    const bool about = help_where(word) != NULL;
+    if (near)
+        return lex_fail(lx, "no help on '%s': did you mean %s?%s%s", word, near,
+                        about ? " Try also: apropos " : "", about ? word : "");
+    return lex_fail(lx, "no help on '%.*s'; try: %s%s", LEX_WORD(lx), about ? "apropos " : "help",
+                    about ? word : "");
+}
+
+bool do_help(shell *sh, lexer *lx, const command *self) {
+    char word[LEX_NAME] = "";
+    text_out t;
+    (void)self;
+    if (lx->kind != T_END) {
+        raw_word(lx, word);
+        if (command_find(word, strlen(word)) &&
+            lex_peek(lx) != T_END) { /* geometry cone, set model, material steel */
+            lex_next(lx);
+            raw_word(lx, word);
+        }
+        if (!help_on(NULL, word) && strpbrk(word, "(=")) { /* p(r) of a list, FN=100 N of a statement */
+            word[strcspn(word, "(=")] = 0;
+            lx->len = lx->end - lx->at;
+        }
+        if (!help_on(NULL, word))
+            return no_help(lx, word);
+        lex_next(lx);
+        if (!at_end(lx))
+            return false;
+    }
+    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
+        return calc_no_memory(lx->error);
+    if (*word)
+        help_on(t.to, word);
+    else
+        overview(t.to);
+    return text_end(&t, true) || calc_no_memory(lx->error);
+}
+
+bool do_apropos(shell *sh, lexer *lx, const command *self) {
+    enum { SOUGHT = 8 };
+    char words[SOUGHT + 1][LEX_NAME] = {""};
+    size_t count = 0, len = 0;
+    bool known = true; /* no word is longer than any name */
+    text_out t;
+    (void)self;
+    if (lx->kind == T_END)
+        return lex_fail(lx, "apropos what? such as: apropos radius");
+    const char *text = lx->text + lx->at;
+    for (; lx->kind != T_END && count < SOUGHT; count++) {
+        raw_word(lx, words[count]);
+        known = known && *words[count];
+        len = (size_t)(lx->text + lx->at + lx->len - text);
+        lex_next(lx);
+    }
+    if (!at_end(lx))
+        return false;
+    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
+        return calc_no_memory(lx->error);
+    if (!known || (!list_about(t.to, words, false) && !list_about(t.to, words, true)))
+        fprintf(t.to, "nothing on '%.*s'%s\n", LEX_SHOWN(len), text, count > 1 ? "; try one word" : "");
+    return text_end(&t, true) || calc_no_memory(lx->error);
+}

@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Topics of help: one row each. Touches nothing. */
+#include "help/topics.h"
+
+#include <string.h>
+
+#include "language/expr.h"
+#include "text/lines.h"
+
+/* ---- from tables ------------------------------------------------------------------------------- */
+
+void help_units(FILE *to) {
+    fputs("After a number, with or without a space (210 GPa, 0.3N/mm^2), and after `in`.\n"
+          "Those marked * take the prefixes n u \xc2\xb5 m k M G; c goes with m alone.\n",
+          to);
+    for (size_t i = 0; unit_name(i); i++)
+        fprintf(to, "    %-5s%c  %s\n", unit_name(i), unit_prefixed(i) ? '*' : ' ', unit_meaning(i));
+}
+
+static void functions(FILE *to) {
+    for (size_t i = 0; builtin_name(i); i++)
+        fprintf(to, "    %-10s  %s\n", builtin_name(i), builtin_summary(i));
+}
+
+static void quantity_line(FILE *to, const quantity *q, bool call) {
+    char name[LEX_NAME];
+    snprintf(name, sizeof name, call ? "%s(%s)" : "%s", q->name, q->argument);
+    fprintf(to, "    %-10s  ", name);
+    help_wrapped(to, q->title, 16, 16);
+}
+
+static void quantities(FILE *to) {
+    const quantity *q;
+    fputs("Inputs (NAME = EXPR sets them, NAME := EXPR binds them):\n", to);
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        if (quantity_is_input(q))
+            quantity_line(to, q, false);
+    fputs("Results:\n", to);
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        if (!quantity_is_input(q) && quantity_has_value(q))
+            quantity_line(to, q, false);
+    fputs("Functions of the scene:\n", to);
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        if (q->call)
+            quantity_line(to, q, true);
+}
+
+/* ---- the paper --------------------------------------------------------------------------------- */
+
+/* Its equations in order, with what no formula of a quantity says. */
+static const struct {
+    const char *number, *text;
+} equations[] = {
+    {"(1)", NULL},
+    {"(2)", "no quantity is computed by it"},
+    {"(3)", "g(x) from f(r), an Abel transform; fields by its inverse"},
+    {"(4)", NULL},
+    {"(5)", NULL},
+    {"(6)", NULL},
+    {"(7)", NULL},
+    {"(8)", NULL},
+    {"(9)", NULL},
+    {"(10)", NULL},
+    {"(11)", NULL},
+    {"(12)", NULL},
+    {"(13)", NULL},
+    {"(14)", NULL},
+    {"(15)", NULL},
+    {"(16)", NULL},
+    {"(17)", NULL},
+    {"(18)", NULL},
+    {"(19)", "which springs stick in a step: step, cycle, follow"},
+    {"(20)", NULL},
+    {"(21)", "the area of the hysteresis loop: plot loop, and W over a cycle"},
+    {"(22)", NULL},
+    {"(23)", NULL},
+    {"(24)", "no quantity is computed by it"},
+    {"(25)", "the energy dissipated per cycle; agrees with (21), (22), (26) and (27)"},
+    {"(26)", NULL},
+    {"(27)", NULL},
+    {"(28)", "(27) for a sphere and k = 0, by Mindlin and Deresiewicz: dW there"},
+    {"(A1)", NULL},
+    {"(A2)", NULL},
+    {"(A3)", NULL},
+};
+enum { EQUATIONS = sizeof equations / sizeof *equations };
+
+static bool quotes(const quantity *q, const char *number) {
+    for (size_t j = 0; j < FORMULAS && q->formulas[j].text; j++)
+        if (q->formulas[j].equation && strstr(q->formulas[j].equation, number))
+            return true;
+    return false;
+}
+
+/* The first formula of a result with this number alone, else the first that mentions it. */
+static const char *formula_of(const char *number) {
+    const quantity *q;
+    const char *mentions = NULL;
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        for (size_t j = 0; j < FORMULAS && q->formulas[j].text; j++) {
+            const formula *f = &q->formulas[j];
+            if (f->equation && q->of != OF_INPUT && !strcmp(f->equation, number))
+                return f->text;
+            if (f->equation && !mentions && strstr(f->equation, number))
+                mentions = f->text;
+        }
+    return mentions;
+}
+
+static void equation(FILE *to, const char *number, const char *text) {
+    char names[512] = "";
+    const quantity *q;
+    fprintf(to, "%-5s ", number);
+    if (!text)
+        text = formula_of(number);
+    for (size_t i = 0; (q = quantity_row(i)); i++)
+        if (quotes(q, number)) {
+            const size_t n = strlen(names);
+            snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "in: ", q->name);
+        }
+    enum { INDENT = 6 };
+    help_wrapped(to, text, INDENT, INDENT);
+    if (*names) {
+        fprintf(to, "%*s", INDENT, "");
+        help_wrapped(to, names, INDENT, INDENT + 4);
+    }
+}
+
+static void paper(FILE *to) {
+    fputs("Mathematics 2022, 10, 3641: its equations, and the quantities that they make.\n"
+          "`explain NAME` puts the numbers of the scene in; `demo fig04` to `demo fig13`\n"
+          "and `demo s1` to `demo s3` draw the figures and videos.\n\n",
+          to);
+    for (size_t i = 0; i < EQUATIONS; i++)
+        equation(to, equations[i].number, equations[i].text);
+    fputs("\nSlips of the paper, as this program reads it:\n"
+          "  (13)       is for two equal elastic bodies; here it holds for any two\n"
+          "  (19)       beyond first loading the test needs the trial displacement of\n"
+          "             the spring, u + d(delta_x), not delta_x\n"
+          "  (22)       tells the loss on the first branch only; here it is W1D, signed\n"
+          "  (26),(27)  come out negative; dW is the positive energy dissipated\n"
+          "  Fig. 12    `k = -0.5, 1, 0.5` in its text means k = -0.5, 0, 0.5\n"
+          "  Section 3  `exponentially` is a power law: dW ~ FA^3 at small FA\n",
+          to);
+}
+
+/* ---- the table --------------------------------------------------------------------------------- */
+
+static const char expressions_text[] =
+    "+ - * / ^ ( ) bind as usual; -2^2 is -4. Every value has a dimension, and a\n"
+    "mismatch is an error that names both.\n\n"
+    "    NAME = EXPR, ...       sets inputs or names of your own, now\n"
+    "    NAME := EXPR           a live definition: evaluated wherever NAME is used\n"
+    "    NAME(X, ...) := EXPR   a function of your own\n"
+    "    EXPR in UNIT           the value in that unit\n"
+    "    EXPR at NAME = EXPR    the value in the scene with that input changed;\n"
+    "                           along a load, at the same instant of it\n"
+    "    ans                    the last value printed\n\n"
+    "`;` parts the statements of a line. `#` begins a comment, but not within a word\n"
+    "such as a#b.csv. A line goes on after `\\`.\n\n";
+
+static const char scripts_text[] =
+    "    fret FILE ...          runs scripts; so do fret -f FILE and a pipe\n"
+    "    fret -c 'STATEMENTS'   runs these\n"
+    "    source FILE            runs a script from the prompt or from a script\n"
+    "    fret --replay FILE     runs what follows each `fret> ` of a transcript and\n"
+    "                           compares the answers: a transcript is a test\n\n"
+    "A script stops at its first error, told as FILE:LINE:COLUMN, with exit status 1;\n"
+    "--keep-going goes on. A wrong option exits with 2, an interrupt with 130.\n\n"
+    "At a terminal the statements of $XDG_CONFIG_HOME/fret/fretrc, else of\n"
+    "~/.config/fret/fretrc, run before the first prompt, such as `set digits 8`;\n"
+    "--no-rc leaves them out.\n\n"
+    "    save FILE              the scene as a script that makes it again\n"
+    "    save history FILE      the lines typed in this session\n"
+    "    record FILE            from here on a transcript, until record off\n"
+    "    replay FILE            runs a transcript beside the session\n\n"
+    "A copy of a terminal is a transcript, too. What depends on who types, on the\n"
+    "terminal or on the clock (reports, pictures, times) may be there or not.\n";
+
+static const char files_text[] =
+    "Read: `geometry file GAP.csv` wants columns r and f, `follow LOAD.csv` FN and\n"
+    "Fx, or dz and dx; among others, in any order. The first line names the columns\n"
+    "with their units, as `FN [N],Fx [N]`; rows of numbers follow; `#` begins a\n"
+    "comment. Commas, semicolons, tabs or blanks part the columns. Where it is no\n"
+    "comma, a comma within a number is a decimal one: files of spreadsheets can be\n"
+    "read as they are, Excel's `Unicode text` (UTF-16) too. `1.500` in a file with\n"
+    "`950,5` is refused: it may be 1.5 or 1500.\n\n"
+    "A measured profile is noisy, and a contact on its bumps is no disc. `geometry\n"
+    "file GAP.csv smooth` takes the cubic spline nearest to the rows (least squares)\n"
+    "that begins with f = 0 and f' = 0: `smooth 8` of 8 pieces, `smooth 0.1 um` of as\n"
+    "few as come within that misfit (rms), `smooth` alone of as many as predict left\n"
+    "out rows best (generalised cross-validation). The misfit is told, and the height\n"
+    "at r = 0 that is taken off. Rows may then be in any order and on both sides,\n"
+    "r < 0 too. Where noise would make it fall it is the nearest convex profile; one\n"
+    "that falls by more than noise is refused.\n\n"
+    "Written: `history to FILE`, `table ... to FILE`. FILE.csv is in SI or the units\n"
+    "asked for, FILE.json has an object a line in SI, the first with the units of\n"
+    "the columns, FILE.txt and FILE.dat are as shown, with blank lines between\n"
+    "curves. `plot ... to FILE`: the ending tells the kind of picture. A file is\n"
+    "written whole or not at all; that one was there before is said. ~ is the home\n"
+    "directory; a name with blanks goes into quotation marks.\n\n"
+    "`plot ... over FILE.csv` lays points on top: columns with the names of the axes,\n"
+    "else the only one of the dimension without the name of another quantity.\n"
+    "`animate ... to FILE.gif` writes a moving picture.\n\n"
+    "What is typed at the prompt is kept in $XDG_STATE_HOME/fret/history, else in\n"
+    "~/.local/state/fret/history, for you alone to read.\n";
+
+static const char theory_text[] =
+    "Two bodies, pressed together with F_N and pushed sideways with F_x, touch in a\n"
+    "disc of radius a. Its rim slips, its middle r < c sticks: partial slip. At\n"
+    "F_x = mu F_N all of it slips: gross slip. A cycle of F_x dissipates dW, the area\n"
+    "of the hysteresis loop.\n\n"
+    "The modulus grows or falls with depth, E(z) = E0 (z/c0)^k. The method of\n"
+    "dimensionality reduction (MDR) replaces the bodies by independent springs of\n"
+    "stiffness c_N(x) and c_T(x) under the profile g(x), exactly within the theory\n"
+    "of Cattaneo and Mindlin. In the depth y = g(x), k and the shape vanish from the\n"
+    "rule of stick and slip: the memory diagram follows any history of F_N and F_x\n"
+    "without discretisation. `help paper` lists the equations, `explain NAME` puts\n"
+    "numbers in.\n";
+
+const char coupling_text[] =
+    "The theory neglects what couples normal and tangential contact. That is exact\n"
+    "for equal bodies, for nu = 1/(2+k), and without friction. Else a warning, where\n"
+    "something tangential is asked, tells the mismatch: how far a pressure displaces\n"
+    "the two surfaces sideways against each other, as a part of how far it presses\n"
+    "them in; 0: not at all; for k = 0 it is Dundurs' second constant. What it costs,\n"
+    "for steel on aluminium (0.117, k = 0): a coupled solution gave 1.39, 1.05, 1.03,\n"
+    "1.02 and 1.01 times the dW of here in the first five cycles: the first is badly\n"
+    "off, then the contact shakes down.\n";
+
+static const char limits_text[] =
+    "\nSlip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"
+    "0.4 % of dW in a comparison with boundary elements.\n\n"
+    "    -1 < k < 1, -1 < nu <= 1/2; both bodies share k and c0\n"
+    "    bodies are half-spaces: a warning where a > 0.3 R (of R1 and R2 the smaller one) or\n"
+    "        a slope exceeds 20 deg\n"
+    "    the contact is a disc: g(x) must not fall\n"
+    "    quasi-static, no adhesion, one coefficient of friction\n"
+    "    the place where energy is lost inside the annulus is no result here\n\n"
+    "`accuracy` tells the numerical error of every model in your scene, `explain`\n"
+    "that of an answer, and `explain EXPR conditioning` what the last digit of each\n"
+    "input does to it.\n";
+
+static const char prompt_text[] =
+    "    Tab            completes: commands, arguments, units, names, files\n"
+    "    Up, Ctrl-R     earlier lines, of earlier sessions too\n"
+    "    Ctrl-C         drops the line, or stops what runs; the scene stays\n"
+    "    Ctrl-D         leaves\n"
+    "    ?WORD          the same as help WORD\n"
+    "    !COMMAND       runs a command of the system's shell\n\n"
+    "Pasted lines run one after the other, their prompts are taken off. Keys are\n"
+    "those of readline; in ~/.inputrc `$if fret` begins what is for this program.\n";
+
+static void limits(FILE *to) {
+    fputs(coupling_text, to);
+    fputs(limits_text, to);
+}
+
+static const topic topics[] = {
+    {.name = "expressions",
+     .summary = "arithmetic, names of your own, functions",
+     .keywords = "variable definition function operator live what-if",
+     .text = expressions_text,
+     .print = functions,
+     .example = "    fret> x = 3 mm; half(u) := u/2\n"
+                "    fret> half(x) + 20 um in mm, sqrt(2)^-2\n"
+                "    half(x) + 20 um = 1.52 mm\n"
+                "    sqrt(2)^-2 = 0.5\n"
+                "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                "    fret> a, (a at FN=200 N)/a\n"
+                "    a = 186.626 um\n"
+                "    (a at FN=200 N)/a = 1.25992\n"},
+    {.name = "units",
+     .summary = "units and their prefixes",
+     .keywords = "dimension SI prefix",
+     .print = help_units,
+     .example = "    fret> 1 ksi in MPa, 0.3N/mm^2, 90 deg, 5 %\n"
+                "    1 ksi = 6.89476 MPa\n"
+                "    0.3N/mm^2 = 300 kPa\n"
+                "    90 deg = 90 deg\n"
+                "    5 % = 0.05\n"},
+    {.name = "quantities",
+     .summary = "inputs, results and functions of the scene",
+     .keywords = "input result variable stress loop",
+     .print = quantities,
+     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                "    fret> a, c(20 N), dW(20 N), p(0.1 mm)\n"
+                "    a = 186.626 um\n"
+                "    c(20 N) = 148.125 um\n"
+                "    dW(20 N) = 1.90646 uJ\n"
+                "    p(0.1 mm) = 1.15747 GPa\n"},
+    {.name = "prompt",
+     .summary = "keys, completion, history, pasting",
+     .keywords = "readline history completion Tab inputrc paste shell",
+     .text = prompt_text,
+     .example = "    fret> ?pi\n"
+                "    pi: 3.14159...\n"},
+    {.name = "scripts",
+     .summary = "files of statements, options, the start-up file",
+     .keywords = "batch pipe start-up fretrc config replay transcript save",
+     .text = scripts_text,
+     .example = "    fret> friction 0.4; save friction.fret\n"
+                "    wrote friction.fret (13 B)\n"
+                "    fret> mu = 0.3; source friction.fret\n"
+                "    fret> mu\n"
+                "    mu = 0.4\n"},
+    {.name = "files",
+     .summary = "tables and figures that are read and written",
+     .keywords = "csv json export import Excel data png svg pdf save write history",
+     .text = files_text,
+     .example = "    $ cat gap.csv\n"
+                "    r [mm],f [um]\n"
+                "    0,0\n"
+                "    0.5,12.5\n"
+                "    1,50\n"
+                "    $ cat load.csv\n"
+                "    FN [N],Fx [N]\n"
+                "    100,0\n"
+                "    120,15\n"
+                "    120,-15\n"
+                "    fret> material steel; geometry file gap.csv; friction 0.4\n"
+                "    fret> follow load.csv\n"
+                "    fret> FN, Fx, W\n"
+                "    FN = 120 N\n"
+                "    Fx = -15 N\n"
+                "    W = 328.223 nJ\n"
+                "    fret> history to loop.csv\n"
+                "    wrote loop.csv (221 B)\n"},
+    {.name = "theory",
+     .summary = "what is computed, in a few words",
+     .keywords = "MDR Mindlin Cattaneo Hertz springs hysteresis loop dissipation partial slip memory diagram",
+     .text = theory_text,
+     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                "    fret> step Fx=20 N\n"
+                "    fret> a, c, dx, dxmax\n"
+                "    a = 186.626 um\n"
+                "    c = 148.125 um\n"
+                "    dx = 625.995 nm\n"
+                "    dxmax = 1.6917 um\n"
+                "    fret> cycle FA=20 N\n"
+                "    fret> dW\n"
+                "    dW = 1.90646 uJ\n"},
+    {.name = "paper",
+     .summary = "every equation of the paper, and where it is here",
+     .keywords = "equation formula reference literature slip misprint",
+     .print = paper,
+     .example = "    fret> material E0=210 GPa nu=0.3; geometry sphere R=10 mm\n"
+                "    fret> kappa\n"
+                "    kappa = 2\n"},
+    {.name = "limits",
+     .summary = "what the theory leaves out",
+     .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",
+     .print = limits,
+     .example = "    fret> material steel; second aluminium; geometry sphere R=10 mm; friction 0.4\n"
+                "    fret> press FN=100 N; step Fx=10 N\n"
+                "    warning: the bodies are elastically dissimilar (mismatch 0.117): normal and tangential "
+                "contact are coupled, and these results are an approximation\n"},
+};
+enum { TOPICS = sizeof topics / sizeof *topics };
+
+const topic *topic_row(size_t i) {
+    return i < TOPICS ? &topics[i] : NULL;
+}
+
+const char *topic_name(size_t i) {
+    return i < TOPICS ? topics[i].name : NULL;
+}
+
+/* Begins a transcript. */
+#define EXAMPLE "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; "
+
+const char *model_text(size_t id) {
+    static const char *const texts[MODELS] = {
+        [MODEL_CLOSED] = "Formulas of the paper, where the load program has one: a press and a tangential\n"
+                         "step, or cycles at constant FN.\n\n" EXAMPLE "cycle FA=20 N\n"
+                         "    fret> set model closed\n    fret> dW\n    dW = 1.90646 uJ\n",
+        [MODEL_MEMORY] = "Follows any history exactly, without springs or step sizes: the state is a\n"
+                         "polyline over the depth y = g(x). `help theory` tells more.\n\n" EXAMPLE
+                         "step Fx=20 N; step FN=80 N Fx=10 N\n    fret> set model memory\n    fret> W\n"
+                         "    W = 477.51 nJ\n",
+        [MODEL_QUADRATURE] =
+            "Integrals over the contact, for local fields and for the stiffness of loops.\n\n" EXAMPLE
+            "step Fx=20 N\n    fret> qx(0.1 mm)\n    qx(0.1 mm) = 141.911 MPa\n",
+        [MODEL_PIECES] =
+            "The law FN(dz) of a gap without a formula is polynomials in the square of the\n"
+            "radius, cell by cell, with the powers that a kink of the gap adds: a dozen cells\n"
+            "for a shape, one or more for each row of a table. They are made once, in a\n"
+            "millisecond, of a table in some 0.1 ms a row, and are good to 1e-15; then depth,\n"
+            "force, loss and slip take microseconds, and so does any step. Up to 2000 rows\n"
+            "each is taken as it is; of more, as few as do within 1e-14 to 1e-6 of the gap.\n"
+            "Local fields are sums over the same cells, good to 1e-15 of the largest value.\n\n" EXAMPLE
+            "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
+            "    dW = 2.53755 uJ\n",
+        [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
+                          "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
+                          "    fret> set model springs 100\n    fret> dW\n    dW = 1.90687 uJ\n",
+    };
+    return texts[id];
+}

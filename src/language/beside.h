@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The same load in scenes with other inputs, beside a run that is being looked at: their states at its
+ * instants. Each is run once for many instants. */
+#ifndef LANGUAGE_BESIDE_H
+#define LANGUAGE_BESIDE_H
+
+#include "language/calc.h"
+
+enum { SIDES = 16 };
+typedef struct side side;
+typedef struct beside {
+    watch looks;       /* the run is looked at by these: watch_times */
+    side *side[SIDES]; /* the one that was asked last comes first */
+    size_t count;
+} beside;
+
+/* What expressions are to see: the scene with these changes, given without them having been run, at this
+ * time of its load. */
+bool beside_scene(beside *b, const scene *changed, const knob_value by[], size_t count, double time,
+                  scene **out, calc_error *error);
+void beside_end(beside *b);
+
+#endif

@@ -1,0 +1,492 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The session: its life, and assignments. */
+#include "language/calc.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- life -------------------------------------------------------------------------------------- */
+
+/* What a definition is made of may have become another quantity since. */
+static bool keeps_dim(scene *s, input in, const value *v, calc_error *error) {
+    const quantity *q = quantity_of_input(in);
+    long double n;
+    lexer none = {.error = error};
+    if (in == IN_A && s->in.bindings & INPUT_BIT(IN_N) && !scene_get(s, IN_N, &n, error))
+        return false;
+    error->strange = !value_dim(&none, q->name, 0, 0, *v, quantity_dim(q, s));
+    return !error->strange;
+}
+
+/* A scene asks for the value of what an input is bound to. */
+static bool evaluate(void *context, scene *s, input in, counted *d, value *out, calc_error *error) {
+    calc *c = context;
+    scene *outer = c->now;
+    c->now = s;
+    bool ok = definition_value(c, (definition *)d, out, error) && keeps_dim(s, in, out, error);
+    c->now = outer;
+    return ok;
+}
+
+void calc_init(calc *c, const volatile sig_atomic_t *stop) {
+    *c = (calc){.now = &c->scene};
+    scene_init(&c->scene, stop, evaluate, c);
+}
+
+void calc_free(calc *c) {
+    while (c->undo.count > 0)
+        undo_pop(c, false);
+    free(c->undo.entry);
+    names_free(&c->names);
+    expr_free(&c->scratch);
+    scene_free(&c->scene);
+    c->undo = (undo){.entry = NULL};
+}
+
+/* ---- assignments ------------------------------------------------------------------------------- */
+
+enum { ASSIGNMENTS = 16 };
+
+/* One of `NAME = EXPR, ...`. */
+typedef struct assignment {
+    const quantity *q; /* an input, or NULL: a name of the user's */
+    bool known;        /* one that has been given before: `own` */
+    size_t own;
+    size_t at, len; /* of the name */
+    size_t value_at, value_len;
+    bool increment, live;
+    value v;
+    definition *d; /* live, or a function */
+} assignment;
+
+static bool is_list(const lexer *lx, token_kind *then) {
+    lexer scan = *lx;
+    calc_error ignored;
+    error_clear(&ignored);
+    scan.error = &ignored;
+    for (lex_next(&scan); scan.kind == T_OPEN || scan.kind == T_COMMA;) {
+        lex_next(&scan);
+        if (scan.kind != T_NAME)
+            return false;
+        lex_next(&scan);
+    }
+    if (scan.kind != T_CLOSE)
+        return false;
+    *then = lex_peek(&scan);
+    return *then == T_ASSIGN || *then == T_DEFINE;
+}
+
+bool assign_at(const lexer *lx) {
+    if (lx->kind != T_NAME)
+        return false;
+    token_kind next = lex_peek(lx);
+    if (next == T_OPEN)
+        return is_list(lx, &next);
+    return next == T_ASSIGN || next == T_INCREMENT || next == T_DEFINE;
+}
+
+/* What has been typed, as the command that does it. */
+static bool is_result(lexer *lx, const quantity *q) {
+    const char *text = lx->text + lx->at, *comma = memchr(text, ',', lx->end - lx->at);
+    size_t len = comma ? (size_t)(comma - text) : lx->end - lx->at;
+    while (len > 0 && text[len - 1] == ' ')
+        len--;
+    if (!quantity_has_value(q))
+        return lex_fail(lx, "%s is a function of the scene: %s", q->name, q->title);
+    if (!q->imposed || memchr(text, ':', len))
+        return lex_fail(lx, "%s is a result: it follows from the inputs and the load", q->name);
+    return lex_fail(lx, "%s is a result: it follows from the inputs and the load; try: %s %.*s", q->name,
+                    q->imposed, LEX_SHOWN(len), text);
+}
+
+static bool name_allowed(calc *c, lexer *lx, assignment *a) {
+    const char *text = lx->text + lx->at;
+    a->known = names_find(&c->names, text, lx->len, &a->own);
+    if (a->known) /* it has been allowed before */
+        return true;
+    const char *taken = name_taken(text, lx->len);
+    a->q = quantity_find(text, lx->len);
+    if (a->q && !quantity_is_input(a->q) && !strcmp(a->q->name, "E"))
+        return lex_fail(lx, "E(z) is the modulus at a depth; the input is E0");
+    if (a->q && !quantity_is_input(a->q))
+        return is_result(lx, a->q);
+    if (!a->q && taken)
+        return lex_fail(lx, "'%.*s' is %s: it cannot be a variable", LEX_WORD(lx), taken);
+    if (a->q && !calc_takes(c, quantity_input(a->q), lx->error)) {
+        /* where it stands is told better by its value */
+        return false;
+    }
+    return true;
+}
+
+static bool read_parameters(lexer *lx, char (*parameter)[LEX_NAME], unsigned *count) {
+    *count = 0;
+    if (lx->kind != T_OPEN)
+        return true;
+    do {
+        lex_next(lx);
+        if (*count == PARAMETERS)
+            return lex_fail(lx, "a function takes at most %d arguments", PARAMETERS);
+        const char *taken = name_taken(lx->text + lx->at, lx->len);
+        if (taken)
+            return lex_fail(lx, "'%.*s' is %s: it cannot be an argument's name", LEX_WORD(lx), taken);
+        if (!lex_whole(lx, "an argument's name", parameter[(*count)++]))
+            return false;
+        for (unsigned i = 0; i + 1 < *count; i++)
+            if (lex_is(lx, parameter[i]))
+                return lex_fail(lx, "%s is given twice", parameter[i]);
+        lex_next(lx);
+    } while (lx->kind == T_COMMA);
+    lex_next(lx); /* a parenthesis: assign_at has looked */
+    return true;
+}
+
+/* The dimension that an input must have: that of A depends on n, which may be given beside it. */
+static dim wanted_dim(const calc *c, const quantity *q, const assignment *all, size_t count) {
+    dim d = quantity_dim(q, &c->scene);
+    for (size_t i = 0; i < count && quantity_input(q) == IN_A; i++)
+        if (all[i].q && quantity_input(all[i].q) == IN_N)
+            d.m = 1 - (double)all[i].v.v;
+    return d;
+}
+
+static bool read_value(calc *c, lexer *lx, assignment *all, size_t count) {
+    assignment *a = &all[count];
+    a->value_at = lx->at;
+    if (!expr_parse_at(c, lx, &c->scratch) || !expr_eval(c, &c->scratch, &a->v, lx->error))
+        return false;
+    a->value_len = lx->last - a->value_at;
+    /* without a shape that of A is not known; that there is none is told by who asked */
+    return !a->q || (quantity_input(a->q) == IN_A && !c->scene.in.geometry) ||
+           value_dim(lx, a->q->name, a->value_at, a->value_len, a->v, wanted_dim(c, a->q, all, count));
+}
+
+static bool read_assignment(calc *c, lexer *lx, assignment *all, size_t count) {
+    assignment *a = &all[count];
+    char parameter[PARAMETERS][LEX_NAME];
+    unsigned parameters;
+    calc_error useless;
+    error_clear(&useless);
+    a->q = NULL; /* one by one: the rest need not be cleared */
+    a->d = NULL;
+    a->v = (value){0, DIM_NONE}; /* what a live definition leaves */
+    a->at = lx->at;
+    a->len = lx->len;
+    a->value_at = a->value_len = 0;
+    if (!name_allowed(c, lx, a)) {
+        if (lx->error->len)
+            return false;
+        useless = *lx->error; /* a wrong value is the deeper error */
+        error_clear(lx->error);
+    }
+    lex_next(lx);
+    if (!read_parameters(lx, parameter, &parameters))
+        return false;
+    a->increment = lx->kind == T_INCREMENT;
+    a->live = lx->kind == T_DEFINE;
+    lex_next(lx);
+    if (parameters && a->q)
+        return calc_fail(lx->error, a->at, a->len, "%s is an input: it takes no arguments", a->q->name);
+    a->value_at = lx->at;
+    if (a->live || parameters) {
+        a->d = definition_parse(c, lx, lx->text + a->at, a->len, parameter, parameters);
+        a->value_len = lx->last - a->value_at;
+        if (!a->d)
+            return false;
+    } else if (!read_value(c, lx, all, count)) {
+        return false;
+    }
+    if (!useless.raised)
+        return true;
+    *lx->error = useless;
+    return calc_place(lx->error, a->value_at, a->value_len);
+}
+
+static bool read_assignments(calc *c, lexer *lx, assignment *all, size_t *count) {
+    for (*count = 0;;) {
+        if (*count == ASSIGNMENTS)
+            return lex_fail(lx, "at most %d assignments together", ASSIGNMENTS);
+        if (!assign_at(lx))
+            return lex_fail(lx, lx->kind == T_NUMBER
+                                    ? "expected NAME = EXPR after the comma; a decimal comma is a point here"
+                                    : "expected NAME = EXPR after the comma");
+        for (size_t i = 0; i < *count; i++) /* they are set together: none is the last */
+            if (all[i].len == lx->len && !memcmp(lx->text + all[i].at, lx->text + lx->at, lx->len))
+                return lex_fail(lx, "%.*s is given twice", LEX_WORD(lx));
+        if (!read_assignment(c, lx, all, (*count)++))
+            return false;
+        if (lx->kind != T_COMMA)
+            return !lx->error->raised;
+        lex_next(lx);
+    }
+}
+
+/* ---- what they do ------------------------------------------------------------------------------ */
+
+typedef struct assigned {
+    calc *c;
+    const assignment *all;
+    size_t count;
+    const assignment *but; /* not this one */
+} assigned;
+
+/* n alone would make another gap of A, and A belongs to no h and r0. */
+static bool power_holds(const calc *c, lexer *lx, const assignment *all, size_t count) {
+    const assignment *n = NULL, *A = NULL, *h = NULL;
+    for (size_t i = 0; i < count; i++) {
+        const input in = all[i].q ? quantity_input(all[i].q) : INPUTS;
+        n = in == IN_N ? &all[i] : n;
+        A = in == IN_A ? &all[i] : A;
+        h = in == IN_H || in == IN_R0 ? &all[i] : h;
+    }
+    if (n && !A && c->scene.in.set[IN_A])
+        return calc_fail(lx->error, n->at, n->len,
+                         "A belongs to the n it was given with: set both (n = 3, A = 50 m^-2)");
+    return !A || !h || calc_fail(lx->error, h->at, h->len, "give either A or both h and r0");
+}
+
+static void put_inputs(inputs *in, void *context) {
+    const assigned *job = context;
+    for (size_t i = 0; i < job->count; i++) {
+        const assignment *a = &job->all[i];
+        if (!a->q || a == job->but)
+            continue;
+        const input which = quantity_input(a->q);
+        if (a->d)
+            inputs_bind(in, which, counted_hold(&a->d->base));
+        else
+            inputs_put(in, which, (double)a->v.v);
+    }
+}
+
+/* That of an input; NULL: there is none. */
+static const assignment *of_input(const assignment *all, size_t count, input in) {
+    const assignment *of = NULL;
+    for (size_t i = 0; i < count; i++)
+        if (all[i].q && quantity_input(all[i].q) == in)
+            of = &all[i];
+    return of;
+}
+
+/* Where nothing is pressed yet F_N presses, and what else is given goes before. A definition of F_N has its
+ * value by then, and outlives the press. */
+static bool press_with(scene *s, assigned job, const assignment *FN, calc_error *error) {
+    load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE};
+    long double force = FN->v.v;
+    scene_mark before;
+    job.but = FN->d ? NULL : FN;
+    scene_save(s, &before, false);
+    bool ok = ((job.count == 1 && job.but) || scene_edit(s, put_inputs, &job, error)) &&
+              (!FN->d || scene_get(s, IN_FN, &force, error));
+    press.normal_value = (double)force;
+    ok = ok && scene_load(s, &press, NULL, error);
+    if (ok && FN->d) {
+        job = (assigned){job.c, FN, 1, NULL};
+        ok = scene_edit(s, put_inputs, &job, error);
+    }
+    if (ok)
+        scene_drop(&before);
+    else
+        scene_back(s, &before);
+    return ok;
+}
+
+/* Would the cycle slip because its amplitude stays while others change? */
+static bool amplitude_is_left(const calc_error *error, const assignment *all, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (all[i].q && quantity_input(all[i].q) == IN_FA)
+            return false;
+    return error->kind == ERROR_STATUS && error->status.code == FRET_GROSS_SLIP &&
+           !strcmp(error->status.quantity, "FA");
+}
+
+/* A live definition may wait for what it needs, but not for itself; nor can its dimensions be mended later.
+ */
+static bool definition_fails(calc *c, lexer *lx, const assignment *a, calc_error *error) {
+    if (!error->circle && !error->strange)
+        return false;
+    calc_word(c, error);
+    calc_fail(lx->error, a->value_at, a->value_len, "%s", error->text);
+    return true;
+}
+
+static bool binding_holds(calc *c, lexer *lx, const assignment *a) {
+    const input in = quantity_input(a->q);
+    calc_error error, again;
+    long double unused;
+    value v;
+    scene probe, *outer = c->now;
+    error_clear(&error);
+    error_clear(&again);
+    scene_clone(&probe, &c->scene);
+    inputs_bind(&probe.in, in, counted_hold(&a->d->base));
+    c->now = &probe;
+    const bool ok = scene_get(&probe, in, &unused, &error) || error.strange;
+    c->now = outer;
+    if (ok && definition_value(c, a->d, &v, &again))
+        (void)value_dim(lx, a->q->name, a->value_at, a->value_len, v, quantity_dim(a->q, &c->scene));
+    scene_free(&probe);
+    return !lx->error->raised && !definition_fails(c, lx, a, &error);
+}
+
+static bool bindings_hold(calc *c, lexer *lx, const assignment *all, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (all[i].d && all[i].q && !binding_holds(c, lx, &all[i]))
+            return false;
+    return true;
+}
+
+/* A name that looks like an input was perhaps meant to be one. */
+static void note_new_name(calc *c, const char *text, size_t len) {
+    static const char *const other_names[][2] = {
+        {"angle", "slope"}, {"Fn", "FN"}, {"F", "FN"},  {"P", "FN"},    {"radius", "R"}, {"v", "nu"},
+        {"R1", "R"},        {"R2", "R"},  {"E1", "E0"}, {"E2", "E0_2"}, {"E02", "E0_2"}, {"nu2", "nu_2"}};
+    char letters[PLAIN_WORD], plain[PLAIN_WORD];
+    size_t n = 0;
+    plain_letters(text, len, letters);
+    for (size_t i = 0; letters[i]; i++)
+        if (letters[i] != '_')
+            plain[n++] = letters[i];
+    plain[n] = 0;
+    const char *near = NULL;
+    for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++)
+        if (!strcmp(plain, other_names[i][0]))
+            near = other_names[i][1];
+    if (near && *near == 'R' && !inputs_take(&c->scene.in, IN_RADIUS))
+        near = NULL; /* R1, to give a sphere with */
+    for (input in = 0; in < INPUTS && !near; in++) {
+        const char *name = quantity_of_input(in)->name;
+        if (same_but_case(plain, name) || (n > 2 && one_letter_apart(plain, name)))
+            near = name;
+    }
+    if (near)
+        snprintf(c->note, sizeof c->note, "new variable %.*s; did you mean %s?", LEX_SHOWN(len), text, near);
+}
+
+/* Tried as it stands: a circle through what inputs are bound to shows only so. */
+static bool name_holds(calc *c, lexer *lx, const assignment *a) {
+    calc_error error;
+    value unused;
+    error_clear(&error);
+    if (a->d->parameters)
+        return true;
+    scene probe, *outer = c->now; /* where nothing bound has its value yet */
+    scene_clone(&probe, outer);
+    probe.settled = 0;
+    c->now = &probe;
+    bool ok = definition_value(c, a->d, &unused, &error) || !definition_fails(c, lx, a, &error);
+    c->now = outer;
+    scene_free(&probe);
+    return ok;
+}
+
+static bool put_name(calc *c, lexer *lx, const assignment *a) {
+    size_t i = a->own;
+    char way[CALC_ERROR_TEXT / 2];
+    const char *text = lx->text + a->at;
+    if (a->increment)
+        return calc_fail(lx->error, a->at, a->len, "+= belongs to step; write %.*s = ...", LEX_SHOWN(a->len),
+                         text);
+    if (!a->known && !names_find(&c->names, text, a->len, &i)) {
+        note_new_name(c, text, a->len);
+        if (!names_add(&c->names, text, a->len, &i))
+            return calc_no_memory(lx->error);
+    }
+    if (a->d && expr_way(c, &a->d->body, a->d->label, way, sizeof way))
+        return calc_fail(lx->error, a->value_at, a->value_len, "a circle of definitions: %s -> %s%s",
+                         a->d->label, way, a->d->label);
+    if (!undo_name(c, i))
+        return calc_no_memory(lx->error);
+    names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);
+    calc_error deep;
+    error_clear(&deep);
+    if (a->d && !expr_levels_hold(c, &deep))
+        return calc_fail(lx->error, a->value_at, a->value_len, "%s", deep.text);
+    return !a->d || name_holds(c, lx, a);
+}
+
+static void nothing(inputs *in, void *context) {
+    (void)in, (void)context;
+}
+
+static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
+    size_t inputs_count = 0;
+    for (size_t i = 0; i < count; i++)
+        inputs_count += all[i].q != NULL;
+    if (!power_holds(c, lx, all, count))
+        return false;
+    for (size_t i = 0; i < count; i++) { /* += of an input */
+        long double old;
+        if (!all[i].increment || !all[i].q)
+            continue;
+        if (!scene_get(&c->scene, quantity_input(all[i].q), &old, lx->error))
+            return false;
+        all[i].v.v += old;
+    }
+    if (!bindings_hold(c, lx, all, count))
+        return false;
+    for (size_t i = 0; i < count; i++)
+        if (!all[i].q && !put_name(c, lx, &all[i]))
+            return false;
+    assigned job = {c, all, count, NULL};
+    scene *s = &c->scene;
+    if (inputs_count == 0) /* what is bound may have moved with the names */
+        return s->in.bindings == 0 || scene_edit(s, nothing, NULL, lx->error);
+    const assignment *FN = s->end.steps ? NULL : of_input(all, count, IN_FN);
+    if (FN)
+        return press_with(s, job, FN, lx->error);
+    if (scene_edit(s, put_inputs, &job, lx->error))
+        return true;
+    if (amplitude_is_left(lx->error, all, count))
+        calc_append(c, lx->error, ", or let FA follow (FA := 0.9*mu*FN)");
+    return false;
+}
+
+/* All or nothing, and a way back. */
+static bool put_undoable(calc *c, lexer *lx, assignment *all, size_t count) {
+    const size_t entries = c->undo.count;
+    bool of_scene = false;
+    for (size_t i = 0; i < count; i++)
+        of_scene = of_scene || all[i].q;
+    scene_mark *before = of_scene ? undo_mark(c) : NULL;
+    if (of_scene && !before)
+        return calc_no_memory(lx->error);
+    bool ok = put_all(c, lx, all, count);
+    if (of_scene && ok)
+        undo_scene(c, before);
+    else if (of_scene)
+        undo_unmark(c, before);
+    while (!ok && c->undo.count > entries) /* names that were set before something was refused */
+        undo_pop(c, true);
+    return ok;
+}
+
+bool calc_assign(calc *c, lexer *lx) {
+    assignment all[ASSIGNMENTS];
+    size_t count = 0;
+    bool ok = read_assignments(c, lx, all, &count);
+    if (ok && lx->kind != T_END)
+        ok = lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
+    for (size_t i = 0; i < count && ok; i++) {
+        if (!all[i].q || all[i].d || all[i].increment)
+            continue;
+        fret_status st = input_status(quantity_input(all[i].q), (double)all[i].v.v);
+        ok = calc_input_status(lx->error, st.code ? (int)quantity_input(all[i].q) : -1, &st) ||
+             calc_place(lx->error, all[i].value_at, all[i].value_len);
+    }
+    ok = ok && put_undoable(c, lx, all, count);
+    if (!ok)
+        calc_place(lx->error, all[count - 1].value_at, all[count - 1].value_len);
+    for (size_t i = 0; i < count; i++)
+        counted_drop(all[i].d ? &all[i].d->base : NULL);
+    return ok;
+}
+
+bool calc_bind(calc *c, lexer *lx, input in, counted **out) {
+    const char *name = quantity_of_input(in)->name;
+    definition *d = definition_parse(c, lx, name, strlen(name), NULL, 0);
+    *out = d ? &d->base : NULL;
+    return d != NULL;
+}

@@ -1,0 +1,418 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The values of expressions. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "language/tree.h"
+#include "language/trial.h"
+#include "number/real.h"
+
+typedef struct machine {
+    calc *c;
+    const expr *e;
+    calc_error *error;
+    const value *arguments; /* of the user's function */
+    bool dry;               /* dimensions alone: values that cannot be had count as 1 */
+} machine;
+
+static bool run(machine *m, value *out);
+
+/* ---- errors ------------------------------------------------------------------------------------ */
+
+/* In a dry run only dimensions can be wrong. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+static bool
+bad_value(machine *m, const expr_node *n, const char *format, ...) {
+    if (m->dry)
+        return true;
+    va_list args;
+    va_start(args, format);
+    char text[256];
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return calc_fail(m->error, n->at, n->len, "%s", text);
+}
+
+static bool dims_differ(machine *m, const expr_node *n, const char *verb, const expr_node *a, dim da,
+                        const char *link, const expr_node *b, dim db) {
+    char first[128], second[128];
+    dim_describe(da, first, sizeof first);
+    dim_describe(db, second, sizeof second);
+    m->error->strange = true;
+    return calc_fail(m->error, n->at, n->len, "cannot %s %s (%.*s) %s %s (%.*s)", verb, first,
+                     LEX_SHOWN(a->len), m->e->text + a->at, link, second, LEX_SHOWN(b->len),
+                     m->e->text + b->at);
+}
+
+static bool dim_wrong(machine *m, const expr_node *n, dim d, const char *wants) {
+    char phrase[128];
+    dim_describe(d, phrase, sizeof phrase);
+    m->error->strange = true;
+    return calc_fail(m->error, n->at, n->len, "%s, not %s (%.*s)", wants, phrase, LEX_SHOWN(n->len),
+                     m->e->text + n->at);
+}
+
+/* ---- operators and elementary functions -------------------------------------------------------- */
+
+/* The numbers alone; where they are not defined, they are not finite. */
+static long double real_value(const expr_node *n, long double a, long double b) {
+    if (n->kind == N_NEGATE)
+        return -a;
+    if (n->kind == N_BUILTIN)
+        return builtin_row(n->index)->f2 ? builtin_row(n->index)->f2(a, b) : builtin_row(n->index)->f(a);
+    switch (n->op) {
+    case '+':
+        return a + b;
+    case '-':
+        return a - b;
+    case '*':
+        return a * b;
+    case '/':
+        return a / b;
+    default:
+        return powl(a, b);
+    }
+}
+
+static bool is_bare_zero(const expr_node *n, value v) {
+    return n->kind == N_NUMBER && v.v == 0 && dim_equal(v.d, DIM_NONE);
+}
+
+static bool binary(machine *m, const expr_node *n, value *out) {
+    const expr_node *l = &m->e->nodes[n->left], *r = &m->e->nodes[n->right];
+    value a = l->v, b = r->v;
+    out->v = real_value(n, a.v, b.v);
+    switch (n->op) {
+    case '+':
+    case '-':
+        if (!dim_equal(a.d, b.d)) {
+            if (is_bare_zero(r, b))
+                b.d = a.d;
+            else if (is_bare_zero(l, a))
+                a.d = b.d;
+            else
+                return dims_differ(m, n, n->op == '+' ? "add" : "subtract", r, b.d,
+                                   n->op == '+' ? "to" : "from", l, a.d);
+        }
+        out->d = a.d.rad != 0 ? a.d : b.d;
+        break;
+    case '*':
+        out->d = dim_product(a.d, b.d);
+        break;
+    case '/':
+        if (b.v == 0 && !bad_value(m, r, "division by zero"))
+            return false;
+        out->d = dim_product(a.d, dim_power(b.d, -1));
+        break;
+    default:
+        if (!dim_equal(b.d, DIM_NONE))
+            return dim_wrong(m, r, b.d, "the exponent must be a number");
+        out->d = dim_power(a.d, (double)b.v);
+        if (a.v < 0 && b.v != floorl(b.v))
+            return bad_value(m, n, "a negative number has no real power %Lg", b.v);
+        if (a.v == 0 && b.v < 0)
+            return bad_value(m, l, "division by zero");
+        break;
+    }
+    return true;
+}
+
+static bool call_builtin(machine *m, const expr_node *n, value *out) {
+    const builtin *function = builtin_row(n->index);
+    const expr_node *l = &m->e->nodes[n->left], *r = &m->e->nodes[n->right];
+    value a = l->v, b = r->v;
+    char wants[64];
+    *out = (value){real_value(n, a.v, b.v), DIM_NONE};
+    switch (function->d) {
+    case DIM_SHARED:
+        out->d = a.d;
+        if (!dim_equal(a.d, b.d))
+            return dims_differ(m, n, "compare", l, a.d, "with", r, b.d);
+        return true;
+    case DIM_KEPT:
+        out->d = a.d;
+        return true;
+    case DIM_HALVED:
+        out->d = dim_power(a.d, 0.5);
+        if (a.v < 0)
+            return bad_value(m, l, "the square root of a negative number is not real");
+        return true;
+    default:
+        break;
+    }
+    snprintf(wants, sizeof wants, "%s takes a number", function->name);
+    if (!dim_equal(a.d, DIM_NONE))
+        return dim_wrong(m, l, a.d, wants);
+    if (function->f2 && !dim_equal(b.d, DIM_NONE))
+        return dim_wrong(m, r, b.d, wants);
+    if (function->d == DIM_TO_ANGLE)
+        out->d = DIM_ANGLE;
+    if (isnan(out->v) || (a.v == 0 && isinf(out->v)))
+        return function->f2 ? bad_value(m, n, "beta needs two positive arguments in range")
+                            : bad_value(m, n, "%s is not defined there", function->name);
+    return true;
+}
+
+/* ---- names and changed scenes ------------------------------------------------------------------ */
+
+/* The chain of live definitions, from the one that comes again. */
+static bool circle(calc *c, const char *label, calc_error *error) {
+    char chain[CALC_ERROR_TEXT - 96] = ""; /* the name that closes it is never cut off */
+    size_t from = c->chain_length - 1, n = 0;
+    while (from > 0 && strcmp(c->chain[from]->label, label))
+        from--;
+    for (size_t i = from; i < c->chain_length; i++)
+        n += way_step(chain + n, sizeof chain - n, c->chain[i]->label, c->chain[i]->text);
+    error->circle = true;
+    return calc_fail(error, 0, 0, "a circle of definitions: %s%s", chain, label);
+}
+
+static bool enter(calc *c, const definition *d, calc_error *error) {
+    for (size_t i = 0; i < c->chain_length; i++)
+        if (c->chain[i] == d)
+            return circle(c, d->label, error);
+    if (c->chain_length == CHAIN)
+        return calc_fail(error, 0, 0, "live definitions are nested more than %d deep", CHAIN);
+    c->chain[c->chain_length++] = d;
+    return true;
+}
+
+static bool evaluate_definition(calc *c, const definition *d, const value *arguments, bool dry, value *out,
+                                calc_error *error) {
+    calc_error mine;
+    error_clear(&mine);
+    machine m = {c, &d->body, &mine, arguments, dry};
+    if (!enter(c, d, error))
+        return false;
+    bool ok = run(&m, out);
+    if (!ok && mine.circle && mine.kind == ERROR_MISSING) { /* of inputs: the scene has met itself */
+        mine.raised = false;
+        circle(c, quantity_of_input((input)mine.input)->name, &mine);
+    }
+    c->chain_length--;
+    if (!ok) { /* places in the definition mean nothing in the statement */
+        *error = mine;
+        error->at = error->len = 0;
+    }
+    return ok;
+}
+
+bool definition_value(calc *c, definition *d, value *out, calc_error *error) {
+    return evaluate_definition(c, d, NULL, false, out, error);
+}
+
+static bool own_value(machine *m, const expr_node *n, value *out) {
+    const own_name *row = &m->c->names.row[n->index];
+    if (!row->definition) {
+        *out = row->v;
+        return true;
+    }
+    const definition *d = (const definition *)row->definition;
+    if (d->parameters)
+        return calc_fail(m->error, n->at, n->len, "%s is a function: %s(%s%s)", d->label, d->label,
+                         d->parameter[0], d->parameters > 1 ? ", ..." : "");
+    return evaluate_definition(m->c, d, NULL, m->dry, out, m->error) || calc_place(m->error, n->at, n->len);
+}
+
+static bool apply(machine *m, const expr_node *n, value *out) {
+    value arguments[PARAMETERS];
+    const definition *d = (const definition *)m->c->names.row[n->index].definition;
+    if (!d || d->parameters != n->right)
+        return calc_fail(m->error, n->at, n->len, "%s is no function of %zu arguments any more",
+                         m->c->names.row[n->index].text, n->right);
+    for (size_t i = 0; i < n->right; i++)
+        arguments[i] = m->e->nodes[m->e->arguments[n->left + i]].v;
+    return evaluate_definition(m->c, d, arguments, m->dry, out, m->error) ||
+           calc_place(m->error, n->at, n->len);
+}
+
+static bool dim_fits(machine *m, const expr *e, const knob *p, value v, dim want) {
+    lexer at = {.text = e->text, .error = m->error};
+    if (value_dim(&at, p->text, e->at, e->len, v, want))
+        return true;
+    m->error->strange = true;
+    return false;
+}
+
+/* All values are those outside, then all are set. NULL: an error. */
+static trial *open_changed(machine *m, const expr_at *at) {
+    knob_value by[CHANGES];
+    size_t count = 0, wrong;
+    for (size_t i = 0; i < at->count; i++) {
+        machine outside = *m;
+        outside.e = &at->change[i].value;
+        value v;
+        if (!run(&outside, &v))
+            return NULL;
+        const knob *p = &at->change[i].p;
+        const dim want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : v.d;
+        if (!dim_fits(m, outside.e, p, v, want))
+            return NULL;
+        if (m->dry && p->is_input)
+            continue;
+        if (p->is_input && !calc_takes(m->c, p->in, m->error)) {
+            calc_place(m->error, at->change[i].at, strlen(p->text));
+            return NULL;
+        }
+        by[count] = (knob_value){*p, v.v};
+        by[count++].p.d = want;
+    }
+    trial *t = trial_open(m->c, m->error);
+    bool ok =
+        t &&
+        (trial_change(t, by, count, &wrong, m->error) ||
+         (wrong < count && calc_place(m->error, at->change[wrong].value.at, at->change[wrong].value.len)));
+    if (t && !ok)
+        trial_close(t);
+    return ok ? t : NULL;
+}
+
+static bool changed_value(machine *m, const expr_node *n, value *out) {
+    trial *t = open_changed(m, n->changed);
+    machine inside = *m;
+    inside.e = &n->changed->body;
+    const bool ok = t && run(&inside, out);
+    if (t)
+        trial_close(t);
+    return ok || calc_place(m->error, n->at, n->len);
+}
+
+/* ---- nodes ------------------------------------------------------------------------------------- */
+
+/* What the scene is asked for may be an approximation, by its row. */
+static void ask(const calc *c, const quantity *q) {
+    if (q->reads & INPUT_BIT(IN_MU) && !quantity_is_input(q))
+        c->now->used |= ASKED_TANGENTIAL;
+}
+
+static bool takes(const quantity *q, dim d) {
+    return dim_equal(d, q->argument_d) ||
+           (!dim_equal(q->argument_or, DIM_NONE) && dim_equal(d, q->argument_or));
+}
+
+static bool call_quantity(machine *m, const expr_node *n, value *out) {
+    const expr_node *a = &m->e->nodes[n->left];
+    value arg = a->v;
+    char wants[192], phrase[128];
+    if (!takes(n->q, arg.d) && !is_bare_zero(a, arg)) {
+        dim_describe(n->q->argument_d, phrase, sizeof phrase);
+        snprintf(wants, sizeof wants, "%s(%s) takes %s", n->q->name, n->q->argument, phrase);
+        return dim_wrong(m, a, arg.d, wants);
+    }
+    *out = (value){1, n->q->d};
+    if (!m->dry)
+        ask(m->c, n->q);
+    return m->dry || n->q->call(m->c->now, arg, &out->v, m->error) || calc_place(m->error, n->at, n->len);
+}
+
+static bool eval(machine *m, const expr_node *n, value *out) {
+    switch ((node_kind)n->kind) {
+    case N_NUMBER:
+        return true;
+    case N_NAME:
+        return own_value(m, n, out);
+    case N_PARAMETER:
+        *out = m->arguments[n->index];
+        return true;
+    case N_ANS:
+        *out = m->c->ans;
+        return m->c->has_ans || calc_fail(m->error, n->at, n->len, "nothing has been printed yet");
+    case N_NEGATE:
+        out->d = m->e->nodes[n->left].v.d;
+        out->v = real_value(n, m->e->nodes[n->left].v.v, 0);
+        return true;
+    case N_QUANTITY:
+        *out = (value){1, quantity_dim(n->q, m->c->now)};
+        if (!m->dry)
+            ask(m->c, n->q);
+        if (!m->dry && !quantity_get(n->q, m->c->now, &out->v, m->error))
+            return calc_place(m->error, n->at, n->len);
+        break;
+    case N_CALL:
+        if (!call_quantity(m, n, out))
+            return false;
+        break;
+    case N_APPLY:
+        return apply(m, n, out);
+    case N_AT:
+        return changed_value(m, n, out);
+    case N_BUILTIN:
+        if (!call_builtin(m, n, out))
+            return false;
+        break;
+    case N_BINARY:
+        if (!binary(m, n, out))
+            return false;
+        break;
+    }
+    return isfinite((double)out->v) || bad_value(m, n, "the result is too large for double precision");
+}
+
+/* A mismatch of dimensions is the deeper error: it is reported even where a value is still missing. Not
+ * where an exponent is unknown, on which dimensions depend. */
+static void prefer_mismatch(const machine *m) {
+    calc_error mismatch;
+    error_clear(&mismatch);
+    machine dry = *m;
+    dry.error = &mismatch;
+    dry.dry = true;
+    for (size_t i = 0; i < m->e->count; i++) {
+        const expr_node *n = &m->e->nodes[i];
+        if (n->kind == N_BINARY && n->op == '^' && m->e->nodes[n->right].kind != N_NUMBER)
+            return;
+        if (!eval(&dry, n, &m->e->nodes[i].v)) {
+            if (mismatch.strange)
+                *m->error = mismatch;
+            return;
+        }
+    }
+}
+
+/* Children come before their parents: a loop, so that no input can exhaust the stack. */
+static bool run(machine *m, value *out) {
+    for (size_t i = 0; i < m->e->count; i++)
+        if (!eval(m, &m->e->nodes[i], &m->e->nodes[i].v)) {
+            if (!m->dry && !m->error->stop && !m->error->circle)
+                prefer_mismatch(m);
+            return false;
+        }
+    *out = m->e->nodes[m->e->count - 1].v;
+    return true;
+}
+
+bool expr_eval(calc *c, const expr *e, value *out, calc_error *error) {
+    machine m = {c, e, error, NULL, false};
+    const bool ok = run(&m, out);
+    return !calc_stopped(c->scene.stop, error) && ok;
+}
+
+bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_error *error) {
+    const expr_node *root = &e->nodes[e->count - 1];
+    machine m = {c, e, error, NULL, false};
+    *t = NULL;
+    *body = e;
+    if (root->kind != N_AT)
+        return true;
+    *t = open_changed(&m, root->changed);
+    *body = &root->changed->body;
+    return *t || calc_place(error, root->at, root->len);
+}
+
+bool expr_dim(calc *c, const expr *e, dim *d) {
+    calc_error ignored;
+    value v;
+    error_clear(&ignored);
+    machine m = {c, e, &ignored, NULL, true};
+    if (!run(&m, &v) || isnan(v.d.N + v.d.m)) /* a power by what has no value */
+        return false;
+    *d = v.d;
+    return true;
+}
+
+bool expr_value(calc *c, lexer *lx, value *out) {
+    return expr_parse(c, lx, &c->scratch) && expr_eval(c, &c->scratch, out, lx->error);
+}

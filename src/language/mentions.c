@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What an expression is made of, and what its definitions lead to. Evaluates nothing. */
+#include <stdio.h>
+#include <string.h>
+
+#include "language/tree.h"
+
+size_t way_step(char *way, size_t size, const char *name, const char *text) {
+    static const char dots[] = "... -> ";
+    if (size < sizeof dots)
+        return 0;
+    const int used = snprintf(way, size, text ? "%s := %.80s -> " : "%s -> ", name, text);
+    if (used >= 0 && (size_t)used + sizeof dots <= size)
+        return (size_t)used;
+    memcpy(way, dots, sizeof dots);
+    return size;
+}
+
+enum { UNSEEN = -1 };
+
+/* No definition has been looked into yet: each is, once, however often it is mentioned. */
+static void look_anew(const calc *c) {
+    for (size_t i = 0; i < c->names.count; i++)
+        c->names.row[i].levels = UNSEEN;
+}
+
+/* way: where there is one, "b -> c -> " of the definitions that lead to the name. */
+static bool mentions(const calc *c, const expr *e, const quantity *q, const char *name, char *way,
+                     size_t size) {
+    for (size_t i = 0; i < e->count; i++) {
+        const expr_node *n = &e->nodes[i];
+        if (q && (n->kind == N_QUANTITY || n->kind == N_CALL) && n->q == q)
+            return true;
+        if (n->kind == N_AT && mentions(c, &n->changed->body, q, name, way, size))
+            return true;
+        for (size_t j = 0; n->kind == N_AT && j < n->changed->count; j++)
+            if (mentions(c, &n->changed->change[j].value, q, name, way, size))
+                return true;
+        if (n->kind != N_NAME && n->kind != N_APPLY)
+            continue;
+        own_name *row = &c->names.row[n->index];
+        const definition *d = (const definition *)row->definition;
+        if (name && !strcmp(row->text, name))
+            return true;
+        if (row->levels != UNSEEN)
+            continue;
+        row->levels = 0;
+        const size_t step = d ? way_step(way, size, row->text, NULL) : 0;
+        if (d && mentions(c, &d->body, q, name, way ? way + step : NULL, size - step))
+            return true;
+        if (step)
+            way[0] = 0;
+    }
+    return false;
+}
+
+bool expr_mentions(const calc *c, const expr *e, const quantity *q, const char *name) {
+    look_anew(c);
+    return mentions(c, e, q, name, NULL, 0);
+}
+
+bool expr_way(const calc *c, const expr *e, const char *name, char *way, size_t size) {
+    way[0] = 0;
+    look_anew(c);
+    return mentions(c, e, NULL, name, way, size);
+}
+
+/* How many definitions lead into each other below the expression. */
+static int levels_below(const calc *c, const expr *e) {
+    int most = 0;
+    for (size_t i = 0; i < e->count; i++) {
+        const expr_node *n = &e->nodes[i];
+        int here = 0;
+        if (n->kind == N_AT) {
+            here = levels_below(c, &n->changed->body);
+            for (size_t j = 0; j < n->changed->count; j++) {
+                const int more = levels_below(c, &n->changed->change[j].value);
+                here = more > here ? more : here;
+            }
+        } else if (n->kind == N_NAME || n->kind == N_APPLY) {
+            own_name *row = &c->names.row[n->index];
+            const definition *d = (const definition *)row->definition;
+            if (row->levels == UNSEEN) {
+                row->levels =
+                    0; /* of a circle through what inputs are bound to, which is refused elsewhere */
+                row->levels = d ? 1 + levels_below(c, &d->body) : 0;
+            }
+            here = row->levels;
+        }
+        most = here > most ? here : most;
+    }
+    return most;
+}
+
+bool expr_levels_hold(const calc *c, calc_error *error) {
+    look_anew(c);
+    for (size_t i = 0; i < c->names.count; i++) {
+        const definition *d = (const definition *)c->names.row[i].definition;
+        if (d && levels_below(c, &d->body) >= CHAIN)
+            return calc_fail(error, 0, 0, "live definitions are nested more than %d deep", CHAIN);
+    }
+    return true;
+}
+
+const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at) {
+    for (size_t j = 0; j < e->count; j++) {
+        const expr_node *n = &e->nodes[j];
+        if (n->kind != N_QUANTITY && n->kind != N_CALL)
+            continue;
+        bool again = false;
+        for (size_t k = 0; k < j && n->kind == N_QUANTITY; k++)
+            again = again || (e->nodes[k].q == n->q && e->nodes[k].kind == n->kind);
+        if (!again && i-- == 0) {
+            *call = n->kind == N_CALL;
+            *at = n->at;
+            return n->q;
+        }
+    }
+    return NULL;
+}
+
+const definition *expr_definition(const calc *c, const expr *e, size_t i) {
+    for (size_t j = 0; j < e->count; j++) {
+        const expr_node *n = &e->nodes[j];
+        const bool own = n->kind == N_NAME || n->kind == N_APPLY;
+        const definition *d = own ? (const definition *)c->names.row[n->index].definition : NULL;
+        if (d && i-- == 0)
+            return d;
+    }
+    return NULL;
+}
+
+const expr *expr_meant(const calc *c, const expr *e) {
+    const definition *d;
+    while (e->count == 1 && (d = expr_definition(c, e, 0)))
+        e = &d->body;
+    return e;
+}

@@ -1,0 +1,578 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Expressions as trees. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "language/tree.h"
+#include "language/trial.h"
+#include "number/array.h"
+#include "text/characters.h"
+#include "text/unit_text.h"
+
+enum {
+    DEPTH_LIMIT = 200,    /* of nesting: the parser recurses */
+    NODE_LIMIT = 1 << 21, /* 96 bytes each */
+    LOOK = 4096           /* nodes after which the stop flag is looked at */
+};
+
+typedef struct parser {
+    calc *c;
+    lexer *lx;
+    expr *e;
+    const definition *within; /* its parameters are names */
+    int depth;
+} parser;
+
+/* ---- nodes ------------------------------------------------------------------------------------- */
+
+/* How many values a node takes from the nodes before it. */
+static size_t operands(const expr_node *n) {
+    switch ((node_kind)n->kind) {
+    case N_BINARY:
+        return 2;
+    case N_BUILTIN:
+        return builtin_row(n->index)->f2 ? 2 : 1;
+    case N_CALL:
+    case N_NEGATE:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+static bool add(parser *p, const expr_node *node, size_t *index) {
+    expr *e = p->e;
+    if (e->count % LOOK == 0 && calc_stopped(p->c->scene.stop, p->lx->error))
+        return false;
+    if (e->count == e->room) {
+        if (e->count >= NODE_LIMIT)
+            return lex_fail(p->lx, "the expression has more than %d numbers, names and operators",
+                            NODE_LIMIT);
+        expr_node *nodes = fret_array_for(e->nodes, &e->room, e->count + 1, sizeof *nodes);
+        if (!nodes)
+            return calc_no_memory(p->lx->error);
+        e->nodes = nodes;
+    }
+    *index = e->count;
+    e->nodes[e->count] = *node;
+    e->nodes[e->count++].len = (unsigned)(p->lx->last - node->at);
+    return true;
+}
+
+static void drop_ats(expr *e) {
+    while (e->ats) {
+        expr_at *at = e->ats;
+        e->ats = at->next;
+        expr_free(&at->body);
+        for (size_t i = 0; i < at->count; i++)
+            expr_free(&at->change[i].value);
+        free(at);
+    }
+}
+
+void expr_free(expr *e) {
+    drop_ats(e);
+    free(e->nodes);
+    free(e->arguments);
+    *e = (expr){.nodes = NULL};
+}
+
+/* ---- EXPR at NAME = EXPR, ... ------------------------------------------------------------------ */
+
+static bool parse_sum(parser *p, size_t *out);
+static bool parse_whole(parser *p);
+
+/* The nodes from `first` on become an expression of their own. */
+static bool split_tail(parser *p, size_t first, expr *body) {
+    expr *e = p->e;
+    const size_t count = e->count - first;
+    size_t arguments = e->argument_count;
+    for (size_t i = first; i < e->count; i++)
+        if (e->nodes[i].kind == N_APPLY && e->nodes[i].left < arguments)
+            arguments = e->nodes[i].left;
+    *body = (expr){.count = count,
+                   .room = count,
+                   .argument_count = e->argument_count - arguments,
+                   .argument_room = e->argument_count - arguments,
+                   .text = e->text};
+    body->nodes = malloc(count * sizeof *body->nodes);
+    body->arguments = body->argument_count ? malloc(body->argument_count * sizeof *body->arguments) : NULL;
+    if (!body->nodes || (body->argument_count && !body->arguments))
+        return calc_no_memory(p->lx->error);
+    memcpy(body->nodes, e->nodes + first, count * sizeof *body->nodes);
+    for (size_t i = 0; i < body->argument_count; i++)
+        body->arguments[i] = e->arguments[arguments + i] - first;
+    for (size_t i = 0; i < count; i++) {
+        expr_node *n = &body->nodes[i];
+        if (n->kind == N_APPLY) {
+            n->left -= arguments;
+        } else if (operands(n)) {
+            n->left -= first;
+            n->right -= operands(n) > 1 ? first : 0;
+        }
+    }
+    e->count = first;
+    e->argument_count = arguments;
+    return true;
+}
+
+static bool unknown_name(parser *p) {
+    lexer *lx = p->lx;
+    char word[LEX_NAME];
+    unit u;
+    lex_word(lx, word);
+    if (unit_lookup(lx->text + lx->at, lx->len, &u))
+        return lex_fail(lx, "'%s' is a unit: it must follow a number", word);
+    const char *answer = lead_from(word);
+    if (answer)
+        return lex_fail(lx, "unknown name '%s': %s", word, answer);
+    const char *near = suggest(word, quantity_name);
+    if (!near)
+        near = suggest(word, builtin_name);
+    const size_t same = character_before(word, strlen(word)); /* all letters but the last */
+    for (size_t i = 0; !near && i < p->c->names.count; i++)
+        if (p->c->names.row[i].known && same > 1 && !strncmp(p->c->names.row[i].text, word, same))
+            near = p->c->names.row[i].text;
+    return lex_fail(lx, near ? "unknown name '%s': did you mean %s?" : "unknown name '%s'", word, near);
+}
+
+static bool at_change(const lexer *lx) {
+    return lx->kind == T_NAME && lex_peek(lx) == T_ASSIGN;
+}
+
+static bool parse_change(parser *p, expr_at *at) {
+    lexer *lx = p->lx;
+    size_t name;
+    if (at->count == CHANGES)
+        return lex_fail(lx, "at most %d changes", CHANGES);
+    knob *q = &at->change[at->count].p;
+    if (!at_change(lx))
+        return lex_fail(lx, "expected NAME = EXPR after `at`");
+    if (!quantity_find(lx->text + lx->at, lx->len) &&
+        !names_find(&p->c->names, lx->text + lx->at, lx->len, &name))
+        return unknown_name(p); /* nothing before it could have meant it */
+    at->change[at->count].at = lx->at;
+    if (!knob_name(p->c, lx, q)) /* it may wait for the load it needs */
+        return false;
+    for (size_t i = 0; i < at->count; i++)
+        if (!strcmp(at->change[i].p.text, q->text))
+            return calc_fail(lx->error, at->change[at->count].at, strlen(q->text), "%s is given twice",
+                             q->text);
+    lex_next(lx);
+    parser inner = {
+        .c = p->c, .lx = lx, .e = &at->change[at->count++].value, .within = p->within, .depth = p->depth};
+    return parse_whole(&inner);
+}
+
+/* The cursor is after `at`; what it applies to are the nodes from `first` on, in the text from `begin`. */
+static bool parse_at(parser *p, size_t first, size_t begin, size_t *out) {
+    lexer *lx = p->lx;
+    expr_node node = {.kind = N_AT, .at = begin};
+    expr_at *at = calloc(1, sizeof *at);
+    if (!at)
+        return calc_no_memory(lx->error);
+    at->next = p->e->ats;
+    p->e->ats = node.changed = at;
+    if (!split_tail(p, first, &at->body))
+        return false;
+    size_t end = lx->last - strlen("at");
+    while (lx->text[end - 1] == ' ' || lx->text[end - 1] == '\t')
+        end--;
+    at->body.at = begin;
+    at->body.len = end - begin;
+    do {
+        if (at->count)
+            lex_next(lx);
+        if (!parse_change(p, at))
+            return false;
+        lexer ahead = *lx;
+        if (lx->kind == T_COMMA)
+            lex_next(&ahead);
+        if (lx->kind != T_COMMA || !at_change(&ahead))
+            break;
+    } while (true);
+    return add(p, &node, out);
+}
+
+/* ---- names ------------------------------------------------------------------------------------- */
+
+static bool parse_quantity(parser *p, const quantity *q, size_t *out) {
+    lexer *lx = p->lx;
+    expr_node node = {.kind = N_QUANTITY, .at = lx->at, .q = q};
+    const bool call = lex_peek(lx) == T_OPEN;
+    if (call && !q->call)
+        return lex_fail(lx, "%s is not a function", q->name);
+    if (!call && !quantity_has_value(q))
+        return lex_fail(lx, "%s is a function: %s(%s)", q->name, q->name, q->argument);
+    lex_next(lx);
+    if (call) {
+        node.kind = N_CALL;
+        lex_next(lx);
+        if (!parse_sum(p, &node.left))
+            return false;
+        if (lx->kind != T_CLOSE)
+            return lex_one_value(lx) && lex_fail(lx, "expected ) after the argument of %s", q->name);
+        lex_next(lx);
+    }
+    return add(p, &node, out);
+}
+
+/* What follows an argument goes on with no other, or there are more of them. */
+static bool wrong_count(const parser *p, const char *name, int count, const char *more) {
+    lexer *lx = p->lx;
+    size_t from, len;
+    if (count == 1 && !lex_one_value(lx)) {
+        calc_append(p->c, lx->error, "; %s takes 1 argument", name);
+        return false;
+    }
+    const bool comma = lex_decimal_comma(lx, lx->at, &from, &len);
+    return lex_fail(lx, "%s takes %d argument%s%s%s", name, count, count > 1 ? "s" : "", more,
+                    comma ? "; a decimal comma is a point here" : "");
+}
+
+static bool parse_builtin(parser *p, size_t i, size_t *out) {
+    lexer *lx = p->lx;
+    const builtin *function = builtin_row(i);
+    expr_node node = {.kind = N_BUILTIN, .at = lx->at, .index = i};
+    lex_next(lx);
+    if (!function) {
+        node.kind = N_NUMBER;
+        node.v = (value){3.14159265358979323846264338327950288L, DIM_NONE};
+        return add(p, &node, out);
+    }
+    if (lx->kind != T_OPEN)
+        return lex_fail(lx, "expected ( after %s%s", function->name,
+                        node.at > 0 && lx->text[node.at - 1] == '/' ? ", a function: no unit is called so"
+                                                                    : "");
+    size_t *argument[2] = {&node.left, &node.right};
+    const int count = function->f2 ? 2 : 1;
+    for (int j = 0; j < count; j++) {
+        lex_next(lx);
+        if (!parse_sum(p, argument[j]))
+            return false;
+        const bool more = function->d == DIM_SHARED && j + 1 == count && lx->kind == T_COMMA;
+        if (!more && lx->kind != (j + 1 < count ? T_COMMA : T_CLOSE))
+            return wrong_count(p, function->name, count, function->d == DIM_SHARED ? " or more" : "");
+        if (!more)
+            continue;
+        size_t first; /* min(a, b, c) is min(min(a, b), c) */
+        expr_node two = node;
+        two.at = p->e->nodes[node.right].at; /* what an error shows of it */
+        if (!add(p, &two, &first))
+            return false;
+        node.left = first;
+        j--;
+    }
+    lex_next(lx);
+    return add(p, &node, out);
+}
+
+/* The roots of the arguments, one after the other in e->arguments. */
+static bool parse_arguments(parser *p, const definition *d, expr_node *node) {
+    lexer *lx = p->lx;
+    size_t root[PARAMETERS];
+    expr *e = p->e;
+    for (unsigned j = 0; j < d->parameters; j++) {
+        lex_next(lx);
+        if (!parse_sum(p, &root[j]))
+            return false;
+        if (lx->kind != (j + 1 < d->parameters ? T_COMMA : T_CLOSE))
+            return wrong_count(p, d->label, (int)d->parameters, "");
+    }
+    lex_next(lx);
+    node->left = e->argument_count;
+    node->right = d->parameters;
+    for (unsigned j = 0; j < d->parameters; j++) {
+        size_t *arguments =
+            fret_array_for(e->arguments, &e->argument_room, e->argument_count + 1, sizeof *arguments);
+        if (!arguments)
+            return calc_no_memory(lx->error);
+        e->arguments = arguments;
+        e->arguments[e->argument_count++] = root[j];
+    }
+    return true;
+}
+
+static bool parse_own(parser *p, size_t index, size_t *out) {
+    lexer *lx = p->lx;
+    const definition *d = (const definition *)p->c->names.row[index].definition;
+    expr_node node = {.kind = N_NAME, .at = lx->at, .index = index};
+    const bool function = d && d->parameters > 0, call = lex_peek(lx) == T_OPEN;
+    if (function && !call)
+        return lex_fail(lx, "%s is a function: %s(%s%s)", d->label, d->label, d->parameter[0],
+                        d->parameters > 1 ? ", ..." : "");
+    lex_next(lx);
+    if (!function)
+        return add(p, &node, out);
+    node.kind = N_APPLY;
+    return parse_arguments(p, d, &node) && add(p, &node, out);
+}
+
+/* An argument of the function that is defined. */
+static bool find_parameter(const parser *p, unsigned *j) {
+    const unsigned count = p->within ? p->within->parameters : 0;
+    *j = 0;
+    while (*j < count && !lex_is(p->lx, p->within->parameter[*j]))
+        ++*j;
+    return *j < count;
+}
+
+static bool parse_name(parser *p, size_t *out) {
+    lexer *lx = p->lx;
+    const char *word = lx->text + lx->at;
+    const size_t len = lx->len;
+    size_t i;
+    unsigned j;
+    if (find_parameter(p, &j)) {
+        expr_node node = {.kind = N_PARAMETER, .at = lx->at, .index = j};
+        lex_next(lx);
+        return add(p, &node, out);
+    }
+    const quantity *q = quantity_find(word, len);
+    if (q)
+        return parse_quantity(p, q, out);
+    if (builtin_find(word, len, &i))
+        return parse_builtin(p, i, out);
+    if (lex_is(lx, "ans")) {
+        expr_node node = {.kind = N_ANS, .at = lx->at};
+        lex_next(lx);
+        return add(p, &node, out);
+    }
+    return names_find(&p->c->names, word, len, &i) ? parse_own(p, i, out) : unknown_name(p);
+}
+
+/* ---- operators --------------------------------------------------------------------------------- */
+
+/* A value or a unit right behind a number, and no keyword or argument of a command. */
+static bool at_factor(const parser *p) {
+    const lexer *lx = p->lx;
+    const char *word = lx->text + lx->at;
+    const token_kind next = lex_peek(lx);
+    size_t i;
+    unsigned j;
+    if (next == T_ASSIGN || next == T_DEFINE || next == T_INCREMENT || next == T_NUMBER)
+        return false;
+    if (builtin_find(word, lx->len, &i))
+        return !builtin_row(i) || next == T_OPEN;
+    if (quantity_find(word, lx->len) || unit_at(lx) || find_parameter(p, &j))
+        return true;
+    /* a name of the user's may be a word of the command, too: `to /FILE`, `points` */
+    return names_find(&p->c->names, word, lx->len, &i) &&
+           (next == T_PLUS || next == T_TIMES || next == T_POWER || next == T_CLOSE ||
+            (p->c->keyword && !p->c->keyword(lx)));
+}
+
+static bool parse_number(parser *p, size_t *out) {
+    lexer *lx = p->lx;
+    size_t at = lx->at, len = lx->len;
+    expr_node node; /* one by one: to clear the whole would cost more than the rest */
+    node.kind = N_NUMBER;
+    node.op = 0;
+    node.at = at;
+    node.left = node.right = node.index = 0;
+    node.q = NULL;
+    node.v = (value){lx->number, DIM_NONE};
+    unit u;
+    lex_next(lx);
+    if (unit_at(lx)) {
+        if (!unit_parse(lx, &u))
+            return false;
+        const bool zero = node.v.v == 0;
+        node.v = (value){unit_literal(lx, at, len, &u), u.d};
+        if (!isfinite((double)node.v.v) || (node.v.v == 0 && !zero))
+            return calc_fail(lx->error, at, lx->last - at, "the number is too %s for double precision",
+                             node.v.v == 0 ? "small" : "large");
+    }
+    if (lx->error->raised)
+        return false;
+    if (lx->kind == T_OPEN || (lx->kind == T_NAME && at_factor(p)))
+        return lex_fail(lx, "unexpected '%.*s': a product needs *, a list commas", LEX_WORD(lx));
+    return add(p, &node, out);
+}
+
+static bool parse_parenthesis(parser *p, size_t *out) {
+    lexer *lx = p->lx;
+    const size_t first = p->e->count;
+    lex_next(lx);
+    const size_t begin = lx->at;
+    if (!parse_sum(p, out))
+        return false;
+    if (lex_accept(lx, "at") && !parse_at(p, first, begin, out))
+        return false;
+    if (lx->kind != T_CLOSE)
+        return lex_one_value(lx) && lex_fail(lx, "expected )");
+    lex_next(lx);
+    return true;
+}
+
+/* Behind a value that is no number. */
+static bool no_unit(lexer *lx) {
+    if (lx->error->raised)
+        return false;
+    return lx->kind != T_NAME || !unit_at(lx) ||
+           lex_fail(lx, "'%.*s' is a unit: it must follow a number, or `in`", LEX_WORD(lx));
+}
+
+static bool parse_primary(parser *p, size_t *out) {
+    lexer *lx = p->lx;
+    if (lx->error->raised)
+        return false;
+    switch (lx->kind) {
+    case T_NUMBER:
+        return parse_number(p, out);
+    case T_OPEN:
+        return parse_parenthesis(p, out) && no_unit(lx);
+    case T_NAME:
+        return parse_name(p, out) && no_unit(lx);
+    case T_END:
+        return lex_fail(lx, "expected a value here");
+    default:
+        return lex_fail(lx, "expected a value, not '%.*s'", LEX_WORD(lx));
+    }
+}
+
+static bool parse_unary(parser *p, size_t *out);
+
+static bool parse_power(parser *p, size_t *out) {
+    const size_t at = p->lx->at;
+    if (!parse_primary(p, out))
+        return false;
+    if (p->lx->kind != T_POWER)
+        return true;
+    expr_node node = {.kind = N_BINARY, .op = '^', .at = at, .left = *out};
+    lex_next(p->lx);
+    return parse_unary(p, &node.right) && add(p, &node, out);
+}
+
+static bool parse_unary(parser *p, size_t *out) {
+    bool ok;
+    if (++p->depth > DEPTH_LIMIT)
+        return lex_fail(p->lx, "the expression is nested too deeply");
+    if (p->lx->kind == T_MINUS || p->lx->kind == T_PLUS) {
+        bool minus = p->lx->kind == T_MINUS;
+        const size_t at = p->lx->at;
+        lex_next(p->lx);
+        ok = parse_unary(p, out);
+        if (ok && minus)
+            ok = add(p, &(expr_node){.kind = N_NEGATE, .at = at, .left = *out}, out);
+    } else {
+        ok = parse_power(p, out);
+    }
+    p->depth--;
+    return ok;
+}
+
+static bool parse_product(parser *p, size_t *out) {
+    size_t at = p->lx->at;
+    if (!parse_unary(p, out))
+        return false;
+    while (p->lx->kind == T_TIMES || p->lx->kind == T_DIVIDE) {
+        expr_node node = {.kind = N_BINARY, .op = (char)p->lx->kind, .at = at, .left = *out};
+        lex_next(p->lx);
+        if (!parse_unary(p, &node.right) || !add(p, &node, out))
+            return false;
+    }
+    return true;
+}
+
+static bool parse_sum(parser *p, size_t *out) {
+    size_t at = p->lx->at;
+    if (!parse_product(p, out))
+        return false;
+    while (p->lx->kind == T_PLUS || p->lx->kind == T_MINUS) {
+        expr_node node = {.kind = N_BINARY, .op = (char)p->lx->kind, .at = at, .left = *out};
+        lex_next(p->lx);
+        if (!parse_product(p, &node.right) || !add(p, &node, out))
+            return false;
+    }
+    return true;
+}
+
+/* ---- whole expressions ------------------------------------------------------------------------- */
+
+static bool parse_whole(parser *p) {
+    size_t root;
+    expr *e = p->e;
+    drop_ats(e);
+    e->count = e->argument_count = 0;
+    e->text = p->lx->text;
+    e->at = p->lx->at;
+    if (!parse_sum(p, &root))
+        return false;
+    /* the root is last: a parenthesised expression adds no node of its own, and need not */
+    e->len = p->lx->last - e->at;
+    return p->lx->list || lex_one_value(p->lx);
+}
+
+bool expr_parse(calc *c, lexer *lx, expr *e) {
+    parser p = {.c = c, .lx = lx, .e = e};
+    return parse_whole(&p);
+}
+
+bool expr_read_at(calc *c, lexer *lx, expr *e) {
+    parser p = {.c = c, .lx = lx, .e = e};
+    size_t root;
+    if (!lex_accept(lx, "at"))
+        return !lx->error->raised;
+    return parse_at(&p, 0, e->at, &root) && !lx->error->raised;
+}
+
+bool expr_parse_at(calc *c, lexer *lx, expr *e) {
+    return expr_parse(c, lx, e) && expr_read_at(c, lx, e);
+}
+
+static void definition_end(counted *self) {
+    definition *d = (definition *)self;
+    expr_free(&d->body);
+    free(d->label);
+    free(d->text);
+    free(d);
+}
+
+static char *copy_of(const char *text, size_t len) {
+    char *copy = malloc(len + 1);
+    if (copy) {
+        memcpy(copy, text, len);
+        copy[len] = 0;
+    }
+    return copy;
+}
+
+/* The body of a definition at the cursor. */
+static bool parse_body(calc *c, lexer *lx, definition *d) {
+    parser p = {.c = c, .lx = lx, .e = &d->body, .within = d};
+    const size_t at = lx->at;
+    size_t root;
+    return parse_whole(&p) && (!lex_accept(lx, "at") || parse_at(&p, 0, at, &root));
+}
+
+/* Parsed twice: where it stands, for its errors and its end, and then as its own. */
+definition *definition_parse(calc *c, lexer *lx, const char *label, size_t len, char (*parameter)[LEX_NAME],
+                             unsigned parameters) {
+    definition *d = calloc(1, sizeof *d);
+    if (!d) {
+        calc_no_memory(lx->error);
+        return NULL;
+    }
+    d->base = (counted){1, definition_end};
+    d->parameters = parameters;
+    for (unsigned i = 0; i < parameters; i++)
+        memcpy(d->parameter[i], parameter[i], LEX_NAME);
+    const size_t at = lx->at;
+    bool ok = parse_body(c, lx, d);
+    if (ok) {
+        d->label = copy_of(label, len);
+        d->text = copy_of(lx->text + at, lx->last - at);
+        ok = (d->label && d->text) || calc_no_memory(lx->error);
+    }
+    if (ok) {
+        lexer own;
+        lex_start(&own, d->text, strlen(d->text), lx->error);
+        ok = parse_body(c, &own, d);
+    }
+    if (ok)
+        return d;
+    counted_drop(&d->base);
+    return NULL;
+}

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What may be given: inputs that are of use in the scene, values of the dimension that is wanted. Changes
+ * nothing. */
+#include <ctype.h>
+#include <string.h>
+
+#include "language/calc.h"
+
+bool calc_takes(const calc *c, input in, calc_error *error) {
+    const scene *s = c->now;
+    const quantity *q = quantity_of_input(in);
+    if (in >= IN_N) {
+        if (!s->in.geometry)
+            return calc_fail(error, 0, 0,
+                             "there is no geometry yet: give one first (geometry sphere R=10 mm)");
+        const geometry *g = s->in.geometry;
+        if (inputs_take(&s->in, in))
+            return true;
+        char usage[160];
+        takes_text(g->takes, usage, sizeof usage);
+        if (g->allowed & INPUT_BIT(in)) /* h and r0 */
+            return calc_fail(error, 0, 0, "geometry %s was given by A, not by %s (%s %s)", g->name, q->name,
+                             g->name, usage);
+        return calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s %s)", q->name, g->name, g->name,
+                         usage);
+    }
+    if (in == IN_FN)
+        return !s->end.steps || s->program->steps[0].normal == BY_FORCE ||
+               calc_fail(error, 0, 0, "the press was not given as FN: press again (press FN=...)");
+    if (!(INPUT_BIT(in) & INPUT_CYCLE))
+        return true;
+    if (!s->end.cycles)
+        return calc_fail(error, 0, 0,
+                         "there is no cycle that %s could belong to: run one first (cycle FA=20 N)", q->name);
+    if (in == IN_FA && !s->in.set[IN_FA])
+        return calc_fail(error, 0, 0, "the last cycle was given by displacement: dxA, not FA");
+    if (in == IN_DXA && !s->in.set[IN_DXA])
+        return calc_fail(error, 0, 0, "the last cycle was given by force: FA, not dxA");
+    return true;
+}
+
+/* Is a unit of angles written there? What atan() answers counts as a number too, in radians. */
+static bool says_angle(const char *text, size_t len) {
+    for (size_t i = 0, n; i < len; i += n + !n) {
+        for (n = 0; i + n < len && isalpha((unsigned char)text[i + n]); n++)
+            ;
+        unit u;
+        if (n && unit_lookup(text + i, n, &u) && u.d.rad != 0)
+            return true;
+    }
+    return false;
+}
+
+bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d) {
+    if (v.d.N == d.N && v.d.m == d.m && d.rad == 0 && v.d.rad == 0) /* the common case */
+        return true;
+    const bool plain = dim_equal(v.d, DIM_NONE) && v.d.rad == 0;
+    const bool angle = d.rad != 0, both = angle == (v.d.rad != 0); /* a length may have come of an angle */
+    const bool apart = angle || (dim_equal(d, DIM_NONE) && len && says_angle(lx->text + at, len));
+    if ((dim_equal(v.d, d) && (both || !apart)) || (v.v == 0 && plain))
+        return true;
+    size_t from, all;
+    if (plain && lx->kind == T_COMMA && lx->last == at + len && lex_decimal_comma(lx, lx->at, &from, &all))
+        return lex_one_value(lx); /* FN = 1,5 N */
+    if (angle && plain)
+        return calc_fail(lx->error, at, len, "%s needs a unit: it is an angle, in deg or rad", name);
+    char want[128], got[128], unit_text[128];
+    dim_describe(d, want, sizeof want);
+    dim_describe(v.d, got, sizeof got);
+    dim_unit(d, unit_text, sizeof unit_text);
+    if (plain)
+        return calc_fail(lx->error, at, len, "%s needs a unit: it is %s%s%s", name, want,
+                         strstr(want, unit_text) ? "" : ", in ", strstr(want, unit_text) ? "" : unit_text);
+    if (len == 0) /* of a definition, which stands elsewhere */
+        return calc_fail(lx->error, at, len, "%s is %s, not %s", name, want, got);
+    return calc_fail(lx->error, at, len, "%s is %s, not %s (%.*s)", name, want, got, LEX_SHOWN(len),
+                     lx->text + at);
+}

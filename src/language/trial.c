@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scratch scenes for expressions, with inputs, names, the load or the instant changed. */
+#include "language/trial.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "language/beside.h"
+
+trial *trial_open(calc *c, calc_error *error) {
+    trial *t = calloc(1, sizeof *t);
+    if (!t) {
+        calc_no_memory(error);
+        return NULL;
+    }
+    t->c = c;
+    t->outer = c->now;
+    t->names = c->names.count;
+    scene_clone(&t->scene, c->now);
+    t->scene.sound = t->sound = c->now == &c->scene || c->now->sound;
+    t->scene.used = 0;
+    c->now = &t->scene;
+    return t;
+}
+
+void trial_reset(trial *t) {
+    const scene_use before = scene_answered_by(&t->scene);
+    scene_free(&t->scene);
+    scene_clone(&t->scene, t->outer);
+    t->scene.sound = t->sound;
+    t->scene.used = 0;
+    scene_also_used(&t->scene, before);
+}
+
+void trial_close(trial *t) {
+    calc *c = t->c;
+    scene_also_used(t->outer, scene_answered_by(c->now)); /* perhaps one beside it */
+    c->now = t->outer;
+    scene_free(&t->scene);
+    while (t->hidden_count > 0) {
+        own_name *row = &c->names.row[t->hidden[--t->hidden_count]];
+        counted_drop(row->definition);
+        char *text = row->text;
+        *row = t->old[t->hidden_count];
+        row->text = text;
+    }
+    free(t->hidden);
+    free(t->old);
+    free(t);
+}
+
+/* The user's value comes back when the trial closes. */
+static bool hide(trial *t, size_t name, calc_error *error) {
+    for (size_t i = 0; i < t->hidden_count; i++)
+        if (t->hidden[i] == name)
+            return true;
+    size_t *hidden = realloc(t->hidden, (t->hidden_count + 1) * sizeof *hidden);
+    if (hidden)
+        t->hidden = hidden;
+    own_name *old = realloc(t->old, (t->hidden_count + 1) * sizeof *old);
+    if (old)
+        t->old = old;
+    if (!hidden || !old)
+        return calc_no_memory(error);
+    own_name *row = &t->c->names.row[name];
+    t->hidden[t->hidden_count] = name;
+    t->old[t->hidden_count++] = *row;
+    row->definition = NULL; /* it belongs to the old one */
+    return true;
+}
+
+bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
+    scene *s = &t->scene;
+    if (!p->is_input) {
+        if (!hide(t, p->name, error))
+            return false;
+        names_put(&t->c->names, p->name, (value){v, p->d}, NULL);
+        if (s->in.bindings)
+            scene_forget(s, false);
+        return true;
+    }
+    fret_status st = input_status(p->in, (double)v);
+    if (!calc_input_status(error, (int)p->in, &st))
+        return false;
+    scene *outer = t->c->now;
+    t->c->now = s;
+    const bool takes =
+        calc_takes(t->c, p->in, error); /* not where a definition that says so was made, perhaps */
+    t->c->now = outer;
+    if (!takes)
+        return false;
+    if (p->in == IN_FN && !s->end.steps) {
+        const load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = (double)v};
+        return scene_append(s, &press, NULL, error);
+    }
+    scene_put(s, p->in, (double)v);
+    return true;
+}
+
+/* Does what has been run depend on it? */
+static bool runs_on(const trial *t, const knob *p) {
+    const inputs *in = &t->scene.in;
+    bool found = p->is_input;
+    for (input i = 0; i < INPUTS && !found; i++)
+        found = in->bound[i] && expr_mentions(t->c, &((const definition *)in->bound[i])->body, NULL, p->text);
+    return found;
+}
+
+bool trial_change(trial *t, const knob_value by[], size_t count, size_t *wrong, calc_error *error) {
+    const instant *now = t->scene.now;
+    size_t run = count;
+    for (*wrong = 0; *wrong < count; ++*wrong) {
+        if (!trial_set(t, &by[*wrong].p, by[*wrong].v, error))
+            return false;
+        if (run == count && runs_on(t, &by[*wrong].p))
+            run = *wrong;
+    }
+    if (!now || run == count)
+        return true;
+    if (!now->beside)
+        return calc_fail(error, 0, 0,
+                         "%s cannot be changed at an instant of a load: try along ... with %s = ...",
+                         by[run].p.text, by[run].p.text);
+    return beside_scene(now->beside, &t->scene, by, count, scene_time(t->outer), &t->c->now, error);
+}
+
+/* ---- what is changed by name ------------------------------------------------------------------- */
+
+bool knob_read(calc *c, lexer *lx, knob *out) {
+    const size_t at = lx->at, len = lx->len;
+    return knob_name(c, lx, out) &&
+           (!out->is_input || calc_takes(c, out->in, lx->error) || calc_place(lx->error, at, len));
+}
+
+bool knob_name(calc *c, lexer *lx, knob *out) {
+    *out = (knob){.is_input = false};
+    if (lx->kind != T_NAME)
+        return lex_fail(lx, "expected a name");
+    if (!lex_whole(lx, "a name that is changed", out->text))
+        return false;
+    const quantity *q = quantity_find(out->text, lx->len);
+    if (q && !quantity_is_input(q))
+        return lex_fail(lx, "%s is a result: only inputs and free names can be varied", out->text);
+    if (q) {
+        out->is_input = true;
+        out->in = quantity_input(q);
+        out->d = quantity_dim(q, c->now);
+    } else {
+        const char *taken = name_taken(out->text, lx->len);
+        if (taken)
+            return lex_fail(lx, "'%s' is %s: it cannot be varied", out->text, taken);
+        if (!names_add(&c->names, out->text, lx->len, &out->name))
+            return calc_no_memory(lx->error);
+        if (c->names.row[out->name].known)
+            out->d = c->names.row[out->name].v.d;
+        c->names.row[out->name].known = true;
+    }
+    lex_next(lx);
+    return true;
+}
+
+/* ---- along a load ------------------------------------------------------------------------------ */
+
+typedef struct along {
+    trial *t;
+    instant now;
+    beside beside;
+    along_look *look;
+    void *context;
+    calc_error *error;
+    double first, last; /* times that count */
+} along;
+
+static bool see(const runner *r, void *context) {
+    along *a = context;
+    scene *s = &a->t->scene;
+    if (r->time < a->first - 1e-9 || r->time > a->last + 1e-9)
+        return true;
+    a->now = (instant){.run = r, .beside = &a->beside};
+    s->now = &a->now;
+    scene_moved(s);
+    bool ok = a->look(a->context, r->time, a->error);
+    s->now = NULL;
+    scene_moved(s);
+    return ok;
+}
+
+bool trial_along(trial *t, along_what what, load_mark from, size_t points, bool turns, along_look *look,
+                 void *context, calc_error *error) {
+    scene *s = &t->scene;
+    along a = {.t = t, .look = look, .context = context, .error = error};
+    if (!s->end.steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    a.last = program_time(s->program, s->end);
+    if (what == ALONG_LOAD)
+        a.first = program_time(s->program, from);
+    if (what == ALONG_CYCLE) {
+        const size_t cycle = program_last_cycle(s->program, s->end);
+        if (cycle == NO_CYCLE)
+            return calc_fail(error, 0, 0, "no cycle has been run yet: use along cycle FA=...");
+        a.last = program_time(s->program, (load_mark){cycle + 1, s->end.cycles});
+        a.first = a.last - 1;
+    }
+    const bool lasts = a.last > a.first;
+    watch w =
+        watch_times(a.first, lasts ? (a.last - a.first) / (double)points : 1, lasts ? points : 0, turns);
+    a.beside.looks = w;
+    w.see = see;
+    w.context = &a;
+    w.limit = true;
+    const bool ok = scene_trace(s, &w, error);
+    beside_end(&a.beside);
+    return ok;
+}

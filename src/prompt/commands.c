@@ -1,0 +1,620 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of commands and the rows of their arguments: the one file that knows all handlers. main hands it
+ * down, command.c looks it up. */
+#include "statement/command.h"
+
+#include "commands/accuracy_command.h"
+#include "commands/figures.h"
+#include "commands/presets.h"
+#include "commands/range.h"
+#include "commands/study_commands.h"
+#include "help/help.h"
+#include "live/live.h"
+#include "prompt/show.h"
+#include "statement/scripts.h"
+
+/* ---- holes ------------------------------------------------------------------------------------- */
+
+static const char *axes_name(size_t i) {
+    static const char *const names[] = {"x", "y", "xy"};
+    return i < sizeof names / sizeof *names ? names[i] : NULL;
+}
+
+static const char *off_name(size_t i) {
+    return i == 0 ? "off" : NULL;
+}
+
+const hole_row holes[] = {
+    {.name = "EXPR", .kind = HOLE_EXPR},
+    {.name = "VALUES", .kind = HOLE_EXPR},
+    {.name = "DEVIATION", .kind = HOLE_EXPR},
+    {.name = "TERM", .kind = HOLE_EXPR},
+    {.name = "HOW", .kind = HOLE_MAYBE},
+    {.name = "LO", .kind = HOLE_SPAN},
+    {.name = "NAME", .kind = HOLE_NAME},
+    {.name = "INPUT", .kind = HOLE_INPUT},
+    {.name = "MU", .kind = HOLE_VALUE, .noun = "mu"},
+    {.name = "N", .kind = HOLE_COUNT},
+    {.name = "SECONDS", .kind = HOLE_SECONDS},
+    {.name = "TEXT", .kind = HOLE_TEXT},
+    {.name = "FILE", .kind = HOLE_FILE},
+    {.name = "LOAD", .kind = HOLE_LOAD},
+    {.name = "MATERIAL", .kind = HOLE_CHOICE, .noun = "material", .words = preset_name},
+    {.name = "BODY", .kind = HOLE_CHOICE, .noun = "material", .words = second_name},
+    {.name = "AXES", .kind = HOLE_CHOICE, .words = axes_name},
+    {.name = "OFF", .kind = HOLE_CHOICE, .words = off_name},
+    {.name = "WORD", .kind = HOLE_WORD},
+    {.name = "SHAPE", .kind = HOLE_WORD, .words = geometry_name},
+    {.name = "PART", .kind = HOLE_CHOICE, .noun = "part", .words = show_name},
+    {.name = "SETTING", .kind = HOLE_WORD, .words = setting_name},
+    {.name = "LESSON", .kind = HOLE_WORD, .words = script_name},
+    {.name = "TOPIC", .kind = HOLE_WORD, .words = help_name},
+    {.name = "FIGURE", .kind = HOLE_WORD, .words = figure_word},
+    {.name = "RANGE",
+     .kind = HOLE_CLAUSES,
+     .clauses = "[for NAME = LO .. HI]* [along LOAD] [steps N:100000000]* [log]* [with NAME = VALUES]"},
+    {.name = "LOOK",
+     .kind = HOLE_CLAUSES,
+     .clauses = "[title TEXT]* [xlabel TEXT]* [ylabel TEXT]* [xrange LO .. HI]* [yrange LO .. HI]* "
+                "[log AXES]* [flip AXES]* [key OFF]* [points]* [over FILE]*"},
+    {.name = NULL},
+};
+
+/* ---- help from tables -------------------------------------------------------------------------- */
+
+static void presets_list(FILE *to) {
+    const preset *p;
+    for (size_t i = 0; (p = preset_row(i)); i++)
+        fprintf(to, "    %-17s E0=%.10g GPa nu=%.10g\n", p->name, p->E0 / 1e9, p->nu);
+}
+
+static void geometry_line(FILE *to, const geometry *g) {
+    char usage[GRAMMAR_USAGE];
+    grammar_usage(shape_form(g), usage);
+    fprintf(to, "    %s\n        %s\n", usage, g->meaning);
+}
+
+static void geometry_list(FILE *to) {
+    const geometry *g;
+    for (size_t i = 0; (g = geometry_row(i)); i++)
+        geometry_line(to, g);
+    fputs("\n    fret> geometry cone angle=45 deg\n    fret> slope\n    slope = 1\n", to);
+}
+
+static void figures_list(FILE *to) {
+    const figure *f;
+    for (size_t i = 0; (f = figure_row(i)); i++)
+        fprintf(to, "    %-12s %s\n", f->name, f->summary);
+}
+
+const command commands[] = {
+    {.name = "material",
+     .run = do_material,
+     .group = "the bodies",
+     .keywords = "steel aluminium Young elastic graded",
+     .changes = true,
+     .print = presets_list,
+     .takes = "[MATERIAL] [E0:=210 GPa] [nu:=0.3] [k:=0.5] [c0:=1 mm] [E0_2:=70 GPa] [nu_2:=0.33]",
+     .summary = "the elastic bodies",
+     .help = "Sets E(z) = E0 (z/c0)^k and Poisson's ratio of both bodies. Without k the\n"
+             "material is homogeneous and c0 is not needed. Arguments behind a name of\n"
+             "the list above change it (`material steel nu=0.28`); `help NAME` tells the\n"
+             "source.\n\n"
+             "    fret> material E0=210 GPa nu=0.3 k=0.5 c0=1 mm\n"
+             "    fret> E(0.25 mm), eta\n"
+             "    E(0.25 mm) = 105 GPa\n"
+             "    eta = 2.10754\n"},
+    {.name = "second",
+     .run = do_second,
+     .group = "the bodies",
+     .keywords = "other body",
+     .changes = true,
+     .takes = "[BODY] [E0:=70 GPa] [nu:=0.33] [E0_2:=70 GPa] [nu_2:=0.33]",
+     .summary = "the other body, where it differs",
+     .help = "The second body shares k and c0 with the first; by default it is the same.\n"
+             "Bodies that are not elastically similar couple normal and tangential contact,\n"
+             "which is left out here: a warning says so where something tangential is asked.\n"
+             "`help material` lists materials.\n\n"
+             "    fret> material steel; second rigid; friction 0.3\n"
+             "    fret> geometry sphere R=10 mm; press FN=100 N; a\n"
+             "    a = 148.125 um\n"
+             "    fret> dW(20 N)\n"
+             "    dW(20 N) = 1.96943 uJ\n"
+             "    warning: the bodies are elastically dissimilar (mismatch 0.286): normal and tangential "
+             "contact are "
+             "coupled, and these results are an approximation\n"},
+    {.name = "geometry",
+     .run = do_geometry,
+     .group = "the bodies",
+     .keywords = "gap shape indenter sphere cone",
+     .changes = true,
+     .print = geometry_list,
+     .takes = "SHAPE ...",
+     .summary = "the gap between the bodies"},
+    {.name = "friction",
+     .run = do_friction,
+     .group = "the bodies",
+     .keywords = "Coulomb mu",
+     .changes = true,
+     .takes = "MU",
+     .summary = "the coefficient of friction",
+     .help = "Sets mu, Coulomb's coefficient. `mu = 0.4` does the same.\n\n"
+             "    fret> friction 0.4\n"
+             "    fret> mu\n"
+             "    mu = 0.4\n"},
+    {.name = "press",
+     .run = do_press,
+     .group = "the load",
+     .keywords = "normal load Hertz indentation",
+     .changes = true,
+     .takes = "FN=100 N | dz=1 um | a=0.2 mm",
+     .summary = "press the bodies together: starts a load program",
+     .help = "By force, indentation depth or contact radius. What was stepped before is\n"
+             "forgotten.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm\n"
+             "    fret> press a=0.2 mm\n"
+             "    fret> FN, dz\n"
+             "    FN = 123.077 N\n"
+             "    dz = 4 um\n"},
+    {.name = "step",
+     .run = do_step,
+     .group = "the load",
+     .keywords = "tangential load",
+     .takes = "[Fx+=20 N | dx+=0.5 um] [FN+=120 N | dz+=1 um] [steps N:1000000]",
+     .summary = "a straight step of the load",
+     .help = "A tangential target, a normal target, or both for a straight ramp; += adds to\n"
+             "what is there now. A normal step alone holds dx. Both together go straight in FN\n"
+             "and Fx, or to a dx straight in dz and dx. Force cannot go beyond mu*FN;\n"
+             "displacement can, and then the contact slides. `steps` records points on the\n"
+             "way for `history`.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> press FN=100 N\n"
+             "    fret> step Fx=20 N; step Fx+=-10 N\n"
+             "    fret> Fx, dx, c/a\n"
+             "    Fx = 10 N\n"
+             "    dx = 337.819 nm\n"
+             "    c/a = 0.956466\n"},
+    {.name = "cycle",
+     .run = do_cycle,
+     .group = "the load",
+     .keywords = "oscillation fretting hysteresis loop dissipation",
+     .changes = true,
+     .takes = "FA:=20 N | dxA:=0.5 um [times N:1000000] [steps N:1000000] [FNA:=30 N] [phase:=90 deg]",
+     .summary = "close tangential cycles",
+     .help = "Goes to +FA, then through whole cycles +FA, -FA, +FA; dW is the energy that\n"
+             "the last one dissipated. With FNA the normal force swings too,\n"
+             "FN + FNA sin(w t + phase) against FA sin(w t): the sine itself, whatever the\n"
+             "`steps`, which are points to record for `history`.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> press FN=100 N\n"
+             "    fret> cycle FA=20 N\n"
+             "    fret> dW, dW/(4*FN*dxmax) in %\n"
+             "    dW = 1.90646 uJ\n"
+             "    dW/(4*FN*dxmax) = 0.281737 %\n"},
+    {.name = "follow",
+     .run = do_follow,
+     .group = "the load",
+     .keywords = "csv history measured",
+     .changes = true,
+     .takes = "FILE.csv",
+     .summary = "load along a table of FN,Fx or dz,dx",
+     .help = "The header gives the columns and their units. Every row is a straight step; one\n"
+             "that cannot be carried leaves the scene as before the command. Where nothing is\n"
+             "pressed yet the first row presses, and must have Fx or dx = 0. A file of\n"
+             "`history to` has both pairs, and W: it is followed where they agree in this\n"
+             "scene. `help files` tells what else such a file may hold.\n\n"
+             "    $ cat load.csv\n"
+             "    FN [N],Fx [N]\n"
+             "    100,0\n"
+             "    120,15\n"
+             "    120,-15\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> follow load.csv\n"
+             "    fret> FN, Fx, W\n"
+             "    FN = 120 N\n"
+             "    Fx = -15 N\n"
+             "    W = 328.223 nJ\n"},
+    {.name = "reset",
+     .run = do_reset,
+     .group = "the load",
+     .changes = true,
+     .takes = "[all]",
+     .summary = "forget the load program; all: the inputs too",
+     .help = "Variables of your own are kept.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; press FN=1 N\n"
+             "    fret> reset\n"
+             "    fret> a\n"
+             "    error: there is no load yet: press first (press FN=100 N)\n"},
+    {.name = "undo",
+     .run = do_undo,
+     .returns = true,
+     .group = "the load",
+     .keywords = "back",
+     .takes = "",
+     .summary = "take back the last change of the scene",
+     .help = "Of the inputs, the load or a name; again for the one before. A script run by\n"
+             "`source`, a lesson, or a file that was followed, is one change.\n\n"
+             "    fret> friction 0.4; friction 0.3\n"
+             "    fret> undo\n"
+             "    fret> mu\n"
+             "    mu = 0.4\n"},
+    {.name = "history",
+     .run = do_history,
+     .group = "results",
+     .keywords = "loop hysteresis csv export",
+     .takes = "[to FILE]",
+     .summary = "the recorded load history as a table",
+     .help = "One row for every press and step, and for the points that `steps` asked for.\n"
+             "`help files` tells the forms of FILE.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> press FN=100 N; step Fx=20 N; step Fx=-20 N\n"
+             "    fret> history\n"
+             "           FN [N]        dz [um]         Fx [N]        dx [nm]         W [nJ]\n"
+             "              100        3.48291              0              0              0\n"
+             "              100        3.48291             20        625.995        476.614\n"
+             "              100        3.48291            -20       -625.995        1429.84\n"},
+    {.name = "table",
+     .run = do_table,
+     .group = "results",
+     .keywords = "sweep csv export",
+     .takes = "EXPR, ... RANGE [to FILE]",
+     .summary = "a table over a range",
+     .help = "NAME is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n"
+             "Two ranges make a matrix, as CSV and JSON a row for each pair. `along program`,\n"
+             "`along cycle` and `along cycle FA=...` go along a load.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> table dW(F) in uJ, c(F)/a for F = 10 N .. 40 N steps 3\n"
+             "            F [N]     dW(F) [uJ]         c(F)/a\n"
+             "               10       0.188365        0.90856\n"
+             "               20        1.90646       0.793701\n"
+             "               30        9.01533       0.629961\n"
+             "               40        54.1344              0\n"},
+    {.name = "plot",
+     .run = do_plot,
+     .group = "results",
+     .keywords = "figure loop hysteresis png svg pdf tex export contour map measured",
+     .takes = "FIGURE | EXPR, ... [against EXPR] RANGE LOOK [to FILE.png|svg|pdf|tex|html|gif|gp]",
+     .summary = "figures, in the terminal or to a file",
+     .print = figures_list,
+     .help = "A FIGURE of the list above stands alone or with another RANGE; a | puts one\n"
+             "beside it. `map EXPR for A = LO .. HI for B = LO .. HI` draws contours. Where no\n"
+             "steps are given there are more points where the curve bends. LOAD is program,\n"
+             "cycle, or one that is only tried: `step ...`, `cycle FA=...`. AXES are x, y or\n"
+             "xy, TEXT stands in quotation marks, `key off` hides the key, and `over` adds\n"
+             "measured points. FILE.gp is the gnuplot script itself. `set plot 80x24` fixes\n"
+             "the size in the terminal, `set plot terminal` how it is drawn there: dumb in\n"
+             "plain characters, block in braille (auto takes it where it can), sixel as a\n"
+             "picture.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
+             "    fret> press FN=100 N; cycle FA=38 N\n"
+             "    fret> plot loop | springs to both.svg\n"
+             "    wrote both.svg (58 kB)\n"
+             "    fret> set plot 50x12\n"
+             "    fret> plot p(r) for r = 0 um .. 250 um\n"
+             "     p(r) [GPa]\n"
+             "     1.5 +---------------------------------------+\n"
+             "         ******************      +       +       |\n"
+             "     1.0 |-+              *******              +-|\n"
+             "         |                      *****            |\n"
+             "     0.5 |-+                        ***        +-|\n"
+             "         |       +       +       +    ** +       |\n"
+             "     0.0 +-----------------------------********--+\n"
+             "         0      50      100     150     200     250\n"
+             "                          r [um]\n"},
+    {.name = "animate",
+     .run = do_animate,
+     .group = "results",
+     .keywords = "video movie gif springs",
+     .takes = "FIGURE | EXPR, ... [against EXPR] RANGE LOOK [frames N:1000] [to FILE.gif]",
+     .summary = "figures in motion along a load",
+     .help = "Figures as of `plot`. Those `along` a load, all along the same one, are drawn up\n"
+             "to a moving instant; `springs`, `pressure`, `traction` and what else goes over\n"
+             "a place show the state then, as `animate springs along cycle FA=30 N` does. The\n"
+             "load is the program where none is said. Ctrl-C stops.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> cycle FA=30 N\n"
+             "    fret> animate springs | loop frames 8 to cycle.gif\n"
+             "    wrote cycle.gif (174 kB)\n"},
+    {.name = "solve",
+     .run = do_solve,
+     .group = "backwards",
+     .keywords = "root equation inverse backwards find",
+     .takes = "NAME for EXPR = EXPR [from LO to HI]",
+     .summary = "the value of an input that makes an equation hold",
+     .help = "NAME is an input or a variable of yours; the scene stays as it is. Without a\n"
+             "range it looks over the whole range of k and nu, and three decades on either\n"
+             "side of the present value of others. It says where there is no root, where\n"
+             "there are several, where the two sides only touch, and where the scene ends.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> solve FN for a = 0.2 mm\n"
+             "    FN = 123.077 N\n"
+             "    fret> cycle FA=20 N\n"
+             "    fret> solve mu for dW = 1 uJ\n"
+             "    mu = 0.636473\n"},
+    {.name = "maximize",
+     .run = do_maximize,
+     .group = "backwards",
+     .keywords = "optimum optimise best design largest peak",
+     .takes = "EXPR over NAME = LO .. HI, ...",
+     .summary = "where an expression is largest",
+     .help = "One to three inputs or free names, each in its range; the scene stays as it is.\n"
+             "A note says where the best is an end of a range, or where the scene ends.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> maximize dWd(0.5 um) over FN = 1 N .. 100 N\n"
+             "    FN = 10.4367 N\n"
+             "    dWd(0.5 um) = 3.33974 uJ\n"},
+    {.name = "minimize",
+     .run = do_minimize,
+     .group = "backwards",
+     .keywords = "optimum optimise best design smallest",
+     .takes = "EXPR over NAME = LO .. HI, ...",
+     .summary = "where an expression is smallest",
+     .help = "As `maximize`.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> minimize dz over FN = 20 N .. 100 N\n"
+             "    FN = 20 N\n"
+             "    dz = 1.19114 um\n"
+             "    note: no inner optimum in FN: FN = 20 N is the lower end of its range\n"},
+    {.name = "fit",
+     .run = do_fit,
+     .group = "backwards",
+     .keywords = "least squares regression identify parameter measured data inverse calibrate",
+     .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv]",
+     .summary = "inputs from measured data, with how sure they are",
+     .help = "Starts from the present values; the scene stays as it is. With `for` each row is\n"
+             "an equation whose columns are names: depth = dz(force). With `along` the file is\n"
+             "a measured loop: driven by dx (and FN or dz, where there is such a column), Fx\n"
+             "compared. Answers are values with their standard errors, correlations and the\n"
+             "rms of the residuals; data that do not determine a name, or cannot tell two\n"
+             "apart, are an error that names them. A note says where the residuals of a loop\n"
+             "are no noise but go together, by a drift or an offset: take that off the file.\n\n"
+             "    $ cat depth.csv\n"
+             "    force [N],depth [um]\n"
+             "    20,1.21\n"
+             "    50,2.28\n"
+             "    80,3.09\n"
+             "    120,4.09\n"
+             "    fret> material steel; geometry sphere R=10 mm\n"
+             "    fret> fit E0 for depth = dz(force) to depth.csv\n"
+             "    E0 = 199.259 GPa +- 1.06 GPa\n"
+             "    rms = 17.5911 nm over 4 rows\n"},
+    {.name = "uncertainty",
+     .run = do_uncertainty,
+     .group = "backwards",
+     .keywords = "error deviation Monte Carlo tolerance variance confidence sensitivity",
+     .takes = "EXPR, ... with INPUT +- DEVIATION, ... [samples N:10000000] [seed N:1000000000]",
+     .summary = "how sure a value is, and which input that comes from",
+     .help = "Standard deviations of independent inputs; 5 % is a part of the value. The\n"
+             "answer is first order, from derivatives, with the share of each input in the\n"
+             "variance.\n"
+             "A Monte Carlo of normal samples stands beside it where it says something else.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> uncertainty dWd(0.5 um), a with mu +- 0.02, E0 +- 5 %\n"
+             "    dWd(0.5 um) = 948.431 nJ +- 84 nJ\n"
+             "        from mu 38 %, E0 62 %\n"
+             "        Monte Carlo = 953.21 nJ +- 83.6 nJ\n"
+             "    a = 186.626 um +- 3.11 um\n"
+             "        from mu 0 %, E0 100 %\n"},
+    {.name = "export",
+     .run = do_export,
+     .group = "backwards",
+     .keywords = "jenkins masing iwan elements dynamics damper model springs",
+     .takes = "jenkins N:1000 to FILE.csv|json|h [FA=20 N]",
+     .summary = "the contact as parallel Jenkins elements, for a dynamics code",
+     .help = "Springs in line with sliders, chosen to minimise the worst error of the energy\n"
+             "per cycle over all amplitudes, at this normal force; with FA, over those up to\n"
+             "it, and one of the N is the spring of what then still sticks. The answer is that\n"
+             "error, and its part of the energy at gross slip (at FA). FILE.h is a C table to\n"
+             "compile in.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> export jenkins 4 to damper.h\n"
+             "    wrote damper.h (733 B)\n"
+             "    error of dW = 798.218 nJ\n"
+             "    relative = 0.0147451\n"},
+    {.name = "explain",
+     .run = do_explain,
+     .group = "results",
+     .keywords = "formula equation Mindlin",
+     .takes = "EXPR [conditioning]",
+     .summary = "formula, source, numbers put in, model used, error",
+     .help = "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs\n"
+             "that the value depends on, how it was computed, and the error of the numbers\n"
+             "alone. With `conditioning`, too: by which part of itself the last binary digit\n"
+             "of each input, of the press and of the last load moves the value, and the ratio\n"
+             "of the two. Large numbers, as close to gross slip, mean that the value cannot be\n"
+             "better than its inputs, whatever the model.\n\n"
+             "    fret> material E0=210 GPa nu=0.3\n"
+             "    fret> explain eta conditioning\n"
+             "    eta: stiffness ratio\n"
+             "        eta = c_N/c_T  (4),(5)\n"
+             "        nu = 0.3\n"
+             "        model: closed form\n"
+             "        eta = 1.21429\n"
+             "        error: below 3e-16 of the value\n"
+             "        conditioning          last digit    moves eta by  condition number\n"
+             "        nu = 0.3                 1.9e-16         4.7e-17              0.25\n"
+             "        no effect: E0\n"},
+    {.name = "accuracy",
+     .run = do_accuracy,
+     .group = "results",
+     .keywords = "error speed",
+     .takes = "[FA=20 N | dxA=0.5 um] [within SECONDS:3600]",
+     .summary = "error against time of every model, for this scene",
+     .help = "A table of the models that can answer for dW: value, relative error, time of a\n"
+             "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
+             "marks one that is below what it can tell. Without an argument the amplitude is\n"
+             "that of the last cycle, else of Fx now, else half of mu*FN. Where FN swings or\n"
+             "has changed, the load program is run as it is and errors refer to a refined\n"
+             "memory diagram. Springs with `midpoint` weights x^k h converge with order 1+k\n"
+             "where k < 0. The end says what `set model auto` picks, and which springs come\n"
+             "close. Larger models are left out where all would take more than 3 seconds;\n"
+             "`within 20` allows more, `within 0.3` less. `plot accuracy` draws the table.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> set digits 5; accuracy FA=20 N within 0.001\n"
+             "    FA = 20 N at FN = 100 N\n"
+             "    reference: quadrature in long double, 1.9065 uJ, good to 5e-19\n"
+             "    model                 parameter      dW [uJ]     error time/cycle  x fastest\n"
+             "    closed form                           1.9065    <5e-19     ... ns        ...\n"
+             "    memory diagram                        1.9065    <5e-19     ... ns        ...\n"
+             "    loop area (21)           M = 10       1.8755   1.6e-02     ... us        ...\n"
+             "    loop area (21)          M = 100       1.9061   1.6e-04     ... us        ...\n"
+             "    quadrature                            1.9065    <5e-19     ... us        ...\n"
+             "    springs                 N = 100       1.9069   2.2e-04     ... ns        ...\n"
+             "    springs                N = 1000       1.9065   5.5e-06     ... us        ...\n"
+             "    1000 springs: error 5.5e-06 in ... us, ... times as long as auto\n"
+             "    auto picks: closed form (constant FN): error <5e-19 in ... ns\n"},
+    {.name = "show",
+     .run = do_show,
+     .group = "the session",
+     .keywords = "save",
+     .takes = "[PART]",
+     .summary = "what is set",
+     .help = "PART is scene, the commands that make it again, to the last digit; or settings,\n"
+             "units, commands, variables or demos.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm\n"
+             "    fret> show\n"
+             "    material E0=210 GPa nu=0.3\n"
+             "    geometry sphere R=10 mm\n"},
+    {.name = "set",
+     .run = do_set,
+     .group = "the session",
+     .keywords = "options",
+     .print = help_settings,
+     .takes = "SETTING ...",
+     .summary = "settings",
+     .help = "One setting a statement. `set timing on` shows the time of each statement and\n"
+             "the models that answered. `set model` picks one: auto takes the closed form\n"
+             "where there is one, else the memory diagram; springs are an approximation.\n\n"
+             "    fret> set digits 12; pi\n"
+             "    pi = 3.14159265359\n"},
+    {.name = "source",
+     .run = do_source,
+     .group = "the session",
+     .keywords = "script",
+     .changes = true,
+     .keeps = true,
+     .takes = "FILE",
+     .summary = "run a script",
+     .help = "Statements of a file, as if typed here; it stops at the first error.\n\n"
+             "    $ cat ball.fret\n"
+             "    material steel; geometry sphere R=10 mm\n"
+             "    press FN=100 N\n"
+             "    a\n"
+             "    fret> source ball.fret\n"
+             "    a = 186.626 um\n"
+             "    fret> dz\n"
+             "    dz = 3.48291 um\n"},
+    {.name = "save",
+     .run = do_save,
+     .group = "the session",
+     .keywords = "write keep export scene history",
+     .takes = "FILE | history FILE",
+     .summary = "write the scene as commands; or what has been typed",
+     .help = "The file makes the scene again, to the last bit: `source FILE`, or fret FILE.\n"
+             "`save history` writes the lines typed in this session, as they were typed.\n\n"
+             "    fret> material steel; friction 0.3; save steel.fret\n"
+             "    wrote steel.fret (40 B)\n"
+             "    fret> reset all; source steel.fret\n"
+             "    fret> show\n"
+             "    material E0=210 GPa nu=0.3\n"
+             "    friction 0.3\n"},
+    {.name = "record",
+     .run = do_record,
+     .group = "the session",
+     .keywords = "transcript log protocol test save cast asciicast asciinema film demonstration",
+     .takes = "FILE | off",
+     .summary = "keep what is typed and answered as a transcript, or the terminal as a cast",
+     .help = "A transcript begins with the scene and the settings as they are. `replay FILE`,\n"
+             "or fret --replay FILE, runs it and compares the answers.\n\n"
+             "FILE.cast is what the terminal shows, the full-screen mode too, with its times,\n"
+             "to be shown on a page: asciicast v2, which `asciinema play FILE.cast` plays. In\n"
+             "a script it is as if typed, the same in every run, and `live FILE` plays by\n"
+             "itself. What `!COMMAND` writes is not in it.\n\n"
+             "    fret> record session.txt\n"
+             "    fret> friction 0.3; 2*mu\n"
+             "    2*mu = 0.6\n"
+             "    fret> record off\n"
+             "    wrote session.txt (36 B)\n"},
+    {.name = "replay",
+     .run = do_replay,
+     .group = "the session",
+     .keywords = "transcript test compare record",
+     .takes = "FILE",
+     .summary = "run a transcript and compare what comes out",
+     .help = "In a session of its own: the scene stays. Lines after `fret> ` are run, what\n"
+             "follows each must come out again, numbers within their printed digits.\n"
+             "Differences are shown: - is the transcript, + is now. A session copied from a\n"
+             "terminal is a transcript, too.\n\n"
+             "    $ cat check.txt\n"
+             "        fret> friction 0.4\n"
+             "        fret> mu, 1/3\n"
+             "        mu = 0.4\n"
+             "        1/3 = 0.333\n"
+             "    fret> replay check.txt\n"
+             "    check.txt: 2 passed, 0 failed\n"},
+    {.name = "live",
+     .run = do_live,
+     .group = "the session",
+     .keywords = "full-screen teach demonstration tui animate",
+     .takes = "[FILE]",
+     .summary = "press, push and pull by hand, everything drawn: the full-screen mode",
+     .print = live_keys,
+     .help = "The mouse drags the point of the loop. What is done there are statements: undo\n"
+             "takes them back. FILE is a script to step through, space by space. It needs a\n"
+             "terminal, or a cast that records it: `record FILE.cast`. A transcript has after\n"
+             "the keys right, space and q:\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> live\n"
+             "    fret> step Fx+=2 N\n"
+             "    fret> cycle FA=20 N\n"
+             "    fret> dW\n"
+             "    dW = 1.90646 uJ\n"},
+    {.name = "demo",
+     .run = do_demo,
+     .group = "the session",
+     .keywords = "tour lesson teach figure paper",
+     .takes = "[LESSON]",
+     .summary = "play a lesson, or a tour of the program",
+     .help = "A lesson asks, then shows each statement and its answer. At the prompt a key\n"
+             "leads on, `b` back, `q` out; in a script it plays through. It begins without a\n"
+             "scene; its own stays, to go on with, and `undo` brings back the one before.\n"
+             "`show demos` lists the lessons. Without a name: the tour.\n\n"
+             "    $ fret -c 'demo sticking' | head -n 4\n"
+             "    Stick and slip: Cattaneo and Mindlin push the sphere sideways\n"
+             "    \n"
+             "    # 100 N press, friction 0.4: 40 N make the sphere slide. We push with 20 N.\n"
+             "    # Does all of the contact stick? Where will it slip first?\n"},
+    {.name = "help",
+     .run = do_help,
+     .group = "the session",
+     .takes = "[TOPIC]",
+     .summary = "this help, or that on a command, a quantity or a topic",
+     .help = "    fret> help kappa\n"
+             "    kappa: shape factor\n"
+             "        kappa = (n/2) B(n/2,(k+1)/2)  (8)\n"},
+    {.name = "apropos",
+     .run = do_apropos,
+     .group = "the session",
+     .keywords = "search",
+     .takes = "WORD ...",
+     .summary = "find commands and quantities by a word, or several",
+     .help = "Several words must all be there, in any order.\n\n"
+             "    fret> apropos stick\n"
+             "    c           stick radius\n"
+             "    plot springs  springs between their bounds\n"
+             "    fret> apropos contact radius\n"
+             "    a           contact radius\n"},
+    {.name = "quit",
+     .run = do_quit,
+     .group = "the session",
+     .takes = "",
+     .summary = "leave (so does Ctrl-D)",
+     .help = "    fret> quit\n"},
+    {.name = "exit",
+     .run = do_quit,
+     .group = "the session",
+     .takes = "",
+     .summary = "the same as quit",
+     .help = "    fret> exit\n"},
+    {.name = NULL},
+};

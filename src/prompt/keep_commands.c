@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands that keep a session: save, record, and replay, which runs a kept one beside it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "prompt/show.h"
+#include "statement/command.h"
+#include "statement/record.h"
+#include "statement/target.h"
+
+/* ---- save -------------------------------------------------------------------------------------- */
+
+bool do_save(shell *sh, lexer *lx, const command *self) {
+    char name[FILE_NAME];
+    file_out file;
+    file_report report;
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
+        return false;
+    const bool history = *s.list[0].of->name;
+    const size_t at = s.list[0].hole[0].at, len = s.list[0].hole[0].len;
+    if (history && sh->replaying)
+        return true;
+    if (history && !sh->typed.to)
+        return calc_fail(lx->error, at, len, "nothing has been typed here: a script is its own history");
+    if (!file_out_open(&file, name, &shell_stop, lx->error))
+        return calc_place(lx->error, at, len);
+    if (!(history ? typed_write(sh, file.to) : scene_write(&sh->calc, &sh->set, file.to, true)))
+        calc_no_memory(lx->error);
+    if (!file_out_close(&file, !lx->error->raised, &report, lx->error) || lx->error->raised)
+        return calc_place(lx->error, at, len);
+    target_report(sh, name, &report);
+    return true;
+}
+
+/* ---- record and replay ------------------------------------------------------------------------- */
+
+/* The scene as it is, and behind it the settings: in JSON a scene would tell of itself. NULL: out of memory.
+ */
+static char *beginning(shell *sh) {
+    file_text kept;
+    if (!file_text_open(&kept))
+        return NULL;
+    const bool whole = scene_write(&sh->calc, &sh->set, kept.to, true);
+    settings_write(&sh->calc, &sh->set, kept.to);
+    if (!file_text_close(&kept))
+        return NULL;
+    if (whole)
+        return kept.text;
+    free(kept.text);
+    return NULL;
+}
+
+bool do_record(shell *sh, lexer *lx, const command *self) {
+    char name[FILE_NAME];
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    if (said_of(&s, "off", 0))
+        return record_end(sh, true) || lex_fail(lx, "nothing is being recorded");
+    if (!hole_file(lx, &s.list[0].hole[0], name))
+        return false;
+    char *text = beginning(sh);
+    if (!text)
+        return calc_no_memory(lx->error);
+    const bool ok = record_begin(sh, name, text, lx->error);
+    free(text);
+    return ok || heard_place(lx->error, &s.list[0]);
+}
+
+bool do_replay(shell *sh, lexer *lx, const command *self) {
+    char name[FILE_NAME];
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
+        return false;
+    const int status = shell_replay(name, 0, &sh->set, sh->out, lx->error);
+    if (status == EXIT_OK)
+        return true;
+    if (!lx->error->raised)
+        calc_fail(lx->error, 0, 0, "%s does not come out again", name);
+    return heard_place(lx->error, &s.list[0]);
+}

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The full-screen mode as a command: what the shell does for it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "help/complete.h"
+#include "live/live.h"
+#include "prompt/show.h"
+#include "statement/command.h"
+#include "statement/progress.h"
+#include "statement/record.h"
+#include "statement/recorder.h"
+#include "text/file.h"
+#include "text/lines.h"
+
+static bool run(void *self, const char *line, char **answer) {
+    static const source from = {NULL, false};
+    shell *sh = self;
+    file_text told;
+    if (!file_text_open(&told))
+        return false;
+    FILE *out, *err;
+    record_line(sh, line, strlen(line));
+    record_streams(sh, &out, &err);
+    record_divert(sh, told.to, told.to);
+    const bool failed = sh->failed, interactive = sh->interactive;
+    sh->interactive = false; /* an error is one line, a demo does not wait for keys */
+    const bool ok = shell_line(sh, &from, line, strlen(line), 1);
+    sh->interactive = interactive;
+    record_divert(sh, out, err); /* a recording may have begun or ended */
+    sh->failed = failed;         /* it has been told there */
+    if (file_text_close(&told))
+        *answer = told.text;
+    return ok && *answer;
+}
+
+static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
+    shell *sh = self;
+    candidates found = {.word = NULL};
+    complete(&sh->calc, line, *cursor, &found);
+    if (found.count > 0) {
+        size_t same = strlen(found.word[0]);
+        for (size_t i = 1; i < found.count; i++)
+            for (size_t j = 0; j < same; j++)
+                if (found.word[i][j] != found.word[0][j])
+                    same = j;
+        const char last = same ? found.word[0][same - 1] : 0;
+        const size_t rest = strlen(line + *cursor) + 1, end = found.start + same;
+        const bool blank = found.count == 1 && last != '=' && last != '(' && end + 1 + rest <= size;
+        if (end + blank + rest <= size) {
+            memmove(line + end + blank, line + *cursor, rest);
+            memcpy(line + found.start, found.word[0], same);
+            if (blank)
+                line[end] = ' ';
+            *cursor = end + blank;
+        }
+    }
+    candidates_free(&found);
+}
+
+static bool filming(void *self, int *cols, int *rows) {
+    return record_filming(self, cols, rows);
+}
+
+static void film_on(void *self, const char *bytes, size_t n, double seconds) {
+    record_film(self, bytes, n, seconds);
+}
+
+bool shell_live(shell *sh, const char *script, calc_error *error) {
+    const settings before = sh->set;
+    const live_host host = {.self = sh,
+                            .calc = &sh->calc,
+                            .digits = &sh->set.digits,
+                            .quit = &sh->quit,
+                            .stop = &shell_stop,
+                            .run = run,
+                            .mark = shell_mark,
+                            .blank_prompts = blank_prompts,
+                            .complete = complete_line,
+                            .filming = filming,
+                            .film = film_on};
+    live_work work;
+    fflush(sh->out);
+    sh->set.color = false;
+    sh->set.pages = false; /* a pager would take the terminal */
+    if (sh->set.report == REPORT_AUTO)
+        sh->set.report = REPORT_OFF; /* the screen shows it */
+    progress_hide();
+    record_away(sh, true);
+    const bool ok = live_run(&host, script, &work, error);
+    record_away(sh, false);
+    sh->set.color = before.color;
+    sh->set.pages = before.pages;
+    if (sh->set.report == REPORT_OFF)
+        sh->set.report = before.report;
+    if (ok && sh->set.timing && work.frames)
+        shell_say(sh, "live: %zu frames, %.3g ms of work each, %.3g ms the longest", work.frames,
+                  1e3 * work.total / (double)work.frames, 1e3 * work.worst);
+    return ok;
+}
+
+static bool can_read(const char *name, calc_error *error) {
+    file_in in;
+    if (!file_in_open(&in, name, &shell_stop, error))
+        return false;
+    file_in_close(&in);
+    return true;
+}
+
+bool do_live(shell *sh, lexer *lx, const command *self) {
+    char name[FILE_NAME];
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    const bool script = s.count > 0;
+    if (script && !hole_file(lx, &s.list[0].hole[0], name))
+        return false;
+    if (sh->replaying) /* what was done there follows, statement by statement */
+        return !script || can_read(name, lx->error);
+    return shell_live(sh, script ? name : NULL, lx->error);
+}

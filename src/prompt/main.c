@@ -1,0 +1,354 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The program: options, signals, jobs, exit status. */
+#include <errno.h>
+#include <fcntl.h>
+#include <getopt.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands/study_commands.h"
+#include "help/manual.h"
+#include "statement/command.h"
+#include "statement/output.h"
+#include "statement/record.h"
+#include "text/file.h"
+
+#ifndef FRET_VERSION
+#define FRET_VERSION "unknown"
+#endif
+
+static const char usage[] =
+    "usage: fret [OPTION...] [FILE...]\n"
+    "  Calculates partial-slip contact of graded elastic solids. Without FILE or -c, reads\n"
+    "  standard input: with line editing at a terminal, as a script otherwise.\n\n"
+    "  -f FILE             run a script (- is standard input)\n"
+    "  -c STATEMENTS       run these statements\n"
+    "  --live              the full-screen mode; FILE: a script to step through\n"
+    "  --replay FILE...    run transcripts and compare; exit 1 where one differs\n"
+    "  --tolerance X       relative tolerance of numbers in a replay\n"
+    "  --format=FORMAT     text, csv or json\n"
+    "  --keep-going        go on after an error\n"
+    "  --quiet             no banner\n"
+    "  --no-rc             do not read the start-up file\n"
+    "  --color=WHEN        auto, always or never\n"
+    "  --version, --help, -h\n\n"
+    "  exit status: 0 fine, 1 an error, 2 wrong usage, 130 interrupted\n";
+
+/* ---- signals ----------------------------------------------------------------------------------- */
+
+static void on_interrupt(int signal) {
+    (void)signal;
+    shell_stop = 1;
+}
+
+/* The end: what must not stay behind goes, and the signal does what it would have done. */
+static void on_end(int number) {
+    file_emergency();
+    signal(number, SIG_DFL);
+    raise(number);
+} /* unreached: it has ended us */
+
+/* What nohup(1), or a shell that starts us in the background, has us ignore stays ignored. */
+static void handle(int number, void (*handler)(int)) {
+    const struct sigaction act = {.sa_handler = handler}; /* no SA_RESTART: a blocked read must return */
+    struct sigaction before = {.sa_handler = SIG_DFL};
+    sigaction(number, NULL, &before);
+    if (before.sa_handler != SIG_IGN || isatty(STDIN_FILENO))
+        sigaction(number, &act, NULL);
+}
+
+static void set_signals(void) {
+    handle(SIGINT, on_interrupt);
+    for (int n = 1; n < FILE_SIGNALS; n++)
+        if (file_signal_ends(n))
+            handle(n, on_end);
+    signal(SIGCHLD, SIG_DFL); /* whoever started us may not have waited for children, but we do */
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN); /* a write that fails is an error like any other */
+}
+
+/* ---- options ----------------------------------------------------------------------------------- */
+
+typedef struct job {
+    bool statements;
+    const char *text;
+} job;
+
+/* What the command line asks for. */
+typedef struct wishes {
+    bool keep_going, quiet, no_rc, live, replay, done;
+    const char *color;
+    double tolerance;
+    job *jobs;
+    size_t count;
+} wishes;
+
+static int bad_usage(const char *what, const char *word) {
+    fprintf(stderr, "fret: %s%s", what, word ? " " : "");
+    print_safe(stderr, word ? word : "", word ? strlen(word) : 0);
+    fputs("\ntry: fret --help\n", stderr);
+    return EXIT_USAGE;
+}
+
+static int take_tolerance(wishes *w, const char *text) {
+    char *end;
+    w->tolerance = strtod(text, &end);
+    if (*end || end == text || !(w->tolerance >= 0) || !isfinite(w->tolerance))
+        return bad_usage("--tolerance needs a number, not", text);
+    return EXIT_OK;
+}
+
+static int take_format(settings *set, const char *text) {
+    for (int i = 0; format_names[i]; i++)
+        if (!strcmp(format_names[i], text)) {
+            set->format = i;
+            return EXIT_OK;
+        }
+    return bad_usage("--format is text, csv or json, not", text);
+}
+
+static int take_color(wishes *w, const char *text) {
+    static const char *const names[] = {"auto", "always", "never"};
+    w->color = text;
+    for (int i = 0; i < 3; i++)
+        if (!strcmp(names[i], text))
+            return EXIT_OK;
+    return bad_usage("--color is auto, always or never, not", text);
+}
+
+static int out_of_memory(void) {
+    fputs("error: out of memory\n", stderr);
+    return EXIT_ERROR;
+}
+
+static int take_manual(const char *text) {
+    const int status = manual_write(stdout, text, usage, FRET_VERSION);
+    return status == EXIT_USAGE ? bad_usage("--manual is 1, 5 or bash, not", text)
+           : status == EXIT_OK  ? EXIT_OK
+                                : out_of_memory();
+}
+
+enum {
+    IN_ORDER = 1, /* a FILE: getopt gives it where it stands, as it does -f and -c */
+    OPT_REPLAY = 256,
+    OPT_LIVE,
+    OPT_TOLERANCE,
+    OPT_FORMAT,
+    OPT_KEEP,
+    OPT_QUIET,
+    OPT_NO_RC,
+    OPT_COLOR,
+    OPT_VERSION,
+    OPT_HELP,
+    OPT_MANUAL
+};
+
+static const struct option options[] = {
+    {"replay", required_argument, NULL, OPT_REPLAY},
+    {"live", no_argument, NULL, OPT_LIVE},
+    {"tolerance", required_argument, NULL, OPT_TOLERANCE},
+    {"format", required_argument, NULL, OPT_FORMAT},
+    {"keep-going", no_argument, NULL, OPT_KEEP},
+    {"quiet", no_argument, NULL, OPT_QUIET},
+    {"no-rc", no_argument, NULL, OPT_NO_RC},
+    {"color", required_argument, NULL, OPT_COLOR},
+    {"version", no_argument, NULL, OPT_VERSION},
+    {"help", no_argument, NULL, OPT_HELP},
+    {"manual", required_argument, NULL, OPT_MANUAL}, /* for `make install` */
+    {NULL, 0, NULL, 0}};
+
+/* The option getopt stopped at: C libraries differ in where argv stands then. */
+static const char *option_word(char **argv) {
+    static char word[32];
+    const struct option *o = options;
+    while (o->name && o->val != optopt)
+        o++;
+    if (!optopt)
+        return argv[optind - 1];
+    if (o->name)
+        snprintf(word, sizeof word, "--%s", o->name);
+    else
+        snprintf(word, sizeof word, "-%c", optopt);
+    return word;
+}
+
+static int take_option(int opt, wishes *w, settings *set, char **argv) {
+    switch (opt) {
+    case IN_ORDER:
+    case 'f':
+    case 'c':
+        w->jobs[w->count++] = (job){opt == 'c', optarg};
+        return EXIT_OK;
+    case OPT_REPLAY:
+        w->replay = true;
+        w->jobs[w->count++] = (job){false, optarg};
+        return EXIT_OK;
+    case OPT_LIVE:
+        w->live = true;
+        return EXIT_OK;
+    case OPT_TOLERANCE:
+        return take_tolerance(w, optarg);
+    case OPT_FORMAT:
+        return take_format(set, optarg);
+    case OPT_KEEP:
+        w->keep_going = true;
+        return EXIT_OK;
+    case OPT_QUIET:
+        w->quiet = true;
+        return EXIT_OK;
+    case OPT_NO_RC:
+        w->no_rc = true;
+        return EXIT_OK;
+    case OPT_COLOR:
+        return take_color(w, optarg);
+    case OPT_MANUAL:
+        w->done = true;
+        return take_manual(optarg);
+    case OPT_VERSION:
+        printf("fret %s%s\n", FRET_VERSION, study_library);
+        w->done = true;
+        return EXIT_OK;
+    case 'h':
+    case OPT_HELP:
+        fputs(usage, stdout);
+        w->done = true;
+        return EXIT_OK;
+    case ':':
+        return bad_usage("an argument is missing after", option_word(argv));
+    default:
+        return bad_usage("unknown option", option_word(argv));
+    }
+}
+
+static int read_options(int argc, char **argv, wishes *w, settings *set) {
+    int status = EXIT_OK, opt;
+    opterr = 0;
+    while (status == EXIT_OK && !w->done && (opt = getopt_long(argc, argv, "-:f:c:h", options, NULL)) >= 0)
+        status = take_option(opt, w, set, argv);
+    for (int i = optind; i < argc && !w->done && status == EXIT_OK; i++) /* behind -- */
+        w->jobs[w->count++] = (job){false, argv[i]};
+    const char *no = getenv("NO_COLOR");
+    const bool always = !strcmp(w->color, "always"),
+               may = !strcmp(w->color, "auto") && !(no && *no) && shell_escapes();
+    set->color = always || (may && isatty(STDERR_FILENO));
+    set->color_out = always || (may && isatty(STDOUT_FILENO));
+    return status;
+}
+
+/* ---- jobs -------------------------------------------------------------------------------------- */
+
+static int run_jobs(shell *sh, const wishes *w) {
+    int status = EXIT_OK;
+    for (size_t i = 0; i < w->count && !sh->quit; i++) {
+        const job *j = &w->jobs[i];
+        int one = j->statements           ? shell_text(sh, j->text, "-c", w->keep_going)
+                  : !strcmp(j->text, "-") ? shell_stdin(sh, w->keep_going)
+                                          : shell_file(sh, j->text, w->keep_going);
+        if (one != EXIT_OK)
+            status = one;
+        if (one == EXIT_INTERRUPTED || (one != EXIT_OK && !w->keep_going))
+            break;
+    }
+    return status;
+}
+
+/* One script, or none. */
+static int run_live(shell *sh, const wishes *w) {
+    calc_error error;
+    error_clear(&error);
+    if (w->count > 1 || (w->count && w->jobs[0].statements))
+        return bad_usage("--live takes one script", NULL);
+    if (shell_live(sh, w->count ? w->jobs[0].text : NULL, &error))
+        return EXIT_OK;
+    shell_error(sh, error.text);
+    return EXIT_ERROR;
+}
+
+/* Each in a session of its own; all of them, whatever one says. */
+static int run_replays(shell *sh, const wishes *w) {
+    int status = EXIT_OK;
+    for (size_t i = 0; i < w->count; i++)
+        if (w->jobs[i].statements)
+            return bad_usage("--replay takes transcripts, not -c", NULL);
+    for (size_t i = 0; i < w->count && status != EXIT_INTERRUPTED; i++) {
+        calc_error error;
+        error_clear(&error);
+        const int one = shell_replay(w->jobs[i].text, w->tolerance, &sh->set, stdout, &error);
+        if (error.raised)
+            shell_error(sh, error.text);
+        if (one != EXIT_OK)
+            status = one;
+    }
+    return status;
+}
+
+static int run(shell *sh, const wishes *w) {
+    if (w->live)
+        return run_live(sh, w);
+    if (w->replay)
+        return run_replays(sh, w);
+    if (w->count)
+        return run_jobs(sh, w);
+    if (isatty(STDIN_FILENO))
+        return shell_prompt(sh, w->quiet, !w->no_rc);
+    return shell_stdin(sh, w->keep_going);
+}
+
+/* What the starter has closed stays so: no file of ours may become a standard stream. */
+static void keep_closed(void) {
+    for (int fd = 0; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0)
+            open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+/* A home that is relative is none: what lies in the current directory may be a stranger's. readline reads
+ * settings at home, too, as other programs do that we start. */
+static void check_home(void) {
+    const char *home = getenv("HOME");
+    if (home && *home != '/')
+        unsetenv("HOME");
+}
+
+/* A lost write is an error; where nobody reads on it ends us as it ends others. */
+static int finish(shell *sh, int status) {
+    record_end(sh, false);
+    status = status == EXIT_OK && sh->lost ? EXIT_ERROR : status;
+    errno = 0;
+    const bool bad = fflush(sh->out) || ferror(sh->out);
+    if (bad && shell_unread()) {
+        shell_free(sh);
+        signal(SIGPIPE, SIG_DFL);
+        raise(SIGPIPE);
+    } /* unreached: it has ended us */
+    if (bad || fclose(sh->out)) {
+        if (status == EXIT_OK) { /* else the write has been reported, or something before it */
+            fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno ? errno : EIO));
+            status = EXIT_ERROR;
+        }
+    }
+    shell_free(sh);
+    return status;
+}
+
+int main(int argc, char **argv) {
+    static shell sh;
+    static char buffer[1 << 16];
+    keep_closed();
+    check_home();
+    wishes w = {.color = "auto", .jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
+    if (!w.jobs)
+        return out_of_memory();
+    if (!isatty(STDOUT_FILENO)) /* musl writes the first line early: an error is forgotten by the end */
+        setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
+    command_use(commands, holes);
+    shell_init(&sh, stdout, stderr);
+    int status = read_options(argc, argv, &w, &sh.set);
+    sh.keep_going = w.keep_going;
+    set_signals();
+    if (status == EXIT_OK && !w.done)
+        status = run(&sh, &w);
+    free(w.jobs);
+    return finish(&sh, status);
+}

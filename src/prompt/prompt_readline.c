@@ -1,0 +1,390 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines by readline: editing, history, completion. */
+#include <errno.h>
+#include <fcntl.h>
+#include <langinfo.h>
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/select.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <readline/history.h>
+#include <readline/readline.h>
+
+#include "help/complete.h"
+#include "prompt/prompt.h"
+#include "statement/record.h"
+#include "text/characters.h"
+
+/* readline's callbacks carry no context */
+static shell *completing;
+static bool at_work;          /* readline is */
+static int history_file = -1; /* open for appending; -1: none is kept */
+
+/* ---- signals ----------------------------------------------------------------------------------- */
+
+/* While a line is edited the terminal is not as the user left it: it is put right before any of these acts.
+ */
+static bool is_guarded(int number) {
+    return file_signal_ends(number) || number == SIGTSTP || number == SIGCONT;
+}
+
+static struct sigaction before_guard[FILE_SIGNALS];
+
+static volatile sig_atomic_t caught;
+
+static void on_signal(int number) {
+    caught = number;
+}
+
+static void guard(void) {
+    const struct sigaction act = {.sa_handler = on_signal};
+    for (int n = 1; n < FILE_SIGNALS; n++)
+        if (is_guarded(n) && !sigaction(n, NULL, &before_guard[n]) && before_guard[n].sa_handler != SIG_IGN)
+            sigaction(n, &act, NULL);
+}
+
+static void unguard(void) {
+    for (int n = 1; n < FILE_SIGNALS; n++)
+        if (is_guarded(n))
+            sigaction(n, &before_guard[n], NULL);
+}
+
+/* Lets the signal do what it would have done; whoever stopped us may have changed the terminal. */
+static void act_on_signal(void) {
+    const int number = caught;
+    caught = 0;
+    rl_deprep_term_function();
+    unguard();
+    if (number != SIGCONT)
+        raise(number);
+    guard();
+    rl_prep_term_function(1);
+    rl_forced_update_display();
+}
+
+/* readline forgets to end the text of a paste that is cut off: that is given its end, and what cut it off
+ * comes after it. */
+static bool pasting;
+static size_t ending; /* bytes of the end that it has got */
+static bool told_stop;
+
+static int nothing_more(void) {
+    static const char end[] = "\033[201~";
+    if (shell_stop && !told_stop) { /* a copy of the terminal tells that the line was dropped */
+        rl_point = rl_end;          /* the next prompt is to stand below all of its rows */
+        rl_redisplay();
+        rl_echo_signal_char(SIGINT);
+    }
+    told_stop = true;
+    return pasting ? end[ending++ % (sizeof end - 1)] : EOF;
+}
+
+static int paste(int count, int key) {
+    pasting = true;
+    ending = 0;
+    const int status = rl_bracketed_paste_begin(count, key);
+    pasting = false;
+    return status;
+}
+
+/* readline's own getc restarts after a signal: Ctrl-C would not be seen before the next key. Signals are let
+ * through while it waits and nowhere else, so that none comes between looking and waiting. */
+static int read_key(FILE *in) {
+    const int fd = fileno(in);
+    unsigned char c;
+    sigset_t ours, before;
+    sigemptyset(&ours);
+    sigaddset(&ours, SIGINT);
+    for (int n = 1; n < FILE_SIGNALS; n++)
+        if (is_guarded(n))
+            sigaddset(&ours, n);
+    for (;;) {
+        fd_set set;
+        FD_ZERO(&set);
+        FD_SET(fd, &set);
+        sigprocmask(SIG_BLOCK, &ours, &before);
+        const int ready = shell_stop || caught ? 0 : pselect(fd + 1, &set, NULL, NULL, NULL, &before);
+        const bool failed = ready < 0 && errno != EINTR;
+        sigprocmask(SIG_SETMASK, &before, NULL);
+        if (shell_stop || failed)
+            return nothing_more();
+        if (caught) {
+            act_on_signal();
+            continue;
+        }
+        if (ready <= 0) /* unreached: a signal of nobody's, just then */
+            continue;
+        const ssize_t n = read(fd, &c, 1);
+        if (n == 1)
+            return c;
+        if (n == 0 || (errno != EINTR && errno != EAGAIN))
+            return nothing_more();
+    }
+}
+
+/* What is typed is UTF-8 whatever the locale says. Where that has another code, readline takes the first byte
+ * of a character for a Meta key, and moves by bytes: it asks for the locale when it begins and again before
+ * every line, and calls this behind it. Where C.UTF-8 is not installed the cursor moves by bytes all the
+ * same. */
+static int take_utf8(void) {
+    rl_variable_bind("convert-meta", "off");
+    rl_variable_bind("input-meta", "on");
+    rl_variable_bind("output-meta", "on");
+    if (strcmp(nl_langinfo(CODESET), "UTF-8") != 0)
+        setlocale(LC_CTYPE, "C.UTF-8");
+    return 0;
+}
+
+/* ---- completion -------------------------------------------------------------------------------- */
+
+static candidates found;
+
+/* Tells readline where the word begins, by the one byte before it. */
+static char *word_breaks(void) {
+    static char breaks[2];
+    candidates_free(&found);
+    complete(&completing->calc, rl_line_buffer, (size_t)rl_point, &found);
+    breaks[0] = '\001';
+    if (found.start > 0)
+        breaks[0] = rl_line_buffer[found.start - 1];
+    return breaks;
+}
+
+static char *next_match(const char *text, int state) {
+    static size_t next;
+    (void)text;
+    if (!state)
+        next = 0;
+    return next < found.count ? strdup(found.word[next++]) : NULL;
+}
+
+/* A name that wants quotation marks, in them. The last is readline's where the first was typed; a directory
+ * goes on. One that holds a mark cannot stand in them. */
+static char *quote_name(char *name, int how_many, char *typed) {
+    struct stat st = {.st_mode = 0};
+    const size_t room = strlen(name) + 3;
+    char *quoted = strchr(name, '"') ? NULL : malloc(room), *path = file_expand(name);
+    const bool ends = how_many == SINGLE_MATCH && !*typed && path && !stat(path, &st) && !S_ISDIR(st.st_mode);
+    free(path);
+    if (!quoted)
+        return strdup(name);
+    snprintf(quoted, room, "\"%s%s", name, ends ? "\"" : "");
+    return quoted;
+}
+
+static char **matches(const char *text, int start, int end) {
+    (void)end;
+    rl_attempted_completion_over = 1;
+    if ((size_t)start != found.start)
+        return NULL;
+    if (found.files) {
+        rl_attempted_completion_over = 0; /* readline knows file names */
+        return NULL;
+    }
+    if (found.count == 1) {
+        const char *word = found.word[0];
+        rl_completion_suppress_append = strchr("=(", word[strlen(word) - 1]) != NULL;
+    }
+    return rl_completion_matches(text, next_match);
+}
+
+/* ---- history ----------------------------------------------------------------------------------- */
+
+enum { HISTORY_PATH = 4096, HISTORY_READ = 16 << 20, HISTORY_LINES = 10000, HISTORY_LINE = 1 << 16 };
+
+/* The directories of the path from byte `from` on; what lies before must be there. */
+static void make_directories(char *path, size_t from) {
+    for (char *slash = strchr(path + from, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = 0;
+        mkdir(path, 0700);
+        *slash = '/';
+    }
+}
+
+/* $XDG_STATE_HOME/fret/history, or the same under the home directory, which is not made. False: nowhere. */
+static bool history_path(char path[HISTORY_PATH]) {
+    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
+    const bool given = state && *state == '/';
+    int n = 0;
+    if (given)
+        n = snprintf(path, HISTORY_PATH, "%s/fret/history", state);
+    else if (home)
+        n = snprintf(path, HISTORY_PATH, "%s/.local/state/fret/history", home);
+    if (n <= 0 || n >= HISTORY_PATH)
+        return false;
+    make_directories(path, given ? strlen(state) : strlen(home) + 1);
+    return true;
+}
+
+static void remember(const char *line) {
+    at_work = true;
+    add_history(line);
+    at_work = false;
+}
+
+/* The latest lines of the file, without bytes 0 and without lines that are too long to be kept. */
+static void read_lines(int fd, off_t size) {
+    const off_t from = size > HISTORY_READ ? size - HISTORY_READ : 0;
+    char *text = malloc((size_t)(size - from) + 1);
+    if (!text)
+        return;
+    const ssize_t have = pread(fd, text, (size_t)(size - from), from);
+    char *end = text + (have > 0 ? have : 0), *line = end;
+    for (int lines = 0; line > text && (lines += line[-1] == '\n') <= HISTORY_LINES;)
+        line--;
+    if (from > 0 && line == text) /* a part of one */
+        line = memchr(text, '\n', (size_t)(end - text));
+    for (char *next; line && line < end; line = next + 1) {
+        next = memchr(line, '\n', (size_t)(end - line));
+        next = next ? next : end;
+        size_t n = 0;
+        for (const char *c = line; c < next; c++)
+            if (*c)
+                line[n++] = *c;
+        line[n] = 0;
+        if (n > 0 && n <= HISTORY_LINE)
+            remember(line);
+    }
+    free(text);
+}
+
+/* For the user alone, and a plain file: a pipe would block, and a link may lead anywhere. One that cannot be
+ * written is read. */
+static void open_history(shell *sh) {
+    enum { FLAGS = O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY };
+    char path[HISTORY_PATH];
+    struct stat st = {.st_mode = 0};
+    if (!history_path(path))
+        return;
+    int fd = open(path, O_RDWR | O_CREAT | FLAGS, 0600);
+    const int code = fd < 0 ? errno : 0;
+    if (code == EACCES || code == EPERM || code == EROFS)
+        fd = open(path, O_RDONLY | FLAGS);
+    const bool strange = fd < 0 ? code == ELOOP : (fstat(fd, &st), !S_ISREG(st.st_mode));
+    if (strange)
+        shell_say(sh, "no history is kept: %s is no plain file", path);
+    else if (code)
+        shell_say(sh, "no history is kept: cannot write %s: %s", path, strerror(code));
+    else if ((st.st_mode & 077) != 0 && st.st_nlink == 1 && fchmod(fd, 0600) != 0)
+        shell_say(sh, "others can read %s", path);
+    if (fd >= 0 && !strange)
+        read_lines(fd, st.st_size);
+    if (fd >= 0 && (strange || code)) {
+        close(fd);
+    } else if (fd >= 0) {
+        history_file = fd;
+        file_keep(fd, true);
+    }
+}
+
+/* ---- what the session calls -------------------------------------------------------------------- */
+
+/* readline ends the program where it finds no memory; the terminal must not stay as it had it. */
+static void at_exit(void) {
+    if (!at_work)
+        return;
+    at_work = false;
+    rl_deprep_term_function();
+    fflush(NULL);
+    _exit(EXIT_ERROR);
+}
+
+void prompt_begin(shell *sh) {
+    completing = sh;
+    atexit(at_exit);
+    at_work = true;
+    rl_readline_name = "fret"; /* `$if fret` in inputrc */
+    rl_getc_function = read_key;
+    rl_startup_hook = take_utf8;
+    rl_bind_keyseq_in_map("\\e[200~", paste, emacs_standard_keymap);
+    rl_bind_keyseq_in_map("\\e[200~", paste, vi_insertion_keymap);
+    rl_attempted_completion_function = matches;
+    rl_completion_word_break_hook = word_breaks;
+    rl_completer_quote_characters = "\"";
+    rl_filename_quote_characters = " \t\n;#";
+    rl_filename_quoting_function = quote_name;
+    rl_catch_signals = 0;
+    using_history();
+    stifle_history(HISTORY_LINES);
+    at_work = false;
+    open_history(sh);
+}
+
+char *prompt_line(const char *text) {
+    rl_outstream = record_terminal();
+    told_stop = false;
+    guard();
+    at_work = true;
+    char *line = readline(text);
+    const char *bracketed = rl_variable_value("enable-bracketed-paste"); /* it ends the line itself then */
+    if (!line && !(bracketed && !strcmp(bracketed, "on")))
+        fputc('\n', rl_outstream);
+    at_work = false;
+    unguard();
+    if (caught) /* came when the line was done: it acts now */
+        raise(caught);
+    caught = 0;
+    return line;
+}
+
+/* Rows that the editor took to show it: the prompt, and every line from the left edge on. */
+static int rows_of(const char *text, int columns) {
+    enum { PROMPT = 6 };
+    int rows = 0, width = PROMPT;
+    for (;; text++) {
+        const size_t n = strcspn(text, "\n");
+        width += (int)text_columns(text, n);
+        text += n;
+        if (!*text && width == 0 && rows > 0) /* an empty last one is not gone past */
+            return rows;
+        rows += 1 + (width > 0 ? (width - 1) / columns : 0);
+        width = 0;
+        if (!*text)
+            return rows;
+    }
+}
+
+bool prompt_erase(const char *text) {
+    int high, wide;
+    const char *up = rl_get_termcap("up"), *wipe = rl_get_termcap("ce");
+    rl_get_screen_size(&high, &wide);
+    /* readline knows no capability to clear downwards: where a line is cleared as in ECMA-48, so is the rest
+     */
+    if (!up || !wipe || strncmp(wipe, "\033[K", 3) != 0 || strchr(text, '\t'))
+        return false;
+    const int rows = rows_of(text, wide);
+    if (rows >= high) /* a part has left the screen */
+        return false;
+    for (int i = 0; i < rows; i++)
+        fputs(up, rl_outstream);
+    fputs("\033[J", rl_outstream);
+    fflush(rl_outstream);
+    return true;
+}
+
+void prompt_dropped(void) {
+    rl_callback_sigcleanup();
+}
+
+/* One write at the end of the file: two sessions do not mix. */
+void prompt_keep(const char *line) {
+    const size_t n = strlen(line);
+    char *copy = n <= HISTORY_LINE ? malloc(n + 2) : NULL;
+    if (!copy)
+        return;
+    for (size_t i = 0; i < n; i++)
+        copy[i] = line[i] == '\n' ? ' ' : line[i];
+    copy[n] = 0;
+    remember(copy);
+    copy[n] = '\n';
+    if (history_file >= 0 && write(history_file, copy, n + 1) < 0) { /* full, or gone */
+        shell_say(completing, "no history is kept any more: %s", strerror(errno));
+        file_keep(history_file, false);
+        close(history_file);
+        history_file = -1;
+    }
+    free(copy);
+}

@@ -1,0 +1,382 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A transcript is a test: lines after `fret> ` are run, what follows each must come out again. A copy of a
+ * terminal is one too: what depends on who types, on the terminal and on the clock may be there or not. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "statement/output.h"
+#include "statement/record.h"
+#include "statement/text.h"
+#include "text/lines.h"
+#include "text/typeset.h"
+
+/* ---- lines ------------------------------------------------------------------------------------- */
+
+static bool starts_number(const char *s) {
+    return (*s >= '0' && *s <= '9') || (*s == '.' && s[1] >= '0' && s[1] <= '9');
+}
+
+/* One unit in the last printed place of the number at s. */
+static double last_place(const char *s, const char *end) {
+    int places = 0;
+    bool point = false;
+    const char *e = end;
+    for (const char *p = s; p < end; p++) {
+        if (*p == 'e' || *p == 'E') {
+            e = p;
+            break;
+        }
+        places += point;
+        point = point || *p == '.';
+    }
+    return pow(10, (e < end ? strtod(e + 1, NULL) : 0) - places);
+}
+
+/* Equal, but for numbers that agree to the digits wanted, or within the tolerance. */
+static bool same_plainly(const char *want, const char *got, double tolerance) {
+    while (*want && *got) {
+        if (starts_number(want) && starts_number(got)) {
+            char *we, *ge;
+            double w = strtod(want, &we), g = strtod(got, &ge);
+            if (fabs(w - g) > fmax(0.500001 * last_place(want, we), tolerance * fabs(w)))
+                return false;
+            want = we;
+            got = ge;
+        } else if (*want++ != *got++) {
+            return false;
+        }
+    }
+    return *want == *got;
+}
+
+/* Past `FILE:LINE:COLUMN: ` of an error: the same statement has another place in a replay. */
+static const char *without_place(const char *line) {
+    const char *error = strstr(line, ": error: ");
+    const char *p = error;
+    for (int colons = 0; p && p > line && colons < 2; p--)
+        if (p[-1] == ':')
+            colons++;
+        else if (p[-1] < '0' || p[-1] > '9')
+            return line;
+    return error && p > line ? error + 2 : line;
+}
+
+/* Formulas may have been typeset in another locale. */
+static bool same(const char *want, const char *got, double tolerance) {
+    enum { FORMULA = 600 };
+    char set[2][FORMULA];
+    if (same_plainly(want, got, tolerance) ||
+        same_plainly(without_place(want), without_place(got), tolerance))
+        return true;
+    if (strlen(want) >= FORMULA / 3 || strlen(got) >= FORMULA / 3)
+        return false;
+    typeset(want, set[0], FORMULA);
+    typeset(got, set[1], FORMULA);
+    return same_plainly(set[0], set[1], tolerance);
+}
+
+/* The end of the line without what a terminal leaves there. */
+static size_t line_length(const char *line) {
+    size_t n = strcspn(line, "\n");
+    while (n > 0 && (line[n - 1] == ' ' || line[n - 1] == '\r'))
+        n--;
+    return n;
+}
+
+static const char *line_after(const char *line) {
+    line += strcspn(line, "\n");
+    return line + (*line != 0);
+}
+
+typedef struct measure {
+    double tolerance; /* of numbers */
+    bool lost;        /* memory was out: nothing can be said */
+} measure;
+
+static bool same_lines(const char *want, const char *got, measure *m) {
+    char *w = strndup(want, line_length(want)), *g = strndup(got, line_length(got));
+    const bool ok = w && g && same(w, g, m->tolerance);
+    m->lost |= !w || !g;
+    free(w);
+    free(g);
+    return ok;
+}
+
+static bool is_blank(const char *text) {
+    return strspn(text, " \r\n") == strlen(text);
+}
+
+static bool begins(const char *line, const char *words) {
+    return !strncmp(line, words, strlen(words));
+}
+
+/* What two runs tell differently: times, and whether a file was there before. */
+static bool is_passing(const char *line) {
+    return begins(line, "time: ") || begins(line, "wrote ") || begins(line, "overwrote ") ||
+           begins(line, PASTED);
+}
+
+/* Compares line by line; empty lines at the end do not count. */
+static bool compare(const char *want, const char *got, measure *m) {
+    while (*want || *got) {
+        if (is_passing(want)) {
+            want = line_after(want);
+        } else if (is_passing(got)) {
+            got = line_after(got);
+        } else if (*got == MARK_ASIDE) {
+            if (*want && same_lines(want, got + 1, m))
+                want = line_after(want);
+            got = line_after(got);
+        } else if (*got == MARK_DRAWING) {
+            const char *rest = line_after(got);
+            while (*want && !compare(want, rest, m))
+                want = line_after(want);
+            got = rest;
+        } else if (!*got || !*want) {
+            return is_blank(want) && is_blank(got);
+        } else if (same_lines(want, got, m)) {
+            want = line_after(want);
+            got = line_after(got);
+        } else {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- a statement ------------------------------------------------------------------------------- */
+
+typedef struct text {
+    char *p;
+    size_t len;
+} text;
+
+static bool append(text *t, const char *line, size_t n) {
+    char *grown = realloc(t->p, t->len + n + 1);
+    if (!grown)
+        return false;
+    memcpy(grown + t->len, line, n);
+    t->p = grown;
+    t->len += n;
+    grown[t->len] = 0;
+    return true;
+}
+
+static void empty(text *t) {
+    t->len = 0;
+    if (t->p)
+        *t->p = 0;
+}
+
+typedef struct replay {
+    FILE *out;
+    double tolerance;
+    const char *path;
+    size_t passed, failed;
+    shell sh;
+    text statement, want;
+    size_t at;      /* line of the statement; 0: none yet */
+    bool waits;     /* to be run until something follows */
+    size_t prompts; /* in what it wrote that are still to come in the transcript: a demo shows some */
+    char *got;
+} replay;
+
+static void show(FILE *out, char mark, const char *line, bool asides) {
+    for (; *line; line = line_after(line)) {
+        if (*line == MARK_DRAWING || (*line == MARK_ASIDE && !asides))
+            continue;
+        line += *line == MARK_ASIDE;
+        fprintf(out, "%c ", mark);
+        print_safe(out, line, strcspn(line, "\n"));
+        putc('\n', out);
+    }
+}
+
+/* Those that a transcript cannot be without. */
+static size_t count_lines(const char *line) {
+    size_t count = 0;
+    for (; *line; line = line_after(line))
+        count += *line != MARK_ASIDE && *line != MARK_DRAWING && line_length(line) > 0 && !is_passing(line);
+    return count;
+}
+
+static size_t count_prompts(const char *line) {
+    size_t count = 0;
+    for (; *line; line = line_after(line)) {
+        size_t n = strcspn(line, "\n");
+        count += strip_prompt(line, &n) != line;
+    }
+    return count;
+}
+
+/* Runs the statement. False: out of memory. */
+static bool run(replay *r) {
+    file_text got;
+    free(r->got);
+    r->got = NULL;
+    if (!file_text_open(&got))
+        return false;
+    const source from = {NULL, true};
+    r->sh.out = r->sh.err = got.to;
+    r->sh.quit = false;
+    if (!shell_special(&r->sh, &from, r->statement.p))
+        shell_line(&r->sh, &from, r->statement.p, r->statement.len, r->at);
+    if (!file_text_close(&got))
+        return false;
+    r->got = got.text;
+    if (r->sh.stopped && !shell_stop)
+        return false; /* what it said is no answer */
+    r->prompts = count_prompts(r->got);
+    return true;
+}
+
+/* Does it end as a terminal shows a line that Ctrl-C dropped? Such a one waits for what follows. */
+static bool seems_dropped(const replay *r) {
+    static const char end[] = "^C";
+    const size_t n = sizeof end - 1, len = r->statement.len;
+    size_t own;
+    return len >= n && !strcmp(r->statement.p + len - n, end) &&
+           (len == n || !names_find(&r->sh.calc.names, end + 1, 1, &own));
+}
+
+static bool begin(replay *r) {
+    r->waits = seems_dropped(r);
+    return r->waits || run(r);
+}
+
+/* Notes and warnings of a scene that a record begins with may be there or not. */
+static void spare_notes(replay *r) {
+    const size_t n = strlen(RECORD_GIVEN), len = r->statement.len;
+    if (len < n || strcmp(r->statement.p + len - n, RECORD_GIVEN) != 0)
+        return;
+    for (char *line = r->got; *line; line += line_after(line) - line)
+        if (begins(line, "note: ") || begins(line, "warning: "))
+            *line = MARK_ASIDE;
+}
+
+/* What follows the statement has been gathered. False: out of memory. */
+static bool judge(replay *r) {
+    const char *want = r->want.p ? r->want.p : "";
+    measure m = {r->tolerance, false};
+    if (r->at == 0 || shell_stop) /* what is half done is no answer */
+        return true;
+    if (r->waits && is_blank(want))
+        return true;
+    if (r->waits && !run(r))
+        return false;
+    spare_notes(r);
+    if (compare(want, r->got, &m)) {
+        r->passed++;
+    } else if (!m.lost) {
+        r->failed++;
+        print_safe(r->out, r->path, strlen(r->path));
+        fprintf(r->out, ":%zu: fret> ", r->at);
+        print_safe(r->out, r->statement.p, r->statement.len);
+        putc('\n', r->out);
+        show(r->out, '-', want, false);
+        show(r->out, '+', r->got, count_lines(want) > count_lines(r->got)); /* it has asides, then */
+    }
+    return !m.lost;
+}
+
+/* ---- the transcript ---------------------------------------------------------------------------- */
+
+/* Adds a physical line of a statement; a mark of continuation becomes a blank, as it does where lines are
+ * typed. */
+static bool add_part(replay *r, const char *line, size_t n, bool *whole) {
+    const size_t mark = shell_mark(line, n);
+    *whole = mark == n;
+    if (r->statement.len > 0 && !append(&r->statement, "\n", 1))
+        return false;
+    if (!append(&r->statement, line, n))
+        return false;
+    if (!*whole)
+        r->statement.p[r->statement.len - n + mark] = ' ';
+    return true;
+}
+
+static bool take_line(replay *r, const file_in *in, bool *waiting) {
+    size_t n = in->length;
+    const char *typed = strip_prompt(in->line, &n);
+    const bool prompt = typed != in->line, more = prompt && is_continuation(in->line);
+    bool whole = true;
+    if (more && *waiting) {
+        if (!add_part(r, typed, n, &whole))
+            return false;
+        *waiting = !whole;
+        return *waiting || begin(r);
+    }
+    if (!prompt || r->prompts > 0) {
+        r->prompts -= prompt;
+        return r->at == 0 || (append(&r->want, in->line, in->length) && append(&r->want, "\n", 1));
+    }
+    if ((*waiting && !begin(r)) || !judge(r)) /* it was dropped, or is all there is */
+        return false;
+    r->at = (size_t)in->number;
+    empty(&r->statement);
+    empty(&r->want);
+    if (!add_part(r, typed, n, &whole))
+        return false;
+    *waiting = !whole;
+    return *waiting || begin(r);
+}
+
+static bool take_lines(replay *r, file_in *in, calc_error *error) {
+    bool waiting = false, ok = true;
+    file_got got = FILE_GOT_END;
+    while (ok && !shell_stop && (got = file_in_line(in, error)) == FILE_GOT_LINE)
+        ok = take_line(r, in, &waiting);
+    if (ok && waiting && !shell_stop)
+        ok = begin(r);
+    if (ok && got != FILE_GOT_ERROR)
+        ok = judge(r);
+    if (!ok)
+        calc_no_memory(error);
+    if (ok && got == FILE_GOT_END && r->passed + r->failed == 0)
+        ok = calc_fail(error, 0, 0, "%s holds no lines that begin with `fret> `", r->path);
+    return ok && got != FILE_GOT_ERROR;
+}
+
+int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, calc_error *error) {
+    static int nesting; /* a transcript may replay others */
+    enum { NESTING = 8 };
+    file_in in;
+    text_out t;
+    if (nesting == NESTING) {
+        calc_fail(error, 0, 0, "transcripts are nested more than %d deep", NESTING);
+        return EXIT_ERROR;
+    }
+    if (!(strcmp(path, "-") ? file_in_open(&in, path, &shell_stop, error)
+                            : file_in_take(&in, 0, "stdin", &shell_stop, error)))
+        return EXIT_ERROR;
+    if (!text_begin(&t, set, out, TEXT_PICTURE)) {
+        calc_no_memory(error);
+        file_in_close(&in);
+        return EXIT_ERROR;
+    }
+    replay r = {.tolerance = tolerance, .path = path, .out = t.to};
+    shell_init(&r.sh, out, out);
+    r.sh.replaying = true;
+    nesting++;
+    file_keep(in.fd, true);
+    bool ok = take_lines(&r, &in, error);
+    file_keep(in.fd, false);
+    nesting--;
+    if (ok && !shell_stop) {
+        print_safe(r.out, path, strlen(path));
+        fprintf(r.out, ": %zu passed, %zu failed\n", r.passed, r.failed);
+    }
+    ok &= text_end(&t, true);
+    if (shell_stop)
+        calc_interrupted(error);
+    if (!ok)
+        calc_no_memory(error); /* if nothing else is wrong */
+    file_in_close(&in);
+    r.sh.out = r.sh.err = out;
+    shell_free(&r.sh);
+    free(r.statement.p);
+    free(r.want.p);
+    free(r.got);
+    return shell_stop ? EXIT_INTERRUPTED : ok && !r.failed ? EXIT_OK : EXIT_ERROR;
+}

@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Statements, lines and streams of them: dispatch, and the one place that reports errors. */
+#include "statement/shell.h"
+#include "text/clock.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands/expressions.h"
+#include "help/help.h"
+#include "statement/command.h"
+#include "statement/cursor.h"
+#include "statement/progress.h"
+#include "statement/record.h"
+#include "text/characters.h"
+#include "text/lines.h"
+
+void shell_init(shell *sh, FILE *out, FILE *err) {
+    *sh = (shell){.out = out, .err = err, .set = settings_initial};
+    calc_init(&sh->calc, &shell_stop);
+    sh->calc.keyword = argument_word;
+    sh->calc.scene.pulse = progress_pulse;
+}
+
+void shell_free(shell *sh) {
+    record_end(sh, false);
+    typed_forget(sh);
+    calc_free(&sh->calc);
+    for (size_t i = 0; i < EXPRESSIONS; i++)
+        expr_free(&sh->list[i]);
+}
+
+/* ---- statements -------------------------------------------------------------------------------- */
+
+static bool print_statement(shell *sh, lexer *lx) {
+    column columns[EXPRESSIONS];
+    long double si[EXPRESSIONS];
+    size_t count;
+    bool ok = read_expressions(sh, lx, columns, EXPRESSIONS, &count) && at_end(lx);
+    for (size_t i = 0; i < count && ok; i++) {
+        value v;
+        ok = expr_eval(&sh->calc, &sh->list[i], &v, lx->error) &&
+             column_fits(&sh->list[i], &columns[i], v, lx->error);
+        si[i] = v.v;
+        sh->calc.ans = ok ? v : sh->calc.ans;
+        sh->calc.has_ans = sh->calc.has_ans || ok;
+    }
+    progress_wipe();
+    if (ok)
+        ok = answer_values(&sh->set, sh->out, columns, si, count) || calc_no_memory(lx->error);
+    columns_free(columns, count);
+    return ok;
+}
+
+/* A command word alone misses more than its first argument. */
+static void add_usage(const command *c, calc_error *error) {
+    static const char missing[] = "expected ";
+    char usage[GRAMMAR_USAGE];
+    const size_t n = strlen(error->text);
+    if (error->raised && error->kind == ERROR_WORDS && !strncmp(error->text, missing, sizeof missing - 1)) {
+        command_usage(c, usage);
+        snprintf(error->text + n, sizeof error->text - n, "; usage: %s", usage);
+    }
+}
+
+static bool run_command(shell *sh, lexer *lx, const command *c) {
+    const size_t at = lx->at, len = lx->len;
+    scene_mark *before = NULL;
+    lex_next(lx);
+    const bool bare = lx->kind == T_END;
+    if (lx->error->raised && !grammar_first(command_form(c), HOLE_FILE))
+        return false;
+    if (c->changes && !(before = undo_mark(&sh->calc)))
+        return calc_no_memory(lx->error);
+    bool ok = c->run(sh, lx, c);
+    if (c->changes && (ok || c->keeps))
+        undo_scene(&sh->calc, before);
+    else if (c->changes)
+        undo_unmark(&sh->calc, before);
+    if (ok && c->changes && shell_stop) { /* while it told of itself */
+        undo_pop(&sh->calc, true);
+        ok = calc_interrupted(lx->error);
+    }
+    if (ok && (c->changes || c->returns))
+        shell_warn(sh);
+    if (bare)
+        add_usage(c, lx->error);
+    return ok || calc_place(lx->error, at, lx->end > at + len ? lx->end - at : len);
+}
+
+static bool assign(shell *sh, lexer *lx) {
+    const command *c = command_find(lx->text + lx->at, lx->len);
+    if (c) {
+        char usage[GRAMMAR_USAGE];
+        command_usage(c, usage);
+        return lex_fail(lx, "'%s' is a command, no variable: %s", c->name, usage);
+    }
+    const bool ok = calc_assign(&sh->calc, lx);
+    if (ok)
+        shell_warn(sh);
+    return ok;
+}
+
+/* An unknown word, alone or before another, of which help tells. */
+static bool told_of(lexer *lx, const char *word, token_kind after) {
+    lexer next = *lx;
+    calc_error ignored;
+    error_clear(&ignored);
+    next.error = &ignored;
+    lex_next(&next);
+    if ((after != T_NAME && after != T_NUMBER && after != T_END) || lex_is(&next, "in") ||
+        lex_is(&next, "at"))
+        return false;
+    const char *where = suggest(word, quantity_name) ? NULL : help_where(word);
+    return where && !lex_fail(lx, "unknown name '%s'; try: %s %s", word, where, word);
+}
+
+/* A misspelt command followed by its arguments. */
+static bool misspelt(shell *sh, lexer *lx) {
+    char word[LEX_NAME];
+    size_t i;
+    if (names_find(&sh->calc.names, lx->text + lx->at, lx->len, &i) || name_taken(lx->text + lx->at, lx->len))
+        return false;
+    lex_word(lx, word);
+    if (lead_from(word)) /* whoever looks for the name tells */
+        return false;
+    const token_kind after = lex_peek(lx);
+    const char *near = suggest(word, command_name);
+    if ((after != T_NAME && after != T_NUMBER && after != T_END) || !near ||
+        (after == T_END && suggest(word, quantity_name)))
+        return told_of(lx, word, after);
+    lex_fail(lx, "unknown command '%s': did you mean %s?", word, near);
+    return true;
+}
+
+static bool dispatch(shell *sh, lexer *lx) {
+    if (lx->kind == T_NAME) {
+        const command *c = command_find(lx->text + lx->at, lx->len);
+        const token_kind next = c ? lex_peek(lx) : T_END;
+        if (c && next != T_ASSIGN && next != T_INCREMENT && next != T_DEFINE)
+            return run_command(sh, lx, c);
+        if (assign_at(lx))
+            return assign(sh, lx);
+        if (misspelt(sh, lx))
+            return false;
+        const quantity *q = lex_peek(lx) == T_NUMBER ? quantity_find(lx->text + lx->at, lx->len) : NULL;
+        if (q && quantity_is_input(q)) { /* mu 0.3 */
+            const char *name = q->name;
+            lex_next(lx);
+            return lex_fail(lx, "unexpected '%.*s': did you mean %s = %.*s?", LEX_WORD(lx), name,
+                            LEX_WORD(lx));
+        }
+        if (q && q->call) /* dW 20 N */
+            return lex_fail(lx, "expected ( after %s: %s(%s)", q->name, q->name, q->argument);
+    }
+    return print_statement(sh, lx);
+}
+
+bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error) {
+    lexer lx;
+    error_clear(error);
+    lex_start(&lx, text, len, error);
+    if (error->raised)
+        return false;
+    if (lx.kind == T_END)
+        return true;
+    undo_begin(&sh->calc);
+    progress_begin(sh, text + lx.at, len - lx.at);
+    bool ok = dispatch(sh, &lx);
+    progress_end();
+    if (*sh->calc.note && ok)
+        shell_note(sh, "%s", sh->calc.note);
+    *sh->calc.note = 0;
+    if (ok && sh->calc.scene.used & ASKED_TANGENTIAL)
+        shell_warn_dissimilar(sh);
+    undo_end(&sh->calc);
+    if (shell_stop) { /* what has been half computed must answer nothing, whatever it seemed to say */
+        scene_forget(&sh->calc.scene, false);
+        if (!ok && error->raised) {
+            error->raised = false;
+            calc_interrupted(error);
+        }
+    }
+    return ok;
+}
+
+/* ---- lines ------------------------------------------------------------------------------------- */
+
+enum { SHOWN = 100 }; /* columns of a long line, around the place */
+
+/* The part of a line that is shown: `before` columns of it lie before the place. */
+static void find_part(const char *text, size_t len, size_t at, size_t *begin, size_t *end, size_t *before) {
+    *begin = 0;
+    *end = len;
+    *before = text_columns(text, at);
+    if (text_columns(text, len) <= SHOWN)
+        return;
+    if (*before > SHOWN / 2)
+        *begin = text_fit(text, at, *before - SHOWN / 2);
+    *before -= text_columns(text, *begin);
+    *end = *begin + text_fit(text + *begin, len - *begin, SHOWN);
+}
+
+static void show_place(const shell *sh, bool aside, const char *text, size_t len, size_t at, size_t width) {
+    FILE *to = sh->err;
+    size_t begin, end, before;
+    find_part(text, len, at, &begin, &end, &before);
+    if (aside)
+        shell_aside(sh, to);
+    fprintf(to, "  %s", begin ? "..." : "");
+    for (size_t i = begin; i < end;) {
+        unsigned code;
+        const size_t n = character_at(text + i, end - i, &code);
+        if (n && character_shows(code))
+            fwrite(text + i, 1, n, to);
+        else
+            putc(n && code == '\t' ? ' ' : '?', to);
+        i += n ? n : 1;
+    }
+    fprintf(to, "%s\n", end < len ? "..." : "");
+    if (aside)
+        shell_aside(sh, to);
+    fprintf(to, "  %s%*s^", begin ? "   " : "", (int)before, "");
+    const size_t last = at + width < end ? at + width : end;
+    for (size_t marks = last > at ? text_columns(text + at, last - at) : 0; marks > 1; marks--)
+        putc('~', to);
+    putc('\n', to);
+}
+
+static void report_error(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
+                         const calc_error *error) {
+    fflush(sh->out);
+    if (shell_unread()) /* that is why */
+        return;
+    /* the physical line within a continued one */
+    size_t begin = 0;
+    for (size_t i = 0; i < at && i < len; i++)
+        if (text[i] == '\n') {
+            begin = i + 1;
+            line++;
+        }
+    size_t end = begin;
+    while (end < len && text[end] != '\n')
+        end++;
+    const size_t place = character_count(text + begin, at - begin) + 1;
+    answer a;
+    answer_begin(&a, &sh->set, sh->out);
+    answer_message(&a, "error", error->text);
+    if (from->name) {
+        answer_string(&a, "file", from->name);
+        answer_number(&a, "line", (double)line);
+    }
+    answer_number(&a, "column", (double)place);
+    answer_done(&a);
+    fflush(sh->out);
+    if (from->name) {
+        print_safe(sh->err, from->name, strlen(from->name));
+        fprintf(sh->err, ":%zu:%zu: ", line, place);
+    }
+    shell_print_error(sh, error->text);
+    const size_t width = error->len ? error->len : 1;
+    if (from->name || sh->replaying || (sh->interactive && width < end - begin))
+        show_place(sh, !from->name, text + begin, end - begin, at - begin, width);
+    fflush(sh->err);
+}
+
+/* The models that have answered, in parentheses. */
+static void list_models(const shell *sh, FILE *to) {
+    const char *before = " (";
+    for (model_id i = 0; i < MODELS; i++)
+        if (sh->calc.scene.used & USED(i)) {
+            fprintf(to, "%s%s", before, models[i].title);
+            if (i == MODEL_PIECES)
+                fprintf(to, " to %.0e", sh->calc.scene.pieces_error);
+            before = ", ";
+        }
+    const answers *a = &sh->calc.scene.answers;
+    if (sh->calc.scene.used & USED(MODEL_MEMORY) && a->levels && a->run[0].repeated)
+        fprintf(to, ", %u period%s the last one run", a->run[0].repeated,
+                a->run[0].repeated == 1 ? " repeats" : "s repeat");
+    if (*before == ',')
+        putc(')', to);
+}
+
+static void report_time(shell *sh, double t) {
+    file_text models_text;
+    if (sh->replaying) /* no two runs agree */
+        return;
+    if (!file_text_open(&models_text))
+        return;
+    list_models(sh, models_text.to);
+    if (!file_text_close(&models_text))
+        return;
+    shell_say(sh, "time: %.3g ms%s", 1e3 * t, models_text.text);
+    free(models_text.text);
+}
+
+bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line) {
+    bool ok = true;
+    for (size_t i = 0; i < len && !sh->quit;) {
+        if (text[i] == '#')
+            break;
+        size_t end = shell_statement_end(text, i, len);
+        calc_error error;
+        bool timed = sh->set.timing;
+        double start = timed ? clock_wall() : 0;
+        const struct recorder *recorder = sh->record;
+        sh->calc.scene.used = 0;
+        bool done = shell_statement(sh, text + i, end - i, &error);
+        if (!done)
+            calc_word(&sh->calc, &error);
+        if (!done && error.raised) { /* else a nested source has reported it */
+            report_error(sh, from, text, len, line, i + error.at, &error);
+            sh->failed = true;
+            sh->stopped |= error.stop;
+            sh->refused |= error.refused;
+        }
+        if (!done) {
+            ok = false;
+            if (!from->keep_going || shell_stop)
+                return false;
+        } else if (timed) {
+            report_time(sh, clock_wall() - start);
+        }
+        i = end < len && text[end] == ';' ? end + 1 : len;
+        while (i < len && text[i] == ' ')
+            i++;
+        if (sh->record && sh->record != recorder && i < len) /* which was not there when the line began */
+            record_line(sh, text + i, len - i);
+    }
+    return ok;
+}
+
+/* ---- streams ----------------------------------------------------------------------------------- */
+
+int shell_stream(shell *sh, file_in *in, bool keep_going) {
+    const source from = {in->name, keep_going};
+    calc_error error;
+    error_clear(&error);
+    file_got got = FILE_GOT_END;
+    bool ok = true, last = true; /* all statements so far; those of the last line */
+    while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || keep_going) &&
+           (got = file_in_logical(in, shell_mark, &error)) == FILE_GOT_LINE) {
+        blank_prompts(in->line, in->length);
+        if (sh->nesting == 0)
+            record_line(sh, in->line, in->length);
+        last = shell_line(sh, &from, in->line, in->length, (size_t)in->number);
+        ok = ok && last;
+    }
+    if (got == FILE_GOT_ERROR)
+        shell_error(sh, error.text);
+    sh->stopped |= error.stop;
+    sh->refused |= error.refused;
+    if (shell_stop && last)
+        shell_error(sh, "interrupted");
+    const int status = shell_stop ? EXIT_INTERRUPTED : ok && got != FILE_GOT_ERROR ? EXIT_OK : EXIT_ERROR;
+    file_in_close(in);
+    return status;
+}
+
+static int run_opened(shell *sh, bool ok, file_in *in, const calc_error *error, bool keep_going) {
+    if (ok)
+        return shell_stream(sh, in, keep_going);
+    shell_error(sh, error->text);
+    return EXIT_ERROR;
+}
+
+int shell_file(shell *sh, const char *path, bool keep_going) {
+    calc_error error;
+    file_in in;
+    error_clear(&error);
+    const bool ok = file_in_open(&in, path, &shell_stop, &error);
+    return run_opened(sh, ok, &in, &error, keep_going);
+}
+
+int shell_text(shell *sh, const char *text, const char *name, bool keep_going) {
+    calc_error error;
+    file_in in;
+    error_clear(&error);
+    const bool ok = file_in_text(&in, text, name, &shell_stop, &error);
+    return run_opened(sh, ok, &in, &error, keep_going);
+}
+
+int shell_stdin(shell *sh, bool keep_going) {
+    calc_error error;
+    file_in in;
+    error_clear(&error);
+    const bool ok = file_in_take(&in, STDIN_FILENO, "stdin", &shell_stop, &error);
+    return run_opened(sh, ok, &in, &error, keep_going);
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands on the session itself: scripts, the end. */
+#include <string.h>
+
+#include "statement/command.h"
+
+bool do_source(shell *sh, lexer *lx, const command *self) {
+    enum { NESTING = 16 };
+    char name[FILE_NAME];
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
+        return false;
+    if (sh->nesting == NESTING)
+        return calc_fail(lx->error, s.list[0].hole[0].at, 1, "scripts are nested more than %d deep", NESTING);
+    file_in in;
+    if (!file_in_open(&in, name, &shell_stop, lx->error))
+        return heard_place(lx->error, &s.list[0]);
+    sh->nesting++;
+    int status = shell_stream(sh, &in, sh->keep_going);
+    sh->nesting--;
+    return status == EXIT_OK;
+}
+
+bool do_quit(shell *sh, lexer *lx, const command *self) {
+    (void)self;
+    if (!at_end(lx))
+        return false;
+    sh->quit = true;
+    return true;
+}

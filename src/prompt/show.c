@@ -1,0 +1,423 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* show and set: the scene, the settings and the tables of the language in writing. Changes settings alone. */
+#include "prompt/show.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "help/topics.h"
+#include "statement/command.h"
+#include "statement/output.h"
+#include "statement/text.h"
+#include "text/lines.h"
+#include "text/unit_text.h"
+
+/* ---- values ------------------------------------------------------------------------------------ */
+
+/* The number of a literal such as `90 deg` as the language reads it. */
+static double read_back(const char *text) {
+    calc_error ignored;
+    lexer lx;
+    unit u;
+    error_clear(&ignored);
+    lex_start(&lx, text, strlen(text), &ignored);
+    const bool minus = lx.kind == T_MINUS;
+    if (minus)
+        lex_next(&lx);
+    const size_t at = lx.at, len = lx.len;
+    lex_next(&lx);
+    unit_parse(&lx, &u);
+    const double v = (double)unit_literal(&lx, at, len, &u);
+    return minus ? -v : v;
+}
+
+/* In degrees where these can say it. */
+static void angle_text(double v, char *buf, size_t size) {
+    enum { LEAST = 15, MOST = 17 };
+    for (int digits = LEAST; digits <= MOST; digits++) {
+        snprintf(buf, size, "%.*g deg", digits, v * (180 / 3.14159265358979323846));
+        if (read_back(buf) == v)
+            return;
+    }
+    snprintf(buf, size, "%.*g rad", MOST, v);
+}
+
+enum { VALUE_TEXT = 160 };
+
+static void value_text(value v, char buf[VALUE_TEXT]) {
+    if (v.d.rad != 0 && dim_equal(v.d, DIM_NONE))
+        angle_text((double)v.v, buf, VALUE_TEXT);
+    else
+        format_exact(v, buf, VALUE_TEXT);
+}
+
+/* ---- the scene as statements ------------------------------------------------------------------- */
+
+typedef struct writer {
+    const calc *c;
+    FILE *to;
+    bool any; /* something has been written */
+} writer;
+
+static const definition *binding(const writer *w, input in) {
+    return (const definition *)w->c->scene.in.bound[in];
+}
+
+/* The value of a bound input too, as it is now: the definition may need the load that needs the value. Before
+ * there is a load it may have none. */
+static bool is_set(const writer *w, input in) {
+    return w->c->scene.in.set[in] && !(binding(w, in) && input_status(in, w->c->scene.in.v[in]).code);
+}
+
+static void begin(writer *w, const char *words) {
+    fputs(words, w->to);
+    w->any = true;
+}
+
+static void write_value(writer *w, const char *name, const char *sign, value v) {
+    char text[VALUE_TEXT];
+    value_text(v, text);
+    fprintf(w->to, "%s%s%s", name, sign, text);
+}
+
+static value input_value(const writer *w, input in) {
+    return (value){(long double)w->c->scene.in.v[in], quantity_dim(quantity_of_input(in), &w->c->scene)};
+}
+
+/* ` NAME=VALUE` of a command. */
+static void write_argument(writer *w, const char *name, input in) {
+    putc(' ', w->to);
+    write_value(w, name, "=", input_value(w, in));
+}
+
+/* A statement of its own for an input that no command could carry. */
+static void write_input(writer *w, input in) {
+    begin(w, "");
+    write_value(w, quantity_of_input(in)->name, " = ", input_value(w, in));
+    putc('\n', w->to);
+}
+
+/* ` := TEXT`; the text may have been continued on another line. */
+static void write_definition(writer *w, const definition *d) {
+    fputs(" := ", w->to);
+    for (const char *p = d->text; *p; p++)
+        putc(*p == '\n' || *p == '\r' ? ' ' : *p, w->to);
+    putc('\n', w->to);
+}
+
+static void write_binding(writer *w, input in) {
+    if (!binding(w, in))
+        return;
+    begin(w, quantity_of_input(in)->name);
+    write_definition(w, binding(w, in));
+}
+
+/* `material` wants modulus and ratio; k wants its depth beside it. */
+static void write_material(writer *w) {
+    const inputs *in = &w->c->scene.in;
+    const bool graded = is_set(w, IN_K) && in->v[IN_K] != 0;
+    const bool whole = is_set(w, IN_E0) && is_set(w, IN_NU);
+    const bool k_too = whole && graded && is_set(w, IN_C0);
+    if (whole) {
+        begin(w, "material");
+        write_argument(w, "E0", IN_E0);
+        write_argument(w, "nu", IN_NU);
+        if (k_too)
+            write_argument(w, "k", IN_K);
+        if (is_set(w, IN_C0))
+            write_argument(w, "c0", IN_C0);
+        putc('\n', w->to);
+    }
+    const bool alone[] = {[IN_E0] = !whole, [IN_NU] = !whole, [IN_K] = graded && !k_too, [IN_C0] = !whole};
+    for (input i = IN_E0; i <= IN_C0; i++)
+        if (alone[i] && is_set(w, i))
+            write_input(w, i);
+}
+
+static void write_second(writer *w) {
+    if (w->c->scene.in.second == SECOND_RIGID)
+        begin(w, "second rigid\n");
+    if (w->c->scene.in.second != SECOND_GIVEN)
+        return;
+    if (is_set(w, IN_E0_2) && is_set(w, IN_NU_2)) {
+        begin(w, "second");
+        write_argument(w, "E0", IN_E0_2);
+        write_argument(w, "nu", IN_NU_2);
+        putc('\n', w->to);
+        return;
+    }
+    for (input i = IN_E0_2; i <= IN_NU_2; i++)
+        if (is_set(w, i))
+            write_input(w, i);
+}
+
+/* As the language reads it back; false: it cannot. */
+static bool write_file_name(writer *w, const char *name) {
+    const char *form = strchr(name, '"')          ? " %s " /* as it was typed, and no mark at the end */
+                       : strpbrk(name, " \t;#\\") ? " \"%s\""
+                                                  : " %s";
+    if (strpbrk(name, "\r\n"))
+        return false;
+    fprintf(w->to, form, name);
+    return true;
+}
+
+static void write_smoothing(writer *w, const smoothing *how) {
+    if (how->by)
+        fputs(" smooth", w->to);
+    if (how->by == SMOOTH_PIECES)
+        fprintf(w->to, " %zu", how->pieces);
+    if (how->by == SMOOTH_WITHIN)
+        write_value(w, " ", "", (value){(long double)how->within, DIM_LENGTH});
+}
+
+static void write_radii(writer *w, const double R[2]) {
+    write_value(w, " R1", "=", (value){(long double)R[0], DIM_LENGTH});
+    write_value(w, " R2", "=", (value){(long double)R[1], DIM_LENGTH});
+}
+
+static void write_geometry(writer *w) {
+    const inputs *in = &w->c->scene.in;
+    const geometry *g = in->geometry;
+    if (!g)
+        return;
+    begin(w, "geometry ");
+    fputs(g->name, w->to);
+    for (input i = IN_N; i < INPUTS && g->by == PARAMETERS_NAMED; i++)
+        if (i == IN_RADIUS && in->radii[0] != 0)
+            write_radii(w, in->radii);
+        else if (in->set[i])
+            write_argument(w, quantity_of_input(i)->name, i);
+    for (int i = 0; i < in->sum.terms && g->by == PARAMETERS_TERMS; i++) {
+        char n[VALUE_TEXT];
+        value_text((value){in->sum.power[i].n, DIM_NONE}, n);
+        fprintf(w->to, "%s %s:", i ? "," : "", n);
+        write_value(w, "", "", (value){in->sum.power[i].h, {0, 1 - in->sum.power[i].n, 0}});
+    }
+    if (g->by == PARAMETERS_FILE && !write_file_name(w, in->table->name))
+        fputs(" # the name of the file cannot be written in a statement", w->to);
+    if (g->by == PARAMETERS_FILE)
+        write_smoothing(w, &in->table->smoothing);
+    putc('\n', w->to);
+}
+
+static void write_friction(writer *w) {
+    if (!is_set(w, IN_MU))
+        return;
+    begin(w, "friction ");
+    write_value(w, "", "", input_value(w, IN_MU));
+    putc('\n', w->to);
+}
+
+/* ---- the user's names -------------------------------------------------------------------------- */
+
+static void write_name(writer *w, const own_name *name) {
+    const definition *d = (const definition *)name->definition;
+    begin(w, name->text);
+    for (unsigned i = 0; d && i < d->parameters; i++)
+        fprintf(w->to, "%s%s%s", i ? ", " : "(", d->parameter[i], i + 1 == d->parameters ? ")" : "");
+    if (d) {
+        write_definition(w, d);
+    } else {
+        write_value(w, "", " = ", name->v);
+        putc('\n', w->to);
+    }
+}
+
+/* Does a definition use a name that has not been written yet? */
+static bool waits(const calc *c, size_t row, const bool written[]) {
+    const definition *d = (const definition *)c->names.row[row].definition;
+    for (size_t i = 0; i < c->names.count; i++)
+        if (!written[i] && i != row && expr_mentions(c, &d->body, NULL, c->names.row[i].text))
+            return true;
+    return false;
+}
+
+/* Values first, then definitions, each after those that it uses: a name must be known to be read. */
+static bool write_names(writer *w) {
+    const own_names *n = &w->c->names;
+    bool *written = calloc(n->count + 1, sizeof *written), more = true;
+    if (!written)
+        return false;
+    for (size_t i = 0; i < n->count; i++) {
+        written[i] = !n->row[i].known || !n->row[i].definition;
+        if (n->row[i].known && written[i])
+            write_name(w, &n->row[i]);
+    }
+    while (more) {
+        more = false;
+        for (size_t i = 0; i < n->count; i++)
+            if (!written[i] && !waits(w->c, i, written)) {
+                write_name(w, &n->row[i]);
+                written[i] = more = true;
+            }
+    }
+    free(written);
+    return true;
+}
+
+/* ---- the load ---------------------------------------------------------------------------------- */
+
+static void write_target(writer *w, const char *name, bool relative, double v, dim d) {
+    putc(' ', w->to);
+    write_value(w, name, relative ? "+=" : "=", (value){(long double)v, d});
+}
+
+static void write_cycle(writer *w, const load_item *item) {
+    const load_step *step = &item->step;
+    const bool force = step->tangential == BY_FORCE;
+    write_target(w, force ? "FA" : "dxA", false, step->tangential_value, force ? DIM_FORCE : DIM_LENGTH);
+    if (step->normal_value != 0 || item->extra.phase != 0) { /* the phase for an FNA to come */
+        write_target(w, "FNA", false, step->normal_value, DIM_FORCE);
+        write_target(w, "phase", false, item->extra.phase, DIM_ANGLE);
+    }
+    if (item->extra.times > 1)
+        fprintf(w->to, " times %u", item->extra.times);
+}
+
+static void write_step(writer *w, const load_item *item) {
+    static const char *const kinds[] = {[LOAD_PRESS] = "press", [LOAD_STEP] = "step", [LOAD_CYCLE] = "cycle"};
+    static const char *const normal[] = {[BY_FORCE] = "FN", [BY_DISPLACEMENT] = "dz", [BY_RADIUS] = "a"};
+    const load_step *step = &item->step;
+    begin(w, kinds[step->kind]);
+    if (step->kind == LOAD_CYCLE) {
+        write_cycle(w, item);
+    } else {
+        if (step->normal)
+            write_target(w, normal[step->normal], step->relative & RELATIVE_NORMAL, step->normal_value,
+                         step->normal == BY_FORCE ? DIM_FORCE : DIM_LENGTH);
+        if (step->tangential)
+            write_target(w, step->tangential == BY_FORCE ? "Fx" : "dx", step->relative & RELATIVE_TANGENTIAL,
+                         step->tangential_value, step->tangential == BY_FORCE ? DIM_FORCE : DIM_LENGTH);
+    }
+    if (step->points)
+        fprintf(w->to, " steps %u", step->points);
+    putc('\n', w->to);
+}
+
+static void write_load(writer *w, bool whole) {
+    enum { SHOWN = 20 };
+    const scene *s = &w->c->scene;
+    const size_t count = s->end.steps;
+    if (count == 0)
+        return;
+    const size_t last_cycle = program_last_cycle(s->program, s->end);
+    for (load_mark here = {0, 0}; here.steps < count; here.steps++) {
+        const bool cycle = s->program->steps[here.steps].kind == LOAD_CYCLE;
+        if (whole || count <= SHOWN || here.steps < SHOWN / 2 || here.steps >= count - SHOWN / 2) {
+            const load_item item = program_item(s->program, here, last_cycle, &s->in);
+            write_step(w, &item);
+        } else if (here.steps == SHOWN / 2) {
+            fprintf(w->to, "# ... %zu more steps, not shown\n", count - SHOWN);
+        }
+        here.cycles += cycle;
+    }
+}
+
+/* What is bound gets its value; where it has none yet it keeps what it had. */
+static void settle(calc *c) {
+    calc_error ignored;
+    long double unused;
+    error_clear(&ignored);
+    for (input i = 0; i < INPUTS; i++)
+        if (c->scene.in.bound[i] && !scene_get(&c->scene, i, &unused, &ignored))
+            error_clear(&ignored);
+}
+
+bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
+    writer w = {c, to, false};
+    settle(c);
+    if (whole && !c->scene.automatic) {
+        const setting *row;
+        for (size_t i = 0; (row = setting_row(i)); i++)
+            if (!strcmp(row->name, "model"))
+                setting_show(row, c, set, to);
+    }
+    write_material(&w);
+    write_second(&w);
+    write_geometry(&w);
+    write_friction(&w);
+    write_load(&w, whole);
+    const bool ok = write_names(&w);
+    for (input i = 0; i < INPUTS; i++)
+        write_binding(&w, i);
+    if (!w.any)
+        fputs("# nothing is set yet; try: demo, or help\n", to);
+    return ok;
+}
+
+/* ---- show and set ------------------------------------------------------------------------------ */
+
+/* At the prompt a long load is shortened; a script's output may be read back. */
+static bool show_scene(shell *sh, FILE *to) {
+    return scene_write(&sh->calc, &sh->set, to, !sh->interactive);
+}
+
+static bool show_settings(shell *sh, FILE *to) {
+    const setting *row;
+    for (size_t i = 0; (row = setting_row(i)); i++)
+        setting_show(row, &sh->calc, &sh->set, to);
+    return true;
+}
+
+static bool show_units(shell *sh, FILE *to) {
+    (void)sh;
+    help_units(to);
+    return true;
+}
+
+static bool show_commands(shell *sh, FILE *to) {
+    const command *c;
+    char usage[GRAMMAR_USAGE];
+    (void)sh;
+    for (size_t i = 0; (c = command_row(i)); i++) {
+        command_usage(c, usage);
+        fprintf(to, "%s\n", usage);
+    }
+    return true;
+}
+
+static bool show_variables(shell *sh, FILE *to) {
+    writer w = {&sh->calc, to, false};
+    if (!write_names(&w))
+        return false;
+    if (!w.any)
+        fputs("# you have no names of your own yet; NAME = EXPR makes one\n", to);
+    return true;
+}
+
+static const struct {
+    const char *name;
+    bool (*show)(shell *sh, FILE *to); /* false: out of memory */
+} shown[] = {
+    {"scene", show_scene},       {"settings", show_settings},   {"units", show_units},
+    {"commands", show_commands}, {"variables", show_variables}, {"demos", show_demos},
+};
+enum { SHOWS = sizeof shown / sizeof *shown };
+
+const char *show_name(size_t i) {
+    return i < SHOWS ? shown[i].name : NULL;
+}
+
+static bool say(shell *sh, lexer *lx, bool (*show)(shell *sh, FILE *to)) {
+    text_out t;
+    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
+        return calc_no_memory(lx->error);
+    const bool ok = show(sh, t.to);
+    return (text_end(&t, ok) && ok) || calc_no_memory(lx->error);
+}
+
+bool do_show(shell *sh, lexer *lx, const command *self) {
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all))
+        return false;
+    return say(sh, lx, shown[all.count ? all.list[0].choice : 0].show); /* else the scene */
+}
+
+bool do_set(shell *sh, lexer *lx, const command *self) {
+    (void)self;
+    if (lx->kind != T_END)
+        return setting_read(&sh->calc, &sh->set, lx);
+    return say(sh, lx, show_settings);
+}

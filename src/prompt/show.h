@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is set, as the statements that set it again. */
+#ifndef PROMPT_SHOW_H
+#define PROMPT_SHOW_H
+
+#include "statement/shell.h"
+
+/* The scene and the user's names as statements that make them again in a session without a scene: inputs and
+ * load to the last digit. whole: every step of the load, and the model; else the middle of a long load is
+ * left out, and a comment says so. */
+bool scene_write(calc *c, const settings *set, FILE *to, bool whole);
+
+/* What `show` can show: i = 0, 1, ... until NULL. */
+const char *show_name(size_t i);
+
+/* demo.c: the scripted sessions. */
+bool show_demos(shell *sh, FILE *to);
+
+#endif

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Changes of a scene that hold whole or not at all: of its inputs, and of its load. It asks what follows from
+ * the scene; nothing of that asks it. */
+#include "scene/load.h"
+
+static bool complete(const scene *s) {
+    const inputs *in = &s->in;
+    return in->set[IN_E0] && in->set[IN_NU] && in->geometry && (in->v[IN_K] == 0 || in->set[IN_C0]);
+}
+
+bool scene_valid(scene *s, calc_error *error) {
+    const fret_normal *normal;
+    const fret_contact *contact;
+    const fret_press *press;
+    double mu;
+    for (input in = 0; in < INPUTS; in++)
+        if (s->in.set[in] && !(s->in.bindings & INPUT_BIT(in))) {
+            fret_status st = input_status(in, s->in.v[in]);
+            if (!calc_input_status(error, (int)in, &st))
+                return false;
+        }
+    if (s->end.steps == 0) {
+        if (!complete(s) || scene_normal(s, &normal, error))
+            return true;
+        const bool waits = error->kind == ERROR_MISSING && error->input == IN_FN; /* c0 := a0 */
+        if (waits)
+            error_clear(error);
+        return waits;
+    }
+    if (s->in.set[IN_MU] || s->end.steps > 1)
+        return scene_friction(s, &mu, error) && scene_history(s, &contact, error);
+    return scene_press(s, &press, error);
+}
+
+bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_error *error) {
+    scene_mark before;
+    calc_error mine;
+    error_clear(&mine);
+    scene_save(s, &before, true);
+    edit(&s->in, context);
+    const bool same = scene_same_contact(&s->in, &before.in);
+    if (same)
+        answers_pass_contact(&s->answers, &before.answers);
+    if (scene_valid(s, &mine)) {
+        scene_drop(&before);
+        return true;
+    }
+    if (same)
+        answers_pass_contact(&before.answers, &s->answers);
+    scene_back(s, &before);
+    *error = mine;
+    return false;
+}
+
+static bool start_program(scene *s, const load_step *press, calc_error *error) {
+    scene_mark before;
+    const fret_press *p;
+    scene_save(s, &before, true);
+    if (scene_append(s, press, NULL, error) && scene_press(s, &p, error)) {
+        scene_drop(&before);
+        return true;
+    }
+    scene_back(s, &before);
+    return false;
+}
+
+bool scene_load(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    return step->kind == LOAD_PRESS ? start_program(s, step, error) : load_go_on(s, step, extra, error);
+}

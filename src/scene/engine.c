@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of models and how they step. */
+#include "scene/engine.h"
+
+const model_row models[MODELS] = {
+    [MODEL_CLOSED] = {.name = "closed", .title = "closed form", .chosen = true},
+    [MODEL_MEMORY] = {.name = "memory", .title = "memory diagram", .chosen = true, .steps = true},
+    [MODEL_QUADRATURE] = {.name = "quadrature", .title = "quadrature"},
+    [MODEL_PIECES] = {.name = "polynomials", .title = "polynomials"},
+    [MODEL_SPRINGS] = {.name = "springs",
+                       .title = "springs",
+                       .count = "the number of springs",
+                       .chosen = true,
+                       .steps = true},
+};
+
+fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count,
+                        double radius) {
+    *e = (engine){.kind = &models[id]};
+    return id == MODEL_SPRINGS ? fret_springs_make(normal, mu, count, radius, FRET_WEIGHT_CELL, &e->springs)
+                               : fret_contact_make(normal, mu, FRET_EXACT, &e->contact);
+}
+
+void engine_end(engine *e) {
+    fret_contact_free(e->contact);
+    fret_springs_free(e->springs);
+    e->contact = NULL;
+    e->springs = NULL;
+}
+
+bool engine_is_made(const engine *e) {
+    return e->contact || e->springs;
+}
+
+/* A ramp by force that changes F_N is no straight line for the springs: 64 parts, an error of 1e-8. */
+static fret_status take(engine *e, const fret_step *step, unsigned parts) {
+    const bool ramp = step->normal_by != FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_FX;
+    if (e->springs)
+        return fret_springs_step(e->springs, step, ramp ? parts : 1);
+    const fret_status st = fret_contact_step(e->contact, step);
+    if (!st.code)
+        e->spent += fret_contact_last_loss(e->contact);
+    return st;
+}
+
+fret_status engine_step(engine *e, const fret_step *step) {
+    return take(e, step, 64);
+}
+
+fret_status engine_chord(engine *e, const fret_step *step) {
+    return take(e, step, 1);
+}
+
+fret_status engine_swing(engine *e, const fret_sine *load, double from, double to, bool *taken) {
+    fret_status st = fret_contact_swing(e->contact, load, from, to);
+    *taken = !st.code;
+    if (*taken)
+        e->spent += fret_contact_last_loss(e->contact);
+    return st.code == FRET_OUTSIDE ? (fret_status){FRET_OK, NULL, 0, 0} : st;
+}
+
+void engine_state(const engine *e, fret_state *out) {
+    if (e->springs)
+        fret_springs_state(e->springs, out);
+    else
+        fret_contact_state(e->contact, out);
+    out->W += e->more;
+}
+
+void engine_forces(const engine *e, fret_state *out) {
+    if (e->springs)
+        fret_springs_state(e->springs, out);
+    else
+        fret_contact_forces(e->contact, out);
+    out->W += e->more;
+}
+
+fret_status engine_copy(engine *to, const engine *from) {
+    fret_status st = {FRET_OK, NULL, 0, 0};
+    if (to->kind != from->kind)
+        engine_end(to);
+    if (!to->contact)
+        st = fret_contact_make(fret_contact_normal(from->contact), fret_contact_friction(from->contact),
+                               FRET_EXACT, &to->contact);
+    if (!st.code)
+        st = fret_contact_copy(to->contact, from->contact);
+    to->kind = from->kind;
+    to->sine = from->sine;
+    to->spent = from->spent;
+    to->more = from->more;
+    return st;
+}
+
+void engine_repeat(engine *e, unsigned times, long double loss) {
+    e->more += times * loss;
+}
+
+static long double dissipated(const engine *e) {
+    fret_state now;
+    engine_forces(e, &now);
+    return now.W;
+}
+
+void engine_mark(engine *e) {
+    e->spent = e->springs ? dissipated(e) : 0;
+}
+
+long double engine_spent(const engine *e) {
+    return e->springs ? dissipated(e) - e->spent : e->spent;
+}

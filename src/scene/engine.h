@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Models: what can answer for a scene, and those of them that step along a load. One table: the runner, `set
+ * model`, `accuracy`, `explain` and `set timing` derive from it. Touches the mechanics alone. */
+#ifndef SCENE_ENGINE_H
+#define SCENE_ENGINE_H
+
+#include <stdbool.h>
+
+#include "fret/fret.h"
+
+typedef enum model_id {
+    MODEL_CLOSED,
+    MODEL_MEMORY,
+    MODEL_QUADRATURE,
+    MODEL_PIECES,
+    MODEL_SPRINGS,
+    MODELS
+} model_id;
+
+/* What has answered: bits of scene.used. */
+#define USED(id) (1u << (id))
+/* Another one: something that friction is a part of was asked for. */
+#define ASKED_TANGENTIAL USED(MODELS)
+
+typedef struct model_row {
+    const char *name;  /* after `set model`, and where it is named */
+    const char *title; /* for explain */
+    const char *count; /* what its number means, as in `springs N`; NULL: it has none */
+    bool chosen;       /* `set model` can ask for it */
+    bool steps;        /* along any load; else it has a formula only */
+} model_row;
+
+extern const model_row models[MODELS];
+
+/* A model on its way: a contact, or springs. */
+typedef struct engine {
+    const model_row *kind;
+    fret_contact *contact;
+    fret_springs *springs;
+    bool sine;         /* swinging loads are taken as they are */
+    long double spent; /* dissipated since engine_mark, step by step: W may be far larger */
+    long double more;  /* dissipated in periods that were not run: engine_repeat */
+} engine;
+
+/* count and radius (the largest contact radius to come) are for the springs. */
+fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count,
+                        double radius);
+void engine_end(engine *e);
+bool engine_is_made(const engine *e);
+fret_status engine_step(engine *e, const fret_step *step);
+/* A step that stands for a part of a curve: as long as it goes from end to end, any path near it will do. */
+fret_status engine_chord(engine *e, const fret_step *step);
+void engine_state(const engine *e, fret_state *out);
+void engine_forces(const engine *e, fret_state *out);
+/* A copy made anew in `to`, of the same contact; springs have none. */
+fret_status engine_copy(engine *to, const engine *from);
+/* `times` more periods that begin and end in the present state, each with the loss. */
+void engine_repeat(engine *e, unsigned times, long double loss);
+/* A period of the sine itself, or the part from one of its times, 0..1, to another; taken: false where the
+ * contact cannot, nothing has changed. */
+fret_status engine_swing(engine *e, const fret_sine *sine, double from, double to, bool *taken);
+/* From here on engine_spent counts. */
+void engine_mark(engine *e);
+long double engine_spent(const engine *e);
+
+#endif

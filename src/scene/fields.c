@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Functions of a place: the material, the shape, local fields and the one-dimensional model, in the state
+ * now. */
+#include <float.h>
+#include <math.h>
+
+#include "number/real.h"
+#include "scene/functions.h"
+
+/* ---- material and shape: each without the other ------------------------------------------------- */
+
+bool call_E(scene *s, value z, long double *out, calc_error *error) {
+    long double E0 = 0, c0 = 1, k = 0;
+    if (!scene_get(s, IN_E0, &E0, error) || !scene_get(s, IN_K, &k, error) ||
+        (k != 0 && !scene_get(s, IN_C0, &c0, error)))
+        return false;
+    if (z.v < 0)
+        return calc_fail(error, 0, 0, "E(z) is defined for z >= 0");
+    if (z.v == 0 && k < 0)
+        return calc_fail(error, 0, 0, "E(z) is infinite at z = 0 where k < 0");
+    s->used |= USED(MODEL_CLOSED);
+    *out = E0 * fret_pow(z.v / c0, k);
+    return true;
+}
+
+bool call_f(scene *s, value r, long double *out, calc_error *error) {
+    fret_gap gap;
+    if (!scene_gap(s, &gap, error))
+        return false;
+    s->used |= USED(MODEL_CLOSED);
+    fret_status st = fret_gap_check(&gap);
+    if (!st.code)
+        st = fret_gap_f(&gap, r.v, out);
+    return calc_status(error, &st);
+}
+
+bool call_g(scene *s, value x, long double *out, calc_error *error) {
+    const fret_normal *normal;
+    if (!scene_normal(s, &normal, error))
+        return false;
+    scene_used_closed(s);
+    fret_status st =
+        fret_gap_g(fret_normal_gap(normal), (double)fret_normal_foundation(normal)->k, x.v, out, NULL);
+    return calc_status(error, &st);
+}
+
+/* ---- local fields ------------------------------------------------------------------------------ */
+
+typedef fret_status at_place(const fret_field *, fret_real r, fret_real *out);
+
+/* By which, and what has answered. */
+static bool field_at(scene *s, value r, bool dragged, at_place *ask, long double *out, calc_error *error) {
+    const fret_field *field;
+    if (dragged ? !scene_dragged_field(s, &field, error) : !scene_pressed_field(s, &field, error))
+        return false;
+    fret_status st = ask(field, r.v, out);
+    const double off = fret_field_error(field);
+    if (isnan(off))
+        s->used |= USED(MODEL_QUADRATURE);
+    else
+        scene_also_used(s, (scene_use){USED(MODEL_PIECES), off});
+    return calc_status(error, &st);
+}
+
+bool call_p(scene *s, value r, long double *out, calc_error *error) {
+    return field_at(s, r, false, fret_field_pressure, out, error);
+}
+
+bool call_uz(scene *s, value r, long double *out, calc_error *error) {
+    return field_at(s, r, false, fret_field_surface, out, error);
+}
+
+bool call_qx(scene *s, value r, long double *out, calc_error *error) {
+    return field_at(s, r, true, fret_field_traction, out, error);
+}
+
+bool call_ux(scene *s, value r, long double *out, calc_error *error) {
+    return field_at(s, r, true, fret_field_surface_x, out, error);
+}
+
+/* The state of a scene with friction. */
+static bool tangential_state(scene *s, const fret_contact **out, calc_error *error) {
+    double mu;
+    s->used |= USED(MODEL_MEMORY);
+    return scene_friction(s, &mu, error) && scene_history(s, out, error);
+}
+
+/* ---- the one-dimensional model ----------------------------------------------------------------- */
+
+/* The foundation is the same on both sides of the centre. */
+static value side(value x) {
+    return (value){fabsl(x.v), x.d};
+}
+
+bool call_w1D(scene *s, value x, long double *out, calc_error *error) {
+    const fret_press *press;
+    long double g = 0;
+    if (!scene_press(s, &press, error))
+        return false;
+    const long double a = press->a, dz = press->dz;
+    *out = 0;
+    if (fabsl(x.v) >= a)
+        return true;
+    const bool ok = call_g(s, side(x), &g, error);
+    *out = dz - g;
+    return ok;
+}
+
+bool call_u1D(scene *s, value x, long double *out, calc_error *error) {
+    const fret_contact *now;
+    if (!tangential_state(s, &now, error))
+        return false;
+    *out = fret_contact_displacement(now, fabsl(x.v)); /* the foundation is the same on both sides */
+    return true;
+}
+
+bool call_s1D(scene *s, value x, long double *out, calc_error *error) {
+    const fret_press *press;
+    const fret_contact *at;
+    fret_state now;
+    if (!tangential_state(s, &at, error) || !scene_press(s, &press, error))
+        return false;
+    if (fabsl(x.v) >= press->a)
+        return calc_fail(error, 0, 0, "s1D(x) is defined within the contact, where |x| < a: try s1D(0.99*a)");
+    fret_contact_forces(at, &now);
+    *out = now.dx - fret_contact_displacement(at, fabsl(x.v));
+    if (fabsl(*out) <= 8 * LDBL_EPSILON * fabsl(now.dx)) /* it sticks: sums in another order */
+        *out = 0;
+    return true;
+}
+
+/* c_0 (x/c0)^k */
+static bool modulus_at(scene *s, value x, bool tangential, long double *out, calc_error *error) {
+    fret_foundation f;
+    if (!foundation_of(s, &f, error))
+        return false;
+    const long double r = fabsl(x.v);
+    if (r == 0 && f.k < 0)
+        return calc_fail(error, 0, 0, "the foundation is infinitely stiff at x = 0 where k < 0");
+    *out = (tangential ? f.cT0 : f.cN0) * (f.k == 0 ? 1 : fret_pow(r / f.c0, f.k));
+    return true;
+}
+
+bool call_cN(scene *s, value x, long double *out, calc_error *error) {
+    return modulus_at(s, x, false, out, error);
+}
+
+bool call_cT(scene *s, value x, long double *out, calc_error *error) {
+    return modulus_at(s, x, true, out, error);
+}
+
+bool call_qz1D(scene *s, value x, long double *out, calc_error *error) {
+    long double c, w;
+    if (!call_w1D(s, x, &w, error) || !call_cN(s, x, &c, error))
+        return false;
+    *out = c * w;
+    return true;
+}
+
+bool call_qx1D(scene *s, value x, long double *out, calc_error *error) {
+    long double c, u;
+    if (!call_u1D(s, x, &u, error) || !call_cT(s, x, &c, error))
+        return false;
+    *out = c * u;
+    return true;
+}

@@ -1,0 +1,387 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Inputs as a value, and the table of geometries. Touches no scene. */
+#include "scene/inputs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "number/real.h"
+
+/* ---- geometries -------------------------------------------------------------------------------- */
+
+static fret_gap power_gap(double n, double h, double r0) {
+    return (fret_gap){.kind = FRET_GAP_POWER, .terms = 1, .power = {{n, h, r0}}};
+}
+
+/* R and slope enter as h and r0 without a rounding: r^2/(2R) = (R/2) (r/R)^2. */
+static void cone(const inputs *in, fret_gap *out) {
+    *out = power_gap(1, in->v[IN_SLOPE], 1);
+}
+
+static void paraboloid(const inputs *in, fret_gap *out) {
+    *out = power_gap(2, in->v[IN_RADIUS] / 2, in->v[IN_RADIUS]);
+}
+
+static void power(const inputs *in, fret_gap *out) {
+    *out = in->set[IN_A] ? power_gap(in->v[IN_N], in->v[IN_A], 1)
+                         : power_gap(in->v[IN_N], in->v[IN_H], in->v[IN_R0]);
+}
+
+static void sum(const inputs *in, fret_gap *out) {
+    *out = in->sum;
+}
+
+static fret_gap shape_gap(const inputs *in, fret_gap_kind kind) {
+    return (fret_gap){.kind = kind, .b = in->v[IN_B], .R = in->v[IN_RADIUS], .slope = in->v[IN_SLOPE]};
+}
+
+static void flat_cone(const inputs *in, fret_gap *out) {
+    *out = shape_gap(in, FRET_GAP_FLAT_CONE);
+}
+
+static void flat_paraboloid(const inputs *in, fret_gap *out) {
+    *out = shape_gap(in, FRET_GAP_FLAT_PARABOLOID);
+}
+
+static void flat_rounded(const inputs *in, fret_gap *out) {
+    *out = shape_gap(in, FRET_GAP_FLAT_ROUNDED);
+}
+
+static void exact_sphere(const inputs *in, fret_gap *out) {
+    *out = shape_gap(in, FRET_GAP_EXACT_SPHERE);
+}
+
+static void file(const inputs *in, fret_gap *out) {
+    *out = (fret_gap){.kind = FRET_GAP_TABLE, .table = in->table->table};
+}
+
+#define ONE(a) .required = INPUT_BIT(a), .allowed = INPUT_BIT(a)
+#define TWO(a, b) .required = INPUT_BIT(a) | INPUT_BIT(b), .allowed = INPUT_BIT(a) | INPUT_BIT(b)
+
+static const geometry geometries[] = {
+    {.name = "cone",
+     .gap = cone,
+     .n = 1,
+     .power = true,
+     ONE(IN_SLOPE),
+     .takes = "slope:=0.05 | angle=3 deg",
+     .meaning = "f = slope r",
+     .keywords = "angle",
+     .example = "    fret> material steel; geometry cone angle=3 deg; press FN=100 N\n"
+                "    fret> slope, a, dz\n"
+                "    slope = 0.0524078\n"
+                "    a = 102.605 um\n"
+                "    dz = 8.44664 um\n"},
+    {.name = "paraboloid",
+     .gap = paraboloid,
+     .n = 2,
+     .power = true,
+     ONE(IN_RADIUS),
+     .takes = "R:=10 mm | R1=20 mm R2=20 mm",
+     .meaning = "f = r^2/(2R)",
+     .keywords = "Hertz Mindlin",
+     .example = "    fret> material steel; geometry paraboloid R=10 mm; press FN=100 N\n"
+                "    fret> f(1 mm), a, dz\n"
+                "    f(1 mm) = 50 um\n"
+                "    a = 186.626 um\n"
+                "    dz = 3.48291 um\n"},
+    {.name = "sphere",
+     .gap = paraboloid,
+     .n = 2,
+     .power = true,
+     ONE(IN_RADIUS),
+     .takes = "R:=10 mm | R1=20 mm R2=20 mm",
+     .meaning = "Hertz: the paraboloid",
+     .keywords = "Mindlin",
+     .example = "    fret> material steel; geometry sphere R1=20 mm R2=30 mm; press FN=100 N\n"
+                "    fret> R, a, dz\n"
+                "    R = 12 mm\n"
+                "    a = 198.319 um\n"
+                "    dz = 3.27754 um\n"},
+    {.name = "power",
+     .gap = power,
+     .power = true,
+     .required = INPUT_BIT(IN_N),
+     .allowed = INPUT_BIT(IN_N) | INPUT_BIT(IN_A) | INPUT_BIT(IN_H) | INPUT_BIT(IN_R0),
+     .takes = "n:=3 [A:=50 m^-2 | h:=1 um r0:=1 mm]",
+     .meaning = "f = A r^n = h (r/r0)^n",
+     .keywords = "exponent",
+     .example = "    fret> material steel; geometry power n=4 h=1 um r0=1 mm; press FN=100 N\n"
+                "    fret> A, f(0.5 mm), a\n"
+                "    A = 1e+06 m^-3\n"
+                "    f(0.5 mm) = 62.5 nm\n"
+                "    a = 727.031 um\n"},
+    {.name = "sum",
+     .gap = sum,
+     .by = PARAMETERS_TERMS,
+     .takes = "TERM, ...",
+     .meaning = "f = sum of A r^n, each n:A",
+     .keywords = "powers polynomial",
+     .example = "    fret> material steel; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=100 N\n"
+                "    fret> f(1 mm), a\n"
+                "    f(1 mm) = 52 um\n"
+                "    a = 186.487 um\n"},
+    {.name = "flat-cone",
+     .gap = flat_cone,
+     TWO(IN_B, IN_SLOPE),
+     .takes = "b:=1 mm slope:=0.05",
+     .meaning = "f = slope (r-b), r > b",
+     .keywords = "punch",
+     .example = "    fret> material steel; geometry flat-cone b=0.2 mm slope=0.05; press FN=100 N\n"
+                "    fret> a, p(0.1 mm)\n"
+                "    a = 204.506 um\n"
+                "    p(0.1 mm) = 451.461 MPa\n"},
+    {.name = "flat-paraboloid",
+     .gap = flat_paraboloid,
+     TWO(IN_B, IN_RADIUS),
+     .takes = "b:=1 mm R:=10 mm",
+     .meaning = "f = (r^2-b^2)/(2R), r > b",
+     .keywords = "worn punch",
+     .example = "    fret> material steel; geometry flat-paraboloid b=0.2 mm R=10 mm; press FN=100 N\n"
+                "    fret> a, dz\n"
+                "    a = 221.133 um\n"
+                "    dz = 2.08616 um\n"},
+    {.name = "flat-rounded",
+     .gap = flat_rounded,
+     TWO(IN_B, IN_RADIUS),
+     .takes = "b:=1 mm R:=10 mm",
+     .meaning = "f = (r-b)^2/(2R), r > b",
+     .keywords = "pad punch fretting",
+     .example = "    fret> material steel; geometry flat-rounded b=0.2 mm R=10 mm; press FN=100 N\n"
+                "    fret> a, dz\n"
+                "    a = 299.728 um\n"
+                "    dz = 1.65421 um\n"},
+    {.name = "exact-sphere",
+     .gap = exact_sphere,
+     ONE(IN_RADIUS),
+     .takes = "R:=10 mm",
+     .meaning = "f = R - sqrt(R^2-r^2)",
+     .keywords = "ball",
+     .example = "    fret> material steel; geometry exact-sphere R=10 mm; press FN=100 N\n"
+                "    fret> f(1 mm), a\n"
+                "    f(1 mm) = 50.1256 um\n"
+                "    a = 186.617 um\n"},
+    {.name = "file",
+     .gap = file,
+     .by = PARAMETERS_FILE,
+     .takes = "FILE.csv [smooth HOW]",
+     .meaning = "rows of r, f with units in the header; smooth: see help files",
+     .keywords = "csv table sampled measured profile noisy noise spline smooth roughness",
+     .example = "    $ cat gap.csv\n"
+                "    r [mm],f [um]\n"
+                "    0,0\n"
+                "    0.5,12.5\n"
+                "    1,50\n"
+                "    fret> material steel; geometry file gap.csv; press FN=100 N\n"
+                "    fret> f(0.25 mm), a\n"
+                "    f(0.25 mm) = 3.125 um\n"
+                "    a = 186.626 um\n"},
+};
+enum { GEOMETRIES = sizeof geometries / sizeof *geometries };
+
+const geometry *geometry_row(size_t i) {
+    return i < GEOMETRIES ? &geometries[i] : NULL;
+}
+
+const char *geometry_name(size_t i) {
+    return i < GEOMETRIES ? geometries[i].name : NULL;
+}
+
+const geometry *geometry_find(const char *name, size_t len) {
+    for (size_t i = 0; i < GEOMETRIES; i++)
+        if (strlen(geometries[i].name) == len && !memcmp(geometries[i].name, name, len))
+            return &geometries[i];
+    return NULL;
+}
+
+static void table_end(counted *self) {
+    shared_table *t = (shared_table *)self;
+    fret_table_free(t->table);
+    free(t);
+}
+
+shared_table *shared_table_make(struct fret_table *table, const char *name, smoothing how) {
+    shared_table *t = malloc(sizeof *t + strlen(name) + 1);
+    if (!t) {
+        fret_table_free(table);
+        return NULL;
+    }
+    t->base = (counted){1, table_end};
+    t->table = table;
+    t->smoothing = how;
+    memcpy(t->name, name, strlen(name) + 1);
+    return t;
+}
+
+/* ---- the value --------------------------------------------------------------------------------- */
+
+static void hold_all(const inputs *in) {
+    for (input i = 0; in->bindings >> i; i++)
+        counted_hold(in->bound[i]);
+    counted_hold(in->table ? &in->table->base : NULL);
+}
+
+void inputs_copy(inputs *to, const inputs *from) {
+    *to = *from;
+    hold_all(to);
+}
+
+void inputs_drop(inputs *in) {
+    for (input i = 0; in->bindings >> i; i++)
+        counted_drop(in->bound[i]);
+    counted_drop(in->table ? &in->table->base : NULL);
+    *in = (inputs){.geometry = NULL};
+}
+
+bool inputs_same(const inputs *a, const inputs *b, unsigned which) {
+    if ((a->bindings | b->bindings) & which || a->geometry != b->geometry || a->table != b->table ||
+        a->second != b->second || a->sum.terms != b->sum.terms)
+        return false;
+    for (int i = 0; i < a->sum.terms; i++)
+        if (memcmp(&a->sum.power[i], &b->sum.power[i], sizeof a->sum.power[i]))
+            return false;
+    for (input in = 0; in < INPUTS; in++)
+        if (which & INPUT_BIT(in) && (a->set[in] != b->set[in] || a->v[in] != b->v[in]))
+            return false;
+    return true;
+}
+
+void input_range(input in, double *lo, double *hi) {
+    const bool nu = in == IN_NU || in == IN_NU_2;
+    *lo = in == IN_K || nu ? -1 : in == IN_PHASE ? -(double)INFINITY : 0;
+    *hi = in == IN_K ? 1 : nu ? 0.5 : (double)INFINITY;
+}
+
+fret_status input_status(input in, double v) {
+    const bool nu = in == IN_NU || in == IN_NU_2;
+    double lo, hi;
+    fret_code code = FRET_OK;
+    input_range(in, &lo, &hi);
+    if (!isfinite(v))
+        code = FRET_NOT_FINITE;
+    else if (!(v > lo || (in == IN_FNA && v == lo)) || !(v < hi || (nu && v == hi)))
+        code = in == IN_K ? FRET_BAD_K : nu ? FRET_BAD_NU : in == IN_FNA ? FRET_NEGATIVE : FRET_NOT_POSITIVE;
+    return (fret_status){code, NULL, v, 0};
+}
+
+void inputs_unset(inputs *in, unsigned set) {
+    for (input i = 0; i < INPUTS; i++)
+        if (set & INPUT_BIT(i)) {
+            inputs_bind(in, i, NULL);
+            in->set[i] = false;
+            in->v[i] = 0;
+        }
+}
+
+/* What does not go with an input that is given: A and h (r/r0)^n are two ways to say the same, and a modulus
+ * makes a body of its own. */
+static void leave_others(inputs *in, input which) {
+    if ((which == IN_E0_2 || which == IN_NU_2) && in->second != SECOND_GIVEN) {
+        inputs_unset(in, INPUT_BIT(which == IN_E0_2 ? IN_NU_2 : IN_E0_2));
+        in->second = SECOND_GIVEN;
+    }
+    if (which == IN_A)
+        inputs_unset(in, INPUT_BIT(IN_H) | INPUT_BIT(IN_R0));
+    else if (which == IN_H || which == IN_R0)
+        inputs_unset(in, INPUT_BIT(IN_A));
+}
+
+void inputs_bind(inputs *in, input which, counted *to) {
+    counted_drop(in->bound[which]);
+    in->bound[which] = to;
+    in->bindings = to ? in->bindings | INPUT_BIT(which) : in->bindings & ~INPUT_BIT(which);
+    if (which == IN_RADIUS)
+        in->radii[0] = in->radii[1] = 0;
+    if (to)
+        leave_others(in, which);
+}
+
+void inputs_put(inputs *in, input which, double v) {
+    inputs_bind(in, which, NULL);
+    in->v[which] = v;
+    in->set[which] = true;
+    leave_others(in, which);
+}
+
+void inputs_geometry(inputs *in, const geometry *g, const fret_gap *terms, shared_table *table) {
+    inputs_unset(in, INPUT_GEOMETRY);
+    counted_drop(in->table ? &in->table->base : NULL);
+    in->table = table;
+    in->geometry = g;
+    if (terms)
+        in->sum = *terms;
+}
+
+bool inputs_take(const inputs *in, input which) {
+    const geometry *g = in->geometry;
+    if (!g || !(g->allowed & INPUT_BIT(which)))
+        return false;
+    return (which != IN_H && which != IN_R0) || in->set[IN_H];
+}
+
+bool inputs_get(const inputs *in, input which, long double *out, calc_error *error) {
+    fret_gap gap;
+    bool here = in->set[which];
+    switch (which) {
+    case IN_K:
+    case IN_FNA:
+    case IN_PHASE:
+        here = here || which == IN_K || in->set[IN_FA] || in->set[IN_DXA];
+        break;
+    case IN_E0_2:
+    case IN_NU_2:
+        if (in->second == SECOND_RIGID)
+            return calc_missing(error, (int)which);
+        if (in->second == SECOND_SAME || !here)
+            return inputs_get(in, which == IN_E0_2 ? IN_E0 : IN_NU, out, error);
+        break;
+    case IN_N:
+        if (in->geometry && in->geometry->n > 0) {
+            *out = (long double)in->geometry->n;
+            return true;
+        }
+        break;
+    case IN_A:
+        if (!here && in->geometry && in->geometry->power) {
+            in->geometry->gap(in, &gap);
+            *out = gap.power[0].h * fret_ratio_pow(1, gap.power[0].r0, gap.power[0].n);
+            return true;
+        }
+        break;
+    default:
+        break;
+    }
+    if (!here)
+        return calc_missing(error, (int)which);
+    *out = in->v[which];
+    return true;
+}
+
+static bool get_double(const inputs *in, input which, double *out, calc_error *error) {
+    long double v = 0;
+    if (!inputs_get(in, which, &v, error))
+        return false;
+    *out = (double)v;
+    return true;
+}
+
+bool inputs_material(const inputs *in, double k, fret_material *m, calc_error *error) {
+    *m = (fret_material){.k = k, .c0 = 1};
+    if (!get_double(in, IN_E0, &m->body[0].E0, error) || !get_double(in, IN_NU, &m->body[0].nu, error))
+        return false;
+    m->body[1] = m->body[0];
+    m->body[1].rigid = in->second == SECOND_RIGID;
+    if (in->second == SECOND_GIVEN && in->set[IN_E0_2])
+        m->body[1].E0 = in->v[IN_E0_2];
+    if (in->second == SECOND_GIVEN && in->set[IN_NU_2])
+        m->body[1].nu = in->v[IN_NU_2];
+    return k == 0 || get_double(in, IN_C0, &m->c0, error);
+}
+
+bool inputs_gap(const inputs *in, fret_gap *out, calc_error *error) {
+    if (!in->geometry)
+        return calc_fail(error, 0, 0, "there is no geometry yet: give one first (geometry sphere R=10 mm)");
+    in->geometry->gap(in, out);
+    return true;
+}

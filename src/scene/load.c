@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The load program of a scene: it grows by steps that can be, and is run as far as answers want it. */
+#include "scene/load.h"
+
+#include <math.h>
+
+static const fret_status fine = {FRET_OK, NULL, 0, 0};
+
+/* A press alone can be shown without friction. */
+static bool friction_for_program(scene *s, double *mu, calc_error *error) {
+    *mu = 1;
+    return (!s->in.set[IN_MU] && !(s->in.bindings & INPUT_BIT(IN_MU)) && s->end.steps <= 1) ||
+           scene_friction(s, mu, error);
+}
+
+bool load_press(scene *s, const fret_normal *normal, fret_press *out, calc_error *error) {
+    const load_step *step = &s->program->steps[0];
+    long double by = step->normal_value;
+    if (step->normal == BY_FORCE && !scene_get(s, IN_FN, &by, error))
+        return false;
+    fret_status st = step->normal == BY_FORCE          ? fret_press_by_force(normal, (double)by, out)
+                     : step->normal == BY_DISPLACEMENT ? fret_press_by_depth(normal, (double)by, out)
+                                                       : fret_press_by_radius(normal, (double)by, out);
+    return calc_status(error, &st);
+}
+
+bool scene_load_of(scene *s, load_view *out, calc_error *error) {
+    const load_reach *reach;
+    long double FN;
+    *out =
+        (load_view){.program = s->program, .end = s->end, .in = &s->in, .stop = s->stop, .pulse = s->pulse};
+    if (!scene_reach(s, &reach, error) || !scene_normal(s, &out->normal, error) ||
+        !friction_for_program(s, &out->mu, error))
+        return false;
+    if (s->program->steps[0].normal == BY_FORCE && !scene_get(s, IN_FN, &FN, error))
+        return false;
+    out->last_cycle = reach->last_cycle;
+    return true;
+}
+
+static void drop_runs(answers *a) {
+    for (unsigned i = 0; i < LEVELS; i++)
+        engine_end(&a->run[i].engine);
+    a->levels = 0;
+}
+
+/* From the first swinging cycle on: by force, or to a displacement at constant F_N. */
+static bool goes_with_sine(const load_step *step) {
+    return step->tangential == BY_FORCE || (step->tangential == BY_DISPLACEMENT && !load_moves_normal(step));
+}
+
+bool load_takes_sine(const load_view *load) {
+    bool swings = false;
+    for (load_mark at = {0, 0}; at.steps < load->end.steps; at.steps++) {
+        const load_item item = program_item(load->program, at, load->last_cycle, load->in);
+        swings = swings || (item.step.kind == LOAD_CYCLE && load_moves_normal(&item.step));
+        if (swings && !goes_with_sine(&item.step))
+            return false;
+        at.cycles += item.step.kind == LOAD_CYCLE;
+    }
+    return fret_normal_swings(load->normal);
+}
+
+/* As many runs as the load wants, or none: those that are new start where the first one is. */
+static fret_status raise_levels(answers *a, const load_view *load) {
+    const bool sine = a->reach.swings && !a->chords && load_takes_sine(load);
+    const unsigned wanted = a->reach.swings && !sine ? LEVELS : 1;
+    fret_status st = fine;
+    /* more than are wanted: in chords, as a load that was refused would have had them */
+    if (a->levels && ((a->run[0].engine.sine ? !sine : a->levels > wanted) ||
+                      fret_contact_normal(a->run[0].engine.contact) != load->normal))
+        drop_runs(a);
+    if (a->levels == 0) {
+        a->run[0] = (runner){.load = load};
+        st = engine_make(&a->run[0].engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
+        a->levels = !st.code;
+    }
+    a->run[0].engine.sine = sine;
+    while (a->levels < wanted && !st.code) {
+        runner *r = &a->run[a->levels];
+        *r = a->run[0];
+        r->level = a->levels;
+        r->engine = (engine){.kind = a->run[0].engine.kind};
+        st = engine_copy(&r->engine, &a->run[0].engine);
+        a->levels++; /* to be dropped, too, if there is only half of it */
+    }
+    if (st.code)
+        drop_runs(a);
+    return st;
+}
+
+static fret_status run_levels(answers *a, const load_view *load) {
+    fret_status st = fine;
+    for (unsigned i = 0; i < a->levels && !st.code; i++) {
+        a->run[i].load = load;
+        st = run_to(&a->run[i], load->end);
+    }
+    if (!a->run[0].chorded)
+        return st;
+    a->chords = true; /* the contact opens: what is not the sine itself wants its limit */
+    drop_runs(a);
+    st = raise_levels(a, load);
+    return st.code ? st : run_levels(a, load);
+}
+
+/* Brings the memory up to the end of the program, or to the step at which it fails. */
+static bool run_up(scene *s, size_t *steps, calc_error *error) {
+    answers *a = &s->answers;
+    load_view load;
+    *steps = s->end.steps;
+    if (a->levels && a->run[a->levels - 1].at.steps == s->end.steps)
+        return true;
+    if (!scene_load_of(s, &load, error))
+        return false;
+    if (s->end.steps > 1)
+        s->used |= USED(MODEL_MEMORY);
+    fret_status st = raise_levels(a, &load);
+    if (!st.code)
+        st = run_levels(a, &load);
+    if (st.code) {
+        for (unsigned i = 0; i < a->levels; i++)
+            *steps = a->run[i].at.steps < *steps ? a->run[i].at.steps : *steps;
+        drop_runs(a); /* half-run: not to be used */
+    }
+    return calc_status(error, &st);
+}
+
+static bool catch_up(scene *s, calc_error *error) {
+    size_t steps;
+    return run_up(s, &steps, error);
+}
+
+/* Keeps the contacts as they are; the storage is used again. */
+static fret_status keep_spares(answers *a) {
+    fret_status st = fine;
+    for (unsigned i = 0; i < a->levels && !st.code; i++) {
+        engine kept = a->spare[i].engine;
+        a->spare[i] = a->run[i];
+        a->spare[i].engine = kept;
+        st = engine_copy(&a->spare[i].engine, &a->run[i].engine);
+    }
+    return st;
+}
+
+static void use_spares(answers *a) {
+    for (unsigned i = 0; i < a->levels; i++) {
+        runner half = a->run[i];
+        a->run[i] = a->spare[i];
+        a->spare[i] = half;
+    }
+}
+
+/* What is always possible waits until a result is asked: to slide to a displacement at constant F_N. */
+static bool can_wait(const scene *s, const load_step *step) {
+    return s->answers.levels && load_is_slide(step);
+}
+
+/* The step that has just been appended. A single step leaves the memory as it was when it fails; a cycle, or
+ * one of several levels, needs the spares. */
+static bool run_appended(scene *s, bool whole, calc_error *error) {
+    answers *a = &s->answers;
+    load_view load;
+    if (!scene_load_of(s, &load, error))
+        return false;
+    fret_status st = raise_levels(a, &load);
+    const bool spares = whole || a->levels > 1, chords = a->chords;
+    const runner before = a->run[0];
+    if (!st.code && spares)
+        st = keep_spares(a);
+    if (st.code)
+        return calc_status(error, &st);
+    st = run_levels(a, &load);
+    if (!st.code)
+        return true;
+    if (a->chords != chords) /* begun anew: to be run again when it is asked for */
+        drop_runs(a);
+    else if (spares)
+        use_spares(a);
+    else
+        a->run[0] = before;
+    a->chords = chords;
+    return calc_status(error, &st);
+}
+
+/* From further away nothing of a contact would have digits on the way back. A press has no way back, and may
+ * be of any size. */
+static const double DEEPEST = 1e8;
+
+static bool append_step(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    if (step->normal == BY_DISPLACEMENT && !(fabs(step->normal_value) < DEEPEST))
+        return calc_fail(error, 0, 0, "dz = %.6g m: a step goes less than 1e8 m deep", step->normal_value);
+    if (extra && s->end.cycles)
+        program_freeze(s->program, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
+    if (!program_append(s->program, &s->end, step, extra))
+        return calc_no_memory(error);
+    if (extra) {
+        program_to_inputs(step, extra, &s->in);
+        s->settled &= ~INPUT_CYCLE;
+        s->answers.reach.last_cycle = s->end.steps - 1;
+    }
+    scene_moved(s);
+    return true;
+}
+
+bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    double mu;
+    if (!s->end.steps)
+        return calc_missing(error, IN_FN);
+    if (!scene_friction(s, &mu, error))
+        return false;
+    if (can_wait(s, step))
+        return append_step(s, step, extra, error);
+    if (!catch_up(s, error))
+        return false;
+    const load_reach reached = s->answers.reach;
+    const load_mark end = s->end;
+    inputs before; /* a cycle changes them */
+    if (extra)
+        inputs_copy(&before, &s->in);
+    bool ok = append_step(s, step, extra, error) && run_appended(s, extra != NULL, error);
+    if (ok) {
+        s->used |= USED(MODEL_MEMORY);
+    } else {
+        s->end = end;
+        s->answers.reach = reached;
+        if (extra) {
+            inputs_drop(&s->in);
+            inputs_copy(&s->in, &before);
+        }
+    }
+    if (extra)
+        inputs_drop(&before);
+    return ok;
+}
+
+bool scene_load_rows(scene *s, load_step step, const double *normal, const double *tangential, size_t count,
+                     size_t *row, calc_error *error) {
+    const size_t first = s->end.steps;
+    double mu;
+    *row = 0;
+    if (!scene_friction(s, &mu, error) || (!s->answers.levels && !catch_up(s, error)))
+        return false;
+    bool wait = true;
+    for (size_t i = 0; i < count; i++) {
+        step.normal_value = normal[i];
+        step.tangential_value = tangential[i];
+        wait = wait && can_wait(s, &step);
+        if (!append_step(s, &step, NULL, error)) {
+            *row = i;
+            return false;
+        }
+    }
+    size_t steps;
+    if (wait || run_up(s, &steps, error))
+        return true;
+    *row = steps > first ? steps - first : 0;
+    return false;
+}
+
+bool load_run(scene *s, const runner **run, calc_error *error) {
+    *run = s->now ? s->now->run : NULL;
+    if (s->now)
+        return true;
+    if (!s->end.steps)
+        return calc_missing(error, IN_FN);
+    if (!catch_up(s, error))
+        return false;
+    *run = &s->answers.run[s->answers.levels - 1];
+    return true;
+}
+
+bool scene_history(scene *s, const fret_contact **contact, calc_error *error) {
+    const runner *run;
+    if (!load_run(s, &run, error))
+        return false;
+    *contact = run->engine.contact;
+    return true;
+}
+
+bool scene_straight(scene *s, const fret_contact **contact, calc_error *error) {
+    if (!scene_history(s, contact, error))
+        return false;
+    if (!fret_contact_curved(*contact))
+        return true;
+    fret_contact **chords = &s->answers.chorded;
+    const fret_normal *normal = fret_contact_normal(*contact);
+    fret_status st = fine;
+    if (*chords && fret_contact_normal(*chords) != normal) {
+        fret_contact_free(*chords);
+        *chords = NULL;
+    }
+    if (!*chords)
+        st = fret_contact_make(normal, fret_contact_friction(*contact), FRET_EXACT, chords);
+    if (!st.code)
+        st = fret_contact_chords(*chords, *contact);
+    *contact = *chords;
+    return calc_status(error, &st);
+}

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Storage of load programs. Touches nothing but the program and, where it says so, the inputs. */
+#include "scene/program.h"
+
+#include <stdlib.h>
+
+#include "number/array.h"
+
+static void end(counted *self) {
+    program *p = (program *)self;
+    free(p->steps);
+    free(p->cycles);
+    free(p);
+}
+
+program *program_make(void) {
+    program *p = calloc(1, sizeof *p);
+    if (p)
+        p->base = (counted){1, end};
+    return p;
+}
+
+bool program_append(program *p, load_mark *mark, const load_step *step, const cycle_extra *extra) {
+    load_step *steps = fret_array_for(p->steps, &p->room, mark->steps + 1, sizeof *steps);
+    if (!steps)
+        return false;
+    p->steps = steps;
+    if (extra) {
+        cycle_extra *cycles = fret_array_for(p->cycles, &p->cycle_room, mark->cycles + 1, sizeof *cycles);
+        if (!cycles)
+            return false;
+        p->cycles = cycles;
+        p->cycles[mark->cycles++] = *extra;
+    }
+    p->steps[mark->steps++] = *step;
+    p->count = mark->steps;
+    p->cycle_count = mark->cycles;
+    return true;
+}
+
+program *program_copy(const program *from, load_mark mark) {
+    program *p = program_make();
+    load_mark at = {0, 0};
+    for (size_t i = 0; p && i < mark.steps; i++) {
+        const cycle_extra *extra = from->steps[i].kind == LOAD_CYCLE ? &from->cycles[at.cycles] : NULL;
+        if (!program_append(p, &at, &from->steps[i], extra)) {
+            counted_drop(&p->base);
+            p = NULL;
+        }
+    }
+    return p;
+}
+
+size_t program_last_cycle(const program *p, load_mark mark) {
+    size_t i = mark.cycles ? mark.steps : 0;
+    while (i > 0 && p->steps[i - 1].kind != LOAD_CYCLE)
+        i--;
+    return i ? i - 1 : NO_CYCLE;
+}
+
+load_item program_item(const program *p, load_mark here, size_t last_cycle, const inputs *in) {
+    load_item item = {.step = p->steps[here.steps]};
+    load_step *step = &item.step;
+    if (step->kind == LOAD_CYCLE)
+        item.extra = p->cycles[here.cycles];
+    if (step->kind == LOAD_PRESS && step->normal == BY_FORCE) {
+        step->normal_value = in->v[IN_FN];
+    } else if (here.steps == last_cycle) {
+        step->tangential = in->set[IN_FA] ? BY_FORCE : BY_DISPLACEMENT;
+        step->tangential_value = in->v[in->set[IN_FA] ? IN_FA : IN_DXA];
+        step->normal_value = in->v[IN_FNA];
+        item.extra.phase = in->v[IN_PHASE];
+    }
+    return item;
+}
+
+void program_to_inputs(const load_step *step, const cycle_extra *extra, inputs *in) {
+    if (step->kind == LOAD_PRESS) {
+        inputs_unset(in, INPUT_CYCLE | INPUT_BIT(IN_FN));
+        if (step->normal == BY_FORCE)
+            inputs_put(in, IN_FN, step->normal_value);
+    } else if (step->kind == LOAD_CYCLE) {
+        inputs_unset(in, INPUT_CYCLE);
+        inputs_put(in, step->tangential == BY_FORCE ? IN_FA : IN_DXA, step->tangential_value);
+        inputs_put(in, IN_FNA, step->normal_value);
+        inputs_put(in, IN_PHASE, extra->phase);
+    }
+}
+
+void program_freeze(program *p, size_t last_cycle, size_t cycle, const inputs *in) {
+    load_item item = program_item(p, (load_mark){last_cycle, cycle}, last_cycle, in);
+    p->steps[last_cycle] = item.step;
+    p->cycles[cycle] = item.extra;
+}

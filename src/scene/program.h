@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The load program: presses, steps and cycles in the order they were given. Append-only, so that a place in
+ * it is a length and scenes can share it. Touches no scene. */
+#ifndef SCENE_PROGRAM_H
+#define SCENE_PROGRAM_H
+
+#include "scene/counted.h"
+#include "scene/inputs.h"
+
+typedef enum load_kind { LOAD_PRESS, LOAD_STEP, LOAD_CYCLE } load_kind;
+typedef enum load_by { BY_NONE, BY_FORCE, BY_DISPLACEMENT, BY_RADIUS } load_by;
+enum { RELATIVE_NORMAL = 1, RELATIVE_TANGENTIAL = 2 };
+
+/* One command of the load program: 24 bytes, since programs of 1e6 steps are kept for re-running. */
+typedef struct load_step {
+    unsigned char kind, normal, tangential, relative;
+    unsigned points;         /* to record on the way */
+    double normal_value;     /* cycle: amplitude FNA */
+    double tangential_value; /* cycle: amplitude FA or dxA */
+} load_step;
+
+/* What only a cycle has; the i-th cycle of the program owns entry i. */
+typedef struct cycle_extra {
+    unsigned times;
+    double phase;
+} cycle_extra;
+
+typedef struct program {
+    counted base;
+    load_step *steps;
+    cycle_extra *cycles;
+    size_t count, room, cycle_count, cycle_room;
+} program;
+
+/* How far a program counts. */
+typedef struct load_mark {
+    size_t steps, cycles;
+} load_mark;
+
+program *program_make(void); /* NULL: out of memory */
+/* One of its own, as far as the mark: to be changed. */
+program *program_copy(const program *from, load_mark mark);
+/* Appends at the mark, forgetting what lies beyond, and moves it; false: out of memory, nothing has changed.
+ */
+bool program_append(program *p, load_mark *mark, const load_step *step, const cycle_extra *extra);
+
+/* Index of the last cycle before the mark, or NO_CYCLE. */
+#define NO_CYCLE ((size_t)-1)
+size_t program_last_cycle(const program *p, load_mark mark);
+
+/* The step as it runs: FN of the press, and the amplitudes of the last cycle, are inputs. */
+typedef struct load_item {
+    load_step step;
+    cycle_extra extra;
+} load_item;
+load_item program_item(const program *p, load_mark here, size_t last_cycle, const inputs *in);
+
+/* The amplitudes of the last cycle and FN of the press become inputs when the step is appended. */
+void program_to_inputs(const load_step *step, const cycle_extra *extra, inputs *in);
+/* What the inputs hold of a cycle goes back into the program: another one follows. */
+void program_freeze(program *p, size_t last_cycle, size_t cycle, const inputs *in);
+
+/* Does F_N change in this step or cycle? */
+static inline bool load_moves_normal(const load_step *step) {
+    return step->kind == LOAD_STEP ? step->normal != BY_NONE : step->normal_value != 0;
+}
+
+/* A step straight to a displacement, the normal force as it is. */
+static inline bool load_is_slide(const load_step *step) {
+    return step->kind == LOAD_STEP && !step->normal && step->tangential == BY_DISPLACEMENT && !step->relative;
+}
+
+#endif

@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of quantities and how its rows are read. */
+#include "scene/quantity.h"
+
+#include <string.h>
+
+#include "scene/functions.h"
+
+#define INPUT(which) .of = OF_INPUT, .in = 1 + (which), .reads = INPUT_BIT(which)
+#define PRESS(member) .of = OF_PRESS, .at = offsetof(fret_press, member), .load = true
+#define LOADING(member)                                                                                      \
+    .of = OF_LOADING, .at = offsetof(fret_loading, member), .at_state = offsetof(fret_state, member),        \
+    .load = true
+#define STATE(member) .of = OF_STATE, .at_state = offsetof(fret_state, member), .load = true
+#define FOUNDATION(member)                                                                                   \
+    .of = OF_FOUNDATION, .at = offsetof(fret_foundation, member), .reads = READS_MATERIAL
+#define GETTER(function) .of = OF_GETTER, .get = get_##function
+#define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
+#define FORCE                                                                                                \
+    { 1, 0, 0 }
+#define LENGTH                                                                                               \
+    { 0, 1, 0 }
+#define PRESSURE                                                                                             \
+    { 1, -2, 0 }
+#define ENERGY                                                                                               \
+    { 1, 1, 0 }
+#define STIFFNESS                                                                                            \
+    { 1, -1, 0 }
+#define ANGLE                                                                                                \
+    { 0, 0, 1 }
+
+/* clang-format off */
+static const quantity quantities[] = {
+    /* ---- inputs ---- */
+    {.name = "E0", .title = "characteristic modulus", .keywords = "Young stiffness", .d = PRESSURE, INPUT(IN_E0),
+     .formulas = {{"E(z) = E0 (z/c0)^k", "(1)", 0}}},
+    {.name = "nu", .title = "Poisson's ratio", .keywords = "poisson", INPUT(IN_NU),
+     .formulas = {{"-1 < nu <= 1/2", "(4),(5),(A1),(A2),(A3)", 0}}},
+    {.name = "k", .title = "exponent of grading", .keywords = "gradient graded inhomogeneity", INPUT(IN_K),
+     .formulas = {{"-1 < k < 1", "(1)", 0}}},
+    {.name = "c0", .title = "characteristic depth", .keywords = "grading", .d = LENGTH, INPUT(IN_C0),
+     .formulas = {{"E(c0) = E0", "(1)", 0}}},
+    {.name = "E0_2", .title = "modulus of the second body", .d = PRESSURE, INPUT(IN_E0_2),
+     .formulas = {{"as E0; default: same", "(4),(5)", 0}}},
+    {.name = "nu_2", .title = "Poisson's ratio of the second body", INPUT(IN_NU_2),
+     .formulas = {{"as nu; default: same", "(4),(5)", 0}}},
+    {.name = "mu", .title = "coefficient of friction", .keywords = "Coulomb Amontons", INPUT(IN_MU),
+     .formulas = {{"|q_x| <= mu p", "(14)", 0}}},
+    {.name = "n", .title = "exponent of the gap", INPUT(IN_N), .formulas = {{"f = A r^n", "(6)", 0}}},
+    {.name = "A", .title = "coefficient of the gap", INPUT(IN_A), .formulas = {{"f = A r^n", "(6)", 0}}},
+    {.name = "h", .title = "gap at r0", .d = LENGTH, INPUT(IN_H), .formulas = {{"f = h (r/r0)^n", "(6)", 0}}},
+    {.name = "r0", .title = "reference radius of the gap", .d = LENGTH, INPUT(IN_R0),
+     .formulas = {{"f = h (r/r0)^n", "(6)", 0}}},
+    {.name = "R", .title = "radius of curvature", .d = LENGTH, INPUT(IN_RADIUS),
+     .formulas = {{"f = r^2/(2R)", "(6)", 0}}},
+    {.name = "b", .title = "radius of the flat end", .d = LENGTH, INPUT(IN_B),
+     .formulas = {{"f = 0 for r < b", "(3)", 0}}},
+    {.name = "slope", .title = "slope of the flank", .keywords = "angle", INPUT(IN_SLOPE),
+     .formulas = {{"f = slope r, slope = tan(angle)", "(6)", 0}}},
+    {.name = "FA", .title = "force amplitude of the last cycle", .keywords = "oscillation", .d = FORCE, INPUT(IN_FA),
+     .formulas = {{"F_x = FA sin(2 pi t)", NULL, 0}}},
+    {.name = "dxA", .title = "displacement amplitude of the last cycle", .d = LENGTH, INPUT(IN_DXA),
+     .formulas = {{"delta_x = dxA sin(2 pi t)", NULL, 0}}},
+    {.name = "FNA", .title = "amplitude of the normal force in the last cycle", .d = FORCE, INPUT(IN_FNA),
+     .formulas = {{"F_N + FNA sin(2 pi t + phase)", NULL, 0}}},
+    {.name = "phase", .title = "phase of the normal force in the last cycle", .d = ANGLE, INPUT(IN_PHASE),
+     .formulas = {{"F_N + FNA sin(2 pi t + phase)", NULL, 0}}},
+    {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(FN),
+     .reads = READS_NORMAL, .load = true,
+     .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(13)", WHEN_POWER},
+                  {"F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx", "(12)", 0}}},
+
+    /* ---- state now ---- */
+    {.name = "dz", .imposed = "press", .title = "indentation depth", .keywords = "approach penetration", .d = LENGTH, PRESS(dz), CALL(dz, F, FORCE),
+     .reads = READS_NORMAL,
+     .formulas = {{"delta_z = kappa A a^n", "(10)", WHEN_POWER}, {"delta_z = g(a)", "(10)", 0}}},
+    {.name = "a", .imposed = "press", .title = "contact radius", .keywords = "Hertz size area", .d = LENGTH, PRESS(a), CALL(a, F, FORCE),
+     .reads = READS_NORMAL,
+     .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(10),(13)", WHEN_POWER},
+                  {"F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx", "(10),(12)", 0}}},
+    {.name = "Fx", .imposed = "step", .title = "tangential force", .keywords = "shear Mindlin Cattaneo", .d = FORCE, LOADING(Fx),
+     CALL(Fx, d, LENGTH), .reads = READS_TANGENTIAL,
+     .formulas = {{"F_x = mu F_N [1-(c/a)^(n+k+1)]", "(16),(18)", WHEN_FIRST | WHEN_POWER},
+                  {"F_x = mu [F_N(a)-F_N(c)]", "(16)", WHEN_FIRST},
+                  {"F_x = mu int sigma dF_N, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
+    {.name = "dx", .imposed = "step", .title = "tangential displacement", .keywords = "shear", .d = LENGTH, LOADING(dx), CALL(dx, F, FORCE),
+     .reads = READS_TANGENTIAL,
+     .formulas = {{"delta_x = mu eta delta_z [1-(c/a)^n]", "(15),(17)", WHEN_FIRST | WHEN_POWER},
+                  {"delta_x = mu eta [g(a)-g(c)]", "(15)", WHEN_FIRST},
+                  {"Masing: (delta_1-delta_x)/2 = delta_first((F_1-F_x)/2), from the turning point (F_1, delta_1)", NULL, WHEN_LATER},
+                  {"delta_x = mu eta int sigma dy, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
+    {.name = "c", .title = "stick radius", .keywords = "slip annulus Cattaneo", .d = LENGTH, LOADING(c), CALL(c, F, FORCE),
+     .reads = READS_TANGENTIAL,
+     .formulas = {{"c/a = (1-F_x/(mu F_N))^(1/(n+k+1))", "(18)", WHEN_FIRST | WHEN_POWER},
+                  {"F_x = mu [F_N(a)-F_N(c)]", "(16)", WHEN_FIRST},
+                  {"Masing: |F_1-F_x| = 2 mu [F_N(a)-F_N(c)], from the turning point F_1", NULL, WHEN_LATER},
+                  {"c = inner edge of the outermost springs with |u| = mu eta (delta_z-g)", NULL, 0}}},
+    {.name = "W", .title = "energy dissipated so far", .keywords = "hysteresis dissipation loss work heat", .d = ENERGY,
+     STATE(W), .reads = READS_TANGENTIAL,
+     .formulas = {{"W = sum of the friction work of all springs, int |c_T u| |d(delta_x)-du| dx", NULL, 0}}},
+    {.name = "U", .title = "stored tangential energy", .keywords = "elastic", .d = ENERGY, STATE(U),
+     .reads = READS_TANGENTIAL, .formulas = {{"U = 1/2 int c_T u^2 dx", NULL, 0}}},
+    {.name = "dW", .title = "energy dissipated per cycle", .keywords = "hysteresis loop dissipation loss damping Mindlin",
+     .d = ENERGY, GETTER(dW), CALL(dW, FA, FORCE), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) h_T E0 a^(k+1))] "
+                   "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_FIRST | WHEN_POWER},
+                  {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_FIRST},
+                  {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
+    {.name = "dWd", .title = "energy per cycle by displacement amplitude", .keywords = "hysteresis dissipation gross slip", .d = ENERGY,
+     .of = OF_FUNCTION, CALL(dWd, dxA, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"dW(FA(dxA)); beyond dxmax gross slip adds 4 mu F_N (dxA-dxmax)", "(26)", 0}}},
+    {.name = "Ksec", .title = "secant stiffness of the loop", .keywords = "damper amplitude", .d = STIFFNESS, .of = OF_FUNCTION,
+     CALL(Ksec, FA, FORCE), .argument_or = LENGTH, .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"FA/dx(FA); Fx(dxA)/dxA", NULL, 0}}},
+    {.name = "Kp", .by = MODEL_QUADRATURE, .title = "first-harmonic stiffness at dx = dxA cos(theta)",
+     .keywords = "damper storage equivalent harmonic balance", .d = STIFFNESS, .of = OF_FUNCTION, CALL(Kp, dxA, LENGTH),
+     .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"K' = 2/(pi dxA) int_0^pi F cos(theta) d theta, F = FA-2 F_1((dxA-dx)/2), F_1 first loading", NULL, 0}}},
+    {.name = "Kpp", .title = "first-harmonic loss stiffness", .keywords = "damper damping equivalent viscous harmonic balance",
+     .d = STIFFNESS, .of = OF_FUNCTION, CALL(Kpp, dxA, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"K'' = dWd(dxA)/(pi dxA^2); viscous damping K''/omega", NULL, 0}}},
+    {.name = "loss_factor", .by = MODEL_QUADRATURE, .title = "loss factor of the loop", .keywords = "damper damping tan delta",
+     .of = OF_FUNCTION, CALL(loss_factor, FA, FORCE), .argument_or = LENGTH, .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"K''/K' at dxA = dx(FA), or at dxA", NULL, 0}}},
+    {.name = "dxmax", .title = "displacement at gross slip", .keywords = "sliding", .d = LENGTH, GETTER(dxmax),
+     .reads = READS_TANGENTIAL, .load = true, .formulas = {{"delta_x,max = mu eta delta_z", "(17) with c = 0", 0}}},
+    {.name = "a0", .title = "reference radius", .d = LENGTH, GETTER(a0), .reads = READS_NORMAL, .load = true,
+     .formulas = {{"a for k = 0, same F_N and E0", "(23)", 0}}},
+    {.name = "dz0", .title = "indentation depth for k = 0", .d = LENGTH, GETTER(dz0), .reads = READS_NORMAL, .load = true,
+     .formulas = {{"delta_z for k = 0, same F_N and E0", "(10)", 0}}},
+    {.name = "dx0max", .title = "displacement at gross slip for k = 0", .d = LENGTH, GETTER(dx0max),
+     .reads = READS_TANGENTIAL, .load = true, .formulas = {{"mu eta delta_z for k = 0", "(17) with c = 0", 0}}},
+    {.name = "kn", .title = "normal stiffness", .keywords = "compliance", .d = STIFFNESS, GETTER(kn), .reads = READS_NORMAL,
+     .load = true, .formulas = {{"dF_N/d(delta_z) = 2 c_N0 c0^-k a^(k+1)/(k+1)", "(10),(13)", 0}}},
+    {.name = "kt", .title = "tangential stiffness going on", .keywords = "compliance", .d = STIFFNESS, STATE(kt),
+     .reads = READS_TANGENTIAL, .formulas = {{"dF_x/d(delta_x) = F_N'(y_c)/eta, y_c = g(c)", "(17),(18)", WHEN_FIRST},
+                                             {"dF_x/d(delta_x) = F_N'(y_c)/eta, y_c = g(c)", NULL, 0}}},
+    {.name = "W1D", .title = "work of the springs' forces along their slip", .keywords = "dissipation", .d = ENERGY, GETTER(W1D),
+     .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"W1D = -2 int_0^a c_T |u| |delta_x-u| dx", "(22)", 0}}},
+    {.name = "time", .title = "time along the load", .keywords = "phase instant", GETTER(time), .load = true,
+     .formulas = {{"0 at the press, 1 more each step, 1/4 to the first peak of a cycle, 1 more each period", NULL, 0}}},
+
+    /* ---- coefficients ---- */
+    {.name = "eta", .title = "stiffness ratio", .keywords = "Mindlin ratio", FOUNDATION(eta), .formulas = {{"eta = c_N/c_T", "(4),(5)", 0}}},
+    {.name = "hN", .title = "normal coefficient of the first body", FOUNDATION(hN),
+     .formulas = {{"h_N = (1+k) (1-nu) cos(pi k/2)/(Q S P), Q = 1-(1+k) nu, S = sin(pi beta/2)/beta, "
+                   "P = Gamma((3+k+beta)/2) Gamma((3+k-beta)/2)/Gamma(1+k/2)^2", "(A1)", 0}}},
+    {.name = "hT", .title = "tangential coefficient of the first body", FOUNDATION(hT),
+     .formulas = {{"h_T = 2 cos(pi k/2)/((1+nu) [1+(1-nu) S P]), S = sin(pi beta/2)/beta, "
+                   "P = Gamma((3+k+beta)/2) Gamma((3+k-beta)/2)/Gamma(1+k/2)^2", "(A2)", 0}}},
+    {.name = "beta_k", .title = "beta of the first body", FOUNDATION(beta),
+     .formulas = {{"beta^2 = (1+k)(1-k nu/(1-nu))", "(A3)", 0}}},
+    {.name = "kappa", .title = "shape factor", GETTER(kappa), .reads = INPUT_BIT(IN_K) | INPUT_BIT(IN_N),
+     .formulas = {{"kappa = (n/2) B(n/2,(k+1)/2)", "(8)", 0}}},
+    {.name = "cN", .title = "normal foundation modulus, at c0 or at x", .keywords = "stiffness Winkler", .d = PRESSURE, FOUNDATION(cN0),
+     CALL(cN, x, LENGTH), .formulas = {{"c_N(x) = c_N0 (x/c0)^k", "(4)", WHEN_CALL}, {"1/c_N0 = sum (1-nu^2)/(h_N E0)", "(4)", 0}}},
+    {.name = "cT", .title = "tangential foundation modulus, at c0 or at x", .keywords = "stiffness Winkler", .d = PRESSURE, FOUNDATION(cT0),
+     CALL(cT, x, LENGTH), .formulas = {{"c_T(x) = c_T0 (x/c0)^k", "(5)", WHEN_CALL}, {"1/c_T0 = sum 1/(h_T E0)", "(5)", 0}}},
+
+    /* ---- at a place ---- */
+    {.name = "E", .title = "modulus at depth z", .keywords = "Young grading", .d = PRESSURE, .of = OF_FUNCTION, CALL(E, z, LENGTH),
+     .reads = INPUT_BIT(IN_E0) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0), .formulas = {{"E(z) = E0 (z/c0)^k", "(1)", 0}}},
+    {.name = "f", .title = "gap at radius r", .keywords = "shape profile", .d = LENGTH, .of = OF_FUNCTION, CALL(f, r, LENGTH),
+     .reads = INPUT_GEOMETRY, .formulas = {{"f(r) = A r^n", "(6)", WHEN_POWER}, {"f(r)", "(3)", 0}}},
+    {.name = "g", .title = "equivalent profile", .keywords = "shape", .d = LENGTH, .of = OF_FUNCTION, CALL(g, x, LENGTH),
+     .reads = INPUT_GEOMETRY | INPUT_BIT(IN_K),
+     .formulas = {{"g(x) = kappa A x^n", "(7)", WHEN_POWER},
+                  {"g(x) = x^(1-k) int_0^x f'(r) (x^2-r^2)^((k-1)/2) dr", "(3)", 0}}},
+    {.name = "p", .by = MODEL_QUADRATURE, .title = "contact pressure", .keywords = "stress Hertz", .d = PRESSURE, .of = OF_FUNCTION, CALL(p, r, LENGTH),
+     .reads = READS_NORMAL, .load = true,
+     .formulas = {{"p(r) = (c_N0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx", "inverse of (3)", 0}}},
+    {.name = "qx", .by = MODEL_MEMORY, .title = "tangential traction", .keywords = "stress shear", .d = PRESSURE, .of = OF_FUNCTION, CALL(qx, r, LENGTH),
+     .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"q_x(r) = -(c_T0 c0^-k/pi) int_r^a u'(x) (x^2-r^2)^((k-1)/2) dx", "inverse of (3)", 0}}},
+    {.name = "uz", .by = MODEL_QUADRATURE, .title = "normal surface displacement, both bodies' sum", .keywords = "deformation", .d = LENGTH, .of = OF_FUNCTION,
+     CALL(uz, r, LENGTH), .reads = READS_NORMAL, .load = true,
+     .formulas = {{"u_z(r) = (2 cos(pi k/2)/pi) int_0^min(r,a) x^k (delta_z-g) (r^2-x^2)^(-(1+k)/2) dx", "inverse of (3)", 0}}},
+    {.name = "ux", .by = MODEL_MEMORY, .title = "tangential surface displacement, both bodies' sum, mean over the angle", .keywords = "deformation", .d = LENGTH,
+     .of = OF_FUNCTION, CALL(ux, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"u_x(r) = (2 cos(pi k/2)/pi) int_0^min(r,a) x^k u(x) (r^2-x^2)^(-(1+k)/2) dx", "inverse of (3)", 0}}},
+    {.name = "w1D", .title = "normal spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION, CALL(w1D, x, LENGTH),
+     .reads = READS_NORMAL, .load = true, .formulas = {{"w_1D(x) = delta_z-g(x)", "(9)", 0}}},
+    {.name = "u1D", .by = MODEL_MEMORY, .title = "tangential spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION,
+     CALL(u1D, x, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"u_new = clip(u+d(delta_x), -B, B), B = mu eta (delta_z-g(x))", "(19),(20)", 0}}},
+    {.name = "s1D", .by = MODEL_MEMORY, .title = "slip of the springs", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION, CALL(s1D, x, LENGTH),
+     .reads = READS_TANGENTIAL, .load = true, .formulas = {{"s_1D(x) = delta_x-u_1D(x)", "(20)", 0}}},
+    {.name = "qz1D", .title = "normal line load", .keywords = "springs", .d = STIFFNESS, .of = OF_FUNCTION, CALL(qz1D, x, LENGTH),
+     .reads = READS_NORMAL, .load = true, .formulas = {{"q_z(x) = c_N(x) w_1D(x)", "(11)", 0}}},
+    {.name = "qx1D", .by = MODEL_MEMORY, .title = "tangential line load", .keywords = "springs", .d = STIFFNESS, .of = OF_FUNCTION, CALL(qx1D, x, LENGTH),
+     .reads = READS_TANGENTIAL, .load = true, .formulas = {{"q_x(x) = c_T(x) u_1D(x)", "(14)", 0}}},
+};
+/* clang-format on */
+enum { QUANTITIES = sizeof quantities / sizeof *quantities };
+
+const quantity *quantity_row(size_t i) {
+    return i < QUANTITIES ? &quantities[i] : NULL;
+}
+
+const char *quantity_name(size_t i) {
+    return i < QUANTITIES ? quantities[i].name : NULL;
+}
+
+const quantity *quantity_find(const char *name, size_t len) {
+    static word_index words = {.name = quantity_name};
+    size_t row;
+    return word_find(&words, name, len, &row) ? &quantities[row] : NULL;
+}
+
+const quantity *quantity_of_input(input in) {
+    size_t i = 0;
+    while (quantities[i].in != 1 + (int)in)
+        i++;
+    return &quantities[i];
+}
+
+static long double member(const void *of, size_t at) {
+    long double v;
+    memcpy(&v, (const char *)of + at, sizeof v);
+    return v;
+}
+
+/* The state as far as the member wants it. */
+static bool get_state(const quantity *q, scene *s, long double *out, calc_error *error) {
+    const fret_state *state;
+    const bool forces = q->at_state == offsetof(fret_state, Fx) || q->at_state == offsetof(fret_state, dx) ||
+                        q->at_state == offsetof(fret_state, W);
+    if (!(forces ? scene_forces : scene_state)(s, &state, error))
+        return false;
+    *out = member(state, q->at_state);
+    return true;
+}
+
+/* First loading has a closed form, which keeps every digit also close to gross slip. */
+static bool get_loading(const quantity *q, scene *s, long double *out, calc_error *error) {
+    fret_loading first;
+    if (scene_closed_state(s)) {
+        if (!scene_first_loading(s, &first, error))
+            return false;
+        *out = member(&first, q->at);
+        return true;
+    }
+    return get_state(q, s, out, error);
+}
+
+bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *error) {
+    const fret_press *press;
+    fret_foundation foundation;
+    switch (q->of) {
+    case OF_INPUT:
+        return scene_get(s, quantity_input(q), out, error);
+    case OF_PRESS:
+        if (!scene_press(s, &press, error))
+            return false;
+        *out = member(press, q->at);
+        return true;
+    case OF_LOADING:
+        return get_loading(q, s, out, error);
+    case OF_STATE:
+        return get_state(q, s, out, error);
+    case OF_FOUNDATION:
+        if (!foundation_of(s, &foundation, error))
+            return false;
+        *out = member(&foundation, q->at);
+        return true;
+    default:
+        return q->get(s, out, error);
+    }
+}
+
+dim quantity_dim(const quantity *q, const scene *s) {
+    if (q->in == 1 + IN_A)
+        return (dim){0, 1 - (s->in.geometry && s->in.geometry->n > 0 ? s->in.geometry->n : s->in.v[IN_N]), 0};
+    return q->d;
+}
+
+/* Which formulas hold in the scene. */
+static unsigned holds(const quantity *q, scene *s, bool call) {
+    const load_reach *reach;
+    calc_error ignored;
+    error_clear(&ignored);
+    const bool power = !s->in.geometry || s->in.geometry->power;
+    const unsigned when = power ? WHEN_POWER : WHEN_SHAPE;
+    if (call)
+        return when | WHEN_CALL | WHEN_FIRST;
+    if (!scene_reach(s, &reach, &ignored))
+        return when;
+    if (reach->normal_varies)
+        return when | WHEN_HISTORY;
+    if (q->get == get_dW ? scene_closed_loss(s) : reach->first)
+        return when | WHEN_FIRST;
+    return reach->alike ? when | WHEN_LATER : when;
+}
+
+const formula *quantity_formula(const quantity *q, scene *s, bool call) {
+    const unsigned when = holds(q, s, call);
+    const formula *f = q->formulas;
+    while (f->when & ~when) /* the last of them holds always */
+        f++;
+    return f;
+}
+
+model_id quantity_model(const quantity *q, scene *s, bool call) {
+    const bool power = !s->in.geometry || s->in.geometry->power;
+    const model_id closed = power ? MODEL_CLOSED : MODEL_PIECES;
+    const model_id stepped = !s->automatic && models[s->model].steps ? s->model : MODEL_MEMORY;
+    if (call)
+        return q->by ? q->by : closed;
+    switch (q->of) {
+    case OF_LOADING:
+        return scene_closed_state(s) ? closed : stepped;
+    case OF_STATE:
+        return stepped;
+    case OF_PRESS:
+        return holds(q, s, false) & WHEN_HISTORY ? stepped : closed;
+    case OF_GETTER:
+        if (q->get == get_dW)
+            return scene_closed_loss(s) ? closed : stepped;
+        return q->get == get_W1D ? MODEL_MEMORY : closed;
+    default:
+        return closed;
+    }
+}

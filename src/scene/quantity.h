@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The one table of quantities: assignment, query, explain, help, completion, labels and JSON derive from it.
+ */
+#ifndef SCENE_QUANTITY_H
+#define SCENE_QUANTITY_H
+
+#include "scene/scene.h"
+
+/* What a row reads. */
+typedef enum quantity_of {
+    OF_FUNCTION,   /* nothing: it is a function only */
+    OF_INPUT,      /* the input */
+    OF_PRESS,      /* member `at` of fret_press */
+    OF_LOADING,    /* member `at` of fret_loading on first loading, `at_state` of fret_state after it */
+    OF_STATE,      /* member `at_state` of fret_state */
+    OF_FOUNDATION, /* member `at` of fret_foundation */
+    OF_GETTER      /* what get says */
+} quantity_of;
+
+/* When a formula holds: all of these. */
+enum {
+    WHEN_ALWAYS = 0,
+    WHEN_FIRST = 1,   /* on first loading */
+    WHEN_LATER = 2,   /* after a reversal, F_N constant */
+    WHEN_HISTORY = 4, /* F_N has changed on the way */
+    WHEN_POWER = 8,   /* the gap is a power law */
+    WHEN_SHAPE = 16,  /* it is not */
+    WHEN_CALL = 32    /* as a function */
+};
+
+typedef struct formula {
+    const char *text;     /* plain */
+    const char *equation; /* numbers of Mathematics 2022, 10, 3641; NULL: none */
+    unsigned when;
+} formula;
+
+/* Inputs that results have in common. */
+#define READS_MATERIAL                                                                                       \
+    (INPUT_BIT(IN_E0) | INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0) | INPUT_BIT(IN_E0_2) |         \
+     INPUT_BIT(IN_NU_2))
+#define READS_NORMAL (READS_MATERIAL | INPUT_GEOMETRY | INPUT_BIT(IN_FN))
+#define READS_TANGENTIAL (READS_NORMAL | INPUT_BIT(IN_MU) | INPUT_CYCLE)
+
+enum { FORMULAS = 5 };
+
+typedef struct quantity {
+    const char *name;
+    const char *title;    /* for labels and help */
+    const char *keywords; /* other words to find it by, or NULL */
+    dim d;                /* of the value; see quantity_dim for A */
+    quantity_of of;
+    size_t at, at_state;
+    int in; /* 1 + the input that it is; 0: none */
+    bool (*get)(scene *s, long double *out, calc_error *error);
+    /* as a function; NULL: it is none */
+    bool (*call)(scene *s, value arg, long double *out, calc_error *error);
+    model_id
+        by; /* what answers for the function; MODEL_CLOSED: the closed form, or quadrature over the gap */
+    const char *argument;
+    dim argument_d;
+    dim argument_or;     /* what the argument may be instead; a number: nothing else */
+    unsigned reads;      /* inputs that it can depend on */
+    bool load;           /* it depends on the load program too */
+    const char *imposed; /* the command whose target it may be, or NULL */
+    formula formulas[FORMULAS];
+} quantity;
+
+const quantity *quantity_find(const char *name, size_t len);
+const quantity *quantity_row(size_t i); /* NULL after the last */
+const char *quantity_name(size_t i);    /* for suggest() */
+/* The row of an input. */
+const quantity *quantity_of_input(input in);
+/* Is it an input that can be set? */
+static inline bool quantity_is_input(const quantity *q) {
+    return q->in > 0;
+}
+static inline input quantity_input(const quantity *q) {
+    return (input)(q->in - 1);
+}
+/* Can it be asked for without an argument? */
+static inline bool quantity_has_value(const quantity *q) {
+    return q->of != OF_FUNCTION;
+}
+
+bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *error);
+/* The dimension in this scene: that of A depends on n. */
+dim quantity_dim(const quantity *q, const scene *s);
+/* The formula that makes the number in this scene; call: as a function. */
+const formula *quantity_formula(const quantity *q, scene *s, bool call);
+/* The model that answers for it. */
+model_id quantity_model(const quantity *q, scene *s, bool call);
+
+#endif

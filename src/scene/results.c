@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Results that take more than a look at a state. */
+#include "scene/functions.h"
+
+bool get_FN(scene *s, long double *out, calc_error *error) {
+    return scene_FN(s, out, error);
+}
+
+bool get_dW(scene *s, long double *out, calc_error *error) {
+    return scene_cycle_loss(s, out, error);
+}
+
+bool get_kn(scene *s, long double *out, calc_error *error) {
+    const fret_press *press;
+    const fret_normal *normal;
+    if (!scene_press(s, &press, error) || !scene_normal(s, &normal, error))
+        return false;
+    *out = press->a > 0 ? fret_normal_stiffness(normal, press->a) : 0;
+    return true;
+}
+
+/* ---- the scene against its k = 0 twin ---------------------------------------------------------- */
+
+static bool k0_contact(scene *s, fret_pressed *out, calc_error *error) {
+    long double FN = 0;
+    if (!scene_FN(s, &FN, error) || !scene_k0(s, &out->normal, error))
+        return false;
+    scene_used_closed(s);
+    fret_status st = fret_press_by_force(out->normal, (double)FN, &out->press);
+    return calc_status(error, &st);
+}
+
+bool get_a0(scene *s, long double *out, calc_error *error) {
+    fret_pressed contact;
+    if (!k0_contact(s, &contact, error))
+        return false;
+    *out = contact.press.a;
+    return true;
+}
+
+bool get_dz0(scene *s, long double *out, calc_error *error) {
+    fret_pressed contact;
+    if (!k0_contact(s, &contact, error))
+        return false;
+    *out = contact.press.dz;
+    return true;
+}
+
+bool get_dx0max(scene *s, long double *out, calc_error *error) {
+    fret_pressed contact;
+    if (!k0_contact(s, &contact, error) || !scene_friction(s, &contact.mu, error))
+        return false;
+    *out = fret_gross_slip(&contact);
+    return true;
+}
+
+bool get_dxmax(scene *s, long double *out, calc_error *error) {
+    fret_pressed contact;
+    if (!scene_contact(s, &contact, error))
+        return false;
+    *out = fret_gross_slip(&contact);
+    return true;
+}
+
+/* ---- coefficients ------------------------------------------------------------------------------ */
+
+bool foundation_of(scene *s, fret_foundation *out, calc_error *error) {
+    const fret_normal *normal;
+    fret_material material;
+    s->used |= USED(MODEL_CLOSED);
+    if (s->in.geometry) {
+        if (!scene_normal(s, &normal, error))
+            return false;
+        *out = *fret_normal_foundation(normal);
+        return true;
+    }
+    if (!scene_material(s, false, &material, error))
+        return false;
+    fret_status st = fret_foundation_make(&material, out);
+    return calc_status(error, &st);
+}
+
+bool get_kappa(scene *s, long double *out, calc_error *error) {
+    long double n = 0, k = 0;
+    if (s->in.geometry && !s->in.geometry->power)
+        return calc_fail(error, 0, 0, "kappa is the factor of a gap of a single power, not of geometry %s",
+                         s->in.geometry->name);
+    if (!scene_get(s, IN_N, &n, error) || !scene_get(s, IN_K, &k, error))
+        return false;
+    s->used |= USED(MODEL_CLOSED);
+    *out = fret_kappa((double)n, (double)k);
+    return true;
+}
+
+/* ---- the load ---------------------------------------------------------------------------------- */
+
+bool get_W1D(scene *s, long double *out, calc_error *error) {
+    const fret_contact *contact;
+    const load_reach *reach;
+    double mu;
+    if (!scene_friction(s, &mu, error) || !scene_reach(s, &reach, error) ||
+        !scene_straight(s, &contact, error))
+        return false;
+    if (reach->normal_varies)
+        return calc_fail(error, 0, 0, "W1D is defined at constant FN; W is what has been dissipated");
+    s->used |= USED(MODEL_MEMORY);
+    *out = fret_contact_slip_work(contact);
+    return true;
+}
+
+bool get_time(scene *s, long double *out, calc_error *error) {
+    const load_reach *reach;
+    if (!scene_reach(s, &reach, error))
+        return false;
+    *out = scene_time(s);
+    return true;
+}

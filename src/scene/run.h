@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs a load program on a model, leg by leg, and shows states on the way. Touches no scene. */
+#ifndef SCENE_RUN_H
+#define SCENE_RUN_H
+
+#include <signal.h>
+
+#include "scene/engine.h"
+#include "scene/program.h"
+
+/* What is run: a program as far as a mark, with the inputs that it takes its values from. */
+typedef struct load_view {
+    const program *program;
+    load_mark end;
+    size_t last_cycle;
+    const inputs *in;
+    const fret_normal *normal;
+    double mu;
+    const volatile sig_atomic_t *stop;
+    void (*pulse)(void); /* or NULL */
+} load_view;
+
+#define RUN_FX_OF_CYCLE "Fx within the cycle" /* what slides under a swinging normal force, in errors */
+
+/* A part of the load without a corner. Time is 0 at the press, 1 more each step, a quarter to the first peak
+ * of a cycle, 1 more each period. */
+typedef enum leg_law { LEG_STRAIGHT, LEG_RISE, LEG_HALF } leg_law;
+typedef struct leg {
+    fret_step to;
+    double begin, end; /* time */
+    leg_law law;       /* how the load goes in time: evenly, as a quarter or a half of a sine */
+    bool chord;        /* of a swinging normal force: its ends are no turning points */
+    bool even;         /* part it evenly in load, not in time */
+    bool closes;       /* its end is that of a period */
+    unsigned points;   /* asked for by `steps`, of a chord: a period; 0: none */
+    double origin;     /* of a chord: time at the beginning of its period */
+} leg;
+
+typedef struct runner runner;
+
+/* Where in a cycle a run waits. */
+enum { RUN_NODES = 24 };
+typedef struct run_place {
+    bool within;                       /* of a cycle, else between two steps */
+    unsigned period;                   /* those done */
+    long double FN;                    /* that it turns about */
+    size_t node, nodes;                /* of a swinging period: 0 nodes: at its beginning */
+    double at[RUN_NODES], begin, from; /* this angle on */
+    unsigned chord;
+} run_place;
+
+/* Who looks on. next: the part of the leg, 0..1, at which to look after the part `after`; beyond 1: not
+ * again. see: false ends the run. */
+typedef struct watch watch;
+struct watch {
+    double (*next)(const watch *w, const leg *l, double after);
+    bool (*see)(const runner *r, void *context);
+    void *context;
+    unsigned points;     /* watch_points: of a tangential leg that names none */
+    double first, every; /* watch_times */
+    size_t sample, last; /* next and last of them */
+    bool turns;          /* turning points too */
+    bool once;           /* a period that repeats the one before need not be seen again */
+    bool limit;          /* of swinging periods it wants the limit of all levels */
+    bool wait;           /* raised by see: the run waits before the next step, period or chord, and goes on
+                            by run_to */
+    run_place place;
+};
+
+/* Every leg in so many parts. */
+watch watch_points(unsigned points);
+/* At the end of every leg and chord. */
+watch watch_ends(void);
+/* The end of every chord, other legs in so many parts evenly in time. */
+watch watch_way(unsigned points);
+/* At the times first + i*every, i = 0..last; turns: at turning points too. */
+watch watch_times(double first, double every, size_t last, bool turns);
+
+/* A swinging normal force is run at several numbers of chords, each double the last. Their error goes with
+ * the square of the length of a chord, then with its fourth power: the limit, extrapolated twice. moved:
+ * twice how far the last extrapolation moved it, relative to the value; of the losses in
+ * tests/reference/swinging.csv it is a bound. */
+enum { RUN_CHORDS = 160, LEVELS = 3 };
+long double run_limit(const long double at[LEVELS], long double *moved);
+/* What the limit is good to, relative, also where a slip front ends within a chord and the orders are not
+ * clean: twice how far the first extrapolation moves between levels, and 1/256 of how far the value does. */
+long double run_unsure(const long double at[LEVELS]);
+
+/* What a run shows: the state, and the loss of the last period. */
+typedef struct sight {
+    fret_state state;
+    long double loss;
+} sight;
+
+struct runner {
+    const load_view *load;
+    engine engine;
+    unsigned level;      /* a swinging period in RUN_CHORDS 2^level chords */
+    watch *watch;        /* or NULL */
+    const sight *coarse; /* the same instant at the LEVELS - 1 coarser levels, or NULL */
+    load_mark at;        /* next step of the program, and next of its cycles */
+    double time;         /* now */
+    bool turning;        /* for the watch: the end of a leg */
+    bool halted;         /* by the watch */
+    bool waits;          /* because the watch wants it to: goes on by run_to */
+    bool area_wanted;
+    long double area, Fx, dx; /* int F_x d(delta_x) by the trapezoidal rule, at what the watch sees */
+    long double cycle_loss;   /* of the last period run; of a program without one 0 */
+    bool closed;              /* a period has been run */
+    bool chorded;             /* the run ended at a swinging period that only chords can take */
+    unsigned repeated; /* periods of the last cycle that were not run, since they repeat those before */
+};
+
+/* Now; its limit, where `coarse` is there. */
+void run_sight(const runner *r, sight *out);
+/* Of the same instant at all levels; what lies at the end of the path needs no limit. */
+void sight_limit(const sight at[LEVELS], sight *out);
+
+/* Runs to the end of the load. The stop flag is looked at between steps and chords. */
+fret_status run_to(runner *r, load_mark end);
+/* One period of the cycle about the normal force FN. */
+fret_status run_period(runner *r, const load_item *cycle, long double FN);
+/* A step, or `times` periods of a cycle. */
+fret_status run_item(runner *r, const load_item *item);
+
+/* The time at the end of the program, and after a step of it. */
+double program_time(const program *p, load_mark end);
+
+#endif

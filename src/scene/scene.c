@@ -1,0 +1,351 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The life of a scene, its inputs, and the one way back. What follows from a scene is in answers.c, what
+ * changes it whole or not at all in edit.c. */
+#include "scene/scene.h"
+
+#include <math.h>
+
+/* ---- life -------------------------------------------------------------------------------------- */
+
+/* The fields of a state that is no longer. */
+static void forget_fields(answers *a) {
+    fret_field_free(a->pressed);
+    fret_field_free(a->dragged);
+    a->pressed = a->dragged = NULL;
+}
+
+static void answers_end(answers *a, bool keep) {
+    for (unsigned i = 0; i < LEVELS; i++) {
+        engine_end(&a->run[i].engine);
+        engine_end(&a->spare[i].engine);
+    }
+    fret_contact_free(a->chorded);
+    fret_normal *normal = a->normal, *k0 = a->k0;
+    forget_fields(a);
+    *a = (answers){.normal = NULL};
+    if (keep) {
+        a->normal = normal;
+        a->k0 = k0;
+    } else {
+        fret_normal_free(normal);
+        fret_normal_free(k0);
+    }
+}
+
+void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *evaluate, void *context) {
+    static const volatile sig_atomic_t never;
+    *s = (scene){.automatic = true, .stop = stop ? stop : &never, .evaluate = evaluate, .context = context};
+}
+
+void scene_moved(scene *s) {
+    forget_fields(&s->answers);
+    s->answers.press_ready = false;
+    s->answers.state_ready = false;
+}
+
+scene_use scene_answered_by(const scene *s) {
+    return (scene_use){s->used, s->pieces_error};
+}
+
+void scene_also_used(scene *s, scene_use also) {
+    if (also.models & USED(MODEL_PIECES))
+        s->pieces_error =
+            s->used & USED(MODEL_PIECES) ? fmax(s->pieces_error, also.pieces_error) : also.pieces_error;
+    s->used |= also.models;
+}
+
+void scene_used_law(scene *s, const fret_normal *normal) {
+    const double error = fret_normal_error(normal);
+    if (!isnan(error))
+        scene_also_used(s, (scene_use){USED(MODEL_PIECES), error});
+}
+
+/* The others are of the bodies and of the shape. */
+static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_BIT(IN_FN) | INPUT_CYCLE;
+
+/* Bodies and shape that follow definitions may follow these. */
+void scene_forget(scene *s, bool keep) {
+    answers_end(&s->answers, keep && !(s->in.bindings & ~keeps_contact));
+    s->settled = 0;
+    s->sound = false;
+}
+
+bool scene_same_contact(const inputs *a, const inputs *b) {
+    return inputs_same(a, b, ~keeps_contact);
+}
+
+void answers_pass_contact(answers *to, answers *from) {
+    to->normal = from->normal;
+    to->k0 = from->k0;
+    from->normal = from->k0 = NULL;
+}
+
+void scene_take_contact(scene *s, scene *from) {
+    if (scene_same_contact(&s->in, &from->in))
+        answers_pass_contact(&s->answers, &from->answers);
+}
+
+void scene_free(scene *s) {
+    scene_forget(s, false);
+    fret_normal_free(s->like);
+    s->like = NULL;
+    inputs_drop(&s->in);
+    counted_drop(s->program ? &s->program->base : NULL);
+    s->program = NULL;
+    s->end = (load_mark){0, 0};
+}
+
+void scene_clone(scene *to, const scene *from) {
+    *to = *from;
+    to->answers = (answers){.normal = NULL};
+    to->like = from->like ? fret_normal_hold(from->like) : NULL;
+    inputs_copy(&to->in, &from->in);
+    counted_hold(to->program ? &to->program->base : NULL);
+}
+
+void scene_reset(scene *s, bool all) {
+    if (all) {
+        scene_free(s);
+        s->automatic = true;
+        return;
+    }
+    scene_forget(s, false);
+    counted_drop(s->program ? &s->program->base : NULL);
+    s->program = NULL;
+    s->end = (load_mark){0, 0};
+    inputs_unset(&s->in, INPUT_CYCLE | INPUT_BIT(IN_FN));
+}
+
+/* ---- the way back ------------------------------------------------------------------------------ */
+
+void scene_save(scene *s, scene_mark *m, bool move) {
+    inputs_copy(&m->in, &s->in);
+    m->program = counted_hold(s->program ? &s->program->base : NULL);
+    m->end = s->end;
+    m->kept = move;
+    if (move) {
+        m->answers = s->answers;
+        s->answers = (answers){.normal = NULL};
+        s->settled = 0;
+    }
+}
+
+void scene_drop(scene_mark *m) {
+    inputs_drop(&m->in);
+    counted_drop(m->program ? &m->program->base : NULL);
+    m->program = NULL;
+    if (m->kept)
+        answers_end(&m->answers, false);
+    m->kept = false;
+}
+
+void scene_back(scene *s, scene_mark *m) {
+    scene_free(s);
+    s->in = m->in;
+    s->program = m->program;
+    s->end = m->end;
+    if (m->kept)
+        s->answers = m->answers;
+}
+
+/* ---- inputs ------------------------------------------------------------------------------------ */
+
+/* Amplitudes are evaluated where their cycle begins, everything else at the press: the scene as it is then,
+ * with the amplitudes to come, and cycles before as they were. */
+static void go_back(scene *then, bool amplitude) {
+    const load_mark end = then->end;
+    const bool cycle = !then->before && end.cycles > 0;
+    const size_t steps = cycle ? program_last_cycle(then->program, end) : end.steps;
+    then->now = NULL;
+    if (cycle && amplitude)
+        then->end = (load_mark){steps, end.cycles - 1};
+    else if (!amplitude && end.steps > 1)
+        then->end = (load_mark){1, 0};
+    then->early = then->early || (!amplitude && steps > 1);
+    then->before = then->before || cycle;
+}
+
+static bool settle(scene *s, input in, calc_error *error) {
+    const unsigned bit = INPUT_BIT(in);
+    const bool amplitude = bit & INPUT_CYCLE;
+    if (s->settling & bit) {
+        error->circle = true;
+        calc_missing(error, (int)in);
+        return false;
+    }
+    scene then;
+    value v = {0};
+    scene_clone(&then, s);
+    then.settling |= bit;
+    go_back(&then, amplitude);
+    bool ok = s->evaluate(s->context, &then, in, s->in.bound[in], &v, error);
+    scene_free(&then);
+    if (amplitude && s->before && s->early && !error->circle) {
+        error_clear(error);
+        return calc_fail(error, 0, 0,
+                         "an amplitude that follows is known where its cycle begins, not before");
+    }
+    fret_status st = input_status(in, (double)v.v);
+    if (!ok || !calc_input_status(error, (int)in, &st))
+        return false;
+    s->in.v[in] = (double)v.v;
+    s->in.set[in] = true;
+    s->settled |= bit;
+    return true;
+}
+
+/* All of a set that are bound get their values. */
+static bool resolve(scene *s, unsigned set, calc_error *error) {
+    unsigned waiting = s->in.bindings & set & ~s->settled;
+    for (input in = 0; waiting >> in; in++)
+        if (waiting & INPUT_BIT(in) && !settle(s, in, error))
+            return false;
+    return true;
+}
+
+/* What stands for others where these are not given. */
+static unsigned rests_on(input in) {
+    return in == IN_A      ? INPUT_GEOMETRY
+           : in == IN_E0_2 ? INPUT_BIT(IN_E0_2) | INPUT_BIT(IN_E0)
+           : in == IN_NU_2 ? INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_NU)
+                           : INPUT_BIT(in);
+}
+
+bool scene_get(scene *s, input in, long double *out, calc_error *error) {
+    return resolve(s, rests_on(in), error) && inputs_get(&s->in, in, out, error);
+}
+
+void scene_put(scene *s, input in, double v) {
+    inputs_put(&s->in, in, v);
+    scene_forget(s, keeps_contact & INPUT_BIT(in));
+}
+
+/* ---- the contact ------------------------------------------------------------------------------- */
+
+static const unsigned of_material =
+    INPUT_BIT(IN_E0) | INPUT_BIT(IN_NU) | INPUT_BIT(IN_E0_2) | INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_K);
+
+bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *error) {
+    if (!resolve(s, of_material, error))
+        return false;
+    const double k = homogeneous ? 0 : s->in.v[IN_K];
+    return (k == 0 || resolve(s, INPUT_BIT(IN_C0), error)) && inputs_material(&s->in, k, out, error);
+}
+
+bool scene_gap(scene *s, fret_gap *out, calc_error *error) {
+    return resolve(s, INPUT_GEOMETRY, error) && inputs_gap(&s->in, out, error);
+}
+
+static bool make_normal(scene *s, bool homogeneous, fret_normal **out, calc_error *error) {
+    fret_material material;
+    fret_gap gap;
+    if (!scene_material(s, homogeneous, &material, error) || !scene_gap(s, &gap, error))
+        return false;
+    fret_status st = fret_normal_make(&material, &gap, s->like, s->stop, out);
+    if (!st.code)
+        fret_normal_stop(*out, s->stop);
+    return calc_status(error, &st);
+}
+
+bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
+    if (!s->answers.normal) {
+        if (!make_normal(s, false, &s->answers.normal, error))
+            return false;
+        fret_normal_free(s->like);
+        s->like = fret_normal_hold(s->answers.normal);
+    }
+    *normal = s->answers.normal;
+    scene_used_law(s, *normal);
+    return true;
+}
+
+bool scene_k0(scene *s, const fret_normal **normal, calc_error *error) {
+    if (!s->answers.k0 && !make_normal(s, true, &s->answers.k0, error))
+        return false;
+    *normal = s->answers.k0;
+    return true;
+}
+
+bool scene_friction(scene *s, double *mu, calc_error *error) {
+    long double v = 0;
+    if (!scene_get(s, IN_MU, &v, error))
+        return false;
+    *mu = (double)v;
+    return true;
+}
+
+/* ---- the load ---------------------------------------------------------------------------------- */
+
+static bool is_pressed(const scene *s, calc_error *error) {
+    return s->end.steps > 0 || calc_missing(error, IN_FN);
+}
+
+bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    program *own = step->kind == LOAD_PRESS ? program_make() : program_copy(s->program, s->end);
+    load_mark end = step->kind == LOAD_PRESS ? (load_mark){0, 0} : s->end;
+    if (!own || !program_append(own, &end, step, extra)) {
+        counted_drop(own ? &own->base : NULL);
+        return calc_no_memory(error);
+    }
+    if (extra && s->end.cycles)
+        program_freeze(own, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
+    program_to_inputs(step, extra, &s->in);
+    counted_drop(s->program ? &s->program->base : NULL);
+    s->program = own;
+    s->end = end;
+    scene_forget(s, true);
+    return true;
+}
+
+double scene_time(const scene *s) {
+    return s->now ? s->now->run->time : program_time(s->program, s->end);
+}
+
+bool scene_last_cycle(scene *s, load_item *out, calc_error *error) {
+    if (!s->program || !s->end.cycles)
+        return calc_fail(error, 0, 0, "no cycle has been run yet: use cycle FA=... or the function dW(FA)");
+    if (!s->before && !resolve(s, INPUT_CYCLE, error))
+        return false;
+    const size_t i = program_last_cycle(s->program, s->end);
+    *out = program_item(s->program, (load_mark){i, s->end.cycles - 1}, s->before ? NO_CYCLE : i, &s->in);
+    return true;
+}
+
+static void reach_step(load_reach *r, const load_step *step, unsigned times) {
+    const double v = step->tangential_value, size = fabs(v);
+    if (!r->by)
+        r->by = (load_by)step->tangential;
+    r->alike = r->alike && step->tangential == r->by && !(step->relative & RELATIVE_TANGENTIAL);
+    r->first = r->alike && size >= r->most;
+    r->most = fmax(r->most, size);
+    r->end = v;
+    r->normal_varies = r->normal_varies || load_moves_normal(step);
+    if (step->kind == LOAD_CYCLE) { /* a second period is closed whatever came before */
+        r->closed = r->first || times > 1;
+        r->swings = r->swings || step->normal_value != 0;
+    }
+}
+
+bool scene_reach(scene *s, const load_reach **out, calc_error *error) {
+    load_reach *r = &s->answers.reach;
+    if (!is_pressed(s, error) || (s->end.cycles && !s->before && !resolve(s, INPUT_CYCLE, error)))
+        return false;
+    if (!s->answers.reach_ready || r->seen.steps > s->end.steps) {
+        *r = (load_reach){.seen = {1, 0}, .alike = true, .first = true};
+        r->last_cycle = s->before ? NO_CYCLE : program_last_cycle(s->program, s->end);
+        s->answers.reach_ready = true;
+    }
+    while (r->seen.steps < s->end.steps) {
+        const load_step *step = &s->program->steps[r->seen.steps];
+        if (step->kind == LOAD_CYCLE) {
+            const load_item item = program_item(s->program, r->seen, r->last_cycle, &s->in);
+            reach_step(r, &item.step, item.extra.times);
+            r->seen.cycles++;
+        } else {
+            reach_step(r, step, 1);
+        }
+        r->seen.steps++;
+    }
+    *out = r;
+    return true;
+}

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a command answers, handed to the form that is set. */
+#include "statement/answer.h"
+
+#include "statement/answer_form.h"
+
+static const answer_form *const forms[] = {
+    [FORMAT_TEXT] = &answer_as_text, [FORMAT_CSV] = &answer_as_csv, [FORMAT_JSON] = &answer_as_json};
+
+void answer_begin_as(answer *a, const settings *set, FILE *to, int format) {
+    *a = (answer){.set = set, .to = to, .form = forms[format]};
+}
+
+void answer_begin(answer *a, const settings *set, FILE *to) {
+    answer_begin_as(a, set, to, set->format);
+}
+
+bool answer_end(answer *a, bool ok) {
+    if (a->form->end)
+        a->form->end(a, ok);
+    return !a->lost;
+}
+
+bool answer_is_data(const settings *set) {
+    return forms[set->format]->data;
+}
+
+/* ---- values ------------------------------------------------------------------------------------ */
+
+void answer_value(answer *a, const column *c, long double si) {
+    a->form->value(a, c, si);
+}
+
+bool answer_values(const settings *set, FILE *to, const column *columns, const long double *si,
+                   size_t count) {
+    answer a;
+    answer_begin(&a, set, to);
+    for (size_t i = 0; i < count; i++)
+        answer_value(&a, &columns[i], si[i]);
+    return answer_end(&a, true);
+}
+
+void answer_estimate(answer *a, const column *c, long double si, long double deviation) {
+    a->form->estimate(a, c, si, deviation);
+}
+
+bool answer_beside(answer *a, const column *c, long double si, long double deviation) {
+    if (a->form->beside)
+        a->form->beside(a, c, si, deviation);
+    return a->form->beside != NULL;
+}
+
+/* ---- events ------------------------------------------------------------------------------------ */
+
+static void open_as(answer *a, int layout, const char *kind, const char *text) {
+    a->layout = layout;
+    a->any = false;
+    if (a->form->open)
+        a->form->open(a, kind, text);
+}
+
+void answer_event(answer *a, const char *name) {
+    open_as(a, LAYOUT_QUIET, "event", name);
+}
+
+void answer_report(answer *a, const char *name) {
+    open_as(a, LAYOUT_LINE, "event", name);
+}
+
+void answer_page(answer *a, const char *name) {
+    open_as(a, LAYOUT_PAGE, "event", name);
+}
+
+void answer_message(answer *a, const char *kind, const char *text) {
+    open_as(a, LAYOUT_QUIET, kind, text);
+}
+
+void answer_done(answer *a) {
+    if (a->form->close)
+        a->form->close(a);
+}
+
+void answer_number(answer *a, const char *name, double v) {
+    if (a->form->number)
+        a->form->number(a, name, v);
+}
+
+void answer_string(answer *a, const char *name, const char *text) {
+    if (a->form->string)
+        a->form->string(a, name, text);
+}
+
+void answer_flag(answer *a, const char *name, bool v) {
+    if (a->form->flag)
+        a->form->flag(a, name, v);
+}
+
+void answer_list(answer *a, const char *name, const double *v, size_t count) {
+    if (a->form->list)
+        a->form->list(a, name, v, count);
+}
+
+void answer_quantity(answer *a, const char *name, value v) {
+    if (a->form->quantity)
+        a->form->quantity(a, name, v);
+}
+
+void answer_fact(answer *a, const char *name, const char *text) {
+    if (a->form->fact)
+        a->form->fact(a, name, text);
+}
+
+void answer_share(answer *a, const char *name, double part) {
+    if (a->form->share)
+        a->form->share(a, name, part);
+}
+
+void answer_group(answer *a, const char *name) {
+    if (a->form->group)
+        a->form->group(a, name);
+}
+
+void answer_up(answer *a) {
+    if (a->form->up)
+        a->form->up(a);
+}
+
+void answer_items(answer *a, const char *name) {
+    if (a->form->items)
+        a->form->items(a, name);
+}
+
+void answer_item(answer *a) {
+    if (a->form->item)
+        a->form->item(a);
+}
+
+void answer_item_up(answer *a) {
+    if (a->form->item_up)
+        a->form->item_up(a);
+}
+
+void answer_items_up(answer *a) {
+    if (a->form->items_up)
+        a->form->items_up(a);
+}
+
+void answer_words(answer *a, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    if (a->form->words)
+        a->form->words(a, format, args);
+    va_end(args);
+}
+
+/* ---- tables ------------------------------------------------------------------------------------ */
+
+bool answer_columns(answer *a, const char *event, const column *columns, size_t count) {
+    a->columns = columns;
+    a->count = count;
+    return a->form->columns(a, event);
+}
+
+void answer_row(answer *a, const long double *si) {
+    a->form->row(a, si);
+}
+
+bool answer_shows_next(const answer *a) {
+    return a->form != &answer_as_text || a->headed || a->rows + 1 == TEXT_HELD;
+}
+
+void answer_gap(answer *a) {
+    a->gap = true;
+}
+
+/* ---- tables of words and rough numbers --------------------------------------------------------- */
+
+void answer_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
+    a->form->heads(a, event, heads, count);
+}
+
+void answer_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
+    a->form->cells(a, heads, cells, count);
+}

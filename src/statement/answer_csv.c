@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Answers as CSV: a header with units, then rows. What is no row is as in text. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "number/array.h"
+#include "statement/answer_form.h"
+
+/* ---- rows -------------------------------------------------------------------------------------- */
+
+static void put_header(FILE *to, const column *columns, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const column *c = &columns[i];
+        const char *quote = strchr(c->name, ',') ? "\"" : ""; /* quotes and ends of lines are in no name */
+        fprintf(to, *c->unit ? "%s%s%s [%s]%s" : "%s%s%s%s%s", i ? "," : "", quote, c->name, c->unit, quote);
+    }
+    putc('\n', to);
+}
+
+static void put_cells(FILE *to, const column *columns, const long double *si, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const double v = (double)(si[i] / columns[i].scale);
+        if (i)
+            putc(',', to);
+        if (isfinite(v))
+            print_number(to, 0, 17, v);
+    }
+    putc('\n', to);
+}
+
+static bool put_columns(answer *a, const char *event) {
+    (void)event;
+    put_header(a->to, a->columns, a->count);
+    return true;
+}
+
+static void put_row(answer *a, const long double *si) {
+    put_cells(a->to, a->columns, si, a->count);
+}
+
+static void put_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
+    (void)event;
+    for (size_t i = 0; i < count; i++) {
+        const answer_head *h = &heads[i];
+        const bool has_unit = !h->csv && *h->unit;
+        fprintf(a->to, has_unit ? "%s%s [%s]" : "%s%s", i ? "," : "", h->csv ? h->csv : h->name, h->unit);
+    }
+    putc('\n', a->to);
+}
+
+static void put_mixed(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
+    (void)heads;
+    for (size_t i = 0; i < count; i++) {
+        const answer_cell *c = &cells[i];
+        const char *quote = c->words && strchr(c->words, ',') ? "\"" : "";
+        if (i)
+            putc(',', a->to);
+        if (c->kind == CELL_WORDS)
+            fprintf(a->to, "%s%s%s", quote, c->words, quote);
+        else
+            print_number(a->to, 0, c->kind == CELL_FLAG ? 1 : c->digits, c->v);
+    }
+    putc('\n', a->to);
+}
+
+/* ---- values: all of an answer are one row ------------------------------------------------------ */
+
+/* `before`, a blank and `name` as the name, or one of them. unit: of whom the column has it; NULL: it has
+ * none. */
+static void wait_for_row(answer *a, const char *before, const char *name, const column *unit_of,
+                         long double si) {
+    struct waiting *w = &a->waiting;
+    column *of = fret_array_for(w->of, &w->room, w->count + 1, sizeof *of);
+    w->of = of ? of : w->of;
+    long double *v = of ? fret_array_for(w->si, &w->room_si, w->count + 1, sizeof *v) : NULL;
+    w->si = v ? v : w->si;
+    const size_t size = strlen(before) + strlen(name) + 2;
+    char *whole = v ? malloc(size) : NULL;
+    if (!whole) {
+        a->lost = true;
+        return;
+    }
+    snprintf(whole, size, "%s%s%s", before, *before && *name ? " " : "", name);
+    w->of[w->count] = unit_of ? *unit_of : (column){.scale = 1};
+    w->of[w->count].name = whole;
+    w->si[w->count++] = si;
+}
+
+static void put_value(answer *a, const column *c, long double si) {
+    wait_for_row(a, c->name, "", c, si);
+}
+
+static void put_estimate(answer *a, const column *c, long double si, long double deviation) {
+    a->waiting.estimate = a->waiting.count;
+    wait_for_row(a, c->name, "", c, si);
+    wait_for_row(a, c->name, "deviation", c, deviation);
+}
+
+static void put_share(answer *a, const char *name, double part) {
+    char from[LEX_NAME + 8];
+    const struct waiting *w = &a->waiting;
+    snprintf(from, sizeof from, "from %s", name);
+    if (!a->lost)
+        wait_for_row(a, w->of[w->estimate].name, from, NULL, part);
+}
+
+static void put_waiting(answer *a, bool ok) {
+    struct waiting *w = &a->waiting;
+    if (ok && !a->lost && w->count) {
+        put_header(a->to, w->of, w->count);
+        put_cells(a->to, w->of, w->si, w->count);
+    }
+    columns_free(w->of, w->count);
+    free(w->of);
+    free(w->si);
+    *w = (struct waiting){.count = 0};
+}
+
+/* A page is as in text; elsewhere rows have it all. */
+static void put_words(answer *a, const char *format, va_list args) {
+    if (a->layout == LAYOUT_PAGE)
+        text_words(a, format, args);
+}
+
+const answer_form answer_as_csv = {
+    .value = put_value,
+    .estimate = put_estimate,
+    .close = text_close,
+    .quantity = text_quantity,
+    .fact = text_fact,
+    .words = put_words,
+    .share = put_share,
+    .columns = put_columns,
+    .row = put_row,
+    .heads = put_heads,
+    .cells = put_mixed,
+    .end = put_waiting,
+};

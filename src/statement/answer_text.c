@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Answers as text, for readers: units that suit, as many digits as are set. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "statement/answer_form.h"
+#include "text/characters.h"
+
+/* ---- values ------------------------------------------------------------------------------------ */
+
+static void put_value(answer *a, const column *c, long double si) {
+    char text[COLUMN_UNIT + NUMBER_TEXT + 2], number[NUMBER_TEXT];
+    if (c->chosen) {
+        number_text(number, a->set->digits, (double)(si / c->scale));
+        snprintf(text, sizeof text, "%s %s", number, c->unit);
+    } else {
+        format_value(a->set, (value){si, c->d}, text, sizeof text);
+    }
+    fprintf(a->to, "%s = %s\n", c->name, text);
+}
+
+/* Both in the unit of the value. */
+static void put_estimate(answer *a, const column *c, long double si, long double deviation) {
+    char unit_text[COLUMN_UNIT], value_text[NUMBER_TEXT], deviation_text[NUMBER_TEXT];
+    long double scale = c->scale;
+    if (c->chosen)
+        snprintf(unit_text, sizeof unit_text, "%s", c->unit);
+    else
+        scale = unit_choose(c->d, si, a->set->digits, unit_text, sizeof unit_text);
+    number_text(value_text, a->set->digits, (double)(si / scale));
+    number_text(deviation_text, 3, (double)(deviation / scale));
+    const char *blank = *unit_text ? " " : "";
+    fprintf(a->to, "%s = %s%s%s +- %s%s%s\n", c->name, value_text, blank, unit_text, deviation_text, blank,
+            unit_text);
+}
+
+static void put_beside(answer *a, const column *c, long double si, long double deviation) {
+    fputs("    ", a->to);
+    put_estimate(a, c, si, deviation);
+}
+
+/* ---- events ------------------------------------------------------------------------------------ */
+
+void text_quantity(answer *a, const char *name, value v) {
+    char text[160];
+    if (a->layout == LAYOUT_QUIET)
+        return;
+    format_value(a->set, v, text, sizeof text);
+    if (a->layout == LAYOUT_PAGE) {
+        fprintf(a->to, "    %s = %s\n", name, text);
+    } else {
+        fprintf(a->to, "%s%s = %s", a->any ? ", " : "  ", name, text);
+        a->any = true;
+    }
+}
+
+void text_fact(answer *a, const char *name, const char *text) {
+    if (a->layout == LAYOUT_PAGE)
+        fprintf(a->to, "    %s: %s\n", name, text);
+}
+
+void text_close(answer *a) {
+    if (a->layout == LAYOUT_LINE)
+        putc('\n', a->to);
+}
+
+void text_words(answer *a, const char *format, va_list args) {
+    vfprintf(a->to, format, args);
+}
+
+static void put_share(answer *a, const char *name, double part) {
+    fprintf(a->to, "%s%s %.3g %%", a->any ? ", " : "    from ", name, 100 * part);
+    a->any = true;
+}
+
+/* Shares are a line. */
+static void end_group(answer *a) {
+    if (a->any)
+        putc('\n', a->to);
+    a->any = false;
+}
+
+/* ---- tables ------------------------------------------------------------------------------------ */
+
+/* The unit of a text column: the one that was asked for, or one that suits what is held. */
+static void choose_unit(answer *a, size_t i, char unit_text[COLUMN_UNIT]) {
+    column c = a->columns[i];
+    column_suit(&c, a->held + i, a->rows, a->count + 1, a->set->digits);
+    a->scale[i] = c.scale;
+    snprintf(unit_text, COLUMN_UNIT, "%s", c.unit);
+}
+
+/* As wide as a number with its digits, or as the name. */
+static void text_head(answer *a) {
+    for (size_t i = 0; i < a->count; i++) {
+        char unit_text[COLUMN_UNIT];
+        const column *c = &a->columns[i];
+        choose_unit(a, i, unit_text);
+        const size_t unit_width = text_columns(unit_text, strlen(unit_text)),
+                     head = text_columns(c->name, strlen(c->name)) + (*unit_text ? unit_width + 3 : 0);
+        const size_t number = (size_t)a->set->digits + 7;
+        a->width[i] = (int)(head > number ? head : number);
+        fprintf(a->to, "%s%*s", i ? "  " : "", a->width[i] - (int)head, "");
+        fprintf(a->to, *unit_text ? "%s [%s]" : "%s", c->name, unit_text);
+    }
+    putc('\n', a->to);
+}
+
+static void text_row(const answer *a, const long double *si) {
+    if (si[a->count] != 0)
+        putc('\n', a->to);
+    for (size_t i = 0; i < a->count; i++) {
+        const double v = (double)(si[i] / a->scale[i]);
+        if (i)
+            fwrite("  ", 1, 2, a->to);
+        if (isfinite(v))
+            print_number(a->to, a->width[i], a->set->digits, v);
+        else
+            fprintf(a->to, "%*s", a->width[i], "");
+    }
+    putc('\n', a->to);
+}
+
+static void release(answer *a) {
+    a->headed = true;
+    text_head(a);
+    for (size_t row = 0; row < a->rows; row++)
+        text_row(a, a->held + row * (a->count + 1));
+    free(a->held);
+    a->held = NULL;
+    a->rows = 0;
+}
+
+static void hold(answer *a, const long double *si) {
+    long double row[COLUMNS + 1];
+    memcpy(row, si, a->count * sizeof *row);
+    row[a->count] = a->gap;
+    a->gap = false;
+    if (!a->headed)
+        memcpy(a->held + a->rows++ * (a->count + 1), row, (a->count + 1) * sizeof *row);
+    if (a->headed)
+        text_row(a, row);
+    else if (a->rows == TEXT_HELD)
+        release(a);
+}
+
+static bool put_columns(answer *a, const char *event) {
+    (void)event;
+    a->headed = a->gap = false;
+    a->rows = 0;
+    a->held = malloc(TEXT_HELD * (a->count + 1) * sizeof *a->held);
+    return a->held != NULL;
+}
+
+static void put_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
+    (void)event;
+    for (size_t i = 0; i < count; i++)
+        if (heads[i].shown)
+            fprintf(a->to, "%s%*s", i ? " " : "", heads[i].width, heads[i].shown);
+    putc('\n', a->to);
+}
+
+static void put_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (heads[i].shown)
+            fprintf(a->to, "%s%*s", i ? " " : "", heads[i].width,
+                    cells[i].shown ? cells[i].shown : cells[i].words);
+    putc('\n', a->to);
+}
+
+static void end(answer *a, bool ok) {
+    if (ok && a->held)
+        release(a);
+    free(a->held);
+    a->held = NULL;
+}
+
+const answer_form answer_as_text = {
+    .value = put_value,
+    .estimate = put_estimate,
+    .beside = put_beside,
+    .close = text_close,
+    .quantity = text_quantity,
+    .fact = text_fact,
+    .share = put_share,
+    .up = end_group,
+    .words = text_words,
+    .columns = put_columns,
+    .row = hold,
+    .heads = put_heads,
+    .cells = put_cells,
+    .end = end,
+};

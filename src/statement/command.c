@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rows of the table of commands, as it has been handed down: who runs, completes or explains statements asks
+ * here, and knows no handler. */
+#include "statement/command.h"
+
+#include <assert.h>
+
+/* There is one program, and one table of it. */
+static const command *all;
+static const hole_row *all_holes;
+static size_t count;
+
+void command_use(const command *rows, const hole_row *of) {
+    all = rows;
+    all_holes = of;
+    for (count = 0; rows[count].name; count++)
+        ;
+}
+
+const command *command_row(size_t i) {
+    return i < count ? &all[i] : NULL;
+}
+
+const char *command_name(size_t i) {
+    return i < count ? all[i].name : NULL;
+}
+
+const command *command_find(const char *name, size_t len) {
+    static word_index words = {.name = command_name};
+    size_t row;
+    return word_find(&words, name, len, &row) ? &all[row] : NULL;
+}
+
+const hole_row *hole_at(size_t i) {
+    return all_holes[i].name ? &all_holes[i] : NULL; /* asked one by one */
+}
+
+/* ---- what they take ---------------------------------------------------------------------------- */
+
+enum { COMMANDS = 48, SHAPES = 16 };
+
+const grammar *grammar_made(grammar *f, const char *name, const char *shape, const char *takes) {
+    const char *at;
+    if (f->takes)
+        return f;
+    f->command = name;
+    f->shape = shape;
+    f->takes = takes;
+    const bool ok = grammar_parse(f, all_holes, &at);
+    assert(ok); /* unreached: a test parses every row */
+    (void)ok;
+    return f;
+}
+
+const grammar *command_form(const command *c) {
+    static grammar forms[COMMANDS];
+    return grammar_made(&forms[c - all], c->name, NULL, c->takes);
+}
+
+const grammar *shape_form(const geometry *g) {
+    static grammar forms[SHAPES];
+    return grammar_made(&forms[g - geometry_row(0)], "geometry", g->name, g->takes);
+}
+
+bool argument_word(const lexer *lx) {
+    const command *c;
+    if (lex_is(lx, "in") || lex_is(lx, "at"))
+        return true;
+    for (size_t i = 0; (c = command_row(i)); i++) {
+        const grammar *f = command_form(c);
+        for (const clause *a = f->clause; a < f->clause + f->count; a++)
+            if (!a->argument && lex_is(lx, a->name))
+                return true;
+    }
+    return false;
+}

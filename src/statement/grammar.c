@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parsing what rows take. */
+#include "statement/grammar.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/quantity.h"
+#include "text/words.h"
+
+/* Arguments that are no quantities. */
+static const struct {
+    const char *name;
+    dim d;
+    value_must must;
+} others[] = {{"angle", {0, 0, 1}, ANY}, {"R1", {0, 1, 0}, NONZERO}, {"R2", {0, 1, 0}, NONZERO}};
+
+typedef struct parsing {
+    grammar *out;
+    const hole_row *holes;
+    const char *p;
+    clause *open; /* the clause whose holes may come */
+    bool bracket;
+    unsigned groups, first; /* of the ways that are parted here: the clauses from `first` on */
+    bool parted;
+} parsing;
+
+static bool is_capital(char c) {
+    return c >= 'A' && c <= 'Z';
+}
+
+static size_t word_length(const char *p) {
+    return strcspn(p, " []");
+}
+
+static clause *add(parsing *g, const char *name, size_t len) {
+    grammar *f = g->out;
+    if (f->count == CLAUSES || len >= CLAUSE_NAME)
+        return NULL;
+    clause *a = &f->clause[f->count++];
+    *a = (clause){.optional = g->bracket, .way = g->parted ? a[-1].way + 1 : 0, .group = g->groups};
+    if (!g->parted && f->count - 1 > g->first)
+        a->way = a[-1].way;
+    memcpy(a->name, name, len);
+    a->text = name;
+    a->len = len;
+    g->parted = false;
+    return a;
+}
+
+/* NAME=, NAME:= or NAME+=, and an example as far as the next clause. */
+static bool parse_argument(parsing *g, size_t n) {
+    const char *equals = memchr(g->p, '=', n);
+    const bool marked = equals > g->p && strchr(":+", equals[-1]);
+    const size_t len = (size_t)(equals - g->p) - marked;
+    clause *a = add(g, g->p, len);
+    const quantity *q = quantity_find(g->p, len);
+    if (!a)
+        return false;
+    a->argument = true;
+    a->live = marked && equals[-1] == ':';
+    a->increment = marked && equals[-1] == '+';
+    g->open = NULL;
+    size_t other = 0;
+    while (!q && other < sizeof others / sizeof *others && strcmp(others[other].name, a->name) != 0)
+        other++;
+    if (!q && other == sizeof others / sizeof *others)
+        return false;
+    a->d = q ? q->d : others[other].d;
+    if (!q)
+        a->must = others[other].must;
+    else if (!a->increment &&
+             quantity_is_input(q)) /* where an increment leads to is known to the load alone */
+        a->in = 1 + (int)quantity_input(q);
+    else if (!a->increment)
+        a->must = POSITIVE;
+    for (g->p += n; *g->p == ' '; g->p += n) {
+        n = word_length(g->p + 1) + 1;
+        if (n == 1 || g->p[1] == '|' || memchr(g->p, '=', n))
+            break;
+    }
+    return !a->live || a->in;
+}
+
+static bool parse_clauses(parsing *g, const char *clauses);
+
+static bool parse_hole(parsing *g, size_t n, char before) {
+    size_t len = 0;
+    const hole_row *row = g->holes;
+    while (len < n && (is_capital(g->p[len]) || g->p[len] == '_'))
+        len++;
+    while (row->name && (strlen(row->name) != len || strncmp(row->name, g->p, len)))
+        row++;
+    if (!row->name)
+        return false;
+    if (row->kind == HOLE_CLAUSES) {
+        g->p += n;
+        g->open = NULL;
+        return parse_clauses(g, row->clauses);
+    }
+    clause *a = g->open ? g->open : add(g, "", 0);
+    if (!a || a->holes == CLAUSE_HOLES)
+        return false;
+    g->open = a;
+    hole *h = &a->hole[a->holes++];
+    *h = (hole){.row = row, .before = before};
+    if (g->p[len] == ':')
+        h->most = (unsigned)strtoul(g->p + len + 1, NULL, 10);
+    if (row->kind == HOLE_VALUE) {
+        const quantity *q = quantity_find(row->noun, strlen(row->noun));
+        if (!q || !quantity_is_input(q))
+            return false;
+        a->d = q->d;
+        a->in = 1 + (int)quantity_input(q);
+    }
+    g->p += n;
+    if (row->kind == HOLE_SPAN &&
+        (!strncmp(g->p, " .. ", 4) || !strncmp(g->p, " to ", 4))) /* the other end */
+        g->p += 4 + word_length(g->p + 4);
+    if (g->p[-1] == ',' && !strncmp(g->p, " ...", 4))
+        a->list = true;
+    if (!strncmp(g->p, " ...", 4))
+        g->p += 4;
+    a->len = (size_t)(g->p - a->text);
+    return true;
+}
+
+/* The clauses since the last bracket are ways of a group, where there are several. */
+static void close_group(parsing *g) {
+    grammar *f = g->out;
+    const bool several = f->count > g->first && f->clause[f->count - 1].way > 0;
+    for (unsigned i = g->first; i < f->count; i++)
+        f->clause[i].group = several ? g->groups : 0;
+    g->groups++;
+    g->first = f->count;
+    g->open = NULL;
+}
+
+static bool parse_word(parsing *g) {
+    const size_t n = word_length(g->p);
+    char before = 0;
+    if (g->open && !strncmp(g->p, "= ", 2))
+        before = '=';
+    else if (g->open && !strncmp(g->p, "+- ", 3))
+        before = '+';
+    if (before) {
+        g->p += n + 1;
+        return is_capital(*g->p) && parse_hole(g, word_length(g->p), before);
+    }
+    if (memchr(g->p, '=', n))
+        return parse_argument(g, n);
+    if (is_capital(*g->p))
+        return parse_hole(g, n, 0);
+    if (*g->p < 'a' || *g->p > 'z' || !(g->open = add(g, g->p, n)))
+        return false;
+    g->p += n;
+    return true;
+}
+
+static bool parse_all(parsing *g) {
+    while (*g->p) {
+        const char c = *g->p;
+        if (c == ' ') {
+            g->p++;
+        } else if (c == '[' && !g->bracket) {
+            close_group(g);
+            g->bracket = true;
+            g->p++;
+        } else if (c == ']' && g->bracket && g->out->count > g->first && !g->parted) {
+            const bool again = *++g->p == '*';
+            for (unsigned i = g->first; i < g->out->count; i++)
+                g->out->clause[i].again = again;
+            g->p += again;
+            close_group(g);
+            g->bracket = false;
+        } else if (c == '|' && g->p[1] == ' ' && g->out->count > g->first && !g->parted) {
+            g->parted = true;
+            g->open = NULL;
+            g->p++;
+        } else if (!parse_word(g)) {
+            return false;
+        }
+    }
+    if (g->bracket || g->parted)
+        return false;
+    close_group(g);
+    return true;
+}
+
+static bool parse_clauses(parsing *g, const char *clauses) {
+    parsing inner = *g;
+    close_group(&inner);
+    inner.bracket = false;
+    inner.p = clauses;
+    if (!parse_all(&inner))
+        return false;
+    g->groups = inner.groups;
+    g->first = inner.first;
+    g->open = NULL;
+    return true;
+}
+
+bool grammar_parse(grammar *out, const hole_row *holes, const char **at) {
+    parsing g = {.out = out, .holes = holes, .p = out->takes, .groups = 1};
+    out->count = 0;
+    const bool ok = parse_all(&g);
+    *at = g.p;
+    return ok;
+}
+
+const clause *grammar_clause(const grammar *f, const char *name) {
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (!strcmp(a->name, name))
+            return a;
+    return NULL;
+}
+
+const hole_row *grammar_first(const grammar *f, hole_kind kind) {
+    for (const clause *a = f->clause; a < f->clause + f->count && !*a->name; a++)
+        if (a->hole[0].row->kind == kind)
+            return a->hole[0].row;
+    return NULL;
+}
+
+void grammar_usage(const grammar *f, char buf[GRAMMAR_USAGE]) {
+    int n = snprintf(buf, GRAMMAR_USAGE, "%s%s%s%s", f->command, f->shape ? " " : "",
+                     f->shape ? f->shape : "", *f->takes ? " " : "");
+    takes_text(f->takes, buf + n, GRAMMAR_USAGE - (size_t)n);
+}

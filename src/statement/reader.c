@@ -1,0 +1,502 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Statements by the rows that describe them. */
+#include "statement/reader.h"
+
+#include <string.h>
+
+#include "text/unit_text.h"
+
+/* ---- what has been said ------------------------------------------------------------------------ */
+
+bool names_wake(shell *sh, const lexer *lx, size_t before) {
+    own_names *n = &sh->calc.names;
+    const char *text = lx->text + lx->at;
+    size_t i;
+    if (quantity_find(text, lx->len) || name_taken(text, lx->len) || names_find(n, text, lx->len, &i))
+        return true;
+    if (!names_add(n, text, lx->len, &i))
+        return calc_no_memory(lx->error);
+    n->row[i].woken = i < before;
+    n->row[i].known = true;
+    return true;
+}
+
+void names_forget(shell *sh, size_t before) {
+    own_names *n = &sh->calc.names;
+    names_drop(n, before);
+    for (size_t i = 0; i < n->count; i++)
+        if (n->row[i].woken)
+            n->row[i].known = n->row[i].woken = false;
+}
+
+void said_drop(shell *sh, said *s) {
+    for (unsigned i = 0; i < s->count; i++) {
+        counted_drop(s->list[i].live);
+        s->list[i].live = NULL;
+    }
+    if (s->wakes)
+        names_forget(sh, s->names);
+    s->wakes = false;
+}
+
+heard *said_of(said *s, const char *name, size_t i) {
+    for (heard *h = s->list; h < s->list + s->count; h++)
+        if (!strcmp(h->of->name, name) && i-- == 0)
+            return h;
+    return NULL;
+}
+
+lexer hole_lexer(const lexer *lx, const span *part) {
+    lexer own = *lx;
+    own.end = part->at + part->len;
+    size_t next = own.end;
+    while (next < lx->end && strchr(" \t\r\n", lx->text[next]))
+        next++;
+    own.part = next < lx->end;
+    lex_seek(&own, part->at);
+    return own;
+}
+
+bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
+    lexer own = *lx;
+    own.at = part->at;
+    return lex_filename(&own, name, FILE_NAME);
+}
+
+static const hole_row *first_hole(const clause *a) {
+    return a->holes ? a->hole[0].row : NULL;
+}
+
+static bool is_choice(const hole_row *row, const char *word, size_t len, size_t *choice) {
+    const char *name;
+    for (*choice = 0; (name = row->words(*choice)); ++*choice)
+        if (!strncmp(name, word, len) && !name[len])
+            return true;
+    return false;
+}
+
+/* ---- errors ------------------------------------------------------------------------------------ */
+
+static const char *who(const grammar *f) {
+    return f->shape ? f->shape : f->command;
+}
+
+static bool unknown_argument(lexer *lx, const grammar *f) {
+    char usage[GRAMMAR_USAGE];
+    grammar_usage(f, usage);
+    return calc_fail(lx->error, lx->at, lx->len, "%s has no %s '%.*s'; usage: %s", who(f),
+                     f->shape ? "parameter" : "argument", LEX_WORD(lx), usage);
+}
+
+static bool not_taken(lexer *lx, const grammar *f, const char *name, token_kind how) {
+    char usage[GRAMMAR_USAGE];
+    grammar_usage(f, usage);
+    return calc_fail(lx->error, lx->at, lx->len, "%s does not take %s by %s; usage: %s", who(f), name,
+                     how == T_DEFINE ? ":=" : "+=", usage);
+}
+
+/* "R1 and R2": the arguments of a way. */
+static void way_words(const grammar *f, const clause *of, char *buf, size_t size) {
+    *buf = 0;
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (a->group == of->group && a->way == of->way)
+            snprintf(buf + strlen(buf), size - strlen(buf), "%s%s", *buf ? " and " : "", a->name);
+}
+
+/* Twice the same, or another way than one that has been gone. */
+static bool may_come(lexer *lx, const said *s, const clause *a) {
+    char one[80], other[80];
+    for (const heard *h = s->list; h < s->list + s->count; h++) {
+        if (h->of == a && !a->again)
+            return calc_fail(lx->error, lx->at, lx->len, "%s is given twice", a->name);
+        if (!a->group || h->of->group != a->group || h->of->way == a->way)
+            continue;
+        way_words(s->by, h->of, one, sizeof one);
+        way_words(s->by, a, other, sizeof other);
+        return calc_fail(lx->error, lx->at, lx->len, "give either %s or %s",
+                         h->of->way < a->way ? one : other, h->of->way < a->way ? other : one);
+    }
+    return true;
+}
+
+static heard *add(lexer *lx, said *s, const clause *a) {
+    if (s->count == HEARD) {
+        lex_raise(lx, "more than %d clauses", HEARD);
+        return NULL;
+    }
+    heard *h = &s->list[s->count++];
+    h->of = a;
+    h->at = lx->at;
+    h->len = lx->len;
+    h->live = NULL;
+    h->increment = false;
+    return h;
+}
+
+/* ---- values ------------------------------------------------------------------------------------ */
+
+static bool in_range(lexer *lx, const heard *h) {
+    const clause *a = h->of;
+    fret_status st = {FRET_NOT_POSITIVE, a->name, (double)h->v.v, 0};
+    if (a->in == 1 + IN_A) {
+        char unit_text[128];
+        dim_unit(h->v.d, unit_text, sizeof unit_text);
+        return h->v.v > 0 ||
+               calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s = %.6Lg%s%s must be positive", a->name,
+                         h->v.v, *unit_text ? " " : "", unit_text);
+    }
+    if (a->in) {
+        st = input_status((input)(a->in - 1), (double)h->v.v);
+        return calc_input_status(lx->error, a->in - 1, &st) || heard_place(lx->error, h);
+    }
+    if (a->must == NONZERO && h->v.v == 0)
+        return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s must not be 0", a->name);
+    return a->must != POSITIVE || h->v.v > 0 || calc_status(lx->error, &st) || heard_place(lx->error, h);
+}
+
+static bool read_expression(shell *sh, lexer *lx, heard *h) {
+    h->hole[0].at = lx->at;
+    const bool ok = expr_value(&sh->calc, lx, &h->v) && !stray_unit(lx);
+    h->hole[0].len = lx->last - h->hole[0].at;
+    return ok;
+}
+
+/* name: as messages call it. */
+static bool read_value(shell *sh, lexer *lx, const char *name, dim d, heard *h) {
+    return read_expression(sh, lx, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
+           in_range(lx, h);
+}
+
+/* The dimension of A follows from n. */
+static bool argument_dim(lexer *lx, said *s, const clause *a, dim *d) {
+    *d = a->d;
+    if (a->in != 1 + IN_A)
+        return true;
+    const heard *n = said_of(s, "n", 0);
+    if (n && !n->live)
+        *d = (dim){0, 1 - (double)n->v.v, 0};
+    return n || lex_fail(lx, "give n before A: the dimension of A depends on it");
+}
+
+static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
+    const grammar *f = s->by;
+    const clause *a = f->clause, *end = a + f->count;
+    dim d;
+    while (a < end && !(a->argument && lex_is(lx, a->name)))
+        a++;
+    if (a == end)
+        return unknown_argument(lx, f);
+    if (!may_come(lx, s, a))
+        return false;
+    if ((how == T_INCREMENT && !a->increment) || (how == T_DEFINE && !a->live))
+        return not_taken(lx, f, a->name, how);
+    heard *h = argument_dim(lx, s, a, &d) ? add(lx, s, a) : NULL;
+    if (!h)
+        return false;
+    h->increment = how == T_INCREMENT;
+    lex_next(lx);
+    lex_next(lx);
+    if (how != T_DEFINE)
+        return read_value(sh, lx, a->name, d, h);
+    h->hole[0].at = lx->at;
+    const bool ok = calc_bind(&sh->calc, lx, (input)(a->in - 1), &h->live);
+    h->hole[0].len = lx->last - h->hole[0].at;
+    return ok;
+}
+
+static bool read_seconds(shell *sh, lexer *lx, const hole *of, heard *h) {
+    return read_expression(sh, lx, h) &&
+           ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
+            calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
+                      "the seconds must be a positive number up to %u", of->most));
+}
+
+static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
+    char word[LEX_NAME], list[CALC_ERROR_TEXT - 64] = "";
+    const size_t len = choice_at(lx);
+    h->hole[0] = (span){lx->at, len};
+    if (is_choice(row, lx->text + lx->at, len, &h->choice)) {
+        lex_seek(lx, lx->at + len);
+        return true;
+    }
+    snprintf(word, sizeof word, "%.*s", LEX_SHOWN(len), lx->text + lx->at);
+    lx->len = len;
+    if (!row->noun) { /* one of few */
+        for (size_t i = 0; row->words(i); i++)
+            snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s %s",
+                     !i                  ? ""
+                     : row->words(i + 1) ? ", "
+                                         : " or ",
+                     h->of->name, row->words(i));
+        return lex_fail(lx, "expected %s", list);
+    }
+    const char *near = suggest(word, row->words);
+    for (size_t i = 0; i < 7 && row->words(i); i++)
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", row->words(i));
+    if (row->words(7))
+        snprintf(list + strlen(list), sizeof list - strlen(list), ", ...");
+    return lex_fail(lx, near ? "unknown %s '%s': did you mean %s?" : "unknown %s '%s' (%s)", row->noun, word,
+                    near ? near : list);
+}
+
+/* ---- clauses ----------------------------------------------------------------------------------- */
+
+static const clause *clause_named(const lexer *lx, const grammar *f) {
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (!a->argument && *a->name && lex_is(lx, a->name))
+            return a;
+    return NULL;
+}
+
+/* Does a word follow that begins no clause, and so is a choice? */
+static bool choice_follows(const lexer *lx, const grammar *f) {
+    calc_error ignored;
+    lexer next = *lx;
+    error_clear(&ignored);
+    next.error = &ignored;
+    lex_next(&next);
+    return next.kind == T_NAME && !clause_named(&next, f);
+}
+
+/* The clause of the word at the cursor, or NULL. Of two of that name one has a choice: `log`, `log x`. */
+static const clause *clause_at(const lexer *lx, const grammar *f) {
+    const clause *found = clause_named(lx, f);
+    for (const clause *a = found ? found + 1 : f->clause + f->count; a < f->clause + f->count; a++)
+        if (!strcmp(a->name, found->name))
+            return choice_follows(lx, f) ? a : found;
+    return found;
+}
+
+/* ---- parts that are found ---------------------------------------------------------------------- */
+
+/* Over a part of the statement: behind an operand a word of the row begins a clause, and nowhere else can it.
+ * A comma may end the part, and an `=` that does not belong to `at`. */
+static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_ends) {
+    calc_error ignored, *error = lx->error;
+    int depth = 0;
+    bool operand = false, changing = false;      /* it ends before the token; there has been an `at` */
+    enum { NOTHING, PLACE, NAMED } at = NOTHING; /* where `at` wants a name, and behind that name */
+    error_clear(&ignored);
+    for (lx->error = &ignored; lx->kind != T_END || ignored.raised; lex_next(lx)) {
+        const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
+        if (depth == 0 &&
+            (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
+             (lx->kind == T_ASSIGN && equals_ends && at != NAMED) || (name && operand && clause_at(lx, f))))
+            break;
+        error_clear(&ignored); /* who parses the part says what is no token */
+        depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
+        changing = changing || (joins && lex_is(lx, "at"));
+        at = name && at == PLACE ? NAMED : joins || (changing && lx->kind == T_COMMA) ? PLACE : NOTHING;
+        operand = !joins && (name || lx->kind == T_NUMBER || lx->kind == T_CLOSE || lx->kind == T_PERCENT ||
+                             lx->kind == T_STRING);
+    }
+    lx->error = error;
+}
+
+/* One name, which becomes known where it stands behind what uses it; of those that stand first several. */
+static bool skip_names(shell *sh, lexer *lx, said *s, const clause *a, bool wakes) {
+    if (lx->kind != T_NAME)
+        return *a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name");
+    if (a->list && !*a->name) {
+        skip_part(lx, s->by, false, false);
+        return true;
+    }
+    s->wakes = s->wakes || wakes;
+    if (wakes && lx->len < LEX_NAME && !names_wake(sh, lx, s->names))
+        return false;
+    lex_next(lx);
+    return !lx->error->raised;
+}
+
+static bool skip_load(lexer *lx, said *s) {
+    if (!lex_is(lx, "program") && !lex_is(lx, "cycle") && !lex_is(lx, "step"))
+        return lex_fail(lx, "along what? program, cycle, step ... or cycle ...");
+    skip_part(lx, s->by, false, false);
+    return true;
+}
+
+/* ---- holes ------------------------------------------------------------------------------------- */
+
+/* `mu=0.3` for `0.3`. */
+static bool skip_name(lexer *lx, const grammar *f, const hole_row *row) {
+    if (!at_argument(lx) || !lex_is(lx, row->noun))
+        return true;
+    if (lex_peek(lx) != T_ASSIGN)
+        return not_taken(lx, f, row->noun, lex_peek(lx));
+    lex_next(lx);
+    lex_next(lx);
+    return true;
+}
+
+static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
+    const clause *a = h->of;
+    const hole *of = &a->hole[i];
+    const hole_row *row = of->row;
+    bool ok = true;
+    h->hole[i].at = lx->at;
+    switch (row->kind) {
+    case HOLE_VALUE:
+        return skip_name(lx, s->by, row) && read_value(sh, lx, row->noun, h->of->d, h);
+    case HOLE_SECONDS:
+        return read_seconds(sh, lx, of, h);
+    case HOLE_CHOICE:
+        return read_choice(lx, row, h);
+    case HOLE_COUNT:
+        ok = read_count(&sh->calc, lx, h->of->name, of->most, &h->count);
+        break;
+    case HOLE_FILE: {
+        char name[FILE_NAME];
+        ok = lex_filename(lx, name, sizeof name);
+        break;
+    }
+    case HOLE_NAME:
+    case HOLE_INPUT:
+        ok = skip_names(sh, lx, s, a, row->kind == HOLE_NAME);
+        break;
+    case HOLE_LOAD:
+        ok = skip_load(lx, s);
+        break;
+    case HOLE_TEXT:
+        if (lx->kind != T_STRING)
+            return lex_fail(lx, "expected %s \"TEXT\"", a->name);
+        lex_next(lx);
+        break;
+    case HOLE_WORD:
+        h->hole[i].len = word_at(lx);
+        lex_seek(lx, lx->at + h->hole[i].len);
+        return true;
+    default:
+        skip_part(lx, s->by, a->list && *a->name, i + 1 < a->holes && a->hole[i + 1].before == '=');
+        break;
+    }
+    h->hole[i].len = lx->last > h->hole[i].at ? lx->last - h->hole[i].at : 0;
+    return ok &&
+           (h->hole[i].len || !*a->name || row->kind == HOLE_MAYBE || lex_fail(lx, "expected a value here"));
+}
+
+/* What parts the hole from the one before. */
+static bool read_between(lexer *lx, const heard *h, unsigned i) {
+    const char before = h->of->hole[i].before;
+    const span *name = &h->hole[i - 1];
+    const bool named = h->of->hole[i - 1].row->kind != HOLE_EXPR;
+    if (before == '=' && lx->kind != T_ASSIGN)
+        return named ? lex_fail(lx, "expected =%s after %.*s",
+                                h->of->hole[i].row->kind == HOLE_SPAN ? " LO .. HI" : "",
+                                LEX_SHOWN(name->len), lx->text + name->at)
+                     : lex_fail(lx, "expected = EXPR: what should it be equal to?");
+    if (before == '+') {
+        const size_t sign = lx->at;
+        if (lx->kind != T_PLUS || lex_peek(lx) != T_MINUS)
+            return lex_fail(lx, "expected +- after %.*s", LEX_SHOWN(name->len), lx->text + name->at);
+        lex_next(lx);
+        if (lx->at != sign + 1)
+            return lex_fail(lx, "expected +-");
+    }
+    if (before)
+        lex_next(lx);
+    return !lx->error->raised;
+}
+
+static bool read_holes(shell *sh, lexer *lx, said *s, heard *h) {
+    for (unsigned i = 0; i < h->of->holes; i++)
+        if ((i && !read_between(lx, h, i)) || !read_hole(sh, lx, s, h, i))
+            return false;
+    return true;
+}
+
+/* ---- the statement ----------------------------------------------------------------------------- */
+
+static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
+    heard *h = may_come(lx, s, a) ? add(lx, s, a) : NULL;
+    const hole_row *row = first_hole(a);
+    if (!h)
+        return false;
+    lex_next(lx);
+    if (row && row->kind == HOLE_FILE) /* a name need not be made of tokens */
+        error_clear(lx->error);
+    if (lx->error->raised || !read_holes(sh, lx, s, h))
+        return false;
+    while (a->list && lx->kind == T_COMMA) {
+        lex_next(lx);
+        h = add(lx, s, a);
+        if (!h || !read_holes(sh, lx, s, h))
+            return false;
+    }
+    return !lx->error->raised;
+}
+
+/* Is the word of a row that may begin with any word one of its clauses? `record off`, but `record off.txt`.
+ */
+static bool begins_clause(const lexer *lx, const clause *a) {
+    return a && word_at(lx) == lx->len && (a->holes == 0 || lex_peek(lx) != T_END);
+}
+
+/* What may only stand first. */
+static bool read_first(shell *sh, lexer *lx, said *s) {
+    const clause *a = s->by->clause, *end = a + s->by->count;
+    while (a + 1 < end && !*a[1].name) /* any expression may stand where a word may */
+        a++;
+    const hole_row *row = a < end && !*a->name ? first_hole(a) : NULL;
+    if (!row || (row->kind == HOLE_FILE && begins_clause(lx, clause_at(lx, s->by))) ||
+        (a->optional && lx->kind == T_END && !lx->error->raised))
+        return true;
+    if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || at_argument(lx)))
+        return true;
+    heard *h = add(lx, s, a);
+    return h && read_holes(sh, lx, s, h);
+}
+
+bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
+    out->by = f;
+    out->wakes = false;
+    out->names = sh->calc.names.count;
+    out->count = 0;
+    if (!read_first(sh, lx, out))
+        return false;
+    while (lx->kind == T_NAME) {
+        const token_kind how = lex_peek(lx);
+        const clause *a;
+        if (how == T_ASSIGN || how == T_INCREMENT || how == T_DEFINE) {
+            if (!read_argument(sh, lx, out, how))
+                return false;
+        } else if (!(a = clause_at(lx, f))) {
+            break;
+        } else if (!read_clause(sh, lx, out, a)) {
+            return false;
+        }
+    }
+    return !lx->error->raised;
+}
+
+bool said_end(lexer *lx, const grammar *f) {
+    char word[LEX_NAME];
+    if (lx->kind == T_COMMA)
+        return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", f->command);
+    if (lx->kind != T_NAME)
+        return at_end(lx);
+    lex_word(lx, word);
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (!a->argument && *a->name && one_letter_apart(word, a->name))
+            return lex_fail(lx, "unexpected '%s': did you mean %s?", word, a->name);
+    return at_end(lx);
+}
+
+/* Clauses that may not be left out. */
+static bool is_whole(lexer *lx, said *s) {
+    char text[GRAMMAR_USAGE], line[GRAMMAR_USAGE];
+    for (const clause *a = s->by->clause; a < s->by->clause + s->by->count; a++) {
+        if (a->argument || a->optional || a->group || !*a->name || said_of(s, a->name, 0))
+            continue;
+        if (s->count && !*s->list[0].of->name && !s->list[0].hole[0].len)
+            return lex_fail(lx, "expected a value here");
+        snprintf(line, sizeof line, "%.*s", (int)a->len, a->text);
+        takes_text(line, text, sizeof text);
+        return lex_fail(lx, "expected %s", text);
+    }
+    return true;
+}
+
+bool said_read(shell *sh, lexer *lx, const grammar *f, said *out) {
+    return (said_read_some(sh, lx, f, out) && is_whole(lx, out) && said_end(lx, f)) ||
+           (said_drop(sh, out), false);
+}

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading a statement by what its row takes: which clauses have been said, and what stands in their holes.
+ * Numbers, words and arguments are read at once; expressions, spans and names of files are found, as parts of
+ * the statement for their command to read. Changes nothing but which names are known. */
+#ifndef STATEMENT_READER_H
+#define STATEMENT_READER_H
+
+#include "statement/cursor.h"
+#include "statement/grammar.h"
+#include "statement/shell.h"
+
+/* A part of the statement. */
+typedef struct span {
+    size_t at, len;
+} span;
+
+/* What has been said for one clause of the row. */
+typedef struct heard {
+    const clause *of;
+    size_t at, len; /* of the word, or the name */
+    span hole[CLAUSE_HOLES];
+    bool increment;
+    value v;       /* of an argument, a value or a number of seconds */
+    counted *live; /* of an argument, to be taken over or dropped */
+    unsigned count;
+    size_t choice;
+} heard;
+
+enum { HEARD = 40, FILE_NAME = 4096 };
+typedef struct said {
+    const grammar *by;
+    bool wakes;   /* it has names that stand behind the expressions that use them: known until said_drop */
+    size_t names; /* of the session, before */
+    unsigned count;
+    heard list[HEARD]; /* in their order */
+} said;
+
+/* All to the end of the statement, the cursor behind the command word. */
+bool said_read(shell *sh, lexer *lx, const grammar *f, said *out);
+/* The same as far as the row goes, and the end behind it: no comma, no word misspelt. */
+bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out);
+bool said_end(lexer *lx, const grammar *f);
+/* What is live goes, unless it has been taken over, and what became known. */
+void said_drop(shell *sh, said *s);
+
+/* The name at the cursor becomes known, until names_forget; before: how many names there were. */
+bool names_wake(shell *sh, const lexer *lx, size_t before);
+void names_forget(shell *sh, size_t before);
+
+/* The i-th time that the clause of this name has been said, or NULL; "" is what stands first. */
+heard *said_of(said *s, const char *name, size_t i);
+/* A lexer over the hole alone, at its beginning. */
+lexer hole_lexer(const lexer *lx, const span *part);
+/* The name of a file that stands there. */
+bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]);
+/* Points the error, where it has no place, at the first hole. */
+#define heard_place(error, h) calc_place(error, (h)->hole[0].at, (h)->hole[0].len)
+
+#endif

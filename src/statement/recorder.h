@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A recorder, and the session's own streams below it: what is asked of it by whoever writes. record.c is what
+ * it does. */
+#ifndef STATEMENT_RECORDER_H
+#define STATEMENT_RECORDER_H
+
+#include "statement/shell.h"
+#include "text/cast.h"
+
+enum { HELD = 1024 };
+
+struct recorder {
+    shell *sh;
+    file_log log;
+    cast *cast;                /* that is written there; NULL: a transcript is */
+    FILE *out, *err;           /* of the session */
+    FILE *both_out, *both_err; /* with the file */
+    char *line;                /* that is to be written before anything follows, or NULL */
+    char held[HELD];           /* of the transcript's line */
+    size_t held_count;
+    bool escape; /* within a colour, which a transcript does without */
+    bool lost;   /* the file cannot be written any more */
+};
+
+/* Does the recorder pass on to standard output? */
+bool record_shows(const shell *sh);
+/* The session's own streams, below a recorder; and others in place of them. */
+void record_streams(const shell *sh, FILE **out, FILE **err);
+void record_divert(shell *sh, FILE *out, FILE *err);
+
+#endif

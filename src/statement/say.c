@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a session says beside its answers: notes, errors without a place, and whom it says them to. */
+#include <poll.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "statement/answer.h"
+#include "statement/progress.h"
+#include "statement/recorder.h"
+
+volatile sig_atomic_t shell_stop;
+
+void shell_message(const shell *sh, const char *kind, const char *text) {
+    answer a;
+    answer_begin(&a, &sh->set, sh->out);
+    answer_message(&a, kind, text);
+    answer_done(&a);
+    fflush(sh->out);
+}
+
+enum { NOTE = 8192 }; /* holds a file's name, escaped or not */
+
+/* On standard error, `before` it what it is; a program that reads answers finds it among them, as `kind`. */
+static void tell(shell *sh, const char *kind, const char *before, const char *format, va_list args) {
+    char text[NOTE];
+    progress_wipe();
+    vsnprintf(text, sizeof text, format, args);
+    shell_message(sh, kind, text);
+    fputs(before, sh->err);
+    print_safe(sh->err, text, strlen(text));
+    fputc('\n', sh->err);
+}
+
+void shell_say(shell *sh, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    tell(sh, "note", "", format, args);
+    va_end(args);
+}
+
+void shell_note(shell *sh, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    tell(sh, "note", "note: ", format, args);
+    va_end(args);
+}
+
+void shell_warning(shell *sh, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    tell(sh, "warning", "warning: ", format, args);
+    va_end(args);
+}
+
+bool shell_aside(const shell *sh, FILE *to) {
+    if (sh->replaying)
+        putc(MARK_ASIDE, to);
+    return sh->replaying || sh->interactive;
+}
+
+bool shell_on_terminal(const shell *sh) {
+    return (sh->out == stdout || record_shows(sh)) && isatty(STDOUT_FILENO);
+}
+
+bool shell_escapes(void) {
+    const char *term = getenv("TERM");
+    return term && *term && strcmp(term, "dumb") != 0 && strcmp(term, "unknown") != 0;
+}
+
+void shell_print_error(const shell *sh, const char *text) {
+    fputs(sh->set.color ? "\033[1;31merror:\033[0m " : "error: ", sh->err);
+    print_safe(sh->err, text, strlen(text));
+    putc('\n', sh->err);
+}
+
+void shell_error(shell *sh, const char *text) {
+    progress_wipe();
+    shell_message(sh, "error", text);
+    shell_print_error(sh, text);
+    fflush(sh->err);
+    sh->failed = true;
+}
+
+bool shell_unread(void) {
+    struct pollfd out = {.fd = STDOUT_FILENO};
+    return ferror(stdout) && poll(&out, 1, 0) > 0 && out.revents & (POLLERR | POLLHUP);
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scripted sessions of scripts/, a lesson or a figure of the paper each, as the build has put them into
+ * the program. */
+#ifndef STATEMENT_SCRIPTS_H
+#define STATEMENT_SCRIPTS_H
+
+#include <stddef.h>
+
+typedef struct script {
+    const char *name;
+    const char *title;       /* one line */
+    const char *const *line; /* statements and comments, ended by NULL */
+} script;
+
+extern const script scripts[]; /* ended by a row without a name */
+
+const char *script_name(size_t i); /* NULL after the last */
+
+#endif

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The program around the language: statements in, answers and errors out. */
+#ifndef STATEMENT_SHELL_H
+#define STATEMENT_SHELL_H
+
+#include <signal.h>
+#include <stdio.h>
+
+#include "language/calc.h"
+#include "statement/settings.h"
+#include "text/file.h"
+
+enum { EXIT_OK = 0, EXIT_ERROR = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
+
+/* Where statements come from. */
+typedef struct source {
+    const char *name; /* for messages; NULL at the prompt and in a replay: messages have no place then */
+    bool keep_going;
+} source;
+
+enum { EXPRESSIONS = 40 };
+
+typedef struct shell {
+    calc calc;
+    settings set;
+    bool keep_going; /* as the program was told to: scripts within scripts too */
+    FILE *out, *err;
+    bool interactive, quit, failed;
+    bool lost;               /* a recording could not be written */
+    bool stopped, refused;   /* there was an error of that kind */
+    bool replaying;          /* a transcript: see shell_aside */
+    struct recorder *record; /* or NULL */
+    file_text typed;         /* at the prompt, for `save history`; else closed */
+    bool dissimilar;         /* the bodies are, and it has been said */
+    unsigned no_half_space;  /* likewise: 1 the contact is too wide, 2 the flanks are too steep */
+    bool widest_known;       /* the press from which on it is too wide: */
+    fret_press widest;
+    int nesting;            /* of `source` and `replay` */
+    expr list[EXPRESSIONS]; /* of a print, table or plot statement, reused */
+} shell;
+
+/* ---- say.c: what is said beside answers ---- */
+
+/* Set by the SIGINT handler. */
+extern volatile sig_atomic_t shell_stop;
+
+/* Reports an error that has no place in a statement. */
+void shell_error(shell *sh, const char *text);
+/* `error: ...`, behind a place or not. */
+void shell_print_error(const shell *sh, const char *text);
+/* Has whoever read standard output gone, as `head` does? That is no error to be told of. */
+bool shell_unread(void);
+/* Things to be told that are no errors, on standard error; a program that reads answers has them there, too.
+ */
+#if defined(__GNUC__)
+#define SHELL_FORMAT __attribute__((format(printf, 2, 3)))
+#else
+#define SHELL_FORMAT
+#endif
+SHELL_FORMAT void shell_say(shell *sh, const char *format, ...);
+SHELL_FORMAT void shell_note(shell *sh, const char *format, ...);    /* `note: ...` */
+SHELL_FORMAT void shell_warning(shell *sh, const char *format, ...); /* `warning: ...` */
+/* The part of a program in that: a "note", a "warning", an "error". */
+void shell_message(const shell *sh, const char *kind, const char *text);
+
+/* Is a line to be written that is for who types, and has no place in a script's output? In a replay it is,
+ * after a mark: a transcript may have it or not. */
+bool shell_aside(const shell *sh, FILE *to);
+/* Marks of replays, first bytes of a line: an aside, and a drawing, which depends on the terminal. */
+enum { MARK_ASIDE = 1, MARK_DRAWING };
+/* A note on what was pasted begins so. */
+#define PASTED "pasted: "
+/* Is standard output a terminal that shows what the session writes? */
+bool shell_on_terminal(const shell *sh);
+/* Does the terminal obey escapes, as those of colours? Not a dumb one, nor one that nobody names. */
+bool shell_escapes(void);
+
+/* ---- warnings.c ---- */
+
+/* After a change of the scene: warns of what has not been warned of yet. */
+void shell_warn(shell *sh);
+/* The same of bodies that are dissimilar alone: something tangential has been asked for. */
+void shell_warn_dissimilar(shell *sh);
+/* A step has been taken: says what no press has said, of bodies that are dissimilar, of a contact too wide.
+ */
+void shell_pressed(shell *sh, const load_step *step);
+
+/* ---- run.c: statements, lines and streams ---- */
+
+void shell_init(shell *sh, FILE *out, FILE *err);
+void shell_free(shell *sh);
+
+/* Runs one statement; the error is filled in on failure. */
+bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error);
+
+/* Runs a logical line of several statements, reporting errors; false if one failed. `line` is the number
+ * of its first physical line. */
+bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line);
+
+/* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it.
+ * Returns an exit status. */
+int shell_stream(shell *sh, file_in *in, bool keep_going);
+int shell_file(shell *sh, const char *path, bool keep_going);
+int shell_text(shell *sh, const char *text, const char *name, bool keep_going);
+int shell_stdin(shell *sh, bool keep_going);
+
+/* ---- prompt.c, replay.c ---- */
+
+/* The interactive session. */
+int shell_prompt(shell *sh, bool quiet, bool read_rc);
+/* Runs a transcript in a session of its own and compares, reports on `out`; returns an exit status.
+ * error: why the transcript could not be run; empty: it has been. */
+int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, calc_error *error);
+/* `?WORD` and `!COMMAND` as a line that a statement stands for; true: it was one of them, and has
+ * been run. */
+bool shell_special(shell *sh, const source *from, const char *text);
+
+#endif

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files of tables. */
+#include "statement/target.h"
+
+#include <string.h>
+
+/* Forms by their endings. */
+static const struct {
+    const char *ending;
+    int format;
+    bool blocks;
+} forms[] = {{".csv", FORMAT_CSV, false},
+             {".json", FORMAT_JSON, false},
+             {".txt", FORMAT_TEXT, true},
+             {".dat", FORMAT_TEXT, true}};
+
+static bool choose_form(const lexer *lx, const char *name, target *t) {
+    if (!strncmp(name, "/dev/", 5))
+        return true;
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (file_ends(name, forms[i].ending)) {
+            t->format = forms[i].format;
+            t->blocks = forms[i].blocks;
+            return true;
+        }
+    return calc_fail(lx->error, t->at, t->len,
+                     "cannot tell the form of a table from '%s': use .csv, .json, .txt or .dat", name);
+}
+
+bool target_open(shell *sh, const lexer *lx, said *all, target *t) {
+    const heard *to = said_of(all, "to", 0);
+    char name[FILE_NAME];
+    *t = (target){.to = sh->out, .format = sh->set.format};
+    if (!to)
+        return true;
+    t->at = to->hole[0].at;
+    t->len = to->hole[0].len;
+    if (!hole_file(lx, &to->hole[0], name) || !choose_form(lx, name, t))
+        return false;
+    if (!file_out_open(&t->file, name, &shell_stop, lx->error))
+        return calc_place(lx->error, t->at, t->len);
+    t->to = t->file.to;
+    return true;
+}
+
+void target_report(shell *sh, const char *name, const file_report *r) {
+    char size[16];
+    if (r->direct || sh->set.report == REPORT_OFF)
+        return;
+    file_size_text(r->size, size);
+    shell_say(sh, "%s %s (%s)", r->overwrote ? "overwrote" : "wrote", name, size);
+}
+
+bool target_close(shell *sh, lexer *lx, target *t, bool ok) {
+    char name[FILE_NAME];
+    file_report report;
+    if (!t->file.to)
+        return ok;
+    snprintf(name, sizeof name, "%s", t->file.name);
+    if (!file_out_close(&t->file, ok, &report, lx->error))
+        return calc_place(lx->error, t->at, t->len);
+    if (ok)
+        target_report(sh, name, &report);
+    return ok;
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Text that is no table: help, explanations, figures. */
+#ifndef STATEMENT_TEXT_H
+#define STATEMENT_TEXT_H
+
+#include <stdio.h>
+
+#include "statement/settings.h"
+#include "text/file.h"
+
+/* Text of words, in which what does not show is escaped; answers, likewise, which are objects for programs
+ * already; or a picture of gnuplot, which knows what it sends
+ * to a terminal; or pictures that move, which no pager can show. */
+typedef enum text_kind { TEXT_WORDS, TEXT_ANSWERS, TEXT_PICTURE, TEXT_MOTION } text_kind;
+
+/* Text on its way out: as it is, as one object for programs, or at a terminal by the pager. */
+typedef struct text_out {
+    const settings *set;
+    FILE *out, *to; /* write to `to` */
+    text_kind kind;
+    file_text kept; /* where it does not go out at once */
+} text_out;
+bool text_begin(text_out *t, const settings *set, FILE *out, text_kind kind);
+/* keep: else what has been written is dropped, where it is not out yet. False: out of memory. */
+bool text_end(text_out *t, bool keep);
+
+#endif

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Warnings of what the theory leaves out: bodies that are dissimilar, contacts too wide or too steep for
+ * half-spaces. Each is said once, until it holds no more. */
+#include <math.h>
+
+#include "statement/shell.h"
+
+/* The theory leaves coupling out, which is exact for a normal load without friction: said of what is
+ * tangential, a load or a question. */
+void shell_warn_dissimilar(shell *sh) {
+    scene *s = &sh->calc.scene;
+    const fret_normal *normal;
+    const load_reach *reach;
+    calc_error ignored;
+    error_clear(&ignored);
+    if (!scene_normal(s, &normal, &ignored))
+        return;
+    const fret_foundation *f = fret_normal_foundation(normal);
+    const bool tangential = s->used & ASKED_TANGENTIAL || (scene_reach(s, &reach, &ignored) && reach->by);
+    if (!f->similar && !sh->dissimilar && tangential)
+        shell_warning(sh,
+                      "the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
+                      "are coupled, and these results are an approximation",
+                      (double)f->mismatch);
+    sh->dissimilar = !f->similar && (sh->dissimilar || tangential);
+}
+
+/* Beyond these the bodies are no half-spaces, which the theory takes them for. */
+static const double most_radius = 0.3, most_slope = 0.36397023426620236; /* of R; tan 20 deg */
+
+/* Where contact is widest: now, or within the cycle that ends here. */
+static bool find_wide(scene *s, fret_press *wide, bool *within, calc_error *error) {
+    const fret_press *now;
+    const fret_normal *normal;
+    fret_press top;
+    *within = false;
+    if (!scene_press(s, &now, error) || !scene_normal(s, &normal, error))
+        return false;
+    *wide = *now;
+    if (program_last_cycle(s->program, s->end) + 1 != s->end.steps)
+        return true;
+    long double FNA = 0, phase = 0;
+    scene_get(s, IN_FNA, &FNA, error);
+    scene_get(s, IN_PHASE, &phase, error);
+    const fret_real most = now->F + fabsl(FNA) - FNA * cosl(phase); /* it ends at FN + FNA cos(phase) */
+    if (most > now->F && !fret_press_by_force(normal, (double)most, &top).code) {
+        *wide = top;
+        *within = true;
+    }
+    return true;
+}
+
+/* The smallest radius of curvature of a body; infinite where there is none. Two that fit closely are together
+ * far flatter than each of them. */
+static long double least_radius(scene *s, const char **name) {
+    const double *R = s->in.radii;
+    long double of_both = INFINITY;
+    calc_error ignored;
+    error_clear(&ignored);
+    *name = "R";
+    if (!inputs_take(&s->in, IN_RADIUS) || !scene_get(s, IN_RADIUS, &of_both, &ignored) || R[0] == 0)
+        return of_both;
+    *name = fabs(R[0]) <= fabs(R[1]) ? "R1" : "R2";
+    return fmin(fabs(R[0]), fabs(R[1]));
+}
+
+static void warn_half_space(shell *sh) {
+    scene *s = &sh->calc.scene;
+    fret_press press;
+    bool within;
+    const char *name;
+    long double slope = 0;
+    calc_error ignored;
+    error_clear(&ignored);
+    if (!find_wide(s, &press, &within, &ignored))
+        return;
+    enum { WIDE = 1, STEEP = 2 };
+    const long double R = least_radius(s, &name);
+    if (inputs_take(&s->in, IN_SLOPE))
+        scene_get(s, IN_SLOPE, &slope, &ignored);
+    const bool wide = press.a > most_radius * R, steep = slope > most_slope;
+    if (wide && !(sh->no_half_space & WIDE))
+        shell_warning(sh,
+                      "a/%s = %.3g%s: beyond 0.3 the bodies are no half-spaces, and these results are "
+                      "an approximation",
+                      name, (double)(press.a / R), within ? " within the cycle" : "");
+    if (steep && !(sh->no_half_space & STEEP))
+        shell_warning(sh,
+                      "slope = %.3g: flanks steeper than 20 deg leave the half-space, and these "
+                      "results are an "
+                      "approximation",
+                      (double)slope);
+    sh->no_half_space = (wide ? WIDE : 0u) | (steep ? STEEP : 0u);
+}
+
+/* The press from which on the contact is too wide. */
+static void find_widest(shell *sh) {
+    scene *s = &sh->calc.scene;
+    const fret_normal *normal;
+    const char *name;
+    calc_error ignored;
+    error_clear(&ignored);
+    sh->widest = (fret_press){.F = INFINITY, .dz = INFINITY};
+    const long double R = least_radius(s, &name);
+    if (isinf(R))
+        return;
+    if (!scene_normal(s, &normal, &ignored) ||
+        fret_press_by_radius(normal, most_radius * (double)R, &sh->widest).code)
+        sh->widest = (fret_press){.F = 0, .dz = 0};
+}
+
+void shell_pressed(shell *sh, const load_step *step) {
+    if (step->tangential && !sh->dissimilar)
+        shell_warn_dissimilar(sh);
+    if (step->normal == BY_NONE || sh->no_half_space)
+        return;
+    if (!sh->widest_known)
+        find_widest(sh);
+    sh->widest_known = true;
+    const fret_real most = step->normal == BY_FORCE ? sh->widest.F : sh->widest.dz;
+    if (step->relative & RELATIVE_NORMAL ? step->normal_value > 0 && most < INFINITY
+                                         : step->normal_value > most)
+        warn_half_space(sh);
+}
+
+void shell_warn(shell *sh) {
+    sh->widest_known = false;
+    if (!sh->calc.scene.end.steps) {
+        sh->no_half_space = 0;
+        sh->dissimilar = false;
+        return;
+    }
+    shell_warn_dissimilar(sh);
+    warn_half_space(sh);
+}

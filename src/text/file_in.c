@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Input by lines, in blocks: a line too long, memory that is out and a failing disk are errors, never the
+ * end. */
+#include "text/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "text/characters.h"
+
+enum { BLOCK = 1 << 16, PAUSE = 20 /* ms between looks at the stop flag */ };
+/* UTF-16 is read into the last quarter of the block and becomes UTF-8 at its beginning, which is at most half
+ * as long again. */
+enum { RAW = BLOCK / 4 * 3, REPLACEMENT = 0xfffd };
+
+/* Of byte order. */
+static const struct {
+    const char *bytes;
+    size_t length;
+    file_order order;
+} marks[] = {{"\xef\xbb\xbf", 3, FILE_BYTES}, {"\xff\xfe", 2, FILE_LITTLE}, {"\xfe\xff", 2, FILE_BIG}};
+enum { MARKS = sizeof marks / sizeof *marks };
+
+static bool cannot_read(const char *name, int code, calc_error *error) {
+    return calc_errno(error, code, "cannot read %s", name);
+}
+
+bool file_in_take(file_in *in, int fd, const char *name, file_stop stop, calc_error *error) {
+    struct stat info;
+    *in = (file_in){.fd = fd, .stop = stop, .name = strdup(name), .block = malloc(BLOCK)};
+    int code = !in->name || !in->block ? ENOMEM
+               : fstat(fd, &info)      ? errno
+               : S_ISDIR(info.st_mode) ? EISDIR
+                                       : 0;
+    if (code) {
+        file_in_close(in);
+        return cannot_read(name, code, error);
+    }
+    in->waits = !S_ISREG(info.st_mode);
+    return true;
+}
+
+bool file_in_open(file_in *in, const char *name, file_stop stop, calc_error *error) {
+    *in = (file_in){.fd = -1};
+    char *path = file_expand(name);
+    if (!path)
+        return cannot_read(name, ENOMEM, error);
+    /* not to hang on a FIFO that nobody writes */
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK), code = errno;
+    free(path);
+    if (fd < 0)
+        return cannot_read(name, code, error);
+    bool ok = file_in_take(in, fd, name, stop, error);
+    if (ok)
+        in->owned = true;
+    else
+        close(fd);
+    return ok;
+}
+
+bool file_in_text(file_in *in, const char *text, const char *name, file_stop stop, calc_error *error) {
+    *in = (file_in){.fd = -1, .stop = stop, .name = strdup(name), .block = strdup(text), .ended = true};
+    if (!in->name || !in->block) {
+        file_in_close(in);
+        return cannot_read(name, ENOMEM, error);
+    }
+    in->have = strlen(text);
+    in->at = strncmp(text, marks[0].bytes, marks[0].length) ? 0 : marks[0].length;
+    return true;
+}
+
+void file_in_close(file_in *in) {
+    if (in->owned)
+        close(in->fd);
+    free(in->name);
+    free(in->block);
+    free(in->line);
+    *in = (file_in){.fd = -1};
+}
+
+static bool stopped(const file_in *in) {
+    return in->stop && *in->stop;
+}
+
+/* Some bytes, FILE_GOT_LINE, to `to`. */
+static file_got read_some(file_in *in, char *to, size_t room, size_t *got, calc_error *error) {
+    for (;;) {
+        if (stopped(in))
+            return FILE_GOT_STOP;
+        if (in->waits) { /* poll, unlike read, is never restarted after a signal */
+            struct pollfd ready = {.fd = in->fd, .events = POLLIN};
+            int n = poll(&ready, 1, in->stop ? PAUSE : -1);
+            if (n == 0 || (n < 0 && errno == EINTR))
+                continue;
+        }
+        ssize_t n = read(in->fd, to, room);
+        if (n > 0) {
+            *got = (size_t)n;
+            return FILE_GOT_LINE;
+        }
+        if (n == 0)
+            return FILE_GOT_END;
+        if (errno != EINTR && errno != EAGAIN) {
+            cannot_read(in->name, errno, error);
+            return FILE_GOT_ERROR;
+        }
+    }
+}
+
+/* ---- UTF-16 ------------------------------------------------------------------------------------ */
+
+static void put_character(file_in *in, unsigned code) {
+    in->have += character_put(code, in->block + in->have);
+}
+
+/* What has no other half is replaced. */
+static void put_unit(file_in *in, unsigned unit) {
+    const bool first = unit >= 0xd800 && unit < 0xdc00, second = unit >= 0xdc00 && unit < 0xe000;
+    const unsigned high = in->high;
+    in->high = first ? unit : 0;
+    if (high && !second)
+        put_character(in, REPLACEMENT);
+    if (second)
+        put_character(in, high ? 0x10000 + ((high - 0xd800) << 10) + (unit - 0xdc00) : REPLACEMENT);
+    else if (!first)
+        put_character(in, unit);
+}
+
+static void put_bytes(file_in *in, const char *bytes, size_t n) {
+    for (size_t i = 0; i < n; i++) {
+        const unsigned now = (unsigned char)bytes[i], before = in->odd - 1;
+        if (in->odd)
+            put_unit(in, in->order == FILE_BIG ? before << 8 | now : now << 8 | before);
+        in->odd = in->odd ? 0 : 1 + now;
+    }
+}
+
+/* At the end of the file. */
+static void put_halves(file_in *in) {
+    if (in->odd || in->high)
+        put_character(in, REPLACEMENT);
+    in->odd = in->high = 0;
+}
+
+/* ---- the mark ---------------------------------------------------------------------------------- */
+
+/* Could more bytes make it a mark? */
+static bool begins_mark(const char *bytes, size_t n) {
+    for (size_t i = 0; i < MARKS; i++)
+        if (n < marks[i].length && !memcmp(bytes, marks[i].bytes, n))
+            return true;
+    return false;
+}
+
+/* The first bytes, without the mark. */
+static file_got begin(file_in *in, calc_error *error) {
+    file_got got = FILE_GOT_LINE;
+    size_t n = 0;
+    while (got == FILE_GOT_LINE && begins_mark(in->block, in->have)) {
+        got = read_some(in, in->block + in->have, BLOCK - RAW - in->have, &n, error);
+        in->have += got == FILE_GOT_LINE ? n : 0;
+    }
+    if (got == FILE_GOT_STOP || got == FILE_GOT_ERROR)
+        return got;
+    in->order = FILE_BYTES;
+    for (size_t i = 0; i < MARKS; i++)
+        if (in->have >= marks[i].length && !memcmp(in->block, marks[i].bytes, marks[i].length)) {
+            in->order = marks[i].order;
+            in->at = marks[i].length;
+        }
+    if (in->order != FILE_BYTES) {
+        n = in->have - in->at;
+        memmove(in->block + RAW, in->block + in->at, n);
+        in->at = in->have = 0;
+        put_bytes(in, in->block + RAW, n);
+    }
+    return FILE_GOT_LINE;
+}
+
+/* The next block: FILE_GOT_LINE stands for "some bytes". */
+static file_got fill(file_in *in, calc_error *error) {
+    file_got got = FILE_GOT_LINE;
+    in->at = in->have = 0;
+    if (in->order == FILE_UNTOLD)
+        got = begin(in, error);
+    while (got == FILE_GOT_LINE && in->at == in->have) {
+        size_t n = 0;
+        in->at = in->have = 0;
+        const size_t from = in->order == FILE_BYTES ? 0 : RAW;
+        got = read_some(in, in->block + from, BLOCK - from, &n, error);
+        if (in->order == FILE_BYTES)
+            in->have = n;
+        else if (got == FILE_GOT_LINE)
+            put_bytes(in, in->block + RAW, n);
+        else if (got == FILE_GOT_END)
+            put_halves(in);
+    }
+    return got == FILE_GOT_END && in->have > 0 ? FILE_GOT_LINE : got;
+}
+
+static bool grow(file_in *in, size_t need, calc_error *error) {
+    size_t room = in->room ? in->room : 256;
+    while (room < need)
+        room *= 2;
+    char *grown = realloc(in->line, room);
+    if (!grown)
+        return calc_errno(error, ENOMEM, "%s:%llu", in->name, in->number);
+    in->line = grown;
+    in->room = room;
+    return true;
+}
+
+/* Appends to the line and ends it by a NUL. */
+static bool append(file_in *in, const char *bytes, size_t n, calc_error *error) {
+    if (n > FILE_LINE_LIMIT - in->length)
+        return calc_fail(error, 0, 0, "%s:%llu: the line is longer than %d MB", in->name, in->number,
+                         FILE_LINE_LIMIT >> 20);
+    if (in->length + n + 1 > in->room && !grow(in, in->length + n + 1, error))
+        return false;
+    memcpy(in->line + in->length, bytes, n);
+    in->length += n;
+    in->line[in->length] = 0;
+    return true;
+}
+
+/* Appends a physical line without its end, which may be that of Windows. */
+static file_got add_line(file_in *in, calc_error *error) {
+    const size_t begin = in->length;
+    bool any = false;
+    for (;;) {
+        if (in->at == in->have) {
+            file_got got = stopped(in) ? FILE_GOT_STOP : in->ended ? FILE_GOT_END : fill(in, error);
+            if (got == FILE_GOT_END) {
+                in->ended = true;
+                if (!any)
+                    return FILE_GOT_END;
+                break;
+            }
+            if (got != FILE_GOT_LINE)
+                return got;
+        }
+        if (!any) {
+            any = true;
+            in->read++;
+        }
+        const char *from = in->block + in->at, *end = memchr(from, '\n', in->have - in->at);
+        size_t n = end ? (size_t)(end - from) : in->have - in->at;
+        if (!append(in, from, n, error))
+            return FILE_GOT_ERROR;
+        in->at += n + (end != NULL);
+        if (end)
+            break;
+    }
+    if (in->length > begin && in->line[in->length - 1] == '\r')
+        in->line[--in->length] = 0;
+    return FILE_GOT_LINE;
+}
+
+file_got file_in_line(file_in *in, calc_error *error) {
+    in->length = 0;
+    in->number = in->read + 1;
+    return add_line(in, error);
+}
+
+file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error) {
+    file_got got = file_in_line(in, error);
+    size_t begin = 0;
+    while (got == FILE_GOT_LINE) {
+        size_t at = begin + mark(in->line + begin, in->length - begin);
+        if (at >= in->length)
+            break;
+        in->line[at] = ' ';
+        begin = in->length + 1;
+        if (!append(in, "\n", 1, error))
+            return FILE_GOT_ERROR;
+        got = add_line(in, error);
+        if (got == FILE_GOT_END) {
+            in->line[--in->length] = 0;
+            return FILE_GOT_LINE;
+        }
+    }
+    return got;
+}

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines as users type, paste and read them. */
+#include "text/lines.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "text/characters.h"
+
+const char *strip_prompt(const char *line, size_t *len) {
+    static const char *const prompts[] = {"fret>", "....>"};
+    enum { PROMPT = 5 };
+    size_t i = 0;
+    while (i < *len && (line[i] == ' ' || line[i] == '\t'))
+        i++;
+    if (i == *len || (line[i] != 'f' && line[i] != '.')) /* most of them */
+        return line;
+    for (size_t p = 0; p < sizeof prompts / sizeof *prompts; p++) {
+        if (*len - i < PROMPT || memcmp(line + i, prompts[p], PROMPT))
+            continue;
+        size_t end = i + PROMPT; /* a terminal may have cut the blank off a bare prompt */
+        if (end < *len && line[end] != ' ' && line[end] != '\r')
+            continue;
+        end += end < *len;
+        *len -= end;
+        return line + end;
+    }
+    return line;
+}
+
+void blank_prompts(char *text, size_t len) {
+    for (size_t i = 0, n; i < len; i += n + 1) {
+        const char *end = memchr(text + i, '\n', len - i);
+        n = end ? (size_t)(end - text) - i : len - i;
+        size_t left = n;
+        const char *rest = strip_prompt(text + i, &left);
+        if (rest > text + i)
+            memset(text + i, ' ', (size_t)(rest - (text + i)));
+    }
+}
+
+bool is_continuation(const char *line) {
+    return line[strspn(line, " \t")] == '.';
+}
+
+void list_word(char *buf, size_t size, const char *word, bool last) {
+    const size_t n = strlen(buf);
+    snprintf(buf + n, size - n, "%s%s", !n ? "" : last ? " or " : ", ", word);
+}
+
+void help_wrapped(FILE *to, const char *text, size_t at, size_t indent) {
+    enum { WIDTH = 79 };
+    for (size_t left = strlen(text); left > 0; at = indent) {
+        const char *row = text;
+        const size_t n = text_break(&text, &left, WIDTH - at);
+        fwrite(row, 1, n, to);
+        if (left)
+            fprintf(to, "\n%*s", (int)indent, "");
+    }
+    putc('\n', to);
+}
+
+/* A `#` that belongs to a word, as in a#b.csv. */
+static bool within_word(const char *text, size_t i, size_t len) {
+    static const char ends[] = " \t\r\n;\"#"; /* and a byte 0 */
+    return i > 0 && i + 1 < len && !strchr(ends, text[i - 1]) && !strchr(ends, text[i + 1]);
+}
+
+size_t shell_statement_end(const char *text, size_t i, size_t len) {
+    static const bool special[256] = {['"'] = true, ['\n'] = true, [';'] = true, ['#'] = true};
+    bool quoted = false;
+    for (; i < len; i++) {
+        const char c = text[i];
+        if (!special[(unsigned char)c])
+            continue;
+        if (c == '"')
+            quoted = !quoted;
+        else if (c == '\n')
+            quoted = false;
+        else if (!quoted && (c != '#' || !within_word(text, i, len)))
+            break;
+    }
+    return i;
+}
+
+bool shell_continues(const char *text, size_t len) {
+    while (len && text[len - 1] == '\r')
+        len--;
+    if (!len || text[len - 1] != '\\')
+        return false;
+    size_t end = shell_statement_end(text, 0, len);
+    while (end < len && text[end] == ';')
+        end = shell_statement_end(text, end + 1, len);
+    return end == len; /* not within a comment */
+}
+
+size_t shell_mark(const char *line, size_t len) {
+    size_t at = len;
+    if (shell_continues(line, len))
+        while (line[--at] != '\\')
+            ;
+    return at;
+}

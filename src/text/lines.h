@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines as users type, paste and read them. */
+#ifndef TEXT_LINES_H
+#define TEXT_LINES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* What follows the prompt that a pasted line begins with, `fret> ` or `....> `, and its length; without one
+ * the line as it is. Blanks before the prompt go with it. */
+const char *strip_prompt(const char *line, size_t *len);
+
+/* Blanks out the prompts that physical lines of a text begin with: what follows keeps its place. */
+void blank_prompts(char *text, size_t len);
+/* Does the line begin with the prompt of a line that goes on, `....> `? */
+bool is_continuation(const char *line);
+
+/* Does the line end in a continuation mark? */
+bool shell_continues(const char *text, size_t len);
+/* Where the mark is, or the length of the line. */
+size_t shell_mark(const char *line, size_t len);
+/* End of the statement that begins at i: a `;`, a comment or the end of the line. */
+size_t shell_statement_end(const char *text, size_t i, size_t len);
+
+/* Adds a word to a list as messages have it, "a, b or c"; starts with an empty buf. */
+void list_word(char *buf, size_t size, const char *word, bool last);
+
+/* A text and the end of its line, broken at blanks before column 80. at: the column where it begins; the
+ * lines that follow begin at `indent`. */
+void help_wrapped(FILE *to, const char *text, size_t at, size_t indent);
+
+#endif

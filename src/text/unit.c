@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The tables of units. Touches nothing. */
+#include "text/unit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "number/real.h"
+
+/* The one table of units. */
+static const struct {
+    const char *name;
+    unsigned char len;
+    bool prefixes;
+    unit u;
+    const char *meaning;
+} units[] = {
+    {"N", 1, true, {{1, 0, 0}, 0, 1}, "newton, force"},
+    {"lbf", 3, false, {{1, 0, 0}, 0, 4.4482216152605L}, "pound-force"},
+    {"kgf", 3, false, {{1, 0, 0}, 0, 9.80665L}, "kilogram-force"},
+    {"dyn", 3, false, {{1, 0, 0}, -5, 1}, "dyne, force"},
+    {"Pa", 2, true, {{1, -2, 0}, 0, 1}, "pascal, pressure"},
+    {"bar", 3, false, {{1, -2, 0}, 5, 1}, "bar, pressure"},
+    {"psi", 3, false, {{1, -2, 0}, 0, 4.4482216152605L / (0.0254L * 0.0254L)}, "pound-force per square inch"},
+    {"ksi", 3, false, {{1, -2, 0}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
+    {"m", 1, true, {{0, 1, 0}, 0, 1}, "metre, length"},
+    {"inch", 4, false, {{0, 1, 0}, -4, 254}, "inch, length"},
+    {"J", 1, true, {{1, 1, 0}, 0, 1}, "joule, energy"},
+    {"rad", 3, false, {{0, 0, 1}, 0, 1}, "radian, angle"},
+    {"deg", 3, false, {{0, 0, 1}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
+    {"%", 1, false, {{0, 0, 0}, -2, 1}, "per cent"},
+};
+enum { UNITS = sizeof units / sizeof *units };
+
+static const struct {
+    const char *name;
+    int exp10;
+} prefixes[] = {{"n", -9}, {"u", -6}, {"\xc2\xb5", -6}, {"\xce\xbc", -6}, {"m", -3},
+                {"k", 3},  {"M", 6},  {"G", 9},         {"c", -2}};
+
+/* centi is for metres alone */
+static bool goes_with(const char *prefix, const char *name) {
+    return *prefix != 'c' || !strcmp(name, "m");
+}
+
+const char *unit_name(size_t i) {
+    return i < UNITS ? units[i].name : NULL;
+}
+
+const char *unit_meaning(size_t i) {
+    return units[i].meaning;
+}
+
+bool unit_prefixed(size_t i) {
+    return units[i].prefixes;
+}
+
+bool unit_lookup(const char *word, size_t len, unit *out) {
+    for (size_t i = 0; i < UNITS; i++) {
+        size_t n = units[i].len;
+        if (n > len || units[i].name[n - 1] != word[len - 1])
+            continue;
+        if (n == len && !memcmp(units[i].name, word, n)) {
+            *out = units[i].u;
+            return true;
+        }
+        if (!units[i].prefixes)
+            continue;
+        for (size_t j = 0; j < sizeof prefixes / sizeof *prefixes; j++) {
+            size_t p = strlen(prefixes[j].name);
+            if (p + n == len && !memcmp(prefixes[j].name, word, p) && !memcmp(units[i].name, word + p, n) &&
+                goes_with(prefixes[j].name, units[i].name)) {
+                *out = units[i].u;
+                out->exp10 += prefixes[j].exp10;
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static const char *prefixed_name(size_t i) {
+    static const char *const common[] = {"N",    "kN",  "mN",  "uN",  "MN",  "lbf", "kgf", "dyn", "Pa", "kPa",
+                                         "MPa",  "GPa", "bar", "psi", "ksi", "m",   "mm",  "um",  "nm", "cm",
+                                         "inch", "J",   "mJ",  "uJ",  "nJ",  "kJ",  "rad", "deg"};
+    return i < sizeof common / sizeof *common ? common[i] : NULL;
+}
+
+const char *unit_suggest(const char *word) {
+    static const char *const other_names[][2] = {
+        {"in", "inch"},  {"newton", "N"},     {"pascal", "Pa"},  {"metre", "m"},    {"meter", "m"},
+        {"joule", "J"},  {"micron", "um"},    {"degree", "deg"}, {"radian", "rad"}, {"percent", "%"},
+        {"kg", "kgf"},   {"lb", "lbf"},       {"kpsi", "ksi"},   {"Nm", "N*m"},     {"kNm", "kN*m"},
+        {"Nmm", "N*mm"}, {"millimetre", "mm"}};
+    for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++) {
+        const bool letters_tell = strchr(other_names[i][1], '*') != NULL; /* nM is no moment */
+        if (letters_tell ? !strcmp(word, other_names[i][0]) : same_but_case(word, other_names[i][0]))
+            return other_names[i][1];
+    }
+    return suggest(word, prefixed_name);
+}
+
+long double unit_scale(const unit *u) {
+    static const long double powers[] = {1e-9L, 1e-8L, 1e-7L, 1e-6L, 1e-5L, 1e-4L, 1e-3L, 1e-2L, 1e-1L, 1,
+                                         1e1L,  1e2L,  1e3L,  1e4L,  1e5L,  1e6L,  1e7L,  1e8L,  1e9L};
+    if (u->exp10 >= -9 && u->exp10 <= 9)
+        return powers[u->exp10 + 9] * u->factor;
+    return powl(10, u->exp10) * u->factor;
+}
+
+bool dim_equal(dim a, dim b) {
+    return fabs(a.N - b.N) < 1e-9 && fabs(a.m - b.m) < 1e-9;
+}
+
+static const struct {
+    dim d;
+    const char *unit, *phrase;
+    bool prefixes;
+} named[] = {
+    {{0, 0, 0}, "", "a number", false},   {{1, 0, 0}, "N", "a force", true},
+    {{0, 1, 0}, "m", "a length", true},   {{1, -2, 0}, "Pa", "a pressure", true},
+    {{1, 1, 0}, "J", "an energy", true},  {{1, -1, 0}, "N/m", "a stiffness", true},
+    {{0, 2, 0}, "m^2", "an area", false}, {{0, -1, 0}, "m^-1", "an inverse length", false},
+};
+enum { NAMED = sizeof named / sizeof *named };
+
+/* snprintf would do, in 40 ns */
+static void put_text(const char *text, char *buf, size_t size) {
+    size_t n = strlen(text) < size ? strlen(text) : size - 1;
+    memcpy(buf, text, n);
+    buf[n] = 0;
+}
+
+/* dim_equal takes an angle for a number, as expressions do. */
+static bool is_angle(dim d) {
+    return d.rad == 1 && dim_equal(d, DIM_NONE);
+}
+
+void dim_unit(dim d, char *buf, size_t size) {
+    if (is_angle(d)) {
+        put_text("rad", buf, size);
+        return;
+    }
+    for (size_t i = 0; i < NAMED; i++)
+        if (dim_equal(d, named[i].d)) {
+            put_text(named[i].unit, buf, size);
+            return;
+        }
+    char N[40] = "", m[40] = "";
+    if (fabs(d.N) > 1e-9)
+        snprintf(N, sizeof N, fabs(d.N - 1) < 1e-9 ? "N" : "N^%.10g", d.N);
+    double power = d.N != 0 && d.m < 0 ? -d.m : d.m;
+    if (fabs(d.m) > 1e-9)
+        snprintf(m, sizeof m, fabs(power - 1) < 1e-9 ? "m" : "m^%.10g", power);
+    snprintf(buf, size, "%s%s%s", N, *N && *m ? (d.m < 0 ? "/" : "*") : "", m);
+}
+
+void dim_describe(dim d, char *buf, size_t size) {
+    if (is_angle(d)) {
+        put_text("an angle", buf, size);
+        return;
+    }
+    for (size_t i = 0; i < NAMED; i++)
+        if (dim_equal(d, named[i].d)) {
+            put_text(named[i].phrase, buf, size);
+            return;
+        }
+    char unit_text[96];
+    dim_unit(d, unit_text, sizeof unit_text);
+    snprintf(buf, size, "a quantity in %s", unit_text);
+}
+
+long double unit_choose(dim d, long double value, int digits, char *buf, size_t size) {
+    static const struct {
+        const char *name;
+        long double scale;
+    } steps[] = {{"G", 1e9L}, {"M", 1e6L}, {"k", 1e3L}, {"", 1}, {"m", 1e-3L}, {"u", 1e-6L}, {"n", 1e-9L}};
+    enum { STEPS = sizeof steps / sizeof *steps };
+    if (is_angle(d)) {
+        put_text("deg", buf, size);
+        return 3.14159265358979323846264338327950288L / 180;
+    }
+    dim_unit(d, buf, size);
+    size_t i = 0;
+    while (i < NAMED && !dim_equal(d, named[i].d))
+        i++;
+    if (i == NAMED || !named[i].prefixes || value == 0 || !isfinite(value))
+        return 1;
+    /* what prints as 1000 belongs to the next prefix */
+    static const long double half[] = {0.5L,   5e-2L,  5e-3L,  5e-4L,  5e-5L,  5e-6L,
+                                       5e-7L,  5e-8L,  5e-9L,  5e-10L, 5e-11L, 5e-12L,
+                                       5e-13L, 5e-14L, 5e-15L, 5e-16L, 5e-17L, 5e-18L};
+    long double edge = 1 - half[digits];
+    size_t j = 0;
+    while (j < STEPS && fabsl(value) < steps[j].scale * edge)
+        j++;
+    if (j == STEPS || fabsl(value) >= 1e12L)
+        return 1;
+    put_text(steps[j].name, buf, size);
+    put_text(named[i].unit, buf + strlen(buf), size - strlen(buf));
+    return steps[j].scale;
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Units as they are written: N/mm^2, MPa*m^0.5. */
+#ifndef TEXT_UNIT_TEXT_H
+#define TEXT_UNIT_TEXT_H
+
+#include "text/lex.h"
+#include "text/unit.h"
+
+/* Is the cursor on a unit? */
+bool unit_at(const lexer *lx);
+/* Parses a unit expression at the cursor. */
+bool unit_parse(lexer *lx, unit *out);
+/* The literal of `len` bytes at `at`, in this unit: rounded once. */
+long double unit_literal(const lexer *lx, size_t at, size_t len, const unit *u);
+
+#endif
