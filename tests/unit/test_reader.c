@@ -111,6 +111,10 @@ static void errors(void) {
     CHECK(fails("plot a for x = 1 .. 2 log z", "expected log x, log y or log xy"));
     CHECK(fails("plot a for x = 1 .. 2 title b", "expected title \"TEXT\""));
     CHECK(fails("material steal", "did you mean steel?"));
+    char many[600] = "plot a for x = 1 .. 2";
+    for (int i = 0; i < HEARD; i++)
+        strcat(many, " points");
+    CHECK(fails(many, "more than 40 clauses"));
     CHECK(fails("accuracy within 4000", "the seconds must be a positive number"));
 }
 
