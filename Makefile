@@ -116,7 +116,7 @@ $(B)/tests/test_grammar $(B)/tests/test_reader: LIBS_GSL := $(LIBS)
 $(B)/tests/test_grammar $(B)/tests/test_reader: $(call OBJ,$(filter-out src/prompt/main.c,$(PROG))) $(B)/scripts.o
 # their allocations, and some calls, pass through the test
 $(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_calc: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
-$(B)/tests/test_blocks: WRAP += -pthread
+$(B)/tests/test_threads: WRAP += -pthread
 $(B)/tests/test_gnuplot: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc waitpid)
 $(B)/tests/test_moments: WRAP = $(addprefix -Wl$(COMMA)--wrap=,expl logl fret_pow fret_table_distance fret_gap_profile)
 $(B)/tests/test_file: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc realloc strdup getpwuid open fdopen fcntl stat fstat ftruncate)

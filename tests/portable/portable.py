@@ -139,7 +139,23 @@ def without_library(tests):
                     done.returncode == 1, tests.report(done))
 
 
+def threads(tests):
+    """What threads share is only read: ThreadSanitizer sees each touch of the library."""
+    program = os.path.join(harness.ROOT, "build/portable/threads")
+    os.makedirs(os.path.dirname(program), exist_ok=True)
+    sources = [path for name in ("number", "law", "history", "field", "arrays")
+               for path in sorted(glob.glob(os.path.join(harness.ROOT, "src", name, "*.c")))]
+    done = subprocess.run(["gcc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-D_DEFAULT_SOURCE", "-O1", "-g", "-fsanitize=thread",
+                           "-ffp-contract=off", "-Iinclude", "-Isrc", "-o", program, "tests/unit/test_threads.c", *sources, "-lm", "-pthread"],
+                          cwd=harness.ROOT, capture_output=True, text=True)
+    if tests.check("build for threads", done.returncode == 0, done.stderr):
+        done = subprocess.run([program], capture_output=True, text=True, timeout=300)
+        tests.check("threads share laws and fields", done.returncode == 0 and " 0 failed" in done.stdout, done.stdout + done.stderr)
+
+
 def run(tests):
+    if shutil.which("gcc"):
+        threads(tests)
     builds = {}
     for name, args in variants().items():
         where, done = build(name, args)
