@@ -27,7 +27,7 @@ bool canvas_make(canvas *c, rect at, bool braille) {
 }
 
 void canvas_sign(const canvas *c, int x, int y, char sign, ink of) {
-    plot_cells_sign(&c->cells, x / c->cells.across, y / c->cells.up, (char[]){sign, 0}, of);
+    plot_cells_sign(&c->cells, x / c->cells.across, y / c->cells.up, (char[]){sign, 0}, (unsigned char)of);
 }
 
 /* Of an ink on this terminal. */

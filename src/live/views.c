@@ -106,7 +106,7 @@ static void put_zone(const canvas *c, const shot *s, const zone *z, double dot) 
                 canvas_sign(c, x, y, z->sign, z->of);
             else if ((x + 2 * (y % 2) * (z->every / 4) + (y % 2) * (z->every == 2)) % z->every == 0 &&
                      (z->every < 4 || y % 2 == 0))
-                plot_cells_dot(&c->cells, x, y, z->of);
+                plot_cells_dot(&c->cells, x, y, (unsigned char)z->of);
         }
 }
 
@@ -142,7 +142,7 @@ static void draw_disc(live *l, const side *sd, const scales *sc, rect at) {
 /* ---- lines -------------------------------------------------------------------------------------- */
 
 static void draw_line(const canvas *c, const char *dash, ink of, double x0, double y0, double x1, double y1) {
-    plot_pen pen = plot_pen_of(&c->cells, dash, of);
+    plot_pen pen = plot_pen_of(&c->cells, dash, (unsigned char)of);
     plot_pen_line(&pen, x0, y0, x1, y1);
 }
 
