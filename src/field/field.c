@@ -217,12 +217,12 @@ static fret_real head_slope(const fret_field *f, int load, fret_real r) {
     return sum;
 }
 
-/* At a tip that is spared by a core without slope: slice by slice. */
+/* At the tip, slice by slice: a core without slope spares it, however much each contact presses there. */
 static fret_real tip_slope(const fret_field *f, int load) {
     fret_term term[FRET_MOST_TERMS];
     fret_real sum = 0;
-    for (size_t i = 1; i <= f->heads && i < f->slices; i++) {
-        const fret_real b = f->slice[i - 1].a, a = i < f->heads ? f->slice[i].a : f->head;
+    for (size_t i = 0; i <= f->heads && i < f->slices; i++) {
+        const fret_real b = i > 0 ? f->slice[i - 1].a : 0, a = i < f->heads ? f->slice[i].a : f->head;
         if (weight_at(f, load, i) != 0 && a > b)
             sum += weight_at(f, load, i) *
                    fret_powers_ring(term, head_terms(f->normal, a, term), f->normal->foundation.k, a, b);
@@ -247,7 +247,7 @@ static fret_status slope_sum(const fret_field *f, int load, fret_real r, fret_re
         return fret_unless_stopped(n, st);
     if (infinite && (weight_at(f, load, 0) != 0 || (flat && !(fret_law_distance(n, f->slice[0].y) > 0))))
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
-    *sum = infinite && !flat ? tip_slope(f, load) : head_slope(f, load, r);
+    *sum = r == 0 && !flat ? tip_slope(f, load) : head_slope(f, load, r);
     for (size_t i = 0; i < f->sums; i++)
         *sum += fret_rings_slope(f->sum[i], load, r);
     return fret_unless_stopped(n, isfinite(*sum) ? st : fret_fail(FRET_SINGULAR, "r", (double)r, 0));

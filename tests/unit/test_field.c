@@ -411,6 +411,22 @@ static void tips(void) {
     fret_table_free(t);
 }
 
+/* Where n + k is next to 1 each contact presses almost infinitely at the tip; a core without slope spares the
+ * traction there, which is that right next to it. */
+static void spared_tip(void) {
+    const unit_scene s = unit_make_scene(1, 1e-9);
+    fret_contact *c = NULL;
+    fret_real at_tip, beside;
+    CHECK_OK(fret_contact_make(unit_make_normal(&s), 0.4, FRET_EXACT, &c));
+    CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 20, 0}));
+    CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 20, 8 * (1 - 1e-9)}));
+    CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 20, -1}));
+    CHECK_OK(place_traction(c, 0, &at_tip));
+    CHECK_OK(place_traction(c, 1e-18L, &beside));
+    CHECK_REL(at_tip, beside, 1e-16L);
+    fret_contact_free(c);
+}
+
 static void pressed_lightly(const fret_normal *normal, double F) {
     const fret_foundation *f = &normal->foundation;
     const fret_real b = fret_gap_start(&normal->gap), k1 = 1 + f->k, mu = 0.3L;
@@ -537,6 +553,7 @@ int main(int argc, char **argv) {
     CASE(twins());
     CASE(near_winkler());
     CASE(tips());
+    CASE(spared_tip());
     CASE(light());
     CASE(below_flat());
     return unit_finish();

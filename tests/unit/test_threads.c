@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One law, and one field, asked by several threads at once: questions on what is const write nothing, so each gets
- * what it gets alone. The room `portable` runs this under ThreadSanitizer, which knows what two have touched. */
+/* One law, and one field, asked by several threads at once: questions on what is const write nothing, so each
+ * gets what it gets alone. The room `portable` runs this under ThreadSanitizer, which knows what two have
+ * touched. */
 #include <pthread.h>
 
 #include "fret/cycle.h"
