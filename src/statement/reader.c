@@ -269,6 +269,12 @@ static const clause *clause_at(const lexer *lx, const grammar *f) {
 
 /* ---- parts that are found ---------------------------------------------------------------------- */
 
+/* What stands where an `=` was meant. */
+static bool is_equals(const lexer *lx) {
+    const bool comparison = lx->error->raised && lx->text[lx->at] == '=';
+    return comparison || lx->kind == T_ASSIGN || lx->kind == T_DEFINE || lx->kind == T_INCREMENT;
+}
+
 /* Over a part of the statement: behind an operand a word of the row begins a clause, and nowhere else can it.
  * A comma may end the part, and an `=` that does not belong to `at`. */
 static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_ends) {
@@ -281,7 +287,7 @@ static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_
         const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
         if (depth == 0 &&
             (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
-             (lx->kind == T_ASSIGN && equals_ends && at != NAMED) || (name && operand && clause_at(lx, f))))
+             (equals_ends && at != NAMED && is_equals(lx)) || (name && operand && clause_at(lx, f))))
             break;
         error_clear(&ignored); /* who parses the part says what is no token */
         depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
@@ -291,6 +297,8 @@ static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_
                              lx->kind == T_STRING);
     }
     lx->error = error;
+    if (ignored.raised) /* it ends at what is no token */
+        lex_seek(lx, lx->at);
 }
 
 /* One name, which becomes known where it stands behind what uses it; of those that stand first several. */
@@ -476,7 +484,7 @@ bool said_end(lexer *lx, const grammar *f) {
         return at_end(lx);
     lex_word(lx, word);
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (!a->argument && *a->name && one_letter_apart(word, a->name))
+        if (!a->argument && *a->name && lx->len > 1 && one_letter_apart(word, a->name))
             return lex_fail(lx, "unexpected '%s': did you mean %s?", word, a->name);
     return at_end(lx);
 }
