@@ -323,6 +323,16 @@ static bool skip_load(lexer *lx, said *s) {
     return true;
 }
 
+/* `1 N to 2 N`, which a file would follow. */
+static bool lacks_end(lexer *lx, const clause *a, const span *part) {
+    if (!lex_is(lx, "to") || strcmp(a->name, "for") != 0)
+        return false;
+    for (size_t i = part->at; i + 1 < lx->at; i++)
+        if (lx->text[i] == ',' || (lx->text[i] == '.' && lx->text[i + 1] == '.'))
+            return false;
+    return !lex_fail(lx, "expected .. between the two ends of the sweep");
+}
+
 /* ---- holes ------------------------------------------------------------------------------------- */
 
 /* `mu=0.3` for `0.3`. */
@@ -375,6 +385,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         return true;
     default:
         skip_part(lx, s->by, a->list && *a->name, i + 1 < a->holes && a->hole[i + 1].before == '=');
+        ok = row->kind != HOLE_SPAN || !lacks_end(lx, a, &h->hole[i]);
         break;
     }
     h->hole[i].len = lx->last > h->hole[i].at ? lx->last - h->hole[i].at : 0;
@@ -454,6 +465,12 @@ static bool read_first(shell *sh, lexer *lx, said *s) {
     return h && read_holes(sh, lx, s, h);
 }
 
+/* `with = 0.3`: a clause whose name is missing. */
+static bool lacks_name(const lexer *lx, const grammar *f) {
+    const clause *a = clause_named(lx, f);
+    return a && a->holes && (a->hole[0].row->kind == HOLE_NAME || a->hole[0].row->kind == HOLE_INPUT);
+}
+
 bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
     out->by = f;
     out->wakes = false;
@@ -464,7 +481,7 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
     while (lx->kind == T_NAME) {
         const token_kind how = lex_peek(lx);
         const clause *a;
-        if (how == T_ASSIGN || how == T_INCREMENT || how == T_DEFINE) {
+        if ((how == T_ASSIGN || how == T_INCREMENT || how == T_DEFINE) && !lacks_name(lx, f)) {
             if (!read_argument(sh, lx, out, how))
                 return false;
         } else if (!(a = clause_at(lx, f))) {
