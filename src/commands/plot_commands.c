@@ -257,7 +257,11 @@ static bool draw_movie(movie *m, lexer *lx, const char *file) {
     plot_target to;
     if (!begin_target(m->sh, file, TEXT_MOTION, &text, &to, lx->error))
         return false;
-    const plot_movie of = {.frames = m->done, .fill = fill, .progress = drawing, .context = m};
+    const plot_movie of = {.frames = m->done,
+                           .fill = fill,
+                           .progress = file ? drawing : NULL, /* in the terminal frames would go behind it */
+                           .context = m};
+    progress_wipe();
     const bool ok = plot_animate(&of, &to, &written, lx->error);
     progress_wipe();
     return end_target(m->sh, file, &text, &written, ok, lx->error);
