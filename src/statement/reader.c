@@ -168,12 +168,14 @@ static bool read_value(shell *sh, lexer *lx, const char *name, dim d, heard *h) 
 }
 
 /* The dimension of A follows from n. */
-static bool argument_dim(lexer *lx, said *s, const clause *a, dim *d) {
+static bool argument_dim(shell *sh, lexer *lx, said *s, const clause *a, dim *d) {
     *d = a->d;
     if (a->in != 1 + IN_A)
         return true;
-    const heard *n = said_of(s, "n", 0);
-    if (n && !n->live)
+    heard *n = said_of(s, "n", 0);
+    if (n && n->live && !definition_value(&sh->calc, (definition *)n->live, &n->v, lx->error))
+        return heard_place(lx->error, n);
+    if (n)
         *d = (dim){0, 1 - (double)n->v.v, 0};
     return n || lex_fail(lx, "give n before A: the dimension of A depends on it");
 }
@@ -190,7 +192,7 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
         return false;
     if ((how == T_INCREMENT && !a->increment) || (how == T_DEFINE && !a->live))
         return not_taken(lx, f, a->name, how);
-    heard *h = argument_dim(lx, s, a, &d) ? add(lx, s, a) : NULL;
+    heard *h = argument_dim(sh, lx, s, a, &d) ? add(lx, s, a) : NULL;
     if (!h)
         return false;
     h->increment = how == T_INCREMENT;
@@ -292,7 +294,8 @@ static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_
         error_clear(&ignored); /* who parses the part says what is no token */
         depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
         changing = changing || (joins && lex_is(lx, "at"));
-        at = name && at == PLACE ? NAMED : joins || (changing && lx->kind == T_COMMA) ? PLACE : NOTHING;
+        const bool place = (joins && lex_is(lx, "at")) || (changing && lx->kind == T_COMMA);
+        at = name && at == PLACE ? NAMED : place ? PLACE : NOTHING;
         operand = !joins && (name || lx->kind == T_NUMBER || lx->kind == T_CLOSE || lx->kind == T_PERCENT ||
                              lx->kind == T_STRING);
     }
@@ -506,6 +509,20 @@ bool said_end(lexer *lx, const grammar *f) {
     return at_end(lx);
 }
 
+/* `a, with E0 +- 5 %`: the word of the clause, taken for a value of the part before it. */
+static bool is_taken(const lexer *lx, const said *s, const clause *a) {
+    calc_error ignored, *error = lx->error;
+    if (!s->count || *s->list[0].of->name)
+        return false;
+    lexer own = hole_lexer(lx, &s->list[0].hole[0]);
+    own.error = &ignored;
+    error_clear(&ignored);
+    while (own.kind != T_END && !(own.at > s->list[0].hole[0].at && lex_is(&own, a->name)))
+        lex_next(&own);
+    return own.kind != T_END && lex_peek(&own) == T_NAME &&
+           !calc_fail(error, own.at, own.len, "something is missing before %s", a->name);
+}
+
 /* Clauses that may not be left out. */
 static bool is_whole(lexer *lx, said *s) {
     char text[GRAMMAR_USAGE], line[GRAMMAR_USAGE];
@@ -514,6 +531,8 @@ static bool is_whole(lexer *lx, said *s) {
             continue;
         if (s->count && !*s->list[0].of->name && !s->list[0].hole[0].len)
             return lex_fail(lx, "expected a value here");
+        if (is_taken(lx, s, a))
+            return false;
         snprintf(line, sizeof line, "%.*s", (int)a->len, a->text);
         takes_text(line, text, sizeof text);
         return lex_fail(lx, "expected %s", text);
