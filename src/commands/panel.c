@@ -545,6 +545,9 @@ bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
         return built->build(sh, lx, &as->said, p);
     if (named)
         return draw_named(sh, lx, as, named, p, index, m);
-    const lexer first = hole_lexer(lx, &as->said.list[0].hole[0]);
+    lexer first = hole_lexer(lx, &as->said.list[0].hole[0]);
+    size_t own;
+    if (lex_is(&first, "map") && lex_peek(&first) == T_END && !names_find(&sh->calc.names, "map", 3, &own))
+        return lex_fail(&first, "expected map EXPR for A = LO .. HI for B = LO .. HI");
     return map_at(&first) ? map_draw(sh, lx, &as->said, p) : draw_sweep(sh, lx, &as->said, NULL, p, index, m);
 }

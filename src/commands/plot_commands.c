@@ -6,6 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "commands/expressions.h"
 #include "commands/figures.h"
 #include "commands/panel.h"
 #include "number/array.h"
@@ -130,6 +131,14 @@ static bool draw_panels(shell *sh, lexer *lx, panels *p, plot_figure *f, motion 
     return true;
 }
 
+/* A range that has gone on what is drawn or on the abscissa. */
+static bool lost_range(shell *sh, const lexer *lx, const panel *p) {
+    for (const heard *h = p->said.list; h < p->said.list + p->said.count; h++)
+        if (h->of->holes && h->of->hole[0].row->kind == HOLE_EXPR && range_is_lost(sh, lx, &h->hole[0]))
+            return true;
+    return false;
+}
+
 /* Neither a figure nor a range: a figure may have been misspelt. */
 static void fail_figure(const calc *c, lexer *lx) {
     char word[LEX_NAME], all[CALC_ERROR_TEXT / 2] = "";
@@ -165,7 +174,8 @@ bool do_plot(shell *sh, lexer *lx, const command *self) {
     plot_figure_init(&f);
     bool ok = read_panels(sh, lx, command_form(self), &p);
     if (ok && !panel_is_whole(sh, lx, &p.list[0])) {
-        fail_figure(&sh->calc, &begin);
+        if (!lost_range(sh, lx, &p.list[0]))
+            fail_figure(&sh->calc, &begin);
         ok = false;
     }
     ok = ok && find_file(lx, &p, file) && draw_panels(sh, lx, &p, &f, NULL) &&
@@ -247,7 +257,11 @@ static bool draw_movie(movie *m, lexer *lx, const char *file) {
     plot_target to;
     if (!begin_target(m->sh, file, TEXT_MOTION, &text, &to, lx->error))
         return false;
-    const plot_movie of = {.frames = m->done, .fill = fill, .progress = drawing, .context = m};
+    const plot_movie of = {.frames = m->done,
+                           .fill = fill,
+                           .progress = file ? drawing : NULL, /* in the terminal frames would go behind it */
+                           .context = m};
+    progress_wipe();
     const bool ok = plot_animate(&of, &to, &written, lx->error);
     progress_wipe();
     return end_target(m->sh, file, &text, &written, ok, lx->error);

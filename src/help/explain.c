@@ -499,7 +499,9 @@ static void explain_input(const page *p, const quantity *q) {
     error_clear(&ignored);
     answer_page(p->out, "explain");
     put_formula(p, q, false);
-    if (had(p, quantity_get(q, c->now, &v.v, &ignored), &ignored))
+    const bool got = had(p, quantity_get(q, c->now, &v.v, &ignored), &ignored);
+    v.d = quantity_dim(q, c->now); /* which may follow from what is live */
+    if (got)
         put_value(p, q->name, strlen(q->name), v);
     answer_done(p->out);
 }

@@ -331,6 +331,7 @@ static bool eval(machine *m, const expr_node *n, value *out) {
             ask(m->c, n->q);
         if (!m->dry && !quantity_get(n->q, m->c->now, &out->v, m->error))
             return calc_place(m->error, n->at, n->len);
+        out->d = quantity_dim(n->q, m->c->now); /* which follows from a live n, too */
         break;
     case N_CALL:
         if (!call_quantity(m, n, out))

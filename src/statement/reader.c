@@ -168,12 +168,14 @@ static bool read_value(shell *sh, lexer *lx, const char *name, dim d, heard *h) 
 }
 
 /* The dimension of A follows from n. */
-static bool argument_dim(lexer *lx, said *s, const clause *a, dim *d) {
+static bool argument_dim(shell *sh, lexer *lx, said *s, const clause *a, dim *d) {
     *d = a->d;
     if (a->in != 1 + IN_A)
         return true;
-    const heard *n = said_of(s, "n", 0);
-    if (n && !n->live)
+    heard *n = said_of(s, "n", 0);
+    if (n && n->live && !definition_value(&sh->calc, (definition *)n->live, &n->v, lx->error))
+        return heard_place(lx->error, n);
+    if (n)
         *d = (dim){0, 1 - (double)n->v.v, 0};
     return n || lex_fail(lx, "give n before A: the dimension of A depends on it");
 }
@@ -190,7 +192,7 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
         return false;
     if ((how == T_INCREMENT && !a->increment) || (how == T_DEFINE && !a->live))
         return not_taken(lx, f, a->name, how);
-    heard *h = argument_dim(lx, s, a, &d) ? add(lx, s, a) : NULL;
+    heard *h = argument_dim(sh, lx, s, a, &d) ? add(lx, s, a) : NULL;
     if (!h)
         return false;
     h->increment = how == T_INCREMENT;
@@ -269,6 +271,12 @@ static const clause *clause_at(const lexer *lx, const grammar *f) {
 
 /* ---- parts that are found ---------------------------------------------------------------------- */
 
+/* What stands where an `=` was meant. */
+static bool is_equals(const lexer *lx) {
+    const bool comparison = lx->error->raised && lx->text[lx->at] == '=';
+    return comparison || lx->kind == T_ASSIGN || lx->kind == T_DEFINE || lx->kind == T_INCREMENT;
+}
+
 /* Over a part of the statement: behind an operand a word of the row begins a clause, and nowhere else can it.
  * A comma may end the part, and an `=` that does not belong to `at`. */
 static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_ends) {
@@ -281,16 +289,19 @@ static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_
         const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
         if (depth == 0 &&
             (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
-             (lx->kind == T_ASSIGN && equals_ends && at != NAMED) || (name && operand && clause_at(lx, f))))
+             (equals_ends && at != NAMED && is_equals(lx)) || (name && operand && clause_at(lx, f))))
             break;
         error_clear(&ignored); /* who parses the part says what is no token */
         depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
         changing = changing || (joins && lex_is(lx, "at"));
-        at = name && at == PLACE ? NAMED : joins || (changing && lx->kind == T_COMMA) ? PLACE : NOTHING;
+        const bool place = (joins && lex_is(lx, "at")) || (changing && lx->kind == T_COMMA);
+        at = name && at == PLACE ? NAMED : place ? PLACE : NOTHING;
         operand = !joins && (name || lx->kind == T_NUMBER || lx->kind == T_CLOSE || lx->kind == T_PERCENT ||
                              lx->kind == T_STRING);
     }
     lx->error = error;
+    if (ignored.raised) /* it ends at what is no token */
+        lex_seek(lx, lx->at);
 }
 
 /* One name, which becomes known where it stands behind what uses it; of those that stand first several. */
@@ -313,6 +324,16 @@ static bool skip_load(lexer *lx, said *s) {
         return lex_fail(lx, "along what? program, cycle, step ... or cycle ...");
     skip_part(lx, s->by, false, false);
     return true;
+}
+
+/* `1 N to 2 N`, which a file would follow. */
+static bool lacks_end(lexer *lx, const clause *a, const span *part) {
+    if (!lex_is(lx, "to") || strcmp(a->name, "for") != 0)
+        return false;
+    for (size_t i = part->at; i + 1 < lx->at; i++)
+        if (lx->text[i] == ',' || (lx->text[i] == '.' && lx->text[i + 1] == '.'))
+            return false;
+    return !lex_fail(lx, "expected .. between the two ends of the sweep");
 }
 
 /* ---- holes ------------------------------------------------------------------------------------- */
@@ -367,6 +388,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         return true;
     default:
         skip_part(lx, s->by, a->list && *a->name, i + 1 < a->holes && a->hole[i + 1].before == '=');
+        ok = row->kind != HOLE_SPAN || !lacks_end(lx, a, &h->hole[i]);
         break;
     }
     h->hole[i].len = lx->last > h->hole[i].at ? lx->last - h->hole[i].at : 0;
@@ -446,6 +468,12 @@ static bool read_first(shell *sh, lexer *lx, said *s) {
     return h && read_holes(sh, lx, s, h);
 }
 
+/* `with = 0.3`: a clause whose name is missing. */
+static bool lacks_name(const lexer *lx, const grammar *f) {
+    const clause *a = clause_named(lx, f);
+    return a && a->holes && (a->hole[0].row->kind == HOLE_NAME || a->hole[0].row->kind == HOLE_INPUT);
+}
+
 bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
     out->by = f;
     out->wakes = false;
@@ -456,7 +484,7 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
     while (lx->kind == T_NAME) {
         const token_kind how = lex_peek(lx);
         const clause *a;
-        if (how == T_ASSIGN || how == T_INCREMENT || how == T_DEFINE) {
+        if ((how == T_ASSIGN || how == T_INCREMENT || how == T_DEFINE) && !lacks_name(lx, f)) {
             if (!read_argument(sh, lx, out, how))
                 return false;
         } else if (!(a = clause_at(lx, f))) {
@@ -476,9 +504,23 @@ bool said_end(lexer *lx, const grammar *f) {
         return at_end(lx);
     lex_word(lx, word);
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (!a->argument && *a->name && one_letter_apart(word, a->name))
+        if (!a->argument && *a->name && lx->len > 1 && one_letter_apart(word, a->name))
             return lex_fail(lx, "unexpected '%s': did you mean %s?", word, a->name);
     return at_end(lx);
+}
+
+/* `a, with E0 +- 5 %`: the word of the clause, taken for a value of the part before it. */
+static bool is_taken(const lexer *lx, const said *s, const clause *a) {
+    calc_error ignored, *error = lx->error;
+    if (!s->count || *s->list[0].of->name)
+        return false;
+    lexer own = hole_lexer(lx, &s->list[0].hole[0]);
+    own.error = &ignored;
+    error_clear(&ignored);
+    while (own.kind != T_END && !(own.at > s->list[0].hole[0].at && lex_is(&own, a->name)))
+        lex_next(&own);
+    return own.kind != T_END && lex_peek(&own) == T_NAME &&
+           !calc_fail(error, own.at, own.len, "something is missing before %s", a->name);
 }
 
 /* Clauses that may not be left out. */
@@ -489,6 +531,8 @@ static bool is_whole(lexer *lx, said *s) {
             continue;
         if (s->count && !*s->list[0].of->name && !s->list[0].hole[0].len)
             return lex_fail(lx, "expected a value here");
+        if (is_taken(lx, s, a))
+            return false;
         snprintf(line, sizeof line, "%.*s", (int)a->len, a->text);
         takes_text(line, text, sizeof text);
         return lex_fail(lx, "expected %s", text);

@@ -278,6 +278,7 @@ def figures(tests):
     s.child.expect(PROMPT)
     tests.check("an animation goes back up for each frame", len(re.findall("\x1b\\[[0-9]+A", s.child.before)) == 4,
                 repr(s.child.before))
+    tests.check("nothing stands before its first frame", "gnuplot" not in s.child.before, repr(s.child.before))
     s.child.sendeof()
     s.end()
     s = Session(tests, "--color=never", TERM="linux", LC_ALL="C.UTF-8")
