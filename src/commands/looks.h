@@ -19,9 +19,12 @@ typedef struct looks {
     limits x, y;
     size_t files;
     char over[OVER][FILE_NAME];
-    size_t over_at[OVER], over_len[OVER];
+    span over_at[OVER];
 } looks;
 
+/* The table of looks, a clause a line, and what an axis of theirs may be; NULL after the last. */
+const char *look_line(size_t i);
+const char *axes_name(size_t i);
 /* All that have been said. */
 bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out);
 

@@ -79,7 +79,7 @@ static bool finish(lexer *lx, const grid *g, const looks *l, const column *c, di
     p->logx = p->logx || g->a.log;
     p->logy = p->logy || g->b.log;
     if (l->files)
-        return calc_fail(lx->error, l->over_at[0], l->over_len[0], "points cannot lie over a map");
+        return calc_fail(lx->error, l->over_at[0].at, l->over_at[0].len, "points cannot lie over a map");
     return ((scale(m->x, m->nx, NULL, &x, &p->xlabel, &by_x) &&
              scale(m->y, m->ny, NULL, &y, &p->ylabel, &by_y) &&
              scale(m->z, m->nx * m->ny, c, &z, &m->label, &by_z)) ||

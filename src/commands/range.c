@@ -4,6 +4,12 @@
 
 #include <string.h>
 
+const char *range_line(size_t i) {
+    static const char *const lines[] = {"[for NAME = LO .. HI]*", "[along LOAD]", "[steps N:100000000]*",
+                                        "[log]*", "[with NAME = VALUES]"};
+    return i < sizeof lines / sizeof *lines ? lines[i] : NULL;
+}
+
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
 /* What the ends of a range, or the values of a list, have in common. A bare 0 is of any dimension. */

@@ -8,6 +8,9 @@
 #include "statement/command.h"
 #include "study/sweep.h"
 
+/* What may be said of a range, a clause a line; NULL after the last. */
+const char *range_line(size_t i);
+
 /* A sweep and where in the statement its range stands: it is read again for each curve. */
 typedef struct range {
     sweep sweep;
