@@ -13,7 +13,7 @@ enum { MAP_STEPS = 60 };
 bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t steps_a, size_t steps_b) {
     const heard *with = said_of(all, "with", 0), *second = said_of(all, "for", 1),
                 *third = said_of(all, "for", 2);
-    if (!range_read(sh, lx, all, 0, &out->a, steps_a))
+    if (!range_read(sh, lx, all, 0, &out->a) || !range_options(sh, lx, all, 0, &out->a, steps_a))
         return false;
     if (out->a.sweep.along)
         return lex_fail(lx, "a map goes for A = LO .. HI for B = LO .. HI");
@@ -24,7 +24,7 @@ bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t st
         return lex_fail(lx, "expected for VAR2 = LO .. HI");
     if (third)
         return calc_fail(lx->error, third->at, third->len, "a map goes for A = LO .. HI for B = LO .. HI");
-    if (!range_read(sh, lx, all, 1, &out->b, steps_b))
+    if (!range_read(sh, lx, all, 1, &out->b) || !range_options(sh, lx, all, 1, &out->b, steps_b))
         return false;
     if (!strcmp(out->a.sweep.var.text, out->b.sweep.var.text))
         return calc_fail(lx->error, second->at, second->len, "%s is given twice", out->b.sweep.var.text);
@@ -117,7 +117,7 @@ bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p) {
         return calc_no_memory(lx->error);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     lex_next(&own);
-    const bool ok = read_one_expression(sh, &own, 0, &c) && at_end(&own) &&
+    const bool ok = read_one_expression(sh, &own, 0, &c) &&
                     grid_range_read(sh, lx, all, &r, MAP_STEPS, MAP_STEPS) && looks_read(sh, lx, all, p, l) &&
                     run_map(sh, lx, &r, &c, l, p);
     columns_free(&c, 1);

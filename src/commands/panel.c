@@ -320,18 +320,19 @@ static bool is_still(const sweep *s) {
 }
 
 /* All figures follow one load. */
-static bool follow(motion *m, const lexer *lx, const range *r) {
+static bool follow(motion *m, const range *r) {
     const sweep *s = &r->sweep;
+    const lexer *own = &r->own;
     if (!m || m->at || !s->along)
         return true;
-    const size_t len = r->own.end - r->own.at;
-    char *load = s->what == ALONG_LOAD ? strndup(lx->text + r->own.at, len) : NULL;
+    const size_t len = own->end - own->at;
+    char *load = s->what == ALONG_LOAD ? strndup(own->text + own->at, len) : NULL;
     if (s->what == ALONG_LOAD && !load)
-        return calc_no_memory(lx->error);
+        return calc_no_memory(own->error);
     const bool same = !m->found || (m->what == s->what && (!load || !strcmp(load, m->load)));
     if (m->found) {
         free(load);
-        return same || calc_fail(lx->error, r->own.at, len, "the figures of an animation go along one load");
+        return same || calc_fail(own->error, own->at, len, "the figures of an animation go along one load");
     }
     m->found = true;
     m->what = s->what;
@@ -339,14 +340,14 @@ static bool follow(motion *m, const lexer *lx, const range *r) {
     return true;
 }
 
-/* ---- figures ----------------------------------------------------------------------------------- */
+/* ---- sweeps ------------------------------------------------------------------------------------ */
 
-static bool run_sweep(panel_job *job, lexer *lx, sweep_job *sweeping, const sweep *s) {
+static bool run_sweep(panel_job *job, sweep_job *sweeping, const sweep *s) {
     calc *c = &job->sh->calc;
     scene *seen = c->now;
     const bool still = job->m && job->m->at && is_still(s);
     if (s->along && s->what == ALONG_PROGRAM && c->scene.end.steps == 1)
-        return calc_fail(lx->error, 0, 0, "there is no loop yet: use step or cycle first");
+        return calc_fail(job->error, 0, 0, "there is no loop yet: use step or cycle first");
     if (still)
         c->now = job->m->at->outer;
     const bool ok = sweep_run(s, sweeping);
@@ -381,8 +382,8 @@ static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
                           .known = known,
                           .row = give_point,
                           .context = job,
-                          .error = lx->error};
-    if (!run_sweep(job, lx, &sweeping, s) || !finish_axes(job, lx, l, d, known))
+                          .error = job->error};
+    if (!run_sweep(job, &sweeping, s) || !finish_axes(job, lx, l, d, known))
         return false;
     if (!job->m || !job->m->at) {
         note_missing(job->sh, &sweeping);
@@ -391,37 +392,47 @@ static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
     return true;
 }
 
-/* EXPR, ... [against EXPR] RANGE. */
-static bool draw_sweep(shell *sh, lexer *lx, said *all, const figure *f, plot_panel *p, size_t index,
-                       motion *m) {
+/* Clauses, and the text that they stand in. */
+typedef struct written {
+    lexer lx;
+    said *all;
+} written;
+
+static const heard *range_of(said *all) {
+    const heard *by = said_of(all, "for", 0);
+    return by ? by : said_of(all, "along", 0);
+}
+
+/* What is drawn is of one source, what it goes over perhaps of another, and whatever else of the statement.
+ */
+static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
+    shell *sh = job->sh;
     column columns[PLOTTED + 1];
-    size_t count = 0;
-    const heard *against = said_of(all, "against", 0);
+    written own = {*lx, all}, *over = range_of(of->all) ? of : &own;
+    const heard *against = said_of(of->all, "against", 0);
     looks *l = calloc(1, sizeof *l);
     range r;
     if (!l)
         return calc_no_memory(lx->error);
-    bool ok = read_expressions_in(sh, lx, &all->list[0].hole[0], columns, PLOTTED, &count);
-    panel_job job = {.sh = sh,
-                     .p = p,
-                     .figure = f,
-                     .m = m,
-                     .index = index,
-                     .count = count,
-                     .columns = columns,
-                     .statement = lx->text,
-                     .error = lx->error};
+    bool ok = read_expressions_in(sh, &of->lx, &of->all->list[0].hole[0], columns, PLOTTED, &job->count);
+    size_t count = job->count;
     if (ok && against) {
-        lexer own = hole_lexer(lx, &against->hole[0]);
-        ok = read_one_expression(sh, &own, count, &columns[count]) && at_end(&own);
-        job.against = p->airy = true;
+        lexer abscissa = hole_lexer(&of->lx, &against->hole[0]);
+        ok = read_one_expression(sh, &abscissa, count, &columns[count]);
+        count++;
+        job->against = job->p->airy = true;
     }
-    ok = ok && no_second_range(lx, all) && range_read(sh, lx, all, 0, &r, 0) && follow(m, lx, &r) &&
-         looks_read(sh, lx, all, p, l) && make_curves(&job, lx, l, &r.sweep);
-    columns_free(columns, count + job.against);
+    job->columns = columns;
+    ok = ok && no_second_range(lx, all) && range_read(sh, &over->lx, over->all, 0, &r) &&
+         range_options(sh, lx, all, 0, &r, 0) && follow(job->m, &r) &&
+         (of->all == all || looks_read(sh, &of->lx, of->all, job->p, l)) &&
+         looks_read(sh, lx, all, job->p, l) && make_curves(job, lx, l, &r.sweep);
+    columns_free(columns, count);
     free(l);
     return ok;
 }
+
+/* ---- figures of the table ---------------------------------------------------------------------- */
 
 /* Of a homogeneous body that is not compared with others. */
 static const char *statement_of(const shell *sh, const figure *f, said *all) {
@@ -431,68 +442,63 @@ static const char *statement_of(const shell *sh, const figure *f, said *all) {
     return f->without_c0 && !graded ? f->without_c0 : f->statement;
 }
 
-/* As much of it as what has been said leaves: that may be of another range. */
-static size_t statement_length(const char *statement, said *all) {
-    if (!said_of(all, "along", 0) && !said_of(all, "for", 0))
-        return strlen(statement);
-    const char *own = strstr(statement, " along ");
-    own = own ? own : strstr(statement, " for "); /* each has either */
-    return (size_t)(own - statement);
-}
-
-/* Does a figure over a place stand before `along`? For a place of the user's it goes along as any other. */
-static bool goes_over_place(const shell *sh, const said *all, const figure *f) {
-    const char *of = strstr(f->statement, " for ");
-    size_t own;
-    if (!of || all->count < 2 || strcmp(all->list[1].of->name, "along") != 0)
-        return false;
-    of += strlen(" for ");
-    return !names_find(&sh->calc.names, of, strcspn(of, " "), &own);
-}
-
-/* It moves with that load. */
-static bool take_load(shell *sh, const lexer *lx, const heard *along, const figure *f, motion *m) {
-    const char *of = strstr(f->statement, " for ") + strlen(" for ");
+/* A figure over a place moves with that load. */
+static bool take_load(panel_job *job, const lexer *lx, const heard *along, const char *place, size_t len) {
+    const char *name = job->figure->name;
     range r;
-    if (!m)
+    if (!job->m)
         return calc_fail(lx->error, along->at, along->len,
-                         "%s goes over %.*s, not along a load: animate %s along ... shows it move", f->name,
-                         (int)strcspn(of, " "), of, f->name);
-    return range_read_along(sh, lx, &along->hole[0], &r) && follow(m, lx, &r);
+                         "%s goes over %.*s, not along a load: animate %s along ... shows it move", name,
+                         (int)len, place, name);
+    return range_read_along(job->sh, lx, &along->hole[0], &r) && follow(job->m, &r);
 }
 
-/* A figure of the table: its statement as if it stood here, what follows the name after it. */
-static bool draw_named(shell *sh, lexer *lx, panel *as, const figure *f, plot_panel *p, size_t index,
-                       motion *m) {
-    size_t from = as->at + strlen(f->name);
-    const char *statement = statement_of(sh, f, &as->said);
-    size_t length = statement_length(statement, &as->said);
-    if (goes_over_place(sh, &as->said, f)) {
-        const heard *along = &as->said.list[1];
-        if (!take_load(sh, lx, along, f, m))
+/* The row of the figure. Another range takes the place of its own, and of the looks that suit that; but a
+ * load does not take that of a place, unless it is one of the user's, which goes along as anything else. */
+static bool draw_row(panel_job *job, lexer *lx, said *all, written *row) {
+    const heard *over = range_of(row->all), *along = said_of(all, "along", 0);
+    const span *place = &over->hole[0];
+    if (row->all->wakes && along && !said_of(all, "for", 0)) {
+        if (!take_load(job, lx, along, row->lx.text + place->at, place->len))
             return false;
-        from = along->hole[0].at + along->hole[0].len;
-        length = strlen(statement);
+    } else if (range_of(all)) {
+        said_drop(job->sh, row->all);
+        row->all->count = (unsigned)(over - row->all->list);
     }
-    const size_t room = length + (as->end - from) + 1;
-    char *text = malloc(room);
-    said all;
-    if (!text)
-        return calc_no_memory(lx->error);
-    snprintf(text, room, "%.*s%.*s", (int)length, statement, (int)(as->end - from), lx->text + from);
-    lexer own;
-    lex_start(&own, text, strlen(text), lx->error);
-    bool ok = said_read(sh, &own, as->said.by, &all);
+    return draw_sweep(job, lx, all, row);
+}
+
+static bool draw_named(panel_job *job, lexer *lx, said *all) {
+    const char *statement = statement_of(job->sh, job->figure, all);
+    calc_error mine;
+    said own;
+    written row = {.all = &own};
+    error_clear(&mine);
+    job->error = &mine;
+    lex_start(&row.lx, statement, strlen(statement), &mine);
+    bool ok = said_read(job->sh, &row.lx, all->by, &own);
     if (ok) {
-        ok = draw_sweep(sh, &own, &all, f, p, index, m);
-        said_drop(sh, &all);
+        ok = draw_row(job, lx, all, &row);
+        said_drop(job->sh, &own);
     }
-    free(text);
-    if (!ok && lx->error->len && lx->error->at >= length)
-        lx->error->at += from - length;
-    else if (!ok)
-        lx->error->len = 0;
+    if (mine.raised) { /* places in the row mean nothing in the statement */
+        *lx->error = mine;
+        lx->error->at = lx->error->len = 0;
+    }
     return ok;
+}
+
+/* ---- figures ----------------------------------------------------------------------------------- */
+
+/* The name of a figure is an expression where one goes on behind it; a range may follow one that has no
+ * value. */
+static bool is_named(const shell *sh, const figure *f, said *all) {
+    const size_t len = strlen(f->name);
+    size_t own;
+    if (!all->count || all->list[0].hole[0].len != len || said_of(all, "against", 0))
+        return false;
+    return !range_of(all) ||
+           !(quantity_find(f->name, len) || names_find(&sh->calc.names, f->name, len, &own));
 }
 
 bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
@@ -503,36 +509,14 @@ bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
         row = figure_form(f);
     }
     const bool ok = said_read_some(sh, lx, row, &out->said);
-    out->end = lx->kind == T_END ? lx->end : lx->at;
+    out->figure = ok && f && (f->build || is_named(sh, f, &out->said)) ? f : NULL;
     if (!ok)
         said_drop(sh, &out->said);
     return ok;
 }
 
-/* The name of a figure is an expression where one goes on behind it; a range may follow one that has no
- * value. */
-static const figure *figure_of(const shell *sh, const lexer *lx, panel *p) {
-    const char *name = lx->text + p->at;
-    const figure *f = figure_find(name, p->said.count ? p->said.list[0].hole[0].len : 0);
-    size_t own;
-    if (!f || said_of(&p->said, "against", 0))
-        return NULL;
-    const bool valued =
-        quantity_find(name, strlen(f->name)) || names_find(&sh->calc.names, name, strlen(f->name), &own);
-    return valued && (said_of(&p->said, "for", 0) || said_of(&p->said, "along", 0)) ? NULL : f;
-}
-
-static const figure *figure_built(const panel *p) {
-    const figure *f;
-    for (size_t i = 0; (f = figure_row(i)); i++)
-        if (f->build && p->said.by == figure_form(f))
-            return f;
-    return NULL;
-}
-
-bool panel_is_whole(const shell *sh, const lexer *lx, panel *p) {
-    return figure_built(p) || said_of(&p->said, "for", 0) || said_of(&p->said, "along", 0) ||
-           figure_of(sh, lx, p);
+bool panel_is_whole(panel *p) {
+    return p->figure || range_of(&p->said);
 }
 
 bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
@@ -540,11 +524,18 @@ bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
     plot_panel *p = plot_panel_add(f, lx->error);
     if (!p)
         return calc_place(lx->error, as->at, 1);
-    const figure *built = figure_built(as), *named = built ? NULL : figure_of(sh, lx, as);
-    if (built)
-        return built->build(sh, lx, &as->said, p);
-    if (named)
-        return draw_named(sh, lx, as, named, p, index, m);
+    if (as->figure && as->figure->build)
+        return as->figure->build(sh, lx, &as->said, p);
+    panel_job job = {.sh = sh,
+                     .p = p,
+                     .figure = as->figure,
+                     .m = m,
+                     .index = index,
+                     .statement = lx->text,
+                     .error = lx->error};
+    if (as->figure)
+        return draw_named(&job, lx, &as->said);
     const lexer first = hole_lexer(lx, &as->said.list[0].hole[0]);
-    return map_at(&first) ? map_draw(sh, lx, &as->said, p) : draw_sweep(sh, lx, &as->said, NULL, p, index, m);
+    return map_at(&first) ? map_draw(sh, lx, &as->said, p)
+                          : draw_sweep(&job, lx, &as->said, &(written){*lx, &as->said});
 }

@@ -26,14 +26,15 @@ typedef struct motion {
 
 /* A figure as it has been said. */
 typedef struct panel {
+    const struct figure *figure; /* of the table; NULL: what has been said is all of it */
     said said;
-    size_t at, end; /* in the statement */
+    size_t at; /* in the statement */
 } panel;
 
 /* At the cursor, to the `|` or the end. */
 bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out);
 /* Does it say what it goes over? One of the table need not. */
-bool panel_is_whole(const shell *sh, const lexer *lx, panel *p);
+bool panel_is_whole(panel *p);
 /* Appends a panel; m: NULL where nothing moves. */
 bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m);
 

@@ -164,7 +164,7 @@ bool do_plot(shell *sh, lexer *lx, const command *self) {
     lexer begin = *lx;
     plot_figure_init(&f);
     bool ok = read_panels(sh, lx, command_form(self), &p);
-    if (ok && !panel_is_whole(sh, lx, &p.list[0])) {
+    if (ok && !panel_is_whole(&p.list[0])) {
         fail_figure(&sh->calc, &begin);
         ok = false;
     }
@@ -284,7 +284,7 @@ bool do_animate(shell *sh, lexer *lx, const command *self) {
         return calc_no_memory(lx->error);
     *m = (movie){.sh = sh, .lx = lx, .frames = FRAMES, .error = lx->error};
     bool ok = read_panels(sh, lx, command_form(self), &m->figures) &&
-              (panel_is_whole(sh, lx, &m->figures.list[0]) ||
+              (panel_is_whole(&m->figures.list[0]) ||
                lex_fail(&begin, "expected EXPR, ... along program, or a figure"));
     const heard *frames = ok ? last_said(&m->figures, "frames") : NULL;
     if (frames)

@@ -115,11 +115,12 @@ static bool read_with(shell *sh, const lexer *lx, const heard *h, sweep *s) {
     return at_end(&own);
 }
 
-/* `steps`, `log` and `with` that stand before the next `for`. */
-static bool read_options(shell *sh, lexer *lx, const said *said_all, size_t which, sweep *s) {
+bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *out, size_t steps) {
+    sweep *s = &out->sweep;
     size_t ranges = 0;
     bool given = false;
-    for (const heard *h = said_all->list; h < said_all->list + said_all->count; h++) {
+    s->steps = steps;
+    for (const heard *h = all->list; h < all->list + all->count; h++) {
         const char *word = h->of->name;
         ranges += !strcmp(word, "for");
         if ((ranges ? ranges - 1 : 0) != which)
@@ -139,35 +140,32 @@ static bool read_options(shell *sh, lexer *lx, const said *said_all, size_t whic
             return false;
         }
     }
-    return true;
+    return !s->log || out->positive ||
+           calc_fail(out->own.error, out->own.at, out->own.end - out->own.at,
+                     "a logarithmic sweep needs positive ends");
 }
 
-bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out, size_t steps) {
+bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
     sweep *s = &out->sweep;
     sweep_range ends = {.lo = 0};
     const heard *along = said_of(all, "along", 0), *by = said_of(all, "for", which);
-    if (along && by)
-        return calc_fail(lx->error, by->at > along->at ? by->at : along->at,
-                         by->at > along->at ? by->len : along->len,
+    if (along && by) {
+        const heard *later = by->at > along->at ? by : along;
+        return calc_fail(lx->error, later->at, later->len,
                          "a range goes for NAME = LO .. HI, or along a load");
-    if (along) {
-        const bool ok = range_read_along(sh, lx, &along->hole[0], out);
-        s->steps = steps;
-        return ok && read_options(sh, lx, all, which, s);
     }
+    if (along)
+        return range_read_along(sh, lx, &along->hole[0], out);
     if (!by)
         return lex_fail(lx, "expected for VAR = LO .. HI");
     begin(sh, lx, &by->hole[1], out);
-    s->steps = steps;
     lexer name = hole_lexer(lx, &by->hole[0]), own = out->own;
     if (!knob_read(&sh->calc, &name, &s->var) ||
         !range_read_interval(&sh->calc, &own, &s->var, NULL, &ends) || !at_end(&own))
         return false;
     s->var.d = ends.d;
-    if (!read_options(sh, lx, all, which, s))
-        return false;
-    return !s->log || (ends.lo > 0 && ends.hi > 0) ||
-           calc_fail(lx->error, by->hole[1].at, by->hole[1].len, "a logarithmic sweep needs positive ends");
+    out->positive = ends.lo > 0 && ends.hi > 0;
+    return true;
 }
 
 void note_missing(shell *sh, const sweep_job *job) {

@@ -274,7 +274,7 @@ bool do_table(shell *sh, lexer *lx, const command *self) {
         ok = grid_range_read(sh, lx, &all, &two, ROWS, ACROSS) &&
              run_table(sh, lx, &all, &two.grid.a, &two.grid, columns, count);
     else
-        ok = ok && range_read(sh, lx, &all, 0, &r, ROWS) &&
+        ok = ok && range_read(sh, lx, &all, 0, &r) && range_options(sh, lx, &all, 0, &r, ROWS) &&
              run_table(sh, lx, &all, &r.sweep, NULL, columns, count);
     columns_free(columns, count);
     said_drop(sh, &all);

@@ -8,13 +8,19 @@
 
 /* ---- what has been said ------------------------------------------------------------------------ */
 
-bool names_wake(shell *sh, const lexer *lx, size_t before) {
-    own_names *n = &sh->calc.names;
+static bool is_awake(const shell *sh, const lexer *lx) {
     const char *text = lx->text + lx->at;
     size_t i;
-    if (quantity_find(text, lx->len) || name_taken(text, lx->len) || names_find(n, text, lx->len, &i))
+    return quantity_find(text, lx->len) || name_taken(text, lx->len) ||
+           names_find(&sh->calc.names, text, lx->len, &i);
+}
+
+bool names_wake(shell *sh, const lexer *lx, size_t before) {
+    own_names *n = &sh->calc.names;
+    size_t i;
+    if (is_awake(sh, lx))
         return true;
-    if (!names_add(n, text, lx->len, &i))
+    if (!names_add(n, lx->text + lx->at, lx->len, &i))
         return calc_no_memory(lx->error);
     n->row[i].woken = i < before;
     n->row[i].known = true;
@@ -301,9 +307,11 @@ static bool skip_names(shell *sh, lexer *lx, said *s, const clause *a, bool wake
         skip_part(lx, s->by, false, false);
         return true;
     }
-    s->wakes = s->wakes || wakes;
-    if (wakes && lx->len < LEX_NAME && !names_wake(sh, lx, s->names))
-        return false;
+    if (wakes && lx->len < LEX_NAME && !is_awake(sh, lx)) {
+        s->wakes = true;
+        if (!names_wake(sh, lx, s->names))
+            return false;
+    }
     lex_next(lx);
     return !lx->error->raised;
 }

@@ -29,7 +29,7 @@ typedef struct heard {
 enum { HEARD = 40, FILE_NAME = 4096 };
 typedef struct said {
     const grammar *by;
-    bool wakes;   /* it has names that stand behind the expressions that use them: known until said_drop */
+    bool wakes;   /* names of its own, unknown before, stand behind what uses them: known until said_drop */
     size_t names; /* of the session, before */
     unsigned count;
     heard list[HEARD]; /* in their order */
