@@ -229,15 +229,31 @@ bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, 
     return true;
 }
 
-/* ---- limits ------------------------------------------------------------------------------------ */
+/* ---- axes -------------------------------------------------------------------------------------- */
 
-bool looks_limit(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
-                 long double scale) {
+axis_unit axis_unit_for(const column *c, dim d, double size) {
+    axis_unit u;
+    if (c && c->chosen) {
+        u.scale = c->scale;
+        memcpy(u.text, c->unit, sizeof u.text);
+    } else {
+        u.scale = unit_choose(d, size, 6, u.text, sizeof u.text);
+    }
+    return u;
+}
+
+bool looks_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
+                const axis_unit *u) {
     const limits *given = x_axis ? &l->x : &l->y;
+    char **label = x_axis ? &p->xlabel : &p->ylabel;
+    if (!*label)
+        *label = plot_label(axis->name, u->text);
+    if (!*label)
+        return calc_no_memory(lx->error);
     for (int i = 0; given->given && i < 2; i++) {
         if (!value_dim(lx, x_axis ? "xrange" : "yrange", given->at, given->len, given->end[i], axis->d))
             return false;
-        const double v = (double)(given->end[i].v / scale);
+        const double v = (double)(given->end[i].v / u->scale);
         *(x_axis ? i ? &p->xhi : &p->xlo : i ? &p->yhi : &p->ylo) = v;
     }
     return true;

@@ -61,49 +61,34 @@ static double largest(const double *v, size_t n) {
     return most;
 }
 
-/* In a unit with a prefix that fits, or the one asked for; the label where none was given. */
-static bool scale(double *v, size_t n, const column *c, const axis_of *of, char **label, long double *by) {
-    char unit_text[COLUMN_UNIT];
-    *by = c && c->chosen ? c->scale : unit_choose(of->d, largest(v, n), 6, unit_text, sizeof unit_text);
+static axis_unit scale(double *v, size_t n, const column *c, dim d) {
+    const axis_unit u = axis_unit_for(c, d, largest(v, n));
     for (size_t i = 0; i < n; i++)
-        v[i] = (double)(v[i] / *by);
-    if (!*label)
-        *label = plot_label(of->name, c && c->chosen ? c->unit : unit_text);
-    return *label != NULL;
+        v[i] = (double)(v[i] / u.scale);
+    return u;
 }
 
 static bool finish(lexer *lx, const grid *g, const looks *l, const column *c, dim d, plot_panel *p) {
     plot_map *m = &p->map;
-    const axis_of x = {g->a.var.text, g->a.var.d}, y = {g->b.var.text, g->b.var.d}, z = {c->name, d};
-    long double by_x, by_y, by_z;
+    const axis_of x = {g->a.var.text, g->a.var.d}, y = {g->b.var.text, g->b.var.d};
     p->logx = p->logx || g->a.log;
     p->logy = p->logy || g->b.log;
     if (l->files)
         return calc_fail(lx->error, l->over_at[0].at, l->over_at[0].len, "points cannot lie over a map");
-    return ((scale(m->x, m->nx, NULL, &x, &p->xlabel, &by_x) &&
-             scale(m->y, m->ny, NULL, &y, &p->ylabel, &by_y) &&
-             scale(m->z, m->nx * m->ny, c, &z, &m->label, &by_z)) ||
-            calc_no_memory(lx->error)) &&
-           looks_limit(lx, l, p, true, &x, by_x) && looks_limit(lx, l, p, false, &y, by_y);
+    const axis_unit of_x = scale(m->x, m->nx, NULL, x.d), of_y = scale(m->y, m->ny, NULL, y.d),
+                    of_z = scale(m->z, m->nx * m->ny, c, d);
+    m->label = plot_label(c->name, of_z.text);
+    return (m->label || calc_no_memory(lx->error)) && looks_axis(lx, l, p, true, &x, &of_x) &&
+           looks_axis(lx, l, p, false, &y, &of_y);
 }
 
 static bool run_map(shell *sh, lexer *lx, const grid_range *r, column *c, const looks *l, plot_panel *p) {
     const grid *g = &r->grid;
     map_job job = {.m = &p->map};
-    dim d = c->d;
-    bool known = c->chosen;
-    const char *unit_name_of = c->chosen ? c->unit : NULL;
-    sweep_job sweeping = {.c = &sh->calc,
-                          .expressions = sh->list,
-                          .count = 1,
-                          .d = &d,
-                          .known = &known,
-                          .units = &unit_name_of,
-                          .row = give_value,
-                          .context = &job,
-                          .error = lx->error};
+    found f;
+    sweep_job sweeping = range_job(sh, c, 1, &f, give_value, &job, lx->error);
     if (!plot_map_make(p, g->a.steps + 1, g->b.steps + 1, lx->error) || !grid_run(g, &sweeping) ||
-        !finish(lx, g, l, c, d, p))
+        !finish(lx, g, l, c, f.d[0], p))
         return false;
     note_missing(sh, &sweeping);
     return true;

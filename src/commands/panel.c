@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "commands/figures.h"
-#include "commands/looks.h"
 #include "commands/map.h"
 #include "statement/progress.h"
 
@@ -269,40 +268,27 @@ static void ordinate_name(const panel_job *job, char *name, size_t size) {
 static bool scale_axis(panel_job *job, lexer *lx, const looks *l, bool x_axis, const column *c,
                        const axis_of *axis) {
     axis_unit own, *u = job->m ? &job->m->unit[job->index][x_axis] : &own;
-    if (c && c->chosen) {
-        u->scale = c->scale;
-        snprintf(u->text, sizeof u->text, "%s", c->unit);
-    } else if (!job->m || !job->m->at) {
-        u->scale =
-            unit_choose(axis->d, typical(job->p, x_axis, x_axis ? &l->x : &l->y), 6, u->text, sizeof u->text);
-    }
+    if (!job->m || !job->m->at)
+        *u = axis_unit_for(c, axis->d, typical(job->p, x_axis, x_axis ? &l->x : &l->y));
     divide(job->p, x_axis, u->scale);
-    char **label = x_axis ? &job->p->xlabel : &job->p->ylabel;
-    if (!*label)
-        *label = plot_label(axis->name, u->text);
-    return (*label || calc_no_memory(lx->error)) && looks_limit(lx, l, job->p, x_axis, axis, u->scale);
+    return looks_axis(lx, l, job->p, x_axis, axis, u);
 }
 
-static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const dim *d, const bool *known) {
+static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const found *f) {
     const sweep *s = job->s;
     char name[40];
     const bool shared = main_count(job) > 1;
     const column *c = job->columns, *x = job->against ? &c[job->count] : NULL;
     size_t first = 0; /* whose dimension is known: there may be no value that tells of it */
-    while (first + 1 < job->count && !known[first])
+    while (first + 1 < job->count && !f->known[first])
         first++;
     for (size_t i = first + 1; i < job->count; i++)
-        if (known[i] && !dim_equal(d[i], d[first]))
+        if (f->known[i] && !dim_equal(f->d[i], f->d[first]))
             return calc_fail(job->error, job->sh->list[i].at, job->sh->list[i].len,
                              "%s and %s cannot share an axis", c[first].name, c[i].name);
     ordinate_name(job, name, sizeof name);
-    const axis_of ax = {x          ? x->name
-                        : s->along ? "time"
-                                   : s->var.text,
-                        x          ? d[job->count]
-                        : s->along ? DIM_NONE
-                                   : s->var.d},
-                  ay = {shared ? name : c[0].name, d[first]};
+    const axis_of ax = {x ? x->name : s->var.text, x ? f->d[job->count] : s->var.d},
+                  ay = {shared ? name : c[0].name, f->d[first]};
     job->p->logx = job->p->logx || s->log;
     if (!job->p->title && job->figure)
         job->p->title = strdup(job->figure->title);
@@ -364,26 +350,14 @@ static bool no_second_range(const lexer *lx, said *all) {
 /* Curves and axes of what has been read. */
 static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
     const size_t count = job->count + job->against;
-    dim d[PLOTTED + 1] = {DIM_NONE};
-    bool known[PLOTTED + 1] = {false};
+    found f;
     job->s = s;
     job->each = series_each(job);
     s->turns = true;
     s->refine = !s->along && !s->steps;
     s->steps = s->steps ? s->steps : s->along ? ALONG : job->m ? MOVING : EVENLY;
-    for (size_t i = 0; i < count; i++) {
-        known[i] = job->columns[i].chosen;
-        d[i] = job->columns[i].d;
-    }
-    sweep_job sweeping = {.c = &job->sh->calc,
-                          .expressions = job->sh->list,
-                          .count = count,
-                          .d = d,
-                          .known = known,
-                          .row = give_point,
-                          .context = job,
-                          .error = job->error};
-    if (!run_sweep(job, &sweeping, s) || !finish_axes(job, lx, l, d, known))
+    sweep_job sweeping = range_job(job->sh, job->columns, count, &f, give_point, job, job->error);
+    if (!run_sweep(job, &sweeping, s) || !finish_axes(job, lx, l, &f))
         return false;
     if (!job->m || !job->m->at) {
         note_missing(job->sh, &sweeping);

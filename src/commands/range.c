@@ -74,6 +74,7 @@ bool range_read_along(shell *sh, const lexer *lx, const span *part, range *out) 
     begin(sh, lx, part, out);
     lexer own = out->own;
     s->along = true;
+    s->var = (knob){.text = "time"};
     s->what = ALONG_LOAD;
     if (lex_accept(&own, "program")) {
         s->what = ALONG_PROGRAM;
@@ -94,7 +95,7 @@ static bool read_with(shell *sh, const lexer *lx, const heard *h, sweep *s) {
     lexer name = hole_lexer(lx, &h->hole[0]), own = hole_lexer(lx, &h->hole[1]);
     if (!knob_read(&sh->calc, &name, &s->with))
         return false;
-    if (!strcmp(s->with.text, s->var.text))
+    if (!s->along && !strcmp(s->with.text, s->var.text))
         return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s is given twice", s->with.text);
     bounds b = {.known = false};
     do {
@@ -166,6 +167,24 @@ bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
     s->var.d = ends.d;
     out->positive = ends.lo > 0 && ends.hi > 0;
     return true;
+}
+
+sweep_job range_job(shell *sh, const column *columns, size_t count, found *f, sweep_row *row, void *context,
+                    calc_error *error) {
+    for (size_t i = 0; i < count; i++) {
+        f->d[i] = columns[i].d;
+        f->known[i] = columns[i].chosen;
+        f->units[i] = columns[i].chosen ? columns[i].unit : NULL;
+    }
+    return (sweep_job){.c = &sh->calc,
+                       .expressions = sh->list,
+                       .count = count,
+                       .d = f->d,
+                       .known = f->known,
+                       .units = f->units,
+                       .row = row,
+                       .context = context,
+                       .error = error};
 }
 
 void note_missing(shell *sh, const sweep_job *job) {

@@ -6,6 +6,7 @@
 #define COMMANDS_RANGE_H
 
 #include "statement/command.h"
+#include "statement/output.h"
 #include "study/sweep.h"
 
 /* What may be said of a range, a clause a line; NULL after the last. */
@@ -28,6 +29,16 @@ bool range_read_along(shell *sh, const lexer *lx, const span *load, range *out);
 bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out);
 /* `steps`, `log` and `with` of that range, which stand before the next `for`; steps: where none are given. */
 bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *out, size_t steps);
+/* What a sweep finds of its expressions, or what their columns ask for. */
+typedef struct found {
+    dim d[COLUMNS];
+    bool known[COLUMNS];
+    const char *units[COLUMNS];
+} found;
+
+/* A sweep of the expressions in sh->list, which have these columns. */
+sweep_job range_job(shell *sh, const column *columns, size_t count, found *f, sweep_row *row, void *context,
+                    calc_error *error);
 /* Says on standard error why some values of a sweep are missing. */
 void note_missing(shell *sh, const sweep_job *job);
 

@@ -60,9 +60,7 @@ typedef struct table_job {
     column columns[COLUMNS]; /* the sweep's own, then those of the expressions */
     size_t first;            /* of the expressions */
     size_t count;
-    dim d[COLUMNS];
-    bool known[COLUMNS];
-    const char *units[COLUMNS];
+    found found;
     size_t curve;
     long double second; /* the value of the second name of a grid, in the last row */
     bool begun, blocks;
@@ -75,7 +73,7 @@ typedef struct table_job {
 static void begin_columns(table_job *job) {
     for (size_t i = 0; i < job->count; i++) {
         column *c = &job->columns[job->first + i];
-        c->d = job->known[i] ? job->d[i] : DIM_NONE;
+        c->d = job->found.known[i] ? job->found.d[i] : DIM_NONE;
         if (!c->chosen)
             dim_unit(c->d, c->unit, sizeof c->unit);
     }
@@ -116,20 +114,10 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
            calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
 }
 
-/* A dimension that the user asked for must come out. */
-static void wanted(table_job *job) {
-    for (size_t i = 0; i < job->count; i++) {
-        job->known[i] = job->columns[job->first + i].chosen;
-        job->d[i] = job->columns[job->first + i].d;
-        job->units[i] = job->known[i] ? job->columns[job->first + i].unit : NULL;
-    }
-}
-
 /* second: the other name of a grid, or of the curves; NULL: there is none */
 static bool own_columns(table_job *job, const sweep *s, const knob *second) {
-    const char *name = s->along ? "time" : s->var.text;
     column *own = job->columns;
-    return column_si(&own[0], name, s->along ? DIM_NONE : s->var.d) &&
+    return column_si(&own[0], s->var.text, s->var.d) &&
            (!second || column_si(&own[1], second->text, second->d));
 }
 
@@ -230,16 +218,8 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
     for (size_t i = 0; i < count; i++)
         columns[i].name = NULL;
     answer_begin_as(&job->a, &sh->set, to.to, to.format);
-    wanted(job);
-    sweep_job sweeping = {.c = &sh->calc,
-                          .expressions = sh->list,
-                          .count = count,
-                          .d = job->d,
-                          .known = job->known,
-                          .units = job->units,
-                          .row = give_row,
-                          .context = job,
-                          .error = lx->error};
+    sweep_job sweeping =
+        range_job(sh, job->columns + job->first, count, &job->found, give_row, job, lx->error);
     job->screen = to.to == sh->out && shell_on_terminal(sh);
     bool ok = own_columns(job, s, second) || calc_no_memory(lx->error);
     const bool square = g && to.format == FORMAT_TEXT && !to.blocks;
