@@ -93,8 +93,8 @@ static bool read_over(const reading *r) {
     looks *l = r->out;
     if (l->files == OVER)
         return calc_fail(r->lx->error, name->at, name->len, "more than %d files", OVER);
-    l->over_at[l->files] = *name;
-    return hole_file(r->lx, name, l->over[l->files++]);
+    l->over[l->files++] = *name;
+    return true;
 }
 
 static const struct {
@@ -207,15 +207,17 @@ static bool find_columns(const csv *c, const axis_of *x, const axis_of *y, const
     return !error->raised && is_fit(c, *of_x, x, error) && is_fit(c, *of_y, y, error);
 }
 
-static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const axis_of *x, const axis_of *y) {
+static bool lay_file(lexer *lx, const span *of, plot_panel *p, const axis_of *x, const axis_of *y) {
     csv c;
     const csv_values *of_x, *of_y;
-    const char *slash = strrchr(l->over[i], '/');
-    bool ok =
-        csv_read(l->over[i], &shell_stop, &c, lx->error) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
+    char name[FILE_NAME];
+    if (!hole_file(lx, of, name))
+        return false;
+    const char *slash = strrchr(name, '/');
+    bool ok = csv_read(name, &shell_stop, &c, lx->error) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
     if (!ok)
-        calc_place(lx->error, l->over_at[i].at, l->over_at[i].len);
-    plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, slash ? slash + 1 : l->over[i], lx->error) : NULL;
+        calc_place(lx->error, of->at, of->len);
+    plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, slash ? slash + 1 : name, lx->error) : NULL;
     for (size_t j = 0; s && ok && j < c.rows; j++)
         ok = plot_point(s, of_x->v[j], of_y->v[j]) || calc_no_memory(lx->error);
     csv_free(&c);
@@ -224,7 +226,7 @@ static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const a
 
 bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y) {
     for (size_t i = 0; i < l->files; i++)
-        if (!lay_file(lx, l, i, p, x, y))
+        if (!lay_file(lx, &l->over[i], p, x, y))
             return false;
     return true;
 }

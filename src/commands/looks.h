@@ -18,8 +18,7 @@ typedef struct limits {
 typedef struct looks {
     limits x, y;
     size_t files;
-    char over[OVER][FILE_NAME];
-    span over_at[OVER];
+    span over[OVER];
 } looks;
 
 /* The table of looks, a clause a line, and what an axis of theirs may be; NULL after the last. */

@@ -3,10 +3,7 @@
 #include "commands/map.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-#include "commands/looks.h"
 
 enum { MAP_STEPS = 60 };
 
@@ -74,7 +71,7 @@ static bool finish(lexer *lx, const grid *g, const looks *l, const column *c, di
     p->logx = p->logx || g->a.log;
     p->logy = p->logy || g->b.log;
     if (l->files)
-        return calc_fail(lx->error, l->over_at[0].at, l->over_at[0].len, "points cannot lie over a map");
+        return calc_fail(lx->error, l->over[0].at, l->over[0].len, "points cannot lie over a map");
     const axis_unit of_x = scale(m->x, m->nx, NULL, x.d), of_y = scale(m->y, m->ny, NULL, y.d),
                     of_z = scale(m->z, m->nx * m->ny, c, d);
     m->label = plot_label(c->name, of_z.text);
@@ -94,18 +91,13 @@ static bool run_map(shell *sh, lexer *lx, const grid_range *r, column *c, const 
     return true;
 }
 
-bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p) {
+bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     column c;
     grid_range r;
-    looks *l = calloc(1, sizeof *l);
-    if (!l)
-        return calc_no_memory(lx->error);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     lex_next(&own);
     const bool ok = read_one_expression(sh, &own, 0, &c) &&
-                    grid_range_read(sh, lx, all, &r, MAP_STEPS, MAP_STEPS) && looks_read(sh, lx, all, p, l) &&
-                    run_map(sh, lx, &r, &c, l, p);
+                    grid_range_read(sh, lx, all, &r, MAP_STEPS, MAP_STEPS) && run_map(sh, lx, &r, &c, l, p);
     columns_free(&c, 1);
-    free(l);
     return ok;
 }

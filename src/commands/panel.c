@@ -22,6 +22,7 @@ enum {
 typedef struct panel_job {
     shell *sh;
     plot_panel *p;
+    looks *looks;
     const figure *figure; /* or NULL */
     const sweep *s;
     motion *m;
@@ -265,8 +266,8 @@ static void ordinate_name(const panel_job *job, char *name, size_t size) {
 }
 
 /* In the unit that was asked for, or one with a prefix that fits. */
-static bool scale_axis(panel_job *job, lexer *lx, const looks *l, bool x_axis, const column *c,
-                       const axis_of *axis) {
+static bool scale_axis(panel_job *job, lexer *lx, bool x_axis, const column *c, const axis_of *axis) {
+    const looks *l = job->looks;
     axis_unit own, *u = job->m ? &job->m->unit[job->index][x_axis] : &own;
     if (!job->m || !job->m->at)
         *u = axis_unit_for(c, axis->d, typical(job->p, x_axis, x_axis ? &l->x : &l->y));
@@ -274,7 +275,7 @@ static bool scale_axis(panel_job *job, lexer *lx, const looks *l, bool x_axis, c
     return looks_axis(lx, l, job->p, x_axis, axis, u);
 }
 
-static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const found *f) {
+static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
     const sweep *s = job->s;
     char name[40];
     const bool shared = main_count(job) > 1;
@@ -294,8 +295,8 @@ static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const found *
         job->p->title = strdup(job->figure->title);
     if (!job->p->title && job->figure)
         return calc_no_memory(lx->error);
-    return looks_lay_over(lx, l, job->p, &ax, &ay) && scale_axis(job, lx, l, true, x, &ax) &&
-           scale_axis(job, lx, l, false, &c[0], &ay);
+    return looks_lay_over(lx, job->looks, job->p, &ax, &ay) && scale_axis(job, lx, true, x, &ax) &&
+           scale_axis(job, lx, false, &c[0], &ay);
 }
 
 /* ---- motion ------------------------------------------------------------------------------------ */
@@ -348,7 +349,7 @@ static bool no_second_range(const lexer *lx, said *all) {
 }
 
 /* Curves and axes of what has been read. */
-static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
+static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
     const size_t count = job->count + job->against;
     found f;
     job->s = s;
@@ -357,7 +358,7 @@ static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
     s->refine = !s->along && !s->steps;
     s->steps = s->steps ? s->steps : s->along ? ALONG : job->m ? MOVING : EVENLY;
     sweep_job sweeping = range_job(job->sh, job->columns, count, &f, give_point, job, job->error);
-    if (!run_sweep(job, &sweeping, s) || !finish_axes(job, lx, l, &f))
+    if (!run_sweep(job, &sweeping, s) || !finish_axes(job, lx, &f))
         return false;
     if (!job->m || !job->m->at) {
         note_missing(job->sh, &sweeping);
@@ -384,10 +385,7 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     column columns[PLOTTED + 1];
     written own = {*lx, all}, *over = range_of(of->all) ? of : &own;
     const heard *against = said_of(of->all, "against", 0);
-    looks *l = calloc(1, sizeof *l);
     range r;
-    if (!l)
-        return calc_no_memory(lx->error);
     bool ok = read_expressions_in(sh, &of->lx, &of->all->list[0].hole[0], columns, PLOTTED, &job->count);
     size_t count = job->count;
     if (ok && against) {
@@ -398,11 +396,8 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     }
     job->columns = columns;
     ok = ok && no_second_range(lx, all) && range_read(sh, &over->lx, over->all, 0, &r) &&
-         range_options(sh, lx, all, 0, &r, 0) && follow(job->m, &r) &&
-         (of->all == all || looks_read(sh, &of->lx, of->all, job->p, l)) &&
-         looks_read(sh, lx, all, job->p, l) && make_curves(job, lx, l, &r.sweep);
+         range_options(sh, lx, all, 0, &r, 0) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
     columns_free(columns, count);
-    free(l);
     return ok;
 }
 
@@ -439,7 +434,8 @@ static bool draw_row(panel_job *job, lexer *lx, said *all, written *row) {
         said_drop(job->sh, row->all);
         row->all->count = (unsigned)(over - row->all->list);
     }
-    return draw_sweep(job, lx, all, row);
+    return looks_read(job->sh, &row->lx, row->all, job->p, job->looks) &&
+           looks_read(job->sh, lx, all, job->p, job->looks) && draw_sweep(job, lx, all, row);
 }
 
 static bool draw_named(panel_job *job, lexer *lx, said *all) {
@@ -498,18 +494,22 @@ bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
     plot_panel *p = plot_panel_add(f, lx->error);
     if (!p)
         return calc_place(lx->error, as->at, 1);
-    if (as->figure && as->figure->build)
-        return as->figure->build(sh, lx, &as->said, p);
+    looks l = {.files = 0};
     panel_job job = {.sh = sh,
                      .p = p,
+                     .looks = &l,
                      .figure = as->figure,
                      .m = m,
                      .index = index,
                      .statement = lx->text,
                      .error = lx->error};
-    if (as->figure)
+    if (as->figure && !as->figure->build)
         return draw_named(&job, lx, &as->said);
+    if (!looks_read(sh, lx, &as->said, p, &l))
+        return false;
+    if (as->figure)
+        return as->figure->build(sh, lx, &as->said, p, &l);
     const lexer first = hole_lexer(lx, &as->said.list[0].hole[0]);
-    return map_at(&first) ? map_draw(sh, lx, &as->said, p)
+    return map_at(&first) ? map_draw(sh, lx, &as->said, p, &l)
                           : draw_sweep(&job, lx, &as->said, &(written){*lx, &as->said});
 }
