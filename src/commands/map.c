@@ -34,61 +34,47 @@ bool map_at(const lexer *lx) {
     return lex_is(lx, "map") && (next == T_NAME || next == T_NUMBER || next == T_OPEN || next == T_MINUS);
 }
 
-typedef struct map_job {
-    plot_map *m;
-    size_t at;
-} map_job;
-
-static bool give_value(void *context, const sweep *s, size_t curve, long double x,
-                       const long double *values) {
-    map_job *job = context;
-    plot_map *m = job->m;
-    (void)curve;
-    m->x[job->at % m->nx] = (double)x;
-    m->y[job->at / m->nx] = (double)s->value[0];
-    m->z[job->at++] = (double)values[0];
-    return true;
-}
-
-static double largest(const double *v, size_t n) {
+static double largest(const long double *v, size_t n) {
     double most = 0;
     for (size_t i = 0; i < n; i++)
         if (isfinite(v[i]))
-            most = fmax(most, fabs(v[i]));
+            most = fmax(most, fabs((double)v[i]));
     return most;
 }
 
-static axis_unit scale(double *v, size_t n, const column *c, dim d) {
+static axis_unit scale(double *to, const long double *v, size_t n, const column *c, dim d) {
     const axis_unit u = axis_unit_for(c, d, largest(v, n));
     for (size_t i = 0; i < n; i++)
-        v[i] = (double)(v[i] / u.scale);
+        to[i] = (double)(v[i] / u.scale);
     return u;
 }
 
-static bool finish(lexer *lx, const grid *g, const looks *l, const column *c, dim d, plot_panel *p) {
+static bool give_values(lexer *lx, const grid *g, const grid_values *of, const looks *l, const column *c,
+                        dim d, plot_panel *p) {
     plot_map *m = &p->map;
     const axis_of x = {g->a.var.text, g->a.var.d}, y = {g->b.var.text, g->b.var.d};
     p->logx = p->logx || g->a.log;
     p->logy = p->logy || g->b.log;
     if (l->files)
         return calc_fail(lx->error, l->over[0].at, l->over[0].len, "points cannot lie over a map");
-    const axis_unit of_x = scale(m->x, m->nx, NULL, x.d), of_y = scale(m->y, m->ny, NULL, y.d),
-                    of_z = scale(m->z, m->nx * m->ny, c, d);
+    const axis_unit of_x = scale(m->x, of->a, m->nx, NULL, x.d), of_y = scale(m->y, of->b, m->ny, NULL, y.d),
+                    of_z = scale(m->z, of->v, m->nx * m->ny, c, d);
     m->label = plot_label(c->name, of_z.text);
     return (m->label || calc_no_memory(lx->error)) && looks_axis(lx, l, p, true, &x, &of_x) &&
            looks_axis(lx, l, p, false, &y, &of_y);
 }
 
-static bool run_map(shell *sh, lexer *lx, const grid_range *r, column *c, const looks *l, plot_panel *p) {
-    const grid *g = &r->grid;
-    map_job job = {.m = &p->map};
+static bool run_map(shell *sh, lexer *lx, const grid *g, column *c, const looks *l, plot_panel *p) {
     found f;
-    sweep_job sweeping = range_job(sh, c, 1, &f, give_value, &job, lx->error);
-    if (!plot_map_make(p, g->a.steps + 1, g->b.steps + 1, lx->error) || !grid_run(g, &sweeping) ||
-        !finish(lx, g, l, c, f.d[0], p))
+    grid_values values;
+    sweep_job sweeping = range_job(sh, c, 1, &f, NULL, NULL, lx->error);
+    if (!plot_map_make(p, g->a.steps + 1, g->b.steps + 1, lx->error))
         return false;
-    note_missing(sh, &sweeping);
-    return true;
+    const bool ok = grid_keep(g, &sweeping, &values) && give_values(lx, g, &values, l, c, f.d[0], p);
+    grid_values_free(&values);
+    if (ok)
+        note_missing(sh, &sweeping);
+    return ok;
 }
 
 bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
@@ -97,7 +83,8 @@ bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     lex_next(&own);
     const bool ok = read_one_expression(sh, &own, 0, &c) &&
-                    grid_range_read(sh, lx, all, &r, MAP_STEPS, MAP_STEPS) && run_map(sh, lx, &r, &c, l, p);
+                    grid_range_read(sh, lx, all, &r, MAP_STEPS, MAP_STEPS) &&
+                    run_map(sh, lx, &r.grid, &c, l, p);
     columns_free(&c, 1);
     return ok;
 }

@@ -5,9 +5,7 @@
 #include <string.h>
 
 const char *range_line(size_t i) {
-    static const char *const lines[] = {"[for NAME = LO .. HI]*", "[along LOAD]", "[steps N:100000000]*",
-                                        "[log]*", "[with NAME = VALUES]"};
-    return i < sizeof lines / sizeof *lines ? lines[i] : NULL;
+    return i ? NULL : "[for NAME = LO .. HI]* [along LOAD] [steps N:100000000]* [log]* [with NAME = VALUES]";
 }
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */

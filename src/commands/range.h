@@ -9,7 +9,7 @@
 #include "statement/output.h"
 #include "study/sweep.h"
 
-/* What may be said of a range, a clause a line; NULL after the last. */
+/* What may be said of a range, in one line; NULL after it. */
 const char *range_line(size_t i);
 
 /* A sweep and where in the statement its range stands: it is read again for each curve. */

@@ -123,75 +123,48 @@ static bool own_columns(table_job *job, const sweep *s, const knob *second) {
 
 /* ---- a grid as text: a matrix of each expression ----------------------------------------------- */
 
-typedef struct matrix {
-    const grid *g;
-    size_t count, at;   /* expressions; rows so far */
-    long double *value; /* of all expressions, as they come */
-    long double *a, *b;
-} matrix;
-
-static bool keep_row(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
-    matrix *m = context;
-    const size_t rows = m->g->a.steps + 1;
-    (void)curve;
-    m->a[m->at % rows] = x;
-    m->b[m->at / rows] = s->value[0];
-    memcpy(m->value + m->at++ * m->count, values, m->count * sizeof *values);
-    return true;
-}
-
 /* One expression: the first name downward, the second across. */
-static bool print_matrix(shell *sh, FILE *to, const matrix *m, size_t i, column *c) {
-    const size_t rows = m->g->a.steps + 1, across = m->g->b.steps + 1;
+static bool print_matrix(shell *sh, FILE *to, const grid *g, const grid_values *m, size_t i, column *c) {
     column columns[COLUMNS] = {{.name = NULL}};
     char head[200], number[120];
-    bool ok = column_si(&columns[0], m->g->a.var.text, m->g->a.var.d);
-    column_suit(c, m->value + i, rows * across, m->count, sh->set.digits);
-    for (size_t j = 0; ok && j < across; j++) {
-        format_value(&sh->set, (value){m->b[j], m->g->b.var.d}, number, sizeof number);
-        snprintf(head, sizeof head, "%s = %s", m->g->b.var.text, number);
+    bool ok = column_si(&columns[0], g->a.var.text, g->a.var.d);
+    column_suit(c, m->v + i, m->rows * m->across, m->count, sh->set.digits);
+    for (size_t j = 0; ok && j < m->across; j++) {
+        format_value(&sh->set, (value){m->b[j], g->b.var.d}, number, sizeof number);
+        snprintf(head, sizeof head, "%s = %s", g->b.var.text, number);
         ok = column_si(&columns[j + 1], head, DIM_NONE);
         columns[j + 1].scale = c->scale;
         columns[j + 1].chosen = true; /* the heading tells the unit */
     }
     answer a;
     answer_begin_as(&a, &sh->set, to, FORMAT_TEXT);
-    ok = ok && answer_columns(&a, "table", columns, across + 1);
+    ok = ok && answer_columns(&a, "table", columns, m->across + 1);
     if (ok) {
         fprintf(to, *c->unit ? "%s%s [%s]\n" : "%s%s\n", i ? "\n" : "", c->name, c->unit);
-        for (size_t r = 0; r < rows; r++) {
+        for (size_t r = 0; r < m->rows; r++) {
             long double row[COLUMNS] = {m->a[r]};
-            for (size_t j = 0; j < across; j++)
-                row[j + 1] = m->value[(j * rows + r) * m->count + i];
+            for (size_t j = 0; j < m->across; j++)
+                row[j + 1] = m->v[(j * m->rows + r) * m->count + i];
             answer_row(&a, row);
         }
         answer_end(&a, true);
     }
-    columns_free(columns, across + 1);
+    columns_free(columns, m->across + 1);
     return ok;
 }
 
 static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *sweeping) {
-    const size_t rows = g->a.steps + 1, across = g->b.steps + 1;
-    if (across > COLUMNS - 1)
+    grid_values m;
+    if (g->b.steps > COLUMNS - 2)
         return calc_fail(sweeping->error, 0, 0,
                          "a matrix as text has at most %d columns: use fewer steps, or a file", COLUMNS - 1);
-    matrix m = {.g = g, .count = job->count};
-    m.value = calloc(rows * across, job->count * sizeof *m.value);
-    m.a = calloc(rows, sizeof *m.a);
-    m.b = calloc(across, sizeof *m.b);
-    bool ok = (m.value && m.a && m.b) || calc_no_memory(sweeping->error);
-    sweeping->row = keep_row;
-    sweeping->context = &m;
-    ok = ok && grid_run(g, sweeping);
+    bool ok = grid_keep(g, sweeping, &m);
     if (ok)
         begin_columns(job);
     for (size_t i = 0; ok && i < job->count; i++)
-        ok = print_matrix(sh, job->a.to, &m, i, &job->columns[job->first + i]) ||
+        ok = print_matrix(sh, job->a.to, g, &m, i, &job->columns[job->first + i]) ||
              calc_no_memory(sweeping->error);
-    free(m.value);
-    free(m.a);
-    free(m.b);
+    grid_values_free(&m);
     return ok;
 }
 
