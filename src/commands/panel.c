@@ -482,6 +482,7 @@ bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
     out->figure = ok && f && (f->build || is_named(sh, f, &out->said)) ? f : NULL;
     if (!ok)
         said_drop(sh, &out->said);
+    said_sleep(sh, &out->said); /* its names are none of other panels */
     return ok;
 }
 
@@ -489,7 +490,7 @@ bool panel_is_whole(panel *p) {
     return p->figure || range_of(&p->said);
 }
 
-bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
+static bool draw_panel(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
     const size_t index = f->count;
     plot_panel *p = plot_panel_add(f, lx->error);
     if (!p)
@@ -512,4 +513,10 @@ bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
     const lexer first = hole_lexer(lx, &as->said.list[0].hole[0]);
     return map_at(&first) ? map_draw(sh, lx, &as->said, p, &l)
                           : draw_sweep(&job, lx, &as->said, &(written){*lx, &as->said});
+}
+
+bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
+    const bool ok = said_wake(sh, lx, &as->said) && draw_panel(sh, lx, as, f, m);
+    said_sleep(sh, &as->said);
+    return ok;
 }

@@ -42,6 +42,9 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out);
 bool said_end(lexer *lx, const grammar *f);
 /* What is live goes, unless it has been taken over, and what became known. */
 void said_drop(shell *sh, said *s);
+/* The names alone, where another statement comes between; and known again. */
+void said_sleep(shell *sh, said *s);
+bool said_wake(shell *sh, const lexer *lx, said *s);
 
 /* The name at the cursor becomes known, until names_forget; before: how many names there were. */
 bool names_wake(shell *sh, const lexer *lx, size_t before);

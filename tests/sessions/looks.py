@@ -319,8 +319,10 @@ def moving(tests):
     tests.check("a load between its bounds", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
     done = tests.run("-c", SCENE + "x = 0.05 mm; animate springs along program frames 3 to " + path)
     tests.check("one spring on its way", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
-    done = tests.run("-c", SCENE + "x = 1; undo; animate springs | u1D(x) for x = 0 m .. a frames 3 to " + path)
-    tests.check("a name that a figure uses up is known to the next", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
+    for panels in ("springs | u1D(x) for x = 0 m .. a", "pressure | u1D(x) for x = 0 m .. a", "springs along program | u1D(x) for x = 0 m .. a"):
+        done = tests.run("-c", SCENE + "x = 1; undo; animate %s frames 3 to %s" % (panels, path))
+        tests.check("each figure has its own names: " + panels, done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
+    fails(tests, "plot x for x = 0 .. 1 | x for y = 0 .. 1", "unknown name 'x'")
     done = tests.run("-c", SCENE + "animate loop | y for y = 0 .. 1 with mu = 0.4, 0.5 | y for y = 0 .. 1 with z = 1, 2 frames 3 to " + path)
     tests.check("what does not move", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
     fails(tests, "animate Fx against dx along cycle FA=10 N | Fx along cycle FA=20 N", "the figures of an animation go along one load")
