@@ -44,7 +44,7 @@ static bool read_expression(shell *sh, lexer *lx, expr *e, column *c) {
 }
 
 bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c) {
-    return read_expression(sh, lx, &sh->list[i], c);
+    return read_expression(sh, lx, &sh->list[i], c) && at_end(lx);
 }
 
 /* `1,5 mm` is two values: one may have been meant. */

@@ -14,7 +14,7 @@ bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *c
 /* `a in for FN = ..`: where a range goes on such a part, because of what stands before it, that is an error.
  */
 bool range_is_lost(shell *sh, const lexer *lx, const span *part);
-/* One of them, at place i of the list. */
+/* One of them, at place i of the list, and nothing else. */
 bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c);
 /* Can the value be shown so? Its dimension goes into the column, which may ask for another one. */
 bool column_fits(const expr *e, column *c, value v, calc_error *error);

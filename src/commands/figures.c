@@ -48,7 +48,7 @@ static const figure figures[] = {
     {.name = "accuracy",
      .title = "error against time",
      .summary = "of every model, for this scene",
-     .takes = "[FA=20 N | dxA=0.5 um] [within SECONDS:3600] [frames N:1000] [to FILE]",
+     .takes = "[FA=20 N | dxA=0.5 um] [within SECONDS:3600] LOOK [frames N:1000] [to FILE]",
      .build = figure_accuracy},
 };
 enum { FIGURES = sizeof figures / sizeof *figures };
@@ -78,7 +78,9 @@ const grammar *figure_form(const figure *f) {
 }
 
 /* Error against time, one curve a model. */
-bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p) {
+bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+    static const axis_of time = {.name = "time of a cycle [s]"}, loss = {.name = "relative error"};
+    static const axis_unit plain = {.scale = 1};
     accuracy_study study;
     char text[400], load[360];
     plot_series *series = NULL;
@@ -95,11 +97,12 @@ bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p) {
     }
     accuracy_load_text(sh, &study, load, sizeof load);
     snprintf(text, sizeof text, PLOT_EXPR "dW, %s" PLOT_END, load);
-    p->title = strdup(text);
-    p->xlabel = strdup("time of a cycle [s]");
-    p->ylabel = strdup("relative error");
+    p->title = p->title ? p->title : strdup(text);
+    p->xlabel = p->xlabel ? p->xlabel : strdup(time.name);
+    p->ylabel = p->ylabel ? p->ylabel : strdup(loss.name);
     if (!p->title || !p->xlabel || !p->ylabel)
         return calc_no_memory(lx->error);
     p->logx = p->logy = p->points = p->airy = true;
-    return true;
+    return looks_lay_over(lx, l, p, &time, &loss) && looks_axis(lx, l, p, true, &time, &plain) &&
+           looks_axis(lx, l, p, false, &loss, &plain);
 }

@@ -3,7 +3,7 @@
 #ifndef COMMANDS_FIGURES_H
 #define COMMANDS_FIGURES_H
 
-#include "plot/plot.h"
+#include "commands/looks.h"
 #include "statement/reader.h"
 
 typedef struct figure {
@@ -16,7 +16,7 @@ typedef struct figure {
      * is at its bounds, which follow */
     const char *roles;
     const char *takes; /* where build makes it */
-    bool (*build)(shell *sh, lexer *lx, said *all, plot_panel *p);
+    bool (*build)(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
 } figure;
 
 const figure *figure_row(size_t i); /* NULL after the last */
@@ -26,6 +26,6 @@ const char *figure_word(size_t i);           /* what a figure may begin with: th
 const figure *figure_find(const char *name, size_t len);
 
 /* figures that are no sweep */
-bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p);
+bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
 
 #endif

@@ -8,98 +8,113 @@
 
 #include "text/csv.h"
 
-typedef bool look_read(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out);
+/* A look at work. */
+typedef struct reading {
+    shell *sh;
+    const lexer *lx;
+    const heard *said;
+    plot_panel *p;
+    looks *out;
+} reading;
 
-static bool read_text(const lexer *lx, const heard *h, char **text) {
+static bool read_text(const reading *r, char **text) {
+    const span *quoted = &r->said->hole[0];
     free(*text);
-    *text = strndup(lx->text + h->hole[0].at + 1, h->hole[0].len - 2);
-    return *text || calc_no_memory(lx->error);
+    *text = strndup(r->lx->text + quoted->at + 1, quoted->len - 2);
+    return *text || calc_no_memory(r->lx->error);
 }
 
-static bool read_title(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
-    (void)sh, (void)out;
-    return read_text(lx, h, &p->title);
+static bool read_title(const reading *r) {
+    return read_text(r, &r->p->title);
 }
 
-static bool read_xlabel(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
-    (void)sh, (void)out;
-    return read_text(lx, h, &p->xlabel);
+static bool read_xlabel(const reading *r) {
+    return read_text(r, &r->p->xlabel);
 }
 
-static bool read_ylabel(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
-    (void)sh, (void)out;
-    return read_text(lx, h, &p->ylabel);
+static bool read_ylabel(const reading *r) {
+    return read_text(r, &r->p->ylabel);
 }
 
-static bool read_limits(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
-    limits *l = *h->of->name == 'x' ? &out->x : &out->y;
-    lexer own = hole_lexer(lx, &h->hole[0]);
-    (void)p;
+static bool read_limits(const reading *r, limits *l) {
+    lexer own = hole_lexer(r->lx, &r->said->hole[0]);
     l->at = own.at;
-    if (!expr_value(&sh->calc, &own, &l->end[0]))
+    if (!expr_value(&r->sh->calc, &own, &l->end[0]))
         return false;
     if (own.kind != T_RANGE)
-        return lex_fail(&own, "expected %s LO .. HI", h->of->name);
+        return lex_fail(&own, "expected %s LO .. HI", r->said->of->name);
     lex_next(&own);
-    if (!expr_value(&sh->calc, &own, &l->end[1]))
+    if (!expr_value(&r->sh->calc, &own, &l->end[1]))
         return false;
     l->len = own.last - l->at;
     l->given = true;
     return at_end(&own);
 }
 
-/* x, y or both, as its choice is. */
+static bool read_xrange(const reading *r) {
+    return read_limits(r, &r->out->x);
+}
+
+static bool read_yrange(const reading *r) {
+    return read_limits(r, &r->out->y);
+}
+
 enum { AXIS_X, AXIS_Y, AXIS_BOTH };
 
-static bool read_log(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
-    (void)sh, (void)lx, (void)out;
-    p->logx = p->logx || (h->of->holes && h->choice != AXIS_Y); /* without an axis it is of the range */
-    p->logy = p->logy || (h->of->holes && h->choice != AXIS_X);
+const char *axes_name(size_t i) {
+    static const char *const names[] = {"x", "y", "xy"};
+    return i <= AXIS_BOTH ? names[i] : NULL;
+}
+
+static bool read_log(const reading *r) {
+    r->p->logx = r->p->logx || r->said->choice != AXIS_Y;
+    r->p->logy = r->p->logy || r->said->choice != AXIS_X;
     return true;
 }
 
-static bool read_flip(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
-    (void)sh, (void)lx, (void)out;
-    p->flipx = p->flipx || h->choice != AXIS_Y;
-    p->flipy = p->flipy || h->choice != AXIS_X;
+static bool read_flip(const reading *r) {
+    r->p->flipx = r->p->flipx || r->said->choice != AXIS_Y;
+    r->p->flipy = r->p->flipy || r->said->choice != AXIS_X;
     return true;
 }
 
-static bool read_key(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
-    (void)sh, (void)lx, (void)h, (void)out;
-    p->key_off = true;
+static bool read_key(const reading *r) {
+    r->p->key_off = true;
     return true;
 }
 
-static bool read_points(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
-    (void)sh, (void)lx, (void)h, (void)out;
-    p->points = true;
+static bool read_points(const reading *r) {
+    r->p->points = true;
     return true;
 }
 
-static bool read_over(shell *sh, const lexer *lx, const heard *h, plot_panel *p, looks *out) {
-    (void)sh, (void)p;
-    if (out->files == OVER)
-        return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "more than %d files", OVER);
-    const size_t i = out->files++;
-    out->over_at[i] = h->hole[0].at;
-    out->over_len[i] = h->hole[0].len;
-    return hole_file(lx, &h->hole[0], out->over[i]);
+static bool read_over(const reading *r) {
+    const span *name = &r->said->hole[0];
+    looks *l = r->out;
+    if (l->files == OVER)
+        return calc_fail(r->lx->error, name->at, name->len, "more than %d files", OVER);
+    l->over[l->files++] = *name;
+    return true;
 }
 
 static const struct {
-    const char *name;
-    look_read *read;
-} rows[] = {{"title", read_title},   {"xlabel", read_xlabel}, {"ylabel", read_ylabel},
-            {"xrange", read_limits}, {"yrange", read_limits}, {"log", read_log},
-            {"flip", read_flip},     {"key", read_key},       {"points", read_points},
-            {"over", read_over}};
+    const char *line;
+    bool (*read)(const reading *r);
+} rows[] = {{"[title TEXT]*", read_title},       {"[xlabel TEXT]*", read_xlabel},
+            {"[ylabel TEXT]*", read_ylabel},     {"[xrange LO .. HI]*", read_xrange},
+            {"[yrange LO .. HI]*", read_yrange}, {"[log AXES]*", read_log},
+            {"[flip AXES]*", read_flip},         {"[key OFF]*", read_key},
+            {"[points]*", read_points},          {"[over FILE]*", read_over}};
 enum { ROWS = sizeof rows / sizeof *rows };
+
+const char *look_line(size_t i) {
+    return i < ROWS ? rows[i].line : NULL;
+}
 
 bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out) {
     for (const heard *h = all->list; h < all->list + all->count; h++)
         for (size_t i = 0; i < ROWS; i++)
-            if (!strcmp(h->of->name, rows[i].name) && !rows[i].read(sh, lx, h, p, out))
+            if (h->of->text == rows[i].line + 1 && !rows[i].read(&(reading){sh, lx, h, p, out}))
                 return false;
     return true;
 }
@@ -192,15 +207,17 @@ static bool find_columns(const csv *c, const axis_of *x, const axis_of *y, const
     return !error->raised && is_fit(c, *of_x, x, error) && is_fit(c, *of_y, y, error);
 }
 
-static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const axis_of *x, const axis_of *y) {
+static bool lay_file(lexer *lx, const span *of, plot_panel *p, const axis_of *x, const axis_of *y) {
     csv c;
     const csv_values *of_x, *of_y;
-    const char *slash = strrchr(l->over[i], '/');
-    bool ok =
-        csv_read(l->over[i], &shell_stop, &c, lx->error) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
+    char name[FILE_NAME];
+    if (!hole_file(lx, of, name))
+        return false;
+    const char *slash = strrchr(name, '/');
+    bool ok = csv_read(name, &shell_stop, &c, lx->error) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
     if (!ok)
-        calc_place(lx->error, l->over_at[i], l->over_len[i]);
-    plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, slash ? slash + 1 : l->over[i], lx->error) : NULL;
+        calc_place(lx->error, of->at, of->len);
+    plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, slash ? slash + 1 : name, lx->error) : NULL;
     for (size_t j = 0; s && ok && j < c.rows; j++)
         ok = plot_point(s, of_x->v[j], of_y->v[j]) || calc_no_memory(lx->error);
     csv_free(&c);
@@ -209,20 +226,36 @@ static bool lay_file(lexer *lx, const looks *l, size_t i, plot_panel *p, const a
 
 bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y) {
     for (size_t i = 0; i < l->files; i++)
-        if (!lay_file(lx, l, i, p, x, y))
+        if (!lay_file(lx, &l->over[i], p, x, y))
             return false;
     return true;
 }
 
-/* ---- limits ------------------------------------------------------------------------------------ */
+/* ---- axes -------------------------------------------------------------------------------------- */
 
-bool looks_limit(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
-                 long double scale) {
+axis_unit axis_unit_for(const column *c, dim d, double size) {
+    axis_unit u;
+    if (c && c->chosen) {
+        u.scale = c->scale;
+        memcpy(u.text, c->unit, sizeof u.text);
+    } else {
+        u.scale = unit_choose(d, size, 6, u.text, sizeof u.text);
+    }
+    return u;
+}
+
+bool looks_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
+                const axis_unit *u) {
     const limits *given = x_axis ? &l->x : &l->y;
+    char **label = x_axis ? &p->xlabel : &p->ylabel;
+    if (!*label)
+        *label = plot_label(axis->name, u->text);
+    if (!*label)
+        return calc_no_memory(lx->error);
     for (int i = 0; given->given && i < 2; i++) {
         if (!value_dim(lx, x_axis ? "xrange" : "yrange", given->at, given->len, given->end[i], axis->d))
             return false;
-        const double v = (double)(given->end[i].v / scale);
+        const double v = (double)(given->end[i].v / u->scale);
         *(x_axis ? i ? &p->xhi : &p->xlo : i ? &p->yhi : &p->ylo) = v;
     }
     return true;

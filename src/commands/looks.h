@@ -18,10 +18,12 @@ typedef struct limits {
 typedef struct looks {
     limits x, y;
     size_t files;
-    char over[OVER][FILE_NAME];
-    size_t over_at[OVER], over_len[OVER];
+    span over[OVER];
 } looks;
 
+/* The table of looks, a clause a line, and what an axis of theirs may be; NULL after the last. */
+const char *look_line(size_t i);
+const char *axes_name(size_t i);
 /* All that have been said. */
 bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out);
 
@@ -33,8 +35,16 @@ typedef struct axis_of {
 
 /* Adds the measured points, in SI. */
 bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y);
-/* Limits in the unit of the axis, which is scale SI. */
-bool looks_limit(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
-                 long double scale);
+/* The unit of an axis. */
+typedef struct axis_unit {
+    long double scale;
+    char text[COLUMN_UNIT];
+} axis_unit;
+
+/* The one that its column asks for (c may be NULL), or with a prefix that fits the size. */
+axis_unit axis_unit_for(const column *c, dim d, double size);
+/* The label, where none was given, and the limits in that unit. */
+bool looks_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
+                const axis_unit *u);
 
 #endif

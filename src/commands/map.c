@@ -3,17 +3,14 @@
 #include "commands/map.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-#include "commands/looks.h"
 
 enum { MAP_STEPS = 60 };
 
 bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t steps_a, size_t steps_b) {
     const heard *with = said_of(all, "with", 0), *second = said_of(all, "for", 1),
                 *third = said_of(all, "for", 2);
-    if (!range_read(sh, lx, all, 0, &out->a, steps_a))
+    if (!range_read(sh, lx, all, 0, &out->a) || !range_options(sh, lx, all, 0, &out->a, steps_a))
         return false;
     if (out->a.sweep.along)
         return lex_fail(lx, "a map goes for A = LO .. HI for B = LO .. HI");
@@ -24,7 +21,7 @@ bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t st
         return lex_fail(lx, "expected for VAR2 = LO .. HI");
     if (third)
         return calc_fail(lx->error, third->at, third->len, "a map goes for A = LO .. HI for B = LO .. HI");
-    if (!range_read(sh, lx, all, 1, &out->b, steps_b))
+    if (!range_read(sh, lx, all, 1, &out->b) || !range_options(sh, lx, all, 1, &out->b, steps_b))
         return false;
     if (!strcmp(out->a.sweep.var.text, out->b.sweep.var.text))
         return calc_fail(lx->error, second->at, second->len, "%s is given twice", out->b.sweep.var.text);
@@ -37,90 +34,57 @@ bool map_at(const lexer *lx) {
     return lex_is(lx, "map") && (next == T_NAME || next == T_NUMBER || next == T_OPEN || next == T_MINUS);
 }
 
-typedef struct map_job {
-    plot_map *m;
-    size_t at;
-} map_job;
-
-static bool give_value(void *context, const sweep *s, size_t curve, long double x,
-                       const long double *values) {
-    map_job *job = context;
-    plot_map *m = job->m;
-    (void)curve;
-    m->x[job->at % m->nx] = (double)x;
-    m->y[job->at / m->nx] = (double)s->value[0];
-    m->z[job->at++] = (double)values[0];
-    return true;
-}
-
-static double largest(const double *v, size_t n) {
+static double largest(const long double *v, size_t n) {
     double most = 0;
     for (size_t i = 0; i < n; i++)
         if (isfinite(v[i]))
-            most = fmax(most, fabs(v[i]));
+            most = fmax(most, fabs((double)v[i]));
     return most;
 }
 
-/* In a unit with a prefix that fits, or the one asked for; the label where none was given. */
-static bool scale(double *v, size_t n, const column *c, const axis_of *of, char **label, long double *by) {
-    char unit_text[COLUMN_UNIT];
-    *by = c && c->chosen ? c->scale : unit_choose(of->d, largest(v, n), 6, unit_text, sizeof unit_text);
+static axis_unit scale(double *to, const long double *v, size_t n, const column *c, dim d) {
+    const axis_unit u = axis_unit_for(c, d, largest(v, n));
     for (size_t i = 0; i < n; i++)
-        v[i] = (double)(v[i] / *by);
-    if (!*label)
-        *label = plot_label(of->name, c && c->chosen ? c->unit : unit_text);
-    return *label != NULL;
+        to[i] = (double)(v[i] / u.scale);
+    return u;
 }
 
-static bool finish(lexer *lx, const grid *g, const looks *l, const column *c, dim d, plot_panel *p) {
+static bool give_values(lexer *lx, const grid *g, const grid_values *of, const looks *l, const column *c,
+                        dim d, plot_panel *p) {
     plot_map *m = &p->map;
-    const axis_of x = {g->a.var.text, g->a.var.d}, y = {g->b.var.text, g->b.var.d}, z = {c->name, d};
-    long double by_x, by_y, by_z;
+    const axis_of x = {g->a.var.text, g->a.var.d}, y = {g->b.var.text, g->b.var.d};
     p->logx = p->logx || g->a.log;
     p->logy = p->logy || g->b.log;
     if (l->files)
-        return calc_fail(lx->error, l->over_at[0], l->over_len[0], "points cannot lie over a map");
-    return ((scale(m->x, m->nx, NULL, &x, &p->xlabel, &by_x) &&
-             scale(m->y, m->ny, NULL, &y, &p->ylabel, &by_y) &&
-             scale(m->z, m->nx * m->ny, c, &z, &m->label, &by_z)) ||
-            calc_no_memory(lx->error)) &&
-           looks_limit(lx, l, p, true, &x, by_x) && looks_limit(lx, l, p, false, &y, by_y);
+        return calc_fail(lx->error, l->over[0].at, l->over[0].len, "points cannot lie over a map");
+    const axis_unit of_x = scale(m->x, of->a, m->nx, NULL, x.d), of_y = scale(m->y, of->b, m->ny, NULL, y.d),
+                    of_z = scale(m->z, of->v, m->nx * m->ny, c, d);
+    m->label = plot_label(c->name, of_z.text);
+    return (m->label || calc_no_memory(lx->error)) && looks_axis(lx, l, p, true, &x, &of_x) &&
+           looks_axis(lx, l, p, false, &y, &of_y);
 }
 
-static bool run_map(shell *sh, lexer *lx, const grid_range *r, column *c, const looks *l, plot_panel *p) {
-    const grid *g = &r->grid;
-    map_job job = {.m = &p->map};
-    dim d = c->d;
-    bool known = c->chosen;
-    const char *unit_name_of = c->chosen ? c->unit : NULL;
-    sweep_job sweeping = {.c = &sh->calc,
-                          .expressions = sh->list,
-                          .count = 1,
-                          .d = &d,
-                          .known = &known,
-                          .units = &unit_name_of,
-                          .row = give_value,
-                          .context = &job,
-                          .error = lx->error};
-    if (!plot_map_make(p, g->a.steps + 1, g->b.steps + 1, lx->error) || !grid_run(g, &sweeping) ||
-        !finish(lx, g, l, c, d, p))
+static bool run_map(shell *sh, lexer *lx, const grid *g, column *c, const looks *l, plot_panel *p) {
+    found f;
+    grid_values values;
+    sweep_job sweeping = range_job(sh, c, 1, &f, NULL, NULL, lx->error);
+    if (!plot_map_make(p, g->a.steps + 1, g->b.steps + 1, lx->error))
         return false;
-    note_missing(sh, &sweeping);
-    return true;
+    const bool ok = grid_keep(g, &sweeping, &values) && give_values(lx, g, &values, l, c, f.d[0], p);
+    grid_values_free(&values);
+    if (ok)
+        note_missing(sh, &sweeping);
+    return ok;
 }
 
-bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p) {
+bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     column c;
     grid_range r;
-    looks *l = calloc(1, sizeof *l);
-    if (!l)
-        return calc_no_memory(lx->error);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     lex_next(&own);
-    const bool ok = read_one_expression(sh, &own, 0, &c) && at_end(&own) &&
-                    grid_range_read(sh, lx, all, &r, MAP_STEPS, MAP_STEPS) && looks_read(sh, lx, all, p, l) &&
-                    run_map(sh, lx, &r, &c, l, p);
+    const bool ok = read_one_expression(sh, &own, 0, &c) &&
+                    grid_range_read(sh, lx, all, &r, MAP_STEPS, MAP_STEPS) &&
+                    run_map(sh, lx, &r.grid, &c, l, p);
     columns_free(&c, 1);
-    free(l);
     return ok;
 }

@@ -3,8 +3,8 @@
 #ifndef COMMANDS_MAP_H
 #define COMMANDS_MAP_H
 
+#include "commands/looks.h"
 #include "commands/range.h"
-#include "plot/plot.h"
 #include "study/grid.h"
 
 /* Both ranges of a grid; it must stay where it is. */
@@ -18,6 +18,6 @@ bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t st
 
 /* Is the cursor on `map EXPR`? */
 bool map_at(const lexer *lx);
-bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p);
+bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
 
 #endif

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "commands/figures.h"
-#include "commands/looks.h"
 #include "commands/map.h"
 #include "statement/progress.h"
 
@@ -23,6 +22,7 @@ enum {
 typedef struct panel_job {
     shell *sh;
     plot_panel *p;
+    looks *looks;
     const figure *figure; /* or NULL */
     const sweep *s;
     motion *m;
@@ -266,50 +266,37 @@ static void ordinate_name(const panel_job *job, char *name, size_t size) {
 }
 
 /* In the unit that was asked for, or one with a prefix that fits. */
-static bool scale_axis(panel_job *job, lexer *lx, const looks *l, bool x_axis, const column *c,
-                       const axis_of *axis) {
+static bool scale_axis(panel_job *job, lexer *lx, bool x_axis, const column *c, const axis_of *axis) {
+    const looks *l = job->looks;
     axis_unit own, *u = job->m ? &job->m->unit[job->index][x_axis] : &own;
-    if (c && c->chosen) {
-        u->scale = c->scale;
-        snprintf(u->text, sizeof u->text, "%s", c->unit);
-    } else if (!job->m || !job->m->at) {
-        u->scale =
-            unit_choose(axis->d, typical(job->p, x_axis, x_axis ? &l->x : &l->y), 6, u->text, sizeof u->text);
-    }
+    if (!job->m || !job->m->at)
+        *u = axis_unit_for(c, axis->d, typical(job->p, x_axis, x_axis ? &l->x : &l->y));
     divide(job->p, x_axis, u->scale);
-    char **label = x_axis ? &job->p->xlabel : &job->p->ylabel;
-    if (!*label)
-        *label = plot_label(axis->name, u->text);
-    return (*label || calc_no_memory(lx->error)) && looks_limit(lx, l, job->p, x_axis, axis, u->scale);
+    return looks_axis(lx, l, job->p, x_axis, axis, u);
 }
 
-static bool finish_axes(panel_job *job, lexer *lx, const looks *l, const dim *d, const bool *known) {
+static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
     const sweep *s = job->s;
     char name[40];
     const bool shared = main_count(job) > 1;
     const column *c = job->columns, *x = job->against ? &c[job->count] : NULL;
     size_t first = 0; /* whose dimension is known: there may be no value that tells of it */
-    while (first + 1 < job->count && !known[first])
+    while (first + 1 < job->count && !f->known[first])
         first++;
     for (size_t i = first + 1; i < job->count; i++)
-        if (known[i] && !dim_equal(d[i], d[first]))
+        if (f->known[i] && !dim_equal(f->d[i], f->d[first]))
             return calc_fail(job->error, job->sh->list[i].at, job->sh->list[i].len,
                              "%s and %s cannot share an axis", c[first].name, c[i].name);
     ordinate_name(job, name, sizeof name);
-    const axis_of ax = {x          ? x->name
-                        : s->along ? "time"
-                                   : s->var.text,
-                        x          ? d[job->count]
-                        : s->along ? DIM_NONE
-                                   : s->var.d},
-                  ay = {shared ? name : c[0].name, d[first]};
+    const axis_of ax = {x ? x->name : s->var.text, x ? f->d[job->count] : s->var.d},
+                  ay = {shared ? name : c[0].name, f->d[first]};
     job->p->logx = job->p->logx || s->log;
     if (!job->p->title && job->figure)
         job->p->title = strdup(job->figure->title);
     if (!job->p->title && job->figure)
         return calc_no_memory(lx->error);
-    return looks_lay_over(lx, l, job->p, &ax, &ay) && scale_axis(job, lx, l, true, x, &ax) &&
-           scale_axis(job, lx, l, false, &c[0], &ay);
+    return looks_lay_over(lx, job->looks, job->p, &ax, &ay) && scale_axis(job, lx, true, x, &ax) &&
+           scale_axis(job, lx, false, &c[0], &ay);
 }
 
 /* ---- motion ------------------------------------------------------------------------------------ */
@@ -320,18 +307,19 @@ static bool is_still(const sweep *s) {
 }
 
 /* All figures follow one load. */
-static bool follow(motion *m, const lexer *lx, const range *r) {
+static bool follow(motion *m, const range *r) {
     const sweep *s = &r->sweep;
+    const lexer *own = &r->own;
     if (!m || m->at || !s->along)
         return true;
-    const size_t len = r->own.end - r->own.at;
-    char *load = s->what == ALONG_LOAD ? strndup(lx->text + r->own.at, len) : NULL;
+    const size_t len = own->end - own->at;
+    char *load = s->what == ALONG_LOAD ? strndup(own->text + own->at, len) : NULL;
     if (s->what == ALONG_LOAD && !load)
-        return calc_no_memory(lx->error);
+        return calc_no_memory(own->error);
     const bool same = !m->found || (m->what == s->what && (!load || !strcmp(load, m->load)));
     if (m->found) {
         free(load);
-        return same || calc_fail(lx->error, r->own.at, len, "the figures of an animation go along one load");
+        return same || calc_fail(own->error, own->at, len, "the figures of an animation go along one load");
     }
     m->found = true;
     m->what = s->what;
@@ -339,14 +327,14 @@ static bool follow(motion *m, const lexer *lx, const range *r) {
     return true;
 }
 
-/* ---- figures ----------------------------------------------------------------------------------- */
+/* ---- sweeps ------------------------------------------------------------------------------------ */
 
-static bool run_sweep(panel_job *job, lexer *lx, sweep_job *sweeping, const sweep *s) {
+static bool run_sweep(panel_job *job, sweep_job *sweeping, const sweep *s) {
     calc *c = &job->sh->calc;
     scene *seen = c->now;
     const bool still = job->m && job->m->at && is_still(s);
     if (s->along && s->what == ALONG_PROGRAM && c->scene.end.steps == 1)
-        return calc_fail(lx->error, 0, 0, "there is no loop yet: use step or cycle first");
+        return calc_fail(job->error, 0, 0, "there is no loop yet: use step or cycle first");
     if (still)
         c->now = job->m->at->outer;
     const bool ok = sweep_run(s, sweeping);
@@ -361,28 +349,16 @@ static bool no_second_range(const lexer *lx, said *all) {
 }
 
 /* Curves and axes of what has been read. */
-static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
+static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
     const size_t count = job->count + job->against;
-    dim d[PLOTTED + 1] = {DIM_NONE};
-    bool known[PLOTTED + 1] = {false};
+    found f;
     job->s = s;
     job->each = series_each(job);
     s->turns = true;
     s->refine = !s->along && !s->steps;
     s->steps = s->steps ? s->steps : s->along ? ALONG : job->m ? MOVING : EVENLY;
-    for (size_t i = 0; i < count; i++) {
-        known[i] = job->columns[i].chosen;
-        d[i] = job->columns[i].d;
-    }
-    sweep_job sweeping = {.c = &job->sh->calc,
-                          .expressions = job->sh->list,
-                          .count = count,
-                          .d = d,
-                          .known = known,
-                          .row = give_point,
-                          .context = job,
-                          .error = lx->error};
-    if (!run_sweep(job, lx, &sweeping, s) || !finish_axes(job, lx, l, d, known))
+    sweep_job sweeping = range_job(job->sh, job->columns, count, &f, give_point, job, job->error);
+    if (!run_sweep(job, &sweeping, s) || !finish_axes(job, lx, &f))
         return false;
     if (!job->m || !job->m->at) {
         note_missing(job->sh, &sweeping);
@@ -391,37 +367,41 @@ static bool make_curves(panel_job *job, lexer *lx, const looks *l, sweep *s) {
     return true;
 }
 
-/* EXPR, ... [against EXPR] RANGE. */
-static bool draw_sweep(shell *sh, lexer *lx, said *all, const figure *f, plot_panel *p, size_t index,
-                       motion *m) {
+/* Clauses, and the text that they stand in. */
+typedef struct written {
+    lexer lx;
+    said *all;
+} written;
+
+static const heard *range_of(said *all) {
+    const heard *by = said_of(all, "for", 0);
+    return by ? by : said_of(all, "along", 0);
+}
+
+/* What is drawn is of one source, what it goes over perhaps of another, and whatever else of the statement.
+ */
+static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
+    shell *sh = job->sh;
     column columns[PLOTTED + 1];
-    size_t count = 0;
-    const heard *against = said_of(all, "against", 0);
-    looks *l = calloc(1, sizeof *l);
+    written own = {*lx, all}, *over = range_of(of->all) ? of : &own;
+    const heard *against = said_of(of->all, "against", 0);
     range r;
-    if (!l)
-        return calc_no_memory(lx->error);
-    bool ok = read_expressions_in(sh, lx, &all->list[0].hole[0], columns, PLOTTED, &count);
-    panel_job job = {.sh = sh,
-                     .p = p,
-                     .figure = f,
-                     .m = m,
-                     .index = index,
-                     .count = count,
-                     .columns = columns,
-                     .statement = lx->text,
-                     .error = lx->error};
+    bool ok = read_expressions_in(sh, &of->lx, &of->all->list[0].hole[0], columns, PLOTTED, &job->count);
+    size_t count = job->count;
     if (ok && against) {
-        lexer own = hole_lexer(lx, &against->hole[0]);
-        ok = read_one_expression(sh, &own, count, &columns[count]) && at_end(&own);
-        job.against = p->airy = true;
+        lexer abscissa = hole_lexer(&of->lx, &against->hole[0]);
+        ok = read_one_expression(sh, &abscissa, count, &columns[count]);
+        count++;
+        job->against = job->p->airy = true;
     }
-    ok = ok && no_second_range(lx, all) && range_read(sh, lx, all, 0, &r, 0) && follow(m, lx, &r) &&
-         looks_read(sh, lx, all, p, l) && make_curves(&job, lx, l, &r.sweep);
-    columns_free(columns, count + job.against);
-    free(l);
+    job->columns = columns;
+    ok = ok && no_second_range(lx, all) && range_read(sh, &over->lx, over->all, 0, &r) &&
+         range_options(sh, lx, all, 0, &r, 0) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
+    columns_free(columns, count);
     return ok;
 }
+
+/* ---- figures of the table ---------------------------------------------------------------------- */
 
 /* Of a homogeneous body that is not compared with others. */
 static const char *statement_of(const shell *sh, const figure *f, said *all) {
@@ -431,68 +411,64 @@ static const char *statement_of(const shell *sh, const figure *f, said *all) {
     return f->without_c0 && !graded ? f->without_c0 : f->statement;
 }
 
-/* As much of it as what has been said leaves: that may be of another range. */
-static size_t statement_length(const char *statement, said *all) {
-    if (!said_of(all, "along", 0) && !said_of(all, "for", 0))
-        return strlen(statement);
-    const char *own = strstr(statement, " along ");
-    own = own ? own : strstr(statement, " for "); /* each has either */
-    return (size_t)(own - statement);
-}
-
-/* Does a figure over a place stand before `along`? For a place of the user's it goes along as any other. */
-static bool goes_over_place(const shell *sh, const said *all, const figure *f) {
-    const char *of = strstr(f->statement, " for ");
-    size_t own;
-    if (!of || all->count < 2 || strcmp(all->list[1].of->name, "along") != 0)
-        return false;
-    of += strlen(" for ");
-    return !names_find(&sh->calc.names, of, strcspn(of, " "), &own);
-}
-
-/* It moves with that load. */
-static bool take_load(shell *sh, const lexer *lx, const heard *along, const figure *f, motion *m) {
-    const char *of = strstr(f->statement, " for ") + strlen(" for ");
+/* A figure over a place moves with that load. */
+static bool take_load(panel_job *job, const lexer *lx, const heard *along, const char *place, size_t len) {
+    const char *name = job->figure->name;
     range r;
-    if (!m)
+    if (!job->m)
         return calc_fail(lx->error, along->at, along->len,
-                         "%s goes over %.*s, not along a load: animate %s along ... shows it move", f->name,
-                         (int)strcspn(of, " "), of, f->name);
-    return range_read_along(sh, lx, &along->hole[0], &r) && follow(m, lx, &r);
+                         "%s goes over %.*s, not along a load: animate %s along ... shows it move", name,
+                         (int)len, place, name);
+    return range_read_along(job->sh, lx, &along->hole[0], &r) && follow(job->m, &r);
 }
 
-/* A figure of the table: its statement as if it stood here, what follows the name after it. */
-static bool draw_named(shell *sh, lexer *lx, panel *as, const figure *f, plot_panel *p, size_t index,
-                       motion *m) {
-    size_t from = as->at + strlen(f->name);
-    const char *statement = statement_of(sh, f, &as->said);
-    size_t length = statement_length(statement, &as->said);
-    if (goes_over_place(sh, &as->said, f)) {
-        const heard *along = &as->said.list[1];
-        if (!take_load(sh, lx, along, f, m))
+/* The row of the figure. Another range takes the place of its own, and of the looks that suit that; but a
+ * load does not take that of a place, unless it is one of the user's, which goes along as anything else. */
+static bool draw_row(panel_job *job, lexer *lx, said *all, written *row) {
+    const heard *over = range_of(row->all), *along = said_of(all, "along", 0);
+    const span *place = &over->hole[0];
+    if (row->all->wakes && along && !said_of(all, "for", 0)) {
+        if (!take_load(job, lx, along, row->lx.text + place->at, place->len))
             return false;
-        from = along->hole[0].at + along->hole[0].len;
-        length = strlen(statement);
+    } else if (range_of(all)) {
+        said_drop(job->sh, row->all);
+        row->all->count = (unsigned)(over - row->all->list);
     }
-    const size_t room = length + (as->end - from) + 1;
-    char *text = malloc(room);
-    said all;
-    if (!text)
-        return calc_no_memory(lx->error);
-    snprintf(text, room, "%.*s%.*s", (int)length, statement, (int)(as->end - from), lx->text + from);
-    lexer own;
-    lex_start(&own, text, strlen(text), lx->error);
-    bool ok = said_read(sh, &own, as->said.by, &all);
+    return looks_read(job->sh, &row->lx, row->all, job->p, job->looks) &&
+           looks_read(job->sh, lx, all, job->p, job->looks) && draw_sweep(job, lx, all, row);
+}
+
+static bool draw_named(panel_job *job, lexer *lx, said *all) {
+    const char *statement = statement_of(job->sh, job->figure, all);
+    calc_error mine;
+    said own;
+    written row = {.all = &own};
+    error_clear(&mine);
+    job->error = &mine;
+    lex_start(&row.lx, statement, strlen(statement), &mine);
+    bool ok = said_read(job->sh, &row.lx, all->by, &own);
     if (ok) {
-        ok = draw_sweep(sh, &own, &all, f, p, index, m);
-        said_drop(sh, &all);
+        ok = draw_row(job, lx, all, &row);
+        said_drop(job->sh, &own);
     }
-    free(text);
-    if (!ok && lx->error->len && lx->error->at >= length)
-        lx->error->at += from - length;
-    else if (!ok)
-        lx->error->len = 0;
+    if (mine.raised) { /* places in the row mean nothing in the statement */
+        *lx->error = mine;
+        lx->error->at = lx->error->len = 0;
+    }
     return ok;
+}
+
+/* ---- figures ----------------------------------------------------------------------------------- */
+
+/* The name of a figure is an expression where one goes on behind it; a range may follow one that has no
+ * value. */
+static bool is_named(const shell *sh, const figure *f, said *all) {
+    const size_t len = strlen(f->name);
+    size_t own;
+    if (!all->count || all->list[0].hole[0].len != len || said_of(all, "against", 0))
+        return false;
+    return !range_of(all) ||
+           !(quantity_find(f->name, len) || names_find(&sh->calc.names, f->name, len, &own));
 }
 
 bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
@@ -503,51 +479,47 @@ bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
         row = figure_form(f);
     }
     const bool ok = said_read_some(sh, lx, row, &out->said);
-    out->end = lx->kind == T_END ? lx->end : lx->at;
+    out->figure = ok && f && (f->build || is_named(sh, f, &out->said)) ? f : NULL;
     if (!ok)
         said_drop(sh, &out->said);
+    said_sleep(sh, &out->said); /* its names are none of other panels */
     return ok;
 }
 
-/* The name of a figure is an expression where one goes on behind it; a range may follow one that has no
- * value. */
-static const figure *figure_of(const shell *sh, const lexer *lx, panel *p) {
-    const char *name = lx->text + p->at;
-    const figure *f = figure_find(name, p->said.count ? p->said.list[0].hole[0].len : 0);
-    size_t own;
-    if (!f || said_of(&p->said, "against", 0))
-        return NULL;
-    const bool valued =
-        quantity_find(name, strlen(f->name)) || names_find(&sh->calc.names, name, strlen(f->name), &own);
-    return valued && (said_of(&p->said, "for", 0) || said_of(&p->said, "along", 0)) ? NULL : f;
+bool panel_is_whole(panel *p) {
+    return p->figure || range_of(&p->said);
 }
 
-static const figure *figure_built(const panel *p) {
-    const figure *f;
-    for (size_t i = 0; (f = figure_row(i)); i++)
-        if (f->build && p->said.by == figure_form(f))
-            return f;
-    return NULL;
-}
-
-bool panel_is_whole(const shell *sh, const lexer *lx, panel *p) {
-    return figure_built(p) || said_of(&p->said, "for", 0) || said_of(&p->said, "along", 0) ||
-           figure_of(sh, lx, p);
-}
-
-bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
+static bool draw_panel(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
     const size_t index = f->count;
     plot_panel *p = plot_panel_add(f, lx->error);
     if (!p)
         return calc_place(lx->error, as->at, 1);
-    const figure *built = figure_built(as), *named = built ? NULL : figure_of(sh, lx, as);
-    if (built)
-        return built->build(sh, lx, &as->said, p);
-    if (named)
-        return draw_named(sh, lx, as, named, p, index, m);
+    looks l = {.files = 0};
+    panel_job job = {.sh = sh,
+                     .p = p,
+                     .looks = &l,
+                     .figure = as->figure,
+                     .m = m,
+                     .index = index,
+                     .statement = lx->text,
+                     .error = lx->error};
+    if (as->figure && !as->figure->build)
+        return draw_named(&job, lx, &as->said);
+    if (!looks_read(sh, lx, &as->said, p, &l))
+        return false;
+    if (as->figure)
+        return as->figure->build(sh, lx, &as->said, p, &l);
     lexer first = hole_lexer(lx, &as->said.list[0].hole[0]);
     size_t own;
     if (lex_is(&first, "map") && lex_peek(&first) == T_END && !names_find(&sh->calc.names, "map", 3, &own))
         return lex_fail(&first, "expected map EXPR for A = LO .. HI for B = LO .. HI");
-    return map_at(&first) ? map_draw(sh, lx, &as->said, p) : draw_sweep(sh, lx, &as->said, NULL, p, index, m);
+    return map_at(&first) ? map_draw(sh, lx, &as->said, p, &l)
+                          : draw_sweep(&job, lx, &as->said, &(written){*lx, &as->said});
+}
+
+bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
+    const bool ok = said_wake(sh, lx, &as->said) && draw_panel(sh, lx, as, f, m);
+    said_sleep(sh, &as->said);
+    return ok;
 }

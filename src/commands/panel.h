@@ -3,37 +3,31 @@
 #ifndef COMMANDS_PANEL_H
 #define COMMANDS_PANEL_H
 
+#include "commands/looks.h"
 #include "commands/range.h"
-#include "plot/plot.h"
-#include "statement/output.h"
-
-/* The unit of an axis, the same in all frames. */
-typedef struct axis_unit {
-    long double scale;
-    char text[COLUMN_UNIT];
-} axis_unit;
 
 /* Figures in motion. They are drawn once whole, which tells their units and the load that they follow; then
  * for each instant, states along the load up to it, and what is no state along a load as it stands then. */
 typedef struct motion {
     bool found; /* a load to follow */
     along_what what;
-    char *load;   /* its text; NULL: the program's */
-    trial *at;    /* in the scene at an instant; NULL: the figures as a whole */
-    double until; /* that instant */
-    axis_unit unit[PLOT_PANELS][2];
+    char *load;                     /* its text; NULL: the program's */
+    trial *at;                      /* in the scene at an instant; NULL: the figures as a whole */
+    double until;                   /* that instant */
+    axis_unit unit[PLOT_PANELS][2]; /* the same in all frames */
 } motion;
 
 /* A figure as it has been said. */
 typedef struct panel {
+    const struct figure *figure; /* of the table; NULL: what has been said is all of it */
     said said;
-    size_t at, end; /* in the statement */
+    size_t at; /* in the statement */
 } panel;
 
 /* At the cursor, to the `|` or the end. */
 bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out);
 /* Does it say what it goes over? One of the table need not. */
-bool panel_is_whole(const shell *sh, const lexer *lx, panel *p);
+bool panel_is_whole(panel *p);
 /* Appends a panel; m: NULL where nothing moves. */
 bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m);
 

@@ -116,14 +116,6 @@ static bool read_panels(shell *sh, lexer *lx, const grammar *row, panels *out) {
     return said_end(lx, out->list[out->count - 1].said.by);
 }
 
-/* `to FILE` stands behind long work: it is looked at before. file: empty where there is none. */
-static bool find_file(const lexer *lx, panels *p, char *file) {
-    const heard *to = last_said(p, "to");
-    file[0] = 0;
-    return !to || (hole_file(lx, &to->hole[0], file) &&
-                   (plot_check(file, &shell_stop, lx->error) || heard_place(lx->error, to)));
-}
-
 static bool draw_panels(shell *sh, lexer *lx, panels *p, plot_figure *f, motion *m) {
     for (size_t i = 0; i < p->count; i++)
         if (!panel_draw(sh, lx, &p->list[i], f, m))
@@ -139,8 +131,8 @@ static bool lost_range(shell *sh, const lexer *lx, const panel *p) {
     return false;
 }
 
-/* Neither a figure nor a range: a figure may have been misspelt. */
-static void fail_figure(const calc *c, lexer *lx) {
+/* Neither a figure nor a range: a figure may have been misspelt. wants: what else may stand there. */
+static bool fail_figure(const calc *c, lexer *lx, const command *self, const char *wants) {
     char word[LEX_NAME], all[CALC_ERROR_TEXT / 2] = "";
     const token_kind next = lex_peek(lx);
     size_t own;
@@ -148,38 +140,47 @@ static void fail_figure(const calc *c, lexer *lx) {
                          !names_find(&c->names, lx->text + lx->at, lx->len, &own);
     lex_word(lx, word);
     const char *near = unknown ? suggest(word, figure_name) : NULL;
-    if (lex_is(lx, "map")) {
-        lex_raise(lx, "expected map EXPR for A = LO .. HI for B = LO .. HI");
-    } else if (near && !strcmp(near, word)) {
+    if (lex_is(lx, "map"))
+        return lex_fail(lx, "expected map EXPR for A = LO .. HI for B = LO .. HI");
+    if (near && !strcmp(near, word)) {
         lex_next(lx);
-        lex_raise(lx, "unexpected '%.*s': %s is a figure; | puts another beside it", LEX_WORD(lx), near);
-    } else if (unknown && lead_from(word)) {
-        lex_raise(lx, "there is no figure '%s': %s", word, lead_from(word));
-    } else if (near) {
-        lex_raise(lx, "there is no figure '%s': did you mean %s?", word, near);
-    } else if (!unknown || (next != T_END && next != T_BAR)) {
-        lex_raise(lx, "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N");
-    } else {
-        for (size_t i = 0; figure_name(i); i++)
-            snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? ", " : "", figure_name(i));
-        lex_raise(lx, "there is no figure '%s': plot %s, or EXPR, ... for VAR = LO .. HI", word, all);
+        return lex_fail(lx, "unexpected '%.*s': %s is a figure; | puts another beside it", LEX_WORD(lx),
+                        near);
     }
+    if (unknown && lead_from(word))
+        return lex_fail(lx, "there is no figure '%s': %s", word, lead_from(word));
+    if (near)
+        return lex_fail(lx, "there is no figure '%s': did you mean %s?", word, near);
+    if (!unknown || (next != T_END && next != T_BAR))
+        return lex_fail(lx, "expected %s", wants);
+    for (size_t i = 0; figure_name(i); i++)
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? ", " : "", figure_name(i));
+    return lex_fail(lx, "there is no figure '%s': %s %s, or EXPR, ... for VAR = LO .. HI", word, self->name,
+                    all);
+}
+
+/* All figures, and the file, which is looked at before long work: empty where there is none. */
+static bool read_figures(shell *sh, lexer *lx, const command *self, const char *wants, panels *out,
+                         char *file) {
+    lexer begin = *lx;
+    file[0] = 0;
+    if (!read_panels(sh, lx, command_form(self), out))
+        return false;
+    if (!panel_is_whole(&out->list[0]))
+        return !lost_range(sh, lx, &out->list[0]) && fail_figure(&sh->calc, &begin, self, wants);
+    const heard *to = last_said(out, "to");
+    return !to || (hole_file(lx, &to->hole[0], file) &&
+                   (plot_check(file, &shell_stop, lx->error) || heard_place(lx->error, to)));
 }
 
 bool do_plot(shell *sh, lexer *lx, const command *self) {
+    static const char wants[] = "EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N";
     char file[FILE_NAME];
     plot_figure f;
     panels p = {.count = 0};
-    lexer begin = *lx;
     plot_figure_init(&f);
-    bool ok = read_panels(sh, lx, command_form(self), &p);
-    if (ok && !panel_is_whole(sh, lx, &p.list[0])) {
-        if (!lost_range(sh, lx, &p.list[0]))
-            fail_figure(&sh->calc, &begin);
-        ok = false;
-    }
-    ok = ok && find_file(lx, &p, file) && draw_panels(sh, lx, &p, &f, NULL) &&
-         draw(sh, lx, &f, *file ? file : NULL);
+    const bool ok = read_figures(sh, lx, self, wants, &p, file) && draw_panels(sh, lx, &p, &f, NULL) &&
+                    draw(sh, lx, &f, *file ? file : NULL);
     plot_figure_free(&f);
     panels_free(sh, &p);
     return ok;
@@ -292,18 +293,15 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
 bool do_animate(shell *sh, lexer *lx, const command *self) {
     enum { FRAMES = 80 };
     char file[FILE_NAME];
-    lexer begin = *lx;
     movie *m = calloc(1, sizeof *m);
     if (!m)
         return calc_no_memory(lx->error);
     *m = (movie){.sh = sh, .lx = lx, .frames = FRAMES, .error = lx->error};
-    bool ok = read_panels(sh, lx, command_form(self), &m->figures) &&
-              (panel_is_whole(sh, lx, &m->figures.list[0]) ||
-               lex_fail(&begin, "expected EXPR, ... along program, or a figure"));
+    bool ok = read_figures(sh, lx, self, "EXPR, ... along program, or a figure", &m->figures, file);
     const heard *frames = ok ? last_said(&m->figures, "frames") : NULL;
     if (frames)
         m->frames = frames->count;
-    ok = ok && find_file(lx, &m->figures, file) && run_movie(m, lx, *file ? file : NULL);
+    ok = ok && run_movie(m, lx, *file ? file : NULL);
     panels_free(sh, &m->figures);
     free(m);
     return ok;

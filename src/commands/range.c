@@ -4,6 +4,10 @@
 
 #include <string.h>
 
+const char *range_line(size_t i) {
+    return i ? NULL : "[for NAME = LO .. HI]* [along LOAD] [steps N:100000000]* [log]* [with NAME = VALUES]";
+}
+
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
 /* What the ends of a range, or the values of a list, have in common. A bare 0 is of any dimension. */
@@ -68,6 +72,7 @@ bool range_read_along(shell *sh, const lexer *lx, const span *part, range *out) 
     begin(sh, lx, part, out);
     lexer own = out->own;
     s->along = true;
+    s->var = (knob){.text = "time"};
     s->what = ALONG_LOAD;
     if (lex_accept(&own, "program")) {
         s->what = ALONG_PROGRAM;
@@ -93,7 +98,7 @@ static bool read_with(shell *sh, const lexer *lx, const grammar *f, const heard 
     lexer name = hole_lexer(lx, &h->hole[0]), own = hole_lexer(lx, &h->hole[1]);
     if (!knob_read(&sh->calc, &name, &s->with))
         return false;
-    if (!strcmp(s->with.text, s->var.text))
+    if (!s->along && !strcmp(s->with.text, s->var.text))
         return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s is given twice", s->with.text);
     bounds b = {.known = false};
     do {
@@ -114,11 +119,12 @@ static bool read_with(shell *sh, const lexer *lx, const grammar *f, const heard 
     return range_end(&own, f);
 }
 
-/* `steps`, `log` and `with` that stand before the next `for`. */
-static bool read_options(shell *sh, lexer *lx, const said *said_all, size_t which, sweep *s) {
+bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *out, size_t steps) {
+    sweep *s = &out->sweep;
     size_t ranges = 0;
     bool given = false;
-    for (const heard *h = said_all->list; h < said_all->list + said_all->count; h++) {
+    s->steps = steps;
+    for (const heard *h = all->list; h < all->list + all->count; h++) {
         const char *word = h->of->name;
         ranges += !strcmp(word, "for");
         if ((ranges ? ranges - 1 : 0) != which)
@@ -134,39 +140,54 @@ static bool read_options(shell *sh, lexer *lx, const said *said_all, size_t whic
                 return calc_fail(lx->error, h->at, h->len,
                                  "log goes with for NAME = LO .. HI, or as log x or log y");
             s->log = true;
-        } else if (!strcmp(word, "with") && !read_with(sh, lx, said_all->by, h, s)) {
+        } else if (!strcmp(word, "with") && !read_with(sh, lx, all->by, h, s)) {
             return false;
         }
     }
-    return true;
+    return !s->log || out->positive ||
+           calc_fail(out->own.error, out->own.at, out->own.end - out->own.at,
+                     "a logarithmic sweep needs positive ends");
 }
 
-bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out, size_t steps) {
+bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
     sweep *s = &out->sweep;
     sweep_range ends = {.lo = 0};
     const heard *along = said_of(all, "along", 0), *by = said_of(all, "for", which);
-    if (along && by)
-        return calc_fail(lx->error, by->at > along->at ? by->at : along->at,
-                         by->at > along->at ? by->len : along->len,
+    if (along && by) {
+        const heard *later = by->at > along->at ? by : along;
+        return calc_fail(lx->error, later->at, later->len,
                          "a range goes for NAME = LO .. HI, or along a load");
-    if (along) {
-        const bool ok = range_read_along(sh, lx, &along->hole[0], out);
-        s->steps = steps;
-        return ok && read_options(sh, lx, all, which, s);
     }
+    if (along)
+        return range_read_along(sh, lx, &along->hole[0], out);
     if (!by)
         return lex_fail(lx, "expected for VAR = LO .. HI");
     begin(sh, lx, &by->hole[1], out);
-    s->steps = steps;
     lexer name = hole_lexer(lx, &by->hole[0]), own = out->own;
     if (!knob_read(&sh->calc, &name, &s->var) ||
         !range_read_interval(&sh->calc, &own, &s->var, NULL, &ends) || !range_end(&own, all->by))
         return false;
     s->var.d = ends.d;
-    if (!read_options(sh, lx, all, which, s))
-        return false;
-    return !s->log || (ends.lo > 0 && ends.hi > 0) ||
-           calc_fail(lx->error, by->hole[1].at, by->hole[1].len, "a logarithmic sweep needs positive ends");
+    out->positive = ends.lo > 0 && ends.hi > 0;
+    return true;
+}
+
+sweep_job range_job(shell *sh, const column *columns, size_t count, found *f, sweep_row *row, void *context,
+                    calc_error *error) {
+    for (size_t i = 0; i < count; i++) {
+        f->d[i] = columns[i].d;
+        f->known[i] = columns[i].chosen;
+        f->units[i] = columns[i].chosen ? columns[i].unit : NULL;
+    }
+    return (sweep_job){.c = &sh->calc,
+                       .expressions = sh->list,
+                       .count = count,
+                       .d = f->d,
+                       .known = f->known,
+                       .units = f->units,
+                       .row = row,
+                       .context = context,
+                       .error = error};
 }
 
 void note_missing(shell *sh, const sweep_job *job) {

@@ -6,22 +6,39 @@
 #define COMMANDS_RANGE_H
 
 #include "statement/command.h"
+#include "statement/output.h"
 #include "study/sweep.h"
+
+/* What may be said of a range, in one line; NULL after it. */
+const char *range_line(size_t i);
 
 /* A sweep and where in the statement its range stands: it is read again for each curve. */
 typedef struct range {
     sweep sweep;
     shell *sh;
-    lexer own; /* over LO .. HI, or the load */
+    lexer own;     /* over LO .. HI, or the load */
+    bool positive; /* both ends */
 } range;
 
 /* LO .. HI of var; word: what stands between them instead of `..`, or NULL. */
 bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out);
 /* As far as the load goes that stands there. */
 bool range_read_along(shell *sh, const lexer *lx, const span *load, range *out);
-/* The range of the which-th `for`, or `along`, and what else of a range has been said for it; steps: where
- * none are given. It must stay where it is, and the text of the statement too. */
-bool range_read(shell *sh, lexer *lx, said *s, size_t which, range *out, size_t steps);
+/* The range of the which-th `for`, or `along`. It must stay where it is, and the text of the statement too.
+ */
+bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out);
+/* `steps`, `log` and `with` of that range, which stand before the next `for`; steps: where none are given. */
+bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *out, size_t steps);
+/* What a sweep finds of its expressions, or what their columns ask for. */
+typedef struct found {
+    dim d[COLUMNS];
+    bool known[COLUMNS];
+    const char *units[COLUMNS];
+} found;
+
+/* A sweep of the expressions in sh->list, which have these columns. */
+sweep_job range_job(shell *sh, const column *columns, size_t count, found *f, sweep_row *row, void *context,
+                    calc_error *error);
 /* Says on standard error why some values of a sweep are missing. */
 void note_missing(shell *sh, const sweep_job *job);
 

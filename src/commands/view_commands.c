@@ -60,9 +60,7 @@ typedef struct table_job {
     column columns[COLUMNS]; /* the sweep's own, then those of the expressions */
     size_t first;            /* of the expressions */
     size_t count;
-    dim d[COLUMNS];
-    bool known[COLUMNS];
-    const char *units[COLUMNS];
+    found found;
     size_t curve;
     long double second; /* the value of the second name of a grid, in the last row */
     bool begun, blocks;
@@ -75,7 +73,7 @@ typedef struct table_job {
 static void begin_columns(table_job *job) {
     for (size_t i = 0; i < job->count; i++) {
         column *c = &job->columns[job->first + i];
-        c->d = job->known[i] ? job->d[i] : DIM_NONE;
+        c->d = job->found.known[i] ? job->found.d[i] : DIM_NONE;
         if (!c->chosen)
             dim_unit(c->d, c->unit, sizeof c->unit);
     }
@@ -116,94 +114,57 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
            calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
 }
 
-/* A dimension that the user asked for must come out. */
-static void wanted(table_job *job) {
-    for (size_t i = 0; i < job->count; i++) {
-        job->known[i] = job->columns[job->first + i].chosen;
-        job->d[i] = job->columns[job->first + i].d;
-        job->units[i] = job->known[i] ? job->columns[job->first + i].unit : NULL;
-    }
-}
-
 /* second: the other name of a grid, or of the curves; NULL: there is none */
 static bool own_columns(table_job *job, const sweep *s, const knob *second) {
-    const char *name = s->along ? "time" : s->var.text;
     column *own = job->columns;
-    return column_si(&own[0], name, s->along ? DIM_NONE : s->var.d) &&
+    return column_si(&own[0], s->var.text, s->var.d) &&
            (!second || column_si(&own[1], second->text, second->d));
 }
 
 /* ---- a grid as text: a matrix of each expression ----------------------------------------------- */
 
-typedef struct matrix {
-    const grid *g;
-    size_t count, at;   /* expressions; rows so far */
-    long double *value; /* of all expressions, as they come */
-    long double *a, *b;
-} matrix;
-
-static bool keep_row(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
-    matrix *m = context;
-    const size_t rows = m->g->a.steps + 1;
-    (void)curve;
-    m->a[m->at % rows] = x;
-    m->b[m->at / rows] = s->value[0];
-    memcpy(m->value + m->at++ * m->count, values, m->count * sizeof *values);
-    return true;
-}
-
 /* One expression: the first name downward, the second across. */
-static bool print_matrix(shell *sh, FILE *to, const matrix *m, size_t i, column *c) {
-    const size_t rows = m->g->a.steps + 1, across = m->g->b.steps + 1;
+static bool print_matrix(shell *sh, FILE *to, const grid *g, const grid_values *m, size_t i, column *c) {
     column columns[COLUMNS] = {{.name = NULL}};
     char head[200], number[120];
-    bool ok = column_si(&columns[0], m->g->a.var.text, m->g->a.var.d);
-    column_suit(c, m->value + i, rows * across, m->count, sh->set.digits);
-    for (size_t j = 0; ok && j < across; j++) {
-        format_value(&sh->set, (value){m->b[j], m->g->b.var.d}, number, sizeof number);
-        snprintf(head, sizeof head, "%s = %s", m->g->b.var.text, number);
+    bool ok = column_si(&columns[0], g->a.var.text, g->a.var.d);
+    column_suit(c, m->v + i, m->rows * m->across, m->count, sh->set.digits);
+    for (size_t j = 0; ok && j < m->across; j++) {
+        format_value(&sh->set, (value){m->b[j], g->b.var.d}, number, sizeof number);
+        snprintf(head, sizeof head, "%s = %s", g->b.var.text, number);
         ok = column_si(&columns[j + 1], head, DIM_NONE);
         columns[j + 1].scale = c->scale;
         columns[j + 1].chosen = true; /* the heading tells the unit */
     }
     answer a;
     answer_begin_as(&a, &sh->set, to, FORMAT_TEXT);
-    ok = ok && answer_columns(&a, "table", columns, across + 1);
+    ok = ok && answer_columns(&a, "table", columns, m->across + 1);
     if (ok) {
         fprintf(to, *c->unit ? "%s%s [%s]\n" : "%s%s\n", i ? "\n" : "", c->name, c->unit);
-        for (size_t r = 0; r < rows; r++) {
+        for (size_t r = 0; r < m->rows; r++) {
             long double row[COLUMNS] = {m->a[r]};
-            for (size_t j = 0; j < across; j++)
-                row[j + 1] = m->value[(j * rows + r) * m->count + i];
+            for (size_t j = 0; j < m->across; j++)
+                row[j + 1] = m->v[(j * m->rows + r) * m->count + i];
             answer_row(&a, row);
         }
         answer_end(&a, true);
     }
-    columns_free(columns, across + 1);
+    columns_free(columns, m->across + 1);
     return ok;
 }
 
 static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *sweeping) {
-    const size_t rows = g->a.steps + 1, across = g->b.steps + 1;
-    if (across > COLUMNS - 1)
+    grid_values m;
+    if (g->b.steps > COLUMNS - 2)
         return calc_fail(sweeping->error, 0, 0,
                          "a matrix as text has at most %d columns: use fewer steps, or a file", COLUMNS - 1);
-    matrix m = {.g = g, .count = job->count};
-    m.value = calloc(rows * across, job->count * sizeof *m.value);
-    m.a = calloc(rows, sizeof *m.a);
-    m.b = calloc(across, sizeof *m.b);
-    bool ok = (m.value && m.a && m.b) || calc_no_memory(sweeping->error);
-    sweeping->row = keep_row;
-    sweeping->context = &m;
-    ok = ok && grid_run(g, sweeping);
+    bool ok = grid_keep(g, sweeping, &m);
     if (ok)
         begin_columns(job);
     for (size_t i = 0; ok && i < job->count; i++)
-        ok = print_matrix(sh, job->a.to, &m, i, &job->columns[job->first + i]) ||
+        ok = print_matrix(sh, job->a.to, g, &m, i, &job->columns[job->first + i]) ||
              calc_no_memory(sweeping->error);
-    free(m.value);
-    free(m.a);
-    free(m.b);
+    grid_values_free(&m);
     return ok;
 }
 
@@ -230,16 +191,8 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
     for (size_t i = 0; i < count; i++)
         columns[i].name = NULL;
     answer_begin_as(&job->a, &sh->set, to.to, to.format);
-    wanted(job);
-    sweep_job sweeping = {.c = &sh->calc,
-                          .expressions = sh->list,
-                          .count = count,
-                          .d = job->d,
-                          .known = job->known,
-                          .units = job->units,
-                          .row = give_row,
-                          .context = job,
-                          .error = lx->error};
+    sweep_job sweeping =
+        range_job(sh, job->columns + job->first, count, &job->found, give_row, job, lx->error);
     job->screen = to.to == sh->out && shell_on_terminal(sh);
     bool ok = own_columns(job, s, second) || calc_no_memory(lx->error);
     const bool square = g && to.format == FORMAT_TEXT && !to.blocks;
@@ -275,7 +228,7 @@ bool do_table(shell *sh, lexer *lx, const command *self) {
         ok = grid_range_read(sh, lx, &all, &two, ROWS, ACROSS) &&
              run_table(sh, lx, &all, &two.grid.a, &two.grid, columns, count);
     else
-        ok = ok && range_read(sh, lx, &all, 0, &r, ROWS) &&
+        ok = ok && range_read(sh, lx, &all, 0, &r) && range_options(sh, lx, &all, 0, &r, ROWS) &&
              run_table(sh, lx, &all, &r.sweep, NULL, columns, count);
     columns_free(columns, count);
     said_drop(sh, &all);

@@ -120,14 +120,14 @@ static entry command_entry(size_t i) {
 static void command_help(FILE *to, size_t i) {
     const command *c = command_row(i);
     const hole_row *row;
-    char usage[GRAMMAR_USAGE], text[GRAMMAR_USAGE];
+    char usage[GRAMMAR_USAGE], text[GRAMMAR_USAGE + 16];
     command_usage(c, usage);
     help_wrapped(to, usage, 0, 6);
     for (size_t h = 0; (row = hole_at(h)); h++) {
         if (row->kind != HOLE_CLAUSES || !strstr(c->takes, row->name))
             continue;
-        const int n = snprintf(text, sizeof text, "%s: ", row->name);
-        takes_text(row->clauses, text + n, sizeof text - (size_t)n);
+        grammar_clauses(row, usage);
+        snprintf(text, sizeof text, "%s: %s", row->name, usage);
         fputs("      ", to);
         help_wrapped(to, text, 6, 8);
     }

@@ -95,7 +95,7 @@ static void put_commands(FILE *to) {
     }
     for (size_t i = 0; (h = hole_at(i)); i++)
         if (h->kind == HOLE_CLAUSES) {
-            takes_text(h->clauses, usage, sizeof usage);
+            grammar_clauses(h, usage);
             fprintf(to, ".TP\n.B %s\n", h->name);
             put_line(to, usage, strlen(usage));
         }

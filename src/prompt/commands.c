@@ -5,6 +5,7 @@
 
 #include "commands/accuracy_command.h"
 #include "commands/figures.h"
+#include "commands/looks.h"
 #include "commands/presets.h"
 #include "commands/range.h"
 #include "commands/study_commands.h"
@@ -14,11 +15,6 @@
 #include "statement/scripts.h"
 
 /* ---- holes ------------------------------------------------------------------------------------- */
-
-static const char *axes_name(size_t i) {
-    static const char *const names[] = {"x", "y", "xy"};
-    return i < sizeof names / sizeof *names ? names[i] : NULL;
-}
 
 static const char *off_name(size_t i) {
     return i == 0 ? "off" : NULL;
@@ -50,13 +46,8 @@ const hole_row holes[] = {
     {.name = "LESSON", .kind = HOLE_WORD, .words = script_name},
     {.name = "TOPIC", .kind = HOLE_WORD, .words = help_name},
     {.name = "FIGURE", .kind = HOLE_WORD, .words = figure_word},
-    {.name = "RANGE",
-     .kind = HOLE_CLAUSES,
-     .clauses = "[for NAME = LO .. HI]* [along LOAD] [steps N:100000000]* [log]* [with NAME = VALUES]"},
-    {.name = "LOOK",
-     .kind = HOLE_CLAUSES,
-     .clauses = "[title TEXT]* [xlabel TEXT]* [ylabel TEXT]* [xrange LO .. HI]* [yrange LO .. HI]* "
-                "[log AXES]* [flip AXES]* [key OFF]* [points]* [over FILE]*"},
+    {.name = "RANGE", .kind = HOLE_CLAUSES, .words = range_line},
+    {.name = "LOOK", .kind = HOLE_CLAUSES, .words = look_line},
     {.name = NULL},
 };
 

@@ -83,7 +83,7 @@ static bool parse_argument(parsing *g, size_t n) {
     return !a->live || a->in;
 }
 
-static bool parse_clauses(parsing *g, const char *clauses);
+static bool parse_clauses(parsing *g, const hole_row *row);
 
 static bool parse_hole(parsing *g, size_t n, char before) {
     size_t len = 0;
@@ -97,7 +97,7 @@ static bool parse_hole(parsing *g, size_t n, char before) {
     if (row->kind == HOLE_CLAUSES) {
         g->p += n;
         g->open = NULL;
-        return parse_clauses(g, row->clauses);
+        return parse_clauses(g, row);
     }
     clause *a = g->open ? g->open : add(g, "", 0);
     if (!a || a->holes == CLAUSE_HOLES)
@@ -188,13 +188,13 @@ static bool parse_all(parsing *g) {
     return true;
 }
 
-static bool parse_clauses(parsing *g, const char *clauses) {
+static bool parse_clauses(parsing *g, const hole_row *row) {
     parsing inner = *g;
     close_group(&inner);
     inner.bracket = false;
-    inner.p = clauses;
-    if (!parse_all(&inner))
-        return false;
+    for (size_t i = 0; (inner.p = row->words(i)); i++)
+        if (!parse_all(&inner))
+            return false;
     g->groups = inner.groups;
     g->first = inner.first;
     g->open = NULL;
@@ -227,4 +227,14 @@ void grammar_usage(const grammar *f, char buf[GRAMMAR_USAGE]) {
     int n = snprintf(buf, GRAMMAR_USAGE, "%s%s%s%s", f->command, f->shape ? " " : "",
                      f->shape ? f->shape : "", *f->takes ? " " : "");
     takes_text(f->takes, buf + n, GRAMMAR_USAGE - (size_t)n);
+}
+
+void grammar_clauses(const hole_row *row, char buf[GRAMMAR_USAGE]) {
+    size_t n = 0;
+    const char *line;
+    for (size_t i = 0; (line = row->words(i)); i++) {
+        n += (size_t)snprintf(buf + n, GRAMMAR_USAGE - n, "%s", i ? " " : "");
+        takes_text(line, buf + n, GRAMMAR_USAGE - n);
+        n += strlen(buf + n);
+    }
 }

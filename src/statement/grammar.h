@@ -28,15 +28,14 @@ typedef enum hole_kind {
     HOLE_CHOICE,  /* one of some words */
     HOLE_WORD,    /* the same, but any other too: the command judges it, and what follows it */
     HOLE_LOAD,    /* a statement of the load */
-    HOLE_CLAUSES  /* none, but clauses */
+    HOLE_CLAUSES  /* none, but clauses: a table of them */
 } hole_kind;
 
 typedef struct hole_row {
     const char *name;
     hole_kind kind;
     const char *noun;               /* of a choice: what is chosen; of a value: the quantity */
-    const char *(*words)(size_t i); /* of a choice or a word */
-    const char *clauses;
+    const char *(*words)(size_t i); /* of a choice or a word; of clauses, their lines */
 } hole_row;
 
 typedef struct hole {
@@ -81,5 +80,7 @@ const hole_row *grammar_first(const grammar *f, hole_kind kind);
 /* "geometry sphere R=10 mm": the line without its marks. */
 enum { GRAMMAR_USAGE = 400 };
 void grammar_usage(const grammar *f, char buf[GRAMMAR_USAGE]);
+/* The same of a hole that stands for clauses. */
+void grammar_clauses(const hole_row *row, char buf[GRAMMAR_USAGE]);
 
 #endif

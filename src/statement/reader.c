@@ -8,13 +8,23 @@
 
 /* ---- what has been said ------------------------------------------------------------------------ */
 
-bool names_wake(shell *sh, const lexer *lx, size_t before) {
-    own_names *n = &sh->calc.names;
+static const hole_row *first_hole(const clause *a) {
+    return a->holes ? a->hole[0].row : NULL;
+}
+
+static bool is_awake(const shell *sh, const lexer *lx) {
     const char *text = lx->text + lx->at;
     size_t i;
-    if (quantity_find(text, lx->len) || name_taken(text, lx->len) || names_find(n, text, lx->len, &i))
+    return quantity_find(text, lx->len) || name_taken(text, lx->len) ||
+           names_find(&sh->calc.names, text, lx->len, &i);
+}
+
+bool names_wake(shell *sh, const lexer *lx, size_t before) {
+    own_names *n = &sh->calc.names;
+    size_t i;
+    if (is_awake(sh, lx))
         return true;
-    if (!names_add(n, text, lx->len, &i))
+    if (!names_add(n, lx->text + lx->at, lx->len, &i))
         return calc_no_memory(lx->error);
     n->row[i].woken = i < before;
     n->row[i].known = true;
@@ -34,9 +44,29 @@ void said_drop(shell *sh, said *s) {
         counted_drop(s->list[i].live);
         s->list[i].live = NULL;
     }
+    said_sleep(sh, s);
+}
+
+void said_sleep(shell *sh, said *s) {
     if (s->wakes)
         names_forget(sh, s->names);
     s->wakes = false;
+}
+
+bool said_wake(shell *sh, const lexer *lx, said *s) {
+    s->names = sh->calc.names.count;
+    for (const heard *h = s->list; h < s->list + s->count; h++) {
+        const hole_row *row = first_hole(h->of);
+        if (!row || row->kind != HOLE_NAME)
+            continue;
+        const lexer name = hole_lexer(lx, &h->hole[0]);
+        if (name.len >= LEX_NAME || is_awake(sh, &name))
+            continue;
+        s->wakes = true;
+        if (!names_wake(sh, &name, s->names))
+            return false;
+    }
+    return true;
 }
 
 heard *said_of(said *s, const char *name, size_t i) {
@@ -61,10 +91,6 @@ bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
     lexer own = *lx;
     own.at = part->at;
     return lex_filename(&own, name, FILE_NAME);
-}
-
-static const hole_row *first_hole(const clause *a) {
-    return a->holes ? a->hole[0].row : NULL;
 }
 
 static bool is_choice(const hole_row *row, const char *word, size_t len, size_t *choice) {
@@ -304,17 +330,14 @@ static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_
         lex_seek(lx, lx->at);
 }
 
-/* One name, which becomes known where it stands behind what uses it; of those that stand first several. */
-static bool skip_names(shell *sh, lexer *lx, said *s, const clause *a, bool wakes) {
+/* One name; of those that stand first several. */
+static bool skip_names(lexer *lx, const said *s, const clause *a) {
     if (lx->kind != T_NAME)
         return *a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name");
     if (a->list && !*a->name) {
         skip_part(lx, s->by, false, false);
         return true;
     }
-    s->wakes = s->wakes || wakes;
-    if (wakes && lx->len < LEX_NAME && !names_wake(sh, lx, s->names))
-        return false;
     lex_next(lx);
     return !lx->error->raised;
 }
@@ -372,7 +395,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
     }
     case HOLE_NAME:
     case HOLE_INPUT:
-        ok = skip_names(sh, lx, s, a, row->kind == HOLE_NAME);
+        ok = skip_names(lx, s, a);
         break;
     case HOLE_LOAD:
         ok = skip_load(lx, s);
@@ -477,7 +500,6 @@ static bool lacks_name(const lexer *lx, const grammar *f) {
 bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
     out->by = f;
     out->wakes = false;
-    out->names = sh->calc.names.count;
     out->count = 0;
     if (!read_first(sh, lx, out))
         return false;
@@ -493,7 +515,7 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
             return false;
         }
     }
-    return !lx->error->raised;
+    return !lx->error->raised && said_wake(sh, lx, out);
 }
 
 bool said_end(lexer *lx, const grammar *f) {

@@ -29,7 +29,7 @@ typedef struct heard {
 enum { HEARD = 40, FILE_NAME = 4096 };
 typedef struct said {
     const grammar *by;
-    bool wakes;   /* it has names that stand behind the expressions that use them: known until said_drop */
+    bool wakes;   /* names of its own, unknown before, stand behind what uses them: known until said_drop */
     size_t names; /* of the session, before */
     unsigned count;
     heard list[HEARD]; /* in their order */
@@ -42,6 +42,9 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out);
 bool said_end(lexer *lx, const grammar *f);
 /* What is live goes, unless it has been taken over, and what became known. */
 void said_drop(shell *sh, said *s);
+/* The names alone, where another statement comes between; and known again. */
+void said_sleep(shell *sh, said *s);
+bool said_wake(shell *sh, const lexer *lx, said *s);
 
 /* The name at the cursor becomes known, until names_forget; before: how many names there were. */
 bool names_wake(shell *sh, const lexer *lx, size_t before);

@@ -24,13 +24,12 @@ typedef struct state {
 static void say_where(state *st, long double x) {
     const sweep *s = st->s;
     char at[120], with[60 + LEX_NAME] = "";
-    calc_amount(s->along ? DIM_NONE : st->range.d, x, 6, at, sizeof at);
+    calc_amount(st->range.d, x, 6, at, sizeof at);
     if (s->curves) {
         snprintf(with, sizeof with, ", %s = ", s->with.text);
         calc_amount(s->with.d, s->value[st->curve], 6, with + strlen(with), sizeof with - strlen(with));
     }
-    snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->along ? "time" : s->var.text, at,
-             with);
+    snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->var.text, at, with);
 }
 
 /* An error that no other value would mend, or a gap. */

@@ -20,7 +20,7 @@ typedef struct sweep_range {
 typedef struct sweep sweep;
 struct sweep {
     bool along;
-    knob var; /* for NAME = LO .. HI */
+    knob var; /* for NAME = LO .. HI; along: called the time */
     bool log;
     size_t steps;
     bool refine;     /* for: more points where a picture of it bends */

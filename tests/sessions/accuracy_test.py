@@ -222,12 +222,12 @@ def pictures(tests):
     where = os.path.join(tests.dir, "accuracy")
     os.makedirs(where)
     done = tests.run("-c", GRADED % (-0.3, SPHERE) + "set plot 79x24\nplot accuracy FA=20 N within 0.1\n"
-                     "plot accuracy within 0.1 to a.svg", cwd=where)
+                     "plot accuracy within 0.1 title \"of all models\" to a.svg", cwd=where)
     tests.check("plot accuracy", all(text in done.stdout for text in ("time of a cycle [s]", "relative error",
                 "closed form", "springs, midpoint")) and harness.reported(done.stderr, ["a.svg"]), tests.report(done))
     tests.check("files of plot accuracy", os.listdir(where) == ["a.svg"], str(os.listdir(where)))
     text = "".join(xml.etree.ElementTree.parse(os.path.join(where, "a.svg")).getroot().itertext())
-    tests.check("a.svg", "memory diagram" in text and "relative error" in text, text[:500])
+    tests.check("a.svg", "of all models" in text and "memory diagram" in text and "relative error" in text, text[:500])
 
 
 # Scenes and what they are made of; the last entry is the load.

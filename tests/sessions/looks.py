@@ -304,6 +304,7 @@ def moving(tests):
     tests.check("along a load that is tried", done.returncode == 0 and "Fx = 0 N" in done.stdout, tests.report(done))
     pressed = "material steel; c0 = 1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
     for load in ("springs along cycle FA=36 N", "springs along step Fx=20 N", "traction along cycle FA=0.9*mu*FN title \"t\" steps 20",
+                 "traction title \"t\" steps 20 along cycle FA=9 N",
                  "springs along cycle FA=9 N | loop along cycle FA=9 N", "Fx along cycle FA=9 N | pressure along cycle FA=9 N"):
         done = tests.run("-c", pressed + "animate %s frames 3 to %s\nFx" % (load, path))
         tests.check("figures over a place, along a load: " + load, done.returncode == 0 and frames_of(path) in (2, 3) and
@@ -318,6 +319,10 @@ def moving(tests):
     tests.check("a load between its bounds", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
     done = tests.run("-c", SCENE + "x = 0.05 mm; animate springs along program frames 3 to " + path)
     tests.check("one spring on its way", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
+    for panels in ("springs | u1D(x) for x = 0 m .. a", "pressure | u1D(x) for x = 0 m .. a", "springs along program | u1D(x) for x = 0 m .. a"):
+        done = tests.run("-c", SCENE + "x = 1; undo; animate %s frames 3 to %s" % (panels, path))
+        tests.check("each figure has its own names: " + panels, done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
+    fails(tests, "plot x for x = 0 .. 1 | x for y = 0 .. 1", "unknown name 'x'")
     done = tests.run("-c", SCENE + "animate loop | y for y = 0 .. 1 with mu = 0.4, 0.5 | y for y = 0 .. 1 with z = 1, 2 frames 3 to " + path)
     tests.check("what does not move", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
     fails(tests, "animate Fx against dx along cycle FA=10 N | Fx along cycle FA=20 N", "the figures of an animation go along one load")
