@@ -28,11 +28,9 @@ static void report_event(shell *sh, const char *event, const char *const *names)
     if (!reports(sh))
         return;
     for (; *names; names++) {
-        calc_error error;
-        error_clear(&error);
         of[count] = quantity_find(*names, strlen(*names));
         v[count] = (value){0, of[count]->d};
-        count += quantity_get(of[count], &sh->calc.scene, &v[count].v, &error);
+        count += quantity_get(of[count], &sh->calc.scene, &v[count].v, error_quiet());
     }
     progress_wipe();
     if (sh->set.report == REPORT_AUTO && !answer_is_data(&sh->set))

@@ -82,12 +82,9 @@ static void add_values(const place *p) {
 
 /* Inputs that the scene takes, and names of the user's. */
 static void add_knobs(const place *p, const char *end) {
-    for (input in = 0; in < INPUTS; in++) {
-        calc_error ignored;
-        error_clear(&ignored);
-        if (calc_takes(p->c, in, &ignored))
+    for (input in = 0; in < INPUTS; in++)
+        if (calc_takes(p->c, in, error_quiet()))
             add(p, quantity_of_input(in)->name, end);
-    }
     for (size_t i = 0; i < p->c->names.count; i++)
         if (p->c->names.row[i].known && !p->c->names.row[i].definition)
             add(p, p->c->names.row[i].text, end);
@@ -151,14 +148,13 @@ static bool is_assigned(const place *p, const char *word) {
 
 /* The tokens before the word that begins at `start`; what is none, as in names of files, is left out. */
 static void read_tokens(place *p, size_t begin, size_t start) {
-    calc_error strange;
+    calc_error *strange = error_quiet();
     lexer lx;
-    error_clear(&strange);
     p->start = start;
     p->count = 0;
-    for (lex_start(&lx, p->line + begin, start - begin, &strange);
-         (lx.kind != T_END || strange.raised) && p->count < TOKENS; lex_next(&lx)) {
-        error_clear(&strange);
+    for (lex_start(&lx, p->line + begin, start - begin, strange);
+         (lx.kind != T_END || strange->raised) && p->count < TOKENS; lex_next(&lx)) {
+        error_clear(strange);
         if (lx.kind == T_END)
             continue;
         p->token[p->count].kind = lx.kind;

@@ -63,9 +63,7 @@ typedef struct assignment {
 
 static bool is_list(const lexer *lx, token_kind *then) {
     lexer scan = *lx;
-    calc_error ignored;
-    error_clear(&ignored);
-    scan.error = &ignored;
+    scan.error = error_quiet();
     for (lex_next(&scan); scan.kind == T_OPEN || scan.kind == T_COMMA;) {
         lex_next(&scan);
         if (scan.kind != T_NAME)
@@ -314,18 +312,17 @@ static bool definition_fails(calc *c, lexer *lx, const assignment *a, calc_error
 
 static bool binding_holds(calc *c, lexer *lx, const assignment *a) {
     const input in = quantity_input(a->q);
-    calc_error error, again;
+    calc_error error;
     long double unused;
     value v;
     scene probe, *outer = c->now;
     error_clear(&error);
-    error_clear(&again);
     scene_clone(&probe, &c->scene);
     inputs_bind(&probe.in, in, counted_hold(&a->d->base));
     c->now = &probe;
     const bool ok = scene_get(&probe, in, &unused, &error) || error.strange;
     c->now = outer;
-    if (ok && definition_value(c, a->d, &v, &again))
+    if (ok && definition_value(c, a->d, &v, error_quiet()))
         (void)value_dim(lx, a->q->name, a->value_at, a->value_len, v, quantity_dim(a->q, &c->scene));
     scene_free(&probe);
     return !lx->error->raised && !definition_fails(c, lx, a, &error);

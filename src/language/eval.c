@@ -403,10 +403,8 @@ bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_err
 }
 
 bool expr_dim(calc *c, const expr *e, dim *d) {
-    calc_error ignored;
     value v;
-    error_clear(&ignored);
-    machine m = {c, e, &ignored, NULL, true};
+    machine m = {c, e, error_quiet(), NULL, true};
     if (!run(&m, &v) || isnan(v.d.N + v.d.m)) /* a power by what has no value */
         return false;
     *d = v.d;

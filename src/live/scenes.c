@@ -190,11 +190,9 @@ static void cycle_text(const live *l, double FA, double FNA, double phase, char 
 
 static bool last_cycle(const live *l, load_item *out) {
     scene *s = &l->host->calc->scene;
-    calc_error ignored;
-    error_clear(&ignored);
     if (!s->end.cycles || s->program->steps[s->end.steps - 1].kind != LOAD_CYCLE)
         return false;
-    return scene_last_cycle(s, out, &ignored);
+    return scene_last_cycle(s, out, error_quiet());
 }
 
 static void remember_cycle(live *l) {

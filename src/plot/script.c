@@ -559,12 +559,10 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
 
 bool plot_script(const plot_figure *f, const char *ending, int width, int height, FILE *to) {
     plot_extents extent[PLOT_PANELS];
-    calc_error error;
-    error_clear(&error);
     for (size_t i = 0; i < f->count; i++)
         extent[i] = plot_extent_of(f->panel[i]);
-    const plot_kind *kind = plot_kind_of(ending, &error);
+    const plot_kind *kind = plot_kind_of(ending, error_quiet());
     return kind && f->count &&
            plot_write_picture(to, &(plot_reel){f, 1, extent, 0}, kind,
-                              &(plot_target){.width = width, .height = height}, &error);
+                              &(plot_target){.width = width, .height = height}, error_quiet());
 }

@@ -105,9 +105,7 @@ static bool assign(shell *sh, lexer *lx) {
 /* An unknown word, alone or before another, of which help tells. */
 static bool told_of(lexer *lx, const char *word, token_kind after) {
     lexer next = *lx;
-    calc_error ignored;
-    error_clear(&ignored);
-    next.error = &ignored;
+    next.error = error_quiet();
     lex_next(&next);
     if ((after != T_NAME && after != T_NUMBER && after != T_END) || lex_is(&next, "in") ||
         lex_is(&next, "at"))

@@ -17,11 +17,9 @@
 
 /* The number of a literal such as `90 deg` as the language reads it. */
 static double read_back(const char *text) {
-    calc_error ignored;
     lexer lx;
     unit u;
-    error_clear(&ignored);
-    lex_start(&lx, text, strlen(text), &ignored);
+    lex_start(&lx, text, strlen(text), error_quiet());
     const bool minus = lx.kind == T_MINUS;
     if (minus)
         lex_next(&lx);
@@ -317,12 +315,10 @@ static void write_load(writer *w, bool whole) {
 
 /* What is bound gets its value; where it has none yet it keeps what it had. */
 static void settle(calc *c) {
-    calc_error ignored;
     long double unused;
-    error_clear(&ignored);
     for (input i = 0; i < INPUTS; i++)
-        if (c->scene.in.bound[i] && !scene_get(&c->scene, i, &unused, &ignored))
-            error_clear(&ignored);
+        if (c->scene.in.bound[i])
+            scene_get(&c->scene, i, &unused, error_quiet());
 }
 
 bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {

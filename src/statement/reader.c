@@ -250,10 +250,8 @@ static const clause *clause_named(const lexer *lx, const grammar *f) {
 
 /* Does a word follow that begins no clause, and so is a choice? */
 static bool choice_follows(const lexer *lx, const grammar *f) {
-    calc_error ignored;
     lexer next = *lx;
-    error_clear(&ignored);
-    next.error = &ignored;
+    next.error = error_quiet();
     lex_next(&next);
     return next.kind == T_NAME && !clause_named(&next, f);
 }
@@ -272,18 +270,17 @@ static const clause *clause_at(const lexer *lx, const grammar *f) {
 /* Over a part of the statement: behind an operand a word of the row begins a clause, and nowhere else can it.
  * A comma may end the part, and an `=` that does not belong to `at`. */
 static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_ends) {
-    calc_error ignored, *error = lx->error;
+    calc_error *const error = lx->error, *const strange = error_quiet();
     int depth = 0;
     bool operand = false, changing = false;      /* it ends before the token; there has been an `at` */
     enum { NOTHING, PLACE, NAMED } at = NOTHING; /* where `at` wants a name, and behind that name */
-    error_clear(&ignored);
-    for (lx->error = &ignored; lx->kind != T_END || ignored.raised; lex_next(lx)) {
+    for (lx->error = strange; lx->kind != T_END || strange->raised; lex_next(lx)) {
         const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
         if (depth == 0 &&
             (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
              (lx->kind == T_ASSIGN && equals_ends && at != NAMED) || (name && operand && clause_at(lx, f))))
             break;
-        error_clear(&ignored); /* who parses the part says what is no token */
+        error_clear(strange); /* whoever parses the part reports what is no token */
         depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
         changing = changing || (joins && lex_is(lx, "at"));
         at = name && at == PLACE ? NAMED : joins || (changing && lx->kind == T_COMMA) ? PLACE : NOTHING;

@@ -374,12 +374,11 @@ static bool only_jumps(search *s, double x, calc_error *error) {
 static bool try_root(search *s, unsigned i, double *x, bool *is, calc_error *error) {
     *is = false;
     for (int rough = 1; rough >= 0 && !*is; rough--) {
-        calc_error none;
-        error_clear(&none);
-        const bool found = refine(s, i, rough, x, &none);
+        calc_error *none = error_quiet();
+        const bool found = refine(s, i, rough, x, none);
         *is = found && !jumps(s, i, *x);
-        if (none.stop)
-            *error = none;
+        if (none->stop)
+            *error = *none;
         if (error->raised)
             return false;
     }
@@ -430,11 +429,10 @@ static bool several(search *s, calc_error *error) {
 
 /* One root, where it does not turn out to be a jump. */
 static bool single(search *s, solve_answer *out, calc_error *error) {
-    calc_error none;
-    error_clear(&none);
-    out->jumps = !refine(s, 0, false, &out->x, &none) || jumps(s, 0, out->x);
-    if (none.stop)
-        *error = none;
+    calc_error *none = error_quiet();
+    out->jumps = !refine(s, 0, false, &out->x, none) || jumps(s, 0, out->x);
+    if (none->stop)
+        *error = *none;
     s->jump = out->x;
     s->roots = !out->jumps;
     return !error->raised;
