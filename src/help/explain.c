@@ -44,7 +44,7 @@ static bool had(const page *p, bool ok, const calc_error *why) {
 /* ---- lines ------------------------------------------------------------------------------------- */
 
 /* An expression and its value, in the scene as it stands. */
-static void put_value(const page *p, const char *name, size_t len, value v) {
+static void put_expression_value(const page *p, const char *name, size_t len, value v) {
     char text[160], unit_text[COLUMN_UNIT], *whole = column_name(name, len);
     format_value(&p->sh->set, v, text, sizeof text);
     answer_words(p->out, "    %.*s = %s\n", (int)len, name, text);
@@ -337,7 +337,7 @@ static bool has_effect(const influence_study *study, input in) {
 }
 
 /* The inputs that the result was made of. */
-static void put_inputs(const page *p, const quantity *q, const influence_study *study) {
+static void put_numbers(const page *p, const quantity *q, const influence_study *study) {
     const unsigned of_load = INPUT_BIT(IN_FN) | INPUT_CYCLE;
     scene *s = p->sh->calc.now;
     for (input in = 0; in < INPUTS; in++) {
@@ -491,7 +491,7 @@ static void explain_input(const page *p, const quantity *q) {
     answer_page(p->out, "explain");
     put_formula(p, q, false);
     if (had(p, quantity_get(q, c->now, &v.v, why), why))
-        put_value(p, q->name, strlen(q->name), v);
+        put_expression_value(p, q->name, strlen(q->name), v);
     answer_done(p->out);
 }
 
@@ -501,7 +501,7 @@ static void explain_function(const page *p, const quantity *q) {
     answer_page(p->out, "explain");
     put_formula(p, q, true);
     answer_group(p->out, "numbers");
-    put_inputs(p, q, &nothing);
+    put_numbers(p, q, &nothing);
     answer_up(p->out);
     answer_done(p->out);
 }
@@ -534,13 +534,13 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
         answer_page(p->out, "explain");
         put_formula(p, q, of->call);
         answer_group(p->out, "numbers");
-        put_inputs(p, q, &study);
+        put_numbers(p, q, &study);
         if (has)
             put_load(p, q, &study);
         answer_up(p->out);
         const model_id model = put_model(p, q, of->call, has ? &e : NULL, &sine);
         if (has)
-            put_value(p, of->text, of->len, v);
+            put_expression_value(p, of->text, of->len, v);
         if (has && model == MODEL_SPRINGS)
             put_difference(p, &e, v);
         else if (has)
@@ -576,7 +576,7 @@ static part call_at(const expr *e, const quantity *q, size_t at) {
                   .argument_len = lx.at - open - 1};
 }
 
-static bool part_of(const expr *e, size_t i, part *out) {
+static bool part_at(const expr *e, size_t i, part *out) {
     bool call;
     size_t at;
     const quantity *q = expr_quantity(e, i, &call, &at);
@@ -591,7 +591,7 @@ static bool explain_whole(const page *p, const expr *e, value v, calc_error *err
     if (p->conditioning && !influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, error))
         return false;
     answer_page(p->out, "explain");
-    put_value(p, e->text + e->at, e->len, v);
+    put_expression_value(p, e->text + e->at, e->len, v);
     if (p->conditioning)
         put_conditioning(p, "it", &study);
     answer_done(p->out);
@@ -633,7 +633,7 @@ static void explain_call(const page *p, const part *of, const definition *in, bo
         answer_page(p->out, "explain");
         if (title)
             put_title(p, of->q);
-        put_value(p, of->text, of->len, v);
+        put_expression_value(p, of->text, of->len, v);
         answer_done(p->out);
     }
     expr_free(&e);
@@ -649,7 +649,7 @@ static bool explain_parts(const page *p, const expr *e, const definition *in, co
                           calc_error *error) {
     part one, other;
     const definition *d;
-    for (size_t i = 0; part_of(e, i, &one); i++) {
+    for (size_t i = 0; part_at(e, i, &one); i++) {
         const bool told = is_told(before, &one);
         if (is_seen(p, before, &one))
             continue;
@@ -661,7 +661,7 @@ static bool explain_parts(const page *p, const expr *e, const definition *in, co
             explain_input(p, one.q);
         else if (!explain_part(p, &one, in, e == asked && is_whole(e, &one), error))
             return false;
-        for (size_t j = i + 1; one.call && part_of(e, j, &other); j++)
+        for (size_t j = i + 1; one.call && part_at(e, j, &other); j++)
             if (other.call && other.q == one.q && !(e == asked && is_whole(e, &other)) &&
                 !is_seen(p, before, &other))
                 explain_call(p, &other, in, false);
@@ -678,7 +678,7 @@ static bool explain_expression(const page *p, const expr *e, const expr *asked, 
     part one;
     bool told = false;
     seen all = {.count = 0};
-    for (size_t i = 0; e == asked && !told && part_of(e, i, &one); i++) {
+    for (size_t i = 0; e == asked && !told && part_at(e, i, &one); i++) {
         told = is_whole(e, &one) && !is_told(&all, &one); /* else its formula belongs to a call within */
         is_seen(p, &all, &one);
     }
@@ -724,7 +724,7 @@ static const quantity *bare_name(const lexer *lx) {
 }
 
 /* What is to be explained, `e`, in the scene as it is, or as `at` changes it: a trial, then. */
-static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v) {
+static bool read_explained(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v) {
     bool call;
     size_t first;
     const size_t at = lx->at;
@@ -795,7 +795,7 @@ bool do_explain(shell *sh, lexer *lx, const command *self) {
     if (no_quantity(sh, &own))
         return false;
     const quantity *bare = alone ? bare_name(&own) : NULL;
-    const bool ok = (bare || read_expression(sh, &own, &e, &asked, &changed, &v)) &&
+    const bool ok = (bare || read_explained(sh, &own, &e, &asked, &changed, &v)) &&
                     explain(sh, bare, e, asked, v, conditioning, lx);
     if (changed)
         trial_close(changed);

@@ -245,7 +245,7 @@ static bool power_holds(const calc *c, lexer *lx, const assignment *all, size_t 
     return !A || !h || calc_fail(lx->error, h->at, h->len, "give either A or both h and r0");
 }
 
-static void put_inputs(inputs *in, void *context) {
+static void put_assigned(inputs *in, void *context) {
     const assigned *job = context;
     for (size_t i = 0; i < job->count; i++) {
         const assignment *a = &job->all[i];
@@ -276,13 +276,13 @@ static bool press_with(scene *s, assigned job, const assignment *FN, calc_error 
     scene_mark before;
     job.but = FN->d ? NULL : FN;
     scene_save(s, &before, false);
-    bool ok = ((job.count == 1 && job.but) || scene_edit(s, put_inputs, &job, error)) &&
+    bool ok = ((job.count == 1 && job.but) || scene_edit(s, put_assigned, &job, error)) &&
               (!FN->d || scene_get(s, IN_FN, &force, error));
     press.normal_value = (double)force;
     ok = ok && scene_load(s, &press, NULL, error);
     if (ok && FN->d) {
         job = (assigned){job.c, FN, 1, NULL};
-        ok = scene_edit(s, put_inputs, &job, error);
+        ok = scene_edit(s, put_assigned, &job, error);
     }
     if (ok)
         scene_drop(&before);
@@ -434,7 +434,7 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
     const assignment *FN = s->end.steps ? NULL : of_input(all, count, IN_FN);
     if (FN)
         return press_with(s, job, FN, lx->error);
-    if (scene_edit(s, put_inputs, &job, lx->error))
+    if (scene_edit(s, put_assigned, &job, lx->error))
         return true;
     if (amplitude_is_left(lx->error, all, count))
         calc_append(c, lx->error, ", or let FA follow (FA := 0.9*mu*FN)");

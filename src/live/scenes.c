@@ -32,7 +32,7 @@ static void tell_answer(live *l, const char *line, char *answer, bool ok) {
     free(answer);
 }
 
-static bool say(live *l, const char *line) {
+static bool say_line(live *l, const char *line) {
     char *answer = NULL;
     const bool ok = l->host->run(l->host->self, line, &answer);
     if (!ok && *l->host->stop)
@@ -58,7 +58,7 @@ bool live_say(live *l, const char *format, ...) {
 
 bool live_say_line(live *l, const char *line) {
     live_play_end(l);
-    return say(l, line);
+    return say_line(l, line);
 }
 
 /* ---- what is shown ----------------------------------------------------------------------------- */
@@ -69,7 +69,7 @@ static void trouble(live *l, side *s, calc_error *error) {
 }
 
 /* Of the scene that expressions see; along: the last item is to be played. */
-static bool take(live *l, side *s, bool along, calc_error *error) {
+static bool take_side(live *l, side *s, bool along, calc_error *error) {
     calc *c = l->host->calc;
     const size_t items = c->now->end.steps;
     s->trouble[0] = 0;
@@ -84,7 +84,8 @@ static bool take(live *l, side *s, bool along, calc_error *error) {
 
 static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *error) {
     trial *t = trial_open(l->host->calc, error);
-    const bool ok = t && trial_set(t, &l->compared, l->compared_with[i], error) && take(l, s, along, error);
+    const bool ok =
+        t && trial_set(t, &l->compared, l->compared_with[i], error) && take_side(l, s, along, error);
     if (t)
         trial_close(t);
     return ok;
@@ -98,7 +99,7 @@ static void refresh_side(live *l, size_t i) {
     side *s = &l->side[i];
     calc_error error;
     error_clear(&error);
-    if (!(l->comparing ? take_compared(l, s, i, l->follow, &error) : take(l, s, l->follow, &error)))
+    if (!(l->comparing ? take_compared(l, s, i, l->follow, &error) : take_side(l, s, l->follow, &error)))
         trouble(l, s, &error);
     s->stale = false;
     l->changed = true;
@@ -260,10 +261,10 @@ static void say_periods(live *l) {
     char text[LIVE_TEXT], line[LIVE_LINE], why[LIVE_LINE];
     cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
     snprintf(line, sizeof line, "%s times %u", text, l->periods);
-    if (!say(l, line)) { /* interrupted, perhaps: nothing that has been said is lost */
+    if (!say_line(l, line)) { /* interrupted, perhaps: nothing that has been said is lost */
         memcpy(why, l->status, sizeof why);
         snprintf(line, sizeof line, "%s times %u", text, l->said.extra.times);
-        say(l, line);
+        say_line(l, line);
         live_tell(l, true, "%s", why);
     }
     remember_cycle(l);
@@ -275,7 +276,7 @@ void live_play_end(live *l) {
     l->changed = true;
     for (size_t i = 0; i < live_sides(l); i++)
         way_unwatch(&l->side[i].way);
-    if (more && say(l, "undo"))
+    if (more && say_line(l, "undo"))
         say_periods(l);
 }
 

@@ -102,7 +102,7 @@ static bool play_script(live *l, calc_error *error) {
     return film_now(l, passed) || calc_no_memory(error);
 }
 
-static void end(live *l) {
+static void free_live(live *l) {
     for (size_t i = 0; i < SIDES; i++)
         way_end(&l->side[i].way);
     for (size_t i = 0; i < l->kept_count; i++)
@@ -136,6 +136,6 @@ bool live_run(const live_host *host, const char *script, live_work *work, calc_e
         film_end(&l->film, host);
         terminal_close();
     }
-    end(l);
+    free_live(l);
     return ok;
 }

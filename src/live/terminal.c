@@ -91,7 +91,7 @@ static void give_signals_back(void) {
 /* ---- taking over ------------------------------------------------------------------------------- */
 
 /* A string of the terminal's description, without its padding. */
-static void append(char *to, size_t size, const char *name) {
+static void append_capability(char *to, size_t size, const char *name) {
     const char *s = tigetstr(name);
     size_t n = strlen(to);
     for (; s && s != (const char *)-1 && *s && n + 1 < size; s++) {
@@ -157,10 +157,10 @@ bool terminal_open(calc_error *error) {
     own.mouse = reports && reports != (const char *)-1;
     if (own.mouse)
         strcpy(own.farewell, mouse_off);
-    append(own.farewell, sizeof own.farewell, "sgr0");
-    append(own.farewell, sizeof own.farewell, "rmkx");
-    append(own.farewell, sizeof own.farewell, "cnorm");
-    append(own.farewell, sizeof own.farewell, "rmcup");
+    append_capability(own.farewell, sizeof own.farewell, "sgr0");
+    append_capability(own.farewell, sizeof own.farewell, "rmkx");
+    append_capability(own.farewell, sizeof own.farewell, "cnorm");
+    append_capability(own.farewell, sizeof own.farewell, "rmcup");
     own.guard = file_guard_terminal(STDIN_FILENO, &modes, own.farewell);
     if (cbreak() == ERR) {
         terminal_close();

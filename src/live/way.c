@@ -17,7 +17,7 @@ static extent larger(extent a, extent b) {
                     fmax(a.energy, b.energy)};
 }
 
-static bool add(track *t, track_point p) {
+static bool add_track_point(track *t, track_point p) {
     if (t->count == TRACK_POINTS) {
         t->count /= 2;
         memmove(t->point, t->point + t->count, t->count * sizeof *t->point);
@@ -83,7 +83,7 @@ static bool see(const runner *r, void *context) {
         w->walk.watch.wait = true;
     if (!r->turning && r->time - t->point[t->count - 1].time < APART)
         return true;
-    if (!add(t, point_of(t, r, &s)))
+    if (!add_track_point(t, point_of(t, r, &s)))
         return calc_no_memory(w->error);
     if (!w->within || r->time < w->from)
         return true;
@@ -115,7 +115,7 @@ bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
         return false;
     if (anew) {
         begin_track(&w->path);
-        if (!add(&w->path, (track_point){.time = 0})) {
+        if (!add_track_point(&w->path, (track_point){.time = 0})) {
             walk_end(&w->walk);
             return calc_no_memory(error);
         }

@@ -13,7 +13,7 @@
 #include "text/file.h"
 #include "text/lines.h"
 
-static bool run(void *self, const char *line, char **answer) {
+static bool run_for_live(void *self, const char *line, char **answer) {
     static const source from = {NULL, false};
     shell *sh = self;
     file_text told;
@@ -73,7 +73,7 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
                             .digits = &sh->set.digits,
                             .quit = &sh->quit,
                             .stop = &shell_stop,
-                            .run = run,
+                            .run = run_for_live,
                             .mark = shell_mark,
                             .blank_prompts = blank_prompts,
                             .complete = complete_line,

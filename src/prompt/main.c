@@ -284,7 +284,7 @@ static int run_replays(shell *sh, const wishes *w) {
     return status;
 }
 
-static int run(shell *sh, const wishes *w) {
+static int run_wishes(shell *sh, const wishes *w) {
     if (w->live)
         return run_live(sh, w);
     if (w->replay)
@@ -312,7 +312,7 @@ static void check_home(void) {
 }
 
 /* A lost write is an error; where nobody reads on it ends us as it ends others. */
-static int finish(shell *sh, int status) {
+static int finish_output(shell *sh, int status) {
     record_end(sh, false);
     status = status == EXIT_OK && sh->lost ? EXIT_ERROR : status;
     errno = 0;
@@ -348,7 +348,7 @@ int main(int argc, char **argv) {
     sh.keep_going = w.keep_going;
     set_signals();
     if (status == EXIT_OK && !w.done)
-        status = run(&sh, &w);
+        status = run_wishes(&sh, &w);
     free(w.jobs);
-    return finish(&sh, status);
+    return finish_output(&sh, status);
 }

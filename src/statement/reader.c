@@ -119,7 +119,7 @@ static bool may_come(lexer *lx, const said *s, const clause *a) {
     return true;
 }
 
-static heard *add(lexer *lx, said *s, const clause *a) {
+static heard *add_heard(lexer *lx, said *s, const clause *a) {
     if (s->count == HEARD) {
         lex_raise(lx, "more than %d clauses", HEARD);
         return NULL;
@@ -154,7 +154,7 @@ static bool in_range(lexer *lx, const heard *h) {
     return a->must != POSITIVE || h->v.v > 0 || calc_status(lx->error, &st) || heard_place(lx->error, h);
 }
 
-static bool read_expression(shell *sh, lexer *lx, heard *h) {
+static bool read_operand(shell *sh, lexer *lx, heard *h) {
     h->hole[0].at = lx->at;
     const bool ok = expr_value(&sh->calc, lx, &h->v) && !stray_unit(lx);
     h->hole[0].len = lx->last - h->hole[0].at;
@@ -163,7 +163,7 @@ static bool read_expression(shell *sh, lexer *lx, heard *h) {
 
 /* name: as messages call it. */
 static bool read_value(shell *sh, lexer *lx, const char *name, dim d, heard *h) {
-    return read_expression(sh, lx, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
+    return read_operand(sh, lx, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
            in_range(lx, h);
 }
 
@@ -190,7 +190,7 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
         return false;
     if ((how == T_INCREMENT && !a->increment) || (how == T_DEFINE && !a->live))
         return not_taken(lx, f, a->name, how);
-    heard *h = argument_dim(lx, s, a, &d) ? add(lx, s, a) : NULL;
+    heard *h = argument_dim(lx, s, a, &d) ? add_heard(lx, s, a) : NULL;
     if (!h)
         return false;
     h->increment = how == T_INCREMENT;
@@ -205,10 +205,9 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
 }
 
 static bool read_seconds(shell *sh, lexer *lx, const hole *of, heard *h) {
-    return read_expression(sh, lx, h) &&
-           ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
-            calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
-                      "the seconds must be a positive number up to %u", of->most));
+    return read_operand(sh, lx, h) && ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
+                                       calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
+                                                 "the seconds must be a positive number up to %u", of->most));
 }
 
 static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
@@ -404,7 +403,7 @@ static bool read_holes(shell *sh, lexer *lx, said *s, heard *h) {
 /* ---- the statement ----------------------------------------------------------------------------- */
 
 static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
-    heard *h = may_come(lx, s, a) ? add(lx, s, a) : NULL;
+    heard *h = may_come(lx, s, a) ? add_heard(lx, s, a) : NULL;
     const hole_row *row = first_hole(a);
     if (!h)
         return false;
@@ -415,7 +414,7 @@ static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
         return false;
     while (a->list && lx->kind == T_COMMA) {
         lex_next(lx);
-        h = add(lx, s, a);
+        h = add_heard(lx, s, a);
         if (!h || !read_holes(sh, lx, s, h))
             return false;
     }
@@ -439,7 +438,7 @@ static bool read_first(shell *sh, lexer *lx, said *s) {
         return true;
     if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || at_argument(lx)))
         return true;
-    heard *h = add(lx, s, a);
+    heard *h = add_heard(lx, s, a);
     return h && read_holes(sh, lx, s, h);
 }
 

@@ -46,7 +46,7 @@ static void write_held(struct recorder *r) {
 }
 
 /* To the transcript, line by line. */
-static void put(struct recorder *r, char c) {
+static void put_byte(struct recorder *r, char c) {
     r->held[r->held_count++] = c;
     if (c == '\n' || r->held_count == HELD)
         write_held(r);
@@ -54,7 +54,7 @@ static void put(struct recorder *r, char c) {
 
 static void put_text(struct recorder *r, const char *text) {
     while (*text)
-        put(r, *text++);
+        put_byte(r, *text++);
 }
 
 static void put_cast(struct recorder *r, const char *bytes, size_t n) {
@@ -94,11 +94,11 @@ static void keep_plain(struct recorder *r, const char *bytes, size_t n) {
         else if (bytes[i] == '\033')
             r->escape = true;
         else
-            put(r, bytes[i]);
+            put_byte(r, bytes[i]);
     }
 }
 
-static void keep(struct recorder *r, const char *bytes, size_t n) {
+static void keep_bytes(struct recorder *r, const char *bytes, size_t n) {
     write_line(r);
     if (!r->cast)
         keep_plain(r, bytes, n);
@@ -107,7 +107,7 @@ static void keep(struct recorder *r, const char *bytes, size_t n) {
 }
 
 static void write_both(struct recorder *r, FILE *to, const char *bytes, size_t n) {
-    keep(r, bytes, n);
+    keep_bytes(r, bytes, n);
     fwrite(bytes, 1, n, to);
     fflush(to);
 }
@@ -164,7 +164,7 @@ static void put_statements(struct recorder *r, const char *text) {
         if (*text != '#') {
             put_text(r, "fret> ");
             for (size_t i = 0; i < n; i++)
-                put(r, text[i]);
+                put_byte(r, text[i]);
             put_text(r, RECORD_GIVEN "\n");
         }
         text += n + (text[n] == '\n');
@@ -280,7 +280,7 @@ void record_aside(const char *text) {
     if (!recording)
         return;
     fflush(recording->both_out);
-    keep(recording, text, strlen(text));
+    keep_bytes(recording, text, strlen(text));
 }
 
 /* ---- the terminal ------------------------------------------------------------------------------ */

@@ -23,7 +23,7 @@ void shell_message(const shell *sh, const char *kind, const char *text) {
 enum { NOTE = 8192 }; /* holds a file's name, escaped or not */
 
 /* On standard error, `before` it what it is; a program that reads answers finds it among them, as `kind`. */
-static void tell(shell *sh, const char *kind, const char *before, const char *format, va_list args) {
+static void tell_message(shell *sh, const char *kind, const char *before, const char *format, va_list args) {
     char text[NOTE];
     progress_wipe();
     vsnprintf(text, sizeof text, format, args);
@@ -36,21 +36,21 @@ static void tell(shell *sh, const char *kind, const char *before, const char *fo
 void shell_say(shell *sh, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    tell(sh, "note", "", format, args);
+    tell_message(sh, "note", "", format, args);
     va_end(args);
 }
 
 void shell_note(shell *sh, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    tell(sh, "note", "note: ", format, args);
+    tell_message(sh, "note", "note: ", format, args);
     va_end(args);
 }
 
 void shell_warning(shell *sh, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    tell(sh, "warning", "warning: ", format, args);
+    tell_message(sh, "warning", "warning: ", format, args);
     va_end(args);
 }
 

@@ -33,11 +33,11 @@ typedef struct bench {
     double enough;      /* seconds, to time one model */
 } bench;
 
-static bool stopped(const bench *b) {
+static bool bench_stopped(const bench *b) {
     return calc_stopped(b->s->stop, b->error);
 }
 
-static void tell(const bench *b, model_family family, unsigned long size) {
+static void tell_row(const bench *b, model_family family, unsigned long size) {
     b->progress(b->context, &(accuracy_row){.family = family, .size = size});
 }
 
@@ -51,7 +51,7 @@ static bool time_of(bench *b, cycle_of *cycle, void *model, double *seconds) {
         const double start = clock_worked();
         fret_status st = fine;
         for (unsigned long i = 0; i < count && !st.code; i++) {
-            if (stopped(b))
+            if (bench_stopped(b))
                 return false;
             st = cycle(model, NULL);
         }
@@ -67,7 +67,7 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
     accuracy_study *study = b->study;
     accuracy_row *row = &study->row[study->count];
     *row = (accuracy_row){.family = family, .size = size};
-    tell(b, family, size);
+    tell_row(b, family, size);
     const double start = clock_worked();
     fret_status st = cycle(model, &row->value);
     row->seconds = clock_worked() - start;
@@ -79,7 +79,7 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
         row->error = study->agreement;
     study->count++;
     b->s->used |= USED(families[family].model);
-    return !stopped(b);
+    return !bench_stopped(b);
 }
 
 /* The next model of this kind has ten times the size and takes ten times as long to set up and to run, twice
@@ -208,7 +208,7 @@ static bool springs_rows(bench *b, steady *m, model_family family) {
     bool ok = true;
     for (unsigned count = 100; ok && count <= 1000000; count *= 10) {
         const double start = clock_worked();
-        tell(b, family, count);
+        tell_row(b, family, count);
         fret_status st = springs_ready(m, wider * count, wider * (double)m->contact.press.a, rule);
         if (st.code && fret_status_category(st.code) != FRET_CAT_SYSTEM)
             break;
@@ -396,7 +396,7 @@ static bool general_row(bench *b, model_family family, unsigned springs, bool *m
     general g = {.sine = family == FAMILY_MEMORY && by_sine(b)};
     const unsigned levels = swings(b) && !g.sine ? LEVELS : 1;
     const double start = clock_worked();
-    tell(b, family, springs);
+    tell_row(b, family, springs);
     if (!open_general(b, &g, springs, 0, levels, false))
         return false;
     const double setting_up = clock_worked() - start;

@@ -54,7 +54,7 @@ typedef struct sides {
     double *out; /* left - right of all rows */
 } sides;
 
-static void give(void *context, size_t row, long double x[]) {
+static void give_data(void *context, size_t row, long double x[]) {
     const state *s = ((const sides *)context)->s;
     const fit_question *of = s->of;
     for (size_t i = 0; i < of->count; i++)
@@ -63,7 +63,8 @@ static void give(void *context, size_t row, long double x[]) {
         x[of->count + j] = of->column[j].v[row];
 }
 
-static bool take(void *context, size_t row, const long double x[], const value v[], const calc_error *why) {
+static bool take_sides(void *context, size_t row, const long double x[], const value v[],
+                       const calc_error *why) {
     const sides *to = context;
     state *s = to->s;
     (void)x;
@@ -85,7 +86,8 @@ static bool take(void *context, size_t row, const long double x[], const value v
 
 static bool equations(state *s, double *out) {
     sides to = {s, out};
-    return points_go(&s->p, &(points_run){.count = s->of->rows, .give = give, .take = take, .context = &to});
+    return points_go(
+        &s->p, &(points_run){.count = s->of->rows, .give = give_data, .take = take_sides, .context = &to});
 }
 
 /* The press that everything begins with. */
@@ -283,7 +285,7 @@ static void choose_unit(state *s) {
         s->unit = 1;
 }
 
-static bool begin(state *s, gsl_vector *q, calc_error *error) {
+static bool begin_fit(state *s, gsl_vector *q, calc_error *error) {
     const fit_question *of = s->of;
     for (size_t i = 0; i < of->count; i++) {
         const knob *k = &of->name[i];
@@ -470,8 +472,8 @@ static void look_for_drift(const state *s, const gsl_vector *f, fit_answer *out)
     out->drifts = out->rms > visible * size && out->together > 0.5 && out->together > 4 / sqrt((double)n);
 }
 
-static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector *q, fit_answer *out,
-                  calc_error *error) {
+static bool judge_fit(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector *q, fit_answer *out,
+                      calc_error *error) {
     const size_t p = s->of->count;
     const gsl_vector *f = gsl_multifit_nlinear_residual(w);
     const double squares = pow(gsl_blas_dnrm2(f), 2), v = squares / (double)(s->of->rows - p);
@@ -492,17 +494,17 @@ static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector 
     return ok;
 }
 
-static bool run(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
-                calc_error *error) {
+static bool run_fit(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
+                    calc_error *error) {
     s->above = s->residual + s->of->rows;
     s->below = s->above + s->of->rows;
     bool again = true;
-    if (!begin(s, q, error))
+    if (!begin_fit(s, q, error))
         return false;
     for (int i = 0; i < BEGINNINGS && again; i++)
         if (!descend(s, w, q, out, error) || !begin_again(s, q, &again, error))
             return false;
-    return judge(s, w, q, out, error);
+    return judge_fit(s, w, q, out, error);
 }
 
 static bool begin_points(state *s, calc_error *error) {
@@ -539,7 +541,7 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     s.J = gsl_matrix_alloc(n, p);
     s.residual = malloc(3 * n * sizeof *s.residual);
     bool ok = w && q && s.beside && s.J && s.residual;
-    ok = ok ? run(&s, w, q, out, error) : calc_no_memory(error);
+    ok = ok ? run_fit(&s, w, q, out, error) : calc_no_memory(error);
     if (w)
         gsl_multifit_nlinear_free(w);
     gsl_vector_free(q);

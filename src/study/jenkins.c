@@ -24,7 +24,7 @@ typedef struct march {
     void (*pulse)(void);
 } march;
 
-static bool stopped(const march *m) {
+static bool march_stopped(const march *m) {
     return *m->stop;
 }
 
@@ -143,7 +143,7 @@ static bool suffices(march *m, size_t count, jenkins_element *out) {
             out[i].s = (m->slope - slope) / 4;
             out[i].k = out[i].s / m->d;
         }
-        if (done || last || stopped(m))
+        if (done || last || march_stopped(m))
             return done;
         slope = m->slope;
         m->d = kink_after(m, at);
@@ -172,14 +172,14 @@ bool jenkins(const fret_pressed *contact, double amplitude, size_t count, const 
     if (!(m.end > TOO_SMALL * slip) || scale < DBL_MIN)
         return calc_status(error, &m.failed) &&
                calc_fail(error, 0, 0, "the load is too small: what slips can hardly be told from nothing");
-    while (!m.failed.code && !stopped(&m) && hi - lo > ENOUGH * hi) {
+    while (!m.failed.code && !march_stopped(&m) && hi - lo > ENOUGH * hi) {
         m.e = lo > 0 ? sqrt(lo) * sqrt(hi) : hi / 16;
         if (suffices(&m, slipping, NULL))
             hi = m.e;
         else
             lo = m.e;
     }
-    if (stopped(&m))
+    if (march_stopped(&m))
         return calc_interrupted(error);
     for (size_t i = 0; i < count; i++)
         out[i] = (jenkins_element){0, 0};

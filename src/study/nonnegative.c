@@ -78,7 +78,7 @@ static size_t best_unused(const state *s) {
 }
 
 /* Where rounding makes those in use singular, what has been found is good enough. */
-static void run(state *s) {
+static void run_active_set(state *s) {
     s->used[s->count++] = s->n - 1;
     for (size_t round = 0, next = 0; next < s->n; round++) {
         do
@@ -103,7 +103,7 @@ bool nonnegative(const gsl_matrix *M, const gsl_vector *right, gsl_vector *x) {
     gsl_vector_set_zero(x);
     const bool ok = s.wanted && s.part && s.used;
     if (ok)
-        run(&s);
+        run_active_set(&s);
     gsl_vector_free(s.wanted);
     gsl_matrix_free(s.part);
     free(s.used);

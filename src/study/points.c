@@ -196,7 +196,7 @@ typedef struct sharing {
     size_t first, portion; /* where it begins; points of a part */
 } sharing;
 
-static void give(void *context, size_t part, void *in) {
+static void give_portion(void *context, size_t part, void *in) {
     const sharing *sh = context;
     const size_t i = sh->first + part * sh->portion, left = sh->run->count - i;
     portion *given = in;
@@ -212,7 +212,7 @@ static bool lacks(const value *v, size_t n) {
     return false;
 }
 
-static bool take(void *context, size_t part, const void *in, const void *out) {
+static bool take_portion(void *context, size_t part, const void *in, const void *out) {
     const sharing *sh = context;
     points *p = sh->p;
     const portion *given = in;
@@ -261,8 +261,10 @@ static size_t portion_of(const points *p, size_t left) {
 static bool share(points *p, const points_run *run, size_t first) {
     const size_t left = run->count - first;
     sharing sh = {.p = p, .run = run, .first = first, .portion = portion_of(p, left)};
-    const team_run parts = {
-        .parts = (left + sh.portion - 1) / sh.portion, .give = give, .take = take, .context = &sh};
+    const team_run parts = {.parts = (left + sh.portion - 1) / sh.portion,
+                            .give = give_portion,
+                            .take = take_portion,
+                            .context = &sh};
     const bool ok = team_work(p->team, &parts);
     if (!ok)
         points_dismiss(p); /* the rest of it is of no use */

@@ -174,7 +174,7 @@ static bool improve(trial *t, const rows *all, bool begin, file_stop stop, calc_
     return true;
 }
 
-static void judge(trial *t, const rows *all) {
+static void judge_profile(trial *t, const rows *all) {
     double squares = 0;
     t->worst = -1;
     for (size_t i = 0; i < all->count; i++) {
@@ -256,7 +256,7 @@ static bool make_convex(trial *t, const rows *all) {
     }
     if (ok) {
         gsl_blas_dgemv(CblasNoTrans, 1, T, e, 0, t->c);
-        judge(t, all);
+        judge_profile(t, all);
     }
     gsl_matrix_free(T);
     gsl_matrix_free(AT);
@@ -279,7 +279,7 @@ static bool attempt(trial *t, const rows *all, size_t pieces, file_stop stop, ca
     for (int pass = 0; pass < 2; pass++)
         if (!improve(t, all, pass == 0, stop, error))
             return false;
-    judge(t, all);
+    judge_profile(t, all);
     look_for_fall(t);
     if (t->grows)
         return true;
@@ -292,7 +292,7 @@ static bool attempt(trial *t, const rows *all, size_t pieces, file_stop stop, ca
         t->drop = 0;
     } else { /* it may be pressed as far as g grows, where f does not fall */
         gsl_vector_memcpy(t->c, t->right);
-        judge(t, all);
+        judge_profile(t, all);
     }
     return true;
 }

@@ -173,7 +173,7 @@ static bool search_edges(search *s) {
 
 /* ---- between the places of the scan ------------------------------------------------------------ */
 
-static double distance(double x, void *context) {
+static double side_distance(double x, void *context) {
     search *s = context;
     return s->side * difference(s, x);
 }
@@ -209,7 +209,7 @@ static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
         }
     }
     gsl_min_fminimizer *method = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
-    gsl_function f = {distance, s};
+    gsl_function f = {side_distance, s};
     if (!method)
         return calc_no_memory(error);
     s->side = b.f > 0 ? 1 : -1;
@@ -270,7 +270,7 @@ static bool search_dips(search *s, calc_error *error) {
     return search_end(s, at[0], at[1], error) && search_end(s, at[last], at[last - 1], error);
 }
 
-static bool look(search *s, unsigned places, calc_error *error) {
+static bool look_for_roots(search *s, unsigned places, calc_error *error) {
     s->places = places;
     s->roots = 0;
     return scan(s) && search_edges(s) && search_dips(s, error);
@@ -438,12 +438,12 @@ static bool single(search *s, solve_answer *out, calc_error *error) {
     return !error->raised;
 }
 
-static bool answer(search *s, solve_answer *out, calc_error *error) {
+static bool answer_root(search *s, solve_answer *out, calc_error *error) {
     if (!choose_range(s, error))
         return false;
     for (unsigned places = SCAN; places <= FINE && (places == SCAN || out->jumps || s->pole || s->swings);
          places += FINE - SCAN) {
-        if (!look(s, places, error))
+        if (!look_for_roots(s, places, error))
             return false;
         if (s->roots && !(s->roots > 1 || out->jumps ? sift : single)(s, out, error))
             return false;
@@ -464,7 +464,7 @@ bool solve(const solve_question *question, solve_answer *out, calc_error *error)
     *out = (solve_answer){.jumps = false};
     gsl_set_error_handler_off();
     const bool ok =
-        points_open(&s.p, question->c, &question->name, 1, s.sides, 2, error) && answer(&s, out, error);
+        points_open(&s.p, question->c, &question->name, 1, s.sides, 2, error) && answer_root(&s, out, error);
     points_close(&s.p);
     return ok;
 }

@@ -110,7 +110,7 @@ static long double place(const state *st, size_t row) {
                        st->part ? st->part[row] : (long double)row / (long double)st->s->steps);
 }
 
-static void give(void *context, size_t row, long double x[]) {
+static void give_swept(void *context, size_t row, long double x[]) {
     const state *st = context;
     const sweep *s = st->s;
     if (s->curves)
@@ -118,14 +118,15 @@ static void give(void *context, size_t row, long double x[]) {
     *x = place(st, row);
 }
 
-static bool take(void *context, size_t row, const long double x[], const value v[], const calc_error *why) {
+static bool take_swept(void *context, size_t row, const long double x[], const value v[],
+                       const calc_error *why) {
     state *st = context;
     return take_row(st, row, x[st->s->curves > 0], v, why);
 }
 
 static bool run_all(state *st) {
     return points_go(&st->job->p,
-                     &(points_run){.count = st->rows, .give = give, .take = take, .context = st});
+                     &(points_run){.count = st->rows, .give = give_swept, .take = take_swept, .context = st});
 }
 
 /* ---- even rows, or where they are wanted ------------------------------------------------------- */
@@ -170,7 +171,7 @@ static bool run_range(state *st) {
 
 /* ---- along a load ------------------------------------------------------------------------------ */
 
-static bool look(void *context, double time, calc_error *error) {
+static bool look_along(void *context, double time, calc_error *error) {
     state *st = context;
     points *p = &st->job->p;
     (void)error;
@@ -201,7 +202,7 @@ static bool run_along(state *st) {
         return false;
     calc_error error;
     error_clear(&error);
-    if (trial_along(t, s->what, from, s->steps, s->turns, look, st, &error))
+    if (trial_along(t, s->what, from, s->steps, s->turns, look_along, st, &error))
         return true;
     if (!st->job->error->raised)
         *st->job->error = error;

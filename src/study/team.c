@@ -179,7 +179,7 @@ void team_end(team *t) {
     munmap(t, t->all);
 }
 
-static bool stopped(const team *t) {
+static bool team_stopped(const team *t) {
     return *t->job.c->scene.stop;
 }
 
@@ -197,7 +197,7 @@ static void look_after(team *t) {
 static void wait_for_one(team *t) {
     struct pollfd done = {.fd = t->done[0], .events = POLLIN};
     unsigned char i;
-    while (!t->alone && !stopped(t)) {
+    while (!t->alone && !team_stopped(t)) {
         const int n = poll(&done, 1, WAKE);
         if (n > 0 && passes(t->done[0], &i, true)) {
             place_at(t, i)->done = true;
@@ -219,9 +219,9 @@ bool team_work(team *t, const team_run *run) {
                 passes(t->given[1], &i, false);
         }
         const unsigned i = (unsigned)(taken % t->places);
-        while (!place_at(t, i)->done && !t->alone && !stopped(t))
+        while (!place_at(t, i)->done && !t->alone && !team_stopped(t))
             wait_for_one(t);
-        if (stopped(t))
+        if (team_stopped(t))
             return false;
         const place *p = place_at(t, i);
         if (!run->take(run->context, taken, in_of(t, i), p->done && p->of_use ? out_of(t, i) : NULL))
