@@ -120,7 +120,7 @@ bool film_frame(film *f, const live_host *host, bool cursor, double seconds) {
     const bool ok = (f->cell && f->rows == LINES && f->cols == COLS) || begin_film(f, now.to);
     if (ok)
         put_screen(f, now.to, cursor);
-    if (!file_text_close(&now)) { /* what has not been told is to be told again */
+    if (!file_text_close(&now)) { /* forgotten cells are sent again with the next frame */
         forget(f);
         return false;
     }

@@ -76,7 +76,7 @@ static bool take_side(live *l, side *s, bool along, calc_error *error) {
     if (along)
         s->before = s->now;
     if (!shot_take(c, NULL, &s->now, error)) {
-        s->now = (shot){.time = 0}; /* keys must not go on from what is gone */
+        s->now = (shot){.time = 0}; /* keys go on from what is shown, which is nothing now */
         return false;
     }
     return way_follow(&s->way, c, along && items ? items - 1 : NO_ITEM, error);
@@ -103,7 +103,7 @@ static void refresh_side(live *l, size_t i) {
         trouble(l, s, &error);
     s->stale = false;
     l->changed = true;
-    if (i == 0 && !(l->FA > 0) && s->now.slip > 0) /* half of what would slide it */
+    if (i == 0 && !(l->FA > 0) && s->now.slip > 0) /* to begin with: half of what slides */
         l->FA = live_nice(s->now.slip / 2);
 }
 
@@ -201,8 +201,7 @@ static void remember_cycle(live *l) {
     last_cycle(l, &l->said);
 }
 
-/* Is the cycle that is to be played the last that was done? Then it goes on: another one would turn about
- * where that one ends. */
+/* Is the cycle to play the one that was said last? Then its periods go on, without a new statement. */
 static bool goes_on(const live *l) {
     const load_item *said = &l->said;
     load_item now;
@@ -256,12 +255,12 @@ void live_play_item(live *l) {
     start_play(l);
 }
 
-/* In place of the cycle that has been taken back. */
+/* One statement with all periods played, in place of the one that has been undone. */
 static void say_periods(live *l) {
     char text[LIVE_TEXT], line[LIVE_LINE], why[LIVE_LINE];
     cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
     snprintf(line, sizeof line, "%s times %u", text, l->periods);
-    if (!say_line(l, line)) { /* interrupted, perhaps: nothing that has been said is lost */
+    if (!say_line(l, line)) { /* interrupted, perhaps: say the cycle as it was before */
         memcpy(why, l->status, sizeof why);
         snprintf(line, sizeof line, "%s times %u", text, l->said.extra.times);
         say_line(l, line);
@@ -291,7 +290,7 @@ static double ahead(const live *l) {
     return time;
 }
 
-/* Has each scene come to what moves, or moves nothing? One hand moves both. */
+/* Can both scenes begin to move? They are moved together. */
 static bool ready(const live *l) {
     for (size_t i = 0; i < live_sides(l); i++) {
         const side *s = &l->side[i];

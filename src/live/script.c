@@ -6,7 +6,7 @@
 #include "live/state.h"
 #include "text/file.h"
 
-/* In one line, however many it had. */
+/* A logical line becomes one line. */
 static bool add_script_line(live *l, const char *line) {
     live_script *s = &l->script;
     char **grown = realloc(s->line, (s->count + 1) * sizeof *grown);

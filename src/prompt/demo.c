@@ -56,7 +56,7 @@ static wish key(void) {
     return n != 1 || c == 'q' || c == 'Q' || c == CTRL_D ? LEAVE : c == 'b' || c == 'B' ? BACK : ON;
 }
 
-/* A transcript does without the question. */
+/* The question goes past the session's output: a transcript must not have it. */
 static wish ask_key(const shell *sh) {
     static const char question[] = "(any key: go on, b: back, q: leave)";
     fflush(sh->out);
@@ -91,7 +91,7 @@ static bool is_comment(const char *line) {
     return *line == '#' || !*line;
 }
 
-/* A step is what is asked and then what is done: where its statements begin, and where it ends. */
+/* A step is comments, then statements. Where the statements begin: */
 static size_t statements_of(const script *s, size_t i) {
     while (s->line[i] && is_comment(s->line[i]))
         i++;
@@ -141,12 +141,12 @@ static size_t step_before(const script *s, size_t to) {
     return i;
 }
 
-/* Is there something wrong that no lesson is about? */
+/* An error of a statement may be what the lesson shows; these are not. */
 static bool ended(const lesson *l) {
     return l->sh->stopped || l->sh->refused || l->error->raised || shell_stop;
 }
 
-/* A line of the lesson, for who reads it: of CSV nobody does. */
+/* A line of the lesson, as text or as an object of JSON; CSV has no place for it. */
 static void tell_line(const lesson *l, const char *prompt, const char *line) {
     enum { LINE = 400 }; /* bytes: a line of a script is one of a terminal */
     answer a;
@@ -193,7 +193,7 @@ static bool play_step(lesson *l, size_t *i) {
     return w != LEAVE && !ended(l);
 }
 
-/* False: it could not go on, as has been reported where there is no error; the scene is as before it. */
+/* False: it could not go on, and the scene is as before. Without an error a statement has reported why. */
 static bool play_lesson(lesson *l) {
     shell *sh = l->sh;
     const bool stopped = sh->stopped, refused = sh->refused, interactive = sh->interactive;

@@ -85,7 +85,7 @@ static const char *next_line(typed *t, const char *prompt, bool continued, size_
     }
 }
 
-/* A line to those before it, which may be none. */
+/* to: the lines before, or NULL. NULL: out of memory, and they are freed. */
 static char *append_line(char *to, size_t *size, const char *line, size_t len) {
     char *grown = realloc(to, *size + len + 2);
     if (!grown) {

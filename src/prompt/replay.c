@@ -91,7 +91,7 @@ static const char *line_after(const char *line) {
 
 typedef struct measure {
     double tolerance; /* of numbers */
-    bool lost;        /* memory was out: nothing can be said */
+    bool lost;        /* out of memory: not compared */
 } measure;
 
 static bool same_lines(const char *want, const char *got, measure *m) {
@@ -177,8 +177,8 @@ typedef struct replay {
     shell sh;
     text statement, want;
     size_t at;      /* line of the statement; 0: none yet */
-    bool waits;     /* to be run until something follows */
-    size_t prompts; /* in what it wrote that are still to come in the transcript: a demo shows some */
+    bool waits;     /* not run yet: that depends on what follows */
+    size_t prompts; /* that it printed and that are still to come: those of a demo begin no statement */
     char *got;
 } replay;
 
@@ -193,7 +193,7 @@ static void show(FILE *out, char mark, const char *line, bool asides) {
     }
 }
 
-/* Those that a transcript cannot be without. */
+/* Lines that a transcript must have: no asides, drawings or times. */
 static size_t count_lines(const char *line) {
     size_t count = 0;
     for (; *line; line = line_after(line))
@@ -226,12 +226,12 @@ static bool run_statement(replay *r) {
         return false;
     r->got = got.text;
     if (r->sh.stopped && !shell_stop)
-        return false; /* what it said is no answer */
+        return false; /* out of memory */
     r->prompts = count_prompts(r->got);
     return true;
 }
 
-/* Does it end as a terminal shows a line that Ctrl-C dropped? Such a one waits for what follows. */
+/* Does it end in ^C, as a line that was dropped? If an answer follows, it was not: then it is run. */
 static bool seems_dropped(const replay *r) {
     static const char end[] = "^C";
     const size_t n = sizeof end - 1, len = r->statement.len;
@@ -259,7 +259,7 @@ static void spare_notes(replay *r) {
 static bool judge_answer(replay *r) {
     const char *want = r->want.p ? r->want.p : "";
     measure m = {r->tolerance, false};
-    if (r->at == 0 || shell_stop) /* what is half done is no answer */
+    if (r->at == 0 || shell_stop) /* interrupted: there is no whole answer to compare */
         return true;
     if (r->waits && is_blank(want))
         return true;
@@ -275,7 +275,7 @@ static bool judge_answer(replay *r) {
         print_safe(r->out, r->statement.p, r->statement.len);
         putc('\n', r->out);
         show(r->out, '-', want, false);
-        show(r->out, '+', r->got, count_lines(want) > count_lines(r->got)); /* it has asides, then */
+        show(r->out, '+', r->got, count_lines(want) > count_lines(r->got)); /* more: it has asides */
     }
     return !m.lost;
 }
@@ -311,7 +311,7 @@ static bool take_line(replay *r, const file_in *in, bool *waiting) {
         r->prompts -= prompt;
         return r->at == 0 || (append_text(&r->want, in->line, in->length) && append_text(&r->want, "\n", 1));
     }
-    if ((*waiting && !begin_statement(r)) || !judge_answer(r)) /* it was dropped, or is all there is */
+    if ((*waiting && !begin_statement(r)) || !judge_answer(r)) /* no more lines of it came */
         return false;
     r->at = (size_t)in->number;
     empty(&r->statement);
@@ -371,7 +371,7 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
     if (shell_stop)
         calc_interrupted(error);
     if (!ok)
-        calc_no_memory(error); /* if nothing else is wrong */
+        calc_no_memory(error); /* an error that came first stays */
     file_in_close(&in);
     r.sh.out = r.sh.err = out;
     shell_free(&r.sh);

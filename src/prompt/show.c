@@ -30,7 +30,7 @@ static double read_back(const char *text) {
     return minus ? -v : v;
 }
 
-/* In degrees where these can say it. */
+/* In degrees where they read back as the same number. */
 static void angle_text(double v, char *buf, size_t size) {
     enum { LEAST = 15, MOST = 17 };
     for (int digits = LEAST; digits <= MOST; digits++) {
@@ -62,8 +62,8 @@ static const definition *binding(const writer *w, input in) {
     return (const definition *)w->c->scene.in.bound[in];
 }
 
-/* The value of a bound input too, as it is now: the definition may need the load that needs the value. Before
- * there is a load it may have none. */
+/* A bound input too is written by its value first: its definition may need the load, which needs the value.
+ * It may have none before there is a load. */
 static bool is_set(const writer *w, input in) {
     return w->c->scene.in.set[in] && !(binding(w, in) && input_status(in, w->c->scene.in.v[in]).code);
 }
@@ -150,7 +150,7 @@ static void write_second(writer *w) {
             write_input(w, i);
 }
 
-/* As the language reads it back; false: it cannot. */
+/* Quoted where it must be; false: no form of it can be read back. */
 static bool write_file_name(writer *w, const char *name) {
     const char *form = strchr(name, '"')          ? " %s " /* as it was typed, and no mark at the end */
                        : strpbrk(name, " \t;#\\") ? " \"%s\""
@@ -266,7 +266,7 @@ static void write_cycle(writer *w, const load_item *item) {
     const load_step *step = &item->step;
     const bool force = step->tangential == BY_FORCE;
     write_target(w, force ? "FA" : "dxA", false, step->tangential_value, force ? DIM_FORCE : DIM_LENGTH);
-    if (step->normal_value != 0 || item->extra.phase != 0) { /* the phase for an FNA to come */
+    if (step->normal_value != 0 || item->extra.phase != 0) { /* the phase also alone: an FNA may be added */
         write_target(w, "FNA", false, step->normal_value, DIM_FORCE);
         write_target(w, "phase", false, item->extra.phase, DIM_ANGLE);
     }
@@ -313,7 +313,7 @@ static void write_load(writer *w, bool whole) {
     }
 }
 
-/* What is bound gets its value; where it has none yet it keeps what it had. */
+/* Computes bound inputs; one that has no value yet keeps the last. */
 static void settle(calc *c) {
     long double unused;
     for (input i = 0; i < INPUTS; i++)

@@ -117,7 +117,7 @@ static void put_waiting(answer *a, bool ok) {
     *w = (struct waiting){.count = 0};
 }
 
-/* A page is as in text; elsewhere rows have it all. */
+/* Of a page alone: elsewhere the rows say it. */
 static void put_words(answer *a, const char *format, va_list args) {
     if (a->layout == LAYOUT_PAGE)
         text_words(a, format, args);

@@ -266,8 +266,8 @@ static const clause *clause_at(const lexer *lx, const grammar *f) {
 
 /* ---- parts that are found ---------------------------------------------------------------------- */
 
-/* Over a part of the statement: behind an operand a word of the row begins a clause, and nowhere else can it.
- * A comma may end the part, and an `=` that does not belong to `at`. */
+/* Skips a part of the statement. Only behind an operand can a word of the row begin a clause, which ends the
+ * part; a comma may end it too, and an `=` that does not belong to `at`. */
 static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_ends) {
     calc_error *const error = lx->error, *const strange = error_quiet();
     int depth = 0;

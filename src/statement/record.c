@@ -18,10 +18,10 @@
 /* There is one session that can record. */
 static struct recorder *recording;
 
-/* The terminal is another's, who tells what it shows. */
+/* The full-screen mode has the terminal, and hands its frames to a cast. */
 static bool away;
 
-/* What follows is not kept, and this is told at once. */
+/* After an error nothing more is recorded. */
 static void check(struct recorder *r, bool ok, const calc_error *error) {
     if (ok)
         return;
@@ -30,7 +30,7 @@ static void check(struct recorder *r, bool ok, const calc_error *error) {
     char text[CALC_ERROR_TEXT + 40];
     snprintf(text, sizeof text, "%s; what follows is not recorded", error->text);
     r->lost = sh->lost = true;
-    sh->out = r->out; /* a stream of the recorder's may be at work */
+    sh->out = r->out; /* this may be called by a stream of the recorder's, which must not write to itself */
     sh->err = r->err;
     shell_error(sh, text);
     sh->out = out;
@@ -130,7 +130,7 @@ static void open_both(struct recorder *r) {
 }
 #else
 static ssize_t write_out(void *cookie, const char *bytes, size_t n) {
-    fflush(((struct recorder *)cookie)->both_err); /* what was said before comes before */
+    fflush(((struct recorder *)cookie)->both_err); /* errors before this output come first in the file too */
     write_both(cookie, ((struct recorder *)cookie)->out, bytes, n);
     return (ssize_t)n;
 }
@@ -196,7 +196,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     record_end(sh, true);
     r->out = sh->out;
     r->err = sh->err;
-    setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
+    setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* line by line: what is recorded survives a crash */
     setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
     if (over)
         shell_say(sh, "overwriting %s", path);
@@ -230,7 +230,7 @@ bool record_end(shell *sh, bool tells) {
     return true;
 }
 
-/* The part of a line before its `record off`: what comes behind is answered elsewhere. */
+/* The part of a line before its `record off`: answers to the rest are not recorded. */
 static size_t until_off(const char *text, size_t len) {
     size_t kept = 0, end;
     for (size_t i = 0; i < len; i = end + 1) {
@@ -254,7 +254,7 @@ static size_t until_off(const char *text, size_t len) {
 void record_line(shell *sh, const char *text, size_t len) {
     struct recorder *r = sh->record;
     file_text typed;
-    if (!r || r->lost || (r->cast && (away || cast_has_clock(r->cast)))) /* the terminal shows it */
+    if (!r || r->lost || (r->cast && (away || cast_has_clock(r->cast)))) /* a cast has it from the terminal */
         return;
     fflush(sh->out);
     write_line(r);

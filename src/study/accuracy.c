@@ -118,7 +118,7 @@ static fret_status closed_cycle(void *model, long double *loss) {
     return closed_loss(model, loss ? loss : &unused);
 }
 
-/* Its error is what the reference can tell. */
+/* Where F_N is constant this is the reference too: its row shows how far that can be trusted. */
 static fret_status quadrature_cycle(void *model, long double *loss) {
     steady *m = model;
     long double unused, error;
@@ -312,11 +312,11 @@ static fret_status approach(general *g, runner *r) {
 static bool open_general(bench *b, general *g, unsigned springs, unsigned first, unsigned levels, bool seen) {
     calc_error *error = b->error;
     g->levels = 0;
-    if (!scene_load_of(b->s, &g->load, error)) /* unreached: all of it has been had before */
+    if (!scene_load_of(b->s, &g->load, error)) /* unreached: the scene has answered for this load */
         return false;
     g->cycle = program_item(g->load.program, (load_mark){g->load.last_cycle, g->load.end.cycles - 1},
                             g->load.last_cycle, g->load.in);
-    g->cycle.step.points = 0; /* those to record are no matter here */
+    g->cycle.step.points = 0; /* nothing is recorded here */
     for (unsigned i = 0; i < levels; i++) {
         runner *r = &g->run[i];
         *r = (runner){.load = &g->load, .level = first + i, .watch = seen ? &g->watch : NULL};
@@ -362,7 +362,7 @@ static fret_status general_cycle(void *model, long double *loss) {
     return limit_cycle(model, loss ? loss : &unused, &moved);
 }
 
-/* What goes into the contact and is not stored. */
+/* The work that the load does, less what the contact has stored of it. */
 static fret_status area_cycle(void *model, long double *loss) {
     general *g = model;
     runner *r = &g->run[0];
@@ -495,7 +495,7 @@ static bool choose_amplitude(scene *s, const accuracy_load *given, accuracy_stud
     if (given->given)
         return true;
     if (s->end.cycles) {
-        scene_last_cycle(s, &cycle, error); /* scene_reach has had it */
+        scene_last_cycle(s, &cycle, error); /* cannot fail: scene_reach has read it */
         out->by_force = cycle.step.tangential == BY_FORCE;
         out->amplitude = cycle.step.tangential_value;
         out->program = reach->normal_varies;
@@ -517,7 +517,7 @@ static bool choose_amplitude(scene *s, const accuracy_load *given, accuracy_stud
 static bool choose_load(scene *s, const accuracy_load *given, accuracy_study *out, steady *m,
                         calc_error *error) {
     long double unused;
-    const load_reach *pressed; /* what is missing first is said first */
+    const load_reach *pressed; /* first: a missing load is reported before missing friction */
     if (!scene_reach(s, &pressed, error) || !scene_contact(s, &m->contact, error))
         return false;
     out->FN = m->contact.press.F;

@@ -7,7 +7,7 @@
 
 /* The loss f(d) is convex. From a kink (d_i, f-e) the steepest line that stays below f+e touches it; the next
  * kink is where the line meets f-e again. The least e whose kinks suffice is looked for by halves. */
-/* The least error is looked for to this part; the one that is stated holds exactly. */
+/* The least error is looked for to this part of itself; the one that is stated holds all the same. */
 #define ENOUGH 1e-4
 /* Parts of gross slip whose slope of the loss is rounding. */
 #define TOO_SMALL 1e-10
@@ -110,12 +110,12 @@ static double sliding_slope(const march *m) {
     return 4 * m->contact->mu * (double)m->contact->press.F;
 }
 
-/* Is the line of sliding close enough from the latest kink on? */
+/* Does the line of gross slip, drawn from the latest kink, stay close enough to the loss? */
 static bool slides(march *m) {
     return sliding_slope(m) * (m->end - m->d) <= loss(m, m->end) + m->e - m->p;
 }
 
-/* The next kink, from where the line touches; beyond gross slip the loss is a line too. */
+/* Where the line, which touches at `at`, meets f-e again; beyond gross slip the loss is straight. */
 static double kink_after(march *m, double at) {
     const double short_of = -next_kink(m, m->end);
     return short_of > 0 ? m->end + short_of / (sliding_slope(m) - m->slope)

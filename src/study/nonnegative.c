@@ -30,7 +30,8 @@ static bool solve_used(state *s) {
     return !status;
 }
 
-/* Goes there until the first becomes 0, and leaves that out; true: arrived. */
+/* Goes to what is wanted, or only until an unknown becomes 0, which is then no longer in use; true: arrived.
+ */
 static bool approach(state *s) {
     double part = 1;
     size_t stop = 0, kept = 1;
@@ -77,7 +78,7 @@ static size_t best_unused(const state *s) {
     return found;
 }
 
-/* Where rounding makes those in use singular, what has been found is good enough. */
+/* Ends early where rounding makes those in use singular: what has been found is good enough. */
 static void run_active_set(state *s) {
     s->used[s->count++] = s->n - 1;
     for (size_t round = 0, next = 0; next < s->n; round++) {

@@ -299,7 +299,7 @@ static bool attempt(trial *t, const rows *all, size_t pieces, file_stop stop, ca
 
 /* ---- how many pieces --------------------------------------------------------------------------- */
 
-/* A profile that falls from the beginning, or far below it, is no gap whose rim was measured too. */
+/* Most profiles that fall were measured beyond the rim; not one that falls from the apex, or far below it. */
 static const char *advice(const trial *t) {
     double end, slope;
     end_of(t, t->pieces, &end, &slope);
@@ -318,7 +318,7 @@ static bool rises(const trial *t, const rows *all, calc_error *error) {
                      t->pieces, t->pieces == 1 ? "" : "s", where, drop, advice(t));
 }
 
-/* By rows: each piece is to have some. */
+/* Each piece needs four different r. */
 static size_t most_pieces(const rows *all, size_t most) {
     return all->distinct / 4 < most ? all->distinct / 4 : most;
 }
@@ -364,7 +364,7 @@ static bool choose_within(trial *t, const rows *all, double within, file_stop st
                      wanted, got);
 }
 
-/* ---- */
+/* ---- the answer -------------------------------------------------------------------------------- */
 
 static bool hand_out(const trial *t, const rows *all, smooth_answer *out, calc_error *error) {
     const size_t n = t->pieces + 1;

@@ -129,7 +129,7 @@ static bool scan(search *s) {
     }
     s->swings = turns >= TURNS;
     if (equal)
-        s->roots = 0; /* it does not depend on the name */
+        s->roots = 0; /* equal everywhere: the sides do not depend on the name */
     return true;
 }
 
@@ -161,7 +161,7 @@ static bool approach_edge(search *s, place bad, place good) {
     return true;
 }
 
-/* Where there are roots already, they are looked for at poles alone: it takes long. */
+/* Takes long: once there are roots, in the fine scan alone, which follows jumps, poles and swings. */
 static bool search_edges(search *s) {
     for (unsigned i = 0; i < s->places && (!s->roots || s->places == FINE); i++) {
         const place a = s->at[i], b = s->at[i + 1];
@@ -325,7 +325,7 @@ static double gsl_difference(double x, void *context) {
     return difference(context, x);
 }
 
-/* To the last digit; rough: to six. */
+/* By Brent's method to the last digit; rough: to six. */
 static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *error) {
     const place a = s->root[i], b = s->other[i];
     *x = a.x;
@@ -370,7 +370,7 @@ static bool only_jumps(search *s, double x, calc_error *error) {
                      "no root: the sides jump past each other at %s", there);
 }
 
-/* The place of a root; *is: there is one, no jump and no gap. Roughly, where that is enough to tell. */
+/* *is: there is a root at *x, no jump and no gap. Most roots show at six digits, which take less time. */
 static bool try_root(search *s, unsigned i, double *x, bool *is, calc_error *error) {
     *is = false;
     for (int rough = 1; rough >= 0 && !*is; rough--) {
@@ -390,7 +390,7 @@ static int in_order(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Of several changes of sign; jumps among them are no roots, and one that is left is the answer. */
+/* Leaves out the changes of sign that are jumps; where one root is left it is the answer. */
 static bool sift(search *s, solve_answer *out, calc_error *error) {
     place found[ROOTS];
     unsigned roots = 0, last = 0;

@@ -33,7 +33,7 @@ static void say_where(state *st, long double x) {
              with);
 }
 
-/* An error that no other value would mend, or a gap. */
+/* Adds the place to an error that ends the sweep; of gaps the first one's reason is kept. */
 static void say_why(state *st, const calc_error *why, long double x) {
     sweep_job *job = st->job;
     const bool ends = job->error->raised;
@@ -46,7 +46,7 @@ static void say_why(state *st, const calc_error *why, long double x) {
         job->missing = *why;
 }
 
-/* The first that is found holds for all. */
+/* The dimension that is found first holds for all rows. */
 static bool is_its_dim(sweep_job *job, size_t i, dim d) {
     if (!job->known[i]) {
         job->known[i] = true;
@@ -144,7 +144,8 @@ static bool give_part(void *context, long double part, const long double *values
     return st->job->row(st->job->context, st->s, st->curve, sweep_value(st->s, &st->range, part), values);
 }
 
-/* Its unit may be another one in each curve; and it is looked for here, though the rows come from others. */
+/* The unit of the range may differ from curve to curve. A name must have a value of it here too, where rows
+ * come from a team: dimensions of gaps are asked for in this process. */
 static bool begin_range(state *st) {
     points *p = &st->job->p;
     const size_t i = st->s->curves > 0;

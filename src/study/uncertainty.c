@@ -31,7 +31,7 @@ static bool all_at(state *s, const long double x[], value v[UNCERTAIN_VALUES]) {
 
 /* ---- first order ------------------------------------------------------------------------------- */
 
-/* One error at most, that of the user. */
+/* An error that ends all stays as it is. */
 static bool no_value(const state *s, calc_error *error, const char *beside) {
     if (!error->raised) {
         *error = s->p.none;
