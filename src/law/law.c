@@ -20,10 +20,6 @@ static dd radius_of_depth(const fret_normal *n, dd y) {
     return dd_add(n->wide.ln_r0, dd_div(dd_sub(y, n->wide.ln_depth), dd_of(n->gap.power[0].n)));
 }
 
-dd fret_law_log_radius(const fret_normal *n, fret_real y) {
-    return radius_of_depth(n, fret_dd_log_real(y));
-}
-
 /* Moments of the power law F = y^p at y = 1, pm1 = p-1, over distances 0..x from the edge:
  *   w = int K dt, J = int t K dt, m1 = int t dK, L = int m1 dt;  K = p y^(p-1). */
 typedef struct moments {

@@ -220,7 +220,6 @@ static void draw_loop(live *l, const side *sd, const scales *sc, rect at) {
     if (sd == &l->side[0]) {
         l->loop = at;
         l->loop_dx = sc->dx;
-        l->loop_Fx = sc->Fx;
     }
 }
 

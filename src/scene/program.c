@@ -34,7 +34,6 @@ bool program_append(program *p, load_mark *mark, const load_step *step, const cy
     }
     p->steps[mark->steps++] = *step;
     p->count = mark->steps;
-    p->cycle_count = mark->cycles;
     return true;
 }
 

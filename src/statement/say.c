@@ -12,7 +12,8 @@
 
 volatile sig_atomic_t shell_stop;
 
-void shell_message(const shell *sh, const char *kind, const char *text) {
+/* Among the answers, for a program that reads them. kind: "note", "warning", "error". */
+static void tell_programs(const shell *sh, const char *kind, const char *text) {
     answer a;
     answer_begin(&a, &sh->set, sh->out);
     answer_message(&a, kind, text);
@@ -27,7 +28,7 @@ static void tell_message(shell *sh, const char *kind, const char *before, const 
     char text[NOTE];
     progress_wipe();
     vsnprintf(text, sizeof text, format, args);
-    shell_message(sh, kind, text);
+    tell_programs(sh, kind, text);
     fputs(before, sh->err);
     print_safe(sh->err, text, strlen(text));
     fputc('\n', sh->err);
@@ -77,7 +78,7 @@ void shell_print_error(const shell *sh, const char *text) {
 
 void shell_error(shell *sh, const char *text) {
     progress_wipe();
-    shell_message(sh, "error", text);
+    tell_programs(sh, "error", text);
     shell_print_error(sh, text);
     fflush(sh->err);
     sh->failed = true;
