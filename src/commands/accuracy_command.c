@@ -159,7 +159,7 @@ static void say_table(answer *out, const accuracy_study *study, long double scal
         say_row(out, study, &study->row[i], scale, heads);
 }
 
-static void say(shell *sh, const accuracy_study *study) {
+static void say_study(shell *sh, const accuracy_study *study) {
     char unit_text[COLUMN_UNIT], load[ACCURACY_TEXT], advice[ACCURACY_TEXT], error[SHORT];
     const long double scale =
         unit_choose(DIM_ENERGY, study->value, sh->set.digits, unit_text, sizeof unit_text);
@@ -193,6 +193,6 @@ bool do_accuracy(shell *sh, lexer *lx, const command *self) {
     if (sh->replaying) /* times, and what follows from them */
         fprintf(sh->out, "%c\n", MARK_DRAWING);
     else
-        say(sh, &study);
+        say_study(sh, &study);
     return true;
 }

@@ -65,12 +65,11 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, size_t nam
     _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
     for (size_t i = 0; i < data->columns; i++) {
         const csv_values *of_file = &data->column[i];
-        calc_error useless;
+        calc_error *useless = error_quiet();
         lexer lx;
         knob *k = &q->column[q->columns].name;
-        error_clear(&useless);
-        lex_start(&lx, of_file->name, strlen(of_file->name), &useless);
-        if (useless.raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble ||
+        lex_start(&lx, of_file->name, strlen(of_file->name), useless);
+        if (useless->raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble ||
             of_file->twice)
             continue;
         const quantity *of = quantity_find(of_file->name, strlen(of_file->name));
@@ -79,7 +78,7 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, size_t nam
         if (!names_wake(sh, &lx, names))
             return calc_no_memory(error);
         knob_name(&sh->calc, &lx, k); /* there is one */
-        if (k->is_input && !calc_takes(&sh->calc, k->in, &useless))
+        if (k->is_input && !calc_takes(&sh->calc, k->in, error_quiet()))
             continue;
         if (k->is_input && !same_dim(k->d, of_file->d))
             return column_of(data, of_file->name, k->d, error) != NULL;
@@ -95,11 +94,9 @@ static bool ambiguous(const shell *sh, const csv *data, const expr *e, calc_erro
     bool call;
     size_t at;
     for (size_t i = 0; (of = expr_quantity(e, i, &call, &at)); i++) {
-        calc_error useless;
-        error_clear(&useless);
         const bool is_input = quantity_is_input(of);
         if (call || !csv_has(data, of->name) ||
-            (is_input && calc_takes(&sh->calc, quantity_input(of), &useless)))
+            (is_input && calc_takes(&sh->calc, quantity_input(of), error_quiet())))
             continue;
         calc_fail(error, e->at, e->len,
                   is_input ? "%s is an input that this scene does not take, and a column of the file: rename "
@@ -409,9 +406,7 @@ static bool print_uncertain(shell *sh, const uncertainty_question *q, const unce
 /* A swinging normal force takes a thousand times as long. */
 static unsigned usual_samples(shell *sh) {
     const load_reach *reach = &(load_reach){.swings = false};
-    calc_error ignored;
-    error_clear(&ignored);
-    scene_reach(&sh->calc.scene, &reach, &ignored);
+    scene_reach(&sh->calc.scene, &reach, error_quiet());
     return reach->swings ? 200 : 10000;
 }
 

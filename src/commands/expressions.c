@@ -24,7 +24,7 @@ static bool read_unit(lexer *lx, column *c) {
     return true;
 }
 
-static bool read_expression(shell *sh, lexer *lx, expr *e, column *c) {
+static bool read_column(shell *sh, lexer *lx, expr *e, column *c) {
     *c = (column){.scale = 1};
     if (!expr_parse(&sh->calc, lx, e))
         return false;
@@ -44,7 +44,7 @@ static bool read_expression(shell *sh, lexer *lx, expr *e, column *c) {
 }
 
 bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c) {
-    return read_expression(sh, lx, &sh->list[i], c) && at_end(lx);
+    return read_column(sh, lx, &sh->list[i], c) && at_end(lx);
 }
 
 /* `1,5 mm` is two values: one may have been meant. */
@@ -65,7 +65,7 @@ bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_
             return lex_fail(lx, "more than %zu expressions", limit);
         const size_t i = (*count)++;
         lx->list = true;
-        const bool ok = read_expression(sh, lx, &sh->list[i], &columns[i]);
+        const bool ok = read_column(sh, lx, &sh->list[i], &columns[i]);
         lx->list = false;
         if (!ok)
             return false;

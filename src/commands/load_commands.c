@@ -28,11 +28,9 @@ static void report_event(shell *sh, const char *event, const char *const *names)
     if (!reports(sh))
         return;
     for (; *names; names++) {
-        calc_error error;
-        error_clear(&error);
         of[count] = quantity_find(*names, strlen(*names));
         v[count] = (value){0, of[count]->d};
-        count += quantity_get(of[count], &sh->calc.scene, &v[count].v, &error);
+        count += quantity_get(of[count], &sh->calc.scene, &v[count].v, error_quiet());
     }
     progress_wipe();
     if (sh->set.report == REPORT_AUTO && !answer_is_data(&sh->set))
@@ -287,8 +285,8 @@ typedef struct sizes {
 
 /* How far the state is from what the row names, as a part of the largest values. Ways by force and by
  * displacement may end in the same state: the energy tells them apart. */
-static long double distance(const fret_contact *m, const rows *w, size_t row, fret_real loss,
-                            const sizes *most) {
+static long double distance_to_row(const fret_contact *m, const rows *w, size_t row, fret_real loss,
+                                   const sizes *most) {
     fret_state now;
     fret_contact_forces(m, &now);
     const double lost = row ? w->loss[row] - w->loss[row - 1] : 0;
@@ -321,7 +319,7 @@ static bool choose_driver(fret_contact *m[KINDS + 1], const rows *w, size_t row,
         if (st->code)
             return false;
         const long double off =
-            taken.code ? INFINITY : distance(m[k], w, row, fret_contact_last_loss(m[k]), most);
+            taken.code ? INFINITY : distance_to_row(m[k], w, row, fret_contact_last_loss(m[k]), most);
         if (off < least) {
             least = off;
             *driver = k;
@@ -356,7 +354,7 @@ static bool choose_drivers(shell *sh, const rows *w, size_t row, unsigned char *
         st = fret_contact_make(fret_contact_normal(now), fret_contact_friction(now), FRET_EXACT, &m[k]);
     if (!st.code)
         st = fret_contact_copy(m[KINDS], now);
-    bool ok = !st.code && (row == 0 || distance(m[KINDS], w, 0, 0, &most) <= SAME);
+    bool ok = !st.code && (row == 0 || distance_to_row(m[KINDS], w, 0, 0, &most) <= SAME);
     size_t i = ok ? row : 0;
     while (ok && i < n && !shell_stop) {
         if (i % AT_ONCE == 0)
@@ -428,7 +426,7 @@ static bool follow_all(shell *sh, rows *w, bool both, calc_error *error) {
     return ok;
 }
 
-static bool follow(shell *sh, const csv *data, calc_error *error) {
+static bool follow_file(shell *sh, const csv *data, calc_error *error) {
     const bool forces = has_pair(data, &kinds[0]), places = has_pair(data, &kinds[1]);
     rows w = {.data = data, .kind = places && !forces ? &kinds[1] : &kinds[0]};
     char names[CALC_ERROR_TEXT / 2];
@@ -461,7 +459,7 @@ bool do_follow(shell *sh, lexer *lx, const command *self) {
     csv data;
     if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
         return false;
-    bool ok = csv_read(name, &shell_stop, &data, lx->error) && follow(sh, &data, lx->error);
+    bool ok = csv_read(name, &shell_stop, &data, lx->error) && follow_file(sh, &data, lx->error);
     csv_free(&data);
     if (!ok) {
         lx->error->at = s.list[0].hole[0].at;

@@ -61,7 +61,7 @@ static bool evaluate_range(const sweep *s, sweep_range *out, calc_error *error) 
     return s->what != ALONG_LOAD || read_load(r->sh, &lx, &out->step, &out->extra, out->bound);
 }
 
-static void begin(shell *sh, const lexer *lx, const span *part, range *out) {
+static void start_range(shell *sh, const lexer *lx, const span *part, range *out) {
     *out = (range){.sweep = {.range = evaluate_range}, .sh = sh, .own = hole_lexer(lx, part)};
     out->sweep.context = out;
 }
@@ -69,7 +69,7 @@ static void begin(shell *sh, const lexer *lx, const span *part, range *out) {
 bool range_read_along(shell *sh, const lexer *lx, const span *part, range *out) {
     sweep *s = &out->sweep;
     sweep_range load = {.lo = 0};
-    begin(sh, lx, part, out);
+    start_range(sh, lx, part, out);
     lexer own = out->own;
     s->along = true;
     s->var = (knob){.text = "time"};
@@ -162,7 +162,7 @@ bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
         return range_read_along(sh, lx, &along->hole[0], out);
     if (!by)
         return lex_fail(lx, "expected for VAR = LO .. HI");
-    begin(sh, lx, &by->hole[1], out);
+    start_range(sh, lx, &by->hole[1], out);
     lexer name = hole_lexer(lx, &by->hole[0]), own = out->own;
     if (!knob_read(&sh->calc, &name, &s->var) ||
         !range_read_interval(&sh->calc, &own, &s->var, NULL, &ends) || !range_end(&own, all->by))

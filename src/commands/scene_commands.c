@@ -27,7 +27,7 @@ typedef struct edit {
     shared_table *table;
 } edit;
 
-static void put(edit *e, input in, long double v) {
+static void edit_put(edit *e, input in, long double v) {
     e->has[in] = true;
     e->v[in] = (double)v;
 }
@@ -66,7 +66,7 @@ static void gather(edit *e, const said *s) {
         if (h->live)
             e->bound[h->of->in - 1] = h->live;
         else
-            put(e, (input)(h->of->in - 1), h->v.v);
+            edit_put(e, (input)(h->of->in - 1), h->v.v);
     }
 }
 
@@ -80,8 +80,8 @@ bool do_material(shell *sh, lexer *lx, const command *self) {
         return false;
     const heard *named = said_of(&s, "", 0);
     if (named) {
-        put(&e, IN_E0, preset_row(named->choice)->E0);
-        put(&e, IN_NU, preset_row(named->choice)->nu);
+        edit_put(&e, IN_E0, preset_row(named->choice)->E0);
+        edit_put(&e, IN_NU, preset_row(named->choice)->nu);
     }
     gather(&e, &s);
     if (has(&e, IN_E0_2) || has(&e, IN_NU_2)) {
@@ -135,15 +135,15 @@ bool do_second(shell *sh, lexer *lx, const command *self) {
     if (named && named->choice < SECOND_WORDS) {
         e.second = named->choice ? SECOND_RIGID : SECOND_SAME;
     } else if (named) {
-        put(&e, IN_E0_2, preset_row(named->choice - SECOND_WORDS)->E0);
-        put(&e, IN_NU_2, preset_row(named->choice - SECOND_WORDS)->nu);
+        edit_put(&e, IN_E0_2, preset_row(named->choice - SECOND_WORDS)->E0);
+        edit_put(&e, IN_NU_2, preset_row(named->choice - SECOND_WORDS)->nu);
     }
     for (int i = 0; i < 2; i++) { /* E0 is that of the second body here */
         static const input own[] = {IN_E0, IN_NU}, other[] = {IN_E0_2, IN_NU_2};
         if (e.bound[own[i]])
             e.bound[other[i]] = e.bound[own[i]];
         else if (e.has[own[i]])
-            put(&e, other[i], e.v[own[i]]);
+            edit_put(&e, other[i], e.v[own[i]]);
         e.has[own[i]] = false;
         e.bound[own[i]] = NULL;
     }
@@ -159,7 +159,7 @@ bool do_friction(shell *sh, lexer *lx, const command *self) {
     edit e = {.clear_material = false};
     if (!said_read(sh, lx, command_form(self), &s))
         return false;
-    put(&e, IN_MU, s.list[0].v.v);
+    edit_put(&e, IN_MU, s.list[0].v.v);
     return scene_edit(&sh->calc.scene, apply, &e, lx->error) || heard_place(lx->error, &s.list[0]);
 }
 
@@ -220,7 +220,7 @@ static bool read_smoothing(shell *sh, const lexer *of, const span *part, smoothi
 }
 
 /* Columns r and f, among others in any order. */
-static bool columns_of(const csv *data, const csv_values **r, const csv_values **f, calc_error *error) {
+static bool profile_columns(const csv *data, const csv_values **r, const csv_values **f, calc_error *error) {
     *r = csv_column(data, "r", error);
     *f = *r ? csv_column(data, "f", error) : NULL;
     if (!*f)
@@ -275,7 +275,7 @@ static struct fret_table *table_of(const csv *data, smoothing how, smooth_answer
     struct fret_table *gap = NULL;
     const csv_values *r, *f;
     fret_status st;
-    if (!columns_of(data, &r, &f, error))
+    if (!profile_columns(data, &r, &f, error))
         return NULL;
     if (how.by) {
         if (!smooth(r->v, f->v, data->rows, how, &shell_stop, smoothed, error))
@@ -373,7 +373,7 @@ static bool put_radii(lexer *lx, edit *e, const heard *R1, const heard *R2) {
     const long double curvature = 1 / (long double)e->radii[0] + 1 / (long double)e->radii[1];
     if (!(curvature > 0))
         return calc_fail(lx->error, R1->at, lx->last - R1->at, "1/R1 + 1/R2 must be positive");
-    put(e, IN_RADIUS, 1 / curvature);
+    edit_put(e, IN_RADIUS, 1 / curvature);
     return true;
 }
 
@@ -381,7 +381,7 @@ static bool put_angle(lexer *lx, edit *e, const heard *angle) {
     if (!(angle->v.v > 0 && angle->v.v < 1.5707963267948966 /* 90 deg as a double */))
         return calc_fail(lx->error, angle->hole[0].at, angle->hole[0].len,
                          "angle must lie between 0 and 90 deg");
-    put(e, IN_SLOPE, sinl(angle->v.v) / cosl(angle->v.v));
+    edit_put(e, IN_SLOPE, sinl(angle->v.v) / cosl(angle->v.v));
     return true;
 }
 

@@ -79,7 +79,7 @@ static void begin_columns(table_job *job) {
     }
 }
 
-static bool begin(table_job *job) {
+static bool begin_table(table_job *job) {
     begin_columns(job);
     if (!columns_distinct(job->columns, job->first + job->count))
         return calc_no_memory(job->error);
@@ -91,7 +91,7 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     table_job *job = context;
     long double row[COLUMNS];
     const bool first = !job->begun;
-    if (first && !begin(job))
+    if (first && !begin_table(job))
         return false;
     if (job->blocks && !first &&
         (curve != job->curve || (s->curves && islessgreater(s->value[curve], job->second))))

@@ -30,7 +30,7 @@ typedef struct place {
     candidates *out;
 } place;
 
-static void add(const place *p, const char *word, const char *ending) {
+static void add_word(const place *p, const char *word, const char *ending) {
     candidates *out = p->out;
     const size_t typed = p->cursor - p->start, n = strlen(word), m = strlen(ending);
     if (n < typed || memcmp(word, p->line + p->start, typed) != 0)
@@ -61,36 +61,33 @@ void candidates_free(candidates *c) {
 
 static void add_all(const place *p, const char *(*name)(size_t i)) {
     for (size_t i = 0; name(i); i++)
-        add(p, name(i), "");
+        add_word(p, name(i), "");
 }
 
 /* What may begin a value. */
 static void add_values(const place *p) {
     const quantity *q;
     for (size_t i = 0; (q = quantity_row(i)); i++)
-        add(p, q->name, quantity_has_value(q) ? "" : "(");
+        add_word(p, q->name, quantity_has_value(q) ? "" : "(");
     add_all(p, builtin_name);
     for (size_t i = 0; i < p->c->names.count; i++) {
         const own_name *own = &p->c->names.row[i];
         const definition *d = (const definition *)own->definition;
         if (own->known)
-            add(p, own->text, d && d->parameters ? "(" : "");
+            add_word(p, own->text, d && d->parameters ? "(" : "");
     }
     if (p->c->has_ans)
-        add(p, "ans", "");
+        add_word(p, "ans", "");
 }
 
 /* Inputs that the scene takes, and names of the user's. */
 static void add_knobs(const place *p, const char *end) {
-    for (input in = 0; in < INPUTS; in++) {
-        calc_error ignored;
-        error_clear(&ignored);
-        if (calc_takes(p->c, in, &ignored))
-            add(p, quantity_of_input(in)->name, end);
-    }
+    for (input in = 0; in < INPUTS; in++)
+        if (calc_takes(p->c, in, error_quiet()))
+            add_word(p, quantity_of_input(in)->name, end);
     for (size_t i = 0; i < p->c->names.count; i++)
         if (p->c->names.row[i].known && !p->c->names.row[i].definition)
-            add(p, p->c->names.row[i].text, end);
+            add_word(p, p->c->names.row[i].text, end);
 }
 
 static bool same_dim(dim a, dim b) {
@@ -110,13 +107,13 @@ static void add_units(const place *p, bool any, dim d) {
             char word[LEX_NAME];
             snprintf(word, sizeof word, "%s%s", prefixes[j], unit_name(i));
             if (unit_lookup(word, strlen(word), &u) && (any || none || same_dim(u.d, d)))
-                add(p, word, "");
+                add_word(p, word, "");
         }
 }
 
 /* ---- the statement ----------------------------------------------------------------------------- */
 
-static bool is_word(const place *p, size_t i, const char *word) {
+static bool token_is(const place *p, size_t i, const char *word) {
     return p->token[i].kind == T_NAME && strlen(word) == p->token[i].len &&
            !memcmp(p->line + p->token[i].at, word, p->token[i].len);
 }
@@ -132,7 +129,7 @@ static size_t figure_begins(const place *p) {
 
 static bool is_given(const place *p, const char *word) {
     for (size_t i = figure_begins(p) + 1; i < p->count; i++)
-        if (is_word(p, i, word))
+        if (token_is(p, i, word))
             return true;
     return false;
 }
@@ -144,21 +141,20 @@ static bool assigns(token_kind kind) {
 /* As an argument, not within a value. */
 static bool is_assigned(const place *p, const char *word) {
     for (size_t i = 1; i + 1 < p->count; i++)
-        if (is_word(p, i, word) && assigns(p->token[i + 1].kind))
+        if (token_is(p, i, word) && assigns(p->token[i + 1].kind))
             return true;
     return false;
 }
 
 /* The tokens before the word that begins at `start`; what is none, as in names of files, is left out. */
 static void read_tokens(place *p, size_t begin, size_t start) {
-    calc_error strange;
+    calc_error *strange = error_quiet();
     lexer lx;
-    error_clear(&strange);
     p->start = start;
     p->count = 0;
-    for (lex_start(&lx, p->line + begin, start - begin, &strange);
-         (lx.kind != T_END || strange.raised) && p->count < TOKENS; lex_next(&lx)) {
-        error_clear(&strange);
+    for (lex_start(&lx, p->line + begin, start - begin, strange);
+         (lx.kind != T_END || strange->raised) && p->count < TOKENS; lex_next(&lx)) {
+        error_clear(strange);
         if (lx.kind == T_END)
             continue;
         p->token[p->count].kind = lx.kind;
@@ -188,7 +184,7 @@ static bool is_setting(const place *p) {
 /* `along cycle ...`: its arguments may follow. */
 static const command *load_along(const place *p) {
     for (size_t i = figure_begins(p) + 2; i < p->count; i++)
-        if (is_word(p, i - 1, "along"))
+        if (token_is(p, i - 1, "along"))
             return command_find(p->line + p->token[i].at, p->token[i].len);
     return NULL;
 }
@@ -196,9 +192,9 @@ static const command *load_along(const place *p) {
 /* ---- what may follow --------------------------------------------------------------------------- */
 
 static void add_loads(const place *p) {
-    add(p, "program", "");
-    add(p, "cycle", "");
-    add(p, "step", "");
+    add_word(p, "program", "");
+    add_word(p, "cycle", "");
+    add_word(p, "step", "");
 }
 
 /* What may stand in the hole; false: nothing that is known. */
@@ -272,9 +268,9 @@ static void add_items(const place *p, const grammar *f, bool first) {
             add_hole(p, &a->hole[0], "");
             awaited = awaited || !a->optional;
         } else if (a->argument && !is_assigned(p, a->name) && !is_barred(p, f, a)) {
-            add(p, a->name, "=");
+            add_word(p, a->name, "=");
         } else if (*a->name && !a->argument && !awaited && !is_given(p, a->name)) {
-            add(p, a->name, "");
+            add_word(p, a->name, "");
         }
     }
 }
@@ -283,14 +279,14 @@ static void add_items(const place *p, const grammar *f, bool first) {
 static void add_setting_words(const place *p) {
     const setting *row;
     for (size_t i = 0; (row = setting_row(i)); i++) {
-        if (!is_word(p, 1, row->name))
+        if (!token_is(p, 1, row->name))
             continue;
         for (const char *s = row->usage; *s; s += strspn(s, "| ")) {
             const size_t n = strcspn(s, "| ");
             char word[LEX_NAME];
             snprintf(word, sizeof word, "%.*s", (int)n, s);
             if (strspn(word, "abcdefghijklmnopqrstuvwxyz") == n)
-                add(p, word, "");
+                add_word(p, word, "");
             s += n;
         }
     }
@@ -318,9 +314,9 @@ static void add_continuation(const place *p) {
     if (f && !has_expression(f))
         return;
     if (!is_given(p, "in"))
-        add(p, "in", "");
+        add_word(p, "in", "");
     if (!is_given(p, "at"))
-        add(p, "at", "");
+        add_word(p, "at", "");
 }
 
 /* The dimension that `NAME = NUMBER` wants at the cursor after the number. */
@@ -349,7 +345,7 @@ static bool wanted_dim(const place *p, dim *d) {
 /* The clause whose word the last token is; NULL: none, or the statement's first word. */
 static const clause *last_clause(const place *p, const grammar *f) {
     for (const clause *a = f ? f->clause : NULL; a && a < f->clause + f->count && p->count > 1; a++)
-        if (!a->argument && *a->name && a->holes && is_word(p, p->count - 1, a->name))
+        if (!a->argument && *a->name && a->holes && token_is(p, p->count - 1, a->name))
             return a;
     return NULL;
 }
@@ -368,7 +364,7 @@ static void add_words_beside_file(const place *p) {
     const grammar *f = p->cursor > p->start && p->count == 1 ? command_form(p->command) : NULL;
     for (const clause *a = f ? f->clause : NULL; a && a < f->clause + f->count; a++)
         if (*a->name && !a->argument)
-            add(p, a->name, "");
+            add_word(p, a->name, "");
 }
 
 /* Behind `in` and `at` of an expression, and behind the word of a clause. */
@@ -377,11 +373,11 @@ static bool add_behind_word(const place *p) {
     dim d = DIM_NONE;
     if (a)
         return add_hole(p, &a->hole[0], a->holes > 1 && a->hole[1].before == '=' ? "=" : "");
-    if (is_word(p, p->count - 1, "at")) {
+    if (token_is(p, p->count - 1, "at")) {
         add_knobs(p, "=");
         return true;
     }
-    if (!is_word(p, p->count - 1, "in"))
+    if (!token_is(p, p->count - 1, "in"))
         return false;
     const bool known = dim_before(p, &d);
     add_units(p, !known, d);

@@ -44,7 +44,7 @@ static bool had(const page *p, bool ok, const calc_error *why) {
 /* ---- lines ------------------------------------------------------------------------------------- */
 
 /* An expression and its value, in the scene as it stands. */
-static void put_value(const page *p, const char *name, size_t len, value v) {
+static void put_expression_value(const page *p, const char *name, size_t len, value v) {
     char text[160], unit_text[COLUMN_UNIT], *whole = column_name(name, len);
     format_value(&p->sh->set, v, text, sizeof text);
     answer_words(p->out, "    %.*s = %s\n", (int)len, name, text);
@@ -150,12 +150,11 @@ static bool by_runs(const page *p, const expr *e, const runner run[LEVELS], long
     bool ok = true;
     for (unsigned i = 0; i < LEVELS && ok; i++) {
         const instant now = {.run = &run[i]};
-        calc_error ignored;
+        calc_error *why = error_quiet();
         value v = {0, DIM_NONE};
-        error_clear(&ignored);
         s->now = &now;
         scene_moved(s);
-        ok = had(p, expr_eval(&p->sh->calc, e, &v, &ignored), &ignored);
+        ok = had(p, expr_eval(&p->sh->calc, e, &v, why), why);
         at[i] = v.v;
     }
     s->now = NULL;
@@ -214,9 +213,7 @@ static double describe_sine(const page *p, const quantity *q, bool call, model_i
 /* Of a scene that has been run. */
 static bool swings(scene *s) {
     const load_reach *reach = &(load_reach){.swings = false};
-    calc_error ignored;
-    error_clear(&ignored);
-    scene_reach(s, &reach, &ignored);
+    scene_reach(s, &reach, error_quiet());
     return reach->swings;
 }
 
@@ -279,20 +276,19 @@ static bool exact_value(const page *p, const expr *e, value *v) {
     sight coarse[LEVELS - 1];
     runner run = a->run[a->levels - 1];
     const instant now = {.run = &run};
-    calc_error ignored;
-    error_clear(&ignored);
+    calc_error *why = error_quiet();
     for (unsigned i = 0; i + 1 < a->levels; i++)
         run_sight(&a->run[i], &coarse[i]);
     run.coarse = a->levels > 1 ? coarse : NULL;
-    trial *t = trial_open(&p->sh->calc, &ignored);
+    trial *t = trial_open(&p->sh->calc, why);
     if (t)
         t->scene.now = &now;
-    const bool ok = t && expr_eval(&p->sh->calc, e, v, &ignored);
+    const bool ok = t && expr_eval(&p->sh->calc, e, v, why);
     if (t) {
         t->scene.used = 0; /* it has not answered */
         trial_close(t);
     }
-    return had(p, ok, &ignored);
+    return had(p, ok, why);
 }
 
 /* For programs: a part of what. */
@@ -341,18 +337,17 @@ static bool has_effect(const influence_study *study, input in) {
 }
 
 /* The inputs that the result was made of. */
-static void put_inputs(const page *p, const quantity *q, const influence_study *study) {
+static void put_numbers(const page *p, const quantity *q, const influence_study *study) {
     const unsigned of_load = INPUT_BIT(IN_FN) | INPUT_CYCLE;
     scene *s = p->sh->calc.now;
     for (input in = 0; in < INPUTS; in++) {
         const quantity *row = quantity_of_input(in);
         value v = {0, quantity_dim(row, s)};
-        calc_error ignored;
-        error_clear(&ignored);
+        calc_error *why = error_quiet();
         const bool set = s->in.set[in] || (s->in.bindings & INPUT_BIT(in));
         if (set && row != q && (q->reads & ~of_load & INPUT_BIT(in)) &&
             !(in == IN_C0 && s->in.v[IN_K] == 0) && has_effect(study, in) &&
-            had(p, scene_get(s, in, &v.v, &ignored), &ignored))
+            had(p, scene_get(s, in, &v.v, why), why))
             answer_quantity(p->out, row->name, v);
     }
 }
@@ -388,17 +383,16 @@ static void put_load(const page *p, const quantity *q, const influence_study *st
     scene *s = p->sh->calc.now;
     const fret_press *press;
     const fret_state *state;
-    calc_error ignored;
-    error_clear(&ignored);
+    calc_error *why = error_quiet();
     bool matters = study->count == 0;
     for (size_t i = 0; i < study->count; i++)
         matters = matters || (cause_is_load(&study->cause[i]) && study->cause[i].influence != INFLUENCE_NONE);
-    if (!matters || !q->load || quantity_is_input(q) || !had(p, scene_press(s, &press, &ignored), &ignored))
+    if (!matters || !q->load || quantity_is_input(q) || !had(p, scene_press(s, &press, why), why))
         return;
     answer_quantity(p->out, "FN now", (value){press->F, DIM_FORCE});
     if (is_of_cycle(q))
         put_cycle(p, study);
-    else if (is_pushed(study) && strcmp(q->name, "Fx") && had(p, scene_state(s, &state, &ignored), &ignored))
+    else if (is_pushed(study) && strcmp(q->name, "Fx") && had(p, scene_state(s, &state, why), why))
         answer_quantity(p->out, "Fx now", (value){state->Fx, DIM_FORCE});
 }
 
@@ -475,34 +469,31 @@ static void put_conditioning(const page *p, const char *name, const influence_st
 /* The part of a statement as an expression of its own, and its value. */
 static bool text_value(const page *p, const char *text, size_t len, expr *e, value *v) {
     calc *c = &p->sh->calc;
-    calc_error ignored;
+    calc_error *why = error_quiet();
     lexer lx;
-    error_clear(&ignored);
-    lex_start(&lx, text, len, &ignored);
-    return had(p, expr_parse(c, &lx, e) && expr_eval(c, e, v, &ignored), &ignored);
+    lex_start(&lx, text, len, why);
+    return had(p, expr_parse(c, &lx, e) && expr_eval(c, e, v, why), why);
 }
 
 /* An input, and F_N as it was given: no formula made the number. */
 static bool is_given(const page *p, const quantity *q) {
     scene *s = p->sh->calc.now;
     const load_reach *reach;
-    calc_error ignored;
-    error_clear(&ignored);
+    calc_error *why = error_quiet();
     return q->of == OF_INPUT || (quantity_is_input(q) && s->in.set[quantity_input(q)] &&
-                                 had(p, scene_reach(s, &reach, &ignored), &ignored) && !reach->normal_varies);
+                                 had(p, scene_reach(s, &reach, why), why) && !reach->normal_varies);
 }
 
 static void explain_input(const page *p, const quantity *q) {
     calc *c = &p->sh->calc;
     value v = {0, quantity_dim(q, c->now)};
-    calc_error ignored;
-    error_clear(&ignored);
+    calc_error *why = error_quiet();
     answer_page(p->out, "explain");
     put_formula(p, q, false);
-    const bool got = had(p, quantity_get(q, c->now, &v.v, &ignored), &ignored);
+    const bool got = had(p, quantity_get(q, c->now, &v.v, why), why);
     v.d = quantity_dim(q, c->now); /* which may follow from what is live */
     if (got)
-        put_value(p, q->name, strlen(q->name), v);
+        put_expression_value(p, q->name, strlen(q->name), v);
     answer_done(p->out);
 }
 
@@ -512,18 +503,16 @@ static void explain_function(const page *p, const quantity *q) {
     answer_page(p->out, "explain");
     put_formula(p, q, true);
     answer_group(p->out, "numbers");
-    put_inputs(p, q, &nothing);
+    put_numbers(p, q, &nothing);
     answer_up(p->out);
     answer_done(p->out);
 }
 
 /* Does it stand for many values: within a function, of what that is given? */
 static bool is_free(const part *of, const definition *in) {
-    calc_error ignored;
     lexer lx;
     bool found = false;
-    error_clear(&ignored);
-    for (lex_start(&lx, of->text, of->len, &ignored); lx.kind != T_END; lex_next(&lx))
+    for (lex_start(&lx, of->text, of->len, error_quiet()); lx.kind != T_END; lex_next(&lx))
         for (unsigned i = 0; i < in->parameters; i++)
             found |= lex_is(&lx, in->parameter[i]);
     return found;
@@ -547,13 +536,13 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
         answer_page(p->out, "explain");
         put_formula(p, q, of->call);
         answer_group(p->out, "numbers");
-        put_inputs(p, q, &study);
+        put_numbers(p, q, &study);
         if (has)
             put_load(p, q, &study);
         answer_up(p->out);
         const model_id model = put_model(p, q, of->call, has ? &e : NULL, &sine);
         if (has)
-            put_value(p, of->text, of->len, v);
+            put_expression_value(p, of->text, of->len, v);
         if (has && model == MODEL_SPRINGS)
             put_difference(p, &e, v);
         else if (has)
@@ -572,10 +561,8 @@ static bool explain_part(const page *p, const part *of, const definition *in, bo
 
 /* The call of the quantity at this place. */
 static part call_at(const expr *e, const quantity *q, size_t at) {
-    calc_error ignored;
     lexer lx;
-    error_clear(&ignored);
-    lex_start(&lx, e->text, e->at + e->len, &ignored);
+    lex_start(&lx, e->text, e->at + e->len, error_quiet());
     lex_seek(&lx, at);
     lex_next(&lx);
     const size_t open = lx.at;
@@ -591,7 +578,7 @@ static part call_at(const expr *e, const quantity *q, size_t at) {
                   .argument_len = lx.at - open - 1};
 }
 
-static bool part_of(const expr *e, size_t i, part *out) {
+static bool part_at(const expr *e, size_t i, part *out) {
     bool call;
     size_t at;
     const quantity *q = expr_quantity(e, i, &call, &at);
@@ -606,7 +593,7 @@ static bool explain_whole(const page *p, const expr *e, value v, calc_error *err
     if (p->conditioning && !influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, error))
         return false;
     answer_page(p->out, "explain");
-    put_value(p, e->text + e->at, e->len, v);
+    put_expression_value(p, e->text + e->at, e->len, v);
     if (p->conditioning)
         put_conditioning(p, "it", &study);
     answer_done(p->out);
@@ -648,7 +635,7 @@ static void explain_call(const page *p, const part *of, const definition *in, bo
         answer_page(p->out, "explain");
         if (title)
             put_title(p, of->q);
-        put_value(p, of->text, of->len, v);
+        put_expression_value(p, of->text, of->len, v);
         answer_done(p->out);
     }
     expr_free(&e);
@@ -664,7 +651,7 @@ static bool explain_parts(const page *p, const expr *e, const definition *in, co
                           calc_error *error) {
     part one, other;
     const definition *d;
-    for (size_t i = 0; part_of(e, i, &one); i++) {
+    for (size_t i = 0; part_at(e, i, &one); i++) {
         const bool told = is_told(before, &one);
         if (is_seen(p, before, &one))
             continue;
@@ -676,7 +663,7 @@ static bool explain_parts(const page *p, const expr *e, const definition *in, co
             explain_input(p, one.q);
         else if (!explain_part(p, &one, in, e == asked && is_whole(e, &one), error))
             return false;
-        for (size_t j = i + 1; one.call && part_of(e, j, &other); j++)
+        for (size_t j = i + 1; one.call && part_at(e, j, &other); j++)
             if (other.call && other.q == one.q && !(e == asked && is_whole(e, &other)) &&
                 !is_seen(p, before, &other))
                 explain_call(p, &other, in, false);
@@ -693,7 +680,7 @@ static bool explain_expression(const page *p, const expr *e, const expr *asked, 
     part one;
     bool told = false;
     seen all = {.count = 0};
-    for (size_t i = 0; e == asked && !told && part_of(e, i, &one); i++) {
+    for (size_t i = 0; e == asked && !told && part_at(e, i, &one); i++) {
         told = is_whole(e, &one) && !is_told(&all, &one); /* else its formula belongs to a call within */
         is_seen(p, &all, &one);
     }
@@ -739,7 +726,7 @@ static const quantity *bare_name(const lexer *lx) {
 }
 
 /* What is to be explained, `e`, in the scene as it is, or as `at` changes it: a trial, then. */
-static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v) {
+static bool read_explained(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v) {
     bool call;
     size_t first;
     const size_t at = lx->at;
@@ -758,16 +745,14 @@ static bool read_expression(shell *sh, lexer *lx, const expr **e, const expr **a
 /* Not a quantity, but a word of the warning on dissimilar bodies. */
 static bool explain_mismatch(shell *sh, lexer *lx) {
     const fret_normal *normal;
-    calc_error ignored;
     text_out text;
     answer out;
-    error_clear(&ignored);
     if (!text_begin(&text, &sh->set, sh->out, TEXT_ANSWERS))
         return calc_no_memory(lx->error);
     answer_begin(&out, &sh->set, text.to);
     answer_page(&out, "explain");
     answer_string(&out, "name", "mismatch");
-    if (scene_normal(&sh->calc.scene, &normal, &ignored)) {
+    if (scene_normal(&sh->calc.scene, &normal, error_quiet())) {
         const double mismatch = (double)fret_normal_foundation(normal)->mismatch;
         answer_words(&out, "mismatch = %.3g\n\n", mismatch);
         answer_number(&out, "value", mismatch);
@@ -812,7 +797,7 @@ bool do_explain(shell *sh, lexer *lx, const command *self) {
     if (no_quantity(sh, &own))
         return false;
     const quantity *bare = alone ? bare_name(&own) : NULL;
-    const bool ok = (bare || read_expression(sh, &own, &e, &asked, &changed, &v)) &&
+    const bool ok = (bare || read_explained(sh, &own, &e, &asked, &changed, &v)) &&
                     explain(sh, bare, e, asked, v, conditioning, lx);
     if (changed)
         trial_close(changed);

@@ -63,9 +63,7 @@ typedef struct assignment {
 
 static bool is_list(const lexer *lx, token_kind *then) {
     lexer scan = *lx;
-    calc_error ignored;
-    error_clear(&ignored);
-    scan.error = &ignored;
+    scan.error = error_quiet();
     for (lex_next(&scan); scan.kind == T_OPEN || scan.kind == T_COMMA;) {
         lex_next(&scan);
         if (scan.kind != T_NAME)
@@ -247,7 +245,7 @@ static bool power_holds(const calc *c, lexer *lx, const assignment *all, size_t 
     return !A || !h || calc_fail(lx->error, h->at, h->len, "give either A or both h and r0");
 }
 
-static void put_inputs(inputs *in, void *context) {
+static void put_assigned(inputs *in, void *context) {
     const assigned *job = context;
     for (size_t i = 0; i < job->count; i++) {
         const assignment *a = &job->all[i];
@@ -278,13 +276,13 @@ static bool press_with(scene *s, assigned job, const assignment *FN, calc_error 
     scene_mark before;
     job.but = FN->d ? NULL : FN;
     scene_save(s, &before, false);
-    bool ok = ((job.count == 1 && job.but) || scene_edit(s, put_inputs, &job, error)) &&
+    bool ok = ((job.count == 1 && job.but) || scene_edit(s, put_assigned, &job, error)) &&
               (!FN->d || scene_get(s, IN_FN, &force, error));
     press.normal_value = (double)force;
     ok = ok && scene_load(s, &press, NULL, error);
     if (ok && FN->d) {
         job = (assigned){job.c, FN, 1, NULL};
-        ok = scene_edit(s, put_inputs, &job, error);
+        ok = scene_edit(s, put_assigned, &job, error);
     }
     if (ok)
         scene_drop(&before);
@@ -314,18 +312,17 @@ static bool definition_fails(calc *c, lexer *lx, const assignment *a, calc_error
 
 static bool binding_holds(calc *c, lexer *lx, const assignment *a) {
     const input in = quantity_input(a->q);
-    calc_error error, again;
+    calc_error error;
     long double unused;
     value v;
     scene probe, *outer = c->now;
     error_clear(&error);
-    error_clear(&again);
     scene_clone(&probe, &c->scene);
     inputs_bind(&probe.in, in, counted_hold(&a->d->base));
     c->now = &probe;
     const bool ok = scene_get(&probe, in, &unused, &error) || error.strange;
     c->now = outer;
-    if (ok && definition_value(c, a->d, &v, &again))
+    if (ok && definition_value(c, a->d, &v, error_quiet()))
         (void)value_dim(lx, a->q->name, a->value_at, a->value_len, v, quantity_dim(a->q, &c->scene));
     scene_free(&probe);
     return !lx->error->raised && !definition_fails(c, lx, a, &error);
@@ -437,7 +434,7 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
     const assignment *FN = s->end.steps ? NULL : of_input(all, count, IN_FN);
     if (FN)
         return press_with(s, job, FN, lx->error);
-    if (scene_edit(s, put_inputs, &job, lx->error))
+    if (scene_edit(s, put_assigned, &job, lx->error))
         return true;
     if (amplitude_is_left(lx->error, all, count))
         calc_append(c, lx->error, ", or let FA follow (FA := 0.9*mu*FN)");

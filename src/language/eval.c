@@ -17,7 +17,7 @@ typedef struct machine {
     bool dry;               /* dimensions alone: values that cannot be had count as 1 */
 } machine;
 
-static bool run(machine *m, value *out);
+static bool run_nodes(machine *m, value *out);
 
 /* ---- errors ------------------------------------------------------------------------------------ */
 
@@ -188,7 +188,7 @@ static bool evaluate_definition(calc *c, const definition *d, const value *argum
     machine m = {c, &d->body, &mine, arguments, dry};
     if (!enter(c, d, error))
         return false;
-    bool ok = run(&m, out);
+    bool ok = run_nodes(&m, out);
     if (!ok && mine.circle && mine.kind == ERROR_MISSING) { /* of inputs: the scene has met itself */
         mine.raised = false;
         circle(c, quantity_of_input((input)mine.input)->name, &mine);
@@ -246,7 +246,7 @@ static trial *open_changed(machine *m, const expr_at *at) {
         machine outside = *m;
         outside.e = &at->change[i].value;
         value v;
-        if (!run(&outside, &v))
+        if (!run_nodes(&outside, &v))
             return NULL;
         const knob *p = &at->change[i].p;
         const dim want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : v.d;
@@ -275,7 +275,7 @@ static bool changed_value(machine *m, const expr_node *n, value *out) {
     trial *t = open_changed(m, n->changed);
     machine inside = *m;
     inside.e = &n->changed->body;
-    const bool ok = t && run(&inside, out);
+    const bool ok = t && run_nodes(&inside, out);
     if (t)
         trial_close(t);
     return ok || calc_place(m->error, n->at, n->len);
@@ -284,7 +284,7 @@ static bool changed_value(machine *m, const expr_node *n, value *out) {
 /* ---- nodes ------------------------------------------------------------------------------------- */
 
 /* What the scene is asked for may be an approximation, by its row. */
-static void ask(const calc *c, const quantity *q) {
+static void mark_asked(const calc *c, const quantity *q) {
     if (q->reads & INPUT_BIT(IN_MU) && !quantity_is_input(q))
         c->now->used |= ASKED_TANGENTIAL;
 }
@@ -305,7 +305,7 @@ static bool call_quantity(machine *m, const expr_node *n, value *out) {
     }
     *out = (value){1, n->q->d};
     if (!m->dry)
-        ask(m->c, n->q);
+        mark_asked(m->c, n->q);
     return m->dry || n->q->call(m->c->now, arg, &out->v, m->error) || calc_place(m->error, n->at, n->len);
 }
 
@@ -328,7 +328,7 @@ static bool eval(machine *m, const expr_node *n, value *out) {
     case N_QUANTITY:
         *out = (value){1, quantity_dim(n->q, m->c->now)};
         if (!m->dry)
-            ask(m->c, n->q);
+            mark_asked(m->c, n->q);
         if (!m->dry && !quantity_get(n->q, m->c->now, &out->v, m->error))
             return calc_place(m->error, n->at, n->len);
         out->d = quantity_dim(n->q, m->c->now); /* which follows from a live n, too */
@@ -374,7 +374,7 @@ static void prefer_mismatch(const machine *m) {
 }
 
 /* Children come before their parents: a loop, so that no input can exhaust the stack. */
-static bool run(machine *m, value *out) {
+static bool run_nodes(machine *m, value *out) {
     for (size_t i = 0; i < m->e->count; i++)
         if (!eval(m, &m->e->nodes[i], &m->e->nodes[i].v)) {
             if (!m->dry && !m->error->stop && !m->error->circle)
@@ -387,7 +387,7 @@ static bool run(machine *m, value *out) {
 
 bool expr_eval(calc *c, const expr *e, value *out, calc_error *error) {
     machine m = {c, e, error, NULL, false};
-    const bool ok = run(&m, out);
+    const bool ok = run_nodes(&m, out);
     return !calc_stopped(c->scene.stop, error) && ok;
 }
 
@@ -404,11 +404,9 @@ bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_err
 }
 
 bool expr_dim(calc *c, const expr *e, dim *d) {
-    calc_error ignored;
     value v;
-    error_clear(&ignored);
-    machine m = {c, e, &ignored, NULL, true};
-    if (!run(&m, &v) || isnan(v.d.N + v.d.m)) /* a power by what has no value */
+    machine m = {c, e, error_quiet(), NULL, true};
+    if (!run_nodes(&m, &v) || isnan(v.d.N + v.d.m)) /* a power by what has no value */
         return false;
     *d = v.d;
     return true;

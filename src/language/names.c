@@ -12,7 +12,7 @@ void names_free(own_names *n) {
     *n = (own_names){.row = NULL};
 }
 
-static bool is_word(const char *a, const char *word, size_t len) {
+static bool same_name(const char *a, const char *word, size_t len) {
     return !strncmp(a, word, len) && !a[len];
 }
 
@@ -23,23 +23,23 @@ static size_t *slot_of(const own_names *n, const char *text, size_t len) {
         hash = 31 * hash + (unsigned char)text[i];
     for (hash ^= hash >> 15;; hash++) {
         size_t *slot = &n->slots[hash & mask];
-        if (!*slot || is_word(n->row[*slot - 1].text, text, len))
+        if (!*slot || same_name(n->row[*slot - 1].text, text, len))
             return slot;
     }
 }
 
-static bool look(const own_names *n, const char *text, size_t len, size_t *index) {
+static bool find_row(const own_names *n, const char *text, size_t len, size_t *index) {
     size_t slot = n->count ? *slot_of(n, text, len) : 0;
     *index = slot - 1;
     return slot > 0;
 }
 
 bool names_find(const own_names *n, const char *text, size_t len, size_t *index) {
-    return look(n, text, len, index) && n->row[*index].known;
+    return find_row(n, text, len, index) && n->row[*index].known;
 }
 
 /* Room for twice as many, at least 16. */
-static bool grow(own_names *n) {
+static bool grow_names(own_names *n) {
     size_t room = n->room ? 2 * n->room : 16;
     own_name *rows = realloc(n->row, room * sizeof *rows);
     if (!rows)
@@ -57,9 +57,9 @@ static bool grow(own_names *n) {
 }
 
 bool names_add(own_names *n, const char *text, size_t len, size_t *index) {
-    if (look(n, text, len, index))
+    if (find_row(n, text, len, index))
         return true;
-    if (n->count == n->room && !grow(n))
+    if (n->count == n->room && !grow_names(n))
         return false;
     char *copy = malloc(len + 1);
     if (!copy)

@@ -41,7 +41,7 @@ static size_t operands(const expr_node *n) {
     }
 }
 
-static bool add(parser *p, const expr_node *node, size_t *index) {
+static bool add_node(parser *p, const expr_node *node, size_t *index) {
     expr *e = p->e;
     if (e->count % LOOK == 0 && calc_stopped(p->c->scene.stop, p->lx->error))
         return false;
@@ -192,7 +192,7 @@ static bool parse_at(parser *p, size_t first, size_t begin, size_t *out) {
         if (lx->kind != T_COMMA || !at_change(&ahead))
             break;
     } while (true);
-    return add(p, &node, out);
+    return add_node(p, &node, out);
 }
 
 /* ---- names ------------------------------------------------------------------------------------- */
@@ -215,7 +215,7 @@ static bool parse_quantity(parser *p, const quantity *q, size_t *out) {
             return lex_one_value(lx) && lex_fail(lx, "expected ) after the argument of %s", q->name);
         lex_next(lx);
     }
-    return add(p, &node, out);
+    return add_node(p, &node, out);
 }
 
 /* What follows an argument goes on with no other, or there are more of them. */
@@ -239,7 +239,7 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
     if (!function) {
         node.kind = N_NUMBER;
         node.v = (value){3.14159265358979323846264338327950288L, DIM_NONE};
-        return add(p, &node, out);
+        return add_node(p, &node, out);
     }
     if (lx->kind != T_OPEN)
         return lex_fail(lx, "expected ( after %s%s", function->name,
@@ -259,13 +259,13 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
         size_t first; /* min(a, b, c) is min(min(a, b), c) */
         expr_node two = node;
         two.at = p->e->nodes[node.right].at; /* what an error shows of it */
-        if (!add(p, &two, &first))
+        if (!add_node(p, &two, &first))
             return false;
         node.left = first;
         j--;
     }
     lex_next(lx);
-    return add(p, &node, out);
+    return add_node(p, &node, out);
 }
 
 /* The roots of the arguments, one after the other in e->arguments. */
@@ -304,9 +304,9 @@ static bool parse_own(parser *p, size_t index, size_t *out) {
                         d->parameters > 1 ? ", ..." : "");
     lex_next(lx);
     if (!function)
-        return add(p, &node, out);
+        return add_node(p, &node, out);
     node.kind = N_APPLY;
-    return parse_arguments(p, d, &node) && add(p, &node, out);
+    return parse_arguments(p, d, &node) && add_node(p, &node, out);
 }
 
 /* An argument of the function that is defined. */
@@ -327,7 +327,7 @@ static bool parse_name(parser *p, size_t *out) {
     if (find_parameter(p, &j)) {
         expr_node node = {.kind = N_PARAMETER, .at = lx->at, .index = j};
         lex_next(lx);
-        return add(p, &node, out);
+        return add_node(p, &node, out);
     }
     const quantity *q = quantity_find(word, len);
     if (q)
@@ -337,7 +337,7 @@ static bool parse_name(parser *p, size_t *out) {
     if (lex_is(lx, "ans")) {
         expr_node node = {.kind = N_ANS, .at = lx->at};
         lex_next(lx);
-        return add(p, &node, out);
+        return add_node(p, &node, out);
     }
     return names_find(&p->c->names, word, len, &i) ? parse_own(p, i, out) : unknown_name(p);
 }
@@ -388,7 +388,7 @@ static bool parse_number(parser *p, size_t *out) {
         return false;
     if (lx->kind == T_OPEN || (lx->kind == T_NAME && at_factor(p)))
         return lex_fail(lx, "unexpected '%.*s': a product needs *, a list commas", LEX_WORD(lx));
-    return add(p, &node, out);
+    return add_node(p, &node, out);
 }
 
 static bool parse_parenthesis(parser *p, size_t *out) {
@@ -442,7 +442,7 @@ static bool parse_power(parser *p, size_t *out) {
         return true;
     expr_node node = {.kind = N_BINARY, .op = '^', .at = at, .left = *out};
     lex_next(p->lx);
-    return parse_unary(p, &node.right) && add(p, &node, out);
+    return parse_unary(p, &node.right) && add_node(p, &node, out);
 }
 
 static bool parse_unary(parser *p, size_t *out) {
@@ -455,7 +455,7 @@ static bool parse_unary(parser *p, size_t *out) {
         lex_next(p->lx);
         ok = parse_unary(p, out);
         if (ok && minus)
-            ok = add(p, &(expr_node){.kind = N_NEGATE, .at = at, .left = *out}, out);
+            ok = add_node(p, &(expr_node){.kind = N_NEGATE, .at = at, .left = *out}, out);
     } else {
         ok = parse_power(p, out);
     }
@@ -470,7 +470,7 @@ static bool parse_product(parser *p, size_t *out) {
     while (p->lx->kind == T_TIMES || p->lx->kind == T_DIVIDE) {
         expr_node node = {.kind = N_BINARY, .op = (char)p->lx->kind, .at = at, .left = *out};
         lex_next(p->lx);
-        if (!parse_unary(p, &node.right) || !add(p, &node, out))
+        if (!parse_unary(p, &node.right) || !add_node(p, &node, out))
             return false;
     }
     return true;
@@ -483,7 +483,7 @@ static bool parse_sum(parser *p, size_t *out) {
     while (p->lx->kind == T_PLUS || p->lx->kind == T_MINUS) {
         expr_node node = {.kind = N_BINARY, .op = (char)p->lx->kind, .at = at, .left = *out};
         lex_next(p->lx);
-        if (!parse_product(p, &node.right) || !add(p, &node, out))
+        if (!parse_product(p, &node.right) || !add_node(p, &node, out))
             return false;
     }
     return true;

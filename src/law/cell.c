@@ -247,7 +247,8 @@ fret_real fret_cell_rate(const fret_cell *c, int by, fret_real s) {
     return by == BY_LOAD ? fret_cell_stiffness(c, s) * rate : rate;
 }
 
-fret_real fret_cell_fall(const fret_cell *c, int by, fret_real s, fret_real back) {
+/* How much less depth or load is at s - back, with all digits where that is little. */
+static fret_real cell_fall(const fret_cell *c, int by, fret_real s, fret_real back) {
     if (c->powers) {
         const fret_stretch p = part_of_powers(c, s, log_left(s, back));
         return by == BY_DEPTH ? p.h : p.G + p.h * (back < s ? stiffness_of_powers(c, s - back) : 0);
@@ -339,7 +340,7 @@ fret_real fret_cell_find(const fret_cell *c, int by, fret_real rise) {
 static fret_real short_of(fret_real back, fret_real *slope, void *context) {
     const search *f = context;
     *slope = fret_cell_rate(f->cell, f->by, f->s - back);
-    return fret_cell_fall(f->cell, f->by, f->s, back) - f->wanted;
+    return cell_fall(f->cell, f->by, f->s, back) - f->wanted;
 }
 
 fret_real fret_cell_find_back(const fret_cell *c, int by, fret_real s, fret_real drop) {

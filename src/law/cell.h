@@ -52,8 +52,6 @@ fret_real fret_cell_rise(const fret_cell *cell, int by, fret_real s);
 fret_real fret_cell_rate(const fret_cell *cell, int by, fret_real s);
 /* K there. */
 fret_real fret_cell_stiffness(const fret_cell *cell, fret_real s);
-/* How much less depth or load is at s - back, with all digits where that is little. */
-fret_real fret_cell_fall(const fret_cell *cell, int by, fret_real s, fret_real back);
 /* s where depth or load is `rise` above the inner end; 0 where it underflows. */
 fret_real fret_cell_find(const fret_cell *cell, int by, fret_real rise);
 /* back where depth or load has fallen by `drop` from s on. */

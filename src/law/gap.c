@@ -171,9 +171,6 @@ static int sampled_series(const fret_gap *gap, const fret_rule *rule, fret_real 
     }
     return terms;
 }
-static size_t sampled_rows(const fret_gap *gap, fret_real r) {
-    return fret_table_rows(gap->table, r);
-}
 static bool sampled_grows(const fret_gap *gap) {
     return fret_table_grows(gap->table);
 }
@@ -223,8 +220,8 @@ typedef struct shape {
     bool (*grows)(const fret_gap *);
     int (*series)(const fret_gap *, const fret_rule *, fret_real a, fret_term *);
     void (*far)(const fret_gap *, const fret_rule *, fret_real x0, fret_real *factor);
-    size_t (*rows)(const fret_gap *, fret_real r);
     bool powers, closed, sharp; /* reads power[]; of gap.h the other two */
+    bool sampled;               /* reads the table */
     bool b, R, slope;           /* reads these, which must be positive */
 } shape;
 
@@ -271,7 +268,7 @@ static const shape shapes[] = {
                         .kink = sampled_kink,
                         .grows = sampled_grows,
                         .series = sampled_series,
-                        .rows = sampled_rows},
+                        .sampled = true},
 };
 
 static const shape *shape_of(const fret_gap *gap) {
@@ -301,7 +298,7 @@ static fret_status check_kind(const fret_gap *gap) {
     const int most = s->closed ? 1 : FRET_GAP_TERMS;
     if (s->powers && (gap->terms < 1 || gap->terms > most))
         return fret_fail(FRET_OUTSIDE, "terms", gap->terms, most);
-    return s->rows && !gap->table ? fret_fail(FRET_OUTSIDE, "table", 0, 0) : fret_ok();
+    return s->sampled && !gap->table ? fret_fail(FRET_OUTSIDE, "table", 0, 0) : fret_ok();
 }
 
 fret_status fret_gap_check(const fret_gap *gap) {
@@ -364,7 +361,7 @@ int fret_gap_far(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_
 bool fret_gap_same(const fret_gap *a, const fret_gap *b) {
     const shape *s = shape_of(a);
     if (a->kind != b->kind || (s->b && a->b != b->b) || (s->R && a->R != b->R) ||
-        (s->slope && a->slope != b->slope) || (s->rows && a->table != b->table) ||
+        (s->slope && a->slope != b->slope) || (s->sampled && a->table != b->table) ||
         (s->powers && a->terms != b->terms))
         return false;
     for (int i = 0; s->powers && i < a->terms; i++)
@@ -383,12 +380,7 @@ bool fret_gap_closed(const fret_gap *gap) {
 }
 
 bool fret_gap_sampled(const fret_gap *gap) {
-    return shape_of(gap)->rows;
-}
-
-size_t fret_gap_rows(const fret_gap *gap, fret_real r) {
-    const shape *s = shape_of(gap);
-    return s->rows ? s->rows(gap, r) : 0;
+    return shape_of(gap)->sampled;
 }
 
 bool fret_gap_grows(const fret_gap *gap) {
@@ -413,7 +405,7 @@ void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule) {
         fret_rule_series(rule, k);
     for (int i = 0; shape_of(gap)->powers && i < gap->terms; i++)
         rule->kappa[i] = fret_kappa(gap->power[i].n, k);
-    for (int i = 0; shape_of(gap)->rows && i < 3; i++) /* of r, r^2, r^3 */
+    for (int i = 0; shape_of(gap)->sampled && i < 3; i++) /* of r, r^2, r^3 */
         rule->kappa[i] = fret_kappa(i + 1, k);
 }
 

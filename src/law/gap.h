@@ -55,8 +55,6 @@ bool fret_gap_closed(const fret_gap *gap);
 
 /* Sampled, smooth from row to row alone? */
 bool fret_gap_sampled(const fret_gap *gap);
-/* Rows up to r; 0 for other shapes. */
-size_t fret_gap_rows(const fret_gap *gap, fret_real r);
 
 /* True only if g grows throughout; false is not yet a verdict. */
 bool fret_gap_grows(const fret_gap *gap);

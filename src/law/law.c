@@ -20,14 +20,10 @@ static dd radius_of_depth(const fret_normal *n, dd y) {
     return dd_add(n->wide.ln_r0, dd_div(dd_sub(y, n->wide.ln_depth), dd_of(n->gap.power[0].n)));
 }
 
-dd fret_law_log_radius(const fret_normal *n, fret_real y) {
-    return radius_of_depth(n, fret_dd_log_real(y));
-}
-
 /* Moments of the power law F = y^p at y = 1, pm1 = p-1, over distances 0..x from the edge:
- *   w = int K dt, J = int t K dt, m1 = int t dK, L = int m1 dt;  K = p y^(p-1). */
+ *   w = int K dt, m1 = int t dK, L = int m1 dt;  K = p y^(p-1). */
 typedef struct moments {
-    fret_real w, J, m1, L;
+    fret_real w, m1, L;
 } moments;
 /* The closed forms lose digits like (p x)^-3, within the guard digits down to p x = 0.2; beyond, the
  * series of (1-t)^(p-2) under the integral has terms a falling at least as fast as p x. Integrated twice it
@@ -36,43 +32,41 @@ static moments moments_series(fret_real pm1, fret_real x) {
     enum { LEADING = 6, MOST = 60 }; /* all terms after the leading ones are below 2^-13: double will do */
     static const fret_real inv[LEADING + 2] = {1.0L / 1, 1.0L / 2, 1.0L / 3, 1.0L / 4,
                                                1.0L / 5, 1.0L / 6, 1.0L / 7, 1.0L / 8};
-    fret_real p = 1 + pm1, a = p * pm1 * x * x, slope = pm1 * x, w = 0, J = 0, m1 = 0, L = 0;
+    fret_real p = 1 + pm1, a = p * pm1 * x * x, slope = pm1 * x, w = 0, m1 = 0, L = 0;
     const double ratio = (double)x, fall = (double)slope, small = 1e-20 * (double)a;
     for (int i = 0; i < LEADING; i++) {
         fret_real c = a * inv[i + 1];
         w += c * inv[i];
-        J += a * inv[i] * inv[i + 2];
         m1 += c;
         L += c * inv[i + 2];
         a *= x - slope * inv[i];
     }
-    double term = (double)a, wt = 0, Jt = 0, m1t = 0, Lt = 0;
+    double term = (double)a, wt = 0, m1t = 0, Lt = 0;
     double first = 1.0 / (LEADING + 1), second = 1.0 / (LEADING + 2);
     for (int i = LEADING; i < MOST && fabs(term) > small; i++) {
         const double c = term * second, third = 1.0 / (i + 3);
         wt += c * first;
-        Jt += term * first * third;
         m1t += c;
         Lt += c * third;
         term *= ratio - fall * first;
         first = second;
         second = third;
     }
-    return (moments){p * x - (w + wt), (p * x / 2 - (J + Jt)) * x, m1 + m1t, (L + Lt) * x};
+    return (moments){p * x - (w + wt), m1 + m1t, (L + Lt) * x};
 }
 
 /* log: ln (1-x), which the rounding of x may hide. */
 static moments power_moments(fret_real pm1, fret_real x, fret_real log) {
     fret_real p = 1 + pm1;
     if (isinf(log))
-        return (moments){1, 1 / (p + 1), 1, pm1 / (p + 1)};
+        return (moments){1, 1, pm1 / (p + 1)};
     if (p * x < 0.2L)
         return moments_series(pm1, x);
     /* arranged so that m1 = int t dK and m2 = int t^2 dK keep their factor p-1 */
     fret_real em = expm1l(pm1 * log), y = 1 + em; /* y = (1-x)^(p-1) */
     fret_real m1 = -em * (1 + pm1 * x) - pm1 * x;
     fret_real m2 = (-2 * em - y * pm1 * x * (2 + p * x)) / (2 + pm1);
-    return (moments){x * y - em, (m2 + p * x * x * y) / 2, m1, x * m1 - m2};
+    return (moments){x * y - em, m1, x * m1 - m2};
 }
 
 /* left: the ratio of the depths at its ends. */

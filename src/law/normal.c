@@ -140,12 +140,13 @@ static bool too_small(const fret_press *p) {
     return !(p->F >= DBL_MIN && p->dz >= DBL_MIN && p->a >= DBL_MIN) && (p->F != 0 || p->dz != 0);
 }
 
-bool fret_press_held(const fret_press *p) {
+/* Can doubles hold what it is pressed to? */
+static bool is_held(const fret_press *p) {
     return !too_large(p) && !too_small(p);
 }
 
 static fret_status finish(const fret_press *p, fret_press *out) {
-    if (!fret_press_held(p))
+    if (!is_held(p))
         return fret_fail(FRET_OVERFLOW, NULL, (double)p->F, too_large(p) ? DBL_MAX : DBL_MIN);
     *out = *p;
     return fret_ok();

@@ -48,9 +48,6 @@ static inline fret_status fret_unless_stopped(const fret_normal *n, fret_status 
 /* mu and F_N must be positive: FRET_NOT_POSITIVE, FRET_NOT_FINITE. */
 fret_status fret_contact_check(const fret_pressed *contact);
 
-/* Can doubles hold what it is pressed to? */
-bool fret_press_held(const fret_press *press);
-
 /* The law as the tangential problem sees it, for the depth y of an inner contact, 0 <= y. */
 fret_real fret_law_radius(const fret_normal *normal, fret_real y); /* a(y) [m] */
 fret_real fret_law_force(const fret_normal *normal, fret_real y);  /* F_N(y) [N] */
@@ -102,8 +99,5 @@ fret_real fret_law_thickness_outside(const fret_normal *normal, const fret_level
 
 /* Radius [m] of a level: from its load, which tells it best. */
 fret_real fret_law_level_radius(const fret_normal *normal, const fret_level *level);
-
-/* ln a(y) of a power law. */
-dd fret_law_log_radius(const fret_normal *normal, fret_real y);
 
 #endif

@@ -21,7 +21,7 @@ typedef struct film_cell {
 
 static const film_cell blank = {L' ', false, false, -1};
 
-static film_cell cell_of(const cchar_t *from) {
+static film_cell screen_cell(const cchar_t *from) {
     wchar_t signs[CCHARW_MAX + 1] = {0};
     attr_t attributes = A_NORMAL;
     short pair = 0, back;
@@ -51,12 +51,12 @@ static void put_look(FILE *to, const film_cell *c) {
 }
 
 /* A row: runs of cells that have changed. */
-static void put_row(FILE *to, int y, film_cell *before, int cols, const cchar_t *now) {
+static void put_screen_row(FILE *to, int y, film_cell *before, int cols, const cchar_t *now) {
     film_cell look = blank;
     char sign[CHARACTER_BYTES];
     int at = -1; /* where the next sign goes */
     for (int x = 0; x < cols; x++) {
-        const film_cell c = cell_of(&now[x]);
+        const film_cell c = screen_cell(&now[x]);
         if (c.sign == before[x].sign && same_look(&c, &before[x]))
             continue;
         if (at != x)
@@ -79,7 +79,7 @@ static void forget(film *f) {
 }
 
 /* An empty screen of this size. False: out of memory. */
-static bool begin(film *f, FILE *to) {
+static bool begin_film(film *f, FILE *to) {
     const bool first = !f->cell;
     const size_t n = (size_t)LINES * (size_t)COLS;
     film now = {malloc(n * sizeof *now.cell), malloc(((size_t)COLS + 1) * sizeof(cchar_t)), LINES, COLS};
@@ -100,7 +100,7 @@ static void put_screen(film *f, FILE *to, bool cursor) {
     getyx(stdscr, y, x);
     for (int i = 0; i < f->rows; i++) {
         mvin_wchnstr(i, 0, f->row, f->cols);
-        put_row(to, i, f->cell + (size_t)i * (size_t)f->cols, f->cols, f->row);
+        put_screen_row(to, i, f->cell + (size_t)i * (size_t)f->cols, f->cols, f->row);
     }
     move(y, x);
     if (cursor)
@@ -117,10 +117,10 @@ bool film_frame(film *f, const live_host *host, bool cursor, double seconds) {
     }
     if (!file_text_open(&now))
         return false;
-    const bool ok = (f->cell && f->rows == LINES && f->cols == COLS) || begin(f, now.to);
+    const bool ok = (f->cell && f->rows == LINES && f->cols == COLS) || begin_film(f, now.to);
     if (ok)
         put_screen(f, now.to, cursor);
-    if (!file_text_close(&now)) { /* what has not been told is to be told again */
+    if (!file_text_close(&now)) { /* forgotten cells are sent again with the next frame */
         forget(f);
         return false;
     }

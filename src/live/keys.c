@@ -136,7 +136,7 @@ static void next_shape(live *l) {
 
 /* ---- the cycle --------------------------------------------------------------------------------- */
 
-static void play(live *l) {
+static void play_key(live *l) {
     if (l->script.count && l->script.at < l->script.count) {
         script_on(l);
     } else if (!l->playing) {
@@ -211,7 +211,8 @@ static void reset(live *l) {
                      first->normal == BY_FORCE ? "N" : "m");
 }
 
-static void ask(live *l, const char *prompt, const char *text, void (*entered)(live *l, const char *line)) {
+static void ask_line(live *l, const char *prompt, const char *text,
+                     void (*entered)(live *l, const char *line)) {
     l->typing = true;
     l->prompt = prompt;
     snprintf(l->line, sizeof l->line, "%s", text);
@@ -296,7 +297,7 @@ static void statement_entered(live *l, const char *line) {
 }
 
 static void statement(live *l) {
-    ask(l, ":", "", statement_entered);
+    ask_line(l, ":", "", statement_entered);
 }
 
 static void save_entered(live *l, const char *line) {
@@ -305,7 +306,7 @@ static void save_entered(live *l, const char *line) {
 }
 
 static void save(live *l) {
-    ask(l, "save the scene as: ", "live.fret", save_entered);
+    ask_line(l, "save the scene as: ", "live.fret", save_entered);
 }
 
 /* Both scenes, to the last digit. */
@@ -330,7 +331,7 @@ static void picture_entered(live *l, const char *line) {
 }
 
 static void picture(live *l) {
-    ask(l, "save the picture as: ", "live.png", picture_entered);
+    ask_line(l, "save the picture as: ", "live.png", picture_entered);
 }
 
 static void leave(live *l) {
@@ -401,7 +402,7 @@ static const key_row keys[] = {
     {'m', 0, mu_up, "m, M", "friction mu up, down"},
     {'M', 0, mu_down, NULL, NULL},
     {'g', 0, next_shape, "g", "the next shape"},
-    {' ', 0, play, "space", "a cycle plays; again: the last one, its end; script: next line"},
+    {' ', 0, play_key, "space", "a cycle plays; again: the last one, its end; script: next line"},
     {'+', '=', FA_up, "+, -", "amplitude FA of the cycle"},
     {'-', 0, FA_down, NULL, NULL},
     {']', 0, faster, "], [", "its speed"},

@@ -32,7 +32,7 @@ static void tell_answer(live *l, const char *line, char *answer, bool ok) {
     free(answer);
 }
 
-static bool say(live *l, const char *line) {
+static bool say_line(live *l, const char *line) {
     char *answer = NULL;
     const bool ok = l->host->run(l->host->self, line, &answer);
     if (!ok && *l->host->stop)
@@ -58,7 +58,7 @@ bool live_say(live *l, const char *format, ...) {
 
 bool live_say_line(live *l, const char *line) {
     live_play_end(l);
-    return say(l, line);
+    return say_line(l, line);
 }
 
 /* ---- what is shown ----------------------------------------------------------------------------- */
@@ -69,14 +69,14 @@ static void trouble(live *l, side *s, calc_error *error) {
 }
 
 /* Of the scene that expressions see; along: the last item is to be played. */
-static bool take(live *l, side *s, bool along, calc_error *error) {
+static bool take_side(live *l, side *s, bool along, calc_error *error) {
     calc *c = l->host->calc;
     const size_t items = c->now->end.steps;
     s->trouble[0] = 0;
     if (along)
         s->before = s->now;
     if (!shot_take(c, NULL, &s->now, error)) {
-        s->now = (shot){.time = 0}; /* keys must not go on from what is gone */
+        s->now = (shot){.time = 0}; /* keys go on from what is shown, which is nothing now */
         return false;
     }
     return way_follow(&s->way, c, along && items ? items - 1 : NO_ITEM, error);
@@ -84,7 +84,8 @@ static bool take(live *l, side *s, bool along, calc_error *error) {
 
 static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *error) {
     trial *t = trial_open(l->host->calc, error);
-    const bool ok = t && trial_set(t, &l->compared, l->compared_with[i], error) && take(l, s, along, error);
+    const bool ok =
+        t && trial_set(t, &l->compared, l->compared_with[i], error) && take_side(l, s, along, error);
     if (t)
         trial_close(t);
     return ok;
@@ -98,11 +99,11 @@ static void refresh_side(live *l, size_t i) {
     side *s = &l->side[i];
     calc_error error;
     error_clear(&error);
-    if (!(l->comparing ? take_compared(l, s, i, l->follow, &error) : take(l, s, l->follow, &error)))
+    if (!(l->comparing ? take_compared(l, s, i, l->follow, &error) : take_side(l, s, l->follow, &error)))
         trouble(l, s, &error);
     s->stale = false;
     l->changed = true;
-    if (i == 0 && !(l->FA > 0) && s->now.slip > 0) /* half of what would slide it */
+    if (i == 0 && !(l->FA > 0) && s->now.slip > 0) /* to begin with: half of what slides */
         l->FA = live_nice(s->now.slip / 2);
 }
 
@@ -190,11 +191,9 @@ static void cycle_text(const live *l, double FA, double FNA, double phase, char 
 
 static bool last_cycle(const live *l, load_item *out) {
     scene *s = &l->host->calc->scene;
-    calc_error ignored;
-    error_clear(&ignored);
     if (!s->end.cycles || s->program->steps[s->end.steps - 1].kind != LOAD_CYCLE)
         return false;
-    return scene_last_cycle(s, out, &ignored);
+    return scene_last_cycle(s, out, error_quiet());
 }
 
 static void remember_cycle(live *l) {
@@ -202,8 +201,7 @@ static void remember_cycle(live *l) {
     last_cycle(l, &l->said);
 }
 
-/* Is the cycle that is to be played the last that was done? Then it goes on: another one would turn about
- * where that one ends. */
+/* Is the cycle to play the one that was said last? Then its periods go on, without a new statement. */
 static bool goes_on(const live *l) {
     const load_item *said = &l->said;
     load_item now;
@@ -257,15 +255,15 @@ void live_play_item(live *l) {
     start_play(l);
 }
 
-/* In place of the cycle that has been taken back. */
+/* One statement with all periods played, in place of the one that has been undone. */
 static void say_periods(live *l) {
     char text[LIVE_TEXT], line[LIVE_LINE], why[LIVE_LINE];
     cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
     snprintf(line, sizeof line, "%s times %u", text, l->periods);
-    if (!say(l, line)) { /* interrupted, perhaps: nothing that has been said is lost */
+    if (!say_line(l, line)) { /* interrupted, perhaps: say the cycle as it was before */
         memcpy(why, l->status, sizeof why);
         snprintf(line, sizeof line, "%s times %u", text, l->said.extra.times);
-        say(l, line);
+        say_line(l, line);
         live_tell(l, true, "%s", why);
     }
     remember_cycle(l);
@@ -277,7 +275,7 @@ void live_play_end(live *l) {
     l->changed = true;
     for (size_t i = 0; i < live_sides(l); i++)
         way_unwatch(&l->side[i].way);
-    if (more && say(l, "undo"))
+    if (more && say_line(l, "undo"))
         say_periods(l);
 }
 
@@ -292,7 +290,7 @@ static double ahead(const live *l) {
     return time;
 }
 
-/* Has each scene come to what moves, or moves nothing? One hand moves both. */
+/* Can both scenes begin to move? They are moved together. */
 static bool ready(const live *l) {
     for (size_t i = 0; i < live_sides(l); i++) {
         const side *s = &l->side[i];

@@ -6,8 +6,8 @@
 #include "live/state.h"
 #include "text/file.h"
 
-/* In one line, however many it had. */
-static bool keep(live *l, const char *line) {
+/* A logical line becomes one line. */
+static bool add_script_line(live *l, const char *line) {
     live_script *s = &l->script;
     char **grown = realloc(s->line, (s->count + 1) * sizeof *grown);
     if (!grown)
@@ -50,7 +50,7 @@ bool script_open(live *l, const char *path, calc_error *error) {
     file_got got = FILE_GOT_LINE;
     bool ok = true;
     while (ok && (got = file_in_logical(&in, l->host->mark, error)) == FILE_GOT_LINE)
-        ok = keep(l, in.line);
+        ok = add_script_line(l, in.line);
     file_in_close(&in);
     statements_only(s);
     s->undo = calloc(s->count + 1, sizeof *s->undo);

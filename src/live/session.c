@@ -45,7 +45,7 @@ static void session(live *l, live_work *work) {
     while (!l->leave) {
         double start = clock_wall();
         walked_from = start;
-        const bool fresh = !live_refresh_next(l); /* a scene a turn: the other one has its own */
+        const bool fresh = !live_refresh_next(l); /* one scene at a time: keys must not wait for both */
         if (fresh)
             live_walk(l, late);
         const int busy = terminal_busy();
@@ -70,7 +70,7 @@ static void session(live *l, live_work *work) {
             live_key(l, key);
             key = many < MANY && !l->leave && !late() ? terminal_key(0, l->host->stop) : KEY_NONE;
         }
-        if (away) /* stopped, perhaps: nothing has been seen since */
+        if (away) /* perhaps stopped for long: what plays must not jump */
             before = start = clock_wall();
         live_play_on(l, start - before);
         before = start;
@@ -78,7 +78,7 @@ static void session(live *l, live_work *work) {
     live_play_end(l);
 }
 
-/* Nobody is there: the script goes on by itself, with time to read. False: its end is not recorded. */
+/* For a recording without a terminal. False: the last frame is not recorded. */
 static bool play_script(live *l, calc_error *error) {
     static const double FRAME = 1.0 / 15, READING = 1.5, READING_SIGN = 0.04;
     double passed = 0;
@@ -102,7 +102,7 @@ static bool play_script(live *l, calc_error *error) {
     return film_now(l, passed) || calc_no_memory(error);
 }
 
-static void end(live *l) {
+static void free_live(live *l) {
     for (size_t i = 0; i < SIDES; i++)
         way_end(&l->side[i].way);
     for (size_t i = 0; i < l->kept_count; i++)
@@ -136,6 +136,6 @@ bool live_run(const live_host *host, const char *script, live_work *work, calc_e
         film_end(&l->film, host);
         terminal_close();
     }
-    end(l);
+    free_live(l);
     return ok;
 }

@@ -16,9 +16,7 @@ const char *shot_name(size_t i) {
 static void take_values(calc *c, shot *out) {
     for (size_t i = 0; i < SHOT_VALUES; i++) {
         const quantity *q = quantity_find(names[i], strlen(names[i]));
-        calc_error ignored;
-        error_clear(&ignored);
-        out->known[i] = q && quantity_get(q, c->now, &out->value[i], &ignored);
+        out->known[i] = q && quantity_get(q, c->now, &out->value[i], error_quiet());
         out->d[i] = q ? q->d : DIM_NONE;
         if (!q) { /* c/a, of two that have been read */
             out->known[i] = out->known[i - 1] & (out->value[i - 2] > 0);

@@ -64,7 +64,7 @@ typedef struct live {
     live_script script;
     /* where the loop is, for the mouse */
     rect loop;
-    double loop_dx, loop_Fx; /* half its width and height */
+    double loop_dx; /* half its width */
     bool dragging;
     film film;
     int last_key;

@@ -91,7 +91,7 @@ static void give_signals_back(void) {
 /* ---- taking over ------------------------------------------------------------------------------- */
 
 /* A string of the terminal's description, without its padding. */
-static void append(char *to, size_t size, const char *name) {
+static void append_capability(char *to, size_t size, const char *name) {
     const char *s = tigetstr(name);
     size_t n = strlen(to);
     for (; s && s != (const char *)-1 && *s && n + 1 < size; s++) {
@@ -157,10 +157,10 @@ bool terminal_open(calc_error *error) {
     own.mouse = reports && reports != (const char *)-1;
     if (own.mouse)
         strcpy(own.farewell, mouse_off);
-    append(own.farewell, sizeof own.farewell, "sgr0");
-    append(own.farewell, sizeof own.farewell, "rmkx");
-    append(own.farewell, sizeof own.farewell, "cnorm");
-    append(own.farewell, sizeof own.farewell, "rmcup");
+    append_capability(own.farewell, sizeof own.farewell, "sgr0");
+    append_capability(own.farewell, sizeof own.farewell, "rmkx");
+    append_capability(own.farewell, sizeof own.farewell, "cnorm");
+    append_capability(own.farewell, sizeof own.farewell, "rmcup");
     own.guard = file_guard_terminal(STDIN_FILENO, &modes, own.farewell);
     if (cbreak() == ERR) {
         terminal_close();
@@ -266,14 +266,14 @@ static int bytes_of_update(void) {
 }
 
 void terminal_show(void) {
-    enum { SLOW = 19200 /* what pretends to be a line says 38400 */, BITS = 10 };
+    enum { SLOW = 19200 /* terminals that are no lines report 38400 */, BITS = 10 };
     const int rate = baudrate();
     wnoutrefresh(stdscr);
     const bool slow = rate > 0 && rate <= SLOW;
     const double takes = slow ? (double)BITS * bytes_of_update() / rate : 0, begin = clock_wall();
     doupdate();
     const double now = clock_wall();
-    /* as long as it says, or as long as it made us wait */
+    /* by its rate, or by how long the last write took */
     own.free_at = fmax(begin + takes, now + (now - begin > 0.05 ? now - begin : 0));
 }
 
@@ -289,7 +289,7 @@ int terminal_busy(void) {
 
 /* ---- keys -------------------------------------------------------------------------------------- */
 
-/* As Ctrl-Z does; comes back when the program is continued. */
+/* As Ctrl-Z does; returns when the program is continued. */
 static void stop_here(void) {
     struct sigaction act = {.sa_handler = SIG_DFL}, ours;
     if (own.mouse)
@@ -320,7 +320,7 @@ static void take_size(void) {
 
 int terminal_key(int milliseconds, volatile sig_atomic_t *stop) {
     enum { DEAF = 20 };
-    int key = getch(); /* what curses holds back, and all that came with it */
+    int key = getch(); /* curses may hold bytes already: select would not see them */
     if (key != ERR)
         return key == KEY_RESIZE ? KEY_AGAIN : key;
     sigset_t ours, before;

@@ -220,7 +220,6 @@ static void draw_loop(live *l, const side *sd, const scales *sc, rect at) {
     if (sd == &l->side[0]) {
         l->loop = at;
         l->loop_dx = sc->dx;
-        l->loop_Fx = sc->Fx;
     }
 }
 
@@ -353,7 +352,7 @@ static void draw_side(live *l, const side *s, const scales *sc, rect all) {
 /* ---- lines around them ------------------------------------------------------------------------- */
 
 /* What is set, the most important first, as much as there is room for; dots where more is left out. */
-static void put_inputs(const live *l, rect at) {
+static void put_inputs_line(const live *l, rect at) {
     static const input shown[] = {IN_K, IN_MU, IN_C0, IN_RADIUS, IN_SLOPE, IN_N};
     const scene *s = &l->host->calc->scene;
     char text[LIVE_LINE], one[60], amount_of[40];
@@ -384,7 +383,7 @@ static void draw_head(const live *l, rect at) {
     int w = (int)strlen(right);
     w = w < at.cols ? w : at.cols;
     put_text((rect){at.top, at.cols - w, 1, w}, 0, INK_CURVE, "%s", right);
-    put_inputs(l, (rect){at.top, at.left, 1, at.cols - w - 2});
+    put_inputs_line(l, (rect){at.top, at.left, 1, at.cols - w - 2});
 }
 
 enum { NOTE_ROWS = 4 };

@@ -17,7 +17,7 @@ static extent larger(extent a, extent b) {
                     fmax(a.energy, b.energy)};
 }
 
-static bool add(track *t, track_point p) {
+static bool add_track_point(track *t, track_point p) {
     if (t->count == TRACK_POINTS) {
         t->count /= 2;
         memmove(t->point, t->point + t->count, t->count * sizeof *t->point);
@@ -43,7 +43,7 @@ static bool stands_still(const load_way *w, const fret_state *s) {
     return w->shots == 1 && (double)s->Fx == w->play[0].Fx && (double)s->a == w->play[0].a;
 }
 
-/* What changes along chords is right to so many digits. */
+/* Chords stand in for a sine: more digits would be wrong. */
 enum { CHORD_DIGITS = 4 };
 
 static bool keep_shot(load_way *w) {
@@ -63,7 +63,7 @@ static bool keep_shot(load_way *w) {
     return ok;
 }
 
-/* Of the curve, which it makes no smaller. */
+/* A point of the curve, which is counted into its extent. */
 static track_point point_of(track *t, const runner *r, fret_state *s) {
     engine_state(&r->engine, s);
     const track_point p = {r->time, (double)s->dx, (double)s->Fx, (double)s->W, (double)s->U};
@@ -83,7 +83,7 @@ static bool see(const runner *r, void *context) {
         w->walk.watch.wait = true;
     if (!r->turning && r->time - t->point[t->count - 1].time < APART)
         return true;
-    if (!add(t, point_of(t, r, &s)))
+    if (!add_track_point(t, point_of(t, r, &s)))
         return calc_no_memory(w->error);
     if (!w->within || r->time < w->from)
         return true;
@@ -109,13 +109,13 @@ bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
     bool anew;
     way_unwatch(w);
     w->item = item;
-    if (item != NO_ITEM && w->walk.run.at.steps > item) /* for one that was to be taken back, and was not */
+    if (item != NO_ITEM && w->walk.run.at.steps > item) /* past what is wanted: walk it anew */
         walk_end(&w->walk);
     if (!walk_follow(&w->walk, c, &anew, error))
         return false;
     if (anew) {
         begin_track(&w->path);
-        if (!add(&w->path, (track_point){.time = 0})) {
+        if (!add_track_point(&w->path, (track_point){.time = 0})) {
             walk_end(&w->walk);
             return calc_no_memory(error);
         }
@@ -135,7 +135,7 @@ static unsigned parts_of(const scene *s) {
 
 static bool come_to_item(load_way *w) {
     const walk *k = &w->walk;
-    if (w->within || k->run.at.steps < w->item) /* NO_ITEM is never come to */
+    if (w->within || k->run.at.steps < w->item) /* NO_ITEM is beyond all steps */
         return true;
     w->within = true;
     return k->run.time < w->from || keep_shot(w);
@@ -163,7 +163,7 @@ bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
     if (ok && k->run.at.steps < end && !k->watch.wait)
         ok = walk_on(k, end, PARTS, true, see, w, error);
     if (!ok) {
-        walk_end(k); /* half a step is nothing to go on from */
+        walk_end(k); /* it stands within a step, and cannot go on from there */
     } else if (way_done(w)) {
         see_end(w);
         w->path.before = (extent){0, 0, 0, 0, 0};

@@ -9,8 +9,6 @@
 #include "number/bits.h"
 #include "number/constants.h"
 
-const dd fret_dd_pi = {2 * 0x1.921fb54442d18p+0, 2 * 0x1.1a62633145c07p-54};
-
 /* c[0] + u c[step] + u^2 c[2 step] ... to double, even and odd terms side by side */
 static inline double tail(const dd *c, int step, int pairs, double u) {
     double u2 = u * u, even = 0, odd = 0;
@@ -106,8 +104,8 @@ dd fret_dd_log1p(dd x) {
     return fabs(x.hi) < small_argument ? log_series(dd_div(x, dd_add_d(x, 2))) : fret_dd_log(dd_add_d(x, 1));
 }
 
-/* By sin x = 3 s - 4 s^3, s = sin(x/3) */
-dd fret_dd_sin(dd x) {
+/* |x| <= pi/2: by sin x = 3 s - 4 s^3, s = sin(x/3). */
+static dd sine(dd x) {
     const dd *c = inverse_factorial;
     dd y = dd_div(x, dd_of(3)), y2 = dd_mul(y, y);
     dd y4 = dd_mul(y2, y2),
@@ -120,7 +118,7 @@ dd fret_dd_sin(dd x) {
 }
 
 dd fret_dd_sin_quarter(dd x) {
-    return fret_dd_sin(dd_mul(x, half_pi));
+    return sine(dd_mul(x, half_pi));
 }
 
 /* Gamma(x) = exp(log)/rising: Stirling's series at 16 and more, reached by the rising factorial. */

@@ -110,7 +110,6 @@ dd fret_dd_expm1(dd x);
 dd fret_dd_log(dd x);                   /* x > 0 */
 dd fret_dd_log_scaled(dd x, int scale); /* of x 2^scale */
 dd fret_dd_log1p(dd x);                 /* x > -1 */
-dd fret_dd_sin(dd x);                   /* |x| <= pi/2 */
 /* sin(pi x/2), 0 <= x <= 1. */
 dd fret_dd_sin_quarter(dd x);
 
@@ -123,7 +122,5 @@ dd_scaled fret_dd_gamma_quotient(const dd *over, int m, const dd *under, int n);
 /* Natural logarithm of x > 0, and exp, over the whole range of long double. */
 dd fret_dd_log_real(fret_real x);
 fret_real fret_dd_exp_real(dd x);
-
-extern const dd fret_dd_pi;
 
 #endif

@@ -96,7 +96,8 @@ size_t plot_style_of(const plot_panel *p, size_t at) {
     return n;
 }
 
-bool plot_is_crowd(const plot_series *s) {
+/* So many measured points hide a curve: they lie below it, and are small. */
+static bool is_crowd(const plot_series *s) {
     enum { FEW = 100 };
     return s->role == PLOT_MEASURED && s->count > FEW;
 }
@@ -108,7 +109,7 @@ int plot_layer(const plot_series *s) {
     case PLOT_CURVE:
         return s->thin ? 1 : 3;
     case PLOT_MEASURED:
-        return plot_is_crowd(s) ? 2 : 4;
+        return is_crowd(s) ? 2 : 4;
     default: /* the present point */
         return 5;
     }
@@ -336,7 +337,7 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
         break;
     case PLOT_MEASURED:
         fprintf(s->to, "points pt %d ps %.3g lw %.3g lc rgb '%s'",
-                plot_is_crowd(c) ? 7 : marks[(style + 5) % MARKS], (plot_is_crowd(c) ? 0.4 : 1.3) * s->scale,
+                is_crowd(c) ? 7 : marks[(style + 5) % MARKS], (is_crowd(c) ? 0.4 : 1.3) * s->scale,
                 0.6 * s->kind->line * s->scale, style ? looks[style % LOOKS].color : "#000000");
         break;
     case PLOT_BAND:
@@ -559,12 +560,10 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
 
 bool plot_script(const plot_figure *f, const char *ending, int width, int height, FILE *to) {
     plot_extents extent[PLOT_PANELS];
-    calc_error error;
-    error_clear(&error);
     for (size_t i = 0; i < f->count; i++)
         extent[i] = plot_extent_of(f->panel[i]);
-    const plot_kind *kind = plot_kind_of(ending, &error);
+    const plot_kind *kind = plot_kind_of(ending, error_quiet());
     return kind && f->count &&
            plot_write_picture(to, &(plot_reel){f, 1, extent, 0}, kind,
-                              &(plot_target){.width = width, .height = height}, &error);
+                              &(plot_target){.width = width, .height = height}, error_quiet());
 }

@@ -65,9 +65,6 @@ void plot_quote(FILE *to, const char *text);
 /* The style of a series: its own, or its place among those of its role. */
 size_t plot_style_of(const plot_panel *p, size_t at);
 
-/* So many measured points hide a curve: they lie below it, and are small. */
-bool plot_is_crowd(const plot_series *s);
-
 /* From the lowest: bands, thin lines, crowds, curves, measured points, the present one. */
 enum { PLOT_LAYERS = 6 };
 int plot_layer(const plot_series *s);

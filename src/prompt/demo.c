@@ -56,8 +56,8 @@ static wish key(void) {
     return n != 1 || c == 'q' || c == 'Q' || c == CTRL_D ? LEAVE : c == 'b' || c == 'B' ? BACK : ON;
 }
 
-/* A transcript does without the question. */
-static wish ask(const shell *sh) {
+/* The question goes past the session's output: a transcript must not have it. */
+static wish ask_key(const shell *sh) {
     static const char question[] = "(any key: go on, b: back, q: leave)";
     fflush(sh->out);
     FILE *terminal = record_terminal();
@@ -91,7 +91,7 @@ static bool is_comment(const char *line) {
     return *line == '#' || !*line;
 }
 
-/* A step is what is asked and then what is done: where its statements begin, and where it ends. */
+/* A step is comments, then statements. Where the statements begin: */
 static size_t statements_of(const script *s, size_t i) {
     while (s->line[i] && is_comment(s->line[i]))
         i++;
@@ -105,17 +105,17 @@ static size_t end_of(const script *s, size_t i) {
     return i;
 }
 
-static void run(lesson *l, const char *line) {
+static void run_in_lesson(lesson *l, const char *line) {
     static const source from = {NULL, true}; /* an error may be what the lesson is about */
     shell_line(l->sh, &from, line, strlen(line), 1);
 }
 
 /* From an empty scene. */
-static void begin(lesson *l) {
+static void begin_lesson(lesson *l) {
     l->sh->set = l->set;
     l->sh->set.report = REPORT_OFF;
     scene_set_model(&l->sh->calc.scene, true, MODEL_CLOSED, 0);
-    run(l, "reset all");
+    run_in_lesson(l, "reset all");
 }
 
 /* Again from the beginning as far as before line `to`, unseen. */
@@ -124,10 +124,10 @@ static bool rewind_to(lesson *l, size_t to) {
     if (!nowhere)
         return calc_errno(l->error, errno, "cannot write /dev/null");
     l->sh->out = l->sh->err = nowhere;
-    begin(l);
+    begin_lesson(l);
     for (size_t i = 0; i < to; i++)
         if (!is_comment(l->s->line[i]))
-            run(l, l->s->line[i]);
+            run_in_lesson(l, l->s->line[i]);
     l->sh->out = out;
     l->sh->err = err;
     fclose(nowhere);
@@ -141,13 +141,13 @@ static size_t step_before(const script *s, size_t to) {
     return i;
 }
 
-/* Is there something wrong that no lesson is about? */
+/* An error of a statement may be what the lesson shows; these are not. */
 static bool ended(const lesson *l) {
     return l->sh->stopped || l->sh->refused || l->error->raised || shell_stop;
 }
 
-/* A line of the lesson, for who reads it: of CSV nobody does. */
-static void tell(const lesson *l, const char *prompt, const char *line) {
+/* A line of the lesson, as text or as an object of JSON; CSV has no place for it. */
+static void tell_line(const lesson *l, const char *prompt, const char *line) {
     enum { LINE = 400 }; /* bytes: a line of a script is one of a terminal */
     answer a;
     char text[LINE];
@@ -166,11 +166,11 @@ static void run_step(lesson *l, size_t i, size_t end) {
             calc_raise_memory(l->error);
             return;
         }
-        begin(l);
+        begin_lesson(l);
     }
     for (; i < end && !ended(l); i++) {
-        tell(l, "fret> ", l->s->line[i]);
-        run(l, l->s->line[i]);
+        tell_line(l, "fret> ", l->s->line[i]);
+        run_in_lesson(l, l->s->line[i]);
     }
 }
 
@@ -179,10 +179,10 @@ static bool play_step(lesson *l, size_t *i) {
     const script *s = l->s;
     const size_t statements = statements_of(s, *i), end = end_of(s, *i);
     if (*i < statements)
-        tell(l, "", "");
+        tell_line(l, "", "");
     for (size_t j = *i; j < statements; j++)
-        tell(l, "", s->line[j]);
-    const wish w = l->keys && s->line[statements] ? ask(l->sh) : ON;
+        tell_line(l, "", s->line[j]);
+    const wish w = l->keys && s->line[statements] ? ask_key(l->sh) : ON;
     if (w == ON) {
         run_step(l, statements, end);
         *i = end;
@@ -193,13 +193,13 @@ static bool play_step(lesson *l, size_t *i) {
     return w != LEAVE && !ended(l);
 }
 
-/* False: it could not go on, as has been reported where there is no error; the scene is as before it. */
-static bool play(lesson *l) {
+/* False: it could not go on, and the scene is as before. Without an error a statement has reported why. */
+static bool play_lesson(lesson *l) {
     shell *sh = l->sh;
     const bool stopped = sh->stopped, refused = sh->refused, interactive = sh->interactive;
     const int depth = progress_apart();
     sh->stopped = sh->refused = sh->interactive = false; /* an error is one line */
-    tell(l, "", l->s->title);
+    tell_line(l, "", l->s->title);
     for (size_t i = 0; l->s->line[i] && play_step(l, &i);)
         ;
     const bool ok = !ended(l);
@@ -242,13 +242,13 @@ bool do_demo(shell *sh, lexer *lx, const command *self) {
                 .springs = now->springs,
                 .group = sh->calc.undo.group,
                 .error = lx->error};
-    if (!play(&l))
+    if (!play_lesson(&l))
         return shell_stop ? calc_interrupted(lx->error) : false;
     if (text && l.before && shell_aside(sh, sh->out))
         fputs("The scene is the lesson's now: go on with it. `undo` brings back yours.\n", sh->out);
     if (tour) {
-        tell(&l, "", "");
-        tell(&l, "", "Lessons, such as `demo pressing`: `show demos` lists them.");
+        tell_line(&l, "", "");
+        tell_line(&l, "", "Lessons, such as `demo pressing`: `show demos` lists them.");
     }
     return true;
 }

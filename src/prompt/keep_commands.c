@@ -35,8 +35,8 @@ bool do_save(shell *sh, lexer *lx, const command *self) {
 
 /* ---- record and replay ------------------------------------------------------------------------- */
 
-/* The scene as it is, and behind it the settings: in JSON a scene would tell of itself. NULL: out of memory.
- */
+/* Settings come last: with `set format json` the statements of the scene would print objects. NULL: out of
+ * memory. */
 static char *beginning(shell *sh) {
     file_text kept;
     if (!file_text_open(&kept))

@@ -13,7 +13,7 @@
 #include "text/file.h"
 #include "text/lines.h"
 
-static bool run(void *self, const char *line, char **answer) {
+static bool run_for_live(void *self, const char *line, char **answer) {
     static const source from = {NULL, false};
     shell *sh = self;
     file_text told;
@@ -28,7 +28,7 @@ static bool run(void *self, const char *line, char **answer) {
     const bool ok = shell_line(sh, &from, line, strlen(line), 1);
     sh->interactive = interactive;
     record_divert(sh, out, err); /* a recording may have begun or ended */
-    sh->failed = failed;         /* it has been told there */
+    sh->failed = failed;         /* the screen has shown the error */
     if (file_text_close(&told))
         *answer = told.text;
     return ok && *answer;
@@ -73,7 +73,7 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
                             .digits = &sh->set.digits,
                             .quit = &sh->quit,
                             .stop = &shell_stop,
-                            .run = run,
+                            .run = run_for_live,
                             .mark = shell_mark,
                             .blank_prompts = blank_prompts,
                             .complete = complete_line,
@@ -115,7 +115,7 @@ bool do_live(shell *sh, lexer *lx, const command *self) {
     const bool script = s.count > 0;
     if (script && !hole_file(lx, &s.list[0].hole[0], name))
         return false;
-    if (sh->replaying) /* what was done there follows, statement by statement */
+    if (sh->replaying) /* the transcript goes on with the statements that were run on the screen */
         return !script || can_read(name, lx->error);
     return shell_live(sh, script ? name : NULL, lx->error);
 }

@@ -43,7 +43,7 @@ static void on_interrupt(int signal) {
     shell_stop = 1;
 }
 
-/* The end: what must not stay behind goes, and the signal does what it would have done. */
+/* Puts the terminal right and removes unfinished files; then the signal ends the program. */
 static void on_end(int number) {
     file_emergency();
     signal(number, SIG_DFL);
@@ -266,7 +266,7 @@ static int run_live(shell *sh, const wishes *w) {
     return EXIT_ERROR;
 }
 
-/* Each in a session of its own; all of them, whatever one says. */
+/* Each in a session of its own; one that differs does not stop the others. */
 static int run_replays(shell *sh, const wishes *w) {
     int status = EXIT_OK;
     for (size_t i = 0; i < w->count; i++)
@@ -284,7 +284,7 @@ static int run_replays(shell *sh, const wishes *w) {
     return status;
 }
 
-static int run(shell *sh, const wishes *w) {
+static int run_wishes(shell *sh, const wishes *w) {
     if (w->live)
         return run_live(sh, w);
     if (w->replay)
@@ -311,8 +311,8 @@ static void check_home(void) {
         unsetenv("HOME");
 }
 
-/* A lost write is an error; where nobody reads on it ends us as it ends others. */
-static int finish(shell *sh, int status) {
+/* A lost write is an error. Where the reader has gone, SIGPIPE ends the program as it ends others. */
+static int finish_output(shell *sh, int status) {
     record_end(sh, false);
     status = status == EXIT_OK && sh->lost ? EXIT_ERROR : status;
     errno = 0;
@@ -323,7 +323,7 @@ static int finish(shell *sh, int status) {
         raise(SIGPIPE);
     } /* unreached: it has ended us */
     if (bad || fclose(sh->out)) {
-        if (status == EXIT_OK) { /* else the write has been reported, or something before it */
+        if (status == EXIT_OK) { /* else an error has been reported already */
             fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno ? errno : EIO));
             status = EXIT_ERROR;
         }
@@ -348,7 +348,7 @@ int main(int argc, char **argv) {
     sh.keep_going = w.keep_going;
     set_signals();
     if (status == EXIT_OK && !w.done)
-        status = run(&sh, &w);
+        status = run_wishes(&sh, &w);
     free(w.jobs);
-    return finish(&sh, status);
+    return finish_output(&sh, status);
 }

@@ -85,8 +85,8 @@ static const char *next_line(typed *t, const char *prompt, bool continued, size_
     }
 }
 
-/* A line to those before it, which may be none. */
-static char *append(char *to, size_t *size, const char *line, size_t len) {
+/* to: the lines before, or NULL. NULL: out of memory, and they are freed. */
+static char *append_line(char *to, size_t *size, const char *line, size_t len) {
     char *grown = realloc(to, *size + len + 2);
     if (!grown) {
         free(to);
@@ -104,13 +104,13 @@ static char *append(char *to, size_t *size, const char *line, size_t len) {
 static char *logical_line(typed *t) {
     size_t len, size = 0;
     const char *line = next_line(t, "fret> ", false, &len);
-    char *whole = line ? append(NULL, &size, line, len) : NULL;
+    char *whole = line ? append_line(NULL, &size, line, len) : NULL;
     while (whole && shell_continues(whole, size)) {
         line = next_line(t, "....> ", true, &len);
         whole[size - 1] = ' ';
         if (!line)
             break;
-        whole = append(whole, &size, line, len);
+        whole = append_line(whole, &size, line, len);
     }
     t->lost = line && !whole;
     return whole;

@@ -65,8 +65,8 @@ static void act_on_signal(void) {
     rl_forced_update_display();
 }
 
-/* readline forgets to end the text of a paste that is cut off: that is given its end, and what cut it off
- * comes after it. */
+/* Where a paste is cut off readline does not end its text: read_key sends the end of a paste first, and
+ * only then EOF. */
 static bool pasting;
 static size_t ending; /* bytes of the end that it has got */
 static bool told_stop;
@@ -115,7 +115,7 @@ static int read_key(FILE *in) {
             act_on_signal();
             continue;
         }
-        if (ready <= 0) /* unreached: a signal of nobody's, just then */
+        if (ready <= 0) /* unreached: a signal that is none of these */
             continue;
         const ssize_t n = read(fd, &c, 1);
         if (n == 1)
@@ -161,8 +161,8 @@ static char *next_match(const char *text, int state) {
     return next < found.count ? strdup(found.word[next++]) : NULL;
 }
 
-/* A name that wants quotation marks, in them. The last is readline's where the first was typed; a directory
- * goes on. One that holds a mark cannot stand in them. */
+/* Puts a name into quotation marks. The last mark is left to readline where the first was typed, and left out
+ * after a directory, which goes on. A name that holds a mark stays as it is. */
 static char *quote_name(char *name, int how_many, char *typed) {
     struct stat st = {.st_mode = 0};
     const size_t room = strlen(name) + 3;

@@ -91,7 +91,7 @@ static const char *line_after(const char *line) {
 
 typedef struct measure {
     double tolerance; /* of numbers */
-    bool lost;        /* memory was out: nothing can be said */
+    bool lost;        /* out of memory: not compared */
 } measure;
 
 static bool same_lines(const char *want, const char *got, measure *m) {
@@ -152,7 +152,7 @@ typedef struct text {
     size_t len;
 } text;
 
-static bool append(text *t, const char *line, size_t n) {
+static bool append_text(text *t, const char *line, size_t n) {
     char *grown = realloc(t->p, t->len + n + 1);
     if (!grown)
         return false;
@@ -177,8 +177,8 @@ typedef struct replay {
     shell sh;
     text statement, want;
     size_t at;      /* line of the statement; 0: none yet */
-    bool waits;     /* to be run until something follows */
-    size_t prompts; /* in what it wrote that are still to come in the transcript: a demo shows some */
+    bool waits;     /* not run yet: that depends on what follows */
+    size_t prompts; /* that it printed and that are still to come: those of a demo begin no statement */
     char *got;
 } replay;
 
@@ -193,7 +193,7 @@ static void show(FILE *out, char mark, const char *line, bool asides) {
     }
 }
 
-/* Those that a transcript cannot be without. */
+/* Lines that a transcript must have: no asides, drawings or times. */
 static size_t count_lines(const char *line) {
     size_t count = 0;
     for (; *line; line = line_after(line))
@@ -211,7 +211,7 @@ static size_t count_prompts(const char *line) {
 }
 
 /* Runs the statement. False: out of memory. */
-static bool run(replay *r) {
+static bool run_statement(replay *r) {
     file_text got;
     free(r->got);
     r->got = NULL;
@@ -226,12 +226,12 @@ static bool run(replay *r) {
         return false;
     r->got = got.text;
     if (r->sh.stopped && !shell_stop)
-        return false; /* what it said is no answer */
+        return false; /* out of memory */
     r->prompts = count_prompts(r->got);
     return true;
 }
 
-/* Does it end as a terminal shows a line that Ctrl-C dropped? Such a one waits for what follows. */
+/* Does it end in ^C, as a line that was dropped? If an answer follows, it was not: then it is run. */
 static bool seems_dropped(const replay *r) {
     static const char end[] = "^C";
     const size_t n = sizeof end - 1, len = r->statement.len;
@@ -240,9 +240,9 @@ static bool seems_dropped(const replay *r) {
            (len == n || !names_find(&r->sh.calc.names, end + 1, 1, &own));
 }
 
-static bool begin(replay *r) {
+static bool begin_statement(replay *r) {
     r->waits = seems_dropped(r);
-    return r->waits || run(r);
+    return r->waits || run_statement(r);
 }
 
 /* Notes and warnings of a scene that a record begins with may be there or not. */
@@ -256,14 +256,14 @@ static void spare_notes(replay *r) {
 }
 
 /* What follows the statement has been gathered. False: out of memory. */
-static bool judge(replay *r) {
+static bool judge_answer(replay *r) {
     const char *want = r->want.p ? r->want.p : "";
     measure m = {r->tolerance, false};
-    if (r->at == 0 || shell_stop) /* what is half done is no answer */
+    if (r->at == 0 || shell_stop) /* interrupted: there is no whole answer to compare */
         return true;
     if (r->waits && is_blank(want))
         return true;
-    if (r->waits && !run(r))
+    if (r->waits && !run_statement(r))
         return false;
     spare_notes(r);
     if (compare(want, r->got, &m)) {
@@ -275,7 +275,7 @@ static bool judge(replay *r) {
         print_safe(r->out, r->statement.p, r->statement.len);
         putc('\n', r->out);
         show(r->out, '-', want, false);
-        show(r->out, '+', r->got, count_lines(want) > count_lines(r->got)); /* it has asides, then */
+        show(r->out, '+', r->got, count_lines(want) > count_lines(r->got)); /* more: it has asides */
     }
     return !m.lost;
 }
@@ -287,9 +287,9 @@ static bool judge(replay *r) {
 static bool add_part(replay *r, const char *line, size_t n, bool *whole) {
     const size_t mark = shell_mark(line, n);
     *whole = mark == n;
-    if (r->statement.len > 0 && !append(&r->statement, "\n", 1))
+    if (r->statement.len > 0 && !append_text(&r->statement, "\n", 1))
         return false;
-    if (!append(&r->statement, line, n))
+    if (!append_text(&r->statement, line, n))
         return false;
     if (!*whole)
         r->statement.p[r->statement.len - n + mark] = ' ';
@@ -305,13 +305,13 @@ static bool take_line(replay *r, const file_in *in, bool *waiting) {
         if (!add_part(r, typed, n, &whole))
             return false;
         *waiting = !whole;
-        return *waiting || begin(r);
+        return *waiting || begin_statement(r);
     }
     if (!prompt || r->prompts > 0) {
         r->prompts -= prompt;
-        return r->at == 0 || (append(&r->want, in->line, in->length) && append(&r->want, "\n", 1));
+        return r->at == 0 || (append_text(&r->want, in->line, in->length) && append_text(&r->want, "\n", 1));
     }
-    if ((*waiting && !begin(r)) || !judge(r)) /* it was dropped, or is all there is */
+    if ((*waiting && !begin_statement(r)) || !judge_answer(r)) /* no more lines of it came */
         return false;
     r->at = (size_t)in->number;
     empty(&r->statement);
@@ -319,7 +319,7 @@ static bool take_line(replay *r, const file_in *in, bool *waiting) {
     if (!add_part(r, typed, n, &whole))
         return false;
     *waiting = !whole;
-    return *waiting || begin(r);
+    return *waiting || begin_statement(r);
 }
 
 static bool take_lines(replay *r, file_in *in, calc_error *error) {
@@ -328,9 +328,9 @@ static bool take_lines(replay *r, file_in *in, calc_error *error) {
     while (ok && !shell_stop && (got = file_in_line(in, error)) == FILE_GOT_LINE)
         ok = take_line(r, in, &waiting);
     if (ok && waiting && !shell_stop)
-        ok = begin(r);
+        ok = begin_statement(r);
     if (ok && got != FILE_GOT_ERROR)
-        ok = judge(r);
+        ok = judge_answer(r);
     if (!ok)
         calc_no_memory(error);
     if (ok && got == FILE_GOT_END && r->passed + r->failed == 0)
@@ -371,7 +371,7 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
     if (shell_stop)
         calc_interrupted(error);
     if (!ok)
-        calc_no_memory(error); /* if nothing else is wrong */
+        calc_no_memory(error); /* an error that came first stays */
     file_in_close(&in);
     r.sh.out = r.sh.err = out;
     shell_free(&r.sh);

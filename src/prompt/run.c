@@ -78,7 +78,7 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
         undo_scene(&sh->calc, before);
     else if (c->changes)
         undo_unmark(&sh->calc, before);
-    if (ok && c->changes && shell_stop) { /* while it told of itself */
+    if (ok && c->changes && shell_stop) { /* while it printed its answer */
         undo_pop(&sh->calc, true);
         ok = calc_interrupted(lx->error);
     }
@@ -102,12 +102,10 @@ static bool assign(shell *sh, lexer *lx) {
     return ok;
 }
 
-/* An unknown word, alone or before another, of which help tells. */
+/* An unknown word that help knows, alone or before another: the error names the page. */
 static bool told_of(lexer *lx, const char *word, token_kind after) {
     lexer next = *lx;
-    calc_error ignored;
-    error_clear(&ignored);
-    next.error = &ignored;
+    next.error = error_quiet();
     lex_next(&next);
     if ((after != T_NAME && after != T_NUMBER && after != T_END) || lex_is(&next, "in") ||
         lex_is(&next, "at"))
@@ -123,7 +121,7 @@ static bool misspelt(shell *sh, lexer *lx) {
     if (names_find(&sh->calc.names, lx->text + lx->at, lx->len, &i) || name_taken(lx->text + lx->at, lx->len))
         return false;
     lex_word(lx, word);
-    if (lead_from(word)) /* whoever looks for the name tells */
+    if (lead_from(word)) /* a fuller error comes when the name is looked up */
         return false;
     const token_kind after = lex_peek(lx);
     const char *near = suggest(word, command_name);
@@ -175,7 +173,7 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     if (ok && sh->calc.scene.used & ASKED_TANGENTIAL)
         shell_warn_dissimilar(sh);
     undo_end(&sh->calc);
-    if (shell_stop) { /* what has been half computed must answer nothing, whatever it seemed to say */
+    if (shell_stop) { /* results of a run that was stopped half-way must not answer the next statement */
         scene_forget(&sh->calc.scene, false);
         if (!ok && error->raised) {
             error->raised = false;
@@ -231,7 +229,7 @@ static void show_place(const shell *sh, bool aside, const char *text, size_t len
 static void report_error(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
                          const calc_error *error) {
     fflush(sh->out);
-    if (shell_unread()) /* that is why */
+    if (shell_unread()) /* the reader has gone, which is why it failed */
         return;
     /* the physical line within a continued one */
     size_t begin = 0;
@@ -326,7 +324,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         i = end < len && text[end] == ';' ? end + 1 : len;
         while (i < len && text[i] == ' ')
             i++;
-        if (sh->record && sh->record != recorder && i < len) /* which was not there when the line began */
+        if (sh->record && sh->record != recorder && i < len) /* begun in this line: it gets the rest */
             record_line(sh, text + i, len - i);
     }
     return ok;

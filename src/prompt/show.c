@@ -17,11 +17,9 @@
 
 /* The number of a literal such as `90 deg` as the language reads it. */
 static double read_back(const char *text) {
-    calc_error ignored;
     lexer lx;
     unit u;
-    error_clear(&ignored);
-    lex_start(&lx, text, strlen(text), &ignored);
+    lex_start(&lx, text, strlen(text), error_quiet());
     const bool minus = lx.kind == T_MINUS;
     if (minus)
         lex_next(&lx);
@@ -32,7 +30,7 @@ static double read_back(const char *text) {
     return minus ? -v : v;
 }
 
-/* In degrees where these can say it. */
+/* In degrees where they read back as the same number. */
 static void angle_text(double v, char *buf, size_t size) {
     enum { LEAST = 15, MOST = 17 };
     for (int digits = LEAST; digits <= MOST; digits++) {
@@ -64,13 +62,13 @@ static const definition *binding(const writer *w, input in) {
     return (const definition *)w->c->scene.in.bound[in];
 }
 
-/* The value of a bound input too, as it is now: the definition may need the load that needs the value. Before
- * there is a load it may have none. */
+/* A bound input too is written by its value first: its definition may need the load, which needs the value.
+ * It may have none before there is a load. */
 static bool is_set(const writer *w, input in) {
     return w->c->scene.in.set[in] && !(binding(w, in) && input_status(in, w->c->scene.in.v[in]).code);
 }
 
-static void begin(writer *w, const char *words) {
+static void write_start(writer *w, const char *words) {
     fputs(words, w->to);
     w->any = true;
 }
@@ -93,7 +91,7 @@ static void write_argument(writer *w, const char *name, input in) {
 
 /* A statement of its own for an input that no command could carry. */
 static void write_input(writer *w, input in) {
-    begin(w, "");
+    write_start(w, "");
     write_value(w, quantity_of_input(in)->name, " = ", input_value(w, in));
     putc('\n', w->to);
 }
@@ -109,7 +107,7 @@ static void write_definition(writer *w, const definition *d) {
 static void write_binding(writer *w, input in) {
     if (!binding(w, in))
         return;
-    begin(w, quantity_of_input(in)->name);
+    write_start(w, quantity_of_input(in)->name);
     write_definition(w, binding(w, in));
 }
 
@@ -120,7 +118,7 @@ static void write_material(writer *w) {
     const bool whole = is_set(w, IN_E0) && is_set(w, IN_NU);
     const bool k_too = whole && graded && is_set(w, IN_C0);
     if (whole) {
-        begin(w, "material");
+        write_start(w, "material");
         write_argument(w, "E0", IN_E0);
         write_argument(w, "nu", IN_NU);
         if (k_too)
@@ -137,11 +135,11 @@ static void write_material(writer *w) {
 
 static void write_second(writer *w) {
     if (w->c->scene.in.second == SECOND_RIGID)
-        begin(w, "second rigid\n");
+        write_start(w, "second rigid\n");
     if (w->c->scene.in.second != SECOND_GIVEN)
         return;
     if (is_set(w, IN_E0_2) && is_set(w, IN_NU_2)) {
-        begin(w, "second");
+        write_start(w, "second");
         write_argument(w, "E0", IN_E0_2);
         write_argument(w, "nu", IN_NU_2);
         putc('\n', w->to);
@@ -152,7 +150,7 @@ static void write_second(writer *w) {
             write_input(w, i);
 }
 
-/* As the language reads it back; false: it cannot. */
+/* Quoted where it must be; false: no form of it can be read back. */
 static bool write_file_name(writer *w, const char *name) {
     const char *form = strchr(name, '"')          ? " %s " /* as it was typed, and no mark at the end */
                        : strpbrk(name, " \t;#\\") ? " \"%s\""
@@ -182,7 +180,7 @@ static void write_geometry(writer *w) {
     const geometry *g = in->geometry;
     if (!g)
         return;
-    begin(w, "geometry ");
+    write_start(w, "geometry ");
     fputs(g->name, w->to);
     for (input i = IN_N; i < INPUTS && g->by == PARAMETERS_NAMED; i++)
         if (i == IN_RADIUS && in->radii[0] != 0)
@@ -205,7 +203,7 @@ static void write_geometry(writer *w) {
 static void write_friction(writer *w) {
     if (!is_set(w, IN_MU))
         return;
-    begin(w, "friction ");
+    write_start(w, "friction ");
     write_value(w, "", "", input_value(w, IN_MU));
     putc('\n', w->to);
 }
@@ -214,7 +212,7 @@ static void write_friction(writer *w) {
 
 static void write_name(writer *w, const own_name *name) {
     const definition *d = (const definition *)name->definition;
-    begin(w, name->text);
+    write_start(w, name->text);
     for (unsigned i = 0; d && i < d->parameters; i++)
         fprintf(w->to, "%s%s%s", i ? ", " : "(", d->parameter[i], i + 1 == d->parameters ? ")" : "");
     if (d) {
@@ -268,7 +266,7 @@ static void write_cycle(writer *w, const load_item *item) {
     const load_step *step = &item->step;
     const bool force = step->tangential == BY_FORCE;
     write_target(w, force ? "FA" : "dxA", false, step->tangential_value, force ? DIM_FORCE : DIM_LENGTH);
-    if (step->normal_value != 0 || item->extra.phase != 0) { /* the phase for an FNA to come */
+    if (step->normal_value != 0 || item->extra.phase != 0) { /* the phase also alone: an FNA may be added */
         write_target(w, "FNA", false, step->normal_value, DIM_FORCE);
         write_target(w, "phase", false, item->extra.phase, DIM_ANGLE);
     }
@@ -280,7 +278,7 @@ static void write_step(writer *w, const load_item *item) {
     static const char *const kinds[] = {[LOAD_PRESS] = "press", [LOAD_STEP] = "step", [LOAD_CYCLE] = "cycle"};
     static const char *const normal[] = {[BY_FORCE] = "FN", [BY_DISPLACEMENT] = "dz", [BY_RADIUS] = "a"};
     const load_step *step = &item->step;
-    begin(w, kinds[step->kind]);
+    write_start(w, kinds[step->kind]);
     if (step->kind == LOAD_CYCLE) {
         write_cycle(w, item);
     } else {
@@ -315,14 +313,12 @@ static void write_load(writer *w, bool whole) {
     }
 }
 
-/* What is bound gets its value; where it has none yet it keeps what it had. */
+/* Computes bound inputs; one that has no value yet keeps the last. */
 static void settle(calc *c) {
-    calc_error ignored;
     long double unused;
-    error_clear(&ignored);
     for (input i = 0; i < INPUTS; i++)
-        if (c->scene.in.bound[i] && !scene_get(&c->scene, i, &unused, &ignored))
-            error_clear(&ignored);
+        if (c->scene.in.bound[i])
+            scene_get(&c->scene, i, &unused, error_quiet());
 }
 
 bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
@@ -400,7 +396,7 @@ const char *show_name(size_t i) {
     return i < SHOWS ? shown[i].name : NULL;
 }
 
-static bool say(shell *sh, lexer *lx, bool (*show)(shell *sh, FILE *to)) {
+static bool say_shown(shell *sh, lexer *lx, bool (*show)(shell *sh, FILE *to)) {
     text_out t;
     if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
@@ -412,12 +408,12 @@ bool do_show(shell *sh, lexer *lx, const command *self) {
     said all;
     if (!said_read(sh, lx, command_form(self), &all))
         return false;
-    return say(sh, lx, shown[all.count ? all.list[0].choice : 0].show); /* else the scene */
+    return say_shown(sh, lx, shown[all.count ? all.list[0].choice : 0].show); /* else the scene */
 }
 
 bool do_set(shell *sh, lexer *lx, const command *self) {
     (void)self;
     if (lx->kind != T_END)
         return setting_read(&sh->calc, &sh->set, lx);
-    return say(sh, lx, show_settings);
+    return say_shown(sh, lx, show_settings);
 }

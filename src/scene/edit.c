@@ -8,7 +8,8 @@ static bool complete(const scene *s) {
     return in->set[IN_E0] && in->set[IN_NU] && in->geometry && (in->v[IN_K] == 0 || in->set[IN_C0]);
 }
 
-bool scene_valid(scene *s, calc_error *error) {
+/* Does all that the inputs and the program claim hold? */
+static bool all_holds(scene *s, calc_error *error) {
     const fret_normal *normal;
     const fret_contact *contact;
     const fret_press *press;
@@ -41,7 +42,7 @@ bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_er
     const bool same = scene_same_contact(&s->in, &before.in);
     if (same)
         answers_pass_contact(&s->answers, &before.answers);
-    if (scene_valid(s, &mine)) {
+    if (all_holds(s, &mine)) {
         scene_drop(&before);
         return true;
     }

@@ -33,7 +33,7 @@ bool engine_is_made(const engine *e) {
 }
 
 /* A ramp by force that changes F_N is no straight line for the springs: 64 parts, an error of 1e-8. */
-static fret_status take(engine *e, const fret_step *step, unsigned parts) {
+static fret_status step_in_parts(engine *e, const fret_step *step, unsigned parts) {
     const bool ramp = step->normal_by != FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_FX;
     if (e->springs)
         return fret_springs_step(e->springs, step, ramp ? parts : 1);
@@ -44,11 +44,11 @@ static fret_status take(engine *e, const fret_step *step, unsigned parts) {
 }
 
 fret_status engine_step(engine *e, const fret_step *step) {
-    return take(e, step, 64);
+    return step_in_parts(e, step, 64);
 }
 
 fret_status engine_chord(engine *e, const fret_step *step) {
-    return take(e, step, 1);
+    return step_in_parts(e, step, 1);
 }
 
 fret_status engine_swing(engine *e, const fret_sine *load, double from, double to, bool *taken) {

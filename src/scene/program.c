@@ -6,7 +6,7 @@
 
 #include "number/array.h"
 
-static void end(counted *self) {
+static void free_program(counted *self) {
     program *p = (program *)self;
     free(p->steps);
     free(p->cycles);
@@ -16,7 +16,7 @@ static void end(counted *self) {
 program *program_make(void) {
     program *p = calloc(1, sizeof *p);
     if (p)
-        p->base = (counted){1, end};
+        p->base = (counted){1, free_program};
     return p;
 }
 
@@ -34,7 +34,6 @@ bool program_append(program *p, load_mark *mark, const load_step *step, const cy
     }
     p->steps[mark->steps++] = *step;
     p->count = mark->steps;
-    p->cycle_count = mark->cycles;
     return true;
 }
 

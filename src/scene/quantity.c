@@ -278,13 +278,11 @@ dim quantity_dim(const quantity *q, const scene *s) {
 /* Which formulas hold in the scene. */
 static unsigned holds(const quantity *q, scene *s, bool call) {
     const load_reach *reach;
-    calc_error ignored;
-    error_clear(&ignored);
     const bool power = !s->in.geometry || s->in.geometry->power;
     const unsigned when = power ? WHEN_POWER : WHEN_SHAPE;
     if (call)
         return when | WHEN_CALL | WHEN_FIRST;
-    if (!scene_reach(s, &reach, &ignored))
+    if (!scene_reach(s, &reach, error_quiet()))
         return when;
     if (reach->normal_varies)
         return when | WHEN_HISTORY;

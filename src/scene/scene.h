@@ -35,7 +35,7 @@ typedef struct answers {
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
     fret_contact *chorded;             /* room for scene_straight */
-    unsigned levels, spares;
+    unsigned levels;
     bool chords; /* the swinging load of the program cannot be taken as it is */
     load_reach reach;
     fret_state state;
@@ -124,8 +124,6 @@ void scene_put(scene *s, input in, double value);
 /* Changes of inputs: edit works on s->in. All that the scene claims must hold afterwards, or nothing has
  * changed. */
 bool scene_edit(scene *s, void (*edit)(inputs *in, void *context), void *context, calc_error *error);
-/* Everything that the present inputs and program claim must hold. */
-bool scene_valid(scene *s, calc_error *error);
 
 /* ---- the load program ---- */
 

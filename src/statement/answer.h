@@ -24,19 +24,19 @@ bool answer_values(const settings *set, FILE *to, const column *columns, const l
 /* `name = value unit +- deviation unit`. In JSON the deviation belongs to the event. */
 void answer_estimate(answer *a, const column *c, long double si, long double deviation);
 
-/* The same by another way, said of the last one; to readers, to whom it is no value of its own. False: the
- * form has no place for it. */
+/* The last value again, as computed another way: for readers, to compare. False: the form has no place for
+ * it. */
 bool answer_beside(answer *a, const column *c, long double si, long double deviation);
 
 /* ---- events: what a command reports ---- */
 
-/* Facts for programs: of them text has but the words. */
+/* Facts for programs; text shows only what answer_words says. */
 void answer_event(answer *a, const char *name);
 /* In text one line, of its quantities. */
 void answer_report(answer *a, const char *name);
 /* In text a line each of its quantities and its facts. */
 void answer_page(answer *a, const char *name);
-/* A message that readers have elsewhere. kind: "note", "warning", "error". */
+/* A message, for programs: readers have it on standard error. kind: "note", "warning", "error". */
 void answer_message(answer *a, const char *kind, const char *text);
 /* Ends any of them. */
 void answer_done(answer *a);

@@ -18,7 +18,7 @@ static void put_header(FILE *to, const column *columns, size_t count) {
     putc('\n', to);
 }
 
-static void put_cells(FILE *to, const column *columns, const long double *si, size_t count) {
+static void put_csv_cells(FILE *to, const column *columns, const long double *si, size_t count) {
     for (size_t i = 0; i < count; i++) {
         const double v = (double)(si[i] / columns[i].scale);
         if (i)
@@ -29,17 +29,17 @@ static void put_cells(FILE *to, const column *columns, const long double *si, si
     putc('\n', to);
 }
 
-static bool put_columns(answer *a, const char *event) {
+static bool put_csv_columns(answer *a, const char *event) {
     (void)event;
     put_header(a->to, a->columns, a->count);
     return true;
 }
 
-static void put_row(answer *a, const long double *si) {
-    put_cells(a->to, a->columns, si, a->count);
+static void put_csv_row(answer *a, const long double *si) {
+    put_csv_cells(a->to, a->columns, si, a->count);
 }
 
-static void put_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
+static void put_csv_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
     (void)event;
     for (size_t i = 0; i < count; i++) {
         const answer_head *h = &heads[i];
@@ -87,11 +87,11 @@ static void wait_for_row(answer *a, const char *before, const char *name, const 
     w->si[w->count++] = si;
 }
 
-static void put_value(answer *a, const column *c, long double si) {
+static void put_csv_value(answer *a, const column *c, long double si) {
     wait_for_row(a, c->name, "", c, si);
 }
 
-static void put_estimate(answer *a, const column *c, long double si, long double deviation) {
+static void put_csv_estimate(answer *a, const column *c, long double si, long double deviation) {
     a->waiting.estimate = a->waiting.count;
     wait_for_row(a, c->name, "", c, si);
     wait_for_row(a, c->name, "deviation", c, deviation);
@@ -109,7 +109,7 @@ static void put_waiting(answer *a, bool ok) {
     struct waiting *w = &a->waiting;
     if (ok && !a->lost && w->count) {
         put_header(a->to, w->of, w->count);
-        put_cells(a->to, w->of, w->si, w->count);
+        put_csv_cells(a->to, w->of, w->si, w->count);
     }
     columns_free(w->of, w->count);
     free(w->of);
@@ -117,23 +117,23 @@ static void put_waiting(answer *a, bool ok) {
     *w = (struct waiting){.count = 0};
 }
 
-/* A page is as in text; elsewhere rows have it all. */
+/* Of a page alone: elsewhere the rows say it. */
 static void put_words(answer *a, const char *format, va_list args) {
     if (a->layout == LAYOUT_PAGE)
         text_words(a, format, args);
 }
 
 const answer_form answer_as_csv = {
-    .value = put_value,
-    .estimate = put_estimate,
+    .value = put_csv_value,
+    .estimate = put_csv_estimate,
     .close = text_close,
     .quantity = text_quantity,
     .fact = text_fact,
     .words = put_words,
     .share = put_share,
-    .columns = put_columns,
-    .row = put_row,
-    .heads = put_heads,
+    .columns = put_csv_columns,
+    .row = put_csv_row,
+    .heads = put_csv_heads,
     .cells = put_mixed,
     .end = put_waiting,
 };

@@ -93,7 +93,7 @@ enum { TEXT_HELD = 2000 }; /* rows of a table */
 
 extern const answer_form answer_as_text, answer_as_csv, answer_as_json;
 
-/* What CSV has as text has it, where it is no row. */
+/* CSV writes these as text does. */
 void text_close(answer *a);
 void text_quantity(answer *a, const char *name, value v);
 void text_fact(answer *a, const char *name, const char *text);

@@ -143,7 +143,7 @@ static void open_event(answer *a, const char *kind, const char *text) {
 
 /* ---- values and tables ------------------------------------------------------------------------- */
 
-static void put_value(answer *a, const column *c, long double si) {
+static void put_json_value(answer *a, const column *c, long double si) {
     char unit_text[COLUMN_UNIT];
     dim_unit(c->d, unit_text, sizeof unit_text);
     begin_object(a);
@@ -154,13 +154,13 @@ static void put_value(answer *a, const column *c, long double si) {
     end_line(a);
 }
 
-static void put_estimate(answer *a, const column *c, long double si, long double deviation) {
+static void put_json_estimate(answer *a, const column *c, long double si, long double deviation) {
     (void)deviation;
-    put_value(a, c, si);
+    put_json_value(a, c, si);
 }
 
 /* The units come first, once: rows have but numbers. */
-static bool put_columns(answer *a, const char *event) {
+static bool put_json_columns(answer *a, const char *event) {
     char unit_text[COLUMN_UNIT];
     open_event(a, "event", event);
     begin_group(a, "columns");
@@ -173,7 +173,7 @@ static bool put_columns(answer *a, const char *event) {
     return true;
 }
 
-static void put_row(answer *a, const long double *si) {
+static void put_json_row(answer *a, const long double *si) {
     begin_object(a);
     for (size_t i = 0; i < a->count; i++) {
         name_member(a, a->columns[i].name);
@@ -182,7 +182,7 @@ static void put_row(answer *a, const long double *si) {
     end_line(a);
 }
 
-static void put_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
+static void put_json_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
     open_event(a, "event", event);
     begin_group(a, "columns");
     for (size_t i = 0; i < count; i++)
@@ -200,7 +200,7 @@ static void put_cell(answer *a, const char *name, const answer_cell *c) {
         put_rough(a, name, c->v, c->digits);
 }
 
-static void put_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
+static void put_json_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
     begin_object(a);
     for (size_t i = 0; i < count; i++)
         put_cell(a, heads[i].name, &cells[i]);
@@ -209,8 +209,8 @@ static void put_cells(answer *a, const answer_head *heads, const answer_cell *ce
 
 const answer_form answer_as_json = {
     .data = true,
-    .value = put_value,
-    .estimate = put_estimate,
+    .value = put_json_value,
+    .estimate = put_json_estimate,
     .open = open_event,
     .close = end_line,
     .number = put_number_member,
@@ -226,8 +226,8 @@ const answer_form answer_as_json = {
     .item = begin_item,
     .item_up = end_group,
     .items_up = end_items,
-    .columns = put_columns,
-    .row = put_row,
-    .heads = put_heads,
-    .cells = put_cells,
+    .columns = put_json_columns,
+    .row = put_json_row,
+    .heads = put_json_heads,
+    .cells = put_json_cells,
 };

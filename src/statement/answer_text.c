@@ -9,7 +9,7 @@
 
 /* ---- values ------------------------------------------------------------------------------------ */
 
-static void put_value(answer *a, const column *c, long double si) {
+static void put_text_value(answer *a, const column *c, long double si) {
     char text[COLUMN_UNIT + NUMBER_TEXT + 2], number[NUMBER_TEXT];
     if (c->chosen) {
         number_text(number, a->set->digits, (double)(si / c->scale));
@@ -21,7 +21,7 @@ static void put_value(answer *a, const column *c, long double si) {
 }
 
 /* Both in the unit of the value. */
-static void put_estimate(answer *a, const column *c, long double si, long double deviation) {
+static void put_text_estimate(answer *a, const column *c, long double si, long double deviation) {
     char unit_text[COLUMN_UNIT], value_text[NUMBER_TEXT], deviation_text[NUMBER_TEXT];
     long double scale = c->scale;
     if (c->chosen)
@@ -37,7 +37,7 @@ static void put_estimate(answer *a, const column *c, long double si, long double
 
 static void put_beside(answer *a, const column *c, long double si, long double deviation) {
     fputs("    ", a->to);
-    put_estimate(a, c, si, deviation);
+    put_text_estimate(a, c, si, deviation);
 }
 
 /* ---- events ------------------------------------------------------------------------------------ */
@@ -145,7 +145,7 @@ static void hold(answer *a, const long double *si) {
         release(a);
 }
 
-static bool put_columns(answer *a, const char *event) {
+static bool put_text_columns(answer *a, const char *event) {
     (void)event;
     a->headed = a->gap = false;
     a->rows = 0;
@@ -153,7 +153,7 @@ static bool put_columns(answer *a, const char *event) {
     return a->held != NULL;
 }
 
-static void put_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
+static void put_text_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
     (void)event;
     for (size_t i = 0; i < count; i++)
         if (heads[i].shown)
@@ -161,7 +161,7 @@ static void put_heads(answer *a, const char *event, const answer_head *heads, si
     putc('\n', a->to);
 }
 
-static void put_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
+static void put_text_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (heads[i].shown)
             fprintf(a->to, "%s%*s", i ? " " : "", heads[i].width,
@@ -169,7 +169,7 @@ static void put_cells(answer *a, const answer_head *heads, const answer_cell *ce
     putc('\n', a->to);
 }
 
-static void end(answer *a, bool ok) {
+static void end_text_table(answer *a, bool ok) {
     if (ok && a->held)
         release(a);
     free(a->held);
@@ -177,8 +177,8 @@ static void end(answer *a, bool ok) {
 }
 
 const answer_form answer_as_text = {
-    .value = put_value,
-    .estimate = put_estimate,
+    .value = put_text_value,
+    .estimate = put_text_estimate,
     .beside = put_beside,
     .close = text_close,
     .quantity = text_quantity,
@@ -186,9 +186,9 @@ const answer_form answer_as_text = {
     .share = put_share,
     .up = end_group,
     .words = text_words,
-    .columns = put_columns,
+    .columns = put_text_columns,
     .row = hold,
-    .heads = put_heads,
-    .cells = put_cells,
-    .end = end,
+    .heads = put_text_heads,
+    .cells = put_text_cells,
+    .end = end_text_table,
 };

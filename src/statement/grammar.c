@@ -34,7 +34,7 @@ static size_t word_length(const char *p) {
     return strcspn(p, " []");
 }
 
-static clause *add(parsing *g, const char *name, size_t len) {
+static clause *add_clause(parsing *g, const char *name, size_t len) {
     grammar *f = g->out;
     if (f->count == CLAUSES || len >= CLAUSE_NAME)
         return NULL;
@@ -54,7 +54,7 @@ static bool parse_argument(parsing *g, size_t n) {
     const char *equals = memchr(g->p, '=', n);
     const bool marked = equals > g->p && strchr(":+", equals[-1]);
     const size_t len = (size_t)(equals - g->p) - marked;
-    clause *a = add(g, g->p, len);
+    clause *a = add_clause(g, g->p, len);
     const quantity *q = quantity_find(g->p, len);
     if (!a)
         return false;
@@ -99,7 +99,7 @@ static bool parse_hole(parsing *g, size_t n, char before) {
         g->open = NULL;
         return parse_clauses(g, row);
     }
-    clause *a = g->open ? g->open : add(g, "", 0);
+    clause *a = g->open ? g->open : add_clause(g, "", 0);
     if (!a || a->holes == CLAUSE_HOLES)
         return false;
     g->open = a;
@@ -152,7 +152,7 @@ static bool parse_word(parsing *g) {
         return parse_argument(g, n);
     if (is_capital(*g->p))
         return parse_hole(g, n, 0);
-    if (*g->p < 'a' || *g->p > 'z' || !(g->open = add(g, g->p, n)))
+    if (*g->p < 'a' || *g->p > 'z' || !(g->open = add_clause(g, g->p, n)))
         return false;
     g->p += n;
     return true;

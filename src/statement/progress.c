@@ -16,11 +16,10 @@ static const double WAIT = 0.5, EVERY = 0.1; /* seconds */
 
 static struct {
     int depth;    /* of statements; 0: none runs */
-    int terminal; /* is standard error one? Negative: not asked yet: a call of the system at every statement
-                     shows */
+    int terminal; /* is standard error one? Asked once, which takes a call of the system; negative: not yet */
     bool on;
     const shell *sh;
-    char what[WHAT];     /* not ended */
+    char what[WHAT];     /* without a NUL */
     size_t len;          /* of it */
     double began, shown; /* in seconds */
     double part;         /* negative: not known */
@@ -99,7 +98,7 @@ void progress_wipe(void) {
     fflush(stderr);
 }
 
-/* What a statement is answered, an error perhaps, comes behind it. */
+/* The answer, or an error, begins on a clean line. */
 void progress_end(void) {
     progress_wipe();
     if (--now.depth == 0)

@@ -145,7 +145,7 @@ static bool may_come(lexer *lx, const said *s, const clause *a) {
     return true;
 }
 
-static heard *add(lexer *lx, said *s, const clause *a) {
+static heard *add_heard(lexer *lx, said *s, const clause *a) {
     if (s->count == HEARD) {
         lex_raise(lx, "more than %d clauses", HEARD);
         return NULL;
@@ -180,7 +180,7 @@ static bool in_range(lexer *lx, const heard *h) {
     return a->must != POSITIVE || h->v.v > 0 || calc_status(lx->error, &st) || heard_place(lx->error, h);
 }
 
-static bool read_expression(shell *sh, lexer *lx, heard *h) {
+static bool read_operand(shell *sh, lexer *lx, heard *h) {
     h->hole[0].at = lx->at;
     const bool ok = expr_value(&sh->calc, lx, &h->v) && !stray_unit(lx);
     h->hole[0].len = lx->last - h->hole[0].at;
@@ -189,7 +189,7 @@ static bool read_expression(shell *sh, lexer *lx, heard *h) {
 
 /* name: as messages call it. */
 static bool read_value(shell *sh, lexer *lx, const char *name, dim d, heard *h) {
-    return read_expression(sh, lx, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
+    return read_operand(sh, lx, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
            in_range(lx, h);
 }
 
@@ -218,7 +218,7 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
         return false;
     if ((how == T_INCREMENT && !a->increment) || (how == T_DEFINE && !a->live))
         return not_taken(lx, f, a->name, how);
-    heard *h = argument_dim(sh, lx, s, a, &d) ? add(lx, s, a) : NULL;
+    heard *h = argument_dim(sh, lx, s, a, &d) ? add_heard(lx, s, a) : NULL;
     if (!h)
         return false;
     h->increment = how == T_INCREMENT;
@@ -233,10 +233,9 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
 }
 
 static bool read_seconds(shell *sh, lexer *lx, const hole *of, heard *h) {
-    return read_expression(sh, lx, h) &&
-           ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
-            calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
-                      "the seconds must be a positive number up to %u", of->most));
+    return read_operand(sh, lx, h) && ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
+                                       calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
+                                                 "the seconds must be a positive number up to %u", of->most));
 }
 
 static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
@@ -278,10 +277,8 @@ static const clause *clause_named(const lexer *lx, const grammar *f) {
 
 /* Does a word follow that begins no clause, and so is a choice? */
 static bool choice_follows(const lexer *lx, const grammar *f) {
-    calc_error ignored;
     lexer next = *lx;
-    error_clear(&ignored);
-    next.error = &ignored;
+    next.error = error_quiet();
     lex_next(&next);
     return next.kind == T_NAME && !clause_named(&next, f);
 }
@@ -303,21 +300,20 @@ static bool is_equals(const lexer *lx) {
     return comparison || lx->kind == T_ASSIGN || lx->kind == T_DEFINE || lx->kind == T_INCREMENT;
 }
 
-/* Over a part of the statement: behind an operand a word of the row begins a clause, and nowhere else can it.
- * A comma may end the part, and an `=` that does not belong to `at`. */
+/* Skips a part of the statement. Only behind an operand can a word of the row begin a clause, which ends the
+ * part; a comma may end it too, and an `=` that does not belong to `at`. */
 static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_ends) {
-    calc_error ignored, *error = lx->error;
+    calc_error *const error = lx->error, *const strange = error_quiet();
     int depth = 0;
     bool operand = false, changing = false;      /* it ends before the token; there has been an `at` */
     enum { NOTHING, PLACE, NAMED } at = NOTHING; /* where `at` wants a name, and behind that name */
-    error_clear(&ignored);
-    for (lx->error = &ignored; lx->kind != T_END || ignored.raised; lex_next(lx)) {
+    for (lx->error = strange; lx->kind != T_END || strange->raised; lex_next(lx)) {
         const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
         if (depth == 0 &&
             (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
              (equals_ends && at != NAMED && is_equals(lx)) || (name && operand && clause_at(lx, f))))
             break;
-        error_clear(&ignored); /* who parses the part says what is no token */
+        error_clear(strange); /* whoever parses the part reports what is no token */
         depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
         changing = changing || (joins && lex_is(lx, "at"));
         const bool place = (joins && lex_is(lx, "at")) || (changing && lx->kind == T_COMMA);
@@ -452,7 +448,7 @@ static bool read_holes(shell *sh, lexer *lx, said *s, heard *h) {
 /* ---- the statement ----------------------------------------------------------------------------- */
 
 static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
-    heard *h = may_come(lx, s, a) ? add(lx, s, a) : NULL;
+    heard *h = may_come(lx, s, a) ? add_heard(lx, s, a) : NULL;
     const hole_row *row = first_hole(a);
     if (!h)
         return false;
@@ -463,7 +459,7 @@ static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
         return false;
     while (a->list && lx->kind == T_COMMA) {
         lex_next(lx);
-        h = add(lx, s, a);
+        h = add_heard(lx, s, a);
         if (!h || !read_holes(sh, lx, s, h))
             return false;
     }
@@ -487,7 +483,7 @@ static bool read_first(shell *sh, lexer *lx, said *s) {
         return true;
     if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || at_argument(lx)))
         return true;
-    heard *h = add(lx, s, a);
+    heard *h = add_heard(lx, s, a);
     return h && read_holes(sh, lx, s, h);
 }
 

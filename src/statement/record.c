@@ -18,10 +18,10 @@
 /* There is one session that can record. */
 static struct recorder *recording;
 
-/* The terminal is another's, who tells what it shows. */
+/* The full-screen mode has the terminal, and hands its frames to a cast. */
 static bool away;
 
-/* What follows is not kept, and this is told at once. */
+/* After an error nothing more is recorded. */
 static void check(struct recorder *r, bool ok, const calc_error *error) {
     if (ok)
         return;
@@ -30,7 +30,7 @@ static void check(struct recorder *r, bool ok, const calc_error *error) {
     char text[CALC_ERROR_TEXT + 40];
     snprintf(text, sizeof text, "%s; what follows is not recorded", error->text);
     r->lost = sh->lost = true;
-    sh->out = r->out; /* a stream of the recorder's may be at work */
+    sh->out = r->out; /* this may be called by a stream of the recorder's, which must not write to itself */
     sh->err = r->err;
     shell_error(sh, text);
     sh->out = out;
@@ -46,7 +46,7 @@ static void write_held(struct recorder *r) {
 }
 
 /* To the transcript, line by line. */
-static void put(struct recorder *r, char c) {
+static void put_byte(struct recorder *r, char c) {
     r->held[r->held_count++] = c;
     if (c == '\n' || r->held_count == HELD)
         write_held(r);
@@ -54,7 +54,7 @@ static void put(struct recorder *r, char c) {
 
 static void put_text(struct recorder *r, const char *text) {
     while (*text)
-        put(r, *text++);
+        put_byte(r, *text++);
 }
 
 static void put_cast(struct recorder *r, const char *bytes, size_t n) {
@@ -94,11 +94,11 @@ static void keep_plain(struct recorder *r, const char *bytes, size_t n) {
         else if (bytes[i] == '\033')
             r->escape = true;
         else
-            put(r, bytes[i]);
+            put_byte(r, bytes[i]);
     }
 }
 
-static void keep(struct recorder *r, const char *bytes, size_t n) {
+static void keep_bytes(struct recorder *r, const char *bytes, size_t n) {
     write_line(r);
     if (!r->cast)
         keep_plain(r, bytes, n);
@@ -107,7 +107,7 @@ static void keep(struct recorder *r, const char *bytes, size_t n) {
 }
 
 static void write_both(struct recorder *r, FILE *to, const char *bytes, size_t n) {
-    keep(r, bytes, n);
+    keep_bytes(r, bytes, n);
     fwrite(bytes, 1, n, to);
     fflush(to);
 }
@@ -130,7 +130,7 @@ static void open_both(struct recorder *r) {
 }
 #else
 static ssize_t write_out(void *cookie, const char *bytes, size_t n) {
-    fflush(((struct recorder *)cookie)->both_err); /* what was said before comes before */
+    fflush(((struct recorder *)cookie)->both_err); /* errors before this output come first in the file too */
     write_both(cookie, ((struct recorder *)cookie)->out, bytes, n);
     return (ssize_t)n;
 }
@@ -164,7 +164,7 @@ static void put_statements(struct recorder *r, const char *text) {
         if (*text != '#') {
             put_text(r, "fret> ");
             for (size_t i = 0; i < n; i++)
-                put(r, text[i]);
+                put_byte(r, text[i]);
             put_text(r, RECORD_GIVEN "\n");
         }
         text += n + (text[n] == '\n');
@@ -196,7 +196,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     record_end(sh, true);
     r->out = sh->out;
     r->err = sh->err;
-    setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
+    setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* line by line: what is recorded survives a crash */
     setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
     if (over)
         shell_say(sh, "overwriting %s", path);
@@ -230,7 +230,7 @@ bool record_end(shell *sh, bool tells) {
     return true;
 }
 
-/* The part of a line before its `record off`: what comes behind is answered elsewhere. */
+/* The part of a line before its `record off`: answers to the rest are not recorded. */
 static size_t until_off(const char *text, size_t len) {
     size_t kept = 0, end;
     for (size_t i = 0; i < len; i = end + 1) {
@@ -254,7 +254,7 @@ static size_t until_off(const char *text, size_t len) {
 void record_line(shell *sh, const char *text, size_t len) {
     struct recorder *r = sh->record;
     file_text typed;
-    if (!r || r->lost || (r->cast && (away || cast_has_clock(r->cast)))) /* the terminal shows it */
+    if (!r || r->lost || (r->cast && (away || cast_has_clock(r->cast)))) /* a cast has it from the terminal */
         return;
     fflush(sh->out);
     write_line(r);
@@ -280,7 +280,7 @@ void record_aside(const char *text) {
     if (!recording)
         return;
     fflush(recording->both_out);
-    keep(recording, text, strlen(text));
+    keep_bytes(recording, text, strlen(text));
 }
 
 /* ---- the terminal ------------------------------------------------------------------------------ */

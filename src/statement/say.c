@@ -12,7 +12,8 @@
 
 volatile sig_atomic_t shell_stop;
 
-void shell_message(const shell *sh, const char *kind, const char *text) {
+/* Among the answers, for a program that reads them. kind: "note", "warning", "error". */
+static void tell_programs(const shell *sh, const char *kind, const char *text) {
     answer a;
     answer_begin(&a, &sh->set, sh->out);
     answer_message(&a, kind, text);
@@ -23,11 +24,11 @@ void shell_message(const shell *sh, const char *kind, const char *text) {
 enum { NOTE = 8192 }; /* holds a file's name, escaped or not */
 
 /* On standard error, `before` it what it is; a program that reads answers finds it among them, as `kind`. */
-static void tell(shell *sh, const char *kind, const char *before, const char *format, va_list args) {
+static void tell_message(shell *sh, const char *kind, const char *before, const char *format, va_list args) {
     char text[NOTE];
     progress_wipe();
     vsnprintf(text, sizeof text, format, args);
-    shell_message(sh, kind, text);
+    tell_programs(sh, kind, text);
     fputs(before, sh->err);
     print_safe(sh->err, text, strlen(text));
     fputc('\n', sh->err);
@@ -36,21 +37,21 @@ static void tell(shell *sh, const char *kind, const char *before, const char *fo
 void shell_say(shell *sh, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    tell(sh, "note", "", format, args);
+    tell_message(sh, "note", "", format, args);
     va_end(args);
 }
 
 void shell_note(shell *sh, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    tell(sh, "note", "note: ", format, args);
+    tell_message(sh, "note", "note: ", format, args);
     va_end(args);
 }
 
 void shell_warning(shell *sh, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    tell(sh, "warning", "warning: ", format, args);
+    tell_message(sh, "warning", "warning: ", format, args);
     va_end(args);
 }
 
@@ -77,7 +78,7 @@ void shell_print_error(const shell *sh, const char *text) {
 
 void shell_error(shell *sh, const char *text) {
     progress_wipe();
-    shell_message(sh, "error", text);
+    tell_programs(sh, "error", text);
     shell_print_error(sh, text);
     fflush(sh->err);
     sh->failed = true;

@@ -60,8 +60,6 @@ bool shell_unread(void);
 SHELL_FORMAT void shell_say(shell *sh, const char *format, ...);
 SHELL_FORMAT void shell_note(shell *sh, const char *format, ...);    /* `note: ...` */
 SHELL_FORMAT void shell_warning(shell *sh, const char *format, ...); /* `warning: ...` */
-/* The part of a program in that: a "note", a "warning", an "error". */
-void shell_message(const shell *sh, const char *kind, const char *text);
 
 /* Is a line to be written that is for who types, and has no place in a script's output? In a replay it is,
  * after a mark: a transcript may have it or not. */

@@ -11,12 +11,11 @@ void shell_warn_dissimilar(shell *sh) {
     scene *s = &sh->calc.scene;
     const fret_normal *normal;
     const load_reach *reach;
-    calc_error ignored;
-    error_clear(&ignored);
-    if (!scene_normal(s, &normal, &ignored))
+    if (!scene_normal(s, &normal, error_quiet()))
         return;
     const fret_foundation *f = fret_normal_foundation(normal);
-    const bool tangential = s->used & ASKED_TANGENTIAL || (scene_reach(s, &reach, &ignored) && reach->by);
+    const bool tangential =
+        s->used & ASKED_TANGENTIAL || (scene_reach(s, &reach, error_quiet()) && reach->by);
     if (!f->similar && !sh->dissimilar && tangential)
         shell_warning(sh,
                       "the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
@@ -29,19 +28,19 @@ void shell_warn_dissimilar(shell *sh) {
 static const double most_radius = 0.3, most_slope = 0.36397023426620236; /* of R; tan 20 deg */
 
 /* Where contact is widest: now, or within the cycle that ends here. */
-static bool find_wide(scene *s, fret_press *wide, bool *within, calc_error *error) {
+static bool find_wide(scene *s, fret_press *wide, bool *within) {
     const fret_press *now;
     const fret_normal *normal;
     fret_press top;
     *within = false;
-    if (!scene_press(s, &now, error) || !scene_normal(s, &normal, error))
+    if (!scene_press(s, &now, error_quiet()) || !scene_normal(s, &normal, error_quiet()))
         return false;
     *wide = *now;
     if (program_last_cycle(s->program, s->end) + 1 != s->end.steps)
         return true;
     long double FNA = 0, phase = 0;
-    scene_get(s, IN_FNA, &FNA, error);
-    scene_get(s, IN_PHASE, &phase, error);
+    scene_get(s, IN_FNA, &FNA, error_quiet());
+    scene_get(s, IN_PHASE, &phase, error_quiet());
     const fret_real most = now->F + fabsl(FNA) - FNA * cosl(phase); /* it ends at FN + FNA cos(phase) */
     if (most > now->F && !fret_press_by_force(normal, (double)most, &top).code) {
         *wide = top;
@@ -55,10 +54,8 @@ static bool find_wide(scene *s, fret_press *wide, bool *within, calc_error *erro
 static long double least_radius(scene *s, const char **name) {
     const double *R = s->in.radii;
     long double of_both = INFINITY;
-    calc_error ignored;
-    error_clear(&ignored);
     *name = "R";
-    if (!inputs_take(&s->in, IN_RADIUS) || !scene_get(s, IN_RADIUS, &of_both, &ignored) || R[0] == 0)
+    if (!inputs_take(&s->in, IN_RADIUS) || !scene_get(s, IN_RADIUS, &of_both, error_quiet()) || R[0] == 0)
         return of_both;
     *name = fabs(R[0]) <= fabs(R[1]) ? "R1" : "R2";
     return fmin(fabs(R[0]), fabs(R[1]));
@@ -70,14 +67,12 @@ static void warn_half_space(shell *sh) {
     bool within;
     const char *name;
     long double slope = 0;
-    calc_error ignored;
-    error_clear(&ignored);
-    if (!find_wide(s, &press, &within, &ignored))
+    if (!find_wide(s, &press, &within))
         return;
     enum { WIDE = 1, STEEP = 2 };
     const long double R = least_radius(s, &name);
     if (inputs_take(&s->in, IN_SLOPE))
-        scene_get(s, IN_SLOPE, &slope, &ignored);
+        scene_get(s, IN_SLOPE, &slope, error_quiet());
     const bool wide = press.a > most_radius * R, steep = slope > most_slope;
     if (wide && !(sh->no_half_space & WIDE))
         shell_warning(sh,
@@ -98,13 +93,11 @@ static void find_widest(shell *sh) {
     scene *s = &sh->calc.scene;
     const fret_normal *normal;
     const char *name;
-    calc_error ignored;
-    error_clear(&ignored);
     sh->widest = (fret_press){.F = INFINITY, .dz = INFINITY};
     const long double R = least_radius(s, &name);
     if (isinf(R))
         return;
-    if (!scene_normal(s, &normal, &ignored) ||
+    if (!scene_normal(s, &normal, error_quiet()) ||
         fret_press_by_radius(normal, most_radius * (double)R, &sh->widest).code)
         sh->widest = (fret_press){.F = 0, .dz = 0};
 }

@@ -33,11 +33,11 @@ typedef struct bench {
     double enough;      /* seconds, to time one model */
 } bench;
 
-static bool stopped(const bench *b) {
+static bool bench_stopped(const bench *b) {
     return calc_stopped(b->s->stop, b->error);
 }
 
-static void tell(const bench *b, model_family family, unsigned long size) {
+static void tell_row(const bench *b, model_family family, unsigned long size) {
     b->progress(b->context, &(accuracy_row){.family = family, .size = size});
 }
 
@@ -51,7 +51,7 @@ static bool time_of(bench *b, cycle_of *cycle, void *model, double *seconds) {
         const double start = clock_worked();
         fret_status st = fine;
         for (unsigned long i = 0; i < count && !st.code; i++) {
-            if (stopped(b))
+            if (bench_stopped(b))
                 return false;
             st = cycle(model, NULL);
         }
@@ -67,7 +67,7 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
     accuracy_study *study = b->study;
     accuracy_row *row = &study->row[study->count];
     *row = (accuracy_row){.family = family, .size = size};
-    tell(b, family, size);
+    tell_row(b, family, size);
     const double start = clock_worked();
     fret_status st = cycle(model, &row->value);
     row->seconds = clock_worked() - start;
@@ -79,7 +79,7 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
         row->error = study->agreement;
     study->count++;
     b->s->used |= USED(families[family].model);
-    return !stopped(b);
+    return !bench_stopped(b);
 }
 
 /* The next model of this kind has ten times the size and takes ten times as long to set up and to run, twice
@@ -118,7 +118,7 @@ static fret_status closed_cycle(void *model, long double *loss) {
     return closed_loss(model, loss ? loss : &unused);
 }
 
-/* Its error is what the reference can tell. */
+/* Where F_N is constant this is the reference too: its row shows how far that can be trusted. */
 static fret_status quadrature_cycle(void *model, long double *loss) {
     steady *m = model;
     long double unused, error;
@@ -208,7 +208,7 @@ static bool springs_rows(bench *b, steady *m, model_family family) {
     bool ok = true;
     for (unsigned count = 100; ok && count <= 1000000; count *= 10) {
         const double start = clock_worked();
-        tell(b, family, count);
+        tell_row(b, family, count);
         fret_status st = springs_ready(m, wider * count, wider * (double)m->contact.press.a, rule);
         if (st.code && fret_status_category(st.code) != FRET_CAT_SYSTEM)
             break;
@@ -312,11 +312,11 @@ static fret_status approach(general *g, runner *r) {
 static bool open_general(bench *b, general *g, unsigned springs, unsigned first, unsigned levels, bool seen) {
     calc_error *error = b->error;
     g->levels = 0;
-    if (!scene_load_of(b->s, &g->load, error)) /* unreached: all of it has been had before */
+    if (!scene_load_of(b->s, &g->load, error)) /* unreached: the scene has answered for this load */
         return false;
     g->cycle = program_item(g->load.program, (load_mark){g->load.last_cycle, g->load.end.cycles - 1},
                             g->load.last_cycle, g->load.in);
-    g->cycle.step.points = 0; /* those to record are no matter here */
+    g->cycle.step.points = 0; /* nothing is recorded here */
     for (unsigned i = 0; i < levels; i++) {
         runner *r = &g->run[i];
         *r = (runner){.load = &g->load, .level = first + i, .watch = seen ? &g->watch : NULL};
@@ -362,7 +362,7 @@ static fret_status general_cycle(void *model, long double *loss) {
     return limit_cycle(model, loss ? loss : &unused, &moved);
 }
 
-/* What goes into the contact and is not stored. */
+/* The work that the load does, less what the contact has stored of it. */
 static fret_status area_cycle(void *model, long double *loss) {
     general *g = model;
     runner *r = &g->run[0];
@@ -396,7 +396,7 @@ static bool general_row(bench *b, model_family family, unsigned springs, bool *m
     general g = {.sine = family == FAMILY_MEMORY && by_sine(b)};
     const unsigned levels = swings(b) && !g.sine ? LEVELS : 1;
     const double start = clock_worked();
-    tell(b, family, springs);
+    tell_row(b, family, springs);
     if (!open_general(b, &g, springs, 0, levels, false))
         return false;
     const double setting_up = clock_worked() - start;
@@ -495,7 +495,7 @@ static bool choose_amplitude(scene *s, const accuracy_load *given, accuracy_stud
     if (given->given)
         return true;
     if (s->end.cycles) {
-        scene_last_cycle(s, &cycle, error); /* scene_reach has had it */
+        scene_last_cycle(s, &cycle, error); /* cannot fail: scene_reach has read it */
         out->by_force = cycle.step.tangential == BY_FORCE;
         out->amplitude = cycle.step.tangential_value;
         out->program = reach->normal_varies;
@@ -517,7 +517,7 @@ static bool choose_amplitude(scene *s, const accuracy_load *given, accuracy_stud
 static bool choose_load(scene *s, const accuracy_load *given, accuracy_study *out, steady *m,
                         calc_error *error) {
     long double unused;
-    const load_reach *pressed; /* what is missing first is said first */
+    const load_reach *pressed; /* first: a missing load is reported before missing friction */
     if (!scene_reach(s, &pressed, error) || !scene_contact(s, &m->contact, error))
         return false;
     out->FN = m->contact.press.F;

@@ -15,14 +15,12 @@ bool ask_repeats(const knob *knobs, size_t count) {
 
 bool ask_present(calc *c, const knob *k, double *v) {
     long double now;
-    calc_error ignored;
-    error_clear(&ignored);
     if (!k->is_input) {
         const own_name *row = &c->names.row[k->name];
         *v = (double)row->v.v;
         return row->known && !row->definition;
     }
-    if (!scene_get(c->now, k->in, &now, &ignored))
+    if (!scene_get(c->now, k->in, &now, error_quiet()))
         return false;
     *v = (double)now;
     return true;

@@ -54,7 +54,7 @@ typedef struct sides {
     double *out; /* left - right of all rows */
 } sides;
 
-static void give(void *context, size_t row, long double x[]) {
+static void give_data(void *context, size_t row, long double x[]) {
     const state *s = ((const sides *)context)->s;
     const fit_question *of = s->of;
     for (size_t i = 0; i < of->count; i++)
@@ -63,7 +63,8 @@ static void give(void *context, size_t row, long double x[]) {
         x[of->count + j] = of->column[j].v[row];
 }
 
-static bool take(void *context, size_t row, const long double x[], const value v[], const calc_error *why) {
+static bool take_sides(void *context, size_t row, const long double x[], const value v[],
+                       const calc_error *why) {
     const sides *to = context;
     state *s = to->s;
     (void)x;
@@ -85,7 +86,8 @@ static bool take(void *context, size_t row, const long double x[], const value v
 
 static bool equations(state *s, double *out) {
     sides to = {s, out};
-    return points_go(&s->p, &(points_run){.count = s->of->rows, .give = give, .take = take, .context = &to});
+    return points_go(
+        &s->p, &(points_run){.count = s->of->rows, .give = give_data, .take = take_sides, .context = &to});
 }
 
 /* The press that everything begins with. */
@@ -236,7 +238,7 @@ static double largest_force(const state *s) {
 /* How far the sides move when a name does, as a part of their size, to where they have values. */
 static double effect(state *s, size_t i, double by) {
     double most = 0;
-    s->scale[i] = by; /* so that it stands there at 2 and 0 */
+    s->scale[i] = by; /* q = 2 and q = 0 are then the start, more or less by that */
     if (!residuals_beside(s, i, 2, s->above) && !residuals_beside(s, i, 0, s->above))
         most = (double)INFINITY;
     for (size_t row = 0; row < s->of->rows && isfinite(most); row++)
@@ -245,9 +247,8 @@ static double effect(state *s, size_t i, double by) {
     return most / s->size;
 }
 
-/* The size of a name is its own value, where that shows in the sides. At 0, or next to it, the value says
- * nothing of it, and its unit neither: the data alone know how far the name is to go to be seen. So it is
- * looked for by decades, and is taken to be what would move the sides by a tenth. */
+/* The size of a name is its own value, where a change by as much shows in the sides. A value near 0 tells no
+ * size: that is looked for by decades, and is what would move the sides by a tenth. */
 static double scale_of(state *s, size_t i) {
     static const double clear = 1e-3, visible_part = 1e-6, decades = 64;
     const double own = fabs(s->start[i]);
@@ -261,7 +262,7 @@ static double scale_of(state *s, size_t i) {
         else
             hi = mid;
     }
-    if (hi == decades) /* nothing shows: which will be said */
+    if (hi == decades) /* nothing shows: determined() reports it */
         return own > 0 ? own : 1;
     const double by = pow(10, hi), part = effect(s, i, by);
     return isfinite(part) ? 0.1 * by / part : by;
@@ -283,7 +284,7 @@ static void choose_unit(state *s) {
         s->unit = 1;
 }
 
-static bool begin(state *s, gsl_vector *q, calc_error *error) {
+static bool begin_fit(state *s, gsl_vector *q, calc_error *error) {
     const fit_question *of = s->of;
     for (size_t i = 0; i < of->count; i++) {
         const knob *k = &of->name[i];
@@ -310,8 +311,8 @@ static bool begin(state *s, gsl_vector *q, calc_error *error) {
     return !error->raised;
 }
 
-/* Where another name is 0, nothing may depend on one, which has its scale from nowhere then: scales are taken
- * anew where the fit has come to, and it begins again where they are quite others. */
+/* A scale taken at the start may be wrong: where another name is 0 there, nothing may depend on this one. So
+ * scales are taken anew where the fit has ended, and where one differs much the fit is repeated. */
 static bool begin_again(state *s, gsl_vector *q, bool *again, calc_error *error) {
     const state before = *s;
     *again = false;
@@ -320,7 +321,7 @@ static bool begin_again(state *s, gsl_vector *q, bool *again, calc_error *error)
     gsl_vector_set_all(s->beside, 1);
     s->largest = 0;
     if (!residuals(s, s->beside, s->residual))
-        return false; /* unreached: it has been computed */
+        return false; /* unreached: the fit has just been there */
     choose_scales(s);
     for (size_t i = 0; i < s->of->count; i++)
         *again = *again || fabs(log10(s->scale[i] / before.scale[i])) > 2;
@@ -403,8 +404,8 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT
 
 /* ---- solving ----------------------------------------------------------------------------------- */
 
-/* No progress is none to be made where the step to the least squares is small beside the standard errors, or
- * beside the name itself. Else, most often, the data are to blame. */
+/* GSL stops where it makes no progress. That is the end where the step that is left is small beside the
+ * standard error, or beside the name itself. */
 static bool arrived(state *s, gsl_multifit_nlinear_workspace *w, calc_error *error) {
     const gsl_vector *f = gsl_multifit_nlinear_residual(w);
     const gsl_matrix *J = gsl_multifit_nlinear_jac(w);
@@ -427,14 +428,14 @@ static bool arrived(state *s, gsl_multifit_nlinear_workspace *w, calc_error *err
     return true;
 }
 
-/* GSL's driver, which goes on to its last iteration whatever the residuals say: an interrupt is to end it. */
+/* In place of GSL's driver, which an interrupt would not end. */
 static int drive(const state *s, gsl_multifit_nlinear_workspace *w) {
     int status = GSL_CONTINUE, info;
     for (int i = 0; i < ITERATIONS && status == GSL_CONTINUE; i++) {
         const int step = gsl_multifit_nlinear_iterate(w);
         if (s->p.error->raised)
             return GSL_EFAILED;
-        if (step == GSL_ENOPROG && i == 0) /* it may have begun there; later it may have arrived */
+        if (step == GSL_ENOPROG && i == 0) /* may have begun at the end: arrived() looks */
             return GSL_EMAXITER;
         status = gsl_multifit_nlinear_test(1e-10, 1e-10, 0, &info, w);
     }
@@ -470,8 +471,8 @@ static void look_for_drift(const state *s, const gsl_vector *f, fit_answer *out)
     out->drifts = out->rms > visible * size && out->together > 0.5 && out->together > 4 / sqrt((double)n);
 }
 
-static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector *q, fit_answer *out,
-                  calc_error *error) {
+static bool judge_fit(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector *q, fit_answer *out,
+                      calc_error *error) {
     const size_t p = s->of->count;
     const gsl_vector *f = gsl_multifit_nlinear_residual(w);
     const double squares = pow(gsl_blas_dnrm2(f), 2), v = squares / (double)(s->of->rows - p);
@@ -492,17 +493,17 @@ static bool judge(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vector 
     return ok;
 }
 
-static bool run(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
-                calc_error *error) {
+static bool run_fit(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
+                    calc_error *error) {
     s->above = s->residual + s->of->rows;
     s->below = s->above + s->of->rows;
     bool again = true;
-    if (!begin(s, q, error))
+    if (!begin_fit(s, q, error))
         return false;
     for (int i = 0; i < BEGINNINGS && again; i++)
         if (!descend(s, w, q, out, error) || !begin_again(s, q, &again, error))
             return false;
-    return judge(s, w, q, out, error);
+    return judge_fit(s, w, q, out, error);
 }
 
 static bool begin_points(state *s, calc_error *error) {
@@ -539,7 +540,7 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     s.J = gsl_matrix_alloc(n, p);
     s.residual = malloc(3 * n * sizeof *s.residual);
     bool ok = w && q && s.beside && s.J && s.residual;
-    ok = ok ? run(&s, w, q, out, error) : calc_no_memory(error);
+    ok = ok ? run_fit(&s, w, q, out, error) : calc_no_memory(error);
     if (w)
         gsl_multifit_nlinear_free(w);
     gsl_vector_free(q);

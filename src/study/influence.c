@@ -110,22 +110,21 @@ static bool set_to(probe *p, const cause *c, double x, calc_error *error) {
 
 /* The result with the cause moved to x, everything else as it is; false where that is refused. */
 static bool moved_to(probe *p, const cause *c, double x, long double *out) {
-    calc_error error;
+    calc_error *why = error_quiet();
     value v = {0};
-    error_clear(&error);
     trial_reset(p->t);
     bool ok;
     if (c->kind == CAUSE_ARGUMENT) {
-        ok = p->call->call(&p->t->scene, (value){x, c->v.d}, &v.v, &error);
+        ok = p->call->call(&p->t->scene, (value){x, c->v.d}, &v.v, why);
     } else {
-        ok = set_to(p, c, x, &error) && expr_eval(p->t->c, p->e, &v, &error);
+        ok = set_to(p, c, x, why) && expr_eval(p->t->c, p->e, &v, why);
         if (c->kind == CAUSE_STEP)
             *c->step = (double)c->v.v;
-        else if (c->kind == CAUSE_NAME) /* a reset leaves it */
-            set_to(p, c, (double)c->v.v, &error);
+        else if (c->kind == CAUSE_NAME) /* trial_reset does not put names back */
+            set_to(p, c, (double)c->v.v, why);
     }
-    if (error.stop && !p->error->raised)
-        *p->error = error;
+    if (why->stop && !p->error->raised)
+        *p->error = *why;
     *out = v.v;
     return ok;
 }
@@ -152,9 +151,8 @@ static int differences(probe *p, const cause *c, double h, long double *change, 
     return valid;
 }
 
-/* The step is no choice: what the last digit does is asked, and a whole number of them is changed. Close to a
- * singularity only neighbouring numbers tell the slope; elsewhere a wider step stands out from the
- * rounding of what has passed through a double. Of three steps the least uncertain counts. */
+/* Steps are whole numbers of last digits. Close to a singularity only neighbouring numbers tell the slope;
+ * elsewhere a wider step stands out from rounding. Of three steps the least uncertain counts. */
 static void find_influence(probe *p, cause *c) {
     const double x = fabs((double)c->v.v), ulp = nextafter(x, INFINITY) - x;
     long double least = HUGE_VALL; /* uncertainty of change */

@@ -7,7 +7,7 @@
 
 /* The loss f(d) is convex. From a kink (d_i, f-e) the steepest line that stays below f+e touches it; the next
  * kink is where the line meets f-e again. The least e whose kinks suffice is looked for by halves. */
-/* The least error is looked for to this part; the one that is stated holds exactly. */
+/* The least error is looked for to this part of itself; the one that is stated holds all the same. */
 #define ENOUGH 1e-4
 /* Parts of gross slip whose slope of the loss is rounding. */
 #define TOO_SMALL 1e-10
@@ -24,7 +24,7 @@ typedef struct march {
     void (*pulse)(void);
 } march;
 
-static bool stopped(const march *m) {
+static bool march_stopped(const march *m) {
     return *m->stop;
 }
 
@@ -110,12 +110,12 @@ static double sliding_slope(const march *m) {
     return 4 * m->contact->mu * (double)m->contact->press.F;
 }
 
-/* Is the line of sliding close enough from the latest kink on? */
+/* Does the line of gross slip, drawn from the latest kink, stay close enough to the loss? */
 static bool slides(march *m) {
     return sliding_slope(m) * (m->end - m->d) <= loss(m, m->end) + m->e - m->p;
 }
 
-/* The next kink, from where the line touches; beyond gross slip the loss is a line too. */
+/* Where the line, which touches at `at`, meets f-e again; beyond gross slip the loss is straight. */
 static double kink_after(march *m, double at) {
     const double short_of = -next_kink(m, m->end);
     return short_of > 0 ? m->end + short_of / (sliding_slope(m) - m->slope)
@@ -143,7 +143,7 @@ static bool suffices(march *m, size_t count, jenkins_element *out) {
             out[i].s = (m->slope - slope) / 4;
             out[i].k = out[i].s / m->d;
         }
-        if (done || last || stopped(m))
+        if (done || last || march_stopped(m))
             return done;
         slope = m->slope;
         m->d = kink_after(m, at);
@@ -172,14 +172,14 @@ bool jenkins(const fret_pressed *contact, double amplitude, size_t count, const 
     if (!(m.end > TOO_SMALL * slip) || scale < DBL_MIN)
         return calc_status(error, &m.failed) &&
                calc_fail(error, 0, 0, "the load is too small: what slips can hardly be told from nothing");
-    while (!m.failed.code && !stopped(&m) && hi - lo > ENOUGH * hi) {
+    while (!m.failed.code && !march_stopped(&m) && hi - lo > ENOUGH * hi) {
         m.e = lo > 0 ? sqrt(lo) * sqrt(hi) : hi / 16;
         if (suffices(&m, slipping, NULL))
             hi = m.e;
         else
             lo = m.e;
     }
-    if (stopped(&m))
+    if (march_stopped(&m))
         return calc_interrupted(error);
     for (size_t i = 0; i < count; i++)
         out[i] = (jenkins_element){0, 0};

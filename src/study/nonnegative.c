@@ -30,7 +30,8 @@ static bool solve_used(state *s) {
     return !status;
 }
 
-/* Goes there until the first becomes 0, and leaves that out; true: arrived. */
+/* Goes to what is wanted, or only until an unknown becomes 0, which is then no longer in use; true: arrived.
+ */
 static bool approach(state *s) {
     double part = 1;
     size_t stop = 0, kept = 1;
@@ -77,8 +78,8 @@ static size_t best_unused(const state *s) {
     return found;
 }
 
-/* Where rounding makes those in use singular, what has been found is good enough. */
-static void run(state *s) {
+/* Ends early where rounding makes those in use singular: what has been found is good enough. */
+static void run_active_set(state *s) {
     s->used[s->count++] = s->n - 1;
     for (size_t round = 0, next = 0; next < s->n; round++) {
         do
@@ -103,7 +104,7 @@ bool nonnegative(const gsl_matrix *M, const gsl_vector *right, gsl_vector *x) {
     gsl_vector_set_zero(x);
     const bool ok = s.wanted && s.part && s.used;
     if (ok)
-        run(&s);
+        run_active_set(&s);
     gsl_vector_free(s.wanted);
     gsl_matrix_free(s.part);
     free(s.used);

@@ -51,7 +51,7 @@ static long double take_value(search *s, const value *v, const calc_error *why) 
     return s->of->most ? -v->v : v->v;
 }
 
-static long double at(search *s, const double *u) {
+static long double at_parts(search *s, const double *u) {
     long double x[N];
     value v;
     set_knobs(s, u, x);
@@ -78,12 +78,13 @@ typedef struct places {
     long double f[PLACES];
 } places;
 
-static void give(void *context, size_t i, long double x[]) {
+static void give_place(void *context, size_t i, long double x[]) {
     const places *p = context;
     set_knobs(p->s, p->u[i], x);
 }
 
-static bool take(void *context, size_t i, const long double x[], const value v[], const calc_error *why) {
+static bool take_place(void *context, size_t i, const long double x[], const value v[],
+                       const calc_error *why) {
     places *p = context;
     (void)x;
     p->f[i] = take_value(p->s, v, why);
@@ -91,7 +92,8 @@ static bool take(void *context, size_t i, const long double x[], const value v[]
 }
 
 static bool at_all(places *p) {
-    return points_go(&p->s->p, &(points_run){.count = p->count, .give = give, .take = take, .context = p});
+    return points_go(&p->s->p,
+                     &(points_run){.count = p->count, .give = give_place, .take = take_place, .context = p});
 }
 
 /* ---- along one name ---------------------------------------------------------------------------- */
@@ -148,7 +150,7 @@ static long double line_at(line *l, double u) {
             place[i] = inner.place[i];
         f = inner.f;
     } else {
-        f = at(l->s, place);
+        f = at_parts(l->s, place);
     }
     return line_take(l, u, place, f);
 }
@@ -294,7 +296,7 @@ static double gsl_angles(const gsl_vector *v, void *context) {
         const double sine = s->fixed[i] ? 0 : sin(gsl_vector_get(v, next++));
         u[i] = s->fixed[i] ? s->u[i] : sine * sine;
     }
-    const long double f = at(s, u);
+    const long double f = at_parts(s, u);
     return isnan(f) ? DBL_MAX : (double)f;
 }
 
@@ -322,7 +324,7 @@ static bool simplex(search *s, size_t free, double step, double size) {
             u[i] = s->fixed[i] ? s->u[i] : sine * sine;
         }
         if (!s->p.error->raised)
-            better(s, u, at(s, u));
+            better(s, u, at_parts(s, u));
     }
     if (m)
         gsl_multimin_fminimizer_free(m);
@@ -355,10 +357,10 @@ static size_t fix_ends(search *s, optimise_end end[N]) {
         for (size_t j = 0; j < N; j++)
             u[j] = s->u[j];
         u[i] = to;
-        if (fabs(s->u[i] - to) < 1e-3 && (s->u[i] == to || better(s, u, at(s, u)))) {
+        if (fabs(s->u[i] - to) < 1e-3 && (s->u[i] == to || better(s, u, at_parts(s, u)))) {
             /* it may only have begun there */
             u[i] = to > 0 ? 1 - 1e-4 : 1e-4;
-            if (better(s, u, at(s, u)))
+            if (better(s, u, at_parts(s, u)))
                 continue;
             s->fixed[i] = true;
             end[i] = to > 0 ? END_HIGH : END_LOW;
@@ -391,7 +393,7 @@ static long double moved(search *s, size_t i, double by, size_t j, double also) 
         u[k] = s->u[k];
     u[i] += by;
     u[j] += also;
-    return at(s, u);
+    return at_parts(s, u);
 }
 
 /* Gradient and curvature at the best place; false: not all neighbours have values, or the question has ended.
@@ -444,7 +446,7 @@ static bool newton_step(search *s, const size_t *free, size_t count, gsl_vector 
         u[free[a]] -= by;
         *length = fmax(*length, fabs(by));
     }
-    const long double f = at(s, u);
+    const long double f = at_parts(s, u);
     /* where the value stands still, its slope still tells */
     if (!(f <= s->f + 1e-9L * fabsl(s->f)))
         return false;
@@ -529,7 +531,7 @@ static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     return !s->p.error->raised;
 }
 
-static bool answer(search *s, optimise_answer *out, calc_error *error) {
+static bool answer_optimum(search *s, optimise_answer *out, calc_error *error) {
     const expr *e = s->of->e;
     line l = {.s = s, .f = (long double)NAN};
     if (!(s->of->count == 1 ? search_one(s, &l, out->end) : search_several(s, out->end)))
@@ -557,7 +559,7 @@ bool optimise(const optimise_question *question, optimise_answer *out, calc_erro
     for (size_t i = 0; i < question->count; i++)
         s.ratios[i] = ask_in_ratios(question->lo[i], question->hi[i]);
     const bool ok = points_open(&s.p, question->c, question->name, question->count, question->e, 1, error) &&
-                    answer(&s, out, error);
+                    answer_optimum(&s, out, error);
     points_close(&s.p);
     return ok;
 }

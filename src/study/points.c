@@ -148,7 +148,7 @@ static bool one_here(points *p, const points_run *run, size_t i, const long doub
     return hand_over(p, run, i, x, p->v, all ? NULL : p->error->raised ? p->error : &p->none);
 }
 
-/* A part as it is given: how many points, and behind it their knobs. */
+/* A part as it is given: the knobs of its points lie behind it. */
 typedef struct portion {
     size_t count;
 } portion;
@@ -174,7 +174,8 @@ static size_t errors_at(const points *p) {
     return aligned(values_at() + PORTION * p->n * sizeof(value));
 }
 
-/* In a copy, whose points are its own; false: one of them ends it all, and is met again by who gave it. */
+/* In a worker, on its own copy of the points. False: an error that ends all; the process that gave the part
+ * computes it again and so meets the error itself. */
 static bool work(void *context, const void *in, void *out) {
     points *p = context;
     const portion *given = in;
@@ -196,7 +197,7 @@ typedef struct sharing {
     size_t first, portion; /* where it begins; points of a part */
 } sharing;
 
-static void give(void *context, size_t part, void *in) {
+static void give_portion(void *context, size_t part, void *in) {
     const sharing *sh = context;
     const size_t i = sh->first + part * sh->portion, left = sh->run->count - i;
     portion *given = in;
@@ -212,7 +213,7 @@ static bool lacks(const value *v, size_t n) {
     return false;
 }
 
-static bool take(void *context, size_t part, const void *in, const void *out) {
+static bool take_portion(void *context, size_t part, const void *in, const void *out) {
     const sharing *sh = context;
     points *p = sh->p;
     const portion *given = in;
@@ -238,7 +239,7 @@ static bool take(void *context, size_t part, const void *in, const void *out) {
     return true;
 }
 
-/* Has it come to be worth while? */
+/* Is there a team for the points that are left? It begins once it pays. */
 static bool shared(points *p, size_t left) {
     const size_t to_come = p->all > p->done + left ? p->all - p->done : left;
     if (p->team || p->alone || !team_pays(p->taken, (double)p->watched, (double)(p->watched + to_come)))
@@ -261,11 +262,13 @@ static size_t portion_of(const points *p, size_t left) {
 static bool share(points *p, const points_run *run, size_t first) {
     const size_t left = run->count - first;
     sharing sh = {.p = p, .run = run, .first = first, .portion = portion_of(p, left)};
-    const team_run parts = {
-        .parts = (left + sh.portion - 1) / sh.portion, .give = give, .take = take, .context = &sh};
+    const team_run parts = {.parts = (left + sh.portion - 1) / sh.portion,
+                            .give = give_portion,
+                            .take = take_portion,
+                            .context = &sh};
     const bool ok = team_work(p->team, &parts);
     if (!ok)
-        points_dismiss(p); /* the rest of it is of no use */
+        points_dismiss(p); /* it may still be at work on parts that nobody wants */
     return !calc_stopped(p->c->scene.stop, p->error) && ok;
 }
 

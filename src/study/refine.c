@@ -116,7 +116,7 @@ static bool halve(picture *p, long double *part, long double *value, size_t *mor
     return true;
 }
 
-static bool run(picture *p, double *sorted, long double *part, long double *value) {
+static bool run_rounds(picture *p, double *sorted, long double *part, long double *value) {
     for (size_t i = 0; i < p->n; i++)
         p->part[i] = (long double)i / (long double)(p->n - 1);
     if (!p->r->evaluate(p->r->context, p->part, p->n, p->value))
@@ -143,7 +143,7 @@ bool refine(const refinement *r, calc_error *error) {
     double *sorted = malloc(room * sizeof *sorted);
     long double *part = malloc(room * sizeof *part), *value = malloc(room * r->count * sizeof *value);
     bool ok = p.part && p.value && p.halve && p.of && sorted && part && value;
-    ok = ok ? run(&p, sorted, part, value) : calc_no_memory(error);
+    ok = ok ? run_rounds(&p, sorted, part, value) : calc_no_memory(error);
     free(p.part);
     free(p.value);
     free(p.halve);

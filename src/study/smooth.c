@@ -174,7 +174,7 @@ static bool improve(trial *t, const rows *all, bool begin, file_stop stop, calc_
     return true;
 }
 
-static void judge(trial *t, const rows *all) {
+static void judge_profile(trial *t, const rows *all) {
     double squares = 0;
     t->worst = -1;
     for (size_t i = 0; i < all->count; i++) {
@@ -256,7 +256,7 @@ static bool make_convex(trial *t, const rows *all) {
     }
     if (ok) {
         gsl_blas_dgemv(CblasNoTrans, 1, T, e, 0, t->c);
-        judge(t, all);
+        judge_profile(t, all);
     }
     gsl_matrix_free(T);
     gsl_matrix_free(AT);
@@ -279,7 +279,7 @@ static bool attempt(trial *t, const rows *all, size_t pieces, file_stop stop, ca
     for (int pass = 0; pass < 2; pass++)
         if (!improve(t, all, pass == 0, stop, error))
             return false;
-    judge(t, all);
+    judge_profile(t, all);
     look_for_fall(t);
     if (t->grows)
         return true;
@@ -292,14 +292,14 @@ static bool attempt(trial *t, const rows *all, size_t pieces, file_stop stop, ca
         t->drop = 0;
     } else { /* it may be pressed as far as g grows, where f does not fall */
         gsl_vector_memcpy(t->c, t->right);
-        judge(t, all);
+        judge_profile(t, all);
     }
     return true;
 }
 
 /* ---- how many pieces --------------------------------------------------------------------------- */
 
-/* A profile that falls from the beginning, or far below it, is no gap whose rim was measured too. */
+/* Most profiles that fall were measured beyond the rim; not one that falls from the apex, or far below it. */
 static const char *advice(const trial *t) {
     double end, slope;
     end_of(t, t->pieces, &end, &slope);
@@ -318,7 +318,7 @@ static bool rises(const trial *t, const rows *all, calc_error *error) {
                      t->pieces, t->pieces == 1 ? "" : "s", where, drop, advice(t));
 }
 
-/* By rows: each piece is to have some. */
+/* Each piece needs four different r. */
 static size_t most_pieces(const rows *all, size_t most) {
     return all->distinct / 4 < most ? all->distinct / 4 : most;
 }
@@ -364,7 +364,7 @@ static bool choose_within(trial *t, const rows *all, double within, file_stop st
                      wanted, got);
 }
 
-/* ---- */
+/* ---- the answer -------------------------------------------------------------------------------- */
 
 static bool hand_out(const trial *t, const rows *all, smooth_answer *out, calc_error *error) {
     const size_t n = t->pieces + 1;

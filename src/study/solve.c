@@ -129,7 +129,7 @@ static bool scan(search *s) {
     }
     s->swings = turns >= TURNS;
     if (equal)
-        s->roots = 0; /* it does not depend on the name */
+        s->roots = 0; /* equal everywhere: the sides do not depend on the name */
     return true;
 }
 
@@ -161,7 +161,7 @@ static bool approach_edge(search *s, place bad, place good) {
     return true;
 }
 
-/* Where there are roots already, they are looked for at poles alone: it takes long. */
+/* Takes long: once there are roots, in the fine scan alone, which follows jumps, poles and swings. */
 static bool search_edges(search *s) {
     for (unsigned i = 0; i < s->places && (!s->roots || s->places == FINE); i++) {
         const place a = s->at[i], b = s->at[i + 1];
@@ -173,7 +173,7 @@ static bool search_edges(search *s) {
 
 /* ---- between the places of the scan ------------------------------------------------------------ */
 
-static double distance(double x, void *context) {
+static double side_distance(double x, void *context) {
     search *s = context;
     return s->side * difference(s, x);
 }
@@ -209,7 +209,7 @@ static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
         }
     }
     gsl_min_fminimizer *method = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
-    gsl_function f = {distance, s};
+    gsl_function f = {side_distance, s};
     if (!method)
         return calc_no_memory(error);
     s->side = b.f > 0 ? 1 : -1;
@@ -270,7 +270,7 @@ static bool search_dips(search *s, calc_error *error) {
     return search_end(s, at[0], at[1], error) && search_end(s, at[last], at[last - 1], error);
 }
 
-static bool look(search *s, unsigned places, calc_error *error) {
+static bool look_for_roots(search *s, unsigned places, calc_error *error) {
     s->places = places;
     s->roots = 0;
     return scan(s) && search_edges(s) && search_dips(s, error);
@@ -325,7 +325,7 @@ static double gsl_difference(double x, void *context) {
     return difference(context, x);
 }
 
-/* To the last digit; rough: to six. */
+/* By Brent's method to the last digit; rough: to six. */
 static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *error) {
     const place a = s->root[i], b = s->other[i];
     *x = a.x;
@@ -370,16 +370,15 @@ static bool only_jumps(search *s, double x, calc_error *error) {
                      "no root: the sides jump past each other at %s", there);
 }
 
-/* The place of a root; *is: there is one, no jump and no gap. Roughly, where that is enough to tell. */
+/* *is: there is a root at *x, no jump and no gap. Most roots show at six digits, which take less time. */
 static bool try_root(search *s, unsigned i, double *x, bool *is, calc_error *error) {
     *is = false;
     for (int rough = 1; rough >= 0 && !*is; rough--) {
-        calc_error none;
-        error_clear(&none);
-        const bool found = refine(s, i, rough, x, &none);
+        calc_error *none = error_quiet();
+        const bool found = refine(s, i, rough, x, none);
         *is = found && !jumps(s, i, *x);
-        if (none.stop)
-            *error = none;
+        if (none->stop)
+            *error = *none;
         if (error->raised)
             return false;
     }
@@ -391,7 +390,7 @@ static int in_order(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Of several changes of sign; jumps among them are no roots, and one that is left is the answer. */
+/* Leaves out the changes of sign that are jumps; where one root is left it is the answer. */
 static bool sift(search *s, solve_answer *out, calc_error *error) {
     place found[ROOTS];
     unsigned roots = 0, last = 0;
@@ -430,22 +429,21 @@ static bool several(search *s, calc_error *error) {
 
 /* One root, where it does not turn out to be a jump. */
 static bool single(search *s, solve_answer *out, calc_error *error) {
-    calc_error none;
-    error_clear(&none);
-    out->jumps = !refine(s, 0, false, &out->x, &none) || jumps(s, 0, out->x);
-    if (none.stop)
-        *error = none;
+    calc_error *none = error_quiet();
+    out->jumps = !refine(s, 0, false, &out->x, none) || jumps(s, 0, out->x);
+    if (none->stop)
+        *error = *none;
     s->jump = out->x;
     s->roots = !out->jumps;
     return !error->raised;
 }
 
-static bool answer(search *s, solve_answer *out, calc_error *error) {
+static bool answer_root(search *s, solve_answer *out, calc_error *error) {
     if (!choose_range(s, error))
         return false;
     for (unsigned places = SCAN; places <= FINE && (places == SCAN || out->jumps || s->pole || s->swings);
          places += FINE - SCAN) {
-        if (!look(s, places, error))
+        if (!look_for_roots(s, places, error))
             return false;
         if (s->roots && !(s->roots > 1 || out->jumps ? sift : single)(s, out, error))
             return false;
@@ -466,7 +464,7 @@ bool solve(const solve_question *question, solve_answer *out, calc_error *error)
     *out = (solve_answer){.jumps = false};
     gsl_set_error_handler_off();
     const bool ok =
-        points_open(&s.p, question->c, &question->name, 1, s.sides, 2, error) && answer(&s, out, error);
+        points_open(&s.p, question->c, &question->name, 1, s.sides, 2, error) && answer_root(&s, out, error);
     points_close(&s.p);
     return ok;
 }

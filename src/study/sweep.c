@@ -32,7 +32,7 @@ static void say_where(state *st, long double x) {
     snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->var.text, at, with);
 }
 
-/* An error that no other value would mend, or a gap. */
+/* Adds the place to an error that ends the sweep; of gaps the first one's reason is kept. */
 static void say_why(state *st, const calc_error *why, long double x) {
     sweep_job *job = st->job;
     const bool ends = job->error->raised;
@@ -45,7 +45,7 @@ static void say_why(state *st, const calc_error *why, long double x) {
         job->missing = *why;
 }
 
-/* The first that is found holds for all. */
+/* The dimension that is found first holds for all rows. */
 static bool is_its_dim(sweep_job *job, size_t i, dim d) {
     if (!job->known[i]) {
         job->known[i] = true;
@@ -109,7 +109,7 @@ static long double place(const state *st, size_t row) {
                        st->part ? st->part[row] : (long double)row / (long double)st->s->steps);
 }
 
-static void give(void *context, size_t row, long double x[]) {
+static void give_swept(void *context, size_t row, long double x[]) {
     const state *st = context;
     const sweep *s = st->s;
     if (s->curves)
@@ -117,14 +117,15 @@ static void give(void *context, size_t row, long double x[]) {
     *x = place(st, row);
 }
 
-static bool take(void *context, size_t row, const long double x[], const value v[], const calc_error *why) {
+static bool take_swept(void *context, size_t row, const long double x[], const value v[],
+                       const calc_error *why) {
     state *st = context;
     return take_row(st, row, x[st->s->curves > 0], v, why);
 }
 
 static bool run_all(state *st) {
     return points_go(&st->job->p,
-                     &(points_run){.count = st->rows, .give = give, .take = take, .context = st});
+                     &(points_run){.count = st->rows, .give = give_swept, .take = take_swept, .context = st});
 }
 
 /* ---- even rows, or where they are wanted ------------------------------------------------------- */
@@ -142,7 +143,8 @@ static bool give_part(void *context, long double part, const long double *values
     return st->job->row(st->job->context, st->s, st->curve, sweep_value(st->s, &st->range, part), values);
 }
 
-/* Its unit may be another one in each curve; and it is looked for here, though the rows come from others. */
+/* The unit of the range may differ from curve to curve. A name must have a value of it here too, where rows
+ * come from a team: dimensions of gaps are asked for in this process. */
 static bool begin_range(state *st) {
     points *p = &st->job->p;
     const size_t i = st->s->curves > 0;
@@ -169,7 +171,7 @@ static bool run_range(state *st) {
 
 /* ---- along a load ------------------------------------------------------------------------------ */
 
-static bool look(void *context, double time, calc_error *error) {
+static bool look_along(void *context, double time, calc_error *error) {
     state *st = context;
     points *p = &st->job->p;
     (void)error;
@@ -200,7 +202,7 @@ static bool run_along(state *st) {
         return false;
     calc_error error;
     error_clear(&error);
-    if (trial_along(t, s->what, from, s->steps, s->turns, look, st, &error))
+    if (trial_along(t, s->what, from, s->steps, s->turns, look_along, st, &error))
         return true;
     if (!st->job->error->raised)
         *st->job->error = error;

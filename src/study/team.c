@@ -20,7 +20,7 @@ enum {
     WORKERS = 64,
     AHEAD = 3,  /* places for each of them: what is slow does not keep the others waiting */
     WAKE = 20,  /* ms: how often a stop and the end of a process are looked for */
-    ALIGN = 64, /* what a part holds may want as much */
+    ALIGN = 64, /* bytes: enough for any type that a part holds */
 };
 static const double pays = 4e-3; /* seconds, many times what it costs to begin */
 
@@ -77,8 +77,8 @@ static bool passes(int fd, unsigned char *i, bool reads) {
     return n == 1;
 }
 
-/* Signals are blocked. The terminal's interrupt is for the one who gives; what else there was to be done at a
- * signal is not a worker's to do. */
+/* Handlers belong to the process that gives: a worker must not, say, remove its files. Ctrl-C reaches workers
+ * too, and the giver ends them. Signals are blocked until this is done. */
 static void leave_signals(const sigset_t *before) {
     signal(SIGINT, SIG_IGN);
     for (int n = 1; n < FILE_SIGNALS; n++)
@@ -117,7 +117,7 @@ static void close_end(int *fd) {
 static bool start(team *t, unsigned wanted) {
     sigset_t all, before;
     const pid_t giver = getpid();
-    const team own = *t; /* a worker's: this one is seen by all */
+    const team own = *t; /* for the workers: *t itself is shared and changes here */
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, &before);
     while (t->workers < wanted) {
@@ -179,7 +179,7 @@ void team_end(team *t) {
     munmap(t, t->all);
 }
 
-static bool stopped(const team *t) {
+static bool team_stopped(const team *t) {
     return *t->job.c->scene.stop;
 }
 
@@ -189,7 +189,7 @@ static void look_after(team *t) {
         if (waitpid(t->worker[i], NULL, WNOHANG) == t->worker[i]) {
             t->worker[i] = t->worker[--t->workers];
             t->alone = true;
-            dismiss(t); /* there is no next one then */
+            dismiss(t); /* leaves no worker: the loop ends */
         }
 }
 
@@ -197,7 +197,7 @@ static void look_after(team *t) {
 static void wait_for_one(team *t) {
     struct pollfd done = {.fd = t->done[0], .events = POLLIN};
     unsigned char i;
-    while (!t->alone && !stopped(t)) {
+    while (!t->alone && !team_stopped(t)) {
         const int n = poll(&done, 1, WAKE);
         if (n > 0 && passes(t->done[0], &i, true)) {
             place_at(t, i)->done = true;
@@ -219,9 +219,9 @@ bool team_work(team *t, const team_run *run) {
                 passes(t->given[1], &i, false);
         }
         const unsigned i = (unsigned)(taken % t->places);
-        while (!place_at(t, i)->done && !t->alone && !stopped(t))
+        while (!place_at(t, i)->done && !t->alone && !team_stopped(t))
             wait_for_one(t);
-        if (stopped(t))
+        if (team_stopped(t))
             return false;
         const place *p = place_at(t, i);
         if (!run->take(run->context, taken, in_of(t, i), p->done && p->of_use ? out_of(t, i) : NULL))

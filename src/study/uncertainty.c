@@ -17,7 +17,7 @@ typedef struct state {
 } state;
 
 /* Dimensions as they were; NaN has none. */
-static bool keep(state *s, const value v[]) {
+static bool keep_dims(state *s, const value v[]) {
     for (size_t k = 0; k < s->of->expressions; k++)
         if (!isnan(v[k].v) && !points_keeps(&s->p, k, v[k].d, &s->d[k], &s->known[k]))
             return false;
@@ -26,12 +26,12 @@ static bool keep(state *s, const value v[]) {
 
 /* All expressions there; false: one has no value, or the question has ended. */
 static bool all_at(state *s, const long double x[], value v[UNCERTAIN_VALUES]) {
-    return points_at(&s->p, x, v) && keep(s, v);
+    return points_at(&s->p, x, v) && keep_dims(s, v);
 }
 
 /* ---- first order ------------------------------------------------------------------------------- */
 
-/* One error at most, that of the user. */
+/* An error that ends all stays as it is. */
 static bool no_value(const state *s, calc_error *error, const char *beside) {
     if (!error->raised) {
         *error = s->p.none;
@@ -108,7 +108,7 @@ static bool first_order(state *s, uncertainty_answer *out, calc_error *error) {
 /* ---- Monte Carlo ------------------------------------------------------------------------------- */
 
 /* Mean and sum of squared distances from it, as they go along (Welford). */
-static void take(uncertain *u, double v, long double *squares) {
+static void take_sample(uncertain *u, double v, long double *squares) {
     const long double off = (long double)v - u->mean;
     u->samples++;
     u->mean += (double)(off / u->samples);
@@ -131,7 +131,7 @@ typedef struct sampling {
     long double squares[UNCERTAIN_VALUES];
 } sampling;
 
-static void draw(void *context, size_t sample, long double x[]) {
+static void draw_sample(void *context, size_t sample, long double x[]) {
     const sampling *m = context;
     const uncertainty_question *of = m->s->of;
     (void)sample;
@@ -148,8 +148,8 @@ static bool count(void *context, size_t sample, const long double x[], const val
         m->answer->missing = *why;
     for (size_t k = 0; k < m->s->of->expressions; k++)
         if (!isnan(v[k].v))
-            take(&m->answer->value[k], (double)v[k].v, &m->squares[k]);
-    return keep(m->s, v);
+            take_sample(&m->answer->value[k], (double)v[k].v, &m->squares[k]);
+    return keep_dims(m->s, v);
 }
 
 static bool monte_carlo(state *s, uncertainty_answer *out, calc_error *error) {
@@ -157,7 +157,8 @@ static bool monte_carlo(state *s, uncertainty_answer *out, calc_error *error) {
     if (!m.rng)
         return calc_no_memory(error);
     gsl_rng_set(m.rng, s->of->seed);
-    points_go(&s->p, &(points_run){.count = s->of->samples, .give = draw, .take = count, .context = &m});
+    points_go(&s->p,
+              &(points_run){.count = s->of->samples, .give = draw_sample, .take = count, .context = &m});
     gsl_rng_free(m.rng);
     for (size_t k = 0; k < s->of->expressions; k++) {
         uncertain *u = &out->value[k];

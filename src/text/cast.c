@@ -36,7 +36,7 @@ struct cast {
 
 /* ---- events ------------------------------------------------------------------------------------ */
 
-static bool add(cast *c, size_t n, calc_error *error) {
+static bool add_event(cast *c, size_t n, calc_error *error) {
     return file_log_add(c->log, c->event, n, error);
 }
 
@@ -66,7 +66,7 @@ static bool event(cast *c, char kind, const char *text, size_t n, calc_error *er
     char *to = c->event + sprintf(c->event, "[%.6f,\"%c\",\"", c->at, kind);
     to = escape(to, text, n);
     memcpy(to, "\"]\n", 3);
-    return add(c, (size_t)(to + 3 - c->event), error);
+    return add_event(c, (size_t)(to + 3 - c->event), error);
 }
 
 static bool find_size(cast *c) {
@@ -159,8 +159,9 @@ cast *cast_begin(file_log *log, bool clock, calc_error *error) {
     if (clock)
         c->began = clock_wall();
     find_size(c);
-    if (add(c, (size_t)sprintf(c->event, "{\"version\":2,\"width\":%d,\"height\":%d}\n", c->cols, c->rows),
-            error))
+    if (add_event(c,
+                  (size_t)sprintf(c->event, "{\"version\":2,\"width\":%d,\"height\":%d}\n", c->cols, c->rows),
+                  error))
         return c;
     free(c);
     return NULL;

@@ -76,7 +76,7 @@ size_t character_count(const char *text, size_t len) {
 }
 
 /* The system's table, which terminals go by too, whatever the locale of the program. */
-static size_t columns_of(unsigned code) {
+static size_t code_columns(unsigned code) {
     static locale_t utf8; /* made once */
     if (code < 0x300)
         return 1;
@@ -94,7 +94,7 @@ static size_t columns_of(unsigned code) {
 static size_t step(const char *text, size_t left, size_t *columns) {
     unsigned code;
     const size_t n = character_at(text, left, &code);
-    *columns = n && character_shows(code) ? columns_of(code) : 1;
+    *columns = n && character_shows(code) ? code_columns(code) : 1;
     return n ? n : 1;
 }
 

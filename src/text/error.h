@@ -34,6 +34,8 @@ typedef struct calc_error {
 
 /* Ready to be raised; the text of a million good statements need not be cleared. */
 void error_clear(calc_error *error);
+/* For what may fail quietly: an error of the block it stands in, cleared each time, that nobody reports. */
+#define error_quiet() (&(calc_error){.input = -1})
 
 /* These record the first error only. */
 #if defined(__GNUC__)

@@ -95,7 +95,7 @@ static int descriptor(const char *path) {
 
 /* Follows the links of out->real by hand: realpath(3) fails in directories deeper than PATH_MAX. A link that
  * leads nowhere is a target to be made. */
-static int follow(file_out *out) {
+static int follow_links(file_out *out) {
     for (int i = 0; i < LINKS; i++) {
         if (descriptor(out->real) >= 0)
             return 0;
@@ -197,7 +197,7 @@ bool file_out_open(file_out *out, const char *name, file_stop stop, calc_error *
         return calc_no_memory(error);
     }
     size_t n = strlen(out->real);
-    int code = n && out->real[n - 1] != '/' ? follow(out) : n ? EISDIR : ENOENT;
+    int code = n && out->real[n - 1] != '/' ? follow_links(out) : n ? EISDIR : ENOENT;
     if (code)
         return open_error(out, code, error);
     out->existed = !stat(out->real, &info);

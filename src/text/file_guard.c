@@ -22,7 +22,7 @@ static struct {
 } guards[GUARDS];
 
 /* A row with a path, if any; -1: none is left. */
-static int take(const char *path) {
+static int take_guard(const char *path) {
     for (int i = 0; i < GUARDS; i++) {
         if (guards[i].kind != NOTHING)
             continue;
@@ -40,22 +40,22 @@ static int set(int row, kind what) {
 }
 
 int file_guard_file(const char *path) {
-    return set(take(path), A_FILE);
+    return set(take_guard(path), A_FILE);
 }
 
 int file_guard_dir(const char *path) {
-    return set(take(path), A_DIR);
+    return set(take_guard(path), A_DIR);
 }
 
 int file_guard_group(pid_t group) {
-    const int row = take(NULL);
+    const int row = take_guard(NULL);
     if (row >= 0)
         guards[row].group = group;
     return set(row, A_GROUP);
 }
 
 int file_guard_terminal(int fd, const struct termios *modes, const char *farewell) {
-    const int row = take(NULL);
+    const int row = take_guard(NULL);
     if (row >= 0) {
         guards[row].fd = fd;
         guards[row].modes = *modes;

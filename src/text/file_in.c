@@ -83,14 +83,14 @@ void file_in_close(file_in *in) {
     *in = (file_in){.fd = -1};
 }
 
-static bool stopped(const file_in *in) {
+static bool input_stopped(const file_in *in) {
     return in->stop && *in->stop;
 }
 
 /* Some bytes, FILE_GOT_LINE, to `to`. */
 static file_got read_some(file_in *in, char *to, size_t room, size_t *got, calc_error *error) {
     for (;;) {
-        if (stopped(in))
+        if (input_stopped(in))
             return FILE_GOT_STOP;
         if (in->waits) { /* poll, unlike read, is never restarted after a signal */
             struct pollfd ready = {.fd = in->fd, .events = POLLIN};
@@ -158,7 +158,7 @@ static bool begins_mark(const char *bytes, size_t n) {
 }
 
 /* The first bytes, without the mark. */
-static file_got begin(file_in *in, calc_error *error) {
+static file_got read_beginning(file_in *in, calc_error *error) {
     file_got got = FILE_GOT_LINE;
     size_t n = 0;
     while (got == FILE_GOT_LINE && begins_mark(in->block, in->have)) {
@@ -183,11 +183,11 @@ static file_got begin(file_in *in, calc_error *error) {
 }
 
 /* The next block: FILE_GOT_LINE stands for "some bytes". */
-static file_got fill(file_in *in, calc_error *error) {
+static file_got fill_block(file_in *in, calc_error *error) {
     file_got got = FILE_GOT_LINE;
     in->at = in->have = 0;
     if (in->order == FILE_UNTOLD)
-        got = begin(in, error);
+        got = read_beginning(in, error);
     while (got == FILE_GOT_LINE && in->at == in->have) {
         size_t n = 0;
         in->at = in->have = 0;
@@ -203,7 +203,7 @@ static file_got fill(file_in *in, calc_error *error) {
     return got == FILE_GOT_END && in->have > 0 ? FILE_GOT_LINE : got;
 }
 
-static bool grow(file_in *in, size_t need, calc_error *error) {
+static bool grow_line(file_in *in, size_t need, calc_error *error) {
     size_t room = in->room ? in->room : 256;
     while (room < need)
         room *= 2;
@@ -216,11 +216,11 @@ static bool grow(file_in *in, size_t need, calc_error *error) {
 }
 
 /* Appends to the line and ends it by a NUL. */
-static bool append(file_in *in, const char *bytes, size_t n, calc_error *error) {
+static bool append_bytes(file_in *in, const char *bytes, size_t n, calc_error *error) {
     if (n > FILE_LINE_LIMIT - in->length)
         return calc_fail(error, 0, 0, "%s:%llu: the line is longer than %d MB", in->name, in->number,
                          FILE_LINE_LIMIT >> 20);
-    if (in->length + n + 1 > in->room && !grow(in, in->length + n + 1, error))
+    if (in->length + n + 1 > in->room && !grow_line(in, in->length + n + 1, error))
         return false;
     memcpy(in->line + in->length, bytes, n);
     in->length += n;
@@ -234,7 +234,9 @@ static file_got add_line(file_in *in, calc_error *error) {
     bool any = false;
     for (;;) {
         if (in->at == in->have) {
-            file_got got = stopped(in) ? FILE_GOT_STOP : in->ended ? FILE_GOT_END : fill(in, error);
+            file_got got = input_stopped(in) ? FILE_GOT_STOP
+                           : in->ended       ? FILE_GOT_END
+                                             : fill_block(in, error);
             if (got == FILE_GOT_END) {
                 in->ended = true;
                 if (!any)
@@ -250,7 +252,7 @@ static file_got add_line(file_in *in, calc_error *error) {
         }
         const char *from = in->block + in->at, *end = memchr(from, '\n', in->have - in->at);
         size_t n = end ? (size_t)(end - from) : in->have - in->at;
-        if (!append(in, from, n, error))
+        if (!append_bytes(in, from, n, error))
             return FILE_GOT_ERROR;
         in->at += n + (end != NULL);
         if (end)
@@ -276,7 +278,7 @@ file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error) {
             break;
         in->line[at] = ' ';
         begin = in->length + 1;
-        if (!append(in, "\n", 1, error))
+        if (!append_bytes(in, "\n", 1, error))
             return FILE_GOT_ERROR;
         got = add_line(in, error);
         if (got == FILE_GOT_END) {

@@ -12,7 +12,7 @@
 enum { IN_USE = -1 };
 
 /* Empties it, where it is a file. 0, an error number, or IN_USE. */
-static int begin(file_log *log, bool *overwrote) {
+static int begin_log(file_log *log, bool *overwrote) {
     struct stat info;
     if (fstat(log->fd, &info) || fcntl(log->fd, F_SETFL, O_WRONLY | O_APPEND) < 0)
         return errno;
@@ -31,7 +31,7 @@ bool file_log_open(file_log *log, const char *name, file_stop stop, bool *overwr
     if (!code) /* a pipe that nobody reads is refused, not waited for */
         log->fd = open(real, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
     if (!code)
-        code = log->fd < 0 ? errno : begin(log, overwrote);
+        code = log->fd < 0 ? errno : begin_log(log, overwrote);
     free(real);
     if (!code) {
         file_keep(log->fd, true);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Room for n more bytes and the NUL. */
-static bool grow(file_text *t, size_t n) {
+static bool grow_text(file_text *t, size_t n) {
     size_t room = t->room;
     while (room - t->size <= n)
         room *= 2;
@@ -19,8 +19,8 @@ static bool grow(file_text *t, size_t n) {
     return true;
 }
 
-static bool take(file_text *t, const char *bytes, size_t n) {
-    t->lost = t->lost || !grow(t, n);
+static bool take_bytes(file_text *t, const char *bytes, size_t n) {
+    t->lost = t->lost || !grow_text(t, n);
     if (t->lost)
         return false;
     memcpy(t->text + t->size, bytes, n);
@@ -30,7 +30,7 @@ static bool take(file_text *t, const char *bytes, size_t n) {
 
 #if defined(__APPLE__)
 static int write_text(void *cookie, const char *bytes, int n) {
-    return take(cookie, bytes, (size_t)n) ? n : -1;
+    return take_bytes(cookie, bytes, (size_t)n) ? n : -1;
 }
 
 static FILE *stream(file_text *t) {
@@ -38,7 +38,7 @@ static FILE *stream(file_text *t) {
 }
 #else
 static ssize_t write_text(void *cookie, const char *bytes, size_t n) {
-    return take(cookie, bytes, n) ? (ssize_t)n : 0;
+    return take_bytes(cookie, bytes, n) ? (ssize_t)n : 0;
 }
 
 static FILE *stream(file_text *t) {

@@ -35,7 +35,7 @@ static bool is_letter(char c) {
     return isalpha((unsigned char)c) != 0;
 }
 
-static bool is_word(char c) {
+static bool is_word_char(char c) {
     return is_letter(c) || isdigit((unsigned char)c) || c == '_';
 }
 
@@ -49,7 +49,7 @@ static size_t match_letter(const char *text, const char **set) {
     size_t len = 0;
     while (is_letter(text[len]))
         len++;
-    if (is_word(text[len]) && text[len] != '_')
+    if (is_word_char(text[len]) && text[len] != '_')
         return 0;
     for (size_t i = 0; i < sizeof letters / sizeof *letters; i++)
         if (strlen(letters[i].plain) == len && !strncmp(text, letters[i].plain, len) &&
@@ -62,7 +62,7 @@ static size_t match_letter(const char *text, const char **set) {
 
 /* ^2 and ^3 that are no part of a longer exponent, and the signs. */
 static size_t match_sign(const char *text, const char **set) {
-    if (text[0] == '^' && (text[1] == '2' || text[1] == '3') && !is_word(text[2]) && text[2] != '.') {
+    if (text[0] == '^' && (text[1] == '2' || text[1] == '3') && !is_word_char(text[2]) && text[2] != '.') {
         *set = text[1] == '2' ? "²" : "³";
         return 2;
     }
@@ -87,7 +87,7 @@ void typeset(const char *plain, char *buf, size_t size) {
             break;
         memcpy(buf + used, set, put);
         used += put;
-        within = is_word(plain[taken - 1]);
+        within = is_word_char(plain[taken - 1]);
         plain += taken;
     }
     buf[used] = 0;

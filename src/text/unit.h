@@ -14,7 +14,6 @@ typedef struct dim {
 #define DIM_NONE ((dim){0, 0, 0})
 #define DIM_FORCE ((dim){1, 0, 0})
 #define DIM_LENGTH ((dim){0, 1, 0})
-#define DIM_PRESSURE ((dim){1, -2, 0})
 #define DIM_ENERGY ((dim){1, 1, 0})
 #define DIM_STIFFNESS ((dim){1, -1, 0})
 #define DIM_ANGLE ((dim){0, 0, 1})

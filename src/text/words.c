@@ -31,7 +31,7 @@ bool word_find(word_index *x, const char *word, size_t len, size_t *row) {
 }
 
 /* Edits, counted double: a change of case costs 1, another letter, a missing one or a swap 2. */
-static size_t distance(const char *a, const char *b) {
+static size_t word_distance(const char *a, const char *b) {
     enum { LONGEST = 40 };
     size_t n = strlen(b), rows[3][LONGEST + 1];
     if (n > LONGEST || strlen(a) > LONGEST)
@@ -77,7 +77,7 @@ bool same_but_case(const char *a, const char *b) {
 }
 
 bool one_letter_apart(const char *a, const char *b) {
-    return distance(a, b) <= 2;
+    return word_distance(a, b) <= 2;
 }
 
 void plain_letters(const char *word, size_t len, char plain[PLAIN_WORD]) {
@@ -107,7 +107,7 @@ const char *suggest(const char *typed, const char *(*name)(size_t i)) {
     size_t least = strlen(word) <= 2 ? 2 : strlen(word) <= 5 ? 3 : 5;
     const char *candidate;
     for (size_t i = 0; (candidate = name(i)); i++) {
-        size_t d = distance(word, candidate);
+        size_t d = word_distance(word, candidate);
         if (same_but_case(word, candidate))
             d = 1;
         if (d < least) {
