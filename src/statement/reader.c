@@ -322,7 +322,7 @@ static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_
                              lx->kind == T_STRING);
     }
     lx->error = error;
-    if (ignored.raised) /* it ends at what is no token */
+    if (strange->raised) /* it ends at what is no token */
         lex_seek(lx, lx->at);
 }
 
