@@ -127,7 +127,6 @@ APART fret_status count_near(DIAGRAM *d, coordinate by, double y) {
         middle = p; /* next to the ends of what numbers hold */
     const fret_real at[2] = {middle.dz, middle.F}, wide[2] = {exp2l(8 / d->normal->p), 256};
     for (coordinate i = DEPTH; i <= LOAD; i++) {
-        d->law[i].y = (NUMBER)at[i];
         d->law[i].per_y = (NUMBER)(1 / at[i]);
         d->law[i].v = (NUMBER)at[other_than(i)];
     }

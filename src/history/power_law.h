@@ -14,7 +14,7 @@ enum { CROSS, EVEN, ODD, LAW_SERIES, LAW_LEADING = 2, LAW_PAIRS = 14 };
 typedef struct power_law {
     NUMBER s, sm1, bend; /* sm1 = s-1 without cancellation; bend = |s (s-1)| */
     int halves;          /* 2 s where powers go by square roots, else 0 */
-    NUMBER y, per_y, v;  /* v of y, near the largest so far */
+    NUMBER per_y, v;     /* 1/y and v of a y near the largest so far */
     NUMBER per_reach;    /* the series are in (rho/reach)^2, and good up to 1/4 */
     NUMBER leading[LAW_LEADING][LAW_SERIES];
     law_pair later[LAW_PAIRS][LAW_SERIES];

@@ -33,7 +33,6 @@ bool program_append(program *p, load_mark *mark, const load_step *step, const cy
         p->cycles[mark->cycles++] = *extra;
     }
     p->steps[mark->steps++] = *step;
-    p->count = mark->steps;
     return true;
 }
 

@@ -29,7 +29,7 @@ typedef struct program {
     counted base;
     load_step *steps;
     cycle_extra *cycles;
-    size_t count, room, cycle_room;
+    size_t room, cycle_room;
 } program;
 
 /* How far a program counts. */
