@@ -36,7 +36,8 @@ static bool read_ylabel(const reading *r) {
     return read_text(r, &r->p->ylabel);
 }
 
-static bool read_limits(const reading *r, limits *l) {
+static bool read_limits(const reading *r) {
+    limits *l = *r->said->of->name == 'x' ? &r->out->x : &r->out->y;
     lexer own = hole_lexer(r->lx, &r->said->hole[0]);
     l->at = own.at;
     if (!expr_value(&r->sh->calc, &own, &l->end[0]))
@@ -49,14 +50,6 @@ static bool read_limits(const reading *r, limits *l) {
     l->len = own.last - l->at;
     l->given = true;
     return at_end(&own);
-}
-
-static bool read_xrange(const reading *r) {
-    return read_limits(r, &r->out->x);
-}
-
-static bool read_yrange(const reading *r) {
-    return read_limits(r, &r->out->y);
 }
 
 enum { AXIS_X, AXIS_Y, AXIS_BOTH };
@@ -101,8 +94,8 @@ static const struct {
     const char *line;
     bool (*read)(const reading *r);
 } rows[] = {{"[title TEXT]*", read_title},       {"[xlabel TEXT]*", read_xlabel},
-            {"[ylabel TEXT]*", read_ylabel},     {"[xrange LO .. HI]*", read_xrange},
-            {"[yrange LO .. HI]*", read_yrange}, {"[log AXES]*", read_log},
+            {"[ylabel TEXT]*", read_ylabel},     {"[xrange LO .. HI]*", read_limits},
+            {"[yrange LO .. HI]*", read_limits}, {"[log AXES]*", read_log},
             {"[flip AXES]*", read_flip},         {"[key OFF]*", read_key},
             {"[points]*", read_points},          {"[over FILE]*", read_over}};
 enum { ROWS = sizeof rows / sizeof *rows };

@@ -124,6 +124,8 @@ static bool add_curve(panel_job *job, size_t curve) {
         }
         i += role == 'b';
     }
+    if (curve == 0)
+        job->each = job->p->count;
     return true;
 }
 
@@ -151,16 +153,6 @@ static void add_told_apart(panel_job *job, size_t j, size_t i, double x, const l
     job->last[i][0] = x;
     job->last[i][1] = u;
     add_point(job, s[slips], x, u);
-}
-
-static size_t series_each(const panel_job *job) {
-    size_t each = 0;
-    for (size_t i = 0; i < job->count; i++) {
-        const char role = role_of(job, i);
-        each += role == 's' ? 2 : 1;
-        i += role == 'b';
-    }
-    return each;
 }
 
 static bool is_over(const panel_job *job, const sweep *s, long double time) {
@@ -353,7 +345,6 @@ static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
     const size_t count = job->count + job->against;
     found f;
     job->s = s;
-    job->each = series_each(job);
     s->turns = true;
     s->refine = !s->along && !s->steps;
     s->steps = s->steps ? s->steps : s->along ? ALONG : job->m ? MOVING : EVENLY;
@@ -378,8 +369,7 @@ static const heard *range_of(said *all) {
     return by ? by : said_of(all, "along", 0);
 }
 
-/* What is drawn is of one source, what it goes over perhaps of another, and whatever else of the statement.
- */
+/* of: where the expressions stand, and the range unless the statement has one; all else stands there. */
 static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     shell *sh = job->sh;
     column columns[PLOTTED + 1];

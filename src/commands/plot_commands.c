@@ -37,50 +37,34 @@ static plot_terminal terminal_kind(const shell *sh, bool on_terminal) {
     return on_terminal && typeset_unicode() && term && strcmp(term, "linux") != 0 ? PLOT_BLOCK : PLOT_DUMB;
 }
 
-/* The target; the text of the terminal begins. */
-static bool begin_target(shell *sh, const char *file, text_kind kind, text_out *text, plot_target *to,
-                         calc_error *error) {
-    if (!text_begin(text, &sh->set, sh->out, kind))
-        return calc_no_memory(error);
-    const bool data = answer_is_data(&sh->set);
-    *to = (plot_target){.file = file,
-                        .out = text->to,
-                        .terminal = terminal_kind(sh, !data && shell_on_terminal(sh)),
-                        .color = sh->set.color_out && !data,
-                        .unicode = typeset_unicode(),
-                        .moving = kind == TEXT_MOTION && !data && sh->out == stdout &&
-                                  shell_on_terminal(sh) && shell_escapes(),
-                        .columns = sh->set.plot_width,
-                        .rows = sh->set.plot_height,
-                        .timeout = sh->set.plot_timeout,
-                        .stop = &shell_stop};
-    if (!file && !to->columns)
-        terminal_size(sh, &to->columns, &to->rows);
-    fflush(sh->out);
-    return true;
-}
-
-static bool end_target(shell *sh, const char *file, text_out *text, const file_report *written, bool ok,
-                       calc_error *error) {
-    if (!text_end(text, ok))
-        return calc_no_memory(error);
-    if (ok && file)
-        target_report(sh, file, written);
-    return ok;
-}
-
-static bool draw(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
-    if (sh->replaying && !file) {
-        fprintf(sh->out, "%c\n", MARK_DRAWING);
-        return true;
-    }
+/* One of the two, the other NULL. */
+static bool draw(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *movie, const char *file) {
     file_report written;
     text_out text;
-    plot_target to;
-    if (!begin_target(sh, file, TEXT_PICTURE, &text, &to, lx->error))
-        return false;
-    const bool ok = plot_draw(f, &to, &written, lx->error);
-    return end_target(sh, file, &text, &written, ok, lx->error);
+    if (!text_begin(&text, &sh->set, sh->out, movie ? TEXT_MOTION : TEXT_PICTURE))
+        return calc_no_memory(lx->error);
+    const bool data = answer_is_data(&sh->set), on_terminal = !data && shell_on_terminal(sh);
+    plot_target to = {.file = file,
+                      .out = text.to,
+                      .terminal = terminal_kind(sh, on_terminal),
+                      .color = sh->set.color_out && !data,
+                      .unicode = typeset_unicode(),
+                      .moving = movie && on_terminal && sh->out == stdout && shell_escapes(),
+                      .columns = sh->set.plot_width,
+                      .rows = sh->set.plot_height,
+                      .timeout = sh->set.plot_timeout,
+                      .stop = &shell_stop};
+    if (!file && !to.columns)
+        terminal_size(sh, &to.columns, &to.rows);
+    fflush(sh->out);
+    const bool ok =
+        movie ? plot_animate(movie, &to, &written, lx->error) : plot_draw(f, &to, &written, lx->error);
+    progress_wipe();
+    if (!text_end(&text, ok))
+        return calc_no_memory(lx->error);
+    if (ok && file)
+        target_report(sh, file, &written);
+    return ok;
 }
 
 /* ---- figures ----------------------------------------------------------------------------------- */
@@ -179,8 +163,11 @@ bool do_plot(shell *sh, lexer *lx, const command *self) {
     plot_figure f;
     panels p = {.count = 0};
     plot_figure_init(&f);
-    const bool ok = read_figures(sh, lx, self, wants, &p, file) && draw_panels(sh, lx, &p, &f, NULL) &&
-                    draw(sh, lx, &f, *file ? file : NULL);
+    bool ok = read_figures(sh, lx, self, wants, &p, file) && draw_panels(sh, lx, &p, &f, NULL);
+    if (ok && sh->replaying && !*file)
+        fprintf(sh->out, "%c\n", MARK_DRAWING);
+    else
+        ok = ok && draw(sh, lx, &f, NULL, *file ? file : NULL);
     plot_figure_free(&f);
     panels_free(sh, &p);
     return ok;
@@ -252,22 +239,6 @@ static void drawing(void *context, size_t done, size_t frames) {
         progress_words(words);
 }
 
-static bool draw_movie(movie *m, lexer *lx, const char *file) {
-    file_report written;
-    text_out text;
-    plot_target to;
-    if (!begin_target(m->sh, file, TEXT_MOTION, &text, &to, lx->error))
-        return false;
-    const plot_movie of = {.frames = m->done,
-                           .fill = fill,
-                           .progress = file ? drawing : NULL, /* in the terminal frames would go behind it */
-                           .context = m};
-    progress_wipe();
-    const bool ok = plot_animate(&of, &to, &written, lx->error);
-    progress_wipe();
-    return end_target(m->sh, file, &text, &written, ok, lx->error);
-}
-
 /* Draws the figures once as they stand, then at every instant, then all of it. */
 static bool run_movie(movie *m, lexer *lx, const char *file) {
     plot_figure whole;
@@ -282,7 +253,14 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
         ok = calc_no_memory(lx->error);
     if (ok && frames < 2)
         ok = calc_fail(lx->error, 0, 0, "an animation takes 2 frames or more");
-    ok = ok && take_frames(m) && draw_movie(m, lx, file);
+    ok = ok && take_frames(m);
+    const plot_movie moving = {.frames = m->done,
+                               .fill = fill,
+                               .progress =
+                                   file ? drawing : NULL, /* in the terminal frames would go behind it */
+                               .context = m};
+    progress_wipe();
+    ok = ok && draw(m->sh, lx, NULL, &moving, file);
     for (size_t i = 0; m->frame && i < frames; i++)
         plot_figure_free(&m->frame[i]);
     free(m->frame);
