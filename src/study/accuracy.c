@@ -264,11 +264,9 @@ enum { FINEST = LEVELS + 1 };
 typedef struct general {
     load_view load;
     load_item cycle;
-    long double FN; /* about which the normal force swings */
     runner run[LEVELS];
     unsigned levels;
     bool sine;           /* no chords: as the scene answers */
-    watch watch;         /* of a loop area */
     unsigned long looks; /* of the last period */
 } general;
 
@@ -296,20 +294,17 @@ static void begin_area(general *g) {
 /* Runs to the beginning of the last period. */
 static fret_status approach(general *g, runner *r) {
     const load_mark here = {g->load.last_cycle, g->load.end.cycles - 1};
-    fret_state state;
     fret_status st = run_to(r, here);
-    if (st.code)
-        return st;
-    engine_forces(&r->engine, &state);
-    g->FN = state.FN;
     load_item before = g->cycle;
     before.extra.times--;
-    return run_item(r, &before);
+    return st.code ? st : run_item(r, &before);
 }
 
-/* `levels` numbers of chords, from level `first` on; springs 0: the memory diagram. seen: every leg is cut by
- * the watch. */
-static bool open_general(bench *b, general *g, unsigned springs, unsigned first, unsigned levels, bool seen) {
+static const watch nowhere = {.next = NULL};
+
+/* `levels` numbers of chords, from level `first` on; springs 0: the memory diagram. The watch cuts every
+ * leg. */
+static bool open_general(bench *b, general *g, unsigned springs, unsigned first, unsigned levels, watch w) {
     calc_error *error = b->error;
     g->levels = 0;
     if (!scene_load_of(b->s, &g->load, error)) /* unreached: all of it has been had before */
@@ -319,7 +314,7 @@ static bool open_general(bench *b, general *g, unsigned springs, unsigned first,
     g->cycle.step.points = 0; /* those to record are no matter here */
     for (unsigned i = 0; i < levels; i++) {
         runner *r = &g->run[i];
-        *r = (runner){.load = &g->load, .level = first + i, .watch = seen ? &g->watch : NULL};
+        *r = (runner){.load = &g->load, .level = first + i, .watch = w};
         fret_status st = fine;
         if (springs && !scene_engine(b->s, &g->load, MODEL_SPRINGS, springs, &r->engine, error)) {
             close_general(g);
@@ -339,19 +334,21 @@ static bool open_general(bench *b, general *g, unsigned springs, unsigned first,
     return true;
 }
 
-static fret_status period_loss(general *g, runner *r, long double *loss) {
-    engine_mark(&r->engine);
-    fret_status st = run_period(r, &g->cycle, g->FN);
-    *loss = engine_spent(&r->engine);
-    return st;
+static fret_status one_period(general *g, runner *r) {
+    run_more(r);
+    while (run_item_next(r))
+        g->looks++;
+    return r->status;
 }
 
 /* The loss of one model, or its limit; moved: relative, what that is good to. */
 static fret_status limit_cycle(general *g, long double *loss, long double *moved) {
     long double at[LEVELS] = {0};
     fret_status st = fine;
-    for (unsigned i = 0; i < g->levels && !st.code; i++)
-        st = period_loss(g, &g->run[i], &at[i]);
+    for (unsigned i = 0; i < g->levels && !st.code; i++) {
+        st = one_period(g, &g->run[i]);
+        at[i] = g->run[i].cycle_loss;
+    }
     *moved = 0;
     *loss = g->levels > 1 ? run_limit(at, moved) : at[0];
     return st;
@@ -370,19 +367,12 @@ static fret_status area_cycle(void *model, long double *loss) {
     if (loss)
         engine_state(&r->engine, &from);
     begin_area(g);
-    fret_status st = run_period(r, &g->cycle, g->FN);
+    fret_status st = one_period(g, r);
     if (!st.code && loss) {
         engine_state(&r->engine, &to);
         *loss = r->area - (to.U - from.U);
     }
     return st;
-}
-
-static bool count_look(const runner *r, void *context) {
-    unsigned long *looks = context;
-    (void)r;
-    ++*looks;
-    return true;
 }
 
 /* Does the scene answer for a swinging load without chords? */
@@ -397,7 +387,7 @@ static bool general_row(bench *b, model_family family, unsigned springs, bool *m
     const unsigned levels = swings(b) && !g.sine ? LEVELS : 1;
     const double start = clock_worked();
     tell(b, family, springs);
-    if (!open_general(b, &g, springs, 0, levels, false))
+    if (!open_general(b, &g, springs, 0, levels, nowhere))
         return false;
     const double setting_up = clock_worked() - start;
     bool ok = measure(b, family, springs, general_cycle, &g);
@@ -410,13 +400,10 @@ static bool general_row(bench *b, model_family family, unsigned springs, bool *m
 static bool loop_row(bench *b, unsigned level, unsigned parts, bool *more) {
     general g = {.levels = 0};
     const double start = clock_worked();
-    if (!open_general(b, &g, 0, level, 1, false))
+    if (!open_general(b, &g, 0, level, 1, nowhere))
         return false;
     const bool swinging = g.cycle.step.normal_value != 0;
-    g.watch = swinging ? watch_ends() : watch_points(parts);
-    g.watch.see = count_look;
-    g.watch.context = &g.looks;
-    g.run[0].watch = &g.watch;
+    g.run[0].watch = swinging ? watch_ends() : watch_points(parts);
     g.run[0].area_wanted = true;
     const double setting_up = clock_worked() - start;
     bool ok =
@@ -431,9 +418,10 @@ static bool loop_row(bench *b, unsigned level, unsigned parts, bool *more) {
 /* The loss of the last period in chords of the finest levels; or where all is straight, each step cut in
  * `parts`. */
 static bool refined(bench *b, unsigned parts, long double *loss, long double *moved) {
-    general g = {.watch = watch_points(parts)};
+    general g = {.levels = 0};
     fret_state now;
-    if (!open_general(b, &g, 0, parts ? 0 : FINEST - LEVELS + 1, parts ? 1 : LEVELS, parts > 0))
+    if (!open_general(b, &g, 0, parts ? 0 : FINEST - LEVELS + 1, parts ? 1 : LEVELS,
+                      parts ? watch_points(parts) : nowhere))
         return false;
     fret_status st = limit_cycle(&g, loss, moved);
     engine_state(&g.run[0].engine, &now);
