@@ -3,7 +3,7 @@
 #include "language/along.h"
 
 bool trial_along_begin(trial_along *a, trial *t, along_what what, load_mark from, size_t points, bool turns,
-                 calc_error *error) {
+                       calc_error *error) {
     scene *s = &t->scene;
     *a = (trial_along){.t = t};
     if (!s->end.steps)
@@ -19,8 +19,8 @@ bool trial_along_begin(trial_along *a, trial *t, along_what what, load_mark from
         a->first = a->last - 1;
     }
     const bool lasts = a->last > a->first;
-    a->beside.looks = watch_times(a->first, lasts ? (a->last - a->first) / (double)points : 1,
-                                  lasts ? points : 0, turns);
+    a->beside.looks =
+        watch_times(a->first, lasts ? (a->last - a->first) / (double)points : 1, lasts ? points : 0, turns);
     return trace_begin(&a->trace, s, a->beside.looks, true, error);
 }
 

@@ -110,8 +110,12 @@ bool beside_scene(beside *b, const scene *changed, const knob_value by[], size_t
     calc_error mine;
     if (!s)
         return calc_no_memory(error);
-    mine = s->error;
-    const runner *r = mine.raised ? NULL : run_along(s, time, &mine);
+    if (s->error.raised) {
+        *error = s->error;
+        return false;
+    }
+    error_clear(&mine);
+    const runner *r = run_along(s, time, &mine);
     if (!r && !mine.raised)
         r = run_once(s, time, &mine);
     if (!r) {

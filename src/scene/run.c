@@ -70,20 +70,10 @@ watch watch_times(double first, double every, size_t last, bool turns) {
     return (watch){.next = next_time, .first = first, .every = every, .last = last, .turns = turns};
 }
 
-static void sum_area(runner *r) {
-    fret_state now;
-    engine_forces(&r->engine, &now);
-    r->area += (now.dx - r->dx) * (now.Fx + r->Fx) / 2;
-    r->Fx = now.Fx;
-    r->dx = now.dx;
-}
-
 static void look(runner *r, double time, bool turning) {
     watch *w = &r->watch;
     r->time = time;
     r->turning = turning;
-    if (r->area_wanted)
-        sum_area(r);
     while (w->next == next_time && w->sample <= w->last &&
            w->first + w->every * (double)w->sample <= time + 1e-9 * w->every)
         w->sample++;
@@ -460,8 +450,8 @@ static bool next_leg(runner *r) {
     return kind == LOAD_PRESS ? leg_of_press(r) : kind == LOAD_STEP ? leg_of_step(r) : first_leg(r);
 }
 
-static void begin_item(runner *r, const load_item *item) {
-    r->item = *item;
+static void begin_item(runner *r, load_item item) {
+    r->item = item;
     r->begun = r->moving = false;
 }
 
@@ -479,7 +469,7 @@ bool run_item_next(runner *r) {
 }
 
 fret_status run_item(runner *r, const load_item *item) {
-    begin_item(r, item);
+    begin_item(r, *item);
     while (run_item_next(r))
         ;
     return r->status;
@@ -513,10 +503,8 @@ bool run_next(runner *r, load_mark end) {
             r->time++;
             r->status = unless_stopped(r, fine);
         } else {
-            if (!r->within) {
-                const load_item item = program_item(load->program, r->at, load->last_cycle, load->in);
-                begin_item(r, &item);
-            }
+            if (!r->within)
+                begin_item(r, program_item(load->program, r->at, load->last_cycle, load->in));
             r->within = true;
             if (run_item_next(r))
                 return true;

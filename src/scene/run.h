@@ -99,16 +99,14 @@ typedef struct runner {
     fret_status status;  /* why it does not go on */
     load_mark at;        /* next step of the program, and next of its cycles, or those that it is within */
     bool within;
-    double time;  /* now */
-    bool turning; /* this look: the end of a leg */
-    bool area_wanted;
-    long double area, Fx, dx; /* int F_x d(delta_x) by the trapezoidal rule, at the looks */
-    long double cycle_loss;   /* of the last period run; of a program without one 0 */
-    bool closed;              /* a period has been run */
-    bool chorded;             /* the run ended at a swinging period that only chords can take */
-    unsigned repeated; /* periods of the last cycle that were not run, since they repeat those before */
-    load_item item;    /* that it is within */
-    bool begun;        /* its first leg */
+    double time;            /* now */
+    bool turning;           /* this look: the end of a leg */
+    long double cycle_loss; /* of the last period run; of a program without one 0 */
+    bool closed;            /* a period has been run */
+    bool chorded;           /* the run ended at a swinging period that only chords can take */
+    unsigned repeated;      /* periods of the last cycle that were not run, since they repeat those before */
+    load_item item;         /* that it is within */
+    bool begun;             /* its first leg */
     run_place place;
     leg leg;
     bool moving;       /* on the leg */

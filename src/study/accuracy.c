@@ -281,16 +281,6 @@ static void close_general(general *g) {
     g->levels = 0;
 }
 
-static void begin_area(general *g) {
-    fret_state now;
-    runner *r = &g->run[0];
-    engine_forces(&r->engine, &now);
-    r->Fx = now.Fx;
-    r->dx = now.dx;
-    r->area = 0;
-    g->looks = 0;
-}
-
 /* Runs to the beginning of the last period. */
 static fret_status approach(general *g, runner *r) {
     const load_mark here = {g->load.last_cycle, g->load.end.cycles - 1};
@@ -334,20 +324,17 @@ static bool open_general(bench *b, general *g, unsigned springs, unsigned first,
     return true;
 }
 
-static fret_status one_period(general *g, runner *r) {
-    run_more(r);
-    while (run_item_next(r))
-        g->looks++;
-    return r->status;
-}
-
 /* The loss of one model, or its limit; moved: relative, what that is good to. */
 static fret_status limit_cycle(general *g, long double *loss, long double *moved) {
     long double at[LEVELS] = {0};
     fret_status st = fine;
     for (unsigned i = 0; i < g->levels && !st.code; i++) {
-        st = one_period(g, &g->run[i]);
-        at[i] = g->run[i].cycle_loss;
+        runner *r = &g->run[i];
+        run_more(r);
+        while (run_item_next(r))
+            ;
+        st = r->status;
+        at[i] = r->cycle_loss;
     }
     *moved = 0;
     *loss = g->levels > 1 ? run_limit(at, moved) : at[0];
@@ -359,20 +346,26 @@ static fret_status general_cycle(void *model, long double *loss) {
     return limit_cycle(model, loss ? loss : &unused, &moved);
 }
 
-/* What goes into the contact and is not stored. */
+/* What goes into the contact and is not stored: int F_x d(delta_x) by the trapezoidal rule, between looks. */
 static fret_status area_cycle(void *model, long double *loss) {
     general *g = model;
     runner *r = &g->run[0];
-    fret_state from = {0}, to;
+    fret_state from = {0}, last, now;
+    long double area = 0;
     if (loss)
         engine_state(&r->engine, &from);
-    begin_area(g);
-    fret_status st = one_period(g, r);
-    if (!st.code && loss) {
-        engine_state(&r->engine, &to);
-        *loss = r->area - (to.U - from.U);
+    engine_forces(&r->engine, &last);
+    g->looks = 0;
+    for (run_more(r); run_item_next(r); last = now) {
+        engine_forces(&r->engine, &now);
+        area += (now.dx - last.dx) * (now.Fx + last.Fx) / 2;
+        g->looks++;
     }
-    return st;
+    if (!r->status.code && loss) {
+        engine_state(&r->engine, &now);
+        *loss = area - (now.U - from.U);
+    }
+    return r->status;
 }
 
 /* Does the scene answer for a swinging load without chords? */
@@ -404,7 +397,6 @@ static bool loop_row(bench *b, unsigned level, unsigned parts, bool *more) {
         return false;
     const bool swinging = g.cycle.step.normal_value != 0;
     g.run[0].watch = swinging ? watch_ends() : watch_points(parts);
-    g.run[0].area_wanted = true;
     const double setting_up = clock_worked() - start;
     bool ok =
         measure(b, FAMILY_LOOP, swinging ? (unsigned long)(RUN_CHORDS << level) / 2 : parts, area_cycle, &g);
