@@ -14,7 +14,7 @@ typedef struct trial_along {
     double first, last; /* times that count */
 } trial_along;
 /* At `points`+1 instants, evenly in time; turns: at the turning points too. from: the mark where a load tried
- * on it (ALONG_LOAD, scene_append) begins. False: there is nothing to end. */
+ * on it (ALONG_LOAD, scene_append) begins. False: it need not be ended. */
 bool trial_along_begin(trial_along *a, trial *t, along_what what, load_mark from, size_t points, bool turns,
                        calc_error *error);
 /* On to the next instant; false: the end, or the error. */

@@ -443,8 +443,8 @@ static bool leg_of_step(runner *r) {
 /* False: the item is done, or the status tells why it is not. */
 static bool next_leg(runner *r) {
     const load_kind kind = (load_kind)r->item.step.kind;
-    const bool begun = r->begun;
-    r->begun = true;
+    const bool begun = r->within;
+    r->within = true;
     if (begun)
         return kind == LOAD_CYCLE && leg_of_cycle(r);
     return kind == LOAD_PRESS ? leg_of_press(r) : kind == LOAD_STEP ? leg_of_step(r) : first_leg(r);
@@ -452,7 +452,7 @@ static bool next_leg(runner *r) {
 
 static void begin_item(runner *r, load_item item) {
     r->item = item;
-    r->begun = r->moving = false;
+    r->within = r->moving = false;
 }
 
 bool run_item_next(runner *r) {
@@ -505,7 +505,6 @@ bool run_next(runner *r, load_mark end) {
         } else {
             if (!r->within)
                 begin_item(r, program_item(load->program, r->at, load->last_cycle, load->in));
-            r->within = true;
             if (run_item_next(r))
                 return true;
         }

@@ -93,12 +93,12 @@ typedef struct run_place {
 typedef struct runner {
     const load_view *load;
     engine engine;
-    unsigned level;      /* a swinging period in RUN_CHORDS 2^level chords */
-    watch watch;         /* its own: it counts */
-    const sight *coarse; /* the same instant at the LEVELS - 1 coarser levels, or NULL */
-    fret_status status;  /* why it does not go on */
-    load_mark at;        /* next step of the program, and next of its cycles, or those that it is within */
-    bool within;
+    unsigned level;         /* a swinging period in RUN_CHORDS 2^level chords */
+    watch watch;            /* its own: it counts */
+    const sight *coarse;    /* the same instant at the LEVELS - 1 coarser levels, or NULL */
+    fret_status status;     /* why it does not go on */
+    load_mark at;           /* next step of the program, and next of its cycles, or those that it is within */
+    bool within;            /* the item: its first leg has begun */
     double time;            /* now */
     bool turning;           /* this look: the end of a leg */
     long double cycle_loss; /* of the last period run; of a program without one 0 */
@@ -106,7 +106,6 @@ typedef struct runner {
     bool chorded;           /* the run ended at a swinging period that only chords can take */
     unsigned repeated;      /* periods of the last cycle that were not run, since they repeat those before */
     load_item item;         /* that it is within */
-    bool begun;             /* its first leg */
     run_place place;
     leg leg;
     bool moving;       /* on the leg */

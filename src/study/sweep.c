@@ -202,11 +202,9 @@ static bool run_along(state *st) {
     calc_error error;
     error_clear(&error);
     bool ok = trial_along_begin(&a, t, s->what, from, s->steps, s->turns, &error);
-    if (ok) {
-        while (ok && trial_along_next(&a, &error))
-            ok = look(st, scene_time(&t->scene));
-        trial_along_end(&a);
-    }
+    while (ok && trial_along_next(&a, &error))
+        ok = look(st, scene_time(&t->scene));
+    trial_along_end(&a);
     if (error.raised && !st->job->error->raised)
         *st->job->error = error;
     return ok && !error.raised;
