@@ -9,6 +9,7 @@
 #include "commands/expressions.h"
 #include "commands/figures.h"
 #include "commands/panel.h"
+#include "language/along.h"
 #include "number/array.h"
 #include "statement/answer.h"
 #include "statement/progress.h"
@@ -186,10 +187,8 @@ typedef struct movie {
 } movie;
 
 /* The figures at an instant. */
-static bool take_frame(void *context, double time, calc_error *error) {
-    movie *m = context;
+static bool take_frame(movie *m, double time) {
     lexer lx = *m->lx;
-    (void)error;
     lx.error = m->error;
     m->motion.until = time;
     progress_part((double)m->done / (double)m->frames);
@@ -202,6 +201,7 @@ static bool take_frames(movie *m) {
     load_mark from;
     sweep_range load = {.lo = 0};
     bool ok = true;
+    trial_along a;
     trial *t = trial_open(c, m->error);
     if (!t)
         return false;
@@ -213,7 +213,13 @@ static bool take_frames(movie *m) {
              sweep_try_load(t, &load, &from, m->error);
     }
     m->motion.at = t;
-    ok = ok && trial_along(t, m->motion.what, from, m->frames - 1, false, take_frame, m, m->error);
+    ok = ok && trial_along_begin(&a, t, m->motion.what, from, m->frames - 1, false, m->error);
+    if (ok) {
+        while (ok && trial_along_next(&a, m->error))
+            ok = take_frame(m, scene_time(&t->scene));
+        trial_along_end(&a);
+    }
+    ok = ok && !m->error->raised;
     m->motion.at = NULL;
     for (input in = 0; in < INPUTS; in++)
         counted_drop(load.bound[in]);

@@ -16,18 +16,23 @@
 static const char *const history_names[] = {"FN", "dz", "Fx", "dx", "W"};
 enum { HISTORY = sizeof history_names / sizeof *history_names };
 
-static bool history_row(const runner *r, void *context) {
+static bool history_rows(scene *s, answer *a, calc_error *error) {
+    scene_trace t;
     sight now;
-    run_sight(r, &now);
-    const fret_state *s = &now.state;
-    answer_row(context, (const long double[HISTORY]){s->FN, s->dz, s->Fx, s->dx, s->W});
-    return true;
+    if (!trace_begin(&t, s, watch_points(1), true, error))
+        return false;
+    while (trace_next(&t, error)) {
+        const fret_state *at = &now.state;
+        run_sight(trace_now(&t), &now);
+        answer_row(a, (const long double[HISTORY]){at->FN, at->dz, at->Fx, at->dx, at->W});
+    }
+    trace_end(&t);
+    return !error->raised;
 }
 
 bool do_history(shell *sh, lexer *lx, const command *self) {
     const fret_contact *contact;
     column columns[HISTORY] = {{.name = NULL}};
-    watch w = watch_points(1);
     target to;
     said all;
     if (!scene_history(&sh->calc.scene, &contact, lx->error) ||
@@ -41,10 +46,7 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
                              quantity_find(history_names[i], strlen(history_names[i]))->d);
     ok = ok && answer_columns(&a, self->name, columns, HISTORY);
     if (ok) {
-        w.limit = true;
-        w.see = history_row;
-        w.context = &a;
-        ok = scene_trace(&sh->calc.scene, &w, lx->error);
+        ok = history_rows(&sh->calc.scene, &a, lx->error);
         answer_end(&a, ok);
     } else {
         calc_no_memory(lx->error);

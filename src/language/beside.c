@@ -1,42 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes beside the one whose load is looked at. Each is run ahead, looked at as that one is, so that it
- * takes the same way to the last digit, and leaves its states behind, some of the way at a time. */
+/* Scenes beside the one whose load is looked at. Each is run along with it, looked at as that one is, so that
+ * it takes the same way to the last digit. */
 #include "language/beside.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "number/array.h"
-
-/* The state at an instant. */
-typedef struct stop {
-    runner run;
-    sight coarse[LEVELS - 1];
-} stop;
-
-struct side {
+typedef struct side {
     scene scene; /* changed */
     knob_value by[CHANGES];
     size_t count;
-    calc_error error; /* raised: its load cannot be */
-    stop *stop;       /* `stops` of them are valid, `made` have storage */
-    size_t stops, made, room;
-    size_t next;         /* of them to be asked for */
-    double from;         /* the time of the first */
-    size_t held, budget; /* slices that they hold, and may hold */
-    bool full, no_memory;
+    calc_error error;        /* raised: its load cannot be */
+    scene_trace along, once; /* looked at as the run is; at one time alone */
     instant now;
     beside beside; /* further changes */
-};
+} side;
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
 static void side_free(side *s) {
     beside_end(&s->beside);
-    for (size_t i = 0; i < s->made; i++)
-        engine_end(&s->stop[i].run.engine);
-    free(s->stop);
+    trace_end(&s->along);
+    trace_end(&s->once);
     scene_free(&s->scene);
     free(s);
 }
@@ -56,9 +42,6 @@ static bool same_changes(const side *s, const knob_value by[], size_t count) {
     return same;
 }
 
-/* Values that are new at each instant need no states ahead. */
-enum { HELD = 1 << 17, FEW = SIDES / 4 };
-
 static side *side_make(beside *b, const scene *changed, const knob_value by[], size_t count) {
     side *s = calloc(1, sizeof *s);
     if (!s)
@@ -69,7 +52,6 @@ static side *side_make(beside *b, const scene *changed, const knob_value by[], s
     s->scene.now = NULL;
     memcpy(s->by, by, count * sizeof *by);
     s->count = count;
-    s->budget = b->count < FEW ? HELD : 1;
     s->beside.looks = b->looks;
     b->side[b->count++] = s;
     return s;
@@ -90,104 +72,59 @@ static side *side_find(beside *b, const scene *changed, const knob_value by[], s
     return b->side[0] = s;
 }
 
-/* ---- running ahead ----------------------------------------------------------------------------- */
-
-static bool keep_runner(side *s, stop *to, const runner *r) {
-    engine kept = to->run.engine;
-    to->run = *r;
-    to->run.engine = kept;
-    to->run.load = NULL;
-    to->run.watch = NULL;
-    if (r->coarse)
-        memcpy(to->coarse, r->coarse, sizeof to->coarse);
-    const fret_status st = engine_copy(&to->run.engine, &r->engine);
-    s->no_memory = st.code;
-    return !st.code;
-}
+/* ---- running along ----------------------------------------------------------------------------- */
 
 /* Looks less than this part of their distance apart are at the same instant. */
 static const double APART = 1e-8;
 
-static bool keep(const runner *r, void *context) {
-    enum { RUNNER = 8 }; /* about its size, in slices */
-    side *s = context;
-    if (r->time < s->from - APART * s->beside.looks.every)
-        return true;
-    s->full = s->held >= s->budget;
-    if (s->full)
-        return false;
-    stop *grown = fret_array_for(s->stop, &s->room, s->stops + 1, sizeof *grown);
-    s->no_memory = !grown;
-    if (!grown)
-        return false;
-    s->stop = grown;
-    if (s->stops == s->made)
-        s->stop[s->made++].run.engine = (engine){.contact = NULL};
-    fret_state now;
-    engine_forces(&r->engine, &now);
-    s->held += now.slices + RUNNER;
-    return keep_runner(s, &s->stop[s->stops++], r);
-}
-
-/* once: at this time alone, which is no turning point here. */
-static bool run_ahead(side *s, double time, bool once, calc_error *error) {
-    calc_error mine;
-    watch w = s->beside.looks;
-    error_clear(&mine);
-    if (once)
-        w = watch_times(time, w.every, 0, false);
-    w.see = keep;
-    w.context = s;
-    w.limit = true;
-    if (s->held) /* there are more to come than have been kept */
-        s->budget = 2 * s->budget < HELD ? 2 * s->budget : HELD;
-    s->from = time;
-    s->stops = s->next = s->held = 0;
-    s->full = s->no_memory = false;
+static bool begin(side *s, scene_trace *t, watch w, calc_error *error) {
     s->scene.now = NULL;
     scene_moved(&s->scene);
-    bool ok = scene_trace(&s->scene, &w, &mine);
-    if (s->no_memory)
-        return calc_no_memory(error);
-    ok = ok || s->full;
-    s->scene.sound = ok;
-    if (!ok)
-        *error = mine;
-    if (!ok && !mine.stop)
-        s->error = mine;
-    return ok;
+    return trace_begin(t, &s->scene, w, true, error);
 }
 
-/* The one at the time, from the last one that was asked for on; or NULL. */
-static stop *stop_at(side *s, double time) {
-    while (s->next + 1 < s->stops &&
-           fabs(s->stop[s->next + 1].run.time - time) < fabs(s->stop[s->next].run.time - time))
-        s->next++;
-    const bool there =
-        s->next < s->stops && fabs(s->stop[s->next].run.time - time) <= APART * s->beside.looks.every;
-    return there ? &s->stop[s->next] : NULL;
+/* Further along, to this time; NULL: there is no look at it, or the error. */
+static const runner *run_along(side *s, double time, calc_error *error) {
+    const double little = APART * s->beside.looks.every;
+    bool there = true;
+    if (!s->along.levels)
+        there = begin(s, &s->along, s->beside.looks, error) && trace_next(&s->along, error);
+    while (there && trace_now(&s->along)->time < time - little)
+        there = trace_next(&s->along, error);
+    return there && trace_now(&s->along)->time <= time + little ? trace_now(&s->along) : NULL;
+}
+
+/* At this time alone, which is no turning point here. */
+static const runner *run_once(side *s, double time, calc_error *error) {
+    trace_end(&s->once);
+    const bool there = begin(s, &s->once, watch_times(time, s->beside.looks.every, 0, false), error) &&
+                       trace_next(&s->once, error);
+    if (!there && !error->raised) /* unreached: one load, run in any scene, passes the same times */
+        calc_fail(error, 0, 0, "there is no such instant in the changed scene");
+    return there ? trace_now(&s->once) : NULL;
 }
 
 bool beside_scene(beside *b, const scene *changed, const knob_value by[], size_t count, double time,
                   scene **out, calc_error *error) {
     side *s = side_find(b, changed, by, count);
+    calc_error mine;
     if (!s)
         return calc_no_memory(error);
     if (s->error.raised) {
         *error = s->error;
         return false;
     }
-    stop *at = stop_at(s, time);
-    for (int once = 0; once < 2 && !at; once++) {
-        if (!run_ahead(s, time, once, error))
-            return false;
-        at = stop_at(s, time);
+    error_clear(&mine);
+    const runner *r = run_along(s, time, &mine);
+    if (!r && !mine.raised)
+        r = run_once(s, time, &mine);
+    if (!r) {
+        *error = mine;
+        if (!mine.stop)
+            s->error = mine;
+        return false;
     }
-    if (!at) /* unreached: one load, run in any scene, passes the same times */
-        return calc_fail(error, 0, 0, "there is no such instant in the changed scene");
-    if (at->run.coarse)
-        at->run.coarse = at->coarse;
-    s->now = (instant){.run = &at->run, .beside = &s->beside};
+    s->now = (instant){.run = r, .beside = &s->beside};
     s->scene.now = &s->now;
     scene_moved(&s->scene);
     s->scene.used = 0;

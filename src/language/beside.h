@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The same load in scenes with other inputs, beside a run that is being looked at: their states at its
- * instants. Each is run once for many instants. */
+ * instants, one after the other. */
 #ifndef LANGUAGE_BESIDE_H
 #define LANGUAGE_BESIDE_H
 
 #include "language/calc.h"
 
 enum { SIDES = 16 };
-typedef struct side side;
 typedef struct beside {
-    watch looks;       /* the run is looked at by these: watch_times */
-    side *side[SIDES]; /* the one that was asked last comes first */
+    watch looks;              /* of that run: watch_times */
+    struct side *side[SIDES]; /* the one that was asked last comes first */
     size_t count;
 } beside;
 

@@ -40,11 +40,5 @@ bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_err
 
 /* Which load the states come from. */
 typedef enum along_what { ALONG_PROGRAM, ALONG_CYCLE, ALONG_LOAD } along_what;
-typedef bool along_look(void *context, double time, calc_error *error);
-
-/* Looks at the scene of the trial at `points`+1 instants, evenly in time; turns: at the turning points too.
- * from: the mark where a load tried on it (ALONG_LOAD, scene_append) begins. */
-bool trial_along(trial *t, along_what what, load_mark from, size_t points, bool turns, along_look *look,
-                 void *context, calc_error *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scene of its own that follows another one, and a run of its load that can wait. */
+/* A scene of its own that follows another one, and a run of its load. */
 #include "language/walk.h"
 
 #include <string.h>
@@ -85,8 +85,7 @@ static bool begin(walk *w, calc *c, size_t last_cycle, calc_error *error) {
 
 static bool make_run(walk *w, calc_error *error) {
     engine_end(&w->run.engine);
-    w->run = (runner){.load = &w->load};
-    w->watch = watch_way(1);
+    w->run = (runner){.load = &w->load, .watch = watch_way(1)};
     const fret_status st = engine_make(&w->run.engine, MODEL_MEMORY, w->load.normal, w->load.mu, 0, 0);
     return calc_status(error, &st);
 }
@@ -122,28 +121,22 @@ bool walk_follow(walk *w, calc *c, bool *anew, calc_error *error) {
 
 /* ---- walking ----------------------------------------------------------------------------------- */
 
-bool walk_on(walk *w, size_t item, unsigned points, bool all, bool (*see)(const runner *r, void *context),
-             void *context, calc_error *error) {
-    w->watch.points = points;
-    w->watch.once = !all;
-    w->watch.see = see;
-    w->watch.context = context;
-    w->watch.wait = false;
-    w->run.watch = &w->watch;
-    const fret_status st = run_to(&w->run, (load_mark){item, 0});
-    return w->run.waits || calc_status(error, &st);
+bool walk_next(walk *w, size_t item, unsigned points, bool all, calc_error *error) {
+    w->run.watch.points = points;
+    w->run.watch.once = !all;
+    return run_next(&w->run, (load_mark){item, 0}) || (calc_status(error, &w->run.status), false);
 }
 
 void walk_more(walk *w) {
     runner *r = &w->run;
-    unsigned *times = &w->scene.program->cycles[w->scene.end.cycles - 1].times;
     if (r->at.steps == w->scene.end.steps) {
         r->at.steps--;
         r->at.cycles--;
-        w->watch.place.within = true;
-        w->watch.place.period = *times;
+        r->within = true;
     }
-    ++*times;
+    if (r->within && r->at.steps + 1 == w->scene.end.steps)
+        run_more(r);
+    w->scene.program->cycles[w->scene.end.cycles - 1].times++;
 }
 
 void walk_enter(walk *w, calc *c) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A load program run again in parts, for who shows it and must not keep anybody waiting. Changes no scene but
- * its own. */
+/* A load program run again look by look, for who shows it and must not keep anybody waiting. Changes no scene
+ * but its own. */
 #ifndef LANGUAGE_WALK_H
 #define LANGUAGE_WALK_H
 
@@ -10,7 +10,6 @@ typedef struct walk {
     scene scene;    /* of its own, with the program as it runs */
     load_view load; /* of it */
     runner run;
-    watch watch;
     instant now;
     scene *outer; /* whom expressions see otherwise */
     bool begun;
@@ -20,10 +19,9 @@ typedef struct walk {
  * inputs, it stays where it is; else it stands before the press again, and *anew says so. False with the
  * error: there is no such load. */
 bool walk_follow(walk *w, calc *c, bool *anew, calc_error *error);
-/* Runs on to before this item of the program, seen by `see`, which may raise watch.wait; legs without chords
+/* On to the next look before this item of the program; false: it is there, or the error. Legs without chords
  * are seen in so many parts. all: periods that repeat those before, too. */
-bool walk_on(walk *w, size_t item, unsigned points, bool all, bool (*see)(const runner *r, void *context),
-             void *context, calc_error *error);
+bool walk_next(walk *w, size_t item, unsigned points, bool all, calc_error *error);
 /* One more period of the cycle that the load ends with. */
 void walk_more(walk *w);
 /* Expressions see the state here, until walk_leave. */

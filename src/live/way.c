@@ -46,17 +46,15 @@ static bool stands_still(const load_way *w, const fret_state *s) {
 /* Chords stand in for a sine: more digits would be wrong. */
 enum { CHORD_DIGITS = 4 };
 
-static bool keep_shot(load_way *w) {
-    if (w->shots == PLAY_SHOTS) /* unreached: no step or period has as many as ROOM */
-        return true;
+static bool keep_shot(load_way *w, calc *c, calc_error *error) {
     if (!w->play)
         w->play = calloc(PLAY_SHOTS, sizeof *w->play);
     if (!w->play)
-        return calc_no_memory(w->error);
+        return calc_no_memory(error);
     shot *to = &w->play[w->shots];
-    walk_enter(&w->walk, w->c);
-    const bool ok = shot_take(w->c, w->shots ? to - 1 : NULL, to, w->error);
-    walk_leave(&w->walk, w->c);
+    walk_enter(&w->walk, c);
+    const bool ok = shot_take(c, w->shots ? to - 1 : NULL, to, error);
+    walk_leave(&w->walk, c);
     if (w->walk.run.level)
         to->digits = CHORD_DIGITS;
     w->shots += ok;
@@ -74,26 +72,21 @@ static track_point point_of(track *t, const runner *r, fret_state *s) {
 }
 
 /* Of a swinging period's many chords as many as can be told apart: each state takes its time. */
-static bool see(const runner *r, void *context) {
+static bool see(load_way *w, calc *c, calc_error *error) {
     static const double APART = 1.0 / 64;
-    load_way *w = context;
+    const runner *r = &w->walk.run;
     track *t = &w->path;
     fret_state s;
-    if (w->late && w->late())
-        w->walk.watch.wait = true;
     if (!r->turning && r->time - t->point[t->count - 1].time < APART)
         return true;
     if (!add_track_point(t, point_of(t, r, &s)))
-        return calc_no_memory(w->error);
+        return calc_no_memory(error);
     if (!w->within || r->time < w->from)
         return true;
-    if (stands_still(w, &s)) {
-        w->play[0].time = r->time;
-        return true;
-    }
-    if (way_rests(w))
-        w->walk.watch.wait = true;
-    return keep_shot(w);
+    if (!stands_still(w, &s))
+        return keep_shot(w, c, error);
+    w->play[0].time = r->time;
+    return true;
 }
 
 /* ---- walking ----------------------------------------------------------------------------------- */
@@ -109,8 +102,8 @@ bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
     bool anew;
     way_unwatch(w);
     w->item = item;
-    if (item != NO_ITEM && w->walk.run.at.steps > item) /* past what is wanted: walk it anew */
-        walk_end(&w->walk);
+    if (item != NO_ITEM && w->walk.run.at.steps + w->walk.run.within > item)
+        walk_end(&w->walk); /* which is past where it begins */
     if (!walk_follow(&w->walk, c, &anew, error))
         return false;
     if (anew) {
@@ -133,14 +126,6 @@ static unsigned parts_of(const scene *s) {
     return parts < FEWEST ? FEWEST : parts > MOST ? MOST : (unsigned)parts;
 }
 
-static bool come_to_item(load_way *w) {
-    const walk *k = &w->walk;
-    if (w->within || k->run.at.steps < w->item) /* NO_ITEM is beyond all steps */
-        return true;
-    w->within = true;
-    return k->run.time < w->from || keep_shot(w);
-}
-
 /* Periods that repeat those before are not seen: the last point is at their end. */
 static void see_end(load_way *w) {
     track *t = &w->path;
@@ -152,16 +137,18 @@ bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
     enum { PARTS = 38 }; /* of a leg that is played */
     walk *k = &w->walk;
     const size_t end = k->scene.end.steps;
-    w->c = c;
-    w->late = late;
-    w->error = error;
+    const unsigned parts = parts_of(&k->scene);
     bool ok = true;
-    k->watch.wait = false;
-    if (k->run.at.steps < w->item)
-        ok = walk_on(k, w->item < end ? w->item : end, parts_of(&k->scene), false, see, w, error);
-    ok = ok && come_to_item(w);
-    if (ok && k->run.at.steps < end && !k->watch.wait)
-        ok = walk_on(k, end, PARTS, true, see, w, error);
+    do {
+        if (!w->within && k->run.at.steps >= w->item) { /* NO_ITEM is never come to */
+            w->within = true;
+            ok = k->run.time < w->from || keep_shot(w, c, error);
+        }
+        if (ok && walk_next(k, w->within || w->item > end ? end : w->item, w->within ? PARTS : parts,
+                            w->within, error))
+            ok = see(w, c, error);
+        ok = ok && !error->raised;
+    } while (ok && !way_rests(w) && !(late && late()));
     if (!ok) {
         walk_end(k); /* it stands within a step, and cannot go on from there */
     } else if (way_done(w)) {
@@ -176,8 +163,7 @@ bool way_done(const load_way *w) {
 }
 
 bool way_rests(const load_way *w) {
-    enum { ROOM = 120 }; /* for what comes before it can wait again */
-    return way_done(w) || (w->within && w->shots + ROOM > PLAY_SHOTS);
+    return way_done(w) || (w->within && w->shots == PLAY_SHOTS);
 }
 
 void way_more(load_way *w) {

@@ -32,9 +32,6 @@ typedef struct load_way {
     bool within; /* the walk has come to it */
     shot *play;  /* those that are ahead */
     size_t shots;
-    calc *c; /* for its watch */
-    bool (*late)(void);
-    calc_error *error;
 } load_way;
 
 /* Goes for the load of the scene that expressions see. item: states of this item and what follows are wanted,

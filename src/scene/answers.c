@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What follows from a scene, made ready on demand: the cheapest model answers that is exact. */
 #include <math.h>
-#include <stdlib.h>
 
-#include "number/array.h"
 #include "scene/load.h"
 
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
@@ -79,22 +77,27 @@ static void swinging_state(answers *a, const runner run[LEVELS]) {
     a->loss = limit.loss;
 }
 
-static bool widest(const runner *r, void *context) {
-    long double *a = context;
+/* Of the load on its way. */
+static bool widest_contact(scene *s, long double *a, calc_error *error) {
+    scene_trace t;
+    watch ends = watch_ends();
     fret_state state;
-    engine_state(&r->engine, &state);
-    *a = fmaxl(*a, state.a);
-    return true;
+    ends.once = true;
+    *a = 0;
+    if (!trace_begin(&t, s, ends, false, error))
+        return false;
+    while (trace_next(&t, error)) {
+        engine_state(&trace_now(&t)->engine, &state);
+        *a = fmaxl(*a, state.a);
+    }
+    trace_end(&t);
+    return !error->raised;
 }
 
 bool scene_engine(scene *s, const load_view *load, model_id model, unsigned count, engine *out,
                   calc_error *error) {
     long double a = 0;
-    watch w = watch_ends();
-    w.see = widest;
-    w.once = true;
-    w.context = &a;
-    if (models[model].count && !scene_trace(s, &w, error))
+    if (models[model].count && !widest_contact(s, &a, error))
         return false;
     fret_status st = engine_make(out, model, load->normal, load->mu, count, (double)(a * (1 + 1e-12L)));
     return calc_status(error, &st);
@@ -281,85 +284,51 @@ bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error) 
 
 /* ---- running it again -------------------------------------------------------------------------- */
 
-/* What the coarser levels saw, look by look. */
-typedef struct looks {
-    sight (*at)[LEVELS - 1];
-    size_t count, room, next;
-    unsigned level; /* that looks on now */
-    runner *finest;
-    const watch *for_whom;
-    bool no_memory;
-} looks;
-
-static bool keep_look(const runner *r, void *context) {
-    looks *l = context;
-    if (l->level == 0) {
-        void *grown = fret_array_for(l->at, &l->room, l->count + 1, sizeof *l->at);
-        l->no_memory = !grown;
-        if (!grown)
-            return false;
-        l->at = grown;
-        l->count++;
-    }
-    if (l->next < l->count)
-        run_sight(r, &l->at[l->next++][l->level]);
-    return true;
-}
-
-static bool look_deeper(const runner *r, void *context) {
-    looks *l = context;
-    l->finest->coarse = l->next < l->count ? l->at[l->next++] : NULL;
-    return l->for_whom->see(r, l->for_whom->context);
-}
-
-static fret_status trace_level(const load_view *load, unsigned level, bool sine, watch *w, looks *before,
-                               bool *halted) {
-    runner r = {.load = load, .watch = w, .level = level};
-    if (before)
-        before->finest = &r;
-    fret_status st = engine_make(&r.engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
-    r.engine.sine = sine;
-    if (!st.code)
-        st = run_to(&r, load->end);
-    engine_end(&r.engine);
-    *halted = r.halted;
-    return st;
-}
-
-/* All levels, one after the other: whoever looks on sees the finest, and with it the limit. */
-static fret_status trace_limit(const load_view *load, watch *w, bool *halted, bool *no_memory) {
-    looks l = {.for_whom = w};
-    fret_status st = fine;
-    for (; l.level < LEVELS && !st.code; l.level++) {
-        watch at = *w;
-        at.see = l.level < LEVELS - 1 ? keep_look : look_deeper;
-        at.context = &l;
-        l.next = 0;
-        st = trace_level(load, l.level, false, &at, &l, halted);
-    }
-    *no_memory = l.no_memory;
-    free(l.at);
-    return st;
-}
-
-bool scene_trace(scene *s, watch *w, calc_error *error) {
-    load_view load;
+bool trace_begin(scene_trace *t, scene *s, watch w, bool limit, calc_error *error) {
     const runner *unused;
-    bool halted, no_memory = false;
-    if (!scene_load_of(s, &load, error))
+    *t = (scene_trace){.levels = 0};
+    if (!scene_load_of(s, &t->load, error))
         return false;
-    const bool swings = s->answers.reach.swings, may_be_sine = swings && w->limit && load_takes_sine(&load);
+    const bool swings = s->answers.reach.swings, may_be_sine = swings && limit && load_takes_sine(&t->load);
     /* a load that cannot be is refused before anything of it is seen, and none is taken in two ways */
-    if (!(s->sound && !may_be_sine) && (!load_run(s, &unused, error) || !scene_load_of(s, &load, error)))
+    if (!(s->sound && !may_be_sine) && (!load_run(s, &unused, error) || !scene_load_of(s, &t->load, error)))
         return false;
     s->used |= USED(MODEL_MEMORY);
-    const bool sine = may_be_sine && s->answers.run[0].engine.sine;
-    const fret_status st = swings && w->limit && !sine
-                               ? trace_limit(&load, w, &halted, &no_memory)
-                               : trace_level(&load, swings && !sine ? LEVELS - 1 : 0, sine, w, NULL, &halted);
-    if (no_memory)
-        return calc_no_memory(error);
-    if (halted && error->raised)
-        return false;
+    const bool sine = may_be_sine && s->answers.run[0].engine.sine, chords = swings && !sine;
+    const unsigned levels = chords && limit ? LEVELS : 1;
+    fret_status st = fine;
+    while (t->levels < levels && !st.code) {
+        runner *r = &t->run[t->levels];
+        *r = (runner){.load = &t->load, .watch = w, .level = chords && !limit ? LEVELS - 1 : t->levels};
+        st = engine_make(&r->engine, MODEL_MEMORY, t->load.normal, t->load.mu, 0, 0);
+        r->engine.sine = sine;
+        t->levels++;
+    }
+    if (st.code)
+        trace_end(t);
     return calc_status(error, &st);
+}
+
+bool trace_next(scene_trace *t, calc_error *error) {
+    bool there = false;
+    for (unsigned i = 0; i < t->levels; i++) {
+        runner *r = &t->run[i];
+        there = run_next(r, t->load.end);
+        if (!calc_status(error, &r->status))
+            return false;
+        if (i + 1 < t->levels)
+            run_sight(r, &t->coarse[i]);
+        else
+            r->coarse = i ? t->coarse : NULL;
+    }
+    return there;
+}
+
+const runner *trace_now(const scene_trace *t) {
+    return &t->run[t->levels - 1];
+}
+
+void trace_end(scene_trace *t) {
+    while (t->levels)
+        engine_end(&t->run[--t->levels].engine);
 }

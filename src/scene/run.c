@@ -70,58 +70,22 @@ watch watch_times(double first, double every, size_t last, bool turns) {
     return (watch){.next = next_time, .first = first, .every = every, .last = last, .turns = turns};
 }
 
-static void sum_area(runner *r) {
-    fret_state now;
-    engine_forces(&r->engine, &now);
-    r->area += (now.dx - r->dx) * (now.Fx + r->Fx) / 2;
-    r->Fx = now.Fx;
-    r->dx = now.dx;
-}
-
-static fret_status look(runner *r, double time, bool turning) {
-    watch *w = r->watch;
+static void look(runner *r, double time, bool turning) {
+    watch *w = &r->watch;
     r->time = time;
     r->turning = turning;
-    if (r->area_wanted)
-        sum_area(r);
-    if (w->see && !w->see(r, w->context)) {
-        r->halted = true;
-        return interrupted;
-    }
     while (w->next == next_time && w->sample <= w->last &&
            w->first + w->every * (double)w->sample <= time + 1e-9 * w->every)
         w->sample++;
-    return unless_stopped(r, fine);
 }
 
-/* Does the watch want the run to wait here? */
-static bool must_wait(runner *r) {
-    r->waits = r->watch && r->watch->wait;
-    return r->waits;
-}
+/* ---- legs -------------------------------------------------------------------------------------- */
 
 /* Where the load is at the part x of a leg, as a part of the way. */
 static double way(const leg *l, double x) {
     if (l->even || l->law == LEG_STRAIGHT || (l->law == LEG_HALF && x == 0.5)) /* through 0 exactly */
         return x;
     return (double)(l->law == LEG_RISE ? sinl(pi / 2 * x) : (1 - cosl(pi * x)) / 2);
-}
-
-static fret_status step_of(runner *r, const leg *l, const fret_step *step) {
-    return l->chord ? engine_chord(&r->engine, step) : engine_step(&r->engine, step);
-}
-
-static void close_period(runner *r) {
-    r->cycle_loss = engine_spent(&r->engine);
-    r->closed = true;
-}
-
-/* The rest of a leg: whoever looks at the end of a period sees it closed. */
-static fret_status step_to_end(runner *r, const leg *l) {
-    const fret_status st = step_of(r, l, &l->to);
-    if (!st.code && l->closes)
-        close_period(r);
-    return st;
 }
 
 /* Points on the way lie where the step goes: to a displacement straight in (delta_z, delta_x), to a force in
@@ -141,36 +105,76 @@ static fret_step as_it_goes(const runner *r, const fret_step *to) {
     return step;
 }
 
-static fret_status take_watched(runner *r, const leg *l) {
+/* In double, as targets are: what was asked for is where it begins, and half of the way back is 0. */
+static void set_out(runner *r) {
     fret_state from;
-    fret_status st = fine;
-    double x = r->watch->next(r->watch, l, 0);
     engine_forces(&r->engine, &from);
-    const fret_step way_to = x < 1 ? as_it_goes(r, &l->to) : l->to, *to = &way_to;
-    /* in double, as targets are: what was asked for is where it begins, and half of the way back is 0 */
-    const double n0 = (double)(to->normal_by == FRET_TO_FORCE ? from.FN : from.dz);
-    const double t0 = (double)(to->tangential_by == FRET_TO_FX ? from.Fx : from.dx);
-    for (; x < 1; x = r->watch->next(r->watch, l, x)) {
-        const long double part = (long double)way(l, x);
-        fret_step step = *to;
-        step.normal = (double)(n0 + (to->normal - n0) * part);
-        step.tangential = (double)(t0 + (to->tangential - t0) * part);
-        st = step_of(r, l, &step);
-        if (!st.code)
-            st = look(r, l->begin + (l->end - l->begin) * x, false);
-        if (st.code)
-            return st;
-    }
-    st = step_to_end(r, l);
-    if (!st.code && x <= 1)
-        return look(r, l->end, !l->chord);
-    return st;
+    r->way = as_it_goes(r, &r->leg.to);
+    r->n = (double)(r->way.normal_by == FRET_TO_FORCE ? from.FN : from.dz);
+    r->t = (double)(r->way.tangential_by == FRET_TO_FX ? from.Fx : from.dx);
 }
 
-static fret_status take(runner *r, const leg *l) {
-    fret_status st = r->watch ? take_watched(r, l) : step_to_end(r, l);
+static fret_status swing_part(runner *r) {
+    const load_step *c = &r->item.step;
+    const run_place *k = &r->place;
+    const fret_sine load = {c->tangential_value, c->normal_value, r->item.extra.phase, k->FN};
+    bool taken;
+    const fret_status st = engine_swing(&r->engine, &load, k->from / (2 * pi), k->end / (2 * pi), &taken);
+    r->chorded = !st.code && !taken; /* this run ends: it must be run in chords from its beginning */
+    return r->chorded ? interrupted : st;
+}
+
+static fret_status step_of(runner *r, const fret_step *step) {
+    return r->leg.sine    ? swing_part(r)
+           : r->leg.chord ? engine_chord(&r->engine, step)
+                          : engine_step(&r->engine, step);
+}
+
+static fret_status take_part(runner *r, double x) {
+    const leg *l = &r->leg;
+    if (r->part == 0)
+        set_out(r);
+    const long double part = (long double)way(l, x);
+    fret_step step = r->way;
+    step.normal = (double)(r->n + (step.normal - r->n) * part);
+    step.tangential = (double)(r->t + (step.tangential - r->t) * part);
+    r->part = x;
+    return step_of(r, &step);
+}
+
+/* Whoever looks at the end of a period sees it closed. */
+static void close_period(runner *r) {
+    r->cycle_loss = engine_spent(&r->engine);
+    r->closed = r->place.closed = true;
+    r->place.within = false;
+    r->place.period++;
+}
+
+/* On the leg; true: to the next look. */
+static bool move(runner *r) {
+    const leg *l = &r->leg;
+    const double x = r->watch.next ? r->watch.next(&r->watch, l, r->part) : 2;
+    const bool inside = x < 1 && !l->sine;
+    r->status = inside ? take_part(r, x) : step_of(r, &l->to);
+    if (r->status.code)
+        return false;
+    if (inside) {
+        look(r, l->begin + (l->end - l->begin) * x, false);
+        return true;
+    }
+    r->moving = false;
+    if (l->closes)
+        close_period(r);
+    if (x <= 1)
+        look(r, l->end, !l->chord);
     r->time = l->end;
-    return st;
+    return x <= 1;
+}
+
+static bool set_leg(runner *r, leg l) {
+    r->leg = l;
+    r->part = 0;
+    return r->moving = true;
 }
 
 /* ---- cycles ------------------------------------------------------------------------------------ */
@@ -179,21 +183,17 @@ static fret_tangential_target tangential_by(const load_step *c) {
     return c->tangential == BY_FORCE ? FRET_TO_FX : FRET_TO_DX;
 }
 
-/* The two branches at constant F_N. */
-static fret_status constant_period(runner *r, const load_step *c) {
-    leg l = {.to = {FRET_KEEP_NORMAL, tangential_by(c), 0, 0},
-             .law = LEG_HALF,
-             .points = c->points ? (c->points + 1) / 2 : 0,
-             .even = r->watch && r->watch->next == next_point};
-    fret_status st = fine;
-    for (int sign = -1; sign <= 1 && !st.code; sign += 2) {
-        l.to.tangential = sign * c->tangential_value;
-        l.closes = sign > 0;
-        l.begin = r->time;
-        l.end = r->time + 0.5;
-        st = take(r, &l);
-    }
-    return st;
+/* One of the two branches at constant F_N. */
+static bool next_branch(runner *r) {
+    const load_step *c = &r->item.step;
+    const int sign = r->place.part++ ? 1 : -1;
+    return set_leg(r, (leg){.to = {FRET_KEEP_NORMAL, tangential_by(c), 0, sign * c->tangential_value},
+                            .begin = r->time,
+                            .end = r->time + 0.5,
+                            .law = LEG_HALF,
+                            .points = c->points ? (c->points + 1) / 2 : 0,
+                            .even = r->watch.next == next_point,
+                            .closes = sign > 0});
 }
 
 static int ascending(const void *a, const void *b) {
@@ -276,109 +276,50 @@ static size_t find_nodes(swing *w, double node[RUN_NODES]) {
     return kept;
 }
 
-/* Where whoever looks on looks next, between two angles: a chord ends there, on the sine. */
-static double next_look(const runner *r, const leg *period, double from, double to) {
-    leg l = *period;
-    if (!r->watch)
-        return to;
+/* From the end of the last part to the next node or look: a chord ends there, on the sine. */
+static void next_part_of(runner *r, leg l) {
+    run_place *k = &r->place;
+    k->from = k->end;
+    if (k->from >= k->at[k->node + 1])
+        k->node++;
+    const double from = k->from, to = k->at[k->node + 1];
+    k->end = to;
+    if (!r->watch.next)
+        return;
     l.begin = l.origin + from / (2 * pi);
     l.end = l.origin + to / (2 * pi);
-    const double x = r->watch->next(r->watch, &l, 0), at = from + (to - from) * x;
-    return x < 1 && at - from > 1e-9 && to - at > 1e-9 ? at : to;
+    const double x = r->watch.next(&r->watch, &l, 0), at = from + (to - from) * x;
+    if (x < 1 && at - from > 1e-9 && to - at > 1e-9)
+        k->end = at;
 }
 
-/* Chords of the harmonic path, from the top of F_x, cut evenly between the nodes and between looks. */
-static fret_status chords_period(runner *r, const load_item *c, long double FN) {
-    run_place here = {.nodes = 0}, *k = r->watch ? &r->watch->place : &here;
-    if (!k->nodes) {
-        swing about = {r->load, c, FN, 0};
-        k->nodes = find_nodes(&about, k->at);
-        k->begin = r->time;
-        k->node = k->chord = 0;
-        k->from = k->at[0];
-    }
+/* Chords of the harmonic path, from the top of F_x, cut evenly between the nodes and between looks; or the
+ * sine itself, as far as the next look. */
+static bool next_chord(runner *r) {
+    run_place *k = &r->place;
+    const load_item *c = &r->item;
     leg l = {.to = {FRET_TO_FORCE, tangential_by(&c->step), 0, 0},
              .chord = true,
+             .sine = r->engine.sine,
              .points = c->step.points ? c->step.points : RUN_CHORDS,
              .origin = k->begin};
-    fret_status st = fine;
-    for (; k->node + 1 < k->nodes && !st.code; k->node++) {
-        const double to = k->at[k->node + 1];
-        while (k->from < to && !st.code) {
-            const double end = next_look(r, &l, k->from, to), length = end - k->from;
-            const unsigned count = (unsigned)(1 + (double)RUN_CHORDS * length / (2 * pi)) << r->level;
-            while (k->chord < count && !st.code) {
-                if (must_wait(r))
-                    return interrupted;
-                const double angle = k->from + length * ++k->chord / count;
-                l.closes = k->node + 2 == k->nodes && k->chord == count && end == to;
-                l.to.tangential =
-                    l.closes ? c->step.tangential_value : c->step.tangential_value * harmonic(angle);
-                l.to.normal =
-                    (double)(FN + c->step.normal_value * harmonic((long double)angle + c->extra.phase));
-                l.begin = r->time;
-                l.end = k->begin + angle / (2 * pi);
-                st = unless_stopped(r, take(r, &l));
-            }
-            k->from = end;
-            k->chord = 0;
-        }
+    if (k->part == k->parts) {
+        next_part_of(r, l);
+        k->part = 0;
+        k->parts =
+            l.sine ? 1 : (unsigned)(1 + (double)RUN_CHORDS * (k->end - k->from) / (2 * pi)) << r->level;
     }
-    k->nodes = 0;
-    return st;
+    const double angle = k->from + (k->end - k->from) * ++k->part / k->parts;
+    l.closes = k->node + 2 == k->nodes && k->part == k->parts && k->end == k->at[k->node + 1];
+    l.to.tangential = l.closes ? c->step.tangential_value : c->step.tangential_value * harmonic(angle);
+    l.to.normal = (double)(k->FN + c->step.normal_value * harmonic((long double)angle + c->extra.phase));
+    l.begin = r->time;
+    l.end = k->begin + (l.sine ? k->end : angle) / (2 * pi);
+    return set_leg(r, l);
 }
-
-/* The sine itself, as far as whoever looks on looks next. */
-static fret_status sine_parts(runner *r, const load_item *c, const fret_sine *load, bool *taken) {
-    leg l = {.chord = true, .points = c->step.points ? c->step.points : RUN_CHORDS, .origin = r->time};
-    double from = 0;
-    fret_status st = fine;
-    while (from < 2 * pi && !st.code) {
-        const double end = next_look(r, &l, from, 2 * pi);
-        l.begin = r->time;
-        l.end = l.origin + end / (2 * pi);
-        st = engine_swing(&r->engine, load, from / (2 * pi), end / (2 * pi), taken);
-        if (st.code || !*taken)
-            return st;
-        if (end == 2 * pi)
-            close_period(r);
-        r->time = l.end;
-        if (r->watch->next(r->watch, &l, 0) <= 1)
-            st = look(r, l.end, false);
-        from = end;
-    }
-    return unless_stopped(r, st);
-}
-
-static fret_status swinging_period(runner *r, const load_item *c, long double FN) {
-    const fret_sine load = {c->step.tangential_value, c->step.normal_value, c->extra.phase, FN};
-    const bool sine = r->engine.sine;
-    bool taken = false;
-    fret_status st = fine;
-    if (sine && r->watch)
-        st = sine_parts(r, c, &load, &taken);
-    else if (sine)
-        st = engine_swing(&r->engine, &load, 0, 1, &taken);
-    if (taken && !r->watch)
-        r->time++;
-    if (taken || st.code)
-        return st;
-    r->chorded = sine; /* this run ends: it must be run in chords from its beginning */
-    return sine ? interrupted : chords_period(r, c, FN);
-}
-
-fret_status run_period(runner *r, const load_item *c, long double FN) {
-    return c->step.normal_value == 0 ? constant_period(r, &c->step) : swinging_period(r, c, FN);
-}
-
-/* A state at the end of a period, and what the period dissipated. */
-typedef struct lap {
-    fret_state state;
-    long double loss;
-} lap;
 
 /* Do two periods end alike, so that W stays right to 1e-15 where the second stands for `left` more? */
-static bool laps_repeat(const lap *a, const lap *b, unsigned left) {
+static bool laps_repeat(const sight *a, const sight *b, unsigned left) {
     const long double little = 1e-15L, reach = fabsl(b->state.dx) + fabsl(b->state.dz);
     return a->state.slices == b->state.slices && fabsl(a->state.FN - b->state.FN) <= little * b->state.FN &&
            fabsl(a->state.Fx - b->state.Fx) <= little * fabsl(b->state.Fx) &&
@@ -386,98 +327,103 @@ static bool laps_repeat(const lap *a, const lap *b, unsigned left) {
            left * fabsl(a->loss - b->loss) <= little * (b->state.W + left * b->loss);
 }
 
-/* Until it is done, or one period has repeated the one before twice: the others repeat it too. */
-static fret_status run_periods(runner *r, const load_item *c, long double FN) {
-    const unsigned times = c->extra.times;
-    const bool seen = r->watch && !r->watch->once;
-    lap last = {.loss = -1};
-    unsigned alike = 0;
-    fret_status st = fine;
-    r->repeated = 0;
-    for (unsigned i = r->watch ? r->watch->place.period : 0; i < times && !st.code; i++) {
-        if (r->watch && !r->watch->place.nodes) {
-            r->watch->place.period = i;
-            if (must_wait(r))
-                return interrupted;
-        }
-        if (!(r->watch && r->watch->place.nodes)) /* else in its midst */
-            engine_mark(&r->engine);
-        st = unless_stopped(r, run_period(r, c, FN));
-        if (r->waits)
-            return st;
-        close_period(r); /* the sine's, too */
-        lap now = {.loss = r->cycle_loss};
-        engine_forces(&r->engine, &now.state);
-        alike = i > 0 && laps_repeat(&last, &now, times - 1 - i) ? alike + 1 : 0;
-        last = now;
-        if (!st.code && !seen && alike == 2 && i + 1 < times) {
-            r->repeated = times - 1 - i;
-            engine_repeat(&r->engine, r->repeated, now.loss);
-            r->time += r->repeated;
-            break;
-        }
-    }
-    return st;
+/* One period has repeated the one before twice: the others, if there are any, repeat it too. */
+static void skip_repeats(runner *r) {
+    run_place *k = &r->place;
+    const unsigned left = r->item.extra.times - k->period;
+    const bool seen = r->watch.next && !r->watch.once;
+    if (seen || !left)
+        return;
+    sight now = {.loss = r->cycle_loss};
+    engine_forces(&r->engine, &now.state);
+    k->alike = k->period > 1 && laps_repeat(&k->last, &now, left) ? k->alike + 1 : 0;
+    k->last = now;
+    if (k->alike < 2)
+        return;
+    r->repeated = left;
+    engine_repeat(&r->engine, left, now.loss);
+    r->time += left;
+    k->period += left;
 }
 
 /* From where the load is now to the top of F_x. */
-static fret_status first_leg(runner *r, const load_item *c, long double FN) {
+static bool first_leg(runner *r) {
+    const load_item *c = &r->item;
+    fret_state now;
+    engine_forces(&r->engine, &now);
+    r->place = (run_place){.FN = now.FN};
+    r->repeated = 0;
     leg l = {.to = {FRET_KEEP_NORMAL, tangential_by(&c->step), 0, c->step.tangential_value},
              .begin = r->time,
              .end = r->time + 0.25,
              .law = LEG_RISE,
-             .even = r->watch && r->watch->next == next_point};
+             .even = r->watch.next == next_point};
     if (c->step.normal_value != 0) {
         l.to.normal_by = FRET_TO_FORCE;
-        l.to.normal = (double)(FN + c->step.normal_value * harmonic(c->extra.phase));
+        l.to.normal = (double)(now.FN + c->step.normal_value * harmonic(c->extra.phase));
         l.law = LEG_STRAIGHT;
     }
-    return take(r, &l);
+    return set_leg(r, l);
 }
 
-static fret_status run_cycle(runner *r, const load_item *c) {
-    run_place here = {.within = false}, *k = r->watch ? &r->watch->place : &here;
-    fret_status st = fine;
-    if (!k->within) {
-        fret_state state;
-        engine_forces(&r->engine, &state);
-        *k = (run_place){.FN = state.FN};
-        st = first_leg(r, c, k->FN);
-        k->within = !st.code;
+static void begin_period(runner *r) {
+    run_place *k = &r->place;
+    k->within = true;
+    k->begin = r->time;
+    k->end = 0;
+    k->part = k->parts = 0;
+    k->node = 0;
+    engine_mark(&r->engine);
+    if (r->engine.sine) {
+        k->nodes = 2;
+        k->at[0] = 0;
+        k->at[1] = 2 * pi;
+    } else if (r->item.step.normal_value != 0) {
+        swing about = {r->load, &r->item, k->FN, 0};
+        k->nodes = find_nodes(&about, k->at);
     }
-    if (!st.code)
-        st = run_periods(r, c, k->FN);
-    k->within = r->waits;
-    if (st.code == FRET_GROSS_SLIP)
-        st.quantity = c->step.normal_value == 0 ? "FA" : RUN_FX_OF_CYCLE;
-    return st;
+}
+
+static bool leg_of_cycle(runner *r) {
+    run_place *k = &r->place;
+    if (k->closed)
+        skip_repeats(r);
+    k->closed = false;
+    if (!k->within) {
+        if (k->period == r->item.extra.times)
+            return false;
+        begin_period(r);
+    }
+    return r->item.step.normal_value == 0 ? next_branch(r) : next_chord(r);
 }
 
 /* ---- steps ------------------------------------------------------------------------------------- */
 
-static fret_status run_press(runner *r, const load_step *c) {
+static bool leg_of_press(runner *r) {
+    const load_step *c = &r->item.step;
     leg l = {.to = {c->normal == BY_FORCE ? FRET_TO_FORCE : FRET_TO_DEPTH, FRET_KEEP_DX, c->normal_value, 0},
              .points = 1,
              .begin = r->time,
              .end = r->time};
     if (c->normal == BY_RADIUS) {
         fret_press p;
-        fret_status st = fret_press_by_radius(r->load->normal, c->normal_value, &p);
-        if (st.code)
-            return st;
+        r->status = fret_press_by_radius(r->load->normal, c->normal_value, &p);
+        if (r->status.code)
+            return false;
         l.to.normal = (double)p.dz;
     }
-    return take(r, &l);
+    return set_leg(r, l);
 }
 
-static fret_status run_step(runner *r, const load_step *c) {
+static bool leg_of_step(runner *r) {
+    const load_step *c = &r->item.step;
     leg l = {.to = {FRET_KEEP_NORMAL, FRET_KEEP_DX, c->normal_value, c->tangential_value},
              .points = c->points,
              .begin = r->time,
              .end = r->time + 1};
     if (!c->normal && (c->relative & RELATIVE_TANGENTIAL) && c->tangential_value == 0) {
         r->time++; /* nothing to do, and rounding must not make it a reversal */
-        return fine;
+        return false;
     }
     if (c->normal)
         l.to.normal_by = c->normal == BY_FORCE ? FRET_TO_FORCE : FRET_TO_DEPTH;
@@ -491,18 +437,46 @@ static fret_status run_step(runner *r, const load_step *c) {
         if (c->relative & RELATIVE_TANGENTIAL)
             l.to.tangential = (double)((c->tangential == BY_FORCE ? now.Fx : now.dx) + l.to.tangential);
     }
-    return take(r, &l);
+    return set_leg(r, l);
+}
+
+/* False: the item is done, or the status tells why it is not. */
+static bool next_leg(runner *r) {
+    const load_kind kind = (load_kind)r->item.step.kind;
+    const bool begun = r->within;
+    r->within = true;
+    if (begun)
+        return kind == LOAD_CYCLE && leg_of_cycle(r);
+    return kind == LOAD_PRESS ? leg_of_press(r) : kind == LOAD_STEP ? leg_of_step(r) : first_leg(r);
+}
+
+static void begin_item(runner *r, load_item item) {
+    r->item = item;
+    r->within = r->moving = false;
+}
+
+bool run_item_next(runner *r) {
+    r->status = fine;
+    while (!r->status.code && (r->moving || next_leg(r))) {
+        const bool seen = move(r);
+        r->status = unless_stopped(r, r->status);
+        if (seen && !r->status.code)
+            return true;
+    }
+    if (r->status.code == FRET_GROSS_SLIP && r->item.step.kind == LOAD_CYCLE)
+        r->status.quantity = r->item.step.normal_value == 0 ? "FA" : RUN_FX_OF_CYCLE;
+    return false;
 }
 
 fret_status run_item(runner *r, const load_item *item) {
-    switch ((load_kind)item->step.kind) {
-    case LOAD_PRESS:
-        return run_press(r, &item->step);
-    case LOAD_STEP:
-        return run_step(r, &item->step);
-    default:
-        return run_cycle(r, item);
-    }
+    begin_item(r, *item);
+    while (run_item_next(r))
+        ;
+    return r->status;
+}
+
+void run_more(runner *r) {
+    r->item.extra.times++;
 }
 
 /* At constant F_N only turning points count: a displacement on the way to the next one need not be taken. */
@@ -516,33 +490,37 @@ static bool on_the_way(const load_view *load, size_t i) {
     return here == next || (last < here && here < next) || (last > here && here > next);
 }
 
-fret_status run_to(runner *r, load_mark end) {
+/* Springs round otherwise. */
+static bool passes(const runner *r) {
+    return !r->within && !r->watch.next && !r->engine.springs && on_the_way(r->load, r->at.steps);
+}
+
+bool run_next(runner *r, load_mark end) {
     const load_view *load = r->load;
-    const bool every = r->watch || r->engine.springs; /* springs round otherwise */
-    fret_status st = fine;
-    r->waits = false;
+    r->status = fine;
     while (r->at.steps < end.steps) {
-        if (!(r->watch && r->watch->place.within) && must_wait(r))
-            return interrupted;
-        const load_step *step = &load->program->steps[r->at.steps];
-        const bool passed = !every && on_the_way(load, r->at.steps);
-        if (passed) {
+        if (passes(r)) {
             r->time++;
-        } else if (step->kind == LOAD_STEP) { /* most of them, and as they are */
-            st = run_step(r, step);
+            r->status = unless_stopped(r, fine);
         } else {
-            load_item item = program_item(load->program, r->at, load->last_cycle, load->in);
-            st = run_item(r, &item);
+            if (!r->within)
+                begin_item(r, program_item(load->program, r->at, load->last_cycle, load->in));
+            if (run_item_next(r))
+                return true;
         }
-        if (r->waits)
-            break;
-        st = unless_stopped(r, st);
-        if (st.code)
-            break;
+        if (r->status.code)
+            return false;
+        r->within = false;
+        r->at.cycles += load->program->steps[r->at.steps].kind == LOAD_CYCLE;
         r->at.steps++;
-        r->at.cycles += step->kind == LOAD_CYCLE;
     }
-    return st;
+    return false;
+}
+
+fret_status run_to(runner *r, load_mark end) {
+    while (run_next(r, end))
+        ;
+    return r->status;
 }
 
 double program_time(const program *p, load_mark end) {

@@ -30,41 +30,23 @@ typedef struct leg {
     double begin, end; /* time */
     leg_law law;       /* how the load goes in time: evenly, as a quarter or a half of a sine */
     bool chord;        /* of a swinging normal force: its ends are no turning points */
+    bool sine;         /* a part of the sine itself, as the place in the cycle says */
     bool even;         /* part it evenly in load, not in time */
     bool closes;       /* its end is that of a period */
     unsigned points;   /* asked for by `steps`, of a chord: a period; 0: none */
     double origin;     /* of a chord: time at the beginning of its period */
 } leg;
 
-typedef struct runner runner;
-
-/* Where in a cycle a run waits. */
-enum { RUN_NODES = 24 };
-typedef struct run_place {
-    bool within;                       /* of a cycle, else between two steps */
-    unsigned period;                   /* those done */
-    long double FN;                    /* that it turns about */
-    size_t node, nodes;                /* of a swinging period: 0 nodes: at its beginning */
-    double at[RUN_NODES], begin, from; /* this angle on */
-    unsigned chord;
-} run_place;
-
-/* Who looks on. next: the part of the leg, 0..1, at which to look after the part `after`; beyond 1: not
- * again. see: false ends the run. */
+/* Where a run is to be looked at. next: the part of the leg, 0..1, at which to look after the part `after`;
+ * beyond 1: not again. */
 typedef struct watch watch;
 struct watch {
-    double (*next)(const watch *w, const leg *l, double after);
-    bool (*see)(const runner *r, void *context);
-    void *context;
+    double (*next)(const watch *w, const leg *l, double after); /* NULL: nowhere */
     unsigned points;     /* watch_points: of a tangential leg that names none */
     double first, every; /* watch_times */
     size_t sample, last; /* next and last of them */
     bool turns;          /* turning points too */
     bool once;           /* a period that repeats the one before need not be seen again */
-    bool limit;          /* of swinging periods it wants the limit of all levels */
-    bool wait;           /* raised by see: the run waits before the next step, period or chord, and goes on
-                            by run_to */
-    run_place place;
 };
 
 /* Every leg in so many parts. */
@@ -92,36 +74,60 @@ typedef struct sight {
     long double loss;
 } sight;
 
-struct runner {
+/* Where in a cycle a run is. */
+enum { RUN_NODES = 24 };
+typedef struct run_place {
+    bool within;          /* a period, else between two */
+    bool closed;          /* a period that has not been compared yet */
+    unsigned period;      /* those done */
+    unsigned alike;       /* the last of them, each with the one before */
+    long double FN;       /* that it turns about */
+    double begin;         /* time at the beginning of the period */
+    double from, end;     /* angles of a swinging period: to the next node or look */
+    unsigned part, parts; /* done between these; of a constant F_N: branches */
+    size_t node, nodes;
+    double at[RUN_NODES];
+    sight last; /* of the period before */
+} run_place;
+
+typedef struct runner {
     const load_view *load;
     engine engine;
-    unsigned level;      /* a swinging period in RUN_CHORDS 2^level chords */
-    watch *watch;        /* or NULL */
-    const sight *coarse; /* the same instant at the LEVELS - 1 coarser levels, or NULL */
-    load_mark at;        /* next step of the program, and next of its cycles */
-    double time;         /* now */
-    bool turning;        /* for the watch: the end of a leg */
-    bool halted;         /* by the watch */
-    bool waits;          /* because the watch wants it to: goes on by run_to */
-    bool area_wanted;
-    long double area, Fx, dx; /* int F_x d(delta_x) by the trapezoidal rule, at what the watch sees */
-    long double cycle_loss;   /* of the last period run; of a program without one 0 */
-    bool closed;              /* a period has been run */
-    bool chorded;             /* the run ended at a swinging period that only chords can take */
-    unsigned repeated; /* periods of the last cycle that were not run, since they repeat those before */
-};
+    unsigned level;         /* a swinging period in RUN_CHORDS 2^level chords */
+    watch watch;            /* its own: it counts */
+    const sight *coarse;    /* the same instant at the LEVELS - 1 coarser levels, or NULL */
+    fret_status status;     /* why it does not go on */
+    load_mark at;           /* next step of the program, and next of its cycles, or those that it is within */
+    bool within;            /* the item: its first leg has begun */
+    double time;            /* now */
+    bool turning;           /* this look: the end of a leg */
+    long double cycle_loss; /* of the last period run; of a program without one 0 */
+    bool closed;            /* a period has been run */
+    bool chorded;           /* the run ended at a swinging period that only chords can take */
+    unsigned repeated;      /* periods of the last cycle that were not run, since they repeat those before */
+    load_item item;         /* that it is within */
+    run_place place;
+    leg leg;
+    bool moving;       /* on the leg */
+    double part, n, t; /* how far; where it began */
+    fret_step way;     /* where its points lie */
+} runner;
 
 /* Now; its limit, where `coarse` is there. */
 void run_sight(const runner *r, sight *out);
 /* Of the same instant at all levels; what lies at the end of the path needs no limit. */
 void sight_limit(const sight at[LEVELS], sight *out);
 
-/* Runs to the end of the load. The stop flag is looked at between steps and chords. */
+/* On to the next look; false: it is at the end, or the status tells why it does not get there. The stop flag
+ * is looked at wherever it is. */
+bool run_next(runner *r, load_mark end);
 fret_status run_to(runner *r, load_mark end);
-/* One period of the cycle about the normal force FN. */
-fret_status run_period(runner *r, const load_item *cycle, long double FN);
-/* A step, or `times` periods of a cycle. */
+/* A step, or `times` periods of a cycle, that need not be in the program. */
 fret_status run_item(runner *r, const load_item *item);
+/* One more period of the cycle that has just been run, or is. */
+void run_more(runner *r);
+/* As run_next, to the end of the item. */
+bool run_item_next(runner *r);
 
 /* The time at the end of the program, and after a step of it. */
 double program_time(const program *p, load_mark end);

@@ -180,8 +180,20 @@ void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs)
 
 /* The load of the scene as a runner takes it. */
 bool scene_load_of(scene *s, load_view *out, calc_error *error);
-/* Runs the program on a contact of its own, seen by the watch. The watch may have ended it with an error. */
-bool scene_trace(scene *s, watch *w, calc_error *error);
+/* The program run on contacts of its own, look by look: one, or all levels side by side. Stays where it is.
+ */
+typedef struct scene_trace {
+    load_view load;
+    runner run[LEVELS];
+    sight coarse[LEVELS - 1];
+    unsigned levels;
+} scene_trace;
+/* limit: that of swinging periods is wanted. False: there is nothing to end. */
+bool trace_begin(scene_trace *t, scene *s, watch w, bool limit, calc_error *error);
+/* On to the next look; false: the end, or the error. */
+bool trace_next(scene_trace *t, calc_error *error);
+const runner *trace_now(const scene_trace *t); /* it has begun */
+void trace_end(scene_trace *t);
 /* A contact of its own for this load of a model that steps; springs are wide enough for the largest contact
  * of the program.
  */

@@ -264,11 +264,9 @@ enum { FINEST = LEVELS + 1 };
 typedef struct general {
     load_view load;
     load_item cycle;
-    long double FN; /* about which the normal force swings */
     runner run[LEVELS];
     unsigned levels;
     bool sine;           /* no chords: as the scene answers */
-    watch watch;         /* of a loop area */
     unsigned long looks; /* of the last period */
 } general;
 
@@ -283,33 +281,20 @@ static void close_general(general *g) {
     g->levels = 0;
 }
 
-static void begin_area(general *g) {
-    fret_state now;
-    runner *r = &g->run[0];
-    engine_forces(&r->engine, &now);
-    r->Fx = now.Fx;
-    r->dx = now.dx;
-    r->area = 0;
-    g->looks = 0;
-}
-
 /* Runs to the beginning of the last period. */
 static fret_status approach(general *g, runner *r) {
     const load_mark here = {g->load.last_cycle, g->load.end.cycles - 1};
-    fret_state state;
     fret_status st = run_to(r, here);
-    if (st.code)
-        return st;
-    engine_forces(&r->engine, &state);
-    g->FN = state.FN;
     load_item before = g->cycle;
     before.extra.times--;
-    return run_item(r, &before);
+    return st.code ? st : run_item(r, &before);
 }
 
-/* `levels` numbers of chords, from level `first` on; springs 0: the memory diagram. seen: every leg is cut by
- * the watch. */
-static bool open_general(bench *b, general *g, unsigned springs, unsigned first, unsigned levels, bool seen) {
+static const watch nowhere = {.next = NULL};
+
+/* `levels` numbers of chords, from level `first` on; springs 0: the memory diagram. The watch cuts every
+ * leg. */
+static bool open_general(bench *b, general *g, unsigned springs, unsigned first, unsigned levels, watch w) {
     calc_error *error = b->error;
     g->levels = 0;
     if (!scene_load_of(b->s, &g->load, error)) /* unreached: the scene has answered for this load */
@@ -319,7 +304,7 @@ static bool open_general(bench *b, general *g, unsigned springs, unsigned first,
     g->cycle.step.points = 0; /* nothing is recorded here */
     for (unsigned i = 0; i < levels; i++) {
         runner *r = &g->run[i];
-        *r = (runner){.load = &g->load, .level = first + i, .watch = seen ? &g->watch : NULL};
+        *r = (runner){.load = &g->load, .level = first + i, .watch = w};
         fret_status st = fine;
         if (springs && !scene_engine(b->s, &g->load, MODEL_SPRINGS, springs, &r->engine, error)) {
             close_general(g);
@@ -339,19 +324,18 @@ static bool open_general(bench *b, general *g, unsigned springs, unsigned first,
     return true;
 }
 
-static fret_status period_loss(general *g, runner *r, long double *loss) {
-    engine_mark(&r->engine);
-    fret_status st = run_period(r, &g->cycle, g->FN);
-    *loss = engine_spent(&r->engine);
-    return st;
-}
-
 /* The loss of one model, or its limit; moved: relative, what that is good to. */
 static fret_status limit_cycle(general *g, long double *loss, long double *moved) {
     long double at[LEVELS] = {0};
     fret_status st = fine;
-    for (unsigned i = 0; i < g->levels && !st.code; i++)
-        st = period_loss(g, &g->run[i], &at[i]);
+    for (unsigned i = 0; i < g->levels && !st.code; i++) {
+        runner *r = &g->run[i];
+        run_more(r);
+        while (run_item_next(r))
+            ;
+        st = r->status;
+        at[i] = r->cycle_loss;
+    }
     *moved = 0;
     *loss = g->levels > 1 ? run_limit(at, moved) : at[0];
     return st;
@@ -362,27 +346,26 @@ static fret_status general_cycle(void *model, long double *loss) {
     return limit_cycle(model, loss ? loss : &unused, &moved);
 }
 
-/* The work that the load does, less what the contact has stored of it. */
+/* What goes into the contact and is not stored: int F_x d(delta_x) by the trapezoidal rule, between looks. */
 static fret_status area_cycle(void *model, long double *loss) {
     general *g = model;
     runner *r = &g->run[0];
-    fret_state from = {0}, to;
+    fret_state from = {0}, last, now;
+    long double area = 0;
     if (loss)
         engine_state(&r->engine, &from);
-    begin_area(g);
-    fret_status st = run_period(r, &g->cycle, g->FN);
-    if (!st.code && loss) {
-        engine_state(&r->engine, &to);
-        *loss = r->area - (to.U - from.U);
+    engine_forces(&r->engine, &last);
+    g->looks = 0;
+    for (run_more(r); run_item_next(r); last = now) {
+        engine_forces(&r->engine, &now);
+        area += (now.dx - last.dx) * (now.Fx + last.Fx) / 2;
+        g->looks++;
     }
-    return st;
-}
-
-static bool count_look(const runner *r, void *context) {
-    unsigned long *looks = context;
-    (void)r;
-    ++*looks;
-    return true;
+    if (!r->status.code && loss) {
+        engine_state(&r->engine, &now);
+        *loss = area - (now.U - from.U);
+    }
+    return r->status;
 }
 
 /* Does the scene answer for a swinging load without chords? */
@@ -397,7 +380,7 @@ static bool general_row(bench *b, model_family family, unsigned springs, bool *m
     const unsigned levels = swings(b) && !g.sine ? LEVELS : 1;
     const double start = clock_worked();
     tell_row(b, family, springs);
-    if (!open_general(b, &g, springs, 0, levels, false))
+    if (!open_general(b, &g, springs, 0, levels, nowhere))
         return false;
     const double setting_up = clock_worked() - start;
     bool ok = measure(b, family, springs, general_cycle, &g);
@@ -410,14 +393,10 @@ static bool general_row(bench *b, model_family family, unsigned springs, bool *m
 static bool loop_row(bench *b, unsigned level, unsigned parts, bool *more) {
     general g = {.levels = 0};
     const double start = clock_worked();
-    if (!open_general(b, &g, 0, level, 1, false))
+    if (!open_general(b, &g, 0, level, 1, nowhere))
         return false;
     const bool swinging = g.cycle.step.normal_value != 0;
-    g.watch = swinging ? watch_ends() : watch_points(parts);
-    g.watch.see = count_look;
-    g.watch.context = &g.looks;
-    g.run[0].watch = &g.watch;
-    g.run[0].area_wanted = true;
+    g.run[0].watch = swinging ? watch_ends() : watch_points(parts);
     const double setting_up = clock_worked() - start;
     bool ok =
         measure(b, FAMILY_LOOP, swinging ? (unsigned long)(RUN_CHORDS << level) / 2 : parts, area_cycle, &g);
@@ -431,9 +410,10 @@ static bool loop_row(bench *b, unsigned level, unsigned parts, bool *more) {
 /* The loss of the last period in chords of the finest levels; or where all is straight, each step cut in
  * `parts`. */
 static bool refined(bench *b, unsigned parts, long double *loss, long double *moved) {
-    general g = {.watch = watch_points(parts)};
+    general g = {.levels = 0};
     fret_state now;
-    if (!open_general(b, &g, 0, parts ? 0 : FINEST - LEVELS + 1, parts ? 1 : LEVELS, parts > 0))
+    if (!open_general(b, &g, 0, parts ? 0 : FINEST - LEVELS + 1, parts ? 1 : LEVELS,
+                      parts ? watch_points(parts) : nowhere))
         return false;
     fret_status st = limit_cycle(&g, loss, moved);
     engine_state(&g.run[0].engine, &now);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "language/along.h"
 #include "study/refine.h"
 
 typedef struct state {
@@ -171,10 +172,8 @@ static bool run_range(state *st) {
 
 /* ---- along a load ------------------------------------------------------------------------------ */
 
-static bool look_along(void *context, double time, calc_error *error) {
-    state *st = context;
+static bool look_along(state *st, double time) {
     points *p = &st->job->p;
-    (void)error;
     const bool all = points_look(p, p->v);
     return take_row(st, 0, time, p->v, all ? NULL : &p->none) && !calc_stopped(p->c->scene.stop, p->error);
 }
@@ -200,13 +199,16 @@ static bool run_along(state *st) {
     load_mark from = t->scene.end;
     if (s->what == ALONG_LOAD && !sweep_try_load(t, &st->range, &from, st->job->error))
         return false;
+    trial_along a;
     calc_error error;
     error_clear(&error);
-    if (trial_along(t, s->what, from, s->steps, s->turns, look_along, st, &error))
-        return true;
-    if (!st->job->error->raised)
+    bool ok = trial_along_begin(&a, t, s->what, from, s->steps, s->turns, &error);
+    while (ok && trial_along_next(&a, &error))
+        ok = look_along(st, scene_time(&t->scene));
+    trial_along_end(&a);
+    if (error.raised && !st->job->error->raised)
         *st->job->error = error;
-    return false;
+    return ok && !error.raised;
 }
 
 /* ---- curves ------------------------------------------------------------------------------------ */

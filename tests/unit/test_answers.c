@@ -93,22 +93,19 @@ static bool ask_loss(scene *s, double v[VALUES]) {
     return true;
 }
 
-static bool seen(const runner *r, void *context) {
-    double *v = context;
-    sight now;
-    run_sight(r, &now);
-    v[0] += (double)now.state.dx * r->time;
-    v[1] += (double)now.state.W;
-    v[2]++;
-    return true;
-}
-
 static bool ask_trace(scene *s, double v[VALUES]) {
-    watch w = watch_points(100);
-    w.see = seen;
-    w.context = v;
-    w.limit = true;
-    return scene_trace(s, &w, fresh());
+    scene_trace t;
+    sight now;
+    if (!trace_begin(&t, s, watch_points(100), true, fresh()))
+        return false;
+    while (trace_next(&t, &error)) {
+        run_sight(trace_now(&t), &now);
+        v[0] += (double)now.state.dx * trace_now(&t)->time;
+        v[1] += (double)now.state.W;
+        v[2]++;
+    }
+    trace_end(&t);
+    return !error.raised;
 }
 
 /* Of a copy of a scene whose program is known to run to its end. */
@@ -133,36 +130,28 @@ static bool ask_places(scene *s, double v[VALUES]) {
     return true;
 }
 
-typedef struct stiffening {
-    scene *s;
-    double *v;
-} stiffening;
-
-/* dF_N/d delta_z at an instant: of a sphere 3 F_N/(2 delta_z). */
-static bool stiff(const runner *r, void *context) {
-    const stiffening *at = context;
-    const instant now = {.run = r};
-    scene *s = at->s;
-    const fret_state *state;
-    long double kn = 0;
-    s->now = &now;
-    scene_moved(s);
-    const bool ok = get_kn(s, &kn, &error) && scene_forces(s, &state, &error);
-    if (ok && s->in.geometry == geometry_find("sphere", 6) && state->dz > 0)
-        CHECK_REL(kn, 1.5L * state->FN / state->dz, 1e-15L);
-    s->now = NULL;
-    scene_moved(s);
-    at->v[0] += (double)kn * (1 + r->time);
-    at->v[1]++;
-    return ok;
-}
-
+/* dF_N/d delta_z at each instant: of a sphere 3 F_N/(2 delta_z). */
 static bool ask_stiffness(scene *s, double v[VALUES]) {
-    stiffening at = {s, v};
-    watch w = watch_points(3);
-    w.see = stiff;
-    w.context = &at;
-    return scene_trace(s, &w, fresh());
+    scene_trace t;
+    bool ok = true;
+    if (!trace_begin(&t, s, watch_points(3), false, fresh()))
+        return false;
+    while (ok && trace_next(&t, &error)) {
+        const instant now = {.run = trace_now(&t)};
+        const fret_state *state;
+        long double kn = 0;
+        s->now = &now;
+        scene_moved(s);
+        ok = get_kn(s, &kn, &error) && scene_forces(s, &state, &error);
+        if (ok && s->in.geometry == geometry_find("sphere", 6) && state->dz > 0)
+            CHECK_REL(kn, 1.5L * state->FN / state->dz, 1e-15L);
+        s->now = NULL;
+        scene_moved(s);
+        v[0] += (double)kn * (1 + now.run->time);
+        v[1]++;
+    }
+    trace_end(&t);
+    return ok && !error.raised;
 }
 
 enum { CONTACT = 2, STATE = 3, FORCES = 4, LOSS = 7 }; /* of these */
@@ -437,22 +426,20 @@ typedef struct last_look {
     int looks;
 } last_look;
 
-static bool looks_on(const runner *r, void *context) {
-    last_look *l = context;
-    engine_state(&r->engine, &l->state);
-    l->looks++;
-    return true;
-}
-
 /* A step that nobody has run before it is looked at on its way. */
 static bool watched(calc *c, const load_step *step, last_look *l) {
-    watch w = watch_points(4);
+    scene_trace t;
     *l = (last_look){.looks = 0};
-    w.see = looks_on;
-    w.context = l;
     CHECK(scene_append(c->now, step, NULL, fresh()));
     c->now->sound = true;
-    return scene_trace(c->now, &w, fresh());
+    if (!trace_begin(&t, c->now, watch_points(4), false, &error))
+        return false;
+    while (trace_next(&t, &error)) {
+        engine_state(&trace_now(&t)->engine, &l->state);
+        l->looks++;
+    }
+    trace_end(&t);
+    return !error.raised;
 }
 
 /* On the way to a force by a displacement, and the other way round: into the open, and farther than rows

@@ -274,36 +274,27 @@ static void loads(bool turned) {
 }
 
 /* W of the scene with another friction at each instant, the last of them. */
-typedef struct beside_look {
-    calc *c;
-    double W;
-} beside_look;
-
-static bool look_beside(void *context, double time, calc_error *why) {
-    beside_look *b = context;
-    calc_value v;
-    (void)time;
-    if (!evaluate(b->c, "(W at mu=0.5)", &v)) {
-        *why = error;
-        return false;
-    }
-    b->W = (double)v.v;
-    return true;
-}
-
 static bool along_beside(calc *c, double *W) {
-    beside_look b = {.c = c};
     calc_error why;
+    trial_along a;
     error_clear(&why);
     error_clear(&error);
     trial *t = trial_open(c, &why);
-    const bool ok = t && trial_along(t, ALONG_CYCLE, c->now->end, 4, false, look_beside, &b, &why);
+    bool ok = t && trial_along_begin(&a, t, ALONG_CYCLE, c->now->end, 4, false, &why);
+    if (ok) {
+        while (ok && trial_along_next(&a, &why)) {
+            calc_value v;
+            ok = evaluate(c, "(W at mu=0.5)", &v);
+            if (ok)
+                *W = (double)v.v;
+        }
+        trial_along_end(&a);
+    }
     if (t)
         trial_close(t);
-    if (!ok)
+    if (why.raised)
         error = why;
-    *W = b.W;
-    return ok;
+    return ok && !why.raised;
 }
 
 /* Another scene along a swinging load, whatever allocation fails. */
@@ -402,24 +393,23 @@ static void deep_names(void) {
 
 /* ---- along a load ------------------------------------------------------------------------------- */
 
-typedef struct looks {
-    int left, seen; /* looks that succeed; so far */
-    double last;
-} looks;
-
-static bool look_on(void *context, double time, calc_error *now) {
-    looks *l = context;
-    (void)now;
-    l->seen++;
-    CHECK(l->seen == 1 || time > l->last - 1e-9);
-    l->last = time;
-    return l->left-- != 0;
+/* How often it can be looked at, and the last time. */
+static int looks_along(trial *t, along_what what, size_t points, double *last) {
+    trial_along a;
+    int seen = 0;
+    CHECK(trial_along_begin(&a, t, what, t->scene.end, points, true, fresh()));
+    for (; trial_along_next(&a, &error); seen++) {
+        CHECK(!seen || scene_time(&t->scene) > *last - 1e-9);
+        *last = scene_time(&t->scene);
+    }
+    trial_along_end(&a);
+    CHECK(!error.raised && !t->scene.now);
+    return seen;
 }
 
-/* What ends the looking ends it at once. */
 static void along(void) {
     calc c;
-    looks all;
+    double last = 0;
     press_steel(&c, NULL, 0);
     for (int i = 0; i < 30; i++)
         CHECK(load(
@@ -428,22 +418,18 @@ static void along(void) {
             (cycle_extra){0}));
     const fret_state *now;
     CHECK(scene_state(c.now, &now, fresh()));
-    for (int fails_at = -1; fails_at < 3; fails_at++) {
-        trial *t = trial_open(&c, fresh());
-        all = (looks){.left = fails_at};
-        CHECK(trial_along(t, ALONG_PROGRAM, c.now->end, 10, true, look_on, &all, fresh()) == (fails_at < 0));
-        trial_close(t);
-    }
+    trial *t = trial_open(&c, fresh());
+    CHECK(looks_along(t, ALONG_PROGRAM, 10, &last) == 31 && last == 30);
+    trial_close(t);
     /* the last cycle alone, with its turning points, of a load that goes on */
     CHECK(load(&c, (load_step){.kind = LOAD_CYCLE, .tangential = BY_FORCE, .tangential_value = 12},
                (cycle_extra){.times = 2}));
     CHECK(load(&c, (load_step){.kind = LOAD_STEP, .tangential = BY_FORCE, .tangential_value = 3, .points = 1},
                (cycle_extra){0}));
-    trial *t = trial_open(&c, fresh());
-    all = (looks){.left = -1};
-    CHECK(trial_along(t, ALONG_CYCLE, c.now->end, 5, true, look_on, &all, fresh()));
-    CHECK_REL(all.last, 32.25L, 1e-12L);
-    CHECK(all.seen == 7 || all.seen == 8);
+    t = trial_open(&c, fresh());
+    const int seen = looks_along(t, ALONG_CYCLE, 5, &last);
+    CHECK_REL(last, 32.25L, 1e-12L);
+    CHECK(seen == 7 || seen == 8);
     trial_close(t);
     calc_free(&c);
 }

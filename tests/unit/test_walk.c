@@ -1,23 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A load that is walked in parts ends where one ends that is run at once, to the last bit, wherever it waits;
- * a walk follows its scene. */
+/* A load that is walked in parts ends where one ends that is run at once, to the last bit, wherever it rests
+ * and is followed; a walk follows its scene. */
 #include <float.h>
 
 #include "language.h"
-
-typedef struct looker {
-    walk *walk;
-    unsigned every, seen; /* waits at every so many looks; 0: never */
-} looker;
-
-static bool see(const runner *r, void *context) {
-    looker *l = context;
-    (void)r;
-    l->seen++;
-    if (l->every && l->seen % l->every == 0)
-        l->walk->watch.wait = true;
-    return true;
-}
 
 static void push(calc *c, load_step step, cycle_extra extra) {
     CHECK(load(c, step, extra));
@@ -40,21 +26,21 @@ static void begin(calc *c, bool swings) {
          (cycle_extra){.times = 2});
 }
 
-/* The state at the end, by so many waits; how often it has waited. */
+/* The state at the end; followed at every so many looks, 0: never. How often that was. */
 static unsigned walk_all(calc *c, unsigned every, fret_state *out) {
     walk w = {.begun = false};
-    looker l = {&w, every, 0};
     bool anew = false;
-    unsigned waits = 0;
+    unsigned looks = 0, rests = 0;
     CHECK(walk_follow(&w, c, &anew, fresh()) && anew);
-    while (w.run.at.steps < w.scene.end.steps && waits < 1000000) {
-        CHECK(walk_on(&w, w.scene.end.steps, 5, true, see, &l, &error));
-        waits += w.run.at.steps < w.scene.end.steps;
-    }
+    while (walk_next(&w, w.scene.end.steps, 5, true, &error))
+        if (every && ++looks % every == 0) {
+            CHECK(walk_follow(&w, c, &anew, &error) && !anew); /* nothing has changed */
+            rests++;
+        }
+    CHECK(!error.raised && w.run.at.steps == w.scene.end.steps);
     engine_state(&w.run.engine, out);
-    CHECK(walk_follow(&w, c, &anew, &error) && !anew); /* nothing has changed */
     walk_end(&w);
-    return waits;
+    return rests;
 }
 
 static void parts(bool swings) {
@@ -64,8 +50,8 @@ static void parts(bool swings) {
     begin(&c, swings);
     CHECK(walk_all(&c, 0, &whole) == 0);
     for (size_t i = 0; i < sizeof every / sizeof *every; i++) {
-        const unsigned waits = walk_all(&c, every[i], &sliced);
-        CHECK(every[i] > 7 && !swings ? waits == 0 : waits >= (swings ? 300u : 4u) / every[i]);
+        const unsigned rests = walk_all(&c, every[i], &sliced);
+        CHECK(every[i] > 7 && !swings ? rests == 0 : rests >= (swings ? 300u : 4u) / every[i]);
         CHECK(sliced.Fx == whole.Fx && sliced.dx == whole.dx && sliced.W == whole.W && sliced.U == whole.U &&
               sliced.FN == whole.FN && sliced.dz == whole.dz && sliced.c == whole.c);
     }
@@ -90,13 +76,14 @@ static void load_again(calc *c, const load_step *more, const load_step *cycle, c
 
 /* Does the walk begin anew for the scene as it is, and end where that ends? */
 static bool goes_anew(walk *w, calc *c) {
-    looker l = {w, 0, 0};
     bool anew = false;
     fret_state got;
     const fret_state *want;
     error_clear(&error);
     CHECK(walk_follow(w, c, &anew, &error));
-    CHECK(walk_on(w, w->scene.end.steps, 5, true, see, &l, &error));
+    while (walk_next(w, w->scene.end.steps, 5, true, &error))
+        ;
+    CHECK(!error.raised);
     engine_state(&w->run.engine, &got);
     CHECK(scene_state(c->now, &want, &error));
     const fret_real little = w->scene.answers.reach.swings ? 1e-5L : 1e-15L; /* chords; repeated periods */
