@@ -340,7 +340,8 @@ def moving(tests):
     s.child.sendline("animate loop frames 3; 77*11")
     s.child.expect(r"77\*11 = 847\r\n")
     shown = s.child.before
-    s.child.sendline("record off")
+    s.prompt()
+    s.say("record off")  # what is typed between two lines may be lost
     s.child.sendeof()
     s.end()
     with open(path, encoding="utf-8") as f:
