@@ -462,9 +462,8 @@ FRET_INLINE void retreat(path *p, coordinate by) {
     DIAGRAM *d = p->d;
     const coordinate aside = other_than(by);
     const NUMBER to = p->to.y[by], forward = end_level(p, by, 1), backward = end_level(p, by, -1);
-    last_phase last;
+    last_phase last = {.s = 0};
     NUMBER s = 0, part = 0, thick = to;
-    last.s = 0;
     if (p->counts)
         phases_back(p, by, &last);
     size_t count = d->count;
@@ -864,7 +863,7 @@ static fret_status diagram_unpack(DIAGRAM *d, const double from[], size_t count)
         return st;
     NUMBER rest[NUMBERS_REST];
     made->count = (count - least) / (2 * NUMBERS_LAYER);
-    made->told = from[PACKED_TOLD] == LOAD ? LOAD : DEPTH;
+    made->told = from[PACKED_TOLD] == (double)LOAD ? LOAD : DEPTH;
     made->direction = from[PACKED_DIRECTION] < 0 ? -1 : 1;
     made->lossless = from[PACKED_LOSSLESS] != 0;
     const double *next = unpack_point(from + PACKED_NUMBERS, &made->edge);

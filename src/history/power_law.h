@@ -32,7 +32,7 @@ static inline void power_make(fret_real s, fret_real sm1, power_law *out) {
     *out = (power_law){.s = (NUMBER)s,
                        .sm1 = (NUMBER)sm1,
                        .bend = (NUMBER)fabsl(s * sm1),
-                       .halves = twice == floorl(twice) && twice <= LAW_HALVES ? (int)twice : 0,
+                       .halves = twice == floorl(twice) && twice <= (fret_real)LAW_HALVES ? (int)twice : 0,
                        .per_reach = (NUMBER)(1 / reach)};
     for (int j = 0; j < TERMS; j++) {
         const fret_real k = 2 * j, odd = b * (sm1 - 1 - k) / (k + 1) * reach;

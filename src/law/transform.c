@@ -127,7 +127,7 @@ fret_real fret_transform_at(const fret_transform *t, size_t last, size_t from, f
         const block *b = &t->block[i];
         const bool within = b->last <= last, single = b->next == i + 1;
         const fret_real lo = behind(t, b->first, from, e), D = lo * (2 * x - lo) - b->d;
-        if (within && D >= NEAR * b->d)
+        if (within && D >= (fret_real)NEAR * b->d)
             sum += far_sum(t, b, D, X);
         else if (!single) {
             i++;

@@ -188,7 +188,7 @@ static bool probe_all(probe *p, influence_study *out) {
     for (size_t i = 0; i < out->count; i++) {
         if (out->cause[i].influence == INFLUENCE_ZERO)
             continue;
-        if (clock_worked() - start < INFLUENCE_SECONDS)
+        if (clock_worked() - start < (double)INFLUENCE_SECONDS)
             find_influence(p, &out->cause[i]);
         else
             out->cause[i].influence = INFLUENCE_LEFT;
