@@ -84,11 +84,11 @@ $(B)/scripts.o: $(B)/scripts.c
 $(B)/fret: $(call OBJ,$(PROG) $(CORE)) $(B)/scripts.o
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-# Every panel and video of the paper, and the pictures and casts of README.
+# Every panel and video of the paper, and the pictures of README.
 FIGURES := $(patsubst scripts/paper/%.txt,$(B)/figures/%.png,$(filter-out scripts/paper/s%,$(PAPER))) \
 	$(patsubst scripts/paper/%.txt,$(B)/figures/%.gif,$(filter scripts/paper/s%,$(PAPER)))
-CASTS := scripts/casts/tour.cast scripts/casts/live.cast
-figures: $(FIGURES) scripts/paper/fig07a.svg scripts/paper/fig07b.svg $(CASTS)
+STILLS  := $(patsubst %.keys,%.svg,$(wildcard scripts/paper/*.keys))
+figures: $(FIGURES) scripts/paper/fig07a.svg scripts/paper/fig07b.svg $(STILLS)
 DRAW = sed '$$s|$$| to $@|' $< | $(B)/fret
 $(B)/figures/%.png $(B)/figures/%.gif: scripts/paper/%.txt $(B)/fret
 	@mkdir -p $(@D)
@@ -96,10 +96,9 @@ $(B)/figures/%.png $(B)/figures/%.gif: scripts/paper/%.txt $(B)/fret
 scripts/paper/%.svg: scripts/paper/%.txt $(B)/fret
 	@$(DRAW)
 
-# The demonstrations that README links: what is typed takes its time, by no clock.
-scripts/casts/%.cast: scripts/casts/%.fret scripts/casts/steps.fret $(B)/fret
-	@rm -f $@
-	@{ echo 'record $@'; cat $<; } | LC_ALL=C.UTF-8 $(B)/fret > $(B)/cast.txt
+# What a terminal shows when these lines have been typed.
+$(STILLS): %.svg: %.keys scripts/still $(B)/fret
+	@python3 scripts/still $@ 80x32 $(B)/fret --no-rc --quiet < $<
 
 # written anew each time: PREFIX may have changed
 $(B)/fret.pc: FORCE

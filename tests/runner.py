@@ -19,7 +19,6 @@ for folder in ("", "unit", "sessions", "errors", "interactive", "portable", "hou
 import accuracy_test  # noqa: E402
 import answers  # noqa: E402
 import backwards  # noqa: E402
-import casts  # noqa: E402
 import completion  # noqa: E402
 import explaining  # noqa: E402
 import figures  # noqa: E402
@@ -62,11 +61,11 @@ ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.ru
          "figures": figures.run, "sessions": transcripts.run, "help": helping.run, "reference": reference.run, "reading": reading.run,
          "smoothing": smoothing.run, "answers": answers.run, "following": following.run, "readme": transcripts.readme, "fuzz": fuzzing.run,
          "portable": portable.run, "moving": moving.run, "completion": completion.run, "rough": rough.run, "typed": typed.run,
-         "live": live.run, "interactive": prompt.run, "casts": casts.run}
+         "live": live.run, "interactive": prompt.run}
 DRAWING = ("unit", "hard", "numbers", "errors", "fits", "instants", "accuracy", "programs", "typed", "rim", "sharing", "explaining", "completion", "moving")
 PLAIN = ("house", "packaging")  # the sanitized program has the same sources
 OTHER = ("fuzz", "portable")  # builds of their own, in check-all alone
-WAITING = ("moving", "completion", "rough", "typed", "live", "interactive", "casts")  # for a terminal, most of the time
+WAITING = ("moving", "completion", "rough", "typed", "live", "interactive")  # for a terminal, most of the time
 
 Result = collections.namedtuple("Result", "label room cases seconds processor")
 

@@ -12,6 +12,7 @@
 #include <wchar.h>
 
 #include "text/characters.h"
+#include "text/file.h"
 
 bool canvas_make(canvas *c, rect at, bool braille) {
     *c = (canvas){.at = at,
@@ -73,4 +74,32 @@ void put_text(rect at, int row, ink of, const char *format, ...) {
     else
         addnwstr(wide, at.cols < (int)n ? at.cols : (int)n);
     attrset(A_NORMAL);
+}
+
+char *canvas_text(void) {
+    file_text text;
+    wchar_t sign[CCHARW_MAX + 1];
+    char bytes[CHARACTER_BYTES];
+    attr_t look;
+    short pair;
+    cchar_t cell;
+    if (!file_text_open(&text))
+        return NULL;
+    for (int y = 0; y < LINES; y++) {
+        int blanks = 0; /* not written yet: none are at the end of a line */
+        for (int x = 0; x < COLS; x++) {
+            mvin_wch(y, x, &cell);
+            getcchar(&cell, sign, &look, &pair, NULL);
+            if (!sign[0] || sign[0] == L' ') {
+                blanks++;
+                continue;
+            }
+            const size_t n = character_put((unsigned)sign[0], bytes); /* UTF-8, whatever the locale is */
+            fprintf(text.to, "%*s%s", blanks, "", bytes);
+            blanks = 0;
+            x += text_columns(bytes, n) > 1;
+        }
+        putc('\n', text.to);
+    }
+    return file_text_close(&text) ? text.text : NULL;
 }

@@ -44,4 +44,7 @@ __attribute__((format(printf, 4, 5)))
 #endif
 void put_text(rect at, int row, ink of, const char *format, ...);
 
+/* What the screen shows, to be freed; NULL: out of memory. */
+char *canvas_text(void);
+
 #endif

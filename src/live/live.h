@@ -17,16 +17,9 @@ typedef struct live_host {
     /* Runs a line of statements. What it says, errors too, goes into answer (to be freed, or NULL); false: an
      * error. */
     bool (*run)(void *self, const char *line, char **answer);
-    /* As scripts are read: the mark of a line that goes on, and its prompts made blanks. */
-    file_mark *mark;
-    void (*blank_prompts)(char *text, size_t len);
     /* The line with the word before the cursor completed as far as it is the same for all candidates; the
      * cursor moves. */
     void (*complete)(void *self, char *line, size_t size, size_t *cursor);
-    /* Is the screen recorded? And the size that it has where there is no terminal. */
-    bool (*filming)(void *self, int *cols, int *rows);
-    /* What it shows from now on, after so many seconds. */
-    void (*film)(void *self, const char *bytes, size_t n, double seconds);
 } live_host;
 
 /* Work on frames: seconds of the processor, writing to the terminal included. */
@@ -35,10 +28,10 @@ typedef struct live_work {
     double total, worst;
 } live_work;
 
-/* Until the user leaves. script: a file to step through, or NULL. Where the screen is recorded and there is
- * no terminal, a script plays by itself. False with the error where there is no terminal for it or the script
- * cannot be read. */
-bool live_run(const live_host *host, const char *script, live_work *work, calc_error *error);
+/* Until the user leaves. script: a file to step through, or NULL. Where there is no terminal a script plays
+ * by itself, and *screen is what it shows in the end, as text (to be freed); else NULL. False with the error
+ * where there is no terminal for it or the script cannot be read. */
+bool live_run(const live_host *host, const char *script, live_work *work, char **screen, calc_error *error);
 
 /* Its keys and what they do, for help. */
 void live_keys(FILE *to);

@@ -5,6 +5,13 @@
 
 #include "live/state.h"
 #include "text/file.h"
+#include "text/lines.h"
+
+static void drop_lines(live_script *s) {
+    for (size_t i = 0; i < s->count; i++)
+        free(s->line[i]);
+    s->count = 0;
+}
 
 /* A logical line becomes one line. */
 static bool add_script_line(live *l, const char *line) {
@@ -17,29 +24,9 @@ static bool add_script_line(live *l, const char *line) {
     if (!kept)
         return false;
     s->count++;
-    l->host->blank_prompts(kept, strlen(kept));
     for (char *end = kept; (end = strchr(end, '\n')) != NULL;)
         *end = ' ';
     return true;
-}
-
-/* Of a transcript the statements alone: blanks are where prompts were, and no other line begins with one. */
-static void statements_only(live_script *s) {
-    size_t kept = 0;
-    bool transcript = false;
-    for (size_t i = 0; i < s->count; i++)
-        transcript = transcript || *s->line[i] == ' ';
-    for (size_t i = 0; transcript && i < s->count; i++) {
-        char *line = s->line[i];
-        if (*line != ' ') {
-            free(line);
-        } else {
-            const size_t blanks = strspn(line, " ");
-            memmove(line, line + blanks, strlen(line) - blanks + 1);
-            s->line[kept++] = line;
-        }
-    }
-    s->count = transcript ? kept : s->count;
 }
 
 bool script_open(live *l, const char *path, calc_error *error) {
@@ -48,11 +35,16 @@ bool script_open(live *l, const char *path, calc_error *error) {
     if (!file_in_open(&in, path, l->host->stop, error))
         return false;
     file_got got = FILE_GOT_LINE;
-    bool ok = true;
-    while (ok && (got = file_in_logical(&in, l->host->mark, error)) == FILE_GOT_LINE)
-        ok = add_script_line(l, in.line);
+    bool ok = true, transcript = false; /* of which the statements count alone */
+    while (ok && (got = file_in_line(&in, error)) == FILE_GOT_LINE) {
+        const bool prompt = begins_with_prompt(in.line, in.length);
+        if (prompt && !transcript)
+            drop_lines(s);
+        transcript = transcript || prompt;
+        if (prompt || !transcript)
+            ok = file_in_rest(&in, error) == FILE_GOT_LINE && add_script_line(l, in.line);
+    }
     file_in_close(&in);
-    statements_only(s);
     s->undo = calloc(s->count + 1, sizeof *s->undo);
     s->steps = calloc(s->count + 1, sizeof *s->steps);
     if (!ok || !s->undo || !s->steps)
@@ -62,8 +54,7 @@ bool script_open(live *l, const char *path, calc_error *error) {
 
 void script_close(live *l) {
     live_script *s = &l->script;
-    for (size_t i = 0; i < s->count; i++)
-        free(s->line[i]);
+    drop_lines(s);
     free(s->line);
     free(s->undo);
     free(s->steps);

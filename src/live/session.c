@@ -32,16 +32,9 @@ static bool walks(const live *l) {
     return false;
 }
 
-static bool film_now(live *l, double seconds) {
-    const bool ok = film_frame(&l->film, l->host, l->typing, seconds);
-    if (!ok)
-        live_tell(l, true, "out of memory: a frame is not recorded");
-    return ok;
-}
-
 static void session(live *l, live_work *work) {
     enum { IDLE = 1000, FRAME = 16 /* milliseconds */, MANY = 20 };
-    double before = clock_wall(), filmed = before, last = clock_worked();
+    double before = clock_wall(), last = clock_worked();
     while (!l->leave) {
         double start = clock_wall();
         walked_from = start;
@@ -57,10 +50,6 @@ static void session(live *l, live_work *work) {
         const double now = clock_worked();
         count_work(work, draws, now - last);
         last = now;
-        if (draws) {
-            film_now(l, start - filmed);
-            filmed = start;
-        }
         const int pause = !fresh ? 0 : l->playing || walks(l) ? FRAME : l->changed ? busy : IDLE;
         int key = terminal_key(pause, l->host->stop);
         walked_from = start = clock_wall();
@@ -78,28 +67,20 @@ static void session(live *l, live_work *work) {
     live_play_end(l);
 }
 
-/* For a recording without a terminal. False: the last frame is not recorded. */
-static bool play_script(live *l, calc_error *error) {
-    static const double FRAME = 1.0 / 15, READING = 1.5, READING_SIGN = 0.04;
-    double passed = 0;
-    while (!l->leave && !*l->host->stop) {
+/* Without a terminal: what the screen shows in the end, or NULL. */
+static char *play_script(live *l) {
+    static const double FRAME = 1.0 / 15;
+    for (;;) {
         live_refresh(l);
         live_walk(l, NULL);
         live_draw(l);
-        film_now(l, passed);
-        if (l->playing) {
-            live_play_on(l, passed = FRAME);
-        } else {
-            passed = READING + READING_SIGN * (double)(strlen(l->note) + strlen(l->status));
-            if (script_ends(l))
-                break;
+        if (l->leave || *l->host->stop || (script_ends(l) && !l->playing))
+            return canvas_text();
+        if (l->playing)
+            live_play_on(l, FRAME);
+        else
             script_on(l);
-        }
     }
-    live_refresh(l);
-    live_walk(l, NULL);
-    live_draw(l);
-    return film_now(l, passed) || calc_no_memory(error);
 }
 
 static void free_live(live *l) {
@@ -112,28 +93,26 @@ static void free_live(live *l) {
     free(l);
 }
 
-bool live_run(const live_host *host, const char *script, live_work *work, calc_error *error) {
+bool live_run(const live_host *host, const char *script, live_work *work, char **screen, calc_error *error) {
     live *l = calloc(1, sizeof *l);
     *work = (live_work){0, 0, 0};
+    *screen = NULL;
     if (!l)
         return calc_no_memory(error);
     l->host = host;
     l->speed = 0.5;
     l->phase = 90;
-    int cols, rows;
-    const bool unseen = script && !terminal_there() && host->filming(host->self, &cols, &rows);
-    bool ok = (!script || script_open(l, script, error)) &&
-              (unseen ? terminal_open_unseen(cols, rows, error) : terminal_open(error));
+    const bool unseen = script && !terminal_there();
+    bool ok = (!script || script_open(l, script, error)) && terminal_open(unseen, error);
     if (ok) {
         if (!script)
             live_begin(l);
         else
             script_on(l);
         if (unseen)
-            ok = play_script(l, error);
+            ok = (*screen = play_script(l)) || calc_no_memory(error);
         else
             session(l, work);
-        film_end(&l->film, host);
         terminal_close();
     }
     free_live(l);

@@ -4,7 +4,6 @@
 #define LIVE_STATE_H
 
 #include "live/canvas.h"
-#include "live/film.h"
 #include "live/live.h"
 #include "live/way.h"
 
@@ -66,7 +65,6 @@ typedef struct live {
     rect loop;
     double loop_dx; /* half its width */
     bool dragging;
-    film film;
     int last_key;
     bool changed; /* something is to be drawn */
 } live;

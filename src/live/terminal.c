@@ -134,24 +134,20 @@ bool terminal_there(void) {
     return isatty(STDIN_FILENO) && isatty(STDOUT_FILENO);
 }
 
-bool terminal_open(calc_error *error) {
+static bool open_seen(calc_error *error) {
     struct termios modes;
     if (!isatty(STDOUT_FILENO) || tcgetattr(STDIN_FILENO, &modes))
         return calc_fail(error, 0, 0, "the full-screen mode needs a terminal");
-    setlocale(LC_CTYPE, "");
-    take_signals();
     own.screen = newterm(NULL, stdout, stdin);
     if (!own.screen || !tigetstr("cup")) {
         const char *name = getenv("TERM");
-        calc_fail(error, 0, 0,
-                  own.screen ? "the full-screen mode cannot be had on this terminal (TERM=%s)"
-                             : "the full-screen mode does not know this terminal (TERM=%s); most are of the "
-                               "kind of xterm, try: TERM=xterm-256color fret --live",
-                  name ? name : "");
-        terminal_close();
-        return false;
+        return calc_fail(error, 0, 0,
+                         own.screen
+                             ? "the full-screen mode cannot be had on this terminal (TERM=%s)"
+                             : "the full-screen mode does not know this terminal (TERM=%s); most are of "
+                               "the kind of xterm, try: TERM=xterm-256color fret --live",
+                         name ? name : "");
     }
-    own.unicode = !strcmp(nl_langinfo(CODESET), "UTF-8");
     own.farewell[0] = 0;
     const char *reports = tigetstr("kmous");
     own.mouse = reports && reports != (const char *)-1;
@@ -162,10 +158,8 @@ bool terminal_open(calc_error *error) {
     append_capability(own.farewell, sizeof own.farewell, "cnorm");
     append_capability(own.farewell, sizeof own.farewell, "rmcup");
     own.guard = file_guard_terminal(STDIN_FILENO, &modes, own.farewell);
-    if (cbreak() == ERR) {
-        terminal_close();
+    if (cbreak() == ERR)
         return calc_fail(error, 0, 0, "the full-screen mode cannot have each key of this terminal");
-    }
     noecho();
     nonl();
     keypad(stdscr, TRUE);
@@ -173,8 +167,6 @@ bool terminal_open(calc_error *error) {
     set_escdelay(50);
     for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++)
         define_key(arrows[i].sent, arrows[i].key);
-    curs_set(0);
-    set_colors();
     if (own.mouse) {
         mousemask(BUTTON1_PRESSED | BUTTON1_RELEASED | REPORT_MOUSE_POSITION, NULL);
         mouseinterval(0);
@@ -183,19 +175,21 @@ bool terminal_open(calc_error *error) {
     return true;
 }
 
-bool terminal_open_unseen(int cols, int rows, calc_error *error) {
+static bool open_unseen(calc_error *error) {
     char name[] = "xterm-256color";
-    setlocale(LC_CTYPE, "");
-    take_signals();
     own.nowhere = fopen("/dev/null", "r+");
     own.screen = own.nowhere ? newterm(name, own.nowhere, own.nowhere) : NULL;
-    if (own.screen && resizeterm(rows, cols) == ERR) /* unreached: curses without memory crashes, mostly */
-        own.screen = NULL;                           /* it would free twice what it could not make larger */
-    if (!own.screen) {
-        terminal_close();
-        return calc_fail(error, 0, 0, "no screen can be had to record");
-    }
+    return own.screen || calc_fail(error, 0, 0, "no screen can be had to play the script on");
+}
+
+bool terminal_open(bool unseen, calc_error *error) {
+    setlocale(LC_CTYPE, "");
+    take_signals();
     own.unicode = !strcmp(nl_langinfo(CODESET), "UTF-8");
+    if (!(unseen ? open_unseen(error) : open_seen(error))) {
+        terminal_close();
+        return false;
+    }
     curs_set(0);
     set_colors();
     return true;

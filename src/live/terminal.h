@@ -12,10 +12,9 @@
 /* Beyond the keys of curses. */
 enum { KEY_NONE = -1, KEY_STOP = 0x10000 /* Ctrl-C */, KEY_AGAIN /* the screen must be drawn anew */ };
 
-bool terminal_open(calc_error *error);
-/* A screen that nobody sees: it is recorded. */
-bool terminal_open_unseen(int cols, int rows, calc_error *error);
 bool terminal_there(void);
+/* unseen: a screen of the usual size that nobody sees. */
+bool terminal_open(bool unseen, calc_error *error);
 void terminal_close(void);
 /* Braille and other signs can be shown. */
 bool terminal_unicode(void);

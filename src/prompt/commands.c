@@ -512,15 +512,11 @@ const command commands[] = {
     {.name = "record",
      .run = do_record,
      .group = "the session",
-     .keywords = "transcript log protocol test save cast asciicast asciinema film demonstration",
+     .keywords = "transcript log protocol test save",
      .takes = "FILE | off",
-     .summary = "keep what is typed and answered as a transcript, or the terminal as a cast",
+     .summary = "keep what is typed and answered as a transcript",
      .help = "A transcript begins with the scene and the settings as they are. `replay FILE`,\n"
              "or fret --replay FILE, runs it and compares the answers.\n\n"
-             "FILE.cast is what the terminal shows, the full-screen mode too, with its times,\n"
-             "to be shown on a page: asciicast v2, which `asciinema play FILE.cast` plays. In\n"
-             "a script it is as if typed, the same in every run, and `live FILE` plays by\n"
-             "itself. What `!COMMAND` writes is not in it.\n\n"
              "    fret> record session.txt\n"
              "    fret> friction 0.3; 2*mu\n"
              "    2*mu = 0.6\n"
@@ -551,9 +547,9 @@ const command commands[] = {
      .summary = "press, push and pull by hand, everything drawn: the full-screen mode",
      .print = live_keys,
      .help = "The mouse drags the point of the loop. What is done there are statements: undo\n"
-             "takes them back. FILE is a script to step through, space by space. It needs a\n"
-             "terminal, or a cast that records it: `record FILE.cast`. A transcript has after\n"
-             "the keys right, space and q:\n\n"
+             "takes them back. FILE is a script to step through, space by space; without a\n"
+             "terminal it plays, and the last screen is printed. A transcript has after the\n"
+             "keys right, space and q:\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> live\n"
              "    fret> step Fx+=2 N\n"

@@ -11,7 +11,6 @@
 #include "statement/answer.h"
 #include "statement/command.h"
 #include "statement/progress.h"
-#include "statement/record.h"
 #include "statement/scripts.h"
 #include "text/file.h"
 
@@ -60,12 +59,11 @@ static wish key(void) {
 static wish ask_key(const shell *sh) {
     static const char question[] = "(any key: go on, b: back, q: leave)";
     fflush(sh->out);
-    FILE *terminal = record_terminal();
-    fputs(question, terminal);
-    fflush(terminal);
+    fputs(question, stdout);
+    fflush(stdout);
     const wish w = key();
-    fprintf(terminal, "\r%*s\r", (int)sizeof question - 1, "");
-    fflush(terminal);
+    printf("\r%*s\r", (int)sizeof question - 1, "");
+    fflush(stdout);
     if (w == BACK)
         fputs("(back)\n", sh->out);
     return shell_stop ? LEAVE : w;

@@ -10,8 +10,8 @@
 #include "statement/progress.h"
 #include "statement/record.h"
 #include "statement/recorder.h"
+#include "statement/text.h"
 #include "text/file.h"
-#include "text/lines.h"
 
 static bool run_for_live(void *self, const char *line, char **answer) {
     static const source from = {NULL, false};
@@ -58,12 +58,13 @@ static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
     candidates_free(&found);
 }
 
-static bool filming(void *self, int *cols, int *rows) {
-    return record_filming(self, cols, rows);
-}
-
-static void film_on(void *self, const char *bytes, size_t n, double seconds) {
-    record_film(self, bytes, n, seconds);
+/* Of a script played without a terminal. */
+static bool show_screen(shell *sh, const char *screen) {
+    text_out t;
+    if (!text_begin(&t, &sh->set, sh->out, TEXT_PICTURE))
+        return false;
+    fputs(screen, t.to);
+    return text_end(&t, true);
 }
 
 bool shell_live(shell *sh, const char *script, calc_error *error) {
@@ -74,25 +75,23 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
                             .quit = &sh->quit,
                             .stop = &shell_stop,
                             .run = run_for_live,
-                            .mark = shell_mark,
-                            .blank_prompts = blank_prompts,
-                            .complete = complete_line,
-                            .filming = filming,
-                            .film = film_on};
+                            .complete = complete_line};
     live_work work;
+    char *screen;
     fflush(sh->out);
     sh->set.color = false;
     sh->set.pages = false; /* a pager would take the terminal */
     if (sh->set.report == REPORT_AUTO)
         sh->set.report = REPORT_OFF; /* the screen shows it */
     progress_hide();
-    record_away(sh, true);
-    const bool ok = live_run(&host, script, &work, error);
-    record_away(sh, false);
+    bool ok = live_run(&host, script, &work, &screen, error);
     sh->set.color = before.color;
     sh->set.pages = before.pages;
     if (sh->set.report == REPORT_OFF)
         sh->set.report = before.report;
+    if (screen && !show_screen(sh, screen))
+        ok = calc_no_memory(error);
+    free(screen);
     if (ok && sh->set.timing && work.frames)
         shell_say(sh, "live: %zu frames, %.3g ms of work each, %.3g ms the longest", work.frames,
                   1e3 * work.total / (double)work.frames, 1e3 * work.worst);

@@ -243,9 +243,8 @@ static int run_jobs(shell *sh, const wishes *w) {
     int status = EXIT_OK;
     for (size_t i = 0; i < w->count && !sh->quit; i++) {
         const job *j = &w->jobs[i];
-        int one = j->statements           ? shell_text(sh, j->text, "-c", w->keep_going)
-                  : !strcmp(j->text, "-") ? shell_stdin(sh, w->keep_going)
-                                          : shell_file(sh, j->text, w->keep_going);
+        const int one = j->statements ? shell_text(sh, j->text, "-c", w->keep_going)
+                                      : shell_file(sh, j->text, w->keep_going);
         if (one != EXIT_OK)
             status = one;
         if (one == EXIT_INTERRUPTED || (one != EXIT_OK && !w->keep_going))
@@ -293,7 +292,7 @@ static int run_wishes(shell *sh, const wishes *w) {
         return run_jobs(sh, w);
     if (isatty(STDIN_FILENO))
         return shell_prompt(sh, w->quiet, !w->no_rc);
-    return shell_stdin(sh, w->keep_going);
+    return shell_file(sh, "-", w->keep_going);
 }
 
 /* What the starter has closed stays so: no file of ours may become a standard stream. */

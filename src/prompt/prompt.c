@@ -7,7 +7,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "statement/output.h"
 #include "statement/record.h"
 #include "text/lines.h"
 
@@ -27,93 +26,46 @@ static void read_startup(shell *sh) {
 
 /* ---- lines ------------------------------------------------------------------------------------- */
 
-/* What has been typed or pasted and not been run yet. */
-typedef struct typed {
-    char *text, *next;
-    bool transcript; /* some of its lines begin with a prompt: the others are answers */
-    bool shows;      /* its lines one by one, as if typed */
-    bool lost;       /* there was no memory for a line */
-    size_t answers;  /* left out */
-} typed;
-
-static void forget(typed *t) {
-    free(t->text);
-    *t = (typed){.text = NULL};
-}
-
-static bool is_transcript(const char *text) {
-    bool prompts = false;
-    const char *line = text;
-    for (; *line && !prompts; line += line[strcspn(line, "\n")] ? strcspn(line, "\n") + 1 : strlen(line)) {
-        size_t len = strcspn(line, "\n");
-        prompts = strip_prompt(line, &len) != line;
+/* Takes prompts off the lines of a paste; where some begin with one the others are answers, and left out,
+ * unless they continue a line. */
+static void take_paste(shell *sh, char *text, bool continued) {
+    size_t dropped = 0, n;
+    bool transcript = false;
+    for (char *line = text; *line; line += n + (line[n] == '\n')) {
+        n = strcspn(line, "\n");
+        transcript = transcript || (begins_with_prompt(line, n) && strchr(text, '\n'));
     }
-    return prompts && strchr(text, '\n');
-}
-
-/* The next line, asked for where none is waiting; NULL: the end, or Ctrl-C. */
-static const char *next_line(typed *t, const char *prompt, bool continued, size_t *len) {
-    for (;;) {
-        if (!t->next) {
-            forget(t);
-            t->text = prompt_line(prompt);
-            if (!t->text || shell_stop)
-                return NULL;
-            t->next = t->text;
-            t->transcript = is_transcript(t->text);
-            t->shows = strchr(t->text, '\n') && prompt_erase(t->text);
+    char *to = text, *next = text;
+    for (bool more = true; more;) {
+        const char *line = next;
+        size_t left = n = strcspn(line, "\n");
+        more = line[n] && line[n + 1];
+        next += n + 1;
+        const char *typed = strip_prompt(line, &left);
+        if (typed == line && transcript && !continued) {
+            dropped += left > 0;
+            continue;
         }
-        const char *line = t->next;
-        *len = strcspn(line, "\n");
-        t->next = line[*len] && line[*len + 1] ? t->next + *len + 1 : NULL;
-        const char *text = strip_prompt(line, len);
-        while (*len > 0 && text[*len - 1] == '\r')
-            --*len;
-        if (text != line || !t->transcript || continued) {
-            if (t->shows) {
-                fputs(prompt, record_terminal());
-                print_safe(record_terminal(), text, *len);
-                putc('\n', record_terminal());
-            }
-            return text;
-        }
-        t->answers += *len > 0;
-        if (!t->next) {
-            *len = 0;
-            return "";
-        }
+        continued = shell_continues(typed, left);
+        memmove(to, typed, left);
+        to += left;
+        *to++ = '\n';
     }
+    to[-1] = 0;
+    if (dropped > 0)
+        shell_say(sh, PASTED "%zu line%s without a prompt taken for answers", dropped,
+                  dropped == 1 ? "" : "s");
 }
 
-/* to: the lines before, or NULL. NULL: out of memory, and they are freed. */
-static char *append_line(char *to, size_t *size, const char *line, size_t len) {
-    char *grown = realloc(to, *size + len + 2);
-    if (!grown) {
-        free(to);
-        return NULL;
+static char *ask(void *self, bool continued) {
+    char *text = prompt_line(continued ? "....> " : "fret> ");
+    if (text && shell_stop) {
+        free(text);
+        text = NULL;
     }
-    if (to)
-        grown[(*size)++] = '\n';
-    memcpy(grown + *size, line, len);
-    *size += len;
-    grown[*size] = 0;
-    return grown;
-}
-
-/* A line with those that continue it; NULL: the end, Ctrl-C, or no memory, which is told apart by t->lost. */
-static char *logical_line(typed *t) {
-    size_t len, size = 0;
-    const char *line = next_line(t, "fret> ", false, &len);
-    char *whole = line ? append_line(NULL, &size, line, len) : NULL;
-    while (whole && shell_continues(whole, size)) {
-        line = next_line(t, "....> ", true, &len);
-        whole[size - 1] = ' ';
-        if (!line)
-            break;
-        whole = append_line(whole, &size, line, len);
-    }
-    t->lost = line && !whole;
-    return whole;
+    if (text)
+        take_paste(self, text, continued);
+    return text;
 }
 
 /* ---- what is for the prompt alone -------------------------------------------------------------- */
@@ -157,44 +109,36 @@ static void run_line(shell *sh, const char *line) {
 }
 
 int shell_prompt(shell *sh, bool quiet, bool read_rc) {
-    typed waiting = {.text = NULL};
+    calc_error error;
+    file_in in;
+    file_got got = FILE_GOT_LINE;
     sh->interactive = true;
     sh->set.pages = isatty(STDOUT_FILENO);
     if (read_rc)
         read_startup(sh);
-    if (!file_text_open(&sh->typed)) {
+    error_clear(&error);
+    if (!file_text_open(&sh->typed) || !file_in_typed(&in, ask, sh, &shell_stop, &error)) {
         shell_error(sh, "out of memory");
         return EXIT_ERROR;
     }
     prompt_begin(sh);
     if (!quiet && !sh->quit)
         fputs("fret: partial-slip contact of graded elastic solids; try `demo` or `help`.\n", sh->out);
-    while (!sh->quit) {
+    while (!sh->quit && got != FILE_GOT_END) {
         fflush(sh->out);
         shell_stop = 0;
-        char *line = logical_line(&waiting);
-        if (shell_stop) { /* Ctrl-C drops the line */
-            free(line);
-            forget(&waiting);
+        error_clear(&error);
+        got = file_in_logical(&in, &error);
+        if (got == FILE_GOT_LINE)
+            run_line(sh, in.line);
+        else if (got == FILE_GOT_ERROR)
+            shell_error(sh, error.text);
+        else if (got == FILE_GOT_STOP)
             prompt_dropped();
-            continue;
-        }
-        if (!line && waiting.lost) {
-            shell_error(sh, "out of memory: the line is dropped");
-            forget(&waiting);
-            continue;
-        }
-        if (!line)
-            break;
-        if (waiting.answers > 0 && !waiting.next)
-            shell_say(sh, PASTED "%zu line%s without a prompt taken for answers", waiting.answers,
-                      waiting.answers == 1 ? "" : "s");
-        run_line(sh, line);
-        free(line);
-        if (shell_stop) /* what was pasted behind it is dropped too */
-            forget(&waiting);
+        if (got != FILE_GOT_LINE || shell_stop) /* Ctrl-C drops the line, and what was pasted behind it */
+            file_in_drop(&in);
     }
-    forget(&waiting);
+    file_in_close(&in);
     fflush(sh->out);
     return EXIT_OK;
 }

@@ -10,9 +10,6 @@ void prompt_begin(shell *sh);
 /* What has been typed, without its end, to be freed; NULL at the end of input and after Ctrl-C (shell_stop).
  * A paste may hold several lines. The terminal is at the beginning of a line then. */
 char *prompt_line(const char *text);
-/* Takes a paste of several lines, just accepted, off the terminal again: each is then shown above its answer.
- * False: it stays. */
-bool prompt_erase(const char *text);
 /* Ctrl-C has dropped the line: clears what the editor holds of it. */
 void prompt_dropped(void);
 /* Remembers a line for the user to recall, unless it is very long; one that holds line ends as one line. */

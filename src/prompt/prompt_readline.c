@@ -15,8 +15,6 @@
 
 #include "help/complete.h"
 #include "prompt/prompt.h"
-#include "statement/record.h"
-#include "text/characters.h"
 
 /* readline's callbacks carry no context */
 static shell *completing;
@@ -314,55 +312,19 @@ void prompt_begin(shell *sh) {
 }
 
 char *prompt_line(const char *text) {
-    rl_outstream = record_terminal();
     told_stop = false;
     guard();
     at_work = true;
     char *line = readline(text);
     const char *bracketed = rl_variable_value("enable-bracketed-paste"); /* it ends the line itself then */
     if (!line && !(bracketed && !strcmp(bracketed, "on")))
-        fputc('\n', rl_outstream);
+        fputc('\n', stdout);
     at_work = false;
     unguard();
     if (caught) /* came when the line was done: it acts now */
         raise(caught);
     caught = 0;
     return line;
-}
-
-/* Rows that the editor took to show it: the prompt, and every line from the left edge on. */
-static int rows_of(const char *text, int columns) {
-    enum { PROMPT = 6 };
-    int rows = 0, width = PROMPT;
-    for (;; text++) {
-        const size_t n = strcspn(text, "\n");
-        width += (int)text_columns(text, n);
-        text += n;
-        if (!*text && width == 0 && rows > 0) /* an empty last one is not gone past */
-            return rows;
-        rows += 1 + (width > 0 ? (width - 1) / columns : 0);
-        width = 0;
-        if (!*text)
-            return rows;
-    }
-}
-
-bool prompt_erase(const char *text) {
-    int high, wide;
-    const char *up = rl_get_termcap("up"), *wipe = rl_get_termcap("ce");
-    rl_get_screen_size(&high, &wide);
-    /* readline knows no capability to clear downwards: where a line is cleared as in ECMA-48, so is the rest
-     */
-    if (!up || !wipe || strncmp(wipe, "\033[K", 3) != 0 || strchr(text, '\t'))
-        return false;
-    const int rows = rows_of(text, wide);
-    if (rows >= high) /* a part has left the screen */
-        return false;
-    for (int i = 0; i < rows; i++)
-        fputs(up, rl_outstream);
-    fputs("\033[J", rl_outstream);
-    fflush(rl_outstream);
-    return true;
 }
 
 void prompt_dropped(void) {

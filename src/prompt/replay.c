@@ -203,10 +203,8 @@ static size_t count_lines(const char *line) {
 
 static size_t count_prompts(const char *line) {
     size_t count = 0;
-    for (; *line; line = line_after(line)) {
-        size_t n = strcspn(line, "\n");
-        count += strip_prompt(line, &n) != line;
-    }
+    for (; *line; line = line_after(line))
+        count += begins_with_prompt(line, strcspn(line, "\n"));
     return count;
 }
 
@@ -282,57 +280,31 @@ static bool judge_answer(replay *r) {
 
 /* ---- the transcript ---------------------------------------------------------------------------- */
 
-/* Adds a physical line of a statement; a mark of continuation becomes a blank, as it does where lines are
- * typed. */
-static bool add_part(replay *r, const char *line, size_t n, bool *whole) {
-    const size_t mark = shell_mark(line, n);
-    *whole = mark == n;
-    if (r->statement.len > 0 && !append_text(&r->statement, "\n", 1))
-        return false;
-    if (!append_text(&r->statement, line, n))
-        return false;
-    if (!*whole)
-        r->statement.p[r->statement.len - n + mark] = ' ';
-    return true;
-}
-
-static bool take_line(replay *r, const file_in *in, bool *waiting) {
+static bool take_line(replay *r, file_in *in, calc_error *error) {
     size_t n = in->length;
-    const char *typed = strip_prompt(in->line, &n);
-    const bool prompt = typed != in->line, more = prompt && is_continuation(in->line);
-    bool whole = true;
-    if (more && *waiting) {
-        if (!add_part(r, typed, n, &whole))
-            return false;
-        *waiting = !whole;
-        return *waiting || begin_statement(r);
-    }
+    const bool prompt = strip_prompt(in->line, &n) != in->line;
     if (!prompt || r->prompts > 0) {
         r->prompts -= prompt;
         return r->at == 0 || (append_text(&r->want, in->line, in->length) && append_text(&r->want, "\n", 1));
     }
-    if ((*waiting && !begin_statement(r)) || !judge_answer(r)) /* no more lines of it came */
+    const size_t before = in->length - n;
+    if (!judge_answer(r) || file_in_rest(in, error) != FILE_GOT_LINE)
         return false;
     r->at = (size_t)in->number;
     empty(&r->statement);
     empty(&r->want);
-    if (!add_part(r, typed, n, &whole))
-        return false;
-    *waiting = !whole;
-    return *waiting || begin_statement(r);
+    return append_text(&r->statement, in->line + before, in->length - before) && begin_statement(r);
 }
 
 static bool take_lines(replay *r, file_in *in, calc_error *error) {
-    bool waiting = false, ok = true;
+    bool ok = true;
     file_got got = FILE_GOT_END;
     while (ok && !shell_stop && (got = file_in_line(in, error)) == FILE_GOT_LINE)
-        ok = take_line(r, in, &waiting);
-    if (ok && waiting && !shell_stop)
-        ok = begin_statement(r);
+        ok = take_line(r, in, error);
     if (ok && got != FILE_GOT_ERROR)
         ok = judge_answer(r);
-    if (!ok)
-        calc_no_memory(error);
+    if (!ok && !shell_stop)
+        calc_no_memory(error); /* an error that came first stays */
     if (ok && got == FILE_GOT_END && r->passed + r->failed == 0)
         ok = calc_fail(error, 0, 0, "%s holds no lines that begin with `fret> `", r->path);
     return ok && got != FILE_GOT_ERROR;
@@ -347,8 +319,7 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
         calc_fail(error, 0, 0, "transcripts are nested more than %d deep", NESTING);
         return EXIT_ERROR;
     }
-    if (!(strcmp(path, "-") ? file_in_open(&in, path, &shell_stop, error)
-                            : file_in_take(&in, 0, "stdin", &shell_stop, error)))
+    if (!file_in_script(&in, path, &shell_stop, error))
         return EXIT_ERROR;
     if (!text_begin(&t, set, out, TEXT_PICTURE)) {
         calc_no_memory(error);

@@ -339,8 +339,7 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
     file_got got = FILE_GOT_END;
     bool ok = true, last = true; /* all statements so far; those of the last line */
     while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || keep_going) &&
-           (got = file_in_logical(in, shell_mark, &error)) == FILE_GOT_LINE) {
-        blank_prompts(in->line, in->length);
+           (got = file_in_logical(in, &error)) == FILE_GOT_LINE) {
         if (sh->nesting == 0)
             record_line(sh, in->line, in->length);
         last = shell_line(sh, &from, in->line, in->length, (size_t)in->number);
@@ -357,33 +356,22 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
     return status;
 }
 
-static int run_opened(shell *sh, bool ok, file_in *in, const calc_error *error, bool keep_going) {
-    if (ok)
-        return shell_stream(sh, in, keep_going);
-    shell_error(sh, error->text);
-    return EXIT_ERROR;
-}
-
 int shell_file(shell *sh, const char *path, bool keep_going) {
     calc_error error;
     file_in in;
     error_clear(&error);
-    const bool ok = file_in_open(&in, path, &shell_stop, &error);
-    return run_opened(sh, ok, &in, &error, keep_going);
+    if (file_in_script(&in, path, &shell_stop, &error))
+        return shell_stream(sh, &in, keep_going);
+    shell_error(sh, error.text);
+    return EXIT_ERROR;
 }
 
 int shell_text(shell *sh, const char *text, const char *name, bool keep_going) {
     calc_error error;
     file_in in;
     error_clear(&error);
-    const bool ok = file_in_text(&in, text, name, &shell_stop, &error);
-    return run_opened(sh, ok, &in, &error, keep_going);
-}
-
-int shell_stdin(shell *sh, bool keep_going) {
-    calc_error error;
-    file_in in;
-    error_clear(&error);
-    const bool ok = file_in_take(&in, STDIN_FILENO, "stdin", &shell_stop, &error);
-    return run_opened(sh, ok, &in, &error, keep_going);
+    if (file_in_text(&in, text, name, &shell_stop, &error))
+        return shell_stream(sh, &in, keep_going);
+    shell_error(sh, error.text);
+    return EXIT_ERROR;
 }

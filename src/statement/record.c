@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Transcripts as a session goes on: streams that write to two places. Writes the file that it is given. */
-#if defined(__linux__) && !defined(_GNU_SOURCE)
 #define _GNU_SOURCE /* fopencookie, which musl has too */
-#endif
 #include "statement/record.h"
 
 #include <stdlib.h>
@@ -17,9 +15,6 @@
 
 /* There is one session that can record. */
 static struct recorder *recording;
-
-/* The full-screen mode has the terminal, and hands its frames to a cast. */
-static bool away;
 
 /* After an error nothing more is recorded. */
 static void check(struct recorder *r, bool ok, const calc_error *error) {
@@ -46,64 +41,28 @@ static void write_held(struct recorder *r) {
 }
 
 /* To the transcript, line by line. */
-static void put_byte(struct recorder *r, char c) {
-    r->held[r->held_count++] = c;
-    if (c == '\n' || r->held_count == HELD)
-        write_held(r);
+static void put_bytes(struct recorder *r, const char *bytes, size_t n) {
+    for (size_t i = 0; i < n; i++) {
+        r->held[r->held_count++] = bytes[i];
+        if (bytes[i] == '\n' || r->held_count == HELD)
+            write_held(r);
+    }
 }
 
 static void put_text(struct recorder *r, const char *text) {
-    while (*text)
-        put_byte(r, *text++);
+    put_bytes(r, text, strlen(text));
 }
 
-static void put_cast(struct recorder *r, const char *bytes, size_t n) {
-    calc_error error;
-    error_clear(&error);
-    if (!r->lost)
-        check(r, cast_write(r->cast, bytes, n, &error), &error);
-}
-
-/* A physical line of a statement, prompt and all, with its end. */
-static void type_line(struct recorder *r, const char *line, size_t n) {
-    static const char prompt[] = "fret> "; /* as long as the one of lines that go on */
-    enum { PROMPT = sizeof prompt - 1 };
-    calc_error error;
-    char shown[sizeof prompt];
-    error_clear(&error);
-    snprintf(shown, sizeof shown, "%.*s", PROMPT, line);
-    if (!r->lost)
-        check(r, cast_type(r->cast, shown, line + PROMPT, n - PROMPT, &error), &error);
-}
-
-static void write_line(struct recorder *r) {
-    char *line = r->line;
-    r->line = NULL;
-    if (line && r->cast)
-        for (const char *p = line; *p; p += strcspn(p, "\n") + 1)
-            type_line(r, p, strcspn(p, "\n"));
-    else if (line)
-        put_text(r, line);
-    free(line);
-}
-
-static void keep_plain(struct recorder *r, const char *bytes, size_t n) {
+/* Without colours. */
+static void keep_bytes(struct recorder *r, const char *bytes, size_t n) {
     for (size_t i = 0; i < n; i++) {
         if (r->escape)
             r->escape = bytes[i] != 'm';
         else if (bytes[i] == '\033')
             r->escape = true;
         else
-            put_byte(r, bytes[i]);
+            put_bytes(r, bytes + i, 1);
     }
-}
-
-static void keep_bytes(struct recorder *r, const char *bytes, size_t n) {
-    write_line(r);
-    if (!r->cast)
-        keep_plain(r, bytes, n);
-    else if (!away)
-        put_cast(r, bytes, n);
 }
 
 static void write_both(struct recorder *r, FILE *to, const char *bytes, size_t n) {
@@ -112,23 +71,6 @@ static void write_both(struct recorder *r, FILE *to, const char *bytes, size_t n
     fflush(to);
 }
 
-#if defined(__APPLE__)
-static int write_out(void *cookie, const char *bytes, int n) {
-    fflush(((struct recorder *)cookie)->both_err);
-    write_both(cookie, ((struct recorder *)cookie)->out, bytes, (size_t)n);
-    return n;
-}
-
-static int write_err(void *cookie, const char *bytes, int n) {
-    write_both(cookie, ((struct recorder *)cookie)->err, bytes, (size_t)n);
-    return n;
-}
-
-static void open_both(struct recorder *r) {
-    r->both_out = funopen(r, NULL, write_out, NULL, NULL);
-    r->both_err = funopen(r, NULL, write_err, NULL, NULL);
-}
-#else
 static ssize_t write_out(void *cookie, const char *bytes, size_t n) {
     fflush(((struct recorder *)cookie)->both_err); /* errors before this output come first in the file too */
     write_both(cookie, ((struct recorder *)cookie)->out, bytes, n);
@@ -140,19 +82,12 @@ static ssize_t write_err(void *cookie, const char *bytes, size_t n) {
     return (ssize_t)n;
 }
 
-static void open_both(struct recorder *r) {
-    r->both_out = fopencookie(r, "w", (cookie_io_functions_t){.write = write_out});
-    r->both_err = fopencookie(r, "w", (cookie_io_functions_t){.write = write_err});
-}
-#endif
-
 static void free_recorder(struct recorder *r) {
     if (r->both_out)
         fclose(r->both_out);
     if (r->both_err)
         fclose(r->both_err);
     file_log_close(&r->log);
-    free(r->line);
     free(r);
 }
 
@@ -163,8 +98,7 @@ static void put_statements(struct recorder *r, const char *text) {
         const size_t n = strcspn(text, "\n");
         if (*text != '#') {
             put_text(r, "fret> ");
-            for (size_t i = 0; i < n; i++)
-                put_byte(r, text[i]);
+            put_bytes(r, text, n);
             put_text(r, RECORD_GIVEN "\n");
         }
         text += n + (text[n] == '\n');
@@ -178,17 +112,16 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     if (sh->replaying)
         return true;
     struct recorder *r = calloc(1, sizeof *r);
-    if (!r) {
+    if (!r)
         return calc_no_memory(error);
-    }
     r->sh = sh;
     r->log.fd = -1;
-    const bool as_cast = file_ends(path, ".cast");
-    open_both(r); /* before the file is emptied */
-    if (!r->both_out || !r->both_err)
+    r->both_out = fopencookie(r, "w", (cookie_io_functions_t){.write = write_out});
+    r->both_err = fopencookie(r, "w", (cookie_io_functions_t){.write = write_err});
+    if (!r->both_out || !r->both_err) /* before the file is emptied */
         calc_no_memory(error);
-    else if (file_log_open(&r->log, path, as_cast ? NULL : &shell_stop, &over, error) && as_cast)
-        r->cast = cast_begin(&r->log, sh->interactive || away, error);
+    else
+        file_log_open(&r->log, path, &shell_stop, &over, error);
     if (error->raised) {
         free_recorder(r);
         return false;
@@ -203,14 +136,11 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     sh->record = recording = r;
     sh->out = r->both_out;
     sh->err = r->both_err;
-    if (!r->cast)
-        put_statements(r, beginning);
+    put_statements(r, beginning);
     return true;
 }
 
 bool record_end(shell *sh, bool tells) {
-    calc_error error;
-    error_clear(&error);
     struct recorder *r = sh->record;
     if (!r)
         return sh->replaying;
@@ -219,10 +149,7 @@ bool record_end(shell *sh, bool tells) {
     sh->out = r->out;
     sh->err = r->err;
     sh->record = recording = NULL;
-    if (r->cast)
-        check(r, cast_end(r->cast, !r->lost, &error), &error);
-    else
-        write_held(r);
+    write_held(r);
     const file_report report = {.direct = !r->log.regular, .size = (unsigned long long)r->log.length};
     if (tells && !r->lost)
         target_report(sh, r->log.name, &report);
@@ -230,17 +157,16 @@ bool record_end(shell *sh, bool tells) {
     return true;
 }
 
-/* The part of a line before its `record off`: answers to the rest are not recorded. */
-static size_t until_off(const char *text, size_t len) {
+/* The part of a line before its `record`: answers to the rest are not recorded. */
+static size_t until_record(const char *text, size_t len) {
+    static const char word[] = "record ";
+    enum { WORD = sizeof word - 1 };
     size_t kept = 0, end;
     for (size_t i = 0; i < len; i = end + 1) {
-        char first[8], second[8], third[2];
         end = shell_statement_end(text, i, len);
-        char *statement = strndup(text + i, end - i);
-        const bool off = statement && sscanf(statement, "%7s %7s %1s", first, second, third) == 2 &&
-                         !strcmp(first, "record") && !strcmp(second, "off");
-        free(statement);
-        if (off) {
+        while (i < end && text[i] == ' ')
+            i++;
+        if (end - i >= WORD && !memcmp(text + i, word, WORD)) {
             while (kept && text[kept - 1] == ' ')
                 kept--;
             return kept;
@@ -253,27 +179,18 @@ static size_t until_off(const char *text, size_t len) {
 /* `fret> ` and `....> ` before its physical lines, whose marks have become blanks. */
 void record_line(shell *sh, const char *text, size_t len) {
     struct recorder *r = sh->record;
-    file_text typed;
-    if (!r || r->lost || (r->cast && (away || cast_has_clock(r->cast)))) /* a cast has it from the terminal */
+    if (!r)
         return;
     fflush(sh->out);
-    write_line(r);
-    len = r->cast ? len : until_off(text, len);
-    if (!len)
-        return;
-    bool ok = file_text_open(&typed);
-    for (size_t i = 0, n; ok && i <= len; i += n + 1) {
-        const char *end = i < len ? memchr(text + i, '\n', len - i) : NULL;
+    len = until_record(text, len);
+    const char *prompt = "fret> ";
+    for (size_t i = 0, n; i <= len && len > 0; i += n + 1, prompt = "....> ") {
+        const char *end = memchr(text + i, '\n', len - i);
         n = end ? (size_t)(end - text) - i : len - i;
-        fprintf(typed.to, "%s%.*s%s\n", i ? "....> " : "fret> ", (int)n, text + i, end ? "\\" : "");
+        put_text(r, prompt);
+        put_bytes(r, text + i, n);
+        put_text(r, end ? "\\\n" : "\n");
     }
-    ok = ok && file_text_close(&typed);
-    r->line = ok ? typed.text : NULL;
-    calc_error error;
-    error_clear(&error);
-    if (!ok)
-        calc_no_memory(&error);
-    check(r, ok, &error);
 }
 
 void record_aside(const char *text) {
@@ -281,32 +198,6 @@ void record_aside(const char *text) {
         return;
     fflush(recording->both_out);
     keep_bytes(recording, text, strlen(text));
-}
-
-/* ---- the terminal ------------------------------------------------------------------------------ */
-
-FILE *record_terminal(void) {
-    return recording && recording->cast ? recording->both_out : stdout;
-}
-
-void record_away(shell *sh, bool now) {
-    fflush(sh->out);
-    if (sh->record)
-        write_line(sh->record);
-    away = now;
-}
-
-bool record_filming(const shell *sh, int *cols, int *rows) {
-    const struct recorder *r = sh->record;
-    if (!r || !r->cast || r->lost)
-        return false;
-    cast_size(r->cast, cols, rows);
-    return true;
-}
-
-void record_film(shell *sh, const char *bytes, size_t n, double seconds) {
-    cast_wait(sh->record->cast, seconds);
-    put_cast(sh->record, bytes, n);
 }
 
 /* ---- what is typed ----------------------------------------------------------------------------- */

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a session writes, kept as a transcript that `--replay` accepts, or as a cast of its terminal; and what
- * has been typed in it. */
+/* What a session writes, kept as a transcript that `--replay` accepts; and what has been typed in it. */
 #ifndef STATEMENT_RECORD_H
 #define STATEMENT_RECORD_H
 
 #include "statement/shell.h"
 
-/* Begins a transcript: these statements, for a replay begins without a scene, then whatever comes; or, where
- * the name ends in `.cast`, a cast; what has been recorded so far ends. Nothing is recorded in a replay. What
- * cannot be written any more is told at once, and the session goes on. The statements end in a mark: what is
- * noted or warned of there was said before. */
+/* Begins a transcript: these statements, for a replay begins without a scene, then whatever comes; what has
+ * been recorded so far ends. Nothing is recorded in a replay. What cannot be written any more is told at
+ * once, and the session goes on. The statements end in a mark: what is noted or warned of there was said
+ * before. */
 #define RECORD_GIVEN " # as it was"
 bool record_begin(shell *sh, const char *path, const char *beginning, calc_error *error);
 /* Ends it, and tells what it wrote; false: there was none. */
@@ -18,15 +17,6 @@ bool record_end(shell *sh, bool tells);
 void record_line(shell *sh, const char *text, size_t len);
 /* Text that reached the terminal by another way than the session's streams. */
 void record_aside(const char *text);
-
-/* Where an editor of lines writes to the terminal. */
-FILE *record_terminal(void);
-/* The screen is another's for a while: a cast is not told what the session says. */
-void record_away(shell *sh, bool now);
-/* Is there a cast that is to be told what the screen shows, and of what size? And that, after so many
- * seconds. */
-bool record_filming(const shell *sh, int *cols, int *rows);
-void record_film(shell *sh, const char *bytes, size_t n, double seconds);
 
 /* What is typed at the prompt is kept for `save history`. */
 void typed_keep(shell *sh, const char *line);

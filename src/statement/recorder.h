@@ -5,18 +5,15 @@
 #define STATEMENT_RECORDER_H
 
 #include "statement/shell.h"
-#include "text/cast.h"
 
 enum { HELD = 1024 };
 
 struct recorder {
     shell *sh;
     file_log log;
-    cast *cast;                /* that is written there; NULL: a transcript is */
     FILE *out, *err;           /* of the session */
     FILE *both_out, *both_err; /* with the file */
-    char *line;                /* that is to be written before anything follows, or NULL */
-    char held[HELD];           /* of the transcript's line */
+    char held[HELD];           /* of the line that is being written */
     size_t held_count;
     bool escape; /* within a colour, which a transcript does without */
     bool lost;   /* the file cannot be written any more */

@@ -98,9 +98,8 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
 /* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it.
  * Returns an exit status. */
 int shell_stream(shell *sh, file_in *in, bool keep_going);
-int shell_file(shell *sh, const char *path, bool keep_going);
+int shell_file(shell *sh, const char *path, bool keep_going); /* `-` is standard input */
 int shell_text(shell *sh, const char *text, const char *name, bool keep_going);
-int shell_stdin(shell *sh, bool keep_going);
 
 /* ---- prompt.c, replay.c ---- */
 

@@ -100,10 +100,16 @@ typedef enum file_got { FILE_GOT_LINE, FILE_GOT_END, FILE_GOT_ERROR, FILE_GOT_ST
 
 typedef enum file_order { FILE_UNTOLD, FILE_BYTES, FILE_LITTLE, FILE_BIG } file_order;
 
+/* More lines as someone types them, without the end of the last, to be freed; NULL: no more, or not now,
+ * where the stop flag is set. continued: of a line that goes on. */
+typedef char *file_ask(void *self, bool continued);
+
 /* A file read by lines. Where it begins with a mark of byte order, it is UTF-8, or UTF-16 that becomes UTF-8.
  */
 typedef struct file_in {
-    int fd; /* -1: not open */
+    int fd;        /* -1: not open */
+    file_ask *ask; /* in place of a file, or NULL */
+    void *self;    /* for it */
     bool owned, ended, waits;
     file_order order;
     unsigned odd, high; /* 1 + a byte without its other half, a surrogate without its second */
@@ -122,17 +128,22 @@ bool file_in_open(file_in *in, const char *name, file_stop stop, calc_error *err
 /* Reads an open descriptor, which stays open; `name` is for messages. */
 bool file_in_take(file_in *in, int fd, const char *name, file_stop stop, calc_error *error);
 
-/* Reads a text that is in memory. */
+/* A file of statements: `-` is standard input. */
+bool file_in_script(file_in *in, const char *name, file_stop stop, calc_error *error);
+/* Reads a text that is in memory; or what is typed. */
 bool file_in_text(file_in *in, const char *text, const char *name, file_stop stop, calc_error *error);
+bool file_in_typed(file_in *in, file_ask *ask, void *self, file_stop stop, calc_error *error);
 
 /* The next line in in->line and in->length. FILE_GOT_ERROR: reading failed, memory ran out or the line is
  * longer than the limit; FILE_GOT_STOP: the stop flag was set. Neither ever passes for the end. */
 file_got file_in_line(file_in *in, calc_error *error);
-
-/* The place of a line's continuation mark, or `length` when it has none. */
-typedef size_t file_mark(const char *line, size_t length);
-/* The same with the lines that continue it: the mark becomes a blank, the end of the line a newline. */
-file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error);
+/* The lines that continue it, behind it: marks and the prompts that lines begin with become blanks, the
+ * ends of lines newlines. */
+file_got file_in_rest(file_in *in, calc_error *error);
+/* Both: a logical line. */
+file_got file_in_logical(file_in *in, calc_error *error);
+/* Lines that have been typed or pasted are dropped, as far as they have not been read. */
+void file_in_drop(file_in *in);
 
 void file_in_close(file_in *in);
 

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "text/characters.h"
+#include "text/lines.h"
 
 enum { BLOCK = 1 << 16, PAUSE = 20 /* ms between looks at the stop flag */ };
 /* UTF-16 is read into the last quarter of the block and becomes UTF-8 at its beginning, which is at most half
@@ -63,6 +64,11 @@ bool file_in_open(file_in *in, const char *name, file_stop stop, calc_error *err
     return ok;
 }
 
+bool file_in_script(file_in *in, const char *name, file_stop stop, calc_error *error) {
+    return strcmp(name, "-") ? file_in_open(in, name, stop, error)
+                             : file_in_take(in, STDIN_FILENO, "stdin", stop, error);
+}
+
 bool file_in_text(file_in *in, const char *text, const char *name, file_stop stop, calc_error *error) {
     *in = (file_in){.fd = -1, .stop = stop, .name = strdup(name), .block = strdup(text), .ended = true};
     if (!in->name || !in->block) {
@@ -72,6 +78,14 @@ bool file_in_text(file_in *in, const char *text, const char *name, file_stop sto
     in->have = strlen(text);
     in->at = strncmp(text, marks[0].bytes, marks[0].length) ? 0 : marks[0].length;
     return true;
+}
+
+bool file_in_typed(file_in *in, file_ask *ask, void *self, file_stop stop, calc_error *error) {
+    const bool ok = file_in_text(in, "", "stdin", stop, error);
+    in->ended = false;
+    in->ask = ask;
+    in->self = self;
+    return ok;
 }
 
 void file_in_close(file_in *in) {
@@ -182,10 +196,23 @@ static file_got read_beginning(file_in *in, calc_error *error) {
     return FILE_GOT_LINE;
 }
 
+/* What is typed next, and the end of its last line. */
+static file_got ask_more(file_in *in) {
+    free(in->block);
+    in->block = in->ask(in->self, in->number <= in->read);
+    if (!in->block)
+        return input_stopped(in) ? FILE_GOT_STOP : FILE_GOT_END;
+    in->have = strlen(in->block);
+    in->block[in->have++] = '\n';
+    return FILE_GOT_LINE;
+}
+
 /* The next block: FILE_GOT_LINE stands for "some bytes". */
 static file_got fill_block(file_in *in, calc_error *error) {
     file_got got = FILE_GOT_LINE;
     in->at = in->have = 0;
+    if (in->ask)
+        return ask_more(in);
     if (in->order == FILE_UNTOLD)
         got = read_beginning(in, error);
     while (got == FILE_GOT_LINE && in->at == in->have) {
@@ -238,7 +265,7 @@ static file_got add_line(file_in *in, calc_error *error) {
                            : in->ended       ? FILE_GOT_END
                                              : fill_block(in, error);
             if (got == FILE_GOT_END) {
-                in->ended = true;
+                in->ended = !in->ask;
                 if (!any)
                     return FILE_GOT_END;
                 break;
@@ -269,22 +296,31 @@ file_got file_in_line(file_in *in, calc_error *error) {
     return add_line(in, error);
 }
 
-file_got file_in_logical(file_in *in, file_mark *mark, calc_error *error) {
-    file_got got = file_in_line(in, error);
-    size_t begin = 0;
-    while (got == FILE_GOT_LINE) {
-        size_t at = begin + mark(in->line + begin, in->length - begin);
-        if (at >= in->length)
-            break;
+file_got file_in_rest(file_in *in, calc_error *error) {
+    for (size_t begin = 0;;) {
+        char *line = in->line + begin;
+        size_t left = in->length - begin;
+        memset(line, ' ', (size_t)(strip_prompt(line, &left) - line));
+        const size_t at = begin + shell_mark(line, in->length - begin);
+        if (at == in->length)
+            return FILE_GOT_LINE;
         in->line[at] = ' ';
         begin = in->length + 1;
         if (!append_bytes(in, "\n", 1, error))
             return FILE_GOT_ERROR;
-        got = add_line(in, error);
-        if (got == FILE_GOT_END) {
+        const file_got got = add_line(in, error);
+        if (got == FILE_GOT_END)
             in->line[--in->length] = 0;
-            return FILE_GOT_LINE;
-        }
+        if (got != FILE_GOT_LINE)
+            return got == FILE_GOT_END ? FILE_GOT_LINE : got;
     }
-    return got;
+}
+
+file_got file_in_logical(file_in *in, calc_error *error) {
+    const file_got got = file_in_line(in, error);
+    return got == FILE_GOT_LINE ? file_in_rest(in, error) : got;
+}
+
+void file_in_drop(file_in *in) {
+    in->at = in->have;
 }

@@ -28,19 +28,8 @@ const char *strip_prompt(const char *line, size_t *len) {
     return line;
 }
 
-void blank_prompts(char *text, size_t len) {
-    for (size_t i = 0, n; i < len; i += n + 1) {
-        const char *end = memchr(text + i, '\n', len - i);
-        n = end ? (size_t)(end - text) - i : len - i;
-        size_t left = n;
-        const char *rest = strip_prompt(text + i, &left);
-        if (rest > text + i)
-            memset(text + i, ' ', (size_t)(rest - (text + i)));
-    }
-}
-
-bool is_continuation(const char *line) {
-    return line[strspn(line, " \t")] == '.';
+bool begins_with_prompt(const char *line, size_t len) {
+    return strip_prompt(line, &len) != line;
 }
 
 void list_word(char *buf, size_t size, const char *word, bool last) {

@@ -10,11 +10,7 @@
 /* What follows the prompt that a pasted line begins with, `fret> ` or `....> `, and its length; without one
  * the line as it is. Blanks before the prompt go with it. */
 const char *strip_prompt(const char *line, size_t *len);
-
-/* Blanks out the prompts that physical lines of a text begin with: what follows keeps its place. */
-void blank_prompts(char *text, size_t len);
-/* Does the line begin with the prompt of a line that goes on, `....> `? */
-bool is_continuation(const char *line);
+bool begins_with_prompt(const char *line, size_t len);
 
 /* Does the line end in a continuation mark? */
 bool shell_continues(const char *text, size_t len);

@@ -217,7 +217,7 @@ def hostile(tests):
                  "source": 'source "%s"' % script, "unit": "1 %s" % bad, "setting": "set %s" % bad,
                  "table": 'table x for x = 1 .. 2 to "%s/%s.csv"' % (where, bad),
                  "replay": 'replay "%s"' % transcript, "save": 'save "%s/%s.fret"' % (where, bad),
-                 "record": 'record "%s/%s.cast"; %s' % (where, bad, bad), "live": 'live "%s"' % bad,
+                 "record": 'record "%s/%s.log"; %s' % (where, bad, bad), "live": 'live "%s"' % bad,
                  "over": 'plot x in um for x = 1 um .. 2 um over "%s"' % header,
                  "fit": SCENE + 'fit E0 for %s = 1 to "%s"' % (bad, header), "export": 'export jenkins 3 to "%s.csv"' % bad,
                  "picture": 'plot x for x = 1 .. 2 title "%s" to "%s/%s.gp"' % (bad, where, bad),

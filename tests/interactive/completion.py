@@ -158,13 +158,6 @@ def pasting(tests):
         s.child.sendintr()
         s.prompt()
         tests.check("a paste of %d bytes that is cut off" % length, s.say("1 + 1") == "1 + 1 = 2", clean(s.child.before))
-    paste(s, "x = 7\nfoo \x1b[31mred\u202e bar\nx")
-    s.child.expect("unknown name 'foo'")
-    echoed = s.child.before.rpartition("fret> foo")[2]
-    tests.check("pasted escapes are not obeyed when their lines are shown", "x1b[31m" in echoed and "\x1b[31m" not in echoed and "\u202e" not in echoed,
-                repr(echoed))
-    s.child.expect(r"x = 7\r")
-    s.prompt()
     paste(s, "fret> mu")
     s.child.expect("mu = 0.4")
     s.prompt()

@@ -254,14 +254,6 @@ def plain(tests):
         s.child.logfile_read = None
         s.child.sendeof()
         s.end()
-    for name, wipes in (("vt52", False), ("vt100", True), ("dumb", False)):  # what goes up need not clear as others do
-        s = Session(tests, "--quiet", TERM=name)
-        s.child.send("\x1b[200~x = 1\ny = 2\nx + y\x1b[201~\r")
-        s.child.expect(r"x \+ y = 3\r")
-        tests.check("lines pasted at a " + name, ("\x1b[J" in s.child.before) == wipes, repr(s.child.before))
-        s.prompt()
-        s.child.sendeof()
-        s.end()
 
 
 def figures(tests):

@@ -396,10 +396,6 @@ static void sizes(void) {
 
 /* ---- input -------------------------------------------------------------------------------------- */
 
-static size_t mark(const char *line, size_t n) {
-    return n && line[n - 1] == '\\' ? n - 1 : n;
-}
-
 static void lines(void) {
     FILE *f = fopen("in", "w");
     fwrite("a\n\nb\0c\nlast", 1, 11, f);
@@ -423,11 +419,11 @@ static void lines(void) {
 
     put("in", "one\nx = \\\n1 + \\\n2\nend \\");
     CHECK(file_in_open(&in, "in", NULL, fresh()));
-    CHECK(file_in_logical(&in, mark, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "one"));
-    CHECK(file_in_logical(&in, mark, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "x =  \n1 +  \n2"));
+    CHECK(file_in_logical(&in, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "one"));
+    CHECK(file_in_logical(&in, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "x =  \n1 +  \n2"));
     CHECK(in.number == 2 && in.read == 4);
-    CHECK(file_in_logical(&in, mark, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "end  "));
-    CHECK(in.number == 5 && file_in_logical(&in, mark, fresh()) == FILE_GOT_END);
+    CHECK(file_in_logical(&in, fresh()) == FILE_GOT_LINE && !strcmp(in.line, "end  "));
+    CHECK(in.number == 5 && file_in_logical(&in, fresh()) == FILE_GOT_END);
     file_in_close(&in);
     CHECK(!file_in_open(&in, ".", NULL, fresh()) && !strcmp(error.text, "cannot read .: Is a directory"));
     CHECK(!file_in_open(&in, "none", NULL, fresh()) &&
@@ -564,7 +560,7 @@ static void limits(void) {
     fprintf(f, "%*s\\\n1\n", FILE_LINE_LIMIT - 1, "x");
     fclose(f);
     CHECK(file_in_open(&in, "in", NULL, fresh()));
-    CHECK(file_in_logical(&in, mark, fresh()) == FILE_GOT_ERROR && strstr(error.text, "longer than 16 MB"));
+    CHECK(file_in_logical(&in, fresh()) == FILE_GOT_ERROR && strstr(error.text, "longer than 16 MB"));
     file_in_close(&in);
     /* continued lines count together */
     f = fopen("in", "w");
@@ -572,7 +568,7 @@ static void limits(void) {
         fprintf(f, "%*s\\\n", FILE_LINE_LIMIT * 2 / 5, "x");
     fclose(f);
     CHECK(file_in_open(&in, "in", NULL, fresh()));
-    CHECK(file_in_logical(&in, mark, fresh()) == FILE_GOT_ERROR && strstr(error.text, "longer than 16 MB"));
+    CHECK(file_in_logical(&in, fresh()) == FILE_GOT_ERROR && strstr(error.text, "longer than 16 MB"));
     file_in_close(&in);
     unlink("in");
     static volatile sig_atomic_t stop = 1;
