@@ -163,8 +163,9 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
         return false;
     if (lx.kind == T_END)
         return true;
+    const size_t began = lx.at;
     undo_begin(&sh->calc);
-    progress_begin(sh, text + lx.at, len - lx.at);
+    progress_begin(sh, text + began, len - began);
     bool ok = dispatch(sh, &lx);
     progress_end();
     if (*sh->calc.note && ok)
@@ -178,6 +179,7 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
         if (!ok && error->raised) {
             error->raised = false;
             calc_interrupted(error);
+            calc_put_place(error, began, len - began); /* all of it: no word of it is to blame */
         }
     }
     return ok;
