@@ -10,17 +10,21 @@
 #include "statement/record.h"
 #include "text/lines.h"
 
-/* A relative path is none, as the XDG specification has it: what lies in the current directory may be a
- * stranger's. Nothing is said of a file that is not there. */
+size_t prompt_path(char path[PROMPT_PATH], const char *variable, const char *otherwise, const char *file) {
+    const char *given = getenv(variable), *home = getenv("HOME");
+    const bool there = given && *given == '/';
+    if (!there && !home)
+        return 0;
+    const int n = there ? snprintf(path, PROMPT_PATH, "%s/fret/%s", given, file)
+                        : snprintf(path, PROMPT_PATH, "%s/%s/fret/%s", home, otherwise, file);
+    return n >= PROMPT_PATH ? 0 : there ? strlen(given) : strlen(home) + 1;
+}
+
+/* Nothing is said of a file that is not there. */
 static void read_startup(shell *sh) {
-    const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
-    char path[4096];
-    int n = 0;
-    if (config && *config == '/')
-        n = snprintf(path, sizeof path, "%s/fret/fretrc", config);
-    else if (home)
-        n = snprintf(path, sizeof path, "%s/.config/fret/fretrc", home);
-    if (n > 0 && n < (int)sizeof path && (!access(path, F_OK) || (errno != ENOENT && errno != ENOTDIR)))
+    char path[PROMPT_PATH];
+    if (prompt_path(path, "XDG_CONFIG_HOME", ".config", "fretrc") &&
+        (!access(path, F_OK) || (errno != ENOENT && errno != ENOTDIR)))
         shell_file(sh, path, true);
 }
 

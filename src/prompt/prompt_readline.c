@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/select.h>
 #include <sys/stat.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <readline/history.h>
@@ -23,13 +24,14 @@ static int history_file = -1; /* open for appending; -1: none is kept */
 
 /* ---- signals ----------------------------------------------------------------------------------- */
 
-/* While a line is edited the terminal is not as the user left it: it is put right before any of these acts.
- */
-static bool is_guarded(int number) {
-    return file_signal_ends(number) || number == SIGTSTP || number == SIGCONT;
-}
-
-static struct sigaction before_guard[FILE_SIGNALS];
+/* While a line is edited the terminal is not as the user left it: it is put right before the program is
+ * stopped, and taken again when it goes on. What ends the program finds the terminal in the list of
+ * text/file.h. */
+static struct stop {
+    int number;
+    struct sigaction before;
+} stops[] = {{.number = SIGTSTP}, {.number = SIGCONT}};
+enum { STOPS = sizeof stops / sizeof *stops };
 
 static volatile sig_atomic_t caught;
 
@@ -37,17 +39,16 @@ static void on_signal(int number) {
     caught = number;
 }
 
-static void guard(void) {
+static void take_stops(void) {
     const struct sigaction act = {.sa_handler = on_signal};
-    for (int n = 1; n < FILE_SIGNALS; n++)
-        if (is_guarded(n) && !sigaction(n, NULL, &before_guard[n]) && before_guard[n].sa_handler != SIG_IGN)
-            sigaction(n, &act, NULL);
+    for (struct stop *s = stops; s < stops + STOPS; s++)
+        if (!sigaction(s->number, NULL, &s->before) && s->before.sa_handler != SIG_IGN)
+            sigaction(s->number, &act, NULL);
 }
 
-static void unguard(void) {
-    for (int n = 1; n < FILE_SIGNALS; n++)
-        if (is_guarded(n))
-            sigaction(n, &before_guard[n], NULL);
+static void give_stops_back(void) {
+    for (struct stop *s = stops; s < stops + STOPS; s++)
+        sigaction(s->number, &s->before, NULL);
 }
 
 /* Lets the signal do what it would have done; whoever stopped us may have changed the terminal. */
@@ -55,10 +56,10 @@ static void act_on_signal(void) {
     const int number = caught;
     caught = 0;
     rl_deprep_term_function();
-    unguard();
+    give_stops_back();
     if (number != SIGCONT)
         raise(number);
-    guard();
+    take_stops();
     rl_prep_term_function(1);
     rl_forced_update_display();
 }
@@ -96,9 +97,8 @@ static int read_key(FILE *in) {
     sigset_t ours, before;
     sigemptyset(&ours);
     sigaddset(&ours, SIGINT);
-    for (int n = 1; n < FILE_SIGNALS; n++)
-        if (is_guarded(n))
-            sigaddset(&ours, n);
+    for (size_t i = 0; i < STOPS; i++)
+        sigaddset(&ours, stops[i].number);
     for (;;) {
         fd_set set;
         FD_ZERO(&set);
@@ -191,31 +191,7 @@ static char **matches(const char *text, int start, int end) {
 
 /* ---- history ----------------------------------------------------------------------------------- */
 
-enum { HISTORY_PATH = 4096, HISTORY_READ = 16 << 20, HISTORY_LINES = 10000, HISTORY_LINE = 1 << 16 };
-
-/* The directories of the path from byte `from` on; what lies before must be there. */
-static void make_directories(char *path, size_t from) {
-    for (char *slash = strchr(path + from, '/'); slash; slash = strchr(slash + 1, '/')) {
-        *slash = 0;
-        mkdir(path, 0700);
-        *slash = '/';
-    }
-}
-
-/* $XDG_STATE_HOME/fret/history, or the same under the home directory, which is not made. False: nowhere. */
-static bool history_path(char path[HISTORY_PATH]) {
-    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-    const bool given = state && *state == '/';
-    int n = 0;
-    if (given)
-        n = snprintf(path, HISTORY_PATH, "%s/fret/history", state);
-    else if (home)
-        n = snprintf(path, HISTORY_PATH, "%s/.local/state/fret/history", home);
-    if (n <= 0 || n >= HISTORY_PATH)
-        return false;
-    make_directories(path, given ? strlen(state) : strlen(home) + 1);
-    return true;
-}
+enum { HISTORY_READ = 16 << 20, HISTORY_LINES = 10000, HISTORY_LINE = 1 << 16 };
 
 static void remember(const char *line) {
     at_work = true;
@@ -224,39 +200,38 @@ static void remember(const char *line) {
 }
 
 /* The latest lines of the file, without bytes 0 and without lines that are too long to be kept. */
-static void read_lines(int fd, off_t size) {
-    const off_t from = size > HISTORY_READ ? size - HISTORY_READ : 0;
-    char *text = malloc((size_t)(size - from) + 1);
-    if (!text)
+static void read_lines(int fd, const char *path, off_t size) {
+    file_in in;
+    bool part = size > HISTORY_READ; /* of a line comes first */
+    if (part)
+        lseek(fd, size - HISTORY_READ, SEEK_SET);
+    if (!file_in_take(&in, fd, path, NULL, error_quiet()))
         return;
-    const ssize_t have = pread(fd, text, (size_t)(size - from), from);
-    char *end = text + (have > 0 ? have : 0), *line = end;
-    for (int lines = 0; line > text && (lines += line[-1] == '\n') <= HISTORY_LINES;)
-        line--;
-    if (from > 0 && line == text) /* a part of one */
-        line = memchr(text, '\n', (size_t)(end - text));
-    for (char *next; line && line < end; line = next + 1) {
-        next = memchr(line, '\n', (size_t)(end - line));
-        next = next ? next : end;
+    for (; file_in_line(&in, error_quiet()) == FILE_GOT_LINE; part = false) {
         size_t n = 0;
-        for (const char *c = line; c < next; c++)
-            if (*c)
-                line[n++] = *c;
-        line[n] = 0;
-        if (n > 0 && n <= HISTORY_LINE)
-            remember(line);
+        for (size_t i = 0; i < in.length; i++)
+            if (in.line[i])
+                in.line[n++] = in.line[i];
+        in.line[n] = 0;
+        if (!part && n > 0 && n <= HISTORY_LINE)
+            remember(in.line);
     }
-    free(text);
+    file_in_close(&in);
 }
 
 /* For the user alone, and a plain file: a pipe would block, and a link may lead anywhere. One that cannot be
  * written is read. */
 static void open_history(shell *sh) {
     enum { FLAGS = O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY };
-    char path[HISTORY_PATH];
+    char path[PROMPT_PATH];
     struct stat st = {.st_mode = 0};
-    if (!history_path(path))
+    const size_t known = prompt_path(path, "XDG_STATE_HOME", ".local/state", "history");
+    if (!known)
         return;
+    for (char *slash = path + known; (slash = strchr(slash, '/')); *slash++ = '/') {
+        *slash = 0;
+        mkdir(path, 0700);
+    }
     int fd = open(path, O_RDWR | O_CREAT | FLAGS, 0600);
     const int code = fd < 0 ? errno : 0;
     if (code == EACCES || code == EPERM || code == EROFS)
@@ -269,7 +244,7 @@ static void open_history(shell *sh) {
     else if ((st.st_mode & 077) != 0 && st.st_nlink == 1 && fchmod(fd, 0600) != 0)
         shell_say(sh, "others can read %s", path);
     if (fd >= 0 && !strange)
-        read_lines(fd, st.st_size);
+        read_lines(fd, path, st.st_size);
     if (fd >= 0 && (strange || code)) {
         close(fd);
     } else if (fd >= 0) {
@@ -312,15 +287,19 @@ void prompt_begin(shell *sh) {
 }
 
 char *prompt_line(const char *text) {
+    struct termios modes;
+    tcgetattr(STDIN_FILENO, &modes);
+    const int guard = file_guard_terminal(STDIN_FILENO, &modes, shell_escapes() ? "\033[?2004l\r" : "");
     told_stop = false;
-    guard();
+    take_stops();
     at_work = true;
     char *line = readline(text);
     const char *bracketed = rl_variable_value("enable-bracketed-paste"); /* it ends the line itself then */
     if (!line && !(bracketed && !strcmp(bracketed, "on")))
         fputc('\n', stdout);
     at_work = false;
-    unguard();
+    give_stops_back();
+    file_unguard(guard);
     if (caught) /* came when the line was done: it acts now */
         raise(caught);
     caught = 0;
