@@ -79,7 +79,7 @@ typedef struct job {
 /* What the command line asks for. */
 typedef struct wishes {
     bool keep_going, quiet, no_rc, live, replay, done;
-    const char *color;
+    int color;
     double tolerance;
     job *jobs;
     size_t count;
@@ -100,23 +100,17 @@ static int take_tolerance(wishes *w, const char *text) {
     return EXIT_OK;
 }
 
-static int take_format(settings *set, const char *text) {
-    for (int i = 0; format_names[i]; i++)
-        if (!strcmp(format_names[i], text)) {
-            set->format = i;
+static int take_choice(const char *const *names, const char *text, int *choice, const char *complaint) {
+    for (int i = 0; names[i]; i++)
+        if (!strcmp(names[i], text)) {
+            *choice = i;
             return EXIT_OK;
         }
-    return bad_usage("--format is text, csv or json, not", text);
+    return bad_usage(complaint, text);
 }
 
-static int take_color(wishes *w, const char *text) {
-    static const char *const names[] = {"auto", "always", "never"};
-    w->color = text;
-    for (int i = 0; i < 3; i++)
-        if (!strcmp(names[i], text))
-            return EXIT_OK;
-    return bad_usage("--color is auto, always or never, not", text);
-}
+enum { COLOR_AUTO, COLOR_ALWAYS, COLOR_NEVER };
+static const char *const colors[] = {"auto", "always", "never", NULL};
 
 static int out_of_memory(void) {
     fputs("error: out of memory\n", stderr);
@@ -191,7 +185,7 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
     case OPT_TOLERANCE:
         return take_tolerance(w, optarg);
     case OPT_FORMAT:
-        return take_format(set, optarg);
+        return take_choice(format_names, optarg, &set->format, "--format is text, csv or json, not");
     case OPT_KEEP:
         w->keep_going = true;
         return EXIT_OK;
@@ -202,7 +196,7 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
         w->no_rc = true;
         return EXIT_OK;
     case OPT_COLOR:
-        return take_color(w, optarg);
+        return take_choice(colors, optarg, &w->color, "--color is auto, always or never, not");
     case OPT_MANUAL:
         w->done = true;
         return take_manual(optarg);
@@ -230,8 +224,8 @@ static int read_options(int argc, char **argv, wishes *w, settings *set) {
     for (int i = optind; i < argc && !w->done && status == EXIT_OK; i++) /* behind -- */
         w->jobs[w->count++] = (job){false, argv[i]};
     const char *no = getenv("NO_COLOR");
-    const bool always = !strcmp(w->color, "always"),
-               may = !strcmp(w->color, "auto") && !(no && *no) && shell_escapes();
+    const bool always = w->color == COLOR_ALWAYS,
+               may = w->color == COLOR_AUTO && !(no && *no) && shell_escapes();
     set->color = always || (may && isatty(STDERR_FILENO));
     set->color_out = always || (may && isatty(STDOUT_FILENO));
     return status;
@@ -336,7 +330,7 @@ int main(int argc, char **argv) {
     static char buffer[1 << 16];
     keep_closed();
     check_home();
-    wishes w = {.color = "auto", .jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
+    wishes w = {.jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
     if (!w.jobs)
         return out_of_memory();
     if (!isatty(STDOUT_FILENO)) /* musl writes the first line early: an error is forgotten by the end */

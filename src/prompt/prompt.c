@@ -10,20 +10,10 @@
 #include "statement/record.h"
 #include "text/lines.h"
 
-size_t prompt_path(char path[PROMPT_PATH], const char *variable, const char *otherwise, const char *file) {
-    const char *given = getenv(variable), *home = getenv("HOME");
-    const bool there = given && *given == '/';
-    if (!there && !home)
-        return 0;
-    const int n = there ? snprintf(path, PROMPT_PATH, "%s/fret/%s", given, file)
-                        : snprintf(path, PROMPT_PATH, "%s/%s/fret/%s", home, otherwise, file);
-    return n >= PROMPT_PATH ? 0 : there ? strlen(given) : strlen(home) + 1;
-}
-
 /* Nothing is said of a file that is not there. */
 static void read_startup(shell *sh) {
-    char path[PROMPT_PATH];
-    if (prompt_path(path, "XDG_CONFIG_HOME", ".config", "fretrc") &&
+    char path[FILE_PATH];
+    if (file_own_path(path, "XDG_CONFIG_HOME", ".config", "fretrc") &&
         (!access(path, F_OK) || (errno != ENOENT && errno != ENOTDIR)))
         shell_file(sh, path, true);
 }
@@ -50,7 +40,7 @@ static void take_paste(shell *sh, char *text, bool continued) {
             dropped += left > 0;
             continue;
         }
-        continued = shell_continues(typed, left);
+        continued = shell_mark(typed, left) < left;
         memmove(to, typed, left);
         to += left;
         *to++ = '\n';
@@ -137,8 +127,6 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
             run_line(sh, in.line);
         else if (got == FILE_GOT_ERROR)
             shell_error(sh, error.text);
-        else if (got == FILE_GOT_STOP)
-            prompt_dropped();
         if (got != FILE_GOT_LINE || shell_stop) /* Ctrl-C drops the line, and what was pasted behind it */
             file_in_drop(&in);
     }

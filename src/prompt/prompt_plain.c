@@ -25,9 +25,6 @@ char *prompt_line(const char *text) {
     return line;
 }
 
-void prompt_dropped(void) {
-}
-
 void prompt_keep(const char *line) {
     (void)line;
 }

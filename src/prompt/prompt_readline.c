@@ -223,9 +223,9 @@ static void read_lines(int fd, const char *path, off_t size) {
  * written is read. */
 static void open_history(shell *sh) {
     enum { FLAGS = O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY };
-    char path[PROMPT_PATH];
+    char path[FILE_PATH];
     struct stat st = {.st_mode = 0};
-    const size_t known = prompt_path(path, "XDG_STATE_HOME", ".local/state", "history");
+    const size_t known = file_own_path(path, "XDG_STATE_HOME", ".local/state", "history");
     if (!known)
         return;
     for (char *slash = path + known; (slash = strchr(slash, '/')); *slash++ = '/') {
@@ -297,6 +297,8 @@ char *prompt_line(const char *text) {
     const char *bracketed = rl_variable_value("enable-bracketed-paste"); /* it ends the line itself then */
     if (!line && !(bracketed && !strcmp(bracketed, "on")))
         fputc('\n', stdout);
+    if (shell_stop) /* clears what the editor holds of the line */
+        rl_callback_sigcleanup();
     at_work = false;
     give_stops_back();
     file_unguard(guard);
@@ -304,10 +306,6 @@ char *prompt_line(const char *text) {
         raise(caught);
     caught = 0;
     return line;
-}
-
-void prompt_dropped(void) {
-    rl_callback_sigcleanup();
 }
 
 /* One write at the end of the file: two sessions do not mix. */

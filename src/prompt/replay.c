@@ -84,22 +84,19 @@ static size_t line_length(const char *line) {
     return n;
 }
 
-static const char *line_after(const char *line) {
+static char *line_after(char *line) {
     line += strcspn(line, "\n");
     return line + (*line != 0);
 }
 
-typedef struct measure {
-    double tolerance; /* of numbers */
-    bool lost;        /* out of memory: not compared */
-} measure;
-
-static bool same_lines(const char *want, const char *got, measure *m) {
-    char *w = strndup(want, line_length(want)), *g = strndup(got, line_length(got));
-    const bool ok = w && g && same(w, g, m->tolerance);
-    m->lost |= !w || !g;
-    free(w);
-    free(g);
+/* Each ends in a NUL meanwhile. */
+static bool same_lines(char *want, char *got, double tolerance) {
+    char *const ends[] = {want + line_length(want), got + line_length(got)};
+    const char were[] = {*ends[0], *ends[1]};
+    *ends[0] = *ends[1] = 0;
+    const bool ok = same(want, got, tolerance);
+    *ends[0] = were[0];
+    *ends[1] = were[1];
     return ok;
 }
 
@@ -118,24 +115,24 @@ static bool is_passing(const char *line) {
 }
 
 /* Compares line by line; empty lines at the end do not count. */
-static bool compare(const char *want, const char *got, measure *m) {
+static bool compare(char *want, char *got, double tolerance) {
     while (*want || *got) {
         if (is_passing(want)) {
             want = line_after(want);
         } else if (is_passing(got)) {
             got = line_after(got);
         } else if (*got == MARK_ASIDE) {
-            if (*want && same_lines(want, got + 1, m))
+            if (*want && same_lines(want, got + 1, tolerance))
                 want = line_after(want);
             got = line_after(got);
         } else if (*got == MARK_DRAWING) {
-            const char *rest = line_after(got);
-            while (*want && !compare(want, rest, m))
+            char *rest = line_after(got);
+            while (*want && !compare(want, rest, tolerance))
                 want = line_after(want);
             got = rest;
         } else if (!*got || !*want) {
             return is_blank(want) && is_blank(got);
-        } else if (same_lines(want, got, m)) {
+        } else if (same_lines(want, got, tolerance)) {
             want = line_after(want);
             got = line_after(got);
         } else {
@@ -182,7 +179,7 @@ typedef struct replay {
     char *got;
 } replay;
 
-static void show(FILE *out, char mark, const char *line, bool asides) {
+static void show(FILE *out, char mark, char *line, bool asides) {
     for (; *line; line = line_after(line)) {
         if (*line == MARK_DRAWING || (*line == MARK_ASIDE && !asides))
             continue;
@@ -194,14 +191,14 @@ static void show(FILE *out, char mark, const char *line, bool asides) {
 }
 
 /* Lines that a transcript must have: no asides, drawings or times. */
-static size_t count_lines(const char *line) {
+static size_t count_lines(char *line) {
     size_t count = 0;
     for (; *line; line = line_after(line))
         count += *line != MARK_ASIDE && *line != MARK_DRAWING && line_length(line) > 0 && !is_passing(line);
     return count;
 }
 
-static size_t count_prompts(const char *line) {
+static size_t count_prompts(char *line) {
     size_t count = 0;
     for (; *line; line = line_after(line))
         count += begins_with_prompt(line, strcspn(line, "\n"));
@@ -248,15 +245,15 @@ static void spare_notes(replay *r) {
     const size_t n = strlen(RECORD_GIVEN), len = r->statement.len;
     if (len < n || strcmp(r->statement.p + len - n, RECORD_GIVEN) != 0)
         return;
-    for (char *line = r->got; *line; line += line_after(line) - line)
+    for (char *line = r->got; *line; line = line_after(line))
         if (begins(line, "note: ") || begins(line, "warning: "))
             *line = MARK_ASIDE;
 }
 
 /* What follows the statement has been gathered. False: out of memory. */
 static bool judge_answer(replay *r) {
-    const char *want = r->want.p ? r->want.p : "";
-    measure m = {r->tolerance, false};
+    static char nothing[1];
+    char *want = r->want.p ? r->want.p : nothing;
     if (r->at == 0 || shell_stop) /* interrupted: there is no whole answer to compare */
         return true;
     if (r->waits && is_blank(want))
@@ -264,9 +261,9 @@ static bool judge_answer(replay *r) {
     if (r->waits && !run_statement(r))
         return false;
     spare_notes(r);
-    if (compare(want, r->got, &m)) {
+    if (compare(want, r->got, r->tolerance)) {
         r->passed++;
-    } else if (!m.lost) {
+    } else {
         r->failed++;
         print_safe(r->out, r->path, strlen(r->path));
         fprintf(r->out, ":%zu: fret> ", r->at);
@@ -275,7 +272,7 @@ static bool judge_answer(replay *r) {
         show(r->out, '-', want, false);
         show(r->out, '+', r->got, count_lines(want) > count_lines(r->got)); /* more: it has asides */
     }
-    return !m.lost;
+    return true;
 }
 
 /* ---- the transcript ---------------------------------------------------------------------------- */

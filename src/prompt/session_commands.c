@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands on the session itself: scripts, the end. */
+/* Commands on the session itself: scripts, settings, the end. */
 #include <string.h>
 
+#include "prompt/show.h"
 #include "statement/command.h"
 
 bool do_source(shell *sh, lexer *lx, const command *self) {
@@ -19,6 +20,12 @@ bool do_source(shell *sh, lexer *lx, const command *self) {
     int status = shell_stream(sh, &in, sh->keep_going);
     sh->nesting--;
     return status == EXIT_OK;
+}
+
+bool do_set(shell *sh, lexer *lx, const command *self) {
+    (void)self;
+    return lx->kind == T_END ? show_text(sh, show_settings, lx->error)
+                             : setting_read(&sh->calc, &sh->set, lx);
 }
 
 bool do_quit(shell *sh, lexer *lx, const command *self) {

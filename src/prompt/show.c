@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* show and set: the scene, the settings and the tables of the language in writing. Changes settings alone. */
+/* show: the scene, the settings and the tables of the language in writing. Changes nothing. */
 #include "prompt/show.h"
 
 #include <math.h>
@@ -343,14 +343,14 @@ bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
     return ok;
 }
 
-/* ---- show and set ------------------------------------------------------------------------------ */
+/* ---- show -------------------------------------------------------------------------------------- */
 
 /* At the prompt a long load is shortened; a script's output may be read back. */
 static bool show_scene(shell *sh, FILE *to) {
     return scene_write(&sh->calc, &sh->set, to, !sh->interactive);
 }
 
-static bool show_settings(shell *sh, FILE *to) {
+bool show_settings(shell *sh, FILE *to) {
     const setting *row;
     for (size_t i = 0; (row = setting_row(i)); i++)
         setting_show(row, &sh->calc, &sh->set, to);
@@ -385,7 +385,7 @@ static bool show_variables(shell *sh, FILE *to) {
 
 static const struct {
     const char *name;
-    bool (*show)(shell *sh, FILE *to); /* false: out of memory */
+    show_part *show;
 } shown[] = {
     {"scene", show_scene},       {"settings", show_settings},   {"units", show_units},
     {"commands", show_commands}, {"variables", show_variables}, {"demos", show_demos},
@@ -396,24 +396,16 @@ const char *show_name(size_t i) {
     return i < SHOWS ? shown[i].name : NULL;
 }
 
-static bool say_shown(shell *sh, lexer *lx, bool (*show)(shell *sh, FILE *to)) {
+bool show_text(shell *sh, show_part *part, calc_error *error) {
     text_out t;
     if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
-        return calc_no_memory(lx->error);
-    const bool ok = show(sh, t.to);
-    return (text_end(&t, ok) && ok) || calc_no_memory(lx->error);
+        return calc_no_memory(error);
+    const bool ok = part(sh, t.to);
+    return (text_end(&t, ok) && ok) || calc_no_memory(error);
 }
 
 bool do_show(shell *sh, lexer *lx, const command *self) {
     said all;
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
-    return say_shown(sh, lx, shown[all.count ? all.list[0].choice : 0].show); /* else the scene */
-}
-
-bool do_set(shell *sh, lexer *lx, const command *self) {
-    (void)self;
-    if (lx->kind != T_END)
-        return setting_read(&sh->calc, &sh->set, lx);
-    return say_shown(sh, lx, show_settings);
+    return said_read(sh, lx, command_form(self), &all) &&
+           show_text(sh, shown[all.count ? all.list[0].choice : 0].show, lx->error); /* else the scene */
 }

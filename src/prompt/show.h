@@ -13,7 +13,10 @@ bool scene_write(calc *c, const settings *set, FILE *to, bool whole);
 /* What `show` can show: i = 0, 1, ... until NULL. */
 const char *show_name(size_t i);
 
-/* demo.c: the scripted sessions. */
-bool show_demos(shell *sh, FILE *to);
+/* One of them; false: out of memory. demo.c has the scripted sessions. */
+typedef bool show_part(shell *sh, FILE *to);
+show_part show_settings, show_demos;
+/* As text on the session's output. */
+bool show_text(shell *sh, show_part *part, calc_error *error);
 
 #endif

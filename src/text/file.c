@@ -38,6 +38,16 @@ char *file_expand(const char *name) {
     return path;
 }
 
+size_t file_own_path(char path[FILE_PATH], const char *variable, const char *otherwise, const char *file) {
+    const char *given = getenv(variable), *home = getenv("HOME");
+    const bool there = given && *given == '/';
+    if (!there && !home)
+        return 0;
+    const int n = there ? snprintf(path, FILE_PATH, "%s/fret/%s", given, file)
+                        : snprintf(path, FILE_PATH, "%s/%s/fret/%s", home, otherwise, file);
+    return n >= FILE_PATH ? 0 : there ? strlen(given) : strlen(home) + 1;
+}
+
 /* The directory of a path with its slash, and `name` in it. */
 static char *beside(const char *path, const char *name) {
     const char *slash = strrchr(path, '/');

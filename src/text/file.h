@@ -19,6 +19,11 @@ typedef const volatile sig_atomic_t *file_stop;
 
 /* A name as the shell takes it: `~` and `~/...` are the home directory. To be freed; NULL: out of memory. */
 char *file_expand(const char *name);
+/* The path of a file of the program's own, in the directory that the variable names, else in the one below
+ * home. Returns how much of it is not ours to make; 0: nowhere. A relative directory is none, as the XDG
+ * specification has it: what lies in the current directory may be a stranger's. */
+enum { FILE_PATH = 4096 };
+size_t file_own_path(char path[FILE_PATH], const char *variable, const char *otherwise, const char *file);
 /* Is this the ending of the name, as ".csv"? */
 bool file_ends(const char *name, const char *ending);
 

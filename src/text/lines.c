@@ -72,21 +72,14 @@ size_t shell_statement_end(const char *text, size_t i, size_t len) {
     return i;
 }
 
-bool shell_continues(const char *text, size_t len) {
-    while (len && text[len - 1] == '\r')
-        len--;
-    if (!len || text[len - 1] != '\\')
-        return false;
-    size_t end = shell_statement_end(text, 0, len);
-    while (end < len && text[end] == ';')
-        end = shell_statement_end(text, end + 1, len);
-    return end == len; /* not within a comment */
-}
-
 size_t shell_mark(const char *line, size_t len) {
-    size_t at = len;
-    if (shell_continues(line, len))
-        while (line[--at] != '\\')
-            ;
-    return at;
+    size_t n = len, end;
+    while (n > 0 && line[n - 1] == '\r')
+        n--;
+    if (n == 0 || line[n - 1] != '\\')
+        return len;
+    end = shell_statement_end(line, 0, n);
+    while (end < n && line[end] == ';')
+        end = shell_statement_end(line, end + 1, n);
+    return end == n ? n - 1 : len; /* else it is within a comment */
 }

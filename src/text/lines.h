@@ -12,9 +12,7 @@
 const char *strip_prompt(const char *line, size_t *len);
 bool begins_with_prompt(const char *line, size_t len);
 
-/* Does the line end in a continuation mark? */
-bool shell_continues(const char *text, size_t len);
-/* Where the mark is, or the length of the line. */
+/* Where the mark is that lets the line go on, or its length where there is none. */
 size_t shell_mark(const char *line, size_t len);
 /* End of the statement that begins at i: a `;`, a comment or the end of the line. */
 size_t shell_statement_end(const char *text, size_t i, size_t len);

@@ -877,11 +877,16 @@ def stills(tests):
     where = os.path.join(harness.ROOT, "scripts", "paper")
     for name in ("session", "live"):
         again = os.path.join(tests.dir, name + ".svg")
-        with open(os.path.join(where, name + ".keys"), encoding="utf-8") as f:
-            done = subprocess.run([os.path.join(harness.ROOT, "scripts", "still"), again, "80x32", tests.fret, "--no-rc", "--quiet"], stdin=f,
-                                  capture_output=True, text=True, timeout=120, check=False)
-        with open(os.path.join(where, name + ".svg"), encoding="utf-8") as one, open(again, encoding="utf-8") as two:
-            tests.check(name + ".svg comes out again", one.read() == two.read(), done.stderr)
+        with open(os.path.join(where, name + ".svg"), encoding="utf-8") as f:
+            want, got = f.read(), None
+        for quiet in ("0.7", "6"):  # on a busy machine answers take longer
+            if got != want:
+                with open(os.path.join(where, name + ".keys"), encoding="utf-8") as f:
+                    done = subprocess.run([os.path.join(harness.ROOT, "scripts", "still"), again, "80x32", tests.fret, "--no-rc", "--quiet"], stdin=f,
+                                          env={**os.environ, "QUIET": quiet}, capture_output=True, text=True, timeout=120, check=False)
+                with open(again, encoding="utf-8") as f:
+                    got = f.read()
+        tests.check(name + ".svg comes out again", got == want, done.stderr)
 
 
 def shapes(tests):
