@@ -53,7 +53,7 @@ static bool draw(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *m
                       .moving = movie && on_terminal && sh->out == stdout && shell_escapes(),
                       .columns = sh->set.plot_width,
                       .rows = sh->set.plot_height,
-                      .timeout = sh->set.plot_timeout,
+                      .timeout = 30, /* seconds */
                       .stop = &shell_stop};
     if (!file && !to.columns)
         terminal_size(sh, &to.columns, &to.rows);

@@ -23,12 +23,11 @@ static bool run_for_live(void *self, const char *line, char **answer) {
     record_line(sh, line, strlen(line));
     record_streams(sh, &out, &err);
     record_divert(sh, told.to, told.to);
-    const bool failed = sh->failed, interactive = sh->interactive;
+    const bool interactive = sh->interactive;
     sh->interactive = false; /* an error is one line, a demo does not wait for keys */
     const bool ok = shell_line(sh, &from, line, strlen(line), 1);
     sh->interactive = interactive;
     record_divert(sh, out, err); /* a recording may have begun or ended */
-    sh->failed = failed;         /* the screen has shown the error */
     if (file_text_close(&told))
         *answer = told.text;
     return ok && *answer;

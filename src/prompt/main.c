@@ -78,8 +78,8 @@ typedef struct job {
 
 /* What the command line asks for. */
 typedef struct wishes {
-    bool keep_going, quiet, no_rc, live, replay, done;
-    int color;
+    bool quiet, no_rc, live, replay, done;
+    const char *color;
     double tolerance;
     job *jobs;
     size_t count;
@@ -100,17 +100,23 @@ static int take_tolerance(wishes *w, const char *text) {
     return EXIT_OK;
 }
 
-static int take_choice(const char *const *names, const char *text, int *choice, const char *complaint) {
-    for (int i = 0; names[i]; i++)
-        if (!strcmp(names[i], text)) {
-            *choice = i;
+static int take_format(settings *set, const char *text) {
+    for (int i = 0; format_names[i]; i++)
+        if (!strcmp(format_names[i], text)) {
+            set->format = i;
             return EXIT_OK;
         }
-    return bad_usage(complaint, text);
+    return bad_usage("--format is text, csv or json, not", text);
 }
 
-enum { COLOR_AUTO, COLOR_ALWAYS, COLOR_NEVER };
-static const char *const colors[] = {"auto", "always", "never", NULL};
+static int take_color(wishes *w, const char *text) {
+    static const char *const names[] = {"auto", "always", "never"};
+    w->color = text;
+    for (int i = 0; i < 3; i++)
+        if (!strcmp(names[i], text))
+            return EXIT_OK;
+    return bad_usage("--color is auto, always or never, not", text);
+}
 
 static int out_of_memory(void) {
     fputs("error: out of memory\n", stderr);
@@ -168,7 +174,7 @@ static const char *option_word(char **argv) {
     return word;
 }
 
-static int take_option(int opt, wishes *w, settings *set, char **argv) {
+static int take_option(int opt, wishes *w, shell *sh, char **argv) {
     switch (opt) {
     case IN_ORDER:
     case 'f':
@@ -185,9 +191,9 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
     case OPT_TOLERANCE:
         return take_tolerance(w, optarg);
     case OPT_FORMAT:
-        return take_choice(format_names, optarg, &set->format, "--format is text, csv or json, not");
+        return take_format(&sh->set, optarg);
     case OPT_KEEP:
-        w->keep_going = true;
+        sh->keep_going = true;
         return EXIT_OK;
     case OPT_QUIET:
         w->quiet = true;
@@ -196,7 +202,7 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
         w->no_rc = true;
         return EXIT_OK;
     case OPT_COLOR:
-        return take_choice(colors, optarg, &w->color, "--color is auto, always or never, not");
+        return take_color(w, optarg);
     case OPT_MANUAL:
         w->done = true;
         return take_manual(optarg);
@@ -216,18 +222,18 @@ static int take_option(int opt, wishes *w, settings *set, char **argv) {
     }
 }
 
-static int read_options(int argc, char **argv, wishes *w, settings *set) {
+static int read_options(int argc, char **argv, wishes *w, shell *sh) {
     int status = EXIT_OK, opt;
     opterr = 0;
     while (status == EXIT_OK && !w->done && (opt = getopt_long(argc, argv, "-:f:c:h", options, NULL)) >= 0)
-        status = take_option(opt, w, set, argv);
+        status = take_option(opt, w, sh, argv);
     for (int i = optind; i < argc && !w->done && status == EXIT_OK; i++) /* behind -- */
         w->jobs[w->count++] = (job){false, argv[i]};
     const char *no = getenv("NO_COLOR");
-    const bool always = w->color == COLOR_ALWAYS,
-               may = w->color == COLOR_AUTO && !(no && *no) && shell_escapes();
-    set->color = always || (may && isatty(STDERR_FILENO));
-    set->color_out = always || (may && isatty(STDOUT_FILENO));
+    const bool always = !strcmp(w->color, "always"),
+               may = !strcmp(w->color, "auto") && !(no && *no) && shell_escapes();
+    sh->set.color = always || (may && isatty(STDERR_FILENO));
+    sh->set.color_out = always || (may && isatty(STDOUT_FILENO));
     return status;
 }
 
@@ -237,11 +243,10 @@ static int run_jobs(shell *sh, const wishes *w) {
     int status = EXIT_OK;
     for (size_t i = 0; i < w->count && !sh->quit; i++) {
         const job *j = &w->jobs[i];
-        const int one = j->statements ? shell_text(sh, j->text, "-c", w->keep_going)
-                                      : shell_file(sh, j->text, w->keep_going);
+        const int one = j->statements ? shell_text(sh, j->text, "-c") : shell_file(sh, j->text);
         if (one != EXIT_OK)
             status = one;
-        if (one == EXIT_INTERRUPTED || (one != EXIT_OK && !w->keep_going))
+        if (one == EXIT_INTERRUPTED || (one != EXIT_OK && !sh->keep_going))
             break;
     }
     return status;
@@ -286,7 +291,7 @@ static int run_wishes(shell *sh, const wishes *w) {
         return run_jobs(sh, w);
     if (isatty(STDIN_FILENO))
         return shell_prompt(sh, w->quiet, !w->no_rc);
-    return shell_file(sh, "-", w->keep_going);
+    return shell_file(sh, "-");
 }
 
 /* What the starter has closed stays so: no file of ours may become a standard stream. */
@@ -330,15 +335,14 @@ int main(int argc, char **argv) {
     static char buffer[1 << 16];
     keep_closed();
     check_home();
-    wishes w = {.jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
+    wishes w = {.color = "auto", .jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
     if (!w.jobs)
         return out_of_memory();
     if (!isatty(STDOUT_FILENO)) /* musl writes the first line early: an error is forgotten by the end */
         setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     command_use(commands, holes);
     shell_init(&sh, stdout, stderr);
-    int status = read_options(argc, argv, &w, &sh.set);
-    sh.keep_going = w.keep_going;
+    int status = read_options(argc, argv, &w, &sh);
     set_signals();
     if (status == EXIT_OK && !w.done)
         status = run_wishes(&sh, &w);

@@ -13,9 +13,12 @@
 /* Nothing is said of a file that is not there. */
 static void read_startup(shell *sh) {
     char path[FILE_PATH];
+    const bool before = sh->keep_going;
+    sh->keep_going = true;
     if (file_own_path(path, "XDG_CONFIG_HOME", ".config", "fretrc") &&
         (!access(path, F_OK) || (errno != ENOENT && errno != ENOTDIR)))
-        shell_file(sh, path, true);
+        shell_file(sh, path);
+    sh->keep_going = before;
 }
 
 /* ---- lines ------------------------------------------------------------------------------------- */

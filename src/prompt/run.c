@@ -312,7 +312,6 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
             calc_word(&sh->calc, &error);
         if (!done && error.raised) { /* else a nested source has reported it */
             report_error(sh, from, text, len, line, i + error.at, &error);
-            sh->failed = true;
             sh->stopped |= error.stop;
             sh->refused |= error.refused;
         }
@@ -334,13 +333,13 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
 
 /* ---- streams ----------------------------------------------------------------------------------- */
 
-int shell_stream(shell *sh, file_in *in, bool keep_going) {
-    const source from = {in->name, keep_going};
+int shell_stream(shell *sh, file_in *in) {
+    const source from = {in->name, sh->keep_going};
     calc_error error;
     error_clear(&error);
     file_got got = FILE_GOT_END;
     bool ok = true, last = true; /* all statements so far; those of the last line */
-    while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || keep_going) &&
+    while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || sh->keep_going) &&
            (got = file_in_logical(in, &error)) == FILE_GOT_LINE) {
         if (sh->nesting == 0)
             record_line(sh, in->line, in->length);
@@ -358,22 +357,22 @@ int shell_stream(shell *sh, file_in *in, bool keep_going) {
     return status;
 }
 
-int shell_file(shell *sh, const char *path, bool keep_going) {
+int shell_file(shell *sh, const char *path) {
     calc_error error;
     file_in in;
     error_clear(&error);
     if (file_in_script(&in, path, &shell_stop, &error))
-        return shell_stream(sh, &in, keep_going);
+        return shell_stream(sh, &in);
     shell_error(sh, error.text);
     return EXIT_ERROR;
 }
 
-int shell_text(shell *sh, const char *text, const char *name, bool keep_going) {
+int shell_text(shell *sh, const char *text, const char *name) {
     calc_error error;
     file_in in;
     error_clear(&error);
     if (file_in_text(&in, text, name, &shell_stop, &error))
-        return shell_stream(sh, &in, keep_going);
+        return shell_stream(sh, &in);
     shell_error(sh, error.text);
     return EXIT_ERROR;
 }

@@ -17,7 +17,7 @@ bool do_source(shell *sh, lexer *lx, const command *self) {
     if (!file_in_open(&in, name, &shell_stop, lx->error))
         return heard_place(lx->error, &s.list[0]);
     sh->nesting++;
-    int status = shell_stream(sh, &in, sh->keep_going);
+    const int status = shell_stream(sh, &in);
     sh->nesting--;
     return status == EXIT_OK;
 }

@@ -81,7 +81,6 @@ void shell_error(shell *sh, const char *text) {
     tell_programs(sh, "error", text);
     shell_print_error(sh, text);
     fflush(sh->err);
-    sh->failed = true;
 }
 
 bool shell_unread(void) {

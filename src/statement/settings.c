@@ -124,7 +124,7 @@ static bool has_plot(const calc *c, const settings *set) {
     return set->plot_width > 0;
 }
 
-const settings settings_initial = {.digits = 6, .plot_timeout = 30};
+const settings settings_initial = {.digits = 6};
 
 /* ---- the table --------------------------------------------------------------------------------- */
 

@@ -21,7 +21,6 @@ typedef struct settings {
     int pager;
     bool pages;                  /* there is a terminal to page on */
     int plot_width, plot_height; /* 0: the terminal's, or the picture's default */
-    double plot_timeout;
 } settings;
 
 typedef struct setting {

@@ -23,9 +23,9 @@ enum { EXPRESSIONS = 40 };
 typedef struct shell {
     calc calc;
     settings set;
-    bool keep_going; /* as the program was told to: scripts within scripts too */
+    bool keep_going; /* after an error in a script */
     FILE *out, *err;
-    bool interactive, quit, failed;
+    bool interactive, quit;
     bool lost;               /* a recording could not be written */
     bool stopped, refused;   /* there was an error of that kind */
     bool replaying;          /* a transcript: see shell_aside */
@@ -97,9 +97,9 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
 
 /* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it.
  * Returns an exit status. */
-int shell_stream(shell *sh, file_in *in, bool keep_going);
-int shell_file(shell *sh, const char *path, bool keep_going); /* `-` is standard input */
-int shell_text(shell *sh, const char *text, const char *name, bool keep_going);
+int shell_stream(shell *sh, file_in *in);
+int shell_file(shell *sh, const char *path); /* `-` is standard input */
+int shell_text(shell *sh, const char *text, const char *name);
 
 /* ---- prompt.c, replay.c ---- */
 

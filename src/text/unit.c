@@ -118,26 +118,12 @@ static const struct {
     const char *unit, *phrase;
     bool prefixes;
 } named[] = {
-    {{0, 0, 0}, "", "a number", false},    {{1, 0, 0}, "N", "a force", true},
-    {{0, 1, 0}, "m", "a length", true},    {{1, -2, 0}, "Pa", "a pressure", true},
-    {{1, 1, 0}, "J", "an energy", true},   {{1, -1, 0}, "N/m", "a stiffness", true},
-    {{0, 2, 0}, "m^2", "an area", false},  {{0, -1, 0}, "m^-1", "an inverse length", false},
-    {{0, 0, 1}, "rad", "an angle", false},
+    {{0, 0, 0}, "", "a number", false},   {{1, 0, 0}, "N", "a force", true},
+    {{0, 1, 0}, "m", "a length", true},   {{1, -2, 0}, "Pa", "a pressure", true},
+    {{1, 1, 0}, "J", "an energy", true},  {{1, -1, 0}, "N/m", "a stiffness", true},
+    {{0, 2, 0}, "m^2", "an area", false}, {{0, -1, 0}, "m^-1", "an inverse length", false},
 };
 enum { NAMED = sizeof named / sizeof *named };
-
-/* dim_equal takes an angle for a number, as expressions do. */
-static bool is_angle(dim d) {
-    return d.rad == 1 && dim_equal(d, DIM_NONE);
-}
-
-/* Its row, or NAMED. */
-static size_t row_of(dim d) {
-    size_t i = 0;
-    while (i < NAMED && !(dim_equal(d, named[i].d) && is_angle(d) == is_angle(named[i].d)))
-        i++;
-    return i;
-}
 
 /* snprintf would do, in 40 ns */
 static void put_text(const char *text, char *buf, size_t size) {
@@ -146,12 +132,21 @@ static void put_text(const char *text, char *buf, size_t size) {
     buf[n] = 0;
 }
 
+/* dim_equal takes an angle for a number, as expressions do. */
+static bool is_angle(dim d) {
+    return d.rad == 1 && dim_equal(d, DIM_NONE);
+}
+
 void dim_unit(dim d, char *buf, size_t size) {
-    const size_t i = row_of(d);
-    if (i < NAMED) {
-        put_text(named[i].unit, buf, size);
+    if (is_angle(d)) {
+        put_text("rad", buf, size);
         return;
     }
+    for (size_t i = 0; i < NAMED; i++)
+        if (dim_equal(d, named[i].d)) {
+            put_text(named[i].unit, buf, size);
+            return;
+        }
     char N[40] = "", m[40] = "";
     if (fabs(d.N) > 1e-9)
         snprintf(N, sizeof N, fabs(d.N - 1) < 1e-9 ? "N" : "N^%.10g", d.N);
@@ -162,11 +157,18 @@ void dim_unit(dim d, char *buf, size_t size) {
 }
 
 void dim_describe(dim d, char *buf, size_t size) {
+    if (is_angle(d)) {
+        put_text("an angle", buf, size);
+        return;
+    }
+    for (size_t i = 0; i < NAMED; i++)
+        if (dim_equal(d, named[i].d)) {
+            put_text(named[i].phrase, buf, size);
+            return;
+        }
     char unit_text[96];
-    const size_t i = row_of(d);
-    if (i == NAMED)
-        dim_unit(d, unit_text, sizeof unit_text);
-    snprintf(buf, size, "%s%s", i < NAMED ? named[i].phrase : "a quantity in ", i < NAMED ? "" : unit_text);
+    dim_unit(d, unit_text, sizeof unit_text);
+    snprintf(buf, size, "a quantity in %s", unit_text);
 }
 
 long double unit_choose(dim d, long double value, int digits, char *buf, size_t size) {
@@ -180,7 +182,9 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
         return 3.14159265358979323846264338327950288L / 180;
     }
     dim_unit(d, buf, size);
-    const size_t i = row_of(d);
+    size_t i = 0;
+    while (i < NAMED && !dim_equal(d, named[i].d))
+        i++;
     if (i == NAMED || !named[i].prefixes || value == 0 || !isfinite(value))
         return 1;
     /* what prints as 1000 belongs to the next prefix */

@@ -332,7 +332,7 @@ static void check_saved(shell *sh) {
         shell again;
         shell_init(&again, nowhere, nowhere);
         patience(5000000);
-        const int status = shell_text(&again, saved, "saved", false);
+        const int status = shell_text(&again, saved, "saved");
         patience(0);
         if (!shell_stop) {
             char *text = scene_text(&again);
@@ -366,8 +366,9 @@ static void json(const char *text, size_t size) {
         *p = 'g';
     shell_init(&sh, to, nowhere);
     sh.set.format = FORMAT_JSON;
+    sh.keep_going = true;
     patience(300000);
-    shell_text(&sh, copy, "given", true);
+    shell_text(&sh, copy, "given");
     patience(0);
     shell_stop = 0;
     shell_free(&sh);
