@@ -19,15 +19,14 @@ static bool run_for_live(void *self, const char *line, char **answer) {
     file_text told;
     if (!file_text_open(&told))
         return false;
-    FILE *out, *err;
+    FILE *out = told.to, *err = told.to;
     record_line(sh, line, strlen(line));
-    record_streams(sh, &out, &err);
-    record_divert(sh, told.to, told.to);
+    record_swap(sh, &out, &err);
     const bool interactive = sh->interactive;
     sh->interactive = false; /* an error is one line, a demo does not wait for keys */
     const bool ok = shell_line(sh, &from, line, strlen(line), 1);
     sh->interactive = interactive;
-    record_divert(sh, out, err); /* a recording may have begun or ended */
+    record_swap(sh, &out, &err); /* a recording may have begun or ended */
     if (file_text_close(&told))
         *answer = told.text;
     return ok && *answer;

@@ -6,14 +6,15 @@ bool record_shows(const shell *sh) {
     return sh->record && sh->record->out == stdout;
 }
 
-void record_streams(const shell *sh, FILE **out, FILE **err) {
-    *out = sh->record ? sh->record->out : sh->out;
-    *err = sh->record ? sh->record->err : sh->err;
+static void swap(FILE **a, FILE **b) {
+    FILE *kept = *a;
+    *a = *b;
+    *b = kept;
 }
 
-void record_divert(shell *sh, FILE *out, FILE *err) {
+void record_swap(shell *sh, FILE **out, FILE **err) {
     fflush(sh->out);
     fflush(sh->err);
-    *(sh->record ? &sh->record->out : &sh->out) = out;
-    *(sh->record ? &sh->record->err : &sh->err) = err;
+    swap(sh->record ? &sh->record->out : &sh->out, out);
+    swap(sh->record ? &sh->record->err : &sh->err, err);
 }

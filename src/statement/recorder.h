@@ -21,8 +21,7 @@ struct recorder {
 
 /* Does the recorder pass on to standard output? */
 bool record_shows(const shell *sh);
-/* The session's own streams, below a recorder; and others in place of them. */
-void record_streams(const shell *sh, FILE **out, FILE **err);
-void record_divert(shell *sh, FILE *out, FILE *err);
+/* Others in place of the session's own streams, below a recorder, which are those then. */
+void record_swap(shell *sh, FILE **out, FILE **err);
 
 #endif

@@ -91,12 +91,9 @@ void file_emergency(void) {
 }
 
 bool file_signal_ends(int number) {
-    static const int others[] = {
-#ifdef SIGINFO
-        SIGINFO,
-#endif
-        SIGINT,   SIGKILL, SIGSTOP, SIGTSTP, SIGTTIN, SIGTTOU, SIGCONT, SIGCHLD, SIGURG,
-        SIGWINCH, SIGPIPE, SIGXFSZ, SIGSEGV, SIGBUS,  SIGFPE,  SIGILL,  SIGABRT};
+    static const int others[] = {SIGINT,  SIGKILL, SIGSTOP, SIGTSTP,  SIGTTIN, SIGTTOU,
+                                 SIGCONT, SIGCHLD, SIGURG,  SIGWINCH, SIGPIPE, SIGXFSZ,
+                                 SIGSEGV, SIGBUS,  SIGFPE,  SIGILL,   SIGABRT};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (number == others[i])
             return false;

@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "number/array.h"
 #include "text/characters.h"
 #include "text/lines.h"
 
@@ -230,25 +231,15 @@ static file_got fill_block(file_in *in, calc_error *error) {
     return got == FILE_GOT_END && in->have > 0 ? FILE_GOT_LINE : got;
 }
 
-static bool grow_line(file_in *in, size_t need, calc_error *error) {
-    size_t room = in->room ? in->room : 256;
-    while (room < need)
-        room *= 2;
-    char *grown = realloc(in->line, room);
-    if (!grown)
-        return calc_errno(error, ENOMEM, "%s:%llu", in->name, in->number);
-    in->line = grown;
-    in->room = room;
-    return true;
-}
-
 /* Appends to the line and ends it by a NUL. */
 static bool append_bytes(file_in *in, const char *bytes, size_t n, calc_error *error) {
     if (n > FILE_LINE_LIMIT - in->length)
         return calc_fail(error, 0, 0, "%s:%llu: the line is longer than %d MB", in->name, in->number,
                          FILE_LINE_LIMIT >> 20);
-    if (in->length + n + 1 > in->room && !grow_line(in, in->length + n + 1, error))
-        return false;
+    char *line = fret_array_for(in->line, &in->room, in->length + n + 1, 1);
+    if (!line)
+        return calc_errno(error, ENOMEM, "%s:%llu", in->name, in->number);
+    in->line = line;
     memcpy(in->line + in->length, bytes, n);
     in->length += n;
     in->line[in->length] = 0;
