@@ -8,6 +8,7 @@
 
 #include "plot/script.h"
 #include "text/characters.h"
+#include "text/unit.h"
 
 enum { THIN_SPACE = 0x2009 };
 
@@ -279,7 +280,7 @@ static size_t exponent_length(const writer *w, const char *p, const char *end) {
 }
 
 /* The name of a unit: µ for its u, signs for words. */
-static void unit_name(writer *w, const char *p, size_t n) {
+static void put_unit_name(writer *w, const char *p, size_t n) {
     if (w->form == PLOT_ASCII) {
         put(w, p, n);
     } else if (n == 3 && !strncmp(p, "deg", 3)) {
@@ -298,7 +299,7 @@ static void put_unit(writer *w, const char *p, const char *end) {
     while (p < end) {
         size_t n = name_length(p, end), e = *p == '^' ? exponent_length(w, p + 1, end) : 0;
         if (n) {
-            unit_name(w, p, n);
+            put_unit_name(w, p, n);
         } else if (e) {
             superscript(w, p + 1, e);
             n = 1 + e;
@@ -316,18 +317,12 @@ static void put_unit(writer *w, const char *p, const char *end) {
 
 /* Bytes of a unit such as N/mm^2 that follows a number. */
 static size_t unit_length(const char *p, const char *end) {
-    static const char *const bases[] = {"N",   "lbf", "kgf",  "dyn", "Pa",  "bar", "psi",
-                                        "ksi", "m",   "inch", "J",   "rad", "deg"};
+    unit unused;
     size_t total = 0;
     for (;;) {
         const char *q = p + total + (total > 0);
-        size_t n = name_length(q, end), known = 0;
-        for (size_t i = 0; i < sizeof bases / sizeof *bases; i++) {
-            size_t b = strlen(bases[i]);
-            if ((n == b || (n == b + 1 && strchr("nuµmckMG", *q))) && !strncmp(q + n - b, bases[i], b))
-                known = n;
-        }
-        if (!known)
+        const size_t n = name_length(q, end);
+        if (n == 0 || !unit_lookup(q, n, &unused))
             return total;
         total = (size_t)(q - p) + n;
         if (p + total < end && p[total] == '^') {
@@ -358,12 +353,12 @@ static void put_expression(writer *w, const char *p, const char *end) {
         putc('$', w->to);
     while (p < end) {
         size_t number = number_length(p, end), name = name_length(p, end);
-        size_t unit = after_number && name ? unit_length(p, end) : 0;
+        size_t measure = after_number && name ? unit_length(p, end) : 0;
         size_t e = *p == '^' ? exponent_length(w, p + 1, end) : 0, n = 1;
         if (number) {
             put(w, p, n = number);
-        } else if (unit) {
-            put_unit(w, p, p + (n = unit));
+        } else if (measure) {
+            put_unit(w, p, p + (n = measure));
         } else if (name && w->form == PLOT_ASCII) {
             put(w, p, n = name);
         } else if (name) {
@@ -411,9 +406,9 @@ char *plot_text(const char *text, plot_form form) {
     return file_text_close(&made) ? made.text : NULL;
 }
 
-char *plot_label(const char *expression, const char *unit) {
-    bool has = unit && *unit;
-    size_t room = strlen(expression) + (has ? strlen(unit) : 0) + 16;
+char *plot_label(const char *expression, const char *of) {
+    bool has = of && *of;
+    size_t room = strlen(expression) + (has ? strlen(of) : 0) + 16;
     char *label = malloc(room), *end = label;
     if (!label)
         return NULL;
@@ -421,6 +416,6 @@ char *plot_label(const char *expression, const char *unit) {
         end += sprintf(end, PLOT_EXPR "%s" PLOT_END "%s", expression, has ? " " : "");
     *end = 0;
     if (has)
-        snprintf(end, room - (size_t)(end - label), "[" PLOT_UNIT "%s" PLOT_END "]", unit);
+        snprintf(end, room - (size_t)(end - label), "[" PLOT_UNIT "%s" PLOT_END "]", of);
     return label;
 }
