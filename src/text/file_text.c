@@ -24,8 +24,10 @@ static ssize_t write_text(void *cookie, const char *bytes, size_t n) {
 }
 
 bool file_text_open(file_text *t) {
+    enum { ROOM = 256 };
     *t = (file_text){.to = NULL};
-    if (take_bytes(t, "", 0))
+    t->text = fret_array_for(NULL, &t->room, ROOM, 1);
+    if (t->text)
         t->to = fopencookie(t, "w", (cookie_io_functions_t){.write = write_text});
     if (!t->to)
         free(t->text);
