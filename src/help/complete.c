@@ -165,20 +165,18 @@ static void read_tokens(place *p, size_t begin, size_t start) {
     p->command = p->count && !assignment ? command_find(p->line + p->token[0].at, p->token[0].len) : NULL;
 }
 
-/* What the command takes, of a geometry behind its name; NULL: there is none. */
+/* What the command takes, behind a word that has a row of its own what that takes; NULL: there is none. */
 static const grammar *form_of(const place *p) {
     const grammar *f = p->command ? command_form(p->command) : NULL;
-    const hole_row *first = f ? grammar_first(f, HOLE_WORD) : NULL;
-    if (!first || first->words != geometry_name || p->count < 2)
+    const hole_row *first = f ? grammar_first(f, HOLE_CHOICE) : NULL;
+    if (!first || !first->form || p->count < 2)
         return f;
-    const char *name = p->line + p->token[1].at;
-    const geometry *g = geometry_find(name, strcspn(name, " \t\n;"));
-    return g ? shape_form(g) : f;
-}
-
-static bool is_setting(const place *p) {
-    const hole_row *first = p->command ? grammar_first(command_form(p->command), HOLE_WORD) : NULL;
-    return first && first->words == setting_name;
+    const char *name = p->line + p->token[1].at, *word;
+    const size_t len = strcspn(name, " \t\n;");
+    for (size_t i = 0; (word = first->words(i)); i++)
+        if (strlen(word) == len && !memcmp(word, name, len))
+            return first->form(i);
+    return f;
 }
 
 /* `along cycle ...`: its arguments may follow. */
@@ -275,23 +273,6 @@ static void add_items(const place *p, const grammar *f, bool first) {
     }
 }
 
-/* The words among what a setting takes: `auto|closed|springs N`. */
-static void add_setting_words(const place *p) {
-    const setting *row;
-    for (size_t i = 0; (row = setting_row(i)); i++) {
-        if (!token_is(p, 1, row->name))
-            continue;
-        for (const char *s = row->usage; *s; s += strspn(s, "| ")) {
-            const size_t n = strcspn(s, "| ");
-            char word[LEX_NAME];
-            snprintf(word, sizeof word, "%.*s", (int)n, s);
-            if (strspn(word, "abcdefghijklmnopqrstuvwxyz") == n)
-                add_word(p, word, "");
-            s += n;
-        }
-    }
-}
-
 static bool has_expression(const grammar *f) {
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
         if (a->holes && a->hole[0].row->kind == HOLE_EXPR)
@@ -302,11 +283,6 @@ static bool has_expression(const grammar *f) {
 /* After something that may end a value: what goes on. */
 static void add_continuation(const place *p) {
     const grammar *f = form_of(p);
-    if (is_setting(p)) {
-        if (p->count == 2)
-            add_setting_words(p);
-        return;
-    }
     if (f)
         add_items(p, f, false);
     if (load_along(p))

@@ -142,12 +142,14 @@ static void command_help(FILE *to, size_t i) {
 
 static entry setting_entry(size_t i) {
     const setting *row = setting_row(i);
-    return (entry){.command = "set ", .name = row->name, .summary = row->summary, .keywords = row->usage};
+    return (entry){.command = "set ", .name = row->name, .summary = row->summary, .keywords = row->takes};
 }
 
 static void setting_help(FILE *to, size_t i) {
     const setting *row = setting_row(i);
-    fprintf(to, "set %s %s\n  ", row->name, row->usage);
+    char usage[GRAMMAR_USAGE];
+    grammar_usage(setting_form(i), usage);
+    fprintf(to, "%s\n  ", usage);
     help_wrapped(to, row->summary, 2, 2);
     fprintf(to, "\n%s", row->example);
 }
@@ -183,7 +185,7 @@ static entry geometry_entry(size_t i) {
 static void geometry_help(FILE *to, size_t i) {
     const geometry *g = geometry_row(i);
     char usage[GRAMMAR_USAGE];
-    grammar_usage(shape_form(g), usage);
+    grammar_usage(geometry_form(i), usage);
     fprintf(to, "%s\n  %s\n", usage, g->meaning);
     for (input in = IN_N; in < INPUTS; in++)
         if (g->allowed & INPUT_BIT(in))
@@ -303,8 +305,10 @@ const char *help_name(size_t i) {
 
 void help_settings(FILE *to) {
     const setting *row;
+    char usage[GRAMMAR_USAGE];
     for (size_t i = 0; (row = setting_row(i)); i++) {
-        fprintf(to, "    set %s %s\n        ", row->name, row->usage);
+        grammar_usage(setting_form(i), usage);
+        fprintf(to, "    %s\n        ", usage);
         help_wrapped(to, row->summary, 8, 8);
     }
 }

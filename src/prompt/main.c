@@ -101,12 +101,7 @@ static int take_tolerance(wishes *w, const char *text) {
 }
 
 static int take_format(settings *set, const char *text) {
-    for (int i = 0; format_names[i]; i++)
-        if (!strcmp(format_names[i], text)) {
-            set->format = i;
-            return EXIT_OK;
-        }
-    return bad_usage("--format is text, csv or json, not", text);
+    return setting_format(set, text) ? EXIT_OK : bad_usage("--format is text, csv or json, not", text);
 }
 
 static int take_color(wishes *w, const char *text) {

@@ -324,12 +324,8 @@ static void settle(calc *c) {
 bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
     writer w = {c, to, false};
     settle(c);
-    if (whole && !c->scene.automatic) {
-        const setting *row;
-        for (size_t i = 0; (row = setting_row(i)); i++)
-            if (!strcmp(row->name, "model"))
-                setting_show(row, c, set, to);
-    }
+    if (whole && !c->scene.automatic)
+        setting_show(SETTING_MODEL, c, set, to);
     write_material(&w);
     write_second(&w);
     write_geometry(&w);
@@ -351,9 +347,8 @@ static bool show_scene(shell *sh, FILE *to) {
 }
 
 static bool show_settings(shell *sh, FILE *to) {
-    const setting *row;
-    for (size_t i = 0; (row = setting_row(i)); i++)
-        setting_show(row, &sh->calc, &sh->set, to);
+    for (size_t i = 0; setting_row(i); i++)
+        setting_show(i, &sh->calc, &sh->set, to);
     return true;
 }
 
@@ -412,8 +407,8 @@ bool do_show(shell *sh, lexer *lx, const command *self) {
 }
 
 bool do_set(shell *sh, lexer *lx, const command *self) {
-    (void)self;
-    if (lx->kind != T_END)
-        return setting_read(&sh->calc, &sh->set, lx);
-    return say_shown(sh, lx, show_settings);
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all))
+        return false;
+    return all.by->shape ? setting_apply(sh, lx, &all) : say_shown(sh, lx, show_settings);
 }

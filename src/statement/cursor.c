@@ -43,9 +43,10 @@ size_t word_at(const lexer *lx) {
 }
 
 size_t choice_at(const lexer *lx) {
-    const size_t len = word_at(lx);
-    const char *comma = memchr(lx->text + lx->at, ',', len);
-    return comma ? (size_t)(comma - lx->text) - lx->at : len;
+    size_t len = 0;
+    while (lx->at + len < lx->end && !strchr(" \t\n\r,=", lx->text[lx->at + len]))
+        len++;
+    return len;
 }
 
 bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, unsigned *out) {

@@ -9,7 +9,7 @@
 /* The word of bytes up to a blank that the cursor begins: names with hyphens are several tokens to the lexer.
  */
 size_t word_at(const lexer *lx);
-/* The same up to a comma: no word of a table has one. */
+/* The same up to a comma or an `=`: no word of a table has them. */
 size_t choice_at(const lexer *lx);
 /* Is the cursor on NAME =, NAME += or NAME :=? */
 bool at_argument(const lexer *lx);

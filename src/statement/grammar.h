@@ -26,7 +26,7 @@ typedef enum hole_kind {
     HOLE_TEXT,    /* "..." */
     HOLE_FILE,    /* all up to a blank, or "..." */
     HOLE_CHOICE,  /* one of some words */
-    HOLE_WORD,    /* the same, but any other too: the command judges it, and what follows it */
+    HOLE_WORD,    /* any word: the command judges it */
     HOLE_LOAD,    /* a statement of the load */
     HOLE_CLAUSES  /* none, but clauses: a table of them */
 } hole_kind;
@@ -34,8 +34,9 @@ typedef enum hole_kind {
 typedef struct hole_row {
     const char *name;
     hole_kind kind;
-    const char *noun;               /* of a choice: what is chosen; of a value: the quantity */
-    const char *(*words)(size_t i); /* of a choice or a word; of clauses, their lines */
+    const char *noun;                        /* of a choice: what is chosen; of a value: the quantity */
+    const char *(*words)(size_t i);          /* of a choice or a word; of clauses, their lines */
+    const struct grammar *(*form)(size_t i); /* of a choice that stands first: what follows that word */
 } hole_row;
 
 typedef struct hole {

@@ -24,30 +24,45 @@ typedef struct settings {
     double plot_timeout;
 } settings;
 
+struct shell;
+struct said;
+
 typedef struct setting {
     const char *name;
-    const char *usage; /* what may follow */
+    const char *takes; /* what may follow, see grammar.h */
     const char *summary;
-    const char *example;      /* of `help`: a transcript, indented by four */
-    const char *const *words; /* a choice among these, ended by NULL; or NULL */
-    int most;                 /* of a whole number from 1, where there are no words */
-    size_t at;                /* an int of settings that holds either */
-    /* where it is neither; the model belongs to the scene */
-    bool (*parse)(calc *c, settings *set, lexer *lx);
+    const char *example; /* of `help`: a transcript, indented by four */
+    size_t at;           /* an int of settings that holds the number, or which word */
+    /* where it is neither */
+    bool (*apply)(struct shell *sh, lexer *lx, const struct said *all);
     void (*show)(const calc *c, const settings *set, FILE *to);
     bool (*differs)(const calc *c, const settings *set); /* from how it begins; NULL: not to be written */
 } setting;
 
+typedef enum setting_id {
+    SETTING_FORMAT,
+    SETTING_DIGITS,
+    SETTING_REPORT,
+    SETTING_TIMING,
+    SETTING_PAGER,
+    SETTING_MODEL,
+    SETTING_PLOT,
+    SETTING_CORES,
+    SETTINGS
+} setting_id;
+
 extern const settings settings_initial;
-/* By output_format, ended by NULL. */
-extern const char *const format_names[];
 
 const setting *setting_row(size_t i); /* NULL after the last */
 const char *setting_name(size_t i);
-/* `NAME VALUE` at the cursor; on error nothing has changed. */
-bool setting_read(calc *c, settings *set, lexer *lx);
+const struct grammar *setting_form(size_t i);
+const char *terminal_name(size_t i);
+/* As it has been said; on error nothing has changed. */
+bool setting_apply(struct shell *sh, lexer *lx, const struct said *all);
+/* By its word. */
+bool setting_format(settings *set, const char *word);
 /* The settings that are not as they begin, but for the model, which belongs to the scene. */
 void settings_write(const calc *c, const settings *set, FILE *to);
-void setting_show(const setting *row, const calc *c, const settings *set, FILE *to);
+void setting_show(size_t i, const calc *c, const settings *set, FILE *to);
 
 #endif

@@ -21,6 +21,9 @@ static void all_rows(void) {
     for (const geometry *g; (g = geometry_row(shapes)); shapes++)
         if (!CHECK(parses(g->takes)))
             printf("%s %s\n", g->name, g->takes);
+    for (size_t i = 0; setting_row(i); i++)
+        if (!CHECK(parses(setting_row(i)->takes)))
+            printf("%s %s\n", setting_row(i)->name, setting_row(i)->takes);
     for (const hole_row *h = holes; h->name; h++)
         for (size_t i = 0; h->kind == HOLE_CLAUSES && h->words(i); i++)
             CHECK(parses(h->words(i)));
