@@ -72,9 +72,10 @@ const figure *figure_find(const char *name, size_t len) {
     return NULL;
 }
 
-const grammar *figure_form(const figure *f) {
+const grammar *figure_form(size_t i) {
     static grammar forms[FIGURES];
-    return grammar_made(&forms[f - figures], f->name, NULL, f->takes);
+    return grammar_made(&forms[i], "plot", figures[i].name,
+                        figures[i].takes ? figures[i].takes : "RANGE LOOK [to FILE]");
 }
 
 /* Error against time, one curve a model. */

@@ -576,7 +576,7 @@ const command commands[] = {
     {.name = "help",
      .run = do_help,
      .group = "the session",
-     .takes = "[TOPIC]",
+     .takes = "[TOPIC]*",
      .summary = "this help, or that on a command, a quantity or a topic",
      .help = "    fret> help kappa\n"
              "    kappa: shape factor\n"

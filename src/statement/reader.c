@@ -88,6 +88,11 @@ lexer hole_lexer(const lexer *lx, const span *part) {
     return own;
 }
 
+void hole_word(const lexer *lx, const heard *h, char word[LEX_NAME]) {
+    const span *part = &h->hole[0];
+    snprintf(word, LEX_NAME, "%.*s", part->len < LEX_NAME ? (int)part->len : 0, lx->text + part->at);
+}
+
 bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
     lexer own = *lx;
     own.at = part->at;
@@ -455,7 +460,8 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
             return lex_fail(lx, "expected %s \"TEXT\"", a->name);
         lex_next(lx);
         break;
-    case HOLE_WORD:
+    case HOLE_WORD: /* which need not be made of tokens */
+        error_clear(lx->error);
         h->hole[i].len = word_at(lx);
         lex_seek(lx, lx->at + h->hole[i].len);
         return true;
@@ -551,8 +557,12 @@ static bool read_first(shell *sh, lexer *lx, said *s) {
         return true;
     if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || at_argument(lx)))
         return true;
-    heard *h = add_heard(lx, s, a);
-    return h && read_holes(sh, lx, s, h);
+    do {
+        heard *h = add_heard(lx, s, a);
+        if (!h || !read_holes(sh, lx, s, h))
+            return false;
+    } while (a->again && (lx->kind != T_END || lx->error->raised));
+    return true;
 }
 
 /* `with = 0.3`: a clause whose name is missing. */

@@ -59,6 +59,8 @@ void names_forget(shell *sh, size_t before);
 heard *said_of(said *s, const char *name, size_t i);
 /* A lexer over the hole alone, at its beginning. */
 lexer hole_lexer(const lexer *lx, const span *part);
+/* The word that stands first there; empty where it is longer than any name. */
+void hole_word(const lexer *lx, const heard *h, char word[LEX_NAME]);
 /* The name of a file that stands there. */
 bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]);
 /* Points the error, where it has no place, at the first hole. */
