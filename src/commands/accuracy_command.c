@@ -135,12 +135,12 @@ static void say_row(answer *out, const accuracy_study *study, const accuracy_row
     format_ratio(ratio, times, sizeof times);
     const answer_cell cells[HEADS] = {
         [HEAD_MODEL] = {.kind = CELL_WORDS, .words = families[row->family].name},
-        [HEAD_PARAMETER] = {CELL_NUMBER, .v = (double)row->size, .digits = 17, .shown = parameter},
-        [HEAD_VALUE] = {CELL_NUMBER, .v = (double)row->value, .digits = 17, .shown = number},
-        [HEAD_ERROR] = {CELL_NUMBER, .v = (double)row->error, .digits = 3, .shown = error},
-        [HEAD_BOUND] = {CELL_FLAG, .v = row->below},
-        [HEAD_SECONDS] = {CELL_NUMBER, .v = row->seconds, .digits = 3, .shown = t},
-        [HEAD_RATIO] = {CELL_NUMBER, .v = ratio, .digits = 3, .shown = times}};
+        [HEAD_PARAMETER] = {CELL_NUMBER, .v = {.v = row->size}, .digits = 17, .shown = parameter},
+        [HEAD_VALUE] = {CELL_NUMBER, .v = {.v = row->value}, .digits = 17, .shown = number},
+        [HEAD_ERROR] = {CELL_NUMBER, .v = {.v = row->error}, .digits = 3, .shown = error},
+        [HEAD_BOUND] = {CELL_FLAG, .v = {.v = row->below}},
+        [HEAD_SECONDS] = {CELL_NUMBER, .v = {.v = row->seconds}, .digits = 3, .shown = t},
+        [HEAD_RATIO] = {CELL_NUMBER, .v = {.v = ratio}, .digits = 3, .shown = times}};
     answer_cells(out, heads, cells, HEADS);
 }
 

@@ -51,9 +51,9 @@ static bool write_json(const settings *set, const model *m, FILE *to) {
         answer_item(&a);
         answer_number(&a, "k", m->element[i].k);
         answer_number(&a, "slip", m->element[i].s);
-        answer_item_up(&a);
+        answer_up(&a);
     }
-    answer_items_up(&a);
+    answer_up(&a);
     answer_done(&a);
     return answer_end(&a, true);
 }

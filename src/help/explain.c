@@ -430,9 +430,9 @@ static void list_causes(const page *p, const influence_study *study) {
         } else {
             answer_string(p->out, "not shown", not_shown[c->influence]);
         }
-        answer_item_up(p->out);
+        answer_up(p->out);
     }
-    answer_items_up(p->out);
+    answer_up(p->out);
 }
 
 static void put_conditioning(const page *p, const char *name, const influence_study *study) {

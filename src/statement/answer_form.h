@@ -9,6 +9,8 @@
 
 #include "statement/output.h"
 
+enum { ANSWER_PARTS = 4 };
+
 /* On its way out. */
 typedef struct answer {
     const settings *set;
@@ -18,6 +20,8 @@ typedef struct answer {
     /* an object, of JSON, or the lines of a report, of text */
     int layout;
     bool any; /* something is in it */
+    unsigned parts;
+    char bracket[ANSWER_PARTS]; /* of JSON: which of its parts are open */
     /* values that wait for the end, of CSV: one row has them all */
     struct waiting {
         column *of;
@@ -48,9 +52,17 @@ typedef struct answer_head {
 } answer_head;
 
 typedef struct answer_cell {
-    enum { CELL_WORDS, CELL_NUMBER, CELL_FLAG } kind;
+    enum {
+        CELL_WORDS,
+        CELL_NUMBER,
+        CELL_FLAG,
+        /* of an event alone */
+        CELL_QUANTITY,
+        CELL_FACT, /* words that text shows too */
+        CELL_SHARE
+    } kind;
     const char *words;
-    double v;          /* of a number or a flag */
+    value v;           /* of what is no words */
     int digits;        /* of a number, for programs */
     const char *shown; /* in text; NULL: the words */
 } answer_cell;
@@ -68,19 +80,9 @@ typedef struct answer_form {
     void (*beside)(answer *a, const column *c, long double si, long double deviation);
     void (*open)(answer *a, const char *kind, const char *text);
     void (*close)(answer *a);
-    void (*number)(answer *a, const char *name, double v);
-    void (*string)(answer *a, const char *name, const char *text);
-    void (*flag)(answer *a, const char *name, bool v);
-    void (*list)(answer *a, const char *name, const double *v, size_t count);
-    void (*quantity)(answer *a, const char *name, value v);
-    void (*fact)(answer *a, const char *name, const char *text);
-    void (*share)(answer *a, const char *name, double part);
-    void (*group)(answer *a, const char *name);
+    void (*member)(answer *a, const char *name, const answer_cell *c);
+    void (*begin)(answer *a, const char *name, char bracket); /* NULL: it has no name */
     void (*up)(answer *a);
-    void (*items)(answer *a, const char *name);
-    void (*item)(answer *a);
-    void (*item_up)(answer *a);
-    void (*items_up)(answer *a);
     void (*words)(answer *a, const char *format, va_list args);
     bool (*columns)(answer *a, const char *event);
     void (*row)(answer *a, const long double *si);
@@ -95,8 +97,7 @@ extern const answer_form answer_as_text, answer_as_csv, answer_as_json;
 
 /* CSV writes these as text does. */
 void text_close(answer *a);
-void text_quantity(answer *a, const char *name, value v);
-void text_fact(answer *a, const char *name, const char *text);
+void text_member(answer *a, const char *name, const answer_cell *c);
 void text_words(answer *a, const char *format, va_list args);
 
 #endif
