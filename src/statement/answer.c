@@ -2,7 +2,9 @@
 /* What a command answers, handed to the form that is set. */
 #include "statement/answer.h"
 
-#include "statement/answer_form.h"
+#include <stdarg.h>
+
+#include "text/lines.h"
 
 static const answer_form *const forms[] = {
     [FORMAT_TEXT] = &answer_as_text, [FORMAT_CSV] = &answer_as_csv, [FORMAT_JSON] = &answer_as_json};
@@ -134,9 +136,14 @@ void answer_up(answer *a) {
 void answer_words(answer *a, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    if (a->form->words)
-        a->form->words(a, format, args);
+    if (a->layout >= a->form->words)
+        vfprintf(a->to, format, args);
     va_end(args);
+}
+
+void answer_line(answer *a, const char *text, size_t indent) {
+    if (a->layout >= a->form->words)
+        help_wrapped(a->to, text, 0, indent);
 }
 
 /* ---- tables ------------------------------------------------------------------------------------ */

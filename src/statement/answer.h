@@ -62,6 +62,8 @@ void answer_item(answer *a);
 __attribute__((format(printf, 2, 3)))
 #endif
 void answer_words(answer *a, const char *format, ...);
+/* A line of them, broken at blanks; what follows of it begins at `indent`. */
+void answer_line(answer *a, const char *text, size_t indent);
 
 /* ---- tables: a value that is not finite is a gap ---- */
 

@@ -121,18 +121,12 @@ static void put_waiting(answer *a, bool ok) {
     *w = (struct waiting){.count = 0};
 }
 
-/* Of a page alone: elsewhere the rows say it. */
-static void put_words(answer *a, const char *format, va_list args) {
-    if (a->layout == LAYOUT_PAGE)
-        text_words(a, format, args);
-}
-
 const answer_form answer_as_csv = {
+    .words = LAYOUT_PAGE, /* elsewhere the rows say it */
     .value = put_csv_value,
     .estimate = put_csv_estimate,
     .close = text_close,
     .member = put_member,
-    .words = put_words,
     .columns = put_csv_columns,
     .row = put_csv_row,
     .heads = put_csv_heads,

@@ -4,7 +4,6 @@
 #ifndef STATEMENT_ANSWER_FORM_H
 #define STATEMENT_ANSWER_FORM_H
 
-#include <stdarg.h>
 #include <stdio.h>
 
 #include "statement/output.h"
@@ -70,11 +69,12 @@ typedef struct answer_cell {
 /* ---- forms ---- */
 
 /* How text lays out an event: it has but words; one line of its quantities; a line of each. */
-enum { LAYOUT_QUIET, LAYOUT_LINE, LAYOUT_PAGE };
+enum { LAYOUT_QUIET, LAYOUT_LINE, LAYOUT_PAGE, LAYOUT_NONE };
 
 /* NULL: the form has no place for it. */
 typedef struct answer_form {
     bool data; /* every line is one for programs */
+    int words; /* the first layout that shows what is for readers alone */
     void (*value)(answer *a, const column *c, long double si);
     void (*estimate)(answer *a, const column *c, long double si, long double deviation);
     void (*beside)(answer *a, const column *c, long double si, long double deviation);
@@ -83,7 +83,6 @@ typedef struct answer_form {
     void (*member)(answer *a, const char *name, const answer_cell *c);
     void (*begin)(answer *a, const char *name, char bracket); /* NULL: it has no name */
     void (*up)(answer *a);
-    void (*words)(answer *a, const char *format, va_list args);
     bool (*columns)(answer *a, const char *event);
     void (*row)(answer *a, const long double *si);
     void (*heads)(answer *a, const char *event, const answer_head *heads, size_t count);
@@ -98,6 +97,5 @@ extern const answer_form answer_as_text, answer_as_csv, answer_as_json;
 /* CSV writes these as text does. */
 void text_close(answer *a);
 void text_member(answer *a, const char *name, const answer_cell *c);
-void text_words(answer *a, const char *format, va_list args);
 
 #endif

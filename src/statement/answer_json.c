@@ -162,6 +162,7 @@ static void put_json_cells(answer *a, const answer_head *heads, const answer_cel
 
 const answer_form answer_as_json = {
     .data = true,
+    .words = LAYOUT_NONE,
     .value = put_json_value,
     .estimate = put_json_estimate,
     .open = open_event,

@@ -64,10 +64,6 @@ void text_close(answer *a) {
         putc('\n', a->to);
 }
 
-void text_words(answer *a, const char *format, va_list args) {
-    vfprintf(a->to, format, args);
-}
-
 static void put_member(answer *a, const char *name, const answer_cell *c) {
     if (c->kind != CELL_SHARE) {
         text_member(a, name, c);
@@ -186,7 +182,6 @@ const answer_form answer_as_text = {
     .close = text_close,
     .member = put_member,
     .up = end_group,
-    .words = text_words,
     .columns = put_text_columns,
     .row = hold,
     .heads = put_text_heads,
